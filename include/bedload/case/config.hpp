@@ -1,0 +1,227 @@
+#pragma once
+// A case as the solver sees it: every parameter with its default, checked and
+// resolved. Written by src/case, read by everybody. Knows nothing of precision
+// or device. Keys, bounds and defaults: physics.md section 13, `bedload list`.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bedload/core/vec.hpp"
+
+namespace bedload {
+
+struct DomainConfig {
+  Vec3d min, max;                              ///< m
+  std::array<bool, 3> periodic{false, false, false};
+  bool operator==(const DomainConfig&) const = default;
+};
+
+/// A block of fluid, laid on a lattice of spacing fluid.dx.
+struct FluidFill {
+  Vec3d min, max;                              ///< box, m
+  std::array<std::string, 3> velocity{"0", "0", "0"};  ///< formulas in x, y, z, m/s
+  bool operator==(const FluidFill&) const = default;
+};
+
+struct FluidConfig {
+  bool present = false;
+  double dx = 0;                               ///< particle spacing, m
+  double h_over_dx = 1.5;
+  std::string kernel = "wendland_c2";          ///< wendland_c2, cubic, lucy
+  double rho0 = 1000;                          ///< kg/m3
+  double mu = 1e-3;                            ///< Pa s
+  double vmax = 0;                             ///< m/s; 0: sqrt(2 g H)
+  double c_factor = 10;                        ///< sound speed / vmax
+  double c = 0;                                ///< numerical sound speed, m/s (resolved)
+  double depth = 0;                            ///< H: height of the initial fluid along gravity, m (resolved)
+  std::vector<FluidFill> fills;
+  double h() const { return h_over_dx * dx; }
+  double kappa() const { return kernel == "lucy" ? 1 : 2; }  ///< support / h
+  bool operator==(const FluidConfig&) const = default;
+};
+
+struct EosConfig {
+  std::string type = "tait";                   ///< tait, democritus
+  double gamma = 7;
+  double p0 = 100, alpha = 7, beta = 100;      ///< democritus: Pa, -, Pa
+  bool clip_negative = false;
+  bool operator==(const EosConfig&) const = default;
+};
+
+struct DensityConfig {
+  double delta = 0.1;                          ///< density diffusion
+  bool operator==(const DensityConfig&) const = default;
+};
+
+struct ViscosityConfig {
+  std::string model = "morris";                ///< morris, none
+  double alpha = 0, beta = 0;                  ///< artificial viscosity
+  bool operator==(const ViscosityConfig&) const = default;
+};
+
+/// How a body moves. Every kind is evaluated on the host into one pose and velocity.
+struct MotionConfig {
+  std::string kind = "fixed";                  ///< fixed, velocity, oscillation, rotation
+  Vec3d velocity;                              ///< velocity: m/s
+  Vec3d amplitude;                             ///< oscillation: displacement amplitude, m
+  double frequency = 0;                        ///< oscillation: Hz
+  Vec3d axis, centre;                          ///< rotation: unit axis, point on it (m)
+  double rate = 0;                             ///< rotation: rad/s
+  double start = 0;                            ///< s
+  double stop = std::numeric_limits<double>::infinity();  ///< s
+  bool remove_when_clear = false;              ///< delete the body once its lowest point is above all fluid and grains
+  bool operator==(const MotionConfig&) const = default;
+};
+
+/// One wall body: a shape, how fluid meets it, how it moves.
+struct WallBody {
+  std::string name;
+  std::string shape = "box";                   ///< box (solid), tank (box seen from inside), plane
+  Vec3d min, max;                              ///< box, tank: m
+  std::array<bool, 6> faces{true, true, true, true, true, true};  ///< tank: x-, x+, y-, y+, z-, z+
+  Vec3d point, normal;                         ///< plane: normal points into the flow
+  std::string type = "adami";                  ///< adami, grains_only
+  std::string slip = "noslip";                 ///< noslip, slip
+  bool repulsion = false;                      ///< Monaghan repulsion beside the extrapolated pressure
+  MotionConfig motion;
+  bool operator==(const WallBody&) const = default;
+};
+
+struct WallConfig {
+  std::string type = "adami", slip = "noslip";  ///< defaults of the bodies
+  bool repulsion = false;
+  double dx = 0;                               ///< spacing of wall particles, m (default fluid.dx)
+  double rep_D = 0;                            ///< m2/s2 (default 5 g H)
+  double rep_r0 = 0;                           ///< m (default 0.5 dx)
+  std::vector<WallBody> bodies;
+  bool operator==(const WallConfig&) const = default;
+};
+
+/// Grain sizes: one or several classes, each with a share of the count.
+struct SizeClass {
+  double d = 0;                                ///< diameter, m
+  double share = 1;                            ///< of the number of grains
+  bool operator==(const SizeClass&) const = default;
+};
+
+/// Where grains come from: thrown at random into a box, then settled.
+struct GrainFill {
+  Vec3d min, max;                              ///< m
+  std::int64_t count = 0;                      ///< exactly one of count, mass, packing_fraction
+  double mass = 0;                             ///< kg
+  double packing_fraction = 0;
+  std::vector<SizeClass> sizes;                ///< default: one class, grain.d
+  std::vector<Vec3d> positions;                ///< explicit centres instead of random ones, m
+  Vec3d velocity;                              ///< m/s
+  bool operator==(const GrainFill&) const = default;
+};
+
+struct GrainConfig {
+  bool present = false;
+  double d = 0;                                ///< m
+  double rho = 2500;                           ///< kg/m3
+  double E = 1e8;                              ///< Pa
+  double nu = 0.3;
+  double mu = 0.3;                             ///< sliding friction
+  double mu_r = 0.01;                          ///< rolling friction
+  double e = 0.9;                              ///< restitution
+  std::uint64_t seed = 1;
+  bool settle = false;                         ///< settle before t = 0
+  double settle_time = 0;                      ///< longest settling, s (0: 20 sqrt(2 H / g))
+  double release_time = 0;                     ///< grains are held until then, s
+  bool fixed = false;                          ///< grains never move
+  double d_max = 0, d_min = 0;                 ///< m (resolved)
+  std::vector<GrainFill> fills;
+  bool operator==(const GrainConfig&) const = default;
+};
+
+struct ContactConfig {
+  std::string normal = "hertz";                ///< hertz, linear, none
+  std::string tangential = "mindlin";          ///< mindlin, mindlin_deresiewicz, linear, none
+  std::string rolling = "epsd";                ///< epsd, cdt, none
+  double k = 0;                                ///< N/m, linear only
+  double kt_ratio = 2.0 / 7.0;
+  double eta_r = 0.3;
+  bool clip_tension = true;
+  bool he_damping = false;                     ///< paper.he_damping: sqrt(6) prefactor of He et al. (20b)
+  bool cap_rolling = true;                     ///< the stabilising cap on cdt; off only for tests
+  bool operator==(const ContactConfig&) const = default;
+};
+
+struct CouplingConfig {
+  std::string mode = "two_way";                ///< off, one_way, two_way
+  double hc = 0;                               ///< m (default max(h, 2 d_max 2/kappa))
+  double eps_min = 0.25;
+  double S_dry = 0.05, S_wet = 0.5;
+  bool torque = true;
+  bool angmom = true;
+  std::string drag = "di_felice";
+  std::string integrator = "exponential";      ///< exponential, explicit
+  bool operator==(const CouplingConfig&) const = default;
+};
+
+struct TimeConfig {
+  double end = 0;                              ///< s
+  double dt = 0;                               ///< s; 0: adaptive
+  double dt_dem = 0;                           ///< s; 0: adaptive
+  double cfl = 0.25, visc = 0.125, body = 0.25, drag = 0.5, rayleigh = 0.2, contact = 0.04;
+  std::string integrator = "kdk";              ///< kdk, euler
+  bool force_dt = false;
+  bool operator==(const TimeConfig&) const = default;
+};
+
+/// What is measured along the way; one CSV file each under probes/.
+struct ProbeConfig {
+  std::string name;
+  std::string type;                            ///< front, point, height, box, force
+  std::string phase = "fluid";                 ///< front, box: fluid, grains
+  int axis = 0;                                ///< front: 0, 1, 2
+  int sign = 1;                                ///< front: +1 largest coordinate, -1 smallest
+  Vec3d at;                                    ///< point, height: m
+  Vec3d min, max;                              ///< box: m
+  std::string body;                            ///< force: wall body
+  Vec3d about;                                 ///< force: torque about this point, m
+  double every = 0;                            ///< s; 0: out.every
+  bool operator==(const ProbeConfig&) const = default;
+};
+
+struct OutputConfig {
+  double every = 0;                            ///< s
+  double diagnostics_every = 0;                ///< s (default out.every)
+  double checkpoint_every = 0;                 ///< s; 0: only at the end
+  bool walls = true;                           ///< write walls.vtkhdf
+  std::vector<ProbeConfig> probes;
+  bool operator==(const OutputConfig&) const = default;
+};
+
+struct Config {
+  std::string title;
+  std::string preset = "default";              ///< default, he2018
+  std::string file;                            ///< where it came from
+  Vec3d gravity{0, 0, -9.81};                  ///< m/s2
+  Vec3d drive{0, 0, 0};                        ///< drive.f: constant force density on the fluid, N/m3
+  double xsph = 0;
+  double tensile = 0;                          ///< 0 off; he2018 and `tensile = 1` switch the Monaghan 2000 term on
+  bool tensile_one_sign = false;               ///< he2018: 0.01 for both signs of P
+  DomainConfig domain;
+  FluidConfig fluid;
+  EosConfig eos;
+  DensityConfig density;
+  ViscosityConfig visc;
+  WallConfig wall;
+  GrainConfig grain;
+  ContactConfig contact;
+  CouplingConfig couple;
+  TimeConfig time;
+  OutputConfig out;
+  std::string precision = "mixed";             ///< single, mixed, double
+  std::uint64_t seed = 1;
+  double skin_fluid = 0.3;                     ///< neighbour skin / fluid.dx
+  double skin_grain = 0.2;                     ///< neighbour skin / grain.d_min
+  bool operator==(const Config&) const = default;
+};
+
+}  // namespace bedload

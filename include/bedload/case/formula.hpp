@@ -1,0 +1,27 @@
+#pragma once
+// Formulas in case files.
+
+#include <memory>
+#include <string>
+
+#include "bedload/core/vec.hpp"
+
+namespace bedload {
+
+/// An expression in x, y, z (m), e.g. "0.1*sin(2*pi*z)"; functions as in muParser,
+/// constants pi and e.
+class Formula {
+ public:
+  /// Throws CaseError with the reason, without naming file or key.
+  explicit Formula(const std::string& text);
+  Formula(Formula&&) noexcept;
+  ~Formula();
+
+  double operator()(const Vec3d& x) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace bedload

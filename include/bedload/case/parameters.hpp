@@ -1,0 +1,100 @@
+#pragma once
+// Every parameter of a case, declared once: key, unit, range, default, meaning and
+// the member of Config that holds it. Reader, writer and `bedload list` all walk
+// this one description.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+
+namespace bedload {
+
+/// Allowed numbers.
+struct Range {
+  double lo = -std::numeric_limits<double>::infinity();
+  double hi = std::numeric_limits<double>::infinity();
+  bool lo_open = true, hi_open = true;
+
+  bool holds(double x) const { return (lo_open ? x > lo : x >= lo) && (hi_open ? x < hi : x <= hi); }
+  /// "within 0..1", "> 0", ">= 0", "> -1 and < 0.5"; empty if everything is allowed.
+  std::string text() const;
+};
+inline Range above(double lo) { return {.lo = lo}; }
+inline Range at_least(double lo) { return {.lo = lo, .lo_open = false}; }
+inline Range within(double lo, double hi) { return {lo, hi, false, false}; }
+inline Range above_to(double lo, double hi) { return {lo, hi, true, false}; }
+
+/// A named choice: a law, a model, a shape.
+struct Choice {
+  std::string name, meaning;
+};
+
+enum class Presence {
+  defaulted,  ///< the Config's own value stands if the key is absent
+  required,
+  optional,  ///< absent means something of its own, held as 0 or infinity
+};
+
+/// What is known about a parameter besides its key and place.
+struct About {
+  std::string_view unit = "-";
+  std::string_view meaning;
+  Range range = {};
+  std::string_view hint = {};      ///< added to the error after a semicolon
+  std::string_view fallback = {};  ///< default in words, where it is not a plain value
+  Presence presence = Presence::defaulted;
+  std::string_view family = {};  ///< under which `bedload list` shows the choices
+  std::vector<Choice> choices = {};
+};
+
+using Formulas = std::array<std::string, 3>;
+using Faces = std::array<bool, 6>;
+using Slot = std::variant<bool*, std::int64_t*, std::uint64_t*, double*, std::string*, Vec3d*, Formulas*,
+                          std::array<bool, 3>*, Faces*, std::vector<Vec3d>*>;
+
+/// Names of the six sides, in the order of WallBody::faces.
+inline constexpr std::array<std::string_view, 6> kFaces{"x-", "x+", "y-", "y+", "z-", "z+"};
+
+/// Visitor of parameters.
+class Parameters {
+ public:
+  virtual ~Parameters() = default;
+  virtual void operator()(std::string_view key, Slot value, const About& about) = 0;
+
+  /// A list of tables, [[key]]: `describe` is called for each.
+  template <class T, class F>
+  void list(std::string_view key, std::vector<T>& items, const T& prototype, F describe) {
+    const std::size_t n = open_list(key, items.size());
+    items.resize(n, prototype);
+    for (std::size_t i = 0; i < n; ++i) {
+      open_item(key, i);
+      describe(*this, items[i]);
+      close_item();
+    }
+  }
+  /// True if all that could be given is wanted, whatever the other values.
+  virtual bool everything() const { return false; }
+
+ protected:
+  virtual std::size_t open_list(std::string_view key, std::size_t have) = 0;
+  virtual void open_item(std::string_view key, std::size_t i) = 0;
+  virtual void close_item() = 0;
+};
+
+/// Walks all parameters of a case, in the order in which they are written.
+void describe(Parameters& p, Config& config);
+
+/// A row of `bedload list parameters`.
+struct ParameterRow {
+  std::string key, unit, fallback, allowed, meaning, family;
+  std::vector<Choice> choices;
+};
+std::vector<ParameterRow> parameter_table();
+
+}  // namespace bedload

@@ -1,0 +1,33 @@
+#pragma once
+// From a case file to a Config and back.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+
+namespace bedload {
+
+/// Reads, checks and resolves a case. `overrides` are "key=value" texts that win
+/// over the file; an item of a list is reached by its place, "grain.fill.0.count=5".
+/// Warnings are appended, a sentence each. Throws CaseError (one sentence with file
+/// and line) and FileError.
+Config read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                 std::vector<std::string>& warnings);
+
+/// The same from text; `name` stands for the file in messages.
+Config read_case_text(const std::string& text, const std::string& name,
+                      const std::vector<std::string>& overrides, std::vector<std::string>& warnings);
+
+/// The case with every default filled in, as TOML that read_case takes back to an equal Config.
+std::string resolved_toml(const Config& config);
+
+/// The defaults of a preset; `name` is "default" or "he2018".
+Config preset_defaults(const std::string& name);
+
+/// What the settling of the grains before t = 0 depends on, and nothing else: a
+/// dry case of grains and walls.
+Config settling_case(const Config& config);
+
+}  // namespace bedload

@@ -1,0 +1,33 @@
+#pragma once
+// Points at equal distances, and the fluid laid on them.
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+#include "bedload/host_data.hpp"
+
+namespace bedload {
+
+/// `count` cells of width `step` that fill a length exactly; points sit at their centres.
+struct Cells {
+  double start = 0, step = 0;  ///< m
+  std::int64_t count = 0;
+
+  double centre(std::int64_t i) const { return start + (double(i) + 0.5) * step; }
+};
+
+/// The cells between `lo` and `hi` whose width comes nearest to `spacing`; at least one.
+inline Cells fit_cells(double lo, double hi, double spacing) {
+  const double n = std::fmax(1, std::round((hi - lo) / spacing));
+  return {lo, (hi - lo) / n, std::int64_t(n)};
+}
+
+/// Adds every fluid.fill: a lattice that divides each side of the box evenly, so that
+/// it meets walls and periodic images half a spacing off. The masses of a fill are
+/// equal and add up to rho0 times its volume. Throws CaseError.
+void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::string>& warnings);
+
+}  // namespace bedload

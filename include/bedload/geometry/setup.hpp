@@ -1,0 +1,18 @@
+#pragma once
+// From a checked case to the particles it starts with.
+
+#include <string>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+#include "bedload/host_data.hpp"
+
+namespace bedload {
+
+/// Lays the fluid, the wall particles and the grains of `config`, each in the order
+/// of its ids. The same case gives the same particles on every machine. Remarks the
+/// user should read are appended to `warnings`. Throws CaseError if fluid or grains
+/// lie outside the domain or inside a wall, or do not fit.
+Setup build_setup(const Config& config, std::vector<std::string>& warnings);
+
+}  // namespace bedload

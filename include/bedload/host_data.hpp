@@ -1,0 +1,80 @@
+#pragma once
+// Plain host copies: what starts a simulation and what comes out of it. Writers
+// and readers work on these alone and know neither precision nor device.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "bedload/core/vec.hpp"
+
+namespace bedload {
+
+enum class Scalar { f32, f64, u32, u64 };
+
+constexpr std::size_t size_of(Scalar t) { return t == Scalar::f32 || t == Scalar::u32 ? 4 : 8; }
+
+/// One named array of `count` tuples of `components` scalars.
+struct HostArray {
+  std::string name;
+  std::string unit;  ///< "m/s"; "-" for a pure number
+  Scalar type = Scalar::f64;
+  int components = 1;
+  std::vector<std::byte> bytes;
+
+  std::size_t count() const { return bytes.size() / (size_of(type) * components); }
+  template <class T>
+  const T* as() const {
+    return reinterpret_cast<const T*>(bytes.data());
+  }
+  template <class T>
+  T* as() {
+    return reinterpret_cast<T*>(bytes.data());
+  }
+};
+
+/// All arrays of one store ("fluid", "grains", "walls"), equally long.
+struct HostStore {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<HostArray> arrays;
+
+  const HostArray* find(const std::string& array) const {
+    for (const auto& a : arrays)
+      if (a.name == array) return &a;
+    return nullptr;
+  }
+};
+
+/// A number that reaches the user, with its unit.
+struct Quantity {
+  std::string name;
+  std::string unit;
+  double value = 0;
+};
+
+/// The kept state, to the last bit: `stores` hold arrays, `scalars` clock and totals.
+struct SavedState {
+  std::vector<HostStore> stores;
+  std::vector<Quantity> scalars;
+};
+
+/// Initial particles, in double precision, in the order of their ids.
+struct Setup {
+  struct Fluid {
+    std::vector<Vec3d> x, v;          ///< m, m/s
+    std::vector<double> mass;         ///< kg
+  } fluid;
+  struct Walls {
+    std::vector<Vec3d> x;             ///< m, at t = 0
+    std::vector<std::uint32_t> body;  ///< index in Config::wall.bodies
+  } walls;
+  struct Grains {
+    std::vector<Vec3d> x, v;          ///< m, m/s
+    std::vector<double> radius;       ///< m
+  } grains;
+};
+
+}  // namespace bedload

@@ -1,0 +1,89 @@
+#pragma once
+// Sorted cells of one phase. Cells are numbered along a Hilbert curve inside bricks of
+// 8 x 8 x 8 and bricks row by row, so that neighbours in space are neighbours in memory and
+// the table of cell starts stays dense.
+
+#include "bedload/core/frame.hpp"
+#include "bedload/parallel/sort.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+struct CellGridView {
+  Vec3d origin, inverse;       ///< 1/m
+  int n[3] = {1, 1, 1};        ///< cells that can hold particles
+  int bricks[3] = {1, 1, 1};
+  bool periodic[3] = {false, false, false};
+  const std::uint16_t* curve = nullptr;  ///< [512] place on the Hilbert curve of a cell in its brick
+  const Index* start = nullptr;          ///< [cells + 1] first particle of each cell
+
+  /// Cell coordinate along axis k; outside positions go to the nearest cell, periodic ones wrap.
+  BL_HD int coordinate(double x, int k) const {
+    int c = int(floor((x - origin[k]) * inverse[k]));
+    if (periodic[k]) {
+      c %= n[k];
+      return c < 0 ? c + n[k] : c;
+    }
+    return clamp(c, 0, n[k] - 1);
+  }
+  BL_HD std::uint32_t key(int ix, int iy, int iz) const {
+    const std::uint32_t brick = (std::uint32_t(iz >> 3) * bricks[1] + (iy >> 3)) * bricks[0] + (ix >> 3);
+    return brick * 512u + curve[(iz & 7) * 64 + (iy & 7) * 8 + (ix & 7)];
+  }
+  BL_HD std::uint32_t key(const Vec3d& x) const {
+    return key(coordinate(x.x, 0), coordinate(x.y, 1), coordinate(x.z, 2));
+  }
+
+  /// Calls f(j) for each particle in the cells that a sphere of radius `range` about x touches.
+  /// Cells on a periodic axis are visited once, also where the sphere is as wide as the period.
+  template <class F>
+  BL_HD void each_near(const Vec3d& x, double range, F&& f) const {
+    int lo[3], hi[3];
+    for (int k = 0; k < 3; ++k) {
+      lo[k] = int(floor((x[k] - range - origin[k]) * inverse[k]));
+      hi[k] = int(floor((x[k] + range - origin[k]) * inverse[k]));
+      if (periodic[k]) {
+        if (hi[k] - lo[k] >= n[k]) lo[k] = 0, hi[k] = n[k] - 1;
+      } else {
+        lo[k] = clamp(lo[k], 0, n[k] - 1);
+        hi[k] = clamp(hi[k], 0, n[k] - 1);
+      }
+    }
+    for (int iz = lo[2]; iz <= hi[2]; ++iz)
+      for (int iy = lo[1]; iy <= hi[1]; ++iy)
+        for (int ix = lo[0]; ix <= hi[0]; ++ix) {
+          const std::uint32_t c = key(wrapped(ix, 0), wrapped(iy, 1), wrapped(iz, 2));
+          for (Index j = start[c]; j < start[c + 1]; ++j) f(j);
+        }
+  }
+
+ private:
+  BL_HD int wrapped(int i, int k) const {
+    if (!periodic[k]) return i;
+    i %= n[k];
+    return i < 0 ? i + n[k] : i;
+  }
+};
+
+/// Sorts one phase into cells of at least `cell` (m) over [min, max].
+class CellGrid {
+ public:
+  CellGrid() = default;
+  CellGrid(const Frame& frame, const Vec3d& min, const Vec3d& max, double cell);
+
+  /// Cell keys of all x -> order; `order` says where each sorted particle was.
+  template <class P>
+  void sort(const Frame& frame, Span<const P> x, Buffer<Index>& order);
+
+  CellGridView view() const;
+
+ private:
+  CellGridView shape_;
+  std::uint32_t cells_ = 0;
+  int key_bits_ = 32;
+  Buffer<std::uint16_t> curve_;
+  Buffer<std::uint32_t> keys_;
+  Buffer<Index> start_;
+  Sorter sorter_;
+};
+
+}  // namespace bedload::inline BL_VARIANT

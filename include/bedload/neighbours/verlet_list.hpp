@@ -1,0 +1,131 @@
+#pragma once
+// Stored neighbours of each particle: every j within range of i at the time of building.
+// Rows are cut into slices whose entries are interleaved, so that a warp reads its lists
+// coalesced; a slice is 32 rows on the GPU and one on the CPU. Counted, then filled:
+// never too small, never padded beyond the longest row of a slice.
+
+#include "bedload/neighbours/cell_grid.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+#if BL_CUDA
+constexpr Index kSlice = 32;
+#else
+constexpr Index kSlice = 1;
+#endif
+
+struct VerletListView {
+  const std::uint64_t* offset = nullptr;  ///< [slices + 1]
+  const std::uint32_t* count = nullptr;   ///< [rows]
+  const Index* entry = nullptr;
+
+  BL_HD std::uint64_t first(Index i) const { return offset[i / kSlice] + i % kSlice; }
+  /// Where entry k of row i is, also for arrays that go with the entries.
+  BL_HD std::uint64_t slot(Index i, std::uint32_t k) const { return first(i) + std::uint64_t(k) * kSlice; }
+};
+
+class VerletList {
+ public:
+  Index rows() const { return Index(count_.size()); }
+  std::uint64_t slots() const { return slots_; }
+  VerletListView view() const { return {offset_.data(), count_.data(), entry_.data()}; }
+
+  /// Rows: all of `targets`; entries: sources near them, in the order of the sources' cells.
+  /// Near(i, j) says whether to keep a pair; `reach(i)` is how far to look (m).
+  template <class Near>
+  void build(Index rows, const CellGridView& sources, const Near& near);
+
+ private:
+  Buffer<std::uint32_t> count_;
+  Buffer<std::uint64_t> width_, offset_;
+  Buffer<Index> entry_;
+  std::uint64_t slots_ = 0;
+  Sorter sorter_;
+};
+
+namespace detail {
+
+template <class Near>
+struct CountPass {
+  CellGridView sources;
+  Near near;
+  Span<std::uint32_t> count;
+  BL_HD void operator()(Index i) const {
+    std::uint32_t n = 0;
+    sources.each_near(near.place(i), near.reach(i), [&](Index j) { n += near(i, j) ? 1u : 0u; });
+    count[i] = n;
+  }
+};
+
+struct WidthPass {
+  Span<const std::uint32_t> count;
+  Span<std::uint64_t> width;
+  BL_HD void operator()(Index s) const {
+    std::uint32_t widest = 0;
+    const Index end = min_of(count.size, (s + 1) * kSlice);
+    for (Index i = s * kSlice; i < end; ++i) widest = max_of(widest, count[i]);
+    width[s] = std::uint64_t(widest) * kSlice;
+  }
+};
+
+template <class Near>
+struct FillPass {
+  CellGridView sources;
+  Near near;
+  VerletListView list;
+  Index* entry;
+  BL_HD void operator()(Index i) const {
+    std::uint64_t slot = list.first(i);
+    sources.each_near(near.place(i), near.reach(i), [&](Index j) {
+      if (near(i, j)) {
+        entry[slot] = j;
+        slot += kSlice;
+      }
+    });
+  }
+};
+
+}  // namespace detail
+
+template <class Near>
+void VerletList::build(Index rows, const CellGridView& sources, const Near& near) {
+  count_.resize(rows);
+  for_each({0, rows}, detail::CountPass<Near>{sources, near, count_});
+  const Index slices = (rows + kSlice - 1) / kSlice;
+  width_.resize(slices);
+  for_each({0, slices}, detail::WidthPass{count_, width_});
+  slots_ = sorter_.exclusive_scan(width_, offset_);
+  entry_.reserve_and_resize(slots_);
+  for_each({0, rows}, detail::FillPass<Near>{sources, near, view(), entry_.data()});
+}
+
+/// Pairs of SPH particles (fluid or wall) closer than `range`.
+template <class PA>
+struct SphNear {
+  Frame frame;
+  Span<const PA> x;              ///< full positions of the targets
+  Span<const PairPosition> a, b;
+  double range;                  ///< m
+  bool same;                     ///< targets are the sources: a particle is not its own neighbour
+  BL_HD Vec3d place(Index i) const { return coordinates(frame, x[i]); }
+  BL_HD double reach(Index) const { return range; }
+  BL_HD bool operator()(Index i, Index j) const {
+    return !(same && i == j) && norm2(frame.separation(a[i], b[j])) < Real(range * range);
+  }
+};
+
+/// Pairs across the phases closer than `range`, in fp64.
+template <class PA, class PB>
+struct CrossNear {
+  Frame frame;
+  Span<const PA> a;
+  Span<const PB> b;
+  double range;  ///< m
+  BL_HD Vec3d place(Index i) const { return coordinates(frame, a[i]); }
+  BL_HD double reach(Index) const { return range; }
+  BL_HD bool operator()(Index i, Index j) const {
+    return norm2(frame.separation(coordinates(frame, a[i]), coordinates(frame, b[j]))) < range * range;
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

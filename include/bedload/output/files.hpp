@@ -1,0 +1,25 @@
+#pragma once
+// Files that are either whole or not there.
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace bedload {
+
+/// Text of a whole file. Throws FileError.
+std::string read_file(const std::filesystem::path& path);
+
+/// Replaces a file in one go: written beside its place, then renamed. Throws FileError.
+void write_file(const std::filesystem::path& path, const std::string& text);
+
+/// Puts the finished file `part` in the place of `path`, surely on disk. Throws FileError.
+void commit_file(const std::filesystem::path& part, const std::filesystem::path& path);
+
+/// Name of the unfinished file beside `path`.
+std::filesystem::path part_of(const std::filesystem::path& path);
+
+/// Throws FileError unless the disk that holds `path` has room for `bytes` more.
+void need_space(const std::filesystem::path& path, std::size_t bytes);
+
+}  // namespace bedload

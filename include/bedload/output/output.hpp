@@ -1,0 +1,67 @@
+#pragma once
+// What a run leaves in its folder:
+//   case.resolved.toml      every parameter with its default; version, device, seed
+//   fluid|grains|walls.vtkhdf  frames as temporal PolyData, an .xdmf side-car beside each
+//   probes/<name>.csv       one table per probe
+//   diagnostics.csv         masses, momenta, energies, extremes, counters
+//   checkpoints/step_*.h5   the kept state
+//   summary.json            how the run ended
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "bedload/case/config.hpp"
+#include "bedload/host_data.hpp"
+#include "bedload/simulation.hpp"
+
+namespace bedload {
+
+/// The results folder of one run. Everything is copied to the host when asked
+/// for and written by one thread of its own; an error in there (FileError)
+/// surfaces in the next call.
+class RunOutput {
+ public:
+  /// Makes the folder and writes case.resolved.toml. `continuing` appends to the
+  /// files already there, less what lies after the time of the first write();
+  /// otherwise those of a former run are removed. Throws FileError.
+  RunOutput(const std::filesystem::path& dir, const Config& config, const Device& device, std::string version,
+            bool continuing);
+  ~RunOutput();
+  RunOutput(const RunOutput&) = delete;
+  RunOutput& operator=(const RunOutput&) = delete;
+
+  /// Writes the frames, diagnostics, probes and checkpoint that fell due by
+  /// info.time; call it after start() and after every step.
+  void write(Simulation& simulation, const StepInfo& info);
+
+  /// Saves the state as checkpoints/step_<step>.h5 and returns once it is safely on disk.
+  std::filesystem::path checkpoint(Simulation& simulation);
+
+  /// Notes a warning for summary.json.
+  void warn(std::string message);
+
+  /// Ends the output: last frame and rows, checkpoint, summary.json. `status` is
+  /// "completed", "stopped" or "failed"; the state of a failed run is shown in a
+  /// frame but not kept as a checkpoint. `wall_seconds` and `particle_steps` give the rates.
+  void finish(Simulation& simulation, const std::string& status, double wall_seconds,
+              std::int64_t particle_steps);
+
+  /// The newest checkpoint on disk, empty if there is none.
+  std::filesystem::path last_checkpoint() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The state in a checkpoint made for this case: same precision, same particles.
+/// Throws FileError with file and reason.
+SavedState read_checkpoint(const std::filesystem::path& path, const Config& config);
+
+/// Writes a checkpoint: first beside its place, then synced and renamed. The same
+/// state gives the same bytes. Throws FileError.
+void write_state(const std::filesystem::path& path, const SavedState& state, const Config& config);
+
+}  // namespace bedload

@@ -1,0 +1,145 @@
+#pragma once
+// Memory where the solver computes: on the GPU in a CUDA build, else on the host.
+
+#include <atomic>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bedload/core/error.hpp"
+#include "bedload/core/span.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+#if BL_CUDA
+inline void check_cuda(cudaError_t status, const char* what) {
+  if (status == cudaSuccess) return;
+  (void)cudaGetLastError();
+  throw DeviceError(std::string(what) + ": " + cudaGetErrorString(status));
+}
+#endif
+
+/// Bytes now held by all buffers of this build.
+inline std::atomic<std::size_t>& bytes_held() {
+  static std::atomic<std::size_t> held{0};
+  return held;
+}
+
+inline void* device_allocate(std::size_t bytes) {
+  if (bytes == 0) return nullptr;
+  void* p = nullptr;
+#if BL_CUDA
+  if (cudaMalloc(&p, bytes) != cudaSuccess) {
+    (void)cudaGetLastError();
+    std::size_t free = 0, total = 0;
+    cudaMemGetInfo(&free, &total);
+    throw DeviceError("out of GPU memory: " + std::to_string(bytes >> 20) + " MiB asked for, " +
+                      std::to_string(free >> 20) + " of " + std::to_string(total >> 20) + " MiB free");
+  }
+#else
+  p = std::aligned_alloc(64, (bytes + 63) / 64 * 64);
+  if (!p) throw DeviceError("out of memory: " + std::to_string(bytes >> 20) + " MiB asked for");
+#endif
+  bytes_held() += bytes;
+  return p;
+}
+inline void device_free(void* p, std::size_t bytes) {
+  if (!p) return;
+#if BL_CUDA
+  cudaFree(p);
+#else
+  std::free(p);
+#endif
+  bytes_held() -= bytes;
+}
+inline void copy_to_device(void* to, const void* from, std::size_t bytes) {
+  if (bytes == 0) return;
+#if BL_CUDA
+  check_cuda(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice), "copy to the GPU");
+#else
+  std::memcpy(to, from, bytes);
+#endif
+}
+inline void copy_to_host(void* to, const void* from, std::size_t bytes) {
+  if (bytes == 0) return;
+#if BL_CUDA
+  check_cuda(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "copy from the GPU");
+#else
+  std::memcpy(to, from, bytes);
+#endif
+}
+inline void fill_zero(void* p, std::size_t bytes) {
+  if (bytes == 0) return;
+#if BL_CUDA
+  check_cuda(cudaMemsetAsync(p, 0, bytes), "clearing GPU memory");
+#else
+  std::memset(p, 0, bytes);
+#endif
+}
+inline void synchronize() {
+#if BL_CUDA
+  check_cuda(cudaDeviceSynchronize(), "GPU computation");
+#endif
+}
+
+/// A growing array of trivially copyable T where the solver computes.
+template <class T>
+class Buffer {
+ public:
+  Buffer() = default;
+  explicit Buffer(std::size_t n) { resize(n); }
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
+  Buffer(Buffer&& o) noexcept { swap(o); }
+  Buffer& operator=(Buffer&& o) noexcept {
+    swap(o);
+    return *this;
+  }
+  ~Buffer() { device_free(data_, capacity_ * sizeof(T)); }
+
+  /// New length; contents are lost when it must grow. Grown memory is zero.
+  void resize(std::size_t n) {
+    if (n > capacity_) {
+      device_free(data_, capacity_ * sizeof(T));
+      data_ = nullptr, capacity_ = 0;
+      data_ = static_cast<T*>(device_allocate(n * sizeof(T)));
+      capacity_ = n;
+      fill_zero(data_, n * sizeof(T));
+    }
+    size_ = n;
+  }
+  /// As resize, with room to grow so that it seldom has to.
+  void reserve_and_resize(std::size_t n) {
+    if (n > capacity_) resize(n + n / 8 + 64);
+    size_ = n;
+  }
+  void zero() { fill_zero(data_, size_ * sizeof(T)); }
+  void assign(const std::vector<T>& host) {
+    resize(host.size());
+    copy_to_device(data_, host.data(), host.size() * sizeof(T));
+  }
+  std::vector<T> to_host() const {
+    std::vector<T> host(size_);
+    copy_to_host(host.data(), data_, size_ * sizeof(T));
+    return host;
+  }
+  void swap(Buffer& o) noexcept {
+    std::swap(data_, o.data_), std::swap(size_, o.size_), std::swap(capacity_, o.capacity_);
+  }
+
+  T* data() { return data_; }
+  const T* data() const { return data_; }
+  std::size_t size() const { return size_; }
+  Span<T> span() { return {data_, Index(size_)}; }
+  Span<const T> span() const { return {data_, Index(size_)}; }
+  operator Span<T>() { return span(); }
+  operator Span<const T>() const { return span(); }
+
+ private:
+  T* data_ = nullptr;
+  std::size_t size_ = 0, capacity_ = 0;
+};
+
+}  // namespace bedload::inline BL_VARIANT

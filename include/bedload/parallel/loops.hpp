@@ -1,0 +1,101 @@
+#pragma once
+// for_each and reduce over a range. A body is a named struct with operator()(Index);
+// each call writes only its own entries, so the result never depends on the order.
+
+#include "bedload/parallel/buffer.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+constexpr Index kReduceChunk = 1024;  // elements summed into one partial, the same on every backend
+
+#if BL_CUDA
+template <class F>
+__global__ void __launch_bounds__(256) for_each_kernel(Index begin, Index end, F f) {
+  const Index i = begin + blockIdx.x * blockDim.x + threadIdx.x;
+  if (i < end) f(i);
+}
+
+template <class F>
+__global__ void __launch_bounds__(128) reduce_kernel(Index begin, Index end, F f, typename F::Value* partial) {
+  __shared__ typename F::Value shared[128];
+  const Index first = begin + blockIdx.x * kReduceChunk;
+  const Index last = min_of(end, first + kReduceChunk);
+  typename F::Value sum = f.identity();
+  for (Index i = first + threadIdx.x; i < last; i += 128) f.combine(sum, f(i));
+  shared[threadIdx.x] = sum;
+  __syncthreads();
+  for (int half = 64; half > 0; half /= 2) {
+    if (threadIdx.x < half) f.combine(shared[threadIdx.x], shared[threadIdx.x + half]);
+    __syncthreads();
+  }
+  if (threadIdx.x == 0) partial[blockIdx.x] = shared[0];
+}
+#endif
+
+/// Calls f(i) for every i of the range.
+template <class F>
+void for_each(Range range, const F& f) {
+  if (range.size() == 0) return;
+#if BL_CUDA
+  constexpr Index block = 128;
+  for_each_kernel<<<(range.size() + block - 1) / block, block>>>(range.begin, range.end, f);
+  check_cuda(cudaGetLastError(), "kernel launch");
+#else
+#pragma omp parallel for schedule(dynamic, 128) if (range.size() > 128)
+  for (Index i = range.begin; i < range.end; ++i) f(i);
+#endif
+}
+
+namespace detail {
+/// Combines partials of an earlier reduction.
+template <class F>
+struct Again {
+  using Value = typename F::Value;
+  F f;
+  const Value* from;
+  BL_HD Value identity() const { return f.identity(); }
+  BL_HD Value operator()(Index i) const { return from[i]; }
+  BL_HD void combine(Value& into, const Value& v) const { f.combine(into, v); }
+};
+}  // namespace detail
+
+/// Combines f(i) over the range: F has Value, identity(), operator()(Index), combine(Value&, Value).
+/// The tree is fixed, so the result does not depend on threads or blocks. Waits for the device.
+template <class F>
+typename F::Value reduce(Range range, const F& f) {
+  using Value = typename F::Value;
+  if (range.size() == 0) return f.identity();
+  static Buffer<Value> partial[2];
+  Index chunks = (range.size() + kReduceChunk - 1) / kReduceChunk;
+  partial[0].reserve_and_resize(chunks);
+#if BL_CUDA
+  reduce_kernel<<<chunks, 128>>>(range.begin, range.end, f, partial[0].data());
+  int from = 0;
+  while (chunks > 1) {
+    const Index n = chunks;
+    chunks = (n + kReduceChunk - 1) / kReduceChunk;
+    partial[1 - from].reserve_and_resize(chunks);
+    reduce_kernel<<<chunks, 128>>>(0u, n, detail::Again<F>{f, partial[from].data()}, partial[1 - from].data());
+    from = 1 - from;
+  }
+  check_cuda(cudaGetLastError(), "reduction launch");
+  Value result;
+  copy_to_host(&result, partial[from].data(), sizeof(Value));
+  return result;
+#else
+  Value* out = partial[0].data();
+#pragma omp parallel for schedule(dynamic, 4)
+  for (Index c = 0; c < chunks; ++c) {
+    const Index first = range.begin + c * kReduceChunk;
+    const Index last = min_of(range.end, first + kReduceChunk);
+    Value sum = f.identity();
+    for (Index i = first; i < last; ++i) f.combine(sum, f(i));
+    out[c] = sum;
+  }
+  Value result = f.identity();
+  for (Index c = 0; c < chunks; ++c) f.combine(result, out[c]);
+  return result;
+#endif
+}
+
+}  // namespace bedload::inline BL_VARIANT

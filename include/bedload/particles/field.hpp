@@ -1,0 +1,120 @@
+#pragma once
+// One named array of a store: unit and lifetime declared once; allocation,
+// sorting, output and checkpoints follow from that.
+
+#include <string>
+
+#include "bedload/core/frame.hpp"
+#include "bedload/host_data.hpp"
+#include "bedload/parallel/loops.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+enum class Lifetime {
+  kept,     ///< state: sorted with the particles, saved in checkpoints
+  carried,  ///< like kept but recomputed before use after a restart: sorted, not saved
+  derived,  ///< recomputed from state every step: neither sorted nor saved
+};
+
+/// How a C++ type looks in a file.
+template <class T>
+struct FileType;
+template <>
+struct FileType<float> {
+  static constexpr Scalar scalar = Scalar::f32;
+  static constexpr int components = 1;
+};
+template <>
+struct FileType<double> {
+  static constexpr Scalar scalar = Scalar::f64;
+  static constexpr int components = 1;
+};
+template <>
+struct FileType<std::uint32_t> {
+  static constexpr Scalar scalar = Scalar::u32;
+  static constexpr int components = 1;
+};
+template <class T>
+struct FileType<Vec3<T>> {
+  static constexpr Scalar scalar = FileType<T>::scalar;
+  static constexpr int components = 3;
+};
+template <class T>
+struct FileType<Vec4<T>> {
+  static constexpr Scalar scalar = FileType<T>::scalar;
+  static constexpr int components = 4;
+};
+template <>
+struct FileType<PackedPosition> {
+  static constexpr Scalar scalar = Scalar::u32;
+  static constexpr int components = 4;
+};
+
+class Store;
+
+class FieldBase {
+ public:
+  FieldBase(Store& store, const char* name, const char* unit, Lifetime lifetime);
+  virtual ~FieldBase() = default;
+  FieldBase(const FieldBase&) = delete;
+
+  const std::string name, unit;
+  const Lifetime lifetime;
+
+  virtual void resize(Index n) = 0;
+  /// x[i] = old x[order[i]]; shrinks to order.size.
+  virtual void gather(Span<const Index> order) = 0;
+  virtual HostArray to_host() const = 0;
+  virtual void from_host(const HostArray& array) = 0;
+};
+
+template <class T>
+struct GatherPass {
+  Span<const T> from;
+  Span<const Index> order;
+  Span<T> to;
+  BL_HD void operator()(Index i) const { to[i] = from[order[i]]; }
+};
+
+template <class T>
+class Field final : public FieldBase {
+ public:
+  using FieldBase::FieldBase;
+
+  void resize(Index n) override { data_.resize(n); }
+  void gather(Span<const Index> order) override {
+    Buffer<T>& spare = spare_buffer();
+    spare.resize(order.size);
+    for_each({0, order.size}, GatherPass<T>{data_, order, spare});
+    data_.swap(spare);
+  }
+  HostArray to_host() const override {
+    HostArray a{name, unit, FileType<T>::scalar, FileType<T>::components, {}};
+    a.bytes.resize(data_.size() * sizeof(T));
+    copy_to_host(a.bytes.data(), data_.data(), a.bytes.size());
+    return a;
+  }
+  void from_host(const HostArray& a) override {
+    if (a.type != FileType<T>::scalar || a.components != FileType<T>::components)
+      throw FileError("array " + name + " has another type than this build keeps");
+    data_.resize(a.bytes.size() / sizeof(T));
+    copy_to_device(data_.data(), a.bytes.data(), a.bytes.size());
+  }
+
+  Buffer<T>& buffer() { return data_; }
+  void assign(const std::vector<T>& host) { data_.assign(host); }
+  std::vector<T> values() const { return data_.to_host(); }
+  Span<T> span() { return data_.span(); }
+  Span<const T> span() const { return data_.span(); }
+  operator Span<T>() { return data_.span(); }
+  operator Span<const T>() const { return data_.span(); }
+
+ private:
+  static Buffer<T>& spare_buffer() {
+    static Buffer<T> spare;  // one a type: a gather swaps it with the field
+    return spare;
+  }
+  Buffer<T> data_;
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,31 @@
+#pragma once
+#include "bedload/particles/store.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Grains: spheres with spin. Positions always fp64 (overlaps need it).
+struct GrainStore : Store {
+  GrainStore() : Store("grains") {}
+
+  Field<Id> id{*this, "id", "-", Lifetime::kept};
+  Field<Vec3d> x{*this, "x", "m", Lifetime::kept};
+  Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::kept};  ///< where the neighbour lists were built
+  Field<Real> radius{*this, "radius", "m", Lifetime::kept};
+  Field<Real3> v{*this, "v", "m/s", Lifetime::kept};
+  Field<Real3> omega{*this, "omega", "rad/s", Lifetime::kept};
+  Field<Real3> force{*this, "contact_force", "N", Lifetime::kept};    ///< contacts, walls
+  Field<Real3> torque{*this, "contact_torque", "N m", Lifetime::kept};
+  // from the fluid, held during a fluid step
+  Field<Real3> fluid_force{*this, "fluid_force", "N", Lifetime::kept};      ///< pressure and viscous stress on its volume
+  Field<Real3> drag_force{*this, "drag_force", "N", Lifetime::kept};        ///< mean over the last step
+  Field<Real> eps{*this, "porosity", "-", Lifetime::kept};
+  Field<Real> wetness{*this, "wetness", "-", Lifetime::kept};
+  Field<Real3> U{*this, "U", "m/s", Lifetime::derived};       ///< fluid velocity here
+  Field<Real3> omega_f{*this, "omega_f", "rad/s", Lifetime::derived};  ///< fluid rotation here
+  Field<Real> K{*this, "K", "kg/s", Lifetime::derived};       ///< limited drag coefficient K'
+  Field<Real> K_rot{*this, "K_rot", "N m s", Lifetime::derived};  ///< fluid torque per relative spin
+  Field<Real3> impulse{*this, "impulse", "N s", Lifetime::derived};    ///< drag impulse of this fluid step
+  Field<Real3> spin_impulse{*this, "spin_impulse", "N m s", Lifetime::derived};
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,60 @@
+#pragma once
+// Fields that are resized, sorted and saved as one.
+
+#include <vector>
+
+#include "bedload/particles/field.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+class Store {
+ public:
+  explicit Store(const char* name) : name(name) {}
+  Store(const Store&) = delete;
+
+  const std::string name;
+
+  Index size() const { return size_; }
+  Range owned() const { return {0, size_}; }
+  /// All fields to n entries; contents are lost where they grow.
+  void resize(Index n) {
+    size_ = n;
+    for (auto* f : fields_) f->resize(n);
+  }
+  /// Reorders everything that outlives a step; may drop particles (order shorter than size).
+  void reorder(Span<const Index> order) {
+    for (auto* f : fields_)
+      if (f->lifetime == Lifetime::derived)
+        f->resize(order.size);
+      else
+        f->gather(order);
+    size_ = order.size;
+  }
+  HostStore save() const {
+    HostStore s{name, size_, {}};
+    for (auto* f : fields_)
+      if (f->lifetime == Lifetime::kept) s.arrays.push_back(f->to_host());
+    return s;
+  }
+  void load(const HostStore& s) {
+    resize(Index(s.count));
+    for (auto* f : fields_) {
+      if (f->lifetime != Lifetime::kept) continue;
+      const HostArray* a = s.find(f->name);
+      if (!a) throw FileError("checkpoint has no array " + name + "/" + f->name);
+      f->from_host(*a);
+    }
+  }
+
+ private:
+  friend class FieldBase;
+  std::vector<FieldBase*> fields_;
+  Index size_ = 0;
+};
+
+inline FieldBase::FieldBase(Store& store, const char* name, const char* unit, Lifetime lifetime)
+    : name(name), unit(unit), lifetime(lifetime) {
+  store.fields_.push_back(this);
+}
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,90 @@
+#pragma once
+// The solver behind one door: the program and the writers see this class and
+// nothing of precision or device.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+#include "bedload/host_data.hpp"
+
+namespace bedload {
+
+/// What one step did.
+struct StepInfo {
+  std::int64_t step = 0;      ///< steps done
+  double time = 0;            ///< s, at the end of the step
+  double dt = 0;              ///< s
+  int substeps = 0;           ///< DEM substeps in it
+  std::string_view limit;     ///< what bound dt: "cfl", "viscous", "body", "drag", "growth", "travel", "contact", "fixed"
+  double vmax = 0;            ///< m/s, fastest fluid particle
+  bool rebuilt = false;       ///< neighbour lists were renewed
+};
+
+/// One time-step limit, for `bedload check`.
+struct StepLimit {
+  std::string name;
+  double seconds = 0;
+  bool binds = false;
+};
+
+struct Counts {
+  std::int64_t fluid = 0, walls = 0, grains = 0;
+};
+
+class Simulation {
+ public:
+  virtual ~Simulation() = default;
+
+  /// Advances fluid and grains by one step. Throws SimulationFault.
+  virtual StepInfo step() = 0;
+  /// Grains alone, without fluid, until they rest or `longest` s are over; the
+  /// clock stays. Calls `progress` with the time settled so far (s) now and then.
+  virtual void settle(double longest, const std::function<void(double)>& progress) = 0;
+  /// Lays the fluid over the settled grains (superficial density and mass) and
+  /// evaluates everything once. Called once, before the first step, not after load().
+  virtual void start() = 0;
+
+  virtual double time() const = 0;          ///< s
+  virtual std::int64_t steps() const = 0;
+  virtual Counts counts() const = 0;
+  virtual std::vector<StepLimit> limits() = 0;
+  /// Bytes held on the device (or in host memory), now.
+  virtual std::size_t bytes() const = 0;
+
+  /// Fields for pictures: store is "fluid", "grains" or "walls". First array: "position".
+  virtual HostStore snapshot(const std::string& store) = 0;
+  /// Masses, momenta, energies, extremes, counters; see output/diagnostics.
+  virtual std::vector<Quantity> diagnostics() = 0;
+  /// Current reading of one probe.
+  virtual std::vector<Quantity> measure(const ProbeConfig& probe) = 0;
+
+  /// The kept state, and back again; load() continues bit for bit.
+  virtual SavedState save() = 0;
+  virtual void load(const SavedState& state) = 0;
+
+  /// Settled grains with their contacts, for the cache between settle() and start().
+  virtual SavedState save_grains() = 0;
+  virtual void load_grains(const SavedState& state) = 0;
+};
+
+/// "cpu" or "cuda" and the device's name; throws DeviceError if it is not there.
+struct Device {
+  std::string backend;       ///< cpu, cuda
+  std::string name;          ///< "NVIDIA H100 80GB HBM3", "AMD EPYC ..., 2 threads"
+  std::size_t memory = 0;    ///< bytes free
+};
+
+/// backend: auto, cpu, cuda. `auto` takes a usable GPU if this build has CUDA.
+Device find_device(const std::string& backend, int threads);
+
+/// Builds the solver for config.precision on `device`.
+std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& setup, const Device& device);
+
+/// Estimated bytes for `counts` particles of this case on either backend.
+std::size_t estimate_bytes(const Config& config, const Counts& counts);
+
+}  // namespace bedload

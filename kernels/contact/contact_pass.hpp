@@ -1,0 +1,122 @@
+#pragma once
+// All contacts of one grain: its list, then the walls. Both partners of a pair evaluate it, each seen from
+// the lower to the higher id, so forces are opposite and histories equal to the last bit.
+
+#include "bedload/neighbours/verlet_list.hpp"
+#include "kernels/contact/contact_law.hpp"
+#include "kernels/walls/surface.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Pairs of grains closer than the sum of their radii and a skin.
+struct GrainNear {
+  Frame frame;
+  Span<const Vec3d> x;
+  Span<const Real> radius;
+  double largest;  ///< radius, m
+  double skin;     ///< m
+  BL_HD Vec3d place(Index i) const { return x[i]; }
+  BL_HD double reach(Index i) const { return radius[i] + largest + skin; }
+  BL_HD bool operator()(Index i, Index j) const {
+    const double range = double(radius[i]) + double(radius[j]) + skin;
+    return i != j && norm2(frame.separation(x[i], x[j])) < range * range;
+  }
+};
+
+/// Takes history over into a new list; entries are places in the sorted store.
+struct CarryHistoryPass {
+  VerletListView from, to;
+  Span<const Index> order;  ///< former place of each grain
+  const ContactHistory* old_history;
+  ContactHistory* history;
+  BL_HD void operator()(Index i) const {
+    const Index was_i = order[i];
+    for (std::uint32_t k = 0; k < to.count[i]; ++k) {
+      const Index was_j = order[to.entry[to.slot(i, k)]];
+      ContactHistory h;
+      for (std::uint32_t l = 0; l < from.count[was_i]; ++l)
+        if (from.entry[from.slot(was_i, l)] == was_j) h = old_history[from.slot(was_i, l)];
+      history[to.slot(i, k)] = h;
+    }
+  }
+};
+
+/// Everything that acts on grain i by touch.
+struct ContactSum {
+  Vec3d force;   ///< N
+  Vec3d torque;  ///< N m
+};
+
+struct ContactPass {
+  Frame frame;
+  ContactLaw law;
+  Real mass_per_r3;  ///< 4/3 pi rho_s
+  Real dt;           ///< s
+  Span<const Vec3d> x;
+  Span<const Real3> v, omega;
+  Span<const Real> radius;
+  Span<const Id> id;
+  VerletListView list;
+  ContactHistory* history;
+  Span<const Surface> surfaces;
+  ContactHistory* const* wall_history;  ///< [surfaces][grains]
+  const BodyPose* poses;                ///< [bodies]
+
+  BL_HD Sphere sphere(Index i) const { return {radius[i], mass_per_r3 * cube(radius[i])}; }
+
+  /// Sums over the contacts of i and advances their histories by dt.
+  BL_HD ContactSum operator()(Index i) const {
+    ContactSum sum;
+    if (law.normal == NormalLaw::none) return sum;
+    const std::uint32_t n = list.count[i];
+    std::uint64_t slot = list.first(i);
+    for (std::uint32_t k = 0; k < n; ++k, slot += kSlice) pair(i, list.entry[slot], history[slot], sum);
+    for (Index s = 0; s < surfaces.size; ++s) {
+      const WallContact c = wall(i, surfaces[s], wall_history[s][i]);
+      sum.force += Vec3d(c.on_grain.force);
+      sum.torque += Vec3d(c.on_grain.torque_i);
+    }
+    return sum;
+  }
+
+  struct WallContact {
+    ContactForce on_grain;
+    Vec3d point;  ///< m
+  };
+  /// Grain i against one surface; all zero when apart.
+  BL_HD WallContact wall(Index i, const Surface& surface, ContactHistory& h) const {
+    const BodyPose& pose = poses[surface.body];
+    const double side = h.overlap > 0 ? 1.0 : (h.overlap < 0 ? -1.0 : 0.0);
+    const SurfaceContact at = meet(surface, pose, frame, x[i], side);
+    const double overlap = double(radius[i]) - at.distance;
+    if (!(overlap > 0) || !pose.present) {
+      if (h.overlap != 0) h = {};
+      return {};
+    }
+    const Real3 v_rel = v[i] - Real3(pose.velocity(at.point));
+    h.overlap *= side;
+    WallContact c{law(touch_wall(sphere(i), at.normal, overlap), v_rel, omega[i], Real3(pose.omega), dt, h), at.point};
+    h.overlap *= at.side;
+    return c;
+  }
+
+ private:
+  BL_HD void pair(Index i, Index j, ContactHistory& h, ContactSum& sum) const {
+    const Vec3d r_ij = frame.separation(x[i], x[j]);
+    const double reach = double(radius[i]) + double(radius[j]), r2 = norm2(r_ij);
+    if (!(r2 < reach * reach)) {
+      if (h.overlap != 0) h = {};
+      return;
+    }
+    const bool first = id[i] < id[j];
+    const Index lo = first ? i : j, hi = first ? j : i;
+    const double distance = std::sqrt(r2);
+    const ContactGeometry at =
+        touch(sphere(lo), sphere(hi), first ? r_ij : -r_ij, distance, reach - distance);
+    const ContactForce f = law(at, v[lo] - v[hi], omega[lo], omega[hi], dt, h);
+    sum.force += Vec3d(first ? f.force : -f.force);
+    sum.torque += Vec3d(first ? f.torque_i : f.torque_j);
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

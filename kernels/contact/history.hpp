@@ -1,0 +1,35 @@
+#pragma once
+// What a contact remembers from one substep to the next. fp64 in every precision: increments are
+// tiny beside the sums.
+
+#include "bedload/particles/field.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Kept for the pair (lower id, higher id), or for (grain, wall surface).
+struct ContactHistory {
+  Vec3d xi;            ///< tangential spring, m
+  Vec3d couple;        ///< elastic rolling couple on the first grain, N m
+  double overlap = 0;  ///< at the last evaluation, m; 0: apart. Walls: negative when behind the surface
+  double recede = 0;   ///< normal speed at the last evaluation, m/s
+};
+
+template <>
+struct FileType<ContactHistory> {
+  static constexpr Scalar scalar = Scalar::f64;
+  static constexpr int components = 8;
+};
+static_assert(sizeof(ContactHistory) == 8 * sizeof(double));
+
+/// The tangential vector `a` of a contact that has turned by `twist` (rad) about its normal n and whose
+/// normal has become n: same length, in the new tangent plane.
+BL_HD Vec3d turn_with_contact(const Vec3d& a, const Vec3d& n, double twist) {
+  const double before = norm2(a);
+  if (before == 0) return a;
+  Vec3d b = a + twist * cross(n, a);
+  b -= dot(b, n) * n;
+  const double after = norm2(b);
+  return after > 0 ? b * std::sqrt(before / after) : Vec3d{};
+}
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,69 @@
+#pragma once
+// Sliding friction: a tangential spring xi, damped, never above mu F_n.
+
+#include "kernels/contact/history.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// What the tangential laws need to know of the normal direction.
+struct SlidingInput {
+  Real normal_force;   ///< total, >= 0, N
+  Real normal_stiffness, normal_damping;
+  Real root;           ///< sqrt(R* overlap), m
+  Real m_star;         ///< kg
+  double overlap;      ///< m
+};
+
+/// Spring force and damping coefficient for one stretch.
+struct SlidingState {
+  Real3 elastic;   ///< N
+  Real stiffness;  ///< of the spring, N/m
+  Real damping;    ///< N s/m
+};
+
+/// Incremental Mindlin: stiffness 8 G* sqrt(R* overlap).
+struct Mindlin {
+  Real G_star = 0;  ///< Pa
+
+  /// Keeps a closed cycle from gaining work: unloading shortens the spring with the contact radius,
+  /// and loading leaves the force as it is although the stiffness grows.
+  BL_HD static Vec3d rescale(const Vec3d& xi, double before, double now) {
+    if (before == 0 || before == now) return xi;
+    return xi * std::sqrt(now < before ? now / before : before / now);
+  }
+  BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {
+    const Real stiffness = 8 * G_star * in.root;
+    return {-stiffness * Real3(xi), stiffness, in.normal_damping * std::sqrt(stiffness / in.normal_stiffness)};
+  }
+};
+
+/// Spring of a constant share of the normal stiffness.
+struct LinearSliding {
+  Real ratio = Real(2.0 / 7.0);
+
+  BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {
+    const Real stiffness = ratio * in.normal_stiffness;
+    return {-stiffness * Real3(xi), stiffness, in.normal_damping * std::sqrt(ratio)};
+  }
+};
+
+/// Mindlin-Deresiewicz curve of He et al. (19), (22): slip spreads from the rim until the stretch
+/// reaches `slip * overlap`.
+struct MindlinDeresiewicz {
+  Real mu = 0;
+  Real slip = 0;  ///< mu (2 - nu) / (2 - 2 nu)
+  Real beta = 0;  ///< damping share of the restitution asked for
+
+  BL_HD double longest(double overlap) const { return double(slip) * overlap; }
+  BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {
+    const Real length = Real(norm(xi)), limit = Real(longest(in.overlap));
+    if (length == 0 || limit == 0) return {{}, 0, 0};
+    const Real s = min_of(length / limit, Real(1));
+    const Real q = std::sqrt(1 - s);  // 1 - q^3 without cancellation at small s
+    const Real force = mu * in.normal_force * s / (1 + q) * (1 + q + q * q);
+    const Real damping = 2 * beta * std::sqrt(Real(1.5) * in.m_star * mu * in.normal_force * q / limit);
+    return {Real3(xi) * (-force / length), 0, damping};
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

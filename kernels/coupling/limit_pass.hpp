@@ -1,0 +1,42 @@
+#pragma once
+#include "kernels/coupling/interpolation_pass.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// L_a / m_a = sum_j phi_ja K_j / m_a: how fast drag stops a fluid particle, 1/s.
+template <class W>
+struct DragRatePass {
+  FluidWeight<W> weight;
+  Span<const Real> inv_S, K;
+  Span<Real> rate;
+
+  BL_HD Real start(Index) const { return 0; }
+  BL_HD void pair(Real& sum, Index a, Index j, const Real3&, Real r2) const {
+    sum += weight(a, r2) * inv_S[j] * K[j];
+  }
+  BL_HD void finish(Index a, Real sum) const { rate[a] = sum / weight.mass[a]; }
+};
+
+/// (1 - exp(-x)) / x
+BL_HD Real relaxed_share(Real x) { return x < Real(1e-6) ? 1 - Real(0.5) * x : -std::expm1(-x) / x; }
+
+/// Weakens the drag of each grain to what the fluid around it can take in a step, so that kinetic
+/// energy cannot grow however stiff the drag. Spin drag reaches the fluid more weakly, by about
+/// d2 / 3 M < 1, so the same share is enough for it.
+struct LimitPass {
+  Real dt;  ///< s
+  Span<const Real> rate;
+  Span<Real> K, K_rot;
+  Span<Real> stiffness;  ///< largest dt L_a / m_a around each grain
+
+  BL_HD Real start(Index) const { return 0; }
+  BL_HD void pair(Real& most, Index, Index a, const Real3&, Real) const { most = max_of(most, rate[a]); }
+  BL_HD void finish(Index j, Real most) const {
+    const Real share = relaxed_share(dt * most);
+    K[j] *= share;
+    K_rot[j] *= share;
+    stiffness[j] = K[j] > 0 ? dt * most : Real(0);
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

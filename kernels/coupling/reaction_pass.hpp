@@ -1,0 +1,71 @@
+#pragma once
+#include "kernels/coupling/interpolation_pass.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// What each grain gives back: fluid particle a at r from it receives -phi (impulse - A x r), and
+/// likewise of the force. The couple A has no net force; with M A = arm x impulse - torque it takes
+/// the torque on the grain out of the fluid and cancels the moment of spreading off its centre.
+struct ReactionShares {
+  Span<Real4> impulse;       ///< N s, + A x arm; w: 1/S_j
+  Span<Real3> force;         ///< N, + B x arm
+  Span<Real3> spin_couple;   ///< A, N s/m
+  Span<Real3> force_couple;  ///< B, N/m
+};
+
+/// Grain j makes up its shares.
+template <bool Couple>
+struct SharePass {
+  Span<const Real3> impulse, spin_impulse, fluid_force;
+  GrainSurroundings surroundings;
+  ReactionShares shares;
+
+  BL_HD void operator()(Index j) const {
+    Real3 J = impulse[j], F = fluid_force[j];
+    if constexpr (Couple) {
+      const Real3 arm = surroundings.arm[j];
+      const Real3 A = surroundings.inv_M[j] * (cross(arm, J) - spin_impulse[j]);
+      const Real3 B = surroundings.inv_M[j] * cross(arm, F);
+      J += cross(A, arm);
+      F += cross(B, arm);
+      shares.spin_couple[j] = A;
+      shares.force_couple[j] = B;
+    }
+    shares.impulse[j] = {J, surroundings.inv_S[j]};
+    shares.force[j] = F;
+  }
+};
+
+/// Fluid particle a takes the drag impulse into its velocity and keeps the pressure part as an
+/// acceleration [robinson14] (14).
+template <class W, bool Couple>
+struct ReactionPass {
+  FluidWeight<W> weight;
+  ReactionShares shares;
+  Span<Real4> v_rho;
+  Span<Real3> reaction;  ///< m/s2
+
+  struct Sum {
+    Real3 impulse, force;
+  };
+  BL_HD Sum start(Index) const { return {}; }
+  BL_HD void pair(Sum& sum, Index a, Index j, const Real3& r_aj, Real r2) const {
+    const Real4 share = shares.impulse[j];
+    const Real phi = weight(a, r2) * share.w;
+    Real3 J = share.xyz(), F = shares.force[j];
+    if constexpr (Couple) {
+      J -= cross(shares.spin_couple[j], r_aj);
+      F -= cross(shares.force_couple[j], r_aj);
+    }
+    sum.impulse += phi * J;
+    sum.force += phi * F;
+  }
+  BL_HD void finish(Index a, const Sum& sum) const {
+    const Real inv_m = 1 / weight.mass[a];
+    const Real4 old = v_rho[a];
+    v_rho[a] = {old.xyz() - inv_m * sum.impulse, old.w};
+    reaction[a] = -(inv_m * sum.force);
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

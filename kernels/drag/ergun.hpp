@@ -1,0 +1,15 @@
+#pragma once
+#include "kernels/drag/sphere_drag.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Packed beds [ergun52].
+struct Ergun {
+  static constexpr const char* name = "ergun";
+  BL_HD Real K(Real eps, Real d, Real rho, Real mu, Real w) const {
+    const Real volume = kPi / 6 * cube(d);
+    return volume * (150 * mu * (1 - eps) / (eps * d * d) + Real(1.75) * rho * w / d);
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,15 @@
+#pragma once
+#include "kernels/drag/ergun.hpp"
+#include "kernels/drag/wen_yu.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Ergun where dense, Wen-Yu where dilute; jumps at porosity 0.8 [gidaspow94].
+struct Gidaspow {
+  static constexpr const char* name = "gidaspow";
+  BL_HD Real K(Real eps, Real d, Real rho, Real mu, Real w) const {
+    return eps <= Real(0.8) ? Ergun{}.K(eps, d, rho, mu, w) : WenYu{}.K(eps, d, rho, mu, w);
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

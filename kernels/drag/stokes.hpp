@@ -1,0 +1,12 @@
+#pragma once
+#include "kernels/drag/sphere_drag.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Creeping flow around a lone sphere [stokes51].
+struct Stokes {
+  static constexpr const char* name = "stokes";
+  BL_HD Real K(Real, Real d, Real, Real mu, Real) const { return stokes_drag(d, mu); }
+};
+
+}  // namespace bedload::inline BL_VARIANT

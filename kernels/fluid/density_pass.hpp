@@ -1,0 +1,44 @@
+#pragma once
+#include "bedload/neighbours/for_each_pair.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Continuity [H (6)], [R (7)] with density diffusion (Fourtakas et al. 2019): advances
+/// s = rho~/rho0 - 1 over `dt`. Kick-drift-kick evaluates pairs half a step back (`back` = dt/2,
+/// with the half-step velocities), which makes the step reversible; Euler where they are (0).
+template <class W>
+struct DensityPass {
+  W w;
+  Span<const Real4> v_rho, m_state, wall_v_rho, wall_m_state;
+  Span<const Real> eps;
+  Real diffusion;         ///< 2 delta h c [m2/s]
+  Real3 hydrostatic;      ///< rho0 g / c^2 [kg/m4]
+  Real rho0, dt, back;    ///< kg/m3, s, s
+  Span<const Real> s;
+  Span<Real> s_new;
+
+  struct Sum {
+    Real3 v;
+    Real rho, rate, diffused;
+  };
+  BL_HD Sum start(Index a) const { return {v_rho[a].xyz(), m_state[a].z, 0, 0}; }
+
+  BL_HD void pair(Sum& sum, Index, Index b, const Real3& r, Real) const {
+    const Real4 vb = v_rho[b], mb = m_state[b];
+    const Real3 v = sum.v - vb.xyz();
+    const Real3 rm = r - back * v;
+    const Real F = w.F(norm(rm));
+    sum.rate += mb.x * F * dot(v, rm);
+    sum.diffused += mb.x / vb.w * F * (mb.z - sum.rho + dot(hydrostatic, rm));
+  }
+  BL_HD void wall_pair(Sum& sum, Index, Index b, const Real3& r, Real) const {
+    const Real3 v = sum.v - wall_v_rho[b].xyz();
+    const Real3 rm = r - back * v;
+    sum.rate += wall_m_state[b].x * w.F(norm(rm)) * dot(v, rm);
+  }
+  BL_HD void finish(Index a, const Sum& sum) const {
+    s_new[a] = s[a] + dt * (diffusion * eps[a] * sum.diffused - sum.rate) / rho0;
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,30 @@
+#pragma once
+#include "bedload/core/types.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// P = B [(rho/rho0)^gamma - 1] + P_ref on the intrinsic density [H (7),(8)].
+/// The `democritus` law p0 (rho/rho0)^alpha - beta [D (17)] is the same with
+/// B = p0, gamma = alpha, P_ref = p0 - beta. Works on x = rho/rho0 - 1, which fp32 holds well.
+struct EquationOfState {
+  Real B = 1, gamma = 7, P_ref = 0, rho0 = 1000;
+  bool clip_negative = false;
+
+  /// Pressure [Pa].
+  BL_HD Real pressure(Real x) const {
+    const Real p = B * std::expm1(gamma * std::log1p(x)) + P_ref;
+    return clip_negative ? max_of(p, Real(0)) : p;
+  }
+  /// rho/rho0 - 1 at pressure p [Pa]; p is kept above -0.9 B.
+  BL_HD Real compression(Real p) const {
+    return std::expm1(std::log1p(max_of((p - P_ref) / B, Real(-0.9))) / gamma);
+  }
+  /// Elastic energy per mass against rho0 [J/kg]: integral of P / rho^2.
+  BL_HD double energy(double x) const {
+    const double g = gamma, l = std::log1p(x);
+    const double work = g > 1 ? std::expm1((g - 1) * l) / (g - 1) : l;
+    return (double(B) * (work + std::expm1(-l)) - double(P_ref) * std::expm1(-l)) / rho0;
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

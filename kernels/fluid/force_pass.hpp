@@ -1,0 +1,92 @@
+#pragma once
+#include "bedload/neighbours/for_each_pair.hpp"
+#include "kernels/fluid/pair_terms.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// What a wall particle does to fluid particle a; the same terms with the opposite sign act on the wall.
+template <class W>
+struct WallPair {
+  W w;
+  Real mu;  ///< Pa s; 0 switches the viscous term off
+  Repulsion repulsion;
+
+  struct Acceleration {
+    Real3 theta, other;
+  };
+  /// a: {v, rho~}, {m, P/rho~^2, ..}; b: the wall's, with its no-slip velocity `visc` (w: 1 if it drags).
+  /// m_w of an inactive wall particle is zero. `repels`: the body asks for repulsion.
+  BL_HD Acceleration operator()(const Real4& va, const Real4& ma, const Real4& vw, const Real4& mw,
+                                const Real4& visc, const Real3& r, Real r2) const {
+    const Real F = w.F(std::sqrt(r2));
+    Acceleration out{pressure_term(mw.x, ma.y, mw.y, F) * r, {}};
+    if (visc.w > Real(0.5) && mw.x > 0)
+      out.theta -= morris_term(mw.x, 2 * mu, va.w, vw.w, r2, F, square(w.h)) * (va.xyz() - visc.xyz());
+    if (mw.w > Real(0.5)) out.other = repulsion.term(r2) * r;
+    return out;
+  }
+};
+
+/// Momentum of locally averaged WCSPH [H (9)-(12)]: theta = pressure + physical viscosity,
+/// acc = theta + gravity + artificial, tensile and repulsive terms; XSPH drift correction.
+template <class W>
+struct ForcePass {
+  W w;
+  WallPair<W> wall;
+  Span<const Real4> v_rho, m_state, wall_v_rho, wall_m_state, wall_v_visc;
+  Real mu;
+  ArtificialViscosity artificial;
+  TensileTerm tensile;
+  Real xsph_factor;
+  Real3 gravity;  ///< with the driving force per mass and minus the frame's acceleration, m/s2
+  Real3 drive;    ///< force density, N/m3
+  Span<Real3> theta, acc, xsph;
+
+  struct Sum {
+    Real4 v, m;
+    Real3 theta, other, xsph;
+  };
+  BL_HD Sum start(Index a) const { return {v_rho[a], m_state[a], {}, {}, {}}; }
+
+  BL_HD void pair(Sum& sum, Index, Index b, const Real3& r, Real r2) const {
+    const Real4 vb = v_rho[b], mb = m_state[b];
+    const Real distance = std::sqrt(r2);
+    const Real F = w.F(distance);
+    const Real3 v = sum.v.xyz() - vb.xyz();
+    sum.theta += pressure_term(mb.x, sum.m.y, mb.y, F) * r;
+    if (mu > 0) sum.theta -= morris_term(mb.x, 2 * mu, sum.v.w, vb.w, r2, F, square(w.h)) * v;
+    const Real rho_mean = Real(0.5) * (sum.v.w + vb.w);
+    if (artificial.alpha > 0 || artificial.beta > 0)
+      sum.other += artificial.term(mb.x, dot(v, r), rho_mean, r2, F) * r;
+    if (tensile.s_negative > 0) sum.other += mb.x * tensile.R(w.W(distance), sum.m.y, mb.y) * F * r;
+    if (xsph_factor > 0) sum.xsph -= xsph_factor * mb.x * w.W(distance) / rho_mean * v;
+  }
+  BL_HD void wall_pair(Sum& sum, Index, Index b, const Real3& r, Real r2) const {
+    const auto a = wall(sum.v, sum.m, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], r, r2);
+    sum.theta += a.theta;
+    sum.other += a.other;
+  }
+  BL_HD void finish(Index a, const Sum& sum) const {
+    theta[a] = sum.theta;
+    acc[a] = sum.theta + sum.other + gravity + drive / sum.v.w;
+    if (xsph_factor > 0) xsph[a] = sum.xsph;
+  }
+};
+
+/// Force of the fluid on each wall particle [N]: minus what ForcePass gives the fluid.
+template <class W>
+struct WallForcePass {
+  WallPair<W> wall;
+  Span<const Real4> v_rho, m_state, wall_v_rho, wall_m_state, wall_v_visc;
+  Span<Vec3d> force;
+
+  BL_HD Vec3d start(Index) const { return {}; }
+  BL_HD void pair(Vec3d& sum, Index b, Index a, const Real3& r_ba, Real r2) const {
+    const Real4 ma = m_state[a];
+    const auto acc = wall(v_rho[a], ma, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], -r_ba, r2);
+    sum -= Vec3d((acc.theta + acc.other) * ma.x);
+  }
+  BL_HD void finish(Index b, const Vec3d& sum) const { force[b] = sum; }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,60 @@
+#pragma once
+#include "bedload/neighbours/for_each_pair.hpp"
+#include "bedload/particles/walls.hpp"
+#include "kernels/fluid/equation_of_state.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// State of wall particles from the fluid beside them (Adami et al. 2012, [H (13)-(15)] with
+/// physics errata 5-7): pressure with the hydrostatic correction, porosity, no-slip velocity.
+template <class W>
+struct WallPass {
+  W w;
+  EquationOfState eos;
+  Span<const Real4> fluid_v_rho, fluid_m_state;
+  Span<const Real> fluid_eps;
+  Span<const Real3> fluid_extra;  ///< acceleration of the fluid by the grains, m/s2; empty without grains
+  Span<const Vec3d> x;
+  Span<const std::uint32_t> body;
+  Span<const BodyPose> pose;
+  Real3 gravity;     ///< m/s2
+  Real volume;       ///< of a wall particle, m3
+  Real least_sum;    ///< inactive below this sum of W, 1/m3
+  Span<Real4> v_rho, v_visc, m_state;
+
+  struct Sum {
+    Real3 push;  ///< gravity minus the wall's acceleration
+    Real weight, p, eps;
+    Real3 v;
+  };
+  BL_HD Sum start(Index b) const {
+    return {gravity - Real3(pose[body[b]].acceleration(x[b])), 0, 0, 0, {}};
+  }
+  BL_HD void pair(Sum& sum, Index, Index a, const Real3& r_wf, Real r2) const {
+    const Real wk = w.W(std::sqrt(r2));
+    const Real4 m = fluid_m_state[a];
+    const Real3 push = fluid_extra ? sum.push + fluid_extra[a] : sum.push;
+    sum.weight += wk;
+    sum.p += wk * (m.w + m.z * dot(push, r_wf));
+    sum.eps += wk * fluid_eps[a];
+    sum.v += wk * fluid_v_rho[a].xyz();
+  }
+  BL_HD void finish(Index b, const Sum& sum) const {
+    const BodyPose& k = pose[body[b]];
+    const Real3 v_wall = Real3(k.velocity(x[b]));
+    if (sum.weight < least_sum || !k.present) {
+      v_rho[b] = {v_wall, eos.rho0};
+      v_visc[b] = {v_wall, Real(0)};
+      m_state[b] = {0, 0, eos.rho0, 0};
+      return;
+    }
+    const Real p = sum.p / sum.weight, eps = sum.eps / sum.weight;
+    const Real rho = eos.rho0 * (1 + eos.compression(p)), superficial = eps * rho;
+    v_rho[b] = {v_wall, superficial};
+    v_visc[b] = {2 * v_wall - sum.v / sum.weight, k.slip ? Real(0) : Real(1)};
+    // the superficial mass keeps the wall particle's volume; w: whether it repels
+    m_state[b] = {eps * eos.rho0 * volume, p / square(superficial), rho, k.repulsion ? Real(1) : Real(0)};
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,61 @@
+#pragma once
+#include "bedload/core/frame.hpp"
+#include "bedload/core/span.hpp"
+#include "kernels/fluid/equation_of_state.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// v += kick (acc + reaction); x += drift (v + xsph).
+struct KickDriftPass {
+  Frame frame;
+  Real kick, drift;  ///< s
+  Span<const Real3> acc, reaction, xsph;  ///< reaction empty without grains
+  Span<Real4> v_rho;
+  Span<FluidPosition> x;
+  Span<PairPosition> xp;
+
+  BL_HD void operator()(Index a) const {
+    const Real4 old = v_rho[a];
+    Real3 v = old.xyz() + kick * acc[a];
+    if (reaction) v += kick * reaction[a];
+    v_rho[a] = {v, old.w};
+    if (drift == 0) return;
+    const Real3 move = xsph ? v + xsph[a] : v;
+    const Vec3d at = coordinates(frame, x[a]) + Vec3d(move) * double(drift);
+    x[a] = as_position<FluidPosition>(frame, at);
+    xp[a] = as_position<PairPosition>(frame, at);
+  }
+};
+
+/// Density and pressure from s and the porosity; velocity predicted by `kick` (0: Euler).
+struct StatePass {
+  EquationOfState eos;
+  Real kick;  ///< s
+  Span<const Real3> acc, reaction;
+  Span<const Real> s, mass, eps;
+  Span<Real4> v_rho, m_state;
+
+  BL_HD void operator()(Index a) const {
+    Real3 v = v_rho[a].xyz() + kick * acc[a];
+    if (reaction) v += kick * reaction[a];
+    const Real superficial = eos.rho0 * (1 + s[a]);
+    // rho/rho0 - 1 = (s + solid fraction) / eps: no cancellation where there are no grains
+    const Real compression = (s[a] + (1 - eps[a])) / eps[a];
+    const Real p = eos.pressure(compression);
+    v_rho[a] = {v, superficial};
+    m_state[a] = {mass[a], p / square(superficial), eos.rho0 * (1 + compression), p};
+  }
+};
+
+/// Turns the predicted velocity into the final one: v += kick (acc_new - acc_old).
+struct CorrectPass {
+  Real kick;
+  Span<const Real3> acc_new, acc_old;
+  Span<Real4> v_rho;
+  BL_HD void operator()(Index a) const {
+    const Real4 old = v_rho[a];
+    v_rho[a] = {old.xyz() + kick * (acc_new[a] - acc_old[a]), old.w};
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

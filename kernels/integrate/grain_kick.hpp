@@ -1,0 +1,81 @@
+#pragma once
+// Kicks of a grain under drag. The fluid velocity and the drag coefficient are frozen over a fluid step,
+// so drag is integrated exactly: terminal velocity holds for any stiffness [physics section 6].
+
+#include "bedload/core/span.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Relaxation towards the fluid in a time h at the rate k (1/s).
+struct Relaxation {
+  double share = 0;  ///< of the slip that goes: 1 - exp(-k h)
+  double lag = 0;    ///< share of a h that drag takes back: psi(k h) - 1, psi(x) = (1 - exp(-x))/x
+  BL_HD Relaxation(double rate, double h, bool exponential) {
+    const double x = rate * h;
+    if (!(x > 0)) return;
+    if (!exponential) {
+      share = x;
+    } else if (x < 1e-4) {
+      share = -std::expm1(-x);
+      lag = -x / 2 * (1 - x / 3);
+    } else {
+      share = -std::expm1(-x);
+      lag = share / x - 1;
+    }
+  }
+  /// What drag adds to v in time h while all else accelerates by a.
+  BL_HD Vec3d drag(const Vec3d& v, const Vec3d& fluid, const Vec3d& a, double h) const {
+    return share * (fluid - v) + (lag * h) * a;
+  }
+};
+
+/// What a grain does between two evaluations of its contacts, except contacts.
+struct GrainKick {
+  Vec3d gravity;       ///< m/s2
+  double mass_per_r3;  ///< 4/3 pi rho_s
+  double h;            ///< half a substep, s
+  bool exponential;
+  Span<const Real> radius;
+  Span<const Real3> fluid_force, U, omega_f;
+  Span<const Real> K, K_rot;
+
+  BL_HD double mass(Index i) const { return mass_per_r3 * radius[i] * radius[i] * radius[i]; }
+};
+
+/// Velocity and spin of one grain under forces that hold for the present kicks.
+struct KickedGrain {
+  Vec3d v, omega;
+  Vec3d impulse, spin_impulse;  ///< from drag, so far: N s, N m s
+
+  BL_HD KickedGrain(const GrainKick& k, Index i, const Vec3d& v0, const Vec3d& omega0, const Vec3d& force,
+                    const Vec3d& torque)
+      : v(v0),
+        omega(omega0),
+        m_(k.mass(i)),
+        inertia_(0.4 * m_ * k.radius[i] * k.radius[i]),
+        h_(k.h),
+        a_((force + Vec3d(k.fluid_force[i])) * (1 / m_) + k.gravity),
+        alpha_(torque * (1 / inertia_)),
+        slide_(k.K[i] / m_, k.h, k.exponential),
+        spin_(k.K_rot[i] / inertia_, k.h, k.exponential),
+        U_(slide_.share > 0 ? Vec3d(k.U[i]) : Vec3d{}),
+        omega_f_(spin_.share > 0 ? Vec3d(k.omega_f[i]) : Vec3d{}) {}
+
+  /// Half a substep.
+  BL_HD void kick() {
+    const Vec3d dv = slide_.drag(v, U_, a_, h_);
+    const Vec3d dw = spin_.drag(omega, omega_f_, alpha_, h_);
+    v += dv + h_ * a_;
+    omega += dw + h_ * alpha_;
+    impulse += m_ * dv;
+    spin_impulse += inertia_ * dw;
+  }
+
+ private:
+  double m_, inertia_, h_;
+  Vec3d a_, alpha_;
+  Relaxation slide_, spin_;
+  Vec3d U_, omega_f_;
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,102 @@
+#pragma once
+// Velocity Verlet for grains. Between substeps the velocities stand in the middle of the step; in fp32
+// builds each is a sum of two floats there, else small kicks would be lost to rounding.
+
+#include "kernels/contact/contact_pass.hpp"
+#include "kernels/integrate/grain_kick.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+BL_HD Vec3d join(const Real3& most, const Real3& rest) { return Vec3d(most) + Vec3d(rest); }
+BL_HD void split(const Vec3d& v, Real3& most, Real3& rest) {
+  most = Real3(v);
+  rest = Real3(v - Vec3d(most));
+}
+
+/// First half kick and drift of an advance; touches only grain i.
+struct FirstKickPass {
+  GrainKick kick;
+  Span<const Real3> force, torque;
+  Span<Vec3d> x;
+  Span<Real3> v, omega, v_rest, omega_rest, impulse, spin_impulse;
+  BL_HD void operator()(Index i) const {
+    KickedGrain g(kick, i, Vec3d(v[i]), Vec3d(omega[i]), Vec3d(force[i]), Vec3d(torque[i]));
+    g.kick();
+    split(g.v, v[i], v_rest[i]);
+    split(g.omega, omega[i], omega_rest[i]);
+    x[i] += 2 * kick.h * g.v;
+    impulse[i] = Real3(g.impulse);
+    spin_impulse[i] = Real3(g.spin_impulse);
+  }
+};
+
+/// Contacts where the grains have arrived, the second half kick, and the first half kick and drift of the
+/// next substep. Neighbours are read, so results go to other arrays.
+struct SubstepPass {
+  ContactPass contacts;
+  GrainKick kick;
+  Span<Vec3d> next_x;
+  Span<Real3> next_v, next_omega, v_rest, omega_rest, impulse, spin_impulse;
+  BL_HD void operator()(Index i) const {
+    const ContactSum sum = contacts(i);
+    KickedGrain g(kick, i, join(contacts.v[i], v_rest[i]), join(contacts.omega[i], omega_rest[i]), sum.force,
+                  sum.torque);
+    g.kick();
+    g.kick();
+    split(g.v, next_v[i], v_rest[i]);
+    split(g.omega, next_omega[i], omega_rest[i]);
+    next_x[i] = contacts.x[i] + 2 * kick.h * g.v;
+    impulse[i] += Real3(g.impulse);
+    spin_impulse[i] += Real3(g.spin_impulse);
+  }
+};
+
+/// Contacts and half kick that end an advance; leaves forces and mean drag.
+struct LastKickPass {
+  ContactPass contacts;
+  GrainKick kick;
+  double duration;  ///< of the advance, s
+  Span<Real3> next_v, next_omega;
+  Span<const Real3> v_rest, omega_rest;
+  Span<Real3> impulse, spin_impulse, force, torque, drag_force;
+  BL_HD void operator()(Index i) const {
+    const ContactSum sum = contacts(i);
+    KickedGrain g(kick, i, join(contacts.v[i], v_rest[i]), join(contacts.omega[i], omega_rest[i]), sum.force,
+                  sum.torque);
+    g.kick();
+    next_v[i] = Real3(g.v);
+    next_omega[i] = Real3(g.omega);
+    force[i] = Real3(sum.force);
+    torque[i] = Real3(sum.torque);
+    const Vec3d all = Vec3d(impulse[i]) + g.impulse;
+    impulse[i] = Real3(all);
+    spin_impulse[i] = Real3(Vec3d(spin_impulse[i]) + g.spin_impulse);
+    drag_force[i] = Real3(all * (1 / duration));
+  }
+};
+
+/// Contact forces alone.
+struct EvaluatePass {
+  ContactPass contacts;
+  Span<Real3> force, torque;
+  BL_HD void operator()(Index i) const {
+    const ContactSum sum = contacts(i);
+    force[i] = Real3(sum.force);
+    torque[i] = Real3(sum.torque);
+  }
+};
+
+/// Grains that stay where they are: the fluid flows past resting spheres.
+struct HeldPass {
+  double duration;  ///< s
+  Span<const Real3> U, omega_f;
+  Span<const Real> K, K_rot;
+  Span<Real3> impulse, spin_impulse, drag_force;
+  BL_HD void operator()(Index i) const {
+    drag_force[i] = K[i] > 0 ? K[i] * U[i] : Real3{};
+    impulse[i] = Real(duration) * drag_force[i];
+    spin_impulse[i] = K_rot[i] > 0 ? Real(duration) * K_rot[i] * omega_f[i] : Real3{};
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,125 @@
+#pragma once
+// Sums and extremes over grains, for reduce(). Values are plain arrays: shared memory runs no constructors.
+
+#include "kernels/contact/contact_pass.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+BL_HD bool finite(const Vec3d& a) {
+  const double s = a.x * 0 + a.y * 0 + a.z * 0;
+  return s == 0;
+}
+
+/// Largest speed2, displacement2, K/m, and the smallest id of a grain gone wrong.
+struct WatchReduction {
+  struct Value {
+    double speed2, displacement2, drag_rate, bad;
+  };
+  Frame frame;
+  double mass_per_r3;
+  Span<const Vec3d> x, x_list;
+  Span<const Real3> v, omega;
+  Span<const Real> radius, K;
+  Span<const Id> id;
+
+  BL_HD Value identity() const { return {0, 0, 0, double(kNone)}; }
+  BL_HD Value operator()(Index i) const {
+    const Vec3d u = Vec3d(v[i]);
+    const bool good = finite(x[i]) && finite(u) && finite(Vec3d(omega[i]));
+    if (!good) return {0, 0, 0, double(id[i])};
+    return {norm2(u), norm2(frame.nearest_image(x[i] - x_list[i])),
+            double(K[i]) / (mass_per_r3 * radius[i] * radius[i] * radius[i]), double(kNone)};
+  }
+  BL_HD void combine(Value& a, const Value& b) const {
+    a.speed2 = max_of(a.speed2, b.speed2);
+    a.displacement2 = max_of(a.displacement2, b.displacement2);
+    a.drag_rate = max_of(a.drag_rate, b.drag_rate);
+    a.bad = min_of(a.bad, b.bad);
+  }
+};
+
+/// Conserved sums, energies, contacts. Each partner of a pair counts half of it.
+struct TotalsReduction {
+  enum Sum { mass, kinetic, rotational, elastic, px, py, pz, lx, ly, lz, cx, cy, cz, pairs, walls, kSums };
+  struct Value {
+    double sum[kSums];
+    double speed2, overlap;  ///< largest
+  };
+  ContactPass contacts;
+
+  BL_HD Value identity() const {
+    Value v{};
+    return v;
+  }
+  BL_HD Value operator()(Index i) const {
+    Value t{};
+    const Sphere s = contacts.sphere(i);
+    const double m = s.m, inertia = 0.4 * m * s.R * s.R;
+    const Vec3d v = Vec3d(contacts.v[i]), w = Vec3d(contacts.omega[i]), x = contacts.x[i];
+    const Vec3d spin = cross(x, m * v) + inertia * w;
+    t.sum[mass] = m;
+    t.sum[kinetic] = 0.5 * m * norm2(v);
+    t.sum[rotational] = 0.5 * inertia * norm2(w);
+    t.sum[px] = m * v.x, t.sum[py] = m * v.y, t.sum[pz] = m * v.z;
+    t.sum[lx] = spin.x, t.sum[ly] = spin.y, t.sum[lz] = spin.z;
+    t.sum[cx] = m * x.x, t.sum[cy] = m * x.y, t.sum[cz] = m * x.z;
+    t.speed2 = norm2(v);
+    const VerletListView& list = contacts.list;
+    for (std::uint32_t k = 0; k < list.count[i]; ++k) {
+      const std::uint64_t slot = list.slot(i, k);
+      const ContactHistory& h = contacts.history[slot];
+      if (h.overlap == 0) continue;
+      const Sphere o = contacts.sphere(list.entry[slot]);
+      t.sum[pairs] += 0.5;
+      t.sum[elastic] += 0.5 * contacts.law.stored(s.R * o.R / (s.R + o.R), s.m * o.m / (s.m + o.m), h);
+      t.overlap = max_of(t.overlap, h.overlap / (2 * double(s.R)));
+    }
+    for (Index k = 0; k < contacts.surfaces.size; ++k) {
+      const ContactHistory& h = contacts.wall_history[k][i];
+      if (h.overlap == 0) continue;
+      t.sum[walls] += 1;
+      t.sum[elastic] += contacts.law.stored(s.R, s.m, h);
+      t.overlap = max_of(t.overlap, std::abs(h.overlap) / (2 * double(s.R)));
+    }
+    return t;
+  }
+  BL_HD void combine(Value& a, const Value& b) const {
+    for (int k = 0; k < kSums; ++k) a.sum[k] += b.sum[k];
+    a.speed2 = max_of(a.speed2, b.speed2);
+    a.overlap = max_of(a.overlap, b.overlap);
+  }
+};
+
+/// What the grains do to one wall body; histories stay as they are.
+struct BodyLoadReduction {
+  struct Value {
+    double sum[6];  ///< force, torque about the body's moved centre
+  };
+  ContactPass contacts;  ///< with dt = 0
+  std::uint32_t body;
+
+  BL_HD Value identity() const {
+    Value v{};
+    return v;
+  }
+  BL_HD Value operator()(Index i) const {
+    Value t{};
+    const BodyPose& pose = contacts.poses[body];
+    for (Index k = 0; k < contacts.surfaces.size; ++k) {
+      if (contacts.surfaces[k].body != body) continue;
+      ContactHistory h = contacts.wall_history[k][i];
+      if (h.overlap == 0) continue;
+      const ContactPass::WallContact c = contacts.wall(i, contacts.surfaces[k], h);
+      const Vec3d force = -Vec3d(c.on_grain.force);
+      const Vec3d torque = cross(c.point - pose.centre - pose.translation, force) + Vec3d(c.on_grain.torque_j);
+      t.sum[0] += force.x, t.sum[1] += force.y, t.sum[2] += force.z;
+      t.sum[3] += torque.x, t.sum[4] += torque.y, t.sum[5] += torque.z;
+    }
+    return t;
+  }
+  BL_HD void combine(Value& a, const Value& b) const {
+    for (int k = 0; k < 6; ++k) a.sum[k] += b.sum[k];
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,259 @@
+// Parameters against each other.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bedload/case/formula.hpp"
+#include "bedload/case/limits.hpp"
+#include "bedload/core/error.hpp"
+#include "resolve.hpp"
+
+namespace bedload {
+namespace {
+
+std::string to_text(const Vec3d& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+
+class Checks {
+ public:
+  Checks(const Config& config, const Value& root, std::vector<std::string>& warnings)
+      : c(config), root_(root), warnings_(warnings) {}
+
+  void domain() const {
+    box("domain", c.domain.min, c.domain.max);
+    if (!c.fluid.present && !c.grain.present)
+      throw CaseError(root_.place() + ": nothing to compute; give [fluid], [grain] or both");
+    for (int k = 0; k < 3; ++k) {
+      if (!c.domain.periodic[k]) continue;
+      period(k, 2 * c.fluid.kappa() * c.fluid.h(), "2 kappa h", c.fluid.present);
+      period(k, 2 * c.fluid.kappa() * c.couple.hc, "2 kappa h_c", coupled());
+      period(k, 2 * c.grain.d_max, "4 R", c.grain.present);
+    }
+  }
+
+  void fluid() const {
+    const FluidConfig& f = c.fluid;
+    double particles = 0;
+    for (std::size_t i = 0; i < f.fills.size(); ++i) {
+      const std::string path = fmt::format("fluid.fill.{}", i);
+      box(path, f.fills[i].min, f.fills[i].max);
+      inside_domain(path + ".min", f.fills[i].min);
+      inside_domain(path + ".max", f.fills[i].max);
+      const Vec3d side = f.fills[i].max - f.fills[i].min;
+      particles += side.x * side.y * side.z / (f.dx * f.dx * f.dx);
+      initial_speed(f.fills[i]);
+    }
+    if (particles >= 2147483648.0)
+      fail("fluid.dx", f.dx,
+           fmt::format("must be larger; it makes {:.3g} fluid particles of at most 2147483647", particles));
+    if (f.c < 10 * f.vmax * (1 - 1e-9))
+      warn(
+          "fluid.c_factor: sound is only {:.3g} times as fast as the flow (Mach {:.2g}); density will vary "
+          "by more "
+          "than 1 %",
+          f.c / f.vmax, f.vmax / f.c);
+    if (coupled() && f.mu == 0) fail("fluid.mu", f.mu, "must be > 0 with grains; drag needs mu");
+  }
+
+  void walls() const {
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < c.wall.bodies.size(); ++i) {
+      const WallBody& body = c.wall.bodies[i];
+      const std::string path = fmt::format("wall.body.{}", i);
+      file_name(path + ".name", body.name);
+      if (!names.insert(body.name).second)
+        fail(path + ".name", quoted(body.name), "must differ from other bodies'");
+      if (body.shape != "plane") box(path, body.min, body.max);
+    }
+    if (!c.fluid.present) return;
+    const double dx = c.fluid.dx;
+    if (c.wall.dx < 0.25 * dx * (1 - 1e-9) || c.wall.dx > dx * (1 + 1e-9))
+      fail("wall.dx", c.wall.dx,
+           fmt::format("must be within {}..{}; a quarter of fluid.dx to fluid.dx", dx / 4, dx));
+    if (c.wall.rep_r0 > dx * (1 + 1e-9))
+      fail("wall.rep_r0", c.wall.rep_r0, fmt::format("must be at most fluid.dx = {}", dx));
+  }
+
+  void grains() const {
+    const GrainConfig& g = c.grain;
+    if (g.d_max > 20 * g.d_min)
+      fail("grain.fill", fmt::format("{}..{} m", g.d_min, g.d_max),
+           "must span at most a factor of 20 in diameter");
+    for (std::size_t i = 0; i < g.fills.size(); ++i) grain_fill(fmt::format("grain.fill.{}", i), g.fills[i]);
+    if (c.contact.k == 0)
+      for (const auto& [key, law] :
+           {std::pair{"contact.normal", c.contact.normal}, {"contact.tangential", c.contact.tangential}})
+        if (law == "linear") missing("contact.k", fmt::format("spring, N/m, with {} = \"linear\"", key));
+    if (g.settle && norm(c.gravity) == 0) fail("grain.settle", "true", "must be false without gravity");
+    if (g.settle && g.fixed) fail("grain.settle", "true", "must be false with grain.fixed");
+    if (!c.contact.cap_rolling && c.contact.rolling == "cdt")
+      warn("contact.cap_rolling = false: resting grains will buzz and heaps creep");
+    if (c.contact.he_damping) warn("paper.he_damping: the restitution reached is below grain.e");
+    softness();
+  }
+
+  void coupling() const {
+    const double reach = c.fluid.kappa() * c.couple.hc, d = c.grain.d_max;
+    if (c.couple.S_wet <= c.couple.S_dry)
+      fail("couple.S_wet", c.couple.S_wet, fmt::format("must be > couple.S_dry = {}", c.couple.S_dry));
+    if (!coupled()) return;
+    if (reach < 2 * d * (1 - 1e-9))
+      fail("couple.hc", c.couple.hc,
+           fmt::format("must be >= {}; unresolved coupling needs kappa h_c >= 2 d_max",
+                       2 * d / c.fluid.kappa()));
+    if (reach < 4 * d * (1 - 1e-9))
+      warn(
+          "couple.hc: the coupling reaches {:.3g} diameters of the largest grain, which feels its own wake "
+          "below 4",
+          reach / d);
+  }
+
+  void time() const {
+    for (const StepLimit& limit : grain_limits(c)) {
+      if (c.time.dt_dem <= limit.seconds * (1 + 1e-9)) continue;
+      if (!c.time.force_dt)
+        fail("time.dt_dem", c.time.dt_dem,
+             fmt::format("must be <= {:.4g}; limited by {}", limit.seconds, limit.name));
+      warn("time.dt_dem = {} is above its limit {:.4g} ({})", c.time.dt_dem, limit.seconds, limit.name);
+    }
+    if (c.time.integrator == "euler") warn("time.integrator = \"euler\" is first order and gains energy");
+  }
+
+  void probes() const {
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < c.out.probes.size(); ++i) {
+      const ProbeConfig& probe = c.out.probes[i];
+      const std::string path = fmt::format("probe.{}", i);
+      file_name(path + ".name", probe.name);
+      if (!names.insert(probe.name).second)
+        fail(path + ".name", quoted(probe.name), "must differ from other probes'");
+      if (probe.type == "box") box(path, probe.min, probe.max);
+      const bool has_phase = probe.type == "front" || probe.type == "box";
+      const std::string phase = has_phase ? probe.phase : "fluid";
+      if (probe.type != "force" && !(phase == "fluid" ? c.fluid.present : c.grain.present))
+        fail(path + (has_phase ? ".phase" : ".type"), quoted(has_phase ? phase : probe.type),
+             fmt::format("must name something in this case; it has no {}", phase));
+      if (probe.type == "force") body_exists(path + ".body", probe.body);
+    }
+  }
+
+ private:
+  bool coupled() const { return c.fluid.present && c.grain.present && c.couple.mode != "off"; }
+
+  static std::string quoted(const std::string& text) { return fmt::format("\"{}\"", text); }
+  template <class T>
+  [[noreturn]] void fail(const std::string& path, const T& value, const std::string& must) const {
+    reject(root_, path, fmt::format("{}", value), must);
+  }
+  [[noreturn]] void missing(const std::string& key, const std::string& what) const {
+    throw CaseError(fmt::format("{}: {} must be given ({})", nearest_value(root_, key).place(), key, what));
+  }
+  template <class... Args>
+  void warn(fmt::format_string<Args...> text, Args&&... args) const {
+    warnings_.push_back(fmt::format(text, std::forward<Args>(args)...));
+  }
+
+  void box(const std::string& path, const Vec3d& lo, const Vec3d& hi) const {
+    for (int k = 0; k < 3; ++k)
+      if (!(hi[k] > lo[k]))
+        fail(path + ".max", to_text(hi),
+             fmt::format("must exceed {}.min = {} on every axis", key_of(path), to_text(lo)));
+  }
+  void period(int axis, double least, const char* name, bool applies) const {
+    const double length = c.domain.max[axis] - c.domain.min[axis];
+    if (applies && length <= least)
+      fail("domain.periodic", fmt::format("{} m along {}", length, "xyz"[axis]),
+           fmt::format("must be a period > {} = {}; enlarge the domain or refine", name, least));
+  }
+  void inside_domain(const std::string& path, const Vec3d& x) const {
+    const Vec3d &lo = c.domain.min, &hi = c.domain.max;
+    for (int k = 0; k < 3; ++k) {
+      const double slack = 1e-9 * (hi[k] - lo[k]);
+      if (x[k] < lo[k] - slack || x[k] > hi[k] + slack)
+        fail(path, to_text(x), fmt::format("must lie in the domain {}..{}", to_text(lo), to_text(hi)));
+    }
+  }
+  void file_name(const std::string& path, const std::string& name) const {
+    const auto plain = [](unsigned char ch) {
+      return std::isalnum(ch) || ch == '_' || ch == '-' || ch == '.';
+    };
+    if (!std::all_of(name.begin(), name.end(), plain) || name[0] == '.')
+      fail(path, quoted(name), "must consist of letters, digits, '_', '-' and '.'");
+  }
+  void body_exists(const std::string& path, const std::string& name) const {
+    std::string all;
+    for (const WallBody& body : c.wall.bodies) {
+      if (body.name == name) return;
+      all += (all.empty() ? "" : ", ") + body.name;
+    }
+    fail(path, quoted(name), "must name a wall.body; this case has " + (all.empty() ? "none" : all));
+  }
+  /// The formulas of a fill on a 5 x 5 x 5 raster.
+  void initial_speed(const FluidFill& fill) const {
+    const Formula u(fill.velocity[0]), v(fill.velocity[1]), w(fill.velocity[2]);
+    double fastest = 0;
+    for (int i = 0; i < 125; ++i) {
+      const Vec3d s{(i % 5) / 4.0, (i / 5 % 5) / 4.0, (i / 25) / 4.0}, side = fill.max - fill.min;
+      const Vec3d x{fill.min.x + s.x * side.x, fill.min.y + s.y * side.y, fill.min.z + s.z * side.z};
+      fastest = std::max(fastest, norm(Vec3d{u(x), v(x), w(x)}));
+    }
+    if (fastest > c.fluid.vmax * (1 + 1e-9))
+      warn(
+          "fluid.fill.velocity reaches {:.3g} m/s, above fluid.vmax = {:.3g}, from which the sound speed "
+          "follows",
+          fastest, c.fluid.vmax);
+  }
+  void grain_fill(const std::string& path, const GrainFill& fill) const {
+    for (const Vec3d& x : fill.positions) inside_domain(path + ".positions", x);
+    if (!fill.positions.empty()) return;
+    box(path, fill.min, fill.max);
+    inside_domain(path + ".min", fill.min);
+    inside_domain(path + ".max", fill.max);
+    if ((fill.count > 0) + (fill.mass > 0) + (fill.packing_fraction > 0) != 1)
+      throw CaseError(fmt::format("{}: grain.fill must have exactly one of count, mass and packing_fraction",
+                                  nearest_value(root_, path).place()));
+    const Vec3d side = fill.max - fill.min;
+    const double share = solid_volume(fill, c.grain.rho) / (side.x * side.y * side.z);
+    if (share > 0.64) {
+      const bool by_mass = fill.mass > 0;
+      fail(path + (by_mass ? ".mass" : ".count"), fmt::format("{}", by_mass ? fill.mass : double(fill.count)),
+           fmt::format("must fit its box; it fills {:.0f} % where 64 % is the densest random packing",
+                       100 * share));
+    }
+  }
+  /// Overlap at the foot of the bed by its own weight.
+  void softness() const {
+    const GrainConfig& g = c.grain;
+    const double R = g.d_max / 2, layers = std::max(1.0, height(g.fills, c.gravity) / g.d_max);
+    const double weight = 4.18879 * R * R * R * g.rho * norm(c.gravity) * layers;
+    const double k = 4.0 / 3 * g.E / (2 * (1 - g.nu * g.nu)) * std::sqrt(R / 2);
+    const double overlap =
+        c.contact.normal == "hertz" ? std::pow(weight / k, 2.0 / 3) : weight / std::max(c.contact.k, 1e-300);
+    if (c.contact.normal != "none" && overlap > 0.01 * R)
+      warn(
+          "{}: grains at the foot of the bed will overlap by about {:.2g} % of their radius; stiffer is more "
+          "accurate",
+          c.contact.normal == "hertz" ? "grain.E" : "contact.k", 100 * overlap / R);
+  }
+
+  const Config& c;
+  const Value& root_;
+  std::vector<std::string>& warnings_;
+};
+
+}  // namespace
+
+void cross_check(const Config& config, const Value& root, std::vector<std::string>& warnings) {
+  const Checks checks(config, root, warnings);
+  checks.domain();
+  if (config.fluid.present) checks.fluid();
+  checks.walls();
+  if (config.grain.present) checks.grains();
+  checks.coupling();
+  checks.time();
+  checks.probes();
+}
+
+}  // namespace bedload

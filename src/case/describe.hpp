@@ -1,0 +1,20 @@
+#pragma once
+// The chapters of describe().
+
+#include "bedload/case/parameters.hpp"
+
+namespace bedload {
+
+void describe_top(Parameters& p, Config& config);
+void describe_domain(Parameters& p, DomainConfig& domain);
+void describe_fluid(Parameters& p, FluidConfig& fluid);
+void describe_fluid_models(Parameters& p, Config& config);
+void describe_walls(Parameters& p, WallConfig& wall);
+void describe_contact(Parameters& p, ContactConfig& contact);
+void describe_grains(Parameters& p, Config& config);
+void describe_coupling(Parameters& p, CouplingConfig& coupling);
+void describe_time(Parameters& p, Config& config);
+void describe_output(Parameters& p, OutputConfig& output);
+void describe_paper(Parameters& p, Config& config);
+
+}  // namespace bedload

@@ -1,0 +1,63 @@
+// Parameters of the fluid.
+
+#include "describe.hpp"
+
+namespace bedload {
+namespace {
+
+using enum Presence;
+
+void fluid_fill(Parameters& p, FluidFill& f) {
+  p("min", &f.min, {.unit = "m", .meaning = "lower corner of a block of fluid", .presence = required});
+  p("max", &f.max, {.unit = "m", .meaning = "upper corner", .presence = required});
+  p("velocity", &f.velocity, {.unit = "m/s", .meaning = "three numbers or formulas in x, y, z"});
+}
+
+}  // namespace
+
+void describe_fluid(Parameters& p, FluidConfig& f) {
+  p("fluid.dx", &f.dx, {.unit = "m", .meaning = "particle spacing", .range = above(0), .presence = required});
+  p("fluid.kernel", &f.kernel,
+    {.meaning = "smoothing kernel",
+     .family = "models",
+     .choices = {{"wendland_c2", "Wendland C2, support 2 h"},
+                 {"cubic", "cubic spline, support 2 h"},
+                 {"lucy", "Lucy, support h"}}});
+  p("fluid.h_over_dx", &f.h_over_dx,
+    {.meaning = "smoothing length / spacing (lucy: 2..4)",
+     .range = f.kernel == "lucy" ? within(2, 4) : within(1.2, 3)});
+  p("fluid.rho0", &f.rho0, {.unit = "kg/m3", .meaning = "density at rest", .range = above(0)});
+  p("fluid.mu", &f.mu, {.unit = "Pa s", .meaning = "shear viscosity; > 0 with grains", .range = at_least(0)});
+  p("fluid.vmax", &f.vmax,
+    {.unit = "m/s",
+     .meaning = "fastest flow expected; at least sqrt(2 g H) and the walls'",
+     .range = above(0),
+     .fallback = "sqrt(2 g H)",
+     .presence = optional});
+  p("fluid.c_factor", &f.c_factor, {.meaning = "sound speed / vmax", .range = within(5, 50)});
+  p.list("fluid.fill", f.fills, FluidFill{}, fluid_fill);
+}
+
+void describe_fluid_models(Parameters& p, Config& c) {
+  p("eos.type", &c.eos.type,
+    {.meaning = "equation of state",
+     .family = "laws",
+     .choices = {{"tait", "B [(rho/rho0)^gamma - 1], B = c^2 rho0 / gamma"},
+                 {"democritus", "p0 (rho/rho0)^alpha - beta, c = sqrt(alpha p0 / rho0)"}}});
+  p("eos.gamma", &c.eos.gamma, {.meaning = "Tait exponent", .range = within(1, 7)});
+  p("eos.p0", &c.eos.p0, {.unit = "Pa", .meaning = "democritus: pressure scale", .range = above(0)});
+  p("eos.alpha", &c.eos.alpha, {.meaning = "democritus: exponent", .range = at_least(1)});
+  p("eos.beta", &c.eos.beta, {.unit = "Pa", .meaning = "democritus: background; the sound speed is derived"});
+  p("eos.clip_negative", &c.eos.clip_negative, {.meaning = "no pressure below zero"});
+  p("density.delta", &c.density.delta, {.meaning = "density diffusion; 0 off", .range = within(0, 0.2)});
+  p("visc.model", &c.visc.model,
+    {.meaning = "physical viscosity",
+     .family = "laws",
+     .choices = {{"morris", "Laplacian form, conserves linear momentum [morris97]"}, {"none", "inviscid"}}});
+  p("visc.alpha", &c.visc.alpha,
+    {.meaning = "artificial viscosity, linear [monaghan92]", .range = within(0, 1)});
+  p("visc.beta", &c.visc.beta, {.meaning = "artificial viscosity, quadratic", .range = within(0, 2)});
+  p("drive.f", &c.drive, {.unit = "N/m3", .meaning = "constant force density on the fluid"});
+}
+
+}  // namespace bedload

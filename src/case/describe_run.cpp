@@ -1,0 +1,168 @@
+// Parameters of the whole case: domain, coupling, time, outputs.
+
+#include "describe.hpp"
+
+namespace bedload {
+namespace {
+
+using enum Presence;
+constexpr double kLargest = 9.2e18;  // of TOML's integers
+
+const std::vector<Choice> kPhases{{"fluid", "the fluid"}, {"grains", "the grains"}};
+
+void probe(Parameters& p, ProbeConfig& b) {
+  p("name", &b.name, {.meaning = "file under probes/", .presence = required});
+  p("type", &b.type,
+    {.meaning = "what is measured",
+     .presence = required,
+     .family = "outputs",
+     .choices = {{"front", "furthest place of a phase along a direction"},
+                 {"point", "fluid velocity, pressure and porosity at a place"},
+                 {"height", "fluid surface over a place"},
+                 {"box", "mass and momentum in a box"},
+                 {"force", "force and torque on a wall body"}}});
+  const auto wanted = [&](const char* type) { return b.type == type || p.everything(); };
+  if (wanted("front") || wanted("box"))
+    p("phase", &b.phase, {.meaning = "front, box: of which", .choices = kPhases});
+  if (wanted("front")) {
+    std::string direction(kFaces[2 * b.axis + (b.sign > 0)]);
+    std::vector<Choice> directions;
+    for (const auto& face : kFaces) directions.push_back({std::string(face), ""});
+    p("direction", &direction, {.meaning = "front: which way", .fallback = "x+", .choices = directions});
+    b.axis = direction[0] - 'x';
+    b.sign = direction[1] == '+' ? 1 : -1;
+  }
+  if (wanted("point") || wanted("height"))
+    p("at", &b.at, {.unit = "m", .meaning = "point, height: place", .presence = required});
+  if (wanted("box")) {
+    p("min", &b.min, {.unit = "m", .meaning = "box: lower corner", .presence = required});
+    p("max", &b.max, {.unit = "m", .meaning = "box: upper corner", .presence = required});
+  }
+  if (wanted("force")) {
+    p("body", &b.body, {.meaning = "force: name of the wall body", .presence = required});
+    p("about", &b.about, {.unit = "m", .meaning = "force: torque about this point"});
+  }
+  p("every", &b.every,
+    {.unit = "s", .meaning = "interval", .range = above(0), .fallback = "out.every", .presence = optional});
+}
+
+}  // namespace
+
+void describe_top(Parameters& p, Config& c) {
+  p("title", &c.title, {.meaning = "name of the case in outputs", .fallback = "none"});
+  p("preset", &c.preset,
+    {.meaning = "set of defaults under the case's own keys",
+     .family = "presets",
+     .choices = {
+         {"default", "Wendland C2, h/dx 1.5, density diffusion, EPSD rolling, Di Felice, kick-drift-kick"},
+         {"he2018", "He et al. 2018: h/dx 1.3, XSPH, Mindlin-Deresiewicz, CDT, Gidaspow, Euler"}}});
+  p("gravity", &c.gravity, {.unit = "m/s2", .meaning = "acceleration of gravity"});
+  p("tensile", &c.tensile,
+    {.meaning = "1: pressure term against clumping [monaghan00]", .range = within(0, 1)});
+  p("xsph", &c.xsph,
+    {.meaning = "share of the neighbours' velocity in the motion (XSPH)", .range = within(0, 1)});
+}
+
+void describe_domain(Parameters& p, DomainConfig& d) {
+  p("domain.min", &d.min, {.unit = "m", .meaning = "lower corner", .presence = required});
+  p("domain.max", &d.max, {.unit = "m", .meaning = "upper corner, above domain.min", .presence = required});
+  p("domain.periodic", &d.periodic, {.meaning = "per axis; a period exceeds 2 kappa h and 4 R"});
+}
+
+void describe_coupling(Parameters& p, CouplingConfig& c) {
+  p("couple.mode", &c.mode,
+    {.meaning = "what fluid and grains exchange",
+     .family = "models",
+     .choices = {{"two_way", "both feel each other"},
+                 {"one_way", "grains feel the fluid, not the reverse"},
+                 {"off", "nothing"}}});
+  p("couple.hc", &c.hc,
+    {.unit = "m",
+     .meaning = "smoothing length of the coupling",
+     .range = above(0),
+     .fallback = "max(h, 4 d_max/kappa)",
+     .presence = optional});
+  p("couple.eps_min", &c.eps_min, {.meaning = "lowest porosity", .range = within(0.1, 0.5)});
+  p("couple.S_dry", &c.S_dry,
+    {.meaning = "fluid fraction below which a grain is dry", .range = above_to(0, 0.9)});
+  p("couple.S_wet", &c.S_wet,
+    {.meaning = "and from which it is wet, above S_dry", .range = above_to(0, 0.9)});
+  p("couple.torque", &c.torque, {.meaning = "fluid torque on grains"});
+  p("couple.angmom", &c.angmom, {.meaning = "reaction couple: angular momentum exact"});
+  p("drag.law", &c.drag,
+    {.meaning = "drag on a grain",
+     .family = "laws",
+     .choices = {{"di_felice", "one smooth law from lone grain to packed bed [difelice94]"},
+                 {"gidaspow", "Ergun up to porosity 0.8, then Wen-Yu; jumps there [gidaspow94]"},
+                 {"gidaspow_blend", "the same, blended [huilin03]"},
+                 {"ergun", "packed beds [ergun52]"},
+                 {"wen_yu", "suspensions [wen66]"},
+                 {"schiller_naumann", "a lone sphere"},
+                 {"stokes", "a lone sphere, creeping flow"}}});
+  p("drag.integrator", &c.integrator,
+    {.meaning = "how drag advances a grain",
+     .family = "models",
+     .choices = {{"exponential", "exact for constant slip, stable for any drag"},
+                 {"explicit", "limits the step"}}});
+}
+
+void describe_time(Parameters& p, Config& c) {
+  const auto fraction = [](std::string_view meaning) {
+    return About{.meaning = meaning, .range = above_to(0, 0.5)};
+  };
+  TimeConfig& t = c.time;
+  p("time.end", &t.end, {.unit = "s", .meaning = "end of the run", .range = above(0), .presence = required});
+  p("time.dt", &t.dt,
+    {.unit = "s", .meaning = "fixed step", .range = above(0), .fallback = "adaptive", .presence = optional});
+  p("time.dt_dem", &t.dt_dem,
+    {.unit = "s",
+     .meaning = "fixed step of the grains",
+     .range = above(0),
+     .fallback = "adaptive",
+     .presence = optional});
+  p("time.force_dt", &t.force_dt, {.meaning = "a fixed step above its limit only warns"});
+  p("time.cfl", &t.cfl, fraction("share of the limit by sound"));
+  p("time.visc", &t.visc, fraction("by viscosity"));
+  p("time.body", &t.body, fraction("by acceleration"));
+  p("time.drag", &t.drag, fraction("by drag"));
+  p("time.rayleigh", &t.rayleigh, fraction("by Rayleigh waves in a grain"));
+  p("time.contact", &t.contact, fraction("of a contact's duration"));
+  p("time.integrator", &t.integrator,
+    {.meaning = "scheme",
+     .family = "models",
+     .choices = {{"kdk", "kick-drift-kick, second order"}, {"euler", "forward Euler"}}});
+  p("run.precision", &c.precision,
+    {.meaning = "number types",
+     .family = "models",
+     .choices = {{"mixed", "fp64 positions, fp32 velocities and pairs"},
+                 {"single", "fp32, cell-relative positions"},
+                 {"double", "fp64 throughout"}}});
+  p("run.seed", &c.seed, {.meaning = "of everything random", .range = within(0, kLargest)});
+  p("run.skin_fluid", &c.skin_fluid,
+    {.unit = "fluid.dx", .meaning = "margin of the fluid's neighbour lists", .range = within(0.01, 2)});
+  p("run.skin_grain", &c.skin_grain,
+    {.unit = "d_min", .meaning = "margin of the grains' neighbour lists", .range = within(0.01, 2)});
+}
+
+void describe_output(Parameters& p, OutputConfig& o) {
+  p("out.every", &o.every,
+    {.unit = "s", .meaning = "interval of frames", .range = above(0), .presence = required});
+  p("out.diagnostics_every", &o.diagnostics_every,
+    {.unit = "s",
+     .meaning = "interval of diagnostics.csv",
+     .range = above(0),
+     .fallback = "out.every",
+     .presence = optional});
+  p("out.walls", &o.walls, {.meaning = "frames of the walls too"});
+  p("checkpoint.every", &o.checkpoint_every,
+    {.unit = "s", .meaning = "interval; 0: only at the end", .range = at_least(0)});
+  p.list("probe", o.probes, ProbeConfig{}, probe);
+}
+
+void describe_paper(Parameters& p, Config& c) {
+  p("paper.he_damping", &c.contact.he_damping,
+    {.meaning = "Hertz damping of He et al. (20b): e comes out low"});
+  p("paper.he_tensile", &c.tensile_one_sign, {.meaning = "tensile term 0.01 for both signs of P"});
+}
+
+}  // namespace bedload

@@ -1,0 +1,213 @@
+// Parameters of walls, contacts and grains.
+
+#include "describe.hpp"
+
+namespace bedload {
+namespace {
+
+using enum Presence;
+
+const std::vector<Choice> kSlips{{"noslip", "the fluid sticks to the wall"},
+                                 {"slip", "no viscous wall pairs"}};
+
+const std::vector<Choice> kWallTypes{
+    {"adami", "layers of wall particles with pressure extrapolated from the fluid [adami12]"},
+    {"grains_only", "stops grains, lets the fluid pass"}};
+
+/// Restitution that the damping can reach.
+Range restitution(const ContactConfig& contact) {
+  if (!contact.clip_tension) return within(0.01, 1);
+  return contact.normal == "linear" ? within(0.136, 1) : within(0.05, 1);
+}
+
+void motion(Parameters& p, MotionConfig& m) {
+  p("motion.kind", &m.kind,
+    {.meaning = "how the body moves",
+     .family = "shapes",
+     .choices = {{"fixed", "at rest"},
+                 {"velocity", "straight, at constant velocity"},
+                 {"oscillation", "displacement amplitude sin(2 pi f t)"},
+                 {"rotation", "about an axis"}}});
+  const auto wanted = [&](const char* kind) { return m.kind == kind || p.everything(); };
+  if (wanted("velocity"))
+    p("motion.velocity", &m.velocity, {.unit = "m/s", .meaning = "velocity", .presence = required});
+  if (wanted("oscillation")) {
+    p("motion.amplitude", &m.amplitude,
+      {.unit = "m", .meaning = "oscillation: displacement", .presence = required});
+    p("motion.frequency", &m.frequency,
+      {.unit = "Hz", .meaning = "oscillation: f", .range = above(0), .presence = required});
+  }
+  if (wanted("rotation")) {
+    p("motion.axis", &m.axis, {.meaning = "rotation: direction of the axis", .presence = required});
+    p("motion.centre", &m.centre,
+      {.unit = "m", .meaning = "rotation: a point on the axis", .presence = required});
+    p("motion.rate", &m.rate, {.unit = "rad/s", .meaning = "rotation: right-handed", .presence = required});
+  }
+  if (m.kind == "fixed" && !p.everything()) return;
+  p("motion.start", &m.start, {.unit = "s", .meaning = "moves from then on", .range = at_least(0)});
+  p("motion.stop", &m.stop,
+    {.unit = "s",
+     .meaning = "and until then",
+     .range = above(m.start),
+     .fallback = "never",
+     .presence = optional});
+  p("motion.remove_when_clear", &m.remove_when_clear, {.meaning = "removed once above all fluid and grains"});
+}
+
+void wall_body(Parameters& p, WallBody& b) {
+  p("name", &b.name, {.meaning = "by which probes and messages know it", .presence = required});
+  p("shape", &b.shape,
+    {.meaning = "shape of the body",
+     .presence = required,
+     .family = "shapes",
+     .choices = {{"tank", "box seen from inside, sides as given by faces"},
+                 {"box", "solid box"},
+                 {"plane", "half-space behind a plane"}}});
+  const bool plane = b.shape == "plane";
+  if (!plane || p.everything()) {
+    p("min", &b.min, {.unit = "m", .meaning = "tank, box: lower corner", .presence = required});
+    p("max", &b.max, {.unit = "m", .meaning = "tank, box: upper corner", .presence = required});
+  }
+  if (b.shape == "tank" || p.everything())
+    p("faces", &b.faces, {.meaning = "tank: sides that exist, of \"x-\" .. \"z+\"", .fallback = "all"});
+  if (plane || p.everything()) {
+    p("point", &b.point, {.unit = "m", .meaning = "plane: a point on it", .presence = required});
+    p("normal", &b.normal, {.meaning = "plane: direction into the flow", .presence = required});
+  }
+  p("type", &b.type, {.meaning = "how the fluid meets it", .fallback = "wall.type", .choices = kWallTypes});
+  p("slip", &b.slip, {.meaning = "friction with the fluid", .fallback = "wall.slip", .choices = kSlips});
+  p("repulsion", &b.repulsion, {.meaning = "Monaghan repulsion beside it", .fallback = "wall.repulsion"});
+  motion(p, b.motion);
+}
+
+void grain_size(Parameters& p, SizeClass& s) {
+  p("d", &s.d, {.unit = "m", .meaning = "diameter of this class", .range = above(0), .presence = required});
+  p("share", &s.share, {.meaning = "share of the number of grains, relative", .range = above(0)});
+}
+
+void grain_fill(Parameters& p, GrainFill& f) {
+  p("positions", &f.positions,
+    {.unit = "m", .meaning = "centres, instead of a box", .fallback = "none", .presence = optional});
+  if (f.positions.empty() || p.everything()) {
+    p("min", &f.min, {.unit = "m", .meaning = "lower corner of the box to fill", .presence = required});
+    p("max", &f.max, {.unit = "m", .meaning = "upper corner", .presence = required});
+    p("count", &f.count,
+      {.meaning = "number of grains; or mass, or packing_fraction",
+       .range = within(1, 2147483647),
+       .fallback = "one of three",
+       .presence = optional});
+    p("mass", &f.mass,
+      {.unit = "kg",
+       .meaning = "of all grains together",
+       .range = above(0),
+       .fallback = "one of three",
+       .presence = optional});
+    p("packing_fraction", &f.packing_fraction,
+      {.meaning = "solid volume / box volume",
+       .range = above_to(0, 0.64),
+       .hint = "0.64 is random close packing",
+       .fallback = "one of three",
+       .presence = optional});
+  }
+  p("velocity", &f.velocity, {.unit = "m/s", .meaning = "initial velocity"});
+  p.list("sizes", f.sizes, SizeClass{}, grain_size);
+}
+
+}  // namespace
+
+void describe_walls(Parameters& p, WallConfig& w) {
+  p("wall.dx", &w.dx,
+    {.unit = "m",
+     .meaning = "spacing of wall particles, fluid.dx/4..fluid.dx",
+     .range = above(0),
+     .fallback = "fluid.dx",
+     .presence = optional});
+  p("wall.type", &w.type, {.meaning = "default of the bodies", .family = "models", .choices = kWallTypes});
+  p("wall.slip", &w.slip, {.meaning = "default of the bodies", .family = "models", .choices = kSlips});
+  p("wall.repulsion", &w.repulsion, {.meaning = "default of the bodies: Monaghan repulsion [monaghan94]"});
+  p("wall.rep_D", &w.rep_D,
+    {.unit = "m2/s2",
+     .meaning = "strength of the repulsion",
+     .range = above(0),
+     .hint = "repulsion = false switches it off",
+     .fallback = "5 g H",
+     .presence = optional});
+  p("wall.rep_r0", &w.rep_r0,
+    {.unit = "m",
+     .meaning = "reach of the repulsion, up to fluid.dx",
+     .range = above(0),
+     .hint = "repulsion = false switches it off",
+     .fallback = "0.5 fluid.dx",
+     .presence = optional});
+  WallBody prototype;
+  prototype.type = w.type;
+  prototype.slip = w.slip;
+  prototype.repulsion = w.repulsion;
+  p.list("wall.body", w.bodies, prototype, wall_body);
+}
+
+void describe_contact(Parameters& p, ContactConfig& c) {
+  p("contact.normal", &c.normal,
+    {.meaning = "force along the line of centres",
+     .family = "laws",
+     .choices = {{"hertz", "Hertz spring, damping exact in e"},
+                 {"linear", "linear spring and dashpot"},
+                 {"none", "grains pass through each other"}}});
+  p("contact.tangential", &c.tangential,
+    {.meaning = "friction",
+     .family = "laws",
+     .choices = {{"mindlin", "Mindlin spring, rescaled on unloading"},
+                 {"mindlin_deresiewicz", "Mindlin-Deresiewicz, full micro-slip"},
+                 {"linear", "linear spring kt_ratio k"},
+                 {"none", "frictionless"}}});
+  p("contact.rolling", &c.rolling,
+    {.meaning = "resistance to rolling",
+     .family = "laws",
+     .choices = {{"epsd", "elastic-plastic spring-dashpot, holds slopes [ai11]"},
+                 {"cdt", "constant directional torque"},
+                 {"none", "free rolling"}}});
+  p("contact.k", &c.k,
+    {.unit = "N/m",
+     .meaning = "linear spring",
+     .range = above(0),
+     .fallback = "required if linear",
+     .presence = optional});
+  p("contact.kt_ratio", &c.kt_ratio,
+    {.meaning = "tangential / normal spring, linear", .range = above_to(0, 1)});
+  p("contact.eta_r", &c.eta_r, {.meaning = "damping of epsd rolling", .range = within(0, 1)});
+  p("contact.clip_tension", &c.clip_tension,
+    {.meaning = "no pull while separating; damping set so that e holds"});
+  p("contact.cap_rolling", &c.cap_rolling, {.meaning = "cdt: torque capped at rest; without it grains buzz"});
+}
+
+void describe_grains(Parameters& p, Config& c) {
+  GrainConfig& g = c.grain;
+  p("grain.d", &g.d,
+    {.unit = "m",
+     .meaning = "diameter, where a fill gives no sizes",
+     .range = above(0),
+     .fallback = "required without sizes",
+     .presence = optional});
+  p("grain.rho", &g.rho, {.unit = "kg/m3", .meaning = "density", .range = above(0)});
+  p("grain.E", &g.E, {.unit = "Pa", .meaning = "Young's modulus", .range = within(1e4, 1e12)});
+  p("grain.nu", &g.nu, {.meaning = "Poisson's ratio", .range = {.lo = -1, .hi = 0.5}});
+  p("grain.mu", &g.mu, {.meaning = "sliding friction", .range = within(0, 5)});
+  p("grain.mu_r", &g.mu_r, {.meaning = "rolling friction", .range = within(0, 1)});
+  p("grain.e", &g.e,
+    {.meaning = "restitution (linear 0.136..1, without clip_tension 0.01..1)",
+     .range = restitution(c.contact),
+     .hint = "give a fraction, not percent?"});
+  p("grain.settle", &g.settle, {.meaning = "settle dry before t = 0; kept for later runs"});
+  p("grain.settle_time", &g.settle_time,
+    {.unit = "s",
+     .meaning = "longest settling",
+     .range = above(0),
+     .fallback = "20 sqrt(2 H/g)",
+     .presence = optional});
+  p("grain.release_time", &g.release_time,
+    {.unit = "s", .meaning = "held in place until then", .range = at_least(0)});
+  p("grain.fixed", &g.fixed, {.meaning = "grains never move"});
+  p.list("grain.fill", g.fills, GrainFill{}, grain_fill);
+}
+
+}  // namespace bedload

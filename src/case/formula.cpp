@@ -1,0 +1,41 @@
+#include "bedload/case/formula.hpp"
+
+#include <muParser.h>
+
+#include <numbers>
+
+#include "bedload/core/error.hpp"
+
+namespace bedload {
+
+struct Formula::Impl {
+  Vec3d at;
+  mu::Parser parser;
+};
+
+Formula::Formula(const std::string& text) : impl_(std::make_unique<Impl>()) {
+  try {
+    mu::Parser& p = impl_->parser;
+    p.DefineConst("pi", std::numbers::pi);
+    p.DefineConst("e", std::numbers::e);
+    p.DefineVar("x", &impl_->at.x);
+    p.DefineVar("y", &impl_->at.y);
+    p.DefineVar("z", &impl_->at.z);
+    p.SetExpr(text);
+    p.Eval();  // muParser reads the text only now
+  } catch (const mu::Parser::exception_type& error) {
+    std::string reason = error.GetMsg();
+    while (!reason.empty() && (reason.back() == '.' || reason.back() == ' ')) reason.pop_back();
+    throw CaseError(reason);
+  }
+}
+
+Formula::Formula(Formula&&) noexcept = default;
+Formula::~Formula() = default;
+
+double Formula::operator()(const Vec3d& x) const {
+  impl_->at = x;
+  return impl_->parser.Eval();
+}
+
+}  // namespace bedload

@@ -1,0 +1,34 @@
+#include "bedload/case/parameters.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "describe.hpp"
+
+namespace bedload {
+
+std::string Range::text() const {
+  const bool below = std::isfinite(lo), beyond = std::isfinite(hi);
+  if (below && beyond && !lo_open && !hi_open) return fmt::format("within {}..{}", lo, hi);
+  std::string out;
+  if (below) out = fmt::format("{} {}", lo_open ? ">" : ">=", lo);
+  if (beyond) out += fmt::format("{}{} {}", below ? " and " : "", hi_open ? "<" : "<=", hi);
+  return out;
+}
+
+void describe(Parameters& p, Config& c) {
+  describe_top(p, c);
+  describe_domain(p, c.domain);
+  if (c.fluid.present) describe_fluid(p, c.fluid);
+  describe_fluid_models(p, c);
+  describe_walls(p, c.wall);
+  describe_contact(p, c.contact);
+  if (c.grain.present) describe_grains(p, c);
+  describe_coupling(p, c.couple);
+  describe_time(p, c);
+  describe_output(p, c.out);
+  describe_paper(p, c);
+}
+
+}  // namespace bedload

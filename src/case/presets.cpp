@@ -1,0 +1,46 @@
+#include "bedload/case/read.hpp"
+
+namespace bedload {
+
+Config preset_defaults(const std::string& name) {
+  Config c;
+  c.preset = name;
+  if (name != "he2018") return c;
+  c.fluid.h_over_dx = 1.3;
+  c.density.delta = 0;
+  c.tensile = 1;
+  c.tensile_one_sign = true;
+  c.xsph = 0.3;
+  c.wall.repulsion = true;
+  c.contact.tangential = "mindlin_deresiewicz";
+  c.contact.rolling = "cdt";
+  c.contact.clip_tension = false;
+  c.contact.he_damping = true;
+  c.couple.drag = "gidaspow";
+  c.couple.integrator = "explicit";
+  c.couple.torque = false;
+  c.couple.angmom = false;
+  c.time.integrator = "euler";
+  return c;
+}
+
+Config settling_case(const Config& config) {
+  Config dry;
+  dry.domain = config.domain;
+  dry.gravity = config.gravity;
+  dry.wall.bodies = config.wall.bodies;
+  dry.contact = config.contact;
+  dry.grain = config.grain;
+  dry.grain.release_time = 0;
+  dry.couple.mode = "off";
+  dry.time.rayleigh = config.time.rayleigh;
+  dry.time.contact = config.time.contact;
+  dry.time.dt_dem = config.time.dt_dem;
+  dry.time.force_dt = config.time.force_dt;
+  dry.precision = config.precision;
+  dry.seed = config.seed;
+  dry.skin_grain = config.skin_grain;
+  return dry;
+}
+
+}  // namespace bedload

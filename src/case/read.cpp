@@ -1,0 +1,49 @@
+#include "bedload/case/read.hpp"
+
+#include <fstream>
+#include <sstream>
+
+#include "bedload/core/error.hpp"
+#include "reader.hpp"
+#include "resolve.hpp"
+
+namespace bedload {
+namespace {
+
+/// The preset is read before all else, since it sets what stands where a key is absent.
+Config defaults(const Value& root) {
+  const Value* preset = root.find("preset");
+  const auto* name = preset ? preset->get<std::string>() : nullptr;
+  return preset_defaults(name ? *name : "default");
+}
+
+}  // namespace
+
+Config read_case_text(const std::string& text, const std::string& name,
+                      const std::vector<std::string>& overrides, std::vector<std::string>& warnings) {
+  Value root = parse_toml(text, name);
+  for (const std::string& assignment : overrides) apply_override(root, assignment);
+  reject_unknown(root);
+
+  Config config = defaults(root);
+  config.file = name;
+  config.fluid.present = root.find("fluid") != nullptr;
+  config.grain.present = root.find("grain") != nullptr;
+  Reader reader(root);
+  describe(reader, config);
+  reader.reject_unread();
+  resolve(config, root);
+  cross_check(config, root, warnings);
+  return config;
+}
+
+Config read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                 std::vector<std::string>& warnings) {
+  if (std::filesystem::is_directory(path)) throw FileError(path.string() + ": is a folder, not a case file");
+  std::ifstream file(path);
+  std::stringstream text;
+  if (!file || !(text << file.rdbuf())) throw FileError(path.string() + ": cannot read this case file");
+  return read_case_text(text.str(), path.string(), overrides, warnings);
+}
+
+}  // namespace bedload

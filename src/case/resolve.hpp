@@ -1,0 +1,44 @@
+#pragma once
+// From what the user gave to what the solver needs.
+
+#include <string>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+#include "bedload/case/section.hpp"
+
+namespace bedload {
+
+/// Fills in the defaults that follow from other parameters: sound speed, spacings,
+/// coupling length, grain sizes, intervals. Throws CaseError for values it needs and lacks.
+void resolve(Config& config, const Value& root);
+
+/// Checks parameters against each other. Throws CaseError; appends warnings.
+void cross_check(const Config& config, const Value& root, std::vector<std::string>& warnings);
+
+/// Largest speed of a wall body (m/s); an oscillation's peak, a rotation's outermost corner.
+double wall_speed(const WallBody& body, const DomainConfig& domain);
+
+/// Height along gravity that boxes [min, max] span together, m; 0 without gravity.
+template <class Fill>
+double height(const std::vector<Fill>& fills, const Vec3d& gravity) {
+  const double g = norm(gravity);
+  if (g == 0 || fills.empty()) return 0;
+  double lo = 1e300, hi = -1e300;
+  for (const Fill& fill : fills) {
+    double low = 0, high = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double a = -gravity[k] / g * fill.min[k], b = -gravity[k] / g * fill.max[k];
+      low += a < b ? a : b;
+      high += a < b ? b : a;
+    }
+    lo = low < lo ? low : lo;
+    hi = high > hi ? high : hi;
+  }
+  return hi - lo;
+}
+
+/// Solid volume that a fill asks for, m3; from count, mass or packing fraction.
+double solid_volume(const GrainFill& fill, double rho);
+
+}  // namespace bedload

@@ -1,0 +1,116 @@
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "bedload/case/section.hpp"
+#include "bedload/core/error.hpp"
+
+namespace bedload {
+namespace {
+
+Value convert(const toml::node& node, const std::string& source, bool lines) {
+  Value v{.source = source, .line = lines ? int(node.source().begin.line) : 0};
+  if (const auto* t = node.as_table()) {
+    Value::Table table;
+    for (const auto& [key, item] : *t) {
+      Value member = convert(item, source, lines);
+      if (lines && key.source().begin.line) member.line = int(key.source().begin.line);
+      table.emplace(std::string(key.str()), std::move(member));
+    }
+    v.data = std::move(table);
+  } else if (const auto* a = node.as_array()) {
+    Value::Array array;
+    for (const auto& item : *a) array.push_back(convert(item, source, lines));
+    v.data = std::move(array);
+  } else if (const auto* b = node.as_boolean()) {
+    v.data = b->get();
+  } else if (const auto* i = node.as_integer()) {
+    v.data = i->get();
+  } else if (const auto* f = node.as_floating_point()) {
+    v.data = f->get();
+  } else if (const auto* s = node.as_string()) {
+    v.data = s->get();
+  }
+  return v;
+}
+
+/// What is wrong with the text, as the rest of a sentence.
+std::string reason(const toml::parse_error& error) {
+  std::string text(error.description());
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
+  if (text.find("cannot redefine existing") != text.npos)
+    if (const auto quote = text.find('\''); quote != text.npos)
+      return text.substr(quote + 1, text.find('\'', quote + 1) - quote - 1) + " is given twice";
+  const std::string preamble = "Error while parsing ";
+  return "is not TOML: " + (text.starts_with(preamble) ? text.substr(preamble.size()) : text);
+}
+
+bool is_bare_word(std::string_view text) {
+  return !text.empty() && !std::isdigit(static_cast<unsigned char>(text[0])) &&
+         std::all_of(text.begin(), text.end(),
+                     [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '+'; });
+}
+
+std::string trimmed(std::string_view text) {
+  const auto from = text.find_first_not_of(" \t"), to = text.find_last_not_of(" \t");
+  return from == text.npos ? std::string() : std::string(text.substr(from, to - from + 1));
+}
+
+/// The right side of an override: TOML, or a bare word taken as a string.
+Value override_value(const std::string& text, const std::string& source) {
+  try {
+    const toml::table parsed = toml::parse("value = " + text);
+    if (parsed.size() == 1) return convert(*parsed.get("value"), source, false);
+  } catch (const toml::parse_error& error) {
+    if (!is_bare_word(text)) throw CaseError(source + ": " + reason(error));
+  }
+  return {.data = text, .source = source};
+}
+
+}  // namespace
+
+Value parse_toml(const std::string& text, const std::string& name) {
+  try {
+    Value root = convert(toml::parse(text), name, true);
+    root.line = 0;
+    return root;
+  } catch (const toml::parse_error& error) {
+    throw CaseError(name + ":" + std::to_string(error.source().begin.line) + ": " + reason(error));
+  }
+}
+
+void apply_override(Value& root, const std::string& assignment) {
+  const std::string source = "--set " + assignment;
+  const auto equals = assignment.find('=');
+  const std::string path = trimmed(std::string_view(assignment).substr(0, equals));
+  if (equals == assignment.npos || path.empty()) throw CaseError(source + ": must have the form key=value");
+  Value value = override_value(trimmed(std::string_view(assignment).substr(equals + 1)), source);
+
+  Value* at = &root;
+  std::size_t from = 0;
+  while (true) {
+    const auto dot = path.find('.', from);
+    const std::string part = path.substr(from, dot == path.npos ? dot : dot - from);
+    if (part.empty()) throw CaseError(source + ": must have the form key=value");
+    if (auto* table = std::get_if<Value::Table>(&at->data)) {
+      at = &table->try_emplace(part, Value{.data = Value::Table{}, .source = source}).first->second;
+    } else if (auto* array = std::get_if<Value::Array>(&at->data)) {
+      const bool number = part.size() < 9 && part.find_first_not_of("0123456789") == part.npos;
+      if (!number || std::stoul(part) >= array->size())
+        throw CaseError(source + ": " + path.substr(0, from - 1) + " is a list of " +
+                        std::to_string(array->size()) + ", so name one of 0.." +
+                        std::to_string(array->size() - 1) + " after it");
+      at = &(*array)[std::stoul(part)];
+    } else {
+      throw CaseError(source + ": " + path.substr(0, from - 1) + " holds no keys");
+    }
+    if (dot == path.npos) break;
+    from = dot + 1;
+  }
+  *at = std::move(value);
+}
+
+}  // namespace bedload

@@ -1,0 +1,80 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "bedload/case/limits.hpp"
+#include "bedload/core/error.hpp"
+#include "commands.hpp"
+#include "prepare.hpp"
+#include "progress.hpp"
+
+namespace bedload {
+namespace {
+
+/// Rough pace of each backend, for an order of magnitude.
+struct Pace {
+  double fluid;    ///< fluid particle-steps/s
+  double grains;   ///< grain-substeps/s
+  double step;     ///< s, floor of a step
+  double substep;  ///< s, floor of a substep
+};
+
+Pace pace_of(const Device& device, const std::string& precision) {
+  const double slower = precision == "double" ? 2 : 1;
+  if (device.backend == "cuda") return {1e9 / slower, 1e9 / slower, 1e-4, 2e-5};
+  return {1e6, 3e6, 1e-5, 1e-6};
+}
+
+double least(const std::vector<StepLimit>& limits) {
+  double seconds = INFINITY;
+  for (const StepLimit& limit : limits) seconds = std::min(seconds, limit.seconds);
+  return seconds;
+}
+
+std::string limits_text(const char* title, const std::vector<StepLimit>& limits) {
+  std::string out;
+  for (const StepLimit& limit : limits)
+    out += fmt::format("{:<10} {:<9} {:.4g} s{}\n", out.empty() ? title : "", limit.name, limit.seconds,
+                       limit.binds ? "  <- binds" : "");
+  return out;
+}
+
+}  // namespace
+
+int check_case(const Options& options) {
+  Prepared p = prepare(options);
+  const Config& c = p.config;
+  const Counts n = counts_of(p.setup);
+  fmt::print("{}", summary_text(p));
+
+  const std::size_t bytes = estimate_bytes(c, n);
+  fmt::print("memory     about {}; {} free\n", bytes_text(bytes), bytes_text(p.device.memory));
+  if (bytes > p.device.memory) {
+    p.warnings.push_back(
+        "the case needs more memory than the device has free, so its step limits were not evaluated");
+  } else {
+    const auto simulation = make_simulation(c, p.setup, p.device);
+    simulation->start();
+    const std::vector<StepLimit> steps = simulation->limits(), substeps = grain_limits(c);
+    fmt::print("{}{}", limits_text("step", steps), limits_text("substep", substeps));
+    check_fixed_step(c, *simulation, p.warnings);
+
+    const double dt = c.time.dt > 0 ? c.time.dt : least(steps);
+    const double dt_dem = c.time.dt_dem > 0 ? c.time.dt_dem : least(substeps);
+    const double per_step = std::isfinite(dt_dem) && n.grains > 0 ? std::max(1.0, std::ceil(dt / dt_dem)) : 0;
+    const double count = std::ceil(c.time.end / dt);
+    const Pace pace = pace_of(p.device, c.precision);
+    const double seconds = count * (pace.step + double(n.fluid) / pace.fluid +
+                                    per_step * (pace.substep + double(n.grains) / pace.grains));
+    fmt::print("steps      about {} of {:.3g} s{}\n", grouped(std::llround(count)), dt,
+               per_step > 0 ? fmt::format(", each with {:.0f} substeps", per_step) : "");
+    fmt::print("run time   about {}, within a factor of three\n", duration_text(seconds));
+  }
+  for (const std::string& warning : p.warnings) fmt::print("warning: {}\n", warning);
+  fmt::print("the case is in order\n");
+  return 0;
+}
+
+}  // namespace bedload

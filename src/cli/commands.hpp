@@ -1,0 +1,15 @@
+#pragma once
+#include "options.hpp"
+
+namespace bedload {
+
+inline constexpr int kExitBadInput = 2, kExitFault = 3, kExitStopped = 130;
+
+/// Runs a case to its end; returns the exit code (0, or 130 if stopped by a signal).
+int run_case(const Options& options);
+/// Prints what a run of the case would be: particles, step limits, memory, run time, warnings.
+int check_case(const Options& options);
+/// Prints what a checkpoint, a .vtkhdf file or a summary.json holds. Throws FileError.
+int show_file(const std::filesystem::path& file);
+
+}  // namespace bedload

@@ -1,0 +1,55 @@
+#include "list.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bedload/case/parameters.hpp"
+
+namespace bedload {
+namespace {
+
+std::string choices_text(const std::string& family) {
+  std::string out;
+  for (const ParameterRow& row : parameter_table()) {
+    if (row.family != family) continue;
+    out += fmt::format("{}  ({})\n", row.key, row.meaning);
+    for (const Choice& choice : row.choices)
+      out += fmt::format("  {:<20} {}{}\n", choice.name, choice.meaning,
+                         choice.name == row.fallback.substr(1, row.fallback.size() - 2) ? " (default)" : "");
+  }
+  return out;
+}
+
+std::string parameters_text() {
+  std::vector<ParameterRow> rows = parameter_table();
+  rows.insert(rows.begin(), {"key", "unit", "default", "allowed", "meaning", "", {}});
+  std::size_t key = 0, unit = 0, fallback = 0;
+  for (const ParameterRow& row : rows) {
+    key = std::max(key, row.key.size());
+    unit = std::max(unit, row.unit.size());
+    fallback = std::max(fallback, std::min<std::size_t>(row.fallback.size(), 24));
+  }
+  std::string out;
+  for (const ParameterRow& row : rows)
+    out += fmt::format("{:<{}}  {:<{}}  {:<{}}  {}{}\n", row.key, key, row.unit, unit, row.fallback, fallback,
+                       row.meaning, row.allowed.empty() || &row == &rows[0] ? "" : " [" + row.allowed + "]");
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> families() {
+  return {"laws", "models", "shapes", "outputs", "parameters", "presets"};
+}
+
+std::string list_text(const std::string& family) {
+  if (family == "parameters") return parameters_text();
+  if (!family.empty()) return choices_text(family);
+  std::string out;
+  for (const std::string& name : families())
+    out += fmt::format("{}{}\n\n{}", out.empty() ? "" : "\n", name, list_text(name));
+  return out;
+}
+
+}  // namespace bedload

@@ -1,0 +1,73 @@
+#include "prepare.hpp"
+
+#include <fmt/format.h>
+
+#include "bedload/case/read.hpp"
+#include "bedload/core/error.hpp"
+#include "bedload/geometry/setup.hpp"
+
+namespace bedload {
+
+Prepared prepare(const Options& options) {
+  Prepared p;
+  p.config = read_case(options.file, options.overrides, p.warnings);
+  p.device = find_device(options.backend, options.threads);
+  p.setup = build_setup(p.config, p.warnings);
+  return p;
+}
+
+Counts counts_of(const Setup& setup) {
+  return {std::int64_t(setup.fluid.x.size()), std::int64_t(setup.walls.x.size()),
+          std::int64_t(setup.grains.x.size())};
+}
+
+void check_fixed_step(const Config& config, Simulation& simulation, std::vector<std::string>& warnings) {
+  const double dt = config.time.dt;
+  if (dt == 0) return;
+  for (const StepLimit& limit : simulation.limits()) {
+    if (dt <= limit.seconds * (1 + 1e-9)) continue;
+    if (!config.time.force_dt)
+      throw CaseError(fmt::format("{}: time.dt = {} must be <= {:.4g}; limited by {}", config.file, dt,
+                                  limit.seconds, limit.name));
+    warnings.push_back(
+        fmt::format("time.dt = {} is above its limit {:.4g} ({})", dt, limit.seconds, limit.name));
+  }
+}
+
+std::string grouped(std::int64_t number) {
+  std::string text = fmt::format("{}", number);
+  for (int at = int(text.size()) - 3; at > (number < 0 ? 1 : 0); at -= 3) text.insert(at, " ");
+  return text;
+}
+
+std::string bytes_text(std::size_t bytes) {
+  if (bytes < 1000000) return fmt::format("{:.3g} kB", double(bytes) / 1e3);
+  if (bytes < 1000000000) return fmt::format("{:.3g} MB", double(bytes) / 1e6);
+  return fmt::format("{:.3g} GB", double(bytes) / 1e9);
+}
+
+std::string summary_text(const Prepared& p) {
+  const Config& c = p.config;
+  const Counts n = counts_of(p.setup);
+  std::string out = fmt::format("case       {}{}\n", c.file, c.title.empty() ? "" : " (" + c.title + ")");
+  out += fmt::format("device     {}, {}; precision {}\n", p.device.backend, p.device.name, c.precision);
+  out += fmt::format("particles  fluid {}, walls {}, grains {}\n", grouped(n.fluid), grouped(n.walls),
+                     grouped(n.grains));
+  if (c.fluid.present) {
+    out += fmt::format("fluid      dx {} m, h {:.4g} m, vmax {:.4g} m/s, sound {:.4g} m/s\n", c.fluid.dx,
+                       c.fluid.h(), c.fluid.vmax, c.fluid.c);
+    if (c.visc.alpha > 0) {
+      const double nu =
+          c.visc.alpha * c.fluid.h() * c.fluid.c / 20;  // [monaghan92], approaching pairs only
+      const double physical = c.visc.model == "none" ? 0 : c.fluid.mu / c.fluid.rho0;
+      out += fmt::format("           visc.alpha acts like a kinematic viscosity of {:.3g} m2/s{}\n", nu,
+                         physical > 0 ? fmt::format(", {:.3g} times the physical one", nu / physical) : "");
+    }
+  }
+  if (c.fluid.present && c.grain.present && c.couple.mode != "off")
+    out += fmt::format("coupling   {}, {}, h_c {:.4g} m = {:.3g} d_max\n", c.couple.mode, c.couple.drag,
+                       c.couple.hc, c.couple.hc / c.grain.d_max);
+  return out;
+}
+
+}  // namespace bedload

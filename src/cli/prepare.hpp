@@ -1,0 +1,38 @@
+#pragma once
+// What run and check have in common.
+
+#include <string>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+#include "bedload/host_data.hpp"
+#include "bedload/simulation.hpp"
+#include "options.hpp"
+
+namespace bedload {
+
+/// A case about to be computed.
+struct Prepared {
+  Config config;
+  Device device;
+  Setup setup;
+  std::vector<std::string> warnings;
+};
+
+/// Reads the case, finds the device, lays the particles.
+Prepared prepare(const Options& options);
+
+Counts counts_of(const Setup& setup);
+
+/// Throws CaseError if time.dt is above a limit, or warns with time.force_dt. Call after start().
+void check_fixed_step(const Config& config, Simulation& simulation, std::vector<std::string>& warnings);
+
+/// "12 345 678".
+std::string grouped(std::int64_t number);
+/// "1.2 GB".
+std::string bytes_text(std::size_t bytes);
+
+/// What the numbers mean: device, particles, sound speed, artificial viscosity; a line each.
+std::string summary_text(const Prepared& prepared);
+
+}  // namespace bedload

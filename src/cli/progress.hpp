@@ -1,0 +1,51 @@
+#pragma once
+// What a run shows while it goes.
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "bedload/simulation.hpp"
+
+namespace bedload {
+
+/// "8 s", "4 min 10 s", "2 h 05 min", "3 d 04 h"; "?" if unknown.
+std::string duration_text(double seconds);
+
+/// One line of progress.
+struct ProgressLine {
+  double time = 0, end = 0;  ///< s
+  double share = 0;          ///< of the run, 0..1
+  double steps_per_second = 0, particle_steps_per_second = 0;
+  double dt = 0;  ///< s
+  std::string_view limit;
+  double seconds_left = -1;  ///< negative: unknown
+
+  std::string text() const;
+};
+
+/// Rewrites one line on a terminal four times a second, or prints a line now and then.
+class Progress {
+ public:
+  Progress(bool quiet, double begin, double end);
+  /// After every step; `particle_steps` so far.
+  void update(const StepInfo& info, std::int64_t particle_steps);
+  /// A line of its own, e.g. while grains settle.
+  void note(const std::string& text);
+  /// Leaves the live line as it stands.
+  void close();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void show(const std::string& line);
+
+  bool quiet_, terminal_, open_line_ = false;
+  double begin_, end_;
+  Clock::time_point shown_;
+  double shown_time_ = 0;
+  std::int64_t shown_steps_ = -1, shown_particle_steps_ = 0;
+  double speed_ = 0;  ///< simulated s per s, smoothed
+};
+
+}  // namespace bedload

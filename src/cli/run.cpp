@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "bedload/core/error.hpp"
+#include "bedload/output/output.hpp"
+#include "commands.hpp"
+#include "prepare.hpp"
+#include "progress.hpp"
+#include "settle.hpp"
+#include "stop.hpp"
+
+namespace bedload {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that holds a run is not written over by accident.
+void refuse_other_run(const Options& o) {
+  if (!o.restart.empty() || o.overwrite || !fs::exists(o.out / "case.resolved.toml")) return;
+  throw FileError(
+      fmt::format("{}: holds a run already; use --restart to go on from it, --overwrite to replace it, or "
+                  "another --out",
+                  o.out.string()));
+}
+
+class Run {
+ public:
+  explicit Run(const Options& options)
+      : options_(options), p_(prepare(options)), end_(options.until.value_or(p_.config.time.end)) {}
+
+  int go() {
+    say(summary_text(p_));
+    simulation_ = make_simulation(p_.config, p_.setup, p_.device);
+    if (!options_.restart.empty()) {
+      simulation_->load(read_checkpoint(options_.restart, p_.config));
+      say(fmt::format("restart    {} at t = {:.6g} s\n", options_.restart.string(), simulation_->time()));
+    } else {
+      settle();
+      simulation_->start();
+    }
+    check_fixed_step(p_.config, *simulation_, p_.warnings);
+
+    output_.emplace(options_.out, p_.config, p_.device, version(), !options_.restart.empty());
+    for (const std::string& warning : p_.warnings) {
+      fmt::print(stderr, "warning: {}\n", warning);
+      output_->warn(warning);
+    }
+    say(fmt::format("results    {}\n", options_.out.string()));
+    return steps();
+  }
+
+ private:
+  void say(const std::string& text) const {
+    if (!options_.quiet) fmt::print("{}", text);
+    std::fflush(stdout);
+  }
+
+  void settle() {
+    if (!p_.config.grain.present || !p_.config.grain.settle) return;
+    Progress progress(options_.quiet, 0, p_.config.grain.settle_time);
+    const auto from = std::chrono::steady_clock::now();
+    const bool kept = settle_grains(*simulation_, p_.config, p_.setup, p_.device, progress, p_.warnings);
+    progress.close();
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
+    say(kept
+            ? fmt::format("settled    as kept in {}\n", settled_file(p_.config, p_.setup, p_.device).string())
+            : fmt::format("settled    in {}\n", duration_text(took.count())));
+  }
+
+  int steps() {
+    const auto from = std::chrono::steady_clock::now();
+    const auto wall = [&] {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+    };
+    Progress progress(options_.quiet, simulation_->time(), end_);
+    std::int64_t particle_steps = 0;
+    try {
+      if (options_.restart.empty()) output_->write(*simulation_, StepInfo{});
+      while (simulation_->time() < end_ && !stop_requested()) {
+        const StepInfo info = simulation_->step();
+        const Counts n = simulation_->counts();
+        particle_steps += n.fluid > 0 ? n.fluid : n.grains * info.substeps;
+        output_->write(*simulation_, info);
+        progress.update(info, particle_steps);
+      }
+    } catch (const SimulationFault& fault) {
+      progress.close();
+      throw SimulationFault(fault.what() + after_fault(wall(), particle_steps));
+    }
+    progress.close();
+    const bool stopped = simulation_->time() < end_;
+    output_->finish(*simulation_, stopped ? "stopped" : "completed", wall(), particle_steps);
+    if (stopped)
+      fmt::print("stopped at t = {:.6g} s; continue with: {} --restart {}\n", simulation_->time(),
+                 options_.repeat, output_->last_checkpoint().string());
+    else
+      say(fmt::format("completed  t = {:.6g} s, {} steps in {}, {:.3g} particle-steps/s\n",
+                      simulation_->time(), grouped(simulation_->steps()), duration_text(wall()),
+                      wall() > 0 ? double(particle_steps) / wall() : 0));
+    return stopped ? kExitStopped : 0;
+  }
+
+  /// Shows the broken state in a last frame; returns the rest of the fault's sentence.
+  std::string after_fault(double wall_seconds, std::int64_t particle_steps) {
+    const fs::path good = output_->last_checkpoint();
+    try {
+      output_->finish(*simulation_, "failed", wall_seconds, particle_steps);
+    } catch (const std::runtime_error& error) {
+      fmt::print(stderr, "warning: the last frame is missing: {}\n", error.what());
+    }
+    return good.empty() ? "; there is no checkpoint, set checkpoint.every to have some"
+                        : "; the last good checkpoint is " + good.string();
+  }
+
+  const Options& options_;
+  Prepared p_;
+  double end_;
+  std::unique_ptr<Simulation> simulation_;
+  std::optional<RunOutput> output_;
+};
+
+}  // namespace
+
+int run_case(const Options& options) {
+  watch_signals();
+  refuse_other_run(options);
+  return Run(options).go();
+}
+
+}  // namespace bedload

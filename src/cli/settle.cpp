@@ -1,0 +1,88 @@
+#include "settle.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <string_view>
+
+#include "bedload/case/read.hpp"
+#include "bedload/core/error.hpp"
+#include "bedload/output/output.hpp"
+#include "options.hpp"
+#include "progress.hpp"
+#include "stop.hpp"
+
+namespace bedload {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// FNV-1a, 64 bits.
+class Hash {
+ public:
+  void add(const void* data, std::size_t bytes) {
+    for (std::size_t i = 0; i < bytes; ++i)
+      value_ = (value_ ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
+  }
+  void add(std::string_view text) { add(text.data(), text.size()); }
+  template <class T>
+  void add(const std::vector<T>& values) {
+    add(values.data(), values.size() * sizeof(T));
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325u;
+};
+
+fs::path cache_folder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return fs::path(cache) / "bedload";
+  if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "bedload";
+  return {};
+}
+
+}  // namespace
+
+fs::path settled_file(const Config& config, const Setup& setup, const Device& device) {
+  const fs::path folder = cache_folder();
+  if (folder.empty()) return {};
+  Hash hash;
+  hash.add(resolved_toml(settling_case(config)));
+  hash.add(version() + "/" + device.backend);
+  hash.add(setup.grains.x);
+  hash.add(setup.grains.v);
+  hash.add(setup.grains.radius);
+  return folder / fmt::format("settled-{:016x}.h5", hash.value());
+}
+
+bool settle_grains(Simulation& simulation, const Config& config, const Setup& setup, const Device& device,
+                   Progress& progress, std::vector<std::string>& warnings) {
+  const fs::path file = settled_file(config, setup, device);
+  const Config dry = settling_case(config);
+  if (!file.empty() && fs::exists(file)) {
+    try {
+      simulation.load_grains(read_checkpoint(file, dry));
+      return true;
+    } catch (const FileError& error) {
+      warnings.push_back(fmt::format("the settled bed is computed anew; {}", error.what()));
+    }
+  }
+  const double longest = config.grain.settle_time;
+  simulation.settle(longest, [&](double t) {
+    if (stop_requested()) throw Stopped{};
+    progress.note(fmt::format("settling grains: {:.3g} s, at most {:.3g} s", t, longest));
+  });
+  if (file.empty()) return false;
+  try {
+    fs::create_directories(file.parent_path());
+    write_state(file, simulation.save_grains(), dry);
+  } catch (const fs::filesystem_error& error) {
+    warnings.push_back(
+        fmt::format("{}: cannot keep the settled bed: {}", file.string(), error.code().message()));
+  } catch (const FileError& error) {
+    warnings.push_back(fmt::format("cannot keep the settled bed; {}", error.what()));
+  }
+  return false;
+}
+
+}  // namespace bedload

@@ -1,0 +1,31 @@
+#include "stop.hpp"
+
+#include <csignal>
+
+namespace bedload {
+namespace {
+
+volatile std::sig_atomic_t stop = 0;
+
+/// A second Ctrl-C is impatience; batch systems send SIGTERM twice without meaning it.
+void on_signal(int signal) {
+  if (stop && signal == SIGINT) {
+    std::signal(SIGINT, SIG_DFL);
+    std::raise(SIGINT);
+  }
+  stop = 1;
+}
+
+}  // namespace
+
+void watch_signals() {
+  struct sigaction action {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+bool stop_requested() { return stop != 0; }
+
+}  // namespace bedload

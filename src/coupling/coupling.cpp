@@ -1,0 +1,177 @@
+#include "src/coupling/coupling.hpp"
+
+#include <limits>
+
+#include "bedload/neighbours/for_each_pair.hpp"
+#include "kernels/coupling/drag_pass.hpp"
+#include "kernels/coupling/limit_pass.hpp"
+#include "kernels/coupling/porosity_pass.hpp"
+#include "kernels/drag/registry.hpp"
+#include "kernels/smoothing/registry.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+using GrainToFluid = CrossSeparation<Vec3d, FluidPosition>;
+using FluidToGrain = CrossSeparation<FluidPosition, Vec3d>;
+
+/// with_kernel, with the weight of fluid particles built on it.
+template <class F>
+void with_weight(const std::string& kernel, double h_c, const FluidStore& fluid, F&& f) {
+  with_kernel(kernel, h_c, [&](auto w) { f(FluidWeight<decltype(w)>{w, fluid.v_rho, fluid.mass}); });
+}
+
+/// f(std::true_type) or f(std::false_type).
+template <class F>
+void with_flag(bool flag, F&& f) {
+  if (flag)
+    f(std::true_type{});
+  else
+    f(std::false_type{});
+}
+
+struct LargestRate {
+  using Value = Real;
+  Span<const Real> rate;
+  BL_HD Value identity() const { return 0; }
+  BL_HD Value operator()(Index a) const { return rate[a]; }
+  BL_HD void combine(Value& into, const Value& v) const { into = max_of(into, v); }
+};
+
+/// How many entries are above a bound, or at and below it.
+struct CountEntries {
+  using Value = std::uint64_t;
+  Span<const Real> entry;
+  Real bound;
+  bool above;
+  BL_HD Value identity() const { return 0; }
+  BL_HD Value operator()(Index i) const { return (entry[i] > bound) == above ? 1 : 0; }
+  BL_HD void combine(Value& into, const Value& v) const { into += v; }
+};
+
+}  // namespace
+
+Coupling::Coupling(const Config& config, const Frame& frame)
+    : frame_(frame),
+      kernel_(config.fluid.kernel),
+      drag_law_(config.couple.drag),
+      h_c_(config.couple.hc),
+      range_(kernel_kappa(kernel_) * h_c_),
+      mu_(config.fluid.mu),
+      drag_fraction_(config.time.drag),
+      eps_min_(Real(config.couple.eps_min)),
+      S_dry_(Real(config.couple.S_dry)),
+      S_wet_(Real(config.couple.S_wet)),
+      two_way_(config.couple.mode == "two_way"),
+      torque_(config.couple.torque),
+      angmom_(config.couple.angmom) {}
+
+GrainSurroundings Coupling::surroundings() { return {x_, inv_S_, rho_, arm_, inv_M_}; }
+ReactionShares Coupling::shares() { return {impulse_, force_, spin_couple_, force_couple_}; }
+
+void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid,
+                             const GrainStore& grains, const CellGridView& grain_grid, double skin) {
+  const double reach = range_ + skin;
+  fluid_of_grain_.build(grains.size(), fluid_grid,
+                        CrossNear<Vec3d, FluidPosition>{frame_, grains.x, fluid.x, reach});
+  grains_of_fluid_.build(fluid.size(), grain_grid,
+                         CrossNear<FluidPosition, Vec3d>{frame_, fluid.x, grains.x, reach});
+}
+
+void Coupling::gather(const FluidStore& fluid, GrainStore& grains, double dt) {
+  const Index n = grains.size();
+  x_.resize(n);
+  inv_S_.resize(n);
+  rho_.resize(n);
+  stiffness_.resize(n);
+  if (moments()) {
+    arm_.resize(n);
+    inv_M_.resize(n);
+  }
+  const GrainToFluid to_fluid{frame_, grains.x, fluid.x};
+  with_weight(kernel_, h_c_, fluid, [&](auto weight) {
+    with_flag(moments(), [&](auto with_moments) {
+      const InterpolationPass<decltype(weight.w), with_moments> pass{.weight = weight,
+                                                                     .S_dry = S_dry_,
+                                                                     .S_wet = S_wet_,
+                                                                     .eps_min = eps_min_,
+                                                                     .fluid_eps = fluid.eps,
+                                                                     .theta = fluid.theta,
+                                                                     .x = grains.x,
+                                                                     .v = grains.v,
+                                                                     .radius = grains.radius,
+                                                                     .eps = grains.eps,
+                                                                     .wetness = grains.wetness,
+                                                                     .U = grains.U,
+                                                                     .omega_f = grains.omega_f,
+                                                                     .fluid_force = grains.fluid_force,
+                                                                     .surroundings = surroundings()};
+      for_each_pair(grains.owned(), fluid_of_grain_, to_fluid, range_, pass);
+    });
+  });
+  with_drag_law(drag_law_, [&](auto law) {
+    for_each(grains.owned(), DragPass<decltype(law)>{.law = law,
+                                                     .mu = Real(mu_),
+                                                     .torque = torque_,
+                                                     .radius = grains.radius,
+                                                     .eps = grains.eps,
+                                                     .wetness = grains.wetness,
+                                                     .v = grains.v,
+                                                     .U = grains.U,
+                                                     .omega = grains.omega,
+                                                     .omega_f = grains.omega_f,
+                                                     .surroundings = surroundings(),
+                                                     .K = grains.K,
+                                                     .K_rot = grains.K_rot});
+  });
+  if (!two_way_) return;
+  rate_.resize(fluid.size());
+  with_weight(kernel_, h_c_, fluid, [&](auto weight) {
+    for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, x_}, range_,
+                  DragRatePass<decltype(weight.w)>{weight, inv_S_, grains.K, rate_});
+  });
+  for_each_pair(grains.owned(), fluid_of_grain_, to_fluid, range_,
+                LimitPass{Real(dt), rate_, grains.K, grains.K_rot, stiffness_});
+}
+
+void Coupling::react(FluidStore& fluid, const GrainStore& grains) {
+  if (!two_way_) {
+    fluid.reaction.buffer().zero();
+    return;
+  }
+  impulse_.resize(grains.size());
+  force_.resize(grains.size());
+  if (angmom_) {
+    spin_couple_.resize(grains.size());
+    force_couple_.resize(grains.size());
+  }
+  with_flag(angmom_, [&](auto couple) {
+    for_each(grains.owned(), SharePass<couple>{grains.impulse, grains.spin_impulse, grains.fluid_force,
+                                               surroundings(), shares()});
+    with_weight(kernel_, h_c_, fluid, [&](auto weight) {
+      for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, x_}, range_,
+                    ReactionPass<decltype(weight.w), couple>{weight, shares(), fluid.v_rho, fluid.reaction});
+    });
+  });
+}
+
+void Coupling::porosity(FluidStore& fluid, const GrainStore& grains) {
+  with_kernel(kernel_, h_c_, [&](auto w) {
+    for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, grains.x}, range_,
+                  PorosityPass<decltype(w)>{w, eps_min_, grains.radius, fluid.eps});
+  });
+}
+
+double Coupling::stable_dt() const {
+  const double rate = two_way_ ? reduce({0, Index(rate_.size())}, LargestRate{rate_}) : 0;
+  return rate > 0 ? drag_fraction_ / rate : std::numeric_limits<double>::infinity();
+}
+
+CouplingCounters Coupling::counters(const FluidStore& fluid, const GrainStore& grains) const {
+  const Index n = Index(stiffness_.size());
+  return {reduce(fluid.owned(), CountEntries{fluid.eps, eps_min_, false}),
+          two_way_ ? reduce({0, n}, CountEntries{stiffness_, 1, true}) : 0,
+          reduce(grains.owned(), CountEntries{grains.wetness, 0, true})};
+}
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,71 @@
+#pragma once
+// Exchange of volume, force and momentum between grains and fluid (unresolved, locally averaged).
+//
+// Order in a step, everything at time n until the fluid drifts:
+//   gather    grains read the fluid and get force, velocity and drag coefficients, held for the step;
+//   (substeps of the grains, which add up the drag impulse and the spin impulse)
+//   react     the fluid takes the impulses and the force back, with the weights of gather;
+//   porosity  after both have moved.
+
+#include <string>
+
+#include "bedload/case/config.hpp"
+#include "bedload/neighbours/verlet_list.hpp"
+#include "bedload/particles/fluid.hpp"
+#include "bedload/particles/grains.hpp"
+#include "kernels/coupling/reaction_pass.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// What a run must be told about, from the last gather and porosity.
+struct CouplingCounters {
+  std::uint64_t floor_hits = 0;  ///< fluid particles held at the least porosity
+  std::uint64_t limited = 0;     ///< grains in fluid that drag would stop within one step
+  std::uint64_t wet = 0;         ///< grains that feel fluid
+};
+
+class Coupling {
+ public:
+  Coupling(const Config& config, const Frame& frame);
+
+  /// How far grains and fluid feel each other, m.
+  double range() const { return range_; }
+
+  /// Renews both lists: all pairs within range() + skin (m).
+  void rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid, const GrainStore& grains,
+                     const CellGridView& grain_grid, double skin);
+
+  /// Fills eps, wetness, U, omega_f, fluid_force, K and K_rot of the grains. dt (s): the fluid step
+  /// for which they hold, which bounds K when the fluid is to take the reaction.
+  void gather(const FluidStore& fluid, GrainStore& grains, double dt);
+  /// Gives grains.impulse and spin_impulse back to the velocities of the fluid and sets
+  /// fluid.reaction; neither fluid positions, masses nor densities may have changed since gather.
+  void react(FluidStore& fluid, const GrainStore& grains);
+  /// Sets fluid.eps for the present positions.
+  void porosity(FluidStore& fluid, const GrainStore& grains);
+
+  /// Largest fluid step that drag allows (s), after the last gather; infinite without a reaction. Waits.
+  double stable_dt() const;
+  /// Counts what is to be reported. Waits for the device.
+  CouplingCounters counters(const FluidStore& fluid, const GrainStore& grains) const;
+
+ private:
+  bool moments() const { return torque_ || angmom_; }
+  GrainSurroundings surroundings();
+  ReactionShares shares();
+
+  Frame frame_;
+  std::string kernel_, drag_law_;
+  double h_c_, range_, mu_, drag_fraction_;
+  Real eps_min_, S_dry_, S_wet_;
+  bool two_way_, torque_, angmom_;
+
+  VerletList fluid_of_grain_, grains_of_fluid_;
+  Buffer<Vec3d> x_;
+  Buffer<Real> inv_S_, rho_, stiffness_, rate_;
+  Buffer<Real3> arm_, force_, spin_couple_, force_couple_;
+  Buffer<SymmetricMatrix<Real>> inv_M_;
+  Buffer<Real4> impulse_;
+};
+
+}  // namespace bedload::inline BL_VARIANT

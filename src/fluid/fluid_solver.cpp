@@ -1,0 +1,198 @@
+#include "src/fluid/fluid_solver.hpp"
+
+#include "kernels/fluid/density_pass.hpp"
+#include "kernels/fluid/force_pass.hpp"
+#include "kernels/fluid/wall_pass.hpp"
+#include "kernels/integrate/fluid_kicks.hpp"
+#include "kernels/smoothing/registry.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+template <class P>
+struct WrapPass {
+  Frame frame;
+  Span<P> x;
+  Span<P> x_list;
+  BL_HD void operator()(Index i) const {
+    x[i] = as_position<P>(frame, frame.wrap(coordinates(frame, x[i])));
+    x_list[i] = x[i];
+  }
+};
+
+template <class P>
+struct PackPass {
+  Frame frame;
+  Span<const P> x;
+  Span<PairPosition> xp;
+  BL_HD void operator()(Index i) const { xp[i] = as_position<PairPosition>(frame, coordinates(frame, x[i])); }
+};
+
+struct ExtremesSweep {
+  using Value = FluidExtremes;
+  Frame frame;
+  Span<const Real4> v_rho, m_state;
+  Span<const Real> eps, s;
+  Span<const Real3> acc, xsph;
+  Span<const FluidPosition> x, x_list;
+
+  BL_HD Value identity() const { return {}; }
+  BL_HD Value operator()(Index a) const {
+    Real3 v = v_rho[a].xyz();
+    if (xsph) v += xsph[a];
+    Value out;
+    out.v2 = norm2(v);
+    out.acc2 = norm2(acc[a]);
+    out.moved2 = norm2(frame.separation(coordinates(frame, x[a]), coordinates(frame, x_list[a])));
+    out.eps_min = eps[a];
+    const Real compression = (s[a] + (1 - eps[a])) / eps[a];
+    const bool good = out.v2 < 1e30 && out.acc2 < 1e30 && compression >= Real(-0.5) && compression <= Real(1);
+    out.bad = good ? kNone : a;
+    return out;
+  }
+  BL_HD void combine(Value& into, const Value& v) const {
+    into.v2 = max_of(into.v2, v.v2);
+    into.acc2 = max_of(into.acc2, v.acc2);
+    into.moved2 = max_of(into.moved2, v.moved2);
+    into.eps_min = min_of(into.eps_min, v.eps_min);
+    into.bad = min_of(into.bad, v.bad);
+  }
+};
+
+}  // namespace
+
+/// The passes that know the kernel function.
+template <class W>
+class FluidSolverWith final : public FluidSolver {
+ public:
+  FluidSolverWith(const Config& config, const Frame& frame, const W& w) : FluidSolver(config, frame, W::kappa), w_(w) {}
+
+  void density(FluidStore& fluid, const WallStore& walls, double dt, double back) override {
+    const double c = config_.fluid.c;
+    DensityPass<W> pass{w_, fluid.v_rho, fluid.m_state, walls.v_rho, walls.m_state, fluid.eps,
+                        Real(2 * config_.density.delta * config_.fluid.h() * c),
+                        gravity_ * Real(config_.fluid.rho0 / (c * c)), Real(config_.fluid.rho0), Real(dt),
+                        Real(back), fluid.s, fluid.s_next};
+    // all listed pairs: one that is out of reach now may have been within reach half a step ago
+    run(fluid, walls, range() + skin(), pass);
+  }
+
+  void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, bool coupled) override {
+    const double dx = config_.wall.dx, h = config_.fluid.h();
+    WallPass<W> pass{w_, eos_, fluid.v_rho, fluid.m_state, fluid.eps,
+                     coupled ? Span<const Real3>(fluid.drag_acc) : Span<const Real3>(), walls.x, walls.body, pose,
+                     gravity_, Real(dx * dx * dx), Real(1e-3 / (h * h * h)), walls.v_rho, walls.v_visc, walls.m_state};
+    for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
+  }
+
+  void forces(FluidStore& fluid, const WallStore& walls, double dt) override {
+    ForcePass<W> pass{w_, wall_pair(dt), fluid.v_rho, fluid.m_state, walls.v_rho, walls.m_state, walls.v_visc,
+                      viscosity(), artificial(), tensile(), Real(config_.xsph), gravity_, Real3(config_.drive),
+                      fluid.theta, fluid.acc_next, fluid.xsph};
+    run(fluid, walls, range(), pass);
+  }
+
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, double dt, Buffer<Vec3d>& force) override {
+    force.resize(walls.size());
+    WallForcePass<W> pass{wall_pair(dt), fluid.v_rho, fluid.m_state, walls.v_rho, walls.m_state, walls.v_visc, force};
+    for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
+  }
+
+ private:
+  template <class Pass>
+  void run(const FluidStore& fluid, const WallStore& walls, double cutoff, const Pass& pass) {
+    for_each_pair(fluid.owned(), fluid_fluid_, SphSeparation{frame_, fluid.xp, fluid.xp}, fluid_wall_,
+                  SphSeparation{frame_, fluid.xp, walls.xp}, cutoff, pass);
+  }
+  Real viscosity() const { return config_.visc.model == "none" ? Real(0) : Real(config_.fluid.mu); }
+  ArtificialViscosity artificial() const {
+    return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c), Real(config_.fluid.h())};
+  }
+  TensileTerm tensile() const {
+    if (config_.tensile == 0) return {};
+    const Real s = Real(0.01);
+    return {s, config_.tensile_one_sign ? s : Real(0.2), w_.W(Real(config_.fluid.dx))};
+  }
+  WallPair<W> wall_pair(double dt) const {
+    const double cap = dt > 0 ? 0.1 * config_.fluid.dx / (dt * dt) : 1e30;
+    return {w_, viscosity(), {Real(config_.wall.rep_D), Real(config_.wall.rep_r0), Real(cap)}};
+  }
+
+  W w_;
+};
+
+std::unique_ptr<FluidSolver> FluidSolver::make(const Config& config, const Frame& frame) {
+  std::unique_ptr<FluidSolver> solver;
+  with_kernel(config.fluid.kernel, config.fluid.h(), [&](const auto& w) {
+    solver = std::make_unique<FluidSolverWith<std::decay_t<decltype(w)>>>(config, frame, w);
+  });
+  return solver;
+}
+
+FluidSolver::FluidSolver(const Config& config, const Frame& frame, double kappa)
+    : config_(config), frame_(frame), kappa_(kappa), gravity_(config.gravity) {
+  const auto& e = config.eos;
+  const double c = config.fluid.c, rho0 = config.fluid.rho0;
+  if (e.type == "democritus")
+    eos_ = {Real(e.p0), Real(e.alpha), Real(e.p0 - e.beta), Real(rho0), e.clip_negative};
+  else
+    eos_ = {Real(c * c * rho0 / e.gamma), Real(e.gamma), 0, Real(rho0), e.clip_negative};
+  grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
+  wall_grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
+}
+
+void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved) {
+  for_each(fluid.owned(), WrapPass<FluidPosition>{frame_, fluid.x, fluid.x_list});
+  grid_.sort(frame_, Span<const FluidPosition>(fluid.x), order_);
+  fluid.reorder(order_);
+  if (walls_moved && walls.size() > 0) {
+    for_each(walls.owned(), WrapPass<Vec3d>{frame_, walls.x, walls.x_list});
+    wall_grid_.sort(frame_, Span<const Vec3d>(walls.x), order_);
+    walls.reorder(order_);
+  }
+  relist(fluid, walls, false);
+}
+
+void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
+  if (sort) {  // saved sorted: the order is the identity
+    grid_.sort(frame_, Span<const FluidPosition>(fluid.x), order_);
+    wall_grid_.sort(frame_, Span<const Vec3d>(walls.x), order_);
+  }
+  pack(fluid, walls);
+  const double reach = range() + skin();
+  using Near = SphNear<FluidPosition>;
+  fluid_fluid_.build(fluid.size(), grid_.view(), Near{frame_, fluid.x, fluid.xp, fluid.xp, reach, true});
+  fluid_wall_.build(fluid.size(), wall_grid_.view(), Near{frame_, fluid.x, fluid.xp, walls.xp, reach, false});
+  wall_fluid_.build(walls.size(), grid_.view(), SphNear<Vec3d>{frame_, walls.x, walls.xp, fluid.xp, reach, false});
+}
+
+void FluidSolver::pack(FluidStore& fluid, WallStore& walls) {
+  for_each(fluid.owned(), PackPass<FluidPosition>{frame_, fluid.x, fluid.xp});
+  for_each(walls.owned(), PackPass<Vec3d>{frame_, walls.x, walls.xp});
+}
+
+void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, bool coupled) {
+  for_each(fluid.owned(), KickDriftPass{frame_, Real(kick), Real(drift), fluid.acc,
+                                        coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
+                                        config_.xsph > 0 ? Span<const Real3>(fluid.xsph) : Span<const Real3>(),
+                                        fluid.v_rho, fluid.x, fluid.xp});
+}
+
+void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
+  for_each(fluid.owned(), StatePass{eos_, Real(kick), fluid.acc,
+                                    coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(), fluid.s,
+                                    fluid.mass, fluid.eps, fluid.v_rho, fluid.m_state});
+}
+
+void FluidSolver::correct(FluidStore& fluid, double kick) {
+  if (kick != 0) for_each(fluid.owned(), CorrectPass{Real(kick), fluid.acc_next, fluid.acc, fluid.v_rho});
+  fluid.acc.buffer().swap(fluid.acc_next.buffer());
+}
+
+FluidExtremes FluidSolver::extremes(const FluidStore& fluid) const {
+  return reduce(fluid.owned(), ExtremesSweep{frame_, fluid.v_rho, fluid.m_state, fluid.eps, fluid.s, fluid.acc,
+                                             config_.xsph > 0 ? Span<const Real3>(fluid.xsph) : Span<const Real3>(),
+                                             fluid.x, fluid.x_list});
+}
+
+}  // namespace bedload::inline BL_VARIANT

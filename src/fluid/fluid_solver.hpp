@@ -1,0 +1,74 @@
+#pragma once
+// Locally averaged WCSPH with Adami walls: rates, advance, stable time step.
+
+#include <memory>
+
+#include "bedload/case/config.hpp"
+#include "bedload/neighbours/for_each_pair.hpp"
+#include "bedload/particles/fluid.hpp"
+#include "bedload/particles/walls.hpp"
+#include "kernels/fluid/equation_of_state.hpp"
+#include "kernels/fluid/pair_terms.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Largest values that bound the next step, from one sweep over the fluid.
+struct FluidExtremes {
+  double v2 = 0, acc2 = 0, moved2 = 0;  ///< (m/s)2, (m/s2)2, m2 since the lists were built
+  double eps_min = 1;
+  Index bad = kNone;                    ///< lowest place of a particle with NaN or a density out of range
+};
+
+class FluidSolver {
+ public:
+  /// Chooses the kernel function once.
+  static std::unique_ptr<FluidSolver> make(const Config& config, const Frame& frame);
+  virtual ~FluidSolver() = default;
+
+  double range() const { return kappa_ * config_.fluid.h(); }              ///< kernel support, m
+  double skin() const { return config_.skin_fluid * config_.fluid.dx; }    ///< m
+  const EquationOfState& eos() const { return eos_; }
+  void set_gravity(const Vec3d& g) { gravity_ = Real3(g); }                ///< minus the frame's acceleration, m/s2
+
+  /// Sorts the fluid and renews all lists; sorts the walls too where they have moved.
+  void refresh(FluidStore& fluid, WallStore& walls, bool walls_moved);
+  /// Renews the lists for the positions as they are; `sort`: cells too (after a restart).
+  void relist(FluidStore& fluid, WallStore& walls, bool sort);
+  /// Copies of positions as pair loops read them.
+  void pack(FluidStore& fluid, WallStore& walls);
+
+  /// v += kick (acc + reaction), x += drift (v + xsph); `coupled`: there is a reaction.
+  void kick_drift(FluidStore& fluid, double kick, double drift, bool coupled);
+  /// s_next from continuity over dt; pairs are taken `back` s before where they are.
+  virtual void density(FluidStore& fluid, const WallStore& walls, double dt, double back) = 0;
+  void accept_density(FluidStore& fluid) { fluid.s.buffer().swap(fluid.s_next.buffer()); }
+  /// Density, pressure, velocity predicted by `kick`.
+  void state(FluidStore& fluid, double kick, bool coupled);
+  /// Wall particles' state from the fluid. Poses on the device, one a body.
+  virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, bool coupled) = 0;
+  /// theta, acc_next, xsph. dt caps the repulsion.
+  virtual void forces(FluidStore& fluid, const WallStore& walls, double dt) = 0;
+  /// v += kick (acc_next - acc); acc = acc_next.
+  void correct(FluidStore& fluid, double kick);
+  /// Force of the fluid on every wall particle, N.
+  virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, double dt, Buffer<Vec3d>& force) = 0;
+
+  FluidExtremes extremes(const FluidStore& fluid) const;
+  const CellGrid& grid() const { return grid_; }
+  /// Sum of neighbours of all fluid particles (true and padded list entries), for reports.
+  std::uint64_t list_slots() const { return fluid_fluid_.slots() + fluid_wall_.slots() + wall_fluid_.slots(); }
+
+ protected:
+  FluidSolver(const Config& config, const Frame& frame, double kappa);
+
+  Config config_;
+  Frame frame_;
+  double kappa_;
+  EquationOfState eos_;
+  Real3 gravity_;
+  CellGrid grid_, wall_grid_;
+  VerletList fluid_fluid_, fluid_wall_, wall_fluid_;
+  Buffer<Index> order_;
+};
+
+}  // namespace bedload::inline BL_VARIANT

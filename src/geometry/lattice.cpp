@@ -1,0 +1,110 @@
+#include "bedload/geometry/lattice.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "bedload/case/formula.hpp"
+#include "bedload/core/error.hpp"
+
+namespace bedload {
+namespace {
+
+constexpr double kMaxParticles = 2147483648.0;  // ids are 32 bits, one of them spare
+
+void check_fill(const Config& config, std::size_t index) {
+  const auto& fills = config.fluid.fills;
+  const FluidFill& fill = fills[index];
+  const double slack = 1e-6 * config.fluid.dx;
+  for (int k = 0; k < 3; ++k) {
+    if (!(fill.max[k] > fill.min[k]))
+      throw CaseError(fmt::format("fluid.fill {}: max {} = {:g} m must exceed min {} = {:g} m", index + 1,
+                                  "xyz"[k], fill.max[k], "xyz"[k], fill.min[k]));
+    if (fill.min[k] < config.domain.min[k] - slack || fill.max[k] > config.domain.max[k] + slack)
+      throw CaseError(fmt::format(
+          "fluid.fill {}: its box runs from {} = {:g} to {:g} m, the domain only "
+          "from {:g} to {:g} m",
+          index + 1, "xyz"[k], fill.min[k], fill.max[k], config.domain.min[k], config.domain.max[k]));
+  }
+  for (std::size_t other = 0; other < index; ++other) {
+    bool apart = false;
+    for (int k = 0; k < 3; ++k)
+      apart |= fill.min[k] > fills[other].max[k] - slack || fills[other].min[k] > fill.max[k] - slack;
+    if (!apart) throw CaseError(fmt::format("fluid.fill {} overlaps fluid.fill {}", index + 1, other + 1));
+  }
+}
+
+/// The velocity formulas of a fill.
+class Velocity {
+ public:
+  Velocity(const FluidFill& fill, std::size_t index) : fill_(fill), index_(index) {
+    for (int k = 0; k < 3; ++k) {
+      try {
+        formulas_.emplace_back(fill.velocity[k]);
+      } catch (const CaseError& error) {
+        fail(k, error.what());
+      }
+    }
+  }
+
+  /// m/s at x.
+  Vec3d operator()(const Vec3d& x) const {
+    Vec3d v;
+    for (int k = 0; k < 3; ++k) {
+      v[k] = formulas_[k](x);
+      if (!std::isfinite(v[k]))
+        fail(k, fmt::format("is not a number at ({:g}, {:g}, {:g}) m", x.x, x.y, x.z));
+    }
+    return v;
+  }
+
+ private:
+  [[noreturn]] void fail(int k, const std::string& why) const {
+    throw CaseError(
+        fmt::format("fluid.fill {}: velocity {} = \"{}\": {}", index_ + 1, "xyz"[k], fill_.velocity[k], why));
+  }
+
+  const FluidFill& fill_;
+  std::size_t index_;
+  std::vector<Formula> formulas_;
+};
+
+}  // namespace
+
+void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::string>& warnings) {
+  const double dx = config.fluid.dx;
+  for (std::size_t index = 0; index < config.fluid.fills.size(); ++index) {
+    check_fill(config, index);
+    const FluidFill& fill = config.fluid.fills[index];
+
+    std::array<Cells, 3> cells;
+    double wanted = 1, volume = 1;
+    for (int k = 0; k < 3; ++k) {
+      cells[k] = fit_cells(fill.min[k], fill.max[k], dx);
+      wanted *= double(cells[k].count);
+      volume *= fill.max[k] - fill.min[k];
+      if (std::abs(cells[k].step / dx - 1) > 0.05)
+        warnings.push_back(
+            fmt::format("fluid.fill {}: {:g} m along {} is not near a multiple of fluid.dx = "
+                        "{:g} m; {} layers {:g} m apart are laid",
+                        index + 1, fill.max[k] - fill.min[k], "xyz"[k], dx, cells[k].count, cells[k].step));
+    }
+    if (double(fluid.x.size()) + wanted >= kMaxParticles)
+      throw CaseError(fmt::format("fluid.dx = {:g} m makes {:.3g} fluid particles: must be fewer than 2^31",
+                                  dx, double(fluid.x.size()) + wanted));
+
+    const Velocity velocity(fill, index);
+    const double mass = config.fluid.rho0 * volume / wanted;
+    for (std::int64_t k = 0; k < cells[2].count; ++k)
+      for (std::int64_t j = 0; j < cells[1].count; ++j)
+        for (std::int64_t i = 0; i < cells[0].count; ++i) {
+          const Vec3d x{cells[0].centre(i), cells[1].centre(j), cells[2].centre(k)};
+          fluid.x.push_back(x);
+          fluid.v.push_back(velocity(x));
+          fluid.mass.push_back(mass);
+        }
+  }
+}
+
+}  // namespace bedload

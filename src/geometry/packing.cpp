@@ -1,0 +1,307 @@
+#include "bedload/geometry/packing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "bedload/core/error.hpp"
+#include "bedload/geometry/lattice.hpp"
+#include "bedload/geometry/sampling.hpp"
+
+namespace bedload {
+namespace {
+
+constexpr double kRandomLimit = 0.30;  // random sequential places run out near 0.38
+constexpr int kTries = 20000;          // per grain, before the lattice takes over
+
+/// Pure function of seed, stream and counter, so that the n-th draw is the same however
+/// many came before it (SplitMix64 finaliser).
+class CounterRandom {
+ public:
+  CounterRandom(std::uint64_t seed, std::uint64_t stream) : key_(mix(seed + mix(stream + 1))) {}
+
+  std::uint64_t bits() { return mix(key_ + 0x9e3779b97f4a7c15u * ++counter_); }
+  double uniform() { return double(bits() >> 11) * 0x1p-53; }  // [0, 1)
+  std::size_t below(std::size_t n) { return std::size_t(uniform() * double(n)); }
+
+ private:
+  static std::uint64_t mix(std::uint64_t v) {
+    v = (v ^ (v >> 30)) * 0xbf58476d1ce4e5b9u;
+    v = (v ^ (v >> 27)) * 0x94d049bb133111ebu;
+    return v ^ (v >> 31);
+  }
+  std::uint64_t key_, counter_ = 0;
+};
+
+template <class T>
+void shuffle(std::vector<T>& items, CounterRandom& random) {
+  for (std::size_t n = items.size(); n > 1; --n) std::swap(items[n - 1], items[random.below(n)]);
+}
+
+double sphere_volume(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
+
+/// The grains placed so far, in cells one largest diameter wide.
+class PlacedGrains {
+ public:
+  PlacedGrains(const DomainConfig& domain, double d_max) : domain_(domain) {
+    for (int k = 0; k < 3; ++k) {
+      const double length = domain.max[k] - domain.min[k];
+      count_[k] = std::max<std::int64_t>(1, std::int64_t(std::floor(length / d_max)));
+      width_[k] = length / double(count_[k]);
+    }
+  }
+
+  void add(const Vec3d& x, double radius) { cells_[key(cell(x))].push_back({x, radius}); }
+
+  /// Whether a grain at `x` touches none of those placed; the nearest periodic image counts.
+  bool is_free(const Vec3d& x, double radius) const {
+    const auto at = cell(x);
+    for (int n = 0; n < 27; ++n) {
+      const auto found = cells_.find(key({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1}));
+      if (found == cells_.end()) continue;
+      for (const auto& [y, other] : found->second) {
+        Vec3d apart = x - y;
+        for (int k = 0; k < 3; ++k)
+          if (domain_.periodic[k]) {
+            const double period = domain_.max[k] - domain_.min[k];
+            apart[k] -= period * std::round(apart[k] / period);
+          }
+        if (norm2(apart) < (radius + other) * (radius + other)) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  std::array<std::int64_t, 3> cell(const Vec3d& x) const {
+    std::array<std::int64_t, 3> c;
+    for (int k = 0; k < 3; ++k) c[k] = std::int64_t(std::floor((x[k] - domain_.min[k]) / width_[k]));
+    return c;
+  }
+  std::uint64_t key(std::array<std::int64_t, 3> c) const {
+    for (int k = 0; k < 3; ++k)
+      if (domain_.periodic[k]) c[k] = (c[k] % count_[k] + count_[k]) % count_[k];
+    constexpr std::uint64_t mask = (1u << 21) - 1;
+    return (std::uint64_t(c[0]) & mask) << 42 | (std::uint64_t(c[1]) & mask) << 21 |
+           (std::uint64_t(c[2]) & mask);
+  }
+
+  DomainConfig domain_;
+  std::array<std::int64_t, 3> count_;
+  std::array<double, 3> width_;
+  std::unordered_map<std::uint64_t, std::vector<std::pair<Vec3d, double>>> cells_;
+};
+
+/// Places the grains of one fill after the other.
+class Packer {
+ public:
+  Packer(const Config& config, Setup::Grains& grains)
+      : config_(config), grains_(grains), placed_(config.domain, config.grain.d_max) {}
+
+  void add_fill(std::size_t index) {
+    index_ = index;
+    fill_ = &config_.grain.fills[index];
+    CounterRandom random(config_.grain.seed, index);
+    const std::size_t count = fill_->positions.empty() ? wanted_count() : fill_->positions.size();
+    std::vector<double> radii = radii_of(count);
+    if (!fill_->positions.empty()) return add_given(radii);
+
+    shuffle(radii, random);
+    check_box();
+    const double solid = std::transform_reduce(radii.begin(), radii.end(), 0.0, std::plus<>{}, sphere_volume);
+    auto places = solid < kRandomLimit * box_volume() ? random_places(radii, random) : std::nullopt;
+    if (!places) places = lattice_places(radii, random);
+    for (std::size_t n = 0; n < count; ++n) add((*places)[n], radii[n]);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    throw CaseError(fmt::format("grain.fill {}: {}", index_ + 1, why));
+  }
+
+  std::vector<SizeClass> classes() const {
+    return fill_->sizes.empty() ? std::vector<SizeClass>{{config_.grain.d, 1}} : fill_->sizes;
+  }
+
+  double mean_volume() const {
+    double volume = 0, shares = 0;
+    for (const SizeClass& size : classes()) {
+      volume += size.share * sphere_volume(size.d / 2);
+      shares += size.share;
+    }
+    return volume / shares;
+  }
+
+  double box_volume() const {
+    const Vec3d size = fill_->max - fill_->min;
+    return size.x * size.y * size.z;
+  }
+
+  std::size_t wanted_count() const {
+    double n = double(fill_->count);
+    if (fill_->mass > 0) n = std::round(fill_->mass / (config_.grain.rho * mean_volume()));
+    if (fill_->packing_fraction > 0) n = std::round(fill_->packing_fraction * box_volume() / mean_volume());
+    if (n < 1) fail("holds no grain; raise its count, mass or packing_fraction");
+    if (n >= 2147483648.0) fail(fmt::format("{:.3g} grains: must be fewer than 2^31", n));
+    return std::size_t(n);
+  }
+
+  /// Radii by class; whole numbers as near to the shares as their sum allows.
+  std::vector<double> radii_of(std::size_t count) const {
+    const auto sizes = classes();
+    double shares = 0, reached = 0;
+    for (const SizeClass& size : sizes) shares += size.share;
+    std::vector<double> radii;
+    for (const SizeClass& size : sizes) {
+      reached += size.share / shares;
+      radii.resize(std::size_t(std::llround(reached * double(count))), size.d / 2);
+    }
+    return radii;
+  }
+
+  bool spans_period(int k) const {
+    const DomainConfig& domain = config_.domain;
+    const double slack = 1e-6 * (domain.max[k] - domain.min[k]);
+    return domain.periodic[k] && fill_->min[k] <= domain.min[k] + slack &&
+           fill_->max[k] >= domain.max[k] - slack;
+  }
+
+  void check_box() const {
+    double d = 0;
+    for (const SizeClass& size : classes()) d = std::max(d, size.d);
+    const double slack = 1e-6 * d;
+    for (int k = 0; k < 3; ++k) {
+      const double length = fill_->max[k] - fill_->min[k];
+      if (fill_->min[k] < config_.domain.min[k] - slack || fill_->max[k] > config_.domain.max[k] + slack)
+        fail(fmt::format("its box runs from {} = {:g} to {:g} m, the domain only from {:g} to {:g} m",
+                         "xyz"[k], fill_ -> min[k], fill_ -> max[k], config_.domain.min[k],
+                         config_.domain.max[k]));
+      if (length < d - slack)
+        fail(fmt::format("a grain of {:g} m does not fit a box {:g} m wide along {}", d, length, "xyz"[k]));
+    }
+  }
+
+  /// Clear of every wall, by `allowed` overlap at most (m).
+  bool clear_of_walls(const Vec3d& x, double radius, double allowed) const {
+    for (const WallBody& body : config_.wall.bodies)
+      if (wall_distance(body, x, 10 * config_.grain.d_max, config_.domain) < radius - allowed) return false;
+    return true;
+  }
+
+  void add(const Vec3d& x, double radius) {
+    grains_.x.push_back(x);
+    grains_.v.push_back(fill_->velocity);
+    grains_.radius.push_back(radius);
+    placed_.add(x, radius);
+  }
+
+  void add_given(const std::vector<double>& radii) {
+    for (std::size_t n = 0; n < radii.size(); ++n) {
+      const Vec3d& x = fill_->positions[n];
+      const auto where = fmt::format("grain {} at ({:g}, {:g}, {:g}) m", n + 1, x.x, x.y, x.z);
+      for (int k = 0; k < 3; ++k)
+        if (x[k] < config_.domain.min[k] || x[k] > config_.domain.max[k])
+          fail(where + " lies outside the domain");
+      const double allowed = 0.1 * radii[n];  // grains may be given in contact
+      if (!clear_of_walls(x, radii[n], allowed)) fail(where + " lies inside a wall");
+      if (!placed_.is_free(x, radii[n] - allowed)) fail(where + " lies inside another grain");
+      add(x, radii[n]);
+    }
+  }
+
+  /// One after the other, wherever there is room; nothing if room runs out.
+  std::optional<std::vector<Vec3d>> random_places(const std::vector<double>& radii, CounterRandom& random) {
+    const PlacedGrains before = placed_;
+    std::vector<Vec3d> places;
+    for (const double radius : radii) {
+      bool found = false;
+      for (int attempt = 0; attempt < kTries && !found; ++attempt) {
+        Vec3d x;
+        for (int k = 0; k < 3; ++k) {
+          const double margin = spans_period(k) ? 0 : radius;
+          const double lo = fill_->min[k] + margin, hi = fill_->max[k] - margin;
+          x[k] = lo + random.uniform() * std::max(0.0, hi - lo);
+        }
+        found = placed_.is_free(x, radius) && clear_of_walls(x, radius, 1e-6 * radius);
+        if (found) places.push_back(x), placed_.add(x, radius);
+      }
+      if (!found) break;
+    }
+    placed_ = before;
+    if (places.size() < radii.size()) return std::nullopt;
+    return places;
+  }
+
+  /// Cells of a cubic lattice no narrower than the largest grain, taken at random, each
+  /// grain shaken within its own. The cells are as wide as the number of grains allows.
+  std::vector<Vec3d> lattice_places(const std::vector<double>& radii, CounterRandom& random) const {
+    const double r_max = *std::max_element(radii.begin(), radii.end()), d_max = 2 * r_max;
+    const double needed = double(radii.size());
+    std::array<Cells, 3> cells;
+    std::vector<Vec3d> centres;
+    double width = std::max(d_max, std::cbrt(box_volume() / needed));
+    while (true) {
+      double held = 1;
+      for (int k = 0; k < 3; ++k) {
+        const double length = fill_->max[k] - fill_->min[k];
+        const double n = std::max(1.0, std::floor(length / width + 1e-6));
+        cells[k] = {fill_->min[k], length / n, std::int64_t(n)};
+        held *= n;
+      }
+      if (held >= needed) {
+        centres = free_centres(cells, r_max);
+        held = double(centres.size());
+      }
+      if (held >= needed) break;
+      if (width <= d_max)
+        fail(
+            fmt::format("{} grains of {:g} m need at least {:.4g} m3, the box of {:.4g} m3 holds {:.0f} of "
+                        "them; enlarge it and let the grains settle",
+                        radii.size(), d_max, needed * d_max * d_max * d_max, box_volume(), held));
+      width = std::max(d_max, 0.99 * width);
+    }
+    shuffle(centres, random);
+    centres.resize(radii.size());
+    for (std::size_t n = 0; n < radii.size(); ++n) {
+      Vec3d x = centres[n];
+      for (int k = 0; k < 3; ++k) x[k] += (random.uniform() - 0.5) * 0.98 * (cells[k].step - d_max);
+      if (placed_.is_free(x, radii[n]) && clear_of_walls(x, radii[n], 1e-6 * radii[n])) centres[n] = x;
+    }
+    return centres;
+  }
+
+  /// Centres of the cells where the largest grain touches neither wall nor earlier grain.
+  std::vector<Vec3d> free_centres(const std::array<Cells, 3>& cells, double r_max) const {
+    const double slack = 1e-6 * r_max;
+    std::vector<Vec3d> centres;
+    for (std::int64_t l = 0; l < cells[2].count; ++l)
+      for (std::int64_t j = 0; j < cells[1].count; ++j)
+        for (std::int64_t i = 0; i < cells[0].count; ++i) {
+          const Vec3d x{cells[0].centre(i), cells[1].centre(j), cells[2].centre(l)};
+          if (placed_.is_free(x, r_max - slack) && clear_of_walls(x, r_max, slack)) centres.push_back(x);
+        }
+    return centres;
+  }
+
+  const Config& config_;
+  Setup::Grains& grains_;
+  PlacedGrains placed_;
+  std::size_t index_ = 0;
+  const GrainFill* fill_ = nullptr;
+};
+
+}  // namespace
+
+void add_grains(const Config& config, Setup::Grains& grains) {
+  Packer packer(config, grains);
+  for (std::size_t index = 0; index < config.grain.fills.size(); ++index) packer.add_fill(index);
+}
+
+}  // namespace bedload

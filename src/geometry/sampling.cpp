@@ -1,0 +1,254 @@
+#include "bedload/geometry/sampling.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "bedload/core/error.hpp"
+#include "bedload/geometry/lattice.hpp"
+
+namespace bedload {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Whether the body runs through the whole period of axis k, so that it has no end there.
+bool spans_period(const WallBody& body, const DomainConfig& domain, int k) {
+  const double slack = 1e-6 * (domain.max[k] - domain.min[k]);
+  return domain.periodic[k] && body.min[k] <= domain.min[k] + slack && body.max[k] >= domain.max[k] - slack;
+}
+
+/// Closed faces of a tank, x- x+ y- y+ z- z+; a period has none.
+std::array<bool, 6> closed_faces(const WallBody& tank, const DomainConfig& domain) {
+  std::array<bool, 6> closed = tank.faces;
+  for (int k = 0; k < 3; ++k)
+    if (spans_period(tank, domain, k)) closed[2 * k] = closed[2 * k + 1] = false;
+  return closed;
+}
+
+std::int64_t layers(double depth, double step) { return std::int64_t(std::ceil(depth / step - 1e-6)); }
+
+std::vector<Vec3d> sample_tank(const WallBody& tank, double spacing, double depth,
+                               const DomainConfig& domain) {
+  const auto closed = closed_faces(tank, domain);
+  std::array<Cells, 3> cells;
+  std::array<std::int64_t, 3> first{}, last{};  // cell numbers, inside is [0, count)
+  for (int k = 0; k < 3; ++k) {
+    cells[k] = fit_cells(tank.min[k], tank.max[k], spacing);
+    const std::int64_t extra = layers(depth, cells[k].step);
+    first[k] = closed[2 * k] ? -extra : 0;
+    last[k] = cells[k].count + (closed[2 * k + 1] ? extra : 0);
+  }
+  std::vector<Vec3d> points;
+  const auto inside = [&](int k, std::int64_t i) { return i >= 0 && i < cells[k].count; };
+  for (std::int64_t l = first[2]; l < last[2]; ++l)
+    for (std::int64_t j = first[1]; j < last[1]; ++j) {
+      const bool in_yz = inside(1, j) && inside(2, l);
+      for (std::int64_t i = first[0]; i < last[0]; ++i) {
+        if (in_yz && i == 0) i = cells[0].count;  // skip the hollow
+        if (i < last[0]) points.push_back({cells[0].centre(i), cells[1].centre(j), cells[2].centre(l)});
+      }
+    }
+  return points;
+}
+
+std::vector<Vec3d> sample_box(const WallBody& box, double spacing, double depth, const DomainConfig& domain) {
+  std::array<Cells, 3> cells;
+  std::array<bool, 3> endless{};
+  for (int k = 0; k < 3; ++k) {
+    cells[k] = fit_cells(box.min[k], box.max[k], spacing);
+    endless[k] = spans_period(box, domain, k);
+  }
+  const auto behind_face = [&](int k, std::int64_t i) {
+    if (endless[k]) return kInfinity;
+    return (double(std::min(i, cells[k].count - 1 - i)) + 0.5) * cells[k].step;
+  };
+  std::vector<Vec3d> points;
+  for (std::int64_t l = 0; l < cells[2].count; ++l)
+    for (std::int64_t j = 0; j < cells[1].count; ++j) {
+      const double yz = std::min(behind_face(1, j), behind_face(2, l));
+      for (std::int64_t i = 0; i < cells[0].count; ++i)
+        if (std::min(yz, behind_face(0, i)) < depth)
+          points.push_back({cells[0].centre(i), cells[1].centre(j), cells[2].centre(l)});
+    }
+  return points;
+}
+
+/// A direction within a plane and the cells of the lattice along it.
+struct Direction {
+  Vec3d unit;
+  Cells cells;
+  std::int64_t extra = 0;  ///< cells beyond either end
+};
+
+/// Cells along `unit` over the domain as seen from `origin`, and `depth` beyond.
+Direction plane_direction(const Vec3d& unit, const Vec3d& origin, double spacing, double depth,
+                          const DomainConfig& domain) {
+  double lo = 0, hi = 0;
+  bool periodic = false;
+  for (int k = 0; k < 3; ++k) {
+    const double a = unit[k] * (domain.min[k] - origin[k]), b = unit[k] * (domain.max[k] - origin[k]);
+    lo += std::min(a, b);
+    hi += std::max(a, b);
+    periodic |= domain.periodic[k] && std::abs(unit[k]) == 1;
+  }
+  Direction direction{unit, fit_cells(lo, hi, spacing), 0};
+  if (!periodic) direction.extra = layers(depth, direction.cells.step);
+  return direction;
+}
+
+std::vector<Vec3d> sample_plane(const WallBody& plane, double spacing, double depth,
+                                const DomainConfig& domain) {
+  const Vec3d n = plane.normal / norm(plane.normal);
+  int along = -1;  // a coordinate axis within the plane, a periodic one if there is
+  for (int k = 0; k < 3; ++k) {
+    if (std::abs(n[k]) < 1e-12 && (along < 0 || domain.periodic[k])) along = k;
+    if (domain.periodic[k] && std::abs(n[k]) > 1e-12)
+      throw CaseError(
+          fmt::format("wall.body \"{}\": a plane facing ({:g}, {:g}, {:g}) does not repeat with "
+                      "the period along {}",
+                      plane.name, n.x, n.y, n.z, "xyz"[k]));
+  }
+  Vec3d u{};
+  if (along >= 0)
+    u[along] = 1;
+  else
+    u = cross(n, Vec3d{0, 0, 1}) / norm(cross(n, Vec3d{0, 0, 1}));
+  Vec3d v = cross(n, u);
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(v[k]) > 1 - 1e-12) {  // a coordinate axis: say so exactly, and count upwards
+      v = {};
+      v[k] = 1;
+    }
+  const Direction a = plane_direction(u, plane.point, spacing, depth, domain);
+  const Direction b = plane_direction(v, plane.point, spacing, depth, domain);
+
+  std::vector<Vec3d> points;
+  for (std::int64_t layer = 0; layer < layers(depth, spacing); ++layer)
+    for (std::int64_t j = -b.extra; j < b.cells.count + b.extra; ++j)
+      for (std::int64_t i = -a.extra; i < a.cells.count + a.extra; ++i) {
+        const Vec3d x =
+            plane.point + a.cells.centre(i) * u + b.cells.centre(j) * v - (double(layer) + 0.5) * spacing * n;
+        bool near = true;
+        for (int k = 0; k < 3; ++k)
+          near &= domain.periodic[k] || (x[k] > domain.min[k] - depth && x[k] < domain.max[k] + depth) ||
+                  std::abs(n[k]) > 1 - 1e-12;  // may lie on the edge of the domain, all layers outside
+        if (near) points.push_back(x);
+      }
+  return points;
+}
+
+double tank_distance(const WallBody& tank, const Vec3d& x, double thickness, const DomainConfig& domain) {
+  const auto closed = closed_faces(tank, domain);
+  std::array<double, 3> lo, hi;  // the tank with its walls
+  for (int k = 0; k < 3; ++k) {
+    lo[k] = tank.min[k] - (closed[2 * k] ? thickness : 0);
+    hi[k] = tank.max[k] + (closed[2 * k + 1] ? thickness : 0);
+  }
+  double distance = kInfinity;
+  for (int k = 0; k < 3; ++k) {
+    bool opposite = true;
+    for (int m = 0; m < 3; ++m)
+      opposite &= m == k || spans_period(tank, domain, m) || (x[m] >= lo[m] && x[m] <= hi[m]);
+    if (!opposite) continue;
+    if (closed[2 * k] && x[k] > lo[k]) distance = std::min(distance, x[k] - tank.min[k]);
+    if (closed[2 * k + 1] && x[k] < hi[k]) distance = std::min(distance, tank.max[k] - x[k]);
+  }
+  return distance;
+}
+
+double box_distance(const WallBody& box, const Vec3d& x, const DomainConfig& domain) {
+  double inside = -kInfinity, outside2 = 0;
+  for (int k = 0; k < 3; ++k) {
+    if (spans_period(box, domain, k)) continue;
+    const double beyond = std::max(box.min[k] - x[k], x[k] - box.max[k]);
+    inside = std::max(inside, beyond);
+    outside2 += std::max(beyond, 0.0) * std::max(beyond, 0.0);
+  }
+  return outside2 > 0 ? std::sqrt(outside2) : inside;
+}
+
+/// Points found again by place: is one of an earlier body nearer than `range`?
+class PointFinder {
+ public:
+  explicit PointFinder(double range) : range_(range) {}
+
+  void add(const Vec3d& x) { cells_[key(cell(x.x), cell(x.y), cell(x.z))].push_back(x); }
+
+  bool has_near(const Vec3d& x) const {
+    const std::int64_t i = cell(x.x), j = cell(x.y), k = cell(x.z);
+    for (std::int64_t n = 0; n < 27; ++n) {
+      const auto found = cells_.find(key(i + n % 3 - 1, j + n / 3 % 3 - 1, k + n / 9 - 1));
+      if (found == cells_.end()) continue;
+      for (const Vec3d& y : found->second)
+        if (norm2(x - y) < range_ * range_) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::int64_t cell(double x) const { return std::int64_t(std::floor(x / range_)); }
+  static std::uint64_t key(std::int64_t i, std::int64_t j, std::int64_t k) {
+    constexpr std::uint64_t mask = (1u << 21) - 1;
+    return (std::uint64_t(i) & mask) << 42 | (std::uint64_t(j) & mask) << 21 | (std::uint64_t(k) & mask);
+  }
+
+  double range_;
+  std::unordered_map<std::uint64_t, std::vector<Vec3d>> cells_;
+};
+
+bool is_fixed(const WallBody& body) { return body.motion.kind == "fixed"; }
+
+}  // namespace
+
+std::vector<Vec3d> sample_body(const WallBody& body, double spacing, double depth,
+                               const DomainConfig& domain) {
+  if (body.shape == "tank") return sample_tank(body, spacing, depth, domain);
+  if (body.shape == "box") return sample_box(body, spacing, depth, domain);
+  if (body.shape == "plane") return sample_plane(body, spacing, depth, domain);
+  throw CaseError(
+      fmt::format("wall.body \"{}\": shape = \"{}\" must be tank, box or plane", body.name, body.shape));
+}
+
+double wall_distance(const WallBody& body, const Vec3d& x, double thickness, const DomainConfig& domain) {
+  if (body.shape == "tank") return tank_distance(body, x, thickness, domain);
+  if (body.shape == "plane") return dot(x - body.point, body.normal) / norm(body.normal);
+  return box_distance(body, x, domain);
+}
+
+void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::string>& warnings) {
+  const double spacing = config.wall.dx, reach = config.fluid.kappa() * config.fluid.h();
+  const auto& bodies = config.wall.bodies;
+  PointFinder earlier(0.3 * spacing);
+  for (std::size_t index = 0; index < bodies.size(); ++index) {
+    const WallBody& body = bodies[index];
+    if (body.type != "adami") continue;
+    if (body.shape == "box")
+      for (int k = 0; k < 3; ++k) {
+        const double thickness = body.max[k] - body.min[k];
+        if (!spans_period(body, config.domain, k) && thickness < reach - 0.5 * spacing)
+          warnings.push_back(
+              fmt::format("wall.body \"{}\": {:g} m thick along {}, less than the kernel's "
+                          "reach of {:g} m, so fluid on its two sides may interact",
+                          body.name, thickness, "xyz"[k], reach));
+      }
+    const std::size_t begin = walls.x.size();
+    for (const Vec3d& x : sample_body(body, spacing, reach, config.domain)) {
+      bool taken = earlier.has_near(x);
+      for (std::size_t other = 0; other < index && !taken; ++other)  // both stay where they are
+        taken = bodies[other].type == "adami" && is_fixed(body) && is_fixed(bodies[other]) &&
+                wall_distance(bodies[other], x, reach, config.domain) < -1e-9 * spacing;
+      if (taken) continue;
+      walls.x.push_back(x);
+      walls.body.push_back(std::uint32_t(index));
+    }
+    if (index + 1 < bodies.size())
+      for (std::size_t w = begin; w < walls.x.size(); ++w) earlier.add(walls.x[w]);
+  }
+}
+
+}  // namespace bedload

@@ -1,0 +1,48 @@
+// bedload: run, check, list, info. Errors become one sentence and an exit code.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "bedload/core/error.hpp"
+#include "cli/commands.hpp"
+#include "cli/list.hpp"
+#include "cli/stop.hpp"
+
+namespace {
+
+int dispatch(const bedload::Options& options) {
+  if (options.command == "run") return bedload::run_case(options);
+  if (options.command == "check") return bedload::check_case(options);
+  if (options.command == "info") return bedload::show_file(options.file);
+  fmt::print("{}", options.command == "list" ? bedload::list_text(options.family) : options.text);
+  return 0;
+}
+
+int complain(const std::exception& error, int code) {
+  fmt::print(stderr, "{}\n", error.what());
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return dispatch(bedload::parse_options(argc, argv));
+  } catch (const bedload::SimulationFault& error) {
+    return complain(error, bedload::kExitFault);
+  } catch (const bedload::CaseError& error) {
+    return complain(error, bedload::kExitBadInput);
+  } catch (const bedload::FileError& error) {
+    return complain(error, bedload::kExitBadInput);
+  } catch (const bedload::DeviceError& error) {
+    return complain(error, bedload::kExitBadInput);
+  } catch (const bedload::Stopped&) {
+    fmt::print("stopped before t = 0; there is nothing to continue from\n");
+    return bedload::kExitStopped;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "out of memory; `bedload check` tells how much a case needs\n");
+    return bedload::kExitBadInput;
+  }
+}

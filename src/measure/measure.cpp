@@ -1,0 +1,386 @@
+// What a simulation tells: snapshots, diagnostics, probes.
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/smoothing/registry.hpp"
+#include "src/measure/sweeps.hpp"
+#include "src/time/coupled_simulation.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+// --- snapshots -------------------------------------------------------------------------------
+
+template <class P>
+struct PointPass {
+  Frame frame;
+  Span<const P> x;
+  Span<Real3> out;
+  BL_HD void operator()(Index i) const { out[i] = Real3(coordinates(frame, x[i])); }
+};
+
+struct VelocityPass {
+  Span<const Real4> v_rho;
+  Span<Real3> out;
+  BL_HD void operator()(Index i) const { out[i] = v_rho[i].xyz(); }
+};
+
+/// Component 2 (intrinsic density) or 3 (pressure) of the pair-loop record.
+struct StatePart {
+  Span<const Real4> m_state;
+  int part;
+  Span<Real> out;
+  BL_HD void operator()(Index i) const { out[i] = part == 2 ? m_state[i].z : m_state[i].w; }
+};
+
+/// Pressure of a wall particle from P / rho~^2.
+struct WallPressurePart {
+  Span<const Real4> m_state, v_rho;
+  Span<Real> out;
+  BL_HD void operator()(Index i) const { out[i] = m_state[i].y * square(v_rho[i].w); }
+};
+
+template <class T>
+HostArray array_of(const char* name, const char* unit, const Buffer<T>& buffer) {
+  HostArray a{name, unit, FileType<T>::scalar, FileType<T>::components, {}};
+  a.bytes.resize(buffer.size() * sizeof(T));
+  copy_to_host(a.bytes.data(), buffer.data(), a.bytes.size());
+  return a;
+}
+
+template <class T>
+HostArray renamed(const Field<T>& field, const char* name) {
+  HostArray a = field.to_host();
+  a.name = name;
+  return a;
+}
+
+template <class T, class Pass, class... Args>
+HostArray made(const char* name, const char* unit, Range range, Args... args) {
+  Buffer<T> out(range.size());
+  for_each(range, Pass{args..., out.span()});
+  return array_of(name, unit, out);
+}
+
+// --- diagnostics -----------------------------------------------------------------------------
+
+/// mass, momentum 3, angular momentum 3, kinetic, potential, elastic energy.
+struct FluidTotals {
+  Frame frame;
+  EquationOfState eos;
+  Vec3d gravity;
+  Span<const FluidPosition> x;
+  Span<const Real4> v_rho;
+  Span<const Real> mass, s, eps;
+  BL_HD void operator()(Index a, double* out) const {
+    const double m = mass[a];
+    const Vec3d at = coordinates(frame, x[a]), v = Vec3d(v_rho[a].xyz()), l = cross(at, v);
+    out[0] = m;
+    for (int k = 0; k < 3; ++k) out[1 + k] = m * v[k], out[4 + k] = m * l[k];
+    out[7] = 0.5 * m * norm2(v);
+    out[8] = -m * dot(gravity, at);
+    out[9] = m * eos.energy((s[a] + (1 - eps[a])) / eps[a]);
+  }
+};
+
+/// Rate of change of fluid momentum by everything but walls, N: gravity and drive, force by grains.
+struct FluidLoads {
+  Vec3d gravity, drive;
+  Span<const Real> mass;
+  Span<const Real4> v_rho;
+  Span<const Real3> acc, reaction, drag_acc;
+  BL_HD void operator()(Index a, double* out) const {
+    const double m = mass[a];
+    for (int k = 0; k < 3; ++k) {
+      out[k] = m * (gravity[k] + drive[k] / double(v_rho[a].w));
+      out[3 + k] = m * double(acc[a][k]);
+      if (reaction) out[6 + k] = m * (double(reaction[a][k]) + double(drag_acc[a][k]));
+    }
+  }
+};
+
+/// Force by the fluid on grains 3, how many are outside the domain.
+struct GrainLoads {
+  Frame frame;
+  Span<const Vec3d> x;
+  Span<const Real3> fluid_force, drag_force;
+  BL_HD void operator()(Index i, double* out) const {
+    for (int k = 0; k < 3; ++k) out[k] = double(fluid_force[i][k]) + drag_force[i][k];
+    out[3] = outside(frame, x[i]) ? 1 : 0;
+  }
+};
+
+struct PressureBody {
+  Span<const Real4> m_state;
+  double sign;
+  BL_HD double operator()(Index a) const { return sign * m_state[a].w; }
+};
+struct DensityBody {
+  Span<const Real4> m_state;
+  double sign;
+  BL_HD double operator()(Index a) const { return sign * m_state[a].z; }
+};
+struct PorosityBody {
+  Span<const Real> eps;
+  BL_HD double operator()(Index a) const { return -double(eps[a]); }
+};
+
+// --- probes ----------------------------------------------------------------------------------
+
+/// Shepard sums about a point: W V, pressure, velocity 3.
+template <class W>
+struct PointBody {
+  W w;
+  Frame frame;
+  Vec3d at;
+  Span<const FluidPosition> x;
+  Span<const Real4> v_rho, m_state;
+  BL_HD void operator()(Index a, double* out) const {
+    const Vec3d r = frame.nearest_image(coordinates(frame, x[a]) - at);
+    const double r2 = norm2(r), support = w.kappa * double(w.h);
+    if (r2 >= support * support) return;
+    const double share = double(m_state[a].x) / v_rho[a].w * w.W(Real(std::sqrt(r2)));
+    out[0] = share;
+    out[1] = share * m_state[a].w;
+    out[2] = share * v_rho[a].x;
+    out[3] = share * v_rho[a].y;
+    out[4] = share * v_rho[a].z;
+  }
+};
+
+/// Highest fluid along `up` within `radius` of the vertical line through `at`.
+struct HeightBody {
+  Frame frame;
+  Vec3d at, up;
+  double radius;
+  Span<const FluidPosition> x;
+  BL_HD double operator()(Index a) const {
+    const Vec3d p = coordinates(frame, x[a]);
+    const Vec3d r = frame.nearest_image(p - at);
+    const Vec3d side = r - up * dot(r, up);
+    return norm2(side) <= radius * radius ? dot(p, up) : -1e300;
+  }
+};
+
+BL_HD bool within(const Vec3d& x, const Vec3d& lo, const Vec3d& hi) {
+  return x.x >= lo.x && x.x <= hi.x && x.y >= lo.y && x.y <= hi.y && x.z >= lo.z && x.z <= hi.z;
+}
+
+/// Over a box: count, mass, pressure, velocity 3, porosity.
+struct FluidBox {
+  Frame frame;
+  Vec3d lo, hi;
+  Span<const FluidPosition> x;
+  Span<const Real4> v_rho, m_state;
+  Span<const Real> eps;
+  BL_HD void operator()(Index a, double* out) const {
+    if (!within(coordinates(frame, x[a]), lo, hi)) return;
+    const double m = m_state[a].x;
+    out[0] = 1, out[1] = m, out[2] = m * m_state[a].w;
+    out[3] = m * v_rho[a].x, out[4] = m * v_rho[a].y, out[5] = m * v_rho[a].z;
+    out[6] = m * eps[a];
+  }
+};
+struct GrainBox {
+  Vec3d lo, hi;
+  double rho;
+  Span<const Vec3d> x;
+  Span<const Real3> v;
+  Span<const Real> radius;
+  BL_HD void operator()(Index i, double* out) const {
+    if (!within(x[i], lo, hi)) return;
+    const double r = radius[i], m = rho * 4.1887902047863905 * r * r * r;
+    out[0] = 1, out[1] = m;
+    for (int k = 0; k < 3; ++k) out[3 + k] = m * v[i][k];
+  }
+};
+
+}  // namespace
+
+HostStore CoupledSimulation::snapshot(const std::string& name) {
+  HostStore out{name, 0, {}};
+  if (name == "fluid" && has_fluid()) {
+    const Range all = fluid_.owned();
+    out.count = all.size();
+    out.arrays.push_back(made<Real3, PointPass<FluidPosition>>("position", "m", all, frame_, Span<const FluidPosition>(fluid_.x)));
+    out.arrays.push_back(made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(fluid_.v_rho)));
+    out.arrays.push_back(made<Real, StatePart>("pressure", "Pa", all, Span<const Real4>(fluid_.m_state), 3));
+    out.arrays.push_back(made<Real, StatePart>("density", "kg/m3", all, Span<const Real4>(fluid_.m_state), 2));
+    if (coupled()) out.arrays.push_back(fluid_.eps.to_host());
+    out.arrays.push_back(fluid_.id.to_host());
+  } else if (name == "grains" && has_grains()) {
+    out.count = grains_.size();
+    out.arrays.push_back(made<Real3, PointPass<Vec3d>>("position", "m", grains_.owned(), frame_, Span<const Vec3d>(grains_.x)));
+    out.arrays.push_back(renamed(grains_.v, "velocity"));
+    out.arrays.push_back(renamed(grains_.omega, "angular_velocity"));
+    for (FieldBase* f : {static_cast<FieldBase*>(&grains_.radius), static_cast<FieldBase*>(&grains_.force)})
+      out.arrays.push_back(f->to_host());
+    if (coupled())
+      for (FieldBase* f : {static_cast<FieldBase*>(&grains_.drag_force), static_cast<FieldBase*>(&grains_.fluid_force),
+                           static_cast<FieldBase*>(&grains_.eps), static_cast<FieldBase*>(&grains_.wetness)})
+        out.arrays.push_back(f->to_host());
+    out.arrays.push_back(grains_.id.to_host());
+  } else if (name == "walls" && walls_.size() > 0) {
+    const Range all = walls_.owned();
+    out.count = all.size();
+    out.arrays.push_back(made<Real3, PointPass<Vec3d>>("position", "m", all, frame_, Span<const Vec3d>(walls_.x)));
+    out.arrays.push_back(made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(walls_.v_rho)));
+    out.arrays.push_back(made<Real, WallPressurePart>("pressure", "Pa", all, Span<const Real4>(walls_.m_state), Span<const Real4>(walls_.v_rho)));
+    out.arrays.push_back(walls_.body.to_host());
+    out.arrays.push_back(walls_.id.to_host());
+  }
+  return out;
+}
+
+std::vector<Vec3d> CoupledSimulation::wall_loads(const Vec3d& about) {
+  std::vector<Vec3d> out(2 * motion_.bodies());
+  if (!has_fluid() || walls_.size() == 0) return out;
+  fluid_solver_->wall_forces(fluid_, walls_, clock_.last_dt, wall_force_);
+  const auto force = wall_force_.to_host();
+  const auto x = walls_.x.values();
+  const auto body = walls_.body.values();
+  for (Index w = 0; w < walls_.size(); ++w) {
+    out[2 * body[w]] += force[w];
+    out[2 * body[w] + 1] += cross(x[w] - about, force[w]);
+  }
+  return out;
+}
+
+std::vector<Quantity> CoupledSimulation::diagnostics() {
+  static const char* const axis[3] = {"x", "y", "z"};
+  std::vector<Quantity> out;
+  const auto vec = [&](const std::string& name, const char* unit, const Vec3d& v) {
+    for (int k = 0; k < 3; ++k) out.push_back({name + "_" + axis[k], unit, v[k]});
+  };
+  Vec3d wall_on_fluid, wall_on_grains;
+  if (has_fluid()) {
+    const auto t = sum_over<10>(fluid_.owned(), FluidTotals{frame_, fluid_solver_->eos(), config_.gravity, fluid_.x, fluid_.v_rho,
+                                                            fluid_.mass, fluid_.s, fluid_.eps});
+    out.push_back({"fluid_mass", "kg", t.v[0]});
+    vec("fluid_momentum", "kg m/s", {t.v[1], t.v[2], t.v[3]});
+    vec("fluid_angular_momentum", "kg m2/s", {t.v[4], t.v[5], t.v[6]});
+    out.push_back({"fluid_kinetic_energy", "J", t.v[7]});
+    out.push_back({"fluid_potential_energy", "J", t.v[8]});
+    out.push_back({"fluid_elastic_energy", "J", t.v[9]});
+    const auto loads = wall_loads({});
+    for (std::size_t b = 0; b < loads.size(); b += 2) wall_on_fluid -= loads[b];
+    const auto l = sum_over<9>(fluid_.owned(), FluidLoads{config_.gravity, config_.drive, fluid_.mass, fluid_.v_rho, fluid_.acc,
+                                                          two_way() ? Span<const Real3>(fluid_.reaction) : Span<const Real3>(),
+                                                          fluid_.drag_acc});
+    const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
+    vec("force_walls_on_fluid", "N", wall_on_fluid);
+    vec("force_grains_on_fluid", "N", {l.v[6], l.v[7], l.v[8]});
+    // what pair sums leave over: round-off
+    vec("fluid_force_residual", "N", total - body - wall_on_fluid);
+    out.push_back({"fluid_speed_max", "m/s", std::sqrt(fluid_extremes_.v2)});
+    out.push_back({"pressure_max", "Pa", max_over(fluid_.owned(), PressureBody{fluid_.m_state, 1})});
+    out.push_back({"pressure_min", "Pa", -max_over(fluid_.owned(), PressureBody{fluid_.m_state, -1})});
+    out.push_back({"density_max", "kg/m3", max_over(fluid_.owned(), DensityBody{fluid_.m_state, 1})});
+    out.push_back({"density_min", "kg/m3", -max_over(fluid_.owned(), DensityBody{fluid_.m_state, -1})});
+    out.push_back({"fluid_count", "-", double(fluid_.size())});
+    out.push_back({"lost_fluid_count", "-", lost_fluid_});
+    out.push_back({"lost_fluid_mass", "kg", lost_mass_});
+  }
+  if (has_grains()) {
+    const auto s = solid_solver_->totals(grains_);
+    out.push_back({"grain_mass", "kg", s.mass});
+    vec("grain_momentum", "kg m/s", s.momentum);
+    vec("grain_angular_momentum", "kg m2/s", s.angular);
+    out.push_back({"grain_kinetic_energy", "J", s.kinetic});
+    out.push_back({"grain_rotational_energy", "J", s.rotational});
+    out.push_back({"grain_potential_energy", "J", -s.mass * dot(config_.gravity, s.centre)});
+    out.push_back({"grain_elastic_energy", "J", s.elastic});
+    out.push_back({"grain_speed_max", "m/s", grain_watch_.speed});
+    out.push_back({"overlap_max", "-", s.max_overlap});
+    out.push_back({"coordination_number", "-", s.coordination});
+    const auto f = sum_over<4>(grains_.owned(), GrainLoads{frame_, grains_.x, grains_.fluid_force, grains_.drag_force});
+    vec("force_fluid_on_grains", "N", {f.v[0], f.v[1], f.v[2]});
+    out.push_back({"grain_count", "-", double(grains_.size())});
+    out.push_back({"grains_outside", "-", f.v[3]});
+  }
+  if (coupled()) {
+    const auto c = coupling_->counters(fluid_, grains_);
+    out.push_back({"porosity_min", "-", -max_over(fluid_.owned(), PorosityBody{fluid_.eps})});
+    out.push_back({"porosity_floor_hits", "-", double(c.floor_hits)});
+    out.push_back({"drag_limited_grains", "-", double(c.limited)});
+    out.push_back({"wet_grains", "-", double(c.wet)});
+  }
+  out.push_back({"rebuilds", "-", double(rebuilds_)});
+  return out;
+}
+
+std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
+  static const char* const axis[3] = {"x", "y", "z"};
+  const double nan = std::nan("");
+  if (p.type == "front") {
+    Vec3d direction;
+    direction[p.axis] = p.sign;
+    double front = nan;
+    if (p.phase == "fluid" && fluid_.size() > 0)
+      front = p.sign * (max_over(fluid_.owned(), AlongBody<FluidPosition>{frame_, fluid_.x, direction}) + config_.fluid.dx / 2);
+    if (p.phase == "grains" && grains_.size() > 0)
+      front = p.sign * (max_over(grains_.owned(), AlongBody<Vec3d>{frame_, grains_.x, direction}) + config_.grain.d_max / 2);
+    return {{std::string("front_") + axis[p.axis], "m", front}};
+  }
+  if (p.type == "point") {
+    double sum[5] = {};
+    if (has_fluid())
+      with_kernel(config_.fluid.kernel, config_.fluid.h(), [&](const auto& w) {
+        const auto s = sum_over<5>(fluid_.owned(), PointBody<std::decay_t<decltype(w)>>{w, frame_, p.at, fluid_.x, fluid_.v_rho, fluid_.m_state});
+        std::copy(s.v, s.v + 5, sum);
+      });
+    const bool wet = sum[0] > 0.05;  // fewer neighbours say nothing
+    return {{"pressure", "Pa", wet ? sum[1] / sum[0] : nan},
+            {"velocity_x", "m/s", wet ? sum[2] / sum[0] : nan},
+            {"velocity_y", "m/s", wet ? sum[3] / sum[0] : nan},
+            {"velocity_z", "m/s", wet ? sum[4] / sum[0] : nan},
+            {"kernel_sum", "-", sum[0]}};
+  }
+  if (p.type == "height") {
+    const double g = norm(config_.gravity);
+    const Vec3d up = g > 0 ? config_.gravity * (-1 / g) : Vec3d{0, 0, 1};
+    const double top = max_over(fluid_.owned(), HeightBody{frame_, p.at, up, 1.5 * config_.fluid.dx, fluid_.x});
+    return {{"height", "m", top > -1e299 ? top + config_.fluid.dx / 2 - dot(p.at, up) : 0.0}};
+  }
+  if (p.type == "box") {
+    double s[7] = {};
+    if (p.phase == "fluid") {
+      const auto r = sum_over<7>(fluid_.owned(), FluidBox{frame_, p.min, p.max, fluid_.x, fluid_.v_rho, fluid_.m_state, fluid_.eps});
+      std::copy(r.v, r.v + 7, s);
+    } else {
+      const auto r = sum_over<7>(grains_.owned(), GrainBox{p.min, p.max, config_.grain.rho, grains_.x, grains_.v, grains_.radius});
+      std::copy(r.v, r.v + 7, s);
+    }
+    const double m = s[1] > 0 ? s[1] : nan;
+    std::vector<Quantity> out = {{"count", "-", s[0]}, {"mass", "kg", s[1]}};
+    for (int k = 0; k < 3; ++k) out.push_back({std::string("velocity_") + axis[k], "m/s", s[3 + k] / m});
+    if (p.phase == "fluid") {
+      out.push_back({"pressure", "Pa", s[2] / m});
+      out.push_back({"porosity", "-", s[6] / m});
+    }
+    return out;
+  }
+  // force: on one wall body, by fluid and by grains
+  std::vector<Quantity> out;
+  int body = 0;
+  for (int b = 0; b < motion_.bodies(); ++b)
+    if (config_.wall.bodies[b].name == p.body) body = b;
+  const auto fluid = wall_loads(p.about);
+  BodyLoad grains;
+  if (has_grains()) {
+    const BodyPose pose = pose_at(config_.wall.bodies[body], clock_.time);
+    grains = solid_solver_->body_loads(grains_, poses_now())[body];
+    grains.torque += cross(pose.centre + pose.translation - p.about, grains.force);
+  }
+  const auto vec = [&](const std::string& name, const char* unit, const Vec3d& v) {
+    for (int k = 0; k < 3; ++k) out.push_back({name + "_" + axis[k], unit, v[k]});
+  };
+  vec("force_by_fluid", "N", fluid[2 * body]);
+  vec("torque_by_fluid", "N m", fluid[2 * body + 1]);
+  vec("force_by_grains", "N", grains.force);
+  vec("torque_by_grains", "N m", grains.torque);
+  return out;
+}
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,80 @@
+#pragma once
+// Reductions over stores that diagnostics and probes share. All sums in fp64.
+
+#include "bedload/parallel/loops.hpp"
+#include "bedload/particles/fluid.hpp"
+#include "bedload/particles/grains.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Sum of N doubles: Body(i, double out[N]) fills one particle's share.
+template <int N, class Body>
+struct SumSweep {
+  struct Value {
+    double v[N];
+  };
+  Body body;
+  BL_HD Value identity() const {
+    Value z;
+    for (int k = 0; k < N; ++k) z.v[k] = 0;
+    return z;
+  }
+  BL_HD Value operator()(Index i) const {
+    Value out = identity();
+    body(i, out.v);
+    return out;
+  }
+  BL_HD void combine(Value& into, const Value& from) const {
+    for (int k = 0; k < N; ++k) into.v[k] += from.v[k];
+  }
+};
+
+template <int N, class Body>
+auto sum_over(Range range, const Body& body) {
+  return reduce(range, SumSweep<N, Body>{body});
+}
+
+/// Largest Body(i).
+template <class Body>
+struct MaxSweep {
+  using Value = double;
+  Body body;
+  BL_HD double identity() const { return -1e300; }
+  BL_HD double operator()(Index i) const { return body(i); }
+  BL_HD void combine(double& into, double from) const { into = max_of(into, from); }
+};
+
+template <class Body>
+double max_over(Range range, const Body& body) {
+  return reduce(range, MaxSweep<Body>{body});
+}
+
+/// Outside the domain on an axis that is not periodic.
+BL_HD bool outside(const Frame& f, const Vec3d& x) {
+  for (int k = 0; k < 3; ++k)
+    if (!f.periodic[k] && !(x[k] >= f.origin[k] && x[k] <= f.origin[k] + f.length[k])) return true;
+  return false;
+}
+
+/// Coordinate along a direction, m.
+template <class P>
+struct AlongBody {
+  Frame frame;
+  Span<const P> x;
+  Vec3d direction;
+  BL_HD double operator()(Index i) const { return dot(direction, coordinates(frame, x[i])); }
+};
+
+/// {count, mass} of fluid outside the domain.
+struct OutsideBody {
+  Frame frame;
+  Span<const FluidPosition> x;
+  Span<const Real> mass;
+  BL_HD void operator()(Index a, double* out) const {
+    if (!outside(frame, coordinates(frame, x[a]))) return;
+    out[0] = 1;
+    out[1] = mass[a];
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,201 @@
+// Checkpoints: the kept state in HDF5, and what tells whether it fits a case.
+//
+//   /           attributes "format", "precision"; dataset "case": the resolved case
+//   /setup      attributes: the numbers that fix how many particles there are
+//   /scalars    attributes: clock and totals, "<name>" and "<name>:unit"
+//   /stores/..  attribute "count"; one dataset per array with "unit" and "checksum"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "bedload/case/read.hpp"
+#include "bedload/core/error.hpp"
+#include "bedload/output/files.hpp"
+#include "bedload/output/h5_table.hpp"
+#include "bedload/output/output.hpp"
+
+namespace bedload {
+namespace {
+
+using h5::check;
+using h5::Handle;
+
+constexpr std::int64_t kFormat = 1;
+
+/// What the number of particles follows from; a state fits a case only if these agree.
+std::vector<Quantity> particle_setup(const Config& c) {
+  std::vector<Quantity> all;
+  const auto add = [&](const std::string& name, double value) { all.push_back({name, "", value}); };
+  const auto add_box = [&](const std::string& name, const Vec3d& min, const Vec3d& max) {
+    for (int k = 0; k < 3; ++k) {
+      add(fmt::format("{}.min[{}]", name, k), min[k]);
+      add(fmt::format("{}.max[{}]", name, k), max[k]);
+    }
+  };
+  add_box("domain", c.domain.min, c.domain.max);
+  if (c.fluid.present) {
+    add("fluid.dx", c.fluid.dx);
+    add("wall.dx", c.wall.dx);
+    for (std::size_t k = 0; k < c.fluid.fills.size(); ++k)
+      add_box(fmt::format("fluid.fill.{}", k), c.fluid.fills[k].min, c.fluid.fills[k].max);
+  }
+  for (std::size_t k = 0; k < c.wall.bodies.size(); ++k)
+    add_box(fmt::format("wall.{}", c.wall.bodies[k].name), c.wall.bodies[k].min, c.wall.bodies[k].max);
+  if (c.grain.present) {
+    for (std::size_t k = 0; k < c.grain.fills.size(); ++k) {
+      const auto& fill = c.grain.fills[k];
+      const std::string name = fmt::format("grain.fill.{}", k);
+      add_box(name, fill.min, fill.max);
+      add(name + ".count", double(fill.count));
+      add(name + ".mass", fill.mass);
+      add(name + ".packing_fraction", fill.packing_fraction);
+      add(name + ".positions", double(fill.positions.size()));
+    }
+    add("grain.d_min", c.grain.d_min);
+    add("grain.d_max", c.grain.d_max);
+  }
+  return all;
+}
+
+/// FNV-1a over 8-byte words; a changed bit changes it.
+std::uint64_t checksum(const std::vector<std::byte>& bytes) {
+  std::uint64_t sum = 0xcbf29ce484222325u;
+  for (std::size_t at = 0; at < bytes.size(); at += 8) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + at, std::min<std::size_t>(8, bytes.size() - at));
+    sum = (sum ^ word) * 0x100000001b3u;
+    sum ^= sum >> 32;
+  }
+  return sum;
+}
+
+/// A dataset of fixed size, laid out in one piece.
+Handle create_array(hid_t parent, const std::string& name, hid_t type, int rank, const hsize_t* n) {
+  const Handle space(H5Screate_simple(rank, n, nullptr));
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE));
+  check(H5Pset_obj_track_times(creation, false));
+  return Handle(H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+}
+
+void write_array(hid_t group, const HostArray& a) {
+  const hsize_t n[2] = {a.count(), hsize_t(a.components)};
+  const Handle table = create_array(group, a.name, h5::file_type(a.type), 2, n);
+  check(H5Dwrite(table, h5::memory_type(a.type), H5S_ALL, H5S_ALL, H5P_DEFAULT, a.bytes.data()));
+  h5::write_text(table, "unit", a.unit);
+  h5::write_integer(table, "checksum", std::int64_t(checksum(a.bytes)));
+}
+
+HostArray read_array(hid_t group, const std::string& store, const std::string& name) {
+  const Handle table = h5::open_dataset(group, name);
+  const auto n = h5::extent(table);
+  if (n.size() != 2 || n[1] == 0) throw h5::Error(fmt::format("{}/{} has an unknown shape", store, name));
+  HostArray a{.name = name,
+              .unit = h5::read_text(table, "unit"),
+              .type = h5::scalar_of(table),
+              .components = int(n[1]),
+              .bytes = {}};
+  a.bytes.resize(n[0] * n[1] * size_of(a.type));
+  check(H5Dread(table, h5::memory_type(a.type), H5S_ALL, H5S_ALL, H5P_DEFAULT, a.bytes.data()));
+  if (std::int64_t(checksum(a.bytes)) != h5::read_integer(table, "checksum"))
+    throw h5::Error(fmt::format("{}/{} is damaged (wrong checksum)", store, name));
+  return a;
+}
+
+void write_case_text(hid_t file, const std::string& text) {
+  const hsize_t n = text.size();
+  const Handle table = create_array(file, "case", H5T_STD_U8LE, 1, &n);
+  check(H5Dwrite(table, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));
+}
+
+void check_fits(hid_t file, const Config& config) {
+  if (!h5::has_attribute(file, "format") || !h5::has_attribute(file, "precision"))
+    throw h5::Error("it is no Bedload checkpoint");
+  if (const auto format = h5::read_integer(file, "format"); format != kFormat)
+    throw h5::Error(fmt::format("it has checkpoint format {}, this version reads {}", format, kFormat));
+  if (const auto precision = h5::read_text(file, "precision"); precision != config.precision)
+    throw h5::Error(
+        fmt::format("it was made with run.precision = {}, this case has {}", precision, config.precision));
+  const Handle setup = h5::open_group(file, "setup");
+  const auto expected = particle_setup(config);
+  for (const auto& q : expected) {
+    if (!h5::has_attribute(setup, q.name.c_str()))
+      throw h5::Error(fmt::format("it holds other particles: it was made without {}", q.name));
+    if (const double found = h5::read_number(setup, q.name.c_str()); found != q.value)
+      throw h5::Error(fmt::format("it holds other particles: it was made with {} = {}, this case has {}",
+                                  q.name, found, q.value));
+  }
+  if (const auto stored = h5::attributes(setup); stored.size() != expected.size())
+    for (const auto& name : stored)
+      if (std::none_of(expected.begin(), expected.end(), [&](const auto& q) { return q.name == name; }))
+        throw h5::Error(
+            fmt::format("it holds other particles: it was made with {}, this case has none", name));
+}
+
+void write_all(hid_t file, const SavedState& state, const Config& config) {
+  h5::write_integer(file, "format", kFormat);
+  h5::write_text(file, "precision", config.precision);
+  write_case_text(file, resolved_toml(config));
+  const Handle setup = h5::create_group(file, "setup");
+  for (const auto& q : particle_setup(config)) h5::write_number(setup, q.name.c_str(), q.value);
+  const Handle scalars = h5::create_group(file, "scalars");
+  for (const auto& q : state.scalars) {
+    h5::write_number(scalars, q.name.c_str(), q.value);
+    h5::write_text(scalars, (q.name + ":unit").c_str(), q.unit);
+  }
+  const Handle stores = h5::create_group(file, "stores");
+  for (const auto& store : state.stores) {
+    const Handle group = h5::create_group(stores, store.name);
+    h5::write_integer(group, "count", std::int64_t(store.count));
+    for (const auto& a : store.arrays) write_array(group, a);
+  }
+}
+
+}  // namespace
+
+void write_state(const std::filesystem::path& path, const SavedState& state, const Config& config) {
+  std::size_t bytes = 1 << 20;
+  for (const auto& store : state.stores)
+    for (const auto& a : store.arrays) bytes += a.bytes.size();
+  need_space(path, bytes);
+
+  const auto part = part_of(path);
+  try {
+    h5::with_file_errors(path, "write", [&] {
+      Handle file = h5::open_file(part, h5::Mode::create);
+      write_all(file, state, config);
+      file.close();
+    });
+    commit_file(part, path);
+  } catch (const FileError&) {
+    std::error_code not_there;
+    std::filesystem::remove(part, not_there);
+    throw;
+  }
+}
+
+SavedState read_checkpoint(const std::filesystem::path& path, const Config& config) {
+  if (!std::filesystem::is_regular_file(path)) throw FileError(path.string() + ": cannot read: no such file");
+  return h5::with_file_errors(path, "restart from this", [&] {
+    if (!h5::is_hdf5(path)) throw h5::Error("it is no HDF5 file");
+    const Handle file = h5::open_file(path, h5::Mode::read);
+    check_fits(file, config);
+    SavedState state;
+    const Handle scalars = h5::open_group(file, "scalars");
+    for (const auto& name : h5::attributes(scalars))
+      if (!name.ends_with(":unit"))
+        state.scalars.push_back(
+            {name, h5::read_text(scalars, (name + ":unit").c_str()), h5::read_number(scalars, name.c_str())});
+    const Handle stores = h5::open_group(file, "stores");
+    for (const auto& name : h5::members(stores)) {
+      const Handle group = h5::open_group(stores, name);
+      HostStore store{name, std::size_t(h5::read_integer(group, "count")), {}};
+      for (const auto& array : h5::members(group)) store.arrays.push_back(read_array(group, name, array));
+      state.stores.push_back(std::move(store));
+    }
+    return state;
+  });
+}
+
+}  // namespace bedload

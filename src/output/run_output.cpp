@@ -1,0 +1,278 @@
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "bedload/case/read.hpp"
+#include "bedload/core/error.hpp"
+#include "bedload/output/csv.hpp"
+#include "bedload/output/files.hpp"
+#include "bedload/output/output.hpp"
+#include "bedload/output/vtkhdf.hpp"
+#include "bedload/output/writer_thread.hpp"
+
+namespace bedload {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// When something is written: at the first step end at or after every multiple of
+/// `every`. Everything follows from the times written so far, so a restarted run
+/// continues the series where the unbroken one would.
+class Schedule {
+ public:
+  explicit Schedule(double every) : every_(every) {}
+
+  bool due(double time) const { return multiple(time) > last_multiple_; }
+  bool written_at(double time) const { return time == last_time_; }
+  void written(double time) {
+    last_time_ = time;
+    last_multiple_ = multiple(time);
+  }
+  /// Of an earlier run's times, how many stay when going on from a time just below
+  /// `cut`: none after it, and not an extra last one with which that run ended off schedule.
+  std::size_t resume(const std::vector<double>& times, double cut) {
+    std::size_t kept = 0;
+    while (kept < times.size() && times[kept] < cut) ++kept;
+    for (std::size_t k = 0; k + 1 < kept; ++k) written(times[k]);
+    if (kept > 1 && !due(times[kept - 1])) --kept;
+    if (kept > 0) written(times[kept - 1]);
+    return kept;
+  }
+
+ private:
+  double multiple(double time) const {
+    if (every_ <= 0) return 0;
+    return std::floor(time / every_ + 1e-9);  // a hair below a multiple is rounding of the clock
+  }
+  double every_;
+  double last_time_ = -1, last_multiple_ = -1;
+};
+
+struct Frames {
+  std::string store;
+  FrameFile file;
+  Schedule schedule;
+};
+
+struct Table {
+  std::optional<ProbeConfig> probe;  ///< none: diagnostics
+  CsvTable csv;
+  Schedule schedule;
+};
+
+nlohmann::ordered_json to_json(const std::vector<Quantity>& quantities) {
+  auto object = nlohmann::ordered_json::object();
+  for (const auto& q : quantities) object[q.name] = {{"value", q.value}, {"unit", q.unit}};
+  return object;
+}
+
+double host_peak_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * double(usage.ru_maxrss);
+}
+
+std::string commented(const std::string& text) {
+  std::string out = "# ";
+  for (const char c : text) out += c == '\n' ? ' ' : c;
+  return out + '\n';
+}
+
+}  // namespace
+
+struct RunOutput::Impl {
+  Impl(const fs::path& folder, const Config& c, const Device& d, std::string v, bool go_on)
+      : dir(folder),
+        config(c),
+        device(d),
+        version(std::move(v)),
+        continuing(go_on),
+        checkpoint_schedule(c.out.checkpoint_every) {
+    const bool doubles = c.precision == "double";
+    const auto frames_of = [&](const char* store) {
+      frames.push_back(
+          {store, FrameFile(dir / (std::string(store) + ".vtkhdf"), doubles), Schedule(c.out.every)});
+    };
+    if (c.fluid.present) frames_of("fluid");
+    if (c.grain.present) frames_of("grains");
+    if (c.out.walls && !c.wall.bodies.empty()) frames_of("walls");
+    const auto every = [&](double own) { return Schedule(own > 0 ? own : c.out.every); };
+    tables.push_back({std::nullopt, CsvTable(dir / "diagnostics.csv"), every(c.out.diagnostics_every)});
+    for (const auto& probe : c.out.probes)
+      tables.push_back({probe, CsvTable(dir / "probes" / (probe.name + ".csv")), every(probe.every)});
+  }
+
+  void make_folder() {
+    try {
+      fs::create_directories(dir / "probes");
+      fs::create_directories(dir / "checkpoints");
+      if (!continuing) remove_former_run();
+      newest = newest_checkpoint();
+    } catch (const fs::filesystem_error& e) {
+      throw FileError(fmt::format("{}: cannot write results there: {}", dir.string(), e.code().message()));
+    }
+    write_file(dir / "case.resolved.toml",
+               commented("Bedload " + version) +
+                   commented(fmt::format("device: {}, {}", device.backend, device.name)) +
+                   commented(fmt::format("seed: {}", config.seed)) + '\n' + resolved_toml(config));
+  }
+
+  void remove_former_run() const {
+    for (const char* store : {"fluid", "grains", "walls"})
+      for (const char* ending : {".vtkhdf", ".xdmf"}) fs::remove(dir / (std::string(store) + ending));
+    for (const auto& table : tables) fs::remove(table.csv.path());
+    fs::remove(dir / "summary.json");
+    for (const auto& path : checkpoints()) fs::remove(path);
+  }
+
+  std::vector<fs::path> checkpoints() const {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(dir / "checkpoints"))
+      if (entry.path().extension() == ".h5" && entry.path().stem().string().starts_with("step_"))
+        found.push_back(entry.path());
+    return found;
+  }
+
+  fs::path newest_checkpoint() const {
+    const auto all = checkpoints();
+    return all.empty() ? fs::path() : *std::max_element(all.begin(), all.end());
+  }
+
+  /// Takes up the series of an earlier run before the step that ends at `time`, once.
+  void take_up(double time, double dt) {
+    if (taken_up) return;
+    taken_up = true;
+    if (!continuing) return;
+    const double cut =
+        dt > 0 ? time - 0.5 * dt : std::nextafter(time, std::numeric_limits<double>::infinity());
+    checkpoint_schedule.written(time - dt);
+    for (auto& f : frames) {
+      f.file.keep(f.schedule.resume(f.file.times(), cut));
+      f.file.write_xdmf();
+    }
+    for (auto& t : tables) t.csv.keep(t.schedule.resume(t.csv.times(), cut));
+  }
+
+  /// Hands over what is due at `time`, or all that is not yet written there.
+  void emit(Simulation& simulation, double time, bool everything) {
+    const auto wanted = [&](const Schedule& s) { return everything ? !s.written_at(time) : s.due(time); };
+    for (auto& f : frames) {
+      if (!wanted(f.schedule)) continue;
+      f.schedule.written(time);
+      writer.post([file = &f.file, store = simulation.snapshot(f.store), time] {
+        file->append(store, time);
+        file->write_xdmf();
+      });
+    }
+    for (auto& t : tables) {
+      if (!wanted(t.schedule)) continue;
+      t.schedule.written(time);
+      writer.post([csv = &t.csv, row = t.probe ? simulation.measure(*t.probe) : simulation.diagnostics(),
+                   time] { csv->append(time, row); });
+    }
+  }
+
+  fs::path post_checkpoint(Simulation& simulation) {
+    const auto path = dir / "checkpoints" / fmt::format("step_{:09}.h5", simulation.steps());
+    writer.post([this, path, state = simulation.save()] {
+      write_state(path, state, config);
+      const std::lock_guard lock(mutex);
+      newest = path;
+    });
+    return path;
+  }
+
+  fs::path last_checkpoint() const {
+    const std::lock_guard lock(mutex);
+    return newest;
+  }
+
+  void write_summary(Simulation& simulation, const std::string& status, double wall_seconds,
+                     std::int64_t particle_steps) const {
+    const auto counts = simulation.counts();
+    const auto rate = [&](double amount) { return wall_seconds > 0 ? amount / wall_seconds : 0; };
+    auto probes = nlohmann::ordered_json::object();
+    for (const auto& t : tables)
+      if (t.probe) probes[t.probe->name] = to_json(simulation.measure(*t.probe));
+    const nlohmann::ordered_json summary{
+        {"status", status},
+        {"title", config.title},
+        {"version", version},
+        {"device", {{"backend", device.backend}, {"name", device.name}}},
+        {"precision", config.precision},
+        {"seed", config.seed},
+        {"counts", {{"fluid", counts.fluid}, {"walls", counts.walls}, {"grains", counts.grains}}},
+        {"steps", simulation.steps()},
+        {"time", {{"value", simulation.time()}, {"unit", "s"}}},
+        {"wall_time", {{"value", wall_seconds}, {"unit", "s"}}},
+        {"particle_steps", particle_steps},
+        {"particle_steps_rate", {{"value", rate(double(particle_steps))}, {"unit", "1/s"}}},
+        {"memory",
+         {{"solver", {{"value", simulation.bytes()}, {"unit", "B"}}},
+          {"host_peak", {{"value", host_peak_bytes()}, {"unit", "B"}}}}},
+        {"last_checkpoint", last_checkpoint().lexically_relative(dir).generic_string()},
+        {"warnings", warnings},
+        {"metrics", to_json(simulation.diagnostics())},
+        {"probes", probes}};
+    write_file(dir / "summary.json",
+               summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
+  }
+
+  fs::path dir;
+  Config config;
+  Device device;
+  std::string version;
+  bool continuing;
+  bool taken_up = false;
+  std::vector<Frames> frames;
+  std::vector<Table> tables;
+  Schedule checkpoint_schedule;
+  std::vector<std::string> warnings;
+  mutable std::mutex mutex;  ///< guards `newest`
+  fs::path newest;
+  WriterThread writer;  ///< last: its jobs use all of the above
+};
+
+RunOutput::RunOutput(const fs::path& dir, const Config& config, const Device& device, std::string version,
+                     bool continuing)
+    : impl_(std::make_unique<Impl>(dir, config, device, std::move(version), continuing)) {
+  impl_->make_folder();
+}
+
+RunOutput::~RunOutput() = default;
+
+void RunOutput::write(Simulation& simulation, const StepInfo& info) {
+  impl_->take_up(info.time, info.dt);
+  impl_->emit(simulation, info.time, false);
+  auto& schedule = impl_->checkpoint_schedule;
+  if (impl_->config.out.checkpoint_every <= 0 || !schedule.due(info.time)) return;
+  schedule.written(info.time);
+  if (info.step > 0) impl_->post_checkpoint(simulation);  // t = 0 is the case itself
+}
+
+fs::path RunOutput::checkpoint(Simulation& simulation) {
+  const auto path = impl_->post_checkpoint(simulation);
+  impl_->writer.drain();
+  return path;
+}
+
+void RunOutput::warn(std::string message) { impl_->warnings.push_back(std::move(message)); }
+
+void RunOutput::finish(Simulation& simulation, const std::string& status, double wall_seconds,
+                       std::int64_t particle_steps) {
+  impl_->take_up(simulation.time(), 0);
+  impl_->emit(simulation, simulation.time(), true);
+  if (status != "failed") impl_->post_checkpoint(simulation);
+  impl_->writer.drain();
+  impl_->write_summary(simulation, status, wall_seconds, particle_steps);
+}
+
+fs::path RunOutput::last_checkpoint() const { return impl_->last_checkpoint(); }
+
+}  // namespace bedload

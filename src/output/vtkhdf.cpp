@@ -1,0 +1,238 @@
+#include "bedload/output/vtkhdf.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "bedload/output/files.hpp"
+#include "bedload/output/h5_table.hpp"
+
+namespace bedload {
+namespace {
+
+using h5::append_integers;
+using h5::append_rows;
+using h5::check;
+using h5::create_table;
+using h5::Handle;
+using h5::open_dataset;
+using h5::read_integers;
+
+constexpr std::array kTopologies{"Vertices", "Lines", "Polygons", "Strips"};
+constexpr std::size_t kSmallChunk = 256;      // rows, tables of steps and parts
+constexpr std::size_t kLargestChunk = 65536;  // rows, arrays of particles
+
+void append_integer(hid_t parent, const std::string& name, std::int64_t value) {
+  append_integers(parent, name, {value}, 1);
+}
+
+/// Positions as they are stored: in fp32 unless the file keeps doubles.
+HostArray stored_points(const HostArray& x, bool double_points) {
+  if (double_points || x.type != Scalar::f64) return x;
+  HostArray points{
+      .name = x.name, .unit = x.unit, .type = Scalar::f32, .components = x.components, .bytes = {}};
+  const std::size_t n = x.bytes.size() / sizeof(double);
+  points.bytes.resize(n * sizeof(float));
+  std::transform(x.as<double>(), x.as<double>() + n, points.as<float>(), [](double v) { return float(v); });
+  return points;
+}
+
+void create_layout(const std::filesystem::path& path, const HostStore& store, const HostArray& points,
+                   int deflate) {
+  const Handle file = h5::open_file(path, h5::Mode::create);
+  const Handle root = h5::create_group(file, "VTKHDF");
+  const int version[2] = {2, 0};
+  const hsize_t two = 2;
+  const Handle pair(H5Screate_simple(1, &two, nullptr));
+  const Handle attribute(H5Acreate2(root, "Version", H5T_STD_I32LE, pair, H5P_DEFAULT, H5P_DEFAULT));
+  check(H5Awrite(attribute, H5T_NATIVE_INT, version));
+  h5::write_text(root, "Type", "PolyData");
+
+  const auto integers = [](hid_t parent, const std::string& name, hsize_t columns, hsize_t chunk_rows) {
+    return create_table(parent, name, H5T_STD_I64LE, columns, chunk_rows);
+  };
+  const hsize_t chunk = std::clamp<std::size_t>(store.count, 1, kLargestChunk);
+  const auto particles = [&](hid_t parent, const std::string& name, const HostArray& a) {
+    const Handle table =
+        create_table(parent, name, h5::file_type(a.type), hsize_t(a.components), chunk, deflate);
+    h5::write_text(table, "unit", a.unit);
+  };
+
+  integers(root, "NumberOfPoints", 1, kSmallChunk);
+  particles(root, "Points", points);
+  for (const char* name : kTopologies) {
+    const Handle topology = h5::create_group(root, name);
+    const bool used = name == kTopologies[0];
+    integers(topology, "NumberOfCells", 1, kSmallChunk);
+    integers(topology, "NumberOfConnectivityIds", 1, kSmallChunk);
+    integers(topology, "Connectivity", 1, used ? chunk : kSmallChunk);
+    integers(topology, "Offsets", 1, used ? chunk : kSmallChunk);
+  }
+  const Handle data = h5::create_group(root, "PointData");
+  const Handle steps = h5::create_group(root, "Steps");
+  h5::write_integer(steps, "NSteps", 0);
+  const Handle times = create_table(steps, "Values", H5T_IEEE_F64LE, 1, kSmallChunk);
+  h5::write_text(times, "unit", "s");
+  for (const char* name : {"PartOffsets", "NumberOfParts", "PointOffsets"})
+    integers(steps, name, 1, kSmallChunk);
+  for (const char* name : {"CellOffsets", "ConnectivityIdOffsets"})
+    integers(steps, name, kTopologies.size(), kSmallChunk);
+  const Handle offsets = h5::create_group(steps, "PointDataOffsets");
+  for (std::size_t k = 1; k < store.arrays.size(); ++k) {
+    particles(data, store.arrays[k].name, store.arrays[k]);
+    integers(offsets, store.arrays[k].name, 1, kSmallChunk);
+  }
+}
+
+/// Which rows of the file make up each frame.
+struct FrameIndex {
+  std::vector<std::int64_t> parts, points;  // per frame: part, first point
+  std::vector<std::int64_t> counts;         // per part: points in it
+
+  explicit FrameIndex(hid_t root) {
+    const Handle steps = h5::open_group(root, "Steps");
+    const auto n = hsize_t(h5::read_integer(steps, "NSteps"));
+    parts = read_integers(steps, "PartOffsets", n);
+    points = read_integers(steps, "PointOffsets", n);
+    const auto known = n == 0 ? 0 : *std::max_element(parts.begin(), parts.end()) + 1;
+    counts = read_integers(root, "NumberOfPoints", hsize_t(known));
+  }
+  std::size_t frames() const { return parts.size(); }
+  std::int64_t count(std::size_t frame) const { return counts[parts[frame]]; }
+};
+
+/// Adds the vertex cells of one more particle count: 0, 1, ... n - 1.
+void append_part(hid_t root, std::int64_t n) {
+  append_integer(root, "NumberOfPoints", n);
+  for (const char* name : kTopologies) {
+    const Handle topology = h5::open_group(root, name);
+    const std::int64_t cells = name == kTopologies[0] ? n : 0;
+    std::vector<std::int64_t> ids(cells + 1);
+    std::iota(ids.begin(), ids.end(), 0);
+    append_integer(topology, "NumberOfCells", cells);
+    append_integer(topology, "NumberOfConnectivityIds", cells);
+    append_integers(topology, "Connectivity", ids, hsize_t(cells));
+    append_integers(topology, "Offsets", ids, hsize_t(cells + 1));
+  }
+}
+
+/// Row where this array starts in its table: appended, or where it already is.
+std::int64_t place(hid_t table, const HostArray& a, std::int64_t last, bool same_count) {
+  if (h5::scalar_of(table) != a.type) throw h5::Error("array '" + a.name + "' has changed its number type");
+  const std::size_t n = a.count(), row_bytes = size_of(a.type) * a.components;
+  if (same_count && h5::rows_equal(table, a.type, hsize_t(last), n, a.bytes.data(), row_bytes)) return last;
+  const auto start = std::int64_t(h5::extent(table)[0]);
+  append_rows(table, h5::memory_type(a.type), a.bytes.data(), n);
+  return start;
+}
+
+std::int64_t last_of(hid_t parent, const std::string& name, std::size_t frames) {
+  return frames == 0 ? 0 : read_integers(parent, name, frames).back();
+}
+
+void truncate(hid_t root, std::size_t frames) {
+  const FrameIndex index(root);
+  const auto cut = [&](hid_t parent, const std::string& name, std::int64_t rows) {
+    h5::resize(open_dataset(parent, name), hsize_t(rows));
+  };
+  const auto end_of = [&](const std::vector<std::int64_t>& starts) {
+    std::int64_t end = 0;
+    for (std::size_t k = 0; k < frames; ++k) end = std::max(end, starts[k] + index.count(k));
+    return end;
+  };
+  const auto parts = *std::max_element(index.parts.begin(), index.parts.begin() + frames) + 1;
+  const auto cells = std::accumulate(index.counts.begin(), index.counts.begin() + parts, std::int64_t{0});
+
+  cut(root, "NumberOfPoints", parts);
+  cut(root, "Points", end_of(index.points));
+  for (const char* name : kTopologies) {
+    const Handle topology = h5::open_group(root, name);
+    const std::int64_t here = name == kTopologies[0] ? cells : 0;
+    cut(topology, "NumberOfCells", parts);
+    cut(topology, "NumberOfConnectivityIds", parts);
+    cut(topology, "Connectivity", here);
+    cut(topology, "Offsets", here + parts);
+  }
+  const Handle data = h5::open_group(root, "PointData");
+  const Handle steps = h5::open_group(root, "Steps");
+  const Handle offsets = h5::open_group(steps, "PointDataOffsets");
+  for (const auto& name : h5::members(data)) {
+    cut(data, name, end_of(read_integers(offsets, name, frames)));
+    cut(offsets, name, frames);
+  }
+  for (const char* name :
+       {"Values", "PartOffsets", "NumberOfParts", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets"})
+    cut(steps, name, frames);
+  h5::write_integer(steps, "NSteps", frames);
+}
+
+}  // namespace
+
+void FrameFile::append(const HostStore& store, double time) const {
+  std::size_t bytes = 1 << 20;
+  for (const auto& a : store.arrays) bytes += a.bytes.size();
+  need_space(path_, bytes);
+
+  h5::with_file_errors(path_, "write", [&] {
+    const HostArray points = stored_points(store.arrays.at(0), double_points_);
+    if (!std::filesystem::exists(path_)) create_layout(path_, store, points, deflate_);
+    Handle file = h5::open_file(path_, h5::Mode::append);
+    {
+      const Handle root = h5::open_group(file, "VTKHDF");
+      const Handle data = h5::open_group(root, "PointData");
+      const Handle steps = h5::open_group(root, "Steps");
+      const Handle offsets = h5::open_group(steps, "PointDataOffsets");
+      const FrameIndex index(root);
+      const std::size_t frames = index.frames();
+      const bool same_count = frames > 0 && index.count(frames - 1) == std::int64_t(store.count);
+      if (h5::members(data).size() + 1 != store.arrays.size())
+        throw h5::Error("the file was written with other arrays");
+
+      const std::int64_t part = same_count ? index.parts.back() : std::int64_t(index.counts.size());
+      const auto first_cell =
+          std::accumulate(index.counts.begin(), index.counts.begin() + part, std::int64_t{0});
+      if (!same_count) append_part(root, std::int64_t(store.count));
+      append_integer(steps, "PartOffsets", part);
+      append_integer(steps, "NumberOfParts", 1);
+      append_integers(steps, "CellOffsets", {first_cell, 0, 0, 0}, 1);
+      append_integers(steps, "ConnectivityIdOffsets", {first_cell, 0, 0, 0}, 1);
+      append_integer(
+          steps, "PointOffsets",
+          place(open_dataset(root, "Points"), points, frames ? index.points.back() : 0, same_count));
+      for (std::size_t k = 1; k < store.arrays.size(); ++k) {
+        const auto& a = store.arrays[k];
+        const auto last = last_of(offsets, a.name, frames);
+        append_integer(offsets, a.name, place(open_dataset(data, a.name), a, last, same_count));
+      }
+      append_rows(open_dataset(steps, "Values"), H5T_NATIVE_DOUBLE, &time, 1);
+      h5::write_integer(steps, "NSteps", std::int64_t(frames) + 1);
+    }
+    file.close();
+  });
+}
+
+std::vector<double> FrameFile::times() const {
+  if (!std::filesystem::exists(path_)) return {};
+  return h5::with_file_errors(path_, "read", [&] {
+    const Handle file = h5::open_file(path_, h5::Mode::read);
+    const Handle steps = h5::open_group(file, "VTKHDF/Steps");
+    std::vector<double> values(h5::read_integer(steps, "NSteps"));
+    h5::read_rows(open_dataset(steps, "Values"), H5T_NATIVE_DOUBLE, 0, values.size(), values.data());
+    return values;
+  });
+}
+
+void FrameFile::keep(std::size_t count) const {
+  if (count == 0) {
+    std::error_code not_there;
+    std::filesystem::remove(path_, not_there);
+    return;
+  }
+  h5::with_file_errors(path_, "write", [&] {
+    Handle file = h5::open_file(path_, h5::Mode::append);
+    truncate(h5::open_group(file, "VTKHDF"), count);
+    file.close();
+  });
+}
+
+}  // namespace bedload

@@ -1,0 +1,119 @@
+// The XDMF side-car of a frame file, for readers that do not know VTKHDF.
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+#include "bedload/output/files.hpp"
+#include "bedload/output/h5_table.hpp"
+#include "bedload/output/vtkhdf.hpp"
+
+namespace bedload {
+namespace {
+
+using h5::Handle;
+
+/// One array of the file and the row at which each frame of it starts.
+struct Source {
+  std::string name, path, number, unit;
+  hsize_t rows = 0, columns = 1;
+  std::vector<std::int64_t> starts;
+};
+
+std::string number_type(Scalar type) {
+  const bool real = type == Scalar::f32 || type == Scalar::f64;
+  return fmt::format(R"(NumberType="{}" Precision="{}")", real ? "Float" : "UInt", size_of(type));
+}
+
+Source source_of(hid_t parent, const std::string& name, const std::string& path,
+                 std::vector<std::int64_t> starts) {
+  const Handle table = h5::open_dataset(parent, name);
+  const auto n = h5::extent(table);
+  return {name,
+          path,
+          number_type(h5::scalar_of(table)),
+          h5::read_text(table, "unit"),
+          n[0],
+          n.size() > 1 ? n[1] : 1,
+          std::move(starts)};
+}
+
+const char* kind_of(hsize_t columns) {
+  switch (columns) {
+    case 1:
+      return "Scalar";
+    case 3:
+      return "Vector";
+    case 6:
+      return "Tensor6";
+    case 9:
+      return "Tensor";
+    default:
+      return "Matrix";
+  }
+}
+
+std::string slab(const std::string& file, const Source& s, std::size_t frame, std::int64_t count) {
+  const bool flat = s.columns == 1;
+  const auto shape = [&](auto rows) {
+    return flat ? fmt::format("{}", rows) : fmt::format("{} {}", rows, s.columns);
+  };
+  const std::string region = flat ? fmt::format("{} 1 {}", s.starts[frame], count)
+                                  : fmt::format("{} 0 1 1 {} {}", s.starts[frame], count, s.columns);
+  return fmt::format(
+      "        <DataItem ItemType=\"HyperSlab\" Dimensions=\"{}\" {}>\n"
+      "          <DataItem Dimensions=\"3 {}\" Format=\"XML\">{}</DataItem>\n"
+      "          <DataItem Format=\"HDF\" Dimensions=\"{}\" {}>{}:/VTKHDF/{}</DataItem>\n"
+      "        </DataItem>\n",
+      shape(count), s.number, flat ? 1 : 2, region, shape(s.rows), s.number, file, s.path);
+}
+
+}  // namespace
+
+void FrameFile::write_xdmf() const {
+  std::vector<double> at;
+  std::vector<std::int64_t> counts;
+  Source points;
+  std::vector<Source> arrays;
+  const auto read = [&] {
+    const Handle file = h5::open_file(path_, h5::Mode::read);
+    const Handle root = h5::open_group(file, "VTKHDF");
+    const Handle steps = h5::open_group(root, "Steps");
+    const Handle offsets = h5::open_group(steps, "PointDataOffsets");
+    const Handle data = h5::open_group(root, "PointData");
+    const auto parts = h5::read_integers(steps, "PartOffsets", at.size());
+    const auto sizes =
+        h5::read_integers(root, "NumberOfPoints", hsize_t(parts.empty() ? 0 : parts.back() + 1));
+    for (const auto part : parts) counts.push_back(sizes[part]);
+    points = source_of(root, "Points", "Points", h5::read_integers(steps, "PointOffsets", at.size()));
+    for (const auto& name : h5::members(data))
+      arrays.push_back(
+          source_of(data, name, "PointData/" + name, h5::read_integers(offsets, name, at.size())));
+  };
+  at = times();
+  if (at.empty()) return;
+  h5::with_file_errors(path_, "read", read);
+
+  const std::string file = path_.filename().string();
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
+      "  <Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+  const auto out = std::back_inserter(text);
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    fmt::format_to(out, "    <Grid Name=\"{}\" GridType=\"Uniform\">\n      <Time Value=\"{}\"/>\n",
+                   path_.stem().string(), at[k]);
+    fmt::format_to(out, "      <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n", counts[k]);
+    fmt::format_to(out, "      <Geometry GeometryType=\"XYZ\">\n{}      </Geometry>\n",
+                   slab(file, points, k, counts[k]));
+    for (const auto& a : arrays)
+      fmt::format_to(out,
+                     "      <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">\n{}"
+                     "        <Information Name=\"unit\" Value=\"{}\"/>\n      </Attribute>\n",
+                     a.name, kind_of(a.columns), slab(file, a, k, counts[k]), a.unit);
+    text += "    </Grid>\n";
+  }
+  text += "  </Grid>\n</Domain>\n</Xdmf>\n";
+  write_file(path_.parent_path() / (path_.stem().string() + ".xdmf"), text);
+}
+
+}  // namespace bedload

@@ -1,0 +1,44 @@
+#include "kernels/contact/contact_law.hpp"
+
+#include <cmath>
+
+#include "bedload/core/error.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+ContactLaw make_contact_law(const Config& config) {
+  const GrainConfig& g = config.grain;
+  const ContactConfig& c = config.contact;
+  ContactLaw law;
+  law.normal = c.normal == "none" ? NormalLaw::none : c.normal == "linear" ? NormalLaw::linear : NormalLaw::hertz;
+  law.sliding = c.tangential == "none"                  ? SlidingLaw::none
+                : c.tangential == "linear"              ? SlidingLaw::linear
+                : c.tangential == "mindlin_deresiewicz" ? SlidingLaw::mindlin_deresiewicz
+                                                        : SlidingLaw::mindlin;
+  law.rolling = c.rolling == "none" ? RollingLaw::none : c.rolling == "cdt" ? RollingLaw::cdt : RollingLaw::epsd;
+  law.clip_tension = c.clip_tension;
+  law.mu = Real(g.mu);
+
+  // grains and walls are of one material
+  const double shear = g.E / (2 * (1 + g.nu));
+  law.hertz.E_star = Real(g.E / (2 * (1 - g.nu * g.nu)));
+  law.mindlin.G_star = Real(shear / (2 * (2 - g.nu)));
+  const double share = damping_share(g.e);
+  law.hertz.alpha = Real(c.he_damping ? std::sqrt(6.0) * share : hertz_damping(g.e, c.clip_tension));
+  law.spring.k = Real(c.k);
+  if (law.normal == NormalLaw::linear) {
+    if (!(c.k > 0)) throw CaseError("contact.k = " + std::to_string(c.k) + ": must be > 0 N/m for a linear spring");
+    if (c.clip_tension && g.e < std::exp(-2.0))
+      throw CaseError("grain.e = " + std::to_string(g.e) +
+                      ": must be at least 0.136 for a linear spring that never pulls; "
+                      "set contact.clip_tension = false");
+    law.spring.beta = Real(c.clip_tension ? damping_share_clipped(g.e) : share);
+  }
+  law.linear_sliding.ratio = Real(c.kt_ratio);
+  law.deresiewicz = {Real(g.mu), Real(g.mu * (2 - g.nu) / (2 - 2 * g.nu)), Real(share)};
+  law.epsd = {Real(g.mu_r), Real(c.eta_r)};
+  law.cdt = {Real(g.mu_r), c.cap_rolling};
+  return law;
+}
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,100 @@
+// Contact histories to and from a checkpoint.
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <string>
+
+#include "src/solids/solid_solver.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// The lists as they stand, on the host.
+struct HostList {
+  std::vector<std::uint64_t> offset;
+  std::vector<std::uint32_t> count;
+  std::vector<Index> entry;
+
+  explicit HostList(const VerletList& list) {
+    const VerletListView view = list.view();
+    offset.resize((list.rows() + kSlice - 1) / kSlice + 1);
+    count.resize(list.rows());
+    entry.resize(list.slots());
+    copy_to_host(offset.data(), view.offset, offset.size() * sizeof offset[0]);
+    copy_to_host(count.data(), view.count, count.size() * sizeof count[0]);
+    copy_to_host(entry.data(), view.entry, entry.size() * sizeof entry[0]);
+  }
+  VerletListView view() const { return {offset.data(), count.data(), entry.data()}; }
+};
+
+template <class T>
+HostArray to_array(const char* name, const char* unit, const std::vector<T>& values) {
+  HostArray a{name, unit, FileType<T>::scalar, FileType<T>::components, {}};
+  a.bytes.resize(values.size() * sizeof(T));
+  std::memcpy(a.bytes.data(), values.data(), a.bytes.size());
+  return a;
+}
+
+template <class T>
+const T* from_array(const HostStore& store, const char* name) {
+  const HostArray* a = store.find(name);
+  if (!a || a->type != FileType<T>::scalar || a->components != FileType<T>::components || a->count() != store.count)
+    throw FileError("checkpoint has no usable array " + store.name + "/" + name);
+  return a->as<T>();
+}
+
+std::uint64_t pair_key(Id lo, Id hi) { return std::uint64_t(lo) << 32 | hi; }
+
+}  // namespace
+
+HostStore SolidSolver::save_contacts(const GrainStore& grains) const {
+  const HostList list(list_);
+  const std::vector<ContactHistory> history = history_.to_host();
+  const std::vector<Id> id = grains.id.values();
+  std::vector<Id> lo, hi;
+  std::vector<ContactHistory> kept;
+  for (Index i = 0; i < list_.rows(); ++i)
+    for (std::uint32_t k = 0; k < list.count[i]; ++k) {
+      const std::uint64_t slot = list.view().slot(i, k);
+      const Id other = id[list.entry[slot]];
+      if (history[slot].overlap == 0 || id[i] > other) continue;  // both partners hold the same
+      lo.push_back(id[i]), hi.push_back(other);
+      kept.push_back(history[slot]);
+    }
+  return {"contacts",
+          kept.size(),
+          {to_array("lo", "-", lo), to_array("hi", "-", hi), to_array("history", "m, N m, m, m/s", kept)}};
+}
+
+void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostStore& contacts) {
+  grid.sort<Vec3d>(frame_, grains.x_list.span(), order_);
+  const std::vector<Index> order = order_.to_host();
+  if (!std::is_sorted(order.begin(), order.end()))
+    throw FileError("checkpoint: grains are not in the order in which this build keeps them");
+  build_list(grains, grid);
+
+  const Id* lo = from_array<Id>(contacts, "lo");
+  const Id* hi = from_array<Id>(contacts, "hi");
+  const ContactHistory* kept = from_array<ContactHistory>(contacts, "history");
+  std::map<std::uint64_t, const ContactHistory*> by_pair;
+  for (std::size_t c = 0; c < contacts.count; ++c) by_pair[pair_key(lo[c], hi[c])] = &kept[c];
+
+  const HostList list(list_);
+  const std::vector<Id> id = grains.id.values();
+  std::vector<ContactHistory> history(list_.slots());
+  std::size_t found = 0;
+  for (Index i = 0; i < list_.rows(); ++i)
+    for (std::uint32_t k = 0; k < list.count[i]; ++k) {
+      const std::uint64_t slot = list.view().slot(i, k);
+      const Id other = id[list.entry[slot]];
+      const auto it = by_pair.find(pair_key(std::min(id[i], other), std::max(id[i], other)));
+      if (it == by_pair.end()) continue;
+      history[slot] = *it->second;
+      ++found;
+    }
+  if (found != 2 * contacts.count)
+    throw FileError("checkpoint: contacts between grains that are not near each other");
+  history_.assign(history);
+}
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,214 @@
+#include "src/solids/solid_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "kernels/integrate/grain_substep.hpp"
+#include "kernels/integrate/grain_sums.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+struct WrapGrains {
+  Frame frame;
+  Span<Vec3d> x, x_list;
+  BL_HD void operator()(Index i) const { x_list[i] = x[i] = frame.wrap(x[i]); }
+};
+
+}  // namespace
+
+SolidSolver::SolidSolver(const Config& config, const Frame& frame, GrainStore& grains)
+    : config_(config),
+      frame_(frame),
+      law_(make_contact_law(config)),
+      d_min_(config.grain.d_min > 0 ? config.grain.d_min : config.grain.d),
+      d_max_(config.grain.d_max > 0 ? config.grain.d_max : config.grain.d),
+      skin_(config.skin_grain * d_min_),
+      surfaces_(make_surfaces(config)) {
+  device_surfaces_.assign(surfaces_);
+  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+    const std::string name = "wall_history_" + std::to_string(s);
+    wall_history_.push_back(
+        std::make_unique<Field<ContactHistory>>(grains, name.c_str(), "m, N m, m, m/s", Lifetime::kept));
+    wall_history_.back()->resize(grains.size());
+  }
+}
+
+void SolidSolver::refresh(GrainStore& grains, CellGrid& grid) {
+  for_each(grains.owned(), WrapGrains{frame_, grains.x, grains.x_list});
+  grid.sort<Vec3d>(frame_, grains.x.span(), order_);
+  grains.reorder(order_);
+  std::swap(list_, old_list_);
+  history_.swap(old_history_);
+  build_list(grains, grid);
+  if (old_list_.rows() == grains.size())
+    for_each(grains.owned(), CarryHistoryPass{old_list_.view(), list_.view(), order_, old_history_.data(),
+                                              history_.data()});
+}
+
+void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
+  list_.build(grains.size(), grid.view(),
+              GrainNear{frame_, grains.x_list.span(), grains.radius.span(), 0.5 * d_max_, skin_});
+  history_.reserve_and_resize(list_.slots());
+  history_.zero();
+}
+
+// -- limits ------------------------------------------------------------------
+
+GrainWatch SolidSolver::watch(const GrainStore& g) const {
+  const auto v = reduce(g.owned(), WatchReduction{frame_, mass_per_r3(), g.x.span(), g.x_list.span(), g.v.span(),
+                                                  g.omega.span(), g.radius.span(), g.K.span(), g.id.span()});
+  return {std::sqrt(v.speed2), std::sqrt(v.displacement2), v.drag_rate, Id(v.bad)};
+}
+
+std::vector<StepLimit> SolidSolver::limits(const GrainWatch& w) const {
+  const GrainConfig& g = config_.grain;
+  const TimeConfig& t = config_.time;
+  std::vector<StepLimit> limits;
+  const double R = 0.5 * d_min_, m = mass_per_r3() * R * R * R;
+  const double shear = g.E / (2 * (1 + g.nu));
+  limits.push_back(
+      {"rayleigh", t.rayleigh * M_PI * R * std::sqrt(g.rho / shear) / (0.1631 * g.nu + 0.8766), false});
+
+  // a pair of the smallest grains touches most briefly
+  const double m_star = 0.5 * m, R_star = 0.5 * R;
+  const double E_star = g.E / (2 * (1 - g.nu * g.nu));
+  const double v = std::max(2 * w.speed, std::sqrt(norm(config_.gravity) * d_max_));
+  double contact = std::numeric_limits<double>::infinity(), stiffness = config_.contact.k;
+  if (law_.normal == NormalLaw::linear) {
+    const double share = damping_share(g.e);
+    contact = M_PI * std::sqrt(m_star / config_.contact.k) / std::sqrt(1 - share * share);
+  } else if (law_.normal == NormalLaw::hertz && v > 0) {
+    contact = 2.8683 * std::pow(m_star * m_star / (R_star * E_star * E_star * v), 0.2);
+    const double overlap = std::pow(15 * m_star * v * v / (16 * E_star * std::sqrt(R_star)), 0.4);
+    stiffness = 2 * E_star * std::sqrt(R_star * overlap);
+  }
+  if (std::isfinite(contact)) limits.push_back({"contact", t.contact * contact, false});
+  if (law_.rolling == RollingLaw::epsd && g.mu_r > 0 && stiffness > 0) {
+    const double rolling_inertia = 0.5 * 1.4 * m * R * R;
+    const double k_r = 2.25 * stiffness * g.mu_r * g.mu_r * R_star * R_star;
+    limits.push_back({"rolling", 0.2 * std::sqrt(rolling_inertia / k_r), false});
+  }
+  if (config_.couple.integrator == "explicit" && w.drag_rate > 0)
+    limits.push_back({"grain drag", t.drag / w.drag_rate, false});
+  return limits;
+}
+
+StableStep SolidSolver::stable_dt(const GrainWatch& w) const {
+  StableStep least{std::numeric_limits<double>::infinity(), "rayleigh"};
+  for (const StepLimit& l : limits(w)) {
+    if (!(l.seconds < least.seconds)) continue;
+    least.seconds = l.seconds;
+    least.limit = l.name == "rayleigh"  ? "rayleigh"
+                  : l.name == "contact" ? "contact"
+                  : l.name == "rolling" ? "rolling"
+                                        : "grain drag";
+  }
+  return least;
+}
+
+// -- motion ------------------------------------------------------------------
+
+double SolidSolver::mass_per_r3() const { return 4.0 / 3.0 * M_PI * config_.grain.rho; }
+
+ContactHistory* const* SolidSolver::wall_histories() const {
+  std::vector<ContactHistory*> now;
+  for (const auto& field : wall_history_) now.push_back(field->buffer().data());
+  if (now != wall_pointers_) {
+    wall_pointers_ = now;
+    device_wall_pointers_.assign(wall_pointers_);
+  }
+  return device_wall_pointers_.data();
+}
+
+ContactPass SolidSolver::contact_pass(const GrainStore& g, const BodyPose* poses, double dt) const {
+  return {.frame = frame_,
+          .law = law_,
+          .mass_per_r3 = Real(mass_per_r3()),
+          .dt = Real(dt),
+          .x = g.x.span(),
+          .v = g.v.span(),
+          .omega = g.omega.span(),
+          .radius = g.radius.span(),
+          .id = g.id.span(),
+          .list = list_.view(),
+          .history = const_cast<ContactHistory*>(history_.data()),
+          .surfaces = device_surfaces_.span(),
+          .wall_history = wall_histories(),
+          .poses = poses};
+}
+
+void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
+  for_each(g.owned(), EvaluatePass{contact_pass(g, poses.data, 0), g.force, g.torque});
+}
+
+void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies, double dt, int substeps,
+                          bool held) {
+  if (held || config_.grain.fixed) {
+    for_each(g.owned(), HeldPass{dt, g.U, g.omega_f, g.K, g.K_rot, g.impulse, g.spin_impulse, g.drag_force});
+    evaluate(g, {poses.data + std::size_t(substeps) * bodies, Index(bodies)});
+    return;
+  }
+  const Index n = g.size();
+  next_x_.resize(n), next_v_.resize(n), next_omega_.resize(n), v_rest_.resize(n), omega_rest_.resize(n);
+  const double tau = dt / substeps;
+  const GrainKick kick{config_.gravity,
+                       mass_per_r3(),
+                       0.5 * tau,
+                       config_.couple.integrator == "exponential",
+                       g.radius,
+                       g.fluid_force,
+                       g.U,
+                       g.omega_f,
+                       g.K,
+                       g.K_rot};
+  for_each(g.owned(),
+           FirstKickPass{kick, g.force, g.torque, g.x, g.v, g.omega, v_rest_, omega_rest_, g.impulse, g.spin_impulse});
+  for (int s = 1; s <= substeps; ++s) {
+    const ContactPass contacts = contact_pass(g, poses.data + std::size_t(s) * bodies, tau);
+    if (s < substeps) {
+      for_each(g.owned(), SubstepPass{contacts, kick, next_x_, next_v_, next_omega_, v_rest_, omega_rest_, g.impulse,
+                                      g.spin_impulse});
+      g.x.buffer().swap(next_x_);
+    } else {
+      for_each(g.owned(), LastKickPass{contacts, kick, dt, next_v_, next_omega_, v_rest_, omega_rest_, g.impulse,
+                                       g.spin_impulse, g.force, g.torque, g.drag_force});
+    }
+    g.v.buffer().swap(next_v_);
+    g.omega.buffer().swap(next_omega_);
+  }
+}
+
+// -- sums --------------------------------------------------------------------
+
+GrainTotals SolidSolver::totals(const GrainStore& g) const {
+  using T = TotalsReduction;
+  const T::Value v = reduce(g.owned(), T{contact_pass(g, nullptr, 0)});
+  GrainTotals t;
+  t.mass = v.sum[T::mass];
+  t.kinetic = v.sum[T::kinetic];
+  t.rotational = v.sum[T::rotational];
+  t.elastic = v.sum[T::elastic];
+  t.momentum = {v.sum[T::px], v.sum[T::py], v.sum[T::pz]};
+  t.angular = {v.sum[T::lx], v.sum[T::ly], v.sum[T::lz]};
+  if (t.mass > 0) t.centre = Vec3d{v.sum[T::cx], v.sum[T::cy], v.sum[T::cz]} * (1 / t.mass);
+  t.max_speed = std::sqrt(v.speed2);
+  t.max_overlap = v.overlap;
+  t.contacts = v.sum[T::pairs];
+  t.wall_contacts = v.sum[T::walls];
+  if (g.size() > 0) t.coordination = 2 * t.contacts / g.size();
+  return t;
+}
+
+std::vector<BodyLoad> SolidSolver::body_loads(const GrainStore& g, Span<const BodyPose> poses) const {
+  std::vector<BodyLoad> loads(config_.wall.bodies.size());
+  for (std::uint32_t b = 0; b < loads.size(); ++b) {
+    const auto v = reduce(g.owned(), BodyLoadReduction{contact_pass(g, poses.data, 0), b});
+    loads[b] = {{v.sum[0], v.sum[1], v.sum[2]}, {v.sum[3], v.sum[4], v.sum[5]}};
+  }
+  return loads;
+}
+
+}  // namespace bedload::inline BL_VARIANT

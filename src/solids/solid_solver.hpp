@@ -1,0 +1,120 @@
+#pragma once
+// Moves the grains: contacts with each other and with walls, fluid forces, drag, in substeps.
+
+#include <memory>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+#include "bedload/neighbours/verlet_list.hpp"
+#include "bedload/particles/grains.hpp"
+#include "bedload/particles/walls.hpp"
+#include "bedload/simulation.hpp"
+#include "kernels/contact/contact_law.hpp"
+#include "kernels/contact/contact_pass.hpp"
+#include "kernels/walls/surface.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Extremes over all grains that steps and lists depend on; one reduction.
+struct GrainWatch {
+  double speed = 0;         ///< largest, m/s
+  double displacement = 0;  ///< largest since the lists were built, m
+  double drag_rate = 0;     ///< largest K/m, 1/s
+  Id bad = kNone;           ///< smallest id of a grain whose position, velocity or spin is not finite
+};
+
+/// A step limit and its name: "rayleigh", "contact", "rolling", "grain drag".
+struct StableStep {
+  double seconds = 0;
+  std::string_view limit;
+};
+
+/// Sums over all grains, in fp64.
+struct GrainTotals {
+  double mass = 0;               ///< kg
+  double kinetic = 0;            ///< of translation, J
+  double rotational = 0;         ///< J
+  double elastic = 0;            ///< stored in contacts, J
+  Vec3d momentum;                ///< kg m/s
+  Vec3d angular;                 ///< about the origin, spin included, kg m2/s
+  Vec3d centre;                  ///< of mass, m
+  double max_speed = 0;          ///< m/s
+  double max_overlap = 0;        ///< overlap / diameter, walls included
+  double contacts = 0;           ///< pairs of touching grains
+  double wall_contacts = 0;
+  double coordination = 0;       ///< touching grains per grain, mean
+};
+
+/// Force and torque of the grains on one wall body.
+struct BodyLoad {
+  Vec3d force;   ///< N
+  Vec3d torque;  ///< about BodyPose::centre + translation, N m
+};
+
+class SolidSolver {
+ public:
+  /// Registers the wall histories with `grains`: construct before the store is filled or loaded.
+  /// Throws CaseError where the damping asked for cannot be had.
+  SolidSolver(const Config& config, const Frame& frame, GrainStore& grains);
+
+  double skin() const { return skin_; }             ///< m
+  double range() const { return d_max_ + skin_; }   ///< largest centre distance in the lists, m
+  const std::vector<Surface>& surfaces() const { return surfaces_; }
+  const ContactLaw& law() const { return law_; }
+
+  /// Wraps, sorts and lists the grains anew; histories of surviving pairs carry over.
+  /// order() then says where each grain was.
+  void refresh(GrainStore& grains, CellGrid& grid);
+  const Buffer<Index>& order() const { return order_; }
+  const VerletList& list() const { return list_; }
+
+  GrainWatch watch(const GrainStore& grains) const;
+  /// All limits on a substep; none of them binds is marked (the caller takes the least).
+  std::vector<StepLimit> limits(const GrainWatch& watch) const;
+  StableStep stable_dt(const GrainWatch& watch) const;
+  StableStep stable_dt(const GrainStore& grains) const { return stable_dt(watch(grains)); }
+
+  /// Contact forces where the grains are, with no time passing; poses: [bodies] on the device. For a fresh
+  /// start only: a loaded state brings its forces along.
+  void evaluate(GrainStore& grains, Span<const BodyPose> poses);
+  /// `substeps` velocity-Verlet substeps over dt (s). poses: device array [substeps + 1][bodies], at the start
+  /// and after each substep. Reads fluid_force, U, omega_f, K, K_rot; leaves the drag impulses of this call in
+  /// impulse and spin_impulse, their mean in drag_force. Held (or fixed) grains keep place and velocity; the
+  /// fluid feels them as resting.
+  void advance(GrainStore& grains, Span<const BodyPose> poses, int bodies, double dt, int substeps, bool held);
+
+  GrainTotals totals(const GrainStore& grains) const;
+  /// One entry per wall body; poses: [bodies] on the device.
+  std::vector<BodyLoad> body_loads(const GrainStore& grains, Span<const BodyPose> poses) const;
+
+  /// Histories of touching pairs: arrays "lo", "hi" (ids) and "history".
+  HostStore save_contacts(const GrainStore& grains) const;
+  /// After `grains` has been loaded: rebuilds the lists as they were at the last refresh and restores the
+  /// histories, to the last bit. Throws FileError.
+  void load_contacts(GrainStore& grains, CellGrid& grid, const HostStore& contacts);
+
+ private:
+  void build_list(const GrainStore& grains, const CellGrid& grid);
+  double mass_per_r3() const;
+  ContactHistory* const* wall_histories() const;
+  ContactPass contact_pass(const GrainStore& grains, const BodyPose* poses, double dt) const;
+
+  Config config_;
+  Frame frame_;
+  ContactLaw law_;
+  double d_min_, d_max_, skin_;
+  std::vector<Surface> surfaces_;
+  Buffer<Surface> device_surfaces_;
+  std::vector<std::unique_ptr<Field<ContactHistory>>> wall_history_;  ///< one per surface
+  mutable std::vector<ContactHistory*> wall_pointers_;  ///< into wall_history_, which sorting moves
+  mutable Buffer<ContactHistory*> device_wall_pointers_;
+
+  VerletList list_, old_list_;
+  Buffer<ContactHistory> history_, old_history_;
+  Buffer<Index> order_;
+  // scratch of advance
+  Buffer<Vec3d> next_x_;
+  Buffer<Real3> next_v_, next_omega_, v_rest_, omega_rest_;
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,50 @@
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+#include "bedload/core/error.hpp"
+#include "bedload/simulation.hpp"
+
+namespace bedload {
+
+/// Time, steps, and which limit binds the next one.
+class Clock {
+ public:
+  explicit Clock(const TimeConfig& config) : config_(config) {}
+
+  double time = 0;       ///< s
+  std::int64_t step = 0;
+  double last_dt = 0;    ///< s
+
+  /// The least of the limits; adaptive steps grow by at most 5 %. A fixed step above a limit is
+  /// a CaseError unless forced.
+  double next_dt(std::vector<StepLimit> limits, std::string_view& binding) const {
+    if (config_.dt > 0) {
+      binding = "fixed";
+      for (const auto& l : limits)
+        if (config_.dt > l.seconds * (1 + 1e-9) && !config_.force_dt)
+          throw CaseError("time.dt = " + std::to_string(config_.dt * 1e6) + " us: must be at most " +
+                          std::to_string(l.seconds * 1e6) + " us; limited by " + l.name + " at t = " +
+                          std::to_string(time) + " s");
+      return config_.dt;
+    }
+    double dt = last_dt > 0 ? 1.05 * last_dt : std::numeric_limits<double>::infinity();
+    binding = "growth";
+    for (const auto& l : limits)
+      if (l.seconds < dt) dt = l.seconds, binding = intern(l.name);
+    return dt;
+  }
+
+ private:
+  static std::string_view intern(const std::string& name) {
+    for (std::string_view known : {"cfl", "viscous", "body", "drag", "travel", "contact", "rayleigh", "rolling"})
+      if (known == name) return known;
+    return "other";
+  }
+  TimeConfig config_;
+};
+
+}  // namespace bedload

@@ -1,0 +1,218 @@
+#include "src/time/coupled_simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "src/measure/sweeps.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+StepInfo CoupledSimulation::step() {
+  std::string_view binding;
+  const double dt = clock_.next_dt(limits(), binding);
+  refresh_if_needed(dt);
+
+  int substeps = 0;
+  if (has_grains()) {
+    substeps = std::max(1, int(std::ceil(dt / solid_solver_->stable_dt(grain_watch_).seconds * (1 - 1e-9))));
+    if (config_.time.dt_dem > 0) substeps = std::max(1, int(std::ceil(dt / config_.time.dt_dem * (1 - 1e-9))));
+    if (coupled()) {
+      coupling_->gather(fluid_, grains_, dt);
+      drag_limit_ = coupling_->stable_dt();
+    }
+    solid_solver_->advance(grains_, motion_.poses(clock_.time, dt, substeps), motion_.bodies(), dt, substeps, held());
+    if (two_way()) coupling_->react(fluid_, grains_);
+  }
+  if (has_fluid()) advance_fluid(dt);
+
+  clock_.time += dt;
+  clock_.last_dt = dt;
+  ++clock_.step;
+  walls_moved_ += dt * motion_.top_speed(clock_.time);
+  remove_cleared_bodies();
+  sweep();
+  const bool rebuilt = std::exchange(rebuilt_, false);
+  return {clock_.step, clock_.time, dt, substeps, binding, std::sqrt(fluid_extremes_.v2), rebuilt};
+}
+
+/// Kick-drift-kick, or symplectic Euler (density, velocity, position; the order of [H] Fig. 3).
+void CoupledSimulation::advance_fluid(double dt) {
+  FluidSolver& fluid = *fluid_solver_;
+  const bool euler = config_.time.integrator == "euler";
+  const double half = euler ? 0 : dt / 2;
+  if (euler) fluid.density(fluid_, walls_, dt, 0);
+  fluid.kick_drift(fluid_, dt - half, dt, two_way());
+  if (walls_.size() > 0) {
+    WallMotion::place(frame_, walls_, motion_.poses(clock_.time + dt, 0, 1));
+    fluid.pack(fluid_, walls_);
+  }
+  if (!euler) fluid.density(fluid_, walls_, dt, half);
+  fluid.accept_density(fluid_);
+  evaluate_fluid(dt, half);
+  fluid.correct(fluid_, half);
+}
+
+void CoupledSimulation::evaluate_fluid(double dt, double predict) {
+  FluidSolver& fluid = *fluid_solver_;
+  if (two_way()) coupling_->porosity(fluid_, grains_);
+  fluid.state(fluid_, predict, two_way());
+  if (walls_.size() > 0) fluid.walls(fluid_, walls_, motion_.poses(clock_.time + dt, 0, 1), two_way());
+  fluid.forces(fluid_, walls_, dt);
+}
+
+std::vector<StepLimit> CoupledSimulation::limits() {
+  std::vector<StepLimit> out;
+  const auto& t = config_.time;
+  if (has_fluid()) {
+    const double hs = fluid_solver_->range() / 2, c = config_.fluid.c;
+    out.push_back({"cfl", t.cfl * hs / (c + std::sqrt(fluid_extremes_.v2))});
+    if (config_.visc.model != "none" && config_.fluid.mu > 0)
+      out.push_back({"viscous", t.visc * hs * hs * fluid_extremes_.eps_min * config_.fluid.rho0 / config_.fluid.mu});
+    if (fluid_extremes_.acc2 > 0) out.push_back({"body", t.body * std::sqrt(hs / std::sqrt(fluid_extremes_.acc2))});
+    if (coupled()) out.push_back({"drag", drag_limit_});
+  }
+  const double wall_speed = motion_.top_speed(clock_.time);
+  double travel = std::numeric_limits<double>::infinity();
+  if (has_grains()) {
+    const double v = grain_watch_.speed;
+    if (v > 0 && !held()) travel = 0.05 * config_.grain.d_min / v;
+    // without fluid there is no other clock: a step is a handful of substeps
+    if (!has_fluid()) out.push_back({"contact", 20 * solid_solver_->stable_dt(grain_watch_).seconds});
+  }
+  if (wall_speed > 0) travel = std::min(travel, 0.1 * (has_fluid() ? config_.fluid.dx : config_.grain.d_min) / wall_speed);
+  if (std::isfinite(travel)) out.push_back({"travel", travel});
+  auto least = std::min_element(out.begin(), out.end(), [](auto& a, auto& b) { return a.seconds < b.seconds; });
+  if (least != out.end()) least->binds = true;
+  return out;
+}
+
+void CoupledSimulation::sweep() {
+  const auto fault = [&](const char* what, Id id, const Vec3d& x, const char* cause) {
+    char text[400];
+    std::snprintf(text, sizeof text,
+                  "%s %u at (%.6g, %.6g, %.6g) m broke down at t = %.6g s, step %lld: %s", what, id, x.x, x.y, x.z,
+                  clock_.time, static_cast<long long>(clock_.step), cause);
+    throw SimulationFault(text);
+  };
+  if (has_fluid()) {
+    fluid_extremes_ = fluid_solver_->extremes(fluid_);
+    if (const Index a = fluid_extremes_.bad; a != kNone)
+      fault("fluid particle", fluid_.id.values()[a], coordinates(frame_, fluid_.x.values()[a]),
+            "its density left 0.5..2 rho0 or became NaN; likely causes: fluid.vmax too low (sound speed), time step "
+            "too large, or fluid overlapping walls or grains at the start");
+  }
+  if (has_grains()) {
+    grain_watch_ = solid_solver_->watch(grains_);
+    if (const Id bad = grain_watch_.bad; bad != kNone) {
+      const auto id = grains_.id.values();
+      const std::size_t i = std::find(id.begin(), id.end(), bad) - id.begin();
+      fault("grain", bad, grains_.x.values()[i],
+            "its position or velocity became NaN; likely causes: overlapping grains at the start or time.dt_dem too large");
+    }
+  }
+}
+
+void CoupledSimulation::settle(double longest, const std::function<void(double)>& progress) {
+  if (!has_grains()) return;
+  refresh();
+  solid_solver_->evaluate(grains_, poses_now());
+  const double rest = 1e-3 * std::sqrt(norm(config_.gravity) * config_.grain.d_max);  // rms speed, m/s
+  double done = 0;
+  for (int k = 0; done < longest; ++k) {
+    grain_watch_ = solid_solver_->watch(grains_);
+    const double v = grain_watch_.speed, tau = solid_solver_->stable_dt(grain_watch_).seconds;
+    const double dt = std::min({20 * tau, v > 0 ? 0.05 * config_.grain.d_min / v : 20 * tau, longest - done});
+    if (2 * (grain_watch_.displacement + 1.5 * v * dt) > solid_solver_->skin()) solid_solver_->refresh(grains_, grain_grid_);
+    const int n = std::max(1, int(std::ceil(dt / tau)));
+    solid_solver_->advance(grains_, motion_.poses(clock_.time, 0, n), motion_.bodies(), dt, n, false);
+    done += dt;
+    if (k % 50 == 0) {
+      progress(done);
+      const auto totals = solid_solver_->totals(grains_);
+      if (k > 0 && std::sqrt(2 * totals.kinetic / totals.mass) < rest) break;
+    }
+  }
+  grains_.v.buffer().zero();
+  grains_.omega.buffer().zero();
+}
+
+void CoupledSimulation::refresh_if_needed(double dt) {
+  bool due = false;
+  double fluid_moved = 0, grain_moved = 0;  // by the end of this step, m
+  if (has_fluid()) {
+    fluid_moved = std::sqrt(fluid_extremes_.moved2) + dt * (std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2));
+    const double wall = walls_moved_ + dt * motion_.top_speed(clock_.time);
+    due = due || 2 * fluid_moved > fluid_solver_->skin() || fluid_moved + wall > fluid_solver_->skin();
+  }
+  if (has_grains() && !config_.grain.fixed) {
+    grain_moved = grain_watch_.displacement + 1.5 * dt * (grain_watch_.speed + dt * norm(config_.gravity));
+    due = due || 2 * grain_moved > solid_solver_->skin();
+  }
+  if (coupled()) due = due || fluid_moved + grain_moved > (fluid_solver_->skin() + solid_solver_->skin()) / 2;
+  if (due) refresh();
+}
+
+void CoupledSimulation::refresh() {
+  if (has_fluid()) {
+    drop_lost_fluid();
+    fluid_solver_->refresh(fluid_, walls_, rebuilds_ == 0 || walls_moved_ > 0);
+  }
+  if (has_grains()) solid_solver_->refresh(grains_, grain_grid_);
+  if (coupled()) relist_coupling();
+  walls_moved_ = 0;
+  rebuilt_ = true;
+  ++rebuilds_;
+}
+
+/// The lists as they were when the checkpoint was written: built where x_list says.
+void CoupledSimulation::restore_lists(const SavedState& state) {
+  if (has_grains()) solid_solver_->load_contacts(grains_, grain_grid_, store_of(state, "contacts"));
+  const auto swap_positions = [&] {
+    fluid_.x.buffer().swap(fluid_.x_list.buffer());
+    walls_.x.buffer().swap(walls_.x_list.buffer());
+    grains_.x.buffer().swap(grains_.x_list.buffer());
+  };
+  swap_positions();
+  if (has_fluid()) fluid_solver_->relist(fluid_, walls_, true);
+  if (coupled()) relist_coupling();
+  swap_positions();
+  if (has_fluid()) fluid_solver_->pack(fluid_, walls_);
+}
+
+void CoupledSimulation::relist_coupling() {
+  coupling_->rebuild_lists(fluid_, fluid_solver_->grid().view(), grains_, grain_grid_.view(),
+                           (fluid_solver_->skin() + solid_solver_->skin()) / 2);
+}
+
+/// Fluid that left the domain through an open side is deleted and tallied.
+void CoupledSimulation::drop_lost_fluid() {
+  const auto lost = sum_over<2>(fluid_.owned(), OutsideBody{frame_, fluid_.x, fluid_.mass});
+  if (lost.v[0] == 0) return;
+  lost_fluid_ += lost.v[0];
+  lost_mass_ += lost.v[1];
+  std::vector<Index> keep;
+  const auto x = fluid_.x.values();
+  for (Index a = 0; a < fluid_.size(); ++a)
+    if (!outside(frame_, coordinates(frame_, x[a]))) keep.push_back(a);
+  Buffer<Index> order;
+  order.assign(keep);
+  fluid_.reorder(order);
+}
+
+void CoupledSimulation::remove_cleared_bodies() {
+  const double g = norm(config_.gravity);
+  if (g == 0 || clock_.step % 20 != 0) return;
+  const Vec3d up = config_.gravity * (-1 / g);
+  for (int b = 0; b < motion_.bodies(); ++b) {
+    const auto& motion = config_.wall.bodies[b].motion;
+    if (!motion.remove_when_clear || motion_.removed(b) || clock_.time <= motion.start) continue;
+    double top = -std::numeric_limits<double>::infinity();
+    if (has_fluid()) top = std::max(top, max_over(fluid_.owned(), AlongBody<FluidPosition>{frame_, fluid_.x, up}) + fluid_solver_->range());
+    if (has_grains()) top = std::max(top, max_over(grains_.owned(), AlongBody<Vec3d>{frame_, grains_.x, up}) + config_.grain.d_max);
+    if (motion_.lowest(b, clock_.time, up) > top) motion_.remove(b);
+  }
+}
+
+}  // namespace bedload::inline BL_VARIANT

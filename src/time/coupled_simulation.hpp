@@ -1,0 +1,82 @@
+#pragma once
+// One simulation: the state, the solvers that advance it, and the order of work in a step.
+
+#include "bedload/simulation.hpp"
+#include "src/coupling/coupling.hpp"
+#include "src/fluid/fluid_solver.hpp"
+#include "src/solids/solid_solver.hpp"
+#include "src/time/clock.hpp"
+#include "src/walls/wall_motion.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// The store of that name; FileError without it.
+const HostStore& store_of(const SavedState& state, const std::string& name);
+
+class CoupledSimulation final : public Simulation {
+ public:
+  CoupledSimulation(const Config& config, const Setup& setup);
+
+  StepInfo step() override;
+  void settle(double longest, const std::function<void(double)>& progress) override;
+  void start() override;
+
+  double time() const override { return clock_.time; }
+  std::int64_t steps() const override { return clock_.step; }
+  Counts counts() const override { return {fluid_.size(), walls_.size(), grains_.size()}; }
+  std::vector<StepLimit> limits() override;
+  std::size_t bytes() const override { return bytes_held(); }
+
+  HostStore snapshot(const std::string& store) override;
+  std::vector<Quantity> diagnostics() override;
+  std::vector<Quantity> measure(const ProbeConfig& probe) override;
+
+  SavedState save() override;
+  void load(const SavedState& state) override;
+  SavedState save_grains() override;
+  void load_grains(const SavedState& state) override;
+
+ private:
+  bool has_fluid() const { return config_.fluid.present; }
+  bool has_grains() const { return config_.grain.present; }
+  bool coupled() const { return coupling_ != nullptr; }
+  bool two_way() const { return coupled() && config_.couple.mode == "two_way"; }
+  bool held() const { return config_.grain.fixed || clock_.time < config_.grain.release_time; }
+
+  void upload(const Setup& setup);
+  void lay_fluid();                   ///< superficial mass and density over the grains, hydrostatic pressure
+  void advance_fluid(double dt);
+  void evaluate_fluid(double dt, double predict);  ///< density known: porosity, state, walls, forces
+  void refresh_if_needed(double dt);
+  void refresh();
+  void restore_lists(const SavedState& state);
+  void relist_coupling();
+  void drop_lost_fluid();
+  void remove_cleared_bodies();
+  void sweep();                       ///< extremes after a step; throws SimulationFault
+  Span<const BodyPose> poses_now() { return motion_.poses(clock_.time, 0, 1); }
+  std::vector<Vec3d> wall_loads(const Vec3d& about);  ///< per body: force then torque by fluid, N and N m
+
+  Config config_;
+  Frame frame_;
+  Clock clock_;
+  FluidStore fluid_;
+  WallStore walls_;
+  GrainStore grains_;
+  WallMotion motion_;
+  CellGrid grain_grid_;
+  std::unique_ptr<FluidSolver> fluid_solver_;
+  std::unique_ptr<SolidSolver> solid_solver_;
+  std::unique_ptr<Coupling> coupling_;
+
+  FluidExtremes fluid_extremes_;
+  GrainWatch grain_watch_;
+  double drag_limit_ = std::numeric_limits<double>::infinity();  ///< s, of the last exchange
+  double walls_moved_ = 0;        ///< bound on wall travel since the lists were built, m
+  bool rebuilt_ = false;
+  std::int64_t rebuilds_ = 0;
+  double lost_fluid_ = 0, lost_mass_ = 0;
+  Buffer<Vec3d> wall_force_;
+};
+
+}  // namespace bedload::inline BL_VARIANT

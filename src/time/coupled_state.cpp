@@ -1,0 +1,212 @@
+// How a simulation begins, is saved and continues.
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "src/time/coupled_simulation.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+template <class To, class From>
+std::vector<To> converted(const std::vector<From>& from) {
+  std::vector<To> to;
+  to.reserve(from.size());
+  for (const auto& f : from) to.push_back(To(f));
+  return to;
+}
+
+std::vector<Id> ids(std::size_t n) {
+  std::vector<Id> out(n);
+  std::iota(out.begin(), out.end(), Id(0));
+  return out;
+}
+
+/// Laid fluid takes the share that the grains leave: m = eps m0, and the hydrostatic pressure.
+struct LayPass {
+  EquationOfState eos;
+  Frame frame;
+  Span<const Real> eps, pressure;
+  Span<Real> mass, s;
+  BL_HD void operator()(Index a) const {
+    const Real x = eos.compression(pressure[a]);
+    mass[a] *= eps[a];
+    s[a] = eps[a] * (1 + x) - 1;
+  }
+};
+
+/// Depth below the top of the fill that holds x, along gravity, m.
+double depth_at(const Config& config, const Vec3d& x) {
+  const double g = norm(config.gravity);
+  if (g == 0) return 0;
+  const Vec3d up = config.gravity * (-1 / g);
+  double depth = 0;
+  for (const auto& fill : config.fluid.fills) {
+    bool inside = true;
+    double top = 0;
+    for (int k = 0; k < 3; ++k) {
+      inside = inside && x[k] >= fill.min[k] && x[k] <= fill.max[k];
+      top += up[k] * (up[k] > 0 ? fill.max[k] : fill.min[k]);
+    }
+    if (inside) depth = std::max(depth, top - dot(up, x));
+  }
+  return depth;
+}
+
+/// Gravity works against a wall or a free surface, not along a periodic axis.
+bool hydrostatic(const Config& config) {
+  for (int k = 0; k < 3; ++k)
+    if (config.domain.periodic[k] && config.gravity[k] != 0) return false;
+  return norm(config.gravity) > 0;
+}
+
+}  // namespace
+
+const HostStore& store_of(const SavedState& state, const std::string& name) {
+  for (const auto& s : state.stores)
+    if (s.name == name) return s;
+  throw FileError("checkpoint has no " + name);
+}
+
+CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
+    : config_(config),
+      frame_(config.domain.min, config.domain.max, config.domain.periodic[0], config.domain.periodic[1],
+             config.domain.periodic[2]),
+      clock_(config.time),
+      motion_(config) {
+  if (has_grains()) {
+    solid_solver_ = std::make_unique<SolidSolver>(config, frame_, grains_);
+    grain_grid_ = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, solid_solver_->range());
+  }
+  if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_);
+  if (has_fluid() && has_grains() && config.couple.mode != "off") coupling_ = std::make_unique<Coupling>(config, frame_);
+  upload(setup);
+}
+
+void CoupledSimulation::upload(const Setup& setup) {
+  const auto& f = setup.fluid;
+  fluid_.resize(Index(f.x.size()));
+  fluid_.id.assign(ids(f.x.size()));
+  std::vector<FluidPosition> x;
+  std::vector<Real4> v;
+  for (std::size_t a = 0; a < f.x.size(); ++a) {
+    x.push_back(as_position<FluidPosition>(frame_, f.x[a]));
+    v.push_back({Real3(f.v[a]), Real(config_.fluid.rho0)});
+  }
+  fluid_.x.assign(x);
+  fluid_.v_rho.assign(v);
+  fluid_.mass.assign(converted<Real>(f.mass));
+  fluid_.eps.assign(std::vector<Real>(f.x.size(), Real(1)));
+
+  const auto& w = setup.walls;
+  walls_.resize(Index(w.x.size()));
+  walls_.id.assign(ids(w.x.size()));
+  walls_.x0.assign(w.x);
+  walls_.x.assign(w.x);
+  walls_.body.assign(w.body);
+  if (walls_.size() > 0) WallMotion::place(frame_, walls_, poses_now());
+
+  const auto& g = setup.grains;
+  grains_.resize(Index(g.x.size()));
+  grains_.id.assign(ids(g.x.size()));
+  grains_.x.assign(g.x);
+  grains_.v.assign(converted<Real3>(g.v));
+  grains_.radius.assign(converted<Real>(g.radius));
+  grains_.eps.assign(std::vector<Real>(g.x.size(), Real(1)));
+}
+
+void CoupledSimulation::start() {
+  refresh();
+  if (has_grains()) solid_solver_->evaluate(grains_, poses_now());
+  if (has_fluid()) {
+    lay_fluid();
+    evaluate_fluid(0, 0);
+    fluid_solver_->correct(fluid_, 0);
+  }
+  sweep();
+  if (coupled()) {  // for the first step's drag limit
+    coupling_->gather(fluid_, grains_, 0);
+    drag_limit_ = coupling_->stable_dt();
+  }
+}
+
+void CoupledSimulation::lay_fluid() {
+  if (two_way()) coupling_->porosity(fluid_, grains_);
+  std::vector<Real> pressure(fluid_.size(), Real(0));
+  if (hydrostatic(config_)) {
+    const auto x = fluid_.x.values();
+    for (Index a = 0; a < fluid_.size(); ++a)
+      pressure[a] = Real(config_.fluid.rho0 * norm(config_.gravity) * depth_at(config_, coordinates(frame_, x[a])));
+  }
+  Buffer<Real> device;
+  device.assign(pressure);
+  for_each(fluid_.owned(), LayPass{fluid_solver_->eos(), frame_, fluid_.eps, device, fluid_.mass, fluid_.s});
+}
+
+SavedState CoupledSimulation::save_grains() {
+  SavedState out;
+  if (has_grains()) out.stores = {grains_.save(), solid_solver_->save_contacts(grains_)};
+  return out;
+}
+
+void CoupledSimulation::load_grains(const SavedState& state) {
+  if (!has_grains()) return;
+  grains_.load(store_of(state, "grains"));
+  solid_solver_->load_contacts(grains_, grain_grid_, store_of(state, "contacts"));
+}
+
+SavedState CoupledSimulation::save() {
+  SavedState out = save_grains();
+  if (has_fluid()) {
+    out.stores.push_back(fluid_.save());
+    out.stores.push_back(walls_.save());
+  }
+  out.scalars = {{"time", "s", clock_.time},
+                 {"step", "-", double(clock_.step)},
+                 {"last_dt", "s", clock_.last_dt},
+                 {"drag_limit", "s", drag_limit_},
+                 {"walls_moved", "m", walls_moved_},
+                 {"rebuilds", "-", double(rebuilds_)},
+                 {"lost_fluid", "-", lost_fluid_},
+                 {"lost_mass", "kg", lost_mass_}};
+  for (int b = 0; b < motion_.bodies(); ++b)
+    out.scalars.push_back({"removed_" + std::to_string(b), "-", motion_.removed(b) ? 1.0 : 0.0});
+  return out;
+}
+
+void CoupledSimulation::load(const SavedState& state) {
+  const auto scalar = [&](const std::string& name) {
+    for (const auto& q : state.scalars)
+      if (q.name == name) return q.value;
+    throw FileError("checkpoint has no " + name);
+  };
+  clock_.time = scalar("time");
+  clock_.step = std::int64_t(scalar("step"));
+  clock_.last_dt = scalar("last_dt");
+  drag_limit_ = scalar("drag_limit");
+  walls_moved_ = scalar("walls_moved");
+  rebuilds_ = std::int64_t(scalar("rebuilds"));
+  lost_fluid_ = scalar("lost_fluid");
+  lost_mass_ = scalar("lost_mass");
+  for (int b = 0; b < motion_.bodies(); ++b)
+    if (scalar("removed_" + std::to_string(b)) != 0) motion_.remove(b);
+  if (has_fluid()) {
+    fluid_.load(store_of(state, "fluid"));
+    walls_.load(store_of(state, "walls"));
+  }
+  if (has_grains()) grains_.load(store_of(state, "grains"));
+  restore_lists(state);
+  if (has_fluid() && walls_.size() > 0) {
+    WallMotion::place(frame_, walls_, poses_now());
+    fluid_solver_->pack(fluid_, walls_);
+    fluid_solver_->walls(fluid_, walls_, poses_now(), false);
+  }
+  sweep();
+}
+
+std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup) {
+  return std::make_unique<CoupledSimulation>(config, setup);
+}
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,37 @@
+#pragma once
+#include "bedload/case/config.hpp"
+#include "bedload/parallel/loops.hpp"
+#include "bedload/particles/walls.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Pose and velocity of one body at time t (s): one law for its SPH particles and its DEM surface.
+BodyPose pose_at(const WallBody& body, double t);
+
+/// Moves all bodies; poses live on the device.
+class WallMotion {
+ public:
+  explicit WallMotion(const Config& config);
+
+  int bodies() const { return int(config_.wall.bodies.size()); }
+  /// Poses at t + k dt / n for k = 0..n, [n + 1][bodies], on the device.
+  Span<const BodyPose> poses(double t, double dt, int n);
+  /// Largest speed of any wall point at time t, m/s.
+  double top_speed(double t) const;
+  /// Places wall particles and sets their true velocity; `pose`: [bodies].
+  static void place(const Frame& frame, WallStore& walls, Span<const BodyPose> pose);
+  /// The body is gone from now on.
+  void remove(int body) { removed_[body] = true; }
+  bool removed(int body) const { return removed_[body]; }
+  /// Lowest point of body along `up` at time t, m.
+  double lowest(int body, double t, const Vec3d& up) const;
+
+ private:
+  BodyPose pose(int body, double t) const;
+  Config config_;
+  std::vector<bool> removed_;
+  std::vector<BodyPose> host_;
+  Buffer<BodyPose> device_;
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,176 @@
+// The sentence that a user reads for each way in which a case can be wrong.
+
+#include <gtest/gtest.h>
+
+#include "bedload/case/section.hpp"
+#include "support.hpp"
+
+namespace bedload::test {
+namespace {
+
+struct Wrong {
+  const char* from;
+  const char* to;
+  const char* message;
+};
+
+void PrintTo(const Wrong& w, std::ostream* out) { *out << w.to; }
+
+class CaseErrors : public testing::TestWithParam<Wrong> {};
+
+TEST_P(CaseErrors, AreOneSentenceWithFileLineAndRemedy) {
+  const Wrong& w = GetParam();
+  EXPECT_EQ(error_of(changed(w.from, w.to)), w.message);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Text, CaseErrors,
+    testing::Values(
+        Wrong{"dx = 0.004", "dx = 0.004\ndx = 0.005", "dam.toml:7: dx is given twice"},
+        Wrong{"[domain]", "[domain", "dam.toml:2: is not TOML: table header: expected ']', saw '\\n'"},
+        Wrong{"dx = 0.004", "rho = 900\ndx = 0.004",
+              "dam.toml:6: fluid.rho is not a parameter; did you mean fluid.rho0?"},
+        Wrong{"[grain]", "[grian]", "dam.toml:16: grian.d is not a parameter; did you mean grain.d?"},
+        Wrong{"[grain]", "[contact]\ne = 0.5\n[grain]",
+              "dam.toml:16: contact.e is not a parameter; did you mean grain.e?"},
+        Wrong{"end = 0.3", "edn = 0.3", "dam.toml:22: time.edn is not a parameter; did you mean time.end?"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Type, CaseErrors,
+    testing::Values(
+        Wrong{"dx = 0.004", "dx = \"4mm\"", "dam.toml:6: fluid.dx = \"4mm\" must be a number in m"},
+        Wrong{"dx = 0.004", "dx = nan", "dam.toml:6: fluid.dx = nan must be finite"},
+        Wrong{"dx = 0.004", "dx = inf", "dam.toml:6: fluid.dx = inf must be finite"},
+        Wrong{"dx = 0.004", "dx = 0.004\nkernel = 2",
+              "dam.toml:7: fluid.kernel = 2 must be one of wendland_c2, cubic, lucy"},
+        Wrong{"d = 0.002", "d = 0.002\nfixed = 2", "dam.toml:17: grain.fixed = 2 must be true or false"},
+        Wrong{"count = 500", "count = 5.5", "dam.toml:20: grain.fill.count = 5.5 must be a whole number"},
+        Wrong{"min = [0, 0, 0]\nmax = [0.2, 0.1, 0.2]\n[fluid]",
+              "min = [0, 0]\nmax = [0.2, 0.1, 0.2]\n[fluid]",
+              "dam.toml:3: domain.min = [0, 0] must be three numbers [x, y, z]"},
+        Wrong{"title = \"dam\"", "title = 1979-05-27", "dam.toml:1: title = a date must be a text in quotes"},
+        Wrong{"[time]", "[[time]]", "dam.toml:21: time must be a single table; write [time]"},
+        Wrong{"[[fluid.fill]]", "[fluid.fill]",
+              "dam.toml:7: fluid.fill must be a list of tables; write [[fluid.fill]]"},
+        Wrong{"shape = \"tank\"", "shape = \"tank\"\nfaces = [\"top\"]",
+              "dam.toml:13: wall.body.faces = [\"top\"] must be a list of some of \"x-\", \"x+\", \"y-\", "
+              "\"y+\", \"z-\", "
+              "\"z+\""},
+        Wrong{"[[wall.body]]", "velocity = [0, 0, \"2*q\"]\n[[wall.body]]",
+              "dam.toml:10: fluid.fill.velocity = [0, 0, \"2*q\"] must hold formulas in x, y, z: Unexpected "
+              "token \"q\" "
+              "found at position 2"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Missing, CaseErrors,
+    testing::Values(
+        Wrong{"dx = 0.004\n", "", "dam.toml:5: fluid.dx must be given (particle spacing, m)"},
+        Wrong{"[time]\nend = 0.3\n", "", "dam.toml: time.end must be given (end of the run, s)"},
+        Wrong{"shape = \"tank\"\n", "", "dam.toml:10: wall.body.shape must be given (shape of the body)"},
+        Wrong{"d = 0.002\n", "",
+              "dam.toml:15: grain.d must be given (diameter, m, where a grain.fill has no sizes)"},
+        Wrong{"count = 500\n", "",
+              "dam.toml:17: grain.fill must have exactly one of count, mass and packing_fraction"},
+        Wrong{"count = 500\n", "count = 500\nmass = 1\n",
+              "dam.toml:17: grain.fill must have exactly one of count, mass and packing_fraction"},
+        Wrong{"[grain]\n", "[contact]\nnormal = \"linear\"\n[grain]\n",
+              "dam.toml:15: contact.k must be given (spring, N/m, with contact.normal = \"linear\")"},
+        Wrong{"title = \"dam\"\n", "gravity = [0, 0, 0]\n",
+              "dam.toml:5: fluid.vmax must be given (m/s; neither gravity nor a wall sets a speed here)"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Bounds, CaseErrors,
+    testing::Values(
+        Wrong{"dx = 0.004", "dx = 0", "dam.toml:6: fluid.dx = 0 must be > 0"},
+        Wrong{"dx = 0.004", "dx = 0.004\nh_over_dx = 1",
+              "dam.toml:7: fluid.h_over_dx = 1 must be within 1.2..3"},
+        Wrong{"dx = 0.004", "dx = 0.004\nkernel = \"lucy\"\nh_over_dx = 1.5",
+              "dam.toml:8: fluid.h_over_dx = 1.5 must be within 2..4"},
+        Wrong{"d = 0.002", "d = 0.002\ne = 1.4",
+              "dam.toml:17: grain.e = 1.4 must be within 0.05..1; give a fraction, not percent?"},
+        Wrong{"[grain]\nd = 0.002", "[contact]\nnormal = \"linear\"\nk = 1e4\n[grain]\nd = 0.002\ne = 0.1",
+              "dam.toml:20: grain.e = 0.1 must be within 0.136..1; give a fraction, not percent?"},
+        Wrong{"d = 0.002", "d = 0.002\nnu = 0.5", "dam.toml:17: grain.nu = 0.5 must be > -1 and < 0.5"},
+        Wrong{"end = 0.3", "end = 0.3\ncfl = 0.6", "dam.toml:23: time.cfl = 0.6 must be > 0 and <= 0.5"},
+        Wrong{"count = 500", "packing_fraction = 0.7",
+              "dam.toml:20: grain.fill.packing_fraction = 0.7 must be > 0 and <= 0.64; 0.64 is random close "
+              "packing"},
+        Wrong{"[time]", "[drag]\nlaw = \"gidspow\"\n[time]",
+              "dam.toml:22: drag.law = \"gidspow\" must be one of di_felice, gidaspow, gidaspow_blend, "
+              "ergun, wen_yu, "
+              "schiller_naumann, stokes"},
+        Wrong{"title = \"dam\"", "preset = \"hee\"",
+              "dam.toml:1: preset = \"hee\" must be one of default, he2018"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Together, CaseErrors,
+    testing::Values(
+        Wrong{"max = [0.2, 0.1, 0.2]\n[fluid]", "max = [0.2, 0, 0.2]\n[fluid]",
+              "dam.toml:4: domain.max = [0.2, 0, 0.2] must exceed domain.min = [0, 0, 0] on every axis"},
+        Wrong{"max = [0.05, 0.1, 0.1]\n[[wall", "max = [0.05, 0.1, 0.3]\n[[wall",
+              "dam.toml:9: fluid.fill.max = [0.05, 0.1, 0.3] must lie in the domain [0, 0, 0]..[0.2, 0.1, "
+              "0.2]"},
+        Wrong{"max = [0.2, 0.1, 0.2]\n[fluid]\ndx = 0.004",
+              "max = [0.2, 0.1, 0.2]\nperiodic = [0, 1, 0]\n[fluid]\ndx = 0.02",
+              "dam.toml:5: domain.periodic = [0, 1, 0] must be three of true or false"},
+        Wrong{"max = [0.2, 0.1, 0.2]\n[fluid]\ndx = 0.004",
+              "max = [0.2, 0.1, 0.2]\nperiodic = [false, true, false]\n[fluid]\ndx = 0.02",
+              "dam.toml:5: domain.periodic = 0.1 m along y must be a period > 2 kappa h = 0.12; enlarge the "
+              "domain or "
+              "refine"},
+        Wrong{"dx = 0.004", "dx = 1e-6",
+              "dam.toml:6: fluid.dx = 1e-06 must be larger; it makes 5e+14 fluid particles of at most "
+              "2147483647"},
+        Wrong{"dx = 0.004", "dx = 0.004\nmu = 0",
+              "dam.toml:7: fluid.mu = 0 must be > 0 with grains; drag needs mu"},
+        Wrong{"[[wall.body]]", "[wall]\ndx = 0.005\n[[wall.body]]",
+              "dam.toml:11: wall.dx = 0.005 must be within 0.001..0.004; a quarter of fluid.dx to fluid.dx"},
+        Wrong{"[time]", "[couple]\nhc = 0.001\n[time]",
+              "dam.toml:22: couple.hc = 0.001 must be >= 0.002; unresolved coupling needs kappa h_c >= 2 "
+              "d_max"},
+        Wrong{"[time]", "[couple]\nS_dry = 0.6\n[time]",
+              "dam.toml:21: couple.S_wet = 0.5 must be > couple.S_dry = 0.6"},
+        Wrong{"end = 0.3", "end = 0.3\ndt_dem = 1e-4",
+              "dam.toml:23: time.dt_dem = 0.0001 must be <= 5.473e-06; limited by rayleigh"},
+        Wrong{"d = 0.002", "d = 0.02",
+              "dam.toml:20: grain.fill.count = 500 must fit its box; it fills 419 % where 64 % is the "
+              "densest random "
+              "packing"},
+        Wrong{"shape = \"tank\"", "shape = \"tank\"\nnormal = [0, 0, 1]",
+              "dam.toml:13: wall.body.normal = [0, 0, 1] has no use here; leave it out or change what it "
+              "belongs to"},
+        Wrong{"[out]", "[[probe]]\nname = \"f\"\ntype = \"force\"\nbody = \"gate\"\n[out]",
+              "dam.toml:26: probe.body = \"gate\" must name a wall.body; this case has tank"},
+        Wrong{"[out]", "[[probe]]\nname = \"../f\"\ntype = \"height\"\nat = [0, 0, 0]\n[out]",
+              "dam.toml:24: probe.name = \"../f\" must consist of letters, digits, '_', '-' and '.'"}));
+
+TEST(CaseError, NamesTheOverrideAtFault) {
+  EXPECT_EQ(error_of(kCase, {"grain.e=2"}),
+            "--set grain.e=2: grain.e = 2 must be within 0.05..1; give a fraction, not percent?");
+  EXPECT_EQ(error_of(kCase, {"grian.e=0.5"}),
+            "--set grian.e=0.5: grian.e is not a parameter; did you mean grain.e?");
+  EXPECT_EQ(error_of(kCase, {"grain.e"}), "--set grain.e: must have the form key=value");
+  EXPECT_EQ(error_of(kCase, {"grain.fill.3.count=1"}),
+            "--set grain.fill.3.count=1: grain.fill is a list of 1, so name one of 0..0 after it");
+  EXPECT_EQ(error_of(kCase, {"fluid.dx.a=1"}), "--set fluid.dx.a=1: fluid.dx holds no keys");
+  EXPECT_EQ(error_of(kCase, {"couple.hc=1e-3"}),
+            "--set couple.hc=1e-3: couple.hc = 0.001 must be >= 0.002; unresolved coupling needs kappa h_c "
+            ">= 2 d_max");
+  EXPECT_EQ(error_of(kCase, {"fluid=3"}), "--set fluid=3: fluid = 3 must be a table; write [fluid]");
+}
+
+TEST(CaseError, AsksForSomethingToCompute) {
+  EXPECT_EQ(error_of("[domain]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n[time]\nend = 1\n[out]\nevery = 1\n"),
+            "dam.toml: nothing to compute; give [fluid], [grain] or both");
+}
+
+TEST(NearestKey, PrefersAWrongTableToAWrongName) {
+  const std::vector<std::string> known{"contact.k", "grain.e", "fluid.dx", "grain.d", "time.end"};
+  EXPECT_EQ(nearest_key("contact.e", known), "grain.e");
+  EXPECT_EQ(nearest_key("fluid.xd", known), "fluid.dx");
+  EXPECT_EQ(nearest_key("grian.d", known), "grain.d");
+  EXPECT_EQ(nearest_key("end", known), "time.end");
+}
+
+}  // namespace
+}  // namespace bedload::test

@@ -1,0 +1,213 @@
+#include "bedload/case/read.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "bedload/case/parameters.hpp"
+#include "support.hpp"
+
+namespace bedload::test {
+namespace {
+
+TEST(ReadCase, TakesDefaultsFromThePhysics) {
+  const Config c = read(kCase);
+  EXPECT_EQ(c.title, "dam");
+  EXPECT_DOUBLE_EQ(c.fluid.h_over_dx, 1.5);
+  EXPECT_EQ(c.fluid.kernel, "wendland_c2");
+  EXPECT_DOUBLE_EQ(c.density.delta, 0.1);
+  EXPECT_EQ(c.couple.drag, "di_felice");
+  EXPECT_EQ(c.contact.rolling, "epsd");
+  EXPECT_EQ(c.time.integrator, "kdk");
+  EXPECT_EQ(c.precision, "mixed");
+  EXPECT_EQ(c.gravity, (Vec3d{0, 0, -9.81}));
+}
+
+TEST(ReadCase, ResolvesWhatFollowsFromTheRest) {
+  const Config c = read(kCase);
+  EXPECT_DOUBLE_EQ(c.fluid.depth, 0.1);
+  EXPECT_DOUBLE_EQ(c.fluid.vmax, std::sqrt(2 * 9.81 * 0.1));
+  EXPECT_DOUBLE_EQ(c.fluid.c, 10 * c.fluid.vmax);
+  EXPECT_DOUBLE_EQ(c.wall.dx, 0.004);
+  EXPECT_DOUBLE_EQ(c.wall.rep_D, 5 * 9.81 * 0.1);
+  EXPECT_DOUBLE_EQ(c.wall.rep_r0, 0.002);
+  EXPECT_DOUBLE_EQ(c.couple.hc, 0.006);  // h = 6 mm exceeds 2 d = 4 mm
+  EXPECT_DOUBLE_EQ(c.grain.d_max, 0.002);
+  EXPECT_DOUBLE_EQ(c.out.diagnostics_every, 0.01);
+  EXPECT_DOUBLE_EQ(read(changed("d = 0.002", "d = 0.004")).couple.hc, 0.008);
+}
+
+TEST(ReadCase, SoundSpeedFollowsTheFastestOfUserDepthAndWalls) {
+  EXPECT_DOUBLE_EQ(read(kCase, {"fluid.vmax=3"}).fluid.c, 30);
+  EXPECT_DOUBLE_EQ(read(kCase, {"fluid.vmax=0.1"}).fluid.vmax, std::sqrt(2 * 9.81 * 0.1));
+  const auto moving = [](const std::string& motion) {
+    return read(changed("[grain]\n", "[wall.body.motion]\n" + motion + "\n[grain]\n")).fluid.vmax;
+  };
+  EXPECT_DOUBLE_EQ(moving("kind = \"velocity\"\nvelocity = [0, 0, 2]"), 2);
+  EXPECT_NEAR(moving("kind = \"oscillation\"\namplitude = [0.1, 0, 0]\nfrequency = 4"), 2.51327, 1e-5);
+  // The outermost corner of the tank is sqrt(0.1^2 + 0.1^2) from the axis.
+  EXPECT_NEAR(moving("kind = \"rotation\"\naxis = [0, 5, 0]\ncentre = [0.1, 0, 0.1]\nrate = 20"), 2.82843,
+              1e-5);
+}
+
+TEST(ReadCase, DemocritusEquationDerivesItsSoundSpeed) {
+  const Config c = read(kCase, {"eos.type=democritus", "eos.p0=4000", "eos.alpha=7"});
+  EXPECT_DOUBLE_EQ(c.fluid.c, std::sqrt(7 * 4000.0 / 1000));
+}
+
+TEST(ReadCase, DepthIsMeasuredAlongGravity) {
+  EXPECT_NEAR(read(kCase, {"gravity=[-9.81, 0, 0]"}).fluid.depth, 0.05, 1e-15);
+  EXPECT_NEAR(read(kCase, {"gravity=[-1, 0, -1]"}).fluid.depth, 0.15 / std::sqrt(2), 1e-15);
+}
+
+TEST(ReadCase, HonoursPresetsUnderTheCasesOwnKeys) {
+  const Config he = read("preset = \"he2018\"\n" + kCase);
+  EXPECT_DOUBLE_EQ(he.fluid.h_over_dx, 1.3);
+  EXPECT_DOUBLE_EQ(he.xsph, 0.3);
+  EXPECT_DOUBLE_EQ(he.tensile, 1);
+  EXPECT_TRUE(he.tensile_one_sign);
+  EXPECT_DOUBLE_EQ(he.density.delta, 0);
+  EXPECT_EQ(he.contact.tangential, "mindlin_deresiewicz");
+  EXPECT_TRUE(he.contact.he_damping);
+  EXPECT_FALSE(he.contact.clip_tension);
+  EXPECT_TRUE(he.contact.cap_rolling);
+  EXPECT_EQ(he.contact.rolling, "cdt");
+  EXPECT_EQ(he.couple.drag, "gidaspow");
+  EXPECT_EQ(he.couple.integrator, "explicit");
+  EXPECT_FALSE(he.couple.torque);
+  EXPECT_EQ(he.time.integrator, "euler");
+  ASSERT_EQ(he.wall.bodies.size(), 1u);
+  EXPECT_TRUE(he.wall.bodies[0].repulsion);
+  EXPECT_DOUBLE_EQ(read("preset = \"he2018\"\n" + kCase, {"drag.law=ergun"}).fluid.h_over_dx, 1.3);
+  EXPECT_EQ(read("preset = \"he2018\"\n" + kCase, {"drag.law=ergun"}).couple.drag, "ergun");
+}
+
+TEST(ReadCase, BodiesInheritFromWall) {
+  const Config c = read(changed("[[wall.body]]", "[wall]\nslip = \"slip\"\nrepulsion = true\n[[wall.body]]"));
+  EXPECT_EQ(c.wall.bodies[0].slip, "slip");
+  EXPECT_TRUE(c.wall.bodies[0].repulsion);
+  const Config own =
+      read(changed("name = \"tank\"", "name = \"tank\"\nslip = \"noslip\""), {"wall.slip=slip"});
+  EXPECT_EQ(own.wall.bodies[0].slip, "noslip");
+}
+
+TEST(ReadCase, ReadsFacesProbesSizesAndFormulas) {
+  const Config c =
+      read(changed("shape = \"tank\"", "shape = \"tank\"\nfaces = [\"x-\", \"z-\"]") +
+               "[[probe]]\nname = \"toe\"\ntype = \"front\"\nphase = \"grains\"\ndirection = \"z-\"\n"
+               "[[probe]]\nname = \"lift\"\ntype = \"force\"\nbody = \"tank\"\nevery = 0.002\n",
+           {"fluid.fill.0.velocity=[1, \"-0.5*z\", \"sin(pi*x)\"]",
+            "grain.fill.0.sizes=[{d = 0.001}, {d = 0.002, share = 3}]"});
+  EXPECT_EQ(c.wall.bodies[0].faces, (std::array<bool, 6>{true, false, false, false, true, false}));
+  ASSERT_EQ(c.out.probes.size(), 2u);
+  EXPECT_EQ(c.out.probes[0].axis, 2);
+  EXPECT_EQ(c.out.probes[0].sign, -1);
+  EXPECT_DOUBLE_EQ(c.out.probes[0].every, 0.01);
+  EXPECT_DOUBLE_EQ(c.out.probes[1].every, 0.002);
+  EXPECT_EQ(c.fluid.fills[0].velocity, (std::array<std::string, 3>{"1", "-0.5*z", "sin(pi*x)"}));
+  ASSERT_EQ(c.grain.fills[0].sizes.size(), 2u);
+  EXPECT_DOUBLE_EQ(c.grain.fills[0].sizes[1].share, 3);
+  EXPECT_DOUBLE_EQ(c.grain.d_min, 0.001);
+}
+
+TEST(ReadCase, OverridesWinAndTakeBareWords) {
+  const Config c = read(kCase, {"grain.e=0.5", "contact.rolling = cdt", "grain.fill.0.count=7", "run.seed=9",
+                                "visc.alpha=0.02", "domain.periodic=[false, true, false]"});
+  EXPECT_DOUBLE_EQ(c.grain.e, 0.5);
+  EXPECT_EQ(c.contact.rolling, "cdt");
+  EXPECT_EQ(c.grain.fills[0].count, 7);
+  EXPECT_EQ(c.seed, 9u);
+  EXPECT_EQ(c.grain.seed, 9u);
+  EXPECT_DOUBLE_EQ(c.visc.alpha, 0.02);
+  EXPECT_TRUE(c.domain.periodic[1]);
+}
+
+TEST(ReadCase, GrainsAloneNeedNoFluid) {
+  const auto from = kCase.find("[fluid]"), to = kCase.find("[[wall.body]]");
+  const Config c = read(kCase.substr(0, from) + kCase.substr(to));
+  EXPECT_FALSE(c.fluid.present);
+  EXPECT_TRUE(c.grain.present);
+}
+
+TEST(ResolvedToml, ReadsBackToTheSameCase) {
+  const std::string rich =
+      changed("[[grain.fill]]",
+              "settle = true\n[[grain.fill]]\npositions = [[0.1, 0.05, 0.03]]\n[[grain.fill]]") +
+      "[[probe]]\nname = \"p\"\ntype = \"box\"\nmin = [0, 0, 0]\nmax = [0.1, 0.1, 0.1]\n";
+  const std::vector<std::vector<std::string>> variations = {
+      {},
+      {"preset=he2018"},
+      {"run.precision=double", "visc.alpha=0.1", "gravity=[0.3, 0.1, -9.7]"},
+      {"title=\"a \\\"quoted\\\" \\\\ name\"", "contact.normal=linear", "contact.k=1e4", "fluid.kernel=lucy",
+       "fluid.h_over_dx=3"},
+      {"wall.body.0.motion={kind=\"rotation\", axis=[1, 2, 3], centre=[0.1, 0.1, 0.1], rate=3.3, stop=2}"},
+  };
+  for (const auto& overrides : variations) {
+    const Config c = read(rich, overrides);
+    const std::string text = resolved_toml(c);
+    const Config again = read(text);
+    EXPECT_TRUE(again == c) << text;
+    EXPECT_EQ(resolved_toml(again), text);
+  }
+}
+
+TEST(SettlingCase, ForgetsWhatSettlingDoesNotDependOn) {
+  const auto key = [](const std::vector<std::string>& overrides) {
+    return resolved_toml(settling_case(read(kCase, overrides)));
+  };
+  EXPECT_EQ(key({}), key({"fluid.mu=0.01", "fluid.dx=0.005", "time.end=9", "drag.law=ergun", "out.every=1"}));
+  for (const char* relevant :
+       {"grain.e=0.5", "run.seed=2", "contact.rolling=none", "gravity=[0, 0, -1.6]", "grain.fill.0.count=499",
+        "wall.body.0.max=[0.2, 0.1, 0.19]", "run.precision=double"})
+    EXPECT_NE(key({}), key({relevant})) << relevant;
+}
+
+TEST(Warnings, NameWhatIsDoubtful) {
+  EXPECT_TRUE(warnings_of(kCase).empty());
+  EXPECT_EQ(warnings_of(changed("dx = 0.004", "dx = 0.004\nc_factor = 5")),
+            (std::vector<std::string>{
+                "fluid.c_factor: sound is only 5 times as fast as the flow (Mach 0.2); density "
+                "will vary by more than 1 %"}));
+  EXPECT_EQ(
+      warnings_of(changed("[time]", "[couple]\nhc = 0.0025\n[time]")),
+      (std::vector<std::string>{"couple.hc: the coupling reaches 2.5 diameters of the largest grain, which "
+                                "feels its own wake below 4"}));
+  EXPECT_EQ(warnings_of(changed("end = 0.3", "end = 0.3\nintegrator = \"euler\"")),
+            (std::vector<std::string>{"time.integrator = \"euler\" is first order and gains energy"}));
+  EXPECT_EQ(warnings_of(changed("d = 0.002", "d = 0.002\nE = 1e4")).size(), 1u);
+  EXPECT_EQ(
+      warnings_of(changed("max = [0.05, 0.1, 0.1]\n[[wall",
+                          "max = [0.05, 0.1, 0.1]\n"
+                          "velocity = [0, 0, \"20*z\"]\n[[wall")),
+      (std::vector<std::string>{"fluid.fill.velocity reaches 2 m/s, above fluid.vmax = 1.4, from which the "
+                                "sound speed follows"}));
+}
+
+TEST(ParameterTable, HoldsEveryKeyOnceWithUnitAndMeaning) {
+  const auto rows = parameter_table();
+  EXPECT_GT(rows.size(), 100u);
+  std::set<std::string> keys;
+  for (const auto& row : rows) {
+    EXPECT_TRUE(keys.insert(row.key).second) << row.key;
+    EXPECT_FALSE(row.meaning.empty()) << row.key;
+    EXPECT_FALSE(row.unit.empty()) << row.key;
+    EXPECT_FALSE(row.fallback.empty()) << row.key;
+  }
+  for (const char* key :
+       {"fluid.dx", "wall.body.motion.rate", "grain.fill.sizes.share", "probe.at", "drag.law"})
+    EXPECT_EQ(keys.count(key), 1u) << key;
+}
+
+TEST(ReadCase, NamesAFileThatIsNotThere) {
+  std::vector<std::string> warnings;
+  try {
+    read_case("/nonexistent/dam.toml", {}, warnings);
+    FAIL();
+  } catch (const FileError& error) {
+    EXPECT_STREQ(error.what(), "/nonexistent/dam.toml: cannot read this case file");
+  }
+}
+
+}  // namespace
+}  // namespace bedload::test

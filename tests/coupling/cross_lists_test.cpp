@@ -1,0 +1,87 @@
+// Neighbour lists across the phases against a search over all pairs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "bedload/neighbours/verlet_list.hpp"
+#include "tests/support/coupled_box.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+using Rows = std::vector<std::vector<Index>>;
+
+Rows rows_of(const VerletList& list) {
+  const auto view = list.view();
+  std::vector<std::uint32_t> count(list.rows());
+  std::vector<std::uint64_t> offset((list.rows() + kSlice - 1) / kSlice + 1);
+  std::vector<Index> entry(list.slots());
+  copy_to_host(count.data(), view.count, count.size() * sizeof(count[0]));
+  copy_to_host(offset.data(), view.offset, offset.size() * sizeof(offset[0]));
+  copy_to_host(entry.data(), view.entry, entry.size() * sizeof(entry[0]));
+  Rows rows(list.rows());
+  for (Index i = 0; i < list.rows(); ++i) {
+    for (std::uint32_t k = 0; k < count[i]; ++k)
+      rows[i].push_back(entry[offset[i / kSlice] + i % kSlice + std::uint64_t(k) * kSlice]);
+    std::sort(rows[i].begin(), rows[i].end());
+  }
+  return rows;
+}
+
+Rows all_pairs(const Frame& frame, const std::vector<Vec3d>& a, const std::vector<Vec3d>& b, double range) {
+  Rows rows(a.size());
+  for (Index i = 0; i < a.size(); ++i)
+    for (Index j = 0; j < b.size(); ++j)
+      if (norm2(frame.separation(a[i], b[j])) < range * range) rows[i].push_back(j);
+  return rows;
+}
+
+struct Case {
+  bool px, py, pz;
+  double cell, range;
+};
+class CrossLists : public testing::TestWithParam<Case> {};
+
+TEST_P(CrossLists, HoldEveryPairInRangeOnce) {
+  const Case c = GetParam();
+  const Vec3d min{-1, 0, 2}, max{1, 1.3, 3};
+  const Frame frame(min, max, c.px, c.py, c.pz);
+  std::mt19937_64 random(3);
+  Buffer<FluidPosition> fluid;
+  std::vector<FluidPosition> packed;
+  for (const Vec3d& x : random_points(500, min, max, random))
+    packed.push_back(as_position<FluidPosition>(frame, x));
+  Buffer<Vec3d> grains;
+  grains.assign(random_points(70, min, max, random));
+  fluid.assign(packed);
+
+  CellGrid fluid_grid(frame, min, max, c.cell), grain_grid(frame, min, max, 1.7 * c.cell);
+  const auto sorted = [&](auto& x, CellGrid& grid) {
+    using P = std::remove_pointer_t<decltype(x.data())>;
+    Buffer<Index> order;
+    Buffer<P> to(x.size());
+    grid.sort(frame, Span<const P>(x), order);
+    for_each({0, Index(x.size())}, GatherPass<P>{x, order, to});
+    x.swap(to);
+  };
+  sorted(fluid, fluid_grid);
+  sorted(grains, grain_grid);
+  std::vector<Vec3d> fluid_at;
+  for (const auto& x : fluid.to_host()) fluid_at.push_back(coordinates(frame, x));
+  const auto grains_at = grains.to_host();
+
+  VerletList list;
+  list.build(500, grain_grid.view(), CrossNear<FluidPosition, Vec3d>{frame, fluid, grains, c.range});
+  EXPECT_EQ(rows_of(list), all_pairs(frame, fluid_at, grains_at, c.range));
+  list.build(70, fluid_grid.view(), CrossNear<Vec3d, FluidPosition>{frame, grains, fluid, c.range});
+  EXPECT_EQ(rows_of(list), all_pairs(frame, grains_at, fluid_at, c.range));
+}
+
+INSTANTIATE_TEST_SUITE_P(Small, CrossLists,
+                         testing::Values(Case{false, false, false, 0.2, 0.21},
+                                         Case{true, false, true, 0.2, 0.21},
+                                         Case{true, true, true, 0.07, 0.4}, Case{true, true, true, 0.6, 0.1},
+                                         Case{false, true, false, 0.35, 0.6}));
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,92 @@
+// A grain that leaves the fluid, and grains with hardly any fluid around.
+#include <gtest/gtest.h>
+
+#include "tests/support/coupled_box.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+struct Feels {
+  double K, K_rot, force, wetness, reaction;
+};
+
+/// One grain at height z (m) over fluid whose surface is at z = 0.5.
+Feels grain_at(double z) {
+  Config c = unit_box(0.1, 20);
+  Cloud fluid = fluid_at(lattice({0.25, 0.25, 0.2}, {0.75, 0.75, 0.5}, 0.05), 0.05, 1000, 1);
+  for (auto& t : fluid.theta) t = {0, 0, 9.81};
+  CoupledBox box(c, fluid, {{{0.5, 0.5, z}}, {{0, 0, -1}}, {{0, 2, 0}}, {0.03}});
+  box.coupling.gather(box.fluid, box.grains, 1e-4);
+  const double K = box.grains.K.values()[0];
+  const Real3 w = box.grains.U.values()[0] - box.grains.v.values()[0];
+  box.grains.impulse.assign({Real(1e-4 * K) * w});
+  box.grains.spin_impulse.buffer().zero();
+  box.coupling.react(box.fluid, box.grains);
+  double reaction = 0;
+  for (const Real3& r : box.fluid.reaction.values()) reaction += norm(r);
+  for (const Real4& v : box.fluid.v_rho.values()) reaction += norm(v.xyz());
+  EXPECT_TRUE(std::isfinite(norm(w)));
+  return {K, box.grains.K_rot.values()[0], norm(box.grains.fluid_force.values()[0]),
+          box.grains.wetness.values()[0], reaction};
+}
+
+TEST(Drying, IsContinuousAndEndsAtExactlyNothing) {
+  const Feels deep = grain_at(0.4), surface = grain_at(0.5);
+  EXPECT_EQ(deep.wetness, 1);
+  EXPECT_NEAR(surface.wetness, 1, 0.02);
+  Feels last = deep;
+  bool dried = false;
+  for (double z = 0.45; z < 0.8; z += 0.005) {
+    const Feels now = grain_at(z);
+    // the kernel takes up at most 1.4 / h of itself per height, the wetness 1/0.45 of that
+    const double jump = 0.005 * 1.4 / 0.1 / 0.45 * 1.1;
+    EXPECT_NEAR(now.K, last.K, jump * deep.K) << z;
+    EXPECT_NEAR(now.force, last.force, jump * deep.force) << z;
+    EXPECT_LE(now.wetness, last.wetness + kInvariant) << z;
+    if (now.wetness == 0) {
+      dried = true;
+      EXPECT_EQ(now.K, 0);
+      EXPECT_EQ(now.K_rot, 0);
+      EXPECT_EQ(now.force, 0);
+      EXPECT_EQ(now.reaction, 0);
+    }
+    last = now;
+  }
+  EXPECT_TRUE(dried);
+}
+
+TEST(Drying, AGrainWithoutAnyFluidFeelsNothing) {
+  const Feels far = grain_at(0.9);
+  EXPECT_EQ(far.wetness, 0);
+  EXPECT_EQ(far.K, 0);
+  EXPECT_EQ(far.force, 0);
+  EXPECT_EQ(far.reaction, 0);
+}
+
+TEST(Drying, ACoupleNeedsASpreadOfFluid) {
+  // one, two in line and three in a plane through the grain: no rotation is defined by the first two
+  const std::vector<Vec3d> places[] = {{{0.52, 0.5, 0.5}},
+                                       {{0.52, 0.51, 0.5}, {0.46, 0.48, 0.5}},
+                                       {{0.55, 0.5, 0.5}, {0.46, 0.53, 0.5}, {0.48, 0.46, 0.5}}};
+  for (const auto& x : places) {
+    Cloud fluid = fluid_at(x, 0.12, 1000, 1);
+    for (std::size_t a = 0; a < x.size(); ++a) fluid.v[a] = {0.5 + a, 1, -1.0 * a};
+    CoupledBox box(unit_box(0.1, 20), fluid, {{{0.5, 0.5, 0.5}}, {{0, 0, -1}}, {{0, 2, 0}}, {0.03}});
+    box.coupling.gather(box.fluid, box.grains, 1e-4);
+    EXPECT_GT(box.grains.wetness.values()[0], 0);
+    EXPECT_EQ(box.grains.K_rot.values()[0] > 0, x.size() == 3);
+    box.grains.impulse.assign({Real3(1, 2, 3)});
+    box.grains.spin_impulse.buffer().zero();
+    const auto before = box.fluid.v_rho.values();
+    box.coupling.react(box.fluid, box.grains);
+    const auto after = box.fluid.v_rho.values();
+    Vec3d change;
+    for (std::size_t a = 0; a < x.size(); ++a)
+      change += (Vec3d(after[a].xyz()) - Vec3d(before[a].xyz())) * double(box.fluid.mass.values()[a]);
+    EXPECT_LT(norm(change + Vec3d(1, 2, 3)), 20 * kInvariant);
+  }
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,268 @@
+// Force and momentum between grains and fluid.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/support/coupled_box.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// Irregular fluid full of grains; K dt / m of the order of one.
+CoupledBox irregular(Config c, double shift = 0) {
+  std::mt19937_64 random(11);
+  const Vec3d lo{0.25, 0.25, 0.25}, hi{0.75, 0.75, 0.75};
+  const bool all = c.domain.periodic[0];
+  Cloud fluid = random_fluid(900, all ? c.domain.min : lo, all ? c.domain.max : hi, 1000, random);
+  Pebbles grains = random_grains(80, all ? c.domain.min : lo, all ? c.domain.max : hi, 0.06, random);
+  for (auto& v : fluid.v) v += Vec3d(shift, -2 * shift, shift);
+  for (auto& v : grains.v) v += Vec3d(shift, -2 * shift, shift);
+  return CoupledBox(c, fluid, grains);
+}
+
+/// What the grain solver would hand back after a step dt of drag alone, made larger by `factor`.
+void drag_grains(CoupledBox& box, double dt) {
+  const auto v = box.grains.v.values(), U = box.grains.U.values();
+  const auto omega = box.grains.omega.values(), omega_f = box.grains.omega_f.values();
+  const auto K = box.grains.K.values(), K_rot = box.grains.K_rot.values();
+  std::vector<Real3> J, T;
+  for (std::size_t j = 0; j < v.size(); ++j) {
+    J.push_back(Real(dt) * K[j] * (U[j] - v[j]));
+    T.push_back(Real(dt) * K_rot[j] * (omega_f[j] - omega[j]));
+  }
+  box.grains.impulse.assign(J);
+  box.grains.spin_impulse.assign(T);
+}
+
+/// A sum that should vanish, and what it is to be measured against.
+struct Balance {
+  Vec3d sum;
+  double scale = 0;
+  void add(const Vec3d& v) {
+    sum += v;
+    scale += norm(v);
+  }
+  double error() const { return norm(sum) / scale; }
+};
+
+struct Balances {
+  Balance momentum, spin, force, moment;
+};
+
+/// Impulse and force on both phases over one gather and react, and their moments about the origin.
+Balances exchange(CoupledBox& box, double dt) {
+  const auto before = box.fluid.v_rho.values();
+  box.coupling.gather(box.fluid, box.grains, dt);
+  drag_grains(box, dt);
+  box.coupling.react(box.fluid, box.grains);
+  const auto after = box.fluid.v_rho.values();
+  const auto mass = box.fluid.mass.values();
+  const auto reaction = box.fluid.reaction.values();
+  const auto at = box.fluid_places();
+  Balances b;
+  for (std::size_t a = 0; a < at.size(); ++a) {
+    const Vec3d p = (Vec3d(after[a].xyz()) - Vec3d(before[a].xyz())) * double(mass[a]);
+    const Vec3d f = Vec3d(reaction[a]) * double(mass[a]);
+    b.momentum.add(p);
+    b.spin.add(cross(at[a], p));
+    b.force.add(f);
+    b.moment.add(cross(at[a], f));
+  }
+  const auto x = box.grains.x.values();
+  const auto J = box.grains.impulse.values(), T = box.grains.spin_impulse.values(),
+             F = box.grains.fluid_force.values();
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    b.momentum.add(Vec3d(J[j]));
+    b.spin.add(cross(x[j], Vec3d(J[j])));
+    b.spin.add(Vec3d(T[j]));
+    b.force.add(Vec3d(F[j]));
+    b.moment.add(cross(x[j], Vec3d(F[j])));
+  }
+  return b;
+}
+
+TEST(Exchange, ConservesMomentumForEveryKernelAndLaw) {
+  for (const char* kernel : {"wendland_c2", "cubic", "lucy"})
+    for (const char* law : {"stokes", "ergun", "gidaspow", "di_felice"}) {
+      Config c = unit_box(kernel == std::string("lucy") ? 0.24 : 0.12, 20);
+      c.domain.periodic = {true, true, true};
+      c.fluid.kernel = kernel;
+      c.couple.drag = law;
+      CoupledBox box = irregular(c);
+      const Balances b = exchange(box, 0.05);
+      EXPECT_GT(b.momentum.scale, 1) << kernel << " " << law;
+      EXPECT_LT(b.momentum.error(), kInvariant) << kernel << " " << law;
+      EXPECT_LT(b.force.error(), kInvariant) << kernel << " " << law;
+    }
+}
+
+TEST(Exchange, ConservesAngularMomentumWithTheCouple) {
+  CoupledBox box = irregular(unit_box(0.12, 20));
+  const Balances b = exchange(box, 0.05);
+  EXPECT_LT(b.momentum.error(), kInvariant);
+  EXPECT_LT(b.force.error(), kInvariant);
+  EXPECT_LT(b.spin.error(), kInvariant);
+  EXPECT_LT(b.moment.error(), kInvariant);
+}
+
+TEST(Exchange, LosesAngularMomentumWithoutTheCouple) {
+  Config c = unit_box(0.12, 20);
+  c.couple.angmom = false;
+  CoupledBox box = irregular(c);
+  const Balances b = exchange(box, 0.05);
+  EXPECT_LT(b.momentum.error(), kInvariant);
+  EXPECT_GT(b.spin.error(), 1e-3);
+}
+
+TEST(Exchange, IsTheSameForAMovingObserver) {
+  CoupledBox still = irregular(unit_box(0.12, 20)), moving = irregular(unit_box(0.12, 20), 4);
+  for (CoupledBox* box : {&still, &moving}) box->coupling.gather(box->fluid, box->grains, 0.05);
+  const auto K = still.grains.K.values(), K_moving = moving.grains.K.values();
+  const auto omega = still.grains.omega_f.values(), omega_moving = moving.grains.omega_f.values();
+  const auto F = still.grains.fluid_force.values(), F_moving = moving.grains.fluid_force.values();
+  const auto U = still.grains.U.values(), U_moving = moving.grains.U.values();
+  for (std::size_t j = 0; j < K.size(); ++j) {
+    EXPECT_NEAR(K_moving[j], K[j], kInvariant * K[j]);
+    EXPECT_LE(norm(omega_moving[j] - omega[j]), kInvariant * norm(omega[j]));
+    EXPECT_LE(norm(F_moving[j] - F[j]), kInvariant * norm(F[j]));
+    EXPECT_LE(norm(U_moving[j] - U[j] - Real3(4, -8, 4)), 10 * kInvariant);
+  }
+}
+
+TEST(Exchange, GrainsReadWhatASumOverAllPairsGives) {
+  Config c = unit_box(0.12, 20);
+  c.couple.drag = "stokes";
+  c.couple.mode = "one_way";
+  CoupledBox box = irregular(c);
+  box.coupling.gather(box.fluid, box.grains, 0.05);
+  const WendlandC2 w(0.12);
+  const auto at = box.fluid_places();
+  const auto x = box.grains.x.values();
+  const auto v_rho = box.fluid.v_rho.values();
+  const auto mass = box.fluid.mass.values(), eps = box.fluid.eps.values();
+  const auto theta = box.fluid.theta.values();
+  const auto eps_j = box.grains.eps.values(), wet = box.grains.wetness.values(), K = box.grains.K.values();
+  const auto U = box.grains.U.values(), F = box.grains.fluid_force.values(),
+             spin = box.grains.omega_f.values();
+  const double volume = M_PI / 6 * std::pow(0.06, 3);
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    double S = 0, e = 0;
+    Vec3d u, f, mean;
+    const auto each = [&](auto&& add) {
+      for (std::size_t a = 0; a < at.size(); ++a)
+        add(a, mass[a] / v_rho[a].w * w.W(Real(norm(at[a] - x[j]))), Vec3d(v_rho[a].xyz()));
+    };
+    each([&](std::size_t a, double vw, const Vec3d& v) {
+      S += vw, e += vw * eps[a], u += v * vw, mean += at[a] * vw;
+      f += Vec3d(theta[a]) * (vw * v_rho[a].w);
+    });
+    SymmetricMatrix<double> second;
+    Vec3d circulation;
+    each([&](std::size_t a, double vw, const Vec3d& v) {
+      const Vec3d s = at[a] - mean * (1 / S);
+      second.add_outer(vw / S, s);
+      circulation += cross(s, v) * (vw / S);
+    });
+    const double expected_wet = std::clamp((S - 0.05) / 0.45, 0.0, 1.0);
+    const double near = 4 * kInvariant;
+    EXPECT_NEAR(wet[j], expected_wet, near);
+    EXPECT_NEAR(eps_j[j], e / S, near);
+    EXPECT_LT(norm(Vec3d(U[j]) - u * (1 / S)), near);
+    EXPECT_LT(norm(Vec3d(F[j]) - f * (expected_wet * volume / S)), near * 9 * 1000 * volume);
+    EXPECT_NEAR(K[j], expected_wet * 3 * M_PI * 20 * 0.06, near * K[j]);
+    const Vec3d expected_spin = second.inertia().inverse() * circulation;
+    EXPECT_LT(norm(Vec3d(spin[j]) - expected_spin), near * (10 + norm(expected_spin)));
+  }
+}
+
+TEST(Exchange, GrainsFeelTheRotationOfTheFluid) {
+  Config c = unit_box(0.12, 1);
+  std::mt19937_64 random(4);
+  Cloud fluid = random_fluid(3000, {0, 0, 0}, {1, 1, 1}, 1000, random);
+  const Vec3d spin{1, -2, 0.5}, drift{3, 0, 1};
+  for (std::size_t a = 0; a < fluid.x.size(); ++a) fluid.v[a] = drift + cross(spin, fluid.x[a]);
+  CoupledBox box(c, fluid, random_grains(20, {0.3, 0.3, 0.3}, {0.7, 0.7, 0.7}, 0.06, random));
+  box.coupling.gather(box.fluid, box.grains, 0.01);
+  for (const Real3& omega : box.grains.omega_f.values())
+    EXPECT_LT(norm(Vec3d(omega) - spin), 30 * kInvariant * norm(spin));
+}
+
+TEST(Exchange, UniformStressPushesAGrainAsItsVolume) {
+  Config c = unit_box(0.12, 1);
+  std::mt19937_64 random(9);
+  Cloud fluid = fluid_at(random_points(2500, {0, 0, 0}, {1, 1, 1}, random), 1 / 13.57, 1000, 0.6);
+  const Vec3d theta{0.5, -3, 9.81 / 0.6};  // still water: - g / eps
+  for (auto& t : fluid.theta) t = theta;
+  CoupledBox box(c, fluid, random_grains(30, {0.3, 0.3, 0.3}, {0.7, 0.7, 0.7}, 0.06, random));
+  box.coupling.gather(box.fluid, box.grains, 0.01);
+  const double volume = M_PI / 6 * std::pow(0.06, 3);
+  const Vec3d expected = theta * (volume * 600);
+  for (const Real3& F : box.grains.fluid_force.values())
+    EXPECT_LT(norm(Vec3d(F) - expected), kInvariant * norm(expected));
+  EXPECT_NEAR(expected.z, 1000 * 9.81 * volume, 1e-9);  // buoyancy is of the intrinsic density
+}
+
+TEST(Exchange, StillWaterInAUniformBedStaysStill) {
+  const double d = 0.1, spacing = 0.11, length = 8 * spacing, dx = spacing / 2;
+  Config c = unit_box(2 * d, 1e-3);
+  c.domain.max = {length, length, length};
+  c.domain.periodic = {true, true, true};
+  Pebbles grains{lattice(c.domain.min, c.domain.max, spacing), {}, {}, {}};
+  grains.v.resize(grains.x.size());
+  grains.omega.resize(grains.x.size());
+  grains.radius.assign(grains.x.size(), d / 2);
+  const double eps = 1 - M_PI / 6 * std::pow(d / spacing, 3);
+  Cloud fluid = fluid_at(lattice(c.domain.min, c.domain.max, dx), dx, 1000, eps);
+  for (auto& t : fluid.theta) t = {0, 0, 9.81 / eps};
+  CoupledBox box(c, fluid, grains);
+  box.coupling.gather(box.fluid, box.grains, 1e-4);
+  drag_grains(box, 1e-4);
+  box.coupling.react(box.fluid, box.grains);
+  for (const Real3& reaction : box.fluid.reaction.values())
+    EXPECT_NEAR(9.81 / eps - 9.81 + reaction.z, 0, 2e-2 * 9.81);
+  const double volume = M_PI / 6 * d * d * d;
+  for (const Real3& F : box.grains.fluid_force.values())
+    EXPECT_NEAR(F.z, 1000 * 9.81 * volume, 2e-2 * 9810 * volume);
+}
+
+TEST(Exchange, OneWayLeavesTheFluidAlone) {
+  Config c = unit_box(0.12, 1e6);  // stiff: two-way would limit it
+  c.couple.mode = "one_way";
+  c.couple.drag = "stokes";
+  CoupledBox box = irregular(c);
+  const auto before = box.fluid.v_rho.values();
+  const Balances b = exchange(box, 0.05);
+  const auto after = box.fluid.v_rho.values();
+  for (std::size_t a = 0; a < before.size(); ++a) EXPECT_EQ(before[a].xyz(), after[a].xyz());
+  for (const Real3& reaction : box.fluid.reaction.values()) EXPECT_EQ(reaction, Real3{});
+  const auto K = box.grains.K.values(), wet = box.grains.wetness.values();
+  for (std::size_t j = 0; j < K.size(); ++j)
+    EXPECT_NEAR(K[j], wet[j] * 3 * M_PI * 1e6 * 0.06, kInvariant * K[j]);
+  EXPECT_EQ(box.coupling.stable_dt(), std::numeric_limits<double>::infinity());
+  EXPECT_GT(b.momentum.scale, 0);
+}
+
+/// Everything once on a few particles, for checkers of memory and races.
+TEST(SmallExchange, RunsEveryKernel) {
+  for (const char* kernel : {"wendland_c2", "cubic", "lucy"})
+    for (const char* law :
+         {"stokes", "schiller_naumann", "wen_yu", "ergun", "gidaspow", "gidaspow_blend", "di_felice"})
+      for (bool couple : {false, true}) {
+        Config c = unit_box(kernel == std::string("lucy") ? 0.5 : 0.25, 20);
+        c.fluid.kernel = kernel;
+        c.couple.drag = law;
+        c.couple.angmom = c.couple.torque = couple;
+        std::mt19937_64 random(2);
+        Cloud fluid = random_fluid(60, {0, 0, 0}, {1, 1, 1}, 1000, random);
+        CoupledBox box(c, fluid, random_grains(35, {0, 0, 0}, {1, 1, 1}, 0.12, random));
+        const Balances b = exchange(box, 0.01);
+        EXPECT_LT(b.momentum.error(), kInvariant);
+        box.coupling.porosity(box.fluid, box.grains);
+        EXPECT_LE(box.coupling.counters(box.fluid, box.grains).wet, 35u);
+        EXPECT_GT(box.coupling.stable_dt(), 0);
+      }
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT

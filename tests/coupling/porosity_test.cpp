@@ -1,0 +1,74 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/coupled_box.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// A periodic cubic lattice of grains of diameter 0.1 and fluid anywhere in it.
+CoupledBox lattice_of_grains(double spacing, const char* kernel = "wendland_c2") {
+  const double d = 0.1, length = 9 * spacing;
+  Config c = unit_box(kernel == std::string("lucy") ? 4 * d : 2 * d, 1e-3);
+  c.fluid.kernel = kernel;
+  c.domain.max = {length, length, length};
+  c.domain.periodic = {true, true, true};
+  std::mt19937_64 random(5);
+  Pebbles grains{lattice(c.domain.min, c.domain.max, spacing), {}, {}, {}};
+  grains.v.resize(grains.x.size());
+  grains.omega.resize(grains.x.size());
+  grains.radius.assign(grains.x.size(), d / 2);
+  return CoupledBox(c, fluid_at(random_points(400, c.domain.min, c.domain.max, random), 0.05, 1000, 1),
+                    grains);
+}
+
+TEST(Porosity, OfAUniformBedIsItsVoidShare) {
+  for (const char* kernel : {"wendland_c2", "cubic", "lucy"})
+    for (double spacing : {0.105, 0.125}) {
+      CoupledBox box = lattice_of_grains(spacing, kernel);
+      box.coupling.porosity(box.fluid, box.grains);
+      const double expected = 1 - M_PI / 6 * std::pow(0.1 / spacing, 3);
+      for (Real eps : box.fluid.eps.values()) EXPECT_NEAR(eps, expected, 1e-2) << kernel << " " << spacing;
+      EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).floor_hits, 0u);
+    }
+}
+
+TEST(Porosity, HasAFloorAndCountsWhoIsHeldThere) {
+  CoupledBox box = lattice_of_grains(0.085);  // solid share 0.85: overlapping spheres
+  box.coupling.porosity(box.fluid, box.grains);
+  for (Real eps : box.fluid.eps.values()) EXPECT_EQ(eps, Real(0.25));
+  EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).floor_hits, 400u);
+}
+
+TEST(Porosity, IsOneWhereThereIsNoGrain) {
+  Config c = unit_box(0.1, 1e-3);
+  std::mt19937_64 random(6);
+  CoupledBox box(c, fluid_at(random_points(50, {0, 0, 0}, {1, 1, 0.5}, random), 0.1, 1000, 0.5),
+                 {{{0.5, 0.5, 0.9}}, {{}}, {{}}, {0.05}});
+  box.coupling.porosity(box.fluid, box.grains);
+  for (Real eps : box.fluid.eps.values()) EXPECT_EQ(eps, Real(1));
+}
+
+TEST(Porosity, FollowsGrainsThatMoveWithinTheSkin) {
+  Config c = unit_box(0.1, 1e-3);
+  std::mt19937_64 random(7);
+  CoupledBox box(c, fluid_at(random_points(300, {0, 0, 0}, {1, 1, 1}, random), 0.1, 1000, 1),
+                 random_grains(40, {0, 0, 0}, {1, 1, 1}, 0.05, random));
+  auto x = box.grains.x.values();
+  for (auto& at : x) at += Vec3d{0.003, -0.002, 0.004};  // skin 0.02
+  box.grains.x.assign(x);
+  box.coupling.porosity(box.fluid, box.grains);
+  const auto at = box.fluid_places();
+  const auto eps = box.fluid.eps.values();
+  const WendlandC2 w(0.1);
+  for (std::size_t a = 0; a < at.size(); ++a) {
+    double solid = 0;
+    for (const auto& xj : x) solid += M_PI / 6 * std::pow(0.05, 3) * w.W(Real(norm(at[a] - xj)));
+    EXPECT_NEAR(eps[a], std::max(0.25, 1 - solid), kInvariant);
+  }
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,153 @@
+// Drag far stiffer than the step, and the fluid's side of the step limit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "kernels/coupling/limit_pass.hpp"
+#include "tests/support/coupled_box.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr double kGrainMass = 2, kDiameter = 0.05, kStep = 0.1;
+
+/// 300 grains and 200 fluid particles in a periodic box; K dt / m of the grains is `stiffness`.
+CoupledBox suspension(double stiffness, bool moments) {
+  Config c = unit_box(0.15, stiffness * kGrainMass / (kStep * 3 * M_PI * kDiameter));
+  c.domain.periodic = {true, true, true};
+  c.couple.drag = "stokes";
+  c.couple.torque = c.couple.angmom = moments;
+  std::mt19937_64 random(21);
+  Cloud fluid = random_fluid(200, {0, 0, 0}, {1, 1, 1}, 1000, random);
+  fluid.theta.assign(200, {});
+  return CoupledBox(c, fluid, random_grains(300, {0, 0, 0}, {1, 1, 1}, kDiameter, random));
+}
+
+struct Totals {
+  double energy = 0, scale = 0;
+  Vec3d momentum;
+};
+Totals totals(const CoupledBox& box) {
+  Totals t;
+  const auto add = [&](double m, const Vec3d& v) {
+    t.energy += 0.5 * m * norm2(v);
+    t.momentum += v * m;
+    t.scale += m * norm(v);
+  };
+  const auto v_rho = box.fluid.v_rho.values();
+  const auto mass = box.fluid.mass.values();
+  for (std::size_t a = 0; a < mass.size(); ++a) add(mass[a], Vec3d(v_rho[a].xyz()));
+  for (const Real3& v : box.grains.v.values()) add(kGrainMass, Vec3d(v));
+  return t;
+}
+
+/// One step of drag alone: the exponential update of the grains in `substeps`, then the reaction.
+void step(CoupledBox& box, int substeps) {
+  box.coupling.gather(box.fluid, box.grains, kStep);
+  auto v = box.grains.v.values();
+  const auto U = box.grains.U.values();
+  const auto K = box.grains.K.values();
+  std::vector<Real3> impulse(v.size());
+  for (std::size_t j = 0; j < v.size(); ++j)
+    for (int s = 0; s < substeps; ++s) {
+      const Real gone = Real(-std::expm1(-kStep / substeps * K[j] / kGrainMass));
+      const Real3 change = gone * (U[j] - v[j]);
+      v[j] += change;
+      impulse[j] += Real(kGrainMass) * change;
+    }
+  box.grains.v.assign(v);
+  box.grains.impulse.assign(impulse);
+  box.grains.spin_impulse.buffer().zero();
+  box.coupling.react(box.fluid, box.grains);
+}
+
+TEST(StiffDrag, NeverGainsEnergyAndKeepsMomentum) {
+  const double rounding = tolerance(1e-14, 1e-6, 1e-6);
+  for (int power = -2; power <= 8; ++power) {
+    CoupledBox box = suspension(std::pow(10.0, power), false);
+    const Totals start = totals(box);
+    Totals last = start;
+    for (int n = 0; n < 40; ++n) {
+      step(box, 1 + n % 3);
+      const Totals now = totals(box);
+      EXPECT_LE(now.energy, last.energy * (1 + rounding)) << "K dt / m = 1e" << power << ", step " << n;
+      last = now;
+    }
+    EXPECT_LT(norm(last.momentum - start.momentum), kInvariant * start.scale) << "K dt / m = 1e" << power;
+    EXPECT_LT(last.energy, start.energy);
+  }
+}
+
+TEST(StiffDrag, IsBoundedByTheSoftestFluidAround) {
+  CoupledBox free = suspension(3, false), bound = suspension(3, false);
+  free.coupling.gather(free.fluid, free.grains, 0);  // no time, no bound
+  bound.coupling.gather(bound.fluid, bound.grains, kStep);
+  const WendlandC2 w(0.15);
+  const auto at = free.fluid_places();
+  const auto x = free.grains.x.values();
+  const auto K = free.grains.K.values(), K_bound = bound.grains.K.values();
+  const auto mass = free.fluid.mass.values();
+  const auto v_rho = free.fluid.v_rho.values();
+  const auto weight = [&](std::size_t a, std::size_t j) {
+    return mass[a] / v_rho[a].w * double(w.W(Real(norm(free.frame.separation(at[a], x[j])))));
+  };
+  std::vector<double> rate(at.size());
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    double S = 0;
+    for (std::size_t a = 0; a < at.size(); ++a) S += weight(a, j);
+    for (std::size_t a = 0; a < at.size(); ++a) rate[a] += weight(a, j) / S * K[j] / mass[a];
+  }
+  std::uint64_t limited = 0;
+  for (std::size_t j = 0; j < x.size(); ++j) {
+    double most = 0;
+    for (std::size_t a = 0; a < at.size(); ++a)
+      if (weight(a, j) > 0) most = std::max(most, kStep * rate[a]);
+    EXPECT_NEAR(K_bound[j], K[j] * -std::expm1(-most) / most, 4 * kInvariant * K[j]);
+    limited += most > 1;
+  }
+  const CouplingCounters counters = bound.coupling.counters(bound.fluid, bound.grains);
+  EXPECT_EQ(counters.limited, limited);
+  EXPECT_GT(limited, 0u);
+  EXPECT_EQ(counters.wet, 300u);
+  const double dt = 0.5 / *std::max_element(rate.begin(), rate.end());
+  EXPECT_NEAR(bound.coupling.stable_dt(), dt, 4 * kInvariant * dt);
+}
+
+TEST(SpinDecay, OfAGrainInStillFluidIsKirchhoffs) {
+  const double d = 0.06, rho_s = 2500, mu = 20;
+  Config c = unit_box(0.12, mu);
+  std::mt19937_64 random(31);
+  Cloud fluid = fluid_at(lattice({0, 0, 0}, {1, 1, 1}, 0.06), 0.06, 1000, 1);
+  Pebbles grain{{{0.5, 0.48, 0.51}}, {{0, 0, 0}}, {{1, -2, 0.5}}, {d / 2}};
+  CoupledBox box(c, fluid, grain);
+  const double inertia = 0.4 * rho_s * M_PI / 6 * d * d * d * d * d / 4;
+  const double rate = M_PI * mu * d * d * d / inertia;
+  const double dt = 1e-3 / rate;
+  box.coupling.gather(box.fluid, box.grains, dt);
+  EXPECT_NEAR(box.grains.K_rot.values()[0] / inertia, rate, 1e-3 * rate);
+
+  // the angular momentum that the grain loses turns the fluid
+  const Real3 torque_impulse = Real(dt) * box.grains.K_rot.values()[0] *
+                               (box.grains.omega_f.values()[0] - box.grains.omega.values()[0]);
+  box.grains.impulse.buffer().zero();
+  box.grains.spin_impulse.assign({torque_impulse});
+  box.coupling.react(box.fluid, box.grains);
+  const auto at = box.fluid_places();
+  const auto v_rho = box.fluid.v_rho.values();
+  const auto mass = box.fluid.mass.values();
+  Vec3d spin, momentum;
+  double scale = 0;
+  for (std::size_t a = 0; a < at.size(); ++a) {
+    const Vec3d p = Vec3d(v_rho[a].xyz()) * double(mass[a]);
+    spin += cross(at[a], p);
+    momentum += p;
+    scale += norm(p);
+  }
+  EXPECT_GT(scale, 0);
+  EXPECT_LT(norm(momentum), kInvariant * scale);
+  EXPECT_LT(norm(spin + Vec3d(torque_impulse)), 10 * kInvariant * norm(Vec3d(torque_impulse)));
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,149 @@
+// Pair terms of the fluid: balance, invariance, equation of state, operators on lattices.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/fluid_box.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// 10^3 particles, random places, masses, velocities and densities, every pair term on.
+Config all_terms() {
+  Config c = periodic_box(10);
+  c.fluid.mu = 5;
+  c.visc.alpha = 0.1;
+  c.visc.beta = 0.2;
+  c.tensile = 1;
+  c.fluid.kernel = "cubic";
+  c.xsph = 0.3;
+  return c;
+}
+
+struct Balance {
+  Vec3d force;
+  double scale = 0;  // sum of magnitudes
+};
+
+void randomise(FluidBox& box, double shift = 0) {
+  std::mt19937 rng(11);
+  std::uniform_real_distribution<double> u(-1, 1);
+  for (std::size_t a = 0; a < box.position.size(); ++a) {
+    box.velocity[a] = {u(rng) + shift, u(rng) - shift, u(rng) + shift};
+    box.s[a] = 0.02 * u(rng);
+  }
+}
+
+Balance balance(const FluidBox& box, const std::vector<Real3>& a) {
+  Balance out;
+  const auto m = box.fluid.mass.values();
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    out.force += Vec3d(a[i]) * double(m[i]);
+    out.scale += norm(Vec3d(a[i])) * double(m[i]);
+  }
+  return out;
+}
+
+TEST(SmallFluidPairs, ForcesOfAllTermsBalance) {  // T-2
+  FluidBox box(all_terms(), 0.4, true);
+  randomise(box);
+  box.upload();
+  box.solver->forces(box.fluid, box.walls, 1e-4);
+  const auto b = balance(box, box.fluid.acc_next.values());
+  ASSERT_GT(b.scale, 0);
+  EXPECT_LT(norm(b.force) / b.scale, kInvariant);
+}
+
+TEST(FluidPairs, CentralForcesExertNoTorque) {  // T-2: pressure, artificial viscosity and tensile term
+  Config c = all_terms();
+  c.visc.model = "none";
+  c.domain.periodic = {false, false, false};
+  FluidBox box(c, 0.4, true);
+  randomise(box);
+  box.upload();
+  box.solver->forces(box.fluid, box.walls, 1e-4);
+  const auto a = box.fluid.acc_next.values();
+  const auto m = box.fluid.mass.values();
+  const auto x = box.coordinates_now();
+  Vec3d torque;
+  double scale = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Vec3d t = cross(x[i] - Vec3d{0.05, 0.05, 0.05}, Vec3d(a[i]) * double(m[i]));
+    torque += t;
+    scale += norm(t);
+  }
+  EXPECT_LT(norm(torque) / scale, kInvariant);
+}
+
+TEST(FluidPairs, GalileanShiftLeavesForcesAlone) {  // T-3, shift of 100 c
+  Config c = all_terms();
+  c.xsph = 0;
+  std::vector<Real3> a[2];
+  for (int k : {0, 1}) {
+    FluidBox box(c, 0.4, true);
+    randomise(box, k * 100 * c.fluid.c);
+    box.upload();
+    box.solver->forces(box.fluid, box.walls, 1e-4);
+    a[k] = box.fluid.acc_next.values();
+  }
+  double error = 0, scale = 0;
+  for (std::size_t i = 0; i < a[0].size(); ++i) {
+    error = std::max(error, norm(Vec3d(a[0][i]) - Vec3d(a[1][i])));
+    scale = std::max(scale, norm(Vec3d(a[0][i])));
+  }
+  EXPECT_LT(error / scale, tolerance(1e-11, 1e-4, 1e-4));
+}
+
+TEST(FluidPairs, TaitAndDemocritusPressures) {  // T-5
+  const EquationOfState tait{Real(1000), Real(7), Real(0), Real(1000), false};
+  EXPECT_NEAR(double(tait.pressure(Real(0.01))) / 1000, 0.0721354, 0.0721354 * tolerance(1e-6, 1e-6, 1e-5));
+  const double exact = std::pow(1.01, 7) - 1;
+  EXPECT_NEAR(double(tait.pressure(Real(0.01))) / 1000, exact, exact * 2 * kInvariant);
+  const EquationOfState democritus{Real(100), Real(7), Real(100 - 30), Real(3), false};
+  EXPECT_NEAR(double(democritus.pressure(0)), 70, 70 * kInvariant);
+  for (double x : {-0.05, 1e-6, 1e-3, 0.3})
+    EXPECT_NEAR(double(tait.compression(tait.pressure(Real(x)))), x, std::abs(x) * tolerance(1e-9, 1e-5, 1e-5));
+  EXPECT_EQ((EquationOfState{Real(1000), 7, 0, Real(1000), true}).pressure(Real(-0.1)), Real(0));
+}
+
+TEST(FluidPairs, MorrisViscosityOnALattice) {  // T-7: v = cos kz, h/dx = 1.5
+  Config c = periodic_box(20);
+  c.fluid.mu = 2;
+  FluidBox box(c);
+  const double k = 2 * 3.14159265358979 / 0.2;
+  for (std::size_t a = 0; a < box.position.size(); ++a) box.velocity[a].x = std::cos(k * box.position[a].z);
+  box.upload();
+  box.solver->forces(box.fluid, box.walls, 1e-4);
+  const auto v = box.fluid.v_rho.values();
+  const auto theta = box.fluid.theta.values();
+  double top = 0, bottom = 0;
+  for (std::size_t a = 0; a < v.size(); ++a) {
+    top -= double(theta[a].x) * v[a].x * 1000;
+    bottom += double(v[a].x) * v[a].x * k * k;
+  }
+  EXPECT_NEAR(top / bottom, c.fluid.mu, 3e-2 * c.fluid.mu);
+}
+
+TEST(FluidPairs, XsphMovesTheCentreOfMassWithTheMomentum) {  // T-12
+  FluidBox box(all_terms(), 0.4, true);
+  randomise(box);
+  box.upload();
+  box.solver->forces(box.fluid, box.walls, 1e-4);
+  const auto b = balance(box, box.fluid.xsph.values());
+  EXPECT_LT(norm(b.force) / b.scale, kInvariant);
+}
+
+TEST(FluidPairs, RepulsionVanishesAtItsRange) {  // T-17
+  const Repulsion r{Real(3), Real(0.01), Real(1e9)};
+  EXPECT_EQ(r.term(Real(1e-4)), Real(0));
+  EXPECT_NEAR(double(r.term(Real(0.9999e-4))), 0, 20);
+  const double q = 2;  // r = r0 / 2
+  EXPECT_NEAR(double(r.term(Real(0.25e-4))) * 0.005, 3 * (std::pow(q, 4) - q * q) / 0.005, 1);
+  const Repulsion capped{Real(3), Real(0.01), Real(10)};
+  EXPECT_NEAR(double(capped.term(Real(1e-6))) * 1e-3, 10, 1e-3);
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,50 @@
+// Every case that comes with Bedload can be read and laid.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+
+#include "bedload/case/read.hpp"
+#include "bedload/geometry/setup.hpp"
+
+namespace bedload::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Cases, AreLaidWithoutWarnings) {
+  struct Count {
+    std::size_t fluid, grains;
+  };
+  const std::map<std::string, Count> expected{
+      {"dam_break_single_phase/case.toml", {37 * 73 * 10, 0}},
+      {"dam_break_two_phase/case.toml", {17 * 33 * 50, 7762}},
+      {"grain_heap/case.toml", {0, 2000}},
+      {"hydrostatic_column/case.toml", {8 * 8 * 25, 0}},
+      {"poiseuille/case.toml", {8 * 8 * 50, 0}},
+      {"sphere_settling/air.toml", {20 * 20 * 30, 1}},
+      {"sphere_settling/glycerol.toml", {20 * 20 * 30, 1}},
+      {"sphere_settling/water.toml", {20 * 20 * 30, 1}},
+      {"taylor_green/case.toml", {50 * 50 * 8, 0}},
+  };
+  std::size_t found = 0;
+  const fs::path cases = fs::path(BL_SOURCE_DIR) / "cases";
+  for (const auto& entry : fs::recursive_directory_iterator(cases)) {
+    if (entry.path().extension() != ".toml" || entry.path().stem().string().starts_with("expect")) continue;
+    const std::string name = entry.path().lexically_relative(cases).generic_string();
+    SCOPED_TRACE(name);
+    ASSERT_TRUE(expected.contains(name)) << "not listed here";
+    std::vector<std::string> warnings;
+    const Config config = read_case(entry.path(), {}, warnings);
+    const auto setup = build_setup(config, warnings);
+    EXPECT_EQ(setup.fluid.x.size(), expected.at(name).fluid);
+    EXPECT_EQ(setup.grains.x.size(), expected.at(name).grains);
+    EXPECT_EQ(warnings, std::vector<std::string>());
+    ++found;
+  }
+  EXPECT_EQ(found, expected.size());
+}
+
+}  // namespace
+}  // namespace bedload::test

@@ -1,0 +1,175 @@
+#include "bedload/geometry/packing.hpp"
+
+#include <numbers>
+#include <numeric>
+
+#include "support.hpp"
+
+namespace bedload::test {
+namespace {
+
+Config grain_case(const Vec3d& size) {
+  Config config = empty_case(size);
+  config.grain.present = true;
+  GrainFill fill;
+  fill.max = size;
+  config.grain.fills = {fill};
+  return config;
+}
+
+double closest_gap(const Setup::Grains& grains, const DomainConfig& domain) {
+  double least = INFINITY;
+  for (std::size_t i = 0; i < grains.x.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      least = std::min(
+          least, closest_pair({grains.x[i], grains.x[j]}, domain) - grains.radius[i] - grains.radius[j]);
+  return least;
+}
+
+void expect_inside(const Setup::Grains& grains, const Vec3d& min, const Vec3d& max) {
+  for (std::size_t i = 0; i < grains.x.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_GE(grains.x[i][k], min[k] + grains.radius[i] - 1e-9);
+      EXPECT_LE(grains.x[i][k], max[k] - grains.radius[i] + 1e-9);
+    }
+}
+
+TEST(GrainPacking, RandomPlacesAreClearOfEachOtherAndTheBox) {
+  Config config = grain_case({0.12, 0.1, 0.1});
+  config.grain.fills[0].count = 500;  // 22 % solid
+  config.grain.fills[0].velocity = {0, 0, -0.5};
+  const auto grains = setup_of(config).grains;
+  ASSERT_EQ(grains.x.size(), 500u);
+  EXPECT_EQ(grains.v[499], (Vec3d{0, 0, -0.5}));
+  EXPECT_EQ(grains.radius, std::vector<double>(500, 0.005));
+  EXPECT_GE(closest_gap(grains, config.domain), 0);
+  expect_inside(grains, {0, 0, 0}, {0.12, 0.1, 0.1});
+}
+
+TEST(GrainPacking, SameSeedSamePlaces) {
+  Config config = grain_case({0.1, 0.1, 0.1});
+  config.grain.fills[0].count = 200;
+  const auto once = setup_of(config).grains.x, again = setup_of(config).grains.x;
+  EXPECT_EQ(once, again);
+  config.grain.seed = 2;
+  EXPECT_NE(setup_of(config).grains.x, once);
+}
+
+TEST(GrainPacking, PlacesSpreadEvenly) {
+  Config config = grain_case({0.4, 0.2, 0.2});
+  config.grain.fills[0].count = 3000;
+  Vec3d mean;
+  const auto grains = setup_of(config).grains;
+  for (const Vec3d& x : grains.x) mean += x / 3000;
+  // Uniform over a length L: the mean of N has the deviation L / sqrt(12 N).
+  EXPECT_NEAR(mean.x, 0.2, 4 * 0.4 / std::sqrt(12 * 3000));
+  EXPECT_NEAR(mean.y, 0.1, 4 * 0.2 / std::sqrt(12 * 3000));
+  EXPECT_NEAR(mean.z, 0.1, 4 * 0.2 / std::sqrt(12 * 3000));
+}
+
+TEST(GrainPacking, CountsFromMassAndPackingFraction) {
+  Config config = grain_case({0.05, 0.15, 0.1});
+  config.grain.d = config.grain.d_max = 0.0027;
+  config.grain.fills[0].mass = 0.2;
+  EXPECT_EQ(setup_of(config).grains.x.size(), 7762u);
+  config.grain.fills[0].mass = 0;
+  config.grain.fills[0].packing_fraction = 0.1;
+  EXPECT_EQ(setup_of(config).grains.x.size(),
+            std::size_t(std::round(0.1 * 7.5e-4 / (std::numbers::pi / 6 * std::pow(0.0027, 3)))));
+}
+
+TEST(GrainPacking, DenseBoxesTakeALattice) {
+  Config config = grain_case({0.1, 0.1, 0.1});
+  for (const int count : {700, 999, 1000}) {  // up to all cells of a lattice one diameter wide
+    config.grain.fills[0].count = count;
+    const auto grains = setup_of(config).grains;
+    ASSERT_EQ(grains.x.size(), std::size_t(count));
+    EXPECT_GE(closest_gap(grains, config.domain), -1e-12);
+    expect_inside(grains, {0, 0, 0}, {0.1, 0.1, 0.1});
+  }
+}
+
+TEST(GrainPacking, LatticeIsShaken) {
+  Config config = grain_case({0.1, 0.1, 0.1});
+  config.grain.fills[0].count = 640;
+  config.grain.d = config.grain.d_max = 0.0105;
+  const auto places = setup_of(config).grains.x;
+  std::vector<double> heights;
+  for (const Vec3d& x : places) heights.push_back(x.z);
+  std::sort(heights.begin(), heights.end());
+  EXPECT_EQ(std::unique(heights.begin(), heights.end()) - heights.begin(), 640);
+}
+
+TEST(GrainPacking, SaysWhatDoesNotFit) {
+  Config config = grain_case({0.1, 0.1, 0.1});
+  config.grain.fills[0].count = 1001;
+  EXPECT_EQ(error_of(config),
+            "grain.fill 1: 1001 grains of 0.01 m need at least 0.001001 m3, the box of "
+            "0.001 m3 holds 1000 of them; enlarge it and let the grains settle");
+  config.grain.fills[0].count = 1;
+  config.grain.fills[0].max.y = 0.008;
+  EXPECT_EQ(error_of(config), "grain.fill 1: a grain of 0.01 m does not fit a box 0.008 m wide along y");
+  config.grain.fills[0].max.y = 0.2;
+  EXPECT_EQ(error_of(config),
+            "grain.fill 1: its box runs from y = 0 to 0.2 m, the domain only from 0 to 0.1 m");
+  config.grain.fills[0].max.y = 0.1;
+  config.grain.fills[0].count = 0;
+  EXPECT_EQ(error_of(config), "grain.fill 1: holds no grain; raise its count, mass or packing_fraction");
+}
+
+TEST(GrainPacking, SizesComeInTheirShares) {
+  Config config = grain_case({0.2, 0.2, 0.2});
+  config.grain.d_max = 0.01;
+  config.grain.fills[0].sizes = {{0.01, 1}, {0.006, 2}, {0.004, 1}};
+  config.grain.fills[0].count = 400;
+  const auto grains = setup_of(config).grains;
+  EXPECT_EQ(std::count(grains.radius.begin(), grains.radius.end(), 0.005), 100);
+  EXPECT_EQ(std::count(grains.radius.begin(), grains.radius.end(), 0.003), 200);
+  EXPECT_EQ(std::count(grains.radius.begin(), grains.radius.end(), 0.002), 100);
+  EXPECT_FALSE(std::is_sorted(grains.radius.rbegin(), grains.radius.rend()));
+  EXPECT_GE(closest_gap(grains, config.domain), 0);
+}
+
+TEST(GrainPacking, KeepsClearAcrossThePeriod) {
+  Config config = grain_case({0.045, 0.045, 0.1});
+  config.domain.periodic = {true, true, false};
+  config.grain.fills[0].count = 100;
+  const auto grains = setup_of(config).grains;
+  EXPECT_GE(closest_gap(grains, config.domain), 0);
+  double nearest_side = 1;
+  for (const Vec3d& x : grains.x) nearest_side = std::min({nearest_side, x.x, x.y});
+  EXPECT_LT(nearest_side, 0.003);  // places straddle the seam
+}
+
+TEST(GrainPacking, FillsKeepClearOfEachOtherAndOfSolids) {
+  for (const int count : {150, 420}) {  // random places, lattice
+    Config config = grain_case({0.1, 0.1, 0.1});
+    config.wall.bodies = {body("box", {0.04, 0, 0}, {0.06, 0.1, 0.03})};
+    config.grain.fills[0].count = count;
+    config.grain.fills.push_back(config.grain.fills[0]);
+    config.grain.fills[1].count = 60;
+    const auto grains = setup_of(config).grains;
+    ASSERT_EQ(grains.x.size(), std::size_t(count) + 60);
+    EXPECT_GE(closest_gap(grains, config.domain), -1e-12);
+    for (const Vec3d& x : grains.x) {
+      const Vec3d beyond{std::max({0.04 - x.x, x.x - 0.06, 0.0}), 0, std::max(x.z - 0.03, 0.0)};
+      EXPECT_GE(norm(beyond), 0.005 - 1e-7);
+    }
+  }
+}
+
+TEST(GrainPacking, TakesGivenPlaces) {
+  Config config = grain_case({0.1, 0.1, 0.1});
+  config.wall.bodies = {body("tank", {0, 0, 0}, {0.1, 0.1, 0.1})};
+  config.grain.fills[0].positions = {{0.05, 0.05, 0.005}, {0.05, 0.05, 0.015}};
+  EXPECT_EQ(setup_of(config).grains.x, config.grain.fills[0].positions);
+  config.grain.fills[0].positions[1].z = 0.01;
+  EXPECT_EQ(error_of(config), "grain.fill 1: grain 2 at (0.05, 0.05, 0.01) m lies inside another grain");
+  config.grain.fills[0].positions[1] = {0.098, 0.05, 0.05};
+  EXPECT_EQ(error_of(config), "grain.fill 1: grain 2 at (0.098, 0.05, 0.05) m lies inside a wall");
+  config.grain.fills[0].positions[1] = {0.05, 0.05, 0.2};
+  EXPECT_EQ(error_of(config), "grain.fill 1: grain 2 at (0.05, 0.05, 0.2) m lies outside the domain");
+}
+
+}  // namespace
+}  // namespace bedload::test

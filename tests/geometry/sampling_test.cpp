@@ -1,0 +1,180 @@
+#include "bedload/geometry/sampling.hpp"
+
+#include "support.hpp"
+
+namespace bedload::test {
+namespace {
+
+constexpr double kSpacing = 0.01, kDepth = 0.03;
+
+DomainConfig unit_domain() { return {{-0.1, -0.1, -0.1}, {1, 1, 1}}; }
+
+std::vector<Vec3d> sample(const WallBody& b, const DomainConfig& domain = unit_domain()) {
+  return sample_body(b, kSpacing, kDepth, domain);
+}
+
+/// Farthest that a point of a grid over the box min..max, where `in` holds, lies from any particle.
+template <class F>
+double largest_hole(const std::vector<Vec3d>& points, const Vec3d& min, const Vec3d& max, F in) {
+  double worst = 0;
+  const int n = 24;
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j)
+      for (int k = 0; k <= n; ++k) {
+        const Vec3d x{min.x + (max.x - min.x) * i / n, min.y + (max.y - min.y) * j / n,
+                      min.z + (max.z - min.z) * k / n};
+        if (in(x)) worst = std::max(worst, nearest(points, x));
+      }
+  return worst;
+}
+
+TEST(Tank, ClosesFacesEdgesAndCorners) {
+  const auto points = sample(body("tank", {0, 0, 0}, {0.1, 0.08, 0.06}));
+  EXPECT_EQ(points.size(), 16u * 14 * 12 - 10 * 8 * 6);  // a block less its hollow
+  const auto in_wall = [](const Vec3d& x) {
+    return !(x.x > 0 && x.x < 0.1 && x.y > 0 && x.y < 0.08 && x.z > 0 && x.z < 0.06);
+  };
+  // Within a cubic lattice no place is farther than half a body diagonal from a point.
+  EXPECT_LT(largest_hole(points, {-0.03, -0.03, -0.03}, {0.13, 0.11, 0.09}, in_wall), 0.8661 * kSpacing);
+  for (const Vec3d& x : points) EXPECT_TRUE(in_wall(x));
+  EXPECT_NEAR(closest_pair(points, unit_domain()), kSpacing, 1e-12);
+}
+
+TEST(Tank, EndsFlushAtAnOpenFace) {
+  WallBody tank = body("tank", {0, 0, 0}, {0.1, 0.08, 0.06});
+  tank.faces[5] = false;  // open top
+  const auto points = sample(tank);
+  EXPECT_EQ(points.size(), 16u * 14 * 9 - 10 * 8 * 6);
+  double top = 0;
+  for (const Vec3d& x : points) top = std::max(top, x.z);
+  EXPECT_NEAR(top, 0.055, 1e-12);
+}
+
+TEST(Tank, SpacingFollowsTheSides) {
+  const auto points = sample(body("tank", {0, 0, 0}, {0.104, 0.08, 0.06}));
+  double first = -1;
+  for (const Vec3d& x : points)
+    if (x.x < 0) first = std::max(first, x.x);
+  EXPECT_NEAR(first, -0.0052, 1e-12);
+}
+
+TEST(Tank, HasNoWallAcrossAPeriod) {
+  DomainConfig domain{{-0.1, 0, -0.1}, {0.3, 0.08, 0.3}, {false, true, false}};
+  const auto points = sample(body("tank", {0, 0, 0}, {0.1, 0.08, 0.06}), domain);
+  EXPECT_EQ(points.size(), (16u * 12 - 10 * 6) * 8);
+  for (const Vec3d& x : points) {
+    EXPECT_GT(x.y, 0);
+    EXPECT_LT(x.y, 0.08);
+  }
+  EXPECT_NEAR(closest_pair(points, domain), kSpacing, 1e-12);
+}
+
+TEST(Box, IsFilledToTheDepth) {
+  EXPECT_EQ(sample(body("box", {0, 0, 0}, {0.05, 0.2, 0.2})).size(), 5u * 20 * 20);
+  EXPECT_EQ(sample(body("box", {0, 0, 0}, {0.2, 0.2, 0.2})).size(), 8000u - 14 * 14 * 14);
+}
+
+TEST(Box, HasNoEndAcrossAPeriod) {
+  DomainConfig domain{{0, 0, 0}, {1, 0.2, 1}, {false, true, false}};
+  EXPECT_EQ(sample(body("box", {0, 0, 0}, {0.2, 0.2, 0.2}), domain).size(), (400u - 14 * 14) * 20);
+}
+
+TEST(Plane, LiesUnderTheWholeDomain) {
+  DomainConfig domain{{0, 0, 0}, {0.2, 0.1, 1}, {true, true, false}};
+  WallBody plane = body("plane", {}, {});
+  plane.point = {7, 7, 0.02};
+  plane.normal = {0, 0, 2};
+  const auto points = sample(plane, domain);
+  EXPECT_EQ(points.size(), 20u * 10 * 3);
+  for (const Vec3d& x : points) {
+    EXPECT_LT(x.z, 0.0151);
+    EXPECT_TRUE(x.x > 0 && x.x < 0.2 && x.y > 0 && x.y < 0.1);
+  }
+  EXPECT_NEAR(closest_pair(points, domain), kSpacing, 1e-12);
+}
+
+TEST(Plane, TwoOfThemCloseTheirCorner) {
+  Config config = empty_case({0.1, 0.1, 0.1});
+  config.fluid.h_over_dx = 1.5;
+  add_fill(config, {0, 0, 0}, {0.1, 0.1, 0.1});
+  WallBody floor = body("plane", {}, {}), side = floor;
+  floor.normal = {0, 0, 1};
+  side.normal = {1, 0, 0};
+  config.wall.bodies = {floor, side};
+  const auto setup = setup_of(config);
+  EXPECT_LT(largest_hole(setup.walls.x, {-0.03, 0, -0.03}, {0.1, 0.1, 0.1},
+                         [](const Vec3d& x) { return x.x < 0 || x.z < 0; }),
+            0.8661 * kSpacing);
+  EXPECT_NEAR(closest_pair(setup.walls.x, config.domain), kSpacing, 1e-9);
+}
+
+TEST(Plane, MayStandAtAnAngle) {
+  WallBody plane = body("plane", {}, {});
+  plane.normal = {-1, 0, 2};
+  DomainConfig domain{{0, 0, 0}, {0.2, 0.1, 0.2}, {false, true, false}};
+  const auto points = sample(plane, domain);
+  const Vec3d n = plane.normal / norm(plane.normal);
+  const auto in_wall = [&](const Vec3d& x) { return dot(x, n) < 0 && dot(x, n) > -kDepth; };
+  for (const Vec3d& x : points) EXPECT_TRUE(in_wall(x));
+  EXPECT_NEAR(closest_pair(points, domain), kSpacing, 0.05 * kSpacing);
+  EXPECT_LT(largest_hole(points, {0, 0, 0}, {0.2, 0.1, 0.1}, in_wall), 0.9 * kSpacing);
+}
+
+TEST(Plane, MustRepeatWithThePeriod) {
+  WallBody plane = body("plane", {}, {});
+  plane.normal = {0, 1, 1};
+  DomainConfig domain{{0, 0, 0}, {0.2, 0.1, 0.2}, {false, true, false}};
+  EXPECT_THROW(sample(plane, domain), CaseError);
+}
+
+TEST(WallDistance, IsNegativeInTheSolid) {
+  const DomainConfig domain = unit_domain();
+  WallBody tank = body("tank", {0, 0, 0}, {1, 1, 1});
+  EXPECT_DOUBLE_EQ(wall_distance(tank, {0.2, 0.5, 0.3}, 0.1, domain), 0.2);
+  EXPECT_DOUBLE_EQ(wall_distance(tank, {-0.05, 0.5, 0.3}, 0.1, domain), -0.05);
+  EXPECT_LT(wall_distance(tank, {-0.05, -0.05, -0.05}, 0.1, domain), 0);
+  tank.faces[0] = false;
+  EXPECT_DOUBLE_EQ(wall_distance(tank, {-0.05, 0.5, 0.3}, 0.1, domain), 1.05);  // the face opposite
+  EXPECT_EQ(wall_distance(tank, {-0.05, 0.5, 1.3}, 0.1, domain), INFINITY);
+  const WallBody box = body("box", {0, 0, 0}, {0.2, 0.2, 0.2});
+  EXPECT_DOUBLE_EQ(wall_distance(box, {0.05, 0.1, 0.1}, 0, domain), -0.05);
+  EXPECT_DOUBLE_EQ(wall_distance(box, {0.23, 0.24, 0.1}, 0, domain), 0.05);
+}
+
+TEST(Walls, BodiesDoNotShareParticles) {
+  Config config = empty_case({0.4, 0.2, 0.2});
+  add_fill(config, {0, 0, 0}, {0.1, 0.2, 0.1});
+  config.wall.bodies = {body("tank", {0, 0, 0}, {0.4, 0.2, 0.2}), body("box", {0.2, 0, 0}, {0.25, 0.2, 0.05}),
+                        body("box", {0.22, 0, -0.02}, {0.28, 0.2, 0.05})};
+  const auto setup = setup_of(config);
+  EXPECT_NEAR(closest_pair(setup.walls.x, config.domain), kSpacing, 1e-9);
+  const auto& owners = setup.walls.body;
+  const auto count = [&](std::uint32_t b) { return std::count(owners.begin(), owners.end(), b); };
+  EXPECT_EQ(count(1), 5 * 20 * 5);
+  EXPECT_EQ(count(2), 3 * 20 * 5);  // what the tank and the first box leave of 6 x 20 x 7
+}
+
+TEST(Walls, OnlyFluidNeedsThem) {
+  Config config = empty_case({0.4, 0.2, 0.2});
+  config.wall.bodies = {body("tank", {0, 0, 0}, {0.4, 0.2, 0.2})};
+  EXPECT_TRUE(setup_of(config).walls.x.empty());
+  add_fill(config, {0, 0, 0}, {0.1, 0.2, 0.1});
+  EXPECT_FALSE(setup_of(config).walls.x.empty());
+  config.wall.bodies[0].type = "none";
+  EXPECT_TRUE(setup_of(config).walls.x.empty());
+}
+
+TEST(Walls, WarnOfBodiesThinnerThanTheKernel) {
+  Config config = empty_case({0.4, 0.2, 0.2});
+  add_fill(config, {0, 0, 0}, {0.1, 0.2, 0.1});
+  config.wall.bodies = {body("box", {0.1, 0, 0}, {0.11, 0.2, 0.1})};
+  std::vector<std::string> warnings;
+  build_setup(config, warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0],
+            "wall.body \"box\": 0.01 m thick along x, less than the kernel's reach of 0.03 m, "
+            "so fluid on its two sides may interact");
+}
+
+}  // namespace
+}  // namespace bedload::test

@@ -1,0 +1,243 @@
+#include "kernels/contact/contact_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <random>
+
+#include "bedload/core/error.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr Real kRadius = Real(1.35e-3);
+const Sphere kGrain{kRadius, Real(2500 * 4.0 / 3.0 * 3.14159265358979 * 1.35e-3 * 1.35e-3 * 1.35e-3)};
+
+Config glass() {
+  Config c;
+  c.grain.d = 2 * kRadius;
+  return c;
+}
+
+TEST(ContactLaw, HertzForceAndStiffnessByHand) {
+  const ContactLaw law = make_contact_law(glass());
+  const double overlap = 1e-6, R = 0.5 * kRadius, E = 1e8 / (2 * 0.91);
+  const NormalState s = law.normal_state(Real(R), kGrain.m / 2, Real(overlap));
+  const double force = 4.0 / 3 * E * std::sqrt(R) * std::pow(overlap, 1.5);
+  EXPECT_NEAR(s.elastic / force, 1, tolerance(1e-12, 1e-6, 1e-6));
+  EXPECT_NEAR(s.stiffness / (2 * E * std::sqrt(R * overlap)), 1, tolerance(1e-12, 1e-6, 1e-6));
+}
+
+TEST(ContactLaw, PaperDampingIsRootSixTimesTheShare) {
+  Config c = glass();
+  c.contact.clip_tension = false;
+  const Real exact = make_contact_law(c).hertz.alpha;
+  c.contact.he_damping = true;
+  EXPECT_NEAR(make_contact_law(c).hertz.alpha / exact, std::sqrt(6.0 / 5.0), 1e-6);
+}
+
+TEST(ContactLaw, RefusesALinearSpringThatCannotDampEnough) {
+  Config c = glass();
+  c.contact.normal = "linear";
+  c.contact.k = 1000;
+  c.grain.e = 0.1;
+  EXPECT_THROW(make_contact_law(c), CaseError);
+  c.contact.clip_tension = false;
+  EXPECT_NO_THROW(make_contact_law(c));
+  c.contact.k = 0;
+  EXPECT_THROW(make_contact_law(c), CaseError);
+}
+
+TEST(ContactLaw, ClippedForceNeverPulls) {
+  const ContactLaw law = make_contact_law(glass());
+  ContactHistory h;
+  const ContactGeometry at = touch(kGrain, kGrain, {2 * kRadius - 1e-7, 0, 0}, 2 * kRadius - 1e-7, 1e-7);
+  EXPECT_EQ(law(at, {10, 0, 0}, {}, {}, 0, h).force.x, 0);
+  EXPECT_GT(law(at, {-10, 0, 0}, {}, {}, 0, h).force.x, 0);
+}
+
+/// A pair loaded along n and sheared by xi (m) in a tangential direction.
+TEST(ContactLaw, MindlinDeresiewiczStartsAtMindlinStiffnessAndEndsAtCoulomb) {
+  Config c = glass();
+  c.contact.rolling = "none";
+  c.contact.tangential = "mindlin_deresiewicz";
+  const ContactLaw md = make_contact_law(c);
+  const double overlap = 1e-6, gap = 2 * double(kRadius) - overlap;
+  const ContactGeometry at = touch(kGrain, kGrain, {gap, 0, 0}, gap, overlap);
+  c.contact.tangential = "mindlin";
+  const double stiffness = 8 * double(make_contact_law(c).mindlin.G_star) * std::sqrt(0.5 * kRadius * overlap);
+
+  const double longest = md.deresiewicz.longest(overlap), small = longest * 1e-7;
+  ContactHistory h{{0, small, 0}, {}, overlap};
+  const ContactForce start = md(at, {}, {}, {}, 0, h);
+  EXPECT_NEAR(-start.force.y / (stiffness * small), 1, tolerance(1e-6, 1e-5, 1e-4));
+
+  h = {{0, 3 * longest, 0}, {}, overlap};
+  const ContactForce limit = md(at, {}, {}, {}, 0, h);
+  EXPECT_NEAR(-limit.force.y / (0.3 * limit.force.x), 1, tolerance(1e-6, 1e-5, 1e-4));
+  EXPECT_NEAR(h.xi.y / longest, 1, 1e-6) << "stretch is kept at the limit";
+
+  h = {};
+  EXPECT_EQ(norm(md(at, {}, {}, {}, 0, h).force - Real3{limit.force.x, 0, 0}), 0) << "no stretch, no force";
+}
+
+TEST(ContactLaw, SlidingIsLimitedAndTheSpringFollows) {
+  Config c = glass();
+  c.contact.rolling = "none";
+  for (const char* name : {"mindlin", "linear"}) {
+    c.contact.tangential = name;
+    const ContactLaw law = make_contact_law(c);
+    const double overlap = 1e-6, gap = 2 * double(kRadius) - overlap;
+    const ContactGeometry at = touch(kGrain, kGrain, {0, 0, gap}, gap, overlap);
+    ContactHistory h{{1e-3, 0, 0}, {}, overlap};
+    const ContactForce slip = law(at, {}, {}, {}, 0, h);
+    EXPECT_NEAR(-slip.force.x / (0.3 * slip.force.z), 1, tolerance(1e-12, 1e-6, 1e-6)) << name;
+    const ContactForce again = law(at, {}, {}, {}, 0, h);
+    EXPECT_NEAR(again.force.x / slip.force.x, 1, tolerance(1e-12, 1e-6, 1e-6)) << name << ": spring was not cut back";
+  }
+}
+
+TEST(ContactLaw, RigidRotationDoesNotSlide) {
+  // two touching grains that turn as one body: no force but the elastic one
+  Config c = glass();
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  const ContactLaw law = make_contact_law(c);
+  for (int k = 0; k < 100; ++k) {
+    const Vec3d direction{normal(random), normal(random), normal(random)}, spin{normal(random), normal(random), normal(random)};
+    const Sphere big{Real(1.7) * kRadius, Real(5) * kGrain.m};
+    const double overlap = 1e-6, gap = double(kGrain.R) + double(big.R) - overlap;
+    const Vec3d r = direction * (gap / norm(direction));
+    const ContactGeometry at = touch(kGrain, big, r, gap, overlap);
+    ContactHistory h;
+    // the contact divides the line of centres in arm_i : arm_j
+    const ContactForce f = law(at, Real3(cross(spin, r)), Real3(spin), Real3(spin), Real(1e-6), h);
+    const double slide = norm(h.xi) / (1e-6 * norm(cross(spin, r)));
+    EXPECT_LT(slide, tolerance(1e-12, 1e-6, 1e-5));
+    EXPECT_NEAR(dot(Vec3d(f.force), at.n) / norm(Vec3d(f.force)), 1, 1e-5);
+  }
+}
+
+TEST(ContactLaw, SpringAndCoupleTurnWithTheContact) {
+  Config c = glass();
+  c.grain.mu = 5;
+  c.grain.mu_r = 1;
+  c.contact.clip_tension = false;
+  const ContactLaw law = make_contact_law(c);
+  const double overlap = 1e-5, gap = 2 * double(kRadius) - overlap;
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 8; ++trial) {
+    Vec3d axis{normal(random), normal(random), normal(random)}, n0{normal(random), normal(random), normal(random)};
+    if (trial == 0) axis = n0;  // pure twist
+    axis *= 1 / norm(axis), n0 *= 1 / norm(n0);
+    Vec3d t0 = cross(n0, Vec3d{normal(random), normal(random), normal(random)});
+    t0 *= 1 / norm(t0);
+    ContactHistory h{t0 * 2e-6, cross(n0, t0) * 1e-9, overlap};
+    const ContactHistory initial = h;
+    const int steps = 10000;  // projecting n away is first order: 0.05 degrees at this step
+    const double dt = 1.0 / steps, rate = 2 * M_PI;
+    Vec3d n = n0;
+    for (int s = 1; s <= steps; ++s) {
+      n = Quat<double>::from_rotation(axis * (rate * s * dt)).rotate(n0);
+      const ContactGeometry at = touch(kGrain, kGrain, n * gap, gap, overlap);
+      const Vec3d v = cross(axis * rate, n * gap);
+      law(at, Real3(v), Real3(axis * rate), Real3(axis * rate), Real(dt), h);
+    }
+    const double degree = M_PI / 180;
+    EXPECT_LT(norm(h.xi - initial.xi) / norm(initial.xi), 0.1 * degree) << "trial " << trial;
+    EXPECT_LT(norm(h.couple - initial.couple) / norm(initial.couple), 0.1 * degree) << "trial " << trial;
+  }
+}
+
+/// Takes a contact along straight legs in (overlap, tangential shift) and returns the work done on it.
+double work_of_cycle(const ContactLaw& law, const std::vector<std::array<double, 2>>& corners, double* spent) {
+  ContactHistory h;
+  const int steps = 4000;
+  double work = 0, shift = corners.front()[1];
+  *spent = 0;
+  Real3 before;
+  bool first = true;
+  for (std::size_t leg = 0; leg + 1 < corners.size(); ++leg)
+    for (int s = 1; s <= steps; ++s) {
+      const double f = double(s) / steps;
+      const double overlap = corners[leg][0] + f * (corners[leg + 1][0] - corners[leg][0]);
+      const double now = corners[leg][1] + f * (corners[leg + 1][1] - corners[leg][1]);
+      const double closer = (corners[leg + 1][0] - corners[leg][0]) / steps, moved = now - shift;
+      shift = now;
+      if (!(overlap > 0)) {
+        h = {}, before = {};
+        continue;
+      }
+      const double gap = 2 * double(kRadius) - overlap;
+      const ContactGeometry at = touch(kGrain, kGrain, {gap, 0, 0}, gap, overlap);
+      // one unit of time a step; e = 1, so speeds enter only through the shift
+      const ContactForce now_force = law(at, {Real(-closer), Real(moved), 0}, {}, {}, 1, h);
+      const Real3 mean = first ? now_force.force : Real(0.5) * (before + now_force.force);
+      first = false;
+      const double done = double(mean.x) * closer - double(mean.y) * moved;
+      work += done;
+      *spent += std::abs(done);
+      before = now_force.force;
+    }
+  return work;
+}
+
+TEST(ContactLaw, ClosedCyclesNeverGainWork) {
+  Config c = glass();
+  c.grain.e = 1;
+  c.contact.rolling = "none";
+  const double a = 4e-6, b = 1e-5;  // overlaps
+  const std::vector<std::vector<std::array<double, 2>>> cycles = {
+      {{0, 0}, {b, 0}, {b, 3e-7}, {a, 3e-7}, {a, 0}, {0, 0}},           // sheared when pressed hard
+      {{0, 0}, {a, 0}, {a, 3e-7}, {b, 3e-7}, {b, 0}, {0, 0}},           // sheared when pressed lightly
+      {{0, 0}, {b, 4e-7}, {0, 0}},                                      // together
+      {{0, 0}, {a, 1e-7}, {b, -3e-7}, {a, 4e-7}, {b, 2e-7}, {0, 0}},
+      {{0, 0}, {b, 0}, {b, 9e-6}, {b, -9e-6}, {b, 0}, {0, 0}},          // gross slip
+      {{0, 0}, {b, 0}, {0, 0}},                                         // normal alone: reversible
+  };
+  for (double mu : {0.3, 5.0})
+    for (std::size_t k = 0; k < cycles.size(); ++k) {
+      c.grain.mu = mu;
+      double spent = 0;
+      const double work = work_of_cycle(make_contact_law(c), cycles[k], &spent);
+      EXPECT_GT(work, -tolerance(1e-6, 1e-5, 1e-5) * spent) << "cycle " << k << ", mu " << mu << ": work came out";
+      if (k + 1 == cycles.size()) {
+        EXPECT_LT(std::abs(work), tolerance(1e-6, 1e-5, 1e-5) * spent) << "reversible";
+      } else if (k == 4 && mu < 1) {
+        EXPECT_GT(work, 0.1 * spent) << "gross slip must cost work";
+      }
+    }
+}
+
+TEST(ContactLaw, CapKeepsTheConstantCoupleFromTurningTheSpinRound) {
+  ConstantRolling law{Real(0.05), true};
+  const double dt = 1e-5, inverse = 1 / double(kGrain.inertia());
+  RollingInput in{{Real(1e-6), 0, 0}, Real(1), Real(1e4), kRadius, Real(inverse), Real(inverse), Real(dt)};
+  const double change = double(law(in).x) * inverse * dt;
+  EXPECT_NEAR(change / 1e-6, -1, 1e-5) << "just stopped";
+  in.omega.x = 1e6;
+  EXPECT_NEAR(law(in).x / (-0.05 * kRadius), 1, 1e-5) << "full couple when fast";
+  in.omega = {};
+  EXPECT_EQ(norm(law(in)), 0);
+}
+
+TEST(ContactLaw, WallIsTheLimitOfAHugePartner) {
+  Config c = glass();
+  const ContactLaw law = make_contact_law(c);
+  const Sphere huge{Real(1e6) * kRadius, Real(1e18) * kGrain.m};
+  const double overlap = 1e-6, gap = double(kRadius) + double(huge.R) - overlap;
+  ContactHistory h, w;
+  ContactGeometry at = touch(kGrain, huge, {0, 0, gap}, gap, overlap);
+  at.arm_i = kRadius;  // a flat wall takes the whole overlap; the pair shares it
+  ContactGeometry wall = touch_wall(kGrain, {0, 0, 1}, overlap);
+  wall.arm_i = kRadius;
+  const Real3 v{Real(0.01), 0, Real(-0.02)}, spin{0, Real(3), 0};
+  const ContactForce a = law(at, v, spin, {}, Real(1e-6), h), b = law(wall, v, spin, {}, Real(1e-6), w);
+  EXPECT_LT(norm(a.force - b.force), 1e-5 * norm(b.force));
+  EXPECT_LT(norm(a.torque_i - b.torque_i), 1e-5 * norm(b.torque_i));
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,224 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "bedload/core/error.hpp"
+#include "bedload/output/csv.hpp"
+#include "bedload/output/files.hpp"
+#include "bedload/output/output.hpp"
+#include "bedload/output/vtkhdf.hpp"
+#include "fake_simulation.hpp"
+
+namespace bedload::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+const Device kDevice{"cpu", "two threads", 0};
+
+/// Steps on and writes until `steps` are done.
+void run_to(FakeSimulation& s, RunOutput& out, int steps) {
+  if (s.steps() == 0) out.write(s, s.info());
+  while (s.steps() < steps) out.write(s, s.step());
+}
+
+/// What the action's FileError says.
+template <class Action>
+std::string error_of(Action action) {
+  try {
+    action();
+  } catch (const FileError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+class RunFolder : public ::testing::Test {
+ protected:
+  /// A run of 25 steps, never interrupted.
+  void unbroken(const fs::path& dir) {
+    FakeSimulation s;
+    RunOutput out(dir, config, kDevice, "0.1.0", false);
+    run_to(s, out, 25);
+    out.finish(s, "completed", 2.0, 100);
+  }
+  void expect_same_results(const fs::path& a, const fs::path& b) {
+    for (const char* name : {"diagnostics.csv", "probes/gauge.csv", "fluid.xdmf", "grains.xdmf", "walls.xdmf",
+                             "checkpoints/step_000000025.h5"})
+      EXPECT_EQ(read_file(a / name), read_file(b / name)) << name;
+    for (const char* name : {"fluid.vtkhdf", "grains.vtkhdf", "walls.vtkhdf"})
+      EXPECT_EQ(FrameFile(a / name).times(), FrameFile(b / name).times()) << name;
+  }
+  ScratchFolder folder;
+  Config config = fake_config();
+};
+
+TEST_F(RunFolder, WritesAtTheFirstStepEndAtOrAfterItsTime) {
+  const auto dir = folder.path / "new" / "run";
+  unbroken(dir);
+  // Steps of 0.03 s; frames every 0.1 s, diagnostics every 0.05 s, the gauge every 0.2 s; the end is 0.75 s.
+  const std::vector<int> frames{0, 4, 7, 10, 14, 17, 20, 24, 25};
+  const auto at = FrameFile(dir / "fluid.vtkhdf").times();
+  ASSERT_EQ(at.size(), frames.size());
+  for (std::size_t k = 0; k < at.size(); ++k) EXPECT_NEAR(at[k], 0.03 * frames[k], 1e-12);
+  EXPECT_EQ(CsvTable(dir / "diagnostics.csv").times().size(), 16u);
+  const std::string gauge = read_file(dir / "probes" / "gauge.csv");
+  EXPECT_EQ(gauge.substr(0, gauge.find('\n')), "time [s],gauge [m]");
+  EXPECT_EQ(std::count(gauge.begin(), gauge.end(), '\n'), 6);  // header; 0, 0.21, 0.42, 0.6, 0.75 s
+  const auto readings = CsvTable(dir / "probes" / "gauge.csv").times();
+  EXPECT_NE(gauge.find(fmt::format("\n{},{}\n", readings.at(1), readings.at(1) / 3)), std::string::npos)
+      << gauge;
+}
+
+TEST_F(RunFolder, ResolvedCaseNamesVersionDeviceAndSeed) {
+  config.seed = 42;
+  RunOutput(folder.path, config, kDevice, "0.1.0", false);
+  const std::string text = read_file(folder.path / "case.resolved.toml");
+  EXPECT_EQ(text.find("# Bedload 0.1.0\n# device: cpu, two threads\n# seed: 42\n"), 0u) << text;
+  EXPECT_GT(text.size(), 80u);
+}
+
+TEST_F(RunFolder, SummaryTellsHowTheRunEnded) {
+  FakeSimulation s;
+  RunOutput out(folder.path, config, kDevice, "0.1.0", false);
+  run_to(s, out, 12);
+  out.warn("Ma = 0.2 is large");
+  out.finish(s, "stopped", 2.0, 100);
+  const auto summary = nlohmann::json::parse(read_file(folder.path / "summary.json"));
+  EXPECT_EQ(summary["status"], "stopped");
+  EXPECT_EQ(summary["version"], "0.1.0");
+  EXPECT_EQ(summary["counts"]["fluid"], 6);
+  EXPECT_EQ(summary["steps"], 12);
+  EXPECT_EQ(summary["time"]["value"], s.time());
+  EXPECT_EQ(summary["particle_steps_rate"]["value"], 50.0);
+  EXPECT_EQ(summary["memory"]["solver"]["value"], 12345);
+  EXPECT_EQ(summary["warnings"], nlohmann::json::array({"Ma = 0.2 is large"}));
+  EXPECT_EQ(summary["metrics"]["fluid mass"]["unit"], "kg");
+  EXPECT_EQ(summary["probes"]["gauge"]["gauge"]["value"], s.time() / 3);
+  EXPECT_EQ(summary["last_checkpoint"], "checkpoints/step_000000012.h5");
+  EXPECT_EQ(out.last_checkpoint(), folder.path / "checkpoints/step_000000012.h5");
+}
+
+TEST_F(RunFolder, CheckpointsComeOnTimeAndAtTheEnd) {
+  config.out.checkpoint_every = 0.3;
+  unbroken(folder.path);
+  std::vector<std::string> found;
+  for (const auto& entry : fs::directory_iterator(folder.path / "checkpoints"))
+    found.push_back(entry.path().filename().string());
+  std::sort(found.begin(), found.end());
+  EXPECT_EQ(found, (std::vector<std::string>{"step_000000010.h5", "step_000000020.h5", "step_000000025.h5"}));
+}
+
+TEST_F(RunFolder, FailedRunKeepsNoCheckpointOfItsState) {
+  FakeSimulation s;
+  RunOutput out(folder.path, config, kDevice, "0.1.0", false);
+  run_to(s, out, 5);
+  const auto good = out.checkpoint(s);
+  EXPECT_TRUE(fs::exists(good));
+  out.write(s, s.step());
+  out.finish(s, "failed", 1, 1);
+  EXPECT_EQ(out.last_checkpoint(), good);
+  EXPECT_EQ(FrameFile(folder.path / "fluid.vtkhdf").times().back(), s.time());
+}
+
+TEST_F(RunFolder, StoppedAndRestartedEqualsUnbroken) {
+  unbroken(folder.path / "a");
+  const auto dir = folder.path / "b";
+  for (const int stop : {0, 5, 7, 14, 25}) {  // 7 and 14 are due times of frames
+    fs::remove_all(dir);
+    fs::path checkpoint;
+    {
+      FakeSimulation s;
+      RunOutput out(dir, config, kDevice, "0.1.0", false);
+      run_to(s, out, stop);
+      out.finish(s, "stopped", 1, 1);
+      checkpoint = out.last_checkpoint();
+    }
+    FakeSimulation s;
+    s.load(read_checkpoint(checkpoint, config));
+    ASSERT_EQ(s.steps(), stop);
+    RunOutput out(dir, config, kDevice, "0.1.0", true);
+    EXPECT_EQ(out.last_checkpoint(), checkpoint);
+    run_to(s, out, 25);
+    out.finish(s, "completed", 1, 1);
+    expect_same_results(folder.path / "a", dir);
+  }
+}
+
+TEST_F(RunFolder, RestartDropsWhatLiesAfterItsTime) {
+  config.out.checkpoint_every = 0.3;
+  unbroken(folder.path / "a");
+  unbroken(folder.path / "b");
+  {  // a killed run: half a row at the end
+    std::string rows = read_file(folder.path / "b" / "diagnostics.csv");
+    rows.resize(rows.size() - 7);
+    write_file(folder.path / "b" / "diagnostics.csv", rows);
+  }
+  FakeSimulation s;
+  s.load(read_checkpoint(folder.path / "b/checkpoints/step_000000010.h5", config));
+  RunOutput out(folder.path / "b", config, kDevice, "0.1.0", true);
+  out.write(s, s.step());
+  EXPECT_EQ(out.checkpoint(s).filename(), "step_000000011.h5");
+  EXPECT_EQ(FrameFile(folder.path / "b/fluid.vtkhdf").times().size(), 4u);
+  EXPECT_EQ(CsvTable(folder.path / "b/diagnostics.csv").times().size(), 7u);
+  run_to(s, out, 25);
+  out.finish(s, "completed", 1, 1);
+  expect_same_results(folder.path / "a", folder.path / "b");
+  EXPECT_EQ(read_file(folder.path / "a/checkpoints/step_000000020.h5"),
+            read_file(folder.path / "b/checkpoints/step_000000020.h5"));
+}
+
+TEST_F(RunFolder, FreshRunRemovesTheFormerOne) {
+  config.out.checkpoint_every = 0.3;
+  unbroken(folder.path);
+  RunOutput out(folder.path, config, kDevice, "0.1.0", false);
+  EXPECT_TRUE(out.last_checkpoint().empty());
+  EXPECT_TRUE(FrameFile(folder.path / "fluid.vtkhdf").times().empty());
+  EXPECT_FALSE(fs::exists(folder.path / "summary.json"));
+  EXPECT_FALSE(fs::exists(folder.path / "diagnostics.csv"));
+}
+
+TEST_F(RunFolder, UnwritableFolderIsOneSentence) {
+  write_file(folder.path / "file", "");
+  const std::string message =
+      error_of([&] { RunOutput(folder.path / "file" / "run", config, kDevice, "0.1.0", false); });
+  EXPECT_NE(message.find("file/run: cannot write results there: Not a directory"), std::string::npos)
+      << message;
+}
+
+TEST_F(RunFolder, FullDiskSurfaces) {
+  FakeSimulation s;
+  RunOutput out(folder.path, config, kDevice, "0.1.0", false);
+  fs::create_symlink("/dev/full", folder.path / "probes" / "gauge.csv");
+  out.write(s, s.info());
+  const std::string message = error_of([&] { out.checkpoint(s); });
+  EXPECT_NE(message.find("gauge.csv: cannot write: No space left on device"), std::string::npos) << message;
+  EXPECT_EQ(error_of([&] { out.finish(s, "completed", 1, 1); }), message);
+}
+
+TEST_F(RunFolder, WriterErrorSurfacesInALaterStep) {
+  FakeSimulation s;
+  RunOutput out(folder.path, config, kDevice, "0.1.0", false);
+  fs::create_directory(folder.path / "grains.vtkhdf");
+  const std::string message = error_of([&] {
+    run_to(s, out, 25);
+    out.finish(s, "completed", 1, 1);
+  });
+  EXPECT_NE(message.find("grains.vtkhdf: cannot write: "), std::string::npos) << message;
+}
+
+TEST(CsvTable, OtherColumnsAreRefused) {
+  const ScratchFolder folder;
+  const CsvTable table(folder.path / "a.csv");
+  table.append(0, {{"front", "m", 1}});
+  table.append(0.1, {{"front", "m", 1.0 / 3}});
+  EXPECT_EQ(read_file(table.path()), "time [s],front [m]\n0,1\n0.1,0.3333333333333333\n");
+  const std::string message = error_of([&] { table.append(1, {{"height", "m", 1}}); });
+  EXPECT_NE(message.find("a.csv: has the columns 'time [s],front [m]'"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace bedload::testing

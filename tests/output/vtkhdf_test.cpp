@@ -1,0 +1,159 @@
+#include "bedload/output/vtkhdf.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "bedload/core/error.hpp"
+#include "bedload/output/files.hpp"
+#include "bedload/output/h5_table.hpp"
+#include "fake_simulation.hpp"
+#include "full_disk.hpp"
+
+namespace bedload::testing {
+namespace {
+
+std::int64_t rows(hid_t root, const std::string& name) {
+  return std::int64_t(h5::extent(h5::open_dataset(root, name)).at(0));
+}
+
+/// Frames of one store at steps 0, 4, 8, 12, 16; the fluid loses a particle in between.
+void write_frames(const FrameFile& file, const std::string& store) {
+  FakeSimulation s;
+  for (int k = 0; k < 5; ++k) {
+    file.append(s.snapshot(store), s.time());
+    file.write_xdmf();
+    for (int n = 0; n < 4; ++n) s.step();
+  }
+}
+
+TEST(FrameFile, HoldsTheLayoutOfTemporalPolyData) {
+  const ScratchFolder folder;
+  const FrameFile frames(folder.path / "fluid.vtkhdf");
+  write_frames(frames, "fluid");
+  const h5::Handle file = h5::open_file(frames.path(), h5::Mode::read);
+  const h5::Handle root = h5::open_group(file, "VTKHDF");
+  EXPECT_EQ(h5::read_text(root, "Type"), "PolyData");
+  const h5::Handle steps = h5::open_group(root, "Steps");
+  EXPECT_EQ(h5::read_integer(steps, "NSteps"), 5);
+  EXPECT_EQ(h5::read_integers(steps, "PointOffsets", 5), (std::vector<std::int64_t>{0, 7, 14, 21, 27}));
+  EXPECT_EQ(h5::read_integers(steps, "PartOffsets", 5), (std::vector<std::int64_t>{0, 0, 0, 1, 1}));
+  EXPECT_EQ(h5::read_integers(root, "NumberOfPoints", 2), (std::vector<std::int64_t>{7, 6}));
+  EXPECT_EQ(rows(root, "NumberOfPoints"), 2);
+  EXPECT_EQ(rows(root, "Vertices/Connectivity"), 13);
+  EXPECT_EQ(rows(root, "Vertices/Offsets"), 15);
+  EXPECT_EQ(rows(root, "Strips/Offsets"), 2);
+  EXPECT_EQ(h5::extent(h5::open_dataset(steps, "CellOffsets")), (std::vector<hsize_t>{5, 4}));
+  EXPECT_EQ(h5::scalar_of(h5::open_dataset(root, "Points")), Scalar::f32);
+  EXPECT_EQ(h5::read_text(h5::open_dataset(root, "Points"), "unit"), "m");
+  EXPECT_EQ(h5::read_text(h5::open_dataset(root, "PointData/spin"), "unit"), "rad/s");
+  EXPECT_EQ(h5::members(h5::open_group(root, "PointData")),
+            (std::vector<std::string>{"speed", "spin", "id"}));
+  // Last frame, particle 5, z: 0.125 - 0.48 * 5.
+  std::vector<float> points(6 * 3);
+  h5::read_rows(h5::open_dataset(root, "Points"), H5T_NATIVE_FLOAT, 27, 6, points.data());
+  EXPECT_FLOAT_EQ(points.back(), 0.125f - 0.48f * 5);
+}
+
+TEST(FrameFile, StoresWhatRestsOnce) {
+  const ScratchFolder folder;
+  const FrameFile frames(folder.path / "walls.vtkhdf");
+  write_frames(frames, "walls");
+  const h5::Handle file = h5::open_file(frames.path(), h5::Mode::read);
+  const h5::Handle root = h5::open_group(file, "VTKHDF");
+  EXPECT_EQ(frames.times().size(), 5u);
+  EXPECT_EQ(rows(root, "Points"), 4);
+  EXPECT_EQ(rows(root, "PointData/speed"), 4);
+  EXPECT_EQ(rows(root, "Vertices/Connectivity"), 4);
+}
+
+TEST(FrameFile, KeepsDoublesInADoubleRun) {
+  const ScratchFolder folder;
+  const FrameFile frames(folder.path / "grains.vtkhdf", true, 4);
+  write_frames(frames, "grains");
+  const h5::Handle file = h5::open_file(frames.path(), h5::Mode::read);
+  const h5::Handle points = h5::open_dataset(file, "VTKHDF/Points");
+  ASSERT_EQ(h5::scalar_of(points), Scalar::f64);
+  std::vector<double> x(3 * 3);
+  h5::read_rows(points, H5T_NATIVE_DOUBLE, 3, 3, x.data());
+  EXPECT_EQ(x[3], 1 + 4 * FakeSimulation::kDt);
+}
+
+TEST(FrameFile, DroppedFramesLeaveNoTrace) {
+  const ScratchFolder folder;
+  const FrameFile whole(folder.path / "whole.vtkhdf"), cut(folder.path / "cut.vtkhdf");
+  write_frames(whole, "fluid");
+  write_frames(cut, "fluid");
+  for (const std::size_t kept : {3u, 1u, 0u}) {
+    cut.keep(kept);
+    EXPECT_EQ(cut.times().size(), kept);
+    FakeSimulation s;
+    for (std::size_t k = 0; k < 5; ++k) {
+      if (k >= kept) cut.append(s.snapshot("fluid"), s.time());
+      for (int n = 0; n < 4; ++n) s.step();
+    }
+    const h5::Handle a = h5::open_file(whole.path(), h5::Mode::read);
+    const h5::Handle b = h5::open_file(cut.path(), h5::Mode::read);
+    for (const char* name :
+         {"NumberOfPoints", "Points", "Vertices/Connectivity", "Vertices/Offsets", "Lines/Offsets",
+          "Steps/Values", "Steps/PointOffsets", "Steps/PointDataOffsets/id", "PointData/id"})
+      EXPECT_EQ(rows(b, std::string("VTKHDF/") + name), rows(a, std::string("VTKHDF/") + name)) << name;
+    EXPECT_EQ(cut.times(), whole.times());
+  }
+}
+
+TEST(FrameFile, OtherArraysAreRefused) {
+  const ScratchFolder folder;
+  const FrameFile frames(folder.path / "fluid.vtkhdf");
+  FakeSimulation s;
+  frames.append(s.snapshot("fluid"), 0);
+  HostStore fewer = s.snapshot("fluid");
+  fewer.arrays.pop_back();
+  EXPECT_THROW(frames.append(fewer, 1), FileError);
+}
+
+TEST(FrameFile, FailedWriteNamesFileAndReason) {
+  const ScratchFolder folder;
+  const FrameFile frames(folder.path / "fluid.vtkhdf");
+  HostStore store{"fluid", 1 << 16, {}};
+  store.arrays.push_back(array_of("position", "m", Scalar::f64, 3, std::vector<double>(3 << 16, 0.5)));
+  EXPECT_EXIT(exit_from_full_disk([&] { frames.append(store, 0); }), ::testing::ExitedWithCode(2),
+              "fluid.vtkhdf: cannot write: File too large");
+}
+
+TEST(FrameFile, VtkReadsEveryFrame) {
+#ifdef BEDLOAD_PYTHON
+  const char* python = BEDLOAD_PYTHON;
+#else
+  const char* python = std::getenv("BEDLOAD_PYTHON");
+#endif
+  if (!python || !*python) GTEST_SKIP() << "needs a Python with vtk (BEDLOAD_PYTHON)";
+  const ScratchFolder folder;
+  for (const char* store : {"fluid", "grains", "walls"})
+    write_frames(FrameFile(folder.path / (std::string(store) + ".vtkhdf"), std::string(store) == "grains"),
+                 store);
+  const FrameFile fluid(folder.path / "restarted_fluid.vtkhdf");  // truncated and gone on with
+  write_frames(fluid, "fluid");
+  fluid.keep(3);
+  FakeSimulation s;
+  for (int k = 0; k < 5; ++k) {
+    if (k >= 3) fluid.append(s.snapshot("fluid"), s.time());
+    for (int n = 0; n < 4; ++n) s.step();
+  }
+  fluid.write_xdmf();
+  HostStore none = s.snapshot("walls");  // a store that empties, and fills again
+  const FrameFile emptied(folder.path / "emptied.vtkhdf");
+  emptied.append(none, 0);
+  none.count = 0;
+  for (auto& a : none.arrays) a.bytes.clear();
+  emptied.append(none, 1);
+  emptied.append(s.snapshot("walls"), 2);
+  const auto script = std::filesystem::path(__FILE__).parent_path() / "read_vtkhdf.py";
+  EXPECT_EQ(
+      std::system(
+          ("'" + std::string(python) + "' '" + script.string() + "' '" + folder.path.string() + "'").c_str()),
+      0);
+}
+
+}  // namespace
+}  // namespace bedload::testing

@@ -1,0 +1,213 @@
+// Flows with known answers, through whole simulations.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/run.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+FluidFill fill_of(const Config& c, std::array<std::string, 3> velocity = {"0", "0", "0"}) {
+  return {c.domain.min, c.domain.max, velocity};
+}
+
+double energy(Simulation& s) {
+  const auto d = s.diagnostics();
+  return reading(d, "fluid_kinetic_energy") + reading(d, "fluid_elastic_energy") + reading(d, "fluid_potential_energy");
+}
+
+/// A sound wave and a shear wave in an inviscid periodic box.
+Config inviscid_box(int n, double dt) {
+  Config c = periodic_box(n);
+  c.visc.model = "none";
+  c.time.dt = dt;
+  c.time.force_dt = true;
+  const double k = 2 * pi / (n * c.fluid.dx);
+  const std::string arg = std::to_string(k);
+  c.fluid.fills = {fill_of(c, {"0.4*sin(" + arg + "*x)+0.3*cos(" + arg + "*y)", "0.2*sin(" + arg + "*z)", "0.1*cos(" + arg + "*x)"})};
+  return c;
+}
+
+TEST(SlowInviscidBox, EnergyIsKept) {  // T-8
+  const double dt = 0.25 * 0.015 / 21;
+  auto s = started(inviscid_box(8, dt));
+  const double start = energy(*s);
+  for (int k = 0; k < 10000; ++k) s->step();
+  EXPECT_LT(std::abs(energy(*s) - start) / start, 1e-4);
+}
+
+TEST(SlowInviscidBox, SecondOrderInTime) {  // T-8
+  std::vector<std::vector<Vec3d>> v;
+  for (int halvings : {0, 1, 2}) {
+    const int steps = 64 << halvings;
+    auto s = started(inviscid_box(8, 0.0128 / steps));
+    for (int k = 0; k < steps; ++k) s->step();
+    v.push_back(vectors(s->snapshot("fluid"), "velocity"));
+  }
+  double coarse = 0, fine = 0;
+  for (std::size_t a = 0; a < v[0].size(); ++a) {
+    coarse += norm2(v[0][a] - v[1][a]);
+    fine += norm2(v[1][a] - v[2][a]);
+  }
+  EXPECT_NEAR(std::log2(std::sqrt(coarse / fine)), 2, 0.25);
+}
+
+/// Still water over a floor, periodic sideways.
+Config column(double height, double dx) {
+  Config c = periodic_box(8, dx);
+  c.gravity = {0, 0, -9.81};
+  c.domain.periodic = {true, true, false};
+  c.domain.max.z = 1.5 * height;
+  c.fluid.c = 10 * std::sqrt(2 * 9.81 * height);
+  c.visc.alpha = 0.02;
+  c.density.delta = 0.1;
+  FluidFill fill = fill_of(c);
+  fill.max.z = height;
+  c.fluid.fills = {fill};
+  WallBody floor;
+  floor.name = "floor";
+  floor.shape = "tank";
+  floor.min = c.domain.min;
+  floor.max = c.domain.max;
+  floor.faces = {false, false, false, false, true, false};
+  c.wall.bodies = {floor};
+  c.wall.rep_D = 5 * 9.81 * height;
+  return c;
+}
+
+/// Least-squares slope of pressure over height between two heights.
+double pressure_slope(Simulation& s, double from, double to) {
+  const auto store = s.snapshot("fluid");
+  const auto x = vectors(store, "position");
+  const auto p = scalars(store, "pressure");
+  double n = 0, z1 = 0, p1 = 0, zz = 0, zp = 0;
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    if (x[a].z < from || x[a].z > to) continue;
+    n += 1, z1 += x[a].z, p1 += p[a], zz += x[a].z * x[a].z, zp += x[a].z * p[a];
+  }
+  return (n * zp - z1 * p1) / (n * zz - z1 * z1);
+}
+
+TEST(SlowHydrostatics, PressureGradientAfterFiveSeconds) {  // T-9
+  auto s = started(column(0.2, 0.02));
+  run_until(*s, 5);
+  EXPECT_NEAR(pressure_slope(*s, 0.02, 0.18), -9810, 2e-2 * 9810);
+  EXPECT_LT(reading(s->diagnostics(), "fluid_speed_max"), 0.02);
+  EXPECT_EQ(reading(s->diagnostics(), "lost_fluid_count"), 0);
+}
+
+TEST(SlowHydrostatics, PressureGradientAmongFixedGrains) {  // T-9, porosity 0.6
+  Config c = column(0.2, 0.02);
+  const int across = 9, up = 15;
+  const double gap = 0.16 / across;
+  c.grain.present = true;
+  c.grain.fixed = true;
+  c.grain.d = c.grain.d_max = c.grain.d_min = std::cbrt(0.4 * 6 / pi) * gap;
+  c.couple.hc = std::max(c.fluid.h(), 2 * c.grain.d);
+  std::vector<std::string> warnings;
+  auto setup = build_setup(c, warnings);
+  for (int k = 0; k < up; ++k)
+    for (int j = 0; j < across; ++j)
+      for (int i = 0; i < across; ++i) {
+        setup.grains.x.push_back({(i + 0.5) * gap, (j + 0.5) * gap, (k + 0.5) * gap});
+        setup.grains.v.push_back({});
+        setup.grains.radius.push_back(c.grain.d / 2);
+      }
+  auto s = started(c, setup);
+  run_until(*s, 5);
+  EXPECT_NEAR(pressure_slope(*s, 0.04, 0.16), -9810, 2e-2 * 9810);
+}
+
+/// A channel between walls at z = 0 and L, 50 dx wide.
+Config channel() {
+  const double L = 1e-3, dx = L / 50;
+  Config c = periodic_box(8, dx);
+  c.domain.periodic = {true, true, false};
+  c.domain.max.z = L;
+  c.fluid.mu = 1e-3;
+  c.fluid.c = 1.25e-4 * 2;
+  c.fluid.fills = {fill_of(c)};
+  for (int side : {0, 1}) {
+    WallBody wall;
+    wall.name = side ? "lid" : "floor";
+    wall.shape = "tank";
+    wall.min = c.domain.min;
+    wall.max = c.domain.max;
+    wall.faces = {false, false, false, false, side == 0, side == 1};
+    c.wall.bodies.push_back(wall);
+  }
+  return c;
+}
+
+TEST(SlowViscousFlow, PoiseuilleStartUp) {  // T-10
+  Config c = channel();
+  c.drive = {0.1, 0, 0};  // N/m3: 1e-4 m/s2
+  auto s = started(c);
+  run_until(*s, 0.225);
+  const double L = 1e-3, nu = 1e-6, f = 1e-4, t = s->time(), peak = f * L * L / (8 * nu);
+  const auto x = vectors(s->snapshot("fluid"), "position");
+  const auto v = vectors(s->snapshot("fluid"), "velocity");
+  double worst = 0;
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    const double z = x[a].z;
+    double exact = f / (2 * nu) * z * (L - z);
+    for (int n = 0; n < 40; ++n) {
+      const double k = (2 * n + 1) * pi / L;
+      exact -= 4 * f / (nu * L * k * k * k) * std::sin(k * z) * std::exp(-nu * k * k * t);
+    }
+    worst = std::max(worst, std::abs(v[a].x - exact));
+  }
+  EXPECT_LT(worst / peak, 2e-2);
+}
+
+TEST(SlowViscousFlow, CouetteSteady) {  // T-10
+  Config c = channel();
+  c.wall.bodies[1].motion.kind = "velocity";
+  c.wall.bodies[1].motion.velocity = {1.25e-5, 0, 0};
+  auto s = started(c);
+  run_until(*s, 0.6);
+  const auto x = vectors(s->snapshot("fluid"), "position");
+  const auto v = vectors(s->snapshot("fluid"), "velocity");
+  for (std::size_t a = 0; a < x.size(); ++a) EXPECT_NEAR(v[a].x, 1.25e-5 * x[a].z / 1e-3, 2e-2 * 1.25e-5);
+}
+
+TEST(SlowViscousFlow, TaylorGreenDecay) {  // T-10, Re = 100
+  Config c = periodic_box(50, 0.02);
+  c.domain.max.z = 8 * c.fluid.dx;
+  c.fluid.rho0 = 1;
+  c.fluid.mu = 0.01;
+  c.fluid.c = 10;
+  c.density.delta = 0.1;
+  // a background pressure keeps the stretching flow from opening voids
+  c.eos.type = "democritus";
+  c.eos.alpha = 7;
+  c.eos.p0 = c.fluid.c * c.fluid.c / 7;
+  c.eos.beta = 0.5 * c.eos.p0;
+  const std::string k = std::to_string(2 * pi);
+  c.fluid.fills = {fill_of(c, {"-cos(" + k + "*x)*sin(" + k + "*y)", "sin(" + k + "*x)*cos(" + k + "*y)", "0"})};
+  auto s = started(c);
+  const double start = reading(s->diagnostics(), "fluid_kinetic_energy");
+  run_until(*s, 0.5);
+  const double rate = std::log(start / reading(s->diagnostics(), "fluid_kinetic_energy")) / s->time();
+  EXPECT_NEAR(rate, 4 * 0.01 * 4 * pi * pi, 2e-2 * 4 * 0.01 * 4 * pi * pi);
+}
+
+TEST(SmallSimulation, SameDeckTwiceIsBitEqual) {  // T-46
+  std::vector<std::byte> first;
+  for (int k : {0, 1}) {
+    auto s = started(column(0.16, 0.02));
+    for (int step = 0; step < 40; ++step) s->step();
+    if (k == 0)
+      first = bits(*s);
+    else
+      EXPECT_EQ(first, bits(*s));
+  }
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT

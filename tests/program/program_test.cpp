@@ -1,0 +1,211 @@
+// The program from outside: exit codes, messages, files.
+
+#include <vector>
+
+#include "run_program.hpp"
+
+namespace bedload::test {
+namespace {
+
+/// 150 fluid particles and 40 grains; a step takes about 0.3 ms of simulated time.
+const std::string kSmall = R"(title = "small dam"
+[domain]
+min = [0, 0, 0]
+max = [0.1, 0.06, 0.1]
+[fluid]
+dx = 0.01
+[[fluid.fill]]
+min = [0, 0, 0]
+max = [0.05, 0.06, 0.05]
+[[wall.body]]
+name = "tank"
+shape = "tank"
+min = [0, 0, 0]
+max = [0.1, 0.06, 0.1]
+faces = ["x-", "x+", "y-", "y+", "z-"]
+[grain]
+d = 0.005
+settle = true
+settle_time = 0.05
+[[grain.fill]]
+min = [0, 0, 0]
+max = [0.05, 0.06, 0.03]
+count = 40
+[time]
+end = 0.02
+[out]
+every = 0.01
+)";
+
+using Program = ProgramTest;
+
+TEST_F(Program, SaysItsVersion) {
+  const Outcome o = bedload("--version");
+  EXPECT_EQ(o.code, 0);
+  EXPECT_EQ(o.out, "bedload " BL_VERSION "\n");
+}
+
+TEST_F(Program, HelpsWhenAsked) {
+  const Outcome o = bedload("run --help");
+  EXPECT_EQ(o.code, 0);
+  for (const char* option : {"--backend", "--precision", "--out", "--set", "--until", "--restart",
+                             "--threads", "--quiet", "--force-dt", "--overwrite"})
+    EXPECT_NE(o.out.find(option), std::string::npos) << option;
+}
+
+TEST_F(Program, RefusesWrongCommandLinesWithOneSentence) {
+  write("dam.toml", kSmall);
+  const auto refused = [&](const std::string& arguments, const std::string& message) {
+    const Outcome o = bedload(arguments);
+    EXPECT_EQ(o.code, 2) << arguments;
+    EXPECT_EQ(o.err, message + "\n") << arguments;
+  };
+  refused("", "command line: A subcommand is required; see bedload --help");
+  refused("run", "command line: case is required; see bedload --help");
+  refused("run dam.toml --bogus",
+          "command line: The following argument was not expected: --bogus; see bedload --help");
+  refused("run dam.toml --backend gpu",
+          "command line: --backend: gpu not in {auto,cpu,cuda}; see bedload --help");
+  refused("run no.toml", "no.toml: cannot read this case file");
+  refused("check dam.toml --set grain.e=1.4",
+          "--set grain.e=1.4: grain.e = 1.4 must be within 0.05..1; give a fraction, not percent?");
+  refused("run dam.toml --backend cpu --restart no.h5", "no.h5: cannot read: no such file");
+  refused("info no.h5", "no.h5: cannot read: no such file");
+  refused("info dam.toml", "dam.toml: is neither a checkpoint, a .vtkhdf file nor a summary.json");
+}
+
+TEST_F(Program, NamesFileAndLineOfAWrongCase) {
+  write("dam.toml", "[domain]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\nperiod = true\n");
+  for (const char* command : {"run", "check"}) {
+    const Outcome o = bedload(std::string(command) + " dam.toml");
+    EXPECT_EQ(o.code, 2);
+    EXPECT_EQ(o.err, "dam.toml:4: domain.period is not a parameter; did you mean domain.periodic?\n");
+    EXPECT_EQ(o.out, "");
+  }
+}
+
+TEST_F(Program, ListsItsFamilies) {
+  const std::vector<std::pair<std::string, std::string>> expected = {
+      {"laws", "gidaspow_blend"},
+      {"models", "wendland_c2"},
+      {"shapes", "tank"},
+      {"outputs", "front"},
+      {"parameters", "grain.fill.packing_fraction"},
+      {"presets", "he2018"}};
+  const Outcome all = bedload("list");
+  for (const auto& [family, member] : expected) {
+    const Outcome o = bedload("list " + family);
+    EXPECT_EQ(o.code, 0) << family;
+    EXPECT_NE(o.out.find(member), std::string::npos) << family;
+    EXPECT_NE(all.out.find(o.out), std::string::npos) << family;
+  }
+  EXPECT_EQ(bedload("list lawz").code, 2);
+}
+
+TEST_F(Program, ChecksACaseWithoutRunningIt) {
+  write("dam.toml", kSmall);
+  const Outcome o = bedload("check dam.toml --backend cpu");
+  EXPECT_EQ(o.code, 0) << o.err;
+  for (const char* part : {"fluid 150, walls ", "grains 40", "<- binds", "substep    rayleigh",
+                           "memory     about ", "run time   about ", "the case is in order"})
+    EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "results"));
+}
+
+TEST_F(Program, RefusesAFixedStepAboveItsLimit) {
+  write("dam.toml", kSmall);
+  const Outcome o = bedload("run dam.toml --backend cpu --set time.dt=0.1 --out r");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_TRUE(o.err.starts_with("dam.toml: time.dt = 0.1 must be <= ")) << o.err;
+  EXPECT_NE(o.err.find("; limited by "), std::string::npos) << o.err;
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "r"));
+}
+
+TEST_F(Program, RunsACaseAndLeavesItsFiles) {
+  write("dam.toml", kSmall);
+  const Outcome o = bedload("run dam.toml --backend cpu --until 0.005");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("completed"), std::string::npos);
+  for (const char* file :
+       {"case.resolved.toml", "summary.json", "diagnostics.csv", "fluid.vtkhdf", "grains.vtkhdf"})
+    EXPECT_TRUE(std::filesystem::exists(dir_ / "results/dam" / file)) << file;
+
+  const Outcome info = bedload("info results/dam/summary.json");
+  EXPECT_EQ(info.code, 0);
+  EXPECT_NE(info.out.find("completed"), std::string::npos);
+  EXPECT_EQ(bedload("info results/dam/fluid.vtkhdf").code, 0);
+  const Outcome checkpoint = bedload("info results/dam/checkpoints/*.h5");
+  EXPECT_EQ(checkpoint.code, 0) << checkpoint.err;
+  EXPECT_NE(checkpoint.out.find("precision = mixed"), std::string::npos) << checkpoint.out;
+}
+
+TEST_F(Program, KeepsARunFromBeingWrittenOver) {
+  write("dam.toml", kSmall);
+  const std::string run = "run dam.toml --backend cpu --quiet --until 0.002 --out r";
+  ASSERT_EQ(bedload(run).code, 0);
+  const Outcome again = bedload(run);
+  EXPECT_EQ(again.code, 2);
+  EXPECT_EQ(again.err,
+            "r: holds a run already; use --restart to go on from it, --overwrite to replace it, or another "
+            "--out\n");
+  EXPECT_EQ(bedload(run + " --overwrite").code, 0);
+}
+
+TEST_F(Program, TakesASettledBedFromItsCache) {
+  write("dam.toml", kSmall);
+  const Outcome first = bedload("run dam.toml --backend cpu --until 0.002 --out a");
+  ASSERT_EQ(first.code, 0) << first.err;
+  EXPECT_NE(first.out.find("settled    in "), std::string::npos) << first.out;
+  const Outcome second = bedload("run dam.toml --backend cpu --until 0.002 --out b --set fluid.mu=0.002");
+  ASSERT_EQ(second.code, 0) << second.err;
+  EXPECT_NE(second.out.find("settled    as kept in cache/bedload/settled-"), std::string::npos) << second.out;
+  const Outcome third = bedload("run dam.toml --backend cpu --until 0.002 --out c --set grain.mu=0.5");
+  EXPECT_NE(third.out.find("settled    in "), std::string::npos) << third.out;
+}
+
+TEST_F(Program, ARestartedRunEqualsAnUnbrokenOne) {
+  write("dam.toml", kSmall);
+  const std::string run = "run dam.toml --backend cpu --quiet ";
+  ASSERT_EQ(bedload(run + "--out whole").code, 0);
+  ASSERT_EQ(bedload(run + "--out parts --until 0.01").code, 0);
+  std::filesystem::path middle;
+  for (const auto& entry : std::filesystem::directory_iterator(dir_ / "parts/checkpoints"))
+    middle = entry.path();
+  const Outcome o = bedload(run + "--out parts --restart " + middle.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+
+  int compared = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(dir_ / "whole/checkpoints")) {
+    const auto other = dir_ / "parts/checkpoints" / entry.path().filename();
+    ASSERT_TRUE(std::filesystem::exists(other)) << other;
+    EXPECT_TRUE(content_of(entry.path()) == content_of(other)) << other;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 1);
+}
+
+TEST_F(Program, ASignalEndsTheRunWithACheckpoint) {
+  write("dam.toml", kSmall);
+  const Outcome o = shell("timeout --preserve-status -s TERM 4 " + std::string(BL_PROGRAM) +
+                          " run dam.toml --backend cpu --out r --until 1000");
+  EXPECT_EQ(o.code, 130) << o.err;
+  const auto at = o.out.find("; continue with: ");
+  ASSERT_NE(at, std::string::npos) << o.out;
+  EXPECT_NE(o.out.find(" run dam.toml --backend cpu --out r --until 1000 --restart r/checkpoints/step_", at),
+            std::string::npos)
+      << o.out;
+  EXPECT_NE(content_of(dir_ / "r/summary.json").find("\"status\": \"stopped\""), std::string::npos);
+}
+
+TEST_F(Program, ABlowUpEndsWithCode3AndNamesTheWayBack) {
+  write("dam.toml", kSmall);
+  const Outcome o =
+      bedload("run dam.toml --backend cpu --quiet --out r --set time.dt=0.05 --force-dt --until 5");
+  EXPECT_EQ(o.code, 3) << o.err;
+  EXPECT_NE(o.err.find("; there is no checkpoint, set checkpoint.every to have some\n"), std::string::npos)
+      << o.err;
+  EXPECT_NE(content_of(dir_ / "r/summary.json").find("\"status\": \"failed\""), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bedload::test

@@ -1,0 +1,57 @@
+#pragma once
+// Runs the program as a user does.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace bedload::test {
+
+struct Outcome {
+  int code = -1;
+  std::string out, err;
+};
+
+inline std::string content_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// A folder of its own for each test, with a cache of its own; removed at the end.
+class ProgramTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    dir_ = std::filesystem::temp_directory_path() /
+           ("bedload_" + std::string(info->name()) + "_" + std::to_string(getpid()));
+    std::filesystem::create_directories(dir_);
+  }
+  void TearDown() override { std::filesystem::remove_all(dir_); }
+
+  /// Runs `bedload <arguments>` in the test's folder.
+  Outcome bedload(const std::string& arguments) const {
+    return shell(std::string(BL_PROGRAM) + " " + arguments);
+  }
+
+  Outcome shell(const std::string& command) const {
+    const std::string all = "cd '" + dir_.string() + "' && XDG_CACHE_HOME=cache OMP_NUM_THREADS=2 " +
+                            command + " >out.txt 2>err.txt";
+    const int status = std::system(all.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), content_of(dir_ / "out.txt"),
+            content_of(dir_ / "err.txt")};
+  }
+
+  void write(const std::string& name, const std::string& text) const { std::ofstream(dir_ / name) << text; }
+
+  std::filesystem::path dir_;
+};
+
+}  // namespace bedload::test

@@ -1,0 +1,199 @@
+// Grains against surfaces: geometry, motion, loads, boxes that keep their contents.
+#include <limits>
+
+#include "tests/support/grain_bench.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+WallBody box(const Vec3d& min, const Vec3d& max, const char* shape = "box") {
+  WallBody b;
+  b.shape = shape;
+  b.min = min;
+  b.max = max;
+  return b;
+}
+
+TEST(Surfaces, NearestPointsOfABox) {
+  Config c;
+  c.domain.min = {-1, -1, -1}, c.domain.max = {1, 1, 1};
+  c.wall.bodies = {box({0, 0, 0}, {0.2, 0.4, 0.6})};
+  const auto surfaces = make_surfaces(c);
+  ASSERT_EQ(surfaces.size(), 1u);
+  const Frame frame(c.domain.min, c.domain.max, false, false, false);
+  auto at = [&](const Vec3d& x) { return meet(surfaces[0], BodyPose{}, frame, x, 0); };
+  EXPECT_NEAR(at({0.3, 0.1, 0.1}).distance, 0.1, 1e-15);
+  EXPECT_NEAR(at({0.3, 0.5, 0.1}).distance, 0.1 * std::sqrt(2.0), 1e-15);
+  EXPECT_NEAR(at({0.3, 0.5, 0.7}).distance, 0.1 * std::sqrt(3.0), 1e-15);
+  EXPECT_NEAR(at({0.18, 0.2, 0.3}).distance, -0.02, 1e-15) << "inside: to the nearest face";
+  EXPECT_NEAR(at({0.18, 0.2, 0.3}).normal.x, 1, 1e-15);
+  EXPECT_LT(norm(at({0.3, 0.5, 0.7}).point - Vec3d(0.2, 0.4, 0.6)), 1e-15);
+}
+
+TEST(Surfaces, TankHasARectangleForEachListedFaceLookingInwards) {
+  Config c;
+  c.domain.min = {0, 0, 0}, c.domain.max = {1, 1, 1};
+  c.wall.bodies = {box({0, 0, 0}, {1, 1, 1}, "tank")};
+  c.wall.bodies[0].faces[5] = false;
+  const auto surfaces = make_surfaces(c);
+  ASSERT_EQ(surfaces.size(), 5u);
+  for (const Surface& s : surfaces) {
+    EXPECT_EQ(s.kind, SurfaceKind::rectangle);
+    EXPECT_NEAR(dot(Vec3d(0.5, 0.5, 0.5) - s.centre, s.axis[2]), 0.5, 1e-15);
+    EXPECT_NEAR(dot(cross(s.axis[0], s.axis[1]), s.axis[2]), 1, 1e-15);
+  }
+}
+
+TEST(Surfaces, HaveNoEdgeAtAPeriodicBoundary) {
+  GrainBench b;
+  b.config.domain.periodic = {true, false, false};
+  b.config.wall.bodies = {box({-0.1, -0.1, -0.05}, {0.1, 0.1, 0}), box({-0.1, -0.1, -0.05}, {0.1, 0.1, 0.05}, "tank")};
+  for (const Surface& s : make_surfaces(b.config)) {
+    bool endless = false;
+    for (int k = 0; k < 3; ++k) endless = endless || (std::isinf(s.half[k]) && s.axis[k].x != 0);
+    EXPECT_TRUE(endless || std::abs(s.axis[2].x) == 1);
+  }
+  b.config.wall.bodies.pop_back();
+  b.add({0, 0, 0.9 * b.R()});
+  b.start();
+  b.grains->x.assign({{0.1 + 0.3 * b.R(), 0, 0.9 * b.R()}});  // has crossed, not wrapped yet
+  b.solver->evaluate(*b.grains, b.poses());
+  EXPECT_EQ(b.force().x, 0);
+  EXPECT_GT(b.force().z, 0);
+}
+
+/// Force on a grain at x above the box [-0.05, 0]^3, turned and moved with its body.
+Vec3d force_at(const Vec3d& x, const Quat<double>& turn = {}, const Vec3d& shift = {}) {
+  GrainBench b;
+  b.config.wall.bodies = {box({-0.05, -0.05, -0.05}, {0, 0, 0})};
+  b.motion = [&](int, double) {
+    BodyPose p;
+    p.rotation = turn;
+    p.translation = shift;
+    return p;
+  };
+  b.add(turn.rotate(x) + shift);
+  b.start();
+  return turn.conjugate().rotate(b.force());
+}
+
+TEST(Walls, FaceEdgeAndCornerOfABoxPushAsAPlaneWould) {
+  const double R = 1.35e-3, depth = 1e-2 * R, reach = R - depth;
+  GrainBench plane;
+  plane.plane({0, 0, 0}, {0, 0, 1});
+  plane.add({0, 0, reach});
+  plane.start();
+  const double f = plane.force().z;
+  ASSERT_GT(f, 0);
+  const double near = tolerance(1e-9, 1e-5, 1e-5) * f;
+  const Quat<double> turn = Quat<double>::from_rotation({0.3, -0.7, 0.4});
+  const Vec3d shift{0.01, -0.02, 0.03};
+  const Vec3d ways[] = {{0, 0, 1}, {1, 0, 0}, {0, std::sqrt(0.5), std::sqrt(0.5)}, Vec3d(1, 1, 1) * (1 / std::sqrt(3.0))};
+  const Vec3d starts[] = {{-0.02, -0.02, 0}, {0, -0.02, -0.01}, {-0.02, 0, 0}, {0, 0, 0}};
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_LT(norm(force_at(starts[k] + ways[k] * reach) - ways[k] * f), near) << k;
+    EXPECT_LT(norm(force_at(starts[k] + ways[k] * reach, turn, shift) - ways[k] * f), near) << k << " turned";
+  }
+}
+
+TEST(Walls, RectangleIsFeltFromBothSidesAndPushesBackWhatHasPassed) {
+  GrainBench b;
+  b.config.wall.bodies = {box({-0.02, -0.02, 0}, {0.02, 0.02, 0.02}, "tank")};
+  b.config.wall.bodies[0].faces = {false, false, false, false, true, false};  // floor only
+  b.config.grain.E = 1e4;  // far too soft: centres pass the floor
+  b.add({0, 0, 1.5 * b.R()}, {0, 0, -1.5});
+  b.add({0.01, 0, -1.5 * b.R()}, {0, 0, 0.1});
+  b.add({0.02 + 1.5 * b.R(), 0, 0}, {-0.1, 0, 0});
+  b.add({0.03, 0.03, 0.002}, {0, 0, -0.5});  // beside the patch
+  b.start();
+  double lowest = 1;
+  for (int k = 0; k < 600; ++k) {
+    b.run(1e-5, 20);
+    lowest = std::min(lowest, b.position(0).z);
+  }
+  EXPECT_LT(lowest, 0) << "the test means the centre to pass";
+  EXPECT_GT(b.velocity(0).z, 0.5) << "thrown back";
+  EXPECT_LT(b.velocity(1).z, -0.05) << "from below";
+  EXPECT_GT(b.velocity(2).x, 0.05) << "from beyond its edge";
+  EXPECT_NEAR(b.velocity(3).z, -0.5, 1e-6) << "nothing there";
+}
+
+TEST(Walls, LoadOfRestingGrainsIsTheirWeight) {
+  GrainBench b;
+  b.config.gravity = {0, 0, -9.81};
+  b.config.wall.bodies = {box({-0.05, -0.05, 0}, {0.05, 0.05, 0.05}, "tank"), box({0.06, 0, 0}, {0.07, 0.01, 0.01})};
+  b.config.contact.rolling = "epsd";
+  const double rest = b.R() - b.resting_overlap(b.mass() * 9.81);
+  for (int i = 0; i < 10; ++i) b.add({0.004 * i - 0.02, 0.01, rest});
+  b.start();
+  b.run(1e-5, 500);
+  b.set_poses(1, 0);
+  const auto loads = b.solver->body_loads(*b.grains, b.poses());
+  ASSERT_EQ(loads.size(), 2u);
+  const double weight = 10 * b.mass() * 9.81;
+  EXPECT_NEAR(loads[0].force.z / -weight, 1, 1e-4);
+  EXPECT_NEAR(loads[0].torque.x / (-weight * 0.01), 1, 1e-4);
+  EXPECT_NEAR(loads[0].torque.y / (weight * -0.002), 1, 1e-3);
+  EXPECT_EQ(norm(loads[1].force), 0);
+  const GrainTotals t = b.solver->totals(*b.grains);
+  EXPECT_EQ(t.wall_contacts, 10);
+  EXPECT_EQ(t.contacts, 0);
+  const double overlap = b.resting_overlap(b.mass() * 9.81);
+  EXPECT_NEAR(t.max_overlap / (overlap / (2 * b.R())), 1, 1e-3);
+  EXPECT_NEAR(t.elastic / (10 * 0.4 * b.mass() * 9.81 * overlap), 1, 1e-3);
+}
+
+TEST(Walls, MovingWallThrowsTheGrainAndARemovedOneLetsItGo) {
+  GrainBench b;
+  b.config.grain.e = 1;
+  b.config.grain.mu = 0;
+  b.config.wall.bodies = {box({-0.02, -0.02, -0.02}, {0, 0.02, 0.02})};
+  const double V = 0.2;
+  b.motion = [&](int, double t) {
+    BodyPose p;
+    p.translation = {V * t, 0, 0};
+    p.v = {V, 0, 0};
+    return p;
+  };
+  b.add({1.02 * b.R(), 0, 0});
+  b.start();
+  b.run(1e-6, 2000);
+  EXPECT_NEAR(b.velocity().x / (2 * V), 1, 1e-3);
+
+  GrainBench gone;
+  gone.plane({0, 0, 0}, {0, 0, 1});
+  gone.config.gravity = {0, 0, -9.81};
+  gone.add({0, 0, 0.99 * gone.R()});
+  gone.motion = [](int, double) {
+    BodyPose p;
+    p.present = 0;
+    return p;
+  };
+  gone.start();
+  gone.run(1e-5, 1000);
+  EXPECT_NEAR(gone.velocity().z, -0.0981, 1e-6);
+  EXPECT_EQ(gone.solver->totals(*gone.grains).wall_contacts, 0);
+}
+
+TEST(Walls, RotatingPlaneCarriesTheGrainRound) {
+  // turntable: the contact velocity is omega x r
+  GrainBench b;
+  b.config.gravity = {0, 0, -9.81};
+  b.plane({0, 0, 0}, {0, 0, 1});
+  const double rate = 5, r = 0.02;
+  b.motion = [&](int, double t) {
+    BodyPose p;
+    p.rotation = Quat<double>::from_rotation({0, 0, rate * t});
+    p.omega = {0, 0, rate};
+    return p;
+  };
+  b.add({r, 0, b.R() - b.resting_overlap(b.mass() * 9.81)});
+  b.start();
+  b.run(1e-6, 1000);  // slipping all the while
+  const Vec3d f = b.force();
+  EXPECT_GT(f.y, 0);
+  EXPECT_NEAR(f.y / (b.config.grain.mu * f.z), 1, 1e-2);
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT

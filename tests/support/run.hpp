@@ -1,0 +1,59 @@
+#pragma once
+// Whole simulations of this build, from a Config made in code.
+
+#include "bedload/geometry/setup.hpp"
+#include "bedload/simulation.hpp"
+#include "tests/support/fluid_box.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup);
+
+inline std::unique_ptr<Simulation> started(const Config& config, const Setup& setup) {
+  auto simulation = make_coupled(config, setup);
+  simulation->start();
+  return simulation;
+}
+inline std::unique_ptr<Simulation> started(const Config& config) {
+  std::vector<std::string> warnings;
+  return started(config, build_setup(config, warnings));
+}
+
+inline void run_until(Simulation& s, double t) {
+  while (s.time() < t) s.step();
+}
+
+inline double reading(const std::vector<Quantity>& rows, const std::string& name) {
+  for (const auto& q : rows)
+    if (q.name == name) return q.value;
+  ADD_FAILURE() << "no quantity " << name;
+  return 0;
+}
+
+/// A snapshot's array as vectors of three, in the order of ids.
+inline std::vector<Vec3d> vectors(const HostStore& store, const std::string& name) {
+  const HostArray& a = *store.find(name);
+  const auto* id = store.find("id")->as<std::uint32_t>();
+  std::vector<Vec3d> out(store.count);
+  for (std::size_t i = 0; i < store.count; ++i)
+    for (int k = 0; k < 3; ++k)
+      out[id[i]][k] = a.type == Scalar::f64 ? a.as<double>()[3 * i + k] : a.as<float>()[3 * i + k];
+  return out;
+}
+inline std::vector<double> scalars(const HostStore& store, const std::string& name) {
+  const HostArray& a = *store.find(name);
+  const auto* id = store.find("id")->as<std::uint32_t>();
+  std::vector<double> out(store.count);
+  for (std::size_t i = 0; i < store.count; ++i) out[id[i]] = a.type == Scalar::f64 ? a.as<double>()[i] : a.as<float>()[i];
+  return out;
+}
+
+/// Every bit of the kept state.
+inline std::vector<std::byte> bits(Simulation& s) {
+  std::vector<std::byte> out;
+  for (const auto& store : s.save().stores)
+    for (const auto& a : store.arrays) out.insert(out.end(), a.bytes.begin(), a.bytes.end());
+  return out;
+}
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,211 @@
+#!/usr/bin/env python3
+"""compare.py and plot.py on small runs made here, whose answers are known."""
+
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+TOOLS = Path(__file__).resolve().parents[2] / "tools"
+
+
+def write_frames(path, times, points, fields):
+    """A VTKHDF file: `points` [frame][n, 3], `fields` name -> [frame][n, ...]."""
+    counts = [len(p) for p in points]
+    offsets = np.concatenate([[0], np.cumsum(counts)[:-1]])
+    with h5py.File(path, "w") as file:
+        root = file.create_group("VTKHDF")
+        root["NumberOfPoints"] = counts
+        root["Points"] = np.concatenate(points).astype("f4")
+        data, steps = root.create_group("PointData"), root.create_group("Steps")
+        steps.attrs["NSteps"] = len(times)
+        steps["Values"] = np.asarray(times, float)
+        steps["PointOffsets"] = offsets
+        steps["PartOffsets"] = np.arange(len(times))
+        for name, frames in fields.items():
+            data[name] = np.concatenate(frames)
+            steps[f"PointDataOffsets/{name}"] = offsets
+
+
+def tool(name, *arguments):
+    command = [sys.executable, TOOLS / name, *map(str, arguments)]
+    done = subprocess.run(command, capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+class Folders(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.case, self.run_dir = Path(self.folder.name) / "case", Path(self.folder.name) / "run"
+        self.case.mkdir()
+        (self.run_dir / "probes").mkdir(parents=True)
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def compare(self, check):
+        (self.case / "expect.toml").write_text("[[check]]\nname = 'it'\n" + check)
+        return tool("compare.py", self.case, self.run_dir)
+
+
+class Compare(Folders):
+    def setUp(self):
+        super().setUp()
+        t = np.linspace(0, 1, 101)
+        rows = "".join(f"{a},{1 + a * a}\n" for a in t)
+        (self.run_dir / "probes" / "front.csv").write_text("time [s],front [m]\n" + rows)
+        # The reference is the same curve, 0.1 s late and 2 % larger.
+        late = "".join(f"run,{a + 0.1},{1.02 * (1 + a * a)}\n" for a in t[10:90:10])
+        (self.case / "reference.csv").write_text("series,t_s,x_m\nother,0.2,9\n" + late)
+
+    CURVE = """kind = "curve"
+data = "probes/front.csv"
+column = "front"
+reference = "reference.csv"
+reference_x = "t_s"
+reference_y = "x_m"
+where = { series = "run" }
+relative = true
+"""
+
+    def test_curve_finds_the_delay(self):
+        status, out, _ = self.compare(self.CURVE + "shift = [0, 0.2]\nrms = 0.021\nmax = 0.03")
+        self.assertEqual(status, 0, out)
+        self.assertIn("pass  it: RMS", out)
+        status, out, _ = self.compare(self.CURVE + "rms = 0.021")
+        self.assertEqual(status, 1, out)
+        self.assertIn("FAIL  it", out)
+
+    def test_curve_refuses_a_run_that_ends_early(self):
+        (self.case / "reference.csv").write_text("series,t_s,x_m\nrun,0.5,1.25\nrun,1.5,3.25\n")
+        status, out, _ = self.compare(self.CURVE + "rms = 0.5")
+        self.assertEqual(status, 1)
+        self.assertIn("the run ends at 1, the reference at 1.5", out)
+
+    def test_advice_does_not_fail(self):
+        status, out, _ = self.compare(self.CURVE + "rms = 0.001\nadvice = true")
+        self.assertEqual(status, 0)
+        self.assertIn("note  it", out)
+
+    def test_value(self):
+        value = 'kind = "value"\ndata = "probes/front.csv"\ncolumn = "front"\n'
+        self.assertEqual(self.compare(value + "low = 1.99\nhigh = 2.01")[0], 0)
+        self.assertEqual(self.compare(value + "low = 2.01")[0], 1)
+        above = value + 'statistic = "first_above"\nthreshold = 1.25\n'
+        self.assertEqual(self.compare(above + "low = 0.5\nhigh = 0.52")[0], 0)
+        self.assertEqual(self.compare(above + "high = 0.5")[0], 1)
+        self.assertEqual(self.compare(above.replace("1.25", "3") + "high = 0.5")[0], 1)
+        self.assertEqual(self.compare(value + 'statistic = "mean"\ntime_range = [0.9, 1]\nlow = 1.9')[0], 0)
+
+    def test_below(self):
+        (self.run_dir / "probes" / "slow.csv").write_text("time [s],front [m]\n0,1\n1,1.5\n")
+        below = 'kind = "below"\ndata = "probes/{}.csv"\ncolumn = "front"\nother_data = "probes/{}.csv"\n' \
+                'other_column = "front"\n'
+        self.assertEqual(self.compare(below.format("slow", "front") + "slack = 0.07")[0], 0)
+        self.assertEqual(self.compare(below.format("front", "slow") + "slack = 0.07")[0], 1)
+
+    def test_says_what_it_cannot_evaluate(self):
+        status, _, err = self.compare('kind = "value"\ndata = "probes/front.csv"\ncolumn = "fornt"\nlow = 1')
+        self.assertEqual(status, 2)
+        self.assertIn("has no column 'fornt', only time [s], front [m]", err)
+        status, _, err = self.compare('kind = "value"\ndata = "probes/none.csv"\ncolumn = "front"\nlow = 1')
+        self.assertEqual(status, 2)
+        self.assertIn("No such file", err)
+
+
+class CompareFrames(Folders):
+    def setUp(self):
+        super().setUp()
+        times = np.linspace(0, 2, 21)
+        z = np.linspace(0, 1, 50)
+        points = [np.stack([0 * z, 0 * z, z], 1) for _ in times]
+        flow = [np.stack([z * (1 - z) * np.exp(-0.5 * t), 0 * z, 0 * z], 1).astype("f4") for t in times]
+        write_frames(self.run_dir / "fluid.vtkhdf", times, points, {"velocity": flow})
+        rows = "".join(f"{a},{a * (1 - a) * np.exp(-0.5)}\n" for a in np.linspace(0, 1, 201))
+        (self.case / "profile.csv").write_text("z_m,v_m_s\n" + rows)
+
+    def test_profile(self):
+        profile = 'kind = "profile"\ndata = "fluid.vtkhdf"\nfield = "velocity"\ncomponent = 0\nalong = 2\n' \
+                  'reference = "profile.csv"\nreference_x = "z_m"\nreference_y = "v_m_s"\n' \
+                  'scale = 0.15\nmax = 0.01\n'
+        status, out, _ = self.compare(profile + "time = 1.0")
+        self.assertEqual(status, 0, out)
+        self.assertIn("at t = 1 s", out)
+        self.assertEqual(self.compare(profile + "time = 0.5")[0], 1)
+
+    def test_decay(self):
+        decay = 'kind = "decay"\ndata = "fluid.vtkhdf"\nfield = "velocity"\nreduce = "mean_square"\n' \
+                'tolerance = 0.01\n'
+        self.assertEqual(self.compare(decay + "rate = 1.0")[0], 0)
+        self.assertEqual(self.compare(decay + "rate = 1.02")[0], 1)
+
+
+class Plot(Folders):
+    CASE = """title = "A drop over a step"
+[domain]
+min = [0, 0, 0]
+max = [0.2, 0.1, 0.1]
+periodic = [false, true, false]
+[fluid]
+dx = 0.005
+[grain]
+d = 0.01
+[[wall.body]]
+name = "tank"
+shape = "tank"
+min = [0, 0, 0]
+max = [0.2, 0.1, 0.1]
+faces = ["x-", "x+", "z-"]
+[[wall.body]]
+name = "gate"
+shape = "box"
+min = [0.1, 0, 0]
+max = [0.11, 0.1, 0.08]
+motion.kind = "velocity"
+motion.velocity = [0, 0, 0.5]
+"""
+
+    def setUp(self):
+        super().setUp()
+        random = np.random.default_rng(1)
+        box = np.array([0.1, 0.1, 0.08])
+        points = [random.random((500, 3)) * box for _ in range(3)]
+        write_frames(self.run_dir / "fluid.vtkhdf", [0, 0.1, 0.2], points,
+                     {"velocity": [random.random((500, 3)) for _ in range(3)],
+                      "pressure": [random.random(500) for _ in range(3)]})
+        write_frames(self.run_dir / "grains.vtkhdf", [0, 0.1, 0.2], [p[:20] for p in points],
+                     {"radius": [np.full(20, 0.005)] * 3})
+
+    def expect_picture(self, *arguments):
+        out = Path(self.folder.name) / "out" / "picture.png"
+        status, _, err = tool("plot.py", *arguments, "--out", out)
+        self.assertEqual(status, 0, err)
+        self.assertEqual(out.read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+    def test_frames(self):
+        (self.run_dir / "case.resolved.toml").write_text(self.CASE)
+        self.expect_picture("frames", self.run_dir, "--times", "0,0.1,0.2")
+        self.expect_picture("frames", self.run_dir, "--field", "pressure", "--slice", "0.05")
+
+    def test_frames_without_the_case(self):
+        self.expect_picture("frames", self.run_dir, "--times", "0.2", "--view", "yz")
+
+    def test_field_that_is_not_there(self):
+        status, _, err = tool("plot.py", "frames", self.run_dir, "--field", "porosity", "--out", "none.png")
+        self.assertNotEqual(status, 0)
+        self.assertIn("has no porosity, only pressure, velocity", err)
+
+    def test_probe(self):
+        table = self.run_dir / "probes" / "front.csv"
+        table.write_text("time [s],front [m]\n0,1\n1,2\n")
+        reference = self.case / "reference.csv"
+        reference.write_text("series,t_s,x_m\nA,0.5,1.4\nB,0.7,1.8\n")
+        self.expect_picture("probe", table, "--reference", reference)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,65 @@
+# Tests. Suites named Slow... are labelled slow, the rest quick; on a GPU gpu-slow and gpu-quick.
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+# bedload_register(<executable> [label prefix]): its tests, which ctest calls <executable>.<suite>.<test>.
+function(bedload_register target)
+  # Two tests may run at once, and waiting threads that spin would starve each other.
+  set(environment OMP_WAIT_POLICY=passive)
+  gtest_discover_tests(
+    ${target} TEST_FILTER "-Slow*:*/Slow*" TEST_PREFIX "${target}." TEST_LIST ${target}_quick
+    DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${ARGN}quick" TIMEOUT 300 ENVIRONMENT "${environment}")
+  gtest_discover_tests(
+    ${target} TEST_FILTER "Slow*:*/Slow*" TEST_PREFIX "${target}." TEST_LIST ${target}_slow
+    DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${ARGN}slow" TIMEOUT 1800 ENVIRONMENT "${environment}")
+endfunction()
+
+# With the modules for plots: made by tools/install_dependencies.
+find_program(BEDLOAD_PYTHON python PATHS ${CMAKE_SOURCE_DIR}/build/venv/bin NO_DEFAULT_PATH)
+
+file(GLOB host_tests CONFIGURE_DEPENDS tests/case/*_test.cpp tests/geometry/*_test.cpp
+                                       tests/output/*_test.cpp tests/program/*_test.cpp)
+if(host_tests)
+  add_executable(bedload_host_tests ${host_tests})
+  add_dependencies(bedload_host_tests bedload)
+  target_compile_definitions(bedload_host_tests PRIVATE BL_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+                                                        BL_PROGRAM="$<TARGET_FILE:bedload>")
+  if(BEDLOAD_PYTHON)
+    target_compile_definitions(bedload_host_tests PRIVATE BEDLOAD_PYTHON="${BEDLOAD_PYTHON}")
+  endif()
+  target_link_libraries(bedload_host_tests PRIVATE bedload_host bedload_device GTest::gtest_main)
+  bedload_register(bedload_host_tests)
+endif()
+
+if(BEDLOAD_PYTHON)
+  add_test(NAME tools COMMAND ${BEDLOAD_PYTHON} ${CMAKE_SOURCE_DIR}/tests/tools/tools_test.py)
+  set_tests_properties(tools PROPERTIES LABELS quick TIMEOUT 300)
+endif()
+
+# Times, but asserts nothing.
+add_executable(bedload_bench tests/bench/bench.cpp)
+target_link_libraries(bedload_bench PRIVATE bedload_host bedload_device)
+
+file(GLOB_RECURSE BEDLOAD_SOLVER_TESTS CONFIGURE_DEPENDS
+     tests/kernels/*_test.cpp tests/parallel/*_test.cpp tests/particles/*_test.cpp
+     tests/neighbours/*_test.cpp tests/fluid/*_test.cpp tests/solids/*_test.cpp tests/walls/*_test.cpp
+     tests/coupling/*_test.cpp tests/time/*_test.cpp tests/physics/*_test.cpp)
+
+# bedload_variant_tests(<variant> [label prefix]): the solver's tests, built for one variant.
+function(bedload_variant_tests variant)
+  if(NOT BEDLOAD_SOLVER_TESTS)
+    return()
+  endif()
+  add_executable(bedload_tests_${variant} ${BEDLOAD_SOLVER_TESTS})
+  target_link_libraries(bedload_tests_${variant} PRIVATE bedload_${variant} GTest::gtest_main)
+  bedload_register(bedload_tests_${variant} ${ARGN})
+endfunction()
+
+foreach(precision IN LISTS BEDLOAD_PRECISIONS)
+  bedload_variant_tests(${precision}_cpu)
+endforeach()
+if(BEDLOAD_CUDA)
+  add_subdirectory(tools/cmake/cuda_tests)
+endif()

@@ -1,0 +1,42 @@
+# The solver library is compiled once per precision and backend from the same files. Each build lives in
+# its own inline namespace (BL_VARIANT), so that one program holds them all and chooses at run time.
+#
+# precision  pair arithmetic  fluid positions in memory
+# single     float            packed: float, relative to the cell
+# mixed      float            double
+# double     double           double
+
+file(GLOB BEDLOAD_SOLVER_SOURCES CONFIGURE_DEPENDS
+     ${CMAKE_SOURCE_DIR}/src/particles/*.cpp ${CMAKE_SOURCE_DIR}/src/neighbours/*.cpp
+     ${CMAKE_SOURCE_DIR}/src/fluid/*.cpp ${CMAKE_SOURCE_DIR}/src/solids/*.cpp
+     ${CMAKE_SOURCE_DIR}/src/coupling/*.cpp ${CMAKE_SOURCE_DIR}/src/walls/*.cpp
+     ${CMAKE_SOURCE_DIR}/src/time/*.cpp ${CMAKE_SOURCE_DIR}/src/measure/*.cpp)
+
+# bedload_variant(single|mixed|double cpu|cuda): the static library bedload_<precision>_<backend>.
+# A cuda variant is made in a directory in which the sources' LANGUAGE is CUDA.
+function(bedload_variant precision backend)
+  set(variant ${precision}_${backend})
+  set(real float)
+  set(packed 0)
+  if(precision STREQUAL "double")
+    set(real double)
+  elseif(precision STREQUAL "single")
+    set(packed 1)
+  endif()
+
+  add_library(bedload_${variant} STATIC ${BEDLOAD_SOLVER_SOURCES})
+  target_compile_definitions(bedload_${variant} PUBLIC BL_VARIANT=${variant} BL_REAL=${real}
+                                                       BL_PACKED_POSITIONS=${packed})
+  # LINK_ONLY: a solver file must compile without the host's libraries.
+  target_link_libraries(bedload_${variant} PUBLIC bedload_headers PRIVATE $<LINK_ONLY:bedload_host>)
+  if(backend STREQUAL "cuda")
+    target_compile_definitions(bedload_${variant} PUBLIC BL_CUDA=1)
+    target_compile_options(bedload_${variant} PUBLIC --expt-relaxed-constexpr -lineinfo)
+    target_link_libraries(bedload_${variant} PRIVATE CUDA::cudart_static)
+  else()
+    target_compile_definitions(
+      bedload_${variant} PUBLIC BL_CUDA=0 THRUST_DEVICE_SYSTEM=THRUST_DEVICE_SYSTEM_OMP)
+    target_compile_options(bedload_${variant} PUBLIC -fno-math-errno)
+    target_link_libraries(bedload_${variant} PUBLIC OpenMP::OpenMP_CXX)
+  endif()
+endfunction()

@@ -1,0 +1,254 @@
+#!/usr/bin/env python3
+"""Pictures of a run.
+
+    plot.py frames RUN_DIR --times 0.05,0.1 --out PNG [--field speed] [--slice Y] [--view xz]
+    plot.py probe CSV... --out PNG [--column NAME] [--reference CSV ...]
+
+`frames` shows fluid coloured by a field, grains as discs true to size, and the walls, one panel per
+time. `probe` draws columns of probe tables over time, with reference points as markers.
+"""
+
+import argparse
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+from matplotlib.collections import EllipseCollection  # noqa: E402
+from matplotlib.patches import Rectangle  # noqa: E402
+
+from frames import Frames, Table, resolved_case  # noqa: E402
+
+FIELDS = {
+    "speed": ("velocity", "speed (m/s)", "viridis"),
+    "pressure": ("pressure", "pressure (Pa)", "cividis"),
+    "porosity": ("porosity", "porosity (-)", "Blues"),
+    "density": ("density", "density (kg/m3)", "cividis"),
+}
+GRAIN_FILL, GRAIN_EDGE, WALL = "#d98e4a", "#5b3416", "#9a9a9a"
+FACES = ["x-", "x+", "y-", "y+", "z-", "z+"]
+
+
+class Run:
+    """Frames and geometry of a run folder, seen along one axis."""
+
+    def __init__(self, folder, view):
+        self.case = resolved_case(folder)
+        self.across, self.up = ("xyz".index(axis) for axis in view)
+        self.depth = 3 - self.across - self.up
+        self.nearer = -1 if view == "xz" else 1  # direction of the viewer along the depth
+        stores = {name: Path(folder) / f"{name}.vtkhdf" for name in ("fluid", "grains")}
+        self.frames = {name: Frames(path) for name, path in stores.items() if path.exists()}
+        if not self.frames:
+            raise SystemExit(f"{folder}: holds neither fluid.vtkhdf nor grains.vtkhdf")
+        self.dx = self.case.get("fluid", {}).get("dx") or self.estimated_spacing()
+
+    def times(self):
+        return next(iter(self.frames.values())).times
+
+    def estimated_spacing(self):
+        """Usual distance to the nearest particle of the first frame, m."""
+        if "fluid" not in self.frames:
+            return 0.0
+        x = self.frames["fluid"].position(0)
+        nearest = []
+        for a in np.linspace(0, len(x) - 1, min(200, len(x)), dtype=int):
+            r = np.linalg.norm(x - x[a], axis=1)
+            r[a] = np.inf
+            nearest.append(r.min())
+        return float(np.median(nearest))
+
+    def fluid(self, time, field, cut):
+        """Places [n, 2], disc diameters [n] and values [n] of the fluid near `time`, far ones first.
+
+        The discs are a little wider than dx, so that the fluid reads as one body.
+        """
+        frames = self.frames["fluid"]
+        k = frames.nearest(time)
+        values = frames.get(k, FIELDS[field][0])
+        if values is None:
+            raise SystemExit(f"{frames.path}: has no {FIELDS[field][0]}, only {', '.join(frames.fields())}")
+        if values.ndim > 1:
+            values = np.linalg.norm(values, axis=1)
+        x = frames.position(k)
+        shown = np.abs(x[:, self.depth] - cut) <= 0.6 * self.dx if cut is not None else np.ones(len(x), bool)
+        order = np.flatnonzero(shown)
+        order = order[np.argsort(self.nearer * x[order, self.depth], kind="stable")]
+        return x[order][:, [self.across, self.up]], np.full(len(order), 1.15 * self.dx), values[order]
+
+    def grains(self, time, cut):
+        """Places [n, 2] and diameters [n] of the grains, far ones first; of their cut if there is one."""
+        frames = self.frames["grains"]
+        k = frames.nearest(time)
+        x, radius = frames.position(k), frames.get(k, "radius")
+        if radius is None:
+            diameter = frames.get(k, "diameter")
+            radius = diameter / 2 if diameter is not None else np.full(len(x), self.case["grain"]["d"] / 2)
+        if cut is not None:
+            off = np.abs(x[:, self.depth] - cut)
+            keep = off < radius
+            x, radius = x[keep], np.sqrt(radius[keep] ** 2 - off[keep] ** 2)
+        order = np.argsort(self.nearer * x[:, self.depth], kind="stable")
+        return x[order][:, [self.across, self.up]], 2 * radius[order]
+
+    def bodies(self, time):
+        """Wall bodies with corners as they stand at `time`: (body, min, max)."""
+        for body in self.case.get("wall", {}).get("body", []):
+            motion = body.get("motion", {})
+            moved = np.zeros(3)
+            if motion.get("kind") == "velocity":
+                duration = min(time, motion.get("stop", np.inf)) - motion.get("start", 0.0)
+                moved = np.array(motion["velocity"]) * max(0.0, duration)
+            elif motion.get("kind") == "oscillation":
+                swing = np.sin(2 * np.pi * motion["frequency"] * max(0.0, time - motion.get("start", 0.0)))
+                moved = np.array(motion["amplitude"]) * swing
+            if body.get("shape") in ("tank", "box"):
+                yield body, np.array(body["min"]) + moved, np.array(body["max"]) + moved
+
+    def window(self, times):
+        """Lower and upper corner of what is worth showing, m."""
+        tanks = [(low, high) for body, low, high in self.bodies(0) if body["shape"] == "tank"]
+        if tanks:
+            low, high = np.min([t[0] for t in tanks], axis=0), np.max([t[1] for t in tanks], axis=0)
+        else:
+            points = [f.position(f.nearest(t)) for f in self.frames.values() for t in times]
+            low, high = np.min([p.min(0) for p in points], axis=0), np.max([p.max(0) for p in points], axis=0)
+        pick = [self.across, self.up]
+        margin = 0.03 * np.max((high - low)[pick])
+        return low[pick] - margin, high[pick] + margin
+
+
+def discs(axes, places, diameters, **style):
+    """Circles true to size; returns them for a colour bar."""
+    circles = EllipseCollection(diameters, diameters, np.zeros(len(places)), units="xy",
+                                offsets=places, transOffset=axes.transData, **style)
+    return axes.add_collection(circles)
+
+
+def draw_walls(axes, run, time, scale):
+    for body, low, high in run.bodies(time):
+        a, b = run.across, run.up
+        if body["shape"] == "box":
+            corner, size = low[[a, b]] * scale, (high - low)[[a, b]] * scale
+            axes.add_patch(Rectangle(corner, *size, facecolor=WALL, edgecolor="black", linewidth=0.5))
+            continue
+        closed = body.get("faces", FACES)
+        for axis, other in ((a, b), (b, a)):
+            for name, place in zip((FACES[2 * axis], FACES[2 * axis + 1]), (low[axis], high[axis])):
+                if name not in closed or run.case["domain"].get("periodic", [False] * 3)[axis]:
+                    continue
+                ends = np.array([low[other], high[other]]) * scale
+                line = ([place * scale] * 2, ends) if axis == a else (ends, [place * scale] * 2)
+                axes.plot(*line, color="black", linewidth=1.2)
+
+
+def plot_frames(options):
+    run = Run(options.run_dir, options.view)
+    times = [float(t) for t in options.times.split(",")] if options.times else [run.times()[-1]]
+    low, high = run.window(times)
+    scale, unit = (1e3, "mm") if np.max(high - low) < 1 else (1, "m")
+    columns = len(times) if len(times) <= 2 else int(np.ceil(np.sqrt(len(times) * 0.7)))
+    rows = int(np.ceil(len(times) / columns))
+    width = 11 / columns
+    height = width * (high - low)[1] / (high - low)[0]
+    figure, panels = plt.subplots(rows, columns, squeeze=False, sharex=True, sharey=True,
+                                  figsize=(columns * width + 1.2, rows * (height + 0.45) + 0.5),
+                                  layout="constrained")
+
+    fluids = [run.fluid(t, options.field, options.slice) if "fluid" in run.frames else None for t in times]
+    values = np.concatenate([f[2] for f in fluids if f is not None]) if fluids[0] is not None else np.zeros(1)
+    limits = (0 if options.field == "speed" else np.percentile(values, 0.5), np.percentile(values, 99.5))
+    if options.range:
+        limits = tuple(float(v) for v in options.range.split(","))
+    colours = None
+    for axes, time, fluid in zip(panels.flat, times, fluids):
+        if fluid is not None:
+            colours = discs(axes, fluid[0] * scale, fluid[1] * scale, array=fluid[2],
+                            cmap=FIELDS[options.field][2], clim=limits, linewidths=0, rasterized=True)
+        if "grains" in run.frames:
+            places, diameters = run.grains(time, options.slice)
+            discs(axes, places * scale, diameters * scale, facecolors=GRAIN_FILL, edgecolors=GRAIN_EDGE,
+                  linewidths=0.25, rasterized=True)
+        draw_walls(axes, run, time, scale)
+        shown = run.times()[np.argmin(np.abs(run.times() - time))]
+        axes.set_title(f"t = {shown:.3g} s", fontsize=10)
+        axes.set_xlim(low[0] * scale, high[0] * scale)
+        axes.set_ylim(low[1] * scale, high[1] * scale)
+        axes.set_aspect("equal")
+    for axes in list(panels.flat)[len(times):]:
+        axes.set_axis_off()
+    for axes in panels[-1]:
+        axes.set_xlabel(f"{options.view[0]} ({unit})")
+    for axes in panels[:, 0]:
+        axes.set_ylabel(f"{options.view[1]} ({unit})")
+    if colours is not None:
+        figure.colorbar(colours, ax=panels, label=FIELDS[options.field][1], shrink=0.8)
+    if run.case.get("title"):
+        figure.suptitle(run.case["title"], fontsize=11)
+    save(figure, options.out)
+
+
+def plot_probe(options):
+    figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
+    labels = set()
+    for path in options.csv:
+        table = Table(path)
+        names = options.column or table.names[1:]
+        for name in names:
+            label = f"{Path(path).stem}: {name}" if len(names) > 1 else Path(path).stem
+            axes.plot(table.column(table.names[0]), table.column(name), label=label, linewidth=1.5)
+            labels.add(name)
+    markers = iter("osD^v<>PX*")
+    for path in options.reference:
+        table = Table(path)
+        if options.where:
+            table = table.where(dict(pair.split("=", 1) for pair in options.where))
+        numeric = table.numeric()
+        x, y = options.reference_columns.split(",") if options.reference_columns else numeric[:2]
+        names = table.texts("series") if "series" in table.names else [Path(path).stem] * len(table.texts(x))
+        for series in dict.fromkeys(names):
+            picked = np.array([name == series for name in names])
+            axes.plot(table.column(x)[picked], table.column(y)[picked], next(markers, "."), label=series,
+                      markersize=5, markerfacecolor="none")
+    axes.set_xlabel("time (s)")
+    axes.set_ylabel(", ".join(sorted(labels)) if len(labels) <= 2 else "")
+    axes.grid(alpha=0.3)
+    axes.legend(frameon=False, fontsize=9)
+    save(figure, options.out)
+
+
+def save(figure, path):
+    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(path, dpi=160)
+    print(path)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    kinds = parser.add_subparsers(required=True)
+    frames = kinds.add_parser("frames", help="side view of fluid, grains and walls")
+    frames.add_argument("run_dir")
+    frames.add_argument("--times", help="comma-separated, s; default: the last frame")
+    frames.add_argument("--out", required=True, help="PNG or PDF")
+    frames.add_argument("--field", choices=FIELDS, default="speed")
+    frames.add_argument("--range", help="low,high of the colour bar, in the field's unit")
+    frames.add_argument("--slice", type=float, help="show only what this plane cuts, coordinate in m")
+    frames.add_argument("--view", choices=["xz", "xy", "yz"], default="xz")
+    frames.set_defaults(run=plot_frames)
+    probe = kinds.add_parser("probe", help="columns of tables over time")
+    probe.add_argument("csv", nargs="+")
+    probe.add_argument("--out", required=True, help="PNG or PDF")
+    probe.add_argument("--column", action="append", help="default: all")
+    probe.add_argument("--reference", nargs="*", default=[], help="CSV files shown as markers")
+    probe.add_argument("--reference-columns", help="x,y; default: the first two that are numbers")
+    probe.add_argument("--where", nargs="*", help="column=value: rows of the references to show")
+    probe.set_defaults(run=plot_probe)
+    options = parser.parse_args()
+    options.run(options)
+
+
+if __name__ == "__main__":
+    main()
