@@ -43,7 +43,8 @@ struct ReactionPass {
   FluidWeight<W> weight;
   ReactionShares shares;
   Span<Real4> v_rho;
-  Span<Real3> reaction;  ///< m/s2
+  Span<Real3> reaction;   ///< m/s2
+  Span<Real3> drag_kick;  ///< m/s
 
   struct Sum {
     Real3 impulse, force;
@@ -63,7 +64,9 @@ struct ReactionPass {
   BL_HD void finish(Index a, const Sum& sum) const {
     const Real inv_m = 1 / weight.mass[a];
     const Real4 old = v_rho[a];
-    v_rho[a] = {old.xyz() - inv_m * sum.impulse, old.w};
+    const Real3 kick = -(inv_m * sum.impulse);
+    v_rho[a] = {old.xyz() + kick, old.w};
+    drag_kick[a] = kick;
     reaction[a] = -(inv_m * sum.force);
   }
 };

@@ -11,7 +11,7 @@ BL_HD Real pressure_term(Real m_b, Real pa, Real pb, Real F) { return m_b * (pa 
 
 /// Morris et al. 1997 [H (10)]: times -v gives the acceleration; mu_sum = mu_a + mu_b [Pa s].
 BL_HD Real morris_term(Real m_b, Real mu_sum, Real rho_a, Real rho_b, Real r2, Real F, Real h2) {
-  return m_b * mu_sum / (rho_a * rho_b) * r2 * F / (r2 + Real(0.01) * h2);
+  return m_b * mu_sum * r2 * F / (rho_a * rho_b * (r2 + Real(0.01) * h2));
 }
 
 /// Artificial viscosity (Monaghan 1992): times r gives the acceleration; zero for receding pairs.

@@ -13,7 +13,8 @@ struct WallPass {
   EquationOfState eos;
   Span<const Real4> fluid_v_rho, fluid_m_state;
   Span<const Real> fluid_eps;
-  Span<const Real3> fluid_extra;  ///< acceleration of the fluid by the grains, m/s2; empty without grains
+  Span<const Real3> drag_kick;  ///< velocity that the grains' drag gave the fluid this step, m/s; empty without grains
+  Real rate;                    ///< 1 / step, 1/s
   Span<const Vec3d> x;
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
@@ -33,7 +34,7 @@ struct WallPass {
   BL_HD void pair(Sum& sum, Index, Index a, const Real3& r_wf, Real r2) const {
     const Real wk = w.W(std::sqrt(r2));
     const Real4 m = fluid_m_state[a];
-    const Real3 push = fluid_extra ? sum.push + fluid_extra[a] : sum.push;
+    const Real3 push = drag_kick ? sum.push + rate * drag_kick[a] : sum.push;
     sum.weight += wk;
     sum.p += wk * (m.w + m.z * dot(push, r_wf));
     sum.eps += wk * fluid_eps[a];

@@ -32,14 +32,7 @@ class Run {
 
   int go() {
     say(summary_text(p_));
-    simulation_ = make_simulation(p_.config, p_.setup, p_.device);
-    if (!options_.restart.empty()) {
-      simulation_->load(read_checkpoint(options_.restart, p_.config));
-      say(fmt::format("restart    {} at t = {:.6g} s\n", options_.restart.string(), simulation_->time()));
-    } else {
-      settle();
-      simulation_->start();
-    }
+    build();
     check_fixed_step(p_.config, *simulation_, p_.warnings);
 
     output_.emplace(options_.out, p_.config, p_.device, version(), !options_.restart.empty());
@@ -57,16 +50,35 @@ class Run {
     std::fflush(stdout);
   }
 
-  void settle() {
-    if (!p_.config.grain.present || !p_.config.grain.settle) return;
+  /// The simulation at its first step: from a checkpoint, over settled grains, or as laid.
+  void build() {
+    const bool restart = !options_.restart.empty();
+    const bool settle = !restart && p_.config.grain.present && p_.config.grain.settle;
+    SavedState state;
+    if (restart) state = read_checkpoint(options_.restart, p_.config);
+    if (settle) state = settled();
+    if (estimate_bytes(p_.config, counts_of(p_.setup)) > p_.device.memory)
+      p_.warnings.push_back("the case may need more memory than the device has free");
+    simulation_ = make_simulation(p_.config, p_.setup, p_.device);
+    p_.setup = {};  // as large as the simulation itself
+    if (restart) {
+      simulation_->load(state);
+      say(fmt::format("restart    {} at t = {:.6g} s\n", options_.restart.string(), simulation_->time()));
+    } else {
+      if (settle) simulation_->load_grains(state);
+      simulation_->start();
+    }
+  }
+
+  SavedState settled() {
     Progress progress(options_.quiet, 0, p_.config.grain.settle_time);
     const auto from = std::chrono::steady_clock::now();
-    const bool kept = settle_grains(*simulation_, p_.config, p_.setup, p_.device, progress, p_.warnings);
+    const SettledGrains bed = settled_grains(p_.config, p_.setup, p_.device, progress, p_.warnings);
     progress.close();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
-    say(kept
-            ? fmt::format("settled    as kept in {}\n", settled_file(p_.config, p_.setup, p_.device).string())
-            : fmt::format("settled    in {}\n", duration_text(took.count())));
+    say(bed.kept.empty() ? fmt::format("settled    in {}\n", duration_text(took.count()))
+                         : fmt::format("settled    as kept in {}\n", bed.kept.string()));
+    return bed.state;
   }
 
   int steps() {
@@ -88,6 +100,9 @@ class Run {
     } catch (const SimulationFault& fault) {
       progress.close();
       throw SimulationFault(fault.what() + after_fault(wall(), particle_steps));
+    } catch (const CaseError& error) {  // a fixed step has come to exceed its limit
+      progress.close();
+      throw CaseError(error.what() + after_fault(wall(), particle_steps));
     }
     progress.close();
     const bool stopped = simulation_->time() < end_;

@@ -55,34 +55,37 @@ fs::path settled_file(const Config& config, const Setup& setup, const Device& de
   return folder / fmt::format("settled-{:016x}.h5", hash.value());
 }
 
-bool settle_grains(Simulation& simulation, const Config& config, const Setup& setup, const Device& device,
-                   Progress& progress, std::vector<std::string>& warnings) {
+SettledGrains settled_grains(const Config& config, const Setup& setup, const Device& device,
+                             Progress& progress, std::vector<std::string>& warnings) {
   const fs::path file = settled_file(config, setup, device);
   const Config dry = settling_case(config);
   if (!file.empty() && fs::exists(file)) {
     try {
-      simulation.load_grains(read_checkpoint(file, dry));
-      return true;
+      return {read_checkpoint(file, dry), file};
     } catch (const FileError& error) {
       warnings.push_back(fmt::format("the settled bed is computed anew; {}", error.what()));
     }
   }
+  Setup grains;
+  grains.grains = setup.grains;
+  const auto simulation = make_simulation(dry, grains, device);
   const double longest = config.grain.settle_time;
-  simulation.settle(longest, [&](double t) {
+  simulation->settle(longest, [&](double t) {
     if (stop_requested()) throw Stopped{};
     progress.note(fmt::format("settling grains: {:.3g} s, at most {:.3g} s", t, longest));
   });
-  if (file.empty()) return false;
+  const SavedState state = simulation->save_grains();
+  if (file.empty()) return {state, {}};
   try {
     fs::create_directories(file.parent_path());
-    write_state(file, simulation.save_grains(), dry);
+    write_state(file, state, dry);
   } catch (const fs::filesystem_error& error) {
     warnings.push_back(
         fmt::format("{}: cannot keep the settled bed: {}", file.string(), error.code().message()));
   } catch (const FileError& error) {
     warnings.push_back(fmt::format("cannot keep the settled bed; {}", error.what()));
   }
-  return false;
+  return {state, {}};
 }
 
 }  // namespace bedload

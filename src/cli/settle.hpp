@@ -18,9 +18,15 @@ class Progress;
 /// backend and version. Empty if there is no home.
 std::filesystem::path settled_file(const Config& config, const Setup& setup, const Device& device);
 
-/// Settles the grains, or takes them from settled_file() and then returns true. A cache that cannot
+struct SettledGrains {
+  SavedState state;            ///< for Simulation::load_grains
+  std::filesystem::path kept;  ///< where it was taken from; empty: settled just now
+};
+
+/// The grains at rest without fluid, from settled_file() or settled in a simulation of
+/// their own, so that the run that follows is the same either way. A cache that cannot
 /// be read or written is remarked in `warnings` and otherwise ignored.
-bool settle_grains(Simulation& simulation, const Config& config, const Setup& setup, const Device& device,
-                   Progress& progress, std::vector<std::string>& warnings);
+SettledGrains settled_grains(const Config& config, const Setup& setup, const Device& device,
+                             Progress& progress, std::vector<std::string>& warnings);
 
 }  // namespace bedload

@@ -150,7 +150,8 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains) {
                                                surroundings(), shares()});
     with_weight(kernel_, h_c_, fluid, [&](auto weight) {
       for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, x_}, range_,
-                    ReactionPass<decltype(weight.w), couple>{weight, shares(), fluid.v_rho, fluid.reaction});
+                    ReactionPass<decltype(weight.w), couple>{weight, shares(), fluid.v_rho, fluid.reaction,
+                                                                  fluid.drag_kick});
     });
   });
 }

@@ -77,10 +77,11 @@ class FluidSolverWith final : public FluidSolver {
     run(fluid, walls, range() + skin(), pass);
   }
 
-  void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, bool coupled) override {
+  void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt) override {
     const double dx = config_.wall.dx, h = config_.fluid.h();
     WallPass<W> pass{w_, eos_, fluid.v_rho, fluid.m_state, fluid.eps,
-                     coupled ? Span<const Real3>(fluid.drag_acc) : Span<const Real3>(), walls.x, walls.body, pose,
+                     drag_dt > 0 ? Span<const Real3>(fluid.drag_kick) : Span<const Real3>(),
+                     Real(drag_dt > 0 ? 1 / drag_dt : 0), walls.x, walls.body, pose,
                      gravity_, Real(dx * dx * dx), Real(1e-3 / (h * h * h)), walls.v_rho, walls.v_visc, walls.m_state};
     for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }

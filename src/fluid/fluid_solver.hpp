@@ -44,8 +44,9 @@ class FluidSolver {
   void accept_density(FluidStore& fluid) { fluid.s.buffer().swap(fluid.s_next.buffer()); }
   /// Density, pressure, velocity predicted by `kick`.
   void state(FluidStore& fluid, double kick, bool coupled);
-  /// Wall particles' state from the fluid. Poses on the device, one a body.
-  virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, bool coupled) = 0;
+  /// Wall particles' state from the fluid. Poses on the device, one a body; drag_dt: the step in which
+  /// drag_kick arose (s), 0 where there is none.
+  virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt) = 0;
   /// theta, acc_next, xsph. dt caps the repulsion.
   virtual void forces(FluidStore& fluid, const WallStore& walls, double dt) = 0;
   /// v += kick (acc_next - acc); acc = acc_next.

@@ -84,18 +84,19 @@ struct FluidTotals {
   }
 };
 
-/// Rate of change of fluid momentum by everything but walls, N: gravity and drive, force by grains.
+/// Rates of change of fluid momentum, N: by gravity and drive, by all but grains, by grains.
 struct FluidLoads {
+  double rate;  ///< 1 / step, 1/s
   Vec3d gravity, drive;
   Span<const Real> mass;
   Span<const Real4> v_rho;
-  Span<const Real3> acc, reaction, drag_acc;
+  Span<const Real3> acc, reaction, drag_kick;
   BL_HD void operator()(Index a, double* out) const {
     const double m = mass[a];
     for (int k = 0; k < 3; ++k) {
       out[k] = m * (gravity[k] + drive[k] / double(v_rho[a].w));
       out[3 + k] = m * double(acc[a][k]);
-      if (reaction) out[6 + k] = m * (double(reaction[a][k]) + double(drag_acc[a][k]));
+      if (reaction) out[6 + k] = m * (double(reaction[a][k]) + rate * drag_kick[a][k]);
     }
   }
 };
@@ -265,9 +266,9 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"fluid_elastic_energy", "J", t.v[9]});
     const auto loads = wall_loads({});
     for (std::size_t b = 0; b < loads.size(); b += 2) wall_on_fluid -= loads[b];
-    const auto l = sum_over<9>(fluid_.owned(), FluidLoads{config_.gravity, config_.drive, fluid_.mass, fluid_.v_rho, fluid_.acc,
+    const auto l = sum_over<9>(fluid_.owned(), FluidLoads{clock_.last_dt > 0 ? 1 / clock_.last_dt : 0, config_.gravity, config_.drive, fluid_.mass, fluid_.v_rho, fluid_.acc,
                                                           two_way() ? Span<const Real3>(fluid_.reaction) : Span<const Real3>(),
-                                                          fluid_.drag_acc});
+                                                          fluid_.drag_kick});
     const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
     vec("force_walls_on_fluid", "N", wall_on_fluid);
     vec("force_grains_on_fluid", "N", {l.v[6], l.v[7], l.v[8]});

@@ -27,6 +27,10 @@ void sync(const std::filesystem::path& path) {
   if (!done) throw cannot("write", path);
 }
 
+void move(const std::filesystem::path& part, const std::filesystem::path& path) {
+  if (std::rename(part.c_str(), path.c_str()) != 0) throw cannot("write", path);
+}
+
 }  // namespace
 
 std::string read_file(const std::filesystem::path& path) {
@@ -39,7 +43,7 @@ std::filesystem::path part_of(const std::filesystem::path& path) { return path.s
 
 void commit_file(const std::filesystem::path& part, const std::filesystem::path& path) {
   sync(part);
-  if (std::rename(part.c_str(), path.c_str()) != 0) throw cannot("write", path);
+  move(part, path);
   sync(path.has_parent_path() ? path.parent_path() : ".");
 }
 
@@ -56,7 +60,7 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
     std::remove(part.c_str());
     throw error;
   }
-  commit_file(part, path);
+  move(part, path);
 }
 
 void need_space(const std::filesystem::path& path, std::size_t bytes) {

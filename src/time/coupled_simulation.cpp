@@ -58,7 +58,7 @@ void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   FluidSolver& fluid = *fluid_solver_;
   if (two_way()) coupling_->porosity(fluid_, grains_);
   fluid.state(fluid_, predict, two_way());
-  if (walls_.size() > 0) fluid.walls(fluid_, walls_, motion_.poses(clock_.time + dt, 0, 1), two_way());
+  if (walls_.size() > 0) fluid.walls(fluid_, walls_, motion_.poses(clock_.time + dt, 0, 1), two_way() ? dt : 0);
   fluid.forces(fluid_, walls_, dt);
 }
 

@@ -1,5 +1,6 @@
 // The program from outside: exit codes, messages, files.
 
+#include <algorithm>
 #include <vector>
 
 #include "run_program.hpp"
@@ -37,7 +38,20 @@ end = 0.02
 every = 0.01
 )";
 
-using Program = ProgramTest;
+class Program : public ProgramTest {
+ protected:
+  /// The last checkpoints of both runs are equal to the last bit.
+  void expect_same_checkpoints(const std::string& one, const std::string& other) const {
+    const auto last = [&](const std::string& run) {
+      std::filesystem::path newest;
+      for (const auto& entry : std::filesystem::directory_iterator(dir_ / run / "checkpoints"))
+        newest = std::max(newest, entry.path());
+      return newest;
+    };
+    EXPECT_EQ(last(one).filename(), last(other).filename());
+    EXPECT_TRUE(content_of(last(one)) == content_of(last(other))) << one << " and " << other << " differ";
+  }
+};
 
 TEST_F(Program, SaysItsVersion) {
   const Outcome o = bedload("--version");
@@ -163,6 +177,16 @@ TEST_F(Program, TakesASettledBedFromItsCache) {
   EXPECT_NE(third.out.find("settled    in "), std::string::npos) << third.out;
 }
 
+TEST_F(Program, AKeptBedGivesTheSameRunAsAFreshOne) {
+  write("dam.toml", kSmall);
+  for (const char* folder : {"fresh", "kept"}) {
+    const Outcome o =
+        bedload(std::string("run dam.toml --backend cpu --quiet --until 0.002 --out ") + folder);
+    ASSERT_EQ(o.code, 0) << o.err;
+  }
+  expect_same_checkpoints("fresh", "kept");
+}
+
 TEST_F(Program, ARestartedRunEqualsAnUnbrokenOne) {
   write("dam.toml", kSmall);
   const std::string run = "run dam.toml --backend cpu --quiet ";
@@ -174,14 +198,7 @@ TEST_F(Program, ARestartedRunEqualsAnUnbrokenOne) {
   const Outcome o = bedload(run + "--out parts --restart " + middle.string());
   ASSERT_EQ(o.code, 0) << o.err;
 
-  int compared = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(dir_ / "whole/checkpoints")) {
-    const auto other = dir_ / "parts/checkpoints" / entry.path().filename();
-    ASSERT_TRUE(std::filesystem::exists(other)) << other;
-    EXPECT_TRUE(content_of(entry.path()) == content_of(other)) << other;
-    ++compared;
-  }
-  EXPECT_EQ(compared, 1);
+  expect_same_checkpoints("whole", "parts");
 }
 
 TEST_F(Program, ASignalEndsTheRunWithACheckpoint) {
@@ -199,8 +216,10 @@ TEST_F(Program, ASignalEndsTheRunWithACheckpoint) {
 
 TEST_F(Program, ABlowUpEndsWithCode3AndNamesTheWayBack) {
   write("dam.toml", kSmall);
-  const Outcome o =
-      bedload("run dam.toml --backend cpu --quiet --out r --set time.dt=0.05 --force-dt --until 5");
+  // Fluid that implodes at hundreds of m/s is denser than its equation of state allows.
+  const Outcome o = bedload(
+      "run dam.toml --backend cpu --quiet --out r --set "
+      "'fluid.fill.0.velocity=[\"-8000*(x-0.025)\", \"-8000*(y-0.03)\", \"-8000*(z-0.025)\"]'");
   EXPECT_EQ(o.code, 3) << o.err;
   EXPECT_NE(o.err.find("; there is no checkpoint, set checkpoint.every to have some\n"), std::string::npos)
       << o.err;

@@ -42,8 +42,9 @@ class ProgramTest : public testing::Test {
   }
 
   Outcome shell(const std::string& command) const {
-    const std::string all = "cd '" + dir_.string() + "' && XDG_CACHE_HOME=cache OMP_NUM_THREADS=2 " +
-                            command + " >out.txt 2>err.txt";
+    const std::string all = "cd '" + dir_.string() +
+                            "' && XDG_CACHE_HOME=cache OMP_NUM_THREADS=2 OMP_WAIT_POLICY=passive " + command +
+                            " >out.txt 2>err.txt";
     const int status = std::system(all.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), content_of(dir_ / "out.txt"),
             content_of(dir_ / "err.txt")};

@@ -17,14 +17,14 @@ TEST(SmallSolids, EveryKernelRuns) {
       tank.min = {-0.1, -0.01, 0}, tank.max = {0.1, 0.01, 0.05};
       WallBody gate;
       gate.shape = "box";
-      gate.min = {0, -0.01, 0}, gate.max = {0.002, 0.01, 0.05};
+      gate.min = {-0.0455, -0.01, 0}, gate.max = {-0.0435, 0.01, 0.05};
       b.config.wall.bodies = {tank, gate};
       b.plane({0, 0, 0}, {0, 0, 1});
-      for (int i = 0; i < 40; ++i) b.add({-0.098 + 2.6e-3 * (i % 20), 0, 1.3e-3 + 2.6e-3 * (i / 20)}, {0.1, 0, -0.1});
+      for (int i = 0; i < 40; ++i) b.add({-0.0981 + 2.69e-3 * (i % 20), 0, 1.34e-3 + 2.69e-3 * (i / 20)}, {0.1, 0, -0.1});
       b.start();
       b.grains->K.assign(std::vector<Real>(40, Real(1e-3)));
       b.grains->K_rot.assign(std::vector<Real>(40, Real(1e-9)));
-      b.run(5e-6, 60);
+      b.run(2e-6, 25);
       b.refresh();
       b.run(5e-6, 5, true);
       b.set_poses(1, 0);

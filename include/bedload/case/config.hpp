@@ -1,7 +1,7 @@
 #pragma once
 // A case as the solver sees it: every parameter with its default, checked and
 // resolved. Written by src/case, read by everybody. Knows nothing of precision
-// or device. Keys, bounds and defaults: physics.md section 13, `bedload list`.
+// or device. Keys, bounds and defaults: `bedload list parameters`.
 
 #include <array>
 #include <cstdint>
@@ -72,7 +72,7 @@ struct MotionConfig {
   double rate = 0;                             ///< rotation: rad/s
   double start = 0;                            ///< s
   double stop = std::numeric_limits<double>::infinity();  ///< s
-  bool remove_when_clear = false;              ///< delete the body once its lowest point is above all fluid and grains
+  bool remove_when_clear = false;              ///< deleted once its lowest point is above all fluid and grains
   bool operator==(const MotionConfig&) const = default;
 };
 
@@ -204,7 +204,7 @@ struct Config {
   Vec3d gravity{0, 0, -9.81};                  ///< m/s2
   Vec3d drive{0, 0, 0};                        ///< drive.f: constant force density on the fluid, N/m3
   double xsph = 0;
-  double tensile = 0;                          ///< 0 off; he2018 and `tensile = 1` switch the Monaghan 2000 term on
+  double tensile = 0;                          ///< 0 off; 1 switches the Monaghan 2000 term on
   bool tensile_one_sign = false;               ///< he2018: 0.01 for both signs of P
   DomainConfig domain;
   FluidConfig fluid;

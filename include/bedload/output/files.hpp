@@ -10,7 +10,8 @@ namespace bedload {
 /// Text of a whole file. Throws FileError.
 std::string read_file(const std::filesystem::path& path);
 
-/// Replaces a file in one go: written beside its place, then renamed. Throws FileError.
+/// Replaces a file in one go: written beside its place, then renamed; survives a kill
+/// but is not synced, unlike commit_file. Throws FileError.
 void write_file(const std::filesystem::path& path, const std::string& text);
 
 /// Puts the finished file `part` in the place of `path`, surely on disk. Throws FileError.

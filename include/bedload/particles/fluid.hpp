@@ -18,7 +18,7 @@ struct FluidStore : Store {
   Field<Real3> acc{*this, "acceleration", "m/s2", Lifetime::kept};  ///< theta + gravity + artificial and repulsive terms
   Field<Real3> xsph{*this, "xsph", "m/s", Lifetime::kept};      ///< added to the drift velocity
   Field<Real4> m_state{*this, "m_state", "kg, m5/(kg s2), kg/m3, Pa", Lifetime::kept};  ///< what pair loops read: mass, P/rho~2, intrinsic rho, P
-  Field<Real3> drag_acc{*this, "drag_acc", "m/s2", Lifetime::derived};  ///< by the drag of the grains, this step
+  Field<Real3> drag_kick{*this, "drag_kick", "m/s", Lifetime::derived};  ///< by the drag of the grains, this step
   Field<Real3> acc_next{*this, "acc_next", "m/s2", Lifetime::derived};
   Field<Real> s_next{*this, "s_next", "-", Lifetime::derived};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};  ///< x as pair loops read it

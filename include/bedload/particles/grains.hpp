@@ -22,7 +22,7 @@ struct GrainStore : Store {
   Field<Real> wetness{*this, "wetness", "-", Lifetime::kept};
   Field<Real3> U{*this, "U", "m/s", Lifetime::derived};       ///< fluid velocity here
   Field<Real3> omega_f{*this, "omega_f", "rad/s", Lifetime::derived};  ///< fluid rotation here
-  Field<Real> K{*this, "K", "kg/s", Lifetime::derived};       ///< limited drag coefficient K'
+  Field<Real> K{*this, "K", "kg/s", Lifetime::kept};          ///< limited drag coefficient K'
   Field<Real> K_rot{*this, "K_rot", "N m s", Lifetime::derived};  ///< fluid torque per relative spin
   Field<Real3> impulse{*this, "impulse", "N s", Lifetime::derived};    ///< drag impulse of this fluid step
   Field<Real3> spin_impulse{*this, "spin_impulse", "N m s", Lifetime::derived};

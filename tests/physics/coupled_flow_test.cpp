@@ -1,0 +1,145 @@
+// Fluid and grains together, through whole simulations.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kernels/drag/registry.hpp"
+#include "tests/support/run.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// A periodic box of moving fluid with n^3 grains on a lattice that fills it to solid fraction phi.
+struct Slurry {
+  Config config = periodic_box(8, 0.01);
+  Setup setup;
+
+  explicit Slurry(int n, double phi) {
+    const double gap = 0.08 / n;
+    config.grain.present = true;
+    config.grain.d = config.grain.d_max = config.grain.d_min = std::cbrt(phi * 6 / pi) * gap;
+    config.couple.hc = std::max(config.fluid.h(), 2 * config.grain.d);
+    config.fluid.fills = {{config.domain.min, config.domain.max,
+                           {"0.3*sin(78.5398*y)", "0.1", "0.2*cos(78.5398*x)"}}};
+    std::vector<std::string> warnings;
+    setup = build_setup(config, warnings);
+    for (int k = 0; k < n * n * n; ++k) {
+      setup.grains.x.push_back({(k % n + 0.5) * gap, (k / n % n + 0.5) * gap, (k / n / n + 0.5) * gap});
+      setup.grains.v.push_back({0.1 * (k % 3), -0.1, 0.05 * (k % 5)});
+      setup.grains.radius.push_back(config.grain.d / 2);
+    }
+  }
+};
+
+Vec3d momentum(const std::vector<Quantity>& d, const std::string& phase) {
+  return {reading(d, phase + "_momentum_x"), reading(d, phase + "_momentum_y"), reading(d, phase + "_momentum_z")};
+}
+
+TEST(SmallCoupled, MomentumOfFluidAndGrainsIsKept) {
+  for (const std::string integrator : {"exponential", "explicit"}) {
+    Slurry slurry(6, 0.2);
+    slurry.config.couple.integrator = integrator;
+    auto s = started(slurry.config, slurry.setup);
+    const auto before = s->diagnostics();
+    const Vec3d fluid = momentum(before, "fluid");
+    for (int k = 0; k < 20; ++k) s->step();
+    const auto after = s->diagnostics();
+    const Vec3d change = momentum(after, "fluid") + momentum(after, "grain") - fluid - momentum(before, "grain");
+    EXPECT_GT(norm(momentum(after, "fluid") - fluid), 1e-4 * norm(fluid)) << "the phases exchange nothing";
+    const double scale = reading(after, "fluid_mass") * 0.3;
+    EXPECT_LT(norm(change) / scale, 20 * kInvariant) << integrator;
+    EXPECT_EQ(reading(after, "fluid_mass"), reading(before, "fluid_mass"));
+    EXPECT_EQ(reading(after, "grain_mass"), reading(before, "grain_mass"));
+  }
+}
+
+TEST(SmallCoupled, RestartContinuesBitForBit) {
+  for (const std::string integrator : {"kdk", "euler"}) {
+    Slurry slurry(6, 0.2);
+    slurry.config.time.integrator = integrator;
+    auto unbroken = started(slurry.config, slurry.setup);
+    for (int k = 0; k < 13; ++k) unbroken->step();
+    const SavedState saved = unbroken->save();
+    auto restarted = make_coupled(slurry.config, slurry.setup);
+    restarted->load(saved);
+    for (int k = 0; k < 17; ++k) {
+      unbroken->step();
+      restarted->step();
+    }
+    EXPECT_EQ(unbroken->time(), restarted->time());
+    EXPECT_EQ(bits(*unbroken), bits(*restarted)) << integrator;
+  }
+}
+
+TEST(CoupledFlow, LaidFluidTakesTheSpaceBetweenGrains) {
+  Slurry slurry(6, 0.3);
+  auto s = started(slurry.config, slurry.setup);
+  const double expected = 1000 * std::pow(0.08, 3) * 0.7;
+  EXPECT_NEAR(reading(s->diagnostics(), "fluid_mass"), expected, 1e-2 * expected);
+  EXPECT_NEAR(reading(s->diagnostics(), "porosity_min"), 0.7, 0.02);
+}
+
+TEST(SlowCoupledFlow, SeepagePressureDropFollowsTheDragLaw) {  // T-39
+  Slurry slurry(6, 0.4);
+  Config& c = slurry.config;
+  c.grain.fixed = true;
+  c.fluid.mu = 1e-3;
+  c.drive = {2000, 0, 0};  // N/m3, the pressure gradient
+  for (auto& v : slurry.setup.fluid.v) v = {};
+  for (auto& v : slurry.setup.grains.v) v = {};
+  auto s = started(c, slurry.setup);
+  run_until(*s, 1.0);
+  const auto v = vectors(s->snapshot("fluid"), "velocity");
+  Vec3d mean;
+  for (const auto& u : v) mean += u * (1.0 / double(v.size()));
+  double per_volume = 0;  // drag at that speed, N/m3
+  with_drag_law(c.couple.drag, [&](auto law) {
+    const double n = slurry.setup.grains.x.size() / std::pow(0.08, 3);
+    per_volume = n * law.K(Real(0.6), Real(c.grain.d), Real(1000), Real(1e-3), Real(mean.x)) * mean.x;
+  });
+  EXPECT_NEAR(per_volume, 2000, 3e-2 * 2000);
+}
+
+/// One grain released in still water over a floor, drag on the grain alone.
+TEST(SlowCoupledFlow, OneWayTerminalVelocity) {  // T-37
+  Config c = periodic_box(8, 5e-4);
+  c.gravity = {0, 0, -9.81};
+  c.domain.periodic = {true, true, false};
+  c.domain.max.z = 0.008;
+  c.fluid.mu = 8.9e-4;
+  c.fluid.c = 10 * std::sqrt(2 * 9.81 * 0.006);
+  c.visc.alpha = 0.02;
+  c.density.delta = 0.1;
+  c.couple.mode = "one_way";
+  c.couple.hc = c.fluid.h();
+  c.grain.present = true;
+  c.grain.d = c.grain.d_max = c.grain.d_min = 1e-4;
+  FluidFill fill{c.domain.min, {0.004, 0.004, 0.006}, {"0", "0", "0"}};
+  c.fluid.fills = {fill};
+  WallBody floor;
+  floor.name = "floor";
+  floor.shape = "tank";
+  floor.min = c.domain.min;
+  floor.max = c.domain.max;
+  floor.faces = {false, false, false, false, true, false};
+  c.wall.bodies = {floor};
+  for (const auto& [law, expected] :
+       {std::pair{"stokes", 9.185e-3}, std::pair{"schiller_naumann", 8.057e-3}, std::pair{"di_felice", 7.609e-3}}) {
+    c.couple.drag = law;
+    std::vector<std::string> warnings;
+    auto setup = build_setup(c, warnings);
+    setup.grains.x = {{0.002, 0.002, 0.0045}};
+    setup.grains.v = {{0, 0, 0}};
+    setup.grains.radius = {0.5e-4};
+    auto s = started(c, setup);
+    run_until(*s, 0.04);
+    EXPECT_NEAR(-vectors(s->snapshot("grains"), "velocity")[0].z, expected, 1e-2 * expected) << law;
+  }
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
