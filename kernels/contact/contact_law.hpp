@@ -28,7 +28,8 @@ struct Sphere {
   Real R, m;
   BL_HD Real inertia() const { return Real(0.4) * m * R * R; }
 };
-BL_HD ContactGeometry touch(const Sphere& i, const Sphere& j, const Vec3d& r, double distance, double overlap) {
+BL_HD ContactGeometry touch(const Sphere& i, const Sphere& j, const Vec3d& r, double distance,
+                            double overlap) {
   const Real half = Real(0.5 * overlap);
   return {r * (1 / distance),
           overlap,
@@ -122,7 +123,8 @@ struct ContactLaw {
     const double overlap = h.overlap < 0 ? -h.overlap : h.overlap;
     const NormalState ns = normal_state(R_star, m_star, Real(overlap));
     double energy = (normal == NormalLaw::hertz ? 0.4 : 0.5) * double(ns.elastic) * overlap;
-    const SlidingInput in{ns.elastic, ns.stiffness, ns.damping, std::sqrt(R_star * Real(overlap)), m_star, overlap};
+    const SlidingInput in{ns.elastic, ns.stiffness, ns.damping, std::sqrt(R_star * Real(overlap)),
+                          m_star,     overlap};
     if (sliding == SlidingLaw::mindlin_deresiewicz) {
       const double longest = deresiewicz.longest(overlap);
       if (longest > 0) {
@@ -138,8 +140,8 @@ struct ContactLaw {
   }
 
  private:
-  BL_HD Real3 slide(const ContactGeometry& at, const NormalState& ns, Real pressing, const Real3& v_t, double twist,
-                    Real dt, ContactHistory& h) const {
+  BL_HD Real3 slide(const ContactGeometry& at, const NormalState& ns, Real pressing, const Real3& v_t,
+                    double twist, Real dt, ContactHistory& h) const {
     Vec3d xi = turn_with_contact(h.xi, at.n, twist);
     if (sliding == SlidingLaw::mindlin) xi = Mindlin::rescale(xi, h.overlap, at.overlap);
     xi += double(dt) * Vec3d(v_t);
@@ -148,7 +150,7 @@ struct ContactLaw {
       const double longest = deresiewicz.longest(at.overlap), length = norm(xi);
       if (length > longest) xi *= longest / length;
     }
-    const SlidingInput in{pressing,   ns.stiffness, ns.damping, std::sqrt(at.R_star * Real(at.overlap)),
+    const SlidingInput in{pressing,  ns.stiffness, ns.damping, std::sqrt(at.R_star * Real(at.overlap)),
                           at.m_star, at.overlap};
     const SlidingState s = sliding_state(in, xi);
     Real3 f_t = s.elastic - s.damping * v_t;

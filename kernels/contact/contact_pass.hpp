@@ -95,7 +95,8 @@ struct ContactPass {
     }
     const Real3 v_rel = v[i] - Real3(pose.velocity(at.point));
     h.overlap *= side;
-    WallContact c{law(touch_wall(sphere(i), at.normal, overlap), v_rel, omega[i], Real3(pose.omega), dt, h), at.point};
+    WallContact c{law(touch_wall(sphere(i), at.normal, overlap), v_rel, omega[i], Real3(pose.omega), dt, h),
+                  at.point};
     h.overlap *= at.side;
     return c;
   }

@@ -35,9 +35,9 @@ struct LinearSpring {
   }
 };
 
-/// Share of a substep in which a dashpot of constant strength acts: its force jumps at touch and at leave, and a
-/// kick, which stands for the half steps before and after it, is cut or drawn out to the time of contact.
-/// before, now: overlaps (m), 0: apart; v_n > 0 when receding (m/s).
+/// Share of a substep in which a dashpot of constant strength acts: its force jumps at touch and at leave,
+/// and a kick, which stands for the half steps before and after it, is cut or drawn out to the time of
+/// contact. before, now: overlaps (m), 0: apart; v_n > 0 when receding (m/s).
 BL_HD Real dashpot_share(double before, Real now, Real v_n, Real dt, bool may_pull) {
   const Real way = std::abs(v_n) * dt;
   if (way == 0) return 1;

@@ -7,13 +7,13 @@ namespace bedload::inline BL_VARIANT {
 
 /// omega is the relative spin without its part along the normal.
 struct RollingInput {
-  Real3 omega;             ///< rad/s
-  Real normal_force;       ///< >= 0, N
-  Real normal_stiffness;   ///< N/m
-  Real R_star;             ///< m
-  Real inverse_spin;       ///< sum of 1/I, 1/(kg m2)
-  Real inverse_rolling;    ///< sum of 1/(I + m R2)
-  Real dt;                 ///< s
+  Real3 omega;            ///< rad/s
+  Real normal_force;      ///< >= 0, N
+  Real normal_stiffness;  ///< N/m
+  Real R_star;            ///< m
+  Real inverse_spin;      ///< sum of 1/I, 1/(kg m2)
+  Real inverse_rolling;   ///< sum of 1/(I + m R2)
+  Real dt;                ///< s
 };
 
 /// Elastic-plastic spring-dashpot, type C of [ai11]: holds slopes below mu_r.

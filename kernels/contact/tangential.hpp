@@ -7,11 +7,11 @@ namespace bedload::inline BL_VARIANT {
 
 /// What the tangential laws need to know of the normal direction.
 struct SlidingInput {
-  Real normal_force;   ///< total, >= 0, N
+  Real normal_force;  ///< total, >= 0, N
   Real normal_stiffness, normal_damping;
-  Real root;           ///< sqrt(R* overlap), m
-  Real m_star;         ///< kg
-  double overlap;      ///< m
+  Real root;       ///< sqrt(R* overlap), m
+  Real m_star;     ///< kg
+  double overlap;  ///< m
 };
 
 /// Spring force and damping coefficient for one stretch.
@@ -33,7 +33,8 @@ struct Mindlin {
   }
   BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {
     const Real stiffness = 8 * G_star * in.root;
-    return {-stiffness * Real3(xi), stiffness, in.normal_damping * std::sqrt(stiffness / in.normal_stiffness)};
+    return {-stiffness * Real3(xi), stiffness,
+            in.normal_damping * std::sqrt(stiffness / in.normal_stiffness)};
   }
 };
 

@@ -14,7 +14,7 @@ struct GrainSurroundings {
 };
 
 /// Grain j reads the fluid: porosity, velocity, rotation, and the force of pressure and viscous
-/// stress on its volume, V_j sum phi rho~ theta [he18] (27)-(29) corrected. Moments: whether the
+/// stress on its volume, V_j sum phi rho~ theta [he18] Eqs. 27-29, corrected. Moments: whether the
 /// rotation and the couple are wanted.
 template <class W, bool Moments>
 struct InterpolationPass {

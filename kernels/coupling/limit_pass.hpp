@@ -17,8 +17,10 @@ struct DragRatePass {
   BL_HD void finish(Index a, Real sum) const { rate[a] = sum / weight.mass[a]; }
 };
 
-/// (1 - exp(-x)) / x
-BL_HD Real relaxed_share(Real x) { return x < Real(1e-6) ? 1 - Real(0.5) * x : -std::expm1(-x) / x; }
+/// The largest share of drag that a fluid particle can take in one step, x = dt L_a / m_a. Row sums of
+/// the exchange stay at or below one, which is all that the energy argument needs, and drag is exact up to
+/// x = 1; (1 - exp(-x)) / x would already be 21 % weak at the step that time.drag allows.
+BL_HD Real allowed_share(Real x) { return x > 1 ? 1 / x : Real(1); }
 
 /// Weakens the drag of each grain to what the fluid around it can take in a step, so that kinetic
 /// energy cannot grow however stiff the drag. Spin drag reaches the fluid more weakly, by about
@@ -32,7 +34,7 @@ struct LimitPass {
   BL_HD Real start(Index) const { return 0; }
   BL_HD void pair(Real& most, Index, Index a, const Real3&, Real) const { most = max_of(most, rate[a]); }
   BL_HD void finish(Index j, Real most) const {
-    const Real share = relaxed_share(dt * most);
+    const Real share = allowed_share(dt * most);
     K[j] *= share;
     K_rot[j] *= share;
     stiffness[j] = K[j] > 0 ? dt * most : Real(0);

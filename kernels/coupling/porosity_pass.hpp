@@ -3,7 +3,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// eps_a = 1 - sum_j V_j W(|r_a - r_j|; h_c), with a floor [robinson14] (6).
+/// eps_a = 1 - sum_j V_j W(|r_a - r_j|; h_c), with a floor [harting14] Eq. 6.
 template <class W>
 struct PorosityPass {
   W w;

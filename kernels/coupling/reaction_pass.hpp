@@ -37,7 +37,7 @@ struct SharePass {
 };
 
 /// Fluid particle a takes the drag impulse into its velocity and keeps the pressure part as an
-/// acceleration [robinson14] (14).
+/// acceleration [harting14] Eq. 14.
 template <class W, bool Couple>
 struct ReactionPass {
   FluidWeight<W> weight;

@@ -28,19 +28,26 @@ struct KickDriftPass {
 };
 
 /// Density and pressure from s and the porosity; velocity predicted by `kick` (0: Euler).
+/// A fluid that is torn apart cavitates: below `least` compression the density does not follow.
 struct StatePass {
   EquationOfState eos;
-  Real kick;  ///< s
+  Real kick;   ///< s
+  Real least;  ///< lower bound on rho/rho0 - 1
   Span<const Real3> acc, reaction;
-  Span<const Real> s, mass, eps;
+  Span<Real> s;
+  Span<const Real> mass, eps;
   Span<Real4> v_rho, m_state;
 
   BL_HD void operator()(Index a) const {
     Real3 v = v_rho[a].xyz() + kick * acc[a];
     if (reaction) v += kick * reaction[a];
-    const Real superficial = eos.rho0 * (1 + s[a]);
     // rho/rho0 - 1 = (s + solid fraction) / eps: no cancellation where there are no grains
-    const Real compression = (s[a] + (1 - eps[a])) / eps[a];
+    Real compression = (s[a] + (1 - eps[a])) / eps[a];
+    if (compression < least) {
+      compression = least;
+      s[a] = eps[a] * (1 + least) - 1;
+    }
+    const Real superficial = eos.rho0 * (1 + s[a]);
     const Real p = eos.pressure(compression);
     v_rho[a] = {v, superficial};
     m_state[a] = {mass[a], p / square(superficial), eos.rho0 * (1 + compression), p};

@@ -111,7 +111,8 @@ struct BodyLoadReduction {
       if (h.overlap == 0) continue;
       const ContactPass::WallContact c = contacts.wall(i, contacts.surfaces[k], h);
       const Vec3d force = -Vec3d(c.on_grain.force);
-      const Vec3d torque = cross(c.point - pose.centre - pose.translation, force) + Vec3d(c.on_grain.torque_j);
+      const Vec3d torque =
+          cross(c.point - pose.centre - pose.translation, force) + Vec3d(c.on_grain.torque_j);
       t.sum[0] += force.x, t.sum[1] += force.y, t.sum[2] += force.z;
       t.sum[3] += torque.x, t.sum[4] += torque.y, t.sum[5] += torque.z;
     }

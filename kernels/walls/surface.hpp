@@ -24,9 +24,9 @@ struct Nearest {
 struct Surface {
   SurfaceKind kind = SurfaceKind::plane;
   std::uint32_t body = 0;
-  Vec3d centre;        ///< m, at t = 0
-  Vec3d axis[3];       ///< right-handed; axis[2] is the normal of plane and rectangle
-  double half[3] = {}; ///< half extents along them, m; infinite along a periodic axis
+  Vec3d centre;         ///< m, at t = 0
+  Vec3d axis[3];        ///< right-handed; axis[2] is the normal of plane and rectangle
+  double half[3] = {};  ///< half extents along them, m; infinite along a periodic axis
 
   /// r: centre of the sphere from `centre`, in the frame of t = 0. side: where the sphere was while it
   /// touched last (+1, -1; 0: not known), so that a rectangle pushes back what has passed through it.
@@ -66,13 +66,14 @@ struct Surface {
 
 /// A sphere against a moved surface.
 struct SurfaceContact {
-  Vec3d normal;      ///< from the wall to the centre, lab frame
-  double distance;   ///< m
+  Vec3d normal;     ///< from the wall to the centre, lab frame
+  double distance;  ///< m
   double side;
-  Vec3d point;       ///< on the surface, lab frame, m
+  Vec3d point;  ///< on the surface, lab frame, m
 };
 
-BL_HD SurfaceContact meet(const Surface& s, const BodyPose& pose, const Frame& frame, const Vec3d& x, double side) {
+BL_HD SurfaceContact meet(const Surface& s, const BodyPose& pose, const Frame& frame, const Vec3d& x,
+                          double side) {
   const Vec3d centre = pose.place(s.centre);
   const Vec3d r = frame.nearest_image(x - centre);
   const bool turned = pose.rotation.w != 1;

@@ -50,6 +50,8 @@ void describe_fluid_models(Parameters& p, Config& c) {
   p("eos.beta", &c.eos.beta, {.unit = "Pa", .meaning = "democritus: background; the sound speed is derived"});
   p("eos.clip_negative", &c.eos.clip_negative, {.meaning = "no pressure below zero"});
   p("density.delta", &c.density.delta, {.meaning = "density diffusion; 0 off", .range = within(0, 0.2)});
+  p("density.tension", &c.density.tension,
+    {.meaning = "torn fluid cavitates below rho/rho0 - 1 = -tension", .range = within(1e-4, 0.5)});
   p("visc.model", &c.visc.model,
     {.meaning = "physical viscosity",
      .family = "laws",

@@ -57,8 +57,7 @@ std::string summary_text(const Prepared& p) {
     out += fmt::format("fluid      dx {} m, h {:.4g} m, vmax {:.4g} m/s, sound {:.4g} m/s\n", c.fluid.dx,
                        c.fluid.h(), c.fluid.vmax, c.fluid.c);
     if (c.visc.alpha > 0) {
-      const double nu =
-          c.visc.alpha * c.fluid.h() * c.fluid.c / 20;  // [monaghan92], approaching pairs only
+      const double nu = c.visc.alpha * c.fluid.h() * c.fluid.c / 20;  // [monaghan92], approaching pairs only
       const double physical = c.visc.model == "none" ? 0 : c.fluid.mu / c.fluid.rho0;
       out += fmt::format("           visc.alpha acts like a kinematic viscosity of {:.3g} m2/s{}\n", nu,
                          physical > 0 ? fmt::format(", {:.3g} times the physical one", nu / physical) : "");

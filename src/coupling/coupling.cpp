@@ -137,6 +137,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, double dt) {
 void Coupling::react(FluidStore& fluid, const GrainStore& grains) {
   if (!two_way_) {
     fluid.reaction.buffer().zero();
+    fluid.drag_kick.buffer().zero();
     return;
   }
   impulse_.resize(grains.size());
@@ -151,7 +152,7 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains) {
     with_weight(kernel_, h_c_, fluid, [&](auto weight) {
       for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, x_}, range_,
                     ReactionPass<decltype(weight.w), couple>{weight, shares(), fluid.v_rho, fluid.reaction,
-                                                                  fluid.drag_kick});
+                                                             fluid.drag_kick});
     });
   });
 }

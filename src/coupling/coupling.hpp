@@ -38,8 +38,9 @@ class Coupling {
   /// Fills eps, wetness, U, omega_f, fluid_force, K and K_rot of the grains. dt (s): the fluid step
   /// for which they hold, which bounds K when the fluid is to take the reaction.
   void gather(const FluidStore& fluid, GrainStore& grains, double dt);
-  /// Gives grains.impulse and spin_impulse back to the velocities of the fluid and sets
-  /// fluid.reaction; neither fluid positions, masses nor densities may have changed since gather.
+  /// Gives grains.impulse and spin_impulse back to the velocities of the fluid, and sets fluid.drag_kick
+  /// to what they changed by and fluid.reaction; neither fluid positions, masses nor densities may have
+  /// changed since gather.
   void react(FluidStore& fluid, const GrainStore& grains);
   /// Sets fluid.eps for the present positions.
   void porosity(FluidStore& fluid, const GrainStore& grains);

@@ -180,7 +180,7 @@ void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, bool 
 }
 
 void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
-  for_each(fluid.owned(), StatePass{eos_, Real(kick), fluid.acc,
+  for_each(fluid.owned(), StatePass{eos_, Real(kick), -Real(config_.density.tension), fluid.acc,
                                     coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(), fluid.s,
                                     fluid.mass, fluid.eps, fluid.v_rho, fluid.m_state});
 }

@@ -10,12 +10,16 @@ ContactLaw make_contact_law(const Config& config) {
   const GrainConfig& g = config.grain;
   const ContactConfig& c = config.contact;
   ContactLaw law;
-  law.normal = c.normal == "none" ? NormalLaw::none : c.normal == "linear" ? NormalLaw::linear : NormalLaw::hertz;
+  law.normal = c.normal == "none"     ? NormalLaw::none
+               : c.normal == "linear" ? NormalLaw::linear
+                                      : NormalLaw::hertz;
   law.sliding = c.tangential == "none"                  ? SlidingLaw::none
                 : c.tangential == "linear"              ? SlidingLaw::linear
                 : c.tangential == "mindlin_deresiewicz" ? SlidingLaw::mindlin_deresiewicz
                                                         : SlidingLaw::mindlin;
-  law.rolling = c.rolling == "none" ? RollingLaw::none : c.rolling == "cdt" ? RollingLaw::cdt : RollingLaw::epsd;
+  law.rolling = c.rolling == "none"  ? RollingLaw::none
+                : c.rolling == "cdt" ? RollingLaw::cdt
+                                     : RollingLaw::epsd;
   law.clip_tension = c.clip_tension;
   law.mu = Real(g.mu);
 
@@ -27,7 +31,8 @@ ContactLaw make_contact_law(const Config& config) {
   law.hertz.alpha = Real(c.he_damping ? std::sqrt(6.0) * share : hertz_damping(g.e, c.clip_tension));
   law.spring.k = Real(c.k);
   if (law.normal == NormalLaw::linear) {
-    if (!(c.k > 0)) throw CaseError("contact.k = " + std::to_string(c.k) + ": must be > 0 N/m for a linear spring");
+    if (!(c.k > 0))
+      throw CaseError("contact.k = " + std::to_string(c.k) + ": must be > 0 N/m for a linear spring");
     if (c.clip_tension && g.e < std::exp(-2.0))
       throw CaseError("grain.e = " + std::to_string(g.e) +
                       ": must be at least 0.136 for a linear spring that never pulls; "

@@ -38,7 +38,8 @@ HostArray to_array(const char* name, const char* unit, const std::vector<T>& val
 template <class T>
 const T* from_array(const HostStore& store, const char* name) {
   const HostArray* a = store.find(name);
-  if (!a || a->type != FileType<T>::scalar || a->components != FileType<T>::components || a->count() != store.count)
+  if (!a || a->type != FileType<T>::scalar || a->components != FileType<T>::components ||
+      a->count() != store.count)
     throw FileError("checkpoint has no usable array " + store.name + "/" + name);
   return a->as<T>();
 }

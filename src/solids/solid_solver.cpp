@@ -44,8 +44,8 @@ void SolidSolver::refresh(GrainStore& grains, CellGrid& grid) {
   history_.swap(old_history_);
   build_list(grains, grid);
   if (old_list_.rows() == grains.size())
-    for_each(grains.owned(), CarryHistoryPass{old_list_.view(), list_.view(), order_, old_history_.data(),
-                                              history_.data()});
+    for_each(grains.owned(),
+             CarryHistoryPass{old_list_.view(), list_.view(), order_, old_history_.data(), history_.data()});
 }
 
 void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
@@ -58,8 +58,9 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
 // -- limits ------------------------------------------------------------------
 
 GrainWatch SolidSolver::watch(const GrainStore& g) const {
-  const auto v = reduce(g.owned(), WatchReduction{frame_, mass_per_r3(), g.x.span(), g.x_list.span(), g.v.span(),
-                                                  g.omega.span(), g.radius.span(), g.K.span(), g.id.span()});
+  const auto v =
+      reduce(g.owned(), WatchReduction{frame_, mass_per_r3(), g.x.span(), g.x_list.span(), g.v.span(),
+                                       g.omega.span(), g.radius.span(), g.K.span(), g.id.span()});
   return {std::sqrt(v.speed2), std::sqrt(v.displacement2), v.drag_rate, Id(v.bad)};
 }
 
@@ -164,17 +165,17 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                        g.omega_f,
                        g.K,
                        g.K_rot};
-  for_each(g.owned(),
-           FirstKickPass{kick, g.force, g.torque, g.x, g.v, g.omega, v_rest_, omega_rest_, g.impulse, g.spin_impulse});
+  for_each(g.owned(), FirstKickPass{kick, g.force, g.torque, g.x, g.v, g.omega, v_rest_, omega_rest_,
+                                    g.impulse, g.spin_impulse});
   for (int s = 1; s <= substeps; ++s) {
     const ContactPass contacts = contact_pass(g, poses.data + std::size_t(s) * bodies, tau);
     if (s < substeps) {
-      for_each(g.owned(), SubstepPass{contacts, kick, next_x_, next_v_, next_omega_, v_rest_, omega_rest_, g.impulse,
-                                      g.spin_impulse});
+      for_each(g.owned(), SubstepPass{contacts, kick, next_x_, next_v_, next_omega_, v_rest_, omega_rest_,
+                                      g.impulse, g.spin_impulse});
       g.x.buffer().swap(next_x_);
     } else {
-      for_each(g.owned(), LastKickPass{contacts, kick, dt, next_v_, next_omega_, v_rest_, omega_rest_, g.impulse,
-                                       g.spin_impulse, g.force, g.torque, g.drag_force});
+      for_each(g.owned(), LastKickPass{contacts, kick, dt, next_v_, next_omega_, v_rest_, omega_rest_,
+                                       g.impulse, g.spin_impulse, g.force, g.torque, g.drag_force});
     }
     g.v.buffer().swap(next_v_);
     g.omega.buffer().swap(next_omega_);

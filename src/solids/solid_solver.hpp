@@ -31,18 +31,18 @@ struct StableStep {
 
 /// Sums over all grains, in fp64.
 struct GrainTotals {
-  double mass = 0;               ///< kg
-  double kinetic = 0;            ///< of translation, J
-  double rotational = 0;         ///< J
-  double elastic = 0;            ///< stored in contacts, J
-  Vec3d momentum;                ///< kg m/s
-  Vec3d angular;                 ///< about the origin, spin included, kg m2/s
-  Vec3d centre;                  ///< of mass, m
-  double max_speed = 0;          ///< m/s
-  double max_overlap = 0;        ///< overlap / diameter, walls included
-  double contacts = 0;           ///< pairs of touching grains
+  double mass = 0;         ///< kg
+  double kinetic = 0;      ///< of translation, J
+  double rotational = 0;   ///< J
+  double elastic = 0;      ///< stored in contacts, J
+  Vec3d momentum;          ///< kg m/s
+  Vec3d angular;           ///< about the origin, spin included, kg m2/s
+  Vec3d centre;            ///< of mass, m
+  double max_speed = 0;    ///< m/s
+  double max_overlap = 0;  ///< overlap / diameter, walls included
+  double contacts = 0;     ///< pairs of touching grains
   double wall_contacts = 0;
-  double coordination = 0;       ///< touching grains per grain, mean
+  double coordination = 0;  ///< touching grains per grain, mean
 };
 
 /// Force and torque of the grains on one wall body.
@@ -57,8 +57,8 @@ class SolidSolver {
   /// Throws CaseError where the damping asked for cannot be had.
   SolidSolver(const Config& config, const Frame& frame, GrainStore& grains);
 
-  double skin() const { return skin_; }             ///< m
-  double range() const { return d_max_ + skin_; }   ///< largest centre distance in the lists, m
+  double skin() const { return skin_; }            ///< m
+  double range() const { return d_max_ + skin_; }  ///< largest centre distance in the lists, m
   const std::vector<Surface>& surfaces() const { return surfaces_; }
   const ContactLaw& law() const { return law_; }
 
@@ -77,11 +77,12 @@ class SolidSolver {
   /// Contact forces where the grains are, with no time passing; poses: [bodies] on the device. For a fresh
   /// start only: a loaded state brings its forces along.
   void evaluate(GrainStore& grains, Span<const BodyPose> poses);
-  /// `substeps` velocity-Verlet substeps over dt (s). poses: device array [substeps + 1][bodies], at the start
-  /// and after each substep. Reads fluid_force, U, omega_f, K, K_rot; leaves the drag impulses of this call in
-  /// impulse and spin_impulse, their mean in drag_force. Held (or fixed) grains keep place and velocity; the
-  /// fluid feels them as resting.
-  void advance(GrainStore& grains, Span<const BodyPose> poses, int bodies, double dt, int substeps, bool held);
+  /// `substeps` velocity-Verlet substeps over dt (s). poses: device array [substeps + 1][bodies], at the
+  /// start and after each substep. Reads fluid_force, U, omega_f, K, K_rot; leaves the drag impulses of this
+  /// call in impulse and spin_impulse, their mean in drag_force. Held (or fixed) grains keep place and
+  /// velocity; the fluid feels them as resting.
+  void advance(GrainStore& grains, Span<const BodyPose> poses, int bodies, double dt, int substeps,
+               bool held);
 
   GrainTotals totals(const GrainStore& grains) const;
   /// One entry per wall body; poses: [bodies] on the device.

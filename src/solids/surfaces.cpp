@@ -15,7 +15,8 @@ Vec3d unit(int k, double sign = 1) {
 /// Half the extent of a body along axis k; without end where it spans a period.
 double half_extent(const Config& config, const WallBody& body, int k) {
   const double length = body.max[k] - body.min[k], period = config.domain.max[k] - config.domain.min[k];
-  if (config.domain.periodic[k] && length > period * (1 - 1e-9)) return std::numeric_limits<double>::infinity();
+  if (config.domain.periodic[k] && length > period * (1 - 1e-9))
+    return std::numeric_limits<double>::infinity();
   return 0.5 * length;
 }
 

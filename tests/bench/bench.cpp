@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
     const auto simulation = bedload::make_simulation(p.config, p.setup, p.device);
     if (p.config.grain.present && p.config.grain.settle) {
       bedload::Progress progress(true, 0, p.config.grain.settle_time);
-      bedload::settle_grains(*simulation, p.config, p.setup, p.device, progress, p.warnings);
+      simulation->load_grains(bedload::settled_grains(p.config, p.setup, p.device, progress, p.warnings).state);
     }
     simulation->start();
     while (simulation->time() < at) simulation->step();

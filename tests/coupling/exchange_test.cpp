@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "kernels/drag/ergun.hpp"
 #include "tests/support/coupled_box.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -58,11 +59,12 @@ Balances exchange(CoupledBox& box, double dt) {
   box.coupling.react(box.fluid, box.grains);
   const auto after = box.fluid.v_rho.values();
   const auto mass = box.fluid.mass.values();
-  const auto reaction = box.fluid.reaction.values();
+  const auto reaction = box.fluid.reaction.values(), kick = box.fluid.drag_kick.values();
   const auto at = box.fluid_places();
   Balances b;
   for (std::size_t a = 0; a < at.size(); ++a) {
-    const Vec3d p = (Vec3d(after[a].xyz()) - Vec3d(before[a].xyz())) * double(mass[a]);
+    const Vec3d change = Vec3d(after[a].xyz()) - Vec3d(before[a].xyz()), p = change * double(mass[a]);
+    EXPECT_LT(norm(change - Vec3d(kick[a])), kInvariant * (1 + norm(change)));
     const Vec3d f = Vec3d(reaction[a]) * double(mass[a]);
     b.momentum.add(p);
     b.spin.add(cross(at[a], p));
@@ -132,13 +134,14 @@ TEST(Exchange, IsTheSameForAMovingObserver) {
 
 TEST(Exchange, GrainsReadWhatASumOverAllPairsGives) {
   Config c = unit_box(0.12, 20);
-  c.couple.drag = "stokes";
+  c.couple.drag = "ergun";
   c.couple.mode = "one_way";
   CoupledBox box = irregular(c);
   box.coupling.gather(box.fluid, box.grains, 0.05);
   const WendlandC2 w(0.12);
   const auto at = box.fluid_places();
   const auto x = box.grains.x.values();
+  const auto v = box.grains.v.values();
   const auto v_rho = box.fluid.v_rho.values();
   const auto mass = box.fluid.mass.values(), eps = box.fluid.eps.values();
   const auto theta = box.fluid.theta.values();
@@ -147,22 +150,22 @@ TEST(Exchange, GrainsReadWhatASumOverAllPairsGives) {
              spin = box.grains.omega_f.values();
   const double volume = M_PI / 6 * std::pow(0.06, 3);
   for (std::size_t j = 0; j < x.size(); ++j) {
-    double S = 0, e = 0;
+    double S = 0, e = 0, rho = 0;
     Vec3d u, f, mean;
     const auto each = [&](auto&& add) {
       for (std::size_t a = 0; a < at.size(); ++a)
         add(a, mass[a] / v_rho[a].w * w.W(Real(norm(at[a] - x[j]))), Vec3d(v_rho[a].xyz()));
     };
-    each([&](std::size_t a, double vw, const Vec3d& v) {
-      S += vw, e += vw * eps[a], u += v * vw, mean += at[a] * vw;
+    each([&](std::size_t a, double vw, const Vec3d& v_a) {
+      S += vw, e += vw * eps[a], rho += vw * v_rho[a].w / eps[a], u += v_a * vw, mean += at[a] * vw;
       f += Vec3d(theta[a]) * (vw * v_rho[a].w);
     });
     SymmetricMatrix<double> second;
     Vec3d circulation;
-    each([&](std::size_t a, double vw, const Vec3d& v) {
+    each([&](std::size_t a, double vw, const Vec3d& v_a) {
       const Vec3d s = at[a] - mean * (1 / S);
       second.add_outer(vw / S, s);
-      circulation += cross(s, v) * (vw / S);
+      circulation += cross(s, v_a) * (vw / S);
     });
     const double expected_wet = std::clamp((S - 0.05) / 0.45, 0.0, 1.0);
     const double near = 4 * kInvariant;
@@ -170,7 +173,9 @@ TEST(Exchange, GrainsReadWhatASumOverAllPairsGives) {
     EXPECT_NEAR(eps_j[j], e / S, near);
     EXPECT_LT(norm(Vec3d(U[j]) - u * (1 / S)), near);
     EXPECT_LT(norm(Vec3d(F[j]) - f * (expected_wet * volume / S)), near * 9 * 1000 * volume);
-    EXPECT_NEAR(K[j], expected_wet * 3 * M_PI * 20 * 0.06, near * K[j]);
+    const double slip = norm(u * (1 / S) - Vec3d(v[j]));
+    const double expected_K = Ergun{}.K(Real(e / S), Real(0.06), Real(rho / S), 20, Real(slip));
+    EXPECT_NEAR(K[j], expected_wet * expected_K, 2 * near * K[j]);
     const Vec3d expected_spin = second.inertia().inverse() * circulation;
     EXPECT_LT(norm(Vec3d(spin[j]) - expected_spin), near * (10 + norm(expected_spin)));
   }

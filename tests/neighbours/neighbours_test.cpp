@@ -52,6 +52,18 @@ struct CountRow {
   BL_HD void finish(Index i, std::uint32_t n) const { count[i] = n; }
 };
 
+/// Records the rows of a list, each ended by kNone.
+struct RowPass {
+  Span<Index> out;
+  Index width;
+  struct Sum {
+    Index n;
+  };
+  BL_HD Sum start(Index) const { return {0}; }
+  BL_HD void pair(Sum& s, Index i, Index j, const Real3&, Real) const { out[i * width + s.n++] = j; }
+  BL_HD void finish(Index i, Sum s) const { out[i * width + s.n] = kNone; }
+};
+
 class Neighbours : public testing::TestWithParam<std::tuple<int, double>> {};
 
 TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
@@ -71,20 +83,9 @@ TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
 
   VerletList list;
   list.build(Index(x.size()), grid.view(), SphNear<Vec3d>{c.frame, device, p, p, range, true});
-  const auto view = list.view();
   // read the rows back through a pass that records them
   std::vector<std::set<Index>> found(x.size());
   {
-    struct RowPass {
-      Span<Index> out;
-      Index width;
-      struct Sum {
-        Index n;
-      };
-      BL_HD Sum start(Index) const { return {0}; }
-      BL_HD void pair(Sum& s, Index i, Index j, const Real3&, Real) const { out[i * width + s.n++] = j; }
-      BL_HD void finish(Index i, Sum s) const { out[i * width + s.n] = kNone; }
-    };
     const Index width = Index(x.size()) + 1;
     Buffer<Index> rows(std::size_t(x.size()) * width);
     for_each_pair({0, Index(x.size())}, list, SphSeparation{c.frame, p, p}, range, RowPass{rows, width});
@@ -93,7 +94,6 @@ TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
       for (Index k = i * width; host[k] != kNone; ++k) EXPECT_TRUE(found[i].insert(host[k]).second) << "twice";
   }
   for (Index i = 0; i < x.size(); ++i) EXPECT_EQ(found[i], expected[i]) << "particle " << i;
-  (void)view;
 
   Buffer<std::uint32_t> count(x.size());
   for_each_pair({0, Index(x.size())}, grid.view(), SphNear<Vec3d>{c.frame, device, p, p, range, true},

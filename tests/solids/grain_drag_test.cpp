@@ -44,8 +44,9 @@ TEST(GrainDrag, FollowsTheExponentialAndBooksItsImpulse) {
     b.run(dt / 4, 4);
     impulse += Vec3d(b.of(b.grains->impulse, 0));
     EXPECT_NEAR(b.velocity().x / std::exp(-b.time / 3e-3), 1, tolerance(1e-12, 1e-6, 1e-6));
-    EXPECT_NEAR(norm(Vec3d(b.of(b.grains->drag_force, 0)) * dt - Vec3d(b.of(b.grains->impulse, 0))) / norm(impulse), 0,
-                tolerance(1e-12, 1e-6, 1e-6));
+    EXPECT_NEAR(
+        norm(Vec3d(b.of(b.grains->drag_force, 0)) * dt - Vec3d(b.of(b.grains->impulse, 0))) / norm(impulse),
+        0, tolerance(1e-12, 1e-6, 1e-6));
   }
   const Vec3d change = (b.velocity() - Vec3d{1, 0, 0} - b.config.gravity * b.time) * b.mass();
   EXPECT_LT(norm(impulse - change), tolerance(1e-12, 1e-6, 1e-6) * norm(change));
@@ -58,11 +59,13 @@ TEST(GrainDrag, EnergyOfTheSlipNeverRises) {
     b.add({0, 0, 0}, {1, 0.5, -0.3}, {100, -50, 20});
     b.start();
     const double dt = 1e-4;
-    b.immerse(U, std::pow(10, power) * b.mass() / dt, {}, std::pow(10, power) * 0.4 * b.mass() * b.R() * b.R() / dt);
+    b.immerse(U, std::pow(10, power) * b.mass() / dt, {},
+              std::pow(10, power) * 0.4 * b.mass() * b.R() * b.R() / dt);
     double slip = norm(b.velocity() - U), spin = norm(b.spin());
     for (int k = 0; k < 20; ++k) {
       b.run(dt, 1);
-      EXPECT_LE(norm(b.velocity() - U), slip * (1 + tolerance(1e-15, 1e-7, 1e-7)) + tolerance(1e-16, 1e-8, 1e-8));
+      EXPECT_LE(norm(b.velocity() - U),
+                slip * (1 + tolerance(1e-15, 1e-7, 1e-7)) + tolerance(1e-16, 1e-8, 1e-8));
       EXPECT_LE(norm(b.spin()), spin);
       slip = norm(b.velocity() - U), spin = norm(b.spin());
     }
@@ -73,7 +76,8 @@ TEST(GrainDrag, SpinDecaysByViscousTorque) {
   InFluid b;
   b.add({0, 0, 0}, {}, {0, 0, 1});
   b.start();
-  const double mu = 1e-3, d = 2 * b.R(), K_rot = M_PI * mu * d * d * d, inertia = 0.4 * b.mass() * b.R() * b.R();
+  const double mu = 1e-3, d = 2 * b.R(), K_rot = M_PI * mu * d * d * d,
+               inertia = 0.4 * b.mass() * b.R() * b.R();
   b.immerse({}, 0, {}, K_rot);
   double torque_impulse = 0;
   for (int k = 0; k < 100; ++k) {
@@ -91,7 +95,8 @@ TEST(GrainDrag, ExplicitDragIsOfTheSameOrder) {
   b.add({0, 0, 0}, {1, 0, 0});
   b.start();
   b.immerse({}, b.mass() / 1e-2);
-  EXPECT_NEAR(b.solver->stable_dt(*b.grains).seconds, std::min(5e-3, b.solver->stable_dt(*b.grains).seconds), 1e-9);
+  EXPECT_NEAR(b.solver->stable_dt(*b.grains).seconds, std::min(5e-3, b.solver->stable_dt(*b.grains).seconds),
+              1e-9);
   bool listed = false;
   for (const auto& l : b.solver->limits(b.solver->watch(*b.grains)))
     if (l.name == "grain drag") {

@@ -6,7 +6,8 @@
 namespace bedload::inline BL_VARIANT {
 namespace {
 
-/// Two grains that just touch and approach each other at `speed`; returns the ratio of speeds after and before.
+/// Two grains that just touch and approach each other at `speed`; returns the ratio of speeds after and
+/// before.
 double rebound(const ContactConfig& contact, double e, double speed) {
   GrainBench b;
   b.config.contact = contact;
@@ -15,7 +16,8 @@ double rebound(const ContactConfig& contact, double e, double speed) {
   b.add({-b.R(), 0, 0}, {0.5 * speed, 0, 0});
   b.add({b.R(), 0, 0}, {-0.5 * speed, 0, 0});
   b.start();
-  const double t_c = contact.normal == "linear" ? M_PI * std::sqrt(0.5 * b.mass() / contact.k) : b.contact_time(speed);
+  const double t_c =
+      contact.normal == "linear" ? M_PI * std::sqrt(0.5 * b.mass() / contact.k) : b.contact_time(speed);
   bool touched = false;
   for (int step = 0; step < 1500; step += GrainBench::kChunk) {
     b.run(t_c / 100, GrainBench::kChunk);
@@ -107,7 +109,8 @@ struct Cloud : GrainBench {
       const double r = R() * (sizes ? unit(random) : 1.0);
       const Vec3d at = Vec3d(i % n - 2.0, i / n % n - 2.0, i / (n * n) - 2.0) * 2.9e-3;
       const Vec3d jitter{normal(random), normal(random), normal(random)};
-      add(at, at * -40.0 + jitter * 0.05, sizes ? Vec3d(normal(random), normal(random), normal(random)) * 20.0 : Vec3d{}, r);
+      add(at, at * -40.0 + jitter * 0.05,
+          sizes ? Vec3d(normal(random), normal(random), normal(random)) * 20.0 : Vec3d{}, r);
     }
   }
   double momentum_scale() const {
@@ -124,7 +127,8 @@ TEST(Impact, GasOfGrainsKeepsMomentumAndAngularMomentum) {
   b.start();
   const GrainTotals before = b.solver->totals(*b.grains);
   double angular_scale = 0;
-  for (std::size_t i = 0; i < b.v.size(); ++i) angular_scale += norm(cross(b.x[i], b.v[i])) * b.mass(b.radius[i]);
+  for (std::size_t i = 0; i < b.v.size(); ++i)
+    angular_scale += norm(cross(b.x[i], b.v[i])) * b.mass(b.radius[i]);
   double contacts = 0;
   for (int k = 0; k < 20; ++k) {
     b.run(4e-6, 100);

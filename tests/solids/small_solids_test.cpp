@@ -20,7 +20,8 @@ TEST(SmallSolids, EveryKernelRuns) {
       gate.min = {-0.0455, -0.01, 0}, gate.max = {-0.0435, 0.01, 0.05};
       b.config.wall.bodies = {tank, gate};
       b.plane({0, 0, 0}, {0, 0, 1});
-      for (int i = 0; i < 40; ++i) b.add({-0.0981 + 2.69e-3 * (i % 20), 0, 1.34e-3 + 2.69e-3 * (i / 20)}, {0.1, 0, -0.1});
+      for (int i = 0; i < 40; ++i)
+        b.add({-0.0981 + 2.69e-3 * (i % 20), 0, 1.34e-3 + 2.69e-3 * (i / 20)}, {0.1, 0, -0.1});
       b.start();
       b.grains->K.assign(std::vector<Real>(40, Real(1e-3)));
       b.grains->K_rot.assign(std::vector<Real>(40, Real(1e-9)));

@@ -47,7 +47,8 @@ TEST(Surfaces, TankHasARectangleForEachListedFaceLookingInwards) {
 TEST(Surfaces, HaveNoEdgeAtAPeriodicBoundary) {
   GrainBench b;
   b.config.domain.periodic = {true, false, false};
-  b.config.wall.bodies = {box({-0.1, -0.1, -0.05}, {0.1, 0.1, 0}), box({-0.1, -0.1, -0.05}, {0.1, 0.1, 0.05}, "tank")};
+  b.config.wall.bodies = {box({-0.1, -0.1, -0.05}, {0.1, 0.1, 0}),
+                          box({-0.1, -0.1, -0.05}, {0.1, 0.1, 0.05}, "tank")};
   for (const Surface& s : make_surfaces(b.config)) {
     bool endless = false;
     for (int k = 0; k < 3; ++k) endless = endless || (std::isinf(s.half[k]) && s.axis[k].x != 0);
@@ -88,7 +89,8 @@ TEST(Walls, FaceEdgeAndCornerOfABoxPushAsAPlaneWould) {
   const double near = tolerance(1e-9, 1e-5, 1e-5) * f;
   const Quat<double> turn = Quat<double>::from_rotation({0.3, -0.7, 0.4});
   const Vec3d shift{0.01, -0.02, 0.03};
-  const Vec3d ways[] = {{0, 0, 1}, {1, 0, 0}, {0, std::sqrt(0.5), std::sqrt(0.5)}, Vec3d(1, 1, 1) * (1 / std::sqrt(3.0))};
+  const Vec3d ways[] = {
+      {0, 0, 1}, {1, 0, 0}, {0, std::sqrt(0.5), std::sqrt(0.5)}, Vec3d(1, 1, 1) * (1 / std::sqrt(3.0))};
   const Vec3d starts[] = {{-0.02, -0.02, 0}, {0, -0.02, -0.01}, {-0.02, 0, 0}, {0, 0, 0}};
   for (int k = 0; k < 4; ++k) {
     EXPECT_LT(norm(force_at(starts[k] + ways[k] * reach) - ways[k] * f), near) << k;
@@ -121,7 +123,8 @@ TEST(Walls, RectangleIsFeltFromBothSidesAndPushesBackWhatHasPassed) {
 TEST(Walls, LoadOfRestingGrainsIsTheirWeight) {
   GrainBench b;
   b.config.gravity = {0, 0, -9.81};
-  b.config.wall.bodies = {box({-0.05, -0.05, 0}, {0.05, 0.05, 0.05}, "tank"), box({0.06, 0, 0}, {0.07, 0.01, 0.01})};
+  b.config.wall.bodies = {box({-0.05, -0.05, 0}, {0.05, 0.05, 0.05}, "tank"),
+                          box({0.06, 0, 0}, {0.07, 0.01, 0.01})};
   b.config.contact.rolling = "epsd";
   const double rest = b.R() - b.resting_overlap(b.mass() * 9.81);
   for (int i = 0; i < 10; ++i) b.add({0.004 * i - 0.02, 0.01, rest});

@@ -50,7 +50,9 @@ class GrainBench {
   double mass() const { return mass(R()); }
   double E_star() const { return config.grain.E / (2 * (1 - config.grain.nu * config.grain.nu)); }
   /// Overlap of a grain resting on a Hertzian plane under the force f (N).
-  double resting_overlap(double f) const { return std::pow(f / (4.0 / 3.0 * E_star() * std::sqrt(R())), 2.0 / 3.0); }
+  double resting_overlap(double f) const {
+    return std::pow(f / (4.0 / 3.0 * E_star() * std::sqrt(R())), 2.0 / 3.0);
+  }
   /// Contact time of two grains (walls: of one) without damping, s.
   double contact_time(double speed, bool with_wall = false) const {
     const double m = with_wall ? mass() : mass() / 2, r = with_wall ? R() : R() / 2;

@@ -53,6 +53,7 @@ struct EosConfig {
 
 struct DensityConfig {
   double delta = 0.1;                          ///< density diffusion
+  double tension = 0.01;                       ///< the fluid cavitates below rho/rho0 - 1 = -tension
   bool operator==(const DensityConfig&) const = default;
 };
 
@@ -72,7 +73,7 @@ struct MotionConfig {
   double rate = 0;                             ///< rotation: rad/s
   double start = 0;                            ///< s
   double stop = std::numeric_limits<double>::infinity();  ///< s
-  bool remove_when_clear = false;              ///< deleted once its lowest point is above all fluid and grains
+  bool remove_when_clear = false;              ///< deleted once above all fluid and grains
   bool operator==(const MotionConfig&) const = default;
 };
 

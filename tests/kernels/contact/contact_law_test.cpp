@@ -66,7 +66,8 @@ TEST(ContactLaw, MindlinDeresiewiczStartsAtMindlinStiffnessAndEndsAtCoulomb) {
   const double overlap = 1e-6, gap = 2 * double(kRadius) - overlap;
   const ContactGeometry at = touch(kGrain, kGrain, {gap, 0, 0}, gap, overlap);
   c.contact.tangential = "mindlin";
-  const double stiffness = 8 * double(make_contact_law(c).mindlin.G_star) * std::sqrt(0.5 * kRadius * overlap);
+  const double stiffness =
+      8 * double(make_contact_law(c).mindlin.G_star) * std::sqrt(0.5 * kRadius * overlap);
 
   const double longest = md.deresiewicz.longest(overlap), small = longest * 1e-7;
   ContactHistory h{{0, small, 0}, {}, overlap};
@@ -94,7 +95,8 @@ TEST(ContactLaw, SlidingIsLimitedAndTheSpringFollows) {
     const ContactForce slip = law(at, {}, {}, {}, 0, h);
     EXPECT_NEAR(-slip.force.x / (0.3 * slip.force.z), 1, tolerance(1e-12, 1e-6, 1e-6)) << name;
     const ContactForce again = law(at, {}, {}, {}, 0, h);
-    EXPECT_NEAR(again.force.x / slip.force.x, 1, tolerance(1e-12, 1e-6, 1e-6)) << name << ": spring was not cut back";
+    EXPECT_NEAR(again.force.x / slip.force.x, 1, tolerance(1e-12, 1e-6, 1e-6))
+        << name << ": spring was not cut back";
   }
 }
 
@@ -105,7 +107,8 @@ TEST(ContactLaw, RigidRotationDoesNotSlide) {
   std::normal_distribution<double> normal;
   const ContactLaw law = make_contact_law(c);
   for (int k = 0; k < 100; ++k) {
-    const Vec3d direction{normal(random), normal(random), normal(random)}, spin{normal(random), normal(random), normal(random)};
+    const Vec3d direction{normal(random), normal(random), normal(random)},
+        spin{normal(random), normal(random), normal(random)};
     const Sphere big{Real(1.7) * kRadius, Real(5) * kGrain.m};
     const double overlap = 1e-6, gap = double(kGrain.R) + double(big.R) - overlap;
     const Vec3d r = direction * (gap / norm(direction));
@@ -129,7 +132,8 @@ TEST(ContactLaw, SpringAndCoupleTurnWithTheContact) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 8; ++trial) {
-    Vec3d axis{normal(random), normal(random), normal(random)}, n0{normal(random), normal(random), normal(random)};
+    Vec3d axis{normal(random), normal(random), normal(random)},
+        n0{normal(random), normal(random), normal(random)};
     if (trial == 0) axis = n0;  // pure twist
     axis *= 1 / norm(axis), n0 *= 1 / norm(n0);
     Vec3d t0 = cross(n0, Vec3d{normal(random), normal(random), normal(random)});
@@ -152,7 +156,8 @@ TEST(ContactLaw, SpringAndCoupleTurnWithTheContact) {
 }
 
 /// Takes a contact along straight legs in (overlap, tangential shift) and returns the work done on it.
-double work_of_cycle(const ContactLaw& law, const std::vector<std::array<double, 2>>& corners, double* spent) {
+double work_of_cycle(const ContactLaw& law, const std::vector<std::array<double, 2>>& corners,
+                     double* spent) {
   ContactHistory h;
   const int steps = 4000;
   double work = 0, shift = corners.front()[1];
@@ -190,19 +195,20 @@ TEST(ContactLaw, ClosedCyclesNeverGainWork) {
   c.contact.rolling = "none";
   const double a = 4e-6, b = 1e-5;  // overlaps
   const std::vector<std::vector<std::array<double, 2>>> cycles = {
-      {{0, 0}, {b, 0}, {b, 3e-7}, {a, 3e-7}, {a, 0}, {0, 0}},           // sheared when pressed hard
-      {{0, 0}, {a, 0}, {a, 3e-7}, {b, 3e-7}, {b, 0}, {0, 0}},           // sheared when pressed lightly
-      {{0, 0}, {b, 4e-7}, {0, 0}},                                      // together
+      {{0, 0}, {b, 0}, {b, 3e-7}, {a, 3e-7}, {a, 0}, {0, 0}},  // sheared when pressed hard
+      {{0, 0}, {a, 0}, {a, 3e-7}, {b, 3e-7}, {b, 0}, {0, 0}},  // sheared when pressed lightly
+      {{0, 0}, {b, 4e-7}, {0, 0}},                             // together
       {{0, 0}, {a, 1e-7}, {b, -3e-7}, {a, 4e-7}, {b, 2e-7}, {0, 0}},
-      {{0, 0}, {b, 0}, {b, 9e-6}, {b, -9e-6}, {b, 0}, {0, 0}},          // gross slip
-      {{0, 0}, {b, 0}, {0, 0}},                                         // normal alone: reversible
+      {{0, 0}, {b, 0}, {b, 9e-6}, {b, -9e-6}, {b, 0}, {0, 0}},  // gross slip
+      {{0, 0}, {b, 0}, {0, 0}},                                 // normal alone: reversible
   };
   for (double mu : {0.3, 5.0})
     for (std::size_t k = 0; k < cycles.size(); ++k) {
       c.grain.mu = mu;
       double spent = 0;
       const double work = work_of_cycle(make_contact_law(c), cycles[k], &spent);
-      EXPECT_GT(work, -tolerance(1e-6, 1e-5, 1e-5) * spent) << "cycle " << k << ", mu " << mu << ": work came out";
+      EXPECT_GT(work, -tolerance(1e-6, 1e-5, 1e-5) * spent)
+          << "cycle " << k << ", mu " << mu << ": work came out";
       if (k + 1 == cycles.size()) {
         EXPECT_LT(std::abs(work), tolerance(1e-6, 1e-5, 1e-5) * spent) << "reversible";
       } else if (k == 4 && mu < 1) {
