@@ -12,7 +12,8 @@ struct DensityPass {
   Span<const Real4> v_rho, m_state, wall_v_rho, wall_m_state;
   Span<const Real> eps;
   Real diffusion;         ///< 2 delta h c [m2/s]
-  Real3 hydrostatic;      ///< rho0 g / c^2 [kg/m4]
+  Real3 hydrostatic;      ///< rho0 g / c^2 [kg/m4]: how density grows downwards at rho0
+  Real stiffening;        ///< and by which power of rho0 / rho elsewhere: gamma - 2
   Real rho0, dt, back;    ///< kg/m3, s, s
   Span<const Real> s;
   Span<Real> s_new;
@@ -29,7 +30,8 @@ struct DensityPass {
     const Real3 rm = r - back * v;
     const Real F = w.F(norm(rm));
     sum.rate += mb.x * F * dot(v, rm);
-    sum.diffused += mb.x / vb.w * F * (mb.z - sum.rho + dot(hydrostatic, rm));
+    const Real still = 1 - stiffening * (Real(0.5) * (sum.rho + mb.z) / rho0 - 1);
+    sum.diffused += mb.x / vb.w * F * (mb.z - sum.rho + still * dot(hydrostatic, rm));
   }
   BL_HD void wall_pair(Sum& sum, Index, Index b, const Real3& r, Real) const {
     const Real3 v = sum.v - wall_v_rho[b].xyz();

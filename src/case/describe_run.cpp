@@ -83,6 +83,8 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
      .fallback = "max(h, 4 d_max/kappa)",
      .presence = optional});
   p("couple.eps_min", &c.eps_min, {.meaning = "lowest porosity", .range = within(0.1, 0.5)});
+  p("couple.wall_normalise", &c.wall_normalise,
+    {.meaning = "porosity beside walls from the part of the kernel inside them"});
   p("couple.S_dry", &c.S_dry,
     {.meaning = "fluid fraction below which a grain is dry", .range = above_to(0, 0.9)});
   p("couple.S_wet", &c.S_wet,

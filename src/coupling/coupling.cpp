@@ -64,7 +64,10 @@ Coupling::Coupling(const Config& config, const Frame& frame)
       S_wet_(Real(config.couple.S_wet)),
       two_way_(config.couple.mode == "two_way"),
       torque_(config.couple.torque),
-      angmom_(config.couple.angmom) {}
+      angmom_(config.couple.angmom) {
+  if (config.couple.wall_normalise) surfaces_.assign(make_surfaces(config));
+  with_kernel(kernel_, h_c_, [&](auto w) { half_space_ = HalfSpaceShare::of(w); });
+}
 
 GrainSurroundings Coupling::surroundings() { return {x_, inv_S_, rho_, arm_, inv_M_}; }
 ReactionShares Coupling::shares() { return {impulse_, force_, spin_couple_, force_couple_}; }
@@ -157,10 +160,11 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains) {
   });
 }
 
-void Coupling::porosity(FluidStore& fluid, const GrainStore& grains) {
+void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose) {
   with_kernel(kernel_, h_c_, [&](auto w) {
+    const WallFreeShare wall_free{half_space_, frame_, surfaces_.span(), pose};
     for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, grains.x}, range_,
-                  PorosityPass<decltype(w)>{w, eps_min_, grains.radius, fluid.eps});
+                  PorosityPass<decltype(w)>{w, eps_min_, wall_free, frame_, fluid.x, grains.radius, fluid.eps});
   });
 }
 

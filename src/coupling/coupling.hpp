@@ -14,6 +14,7 @@
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/grains.hpp"
 #include "kernels/coupling/reaction_pass.hpp"
+#include "kernels/coupling/wall_share.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -42,8 +43,8 @@ class Coupling {
   /// to what they changed by and fluid.reaction; neither fluid positions, masses nor densities may have
   /// changed since gather.
   void react(FluidStore& fluid, const GrainStore& grains);
-  /// Sets fluid.eps for the present positions.
-  void porosity(FluidStore& fluid, const GrainStore& grains);
+  /// Sets fluid.eps for the present positions; pose: of every wall body, on the device.
+  void porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose);
 
   /// Largest fluid step that drag allows (s), after the last gather; infinite without a reaction. Waits.
   double stable_dt() const;
@@ -60,6 +61,9 @@ class Coupling {
   double h_c_, range_, mu_, drag_fraction_;
   Real eps_min_, S_dry_, S_wet_;
   bool two_way_, torque_, angmom_;
+
+  Buffer<Surface> surfaces_;  ///< that the porosity knows of
+  HalfSpaceShare half_space_;
 
   VerletList fluid_of_grain_, grains_of_fluid_;
   Buffer<Vec3d> x_;

@@ -71,7 +71,7 @@ class FluidSolverWith final : public FluidSolver {
     const double c = config_.fluid.c;
     DensityPass<W> pass{w_, fluid.v_rho, fluid.m_state, walls.v_rho, walls.m_state, fluid.eps,
                         Real(2 * config_.density.delta * config_.fluid.h() * c),
-                        gravity_ * Real(config_.fluid.rho0 / (c * c)), Real(config_.fluid.rho0), Real(dt),
+                        gravity_ * Real(config_.fluid.rho0 / (c * c)), eos_.gamma - 2, Real(config_.fluid.rho0), Real(dt),
                         Real(back), fluid.s, fluid.s_next};
     // all listed pairs: one that is out of reach now may have been within reach half a step ago
     run(fluid, walls, range() + skin(), pass);

@@ -45,15 +45,20 @@ struct KeyPass {
   BL_HD void operator()(Index i) const { key[i] = grid.key(coordinates(frame, x[i])); }
 };
 
-/// Entry i opens every cell after its predecessor's up to its own.
+/// The first particle of cell c or a later one: by bisection, since most cells of a domain may be empty.
 struct StartPass {
   Span<const std::uint32_t> key;
-  std::uint32_t cells;
   Span<Index> start;
-  BL_HD void operator()(Index i) const {
-    const std::uint32_t first = i == 0 ? 0 : key[i - 1] + 1;
-    const std::uint32_t last = i == key.size ? cells : key[i];
-    for (std::uint32_t c = first; c <= last; ++c) start[c] = i;
+  BL_HD void operator()(Index c) const {
+    Index lo = 0, hi = key.size;
+    while (lo < hi) {
+      const Index middle = lo + (hi - lo) / 2;
+      if (key[middle] < c)
+        lo = middle + 1;
+      else
+        hi = middle;
+    }
+    start[c] = lo;
   }
 };
 
@@ -87,7 +92,7 @@ void CellGrid::sort(const Frame& frame, Span<const P> x, Buffer<Index>& order) {
   keys_.resize(x.size);
   for_each({0, x.size}, KeyPass<P>{view(), frame, x, keys_});
   sorter_.sort(keys_, order, key_bits_);
-  for_each({0, x.size + 1}, StartPass{keys_, cells_, start_});
+  for_each({0, cells_ + 1}, StartPass{keys_, start_});
 }
 template void CellGrid::sort(const Frame&, Span<const Vec3d>, Buffer<Index>&);
 template void CellGrid::sort(const Frame&, Span<const PackedPosition>, Buffer<Index>&);

@@ -16,8 +16,8 @@ StepInfo CoupledSimulation::step() {
 
   int substeps = 0;
   if (has_grains()) {
-    substeps = std::max(1, int(std::ceil(dt / solid_solver_->stable_dt(grain_watch_).seconds * (1 - 1e-9))));
-    if (config_.time.dt_dem > 0) substeps = std::max(1, int(std::ceil(dt / config_.time.dt_dem * (1 - 1e-9))));
+    const double longest = config_.time.dt_dem > 0 ? config_.time.dt_dem : solid_solver_->stable_dt(grain_watch_).seconds;
+    substeps = held() ? 1 : std::max(1, int(std::ceil(dt / longest * (1 - 1e-9))));
     if (coupled()) {
       coupling_->gather(fluid_, grains_, dt);
       drag_limit_ = coupling_->stable_dt();
@@ -56,7 +56,7 @@ void CoupledSimulation::advance_fluid(double dt) {
 
 void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   FluidSolver& fluid = *fluid_solver_;
-  if (two_way()) coupling_->porosity(fluid_, grains_);
+  if (two_way()) coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1));
   fluid.state(fluid_, predict, two_way());
   if (walls_.size() > 0) fluid.walls(fluid_, walls_, motion_.poses(clock_.time + dt, 0, 1), two_way() ? dt : 0);
   fluid.forces(fluid_, walls_, dt);

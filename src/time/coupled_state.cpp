@@ -132,7 +132,7 @@ void CoupledSimulation::start() {
 }
 
 void CoupledSimulation::lay_fluid() {
-  if (two_way()) coupling_->porosity(fluid_, grains_);
+  if (two_way()) coupling_->porosity(fluid_, grains_, poses_now());
   std::vector<Real> pressure(fluid_.size(), Real(0));
   if (hydrostatic(config_)) {
     const auto x = fluid_.x.values();

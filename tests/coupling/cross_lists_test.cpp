@@ -59,10 +59,11 @@ TEST_P(CrossLists, HoldEveryPairInRangeOnce) {
   const auto sorted = [&](auto& x, CellGrid& grid) {
     using P = std::remove_pointer_t<decltype(x.data())>;
     Buffer<Index> order;
-    Buffer<P> to(x.size());
     grid.sort(frame, Span<const P>(x), order);
-    for_each({0, Index(x.size())}, GatherPass<P>{x, order, to});
-    x.swap(to);
+    const auto from = x.to_host();
+    std::vector<P> to;
+    for (Index i : order.to_host()) to.push_back(from[i]);
+    x.assign(to);
   };
   sorted(fluid, fluid_grid);
   sorted(grains, grain_grid);

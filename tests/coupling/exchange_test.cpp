@@ -263,7 +263,7 @@ TEST(SmallExchange, RunsEveryKernel) {
         CoupledBox box(c, fluid, random_grains(35, {0, 0, 0}, {1, 1, 1}, 0.12, random));
         const Balances b = exchange(box, 0.01);
         EXPECT_LT(b.momentum.error(), kInvariant);
-        box.coupling.porosity(box.fluid, box.grains);
+        box.coupling.porosity(box.fluid, box.grains, {});
         EXPECT_LE(box.coupling.counters(box.fluid, box.grains).wet, 35u);
         EXPECT_GT(box.coupling.stable_dt(), 0);
       }

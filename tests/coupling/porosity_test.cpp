@@ -28,7 +28,7 @@ TEST(Porosity, OfAUniformBedIsItsVoidShare) {
   for (const char* kernel : {"wendland_c2", "cubic", "lucy"})
     for (double spacing : {0.105, 0.125}) {
       CoupledBox box = lattice_of_grains(spacing, kernel);
-      box.coupling.porosity(box.fluid, box.grains);
+      box.coupling.porosity(box.fluid, box.grains, {});
       const double expected = 1 - M_PI / 6 * std::pow(0.1 / spacing, 3);
       for (Real eps : box.fluid.eps.values()) EXPECT_NEAR(eps, expected, 1e-2) << kernel << " " << spacing;
       EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).floor_hits, 0u);
@@ -37,7 +37,7 @@ TEST(Porosity, OfAUniformBedIsItsVoidShare) {
 
 TEST(Porosity, HasAFloorAndCountsWhoIsHeldThere) {
   CoupledBox box = lattice_of_grains(0.085);  // solid share 0.85: overlapping spheres
-  box.coupling.porosity(box.fluid, box.grains);
+  box.coupling.porosity(box.fluid, box.grains, {});
   for (Real eps : box.fluid.eps.values()) EXPECT_EQ(eps, Real(0.25));
   EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).floor_hits, 400u);
 }
@@ -47,7 +47,7 @@ TEST(Porosity, IsOneWhereThereIsNoGrain) {
   std::mt19937_64 random(6);
   CoupledBox box(c, fluid_at(random_points(50, {0, 0, 0}, {1, 1, 0.5}, random), 0.1, 1000, 0.5),
                  {{{0.5, 0.5, 0.9}}, {{}}, {{}}, {0.05}});
-  box.coupling.porosity(box.fluid, box.grains);
+  box.coupling.porosity(box.fluid, box.grains, {});
   for (Real eps : box.fluid.eps.values()) EXPECT_EQ(eps, Real(1));
 }
 
@@ -59,7 +59,7 @@ TEST(Porosity, FollowsGrainsThatMoveWithinTheSkin) {
   auto x = box.grains.x.values();
   for (auto& at : x) at += Vec3d{0.003, -0.002, 0.004};  // skin 0.02
   box.grains.x.assign(x);
-  box.coupling.porosity(box.fluid, box.grains);
+  box.coupling.porosity(box.fluid, box.grains, {});
   const auto at = box.fluid_places();
   const auto eps = box.fluid.eps.values();
   const WendlandC2 w(0.1);

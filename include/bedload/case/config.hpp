@@ -156,6 +156,7 @@ struct CouplingConfig {
   std::string mode = "two_way";                ///< off, one_way, two_way
   double hc = 0;                               ///< m (default max(h, 2 d_max 2/kappa))
   double eps_min = 0.25;
+  bool wall_normalise = true;                  ///< porosity counts only the kernel's share inside the walls
   double S_dry = 0.05, S_wet = 0.5;
   bool torque = true;
   bool angmom = true;

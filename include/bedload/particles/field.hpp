@@ -6,7 +6,7 @@
 
 #include "bedload/core/frame.hpp"
 #include "bedload/host_data.hpp"
-#include "bedload/parallel/loops.hpp"
+#include "bedload/parallel/buffer.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -69,25 +69,12 @@ class FieldBase {
 };
 
 template <class T>
-struct GatherPass {
-  Span<const T> from;
-  Span<const Index> order;
-  Span<T> to;
-  BL_HD void operator()(Index i) const { to[i] = from[order[i]]; }
-};
-
-template <class T>
 class Field final : public FieldBase {
  public:
   using FieldBase::FieldBase;
 
   void resize(Index n) override { data_.resize(n); }
-  void gather(Span<const Index> order) override {
-    Buffer<T>& spare = spare_buffer();
-    spare.resize(order.size);
-    for_each({0, order.size}, GatherPass<T>{data_, order, spare});
-    data_.swap(spare);
-  }
+  void gather(Span<const Index> order) override;  // in field.cpp, for the types listed there
   HostArray to_host() const override {
     HostArray a{name, unit, FileType<T>::scalar, FileType<T>::components, {}};
     a.bytes.resize(data_.size() * sizeof(T));
@@ -110,10 +97,6 @@ class Field final : public FieldBase {
   operator Span<const T>() const { return data_.span(); }
 
  private:
-  static Buffer<T>& spare_buffer() {
-    static Buffer<T> spare;  // one a type: a gather swaps it with the field
-    return spare;
-  }
   Buffer<T> data_;
 };
 

@@ -1,0 +1,77 @@
+#pragma once
+#include <cmath>
+
+#include "kernels/walls/surface.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Share of a smoothing kernel on one side of a plane at distance z from its centre.
+struct HalfSpaceShare {
+  static constexpr int points = 65;
+  Real range = 0;         ///< support, m
+  Real below[points] = {};  ///< share below z = range k / (points - 1), 0.5..1
+
+  template <class W>
+  static HalfSpaceShare of(const W& w) {
+    HalfSpaceShare out;
+    out.range = Real(w.kappa) * w.h;
+    // the kernel integrated over the plane at z, by the midpoint rule; then over z by the trapezium rule
+    constexpr int rings = 256;
+    const double R = double(w.kappa) * double(w.h), dz = R / (points - 1);
+    double slice[points] = {};
+    for (int k = 0; k < points; ++k)
+      for (int i = 0; i < rings; ++i) {
+        const double r = R * (i + 0.5) / rings;
+        slice[k] += 2 * kPi * r * double(w.W(Real(std::hypot(r, k * dz)))) * R / rings;
+      }
+    double sum[points] = {};
+    for (int k = 1; k < points; ++k) sum[k] = sum[k - 1] + 0.5 * (slice[k - 1] + slice[k]) * dz;
+    for (int k = 0; k < points; ++k) out.below[k] = Real(0.5 + 0.5 * sum[k] / sum[points - 1]);
+    return out;
+  }
+
+  BL_HD Real operator()(double z) const {
+    const Real at = min_of(Real(std::abs(z)) / range, Real(1)) * (points - 1);
+    const int k = int(min_of(at, Real(points - 2)));
+    const Real share = below[k] + (at - k) * (below[k + 1] - below[k]);
+    return z < 0 ? 1 - share : share;
+  }
+};
+
+/// Share of the kernel around a point that walls leave free. Each extent is taken for itself: exact for
+/// planes and for tanks up to the kernel's deviation from a product of three.
+struct WallFreeShare {
+  HalfSpaceShare half_space;
+  Frame frame;
+  Span<const Surface> surfaces;
+  Span<const BodyPose> pose;
+
+  BL_HD Real operator()(const Vec3d& x) const {
+    Real share = 1;
+    for (Index k = 0; k < surfaces.size; ++k) {
+      const Surface& s = surfaces[k];
+      const BodyPose& at = pose[s.body];
+      if (!at.present) continue;
+      Vec3d r = frame.nearest_image(x - at.place(s.centre));
+      if (at.rotation.w != 1) r = at.rotation.conjugate().rotate(r);
+      share *= 1 - behind(s, r);
+    }
+    return max_of(share, Real(0.125));  // in a corner
+  }
+
+ private:
+  BL_HD Real behind(const Surface& s, const Vec3d& r) const {
+    const double p[3] = {dot(r, s.axis[0]), dot(r, s.axis[1]), dot(r, s.axis[2])};
+    if (s.kind == SurfaceKind::plane) return 1 - half_space(max_of(p[2], 0.0));
+    if (s.kind == SurfaceKind::box) return inside(s, p, 0) * inside(s, p, 1) * inside(s, p, 2);
+    // a patch hides what lies beyond it, also where another patch joins it
+    const double reach = half_space.range;
+    return (1 - half_space(std::abs(p[2]))) * half_space(s.half[0] + reach - std::abs(p[0])) *
+           half_space(s.half[1] + reach - std::abs(p[1]));
+  }
+  BL_HD Real inside(const Surface& s, const double* p, int k) const {
+    return half_space(s.half[k] - p[k]) - half_space(-s.half[k] - p[k]);
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT
