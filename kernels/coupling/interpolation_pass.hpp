@@ -59,6 +59,18 @@ struct InterpolationPass {
       sum.moment.add_outer(vw, arm);
     }
   }
+  BL_HD void merge(Sum& into, const Sum& other) const {
+    into.S += other.S;
+    into.eps += other.eps;
+    into.rho += other.rho;
+    into.u += other.u;
+    into.rho_theta += other.rho_theta;
+    if constexpr (Moments) {
+      into.arm += other.arm;
+      into.spin += other.spin;
+      into.moment += other.moment;
+    }
+  }
   BL_HD void finish(Index j, const Sum& sum) const {
     const Real wet = clamp((Real(sum.S) - S_dry) / (S_wet - S_dry), Real(0), Real(1));
     const Real inv_S = wet > 0 ? Real(1 / sum.S) : Real(0);

@@ -14,6 +14,7 @@ struct DragRatePass {
   BL_HD void pair(Real& sum, Index a, Index j, const Real3&, Real r2) const {
     sum += weight(a, r2) * inv_S[j] * K[j];
   }
+  BL_HD void merge(Real& into, Real other) const { into += other; }
   BL_HD void finish(Index a, Real sum) const { rate[a] = sum / weight.mass[a]; }
 };
 
@@ -33,6 +34,7 @@ struct LimitPass {
 
   BL_HD Real start(Index) const { return 0; }
   BL_HD void pair(Real& most, Index, Index a, const Real3&, Real) const { most = max_of(most, rate[a]); }
+  BL_HD void merge(Real& most, Real other) const { most = max_of(most, other); }
   BL_HD void finish(Index j, Real most) const {
     const Real share = allowed_share(dt * most);
     K[j] *= share;

@@ -20,6 +20,7 @@ struct PorosityPass {
   BL_HD void pair(Real& solid, Index, Index j, const Real3&, Real r2) const {
     solid += 4 * kPi / 3 * cube(radius[j]) * w.W(std::sqrt(r2));
   }
+  BL_HD void merge(Real& into, Real other) const { into += other; }
   BL_HD void finish(Index a, Real solid) const {
     if (solid > 0) solid /= wall_free(coordinates(frame, x[a]));
     eps[a] = max_of(floor, 1 - solid);

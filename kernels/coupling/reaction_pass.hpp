@@ -61,6 +61,10 @@ struct ReactionPass {
     sum.impulse += phi * J;
     sum.force += phi * F;
   }
+  BL_HD void merge(Sum& into, const Sum& other) const {
+    into.impulse += other.impulse;
+    into.force += other.force;
+  }
   BL_HD void finish(Index a, const Sum& sum) const {
     const Real inv_m = 1 / weight.mass[a];
     const Real4 old = v_rho[a];

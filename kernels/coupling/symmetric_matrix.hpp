@@ -13,6 +13,10 @@ struct SymmetricMatrix {
     xx += s * r.x * r.x, yy += s * r.y * r.y, zz += s * r.z * r.z;
     yz += s * r.y * r.z, xz += s * r.x * r.z, xy += s * r.x * r.y;
   }
+  BL_HD SymmetricMatrix& operator+=(const SymmetricMatrix& o) {
+    xx += o.xx, yy += o.yy, zz += o.zz, yz += o.yz, xz += o.xz, xy += o.xy;
+    return *this;
+  }
   BL_HD T trace() const { return xx + yy + zz; }
   /// trace 1 - this: from second moments to the moment of inertia.
   BL_HD SymmetricMatrix inertia() const { return {yy + zz, xx + zz, xx + yy, -yz, -xz, -xy}; }

@@ -38,6 +38,10 @@ struct DensityPass {
     const Real3 rm = r - back * v;
     sum.rate += wall_m_state[b].x * w.F(norm(rm)) * dot(v, rm);
   }
+  BL_HD void merge(Sum& into, const Sum& other) const {
+    into.rate += other.rate;
+    into.diffused += other.diffused;
+  }
   BL_HD void finish(Index a, const Sum& sum) const {
     s_new[a] = s[a] + dt * (diffusion * eps[a] * sum.diffused - sum.rate) / rho0;
   }

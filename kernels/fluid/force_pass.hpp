@@ -66,6 +66,11 @@ struct ForcePass {
     sum.theta += a.theta;
     sum.other += a.other;
   }
+  BL_HD void merge(Sum& into, const Sum& other) const {
+    into.theta += other.theta;
+    into.other += other.other;
+    into.xsph += other.xsph;
+  }
   BL_HD void finish(Index a, const Sum& sum) const {
     theta[a] = sum.theta;
     acc[a] = sum.theta + sum.other + gravity + drive / sum.v.w;
@@ -86,6 +91,7 @@ struct WallForcePass {
     const auto acc = wall(v_rho[a], ma, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], -r_ba, r2);
     sum -= Vec3d((acc.theta + acc.other) * ma.x);
   }
+  BL_HD void merge(Vec3d& into, const Vec3d& other) const { into += other; }
   BL_HD void finish(Index b, const Vec3d& sum) const { force[b] = sum; }
 };
 

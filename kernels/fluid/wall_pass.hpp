@@ -40,6 +40,12 @@ struct WallPass {
     sum.eps += wk * fluid_eps[a];
     sum.v += wk * fluid_v_rho[a].xyz();
   }
+  BL_HD void merge(Sum& into, const Sum& other) const {
+    into.weight += other.weight;
+    into.p += other.p;
+    into.eps += other.eps;
+    into.v += other.v;
+  }
   BL_HD void finish(Index b, const Sum& sum) const {
     const BodyPose& k = pose[body[b]];
     const Real3 v_wall = Real3(k.velocity(x[b]));

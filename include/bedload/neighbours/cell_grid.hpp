@@ -33,27 +33,41 @@ struct CellGridView {
     return key(coordinate(x.x, 0), coordinate(x.y, 1), coordinate(x.z, 2));
   }
 
-  /// Calls f(j) for each particle in the cells that a sphere of radius `range` about x touches.
-  /// Cells on a periodic axis are visited once, also where the sphere is as wide as the period.
-  template <class F>
-  BL_HD void each_near(const Vec3d& x, double range, F&& f) const {
-    int lo[3], hi[3];
+  /// The cells that a sphere touches. Cells on a periodic axis are visited once, also where the sphere
+  /// is as wide as the period.
+  struct Block {
+    int lo[3], n[3];
+    BL_HD int size() const { return n[0] * n[1] * n[2]; }
+  };
+  BL_HD Block block(const Vec3d& x, double range) const {
+    Block b;
     for (int k = 0; k < 3; ++k) {
-      lo[k] = int(floor((x[k] - range - origin[k]) * inverse[k]));
-      hi[k] = int(floor((x[k] + range - origin[k]) * inverse[k]));
+      int lo = int(floor((x[k] - range - origin[k]) * inverse[k]));
+      int hi = int(floor((x[k] + range - origin[k]) * inverse[k]));
       if (periodic[k]) {
-        if (hi[k] - lo[k] >= n[k]) lo[k] = 0, hi[k] = n[k] - 1;
+        if (hi - lo >= n[k]) lo = 0, hi = n[k] - 1;
       } else {
-        lo[k] = clamp(lo[k], 0, n[k] - 1);
-        hi[k] = clamp(hi[k], 0, n[k] - 1);
+        lo = clamp(lo, 0, n[k] - 1);
+        hi = clamp(hi, 0, n[k] - 1);
       }
+      b.lo[k] = lo, b.n[k] = hi - lo + 1;
     }
-    for (int iz = lo[2]; iz <= hi[2]; ++iz)
-      for (int iy = lo[1]; iy <= hi[1]; ++iy)
-        for (int ix = lo[0]; ix <= hi[0]; ++ix) {
-          const std::uint32_t c = key(wrapped(ix, 0), wrapped(iy, 1), wrapped(iz, 2));
-          for (Index j = start[c]; j < start[c + 1]; ++j) f(j);
-        }
+    return b;
+  }
+  /// Key of cell q of a block.
+  BL_HD std::uint32_t key(const Block& b, int q) const {
+    const int row = q / b.n[0];
+    return key(wrapped(b.lo[0] + q - row * b.n[0], 0), wrapped(b.lo[1] + row % b.n[1], 1),
+               wrapped(b.lo[2] + row / b.n[1], 2));
+  }
+  /// Calls f(j) for each particle in every stride-th of the cells that a sphere of radius `range` about x touches.
+  template <class F>
+  BL_HD void each_near(const Vec3d& x, double range, F&& f, int first = 0, int stride = 1) const {
+    const Block b = block(x, range);
+    for (int q = first; q < b.size(); q += stride) {
+      const std::uint32_t c = key(b, q);
+      for (Index j = start[c]; j < start[c + 1]; ++j) f(j);
+    }
   }
 
  private:

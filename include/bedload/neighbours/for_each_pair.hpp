@@ -1,9 +1,14 @@
 #pragma once
 // Runs a pass over the pairs of a Verlet list or, list-free, over the cells. A pass has
 //   Sum start(i); void pair(Sum&, i, j, r_ij, r2); void finish(i, Sum);
-// and knows nothing of where its neighbours come from.
+// and knows nothing of where its neighbours come from. Where it can also
+//   void merge(Sum& into, const Sum& other);
+// two partial sums of one row, several GPU lanes share a row of a small system.
+
+#include <utility>
 
 #include "bedload/neighbours/verlet_list.hpp"
+#include "bedload/parallel/lanes.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -25,23 +30,54 @@ struct CrossSeparation {
   }
 };
 
-template <class Separation, class Pass>
-struct ListLoop {
+template <class Pass, class Sum>
+concept Mergeable = requires(const Pass& pass, Sum& into, const Sum& other) { pass.merge(into, other); };
+
+template <class Pass>
+unsigned pass_lane_bits(const Pass&, Range range) {
+  using Sum = decltype(std::declval<const Pass&>().start(Index()));
+  return Mergeable<Pass, Sum> ? lane_bits(range.size()) : 0;
+}
+
+/// One lane's share of the pairs of row i that are closer than the cut-off now.
+template <class Separation>
+struct ListRow {
   VerletListView list;
   Separation separation;
   Real range2;
-  Pass pass;
-  BL_HD void operator()(Index i) const {
-    auto sum = pass.start(i);
+  template <class F>
+  BL_HD void operator()(Index i, const Lane& lane, F&& f) const {
     const std::uint32_t n = list.count[i];
-    std::uint64_t slot = list.first(i);
-    for (std::uint32_t k = 0; k < n; ++k, slot += kSlice) {
+    std::uint64_t slot = list.slot(i, lane.index);
+    for (std::uint32_t k = lane.index; k < n; k += lane.count, slot += lane.count * kSlice) {
       const Index j = list.entry[slot];
       const Real3 r = separation(i, j);
       const Real r2 = norm2(r);
-      if (r2 < range2) pass.pair(sum, i, j, r, r2);
+      if (r2 < range2) f(j, r, r2);
     }
-    pass.finish(i, sum);
+  }
+};
+
+/// Ends a row: a pass without `merge` has one lane.
+template <class Pass, class Sum>
+BL_HD void finish_row(const Pass& pass, Index i, const Lane& lane, Sum& sum) {
+  if constexpr (Mergeable<Pass, Sum>)
+    lane.combine(sum, [&](Sum& into, const Sum& other) { pass.merge(into, other); });
+  if (lane.index == 0) pass.finish(i, sum);
+}
+
+template <class Separation, class Pass>
+struct ListLoop {
+  ListRow<Separation> row;
+  Pass pass;
+  Index begin;
+  unsigned bits;
+  BL_HD void operator()(Index thread) const {
+    const Lane lane(thread, bits);
+    const Index i = begin + lane.row;
+    auto sum = pass.start(i);
+    row(i, lane, [&](Index j, const Real3& r, Real r2) { pass.pair(sum, i, j, r, r2); });
+    finish_row(pass, i, lane, sum);
   }
 };
 
@@ -49,43 +85,37 @@ struct ListLoop {
 template <class Separation, class Pass>
 void for_each_pair(Range range, const VerletList& list, const Separation& separation, double cutoff,
                    const Pass& pass) {
-  for_each(range, ListLoop<Separation, Pass>{list.view(), separation, Real(cutoff * cutoff), pass});
+  const unsigned bits = pass_lane_bits(pass, range);
+  for_each({0, range.size() << bits},
+           ListLoop<Separation, Pass>{{list.view(), separation, Real(cutoff * cutoff)}, pass, range.begin, bits});
 }
 
 /// A pass over two lists in one go: `pair` for the first, `wall_pair` for the second.
 template <class Separation, class Pass>
 struct TwoListLoop {
-  VerletListView list, wall_list;
-  Separation separation, wall_separation;
-  Real range2;
+  ListRow<Separation> row, wall_row;
   Pass pass;
-  BL_HD void operator()(Index i) const {
+  Index begin;
+  unsigned bits;
+  BL_HD void operator()(Index thread) const {
+    const Lane lane(thread, bits);
+    const Index i = begin + lane.row;
     auto sum = pass.start(i);
-    std::uint32_t n = list.count[i];
-    std::uint64_t slot = list.first(i);
-    for (std::uint32_t k = 0; k < n; ++k, slot += kSlice) {
-      const Index j = list.entry[slot];
-      const Real3 r = separation(i, j);
-      const Real r2 = norm2(r);
-      if (r2 < range2) pass.pair(sum, i, j, r, r2);
-    }
-    n = wall_list.count[i];
-    slot = wall_list.first(i);
-    for (std::uint32_t k = 0; k < n; ++k, slot += kSlice) {
-      const Index j = wall_list.entry[slot];
-      const Real3 r = wall_separation(i, j);
-      const Real r2 = norm2(r);
-      if (r2 < range2) pass.wall_pair(sum, i, j, r, r2);
-    }
-    pass.finish(i, sum);
+    row(i, lane, [&](Index j, const Real3& r, Real r2) { pass.pair(sum, i, j, r, r2); });
+    wall_row(i, lane, [&](Index j, const Real3& r, Real r2) { pass.wall_pair(sum, i, j, r, r2); });
+    finish_row(pass, i, lane, sum);
   }
 };
 
 template <class Separation, class Pass>
 void for_each_pair(Range range, const VerletList& list, const Separation& separation, const VerletList& wall_list,
                    const Separation& wall_separation, double cutoff, const Pass& pass) {
-  for_each(range, TwoListLoop<Separation, Pass>{list.view(), wall_list.view(), separation, wall_separation,
-                                                Real(cutoff * cutoff), pass});
+  const unsigned bits = pass_lane_bits(pass, range);
+  const Real range2 = Real(cutoff * cutoff);
+  for_each({0, range.size() << bits},
+           TwoListLoop<Separation, Pass>{{list.view(), separation, range2},
+                                         {wall_list.view(), wall_separation, range2},
+                                         pass, range.begin, bits});
 }
 
 template <class Near, class Separation, class Pass>

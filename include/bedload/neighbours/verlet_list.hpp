@@ -5,6 +5,7 @@
 // never too small, never padded beyond the longest row of a slice.
 
 #include "bedload/neighbours/cell_grid.hpp"
+#include "bedload/parallel/lanes.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -49,11 +50,16 @@ template <class Near>
 struct CountPass {
   CellGridView sources;
   Near near;
+  unsigned bits;
   Span<std::uint32_t> count;
-  BL_HD void operator()(Index i) const {
+  BL_HD void operator()(Index thread) const {
+    const Lane lane(thread, bits);
+    const Index i = lane.row;
     std::uint32_t n = 0;
-    sources.each_near(near.place(i), near.reach(i), [&](Index j) { n += near(i, j) ? 1u : 0u; });
-    count[i] = n;
+    const auto look = [&](Index j) { n += near(i, j) ? 1u : 0u; };
+    sources.each_near(near.place(i), near.reach(i), look, int(lane.index), int(lane.count));
+    lane.combine(n, [](std::uint32_t& into, std::uint32_t other) { into += other; });
+    if (lane.index == 0) count[i] = n;
   }
 };
 
@@ -68,20 +74,44 @@ struct WidthPass {
   }
 };
 
+/// Each lane takes every count-th cell; all lanes test one candidate at a time, and those that keep
+/// theirs write side by side.
 template <class Near>
 struct FillPass {
   CellGridView sources;
   Near near;
+  unsigned bits;
   VerletListView list;
   Index* entry;
-  BL_HD void operator()(Index i) const {
+  BL_HD void operator()(Index thread) const {
+    const Lane lane(thread, bits);
+    const Index i = lane.row;
     std::uint64_t slot = list.first(i);
-    sources.each_near(near.place(i), near.reach(i), [&](Index j) {
-      if (near(i, j)) {
+    if (lane.count == 1) {
+      sources.each_near(near.place(i), near.reach(i), [&](Index j) {
+        if (!near(i, j)) return;
         entry[slot] = j;
         slot += kSlice;
+      });
+      return;
+    }
+    const auto block = sources.block(near.place(i), near.reach(i));
+    int q = int(lane.index);
+    Index j = 0, end = 0;
+    for (;;) {
+      while (j == end && q < block.size()) {
+        const std::uint32_t c = sources.key(block, q);
+        j = sources.start[c], end = sources.start[c + 1];
+        q += int(lane.count);
       }
-    });
+      const bool some = j < end;
+      if (lane.ballot(some) == 0) return;
+      const bool keep = some && near(i, j);
+      const unsigned kept = lane.ballot(keep);
+      if (keep) entry[slot + std::uint64_t(Lane::bits_in(kept & ((1u << lane.index) - 1))) * kSlice] = j;
+      slot += std::uint64_t(Lane::bits_in(kept)) * kSlice;
+      j += some;
+    }
   }
 };
 
@@ -90,13 +120,14 @@ struct FillPass {
 template <class Near>
 void VerletList::build(Index rows, const CellGridView& sources, const Near& near) {
   count_.resize(rows);
-  for_each({0, rows}, detail::CountPass<Near>{sources, near, count_});
+  const unsigned bits = lane_bits(rows);
+  for_each({0, rows << bits}, detail::CountPass<Near>{sources, near, bits, count_});
   const Index slices = (rows + kSlice - 1) / kSlice;
   width_.resize(slices);
   for_each({0, slices}, detail::WidthPass{count_, width_});
   slots_ = sorter_.exclusive_scan(width_, offset_);
   entry_.reserve_and_resize(slots_);
-  for_each({0, rows}, detail::FillPass<Near>{sources, near, view(), entry_.data()});
+  for_each({0, rows << bits}, detail::FillPass<Near>{sources, near, bits, view(), entry_.data()});
 }
 
 /// Pairs of SPH particles (fluid or wall) closer than `range`.

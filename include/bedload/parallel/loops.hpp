@@ -37,7 +37,7 @@ template <class F>
 void for_each(Range range, const F& f) {
   if (range.size() == 0) return;
 #if BL_CUDA
-  constexpr Index block = 128;
+  const Index block = range.size() < 1u << 16 ? 32 : 128;  // small ranges reach every multiprocessor
   for_each_kernel<<<(range.size() + block - 1) / block, block>>>(range.begin, range.end, f);
   check_cuda(cudaGetLastError(), "kernel launch");
 #else
