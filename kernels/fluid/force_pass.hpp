@@ -9,26 +9,21 @@ template <class W>
 struct WallPair {
   W w;
   Real mu;  ///< Pa s; 0 switches the viscous term off
-  Repulsion repulsion;
 
-  struct Acceleration {
-    Real3 theta, other;
-  };
   /// a: {v, rho~}, {m, P/rho~^2, ..}; b: the wall's, with its no-slip velocity `visc` (w: 1 if it drags).
-  /// m_w of an inactive wall particle is zero. `repels`: the body asks for repulsion.
-  BL_HD Acceleration operator()(const Real4& va, const Real4& ma, const Real4& vw, const Real4& mw,
+  /// m_w of an inactive wall particle is zero.
+  BL_HD Real3 operator()(const Real4& va, const Real4& ma, const Real4& vw, const Real4& mw,
                                 const Real4& visc, const Real3& r, Real r2) const {
     const Real F = w.F(std::sqrt(r2));
-    Acceleration out{pressure_term(mw.x, ma.y, mw.y, F) * r, {}};
+    Real3 theta = pressure_term(mw.x, ma.y, mw.y, F) * r;
     if (visc.w > Real(0.5) && mw.x > 0)
-      out.theta -= morris_term(mw.x, 2 * mu, va.w, vw.w, r2, F, square(w.h)) * (va.xyz() - visc.xyz());
-    if (mw.w > Real(0.5)) out.other = repulsion.term(r2) * r;
-    return out;
+      theta -= morris_term(mw.x, 2 * mu, va.w, vw.w, r2, F, square(w.h)) * (va.xyz() - visc.xyz());
+    return theta;
   }
 };
 
 /// Momentum of locally averaged WCSPH [H (9)-(12)]: theta = pressure + physical viscosity,
-/// acc = theta + gravity + artificial, tensile and repulsive terms; XSPH drift correction.
+/// acc = theta + gravity + artificial and tensile terms; XSPH drift correction.
 template <class W>
 struct ForcePass {
   W w;
@@ -62,9 +57,7 @@ struct ForcePass {
     if (xsph_factor > 0) sum.xsph -= xsph_factor * mb.x * w.W(distance) / rho_mean * v;
   }
   BL_HD void wall_pair(Sum& sum, Index, Index b, const Real3& r, Real r2) const {
-    const auto a = wall(sum.v, sum.m, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], r, r2);
-    sum.theta += a.theta;
-    sum.other += a.other;
+    sum.theta += wall(sum.v, sum.m, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], r, r2);
   }
   BL_HD void merge(Sum& into, const Sum& other) const {
     into.theta += other.theta;
@@ -88,8 +81,8 @@ struct WallForcePass {
   BL_HD Vec3d start(Index) const { return {}; }
   BL_HD void pair(Vec3d& sum, Index b, Index a, const Real3& r_ba, Real r2) const {
     const Real4 ma = m_state[a];
-    const auto acc = wall(v_rho[a], ma, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], -r_ba, r2);
-    sum -= Vec3d((acc.theta + acc.other) * ma.x);
+    const Real3 acc = wall(v_rho[a], ma, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], -r_ba, r2);
+    sum -= Vec3d(acc * ma.x);
   }
   BL_HD void merge(Vec3d& into, const Vec3d& other) const { into += other; }
   BL_HD void finish(Index b, const Vec3d& sum) const { force[b] = sum; }

@@ -33,16 +33,4 @@ struct TensileTerm {
   }
 };
 
-/// Wall repulsion (Monaghan 1994): times r gives the acceleration of a fluid particle.
-struct Repulsion {
-  Real D = 0, r0 = 0, cap = 0;  ///< m2/s2, m, m/s2
-  BL_HD Real term(Real r2) const {
-    if (r2 >= r0 * r0) return 0;
-    const Real q2 = r0 * r0 / max_of(r2, Real(1e-6) * r0 * r0);
-    const Real per_length = D * (q2 * q2 - q2) * q2 / (r0 * r0);
-    const Real r = std::sqrt(max_of(r2, Real(1e-6) * r0 * r0));
-    return min_of(per_length, cap / r);
-  }
-};
-
 }  // namespace bedload::inline BL_VARIANT

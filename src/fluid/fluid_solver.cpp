@@ -86,16 +86,16 @@ class FluidSolverWith final : public FluidSolver {
     for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
 
-  void forces(FluidStore& fluid, const WallStore& walls, double dt) override {
-    ForcePass<W> pass{w_, wall_pair(dt), fluid.v_rho, fluid.m_state, walls.v_rho, walls.m_state, walls.v_visc,
+  void forces(FluidStore& fluid, const WallStore& walls) override {
+    ForcePass<W> pass{w_, wall_pair(), fluid.v_rho, fluid.m_state, walls.v_rho, walls.m_state, walls.v_visc,
                       viscosity(), artificial(), tensile(), Real(config_.xsph), gravity_, Real3(config_.drive),
                       fluid.theta, fluid.acc_next, fluid.xsph};
     run(fluid, walls, range(), pass);
   }
 
-  void wall_forces(const FluidStore& fluid, const WallStore& walls, double dt, Buffer<Vec3d>& force) override {
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Buffer<Vec3d>& force) override {
     force.resize(walls.size());
-    WallForcePass<W> pass{wall_pair(dt), fluid.v_rho, fluid.m_state, walls.v_rho, walls.m_state, walls.v_visc, force};
+    WallForcePass<W> pass{wall_pair(), fluid.v_rho, fluid.m_state, walls.v_rho, walls.m_state, walls.v_visc, force};
     for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
 
@@ -114,10 +114,7 @@ class FluidSolverWith final : public FluidSolver {
     const Real s = Real(0.01);
     return {s, config_.tensile_one_sign ? s : Real(0.2), w_.W(Real(config_.fluid.dx))};
   }
-  WallPair<W> wall_pair(double dt) const {
-    const double cap = dt > 0 ? 0.1 * config_.fluid.dx / (dt * dt) : 1e30;
-    return {w_, viscosity(), {Real(config_.wall.rep_D), Real(config_.wall.rep_r0), Real(cap)}};
-  }
+  WallPair<W> wall_pair() const { return {w_, viscosity()}; }
 
   W w_;
 };
@@ -140,6 +137,17 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, double kappa)
     eos_ = {Real(c * c * rho0 / e.gamma), Real(e.gamma), 0, Real(rho0), e.clip_negative};
   grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
   wall_grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
+  for (const WallBody& body : config.wall.bodies)
+    if (body.repulsion) surfaces_.assign(make_surfaces(config));
+}
+
+WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const {
+  const double cap = dt > 0 ? 0.1 * config_.fluid.dx / (dt * dt) : 1e30;
+  return {{Real(config_.wall.rep_D), Real(config_.wall.rep_r0), Real(cap)}, frame_, surfaces_, pose};
+}
+
+void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double dt) {
+  if (surfaces_.size() > 0) for_each(fluid.owned(), RepelPass{repulsion(pose, dt), fluid.x, fluid.acc_next});
 }
 
 void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved) {

@@ -9,6 +9,7 @@
 #include "bedload/particles/walls.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
 #include "kernels/fluid/pair_terms.hpp"
+#include "kernels/fluid/wall_repulsion.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -47,12 +48,15 @@ class FluidSolver {
   /// Wall particles' state from the fluid. Poses on the device, one a body; drag_dt: the step in which
   /// drag_kick arose (s), 0 where there is none.
   virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt) = 0;
-  /// theta, acc_next, xsph. dt caps the repulsion.
-  virtual void forces(FluidStore& fluid, const WallStore& walls, double dt) = 0;
+  /// theta, acc_next, xsph.
+  virtual void forces(FluidStore& fluid, const WallStore& walls) = 0;
+  /// Adds the repulsion of walls to acc_next. One pose a body; the step (s) caps it.
+  void repel(FluidStore& fluid, Span<const BodyPose> pose, double dt);
+  WallRepulsion repulsion(Span<const BodyPose> pose, double dt) const;
   /// v += kick (acc_next - acc); acc = acc_next.
   void correct(FluidStore& fluid, double kick);
-  /// Force of the fluid on every wall particle, N.
-  virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, double dt, Buffer<Vec3d>& force) = 0;
+  /// Force of the fluid's pressure and viscosity on every wall particle, N.
+  virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Buffer<Vec3d>& force) = 0;
 
   FluidExtremes extremes(const FluidStore& fluid) const;
   const CellGrid& grid() const { return grid_; }
@@ -70,6 +74,7 @@ class FluidSolver {
   CellGrid grid_, wall_grid_;
   VerletList fluid_fluid_, fluid_wall_, wall_fluid_;
   Buffer<Index> order_;
+  Buffer<Surface> surfaces_;  ///< that repel
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -237,13 +237,20 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
 std::vector<Vec3d> CoupledSimulation::wall_loads(const Vec3d& about) {
   std::vector<Vec3d> out(2 * motion_.bodies());
   if (!has_fluid() || walls_.size() == 0) return out;
-  fluid_solver_->wall_forces(fluid_, walls_, clock_.last_dt, wall_force_);
+  fluid_solver_->wall_forces(fluid_, walls_, wall_force_);
   const auto force = wall_force_.to_host();
   const auto x = walls_.x.values();
   const auto body = walls_.body.values();
   for (Index w = 0; w < walls_.size(); ++w) {
     out[2 * body[w]] += force[w];
     out[2 * body[w] + 1] += cross(x[w] - about, force[w]);
+  }
+  const WallRepulsion repulsion = fluid_solver_->repulsion(poses_now(), clock_.last_dt);
+  if (repulsion.surfaces.size == 0) return out;
+  for (int b = 0; b < motion_.bodies(); ++b) {
+    const auto load = sum_over<6>(fluid_.owned(), RepulsionLoad{repulsion, std::uint32_t(b), about, fluid_.x, fluid_.mass});
+    out[2 * b] += Vec3d{load.v[0], load.v[1], load.v[2]};
+    out[2 * b + 1] += Vec3d{load.v[3], load.v[4], load.v[5]};
   }
   return out;
 }

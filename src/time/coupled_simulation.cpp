@@ -59,7 +59,8 @@ void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   if (two_way()) coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1));
   fluid.state(fluid_, predict, two_way());
   if (walls_.size() > 0) fluid.walls(fluid_, walls_, motion_.poses(clock_.time + dt, 0, 1), two_way() ? dt : 0);
-  fluid.forces(fluid_, walls_, dt);
+  fluid.forces(fluid_, walls_);
+  fluid.repel(fluid_, motion_.poses(clock_.time + dt, 0, 1), dt);
 }
 
 std::vector<StepLimit> CoupledSimulation::limits() {

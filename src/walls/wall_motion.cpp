@@ -35,7 +35,7 @@ BodyPose pose_at(const WallBody& body, double t) {
   BodyPose p;
   p.centre = m.centre;
   p.slip = body.slip == "slip";
-  p.repulsion = body.repulsion;
+  p.repulsion = body.repulsion && body.type == "adami";
   const bool moving = t >= m.start && t < m.stop;
   const double s = std::clamp(t, m.start, m.stop) - m.start;
   if (m.kind == "velocity") {

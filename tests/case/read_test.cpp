@@ -84,9 +84,9 @@ TEST(ReadCase, HonoursPresetsUnderTheCasesOwnKeys) {
 }
 
 TEST(ReadCase, BodiesInheritFromWall) {
-  const Config c = read(changed("[[wall.body]]", "[wall]\nslip = \"slip\"\nrepulsion = true\n[[wall.body]]"));
+  const Config c = read(changed("[[wall.body]]", "[wall]\nslip = \"slip\"\nrepulsion = false\n[[wall.body]]"));
   EXPECT_EQ(c.wall.bodies[0].slip, "slip");
-  EXPECT_TRUE(c.wall.bodies[0].repulsion);
+  EXPECT_FALSE(c.wall.bodies[0].repulsion);
   const Config own =
       read(changed("name = \"tank\"", "name = \"tank\"\nslip = \"noslip\""), {"wall.slip=slip"});
   EXPECT_EQ(own.wall.bodies[0].slip, "noslip");

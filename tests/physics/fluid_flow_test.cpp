@@ -132,6 +132,7 @@ Config channel() {
   c.domain.max.z = L;
   c.fluid.mu = 1e-3;
   c.fluid.c = 1.25e-4 * 2;
+  c.wall.rep_D = c.fluid.c * c.fluid.c / 100;
   c.fluid.fills = {fill_of(c)};
   for (int side : {0, 1}) {
     WallBody wall;

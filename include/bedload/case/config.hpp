@@ -86,14 +86,14 @@ struct WallBody {
   Vec3d point, normal;                         ///< plane: normal points into the flow
   std::string type = "adami";                  ///< adami, grains_only
   std::string slip = "noslip";                 ///< noslip, slip
-  bool repulsion = false;                      ///< Monaghan repulsion beside the extrapolated pressure
+  bool repulsion = true;                       ///< Monaghan repulsion beside the extrapolated pressure
   MotionConfig motion;
   bool operator==(const WallBody&) const = default;
 };
 
 struct WallConfig {
   std::string type = "adami", slip = "noslip";  ///< defaults of the bodies
-  bool repulsion = false;
+  bool repulsion = true;
   double dx = 0;                               ///< spacing of wall particles, m (default fluid.dx)
   double rep_D = 0;                            ///< m2/s2 (default 5 g H)
   double rep_r0 = 0;                           ///< m (default 0.5 dx)
