@@ -1,0 +1,112 @@
+// What fluid does to walls and walls to fluid.
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "kernels/fluid/wall_pass.hpp"
+#include "kernels/smoothing/wendland_c2.hpp"
+#include "tests/support/run.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// Pressure that one wall particle at the origin takes from fluid above it whose pressure is
+/// 500 Pa - rho0 push . x; the wall accelerates with `wall`.
+double extrapolated(const Vec3d& gravity, const Vec3d& wall, const Vec3d& push) {
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<double> u(-0.1, 0.1);
+  std::vector<Real4> v, m;
+  std::vector<Real> eps;
+  std::vector<Vec3d> at;
+  for (int a = 0; a < 60; ++a) {
+    at.push_back({u(rng), u(rng), 0.1 + u(rng)});
+    const double p = 500 + 1000 * dot(push, at.back());
+    v.push_back({Real3(), Real(1000)});
+    m.push_back({Real(1e-3), Real(p / 1e6), Real(1000), Real(p)});
+    eps.push_back(1);
+  }
+  const std::vector<Vec3d> x(1);
+  const std::vector<std::uint32_t> body(1);
+  std::vector<BodyPose> pose(1);
+  pose[0].a = wall;
+  std::vector<Real4> v_rho(1), v_visc(1), m_state(1);
+  const auto in = [](const auto& host) { return Span(host.data(), Index(host.size())); };
+  const auto out = [](auto& host) { return Span(host.data(), Index(host.size())); };
+  const WallPass<WendlandC2> pass{WendlandC2(0.1), EquationOfState{Real(1e7), 7, 0, 1000, false}, in(v), in(m), in(eps),
+                                  {}, 0, in(x), in(body), in(pose), Real3(gravity), Real(1e-3), Real(1e-3), out(v_rho),
+                                  out(v_visc), out(m_state)};
+  auto sum = pass.start(0);
+  for (int a = 0; a < 60; ++a) {
+    const Real3 r = Real3(x[0] - at[a]);
+    if (norm2(r) < Real(0.04)) pass.pair(sum, 0, Index(a), r, norm2(r));
+  }
+  pass.finish(0, sum);
+  return m_state[0].w;
+}
+
+TEST(Walls, TakeALinearPressureExactly) {  // T-11
+  const Vec3d g{1, -2, -9.81};
+  EXPECT_NEAR(extrapolated(g, {}, g), 500, 500 * 10 * kInvariant);
+  const Vec3d a{-3, 0.5, 4};  // an accelerated wall sees g - a
+  EXPECT_NEAR(extrapolated(g, a, g - a), 500, 500 * 10 * kInvariant);
+}
+
+TEST(Walls, FallingFreelyTakeTheMeanPressure) {  // T-11: a_w = g
+  const Vec3d g{0, 0, -9.81};
+  EXPECT_NEAR(extrapolated(g, g, {}), 500, 500 * kInvariant);
+}
+
+/// Water thrown into the corner of a tank, periodic across.
+Config thrown() {
+  Config c = periodic_box(8, 0.01);
+  c.gravity = {0, 0, -9.81};
+  c.domain.periodic = {false, true, false};
+  c.domain.min = {-0.05, 0, -0.05};
+  c.domain.max = {0.25, 0.08, 0.25};
+  c.visc.alpha = 0.02;
+  c.density.delta = 0.1;
+  c.wall.rep_D = 4;
+  c.fluid.fills = {{{0, 0, 0}, {0.06, 0.08, 0.08}, {"-2", "0", "-1"}}};
+  WallBody tank;
+  tank.name = "tank";
+  tank.shape = "tank";
+  tank.min = {0, 0, 0};
+  tank.max = {0.2, 0.08, 0.2};
+  tank.faces = {true, true, false, false, true, true};
+  c.wall.bodies = {tank};
+  return c;
+}
+
+TEST(SmallWalls, TakeWhatTheFluidGives) {  // T-17: sum of forces, repulsion among them
+  auto s = started(thrown());
+  double largest = 0;
+  for (int k = 0; k < 40; ++k) {
+    s->step();
+    if (k % 10 != 9) continue;
+    const auto d = s->diagnostics();
+    const double scale = std::abs(reading(d, "force_walls_on_fluid_x")) + std::abs(reading(d, "force_walls_on_fluid_z"));
+    largest = std::max(largest, scale);
+    for (const char* axis : {"x", "y", "z"})
+      EXPECT_LT(std::abs(reading(d, std::string("fluid_force_residual_") + axis)) / scale, 10 * kInvariant) << axis;
+  }
+  EXPECT_GT(largest, 10 * 9.81 * 0.384) << "no impact";
+}
+
+TEST(WallFlow, NoFluidPassesAWall) {
+  const Config c = thrown();
+  auto s = started(c);
+  double deepest = 0;
+  for (int k = 0; k < 1500; ++k) {
+    s->step();
+    if (k % 20 == 0)
+      for (const Vec3d& x : vectors(s->snapshot("fluid"), "position"))
+        deepest = std::max({deepest, -x.x, x.x - 0.2, -x.z, x.z - 0.2});
+  }
+  EXPECT_LE(deepest, 0);
+  EXPECT_EQ(reading(s->diagnostics(), "lost_fluid_count"), 0);
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
