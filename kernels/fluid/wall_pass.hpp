@@ -59,8 +59,8 @@ struct WallPass {
     const Real rho = eos.rho0 * (1 + eos.compression(p)), superficial = eps * rho;
     v_rho[b] = {v_wall, superficial};
     v_visc[b] = {2 * v_wall - sum.v / sum.weight, k.slip ? Real(0) : Real(1)};
-    // the superficial mass keeps the wall particle's volume
-    m_state[b] = {eps * eos.rho0 * volume, p / square(superficial), rho, p};
+    // the mass that keeps the wall particle's volume
+    m_state[b] = {superficial * volume, p / square(superficial), rho, p};
   }
 };
 

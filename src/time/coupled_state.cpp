@@ -23,7 +23,8 @@ std::vector<Id> ids(std::size_t n) {
   return out;
 }
 
-/// Laid fluid takes the share that the grains leave: m = eps m0, and the hydrostatic pressure.
+/// Laid fluid takes the share that the grains leave, at hydrostatic pressure and the density that goes with
+/// it: in balance from the start, and heavier than at rho0 by its compression.
 struct LayPass {
   EquationOfState eos;
   Frame frame;
@@ -31,7 +32,7 @@ struct LayPass {
   Span<Real> mass, s;
   BL_HD void operator()(Index a) const {
     const Real x = eos.compression(pressure[a]);
-    mass[a] *= eps[a];
+    mass[a] *= eps[a] * (1 + x);
     s[a] = eps[a] * (1 + x) - 1;
   }
 };
