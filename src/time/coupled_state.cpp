@@ -198,11 +198,6 @@ void CoupledSimulation::load(const SavedState& state) {
   }
   if (has_grains()) grains_.load(store_of(state, "grains"));
   restore_lists(state);
-  if (has_fluid() && walls_.size() > 0) {
-    WallMotion::place(frame_, walls_, poses_now());
-    fluid_solver_->pack(fluid_, walls_);
-    fluid_solver_->walls(fluid_, walls_, poses_now(), 0);
-  }
   sweep();
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 // Stored neighbours of each particle: every j within range of i at the time of building.
 // Rows are cut into slices whose entries are interleaved, so that a warp reads its lists
-// coalesced; a slice is 32 rows on the GPU and one on the CPU. Counted, then filled:
-// never too small, never padded beyond the longest row of a slice.
+// coalesced; a slice is 32 rows on the GPU and one on the CPU. The GPU counts, then fills; the CPU
+// joins what blocks of rows found: never too small, never padded beyond the longest row of a slice.
+
+#include <algorithm>
+#include <vector>
 
 #include "bedload/neighbours/cell_grid.hpp"
 #include "bedload/parallel/lanes.hpp"
@@ -44,6 +47,7 @@ class VerletList {
   Sorter sorter_;
 };
 
+#if BL_CUDA
 namespace detail {
 
 template <class Near>
@@ -116,10 +120,12 @@ struct FillPass {
 };
 
 }  // namespace detail
+#endif
 
 template <class Near>
 void VerletList::build(Index rows, const CellGridView& sources, const Near& near) {
   count_.resize(rows);
+#if BL_CUDA
   const unsigned bits = lane_bits(rows);
   for_each({0, rows << bits}, detail::CountPass<Near>{sources, near, bits, count_});
   const Index slices = (rows + kSlice - 1) / kSlice;
@@ -128,6 +134,35 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
   slots_ = sorter_.exclusive_scan(width_, offset_);
   entry_.reserve_and_resize(slots_);
   for_each({0, rows << bits}, detail::FillPass<Near>{sources, near, bits, view(), entry_.data()});
+#else
+  // one search instead of two: blocks of rows grow lists of their own, which are then joined
+  static_assert(kSlice == 1);
+  constexpr Index block = 256;
+  const Index blocks = (rows + block - 1) / block;
+  const auto end = [&](Index b) { return min_of(rows, (b + 1) * block); };
+  std::vector<std::vector<Index>> found(blocks);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (Index b = 0; b < blocks; ++b)
+    for (Index i = b * block; i < end(b); ++i) {
+      const std::size_t before = found[b].size();
+      sources.each_near(near.place(i), near.reach(i), [&](Index j) {
+        if (near(i, j)) found[b].push_back(j);
+      });
+      count_.data()[i] = std::uint32_t(found[b].size() - before);
+    }
+  offset_.resize(rows + 1);
+  slots_ = 0;
+  for (Index i = 0; i <= rows; ++i) {
+    offset_.data()[i] = slots_;
+    if (i < rows) slots_ += count_.data()[i];
+  }
+  entry_.reserve_and_resize(slots_);
+#pragma omp parallel for schedule(dynamic, 1)
+  for (Index b = 0; b < blocks; ++b) {
+    std::copy(found[b].begin(), found[b].end(), entry_.data() + offset_.data()[b * block]);
+    std::vector<Index>().swap(found[b]);
+  }
+#endif
 }
 
 /// Pairs of SPH particles (fluid or wall) closer than `range`.

@@ -22,7 +22,8 @@ struct BodyPose {
   }
 };
 
-/// Wall particles of the fluid: prescribed motion, extrapolated state.
+/// Wall particles of the fluid: prescribed motion, extrapolated state. The next density step reads the state
+/// of the last one, so it is kept.
 struct WallStore : Store {
   WallStore() : Store("walls") {}
 
@@ -32,9 +33,9 @@ struct WallStore : Store {
   Field<Vec3d> x{*this, "x", "m", Lifetime::kept};
   Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::kept};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};
-  Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::derived};    ///< true velocity, superficial density
-  Field<Real4> v_visc{*this, "v_visc", "m/s", Lifetime::derived};         ///< no-slip velocity; w = 1 where viscous pairs count
-  Field<Real4> m_state{*this, "m_state", "-", Lifetime::derived};         ///< as of the fluid; mass 0: inactive
+  Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept};    ///< true velocity, superficial density
+  Field<Real4> v_visc{*this, "v_visc", "m/s", Lifetime::kept};         ///< no-slip velocity; w = 1 where viscous pairs count
+  Field<Real4> m_state{*this, "m_state", "-", Lifetime::kept};         ///< as of the fluid; mass 0: inactive
 };
 
 }  // namespace bedload::inline BL_VARIANT
