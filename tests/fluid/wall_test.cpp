@@ -13,7 +13,7 @@ namespace bedload::inline BL_VARIANT {
 namespace {
 
 /// Pressure that one wall particle at the origin takes from fluid above it whose pressure is
-/// 500 Pa - rho0 push . x; the wall accelerates with `wall`.
+/// 500 Pa + rho0 push . x; the wall accelerates with `wall`.
 double extrapolated(const Vec3d& gravity, const Vec3d& wall, const Vec3d& push) {
   std::mt19937 rng(3);
   std::uniform_real_distribution<double> u(-0.1, 0.1);
