@@ -51,6 +51,32 @@ TEST(Porosity, IsOneWhereThereIsNoGrain) {
   for (Real eps : box.fluid.eps.values()) EXPECT_EQ(eps, Real(1));
 }
 
+TEST(Porosity, KnowsWhatShareOfTheKernelWallsLeave) {
+  const WendlandC2 w(0.1);
+  std::vector<Surface> planes(2);
+  planes[0].axis[2] = {0, 0, 1};
+  planes[1].axis[2] = {1, 0, 0};
+  planes[1].body = 1;
+  std::vector<BodyPose> pose(2);
+  pose[1].present = 0;
+  const auto share = [&](const Vec3d& x) {
+    const Frame frame({-1, -1, -1}, {1, 1, 1}, false, false, false);
+    return WallFreeShare{HalfSpaceShare::of(w), frame, {planes.data(), 2}, {pose.data(), 2}}(x);
+  };
+  for (double z : {0.0, 0.04, 0.11, 0.25}) {
+    double free = 0, all = 0;
+    for (const Vec3d& r : lattice({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}, 0.01)) {
+      const double weight = w.W(Real(norm(r)));
+      all += weight;
+      if (r.z > -z) free += weight;
+    }
+    EXPECT_NEAR(share({0, 0, z}), free / all, 5e-3) << z;
+  }
+  EXPECT_EQ(share({0.3, 0, 0.25}), Real(1));
+  pose[1].present = 1;
+  EXPECT_NEAR(share({0, 0, 0}), 0.25, 1e-6);
+}
+
 TEST(Porosity, FollowsGrainsThatMoveWithinTheSkin) {
   Config c = unit_box(0.1, 1e-3);
   std::mt19937_64 random(7);
