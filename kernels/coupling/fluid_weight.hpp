@@ -13,7 +13,10 @@ struct FluidWeight {
   Span<const Real4> v_rho;
   Span<const Real> mass;
 
-  BL_HD Real operator()(Index a, Real r2) const { return mass[a] / v_rho[a].w * w.W(std::sqrt(r2)); }
+  template <class N>
+  BL_HD N operator()(Index a, N r2) const {
+    return mass[a] / v_rho[a].w * w.W(root(r2));
+  }
 };
 
 }  // namespace bedload::inline BL_VARIANT

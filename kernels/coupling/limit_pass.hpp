@@ -10,12 +10,17 @@ struct DragRatePass {
   Span<const Real> inv_S, K;
   Span<Real> rate;
 
-  BL_HD Real start(Index) const { return 0; }
-  BL_HD void pair(Real& sum, Index a, Index j, const Real3&, Real r2) const {
-    sum += weight(a, r2) * inv_S[j] * K[j];
+  template <class N = Real>
+  struct Sum {
+    N L;
+  };
+  BL_HD Sum<> start(Index) const { return {0}; }
+  template <class N, class J>
+  BL_HD void pair(Sum<N>& sum, Index a, J j, const Vec3<N>&, N r2) const {
+    sum.L += weight(a, r2) * inv_S[j] * K[j];
   }
-  BL_HD void merge(Real& into, Real other) const { into += other; }
-  BL_HD void finish(Index a, Real sum) const { rate[a] = sum / weight.mass[a]; }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.L += other.L; }
+  BL_HD void finish(Index a, const Sum<>& sum) const { rate[a] = sum.L / weight.mass[a]; }
 };
 
 /// The largest share of drag that a fluid particle can take in one step, x = dt L_a / m_a. Row sums of

@@ -16,12 +16,19 @@ struct PorosityPass {
   Span<const Real> radius;
   Span<Real> eps;
 
-  BL_HD Real start(Index) const { return 0; }
-  BL_HD void pair(Real& solid, Index, Index j, const Real3&, Real r2) const {
-    solid += 4 * kPi / 3 * cube(radius[j]) * w.W(std::sqrt(r2));
+  template <class N = Real>
+  struct Sum {
+    N solid;
+  };
+  BL_HD Sum<> start(Index) const { return {0}; }
+  template <class N, class J>
+  BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>&, N r2) const {
+    const N R = radius[j];
+    sum.solid += 4 * kPi / 3 * cube(R) * w.W(root(r2));
   }
-  BL_HD void merge(Real& into, Real other) const { into += other; }
-  BL_HD void finish(Index a, Real solid) const {
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.solid += other.solid; }
+  BL_HD void finish(Index a, const Sum<>& sum) const {
+    Real solid = sum.solid;
     if (solid > 0) solid /= wall_free(coordinates(frame, x[a]));
     eps[a] = max_of(floor, 1 - solid);
   }

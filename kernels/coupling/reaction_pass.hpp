@@ -46,26 +46,29 @@ struct ReactionPass {
   Span<Real3> reaction;   ///< m/s2
   Span<Real3> drag_kick;  ///< m/s
 
+  template <class N = Real>
   struct Sum {
-    Real3 impulse, force;
+    Vec3<N> impulse, force;
   };
-  BL_HD Sum start(Index) const { return {}; }
-  BL_HD void pair(Sum& sum, Index a, Index j, const Real3& r_aj, Real r2) const {
-    const Real4 share = shares.impulse[j];
-    const Real phi = weight(a, r2) * share.w;
-    Real3 J = share.xyz(), F = shares.force[j];
+  BL_HD Sum<> start(Index) const { return {}; }
+  template <class N, class At>
+  BL_HD void pair(Sum<N>& sum, Index a, At j, const Vec3<N>& r_aj, N r2) const {
+    const Vec4<N> share = shares.impulse[j];
+    const N phi = weight(a, r2) * share.w;
+    Vec3<N> J = share.xyz(), F = shares.force[j];
     if constexpr (Couple) {
-      J -= cross(shares.spin_couple[j], r_aj);
-      F -= cross(shares.force_couple[j], r_aj);
+      const Vec3<N> A = shares.spin_couple[j], B = shares.force_couple[j];
+      J -= cross(A, r_aj);
+      F -= cross(B, r_aj);
     }
     sum.impulse += phi * J;
     sum.force += phi * F;
   }
-  BL_HD void merge(Sum& into, const Sum& other) const {
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.impulse += other.impulse;
     into.force += other.force;
   }
-  BL_HD void finish(Index a, const Sum& sum) const {
+  BL_HD void finish(Index a, const Sum<>& sum) const {
     const Real inv_m = 1 / weight.mass[a];
     const Real4 old = v_rho[a];
     const Real3 kick = -(inv_m * sum.impulse);

@@ -18,31 +18,35 @@ struct DensityPass {
   Span<const Real> s;
   Span<Real> s_new;
 
+  template <class N = Real>
   struct Sum {
-    Real3 v;
-    Real rho, rate, diffused;
+    Vec3<N> v;
+    N rho, rate, diffused;
   };
-  BL_HD Sum start(Index a) const { return {v_rho[a].xyz(), m_state[a].z, 0, 0}; }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), m_state[a].z, 0, 0}; }
 
-  BL_HD void pair(Sum& sum, Index, Index b, const Real3& r, Real) const {
-    const Real4 vb = v_rho[b], mb = m_state[b];
-    const Real3 v = sum.v - vb.xyz();
-    const Real3 rm = r - back * v;
-    const Real F = w.F(norm(rm));
+  template <class N, class J>
+  BL_HD void pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N) const {
+    const Vec4<N> vb = v_rho[b], mb = m_state[b];
+    const Vec3<N> v = sum.v - vb.xyz();
+    const Vec3<N> rm = r - back * v;
+    const N F = w.F(norm(rm));
     sum.rate += mb.x * F * dot(v, rm);
-    const Real still = 1 - stiffening * (Real(0.5) * (sum.rho + mb.z) / rho0 - 1);
-    sum.diffused += mb.x / vb.w * F * (mb.z - sum.rho + still * dot(hydrostatic, rm));
+    const N still = 1 - stiffening * (Real(0.5) * (sum.rho + mb.z) / rho0 - 1);
+    sum.diffused += mb.x / vb.w * F * (mb.z - sum.rho + still * dot(Vec3<N>(hydrostatic), rm));
   }
-  BL_HD void wall_pair(Sum& sum, Index, Index b, const Real3& r, Real) const {
-    const Real3 v = sum.v - wall_v_rho[b].xyz();
-    const Real3 rm = r - back * v;
-    sum.rate += wall_m_state[b].x * w.F(norm(rm)) * dot(v, rm);
+  template <class N, class J>
+  BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N) const {
+    const Vec4<N> vb = wall_v_rho[b], mb = wall_m_state[b];
+    const Vec3<N> v = sum.v - vb.xyz();
+    const Vec3<N> rm = r - back * v;
+    sum.rate += mb.x * w.F(norm(rm)) * dot(v, rm);
   }
-  BL_HD void merge(Sum& into, const Sum& other) const {
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.rate += other.rate;
     into.diffused += other.diffused;
   }
-  BL_HD void finish(Index a, const Sum& sum) const {
+  BL_HD void finish(Index a, const Sum<>& sum) const {
     s_new[a] = s[a] + dt * (diffusion * eps[a] * sum.diffused - sum.rate) / rho0;
   }
 };

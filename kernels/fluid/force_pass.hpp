@@ -12,12 +12,13 @@ struct WallPair {
 
   /// a: {v, rho~}, {m, P/rho~^2, ..}; b: the wall's, with its no-slip velocity `visc` (w: 1 if it drags).
   /// m_w of an inactive wall particle is zero.
-  BL_HD Real3 operator()(const Real4& va, const Real4& ma, const Real4& vw, const Real4& mw,
-                                const Real4& visc, const Real3& r, Real r2) const {
-    const Real F = w.F(std::sqrt(r2));
-    Real3 theta = pressure_term(mw.x, ma.y, mw.y, F) * r;
-    if (visc.w > Real(0.5) && mw.x > 0)
-      theta -= morris_term(mw.x, 2 * mu, va.w, vw.w, r2, F, square(w.h)) * (va.xyz() - visc.xyz());
+  template <class N>
+  BL_HD Vec3<N> operator()(const Vec4<N>& va, const Vec4<N>& ma, const Vec4<N>& vw, const Vec4<N>& mw,
+                           const Vec4<N>& visc, const Vec3<N>& r, N r2) const {
+    const N F = w.F(root(r2));
+    Vec3<N> theta = pressure_term(mw.x, ma.y, mw.y, F) * r;
+    if (mu > 0)
+      theta -= visc.w * morris_term(mw.x, 2 * mu, va.w, vw.w, r2, F, square(w.h)) * (va.xyz() - visc.xyz());
     return theta;
   }
 };
@@ -37,34 +38,38 @@ struct ForcePass {
   Real3 drive;    ///< force density, N/m3
   Span<Real3> theta, acc, xsph;
 
+  template <class N = Real>
   struct Sum {
-    Real4 v, m;
-    Real3 theta, other, xsph;
+    Vec4<N> v, m;
+    Vec3<N> theta, other, xsph;
   };
-  BL_HD Sum start(Index a) const { return {v_rho[a], m_state[a], {}, {}, {}}; }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a], m_state[a], {}, {}, {}}; }
 
-  BL_HD void pair(Sum& sum, Index, Index b, const Real3& r, Real r2) const {
-    const Real4 vb = v_rho[b], mb = m_state[b];
-    const Real distance = std::sqrt(r2);
-    const Real F = w.F(distance);
-    const Real3 v = sum.v.xyz() - vb.xyz();
+  template <class N, class J>
+  BL_HD void pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
+    const Vec4<N> vb = v_rho[b], mb = m_state[b];
+    const N distance = root(r2);
+    const N F = w.F(distance);
+    const Vec3<N> v = sum.v.xyz() - vb.xyz();
     sum.theta += pressure_term(mb.x, sum.m.y, mb.y, F) * r;
     if (mu > 0) sum.theta -= morris_term(mb.x, 2 * mu, sum.v.w, vb.w, r2, F, square(w.h)) * v;
-    const Real rho_mean = Real(0.5) * (sum.v.w + vb.w);
+    const N rho_mean = Real(0.5) * (sum.v.w + vb.w);
     if (artificial.alpha > 0 || artificial.beta > 0)
       sum.other += artificial.term(mb.x, dot(v, r), rho_mean, r2, F) * r;
     if (tensile.s_negative > 0) sum.other += mb.x * tensile.R(w.W(distance), sum.m.y, mb.y) * F * r;
     if (xsph_factor > 0) sum.xsph -= xsph_factor * mb.x * w.W(distance) / rho_mean * v;
   }
-  BL_HD void wall_pair(Sum& sum, Index, Index b, const Real3& r, Real r2) const {
-    sum.theta += wall(sum.v, sum.m, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], r, r2);
+  template <class N, class J>
+  BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
+    const Vec4<N> vb = wall_v_rho[b], mb = wall_m_state[b], visc = wall_v_visc[b];
+    sum.theta += wall(sum.v, sum.m, vb, mb, visc, r, r2);
   }
-  BL_HD void merge(Sum& into, const Sum& other) const {
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.theta += other.theta;
     into.other += other.other;
     into.xsph += other.xsph;
   }
-  BL_HD void finish(Index a, const Sum& sum) const {
+  BL_HD void finish(Index a, const Sum<>& sum) const {
     theta[a] = sum.theta;
     acc[a] = sum.theta + sum.other + gravity + drive / sum.v.w;
     if (xsph_factor > 0) xsph[a] = sum.xsph;

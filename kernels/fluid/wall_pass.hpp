@@ -23,30 +23,33 @@ struct WallPass {
   Real least_sum;    ///< inactive below this sum of W, 1/m3
   Span<Real4> v_rho, v_visc, m_state;
 
+  template <class N = Real>
   struct Sum {
-    Real3 push;  ///< gravity minus the wall's acceleration
-    Real weight, p, eps;
-    Real3 v;
+    Vec3<N> push;  ///< gravity minus the wall's acceleration
+    N weight, p, eps;
+    Vec3<N> v;
   };
-  BL_HD Sum start(Index b) const {
+  BL_HD Sum<> start(Index b) const {
     return {gravity - Real3(pose[body[b]].acceleration(x[b])), 0, 0, 0, {}};
   }
-  BL_HD void pair(Sum& sum, Index, Index a, const Real3& r_wf, Real r2) const {
-    const Real wk = w.W(std::sqrt(r2));
-    const Real4 m = fluid_m_state[a];
-    const Real3 push = drag_kick ? sum.push + rate * drag_kick[a] : sum.push;
+  template <class N, class J>
+  BL_HD void pair(Sum<N>& sum, Index, J a, const Vec3<N>& r_wf, N r2) const {
+    const N wk = w.W(root(r2));
+    const Vec4<N> m = fluid_m_state[a], v = fluid_v_rho[a];
+    Vec3<N> push = sum.push;
+    if (drag_kick) push += rate * Vec3<N>(drag_kick[a]);
     sum.weight += wk;
     sum.p += wk * (m.w + m.z * dot(push, r_wf));
     sum.eps += wk * fluid_eps[a];
-    sum.v += wk * fluid_v_rho[a].xyz();
+    sum.v += wk * v.xyz();
   }
-  BL_HD void merge(Sum& into, const Sum& other) const {
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.weight += other.weight;
     into.p += other.p;
     into.eps += other.eps;
     into.v += other.v;
   }
-  BL_HD void finish(Index b, const Sum& sum) const {
+  BL_HD void finish(Index b, const Sum<>& sum) const {
     const BodyPose& k = pose[body[b]];
     const Real3 v_wall = Real3(k.velocity(x[b]));
     if (sum.weight < least_sum || !k.present) {

@@ -1,5 +1,5 @@
 #pragma once
-#include "bedload/core/types.hpp"
+#include "bedload/core/pack.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -19,16 +19,17 @@ struct CubicSpline {
         norm_F(Real(1 / (3.14159265358979323846 * h * h * h * h * h))) {}
 
   /// 1/m3, at distance r (m).
-  BL_HD Real W(Real r) const {
-    const Real q = r * inv_h;
-    if (q < 1) return norm_W * (1 - q * q * (Real(1.5) - Real(0.75) * q));
-    return norm_W * Real(0.25) * cube(max_of(Real(0), 2 - q));
+  template <class N>
+  BL_HD N W(N r) const {
+    const N q = r * inv_h;
+    return select(q < 1, norm_W * (1 - q * q * (Real(1.5) - Real(0.75) * q)),
+                  norm_W * Real(0.25) * cube(max_of(N(0), 2 - q)));
   }
   /// -W'/r, 1/m5.
-  BL_HD Real F(Real r) const {
-    const Real q = r * inv_h;
-    if (q < 1) return norm_F * (3 - Real(2.25) * q);
-    return norm_F * Real(0.75) * square(max_of(Real(0), 2 - q)) / q;
+  template <class N>
+  BL_HD N F(N r) const {
+    const N q = r * inv_h;
+    return select(q < 1, norm_F * (3 - Real(2.25) * q), norm_F * Real(0.75) * square(max_of(N(0), 2 - q)) / q);
   }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "bedload/core/types.hpp"
+#include "bedload/core/pack.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -19,12 +19,14 @@ struct Lucy {
         norm_F(Real(315 / (4 * 3.14159265358979323846 * h * h * h * h * h))) {}
 
   /// 1/m3, at distance r (m).
-  BL_HD Real W(Real r) const {
-    const Real q = r * inv_h;
-    return norm_W * (1 + 3 * q) * cube(max_of(Real(0), 1 - q));
+  template <class N>
+  BL_HD N W(N r) const {
+    const N q = r * inv_h;
+    return norm_W * (1 + 3 * q) * cube(max_of(N(0), 1 - q));
   }
   /// -W'/r, 1/m5.
-  BL_HD Real F(Real r) const { return norm_F * square(max_of(Real(0), 1 - r * inv_h)); }
+  template <class N>
+  BL_HD N F(N r) const { return norm_F * square(max_of(N(0), 1 - r * inv_h)); }
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -1,5 +1,5 @@
 #pragma once
-#include "bedload/core/types.hpp"
+#include "bedload/core/pack.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -19,13 +19,15 @@ struct WendlandC2 {
         norm_F(Real(105 / (16 * 3.14159265358979323846 * h * h * h * h * h))) {}
 
   /// 1/m3, at distance r (m).
-  BL_HD Real W(Real r) const {
-    const Real q = r * inv_h;
-    const Real t = max_of(Real(0), 1 - Real(0.5) * q);
+  template <class N>
+  BL_HD N W(N r) const {
+    const N q = r * inv_h;
+    const N t = max_of(N(0), 1 - Real(0.5) * q);
     return norm_W * square(square(t)) * (1 + 2 * q);
   }
   /// -W'/r, 1/m5.
-  BL_HD Real F(Real r) const { return norm_F * cube(max_of(Real(0), 1 - Real(0.5) * r * inv_h)); }
+  template <class N>
+  BL_HD N F(N r) const { return norm_F * cube(max_of(N(0), 1 - Real(0.5) * r * inv_h)); }
 };
 
 }  // namespace bedload::inline BL_VARIANT

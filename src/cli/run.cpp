@@ -83,45 +83,48 @@ class Run {
 
   int steps() {
     const auto from = std::chrono::steady_clock::now();
-    const auto wall = [&] {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
-    };
     Progress progress(options_.quiet, simulation_->time(), end_);
-    std::int64_t particle_steps = 0;
+    Effort effort;
+    const auto spent = [&] {
+      effort.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+      return effort;
+    };
     try {
       if (options_.restart.empty()) output_->write(*simulation_, StepInfo{});
       while (simulation_->time() < end_ && !stop_requested()) {
         const StepInfo info = simulation_->step();
         const Counts n = simulation_->counts();
-        particle_steps += n.fluid > 0 ? n.fluid : n.grains * info.substeps;
+        effort.particle_steps += n.fluid > 0 ? n.fluid : n.grains * info.substeps;
+        effort.substeps += info.substeps;
+        effort.rebuilds += info.rebuilt;
         output_->write(*simulation_, info);
-        progress.update(info, particle_steps);
+        progress.update(info, effort.particle_steps);
       }
     } catch (const SimulationFault& fault) {
       progress.close();
-      throw SimulationFault(fault.what() + after_fault(wall(), particle_steps));
+      throw SimulationFault(fault.what() + after_fault(spent()));
     } catch (const CaseError& error) {  // a fixed step has come to exceed its limit
       progress.close();
-      throw CaseError(error.what() + after_fault(wall(), particle_steps));
+      throw CaseError(error.what() + after_fault(spent()));
     }
     progress.close();
     const bool stopped = simulation_->time() < end_;
-    output_->finish(*simulation_, stopped ? "stopped" : "completed", wall(), particle_steps);
+    output_->finish(*simulation_, stopped ? "stopped" : "completed", spent());
     if (stopped)
       fmt::print("stopped at t = {:.6g} s; continue with: {} --restart {}\n", simulation_->time(),
                  options_.repeat, output_->last_checkpoint().string());
     else
       say(fmt::format("completed  t = {:.6g} s, {} steps in {}, {:.3g} particle-steps/s\n",
-                      simulation_->time(), grouped(simulation_->steps()), duration_text(wall()),
-                      wall() > 0 ? double(particle_steps) / wall() : 0));
+                      simulation_->time(), grouped(simulation_->steps()), duration_text(effort.wall_seconds),
+                      effort.wall_seconds > 0 ? double(effort.particle_steps) / effort.wall_seconds : 0));
     return stopped ? kExitStopped : 0;
   }
 
   /// Shows the broken state in a last frame; returns the rest of the fault's sentence.
-  std::string after_fault(double wall_seconds, std::int64_t particle_steps) {
+  std::string after_fault(const Effort& effort) {
     const fs::path good = output_->last_checkpoint();
     try {
-      output_->finish(*simulation_, "failed", wall_seconds, particle_steps);
+      output_->finish(*simulation_, "failed", effort);
     } catch (const std::runtime_error& error) {
       fmt::print(stderr, "warning: the last frame is missing: {}\n", error.what());
     }

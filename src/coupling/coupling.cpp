@@ -76,9 +76,9 @@ void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_
                              const GrainStore& grains, const CellGridView& grain_grid, double skin) {
   const double reach = range_ + skin;
   fluid_of_grain_.build(grains.size(), fluid_grid,
-                        CrossNear<Vec3d, FluidPosition>{frame_, grains.x, fluid.x, reach});
+                        CrossNear<Vec3d, FluidPosition>{frame_, grains.x_list, fluid.x_list, reach});
   grains_of_fluid_.build(fluid.size(), grain_grid,
-                         CrossNear<FluidPosition, Vec3d>{frame_, fluid.x, grains.x, reach});
+                         CrossNear<FluidPosition, Vec3d>{frame_, fluid.x_list, grains.x_list, reach});
 }
 
 void Coupling::gather(const FluidStore& fluid, GrainStore& grains, double dt) {

@@ -32,7 +32,7 @@ class Coupling {
   /// How far grains and fluid feel each other, m.
   double range() const { return range_; }
 
-  /// Renews both lists: all pairs within range() + skin (m).
+  /// Renews both lists: all pairs within range() + skin (m) where the phases' own lists were built.
   void rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid, const GrainStore& grains,
                      const CellGridView& grain_grid, double skin);
 

@@ -193,10 +193,9 @@ struct RunOutput::Impl {
     return newest;
   }
 
-  void write_summary(Simulation& simulation, const std::string& status, double wall_seconds,
-                     std::int64_t particle_steps) const {
+  void write_summary(Simulation& simulation, const std::string& status, const Effort& effort) const {
     const auto counts = simulation.counts();
-    const auto rate = [&](double amount) { return wall_seconds > 0 ? amount / wall_seconds : 0; };
+    const double rate = effort.wall_seconds > 0 ? double(effort.particle_steps) / effort.wall_seconds : 0;
     auto probes = nlohmann::ordered_json::object();
     for (const auto& t : tables)
       if (t.probe) probes[t.probe->name] = to_json(simulation.measure(*t.probe));
@@ -209,10 +208,12 @@ struct RunOutput::Impl {
         {"seed", config.seed},
         {"counts", {{"fluid", counts.fluid}, {"walls", counts.walls}, {"grains", counts.grains}}},
         {"steps", simulation.steps()},
+        {"substeps", effort.substeps},
+        {"rebuilds", effort.rebuilds},
         {"time", {{"value", simulation.time()}, {"unit", "s"}}},
-        {"wall_time", {{"value", wall_seconds}, {"unit", "s"}}},
-        {"particle_steps", particle_steps},
-        {"particle_steps_rate", {{"value", rate(double(particle_steps))}, {"unit", "1/s"}}},
+        {"wall_time", {{"value", effort.wall_seconds}, {"unit", "s"}}},
+        {"particle_steps", effort.particle_steps},
+        {"particle_steps_rate", {{"value", rate}, {"unit", "1/s"}}},
         {"memory",
          {{"solver", {{"value", simulation.bytes()}, {"unit", "B"}}},
           {"host_peak", {{"value", host_peak_bytes()}, {"unit", "B"}}}}},
@@ -264,13 +265,12 @@ fs::path RunOutput::checkpoint(Simulation& simulation) {
 
 void RunOutput::warn(std::string message) { impl_->warnings.push_back(std::move(message)); }
 
-void RunOutput::finish(Simulation& simulation, const std::string& status, double wall_seconds,
-                       std::int64_t particle_steps) {
+void RunOutput::finish(Simulation& simulation, const std::string& status, const Effort& effort) {
   impl_->take_up(simulation.time(), 0);
   impl_->emit(simulation, simulation.time(), true);
   if (status != "failed") impl_->post_checkpoint(simulation);
   impl_->writer.drain();
-  impl_->write_summary(simulation, status, wall_seconds, particle_steps);
+  impl_->write_summary(simulation, status, effort);
 }
 
 fs::path RunOutput::last_checkpoint() const { return impl_->last_checkpoint(); }

@@ -117,7 +117,7 @@ void CoupledSimulation::sweep() {
 
 void CoupledSimulation::settle(double longest, const std::function<void(double)>& progress) {
   if (!has_grains()) return;
-  refresh();
+  refresh(false, true);
   solid_solver_->evaluate(grains_, poses_now());
   const double rest = 1e-3 * std::sqrt(norm(config_.gravity) * config_.grain.d_max);  // rms speed, m/s
   double done = 0;
@@ -140,29 +140,29 @@ void CoupledSimulation::settle(double longest, const std::function<void(double)>
 }
 
 void CoupledSimulation::refresh_if_needed(double dt) {
-  bool due = false;
-  double fluid_moved = 0, grain_moved = 0;  // by the end of this step, m
+  // by the end of this step; while each phase keeps to half its skin, the lists across the phases hold too
+  bool fluid_due = false, grains_due = false;
   if (has_fluid()) {
-    fluid_moved = std::sqrt(fluid_extremes_.moved2) + dt * (std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2));
+    const double moved = std::sqrt(fluid_extremes_.moved2) + dt * (std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2));
     const double wall = walls_moved_ + dt * motion_.top_speed(clock_.time);
-    due = due || 2 * fluid_moved > fluid_solver_->skin() || fluid_moved + wall > fluid_solver_->skin();
+    fluid_due = 2 * moved > fluid_solver_->skin() || moved + wall > fluid_solver_->skin();
   }
   if (has_grains() && !config_.grain.fixed) {
-    grain_moved = grain_watch_.displacement + 1.5 * dt * (grain_watch_.speed + dt * norm(config_.gravity));
-    due = due || 2 * grain_moved > solid_solver_->skin();
+    const double moved = grain_watch_.displacement + 1.5 * dt * (grain_watch_.speed + dt * norm(config_.gravity));
+    grains_due = 2 * moved > solid_solver_->skin();
   }
-  if (coupled()) due = due || fluid_moved + grain_moved > (fluid_solver_->skin() + solid_solver_->skin()) / 2;
-  if (due) refresh();
+  refresh(fluid_due, grains_due);
 }
 
-void CoupledSimulation::refresh() {
-  if (has_fluid()) {
+void CoupledSimulation::refresh(bool fluid, bool grains) {
+  if (fluid) {
     drop_lost_fluid();
     fluid_solver_->refresh(fluid_, walls_, rebuilds_ == 0 || walls_moved_ > 0);
+    walls_moved_ = 0;
   }
-  if (has_grains()) solid_solver_->refresh(grains_, grain_grid_);
+  if (grains) solid_solver_->refresh(grains_, grain_grid_);
+  if (!fluid && !grains) return;
   if (coupled()) relist_coupling();
-  walls_moved_ = 0;
   rebuilt_ = true;
   ++rebuilds_;
 }
@@ -173,13 +173,14 @@ void CoupledSimulation::restore_lists(const SavedState& state) {
   const auto swap_positions = [&] {
     fluid_.x.buffer().swap(fluid_.x_list.buffer());
     walls_.x.buffer().swap(walls_.x_list.buffer());
-    grains_.x.buffer().swap(grains_.x_list.buffer());
   };
-  swap_positions();
-  if (has_fluid()) fluid_solver_->relist(fluid_, walls_, true);
+  if (has_fluid()) {
+    swap_positions();
+    fluid_solver_->relist(fluid_, walls_, true);
+    swap_positions();
+    fluid_solver_->pack(fluid_, walls_);
+  }
   if (coupled()) relist_coupling();
-  swap_positions();
-  if (has_fluid()) fluid_solver_->pack(fluid_, walls_);
 }
 
 void CoupledSimulation::relist_coupling() {

@@ -48,7 +48,7 @@ class CoupledSimulation final : public Simulation {
   void advance_fluid(double dt);
   void evaluate_fluid(double dt, double predict);  ///< density known: porosity, state, walls, forces
   void refresh_if_needed(double dt);
-  void refresh();
+  void refresh(bool fluid, bool grains);
   void restore_lists(const SavedState& state);
   void relist_coupling();
   void drop_lost_fluid();

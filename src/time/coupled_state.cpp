@@ -118,7 +118,7 @@ void CoupledSimulation::upload(const Setup& setup) {
 }
 
 void CoupledSimulation::start() {
-  refresh();
+  refresh(has_fluid(), has_grains());
   if (has_grains()) solid_solver_->evaluate(grains_, poses_now());
   if (has_fluid()) {
     lay_fluid();

@@ -108,6 +108,23 @@ TEST(FluidPairs, TaitAndDemocritusPressures) {  // T-5
   EXPECT_EQ((EquationOfState{Real(1000), 7, 0, Real(1000), true}).pressure(Real(-0.1)), Real(0));
 }
 
+TEST(FluidPairs, TornFluidCavitates) {
+  Config c = periodic_box(4);
+  c.density.tension = 0.02;
+  FluidBox box(c);
+  for (std::size_t a = 0; a < box.s.size(); ++a) box.s[a] = a % 2 ? -0.1 : -0.01;  // torn, stretched
+  box.upload();
+  const auto id = box.fluid.id.values();
+  const auto m = box.fluid.m_state.values();
+  const auto s = box.fluid.s.values();
+  for (std::size_t k = 0; k < id.size(); ++k) {
+    const double density = id[k] % 2 ? -0.02 : -0.01;
+    EXPECT_NEAR(m[k].z, 1000 * (1 + density), 1e-3);
+    EXPECT_NEAR(s[k], density, 1e-7) << "the density would stay behind";
+    EXPECT_LT(m[k].w, 0) << "it pulls";
+  }
+}
+
 TEST(FluidPairs, MorrisViscosityOnALattice) {  // T-7: v = cos kz, h/dx = 1.5
   Config c = periodic_box(20);
   c.fluid.mu = 2;

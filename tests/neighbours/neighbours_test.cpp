@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bedload/neighbours/for_each_pair.hpp"
+#include "kernels/smoothing/registry.hpp"
 #include "tests/support/tolerance.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -105,6 +106,96 @@ TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
 // ranges from well below to half the smallest period; 0.131 leaves a thin last layer of cells
 INSTANTIATE_TEST_SUITE_P(Boxes, Neighbours,
                          testing::Combine(testing::Values(0, 1, 6, 7), testing::Values(0.03, 0.08, 0.131, 0.154)));
+
+/// A pass that the CPU takes in packs, with every kind of gather; `constant` must come through unchanged.
+template <class W>
+struct MomentPass {
+  W w;
+  Span<const Real> one;
+  Span<const Real3> three;
+  Span<const Real4> four;
+  Span<Real4> out;
+
+  template <class N = Real>
+  struct Sum {
+    N constant, weight;
+    Vec3<N> moment;
+  };
+  BL_HD Sum<> start(Index i) const { return {Real(i), 0, {}}; }
+  template <class N, class J>
+  BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>& r, N r2) const {
+    const N a = one[j];
+    const Vec3<N> b = three[j];
+    const Vec4<N> c = four[j];
+    const N d = root(r2);
+    const N share = select(b.x < c.w, a * w.W(d), 2 * c.x * square(w.h) * w.F(d));
+    sum.weight += share;
+    sum.moment += share * (r + w.h * cross(b, c.xyz()));
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
+    into.weight += other.weight;
+    into.moment += other.moment;
+  }
+  BL_HD void finish(Index i, const Sum<>& sum) const {
+    out[i] = {sum.moment, sum.constant == Real(i) ? sum.weight : Real(-1)};
+  }
+};
+
+template <class W>
+void expect_lists_and_cells_agree(bool periodic) {
+  const double range = 0.08, h = range / W::kappa;
+  const Cloud c = cloud(700, periodic, periodic, false, {0.5, 0.31, 0.42}, 9);  // rows of 0 to 50 entries
+  CellGrid grid(c.frame, c.frame.origin, c.frame.origin + c.frame.length, range);
+  const auto x = sorted(c, grid);
+  const Index n = Index(x.size());
+  Buffer<Vec3d> place;
+  place.assign(x);
+  Buffer<PairPosition> p;
+  p.assign(packed(c.frame, x));
+  std::mt19937 rng(4);
+  std::uniform_real_distribution<double> u(0.5, 1);
+  const auto random = [&] { return Real(u(rng)); };
+  std::vector<Real> one;
+  std::vector<Real3> three;
+  std::vector<Real4> four;
+  for (Index i = 0; i < n; ++i) {
+    one.push_back(random());
+    three.push_back({random(), random(), random()});
+    four.push_back({random(), random(), random(), random()});
+  }
+  Buffer<Real> ones;
+  Buffer<Real3> threes;
+  Buffer<Real4> fours, by_list(n), by_cells(n);
+  ones.assign(one);
+  threes.assign(three);
+  fours.assign(four);
+
+  const SphNear<Vec3d> near{c.frame, place, p, p, 1.2 * range, true};
+  const SphSeparation separation{c.frame, p, p};
+  VerletList list;
+  list.build(n, grid.view(), near);
+  const W w(h);
+  for_each_pair({0, n}, list, separation, range, MomentPass<W>{w, ones, threes, fours, by_list});
+  for_each_pair({0, n}, grid.view(), near, separation, range, MomentPass<W>{w, ones, threes, fours, by_cells});
+  const auto a = by_list.to_host(), b = by_cells.to_host();
+  const double scale = w.W(Real(0.5 * h)), bound = tolerance(1e-13, 2e-6, 2e-6);
+  double most = 0;
+  for (Index i = 0; i < n; ++i) {
+    EXPECT_NEAR(a[i].w, b[i].w, 30 * scale * bound) << i;
+    EXPECT_LT(norm(Vec3d(a[i].xyz() - b[i].xyz())), 30 * scale * range * bound) << i;
+    EXPECT_GE(a[i].w, 0) << "what stays the same along a row was changed";
+    most = std::max(most, double(a[i].w));
+  }
+  EXPECT_GT(most, scale);
+}
+
+TEST(NeighbourPasses, ListsAndCellsGiveTheSameSums) {
+  for (bool periodic : {false, true}) {
+    expect_lists_and_cells_agree<WendlandC2>(periodic);
+    expect_lists_and_cells_agree<CubicSpline>(periodic);
+    expect_lists_and_cells_agree<Lucy>(periodic);
+  }
+}
 
 TEST(SmallNeighbours, ListAndCellsMatchAllPairs) {
   const Cloud c = cloud(60, true, false, true, {0.5, 0.31, 0.42}, 5);

@@ -43,7 +43,7 @@ class RunFolder : public ::testing::Test {
     FakeSimulation s;
     RunOutput out(dir, config, kDevice, "0.1.0", false);
     run_to(s, out, 25);
-    out.finish(s, "completed", 2.0, 100);
+    out.finish(s, "completed", {2.0, 100});
   }
   void expect_same_results(const fs::path& a, const fs::path& b) {
     for (const char* name : {"diagnostics.csv", "probes/gauge.csv", "fluid.xdmf", "grains.xdmf", "walls.xdmf",
@@ -86,12 +86,14 @@ TEST_F(RunFolder, SummaryTellsHowTheRunEnded) {
   RunOutput out(folder.path, config, kDevice, "0.1.0", false);
   run_to(s, out, 12);
   out.warn("Ma = 0.2 is large");
-  out.finish(s, "stopped", 2.0, 100);
+  out.finish(s, "stopped", {2.0, 100, 36, 2});
   const auto summary = nlohmann::json::parse(read_file(folder.path / "summary.json"));
   EXPECT_EQ(summary["status"], "stopped");
   EXPECT_EQ(summary["version"], "0.1.0");
   EXPECT_EQ(summary["counts"]["fluid"], 6);
   EXPECT_EQ(summary["steps"], 12);
+  EXPECT_EQ(summary["substeps"], 36);
+  EXPECT_EQ(summary["rebuilds"], 2);
   EXPECT_EQ(summary["time"]["value"], s.time());
   EXPECT_EQ(summary["particle_steps_rate"]["value"], 50.0);
   EXPECT_EQ(summary["memory"]["solver"]["value"], 12345);
@@ -119,7 +121,7 @@ TEST_F(RunFolder, FailedRunKeepsNoCheckpointOfItsState) {
   const auto good = out.checkpoint(s);
   EXPECT_TRUE(fs::exists(good));
   out.write(s, s.step());
-  out.finish(s, "failed", 1, 1);
+  out.finish(s, "failed", {1, 1});
   EXPECT_EQ(out.last_checkpoint(), good);
   EXPECT_EQ(FrameFile(folder.path / "fluid.vtkhdf").times().back(), s.time());
 }
@@ -134,7 +136,7 @@ TEST_F(RunFolder, StoppedAndRestartedEqualsUnbroken) {
       FakeSimulation s;
       RunOutput out(dir, config, kDevice, "0.1.0", false);
       run_to(s, out, stop);
-      out.finish(s, "stopped", 1, 1);
+      out.finish(s, "stopped", {1, 1});
       checkpoint = out.last_checkpoint();
     }
     FakeSimulation s;
@@ -143,7 +145,7 @@ TEST_F(RunFolder, StoppedAndRestartedEqualsUnbroken) {
     RunOutput out(dir, config, kDevice, "0.1.0", true);
     EXPECT_EQ(out.last_checkpoint(), checkpoint);
     run_to(s, out, 25);
-    out.finish(s, "completed", 1, 1);
+    out.finish(s, "completed", {1, 1});
     expect_same_results(folder.path / "a", dir);
   }
 }
@@ -165,7 +167,7 @@ TEST_F(RunFolder, RestartDropsWhatLiesAfterItsTime) {
   EXPECT_EQ(FrameFile(folder.path / "b/fluid.vtkhdf").times().size(), 4u);
   EXPECT_EQ(CsvTable(folder.path / "b/diagnostics.csv").times().size(), 7u);
   run_to(s, out, 25);
-  out.finish(s, "completed", 1, 1);
+  out.finish(s, "completed", {1, 1});
   expect_same_results(folder.path / "a", folder.path / "b");
   EXPECT_EQ(read_file(folder.path / "a/checkpoints/step_000000020.h5"),
             read_file(folder.path / "b/checkpoints/step_000000020.h5"));
@@ -196,7 +198,7 @@ TEST_F(RunFolder, FullDiskSurfaces) {
   out.write(s, s.info());
   const std::string message = error_of([&] { out.checkpoint(s); });
   EXPECT_NE(message.find("gauge.csv: cannot write: No space left on device"), std::string::npos) << message;
-  EXPECT_EQ(error_of([&] { out.finish(s, "completed", 1, 1); }), message);
+  EXPECT_EQ(error_of([&] { out.finish(s, "completed", {1, 1}); }), message);
 }
 
 TEST_F(RunFolder, WriterErrorSurfacesInALaterStep) {
@@ -205,7 +207,7 @@ TEST_F(RunFolder, WriterErrorSurfacesInALaterStep) {
   fs::create_directory(folder.path / "grains.vtkhdf");
   const std::string message = error_of([&] {
     run_to(s, out, 25);
-    out.finish(s, "completed", 1, 1);
+    out.finish(s, "completed", {1, 1});
   });
   EXPECT_NE(message.find("grains.vtkhdf: cannot write: "), std::string::npos) << message;
 }

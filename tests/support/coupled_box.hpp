@@ -109,6 +109,8 @@ struct CoupledBox {
     fluid.reorder(order);
     grain_grid.sort(frame, Span<const Vec3d>(grains.x), order);
     grains.reorder(order);
+    fluid.x_list.buffer().assign(fluid.x.values());
+    grains.x_list.buffer().assign(grains.x.values());
     coupling.rebuild_lists(fluid, fluid_grid.view(), grains, grain_grid.view(), kSkin * coupling.range());
   }
 

@@ -5,7 +5,9 @@
 // are the state in `single` and a derived copy for pair loops in `mixed`;
 // `double` uses plain coordinates throughout. Periodic images: nearest image.
 
-#include "bedload/core/types.hpp"
+#include <bit>
+
+#include "bedload/core/pack.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -13,6 +15,29 @@ struct alignas(16) PackedPosition {
   float x = 0, y = 0, z = 0;
   std::uint32_t cell = 0;  ///< 10 bits an axis
 };
+
+/// Positions as pair loops read them.
+template <class R>
+struct PairPositionOf {
+  using type = PackedPosition;
+};
+template <>
+struct PairPositionOf<double> {
+  using type = Vec3d;
+};
+using PairPosition = PairPositionOf<Real>::type;
+
+#if !BL_CUDA
+struct PackedPositions {
+  Pack x, y, z;
+  PackInt cell;
+};
+template <class J>
+[[gnu::always_inline]] inline PackedPositions gather(const PackedPosition* p, J j) {
+  const auto rows = gather(reinterpret_cast<const Real4*>(p), j);  // cells travel as a fourth float
+  return PackedPositions{rows.x, rows.y, rows.z, PackInt(std::bit_cast<PackInt::Native>(rows.w.v))};
+}
+#endif
 
 struct Frame {
   Vec3d origin, length;  ///< m; length is the period on periodic axes
@@ -42,22 +67,28 @@ struct Frame {
 
   /// a - b, nearest image.
   BL_HD Vec3f separation(const PackedPosition& a, const PackedPosition& b) const {
-    int ix = int(a.cell & 1023) - int(b.cell & 1023);
-    int iy = int(a.cell >> 10 & 1023) - int(b.cell >> 10 & 1023);
-    int iz = int(a.cell >> 20 & 1023) - int(b.cell >> 20 & 1023);
-    if (periodic[0]) ix = ((ix + 512) & 1023) - 512;
-    if (periodic[1]) iy = ((iy + 512) & 1023) - 512;
-    if (periodic[2]) iz = ((iz + 512) & 1023) - 512;
-    return {(a.x - b.x) + ix * float(cell.x), (a.y - b.y) + iy * float(cell.y), (a.z - b.z) + iz * float(cell.z)};
+    return separation<float>(a, b, int(b.cell));
   }
   BL_HD Vec3d separation(const Vec3d& a, const Vec3d& b) const { return nearest_image(a - b); }
 
-  BL_HD Vec3d nearest_image(Vec3d d) const {
+  template <class N>
+  BL_HD Vec3<N> nearest_image(Vec3<N> d) const {
+    using std::rint;
     if (periodic[0]) d.x -= length.x * rint(d.x / length.x);
     if (periodic[1]) d.y -= length.y * rint(d.y / length.y);
     if (periodic[2]) d.z -= length.z * rint(d.z / length.z);
     return d;
   }
+#if !BL_CUDA
+  template <class B>  // PackedPositions or Vec3<Pack>
+  Vec3<Pack> separation(const PairPosition& a, const B& b) const {
+    if constexpr (std::is_same_v<B, PackedPositions>)
+      return separation<Pack>(a, b, b.cell);
+    else
+      return nearest_image(Vec3<Pack>(a) - b);
+  }
+#endif
+
   /// The image of x inside the domain on periodic axes.
   BL_HD Vec3d wrap(Vec3d x) const {
     if (periodic[0]) x.x -= length.x * floor((x.x - origin.x) / length.x);
@@ -65,23 +96,27 @@ struct Frame {
     if (periodic[2]) x.z -= length.z * floor((x.z - origin.z) / length.z);
     return x;
   }
+
+ private:
+  template <class N, class B, class I>
+  BL_HD Vec3<N> separation(const PackedPosition& a, const B& b, I b_cell) const {
+    I ix = int(a.cell & 1023) - (b_cell & 1023);
+    I iy = int(a.cell >> 10 & 1023) - (b_cell >> 10 & 1023);
+    I iz = int(a.cell >> 20 & 1023) - (b_cell >> 20 & 1023);
+    if (periodic[0]) ix = ((ix + 512) & 1023) - 512;
+    if (periodic[1]) iy = ((iy + 512) & 1023) - 512;
+    if (periodic[2]) iz = ((iz + 512) & 1023) - 512;
+    return {(N(a.x) - b.x) + as_real(ix) * float(cell.x), (N(a.y) - b.y) + as_real(iy) * float(cell.y),
+            (N(a.z) - b.z) + as_real(iz) * float(cell.z)};
+  }
 };
 
-/// Fluid positions as they are kept, and as pair loops read them.
+/// Fluid positions as they are kept.
 #if BL_PACKED_POSITIONS
 using FluidPosition = PackedPosition;
 #else
 using FluidPosition = Vec3d;
 #endif
-template <class R>
-struct PairPositionOf {
-  using type = PackedPosition;
-};
-template <>
-struct PairPositionOf<double> {
-  using type = Vec3d;
-};
-using PairPosition = PairPositionOf<Real>::type;
 
 BL_HD Vec3d coordinates(const Frame& f, const PackedPosition& p) { return f.unpack(p); }
 BL_HD Vec3d coordinates(const Frame&, const Vec3d& x) { return x; }

@@ -3,7 +3,7 @@
 
 #include <type_traits>
 
-#include "bedload/core/types.hpp"
+#include "bedload/core/pack.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -19,6 +19,14 @@ struct Span {
   BL_HD Span(const Span<U>& o) : data(o.data), size(o.size) {}
 
   BL_HD T& operator[](Index i) const { return data[i]; }
+#if !BL_CUDA
+  auto operator[](PackIndex j) const {
+    return gather(static_cast<const std::remove_const_t<T>*>(data), j);
+  }
+  auto operator[](PackRun j) const {
+    return gather(static_cast<const std::remove_const_t<T>*>(data), j);
+  }
+#endif
   BL_HD explicit operator bool() const { return data != nullptr; }
 };
 

@@ -21,8 +21,14 @@ using Id = std::uint32_t;     ///< permanent name of a particle
 constexpr Index kNone = 0xffffffffu;
 constexpr Real kPi = Real(3.14159265358979323846);
 
-BL_HD Real square(Real x) { return x * x; }
-BL_HD Real cube(Real x) { return x * x * x; }
+template <class N>
+BL_HD N square(N x) {
+  return x * x;
+}
+template <class N>
+BL_HD N cube(N x) {
+  return x * x * x;
+}
 template <class T>
 BL_HD T min_of(T a, T b) {
   return a < b ? a : b;

@@ -65,7 +65,8 @@ BL_HD constexpr T norm2(const Vec3<T>& a) {
 }
 template <class T>
 BL_HD T norm(const Vec3<T>& a) {
-  return std::sqrt(norm2(a));
+  using std::sqrt;
+  return sqrt(norm2(a));
 }
 
 /// Four values that travel as one aligned load: 16 bytes in fp32.

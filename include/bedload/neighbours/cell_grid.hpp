@@ -33,40 +33,89 @@ struct CellGridView {
     return key(coordinate(x.x, 0), coordinate(x.y, 1), coordinate(x.z, 2));
   }
 
-  /// The cells that a sphere touches. Cells on a periodic axis are visited once, also where the sphere
+  /// The cells around a sphere. Cells on a periodic axis are visited once, also where the sphere
   /// is as wide as the period.
   struct Block {
     int lo[3], n[3];
+    double at[3];             ///< the sphere's centre from the first cell's corner, in cells
+    double width[3];          ///< of a cell, m; 0 on an axis that is covered whole
+    double range2;            ///< m2
+    bool below[3], above[3];  ///< whether the first or last cell also holds what lies outside the grid
+
     BL_HD int size() const { return n[0] * n[1] * n[2]; }
+    /// Squared distance along axis k from the sphere's centre to cell i of the block, m2.
+    BL_HD double gap2(int k, int i) const {
+      constexpr double slack = 1e-9;  // of a cell: rounding never hides a particle
+      double gap = slack;
+      if (i > 0 || !below[k]) gap = max_of(gap, i - at[k]);
+      if (i < n[k] - 1 || !above[k]) gap = max_of(gap, at[k] - (i + 1));
+      return square((gap - slack) * width[k]);
+    }
+    /// Place in the block of its cell q.
+    BL_HD void cell(int q, int (&i)[3]) const {
+      const int row = q / n[0];
+      i[0] = q - row * n[0], i[1] = row % n[1], i[2] = row / n[1];
+    }
+    BL_HD bool touches(int q) const {
+      int i[3];
+      cell(q, i);
+      return gap2(0, i[0]) + gap2(1, i[1]) + gap2(2, i[2]) < range2;
+    }
   };
   BL_HD Block block(const Vec3d& x, double range) const {
     Block b;
+    b.range2 = range * range;
     for (int k = 0; k < 3; ++k) {
       int lo = int(floor((x[k] - range - origin[k]) * inverse[k]));
       int hi = int(floor((x[k] + range - origin[k]) * inverse[k]));
-      if (periodic[k]) {
-        if (hi - lo >= n[k]) lo = 0, hi = n[k] - 1;
-      } else {
+      const bool whole = periodic[k] && hi - lo >= n[k];
+      if (whole) {
+        lo = 0, hi = n[k] - 1;
+      } else if (!periodic[k]) {
         lo = clamp(lo, 0, n[k] - 1);
         hi = clamp(hi, 0, n[k] - 1);
       }
       b.lo[k] = lo, b.n[k] = hi - lo + 1;
+      b.at[k] = (x[k] - origin[k]) * inverse[k] - lo;
+      b.width[k] = whole ? 0 : 1 / inverse[k];
+      b.below[k] = !periodic[k] && lo == 0;
+      b.above[k] = !periodic[k] && hi == n[k] - 1;
     }
     return b;
   }
   /// Key of cell q of a block.
   BL_HD std::uint32_t key(const Block& b, int q) const {
-    const int row = q / b.n[0];
-    return key(wrapped(b.lo[0] + q - row * b.n[0], 0), wrapped(b.lo[1] + row % b.n[1], 1),
-               wrapped(b.lo[2] + row / b.n[1], 2));
+    int i[3];
+    b.cell(q, i);
+    return key(wrapped(b.lo[0] + i[0], 0), wrapped(b.lo[1] + i[1], 1), wrapped(b.lo[2] + i[2], 2));
   }
   /// Calls f(j) for each particle in every stride-th of the cells that a sphere of radius `range` about x touches.
   template <class F>
   BL_HD void each_near(const Vec3d& x, double range, F&& f, int first = 0, int stride = 1) const {
     const Block b = block(x, range);
     for (int q = first; q < b.size(); q += stride) {
+      if (!b.touches(q)) continue;
       const std::uint32_t c = key(b, q);
       for (Index j = start[c]; j < start[c + 1]; ++j) f(j);
+    }
+  }
+  /// f(begin, end) for the particles of each cell that the sphere touches.
+  template <class F>
+  void each_run(const Vec3d& x, double range, F&& f) const {
+    const Block b = block(x, range);
+    for (int k = 0; k < b.n[2]; ++k) {
+      const double gap_z = b.gap2(2, k);
+      const int iz = wrapped(b.lo[2] + k, 2);
+      for (int j = 0; j < b.n[1]; ++j) {
+        const double gap_yz = gap_z + b.gap2(1, j);
+        if (gap_yz >= b.range2) continue;
+        const int iy = wrapped(b.lo[1] + j, 1);
+        for (int i = 0; i < b.n[0]; ++i) {
+          if (gap_yz + b.gap2(0, i) >= b.range2) continue;
+          const std::uint32_t c = key(wrapped(b.lo[0] + i, 0), iy, iz);
+          if (start[c] < start[c + 1]) f(start[c], start[c + 1]);
+        }
+      }
     }
   }
 

@@ -3,8 +3,12 @@
 //   Sum start(i); void pair(Sum&, i, j, r_ij, r2); void finish(i, Sum);
 // and knows nothing of where its neighbours come from. Where it can also
 //   void merge(Sum& into, const Sum& other);
-// two partial sums of one row, several GPU lanes share a row of a small system.
+// two partial sums of one row, several GPU lanes share a row of a small system. Where its Sum is a template
+//   template <class N = Real> struct Sum;
+// of nothing but N, and `pair` adds nothing at and beyond the cut-off, the CPU takes pairs in packs.
 
+#include <cstring>
+#include <iterator>
 #include <utility>
 
 #include "bedload/neighbours/verlet_list.hpp"
@@ -16,7 +20,10 @@ namespace bedload::inline BL_VARIANT {
 struct SphSeparation {
   Frame frame;
   Span<const PairPosition> a, b;
-  BL_HD Real3 operator()(Index i, Index j) const { return frame.separation(a[i], b[j]); }
+  template <class J>
+  BL_HD auto operator()(Index i, J j) const {
+    return frame.separation(a[i], b[j]);
+  }
 };
 
 /// r_i - r_j across the phases or between grains: formed in fp64, handed over as Real.
@@ -28,6 +35,17 @@ struct CrossSeparation {
   BL_HD Real3 operator()(Index i, Index j) const {
     return Real3(frame.separation(coordinates(frame, a[i]), coordinates(frame, b[j])));
   }
+#if !BL_CUDA
+  Vec3<Pack> operator()(Index i, PackIndex j) const {
+    const Vec3d here = coordinates(frame, a[i]);
+    Vec3<Pack> out;
+    for (int l = 0; l < kLanes; ++l) {
+      const Real3 r(frame.separation(here, coordinates(frame, b[j[l]])));
+      out.x.v[l] = r.x, out.y.v[l] = r.y, out.z.v[l] = r.z;
+    }
+    return out;
+  }
+#endif
 };
 
 template <class Pass, class Sum>
@@ -39,44 +57,130 @@ unsigned pass_lane_bits(const Pass&, Range range) {
   return Mergeable<Pass, Sum> ? lane_bits(range.size()) : 0;
 }
 
-/// One lane's share of the pairs of row i that are closer than the cut-off now.
-template <class Separation>
+#if BL_CUDA
+template <class Pass>
+constexpr bool kInPacks = false;
+#else
+template <class Pass>
+constexpr bool kInPacks = requires { typename Pass::template Sum<Pack>; };
+
+/// Partial sums of one row, one for each lane of a pack.
+template <class Pass>
+struct LaneSums {
+  using One = typename Pass::template Sum<Real>;
+  using All = typename Pass::template Sum<Pack>;
+  static_assert(sizeof(All) == kLanes * sizeof(One), "the sums of a pass in packs hold nothing but N");
+
+  static All spread(const One& sum) {
+    Real field[sizeof(One) / sizeof(Real)];
+    Pack fields[sizeof(One) / sizeof(Real)];
+    std::memcpy(field, &sum, sizeof(One));
+    for (std::size_t k = 0; k < std::size(field); ++k) fields[k] = Pack(field[k]);
+    All all;
+    std::memcpy(&all, fields, sizeof(All));
+    return all;
+  }
+  static One total(const Pass& pass, const All& all) {
+    Real fields[sizeof(One) / sizeof(Real)][kLanes];
+    std::memcpy(fields, &all, sizeof(All));
+    One sum[kLanes];
+    for (int l = 0; l < kLanes; ++l) {
+      Real field[std::size(fields)];
+      for (std::size_t k = 0; k < std::size(fields); ++k) field[k] = fields[k][l];
+      std::memcpy(&sum[l], field, sizeof(One));
+    }
+    for (int l = 1; l < kLanes; ++l) pass.merge(sum[0], sum[l]);
+    return sum[0];
+  }
+};
+#endif
+
+template <class Pass>
+BL_HD auto start_row(const Pass& pass, Index i) {
+#if !BL_CUDA
+  if constexpr (kInPacks<Pass>)
+    return LaneSums<Pass>::spread(pass.start(i));
+  else
+#endif
+    return pass.start(i);
+}
+
+/// One lane's share of the pairs of row i that are closer than the cut-off now; in packs, all listed pairs.
+template <class Separation, bool InPacks>
 struct ListRow {
   VerletListView list;
   Separation separation;
   Real range2;
   template <class F>
   BL_HD void operator()(Index i, const Lane& lane, F&& f) const {
-    const std::uint32_t n = list.count[i];
-    std::uint64_t slot = list.slot(i, lane.index);
-    for (std::uint32_t k = lane.index; k < n; k += lane.count, slot += lane.count * kSlice) {
-      const Index j = list.entry[slot];
-      const Real3 r = separation(i, j);
-      const Real r2 = norm2(r);
-      if (r2 < range2) f(j, r, r2);
+    if constexpr (InPacks) {
+      in_packs(i, f);
+    } else {
+      const std::uint32_t n = list.count[i];
+      std::uint64_t slot = list.slot(i, lane.index);
+      for (std::uint32_t k = lane.index; k < n; k += lane.count, slot += lane.count * kSlice) {
+        const Index j = list.entry[slot];
+        const Real3 r = separation(i, j);
+        const Real r2 = norm2(r);
+        if (r2 < range2) f(j, r, r2);
+      }
     }
   }
+
+ private:
+#if !BL_CUDA
+  template <class F>
+  void in_packs(Index i, F& f) const {
+    const Index* entry = list.entry + list.first(i);
+    int left = int(list.count[i]);
+    for (; left >= kLanes; left -= kLanes, entry += kLanes) {
+      const PackIndex j{entry};
+      const auto r = separation(i, j);
+      f(j, r, norm2(r));
+    }
+    if (left == 0) return;
+    // lanes without an entry repeat the last one, out of reach
+    Index rest[kLanes];
+    Pack away{};
+    for (int l = 0; l < kLanes; ++l) {
+      rest[l] = entry[l < left ? l : left - 1];
+      if (l >= left) away.v[l] = 100 * std::sqrt(range2);
+    }
+    const PackIndex j{rest};
+    auto r = separation(i, j);
+    r.x += away;
+    f(j, r, norm2(r));
+  }
+#endif
 };
 
 /// Ends a row: a pass without `merge` has one lane.
 template <class Pass, class Sum>
 BL_HD void finish_row(const Pass& pass, Index i, const Lane& lane, Sum& sum) {
-  if constexpr (Mergeable<Pass, Sum>)
-    lane.combine(sum, [&](Sum& into, const Sum& other) { pass.merge(into, other); });
-  if (lane.index == 0) pass.finish(i, sum);
+#if !BL_CUDA
+  if constexpr (kInPacks<Pass>) {
+    pass.finish(i, LaneSums<Pass>::total(pass, sum));
+    return;
+  } else
+#endif
+  {
+    if constexpr (Mergeable<Pass, Sum>)
+      lane.combine(sum, [&](Sum& into, const Sum& other) { pass.merge(into, other); });
+    if (lane.index == 0) pass.finish(i, sum);
+  }
 }
 
 template <class Separation, class Pass>
 struct ListLoop {
-  ListRow<Separation> row;
+  ListRow<Separation, kInPacks<Pass>> row;
   Pass pass;
   Index begin;
   unsigned bits;
   BL_HD void operator()(Index thread) const {
     const Lane lane(thread, bits);
     const Index i = begin + lane.row;
-    auto sum = pass.start(i);
-    row(i, lane, [&](Index j, const Real3& r, Real r2) { pass.pair(sum, i, j, r, r2); });
+    auto sum = start_row(pass, i);
+    row(i, lane, [&](auto j, const auto& r, auto r2) { pass.pair(sum, i, j, r, r2); });
     finish_row(pass, i, lane, sum);
   }
 };
@@ -93,16 +197,16 @@ void for_each_pair(Range range, const VerletList& list, const Separation& separa
 /// A pass over two lists in one go: `pair` for the first, `wall_pair` for the second.
 template <class Separation, class Pass>
 struct TwoListLoop {
-  ListRow<Separation> row, wall_row;
+  ListRow<Separation, kInPacks<Pass>> row, wall_row;
   Pass pass;
   Index begin;
   unsigned bits;
   BL_HD void operator()(Index thread) const {
     const Lane lane(thread, bits);
     const Index i = begin + lane.row;
-    auto sum = pass.start(i);
-    row(i, lane, [&](Index j, const Real3& r, Real r2) { pass.pair(sum, i, j, r, r2); });
-    wall_row(i, lane, [&](Index j, const Real3& r, Real r2) { pass.wall_pair(sum, i, j, r, r2); });
+    auto sum = start_row(pass, i);
+    row(i, lane, [&](auto j, const auto& r, auto r2) { pass.pair(sum, i, j, r, r2); });
+    wall_row(i, lane, [&](auto j, const auto& r, auto r2) { pass.wall_pair(sum, i, j, r, r2); });
     finish_row(pass, i, lane, sum);
   }
 };

@@ -104,8 +104,10 @@ struct FillPass {
     Index j = 0, end = 0;
     for (;;) {
       while (j == end && q < block.size()) {
-        const std::uint32_t c = sources.key(block, q);
-        j = sources.start[c], end = sources.start[c + 1];
+        if (block.touches(q)) {
+          const std::uint32_t c = sources.key(block, q);
+          j = sources.start[c], end = sources.start[c + 1];
+        }
         q += int(lane.count);
       }
       const bool some = j < end;
@@ -117,6 +119,47 @@ struct FillPass {
       j += some;
     }
   }
+};
+
+}  // namespace detail
+#endif
+
+#if !BL_CUDA
+namespace detail {
+
+/// Appends rows to a list: those of a run of particles that are near i.
+template <class Near>
+class NearSearch {
+ public:
+  NearSearch(const Near& near, std::vector<Index>& found) : near_(near), found_(found) {}
+
+  std::uint32_t row(Index i, const CellGridView& sources) {
+    const std::size_t before = n_;
+    sources.each_run(near_.place(i), near_.reach(i), [&](Index j, Index end) {
+      if (found_.size() < n_ + (end - j)) found_.resize(2 * (n_ + (end - j)));
+      Index* out = found_.data() + n_;
+      if constexpr (requires { near_.lanes(i, PackRun{j}); })
+        for (; j + kLanes <= end; j += kLanes) {
+          const PackMask kept = near_.lanes(i, PackRun{j});
+          for (int l = 0; l < kLanes; ++l) {
+            *out = j + Index(l);
+            out += kept.v[l] & 1;
+          }
+        }
+      for (; j < end; ++j) {
+        *out = j;
+        out += near_(i, j);
+      }
+      n_ = std::size_t(out - found_.data());
+    });
+    return std::uint32_t(n_ - before);
+  }
+  ~NearSearch() { found_.resize(n_); }
+
+ private:
+  const Near& near_;
+  std::vector<Index>& found_;
+  std::size_t n_ = 0;
 };
 
 }  // namespace detail
@@ -143,12 +186,9 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
   std::vector<std::vector<Index>> found(blocks);
 #pragma omp parallel for schedule(dynamic, 1)
   for (Index b = 0; b < blocks; ++b)
-    for (Index i = b * block; i < end(b); ++i) {
-      const std::size_t before = found[b].size();
-      sources.each_near(near.place(i), near.reach(i), [&](Index j) {
-        if (near(i, j)) found[b].push_back(j);
-      });
-      count_.data()[i] = std::uint32_t(found[b].size() - before);
+    {
+      detail::NearSearch<Near> search{near, found[b]};
+      for (Index i = b * block; i < end(b); ++i) count_.data()[i] = search.row(i, sources);
     }
   offset_.resize(rows + 1);
   slots_ = 0;
@@ -178,6 +218,13 @@ struct SphNear {
   BL_HD bool operator()(Index i, Index j) const {
     return !(same && i == j) && norm2(frame.separation(a[i], b[j])) < Real(range * range);
   }
+#if !BL_CUDA
+  PackMask lanes(Index i, PackRun j) const {
+    PackMask near = norm2(frame.separation(a[i], b[j])) < Real(range * range);
+    if (same && i - j.first < Index(kLanes)) near.v[i - j.first] = 0;
+    return near;
+  }
+#endif
 };
 
 /// Pairs across the phases closer than `range`, in fp64.

@@ -18,6 +18,12 @@
 
 namespace bedload {
 
+/// What a run has done so far, beside its steps.
+struct Effort {
+  double wall_seconds = 0;
+  std::int64_t particle_steps = 0, substeps = 0, rebuilds = 0;
+};
+
 /// The results folder of one run. Everything is copied to the host when asked
 /// for and written by one thread of its own; an error in there (FileError)
 /// surfaces in the next call.
@@ -44,9 +50,8 @@ class RunOutput {
 
   /// Ends the output: last frame and rows, checkpoint, summary.json. `status` is
   /// "completed", "stopped" or "failed"; the state of a failed run is shown in a
-  /// frame but not kept as a checkpoint. `wall_seconds` and `particle_steps` give the rates.
-  void finish(Simulation& simulation, const std::string& status, double wall_seconds,
-              std::int64_t particle_steps);
+  /// frame but not kept as a checkpoint.
+  void finish(Simulation& simulation, const std::string& status, const Effort& effort);
 
   /// The newest checkpoint on disk, empty if there is none.
   std::filesystem::path last_checkpoint() const;

@@ -1,0 +1,140 @@
+#pragma once
+// Several neighbours of a particle at a time on the CPU. What a pass does with a pair is written for a
+// number type N: Real, or Pack, which holds kLanes of them.
+
+#include <cstring>
+
+#include "bedload/core/types.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// yes ? a : b, lane by lane for packs; both are evaluated.
+template <class N>
+BL_HD N select(bool yes, N a, N b) {
+  return yes ? a : b;
+}
+template <class N>
+BL_HD N root(N x) {
+  using std::sqrt;
+  return sqrt(x);
+}
+BL_HD float as_real(int i) { return float(i); }
+
+#if !BL_CUDA
+#if defined(__AVX__)
+constexpr int kLanes = 32 / sizeof(Real);
+#else
+constexpr int kLanes = 16 / sizeof(Real);
+#endif
+
+struct PackMask {
+  using Native [[gnu::vector_size(kLanes * sizeof(Real))]] = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
+  Native v;
+};
+
+struct Pack {
+  using Native [[gnu::vector_size(kLanes * sizeof(Real))]] = Real;
+  Native v{};
+
+  Pack() = default;
+  Pack(Real x) : v(x - Native{}) {}
+  explicit Pack(Native x) : v(x) {}
+
+  friend Pack operator+(Pack a, Pack b) { return Pack(a.v + b.v); }
+  friend Pack operator-(Pack a, Pack b) { return Pack(a.v - b.v); }
+  friend Pack operator*(Pack a, Pack b) { return Pack(a.v * b.v); }
+  friend Pack operator/(Pack a, Pack b) { return Pack(a.v / b.v); }
+  friend Pack operator-(Pack a) { return Pack(-a.v); }
+  Pack& operator+=(Pack b) { return *this = *this + b; }
+  Pack& operator-=(Pack b) { return *this = *this - b; }
+  Pack& operator*=(Pack b) { return *this = *this * b; }
+  friend PackMask operator<(Pack a, Pack b) { return {a.v < b.v}; }
+  friend PackMask operator>(Pack a, Pack b) { return {a.v > b.v}; }
+  friend Pack select(PackMask yes, Pack a, Pack b) { return Pack(yes.v ? a.v : b.v); }
+  friend Pack max_of(Pack a, Pack b) { return Pack(a.v > b.v ? a.v : b.v); }
+  friend Pack sqrt(Pack a) {
+    for (int l = 0; l < kLanes; ++l) a.v[l] = std::sqrt(a.v[l]);
+    return a;
+  }
+  friend Pack rint(Pack a) {
+    for (int l = 0; l < kLanes; ++l) a.v[l] = std::rint(a.v[l]);
+    return a;
+  }
+};
+
+/// Frame cells of packed positions.
+struct PackInt {
+  using Native [[gnu::vector_size(kLanes * sizeof(std::int32_t))]] = std::int32_t;
+  Native v{};
+
+  PackInt() = default;
+  PackInt(int x) : v(x - Native{}) {}
+  explicit PackInt(Native x) : v(x) {}
+  friend PackInt operator+(PackInt a, PackInt b) { return PackInt(a.v + b.v); }
+  friend PackInt operator-(PackInt a, PackInt b) { return PackInt(a.v - b.v); }
+  friend PackInt operator&(PackInt a, PackInt b) { return PackInt(a.v & b.v); }
+  friend PackInt operator>>(PackInt a, int n) { return PackInt(a.v >> n); }
+  friend Pack as_real(PackInt a) { return Pack(__builtin_convertvector(a.v, Pack::Native)); }
+};
+
+/// kLanes entries of a list; as an index of a Span it gathers.
+struct PackIndex {
+  const Index* at;
+  Index operator[](int l) const { return at[l]; }
+};
+
+/// kLanes entries in a row.
+struct PackRun {
+  Index first;
+  Index operator[](int l) const { return first + Index(l); }
+};
+
+template <class J>
+[[gnu::always_inline]] inline Pack gather(const Real* p, J j) {
+  Pack out;
+  for (int l = 0; l < kLanes; ++l) out.v[l] = p[j[l]];
+  return out;
+}
+template <class J>
+[[gnu::always_inline]] inline Vec3<Pack> gather(const Real3* p, J j) {
+  Vec3<Pack> out;
+  for (int l = 0; l < kLanes; ++l) {
+    const Real3& a = p[j[l]];
+    out.x.v[l] = a.x, out.y.v[l] = a.y, out.z.v[l] = a.z;
+  }
+  return out;
+}
+template <class J>
+[[gnu::always_inline]] inline Vec4<Pack> gather(const Real4* p, J j) {
+  Vec4<Pack> out;
+  if constexpr (sizeof(Real) == 4 && kLanes == 8) {
+    // rows of four, two to a register, transposed
+    using Row [[gnu::vector_size(16)]] = float;
+    using Rows = Pack::Native;
+    const auto row = [&](int l) {
+      Row out;
+      std::memcpy(&out, p + j[l], sizeof(Row));
+      return out;
+    };
+    const auto rows = [&](int l) -> Rows { return __builtin_shufflevector(row(l), row(l + 4), 0, 1, 2, 3, 4, 5, 6, 7); };
+    const auto a = rows(0), b = rows(1), c = rows(2), d = rows(3);
+    const auto ab_low = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+    const auto ab_high = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+    const auto cd_low = __builtin_shufflevector(c, d, 0, 8, 1, 9, 4, 12, 5, 13);
+    const auto cd_high = __builtin_shufflevector(c, d, 2, 10, 3, 11, 6, 14, 7, 15);
+    out.x.v = __builtin_shufflevector(ab_low, cd_low, 0, 1, 8, 9, 4, 5, 12, 13);
+    out.y.v = __builtin_shufflevector(ab_low, cd_low, 2, 3, 10, 11, 6, 7, 14, 15);
+    out.z.v = __builtin_shufflevector(ab_high, cd_high, 0, 1, 8, 9, 4, 5, 12, 13);
+    out.w.v = __builtin_shufflevector(ab_high, cd_high, 2, 3, 10, 11, 6, 7, 14, 15);
+  } else {
+    for (int l = 0; l < kLanes; ++l) {
+      Real4 a;
+      std::memcpy(static_cast<void*>(&a), p + j[l], sizeof(Real4));
+      out.x.v[l] = a.x, out.y.v[l] = a.y, out.z.v[l] = a.z, out.w.v[l] = a.w;
+    }
+  }
+  return out;
+}
+#endif
+
+}  // namespace bedload::inline BL_VARIANT
