@@ -76,18 +76,22 @@ struct ForcePass {
   }
 };
 
-/// Force of the fluid on each wall particle [N]: minus what ForcePass gives the fluid.
+/// Force of the fluid on each wall particle [N]: minus what ForcePass gave the fluid, whose velocities
+/// have been corrected by `kick` since.
 template <class W>
 struct WallForcePass {
   WallPair<W> wall;
+  Real kick;  ///< s
+  Span<const Real3> acc, acc_before;
   Span<const Real4> v_rho, m_state, wall_v_rho, wall_m_state, wall_v_visc;
   Span<Vec3d> force;
 
   BL_HD Vec3d start(Index) const { return {}; }
   BL_HD void pair(Vec3d& sum, Index b, Index a, const Real3& r_ba, Real r2) const {
+    Real4 va = v_rho[a];
     const Real4 ma = m_state[a];
-    const Real3 acc = wall(v_rho[a], ma, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], -r_ba, r2);
-    sum -= Vec3d(acc * ma.x);
+    if (kick != 0) va = {va.xyz() - kick * (acc[a] - acc_before[a]), va.w};
+    sum -= Vec3d(wall(va, ma, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], -r_ba, r2) * ma.x);
   }
   BL_HD void merge(Vec3d& into, const Vec3d& other) const { into += other; }
   BL_HD void finish(Index b, const Vec3d& sum) const { force[b] = sum; }

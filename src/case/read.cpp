@@ -17,12 +17,25 @@ Config defaults(const Value& root) {
   return preset_defaults(name ? *name : "default");
 }
 
+std::string text_of(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path)) throw FileError(path.string() + ": is a folder, not a case file");
+  std::ifstream file(path);
+  std::stringstream text;
+  if (!file || !(text << file.rdbuf())) throw FileError(path.string() + ": cannot read this case file");
+  return text.str();
+}
+
+Value tree_of(const std::string& text, const std::string& name, const std::vector<std::string>& overrides) {
+  Value root = parse_toml(text, name);
+  for (const std::string& assignment : overrides) apply_override(root, assignment);
+  return root;
+}
+
 }  // namespace
 
 Config read_case_text(const std::string& text, const std::string& name,
                       const std::vector<std::string>& overrides, std::vector<std::string>& warnings) {
-  Value root = parse_toml(text, name);
-  for (const std::string& assignment : overrides) apply_override(root, assignment);
+  const Value root = tree_of(text, name, overrides);
   reject_unknown(root);
 
   Config config = defaults(root);
@@ -39,11 +52,12 @@ Config read_case_text(const std::string& text, const std::string& name,
 
 Config read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                  std::vector<std::string>& warnings) {
-  if (std::filesystem::is_directory(path)) throw FileError(path.string() + ": is a folder, not a case file");
-  std::ifstream file(path);
-  std::stringstream text;
-  if (!file || !(text << file.rdbuf())) throw FileError(path.string() + ": cannot read this case file");
-  return read_case_text(text.str(), path.string(), overrides, warnings);
+  return read_case_text(text_of(path), path.string(), overrides, warnings);
+}
+
+std::string place_in_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                          std::string_view key) {
+  return nearest_value(tree_of(text_of(path), path.string(), overrides), key).place();
 }
 
 }  // namespace bedload

@@ -59,7 +59,7 @@ int check_case(const Options& options) {
     simulation->start();
     const std::vector<StepLimit> steps = simulation->limits(), substeps = grain_limits(c);
     fmt::print("{}{}", limits_text("step", steps), limits_text("substep", substeps));
-    check_fixed_step(c, *simulation, p.warnings);
+    check_fixed_step(p, options, *simulation);
 
     const double dt = c.time.dt > 0 ? c.time.dt : least(steps);
     const double dt_dem = c.time.dt_dem > 0 ? c.time.dt_dem : least(substeps);

@@ -3,26 +3,39 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "bedload/case/parameters.hpp"
 
 namespace bedload {
 namespace {
 
+std::string table_of(const std::string& key) { return key.substr(0, key.rfind('.') + 1); }
+
+std::string parameters_text(std::vector<ParameterRow> rows);
+
+/// The choices of a family, then the parameters of the tables that hold them.
 std::string choices_text(const std::string& family) {
   std::string out;
+  std::set<std::string> tables;
+  if (family == "outputs") tables.insert("out.");
   for (const ParameterRow& row : parameter_table()) {
     if (row.family != family) continue;
+    tables.insert(table_of(row.key));
     out += fmt::format("{}  ({})\n", row.key, row.meaning);
     for (const Choice& choice : row.choices)
       out += fmt::format("  {:<20} {}{}\n", choice.name, choice.meaning,
                          choice.name == row.fallback.substr(1, row.fallback.size() - 2) ? " (default)" : "");
   }
-  return out;
+  tables.erase("");  // what stands outside all tables belongs to no family
+  if (tables.empty()) return out;
+  std::vector<ParameterRow> rows;
+  for (const ParameterRow& row : parameter_table())
+    if (tables.contains(table_of(row.key))) rows.push_back(row);
+  return out + '\n' + parameters_text(rows);
 }
 
-std::string parameters_text() {
-  std::vector<ParameterRow> rows = parameter_table();
+std::string parameters_text(std::vector<ParameterRow> rows) {
   rows.insert(rows.begin(), {"key", "unit", "default", "allowed", "meaning", "", {}});
   std::size_t key = 0, unit = 0, fallback = 0;
   for (const ParameterRow& row : rows) {
@@ -44,7 +57,7 @@ std::vector<std::string> families() {
 }
 
 std::string list_text(const std::string& family) {
-  if (family == "parameters") return parameters_text();
+  if (family == "parameters") return parameters_text(parameter_table());
   if (!family.empty()) return choices_text(family);
   std::string out;
   for (const std::string& name : families())

@@ -21,15 +21,16 @@ Counts counts_of(const Setup& setup) {
           std::int64_t(setup.grains.x.size())};
 }
 
-void check_fixed_step(const Config& config, Simulation& simulation, std::vector<std::string>& warnings) {
-  const double dt = config.time.dt;
+void check_fixed_step(Prepared& p, const Options& options, Simulation& simulation) {
+  const double dt = p.config.time.dt;
   if (dt == 0) return;
   for (const StepLimit& limit : simulation.limits()) {
     if (dt <= limit.seconds * (1 + 1e-9)) continue;
-    if (!config.time.force_dt)
-      throw CaseError(fmt::format("{}: time.dt = {} must be <= {:.4g}; limited by {}", config.file, dt,
-                                  limit.seconds, limit.name));
-    warnings.push_back(
+    if (!p.config.time.force_dt)
+      throw CaseError(fmt::format("{}: time.dt = {} must be <= {:.4g}; limited by {}",
+                                  place_in_case(options.file, options.overrides, "time.dt"), dt, limit.seconds,
+                                  limit.name));
+    p.warnings.push_back(
         fmt::format("time.dt = {} is above its limit {:.4g} ({})", dt, limit.seconds, limit.name));
   }
 }

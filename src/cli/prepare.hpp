@@ -25,7 +25,7 @@ Prepared prepare(const Options& options);
 Counts counts_of(const Setup& setup);
 
 /// Throws CaseError if time.dt is above a limit, or warns with time.force_dt. Call after start().
-void check_fixed_step(const Config& config, Simulation& simulation, std::vector<std::string>& warnings);
+void check_fixed_step(Prepared& prepared, const Options& options, Simulation& simulation);
 
 /// "12 345 678".
 std::string grouped(std::int64_t number);

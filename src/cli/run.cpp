@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/output/output.hpp"
 #include "commands.hpp"
@@ -33,7 +34,7 @@ class Run {
   int go() {
     say(summary_text(p_));
     build();
-    check_fixed_step(p_.config, *simulation_, p_.warnings);
+    check_fixed_step(p_, options_, *simulation_);
 
     output_.emplace(options_.out, p_.config, p_.device, version(), !options_.restart.empty());
     for (const std::string& warning : p_.warnings) {
@@ -105,7 +106,8 @@ class Run {
       throw SimulationFault(fault.what() + after_fault(spent()));
     } catch (const CaseError& error) {  // a fixed step has come to exceed its limit
       progress.close();
-      throw CaseError(error.what() + after_fault(spent()));
+      throw CaseError(place_in_case(options_.file, options_.overrides, "time.dt") + ": " + error.what() +
+                      after_fault(spent()));
     }
     progress.close();
     const bool stopped = simulation_->time() < end_;

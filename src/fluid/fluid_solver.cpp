@@ -1,5 +1,7 @@
 #include "src/fluid/fluid_solver.hpp"
 
+#include <algorithm>
+
 #include "kernels/fluid/density_pass.hpp"
 #include "kernels/fluid/force_pass.hpp"
 #include "kernels/fluid/wall_pass.hpp"
@@ -95,7 +97,7 @@ class FluidSolverWith final : public FluidSolver {
 
   void wall_forces(const FluidStore& fluid, const WallStore& walls, Buffer<Vec3d>& force) override {
     force.resize(walls.size());
-    WallForcePass<W> pass{wall_pair(), fluid.v_rho, fluid.m_state, walls.v_rho, walls.m_state, walls.v_visc, force};
+    WallForcePass<W> pass{wall_pair(), Real(corrected_), fluid.acc, fluid.acc_next, fluid.v_rho, fluid.m_state, walls.v_rho, walls.m_state, walls.v_visc, force};
     for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
 
@@ -137,8 +139,8 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, double kappa)
     eos_ = {Real(c * c * rho0 / e.gamma), Real(e.gamma), 0, Real(rho0), e.clip_negative};
   grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
   wall_grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
-  for (const WallBody& body : config.wall.bodies)
-    if (body.repulsion) surfaces_.assign(make_surfaces(config));
+  const auto repels = [](const WallBody& body) { return body.repulsion; };
+  if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), repels)) surfaces_.assign(make_surfaces(config));
 }
 
 WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const {
@@ -196,6 +198,7 @@ void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
 void FluidSolver::correct(FluidStore& fluid, double kick) {
   if (kick != 0) for_each(fluid.owned(), CorrectPass{Real(kick), fluid.acc_next, fluid.acc, fluid.v_rho});
   fluid.acc.buffer().swap(fluid.acc_next.buffer());
+  corrected_ = kick;
 }
 
 FluidExtremes FluidSolver::extremes(const FluidStore& fluid) const {

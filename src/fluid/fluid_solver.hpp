@@ -55,7 +55,8 @@ class FluidSolver {
   WallRepulsion repulsion(Span<const BodyPose> pose, double dt) const;
   /// v += kick (acc_next - acc); acc = acc_next.
   void correct(FluidStore& fluid, double kick);
-  /// Force of the fluid's pressure and viscosity on every wall particle, N.
+  /// Force of the fluid's pressure and viscosity on every wall particle (N), the opposite of what the last
+  /// forces() gave the fluid. After a step, before the lists are renewed.
   virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Buffer<Vec3d>& force) = 0;
 
   FluidExtremes extremes(const FluidStore& fluid) const;
@@ -75,6 +76,7 @@ class FluidSolver {
   VerletList fluid_fluid_, fluid_wall_, wall_fluid_;
   Buffer<Index> order_;
   Buffer<Surface> surfaces_;  ///< that repel
+  double corrected_ = 0;      ///< kick of the last correction, s; before it, acc was what acc_next is now
 };
 
 }  // namespace bedload::inline BL_VARIANT

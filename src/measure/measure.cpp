@@ -279,7 +279,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
     vec("force_walls_on_fluid", "N", wall_on_fluid);
     vec("force_grains_on_fluid", "N", {l.v[6], l.v[7], l.v[8]});
-    // what pair sums leave over: round-off, and at no-slip walls what the last kick changed
+    // what pair sums leave over: round-off
     vec("fluid_force_residual", "N", total - body - wall_on_fluid);
     out.push_back({"fluid_speed_max", "m/s", std::sqrt(fluid_extremes_.v2)});
     out.push_back({"pressure_max", "Pa", max_over(fluid_.owned(), PressureBody{fluid_.m_state, 1})});

@@ -75,7 +75,6 @@ Config thrown() {
   tank.min = {0, 0, 0};
   tank.max = {0.2, 0.08, 0.2};
   tank.faces = {true, true, false, false, true, true};
-  tank.slip = "slip";  // the viscous part follows the velocity, which a step corrects after its forces
   c.wall.bodies = {tank};
   return c;
 }

@@ -113,6 +113,9 @@ TEST_F(Program, ListsItsFamilies) {
     EXPECT_NE(o.out.find(member), std::string::npos) << family;
     EXPECT_NE(all.out.find(o.out), std::string::npos) << family;
   }
+  // the parameters of what can be chosen, with unit, default and bounds
+  EXPECT_NE(bedload("list laws").out.find("contact.k "), std::string::npos);
+  EXPECT_NE(bedload("list outputs").out.find("out.diagnostics_every "), std::string::npos);
   EXPECT_EQ(bedload("list lawz").code, 2);
 }
 
@@ -130,9 +133,14 @@ TEST_F(Program, RefusesAFixedStepAboveItsLimit) {
   write("dam.toml", kSmall);
   const Outcome o = bedload("run dam.toml --backend cpu --set time.dt=0.1 --out r");
   EXPECT_EQ(o.code, 2);
-  EXPECT_TRUE(o.err.starts_with("dam.toml: time.dt = 0.1 must be <= ")) << o.err;
+  EXPECT_TRUE(o.err.starts_with("--set time.dt=0.1: time.dt = 0.1 must be <= ")) << o.err;
   EXPECT_NE(o.err.find("; limited by "), std::string::npos) << o.err;
   EXPECT_FALSE(std::filesystem::exists(dir_ / "r"));
+
+  write("fixed.toml", std::string("time.dt = 0.1\n") + kSmall);
+  const Outcome f = bedload("check fixed.toml --backend cpu");
+  EXPECT_EQ(f.code, 2);
+  EXPECT_TRUE(f.err.starts_with("fixed.toml:1: time.dt = 0.1 must be <= ")) << f.err;
 }
 
 TEST_F(Program, RunsACaseAndLeavesItsFiles) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bedload/case/config.hpp"
@@ -19,6 +20,11 @@ Config read_case(const std::filesystem::path& path, const std::vector<std::strin
 /// The same from text; `name` stands for the file in messages.
 Config read_case_text(const std::string& text, const std::string& name,
                       const std::vector<std::string>& overrides, std::vector<std::string>& warnings);
+
+/// Where a case says `key`: "dam.toml:14" or "--set key=value"; the file alone if it does not. For errors
+/// that come up after reading.
+std::string place_in_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                          std::string_view key);
 
 /// The case with every default filled in, as TOML that read_case takes back to an equal Config.
 std::string resolved_toml(const Config& config);

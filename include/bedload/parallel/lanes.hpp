@@ -2,7 +2,6 @@
 // Several GPU threads for one row, where rows are too few to fill the device. The number of lanes
 // follows from the number of rows alone, so results stay the same from run to run.
 
-#include <concepts>
 #include <cstring>
 
 #include "bedload/core/types.hpp"
