@@ -86,6 +86,8 @@ struct ContactPass {
   /// Grain i against one surface; all zero when apart.
   BL_HD WallContact wall(Index i, const Surface& surface, ContactHistory& h) const {
     const BodyPose& pose = poses[surface.body];
+    // a radius off, the history has been cleared long ago: no step goes so far
+    if (beyond(surface, pose, frame, x[i], 2 * double(radius[i]))) return {};
     const double side = h.overlap > 0 ? 1.0 : (h.overlap < 0 ? -1.0 : 0.0);
     const SurfaceContact at = meet(surface, pose, frame, x[i], side);
     const double overlap = double(radius[i]) - at.distance;

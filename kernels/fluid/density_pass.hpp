@@ -11,10 +11,10 @@ struct DensityPass {
   W w;
   Span<const Real4> v_rho, m_state, wall_v_rho, wall_m_state;
   Span<const Real> eps;
-  Real diffusion;         ///< 2 delta h c [m2/s]
-  Real3 hydrostatic;      ///< rho0 g / c^2 [kg/m4]: how density grows downwards at rho0
-  Real stiffening;        ///< and by which power of rho0 / rho elsewhere: gamma - 2
-  Real rho0, dt, back;    ///< kg/m3, s, s
+  Real diffusion;       ///< 2 delta h c [m2/s]
+  Real3 hydrostatic;    ///< rho0 g / c^2 [kg/m4]: how density grows downwards at rho0
+  Real stiffening;      ///< and by which power of rho0 / rho elsewhere: gamma - 2
+  Real rho0, dt, back;  ///< kg/m3, s, s
   Span<const Real> s;
   Span<Real> s_new;
 

@@ -13,14 +13,15 @@ struct WallPass {
   EquationOfState eos;
   Span<const Real4> fluid_v_rho, fluid_m_state;
   Span<const Real> fluid_eps;
-  Span<const Real3> drag_kick;  ///< velocity that the grains' drag gave the fluid this step, m/s; empty without grains
-  Real rate;                    ///< 1 / step, 1/s
+  Span<const Real3>
+      drag_kick;  ///< velocity that the grains' drag gave the fluid this step, m/s; empty without grains
+  Real rate;      ///< 1 / step, 1/s
   Span<const Vec3d> x;
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
-  Real3 gravity;     ///< m/s2
-  Real volume;       ///< of a wall particle, m3
-  Real least_sum;    ///< inactive below this sum of W, 1/m3
+  Real3 gravity;   ///< m/s2
+  Real volume;     ///< of a wall particle, m3
+  Real least_sum;  ///< inactive below this sum of W, 1/m3
   Span<Real4> v_rho, v_visc, m_state;
 
   template <class N = Real>

@@ -29,7 +29,8 @@ struct CubicSpline {
   template <class N>
   BL_HD N F(N r) const {
     const N q = r * inv_h;
-    return select(q < 1, norm_F * (3 - Real(2.25) * q), norm_F * Real(0.75) * square(max_of(N(0), 2 - q)) / q);
+    return select(q < 1, norm_F * (3 - Real(2.25) * q),
+                  norm_F * Real(0.75) * square(max_of(N(0), 2 - q)) / q);
   }
 };
 

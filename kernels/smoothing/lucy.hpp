@@ -26,7 +26,9 @@ struct Lucy {
   }
   /// -W'/r, 1/m5.
   template <class N>
-  BL_HD N F(N r) const { return norm_F * square(max_of(N(0), 1 - r * inv_h)); }
+  BL_HD N F(N r) const {
+    return norm_F * square(max_of(N(0), 1 - r * inv_h));
+  }
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -27,7 +27,9 @@ struct WendlandC2 {
   }
   /// -W'/r, 1/m5.
   template <class N>
-  BL_HD N F(N r) const { return norm_F * cube(max_of(N(0), 1 - Real(0.5) * r * inv_h)); }
+  BL_HD N F(N r) const {
+    return norm_F * cube(max_of(N(0), 1 - Real(0.5) * r * inv_h));
+  }
 };
 
 }  // namespace bedload::inline BL_VARIANT

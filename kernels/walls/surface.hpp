@@ -28,6 +28,14 @@ struct Surface {
   Vec3d axis[3];        ///< right-handed; axis[2] is the normal of plane and rectangle
   double half[3] = {};  ///< half extents along them, m; infinite along a periodic axis
 
+  /// Whether r is surely farther than `distance` (m) from the surface; cheaper than nearest.
+  BL_HD bool beyond(const Vec3d& r, double distance) const {
+    if (kind == SurfaceKind::plane) return dot(r, axis[2]) > distance;
+    for (int k = 2; k >= 0; --k)
+      if (std::abs(dot(r, axis[k])) - half[k] > distance) return true;
+    return false;
+  }
+
   /// r: centre of the sphere from `centre`, in the frame of t = 0. side: where the sphere was while it
   /// touched last (+1, -1; 0: not known), so that a rectangle pushes back what has passed through it.
   BL_HD Nearest nearest(const Vec3d& r, double side) const {
@@ -76,10 +84,15 @@ BL_HD SurfaceContact meet(const Surface& s, const BodyPose& pose, const Frame& f
                           double side) {
   const Vec3d centre = pose.place(s.centre);
   const Vec3d r = frame.nearest_image(x - centre);
-  const bool turned = pose.rotation.w != 1;
-  const Nearest near = s.nearest(turned ? pose.rotation.conjugate().rotate(r) : r, side);
-  const Vec3d n = turned ? pose.rotation.rotate(near.normal) : near.normal;
+  const Nearest near = s.nearest(pose.turned() ? pose.rotation.conjugate().rotate(r) : r, side);
+  const Vec3d n = pose.turned() ? pose.rotation.rotate(near.normal) : near.normal;
   return {n, near.distance, near.side, centre + r - near.distance * n};
+}
+/// Whether x is surely farther than `distance` (m) from the surface; cheaper than meet.
+BL_HD bool beyond(const Surface& s, const BodyPose& pose, const Frame& frame, const Vec3d& x,
+                  double distance) {
+  const Vec3d r = frame.nearest_image(x - pose.place(s.centre));
+  return s.beyond(pose.turned() ? pose.rotation.conjugate().rotate(r) : r, distance);
 }
 
 /// The surfaces of all wall bodies: a rectangle for each face of a tank, one for a box or a plane.

@@ -118,7 +118,7 @@ class Checks {
              fmt::format("must be <= {:.4g}; limited by {}", limit.seconds, limit.name));
       warn("time.dt_dem = {} is above its limit {:.4g} ({})", c.time.dt_dem, limit.seconds, limit.name);
     }
-    if (c.time.integrator == "euler") warn("time.integrator = \"euler\" is first order and gains energy");
+    if (c.time.integrator == "euler") warn("time.integrator = \"euler\" is first order in time");
   }
 
   void probes() const {

@@ -28,8 +28,8 @@ void check_fixed_step(Prepared& p, const Options& options, Simulation& simulatio
     if (dt <= limit.seconds * (1 + 1e-9)) continue;
     if (!p.config.time.force_dt)
       throw CaseError(fmt::format("{}: time.dt = {} must be <= {:.4g}; limited by {}",
-                                  place_in_case(options.file, options.overrides, "time.dt"), dt, limit.seconds,
-                                  limit.name));
+                                  place_in_case(options.file, options.overrides, "time.dt"), dt,
+                                  limit.seconds, limit.name));
     p.warnings.push_back(
         fmt::format("time.dt = {} is above its limit {:.4g} ({})", dt, limit.seconds, limit.name));
   }

@@ -163,8 +163,9 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains) {
 void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose) {
   with_kernel(kernel_, h_c_, [&](auto w) {
     const WallFreeShare wall_free{half_space_, frame_, surfaces_.span(), pose};
-    for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, grains.x}, range_,
-                  PorosityPass<decltype(w)>{w, eps_min_, wall_free, frame_, fluid.x, grains.radius, fluid.eps});
+    for_each_pair(
+        fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, grains.x}, range_,
+        PorosityPass<decltype(w)>{w, eps_min_, wall_free, frame_, fluid.x, grains.radius, fluid.eps});
   });
 }
 

@@ -67,37 +67,74 @@ struct ExtremesSweep {
 template <class W>
 class FluidSolverWith final : public FluidSolver {
  public:
-  FluidSolverWith(const Config& config, const Frame& frame, const W& w) : FluidSolver(config, frame, W::kappa), w_(w) {}
+  FluidSolverWith(const Config& config, const Frame& frame, const W& w)
+      : FluidSolver(config, frame, W::kappa), w_(w) {}
 
   void density(FluidStore& fluid, const WallStore& walls, double dt, double back) override {
     const double c = config_.fluid.c;
-    DensityPass<W> pass{w_, fluid.v_rho, fluid.m_state, walls.v_rho, walls.m_state, fluid.eps,
+    DensityPass<W> pass{w_,
+                        fluid.v_rho,
+                        fluid.m_state,
+                        walls.v_rho,
+                        walls.m_state,
+                        fluid.eps,
                         Real(2 * config_.density.delta * config_.fluid.h() * c),
-                        gravity_ * Real(config_.fluid.rho0 / (c * c)), eos_.gamma - 2, Real(config_.fluid.rho0), Real(dt),
-                        Real(back), fluid.s, fluid.s_next};
+                        gravity_ * Real(config_.fluid.rho0 / (c * c)),
+                        eos_.gamma - 2,
+                        Real(config_.fluid.rho0),
+                        Real(dt),
+                        Real(back),
+                        fluid.s,
+                        fluid.s_next};
     // all listed pairs: one that is out of reach now may have been within reach half a step ago
     run(fluid, walls, range() + skin(), pass);
   }
 
   void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt) override {
     const double dx = config_.wall.dx, h = config_.fluid.h();
-    WallPass<W> pass{w_, eos_, fluid.v_rho, fluid.m_state, fluid.eps,
+    WallPass<W> pass{w_,
+                     eos_,
+                     fluid.v_rho,
+                     fluid.m_state,
+                     fluid.eps,
                      drag_dt > 0 ? Span<const Real3>(fluid.drag_kick) : Span<const Real3>(),
-                     Real(drag_dt > 0 ? 1 / drag_dt : 0), walls.x, walls.body, pose,
-                     gravity_, Real(dx * dx * dx), Real(1e-3 / (h * h * h)), walls.v_rho, walls.v_visc, walls.m_state};
+                     Real(drag_dt > 0 ? 1 / drag_dt : 0),
+                     walls.x,
+                     walls.body,
+                     pose,
+                     gravity_,
+                     Real(dx * dx * dx),
+                     Real(1e-3 / (h * h * h)),
+                     walls.v_rho,
+                     walls.v_visc,
+                     walls.m_state};
     for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
 
   void forces(FluidStore& fluid, const WallStore& walls) override {
-    ForcePass<W> pass{w_, wall_pair(), fluid.v_rho, fluid.m_state, walls.v_rho, walls.m_state, walls.v_visc,
-                      viscosity(), artificial(), tensile(), Real(config_.xsph), gravity_, Real3(config_.drive),
-                      fluid.theta, fluid.acc_next, fluid.xsph};
+    ForcePass<W> pass{w_,
+                      wall_pair(),
+                      fluid.v_rho,
+                      fluid.m_state,
+                      walls.v_rho,
+                      walls.m_state,
+                      walls.v_visc,
+                      viscosity(),
+                      artificial(),
+                      tensile(),
+                      Real(config_.xsph),
+                      gravity_,
+                      Real3(config_.drive),
+                      fluid.theta,
+                      fluid.acc_next,
+                      fluid.xsph};
     run(fluid, walls, range(), pass);
   }
 
   void wall_forces(const FluidStore& fluid, const WallStore& walls, Buffer<Vec3d>& force) override {
     force.resize(walls.size());
-    WallForcePass<W> pass{wall_pair(), Real(corrected_), fluid.acc, fluid.acc_next, fluid.v_rho, fluid.m_state, walls.v_rho, walls.m_state, walls.v_visc, force};
+    WallForcePass<W> pass{wall_pair(),   Real(corrected_), fluid.acc,     fluid.acc_next, fluid.v_rho,
+                          fluid.m_state, walls.v_rho,      walls.m_state, walls.v_visc,   force};
     for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
 
@@ -109,7 +146,8 @@ class FluidSolverWith final : public FluidSolver {
   }
   Real viscosity() const { return config_.visc.model == "none" ? Real(0) : Real(config_.fluid.mu); }
   ArtificialViscosity artificial() const {
-    return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c), Real(config_.fluid.h())};
+    return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c),
+            Real(config_.fluid.h())};
   }
   TensileTerm tensile() const {
     if (config_.tensile == 0) return {};
@@ -140,7 +178,8 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, double kappa)
   grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
   wall_grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
   const auto repels = [](const WallBody& body) { return body.repulsion; };
-  if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), repels)) surfaces_.assign(make_surfaces(config));
+  if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), repels))
+    surfaces_.assign(make_surfaces(config));
 }
 
 WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const {
@@ -174,7 +213,8 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   using Near = SphNear<FluidPosition>;
   fluid_fluid_.build(fluid.size(), grid_.view(), Near{frame_, fluid.x, fluid.xp, fluid.xp, reach, true});
   fluid_wall_.build(fluid.size(), wall_grid_.view(), Near{frame_, fluid.x, fluid.xp, walls.xp, reach, false});
-  wall_fluid_.build(walls.size(), grid_.view(), SphNear<Vec3d>{frame_, walls.x, walls.xp, fluid.xp, reach, false});
+  wall_fluid_.build(walls.size(), grid_.view(),
+                    SphNear<Vec3d>{frame_, walls.x, walls.xp, fluid.xp, reach, false});
 }
 
 void FluidSolver::pack(FluidStore& fluid, WallStore& walls) {
@@ -183,16 +223,17 @@ void FluidSolver::pack(FluidStore& fluid, WallStore& walls) {
 }
 
 void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, bool coupled) {
-  for_each(fluid.owned(), KickDriftPass{frame_, Real(kick), Real(drift), fluid.acc,
-                                        coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
-                                        config_.xsph > 0 ? Span<const Real3>(fluid.xsph) : Span<const Real3>(),
-                                        fluid.v_rho, fluid.x, fluid.xp});
+  for_each(fluid.owned(),
+           KickDriftPass{frame_, Real(kick), Real(drift), fluid.acc,
+                         coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
+                         config_.xsph > 0 ? Span<const Real3>(fluid.xsph) : Span<const Real3>(), fluid.v_rho,
+                         fluid.x, fluid.xp});
 }
 
 void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
   for_each(fluid.owned(), StatePass{eos_, Real(kick), -Real(config_.density.tension), fluid.acc,
-                                    coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(), fluid.s,
-                                    fluid.mass, fluid.eps, fluid.v_rho, fluid.m_state});
+                                    coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
+                                    fluid.s, fluid.mass, fluid.eps, fluid.v_rho, fluid.m_state});
 }
 
 void FluidSolver::correct(FluidStore& fluid, double kick) {
@@ -202,9 +243,10 @@ void FluidSolver::correct(FluidStore& fluid, double kick) {
 }
 
 FluidExtremes FluidSolver::extremes(const FluidStore& fluid) const {
-  return reduce(fluid.owned(), ExtremesSweep{frame_, fluid.v_rho, fluid.m_state, fluid.eps, fluid.s, fluid.acc,
-                                             config_.xsph > 0 ? Span<const Real3>(fluid.xsph) : Span<const Real3>(),
-                                             fluid.x, fluid.x_list});
+  return reduce(fluid.owned(),
+                ExtremesSweep{frame_, fluid.v_rho, fluid.m_state, fluid.eps, fluid.s, fluid.acc,
+                              config_.xsph > 0 ? Span<const Real3>(fluid.xsph) : Span<const Real3>(), fluid.x,
+                              fluid.x_list});
 }
 
 }  // namespace bedload::inline BL_VARIANT

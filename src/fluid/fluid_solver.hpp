@@ -17,7 +17,7 @@ namespace bedload::inline BL_VARIANT {
 struct FluidExtremes {
   double v2 = 0, acc2 = 0, moved2 = 0;  ///< (m/s)2, (m/s2)2, m2 since the lists were built
   double eps_min = 1;
-  Index bad = kNone;                    ///< lowest place of a particle with NaN or a density out of range
+  Index bad = kNone;  ///< lowest place of a particle with NaN or a density out of range
 };
 
 class FluidSolver {
@@ -26,10 +26,10 @@ class FluidSolver {
   static std::unique_ptr<FluidSolver> make(const Config& config, const Frame& frame);
   virtual ~FluidSolver() = default;
 
-  double range() const { return kappa_ * config_.fluid.h(); }              ///< kernel support, m
-  double skin() const { return config_.skin_fluid * config_.fluid.dx; }    ///< m
+  double range() const { return kappa_ * config_.fluid.h(); }            ///< kernel support, m
+  double skin() const { return config_.skin_fluid * config_.fluid.dx; }  ///< m
   const EquationOfState& eos() const { return eos_; }
-  void set_gravity(const Vec3d& g) { gravity_ = Real3(g); }                ///< minus the frame's acceleration, m/s2
+  void set_gravity(const Vec3d& g) { gravity_ = Real3(g); }  ///< minus the frame's acceleration, m/s2
 
   /// Sorts the fluid and renews all lists; sorts the walls too where they have moved.
   void refresh(FluidStore& fluid, WallStore& walls, bool walls_moved);
@@ -47,7 +47,8 @@ class FluidSolver {
   void state(FluidStore& fluid, double kick, bool coupled);
   /// Wall particles' state from the fluid. Poses on the device, one a body; drag_dt: the step in which
   /// drag_kick arose (s), 0 where there is none.
-  virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt) = 0;
+  virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
+                     double drag_dt) = 0;
   /// theta, acc_next, xsph.
   virtual void forces(FluidStore& fluid, const WallStore& walls) = 0;
   /// Adds the repulsion of walls to acc_next. One pose a body; the step (s) caps it.
@@ -62,7 +63,9 @@ class FluidSolver {
   FluidExtremes extremes(const FluidStore& fluid) const;
   const CellGrid& grid() const { return grid_; }
   /// Sum of neighbours of all fluid particles (true and padded list entries), for reports.
-  std::uint64_t list_slots() const { return fluid_fluid_.slots() + fluid_wall_.slots() + wall_fluid_.slots(); }
+  std::uint64_t list_slots() const {
+    return fluid_fluid_.slots() + fluid_wall_.slots() + wall_fluid_.slots();
+  }
 
  protected:
   FluidSolver(const Config& config, const Frame& frame, double kappa);

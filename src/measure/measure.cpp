@@ -204,30 +204,36 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
   if (name == "fluid" && has_fluid()) {
     const Range all = fluid_.owned();
     out.count = all.size();
-    out.arrays.push_back(made<Real3, PointPass<FluidPosition>>("position", "m", all, frame_, Span<const FluidPosition>(fluid_.x)));
+    out.arrays.push_back(made<Real3, PointPass<FluidPosition>>("position", "m", all, frame_,
+                                                               Span<const FluidPosition>(fluid_.x)));
     out.arrays.push_back(made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(fluid_.v_rho)));
     out.arrays.push_back(made<Real, StatePart>("pressure", "Pa", all, Span<const Real4>(fluid_.m_state), 3));
-    out.arrays.push_back(made<Real, StatePart>("density", "kg/m3", all, Span<const Real4>(fluid_.m_state), 2));
+    out.arrays.push_back(
+        made<Real, StatePart>("density", "kg/m3", all, Span<const Real4>(fluid_.m_state), 2));
     if (coupled()) out.arrays.push_back(fluid_.eps.to_host());
     out.arrays.push_back(fluid_.id.to_host());
   } else if (name == "grains" && has_grains()) {
     out.count = grains_.size();
-    out.arrays.push_back(made<Real3, PointPass<Vec3d>>("position", "m", grains_.owned(), frame_, Span<const Vec3d>(grains_.x)));
+    out.arrays.push_back(made<Real3, PointPass<Vec3d>>("position", "m", grains_.owned(), frame_,
+                                                       Span<const Vec3d>(grains_.x)));
     out.arrays.push_back(renamed(grains_.v, "velocity"));
     out.arrays.push_back(renamed(grains_.omega, "angular_velocity"));
     for (FieldBase* f : {static_cast<FieldBase*>(&grains_.radius), static_cast<FieldBase*>(&grains_.force)})
       out.arrays.push_back(f->to_host());
     if (coupled())
-      for (FieldBase* f : {static_cast<FieldBase*>(&grains_.drag_force), static_cast<FieldBase*>(&grains_.fluid_force),
-                           static_cast<FieldBase*>(&grains_.eps), static_cast<FieldBase*>(&grains_.wetness)})
+      for (FieldBase* f :
+           {static_cast<FieldBase*>(&grains_.drag_force), static_cast<FieldBase*>(&grains_.fluid_force),
+            static_cast<FieldBase*>(&grains_.eps), static_cast<FieldBase*>(&grains_.wetness)})
         out.arrays.push_back(f->to_host());
     out.arrays.push_back(grains_.id.to_host());
   } else if (name == "walls" && walls_.size() > 0) {
     const Range all = walls_.owned();
     out.count = all.size();
-    out.arrays.push_back(made<Real3, PointPass<Vec3d>>("position", "m", all, frame_, Span<const Vec3d>(walls_.x)));
+    out.arrays.push_back(
+        made<Real3, PointPass<Vec3d>>("position", "m", all, frame_, Span<const Vec3d>(walls_.x)));
     out.arrays.push_back(made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(walls_.v_rho)));
-    out.arrays.push_back(made<Real, WallPressurePart>("pressure", "Pa", all, Span<const Real4>(walls_.m_state), Span<const Real4>(walls_.v_rho)));
+    out.arrays.push_back(made<Real, WallPressurePart>(
+        "pressure", "Pa", all, Span<const Real4>(walls_.m_state), Span<const Real4>(walls_.v_rho)));
     out.arrays.push_back(walls_.body.to_host());
     out.arrays.push_back(walls_.id.to_host());
   }
@@ -248,7 +254,8 @@ std::vector<Vec3d> CoupledSimulation::wall_loads(const Vec3d& about) {
   const WallRepulsion repulsion = fluid_solver_->repulsion(poses_now(), clock_.last_dt);
   if (repulsion.surfaces.size == 0) return out;
   for (int b = 0; b < motion_.bodies(); ++b) {
-    const auto load = sum_over<6>(fluid_.owned(), RepulsionLoad{repulsion, std::uint32_t(b), about, fluid_.x, fluid_.mass});
+    const auto load =
+        sum_over<6>(fluid_.owned(), RepulsionLoad{repulsion, std::uint32_t(b), about, fluid_.x, fluid_.mass});
     out[2 * b] += Vec3d{load.v[0], load.v[1], load.v[2]};
     out[2 * b + 1] += Vec3d{load.v[3], load.v[4], load.v[5]};
   }
@@ -263,8 +270,9 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
   };
   Vec3d wall_on_fluid, wall_on_grains;
   if (has_fluid()) {
-    const auto t = sum_over<10>(fluid_.owned(), FluidTotals{frame_, fluid_solver_->eos(), config_.gravity, fluid_.x, fluid_.v_rho,
-                                                            fluid_.mass, fluid_.s, fluid_.eps});
+    const auto t =
+        sum_over<10>(fluid_.owned(), FluidTotals{frame_, fluid_solver_->eos(), config_.gravity, fluid_.x,
+                                                 fluid_.v_rho, fluid_.mass, fluid_.s, fluid_.eps});
     out.push_back({"fluid_mass", "kg", t.v[0]});
     vec("fluid_momentum", "kg m/s", {t.v[1], t.v[2], t.v[3]});
     vec("fluid_angular_momentum", "kg m2/s", {t.v[4], t.v[5], t.v[6]});
@@ -273,9 +281,11 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"fluid_elastic_energy", "J", t.v[9]});
     const auto loads = wall_loads({});
     for (std::size_t b = 0; b < loads.size(); b += 2) wall_on_fluid -= loads[b];
-    const auto l = sum_over<9>(fluid_.owned(), FluidLoads{clock_.last_dt > 0 ? 1 / clock_.last_dt : 0, config_.gravity, config_.drive, fluid_.mass, fluid_.v_rho, fluid_.acc,
-                                                          two_way() ? Span<const Real3>(fluid_.reaction) : Span<const Real3>(),
-                                                          fluid_.drag_kick});
+    const auto l = sum_over<9>(
+        fluid_.owned(),
+        FluidLoads{clock_.last_dt > 0 ? 1 / clock_.last_dt : 0, config_.gravity, config_.drive, fluid_.mass,
+                   fluid_.v_rho, fluid_.acc,
+                   two_way() ? Span<const Real3>(fluid_.reaction) : Span<const Real3>(), fluid_.drag_kick});
     const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
     vec("force_walls_on_fluid", "N", wall_on_fluid);
     vec("force_grains_on_fluid", "N", {l.v[6], l.v[7], l.v[8]});
@@ -302,7 +312,8 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"grain_speed_max", "m/s", grain_watch_.speed});
     out.push_back({"overlap_max", "-", s.max_overlap});
     out.push_back({"coordination_number", "-", s.coordination});
-    const auto f = sum_over<4>(grains_.owned(), GrainLoads{frame_, grains_.x, grains_.fluid_force, grains_.drag_force});
+    const auto f =
+        sum_over<4>(grains_.owned(), GrainLoads{frame_, grains_.x, grains_.fluid_force, grains_.drag_force});
     vec("force_fluid_on_grains", "N", {f.v[0], f.v[1], f.v[2]});
     out.push_back({"grain_count", "-", double(grains_.size())});
     out.push_back({"grains_outside", "-", f.v[3]});
@@ -326,16 +337,20 @@ std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
     direction[p.axis] = p.sign;
     double front = nan;
     if (p.phase == "fluid" && fluid_.size() > 0)
-      front = p.sign * (max_over(fluid_.owned(), AlongBody<FluidPosition>{frame_, fluid_.x, direction}) + config_.fluid.dx / 2);
+      front = p.sign * (max_over(fluid_.owned(), AlongBody<FluidPosition>{frame_, fluid_.x, direction}) +
+                        config_.fluid.dx / 2);
     if (p.phase == "grains" && grains_.size() > 0)
-      front = p.sign * (max_over(grains_.owned(), AlongBody<Vec3d>{frame_, grains_.x, direction}) + config_.grain.d_max / 2);
+      front = p.sign * (max_over(grains_.owned(), AlongBody<Vec3d>{frame_, grains_.x, direction}) +
+                        config_.grain.d_max / 2);
     return {{std::string("front_") + axis[p.axis], "m", front}};
   }
   if (p.type == "point") {
     double sum[5] = {};
     if (has_fluid())
       with_kernel(config_.fluid.kernel, config_.fluid.h(), [&](const auto& w) {
-        const auto s = sum_over<5>(fluid_.owned(), PointBody<std::decay_t<decltype(w)>>{w, frame_, p.at, fluid_.x, fluid_.v_rho, fluid_.m_state});
+        const auto s = sum_over<5>(
+            fluid_.owned(),
+            PointBody<std::decay_t<decltype(w)>>{w, frame_, p.at, fluid_.x, fluid_.v_rho, fluid_.m_state});
         std::copy(s.v, s.v + 5, sum);
       });
     const bool wet = sum[0] > 0.05;  // fewer neighbours say nothing
@@ -348,16 +363,19 @@ std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
   if (p.type == "height") {
     const double g = norm(config_.gravity);
     const Vec3d up = g > 0 ? config_.gravity * (-1 / g) : Vec3d{0, 0, 1};
-    const double top = max_over(fluid_.owned(), HeightBody{frame_, p.at, up, 1.5 * config_.fluid.dx, fluid_.x});
+    const double top =
+        max_over(fluid_.owned(), HeightBody{frame_, p.at, up, 1.5 * config_.fluid.dx, fluid_.x});
     return {{"height", "m", top > -1e299 ? top + config_.fluid.dx / 2 - dot(p.at, up) : 0.0}};
   }
   if (p.type == "box") {
     double s[7] = {};
     if (p.phase == "fluid") {
-      const auto r = sum_over<7>(fluid_.owned(), FluidBox{frame_, p.min, p.max, fluid_.x, fluid_.v_rho, fluid_.m_state, fluid_.eps});
+      const auto r = sum_over<7>(
+          fluid_.owned(), FluidBox{frame_, p.min, p.max, fluid_.x, fluid_.v_rho, fluid_.m_state, fluid_.eps});
       std::copy(r.v, r.v + 7, s);
     } else {
-      const auto r = sum_over<7>(grains_.owned(), GrainBox{p.min, p.max, config_.grain.rho, grains_.x, grains_.v, grains_.radius});
+      const auto r = sum_over<7>(
+          grains_.owned(), GrainBox{p.min, p.max, config_.grain.rho, grains_.x, grains_.v, grains_.radius});
       std::copy(r.v, r.v + 7, s);
     }
     const double m = s[1] > 0 ? s[1] : nan;

@@ -16,13 +16,15 @@ StepInfo CoupledSimulation::step() {
 
   int substeps = 0;
   if (has_grains()) {
-    const double longest = config_.time.dt_dem > 0 ? config_.time.dt_dem : solid_solver_->stable_dt(grain_watch_).seconds;
+    const double longest =
+        config_.time.dt_dem > 0 ? config_.time.dt_dem : solid_solver_->stable_dt(grain_watch_).seconds;
     substeps = held() ? 1 : std::max(1, int(std::ceil(dt / longest * (1 - 1e-9))));
     if (coupled()) {
       coupling_->gather(fluid_, grains_, dt);
       drag_limit_ = coupling_->stable_dt();
     }
-    solid_solver_->advance(grains_, motion_.poses(clock_.time, dt, substeps), motion_.bodies(), dt, substeps, held());
+    solid_solver_->advance(grains_, motion_.poses(clock_.time, dt, substeps), motion_.bodies(), dt, substeps,
+                           held());
     if (two_way()) coupling_->react(fluid_, grains_);
   }
   if (has_fluid()) advance_fluid(dt);
@@ -37,18 +39,18 @@ StepInfo CoupledSimulation::step() {
   return {clock_.step, clock_.time, dt, substeps, binding, std::sqrt(fluid_extremes_.v2), rebuilt};
 }
 
-/// Kick-drift-kick, or symplectic Euler (density, velocity, position; the order of [H] Fig. 3).
+/// Kick-drift-kick, or symplectic Euler: velocity, then position and density from the new velocity, which is
+/// the cycle of [H] Fig. 3 (density, velocity, position) begun at its second station.
 void CoupledSimulation::advance_fluid(double dt) {
   FluidSolver& fluid = *fluid_solver_;
   const bool euler = config_.time.integrator == "euler";
   const double half = euler ? 0 : dt / 2;
-  if (euler) fluid.density(fluid_, walls_, dt, 0);
   fluid.kick_drift(fluid_, dt - half, dt, two_way());
   if (walls_.size() > 0) {
     WallMotion::place(frame_, walls_, motion_.poses(clock_.time + dt, 0, 1));
     fluid.pack(fluid_, walls_);
   }
-  if (!euler) fluid.density(fluid_, walls_, dt, half);
+  fluid.density(fluid_, walls_, dt, half);
   fluid.accept_density(fluid_);
   evaluate_fluid(dt, half);
   fluid.correct(fluid_, half);
@@ -58,7 +60,8 @@ void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   FluidSolver& fluid = *fluid_solver_;
   if (two_way()) coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1));
   fluid.state(fluid_, predict, two_way());
-  if (walls_.size() > 0) fluid.walls(fluid_, walls_, motion_.poses(clock_.time + dt, 0, 1), two_way() ? dt : 0);
+  if (walls_.size() > 0)
+    fluid.walls(fluid_, walls_, motion_.poses(clock_.time + dt, 0, 1), two_way() ? dt : 0);
   fluid.forces(fluid_, walls_);
   fluid.repel(fluid_, motion_.poses(clock_.time + dt, 0, 1), dt);
 }
@@ -70,8 +73,10 @@ std::vector<StepLimit> CoupledSimulation::limits() {
     const double hs = fluid_solver_->range() / 2, c = config_.fluid.c;
     out.push_back({"cfl", t.cfl * hs / (c + std::sqrt(fluid_extremes_.v2))});
     if (config_.visc.model != "none" && config_.fluid.mu > 0)
-      out.push_back({"viscous", t.visc * hs * hs * fluid_extremes_.eps_min * config_.fluid.rho0 / config_.fluid.mu});
-    if (fluid_extremes_.acc2 > 0) out.push_back({"body", t.body * std::sqrt(hs / std::sqrt(fluid_extremes_.acc2))});
+      out.push_back(
+          {"viscous", t.visc * hs * hs * fluid_extremes_.eps_min * config_.fluid.rho0 / config_.fluid.mu});
+    if (fluid_extremes_.acc2 > 0)
+      out.push_back({"body", t.body * std::sqrt(hs / std::sqrt(fluid_extremes_.acc2))});
     if (coupled()) out.push_back({"drag", drag_limit_});
   }
   const double wall_speed = motion_.top_speed(clock_.time);
@@ -82,9 +87,11 @@ std::vector<StepLimit> CoupledSimulation::limits() {
     // without fluid there is no other clock: a step is a handful of substeps
     if (!has_fluid()) out.push_back({"contact", 20 * solid_solver_->stable_dt(grain_watch_).seconds});
   }
-  if (wall_speed > 0) travel = std::min(travel, 0.1 * (has_fluid() ? config_.fluid.dx : config_.grain.d_min) / wall_speed);
+  if (wall_speed > 0)
+    travel = std::min(travel, 0.1 * (has_fluid() ? config_.fluid.dx : config_.grain.d_min) / wall_speed);
   if (std::isfinite(travel)) out.push_back({"travel", travel});
-  auto least = std::min_element(out.begin(), out.end(), [](auto& a, auto& b) { return a.seconds < b.seconds; });
+  auto least =
+      std::min_element(out.begin(), out.end(), [](auto& a, auto& b) { return a.seconds < b.seconds; });
   if (least != out.end()) least->binds = true;
   return out;
 }
@@ -92,16 +99,16 @@ std::vector<StepLimit> CoupledSimulation::limits() {
 void CoupledSimulation::sweep() {
   const auto fault = [&](const char* what, Id id, const Vec3d& x, const char* cause) {
     char text[400];
-    std::snprintf(text, sizeof text,
-                  "%s %u at (%.6g, %.6g, %.6g) m broke down at t = %.6g s, step %lld: %s", what, id, x.x, x.y, x.z,
-                  clock_.time, static_cast<long long>(clock_.step), cause);
+    std::snprintf(text, sizeof text, "%s %u at (%.6g, %.6g, %.6g) m broke down at t = %.6g s, step %lld: %s",
+                  what, id, x.x, x.y, x.z, clock_.time, static_cast<long long>(clock_.step), cause);
     throw SimulationFault(text);
   };
   if (has_fluid()) {
     fluid_extremes_ = fluid_solver_->extremes(fluid_);
     if (const Index a = fluid_extremes_.bad; a != kNone)
       fault("fluid particle", fluid_.id.values()[a], coordinates(frame_, fluid_.x.values()[a]),
-            "its density left 0.5..2 rho0 or became NaN; likely causes: fluid.vmax too low (sound speed), time step "
+            "its density left 0.5..2 rho0 or became NaN; likely causes: fluid.vmax too low (sound speed), "
+            "time step "
             "too large, or fluid overlapping walls or grains at the start");
   }
   if (has_grains()) {
@@ -110,7 +117,8 @@ void CoupledSimulation::sweep() {
       const auto id = grains_.id.values();
       const std::size_t i = std::find(id.begin(), id.end(), bad) - id.begin();
       fault("grain", bad, grains_.x.values()[i],
-            "its position or velocity became NaN; likely causes: overlapping grains at the start or time.dt_dem too large");
+            "its position or velocity became NaN; likely causes: overlapping grains at the start or "
+            "time.dt_dem too large");
     }
   }
 }
@@ -125,7 +133,8 @@ void CoupledSimulation::settle(double longest, const std::function<void(double)>
     grain_watch_ = solid_solver_->watch(grains_);
     const double v = grain_watch_.speed, tau = solid_solver_->stable_dt(grain_watch_).seconds;
     const double dt = std::min({20 * tau, v > 0 ? 0.05 * config_.grain.d_min / v : 20 * tau, longest - done});
-    if (2 * (grain_watch_.displacement + 1.5 * v * dt) > solid_solver_->skin()) solid_solver_->refresh(grains_, grain_grid_);
+    if (2 * (grain_watch_.displacement + 1.5 * v * dt) > solid_solver_->skin())
+      solid_solver_->refresh(grains_, grain_grid_);
     const int n = std::max(1, int(std::ceil(dt / tau)));
     solid_solver_->advance(grains_, motion_.poses(clock_.time, 0, n), motion_.bodies(), dt, n, false);
     done += dt;
@@ -143,12 +152,14 @@ void CoupledSimulation::refresh_if_needed(double dt) {
   // by the end of this step; while each phase keeps to half its skin, the lists across the phases hold too
   bool fluid_due = false, grains_due = false;
   if (has_fluid()) {
-    const double moved = std::sqrt(fluid_extremes_.moved2) + dt * (std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2));
+    const double moved = std::sqrt(fluid_extremes_.moved2) +
+                         dt * (std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2));
     const double wall = walls_moved_ + dt * motion_.top_speed(clock_.time);
     fluid_due = 2 * moved > fluid_solver_->skin() || moved + wall > fluid_solver_->skin();
   }
   if (has_grains() && !config_.grain.fixed) {
-    const double moved = grain_watch_.displacement + 1.5 * dt * (grain_watch_.speed + dt * norm(config_.gravity));
+    const double moved =
+        grain_watch_.displacement + 1.5 * dt * (grain_watch_.speed + dt * norm(config_.gravity));
     grains_due = 2 * moved > solid_solver_->skin();
   }
   refresh(fluid_due, grains_due);
@@ -211,8 +222,12 @@ void CoupledSimulation::remove_cleared_bodies() {
     const auto& motion = config_.wall.bodies[b].motion;
     if (!motion.remove_when_clear || motion_.removed(b) || clock_.time <= motion.start) continue;
     double top = -std::numeric_limits<double>::infinity();
-    if (has_fluid()) top = std::max(top, max_over(fluid_.owned(), AlongBody<FluidPosition>{frame_, fluid_.x, up}) + fluid_solver_->range());
-    if (has_grains()) top = std::max(top, max_over(grains_.owned(), AlongBody<Vec3d>{frame_, grains_.x, up}) + config_.grain.d_max);
+    if (has_fluid())
+      top = std::max(top, max_over(fluid_.owned(), AlongBody<FluidPosition>{frame_, fluid_.x, up}) +
+                              fluid_solver_->range());
+    if (has_grains())
+      top = std::max(
+          top, max_over(grains_.owned(), AlongBody<Vec3d>{frame_, grains_.x, up}) + config_.grain.d_max);
     if (motion_.lowest(b, clock_.time, up) > top) motion_.remove(b);
   }
 }

@@ -44,7 +44,7 @@ class CoupledSimulation final : public Simulation {
   bool held() const { return config_.grain.fixed || clock_.time < config_.grain.release_time; }
 
   void upload(const Setup& setup);
-  void lay_fluid();                   ///< superficial mass and density over the grains, hydrostatic pressure
+  void lay_fluid();  ///< superficial mass and density over the grains, hydrostatic pressure
   void advance_fluid(double dt);
   void evaluate_fluid(double dt, double predict);  ///< density known: porosity, state, walls, forces
   void refresh_if_needed(double dt);
@@ -53,7 +53,7 @@ class CoupledSimulation final : public Simulation {
   void relist_coupling();
   void drop_lost_fluid();
   void remove_cleared_bodies();
-  void sweep();                       ///< extremes after a step; throws SimulationFault
+  void sweep();  ///< extremes after a step; throws SimulationFault
   Span<const BodyPose> poses_now() { return motion_.poses(clock_.time, 0, 1); }
   std::vector<Vec3d> wall_loads(const Vec3d& about);  ///< per body: force then torque by fluid, N and N m
 
@@ -72,7 +72,7 @@ class CoupledSimulation final : public Simulation {
   FluidExtremes fluid_extremes_;
   GrainWatch grain_watch_;
   double drag_limit_ = std::numeric_limits<double>::infinity();  ///< s, of the last exchange
-  double walls_moved_ = 0;        ///< bound on wall travel since the lists were built, m
+  double walls_moved_ = 0;  ///< bound on wall travel since the lists were built, m
   bool rebuilt_ = false;
   std::int64_t rebuilds_ = 0;
   double lost_fluid_ = 0, lost_mass_ = 0;

@@ -81,7 +81,8 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
     grain_grid_ = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, solid_solver_->range());
   }
   if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_);
-  if (has_fluid() && has_grains() && config.couple.mode != "off") coupling_ = std::make_unique<Coupling>(config, frame_);
+  if (has_fluid() && has_grains() && config.couple.mode != "off")
+    coupling_ = std::make_unique<Coupling>(config, frame_);
   upload(setup);
 }
 
@@ -138,7 +139,8 @@ void CoupledSimulation::lay_fluid() {
   if (hydrostatic(config_)) {
     const auto x = fluid_.x.values();
     for (Index a = 0; a < fluid_.size(); ++a)
-      pressure[a] = Real(config_.fluid.rho0 * norm(config_.gravity) * depth_at(config_, coordinates(frame_, x[a])));
+      pressure[a] =
+          Real(config_.fluid.rho0 * norm(config_.gravity) * depth_at(config_, coordinates(frame_, x[a])));
   }
   Buffer<Real> device;
   device.assign(pressure);
@@ -163,14 +165,10 @@ SavedState CoupledSimulation::save() {
     out.stores.push_back(fluid_.save());
     out.stores.push_back(walls_.save());
   }
-  out.scalars = {{"time", "s", clock_.time},
-                 {"step", "-", double(clock_.step)},
-                 {"last_dt", "s", clock_.last_dt},
-                 {"drag_limit", "s", drag_limit_},
-                 {"walls_moved", "m", walls_moved_},
-                 {"rebuilds", "-", double(rebuilds_)},
-                 {"lost_fluid", "-", lost_fluid_},
-                 {"lost_mass", "kg", lost_mass_}};
+  out.scalars = {{"time", "s", clock_.time},         {"step", "-", double(clock_.step)},
+                 {"last_dt", "s", clock_.last_dt},   {"drag_limit", "s", drag_limit_},
+                 {"walls_moved", "m", walls_moved_}, {"rebuilds", "-", double(rebuilds_)},
+                 {"lost_fluid", "-", lost_fluid_},   {"lost_mass", "kg", lost_mass_}};
   for (int b = 0; b < motion_.bodies(); ++b)
     out.scalars.push_back({"removed_" + std::to_string(b), "-", motion_.removed(b) ? 1.0 : 0.0});
   return out;

@@ -84,7 +84,8 @@ TEST(ReadCase, HonoursPresetsUnderTheCasesOwnKeys) {
 }
 
 TEST(ReadCase, BodiesInheritFromWall) {
-  const Config c = read(changed("[[wall.body]]", "[wall]\nslip = \"slip\"\nrepulsion = false\n[[wall.body]]"));
+  const Config c =
+      read(changed("[[wall.body]]", "[wall]\nslip = \"slip\"\nrepulsion = false\n[[wall.body]]"));
   EXPECT_EQ(c.wall.bodies[0].slip, "slip");
   EXPECT_FALSE(c.wall.bodies[0].repulsion);
   const Config own =
@@ -174,7 +175,7 @@ TEST(Warnings, NameWhatIsDoubtful) {
       (std::vector<std::string>{"couple.hc: the coupling reaches 2.5 diameters of the largest grain, which "
                                 "feels its own wake below 4"}));
   EXPECT_EQ(warnings_of(changed("end = 0.3", "end = 0.3\nintegrator = \"euler\"")),
-            (std::vector<std::string>{"time.integrator = \"euler\" is first order and gains energy"}));
+            (std::vector<std::string>{"time.integrator = \"euler\" is first order in time"}));
   EXPECT_EQ(warnings_of(changed("d = 0.002", "d = 0.002\nE = 1e4")).size(), 1u);
   EXPECT_EQ(
       warnings_of(changed("max = [0.05, 0.1, 0.1]\n[[wall",

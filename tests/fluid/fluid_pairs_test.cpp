@@ -104,7 +104,8 @@ TEST(FluidPairs, TaitAndDemocritusPressures) {  // T-5
   const EquationOfState democritus{Real(100), Real(7), Real(100 - 30), Real(3), false};
   EXPECT_NEAR(double(democritus.pressure(0)), 70, 70 * kInvariant);
   for (double x : {-0.05, 1e-6, 1e-3, 0.3})
-    EXPECT_NEAR(double(tait.compression(tait.pressure(Real(x)))), x, std::abs(x) * tolerance(1e-9, 1e-5, 1e-5));
+    EXPECT_NEAR(double(tait.compression(tait.pressure(Real(x)))), x,
+                std::abs(x) * tolerance(1e-9, 1e-5, 1e-5));
   EXPECT_EQ((EquationOfState{Real(1000), 7, 0, Real(1000), true}).pressure(Real(-0.1)), Real(0));
 }
 

@@ -34,9 +34,22 @@ double extrapolated(const Vec3d& gravity, const Vec3d& wall, const Vec3d& push) 
   std::vector<Real4> v_rho(1), v_visc(1), m_state(1);
   const auto in = [](const auto& host) { return Span(host.data(), Index(host.size())); };
   const auto out = [](auto& host) { return Span(host.data(), Index(host.size())); };
-  const WallPass<WendlandC2> pass{WendlandC2(0.1), EquationOfState{Real(1e7), 7, 0, 1000, false}, in(v), in(m), in(eps),
-                                  {}, 0, in(x), in(body), in(pose), Real3(gravity), Real(1e-3), Real(1e-3), out(v_rho),
-                                  out(v_visc), out(m_state)};
+  const WallPass<WendlandC2> pass{WendlandC2(0.1),
+                                  EquationOfState{Real(1e7), 7, 0, 1000, false},
+                                  in(v),
+                                  in(m),
+                                  in(eps),
+                                  {},
+                                  0,
+                                  in(x),
+                                  in(body),
+                                  in(pose),
+                                  Real3(gravity),
+                                  Real(1e-3),
+                                  Real(1e-3),
+                                  out(v_rho),
+                                  out(v_visc),
+                                  out(m_state)};
   auto sum = pass.start(0);
   for (int a = 0; a < 60; ++a) {
     const Real3 r = Real3(x[0] - at[a]);
@@ -86,10 +99,12 @@ TEST(SmallWalls, TakeWhatTheFluidGives) {  // T-17: sum of forces, repulsion amo
     s->step();
     if (k % 10 != 9) continue;
     const auto d = s->diagnostics();
-    const double scale = std::abs(reading(d, "force_walls_on_fluid_x")) + std::abs(reading(d, "force_walls_on_fluid_z"));
+    const double scale =
+        std::abs(reading(d, "force_walls_on_fluid_x")) + std::abs(reading(d, "force_walls_on_fluid_z"));
     largest = std::max(largest, scale);
     for (const char* axis : {"x", "y", "z"})
-      EXPECT_LT(std::abs(reading(d, std::string("fluid_force_residual_") + axis)) / scale, 10 * kInvariant) << axis;
+      EXPECT_LT(std::abs(reading(d, std::string("fluid_force_residual_") + axis)) / scale, 10 * kInvariant)
+          << axis;
   }
   EXPECT_GT(largest, 10 * 9.81 * 0.384) << "no impact";
 }

@@ -92,7 +92,8 @@ TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
     for_each_pair({0, Index(x.size())}, list, SphSeparation{c.frame, p, p}, range, RowPass{rows, width});
     const auto host = rows.to_host();
     for (Index i = 0; i < x.size(); ++i)
-      for (Index k = i * width; host[k] != kNone; ++k) EXPECT_TRUE(found[i].insert(host[k]).second) << "twice";
+      for (Index k = i * width; host[k] != kNone; ++k)
+        EXPECT_TRUE(found[i].insert(host[k]).second) << "twice";
   }
   for (Index i = 0; i < x.size(); ++i) EXPECT_EQ(found[i], expected[i]) << "particle " << i;
 
@@ -105,7 +106,8 @@ TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
 
 // ranges from well below to half the smallest period; 0.131 leaves a thin last layer of cells
 INSTANTIATE_TEST_SUITE_P(Boxes, Neighbours,
-                         testing::Combine(testing::Values(0, 1, 6, 7), testing::Values(0.03, 0.08, 0.131, 0.154)));
+                         testing::Combine(testing::Values(0, 1, 6, 7),
+                                          testing::Values(0.03, 0.08, 0.131, 0.154)));
 
 /// A pass that the CPU takes in packs, with every kind of gather; `constant` must come through unchanged.
 template <class W>
@@ -176,7 +178,8 @@ void expect_lists_and_cells_agree(bool periodic) {
   list.build(n, grid.view(), near);
   const W w(h);
   for_each_pair({0, n}, list, separation, range, MomentPass<W>{w, ones, threes, fours, by_list});
-  for_each_pair({0, n}, grid.view(), near, separation, range, MomentPass<W>{w, ones, threes, fours, by_cells});
+  for_each_pair({0, n}, grid.view(), near, separation, range,
+                MomentPass<W>{w, ones, threes, fours, by_cells});
   const auto a = by_list.to_host(), b = by_cells.to_host();
   const double scale = w.W(Real(0.5 * h)), bound = tolerance(1e-13, 2e-6, 2e-6);
   double most = 0;

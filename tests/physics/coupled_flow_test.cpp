@@ -23,8 +23,8 @@ struct Slurry {
     config.grain.present = true;
     config.grain.d = config.grain.d_max = config.grain.d_min = std::cbrt(phi * 6 / pi) * gap;
     config.couple.hc = std::max(config.fluid.h(), 2 * config.grain.d);
-    config.fluid.fills = {{config.domain.min, config.domain.max,
-                           {"0.3*sin(78.5398*y)", "0.1", "0.2*cos(78.5398*x)"}}};
+    config.fluid.fills = {
+        {config.domain.min, config.domain.max, {"0.3*sin(78.5398*y)", "0.1", "0.2*cos(78.5398*x)"}}};
     std::vector<std::string> warnings;
     setup = build_setup(config, warnings);
     for (int k = 0; k < n * n * n; ++k) {
@@ -36,7 +36,8 @@ struct Slurry {
 };
 
 Vec3d momentum(const std::vector<Quantity>& d, const std::string& phase) {
-  return {reading(d, phase + "_momentum_x"), reading(d, phase + "_momentum_y"), reading(d, phase + "_momentum_z")};
+  return {reading(d, phase + "_momentum_x"), reading(d, phase + "_momentum_y"),
+          reading(d, phase + "_momentum_z")};
 }
 
 TEST(SmallCoupled, MomentumOfFluidAndGrainsIsKept) {
@@ -48,7 +49,8 @@ TEST(SmallCoupled, MomentumOfFluidAndGrainsIsKept) {
     const Vec3d fluid = momentum(before, "fluid");
     for (int k = 0; k < 20; ++k) s->step();
     const auto after = s->diagnostics();
-    const Vec3d change = momentum(after, "fluid") + momentum(after, "grain") - fluid - momentum(before, "grain");
+    const Vec3d change =
+        momentum(after, "fluid") + momentum(after, "grain") - fluid - momentum(before, "grain");
     EXPECT_GT(norm(momentum(after, "fluid") - fluid), 1e-4 * norm(fluid)) << "the phases exchange nothing";
     const double scale = reading(after, "fluid_mass") * 0.3;
     EXPECT_LT(norm(change) / scale, 20 * kInvariant) << integrator;
@@ -161,8 +163,8 @@ TEST(SlowCoupledFlow, OneWayTerminalVelocity) {  // T-37
   floor.max = c.domain.max;
   floor.faces = {false, false, false, false, true, false};
   c.wall.bodies = {floor};
-  for (const auto& [law, expected] :
-       {std::pair{"stokes", 9.185e-3}, std::pair{"schiller_naumann", 8.057e-3}, std::pair{"di_felice", 7.609e-3}}) {
+  for (const auto& [law, expected] : {std::pair{"stokes", 9.185e-3}, std::pair{"schiller_naumann", 8.057e-3},
+                                      std::pair{"di_felice", 7.609e-3}}) {
     c.couple.drag = law;
     std::vector<std::string> warnings;
     auto setup = build_setup(c, warnings);

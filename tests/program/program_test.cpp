@@ -137,10 +137,12 @@ TEST_F(Program, RefusesAFixedStepAboveItsLimit) {
   EXPECT_NE(o.err.find("; limited by "), std::string::npos) << o.err;
   EXPECT_FALSE(std::filesystem::exists(dir_ / "r"));
 
-  write("fixed.toml", std::string("time.dt = 0.1\n") + kSmall);
+  std::string fixed = kSmall;
+  fixed.insert(fixed.find("[time]\n") + 7, "dt = 0.1\n");
+  write("fixed.toml", fixed);
   const Outcome f = bedload("check fixed.toml --backend cpu");
   EXPECT_EQ(f.code, 2);
-  EXPECT_TRUE(f.err.starts_with("fixed.toml:1: time.dt = 0.1 must be <= ")) << f.err;
+  EXPECT_TRUE(f.err.starts_with("fixed.toml:25: time.dt = 0.1 must be <= ")) << f.err;
 }
 
 TEST_F(Program, RunsACaseAndLeavesItsFiles) {

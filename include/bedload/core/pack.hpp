@@ -28,7 +28,8 @@ constexpr int kLanes = 16 / sizeof(Real);
 #endif
 
 struct PackMask {
-  using Native [[gnu::vector_size(kLanes * sizeof(Real))]] = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
+  using Native [[gnu::vector_size(kLanes * sizeof(Real))]] =
+      std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
   Native v;
 };
 
@@ -116,7 +117,9 @@ template <class J>
       std::memcpy(&out, p + j[l], sizeof(Row));
       return out;
     };
-    const auto rows = [&](int l) -> Rows { return __builtin_shufflevector(row(l), row(l + 4), 0, 1, 2, 3, 4, 5, 6, 7); };
+    const auto rows = [&](int l) -> Rows {
+      return __builtin_shufflevector(row(l), row(l + 4), 0, 1, 2, 3, 4, 5, 6, 7);
+    };
     const auto a = rows(0), b = rows(1), c = rows(2), d = rows(3);
     const auto ab_low = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
     const auto ab_high = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);

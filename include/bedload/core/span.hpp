@@ -20,12 +20,8 @@ struct Span {
 
   BL_HD T& operator[](Index i) const { return data[i]; }
 #if !BL_CUDA
-  auto operator[](PackIndex j) const {
-    return gather(static_cast<const std::remove_const_t<T>*>(data), j);
-  }
-  auto operator[](PackRun j) const {
-    return gather(static_cast<const std::remove_const_t<T>*>(data), j);
-  }
+  auto operator[](PackIndex j) const { return gather(static_cast<const std::remove_const_t<T>*>(data), j); }
+  auto operator[](PackRun j) const { return gather(static_cast<const std::remove_const_t<T>*>(data), j); }
 #endif
   BL_HD explicit operator bool() const { return data != nullptr; }
 };

@@ -13,7 +13,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-using Real = BL_REAL;        ///< velocities, densities, pressures and pair arithmetic
+using Real = BL_REAL;  ///< velocities, densities, pressures and pair arithmetic
 using Real3 = Vec3<Real>;
 using Real4 = Vec4<Real>;
 using Index = std::uint32_t;  ///< place of a particle in its (sorted) store

@@ -9,8 +9,8 @@
 namespace bedload::inline BL_VARIANT {
 
 struct CellGridView {
-  Vec3d origin, inverse;       ///< 1/m
-  int n[3] = {1, 1, 1};        ///< cells that can hold particles
+  Vec3d origin, inverse;  ///< 1/m
+  int n[3] = {1, 1, 1};   ///< cells that can hold particles
   int bricks[3] = {1, 1, 1};
   bool periodic[3] = {false, false, false};
   const std::uint16_t* curve = nullptr;  ///< [512] place on the Hilbert curve of a cell in its brick
@@ -89,7 +89,8 @@ struct CellGridView {
     b.cell(q, i);
     return key(wrapped(b.lo[0] + i[0], 0), wrapped(b.lo[1] + i[1], 1), wrapped(b.lo[2] + i[2], 2));
   }
-  /// Calls f(j) for each particle in every stride-th of the cells that a sphere of radius `range` about x touches.
+  /// Calls f(j) for each particle in every stride-th of the cells that a sphere of radius `range` about x
+  /// touches.
   template <class F>
   BL_HD void each_near(const Vec3d& x, double range, F&& f, int first = 0, int stride = 1) const {
     const Block b = block(x, range);

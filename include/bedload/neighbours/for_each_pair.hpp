@@ -49,7 +49,9 @@ struct CrossSeparation {
 };
 
 template <class Pass, class Sum>
-concept Mergeable = requires(const Pass& pass, Sum& into, const Sum& other) { pass.merge(into, other); };
+concept Mergeable = requires(const Pass& pass, Sum& into, const Sum& other) {
+  pass.merge(into, other);
+};
 
 template <class Pass>
 unsigned pass_lane_bits(const Pass&, Range range) {
@@ -62,7 +64,9 @@ template <class Pass>
 constexpr bool kInPacks = false;
 #else
 template <class Pass>
-constexpr bool kInPacks = requires { typename Pass::template Sum<Pack>; };
+constexpr bool kInPacks = requires {
+  typename Pass::template Sum<Pack>;
+};
 
 /// Partial sums of one row, one for each lane of a pack.
 template <class Pass>
@@ -190,8 +194,9 @@ template <class Separation, class Pass>
 void for_each_pair(Range range, const VerletList& list, const Separation& separation, double cutoff,
                    const Pass& pass) {
   const unsigned bits = pass_lane_bits(pass, range);
-  for_each({0, range.size() << bits},
-           ListLoop<Separation, Pass>{{list.view(), separation, Real(cutoff * cutoff)}, pass, range.begin, bits});
+  for_each(
+      {0, range.size() << bits},
+      ListLoop<Separation, Pass>{{list.view(), separation, Real(cutoff * cutoff)}, pass, range.begin, bits});
 }
 
 /// A pass over two lists in one go: `pair` for the first, `wall_pair` for the second.
@@ -212,14 +217,17 @@ struct TwoListLoop {
 };
 
 template <class Separation, class Pass>
-void for_each_pair(Range range, const VerletList& list, const Separation& separation, const VerletList& wall_list,
-                   const Separation& wall_separation, double cutoff, const Pass& pass) {
+void for_each_pair(Range range, const VerletList& list, const Separation& separation,
+                   const VerletList& wall_list, const Separation& wall_separation, double cutoff,
+                   const Pass& pass) {
   const unsigned bits = pass_lane_bits(pass, range);
   const Real range2 = Real(cutoff * cutoff);
   for_each({0, range.size() << bits},
            TwoListLoop<Separation, Pass>{{list.view(), separation, range2},
                                          {wall_list.view(), wall_separation, range2},
-                                         pass, range.begin, bits});
+                                         pass,
+                                         range.begin,
+                                         bits});
 }
 
 template <class Near, class Separation, class Pass>

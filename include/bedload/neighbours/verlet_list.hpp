@@ -185,11 +185,10 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
   const auto end = [&](Index b) { return min_of(rows, (b + 1) * block); };
   std::vector<std::vector<Index>> found(blocks);
 #pragma omp parallel for schedule(dynamic, 1)
-  for (Index b = 0; b < blocks; ++b)
-    {
-      detail::NearSearch<Near> search{near, found[b]};
-      for (Index i = b * block; i < end(b); ++i) count_.data()[i] = search.row(i, sources);
-    }
+  for (Index b = 0; b < blocks; ++b) {
+    detail::NearSearch<Near> search{near, found[b]};
+    for (Index i = b * block; i < end(b); ++i) count_.data()[i] = search.row(i, sources);
+  }
   offset_.resize(rows + 1);
   slots_ = 0;
   for (Index i = 0; i <= rows; ++i) {
@@ -209,10 +208,10 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
 template <class PA>
 struct SphNear {
   Frame frame;
-  Span<const PA> x;              ///< full positions of the targets
+  Span<const PA> x;  ///< full positions of the targets
   Span<const PairPosition> a, b;
-  double range;                  ///< m
-  bool same;                     ///< targets are the sources: a particle is not its own neighbour
+  double range;  ///< m
+  bool same;     ///< targets are the sources: a particle is not its own neighbour
   BL_HD Vec3d place(Index i) const { return coordinates(frame, x[i]); }
   BL_HD double reach(Index) const { return range; }
   BL_HD bool operator()(Index i, Index j) const {
