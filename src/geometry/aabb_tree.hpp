@@ -52,7 +52,7 @@ class AabbTree {
   }
 
  private:
-  static constexpr int kLeafSize = 4, kMaxDepth = 64;
+  static constexpr int kLeafSize = 2, kMaxDepth = 64;
 
   struct Node {
     Bounds box;

@@ -21,7 +21,6 @@ namespace bedload {
 namespace {
 
 // Lengths in spacings.
-constexpr int kSupportLayers = 1;    // laid below the last one, so that it too is pushed from both sides
 constexpr double kReach = 2;         // of the repulsion
 constexpr double kSkin = 0.3;        // by which cells are wider than that
 constexpr double kStiffness = 0.08;  // step per force; larger ones ring
@@ -294,11 +293,10 @@ std::vector<Vec3d> sample_shape(const Shape& shape, double spacing, double depth
         fmt::format("wall particles: spacing = {:g} m is too small for a body of {:g} m", spacing, size));
 
   const int layers = int(std::ceil(std::min(depth, size) / spacing - 1e-6));
-  auto particles = LayerVolumes(shape, spacing, layers + kSupportLayers).lay();
+  std::vector<Particle> particles = LayerVolumes(shape, spacing, layers).lay();
   if (!particles.empty()) Relaxation(shape, spacing, particles);
   std::vector<Vec3d> x;
-  for (const Particle& p : particles)
-    if (p.layer < layers) x.push_back(p.x);
+  for (const Particle& p : particles) x.push_back(p.x);
   return x;
 }
 

@@ -133,6 +133,19 @@ TEST(MeshCheck, AcceptsClosedSurfaces) {
   EXPECT_EQ(defect(together(cube(), moved(cube(), {1.5, 0, 0}))), "");
 }
 
+TEST(MeshCheck, WeldsOnlyEqualVertices) {
+  // Details a millionth of the whole in size, each triangle with vertices of its own as in STL files.
+  TriangleSoup fine = ball(2), loose;
+  for (Vec3d& x : fine.vertices) x *= 1e-3;
+  const TriangleSoup soup = together(fine, moved(cube(1000), {1, 1, 1}));
+  for (const Triangle& t : soup.triangles) {
+    const std::uint32_t n = std::uint32_t(loose.vertices.size());
+    for (const std::uint32_t v : t) loose.vertices.push_back(soup.vertices[v]);
+    loose.triangles.push_back({n, n + 1, n + 2});
+  }
+  EXPECT_EQ(TriangleMesh(loose, "m.stl").vertices().size(), soup.vertices.size());
+}
+
 TEST(MeshCheck, Empty) { EXPECT_EQ(defect({}), "m.stl: holds no triangles"); }
 
 TEST(MeshCheck, BadNumbers) {
