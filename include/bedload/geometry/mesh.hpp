@@ -1,0 +1,78 @@
+#pragma once
+// Solids bounded by triangles, such as CAD exports.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bedload/geometry/shape.hpp"
+
+namespace bedload {
+
+/// Corners counter-clockwise seen from outside, as indices of vertices.
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// Vertices, m, and the triangles between them.
+struct TriangleSoup {
+  std::vector<Vec3d> vertices;
+  std::vector<Triangle> triangles;
+};
+
+struct MeshOptions {
+  Placement placement;  ///< of the vertices as given; says how long their unit is
+  bool repair = false;  ///< welds, drops degenerate triangles and turns the rest outward
+  double weld = 0;      ///< repair makes vertices nearer than this one, m; 0: 1e-6 of the mesh's diagonal
+};
+
+namespace detail {
+class AabbTree;
+}
+
+/// The solid inside closed surfaces of triangles; a surface within another bounds a cavity. Its distance is
+/// exact; the sign follows the angle-weighted pseudonormal of the nearest feature [baerentzen05].
+class TriangleMesh : public Shape {
+ public:
+  /// Equal vertices are welded. `name` begins each error. Throws CaseError, naming a place, unless the
+  /// surface is a watertight, consistently outward manifold without degenerate triangles that nowhere passes
+  /// through itself by more than 1e-9 of the mesh's diagonal. Triangles lower than that are degenerate. What
+  /// `options.repair` does is done before; what it does not cover is still an error.
+  TriangleMesh(TriangleSoup soup, const std::string& name, const MeshOptions& options = {});
+  ~TriangleMesh() override;
+
+  SurfacePoint nearest(const Vec3d& x) const override;
+  Bounds bounds() const override { return bounds_; }
+
+  /// Index of the triangle nearest to x; the least of those equally near.
+  std::uint32_t nearest_triangle(const Vec3d& x) const;
+
+  /// Of the solid, m3.
+  double volume() const;
+
+  const std::vector<Vec3d>& vertices() const { return soup_.vertices; }
+  const std::vector<Triangle>& triangles() const { return soup_.triangles; }
+
+ private:
+  struct Hit;
+  Hit find_nearest(const Vec3d& x) const;
+  Vec3d pseudonormal(const Hit& hit) const;
+
+  TriangleSoup soup_;
+  Bounds bounds_;
+  std::vector<std::uint32_t>
+      across_;  // [3 n] the same edge in the triangle beyond it, as 3 * triangle + edge
+  std::vector<Vec3d> vertex_normals_;  // angle-weighted sums
+  std::unique_ptr<const detail::AabbTree> tree_;
+};
+
+/// Triangles of an STL (binary or ASCII), OBJ or PLY file, numbers taken as m. Polygons are split. Throws
+/// FileError if it cannot be read, CaseError if it holds no triangles or is of another kind.
+TriangleSoup read_triangles(const std::filesystem::path& file);
+
+/// The solid in such a file. Throws FileError and, where it bounds no solid, CaseError.
+std::shared_ptr<const TriangleMesh> read_mesh(const std::filesystem::path& file,
+                                              const MeshOptions& options = {});
+
+}  // namespace bedload

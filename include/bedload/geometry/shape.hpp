@@ -1,0 +1,101 @@
+#pragma once
+// Solids by their signed distance: what walls are made of and what fluid and grains fill.
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "bedload/core/vec.hpp"
+
+namespace bedload {
+
+/// Axis-aligned box that holds what was added to it; empty at first.
+struct Bounds {
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Vec3d min{kInfinity, kInfinity, kInfinity}, max{-kInfinity, -kInfinity, -kInfinity};  ///< m
+
+  void add(const Vec3d& x) {
+    for (int k = 0; k < 3; ++k) min[k] = std::fmin(min[k], x[k]), max[k] = std::fmax(max[k], x[k]);
+  }
+  void add(const Bounds& other) {
+    for (int k = 0; k < 3; ++k)
+      min[k] = std::fmin(min[k], other.min[k]), max[k] = std::fmax(max[k], other.max[k]);
+  }
+  Bounds grown(double by) const {
+    Bounds b = *this;
+    for (int k = 0; k < 3; ++k) b.min[k] -= by, b.max[k] += by;
+    return b;
+  }
+};
+
+/// Similarity: x -> translation + scale * rotation(x).
+struct Placement {
+  double scale = 1;       ///< above 0
+  Quat<double> rotation;  ///< unit
+  Vec3d translation;      ///< m
+
+  Vec3d apply(const Vec3d& x) const { return translation + scale * rotation.rotate(x); }
+  Vec3d undo(const Vec3d& x) const { return rotation.conjugate().rotate(x - translation) / scale; }
+};
+
+/// The surface as seen from some place.
+struct SurfacePoint {
+  double distance = 0;  ///< of the place, m; negative inside the solid
+  Vec3d point;          ///< of the surface nearest to the place, m
+  Vec3d normal;         ///< gradient of the distance at the place; on the surface the outward normal
+};
+
+/// A solid. Its signed distance changes by no more than the way walked (Lipschitz constant 1).
+class Shape {
+ public:
+  virtual ~Shape() = default;
+
+  virtual SurfacePoint nearest(const Vec3d& x) const = 0;
+
+  /// Encloses the solid, not always tightly.
+  virtual Bounds bounds() const = 0;
+
+  /// m, negative inside the solid.
+  double distance(const Vec3d& x) const { return nearest(x).distance; }
+};
+
+using ShapePtr = std::shared_ptr<const Shape>;
+
+// Primitives. Distances are exact; lengths in m. Sizes that make no solid raise a CaseError.
+
+ShapePtr make_box(const Vec3d& min, const Vec3d& max);
+ShapePtr make_sphere(const Vec3d& centre, double radius);
+
+/// All points within `radius` of the line from a to b.
+ShapePtr make_capsule(const Vec3d& a, const Vec3d& b, double radius);
+
+/// Flat ends at a and b.
+ShapePtr make_cylinder(const Vec3d& a, const Vec3d& b, double radius);
+
+/// Flat ends at a and b; one of the two radii may be 0.
+ShapePtr make_cone(const Vec3d& a, const Vec3d& b, double radius_a, double radius_b);
+
+enum class PipeEnds { open, closed_a, closed_b, closed };
+
+/// Hollow cylinder whose bore runs from a to b. A closed end is a plate beyond it, as thick as the wall.
+ShapePtr make_pipe(const Vec3d& a, const Vec3d& b, double inner_radius, double outer_radius, PipeEnds ends);
+
+// Shapes made of others.
+
+/// Vessel: the points outside `shape` within `thickness` of it, so that `shape` is the hollow. Exact wherever
+/// `shape` is, except within the wall where that is concave outside: a bound there.
+ShapePtr make_hollow(ShapePtr shape, double thickness);
+
+/// All of the shapes together. The distance is their least: exact outside, inside no greater than the true
+/// depth. Shapes that only touch leave a surface between them: let them overlap.
+ShapePtr make_union(std::vector<ShapePtr> shapes);
+
+/// `shape` without `cut`. The distance is max(d, -d_cut): exact on the surface, elsewhere never greater in
+/// magnitude than the true one. `nearest` may name a point of the part that is cut away.
+ShapePtr make_difference(ShapePtr shape, ShapePtr cut);
+
+/// `shape` moved, turned and scaled.
+ShapePtr make_placed(ShapePtr shape, const Placement& placement);
+
+}  // namespace bedload

@@ -1,0 +1,17 @@
+#pragma once
+// Wall particles of any solid.
+
+#include <vector>
+
+#include "bedload/geometry/shape.hpp"
+
+namespace bedload {
+
+/// Particles that fill the solid down to `depth` below its surface (m), 1 / spacing^3 of them per volume.
+/// They lie in layers `spacing` apart, the first half a spacing below the surface, spread evenly over each;
+/// the last layer is the one that reaches `depth`. Where the solid is too thin for its innermost layer, that
+/// lies midway. The same arguments give the same particles, bit by bit, on any number of threads. Throws
+/// CaseError.
+std::vector<Vec3d> sample_shape(const Shape& shape, double spacing, double depth);
+
+}  // namespace bedload

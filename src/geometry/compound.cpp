@@ -1,0 +1,118 @@
+// Shapes made of other shapes.
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "bedload/core/error.hpp"
+#include "bedload/geometry/shape.hpp"
+
+namespace bedload {
+namespace {
+
+/// The same surface around the complement of the solid.
+SurfacePoint inverted(const SurfacePoint& s) { return {-s.distance, s.point, -s.normal}; }
+
+class Hollow : public Shape {
+ public:
+  Hollow(ShapePtr shape, double thickness) : shape_(std::move(shape)), thickness_(thickness) {
+    if (!(thickness > 0 && std::isfinite(thickness)))
+      throw CaseError(fmt::format("hollow: thickness = {:g} m must be above 0", thickness));
+  }
+
+  SurfacePoint nearest(const Vec3d& x) const override {
+    const SurfacePoint inner = shape_->nearest(x);
+    if (inner.distance < thickness_ / 2) return inverted(inner);
+    return {inner.distance - thickness_, inner.point + thickness_ * inner.normal, inner.normal};
+  }
+
+  Bounds bounds() const override { return shape_->bounds().grown(thickness_); }
+
+ private:
+  ShapePtr shape_;
+  double thickness_;
+};
+
+class Union : public Shape {
+ public:
+  explicit Union(std::vector<ShapePtr> shapes) : shapes_(std::move(shapes)) {
+    if (shapes_.empty()) throw CaseError("union: must hold at least one shape");
+  }
+
+  SurfacePoint nearest(const Vec3d& x) const override {
+    SurfacePoint least = shapes_[0]->nearest(x);
+    for (std::size_t n = 1; n < shapes_.size(); ++n) {
+      const SurfacePoint other = shapes_[n]->nearest(x);
+      if (other.distance < least.distance) least = other;
+    }
+    return least;
+  }
+
+  Bounds bounds() const override {
+    Bounds b;
+    for (const ShapePtr& shape : shapes_) b.add(shape->bounds());
+    return b;
+  }
+
+ private:
+  std::vector<ShapePtr> shapes_;
+};
+
+class Difference : public Shape {
+ public:
+  Difference(ShapePtr shape, ShapePtr cut) : shape_(std::move(shape)), cut_(std::move(cut)) {}
+
+  SurfacePoint nearest(const Vec3d& x) const override {
+    const SurfacePoint kept = shape_->nearest(x), cut = inverted(cut_->nearest(x));
+    return kept.distance >= cut.distance ? kept : cut;
+  }
+
+  Bounds bounds() const override { return shape_->bounds(); }
+
+ private:
+  ShapePtr shape_, cut_;
+};
+
+class Placed : public Shape {
+ public:
+  Placed(ShapePtr shape, const Placement& placement) : shape_(std::move(shape)), placement_(placement) {
+    if (!(placement.scale > 0 && std::isfinite(placement.scale)))
+      throw CaseError(fmt::format("placed shape: scale = {:g} must be above 0", placement.scale));
+  }
+
+  SurfacePoint nearest(const Vec3d& x) const override {
+    const SurfacePoint s = shape_->nearest(placement_.undo(x));
+    return {placement_.scale * s.distance, placement_.apply(s.point), placement_.rotation.rotate(s.normal)};
+  }
+
+  Bounds bounds() const override {
+    const Bounds own = shape_->bounds();
+    Bounds b;
+    for (int corner = 0; corner < 8; ++corner)
+      b.add(placement_.apply({corner & 1 ? own.max.x : own.min.x, corner & 2 ? own.max.y : own.min.y,
+                              corner & 4 ? own.max.z : own.min.z}));
+    return b;
+  }
+
+ private:
+  ShapePtr shape_;
+  Placement placement_;
+};
+
+}  // namespace
+
+ShapePtr make_hollow(ShapePtr shape, double thickness) {
+  return std::make_shared<Hollow>(std::move(shape), thickness);
+}
+
+ShapePtr make_union(std::vector<ShapePtr> shapes) { return std::make_shared<Union>(std::move(shapes)); }
+
+ShapePtr make_difference(ShapePtr shape, ShapePtr cut) {
+  return std::make_shared<Difference>(std::move(shape), std::move(cut));
+}
+
+ShapePtr make_placed(ShapePtr shape, const Placement& placement) {
+  return std::make_shared<Placed>(std::move(shape), placement);
+}
+
+}  // namespace bedload

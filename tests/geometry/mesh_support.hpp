@@ -1,0 +1,107 @@
+#pragma once
+// Triangle meshes made for tests.
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "bedload/geometry/mesh.hpp"
+#include "shape_support.hpp"
+
+namespace bedload::test {
+
+/// A new folder, removed with all in it at the end of its life.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "bedload_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path_ = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// What a polygon (x, y), counter-clockwise, sweeps from z = 0 to `height`; `split` lists its triangles.
+inline TriangleSoup prism(const std::vector<std::pair<double, double>>& polygon,
+                          const std::vector<Triangle>& split, double height) {
+  TriangleSoup soup;
+  const std::uint32_t n = std::uint32_t(polygon.size());
+  for (const double z : {0.0, height})
+    for (const auto& [x, y] : polygon) soup.vertices.push_back({x, y, z});
+  for (const Triangle& t : split) {
+    soup.triangles.push_back({t[0], t[2], t[1]});
+    soup.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+  }
+  for (std::uint32_t k = 0; k < n; ++k) {
+    const std::uint32_t next = (k + 1) % n;
+    soup.triangles.push_back({k, next, next + n});
+    soup.triangles.push_back({k, next + n, k + n});
+  }
+  return soup;
+}
+
+/// From 0 to `side`.
+inline TriangleSoup cube(double side = 1) {
+  return prism({{0, 0}, {side, 0}, {side, side}, {0, side}}, {{0, 1, 2}, {0, 2, 3}}, side);
+}
+
+/// 2 m along x and y, 1 m high, without its quarter at large x and y.
+inline TriangleSoup l_prism() {
+  return prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, {{0, 1, 2}, {0, 2, 3}, {0, 3, 5}, {3, 4, 5}},
+               1);
+}
+
+/// Of radius 1 about the origin: an octahedron, each triangle split into four `splits` times.
+inline TriangleSoup ball(int splits) {
+  TriangleSoup soup{{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                    {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
+  for (int n = 0; n < splits; ++n) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t i, std::uint32_t j) {
+      const auto [place, is_new] =
+          middles.try_emplace(std::minmax(i, j), std::uint32_t(soup.vertices.size()));
+      if (is_new) {
+        const Vec3d x = soup.vertices[i] + soup.vertices[j];
+        soup.vertices.push_back(x / norm(x));
+      }
+      return place->second;
+    };
+    std::vector<Triangle> finer;
+    for (const auto& [i, j, k] : soup.triangles) {
+      const std::uint32_t a = middle(i, j), b = middle(j, k), c = middle(k, i);
+      finer.insert(finer.end(), {{i, a, c}, {a, j, b}, {c, b, k}, {a, b, c}});
+    }
+    soup.triangles = finer;
+  }
+  return soup;
+}
+
+inline TriangleSoup moved(TriangleSoup soup, const Vec3d& by) {
+  for (Vec3d& x : soup.vertices) x += by;
+  return soup;
+}
+
+inline TriangleSoup inside_out(TriangleSoup soup) {
+  for (Triangle& t : soup.triangles) std::swap(t[0], t[1]);
+  return soup;
+}
+
+inline TriangleSoup together(TriangleSoup a, const TriangleSoup& b) {
+  const std::uint32_t n = std::uint32_t(a.vertices.size());
+  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (const Triangle& t : b.triangles) a.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
+  return a;
+}
+
+}  // namespace bedload::test
