@@ -111,7 +111,9 @@ void expect_even(const Shape& shape, const Limits& limits) {
     }
   }
   EXPECT_LT(surface_hole, limits.hole);
-  EXPECT_LT(wide, limits.hole > 1 ? 0.04 * on_surface : 0.002 * on_surface);  // than in a cubic lattice
+  // wider than in a cubic lattice; the pattern, and with it this share, changes with the last digit of any
+  // number
+  EXPECT_LT(wide, limits.hole > 1 ? 0.04 * on_surface : 0.005 * on_surface);
   EXPECT_LT(hole, 1);
   ASSERT_GT(middle, 200);
   EXPECT_NEAR(sum / middle, 1, limits.mean_density);

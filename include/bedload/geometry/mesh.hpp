@@ -45,7 +45,7 @@ class TriangleMesh : public Shape {
   SurfacePoint nearest(const Vec3d& x) const override;
   Bounds bounds() const override { return bounds_; }
 
-  /// Index of the triangle nearest to x; the least of those equally near.
+  /// Index of the triangle nearest to x; of those equally near any one, always the same.
   std::uint32_t nearest_triangle(const Vec3d& x) const;
 
   /// Of the solid, m3.
