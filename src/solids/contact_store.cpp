@@ -31,7 +31,7 @@ template <class T>
 HostArray to_array(const char* name, const char* unit, const std::vector<T>& values) {
   HostArray a{name, unit, FileType<T>::scalar, FileType<T>::components, {}};
   a.bytes.resize(values.size() * sizeof(T));
-  std::memcpy(a.bytes.data(), values.data(), a.bytes.size());
+  if (!values.empty()) std::memcpy(a.bytes.data(), values.data(), a.bytes.size());
   return a;
 }
 
