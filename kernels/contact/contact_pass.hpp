@@ -4,7 +4,7 @@
 
 #include "bedload/neighbours/verlet_list.hpp"
 #include "kernels/contact/contact_law.hpp"
-#include "kernels/walls/surface.hpp"
+#include "kernels/contact/wall_contacts.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -58,9 +58,11 @@ struct ContactPass {
   Span<const Id> id;
   VerletListView list;
   ContactHistory* history;
-  Span<const Surface> surfaces;
-  ContactHistory* const* wall_history;  ///< [surfaces][grains]
-  const BodyPose* poses;                ///< [bodies]
+  SurfaceSet walls;
+  WallMemory* const* wall_memory;  ///< [wall_room][grains]
+  Index* wall_contacts;            ///< [grains]
+  int wall_room;                   ///< walls that a grain may touch at once
+  const BodyPose* poses;           ///< [bodies]
 
   BL_HD Sphere sphere(Index i) const { return {radius[i], mass_per_r3 * cube(radius[i])}; }
 
@@ -71,11 +73,11 @@ struct ContactPass {
     const std::uint32_t n = list.count[i];
     std::uint64_t slot = list.first(i);
     for (std::uint32_t k = 0; k < n; ++k, slot += kSlice) pair(i, list.entry[slot], history[slot], sum);
-    for (Index s = 0; s < surfaces.size; ++s) {
-      const WallContact c = wall(i, surfaces[s], wall_history[s][i]);
-      sum.force += Vec3d(c.on_grain.force);
-      sum.torque += Vec3d(c.on_grain.torque_i);
-    }
+    if (walls.surfaces.size > 0)
+      each_wall(i, true, [&](std::uint32_t, const WallContact& c) {
+        sum.force += Vec3d(c.on_grain.force);
+        sum.torque += Vec3d(c.on_grain.torque_i);
+      });
     return sum;
   }
 
@@ -83,27 +85,51 @@ struct ContactPass {
     ContactForce on_grain;
     Vec3d point;  ///< m
   };
-  /// Grain i against one surface; all zero when apart.
-  BL_HD WallContact wall(Index i, const Surface& surface, ContactHistory& h) const {
-    const BodyPose& pose = poses[surface.body];
-    // a radius off, the history has been cleared long ago: no step goes so far
-    if (beyond(surface, pose, frame, x[i], 2 * double(radius[i]))) return {};
-    const double side = h.overlap > 0 ? 1.0 : (h.overlap < 0 ? -1.0 : 0.0);
-    const SurfaceContact at = meet(surface, pose, frame, x[i], side);
-    const double overlap = double(radius[i]) - at.distance;
-    if (!(overlap > 0) || !pose.present) {
-      if (h.overlap != 0) h = {};
-      return {};
+  BL_HD WallMemories memories(Index i) const { return {wall_memory, wall_contacts, i}; }
+
+  /// f(body, contact) for all that grain i touches of the walls; `keep`: histories are advanced.
+  template <class F>
+  BL_HD void each_wall(Index i, bool keep, F&& f) const {
+    const WallMemories memory = memories(i);
+    const double R = double(radius[i]);
+    WallTouches touches(memory, walls.surfaces.data, wall_room);
+    for (Index s = 0; s < walls.surfaces.size; ++s) {
+      const Surface& surface = walls.surfaces[s];
+      const BodyPose& pose = poses[surface.body];
+      // a patch that holds a grain on its side may be behind its centre
+      const double reach = surface.tracked() ? R : 2 * R;
+      const SurfaceView view(surface, pose, frame, x[i]);
+      if (!pose.present || view.beyond(walls, reach)) continue;
+      view.each_foot(walls, reach, 1e-4 * R, [&](const Foot& foot) { touches.add(s, foot, R); });
     }
-    const Real3 v_rel = v[i] - Real3(pose.velocity(at.point));
-    h.overlap *= side;
-    WallContact c{law(touch_wall(sphere(i), at.normal, overlap), v_rel, omega[i], Real3(pose.omega), dt, h),
-                  at.point};
-    h.overlap *= at.side;
-    return c;
+    if (touches.size() > 0) {
+      touches.settle();
+      WallMemory next[kMostWallContacts];
+      for (int k = 0; k < touches.size(); ++k) {
+        next[k] = touch_one(i, touches[k], memory, f);
+      }
+      if (keep)
+        for (int k = 0; k < touches.size(); ++k) memory[k] = next[k];
+    }
+    if (keep && memory.count() != Index(touches.size())) wall_contacts[i] = Index(touches.size());
   }
 
  private:
+  template <class F>
+  BL_HD WallMemory touch_one(Index i, const WallTouch& touch, const WallMemories& memory, F& f) const {
+    const Foot& foot = touch.foot;
+    const BodyPose& pose = poses[touch.body];
+    ContactHistory h;
+    if (touch.from != kNone) h = memory[touch.from].history;
+    h.overlap = std::abs(h.overlap);
+    const Vec3d point = x[i] - foot.distance * foot.normal;
+    const Real3 v_rel = v[i] - Real3(pose.velocity(point));
+    const ContactForce on_grain = law(touch_wall(sphere(i), foot.normal, double(radius[i]) - foot.distance),
+                                      v_rel, omega[i], Real3(pose.omega), dt, h);
+    f(touch.body, WallContact{on_grain, point});
+    h.overlap *= foot.side;
+    return {touch.key(), foot.normal, h};
+  }
   BL_HD void pair(Index i, Index j, ContactHistory& h, ContactSum& sum) const {
     const Vec3d r_ij = frame.separation(x[i], x[j]);
     const double reach = double(radius[i]) + double(radius[j]), r2 = norm2(r_ij);

@@ -8,7 +8,7 @@ namespace bedload::inline BL_VARIANT {
 /// Share of a smoothing kernel on one side of a plane at distance z from its centre.
 struct HalfSpaceShare {
   static constexpr int points = 65;
-  Real range = 0;         ///< support, m
+  Real range = 0;           ///< support, m
   Real below[points] = {};  ///< share below z = range k / (points - 1), 0.5..1
 
   template <class W>
@@ -39,27 +39,48 @@ struct HalfSpaceShare {
 };
 
 /// Share of the kernel around a point that walls leave free. Each extent is taken for itself: exact for
-/// planes and for tanks up to the kernel's deviation from a product of three.
+/// planes and for tanks up to the kernel's deviation from a product of three. A curved surface counts as the
+/// plane through its foot; feet that look the same way hide the same.
 struct WallFreeShare {
   HalfSpaceShare half_space;
   Frame frame;
-  Span<const Surface> surfaces;
+  SurfaceSet walls;
   Span<const BodyPose> pose;
 
   BL_HD Real operator()(const Vec3d& x) const {
     Real share = 1;
-    for (Index k = 0; k < surfaces.size; ++k) {
-      const Surface& s = surfaces[k];
+    for (Index k = 0; k < walls.surfaces.size; ++k) {
+      const Surface& s = walls.surfaces[k];
       const BodyPose& at = pose[s.body];
       if (!at.present) continue;
-      Vec3d r = frame.nearest_image(x - at.place(s.centre));
-      if (at.rotation.w != 1) r = at.rotation.conjugate().rotate(r);
-      share *= 1 - behind(s, r);
+      const SurfaceView view(s, at, frame, x);
+      if (s.kind == SurfaceKind::plane || s.kind == SurfaceKind::rectangle ||
+          (s.kind == SurfaceKind::box && s.shell == 0))
+        share *= 1 - behind(s, view.local());
+      else
+        share *= beside(view);
     }
     return max_of(share, Real(0.125));  // in a corner
   }
 
  private:
+  static constexpr int kFeet = 6;  ///< that the next are compared with
+
+  BL_HD Real beside(const SurfaceView& view) const {
+    const double reach = double(half_space.range);
+    if (view.beyond(walls, reach)) return 1;
+    Vec3d normals[kFeet];
+    int feet = 0;
+    Real share = 1;
+    view.each_foot(walls, reach, 1e-4 * reach, [&](const Foot& foot) {
+      Real fresh = 1;
+      for (int k = 0; k < feet; ++k)
+        fresh = min_of(fresh, max_of(Real(0), 1 - Real(dot(normals[k], foot.normal))));
+      share *= 1 - fresh * (1 - half_space(foot.distance));
+      if (feet < kFeet) normals[feet++] = foot.normal;
+    });
+    return share;
+  }
   BL_HD Real behind(const Surface& s, const Vec3d& r) const {
     const double p[3] = {dot(r, s.axis[0]), dot(r, s.axis[1]), dot(r, s.axis[2])};
     if (s.kind == SurfaceKind::plane) return 1 - half_space(max_of(p[2], 0.0));

@@ -4,7 +4,8 @@
 namespace bedload::inline BL_VARIANT {
 
 /// Repulsion between fluid and a wall (Monaghan 1994), r: distance from the surface. Extrapolated pressure
-/// alone leaves it to the history of the density where a particle comes to rest beside a wall; this says where.
+/// alone leaves it to the history of the density where a particle comes to rest beside a wall; this says
+/// where.
 struct Repulsion {
   Real D = 0, r0 = 0, cap = 0;  ///< m2/s2, m, m/s2
   /// Acceleration away from the wall, m/s2.
@@ -21,18 +22,23 @@ struct Repulsion {
 struct WallRepulsion {
   Repulsion law;
   Frame frame;
-  Span<const Surface> surfaces;
+  SurfaceSet walls;
   Span<const BodyPose> pose;
 
-  /// f(body, acceleration) for each surface within reach of x.
+  /// f(body, acceleration) for each foot of a surface within reach of x.
   template <class F>
   BL_HD void each(const Vec3d& x, F&& f) const {
-    for (Index k = 0; k < surfaces.size; ++k) {
-      const BodyPose& at = pose[surfaces[k].body];
+    const double reach = double(law.r0);
+    for (Index k = 0; k < walls.surfaces.size; ++k) {
+      const Surface& surface = walls.surfaces[k];
+      const BodyPose& at = pose[surface.body];
       if (!at.present || !at.repulsion) continue;
-      const SurfaceContact near = meet(surfaces[k], at, frame, x, 0);
-      const Real push = law(Real(near.distance));
-      if (push > 0) f(surfaces[k].body, push * Real3(near.normal));
+      const SurfaceView view(surface, at, frame, x);
+      if (view.beyond(walls, reach)) continue;
+      view.each_foot(walls, reach, 1e-4 * reach, [&](const Foot& foot) {
+        const Real push = law(Real(foot.distance));
+        if (push > 0) f(surface.body, push * Real3(foot.normal));
+      });
     }
   }
 };

@@ -74,9 +74,9 @@ struct TotalsReduction {
       t.sum[elastic] += 0.5 * contacts.law.stored(s.R * o.R / (s.R + o.R), s.m * o.m / (s.m + o.m), h);
       t.overlap = max_of(t.overlap, h.overlap / (2 * double(s.R)));
     }
-    for (Index k = 0; k < contacts.surfaces.size; ++k) {
-      const ContactHistory& h = contacts.wall_history[k][i];
-      if (h.overlap == 0) continue;
+    const WallMemories memory = contacts.memories(i);
+    for (Index k = 0; k < memory.count(); ++k) {
+      const ContactHistory& h = memory[k].history;
       t.sum[walls] += 1;
       t.sum[elastic] += contacts.law.stored(s.R, s.m, h);
       t.overlap = max_of(t.overlap, std::abs(h.overlap) / (2 * double(s.R)));
@@ -104,18 +104,16 @@ struct BodyLoadReduction {
   }
   BL_HD Value operator()(Index i) const {
     Value t{};
+    if (contacts.memories(i).count() == 0) return t;
     const BodyPose& pose = contacts.poses[body];
-    for (Index k = 0; k < contacts.surfaces.size; ++k) {
-      if (contacts.surfaces[k].body != body) continue;
-      ContactHistory h = contacts.wall_history[k][i];
-      if (h.overlap == 0) continue;
-      const ContactPass::WallContact c = contacts.wall(i, contacts.surfaces[k], h);
+    contacts.each_wall(i, false, [&](std::uint32_t of, const ContactPass::WallContact& c) {
+      if (of != body) return;
       const Vec3d force = -Vec3d(c.on_grain.force);
       const Vec3d torque =
           cross(c.point - pose.centre - pose.translation, force) + Vec3d(c.on_grain.torque_j);
       t.sum[0] += force.x, t.sum[1] += force.y, t.sum[2] += force.z;
       t.sum[3] += torque.x, t.sum[4] += torque.y, t.sum[5] += torque.z;
-    }
+    });
     return t;
   }
   BL_HD void combine(Value& a, const Value& b) const {

@@ -1,101 +1,226 @@
 #pragma once
-// Wall surfaces as grains meet them. Geometry is that at t = 0; a pose moves it.
+// Wall surfaces as grains and fluid meet them. Geometry is that at t = 0; a pose moves it.
+//
+// What a surface shows to a place are its feet: the points where its distance from there is least in their
+// neighbourhood. A face has one, a convex edge or corner one, a groove one on each side, so that a sphere
+// touches each feature once, however finely the surface is cut.
 
-#include <vector>
-
-#include "bedload/case/config.hpp"
 #include "bedload/particles/walls.hpp"
+#include "kernels/walls/mesh_view.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
 enum class SurfaceKind : std::uint32_t {
-  plane,      ///< half-space behind the plane
-  rectangle,  ///< finite patch, felt from both sides
-  box,        ///< solid
+  plane,       ///< half-space behind the plane
+  rectangle,   ///< finite patch, felt from both sides
+  box,         ///< solid
+  capsule,     ///< within a distance of a line; a sphere if that has no length
+  revolution,  ///< a profile turned about an axis: cylinder, cone, pipe
+  mesh,        ///< closed surface of triangles
 };
 
-/// Nearest point of a surface, seen from a sphere's centre.
-struct Nearest {
-  Vec3d normal;     ///< from the surface to the centre
-  double distance;  ///< m; negative when the centre has passed the surface
-  double side;      ///< +1 in front of the surface, -1 behind
+/// Corner of the profile of a surface of revolution; the solid lies to the right of the way from one to the
+/// next, with r upwards and z to the right.
+struct ProfileCorner {
+  double z, r;  ///< along the axis and away from it, m
+};
+
+/// Foot of a surface, seen from a place.
+struct Foot {
+  Vec3d normal;            ///< unit, from the surface towards its open side
+  double distance;         ///< m; negative where the place lies behind the surface
+  std::uint32_t feature;   ///< of the surface: face, edge or corner
+  double side = 1;         ///< of a patch: +1 in front, -1 behind
+  bool two_sided = false;  ///< on a patch, which opens to either side
+
+  /// The same patch felt from side s (+1, -1).
+  BL_HD void face(double s) {
+    if (!two_sided || s == side) return;
+    normal = -normal, distance = -distance, side = s;
+  }
 };
 
 struct Surface {
   SurfaceKind kind = SurfaceKind::plane;
   std::uint32_t body = 0;
   Vec3d centre;         ///< m, at t = 0
-  Vec3d axis[3];        ///< right-handed; axis[2] is the normal of plane and rectangle
-  double half[3] = {};  ///< half extents along them, m; infinite along a periodic axis
+  Vec3d axis[3];        ///< right-handed; axis[2] is the normal of plane and rectangle, or the axis
+  double half[3] = {};  ///< half extents along them, m; infinite along a periodic axis. Capsule: half[2]
+  double radius = 0;    ///< capsule, m
+  double shell = 0;     ///< thickness of a wall around the shape, m; 0: the shape itself is solid
+  std::uint32_t first = 0, count = 0;  ///< revolution: its corners; mesh: its place in the list
 
-  /// Whether r is surely farther than `distance` (m) from the surface; cheaper than nearest.
-  BL_HD bool beyond(const Vec3d& r, double distance) const {
-    if (kind == SurfaceKind::plane) return dot(r, axis[2]) > distance;
+  /// Whether a place behind the surface belongs to it only if it came through it: others of its faces look
+  /// on the same place from behind.
+  BL_HD bool tracked() const {
+    return kind == SurfaceKind::revolution || kind == SurfaceKind::mesh ||
+           (kind == SurfaceKind::box && shell > 0);
+  }
+};
+
+/// All surfaces of a case, with what they refer to.
+struct SurfaceSet {
+  Span<const Surface> surfaces;
+  const ProfileCorner* corners = nullptr;
+  const MeshView* meshes = nullptr;
+
+  /// Whether r is surely farther than `distance` (m) from surface s; cheaper than its feet.
+  BL_HD bool beyond(const Surface& s, const Vec3d& r, double distance) const {
+    if (s.kind == SurfaceKind::plane) return dot(r, s.axis[2]) > distance;
+    const double reach = distance + s.shell;
     for (int k = 2; k >= 0; --k)
-      if (std::abs(dot(r, axis[k])) - half[k] > distance) return true;
+      if (std::abs(dot(r, s.axis[k])) - s.half[k] > reach) return true;
     return false;
   }
 
-  /// r: centre of the sphere from `centre`, in the frame of t = 0. side: where the sphere was while it
-  /// touched last (+1, -1; 0: not known), so that a rectangle pushes back what has passed through it.
-  BL_HD Nearest nearest(const Vec3d& r, double side) const {
-    const double p[3] = {dot(r, axis[0]), dot(r, axis[1]), dot(r, axis[2])};
-    if (kind == SurfaceKind::plane) return {axis[2], p[2], 1};
-    double d[3];
-    bool inside[3];
-    for (int k = 0; k < 3; ++k) {
-      d[k] = p[k] - clamp(p[k], -half[k], half[k]);
-      inside[k] = d[k] == 0;
-    }
-    if (inside[0] && inside[1]) {
-      if (kind == SurfaceKind::rectangle) {
-        const double s = side != 0 ? side : (p[2] >= 0 ? 1.0 : -1.0);
-        return {s * axis[2], s * p[2], s};
+  /// f(foot) for each foot of s no farther than `reach` (m) from r, the place as seen from s.centre in the
+  /// frame of t = 0. `merge`: feet nearer to each other than this (m) may be one.
+  template <class F>
+  BL_HD void each_foot(const Surface& s, const Vec3d& r, double reach, double merge, F&& f) const {
+    const double p[3] = {dot(r, s.axis[0]), dot(r, s.axis[1]), dot(r, s.axis[2])};
+    const auto meet = [&](Foot foot) {
+      if (s.shell > 0) {
+        const bool inner = foot.distance < 0.5 * s.shell;
+        if (inner) foot.normal = -foot.normal;
+        foot.distance = inner ? -foot.distance : foot.distance - s.shell;
+        foot.feature = 2 * foot.feature + inner;
       }
-      if (inside[2]) return nearest_face(p);
+      if (foot.distance <= reach && (foot.distance >= -reach || !s.tracked())) f(foot);
+    };
+    switch (s.kind) {
+      case SurfaceKind::plane:
+        if (p[2] <= reach) f(Foot{s.axis[2], p[2], 0});
+        break;
+      case SurfaceKind::rectangle:
+      case SurfaceKind::box:
+        block(s, p, meet);
+        break;
+      case SurfaceKind::capsule:
+        capsule(s, p, meet);
+        break;
+      case SurfaceKind::revolution:
+        revolution(s, p, meet);
+        break;
+      case SurfaceKind::mesh:
+        meshes[s.first].each_foot(r, reach + s.shell, merge, [&](const Vec3d& n, double d, std::uint32_t k) {
+          meet(Foot{n, d, k});
+        });
+        break;
     }
-    const Vec3d away = d[0] * axis[0] + d[1] * axis[1] + d[2] * axis[2];
-    const double distance = norm(away);
-    return {away * (1 / distance), distance, kind == SurfaceKind::rectangle && p[2] < 0 ? -1.0 : 1.0};
   }
 
  private:
-  BL_HD Nearest nearest_face(const double* p) const {
+  /// Box or rectangle.
+  template <class F>
+  BL_HD void block(const Surface& s, const double* p, F& f) const {
+    const bool patch = s.kind == SurfaceKind::rectangle;
+    double d[3];
+    bool inside[3];
+    for (int k = 0; k < 3; ++k) {
+      d[k] = p[k] - clamp(p[k], -s.half[k], s.half[k]);
+      inside[k] = d[k] == 0;
+    }
+    if (inside[0] && inside[1] && patch) {
+      const double side = p[2] >= 0 ? 1.0 : -1.0;
+      return f(Foot{side * s.axis[2], side * p[2], 0, side, true});
+    }
+    if (inside[0] && inside[1] && inside[2]) return s.shell > 0 ? six_faces(s, p, f) : nearest_face(s, p, f);
+    const Vec3d away = d[0] * s.axis[0] + d[1] * s.axis[1] + d[2] * s.axis[2];
+    const double distance = norm(away);
+    f(Foot{away * (1 / distance), distance, 0, patch && p[2] < 0 ? -1.0 : 1.0});
+  }
+  template <class F>
+  BL_HD void nearest_face(const Surface& s, const double* p, F& f) const {
     int face = 0;
-    double depth = half[0] - std::abs(p[0]);
+    double depth = s.half[0] - std::abs(p[0]);
     for (int k = 1; k < 3; ++k) {
-      const double other = half[k] - std::abs(p[k]);
+      const double other = s.half[k] - std::abs(p[k]);
       if (other < depth) depth = other, face = k;
     }
-    const double s = p[face] >= 0 ? 1.0 : -1.0;
-    return {s * axis[face], -depth, 1};
+    f(Foot{(p[face] >= 0 ? 1.0 : -1.0) * s.axis[face], -depth, 0});
   }
+  template <class F>
+  BL_HD void six_faces(const Surface& s, const double* p, F& f) const {
+    for (int k = 0; k < 3; ++k) {
+      f(Foot{s.axis[k], p[k] - s.half[k], std::uint32_t(2 * k + 1)});
+      f(Foot{-s.axis[k], -p[k] - s.half[k], std::uint32_t(2 * k + 2)});
+    }
+  }
+
+  template <class F>
+  BL_HD void capsule(const Surface& s, const double* p, F& f) const {
+    const double z = p[2] - clamp(p[2], -s.half[2], s.half[2]);
+    const double away = std::sqrt(p[0] * p[0] + p[1] * p[1] + z * z);
+    Vec3d n = s.axis[0];
+    if (away > 0) n = (p[0] * s.axis[0] + p[1] * s.axis[1] + z * s.axis[2]) * (1 / away);
+    f(Foot{n, away - s.radius, 0});
+  }
+
+  /// Every foot lies in the half-plane of the place itself.
+  template <class F>
+  BL_HD void revolution(const Surface& s, const double* p, F& f) const {
+    const double z = p[2], r = std::sqrt(p[0] * p[0] + p[1] * p[1]);
+    Vec3d radial = s.axis[0];
+    if (r > 0) radial = (p[0] * s.axis[0] + p[1] * s.axis[1]) * (1 / r);
+    const auto corner = [&](std::uint32_t n) { return corners[s.first + (n >= s.count ? n - s.count : n)]; };
+
+    // the side before the first corner, then each side and the corner at which it begins
+    ProfileSide before(corner(s.count - 1), corner(0), z, r);
+    for (std::uint32_t n = 0; n < s.count; ++n) {
+      const ProfileCorner at = corner(n);
+      const ProfileSide side(at, corner(n + 1), z, r);
+      if (side.real && side.t >= 0 && side.t <= 1)
+        f(Foot{side.nz * s.axis[2] + side.nr * radial, side.height, 2 * n});
+      if ((before.real || side.real) && (!before.real || before.t > 1) && (!side.real || side.t < 0)) {
+        const double dz = z - at.z, dr = r - at.r, d = std::sqrt(dz * dz + dr * dr);
+        const double nz = before.nz + side.nz, nr = before.nr + side.nr;
+        const double front = dz * nz + dr * nr >= 0 ? 1.0 : -1.0;
+        f(Foot{(dz * s.axis[2] + dr * radial) * (front / d), front * d, 2 * n + 1});
+      }
+      before = side;
+    }
+  }
+  /// One side of a profile, seen from a place in its half-plane.
+  struct ProfileSide {
+    bool real;      ///< not on the axis, where there is no surface
+    double t;       ///< of the place along it: 0..1 between its corners
+    double nz, nr;  ///< normal
+    double height;  ///< of the place above it, m
+    BL_HD ProfileSide(const ProfileCorner& p, const ProfileCorner& q, double z, double r)
+        : real(p.r > 0 || q.r > 0), t(0), nz(0), nr(0), height(0) {
+      if (!real) return;
+      const double dz = q.z - p.z, dr = q.r - p.r, length2 = dz * dz + dr * dr;
+      const double inverse = 1 / std::sqrt(length2);
+      t = ((z - p.z) * dz + (r - p.r) * dr) / length2;
+      nz = -dr * inverse, nr = dz * inverse;
+      height = (z - p.z) * nz + (r - p.r) * nr;
+    }
+  };
 };
 
-/// A sphere against a moved surface.
-struct SurfaceContact {
-  Vec3d normal;     ///< from the wall to the centre, lab frame
-  double distance;  ///< m
-  double side;
-  Vec3d point;  ///< on the surface, lab frame, m
+/// Where x (m, lab frame) lies as a surface sees it that has been moved and turned.
+struct SurfaceView {
+  const Surface& surface;
+  const BodyPose& pose;
+  Vec3d centre;  ///< of the surface, lab frame, m
+  Vec3d r;       ///< x from there, lab frame, m
+  BL_HD SurfaceView(const Surface& s, const BodyPose& at, const Frame& frame, const Vec3d& x)
+      : surface(s), pose(at), centre(at.place(s.centre)), r(frame.nearest_image(x - centre)) {}
+
+  BL_HD Vec3d local() const { return pose.turned() ? pose.rotation.conjugate().rotate(r) : r; }
+  BL_HD bool beyond(const SurfaceSet& set, double distance) const {
+    return set.beyond(surface, local(), distance);
+  }
+  /// f(foot), its normal in the lab frame; see SurfaceSet::each_foot.
+  template <class F>
+  BL_HD void each_foot(const SurfaceSet& set, double reach, double merge, F&& f) const {
+    set.each_foot(surface, local(), reach, merge, [&](Foot foot) {
+      if (pose.turned()) foot.normal = pose.rotation.rotate(foot.normal);
+      f(foot);
+    });
+  }
+  /// Of the foot on the surface, lab frame, m.
+  BL_HD Vec3d point(const Foot& foot) const { return centre + r - foot.distance * foot.normal; }
 };
-
-BL_HD SurfaceContact meet(const Surface& s, const BodyPose& pose, const Frame& frame, const Vec3d& x,
-                          double side) {
-  const Vec3d centre = pose.place(s.centre);
-  const Vec3d r = frame.nearest_image(x - centre);
-  const Nearest near = s.nearest(pose.turned() ? pose.rotation.conjugate().rotate(r) : r, side);
-  const Vec3d n = pose.turned() ? pose.rotation.rotate(near.normal) : near.normal;
-  return {n, near.distance, near.side, centre + r - near.distance * n};
-}
-/// Whether x is surely farther than `distance` (m) from the surface; cheaper than meet.
-BL_HD bool beyond(const Surface& s, const BodyPose& pose, const Frame& frame, const Vec3d& x,
-                  double distance) {
-  const Vec3d r = frame.nearest_image(x - pose.place(s.centre));
-  return s.beyond(pose.turned() ? pose.rotation.conjugate().rotate(r) : r, distance);
-}
-
-/// The surfaces of all wall bodies: a rectangle for each face of a tank, one for a box or a plane.
-std::vector<Surface> make_surfaces(const Config& config);
 
 }  // namespace bedload::inline BL_VARIANT

@@ -39,8 +39,10 @@ class Checks {
     for (std::size_t i = 0; i < f.fills.size(); ++i) {
       const std::string path = fmt::format("fluid.fill.{}", i);
       box(path, f.fills[i].min, f.fills[i].max);
-      inside_domain(path + ".min", f.fills[i].min);
-      inside_domain(path + ".max", f.fills[i].max);
+      if (!f.fills[i].solid.shape) {
+        inside_domain(path + ".min", f.fills[i].min);
+        inside_domain(path + ".max", f.fills[i].max);
+      }
       const Vec3d side = f.fills[i].max - f.fills[i].min;
       particles += side.x * side.y * side.z / (f.dx * f.dx * f.dx);
       initial_speed(f.fills[i]);
@@ -66,6 +68,7 @@ class Checks {
       if (!names.insert(body.name).second)
         fail(path + ".name", quoted(body.name), "must differ from other bodies'");
       if (body.shape != "plane") box(path, body.min, body.max);
+      if (body.solid.shape) within_period(path + ".shape", body);
     }
     if (!c.fluid.present) return;
     const double dx = c.fluid.dx;
@@ -167,6 +170,15 @@ class Checks {
       fail("domain.periodic", fmt::format("{} m along {}", length, "xyz"[axis]),
            fmt::format("must be a period > {} = {}; enlarge the domain or refine", name, least));
   }
+  /// Shapes do not repeat.
+  void within_period(const std::string& path, const WallBody& body) const {
+    for (int k = 0; k < 3; ++k)
+      if (c.domain.periodic[k] && (body.min[k] < c.domain.min[k] || body.max[k] > c.domain.max[k]))
+        fail(
+            path, quoted(body.shape),
+            fmt::format("must lie within the period along {}, {}..{} m; only tank, box and plane run through",
+                        "xyz"[k], c.domain.min[k], c.domain.max[k]));
+  }
   void inside_domain(const std::string& path, const Vec3d& x) const {
     const Vec3d &lo = c.domain.min, &hi = c.domain.max;
     for (int k = 0; k < 3; ++k) {
@@ -209,18 +221,20 @@ class Checks {
     for (const Vec3d& x : fill.positions) inside_domain(path + ".positions", x);
     if (!fill.positions.empty()) return;
     box(path, fill.min, fill.max);
-    inside_domain(path + ".min", fill.min);
-    inside_domain(path + ".max", fill.max);
+    if (!fill.solid.shape) {
+      inside_domain(path + ".min", fill.min);
+      inside_domain(path + ".max", fill.max);
+    }
     if ((fill.count > 0) + (fill.mass > 0) + (fill.packing_fraction > 0) != 1)
       throw CaseError(fmt::format("{}: grain.fill must have exactly one of count, mass and packing_fraction",
                                   nearest_value(root_, path).place()));
-    const Vec3d side = fill.max - fill.min;
-    const double share = solid_volume(fill, c.grain.rho) / (side.x * side.y * side.z);
+    const double share = solid_volume(fill, c.grain.rho) / fill_volume(fill);
     if (share > 0.64) {
       const bool by_mass = fill.mass > 0;
       fail(path + (by_mass ? ".mass" : ".count"), fmt::format("{}", by_mass ? fill.mass : double(fill.count)),
-           fmt::format("must fit its box; it fills {:.0f} % where 64 % is the densest random packing",
-                       100 * share));
+           fmt::format(
+               "must fit the space to fill; it takes {:.0f} % where 64 % is the densest random packing",
+               100 * share));
     }
   }
   /// Overlap at the foot of the bed by its own weight.

@@ -8,8 +8,18 @@ namespace {
 using enum Presence;
 
 void fluid_fill(Parameters& p, FluidFill& f) {
-  p("min", &f.min, {.unit = "m", .meaning = "lower corner of a block of fluid", .presence = required});
-  p("max", &f.max, {.unit = "m", .meaning = "upper corner", .presence = required});
+  p("shape", &f.shape,
+    {.meaning = "name of a shape to fill, instead of a box", .fallback = "none", .presence = optional});
+  if (f.shape.empty() || p.everything()) {
+    p("min", &f.min, {.unit = "m", .meaning = "lower corner of a block of fluid", .presence = required});
+    p("max", &f.max, {.unit = "m", .meaning = "upper corner", .presence = required});
+  }
+  if (!f.shape.empty() || p.everything())
+    p("level", &f.level,
+      {.unit = "m",
+       .meaning = "shape: filled up to this height against gravity",
+       .fallback = "to the top",
+       .presence = unbounded});
   p("velocity", &f.velocity, {.unit = "m/s", .meaning = "three numbers or formulas in x, y, z"});
 }
 

@@ -62,9 +62,10 @@ void wall_body(Parameters& p, WallBody& b) {
      .family = "shapes",
      .choices = {{"tank", "box seen from inside, sides as given by faces"},
                  {"box", "solid box"},
-                 {"plane", "half-space behind a plane"}}});
+                 {"plane", "half-space behind a plane"}},
+     .or_else = "the name of a [[shape]]"});
   const bool plane = b.shape == "plane";
-  if (!plane || p.everything()) {
+  if (b.shape == "tank" || b.shape == "box" || p.everything()) {
     p("min", &b.min, {.unit = "m", .meaning = "tank, box: lower corner", .presence = required});
     p("max", &b.max, {.unit = "m", .meaning = "tank, box: upper corner", .presence = required});
   }
@@ -89,8 +90,12 @@ void grain_fill(Parameters& p, GrainFill& f) {
   p("positions", &f.positions,
     {.unit = "m", .meaning = "centres, instead of a box", .fallback = "none", .presence = optional});
   if (f.positions.empty() || p.everything()) {
-    p("min", &f.min, {.unit = "m", .meaning = "lower corner of the box to fill", .presence = required});
-    p("max", &f.max, {.unit = "m", .meaning = "upper corner", .presence = required});
+    p("shape", &f.shape,
+      {.meaning = "name of a shape to fill, instead of a box", .fallback = "none", .presence = optional});
+    if (f.shape.empty() || p.everything()) {
+      p("min", &f.min, {.unit = "m", .meaning = "lower corner of the box to fill", .presence = required});
+      p("max", &f.max, {.unit = "m", .meaning = "upper corner", .presence = required});
+    }
     p("count", &f.count,
       {.meaning = "number of grains; or mass, or packing_fraction",
        .range = within(1, 2147483647),

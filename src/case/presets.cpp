@@ -28,6 +28,7 @@ Config settling_case(const Config& config) {
   Config dry;
   dry.domain = config.domain;
   dry.gravity = config.gravity;
+  dry.shapes = config.shapes;
   dry.wall.bodies = config.wall.bodies;
   dry.contact = config.contact;
   dry.grain = config.grain;

@@ -41,7 +41,8 @@ class Conversion {
         if (text && *text == choice.name) return void(*out = *text);
         names += (names.empty() ? "" : ", ") + choice.name;
       }
-      reject("must be one of " + names);
+      if (about_.or_else.empty()) reject("must be one of " + names);
+      if (!text || text->empty()) reject(fmt::format("must be {} or {}", names, about_.or_else));
     }
     if (!text || (text->empty() && about_.presence == Presence::required)) reject("must be a text in quotes");
     *out = *text;
@@ -53,6 +54,16 @@ class Conversion {
     if (!list) reject(shape);
     out->clear();
     for (const Value& item : *list) out->push_back(vector(item, shape));
+  }
+  void operator()(std::vector<std::string>* out) const {
+    const auto* list = value_.get<Value::Array>();
+    if (!list || list->empty()) reject("must be a list of names");
+    out->clear();
+    for (const Value& item : *list) {
+      const auto* name = item.get<std::string>();
+      if (!name || name->empty()) reject("must be a list of names");
+      out->push_back(*name);
+    }
   }
   void operator()(Formulas* out) const {
     for (int k = 0; k < 3; ++k)

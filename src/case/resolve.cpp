@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/build_shape.hpp"
 
 namespace bedload {
 namespace {
@@ -22,10 +24,65 @@ Vec3d direction(const Vec3d& v, const Value& root, const std::string& path) {
   throw CaseError(fmt::format("{}: {} must be given ({})", nearest_value(root, key).place(), key, what));
 }
 
+/// Of a vessel that says none: layers of wall particles as deep as the kernel reaches; a grain without fluid.
+double vessel_thickness(const Config& c) {
+  if (c.fluid.present) {
+    const double step = c.wall.dx > 0 ? c.wall.dx : c.fluid.dx;
+    return step * std::ceil(c.fluid.kappa() * c.fluid.h() / step - 1e-6);
+  }
+  double d = c.grain.d;
+  for (const GrainFill& fill : c.grain.fills)
+    for (const SizeClass& size : fill.sizes) d = std::max(d, size.d);
+  return d;
+}
+
+void resolve_shapes(Config& c, const Value& root) {
+  std::vector<ShapeConfig> done;
+  for (std::size_t i = 0; i < c.shapes.size(); ++i) {
+    ShapeConfig& shape = c.shapes[i];
+    const std::string path = fmt::format("shape.{}", i), name = path + ".name";
+    if (shape.name == "tank" || shape.name == "box" || shape.name == "plane")
+      reject(root, name, fmt::format("\"{}\"", shape.name), "must not be the name of a built-in shape");
+    for (const ShapeConfig& other : done)
+      if (other.name == shape.name)
+        reject(root, name, fmt::format("\"{}\"", shape.name), "must differ from other shapes'");
+    if (shape.thickness == 0 && (shape.kind == "hollow" || shape.kind == "pipe"))
+      shape.thickness = vessel_thickness(c);
+    if (shape.kind == "mesh") {
+      const auto folder = std::filesystem::absolute(c.file).parent_path();
+      shape.file = (folder / shape.file).lexically_normal().string();
+    }
+    try {
+      shape.solid.shape = build_shape(shape, done);
+    } catch (const CaseError& error) {
+      throw CaseError(
+          fmt::format("{}: shape \"{}\": {}", nearest_value(root, path).place(), shape.name, error.what()));
+    }
+    done.push_back(shape);
+  }
+}
+
+Solid shape_named(const Config& c, const std::string& name, const Value& root, const std::string& path,
+                  const char* must) {
+  std::string names;
+  for (const ShapeConfig& shape : c.shapes) {
+    if (shape.name == name) return shape.solid;
+    names += (names.empty() ? "" : ", ") + shape.name;
+  }
+  reject(root, path, fmt::format("\"{}\"", name),
+         fmt::format("{}; this case has {}", must, names.empty() ? "none" : names));
+}
+
 void resolve_walls(Config& c, const Value& root) {
   for (std::size_t i = 0; i < c.wall.bodies.size(); ++i) {
     WallBody& body = c.wall.bodies[i];
     const std::string path = fmt::format("wall.body.{}.", i);
+    if (body.shape != "tank" && body.shape != "box" && body.shape != "plane") {
+      body.solid = shape_named(c, body.shape, root, path + "shape",
+                               "must be tank, box, plane or the name of a [[shape]]");
+      const Bounds bounds = body.solid.shape->bounds();
+      body.min = bounds.min, body.max = bounds.max;
+    }
     if (body.shape == "plane") body.normal = direction(body.normal, root, path + "normal");
     if (body.motion.kind == "rotation")
       body.motion.axis = direction(body.motion.axis, root, path + "motion.axis");
@@ -35,6 +92,27 @@ void resolve_walls(Config& c, const Value& root) {
 void resolve_fluid(Config& c, const Value& root) {
   FluidConfig& f = c.fluid;
   if (f.fills.empty()) missing(root, "fluid.fill", "[[fluid.fill]] with min and max");
+  const double g = norm(c.gravity);
+  for (std::size_t i = 0; i < f.fills.size(); ++i) {
+    FluidFill& fill = f.fills[i];
+    if (fill.shape.empty()) continue;
+    const std::string path = fmt::format("fluid.fill.{}.", i);
+    fill.solid = shape_named(c, fill.shape, root, path + "shape", "must be the name of a [[shape]]");
+    Bounds bounds = fill.solid.shape->bounds();
+    if (std::isfinite(fill.level)) {
+      if (g == 0)
+        reject(root, path + "level", fmt::format("{}", fill.level), "must be left out without gravity");
+      for (int k = 0; k < 3; ++k) {  // where gravity runs along an axis the level is a side of the box
+        const double up = -c.gravity[k] / g;
+        if (std::abs(up) > 1 - 1e-12) (up > 0 ? bounds.max : bounds.min)[k] = up * fill.level;
+      }
+    }
+    fill.min = bounds.min, fill.max = bounds.max;
+    for (int k = 0; k < 3; ++k)
+      if (!(fill.max[k] > fill.min[k]))
+        reject(root, path + "level", fmt::format("{}", fill.level),
+               fmt::format("must lie above the bottom of shape \"{}\"", fill.shape));
+  }
   const double gH = norm(c.gravity) * (f.depth = height(f.fills, c.gravity));
   double vmax = std::max(f.vmax, std::sqrt(2 * gH));
   for (const WallBody& body : c.wall.bodies) vmax = std::max(vmax, wall_speed(body, c.domain));
@@ -58,6 +136,12 @@ void resolve_grains(Config& c, const Value& root) {
       fill.sizes = {{.d = g.d, .share = 1}};
     }
     if (!fill.positions.empty()) fill.count = std::int64_t(fill.positions.size());
+    if (!fill.shape.empty()) {
+      fill.solid = shape_named(c, fill.shape, root, fmt::format("grain.fill.{}.shape", i),
+                               "must be the name of a [[shape]]");
+      const Bounds bounds = fill.solid.shape->bounds();
+      fill.min = bounds.min, fill.max = bounds.max;
+    }
     for (const SizeClass& size : fill.sizes) {
       g.d_max = std::max(g.d_max, size.d);
       g.d_min = std::min(g.d_min, size.d);
@@ -85,9 +169,15 @@ double wall_speed(const WallBody& body, const DomainConfig& domain) {
   return std::abs(m.rate) * reach;
 }
 
-double solid_volume(const GrainFill& fill, double rho) {
+double fill_volume(const GrainFill& fill) {
   const Vec3d side = fill.max - fill.min;
-  if (fill.packing_fraction > 0) return fill.packing_fraction * side.x * side.y * side.z;
+  if (!fill.solid.shape) return side.x * side.y * side.z;
+  const double step = std::cbrt(side.x * side.y * side.z / 1e6);
+  return volume_below(*fill.solid.shape, {0, 0, 1}, Bounds::kInfinity, step);
+}
+
+double solid_volume(const GrainFill& fill, double rho) {
+  if (fill.packing_fraction > 0) return fill.packing_fraction * fill_volume(fill);
   if (fill.mass > 0) return fill.mass / rho;
   double volume = 0, shares = 0;
   for (const SizeClass& size : fill.sizes) {
@@ -98,6 +188,7 @@ double solid_volume(const GrainFill& fill, double rho) {
 }
 
 void resolve(Config& c, const Value& root) {
+  resolve_shapes(c, root);
   resolve_walls(c, root);
   if (c.fluid.present) resolve_fluid(c, root);
   if (c.grain.present) resolve_grains(c, root);

@@ -38,6 +38,9 @@ double height(const std::vector<Fill>& fills, const Vec3d& gravity) {
   return hi - lo;
 }
 
+/// Of the box or shape to fill, m3.
+double fill_volume(const GrainFill& fill);
+
 /// Solid volume that a fill asks for, m3; from count, mass or packing fraction.
 double solid_volume(const GrainFill& fill, double rho);
 

@@ -35,6 +35,11 @@ struct ToText {
       if ((*faces)[i]) out += fmt::format("{}\"{}\"", out.empty() ? "" : ", ", kFaces[i]);
     return "[" + out + "]";
   }
+  std::string operator()(const std::vector<std::string>* list) const {
+    std::string out;
+    for (const std::string& s : *list) out += (out.empty() ? "" : ", ") + scalar(s);
+    return "[" + out + "]";
+  }
   std::string operator()(const std::vector<Vec3d>* list) const {
     std::string out;
     for (const Vec3d& v : *list) out += (out.empty() ? "" : ", ") + (*this)(&v);
@@ -47,6 +52,8 @@ bool is_absent(const Slot& value) {
     bool operator()(const double* x) const { return *x == 0 || std::isinf(*x); }
     bool operator()(const std::int64_t* i) const { return *i == 0; }
     bool operator()(const std::vector<Vec3d>* list) const { return list->empty(); }
+    bool operator()(const std::vector<std::string>* list) const { return list->empty(); }
+    bool operator()(const std::string* s) const { return s->empty(); }
     bool operator()(const void*) const { return false; }
   };
   return std::visit(Test{}, value);
@@ -56,6 +63,7 @@ class Writer final : public Parameters {
  public:
   void operator()(std::string_view key, Slot value, const About& about) override {
     if (about.presence == Presence::optional && is_absent(value)) return;
+    if (about.presence == Presence::unbounded && std::isinf(*std::get<double*>(value))) return;
     const auto dot = key.rfind('.');
     const std::string table = prefix_ + std::string(dot == key.npos ? "" : key.substr(0, dot));
     if (dot != key.npos && table != table_) text_ += fmt::format("\n[{}]\n", table_ = table);
@@ -94,6 +102,7 @@ class Lister final : public Parameters {
       row.fallback = about.fallback.empty() ? std::visit(ToText{}, value) : std::string(about.fallback);
     row.allowed = about.range.text();
     for (const Choice& choice : about.choices) row.allowed += (row.allowed.empty() ? "" : ", ") + choice.name;
+    if (!about.or_else.empty()) row.allowed += fmt::format(" or {}", about.or_else);
     row.meaning = about.meaning;
     row.family = about.family;
     row.choices = about.choices;

@@ -7,6 +7,7 @@
 
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/core/fingerprint.hpp"
 #include "bedload/output/output.hpp"
 #include "options.hpp"
 #include "progress.hpp"
@@ -16,24 +17,6 @@ namespace bedload {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// FNV-1a, 64 bits.
-class Hash {
- public:
-  void add(const void* data, std::size_t bytes) {
-    for (std::size_t i = 0; i < bytes; ++i)
-      value_ = (value_ ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3u;
-  }
-  void add(std::string_view text) { add(text.data(), text.size()); }
-  template <class T>
-  void add(const std::vector<T>& values) {
-    add(values.data(), values.size() * sizeof(T));
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325u;
-};
 
 fs::path cache_folder() {
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return fs::path(cache) / "bedload";
@@ -46,7 +29,7 @@ fs::path cache_folder() {
 fs::path settled_file(const Config& config, const Setup& setup, const Device& device) {
   const fs::path folder = cache_folder();
   if (folder.empty()) return {};
-  Hash hash;
+  Fingerprint hash;
   hash.add(resolved_toml(settling_case(config)));
   hash.add(version() + "/" + device.backend);
   hash.add(setup.grains.x);

@@ -51,7 +51,7 @@ struct CountEntries {
 
 }  // namespace
 
-Coupling::Coupling(const Config& config, const Frame& frame)
+Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry& walls)
     : frame_(frame),
       kernel_(config.fluid.kernel),
       drag_law_(config.couple.drag),
@@ -65,7 +65,7 @@ Coupling::Coupling(const Config& config, const Frame& frame)
       two_way_(config.couple.mode == "two_way"),
       torque_(config.couple.torque),
       angmom_(config.couple.angmom) {
-  if (config.couple.wall_normalise) surfaces_.assign(make_surfaces(config));
+  if (config.couple.wall_normalise) walls_ = walls.view();
   with_kernel(kernel_, h_c_, [&](auto w) { half_space_ = HalfSpaceShare::of(w); });
 }
 
@@ -162,7 +162,7 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains) {
 
 void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose) {
   with_kernel(kernel_, h_c_, [&](auto w) {
-    const WallFreeShare wall_free{half_space_, frame_, surfaces_.span(), pose};
+    const WallFreeShare wall_free{half_space_, frame_, walls_, pose};
     for_each_pair(
         fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, grains.x}, range_,
         PorosityPass<decltype(w)>{w, eps_min_, wall_free, frame_, fluid.x, grains.radius, fluid.eps});

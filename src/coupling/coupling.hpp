@@ -15,6 +15,7 @@
 #include "bedload/particles/grains.hpp"
 #include "kernels/coupling/reaction_pass.hpp"
 #include "kernels/coupling/wall_share.hpp"
+#include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -27,7 +28,8 @@ struct CouplingCounters {
 
 class Coupling {
  public:
-  Coupling(const Config& config, const Frame& frame);
+  /// `walls` must outlive this.
+  Coupling(const Config& config, const Frame& frame, const WallGeometry& walls);
 
   /// How far grains and fluid feel each other, m.
   double range() const { return range_; }
@@ -62,7 +64,7 @@ class Coupling {
   Real eps_min_, S_dry_, S_wet_;
   bool two_way_, torque_, angmom_;
 
-  Buffer<Surface> surfaces_;  ///< that the porosity knows of
+  SurfaceSet walls_;  ///< that the porosity knows of
   HalfSpaceShare half_space_;
 
   VerletList fluid_of_grain_, grains_of_fluid_;

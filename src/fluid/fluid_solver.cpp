@@ -67,8 +67,8 @@ struct ExtremesSweep {
 template <class W>
 class FluidSolverWith final : public FluidSolver {
  public:
-  FluidSolverWith(const Config& config, const Frame& frame, const W& w)
-      : FluidSolver(config, frame, W::kappa), w_(w) {}
+  FluidSolverWith(const Config& config, const Frame& frame, const WallGeometry& walls, const W& w)
+      : FluidSolver(config, frame, walls, W::kappa), w_(w) {}
 
   void density(FluidStore& fluid, const WallStore& walls, double dt, double back) override {
     const double c = config_.fluid.c;
@@ -159,15 +159,16 @@ class FluidSolverWith final : public FluidSolver {
   W w_;
 };
 
-std::unique_ptr<FluidSolver> FluidSolver::make(const Config& config, const Frame& frame) {
+std::unique_ptr<FluidSolver> FluidSolver::make(const Config& config, const Frame& frame,
+                                               const WallGeometry& walls) {
   std::unique_ptr<FluidSolver> solver;
   with_kernel(config.fluid.kernel, config.fluid.h(), [&](const auto& w) {
-    solver = std::make_unique<FluidSolverWith<std::decay_t<decltype(w)>>>(config, frame, w);
+    solver = std::make_unique<FluidSolverWith<std::decay_t<decltype(w)>>>(config, frame, walls, w);
   });
   return solver;
 }
 
-FluidSolver::FluidSolver(const Config& config, const Frame& frame, double kappa)
+FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, double kappa)
     : config_(config), frame_(frame), kappa_(kappa), gravity_(config.gravity) {
   const auto& e = config.eos;
   const double c = config.fluid.c, rho0 = config.fluid.rho0;
@@ -178,17 +179,17 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, double kappa)
   grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
   wall_grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
   const auto repels = [](const WallBody& body) { return body.repulsion; };
-  if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), repels))
-    surfaces_.assign(make_surfaces(config));
+  if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), repels)) repelling_ = walls.view();
 }
 
 WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const {
   const double cap = dt > 0 ? 0.1 * config_.fluid.dx / (dt * dt) : 1e30;
-  return {{Real(config_.wall.rep_D), Real(config_.wall.rep_r0), Real(cap)}, frame_, surfaces_, pose};
+  return {{Real(config_.wall.rep_D), Real(config_.wall.rep_r0), Real(cap)}, frame_, repelling_, pose};
 }
 
 void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double dt) {
-  if (surfaces_.size() > 0) for_each(fluid.owned(), RepelPass{repulsion(pose, dt), fluid.x, fluid.acc_next});
+  if (repelling_.surfaces.size > 0)
+    for_each(fluid.owned(), RepelPass{repulsion(pose, dt), fluid.x, fluid.acc_next});
 }
 
 void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved) {

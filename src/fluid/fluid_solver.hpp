@@ -10,6 +10,7 @@
 #include "kernels/fluid/equation_of_state.hpp"
 #include "kernels/fluid/pair_terms.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
+#include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -22,8 +23,9 @@ struct FluidExtremes {
 
 class FluidSolver {
  public:
-  /// Chooses the kernel function once.
-  static std::unique_ptr<FluidSolver> make(const Config& config, const Frame& frame);
+  /// Chooses the kernel function once. `walls` must outlive it.
+  static std::unique_ptr<FluidSolver> make(const Config& config, const Frame& frame,
+                                           const WallGeometry& walls);
   virtual ~FluidSolver() = default;
 
   double range() const { return kappa_ * config_.fluid.h(); }            ///< kernel support, m
@@ -68,7 +70,7 @@ class FluidSolver {
   }
 
  protected:
-  FluidSolver(const Config& config, const Frame& frame, double kappa);
+  FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, double kappa);
 
   Config config_;
   Frame frame_;
@@ -78,8 +80,8 @@ class FluidSolver {
   CellGrid grid_, wall_grid_;
   VerletList fluid_fluid_, fluid_wall_, wall_fluid_;
   Buffer<Index> order_;
-  Buffer<Surface> surfaces_;  ///< that repel
-  double corrected_ = 0;      ///< kick of the last correction, s; before it, acc was what acc_next is now
+  SurfaceSet repelling_;  ///< empty where no wall repels
+  double corrected_ = 0;  ///< kick of the last correction, s; before it, acc was what acc_next is now
 };
 
 }  // namespace bedload::inline BL_VARIANT

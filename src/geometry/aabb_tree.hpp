@@ -51,14 +51,16 @@ class AabbTree {
     visit_within(0, visit);
   }
 
- private:
-  static constexpr int kLeafSize = 2, kMaxDepth = 64;
-
   struct Node {
     Bounds box;
-    std::uint32_t begin = 0, end = 0;  // items of a leaf
-    std::uint32_t right = 0;           // second child; the first follows its parent
+    std::uint32_t begin = 0, end = 0;  ///< leaf: its items, places in items()
+    std::uint32_t right = 0;           ///< second child; the first follows its parent
   };
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<std::uint32_t>& items() const { return items_; }
+
+ private:
+  static constexpr int kLeafSize = 2, kMaxDepth = 64;
 
   static double distance2(const Bounds& box, const Vec3d& x) {
     double sum = 0;

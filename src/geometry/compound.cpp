@@ -28,6 +28,16 @@ class Hollow : public Shape {
 
   Bounds bounds() const override { return shape_->bounds().grown(thickness_); }
 
+  void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
+    const std::size_t before = parts.size();
+    shape_->add_parts(parts, p);
+    if (parts.size() != before + 1 || parts.back().shell > 0)
+      throw CaseError(
+          "hollow: grains can meet it only around a single box, cylinder, cone, sphere, capsule, "
+          "pipe or mesh");
+    parts.back().shell = p.scale * thickness_;
+  }
+
  private:
   ShapePtr shape_;
   double thickness_;
@@ -54,6 +64,10 @@ class Union : public Shape {
     return b;
   }
 
+  void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
+    for (const ShapePtr& shape : shapes_) shape->add_parts(parts, p);
+  }
+
  private:
   std::vector<ShapePtr> shapes_;
 };
@@ -68,6 +82,10 @@ class Difference : public Shape {
   }
 
   Bounds bounds() const override { return shape_->bounds(); }
+
+  void add_parts(std::vector<SurfacePart>&, const Placement&) const override {
+    throw CaseError("difference: grains can meet it only as a mesh");
+  }
 
  private:
   ShapePtr shape_, cut_;
@@ -92,6 +110,10 @@ class Placed : public Shape {
       b.add(placement_.apply({corner & 1 ? own.max.x : own.min.x, corner & 2 ? own.max.y : own.min.y,
                               corner & 4 ? own.max.z : own.min.z}));
     return b;
+  }
+
+  void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
+    shape_->add_parts(parts, p.after(placement_));
   }
 
  private:

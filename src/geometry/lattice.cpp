@@ -7,6 +7,7 @@
 
 #include "bedload/case/formula.hpp"
 #include "bedload/core/error.hpp"
+#include "geometry/shape_fill.hpp"
 
 namespace bedload {
 namespace {
@@ -21,6 +22,7 @@ void check_fill(const Config& config, std::size_t index) {
     if (!(fill.max[k] > fill.min[k]))
       throw CaseError(fmt::format("fluid.fill {}: max {} = {:g} m must exceed min {} = {:g} m", index + 1,
                                   "xyz"[k], fill.max[k], "xyz"[k], fill.min[k]));
+    if (fill.solid.shape) continue;
     if (fill.min[k] < config.domain.min[k] - slack || fill.max[k] > config.domain.max[k] + slack)
       throw CaseError(fmt::format(
           "fluid.fill {}: its box runs from {} = {:g} to {:g} m, the domain only "
@@ -28,7 +30,7 @@ void check_fill(const Config& config, std::size_t index) {
           index + 1, "xyz"[k], fill.min[k], fill.max[k], config.domain.min[k], config.domain.max[k]));
   }
   for (std::size_t other = 0; other < index; ++other) {
-    bool apart = false;
+    bool apart = fill.solid.shape || fills[other].solid.shape;  // boxes around shapes may overlap
     for (int k = 0; k < 3; ++k)
       apart |= fill.min[k] > fills[other].max[k] - slack || fills[other].min[k] > fill.max[k] - slack;
     if (!apart) throw CaseError(fmt::format("fluid.fill {} overlaps fluid.fill {}", index + 1, other + 1));
@@ -70,6 +72,30 @@ class Velocity {
   std::vector<Formula> formulas_;
 };
 
+void add_shape(const Config& config, std::size_t index, Setup::Fluid& fluid) {
+  const FluidFill& fill = config.fluid.fills[index];
+  const double g = norm(config.gravity);
+  const Vec3d up = g > 0 ? config.gravity * (-1 / g) : Vec3d{0, 0, 1};
+  double volume = 0;
+  const auto places = fill_shape(*fill.solid.shape, up, fill.level, config.fluid.dx, volume);
+  const auto fail = [&](const std::string& why) {
+    throw CaseError(fmt::format("fluid.fill {}: {}", index + 1, why));
+  };
+  if (places.empty())
+    fail(fmt::format("shape \"{}\" has no room for a particle of {:g} m", fill.shape, config.fluid.dx));
+  const Velocity velocity(fill, index);
+  const double mass = config.fluid.rho0 * volume / double(places.size());
+  for (const Vec3d& x : places) {
+    for (int k = 0; k < 3; ++k)
+      if (x[k] < config.domain.min[k] || x[k] > config.domain.max[k])
+        fail(fmt::format("shape \"{}\" reaches to ({:g}, {:g}, {:g}) m, outside the domain", fill.shape, x.x,
+                         x.y, x.z));
+    fluid.x.push_back(x);
+    fluid.v.push_back(velocity(x));
+    fluid.mass.push_back(mass);
+  }
+}
+
 }  // namespace
 
 void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::string>& warnings) {
@@ -77,6 +103,10 @@ void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::strin
   for (std::size_t index = 0; index < config.fluid.fills.size(); ++index) {
     check_fill(config, index);
     const FluidFill& fill = config.fluid.fills[index];
+    if (fill.solid.shape) {
+      add_shape(config, index, fluid);
+      continue;
+    }
 
     std::array<Cells, 3> cells;
     double wanted = 1, volume = 1;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/mesh_layout.hpp"
 #include "geometry/aabb_tree.hpp"
 #include "geometry/mesh_topology.hpp"
 #include "geometry/surface_point.hpp"
@@ -84,6 +86,40 @@ std::vector<Vec3d> angle_weighted_normals(const TriangleSoup& soup) {
   return normals;
 }
 
+/// Triangles around each vertex.
+void add_rings(MeshLayout& layout) {
+  layout.ring_start.assign(layout.vertices.size() + 1, 0);
+  for (const MeshTriangle& t : layout.triangles)
+    for (const std::uint32_t v : t.corner) ++layout.ring_start[v + 1];
+  std::partial_sum(layout.ring_start.begin(), layout.ring_start.end(), layout.ring_start.begin());
+  layout.ring.resize(layout.ring_start.back());
+  std::vector<std::uint32_t> next(layout.ring_start.begin(), layout.ring_start.end() - 1);
+  for (std::uint32_t t = 0; t < layout.triangles.size(); ++t)
+    for (const std::uint32_t v : layout.triangles[t].corner) layout.ring[next[v]++] = t;
+}
+
+/// The tree, with the boxes of its triangles as they have been placed.
+void add_nodes(MeshLayout& layout, const detail::AabbTree& tree) {
+  layout.nodes.resize(tree.nodes().size());
+  for (std::size_t n = layout.nodes.size(); n-- > 0;) {  // children come after their parent
+    const auto& from = tree.nodes()[n];
+    MeshNode& node = layout.nodes[n];
+    node.next = from.right != 0 ? from.right : from.begin;
+    node.count = from.right != 0 ? 0 : from.end - from.begin;
+    Bounds box;
+    for (std::uint32_t t = from.begin; t < from.end; ++t)
+      for (const std::uint32_t v : layout.triangles[t].corner) box.add(layout.vertices[v]);
+    for (int k = 0; k < 3; ++k) {
+      node.lo[k] = std::nextafter(float(box.min[k]), -INFINITY);
+      node.hi[k] = std::nextafter(float(box.max[k]), INFINITY);
+      if (node.count > 0) continue;
+      const MeshNode &a = layout.nodes[n + 1], &b = layout.nodes[node.next];
+      node.lo[k] = std::min(a.lo[k], b.lo[k]);
+      node.hi[k] = std::max(a.hi[k], b.hi[k]);
+    }
+  }
+}
+
 }  // namespace
 
 struct TriangleMesh::Hit {
@@ -138,6 +174,29 @@ SurfacePoint TriangleMesh::nearest(const Vec3d& x) const {
 }
 
 std::uint32_t TriangleMesh::nearest_triangle(const Vec3d& x) const { return find_nearest(x).triangle; }
+
+void TriangleMesh::add_parts(std::vector<SurfacePart>& parts, const Placement& placement) const {
+  Bounds placed;
+  for (const Vec3d& x : soup_.vertices) placed.add(placement.apply(x));
+  SurfacePart part{.kind = SurfacePart::Kind::mesh, .centre = (placed.min + placed.max) / 2};
+  part.half = (placed.max - placed.min) / 2;
+  auto layout = std::make_shared<MeshLayout>();
+  for (const Vec3d& x : soup_.vertices) layout->vertices.push_back(placement.apply(x) - part.centre);
+  layout->triangles.resize(soup_.triangles.size());
+
+  const std::vector<std::uint32_t>& order = tree_->items();  // triangles as they lie in the layout
+  std::vector<std::uint32_t> place(order.size());
+  for (std::uint32_t n = 0; n < order.size(); ++n) place[order[n]] = n;
+  for (std::uint32_t t = 0; t < order.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      layout->triangles[place[t]].corner[k] = soup_.triangles[t][k];
+      layout->triangles[place[t]].across[k] = place[across_[3 * t + k] / 3];
+    }
+  add_rings(*layout);
+  add_nodes(*layout, *tree_);
+  part.mesh = layout;
+  parts.push_back(part);
+}
 
 double TriangleMesh::volume() const {
   const Vec3d from = bounds_.min;

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/build_shape.hpp"
 #include "bedload/geometry/lattice.hpp"
 #include "bedload/geometry/sampling.hpp"
 
@@ -116,7 +117,7 @@ class Packer {
     shuffle(radii, random);
     check_box();
     const double solid = std::transform_reduce(radii.begin(), radii.end(), 0.0, std::plus<>{}, sphere_volume);
-    auto places = solid < kRandomLimit * box_volume() ? random_places(radii, random) : std::nullopt;
+    auto places = solid < kRandomLimit * volume() ? random_places(radii, random) : std::nullopt;
     if (!places) places = lattice_places(radii, random);
     for (std::size_t n = 0; n < count; ++n) add((*places)[n], radii[n]);
   }
@@ -144,10 +145,20 @@ class Packer {
     return size.x * size.y * size.z;
   }
 
+  /// Of the space to fill, m3.
+  double volume() const {
+    if (!fill_->solid.shape) return box_volume();
+    return volume_below(*fill_->solid.shape, {0, 0, 1}, Bounds::kInfinity, std::cbrt(box_volume() / 1e6));
+  }
+  /// Inside the shape to fill, by `allowed` short of it at most (m).
+  bool inside_shape(const Vec3d& x, double radius, double allowed) const {
+    return !fill_->solid.shape || fill_->solid.shape->distance(x) <= allowed - radius;
+  }
+
   std::size_t wanted_count() const {
     double n = double(fill_->count);
     if (fill_->mass > 0) n = std::round(fill_->mass / (config_.grain.rho * mean_volume()));
-    if (fill_->packing_fraction > 0) n = std::round(fill_->packing_fraction * box_volume() / mean_volume());
+    if (fill_->packing_fraction > 0) n = std::round(fill_->packing_fraction * volume() / mean_volume());
     if (n < 1) fail("holds no grain; raise its count, mass or packing_fraction");
     if (n >= 2147483648.0) fail(fmt::format("{:.3g} grains: must be fewer than 2^31", n));
     return std::size_t(n);
@@ -179,7 +190,9 @@ class Packer {
     const double slack = 1e-6 * d;
     for (int k = 0; k < 3; ++k) {
       const double length = fill_->max[k] - fill_->min[k];
-      if (fill_->min[k] < config_.domain.min[k] - slack || fill_->max[k] > config_.domain.max[k] + slack)
+      const bool outside =
+          fill_->min[k] < config_.domain.min[k] - slack || fill_->max[k] > config_.domain.max[k] + slack;
+      if (outside && !fill_->solid.shape)
         fail(fmt::format("its box runs from {} = {:g} to {:g} m, the domain only from {:g} to {:g} m",
                          "xyz"[k], fill_ -> min[k], fill_ -> max[k], config_.domain.min[k],
                          config_.domain.max[k]));
@@ -196,6 +209,10 @@ class Packer {
   }
 
   void add(const Vec3d& x, double radius) {
+    for (int k = 0; k < 3; ++k)
+      if (x[k] < config_.domain.min[k] || x[k] > config_.domain.max[k])
+        fail(fmt::format("shape \"{}\" reaches to ({:g}, {:g}, {:g}) m, outside the domain", fill_->shape,
+                         x.x, x.y, x.z));
     grains_.x.push_back(x);
     grains_.v.push_back(fill_->velocity);
     grains_.radius.push_back(radius);
@@ -229,7 +246,8 @@ class Packer {
           const double lo = fill_->min[k] + margin, hi = fill_->max[k] - margin;
           x[k] = lo + random.uniform() * std::max(0.0, hi - lo);
         }
-        found = placed_.is_free(x, radius) && clear_of_walls(x, radius, 1e-6 * radius);
+        found = inside_shape(x, radius, 1e-6 * radius) && placed_.is_free(x, radius) &&
+                clear_of_walls(x, radius, 1e-6 * radius);
         if (found) places.push_back(x), placed_.add(x, radius);
       }
       if (!found) break;
@@ -262,9 +280,9 @@ class Packer {
       if (held >= needed) break;
       if (width <= d_max)
         fail(
-            fmt::format("{} grains of {:g} m need at least {:.4g} m3, the box of {:.4g} m3 holds {:.0f} of "
+            fmt::format("{} grains of {:g} m need at least {:.4g} m3, the space of {:.4g} m3 holds {:.0f} of "
                         "them; enlarge it and let the grains settle",
-                        radii.size(), d_max, needed * d_max * d_max * d_max, box_volume(), held));
+                        radii.size(), d_max, needed * d_max * d_max * d_max, volume(), held));
       width = std::max(d_max, 0.99 * width);
     }
     shuffle(centres, random);
@@ -272,7 +290,9 @@ class Packer {
     for (std::size_t n = 0; n < radii.size(); ++n) {
       Vec3d x = centres[n];
       for (int k = 0; k < 3; ++k) x[k] += (random.uniform() - 0.5) * 0.98 * (cells[k].step - d_max);
-      if (placed_.is_free(x, radii[n]) && clear_of_walls(x, radii[n], 1e-6 * radii[n])) centres[n] = x;
+      if (inside_shape(x, radii[n], 1e-6 * radii[n]) && placed_.is_free(x, radii[n]) &&
+          clear_of_walls(x, radii[n], 1e-6 * radii[n]))
+        centres[n] = x;
     }
     return centres;
   }
@@ -285,7 +305,9 @@ class Packer {
       for (std::int64_t j = 0; j < cells[1].count; ++j)
         for (std::int64_t i = 0; i < cells[0].count; ++i) {
           const Vec3d x{cells[0].centre(i), cells[1].centre(j), cells[2].centre(l)};
-          if (placed_.is_free(x, r_max - slack) && clear_of_walls(x, r_max, slack)) centres.push_back(x);
+          if (inside_shape(x, r_max, slack) && placed_.is_free(x, r_max - slack) &&
+              clear_of_walls(x, r_max, slack))
+            centres.push_back(x);
         }
     return centres;
   }

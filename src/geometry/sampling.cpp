@@ -10,6 +10,7 @@
 
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/lattice.hpp"
+#include "bedload/geometry/shape_sampling.hpp"
 
 namespace bedload {
 namespace {
@@ -207,6 +208,7 @@ bool is_fixed(const WallBody& body) { return body.motion.kind == "fixed"; }
 
 std::vector<Vec3d> sample_body(const WallBody& body, double spacing, double depth,
                                const DomainConfig& domain) {
+  if (body.solid.shape) return sample_shape(*body.solid.shape, spacing, depth);
   if (body.shape == "tank") return sample_tank(body, spacing, depth, domain);
   if (body.shape == "box") return sample_box(body, spacing, depth, domain);
   if (body.shape == "plane") return sample_plane(body, spacing, depth, domain);
@@ -215,6 +217,7 @@ std::vector<Vec3d> sample_body(const WallBody& body, double spacing, double dept
 }
 
 double wall_distance(const WallBody& body, const Vec3d& x, double thickness, const DomainConfig& domain) {
+  if (body.solid.shape) return body.solid.shape->distance(x);
   if (body.shape == "tank") return tank_distance(body, x, thickness, domain);
   if (body.shape == "plane") return dot(x - body.point, body.normal) / norm(body.normal);
   return box_distance(body, x, domain);

@@ -44,9 +44,23 @@ class Box : public Shape {
 
   Bounds bounds() const override { return box_; }
 
+  void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
+    SurfacePart part{.kind = SurfacePart::Kind::box, .centre = p.apply((box_.min + box_.max) / 2)};
+    part.rotation = p.rotation;
+    part.half = p.scale / 2 * (box_.max - box_.min);
+    parts.push_back(part);
+  }
+
  private:
   Bounds box_;
 };
+
+/// Turns the z axis to the unit vector `to`.
+Quat<double> rotation_to(const Vec3d& to) {
+  const Vec3d z{0, 0, 1}, axis = cross(z, to);
+  const double sine = norm(axis), angle = std::atan2(sine, to.z);
+  return Quat<double>::from_rotation(angle * (sine > 0 ? axis / sine : Vec3d{1, 0, 0}));
+}
 
 /// Sphere, or a capsule about the line from a to b.
 class Capsule : public Shape {
@@ -68,6 +82,15 @@ class Capsule : public Shape {
     return b.grown(radius_);
   }
 
+  void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
+    SurfacePart part{.kind = SurfacePart::Kind::capsule, .centre = p.apply(a_ + axis_ / 2)};
+    part.radius = p.scale * radius_;
+    const double length = norm(axis_);
+    if (length > 0) part.rotation = p.rotation * rotation_to(axis_ / length);
+    part.half = {part.radius, part.radius, p.scale * length / 2};
+    parts.push_back(part);
+  }
+
  private:
   Vec3d a_, axis_;
   double radius_;
@@ -77,9 +100,7 @@ class Capsule : public Shape {
 /// point lies in the half-plane of the place itself, so its distance there is the distance in space.
 class Revolution : public Shape {
  public:
-  struct Corner {
-    double z, r;  ///< m
-  };
+  using Corner = SurfacePart::Corner;
 
   /// `profile` is closed; the solid lies to its right, with r upwards and z to the right.
   Revolution(const Vec3d& origin, const Vec3d& axis, std::vector<Corner> profile)
@@ -116,6 +137,18 @@ class Revolution : public Shape {
       b.add(place({c.z, 0}, {}) + reach), b.add(place({c.z, 0}, {}) - reach);
     }
     return b;
+  }
+
+  void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
+    double lo = Bounds::kInfinity, hi = -lo, widest = 0;
+    for (const Corner& c : profile_)
+      lo = std::min(lo, c.z), hi = std::max(hi, c.z), widest = std::max(widest, c.r);
+    const double middle = (lo + hi) / 2;
+    SurfacePart part{.kind = SurfacePart::Kind::revolution, .centre = p.apply(place({middle, 0}, {}))};
+    part.rotation = p.rotation * rotation_to(axis_);
+    part.half = p.scale * Vec3d{widest, widest, (hi - lo) / 2};
+    for (const Corner& c : profile_) part.profile.push_back({p.scale * (c.z - middle), p.scale * c.r});
+    parts.push_back(part);
   }
 
  private:

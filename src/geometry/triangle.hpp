@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "bedload/core/vec.hpp"
+#include "bedload/geometry/triangle_point.hpp"
 
 namespace bedload {
 
@@ -25,36 +25,9 @@ inline double least_height(const Corners& t) {
   return longest2 > 0 ? norm(area_vector(t)) / std::sqrt(longest2) : 0;
 }
 
-enum class Feature { face, edge, vertex };
-
-/// The point of a triangle nearest to some place, and the face, edge (from its corner `index` to the next) or
-/// vertex `index` it lies on.
-struct TrianglePoint {
-  Vec3d point;
-  double distance2 = 0;
-  Feature feature = Feature::face;
-  int index = 0;
-};
-
 inline TrianglePoint nearest_on(const Corners& t, const Vec3d& x) {
-  const Vec3d n = area_vector(t);
-  bool above_face = true;
-  for (int k = 0; k < 3; ++k) above_face &= dot(cross(t[(k + 1) % 3] - t[k], x - t[k]), n) > 0;
-  if (above_face) {
-    const double height = dot(x - t[0], n) / norm2(n);
-    return {x - height * n, height * height * norm2(n), Feature::face, 0};
-  }
-  TrianglePoint nearest;
-  nearest.distance2 = INFINITY;
-  for (int k = 0; k < 3; ++k) {
-    const Vec3d &p = t[k], &q = t[(k + 1) % 3], along = q - p;
-    const double s = dot(x - p, along) / norm2(along);
-    const Vec3d point = s <= 0 ? p : s >= 1 ? q : p + s * along;
-    const double d2 = norm2(x - point);
-    if (d2 < nearest.distance2)
-      nearest = {point, d2, s > 0 && s < 1 ? Feature::edge : Feature::vertex, s >= 1 ? (k + 1) % 3 : k};
-  }
-  return nearest;
+  const Vec3d corners[3] = {t[0], t[1], t[2]};
+  return nearest_on(corners, x);
 }
 
 /// Whether two triangles pass through each other, or cover each other in one plane, by more than `depth`, m;

@@ -252,7 +252,7 @@ std::vector<Vec3d> CoupledSimulation::wall_loads(const Vec3d& about) {
     out[2 * body[w] + 1] += cross(x[w] - about, force[w]);
   }
   const WallRepulsion repulsion = fluid_solver_->repulsion(poses_now(), clock_.last_dt);
-  if (repulsion.surfaces.size == 0) return out;
+  if (repulsion.walls.surfaces.size == 0) return out;
   for (int b = 0; b < motion_.bodies(); ++b) {
     const auto load =
         sum_over<6>(fluid_.owned(), RepulsionLoad{repulsion, std::uint32_t(b), about, fluid_.x, fluid_.mass});

@@ -1,7 +1,7 @@
 #include "bedload/particles/field.hpp"
 
 #include "bedload/parallel/loops.hpp"
-#include "kernels/contact/history.hpp"
+#include "kernels/contact/wall_contacts.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
@@ -32,6 +32,6 @@ template void Field<double>::gather(Span<const Index>);
 template void Field<Vec3<double>>::gather(Span<const Index>);
 template void Field<Vec4<double>>::gather(Span<const Index>);
 template void Field<PackedPosition>::gather(Span<const Index>);
-template void Field<ContactHistory>::gather(Span<const Index>);
+template void Field<WallMemory>::gather(Span<const Index>);
 
 }  // namespace bedload::inline BL_VARIANT

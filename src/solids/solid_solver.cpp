@@ -19,20 +19,23 @@ struct WrapGrains {
 
 }  // namespace
 
-SolidSolver::SolidSolver(const Config& config, const Frame& frame, GrainStore& grains)
+SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeometry& walls,
+                         GrainStore& grains)
     : config_(config),
       frame_(frame),
       law_(make_contact_law(config)),
       d_min_(config.grain.d_min > 0 ? config.grain.d_min : config.grain.d),
       d_max_(config.grain.d_max > 0 ? config.grain.d_max : config.grain.d),
       skin_(config.skin_grain * d_min_),
-      surfaces_(make_surfaces(config)) {
-  device_surfaces_.assign(surfaces_);
-  for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-    const std::string name = "wall_history_" + std::to_string(s);
-    wall_history_.push_back(
-        std::make_unique<Field<ContactHistory>>(grains, name.c_str(), "m, N m, m, m/s", Lifetime::kept));
-    wall_history_.back()->resize(grains.size());
+      walls_(walls) {
+  if (walls.contacts() == 0) return;
+  wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
+  wall_contacts_->resize(grains.size());
+  for (int k = 0; k < walls.contacts(); ++k) {
+    const std::string name = "wall_memory_" + std::to_string(k);
+    wall_memory_.push_back(
+        std::make_unique<Field<WallMemory>>(grains, name.c_str(), "-, -, m, N m, m, m/s", Lifetime::kept));
+    wall_memory_.back()->resize(grains.size());
   }
 }
 
@@ -114,14 +117,14 @@ StableStep SolidSolver::stable_dt(const GrainWatch& w) const {
 
 double SolidSolver::mass_per_r3() const { return 4.0 / 3.0 * M_PI * config_.grain.rho; }
 
-ContactHistory* const* SolidSolver::wall_histories() const {
-  std::vector<ContactHistory*> now;
-  for (const auto& field : wall_history_) now.push_back(field->buffer().data());
-  if (now != wall_pointers_) {
-    wall_pointers_ = now;
-    device_wall_pointers_.assign(wall_pointers_);
+WallMemory* const* SolidSolver::wall_memories() const {
+  std::vector<WallMemory*> now;
+  for (const auto& field : wall_memory_) now.push_back(field->buffer().data());
+  if (now != memory_pointers_) {
+    memory_pointers_ = now;
+    device_memory_pointers_.assign(memory_pointers_);
   }
-  return device_wall_pointers_.data();
+  return device_memory_pointers_.data();
 }
 
 ContactPass SolidSolver::contact_pass(const GrainStore& g, const BodyPose* poses, double dt) const {
@@ -136,8 +139,10 @@ ContactPass SolidSolver::contact_pass(const GrainStore& g, const BodyPose* poses
           .id = g.id.span(),
           .list = list_.view(),
           .history = const_cast<ContactHistory*>(history_.data()),
-          .surfaces = device_surfaces_.span(),
-          .wall_history = wall_histories(),
+          .walls = walls_.view(),
+          .wall_memory = wall_memories(),
+          .wall_contacts = wall_contacts_ ? wall_contacts_->buffer().data() : nullptr,
+          .wall_room = walls_.contacts(),
           .poses = poses};
 }
 

@@ -11,7 +11,7 @@
 #include "bedload/simulation.hpp"
 #include "kernels/contact/contact_law.hpp"
 #include "kernels/contact/contact_pass.hpp"
-#include "kernels/walls/surface.hpp"
+#include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -53,13 +53,12 @@ struct BodyLoad {
 
 class SolidSolver {
  public:
-  /// Registers the wall histories with `grains`: construct before the store is filled or loaded.
-  /// Throws CaseError where the damping asked for cannot be had.
-  SolidSolver(const Config& config, const Frame& frame, GrainStore& grains);
+  /// Registers what grains remember of walls with `grains`: construct before the store is filled or loaded.
+  /// `walls` must outlive this. Throws CaseError where the damping asked for cannot be had.
+  SolidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, GrainStore& grains);
 
   double skin() const { return skin_; }            ///< m
   double range() const { return d_max_ + skin_; }  ///< largest centre distance in the lists, m
-  const std::vector<Surface>& surfaces() const { return surfaces_; }
   const ContactLaw& law() const { return law_; }
 
   /// Wraps, sorts and lists the grains anew; histories of surviving pairs carry over.
@@ -97,18 +96,18 @@ class SolidSolver {
  private:
   void build_list(const GrainStore& grains, const CellGrid& grid);
   double mass_per_r3() const;
-  ContactHistory* const* wall_histories() const;
+  WallMemory* const* wall_memories() const;
   ContactPass contact_pass(const GrainStore& grains, const BodyPose* poses, double dt) const;
 
   Config config_;
   Frame frame_;
   ContactLaw law_;
   double d_min_, d_max_, skin_;
-  std::vector<Surface> surfaces_;
-  Buffer<Surface> device_surfaces_;
-  std::vector<std::unique_ptr<Field<ContactHistory>>> wall_history_;  ///< one per surface
-  mutable std::vector<ContactHistory*> wall_pointers_;  ///< into wall_history_, which sorting moves
-  mutable Buffer<ContactHistory*> device_wall_pointers_;
+  const WallGeometry& walls_;
+  std::vector<std::unique_ptr<Field<WallMemory>>> wall_memory_;  ///< [walls_.contacts()]
+  std::unique_ptr<Field<Index>> wall_contacts_;                  ///< of them in use
+  mutable std::vector<WallMemory*> memory_pointers_;             ///< to wall_memory_, which sorting moves
+  mutable Buffer<WallMemory*> device_memory_pointers_;
 
   VerletList list_, old_list_;
   Buffer<ContactHistory> history_, old_history_;

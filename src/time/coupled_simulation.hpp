@@ -63,6 +63,7 @@ class CoupledSimulation final : public Simulation {
   FluidStore fluid_;
   WallStore walls_;
   GrainStore grains_;
+  WallGeometry geometry_;
   WallMotion motion_;
   CellGrid grain_grid_;
   std::unique_ptr<FluidSolver> fluid_solver_;

@@ -50,7 +50,7 @@ double depth_at(const Config& config, const Vec3d& x) {
       inside = inside && x[k] >= fill.min[k] && x[k] <= fill.max[k];
       top += up[k] * (up[k] > 0 ? fill.max[k] : fill.min[k]);
     }
-    if (inside) depth = std::max(depth, top - dot(up, x));
+    if (inside) depth = std::max(depth, std::min(top, fill.level) - dot(up, x));
   }
   return depth;
 }
@@ -75,14 +75,15 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
       frame_(config.domain.min, config.domain.max, config.domain.periodic[0], config.domain.periodic[1],
              config.domain.periodic[2]),
       clock_(config.time),
+      geometry_(config),
       motion_(config) {
   if (has_grains()) {
-    solid_solver_ = std::make_unique<SolidSolver>(config, frame_, grains_);
+    solid_solver_ = std::make_unique<SolidSolver>(config, frame_, geometry_, grains_);
     grain_grid_ = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, solid_solver_->range());
   }
-  if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_);
+  if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_, geometry_);
   if (has_fluid() && has_grains() && config.couple.mode != "off")
-    coupling_ = std::make_unique<Coupling>(config, frame_);
+    coupling_ = std::make_unique<Coupling>(config, frame_, geometry_);
   upload(setup);
 }
 

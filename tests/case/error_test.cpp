@@ -133,7 +133,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"end = 0.3", "end = 0.3\ndt_dem = 1e-4",
               "dam.toml:23: time.dt_dem = 0.0001 must be <= 5.473e-06; limited by rayleigh"},
         Wrong{"d = 0.002", "d = 0.02",
-              "dam.toml:20: grain.fill.count = 500 must fit its box; it fills 419 % where 64 % is the "
+              "dam.toml:20: grain.fill.count = 500 must fit the space to fill; it takes 419 % where 64 % is "
+              "the "
               "densest random "
               "packing"},
         Wrong{"shape = \"tank\"", "shape = \"tank\"\nnormal = [0, 0, 1]",

@@ -61,7 +61,7 @@ TEST(Porosity, KnowsWhatShareOfTheKernelWallsLeave) {
   pose[1].present = 0;
   const auto share = [&](const Vec3d& x) {
     const Frame frame({-1, -1, -1}, {1, 1, 1}, false, false, false);
-    return WallFreeShare{HalfSpaceShare::of(w), frame, {planes.data(), 2}, {pose.data(), 2}}(x);
+    return WallFreeShare{HalfSpaceShare::of(w), frame, {{planes.data(), 2}}, {pose.data(), 2}}(x);
   };
   for (double z : {0.0, 0.04, 0.11, 0.25}) {
     double free = 0, all = 0;

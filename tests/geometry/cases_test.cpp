@@ -23,6 +23,7 @@ TEST(Cases, AreLaidWithoutWarnings) {
       {"grain_heap/case.toml", {0, 2000}},
       {"hydrostatic_column/case.toml", {8 * 8 * 25, 0}},
       {"poiseuille/case.toml", {8 * 8 * 50, 0}},
+      {"rotating_drum/case.toml", {14553, 7755}},
       {"sphere_settling/air.toml", {20 * 20 * 30, 1}},
       {"sphere_settling/glycerol.toml", {20 * 20 * 30, 1}},
       {"sphere_settling/water.toml", {20 * 20 * 30, 1}},

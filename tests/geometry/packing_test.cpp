@@ -104,7 +104,7 @@ TEST(GrainPacking, SaysWhatDoesNotFit) {
   Config config = grain_case({0.1, 0.1, 0.1});
   config.grain.fills[0].count = 1001;
   EXPECT_EQ(error_of(config),
-            "grain.fill 1: 1001 grains of 0.01 m need at least 0.001001 m3, the box of "
+            "grain.fill 1: 1001 grains of 0.01 m need at least 0.001001 m3, the space of "
             "0.001 m3 holds 1000 of them; enlarge it and let the grains settle");
   config.grain.fills[0].count = 1;
   config.grain.fills[0].max.y = 0.008;

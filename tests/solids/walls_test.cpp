@@ -18,10 +18,23 @@ TEST(Surfaces, NearestPointsOfABox) {
   Config c;
   c.domain.min = {-1, -1, -1}, c.domain.max = {1, 1, 1};
   c.wall.bodies = {box({0, 0, 0}, {0.2, 0.4, 0.6})};
-  const auto surfaces = make_surfaces(c);
+  const WallGeometry geometry(c);
+  const auto& surfaces = geometry.surfaces();
   ASSERT_EQ(surfaces.size(), 1u);
   const Frame frame(c.domain.min, c.domain.max, false, false, false);
-  auto at = [&](const Vec3d& x) { return meet(surfaces[0], BodyPose{}, frame, x, 0); };
+  struct Seen {
+    Vec3d normal, point;
+    double distance;
+  };
+  const BodyPose still;
+  auto at = [&](const Vec3d& x) {
+    Seen seen{};
+    const SurfaceView view(surfaces[0], still, frame, x);
+    view.each_foot(geometry.view(), 1, 1e-9, [&](const Foot& f) {
+      seen = {f.normal, view.point(f), f.distance};
+    });
+    return seen;
+  };
   EXPECT_NEAR(at({0.3, 0.1, 0.1}).distance, 0.1, 1e-15);
   EXPECT_NEAR(at({0.3, 0.5, 0.1}).distance, 0.1 * std::sqrt(2.0), 1e-15);
   EXPECT_NEAR(at({0.3, 0.5, 0.7}).distance, 0.1 * std::sqrt(3.0), 1e-15);
@@ -35,7 +48,8 @@ TEST(Surfaces, TankHasARectangleForEachListedFaceLookingInwards) {
   c.domain.min = {0, 0, 0}, c.domain.max = {1, 1, 1};
   c.wall.bodies = {box({0, 0, 0}, {1, 1, 1}, "tank")};
   c.wall.bodies[0].faces[5] = false;
-  const auto surfaces = make_surfaces(c);
+  const WallGeometry geometry(c);
+  const auto& surfaces = geometry.surfaces();
   ASSERT_EQ(surfaces.size(), 5u);
   for (const Surface& s : surfaces) {
     EXPECT_EQ(s.kind, SurfaceKind::rectangle);
@@ -49,7 +63,8 @@ TEST(Surfaces, HaveNoEdgeAtAPeriodicBoundary) {
   b.config.domain.periodic = {true, false, false};
   b.config.wall.bodies = {box({-0.1, -0.1, -0.05}, {0.1, 0.1, 0}),
                           box({-0.1, -0.1, -0.05}, {0.1, 0.1, 0.05}, "tank")};
-  for (const Surface& s : make_surfaces(b.config)) {
+  const WallGeometry geometry(b.config);
+  for (const Surface& s : geometry.surfaces()) {
     bool endless = false;
     for (int k = 0; k < 3; ++k) endless = endless || (std::isinf(s.half[k]) && s.axis[k].x != 0);
     EXPECT_TRUE(endless || std::abs(s.axis[2].x) == 1);

@@ -88,6 +88,7 @@ struct CoupledBox {
   Frame frame;
   FluidStore fluid;
   GrainStore grains;
+  WallGeometry walls;
   Coupling coupling;
 
   static constexpr double kSkin = 0.1;  ///< of the range
@@ -95,7 +96,8 @@ struct CoupledBox {
   CoupledBox(const Config& c, const Cloud& cloud, const Pebbles& pebbles)
       : config(c),
         frame(c.domain.min, c.domain.max, c.domain.periodic[0], c.domain.periodic[1], c.domain.periodic[2]),
-        coupling(c, frame) {
+        walls(c),
+        coupling(c, frame, walls) {
     fill(cloud);
     fill(pebbles);
     relist();

@@ -35,7 +35,10 @@ inline Frame frame_of(const Config& c) {
 /// Fluid and its solver with lists ready; `jitter` displaces lattice points by up to that share of dx.
 struct FluidBox {
   explicit FluidBox(const Config& config, double jitter = 0, bool random_mass = false)
-      : config(config), frame(frame_of(config)), solver(FluidSolver::make(config, frame)) {
+      : config(config),
+        frame(frame_of(config)),
+        geometry(config),
+        solver(FluidSolver::make(config, frame, geometry)) {
     std::mt19937 rng(7);
     std::uniform_real_distribution<double> u(-1, 1);
     const double dx = config.fluid.dx;
@@ -43,8 +46,9 @@ struct FluidBox {
     for (double z = dx / 2; z < size.z; z += dx)
       for (double y = dx / 2; y < size.y; y += dx)
         for (double x = dx / 2; x < size.x; x += dx)
-          add(config.domain.min + Vec3d{x + jitter * dx * u(rng), y + jitter * dx * u(rng), z + jitter * dx * u(rng)}, {},
-              config.fluid.rho0 * dx * dx * dx * (random_mass ? 1 + 0.5 * u(rng) : 1));
+          add(config.domain.min +
+                  Vec3d{x + jitter * dx * u(rng), y + jitter * dx * u(rng), z + jitter * dx * u(rng)},
+              {}, config.fluid.rho0 * dx * dx * dx * (random_mass ? 1 + 0.5 * u(rng) : 1));
   }
   void add(const Vec3d& x, const Vec3d& v, double m) {
     position.push_back(frame.wrap(x));
@@ -84,6 +88,7 @@ struct FluidBox {
 
   Config config;
   Frame frame;
+  WallGeometry geometry;
   std::unique_ptr<FluidSolver> solver;
   FluidStore fluid;
   WallStore walls;

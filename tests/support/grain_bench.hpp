@@ -19,6 +19,7 @@ class GrainBench {
   std::vector<Vec3d> x, v, omega;  ///< initial; m, m/s, rad/s
   std::vector<double> radius;      ///< m
   std::unique_ptr<GrainStore> grains;
+  std::unique_ptr<WallGeometry> walls;
   std::unique_ptr<SolidSolver> solver;
   std::unique_ptr<CellGrid> grid;
   std::function<BodyPose(int body, double time)> motion = [](int, double) { return BodyPose{}; };
@@ -68,7 +69,8 @@ class GrainBench {
     const auto& p = config.domain.periodic;
     frame_ = Frame(config.domain.min, config.domain.max, p[0], p[1], p[2]);
     grains = std::make_unique<GrainStore>();
-    solver = std::make_unique<SolidSolver>(config, frame_, *grains);
+    walls = std::make_unique<WallGeometry>(config);
+    solver = std::make_unique<SolidSolver>(config, frame_, *walls, *grains);
     grid = std::make_unique<CellGrid>(frame_, config.domain.min, config.domain.max, solver->range());
     grains->resize(Index(x.size()));
     std::vector<Id> id(x.size());

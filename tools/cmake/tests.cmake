@@ -53,7 +53,7 @@ function(bedload_variant_tests variant)
     return()
   endif()
   add_executable(bedload_tests_${variant} ${BEDLOAD_SOLVER_TESTS})
-  target_link_libraries(bedload_tests_${variant} PRIVATE bedload_${variant} GTest::gtest_main)
+  target_link_libraries(bedload_tests_${variant} PRIVATE bedload_${variant} bedload_host GTest::gtest_main)
   bedload_register(bedload_tests_${variant} ${ARGN})
 endfunction()
 

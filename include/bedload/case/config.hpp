@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,44 @@ struct DomainConfig {
   bool operator==(const DomainConfig&) const = default;
 };
 
+class Shape;
+
+/// The solid that a name stands for, built when a case is resolved. No part of what makes two cases equal.
+struct Solid {
+  std::shared_ptr<const Shape> shape;
+  bool operator==(const Solid&) const { return true; }
+};
+
+/// A solid with a name: walls are made of it, fluid and grains fill it.
+struct ShapeConfig {
+  std::string name;
+  std::string kind = "box";                    ///< see describe_shapes.cpp
+  Vec3d min, max;                              ///< box: m
+  Vec3d centre;                                ///< sphere: m
+  Vec3d a, b;                                  ///< ends of the axis of capsule, cylinder, cone, pipe: m
+  double radius = 0;                           ///< m; pipe: of the bore
+  double radius_a = 0, radius_b = 0;           ///< cone: m
+  double thickness = 0;                        ///< wall of pipe and hollow, m
+  std::string ends = "open";                   ///< pipe: open, closed_a, closed_b, closed
+  std::string file;                            ///< mesh: STL, OBJ or PLY
+  std::string digest;                          ///< of the file, hexadecimal; checked where it is given
+  bool repair = false;                         ///< mesh
+  std::vector<std::string> of;                 ///< hollow, union, difference: shapes listed before
+  double scale = 1;
+  Vec3d turn_axis{0, 0, 1};
+  double turn_angle = 0;                       ///< deg
+  Vec3d translate;                             ///< m
+  Solid solid;                                 ///< resolved
+  bool operator==(const ShapeConfig&) const = default;
+};
+
 /// A block of fluid, laid on a lattice of spacing fluid.dx.
 struct FluidFill {
-  Vec3d min, max;                              ///< box, m
+  Vec3d min, max;                              ///< box, m; of a shape: around what is filled (resolved)
   std::array<std::string, 3> velocity{"0", "0", "0"};  ///< formulas in x, y, z, m/s
+  std::string shape = {};                      ///< name of a shape to fill instead of a box
+  double level = std::numeric_limits<double>::infinity();  ///< shape: filled up to this height, m
+  Solid solid = {};                            ///< resolved
   bool operator==(const FluidFill&) const = default;
 };
 
@@ -80,14 +115,15 @@ struct MotionConfig {
 /// One wall body: a shape, how fluid meets it, how it moves.
 struct WallBody {
   std::string name;
-  std::string shape = "box";                   ///< box (solid), tank (box seen from inside), plane
-  Vec3d min, max;                              ///< box, tank: m
+  std::string shape = "box";                   ///< box (solid), tank (seen from inside), plane, or a name
+  Vec3d min, max;                              ///< box, tank: m; of a shape: around it (resolved)
   std::array<bool, 6> faces{true, true, true, true, true, true};  ///< tank: x-, x+, y-, y+, z-, z+
   Vec3d point, normal;                         ///< plane: normal points into the flow
   std::string type = "adami";                  ///< adami, grains_only
   std::string slip = "noslip";                 ///< noslip, slip
   bool repulsion = true;                       ///< Monaghan repulsion beside the extrapolated pressure
   MotionConfig motion;
+  Solid solid;                                 ///< of a named shape (resolved)
   bool operator==(const WallBody&) const = default;
 };
 
@@ -108,9 +144,11 @@ struct SizeClass {
   bool operator==(const SizeClass&) const = default;
 };
 
-/// Where grains come from: thrown at random into a box, then settled.
+/// Where grains come from: thrown at random into a box or a shape, then settled.
 struct GrainFill {
-  Vec3d min, max;                              ///< m
+  Vec3d min, max;                              ///< m; of a shape: around it (resolved)
+  std::string shape;                           ///< name of a shape to fill instead of a box
+  Solid solid;                                 ///< resolved
   std::int64_t count = 0;                      ///< exactly one of count, mass, packing_fraction
   double mass = 0;                             ///< kg
   double packing_fraction = 0;
@@ -209,6 +247,7 @@ struct Config {
   double tensile = 0;                          ///< 0 off; 1 switches the Monaghan 2000 term on
   bool tensile_one_sign = false;               ///< he2018: 0.01 for both signs of P
   DomainConfig domain;
+  std::vector<ShapeConfig> shapes;
   FluidConfig fluid;
   EosConfig eos;
   DensityConfig density;

@@ -38,7 +38,8 @@ struct Choice {
 enum class Presence {
   defaulted,  ///< the Config's own value stands if the key is absent
   required,
-  optional,  ///< absent means something of its own, held as 0 or infinity
+  optional,   ///< absent means something of its own, held as 0, infinity or nothing
+  unbounded,  ///< absent means no bound, held as infinity
 };
 
 /// What is known about a parameter besides its key and place.
@@ -51,12 +52,13 @@ struct About {
   Presence presence = Presence::defaulted;
   std::string_view family = {};  ///< under which `bedload list` shows the choices
   std::vector<Choice> choices = {};
+  std::string_view or_else = {};  ///< what may stand beside the choices: "the name of a shape"
 };
 
 using Formulas = std::array<std::string, 3>;
 using Faces = std::array<bool, 6>;
 using Slot = std::variant<bool*, std::int64_t*, std::uint64_t*, double*, std::string*, Vec3d*, Formulas*,
-                          std::array<bool, 3>*, Faces*, std::vector<Vec3d>*>;
+                          std::array<bool, 3>*, Faces*, std::vector<Vec3d>*, std::vector<std::string>*>;
 
 /// Names of the six sides, in the order of WallBody::faces.
 inline constexpr std::array<std::string_view, 6> kFaces{"x-", "x+", "y-", "y+", "z-", "z+"};

@@ -44,6 +44,7 @@ class TriangleMesh : public Shape {
 
   SurfacePoint nearest(const Vec3d& x) const override;
   Bounds bounds() const override { return bounds_; }
+  void add_parts(std::vector<SurfacePart>& parts, const Placement& placement) const override;
 
   /// Index of the triangle nearest to x; of those equally near any one, always the same.
   std::uint32_t nearest_triangle(const Vec3d& x) const;

@@ -37,6 +37,10 @@ struct Placement {
 
   Vec3d apply(const Vec3d& x) const { return translation + scale * rotation.rotate(x); }
   Vec3d undo(const Vec3d& x) const { return rotation.conjugate().rotate(x - translation) / scale; }
+  /// First `inner`, then this.
+  Placement after(const Placement& inner) const {
+    return {scale * inner.scale, rotation * inner.rotation, apply(inner.translation)};
+  }
 };
 
 /// The surface as seen from some place.
@@ -44,6 +48,25 @@ struct SurfacePoint {
   double distance = 0;  ///< of the place, m; negative inside the solid
   Vec3d point;          ///< of the surface nearest to the place, m
   Vec3d normal;         ///< gradient of the distance at the place; on the surface the outward normal
+};
+
+struct MeshLayout;
+
+/// A surface in elementary terms, for those who meet it on a device. Lab frame at t = 0.
+struct SurfacePart {
+  enum class Kind { box, capsule, revolution, mesh };
+  struct Corner {
+    double z, r;  ///< along the axis and away from it, m
+  };
+
+  Kind kind = Kind::box;
+  Vec3d centre = {};                 ///< m
+  Quat<double> rotation = {};        ///< of the axes; the last is that of capsule and revolution
+  Vec3d half = {};                   ///< half extents along the axes, m
+  double radius = 0;                 ///< capsule, m; half.z is half the length of its line
+  std::vector<Corner> profile = {};  ///< revolution, closed; the solid lies to its right, z from the centre
+  std::shared_ptr<const MeshLayout> mesh = nullptr;  ///< vertices from the centre
+  double shell = 0;  ///< thickness of a wall around the shape, m; 0: the shape itself is solid
 };
 
 /// A solid. Its signed distance changes by no more than the way walked (Lipschitz constant 1).
@@ -55,6 +78,10 @@ class Shape {
 
   /// Encloses the solid, not always tightly.
   virtual Bounds bounds() const = 0;
+
+  /// Adds the parts of its surface, moved by `placement`. Parts that lie within others do no harm. Throws
+  /// CaseError where the surface has no such description.
+  virtual void add_parts(std::vector<SurfacePart>& parts, const Placement& placement) const = 0;
 
   /// m, negative inside the solid.
   double distance(const Vec3d& x) const { return nearest(x).distance; }

@@ -1,0 +1,92 @@
+#pragma once
+// A closed surface of triangles as kernels see it: its own tree of boxes, feet by local minima.
+
+#include <cmath>
+#include <cstdint>
+
+#include "bedload/core/types.hpp"
+#include "bedload/geometry/mesh_layout.hpp"
+#include "bedload/geometry/triangle_point.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+struct MeshView {
+  const MeshNode* nodes = nullptr;
+  const Vec3d* vertices = nullptr;            ///< from the mesh's centre, m
+  const MeshTriangle* triangles = nullptr;    ///< in the order of the tree's leaves
+  const std::uint32_t* ring_start = nullptr;  ///< [vertices + 1]
+  const std::uint32_t* ring = nullptr;        ///< triangles around each vertex, ascending
+
+  /// f(normal, signed distance, feature) for every foot no farther than `reach` (m) from x. Points of
+  /// neighbouring triangles closer than `merge` (m) count as one: a foot that lies on an edge by round-off.
+  template <class F>
+  BL_HD void each_foot(const Vec3d& x, double reach, double merge, F&& f) const {
+    std::uint32_t stack[kMeshDepth];
+    int due = 0;
+    stack[due++] = 0;
+    while (due > 0) {
+      const std::uint32_t index = stack[--due];
+      const MeshNode node = nodes[index];
+      if (node.distance2(x) > reach * reach) continue;
+      if (node.count == 0) {
+        stack[due++] = node.next;
+        stack[due++] = index + 1;
+      }
+      for (std::uint32_t t = node.next; t < node.next + node.count; ++t) foot(t, x, reach, merge, f);
+    }
+  }
+
+ private:
+  BL_HD TrianglePoint nearest(std::uint32_t t, const Vec3d& x) const {
+    const Vec3d corners[3] = {corner(t, 0), corner(t, 1), corner(t, 2)};
+    return nearest_on(corners, x);
+  }
+  BL_HD Vec3d corner(std::uint32_t t, int k) const { return vertices[triangles[t].corner[k]]; }
+  BL_HD Vec3d unit_normal(std::uint32_t t) const {
+    const Vec3d n = cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
+    return n * (1 / norm(n));
+  }
+
+  /// The foot that triangle t answers for: on its face, on an edge or at a corner of which it is the first.
+  template <class F>
+  BL_HD void foot(std::uint32_t t, const Vec3d& x, double reach, double merge, F& f) const {
+    const TrianglePoint at = nearest(t, x);
+    if (at.distance2 > reach * reach) return;
+    const std::uint32_t key = 7 * t +
+                              (at.feature == Feature::face ? 0 : (at.feature == Feature::edge ? 1 : 4)) +
+                              std::uint32_t(at.index);
+    Vec3d outward;
+    if (at.feature == Feature::face) {
+      outward = unit_normal(t);
+      return f(outward, dot(x - at.point, outward), key);
+    }
+    if (at.feature == Feature::edge) {
+      const std::uint32_t other = triangles[t].across[at.index];
+      if (other < t || !shares(other, x, at.point, merge)) return;
+      outward = unit_normal(t) + unit_normal(other);
+    } else {
+      const std::uint32_t v = triangles[t].corner[at.index];
+      if (ring[ring_start[v]] != t) return;
+      for (std::uint32_t k = ring_start[v]; k < ring_start[v + 1]; ++k) {
+        if (!shares(ring[k], x, at.point, merge)) return;
+        outward += angle_at(ring[k], v) * unit_normal(ring[k]);
+      }
+    }
+    const Vec3d away = x - at.point;
+    const double distance = norm(away), front = dot(away, outward) >= 0 ? 1.0 : -1.0;
+    if (distance > 1e-9 * reach) return f(away * (front / distance), front * distance, key);
+    f(outward * (1 / norm(outward)), 0.0, key);  // too close for a direction of its own
+  }
+  /// Whether a neighbour, too, is nearest to x at `point`.
+  BL_HD bool shares(std::uint32_t t, const Vec3d& x, const Vec3d& point, double merge) const {
+    return norm2(nearest(t, x).point - point) <= merge * merge;
+  }
+  BL_HD double angle_at(std::uint32_t t, std::uint32_t v) const {
+    const MeshTriangle& c = triangles[t];
+    const int k = c.corner[0] == v ? 0 : (c.corner[1] == v ? 1 : 2);
+    const Vec3d a = corner(t, (k + 1) % 3) - corner(t, k), b = corner(t, (k + 2) % 3) - corner(t, k);
+    return std::atan2(norm(cross(a, b)), dot(a, b));
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,114 @@
+#include "bedload/geometry/build_shape.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+
+#include "bedload/core/error.hpp"
+#include "bedload/core/fingerprint.hpp"
+#include "bedload/geometry/mesh.hpp"
+#include "bedload/parallel/host_loop.hpp"
+
+namespace bedload {
+namespace {
+
+ShapePtr find(const std::string& name, const std::vector<ShapeConfig>& earlier) {
+  std::string names;
+  for (const ShapeConfig& shape : earlier) {
+    if (shape.name == name) return shape.solid.shape;
+    names += (names.empty() ? "" : ", ") + shape.name;
+  }
+  throw CaseError(fmt::format("of = \"{}\" must name a shape listed before it{}", name,
+                              names.empty() ? "; there is none" : ": " + names));
+}
+
+PipeEnds ends_of(const std::string& name) {
+  if (name == "closed") return PipeEnds::closed;
+  if (name == "closed_a") return PipeEnds::closed_a;
+  return name == "closed_b" ? PipeEnds::closed_b : PipeEnds::open;
+}
+
+std::string digest_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw FileError(path + ": cannot read this mesh");
+  Fingerprint print;
+  print.add(text);
+  return fmt::format("{:016x}", print.value());
+}
+
+ShapePtr build_mesh(ShapeConfig& c) {
+  MeshOptions options;
+  options.repair = c.repair;
+  const auto mesh = read_mesh(c.file, options);
+  const std::string digest = digest_of(c.file);
+  if (!c.digest.empty() && c.digest != digest)
+    throw CaseError(fmt::format("digest = \"{}\" must be that of {}, which is \"{}\": the file has changed",
+                                c.digest, c.file, digest));
+  c.digest = digest;
+  return mesh;
+}
+
+ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier) {
+  if (c.kind == "box") return make_box(c.min, c.max);
+  if (c.kind == "sphere") return make_sphere(c.centre, c.radius);
+  if (c.kind == "capsule") return make_capsule(c.a, c.b, c.radius);
+  if (c.kind == "cylinder") return make_cylinder(c.a, c.b, c.radius);
+  if (c.kind == "cone") return make_cone(c.a, c.b, c.radius_a, c.radius_b);
+  if (c.kind == "pipe") return make_pipe(c.a, c.b, c.radius, c.radius + c.thickness, ends_of(c.ends));
+  if (c.kind == "mesh") return build_mesh(c);
+
+  std::vector<ShapePtr> of;
+  for (const std::string& name : c.of) of.push_back(find(name, earlier));
+  if (c.kind == "union") return make_union(of);
+  if (c.kind == "hollow") {
+    if (of.size() != 1) throw CaseError(fmt::format("of holds {} names, must hold one", of.size()));
+    return make_hollow(of[0], c.thickness);
+  }
+  if (of.size() < 2) throw CaseError("of holds one name, must hold at least two");
+  ShapePtr shape = of[0];
+  for (std::size_t n = 1; n < of.size(); ++n) shape = make_difference(shape, of[n]);
+  return shape;
+}
+
+}  // namespace
+
+ShapePtr build_shape(ShapeConfig& c, const std::vector<ShapeConfig>& earlier) {
+  const ShapePtr shape = build_unplaced(c, earlier);
+  Placement placement;
+  placement.scale = c.scale;
+  const double length = norm(c.turn_axis);
+  if (length == 0) throw CaseError("turn_axis must not be zero");
+  placement.rotation =
+      Quat<double>::from_rotation(c.turn_angle * std::numbers::pi / 180 / length * c.turn_axis);
+  placement.translation = c.translate;
+  const bool placed = c.scale != 1 || c.turn_angle != 0 || norm2(c.translate) > 0;
+  return placed ? make_placed(shape, placement) : shape;
+}
+
+double volume_below(const Shape& shape, const Vec3d& up, double level, double step) {
+  const Bounds bounds = shape.bounds();
+  std::array<std::int64_t, 3> n;
+  for (int k = 0; k < 3; ++k)
+    n[k] = std::max<std::int64_t>(1, std::int64_t(std::ceil((bounds.max[k] - bounds.min[k]) / step)));
+  // each cell counts by the depth of its centre: a plane anywhere in it divides it by half on average
+  std::vector<double> slabs(n[2]);
+  host_for_each(slabs.size(), [&](std::size_t l) {
+    for (std::int64_t j = 0; j < n[1]; ++j)
+      for (std::int64_t i = 0; i < n[0]; ++i) {
+        const Vec3d x = bounds.min + step * Vec3d{i + 0.5, j + 0.5, double(l) + 0.5};
+        const double distance = std::max(shape.distance(x), dot(up, x) - level);
+        slabs[l] += std::clamp(0.5 - distance / step, 0.0, 1.0);
+      }
+  });
+  double cells = 0;
+  for (const double slab : slabs) cells += slab;
+  return cells * step * step * step;
+}
+
+}  // namespace bedload

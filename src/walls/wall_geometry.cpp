@@ -1,0 +1,125 @@
+#include "src/walls/wall_geometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bedload/geometry/shape.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+Vec3d unit(int k, double sign = 1) {
+  Vec3d e;
+  e[k] = sign;
+  return e;
+}
+
+/// Half the extent of a body along axis k; without end where it spans a period.
+double half_extent(const Config& config, const WallBody& body, int k) {
+  const double length = body.max[k] - body.min[k], period = config.domain.max[k] - config.domain.min[k];
+  if (config.domain.periodic[k] && length > period * (1 - 1e-9))
+    return std::numeric_limits<double>::infinity();
+  return 0.5 * length;
+}
+
+Surface make_box(const Config& config, const WallBody& body, std::uint32_t index) {
+  Surface s{SurfaceKind::box, index, 0.5 * (body.min + body.max), {}, {}};
+  for (int k = 0; k < 3; ++k) {
+    s.axis[k] = unit(k);
+    s.half[k] = half_extent(config, body, k);
+  }
+  return s;
+}
+
+Surface make_face(const Config& config, const WallBody& body, std::uint32_t index, int face) {
+  const int k = face / 2, u = (k + 1) % 3, w = (k + 2) % 3;
+  Surface s{SurfaceKind::rectangle, index, 0.5 * (body.min + body.max), {}, {}};
+  const bool upper = face % 2;
+  s.centre[k] = upper ? body.max[k] : body.min[k];
+  s.axis[2] = unit(k, upper ? -1 : 1);  // into the tank
+  s.axis[0] = unit(upper ? w : u);
+  s.axis[1] = unit(upper ? u : w);
+  s.half[0] = half_extent(config, body, upper ? w : u);
+  s.half[1] = half_extent(config, body, upper ? u : w);
+  return s;
+}
+
+/// Touches that a grain may have with one surface at once.
+int most_contacts(const Surface& s) {
+  switch (s.kind) {
+    case SurfaceKind::mesh:
+      return kMostWallContacts;
+    case SurfaceKind::revolution:
+      return int(s.count);
+    case SurfaceKind::box:
+      return s.shell > 0 ? 6 : 1;
+    default:
+      return 1;
+  }
+}
+
+}  // namespace
+
+WallGeometry::WallGeometry(const Config& config) {
+  for (std::uint32_t b = 0; b < config.wall.bodies.size(); ++b) {
+    const WallBody& body = config.wall.bodies[b];
+    if (body.solid.shape) {
+      std::vector<SurfacePart> parts;
+      body.solid.shape->add_parts(parts, {});
+      for (const SurfacePart& part : parts) add(part, b);
+    } else if (body.shape == "plane") {
+      Surface s{SurfaceKind::plane, b, body.point, {}, {}};
+      s.axis[2] = body.normal * (1 / norm(body.normal));
+      surfaces_.push_back(s);
+    } else if (body.shape == "box") {
+      surfaces_.push_back(make_box(config, body, b));
+    } else if (body.shape == "tank") {
+      for (int face = 0; face < 6; ++face)
+        if (body.faces[face]) surfaces_.push_back(make_face(config, body, b, face));
+    }
+  }
+  for (const Surface& s : surfaces_) contacts_ = std::min(contacts_ + most_contacts(s), kMostWallContacts);
+  device_surfaces_.assign(surfaces_);
+  device_corners_.assign(corners_);
+  std::vector<MeshView> views;
+  for (const MeshBuffers& m : meshes_)
+    views.push_back(
+        {m.nodes.data(), m.vertices.data(), m.triangles.data(), m.ring_start.data(), m.ring.data()});
+  device_meshes_.assign(views);
+}
+
+SurfaceSet WallGeometry::view() const {
+  return {device_surfaces_, device_corners_.data(), device_meshes_.data()};
+}
+
+void WallGeometry::add(const SurfacePart& part, std::uint32_t body) {
+  Surface s{SurfaceKind::box, body, part.centre, {}, {}};
+  s.radius = part.radius;
+  s.shell = part.shell;
+  for (int k = 0; k < 3; ++k) {
+    s.axis[k] = part.rotation.rotate(unit(k));
+    s.half[k] = part.half[k];
+  }
+  using Kind = SurfacePart::Kind;
+  if (part.kind == Kind::capsule) {
+    s.kind = SurfaceKind::capsule;
+  } else if (part.kind == Kind::revolution) {
+    s.kind = SurfaceKind::revolution;
+    s.first = std::uint32_t(corners_.size());
+    s.count = std::uint32_t(part.profile.size());
+    for (const auto& c : part.profile) corners_.push_back({c.z, c.r});
+  } else if (part.kind == Kind::mesh) {
+    s.kind = SurfaceKind::mesh;
+    s.first = std::uint32_t(meshes_.size());
+    meshes_.emplace_back();
+    meshes_.back().nodes.assign(part.mesh->nodes);
+    meshes_.back().vertices.assign(part.mesh->vertices);
+    meshes_.back().triangles.assign(part.mesh->triangles);
+    meshes_.back().ring_start.assign(part.mesh->ring_start);
+    meshes_.back().ring.assign(part.mesh->ring);
+  }
+  surfaces_.push_back(s);
+}
+
+}  // namespace bedload::inline BL_VARIANT

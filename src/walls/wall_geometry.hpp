@@ -1,0 +1,44 @@
+#pragma once
+#include <vector>
+
+#include "bedload/case/config.hpp"
+#include "bedload/parallel/buffer.hpp"
+#include "kernels/contact/wall_contacts.hpp"
+
+namespace bedload {
+struct SurfacePart;
+}
+
+namespace bedload::inline BL_VARIANT {
+
+/// The surfaces of all wall bodies, where kernels find them: a rectangle for each face of a tank, one surface
+/// for a box or a plane, one for each part of a shape.
+class WallGeometry {
+ public:
+  explicit WallGeometry(const Config& config);
+
+  const std::vector<Surface>& surfaces() const { return surfaces_; }
+  /// Touches that one grain may have at once, at most kMostWallContacts.
+  int contacts() const { return contacts_; }
+  /// Valid as long as this lives and stays where it is.
+  SurfaceSet view() const;
+
+ private:
+  void add(const SurfacePart& part, std::uint32_t body);
+
+  struct MeshBuffers {
+    Buffer<MeshNode> nodes;
+    Buffer<Vec3d> vertices;
+    Buffer<MeshTriangle> triangles;
+    Buffer<std::uint32_t> ring_start, ring;
+  };
+  std::vector<Surface> surfaces_;
+  std::vector<ProfileCorner> corners_;
+  std::vector<MeshBuffers> meshes_;
+  int contacts_ = 0;
+  Buffer<Surface> device_surfaces_;
+  Buffer<ProfileCorner> device_corners_;
+  Buffer<MeshView> device_meshes_;
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,183 @@
+// Shapes in case files: what walls, water and grains make of them, and what is refused.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "bedload/case/read.hpp"
+#include "bedload/geometry/build_shape.hpp"
+#include "bedload/geometry/setup.hpp"
+#include "mesh_support.hpp"
+
+namespace bedload::test {
+namespace {
+
+const char* const kDrum = R"(
+[domain]
+min = [-0.1, -0.1, -0.1]
+max = [0.1, 0.1, 0.1]
+[[shape]]
+name = "inside"
+kind = "cylinder"
+a = [0, -0.05, 0]
+b = [0, 0.05, 0]
+radius = 0.05
+[[shape]]
+name = "drum"
+kind = "hollow"
+of = ["inside"]
+[fluid]
+dx = 0.004
+[[fluid.fill]]
+shape = "inside"
+level = 0.0
+[[wall.body]]
+name = "drum"
+shape = "drum"
+[grain]
+d = 0.005
+[[grain.fill]]
+shape = "inside"
+packing_fraction = 0.1
+[time]
+end = 1
+[out]
+every = 1
+)";
+
+Config read(const std::string& text, const std::string& name = "drum.toml") {
+  std::vector<std::string> warnings;
+  return read_case_text(text, name, {}, warnings);
+}
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = kDrum;
+  text.replace(text.find(from), from.size(), to);
+  return text;
+}
+std::string refused(const std::string& from, const std::string& to) {
+  return error_in([&] { read(with(from, to)); });
+}
+
+TEST(ShapeCase, WaterGrainsAndWallsFollowACurvedVessel) {
+  const Config c = read(kDrum);
+  std::vector<std::string> warnings;
+  const auto setup = build_setup(c, warnings);
+  const double dx = c.fluid.dx, half = 0.5 * M_PI * 0.05 * 0.05 * 0.1;
+
+  double mass = 0;
+  for (const double m : setup.fluid.mass) mass += m;
+  EXPECT_NEAR(mass / (1000 * half), 1, 1e-3);
+  EXPECT_NEAR(double(setup.fluid.x.size()) * dx * dx * dx / half, 1, 0.02);
+  double nearest = 1;
+  for (std::size_t a = 0; a < setup.fluid.x.size(); ++a) {
+    const Vec3d& x = setup.fluid.x[a];
+    EXPECT_LT(std::hypot(x.x, x.z), 0.05 - 0.499 * dx);
+    EXPECT_LT(std::abs(x.y), 0.05 - 0.499 * dx);
+    EXPECT_LT(x.z, -0.499 * dx);
+    for (std::size_t b = 0; b < a; ++b) nearest = std::min(nearest, norm(x - setup.fluid.x[b]));
+  }
+  EXPECT_GT(nearest, 0.8 * dx) << "no two crowd each other";
+
+  ASSERT_FALSE(setup.walls.x.empty());
+  EXPECT_EQ(c.shapes[1].thickness, 0.012) << "three layers reach as far as the kernel";
+  for (const Vec3d& x : setup.walls.x)
+    EXPECT_GT(std::max(std::hypot(x.x, x.z), std::abs(x.y)), 0.05 + 0.499 * dx);
+
+  double solid = 0;
+  for (std::size_t i = 0; i < setup.grains.x.size(); ++i) {
+    const Vec3d& x = setup.grains.x[i];
+    const double r = setup.grains.radius[i];
+    EXPECT_LE(std::hypot(x.x, x.z), 0.05 - r * (1 - 1e-5));
+    EXPECT_LE(std::abs(x.y), 0.05 - r * (1 - 1e-5));
+    solid += 4.0 / 3.0 * M_PI * r * r * r;
+  }
+  EXPECT_NEAR(solid / (2 * half), 0.1, 1e-3);
+}
+
+TEST(ShapeCase, VolumeBelowALevel) {
+  const auto ball = make_sphere({0, 0, 0}, 1);
+  EXPECT_NEAR(volume_below(*ball, {0, 0, 1}, Bounds::kInfinity, 0.03), 4.0 / 3 * M_PI, 1e-3);
+  EXPECT_NEAR(volume_below(*ball, {0, 1, 0}, 0, 0.03), 2.0 / 3 * M_PI, 1e-3);
+  EXPECT_NEAR(volume_below(*ball, {0, 0, 1}, -0.5, 0.03), M_PI * 0.25 * 2.5 / 3, 1e-3);
+}
+
+TEST(ShapeCase, PlacesAndCombines) {
+  const Config c = read(with("[fluid]\n", R"([[shape]]
+name = "ball"
+kind = "sphere"
+centre = [0.01, 0, 0]
+radius = 0.01
+scale = 2
+turn_axis = [0, 0, 2]
+turn_angle = 90
+translate = [0, 0, 0.05]
+[[shape]]
+name = "both"
+kind = "union"
+of = ["ball", "inside"]
+[[shape]]
+name = "rest"
+kind = "difference"
+of = ["inside", "ball"]
+[fluid]
+)"));
+  const Shape& ball = *c.shapes[2].solid.shape;
+  EXPECT_NEAR(ball.distance({0, 0.02, 0.05}), -0.02, 1e-15);
+  EXPECT_LT(c.shapes[3].solid.shape->distance({0, 0.02, 0.06}), 0);
+  EXPECT_GT(c.shapes[4].solid.shape->distance({0, 0.02, 0.04}), 0);
+}
+
+TEST(ShapeCase, ReadsBackWhatWasResolvedMeshesIncluded) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "box.obj") << "v 0 0 0\nv 20 0 0\nv 20 20 0\nv 0 20 0\nv 0 0 20\nv 20 0 20\n"
+                                       "v 20 20 20\nv 0 20 20\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\n"
+                                       "f 3 4 8 7\nf 4 1 5 8\n";
+  const std::string text = with("[fluid]\n", R"([[shape]]
+name = "block"
+kind = "mesh"
+file = "box.obj"
+scale = 0.001
+[[wall.body]]
+name = "block"
+shape = "block"
+[fluid]
+)");
+  const std::string name = (folder / "drum.toml").string();
+  const Config c = read(text, name);
+  EXPECT_NEAR(c.shapes[2].solid.shape->distance({0.01, 0.01, 0.03}), 0.01, 1e-9);
+  EXPECT_EQ(c.shapes[2].digest.size(), 16u);
+  Config again = read(resolved_toml(c), name);
+  again.file = c.file;
+  EXPECT_EQ(again, c);
+
+  std::string changed = resolved_toml(c);
+  changed.replace(changed.find(c.shapes[2].digest), 16, "0123456789abcdef");
+  EXPECT_NE(error_in([&] { read(changed, name); }).find("the file has changed"), std::string::npos);
+}
+
+TEST(ShapeCase, SaysWhatIsWrong) {
+  EXPECT_EQ(
+      refused("shape = \"drum\"", "shape = \"pot\""),
+      "drum.toml:24: wall.body.shape = \"pot\" must be tank, box, plane or the name of a [[shape]]; this "
+      "case has inside, drum");
+  EXPECT_EQ(refused("of = [\"inside\"]", "of = [\"later\"]"),
+            "drum.toml:11: shape \"drum\": of = \"later\" must name a shape listed before it: inside");
+  EXPECT_EQ(refused("name = \"drum\"\nkind", "name = \"inside\"\nkind"),
+            "drum.toml:12: shape.name = \"inside\" must differ from other shapes'");
+  EXPECT_EQ(refused("radius = 0.05", "radius = 0"), "drum.toml:10: shape.radius = 0 must be > 0");
+  EXPECT_EQ(refused("b = [0, 0.05, 0]", "b = [0, -0.05, 0]"),
+            "drum.toml:5: shape \"inside\": cylinder: its ends (0, -0.05, 0) and (0, -0.05, 0) m must lie "
+            "apart");
+  EXPECT_EQ(refused("level = 0.0", "level = -0.06"),
+            "drum.toml:20: fluid.fill.level = -0.06 must lie above the bottom of shape \"inside\"");
+  EXPECT_EQ(refused("kind = \"hollow\"", "kind = \"vessel\"").substr(0, 44),
+            "drum.toml:13: shape.kind = \"vessel\" must be ");
+  EXPECT_EQ(refused("max = [0.1, 0.1, 0.1]", "max = [0.1, 0.1, 0.1]\nperiodic = [false, true, false]"), "");
+  EXPECT_NE(refused("max = [0.1, 0.1, 0.1]", "max = [0.1, 0.05, 0.1]\nperiodic = [false, true, false]")
+                .find("must lie within the period along y"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace bedload::test

@@ -1,0 +1,276 @@
+// Feet of shapes: their distances are those of the shape itself, each feature is touched once, and what a
+// contact remembers goes with it from triangle to triangle.
+#include <functional>
+
+#include "tests/geometry/mesh_support.hpp"
+#include "tests/support/grain_bench.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+using namespace bedload::test;
+
+WallBody body_of(ShapePtr shape) {
+  WallBody b;
+  b.shape = "shape";
+  b.solid.shape = shape;
+  const Bounds bounds = shape->bounds();
+  b.min = bounds.min, b.max = bounds.max;
+  return b;
+}
+
+/// Refers to host memory: for geometry built in a CPU variant.
+#if !BL_CUDA
+struct Feet {
+  WallGeometry walls;
+  Frame frame{{-1, -1, -1}, {1, 1, 1}, false, false, false};
+  BodyPose still;
+
+  static Config config_of(ShapePtr shape) {
+    Config c;
+    c.wall.bodies = {body_of(shape)};
+    return c;
+  }
+  explicit Feet(ShapePtr shape) : walls(config_of(shape)) {}
+
+  std::vector<Foot> operator()(const Vec3d& x, double reach) const {
+    std::vector<Foot> feet;
+    for (const Surface& s : walls.surfaces())
+      SurfaceView(s, still, frame, x).each_foot(walls.view(), reach, 1e-9, [&](const Foot& f) {
+        feet.push_back(f);
+      });
+    return feet;
+  }
+};
+
+/// The nearest foot lies as far off as the shape is, in the direction of its gradient.
+void expect_feet_of(ShapePtr shape) {
+  const Feet feet(shape);
+  const Bounds bounds = shape->bounds();
+  const double size = norm(bounds.max - bounds.min);
+  RandomPoints random(bounds.grown(0.2 * size));
+  for (int n = 0; n < 2000; ++n) {
+    const Vec3d x = random();
+    const SurfacePoint at = shape->nearest(x);
+    const Foot* nearest = nullptr;
+    const auto all = feet(x, 2 * size);
+    for (const Foot& f : all)
+      if (!nearest || std::abs(f.distance) < std::abs(nearest->distance)) nearest = &f;
+    ASSERT_TRUE(nearest);
+    EXPECT_NEAR(nearest->distance, at.distance, 1e-6 * size) << x.x << " " << x.y << " " << x.z;
+    EXPECT_NEAR(norm(nearest->normal), 1, 1e-12);
+    EXPECT_LT(norm(nearest->normal - at.normal), 1e-5);
+  }
+}
+
+ShapePtr scaled(ShapePtr shape, double scale) {
+  Placement p;
+  p.scale = scale;
+  return make_placed(shape, p);
+}
+
+TEST(Feet, AreNearestWhereTheShapeIs) {
+  const Vec3d a{-0.1, 0.05, -0.2}, b{0.2, 0.1, 0.15};
+  expect_feet_of(make_sphere(a, 0.1));
+  expect_feet_of(make_capsule(a, b, 0.1));
+  expect_feet_of(make_cylinder(a, b, 0.1));
+  expect_feet_of(make_cone(a, b, 0.15, 0.05));
+  expect_feet_of(make_cone(a, b, 0, 0.1));
+  expect_feet_of(make_pipe(a, b, 0.1, 0.15, PipeEnds::closed_a));
+  expect_feet_of(scaled(std::make_shared<TriangleMesh>(l_prism(), "l"), 0.2));
+  expect_feet_of(scaled(std::make_shared<TriangleMesh>(ball(3), "ball"), 0.3));
+}
+
+TEST(Feet, FollowAPlacement) {
+  Placement p;
+  p.scale = 0.7;
+  p.rotation = Quat<double>::from_rotation({0.4, -1, 0.3});
+  p.translation = {0.1, -0.2, 0.05};
+  expect_feet_of(make_placed(make_box({-0.2, -0.1, -0.3}, {0.2, 0.1, 0.3}), p));
+  expect_feet_of(make_placed(make_cone({-0.1, 0.1, 0}, {0.1, 0, 0.3}, 0.1, 0.2), p));
+  expect_feet_of(make_placed(std::make_shared<TriangleMesh>(test::cube(0.3), "cube"), p));
+}
+
+TEST(Feet, OfAVesselLieOnBothSidesOfItsWall) {
+  const Feet box(make_hollow(make_box({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}), 0.05));
+  const auto corner = box({0.19, 0.18, 0.1}, 0.03);
+  ASSERT_EQ(corner.size(), 2u) << "two faces seen from within";
+  EXPECT_NEAR(corner[0].distance, 0.01, 1e-12);
+  EXPECT_NEAR(corner[0].normal.x, -1, 1e-12);
+  EXPECT_NEAR(corner[1].distance, 0.02, 1e-12);
+  const auto outside = box({0.3, 0, 0}, 0.1);
+  ASSERT_EQ(outside.size(), 1u);
+  EXPECT_NEAR(outside[0].distance, 0.05, 1e-12);
+  EXPECT_NEAR(outside[0].normal.x, 1, 1e-12);
+
+  const Feet drum(make_hollow(make_cylinder({0, 0, -0.1}, {0, 0, 0.1}, 0.1), 0.02));
+  const auto edge = drum({0.095, 0, 0.098}, 0.01);
+  ASSERT_EQ(edge.size(), 2u) << "shell and end";
+  EXPECT_NEAR(edge[0].distance + edge[1].distance, 0.007, 1e-12);
+}
+#endif
+
+/// Grains against one shape, and against what should do the same.
+struct Pressed {
+  Vec3d force, torque;
+  double contacts;
+};
+Pressed press(const std::vector<WallBody>& bodies, const Vec3d& x, const Vec3d& v = {}, int steps = 0) {
+  GrainBench b;
+  b.config.wall.bodies = bodies;
+  b.add(x, v);
+  b.start();
+  if (steps > 0) b.run(1e-6, steps);
+  return {b.force(), b.torque(), b.solver->totals(*b.grains).wall_contacts};
+}
+
+/// A prism along y whose top follows the points (x, z), finely cut or not; its bottom at z = -0.05.
+ShapePtr ridge(const std::vector<std::pair<double, double>>& top, int cuts) {
+  TriangleSoup soup;
+  const std::uint32_t n = std::uint32_t(top.size()), rows = std::uint32_t(cuts) + 1;
+  for (std::uint32_t r = 0; r < rows; ++r)
+    for (const double low : {0.0, 1.0})
+      for (const auto& [x, z] : top)
+        soup.vertices.push_back({x, -0.05 + 0.1 * r / cuts, low > 0 ? -0.05 : z});
+  const auto at = [&](std::uint32_t row, bool low, std::uint32_t k) { return (2 * row + low) * n + k; };
+  const auto quad = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
+    soup.triangles.push_back({a, b, c});
+    soup.triangles.push_back({a, c, d});
+  };
+  for (std::uint32_t r = 0; r + 1 < rows; ++r) {
+    for (std::uint32_t k = 0; k + 1 < n; ++k) {
+      quad(at(r, false, k), at(r, false, k + 1), at(r + 1, false, k + 1), at(r + 1, false, k));
+      quad(at(r, true, k), at(r + 1, true, k), at(r + 1, true, k + 1), at(r, true, k + 1));
+    }
+    quad(at(r, false, 0), at(r + 1, false, 0), at(r + 1, true, 0), at(r, true, 0));
+    quad(at(r, false, n - 1), at(r, true, n - 1), at(r + 1, true, n - 1), at(r + 1, false, n - 1));
+  }
+  for (std::uint32_t k = 0; k + 1 < n; ++k) {
+    quad(at(0, false, k), at(0, true, k), at(0, true, k + 1), at(0, false, k + 1));
+    quad(at(rows - 1, false, k), at(rows - 1, false, k + 1), at(rows - 1, true, k + 1),
+         at(rows - 1, true, k));
+  }
+  return std::make_shared<TriangleMesh>(soup, "ridge");
+}
+
+constexpr double kR = 1.35e-3, kReach = 0.99 * kR;
+
+double plane_force() {
+  GrainBench plane;
+  plane.plane({0, 0, 0}, {0, 0, 1});
+  plane.add({0, 0, kReach});
+  plane.start();
+  return plane.force().z;
+}
+
+TEST(MeshContacts, FlatTrianglesPushAsAPlane) {  // T-28
+  const double f = plane_force(), near = tolerance(1e-9, 1e-5, 1e-5) * f;
+  for (int cuts : {1, 4, 400}) {  // 400: triangles smaller than the contact
+    std::vector<std::pair<double, double>> flat;
+    for (int k = 0; k <= cuts; ++k) flat.push_back({-0.05 + 0.1 * k / cuts, 0});
+    const auto bodies = {body_of(ridge(flat, cuts))};
+    for (const Vec3d& x : {Vec3d{0, 0, 0}, {0.0101, 0.0003, 0}, {0.025, 0.025, 0}, {0.0250001, 0.013, 0}}) {
+      const Pressed p = press(bodies, x + Vec3d{0, 0, kReach});
+      EXPECT_EQ(p.contacts, 1) << cuts << ": " << x.x << " " << x.y;
+      EXPECT_LT(norm(p.force - Vec3d{0, 0, f}), near) << cuts;
+    }
+  }
+}
+
+TEST(MeshContacts, EdgeGrooveAndCornerCountOnce) {  // T-28
+  const double f = plane_force(), near = tolerance(1e-9, 1e-5, 1e-5) * f;
+  const auto roof = {body_of(ridge({{-0.05, -0.02}, {0, 0}, {0.05, -0.02}}, 3))};
+  Pressed p = press(roof, {0, 0.004, kReach});
+  EXPECT_EQ(p.contacts, 1) << "convex edge";
+  EXPECT_LT(norm(p.force - Vec3d{0, 0, f}), near);
+
+  const double h = std::sqrt(0.5);
+  const auto groove = {body_of(ridge({{-0.03, 0.03}, {0, 0}, {0.03, 0.03}}, 3))};
+  p = press(groove, {0, 0.004, kReach / h});
+  EXPECT_EQ(p.contacts, 2) << "groove";
+  EXPECT_LT(norm(p.force - Vec3d{0, 0, 2 * h * f}), 2 * near);
+
+  const auto block = {body_of(std::make_shared<TriangleMesh>(test::cube(0.05), "cube"))};
+  const double third = kReach / std::sqrt(3.0);
+  p = press(block, {0.05 + third, 0.05 + third, 0.05 + third});
+  EXPECT_EQ(p.contacts, 1) << "vertex";
+  EXPECT_NEAR(norm(p.force), f, near);
+  EXPECT_NEAR(p.force.x, p.force.z, near);
+}
+
+TEST(MeshContacts, AGrainThatSlidesOverTrianglesFeelsAPlane) {
+  std::vector<std::pair<double, double>> flat;
+  for (int k = 0; k <= 50; ++k) flat.push_back({-0.05 + 0.002 * k, 0});
+  const auto slide = [](std::function<void(GrainBench&)> wall) {
+    GrainBench b;
+    b.config.gravity = {0, 0, -9.81};
+    wall(b);
+    b.add({-0.0203, 0.0007, b.R() - b.resting_overlap(b.mass() * 9.81)}, {0.3, 0.07, 0});
+    b.start();
+    b.run(1e-5, 6000);  // over some nine edges
+    return std::pair{b.position(), b.spin()};
+  };
+  const auto [x, w] = slide([&](GrainBench& b) { b.config.wall.bodies = {body_of(ridge(flat, 50))}; });
+  const auto [y, u] = slide([](GrainBench& b) { b.plane({0, 0, 0}, {0, 0, 1}); });
+  EXPECT_GT(y.x, -0.01);
+  EXPECT_LT(norm(x - y), tolerance(1e-9, 1e-7, 1e-7));
+  EXPECT_LT(norm(w - u), tolerance(1e-6, 1e-2, 1e-2));
+}
+
+TEST(MeshContacts, TheInsideHoldsWhatIsPressedThroughAFace) {
+  // a vessel of triangles, far too soft: centres pass its floor and come back
+  GrainBench b;
+  b.config.grain.E = 1e4;
+  b.config.wall.bodies = {
+      body_of(make_hollow(std::make_shared<TriangleMesh>(test::cube(0.05), "cube"), 0.01))};
+  b.add({0.02, 0.02, 1.5 * b.R()}, {0.1, 0, -1.5});
+  b.start();
+  double lowest = 1;
+  for (int k = 0; k < 50; ++k) {
+    b.run(1e-5, 20);
+    lowest = std::min(lowest, b.position().z);
+  }
+  EXPECT_LT(lowest, 0) << "the test means the centre to pass";
+  EXPECT_GT(b.velocity().z, 0.5) << "thrown back";
+}
+
+TEST(MeshContacts, ADrumAsCylinderAndAsMeshCarriesAGrainAlike) {
+  const double radius = 0.02, rate = 20;
+  const int facets = 720;  // neighbours lean less than a degree: one contact
+  std::vector<std::pair<double, double>> circle;
+  std::vector<Triangle> split;
+  for (int k = 0; k < facets; ++k) {
+    const double angle = 2 * M_PI * k / facets;
+    circle.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    if (k >= 2) split.push_back({0, std::uint32_t(k - 1), std::uint32_t(k)});
+  }
+  const auto mesh = std::make_shared<TriangleMesh>(prism(circle, split, 0.01), "drum");
+  const auto height = [&](ShapePtr shape) {
+    GrainBench b;
+    b.config.gravity = {0, -9.81, 0};
+    b.config.grain.mu = 0.5;
+    b.config.contact.rolling = "epsd";
+    b.config.grain.mu_r = 0.2;
+    b.config.wall.bodies = {body_of(make_hollow(shape, 0.005))};
+    b.motion = [&](int, double t) {
+      BodyPose p;
+      p.rotation = Quat<double>::from_rotation({0, 0, rate * t});
+      p.omega = {0, 0, rate};
+      return p;
+    };
+    b.add({0, -radius + b.R(), 0.005});
+    b.start();
+    double top = -1;
+    for (int k = 0; k < 200; ++k) {
+      b.run(1e-5, 100);
+      top = std::max(top, b.position().y);
+    }
+    return top;
+  };
+  const double exact = height(make_cylinder({0, 0, 0}, {0, 0, 0.01}, radius));
+  EXPECT_GT(exact, -radius + 1.5e-3) << "the drum lifts the grain";
+  EXPECT_NEAR(height(mesh), exact, 0.03 * (exact + radius));
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
