@@ -10,6 +10,7 @@
 #include "bedload/case/limits.hpp"
 #include "bedload/core/error.hpp"
 #include "resolve.hpp"
+#include "src/motion/survey.hpp"
 
 namespace bedload {
 namespace {
@@ -76,6 +77,14 @@ class Checks {
       fail("wall.rep_r0", c.wall.rep_r0, fmt::format("must be at most fluid.dx = {}", dx));
   }
 
+  void motions() const {
+    for (const WallBody& body : c.wall.bodies)
+      for (const VelocityJump& jump : velocity_jumps(body.motion, corners(body, c.domain), c.time.end))
+        if (jump.time > 0 || !steady(body.motion))
+          warn("wall.body \"{}\": its velocity jumps by {:.4g} m/s at t = {:.4g} s", body.name, jump.size,
+               jump.time);
+  }
+
   void grains() const {
     const GrainConfig& g = c.grain;
     if (g.d_max > 20 * g.d_min)
@@ -140,6 +149,10 @@ class Checks {
   }
 
  private:
+  /// Moves as it does from the first: a jump at t = 0 is meant.
+  static bool steady(const MotionConfig& m) {
+    return m.add.empty() && (m.kind == "velocity" || m.kind == "rotation");
+  }
   bool coupled() const { return c.fluid.present && c.grain.present && c.couple.mode != "off"; }
 
   static std::string quoted(const std::string& text) { return fmt::format("\"{}\"", text); }
@@ -250,6 +263,7 @@ void cross_check(const Config& config, const Value& root, std::vector<std::strin
   checks.domain();
   if (config.fluid.present) checks.fluid();
   checks.walls();
+  checks.motions();
   if (config.grain.present) checks.grains();
   checks.coupling();
   checks.time();

@@ -395,7 +395,7 @@ std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
   const auto fluid = wall_loads(p.about);
   BodyLoad grains;
   if (has_grains()) {
-    const BodyPose pose = pose_at(config_.wall.bodies[body], clock_.time);
+    const BodyPose pose = motion_.pose(body, clock_.time);
     grains = solid_solver_->body_loads(grains_, poses_now())[body];
     grains.torque += cross(pose.centre + pose.translation - p.about, grains.force);
   }
