@@ -1,6 +1,7 @@
 // Parameters against each other.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -83,6 +84,14 @@ class Checks {
         if (jump.time > 0 || !steady(body.motion))
           warn("wall.body \"{}\": its velocity jumps by {:.4g} m/s at t = {:.4g} s", body.name, jump.size,
                jump.time);
+    const MotionConfig& frame = c.frame.motion;
+    for_parts(frame, "frame.motion",
+              [&](const MotionPart& m, const std::string& path) { translates(m, path); });
+    for (const VelocityJump& jump : velocity_jumps(frame, {Vec3d{}}, c.time.end))
+      if (jump.time > 0)  // what is inside begins at the frame's own velocity
+        warn(
+            "frame.motion: its velocity jumps by {:.4g} m/s at t = {:.4g} s; what is inside does not feel it",
+            jump.size, jump.time);
   }
 
   void grains() const {
@@ -152,6 +161,17 @@ class Checks {
   /// Moves as it does from the first: a jump at t = 0 is meant.
   static bool steady(const MotionConfig& m) {
     return m.add.empty() && (m.kind == "velocity" || m.kind == "rotation");
+  }
+  /// A turning frame would need centrifugal, Coriolis and Euler forces.
+  void translates(const MotionPart& m, const std::string& path) const {
+    const char* must = "must not turn; a frame can only be translated";
+    if (m.kind == "rotation") fail(path + ".kind", quoted(m.kind), must);
+    if (m.rotation != MotionPart().rotation)
+      fail(path + ".rotation", fmt::format("[{}]", fmt::join(m.rotation, ", ")), must);
+    for (const MotionRow& row : m.rows)
+      if (row[4] != 0 || row[5] != 0 || row[6] != 0)
+        fail(path + ".kind", fmt::format("a table with rx, ry, rz = {}, {}, {} deg", row[4], row[5], row[6]),
+             must);
   }
   bool coupled() const { return c.fluid.present && c.grain.present && c.couple.mode != "off"; }
 

@@ -167,6 +167,11 @@ void grain_fill(Parameters& p, GrainFill& f) {
 
 }  // namespace
 
+void describe_frame(Parameters& p, FrameConfig& frame) {
+  motion_part(p, "frame.motion.", frame.motion);
+  motion_parts(p, "frame.motion.", frame.motion);
+}
+
 void describe_walls(Parameters& p, WallConfig& w) {
   p("wall.dx", &w.dx,
     {.unit = "m",

@@ -65,11 +65,34 @@ void resolve_motions(Config& c, const Value& root) {
   });
 }
 
+/// What the moving frame adds: the largest acceleration, how far gravity g H reaches while it is felt
+/// askew, and how fast contents that stayed behind would seem.
+struct FrameEffects {
+  double acceleration = 0, gH = 0, speed = 0;  ///< m/s2, m2/s2, m/s
+
+  explicit FrameEffects(const Config& c) {
+    const FeltGravity felt(c);
+    const MotionLaw law(c.frame.motion, c.time.end);
+    const Vec3d start = law.at(0).v;
+    for (const double t : survey_times(c.frame.motion, c.time.end)) {
+      const Vec3d g = felt.at(t);
+      acceleration = std::max(acceleration, norm(g - c.gravity));
+      gH = std::max(gH, norm(g) * height(c.fluid.fills, g));
+      speed = std::max(speed, norm(law.at(t).v - start));
+    }
+  }
+};
+
 void resolve_fluid(Config& c, const Value& root) {
   FluidConfig& f = c.fluid;
   if (f.fills.empty()) missing(root, "fluid.fill", "[[fluid.fill]] with min and max");
-  const double gH = norm(c.gravity) * (f.depth = height(f.fills, c.gravity));
-  double vmax = std::max(f.vmax, std::sqrt(2 * gH));
+  double gH = norm(c.gravity) * (f.depth = height(f.fills, c.gravity)), vmax = f.vmax;
+  if (c.frame.motion.moves()) {
+    const FrameEffects frame(c);
+    gH = std::max(gH, frame.gH);
+    vmax = std::max(vmax, frame.speed);
+  }
+  vmax = std::max(vmax, std::sqrt(2 * gH));
   for (const WallBody& body : c.wall.bodies) vmax = std::max(vmax, wall_speed(body, c.domain, c.time.end));
   if (vmax == 0) missing(root, "fluid.vmax", "m/s; neither gravity nor a wall sets a speed here");
   f.vmax = vmax;
@@ -136,6 +159,7 @@ double solid_volume(const GrainFill& fill, double rho) {
 void resolve(Config& c, const Value& root) {
   resolve_walls(c, root);
   resolve_motions(c, root);
+  if (c.frame.motion.moves()) c.frame.acceleration = FrameEffects(c).acceleration;
   if (c.fluid.present) resolve_fluid(c, root);
   if (c.grain.present) resolve_grains(c, root);
   if (c.fluid.present && c.grain.present && c.couple.hc == 0)

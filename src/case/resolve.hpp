@@ -26,6 +26,7 @@ double wall_speed(const WallBody& body, const DomainConfig& domain, double until
 /// The motions of a case with the paths of their keys: f(motion, path). `C`: Config, const or not.
 template <class C, class F>
 void for_motions(C& config, const F& f) {
+  f(config.frame.motion, std::string("frame.motion"));
   for (std::size_t i = 0; i < config.wall.bodies.size(); ++i)
     f(config.wall.bodies[i].motion, "wall.body." + std::to_string(i) + ".motion");
 }

@@ -24,7 +24,7 @@ StepInfo CoupledSimulation::step() {
       drag_limit_ = coupling_->stable_dt();
     }
     solid_solver_->advance(grains_, motion_.poses(clock_.time, dt, substeps), motion_.bodies(), dt, substeps,
-                           held());
+                           held(), gravity_.along(clock_.time, dt, substeps));
     if (two_way()) coupling_->react(fluid_, grains_);
   }
   if (has_fluid()) advance_fluid(dt);
@@ -60,6 +60,7 @@ void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   FluidSolver& fluid = *fluid_solver_;
   if (two_way()) coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1));
   fluid.state(fluid_, predict, two_way());
+  fluid.set_gravity(gravity_.at(clock_.time + dt));
   if (walls_.size() > 0)
     fluid.walls(fluid_, walls_, motion_.poses(clock_.time + dt, 0, 1), two_way() ? dt : 0);
   fluid.forces(fluid_, walls_);
@@ -159,7 +160,7 @@ void CoupledSimulation::refresh_if_needed(double dt) {
   }
   if (has_grains() && !config_.grain.fixed) {
     const double moved =
-        grain_watch_.displacement + 1.5 * dt * (grain_watch_.speed + dt * norm(config_.gravity));
+        grain_watch_.displacement + 1.5 * dt * (grain_watch_.speed + dt * norm(gravity_.at(clock_.time)));
     grains_due = 2 * moved > solid_solver_->skin();
   }
   refresh(fluid_due, grains_due);

@@ -64,6 +64,7 @@ class CoupledSimulation final : public Simulation {
   WallStore walls_;
   GrainStore grains_;
   WallMotion motion_;
+  FeltGravity gravity_;
   CellGrid grain_grid_;
   std::unique_ptr<FluidSolver> fluid_solver_;
   std::unique_ptr<SolidSolver> solid_solver_;

@@ -1,4 +1,4 @@
-// Motions in case files: tables, sums, what is said about them.
+// Motions in case files: tables, sums, the frame, what is said about them.
 
 #include <gtest/gtest.h>
 
@@ -178,6 +178,42 @@ TEST(MotionCase, SumsReadBack) {
   EXPECT_EQ(m.axis, (Vec3d{0, 0, 1}));
   const std::string text = resolved_toml(c);
   EXPECT_TRUE(read(text) == c) << text;
+}
+
+const std::string kShaken =
+    "[frame.motion]\nkind = \"oscillation\"\namplitude = [7.1e-3, 0, 0]\nfrequency = 4.06\n";
+
+TEST(FrameCase, RaisesTheSpeedsExpected) {
+  const Config still = read(kCase), shaken = read(kCase + kShaken);
+  EXPECT_EQ(still.frame.acceleration, 0);
+  EXPECT_NEAR(shaken.frame.acceleration, 4.6203, 1e-4);
+  // gravity askew reaches across the fluid: g x is largest from corner to corner
+  EXPECT_NEAR(shaken.fluid.vmax, std::sqrt(2 * (9.81 * 0.1 + 4.6203 * 0.05)), 1e-4);
+  EXPECT_EQ(shaken.fluid.depth, still.fluid.depth);
+  const Config weightless = read(kCase + kShaken, {"gravity=[0, 0, 0]"});
+  EXPECT_NEAR(weightless.fluid.vmax, std::sqrt(2 * 4.6203 * 0.05), 1e-4);
+  EXPECT_TRUE(read(resolved_toml(shaken)) == shaken);
+}
+
+TEST(FrameCase, BeginsWithItsContentsAndMayNotTurn) {
+  EXPECT_TRUE(warnings_of(kCase + kShaken).empty()) << "no blow at t = 0";
+  EXPECT_EQ(warnings_of(kCase + kShaken + "start = 0.1\n"),
+            (std::vector<std::string>{"frame.motion: its velocity jumps by 0.1811 m/s at t = 0.1 s; what is "
+                                      "inside does not feel it"}));
+  const std::string must = " must not turn; a frame can only be translated";
+  EXPECT_EQ(
+      error_of(kCase + "[frame.motion]\nkind = \"rotation\"\naxis = [0, 0, 1]\ncentre = [0, 0, 0]\nrate = 1"),
+      "dam.toml:26: frame.motion.kind = \"rotation\"" + must);
+  EXPECT_EQ(error_of(kCase + "[frame.motion]\nkind = \"formula\"\nrotation = [0, 0, \"3*t\"]\n"),
+            "dam.toml:27: frame.motion.rotation = [0, 0, 3*t]" + must);
+  EXPECT_EQ(
+      error_of(kCase + kShaken +
+               "[[frame.motion.add]]\nkind = \"table\"\nrows = [[0, 0, 0, 0], [1, 0, 0, 0, 0, 0, 9]]\n"),
+      "dam.toml:30: frame.motion.add.kind = a table with rx, ry, rz = 0, 0, 9 deg" + must);
+  EXPECT_EQ(error_of(kCase +
+                     "[frame.motion]\nkind = \"velocity\"\nvelocity = [1, 0, 0]\nremove_when_clear = true\n"),
+            "dam.toml:28: frame.motion.remove_when_clear is not a parameter; did you mean "
+            "wall.body.motion.remove_when_clear?");
 }
 
 }  // namespace

@@ -92,6 +92,13 @@ struct MotionConfig : MotionPart {
   bool operator==(const MotionConfig&) const = default;
 };
 
+/// How the domain itself moves: translation only. Gravity is then felt as g - a_frame.
+struct FrameConfig {
+  MotionConfig motion;
+  double acceleration = 0;                     ///< largest, m/s2 (resolved)
+  bool operator==(const FrameConfig&) const = default;
+};
+
 /// One wall body: a shape, how fluid meets it, how it moves.
 struct WallBody {
   std::string name;
@@ -224,6 +231,7 @@ struct Config {
   double tensile = 0;                          ///< 0 off; 1 switches the Monaghan 2000 term on
   bool tensile_one_sign = false;               ///< he2018: 0.01 for both signs of P
   DomainConfig domain;
+  FrameConfig frame;
   FluidConfig fluid;
   EosConfig eos;
   DensityConfig density;

@@ -1,5 +1,5 @@
 #pragma once
-// How wall bodies move in time. Evaluated on the host alone.
+// How wall bodies and the frame move in time. Evaluated on the host alone.
 
 #include <memory>
 #include <vector>
@@ -31,6 +31,25 @@ class MotionLaw {
   };
   std::vector<Part> parts_;
   Vec3d centre_;  ///< of the first part that turns, m
+};
+
+/// Gravity as it is felt in the frame of the case, g - a_frame(t).
+class FeltGravity {
+ public:
+  explicit FeltGravity(const Config& config)
+      : gravity_(config.gravity), frame_(config.frame.motion, config.time.end) {}
+
+  Vec3d at(double t) const { return gravity_ - frame_.at(t).a; }  ///< m/s2
+  /// At t + k dt / n for k = 0..n.
+  std::vector<Vec3d> along(double t, double dt, int n) const {
+    std::vector<Vec3d> all;
+    for (int k = 0; k <= n; ++k) all.push_back(at(t + dt * k / n));
+    return all;
+  }
+
+ private:
+  Vec3d gravity_;
+  MotionLaw frame_;
 };
 
 }  // namespace bedload
