@@ -32,7 +32,7 @@ StepInfo CoupledSimulation::step() {
   clock_.time += dt;
   clock_.last_dt = dt;
   ++clock_.step;
-  walls_moved_ += dt * motion_.top_speed(clock_.time);
+  walls_moved_ += dt * std::max(motion_.top_speed(clock_.time - dt), motion_.top_speed(clock_.time));
   remove_cleared_bodies();
   sweep();
   const bool rebuilt = std::exchange(rebuilt_, false);
@@ -47,7 +47,8 @@ void CoupledSimulation::advance_fluid(double dt) {
   const double half = euler ? 0 : dt / 2;
   fluid.kick_drift(fluid_, dt - half, dt, two_way());
   if (walls_.size() > 0) {
-    WallMotion::place(frame_, walls_, motion_.poses(clock_.time + dt, 0, 1));
+    // density follows from velocities in the middle of a kick-drift-kick step, the fluid's and the walls'
+    WallMotion::place(frame_, walls_, motion_.poses(clock_.time + dt - half, half, 1));
     fluid.pack(fluid_, walls_);
   }
   fluid.density(fluid_, walls_, dt, half);

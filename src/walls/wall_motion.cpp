@@ -8,16 +8,15 @@ namespace {
 
 struct PlacePass {
   Frame frame;
-  Span<const BodyPose> pose;
+  Span<const BodyPose> moving, placed;
   Span<const Vec3d> x0;
   Span<const std::uint32_t> body;
   Span<Vec3d> x;
   Span<Real4> v_rho;
   BL_HD void operator()(Index i) const {
-    const BodyPose& k = pose[body[i]];
-    const Vec3d at = k.place(x0[i]);
-    x[i] = frame.wrap(at);
-    v_rho[i] = {Real3(k.velocity(at)), v_rho[i].w};
+    const BodyPose& k = moving[body[i]];
+    x[i] = frame.wrap(placed[body[i]].place(x0[i]));
+    v_rho[i] = {Real3(k.velocity(k.place(x0[i]))), v_rho[i].w};
   }
 };
 
@@ -70,7 +69,9 @@ double WallMotion::lowest(int body, double t, const Vec3d& up) const {
 }
 
 void WallMotion::place(const Frame& frame, WallStore& walls, Span<const BodyPose> pose) {
-  for_each(walls.owned(), PlacePass{frame, pose, walls.x0, walls.body, walls.x, walls.v_rho});
+  const Index n = pose.size / 2;
+  const Span<const BodyPose> moving{pose.data, n}, placed{pose.data + n, n};
+  for_each(walls.owned(), PlacePass{frame, moving, placed, walls.x0, walls.body, walls.x, walls.v_rho});
 }
 
 }  // namespace bedload::inline BL_VARIANT

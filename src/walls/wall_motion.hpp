@@ -18,7 +18,8 @@ class WallMotion {
   BodyPose pose(int body, double t) const;
   /// Largest speed of any wall point at time t, m/s.
   double top_speed(double t) const;
-  /// Places wall particles and sets their true velocity; `pose`: [bodies].
+  /// Places wall particles and sets their true velocity; `pose`: [2][bodies], that of the velocity and that
+  /// of the place.
   static void place(const Frame& frame, WallStore& walls, Span<const BodyPose> pose);
   /// The body is gone from now on.
   void remove(int body) { removed_[body] = true; }

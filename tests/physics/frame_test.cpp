@@ -67,7 +67,8 @@ TEST_P(ShakenTank, FluidMovesAsSeenFromTheLab) {
     p_top = std::max(p_top, pa[i]);
   }
   EXPECT_GT(sloshed, 1e-3) << "the tank is meant to shake its water";
-  const double share = 2e-2;  // of first order in time
+  // second order in time, of which (w dt)^2 = 4e-5 is left; Euler is of first order
+  const double share = std::string(GetParam()) == "kdk" ? tolerance(1e-4, 1e-4, 1e-3) : 2e-2;
   EXPECT_LT(off, share * sloshed);
   EXPECT_LT(v_off, share * 0.14);
   EXPECT_LT(p_off, 2 * share * p_top);
