@@ -79,11 +79,16 @@ class Checks {
   }
 
   void motions() const {
-    for (const WallBody& body : c.wall.bodies)
-      for (const VelocityJump& jump : velocity_jumps(body.motion, corners(body, c.domain), c.time.end))
+    for (const WallBody& body : c.wall.bodies) {
+      const std::vector<Vec3d> at = corners(body, c.domain);
+      if (const double shift = initial_shift(body.motion, at); shift > 1e-9)
+        warn("wall.body \"{}\": its motion begins {:.4g} m away from where fluid and grains are laid for it",
+             body.name, shift);
+      for (const VelocityJump& jump : velocity_jumps(body.motion, at, c.time.end))
         if (jump.time > 0 || !steady(body.motion))
           warn("wall.body \"{}\": its velocity jumps by {:.4g} m/s at t = {:.4g} s", body.name, jump.size,
                jump.time);
+    }
     const MotionConfig& frame = c.frame.motion;
     for_parts(frame, "frame.motion",
               [&](const MotionPart& m, const std::string& path) { translates(m, path); });

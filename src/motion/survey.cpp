@@ -53,6 +53,13 @@ double top_speed(const MotionConfig& motion, const std::vector<Vec3d>& points, d
   return top;
 }
 
+double initial_shift(const MotionConfig& motion, const std::vector<Vec3d>& points) {
+  const RigidMotion start = MotionLaw(motion, 0).at(0);
+  double largest = 0;
+  for (const Vec3d& x : points) largest = std::max(largest, norm(start.place(x) - x));
+  return largest;
+}
+
 std::vector<VelocityJump> velocity_jumps(const MotionConfig& motion, const std::vector<Vec3d>& points,
                                          double until) {
   const MotionLaw law(motion, until);

@@ -17,6 +17,9 @@ double first_gap(const MotionConfig& motion, double until);
 /// Largest speed of any of the points that move along, given where they are at rest, m/s.
 double top_speed(const MotionConfig& motion, const std::vector<Vec3d>& points, double until);
 
+/// How far the motion has taken any of the points at t = 0, m.
+double initial_shift(const MotionConfig& motion, const std::vector<Vec3d>& points);
+
 struct VelocityJump {
   double time;  ///< s
   double size;  ///< largest change of any point's velocity, m/s

@@ -135,6 +135,15 @@ TEST(MotionCase, SteadyMotionsJumpWithoutWarningOnlyAtTheVeryStart) {
             jump + "0.06879 m/s at t = 0.2 s");
 }
 
+TEST(MotionCase, AWallThatBeginsElsewhereIsWarnedOf) {
+  EXPECT_EQ(
+      warnings_of(changed("[grain]\n",
+                          "[wall.body.motion]\nkind = \"formula\"\n"
+                          "displacement = [\"0.01*cos(t)\", 0, 0]\n[grain]\n")),
+      (std::vector<std::string>{"wall.body \"tank\": its motion begins 0.01 m away from where fluid and "
+                                "grains are laid for it"}));
+}
+
 TEST(MotionCase, FormulasAreInTAndHaveValues) {
   const std::string from = "[grain]\n";
   const auto moving = [&](const std::string& text) {
