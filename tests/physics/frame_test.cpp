@@ -144,7 +144,8 @@ TEST(ShakenGrain, FliesAsSeenFromTheLab) {
   const Vec3d x = Vec3d{0.01, 0.02, 0.03} + lab * t + c.gravity * (t * t / 2) - law.at(t).translation;
   const Vec3d v = lab + c.gravity * t - law.at(t).v;
   const auto store = s->snapshot("grains");
-  EXPECT_LT(norm(vectors(store, "position")[0] - x), tolerance(1e-9, 1e-7, 1e-7));
+  // velocity Verlet leaves (w tau)^2 / 12 of a few millimetres
+  EXPECT_LT(norm(vectors(store, "position")[0] - x), tolerance(3e-8, 1e-7, 1e-7));
   EXPECT_LT(norm(vectors(store, "velocity")[0] - v), tolerance(1e-7, 1e-6, 1e-6));
 }
 
