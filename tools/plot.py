@@ -97,13 +97,7 @@ class Run:
         """Wall bodies with corners as they stand at `time`: (body, min, max)."""
         for body in self.case.get("wall", {}).get("body", []):
             motion = body.get("motion", {})
-            moved = np.zeros(3)
-            if motion.get("kind") == "velocity":
-                duration = min(time, motion.get("stop", np.inf)) - motion.get("start", 0.0)
-                moved = np.array(motion["velocity"]) * max(0.0, duration)
-            elif motion.get("kind") == "oscillation":
-                swing = np.sin(2 * np.pi * motion["frequency"] * max(0.0, time - motion.get("start", 0.0)))
-                moved = np.array(motion["amplitude"]) * swing
+            moved = sum((displacement(part, time) for part in [motion, *motion.get("add", [])]), np.zeros(3))
             if body.get("shape") in ("tank", "box"):
                 yield body, np.array(body["min"]) + moved, np.array(body["max"]) + moved
 
@@ -118,6 +112,20 @@ class Run:
         pick = [self.across, self.up]
         margin = 0.03 * np.max((high - low)[pick])
         return low[pick] - margin, high[pick] + margin
+
+
+def displacement(motion, time):
+    """How far a part of a motion has moved by `time`, m; turns and formulas are not drawn."""
+    begin = motion.get("start", 0.0)
+    t = min(max(time, begin), motion.get("stop", np.inf)) - begin
+    if motion.get("kind") == "velocity":
+        return np.array(motion["velocity"]) * t
+    if motion.get("kind") == "oscillation":
+        return np.array(motion["amplitude"]) * np.sin(2 * np.pi * motion["frequency"] * t)
+    if motion.get("kind") == "table":
+        rows = np.array([row[:4] for row in motion["rows"]])
+        return np.array([np.interp(t, rows[:, 0], rows[:, k]) for k in (1, 2, 3)])
+    return np.zeros(3)
 
 
 def discs(axes, places, diameters, **style):

@@ -1,6 +1,7 @@
 // Parameters against each other.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include "bedload/case/limits.hpp"
 #include "bedload/core/error.hpp"
 #include "resolve.hpp"
+#include "src/motion/survey.hpp"
 
 namespace bedload {
 namespace {
@@ -79,6 +81,27 @@ class Checks {
       fail("wall.rep_r0", c.wall.rep_r0, fmt::format("must be at most fluid.dx = {}", dx));
   }
 
+  void motions() const {
+    for (const WallBody& body : c.wall.bodies) {
+      const std::vector<Vec3d> at = corners(body, c.domain);
+      if (const double shift = initial_shift(body.motion, at); shift > 1e-9)
+        warn("wall.body \"{}\": its motion begins {:.4g} m away from where fluid and grains are laid for it",
+             body.name, shift);
+      for (const VelocityJump& jump : velocity_jumps(body.motion, at, c.time.end))
+        if (jump.time > 0 || !steady(body.motion))
+          warn("wall.body \"{}\": its velocity jumps by {:.4g} m/s at t = {:.4g} s", body.name, jump.size,
+               jump.time);
+    }
+    const MotionConfig& frame = c.frame.motion;
+    for_parts(frame, "frame.motion",
+              [&](const MotionPart& m, const std::string& path) { translates(m, path); });
+    for (const VelocityJump& jump : velocity_jumps(frame, {Vec3d{}}, c.time.end))
+      if (jump.time > 0)  // what is inside begins at the frame's own velocity
+        warn(
+            "frame.motion: its velocity jumps by {:.4g} m/s at t = {:.4g} s; what is inside does not feel it",
+            jump.size, jump.time);
+  }
+
   void grains() const {
     const GrainConfig& g = c.grain;
     if (g.d_max > 20 * g.d_min)
@@ -143,6 +166,21 @@ class Checks {
   }
 
  private:
+  /// Moves as it does from the first: a jump at t = 0 is meant.
+  static bool steady(const MotionConfig& m) {
+    return m.add.empty() && (m.kind == "velocity" || m.kind == "rotation");
+  }
+  /// A turning frame would need centrifugal, Coriolis and Euler forces.
+  void translates(const MotionPart& m, const std::string& path) const {
+    const char* must = "must not turn; a frame can only be translated";
+    if (m.kind == "rotation") fail(path + ".kind", quoted(m.kind), must);
+    if (m.rotation != MotionPart().rotation)
+      fail(path + ".rotation", fmt::format("[{}]", fmt::join(m.rotation, ", ")), must);
+    for (const MotionRow& row : m.rows)
+      if (row[4] != 0 || row[5] != 0 || row[6] != 0)
+        fail(path + ".kind", fmt::format("a table with rx, ry, rz = {}, {}, {} deg", row[4], row[5], row[6]),
+             must);
+  }
   bool coupled() const { return c.fluid.present && c.grain.present && c.couple.mode != "off"; }
 
   static std::string quoted(const std::string& text) { return fmt::format("\"{}\"", text); }
@@ -264,6 +302,7 @@ void cross_check(const Config& config, const Value& root, std::vector<std::strin
   checks.domain();
   if (config.fluid.present) checks.fluid();
   checks.walls();
+  checks.motions();
   if (config.grain.present) checks.grains();
   checks.coupling();
   checks.time();

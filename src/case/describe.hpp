@@ -8,6 +8,7 @@ namespace bedload {
 void describe_top(Parameters& p, Config& config);
 void describe_domain(Parameters& p, DomainConfig& domain);
 void describe_shapes(Parameters& p, std::vector<ShapeConfig>& shapes);
+void describe_frame(Parameters& p, FrameConfig& frame);
 void describe_fluid(Parameters& p, FluidConfig& fluid);
 void describe_fluid_models(Parameters& p, Config& config);
 void describe_walls(Parameters& p, WallConfig& wall);

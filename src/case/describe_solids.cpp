@@ -1,5 +1,7 @@
 // Parameters of walls, contacts and grains.
 
+#include <string>
+
 #include "describe.hpp"
 
 namespace bedload {
@@ -20,38 +22,88 @@ Range restitution(const ContactConfig& contact) {
   return contact.normal == "linear" ? within(0.136, 1) : within(0.05, 1);
 }
 
-void motion(Parameters& p, MotionConfig& m) {
-  p("motion.kind", &m.kind,
-    {.meaning = "how the body moves",
-     .family = "shapes",
+/// Keys of tables and formulas.
+void motion_law(Parameters& p, const std::string& at, MotionPart& m) {
+  const auto wanted = [&](const char* kind) { return m.kind == kind || p.everything(); };
+  if (wanted("table")) {
+    p(at + "file", &m.file,
+      {.meaning =
+           "table: CSV beside the case; header t [s], x, y, z [m], rx, ry, rz [deg], all but t optional",
+       .fallback = "file or rows",
+       .presence = optional});
+    p(at + "rows", &m.rows,
+      {.unit = "s, m, deg",
+       .meaning = "table: instead of a file, [[t, x, y, z], ...] or [[t, x, y, z, rx, ry, rz], ...]",
+       .fallback = "file or rows",
+       .presence = optional});
+    p(at + "spline", &m.spline,
+      {.meaning = "table: cubic through the rows; at rest before the first and after the last",
+       .family = at == "motion." ? "shapes" : "",
+       .choices = {{"smooth", "acceleration continuous; may swing beyond the rows"},
+                   {"monotone", "velocity continuous; never beyond the rows"}}});
+  }
+  if (wanted("formula")) {
+    p(at + "displacement", &m.displacement,
+      {.unit = "m", .meaning = "formula: three numbers or formulas in t", .variables = "t"});
+    p(at + "rotation", &m.rotation,
+      {.unit = "deg",
+       .meaning = "formula: rotation vector about motion.centre, three formulas in t",
+       .variables = "t"});
+  }
+}
+
+/// One part of a motion; `at` stands before its keys. `bedload list shapes` shows it once, for a body.
+void motion_part(Parameters& p, const std::string& at, MotionPart& m) {
+  p(at + "kind", &m.kind,
+    {.meaning = "how it moves",
+     .family = at == "motion." ? "shapes" : "",
      .choices = {{"fixed", "at rest"},
                  {"velocity", "straight, at constant velocity"},
                  {"oscillation", "displacement amplitude sin(2 pi f t)"},
-                 {"rotation", "about an axis"}}});
+                 {"rotation", "about an axis"},
+                 {"table", "through places and rotations given over time"},
+                 {"formula", "displacement and rotation as formulas in t"}}});
   const auto wanted = [&](const char* kind) { return m.kind == kind || p.everything(); };
   if (wanted("velocity"))
-    p("motion.velocity", &m.velocity, {.unit = "m/s", .meaning = "velocity", .presence = required});
+    p(at + "velocity", &m.velocity, {.unit = "m/s", .meaning = "velocity", .presence = required});
   if (wanted("oscillation")) {
-    p("motion.amplitude", &m.amplitude,
+    p(at + "amplitude", &m.amplitude,
       {.unit = "m", .meaning = "oscillation: displacement", .presence = required});
-    p("motion.frequency", &m.frequency,
+    p(at + "frequency", &m.frequency,
       {.unit = "Hz", .meaning = "oscillation: f", .range = above(0), .presence = required});
   }
-  if (wanted("rotation")) {
-    p("motion.axis", &m.axis, {.meaning = "rotation: direction of the axis", .presence = required});
-    p("motion.centre", &m.centre,
-      {.unit = "m", .meaning = "rotation: a point on the axis", .presence = required});
-    p("motion.rate", &m.rate, {.unit = "rad/s", .meaning = "rotation: right-handed", .presence = required});
-  }
+  if (wanted("rotation"))
+    p(at + "axis", &m.axis, {.meaning = "rotation: direction of the axis", .presence = required});
+  if (wanted("rotation") || wanted("table") || wanted("formula"))
+    p(at + "centre", &m.centre,
+      {.unit = "m",
+       .meaning = "rotation: a point on the axis; table, formula: the point that rotations leave alone",
+       .fallback = "required for rotation, else [0, 0, 0]",
+       .presence = m.kind == "rotation" ? required : defaulted});
+  if (wanted("rotation"))
+    p(at + "rate", &m.rate, {.unit = "rad/s", .meaning = "rotation: right-handed", .presence = required});
+  motion_law(p, at, m);
   if (m.kind == "fixed" && !p.everything()) return;
-  p("motion.start", &m.start, {.unit = "s", .meaning = "moves from then on", .range = at_least(0)});
-  p("motion.stop", &m.stop,
+  p(at + "start", &m.start,
+    {.unit = "s", .meaning = "moves from then on; its t counts from then", .range = at_least(0)});
+  p(at + "stop", &m.stop,
     {.unit = "s",
      .meaning = "and until then",
      .range = above(m.start),
      .fallback = "never",
      .presence = optional});
-  p("motion.remove_when_clear", &m.remove_when_clear, {.meaning = "removed once above all fluid and grains"});
+}
+
+void motion_parts(Parameters& p, const std::string& at, MotionConfig& m) {
+  p.list(at + "add", m.add, MotionPart{}, [](Parameters& q, MotionPart& part) { motion_part(q, "", part); });
+}
+
+void body_motion(Parameters& p, MotionConfig& m) {
+  motion_part(p, "motion.", m);
+  if (m.kind != "fixed" || p.everything())
+    p("motion.remove_when_clear", &m.remove_when_clear,
+      {.meaning = "removed once above all fluid and grains"});
+  motion_parts(p, "motion.", m);
 }
 
 void wall_body(Parameters& p, WallBody& b) {
@@ -78,7 +130,7 @@ void wall_body(Parameters& p, WallBody& b) {
   p("type", &b.type, {.meaning = "how the fluid meets it", .fallback = "wall.type", .choices = kWallTypes});
   p("slip", &b.slip, {.meaning = "friction with the fluid", .fallback = "wall.slip", .choices = kSlips});
   p("repulsion", &b.repulsion, {.meaning = "Monaghan repulsion beside it", .fallback = "wall.repulsion"});
-  motion(p, b.motion);
+  body_motion(p, b.motion);
 }
 
 void grain_size(Parameters& p, SizeClass& s) {
@@ -119,6 +171,11 @@ void grain_fill(Parameters& p, GrainFill& f) {
 }
 
 }  // namespace
+
+void describe_frame(Parameters& p, FrameConfig& frame) {
+  motion_part(p, "frame.motion.", frame.motion);
+  motion_parts(p, "frame.motion.", frame.motion);
+}
 
 void describe_walls(Parameters& p, WallConfig& w) {
   p("wall.dx", &w.dx,

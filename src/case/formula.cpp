@@ -13,14 +13,13 @@ struct Formula::Impl {
   mu::Parser parser;
 };
 
-Formula::Formula(const std::string& text) : impl_(std::make_unique<Impl>()) {
+Formula::Formula(const std::string& text, std::string_view variables) : impl_(std::make_unique<Impl>()) {
   try {
     mu::Parser& p = impl_->parser;
     p.DefineConst("pi", std::numbers::pi);
     p.DefineConst("e", std::numbers::e);
-    p.DefineVar("x", &impl_->at.x);
-    p.DefineVar("y", &impl_->at.y);
-    p.DefineVar("z", &impl_->at.z);
+    for (std::size_t k = 0; k < variables.size(); ++k)
+      p.DefineVar(std::string(1, variables[k]), &impl_->at[int(k)]);
     p.SetExpr(text);
     p.Eval();  // muParser reads the text only now
   } catch (const mu::Parser::exception_type& error) {

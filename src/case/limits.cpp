@@ -14,7 +14,7 @@ std::vector<StepLimit> grain_limits(const Config& c) {
   const double E = g.E / (2 * (1 - g.nu * g.nu));
   std::vector<StepLimit> limits{
       {"rayleigh", c.time.rayleigh * pi * R * std::sqrt(g.rho / G) / (0.1631 * g.nu + 0.8766)}};
-  const double v = std::sqrt(2 * norm(c.gravity) * R);
+  const double v = std::sqrt(2 * (norm(c.gravity) + c.frame.acceleration) * R);
   if (c.contact.normal == "linear")
     limits.push_back({"contact", c.time.contact * pi * std::sqrt(m / c.contact.k)});
   else if (v > 0)

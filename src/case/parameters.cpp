@@ -21,6 +21,7 @@ void describe(Parameters& p, Config& c) {
   describe_top(p, c);
   describe_domain(p, c.domain);
   describe_shapes(p, c.shapes);
+  describe_frame(p, c.frame);
   if (c.fluid.present) describe_fluid(p, c.fluid);
   describe_fluid_models(p, c);
   describe_walls(p, c.wall);

@@ -30,6 +30,7 @@ Config settling_case(const Config& config) {
   dry.gravity = config.gravity;
   dry.shapes = config.shapes;
   dry.wall.bodies = config.wall.bodies;
+  for (WallBody& body : dry.wall.bodies) body.motion = {};  // walls begin to move at t = 0
   dry.contact = config.contact;
   dry.grain = config.grain;
   dry.grain.release_time = 0;

@@ -1,6 +1,7 @@
 #include "reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,9 +66,21 @@ class Conversion {
       out->push_back(*name);
     }
   }
+  void operator()(std::vector<MotionRow>* out) const {
+    const char* shape = "must be a list of rows [[t, x, y, z], ...] or [[t, x, y, z, rx, ry, rz], ...]";
+    const auto* list = value_.get<Value::Array>();
+    if (!list) reject(shape);
+    out->clear();
+    for (const Value& item : *list) {
+      const auto* row = item.get<Value::Array>();
+      if (!row || (row->size() != 4 && row->size() != 7)) reject(shape);
+      out->emplace_back();
+      for (std::size_t k = 0; k < row->size(); ++k) out->back()[k] = number((*row)[k], shape);
+    }
+  }
   void operator()(Formulas* out) const {
     for (int k = 0; k < 3; ++k)
-      (*out)[k] = formula(triple("must be three numbers or formulas in x, y, z")[k]);
+      (*out)[k] = formula(triple("must be three numbers or formulas in " + variables())[k]);
   }
   void operator()(std::array<bool, 3>* out) const {
     const char* shape = "must be three of true or false";
@@ -108,7 +121,8 @@ class Conversion {
     if (!std::isfinite(*x)) reject("must be finite");
     return *x;
   }
-  const Value::Array& triple(const char* shape) const {
+  std::string variables() const { return fmt::format("{}", fmt::join(about_.variables, ", ")); }
+  const Value::Array& triple(const std::string& shape) const {
     const auto* list = value_.get<Value::Array>();
     if (!list || list->size() != 3) reject(shape);
     return *list;
@@ -120,11 +134,11 @@ class Conversion {
   }
   std::string formula(const Value& v) const {
     const auto* text = v.get<std::string>();
-    if (!text) return fmt::format("{}", number(v, "must be three numbers or formulas in x, y, z"));
+    if (!text) return fmt::format("{}", number(v, "must be three numbers or formulas in " + variables()));
     try {
-      (void)Formula(*text);
+      (void)Formula(*text, about_.variables);
     } catch (const CaseError& error) {
-      reject(fmt::format("must hold formulas in x, y, z: {}", error.what()));
+      reject(fmt::format("must hold formulas in {}: {}", variables(), error.what()));
     }
     return *text;
   }
@@ -165,13 +179,18 @@ void Reader::operator()(std::string_view key, Slot value, const About& about) {
 }
 
 const Value* Reader::find(std::string_view key) const {
-  const auto dot = key.find('.');
-  const Value* at = scopes_.back().table->find(key.substr(0, dot));
-  if (!at || dot == key.npos) return at;
-  const std::string table = scopes_.back().prefix + std::string(key.substr(0, dot));
-  if (!at->get<Value::Table>())
-    throw CaseError(fmt::format("{}: {} must be a single table; write [{}]", at->place(), table, table));
-  return at->find(key.substr(dot + 1));
+  const Value* at = scopes_.back().table;
+  std::string table = scopes_.back().prefix;
+  for (;;) {
+    const auto dot = key.find('.');
+    at = at->find(key.substr(0, dot));
+    if (!at || dot == key.npos) return at;
+    table += key.substr(0, dot);
+    if (!at->get<Value::Table>())
+      throw CaseError(fmt::format("{}: {} must be a single table; write [{}]", at->place(), table, table));
+    table += '.';
+    key.remove_prefix(dot + 1);
+  }
 }
 
 std::size_t Reader::open_list(std::string_view key, std::size_t) {

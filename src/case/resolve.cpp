@@ -9,6 +9,8 @@
 
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/build_shape.hpp"
+#include "src/motion/survey.hpp"
+#include "src/motion/table.hpp"
 
 namespace bedload {
 namespace {
@@ -84,10 +86,58 @@ void resolve_walls(Config& c, const Value& root) {
       body.min = bounds.min, body.max = bounds.max;
     }
     if (body.shape == "plane") body.normal = direction(body.normal, root, path + "normal");
-    if (body.motion.kind == "rotation")
-      body.motion.axis = direction(body.motion.axis, root, path + "motion.axis");
   }
 }
+
+/// The rows of a table, from its file or given in the case.
+void resolve_table(MotionPart& m, const std::string& path, const std::string& case_file, const Value& root) {
+  if (m.file.empty() == m.rows.empty())
+    throw CaseError(fmt::format("{}: {} must have one of file and rows with kind = \"table\"",
+                                nearest_value(root, path + ".kind").place(), key_of(path)));
+  if (!m.file.empty()) {
+    const auto file = std::filesystem::path(case_file).parent_path() / m.file;
+    if (!std::filesystem::is_regular_file(file))
+      reject(root, path + ".file", fmt::format("\"{}\"", m.file),
+             fmt::format("must name a table; there is no file {}", file.string()));
+    m.rows = read_motion_table(file);
+    m.file.clear();
+    return;
+  }
+  const Value& given = nearest_value(root, path + ".rows");
+  check_rows(m.rows, fmt::format("{}: {}.rows", given.place(), key_of(path)), [&](std::size_t i) {
+    return fmt::format("{}: {}.rows, row {}", given.place(), key_of(path), i + 1);
+  });
+}
+
+void resolve_motions(Config& c, const Value& root) {
+  for_motions(c, [&](MotionConfig& motion, const std::string& path) {
+    for_parts(motion, path, [&](MotionPart& m, const std::string& at) {
+      if (m.kind == "rotation") m.axis = direction(m.axis, root, at + ".axis");
+      if (m.kind == "table") resolve_table(m, at, c.file, root);
+    });
+    if (const double t = motion.moves() ? first_gap(motion, c.time.end) : INFINITY; std::isfinite(t))
+      throw CaseError(fmt::format("{}: {} must have a value at all times; it has none at t = {} s",
+                                  nearest_value(root, path).place(), key_of(path), t));
+  });
+}
+
+/// What the moving frame adds: the largest acceleration, how far gravity g H reaches while it is felt
+/// askew, and how fast contents that stayed behind would seem.
+struct FrameEffects {
+  double acceleration = 0, gH = 0, speed = 0;  ///< m/s2, m2/s2, m/s
+
+  explicit FrameEffects(const Config& c) {
+    const FeltGravity felt(c);
+    const MotionLaw law(c.frame.motion, c.time.end);
+    const Vec3d start = law.at(0).v;
+    for (const double t : survey_times(c.frame.motion, c.time.end)) {
+      const Vec3d g = felt.at(t);
+      acceleration = std::max(acceleration, norm(g - c.gravity));
+      gH = std::max(gH, norm(g) * height(c.fluid.fills, g));
+      speed = std::max(speed, norm(law.at(t).v - start));
+    }
+  }
+};
 
 void resolve_fluid(Config& c, const Value& root) {
   FluidConfig& f = c.fluid;
@@ -113,9 +163,14 @@ void resolve_fluid(Config& c, const Value& root) {
         reject(root, path + "level", fmt::format("{}", fill.level),
                fmt::format("must lie above the bottom of shape \"{}\"", fill.shape));
   }
-  const double gH = norm(c.gravity) * (f.depth = height(f.fills, c.gravity));
-  double vmax = std::max(f.vmax, std::sqrt(2 * gH));
-  for (const WallBody& body : c.wall.bodies) vmax = std::max(vmax, wall_speed(body, c.domain));
+  double gH = norm(c.gravity) * (f.depth = height(f.fills, c.gravity)), vmax = f.vmax;
+  if (c.frame.motion.moves()) {
+    const FrameEffects frame(c);
+    gH = std::max(gH, frame.gH);
+    vmax = std::max(vmax, frame.speed);
+  }
+  vmax = std::max(vmax, std::sqrt(2 * gH));
+  for (const WallBody& body : c.wall.bodies) vmax = std::max(vmax, wall_speed(body, c.domain, c.time.end));
   if (vmax == 0) missing(root, "fluid.vmax", "m/s; neither gravity nor a wall sets a speed here");
   f.vmax = vmax;
   f.c = c.eos.type == "tait" ? f.c_factor * vmax : std::sqrt(c.eos.alpha * c.eos.p0 / f.rho0);
@@ -153,20 +208,23 @@ void resolve_grains(Config& c, const Value& root) {
 
 }  // namespace
 
-double wall_speed(const WallBody& body, const DomainConfig& domain) {
-  const MotionConfig& m = body.motion;
-  if (m.kind == "velocity") return norm(m.velocity);
-  if (m.kind == "oscillation") return 2 * std::numbers::pi * m.frequency * norm(m.amplitude);
-  if (m.kind != "rotation") return 0;
+std::vector<Vec3d> corners(const WallBody& body, const DomainConfig& domain) {
   const bool bounded = body.shape != "plane";
   const Vec3d& lo = bounded ? body.min : domain.min;
   const Vec3d& hi = bounded ? body.max : domain.max;
-  double reach = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Vec3d x{corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z};
-    reach = std::max(reach, norm(cross(m.axis, x - m.centre)));
+  std::vector<Vec3d> all;
+  for (int corner = 0; corner < 8; ++corner)
+    all.push_back({corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z});
+  return all;
+}
+
+double wall_speed(const WallBody& body, const DomainConfig& domain, double until) {
+  const MotionConfig& m = body.motion;
+  if (m.add.empty()) {
+    if (m.kind == "velocity") return norm(m.velocity);
+    if (m.kind == "oscillation") return 2 * std::numbers::pi * m.frequency * norm(m.amplitude);
   }
-  return std::abs(m.rate) * reach;
+  return top_speed(m, corners(body, domain), until);
 }
 
 double fill_volume(const GrainFill& fill) {
@@ -190,6 +248,8 @@ double solid_volume(const GrainFill& fill, double rho) {
 void resolve(Config& c, const Value& root) {
   resolve_shapes(c, root);
   resolve_walls(c, root);
+  resolve_motions(c, root);
+  if (c.frame.motion.moves()) c.frame.acceleration = FrameEffects(c).acceleration;
   if (c.fluid.present) resolve_fluid(c, root);
   if (c.grain.present) resolve_grains(c, root);
   if (c.fluid.present && c.grain.present && c.couple.hc == 0)

@@ -16,8 +16,27 @@ void resolve(Config& config, const Value& root);
 /// Checks parameters against each other. Throws CaseError; appends warnings.
 void cross_check(const Config& config, const Value& root, std::vector<std::string>& warnings);
 
-/// Largest speed of a wall body (m/s); an oscillation's peak, a rotation's outermost corner.
-double wall_speed(const WallBody& body, const DomainConfig& domain);
+/// Corners of what a body occupies, of the domain for one without bounds, m.
+std::vector<Vec3d> corners(const WallBody& body, const DomainConfig& domain);
+
+/// Largest speed of a wall body (m/s) up to the time `until` (s): an oscillation's peak, a rotation's
+/// outermost corner, otherwise sampled.
+double wall_speed(const WallBody& body, const DomainConfig& domain, double until);
+
+/// The motions of a case with the paths of their keys: f(motion, path). `C`: Config, const or not.
+template <class C, class F>
+void for_motions(C& config, const F& f) {
+  f(config.frame.motion, std::string("frame.motion"));
+  for (std::size_t i = 0; i < config.wall.bodies.size(); ++i)
+    f(config.wall.bodies[i].motion, "wall.body." + std::to_string(i) + ".motion");
+}
+
+/// The parts of a motion with the paths of their keys: f(part, path).
+template <class M, class F>
+void for_parts(M& motion, const std::string& path, const F& f) {
+  f(motion, path);
+  for (std::size_t k = 0; k < motion.add.size(); ++k) f(motion.add[k], path + ".add." + std::to_string(k));
+}
 
 /// Height along gravity that boxes [min, max] span together, m; 0 without gravity.
 template <class Fill>

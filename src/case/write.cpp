@@ -1,6 +1,7 @@
 // The two visitors that write: a resolved case, and the table of parameters.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -45,15 +46,22 @@ struct ToText {
     for (const Vec3d& v : *list) out += (out.empty() ? "" : ", ") + (*this)(&v);
     return "[" + out + "]";
   }
+  std::string operator()(const std::vector<MotionRow>* rows) const {
+    std::string out;
+    for (const MotionRow& row : *rows)
+      out += fmt::format("{}[{}]", out.empty() ? "" : ", ", fmt::join(row, ", "));
+    return "[" + out + "]";
+  }
 };
 
 bool is_absent(const Slot& value) {
   struct Test {
     bool operator()(const double* x) const { return *x == 0 || std::isinf(*x); }
     bool operator()(const std::int64_t* i) const { return *i == 0; }
+    bool operator()(const std::string* s) const { return s->empty(); }
     bool operator()(const std::vector<Vec3d>* list) const { return list->empty(); }
     bool operator()(const std::vector<std::string>* list) const { return list->empty(); }
-    bool operator()(const std::string* s) const { return s->empty(); }
+    bool operator()(const std::vector<MotionRow>* rows) const { return rows->empty(); }
     bool operator()(const void*) const { return false; }
   };
   return std::visit(Test{}, value);

@@ -139,7 +139,7 @@ void relax(const Region& region, double spacing, std::vector<Vec3d>& places) {
       });
       const double length = norm(push);
       Vec3d x = places[n] + (length > 0.1 * spacing ? 0.1 * spacing / length : 1) * push;
-      for (int side = 0; side < 2; ++side) {  // twice: a corner has two
+      for (int side = 0; side < 6; ++side) {  // in a corner one after the other
         const SurfacePoint at = region.nearest(x);
         if (at.distance > -0.5 * spacing) x -= (at.distance + 0.5 * spacing) * at.normal;
       }
@@ -156,7 +156,7 @@ std::vector<Vec3d> fill_shape(const Shape& shape, const Vec3d& up, double level,
   const Region region{shape, up, level};
   volume = volume_below(shape, up, level, spacing / 4);
   std::vector<Vec3d> places = deepest_places(region, spacing, volume);
-  relax(region, spacing, places);
+  if (!places.empty()) relax(region, std::cbrt(volume / double(places.size())), places);
   return places;
 }
 

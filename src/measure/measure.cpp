@@ -69,7 +69,7 @@ HostArray made(const char* name, const char* unit, Range range, Args... args) {
 struct FluidTotals {
   Frame frame;
   EquationOfState eos;
-  Vec3d gravity;
+  Vec3d gravity;  ///< true gravity: a frame's acceleration has no potential energy here
   Span<const FluidPosition> x;
   Span<const Real4> v_rho;
   Span<const Real> mass, s, eps;
@@ -283,8 +283,8 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     for (std::size_t b = 0; b < loads.size(); b += 2) wall_on_fluid -= loads[b];
     const auto l = sum_over<9>(
         fluid_.owned(),
-        FluidLoads{clock_.last_dt > 0 ? 1 / clock_.last_dt : 0, config_.gravity, config_.drive, fluid_.mass,
-                   fluid_.v_rho, fluid_.acc,
+        FluidLoads{clock_.last_dt > 0 ? 1 / clock_.last_dt : 0, gravity_.at(clock_.time), config_.drive,
+                   fluid_.mass, fluid_.v_rho, fluid_.acc,
                    two_way() ? Span<const Real3>(fluid_.reaction) : Span<const Real3>(), fluid_.drag_kick});
     const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
     vec("force_walls_on_fluid", "N", wall_on_fluid);
@@ -395,7 +395,7 @@ std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
   const auto fluid = wall_loads(p.about);
   BodyLoad grains;
   if (has_grains()) {
-    const BodyPose pose = pose_at(config_.wall.bodies[body], clock_.time);
+    const BodyPose pose = motion_.pose(body, clock_.time);
     grains = solid_solver_->body_loads(grains_, poses_now())[body];
     grains.torque += cross(pose.centre + pose.translation - p.about, grains.force);
   }

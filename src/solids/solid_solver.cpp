@@ -79,7 +79,8 @@ std::vector<StepLimit> SolidSolver::limits(const GrainWatch& w) const {
   // a pair of the smallest grains touches most briefly
   const double m_star = 0.5 * m, R_star = 0.5 * R;
   const double E_star = g.E / (2 * (1 - g.nu * g.nu));
-  const double v = std::max(2 * w.speed, std::sqrt(norm(config_.gravity) * d_max_));
+  const double v =
+      std::max(2 * w.speed, std::sqrt((norm(config_.gravity) + config_.frame.acceleration) * d_max_));
   double contact = std::numeric_limits<double>::infinity(), stiffness = config_.contact.k;
   if (law_.normal == NormalLaw::linear) {
     const double share = damping_share(g.e);
@@ -151,7 +152,7 @@ void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
 }
 
 void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies, double dt, int substeps,
-                          bool held) {
+                          bool held, const std::vector<Vec3d>& gravity) {
   if (held || config_.grain.fixed) {
     for_each(g.owned(), HeldPass{dt, g.U, g.omega_f, g.K, g.K_rot, g.impulse, g.spin_impulse, g.drag_force});
     evaluate(g, {poses.data + std::size_t(substeps) * bodies, Index(bodies)});
@@ -160,20 +161,21 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   const Index n = g.size();
   next_x_.resize(n), next_v_.resize(n), next_omega_.resize(n), v_rest_.resize(n), omega_rest_.resize(n);
   const double tau = dt / substeps;
-  const GrainKick kick{config_.gravity,
-                       mass_per_r3(),
-                       0.5 * tau,
-                       config_.couple.integrator == "exponential",
-                       g.radius,
-                       g.fluid_force,
-                       g.U,
-                       g.omega_f,
-                       g.K,
-                       g.K_rot};
+  GrainKick kick{gravity.empty() ? config_.gravity : gravity[0],
+                 mass_per_r3(),
+                 0.5 * tau,
+                 config_.couple.integrator == "exponential",
+                 g.radius,
+                 g.fluid_force,
+                 g.U,
+                 g.omega_f,
+                 g.K,
+                 g.K_rot};
   for_each(g.owned(), FirstKickPass{kick, g.force, g.torque, g.x, g.v, g.omega, v_rest_, omega_rest_,
                                     g.impulse, g.spin_impulse});
   for (int s = 1; s <= substeps; ++s) {
     const ContactPass contacts = contact_pass(g, poses.data + std::size_t(s) * bodies, tau);
+    if (!gravity.empty()) kick.gravity = gravity[s];
     if (s < substeps) {
       for_each(g.owned(), SubstepPass{contacts, kick, next_x_, next_v_, next_omega_, v_rest_, omega_rest_,
                                       g.impulse, g.spin_impulse});

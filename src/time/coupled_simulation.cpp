@@ -24,7 +24,7 @@ StepInfo CoupledSimulation::step() {
       drag_limit_ = coupling_->stable_dt();
     }
     solid_solver_->advance(grains_, motion_.poses(clock_.time, dt, substeps), motion_.bodies(), dt, substeps,
-                           held());
+                           held(), gravity_.along(clock_.time, dt, substeps));
     if (two_way()) coupling_->react(fluid_, grains_);
   }
   if (has_fluid()) advance_fluid(dt);
@@ -32,7 +32,7 @@ StepInfo CoupledSimulation::step() {
   clock_.time += dt;
   clock_.last_dt = dt;
   ++clock_.step;
-  walls_moved_ += dt * motion_.top_speed(clock_.time);
+  walls_moved_ += dt * std::max(motion_.top_speed(clock_.time - dt), motion_.top_speed(clock_.time));
   remove_cleared_bodies();
   sweep();
   const bool rebuilt = std::exchange(rebuilt_, false);
@@ -47,7 +47,8 @@ void CoupledSimulation::advance_fluid(double dt) {
   const double half = euler ? 0 : dt / 2;
   fluid.kick_drift(fluid_, dt - half, dt, two_way());
   if (walls_.size() > 0) {
-    WallMotion::place(frame_, walls_, motion_.poses(clock_.time + dt, 0, 1));
+    // density follows from velocities in the middle of a kick-drift-kick step, the fluid's and the walls'
+    WallMotion::place(frame_, walls_, motion_.poses(clock_.time + dt - half, half, 1));
     fluid.pack(fluid_, walls_);
   }
   fluid.density(fluid_, walls_, dt, half);
@@ -60,6 +61,7 @@ void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   FluidSolver& fluid = *fluid_solver_;
   if (two_way()) coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1));
   fluid.state(fluid_, predict, two_way());
+  fluid.set_gravity(gravity_.at(clock_.time + dt));
   if (walls_.size() > 0)
     fluid.walls(fluid_, walls_, motion_.poses(clock_.time + dt, 0, 1), two_way() ? dt : 0);
   fluid.forces(fluid_, walls_);
@@ -159,7 +161,7 @@ void CoupledSimulation::refresh_if_needed(double dt) {
   }
   if (has_grains() && !config_.grain.fixed) {
     const double moved =
-        grain_watch_.displacement + 1.5 * dt * (grain_watch_.speed + dt * norm(config_.gravity));
+        grain_watch_.displacement + 1.5 * dt * (grain_watch_.speed + dt * norm(gravity_.at(clock_.time)));
     grains_due = 2 * moved > solid_solver_->skin();
   }
   refresh(fluid_due, grains_due);

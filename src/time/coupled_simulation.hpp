@@ -65,6 +65,7 @@ class CoupledSimulation final : public Simulation {
   GrainStore grains_;
   WallGeometry geometry_;
   WallMotion motion_;
+  FeltGravity gravity_;
   CellGrid grain_grid_;
   std::unique_ptr<FluidSolver> fluid_solver_;
   std::unique_ptr<SolidSolver> solid_solver_;

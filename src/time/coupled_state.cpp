@@ -38,10 +38,10 @@ struct LayPass {
 };
 
 /// Depth below the top of the fill that holds x, along gravity, m.
-double depth_at(const Config& config, const Vec3d& x) {
-  const double g = norm(config.gravity);
+double depth_at(const Config& config, const Vec3d& gravity, const Vec3d& x) {
+  const double g = norm(gravity);
   if (g == 0) return 0;
-  const Vec3d up = config.gravity * (-1 / g);
+  const Vec3d up = gravity * (-1 / g);
   double depth = 0;
   for (const auto& fill : config.fluid.fills) {
     bool inside = true;
@@ -62,6 +62,11 @@ bool hydrostatic(const Config& config) {
   return norm(config.gravity) > 0;
 }
 
+/// What is felt along gravity. Fluid is laid with a level surface, which cannot balance what is felt across.
+Vec3d laid_gravity(const Config& config, const Vec3d& felt) {
+  return config.gravity * std::max(0.0, dot(felt, config.gravity) / norm2(config.gravity));
+}
+
 }  // namespace
 
 const HostStore& store_of(const SavedState& state, const std::string& name) {
@@ -76,7 +81,8 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
              config.domain.periodic[2]),
       clock_(config.time),
       geometry_(config),
-      motion_(config) {
+      motion_(config),
+      gravity_(config) {
   if (has_grains()) {
     solid_solver_ = std::make_unique<SolidSolver>(config, frame_, geometry_, grains_);
     grain_grid_ = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, solid_solver_->range());
@@ -138,10 +144,10 @@ void CoupledSimulation::lay_fluid() {
   if (two_way()) coupling_->porosity(fluid_, grains_, poses_now());
   std::vector<Real> pressure(fluid_.size(), Real(0));
   if (hydrostatic(config_)) {
+    const Vec3d g = laid_gravity(config_, gravity_.at(0));
     const auto x = fluid_.x.values();
     for (Index a = 0; a < fluid_.size(); ++a)
-      pressure[a] =
-          Real(config_.fluid.rho0 * norm(config_.gravity) * depth_at(config_, coordinates(frame_, x[a])));
+      pressure[a] = Real(config_.fluid.rho0 * norm(g) * depth_at(config_, g, coordinates(frame_, x[a])));
   }
   Buffer<Real> device;
   device.assign(pressure);
@@ -193,6 +199,7 @@ void CoupledSimulation::load(const SavedState& state) {
     if (scalar("removed_" + std::to_string(b)) != 0) motion_.remove(b);
   if (has_fluid()) {
     fluid_.load(store_of(state, "fluid"));
+    fluid_solver_->set_gravity(gravity_.at(clock_.time));
     walls_.load(store_of(state, "walls"));
   }
   if (has_grains()) grains_.load(store_of(state, "grains"));

@@ -8,16 +8,15 @@ namespace {
 
 struct PlacePass {
   Frame frame;
-  Span<const BodyPose> pose;
+  Span<const BodyPose> moving, placed;
   Span<const Vec3d> x0;
   Span<const std::uint32_t> body;
   Span<Vec3d> x;
   Span<Real4> v_rho;
   BL_HD void operator()(Index i) const {
-    const BodyPose& k = pose[body[i]];
-    const Vec3d at = k.place(x0[i]);
-    x[i] = frame.wrap(at);
-    v_rho[i] = {Real3(k.velocity(at)), v_rho[i].w};
+    const BodyPose& k = moving[body[i]];
+    x[i] = frame.wrap(placed[body[i]].place(x0[i]));
+    v_rho[i] = {Real3(k.velocity(k.place(x0[i]))), v_rho[i].w};
   }
 };
 
@@ -30,36 +29,16 @@ std::vector<Vec3d> corners(const WallBody& b) {
 
 }  // namespace
 
-BodyPose pose_at(const WallBody& body, double t) {
-  const MotionConfig& m = body.motion;
-  BodyPose p;
-  p.centre = m.centre;
-  p.slip = body.slip == "slip";
-  p.repulsion = body.repulsion && body.type == "adami";
-  const bool moving = t >= m.start && t < m.stop;
-  const double s = std::clamp(t, m.start, m.stop) - m.start;
-  if (m.kind == "velocity") {
-    p.translation = m.velocity * s;
-    if (moving) p.v = m.velocity;
-  } else if (m.kind == "oscillation") {
-    const double w = 2 * 3.14159265358979323846 * m.frequency;
-    p.translation = m.amplitude * std::sin(w * s);
-    if (moving) {
-      p.v = m.amplitude * (w * std::cos(w * s));
-      p.a = m.amplitude * (-w * w * std::sin(w * s));
-    }
-  } else if (m.kind == "rotation") {
-    p.rotation = Quat<double>::from_rotation(m.axis * (m.rate * s));
-    if (moving) p.omega = m.axis * m.rate;
-  }
-  return p;
+WallMotion::WallMotion(const Config& config) : config_(config), removed_(config.wall.bodies.size(), false) {
+  for (const WallBody& body : config.wall.bodies) laws_.emplace_back(body.motion, config.time.end);
 }
 
-WallMotion::WallMotion(const Config& config) : config_(config), removed_(config.wall.bodies.size(), false) {}
-
 BodyPose WallMotion::pose(int body, double t) const {
-  BodyPose p = pose_at(config_.wall.bodies[body], t);
-  if (removed_[body]) p.present = 0;
+  const WallBody& b = config_.wall.bodies[body];
+  BodyPose p{laws_[body].at(t)};
+  p.slip = b.slip == "slip";
+  p.repulsion = b.repulsion && b.type == "adami";
+  p.present = !removed_[body];
   return p;
 }
 
@@ -75,7 +54,7 @@ Span<const BodyPose> WallMotion::poses(double t, double dt, int n) {
 double WallMotion::top_speed(double t) const {
   double top = 0;
   for (int b = 0; b < bodies(); ++b) {
-    if (removed_[b] || config_.wall.bodies[b].motion.kind == "fixed") continue;
+    if (removed_[b] || !laws_[b].moves()) continue;
     const BodyPose p = pose(b, t);
     for (const auto& c : corners(config_.wall.bodies[b])) top = std::max(top, norm(p.velocity(p.place(c))));
   }
@@ -90,7 +69,9 @@ double WallMotion::lowest(int body, double t, const Vec3d& up) const {
 }
 
 void WallMotion::place(const Frame& frame, WallStore& walls, Span<const BodyPose> pose) {
-  for_each(walls.owned(), PlacePass{frame, pose, walls.x0, walls.body, walls.x, walls.v_rho});
+  const Index n = pose.size / 2;
+  const Span<const BodyPose> moving{pose.data, n}, placed{pose.data + n, n};
+  for_each(walls.owned(), PlacePass{frame, moving, placed, walls.x0, walls.body, walls.x, walls.v_rho});
 }
 
 }  // namespace bedload::inline BL_VARIANT

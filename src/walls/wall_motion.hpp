@@ -1,14 +1,12 @@
 #pragma once
 #include "bedload/case/config.hpp"
+#include "bedload/motion/law.hpp"
 #include "bedload/parallel/loops.hpp"
 #include "bedload/particles/walls.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Pose and velocity of one body at time t (s): one law for its SPH particles and its DEM surface.
-BodyPose pose_at(const WallBody& body, double t);
-
-/// Moves all bodies; poses live on the device.
+/// Moves all bodies, SPH particles and DEM surfaces by one law; poses live on the device.
 class WallMotion {
  public:
   explicit WallMotion(const Config& config);
@@ -16,9 +14,12 @@ class WallMotion {
   int bodies() const { return int(config_.wall.bodies.size()); }
   /// Poses at t + k dt / n for k = 0..n, [n + 1][bodies], on the device.
   Span<const BodyPose> poses(double t, double dt, int n);
+  /// Pose of one body at time t (s), on the host.
+  BodyPose pose(int body, double t) const;
   /// Largest speed of any wall point at time t, m/s.
   double top_speed(double t) const;
-  /// Places wall particles and sets their true velocity; `pose`: [bodies].
+  /// Places wall particles and sets their true velocity; `pose`: [2][bodies], that of the velocity and that
+  /// of the place.
   static void place(const Frame& frame, WallStore& walls, Span<const BodyPose> pose);
   /// The body is gone from now on.
   void remove(int body) { removed_[body] = true; }
@@ -27,8 +28,8 @@ class WallMotion {
   double lowest(int body, double t, const Vec3d& up) const;
 
  private:
-  BodyPose pose(int body, double t) const;
   Config config_;
+  std::vector<MotionLaw> laws_;  ///< one a body
   std::vector<bool> removed_;
   std::vector<BodyPose> host_;
   Buffer<BodyPose> device_;

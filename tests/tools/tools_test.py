@@ -167,6 +167,9 @@ min = [0.1, 0, 0]
 max = [0.11, 0.1, 0.08]
 motion.kind = "velocity"
 motion.velocity = [0, 0, 0.5]
+[[wall.body.motion.add]]
+kind = "table"
+rows = [[0, 0, 0, 0], [0.1, 0.01, 0, 0, 0, 0, 20]]
 """
 
     def setUp(self):

@@ -3,21 +3,23 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "bedload/core/vec.hpp"
 
 namespace bedload {
 
-/// An expression in x, y, z (m), e.g. "0.1*sin(2*pi*z)"; functions as in muParser,
-/// constants pi and e.
+/// An expression in x, y, z (m) or other variables of one letter, e.g. "0.1*sin(2*pi*z)"; functions as in
+/// muParser, constants pi and e.
 class Formula {
  public:
   /// Throws CaseError with the reason, without naming file or key.
-  explicit Formula(const std::string& text);
+  explicit Formula(const std::string& text, std::string_view variables = "xyz");
   Formula(Formula&&) noexcept;
   ~Formula();
 
-  double operator()(const Vec3d& x) const;
+  double operator()(const Vec3d& x) const;  ///< of the first three variables
+  double operator()(double t) const { return (*this)(Vec3d{t, 0, 0}); }
 
  private:
   struct Impl;

@@ -1,28 +1,14 @@
 #pragma once
+#include "bedload/core/rigid_motion.hpp"
 #include "bedload/particles/store.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Where a wall body is and how it moves, about its centre of motion.
-struct BodyPose {
-  Vec3d centre;       ///< point that the rotation leaves alone, at t = 0 (m)
-  Vec3d translation;  ///< m
-  Quat<double> rotation;
-  Vec3d v, omega;               ///< of the centre, m/s; rad/s
-  Vec3d a, alpha;               ///< m/s2; rad/s2
+/// Where a wall body is, how it moves and how it meets fluid and grains.
+struct BodyPose : RigidMotion {
   std::uint32_t slip = 0;       ///< 1: slip
   std::uint32_t repulsion = 0;  ///< 1: Monaghan repulsion
   std::uint32_t present = 1;    ///< 0: removed
-
-  BL_HD bool turned() const { return rotation.w != 1; }
-  BL_HD Vec3d place(const Vec3d& x0) const {
-    return turned() ? centre + translation + rotation.rotate(x0 - centre) : x0 + translation;
-  }
-  BL_HD Vec3d velocity(const Vec3d& x) const { return v + cross(omega, x - centre - translation); }
-  BL_HD Vec3d acceleration(const Vec3d& x) const {
-    const Vec3d r = x - centre - translation;
-    return a + cross(alpha, r) + cross(omega, cross(omega, r));
-  }
 };
 
 /// Wall particles of the fluid: prescribed motion, extrapolated state. The next density step reads the state

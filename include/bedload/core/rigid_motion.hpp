@@ -1,0 +1,26 @@
+#pragma once
+#include "bedload/core/vec.hpp"
+
+namespace bedload {
+
+/// Where a rigid body has been taken and how it moves: a point that was at x0 is at
+/// centre + translation + rotation (x0 - centre).
+struct RigidMotion {
+  Vec3d centre;       ///< m
+  Vec3d translation;  ///< of the centre, m
+  Quat<double> rotation;
+  Vec3d v, omega;  ///< of the centre, m/s; rad/s
+  Vec3d a, alpha;  ///< m/s2; rad/s2
+
+  BL_HD bool turned() const { return rotation.w != 1; }
+  BL_HD Vec3d place(const Vec3d& x0) const {
+    return turned() ? centre + translation + rotation.rotate(x0 - centre) : x0 + translation;
+  }
+  BL_HD Vec3d velocity(const Vec3d& x) const { return v + cross(omega, x - centre - translation); }
+  BL_HD Vec3d acceleration(const Vec3d& x) const {
+    const Vec3d r = x - centre - translation;
+    return a + cross(alpha, r) + cross(omega, cross(omega, r));
+  }
+};
+
+}  // namespace bedload

@@ -1,0 +1,256 @@
+#include "bedload/motion/law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "src/motion/spline.hpp"
+#include "src/motion/survey.hpp"
+
+namespace bedload::test {
+namespace {
+
+using std::numbers::pi;
+
+MotionPart oscillation(const Vec3d& amplitude, double frequency) {
+  MotionPart m;
+  m.kind = "oscillation";
+  m.amplitude = amplitude;
+  m.frequency = frequency;
+  return m;
+}
+
+MotionPart rotation(const Vec3d& axis, const Vec3d& centre, double rate) {
+  MotionPart m;
+  m.kind = "rotation";
+  m.axis = axis * (1 / norm(axis));
+  m.centre = centre;
+  m.rate = rate;
+  return m;
+}
+
+MotionPart formula(const std::array<std::string, 3>& displacement,
+                   const std::array<std::string, 3>& rotation = {"0", "0", "0"}, const Vec3d& centre = {}) {
+  MotionPart m;
+  m.kind = "formula";
+  m.displacement = displacement;
+  m.rotation = rotation;
+  m.centre = centre;
+  return m;
+}
+
+/// Rows of f(t), t = 0, step, ..
+template <class F>
+MotionPart table(int rows, double step, const F& f) {
+  MotionPart m;
+  m.kind = "table";
+  for (int i = 0; i < rows; ++i) m.rows.push_back(f(i * step));
+  return m;
+}
+
+MotionConfig motion_of(const std::vector<MotionPart>& parts) {
+  MotionConfig m;
+  static_cast<MotionPart&>(m) = parts[0];
+  m.add.assign(parts.begin() + 1, parts.end());
+  return m;
+}
+
+/// Speeds and accelerations of moved points are the differences of their places in time, of fourth order,
+/// to 1e-6 of `speed` (m/s) and `acceleration` (m/s2).
+void expect_rates_of_the_pose(const MotionLaw& law, double from, double to, double speed,
+                              double acceleration) {
+  const double h = 2e-4;
+  for (const Vec3d& x0 : {Vec3d{0, 0, 0}, Vec3d{0.3, -0.2, 0.1}, Vec3d{-0.1, 0.4, 0.25}})
+    for (int i = 0; i <= 20; ++i) {
+      const double t = from + (to - from) * i / 20;
+      const auto at = [&](int k) { return law.at(t + k * h).place(x0); };
+      const Vec3d v = (8.0 * (at(1) - at(-1)) - (at(2) - at(-2))) * (1 / (12 * h));
+      const Vec3d a = (16.0 * (at(1) + at(-1)) - (at(2) + at(-2)) - 30.0 * at(0)) * (1 / (12 * h * h));
+      const RigidMotion now = law.at(t);
+      EXPECT_LT(norm(now.velocity(at(0)) - v), 1e-6 * speed) << "t = " << t;
+      EXPECT_LT(norm(now.acceleration(at(0)) - a), 1e-6 * acceleration) << "t = " << t;
+    }
+}
+
+TEST(MotionLaw, VelocitiesAreTheDifferencesOfThePose) {
+  const auto swing = oscillation({0.1, 0, 0.02}, 2);
+  const auto spin = rotation({1, 2, -1}, {0.05, 0.1, 0}, 7);
+  const auto rocking =
+      formula({"0.05*sin(9*t)", "0.1*t^2", "0"}, {"40*sin(9*t)", "90*t^2", "-10*cos(4*t)"}, {0.2, 0, -0.1});
+  for (const auto& parts : std::vector<std::vector<MotionPart>>{{swing}, {spin}, {rocking}})
+    expect_rates_of_the_pose(MotionLaw(motion_of(parts), 2), 0.1, 1.9, 1, 10);
+}
+
+TEST(MotionLaw, SumsMoveAsTheirPoseDoes) {
+  const auto swing = oscillation({0.1, 0, 0.02}, 2);
+  const auto spin = rotation({0, 0, 1}, {0.1, 0, 0}, 9);
+  const auto carousel = rotation({1, 0, 1}, {-0.2, 0, 0.3}, 3);
+  const auto rocking = formula({"0", "0.1*t", "0"}, {"20*sin(5*t)", "0", "30*cos(3*t)"}, {0, 0.1, 0});
+  for (const auto& parts : std::vector<std::vector<MotionPart>>{
+           {swing, spin}, {spin, carousel}, {spin, rocking, carousel, swing}, {carousel, spin, rocking}})
+    expect_rates_of_the_pose(MotionLaw(motion_of(parts), 2), 0.1, 1.9, 2, 50);
+}
+
+TEST(MotionLaw, TranslationsAddAndLaterTurnsCarryEarlierCentres) {
+  // A quarter turn about z at (1, 0, 0), then one about x at the origin; the shift is not turned.
+  const auto first = rotation({0, 0, 1}, {1, 0, 0}, pi / 2), second = rotation({1, 0, 0}, {}, pi / 2);
+  MotionPart shift;
+  shift.kind = "velocity";
+  shift.velocity = {0, 0, 5};
+  const RigidMotion m = MotionLaw(motion_of({shift, first, second}), 2).at(1);
+  const Vec3d x = m.place({2, 0, 0});  // (1, 1, 0), then (1, 0, 1), then up by 5
+  EXPECT_NEAR(norm(x - Vec3d{1, 0, 6}), 0, 1e-14);
+  // omega: pi/2 about x, and pi/2 about what was z and is now -y
+  EXPECT_NEAR(norm(m.omega - Vec3d{pi / 2, -pi / 2, 0}), 0, 1e-14);
+}
+
+TEST(MotionLaw, TurnsSmoothlyThroughNoRotationAtAll) {
+  const MotionLaw law(motion_of({formula({"0", "0", "0"}, {"50*(t-1)", "20*(t-1)^2", "30*(t-1)"})}), 2);
+  for (const double t : {1.0, 1 + 1e-9, 1 + 1e-4, 1.05, 1.08})
+    for (const double aside : {-1e-5, 1e-5})
+      EXPECT_LT(norm(law.at(t).alpha - law.at(t + aside).alpha), 1e-4) << t;
+  expect_rates_of_the_pose(law, 0.9, 1.1, 1, 10);
+}
+
+TEST(MotionLaw, RestsBeforeItsStartAndAfterItsStop) {
+  MotionPart m = oscillation({0.1, 0, 0}, 1);
+  m.start = 0.5;
+  m.stop = 0.75;
+  const MotionLaw law(motion_of({m}), 2);
+  EXPECT_EQ(norm(law.at(0.4).v), 0);
+  EXPECT_EQ(norm(law.at(0.4).translation), 0);
+  EXPECT_NEAR(law.at(0.5).v.x, 0.2 * pi, 1e-12);
+  EXPECT_NEAR(law.at(0.6).translation.x, 0.1 * std::sin(0.2 * pi), 1e-12);
+  EXPECT_NEAR(law.at(0.9).translation.x, 0.1, 1e-12);
+  EXPECT_EQ(norm(law.at(0.9).v), 0);
+  EXPECT_EQ(norm(law.at(0.9).a), 0);
+  EXPECT_EQ(law.events(), (std::vector<double>{0.5, 0.75}));
+}
+
+TEST(MotionLaw, AgitatorPeaks) {  // T-43
+  const double A = 7.1e-3, f = 4.06, end = 3 / f;
+  const MotionPart rows = table(
+      151, end / 150, [&](double t) { return MotionRow{t, A * std::sin(2 * pi * f * t), 0, 0, 0, 0, 0}; });
+  const auto text = formula({"7.1e-3*sin(2*pi*4.06*t)", "0", "0"});
+  for (const auto& [part, exact] :
+       {std::pair{oscillation({A, 0, 0}, f), 1e-4}, {text, 1e-4}, {rows, 1e-2}}) {  // rows: (w dt)^2 / 12
+    Config c;
+    c.gravity = {};
+    c.time.end = end;
+    c.frame.motion = motion_of({part});
+    const FeltGravity felt(c);
+    const MotionLaw law(c.frame.motion, end);
+    double v = 0, a = 0;
+    for (int i = 200; i < 2800; ++i) {
+      v = std::max(v, norm(law.at(end * i / 3000).v));
+      a = std::max(a, norm(felt.at(end * i / 3000)));
+    }
+    EXPECT_NEAR(v, 0.1811, exact) << part.kind;
+    EXPECT_NEAR(a, 4.6203, exact * (part.kind == "table" ? 4.62 : 1)) << part.kind;
+    const double t = 0.3;  // minus the frame's acceleration
+    EXPECT_NEAR(felt.at(t).x, 4.6203 * std::sin(2 * pi * f * t), 4.62 * exact) << part.kind;
+  }
+}
+
+TEST(FormulaMotion, DerivativesAreGoodFromSlowToFast) {
+  for (const double w : {0.1, 3.0, 1e3, 1e5}) {  // rad/s, over ten seconds
+    const MotionLaw law(motion_of({formula({"2*sin(" + std::to_string(w) + "*t)", "0", "0"})}), 10);
+    for (int i = 0; i <= 50; ++i) {
+      const double t = 9.7 * i / 50;
+      EXPECT_NEAR(law.at(t).v.x / (2 * w), std::cos(w * t), 1e-7) << w << ' ' << t;
+      EXPECT_NEAR(law.at(t).a.x / (2 * w * w), -std::sin(w * t), 2e-6) << w << ' ' << t;
+    }
+  }
+}
+
+TEST(FormulaMotion, AsksForNoValueBeforeItsStart) {
+  const MotionLaw law(motion_of({formula({"t^2.5", "sqrt(t)", "0"})}), 4);
+  EXPECT_NEAR(law.at(0).v.x, 0, 1e-4);
+  EXPECT_NEAR(law.at(1).v.x, 2.5, 1e-8);
+  EXPECT_NEAR(law.at(1).a.x, 3.75, 1e-6);
+  EXPECT_NEAR(law.at(1).v.y, 0.5, 1e-8);
+  EXPECT_EQ(first_gap(motion_of({formula({"t^2.5", "sqrt(t)", "0"})}), 4), INFINITY);
+  EXPECT_NEAR(first_gap(motion_of({formula({"sqrt(1-t)", "0", "0"})}), 4), 1, 0.01);
+}
+
+TEST(TableMotion, IsSmoothThroughRowsAndRestsOutsideThem) {
+  const auto rows = table(21, 0.1, [](double t) {
+    return MotionRow{t + 0.5, t * t * (3 - t), 0, 0.1 * t, 0, 0, 20 * std::sin(3 * t)};
+  });
+  const MotionLaw law(motion_of({rows}), 3);
+  for (const double t : {0.5, 0.7, 1.23, 1.5, 2.4}) {
+    const double s = t - 0.5;
+    EXPECT_NEAR(law.at(t).translation.x, s * s * (3 - s), 1e-12);  // a cubic is met exactly
+    EXPECT_NEAR(law.at(t).v.x, 6 * s - 3 * s * s, 1e-10);
+    EXPECT_NEAR(law.at(t).a.x, 6 - 6 * s, 1e-9);
+    EXPECT_NEAR(law.at(t).omega.z, pi / 3 * std::cos(3 * s), 2e-3);
+  }
+  for (const double t : {0.0, 0.4, 2.6, 5.0}) {
+    EXPECT_EQ(norm(law.at(t).v) + norm(law.at(t).omega) + norm(law.at(t).a), 0);
+    EXPECT_NEAR(law.at(t).translation.x, t < 1 ? 0 : 4, 1e-12);
+  }
+  expect_rates_of_the_pose(law, 0.533, 2.433, 2, 1e3);  // the third derivative jumps at rows
+}
+
+TEST(TableMotion, RowsBeforeItsStartAreSkipped) {
+  auto rows = table(5, 0.25, [](double t) { return MotionRow{t - 0.5, t}; });
+  rows.start = 1;
+  const MotionLaw law(motion_of({rows}), 3);
+  EXPECT_EQ(norm(law.at(0.9).v), 0);
+  EXPECT_NEAR(law.at(0.9).translation.x, 0.5, 1e-12);
+  EXPECT_NEAR(law.at(1.25).v.x, 1, 1e-12);
+  EXPECT_EQ(law.events(), (std::vector<double>{1, 1.5}));
+}
+
+TEST(Spline, MonotoneNeitherOvershootsNorBreaksItsSlope) {
+  const Spline s({0, 1, 1.5, 3, 4}, {0, 0, 2, 2, 5}, true);
+  double before = 0;
+  for (int i = 0; i <= 4000; ++i) {
+    const auto v = s.at(i * 1e-3);
+    EXPECT_GE(v.y, before - 1e-12);
+    before = v.y;
+  }
+  EXPECT_EQ(s.at(0.5).y, 0);
+  EXPECT_EQ(s.at(2.2).y, 2);
+  for (const double knot : {1.0, 1.5, 3.0}) EXPECT_NEAR(s.at(knot - 1e-9).rate, s.at(knot + 1e-9).rate, 1e-6);
+}
+
+TEST(Spline, SmoothKeepsItsCurvatureAcrossPoints) {
+  const std::vector<double> t{0, 0.3, 1, 1.1, 2, 3.5}, y{1, 2, -1, 0, 4, 2};
+  const Spline s(t, y, false);
+  for (std::size_t i = 0; i < t.size(); ++i) EXPECT_NEAR(s.at(t[i]).y, y[i], 1e-12);
+  for (std::size_t i = 1; i + 1 < t.size(); ++i) {
+    EXPECT_NEAR(s.at(t[i] - 1e-9).rate, s.at(t[i] + 1e-9).rate, 1e-5);
+    EXPECT_NEAR(s.at(t[i] - 1e-9).rate2, s.at(t[i] + 1e-9).rate2, 1e-3);
+  }
+  EXPECT_NEAR(Spline({0, 1, 3}, {0, 1, 9}, false).at(2).y, 4, 1e-14);  // a parabola
+  EXPECT_NEAR(Spline({0, 2}, {0, 4}, false).at(0.5).rate, 2, 1e-14);
+}
+
+TEST(Survey, FindsTopSpeedAndJumps) {
+  MotionPart gate;
+  gate.kind = "velocity";
+  gate.velocity = {0, 0, 0.68};
+  gate.stop = 0.25;
+  const std::vector<Vec3d> points{{0, 0, 0}, {1, 0, 0}};
+  const auto jumps = velocity_jumps(motion_of({gate}), points, 1);
+  ASSERT_EQ(jumps.size(), 2u);
+  EXPECT_EQ(jumps[0].time, 0);
+  EXPECT_DOUBLE_EQ(jumps[0].size, 0.68);
+  EXPECT_EQ(jumps[1].time, 0.25);
+  EXPECT_DOUBLE_EQ(jumps[1].size, 0.68);
+  EXPECT_EQ(velocity_jumps(motion_of({gate}), points, 0.2).size(), 1u) << "the run ends before the stop";
+
+  const auto drum = motion_of({rotation({0, 0, 1}, {}, 3)});
+  EXPECT_DOUBLE_EQ(velocity_jumps(drum, points, 1).at(0).size, 3);
+  EXPECT_NEAR(top_speed(drum, points, 1), 3, 1e-12);
+  // from rest to rest without a jump, 1 m in 1 s
+  const auto ease = table(101, 0.01, [](double t) { return MotionRow{t, (1 - std::cos(pi * t)) / 2}; });
+  EXPECT_TRUE(velocity_jumps(motion_of({ease}), points, 2).empty());
+  EXPECT_NEAR(top_speed(motion_of({ease}), points, 2), pi / 2, 1e-4);
+  EXPECT_TRUE(velocity_jumps(motion_of({formula({"0.1*(1-cos(7*t))", "0", "0"})}), points, 2).empty());
+}
+
+}  // namespace
+}  // namespace bedload::test
