@@ -7,6 +7,8 @@ namespace bedload {
 
 void describe_top(Parameters& p, Config& config);
 void describe_domain(Parameters& p, DomainConfig& domain);
+/// Where a fill takes its particles from.
+void describe_fill_file(Parameters& p, std::string& file, std::int64_t& step, std::string_view meaning);
 void describe_fluid(Parameters& p, FluidConfig& fluid);
 void describe_fluid_models(Parameters& p, Config& config);
 void describe_walls(Parameters& p, WallConfig& wall);

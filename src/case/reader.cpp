@@ -54,6 +54,16 @@ class Conversion {
     out->clear();
     for (const Value& item : *list) out->push_back(vector(item, shape));
   }
+  void operator()(std::vector<double>* out) const {
+    const char* shape = "must be a list of numbers [a, b, ...]";
+    const auto* list = value_.get<Value::Array>();
+    if (!list) reject(shape);
+    out->clear();
+    for (const Value& item : *list) {
+      out->push_back(number(item, shape));
+      if (!about_.range.holds(out->back())) reject("must hold numbers " + about_.range.text());
+    }
+  }
   void operator()(Formulas* out) const {
     for (int k = 0; k < 3; ++k)
       (*out)[k] = formula(triple("must be three numbers or formulas in x, y, z")[k]);

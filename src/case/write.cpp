@@ -35,9 +35,10 @@ struct ToText {
       if ((*faces)[i]) out += fmt::format("{}\"{}\"", out.empty() ? "" : ", ", kFaces[i]);
     return "[" + out + "]";
   }
-  std::string operator()(const std::vector<Vec3d>* list) const {
+  template <class T>
+  std::string operator()(const std::vector<T>* list) const {
     std::string out;
-    for (const Vec3d& v : *list) out += (out.empty() ? "" : ", ") + (*this)(&v);
+    for (const T& v : *list) out += (out.empty() ? "" : ", ") + (*this)(&v);
     return "[" + out + "]";
   }
 };
@@ -46,6 +47,7 @@ bool is_absent(const Slot& value) {
   struct Test {
     bool operator()(const double* x) const { return *x == 0 || std::isinf(*x); }
     bool operator()(const std::int64_t* i) const { return *i == 0; }
+    bool operator()(const std::string* s) const { return s->empty(); }
     bool operator()(const std::vector<Vec3d>* list) const { return list->empty(); }
     bool operator()(const void*) const { return false; }
   };

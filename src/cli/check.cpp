@@ -46,7 +46,7 @@ std::string limits_text(const char* title, const std::vector<StepLimit>& limits)
 int check_case(const Options& options) {
   Prepared p = prepare(options);
   const Config& c = p.config;
-  const Counts n = counts_of(p.setup);
+  const Counts& n = p.counts;
   fmt::print("{}", summary_text(p));
 
   const std::size_t bytes = estimate_bytes(c, n);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "bedload/geometry/depth.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -37,13 +38,14 @@ struct LayPass {
   }
 };
 
-/// Depth below the top of the fill that holds x, along gravity, m.
+/// Depth below the top of the block of fluid that holds x, along gravity, m.
 double depth_at(const Config& config, const Vec3d& x) {
   const double g = norm(config.gravity);
   if (g == 0) return 0;
   const Vec3d up = config.gravity * (-1 / g);
   double depth = 0;
   for (const auto& fill : config.fluid.fills) {
+    if (!fill.file.empty()) continue;
     bool inside = true;
     double top = 0;
     for (int k = 0; k < 3; ++k) {
@@ -52,6 +54,19 @@ double depth_at(const Config& config, const Vec3d& x) {
     }
     if (inside) depth = std::max(depth, top - dot(up, x));
   }
+  return depth;
+}
+
+/// Depth of each fluid particle, m: in its block, or among the particles themselves where a file gave some.
+std::vector<double> depths_of(const Config& config, const std::vector<Vec3d>& x) {
+  std::vector<double> depth;
+  for (const Vec3d& at : x) depth.push_back(depth_at(config, at));
+  bool listed = false;
+  for (const auto& fill : config.fluid.fills) listed = listed || !fill.file.empty();
+  if (!listed) return depth;
+  const auto below = depth_in_columns(x, config.gravity * (-1 / norm(config.gravity)), config.fluid.dx);
+  for (std::size_t a = 0; a < x.size(); ++a)
+    if (depth[a] == 0) depth[a] = below[a];
   return depth;
 }
 
@@ -137,10 +152,11 @@ void CoupledSimulation::lay_fluid() {
   if (two_way()) coupling_->porosity(fluid_, grains_, poses_now());
   std::vector<Real> pressure(fluid_.size(), Real(0));
   if (hydrostatic(config_)) {
-    const auto x = fluid_.x.values();
+    std::vector<Vec3d> x;
+    for (const auto& at : fluid_.x.values()) x.push_back(coordinates(frame_, at));
+    const std::vector<double> depth = depths_of(config_, x);
     for (Index a = 0; a < fluid_.size(); ++a)
-      pressure[a] =
-          Real(config_.fluid.rho0 * norm(config_.gravity) * depth_at(config_, coordinates(frame_, x[a])));
+      pressure[a] = Real(config_.fluid.rho0 * norm(config_.gravity) * depth[a]);
   }
   Buffer<Real> device;
   device.assign(pressure);
