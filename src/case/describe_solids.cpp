@@ -104,13 +104,13 @@ void grain_size(Parameters& p, SizeClass& s) {
       {.unit = "m",
        .meaning = "uniform, log_normal: smallest diameter",
        .range = uniform || s.median == 0 ? above(0) : Range{.lo = 0, .hi = s.median},
-       .fallback = "required; log_normal: median exp(-3 sigma)",
+       .fallback = "median exp(-3 sigma)",
        .presence = uniform ? required : optional});
     p("d_max", &s.d_max,
       {.unit = "m",
        .meaning = "uniform, log_normal: largest diameter",
        .range = above(uniform ? s.d_min : s.median),
-       .fallback = "required; log_normal: median exp(3 sigma)",
+       .fallback = "median exp(3 sigma)",
        .presence = uniform ? required : optional});
   }
   if (wanted("sieve")) {

@@ -162,6 +162,16 @@ std::string ParticleList::place(std::size_t n) const {
   return line.empty() ? file.string() : fmt::format("{}:{}", file.string(), line[n]);
 }
 
+bool lies_inside(const DomainConfig& domain, Vec3d& x) {
+  for (int k = 0; k < 3; ++k) {
+    const double lo = domain.min[k], hi = domain.max[k];
+    const double slack = 1e-7 * std::max(std::abs(lo), std::abs(hi));
+    if (x[k] < lo - slack || x[k] > hi + slack) return false;
+    x[k] = std::clamp(x[k], lo, hi);
+  }
+  return true;
+}
+
 bool has_frames(const std::filesystem::path& file) { return file.extension() == ".vtkhdf"; }
 
 ParticleList read_particles(const std::filesystem::path& file, std::int64_t step) {

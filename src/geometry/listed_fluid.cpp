@@ -57,7 +57,7 @@ class ListedFluid {
 
   void add_fill(std::size_t index) {
     const FluidFill& fill = config_.fluid.fills[index];
-    const ParticleList list = read_particles(fill.file, fill.step);
+    ParticleList list = read_particles(fill.file, fill.step);
     const FillVelocity velocity(fill, index);
     const double dx = config_.fluid.dx;
     double fastest = 0;
@@ -77,15 +77,14 @@ class ListedFluid {
   }
 
  private:
-  void check(const ParticleList& list, std::size_t n, std::size_t index) const {
-    const Vec3d& x = list.x[n];
+  void check(ParticleList& list, std::size_t n, std::size_t index) const {
+    Vec3d& x = list.x[n];
     const double dx = config_.fluid.dx;
     const auto fail = [&](const std::string& why) {
       throw CaseError(fmt::format("{}: fluid particle {} at ({:g}, {:g}, {:g}) m {}", list.place(n), n + 1,
                                   x.x, x.y, x.z, why));
     };
-    for (int k = 0; k < 3; ++k)
-      if (x[k] < config_.domain.min[k] || x[k] > config_.domain.max[k]) fail("lies outside the domain");
+    if (!lies_inside(config_.domain, x)) fail("lies outside the domain");
     for (const WallBody& body : config_.wall.bodies) {
       const double reach = config_.fluid.kappa() * config_.fluid.h();
       if (body.type == "adami" && wall_distance(body, x, reach, config_.domain) < -kInWall * dx)

@@ -209,17 +209,16 @@ class Packer {
     return radii;
   }
 
-  void add_listed(const ParticleList& list, CounterRandom& random) {
+  void add_listed(ParticleList list, CounterRandom& random) {
     const std::vector<double> radii = radii_of(list, random);
     for (std::size_t n = 0; n < radii.size(); ++n) {
-      const Vec3d& x = list.x[n];
+      Vec3d& x = list.x[n];
       const auto reject = [&](const char* why) {
         const auto what = fmt::format("grain {} at ({:g}, {:g}, {:g}) m {}", n + 1, x.x, x.y, x.z, why);
         if (list.file.empty()) fail(what);
         throw CaseError(list.place(n) + ": " + what);
       };
-      for (int k = 0; k < 3; ++k)
-        if (x[k] < config_.domain.min[k] || x[k] > config_.domain.max[k]) reject("lies outside the domain");
+      if (!lies_inside(config_.domain, x)) reject("lies outside the domain");
       const double allowed = 0.1 * radii[n];  // grains may be given in contact
       if (!clear_of_walls(x, radii[n], allowed)) reject("lies inside a wall");
       if (!placed_.is_free(x, radii[n] - allowed)) reject("lies inside another grain");
@@ -227,11 +226,15 @@ class Packer {
     }
   }
 
-  /// One after the other, wherever there is room; nothing if room runs out.
+  /// One after the other, the largest first, wherever there is room; nothing if room runs out.
   std::optional<std::vector<Vec3d>> random_places(const std::vector<double>& radii, CounterRandom& random) {
     const PlacedGrains before = placed_;
-    std::vector<Vec3d> places;
-    for (const double radius : radii) {
+    std::vector<std::size_t> order(radii.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) { return radii[i] > radii[j]; });
+    std::vector<Vec3d> places(radii.size());
+    for (const std::size_t n : order) {
+      const double radius = radii[n];
       bool found = false;
       for (int attempt = 0; attempt < kTries && !found; ++attempt) {
         Vec3d x;
@@ -241,12 +244,14 @@ class Packer {
           x[k] = lo + random.uniform() * std::max(0.0, hi - lo);
         }
         found = placed_.is_free(x, radius) && clear_of_walls(x, radius, 1e-6 * radius);
-        if (found) places.push_back(x), placed_.add(x, radius);
+        if (found) places[n] = x, placed_.add(x, radius);
       }
-      if (!found) break;
+      if (!found) {
+        placed_ = before;
+        return std::nullopt;
+      }
     }
     placed_ = before;
-    if (places.size() < radii.size()) return std::nullopt;
     return places;
   }
 

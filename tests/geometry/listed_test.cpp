@@ -86,6 +86,15 @@ TEST_F(Listed, GrainsKeepTheirSizesAndVelocities) {
   EXPECT_EQ(g.x[1], (Vec3d{0.04, 0.02, 0.03}));
 }
 
+TEST_F(Listed, RoundingPutsNothingOutsideTheDomain) {
+  fluid("x,y,z\n0.1000000015,-1e-7,0.03\n");  // 0.1 in single precision
+  config_.domain.min.y = 0;
+  EXPECT_EQ(error(), "p.csv:2: fluid particle 1 at (0.1, -1e-07, 0.03) m lies outside the domain");
+  fluid("x,y,z\n0.1000000015,0,0.03\n");
+  config_.fluid.fills.resize(1);
+  EXPECT_EQ(setup_of(config_).fluid.x[0], (Vec3d{0.1, 0, 0.03}));
+}
+
 TEST_F(Listed, GrainsMustLieInTheOpen) {
   grains("x,y,z\n0.05,0.05,0.05\n0.05,0.05,0.058\n");
   EXPECT_EQ(error(), "p.csv:3: grain 2 at (0.05, 0.05, 0.058) m lies inside another grain");

@@ -149,6 +149,18 @@ TEST(GrainPacking, DistributionsAreMixedAndMeetTheMass) {
   EXPECT_NEAR(radii[radii.size() / 2], 0.003, 1e-5);
 }
 
+TEST(GrainPacking, LargeGrainsFindTheirPlacesFirst) {
+  Config config = grain_case({0.1, 0.1, 0.1});
+  SizeClass size;
+  size.kind = "log_normal", size.median = 0.004, size.sigma = 0.35, size.d_min = 0.002, size.d_max = 0.012;
+  config.grain.d_min = 0.002, config.grain.d_max = 0.012;  // a lattice of such cells holds 512
+  config.grain.fills[0].sizes = {size};
+  config.grain.fills[0].packing_fraction = 0.28;
+  const auto grains = setup_of(config).grains;
+  EXPECT_GT(grains.x.size(), 4000u);
+  EXPECT_GE(closest_gap(grains, config.domain), 0);
+}
+
 TEST(GrainPacking, KeepsClearAcrossThePeriod) {
   Config config = grain_case({0.045, 0.045, 0.1});
   config.domain.periodic = {true, true, false};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bedload/case/config.hpp"
 #include "bedload/core/vec.hpp"
 
 namespace bedload {
@@ -20,6 +21,10 @@ struct ParticleList {
   /// Where particle n stands: "grains.csv:12", "grains.vtkhdf".
   std::string place(std::size_t n) const;
 };
+
+/// Whether `x` lies in the domain, to the rounding of positions in fp32; one beyond it by no more is put on
+/// its side.
+bool lies_inside(const DomainConfig& domain, Vec3d& x);
 
 /// Whether `file` has frames to choose from, by its name.
 bool has_frames(const std::filesystem::path& file);
