@@ -6,6 +6,7 @@
 
 #include "bedload/case/limits.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/output/preview.hpp"
 #include "commands.hpp"
 #include "prepare.hpp"
 #include "progress.hpp"
@@ -48,6 +49,10 @@ int check_case(const Options& options) {
   const Config& c = p.config;
   const Counts& n = p.counts;
   fmt::print("{}", summary_text(p));
+  if (!options.preview.empty()) {
+    write_preview(options.preview, c, p.setup);
+    fmt::print("preview    {}\n", (options.preview / "preview.png").string());
+  }
 
   const std::size_t bytes = estimate_bytes(c, n);
   fmt::print("memory     about {}; {} free\n", bytes_text(bytes), bytes_text(p.device.memory));

@@ -129,6 +129,39 @@ TEST_F(Program, ChecksACaseWithoutRunningIt) {
   EXPECT_FALSE(std::filesystem::exists(dir_ / "results"));
 }
 
+TEST_F(Program, ShowsWhatACaseStartsWith) {
+  write("dam.toml", kSmall);
+  const Outcome o = bedload("check dam.toml --backend cpu --preview look/here");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("preview    look/here/preview.png\n"), std::string::npos) << o.out;
+  EXPECT_TRUE(content_of(dir_ / "look/here/preview.png").starts_with("\x89PNG"));
+  EXPECT_NE(bedload("info look/here/grains.vtkhdf").out.find("40"), std::string::npos);
+  const auto size = std::filesystem::file_size(dir_ / "look/here/fluid.vtkhdf");
+  EXPECT_EQ(bedload("check dam.toml --backend cpu --preview look/here").code, 0);
+  EXPECT_EQ(std::filesystem::file_size(dir_ / "look/here/fluid.vtkhdf"), size);  // anew, not one frame more
+}
+
+TEST_F(Program, ShowsTheWallsOfDryCases) {
+  write("dam.toml", kSmall.substr(0, kSmall.find("[fluid]")) + kSmall.substr(kSmall.find("[[wall.body]]")));
+  const Outcome o = bedload("check dam.toml --backend cpu --preview look");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(bedload("info look/walls.vtkhdf").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "look/fluid.vtkhdf"));
+}
+
+TEST_F(Program, RefusesAFolderThatCannotTakeAPreview) {
+  write("dam.toml", kSmall);
+  const Outcome o = bedload("check dam.toml --backend cpu --preview dam.toml/look");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.err, "dam.toml/look: cannot write a preview there: Not a directory\n");
+  EXPECT_EQ(bedload("check dam.toml --backend cpu --preview dam.toml").err,
+            "dam.toml: cannot write a preview there: Not a directory\n");
+  ASSERT_EQ(bedload("run dam.toml --backend cpu --quiet --until 0.001 --out r").code, 0);
+  const Outcome run = bedload("check dam.toml --backend cpu --preview r");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(run.err, "r: holds a run; give --preview another folder\n");
+}
+
 TEST_F(Program, RefusesAFixedStepAboveItsLimit) {
   write("dam.toml", kSmall);
   const Outcome o = bedload("run dam.toml --backend cpu --set time.dt=0.1 --out r");
