@@ -56,7 +56,7 @@ void find_file(const Config& c, std::string& file, const Value& root, const std:
     reject(root, fill + ".file", fmt::format("\"{}\"", given), must);
   };
   if (path.extension() != ".csv" && !has_frames(path)) fail("must end in .csv or .vtkhdf");
-  if (needed && !fs::is_regular_file(path))
+  if (std::error_code unknown; needed && !fs::is_regular_file(path, unknown))
     fail(fmt::format("must be a file; there is no {}", path.string()));
   file = path.string();
 }

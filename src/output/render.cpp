@@ -88,7 +88,7 @@ class Renderer {
       }
   }
 
-  /// Calls put(pixel, q2) for the pixels of a disc; q2: squared distance from its centre over its radius.
+  /// Calls put(pixel, u, v) for the pixels of a disc, which u and v cross from -1 to 1.
   template <class Put>
   void for_disc(const Spot& at, double radius, Put put) const {
     const int x0 = std::max(0, int(std::ceil(at.x - radius))), x1 = std::min(width_ - 1, int(at.x + radius));
