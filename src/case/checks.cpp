@@ -40,6 +40,7 @@ class Checks {
     double particles = 0;
     for (std::size_t i = 0; i < f.fills.size(); ++i) {
       const std::string path = fmt::format("fluid.fill.{}", i);
+      if (!f.fills[i].file.empty()) continue;  // its particles are checked one by one
       box(path, f.fills[i].min, f.fills[i].max);
       if (!f.fills[i].solid.shape) {
         inside_domain(path + ".min", f.fills[i].min);
@@ -105,7 +106,7 @@ class Checks {
   void grains() const {
     const GrainConfig& g = c.grain;
     if (g.d_max > 20 * g.d_min)
-      fail("grain.fill", fmt::format("{}..{} m", g.d_min, g.d_max),
+      fail("grain.fill", fmt::format("{:.4g}..{:.4g} m", g.d_min, g.d_max),
            "must span at most a factor of 20 in diameter");
     for (std::size_t i = 0; i < g.fills.size(); ++i) grain_fill(fmt::format("grain.fill.{}", i), g.fills[i]);
     if (c.contact.k == 0)
@@ -257,7 +258,7 @@ class Checks {
   }
   void grain_fill(const std::string& path, const GrainFill& fill) const {
     for (const Vec3d& x : fill.positions) inside_domain(path + ".positions", x);
-    if (!fill.positions.empty()) return;
+    if (!fill.positions.empty() || !fill.file.empty()) return;
     box(path, fill.min, fill.max);
     if (!fill.solid.shape) {
       inside_domain(path + ".min", fill.min);

@@ -9,6 +9,8 @@ void describe_top(Parameters& p, Config& config);
 void describe_domain(Parameters& p, DomainConfig& domain);
 void describe_shapes(Parameters& p, std::vector<ShapeConfig>& shapes);
 void describe_frame(Parameters& p, FrameConfig& frame);
+/// Where a fill takes its particles from.
+void describe_fill_file(Parameters& p, std::string& file, std::int64_t& step, std::string_view meaning);
 void describe_fluid(Parameters& p, FluidConfig& fluid);
 void describe_fluid_models(Parameters& p, Config& config);
 void describe_walls(Parameters& p, WallConfig& wall);

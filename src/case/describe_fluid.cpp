@@ -1,5 +1,6 @@
 // Parameters of the fluid.
 
+#include "bedload/case/particle_file.hpp"
 #include "describe.hpp"
 
 namespace bedload {
@@ -8,9 +9,12 @@ namespace {
 using enum Presence;
 
 void fluid_fill(Parameters& p, FluidFill& f) {
-  p("shape", &f.shape,
-    {.meaning = "name of a shape to fill, instead of a box", .fallback = "none", .presence = optional});
-  if (f.shape.empty() || p.everything()) {
+  describe_fill_file(p, f.file, f.step,
+                     "particles of mass rho0 dx^3 from a .csv or .vtkhdf file, instead of a block");
+  if (f.file.empty() || p.everything())
+    p("shape", &f.shape,
+      {.meaning = "name of a shape to fill, instead of a box", .fallback = "none", .presence = optional});
+  if ((f.file.empty() && f.shape.empty()) || p.everything()) {
     p("min", &f.min, {.unit = "m", .meaning = "lower corner of a block of fluid", .presence = required});
     p("max", &f.max, {.unit = "m", .meaning = "upper corner", .presence = required});
   }
@@ -24,6 +28,13 @@ void fluid_fill(Parameters& p, FluidFill& f) {
 }
 
 }  // namespace
+
+void describe_fill_file(Parameters& p, std::string& file, std::int64_t& step, std::string_view meaning) {
+  p("file", &file, {.meaning = meaning, .fallback = "none", .presence = optional});
+  if (has_frames(file) || p.everything())
+    p("step", &step,
+      {.meaning = "frame of a .vtkhdf file, from 0; -1: the last", .range = within(-1, 2147483647)});
+}
 
 void describe_fluid(Parameters& p, FluidConfig& f) {
   p("fluid.dx", &f.dx, {.unit = "m", .meaning = "particle spacing", .range = above(0), .presence = required});

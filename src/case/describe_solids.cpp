@@ -134,14 +134,58 @@ void wall_body(Parameters& p, WallBody& b) {
 }
 
 void grain_size(Parameters& p, SizeClass& s) {
-  p("d", &s.d, {.unit = "m", .meaning = "diameter of this class", .range = above(0), .presence = required});
+  p("kind", &s.kind,
+    {.meaning = "one diameter or a distribution",
+     .family = "shapes",
+     .choices = {{"class", "all grains of diameter d"},
+                 {"uniform", "as many grains of any diameter between d_min and d_max"},
+                 {"log_normal", "by count about the median, cut at d_min and d_max"},
+                 {"sieve", "mass by mesh opening, log-linear in between"}}});
   p("share", &s.share, {.meaning = "share of the number of grains, relative", .range = above(0)});
+  const auto wanted = [&](const char* kind) { return s.kind == kind || p.everything(); };
+  if (wanted("class"))
+    p("d", &s.d, {.unit = "m", .meaning = "class: diameter", .range = above(0), .presence = required});
+  if (wanted("log_normal")) {
+    p("median", &s.median,
+      {.unit = "m", .meaning = "log_normal: median diameter", .range = above(0), .presence = required});
+    p("sigma", &s.sigma,
+      {.meaning = "log_normal: standard deviation of ln d", .range = above_to(0, 2), .presence = required});
+  }
+  if (wanted("log_normal") || wanted("uniform")) {
+    const bool uniform = s.kind == "uniform";
+    p("d_min", &s.d_min,
+      {.unit = "m",
+       .meaning = "uniform, log_normal: smallest diameter",
+       .range = uniform || s.median == 0 ? above(0) : Range{.lo = 0, .hi = s.median},
+       .fallback = "median exp(-3 sigma)",
+       .presence = uniform ? required : optional});
+    p("d_max", &s.d_max,
+      {.unit = "m",
+       .meaning = "uniform, log_normal: largest diameter",
+       .range = above(uniform ? s.d_min : s.median),
+       .fallback = "median exp(3 sigma)",
+       .presence = uniform ? required : optional});
+  }
+  if (wanted("sieve")) {
+    p("openings", &s.openings,
+      {.unit = "m",
+       .meaning = "sieve: of the meshes, finest first",
+       .range = above(0),
+       .presence = required});
+    p("passing", &s.passing,
+      {.meaning = "sieve: share of the mass that passes each mesh, from 0 to 1",
+       .range = within(0, 1),
+       .hint = "give fractions, not percent?",
+       .presence = required});
+  }
 }
 
 void grain_fill(Parameters& p, GrainFill& f) {
-  p("positions", &f.positions,
-    {.unit = "m", .meaning = "centres, instead of a box", .fallback = "none", .presence = optional});
-  if (f.positions.empty() || p.everything()) {
+  describe_fill_file(p, f.file, f.step, "grains from a .csv or .vtkhdf file, instead of a box");
+  if (f.file.empty() || p.everything())
+    p("positions", &f.positions,
+      {.unit = "m", .meaning = "centres, instead of a box", .fallback = "none", .presence = optional});
+  if ((f.file.empty() && f.positions.empty()) || p.everything()) {
     p("shape", &f.shape,
       {.meaning = "name of a shape to fill, instead of a box", .fallback = "none", .presence = optional});
     if (f.shape.empty() || p.everything()) {

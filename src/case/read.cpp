@@ -34,7 +34,8 @@ Value tree_of(const std::string& text, const std::string& name, const std::vecto
 }  // namespace
 
 Config read_case_text(const std::string& text, const std::string& name,
-                      const std::vector<std::string>& overrides, std::vector<std::string>& warnings) {
+                      const std::vector<std::string>& overrides, std::vector<std::string>& warnings,
+                      const std::filesystem::path& checkpoint) {
   const Value root = tree_of(text, name, overrides);
   reject_unknown(root);
 
@@ -45,14 +46,14 @@ Config read_case_text(const std::string& text, const std::string& name,
   Reader reader(root);
   describe(reader, config);
   reader.reject_unread();
-  resolve(config, root);
+  resolve(config, root, checkpoint);
   cross_check(config, root, warnings);
   return config;
 }
 
 Config read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
-                 std::vector<std::string>& warnings) {
-  return read_case_text(text_of(path), path.string(), overrides, warnings);
+                 std::vector<std::string>& warnings, const std::filesystem::path& checkpoint) {
+  return read_case_text(text_of(path), path.string(), overrides, warnings, checkpoint);
 }
 
 std::string place_in_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,

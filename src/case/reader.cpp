@@ -66,6 +66,16 @@ class Conversion {
       out->push_back(*name);
     }
   }
+  void operator()(std::vector<double>* out) const {
+    const char* shape = "must be a list of numbers [a, b, ...]";
+    const auto* list = value_.get<Value::Array>();
+    if (!list) reject(shape);
+    out->clear();
+    for (const Value& item : *list) {
+      out->push_back(number(item, shape));
+      if (!about_.range.holds(out->back())) reject("must hold numbers " + about_.range.text());
+    }
+  }
   void operator()(std::vector<MotionRow>* out) const {
     const char* shape = "must be a list of rows [[t, x, y, z], ...] or [[t, x, y, z, rx, ry, rz], ...]";
     const auto* list = value_.get<Value::Array>();

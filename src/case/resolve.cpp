@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <numbers>
 
+#include "bedload/case/grain_sizes.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/build_shape.hpp"
 #include "src/motion/survey.hpp"
@@ -139,9 +141,10 @@ struct FrameEffects {
   }
 };
 
-void resolve_fluid(Config& c, const Value& root) {
+void resolve_fluid(Config& c, const Value& root, const std::filesystem::path& checkpoint) {
   FluidConfig& f = c.fluid;
   if (f.fills.empty()) missing(root, "fluid.fill", "[[fluid.fill]] with min and max");
+  resolve_listed_fluid(c, root, checkpoint);
   const double g = norm(c.gravity);
   for (std::size_t i = 0; i < f.fills.size(); ++i) {
     FluidFill& fill = f.fills[i];
@@ -179,13 +182,39 @@ void resolve_fluid(Config& c, const Value& root) {
   if (c.wall.rep_r0 == 0) c.wall.rep_r0 = 0.5 * f.dx;
 }
 
-void resolve_grains(Config& c, const Value& root) {
+void check_sieve(const SizeClass& s, const Value& root, const std::string& path) {
+  const auto fail = [&](const char* list, const std::vector<double>& values, const std::string& must) {
+    reject(root, path + list, fmt::format("[{}]", fmt::join(values, ", ")), must);
+  };
+  if (s.openings.size() < 2) fail(".openings", s.openings, "must hold two openings or more");
+  if (s.passing.size() != s.openings.size())
+    fail(".passing", s.passing,
+         fmt::format("must hold a share for each of the {} openings", s.openings.size()));
+  if (std::adjacent_find(s.openings.begin(), s.openings.end(), std::greater_equal<>()) != s.openings.end())
+    fail(".openings", s.openings, "must rise from each to the next");
+  if (!std::is_sorted(s.passing.begin(), s.passing.end()))
+    fail(".passing", s.passing, "must not fall from the finer mesh to the coarser");
+  if (s.passing.front() != 0 || s.passing.back() != 1)
+    fail(".passing", s.passing,
+         "must begin with 0 and end with 1; add the meshes that stop and pass everything");
+}
+
+/// The ends of a log-normal distribution lie 3 sigma from its median.
+void resolve_size(SizeClass& s, const Value& root, const std::string& path) {
+  if (s.kind == "sieve") check_sieve(s, root, path);
+  if (s.kind != "log_normal") return;
+  if (s.d_min == 0) s.d_min = s.median * std::exp(-3 * s.sigma);
+  if (s.d_max == 0) s.d_max = s.median * std::exp(3 * s.sigma);
+}
+
+void resolve_grains(Config& c, const Value& root, const std::filesystem::path& checkpoint) {
   GrainConfig& g = c.grain;
   if (g.fills.empty()) missing(root, "grain.fill", "[[grain.fill]] with a box or positions");
   g.seed = c.seed;
   g.d_min = 1e300;
   for (std::size_t i = 0; i < g.fills.size(); ++i) {
     GrainFill& fill = g.fills[i];
+    if (!fill.file.empty() && resolve_listed_grains(c, i, root, checkpoint)) continue;
     if (fill.sizes.empty()) {
       if (g.d == 0) missing(root, "grain.d", "diameter, m, where a grain.fill has no sizes");
       fill.sizes = {{.d = g.d, .share = 1}};
@@ -197,9 +226,11 @@ void resolve_grains(Config& c, const Value& root) {
       const Bounds bounds = fill.solid.shape->bounds();
       fill.min = bounds.min, fill.max = bounds.max;
     }
-    for (const SizeClass& size : fill.sizes) {
-      g.d_max = std::max(g.d_max, size.d);
-      g.d_min = std::min(g.d_min, size.d);
+    for (std::size_t k = 0; k < fill.sizes.size(); ++k) {
+      resolve_size(fill.sizes[k], root, fmt::format("grain.fill.{}.sizes.{}", i, k));
+      const auto [smallest, largest] = size_range(fill.sizes[k]);
+      g.d_min = std::min(g.d_min, smallest);
+      g.d_max = std::max(g.d_max, largest);
     }
   }
   const double fall = height(std::vector<DomainConfig>{c.domain}, c.gravity);
@@ -237,21 +268,16 @@ double fill_volume(const GrainFill& fill) {
 double solid_volume(const GrainFill& fill, double rho) {
   if (fill.packing_fraction > 0) return fill.packing_fraction * fill_volume(fill);
   if (fill.mass > 0) return fill.mass / rho;
-  double volume = 0, shares = 0;
-  for (const SizeClass& size : fill.sizes) {
-    volume += size.share * std::numbers::pi / 6 * size.d * size.d * size.d;
-    shares += size.share;
-  }
-  return double(fill.count) * volume / shares;
+  return double(fill.count) * mean_volume(fill.sizes, std::size_t(fill.count));
 }
 
-void resolve(Config& c, const Value& root) {
+void resolve(Config& c, const Value& root, const std::filesystem::path& checkpoint) {
   resolve_shapes(c, root);
   resolve_walls(c, root);
   resolve_motions(c, root);
   if (c.frame.motion.moves()) c.frame.acceleration = FrameEffects(c).acceleration;
-  if (c.fluid.present) resolve_fluid(c, root);
-  if (c.grain.present) resolve_grains(c, root);
+  if (c.fluid.present) resolve_fluid(c, root, checkpoint);
+  if (c.grain.present) resolve_grains(c, root, checkpoint);
   if (c.fluid.present && c.grain.present && c.couple.hc == 0)
     c.couple.hc = std::max(c.fluid.h(), 4 * c.grain.d_max / c.fluid.kappa());
   if (c.out.diagnostics_every == 0) c.out.diagnostics_every = c.out.every;

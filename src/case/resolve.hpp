@@ -1,6 +1,7 @@
 #pragma once
 // From what the user gave to what the solver needs.
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,8 +11,17 @@
 namespace bedload {
 
 /// Fills in the defaults that follow from other parameters: sound speed, spacings,
-/// coupling length, grain sizes, intervals. Throws CaseError for values it needs and lacks.
-void resolve(Config& config, const Value& root);
+/// coupling length, grain sizes, intervals. Throws CaseError for values it needs and lacks. What follows from
+/// particles in files is read there, or from `checkpoint` if that is given.
+void resolve(Config& config, const Value& root, const std::filesystem::path& checkpoint = {});
+
+/// Fills in the boxes of fluid.fill that come from files: around the particles, half a spacing beyond them.
+void resolve_listed_fluid(Config& config, const Value& root, const std::filesystem::path& checkpoint);
+
+/// Fills in box and count of a grain.fill that comes from a file, and what its diameters mean for the case;
+/// false if the file has no diameters.
+bool resolve_listed_grains(Config& config, std::size_t index, const Value& root,
+                           const std::filesystem::path& checkpoint);
 
 /// Checks parameters against each other. Throws CaseError; appends warnings.
 void cross_check(const Config& config, const Value& root, std::vector<std::string>& warnings);

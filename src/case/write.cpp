@@ -41,9 +41,10 @@ struct ToText {
     for (const std::string& s : *list) out += (out.empty() ? "" : ", ") + scalar(s);
     return "[" + out + "]";
   }
-  std::string operator()(const std::vector<Vec3d>* list) const {
+  template <class T>
+  std::string operator()(const std::vector<T>* list) const {
     std::string out;
-    for (const Vec3d& v : *list) out += (out.empty() ? "" : ", ") + (*this)(&v);
+    for (const T& v : *list) out += (out.empty() ? "" : ", ") + (*this)(&v);
     return "[" + out + "]";
   }
   std::string operator()(const std::vector<MotionRow>* rows) const {

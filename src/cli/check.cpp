@@ -6,6 +6,7 @@
 
 #include "bedload/case/limits.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/output/preview.hpp"
 #include "commands.hpp"
 #include "prepare.hpp"
 #include "progress.hpp"
@@ -46,8 +47,12 @@ std::string limits_text(const char* title, const std::vector<StepLimit>& limits)
 int check_case(const Options& options) {
   Prepared p = prepare(options);
   const Config& c = p.config;
-  const Counts n = counts_of(p.setup);
+  const Counts& n = p.counts;
   fmt::print("{}", summary_text(p));
+  if (!options.preview.empty()) {
+    write_preview(options.preview, c, p.setup);
+    fmt::print("preview    {}\n", (options.preview / "preview.png").string());
+  }
 
   const std::size_t bytes = estimate_bytes(c, n);
   fmt::print("memory     about {}; {} free\n", bytes_text(bytes), bytes_text(p.device.memory));

@@ -75,6 +75,8 @@ Options parse_options(int argc, const char* const* argv) {
   CLI::App* check =
       app.add_subcommand("check", "Check a case: particles, step limits, memory, time; runs nothing");
   add_case_options(*check, o, precision, force_dt);
+  check->add_option("--preview", o.preview, "Write the initial particles and a picture of them there")
+      ->type_name("DIR");
 
   CLI::App* list = app.add_subcommand("list", "Show what a case may hold");
   list->add_option("family", o.family, "One of them; all if not given")->check(CLI::IsMember(families()));

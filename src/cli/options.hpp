@@ -12,6 +12,7 @@ struct Options {
   std::string command;                 ///< run, check, list, info; empty: `text` is all
   std::filesystem::path file;          ///< case, or what info shows
   std::filesystem::path out;           ///< results folder
+  std::filesystem::path preview;       ///< folder for a look at the start, with check
   std::filesystem::path restart;       ///< checkpoint to go on from
   std::string backend = "auto";        ///< auto, cpu, cuda
   std::vector<std::string> overrides;  ///< key=value, in order; shorthands such as --precision last

@@ -5,20 +5,40 @@
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/setup.hpp"
+#include "bedload/output/output.hpp"
 
 namespace bedload {
 
-Prepared prepare(const Options& options) {
-  Prepared p;
-  p.config = read_case(options.file, options.overrides, p.warnings);
-  p.device = find_device(options.backend, options.threads);
-  p.setup = build_setup(p.config, p.warnings);
-  return p;
-}
+namespace {
 
 Counts counts_of(const Setup& setup) {
   return {std::int64_t(setup.fluid.x.size()), std::int64_t(setup.walls.x.size()),
           std::int64_t(setup.grains.x.size())};
+}
+
+Counts counts_of(const SavedState& state) {
+  const auto count = [&](const std::string& name) {
+    for (const HostStore& store : state.stores)
+      if (store.name == name) return std::int64_t(store.count);
+    return std::int64_t(0);
+  };
+  return {count("fluid"), count("walls"), count("grains")};
+}
+
+}  // namespace
+
+Prepared prepare(const Options& options) {
+  Prepared p;
+  p.config = read_case(options.file, options.overrides, p.warnings, options.restart);
+  p.device = find_device(options.backend, options.threads);
+  if (options.restart.empty()) {
+    p.setup = build_setup(p.config, p.warnings);
+    p.counts = counts_of(p.setup);
+  } else {
+    p.restart = read_checkpoint(options.restart, p.config);
+    p.counts = counts_of(p.restart);
+  }
+  return p;
 }
 
 void check_fixed_step(Prepared& p, const Options& options, Simulation& simulation) {
@@ -49,7 +69,7 @@ std::string bytes_text(std::size_t bytes) {
 
 std::string summary_text(const Prepared& p) {
   const Config& c = p.config;
-  const Counts n = counts_of(p.setup);
+  const Counts& n = p.counts;
   std::string out = fmt::format("case       {}{}\n", c.file, c.title.empty() ? "" : " (" + c.title + ")");
   out += fmt::format("device     {}, {}; precision {}\n", p.device.backend, p.device.name, c.precision);
   out += fmt::format("particles  fluid {}, walls {}, grains {}\n", grouped(n.fluid), grouped(n.walls),

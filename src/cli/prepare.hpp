@@ -11,18 +11,18 @@
 
 namespace bedload {
 
-/// A case about to be computed.
+/// A case about to be computed, from its beginning or from a checkpoint.
 struct Prepared {
   Config config;
   Device device;
-  Setup setup;
+  Setup setup;         ///< none with a checkpoint
+  SavedState restart;  ///< none without
+  Counts counts;
   std::vector<std::string> warnings;
 };
 
-/// Reads the case, finds the device, lays the particles.
+/// Reads the case, finds the device, lays the particles or reads the checkpoint.
 Prepared prepare(const Options& options);
-
-Counts counts_of(const Setup& setup);
 
 /// Throws CaseError if time.dt is above a limit, or warns with time.force_dt. Call after start().
 void check_fixed_step(Prepared& prepared, const Options& options, Simulation& simulation);

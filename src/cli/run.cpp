@@ -56,14 +56,14 @@ class Run {
     const bool restart = !options_.restart.empty();
     const bool settle = !restart && p_.config.grain.present && p_.config.grain.settle;
     SavedState state;
-    if (restart) state = read_checkpoint(options_.restart, p_.config);
     if (settle) state = settled();
-    if (estimate_bytes(p_.config, counts_of(p_.setup)) > p_.device.memory)
+    if (estimate_bytes(p_.config, p_.counts) > p_.device.memory)
       p_.warnings.push_back("the case may need more memory than the device has free");
     simulation_ = make_simulation(p_.config, p_.setup, p_.device);
     p_.setup = {};  // as large as the simulation itself
     if (restart) {
-      simulation_->load(state);
+      simulation_->load(p_.restart);
+      p_.restart = {};
       say(fmt::format("restart    {} at t = {:.6g} s\n", options_.restart.string(), simulation_->time()));
     } else {
       if (settle) simulation_->load_grains(state);

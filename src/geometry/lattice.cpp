@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "bedload/case/formula.hpp"
 #include "bedload/core/error.hpp"
+#include "geometry/fill_velocity.hpp"
 #include "geometry/shape_fill.hpp"
 
 namespace bedload {
@@ -30,47 +30,13 @@ void check_fill(const Config& config, std::size_t index) {
           index + 1, "xyz"[k], fill.min[k], fill.max[k], config.domain.min[k], config.domain.max[k]));
   }
   for (std::size_t other = 0; other < index; ++other) {
-    bool apart = fill.solid.shape || fills[other].solid.shape;  // boxes around shapes may overlap
+    // boxes around shapes and listed particles may overlap
+    bool apart = fill.solid.shape || fills[other].solid.shape || !fills[other].file.empty();
     for (int k = 0; k < 3; ++k)
       apart |= fill.min[k] > fills[other].max[k] - slack || fills[other].min[k] > fill.max[k] - slack;
     if (!apart) throw CaseError(fmt::format("fluid.fill {} overlaps fluid.fill {}", index + 1, other + 1));
   }
 }
-
-/// The velocity formulas of a fill.
-class Velocity {
- public:
-  Velocity(const FluidFill& fill, std::size_t index) : fill_(fill), index_(index) {
-    for (int k = 0; k < 3; ++k) {
-      try {
-        formulas_.emplace_back(fill.velocity[k]);
-      } catch (const CaseError& error) {
-        fail(k, error.what());
-      }
-    }
-  }
-
-  /// m/s at x.
-  Vec3d operator()(const Vec3d& x) const {
-    Vec3d v;
-    for (int k = 0; k < 3; ++k) {
-      v[k] = formulas_[k](x);
-      if (!std::isfinite(v[k]))
-        fail(k, fmt::format("is not a number at ({:g}, {:g}, {:g}) m", x.x, x.y, x.z));
-    }
-    return v;
-  }
-
- private:
-  [[noreturn]] void fail(int k, const std::string& why) const {
-    throw CaseError(
-        fmt::format("fluid.fill {}: velocity {} = \"{}\": {}", index_ + 1, "xyz"[k], fill_.velocity[k], why));
-  }
-
-  const FluidFill& fill_;
-  std::size_t index_;
-  std::vector<Formula> formulas_;
-};
 
 void add_shape(const Config& config, std::size_t index, Setup::Fluid& fluid) {
   const FluidFill& fill = config.fluid.fills[index];
@@ -83,7 +49,7 @@ void add_shape(const Config& config, std::size_t index, Setup::Fluid& fluid) {
   };
   if (places.empty())
     fail(fmt::format("shape \"{}\" has no room for a particle of {:g} m", fill.shape, config.fluid.dx));
-  const Velocity velocity(fill, index);
+  const FillVelocity velocity(fill, index);
   const double mass = config.fluid.rho0 * volume / double(places.size());
   for (const Vec3d& x : places) {
     for (int k = 0; k < 3; ++k)
@@ -101,6 +67,7 @@ void add_shape(const Config& config, std::size_t index, Setup::Fluid& fluid) {
 void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::string>& warnings) {
   const double dx = config.fluid.dx;
   for (std::size_t index = 0; index < config.fluid.fills.size(); ++index) {
+    if (!config.fluid.fills[index].file.empty()) continue;
     check_fill(config, index);
     const FluidFill& fill = config.fluid.fills[index];
     if (fill.solid.shape) {
@@ -124,7 +91,7 @@ void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::strin
       throw CaseError(fmt::format("fluid.dx = {:g} m makes {:.3g} fluid particles: must be fewer than 2^31",
                                   dx, double(fluid.x.size()) + wanted));
 
-    const Velocity velocity(fill, index);
+    const FillVelocity velocity(fill, index);
     const double mass = config.fluid.rho0 * volume / wanted;
     for (std::int64_t k = 0; k < cells[2].count; ++k)
       for (std::int64_t j = 0; j < cells[1].count; ++j)

@@ -11,6 +11,8 @@
 #include <unordered_map>
 #include <utility>
 
+#include "bedload/case/grain_sizes.hpp"
+#include "bedload/case/particle_file.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/build_shape.hpp"
 #include "bedload/geometry/lattice.hpp"
@@ -110,10 +112,14 @@ class Packer {
     index_ = index;
     fill_ = &config_.grain.fills[index];
     CounterRandom random(config_.grain.seed, index);
-    const std::size_t count = fill_->positions.empty() ? wanted_count() : fill_->positions.size();
+    if (!fill_->file.empty()) return add_listed(read_particles(fill_->file, fill_->step), random);
+    if (!fill_->positions.empty()) {
+      ParticleList given;
+      given.x = fill_->positions;
+      return add_listed(given, random);
+    }
+    const std::size_t count = wanted_count();
     std::vector<double> radii = radii_of(count);
-    if (!fill_->positions.empty()) return add_given(radii);
-
     shuffle(radii, random);
     check_box();
     const double solid = std::transform_reduce(radii.begin(), radii.end(), 0.0, std::plus<>{}, sphere_volume);
@@ -127,17 +133,8 @@ class Packer {
     throw CaseError(fmt::format("grain.fill {}: {}", index_ + 1, why));
   }
 
-  std::vector<SizeClass> classes() const {
+  std::vector<SizeClass> sizes() const {
     return fill_->sizes.empty() ? std::vector<SizeClass>{{config_.grain.d, 1}} : fill_->sizes;
-  }
-
-  double mean_volume() const {
-    double volume = 0, shares = 0;
-    for (const SizeClass& size : classes()) {
-      volume += size.share * sphere_volume(size.d / 2);
-      shares += size.share;
-    }
-    return volume / shares;
   }
 
   double box_volume() const {
@@ -157,23 +154,18 @@ class Packer {
 
   std::size_t wanted_count() const {
     double n = double(fill_->count);
-    if (fill_->mass > 0) n = std::round(fill_->mass / (config_.grain.rho * mean_volume()));
-    if (fill_->packing_fraction > 0) n = std::round(fill_->packing_fraction * volume() / mean_volume());
+    if (fill_->mass > 0) n = std::round(count_for_volume(sizes(), fill_->mass / config_.grain.rho));
+    if (fill_->packing_fraction > 0)
+      n = std::round(count_for_volume(sizes(), fill_->packing_fraction * volume()));
     if (n < 1) fail("holds no grain; raise its count, mass or packing_fraction");
     if (n >= 2147483648.0) fail(fmt::format("{:.3g} grains: must be fewer than 2^31", n));
     return std::size_t(n);
   }
 
-  /// Radii by class; whole numbers as near to the shares as their sum allows.
+  /// Entry after entry of the sizes, those of a distribution from small to large.
   std::vector<double> radii_of(std::size_t count) const {
-    const auto sizes = classes();
-    double shares = 0, reached = 0;
-    for (const SizeClass& size : sizes) shares += size.share;
-    std::vector<double> radii;
-    for (const SizeClass& size : sizes) {
-      reached += size.share / shares;
-      radii.resize(std::size_t(std::llround(reached * double(count))), size.d / 2);
-    }
+    std::vector<double> radii = diameters(sizes(), count);
+    for (double& r : radii) r /= 2;
     return radii;
   }
 
@@ -186,7 +178,7 @@ class Packer {
 
   void check_box() const {
     double d = 0;
-    for (const SizeClass& size : classes()) d = std::max(d, size.d);
+    for (const SizeClass& size : sizes()) d = std::max(d, size_range(size).second);
     const double slack = 1e-6 * d;
     for (int k = 0; k < 3; ++k) {
       const double length = fill_->max[k] - fill_->min[k];
@@ -213,31 +205,55 @@ class Packer {
       if (x[k] < config_.domain.min[k] || x[k] > config_.domain.max[k])
         fail(fmt::format("shape \"{}\" reaches to ({:g}, {:g}, {:g}) m, outside the domain", fill_->shape,
                          x.x, x.y, x.z));
+    add(x, radius, fill_->velocity);
+  }
+  void add(const Vec3d& x, double radius, const Vec3d& v) {
     grains_.x.push_back(x);
-    grains_.v.push_back(fill_->velocity);
+    grains_.v.push_back(v);
     grains_.radius.push_back(radius);
     placed_.add(x, radius);
   }
 
-  void add_given(const std::vector<double>& radii) {
+  /// The radii of grains whose places are given: classes in their order, distributions mixed.
+  std::vector<double> radii_of(const ParticleList& list, CounterRandom& random) const {
+    std::vector<double> radii = list.d;
+    for (double& r : radii) r /= 2;
+    if (!radii.empty()) return radii;
+    radii = radii_of(list.x.size());
+    for (const SizeClass& size : sizes())
+      if (size.kind != "class") {
+        shuffle(radii, random);
+        break;
+      }
+    return radii;
+  }
+
+  void add_listed(ParticleList list, CounterRandom& random) {
+    const std::vector<double> radii = radii_of(list, random);
     for (std::size_t n = 0; n < radii.size(); ++n) {
-      const Vec3d& x = fill_->positions[n];
-      const auto where = fmt::format("grain {} at ({:g}, {:g}, {:g}) m", n + 1, x.x, x.y, x.z);
-      for (int k = 0; k < 3; ++k)
-        if (x[k] < config_.domain.min[k] || x[k] > config_.domain.max[k])
-          fail(where + " lies outside the domain");
+      Vec3d& x = list.x[n];
+      const auto reject = [&](const char* why) {
+        const auto what = fmt::format("grain {} at ({:g}, {:g}, {:g}) m {}", n + 1, x.x, x.y, x.z, why);
+        if (list.file.empty()) fail(what);
+        throw CaseError(list.place(n) + ": " + what);
+      };
+      if (!lies_inside(config_.domain, x)) reject("lies outside the domain");
       const double allowed = 0.1 * radii[n];  // grains may be given in contact
-      if (!clear_of_walls(x, radii[n], allowed)) fail(where + " lies inside a wall");
-      if (!placed_.is_free(x, radii[n] - allowed)) fail(where + " lies inside another grain");
-      add(x, radii[n]);
+      if (!clear_of_walls(x, radii[n], allowed)) reject("lies inside a wall");
+      if (!placed_.is_free(x, radii[n] - allowed)) reject("lies inside another grain");
+      add(x, radii[n], list.v.empty() ? fill_->velocity : list.v[n]);
     }
   }
 
-  /// One after the other, wherever there is room; nothing if room runs out.
+  /// One after the other, the largest first, wherever there is room; nothing if room runs out.
   std::optional<std::vector<Vec3d>> random_places(const std::vector<double>& radii, CounterRandom& random) {
     const PlacedGrains before = placed_;
-    std::vector<Vec3d> places;
-    for (const double radius : radii) {
+    std::vector<std::size_t> order(radii.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) { return radii[i] > radii[j]; });
+    std::vector<Vec3d> places(radii.size());
+    for (const std::size_t n : order) {
+      const double radius = radii[n];
       bool found = false;
       for (int attempt = 0; attempt < kTries && !found; ++attempt) {
         Vec3d x;
@@ -248,12 +264,14 @@ class Packer {
         }
         found = inside_shape(x, radius, 1e-6 * radius) && placed_.is_free(x, radius) &&
                 clear_of_walls(x, radius, 1e-6 * radius);
-        if (found) places.push_back(x), placed_.add(x, radius);
+        if (found) places[n] = x, placed_.add(x, radius);
       }
-      if (!found) break;
+      if (!found) {
+        placed_ = before;
+        return std::nullopt;
+      }
     }
     placed_ = before;
-    if (places.size() < radii.size()) return std::nullopt;
     return places;
   }
 

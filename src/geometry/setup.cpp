@@ -34,6 +34,7 @@ Setup build_setup(const Config& config, std::vector<std::string>& warnings) {
   if (config.fluid.present) {
     add_fluid(config, setup.fluid, warnings);
     check_fluid_is_clear(config, setup.fluid);
+    add_listed_fluid(config, setup.fluid, warnings);
     add_walls(config, setup.walls, warnings);
   }
   if (config.grain.present) add_grains(config, setup.grains);

@@ -175,6 +175,19 @@ void write_state(const std::filesystem::path& path, const SavedState& state, con
   }
 }
 
+std::map<std::string, double> checkpoint_setup(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path)) throw FileError(path.string() + ": cannot read: no such file");
+  return h5::with_file_errors(path, "restart from this", [&] {
+    if (!h5::is_hdf5(path)) throw h5::Error("it is no HDF5 file");
+    const Handle file = h5::open_file(path, h5::Mode::read);
+    if (!h5::has_attribute(file, "format")) throw h5::Error("it is no Bedload checkpoint");
+    const Handle setup = h5::open_group(file, "setup");
+    std::map<std::string, double> numbers;
+    for (const auto& name : h5::attributes(setup)) numbers[name] = h5::read_number(setup, name.c_str());
+    return numbers;
+  });
+}
+
 SavedState read_checkpoint(const std::filesystem::path& path, const Config& config) {
   if (!std::filesystem::is_regular_file(path)) throw FileError(path.string() + ": cannot read: no such file");
   return h5::with_file_errors(path, "restart from this", [&] {

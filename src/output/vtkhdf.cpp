@@ -130,6 +130,20 @@ std::int64_t last_of(hid_t parent, const std::string& name, std::size_t frames) 
   return frames == 0 ? 0 : read_integers(parent, name, frames).back();
 }
 
+/// Rows [first, first + count) of a stored array.
+HostArray read_array(hid_t parent, const std::string& name, std::int64_t first, std::int64_t count) {
+  const Handle table = open_dataset(parent, name);
+  const auto n = h5::extent(table);
+  HostArray a{.name = name,
+              .unit = h5::has_attribute(table, "unit") ? h5::read_text(table, "unit") : "-",
+              .type = h5::scalar_of(table),
+              .components = n.size() > 1 ? int(n[1]) : 1,
+              .bytes = {}};
+  a.bytes.resize(std::size_t(count) * a.components * size_of(a.type));
+  h5::read_rows(table, h5::memory_type(a.type), hsize_t(first), hsize_t(count), a.bytes.data());
+  return a;
+}
+
 void truncate(hid_t root, std::size_t frames) {
   const FrameIndex index(root);
   const auto cut = [&](hid_t parent, const std::string& name, std::int64_t rows) {
@@ -219,6 +233,24 @@ std::vector<double> FrameFile::times() const {
     std::vector<double> values(h5::read_integer(steps, "NSteps"));
     h5::read_rows(open_dataset(steps, "Values"), H5T_NATIVE_DOUBLE, 0, values.size(), values.data());
     return values;
+  });
+}
+
+HostStore FrameFile::read(std::size_t frame) const {
+  return h5::with_file_errors(path_, "read", [&] {
+    const Handle file = h5::open_file(path_, h5::Mode::read);
+    const Handle root = h5::open_group(file, "VTKHDF");
+    const FrameIndex index(root);
+    if (frame >= index.frames()) throw h5::Error("it has no such frame");
+    const std::int64_t count = index.count(frame);
+    HostStore store{path_.stem().string(), std::size_t(count), {}};
+    store.arrays.push_back(read_array(root, "Points", index.points[frame], count));
+    store.arrays.back().name = "position";
+    const Handle data = h5::open_group(root, "PointData");
+    const Handle offsets = h5::open_group(root, "Steps/PointDataOffsets");
+    for (const auto& name : h5::members(data))
+      store.arrays.push_back(read_array(data, name, read_integers(offsets, name, frame + 1).back(), count));
+    return store;
   });
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "bedload/geometry/depth.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -37,13 +38,14 @@ struct LayPass {
   }
 };
 
-/// Depth below the top of the fill that holds x, along gravity, m.
+/// Depth below the top of the block of fluid that holds x, along gravity, m.
 double depth_at(const Config& config, const Vec3d& gravity, const Vec3d& x) {
   const double g = norm(gravity);
   if (g == 0) return 0;
   const Vec3d up = gravity * (-1 / g);
   double depth = 0;
   for (const auto& fill : config.fluid.fills) {
+    if (!fill.file.empty()) continue;
     bool inside = true;
     double top = 0;
     for (int k = 0; k < 3; ++k) {
@@ -52,6 +54,19 @@ double depth_at(const Config& config, const Vec3d& gravity, const Vec3d& x) {
     }
     if (inside) depth = std::max(depth, std::min(top, fill.level) - dot(up, x));
   }
+  return depth;
+}
+
+/// Depth of each fluid particle, m: in its block, or among the particles themselves where a file gave some.
+std::vector<double> depths_of(const Config& config, const Vec3d& gravity, const std::vector<Vec3d>& x) {
+  std::vector<double> depth;
+  for (const Vec3d& at : x) depth.push_back(depth_at(config, gravity, at));
+  bool listed = false;
+  for (const auto& fill : config.fluid.fills) listed = listed || !fill.file.empty();
+  if (!listed || norm(gravity) == 0) return depth;
+  const auto below = depth_in_columns(x, gravity * (-1 / norm(gravity)), config.fluid.dx);
+  for (std::size_t a = 0; a < x.size(); ++a)
+    if (depth[a] == 0) depth[a] = below[a];
   return depth;
 }
 
@@ -145,9 +160,10 @@ void CoupledSimulation::lay_fluid() {
   std::vector<Real> pressure(fluid_.size(), Real(0));
   if (hydrostatic(config_)) {
     const Vec3d g = laid_gravity(config_, gravity_.at(0));
-    const auto x = fluid_.x.values();
-    for (Index a = 0; a < fluid_.size(); ++a)
-      pressure[a] = Real(config_.fluid.rho0 * norm(g) * depth_at(config_, g, coordinates(frame_, x[a])));
+    std::vector<Vec3d> x;
+    for (const auto& at : fluid_.x.values()) x.push_back(coordinates(frame_, at));
+    const std::vector<double> depth = depths_of(config_, g, x);
+    for (Index a = 0; a < fluid_.size(); ++a) pressure[a] = Real(config_.fluid.rho0 * norm(g) * depth[a]);
   }
   Buffer<Real> device;
   device.assign(pressure);

@@ -130,6 +130,37 @@ TEST(GrainPacking, SizesComeInTheirShares) {
   EXPECT_GE(closest_gap(grains, config.domain), 0);
 }
 
+TEST(GrainPacking, DistributionsAreMixedAndMeetTheMass) {
+  Config config = grain_case({0.1, 0.1, 0.1});
+  SizeClass size;
+  size.kind = "uniform", size.d_min = 0.003, size.d_max = 0.009;
+  config.grain.d_min = 0.003, config.grain.d_max = 0.009;
+  config.grain.fills[0].sizes = {size};
+  config.grain.fills[0].mass = 0.5;
+  const auto grains = setup_of(config).grains;
+  double mass = 0;
+  for (const double r : grains.radius) mass += 2500 * 4.0 / 3 * std::numbers::pi * r * r * r;
+  EXPECT_NEAR(mass, 0.5, 4e-4);  // a mean grain weighs 0.35 g
+  EXPECT_FALSE(std::is_sorted(grains.radius.begin(), grains.radius.end()));
+  EXPECT_GE(closest_gap(grains, config.domain), 0);
+  EXPECT_EQ(setup_of(config).grains.radius, grains.radius);
+  std::vector<double> radii = grains.radius;
+  std::sort(radii.begin(), radii.end());
+  EXPECT_NEAR(radii[radii.size() / 2], 0.003, 1e-5);
+}
+
+TEST(GrainPacking, LargeGrainsFindTheirPlacesFirst) {
+  Config config = grain_case({0.1, 0.1, 0.1});
+  SizeClass size;
+  size.kind = "log_normal", size.median = 0.004, size.sigma = 0.35, size.d_min = 0.002, size.d_max = 0.012;
+  config.grain.d_min = 0.002, config.grain.d_max = 0.012;  // a lattice of such cells holds 512
+  config.grain.fills[0].sizes = {size};
+  config.grain.fills[0].packing_fraction = 0.28;
+  const auto grains = setup_of(config).grains;
+  EXPECT_GT(grains.x.size(), 4000u);
+  EXPECT_GE(closest_gap(grains, config.domain), 0);
+}
+
 TEST(GrainPacking, KeepsClearAcrossThePeriod) {
   Config config = grain_case({0.045, 0.045, 0.1});
   config.domain.periodic = {true, true, false};

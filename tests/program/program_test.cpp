@@ -129,6 +129,39 @@ TEST_F(Program, ChecksACaseWithoutRunningIt) {
   EXPECT_FALSE(std::filesystem::exists(dir_ / "results"));
 }
 
+TEST_F(Program, ShowsWhatACaseStartsWith) {
+  write("dam.toml", kSmall);
+  const Outcome o = bedload("check dam.toml --backend cpu --preview look/here");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("preview    look/here/preview.png\n"), std::string::npos) << o.out;
+  EXPECT_TRUE(content_of(dir_ / "look/here/preview.png").starts_with("\x89PNG"));
+  EXPECT_NE(bedload("info look/here/grains.vtkhdf").out.find("40"), std::string::npos);
+  const auto size = std::filesystem::file_size(dir_ / "look/here/fluid.vtkhdf");
+  EXPECT_EQ(bedload("check dam.toml --backend cpu --preview look/here").code, 0);
+  EXPECT_EQ(std::filesystem::file_size(dir_ / "look/here/fluid.vtkhdf"), size);  // anew, not one frame more
+}
+
+TEST_F(Program, ShowsTheWallsOfDryCases) {
+  write("dam.toml", kSmall.substr(0, kSmall.find("[fluid]")) + kSmall.substr(kSmall.find("[[wall.body]]")));
+  const Outcome o = bedload("check dam.toml --backend cpu --preview look");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(bedload("info look/walls.vtkhdf").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "look/fluid.vtkhdf"));
+}
+
+TEST_F(Program, RefusesAFolderThatCannotTakeAPreview) {
+  write("dam.toml", kSmall);
+  const Outcome o = bedload("check dam.toml --backend cpu --preview dam.toml/look");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_EQ(o.err, "dam.toml/look: cannot write a preview there: Not a directory\n");
+  EXPECT_EQ(bedload("check dam.toml --backend cpu --preview dam.toml").err,
+            "dam.toml: cannot write a preview there: Not a directory\n");
+  ASSERT_EQ(bedload("run dam.toml --backend cpu --quiet --until 0.001 --out r").code, 0);
+  const Outcome run = bedload("check dam.toml --backend cpu --preview r");
+  EXPECT_EQ(run.code, 2);
+  EXPECT_EQ(run.err, "r: holds a run; give --preview another folder\n");
+}
+
 TEST_F(Program, RefusesAFixedStepAboveItsLimit) {
   write("dam.toml", kSmall);
   const Outcome o = bedload("run dam.toml --backend cpu --set time.dt=0.1 --out r");
@@ -209,6 +242,66 @@ TEST_F(Program, ARestartedRunEqualsAnUnbrokenOne) {
   ASSERT_EQ(o.code, 0) << o.err;
 
   expect_same_checkpoints("whole", "parts");
+}
+
+TEST_F(Program, ARestartNeedsNoFileOfInitialParticles) {
+  std::string text = kSmall, table = "x,y,z,d\n";
+  const std::string box = "min = [0, 0, 0]\nmax = [0.05, 0.06, 0.03]\ncount = 40\n";
+  text.replace(text.find(box), box.size(), "file = \"grains.csv\"\n");
+  for (int n = 0; n < 40; ++n)
+    table += std::to_string(0.005 + 0.007 * (n % 5)) + "," + std::to_string(0.005 + 0.007 * (n / 5)) +
+             ",0.01," + (n % 2 ? "0.005" : "0.004") + "\n";
+  write("dam.toml", text);
+  write("grains.csv", table);
+  const std::string run = "run dam.toml --backend cpu --quiet ";
+  ASSERT_EQ(bedload(run + "--out whole").code, 0);
+  ASSERT_EQ(bedload(run + "--out parts --until 0.01").code, 0);
+  std::filesystem::path middle;
+  for (const auto& entry : std::filesystem::directory_iterator(dir_ / "parts/checkpoints"))
+    middle = entry.path();
+  std::filesystem::remove(dir_ / "grains.csv");
+  const Outcome o = bedload(run + "--out parts --restart " + middle.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  expect_same_checkpoints("whole", "parts");
+  const Outcome missing = bedload(run + "--out other");
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_TRUE(
+      missing.err.starts_with("dam.toml:21: grain.fill.file = \"grains.csv\" must be a file; there is no "))
+      << missing.err;
+}
+
+TEST_F(Program, TheBedFollowsTheContentsOfItsFile) {
+  std::string text = kSmall;
+  const std::string box = "min = [0, 0, 0]\nmax = [0.05, 0.06, 0.03]\ncount = 40\n";
+  text.replace(text.find(box), box.size(), "file = \"grains.csv\"\n");
+  write("dam.toml", text);
+  const auto run = [&](const std::string& table, const std::string& out) {
+    write("grains.csv", table);
+    const Outcome o = bedload("run dam.toml --backend cpu --until 0.001 --out " + out);
+    EXPECT_EQ(o.code, 0) << o.err;
+    return o.out.find("settled    as kept in ") != std::string::npos;
+  };
+  const std::string three = "x,y,z\n0.01,0.01,0.01\n0.03,0.01,0.02\n0.03,0.01,0.01\n";
+  const std::string moved = "x,y,z\n0.01,0.01,0.01\n0.03,0.01,0.02\n0.02,0.01,0.015\n";
+  EXPECT_FALSE(run(three, "a"));
+  EXPECT_TRUE(run(three, "b"));
+  EXPECT_FALSE(run(moved, "c"));  // within the same box
+}
+
+TEST_F(Program, GoesOnFromTheFramesOfAFormerRun) {
+  write("dam.toml", kSmall);
+  ASSERT_EQ(bedload("run dam.toml --backend cpu --quiet --out former").code, 0);
+  std::string text = kSmall;
+  const std::string box = "min = [0, 0, 0]\nmax = [0.05, 0.06, 0.03]\ncount = 40\n",
+                    block = "min = [0, 0, 0]\nmax = [0.05, 0.06, 0.05]\n[[wall";
+  text.replace(text.find(box), box.size(), "file = \"former/grains.vtkhdf\"\n");
+  text.replace(text.find(block), block.size(), "file = \"former/fluid.vtkhdf\"\nstep = 1\n[[wall");
+  text.replace(text.find("settle = true\nsettle_time = 0.05\n"), 33, "");
+  write("again.toml", text);
+  const Outcome o = bedload("run again.toml --backend cpu --out again");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("fluid 150, walls "), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("grains 40"), std::string::npos) << o.out;
 }
 
 TEST_F(Program, ASignalEndsTheRunWithACheckpoint) {

@@ -51,13 +51,15 @@ struct ShapeConfig {
   bool operator==(const ShapeConfig&) const = default;
 };
 
-/// A block of fluid, laid on a lattice of spacing fluid.dx.
+/// A block of fluid, laid on a lattice of spacing fluid.dx, or the particles of a file.
 struct FluidFill {
-  Vec3d min, max;                              ///< box, m; of a shape: around what is filled (resolved)
+  Vec3d min, max;                              ///< box, m; of a shape or a file: around what is filled (resolved)
   std::array<std::string, 3> velocity{"0", "0", "0"};  ///< formulas in x, y, z, m/s
   std::string shape = {};                      ///< name of a shape to fill instead of a box
   double level = std::numeric_limits<double>::infinity();  ///< shape: filled up to this height, m
   Solid solid = {};                            ///< resolved
+  std::string file{};                          ///< particles instead of a lattice; absolute (resolved)
+  std::int64_t step = -1;                      ///< frame of a .vtkhdf file; -1: the last
   bool operator==(const FluidFill&) const = default;
 };
 
@@ -159,16 +161,22 @@ struct WallConfig {
   bool operator==(const WallConfig&) const = default;
 };
 
-/// Grain sizes: one or several classes, each with a share of the count.
+/// Grain sizes: one of several entries, each with a share of the count; one diameter or a distribution.
 struct SizeClass {
-  double d = 0;                                ///< diameter, m
+  double d = 0;                                ///< class: diameter, m
   double share = 1;                            ///< of the number of grains
+  std::string kind = "class";                  ///< class, uniform, log_normal, sieve
+  double d_min = 0, d_max = 0;                 ///< uniform, log_normal: ends, m
+  double median = 0;                           ///< log_normal: m
+  double sigma = 0;                            ///< log_normal: standard deviation of ln d
+  std::vector<double> openings{};              ///< sieve: of its meshes, m
+  std::vector<double> passing{};               ///< sieve: share of the mass that each lets through
   bool operator==(const SizeClass&) const = default;
 };
 
-/// Where grains come from: thrown at random into a box or a shape, then settled.
+/// Where grains come from: thrown at random into a box or a shape, then settled; or given one by one.
 struct GrainFill {
-  Vec3d min, max;                              ///< m; of a shape: around it (resolved)
+  Vec3d min, max;                              ///< m; of a shape or a file: around it (resolved)
   std::string shape;                           ///< name of a shape to fill instead of a box
   Solid solid;                                 ///< resolved
   std::int64_t count = 0;                      ///< exactly one of count, mass, packing_fraction
@@ -177,6 +185,8 @@ struct GrainFill {
   std::vector<SizeClass> sizes;                ///< default: one class, grain.d
   std::vector<Vec3d> positions;                ///< explicit centres instead of random ones, m
   Vec3d velocity;                              ///< m/s
+  std::string file{};                          ///< grains instead of a box; absolute (resolved)
+  std::int64_t step = -1;                      ///< frame of a .vtkhdf file; -1: the last
   bool operator==(const GrainFill&) const = default;
 };
 

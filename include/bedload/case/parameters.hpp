@@ -59,8 +59,8 @@ struct About {
 using Formulas = std::array<std::string, 3>;
 using Faces = std::array<bool, 6>;
 using Slot = std::variant<bool*, std::int64_t*, std::uint64_t*, double*, std::string*, Vec3d*, Formulas*,
-                          std::array<bool, 3>*, Faces*, std::vector<Vec3d>*, std::vector<std::string>*,
-                          std::vector<MotionRow>*>;
+                          std::array<bool, 3>*, Faces*, std::vector<double>*, std::vector<Vec3d>*,
+                          std::vector<std::string>*, std::vector<MotionRow>*>;
 
 /// Names of the six sides, in the order of WallBody::faces.
 inline constexpr std::array<std::string_view, 6> kFaces{"x-", "x+", "y-", "y+", "z-", "z+"};

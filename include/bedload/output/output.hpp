@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -64,6 +65,10 @@ class RunOutput {
 /// The state in a checkpoint made for this case: same precision, same particles.
 /// Throws FileError with file and reason.
 SavedState read_checkpoint(const std::filesystem::path& path, const Config& config);
+
+/// The numbers by which a checkpoint knows the particles of its case, e.g. "grain.fill.0.count". Throws
+/// FileError.
+std::map<std::string, double> checkpoint_setup(const std::filesystem::path& path);
 
 /// Writes a checkpoint: first beside its place, then synced and renamed. The same
 /// state gives the same bytes. Throws FileError.

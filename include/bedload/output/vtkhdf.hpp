@@ -27,6 +27,9 @@ class FrameFile {
   /// Times of the frames, s; none if there is no file.
   std::vector<double> times() const;
 
+  /// One frame, as stored; the first array is the position. Throws FileError.
+  HostStore read(std::size_t frame) const;
+
   /// Drops all frames but the first `count`.
   void keep(std::size_t count) const;
 

@@ -1,0 +1,181 @@
+#include "bedload/case/particle_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "bedload/core/error.hpp"
+#include "bedload/output/files.hpp"
+#include "bedload/output/vtkhdf.hpp"
+
+namespace bedload {
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view blank = " \t\r\"";
+  const auto from = text.find_first_not_of(blank);
+  return from == text.npos ? std::string_view() : text.substr(from, text.find_last_not_of(blank) - from + 1);
+}
+
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  while (true) {
+    const auto comma = line.find(',');
+    cells.push_back(trimmed(line.substr(0, comma)));
+    if (comma == line.npos) return cells;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// A table of numbers, read line by line.
+class ParticleTable {
+ public:
+  explicit ParticleTable(const std::filesystem::path& file) : file_(file), text_(read_file(file)) {}
+
+  ParticleList read() {
+    ParticleList list;
+    list.file = file_;
+    if (!next_line()) fail("holds no line of column names");
+    name_columns();
+    while (next_line()) {
+      cells_ = cells_of(line_);
+      if (cells_.size() != names_.size())
+        fail(
+            fmt::format("has {} values where the first line names {} columns", cells_.size(), names_.size()));
+      list.line.push_back(number_);
+      list.x.push_back(vector({"x", "y", "z"}));
+      if (has("vx")) list.v.push_back(vector({"vx", "vy", "vz"}));
+      if (has("d")) list.d.push_back(length("d"));
+      if (has("radius")) list.d.push_back(2 * length("radius"));
+    }
+    if (list.x.empty()) fail("holds no particles");
+    return list;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const {
+    throw CaseError(fmt::format("{}:{}: {}", file_.string(), std::max<std::int64_t>(number_, 1), why));
+  }
+
+  /// The next line that is neither empty nor a remark.
+  bool next_line() {
+    while (at_ < text_.size()) {
+      const auto end = std::min(text_.find('\n', at_), text_.size());
+      line_ = trimmed(std::string_view(text_).substr(at_, end - at_));
+      at_ = end + 1;
+      ++number_;
+      if (!line_.empty() && line_.front() != '#') return true;
+    }
+    return false;
+  }
+
+  void name_columns() {
+    for (const std::string_view cell : cells_of(line_)) {
+      const auto bracket = cell.find('[');
+      const std::string name(trimmed(cell.substr(0, bracket)));
+      if (has(name) && !name.empty()) fail(fmt::format("has two columns {}", name));
+      names_.push_back(name);
+      const std::string unit = name == "vx" || name == "vy" || name == "vz" ? "[m/s]" : "[m]";
+      const bool ours = std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+      if (ours && bracket != cell.npos && cell.substr(bracket) != unit)
+        fail(fmt::format("column {} must be in {}", cell, unit));
+    }
+    for (const char* name : {"x", "y", "z"}) need(name, "");
+    if (has("vx") || has("vy") || has("vz"))
+      for (const char* name : {"vx", "vy", "vz"}) need(name, " beside the other velocities");
+    if (has("d") && has("radius")) fail("has both columns d and radius; one of them is enough");
+  }
+  void need(const char* name, const char* why) const {
+    if (!has(name)) fail(fmt::format("has no column {}{}; it names {}", name, why, fmt::join(names_, ", ")));
+  }
+
+  bool has(std::string_view name) const {
+    return std::find(names_.begin(), names_.end(), name) != names_.end();
+  }
+
+  double number(std::string_view name) const {
+    const std::string_view cell = cells_[std::find(names_.begin(), names_.end(), name) - names_.begin()];
+    double value = 0;
+    const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
+    const auto [end, error] = std::from_chars(begin, cell.data() + cell.size(), value);
+    if (cell.empty() || error != std::errc() || end != cell.data() + cell.size())
+      fail(fmt::format("{} = \"{}\" must be a number", name, cell));
+    if (!std::isfinite(value)) fail(fmt::format("{} = {} must be finite", name, cell));
+    return value;
+  }
+  Vec3d vector(std::array<const char*, 3> names) const {
+    return {number(names[0]), number(names[1]), number(names[2])};
+  }
+  double length(const char* name) const {
+    const double value = number(name);
+    if (!(value > 0)) fail(fmt::format("{} = {} must be > 0", name, value));
+    return value;
+  }
+
+  static constexpr std::array<std::string_view, 8> kNames{"x", "y", "z", "d", "radius", "vx", "vy", "vz"};
+
+  std::filesystem::path file_;
+  std::string text_;
+  std::size_t at_ = 0;
+  std::int64_t number_ = 0;
+  std::string_view line_;
+  std::vector<std::string> names_;
+  std::vector<std::string_view> cells_;
+};
+
+double component(const HostArray& a, std::size_t n) {
+  return a.type == Scalar::f32 ? double(a.as<float>()[n]) : a.as<double>()[n];
+}
+
+std::vector<Vec3d> vectors(const HostArray& a) {
+  std::vector<Vec3d> out;
+  for (std::size_t n = 0; n < a.count(); ++n)
+    out.push_back({component(a, 3 * n), component(a, 3 * n + 1), component(a, 3 * n + 2)});
+  return out;
+}
+
+ParticleList read_frame(const std::filesystem::path& file, std::int64_t step) {
+  const FrameFile frames(file);
+  const auto count = std::int64_t(frames.times().size());
+  if (step >= count || count == 0)
+    throw CaseError(count == 0 ? fmt::format("{}: holds no frame", file.string())
+                               : fmt::format("{}: has no frame {}; they are numbered 0 to {}", file.string(),
+                                             step, count - 1));
+  const HostStore store = frames.read(std::size_t(step < 0 ? count - 1 : step));
+  ParticleList list;
+  list.file = file;
+  list.x = vectors(store.arrays.at(0));
+  if (const HostArray* v = store.find("velocity"); v && v->components == 3) list.v = vectors(*v);
+  if (const HostArray* r = store.find("radius"); r && r->components == 1)
+    for (std::size_t n = 0; n < r->count(); ++n) list.d.push_back(2 * component(*r, n));
+  if (list.x.empty()) throw CaseError(fmt::format("{}: holds no particles in that frame", file.string()));
+  return list;
+}
+
+}  // namespace
+
+std::string ParticleList::place(std::size_t n) const {
+  return line.empty() ? file.string() : fmt::format("{}:{}", file.string(), line[n]);
+}
+
+bool lies_inside(const DomainConfig& domain, Vec3d& x) {
+  for (int k = 0; k < 3; ++k) {
+    const double lo = domain.min[k], hi = domain.max[k];
+    const double slack = 1e-7 * std::max(std::abs(lo), std::abs(hi));
+    if (x[k] < lo - slack || x[k] > hi + slack) return false;
+    x[k] = std::clamp(x[k], lo, hi);
+  }
+  return true;
+}
+
+bool has_frames(const std::filesystem::path& file) { return file.extension() == ".vtkhdf"; }
+
+ParticleList read_particles(const std::filesystem::path& file, std::int64_t step) {
+  return has_frames(file) ? read_frame(file, step) : ParticleTable(file).read();
+}
+
+}  // namespace bedload

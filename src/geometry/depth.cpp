@@ -1,0 +1,40 @@
+#include "bedload/geometry/depth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <tuple>
+
+#include "geometry/surface_point.hpp"
+
+namespace bedload {
+
+std::vector<double> depth_in_columns(const std::vector<Vec3d>& x, const Vec3d& up, double spacing) {
+  const Vec3d along = perpendicular(up), across = cross(up, along);
+  using Column = std::pair<std::int64_t, std::int64_t>;
+  std::vector<Column> column;
+  std::vector<double> height;
+  for (const Vec3d& at : x) {
+    column.emplace_back(std::floor(dot(along, at) / (2 * spacing)),
+                        std::floor(dot(across, at) / (2 * spacing)));
+    height.push_back(dot(up, at));
+  }
+  std::vector<std::size_t> order(x.size());  // column by column, from the top
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::tuple(column[a], -height[a], a) < std::tuple(column[b], -height[b], b);
+  });
+  std::vector<double> depth(x.size());
+  double top = 0;
+  for (std::size_t n = 0; n < order.size(); ++n) {
+    const std::size_t a = order[n];
+    const bool connected =
+        n > 0 && column[order[n - 1]] == column[a] && height[order[n - 1]] - height[a] <= 3 * spacing;
+    if (!connected) top = height[a] + spacing / 2;
+    depth[a] = top - height[a];
+  }
+  return depth;
+}
+
+}  // namespace bedload

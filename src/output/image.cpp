@@ -1,0 +1,57 @@
+#include "bedload/output/image.hpp"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "bedload/core/error.hpp"
+#include "font.hpp"
+
+namespace bedload {
+
+void Image::line(double x0, double y0, double x1, double y1, const Colour& colour) {
+  const int steps = std::max(1, int(std::ceil(std::max(std::abs(x1 - x0), std::abs(y1 - y0)))));
+  for (int n = 0; n <= steps; ++n) {
+    const double s = double(n) / steps;
+    set(int(std::lround(x0 + s * (x1 - x0))), int(std::lround(y0 + s * (y1 - y0))), colour);
+  }
+}
+
+void Image::dot(double x, double y, double radius, const Colour& colour) {
+  for (int j = int(std::floor(y - radius)); j <= int(std::ceil(y + radius)); ++j)
+    for (int i = int(std::floor(x - radius)); i <= int(std::ceil(x + radius)); ++i)
+      if ((i - x) * (i - x) + (j - y) * (j - y) <= radius * radius) set(i, j, colour);
+}
+
+void Image::text(int x, int y, std::string_view text, const Colour& colour, int scale) {
+  for (const char character : text) {
+    for (int row = 0; row < kGlyphHeight * scale; ++row)
+      for (int column = 0; column < kGlyphWidth * scale; ++column)
+        if (glyph_dot(character, column / scale, row / scale)) set(x + column, y + row, colour);
+    x += (kGlyphWidth + 1) * scale;
+  }
+}
+
+void Image::write_png(const std::filesystem::path& path) const {
+  std::vector<png_byte> bytes;
+  bytes.reserve(3 * pixels_.size());
+  for (const Colour& c : pixels_)
+    for (const float part : {c.r, c.g, c.b})
+      bytes.push_back(png_byte(std::lround(255 * std::clamp(part, 0.0f, 1.0f))));
+  png_image png;
+  std::memset(&png, 0, sizeof png);
+  png.version = PNG_IMAGE_VERSION;
+  png.width = png_uint_32(width_);
+  png.height = png_uint_32(height_);
+  png.format = PNG_FORMAT_RGB;
+  if (!png_image_write_to_file(&png, path.c_str(), 0, bytes.data(), 0, nullptr))
+    throw FileError(fmt::format("{}: cannot write: {}", path.string(), png.message));
+}
+
+int text_width(std::string_view text, int scale) { return int(text.size()) * (kGlyphWidth + 1) * scale; }
+int text_height(int scale) { return kGlyphHeight * scale; }
+
+}  // namespace bedload
