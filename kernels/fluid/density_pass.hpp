@@ -6,6 +6,8 @@ namespace bedload::inline BL_VARIANT {
 /// Continuity [H (6)], [R (7)] with density diffusion (Fourtakas et al. 2019): advances
 /// s = rho~/rho0 - 1 over `dt`. Kick-drift-kick evaluates pairs half a step back (`back` = dt/2,
 /// with the half-step velocities), which makes the step reversible; Euler where they are (0).
+/// Continuity is how the sum of m W changes; a wall's mass changes with its porosity, which belongs to it:
+/// else fluid that enters a bed in its midst and leaves it along a wall comes out ever denser.
 template <class W>
 struct DensityPass {
   W w;
@@ -21,9 +23,9 @@ struct DensityPass {
   template <class N = Real>
   struct Sum {
     Vec3<N> v;
-    N rho, rate, diffused;
+    N rho, rate, diffused, came;
   };
-  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), m_state[a].z, 0, 0}; }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), m_state[a].z, 0, 0, 0}; }
 
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N) const {
@@ -41,13 +43,16 @@ struct DensityPass {
     const Vec3<N> v = sum.v - vb.xyz();
     const Vec3<N> rm = r - back * v;
     sum.rate += mb.x * w.F(norm(rm)) * dot(v, rm);
+    // m W changes by m dW on the way and by W dm where it began: walls that slide past a bed bring nothing
+    sum.came += mb.w * w.W(norm(r - dt * v));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.rate += other.rate;
     into.diffused += other.diffused;
+    into.came += other.came;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    s_new[a] = s[a] + dt * (diffusion * eps[a] * sum.diffused - sum.rate) / rho0;
+    s_new[a] = s[a] + (dt * (diffusion * eps[a] * sum.diffused - sum.rate) + sum.came) / rho0;
   }
 };
 

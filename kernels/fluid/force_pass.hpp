@@ -54,8 +54,10 @@ struct ForcePass {
     sum.theta += pressure_term(mb.x, sum.m.y, mb.y, F) * r;
     if (mu > 0) sum.theta -= morris_term(mb.x, 2 * mu, sum.v.w, vb.w, r2, F, square(w.h)) * v;
     const N rho_mean = Real(0.5) * (sum.v.w + vb.w);
-    if (artificial.alpha > 0 || artificial.beta > 0)
-      sum.other += artificial.term(mb.x, dot(v, r), rho_mean, r2, F) * r;
+    if (artificial.acts()) {
+      const N solid = 1 - Real(0.5) * (sum.v.w / sum.m.z + vb.w / mb.z);  // porosity = rho~ / rho
+      sum.other += artificial.term(mb.x, dot(v, r), rho_mean, solid, r2, F) * r;
+    }
     if (tensile.s_negative > 0) sum.other += mb.x * tensile.R(w.W(distance), sum.m.y, mb.y) * F * r;
     if (xsph_factor > 0) sum.xsph -= xsph_factor * mb.x * w.W(distance) / rho_mean * v;
   }

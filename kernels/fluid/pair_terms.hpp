@@ -18,13 +18,19 @@ BL_HD N morris_term(N m_b, Real mu_sum, N rho_a, N rho_b, N r2, N F, Real h2) {
   return m_b * mu_sum * r2 * F / (rho_a * rho_b * (r2 + Real(0.01) * h2));
 }
 
-/// Artificial viscosity (Monaghan 1992): times r gives the acceleration; zero for receding pairs.
+/// Artificial viscosity (Monaghan 1992): times r gives the acceleration; zero for receding pairs. Among grains
+/// it is stronger by `bed` times the share that they fill: averaged pressure, its reaction and a porosity that
+/// changes from place to place exchange energy only up to the error of their sums, and without damping the
+/// water in a bed at rest would stir itself.
 struct ArtificialViscosity {
-  Real alpha = 0, beta = 0, c = 0, h = 0;
+  Real alpha = 0, beta = 0, bed = 0, c = 0, h = 0;
+  BL_HD bool acts() const { return alpha > 0 || beta > 0 || bed > 0; }
+  /// solid: mean solid fraction of the two.
   template <class N>
-  BL_HD N term(N m_b, N v_dot_r, N rho_mean, N r2, N F) const {
+  BL_HD N term(N m_b, N v_dot_r, N rho_mean, N solid, N r2, N F) const {
     const N mu = h * v_dot_r / (r2 + Real(0.01) * h * h);
-    return select(v_dot_r < N(0), m_b * (-alpha * c * mu + beta * mu * mu) / rho_mean * F, N(0));
+    const N linear = (alpha + bed * solid) * c;
+    return select(v_dot_r < N(0), m_b * (beta * mu * mu - linear * mu) / rho_mean * F, N(0));
   }
 };
 

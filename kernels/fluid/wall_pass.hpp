@@ -6,7 +6,8 @@
 namespace bedload::inline BL_VARIANT {
 
 /// State of wall particles from the fluid beside them (Adami et al. 2012, [H (13)-(15)] with
-/// physics errata 5-7): pressure with the hydrostatic correction, porosity, no-slip velocity.
+/// physics errata 5-7): pressure with the hydrostatic correction, porosity, no-slip velocity. The porosity of
+/// a wall is that of the fluid beside it; what its mass changes by when that does goes to continuity.
 template <class W>
 struct WallPass {
   W w;
@@ -59,12 +60,14 @@ struct WallPass {
       m_state[b] = {0, 0, eos.rho0, 0};
       return;
     }
+    const Real porosity_before = m_state[b].x > 0 ? v_rho[b].w / m_state[b].z : Real(-1);
     const Real p = sum.p / sum.weight, eps = sum.eps / sum.weight;
     const Real rho = eos.rho0 * (1 + eos.compression(p)), superficial = eps * rho;
     v_rho[b] = {v_wall, superficial};
     v_visc[b] = {2 * v_wall - sum.v / sum.weight, k.slip ? Real(0) : Real(1)};
-    // the mass that keeps the wall particle's volume
-    m_state[b] = {superficial * volume, p / square(superficial), rho, p};
+    // the mass that keeps the wall particle's volume, and how much of it came with the porosity
+    const Real came = porosity_before < 0 ? Real(0) : (eps - porosity_before) * rho * volume;
+    m_state[b] = {superficial * volume, p / square(superficial), rho, came};
   }
 };
 

@@ -91,6 +91,9 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
     {.meaning = "and from which it is wet, above S_dry", .range = above_to(0, 0.9)});
   p("couple.torque", &c.torque, {.meaning = "fluid torque on grains"});
   p("couple.angmom", &c.angmom, {.meaning = "reaction couple: angular momentum exact"});
+  p("couple.damping", &c.damping,
+    {.meaning = "artificial viscosity alpha among grains, per solid fraction; keeps water in a bed still",
+     .range = within(0, 2)});
   p("drag.law", &c.drag,
     {.meaning = "drag on a grain",
      .family = "laws",

@@ -146,8 +146,9 @@ class FluidSolverWith final : public FluidSolver {
   }
   Real viscosity() const { return config_.visc.model == "none" ? Real(0) : Real(config_.fluid.mu); }
   ArtificialViscosity artificial() const {
-    return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c),
-            Real(config_.fluid.h())};
+    const bool coupled = config_.grain.present && config_.couple.mode == "two_way";
+    return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(coupled ? config_.couple.damping : 0),
+            Real(config_.fluid.c), Real(config_.fluid.h())};
   }
   TensileTerm tensile() const {
     if (config_.tensile == 0) return {};

@@ -56,7 +56,7 @@ double extrapolated(const Vec3d& gravity, const Vec3d& wall, const Vec3d& push) 
     if (norm2(r) < Real(0.04)) pass.pair(sum, 0, Index(a), r, norm2(r));
   }
   pass.finish(0, sum);
-  return m_state[0].w;
+  return m_state[0].y * square(v_rho[0].w);
 }
 
 TEST(Walls, TakeALinearPressureExactly) {  // T-11
@@ -69,6 +69,46 @@ TEST(Walls, TakeALinearPressureExactly) {  // T-11
 TEST(Walls, FallingFreelyTakeTheMeanPressure) {  // T-11: a_w = g
   const Vec3d g{0, 0, -9.81};
   EXPECT_NEAR(extrapolated(g, g, {}), 500, 500 * kInvariant);
+}
+
+TEST(Walls, SayWhatMassCameWithTheirPorosity) {
+  const std::vector<Real4> v{{Real3(), Real(1000)}}, m{{Real(1e-3), 0, Real(1000), 0}};
+  const std::vector<Vec3d> x(1);
+  const std::vector<std::uint32_t> body(1);
+  const std::vector<BodyPose> pose(1);
+  std::vector<Real4> v_rho(1), v_visc(1), m_state(1);
+  const auto in = [](const auto& host) { return Span(host.data(), Index(host.size())); };
+  const auto out = [](auto& host) { return Span(host.data(), Index(host.size())); };
+  const auto came = [&](Real porosity, bool near) {
+    const std::vector<Real> eps{porosity};
+    const WallPass<WendlandC2> pass{WendlandC2(0.1),
+                                    EquationOfState{Real(1e7), 7, 0, 1000, false},
+                                    in(v),
+                                    in(m),
+                                    in(eps),
+                                    {},
+                                    0,
+                                    in(x),
+                                    in(body),
+                                    in(pose),
+                                    Real3(),
+                                    Real(1e-3),
+                                    Real(1e-3),
+                                    out(v_rho),
+                                    out(v_visc),
+                                    out(m_state)};
+    auto sum = pass.start(0);
+    if (near) pass.pair(sum, 0, Index(0), Real3(Real(0.05), 0, 0), Real(0.0025));
+    pass.finish(0, sum);
+    return double(m_state[0].w);
+  };
+  EXPECT_EQ(came(1, true), 0) << "what was dry had none";
+  EXPECT_EQ(came(1, true), 0);
+  EXPECT_NEAR(came(Real(0.4), true), -0.6, 1e-5) << "of 1 kg";
+  EXPECT_NEAR(m_state[0].x, 0.4, 1e-5);
+  EXPECT_NEAR(came(Real(0.7), true), 0.3, 1e-5);
+  EXPECT_EQ(came(1, false), 0) << "dry again";
+  EXPECT_EQ(came(Real(0.4), true), 0);
 }
 
 /// Water thrown into the corner of a tank, periodic across.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "kernels/drag/registry.hpp"
 #include "tests/support/run.hpp"
@@ -138,6 +139,56 @@ TEST(SlowCoupledFlow, SeepagePressureDropFollowsTheDragLaw) {  // T-39
     per_volume = n * law.K(Real(0.6), Real(c.grain.d), Real(1000), Real(1e-3), Real(mean.x)) * mean.x;
   });
   EXPECT_NEAR(per_volume, 2000, 3e-2 * 2000);
+}
+
+/// Water over and in a bed of resting grains: it stays still, and lifts each grain by its buoyancy.
+TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRest) {
+  Config c = periodic_box(8, 3e-3);
+  c.gravity = {0, 0, -9.81};
+  c.domain.periodic = {true, true, false};
+  c.domain.min.z = -0.012;
+  c.domain.max.z = 0.06;
+  c.fluid.mu = 8.9e-4;
+  c.fluid.vmax = std::sqrt(2 * 9.81 * 0.048);
+  c.fluid.c = 10 * c.fluid.vmax;
+  c.visc.alpha = 0.02;
+  c.density.delta = 0.1;
+  c.wall.rep_D = 5 * 9.81 * 0.048;
+  c.wall.rep_r0 = 1.5e-3;
+  c.grain.present = c.grain.fixed = true;
+  c.grain.d = c.grain.d_max = c.grain.d_min = 2.7e-3;
+  c.couple.hc = 2 * c.grain.d;
+  FluidFill fill{{0, 0, 0}, {0.024, 0.024, 0.048}, {"0", "0", "0"}};
+  c.fluid.fills = {fill};
+  WallBody floor;
+  floor.name = "floor";
+  floor.shape = "tank";
+  floor.min = {0, 0, 0};
+  floor.max = {0.024, 0.024, 0.06};
+  floor.faces = {false, false, false, false, true, false};
+  c.wall.bodies = {floor};
+  std::vector<std::string> warnings;
+  auto setup = build_setup(c, warnings);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> shake(-1e-4, 1e-4);
+  const double gap = 0.024 / 9;  // 0.54 solid
+  for (int k = 0; k < 9 * 9 * 7; ++k) {
+    setup.grains.x.push_back({(k % 9 + 0.5) * gap + shake(random), (k / 9 % 9 + 0.5) * gap + shake(random),
+                              (k / 81 + 0.52) * gap + shake(random)});
+    setup.grains.v.push_back({});
+    setup.grains.radius.push_back(1.35e-3);
+  }
+  auto s = started(c, setup);
+  double fastest = 0, lift = 0;
+  for (int k = 1; k <= 10; ++k) {
+    run_until(*s, 0.012 * k);
+    const auto d = s->diagnostics();
+    fastest = std::max(fastest, reading(d, "fluid_speed_max"));
+    if (k > 5) lift += reading(d, "force_fluid_on_grains_z") / 5;
+  }
+  EXPECT_LT(fastest, 0.1) << "0.9 m/s without couple.damping";
+  const double buoyancy = 9.81 * 1000 * 567 * pi / 6 * 2.7e-3 * 2.7e-3 * 2.7e-3;
+  EXPECT_NEAR(lift / buoyancy, 1, 0.05);
 }
 
 /// One grain released in still water over a floor, drag on the grain alone.

@@ -25,7 +25,8 @@ struct WallStore : Store {
   Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept};  ///< true velocity, superficial density
   Field<Real4> v_visc{*this, "v_visc", "m/s",
                       Lifetime::kept};  ///< no-slip velocity; w = 1 where viscous pairs count
-  Field<Real4> m_state{*this, "m_state", "-", Lifetime::kept};  ///< as of the fluid; mass 0: inactive
+  /// mass (kg; 0: inactive), P / rho~^2, intrinsic density, mass that came with the last change of porosity
+  Field<Real4> m_state{*this, "m_state", "-", Lifetime::kept};
 };
 
 }  // namespace bedload::inline BL_VARIANT
