@@ -8,6 +8,7 @@
 #include <set>
 
 #include "bedload/case/formula.hpp"
+#include "bedload/case/grain_sizes.hpp"
 #include "bedload/case/limits.hpp"
 #include "bedload/core/error.hpp"
 #include "resolve.hpp"
@@ -137,6 +138,33 @@ class Checks {
           reach / d);
   }
 
+  void openings() const {
+    std::set<std::string> names;
+    const auto named = [&](const std::string& path, const std::string& name) {
+      file_name(path + ".name", name);
+      if (!names.insert(name).second)
+        fail(path + ".name", quoted(name), "must differ from other inlets' and outlets'");
+    };
+    for (std::size_t i = 0; i < c.inlets.size(); ++i) {
+      const std::string path = fmt::format("inlet.{}", i);
+      named(path, c.inlets[i].name);
+      inside_domain(path + ".centre", c.inlets[i].centre);
+    }
+    for (std::size_t i = 0; i < c.outlets.size(); ++i) {
+      const OutletConfig& outlet = c.outlets[i];
+      const std::string path = fmt::format("outlet.{}", i);
+      named(path, outlet.name);
+      if (outlet.shape == "box") box(path, outlet.min, outlet.max);
+      if (outlet.phase != "both" && !(outlet.phase == "fluid" ? c.fluid.present : c.grain.present))
+        fail(path + ".phase", quoted(outlet.phase),
+             fmt::format("must name something in this case; it has no {}", outlet.phase));
+    }
+    for (std::size_t i = 0; i < c.grain_inlets.size(); ++i) {
+      named(fmt::format("grain_inlet.{}", i), c.grain_inlets[i].name);
+      grain_inlet(fmt::format("grain_inlet.{}", i), c.grain_inlets[i]);
+    }
+  }
+
   void time() const {
     for (const StepLimit& limit : grain_limits(c)) {
       if (c.time.dt_dem <= limit.seconds * (1 + 1e-9)) continue;
@@ -256,6 +284,25 @@ class Checks {
           "follows",
           fastest, c.fluid.vmax);
   }
+  void grain_inlet(const std::string& path, const GrainInletConfig& inlet) const {
+    double d = 0;
+    for (const SizeClass& size : inlet.sizes) d = std::max(d, size_range(size).second);
+    if (c.grain.fixed) fail("grain.fixed", "true", "must be false with grain_inlet");
+    if (inlet.shape == "disc") {
+      inside_domain(path + ".centre", inlet.centre);
+      if (2 * inlet.radius < d)
+        fail(path + ".radius", inlet.radius,
+             fmt::format("must be at least {}, for the largest grain", d / 2));
+      return;
+    }
+    box(path, inlet.min, inlet.max);
+    inside_domain(path + ".min", inlet.min);
+    inside_domain(path + ".max", inlet.max);
+    for (int k = 0; k < 3; ++k)
+      if (inlet.max[k] - inlet.min[k] < d * (1 - 1e-9))
+        fail(path + ".max", to_text(inlet.max),
+             fmt::format("must leave room along {} for the largest grain, {} m", "xyz"[k], d));
+  }
   void grain_fill(const std::string& path, const GrainFill& fill) const {
     for (const Vec3d& x : fill.positions) inside_domain(path + ".positions", x);
     if (!fill.positions.empty() || !fill.file.empty()) return;
@@ -305,6 +352,7 @@ void cross_check(const Config& config, const Value& root, std::vector<std::strin
   checks.walls();
   checks.motions();
   if (config.grain.present) checks.grains();
+  checks.openings();
   checks.coupling();
   checks.time();
   checks.probes();
