@@ -54,6 +54,12 @@ class Checks {
     if (particles >= 2147483648.0)
       fail("fluid.dx", f.dx,
            fmt::format("must be larger; it makes {:.3g} fluid particles of at most 2147483647", particles));
+    const double fall = height(std::vector<DomainConfig>{c.domain}, c.gravity);
+    if (const double v = std::sqrt(2 * norm(c.gravity) * fall); !c.inlets.empty() && v > f.vmax * (1 + 1e-9))
+      warn(
+          "fluid.vmax = {:.3g} m/s sets the sound speed; fluid from an inlet that stands or falls as high as "
+          "the domain, {:.3g} m, reaches {:.3g} m/s",
+          f.vmax, fall, v);
     if (f.c < 10 * f.vmax * (1 - 1e-9))
       warn(
           "fluid.c_factor: sound is only {:.3g} times as fast as the flow (Mach {:.2g}); density will vary "

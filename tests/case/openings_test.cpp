@@ -59,6 +59,14 @@ TEST(Openings, TheFlowSetsTheSoundSpeed) {
   EXPECT_NEAR(c.fluid.vmax, 6 * std::exp(-c.inlets[0].ramp), 0.02);
 }
 
+TEST(Openings, AHeadThatNobodyGaveIsWarnedOf) {
+  const auto warnings = warnings_of(with_inlet());  // 0.1 m of fluid in a domain of 0.2 m
+  ASSERT_EQ(warnings.size(), warnings_of(kCase).size() + 1);
+  EXPECT_EQ(warnings[0],
+            "fluid.vmax = 1.4 m/s sets the sound speed; fluid from an inlet that stands or falls as high as "
+            "the domain, 0.2 m, reaches 1.98 m/s");
+}
+
 TEST(Openings, BuffersFollowTheWallParticles) {
   const Config c = read(with_inlet());
   std::vector<std::string> warnings;
