@@ -26,11 +26,12 @@ struct GrainNear {
 /// Takes history over into a new list; entries are places in the sorted store.
 struct CarryHistoryPass {
   VerletListView from, to;
-  Span<const Index> order;  ///< former place of each grain
+  Span<const Index> order;  ///< former place of each grain; kNone if it is new
   const ContactHistory* old_history;
   ContactHistory* history;
   BL_HD void operator()(Index i) const {
     const Index was_i = order[i];
+    if (was_i == kNone) return;
     for (std::uint32_t k = 0; k < to.count[i]; ++k) {
       const Index was_j = order[to.entry[to.slot(i, k)]];
       ContactHistory h;

@@ -23,9 +23,9 @@ struct DensityPass {
   template <class N = Real>
   struct Sum {
     Vec3<N> v;
-    N rho, rate, diffused, came;
+    N rho, eps, rate, diffused, came;
   };
-  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), m_state[a].z, 0, 0, 0}; }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), m_state[a].z, eps[a], 0, 0, 0}; }
 
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N) const {
@@ -35,7 +35,8 @@ struct DensityPass {
     const N F = w.F(norm(rm));
     sum.rate += mb.x * F * dot(v, rm);
     const N still = 1 - stiffening * (Real(0.5) * (sum.rho + mb.z) / rho0 - 1);
-    sum.diffused += mb.x / vb.w * F * (mb.z - sum.rho + still * dot(Vec3<N>(hydrostatic), rm));
+    const N shared = Real(0.5) * (sum.eps + vb.w / mb.z);  // what one gains the other loses
+    sum.diffused += shared * mb.x / vb.w * F * (mb.z - sum.rho + still * dot(Vec3<N>(hydrostatic), rm));
   }
   template <class N, class J>
   BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N) const {
@@ -52,7 +53,7 @@ struct DensityPass {
     into.came += other.came;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    s_new[a] = s[a] + (dt * (diffusion * eps[a] * sum.diffused - sum.rate) + sum.came) / rho0;
+    s_new[a] = s[a] + (dt * (diffusion * sum.diffused - sum.rate) + sum.came) / rho0;
   }
 };
 

@@ -22,6 +22,7 @@ struct WallPass {
   Span<const BodyPose> pose;
   Real3 gravity;   ///< m/s2
   Real volume;     ///< of a wall particle, m3
+  Real inflow;     ///< of a particle of fluid on its way in, m3
   Real least_sum;  ///< inactive below this sum of W, 1/m3
   Span<Real4> v_rho, v_visc, m_state;
 
@@ -64,10 +65,11 @@ struct WallPass {
     const Real p = sum.p / sum.weight, eps = sum.eps / sum.weight;
     const Real rho = eos.rho0 * (1 + eos.compression(p)), superficial = eps * rho;
     v_rho[b] = {v_wall, superficial};
-    v_visc[b] = {2 * v_wall - sum.v / sum.weight, k.slip ? Real(0) : Real(1)};
+    v_visc[b] = {k.flows ? v_wall : 2 * v_wall - sum.v / sum.weight, k.slip ? Real(0) : Real(1)};
     // the mass that keeps the wall particle's volume, and how much of it came with the porosity
-    const Real came = porosity_before < 0 ? Real(0) : (eps - porosity_before) * rho * volume;
-    m_state[b] = {superficial * volume, p / square(superficial), rho, came};
+    const Real held = k.flows ? inflow : volume;
+    const Real came = porosity_before < 0 ? Real(0) : (eps - porosity_before) * rho * held;
+    m_state[b] = {superficial * held, p / square(superficial), rho, came};
   }
 };
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "bedload/case/formula.hpp"
+#include "bedload/case/grain_sizes.hpp"
 #include "bedload/case/limits.hpp"
 #include "bedload/core/error.hpp"
 #include "resolve.hpp"
@@ -53,6 +54,12 @@ class Checks {
     if (particles >= 2147483648.0)
       fail("fluid.dx", f.dx,
            fmt::format("must be larger; it makes {:.3g} fluid particles of at most 2147483647", particles));
+    const double fall = height(std::vector<DomainConfig>{c.domain}, c.gravity);
+    if (const double v = std::sqrt(2 * norm(c.gravity) * fall); !c.inlets.empty() && v > f.vmax * (1 + 1e-9))
+      warn(
+          "fluid.vmax = {:.3g} m/s sets the sound speed; fluid from an inlet that stands or falls as high as "
+          "the domain, {:.3g} m, reaches {:.3g} m/s",
+          f.vmax, fall, v);
     if (f.c < 10 * f.vmax * (1 - 1e-9))
       warn(
           "fluid.c_factor: sound is only {:.3g} times as fast as the flow (Mach {:.2g}); density will vary "
@@ -135,6 +142,33 @@ class Checks {
           "couple.hc: the coupling reaches {:.3g} diameters of the largest grain, which feels its own wake "
           "below 4",
           reach / d);
+  }
+
+  void openings() const {
+    std::set<std::string> names;
+    const auto named = [&](const std::string& path, const std::string& name) {
+      file_name(path + ".name", name);
+      if (!names.insert(name).second)
+        fail(path + ".name", quoted(name), "must differ from other inlets' and outlets'");
+    };
+    for (std::size_t i = 0; i < c.inlets.size(); ++i) {
+      const std::string path = fmt::format("inlet.{}", i);
+      named(path, c.inlets[i].name);
+      inside_domain(path + ".centre", c.inlets[i].centre);
+    }
+    for (std::size_t i = 0; i < c.outlets.size(); ++i) {
+      const OutletConfig& outlet = c.outlets[i];
+      const std::string path = fmt::format("outlet.{}", i);
+      named(path, outlet.name);
+      if (outlet.shape == "box") box(path, outlet.min, outlet.max);
+      if (outlet.phase != "both" && !(outlet.phase == "fluid" ? c.fluid.present : c.grain.present))
+        fail(path + ".phase", quoted(outlet.phase),
+             fmt::format("must name something in this case; it has no {}", outlet.phase));
+    }
+    for (std::size_t i = 0; i < c.grain_inlets.size(); ++i) {
+      named(fmt::format("grain_inlet.{}", i), c.grain_inlets[i].name);
+      grain_inlet(fmt::format("grain_inlet.{}", i), c.grain_inlets[i]);
+    }
   }
 
   void time() const {
@@ -256,6 +290,25 @@ class Checks {
           "follows",
           fastest, c.fluid.vmax);
   }
+  void grain_inlet(const std::string& path, const GrainInletConfig& inlet) const {
+    double d = 0;
+    for (const SizeClass& size : inlet.sizes) d = std::max(d, size_range(size).second);
+    if (c.grain.fixed) fail("grain.fixed", "true", "must be false with grain_inlet");
+    if (inlet.shape == "disc") {
+      inside_domain(path + ".centre", inlet.centre);
+      if (2 * inlet.radius < d)
+        fail(path + ".radius", inlet.radius,
+             fmt::format("must be at least {}, for the largest grain", d / 2));
+      return;
+    }
+    box(path, inlet.min, inlet.max);
+    inside_domain(path + ".min", inlet.min);
+    inside_domain(path + ".max", inlet.max);
+    for (int k = 0; k < 3; ++k)
+      if (inlet.max[k] - inlet.min[k] < d * (1 - 1e-9))
+        fail(path + ".max", to_text(inlet.max),
+             fmt::format("must leave room along {} for the largest grain, {} m", "xyz"[k], d));
+  }
   void grain_fill(const std::string& path, const GrainFill& fill) const {
     for (const Vec3d& x : fill.positions) inside_domain(path + ".positions", x);
     if (!fill.positions.empty() || !fill.file.empty()) return;
@@ -305,6 +358,7 @@ void cross_check(const Config& config, const Value& root, std::vector<std::strin
   checks.walls();
   checks.motions();
   if (config.grain.present) checks.grains();
+  checks.openings();
   checks.coupling();
   checks.time();
   checks.probes();

@@ -14,6 +14,10 @@ void describe_fill_file(Parameters& p, std::string& file, std::int64_t& step, st
 void describe_fluid(Parameters& p, FluidConfig& fluid);
 void describe_fluid_models(Parameters& p, Config& config);
 void describe_walls(Parameters& p, WallConfig& wall);
+void describe_inlets(Parameters& p, std::vector<InletConfig>& inlets);
+void describe_outlets(Parameters& p, std::vector<OutletConfig>& outlets);
+void describe_grain_inlets(Parameters& p, std::vector<GrainInletConfig>& inlets);
+void describe_grain_size(Parameters& p, SizeClass& size);
 void describe_contact(Parameters& p, ContactConfig& contact);
 void describe_grains(Parameters& p, Config& config);
 void describe_coupling(Parameters& p, CouplingConfig& coupling);

@@ -14,7 +14,8 @@ const std::vector<Choice> kSlips{{"noslip", "the fluid sticks to the wall"},
 
 const std::vector<Choice> kWallTypes{
     {"adami", "layers of wall particles with pressure extrapolated from the fluid [adami12]"},
-    {"grains_only", "stops grains, lets the fluid pass"}};
+    {"grains_only", "stops grains, lets the fluid pass"},
+    {"fluid_only", "as adami, but lets grains pass"}};
 
 /// Restitution that the damping can reach.
 Range restitution(const ContactConfig& contact) {
@@ -133,7 +134,43 @@ void wall_body(Parameters& p, WallBody& b) {
   body_motion(p, b.motion);
 }
 
-void grain_size(Parameters& p, SizeClass& s) {
+void grain_fill(Parameters& p, GrainFill& f) {
+  describe_fill_file(p, f.file, f.step, "grains from a .csv or .vtkhdf file, instead of a box");
+  if (f.file.empty() || p.everything())
+    p("positions", &f.positions,
+      {.unit = "m", .meaning = "centres, instead of a box", .fallback = "none", .presence = optional});
+  if ((f.file.empty() && f.positions.empty()) || p.everything()) {
+    p("shape", &f.shape,
+      {.meaning = "name of a shape to fill, instead of a box", .fallback = "none", .presence = optional});
+    if (f.shape.empty() || p.everything()) {
+      p("min", &f.min, {.unit = "m", .meaning = "lower corner of the box to fill", .presence = required});
+      p("max", &f.max, {.unit = "m", .meaning = "upper corner", .presence = required});
+    }
+    p("count", &f.count,
+      {.meaning = "number of grains; or mass, or packing_fraction",
+       .range = within(1, 2147483647),
+       .fallback = "one of three",
+       .presence = optional});
+    p("mass", &f.mass,
+      {.unit = "kg",
+       .meaning = "of all grains together",
+       .range = above(0),
+       .fallback = "one of three",
+       .presence = optional});
+    p("packing_fraction", &f.packing_fraction,
+      {.meaning = "solid volume / box volume",
+       .range = above_to(0, 0.64),
+       .hint = "0.64 is random close packing",
+       .fallback = "one of three",
+       .presence = optional});
+  }
+  p("velocity", &f.velocity, {.unit = "m/s", .meaning = "initial velocity"});
+  p.list("sizes", f.sizes, SizeClass{}, describe_grain_size);
+}
+
+}  // namespace
+
+void describe_grain_size(Parameters& p, SizeClass& s) {
   p("kind", &s.kind,
     {.meaning = "one diameter or a distribution",
      .family = "shapes",
@@ -179,42 +216,6 @@ void grain_size(Parameters& p, SizeClass& s) {
        .presence = required});
   }
 }
-
-void grain_fill(Parameters& p, GrainFill& f) {
-  describe_fill_file(p, f.file, f.step, "grains from a .csv or .vtkhdf file, instead of a box");
-  if (f.file.empty() || p.everything())
-    p("positions", &f.positions,
-      {.unit = "m", .meaning = "centres, instead of a box", .fallback = "none", .presence = optional});
-  if ((f.file.empty() && f.positions.empty()) || p.everything()) {
-    p("shape", &f.shape,
-      {.meaning = "name of a shape to fill, instead of a box", .fallback = "none", .presence = optional});
-    if (f.shape.empty() || p.everything()) {
-      p("min", &f.min, {.unit = "m", .meaning = "lower corner of the box to fill", .presence = required});
-      p("max", &f.max, {.unit = "m", .meaning = "upper corner", .presence = required});
-    }
-    p("count", &f.count,
-      {.meaning = "number of grains; or mass, or packing_fraction",
-       .range = within(1, 2147483647),
-       .fallback = "one of three",
-       .presence = optional});
-    p("mass", &f.mass,
-      {.unit = "kg",
-       .meaning = "of all grains together",
-       .range = above(0),
-       .fallback = "one of three",
-       .presence = optional});
-    p("packing_fraction", &f.packing_fraction,
-      {.meaning = "solid volume / box volume",
-       .range = above_to(0, 0.64),
-       .hint = "0.64 is random close packing",
-       .fallback = "one of three",
-       .presence = optional});
-  }
-  p("velocity", &f.velocity, {.unit = "m/s", .meaning = "initial velocity"});
-  p.list("sizes", f.sizes, SizeClass{}, grain_size);
-}
-
-}  // namespace
 
 void describe_frame(Parameters& p, FrameConfig& frame) {
   motion_part(p, "frame.motion.", frame.motion);

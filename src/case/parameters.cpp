@@ -25,8 +25,13 @@ void describe(Parameters& p, Config& c) {
   if (c.fluid.present) describe_fluid(p, c.fluid);
   describe_fluid_models(p, c);
   describe_walls(p, c.wall);
+  if (c.fluid.present) describe_inlets(p, c.inlets);
+  describe_outlets(p, c.outlets);
   describe_contact(p, c.contact);
-  if (c.grain.present) describe_grains(p, c);
+  if (c.grain.present) {
+    describe_grains(p, c);
+    describe_grain_inlets(p, c.grain_inlets);
+  }
   describe_coupling(p, c.couple);
   describe_time(p, c);
   describe_output(p, c.out);

@@ -11,13 +11,32 @@
 #include "bedload/case/grain_sizes.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/build_shape.hpp"
+#include "src/motion/inlet_flow.hpp"
 #include "src/motion/survey.hpp"
 #include "src/motion/table.hpp"
 
 namespace bedload {
 namespace {
 
-/// Unit vector; one that already is stays as it is, so that a resolved case reads back unchanged.
+void check_sieve(const SizeClass& s, const Value& root, const std::string& path) {
+  const auto fail = [&](const char* list, const std::vector<double>& values, const std::string& must) {
+    reject(root, path + list, fmt::format("[{}]", fmt::join(values, ", ")), must);
+  };
+  if (s.openings.size() < 2) fail(".openings", s.openings, "must hold two openings or more");
+  if (s.passing.size() != s.openings.size())
+    fail(".passing", s.passing,
+         fmt::format("must hold a share for each of the {} openings", s.openings.size()));
+  if (std::adjacent_find(s.openings.begin(), s.openings.end(), std::greater_equal<>()) != s.openings.end())
+    fail(".openings", s.openings, "must rise from each to the next");
+  if (!std::is_sorted(s.passing.begin(), s.passing.end()))
+    fail(".passing", s.passing, "must not fall from the finer mesh to the coarser");
+  if (s.passing.front() != 0 || s.passing.back() != 1)
+    fail(".passing", s.passing,
+         "must begin with 0 and end with 1; add the meshes that stop and pass everything");
+}
+
+}  // namespace
+
 Vec3d direction(const Vec3d& v, const Value& root, const std::string& path) {
   const double n = norm(v);
   if (n == 0) reject(root, path, "[0, 0, 0]", "must not be zero");
@@ -27,6 +46,36 @@ Vec3d direction(const Vec3d& v, const Value& root, const std::string& path) {
 [[noreturn]] void missing(const Value& root, const std::string& key, const char* what) {
   throw CaseError(fmt::format("{}: {} must be given ({})", nearest_value(root, key).place(), key, what));
 }
+
+Solid shape_named(const Config& c, const std::string& name, const Value& root, const std::string& path,
+                  const char* must) {
+  std::string names;
+  for (const ShapeConfig& shape : c.shapes) {
+    if (shape.name == name) return shape.solid;
+    names += (names.empty() ? "" : ", ") + shape.name;
+  }
+  reject(root, path, fmt::format("\"{}\"", name),
+         fmt::format("{}; this case has {}", must, names.empty() ? "none" : names));
+}
+
+void default_sizes(const Config& c, std::vector<SizeClass>& sizes, const Value& root) {
+  if (!sizes.empty()) return;
+  if (c.grain.d == 0) missing(root, "grain.d", "diameter, m, where a grain.fill or grain_inlet has no sizes");
+  sizes = {{.d = c.grain.d, .share = 1}};
+}
+
+void resolve_size(Config& c, SizeClass& s, const Value& root, const std::string& path) {
+  if (s.kind == "sieve") check_sieve(s, root, path);
+  if (s.kind == "log_normal") {  // its ends lie 3 sigma from the median
+    if (s.d_min == 0) s.d_min = s.median * std::exp(-3 * s.sigma);
+    if (s.d_max == 0) s.d_max = s.median * std::exp(3 * s.sigma);
+  }
+  const auto [smallest, largest] = size_range(s);
+  c.grain.d_min = std::min(c.grain.d_min, smallest);
+  c.grain.d_max = std::max(c.grain.d_max, largest);
+}
+
+namespace {
 
 /// Of a vessel that says none: layers of wall particles as deep as the kernel reaches; a grain without fluid.
 double vessel_thickness(const Config& c) {
@@ -64,17 +113,6 @@ void resolve_shapes(Config& c, const Value& root) {
     }
     done.push_back(shape);
   }
-}
-
-Solid shape_named(const Config& c, const std::string& name, const Value& root, const std::string& path,
-                  const char* must) {
-  std::string names;
-  for (const ShapeConfig& shape : c.shapes) {
-    if (shape.name == name) return shape.solid;
-    names += (names.empty() ? "" : ", ") + shape.name;
-  }
-  reject(root, path, fmt::format("\"{}\"", name),
-         fmt::format("{}; this case has {}", must, names.empty() ? "none" : names));
 }
 
 void resolve_walls(Config& c, const Value& root) {
@@ -143,7 +181,8 @@ struct FrameEffects {
 
 void resolve_fluid(Config& c, const Value& root, const std::filesystem::path& checkpoint) {
   FluidConfig& f = c.fluid;
-  if (f.fills.empty()) missing(root, "fluid.fill", "[[fluid.fill]] with min and max");
+  if (f.fills.empty() && c.inlets.empty())
+    missing(root, "fluid.fill", "[[fluid.fill]] with min and max, or [[inlet]]");
   resolve_listed_fluid(c, root, checkpoint);
   const double g = norm(c.gravity);
   for (std::size_t i = 0; i < f.fills.size(); ++i) {
@@ -174,51 +213,27 @@ void resolve_fluid(Config& c, const Value& root, const std::filesystem::path& ch
   }
   vmax = std::max(vmax, std::sqrt(2 * gH));
   for (const WallBody& body : c.wall.bodies) vmax = std::max(vmax, wall_speed(body, c.domain, c.time.end));
-  if (vmax == 0) missing(root, "fluid.vmax", "m/s; neither gravity nor a wall sets a speed here");
+  for (const InletConfig& inlet : c.inlets) vmax = std::max(vmax, inlet_speed(inlet, f.dx, c.time.end));
+  if (vmax == 0) missing(root, "fluid.vmax", "m/s; neither gravity nor a wall or inlet sets a speed here");
   f.vmax = vmax;
   f.c = c.eos.type == "tait" ? f.c_factor * vmax : std::sqrt(c.eos.alpha * c.eos.p0 / f.rho0);
+  for (InletConfig& inlet : c.inlets)
+    if (inlet.ramp == 0) inlet.ramp = 10 * f.h() / f.c;
   if (c.wall.dx == 0) c.wall.dx = f.dx;
   if (c.wall.rep_D == 0) c.wall.rep_D = gH > 0 ? 5 * gH : vmax * vmax;
   if (c.wall.rep_r0 == 0) c.wall.rep_r0 = 0.5 * f.dx;
 }
 
-void check_sieve(const SizeClass& s, const Value& root, const std::string& path) {
-  const auto fail = [&](const char* list, const std::vector<double>& values, const std::string& must) {
-    reject(root, path + list, fmt::format("[{}]", fmt::join(values, ", ")), must);
-  };
-  if (s.openings.size() < 2) fail(".openings", s.openings, "must hold two openings or more");
-  if (s.passing.size() != s.openings.size())
-    fail(".passing", s.passing,
-         fmt::format("must hold a share for each of the {} openings", s.openings.size()));
-  if (std::adjacent_find(s.openings.begin(), s.openings.end(), std::greater_equal<>()) != s.openings.end())
-    fail(".openings", s.openings, "must rise from each to the next");
-  if (!std::is_sorted(s.passing.begin(), s.passing.end()))
-    fail(".passing", s.passing, "must not fall from the finer mesh to the coarser");
-  if (s.passing.front() != 0 || s.passing.back() != 1)
-    fail(".passing", s.passing,
-         "must begin with 0 and end with 1; add the meshes that stop and pass everything");
-}
-
-/// The ends of a log-normal distribution lie 3 sigma from its median.
-void resolve_size(SizeClass& s, const Value& root, const std::string& path) {
-  if (s.kind == "sieve") check_sieve(s, root, path);
-  if (s.kind != "log_normal") return;
-  if (s.d_min == 0) s.d_min = s.median * std::exp(-3 * s.sigma);
-  if (s.d_max == 0) s.d_max = s.median * std::exp(3 * s.sigma);
-}
-
 void resolve_grains(Config& c, const Value& root, const std::filesystem::path& checkpoint) {
   GrainConfig& g = c.grain;
-  if (g.fills.empty()) missing(root, "grain.fill", "[[grain.fill]] with a box or positions");
+  if (g.fills.empty() && c.grain_inlets.empty())
+    missing(root, "grain.fill", "[[grain.fill]] with a box or positions, or [[grain_inlet]]");
   g.seed = c.seed;
   g.d_min = 1e300;
   for (std::size_t i = 0; i < g.fills.size(); ++i) {
     GrainFill& fill = g.fills[i];
     if (!fill.file.empty() && resolve_listed_grains(c, i, root, checkpoint)) continue;
-    if (fill.sizes.empty()) {
-      if (g.d == 0) missing(root, "grain.d", "diameter, m, where a grain.fill has no sizes");
-      fill.sizes = {{.d = g.d, .share = 1}};
-    }
+    default_sizes(c, fill.sizes, root);
     if (!fill.positions.empty()) fill.count = std::int64_t(fill.positions.size());
     if (!fill.shape.empty()) {
       fill.solid = shape_named(c, fill.shape, root, fmt::format("grain.fill.{}.shape", i),
@@ -226,13 +241,10 @@ void resolve_grains(Config& c, const Value& root, const std::filesystem::path& c
       const Bounds bounds = fill.solid.shape->bounds();
       fill.min = bounds.min, fill.max = bounds.max;
     }
-    for (std::size_t k = 0; k < fill.sizes.size(); ++k) {
-      resolve_size(fill.sizes[k], root, fmt::format("grain.fill.{}.sizes.{}", i, k));
-      const auto [smallest, largest] = size_range(fill.sizes[k]);
-      g.d_min = std::min(g.d_min, smallest);
-      g.d_max = std::max(g.d_max, largest);
-    }
+    for (std::size_t k = 0; k < fill.sizes.size(); ++k)
+      resolve_size(c, fill.sizes[k], root, fmt::format("grain.fill.{}.sizes.{}", i, k));
   }
+  resolve_grain_inlets(c, root);
   const double fall = height(std::vector<DomainConfig>{c.domain}, c.gravity);
   if (g.settle && g.settle_time == 0 && fall > 0) g.settle_time = 20 * std::sqrt(2 * fall / norm(c.gravity));
 }
@@ -275,6 +287,7 @@ void resolve(Config& c, const Value& root, const std::filesystem::path& checkpoi
   resolve_shapes(c, root);
   resolve_walls(c, root);
   resolve_motions(c, root);
+  resolve_openings(c, root);
   if (c.frame.motion.moves()) c.frame.acceleration = FrameEffects(c).acceleration;
   if (c.fluid.present) resolve_fluid(c, root, checkpoint);
   if (c.grain.present) resolve_grains(c, root, checkpoint);

@@ -23,6 +23,29 @@ void resolve_listed_fluid(Config& config, const Value& root, const std::filesyst
 bool resolve_listed_grains(Config& config, std::size_t index, const Value& root,
                            const std::filesystem::path& checkpoint);
 
+/// Unit vectors, half widths and shapes of openings; checks that orifices are wide enough for fluid.dx.
+void resolve_openings(Config& config, const Value& root);
+
+/// The grains' sizes of [[grain_inlet]], and what they mean for the case.
+void resolve_grain_inlets(Config& config, const Value& root);
+
+/// Unit vector along `v`, given at `path`; one that already is stays as it is, so that a resolved case reads
+/// back unchanged. CaseError for zero.
+Vec3d direction(const Vec3d& v, const Value& root, const std::string& path);
+
+/// The [[shape]] of that name; CaseError with `must` if there is none.
+Solid shape_named(const Config& config, const std::string& name, const Value& root, const std::string& path,
+                  const char* must);
+
+/// Completes one of the sizes of grains at `path` and widens grain.d_min, d_max to it.
+void resolve_size(Config& config, SizeClass& size, const Value& root, const std::string& path);
+
+/// Sizes where none are given: grain.d.
+void default_sizes(const Config& config, std::vector<SizeClass>& sizes, const Value& root);
+
+/// CaseError: `key` must be given.
+[[noreturn]] void missing(const Value& root, const std::string& key, const char* what);
+
 /// Checks parameters against each other. Throws CaseError; appends warnings.
 void cross_check(const Config& config, const Value& root, std::vector<std::string>& warnings);
 

@@ -4,8 +4,10 @@
 
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/setup.hpp"
 #include "bedload/output/output.hpp"
+#include "src/motion/inlet_flow.hpp"
 
 namespace bedload {
 
@@ -84,6 +86,9 @@ std::string summary_text(const Prepared& p) {
                          physical > 0 ? fmt::format(", {:.3g} times the physical one", nu / physical) : "");
     }
   }
+  for (const InletConfig& inlet : c.inlets)
+    out += fmt::format("inlet      {}: {} particles a layer, up to {:.4g} m/s\n", inlet.name,
+                       orifice_points(inlet, c.fluid.dx).size(), inlet_speed(inlet, c.fluid.dx, c.time.end));
   if (c.fluid.present && c.grain.present && c.couple.mode != "off")
     out += fmt::format("coupling   {}, {}, h_c {:.4g} m = {:.3g} d_max\n", c.couple.mode, c.couple.drag,
                        c.couple.hc, c.couple.hc / c.grain.d_max);

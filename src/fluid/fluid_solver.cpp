@@ -91,7 +91,7 @@ class FluidSolverWith final : public FluidSolver {
   }
 
   void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt) override {
-    const double dx = config_.wall.dx, h = config_.fluid.h();
+    const double dx = config_.wall.dx, dx_fluid = config_.fluid.dx, h = config_.fluid.h();
     WallPass<W> pass{w_,
                      eos_,
                      fluid.v_rho,
@@ -104,6 +104,7 @@ class FluidSolverWith final : public FluidSolver {
                      pose,
                      gravity_,
                      Real(dx * dx * dx),
+                     Real(dx_fluid * dx_fluid * dx_fluid),
                      Real(1e-3 / (h * h * h)),
                      walls.v_rho,
                      walls.v_visc,

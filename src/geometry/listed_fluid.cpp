@@ -87,7 +87,7 @@ class ListedFluid {
     if (!lies_inside(config_.domain, x)) fail("lies outside the domain");
     for (const WallBody& body : config_.wall.bodies) {
       const double reach = config_.fluid.kappa() * config_.fluid.h();
-      if (body.type == "adami" && wall_distance(body, x, reach, config_.domain) < -kInWall * dx)
+      if (body.stops_fluid() && wall_distance(body, x, reach, config_.domain) < -kInWall * dx)
         fail(fmt::format("lies inside wall.body \"{}\"", body.name));
     }
     for (std::size_t other = 0; other < config_.fluid.fills.size(); ++other)

@@ -14,6 +14,7 @@
 #include "bedload/case/grain_sizes.hpp"
 #include "bedload/case/particle_file.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/core/random.hpp"
 #include "bedload/geometry/build_shape.hpp"
 #include "bedload/geometry/lattice.hpp"
 #include "bedload/geometry/sampling.hpp"
@@ -23,25 +24,6 @@ namespace {
 
 constexpr double kRandomLimit = 0.30;  // random sequential places run out near 0.38
 constexpr int kTries = 20000;          // per grain, before the lattice takes over
-
-/// Pure function of seed, stream and counter, so that the n-th draw is the same however
-/// many came before it (SplitMix64 finaliser).
-class CounterRandom {
- public:
-  CounterRandom(std::uint64_t seed, std::uint64_t stream) : key_(mix(seed + mix(stream + 1))) {}
-
-  std::uint64_t bits() { return mix(key_ + 0x9e3779b97f4a7c15u * ++counter_); }
-  double uniform() { return double(bits() >> 11) * 0x1p-53; }  // [0, 1)
-  std::size_t below(std::size_t n) { return std::size_t(uniform() * double(n)); }
-
- private:
-  static std::uint64_t mix(std::uint64_t v) {
-    v = (v ^ (v >> 30)) * 0xbf58476d1ce4e5b9u;
-    v = (v ^ (v >> 27)) * 0x94d049bb133111ebu;
-    return v ^ (v >> 31);
-  }
-  std::uint64_t key_, counter_ = 0;
-};
 
 template <class T>
 void shuffle(std::vector<T>& items, CounterRandom& random) {
@@ -196,7 +178,9 @@ class Packer {
   /// Clear of every wall, by `allowed` overlap at most (m).
   bool clear_of_walls(const Vec3d& x, double radius, double allowed) const {
     for (const WallBody& body : config_.wall.bodies)
-      if (wall_distance(body, x, 10 * config_.grain.d_max, config_.domain) < radius - allowed) return false;
+      if (body.stops_grains() &&
+          wall_distance(body, x, 10 * config_.grain.d_max, config_.domain) < radius - allowed)
+        return false;
     return true;
   }
 

@@ -229,7 +229,7 @@ void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::strin
   PointFinder earlier(0.3 * spacing);
   for (std::size_t index = 0; index < bodies.size(); ++index) {
     const WallBody& body = bodies[index];
-    if (body.type != "adami") continue;
+    if (!body.stops_fluid()) continue;
     if (body.shape == "box")
       for (int k = 0; k < 3; ++k) {
         const double thickness = body.max[k] - body.min[k];
@@ -243,7 +243,7 @@ void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::strin
     for (const Vec3d& x : sample_body(body, spacing, reach, config.domain)) {
       bool taken = earlier.has_near(x);
       for (std::size_t other = 0; other < index && !taken; ++other)  // both stay where they are
-        taken = bodies[other].type == "adami" && is_fixed(body) && is_fixed(bodies[other]) &&
+        taken = bodies[other].stops_fluid() && is_fixed(body) && is_fixed(bodies[other]) &&
                 wall_distance(bodies[other], x, reach, config.domain) < -1e-9 * spacing;
       if (taken) continue;
       walls.x.push_back(x);

@@ -4,6 +4,7 @@
 
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/lattice.hpp"
+#include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/packing.hpp"
 #include "bedload/geometry/sampling.hpp"
 
@@ -14,7 +15,7 @@ namespace {
 void check_fluid_is_clear(const Config& config, const Setup::Fluid& fluid) {
   const double reach = config.fluid.kappa() * config.fluid.h(), slack = 1e-6 * config.fluid.dx;
   for (const WallBody& body : config.wall.bodies) {
-    if (body.type != "adami") continue;  // the others let fluid through
+    if (!body.stops_fluid()) continue;
     std::size_t count = 0, first = 0;
     for (std::size_t a = fluid.x.size(); a-- > 0;)
       if (wall_distance(body, fluid.x[a], reach, config.domain) < -slack) ++count, first = a;
@@ -36,6 +37,7 @@ Setup build_setup(const Config& config, std::vector<std::string>& warnings) {
     check_fluid_is_clear(config, setup.fluid);
     add_listed_fluid(config, setup.fluid, warnings);
     add_walls(config, setup.walls, warnings);
+    add_inlets(config, setup.fluid, setup.walls);
   }
   if (config.grain.present) add_grains(config, setup.grains);
   return setup;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/boundaries/sinks.hpp"
 #include "kernels/smoothing/registry.hpp"
 #include "src/measure/sweeps.hpp"
 #include "src/time/coupled_simulation.hpp"
@@ -292,13 +293,14 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     // what pair sums leave over: round-off
     vec("fluid_force_residual", "N", total - body - wall_on_fluid);
     out.push_back({"fluid_speed_max", "m/s", std::sqrt(fluid_extremes_.v2)});
-    out.push_back({"pressure_max", "Pa", max_over(fluid_.owned(), PressureBody{fluid_.m_state, 1})});
-    out.push_back({"pressure_min", "Pa", -max_over(fluid_.owned(), PressureBody{fluid_.m_state, -1})});
-    out.push_back({"density_max", "kg/m3", max_over(fluid_.owned(), DensityBody{fluid_.m_state, 1})});
-    out.push_back({"density_min", "kg/m3", -max_over(fluid_.owned(), DensityBody{fluid_.m_state, -1})});
+    const auto largest = [&](auto body) {  // of nothing there is none
+      return fluid_.size() > 0 ? max_over(fluid_.owned(), body) : std::nan("");
+    };
+    out.push_back({"pressure_max", "Pa", largest(PressureBody{fluid_.m_state, 1})});
+    out.push_back({"pressure_min", "Pa", -largest(PressureBody{fluid_.m_state, -1})});
+    out.push_back({"density_max", "kg/m3", largest(DensityBody{fluid_.m_state, 1})});
+    out.push_back({"density_min", "kg/m3", -largest(DensityBody{fluid_.m_state, -1})});
     out.push_back({"fluid_count", "-", double(fluid_.size())});
-    out.push_back({"lost_fluid_count", "-", lost_fluid_});
-    out.push_back({"lost_fluid_mass", "kg", lost_mass_});
   }
   if (has_grains()) {
     const auto s = solid_solver_->totals(grains_);
@@ -320,11 +322,13 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
   }
   if (coupled()) {
     const auto c = coupling_->counters(fluid_, grains_);
-    out.push_back({"porosity_min", "-", -max_over(fluid_.owned(), PorosityBody{fluid_.eps})});
+    const double least = -max_over(fluid_.owned(), PorosityBody{fluid_.eps});
+    out.push_back({"porosity_min", "-", fluid_.size() > 0 ? least : std::nan("")});
     out.push_back({"porosity_floor_hits", "-", double(c.floor_hits)});
     out.push_back({"drag_limited_grains", "-", double(c.limited)});
     out.push_back({"wet_grains", "-", double(c.wet)});
   }
+  for (const Quantity& q : open_.report(clock_.time)) out.push_back(q);
   out.push_back({"rebuilds", "-", double(rebuilds_)});
   return out;
 }
@@ -390,7 +394,7 @@ std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
   // force: on one wall body, by fluid and by grains
   std::vector<Quantity> out;
   int body = 0;
-  for (int b = 0; b < motion_.bodies(); ++b)
+  for (int b = 0; b < motion_.walls(); ++b)
     if (config_.wall.bodies[b].name == p.body) body = b;
   const auto fluid = wall_loads(p.about);
   BodyLoad grains;

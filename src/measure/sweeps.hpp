@@ -49,13 +49,6 @@ double max_over(Range range, const Body& body) {
   return reduce(range, MaxSweep<Body>{body});
 }
 
-/// Outside the domain on an axis that is not periodic.
-BL_HD bool outside(const Frame& f, const Vec3d& x) {
-  for (int k = 0; k < 3; ++k)
-    if (!f.periodic[k] && !(x[k] >= f.origin[k] && x[k] <= f.origin[k] + f.length[k])) return true;
-  return false;
-}
-
 /// Coordinate along a direction, m.
 template <class P>
 struct AlongBody {
@@ -63,18 +56,6 @@ struct AlongBody {
   Span<const P> x;
   Vec3d direction;
   BL_HD double operator()(Index i) const { return dot(direction, coordinates(frame, x[i])); }
-};
-
-/// {count, mass} of fluid outside the domain.
-struct OutsideBody {
-  Frame frame;
-  Span<const FluidPosition> x;
-  Span<const Real> mass;
-  BL_HD void operator()(Index a, double* out) const {
-    if (!outside(frame, coordinates(frame, x[a]))) return;
-    out[0] = 1;
-    out[1] = mass[a];
-  }
 };
 
 }  // namespace bedload::inline BL_VARIANT

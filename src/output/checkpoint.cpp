@@ -12,6 +12,7 @@
 
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/orifice.hpp"
 #include "bedload/output/files.hpp"
 #include "bedload/output/h5_table.hpp"
 #include "bedload/output/output.hpp"
@@ -43,6 +44,13 @@ std::vector<Quantity> particle_setup(const Config& c) {
   }
   for (std::size_t k = 0; k < c.wall.bodies.size(); ++k)
     add_box(fmt::format("wall.{}", c.wall.bodies[k].name), c.wall.bodies[k].min, c.wall.bodies[k].max);
+  for (const InletConfig& inlet : c.inlets) {
+    for (int k = 0; k < 3; ++k) {
+      add(fmt::format("inlet.{}.centre[{}]", inlet.name, k), inlet.centre[k]);
+      add(fmt::format("inlet.{}.direction[{}]", inlet.name, k), inlet.direction[k]);
+    }
+    add(fmt::format("inlet.{}.points", inlet.name), double(orifice_points(inlet, c.fluid.dx).size()));
+  }
   if (c.grain.present) {
     for (std::size_t k = 0; k < c.grain.fills.size(); ++k) {
       const auto& fill = c.grain.fills[k];

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/sampling.hpp"
 #include "bedload/simulation.hpp"
 #include "render.hpp"
@@ -41,7 +42,8 @@ Scene scene_of(const Config& config, const Setup& setup, const Setup::Walls& wal
         {setup.grains.x[i], r, range > 1e-9 * d_min ? mix(kSmall, kLarge, share) : kGrain});
   }
   for (std::size_t w = 0; w < walls.x.size(); ++w) {
-    const bool moves = config.wall.bodies[walls.body[w]].motion.kind != "fixed";
+    const bool inlet = walls.body[w] >= config.wall.bodies.size();
+    const bool moves = inlet || config.wall.bodies[walls.body[w]].motion.kind != "fixed";
     scene.walls.push_back({walls.x[w], 0.5 * spacing, moves ? kMoving : kWall});
   }
   scene.min = Vec3d{1e300, 1e300, 1e300}, scene.max = -1.0 * scene.min;
@@ -225,6 +227,11 @@ Setup::Walls wall_surfaces(const Config& config, double at_least) {
     for (const Vec3d& x : sample_body(config.wall.bodies[index], spacing, spacing, config.domain)) {
       walls.x.push_back(x);
       walls.body.push_back(std::uint32_t(index));
+    }
+  for (std::size_t i = 0; i < config.inlets.size(); ++i)
+    for (const Vec3d& x : orifice_points(config.inlets[i], spacing)) {
+      walls.x.push_back(x);
+      walls.body.push_back(std::uint32_t(config.wall.bodies.size() + i));
     }
   return walls;
 }

@@ -19,7 +19,7 @@ struct GatherPass {
 template <class T>
 void Field<T>::gather(Span<const Index> order) {
   static Buffer<T> spare;  // one a type: a gather swaps it with the field
-  spare.resize(order.size);
+  spare.reserve_and_resize(order.size);
   for_each({0, order.size}, GatherPass<T>{data_, order, spare});
   data_.swap(spare);
 }

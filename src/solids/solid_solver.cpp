@@ -17,6 +17,13 @@ struct WrapGrains {
   BL_HD void operator()(Index i) const { x_list[i] = x[i] = frame.wrap(x[i]); }
 };
 
+/// Places among the grains as listed last, from places among those that are left.
+struct ComeFromPass {
+  Span<const Index> came_from;
+  Span<Index> order;
+  BL_HD void operator()(Index i) const { order[i] = came_from[order[i]]; }
+};
+
 }  // namespace
 
 SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeometry& walls,
@@ -39,14 +46,15 @@ SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeo
   }
 }
 
-void SolidSolver::refresh(GrainStore& grains, CellGrid& grid) {
+void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal) {
   for_each(grains.owned(), WrapGrains{frame_, grains.x, grains.x_list});
   grid.sort<Vec3d>(frame_, grains.x.span(), order_);
   grains.reorder(order_);
+  if (renewal.any) for_each(grains.owned(), ComeFromPass{renewal.came_from, order_});
   std::swap(list_, old_list_);
   history_.swap(old_history_);
   build_list(grains, grid);
-  if (old_list_.rows() == grains.size())
+  if (old_list_.rows() == (renewal.any ? renewal.before : grains.size()))
     for_each(grains.owned(),
              CarryHistoryPass{old_list_.view(), list_.view(), order_, old_history_.data(), history_.data()});
 }

@@ -51,6 +51,13 @@ struct BodyLoad {
   Vec3d torque;  ///< about BodyPose::centre + translation, N m
 };
 
+/// Grains that were taken out or put in since the last lists.
+struct GrainRenewal {
+  Span<const Index> came_from;  ///< former place of each grain; kNone if it is new
+  Index before = 0;             ///< how many there were
+  bool any = false;
+};
+
 class SolidSolver {
  public:
   /// Registers what grains remember of walls with `grains`: construct before the store is filled or loaded.
@@ -62,8 +69,8 @@ class SolidSolver {
   const ContactLaw& law() const { return law_; }
 
   /// Wraps, sorts and lists the grains anew; histories of surviving pairs carry over.
-  /// order() then says where each grain was.
-  void refresh(GrainStore& grains, CellGrid& grid);
+  /// order() then says where each grain was when they were listed last.
+  void refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal = {});
   const Buffer<Index>& order() const { return order_; }
   const VerletList& list() const { return list_; }
 

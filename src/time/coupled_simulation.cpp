@@ -30,6 +30,7 @@ StepInfo CoupledSimulation::step() {
   if (has_fluid()) advance_fluid(dt);
 
   clock_.time += dt;
+  motion_.advance(clock_.time);
   clock_.last_dt = dt;
   ++clock_.step;
   walls_moved_ += dt * std::max(motion_.top_speed(clock_.time - dt), motion_.top_speed(clock_.time));
@@ -152,30 +153,35 @@ void CoupledSimulation::settle(double longest, const std::function<void(double)>
 
 void CoupledSimulation::refresh_if_needed(double dt) {
   // by the end of this step; while each phase keeps to half its skin, the lists across the phases hold too
-  bool fluid_due = false, grains_due = false;
+  bool fluid_due = open_.fluid_due(), grains_due = open_.grains_due(clock_.time);
   if (has_fluid()) {
     const double moved = std::sqrt(fluid_extremes_.moved2) +
                          dt * (std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2));
     const double wall = walls_moved_ + dt * motion_.top_speed(clock_.time);
-    fluid_due = 2 * moved > fluid_solver_->skin() || moved + wall > fluid_solver_->skin();
+    fluid_due = fluid_due || 2 * moved > fluid_solver_->skin() || moved + wall > fluid_solver_->skin();
   }
   if (has_grains() && !config_.grain.fixed) {
     const double moved =
         grain_watch_.displacement + 1.5 * dt * (grain_watch_.speed + dt * norm(gravity_.at(clock_.time)));
-    grains_due = 2 * moved > solid_solver_->skin();
+    grains_due = grains_due || 2 * moved > solid_solver_->skin();
   }
   refresh(fluid_due, grains_due);
 }
 
 void CoupledSimulation::refresh(bool fluid, bool grains) {
+  bool arrived = false;
   if (fluid) {
-    drop_lost_fluid();
+    arrived = open_.renew(fluid_, walls_, fluid_solver_->eos(), clock_.time, gravity_.at(clock_.time));
     fluid_solver_->refresh(fluid_, walls_, rebuilds_ == 0 || walls_moved_ > 0);
     walls_moved_ = 0;
   }
-  if (grains) solid_solver_->refresh(grains_, grain_grid_);
+  if (grains) solid_solver_->refresh(grains_, grain_grid_, open_.renew(grains_, clock_.time));
   if (!fluid && !grains) return;
   if (coupled()) relist_coupling();
+  if (arrived) {
+    if (two_way()) coupling_->porosity(fluid_, grains_, poses_now());
+    open_.arrive(fluid_, fluid_solver_->eos());
+  }
   rebuilt_ = true;
   ++rebuilds_;
 }
@@ -201,26 +207,11 @@ void CoupledSimulation::relist_coupling() {
                            (fluid_solver_->skin() + solid_solver_->skin()) / 2);
 }
 
-/// Fluid that left the domain through an open side is deleted and tallied.
-void CoupledSimulation::drop_lost_fluid() {
-  const auto lost = sum_over<2>(fluid_.owned(), OutsideBody{frame_, fluid_.x, fluid_.mass});
-  if (lost.v[0] == 0) return;
-  lost_fluid_ += lost.v[0];
-  lost_mass_ += lost.v[1];
-  std::vector<Index> keep;
-  const auto x = fluid_.x.values();
-  for (Index a = 0; a < fluid_.size(); ++a)
-    if (!outside(frame_, coordinates(frame_, x[a]))) keep.push_back(a);
-  Buffer<Index> order;
-  order.assign(keep);
-  fluid_.reorder(order);
-}
-
 void CoupledSimulation::remove_cleared_bodies() {
   const double g = norm(config_.gravity);
   if (g == 0 || clock_.step % 20 != 0) return;
   const Vec3d up = config_.gravity * (-1 / g);
-  for (int b = 0; b < motion_.bodies(); ++b) {
+  for (int b = 0; b < motion_.walls(); ++b) {
     const auto& motion = config_.wall.bodies[b].motion;
     if (!motion.remove_when_clear || motion_.removed(b) || clock_.time <= motion.start) continue;
     double top = -std::numeric_limits<double>::infinity();

@@ -2,6 +2,7 @@
 // One simulation: the state, the solvers that advance it, and the order of work in a step.
 
 #include "bedload/simulation.hpp"
+#include "src/boundaries/open_boundaries.hpp"
 #include "src/coupling/coupling.hpp"
 #include "src/fluid/fluid_solver.hpp"
 #include "src/solids/solid_solver.hpp"
@@ -51,7 +52,6 @@ class CoupledSimulation final : public Simulation {
   void refresh(bool fluid, bool grains);
   void restore_lists(const SavedState& state);
   void relist_coupling();
-  void drop_lost_fluid();
   void remove_cleared_bodies();
   void sweep();  ///< extremes after a step; throws SimulationFault
   Span<const BodyPose> poses_now() { return motion_.poses(clock_.time, 0, 1); }
@@ -63,8 +63,9 @@ class CoupledSimulation final : public Simulation {
   FluidStore fluid_;
   WallStore walls_;
   GrainStore grains_;
-  WallGeometry geometry_;
+  WallGeometry geometry_, grain_geometry_;  ///< that fluid and that grains meet
   WallMotion motion_;
+  OpenBoundaries open_;
   FeltGravity gravity_;
   CellGrid grain_grid_;
   std::unique_ptr<FluidSolver> fluid_solver_;
@@ -77,7 +78,6 @@ class CoupledSimulation final : public Simulation {
   double walls_moved_ = 0;  ///< bound on wall travel since the lists were built, m
   bool rebuilt_ = false;
   std::int64_t rebuilds_ = 0;
-  double lost_fluid_ = 0, lost_mass_ = 0;
   Buffer<Vec3d> wall_force_;
 };
 

@@ -96,15 +96,17 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
              config.domain.periodic[2]),
       clock_(config.time),
       geometry_(config),
+      grain_geometry_(config, true),
       motion_(config),
+      open_(config, frame_, motion_),
       gravity_(config) {
   if (has_grains()) {
-    solid_solver_ = std::make_unique<SolidSolver>(config, frame_, geometry_, grains_);
+    solid_solver_ = std::make_unique<SolidSolver>(config, frame_, grain_geometry_, grains_);
     grain_grid_ = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, solid_solver_->range());
   }
   if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_, geometry_);
   if (has_fluid() && has_grains() && config.couple.mode != "off")
-    coupling_ = std::make_unique<Coupling>(config, frame_, geometry_);
+    coupling_ = std::make_unique<Coupling>(config, frame_, grain_geometry_);
   upload(setup);
 }
 
@@ -138,6 +140,7 @@ void CoupledSimulation::upload(const Setup& setup) {
   grains_.v.assign(converted<Real3>(g.v));
   grains_.radius.assign(converted<Real>(g.radius));
   grains_.eps.assign(std::vector<Real>(g.x.size(), Real(1)));
+  open_.start(fluid_, grains_);
 }
 
 void CoupledSimulation::start() {
@@ -190,9 +193,9 @@ SavedState CoupledSimulation::save() {
   }
   out.scalars = {{"time", "s", clock_.time},         {"step", "-", double(clock_.step)},
                  {"last_dt", "s", clock_.last_dt},   {"drag_limit", "s", drag_limit_},
-                 {"walls_moved", "m", walls_moved_}, {"rebuilds", "-", double(rebuilds_)},
-                 {"lost_fluid", "-", lost_fluid_},   {"lost_mass", "kg", lost_mass_}};
-  for (int b = 0; b < motion_.bodies(); ++b)
+                 {"walls_moved", "m", walls_moved_}, {"rebuilds", "-", double(rebuilds_)}};
+  open_.save(out.scalars);
+  for (int b = 0; b < motion_.walls(); ++b)
     out.scalars.push_back({"removed_" + std::to_string(b), "-", motion_.removed(b) ? 1.0 : 0.0});
   return out;
 }
@@ -209,9 +212,8 @@ void CoupledSimulation::load(const SavedState& state) {
   drag_limit_ = scalar("drag_limit");
   walls_moved_ = scalar("walls_moved");
   rebuilds_ = std::int64_t(scalar("rebuilds"));
-  lost_fluid_ = scalar("lost_fluid");
-  lost_mass_ = scalar("lost_mass");
-  for (int b = 0; b < motion_.bodies(); ++b)
+  open_.load(scalar, clock_.time);
+  for (int b = 0; b < motion_.walls(); ++b)
     if (scalar("removed_" + std::to_string(b)) != 0) motion_.remove(b);
   if (has_fluid()) {
     fluid_.load(store_of(state, "fluid"));

@@ -11,11 +11,12 @@ struct SurfacePart;
 
 namespace bedload::inline BL_VARIANT {
 
-/// The surfaces of all wall bodies, where kernels find them: a rectangle for each face of a tank, one surface
-/// for a box or a plane, one for each part of a shape.
+/// The surfaces of wall bodies, where kernels find them: a rectangle for each face of a tank, one surface for
+/// a box or a plane, one for each part of a shape.
 class WallGeometry {
  public:
-  explicit WallGeometry(const Config& config);
+  /// Of all bodies, or of those that stop grains.
+  explicit WallGeometry(const Config& config, bool grains_only = false);
 
   const std::vector<Surface>& surfaces() const { return surfaces_; }
   /// Touches that one grain may have at once, at most kMostWallContacts.

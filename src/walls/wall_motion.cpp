@@ -31,13 +31,19 @@ std::vector<Vec3d> corners(const WallBody& b) {
 
 WallMotion::WallMotion(const Config& config) : config_(config), removed_(config.wall.bodies.size(), false) {
   for (const WallBody& body : config.wall.bodies) laws_.emplace_back(body.motion, config.time.end);
+  for (const InletConfig& inlet : config.inlets) inlets_.emplace_back(inlet, config.fluid.dx);
 }
 
 BodyPose WallMotion::pose(int body, double t) const {
+  if (body >= walls()) {
+    BodyPose p{inlets_[body - walls()].motion(t)};
+    p.flows = 1;
+    return p;
+  }
   const WallBody& b = config_.wall.bodies[body];
   BodyPose p{laws_[body].at(t)};
   p.slip = b.slip == "slip";
-  p.repulsion = b.repulsion && b.type == "adami";
+  p.repulsion = b.repulsion && b.stops_fluid();
   p.present = !removed_[body];
   return p;
 }
@@ -53,7 +59,8 @@ Span<const BodyPose> WallMotion::poses(double t, double dt, int n) {
 
 double WallMotion::top_speed(double t) const {
   double top = 0;
-  for (int b = 0; b < bodies(); ++b) {
+  for (const InletFlow& inlet : inlets_) top = std::max(top, norm(inlet.motion(t).v));
+  for (int b = 0; b < walls(); ++b) {
     if (removed_[b] || !laws_[b].moves()) continue;
     const BodyPose p = pose(b, t);
     for (const auto& c : corners(config_.wall.bodies[b])) top = std::max(top, norm(p.velocity(p.place(c))));

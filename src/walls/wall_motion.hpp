@@ -3,17 +3,25 @@
 #include "bedload/motion/law.hpp"
 #include "bedload/parallel/loops.hpp"
 #include "bedload/particles/walls.hpp"
+#include "src/motion/inlet_flow.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Moves all bodies, SPH particles and DEM surfaces by one law; poses live on the device.
+/// Moves all bodies, SPH particles and DEM surfaces by one law; poses live on the device. The fluid on its
+/// way through each inlet is a body too, listed after the walls.
 class WallMotion {
  public:
   explicit WallMotion(const Config& config);
 
-  int bodies() const { return int(config_.wall.bodies.size()); }
+  int walls() const { return int(config_.wall.bodies.size()); }
+  int bodies() const { return walls() + int(inlets_.size()); }
+  std::vector<InletFlow>& inlets() { return inlets_; }
   /// Poses at t + k dt / n for k = 0..n, [n + 1][bodies], on the device.
   Span<const BodyPose> poses(double t, double dt, int n);
+  /// Counts what has come through the inlets up to time t, s.
+  void advance(double t) {
+    for (InletFlow& inlet : inlets_) inlet.advance(t);
+  }
   /// Pose of one body at time t (s), on the host.
   BodyPose pose(int body, double t) const;
   /// Largest speed of any wall point at time t, m/s.
@@ -21,15 +29,16 @@ class WallMotion {
   /// Places wall particles and sets their true velocity; `pose`: [2][bodies], that of the velocity and that
   /// of the place.
   static void place(const Frame& frame, WallStore& walls, Span<const BodyPose> pose);
-  /// The body is gone from now on.
+  /// The wall is gone from now on.
   void remove(int body) { removed_[body] = true; }
   bool removed(int body) const { return removed_[body]; }
-  /// Lowest point of body along `up` at time t, m.
+  /// Lowest point of a wall along `up` at time t, m.
   double lowest(int body, double t, const Vec3d& up) const;
 
  private:
   Config config_;
-  std::vector<MotionLaw> laws_;  ///< one a body
+  std::vector<MotionLaw> laws_;  ///< one a wall
+  std::vector<InletFlow> inlets_;
   std::vector<bool> removed_;
   std::vector<BodyPose> host_;
   Buffer<BodyPose> device_;

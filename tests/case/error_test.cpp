@@ -68,7 +68,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[time]\nend = 0.3\n", "", "dam.toml: time.end must be given (end of the run, s)"},
         Wrong{"shape = \"tank\"\n", "", "dam.toml:10: wall.body.shape must be given (shape of the body)"},
         Wrong{"d = 0.002\n", "",
-              "dam.toml:15: grain.d must be given (diameter, m, where a grain.fill has no sizes)"},
+              "dam.toml:15: grain.d must be given (diameter, m, where a grain.fill or grain_inlet has no "
+              "sizes)"},
         Wrong{"count = 500\n", "",
               "dam.toml:17: grain.fill must have exactly one of count, mass and packing_fraction"},
         Wrong{"count = 500\n", "count = 500\nmass = 1\n",
@@ -76,7 +77,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[grain]\n", "[contact]\nnormal = \"linear\"\n[grain]\n",
               "dam.toml:15: contact.k must be given (spring, N/m, with contact.normal = \"linear\")"},
         Wrong{"title = \"dam\"\n", "gravity = [0, 0, 0]\n",
-              "dam.toml:5: fluid.vmax must be given (m/s; neither gravity nor a wall sets a speed here)"}));
+              "dam.toml:5: fluid.vmax must be given (m/s; neither gravity nor a wall or inlet sets a speed "
+              "here)"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Bounds, CaseErrors,

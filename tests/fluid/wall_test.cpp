@@ -47,6 +47,7 @@ double extrapolated(const Vec3d& gravity, const Vec3d& wall, const Vec3d& push) 
                                   Real3(gravity),
                                   Real(1e-3),
                                   Real(1e-3),
+                                  Real(1e-3),
                                   out(v_rho),
                                   out(v_visc),
                                   out(m_state)};

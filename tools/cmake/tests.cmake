@@ -45,7 +45,7 @@ target_link_libraries(bedload_bench PRIVATE bedload_host bedload_device)
 file(GLOB_RECURSE BEDLOAD_SOLVER_TESTS CONFIGURE_DEPENDS
      tests/kernels/*_test.cpp tests/parallel/*_test.cpp tests/particles/*_test.cpp
      tests/neighbours/*_test.cpp tests/fluid/*_test.cpp tests/solids/*_test.cpp tests/walls/*_test.cpp
-     tests/coupling/*_test.cpp tests/time/*_test.cpp tests/physics/*_test.cpp)
+     tests/coupling/*_test.cpp tests/boundaries/*_test.cpp tests/time/*_test.cpp tests/physics/*_test.cpp)
 
 # bedload_variant_tests(<variant> [label prefix]): the solver's tests, built for one variant.
 function(bedload_variant_tests variant)

@@ -143,11 +143,13 @@ struct WallBody {
   Vec3d min, max;                              ///< box, tank: m; of a shape: around it (resolved)
   std::array<bool, 6> faces{true, true, true, true, true, true};  ///< tank: x-, x+, y-, y+, z-, z+
   Vec3d point, normal;                         ///< plane: normal points into the flow
-  std::string type = "adami";                  ///< adami, grains_only
+  std::string type = "adami";                  ///< adami, grains_only, fluid_only
   std::string slip = "noslip";                 ///< noslip, slip
   bool repulsion = true;                       ///< Monaghan repulsion beside the extrapolated pressure
   MotionConfig motion;
   Solid solid;                                 ///< of a named shape (resolved)
+  bool stops_fluid() const { return type == "adami" || type == "fluid_only"; }
+  bool stops_grains() const { return type != "fluid_only"; }
   bool operator==(const WallBody&) const = default;
 };
 
@@ -246,6 +248,50 @@ struct TimeConfig {
   bool operator==(const TimeConfig&) const = default;
 };
 
+/// A plane orifice through which fluid comes in.
+struct InletConfig {
+  std::string name;
+  std::string shape = "disc";                  ///< disc, rectangle
+  Vec3d centre, direction;                     ///< m; unit, into the flow
+  double radius = 0;                           ///< disc: m
+  Vec3d half_a, half_b;                        ///< rectangle: from its centre to the middles of two sides, m
+  double rate = 0;                             ///< m3/s; exactly one of rate and velocity
+  double velocity = 0;                         ///< m/s
+  std::string factor = "1";                    ///< of either; formula in t
+  double ramp = 0;                             ///< opening and closing take this long, s (default 10 h/c)
+  double start = 0;                            ///< s
+  double stop = std::numeric_limits<double>::infinity();  ///< s
+  bool operator==(const InletConfig&) const = default;
+};
+
+/// Where fluid or grains are taken out.
+struct OutletConfig {
+  std::string name;
+  std::string phase = "both";                  ///< fluid, grains, both
+  std::string shape = "box";                   ///< box, plane (half-space beyond it), or a name
+  Vec3d min, max;                              ///< box: m; of a shape: around it (resolved)
+  Vec3d point, normal;                         ///< plane: normal points out of the flow
+  Solid solid;                                 ///< of a named shape (resolved)
+  bool takes(const char* what) const { return phase == "both" || phase == what; }
+  bool operator==(const OutletConfig&) const = default;
+};
+
+/// Where grains are dropped in one by one.
+struct GrainInletConfig {
+  std::string name;
+  std::string shape = "box";                   ///< box, disc
+  Vec3d min, max;                              ///< box: m, grains lie inside
+  Vec3d centre, direction;                     ///< disc: m, normal; centres of grains lie on it
+  double radius = 0;                           ///< disc: m, grains lie inside
+  double rate = 0;                             ///< grains/s; exactly one of rate and mass_rate
+  double mass_rate = 0;                        ///< kg/s
+  Vec3d velocity;                              ///< m/s
+  double start = 0;                            ///< s
+  double stop = std::numeric_limits<double>::infinity();  ///< s
+  std::vector<SizeClass> sizes;                ///< default: one class, grain.d
+  bool operator==(const GrainInletConfig&) const = default;
+};
+
 /// What is measured along the way; one CSV file each under probes/.
 struct ProbeConfig {
   std::string name;
@@ -287,7 +333,10 @@ struct Config {
   DensityConfig density;
   ViscosityConfig visc;
   WallConfig wall;
+  std::vector<InletConfig> inlets;
+  std::vector<OutletConfig> outlets;
   GrainConfig grain;
+  std::vector<GrainInletConfig> grain_inlets;
   ContactConfig contact;
   CouplingConfig couple;
   TimeConfig time;

@@ -16,6 +16,10 @@ struct RigidMotion {
   BL_HD Vec3d place(const Vec3d& x0) const {
     return turned() ? centre + translation + rotation.rotate(x0 - centre) : x0 + translation;
   }
+  /// Where a point was that is at x now.
+  BL_HD Vec3d undo(const Vec3d& x) const {
+    return turned() ? centre + rotation.conjugate().rotate(x - centre - translation) : x - translation;
+  }
   BL_HD Vec3d velocity(const Vec3d& x) const { return v + cross(omega, x - centre - translation); }
   BL_HD Vec3d acceleration(const Vec3d& x) const {
     const Vec3d r = x - centre - translation;

@@ -21,7 +21,7 @@ std::vector<Vec3d> sample_body(const WallBody& body, double spacing, double dept
 /// where a tank has no wall opposite `x`. Tank walls are `thickness` thick.
 double wall_distance(const WallBody& body, const Vec3d& x, double thickness, const DomainConfig& domain);
 
-/// Adds the particles of every wall body of type adami. Where bodies share space the
+/// Adds the particles of every wall body that stops fluid. Where bodies share space the
 /// body listed first keeps it. Throws CaseError.
 void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::string>& warnings);
 

@@ -70,6 +70,14 @@ inline void copy_to_host(void* to, const void* from, std::size_t bytes) {
   std::memcpy(to, from, bytes);
 #endif
 }
+inline void copy_on_device(void* to, const void* from, std::size_t bytes) {
+  if (bytes == 0) return;
+#if BL_CUDA
+  check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice), "copy on the GPU");
+#else
+  std::memcpy(to, from, bytes);
+#endif
+}
 inline void fill_zero(void* p, std::size_t bytes) {
   if (bytes == 0) return;
 #if BL_CUDA
@@ -108,6 +116,17 @@ class Buffer {
       capacity_ = n;
       fill_zero(data_, n * sizeof(T));
     }
+    size_ = n;
+  }
+  /// New length, keeping what fits; what is added is zero. Room to grow on.
+  void grow(std::size_t n) {
+    if (n > capacity_) {
+      Buffer larger(n + n / 8 + 64);
+      copy_on_device(larger.data_, data_, size_ * sizeof(T));
+      larger.size_ = size_;
+      swap(larger);
+    }
+    if (n > size_) fill_zero(data_ + size_, (n - size_) * sizeof(T));
     size_ = n;
   }
   /// As resize, with room to grow so that it seldom has to.

@@ -62,6 +62,8 @@ class FieldBase {
   const Lifetime lifetime;
 
   virtual void resize(Index n) = 0;
+  /// To n entries, the new ones zero.
+  virtual void grow(Index n) = 0;
   /// x[i] = old x[order[i]]; shrinks to order.size.
   virtual void gather(Span<const Index> order) = 0;
   virtual HostArray to_host() const = 0;
@@ -74,6 +76,7 @@ class Field final : public FieldBase {
   using FieldBase::FieldBase;
 
   void resize(Index n) override { data_.resize(n); }
+  void grow(Index n) override { data_.grow(n); }
   void gather(Span<const Index> order) override;  // in field.cpp, for the types listed there
   HostArray to_host() const override {
     HostArray a{name, unit, FileType<T>::scalar, FileType<T>::components, {}};

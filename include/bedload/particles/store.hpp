@@ -21,6 +21,11 @@ class Store {
     size_ = n;
     for (auto* f : fields_) f->resize(n);
   }
+  /// Adds particles up to n, all of whose fields are zero.
+  void grow(Index n) {
+    size_ = n;
+    for (auto* f : fields_) f->grow(n);
+  }
   /// Reorders everything that outlives a step; may drop particles (order shorter than size).
   void reorder(Span<const Index> order) {
     for (auto* f : fields_)

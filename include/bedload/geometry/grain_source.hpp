@@ -1,0 +1,52 @@
+#pragma once
+// Grains dropped in while a case runs.
+
+#include <cstdint>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+
+namespace bedload {
+
+/// One [[grain_inlet]]: when a grain is due, how large it is and where it may go. The n-th grain always has
+/// the same size; each round of places is drawn anew. Depends on grain.seed alone.
+class GrainSource {
+ public:
+  GrainSource(const Config& config, std::size_t index);
+
+  /// What a restart must know.
+  struct State {
+    double count = 0;   ///< grains dropped so far
+    double mass = 0;    ///< of them, kg
+    double rounds = 0;  ///< of places tried
+    double asked = 0;   ///< grains due when room was last looked for
+  };
+  State state;
+
+  double radius() const { return radius_; }  ///< of the next grain, m
+  Vec3d velocity() const { return inlet_.velocity; }
+  /// The next grain is due.
+  bool due(double t) const { return waiting(t) > 0; }
+  /// Another has come due since room was last looked for.
+  bool news(double t) const { return state.count + waiting(t) > state.asked; }
+  /// Grains due but not yet dropped.
+  double waiting(double t) const;
+
+  /// A new round of random places for the next grain, m.
+  std::vector<Vec3d> places();
+  void dropped();
+  /// Goes on from a state that has been set.
+  void resume() { radius_ = next_radius(); }
+
+ private:
+  double next_radius() const;
+  double mass_of(double radius) const;
+
+  GrainInletConfig inlet_;
+  double rho_;
+  std::uint64_t seed_, stream_;
+  std::vector<std::vector<double>> sizes_;  ///< diameters in rising order, equally frequent, of each entry
+  double radius_;
+};
+
+}  // namespace bedload

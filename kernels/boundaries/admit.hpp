@@ -1,0 +1,68 @@
+#pragma once
+// Fluid that comes in: the foremost particles upstream of an orifice become fluid.
+
+#include "bedload/core/frame.hpp"
+#include "bedload/particles/fluid.hpp"
+#include "bedload/particles/walls.hpp"
+#include "kernels/fluid/equation_of_state.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// For every particle of the wall store: those whose ids follow `first` become fluid where they are, at their
+/// velocity and the pressure that they took from the fluid ahead.
+struct AdmitPass {
+  Frame frame;
+  EquationOfState eos;
+  Id first;       ///< of the foremost layer
+  Index count;    ///< of its particles
+  Index place;    ///< of the first new fluid particle
+  Id id;          ///< of that particle
+  Real mass;      ///< of each, kg
+  Real3 acc;      ///< of the layer, m/s2
+  Real3 gravity;  ///< felt, m/s2
+  Span<const Id> wall_id;
+  Span<const Vec3d> wall_x;
+  Span<const Real4> wall_v_rho, wall_m_state;
+  Span<Id> fluid_id;
+  Span<FluidPosition> x;
+  Span<Real4> v_rho;
+  Span<Real> s, fluid_mass, eps;
+  Span<Real3> theta, fluid_acc;
+
+  BL_HD void operator()(Index w) const {
+    const Id k = wall_id[w] - first;
+    if (k >= count) return;
+    const Index a = place + k;
+    const bool touches_fluid = wall_m_state[w].x > 0;
+    const Real compression = touches_fluid ? eos.compression(wall_m_state[w].w) : Real(0);
+    fluid_id[a] = id + k;
+    x[a] = as_position<FluidPosition>(frame, wall_x[w]);
+    v_rho[a] = {wall_v_rho[w].xyz(), eos.rho0 * (1 + compression)};
+    s[a] = compression;
+    fluid_mass[a] = mass;
+    eps[a] = 1;
+    theta[a] = acc - gravity;  // what moves it as prescribed
+    fluid_acc[a] = acc;
+  }
+};
+
+/// New fluid, of ids from `first` on, among grains: the same pressure at the porosity found there.
+struct ArrivePass {
+  EquationOfState eos;
+  Id first;
+  Span<const Id> id;
+  Span<const Real> eps, mass;
+  Span<Real> s;
+  Span<Real4> v_rho, m_state;
+
+  BL_HD void operator()(Index a) const {
+    if (id[a] < first) return;
+    const Real compression = s[a], p = eos.pressure(compression);
+    s[a] = eps[a] * (1 + compression) - 1;
+    const Real superficial = eos.rho0 * (1 + s[a]);
+    v_rho[a] = {v_rho[a].xyz(), superficial};
+    m_state[a] = {mass[a], p / square(superficial), eos.rho0 * (1 + compression), p};
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

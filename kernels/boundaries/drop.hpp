@@ -1,0 +1,50 @@
+#pragma once
+// Grains dropped in one by one.
+
+#include "bedload/core/frame.hpp"
+#include "bedload/core/span.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// A sphere that wants room.
+struct NewGrain {
+  Vec3d x, v;         ///< m, m/s
+  double radius = 0;  ///< m
+};
+
+/// Up to N places for a grain; which of them are taken by grains that are there.
+template <int N>
+struct RoomBody {
+  Frame frame;
+  Vec3d place[N];
+  double radius;
+  Span<const Vec3d> x;
+  Span<const Real> radii;
+  BL_HD void operator()(Index i, double* out) const {
+    const double least = radius + double(radii[i]);
+    for (int k = 0; k < N; ++k) out[k] = norm2(frame.separation(x[i], place[k])) < least * least ? 1 : 0;
+  }
+};
+
+/// Writes new grains behind those that were there.
+struct DropPass {
+  Span<const NewGrain> grain;
+  Index place;  ///< of the first
+  Id first;     ///< its id
+  Span<Id> id;
+  Span<Vec3d> x;
+  Span<Real3> v;
+  Span<Real> radius, eps;
+  Span<Index> came_from;
+  BL_HD void operator()(Index k) const {
+    const Index i = place + k;
+    id[i] = first + k;
+    x[i] = grain[k].x;
+    v[i] = Real3(grain[k].v);
+    radius[i] = Real(grain[k].radius);
+    eps[i] = 1;
+    came_from[i] = kNone;
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

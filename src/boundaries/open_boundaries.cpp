@@ -1,0 +1,279 @@
+#include "src/boundaries/open_boundaries.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bedload/geometry/orifice.hpp"
+#include "bedload/geometry/sampling.hpp"
+#include "kernels/boundaries/admit.hpp"
+#include "kernels/boundaries/sinks.hpp"
+#include "src/measure/sweeps.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr int kPlaces = 16;  // that a grain may go to, looked at together
+
+/// The outlets of a phase as solids, so that a device can ask whether a place lies in one.
+Config outlets_as_walls(Config c, const char* phase) {
+  c.wall.bodies.clear();
+  for (const OutletConfig& outlet : c.outlets) {
+    WallBody body;
+    body.shape = outlet.takes(phase) ? outlet.shape : "none";
+    body.min = outlet.min, body.max = outlet.max;
+    body.point = outlet.point, body.normal = -outlet.normal;
+    if (outlet.takes(phase)) body.solid = outlet.solid;
+    c.wall.bodies.push_back(body);
+  }
+  return c;
+}
+
+double fluid_mass(const Config& c) { return c.fluid.rho0 * c.fluid.dx * c.fluid.dx * c.fluid.dx; }
+
+}  // namespace
+
+OpenBoundaries::WaysOut::WaysOut(const Config& config, const char* phase)
+    : geometry(outlets_as_walls(config, phase)), tally(1 + config.outlets.size()) {}
+
+OpenBoundaries::OpenBoundaries(const Config& config, const Frame& frame, WallMotion& motion)
+    : config_(config),
+      frame_(frame),
+      motion_(motion),
+      fluid_out_(config, "fluid"),
+      grains_out_(config, "grains") {
+  for (std::size_t i = 0; i < config.grain_inlets.size(); ++i) sources_.emplace_back(config, i);
+}
+
+void OpenBoundaries::start(const FluidStore& fluid, const GrainStore& grains) {
+  next_fluid_ = fluid.size();
+  next_grain_ = grains.size();
+}
+
+bool OpenBoundaries::fluid_due() const {
+  const auto& inlets = motion_.inlets();
+  return std::any_of(inlets.begin(), inlets.end(), [](const InletFlow& inlet) { return inlet.due(); });
+}
+
+bool OpenBoundaries::grains_due(double t) const {
+  return std::any_of(sources_.begin(), sources_.end(), [&](const GrainSource& s) { return s.news(t); });
+}
+
+// -- out -----------------------------------------------------------------------------------------
+
+/// Marks what leaves in sink_ and tallies it; false if nothing does.
+template <class P, class Mass>
+bool OpenBoundaries::find_leaving(WaysOut& ways, Span<const P> x, bool domain, const Mass& mass) {
+  const Range all{0, x.size};
+  if (!domain && ways.geometry.surfaces().empty()) return false;
+  sink_.resize(x.size);
+  for_each(all, SinkPass<P>{frame_, ways.geometry.view(), domain, x, sink_});
+  if (sum_over<1>(all, LeavingBody{sink_}).v[0] == 0) return false;
+  for (std::uint32_t k = 0; k < ways.tally.size(); ++k) {
+    const auto gone = sum_over<2>(all, SinkTally<Mass>{sink_, kLeftDomain + k, mass});
+    ways.tally[k].count += gone.v[0];
+    ways.tally[k].mass += gone.v[1];
+  }
+  return true;
+}
+
+bool OpenBoundaries::renew(FluidStore& fluid, WallStore& walls, const EquationOfState& eos, double t,
+                           const Vec3d& gravity) {
+  if (find_leaving(fluid_out_, Span<const FluidPosition>(fluid.x), true, FluidMass{fluid.mass})) {
+    compaction_.find(fluid.size(), StaysTest{sink_}, kept_);
+    fluid.reorder(kept_);
+  }
+  arrived_ = Id(next_fluid_);
+  for (std::size_t i = 0; i < motion_.inlets().size(); ++i)
+    while (motion_.inlets()[i].due()) {
+      admit(i, fluid, walls, eos, t, gravity);
+      motion_.inlets()[i].next_layer();
+      WallMotion::place(frame_, walls, motion_.poses(t, 0, 1));
+    }
+  return next_fluid_ > arrived_;
+}
+
+// -- fluid in ------------------------------------------------------------------------------------
+
+void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& walls,
+                           const EquationOfState& eos, double t, const Vec3d& gravity) {
+  const Index layers = Index(buffer_layers(config_.fluid));
+  Index first = walls.size();  // the particles of all inlets are the last of the wall particles
+  for (std::size_t k = i; k < motion_.inlets().size(); ++k)
+    first -= layers * Index(motion_.inlets()[k].points());
+  const Index count = Index(motion_.inlets()[i].points()), before = fluid.size();
+  if (next_fluid_ + count >= double(kNone))
+    throw SimulationFault("inlet \"" + config_.inlets[i].name +
+                          "\": more fluid particles than there are ids");
+  fluid.grow(before + count);
+  for_each(walls.owned(), AdmitPass{frame_,
+                                    eos,
+                                    first,
+                                    count,
+                                    before,
+                                    Id(next_fluid_),
+                                    Real(fluid_mass(config_)),
+                                    Real3(motion_.inlets()[i].motion(t).a),
+                                    Real3(gravity),
+                                    walls.id,
+                                    walls.x,
+                                    walls.v_rho,
+                                    walls.m_state,
+                                    fluid.id,
+                                    fluid.x,
+                                    fluid.v_rho,
+                                    fluid.s,
+                                    fluid.mass,
+                                    fluid.eps,
+                                    fluid.theta,
+                                    fluid.acc});
+  next_fluid_ += count;
+}
+
+void OpenBoundaries::arrive(FluidStore& fluid, const EquationOfState& eos) const {
+  for_each(fluid.owned(),
+           ArrivePass{eos, arrived_, fluid.id, fluid.eps, fluid.mass, fluid.s, fluid.v_rho, fluid.m_state});
+}
+
+// -- grains --------------------------------------------------------------------------------------
+
+GrainRenewal OpenBoundaries::renew(GrainStore& grains, double t) {
+  const Index before = grains.size();
+  const GrainMass mass{4.0 / 3 * M_PI * config_.grain.rho, grains.radius};
+  const bool fewer = find_leaving(grains_out_, Span<const Vec3d>(grains.x), false, mass);
+  if (fewer) {
+    compaction_.find(before, StaysTest{sink_}, came_from_);
+    grains.reorder(came_from_);
+  }
+  const std::vector<NewGrain> more = new_grains(grains, t);
+  if (!fewer && more.empty()) return {};
+  const Index kept = grains.size();
+  if (!fewer) {
+    came_from_.resize(kept);
+    for_each({0, kept}, FillIndex{came_from_});
+  }
+  if (!more.empty()) {
+    if (next_grain_ + double(more.size()) >= double(kNone))
+      throw SimulationFault("grain_inlet: more grains than there are ids");
+    grains.grow(kept + Index(more.size()));
+    came_from_.grow(grains.size());
+    dropped_.assign(more);
+    for_each({0, Index(more.size())}, DropPass{dropped_, kept, Id(next_grain_), grains.id, grains.x, grains.v,
+                                               grains.radius, grains.eps, came_from_});
+    next_grain_ += double(more.size());
+  }
+  return {came_from_, before, true};
+}
+
+std::vector<NewGrain> OpenBoundaries::new_grains(const GrainStore& grains, double t) {
+  std::vector<NewGrain> all;
+  for (GrainSource& source : sources_) {
+    while (source.due(t) && drop_one(source, grains, t, all)) source.dropped();
+    source.state.asked = source.state.count + source.waiting(t);
+  }
+  return all;
+}
+
+/// Adds the next grain of a source at the first of its places that is free of grains and walls, if any is.
+bool OpenBoundaries::drop_one(GrainSource& source, const GrainStore& grains, double t,
+                              std::vector<NewGrain>& all) const {
+  const std::vector<Vec3d> places = source.places();
+  RoomBody<kPlaces> room{frame_, {}, source.radius(), grains.x, grains.radius};
+  std::copy_n(places.begin(), kPlaces, room.place);
+  const auto touching = sum_over<kPlaces>(grains.owned(), room);
+  for (int k = 0; k < kPlaces; ++k) {
+    const NewGrain grain{places[k], source.velocity(), source.radius()};
+    const auto touches = [&](const NewGrain& other) {
+      return norm(frame_.separation(grain.x, other.x)) < grain.radius + other.radius;
+    };
+    if (touching.v[k] > 0 || std::any_of(all.begin(), all.end(), touches) || !has_room(grain, t)) continue;
+    all.push_back(grain);
+    return true;
+  }
+  return false;
+}
+
+/// Clear of every wall where that is at time t.
+bool OpenBoundaries::has_room(const NewGrain& grain, double t) const {
+  for (int b = 0; b < motion_.walls(); ++b) {
+    const WallBody& body = config_.wall.bodies[b];
+    if (!body.stops_grains() || motion_.removed(b)) continue;
+    const Vec3d x = motion_.pose(b, t).undo(grain.x);
+    if (wall_distance(body, x, 10 * config_.grain.d_max, config_.domain) < grain.radius) return false;
+  }
+  return true;
+}
+
+// -- books ---------------------------------------------------------------------------------------
+
+std::vector<Quantity> OpenBoundaries::report(double t) const {
+  std::vector<Quantity> out;
+  const auto tally = [&](const std::string& name, const Tally& gone) {
+    out.push_back({name + "_count", "-", gone.count});
+    out.push_back({name + "_mass", "kg", gone.mass});
+  };
+  if (config_.fluid.present) tally("lost_fluid", fluid_out_.tally[0]);
+  for (std::size_t i = 0; i < motion_.inlets().size(); ++i) {
+    const InletFlow& inlet = motion_.inlets()[i];
+    const std::string name = "inlet_" + config_.inlets[i].name;
+    out.push_back({name + "_volume", "m3", inlet.volume(t)});
+    out.push_back({name + "_mass", "kg", inlet.layers() * inlet.points() * fluid_mass(config_)});
+  }
+  for (std::size_t k = 0; k < config_.outlets.size(); ++k) {
+    const OutletConfig& outlet = config_.outlets[k];
+    const std::string name = "outlet_" + outlet.name;
+    if (config_.fluid.present && outlet.takes("fluid")) tally(name + "_fluid", fluid_out_.tally[1 + k]);
+    if (config_.grain.present && outlet.takes("grains")) tally(name + "_grain", grains_out_.tally[1 + k]);
+  }
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    const std::string name = "grain_inlet_" + config_.grain_inlets[i].name;
+    tally(name, {sources_[i].state.count, sources_[i].state.mass});
+    out.push_back({name + "_waiting", "-", sources_[i].waiting(t)});
+  }
+  return out;
+}
+
+template <class Self, class F>
+void OpenBoundaries::each_scalar(Self& self, const F& f) {
+  f("next_fluid_id", "-", self.next_fluid_);
+  f("next_grain_id", "-", self.next_grain_);
+  f("lost_fluid", "-", self.fluid_out_.tally[0].count);
+  f("lost_mass", "kg", self.fluid_out_.tally[0].mass);
+  for (std::size_t k = 0; k < self.config_.outlets.size(); ++k) {
+    const std::string name = "outlet_" + self.config_.outlets[k].name;
+    f(name + "_fluid_count", "-", self.fluid_out_.tally[1 + k].count);
+    f(name + "_fluid_mass", "kg", self.fluid_out_.tally[1 + k].mass);
+    f(name + "_grain_count", "-", self.grains_out_.tally[1 + k].count);
+    f(name + "_grain_mass", "kg", self.grains_out_.tally[1 + k].mass);
+  }
+  for (std::size_t i = 0; i < self.sources_.size(); ++i) {
+    auto& state = self.sources_[i].state;
+    const std::string name = "grain_inlet_" + self.config_.grain_inlets[i].name;
+    f(name + "_count", "-", state.count);
+    f(name + "_mass", "kg", state.mass);
+    f(name + "_rounds", "-", state.rounds);
+    f(name + "_asked", "-", state.asked);
+  }
+}
+
+void OpenBoundaries::save(std::vector<Quantity>& scalars) const {
+  each_scalar(*this, [&](const std::string& name, const char* unit, double value) {
+    scalars.push_back({name, unit, value});
+  });
+  for (std::size_t i = 0; i < motion_.inlets().size(); ++i) {
+    const InletFlow& inlet = motion_.inlets()[i];
+    const std::string name = "inlet_" + config_.inlets[i].name;
+    scalars.push_back({name + "_volume", "m3", inlet.counted()});
+    scalars.push_back({name + "_layers", "-", inlet.layers()});
+  }
+}
+
+void OpenBoundaries::load(const std::function<double(const std::string&)>& scalar, double t) {
+  each_scalar(*this, [&](const std::string& name, const char*, double& value) { value = scalar(name); });
+  for (GrainSource& source : sources_) source.resume();
+  for (std::size_t i = 0; i < motion_.inlets().size(); ++i) {
+    const std::string name = "inlet_" + config_.inlets[i].name;
+    motion_.inlets()[i].resume(t, scalar(name + "_volume"), scalar(name + "_layers"));
+  }
+}
+
+}  // namespace bedload::inline BL_VARIANT

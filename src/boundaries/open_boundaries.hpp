@@ -1,0 +1,84 @@
+#pragma once
+// Where particles come in and go out. It acts where neighbour lists are renewed, so that nothing waits for it
+// in between.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+#include "bedload/geometry/grain_source.hpp"
+#include "bedload/parallel/compact.hpp"
+#include "bedload/particles/fluid.hpp"
+#include "bedload/particles/grains.hpp"
+#include "kernels/boundaries/drop.hpp"
+#include "kernels/fluid/equation_of_state.hpp"
+#include "src/solids/solid_solver.hpp"
+#include "src/walls/wall_geometry.hpp"
+#include "src/walls/wall_motion.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+class OpenBoundaries {
+ public:
+  /// `motion` must outlive it.
+  OpenBoundaries(const Config& config, const Frame& frame, WallMotion& motion);
+
+  /// The ids of what comes in follow those of what a case starts with.
+  void start(const FluidStore& fluid, const GrainStore& grains);
+
+  /// A layer of fluid has come through its orifice.
+  bool fluid_due() const;
+  /// A grain has come due at time t (s).
+  bool grains_due(double t) const;
+
+  /// Takes out the fluid that has left, lets in what has come through at time t; true if some has. The
+  /// fluid's lists must be renewed then.
+  bool renew(FluidStore& fluid, WallStore& walls, const EquationOfState& eos, double t, const Vec3d& gravity);
+  /// State of the fluid let in last, at the porosity found where it is.
+  void arrive(FluidStore& fluid, const EquationOfState& eos) const;
+  /// Takes out and drops in grains; their lists must be renewed with what it returns.
+  GrainRenewal renew(GrainStore& grains, double t);
+
+  /// Counts and masses of what came and went, up to time t.
+  std::vector<Quantity> report(double t) const;
+  void save(std::vector<Quantity>& scalars) const;
+  /// `scalar(name)`: as saved; t: the time reached.
+  void load(const std::function<double(const std::string&)>& scalar, double t);
+
+ private:
+  struct Tally {
+    double count = 0, mass = 0;  ///< kg
+  };
+  /// Of one phase: its outlets, and what left by which way, lost from the domain first.
+  struct WaysOut {
+    WallGeometry geometry;
+    std::vector<Tally> tally;
+    WaysOut(const Config& config, const char* phase);
+  };
+  template <class P, class Mass>
+  bool find_leaving(WaysOut& ways, Span<const P> x, bool domain, const Mass& mass);
+  void admit(std::size_t inlet, FluidStore& fluid, const WallStore& walls, const EquationOfState& eos,
+             double t, const Vec3d& gravity);
+  bool has_room(const NewGrain& grain, double t) const;
+  std::vector<NewGrain> new_grains(const GrainStore& grains, double t);
+  bool drop_one(GrainSource& source, const GrainStore& grains, double t, std::vector<NewGrain>& all) const;
+  /// f(name, unit, value) for all that a restart must know; value may be set.
+  template <class Self, class F>
+  static void each_scalar(Self& self, const F& f);
+
+  Config config_;
+  Frame frame_;
+  WallMotion& motion_;
+  WaysOut fluid_out_, grains_out_;
+  std::vector<GrainSource> sources_;
+  double next_fluid_ = 0, next_grain_ = 0;  ///< ids never given before
+  Id arrived_ = 0;                          ///< first id of the fluid let in last
+
+  Buffer<std::uint32_t> sink_;
+  Buffer<Index> kept_, came_from_;
+  Buffer<NewGrain> dropped_;
+  Compaction compaction_;
+};
+
+}  // namespace bedload::inline BL_VARIANT

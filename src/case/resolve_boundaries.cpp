@@ -1,0 +1,98 @@
+// Openings: what follows from their keys.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bedload/case/formula.hpp"
+#include "bedload/case/grain_sizes.hpp"
+#include "bedload/core/error.hpp"
+#include "bedload/geometry/orifice.hpp"
+#include "bedload/geometry/shape.hpp"
+#include "resolve.hpp"
+
+namespace bedload {
+namespace {
+
+std::string to_text(const Vec3d& v) { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
+
+void check_right_angles(const InletConfig& inlet, const Value& root, const std::string& path) {
+  const double a = norm(inlet.half_a), b = norm(inlet.half_b);
+  for (const auto& [key, side, length] : {std::tuple{"half_a", inlet.half_a, a}, {"half_b", inlet.half_b, b}})
+    if (length == 0 || std::abs(dot(side, inlet.direction)) > 1e-6 * length)
+      reject(root, path + key, to_text(side), "must be a side at right angles to the direction of the flow");
+  if (std::abs(dot(inlet.half_a, inlet.half_b)) > 1e-6 * a * b)
+    reject(root, path + "half_b", to_text(inlet.half_b), "must be at right angles to half_a");
+}
+
+void check_factor(const InletConfig& inlet, const Value& root, const std::string& path) {
+  try {
+    (void)Formula(inlet.factor, "t");
+  } catch (const CaseError& error) {
+    reject(root, path + "factor", fmt::format("\"{}\"", inlet.factor),
+           fmt::format("must be a formula in t: {}", error.what()));
+  }
+}
+
+void resolve_inlet(InletConfig& inlet, double dx, const Value& root, const std::string& path) {
+  inlet.direction = direction(inlet.direction, root, path + "direction");
+  if (inlet.shape == "rectangle") check_right_angles(inlet, root, path);
+  check_factor(inlet, root, path);
+  if ((inlet.rate > 0) == (inlet.velocity > 0))
+    throw CaseError(fmt::format("{}: inlet \"{}\" must have exactly one of rate and velocity",
+                                nearest_value(root, path + "rate").place(), inlet.name));
+  const OrificeWidth width = orifice_width(inlet, dx);
+  if (width.points < 4)
+    reject(root, "fluid.dx", fmt::format("{}", dx),
+           fmt::format("must be at most {:.4g} m for four particles across inlet \"{}\"; it makes {}",
+                       width.spacing_for_four, inlet.name, width.points));
+}
+
+/// Not every shape can be asked about on a device.
+void check_parts(const OutletConfig& outlet, const Value& root, const std::string& path) {
+  try {
+    std::vector<SurfacePart> parts;
+    outlet.solid.shape->add_parts(parts, {});
+  } catch (const CaseError&) {
+    reject(root, path + "shape", fmt::format("\"{}\"", outlet.shape),
+           "must be a shape without differences; those can be given as a mesh");
+  }
+}
+
+}  // namespace
+
+void resolve_openings(Config& c, const Value& root) {
+  for (std::size_t i = 0; i < c.inlets.size(); ++i)
+    resolve_inlet(c.inlets[i], c.fluid.dx, root, fmt::format("inlet.{}.", i));
+  for (std::size_t i = 0; i < c.outlets.size(); ++i) {
+    OutletConfig& outlet = c.outlets[i];
+    const std::string path = fmt::format("outlet.{}.", i);
+    if (outlet.shape == "plane") {
+      outlet.normal = direction(outlet.normal, root, path + "normal");
+    } else if (outlet.shape != "box") {
+      outlet.solid =
+          shape_named(c, outlet.shape, root, path + "shape", "must be box, plane or the name of a [[shape]]");
+      const Bounds bounds = outlet.solid.shape->bounds();
+      outlet.min = bounds.min, outlet.max = bounds.max;
+      check_parts(outlet, root, path);
+    }
+  }
+}
+
+void resolve_grain_inlets(Config& c, const Value& root) {
+  for (std::size_t i = 0; i < c.grain_inlets.size(); ++i) {
+    GrainInletConfig& inlet = c.grain_inlets[i];
+    const std::string path = fmt::format("grain_inlet.{}.", i);
+    if (inlet.shape == "disc") inlet.direction = direction(inlet.direction, root, path + "direction");
+    default_sizes(c, inlet.sizes, root);
+    for (std::size_t k = 0; k < inlet.sizes.size(); ++k)
+      resolve_size(c, inlet.sizes[k], root, fmt::format("{}sizes.{}", path, k));
+    if ((inlet.rate > 0) == (inlet.mass_rate > 0))
+      throw CaseError(fmt::format("{}: grain_inlet \"{}\" must have exactly one of rate and mass_rate",
+                                  nearest_value(root, path + "rate").place(), inlet.name));
+    inlet.start = std::max(inlet.start, c.grain.release_time);
+  }
+}
+
+}  // namespace bedload

@@ -1,0 +1,82 @@
+#include "bedload/geometry/grain_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "bedload/case/grain_sizes.hpp"
+#include "bedload/core/random.hpp"
+
+namespace bedload {
+namespace {
+
+constexpr int kPlaces = 16;               // a round
+constexpr std::size_t kQuantiles = 4096;  // of a distribution
+constexpr std::uint64_t kPlaceStream = std::uint64_t(1) << 62;
+
+}  // namespace
+
+GrainSource::GrainSource(const Config& config, std::size_t index)
+    : inlet_(config.grain_inlets[index]),
+      rho_(config.grain.rho),
+      seed_(config.grain.seed),
+      stream_((std::uint64_t(index) + 1) << 40) {
+  for (const SizeClass& size : inlet_.sizes)
+    sizes_.push_back(quantiles(size, size.kind == "class" ? 1 : kQuantiles));
+  radius_ = next_radius();
+}
+
+double GrainSource::mass_of(double radius) const {
+  return 4.0 / 3 * std::numbers::pi * radius * radius * radius * rho_;
+}
+
+double GrainSource::next_radius() const {
+  CounterRandom random(seed_, stream_ + std::uint64_t(state.count));
+  double total = 0;
+  for (const SizeClass& size : inlet_.sizes) total += size.share;
+  double at = random.uniform() * total;
+  std::size_t k = 0;
+  while (k + 1 < sizes_.size() && at >= inlet_.sizes[k].share) at -= inlet_.sizes[k++].share;
+  return 0.5 * sizes_[k][random.below(sizes_[k].size())];
+}
+
+double GrainSource::waiting(double t) const {
+  const double elapsed = (std::min(t, inlet_.stop) - inlet_.start) * (1 + 1e-12);
+  if (elapsed <= 0) return 0;
+  if (inlet_.rate > 0) return std::max(0.0, std::floor(inlet_.rate * elapsed) - state.count);
+  return std::max(0.0, std::floor((inlet_.mass_rate * elapsed - state.mass) / mass_of(radius_)));
+}
+
+std::vector<Vec3d> GrainSource::places() {
+  CounterRandom random(seed_, kPlaceStream + stream_ + std::uint64_t(state.rounds));
+  ++state.rounds;
+  Vec3d a, b;  // in the plane of the disc
+  if (inlet_.shape == "disc") {
+    const Vec3d& n = inlet_.direction;
+    a = std::abs(n.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
+    a -= dot(a, n) * n;
+    a = a / norm(a);
+    b = cross(n, a);
+  }
+  std::vector<Vec3d> all;
+  for (int k = 0; k < kPlaces; ++k) {
+    const double u = random.uniform(), v = random.uniform(), w = random.uniform();
+    if (inlet_.shape == "disc") {
+      const double r = (inlet_.radius - radius_) * std::sqrt(u), angle = 2 * std::numbers::pi * v;
+      all.push_back(inlet_.centre + r * std::cos(angle) * a + r * std::sin(angle) * b);
+    } else {
+      const Vec3d margin{radius_, radius_, radius_}, lo = inlet_.min + margin,
+                                                     room = inlet_.max - margin - lo;
+      all.push_back(lo + Vec3d{u * room.x, v * room.y, w * room.z});
+    }
+  }
+  return all;
+}
+
+void GrainSource::dropped() {
+  ++state.count;
+  state.mass += mass_of(radius_);
+  radius_ = next_radius();
+}
+
+}  // namespace bedload

@@ -1,0 +1,118 @@
+#include "bedload/geometry/orifice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bedload/core/error.hpp"
+#include "bedload/geometry/sampling.hpp"
+
+namespace bedload {
+namespace {
+
+/// Unit vectors in the plane of the orifice: along the sides of a rectangle, along axes where a disc allows.
+struct PlaneAxes {
+  Vec3d a, b;
+  explicit PlaneAxes(const InletConfig& inlet) {
+    if (inlet.shape == "rectangle") {
+      a = inlet.half_a / norm(inlet.half_a);
+    } else {
+      int least = 0;
+      for (int k = 1; k < 3; ++k)
+        if (std::abs(inlet.direction[k]) < std::abs(inlet.direction[least])) least = k;
+      Vec3d axis;
+      axis[least] = 1;
+      a = axis - dot(axis, inlet.direction) * inlet.direction;
+      a = a / norm(a);
+    }
+    b = cross(inlet.direction, a);
+  }
+};
+
+struct HalfSides {
+  double a, b;  // m
+  explicit HalfSides(const InletConfig& inlet)
+      : a(inlet.shape == "disc" ? inlet.radius : norm(inlet.half_a)),
+        b(inlet.shape == "disc" ? inlet.radius : norm(inlet.half_b)) {}
+};
+
+int cells_along(double half_side, double dx) { return int(std::floor(2 * half_side / dx + 1e-6)); }
+
+[[noreturn]] void fail(const InletConfig& inlet, const std::string& why) {
+  throw CaseError(fmt::format("inlet \"{}\": {}", inlet.name, why));
+}
+
+std::string place(const Vec3d& x) { return fmt::format("({:g}, {:g}, {:g}) m", x.x, x.y, x.z); }
+
+/// A buffer belongs in an opening, such as the bore of a pipe or an open side of a tank.
+void check_clear_of_walls(const Config& config, const InletConfig& inlet, const std::vector<Vec3d>& buffer) {
+  const double reach = config.fluid.kappa() * config.fluid.h(), slack = 1e-6 * config.fluid.dx;
+  for (const WallBody& body : config.wall.bodies) {
+    if (!body.stops_fluid()) continue;
+    for (const Vec3d& x : buffer)
+      if (wall_distance(body, x, reach, config.domain) < -slack)
+        fail(inlet, fmt::format("the fluid upstream of it, at {}, must not lie inside wall.body \"{}\"; "
+                                "leave an opening there, {:g} m deep",
+                                place(x), body.name, buffer_layers(config.fluid) * config.fluid.dx));
+  }
+}
+
+void check_clear_of_fluid(const Config& config, const InletConfig& inlet, const std::vector<Vec3d>& buffer,
+                          const Setup::Fluid& fluid) {
+  const double near = 0.7 * config.fluid.dx, depth = buffer_layers(config.fluid) * config.fluid.dx;
+  const double wide = HalfSides(inlet).a + HalfSides(inlet).b + near;
+  for (const Vec3d& x : fluid.x) {
+    const Vec3d r = x - inlet.centre;
+    const double along = dot(r, inlet.direction);
+    if (along > near || along < -depth - near || norm2(r - along * inlet.direction) > wide * wide) continue;
+    for (const Vec3d& y : buffer)
+      if (norm2(x - y) < near * near)
+        fail(inlet, fmt::format("the fluid upstream of it, at {}, must not overlap the initial fluid at {}",
+                                place(y), place(x)));
+  }
+}
+
+}  // namespace
+
+std::vector<Vec3d> orifice_points(const InletConfig& inlet, double dx) {
+  const PlaneAxes axes(inlet);
+  const HalfSides half(inlet);
+  const int na = cells_along(half.a, dx), nb = cells_along(half.b, dx);
+  std::vector<Vec3d> points;
+  for (int j = 0; j < nb; ++j)
+    for (int i = 0; i < na; ++i) {
+      const double a = (i - 0.5 * (na - 1)) * dx, b = (j - 0.5 * (nb - 1)) * dx;
+      const double most = inlet.radius - 0.25 * dx;
+      if (inlet.shape == "disc" && (most <= 0 || a * a + b * b > most * most)) continue;
+      points.push_back(inlet.centre + a * axes.a + b * axes.b);
+    }
+  return points;
+}
+
+OrificeWidth orifice_width(const InletConfig& inlet, double dx) {
+  const HalfSides half(inlet);
+  const double narrow = std::min(half.a, half.b);
+  return {cells_along(narrow, dx), narrow / 2};
+}
+
+int buffer_layers(const FluidConfig& fluid) {
+  return int(std::ceil(fluid.kappa() * fluid.h() / fluid.dx - 1e-6)) + 1;
+}
+
+void add_inlets(const Config& config, const Setup::Fluid& fluid, Setup::Walls& walls) {
+  const double dx = config.fluid.dx;
+  for (std::size_t i = 0; i < config.inlets.size(); ++i) {
+    const InletConfig& inlet = config.inlets[i];
+    const std::vector<Vec3d> points = orifice_points(inlet, dx);
+    std::vector<Vec3d> buffer;
+    for (int layer = 0; layer < buffer_layers(config.fluid); ++layer)
+      for (const Vec3d& x : points) buffer.push_back(x - (layer + 0.5) * dx * inlet.direction);
+    check_clear_of_walls(config, inlet, buffer);
+    check_clear_of_fluid(config, inlet, buffer, fluid);
+    walls.x.insert(walls.x.end(), buffer.begin(), buffer.end());
+    walls.body.insert(walls.body.end(), buffer.size(), std::uint32_t(config.wall.bodies.size() + i));
+  }
+}
+
+}  // namespace bedload

@@ -1,0 +1,241 @@
+// Fluid that comes in through orifices and leaves through outlets.
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "tests/boundaries/support.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// A duct without walls, periodic across, 8 x 8 particles wide; inlet at x = 0, outlet from x = 0.2 on.
+const std::string kDuct = R"(gravity = [0, 0, 0]
+[domain]
+min = [-0.06, 0, 0]
+max = [0.3, 0.08, 0.08]
+periodic = [false, true, true]
+[fluid]
+dx = 0.01
+vmax = 1
+[[inlet]]
+name = "feed"
+shape = "rectangle"
+centre = [0, 0.04, 0.04]
+direction = [1, 0, 0]
+half_a = [0, 0.04, 0]
+half_b = [0, 0, 0.04]
+rate = 0.0032
+[[outlet]]
+name = "end"
+shape = "plane"
+point = [0.2, 0, 0]
+normal = [1, 0, 0]
+[time]
+end = 1
+[out]
+every = 1
+)";
+const std::string kFull = R"(
+[[fluid.fill]]
+min = [0, 0, 0]
+max = [0.2, 0.08, 0.08]
+)";
+constexpr double kRate = 0.0032, kSpeed = 0.5, kLayer = 64 * 1e-3;  // m3/s, m/s, kg
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  if (at == text.npos) throw std::logic_error("no '" + from + "' in the case");
+  return text.replace(at, from.size(), to);
+}
+
+/// Layers are let in when they have come through whole: what is under way makes up the difference.
+void expect_books_balance(Simulation& s, double laid) {
+  const auto d = s.diagnostics();
+  const double volume = reading(d, "inlet_feed_volume"), in = reading(d, "inlet_feed_mass");
+  const double layers = std::floor(1000 * volume / kLayer + 0.5);
+  // the layer that came through in the last step is fluid from the next one on
+  EXPECT_LE(std::abs(in / kLayer - layers), std::fmod(1000 * volume / kLayer + 0.5, 1) < 0.02 ? 1 : 1e-9);
+  EXPECT_NEAR(laid + in,
+              reading(d, "fluid_mass") + reading(d, "outlet_end_fluid_mass") + reading(d, "lost_fluid_mass"),
+              tolerance(1e-9, 1e-6, 1e-6) * (laid + in));
+}
+
+TEST(Inlet, LetsInTheVolumeOfItsRate) {  // T-42
+  auto s = started(with(kDuct, "rate = 0.0032", "rate = 0.0032\nfactor = \"1+0.5*sin(40*t)\"\nramp = 0.02"));
+  run_until(*s, 0.25);
+  const double t = s->time();
+  // the ramp lasts from 0 to 0.02 s: sums of many small intervals
+  double volume = 0;
+  const int n = 200000;
+  for (int k = 0; k < n; ++k) {
+    const double at = (k + 0.5) * t / n, q = std::min(1.0, at / 0.02);
+    volume += kRate * q * q * (3 - 2 * q) * (1 + 0.5 * std::sin(40 * at)) * t / n;
+  }
+  EXPECT_NEAR(reading(*s, "inlet_feed_volume") / volume, 1, 1e-9);
+  EXPECT_GT(reading(*s, "inlet_feed_mass"), 8 * kLayer);
+  expect_books_balance(*s, 0);
+}
+
+TEST(Inlet, ConstantRateIsExact) {  // T-42
+  auto s = started(kDuct);
+  run_until(*s, 0.2);
+  const double ramp = 10 * 0.015 / 10;
+  EXPECT_NEAR(reading(*s, "inlet_feed_volume") / (kRate * (s->time() - ramp / 2)), 1, 1e-9);
+  expect_books_balance(*s, 0);
+}
+
+TEST(Inlet, StopsWhenToldTo) {
+  auto s = started(with(kDuct, "rate = 0.0032", "velocity = 0.5\nstart = 0.02\nstop = 0.1"));
+  run_until(*s, 0.2);
+  // closing takes as long as opening
+  EXPECT_NEAR(reading(*s, "inlet_feed_volume") / (kRate * 0.08), 1, 1e-9);
+  expect_books_balance(*s, 0);
+}
+
+/// The flow runs from the first, so that there are no waves but those of layers coming in and going out.
+TEST(Inlet, FeedsASteadyFlowWithoutPressureSpikes) {
+  auto s = started(with(kDuct, "rate = 0.0032", "rate = 0.0032\nramp = 1e-6") + kFull +
+                   "velocity = [0.5, 0, 0]\n");
+  const double dynamic =
+      1000 * kSpeed * kSpeed;  // rho u^2; a layer that stopped would raise rho u c, 20 times that
+  run_until(*s, 0.1);          // the opening, at once, has died down
+  double highest = 0, lowest = 0;
+  while (s->time() < 0.4) {
+    s->step();
+    highest = std::max(highest, reading(*s, "pressure_max"));
+    lowest = std::min(lowest, reading(*s, "pressure_min"));
+  }
+  EXPECT_LT(highest, 0.5 * dynamic);
+  EXPECT_GT(lowest, -0.5 * dynamic);
+  const double out = reading(*s, "outlet_end_fluid_mass"), from = s->time();
+  run_until(*s, 0.8);  // 20 layers
+  const double flux = (reading(*s, "outlet_end_fluid_mass") - out) / (s->time() - from);
+  EXPECT_NEAR(flux / (1000 * kRate), 1, 0.05);
+  expect_books_balance(*s, 1.28);
+  const auto ids = ids_of(s->snapshot("fluid"));
+  EXPECT_EQ(std::set<Id>(ids.begin(), ids.end()).size(), ids.size());
+  EXPECT_GT(*std::max_element(ids.begin(), ids.end()), 1280u + 64 * 38);
+}
+
+TEST(Inlet, FlowRunsOnUniformly) {
+  auto s = started(kDuct + kFull);
+  run_until(*s, 0.5);
+  const HostStore fluid = s->snapshot("fluid");
+  const auto* v = fluid.find("velocity")->as<Real>();
+  double worst = 0;
+  for (std::size_t a = 0; a < fluid.count; ++a) worst = std::max(worst, std::abs(v[3 * a] / kSpeed - 1));
+  EXPECT_LT(worst, 0.05);
+}
+
+TEST(Inlet, GoesOnBitForBitAfterARestart) {
+  const Config config = config_of(kDuct + kFull);
+  auto s = started(config);
+  run_until(*s, 0.06);
+  ASSERT_GT(reading(*s, "inlet_feed_mass"), 0);
+  ASSERT_GT(reading(*s, "outlet_end_fluid_count"), 0);
+  expect_restart_is_bit_equal(*s, config, 150);
+}
+
+/// New fluid takes the porosity where it comes in: no pressure builds up there.
+TEST(Inlet, FeedsFluidAmongGrains) {
+  const Config config = config_of(kDuct + kFull + R"(velocity = [0.5, 0, 0]
+[grain]
+d = 0.008
+E = 1e6
+[[grain.fill]]
+min = [0, 0, 0]
+max = [0.1, 0.08, 0.08]
+packing_fraction = 0.2
+velocity = [0.5, 0, 0]
+)");
+  auto s = started(config);
+  const double laid = reading(*s, "fluid_mass");
+  EXPECT_LT(laid, 0.92 * 1.28);
+  double highest = 0;
+  while (s->time() < 0.15) {
+    s->step();
+    if (s->time() > 0.05) highest = std::max(highest, reading(*s, "pressure_max"));
+  }
+  EXPECT_LT(highest, 0.5 * 1000 * kSpeed * 10);  // half of rho u c: the flow is set going within 15 ms
+  EXPECT_GT(reading(*s, "inlet_feed_mass"), 5 * kLayer);
+  EXPECT_GT(reading(*s, "outlet_end_fluid_count"), 0);
+  expect_books_balance(*s, laid);
+  expect_restart_is_bit_equal(*s, config, 100);
+}
+
+TEST(Inlet, RoundJetIntoAnEmptyTank) {
+  auto s = started(R"([domain]
+min = [-0.04, 0, 0]
+max = [0.2, 0.1, 0.1]
+[fluid]
+dx = 0.005
+[[inlet]]
+name = "feed"
+centre = [0, 0.05, 0.08]
+direction = [1, 0, 0]
+radius = 0.0125
+velocity = 1
+[[wall.body]]
+name = "tank"
+shape = "tank"
+min = [0, 0, 0]
+max = [0.2, 0.1, 0.1]
+faces = ["x+", "y-", "y+", "z-"]
+[time]
+end = 1
+[out]
+every = 1
+)");
+  run_until(*s, 0.2);
+  const auto d = s->diagnostics();
+  EXPECT_NEAR(reading(d, "inlet_feed_volume") / (0.2 * 21 * 25e-6), 1, 0.1);
+  EXPECT_GE(reading(d, "fluid_count"), 21 * 35);
+  // falls 0.08 m, no faster than its head allows
+  EXPECT_LT(reading(d, "fluid_speed_max"), 2.2);
+}
+
+TEST(Outlet, TakesFluidFromABoxAndAShape) {
+  auto s = started(R"([domain]
+min = [0, 0, 0]
+max = [0.2, 0.08, 0.2]
+periodic = [false, true, false]
+[fluid]
+dx = 0.01
+[[fluid.fill]]
+min = [0, 0, 0.1]
+max = [0.2, 0.08, 0.15]
+[[shape]]
+name = "drain"
+kind = "cylinder"
+a = [0.15, -0.1, 0.0]
+b = [0.15, 0.2, 0.0]
+radius = 0.06
+[[outlet]]
+name = "left"
+min = [0, 0, 0]
+max = [0.1, 0.08, 0.05]
+[[outlet]]
+name = "right"
+shape = "drain"
+phase = "fluid"
+[time]
+end = 1
+[out]
+every = 1
+)");
+  const double laid = reading(*s, "fluid_mass");
+  run_until(*s, 0.3);
+  const auto d = s->diagnostics();
+  const double left = reading(d, "outlet_left_fluid_mass"), right = reading(d, "outlet_right_fluid_mass");
+  EXPECT_GT(left, 0.4 * laid);
+  EXPECT_GT(right, 0.4 * laid);
+  EXPECT_NEAR(left + right + reading(d, "lost_fluid_mass") + reading(d, "fluid_mass"), laid, 1e-6 * laid);
+  EXPECT_EQ(reading(d, "outlet_left_fluid_count") + reading(d, "outlet_right_fluid_count") +
+                reading(d, "lost_fluid_count") + reading(d, "fluid_count"),
+            20 * 8 * 5);
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT

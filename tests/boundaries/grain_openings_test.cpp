@@ -1,0 +1,223 @@
+// Grains that are dropped in, taken out and let through.
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bedload/geometry/grain_source.hpp"
+#include "tests/boundaries/support.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// A closed funnel with grains dropped in at the top.
+const std::string kHopper = R"([domain]
+min = [-0.05, -0.05, -0.02]
+max = [0.05, 0.05, 0.12]
+[[shape]]
+name = "inside"
+kind = "cone"
+a = [0, 0, 0]
+b = [0, 0, 0.08]
+radius_a = 0.008
+radius_b = 0.04
+[[shape]]
+name = "funnel"
+kind = "hollow"
+of = ["inside"]
+[[wall.body]]
+name = "hopper"
+shape = "funnel"
+[grain]
+d = 0.004
+E = 1e6
+[[grain_inlet]]
+name = "feed"
+shape = "disc"
+centre = [0, 0, 0.07]
+direction = [0, 0, 1]
+radius = 0.02
+rate = 400
+velocity = [0, 0, -0.3]
+[time]
+end = 1
+[out]
+every = 1
+)";
+
+std::string with(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  if (at == text.npos) throw std::logic_error("no '" + from + "' in the case");
+  return text.replace(at, from.size(), to);
+}
+
+TEST(GrainInlet, FillsAHopper) {
+  auto s = started(kHopper);
+  run_until(*s, 0.25);
+  const auto d = s->diagnostics();
+  const double due = std::floor(400 * s->time());
+  EXPECT_NEAR(reading(d, "grain_inlet_feed_count") + reading(d, "grain_inlet_feed_waiting"), due, 1);
+  EXPECT_LE(reading(d, "grain_inlet_feed_waiting"), 3);
+  EXPECT_EQ(reading(d, "grain_count"), reading(d, "grain_inlet_feed_count"));
+  EXPECT_NEAR(reading(d, "grain_mass") / reading(d, "grain_inlet_feed_mass"), 1, 1e-6);
+  EXPECT_LT(reading(d, "overlap_max"), 0.1);
+  const HostStore grains = s->snapshot("grains");
+  for (const Vec3d& x : vectors(grains, "position"))
+    EXPECT_LT(std::hypot(x.x, x.y), 0.008 + 0.4 * x.z) << x.z;  // within the cone
+  const auto ids = ids_of(grains);
+  EXPECT_EQ(std::set<Id>(ids.begin(), ids.end()).size(), ids.size());
+}
+
+TEST(GrainInlet, GoesOnBitForBitAfterARestart) {
+  const Config config = config_of(kHopper + R"(
+[[outlet]]
+name = "foot"
+phase = "grains"
+min = [-0.05, -0.05, -0.02]
+max = [0.05, 0.05, 0.01]
+)");
+  auto s = started(config);
+  run_until(*s, 0.2);
+  ASSERT_GT(reading(*s, "outlet_foot_grain_count"), 5);
+  ASSERT_GT(reading(*s, "grain_count"), 5);
+  expect_restart_is_bit_equal(*s, config, 300);
+  const auto d = s->diagnostics();
+  EXPECT_EQ(reading(d, "grain_count") + reading(d, "outlet_foot_grain_count"),
+            reading(d, "grain_inlet_feed_count"));
+  EXPECT_NEAR(reading(d, "grain_mass") + reading(d, "outlet_foot_grain_mass"),
+              reading(d, "grain_inlet_feed_mass"), 1e-6 * reading(d, "grain_inlet_feed_mass"));
+}
+
+/// Contacts of the grains that stay carry over when another is taken out: a bed that forgot its friction
+/// would move otherwise.
+TEST(GrainOutlet, LeavesTheOtherGrainsInPeace) {
+  const std::string bed = R"([domain]
+min = [0, 0, 0]
+max = [0.06, 0.03, 0.1]
+[[wall.body]]
+name = "tank"
+shape = "tank"
+min = [0, 0, 0]
+max = [0.06, 0.03, 0.1]
+[[wall.body]]
+name = "divider"
+shape = "box"
+min = [0.03, 0, 0]
+max = [0.034, 0.03, 0.1]
+[grain]
+d = 0.004
+E = 1e6
+[[grain.fill]]
+min = [0, 0, 0]
+max = [0.03, 0.03, 0.03]
+count = 120
+[[grain.fill]]
+positions = [[0.05, 0.015, 0.06]]
+[time]
+end = 1
+dt = 4e-5
+dt_dem = 4e-6
+force_dt = true
+[out]
+every = 1
+)";
+  const auto run = [&](const std::string& text) {
+    auto s = started(text);
+    run_until(*s, 0.12);
+    return std::pair{s->snapshot("grains"), reading(*s, "grain_count")};
+  };
+  const auto [whole, all] = run(bed);
+  const auto [rest, left] = run(bed + R"(
+[[outlet]]
+name = "side"
+min = [0.04, 0, 0]
+max = [0.06, 0.03, 0.03]
+)");
+  EXPECT_EQ(all, 121);
+  EXPECT_EQ(left, 120);
+  const auto x = vectors(whole, "position"), y = vectors(rest, "position");
+  for (std::size_t i = 0; i < y.size(); ++i) EXPECT_LT(norm(x[i] - y[i]), 1e-7) << i;
+}
+
+TEST(GrainInlet, WaitsForRoomAndSaysSo) {
+  auto s = started(with(with(kHopper, "rate = 400", "rate = 20000"), "velocity = [0, 0, -0.3]", ""));
+  run_until(*s, 0.01);
+  const auto d = s->diagnostics();
+  EXPECT_GT(reading(d, "grain_inlet_feed_waiting"), 100);
+  EXPECT_NEAR(reading(d, "grain_inlet_feed_waiting") + reading(d, "grain_inlet_feed_count"),
+              std::floor(20000 * s->time()), 1);
+  EXPECT_LT(reading(d, "overlap_max"), 0.05);
+}
+
+TEST(GrainInlet, MassRateWithSeveralSizes) {
+  const Config config = config_of(with(kHopper, "rate = 400", R"(mass_rate = 0.02
+sizes = [{ d = 0.003, share = 3 }, { kind = "uniform", d_min = 0.004, d_max = 0.006, share = 1 }])"));
+  EXPECT_EQ(config.grain.d_min, 0.003);
+  EXPECT_EQ(config.grain.d_max, 0.006);
+  GrainSource source(config, 0), again(config, 0);
+  int small = 0;
+  for (int n = 0; n < 2000; ++n) {
+    EXPECT_EQ(source.radius(), again.radius());
+    small += source.radius() < 0.0019;
+    for (const Vec3d& x : source.places()) EXPECT_LE(std::hypot(x.x, x.y) + source.radius(), 0.02 + 1e-12);
+    source.dropped();
+    again.dropped();
+  }
+  EXPECT_NEAR(small, 1500, 80);
+  // the next grain is due as soon as the rate pays for it
+  const double mass = source.state.mass, next = 2500 * 4.18879020478639 * std::pow(source.radius(), 3);
+  EXPECT_FALSE(source.due((mass + 0.999 * next) / 0.02));
+  EXPECT_TRUE(source.due((mass + 1.001 * next) / 0.02));
+}
+
+TEST(Filter, FluidOnlyLetsGrainsPass) {
+  const std::string text = R"([domain]
+min = [0, 0, 0]
+max = [0.08, 0.08, 0.16]
+periodic = [true, true, false]
+[fluid]
+dx = 0.01
+[[fluid.fill]]
+min = [0, 0, 0.08]
+max = [0.08, 0.08, 0.14]
+[[wall.body]]
+name = "floor"
+shape = "tank"
+min = [0, 0, 0]
+max = [0.08, 0.08, 0.16]
+faces = ["z-"]
+[[wall.body]]
+name = "sieve"
+shape = "box"
+type = "KIND"
+min = [0, 0, 0.05]
+max = [0.08, 0.08, 0.08]
+[grain]
+d = 0.006
+E = 1e6
+[[grain.fill]]
+positions = [[0.04, 0.04, 0.1]]
+[time]
+end = 1
+[out]
+every = 1
+)";
+  const auto lowest = [&](const std::string& kind) {
+    auto s = started(with(text, "KIND", kind));
+    double z = 1;
+    while (s->time() < 0.3) {
+      s->step();
+      z = std::min(z, vectors(s->snapshot("grains"), "position")[0].z);
+    }
+    const HostStore fluid = s->snapshot("fluid");
+    const auto* x = fluid.find("position")->as<Real>();
+    for (std::size_t a = 0; a < fluid.count; ++a) EXPECT_GT(x[3 * a + 2], 0.08 - 0.003);
+    EXPECT_EQ(fluid.count, 8u * 8 * 6);
+    return z;
+  };
+  EXPECT_LT(lowest("fluid_only"), 0.02);  // down to the floor
+  EXPECT_GT(lowest("adami"), 0.08);
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT

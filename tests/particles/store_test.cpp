@@ -1,0 +1,69 @@
+// Stores that grow and shrink.
+
+#include "bedload/particles/store.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "bedload/parallel/compact.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+struct Pairs : Store {
+  Pairs() : Store("pairs") {}
+  Field<Id> id{*this, "id", "-", Lifetime::kept};
+  Field<Real> scratch{*this, "scratch", "-", Lifetime::derived};
+};
+
+struct NotThirds {
+  Span<const Id> id;
+  BL_HD bool operator()(Index i) const { return id[i] % 3 != 0; }
+};
+
+TEST(Store, GrowsAndKeepsWhatItHolds) {
+  Pairs store;
+  store.grow(3);
+  store.id.assign({5, 6, 7});
+  for (const Index n : {4u, 200u}) {
+    store.grow(n);
+    const auto id = store.id.values();
+    ASSERT_EQ(id.size(), n);
+    EXPECT_EQ(store.scratch.values().size(), n);
+    for (Index i = 0; i < n; ++i) EXPECT_EQ(id[i], i < 3 ? 5 + i : 0);
+  }
+}
+
+TEST(Store, LosesWhatDoesNotStayAndGrowsAgain) {
+  Pairs store;
+  std::vector<Id> all(10000), left;
+  std::iota(all.begin(), all.end(), Id(0));
+  for (const Id k : all)
+    if (k % 3 != 0) left.push_back(k);
+  store.grow(Index(all.size()));
+  store.id.assign(all);
+  Compaction compaction;
+  Buffer<Index> kept;
+  compaction.find(store.size(), NotThirds{store.id}, kept);
+  store.reorder(kept);
+  EXPECT_EQ(store.size(), left.size());
+  EXPECT_EQ(store.id.values(), left);
+  store.grow(store.size() + 2);
+  left.insert(left.end(), {0, 0});
+  EXPECT_EQ(store.id.values(), left);
+}
+
+TEST(Store, NothingMayBeLeft) {
+  Compaction compaction;
+  Buffer<Index> kept;
+  Buffer<Id> id;
+  id.assign({0, 3, 6});
+  compaction.find(3, NotThirds{id.span()}, kept);
+  EXPECT_EQ(kept.size(), 0u);
+  compaction.find(0, NotThirds{id.span()}, kept);
+  EXPECT_EQ(kept.size(), 0u);
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
