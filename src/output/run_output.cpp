@@ -101,7 +101,7 @@ struct RunOutput::Impl {
     };
     if (c.fluid.present) frames_of("fluid");
     if (c.grain.present) frames_of("grains");
-    if (c.out.walls && !c.wall.bodies.empty()) frames_of("walls");
+    if (c.out.walls && c.fluid.present && !c.wall.bodies.empty()) frames_of("walls");  // of particles
     const auto every = [&](double own) { return Schedule(own > 0 ? own : c.out.every); };
     tables.push_back({std::nullopt, CsvTable(dir / "diagnostics.csv"), every(c.out.diagnostics_every)});
     for (const auto& probe : c.out.probes)
