@@ -47,7 +47,9 @@ def primitive(shape, folder):
     if kind == "pipe":
         t, ends = shape.get("thickness", 0.1 * r), shape.get("ends", "open")
         bottom = [(0, 0), (0, -t), (r + t, -t)] if ends in ("closed_a", "closed") else [(r + t, 0)]
-        top = [(r + t, length + t), (0, length + t), (0, length)] if ends in ("closed_b", "closed") else [(r + t, length)]
+        top = [(r + t, length)]
+        if ends in ("closed_b", "closed"):
+            top = [(r + t, length + t), (0, length + t), (0, length)]
         return lathe([(r, 0), *bottom, *top, (r, length)], a, b - a)
     ends = (shape["radius_a"], shape["radius_b"]) if kind == "cone" else (r, r)
     return lathe([(0, 0), *((e, z) for e, z in zip(ends, (0, length)) if e > 0), (0, length)], a, b - a)
