@@ -113,8 +113,10 @@ class Run:
             yield body, turn, shift
 
     def particles_of(self, body, time):
+        """Places of a body's particles near `time`, in the order of their numbers."""
         frame = self.walls.nearest(time)
-        return self.walls.position(frame)[self.walls.get(frame, "body") == body]
+        own = np.flatnonzero(self.walls.get(frame, "body") == body)
+        return self.walls.position(frame)[own[np.argsort(self.walls.get(frame, "id")[own])]]
 
     def boxes(self, time):
         """Tanks and boxes with corners as they stand at `time`: (body, min, max)."""

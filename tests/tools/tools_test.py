@@ -13,6 +13,7 @@ import numpy as np
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
 sys.path.insert(0, str(TOOLS))
 import outlines  # noqa: E402
+import plot  # noqa: E402
 import solids  # noqa: E402
 
 
@@ -222,6 +223,17 @@ turn_angle = 5
         solids.hopper(radius=0.02, orifice=0.01, height=0.05).write_stl(self.run_dir / "lump.stl")
         self.expect_picture("frames", self.run_dir, "--times", "0,0.1,0.2")
         self.expect_picture("frames", self.run_dir, "--field", "pressure", "--slice", "0.05")
+
+    def test_bodies_stand_where_their_particles_are(self):
+        (self.run_dir / "case.resolved.toml").write_text(self.CASE)
+        laid = np.random.default_rng(2).random((30, 3))
+        turned = outlines.rotation([0, 0, 1], 0.3)
+        order = np.random.default_rng(3).permutation(30)  # frames keep no order
+        write_frames(self.run_dir / "walls.vtkhdf", [0, 0.1], [laid, (laid @ turned.T)[order]],
+                     {"body": [np.ones(30), np.ones(30)], "id": [np.arange(30), order]})
+        _, turn, shift = list(plot.Run(self.run_dir, "xz").bodies(0.1))[1]
+        np.testing.assert_allclose(turn, turned, atol=1e-5)
+        np.testing.assert_allclose(shift, 0, atol=1e-5)
 
     def test_frames_without_the_case(self):
         self.expect_picture("frames", self.run_dir, "--times", "0.2", "--view", "yz")
