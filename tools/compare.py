@@ -19,8 +19,9 @@ curve      reference (CSV), reference_x, reference_y,      RMS and largest error
                                                            errors are relative, or in units of `scale`
 profile    data, field, component, along (0 1 2), time,    same, for the particles of the frame at `time`
            reference..., relative, scale, rms, max         over their coordinate `along`
-value      series; statistic = final, mean, max, min or    low <= value <= high
-           first_above (time when it passes `threshold`);
+value      series; statistic = final, mean, max, min,      low <= value <= high
+           slope (1/s, by least squares) or first_above
+           (time when it passes `threshold`);
            time_range; low, high
 decay      series; time_range; rate, tolerance             fitted exponential rate (1/s) is within
                                                            `tolerance` (relative) of `rate`
@@ -157,6 +158,10 @@ class Check:
             if len(above) == 0:
                 return Result(False, f"never above {self.spec['threshold']:g}, at most {y.max():.5g}")
             found = t[above[0]]
+        elif statistic == "slope":
+            if len(t) < 2:
+                return Result(False, "only one value to fit")
+            found = np.polyfit(t, y, 1)[0]
         else:
             found = {"final": y[-1], "mean": y.mean(), "max": y.max(), "min": y.min()}[statistic]
         low, high = self.spec.get("low", -np.inf), self.spec.get("high", np.inf)

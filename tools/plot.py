@@ -16,9 +16,10 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
-from matplotlib.collections import EllipseCollection  # noqa: E402
+from matplotlib.collections import EllipseCollection, LineCollection  # noqa: E402
 from matplotlib.patches import Rectangle  # noqa: E402
 
+import outlines  # noqa: E402
 from frames import Frames, Table, resolved_case  # noqa: E402
 
 FIELDS = {
@@ -43,6 +44,10 @@ class Run:
         self.frames = {name: Frames(path) for name, path in stores.items() if path.exists()}
         if not self.frames:
             raise SystemExit(f"{folder}: holds neither fluid.vtkhdf nor grains.vtkhdf")
+        walls = Path(folder) / "walls.vtkhdf"
+        self.walls = Frames(walls) if walls.exists() else None
+        shapes = {shape["name"]: shape for shape in self.case.get("shape", [])}
+        self.surfaces = {name: outlines.surfaces(name, shapes, Path(folder)) for name in shapes}
         self.dx = self.case.get("fluid", {}).get("dx") or self.estimated_spacing()
 
     def times(self):
@@ -94,28 +99,53 @@ class Run:
         return x[order][:, [self.across, self.up]], 2 * radius[order]
 
     def bodies(self, time):
-        """Wall bodies with corners as they stand at `time`: (body, min, max)."""
-        for body in self.case.get("wall", {}).get("body", []):
+        """Wall bodies that are there at `time`, each with its turn and shift since it was laid: (body, R, s)."""
+        for number, body in enumerate(self.case.get("wall", {}).get("body", [])):
             motion = body.get("motion", {})
-            moved = sum((displacement(part, time) for part in [motion, *motion.get("add", [])]), np.zeros(3))
+            parts = [motion, *motion.get("add", [])]
+            turn, shift = np.eye(3), sum((displacement(part, time) for part in parts), np.zeros(3))
+            if self.walls and any(part.get("kind", "fixed") != "fixed" for part in parts):
+                before, after = (self.particles_of(number, t) for t in (0, time))
+                if len(after) != len(before):
+                    continue
+                if len(before) > 2:
+                    turn, shift = outlines.motion_between(before, after)
+            yield body, turn, shift
+
+    def particles_of(self, body, time):
+        """Places of a body's particles near `time`, in the order of their numbers."""
+        frame = self.walls.nearest(time)
+        own = np.flatnonzero(self.walls.get(frame, "body") == body)
+        return self.walls.position(frame)[own[np.argsort(self.walls.get(frame, "id")[own])]]
+
+    def boxes(self, time):
+        """Tanks and boxes with corners as they stand at `time`: (body, min, max)."""
+        for body, turn, shift in self.bodies(time):
             if body.get("shape") in ("tank", "box"):
-                yield body, np.array(body["min"]) + moved, np.array(body["max"]) + moved
+                low, high = np.array(body["min"]), np.array(body["max"])
+                moved = turn @ (low + high) / 2 + shift - (low + high) / 2
+                yield body, low + moved, high + moved
+
+    def meshes(self, time):
+        """Surfaces of named shapes as they stand at `time`."""
+        for body, turn, shift in self.bodies(time):
+            for mesh in self.surfaces.get(body.get("shape"), []):
+                yield outlines.Mesh(mesh.vertices @ turn.T + shift, mesh.triangles)
 
     def window(self, times):
         """Lower and upper corner of what is worth showing, m."""
-        tanks = [(low, high) for body, low, high in self.bodies(0) if body["shape"] == "tank"]
-        if tanks:
-            low, high = np.min([t[0] for t in tanks], axis=0), np.max([t[1] for t in tanks], axis=0)
-        else:
+        points = [np.array([low, high]) for body, low, high in self.boxes(0) if body["shape"] == "tank"]
+        points += [mesh.vertices for mesh in self.meshes(0)]
+        if not points:
             points = [f.position(f.nearest(t)) for f in self.frames.values() for t in times]
-            low, high = np.min([p.min(0) for p in points], axis=0), np.max([p.max(0) for p in points], axis=0)
+        low, high = np.min([p.min(0) for p in points], axis=0), np.max([p.max(0) for p in points], axis=0)
         pick = [self.across, self.up]
         margin = 0.03 * np.max((high - low)[pick])
         return low[pick] - margin, high[pick] + margin
 
 
 def displacement(motion, time):
-    """How far a part of a motion has moved by `time`, m; turns and formulas are not drawn."""
+    """How far a part of a motion has moved by `time`, m; turns and formulas show only where walls.vtkhdf does."""
     begin = motion.get("start", 0.0)
     t = min(max(time, begin), motion.get("stop", np.inf)) - begin
     if motion.get("kind") == "velocity":
@@ -135,8 +165,12 @@ def discs(axes, places, diameters, **style):
     return axes.add_collection(circles)
 
 
-def draw_walls(axes, run, time, scale):
-    for body, low, high in run.bodies(time):
+def draw_walls(axes, run, time, scale, plane):
+    for mesh in run.meshes(time):
+        lines = outlines.edges(mesh, run.depth) if plane is None else outlines.cut(mesh, run.depth, plane)
+        axes.add_collection(LineCollection(lines[:, :, [run.across, run.up]] * scale, colors="black",
+                                           linewidths=0.6 if plane is None else 1.0))
+    for body, low, high in run.boxes(time):
         a, b = run.across, run.up
         if body["shape"] == "box":
             corner, size = low[[a, b]] * scale, (high - low)[[a, b]] * scale
@@ -179,7 +213,7 @@ def plot_frames(options):
             places, diameters = run.grains(time, options.slice)
             discs(axes, places * scale, diameters * scale, facecolors=GRAIN_FILL, edgecolors=GRAIN_EDGE,
                   linewidths=0.25, rasterized=True)
-        draw_walls(axes, run, time, scale)
+        draw_walls(axes, run, time, scale, options.slice)
         shown = run.times()[np.argmin(np.abs(run.times() - time))]
         axes.set_title(f"t = {shown:.3g} s", fontsize=10)
         axes.set_xlim(low[0] * scale, high[0] * scale)

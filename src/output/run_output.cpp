@@ -101,7 +101,8 @@ struct RunOutput::Impl {
     };
     if (c.fluid.present) frames_of("fluid");
     if (c.grain.present) frames_of("grains");
-    if (c.out.walls && !(c.wall.bodies.empty() && c.inlets.empty())) frames_of("walls");
+    const bool wall_particles = c.fluid.present && !(c.wall.bodies.empty() && c.inlets.empty());
+    if (c.out.walls && wall_particles) frames_of("walls");
     const auto every = [&](double own) { return Schedule(own > 0 ? own : c.out.every); };
     tables.push_back({std::nullopt, CsvTable(dir / "diagnostics.csv"), every(c.out.diagnostics_every)});
     for (const auto& probe : c.out.probes)

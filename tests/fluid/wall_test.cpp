@@ -95,6 +95,7 @@ TEST(Walls, SayWhatMassCameWithTheirPorosity) {
                                     Real3(),
                                     Real(1e-3),
                                     Real(1e-3),
+                                    Real(1e-3),
                                     out(v_rho),
                                     out(v_visc),
                                     out(m_state)};

@@ -18,15 +18,18 @@ TEST(Cases, AreLaidWithoutWarnings) {
     std::size_t fluid, grains;
   };
   const std::map<std::string, Count> expected{
+      {"agitated_tube/case.toml", {9775, 0}},
       {"dam_break_single_phase/case.toml", {37 * 73 * 10, 0}},
       {"dam_break_two_phase/case.toml", {17 * 33 * 50, 7762}},
       {"grain_heap/case.toml", {0, 2000}},
+      {"hopper/case.toml", {0, 5000}},
       {"hydrostatic_column/case.toml", {8 * 8 * 25, 0}},
       {"poiseuille/case.toml", {8 * 8 * 50, 0}},
       {"rotating_drum/case.toml", {14553, 7755}},
       {"sphere_settling/air.toml", {20 * 20 * 30, 1}},
       {"sphere_settling/glycerol.toml", {20 * 20 * 30, 1}},
       {"sphere_settling/water.toml", {20 * 20 * 30, 1}},
+      {"stirred_tank/case.toml", {49680, 0}},
       {"taylor_green/case.toml", {50 * 50 * 8, 0}},
   };
   std::size_t found = 0;

@@ -149,6 +149,14 @@ TEST_F(Program, ShowsTheWallsOfDryCases) {
   EXPECT_FALSE(std::filesystem::exists(dir_ / "look/fluid.vtkhdf"));
 }
 
+TEST_F(Program, RunsDryCases) {
+  write("dry.toml", kSmall.substr(0, kSmall.find("[fluid]")) + kSmall.substr(kSmall.find("[[wall.body]]")));
+  const Outcome o = bedload("run dry.toml --backend cpu --quiet --until 0.001 --out r");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(bedload("info r/grains.vtkhdf").out.find("40"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "r/walls.vtkhdf"));  // grains meet surfaces, not particles
+}
+
 TEST_F(Program, RefusesAFolderThatCannotTakeAPreview) {
   write("dam.toml", kSmall);
   const Outcome o = bedload("check dam.toml --backend cpu --preview dam.toml/look");

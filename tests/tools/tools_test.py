@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""compare.py and plot.py on small runs made here, whose answers are known."""
+"""compare.py and plot.py on small runs made here, whose answers are known; solids of solids.py."""
 
 import subprocess
 import sys
@@ -11,6 +11,10 @@ import h5py
 import numpy as np
 
 TOOLS = Path(__file__).resolve().parents[2] / "tools"
+sys.path.insert(0, str(TOOLS))
+import outlines  # noqa: E402
+import plot  # noqa: E402
+import solids  # noqa: E402
 
 
 def write_frames(path, times, points, fields):
@@ -101,6 +105,10 @@ relative = true
         self.assertEqual(self.compare(above.replace("1.25", "3") + "high = 0.5")[0], 1)
         self.assertEqual(self.compare(value + 'statistic = "mean"\ntime_range = [0.9, 1]\nlow = 1.9')[0], 0)
 
+        slope = value + 'statistic = "slope"\n'  # of 1 + t2
+        self.assertEqual(self.compare(slope + "time_range = [0, 1]\nlow = 0.999\nhigh = 1.001")[0], 0)
+        self.assertEqual(self.compare(slope + "time_range = [0, 0]\nlow = 0")[0], 1)
+
     def test_below(self):
         (self.run_dir / "probes" / "slow.csv").write_text("time [s],front [m]\n0,1\n1,1.5\n")
         below = 'kind = "below"\ndata = "probes/{}.csv"\ncolumn = "front"\nother_data = "probes/{}.csv"\n' \
@@ -170,6 +178,27 @@ motion.velocity = [0, 0, 0.5]
 [[wall.body.motion.add]]
 kind = "table"
 rows = [[0, 0, 0, 0], [0.1, 0.01, 0, 0, 0, 0, 20]]
+[[wall.body]]
+name = "step"
+shape = "step"
+[[shape]]
+name = "lump"
+kind = "mesh"
+file = "lump.stl"
+[[shape]]
+name = "pipe"
+kind = "pipe"
+a = [0.1, 0, 0.02]
+b = [0.1, 0.1, 0.02]
+radius = 0.01
+thickness = 0.002
+ends = "closed_b"
+[[shape]]
+name = "step"
+kind = "union"
+of = ["lump", "pipe"]
+turn_axis = [0, 1, 0]
+turn_angle = 5
 """
 
     def setUp(self):
@@ -191,8 +220,20 @@ rows = [[0, 0, 0, 0], [0.1, 0.01, 0, 0, 0, 0, 20]]
 
     def test_frames(self):
         (self.run_dir / "case.resolved.toml").write_text(self.CASE)
+        solids.hopper(radius=0.02, orifice=0.01, height=0.05).write_stl(self.run_dir / "lump.stl")
         self.expect_picture("frames", self.run_dir, "--times", "0,0.1,0.2")
         self.expect_picture("frames", self.run_dir, "--field", "pressure", "--slice", "0.05")
+
+    def test_bodies_stand_where_their_particles_are(self):
+        (self.run_dir / "case.resolved.toml").write_text(self.CASE)
+        laid = np.random.default_rng(2).random((30, 3))
+        turned = outlines.rotation([0, 0, 1], 0.3)
+        order = np.random.default_rng(3).permutation(30)  # frames keep no order
+        write_frames(self.run_dir / "walls.vtkhdf", [0, 0.1], [laid, (laid @ turned.T)[order]],
+                     {"body": [np.ones(30), np.ones(30)], "id": [np.arange(30), order]})
+        _, turn, shift = list(plot.Run(self.run_dir, "xz").bodies(0.1))[1]
+        np.testing.assert_allclose(turn, turned, atol=1e-5)
+        np.testing.assert_allclose(shift, 0, atol=1e-5)
 
     def test_frames_without_the_case(self):
         self.expect_picture("frames", self.run_dir, "--times", "0.2", "--view", "yz")
@@ -208,6 +249,61 @@ rows = [[0, 0, 0, 0], [0.1, 0.01, 0, 0, 0, 0, 20]]
         reference = self.case / "reference.csv"
         reference.write_text("series,t_s,x_m\nA,0.5,1.4\nB,0.7,1.8\n")
         self.expect_picture("probe", table, "--reference", reference)
+
+
+class Solids(unittest.TestCase):
+    def expect_closed(self, mesh, volume, tolerance):
+        edges = np.concatenate([mesh.triangles[:, [k, (k + 1) % 3]] for k in range(3)])
+        count = len(mesh.vertices)
+        there, back = edges @ [count, 1], edges @ [1, count]
+        self.assertEqual(len(np.unique(there)), len(there))  # no edge twice in one direction
+        np.testing.assert_array_equal(np.sort(there), np.sort(back))
+        self.assertLess(abs(mesh.volume() / volume - 1), tolerance)
+
+    def test_hopper(self):
+        mesh = solids.hopper(facets=500)
+        r, z = np.array([[0.008, 0], [0.008 + 0.003 * np.sqrt(2), 0], [0.028, 0.0157574], [0.028, 0.08],
+                         [0.025, 0.08], [0.025, 0.017]]).T
+        s, y = np.roll(r, -1), np.roll(z, -1)
+        self.expect_closed(mesh, np.pi / 3 * np.sum((r * y - s * z) * (r + s)), 1e-3)
+
+    def test_impellers(self):
+        for kind, hub in (("rushton", 0.015), ("paddle", 0.015), ("pitched", 0.025)):
+            thickness = 0.003
+            mesh = solids.impeller(kind, hub=hub, thickness=thickness, facets=40)
+            hubs = np.pi / 4 * hub**2 * 0.01
+            shaft = np.pi / 4 * 0.01**2 * (0.1 - 0.005)
+            blades = 6 * thickness * 0.01 * (0.0125 if kind == "rushton" else (0.05 - hub) / 2)
+            disc = np.pi / 4 * (0.0375**2 - hub**2) * thickness - 6 * thickness**2 * 0.00625
+            if kind == "pitched":  # as wide, lying
+                hubs, shaft = hubs * np.sqrt(0.5), np.pi / 4 * 0.01**2 * (0.1 - 0.005 * np.sqrt(0.5))
+            self.expect_closed(mesh, hubs + shaft + blades + (disc if kind == "rushton" else 0), 0.05)
+
+    def test_tube(self):
+        mesh = solids.tube(rows=4, side=30)
+        wall = np.pi * (0.0072**2 - 0.0069**2) * 0.04
+        hole = np.pi / 4 * 0.007 * 0.005 * (0.0072**2 - 0.0069**2) / (2 * 0.0072)
+        self.expect_closed(mesh, wall - 16 * hole, 0.01)
+
+    def test_stl_keeps_the_solid(self):
+        with tempfile.TemporaryDirectory() as folder:
+            mesh = solids.tube(rows=2)
+            mesh.write_stl(Path(folder) / "tube.stl")
+            back = solids.read_stl(Path(folder) / "tube.stl")
+        self.assertEqual(len(back.vertices), len(mesh.vertices))
+        self.expect_closed(back, mesh.volume(), 1e-5)
+
+    def test_outlines(self):
+        box = {"it": {"kind": "box", "min": [0, 0, 0], "max": [1, 2, 3]}}
+        (mesh,) = outlines.surfaces("it", box, Path())
+        self.expect_closed(mesh, 6, 1e-12)
+        self.assertEqual(len(outlines.edges(mesh, 1)), 12)
+        lines = outlines.cut(mesh, 1, 0.5)
+        self.assertAlmostEqual(np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1).sum(), 8)
+        turn = outlines.rotation([1, 2, 3], 0.4)
+        found, shift = outlines.motion_between(mesh.vertices, mesh.vertices @ turn.T + [1, 2, 3])
+        np.testing.assert_allclose(found, turn, atol=1e-12)
+        np.testing.assert_allclose(shift, [1, 2, 3])
 
 
 if __name__ == "__main__":
