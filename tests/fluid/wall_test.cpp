@@ -12,6 +12,38 @@
 namespace bedload::inline BL_VARIANT {
 namespace {
 
+/// One wall particle at the origin and the pass that gives it its state.
+struct LoneWall {
+  std::vector<Vec3d> x = std::vector<Vec3d>(1);
+  std::vector<std::uint32_t> body = {0};
+  std::vector<BodyPose> pose = std::vector<BodyPose>(1);
+  std::vector<Real4> v_rho = std::vector<Real4>(1), v_visc = v_rho, m_state = v_rho;
+
+  /// Beside fluid of this velocity and density, state and porosity.
+  WallPass<WendlandC2> pass(const std::vector<Real4>& v, const std::vector<Real4>& m,
+                            const std::vector<Real>& eps, const Vec3d& gravity) {
+    const auto in = [](const auto& host) { return Span(host.data(), Index(host.size())); };
+    const auto out = [](auto& host) { return Span(host.data(), Index(host.size())); };
+    return {WendlandC2(0.1),
+            EquationOfState{Real(1e7), 7, 0, 1000, false},
+            in(v),
+            in(m),
+            in(eps),
+            {},
+            0,
+            in(x),
+            in(body),
+            in(pose),
+            Real3(gravity),
+            Real(1e-3),
+            Real(1e-3),
+            Real(1e-3),
+            out(v_rho),
+            out(v_visc),
+            out(m_state)};
+  }
+};
+
 /// Pressure that one wall particle at the origin takes from fluid above it whose pressure is
 /// 500 Pa + rho0 push . x; the wall accelerates with `wall`.
 double extrapolated(const Vec3d& gravity, const Vec3d& wall, const Vec3d& push) {
@@ -27,37 +59,16 @@ double extrapolated(const Vec3d& gravity, const Vec3d& wall, const Vec3d& push) 
     m.push_back({Real(1e-3), Real(p / 1e6), Real(1000), Real(p)});
     eps.push_back(1);
   }
-  const std::vector<Vec3d> x(1);
-  const std::vector<std::uint32_t> body(1);
-  std::vector<BodyPose> pose(1);
-  pose[0].a = wall;
-  std::vector<Real4> v_rho(1), v_visc(1), m_state(1);
-  const auto in = [](const auto& host) { return Span(host.data(), Index(host.size())); };
-  const auto out = [](auto& host) { return Span(host.data(), Index(host.size())); };
-  const WallPass<WendlandC2> pass{WendlandC2(0.1),
-                                  EquationOfState{Real(1e7), 7, 0, 1000, false},
-                                  in(v),
-                                  in(m),
-                                  in(eps),
-                                  {},
-                                  0,
-                                  in(x),
-                                  in(body),
-                                  in(pose),
-                                  Real3(gravity),
-                                  Real(1e-3),
-                                  Real(1e-3),
-                                  Real(1e-3),
-                                  out(v_rho),
-                                  out(v_visc),
-                                  out(m_state)};
+  LoneWall lone;
+  lone.pose[0].a = wall;
+  const auto pass = lone.pass(v, m, eps, gravity);
   auto sum = pass.start(0);
   for (int a = 0; a < 60; ++a) {
-    const Real3 r = Real3(x[0] - at[a]);
+    const Real3 r = Real3(-at[a]);
     if (norm2(r) < Real(0.04)) pass.pair(sum, 0, Index(a), r, norm2(r));
   }
   pass.finish(0, sum);
-  return m_state[0].y * square(v_rho[0].w);
+  return lone.m_state[0].y * square(lone.v_rho[0].w);
 }
 
 TEST(Walls, TakeALinearPressureExactly) {  // T-11
@@ -74,40 +85,19 @@ TEST(Walls, FallingFreelyTakeTheMeanPressure) {  // T-11: a_w = g
 
 TEST(Walls, SayWhatMassCameWithTheirPorosity) {
   const std::vector<Real4> v{{Real3(), Real(1000)}}, m{{Real(1e-3), 0, Real(1000), 0}};
-  const std::vector<Vec3d> x(1);
-  const std::vector<std::uint32_t> body(1);
-  const std::vector<BodyPose> pose(1);
-  std::vector<Real4> v_rho(1), v_visc(1), m_state(1);
-  const auto in = [](const auto& host) { return Span(host.data(), Index(host.size())); };
-  const auto out = [](auto& host) { return Span(host.data(), Index(host.size())); };
+  LoneWall lone;
   const auto came = [&](Real porosity, bool near) {
     const std::vector<Real> eps{porosity};
-    const WallPass<WendlandC2> pass{WendlandC2(0.1),
-                                    EquationOfState{Real(1e7), 7, 0, 1000, false},
-                                    in(v),
-                                    in(m),
-                                    in(eps),
-                                    {},
-                                    0,
-                                    in(x),
-                                    in(body),
-                                    in(pose),
-                                    Real3(),
-                                    Real(1e-3),
-                                    Real(1e-3),
-                                    Real(1e-3),
-                                    out(v_rho),
-                                    out(v_visc),
-                                    out(m_state)};
+    const auto pass = lone.pass(v, m, eps, {});
     auto sum = pass.start(0);
     if (near) pass.pair(sum, 0, Index(0), Real3(Real(0.05), 0, 0), Real(0.0025));
     pass.finish(0, sum);
-    return double(m_state[0].w);
+    return double(lone.m_state[0].w);
   };
   EXPECT_EQ(came(1, true), 0) << "what was dry had none";
   EXPECT_EQ(came(1, true), 0);
   EXPECT_NEAR(came(Real(0.4), true), -0.6, 1e-5) << "of 1 kg";
-  EXPECT_NEAR(m_state[0].x, 0.4, 1e-5);
+  EXPECT_NEAR(lone.m_state[0].x, 0.4, 1e-5);
   EXPECT_NEAR(came(Real(0.7), true), 0.3, 1e-5);
   EXPECT_EQ(came(1, false), 0) << "dry again";
   EXPECT_EQ(came(Real(0.4), true), 0);
