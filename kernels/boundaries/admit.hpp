@@ -34,7 +34,8 @@ struct AdmitPass {
     if (k >= count) return;
     const Index a = place + k;
     const bool touches_fluid = wall_m_state[w].x > 0;
-    const Real compression = touches_fluid ? eos.compression(wall_m_state[w].w) : Real(0);
+    const Real pressure = wall_m_state[w].y * square(wall_v_rho[w].w);
+    const Real compression = touches_fluid ? eos.compression(pressure) : Real(0);
     fluid_id[a] = id + k;
     x[a] = as_position<FluidPosition>(frame, wall_x[w]);
     v_rho[a] = {wall_v_rho[w].xyz(), eos.rho0 * (1 + compression)};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "kernels/boundaries/admit.hpp"
 #include "tests/boundaries/support.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -60,6 +61,47 @@ void expect_books_balance(Simulation& s, double laid) {
   EXPECT_NEAR(laid + in,
               reading(d, "fluid_mass") + reading(d, "outlet_end_fluid_mass") + reading(d, "lost_fluid_mass"),
               tolerance(1e-9, 1e-6, 1e-6) * (laid + in));
+}
+
+TEST(Admit, TakesOverThePressureOfTheBuffer) {
+  const EquationOfState eos{Real(1e5), 7, 0, 1000, false};
+  const Frame frame({0, 0, 0}, {1, 1, 1}, false, false, false);
+  const Real p = 300, superficial = 800;
+  std::vector<Id> wall_id{7}, id(1);
+  std::vector<Vec3d> wall_x{{0.5, 0.5, 0.5}};
+  std::vector<Real4> wall_v{{Real3(1, 0, 0), superficial}}, wall_state{{1, p / square(superficial), 1000, 0}};
+  std::vector<FluidPosition> x(1);
+  std::vector<Real4> v_rho(1);
+  std::vector<Real> s(1), mass(1), eps(1);
+  std::vector<Real3> theta(1), acc(1);
+  const auto span = [](auto& host) { return Span(host.data(), Index(host.size())); };
+  const AdmitPass pass{frame,
+                       eos,
+                       7,
+                       1,
+                       0,
+                       3,
+                       Real(0.5),
+                       Real3(),
+                       Real3(0, 0, Real(-9.81)),
+                       span(wall_id),
+                       span(wall_x),
+                       span(wall_v),
+                       span(wall_state),
+                       span(id),
+                       span(x),
+                       span(v_rho),
+                       span(s),
+                       span(mass),
+                       span(eps),
+                       span(theta),
+                       span(acc)};
+  pass(0);
+  EXPECT_EQ(id[0], 3u);
+  EXPECT_NEAR(eos.pressure(s[0]), p, 1e-2 * p);
+  wall_state[0].x = 0;  // no fluid ahead
+  pass(0);
+  EXPECT_EQ(s[0], 0);
 }
 
 TEST(Inlet, LetsInTheVolumeOfItsRate) {  // T-42
