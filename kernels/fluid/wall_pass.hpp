@@ -8,6 +8,8 @@ namespace bedload::inline BL_VARIANT {
 /// State of wall particles from the fluid beside them (Adami et al. 2012, [H (13)-(15)] with
 /// physics errata 5-7): pressure with the hydrostatic correction, porosity, no-slip velocity. The porosity of
 /// a wall is that of the fluid beside it; what its mass changes by when that does goes to continuity.
+/// Fluid beside a turning wall is on a circle only as far as it turns along: where the layer that it drags is
+/// thinner than a particle, nothing holds water at rest off a drum that spins around it.
 template <class W>
 struct WallPass {
   W w;
@@ -28,29 +30,28 @@ struct WallPass {
 
   template <class N = Real>
   struct Sum {
-    Vec3<N> push;  ///< gravity minus the wall's acceleration
     N weight, p, eps;
-    Vec3<N> v;
+    Vec3<N> v, rho_r;  ///< r from the fluid to the wall
   };
-  BL_HD Sum<> start(Index b) const {
-    return {gravity - Real3(pose[body[b]].acceleration(x[b])), 0, 0, 0, {}};
-  }
+  BL_HD Sum<> start(Index) const { return {}; }
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J a, const Vec3<N>& r_wf, N r2) const {
     const N wk = w.W(root(r2));
     const Vec4<N> m = fluid_m_state[a], v = fluid_v_rho[a];
-    Vec3<N> push = sum.push;
-    if (drag_kick) push += rate * Vec3<N>(drag_kick[a]);
+    const Vec3<N> rho_r = wk * m.z * r_wf;
     sum.weight += wk;
-    sum.p += wk * (m.w + m.z * dot(push, r_wf));
+    sum.p += wk * m.w;
+    if (drag_kick) sum.p += rate * dot(Vec3<N>(drag_kick[a]), rho_r);
     sum.eps += wk * fluid_eps[a];
     sum.v += wk * v.xyz();
+    sum.rho_r += rho_r;
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.weight += other.weight;
     into.p += other.p;
     into.eps += other.eps;
     into.v += other.v;
+    into.rho_r += other.rho_r;
   }
   BL_HD void finish(Index b, const Sum<>& sum) const {
     const BodyPose& k = pose[body[b]];
@@ -62,14 +63,25 @@ struct WallPass {
       return;
     }
     const Real porosity_before = m_state[b].x > 0 ? v_rho[b].w / m_state[b].z : Real(-1);
-    const Real p = sum.p / sum.weight, eps = sum.eps / sum.weight;
+    const Real3 v_fluid = sum.v / sum.weight;
+    const Real3 push = gravity - Real3(k.speeding_up(x[b])) -
+                       square(turning_along(k, v_wall, v_fluid)) * Real3(k.centripetal(x[b]));
+    const Real p = (sum.p + dot(push, sum.rho_r)) / sum.weight, eps = sum.eps / sum.weight;
     const Real rho = eos.rho0 * (1 + eos.compression(p)), superficial = eps * rho;
     v_rho[b] = {v_wall, superficial};
-    v_visc[b] = {k.flows ? v_wall : 2 * v_wall - sum.v / sum.weight, k.slip ? Real(0) : Real(1)};
-    // the mass that keeps the wall particle's volume, and how much of it came with the porosity
+    v_visc[b] = {k.flows ? v_wall : 2 * v_wall - v_fluid, k.slip ? Real(0) : Real(1)};
+    // the mass that keeps the wall particle's volume, and how much at rho0 came with the porosity
     const Real held = k.flows ? inflow : volume;
-    const Real came = porosity_before < 0 ? Real(0) : (eps - porosity_before) * rho * held;
+    const Real came = porosity_before < 0 ? Real(0) : (eps - porosity_before) * eos.rho0 * held;
     m_state[b] = {superficial * held, p / square(superficial), rho, came};
+  }
+
+ private:
+  /// Share of the wall's velocity of rotation that fluid beside it has, 0..1.
+  BL_HD static Real turning_along(const BodyPose& k, const Real3& v_wall, const Real3& v_fluid) {
+    const Real3 turn = v_wall - Real3(k.v);
+    const Real speed2 = norm2(turn);
+    return speed2 > 0 ? clamp(dot(v_fluid - Real3(k.v), turn) / speed2, Real(0), Real(1)) : Real(1);
   }
 };
 

@@ -21,9 +21,11 @@ struct RigidMotion {
     return turned() ? centre + rotation.conjugate().rotate(x - centre - translation) : x - translation;
   }
   BL_HD Vec3d velocity(const Vec3d& x) const { return v + cross(omega, x - centre - translation); }
-  BL_HD Vec3d acceleration(const Vec3d& x) const {
-    const Vec3d r = x - centre - translation;
-    return a + cross(alpha, r) + cross(omega, cross(omega, r));
+  BL_HD Vec3d acceleration(const Vec3d& x) const { return speeding_up(x) + centripetal(x); }
+  /// The two parts of the acceleration: from the change of velocity and spin, and from the spin itself.
+  BL_HD Vec3d speeding_up(const Vec3d& x) const { return a + cross(alpha, x - centre - translation); }
+  BL_HD Vec3d centripetal(const Vec3d& x) const {
+    return cross(omega, cross(omega, x - centre - translation));
   }
 };
 
