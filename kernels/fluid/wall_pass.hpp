@@ -17,7 +17,7 @@ struct WallPass {
   Span<const Real3>
       drag_kick;  ///< velocity that the grains' drag gave the fluid this step, m/s; empty without grains
   Real rate;      ///< 1 / step, 1/s
-  Span<const Vec3d> x;
+  Span<const Vec3d> x0;  ///< at t = 0, m
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
   Real3 gravity;   ///< m/s2
@@ -33,7 +33,8 @@ struct WallPass {
     Vec3<N> v;
   };
   BL_HD Sum<> start(Index b) const {
-    return {gravity - Real3(pose[body[b]].acceleration(x[b])), 0, 0, 0, {}};
+    const BodyPose& k = pose[body[b]];
+    return {gravity - Real3(k.acceleration(k.place(x0[b]))), 0, 0, 0, {}};
   }
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J a, const Vec3<N>& r_wf, N r2) const {
@@ -54,7 +55,7 @@ struct WallPass {
   }
   BL_HD void finish(Index b, const Sum<>& sum) const {
     const BodyPose& k = pose[body[b]];
-    const Real3 v_wall = Real3(k.velocity(x[b]));
+    const Real3 v_wall = Real3(k.velocity(k.place(x0[b])));
     if (sum.weight < least_sum || !k.present) {
       v_rho[b] = {v_wall, eos.rho0};
       v_visc[b] = {v_wall, Real(0)};
