@@ -92,9 +92,17 @@ class FreeBodies {
   template <class Find>
   void load(const Find& find) {
     if (!any()) return;
+    const auto fits = [&](const HostStore& saved, const Store& own) {
+      if (saved.count != own.size())
+        throw FileError("checkpoint: it was made with other free bodies, or other balls by which they touch");
+    };
+    fits(find("bodies"), store_);
     store_.load(find("bodies"));
-    if (balls_.size() > 0) memory_.load(find("body_contacts"));
-    point_at_memory();
+    if (balls_.size() > 0) {
+      fits(find("body_contacts"), memory_);
+      memory_.load(find("body_contacts"));
+      point_at_memory();
+    }
     read_back();
   }
 
