@@ -15,10 +15,10 @@ struct BodyMaterial {
 };
 
 struct TouchBall {
-  Vec3d x0;        ///< centre at t = 0, m
-  double radius;   ///< m
-  double R_star;   ///< m
-  Index owner;     ///< among the free bodies
+  Vec3d x0;       ///< centre at t = 0, m
+  double radius;  ///< m
+  double R_star;  ///< m
+  Index owner;    ///< among the free bodies
 };
 
 struct BallPass {
@@ -88,7 +88,8 @@ struct BallPass {
     law.mindlin.G_star = Real(1 / (m.give_sideways + give_sideways));
     // a push that no constraint lets through meets a mass without end, for which no damping is left
     const double m_star = 1 / max_of(ease, 1e-6 / a.mass);
-    const ContactGeometry at{foot.normal, ball.radius - foot.distance, Real(ball.R_star), Real(m_star), 0, 0, 0, 0};
+    const ContactGeometry at{
+        foot.normal, ball.radius - foot.distance, Real(ball.R_star), Real(m_star), 0, 0, 0, 0};
     const Vec3d v = mine.v + cross(mine.omega, r_mine) - other.v - cross(other.omega, r_other);
     const ContactForce f = law(at, Real3(v), Real3(mine.omega), Real3(other.omega), Real(dt), h);
     const Vec3d force = Vec3d(f.force);

@@ -32,9 +32,9 @@ struct BodyFields {
 struct BodyPass {
   const RigidBody* bodies;
   BodyFields s;
-  const LoadSum* by_grains;    ///< new ones; null: as before
-  const LoadSum* by_contacts;  ///< new ones; null: as before
-  Vec3d gravity;               ///< m/s2
+  const LoadSum* by_grains;        ///< new ones; null: as before
+  const LoadSum* by_contacts;      ///< new ones; null: as before
+  Vec3d gravity;                   ///< m/s2
   double kick, fluid_kick, drift;  ///< s
   double time;                     ///< s; bodies released later are held
   std::uint32_t begins;            ///< 1: a step begins
@@ -81,8 +81,7 @@ struct BodyPosePass {
   BL_HD void operator()(Index b) const {
     const RigidBody& k = bodies[b];
     const RigidMotion m = s.motion(k, b, settling || time < k.release);
-    for (int r = 0; r < rows; ++r)
-      static_cast<RigidMotion&>(poses[std::size_t(r) * row_size + k.body]) = m;
+    for (int r = 0; r < rows; ++r) static_cast<RigidMotion&>(poses[std::size_t(r) * row_size + k.body]) = m;
   }
 };
 
@@ -107,10 +106,11 @@ struct MidPosePass {
   }
 };
 
-/// The acceleration that the fluid beside a body sees: that of its last steps, averaged over the time that
-/// sound takes across the kernel. A light body whose last acceleration the wall pressure took as it is would
-/// be pushed back by more than that, in each step to the other side; the average damps this down to a body
-/// of a few hundredths of the fluid's added mass.
+/// The acceleration that the fluid beside a body sees: that of its last steps, averaged over a few times that
+/// sound takes across the kernel. Wall pressure answers it like a mass of fluid that moves along; taken as it
+/// was a step ago, it would throw a body lighter than that mass to and fro, further each step, however short.
+/// With a new share of s the answer stays bounded while the mass of fluid is below 2/s - 1 times the body's,
+/// about 60.
 struct BodyAccelerationPass {
   const RigidBody* bodies;
   BodyFields s;

@@ -146,7 +146,8 @@ void free_body(Parameters& p, FreeConfig& f) {
      .family = "models",
      .choices = {{"all", "any way"}, {"axis", "about free.axis"}, {"none", "not at all"}}});
   const bool axial = f.move == "plane" || f.move == "axis" || f.turn == "axis" || p.everything();
-  if (axial) p("free.axis", &f.axis, {.meaning = "direction for free.move and free.turn", .presence = required});
+  if (axial)
+    p("free.axis", &f.axis, {.meaning = "direction for free.move and free.turn", .presence = required});
   if (f.move == "none" || p.everything())
     p("free.point", &f.point,
       {.unit = "m",
@@ -168,10 +169,7 @@ void free_body(Parameters& p, FreeConfig& f) {
        .fallback = "grain.nu",
        .presence = unbounded});
     p("free.mu", &f.mu,
-      {.meaning = "sliding friction",
-       .range = within(0, 5),
-       .fallback = "grain.mu",
-       .presence = unbounded});
+      {.meaning = "sliding friction", .range = within(0, 5), .fallback = "grain.mu", .presence = unbounded});
     p("free.e", &f.e,
       {.meaning = "restitution of a lone contact",
        .range = within(0.05, 1),

@@ -169,7 +169,8 @@ void resolve_free_bodies(Config& c, const Value& root) {
     if (std::isinf(f.mu)) f.mu = c.grain.mu;
     if (f.e == 0) f.e = c.grain.e;
     if (!f.balls.empty() && f.contact_spacing > 0)
-      throw CaseError(fmt::format("{}: wall.body.free must have only one of contact and contact_spacing", place));
+      throw CaseError(
+          fmt::format("{}: wall.body.free must have only one of contact and contact_spacing", place));
     if (f.contacts && f.balls.empty() && f.contact_spacing == 0) {
       const Vec3d side = body.max - body.min;
       f.contact_spacing = std::max(std::min({side.x, side.y, side.z}) / 4, norm(side) / 60);

@@ -40,7 +40,8 @@ struct SweptMoments {
   template <class Square>
   void add(double from, double to, const Square& r2) {
     const double middle = (from + to) / 2, half = (to - from) / 2;
-    for (const auto& [at, weight] : {std::pair{-std::sqrt(0.6), 5.0 / 9}, {0.0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}}) {
+    for (const auto& [at, weight] :
+         {std::pair{-std::sqrt(0.6), 5.0 / 9}, {0.0, 8.0 / 9}, {std::sqrt(0.6), 5.0 / 9}}) {
       const double z = middle + half * at, s = r2(z), area = weight * half * pi * s;
       volume += area, first += area * z, axial += area * z * z, across += area * s / 4;
     }
@@ -217,9 +218,12 @@ PrincipalInertia principal_inertia(const std::array<double, 6>& j) {
 }
 
 std::array<double, 6> shifted_inertia(const std::array<double, 6>& j, double mass, const Vec3d& d) {
-  return {j[0] + mass * (d.y * d.y + d.z * d.z), j[1] + mass * (d.x * d.x + d.z * d.z),
-          j[2] + mass * (d.x * d.x + d.y * d.y), j[3] - mass * d.x * d.y,
-          j[4] - mass * d.x * d.z,               j[5] - mass * d.y * d.z};
+  return {j[0] + mass * (d.y * d.y + d.z * d.z),
+          j[1] + mass * (d.x * d.x + d.z * d.z),
+          j[2] + mass * (d.x * d.x + d.y * d.y),
+          j[3] - mass * d.x * d.y,
+          j[4] - mass * d.x * d.z,
+          j[5] - mass * d.y * d.z};
 }
 
 std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& domain) {

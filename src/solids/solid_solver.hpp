@@ -90,8 +90,8 @@ class SolidSolver {
   /// start and after each substep. Reads fluid_force, U, omega_f, K, K_rot; leaves the drag impulses of this
   /// call in impulse and spin_impulse, their mean in drag_force. Held (or fixed) grains keep place and
   /// velocity; the fluid feels them as resting. gravity: at the start and after each substep, m/s2; the
-  /// case's own if empty. Free bodies, whose step has begun, move along in the substeps and fill their places in
-  /// poses; without them they stay.
+  /// case's own if empty. Free bodies, whose step has begun, move along in the substeps and fill their places
+  /// in poses; without them they stay.
   void advance(GrainStore& grains, Span<const BodyPose> poses, int bodies, double dt, int substeps, bool held,
                const std::vector<Vec3d>& gravity = {}, FreeBodies* free = nullptr);
 

@@ -79,8 +79,8 @@ void CoupledSimulation::load_bodies(double kick, double dt) {
   if (walls_.size() > 0) fluid_solver_->wall_forces(fluid_, walls_, wall_force_, false);
   const Span<const BodyPose> poses = motion_.poses(clock_.time + dt, 0, 1);
   const WallRepulsion repulsion = fluid_solver_->repulsion(poses, dt);
-  bodies_.feel_fluid(walls_, wall_force_, repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_, poses,
-                     kick, dt);
+  bodies_.feel_fluid(walls_, wall_force_, repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_,
+                     poses, kick, dt);
 }
 
 void CoupledSimulation::evaluate_fluid(double dt, double predict) {
@@ -157,12 +157,13 @@ void CoupledSimulation::sweep() {
     const Vec3d x = m.centre + m.translation;
     for (std::size_t b = 0; b < config_.wall.bodies.size(); ++b)
       if (bodies_.place_of(int(b)) == k)
-        std::snprintf(text, sizeof text,
-                      "wall.body \"%s\" at (%.6g, %.6g, %.6g) m broke down at t = %.6g s, step %lld: its place or "
-                      "velocity became NaN; likely causes: it overlaps others at the start, time.dt_dem too "
-                      "large, or far lighter than the fluid around it",
-                      config_.wall.bodies[b].name.c_str(), x.x, x.y, x.z, clock_.time,
-                      static_cast<long long>(clock_.step));
+        std::snprintf(
+            text, sizeof text,
+            "wall.body \"%s\" at (%.6g, %.6g, %.6g) m broke down at t = %.6g s, step %lld: its place or "
+            "velocity became NaN; likely causes: it overlaps others at the start, time.dt_dem too "
+            "large, or far lighter than the fluid around it",
+            config_.wall.bodies[b].name.c_str(), x.x, x.y, x.z, clock_.time,
+            static_cast<long long>(clock_.step));
     throw SimulationFault(text);
   }
 }

@@ -52,8 +52,8 @@ class CoupledSimulation final : public Simulation {
   void lay_fluid();  ///< superficial mass and density over the grains, hydrostatic pressure
   void advance_fluid(double dt);
   void evaluate_fluid(double dt, double predict);  ///< density known: porosity, state, walls, forces
-  double longest_substep();  ///< s, that grains and free bodies allow
-  void load_bodies(double kick, double dt);  ///< force of the fluid on free bodies at the end of a step
+  double longest_substep();                        ///< s, that grains and free bodies allow
+  void load_bodies(double kick, double dt);        ///< force of the fluid on free bodies at the end of a step
   void refresh_if_needed(double dt);
   void refresh(bool fluid, bool grains);
   void restore_lists(const SavedState& state);

@@ -147,7 +147,8 @@ void CoupledSimulation::upload(const Setup& setup) {
 void CoupledSimulation::start() {
   refresh(has_fluid(), has_grains());
   if (has_grains())
-    solid_solver_->evaluate(grains_, poses_now(), bodies_.any() ? bodies_.record(grains_.size()) : TouchLoads{});
+    solid_solver_->evaluate(grains_, poses_now(),
+                            bodies_.any() ? bodies_.record(grains_.size()) : TouchLoads{});
   if (bodies_.any()) bodies_.evaluate(poses_now());
   if (has_fluid()) {
     lay_fluid();

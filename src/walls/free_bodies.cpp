@@ -85,7 +85,8 @@ FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeome
   ball_slots_.resize(std::size_t(n) * bodies_met);
   ball_counts_.resize(n);
   ball_loads_ = {ball_slots_.data(), ball_counts_.data(), n, bodies_met};
-  for (Buffer<LoadSum>* sums : {&grain_sums_, &ball_sums_, &wall_sums_, &repulsion_sums_}) sums->resize(size());
+  for (Buffer<LoadSum>* sums : {&grain_sums_, &ball_sums_, &wall_sums_, &repulsion_sums_})
+    sums->resize(size());
   report_.resize(size());
   read_back();
 }
@@ -126,28 +127,42 @@ void FreeBodies::add(const Config& config, std::uint32_t b) {
   sizes_.push_back(reach);
   double ease = 1 / m.mass;
   if (k.turn == BodyTurn::axis) ease += reach * reach / k.axial;
-  if (k.turn == BodyTurn::all)
-    ease += reach * reach / std::min({k.moments.x, k.moments.y, k.moments.z});
+  if (k.turn == BodyTurn::all) ease += reach * reach / std::min({k.moments.x, k.moments.y, k.moments.z});
   eases_.push_back(ease);
 }
 
 void FreeBodies::point_at_memory() {
   std::vector<WallMemory*> slots;
-  for (int k = 0; k < room_; ++k) slots.push_back(memory_.memory.buffer().data() + std::size_t(k) * balls_.size());
+  for (int k = 0; k < room_; ++k)
+    slots.push_back(memory_.memory.buffer().data() + std::size_t(k) * balls_.size());
   memory_pointers_.assign(slots);
 }
 
 BodyFields FreeBodies::fields() const {
   BodyStore& s = store_;
-  return {s.x,           s.v,            s.spin,          s.a,              s.alpha,       s.rotation,
-          s.grain_force, s.grain_torque, s.contact_force, s.contact_torque, s.fluid_force, s.fluid_torque,
-          s.x_before,    s.v_before,     s.omega_before,  s.rotation_before};
+  return {s.x,
+          s.v,
+          s.spin,
+          s.a,
+          s.alpha,
+          s.rotation,
+          s.grain_force,
+          s.grain_torque,
+          s.contact_force,
+          s.contact_torque,
+          s.fluid_force,
+          s.fluid_torque,
+          s.x_before,
+          s.v_before,
+          s.omega_before,
+          s.rotation_before};
 }
 
 // -- poses -------------------------------------------------------------------
 
 void FreeBodies::write(Span<BodyPose> poses, int row_size, int rows, double time) const {
-  for_each(store_.owned(), BodyPosePass{constants_.data(), fields(), time, settling_ ? 1u : 0u, rows, row_size, poses.data});
+  for_each(store_.owned(),
+           BodyPosePass{constants_.data(), fields(), time, settling_ ? 1u : 0u, rows, row_size, poses.data});
 }
 
 void FreeBodies::write_middle(Span<BodyPose> row, double dt) const {
@@ -250,7 +265,8 @@ void FreeBodies::feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force,
       reduce_into(wall_sums_.data() + k, walls.owned(),
                   WallLoadReduction{body, walls.body, walls.x0, force, poses.data});
     if (repulsion && fluid.size() > 0)
-      reduce_into(repulsion_sums_.data() + k, fluid.owned(), BodyRepulsion{*repulsion, body, fluid.x, fluid.mass});
+      reduce_into(repulsion_sums_.data() + k, fluid.owned(),
+                  BodyRepulsion{*repulsion, body, fluid.x, fluid.mass});
   }
   for_each(store_.owned(), AddLoads{wall_sums_, repulsion_sums_, store_.fluid_force, store_.fluid_torque});
   if (dt == 0) return;

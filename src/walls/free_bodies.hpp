@@ -1,6 +1,6 @@
 #pragma once
-// Bodies that move by the forces on them: their state, their contacts with other bodies, their substeps. Grains
-// and fluid meet them as walls, by their poses.
+// Bodies that move by the forces on them: their state, their contacts with other bodies, their substeps.
+// Grains and fluid meet them as walls, by their poses.
 
 #include <memory>
 #include <vector>
@@ -63,8 +63,8 @@ class FreeBodies {
   /// Where `grains` grains record what they do to bodies, until the next evaluation.
   TouchLoads record(Index grains);
 
-  /// Takes the fluid's force from the wall particles [walls] and repulsion at the end of a step and kicks with
-  /// it; dt: of the step, 0 at the start of a run. poses: one row.
+  /// Takes the fluid's force from the wall particles [walls] and repulsion at the end of a step and kicks
+  /// with it; dt: of the step, 0 at the start of a run. poses: one row.
   void feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force, const WallRepulsion* repulsion,
                   const FluidStore& fluid, Span<const BodyPose> poses, double kick, double dt);
 

@@ -18,8 +18,8 @@ WallBody body_of(ShapePtr shape, double density = 1000) {
   b.free.density = density;
   return b;
 }
-void expect_mass(const MassProperties& m, double mass, const Vec3d& centre, const std::array<double, 6>& inertia,
-                 double near) {
+void expect_mass(const MassProperties& m, double mass, const Vec3d& centre,
+                 const std::array<double, 6>& inertia, double near) {
   double size = 0;
   for (const double j : inertia) size = std::max(size, std::abs(j));
   EXPECT_NEAR(m.mass / mass, 1, near);
@@ -35,7 +35,8 @@ TEST(BodyMass, OfPrimitivesIsAsInTables) {
   expect_mass(box, 8, {0.05, 0.1, 0.2}, {8 / 12.0 * 0.2, 8 / 12.0 * 0.17, 8 / 12.0 * 0.05, 0, 0, 0}, near);
 
   const double ball = 1000 * 4.0 / 3 * kPi * 0.027, j = 0.4 * ball * 0.09;
-  expect_mass(mass_properties(body_of(make_sphere({1, 2, 3}, 0.3))), ball, {1, 2, 3}, {j, j, j, 0, 0, 0}, near);
+  expect_mass(mass_properties(body_of(make_sphere({1, 2, 3}, 0.3))), ball, {1, 2, 3}, {j, j, j, 0, 0, 0},
+              near);
 
   const double rod = 1000 * kPi * 0.01 * 0.5, across = rod * (3 * 0.01 + 0.25) / 12;
   expect_mass(mass_properties(body_of(make_cylinder({0, 0, 1}, {0.5, 0, 1}, 0.1))), rod, {0.25, 0, 1},
@@ -63,7 +64,8 @@ TEST(BodyMass, OfATurnedMeshIsThatOfTheSolid) {
   p.scale = 0.5;
   p.rotation = Quat<double>::from_rotation({0, 0, kPi / 4});
   p.translation = {1, -2, 0.5};
-  const auto mesh = mass_properties(body_of(make_placed(std::make_shared<TriangleMesh>(cube(0.2), "cube"), p)));
+  const auto mesh =
+      mass_properties(body_of(make_placed(std::make_shared<TriangleMesh>(cube(0.2), "cube"), p)));
   EXPECT_GT(mesh.mass, 0);
   const Bounds own = TriangleMesh(cube(0.2), "cube").bounds();
   const auto box = mass_properties(body_of(make_placed(make_box(own.min, own.max), p)));
@@ -75,12 +77,14 @@ TEST(BodyMass, OfATurnedMeshIsThatOfTheSolid) {
 }
 
 TEST(BodyMass, OfUnionsAndVesselsComesFromARaster) {
-  const auto overlapping = make_union({make_box({0, 0, 0}, {0.2, 0.1, 0.1}), make_box({0.1, 0, 0}, {0.3, 0.1, 0.1})});
+  const auto overlapping =
+      make_union({make_box({0, 0, 0}, {0.2, 0.1, 0.1}), make_box({0.1, 0, 0}, {0.3, 0.1, 0.1})});
   expect_mass(mass_properties(body_of(overlapping)), 3, {0.15, 0.05, 0.05},
               {3 * 0.02 / 12, 3 * 0.1 / 12, 3 * 0.1 / 12, 0, 0, 0}, 1e-2);
   const double shell = 1000 * 4.0 / 3 * kPi * (0.15 * 0.15 * 0.15 - 0.001),
                j = 0.4 * shell * (std::pow(0.15, 5) - 1e-5) / (0.15 * 0.15 * 0.15 - 0.001);
-  expect_mass(mass_properties(body_of(make_hollow(make_sphere({}, 0.1), 0.05))), shell, {}, {j, j, j, 0, 0, 0}, 1e-2);
+  expect_mass(mass_properties(body_of(make_hollow(make_sphere({}, 0.1), 0.05))), shell, {},
+              {j, j, j, 0, 0, 0}, 1e-2);
 }
 
 TEST(BodyMass, TakesWhatIsGivenAndAsksForTheRest) {
@@ -112,7 +116,8 @@ TEST(BodyMass, PrincipalAxesTurnItBack) {
 TEST(BodyBalls, TouchTheSurfaceFromWithin) {
   DomainConfig domain;
   domain.max = {1, 1, 1};
-  for (const ShapePtr& shape : {make_box({0, 0, 0}, {0.2, 0.1, 0.3}), make_cylinder({0, 0, 0}, {0, 0, 0.2}, 0.1)}) {
+  for (const ShapePtr& shape :
+       {make_box({0, 0, 0}, {0.2, 0.1, 0.3}), make_cylinder({0, 0, 0}, {0, 0, 0.2}, 0.1)}) {
     WallBody b = body_of(shape);
     b.free.contact_spacing = 0.02;
     const auto balls = contact_balls(b, domain);

@@ -58,7 +58,9 @@ Config drop(const std::string& viscosity) {
 TEST(FreeBodyInFluid, ClosedSystemKeepsMomenta) {
   for (const char* viscosity : {"none", "morris"}) {
     const Config c = drop(viscosity);
-    auto s = started(c, laid(c, [](const Vec3d& x) { return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) < 0.06; }));
+    auto s = started(c, laid(c, [](const Vec3d& x) {
+                       return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) < 0.06;
+                     }));
     const auto total = [&](const char* what) {
       const auto d = s->diagnostics();
       return vector_of(d, std::string("fluid_") + what) + vector_of(d, std::string("body_") + what);
@@ -83,7 +85,9 @@ TEST(FreeBodyInFluid, ClosedSystemKeepsMomenta) {
 TEST(FreeBodyInFluid, MayBeDeafToItWhileTheFluidFeelsTheBody) {
   Config c = drop("none");
   c.wall.bodies[0].free.fluid = false;
-  auto s = started(c, laid(c, [](const Vec3d& x) { return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) < 0.06; }));
+  auto s = started(c, laid(c, [](const Vec3d& x) {
+                     return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) < 0.06;
+                   }));
   for (int k = 0; k < 100; ++k) s->step();
   EXPECT_LT(norm(vector_of(s->body_state(0), "velocity") - Vec3d{0.3, -0.1, 0.2}), 1e-12);
   EXPECT_GT(norm(vector_of(s->body_state(0), "force_by_fluid")), 0.1);
@@ -107,7 +111,8 @@ Config tank_with_slab(double density) {
   tank.name = tank.shape = "tank";
   tank.min = c.domain.min, tank.max = c.domain.max;
   tank.faces[5] = false;
-  WallBody slab = solid("slab", make_box({-0.04, -0.04, kDepth - kDraught}, {0.04, 0.04, kDepth - kDraught + 0.04}));
+  WallBody slab =
+      solid("slab", make_box({-0.04, -0.04, kDepth - kDraught}, {0.04, 0.04, kDepth - kDraught + 0.04}));
   set_free(slab, density);
   c.wall.bodies = {tank, slab};
   // room for the layers of the tank
@@ -135,7 +140,8 @@ TEST_P(SlowFloat, RestsAtArchimedesDepth) {
     z += reading(s->body_state(1), "centre_z") - 0.02, n += 1;
   }
   const double area = 0.08 * 0.08, draught = 0.04 * density / 1000;
-  const double water = kSide * kSide * kDepth - area * kDraught, level = (water + area * draught) / (kSide * kSide);
+  const double water = kSide * kSide * kDepth - area * kDraught,
+               level = (water + area * draught) / (kSide * kSide);
   EXPECT_NEAR(z / n, level - draught, 0.5 * c.fluid.dx);
   const auto b = s->body_state(1);
   EXPECT_NEAR(reading(b, "force_by_fluid_z") / (9.81 * c.wall.bodies[1].free.solid.mass), 1, 0.1);
@@ -144,6 +150,25 @@ TEST_P(SlowFloat, RestsAtArchimedesDepth) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Densities, SlowFloat, testing::Values(300.0, 500.0, 600.0));
+
+TEST(FreeBodyInFluid, PushesALightRaftUpSmoothly) {
+  // a twentieth of the density of water; wall pressure that took its last acceleration would tear the fluid
+  const Config c = tank_with_slab(50);
+  auto s = started(c, filled(c));
+  const double weight = 9.81 * c.wall.bodies[1].free.solid.mass,
+               buoyancy = 9.81 * 1000 * 0.08 * 0.08 * kDraught;
+  double last = 0;
+  for (int k = 0; k < 200; ++k) {
+    s->step();
+    const auto b = s->body_state(1);
+    const double force = reading(b, "force_by_fluid_z"), v = reading(b, "velocity_z");
+    EXPECT_GT(force, -0.1 * buoyancy) << "it overshoots and hangs on to the water a little";
+    EXPECT_LT(force, buoyancy + weight);
+    EXPECT_LT(std::abs(v - last), 0.01) << "from step to step";
+    last = v;
+  }
+  EXPECT_GT(last, 0.05);
+}
 
 TEST(FreeBodyInFluidRestart, GoesOnBitForBit) {
   const Config c = tank_with_slab(400);

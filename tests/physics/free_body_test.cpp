@@ -103,8 +103,10 @@ TEST(FreeBodyConstraints, LetThroughOnlyWhatTheyAllow) {
     Vec3d v, omega;  // after one second of gravity along (1, 1, 1), beginning with spin (0, 0, 2)
   };
   const Vec3d pull{1, 2, 3};
-  for (const Case& k : {Case{"all", "none", pull, {}}, {"plane", "axis", {1, 2, 0}, {0, 0, 2}},
-                        {"axis", "axis", {0, 0, 3}, {0, 0, 2}}, {"axis", "none", {0, 0, 3}, {}},
+  for (const Case& k : {Case{"all", "none", pull, {}},
+                        {"plane", "axis", {1, 2, 0}, {0, 0, 2}},
+                        {"axis", "axis", {0, 0, 3}, {0, 0, 2}},
+                        {"axis", "none", {0, 0, 3}, {}},
                         {"none", "axis", {}, {0, 0, 2}}}) {
     Config c = spinning({0.1, 0.1, 0.1}, {1, 0, 2}, 1e-3);
     c.gravity = pull;
@@ -126,6 +128,21 @@ TEST(FreeBodyConstraints, HoldItUntilItsRelease) {
   EXPECT_EQ(reading(s->body_state(0), "centre_z"), 0);
   for (int k = 0; k < 50; ++k) s->step();
   EXPECT_NEAR(reading(s->body_state(0), "velocity_z"), -9.81 * 0.05, 2 * 9.81e-3);
+}
+
+TEST(FreeBodyInAFrame, FliesAsSeenFromTheLab) {
+  Config c = spinning({0.1, 0.1, 0.1}, {1, 2, 3}, 1e-3);
+  c.gravity = {0, 0, -9.81};
+  c.wall.bodies[0].free.velocity = {0.3, 0, 0.5};
+  c.frame.motion.kind = "formula";
+  c.frame.motion.displacement = {"0.02*(sin(20*t)-20*t)", "0.5*t^2", "0"};  // at rest at first
+  auto s = started(c);
+  for (int k = 0; k < 200; ++k) s->step();
+  const double t = s->time();
+  const Vec3d frame{0.02 * (std::sin(20 * t) - 20 * t), 0.5 * t * t, 0};
+  const Vec3d lab{0.3 * t, 0, 0.5 * t - 0.5 * 9.81 * t * t};
+  // kicks by the trapezium rule: (20 tau)^2 / 12 of 0.4 m/s, over the flight
+  EXPECT_LT(norm(vector_of(s->body_state(0), "centre") - (lab - frame)), 4e-4 / 12 * 0.4 * t);
 }
 
 // -- contacts with walls ------------------------------------------------------
@@ -264,7 +281,8 @@ TEST(FreeBodyAmongGrains, ClosedSystemKeepsMomentaAndGainsNoEnergy) {
     EXPECT_LT(norm(sum_of(after, "angular_momentum") - sum_of(before, "angular_momentum")),
               2 * kInvariant * m * v * 0.05);
     if (elastic) {
-      EXPECT_NEAR(energy / energy_of(before), 1, 2e-3) << "while contacts last the box holds no spring energy twice";
+      EXPECT_NEAR(energy / energy_of(before), 1, 2e-3)
+          << "while contacts last the box holds no spring energy twice";
     } else {
       EXPECT_LT(gain, 1e-3 * energy_of(before));
       EXPECT_LT(energy, 0.9 * energy_of(before));
