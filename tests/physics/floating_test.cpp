@@ -94,6 +94,46 @@ TEST(FreeBodyInFluid, MayBeDeafToItWhileTheFluidFeelsTheBody) {
   EXPECT_GT(norm(vector_of(s->diagnostics(), "fluid_momentum")), 0.01);
 }
 
+/// Fluid, grains and a body, all pushing each other.
+TEST(SmallFreeBody, FluidGrainsAndBodyKeepMomentaTogether) {
+  Config c = drop("none");
+  c.grain.present = true;
+  c.grain.d = c.grain.d_min = c.grain.d_max = 6e-3;
+  c.grain.E = 1e6;
+  c.couple.hc = 0.015;
+  const auto within = [](const Vec3d& x) {
+    return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) < 0.06;
+  };
+  bedload::Setup setup = laid(c, within);
+  for (int k = 0; k < 12; ++k) {  // one beside each face touches at once
+    const double side = k % 2 ? 1 : -1;
+    Vec3d x{0.004 * (k / 6), 0.007 * (k / 6) - 0.003, 0.005};
+    x[(k / 2) % 3] = side * (k < 6 ? 0.0329 : 0.045);
+    setup.grains.x.push_back(x);
+    setup.grains.v.push_back({0.1 * side, -0.05, 0.02});
+    setup.grains.radius.push_back(3e-3);
+  }
+  auto s = started(c, setup);
+  const auto total = [&](const char* what) {
+    const auto d = s->diagnostics();
+    Vec3d sum;
+    for (const char* of : {"fluid_", "grain_", "body_"}) sum += vector_of(d, std::string(of) + what);
+    return sum;
+  };
+  const Vec3d p = total("momentum"), l = total("angular_momentum");
+  double by_fluid = 0, by_grains = 0;
+  for (int k = 0; k < 60; ++k) {
+    s->step();
+    const auto b = s->body_state(0);
+    by_fluid = std::max(by_fluid, norm(vector_of(b, "force_by_fluid")));
+    by_grains = std::max(by_grains, norm(vector_of(b, "force_by_grains")));
+  }
+  EXPECT_GT(by_fluid, 1);
+  EXPECT_GT(by_grains, 0.1);
+  EXPECT_LT(norm(total("momentum") - p), 10 * kInvariant * norm(p));
+  EXPECT_LT(norm(total("angular_momentum") - l), 10 * kInvariant * norm(p) * 0.05);
+}
+
 // -- floating -------------------------------------------------------------------
 
 constexpr double kDepth = 0.08, kSide = 0.16, kDraught = 0.02;  // of the water, its tank, the slab at first

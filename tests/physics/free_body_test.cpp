@@ -290,6 +290,30 @@ TEST(FreeBodyAmongGrains, ClosedSystemKeepsMomentaAndGainsNoEnergy) {
   }
 }
 
+TEST(FreeBodyAmongGrains, RestsOnGrainsThatAreHeld) {
+  Config c = empty_case();
+  c.grain.present = c.grain.fixed = true;
+  c.grain.d = c.grain.d_min = c.grain.d_max = 0.02;
+  c.grain.e = 0.3;
+  WallBody slab = solid("slab", make_box({-0.05, -0.05, 0.0101}, {0.05, 0.05, 0.0301}));
+  set_free(slab, 1000);
+  c.wall.bodies = {slab};
+  bedload::Setup setup;
+  for (const double x : {-0.04, 0.04})
+    for (const double y : {-0.04, 0.04}) {
+      setup.grains.x.push_back({x, y, 0});
+      setup.grains.v.push_back({});
+      setup.grains.radius.push_back(0.01);
+    }
+  auto s = started(c, setup);
+  run_until(*s, 0.3);
+  const auto b = s->body_state(0);
+  const double weight = 0.2 * 9.81;
+  EXPECT_NEAR(reading(b, "force_by_grains_z") / weight, 1, 1e-3);
+  EXPECT_NEAR(reading(b, "centre_z"), 0.02, 1e-4);
+  EXPECT_EQ(vectors(s->snapshot("grains"), "position")[0], Vec3d(float(-0.04), float(-0.04), 0));
+}
+
 TEST(FreeBodyRestart, GoesOnBitForBit) {
   Cloud cloud(false);
   WallBody tank;
