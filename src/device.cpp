@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -122,7 +123,8 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts) {
   const double fluid = 4 + 2 * position + pair_position + real * 33 + 4 * neighbours + position;
   const double walls = 8 + 3 * 24 + pair_position + real * 12 + 4 * 12;
   const double contacts = 12;
-  const double grains = 4 + 3 * 24 + real * 36 + contacts * (4 + 56) * 2;
+  const double touches = 60.0 * std::min(config.wall.free_bodies(), 8);  // of each grain with free bodies
+  const double grains = 4 + 3 * 24 + real * 36 + contacts * (4 + 56) * 2 + touches;
   const double cross =
       config.couple.mode == "off" || !config.fluid.present
           ? 0

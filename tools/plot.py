@@ -104,7 +104,8 @@ class Run:
             motion = body.get("motion", {})
             parts = [motion, *motion.get("add", [])]
             turn, shift = np.eye(3), sum((displacement(part, time) for part in parts), np.zeros(3))
-            if self.walls and any(part.get("kind", "fixed") != "fixed" for part in parts):
+            moves = "free" in body or any(part.get("kind", "fixed") != "fixed" for part in parts)
+            if self.walls and moves:
                 before, after = (self.particles_of(number, t) for t in (0, time))
                 if len(after) != len(before):
                     continue

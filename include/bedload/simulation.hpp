@@ -19,7 +19,7 @@ struct StepInfo {
   double time = 0;            ///< s, at the end of the step
   double dt = 0;              ///< s
   int substeps = 0;           ///< DEM substeps in it
-  std::string_view limit;     ///< what bound dt: "cfl", "viscous", "body", "drag", "growth", "travel", "contact", "fixed"
+  std::string_view limit;     ///< what bound dt: "cfl", "viscous", "body", "drag", "growth", "travel", "contact", "body contact", "body turn", "fixed"
   double vmax = 0;            ///< m/s, fastest fluid particle
   bool rebuilt = false;       ///< neighbour lists were renewed
 };
@@ -61,6 +61,8 @@ class Simulation {
   virtual std::vector<Quantity> diagnostics() = 0;
   /// Current reading of one probe.
   virtual std::vector<Quantity> measure(const ProbeConfig& probe) = 0;
+  /// Place, velocity, forces and their power of one wall body, by its index in the case.
+  virtual std::vector<Quantity> body_state(int body) = 0;
 
   /// The kept state, and back again; load() continues bit for bit.
   virtual SavedState save() = 0;

@@ -3,6 +3,7 @@
 // the lower to the higher id, so forces are opposite and histories equal to the last bit.
 
 #include "bedload/neighbours/verlet_list.hpp"
+#include "kernels/bodies/rigid_body.hpp"
 #include "kernels/contact/contact_law.hpp"
 #include "kernels/contact/wall_contacts.hpp"
 
@@ -64,20 +65,27 @@ struct ContactPass {
   Index* wall_contacts;            ///< [grains]
   int wall_room;                   ///< walls that a grain may touch at once
   const BodyPose* poses;           ///< [bodies]
+  const RigidBody* free_bodies = nullptr;
+  TouchLoads loads = {};  ///< where to record what the grains do to free bodies; may be none
 
   BL_HD Sphere sphere(Index i) const { return {radius[i], mass_per_r3 * cube(radius[i])}; }
 
   /// Sums over the contacts of i and advances their histories by dt.
   BL_HD ContactSum operator()(Index i) const {
     ContactSum sum;
+    if (loads) loads.clear(i);
     if (law.normal == NormalLaw::none) return sum;
     const std::uint32_t n = list.count[i];
     std::uint64_t slot = list.first(i);
     for (std::uint32_t k = 0; k < n; ++k, slot += kSlice) pair(i, list.entry[slot], history[slot], sum);
     if (walls.surfaces.size > 0)
-      each_wall(i, true, [&](std::uint32_t, const WallContact& c) {
+      each_wall(i, true, [&](std::uint32_t body, const WallContact& c) {
         sum.force += Vec3d(c.on_grain.force);
         sum.torque += Vec3d(c.on_grain.torque_i);
+        if (loads && poses[body].free) {
+          const Vec3d force = -Vec3d(c.on_grain.force);
+          loads.add(i, {force, cross(arm(poses[body], c.point), force) + Vec3d(c.on_grain.torque_j), body});
+        }
       });
     return sum;
   }
@@ -116,6 +124,10 @@ struct ContactPass {
   }
 
  private:
+  /// Of a place from the reference point of a body, by the nearest image, m.
+  BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
+    return frame.nearest_image(point - pose.centre - pose.translation);
+  }
   template <class F>
   BL_HD WallMemory touch_one(Index i, const WallTouch& touch, const WallMemories& memory, F& f) const {
     const Foot& foot = touch.foot;
@@ -124,9 +136,16 @@ struct ContactPass {
     if (touch.from != kNone) h = memory[touch.from].history;
     h.overlap = std::abs(h.overlap);
     const Vec3d point = x[i] - foot.distance * foot.normal;
-    const Real3 v_rel = v[i] - Real3(pose.velocity(point));
-    const ContactForce on_grain = law(touch_wall(sphere(i), foot.normal, double(radius[i]) - foot.distance),
-                                      v_rel, omega[i], Real3(pose.omega), dt, h);
+    ContactGeometry at = touch_wall(sphere(i), foot.normal, double(radius[i]) - foot.distance);
+    Vec3d v_wall;
+    if (pose.free) {
+      const Vec3d r = arm(pose, point);
+      v_wall = pose.v + cross(pose.omega, r);
+      at.m_star /= 1 + at.m_star * Real(free_bodies[pose.free - 1].ease(pose.rotation, r, foot.normal));
+    } else {
+      v_wall = pose.velocity(point);
+    }
+    const ContactForce on_grain = law(at, v[i] - Real3(v_wall), omega[i], Real3(pose.omega), dt, h);
     f(touch.body, WallContact{on_grain, point});
     h.overlap *= foot.side;
     return {touch.key(), foot.normal, h};

@@ -19,7 +19,7 @@ struct WallPass {
   Span<const Real3>
       drag_kick;  ///< velocity that the grains' drag gave the fluid this step, m/s; empty without grains
   Real rate;      ///< 1 / step, 1/s
-  Span<const Vec3d> x;
+  Span<const Vec3d> x0;  ///< at t = 0, m
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
   Real3 gravity;   ///< m/s2
@@ -55,7 +55,8 @@ struct WallPass {
   }
   BL_HD void finish(Index b, const Sum<>& sum) const {
     const BodyPose& k = pose[body[b]];
-    const Real3 v_wall = Real3(k.velocity(x[b]));
+    const Vec3d at = k.place(x0[b]);
+    const Real3 v_wall = Real3(k.velocity(at));
     if (sum.weight < least_sum || !k.present) {
       v_rho[b] = {v_wall, eos.rho0};
       v_visc[b] = {v_wall, Real(0)};
@@ -64,8 +65,8 @@ struct WallPass {
     }
     const Real porosity_before = m_state[b].x > 0 ? v_rho[b].w / m_state[b].z : Real(-1);
     const Real3 v_fluid = sum.v / sum.weight;
-    const Real3 push = gravity - Real3(k.speeding_up(x[b])) -
-                       square(turning_along(k, v_wall, v_fluid)) * Real3(k.centripetal(x[b]));
+    const Real3 push = gravity - Real3(k.speeding_up(at)) -
+                       square(turning_along(k, v_wall, v_fluid)) * Real3(k.centripetal(at));
     const Real p = (sum.p + dot(push, sum.rho_r)) / sum.weight, eps = sum.eps / sum.weight;
     const Real rho = eos.rho0 * (1 + eos.compression(p)), superficial = eps * rho;
     v_rho[b] = {v_wall, superficial};

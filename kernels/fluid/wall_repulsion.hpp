@@ -1,4 +1,5 @@
 #pragma once
+#include "kernels/bodies/rigid_body.hpp"
 #include "kernels/walls/surface.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -67,6 +68,28 @@ struct RepulsionLoad {
       for (int k = 0; k < 3; ++k) out[k] += force[k], out[3 + k] += moment[k];
     });
   }
+};
+
+/// The same on one body, about its own centre where its pose has taken it.
+struct BodyRepulsion {
+  using Value = LoadSum;
+  WallRepulsion walls;
+  std::uint32_t body;
+  Span<const FluidPosition> x;
+  Span<const Real> mass;
+  BL_HD Value identity() const { return Value::zero(); }
+  BL_HD Value operator()(Index a) const {
+    Value sum = Value::zero();
+    const BodyPose& pose = walls.pose[body];
+    const Vec3d at = coordinates(walls.frame, x[a]);
+    walls.each(at, [&](std::uint32_t b, const Real3& push) {
+      if (b != body) return;
+      const Vec3d force = -double(mass[a]) * Vec3d(push);
+      sum.add(force, cross(walls.frame.nearest_image(at - pose.centre - pose.translation), force));
+    });
+    return sum;
+  }
+  BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -26,7 +26,7 @@ class Checks {
 
   void domain() const {
     box("domain", c.domain.min, c.domain.max);
-    if (!c.fluid.present && !c.grain.present)
+    if (!c.fluid.present && !c.grain.present && c.wall.free_bodies() == 0)
       throw CaseError(root_.place() + ": nothing to compute; give [fluid], [grain] or both");
     for (int k = 0; k < 3; ++k) {
       if (!c.domain.periodic[k]) continue;

@@ -159,6 +159,10 @@ void describe_output(Parameters& p, OutputConfig& o) {
      .fallback = "out.every",
      .presence = optional});
   p("out.walls", &o.walls, {.meaning = "frames of the walls too"});
+  p("out.bodies", &o.bodies,
+    {.meaning = "wall bodies with a table bodies/<name>.csv: motion, forces, power",
+     .family = "outputs",
+     .choices = {{"moving", "those that move"}, {"all", "every one"}, {"none", "no tables"}}});
   p("checkpoint.every", &o.checkpoint_every,
     {.unit = "s", .meaning = "interval; 0: only at the end", .range = at_least(0)});
   p.list("probe", o.probes, ProbeConfig{}, probe);

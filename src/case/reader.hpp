@@ -15,6 +15,7 @@ class Reader final : public Parameters {
   explicit Reader(const Value& root) : scopes_{{&root, ""}} {}
   /// Reads `value` if the file has `key`; throws CaseError if it may not be so.
   void operator()(std::string_view key, Slot value, const About& about) override;
+  bool table(std::string_view key, bool) override { return find(key) != nullptr; }
   /// Throws CaseError for a key that no law, shape or kind in this case reads.
   void reject_unread() const;
 

@@ -53,7 +53,7 @@ void cross_check(const Config& config, const Value& root, std::vector<std::strin
 std::vector<Vec3d> corners(const WallBody& body, const DomainConfig& domain);
 
 /// Largest speed of a wall body (m/s) up to the time `until` (s): an oscillation's peak, a rotation's
-/// outermost corner, otherwise sampled.
+/// outermost corner, that of a free body at the start, otherwise sampled.
 double wall_speed(const WallBody& body, const DomainConfig& domain, double until);
 
 /// The motions of a case with the paths of their keys: f(motion, path). `C`: Config, const or not.

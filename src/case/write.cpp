@@ -61,6 +61,7 @@ bool is_absent(const Slot& value) {
     bool operator()(const std::int64_t* i) const { return *i == 0; }
     bool operator()(const std::string* s) const { return s->empty(); }
     bool operator()(const std::vector<Vec3d>* list) const { return list->empty(); }
+    bool operator()(const std::vector<double>* list) const { return list->empty(); }
     bool operator()(const std::vector<std::string>* list) const { return list->empty(); }
     bool operator()(const std::vector<MotionRow>* rows) const { return rows->empty(); }
     bool operator()(const void*) const { return false; }
@@ -79,6 +80,7 @@ class Writer final : public Parameters {
     text_ +=
         fmt::format("{} = {}\n", dot == key.npos ? key : key.substr(dot + 1), std::visit(ToText{}, value));
   }
+  bool table(std::string_view, bool present) override { return present; }
   const std::string& text() const { return text_; }
 
  private:
@@ -118,6 +120,7 @@ class Lister final : public Parameters {
     rows_.push_back(std::move(row));
   }
   bool everything() const override { return true; }
+  bool table(std::string_view, bool) override { return true; }
   std::vector<ParameterRow> take() { return std::move(rows_); }
 
  private:

@@ -100,7 +100,7 @@ class FluidSolverWith final : public FluidSolver {
                      fluid.eps,
                      drag_dt > 0 ? Span<const Real3>(fluid.drag_kick) : Span<const Real3>(),
                      Real(drag_dt > 0 ? 1 / drag_dt : 0),
-                     walls.x,
+                     walls.x0,
                      walls.body,
                      pose,
                      gravity_,
@@ -133,10 +133,12 @@ class FluidSolverWith final : public FluidSolver {
     run(fluid, walls, range(), pass);
   }
 
-  void wall_forces(const FluidStore& fluid, const WallStore& walls, Buffer<Vec3d>& force) override {
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Buffer<Vec3d>& force,
+                   bool corrected) override {
     force.resize(walls.size());
-    WallForcePass<W> pass{wall_pair(),   Real(corrected_), fluid.acc,     fluid.acc_next, fluid.v_rho,
-                          fluid.m_state, walls.v_rho,      walls.m_state, walls.v_visc,   force};
+    const Real kick = Real(corrected ? corrected_ : 0);
+    WallForcePass<W> pass{wall_pair(),   kick,        fluid.acc,     fluid.acc_next, fluid.v_rho,
+                          fluid.m_state, walls.v_rho, walls.m_state, walls.v_visc,   force};
     for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
 

@@ -60,8 +60,9 @@ class FluidSolver {
   /// v += kick (acc_next - acc); acc = acc_next.
   void correct(FluidStore& fluid, double kick);
   /// Force of the fluid's pressure and viscosity on every wall particle (N), the opposite of what the last
-  /// forces() gave the fluid. After a step, before the lists are renewed.
-  virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Buffer<Vec3d>& force) = 0;
+  /// forces() gave the fluid. Before the lists are renewed; `corrected`: correct() has been called since.
+  virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Buffer<Vec3d>& force,
+                           bool corrected = true) = 0;
 
   FluidExtremes extremes(const FluidStore& fluid) const;
   const CellGrid& grid() const { return grid_; }

@@ -202,7 +202,7 @@ class PointFinder {
   std::unordered_map<std::uint64_t, std::vector<Vec3d>> cells_;
 };
 
-bool is_fixed(const WallBody& body) { return !body.motion.moves(); }
+bool is_fixed(const WallBody& body) { return !body.moves(); }
 
 }  // namespace
 

@@ -328,6 +328,15 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"drag_limited_grains", "-", double(c.limited)});
     out.push_back({"wet_grains", "-", double(c.wet)});
   }
+  if (bodies_.any()) {
+    const BodyTotals t = bodies_.totals();
+    out.push_back({"body_mass", "kg", t.mass});
+    vec("body_momentum", "kg m/s", t.momentum);
+    vec("body_angular_momentum", "kg m2/s", t.angular);
+    out.push_back({"body_kinetic_energy", "J", t.kinetic});
+    out.push_back({"body_rotational_energy", "J", t.rotational});
+    out.push_back({"body_potential_energy", "J", t.potential});
+  }
   for (const Quantity& q : open_.report(clock_.time)) out.push_back(q);
   out.push_back({"rebuilds", "-", double(rebuilds_)});
   return out;

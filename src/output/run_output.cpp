@@ -61,7 +61,8 @@ struct Frames {
 };
 
 struct Table {
-  std::optional<ProbeConfig> probe;  ///< none: diagnostics
+  std::optional<ProbeConfig> probe;  ///< none: a body, or diagnostics
+  std::optional<int> body;           ///< a wall body, by its place in the case
   CsvTable csv;
   Schedule schedule;
 };
@@ -104,15 +105,23 @@ struct RunOutput::Impl {
     const bool wall_particles = c.fluid.present && !(c.wall.bodies.empty() && c.inlets.empty());
     if (c.out.walls && wall_particles) frames_of("walls");
     const auto every = [&](double own) { return Schedule(own > 0 ? own : c.out.every); };
-    tables.push_back({std::nullopt, CsvTable(dir / "diagnostics.csv"), every(c.out.diagnostics_every)});
+    tables.push_back({{}, {}, CsvTable(dir / "diagnostics.csv"), every(c.out.diagnostics_every)});
     for (const auto& probe : c.out.probes)
-      tables.push_back({probe, CsvTable(dir / "probes" / (probe.name + ".csv")), every(probe.every)});
+      tables.push_back({probe, {}, CsvTable(dir / "probes" / (probe.name + ".csv")), every(probe.every)});
+    for (int b = 0; b < int(c.wall.bodies.size()); ++b) {
+      const WallBody& body = c.wall.bodies[b];
+      if (c.out.bodies == "all" || (c.out.bodies == "moving" && body.moves()))
+        tables.push_back(
+            {{}, b, CsvTable(dir / "bodies" / (body.name + ".csv")), every(c.out.diagnostics_every)});
+    }
   }
 
   void make_folder() {
     try {
       fs::create_directories(dir / "probes");
       fs::create_directories(dir / "checkpoints");
+      if (std::any_of(tables.begin(), tables.end(), [](const Table& t) { return t.body.has_value(); }))
+        fs::create_directories(dir / "bodies");
       if (!continuing) remove_former_run();
       newest = newest_checkpoint();
     } catch (const fs::filesystem_error& e) {
@@ -174,9 +183,13 @@ struct RunOutput::Impl {
     for (auto& t : tables) {
       if (!wanted(t.schedule)) continue;
       t.schedule.written(time);
-      writer.post([csv = &t.csv, row = t.probe ? simulation.measure(*t.probe) : simulation.diagnostics(),
-                   time] { csv->append(time, row); });
+      writer.post([csv = &t.csv, row = row_of(simulation, t), time] { csv->append(time, row); });
     }
+  }
+
+  static std::vector<Quantity> row_of(Simulation& simulation, const Table& t) {
+    if (t.probe) return simulation.measure(*t.probe);
+    return t.body ? simulation.body_state(*t.body) : simulation.diagnostics();
   }
 
   fs::path post_checkpoint(Simulation& simulation) {

@@ -27,14 +27,15 @@ struct ComeFromPass {
 }  // namespace
 
 SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeometry& walls,
-                         GrainStore& grains)
+                         GrainStore& grains, const FreeBodies* bodies)
     : config_(config),
       frame_(frame),
       law_(make_contact_law(config)),
       d_min_(config.grain.d_min > 0 ? config.grain.d_min : config.grain.d),
       d_max_(config.grain.d_max > 0 ? config.grain.d_max : config.grain.d),
       skin_(config.skin_grain * d_min_),
-      walls_(walls) {
+      walls_(walls),
+      bodies_(bodies) {
   if (walls.contacts() == 0) return;
   wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
   wall_contacts_->resize(grains.size());
@@ -152,23 +153,37 @@ ContactPass SolidSolver::contact_pass(const GrainStore& g, const BodyPose* poses
           .wall_memory = wall_memories(),
           .wall_contacts = wall_contacts_ ? wall_contacts_->buffer().data() : nullptr,
           .wall_room = walls_.contacts(),
-          .poses = poses};
+          .poses = poses,
+          .free_bodies = bodies_ ? bodies_->constants() : nullptr};
 }
 
-void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
-  for_each(g.owned(), EvaluatePass{contact_pass(g, poses.data, 0), g.force, g.torque});
+void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses, const TouchLoads& loads) {
+  ContactPass contacts = contact_pass(g, poses.data, 0);
+  contacts.loads = loads;
+  for_each(g.owned(), EvaluatePass{contacts, g.force, g.torque});
 }
 
 void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies, double dt, int substeps,
-                          bool held, const std::vector<Vec3d>& gravity) {
+                          bool held, const std::vector<Vec3d>& gravity, FreeBodies* free) {
+  const double tau = dt / substeps;
+  const TouchLoads loads = free ? free->record(g.size()) : TouchLoads{};
+  const auto contacts_in = [&](int s) {
+    ContactPass contacts = contact_pass(g, poses.data + std::size_t(s) * bodies, tau);
+    contacts.loads = loads;
+    return contacts;
+  };
+  if (free) free->first_kick();
   if (held || config_.grain.fixed) {
     for_each(g.owned(), HeldPass{dt, g.U, g.omega_f, g.K, g.K_rot, g.impulse, g.spin_impulse, g.drag_force});
-    evaluate(g, {poses.data + std::size_t(substeps) * bodies, Index(bodies)});
+    for (int s = 1; free && s <= substeps; ++s) {
+      for_each(g.owned(), EvaluatePass{contacts_in(s), g.force, g.torque});
+      free->substep(s);
+    }
+    if (!free) evaluate(g, {poses.data + std::size_t(substeps) * bodies, Index(bodies)});
     return;
   }
   const Index n = g.size();
   next_x_.resize(n), next_v_.resize(n), next_omega_.resize(n), v_rest_.resize(n), omega_rest_.resize(n);
-  const double tau = dt / substeps;
   GrainKick kick{gravity.empty() ? config_.gravity : gravity[0],
                  mass_per_r3(),
                  0.5 * tau,
@@ -182,7 +197,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   for_each(g.owned(), FirstKickPass{kick, g.force, g.torque, g.x, g.v, g.omega, v_rest_, omega_rest_,
                                     g.impulse, g.spin_impulse});
   for (int s = 1; s <= substeps; ++s) {
-    const ContactPass contacts = contact_pass(g, poses.data + std::size_t(s) * bodies, tau);
+    const ContactPass contacts = contacts_in(s);
     if (!gravity.empty()) kick.gravity = gravity[s];
     if (s < substeps) {
       for_each(g.owned(), SubstepPass{contacts, kick, next_x_, next_v_, next_omega_, v_rest_, omega_rest_,
@@ -194,6 +209,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     }
     g.v.buffer().swap(next_v_);
     g.omega.buffer().swap(next_omega_);
+    if (free) free->substep(s);
   }
 }
 

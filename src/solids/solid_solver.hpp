@@ -11,6 +11,7 @@
 #include "bedload/simulation.hpp"
 #include "kernels/contact/contact_law.hpp"
 #include "kernels/contact/contact_pass.hpp"
+#include "src/walls/free_bodies.hpp"
 #include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -62,7 +63,9 @@ class SolidSolver {
  public:
   /// Registers what grains remember of walls with `grains`: construct before the store is filled or loaded.
   /// `walls` must outlive this. Throws CaseError where the damping asked for cannot be had.
-  SolidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, GrainStore& grains);
+  /// So must `bodies`, the free ones among the walls.
+  SolidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, GrainStore& grains,
+              const FreeBodies* bodies = nullptr);
 
   double skin() const { return skin_; }            ///< m
   double range() const { return d_max_ + skin_; }  ///< largest centre distance in the lists, m
@@ -81,15 +84,16 @@ class SolidSolver {
   StableStep stable_dt(const GrainStore& grains) const { return stable_dt(watch(grains)); }
 
   /// Contact forces where the grains are, with no time passing; poses: [bodies] on the device. For a fresh
-  /// start only: a loaded state brings its forces along.
-  void evaluate(GrainStore& grains, Span<const BodyPose> poses);
+  /// start only: a loaded state brings its forces along. `loads`: where to record those on free bodies.
+  void evaluate(GrainStore& grains, Span<const BodyPose> poses, const TouchLoads& loads = {});
   /// `substeps` velocity-Verlet substeps over dt (s). poses: device array [substeps + 1][bodies], at the
   /// start and after each substep. Reads fluid_force, U, omega_f, K, K_rot; leaves the drag impulses of this
   /// call in impulse and spin_impulse, their mean in drag_force. Held (or fixed) grains keep place and
   /// velocity; the fluid feels them as resting. gravity: at the start and after each substep, m/s2; the
-  /// case's own if empty.
+  /// case's own if empty. Free bodies, whose step has begun, move along in the substeps and fill their places
+  /// in poses; without them they stay.
   void advance(GrainStore& grains, Span<const BodyPose> poses, int bodies, double dt, int substeps, bool held,
-               const std::vector<Vec3d>& gravity = {});
+               const std::vector<Vec3d>& gravity = {}, FreeBodies* free = nullptr);
 
   GrainTotals totals(const GrainStore& grains) const;
   /// One entry per wall body; poses: [bodies] on the device.
@@ -112,6 +116,7 @@ class SolidSolver {
   ContactLaw law_;
   double d_min_, d_max_, skin_;
   const WallGeometry& walls_;
+  const FreeBodies* bodies_;
   std::vector<std::unique_ptr<Field<WallMemory>>> wall_memory_;  ///< [walls_.contacts()]
   std::unique_ptr<Field<Index>> wall_contacts_;                  ///< of them in use
   mutable std::vector<WallMemory*> memory_pointers_;             ///< to wall_memory_, which sorting moves

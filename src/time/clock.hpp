@@ -40,7 +40,8 @@ class Clock {
 
  private:
   static std::string_view intern(const std::string& name) {
-    for (std::string_view known : {"cfl", "viscous", "body", "drag", "travel", "contact", "rayleigh", "rolling"})
+    for (std::string_view known : {"cfl", "viscous", "body", "drag", "travel", "contact", "rayleigh", "rolling",
+                                   "body contact", "body turn"})
       if (known == name) return known;
     return "other";
   }

@@ -14,17 +14,24 @@ StepInfo CoupledSimulation::step() {
   const double dt = clock_.next_dt(limits(), binding);
   refresh_if_needed(dt);
 
+  const double speed_before = motion_.top_speed(clock_.time);
   int substeps = 0;
-  if (has_grains()) {
-    const double longest =
-        config_.time.dt_dem > 0 ? config_.time.dt_dem : solid_solver_->stable_dt(grain_watch_).seconds;
-    substeps = held() ? 1 : std::max(1, int(std::ceil(dt / longest * (1 - 1e-9))));
+  if (has_grains() || bodies_.any()) {
+    if (!held() || bodies_.any()) substeps = int(std::ceil(dt / longest_substep() * (1 - 1e-9)));
+    substeps = std::max(1, substeps);
     if (coupled()) {
       coupling_->gather(fluid_, grains_, dt);
       drag_limit_ = coupling_->stable_dt();
     }
-    solid_solver_->advance(grains_, motion_.poses(clock_.time, dt, substeps), motion_.bodies(), dt, substeps,
-                           held(), gravity_.along(clock_.time, dt, substeps));
+    const auto gravity = gravity_.along(clock_.time, dt, substeps);
+    const Span<BodyPose> poses = motion_.poses(clock_.time, dt, substeps);
+    if (bodies_.any())
+      bodies_.begin(poses, motion_.bodies(), clock_.time, dt, substeps, dt - last_kick(dt), gravity);
+    if (has_grains())
+      solid_solver_->advance(grains_, poses, motion_.bodies(), dt, substeps, held(), gravity,
+                             bodies_.any() ? &bodies_ : nullptr);
+    else
+      bodies_.advance();
     if (two_way()) coupling_->react(fluid_, grains_);
   }
   if (has_fluid()) advance_fluid(dt);
@@ -33,29 +40,47 @@ StepInfo CoupledSimulation::step() {
   motion_.advance(clock_.time);
   clock_.last_dt = dt;
   ++clock_.step;
-  walls_moved_ += dt * std::max(motion_.top_speed(clock_.time - dt), motion_.top_speed(clock_.time));
+  bodies_.read_back();
+  walls_moved_ += dt * std::max(speed_before, motion_.top_speed(clock_.time));
   remove_cleared_bodies();
   sweep();
   const bool rebuilt = std::exchange(rebuilt_, false);
   return {clock_.step, clock_.time, dt, substeps, binding, std::sqrt(fluid_extremes_.v2), rebuilt};
 }
 
+double CoupledSimulation::longest_substep() {
+  if (config_.time.dt_dem > 0) return config_.time.dt_dem;
+  double longest = std::numeric_limits<double>::infinity();
+  if (has_grains() && !held()) longest = solid_solver_->stable_dt(grain_watch_).seconds;
+  if (bodies_.any()) longest = std::min(longest, bodies_.stable_dt(motion_.prescribed_speed(clock_.time)));
+  return longest;
+}
+
 /// Kick-drift-kick, or symplectic Euler: velocity, then position and density from the new velocity, which is
 /// the cycle of [H] Fig. 3 (density, velocity, position) begun at its second station.
 void CoupledSimulation::advance_fluid(double dt) {
   FluidSolver& fluid = *fluid_solver_;
-  const bool euler = config_.time.integrator == "euler";
-  const double half = euler ? 0 : dt / 2;
+  const double half = last_kick(dt);
   fluid.kick_drift(fluid_, dt - half, dt, two_way());
   if (walls_.size() > 0) {
     // density follows from velocities in the middle of a kick-drift-kick step, the fluid's and the walls'
-    WallMotion::place(frame_, walls_, motion_.poses(clock_.time + dt - half, half, 1));
+    WallMotion::place(frame_, walls_, motion_.poses_in_step(clock_.time + dt, half, dt));
     fluid.pack(fluid_, walls_);
   }
   fluid.density(fluid_, walls_, dt, half);
   fluid.accept_density(fluid_);
   evaluate_fluid(dt, half);
+  load_bodies(half, dt);
   fluid.correct(fluid_, half);
+}
+
+void CoupledSimulation::load_bodies(double kick, double dt) {
+  if (!bodies_.any()) return;
+  if (walls_.size() > 0) fluid_solver_->wall_forces(fluid_, walls_, wall_force_, false);
+  const Span<const BodyPose> poses = motion_.poses(clock_.time + dt, 0, 1);
+  const WallRepulsion repulsion = fluid_solver_->repulsion(poses, dt);
+  bodies_.feel_fluid(walls_, wall_force_, repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_,
+                     poses, kick, dt);
 }
 
 void CoupledSimulation::evaluate_fluid(double dt, double predict) {
@@ -84,13 +109,15 @@ std::vector<StepLimit> CoupledSimulation::limits() {
   }
   const double wall_speed = motion_.top_speed(clock_.time);
   double travel = std::numeric_limits<double>::infinity();
+  if (!has_fluid())  // without fluid there is no other clock: a step is a handful of substeps
+    for (const StepLimit& limit : bodies_.limits(motion_.prescribed_speed(clock_.time)))
+      out.push_back({limit.name, 20 * limit.seconds});
   if (has_grains()) {
     const double v = grain_watch_.speed;
     if (v > 0 && !held()) travel = 0.05 * config_.grain.d_min / v;
-    // without fluid there is no other clock: a step is a handful of substeps
     if (!has_fluid()) out.push_back({"contact", 20 * solid_solver_->stable_dt(grain_watch_).seconds});
   }
-  if (wall_speed > 0)
+  if (wall_speed > 0 && (has_fluid() || has_grains()))
     travel = std::min(travel, 0.1 * (has_fluid() ? config_.fluid.dx : config_.grain.d_min) / wall_speed);
   if (std::isfinite(travel)) out.push_back({"travel", travel});
   auto least =
@@ -124,11 +151,27 @@ void CoupledSimulation::sweep() {
             "time.dt_dem too large");
     }
   }
+  if (const int k = bodies_.broken(); k >= 0) {
+    char text[400];
+    const RigidMotion& m = bodies_.motion(k);
+    const Vec3d x = m.centre + m.translation;
+    for (std::size_t b = 0; b < config_.wall.bodies.size(); ++b)
+      if (bodies_.place_of(int(b)) == k)
+        std::snprintf(
+            text, sizeof text,
+            "wall.body \"%s\" at (%.6g, %.6g, %.6g) m broke down at t = %.6g s, step %lld: its place or "
+            "velocity became NaN; likely causes: it overlaps others at the start, time.dt_dem too "
+            "large, or far lighter than the fluid around it",
+            config_.wall.bodies[b].name.c_str(), x.x, x.y, x.z, clock_.time,
+            static_cast<long long>(clock_.step));
+    throw SimulationFault(text);
+  }
 }
 
 void CoupledSimulation::settle(double longest, const std::function<void(double)>& progress) {
   if (!has_grains()) return;
   refresh(false, true);
+  bodies_.settle(true);
   solid_solver_->evaluate(grains_, poses_now());
   const double rest = 1e-3 * std::sqrt(norm(config_.gravity) * config_.grain.d_max);  // rms speed, m/s
   double done = 0;
@@ -149,6 +192,7 @@ void CoupledSimulation::settle(double longest, const std::function<void(double)>
   }
   grains_.v.buffer().zero();
   grains_.omega.buffer().zero();
+  bodies_.settle(false);
 }
 
 void CoupledSimulation::refresh_if_needed(double dt) {
@@ -157,7 +201,7 @@ void CoupledSimulation::refresh_if_needed(double dt) {
   if (has_fluid()) {
     const double moved = std::sqrt(fluid_extremes_.moved2) +
                          dt * (std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2));
-    const double wall = walls_moved_ + dt * motion_.top_speed(clock_.time);
+    const double wall = walls_moved_ + dt * motion_.top_speed(clock_.time, dt);
     fluid_due = fluid_due || 2 * moved > fluid_solver_->skin() || moved + wall > fluid_solver_->skin();
   }
   if (has_grains() && !config_.grain.fixed) {

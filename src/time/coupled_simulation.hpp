@@ -31,6 +31,7 @@ class CoupledSimulation final : public Simulation {
   HostStore snapshot(const std::string& store) override;
   std::vector<Quantity> diagnostics() override;
   std::vector<Quantity> measure(const ProbeConfig& probe) override;
+  std::vector<Quantity> body_state(int body) override;
 
   SavedState save() override;
   void load(const SavedState& state) override;
@@ -44,10 +45,15 @@ class CoupledSimulation final : public Simulation {
   bool two_way() const { return coupled() && config_.couple.mode == "two_way"; }
   bool held() const { return config_.grain.fixed || clock_.time < config_.grain.release_time; }
 
+  /// Of the second half-kick of a step dt that ends with the fluid's forces, s.
+  double last_kick(double dt) const { return config_.time.integrator == "euler" ? 0 : dt / 2; }
+
   void upload(const Setup& setup);
   void lay_fluid();  ///< superficial mass and density over the grains, hydrostatic pressure
   void advance_fluid(double dt);
   void evaluate_fluid(double dt, double predict);  ///< density known: porosity, state, walls, forces
+  double longest_substep();                        ///< s, that grains and free bodies allow
+  void load_bodies(double kick, double dt);        ///< force of the fluid on free bodies at the end of a step
   void refresh_if_needed(double dt);
   void refresh(bool fluid, bool grains);
   void restore_lists(const SavedState& state);
@@ -64,6 +70,7 @@ class CoupledSimulation final : public Simulation {
   WallStore walls_;
   GrainStore grains_;
   WallGeometry geometry_, grain_geometry_;  ///< that fluid and that grains meet
+  FreeBodies bodies_;
   WallMotion motion_;
   OpenBoundaries open_;
   FeltGravity gravity_;
@@ -79,6 +86,11 @@ class CoupledSimulation final : public Simulation {
   bool rebuilt_ = false;
   std::int64_t rebuilds_ = 0;
   Buffer<Vec3d> wall_force_;
+  struct {
+    std::int64_t step = -1;
+    std::vector<Vec3d> fluid;
+    std::vector<BodyLoad> grains;
+  } loads_;  ///< on prescribed walls, as told last
 };
 
 }  // namespace bedload::inline BL_VARIANT

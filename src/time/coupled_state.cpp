@@ -97,11 +97,12 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
       clock_(config.time),
       geometry_(config),
       grain_geometry_(config, true),
-      motion_(config),
+      bodies_(config, frame_, grain_geometry_),
+      motion_(config, bodies_),
       open_(config, frame_, motion_),
       gravity_(config) {
   if (has_grains()) {
-    solid_solver_ = std::make_unique<SolidSolver>(config, frame_, grain_geometry_, grains_);
+    solid_solver_ = std::make_unique<SolidSolver>(config, frame_, grain_geometry_, grains_, &bodies_);
     grain_grid_ = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, solid_solver_->range());
   }
   if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_, geometry_);
@@ -145,10 +146,14 @@ void CoupledSimulation::upload(const Setup& setup) {
 
 void CoupledSimulation::start() {
   refresh(has_fluid(), has_grains());
-  if (has_grains()) solid_solver_->evaluate(grains_, poses_now());
+  if (has_grains())
+    solid_solver_->evaluate(grains_, poses_now(),
+                            bodies_.any() ? bodies_.record(grains_.size()) : TouchLoads{});
+  if (bodies_.any()) bodies_.evaluate(poses_now());
   if (has_fluid()) {
     lay_fluid();
     evaluate_fluid(0, 0);
+    load_bodies(0, 0);
     fluid_solver_->correct(fluid_, 0);
   }
   sweep();
@@ -194,6 +199,7 @@ SavedState CoupledSimulation::save() {
   out.scalars = {{"time", "s", clock_.time},         {"step", "-", double(clock_.step)},
                  {"last_dt", "s", clock_.last_dt},   {"drag_limit", "s", drag_limit_},
                  {"walls_moved", "m", walls_moved_}, {"rebuilds", "-", double(rebuilds_)}};
+  bodies_.save(out.stores);
   open_.save(out.scalars);
   for (int b = 0; b < motion_.walls(); ++b)
     out.scalars.push_back({"removed_" + std::to_string(b), "-", motion_.removed(b) ? 1.0 : 0.0});
@@ -221,6 +227,8 @@ void CoupledSimulation::load(const SavedState& state) {
     walls_.load(store_of(state, "walls"));
   }
   if (has_grains()) grains_.load(store_of(state, "grains"));
+  bodies_.load([&](const char* name) -> const HostStore& { return store_of(state, name); });
+  loads_.step = -1;
   restore_lists(state);
   sweep();
 }

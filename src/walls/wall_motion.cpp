@@ -29,7 +29,8 @@ std::vector<Vec3d> corners(const WallBody& b) {
 
 }  // namespace
 
-WallMotion::WallMotion(const Config& config) : config_(config), removed_(config.wall.bodies.size(), false) {
+WallMotion::WallMotion(const Config& config, const FreeBodies& free)
+    : config_(config), free_(free), removed_(config.wall.bodies.size(), false) {
   for (const WallBody& body : config.wall.bodies) laws_.emplace_back(body.motion, config.time.end);
   for (const InletConfig& inlet : config.inlets) inlets_.emplace_back(inlet, config.fluid.dx);
 }
@@ -41,23 +42,36 @@ BodyPose WallMotion::pose(int body, double t) const {
     return p;
   }
   const WallBody& b = config_.wall.bodies[body];
-  BodyPose p{laws_[body].at(t)};
+  const int place = free_.place_of(body);
+  BodyPose p{place < 0 ? laws_[body].at(t) : free_.motion(place)};
+  p.free = std::uint32_t(place + 1);
   p.slip = b.slip == "slip";
   p.repulsion = b.repulsion && b.stops_fluid();
   p.present = !removed_[body];
   return p;
 }
 
-Span<const BodyPose> WallMotion::poses(double t, double dt, int n) {
+Span<BodyPose> WallMotion::poses(double t, double dt, int n) {
   host_.clear();
   for (int k = 0; k <= n; ++k)
     for (int b = 0; b < bodies(); ++b) host_.push_back(pose(b, t + dt * k / n));
   if (device_.size() < host_.size()) device_.resize(host_.size() * 2);
   copy_to_device(device_.data(), host_.data(), host_.size() * sizeof(BodyPose));
+  if (free_.any()) free_.write({device_.data(), Index(host_.size())}, bodies(), n + 1, t);
   return {device_.data(), Index(host_.size())};
 }
 
-double WallMotion::top_speed(double t) const {
+Span<const BodyPose> WallMotion::poses_in_step(double t, double back, double dt) {
+  const Span<BodyPose> rows = poses(t - back, back, 1);
+  if (free_.any()) free_.write_middle(rows, dt);
+  return rows;
+}
+
+double WallMotion::top_speed(double t, double dt) const {
+  return std::max(prescribed_speed(t), free_.top_speed(t, dt));
+}
+
+double WallMotion::prescribed_speed(double t) const {
   double top = 0;
   for (const InletFlow& inlet : inlets_) top = std::max(top, norm(inlet.motion(t).v));
   for (int b = 0; b < walls(); ++b) {

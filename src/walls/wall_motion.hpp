@@ -4,28 +4,35 @@
 #include "bedload/parallel/loops.hpp"
 #include "bedload/particles/walls.hpp"
 #include "src/motion/inlet_flow.hpp"
+#include "src/walls/free_bodies.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Moves all bodies, SPH particles and DEM surfaces by one law; poses live on the device. The fluid on its
-/// way through each inlet is a body too, listed after the walls.
+/// Moves all bodies, SPH particles and DEM surfaces by one law; poses live on the device. Free bodies are
+/// where their state says, whatever the time. The fluid on its way through each inlet is a body too, listed
+/// after the walls.
 class WallMotion {
  public:
-  explicit WallMotion(const Config& config);
+  /// `free` must outlive it.
+  WallMotion(const Config& config, const FreeBodies& free);
 
   int walls() const { return int(config_.wall.bodies.size()); }
   int bodies() const { return walls() + int(inlets_.size()); }
   std::vector<InletFlow>& inlets() { return inlets_; }
   /// Poses at t + k dt / n for k = 0..n, [n + 1][bodies], on the device.
-  Span<const BodyPose> poses(double t, double dt, int n);
+  Span<BodyPose> poses(double t, double dt, int n);
+  /// Two rows: at t - back, where free bodies are in the middle of the step dt that ends now, and at t.
+  Span<const BodyPose> poses_in_step(double t, double back, double dt);
   /// Counts what has come through the inlets up to time t, s.
   void advance(double t) {
     for (InletFlow& inlet : inlets_) inlet.advance(t);
   }
   /// Pose of one body at time t (s), on the host.
   BodyPose pose(int body, double t) const;
-  /// Largest speed of any wall point at time t, m/s.
-  double top_speed(double t) const;
+  /// Largest speed of any wall point at time t, m/s; of free bodies as read back last, dt before.
+  double top_speed(double t, double dt = 0) const;
+  /// The same of prescribed motions alone.
+  double prescribed_speed(double t) const;
   /// Places wall particles and sets their true velocity; `pose`: [2][bodies], that of the velocity and that
   /// of the place.
   static void place(const Frame& frame, WallStore& walls, Span<const BodyPose> pose);
@@ -37,6 +44,7 @@ class WallMotion {
 
  private:
   Config config_;
+  const FreeBodies& free_;
   std::vector<MotionLaw> laws_;  ///< one a wall
   std::vector<InletFlow> inlets_;
   std::vector<bool> removed_;

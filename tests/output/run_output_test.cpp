@@ -73,6 +73,23 @@ TEST_F(RunFolder, WritesAtTheFirstStepEndAtOrAfterItsTime) {
       << gauge;
 }
 
+TEST_F(RunFolder, HasATableForEachBodyThatMoves) {
+  config.wall.bodies.emplace_back().name = "raft";
+  config.wall.bodies.back().free.present = true;
+  config.wall.bodies.emplace_back().name = "gate";
+  config.wall.bodies.back().motion.kind = "velocity";
+  unbroken(folder.path / "moving");
+  EXPECT_EQ(CsvTable(folder.path / "moving" / "bodies" / "raft.csv").times().size(), 16u) << "as diagnostics";
+  EXPECT_TRUE(fs::exists(folder.path / "moving" / "bodies" / "gate.csv"));
+  EXPECT_FALSE(fs::exists(folder.path / "moving" / "bodies" / "tank.csv"));
+  config.out.bodies = "all";
+  unbroken(folder.path / "all");
+  EXPECT_TRUE(fs::exists(folder.path / "all" / "bodies" / "tank.csv"));
+  config.out.bodies = "none";
+  unbroken(folder.path / "none");
+  EXPECT_FALSE(fs::exists(folder.path / "none" / "bodies"));
+}
+
 TEST_F(RunFolder, ResolvedCaseNamesVersionDeviceAndSeed) {
   config.seed = 42;
   RunOutput(folder.path, config, kDevice, "0.1.0", false);

@@ -136,6 +136,47 @@ struct FrameConfig {
   bool operator==(const FrameConfig&) const = default;
 };
 
+/// Mass of a solid about its centre, in the axes of the case.
+struct MassProperties {
+  double mass = 0;                             ///< kg
+  Vec3d centre;                                ///< of mass, m
+  std::array<double, 6> inertia{};             ///< Ixx, Iyy, Izz, Ixy, Ixz, Iyz (products with their minus), kg m2
+  bool operator==(const MassProperties&) const = default;
+};
+
+/// Ball by which a free body touches others.
+struct BodyBall {
+  Vec3d centre;                                ///< at t = 0, m
+  double radius = 0;                           ///< m
+  bool operator==(const BodyBall&) const = default;
+};
+
+/// A wall body that moves by the forces on it.
+struct FreeConfig {
+  bool present = false;
+  double density = 0;                          ///< kg/m3; or mass
+  double mass = 0;                             ///< kg
+  std::vector<double> centre_of_mass;          ///< m; empty: of the shape
+  std::vector<double> inertia;                 ///< about the centre of mass, kg m2; empty: of the shape
+  Vec3d velocity;                              ///< of the centre of mass at the start, m/s
+  Vec3d spin;                                  ///< rad/s
+  double release_time = 0;                     ///< held until then, s
+  std::string move = "all";                    ///< all, plane (across axis), axis (along it), none
+  std::string turn = "all";                    ///< all, axis, none
+  Vec3d axis{0, 0, 1};                         ///< unit (resolved)
+  std::vector<double> point;                   ///< move = none: stays where it is, m; empty: centre of mass
+  bool fluid = true;                           ///< feels the fluid
+  bool contacts = true;                        ///< touches other bodies
+  double E = 0, e = 0;                         ///< Pa, - (default grain.*)
+  double nu = std::numeric_limits<double>::infinity();  ///< (default grain.nu)
+  double mu = std::numeric_limits<double>::infinity();  ///< (default grain.mu)
+  double contact_spacing = 0;                  ///< of sampled balls, m (resolved; 0: balls are given)
+  double contact_radius = 0;                   ///< R* of contacts, m; 0: the ball's own radius
+  std::vector<BodyBall> balls;                 ///< instead of sampled ones
+  MassProperties solid;                        ///< resolved
+  bool operator==(const FreeConfig&) const = default;
+};
+
 /// One wall body: a shape, how fluid meets it, how it moves.
 struct WallBody {
   std::string name;
@@ -147,9 +188,11 @@ struct WallBody {
   std::string slip = "noslip";                 ///< noslip, slip
   bool repulsion = true;                       ///< Monaghan repulsion beside the extrapolated pressure
   MotionConfig motion;
+  FreeConfig free;                             ///< instead of a motion
   Solid solid;                                 ///< of a named shape (resolved)
   bool stops_fluid() const { return type == "adami" || type == "fluid_only"; }
   bool stops_grains() const { return type != "fluid_only"; }
+  bool moves() const { return motion.moves() || free.present; }
   bool operator==(const WallBody&) const = default;
 };
 
@@ -160,6 +203,11 @@ struct WallConfig {
   double rep_D = 0;                            ///< m2/s2 (default 5 g H)
   double rep_r0 = 0;                           ///< m (default 0.5 dx)
   std::vector<WallBody> bodies;
+  int free_bodies() const {
+    int n = 0;
+    for (const WallBody& body : bodies) n += body.free.present;
+    return n;
+  }
   bool operator==(const WallConfig&) const = default;
 };
 
@@ -312,6 +360,7 @@ struct OutputConfig {
   double diagnostics_every = 0;                ///< s (default out.every)
   double checkpoint_every = 0;                 ///< s; 0: only at the end
   bool walls = true;                           ///< write walls.vtkhdf
+  std::string bodies = "moving";               ///< bodies/*.csv of moving, all, none
   std::vector<ProbeConfig> probes;
   bool operator==(const OutputConfig&) const = default;
 };

@@ -82,6 +82,9 @@ class Parameters {
       close_item();
     }
   }
+  /// Whether the table `key` is there, which alone says something; the writer and `bedload list` know by
+  /// `present` and always.
+  virtual bool table(std::string_view key, bool present) = 0;
   /// True if all that could be given is wanted, whatever the other values.
   virtual bool everything() const { return false; }
 

@@ -59,12 +59,11 @@ struct Again {
 };
 }  // namespace detail
 
-/// Combines f(i) over the range: F has Value, identity(), operator()(Index), combine(Value&, Value).
-/// The tree is fixed, so the result does not depend on threads or blocks. Waits for the device.
+namespace detail {
+/// Leaves the sum over a range that is not empty where the solver computes.
 template <class F>
-typename F::Value reduce(Range range, const F& f) {
+const typename F::Value* reduce_there(Range range, const F& f) {
   using Value = typename F::Value;
-  if (range.size() == 0) return f.identity();
   static Buffer<Value> partial[2];
   Index chunks = (range.size() + kReduceChunk - 1) / kReduceChunk;
   partial[0].reserve_and_resize(chunks);
@@ -75,16 +74,14 @@ typename F::Value reduce(Range range, const F& f) {
     const Index n = chunks;
     chunks = (n + kReduceChunk - 1) / kReduceChunk;
     partial[1 - from].reserve_and_resize(chunks);
-    reduce_kernel<<<chunks, 128>>>(0u, n, detail::Again<F>{f, partial[from].data()}, partial[1 - from].data());
+    reduce_kernel<<<chunks, 128>>>(0u, n, Again<F>{f, partial[from].data()}, partial[1 - from].data());
     from = 1 - from;
   }
   check_cuda(cudaGetLastError(), "reduction launch");
-  Value result;
-  copy_to_host(&result, partial[from].data(), sizeof(Value));
-  return result;
+  return partial[from].data();
 #else
   Value* out = partial[0].data();
-#pragma omp parallel for schedule(dynamic, 4)
+#pragma omp parallel for schedule(dynamic, 4) if (chunks > 1)
   for (Index c = 0; c < chunks; ++c) {
     const Index first = range.begin + c * kReduceChunk;
     const Index last = min_of(range.end, first + kReduceChunk);
@@ -94,8 +91,26 @@ typename F::Value reduce(Range range, const F& f) {
   }
   Value result = f.identity();
   for (Index c = 0; c < chunks; ++c) f.combine(result, out[c]);
-  return result;
+  out[0] = result;
+  return out;
 #endif
+}
+}  // namespace detail
+
+/// Combines f(i) over the range: F has Value, identity(), operator()(Index), combine(Value&, Value).
+/// The tree is fixed, so the result does not depend on threads or blocks. Waits for the device.
+template <class F>
+typename F::Value reduce(Range range, const F& f) {
+  if (range.size() == 0) return f.identity();
+  typename F::Value result;
+  copy_to_host(&result, detail::reduce_there(range, f), sizeof result);
+  return result;
+}
+
+/// As reduce, of a range that is not empty, into device memory and without waiting.
+template <class F>
+void reduce_into(typename F::Value* out, Range range, const F& f) {
+  copy_on_device(out, detail::reduce_there(range, f), sizeof(typename F::Value));
 }
 
 }  // namespace bedload::inline BL_VARIANT

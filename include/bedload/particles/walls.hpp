@@ -10,6 +10,7 @@ struct BodyPose : RigidMotion {
   std::uint32_t repulsion = 0;  ///< 1: Monaghan repulsion
   std::uint32_t present = 1;    ///< 0: removed
   std::uint32_t flows = 0;      ///< 1: fluid on its way in, at the spacing of the fluid
+  std::uint32_t free = 0;       ///< 1 + place among the free bodies; 0: motion prescribed
 };
 
 /// Wall particles of the fluid: prescribed motion, extrapolated state. The next density step reads the state

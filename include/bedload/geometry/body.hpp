@@ -1,0 +1,45 @@
+#pragma once
+// Wall bodies as rigid solids: what they weigh, where they touch.
+
+#include <array>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+
+namespace bedload {
+
+class Shape;
+
+/// Integrals of 1, x and x x over a solid, about the origin.
+struct SolidMoments {
+  double volume = 0;               ///< m3
+  Vec3d first;                     ///< m4
+  std::array<double, 6> second{};  ///< of xx, yy, zz, xy, xz, yz, m5
+
+  /// A piece small enough to count as a point.
+  void add(double volume, const Vec3d& at);
+};
+
+/// Of a closed solid: in closed form for one box, sphere, capsule, cylinder, cone, pipe or mesh, else on a
+/// raster of about a million cells.
+SolidMoments solid_moments(const Shape& shape);
+
+/// Mass, centre and inertia of a free body: as the case gives them, the rest from its shape at uniform
+/// density. Throws CaseError, a sentence that goes on after "wall.body.free", where there is no closed shape.
+MassProperties mass_properties(const WallBody& body);
+
+/// Principal moments of inertia, kg m2, and the turn of their axes.
+struct PrincipalInertia {
+  Vec3d moments;
+  Quat<double> axes;
+};
+PrincipalInertia principal_inertia(const std::array<double, 6>& inertia);
+
+/// `inertia` of a mass (kg) about its centre, as seen from a point `offset` (m) away.
+std::array<double, 6> shifted_inertia(const std::array<double, 6>& inertia, double mass, const Vec3d& offset);
+
+/// The balls by which a free body touches others: those given; else the line of a sphere or capsule; else
+/// balls that touch its surface from within, contact_spacing apart.
+std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& domain);
+
+}  // namespace bedload

@@ -1,0 +1,151 @@
+#pragma once
+// Velocity Verlet for free bodies, beside the grains' substeps.
+
+#include "kernels/bodies/rigid_body.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// The fields of BodyStore as kernels see them.
+struct BodyFields {
+  Span<Vec3d> x, v, spin, a, alpha;
+  Span<Vec4<double>> rotation;
+  Span<Vec3d> grain_force, grain_torque, contact_force, contact_torque, fluid_force, fluid_torque;
+  Span<Vec3d> x_before, v_before, omega_before;
+  Span<Vec4<double>> rotation_before;
+
+  BL_HD RigidMotion motion(const RigidBody& k, Index b, bool held) const {
+    RigidMotion m;
+    m.centre = k.centre;
+    m.translation = x[b] - k.centre;
+    m.rotation = to_quat(rotation[b]);
+    if (held) return m;
+    m.v = v[b];
+    m.omega = k.omega(m.rotation, spin[b]);
+    m.a = a[b];
+    m.alpha = alpha[b];
+    return m;
+  }
+};
+
+/// Loads on a body, kicks, and a drift to the next row of poses. Contacts act through the whole substeps,
+/// the fluid at both ends of its step.
+struct BodyPass {
+  const RigidBody* bodies;
+  BodyFields s;
+  const LoadSum* by_grains;        ///< new ones; null: as before
+  const LoadSum* by_contacts;      ///< new ones; null: as before
+  Vec3d gravity;                   ///< m/s2
+  double kick, fluid_kick, drift;  ///< s
+  double time;                     ///< s; bodies released later are held
+  std::uint32_t begins;            ///< 1: a step begins
+  BodyPose* row;                   ///< [bodies] to place the bodies in; may be null
+
+  BL_HD void operator()(Index b) const {
+    const RigidBody& k = bodies[b];
+    if (begins) {
+      s.x_before[b] = s.x[b], s.rotation_before[b] = s.rotation[b], s.v_before[b] = s.v[b];
+      s.omega_before[b] = k.omega(to_quat(s.rotation[b]), s.spin[b]);
+    }
+    if (by_grains) s.grain_force[b] = by_grains[b].force(), s.grain_torque[b] = by_grains[b].torque();
+    if (by_contacts)
+      s.contact_force[b] = by_contacts[b].force(), s.contact_torque[b] = by_contacts[b].torque();
+    const bool held = time < k.release;
+    if (!held) {
+      advance(k, b);
+    }
+    if (row) static_cast<RigidMotion&>(row[k.body]) = s.motion(k, b, held);
+  }
+
+ private:
+  BL_HD void advance(const RigidBody& k, Index b) const {
+    const double fluid = k.fluid ? fluid_kick : 0;
+    const Vec3d touch = s.grain_force[b] + s.contact_force[b];
+    s.v[b] += k.movable((kick / k.mass) * touch + kick * gravity + (fluid / k.mass) * s.fluid_force[b]);
+    const Vec3d weight = cross(to_quat(s.rotation[b]).rotate(k.arm), k.mass * gravity);
+    s.spin[b] +=
+        k.turnable(kick * (s.grain_torque[b] + s.contact_torque[b] + weight) + fluid * s.fluid_torque[b]);
+    if (drift == 0) return;
+    s.x[b] += drift * s.v[b];
+    s.rotation[b] = to_vec4(k.turned(to_quat(s.rotation[b]), s.spin[b], drift));
+  }
+};
+
+/// Poses as the bodies are now.
+struct BodyPosePass {
+  const RigidBody* bodies;
+  BodyFields s;
+  double time;
+  std::uint32_t settling;  ///< 1: all are held
+  int rows, row_size;
+  BodyPose* poses;
+  BL_HD void operator()(Index b) const {
+    const RigidBody& k = bodies[b];
+    const RigidMotion m = s.motion(k, b, settling || time < k.release);
+    for (int r = 0; r < rows; ++r) static_cast<RigidMotion&>(poses[std::size_t(r) * row_size + k.body]) = m;
+  }
+};
+
+/// Poses in the middle of the last step, with the mean velocities over it.
+struct MidPosePass {
+  const RigidBody* bodies;
+  BodyFields s;
+  double dt;  ///< s
+  BodyPose* row;
+  BL_HD void operator()(Index b) const {
+    const RigidBody& k = bodies[b];
+    const Quat<double> before = to_quat(s.rotation_before[b]);
+    const Vec3d way = s.x[b] - s.x_before[b],
+                angle = rotation_vector(to_quat(s.rotation[b]) * before.conjugate());
+    RigidMotion m;
+    m.centre = k.centre;
+    m.translation = s.x_before[b] + 0.5 * way - k.centre;
+    m.rotation = normalised(Quat<double>::from_rotation(0.5 * angle) * before);
+    m.v = way * (1 / dt);
+    m.omega = angle * (1 / dt);
+    static_cast<RigidMotion&>(row[k.body]) = m;
+  }
+};
+
+/// The acceleration that the fluid beside a body sees: that of its last steps, averaged over a few times that
+/// sound takes across the kernel. Wall pressure answers it like a mass of fluid that moves along; taken as it
+/// was a step ago, it would throw a body lighter than that mass to and fro, further each step, however short.
+/// With a new share of s the answer stays bounded while the mass of fluid is below 2/s - 1 times the body's,
+/// about 60.
+struct BodyAccelerationPass {
+  const RigidBody* bodies;
+  BodyFields s;
+  double dt, share;  ///< s; of the new value
+  BL_HD void operator()(Index b) const {
+    const Vec3d omega = bodies[b].omega(to_quat(s.rotation[b]), s.spin[b]);
+    s.a[b] += share * ((s.v[b] - s.v_before[b]) * (1 / dt) - s.a[b]);
+    s.alpha[b] += share * ((omega - s.omega_before[b]) * (1 / dt) - s.alpha[b]);
+  }
+};
+
+/// Place and motion for the host.
+struct BodyReportPass {
+  const RigidBody* bodies;
+  BodyFields s;
+  Span<RigidMotion> out;
+  BL_HD void operator()(Index b) const { out[b] = s.motion(bodies[b], b, false); }
+};
+
+/// Force of the fluid on the wall particles of one body.
+struct WallLoadReduction {
+  using Value = LoadSum;
+  std::uint32_t body;
+  Span<const std::uint32_t> of;
+  Span<const Vec3d> x0, force;
+  const BodyPose* poses;
+  BL_HD Value identity() const { return Value::zero(); }
+  BL_HD Value operator()(Index w) const {
+    Value sum = Value::zero();
+    if (of[w] != body) return sum;
+    const BodyPose& pose = poses[body];
+    sum.add(force[w], cross(pose.place(x0[w]) - pose.centre - pose.translation, force[w]));
+    return sum;
+  }
+  BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,165 @@
+#pragma once
+// Free rigid bodies: Newton and Euler with constraints. The state is place, rotation, velocity and angular
+// momentum of a reference point, which is the centre of mass, or the pivot of a body that only turns.
+
+#include "bedload/particles/walls.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+enum class BodyMove : std::uint32_t { all, plane, axis, none };
+enum class BodyTurn : std::uint32_t { all, axis, none };
+
+BL_HD Quat<double> normalised(const Quat<double>& q) {
+  const double s = 1 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  return {s * q.w, s * q.x, s * q.y, s * q.z};
+}
+BL_HD Vec4<double> to_vec4(const Quat<double>& q) { return {q.x, q.y, q.z, q.w}; }
+BL_HD Quat<double> to_quat(const Vec4<double>& q) { return {q.w, q.x, q.y, q.z}; }
+/// Axis times angle (rad) of a rotation by less than half a turn.
+BL_HD Vec3d rotation_vector(const Quat<double>& q) {
+  const Vec3d u{q.x, q.y, q.z};
+  const double s = norm(u);
+  if (s == 0) return {};
+  return u * (2 * std::atan2(q.w < 0 ? -s : s, q.w < 0 ? -q.w : q.w) / s);
+}
+
+/// What stays the same of a body.
+struct RigidBody {
+  std::uint32_t body = 0;  ///< among the wall bodies
+  BodyMove move = BodyMove::all;
+  BodyTurn turn = BodyTurn::all;
+  std::uint32_t fluid = 1;  ///< 1: moved by the fluid
+  double mass = 0;          ///< kg
+  Vec3d centre;             ///< reference point at t = 0, m
+  Vec3d arm;                ///< from there to the centre of mass at t = 0, m; 0 unless it only turns
+  Vec3d moments;            ///< principal, about the reference point, kg m2
+  Quat<double> principal;   ///< turns the coordinate axes to the principal ones at t = 0
+  Vec3d axis;               ///< of constraints, unit
+  double axial = 0;         ///< moment of inertia about it, kg m2
+  double release = 0;       ///< s
+
+  /// The part of a velocity or force that may move the body.
+  BL_HD Vec3d movable(const Vec3d& v) const {
+    if (move == BodyMove::all) return v;
+    const Vec3d along = dot(v, axis) * axis;
+    if (move == BodyMove::axis) return along;
+    return move == BodyMove::plane ? v - along : Vec3d{};
+  }
+  /// The part of a torque that may turn it.
+  BL_HD Vec3d turnable(const Vec3d& t) const {
+    if (turn == BodyTurn::all) return t;
+    return turn == BodyTurn::axis ? dot(t, axis) * axis : Vec3d{};
+  }
+  /// Angular velocity at angular momentum l, rad/s.
+  BL_HD Vec3d omega(const Quat<double>& rotation, const Vec3d& l) const {
+    if (turn == BodyTurn::none) return {};
+    if (turn == BodyTurn::axis) return (dot(l, axis) / axial) * axis;
+    const Quat<double> frame = rotation * principal;
+    const Vec3d p = frame.conjugate().rotate(l);
+    return frame.rotate({p.x / moments.x, p.y / moments.y, p.z / moments.z});
+  }
+  /// Angular momentum at angular velocity w, kg m2/s.
+  BL_HD Vec3d momentum(const Quat<double>& rotation, const Vec3d& w) const {
+    if (turn == BodyTurn::none) return {};
+    if (turn == BodyTurn::axis) return (axial * dot(w, axis)) * axis;
+    const Quat<double> frame = rotation * principal;
+    const Vec3d p = frame.conjugate().rotate(w);
+    return frame.rotate({p.x * moments.x, p.y * moments.y, p.z * moments.z});
+  }
+  /// Energy of rotation, J.
+  BL_HD double turning_energy(const Quat<double>& rotation, const Vec3d& l) const {
+    return 0.5 * dot(l, omega(rotation, l));
+  }
+
+  /// Rotation after a time h without torque. Turns about the principal axes one after another, there and back
+  /// again: symplectic and reversible, and the angular momentum, kept in the lab frame, stays what it is
+  /// [dullweber97].
+  BL_HD Quat<double> turned(const Quat<double>& rotation, const Vec3d& l, double h) const {
+    if (turn == BodyTurn::none) return rotation;
+    if (turn == BodyTurn::axis)
+      return normalised(Quat<double>::from_rotation((h * dot(l, axis) / axial) * axis) * rotation);
+    Quat<double> frame = rotation * principal;
+    const int order[5] = {0, 1, 2, 1, 0};
+    for (int s = 0; s < 5; ++s) {
+      const int k = order[s];
+      Vec3d step;
+      step[k] = (s == 2 ? h : 0.5 * h) * frame.conjugate().rotate(l)[k] / moments[k];
+      frame = frame * Quat<double>::from_rotation(step);
+    }
+    return normalised(frame * principal.conjugate());
+  }
+
+  /// How easily a push along n at r from the reference point moves that place: 1 / effective mass, 1/kg.
+  BL_HD double ease(const Quat<double>& rotation, const Vec3d& r, const Vec3d& n) const {
+    double e = dot(n, movable(n)) / mass;
+    if (turn == BodyTurn::none) return e;
+    const Vec3d lever = cross(r, n);
+    if (turn == BodyTurn::axis) return e + square(dot(lever, axis)) / axial;
+    const Vec3d p = (rotation * principal).conjugate().rotate(lever);
+    return e + p.x * p.x / moments.x + p.y * p.y / moments.y + p.z * p.z / moments.z;
+  }
+};
+
+/// Effect of touch on one body.
+struct TouchLoad {
+  Vec3d force;   ///< N
+  Vec3d torque;  ///< about the body's reference point, N m
+  std::uint32_t body;
+};
+
+/// What each grain, or each ball of a body, does to the bodies that it touches: an entry a body.
+struct TouchLoads {
+  TouchLoad* slots = nullptr;  ///< [room][size]
+  Index* counts = nullptr;     ///< [size]
+  Index size = 0;
+  int room = 0;  ///< bodies that one may touch at once
+
+  BL_HD explicit operator bool() const { return slots != nullptr; }
+  BL_HD void clear(Index i) const { counts[i] = 0; }
+  BL_HD void add(Index i, const TouchLoad& load) const {
+    const Index n = counts[i];
+    for (Index k = 0; k < n; ++k) {
+      TouchLoad& slot = slots[std::size_t(k) * size + i];
+      if (slot.body != load.body) continue;
+      slot.force += load.force;
+      slot.torque += load.torque;
+      return;
+    }
+    if (n >= Index(room)) return;
+    slots[std::size_t(n) * size + i] = load;
+    counts[i] = n + 1;
+  }
+};
+
+/// Force and torque on a body, for reductions: plain numbers, since shared memory runs no constructors.
+struct LoadSum {
+  double sum[6];
+  BL_HD Vec3d force() const { return {sum[0], sum[1], sum[2]}; }
+  BL_HD Vec3d torque() const { return {sum[3], sum[4], sum[5]}; }
+  BL_HD void add(const Vec3d& force, const Vec3d& torque) {
+    for (int k = 0; k < 3; ++k) sum[k] += force[k], sum[3 + k] += torque[k];
+  }
+  BL_HD static LoadSum zero() { return {{0, 0, 0, 0, 0, 0}}; }
+  BL_HD static void combine(LoadSum& into, const LoadSum& from) {
+    for (int k = 0; k < 6; ++k) into.sum[k] += from.sum[k];
+  }
+};
+
+/// Sum of what was recorded for one body.
+struct TouchReduction {
+  using Value = LoadSum;
+  TouchLoads loads;
+  std::uint32_t body;
+  BL_HD Value identity() const { return Value::zero(); }
+  BL_HD Value operator()(Index i) const {
+    Value sum = Value::zero();
+    for (Index k = 0; k < loads.counts[i]; ++k) {
+      const TouchLoad& load = loads.slots[std::size_t(k) * loads.size + i];
+      if (load.body == body) sum.add(load.force, load.torque);
+    }
+    return sum;
+  }
+  BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,370 @@
+#include "src/walls/free_bodies.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bedload/geometry/body.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The grains' law with the material of a body: Hertz and Mindlin, without resistance to rolling.
+BodyMaterial material_of(const Config& config, const FreeConfig& f) {
+  Config own = config;
+  own.grain.E = f.E, own.grain.nu = f.nu, own.grain.mu = f.mu, own.grain.e = f.e;
+  own.contact.normal = "hertz";
+  own.contact.tangential = "mindlin";
+  own.contact.rolling = "none";
+  own.contact.he_damping = false;
+  BodyMaterial m;
+  m.law = make_contact_law(own);
+  m.give = (1 - f.nu * f.nu) / f.E;
+  m.give_sideways = 2 * (1 + f.nu) * (2 - f.nu) / f.E;
+  return m;
+}
+
+bool finite(const Vec3d& v) { return std::isfinite(v.x + v.y + v.z); }
+
+/// Sum of another pair of loads.
+struct AddLoads {
+  Span<const LoadSum> a, b;  ///< b may be empty
+  Span<Vec3d> force, torque;
+  BL_HD void operator()(Index k) const {
+    LoadSum sum = a[k];
+    if (b) LoadSum::combine(sum, b[k]);
+    force[k] = sum.force();
+    torque[k] = sum.torque();
+  }
+};
+
+}  // namespace
+
+FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeometry& walls)
+    : config_(config), frame_(frame), walls_(walls), places_(config.wall.bodies.size(), -1) {
+  if (config.wall.free_bodies() == 0) return;
+  give_ = kInfinity, contact_radius_ = kInfinity;
+  std::vector<BodyMaterial> materials;
+  std::vector<TouchBall> balls;
+  for (std::uint32_t b = 0; b < config.wall.bodies.size(); ++b) {
+    const WallBody& body = config.wall.bodies[b];
+    if (!body.free.present) continue;
+    places_[b] = size();
+    add(config, b);
+    materials.push_back(material_of(config, body.free));
+    give_ = std::min(give_, materials.back().give);
+    if (!body.stops_grains()) continue;
+    for (const BodyBall& ball : contact_balls(body, config.domain)) {
+      const double R_star = body.free.contact_radius > 0 ? body.free.contact_radius : ball.radius;
+      contact_radius_ = std::min(contact_radius_, R_star);
+      balls.push_back({ball.centre, ball.radius, R_star, Index(places_[b])});
+    }
+  }
+  constants_.assign(bodies_);
+  materials_.assign(materials);
+  balls_.assign(balls);
+
+  store_.resize(Index(size()));
+  std::vector<Vec3d> x, v, spin;
+  for (const RigidBody& k : bodies_) {
+    const FreeConfig& f = config.wall.bodies[k.body].free;
+    x.push_back(k.centre);
+    v.push_back(k.movable(f.velocity));
+    spin.push_back(k.momentum({}, k.turnable(f.spin)));
+  }
+  store_.x.assign(x), store_.v.assign(v), store_.spin.assign(spin);
+  store_.rotation.assign(std::vector<Vec4<double>>(size(), to_vec4({})));
+
+  const Index n = Index(balls.size());
+  room_ = walls.contacts();
+  memory_.resize(Index(n * room_));
+  point_at_memory();
+  const int bodies_met = std::min(int(config.wall.bodies.size()), kMostWallContacts + 1);
+  ball_slots_.resize(std::size_t(n) * bodies_met);
+  ball_counts_.resize(n);
+  ball_loads_ = {ball_slots_.data(), ball_counts_.data(), n, bodies_met};
+  for (Buffer<LoadSum>* sums : {&grain_sums_, &ball_sums_, &wall_sums_, &repulsion_sums_})
+    sums->resize(size());
+  report_.resize(size());
+  read_back();
+}
+
+void FreeBodies::add(const Config& config, std::uint32_t b) {
+  const WallBody& body = config.wall.bodies[b];
+  const FreeConfig& f = body.free;
+  const MassProperties& m = f.solid;
+  RigidBody k;
+  k.body = b;
+  k.move = f.move == "plane"  ? BodyMove::plane
+           : f.move == "axis" ? BodyMove::axis
+           : f.move == "none" ? BodyMove::none
+                              : BodyMove::all;
+  k.turn = f.turn == "axis" ? BodyTurn::axis : f.turn == "none" ? BodyTurn::none : BodyTurn::all;
+  k.fluid = f.fluid;
+  k.mass = m.mass;
+  k.centre = m.centre;
+  if (k.move == BodyMove::none && f.point.size() == 3) k.centre = {f.point[0], f.point[1], f.point[2]};
+  k.arm = m.centre - k.centre;
+  const auto inertia = shifted_inertia(m.inertia, m.mass, k.arm);
+  const PrincipalInertia principal = principal_inertia(inertia);
+  k.moments = principal.moments;
+  k.principal = principal.axes;
+  k.axis = f.axis;
+  const Vec3d& n = k.axis;
+  k.axial = inertia[0] * n.x * n.x + inertia[1] * n.y * n.y + inertia[2] * n.z * n.z +
+            2 * (inertia[3] * n.x * n.y + inertia[4] * n.x * n.z + inertia[5] * n.y * n.z);
+  k.release = f.release_time;
+  bodies_.push_back(k);
+
+  double reach = 0;  // of its corners from the reference point
+  for (int c = 0; c < 8; ++c) {
+    const Vec3d corner{c & 1 ? body.max.x : body.min.x, c & 2 ? body.max.y : body.min.y,
+                       c & 4 ? body.max.z : body.min.z};
+    reach = std::max(reach, norm(corner - k.centre));
+  }
+  sizes_.push_back(reach);
+  double ease = 1 / m.mass;
+  if (k.turn == BodyTurn::axis) ease += reach * reach / k.axial;
+  if (k.turn == BodyTurn::all) ease += reach * reach / std::min({k.moments.x, k.moments.y, k.moments.z});
+  eases_.push_back(ease);
+}
+
+void FreeBodies::point_at_memory() {
+  std::vector<WallMemory*> slots;
+  for (int k = 0; k < room_; ++k)
+    slots.push_back(memory_.memory.buffer().data() + std::size_t(k) * balls_.size());
+  memory_pointers_.assign(slots);
+}
+
+BodyFields FreeBodies::fields() const {
+  BodyStore& s = store_;
+  return {s.x,
+          s.v,
+          s.spin,
+          s.a,
+          s.alpha,
+          s.rotation,
+          s.grain_force,
+          s.grain_torque,
+          s.contact_force,
+          s.contact_torque,
+          s.fluid_force,
+          s.fluid_torque,
+          s.x_before,
+          s.v_before,
+          s.omega_before,
+          s.rotation_before};
+}
+
+// -- poses -------------------------------------------------------------------
+
+void FreeBodies::write(Span<BodyPose> poses, int row_size, int rows, double time) const {
+  for_each(store_.owned(),
+           BodyPosePass{constants_.data(), fields(), time, settling_ ? 1u : 0u, rows, row_size, poses.data});
+}
+
+void FreeBodies::write_middle(Span<BodyPose> row, double dt) const {
+  for_each(store_.owned(), MidPosePass{constants_.data(), fields(), dt, row.data});
+}
+
+void FreeBodies::read_back() {
+  if (!any()) return;
+  for_each(store_.owned(), BodyReportPass{constants_.data(), fields(), report_});
+  now_ = report_.to_host();
+}
+
+// -- a step ------------------------------------------------------------------
+
+BodyPass FreeBodies::pass() const {
+  BodyPass p{};
+  p.bodies = constants_.data();
+  p.s = fields();
+  p.time = step_.time;
+  return p;
+}
+
+void FreeBodies::begin(Span<BodyPose> poses, int row_size, double time, double dt, int substeps,
+                       double fluid_kick, const std::vector<Vec3d>& gravity) {
+  step_ = {poses, row_size, substeps, time, dt, fluid_kick, gravity};
+}
+
+void FreeBodies::first_kick() {
+  const double tau = step_.dt / step_.substeps;
+  BodyPass p = pass();
+  p.gravity = step_.gravity[0];
+  p.kick = 0.5 * tau, p.fluid_kick = step_.fluid_kick, p.drift = tau;
+  p.begins = 1;
+  p.row = step_.poses.data + step_.row_size;
+  kick(p);
+}
+
+void FreeBodies::substep(int s) {
+  const double tau = step_.dt / step_.substeps;
+  const bool last = s == step_.substeps;
+  touch({step_.poses.data + std::size_t(s) * step_.row_size, Index(step_.row_size)}, tau);
+  BodyPass p = pass();
+  p.by_grains = grain_sums_.data();
+  p.by_contacts = ball_sums_.data();
+  p.gravity = step_.gravity[s];
+  p.kick = last ? 0.5 * tau : tau;
+  p.drift = last ? 0 : tau;
+  if (!last) p.row = step_.poses.data + std::size_t(s + 1) * step_.row_size;
+  kick(p);
+}
+
+void FreeBodies::advance() {
+  first_kick();
+  for (int s = 1; s <= step_.substeps; ++s) substep(s);
+}
+
+void FreeBodies::evaluate(Span<const BodyPose> poses) {
+  touch(poses, 0);
+  BodyPass p = pass();
+  p.by_grains = grain_sums_.data();
+  p.by_contacts = ball_sums_.data();
+  kick(p);
+}
+
+TouchLoads FreeBodies::record(Index grains) {
+  const int room = std::min(size(), kMostWallContacts);
+  grain_slots_.resize(std::size_t(grains) * room);
+  grain_counts_.resize(grains);
+  grain_loads_ = {grain_slots_.data(), grain_counts_.data(), grains, room};
+  return grain_loads_;
+}
+
+/// Balls against surfaces, then the sums over what they and the grains have recorded.
+void FreeBodies::touch(Span<const BodyPose> poses, double dt) {
+  const GrainConfig& g = config_.grain;
+  if (balls_.size() > 0)
+    for_each({0, Index(balls_.size())},
+             BallPass{frame_, walls_.view(), poses.data, constants_.data(), materials_.data(),
+                      (1 - g.nu * g.nu) / g.E, 2 * (1 + g.nu) * (2 - g.nu) / g.E, balls_,
+                      memory_pointers_.data(), memory_.count.buffer().data(), room_, dt, ball_loads_});
+  grain_sums_.zero();
+  ball_sums_.zero();
+  for (int k = 0; k < size(); ++k) {
+    const std::uint32_t body = bodies_[k].body;
+    if (grain_loads_.size > 0)
+      reduce_into(grain_sums_.data() + k, {0, grain_loads_.size}, TouchReduction{grain_loads_, body});
+    if (balls_.size() > 0)
+      reduce_into(ball_sums_.data() + k, {0, ball_loads_.size}, TouchReduction{ball_loads_, body});
+  }
+}
+
+void FreeBodies::feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force,
+                            const WallRepulsion* repulsion, const FluidStore& fluid,
+                            Span<const BodyPose> poses, double kick_time, double dt) {
+  wall_sums_.zero();
+  repulsion_sums_.zero();
+  for (int k = 0; k < size(); ++k) {
+    const std::uint32_t body = bodies_[k].body;
+    if (walls.size() > 0)
+      reduce_into(wall_sums_.data() + k, walls.owned(),
+                  WallLoadReduction{body, walls.body, walls.x0, force, poses.data});
+    if (repulsion && fluid.size() > 0)
+      reduce_into(repulsion_sums_.data() + k, fluid.owned(),
+                  BodyRepulsion{*repulsion, body, fluid.x, fluid.mass});
+  }
+  for_each(store_.owned(), AddLoads{wall_sums_, repulsion_sums_, store_.fluid_force, store_.fluid_torque});
+  if (dt == 0) return;
+  BodyPass p = pass();
+  p.fluid_kick = kick_time;
+  kick(p);
+  const double reach = 8 * config_.fluid.h() / config_.fluid.c;  // s
+  for_each(store_.owned(), BodyAccelerationPass{constants_.data(), fields(), dt, -std::expm1(-dt / reach)});
+}
+
+// -- what the host asks ------------------------------------------------------
+
+int FreeBodies::broken() const {
+  for (int k = 0; k < size(); ++k)
+    if (!finite(now_[k].translation) || !finite(now_[k].v) || !finite(now_[k].omega)) return k;
+  return -1;
+}
+
+double FreeBodies::top_speed(double time, double dt) const {
+  double top = 0;
+  for (int k = 0; k < size(); ++k) {
+    if (held(k, time + dt)) continue;
+    const RigidMotion& m = now_[k];
+    top = std::max(top, norm(m.v) + dt * norm(m.a) + sizes_[k] * (norm(m.omega) + dt * norm(m.alpha)));
+  }
+  return top;
+}
+
+std::vector<StepLimit> FreeBodies::limits(double wall_speed) const {
+  if (!any()) return {};
+  const double g = norm(config_.gravity) + config_.frame.acceleration;
+  double contact = kInfinity, turn = kInfinity;
+  for (int k = 0; k < size(); ++k) {
+    const double size = 2 * sizes_[k];
+    const double speed =
+        std::max(norm(now_[k].v) + sizes_[k] * norm(now_[k].omega) + wall_speed, std::sqrt(g * size));
+    turn = std::min(turn, 0.02 * size / std::max(speed, 1e-300));
+    const auto touches = [&](double m, double R, double E) {
+      contact = std::min(contact, 2.8683 * std::pow(m * m / (R * E * E * speed), 0.2));
+    };
+    if (speed == 0) continue;
+    const double wall_give = (1 - config_.grain.nu * config_.grain.nu) / config_.grain.E;
+    if (balls_.size() > 0)
+      touches(1 / (2 * eases_[k]), contact_radius_, 1 / (give_ + std::min(give_, wall_give)));
+    if (config_.grain.present && config_.contact.normal == "hertz") {
+      const double R = 0.5 * config_.grain.d_min, m = 4.0 / 3.0 * M_PI * R * R * R * config_.grain.rho;
+      touches(1 / (1 / m + eases_[k]), R, 0.5 / wall_give);
+    }
+  }
+  std::vector<StepLimit> all;
+  if (std::isfinite(contact)) all.push_back({"body contact", config_.time.contact * contact});
+  all.push_back({"body turn", turn});
+  return all;
+}
+
+double FreeBodies::stable_dt(double wall_speed) const {
+  double least = kInfinity;
+  for (const StepLimit& limit : limits(wall_speed)) least = std::min(least, limit.seconds);
+  return least;
+}
+
+BodyForces FreeBodies::forces(int k) const {
+  const auto at = [&](const Field<Vec3d>& field) { return field.values()[k]; };
+  return {at(store_.grain_force),    at(store_.grain_torque), at(store_.contact_force),
+          at(store_.contact_torque), at(store_.fluid_force),  at(store_.fluid_torque)};
+}
+
+LoadSum FreeBodies::contact_load(int body) const {
+  if (ball_loads_.size == 0) return LoadSum::zero();
+  return reduce({0, ball_loads_.size}, TouchReduction{ball_loads_, std::uint32_t(body)});
+}
+
+BodyTotals FreeBodies::totals() const {
+  BodyTotals t;
+  if (!any()) return t;
+  const auto x = store_.x.values(), v = store_.v.values(), spin = store_.spin.values();
+  const auto q = store_.rotation.values();
+  for (int k = 0; k < size(); ++k) {
+    const RigidBody& b = bodies_[k];
+    const Quat<double> turn = to_quat(q[k]);
+    const Vec3d centre = x[k] + turn.rotate(b.arm);
+    // of a body that only turns, `spin` is all there is, about its pivot
+    const Vec3d u = b.move == BodyMove::none ? cross(b.omega(turn, spin[k]), centre - x[k]) : v[k];
+    const double moving = 0.5 * b.mass * norm2(u);
+    t.mass += b.mass;
+    t.momentum += b.mass * u;
+    t.angular += cross(x[k], b.mass * u) + spin[k];
+    t.kinetic += moving;
+    t.rotational += b.turning_energy(turn, spin[k]) - (b.move == BodyMove::none ? moving : 0);
+    t.potential -= b.mass * dot(config_.gravity, centre);
+  }
+  return t;
+}
+
+void FreeBodies::save(std::vector<HostStore>& stores) const {
+  if (!any()) return;
+  stores.push_back(store_.save());
+  if (balls_.size() > 0) stores.push_back(memory_.save());
+}
+
+}  // namespace bedload::inline BL_VARIANT

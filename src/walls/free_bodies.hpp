@@ -1,0 +1,154 @@
+#pragma once
+// Bodies that move by the forces on them: their state, their contacts with other bodies, their substeps.
+// Grains and fluid meet them as walls, by their poses.
+
+#include <memory>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+#include "bedload/parallel/loops.hpp"
+#include "bedload/particles/bodies.hpp"
+#include "bedload/particles/fluid.hpp"
+#include "bedload/particles/walls.hpp"
+#include "bedload/simulation.hpp"
+#include "kernels/bodies/ball_contacts.hpp"
+#include "kernels/bodies/body_kicks.hpp"
+#include "kernels/fluid/wall_repulsion.hpp"
+#include "src/walls/wall_geometry.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// What a body feels, about its reference point, N and N m.
+struct BodyForces {
+  Vec3d grain_force, grain_torque, contact_force, contact_torque, fluid_force, fluid_torque;
+};
+
+/// Sums over the free bodies.
+struct BodyTotals {
+  double mass = 0, kinetic = 0, rotational = 0, potential = 0;  ///< kg, J; of the centres, about them
+  Vec3d momentum, angular;                                      ///< kg m/s; about the origin, kg m2/s
+};
+
+class FreeBodies {
+ public:
+  /// `walls`: surfaces that stop grains, which bodies meet too; must outlive this.
+  FreeBodies(const Config& config, const Frame& frame, const WallGeometry& walls);
+
+  int size() const { return int(bodies_.size()); }
+  bool any() const { return !bodies_.empty(); }
+  /// Place among the free bodies, -1 for a body that is none.
+  int place_of(int body) const { return places_[body]; }
+  const RigidBody* constants() const { return constants_.data(); }
+  /// While the grains settle the bodies are held.
+  void settle(bool on) { settling_ = on; }
+
+  /// Puts the bodies as they are into rows of poses, on the device.
+  void write(Span<BodyPose> poses, int row_size, int rows, double time) const;
+  /// Their mean motion over the last step into one row.
+  void write_middle(Span<BodyPose> row, double dt) const;
+
+  // One step: begin, then first_kick, a substep for each row of poses but the first, and the fluid's kick.
+  /// poses: [substeps + 1][row_size], as the bodies are now; what grains did at the last evaluation and the
+  /// fluid at the last step end is known. fluid_kick (s): of the fluid's force at the start of the step.
+  void begin(Span<BodyPose> poses, int row_size, double time, double dt, int substeps, double fluid_kick,
+             const std::vector<Vec3d>& gravity);
+  void first_kick();
+  /// Contacts where the bodies are in row s, with what the grains have recorded there, then kicks and drift.
+  void substep(int s);
+  /// All substeps, where there are no grains.
+  void advance();
+  /// Contacts as the bodies are, with no time passing; poses: one row.
+  void evaluate(Span<const BodyPose> poses);
+
+  /// Where `grains` grains record what they do to bodies, until the next evaluation.
+  TouchLoads record(Index grains);
+
+  /// Takes the fluid's force from the wall particles [walls] and repulsion at the end of a step and kicks
+  /// with it; dt: of the step, 0 at the start of a run. poses: one row.
+  void feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force, const WallRepulsion* repulsion,
+                  const FluidStore& fluid, Span<const BodyPose> poses, double kick, double dt);
+
+  /// Copies places and velocities to the host.
+  void read_back();
+  /// As read back last.
+  const RigidMotion& motion(int place) const { return now_[place]; }
+  /// The first body whose state is not finite, -1 if all are well.
+  int broken() const;
+  /// Largest speed of a point of a body, m/s, dt from now if nothing else pushes it.
+  double top_speed(double time, double dt = 0) const;
+  bool held(int place, double time) const { return settling_ || time < bodies_[place].release; }
+
+  /// Limits on a substep: "body contact", "body turn". wall_speed: of prescribed walls, m/s.
+  std::vector<StepLimit> limits(double wall_speed) const;
+  double stable_dt(double wall_speed) const;
+
+  BodyForces forces(int place) const;
+  /// Force and torque by free bodies on any wall body, of the last substep in this run.
+  LoadSum contact_load(int body) const;
+  BodyTotals totals() const;
+
+  void save(std::vector<HostStore>& stores) const;
+  /// `find(name)`: the store of that name.
+  template <class Find>
+  void load(const Find& find) {
+    if (!any()) return;
+    const auto fits = [&](const HostStore& saved, const Store& own) {
+      if (saved.count != own.size())
+        throw FileError("checkpoint: it was made with other free bodies, or other balls by which they touch");
+    };
+    fits(find("bodies"), store_);
+    store_.load(find("bodies"));
+    if (balls_.size() > 0) {
+      fits(find("body_contacts"), memory_);
+      memory_.load(find("body_contacts"));
+      point_at_memory();
+    }
+    read_back();
+  }
+
+ private:
+  void add(const Config& config, std::uint32_t body);
+  void point_at_memory();
+  BodyFields fields() const;
+  void touch(Span<const BodyPose> poses, double dt);
+  BodyPass pass() const;
+  void kick(const BodyPass& pass) { for_each(store_.owned(), pass); }
+
+  Config config_;
+  Frame frame_;
+  const WallGeometry& walls_;
+  bool settling_ = false;
+  std::vector<int> places_;
+  std::vector<RigidBody> bodies_;
+  std::vector<double> sizes_, eases_;  ///< half diagonals, m; largest 1/effective mass, 1/kg
+  std::vector<RigidMotion> now_;
+  double contact_radius_ = 0, give_ = 0;  ///< smallest R*, m; least sum of compliances, 1/Pa
+
+  mutable BodyStore store_;  ///< kernels take its spans from const members too
+  Buffer<RigidBody> constants_;
+  Buffer<BodyMaterial> materials_;
+  Buffer<TouchBall> balls_;
+  /// [room][balls], as one list
+  struct Memory : Store {
+    Memory() : Store("body_contacts") {}
+    Field<WallMemory> memory{*this, "memory", "-, -, m, N m, m, m/s", Lifetime::kept};
+    Field<Index> count{*this, "count", "-", Lifetime::kept};  ///< of a ball; the rest unused
+  } memory_;
+  int room_ = 0;
+  Buffer<WallMemory*> memory_pointers_;
+
+  Buffer<TouchLoad> grain_slots_, ball_slots_;
+  Buffer<Index> grain_counts_, ball_counts_;
+  TouchLoads grain_loads_, ball_loads_;
+  Buffer<LoadSum> grain_sums_, ball_sums_, wall_sums_, repulsion_sums_;
+  Buffer<RigidMotion> report_;
+
+  struct Step {
+    Span<BodyPose> poses;
+    int row_size = 0, substeps = 0;
+    double time = 0, dt = 0, fluid_kick = 0;
+    std::vector<Vec3d> gravity;
+  } step_;
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,96 @@
+// Free bodies as a case gives them.
+
+#include <gtest/gtest.h>
+
+#include "support.hpp"
+
+namespace bedload::test {
+namespace {
+
+std::string with_body(
+    const std::string& free,
+    const std::string& body = "shape = \"box\"\nmin = [0.1, 0.02, 0.12]\nmax = [0.14, 0.06, 0.14]\n") {
+  return changed("[grain]\n",
+                 "[[wall.body]]\nname = \"raft\"\n" + body + "[wall.body.free]\n" + free + "[grain]\n");
+}
+
+TEST(FreeBodyCase, TakesMassFromTheShapeAndMaterialFromTheGrains) {
+  const Config c = read(with_body("density = 500\n"), {"grain.mu=0.45"});
+  const FreeConfig& f = c.wall.bodies[1].free;
+  ASSERT_TRUE(f.present);
+  EXPECT_FALSE(c.wall.bodies[0].free.present);
+  EXPECT_NEAR(f.solid.mass, 500 * 0.04 * 0.04 * 0.02, 1e-15);
+  EXPECT_NEAR(f.solid.centre.z, 0.13, 1e-15);
+  EXPECT_NEAR(f.solid.inertia[2], f.solid.mass * 0.0032 / 12, 1e-15);
+  EXPECT_EQ(f.mu, 0.45);
+  EXPECT_EQ(f.E, 1e8);
+  EXPECT_NEAR(f.contact_spacing, 0.005, 1e-15);
+  EXPECT_TRUE(c.wall.bodies[1].moves());
+  EXPECT_EQ(c.out.bodies, "moving");
+}
+
+TEST(FreeBodyCase, ReadsBackAsResolved) {
+  const Config c =
+      read(with_body("mass = 0.1\nturn = \"axis\"\nmove = \"none\"\naxis = [0, 3, 4]\n"
+                     "point = [0.1, 0.02, 0.13]\nspin = [0, 3, 4]\nmu = 0\nfluid = false\n"
+                     "[[wall.body.free.contact]]\ncentre = [0.1, 0.03, 0.13]\nradius = 0.002\n"));
+  const FreeConfig& f = c.wall.bodies[1].free;
+  EXPECT_EQ(f.axis, Vec3d(0, 0.6, 0.8));
+  EXPECT_EQ(f.mu, 0);
+  ASSERT_EQ(f.balls.size(), 1u);
+  Config again = read(resolved_toml(c));
+  EXPECT_EQ(again.wall, c.wall);
+}
+
+TEST(FreeBodyCase, NeedsNeitherFluidNorGrains) {
+  const Config c = read(
+      "[domain]\nmin = [0, 0, 0]\nmax = [1, 1, 1]\n[[wall.body]]\nname = \"a\"\nshape = \"box\"\n"
+      "min = [0, 0, 0]\nmax = [0.1, 0.1, 0.1]\nfree = { density = 100 }\n[time]\nend = 1\n[out]\nevery = "
+      "1\n");
+  EXPECT_EQ(c.wall.free_bodies(), 1);
+}
+
+struct Wrong {
+  const char* free;
+  const char* message;
+};
+
+TEST(FreeBodyCase, ErrorsAreOneSentence) {
+  for (const Wrong& w : {
+           Wrong{"spin = [0, 0, 1]\n",
+                 "dam.toml:20: wall.body.free must have exactly one of density and mass"},
+           {"mass = 1\ndensity = 2\n",
+            "dam.toml:20: wall.body.free must have exactly one of density and mass"},
+           {"density = -3\n", "dam.toml:21: wall.body.free.density = -3 must be > 0"},
+           {"density = 3\ninertia = [1, 2]\n",
+            "dam.toml:22: wall.body.free.inertia = [1, 2] must hold 6 numbers"},
+           {"density = 3\ninertia = [1, 1, 3, 0, 0, 0]\n",
+            "dam.toml:22: wall.body.free.inertia = [1, 1, 3, 0, 0, 0] must be of a solid: principal moments "
+            "above "
+            "0, none above the sum of the other two"},
+           {"density = 3\nturn = \"axis\"\n",
+            "dam.toml:20: wall.body.free.axis must be given (direction for free.move and free.turn)"},
+           {"density = 3\nturn = \"axis\"\naxis = [0, 0, 0]\n",
+            "dam.toml:23: wall.body.free.axis = [0, 0, 0] must not be zero"},
+           {"density = 3\npoint = [0, 0, 0]\n",
+            "dam.toml:22: wall.body.free.point = [0, 0, 0] has no use here; leave it out or change what it "
+            "belongs "
+            "to"},
+           {"density = 3\nmove = \"up\"\n",
+            "dam.toml:22: wall.body.free.move = \"up\" must be one of all, plane, axis, none"},
+           {"density = 3\n[wall.body.motion]\nkind = \"velocity\"\nvelocity = [1, 0, 0]\n",
+            "dam.toml:20: wall.body \"raft\" must have only one of motion and free"},
+       })
+    EXPECT_EQ(error_of(with_body(w.free)), w.message);
+  EXPECT_EQ(
+      error_of(with_body("density = 3\n", "shape = \"tank\"\nmin = [0, 0, 0]\nmax = [0.1, 0.1, 0.1]\n")),
+      "dam.toml:20: wall.body.free needs mass, centre_of_mass and inertia; shape = \"tank\" is not closed, "
+      "so "
+      "they do not follow from it");
+  EXPECT_EQ(
+      error_of(with_body("density = 3\n", "shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n")),
+      "dam.toml:17: wall.body.shape = \"plane\" must not move freely; it has no end");
+}
+
+}  // namespace
+}  // namespace bedload::test

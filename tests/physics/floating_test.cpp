@@ -1,0 +1,225 @@
+// Bodies that move freely in fluid.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bedload/geometry/sampling.hpp"
+#include "tests/support/free_body.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// Fluid where `wet` says on a lattice that leaves out the bodies, and their wall particles.
+template <class Wet>
+bedload::Setup laid(const Config& c, const Wet& wet) {
+  bedload::Setup setup;
+  const double dx = c.fluid.dx;
+  const Vec3d &lo = c.domain.min, &hi = c.domain.max;
+  for (double z = lo.z + dx / 2; z < hi.z; z += dx)
+    for (double y = lo.y + dx / 2; y < hi.y; y += dx)
+      for (double x = lo.x + dx / 2; x < hi.x; x += dx) {
+        bool clear = wet(Vec3d{x, y, z});
+        for (const WallBody& body : c.wall.bodies)
+          clear = clear && wall_distance(body, {x, y, z}, 0.1, c.domain) > 0;
+        if (!clear) continue;
+        setup.fluid.x.push_back({x, y, z});
+        setup.fluid.v.push_back({});
+        setup.fluid.mass.push_back(c.fluid.rho0 * dx * dx * dx);
+      }
+  std::vector<std::string> warnings;
+  add_walls(c, setup.walls, warnings);
+  return setup;
+}
+
+Config wet_case(double half, double dx) {
+  Config c = periodic_box(2, dx);
+  c.domain.periodic = {false, false, false};
+  c.domain.min = {-half, -half, -half};
+  c.domain.max = {half, half, half};
+  c.time.end = 10;
+  return c;
+}
+
+/// A box that drives through a drop, without gravity or walls.
+Config drop(const std::string& viscosity) {
+  Config c = wet_case(0.1, 0.01);
+  c.visc.model = viscosity;
+  c.fluid.mu = 1;
+  c.wall.rep_D = 0.5;
+  WallBody box = solid("box", make_box({-0.03, -0.03, -0.03}, {0.03, 0.03, 0.03}));
+  set_free(box, 800).free.velocity = {0.3, -0.1, 0.2};
+  box.free.spin = {1, 4, -2};
+  c.wall.bodies = {box};
+  return c;
+}
+
+TEST(FreeBodyInFluid, ClosedSystemKeepsMomenta) {
+  for (const char* viscosity : {"none", "morris"}) {
+    const Config c = drop(viscosity);
+    auto s = started(c, laid(c, [](const Vec3d& x) {
+                       return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) < 0.06;
+                     }));
+    const auto total = [&](const char* what) {
+      const auto d = s->diagnostics();
+      return vector_of(d, std::string("fluid_") + what) + vector_of(d, std::string("body_") + what);
+    };
+    const Vec3d p = total("momentum"), l = total("angular_momentum");
+    const double scale = norm(p);
+    double pushed = 0;
+    for (int k = 0; k < 200; ++k) {
+      s->step();
+      pushed = std::max(pushed, norm(vector_of(s->body_state(0), "force_by_fluid")));
+    }
+    ASSERT_GT(pushed, 1);
+    EXPECT_LT(norm(vector_of(s->diagnostics(), "body_momentum")), 0.95 * scale) << "the fluid has taken some";
+    EXPECT_LT(norm(total("momentum") - p), 10 * kInvariant * scale) << viscosity;
+    // Morris viscosity is not central: it keeps no angular momentum, with or without bodies
+    if (c.visc.model == "none") {
+      EXPECT_LT(norm(total("angular_momentum") - l), 10 * kInvariant * scale * 0.05);
+    }
+  }
+}
+
+TEST(FreeBodyInFluid, MayBeDeafToItWhileTheFluidFeelsTheBody) {
+  Config c = drop("none");
+  c.wall.bodies[0].free.fluid = false;
+  auto s = started(c, laid(c, [](const Vec3d& x) {
+                     return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) < 0.06;
+                   }));
+  for (int k = 0; k < 100; ++k) s->step();
+  EXPECT_LT(norm(vector_of(s->body_state(0), "velocity") - Vec3d{0.3, -0.1, 0.2}), 1e-12);
+  EXPECT_GT(norm(vector_of(s->body_state(0), "force_by_fluid")), 0.1);
+  EXPECT_GT(norm(vector_of(s->diagnostics(), "fluid_momentum")), 0.01);
+}
+
+/// Fluid, grains and a body, all pushing each other.
+TEST(SmallFreeBody, FluidGrainsAndBodyKeepMomentaTogether) {
+  Config c = drop("none");
+  c.grain.present = true;
+  c.grain.d = c.grain.d_min = c.grain.d_max = 6e-3;
+  c.grain.E = 1e6;
+  c.couple.hc = 0.015;
+  const auto within = [](const Vec3d& x) {
+    return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) < 0.06;
+  };
+  bedload::Setup setup = laid(c, within);
+  for (int k = 0; k < 12; ++k) {  // one beside each face touches at once
+    const double side = k % 2 ? 1 : -1;
+    Vec3d x{0.004 * (k / 6), 0.007 * (k / 6) - 0.003, 0.005};
+    x[(k / 2) % 3] = side * (k < 6 ? 0.0329 : 0.045);
+    setup.grains.x.push_back(x);
+    setup.grains.v.push_back({0.1 * side, -0.05, 0.02});
+    setup.grains.radius.push_back(3e-3);
+  }
+  auto s = started(c, setup);
+  const auto total = [&](const char* what) {
+    const auto d = s->diagnostics();
+    Vec3d sum;
+    for (const char* of : {"fluid_", "grain_", "body_"}) sum += vector_of(d, std::string(of) + what);
+    return sum;
+  };
+  const Vec3d p = total("momentum"), l = total("angular_momentum");
+  double by_fluid = 0, by_grains = 0;
+  for (int k = 0; k < 60; ++k) {
+    s->step();
+    const auto b = s->body_state(0);
+    by_fluid = std::max(by_fluid, norm(vector_of(b, "force_by_fluid")));
+    by_grains = std::max(by_grains, norm(vector_of(b, "force_by_grains")));
+  }
+  EXPECT_GT(by_fluid, 1);
+  EXPECT_GT(by_grains, 0.1);
+  EXPECT_LT(norm(total("momentum") - p), 10 * kInvariant * norm(p));
+  EXPECT_LT(norm(total("angular_momentum") - l), 10 * kInvariant * norm(p) * 0.05);
+}
+
+// -- floating -------------------------------------------------------------------
+
+constexpr double kDepth = 0.08, kSide = 0.16, kDraught = 0.02;  // of the water, its tank, the slab at first
+
+Config tank_with_slab(double density) {
+  const double dx = 0.01;
+  Config c = wet_case(0.5 * kSide, dx);
+  c.domain.min.z = 0, c.domain.max.z = 0.2;
+  c.gravity = {0, 0, -9.81};
+  c.fluid.c = 15, c.fluid.vmax = 1.5;
+  c.density.delta = 0.1;
+  c.visc.alpha = 0.2;  // to come to rest
+  c.wall.rep_D = 5 * 9.81 * kDepth;
+  WallBody tank;
+  tank.name = tank.shape = "tank";
+  tank.min = c.domain.min, tank.max = c.domain.max;
+  tank.faces[5] = false;
+  WallBody slab =
+      solid("slab", make_box({-0.04, -0.04, kDepth - kDraught}, {0.04, 0.04, kDepth - kDraught + 0.04}));
+  set_free(slab, density);
+  c.wall.bodies = {tank, slab};
+  // room for the layers of the tank
+  for (int k = 0; k < 2; ++k) c.domain.min[k] -= 0.04, c.domain.max[k] += 0.04;
+  c.domain.min.z = -0.04;
+  return c;
+}
+
+bedload::Setup filled(const Config& c) {
+  return laid(c, [](const Vec3d& x) {
+    return std::max(std::abs(x.x), std::abs(x.y)) < 0.5 * kSide && x.z > 0 && x.z < kDepth;
+  });
+}
+
+class SlowFloat : public testing::TestWithParam<double> {};
+
+TEST_P(SlowFloat, RestsAtArchimedesDepth) {
+  const double density = GetParam();
+  const Config c = tank_with_slab(density);
+  auto s = started(c, filled(c));
+  run_until(*s, 2);
+  double z = 0, n = 0;
+  while (s->time() < 2.5) {
+    s->step();
+    z += reading(s->body_state(1), "centre_z") - 0.02, n += 1;
+  }
+  const double area = 0.08 * 0.08, draught = 0.04 * density / 1000;
+  const double water = kSide * kSide * kDepth - area * kDraught,
+               level = (water + area * draught) / (kSide * kSide);
+  EXPECT_NEAR(z / n, level - draught, 0.5 * c.fluid.dx);
+  const auto b = s->body_state(1);
+  EXPECT_NEAR(reading(b, "force_by_fluid_z") / (9.81 * c.wall.bodies[1].free.solid.mass), 1, 0.1);
+  EXPECT_LT(norm(vector_of(b, "velocity")), 0.02);
+  EXPECT_GT(rotation_of(b).rotate({0, 0, 1}).z, std::cos(0.15)) << "upright";
+}
+
+INSTANTIATE_TEST_SUITE_P(Densities, SlowFloat, testing::Values(300.0, 500.0, 600.0));
+
+TEST(FreeBodyInFluid, PushesALightRaftUpSmoothly) {
+  // a twentieth of the density of water; wall pressure that took its last acceleration would tear the fluid
+  const Config c = tank_with_slab(50);
+  auto s = started(c, filled(c));
+  const double weight = 9.81 * c.wall.bodies[1].free.solid.mass,
+               buoyancy = 9.81 * 1000 * 0.08 * 0.08 * kDraught;
+  double last = 0;
+  for (int k = 0; k < 200; ++k) {
+    s->step();
+    const auto b = s->body_state(1);
+    const double force = reading(b, "force_by_fluid_z"), v = reading(b, "velocity_z");
+    EXPECT_LT(std::abs(force), buoyancy + weight);
+    EXPECT_LT(std::abs(v - last), 0.01) << "from step to step";
+    last = v;
+  }
+  EXPECT_GT(last, 0.05);
+}
+
+TEST(FreeBodyInFluidRestart, GoesOnBitForBit) {
+  const Config c = tank_with_slab(400);
+  const bedload::Setup setup = filled(c);
+  auto whole = started(c, setup);
+  for (int k = 0; k < 60; ++k) whole->step();
+  auto second = make_coupled(c, setup);
+  second->load(whole->save());
+  for (int k = 0; k < 60; ++k) whole->step(), second->step();
+  EXPECT_EQ(bits(*whole), bits(*second));
+  EXPECT_NE(reading(whole->body_state(1), "centre_z"), c.wall.bodies[1].free.solid.centre.z);
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
