@@ -40,7 +40,8 @@ struct HalfSpaceShare {
 
 /// Share of the kernel around a point that walls leave free. Each extent is taken for itself: exact for
 /// planes and for tanks up to the kernel's deviation from a product of three. A curved surface counts as the
-/// plane through its foot; feet that look the same way hide the same.
+/// plane through its foot; feet that look the same way hide the same, and those on the far side of a wall,
+/// which are seen from behind, hide nothing more.
 struct WallFreeShare {
   HalfSpaceShare half_space;
   Frame frame;
@@ -72,14 +73,20 @@ struct WallFreeShare {
     Vec3d normals[kFeet];
     int feet = 0;
     Real share = 1;
+    double nearest = reach, within = 0;  // depth of a place inside the wall, to its nearest face
     view.each_foot(walls, reach, 1e-4 * reach, [&](const Foot& foot) {
+      if (std::abs(foot.distance) < nearest) {
+        nearest = std::abs(foot.distance);
+        within = min_of(foot.distance, 0.0);
+      }
+      if (foot.distance < 0) return;
       Real fresh = 1;
       for (int k = 0; k < feet; ++k)
         fresh = min_of(fresh, max_of(Real(0), 1 - Real(dot(normals[k], foot.normal))));
       share *= 1 - fresh * (1 - half_space(foot.distance));
       if (feet < kFeet) normals[feet++] = foot.normal;
     });
-    return share;
+    return within < 0 ? share * half_space(within) : share;
   }
   BL_HD Real behind(const Surface& s, const Vec3d& r) const {
     const double p[3] = {dot(r, s.axis[0]), dot(r, s.axis[1]), dot(r, s.axis[2])};

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "bedload/core/error.hpp"
+#include "geometry/fill_region.hpp"
 #include "geometry/fill_velocity.hpp"
 #include "geometry/shape_fill.hpp"
 
@@ -30,7 +32,7 @@ void check_fill(const Config& config, std::size_t index) {
           index + 1, "xyz"[k], fill.min[k], fill.max[k], config.domain.min[k], config.domain.max[k]));
   }
   for (std::size_t other = 0; other < index; ++other) {
-    // boxes around shapes and listed particles may overlap
+    // shapes are looked at particle by particle, as are those listed
     bool apart = fill.solid.shape || fills[other].solid.shape || !fills[other].file.empty();
     for (int k = 0; k < 3; ++k)
       apart |= fill.min[k] > fills[other].max[k] - slack || fills[other].min[k] > fill.max[k] - slack;
@@ -40,10 +42,8 @@ void check_fill(const Config& config, std::size_t index) {
 
 void add_shape(const Config& config, std::size_t index, Setup::Fluid& fluid) {
   const FluidFill& fill = config.fluid.fills[index];
-  const double g = norm(config.gravity);
-  const Vec3d up = g > 0 ? config.gravity * (-1 / g) : Vec3d{0, 0, 1};
   double volume = 0;
-  const auto places = fill_shape(*fill.solid.shape, up, fill.level, config.fluid.dx, volume);
+  const auto places = fill_shape(*fill.solid.shape, upwards(config), fill.level, config.fluid.dx, volume);
   const auto fail = [&](const std::string& why) {
     throw CaseError(fmt::format("fluid.fill {}: {}", index + 1, why));
   };
@@ -62,11 +62,30 @@ void add_shape(const Config& config, std::size_t index, Setup::Fluid& fluid) {
   }
 }
 
+/// No particle may lie in what another fill occupies; `first`: of each fill. Boxes have been compared as
+/// such.
+void check_shapes(const Config& config, const Setup::Fluid& fluid, const std::vector<std::size_t>& first) {
+  const auto& fills = config.fluid.fills;
+  const Vec3d up = upwards(config);
+  for (std::size_t other = 0; other < fills.size(); ++other)
+    for (std::size_t index = 0; index < fills.size(); ++index) {
+      if (index == other || !(fills[index].solid.shape || fills[other].solid.shape)) continue;
+      for (std::size_t a = first[index]; a < first[index + 1]; ++a) {
+        const Vec3d& x = fluid.x[a];
+        if (depth_in(fills[other], up, x) > 0.1 * config.fluid.dx)
+          throw CaseError(fmt::format("fluid.fill {} overlaps fluid.fill {} at ({:g}, {:g}, {:g}) m",
+                                      std::max(index, other) + 1, std::min(index, other) + 1, x.x, x.y, x.z));
+      }
+    }
+}
+
 }  // namespace
 
 void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::string>& warnings) {
   const double dx = config.fluid.dx;
+  std::vector<std::size_t> first;
   for (std::size_t index = 0; index < config.fluid.fills.size(); ++index) {
+    first.push_back(fluid.x.size());
     if (!config.fluid.fills[index].file.empty()) continue;
     check_fill(config, index);
     const FluidFill& fill = config.fluid.fills[index];
@@ -102,6 +121,8 @@ void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::strin
           fluid.mass.push_back(mass);
         }
   }
+  first.push_back(fluid.x.size());
+  check_shapes(config, fluid, first);
 }
 
 }  // namespace bedload

@@ -9,6 +9,7 @@
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/lattice.hpp"
 #include "bedload/geometry/sampling.hpp"
+#include "geometry/fill_region.hpp"
 #include "geometry/fill_velocity.hpp"
 
 namespace bedload {
@@ -91,16 +92,9 @@ class ListedFluid {
         fail(fmt::format("lies inside wall.body \"{}\"", body.name));
     }
     for (std::size_t other = 0; other < config_.fluid.fills.size(); ++other)
-      if (other != index && inside(config_.fluid.fills[other], x))
+      if (other != index && depth_in(config_.fluid.fills[other], upwards(config_), x) > 1e-6 * dx)
         fail(fmt::format("lies inside fluid.fill {}", other + 1));
     if (places_.taken(x)) fail("lies on another fluid particle");
-  }
-
-  bool inside(const FluidFill& fill, const Vec3d& x) const {
-    const double slack = 1e-6 * config_.fluid.dx;
-    bool in = fill.file.empty();
-    for (int k = 0; k < 3; ++k) in = in && x[k] > fill.min[k] + slack && x[k] < fill.max[k] - slack;
-    return in;
   }
 
   const Config& config_;

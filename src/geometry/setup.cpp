@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/filter.hpp"
 #include "bedload/geometry/lattice.hpp"
 #include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/packing.hpp"
@@ -39,7 +40,10 @@ Setup build_setup(const Config& config, std::vector<std::string>& warnings) {
     add_walls(config, setup.walls, warnings);
     add_inlets(config, setup.fluid, setup.walls);
   }
-  if (config.grain.present) add_grains(config, setup.grains);
+  if (config.grain.present) {
+    check_filters(config, warnings);
+    add_grains(config, setup.grains);
+  }
   return setup;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bedload/geometry/shape.hpp"
 #include "tests/support/coupled_box.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -75,6 +76,36 @@ TEST(Porosity, KnowsWhatShareOfTheKernelWallsLeave) {
   EXPECT_EQ(share({0.3, 0, 0.25}), Real(1));
   pose[1].present = 1;
   EXPECT_NEAR(share({0, 0, 0}), 0.25, 1e-6);
+}
+
+/// The far side of a thin wall is seen from behind: a pipe and a vessel without end around the same bore
+/// agree.
+TEST(Porosity, DoesNotSeeTheFarSideOfAThinWall) {
+  const auto lies_in = [](ShapePtr shape) {
+    Config c = unit_box(0.1, 1e-3);
+    c.wall.bodies.resize(1);
+    c.wall.bodies[0].shape = "vessel";
+    c.wall.bodies[0].solid.shape = shape;
+    std::mt19937_64 random(8);
+    const auto at = random_points(300, {0.3, 0.3, 0.4}, {0.7, 0.7, 0.6}, random);
+    CoupledBox box(c, fluid_at(at, 0.1, 1000, 1),
+                   random_grains(60, {0.3, 0.3, 0.2}, {0.7, 0.7, 0.8}, 0.05, random));
+    const std::vector<BodyPose> still(1);
+    Buffer<BodyPose> poses;
+    poses.assign(still);
+    box.coupling.porosity(box.fluid, box.grains, poses);
+    return box.fluid.eps.values();
+  };
+  const Vec3d a{0.5, 0.5, 0}, b{0.5, 0.5, 1};
+  const auto thin = lies_in(make_pipe(a, b, 0.3, 0.32, PipeEnds::open));
+  const auto thick = lies_in(make_hollow(make_cylinder(a, b, 0.3), 0.5));
+  ASSERT_EQ(thin.size(), thick.size());
+  std::size_t beside = 0;
+  for (std::size_t n = 0; n < thin.size(); ++n) {
+    EXPECT_NEAR(thin[n], thick[n], 1e-6);
+    beside += thin[n] < 1 && thin[n] > 0.25;
+  }
+  EXPECT_GT(beside, 200u);
 }
 
 TEST(Porosity, FollowsGrainsThatMoveWithinTheSkin) {

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "bedload/geometry/shape.hpp"
 #include "support.hpp"
 
 namespace bedload::test {
@@ -90,6 +91,28 @@ TEST(FluidLattice, RefusesFillsThatOverlap) {
   EXPECT_EQ(error_of(config), "");
   add_fill(config, {0.15, 0.05, 0.05}, {0.3, 0.1, 0.1});
   EXPECT_EQ(error_of(config), "fluid.fill 3 overlaps fluid.fill 2");
+}
+
+TEST(FluidLattice, RefusesShapesThatOverlap) {
+  Config config = empty_case({1, 1, 1});
+  config.fluid.dx = 0.02;
+  const auto add_shape = [&](ShapePtr shape, double level = INFINITY) {
+    FluidFill fill{shape->bounds().min, shape->bounds().max};
+    fill.solid.shape = shape;
+    fill.level = level;
+    config.fluid.fills.push_back(fill);
+  };
+  add_fill(config, {0.2, 0.2, 0.2}, {0.4, 0.4, 0.4});
+  add_shape(make_box({0.2, 0.2, 0.4}, {0.4, 0.4, 0.5}));  // on top of the box
+  add_shape(make_sphere({0.5, 0.5, 0.3}, 0.13), 0.3);     // apart, though its bounds meet the box'
+  EXPECT_EQ(error_of(config), "");
+  auto& fills = config.fluid.fills;
+  fills.pop_back();
+  add_shape(make_sphere({0.5, 0.5, 0.3}, 0.17), 0.3);
+  EXPECT_TRUE(error_of(config).starts_with("fluid.fill 3 overlaps fluid.fill 1 at (0.3")) << error_of(config);
+  fills.pop_back();
+  add_shape(make_sphere({0.3, 0.3, 0.45}, 0.04));  // within the second
+  EXPECT_TRUE(error_of(config).starts_with("fluid.fill 3 overlaps fluid.fill 2 at (")) << error_of(config);
 }
 
 TEST(FluidLattice, RefusesMoreParticlesThanIdsBeforeMakingThem) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "bedload/geometry/shape.hpp"
 #include "support.hpp"
 
 namespace bedload::test {
@@ -75,6 +76,16 @@ TEST_F(Listed, FluidMustLieInTheOpenAndNotTwice) {
   config_.fluid.fills.resize(1);
   config_.wall.bodies = {body("box", {0.04, 0.04, 0.04}, {0.07, 0.07, 0.07})};
   EXPECT_EQ(error(), "p.csv:2: fluid particle 1 at (0.05, 0.05, 0.05) m lies inside wall.body \"box\"");
+}
+
+TEST_F(Listed, FluidMayLieBesideACurvedShape) {
+  fluid("x,y,z\n0.07,0.07,0.07\n0.05,0.05,0.07\n");
+  const ShapePtr ball = make_sphere({0.05, 0.05, 0.05}, 0.03);
+  add_fill(config_, ball->bounds().min, ball->bounds().max);
+  config_.fluid.fills[1].solid.shape = ball;
+  EXPECT_EQ(error(), "p.csv:3: fluid particle 2 at (0.05, 0.05, 0.07) m lies inside fluid.fill 2");
+  config_.fluid.fills[1].level = 0.06;
+  EXPECT_EQ(error(), "");
 }
 
 TEST_F(Listed, GrainsKeepTheirSizesAndVelocities) {

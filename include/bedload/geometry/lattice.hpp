@@ -25,9 +25,9 @@ inline Cells fit_cells(double lo, double hi, double spacing) {
   return {lo, (hi - lo) / n, std::int64_t(n)};
 }
 
-/// Adds every fluid.fill that is a box: a lattice that divides each side of the box evenly, so that
+/// Adds every fluid.fill that is a box or a shape; in a box a lattice that divides each side evenly, so that
 /// it meets walls and periodic images half a spacing off. The masses of a fill are
-/// equal and add up to rho0 times its volume. Throws CaseError.
+/// equal and add up to rho0 times its volume. Fills must not overlap. Throws CaseError.
 void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::string>& warnings);
 
 /// Adds every fluid.fill that comes from a file; call it after add_fluid. Each particle weighs rho0 dx^3.
