@@ -54,6 +54,9 @@ class Simulation {
   virtual std::vector<StepLimit> limits() = 0;
   /// Bytes held on the device (or in host memory), now.
   virtual std::size_t bytes() const = 0;
+  /// Wall time that the parts of all steps took, s: "lists", "fluid", "grains", "coupling", "checks"; those that
+  /// the case has.
+  virtual std::vector<Quantity> time_spent() const = 0;
 
   /// Fields for pictures: store is "fluid", "grains" or "walls". First array: "position".
   virtual HostStore snapshot(const std::string& store) = 0;

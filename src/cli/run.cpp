@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -24,6 +25,17 @@ void refuse_other_run(const Options& o) {
       fmt::format("{}: holds a run already; use --restart to go on from it, --overwrite to replace it, or "
                   "another --out",
                   o.out.string()));
+}
+
+/// "fluid 61 %, grains 20 %, ..., files 3 %".
+std::string shares_text(const std::vector<Quantity>& parts, double all) {
+  std::string text;
+  double rest = all;
+  for (const Quantity& part : parts) {
+    text += fmt::format("{} {:.0f} %, ", part.name, 100 * part.value / all);
+    rest -= part.value;
+  }
+  return text + fmt::format("output {:.0f} %", 100 * std::max(rest, 0.0) / all);
 }
 
 class Run {
@@ -115,10 +127,12 @@ class Run {
     if (stopped)
       fmt::print("stopped at t = {:.6g} s; continue with: {} --restart {}\n", simulation_->time(),
                  options_.repeat, output_->last_checkpoint().string());
-    else
+    else {
       say(fmt::format("completed  t = {:.6g} s, {} steps in {}, {:.3g} particle-steps/s\n",
                       simulation_->time(), grouped(simulation_->steps()), duration_text(effort.wall_seconds),
                       effort.wall_seconds > 0 ? double(effort.particle_steps) / effort.wall_seconds : 0));
+      say(fmt::format("of it      {}\n", shares_text(simulation_->time_spent(), effort.wall_seconds)));
+    }
     return stopped ? kExitStopped : 0;
   }
 

@@ -12,7 +12,9 @@ namespace bedload::inline BL_VARIANT {
 StepInfo CoupledSimulation::step() {
   std::string_view binding;
   const double dt = clock_.next_dt(limits(), binding);
+  watch_.start();
   refresh_if_needed(dt);
+  watch_.lap(kLists);
 
   const double speed_before = motion_.top_speed(clock_.time);
   int substeps = 0;
@@ -22,6 +24,7 @@ StepInfo CoupledSimulation::step() {
     if (coupled()) {
       coupling_->gather(fluid_, grains_, dt);
       drag_limit_ = coupling_->stable_dt();
+      watch_.lap(kCoupling);
     }
     const auto gravity = gravity_.along(clock_.time, dt, substeps);
     const Span<BodyPose> poses = motion_.poses(clock_.time, dt, substeps);
@@ -32,7 +35,9 @@ StepInfo CoupledSimulation::step() {
                              bodies_.any() ? &bodies_ : nullptr);
     else
       bodies_.advance();
+    watch_.lap(kGrains);
     if (two_way()) coupling_->react(fluid_, grains_);
+    watch_.lap(kCoupling);
   }
   if (has_fluid()) advance_fluid(dt);
 
@@ -43,9 +48,21 @@ StepInfo CoupledSimulation::step() {
   bodies_.read_back();
   walls_moved_ += dt * std::max(speed_before, motion_.top_speed(clock_.time));
   remove_cleared_bodies();
+  watch_.lap(kFluid);
   sweep();
+  watch_.lap(kChecks);
+  watch_.stop();
   const bool rebuilt = std::exchange(rebuilt_, false);
   return {clock_.step, clock_.time, dt, substeps, binding, std::sqrt(fluid_extremes_.v2), rebuilt};
+}
+
+std::vector<Quantity> CoupledSimulation::time_spent() const {
+  std::vector<Quantity> out{{"lists", "s", watch_.seconds(kLists)}};
+  if (has_fluid()) out.push_back({"fluid", "s", watch_.seconds(kFluid)});
+  if (has_grains() || bodies_.any()) out.push_back({"grains", "s", watch_.seconds(kGrains)});
+  if (coupled()) out.push_back({"coupling", "s", watch_.seconds(kCoupling)});
+  out.push_back({"checks", "s", watch_.seconds(kChecks)});
+  return out;
 }
 
 double CoupledSimulation::longest_substep() {
@@ -85,7 +102,11 @@ void CoupledSimulation::load_bodies(double kick, double dt) {
 
 void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   FluidSolver& fluid = *fluid_solver_;
-  if (two_way()) coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1));
+  if (two_way()) {
+    watch_.lap(kFluid);
+    coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1));
+    watch_.lap(kCoupling);
+  }
   fluid.state(fluid_, predict, two_way());
   fluid.set_gravity(gravity_.at(clock_.time + dt));
   if (walls_.size() > 0)

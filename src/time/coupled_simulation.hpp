@@ -1,6 +1,7 @@
 #pragma once
 // One simulation: the state, the solvers that advance it, and the order of work in a step.
 
+#include "bedload/parallel/stopwatch.hpp"
 #include "bedload/simulation.hpp"
 #include "src/boundaries/open_boundaries.hpp"
 #include "src/coupling/coupling.hpp"
@@ -27,6 +28,7 @@ class CoupledSimulation final : public Simulation {
   Counts counts() const override { return {fluid_.size(), walls_.size(), grains_.size()}; }
   std::vector<StepLimit> limits() override;
   std::size_t bytes() const override { return bytes_held(); }
+  std::vector<Quantity> time_spent() const override;
 
   HostStore snapshot(const std::string& store) override;
   std::vector<Quantity> diagnostics() override;
@@ -63,9 +65,12 @@ class CoupledSimulation final : public Simulation {
   Span<const BodyPose> poses_now() { return motion_.poses(clock_.time, 0, 1); }
   std::vector<Vec3d> wall_loads(const Vec3d& about);  ///< per body: force then torque by fluid, N and N m
 
+  enum Part { kLists, kFluid, kGrains, kCoupling, kChecks };  ///< of a step, that are timed
+
   Config config_;
   Frame frame_;
   Clock clock_;
+  Stopwatch watch_;
   FluidStore fluid_;
   WallStore walls_;
   GrainStore grains_;

@@ -38,6 +38,7 @@ class FakeSimulation : public Simulation {
   Counts counts() const override { return {.fluid = steps_ < 10 ? 7 : 6, .walls = 4, .grains = 3}; }
   std::vector<StepLimit> limits() override { return {}; }
   std::size_t bytes() const override { return 12345; }
+  std::vector<Quantity> time_spent() const override { return {{"fluid", "s", 0.25 * double(steps_)}}; }
 
   HostStore snapshot(const std::string& store) override {
     const auto n = std::size_t(store == "fluid"    ? counts().fluid
