@@ -10,15 +10,6 @@ namespace {
 
 using namespace bedload::test;
 
-WallBody body_of(ShapePtr shape) {
-  WallBody b;
-  b.shape = "shape";
-  b.solid.shape = shape;
-  const Bounds bounds = shape->bounds();
-  b.min = bounds.min, b.max = bounds.max;
-  return b;
-}
-
 /// Refers to host memory: for geometry built in a CPU variant.
 #if !BL_CUDA
 struct Feet {

@@ -1,0 +1,132 @@
+// Nothing gets out of a vessel made of triangles, however it is shaken.
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "bedload/motion/law.hpp"
+#include "tests/boundaries/support.hpp"
+#include "tests/geometry/mesh_support.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// How much is shaken and how long: BEDLOAD_LEAK="fluid grains seconds" if that is set.
+struct Load {
+  double fluid = BL_CUDA ? 1e6 : 1e4, grains = BL_CUDA ? 1e5 : 1e3;  ///< particles, about
+  double end = BL_CUDA ? 0.5 : 0.15;                                 ///< s
+
+  Load() {
+    if (const char* given = std::getenv("BEDLOAD_LEAK")) {
+      std::istringstream text(given);
+      if (!(text >> fluid >> grains >> end)) throw std::runtime_error("BEDLOAD_LEAK: fluid, grains, seconds");
+    }
+  }
+};
+
+constexpr double kSide = 0.05, kWall = 0.02;  // m
+constexpr double kVolume = 3 * kSide * kSide * kSide;
+
+void write_stl(const std::filesystem::path& file, const TriangleSoup& soup) {
+  std::ofstream out(file);
+  out.precision(9);
+  out << "solid vessel\n";
+  for (const Triangle& t : soup.triangles) {
+    out << "facet normal 0 0 0\nouter loop\n";
+    for (const std::uint32_t v : t)
+      out << "vertex " << soup.vertices[v].x << " " << soup.vertices[v].y << " " << soup.vertices[v].z
+          << "\n";
+    out << "endloop\nendfacet\n";
+  }
+  out << "endsolid vessel\n";
+}
+
+TriangleSoup scaled(TriangleSoup soup, const Vec3d& by) {
+  for (Vec3d& x : soup.vertices) x = {x.x * by.x, x.y * by.y, x.z * by.z};
+  return soup;
+}
+
+/// An angular room with an edge that juts into it, in a block; accelerations of tens of m/s2 in all
+/// directions.
+std::string shaken(const Load& load) {
+  const double dx = std::cbrt(0.5 * kVolume / load.fluid);
+  const double d = std::cbrt(0.12 * kVolume / (M_PI / 6 * load.grains));
+  std::ostringstream text;
+  text << "[fluid]\nvmax = 2.5\ndx = " << dx << "\n[grain]\nE = 1e7\nd = " << d << "\n[couple]\nhc = " << d
+       << "\n[[grain.fill]]\nshape = \"inside\"\ncount = " << std::int64_t(load.grains)
+       << "\n[time]\nend = " << load.end << "\n[out]\nevery = 1\n"
+       << R"case([domain]
+min = [-0.12, -0.12, -0.12]
+max = [0.22, 0.22, 0.19]
+[[shape]]
+name = "inside"
+kind = "mesh"
+file = "inside.stl"
+[[shape]]
+name = "vessel"
+kind = "mesh"
+file = "vessel.stl"
+[[fluid.fill]]
+shape = "inside"
+level = 0.028
+[[wall.body]]
+name = "vessel"
+shape = "vessel"
+[wall.body.motion]
+kind = "formula"
+displacement = ["0.01*(1-cos(50*t))", "0.008*(1-cos(70*t))", "0.006*(1-cos(80*t))"]
+rotation = ["15*(1-cos(38*t))", "10*(1-cos(47*t))", 0]
+centre = [0.05, 0.05, 0.025]
+)case";
+  return text.str();
+}
+
+TEST(SlowLeak, NothingLeavesAShakenVesselOfTriangles) {
+  const Load load;
+  const test::TemporaryFolder folder;
+  const TriangleSoup inside = scaled(test::l_prism(), {kSide, kSide, kSide});
+  const Vec3d outer{2 * kSide + 2 * kWall, 2 * kSide + 2 * kWall, kSide + 2 * kWall};
+  write_stl(folder / "inside.stl", inside);
+  write_stl(folder / "vessel.stl",
+            test::together(test::moved(scaled(test::cube(), outer), {-kWall, -kWall, -kWall}),
+                           test::inside_out(inside)));
+  std::ofstream(folder / "case.toml") << shaken(load);
+  std::vector<std::string> warnings;
+  const Config config = read_case(folder / "case.toml", {}, warnings);
+  auto s = started(config);
+  const double laid = reading(*s, "fluid_count");
+  ASSERT_GT(laid, 0.8 * load.fluid);
+  ASSERT_EQ(reading(*s, "grain_count"), std::int64_t(load.grains));
+
+  const TriangleMesh room(inside, "inside");
+  const MotionLaw law(config.wall.bodies[0].motion, load.end);
+  double fluid_out = -1, grains_out = -1, fastest = 0;  // of centres beyond the inner surface, m; m/s
+  for (int look = 1; look <= 40; ++look) {
+    run_until(*s, load.end * look / 40);
+    const RigidMotion pose = law.at(s->time());
+    const auto farthest = [&](const char* store) {
+      double out = -1;
+      for (const Vec3d& x : vectors(s->snapshot(store), "position")) {
+        EXPECT_TRUE(std::isfinite(norm(x)));
+        out = std::max(out, room.distance(pose.undo(x)));
+      }
+      return out;
+    };
+    fluid_out = std::max(fluid_out, farthest("fluid"));
+    grains_out = std::max(grains_out, farthest("grains"));
+    fastest = std::max(fastest, reading(*s, "fluid_speed_max"));
+  }
+  std::cout << laid << " fluid particles, dx " << config.fluid.dx << " m, " << load.grains << " grains, d "
+            << config.grain.d << " m, " << s->steps() << " steps to " << s->time() << " s; farthest centres "
+            << fluid_out << " m (fluid) and " << grains_out << " m (grains) from the room, fastest fluid "
+            << fastest << " m/s\n";
+  EXPECT_EQ(reading(*s, "fluid_count"), laid);
+  EXPECT_EQ(reading(*s, "lost_fluid_count"), 0);
+  EXPECT_EQ(reading(*s, "grains_outside"), 0);
+  EXPECT_LT(grains_out, 0) << "no centre of a grain";
+  EXPECT_LT(fluid_out, 0.5 * config.fluid.dx) << "no fluid beyond the wall's first layer of particles";
+  EXPECT_GT(fastest, 1) << "the test means the fluid to slosh";
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
