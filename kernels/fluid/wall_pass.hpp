@@ -8,6 +8,8 @@ namespace bedload::inline BL_VARIANT {
 /// State of wall particles from the fluid beside them (Adami et al. 2012, [H (13)-(15)] with
 /// physics errata 5-7): pressure with the hydrostatic correction, porosity, no-slip velocity. The porosity of
 /// a wall is that of the fluid beside it; what its mass changes by when that does goes to continuity.
+/// Frozen and mirrored walls bring their own density, where they have one. Single layers keep rho0: fluid
+/// that comes near them grows denser by their mass and is pushed off by its own pressure alone.
 template <class W>
 struct WallPass {
   W w;
@@ -21,10 +23,9 @@ struct WallPass {
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
   Real3 gravity;   ///< m/s2
-  Real volume;     ///< of a wall particle, m3
-  Real inflow;     ///< of a particle of fluid on its way in, m3
   Real least_sum;  ///< inactive below this sum of W, 1/m3
   Span<Real4> v_rho, v_visc, m_state;
+  Span<Real> compression;
 
   template <class N = Real>
   struct Sum {
@@ -62,14 +63,27 @@ struct WallPass {
       return;
     }
     const Real porosity_before = m_state[b].x > 0 ? v_rho[b].w / m_state[b].z : Real(-1);
-    const Real p = sum.p / sum.weight, eps = sum.eps / sum.weight;
-    const Real rho = eos.rho0 * (1 + eos.compression(p)), superficial = eps * rho;
-    v_rho[b] = {v_wall, superficial};
-    v_visc[b] = {k.flows ? v_wall : 2 * v_wall - sum.v / sum.weight, k.slip ? Real(0) : Real(1)};
+    Real p = sum.p / sum.weight, x = eos.compression(p);
+    const Real own = compression[b], eps = sum.eps / sum.weight;
+    const bool layer = k.kind == WallKind::single_layer;
+    if (layer) p = eos.pressure(x = 0);
+    if (k.kind == WallKind::mirrored && own != kNoCompression) p = eos.pressure(x = own);
+    if (k.kind == WallKind::frozen) {
+      if (own == kNoCompression)
+        p = eos.pressure(x = 0);
+      else if (porosity_before < 0)
+        compression[b] = x;  // begins in balance with the fluid that has come
+      else
+        p = eos.pressure(x = own);
+    }
+    const Real rho = eos.rho0 * (1 + x), superficial = eps * rho;
+    const bool prescribed = k.flows || layer || k.kind == WallKind::frozen;
     // the mass that keeps the wall particle's volume, and how much of it came with the porosity
-    const Real held = k.flows ? inflow : volume;
-    const Real came = porosity_before < 0 ? Real(0) : (eps - porosity_before) * rho * held;
-    m_state[b] = {superficial * held, p / square(superficial), rho, came};
+    const Real volume = Real(k.volume), mass = superficial * volume;
+    const Real came = porosity_before < 0 ? Real(0) : (eps - porosity_before) * rho * volume;
+    v_rho[b] = {v_wall, superficial};
+    v_visc[b] = {prescribed ? v_wall : 2 * v_wall - sum.v / sum.weight, k.slip ? Real(0) : mass};
+    m_state[b] = {mass, p / square(superficial), rho, came};
   }
 };
 

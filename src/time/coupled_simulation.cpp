@@ -47,12 +47,14 @@ void CoupledSimulation::advance_fluid(double dt) {
   const bool euler = config_.time.integrator == "euler";
   const double half = euler ? 0 : dt / 2;
   fluid.kick_drift(fluid_, dt - half, dt, two_way());
+  Span<const BodyPose> pose;
   if (walls_.size() > 0) {
     // density follows from velocities in the middle of a kick-drift-kick step, the fluid's and the walls'
-    WallMotion::place(frame_, walls_, motion_.poses(clock_.time + dt - half, half, 1));
+    pose = motion_.poses(clock_.time + dt - half, half, 1);
+    WallMotion::place(frame_, walls_, pose);
     fluid.pack(fluid_, walls_);
   }
-  fluid.density(fluid_, walls_, dt, half);
+  fluid.density(fluid_, walls_, pose, dt, half);
   fluid.accept_density(fluid_);
   evaluate_fluid(dt, half);
   fluid.correct(fluid_, half);
@@ -63,10 +65,10 @@ void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   if (two_way()) coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1));
   fluid.state(fluid_, predict, two_way());
   fluid.set_gravity(gravity_.at(clock_.time + dt));
-  if (walls_.size() > 0)
-    fluid.walls(fluid_, walls_, motion_.poses(clock_.time + dt, 0, 1), two_way() ? dt : 0);
-  fluid.forces(fluid_, walls_);
-  fluid.repel(fluid_, motion_.poses(clock_.time + dt, 0, 1), dt);
+  const Span<const BodyPose> pose = motion_.poses(clock_.time + dt, 0, 1);
+  if (walls_.size() > 0) fluid.walls(fluid_, walls_, pose, two_way() ? dt : 0);
+  fluid.forces(fluid_, walls_, pose, dt);
+  fluid.repel(fluid_, pose, dt);
 }
 
 std::vector<StepLimit> CoupledSimulation::limits() {
@@ -192,6 +194,7 @@ void CoupledSimulation::restore_lists(const SavedState& state) {
   const auto swap_positions = [&] {
     fluid_.x.buffer().swap(fluid_.x_list.buffer());
     walls_.x.buffer().swap(walls_.x_list.buffer());
+    walls_.mirrors.x.buffer().swap(walls_.mirrors.x_list.buffer());
   };
   if (has_fluid()) {
     swap_positions();

@@ -26,8 +26,8 @@ class WallMotion {
   BodyPose pose(int body, double t) const;
   /// Largest speed of any wall point at time t, m/s.
   double top_speed(double t) const;
-  /// Places wall particles and sets their true velocity; `pose`: [2][bodies], that of the velocity and that
-  /// of the place.
+  /// Places wall particles and their images and sets their true velocity; `pose`: [2][bodies], that of the
+  /// velocity and that of the place.
   static void place(const Frame& frame, WallStore& walls, Span<const BodyPose> pose);
   /// The wall is gone from now on.
   void remove(int body) { removed_[body] = true; }
@@ -40,6 +40,7 @@ class WallMotion {
   std::vector<MotionLaw> laws_;  ///< one a wall
   std::vector<InletFlow> inlets_;
   std::vector<bool> removed_;
+  double layer_depth_ = 0;  ///< m
   std::vector<BodyPose> host_;
   Buffer<BodyPose> device_;
 };
