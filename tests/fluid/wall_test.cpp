@@ -113,7 +113,7 @@ double mirrored(const std::vector<Vec3d>& at, const Vec3d& x, const Vec3d& image
   std::vector<Real4> v, m;
   for (const Vec3d& place : at) {
     v.push_back({Real3(), Real(1000)});
-    m.push_back({Real(1e-3), 0, Real(1000 * (1 + field(place))), 0});
+    m.push_back({Real(0.42), 0, Real(1000 * (1 + field(place))), 0});  // 150 fill what holds them
   }
   const auto in = [](const auto& host) { return Span(host.data(), Index(host.size())); };
   const std::vector<Vec3d> place{x}, images{image};
