@@ -70,6 +70,8 @@ struct Setup {
   struct Walls {
     std::vector<Vec3d> x;             ///< m, at t = 0
     std::vector<std::uint32_t> body;  ///< index in Config::wall.bodies
+    std::vector<std::uint8_t> outer;  ///< 1: keeps rho0 (frozen walls, behind their first layer)
+    std::vector<Vec3d> mirror;        ///< images in the fluid, m; empty without mdbc walls, else x for all others
   } walls;
   struct Grains {
     std::vector<Vec3d> x, v;          ///< m, m/s

@@ -23,6 +23,9 @@ struct SymmetricMatrix {
   BL_HD Vec3<T> operator*(const Vec3<T>& v) const {
     return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z, xz * v.x + yz * v.y + zz * v.z};
   }
+  BL_HD T determinant() const {
+    return xx * (yy * zz - yz * yz) + xy * (xz * yz - xy * zz) + xz * (xy * yz - yy * xz);
+  }
   /// Infinite or NaN where singular.
   BL_HD SymmetricMatrix inverse() const {
     const SymmetricMatrix adjugate{yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy,

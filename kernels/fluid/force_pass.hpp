@@ -1,5 +1,6 @@
 #pragma once
 #include "bedload/neighbours/for_each_pair.hpp"
+#include "kernels/fluid/layer_force.hpp"
 #include "kernels/fluid/pair_terms.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -10,15 +11,15 @@ struct WallPair {
   W w;
   Real mu;  ///< Pa s; 0 switches the viscous term off
 
-  /// a: {v, rho~}, {m, P/rho~^2, ..}; b: the wall's, with its no-slip velocity `visc` (w: 1 if it drags).
-  /// m_w of an inactive wall particle is zero.
+  /// a: {v, rho~}, {m, P/rho~^2, ..}; b: the wall's, with its no-slip velocity `visc` (w: mass that drags).
+  /// Both masses of an inactive wall particle are zero.
   template <class N>
   BL_HD Vec3<N> operator()(const Vec4<N>& va, const Vec4<N>& ma, const Vec4<N>& vw, const Vec4<N>& mw,
                            const Vec4<N>& visc, const Vec3<N>& r, N r2) const {
     const N F = w.F(root(r2));
     Vec3<N> theta = pressure_term(mw.x, ma.y, mw.y, F) * r;
     if (mu > 0)
-      theta -= visc.w * morris_term(mw.x, 2 * mu, va.w, vw.w, r2, F, square(w.h)) * (va.xyz() - visc.xyz());
+      theta -= morris_term(visc.w, 2 * mu, va.w, vw.w, r2, F, square(w.h)) * (va.xyz() - visc.xyz());
     return theta;
   }
 };
@@ -78,12 +79,13 @@ struct ForcePass {
   }
 };
 
-/// Force of the fluid on each wall particle [N]: minus what ForcePass gave the fluid, whose velocities
-/// have been corrected by `kick` since.
+/// Force of the fluid on each wall particle [N]: minus what ForcePass and LayerPass gave the fluid, whose
+/// velocities have been corrected by `kick` since.
 template <class W>
 struct WallForcePass {
   WallPair<W> wall;
-  Real kick;  ///< s
+  LayerForces<W> layer;  ///< empty without single layers
+  Real kick;             ///< s
   Span<const Real3> acc, acc_before;
   Span<const Real4> v_rho, m_state, wall_v_rho, wall_m_state, wall_v_visc;
   Span<Vec3d> force;
@@ -93,7 +95,12 @@ struct WallForcePass {
     Real4 va = v_rho[a];
     const Real4 ma = m_state[a];
     if (kick != 0) va = {va.xyz() - kick * (acc[a] - acc_before[a]), va.w};
-    sum -= Vec3d(wall(va, ma, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], -r_ba, r2) * ma.x);
+    Real3 push = wall(va, ma, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], -r_ba, r2);
+    if (layer.law) {
+      const auto more = layer(va, ma, b, -r_ba, r2);
+      push += more.push + more.damping;
+    }
+    sum -= Vec3d(push * ma.x);
   }
   BL_HD void merge(Vec3d& into, const Vec3d& other) const { into += other; }
   BL_HD void finish(Index b, const Vec3d& sum) const { force[b] = sum; }

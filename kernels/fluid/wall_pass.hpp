@@ -10,6 +10,8 @@ namespace bedload::inline BL_VARIANT {
 /// a wall is that of the fluid beside it; what its mass changes by when that does goes to continuity.
 /// Fluid beside a turning wall is on a circle only as far as it turns along: where the layer that it drags is
 /// thinner than a particle, nothing holds water at rest off a drum that spins around it.
+/// Frozen and mirrored walls bring their own density, where they have one. Single layers keep rho0: fluid
+/// that comes near them grows denser by their mass and is pushed off by its own pressure alone.
 template <class W>
 struct WallPass {
   W w;
@@ -23,10 +25,9 @@ struct WallPass {
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
   Real3 gravity;   ///< m/s2
-  Real volume;     ///< of a wall particle, m3
-  Real inflow;     ///< of a particle of fluid on its way in, m3
   Real least_sum;  ///< inactive below this sum of W, 1/m3
   Span<Real4> v_rho, v_visc, m_state;
+  Span<Real> compression;
 
   template <class N = Real>
   struct Sum {
@@ -67,14 +68,27 @@ struct WallPass {
     const Real3 v_fluid = sum.v / sum.weight;
     const Real3 push = gravity - Real3(k.speeding_up(at)) -
                        square(turning_along(k, v_wall, v_fluid)) * Real3(k.centripetal(at));
-    const Real p = (sum.p + dot(push, sum.rho_r)) / sum.weight, eps = sum.eps / sum.weight;
-    const Real rho = eos.rho0 * (1 + eos.compression(p)), superficial = eps * rho;
-    v_rho[b] = {v_wall, superficial};
-    v_visc[b] = {k.flows ? v_wall : 2 * v_wall - v_fluid, k.slip ? Real(0) : Real(1)};
+    Real p = (sum.p + dot(push, sum.rho_r)) / sum.weight, x = eos.compression(p);
+    const Real own = compression[b], eps = sum.eps / sum.weight;
+    const bool layer = k.kind == WallKind::single_layer;
+    if (layer) p = eos.pressure(x = 0);
+    if (k.kind == WallKind::mirrored && own != kNoCompression) p = eos.pressure(x = own);
+    if (k.kind == WallKind::frozen) {
+      if (own == kNoCompression)
+        p = eos.pressure(x = 0);
+      else if (porosity_before < 0)
+        compression[b] = x;  // begins in balance with the fluid that has come
+      else
+        p = eos.pressure(x = own);
+    }
+    const Real rho = eos.rho0 * (1 + x), superficial = eps * rho;
+    const bool prescribed = k.flows || layer || k.kind == WallKind::frozen;
     // the mass that keeps the wall particle's volume, and how much at rho0 came with the porosity
-    const Real held = k.flows ? inflow : volume;
-    const Real came = porosity_before < 0 ? Real(0) : (eps - porosity_before) * eos.rho0 * held;
-    m_state[b] = {superficial * held, p / square(superficial), rho, came};
+    const Real volume = Real(k.volume), mass = superficial * volume;
+    const Real came = porosity_before < 0 ? Real(0) : (eps - porosity_before) * eos.rho0 * volume;
+    v_rho[b] = {v_wall, superficial};
+    v_visc[b] = {prescribed ? v_wall : 2 * v_wall - v_fluid, k.slip ? Real(0) : mass};
+    m_state[b] = {mass, p / square(superficial), rho, came};
   }
 
  private:

@@ -87,6 +87,19 @@ class Checks {
            fmt::format("must be within {}..{}; a quarter of fluid.dx to fluid.dx", dx / 4, dx));
     if (c.wall.rep_r0 > dx * (1 + 1e-9))
       fail("wall.rep_r0", c.wall.rep_r0, fmt::format("must be at most fluid.dx = {}", dx));
+    for (std::size_t i = 0; i < c.wall.bodies.size(); ++i) {
+      const WallBody& body = c.wall.bodies[i];
+      const double spacing = c.wall.spacing(body), most = body.single_layer() ? dx / 2 : dx;
+      if (spacing < 0.25 * dx * (1 - 1e-9) || spacing > most * (1 + 1e-9))
+        fail(fmt::format("wall.body.{}.dx", i), spacing,
+             fmt::format("must be within {}..{}; a quarter of fluid.dx to {}", dx / 4, most,
+                         body.single_layer() ? "half of it for a single_layer" : "fluid.dx"));
+      const double r0 = c.wall.layer_r0;
+      if (body.single_layer() && (r0 < spacing * (1 - 1e-9) || r0 > dx * (1 + 1e-9)))
+        fail("wall.layer_r0", r0,
+             fmt::format("must be within {}..{}; the spacing of wall.body \"{}\" to fluid.dx", spacing, dx,
+                         body.name));
+    }
   }
 
   void motions() const {

@@ -14,8 +14,14 @@ const std::vector<Choice> kSlips{{"noslip", "the fluid sticks to the wall"},
 
 const std::vector<Choice> kWallTypes{
     {"adami", "layers of wall particles with pressure extrapolated from the fluid [adami12]"},
+    {"mdbc", "layers of wall particles with the density about their images in the fluid [english22]"},
+    {"frozen", "layers of wall particles, the first with a density of its own"},
+    {"single_layer", "one layer of particles on the surface that push the fluid away; for thin shells"},
     {"grains_only", "stops grains, lets the fluid pass"},
     {"fluid_only", "as adami, but lets grains pass"}};
+
+const std::vector<Choice> kLayerForces{{"kajtar", "soft, as far as the kernel reaches [monaghan09]"},
+                                       {"monaghan", "steep, up to wall.layer_r0 [monaghan94]"}};
 
 /// Restitution that the damping can reach.
 Range restitution(const ContactConfig& contact) {
@@ -220,7 +226,17 @@ void wall_body(Parameters& p, WallBody& b) {
   }
   p("type", &b.type, {.meaning = "how the fluid meets it", .fallback = "wall.type", .choices = kWallTypes});
   p("slip", &b.slip, {.meaning = "friction with the fluid", .fallback = "wall.slip", .choices = kSlips});
-  p("repulsion", &b.repulsion, {.meaning = "Monaghan repulsion beside it", .fallback = "wall.repulsion"});
+  if (b.single_layer() || p.everything())
+    p("force", &b.force,
+      {.meaning = "single_layer: what keeps fluid off", .fallback = "wall.force", .choices = kLayerForces});
+  if (!b.single_layer() || p.everything())
+    p("repulsion", &b.repulsion, {.meaning = "Monaghan repulsion beside it", .fallback = "wall.repulsion"});
+  p("dx", &b.dx,
+    {.unit = "m",
+     .meaning = "spacing of its particles, fluid.dx/4..fluid.dx, of a single layer at most fluid.dx/2",
+     .range = above(0),
+     .fallback = "wall.dx, of a single layer at most fluid.dx/2",
+     .presence = optional});
   body_motion(p, b.motion);
   free_body(p, b.free);
 }
@@ -322,10 +338,14 @@ void describe_walls(Parameters& p, WallConfig& w) {
      .presence = optional});
   p("wall.type", &w.type, {.meaning = "default of the bodies", .family = "models", .choices = kWallTypes});
   p("wall.slip", &w.slip, {.meaning = "default of the bodies", .family = "models", .choices = kSlips});
+  p("wall.force", &w.force,
+    {.meaning = "default of the bodies: force of single layers",
+     .family = "models",
+     .choices = kLayerForces});
   p("wall.repulsion", &w.repulsion, {.meaning = "default of the bodies: Monaghan repulsion [monaghan94]"});
   p("wall.rep_D", &w.rep_D,
     {.unit = "m2/s2",
-     .meaning = "strength of the repulsion",
+     .meaning = "strength D of the repulsion and of single layers; K = D/5 with kajtar",
      .range = above(0),
      .hint = "repulsion = false switches it off",
      .fallback = "5 g H",
@@ -337,8 +357,15 @@ void describe_walls(Parameters& p, WallConfig& w) {
      .hint = "repulsion = false switches it off",
      .fallback = "0.5 fluid.dx",
      .presence = optional});
+  p("wall.layer_r0", &w.layer_r0,
+    {.unit = "m",
+     .meaning = "reach of the monaghan force of single layers, from their spacing to fluid.dx",
+     .range = above(0),
+     .fallback = "fluid.dx",
+     .presence = optional});
   WallBody prototype;
   prototype.type = w.type;
+  prototype.force = w.force;
   prototype.slip = w.slip;
   prototype.repulsion = w.repulsion;
   p.list("wall.body", w.bodies, prototype, wall_body);

@@ -271,6 +271,9 @@ void resolve_fluid(Config& c, const Value& root, const std::filesystem::path& ch
   if (c.wall.dx == 0) c.wall.dx = f.dx;
   if (c.wall.rep_D == 0) c.wall.rep_D = gH > 0 ? 5 * gH : vmax * vmax;
   if (c.wall.rep_r0 == 0) c.wall.rep_r0 = 0.5 * f.dx;
+  if (c.wall.layer_r0 == 0) c.wall.layer_r0 = f.dx;
+  for (WallBody& body : c.wall.bodies)
+    if (body.single_layer() && body.dx == 0) body.dx = std::min(c.wall.dx, 0.5 * f.dx);
 }
 
 void resolve_grains(Config& c, const Value& root, const std::filesystem::path& checkpoint) {

@@ -4,9 +4,12 @@
 
 #include "kernels/fluid/density_pass.hpp"
 #include "kernels/fluid/force_pass.hpp"
+#include "kernels/fluid/wall_density.hpp"
 #include "kernels/fluid/wall_pass.hpp"
 #include "kernels/integrate/fluid_kicks.hpp"
 #include "kernels/smoothing/registry.hpp"
+#include "kernels/walls/crossing.hpp"
+#include "src/measure/sweeps.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
@@ -61,6 +64,28 @@ struct ExtremesSweep {
   }
 };
 
+/// The force of a single layer, with the strength K = D / 5 of the softer one. Its particles weigh as much as
+/// the wall for which they stand.
+LayerLaw layer_law(const Config& config, const WallBody& body, double kappa) {
+  const double dx = config.fluid.dx, spacing = config.wall.spacing(body), D = config.wall.rep_D;
+  LayerLaw law;
+  if (body.force == "monaghan") {
+    law.steep = {Real(D), Real(config.wall.layer_r0 > 0 ? config.wall.layer_r0 : dx), Real(1e30)};
+    return law;
+  }
+  double volume = 0;
+  with_kernel(config.fluid.kernel, config.fluid.h(),
+              [&](const auto& w) { volume = spacing * spacing * layer_depth(w); });
+  const double share = 2 * volume / (dx * dx * dx + volume), beta = dx / spacing;
+  law.soft = {Real(D / 5 / beta * share), Real(kappa * config.fluid.h() / 2)};
+  return law;
+}
+
+struct CountBody {
+  Span<const std::uint32_t> count;
+  BL_HD void operator()(Index a, double* out) const { out[0] = count[a]; }
+};
+
 }  // namespace
 
 /// The passes that know the kernel function.
@@ -70,7 +95,8 @@ class FluidSolverWith final : public FluidSolver {
   FluidSolverWith(const Config& config, const Frame& frame, const WallGeometry& walls, const W& w)
       : FluidSolver(config, frame, walls, W::kappa), w_(w) {}
 
-  void density(FluidStore& fluid, const WallStore& walls, double dt, double back) override {
+  void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt,
+               double back) override {
     const double c = config_.fluid.c;
     DensityPass<W> pass{w_,
                         fluid.v_rho,
@@ -89,10 +115,42 @@ class FluidSolverWith final : public FluidSolver {
                         fluid.s_next};
     // all listed pairs: one that is out of reach now may have been within reach half a step ago
     run(fluid, walls, range() + skin(), pass);
+    if (!frozen_) return;
+    const FrozenPass<W> frozen{w_,
+                               Real(config_.fluid.rho0),
+                               Real(dt),
+                               Real(back),
+                               least(),
+                               fluid.v_rho,
+                               fluid.m_state,
+                               walls.v_rho,
+                               walls.m_state,
+                               walls.body,
+                               pose,
+                               walls.compression};
+    for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range() + skin(),
+                  frozen);
   }
 
   void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt) override {
-    const double dx = config_.wall.dx, dx_fluid = config_.fluid.dx, h = config_.fluid.h();
+    const double h = config_.fluid.h();
+    const Real least_sum = Real(1e-3 / (h * h * h));
+    if (walls.mirrors.size() > 0) {
+      const MirrorPass<W> mirror{w_,
+                                 frame_,
+                                 Real(config_.fluid.rho0),
+                                 least(),
+                                 least_sum,
+                                 fluid.v_rho,
+                                 fluid.m_state,
+                                 walls.x,
+                                 walls.mirrors.x,
+                                 walls.body,
+                                 pose,
+                                 walls.compression};
+      for_each_pair(walls.owned(), image_fluid_, SphSeparation{frame_, walls.mirrors.xp, fluid.xp}, range(),
+                    mirror);
+    }
     WallPass<W> pass{w_,
                      eos_,
                      fluid.v_rho,
@@ -104,16 +162,15 @@ class FluidSolverWith final : public FluidSolver {
                      walls.body,
                      pose,
                      gravity_,
-                     Real(dx * dx * dx),
-                     Real(dx_fluid * dx_fluid * dx_fluid),
-                     Real(1e-3 / (h * h * h)),
+                     least_sum,
                      walls.v_rho,
                      walls.v_visc,
-                     walls.m_state};
+                     walls.m_state,
+                     walls.compression};
     for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
 
-  void forces(FluidStore& fluid, const WallStore& walls) override {
+  void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
     ForcePass<W> pass{w_,
                       wall_pair(),
                       fluid.v_rho,
@@ -131,14 +188,19 @@ class FluidSolverWith final : public FluidSolver {
                       fluid.acc_next,
                       fluid.xsph};
     run(fluid, walls, range(), pass);
+    if (layers_.size() > 0)
+      for_each_pair(
+          fluid.owned(), fluid_wall_, SphSeparation{frame_, fluid.xp, walls.xp}, range(),
+          LayerPass<W>{layer(walls, pose, dt), fluid.v_rho, fluid.m_state, fluid.theta, fluid.acc_next});
   }
 
-  void wall_forces(const FluidStore& fluid, const WallStore& walls, Buffer<Vec3d>& force,
-                   bool corrected) override {
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
+                   Buffer<Vec3d>& force, bool corrected) override {
     force.resize(walls.size());
     const Real kick = Real(corrected ? corrected_ : 0);
-    WallForcePass<W> pass{wall_pair(),   kick,        fluid.acc,     fluid.acc_next, fluid.v_rho,
-                          fluid.m_state, walls.v_rho, walls.m_state, walls.v_visc,   force};
+    WallForcePass<W> pass{wall_pair(), layer(walls, pose, dt), kick,        fluid.acc,     fluid.acc_next,
+                          fluid.v_rho, fluid.m_state,          walls.v_rho, walls.m_state, walls.v_visc,
+                          force};
     for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
 
@@ -148,6 +210,7 @@ class FluidSolverWith final : public FluidSolver {
     for_each_pair(fluid.owned(), fluid_fluid_, SphSeparation{frame_, fluid.xp, fluid.xp}, fluid_wall_,
                   SphSeparation{frame_, fluid.xp, walls.xp}, cutoff, pass);
   }
+  Real least() const { return -Real(config_.density.tension); }
   Real viscosity() const { return config_.visc.model == "none" ? Real(0) : Real(config_.fluid.mu); }
   ArtificialViscosity artificial() const {
     const bool coupled = config_.grain.present && config_.couple.mode == "two_way";
@@ -158,6 +221,9 @@ class FluidSolverWith final : public FluidSolver {
     if (config_.tensile == 0) return {};
     const Real s = Real(0.01);
     return {s, config_.tensile_one_sign ? s : Real(0.2), w_.W(Real(config_.fluid.dx))};
+  }
+  LayerForces<W> layer(const WallStore& walls, Span<const BodyPose> pose, double dt) const {
+    return {w_, artificial(), layers_, Real(repulsion_cap(dt)), walls.body, pose, walls.v_rho};
   }
   WallPair<W> wall_pair() const { return {w_, viscosity()}; }
 
@@ -185,11 +251,26 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
   wall_grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
   const auto repels = [](const WallBody& body) { return body.repulsion; };
   if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), repels)) repelling_ = walls.view();
+  std::vector<LayerLaw> layers(config.wall.bodies.size() + config.inlets.size());
+  bool layered = false;
+  for (std::size_t b = 0; b < config.wall.bodies.size(); ++b) {
+    const WallBody& body = config.wall.bodies[b];
+    frozen_ = frozen_ || body.type == "frozen";
+    layered = layered || body.single_layer();
+    if (body.single_layer()) layers[b] = layer_law(config, body, kappa);
+  }
+  if (layered) layers_.assign(layers);
+}
+
+double FluidSolver::repulsion_cap(double dt) const {
+  return dt > 0 ? 0.1 * config_.fluid.dx / (dt * dt) : 1e30;
 }
 
 WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const {
-  const double cap = dt > 0 ? 0.1 * config_.fluid.dx / (dt * dt) : 1e30;
-  return {{Real(config_.wall.rep_D), Real(config_.wall.rep_r0), Real(cap)}, frame_, repelling_, pose};
+  return {{Real(config_.wall.rep_D), Real(config_.wall.rep_r0), Real(repulsion_cap(dt))},
+          frame_,
+          repelling_,
+          pose};
 }
 
 void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double dt) {
@@ -203,8 +284,10 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved)
   fluid.reorder(order_);
   if (walls_moved && walls.size() > 0) {
     for_each(walls.owned(), WrapPass<Vec3d>{frame_, walls.x, walls.x_list});
+    for_each(walls.mirrors.owned(), WrapPass<Vec3d>{frame_, walls.mirrors.x, walls.mirrors.x_list});
     wall_grid_.sort(frame_, Span<const Vec3d>(walls.x), order_);
     walls.reorder(order_);
+    if (walls.mirrors.size() > 0) walls.mirrors.reorder(order_);
   }
   relist(fluid, walls, false);
 }
@@ -221,11 +304,16 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   fluid_wall_.build(fluid.size(), wall_grid_.view(), Near{frame_, fluid.x, fluid.xp, walls.xp, reach, false});
   wall_fluid_.build(walls.size(), grid_.view(),
                     SphNear<Vec3d>{frame_, walls.x, walls.xp, fluid.xp, reach, false});
+  const MirrorStore& images = walls.mirrors;
+  if (images.size() > 0)
+    image_fluid_.build(images.size(), grid_.view(),
+                       SphNear<Vec3d>{frame_, images.x, images.xp, fluid.xp, reach, false});
 }
 
 void FluidSolver::pack(FluidStore& fluid, WallStore& walls) {
   for_each(fluid.owned(), PackPass<FluidPosition>{frame_, fluid.x, fluid.xp});
   for_each(walls.owned(), PackPass<Vec3d>{frame_, walls.x, walls.xp});
+  for_each(walls.mirrors.owned(), PackPass<Vec3d>{frame_, walls.mirrors.x, walls.mirrors.xp});
 }
 
 void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, bool coupled) {
@@ -253,6 +341,17 @@ FluidExtremes FluidSolver::extremes(const FluidStore& fluid) const {
                 ExtremesSweep{frame_, fluid.v_rho, fluid.m_state, fluid.eps, fluid.s, fluid.acc,
                               config_.xsph > 0 ? Span<const Real3>(fluid.xsph) : Span<const Real3>(), fluid.x,
                               fluid.x_list});
+}
+
+double FluidSolver::pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces,
+                                  Span<const BodyPose> pose) const {
+  Buffer<NearestFoot> feet(fluid.size());
+  Buffer<std::uint32_t> count(fluid.size());
+  const FootPass foot{frame_, surfaces, pose, range(), fluid.x, feet};
+  for_each(fluid.owned(), foot);
+  for_each_pair(fluid.owned(), fluid_fluid_, SphSeparation{frame_, fluid.xp, fluid.xp}, range(),
+                CrossingPass{foot, 0.25 * config_.fluid.dx, count});
+  return sum_over<1>(fluid.owned(), CountBody{count}).v[0] / 2;  // a pair stands in two lists
 }
 
 }  // namespace bedload::inline BL_VARIANT

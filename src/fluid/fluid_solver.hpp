@@ -1,5 +1,5 @@
 #pragma once
-// Locally averaged WCSPH with Adami walls: rates, advance, stable time step.
+// Locally averaged WCSPH between walls: rates, advance, stable time step.
 
 #include <memory>
 
@@ -8,6 +8,7 @@
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/walls.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
+#include "kernels/fluid/layer_force.hpp"
 #include "kernels/fluid/pair_terms.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
 #include "src/walls/wall_geometry.hpp"
@@ -43,8 +44,10 @@ class FluidSolver {
 
   /// v += kick (acc + reaction), x += drift (v + xsph); `coupled`: there is a reaction.
   void kick_drift(FluidStore& fluid, double kick, double drift, bool coupled);
-  /// s_next from continuity over dt; pairs are taken `back` s before where they are.
-  virtual void density(FluidStore& fluid, const WallStore& walls, double dt, double back) = 0;
+  /// s_next, and the density of frozen walls, from continuity over dt; pairs are taken `back` s before where
+  /// they are.
+  virtual void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt,
+                       double back) = 0;
   void accept_density(FluidStore& fluid) { fluid.s.buffer().swap(fluid.s_next.buffer()); }
   /// Density, pressure, velocity predicted by `kick`.
   void state(FluidStore& fluid, double kick, bool coupled);
@@ -52,27 +55,31 @@ class FluidSolver {
   /// drag_kick arose (s), 0 where there is none.
   virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
                      double drag_dt) = 0;
-  /// theta, acc_next, xsph.
-  virtual void forces(FluidStore& fluid, const WallStore& walls) = 0;
+  /// theta, acc_next, xsph. One pose a body; the step (s) caps the push of single layers.
+  virtual void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) = 0;
   /// Adds the repulsion of walls to acc_next. One pose a body; the step (s) caps it.
   void repel(FluidStore& fluid, Span<const BodyPose> pose, double dt);
   WallRepulsion repulsion(Span<const BodyPose> pose, double dt) const;
   /// v += kick (acc_next - acc); acc = acc_next.
   void correct(FluidStore& fluid, double kick);
-  /// Force of the fluid's pressure and viscosity on every wall particle (N), the opposite of what the last
-  /// forces() gave the fluid. Before the lists are renewed; `corrected`: correct() has been called since.
-  virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Buffer<Vec3d>& force,
-                           bool corrected = true) = 0;
+  /// Force of the fluid on every wall particle (N), repulsion from surfaces apart, the opposite of what the
+  /// last forces() gave the fluid. After a step of dt (s), before the lists are renewed; `corrected`:
+  /// correct() has been called since.
+  virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
+                           double dt, Buffer<Vec3d>& force, bool corrected = true) = 0;
+  /// Pairs of fluid particles within the kernel's reach that see each other through one of the surfaces.
+  double pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces, Span<const BodyPose> pose) const;
 
   FluidExtremes extremes(const FluidStore& fluid) const;
   const CellGrid& grid() const { return grid_; }
   /// Sum of neighbours of all fluid particles (true and padded list entries), for reports.
   std::uint64_t list_slots() const {
-    return fluid_fluid_.slots() + fluid_wall_.slots() + wall_fluid_.slots();
+    return fluid_fluid_.slots() + fluid_wall_.slots() + wall_fluid_.slots() + image_fluid_.slots();
   }
 
  protected:
   FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, double kappa);
+  double repulsion_cap(double dt) const;  ///< m/s2, in a step of dt, s
 
   Config config_;
   Frame frame_;
@@ -80,10 +87,12 @@ class FluidSolver {
   EquationOfState eos_;
   Real3 gravity_;
   CellGrid grid_, wall_grid_;
-  VerletList fluid_fluid_, fluid_wall_, wall_fluid_;
+  VerletList fluid_fluid_, fluid_wall_, wall_fluid_, image_fluid_;
   Buffer<Index> order_;
-  SurfaceSet repelling_;  ///< empty where no wall repels
-  double corrected_ = 0;  ///< kick of the last correction, s; before it, acc was what acc_next is now
+  SurfaceSet repelling_;     ///< empty where no wall repels
+  Buffer<LayerLaw> layers_;  ///< one a body; empty without single layers
+  bool frozen_ = false;      ///< some walls are
+  double corrected_ = 0;     ///< kick of the last correction, s; before it, acc was what acc_next is now
 };
 
 }  // namespace bedload::inline BL_VARIANT

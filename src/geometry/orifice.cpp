@@ -112,6 +112,8 @@ void add_inlets(const Config& config, const Setup::Fluid& fluid, Setup::Walls& w
     check_clear_of_fluid(config, inlet, buffer, fluid);
     walls.x.insert(walls.x.end(), buffer.begin(), buffer.end());
     walls.body.insert(walls.body.end(), buffer.size(), std::uint32_t(config.wall.bodies.size() + i));
+    walls.outer.insert(walls.outer.end(), buffer.size(), 0);
+    if (!walls.mirror.empty()) walls.mirror.insert(walls.mirror.end(), buffer.begin(), buffer.end());
   }
 }
 

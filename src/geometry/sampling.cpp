@@ -11,25 +11,13 @@
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/lattice.hpp"
 #include "bedload/geometry/shape_sampling.hpp"
+#include "bedload/geometry/wall_surface.hpp"
+#include "geometry/wall_faces.hpp"
 
 namespace bedload {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Whether the body runs through the whole period of axis k, so that it has no end there.
-bool spans_period(const WallBody& body, const DomainConfig& domain, int k) {
-  const double slack = 1e-6 * (domain.max[k] - domain.min[k]);
-  return domain.periodic[k] && body.min[k] <= domain.min[k] + slack && body.max[k] >= domain.max[k] - slack;
-}
-
-/// Closed faces of a tank, x- x+ y- y+ z- z+; a period has none.
-std::array<bool, 6> closed_faces(const WallBody& tank, const DomainConfig& domain) {
-  std::array<bool, 6> closed = tank.faces;
-  for (int k = 0; k < 3; ++k)
-    if (spans_period(tank, domain, k)) closed[2 * k] = closed[2 * k + 1] = false;
-  return closed;
-}
 
 std::int64_t layers(double depth, double step) { return std::int64_t(std::ceil(depth / step - 1e-6)); }
 
@@ -202,6 +190,34 @@ class PointFinder {
   std::unordered_map<std::uint64_t, std::vector<Vec3d>> cells_;
 };
 
+/// Where fluid on two sides of a body meets through it.
+void check_thickness(const Config& config, const WallBody& body, const std::vector<Vec3d>& points,
+                     std::vector<std::string>& warnings) {
+  const double reach = config.fluid.kappa() * config.fluid.h();
+  const double thick = thickness(body, points, reach, config.domain);
+  if (thick >= reach - 0.5 * config.wall.spacing(body)) return;
+  const std::string what = fmt::format(
+      "wall.body \"{}\": its shape \"{}\" is {:.3g} m thick, less than the "
+      "kernel's reach of {:.3g} m, so fluid on its two sides ",
+      body.name, body.shape, thick, reach);
+  warnings.push_back(what + (body.single_layer()
+                                 ? "interacts through it; fluid_pairs_through_walls counts the pairs"
+                                 : "would share wall particles; type = \"single_layer\" is meant for "
+                                   "thin shells"));
+}
+
+/// Images of the particles of mdbc walls in the fluid.
+void add_images(const Config& config, Setup::Walls& walls) {
+  const auto mirrored = [](const WallBody& body) { return body.type == "mdbc"; };
+  const auto& bodies = config.wall.bodies;
+  if (std::none_of(bodies.begin(), bodies.end(), mirrored)) return;
+  for (std::size_t w = 0; w < walls.x.size(); ++w) {
+    const WallBody& body = bodies[walls.body[w]];
+    const Vec3d& x = walls.x[w];
+    walls.mirror.push_back(mirrored(body) ? 2 * surface_point(body, x, config.domain) - x : x);
+  }
+}
+
 bool is_fixed(const WallBody& body) { return !body.moves(); }
 
 }  // namespace
@@ -224,23 +240,18 @@ double wall_distance(const WallBody& body, const Vec3d& x, double thickness, con
 }
 
 void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::string>& warnings) {
-  const double spacing = config.wall.dx, reach = config.fluid.kappa() * config.fluid.h();
+  const double reach = config.fluid.kappa() * config.fluid.h();
   const auto& bodies = config.wall.bodies;
-  PointFinder earlier(0.3 * spacing);
+  PointFinder earlier(0.3 * config.wall.dx);
   for (std::size_t index = 0; index < bodies.size(); ++index) {
     const WallBody& body = bodies[index];
     if (!body.stops_fluid()) continue;
-    if (body.shape == "box")
-      for (int k = 0; k < 3; ++k) {
-        const double thickness = body.max[k] - body.min[k];
-        if (!spans_period(body, config.domain, k) && thickness < reach - 0.5 * spacing)
-          warnings.push_back(
-              fmt::format("wall.body \"{}\": {:g} m thick along {}, less than the kernel's "
-                          "reach of {:g} m, so fluid on its two sides may interact",
-                          body.name, thickness, "xyz"[k], reach));
-      }
+    const double spacing = config.wall.spacing(body);
     const std::size_t begin = walls.x.size();
-    for (const Vec3d& x : sample_body(body, spacing, reach, config.domain)) {
+    const std::vector<Vec3d> points = body.single_layer() ? sample_surface(body, spacing, config.domain)
+                                                          : sample_body(body, spacing, reach, config.domain);
+    check_thickness(config, body, points, warnings);
+    for (const Vec3d& x : points) {
       bool taken = earlier.has_near(x);
       for (std::size_t other = 0; other < index && !taken; ++other)  // both stay where they are
         taken = bodies[other].stops_fluid() && is_fixed(body) && is_fixed(bodies[other]) &&
@@ -248,10 +259,12 @@ void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::strin
       if (taken) continue;
       walls.x.push_back(x);
       walls.body.push_back(std::uint32_t(index));
+      walls.outer.push_back(body.type == "frozen" && wall_distance(body, x, reach, config.domain) < -spacing);
     }
     if (index + 1 < bodies.size())
       for (std::size_t w = begin; w < walls.x.size(); ++w) earlier.add(walls.x[w]);
   }
+  add_images(config, walls);
 }
 
 }  // namespace bedload

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/filter.hpp"
 #include "bedload/geometry/lattice.hpp"
@@ -12,6 +14,20 @@
 namespace bedload {
 namespace {
 
+/// What begins within reach of a single layer would be thrown off.
+void check_layer_is_clear(const Config& config, const WallBody& body, const Setup::Fluid& fluid) {
+  if (!body.single_layer()) return;
+  const double dx = config.fluid.dx, r0 = body.force == "monaghan" ? config.wall.layer_r0 : dx;
+  const double reach = config.fluid.kappa() * config.fluid.h();
+  double nearest = r0;
+  for (const Vec3d& x : fluid.x) nearest = std::min(nearest, wall_distance(body, x, reach, config.domain));
+  if (nearest < 0.9 * r0)
+    throw CaseError(fmt::format(
+        "fluid.fill: particles begin {:.3g} m from wall.body \"{}\", whose single layer throws off "
+        "what is nearer than {:g} m; let the fill begin {:g} m from it",
+        nearest, body.name, r0, r0 - 0.5 * dx));
+}
+
 /// Every fluid particle must start in the open.
 void check_fluid_is_clear(const Config& config, const Setup::Fluid& fluid) {
   const double reach = config.fluid.kappa() * config.fluid.h(), slack = 1e-6 * config.fluid.dx;
@@ -20,7 +36,10 @@ void check_fluid_is_clear(const Config& config, const Setup::Fluid& fluid) {
     std::size_t count = 0, first = 0;
     for (std::size_t a = fluid.x.size(); a-- > 0;)
       if (wall_distance(body, fluid.x[a], reach, config.domain) < -slack) ++count, first = a;
-    if (count == 0) continue;
+    if (count == 0) {
+      check_layer_is_clear(config, body, fluid);
+      continue;
+    }
     const Vec3d& x = fluid.x[first];
     throw CaseError(
         fmt::format("fluid.fill: {} fluid particles, the first at ({:g}, {:g}, {:g}) m, lie "

@@ -244,7 +244,7 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
 std::vector<Vec3d> CoupledSimulation::wall_loads(const Vec3d& about) {
   std::vector<Vec3d> out(2 * motion_.bodies());
   if (!has_fluid() || walls_.size() == 0) return out;
-  fluid_solver_->wall_forces(fluid_, walls_, wall_force_);
+  fluid_solver_->wall_forces(fluid_, walls_, poses_now(), clock_.last_dt, wall_force_);
   const auto force = wall_force_.to_host();
   const auto x = walls_.x.values();
   const auto body = walls_.body.values();
@@ -301,6 +301,9 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"density_max", "kg/m3", largest(DensityBody{fluid_.m_state, 1})});
     out.push_back({"density_min", "kg/m3", -largest(DensityBody{fluid_.m_state, -1})});
     out.push_back({"fluid_count", "-", double(fluid_.size())});
+    if (!shells_.surfaces().empty())
+      out.push_back({"fluid_pairs_through_walls", "-",
+                     fluid_solver_->pairs_through(fluid_, shells_.view(), poses_now())});
   }
   if (has_grains()) {
     const auto s = solid_solver_->totals(grains_);

@@ -42,8 +42,10 @@ std::vector<Quantity> particle_setup(const Config& c) {
     for (std::size_t k = 0; k < c.fluid.fills.size(); ++k)
       add_box(fmt::format("fluid.fill.{}", k), c.fluid.fills[k].min, c.fluid.fills[k].max);
   }
-  for (std::size_t k = 0; k < c.wall.bodies.size(); ++k)
-    add_box(fmt::format("wall.{}", c.wall.bodies[k].name), c.wall.bodies[k].min, c.wall.bodies[k].max);
+  for (const WallBody& body : c.wall.bodies) {
+    add_box(fmt::format("wall.{}", body.name), body.min, body.max);
+    if (body.dx > 0) add(fmt::format("wall.{}.dx", body.name), body.dx);
+  }
   for (const InletConfig& inlet : c.inlets) {
     for (int k = 0; k < 3; ++k) {
       add(fmt::format("inlet.{}.centre[{}]", inlet.name, k), inlet.centre[k]);

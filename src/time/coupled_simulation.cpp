@@ -79,12 +79,14 @@ void CoupledSimulation::advance_fluid(double dt) {
   FluidSolver& fluid = *fluid_solver_;
   const double half = last_kick(dt);
   fluid.kick_drift(fluid_, dt - half, dt, two_way());
+  Span<const BodyPose> pose;
   if (walls_.size() > 0) {
     // density follows from velocities in the middle of a kick-drift-kick step, the fluid's and the walls'
-    WallMotion::place(frame_, walls_, motion_.poses_in_step(clock_.time + dt, half, dt));
+    pose = motion_.poses_in_step(clock_.time + dt, half, dt);
+    WallMotion::place(frame_, walls_, pose);
     fluid.pack(fluid_, walls_);
   }
-  fluid.density(fluid_, walls_, dt, half);
+  fluid.density(fluid_, walls_, pose, dt, half);
   fluid.accept_density(fluid_);
   evaluate_fluid(dt, half);
   load_bodies(half, dt);
@@ -93,8 +95,8 @@ void CoupledSimulation::advance_fluid(double dt) {
 
 void CoupledSimulation::load_bodies(double kick, double dt) {
   if (!bodies_.any()) return;
-  if (walls_.size() > 0) fluid_solver_->wall_forces(fluid_, walls_, wall_force_, false);
   const Span<const BodyPose> poses = motion_.poses(clock_.time + dt, 0, 1);
+  if (walls_.size() > 0) fluid_solver_->wall_forces(fluid_, walls_, poses, dt, wall_force_, false);
   const WallRepulsion repulsion = fluid_solver_->repulsion(poses, dt);
   bodies_.feel_fluid(walls_, wall_force_, repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_,
                      poses, kick, dt);
@@ -109,10 +111,10 @@ void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   }
   fluid.state(fluid_, predict, two_way());
   fluid.set_gravity(gravity_.at(clock_.time + dt));
-  if (walls_.size() > 0)
-    fluid.walls(fluid_, walls_, motion_.poses(clock_.time + dt, 0, 1), two_way() ? dt : 0);
-  fluid.forces(fluid_, walls_);
-  fluid.repel(fluid_, motion_.poses(clock_.time + dt, 0, 1), dt);
+  const Span<const BodyPose> pose = motion_.poses(clock_.time + dt, 0, 1);
+  if (walls_.size() > 0) fluid.walls(fluid_, walls_, pose, two_way() ? dt : 0);
+  fluid.forces(fluid_, walls_, pose, dt);
+  fluid.repel(fluid_, pose, dt);
 }
 
 std::vector<StepLimit> CoupledSimulation::limits() {
@@ -257,6 +259,7 @@ void CoupledSimulation::restore_lists(const SavedState& state) {
   const auto swap_positions = [&] {
     fluid_.x.buffer().swap(fluid_.x_list.buffer());
     walls_.x.buffer().swap(walls_.x_list.buffer());
+    walls_.mirrors.x.buffer().swap(walls_.mirrors.x_list.buffer());
   };
   if (has_fluid()) {
     swap_positions();

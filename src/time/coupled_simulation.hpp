@@ -75,6 +75,7 @@ class CoupledSimulation final : public Simulation {
   WallStore walls_;
   GrainStore grains_;
   WallGeometry geometry_, grain_geometry_;  ///< that fluid and that grains meet
+  WallGeometry shells_;                     ///< with fluid on both sides: single layers
   FreeBodies bodies_;
   WallMotion motion_;
   OpenBoundaries open_;

@@ -96,7 +96,8 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
              config.domain.periodic[2]),
       clock_(config.time),
       geometry_(config),
-      grain_geometry_(config, true),
+      grain_geometry_(config, [](const WallBody& body) { return body.stops_grains(); }),
+      shells_(config, [](const WallBody& body) { return body.single_layer(); }),
       bodies_(config, frame_, grain_geometry_),
       motion_(config, bodies_),
       open_(config, frame_, motion_),
@@ -132,6 +133,15 @@ void CoupledSimulation::upload(const Setup& setup) {
   walls_.x0.assign(w.x);
   walls_.x.assign(w.x);
   walls_.body.assign(w.body);
+  std::vector<Real> compression(w.x.size(), Real(0));
+  for (std::size_t i = 0; i < w.outer.size(); ++i)
+    if (w.outer[i]) compression[i] = kNoCompression;
+  walls_.compression.assign(compression);
+  if (!w.mirror.empty()) {
+    walls_.mirrors.resize(walls_.size());
+    walls_.mirrors.x0.assign(w.mirror);
+    walls_.mirrors.x.assign(w.mirror);
+  }
   if (walls_.size() > 0) WallMotion::place(frame_, walls_, poses_now());
 
   const auto& g = setup.grains;
@@ -195,6 +205,7 @@ SavedState CoupledSimulation::save() {
   if (has_fluid()) {
     out.stores.push_back(fluid_.save());
     out.stores.push_back(walls_.save());
+    if (walls_.mirrors.size() > 0) out.stores.push_back(walls_.mirrors.save());
   }
   out.scalars = {{"time", "s", clock_.time},         {"step", "-", double(clock_.step)},
                  {"last_dt", "s", clock_.last_dt},   {"drag_limit", "s", drag_limit_},
@@ -225,6 +236,9 @@ void CoupledSimulation::load(const SavedState& state) {
     fluid_.load(store_of(state, "fluid"));
     fluid_solver_->set_gravity(gravity_.at(clock_.time));
     walls_.load(store_of(state, "walls"));
+    const auto mirrored = [](const WallBody& body) { return body.type == "mdbc"; };
+    if (std::any_of(config_.wall.bodies.begin(), config_.wall.bodies.end(), mirrored))
+      walls_.mirrors.load(store_of(state, "mirrors"));
   }
   if (has_grains()) grains_.load(store_of(state, "grains"));
   bodies_.load([&](const char* name) -> const HostStore& { return store_of(state, name); });

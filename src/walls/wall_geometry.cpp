@@ -61,10 +61,10 @@ int most_contacts(const Surface& s) {
 
 }  // namespace
 
-WallGeometry::WallGeometry(const Config& config, bool grains_only) {
+WallGeometry::WallGeometry(const Config& config, const std::function<bool(const WallBody&)>& wanted) {
   for (std::uint32_t b = 0; b < config.wall.bodies.size(); ++b) {
     const WallBody& body = config.wall.bodies[b];
-    if (grains_only && !body.stops_grains()) continue;
+    if (!wanted(body)) continue;
     if (body.solid.shape) {
       std::vector<SurfacePart> parts;
       body.solid.shape->add_parts(parts, {});

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "bedload/case/config.hpp"
@@ -15,8 +16,10 @@ namespace bedload::inline BL_VARIANT {
 /// a box or a plane, one for each part of a shape.
 class WallGeometry {
  public:
-  /// Of all bodies, or of those that stop grains.
-  explicit WallGeometry(const Config& config, bool grains_only = false);
+  /// Of all bodies.
+  explicit WallGeometry(const Config& config) : WallGeometry(config, [](const WallBody&) { return true; }) {}
+  /// Of those that `wanted` holds for.
+  WallGeometry(const Config& config, const std::function<bool(const WallBody&)>& wanted);
 
   const std::vector<Surface>& surfaces() const { return surfaces_; }
   /// Touches that one grain may have at once, at most kMostWallContacts.

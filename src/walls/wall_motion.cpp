@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/fluid/layer_force.hpp"
+#include "kernels/smoothing/registry.hpp"
+
 namespace bedload::inline BL_VARIANT {
 namespace {
 
@@ -20,11 +23,29 @@ struct PlacePass {
   }
 };
 
-std::vector<Vec3d> corners(const WallBody& b) {
-  std::vector<Vec3d> out;
+struct PlaceImagesPass {
+  Frame frame;
+  Span<const BodyPose> placed;
+  Span<const Vec3d> x0;
+  Span<const std::uint32_t> body;
+  Span<Vec3d> x;
+  BL_HD void operator()(Index i) const { x[i] = frame.wrap(placed[body[i]].place(x0[i])); }
+};
+
+/// Of the box around a body and what lies within `beyond` of it.
+std::vector<Vec3d> corners(const WallBody& b, double beyond = 0) {
+  const Vec3d out{beyond, beyond, beyond}, min = b.min - out, max = b.max + out;
+  std::vector<Vec3d> all;
   for (int k = 0; k < 8; ++k)
-    out.push_back({k & 1 ? b.max.x : b.min.x, k & 2 ? b.max.y : b.min.y, k & 4 ? b.max.z : b.min.z});
-  return out;
+    all.push_back({k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z});
+  return all;
+}
+
+WallKind kind_of(const WallBody& body) {
+  if (body.type == "frozen") return WallKind::frozen;
+  if (body.type == "mdbc") return WallKind::mirrored;
+  if (body.type == "single_layer") return WallKind::single_layer;
+  return WallKind::extrapolated;
 }
 
 }  // namespace
@@ -33,12 +54,15 @@ WallMotion::WallMotion(const Config& config, const FreeBodies& free)
     : config_(config), free_(free), removed_(config.wall.bodies.size(), false) {
   for (const WallBody& body : config.wall.bodies) laws_.emplace_back(body.motion, config.time.end);
   for (const InletConfig& inlet : config.inlets) inlets_.emplace_back(inlet, config.fluid.dx);
+  if (config.fluid.present)
+    with_kernel(config.fluid.kernel, config.fluid.h(), [&](const auto& w) { layer_depth_ = layer_depth(w); });
 }
 
 BodyPose WallMotion::pose(int body, double t) const {
   if (body >= walls()) {
     BodyPose p{inlets_[body - walls()].motion(t)};
     p.flows = 1;
+    p.volume = cube(config_.fluid.dx);
     return p;
   }
   const WallBody& b = config_.wall.bodies[body];
@@ -46,7 +70,10 @@ BodyPose WallMotion::pose(int body, double t) const {
   BodyPose p{place < 0 ? laws_[body].at(t) : free_.motion(place)};
   p.free = std::uint32_t(place + 1);
   p.slip = b.slip == "slip";
-  p.repulsion = b.repulsion && b.stops_fluid();
+  p.kind = kind_of(b);
+  p.repulsion = b.repulsion && b.stops_fluid() && !b.single_layer();
+  const double dx = config_.wall.spacing(b);
+  p.volume = dx * dx * (b.single_layer() ? layer_depth_ : dx);
   p.present = !removed_[body];
   return p;
 }
@@ -77,7 +104,9 @@ double WallMotion::prescribed_speed(double t) const {
   for (int b = 0; b < walls(); ++b) {
     if (removed_[b] || !laws_[b].moves()) continue;
     const BodyPose p = pose(b, t);
-    for (const auto& c : corners(config_.wall.bodies[b])) top = std::max(top, norm(p.velocity(p.place(c))));
+    const WallBody& body = config_.wall.bodies[b];
+    const double beyond = kind_of(body) == WallKind::mirrored ? config_.fluid.kappa() * config_.fluid.h() : 0;
+    for (const auto& c : corners(body, beyond)) top = std::max(top, norm(p.velocity(p.place(c))));
   }
   return top;
 }
@@ -93,6 +122,8 @@ void WallMotion::place(const Frame& frame, WallStore& walls, Span<const BodyPose
   const Index n = pose.size / 2;
   const Span<const BodyPose> moving{pose.data, n}, placed{pose.data + n, n};
   for_each(walls.owned(), PlacePass{frame, moving, placed, walls.x0, walls.body, walls.x, walls.v_rho});
+  for_each(walls.mirrors.owned(),
+           PlaceImagesPass{frame, placed, walls.mirrors.x0, walls.body, walls.mirrors.x});
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -33,8 +33,8 @@ class WallMotion {
   double top_speed(double t, double dt = 0) const;
   /// The same of prescribed motions alone.
   double prescribed_speed(double t) const;
-  /// Places wall particles and sets their true velocity; `pose`: [2][bodies], that of the velocity and that
-  /// of the place.
+  /// Places wall particles and their images and sets their true velocity; `pose`: [2][bodies], that of the
+  /// velocity and that of the place.
   static void place(const Frame& frame, WallStore& walls, Span<const BodyPose> pose);
   /// The wall is gone from now on.
   void remove(int body) { removed_[body] = true; }
@@ -48,6 +48,7 @@ class WallMotion {
   std::vector<MotionLaw> laws_;  ///< one a wall
   std::vector<InletFlow> inlets_;
   std::vector<bool> removed_;
+  double layer_depth_ = 0;  ///< m
   std::vector<BodyPose> host_;
   Buffer<BodyPose> device_;
 };

@@ -127,6 +127,22 @@ INSTANTIATE_TEST_SUITE_P(
               "dam.toml:7: fluid.mu = 0 must be > 0 with grains; drag needs mu"},
         Wrong{"[[wall.body]]", "[wall]\ndx = 0.005\n[[wall.body]]",
               "dam.toml:11: wall.dx = 0.005 must be within 0.001..0.004; a quarter of fluid.dx to fluid.dx"},
+        Wrong{"[[wall.body]]", "[[wall.body]]\ntype = \"single_layer\"\ndx = 0.003",
+              "dam.toml:12: wall.body.dx = 0.003 must be within 0.001..0.002; a quarter of fluid.dx to half "
+              "of it "
+              "for a single_layer"},
+        Wrong{"[[wall.body]]", "[wall]\nlayer_r0 = 0.001\n[[wall.body]]\ntype = \"single_layer\"",
+              "dam.toml:11: wall.layer_r0 = 0.001 must be within 0.002..0.004; the spacing of wall.body "
+              "\"tank\" "
+              "to fluid.dx"},
+        Wrong{"[[wall.body]]", "[[wall.body]]\ntype = \"mdbc\"\nforce = \"kajtar\"",
+              "dam.toml:12: wall.body.force = \"kajtar\" has no use here; leave it out or change what it "
+              "belongs "
+              "to"},
+        Wrong{
+            "[[wall.body]]", "[[wall.body]]\ntype = \"single_layer\"\nrepulsion = true",
+            "dam.toml:12: wall.body.repulsion = true has no use here; leave it out or change what it belongs "
+            "to"},
         Wrong{"[time]", "[couple]\nhc = 0.001\n[time]",
               "dam.toml:22: couple.hc = 0.001 must be >= 0.002; unresolved coupling needs kappa h_c >= 2 "
               "d_max"},

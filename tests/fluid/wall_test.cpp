@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "kernels/fluid/layer_force.hpp"
+#include "kernels/fluid/wall_density.hpp"
 #include "kernels/fluid/wall_pass.hpp"
 #include "kernels/smoothing/wendland_c2.hpp"
 #include "tests/support/run.hpp"
@@ -18,6 +20,9 @@ struct LoneWall {
   std::vector<std::uint32_t> body = {0};
   std::vector<BodyPose> pose = std::vector<BodyPose>(1);
   std::vector<Real4> v_rho = std::vector<Real4>(1), v_visc = v_rho, m_state = v_rho;
+  std::vector<Real> compression = std::vector<Real>(1);
+
+  LoneWall() { pose[0].volume = 1e-3; }
 
   /// Beside fluid of this velocity and density, state and porosity.
   WallPass<WendlandC2> pass(const std::vector<Real4>& v, const std::vector<Real4>& m,
@@ -36,11 +41,10 @@ struct LoneWall {
             in(pose),
             Real3(gravity),
             Real(1e-3),
-            Real(1e-3),
-            Real(1e-3),
             out(v_rho),
             out(v_visc),
-            out(m_state)};
+            out(m_state),
+            out(compression)};
   }
 };
 
@@ -117,6 +121,71 @@ TEST(Walls, SayWhatMassCameWithTheirPorosity) {
   EXPECT_NEAR(came(Real(0.7), true), 0.3, 1e-5);
   EXPECT_EQ(came(1, false), 0) << "dry again";
   EXPECT_EQ(came(Real(0.4), true), 0);
+}
+
+/// What a mirrored particle finds about its image in fluid of density rho0 (1 + field).
+template <class Field>
+double mirrored(const std::vector<Vec3d>& at, const Vec3d& x, const Vec3d& image, const Field& field) {
+  std::vector<Real4> v, m;
+  for (const Vec3d& place : at) {
+    v.push_back({Real3(), Real(1000)});
+    m.push_back({Real(0.42), 0, Real(1000 * (1 + field(place))), 0});  // 150 fill what holds them
+  }
+  const auto in = [](const auto& host) { return Span(host.data(), Index(host.size())); };
+  const std::vector<Vec3d> place{x}, images{image};
+  const std::vector<std::uint32_t> body{0};
+  std::vector<BodyPose> pose(1);
+  pose[0].kind = WallKind::mirrored;
+  std::vector<Real> compression(1);
+  const MirrorPass<WendlandC2> pass{WendlandC2(0.15),
+                                    {{-9, -9, -9}, {9, 9, 9}, false, false, false},
+                                    1000,
+                                    Real(-0.5),
+                                    Real(1e-3),
+                                    in(v),
+                                    in(m),
+                                    in(place),
+                                    in(images),
+                                    in(body),
+                                    in(pose),
+                                    Span(compression.data(), 1)};
+  auto sum = pass.start(0);
+  for (std::size_t a = 0; a < at.size(); ++a) {
+    const Real3 r = Real3(image - at[a]);
+    if (norm2(r) < Real(0.09)) pass.pair(sum, 0, Index(a), r, norm2(r));
+  }
+  pass.finish(0, sum);
+  return compression[0];
+}
+
+TEST(Walls, MirrorALinearDensityExactly) {
+  std::mt19937 rng(5);
+  std::uniform_real_distribution<double> u(-0.25, 0.25);
+  std::vector<Vec3d> at;
+  for (int a = 0; a < 150; ++a) at.push_back({u(rng), u(rng), std::abs(u(rng))});
+  const Vec3d slope{0.02, -0.03, 0.05}, wall{0.01, 0.02, -0.08}, image{0.01, 0.02, 0.08};
+  const auto linear = [&](const Vec3d& x) { return 0.01 + dot(slope, x); };
+  EXPECT_NEAR(mirrored(at, wall, image, linear), linear(wall), tolerance(1e-10, 1e-5, 1e-5));
+}
+
+TEST(Walls, MirrorTheMeanWhereFluidSaysNothingOfItsSlope) {
+  const std::vector<Vec3d> at{{0.1, 0, 0}, {-0.1, 0, 0}};  // on a line
+  const auto field = [](const Vec3d& x) { return 0.02 + x.x; };
+  EXPECT_NEAR(mirrored(at, {0, 0, -0.05}, {}, field), 0.02, 1e-6);
+  EXPECT_EQ(mirrored({}, {0, 0, -0.05}, {}, field), double(kNoCompression));
+}
+
+/// One over the integral of F |z|: 2/3 h for Wendland's function.
+TEST(Walls, OfOneLayerStandForTheDepthThatCarriesShear) {
+  EXPECT_NEAR(layer_depth(WendlandC2(0.15)), 0.1, 1e-5);
+}
+
+TEST(Walls, OfOneLayerPushAsMonaghanAndKajtarSay) {
+  // q = 1: W = 1.77 / 32 (1 + 5/2 + 2)
+  EXPECT_NEAR(SoftRepulsion({3, Real(0.2)})(Real(0.2)), 3 * 1.77 / 32 * 5.5 / 0.2, 1e-5);
+  EXPECT_EQ(SoftRepulsion({3, Real(0.2)})(Real(0.4)), 0);
+  const LayerLaw steep{{Real(2), Real(0.1), Real(1e30)}, {}};
+  EXPECT_NEAR(steep(Real(0.05)), 2 * (16 - 4) / 0.05, 1e-3);
 }
 
 /// Water thrown into the corner of a tank, periodic across.

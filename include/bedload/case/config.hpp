@@ -184,13 +184,16 @@ struct WallBody {
   Vec3d min, max;                              ///< box, tank: m; of a shape: around it (resolved)
   std::array<bool, 6> faces{true, true, true, true, true, true};  ///< tank: x-, x+, y-, y+, z-, z+
   Vec3d point, normal;                         ///< plane: normal points into the flow
-  std::string type = "adami";                  ///< adami, grains_only, fluid_only
+  std::string type = "adami";                  ///< adami, mdbc, frozen, single_layer, grains_only, fluid_only
   std::string slip = "noslip";                 ///< noslip, slip
-  bool repulsion = true;                       ///< Monaghan repulsion beside the extrapolated pressure
+  bool repulsion = true;                       ///< Monaghan repulsion beside the wall's pressure
+  std::string force = "kajtar";                ///< single_layer: kajtar, monaghan
+  double dx = 0;                               ///< spacing of its particles, m; 0: wall.dx
   MotionConfig motion;
   FreeConfig free;                             ///< instead of a motion
   Solid solid;                                 ///< of a named shape (resolved)
-  bool stops_fluid() const { return type == "adami" || type == "fluid_only"; }
+  bool stops_fluid() const { return type != "grains_only"; }
+  bool single_layer() const { return type == "single_layer"; }
   bool stops_grains() const { return type != "fluid_only"; }
   bool moves() const { return motion.moves() || free.present; }
   bool operator==(const WallBody&) const = default;
@@ -198,16 +201,19 @@ struct WallBody {
 
 struct WallConfig {
   std::string type = "adami", slip = "noslip";  ///< defaults of the bodies
+  std::string force = "kajtar";                ///< of single layers
   bool repulsion = true;
   double dx = 0;                               ///< spacing of wall particles, m (default fluid.dx)
   double rep_D = 0;                            ///< m2/s2 (default 5 g H)
   double rep_r0 = 0;                           ///< m (default 0.5 dx)
+  double layer_r0 = 0;                         ///< reach of the Monaghan force of single layers, m (default dx)
   std::vector<WallBody> bodies;
   int free_bodies() const {
     int n = 0;
     for (const WallBody& body : bodies) n += body.free.present;
     return n;
   }
+  double spacing(const WallBody& body) const { return body.dx > 0 ? body.dx : dx; }  ///< m
   bool operator==(const WallConfig&) const = default;
 };
 

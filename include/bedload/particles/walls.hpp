@@ -4,17 +4,40 @@
 
 namespace bedload::inline BL_VARIANT {
 
+/// From where the particles of a wall have the pressure with which they meet the fluid.
+enum class WallKind : std::uint32_t {
+  extrapolated,  ///< from the fluid beside them
+  frozen,        ///< from their own density, which follows continuity
+  mirrored,      ///< from the density about their images in the fluid
+  single_layer,  ///< none: they push fluid away one by one
+};
+
 /// Where a wall body is, how it moves and how it meets fluid and grains.
 struct BodyPose : RigidMotion {
   std::uint32_t slip = 0;       ///< 1: slip
   std::uint32_t repulsion = 0;  ///< 1: Monaghan repulsion
   std::uint32_t present = 1;    ///< 0: removed
-  std::uint32_t flows = 0;      ///< 1: fluid on its way in, at the spacing of the fluid
+  std::uint32_t flows = 0;      ///< 1: fluid on its way in
   std::uint32_t free = 0;       ///< 1 + place among the free bodies; 0: motion prescribed
+  WallKind kind = WallKind::extrapolated;
+  double volume = 0;  ///< that one of its particles stands for, m3
 };
 
-/// Wall particles of the fluid: prescribed motion, extrapolated state. The next density step reads the state
-/// of the last one, so it is kept.
+/// Images of wall particles in the fluid. Empty, or one for each wall particle and in their order; those of
+/// walls that are not mirrored stand on the particles themselves.
+struct MirrorStore : Store {
+  MirrorStore() : Store("mirrors") {}
+
+  Field<Vec3d> x0{*this, "x0", "m", Lifetime::kept};  ///< place at t = 0
+  Field<Vec3d> x{*this, "x", "m", Lifetime::kept};
+  Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::kept};
+  Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};
+};
+
+constexpr Real kNoCompression = -1;  // no fluid is as thin as that
+
+/// Wall particles of the fluid: prescribed motion, state by the kind of their body. The next density step
+/// reads the state of the last one, so it is kept.
 struct WallStore : Store {
   WallStore() : Store("walls") {}
 
@@ -25,10 +48,14 @@ struct WallStore : Store {
   Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::kept};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};
   Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept};  ///< true velocity, superficial density
-  Field<Real4> v_visc{*this, "v_visc", "m/s",
-                      Lifetime::kept};  ///< no-slip velocity; w = 1 where viscous pairs count
+  Field<Real4> v_visc{*this, "v_visc", "m/s, kg",
+                      Lifetime::kept};  ///< no-slip velocity; w: mass with which it drags, 0 with slip
   /// mass (kg; 0: inactive), P / rho~^2, intrinsic density, mass that came with the last change of porosity
   Field<Real4> m_state{*this, "m_state", "-", Lifetime::kept};
+  /// rho / rho0 - 1 of frozen and mirrored walls; kNoCompression: outer layers of a frozen one, or no fluid
+  /// about the image
+  Field<Real> compression{*this, "compression", "-", Lifetime::kept};
+  MirrorStore mirrors;
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,102 @@
+#pragma once
+#include "bedload/neighbours/for_each_pair.hpp"
+#include "bedload/particles/walls.hpp"
+#include "kernels/fluid/pair_terms.hpp"
+#include "kernels/fluid/wall_repulsion.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Depth of wall (m) for which one layer of particles stands: with the mass of that depth, Morris pairs
+/// between the layer and a linear shear flow beside it carry the shear stress of that flow. One over the
+/// integral of F |z|, which by symmetry is half that of F r.
+template <class W>
+double layer_depth(const W& w) {
+  constexpr int shells = 4000;
+  const double step = double(w.kappa) * double(w.h) / shells;
+  double sum = 0;
+  for (int k = 0; k < shells; ++k) {
+    const double r = (k + 0.5) * step;
+    sum += 2 * double(kPi) * r * r * r * double(w.F(Real(r))) * step;
+  }
+  return 1 / sum;
+}
+
+/// Soft repulsion between particles (Monaghan and Kajtar 2009): strength W(r/h) / r, with their W.
+struct SoftRepulsion {
+  Real strength = 0, h = 1;  ///< K / beta times the factor of the masses, m2/s2; m
+  /// Acceleration away from the wall particle, m/s2.
+  BL_HD Real operator()(Real r) const {
+    const Real q = r / h;
+    if (q >= 2) return 0;
+    const Real t = 2 - q;
+    return strength * Real(1.77 / 32) * (1 + Real(2.5) * q + 2 * q * q) * square(square(t)) * t /
+           max_of(r, Real(1e-3) * h);
+  }
+};
+
+/// How the particles of one body push fluid away: by one of the two, the other being zero; not at all where
+/// the body is no single layer.
+struct LayerLaw {
+  Repulsion steep;
+  SoftRepulsion soft;
+  BL_HD Real operator()(Real r) const { return steep(r) + soft(r); }
+};
+
+/// What a single layer gives the fluid: its push, and artificial viscosity as among the fluid, without which
+/// the fluid would bounce on it for ever.
+template <class W>
+struct LayerForces {
+  W w;
+  ArtificialViscosity artificial;
+  Span<const LayerLaw> law;  ///< one a body
+  Real cap;                  ///< m/s2
+  Span<const std::uint32_t> body;
+  Span<const BodyPose> pose;
+  Span<const Real4> v_rho;  ///< of the wall
+
+  struct Acceleration {
+    Real3 push, damping;  ///< m/s2
+  };
+  /// Of fluid with {v, rho~} and {.., .., intrinsic rho, ..} at r from wall particle b.
+  BL_HD Acceleration operator()(const Real4& va, const Real4& ma, Index b, const Real3& r, Real r2) const {
+    const BodyPose& k = pose[body[b]];
+    if (k.kind != WallKind::single_layer || !k.present || r2 == 0) return {};
+    const Real distance = std::sqrt(r2);
+    Acceleration out{min_of(law[body[b]](distance), cap) / distance * r, {}};
+    if (artificial.acts()) {
+      const Real4 vb = v_rho[b];
+      const Real rho_mean = Real(0.5) * (va.w + vb.w), solid = 1 - va.w / ma.z;
+      out.damping = artificial.term(vb.w * Real(k.volume), dot(va.xyz() - vb.xyz(), r), rho_mean, solid, r2,
+                                    w.F(distance)) *
+                    r;
+    }
+    return out;
+  }
+};
+
+/// Adds what single layers give the fluid. Their push stands for the pressure of the wall, so it is part of
+/// theta.
+template <class W>
+struct LayerPass {
+  LayerForces<W> layer;
+  Span<const Real4> v_rho, m_state;
+  Span<Real3> theta, acc;
+
+  using Sum = typename LayerForces<W>::Acceleration;
+  BL_HD Sum start(Index) const { return {}; }
+  BL_HD void pair(Sum& sum, Index a, Index b, const Real3& r, Real r2) const {
+    const Sum more = layer(v_rho[a], m_state[a], b, r, r2);
+    sum.push += more.push;
+    sum.damping += more.damping;
+  }
+  BL_HD void merge(Sum& into, const Sum& other) const {
+    into.push += other.push;
+    into.damping += other.damping;
+  }
+  BL_HD void finish(Index a, const Sum& sum) const {
+    theta[a] += sum.push;
+    acc[a] += sum.push + sum.damping;
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,112 @@
+#pragma once
+// Density of walls that do not take it from an extrapolated pressure.
+
+#include "bedload/neighbours/for_each_pair.hpp"
+#include "bedload/particles/walls.hpp"
+#include "kernels/coupling/symmetric_matrix.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Continuity of the inner layer of frozen walls, of the fluid's share of their volume: as DensityPass, from
+/// the side of the wall. No thinner than torn fluid.
+template <class W>
+struct FrozenPass {
+  W w;
+  Real rho0, dt, back, least;  ///< kg/m3, s, s, -
+  Span<const Real4> v_rho, m_state, wall_v_rho, wall_m_state;
+  Span<const std::uint32_t> body;
+  Span<const BodyPose> pose;
+  Span<Real> compression;
+
+  template <class N = Real>
+  struct Sum {
+    Vec3<N> v;
+    N rate;
+  };
+  BL_HD Sum<> start(Index b) const { return {wall_v_rho[b].xyz(), 0}; }
+  template <class N, class J>
+  BL_HD void pair(Sum<N>& sum, Index, J a, const Vec3<N>& r, N) const {
+    const Vec4<N> va = v_rho[a], ma = m_state[a];
+    const Vec3<N> v = sum.v - va.xyz();
+    const Vec3<N> rm = r - back * v;
+    sum.rate += ma.x * w.F(norm(rm)) * dot(v, rm);
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rate += other.rate; }
+  BL_HD void finish(Index b, const Sum<>& sum) const {
+    const bool dry = wall_m_state[b].x == 0;
+    if (dry || pose[body[b]].kind != WallKind::frozen || compression[b] == kNoCompression) return;
+    const Real porosity = wall_v_rho[b].w / wall_m_state[b].z;
+    compression[b] = max_of(least, compression[b] - dt * sum.rate / (porosity * rho0));
+  }
+};
+
+/// Density of mirrored walls (English et al. 2022): the fluid's about the image of each particle and its
+/// slope there, by sums that are exact for linear fields, carried back to the particle. Where the fluid about
+/// the image does not determine a slope, its weighted mean.
+template <class W>
+struct MirrorPass {
+  W w;
+  Frame frame;
+  Real rho0, least, least_sum;  ///< kg/m3; lower bound on the result; no fluid below this sum of W, 1/m3
+  Span<const Real4> v_rho, m_state;
+  Span<const Vec3d> x, image;
+  Span<const std::uint32_t> body;
+  Span<const BodyPose> pose;
+  Span<Real> compression;
+
+  static constexpr Real kLeastDeterminant = Real(1e-3);  // 1 where the image is deep in the fluid
+
+  /// With s = x_a - image and weights V_a W, V_a F: the matrix [W, W s; F s, F s s] and [W, F s] rho.
+  template <class N = Real>
+  struct Sum {
+    N number, unity;
+    Vec3<N> Ws, Fs;
+    SymmetricMatrix<N> Fss;
+    N W_rho;
+    Vec3<N> Fs_rho;
+  };
+  BL_HD Sum<> start(Index) const { return {0, 0, {}, {}, {}, 0, {}}; }
+  template <class N, class J>
+  BL_HD void pair(Sum<N>& sum, Index, J a, const Vec3<N>& r, N r2) const {
+    const Vec4<N> va = v_rho[a], ma = m_state[a];
+    const N volume = ma.x / va.w, distance = root(r2), here = w.W(distance);
+    const N W_a = volume * here, F_a = volume * w.F(distance), rho = ma.z / rho0 - 1;
+    sum.number += here;
+    sum.unity += W_a;
+    sum.Ws -= W_a * r;
+    sum.Fs -= F_a * r;
+    sum.Fss.add_outer(F_a, r);
+    sum.W_rho += W_a * rho;
+    sum.Fs_rho -= F_a * rho * r;
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
+    into.number += other.number;
+    into.unity += other.unity;
+    into.Ws += other.Ws;
+    into.Fs += other.Fs;
+    into.Fss += other.Fss;
+    into.W_rho += other.W_rho;
+    into.Fs_rho += other.Fs_rho;
+  }
+  BL_HD void finish(Index b, const Sum<>& sum) const {
+    if (pose[body[b]].kind != WallKind::mirrored) return;
+    compression[b] = sum.number < least_sum ? kNoCompression : max_of(least, carried_back(b, sum));
+  }
+
+ private:
+  BL_HD Real carried_back(Index b, const Sum<>& sum) const {
+    const Real determinant = sum.Fss.determinant();
+    if (determinant > kLeastDeterminant) {
+      const SymmetricMatrix<Real> inverse = sum.Fss.inverse();
+      const Real pivot = sum.unity - dot(sum.Ws, inverse * sum.Fs);
+      if (pivot * determinant > kLeastDeterminant) {
+        const Real rho = (sum.W_rho - dot(sum.Ws, inverse * sum.Fs_rho)) / pivot;
+        const Real3 slope = inverse * (sum.Fs_rho - rho * sum.Fs);
+        return rho + dot(slope, Real3(frame.separation(x[b], image[b])));
+      }
+    }
+    return sum.W_rho / sum.unity;
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

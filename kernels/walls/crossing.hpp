@@ -1,0 +1,65 @@
+#pragma once
+// Pairs of fluid particles with a surface between them.
+
+#include "bedload/neighbours/for_each_pair.hpp"
+#include "bedload/particles/fluid.hpp"
+#include "kernels/walls/surface.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Foot nearest to a place, on any of the surfaces.
+struct NearestFoot {
+  Vec3d normal;
+  double distance = 0;    ///< m
+  Index surface = kNone;  ///< none within reach
+};
+
+struct FootPass {
+  Frame frame;
+  SurfaceSet walls;
+  Span<const BodyPose> pose;
+  double reach;  ///< m
+  Span<const FluidPosition> x;
+  Span<NearestFoot> foot;
+
+  BL_HD void operator()(Index a) const { foot[a] = nearest(coordinates(frame, x[a])); }
+  BL_HD NearestFoot nearest(const Vec3d& at) const {
+    NearestFoot best;
+    for (Index k = 0; k < walls.surfaces.size; ++k) look(k, at, best);
+    return best;
+  }
+  BL_HD void look(Index k, const Vec3d& at, NearestFoot& best) const {
+    const Surface& surface = walls.surfaces[k];
+    if (!pose[surface.body].present) return;
+    const SurfaceView view(surface, pose[surface.body], frame, at);
+    if (view.beyond(walls, reach)) return;
+    view.each_foot(walls, reach, 1e-4 * reach, [&](const Foot& foot) {
+      const bool nearer = best.surface == kNone || std::abs(foot.distance) < std::abs(best.distance);
+      if (nearer && std::abs(foot.distance) < reach) best = {foot.normal, foot.distance, k};
+    });
+  }
+};
+
+/// Counts for each particle a the partners b that its nearest surface keeps out of sight: each lies behind
+/// the plane through the other's foot, and the line between them meets the surface where it meets a's plane,
+/// which tells a shell from its rim.
+struct CrossingPass {
+  FootPass feet;
+  double tolerance;  ///< m
+  Span<std::uint32_t> count;
+
+  BL_HD std::uint32_t start(Index) const { return 0; }
+  BL_HD void pair(std::uint32_t& sum, Index a, Index b, const Real3& r_ab, Real) const {
+    const NearestFoot &at = feet.foot[a], &other = feet.foot[b];
+    if (at.surface == kNone || other.surface == kNone) return;
+    const Vec3d r(r_ab);
+    const double towards = dot(r, at.normal);
+    if (!(towards > at.distance && -dot(r, other.normal) > other.distance)) return;
+    NearestFoot there;
+    feet.look(at.surface, coordinates(feet.frame, feet.x[a]) - (at.distance / towards) * r, there);
+    if (there.surface != kNone && std::abs(there.distance) < tolerance) ++sum;
+  }
+  BL_HD void finish(Index a, std::uint32_t sum) const { count[a] = sum; }
+};
+
+}  // namespace bedload::inline BL_VARIANT
