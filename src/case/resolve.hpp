@@ -23,6 +23,9 @@ void resolve_listed_fluid(Config& config, const Value& root, const std::filesyst
 bool resolve_listed_grains(Config& config, std::size_t index, const Value& root,
                            const std::filesystem::path& checkpoint);
 
+/// Mass, material, contacts and constraints of free bodies.
+void resolve_free_bodies(Config& config, const Value& root);
+
 /// Unit vectors, half widths and shapes of openings; checks that orifices are wide enough for fluid.dx.
 void resolve_openings(Config& config, const Value& root);
 

@@ -1,0 +1,109 @@
+// What the host asks of free bodies: speeds, step limits, forces, sums, what is kept.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/walls/free_bodies.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+bool finite(const Vec3d& v) { return std::isfinite(v.x + v.y + v.z); }
+
+}  // namespace
+
+int FreeBodies::broken() const {
+  for (int k = 0; k < size(); ++k)
+    if (!finite(now_[k].translation) || !finite(now_[k].v) || !finite(now_[k].omega)) return k;
+  return -1;
+}
+
+double FreeBodies::top_speed(double time, double dt) const {
+  double top = 0;
+  for (int k = 0; k < size(); ++k) {
+    if (held(k, time + dt)) continue;
+    const RigidMotion& m = now_[k];
+    top = std::max(top, norm(m.v) + dt * norm(m.a) + sizes_[k] * (norm(m.omega) + dt * norm(m.alpha)));
+  }
+  return top;
+}
+
+std::vector<StepLimit> FreeBodies::limits(double wall_speed) const {
+  if (!any()) return {};
+  const double g = norm(config_.gravity) + config_.frame.acceleration;
+  double contact = kInfinity, turn = kInfinity;
+  for (int k = 0; k < size(); ++k) {
+    const double size = 2 * sizes_[k];
+    const double speed =
+        std::max(norm(now_[k].v) + sizes_[k] * norm(now_[k].omega) + wall_speed, std::sqrt(g * size));
+    turn = std::min(turn, 0.02 * size / std::max(speed, 1e-300));
+    const auto touches = [&](double m, double R, double E) {
+      contact = std::min(contact, 2.8683 * std::pow(m * m / (R * E * E * speed), 0.2));
+    };
+    if (speed == 0) continue;
+    const double wall_give = (1 - config_.grain.nu * config_.grain.nu) / config_.grain.E;
+    if (balls_.size() > 0)
+      touches(1 / (2 * eases_[k]), contact_radius_, 1 / (give_ + std::min(give_, wall_give)));
+    if (config_.grain.present) {
+      const double R = 0.5 * config_.grain.d_min;
+      const double m = 1 / (1 / (4.0 / 3.0 * M_PI * R * R * R * config_.grain.rho) + eases_[k]);
+      if (config_.contact.normal == "hertz") touches(m, R, 0.5 / wall_give);
+      if (config_.contact.normal == "linear")
+        contact = std::min(contact, M_PI * std::sqrt(m / config_.contact.k));
+    }
+  }
+  std::vector<StepLimit> all;
+  if (std::isfinite(contact)) all.push_back({"body contact", config_.time.contact * contact});
+  all.push_back({"body turn", turn});
+  return all;
+}
+
+double FreeBodies::stable_dt(double wall_speed) const {
+  double least = kInfinity;
+  for (const StepLimit& limit : limits(wall_speed)) least = std::min(least, limit.seconds);
+  return least;
+}
+
+BodyForces FreeBodies::forces(int k) const {
+  const auto at = [&](const Field<Vec3d>& field) { return field.values()[k]; };
+  return {at(store_.grain_force),    at(store_.grain_torque), at(store_.contact_force),
+          at(store_.contact_torque), at(store_.fluid_force),  at(store_.fluid_torque)};
+}
+
+LoadSum FreeBodies::contact_load(int body) const {
+  if (ball_loads_.size == 0) return LoadSum::zero();
+  return reduce({0, ball_loads_.size}, TouchReduction{ball_loads_, std::uint32_t(body)});
+}
+
+BodyTotals FreeBodies::totals() const {
+  BodyTotals t;
+  if (!any()) return t;
+  const auto x = store_.x.values(), v = store_.v.values(), spin = store_.spin.values();
+  const auto q = store_.rotation.values();
+  for (int k = 0; k < size(); ++k) {
+    const RigidBody& b = bodies_[k];
+    const Quat<double> turn = to_quat(q[k]);
+    const Vec3d centre = x[k] + turn.rotate(b.arm);
+    // of a body that only turns, `spin` is all there is, about its pivot
+    const Vec3d u = b.move == BodyMove::none ? cross(b.omega(turn, spin[k]), centre - x[k]) : v[k];
+    const double moving = 0.5 * b.mass * norm2(u);
+    t.mass += b.mass;
+    t.momentum += b.mass * u;
+    t.angular += cross(x[k], b.mass * u) + spin[k];
+    t.kinetic += moving;
+    t.rotational += b.turning_energy(turn, spin[k]) - (b.move == BodyMove::none ? moving : 0);
+    t.potential -= b.mass * dot(config_.gravity, centre);
+  }
+  return t;
+}
+
+void FreeBodies::save(std::vector<HostStore>& stores) const {
+  if (!any()) return;
+  stores.push_back(store_.save());
+  if (balls_.size() > 0) stores.push_back(memory_.save());
+}
+
+}  // namespace bedload::inline BL_VARIANT
