@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(Cases, AreLaidWithoutWarnings) {
+TEST(Cases, AreLaidWithoutUnexpectedWarnings) {
   struct Count {
     std::size_t fluid, grains;
   };
@@ -32,6 +32,9 @@ TEST(Cases, AreLaidWithoutWarnings) {
       {"stirred_tank/case.toml", {49680, 0}},
       {"taylor_green/case.toml", {50 * 50 * 8, 0}},
   };
+  const std::map<std::string, std::string> thin{// tube and blades, thinner than the kernel reaches
+                                                {"agitated_tube/case.toml", "wall.body \"agitator\""},
+                                                {"stirred_tank/case.toml", "wall.body \"impeller\""}};
   std::size_t found = 0;
   const fs::path cases = fs::path(BL_SOURCE_DIR) / "cases";
   for (const auto& entry : fs::recursive_directory_iterator(cases)) {
@@ -44,10 +47,10 @@ TEST(Cases, AreLaidWithoutWarnings) {
     const auto setup = build_setup(config, warnings);
     EXPECT_EQ(setup.fluid.x.size(), expected.at(name).fluid);
     EXPECT_EQ(setup.grains.x.size(), expected.at(name).grains);
-    if (name == "agitated_tube/case.toml") {  // its tube is 0.3 mm thick
+    if (thin.contains(name)) {
       ASSERT_EQ(warnings.size(), 1u);
-      EXPECT_TRUE(warnings[0].starts_with("wall.body \"agitator\": its shape \"agitator\" is 0.000"))
-          << warnings[0];
+      EXPECT_TRUE(warnings[0].starts_with(thin.at(name))) << warnings[0];
+      EXPECT_NE(warnings[0].find("would share wall particles"), std::string::npos) << warnings[0];
       warnings.clear();
     }
     EXPECT_EQ(warnings, std::vector<std::string>());
