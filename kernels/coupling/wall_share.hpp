@@ -39,7 +39,8 @@ struct HalfSpaceShare {
 };
 
 /// Share of the kernel around a point that walls leave free. Each extent is taken for itself: exact for
-/// planes and for tanks up to the kernel's deviation from a product of three. A curved surface counts as the
+/// planes and for tanks up to the kernel's deviation from a product of three. Boxes end where they end, so what
+/// several of them hide adds up, side by side as they are and not one within another. A curved surface counts as the
 /// plane through its foot; feet that look the same way hide the same, and those on the far side of a wall,
 /// which are seen from behind, hide nothing more.
 struct WallFreeShare {
@@ -49,19 +50,20 @@ struct WallFreeShare {
   Span<const BodyPose> pose;
 
   BL_HD Real operator()(const Vec3d& x) const {
-    Real share = 1;
+    Real share = 1, boxes = 0;
     for (Index k = 0; k < walls.surfaces.size; ++k) {
       const Surface& s = walls.surfaces[k];
       const BodyPose& at = pose[s.body];
       if (!at.present) continue;
       const SurfaceView view(s, at, frame, x);
-      if (s.kind == SurfaceKind::plane || s.kind == SurfaceKind::rectangle ||
-          (s.kind == SurfaceKind::box && s.shell == 0))
+      if (s.kind == SurfaceKind::plane || s.kind == SurfaceKind::rectangle)
         share *= 1 - behind(s, view.local());
+      else if (s.kind == SurfaceKind::box && s.shell == 0)
+        boxes += behind(s, view.local());
       else
         share *= beside(view);
     }
-    return max_of(share, Real(0.125));  // in a corner
+    return max_of(share - boxes, Real(0.125));  // in a corner
   }
 
  private:

@@ -3,12 +3,9 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Continuity [H (6)], [R (7)] with density diffusion: advances s = rho~/rho0 - 1 over `dt`. Kick-drift-kick
-/// evaluates pairs half a step back (`back` = dt/2, with the half-step velocities), which makes the step
-/// reversible; Euler where they are (0).
-/// Diffusion acts on what the densities of a pair differ by beyond the slope that goes with the pressure
-/// gradient, -rho~ theta / c^2: in water at rest the one of Fourtakas et al. (2019), but it also leaves water
-/// alone that turns or seeps steadily, which their slope of gravity makes denser for as long as it does.
+/// Continuity [H (6)], [R (7)] with density diffusion (Fourtakas et al. 2019): advances
+/// s = rho~/rho0 - 1 over `dt`. Kick-drift-kick evaluates pairs half a step back (`back` = dt/2,
+/// with the half-step velocities), which makes the step reversible; Euler where they are (0).
 /// Continuity is how the sum of m W changes; a wall's mass changes with its porosity, which belongs to it:
 /// else fluid that enters a bed in its midst and leaves it along a wall comes out ever denser. Walls count at
 /// rho0: with the density of their pressure, a wall that slides past resting fluid would change the fluid's
@@ -18,23 +15,20 @@ struct DensityPass {
   W w;
   Span<const Real4> v_rho, m_state, wall_v_rho, wall_m_state;
   Span<const Real> eps;
-  Span<const Real3> theta;  ///< acceleration by pressure and viscosity, of the last forces
-  Real diffusion;           ///< 2 delta h c [m2/s]
-  Real inv_c2;              ///< at rho0 [s2/m2]
-  Real stiffening;          ///< and by which power of rho0 / rho elsewhere: gamma - 1
-  Real rho0, dt, back;      ///< kg/m3, s, s
+  Real diffusion;       ///< 2 delta h c [m2/s]
+  Real3 hydrostatic;    ///< rho0 g / c^2 [kg/m4]: how density grows downwards at rho0
+  Real stiffening;      ///< and by which power of rho0 / rho elsewhere: gamma - 2
+  Real rho0, dt, back;  ///< kg/m3, s, s
   Span<const Real> s;
   Span<Real> s_new;
+  Span<Real> filled;  ///< share of the kernel that fluid and walls fill at the end; empty if nobody asks
 
   template <class N = Real>
   struct Sum {
-    Vec3<N> v, push;  ///< push = rho~ theta
-    N rho, eps, rate, diffused, came;
+    Vec3<N> v;
+    N rho, eps, rate, diffused, came, filled;
   };
-  BL_HD Sum<> start(Index a) const {
-    const Real4 v = v_rho[a];
-    return {v.xyz(), v.w * theta[a], m_state[a].z, eps[a], 0, 0, 0};
-  }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), m_state[a].z, eps[a], 0, 0, 0, 0}; }
 
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N) const {
@@ -43,10 +37,10 @@ struct DensityPass {
     const Vec3<N> rm = r - back * v;
     const N F = w.F(norm(rm));
     sum.rate += mb.x * F * dot(v, rm);
-    const N softer = 1 - stiffening * (Real(0.5) * (sum.rho + mb.z) / rho0 - 1);
-    const N slope = Real(0.5) * inv_c2 * softer * dot(sum.push + vb.w * Vec3<N>(theta[b]), rm);
+    if (filled) sum.filled += mb.x / vb.w * w.W(norm(r));
+    const N still = 1 - stiffening * (Real(0.5) * (sum.rho + mb.z) / rho0 - 1);
     const N shared = Real(0.5) * (sum.eps + vb.w / mb.z);  // what one gains the other loses
-    sum.diffused += shared * mb.x / vb.w * F * (mb.z - sum.rho - slope);
+    sum.diffused += shared * mb.x / vb.w * F * (mb.z - sum.rho + still * dot(Vec3<N>(hydrostatic), rm));
   }
   template <class N, class J>
   BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N) const {
@@ -56,14 +50,17 @@ struct DensityPass {
     sum.rate += mb.x * rho0 / mb.z * w.F(norm(rm)) * dot(v, rm);
     // m W changes by m dW on the way and by W dm where it began: walls that slide past a bed bring nothing
     sum.came += mb.w * w.W(norm(r - dt * v));
+    if (filled) sum.filled += mb.x / vb.w * w.W(norm(r));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.rate += other.rate;
     into.diffused += other.diffused;
     into.came += other.came;
+    into.filled += other.filled;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
     s_new[a] = s[a] + (dt * (diffusion * sum.diffused - sum.rate) + sum.came) / rho0;
+    if (filled) filled[a] = m_state[a].x / v_rho[a].w * w.W(Real(0)) + sum.filled;
   }
 };
 

@@ -160,12 +160,13 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains) {
   });
 }
 
-void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose) {
+void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, bool moved) {
   with_kernel(kernel_, h_c_, [&](auto w) {
     const WallFreeShare wall_free{half_space_, frame_, walls_, pose};
     for_each_pair(
         fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, grains.x}, range_,
-        PorosityPass<decltype(w)>{w, eps_min_, wall_free, frame_, fluid.x, grains.radius, fluid.eps});
+        PorosityPass<decltype(w)>{w, eps_min_, wall_free, frame_, fluid.x, grains.radius, fluid.eps,
+                                  moved ? Span<const Real>(fluid.filled) : Span<const Real>(), fluid.s});
   });
 }
 

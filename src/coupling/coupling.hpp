@@ -46,7 +46,8 @@ class Coupling {
   /// changed since gather.
   void react(FluidStore& fluid, const GrainStore& grains);
   /// Sets fluid.eps for the present positions; pose: of every wall body, on the device.
-  void porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose);
+  /// `moved`: in the course of a step, so that the superficial density of torn fluid follows; else eps alone.
+  void porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, bool moved = false);
 
   /// Largest fluid step that drag allows (s), after the last gather; infinite without a reaction. Waits.
   double stable_dt() const;

@@ -98,21 +98,22 @@ class FluidSolverWith final : public FluidSolver {
   void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt,
                double back) override {
     const double c = config_.fluid.c;
-    DensityPass<W> pass{w_,
-                        fluid.v_rho,
-                        fluid.m_state,
-                        walls.v_rho,
-                        walls.m_state,
-                        fluid.eps,
-                        fluid.theta,
-                        Real(2 * config_.density.delta * config_.fluid.h() * c),
-                        Real(1 / (c * c)),
-                        eos_.gamma - 1,
-                        Real(config_.fluid.rho0),
-                        Real(dt),
-                        Real(back),
-                        fluid.s,
-                        fluid.s_next};
+    DensityPass<W> pass{
+        w_,
+        fluid.v_rho,
+        fluid.m_state,
+        walls.v_rho,
+        walls.m_state,
+        fluid.eps,
+        Real(2 * config_.density.delta * config_.fluid.h() * c),
+        gravity_ * Real(config_.fluid.rho0 / (c * c)),
+        eos_.gamma - 2,
+        Real(config_.fluid.rho0),
+        Real(dt),
+        Real(back),
+        fluid.s,
+        fluid.s_next,
+        config_.couple.mode == "two_way" && config_.grain.present ? Span<Real>(fluid.filled) : Span<Real>()};
     // all listed pairs: one that is out of reach now may have been within reach half a step ago
     run(fluid, walls, range() + skin(), pass);
     if (!frozen_) return;

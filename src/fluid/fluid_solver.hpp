@@ -32,7 +32,8 @@ class FluidSolver {
   double range() const { return kappa_ * config_.fluid.h(); }            ///< kernel support, m
   double skin() const { return config_.skin_fluid * config_.fluid.dx; }  ///< m
   const EquationOfState& eos() const { return eos_; }
-  /// Gravity minus the frame's acceleration (m/s2), for the next walls() and forces().
+  /// Gravity minus the frame's acceleration (m/s2), for the next walls() and forces(). density() takes it for
+  /// its hydrostatic slope, as it was for the state from which it starts.
   void set_gravity(const Vec3d& g) { gravity_ = Real3(g); }
 
   /// Sorts the fluid and renews all lists; sorts the walls too where they have moved.

@@ -106,7 +106,7 @@ void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   FluidSolver& fluid = *fluid_solver_;
   if (two_way()) {
     watch_.lap(kFluid);
-    coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1));
+    coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1), dt > 0);
     watch_.lap(kCoupling);
   }
   fluid.state(fluid_, predict, two_way());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bedload/geometry/lattice.hpp"
 #include "kernels/fluid/layer_force.hpp"
 #include "kernels/smoothing/registry.hpp"
 
@@ -73,7 +74,8 @@ BodyPose WallMotion::pose(int body, double t) const {
   p.kind = kind_of(b);
   p.repulsion = b.repulsion && b.stops_fluid() && !b.single_layer();
   const double dx = config_.wall.spacing(b);
-  p.volume = dx * dx * (b.single_layer() ? layer_depth_ : dx);
+  const bool even = b.shape == "tank" || b.shape == "box";  // their particles divide the sides evenly
+  p.volume = b.single_layer() ? dx * dx * layer_depth_ : even ? cell_volume(b.min, b.max, dx) : cube(dx);
   p.present = !removed_[body];
   return p;
 }

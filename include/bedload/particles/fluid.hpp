@@ -21,6 +21,7 @@ struct FluidStore : Store {
   Field<Real3> drag_kick{*this, "drag_kick", "m/s", Lifetime::derived};  ///< by the drag of the grains, this step
   Field<Real3> acc_next{*this, "acc_next", "m/s2", Lifetime::derived};
   Field<Real> s_next{*this, "s_next", "-", Lifetime::derived};
+  Field<Real> filled{*this, "filled", "-", Lifetime::derived};  ///< share of the kernel with fluid or wall in it
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};  ///< x as pair loops read it
   Field<Real3> reaction{*this, "reaction", "m/s2", Lifetime::derived};  ///< - pressure part of the force on grains / m
 };
