@@ -4,7 +4,7 @@
     phases.py RUN_DIR [--period N]
 
 Writes RUN_DIR/phases.csv (phase and speed of the five events of He et al. (2018), Fig. 10: A and E highest, B and D
-fastest downwards, C lowest) and RUN_DIR/phases.png: height and speed of the agitator over the period, and the speed
+fastest on the way down and up, C lowest) and RUN_DIR/phases.png: height and speed of the agitator over the period, and the speed
 of the water at the five phases, across the tube and seen from above along its axis. Takes the last whole period, or
 number N from 1. Needs frames of that period (out.every of a twentieth of it or less) for the water.
 """
@@ -85,17 +85,21 @@ def draw(run, phase, y, z, speed, found, begin, f):
             axis.axvline(at, color="#999999", lw=0.8)
             axis.text(at, axis.get_ylim()[1], name, ha="center", va="bottom")
     water = Frames(run / "fluid.vtkhdf")
+    domain = resolved_case(run)["domain"]
+    span = [(1000 * low, 1000 * high) for low, high in zip(domain["min"], domain["max"])]
     for k, (name, (at, _)) in enumerate(found.items()):
         frame = water.nearest(begin + at / 2 / f)
         x = 1000 * water.position(frame)
         v = np.linalg.norm(water.get(frame, "velocity"), axis=1)
         middle = (x[:, 0].max() + x[:, 0].min()) / 2
         slab = np.abs(x[:, 0] - middle) < 0.05 * np.ptp(x[:, 0])
-        top = surface(x)
+        top = surface(x, 750 * resolved_case(run)["fluid"]["dx"])
         for axis, pick, (a, b) in ((axes[1, k], slab, (1, 2)), (axes[2, k], top, (0, 1))):
             order = np.flatnonzero(pick)
             shown = axis.scatter(x[order, a], x[order, b], c=v[order], s=4, vmin=0, vmax=0.3, cmap="viridis", lw=0)
             axis.set_aspect("equal")
+            axis.set_xlim(*span[a])
+            axis.set_ylim(*span[b])
             axis.set_xlabel("xyz"[a] + " (mm)")
         axes[1, k].set_title(f"{name}, t = {water.times[frame]:.3f} s")
     axes[1, 0].set_ylabel("z (mm)")
@@ -104,8 +108,8 @@ def draw(run, phase, y, z, speed, found, begin, f):
     figure.savefig(run / "phases.png", dpi=110)
 
 
-def surface(x, cell=0.6):
-    """Which particles lie highest above their place in plan, to within a cell."""
+def surface(x, cell):
+    """Which particles (places in mm) lie highest above their place in plan, to within a cell."""
     column = np.floor(x[:, :2] / cell).astype(int)
     column -= column.min(axis=0)
     key = column[:, 0] * (column[:, 1].max() + 1) + column[:, 1]

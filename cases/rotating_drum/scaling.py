@@ -4,8 +4,8 @@
     scaling.py PROGRAM OUT_DIR [--until S] [--settle S]
 
 Runs each drum for `until` seconds after its beads have settled for `settle`, tells milliseconds a step of the fluid, of
-the grains, of their coupling and of the lists, and fits lines a + b N: of the fluid over the number of fluid particles,
-of a grain substep over the number of grains. Writes OUT_DIR/scaling.csv.
+the grains, of their coupling and of the lists, and fits lines a + b N: of the fluid over the number of SPH particles,
+walls included, of a grain substep over the number of grains. Writes OUT_DIR/scaling.csv.
 """
 
 import argparse
@@ -66,7 +66,7 @@ def main():
     with open(out / "scaling.csv", "w", newline="") as file:
         csv.writer(file).writerows([names, *rows])
     table = np.array(rows, dtype=float)
-    fit("fluid, a step", table[:, 1], table[:, 6])
+    fit("fluid, a step", table[:, 1] + table[:, 2], table[:, 6])
     fit("grains, a substep", table[:, 3], table[:, 7] / table[:, 5])
 
 

@@ -108,6 +108,63 @@ TEST(Porosity, DoesNotSeeTheFarSideOfAThinWall) {
   EXPECT_GT(beside, 200u);
 }
 
+WallBody body_of(const char* shape, const Vec3d& min, const Vec3d& max) {
+  WallBody body;
+  body.shape = shape;
+  body.min = min;
+  body.max = max;
+  return body;
+}
+
+TEST(Porosity, IsTheSameBesideBoxesAsBesideTheTankThatTheyMakeUp) {
+  const auto lies_in = [](const std::vector<WallBody>& bodies) {
+    Config c = unit_box(0.1, 1e-3);
+    c.wall.bodies = bodies;
+    std::mt19937_64 random(9);
+    const auto at = random_points(200, {0.2, 0.4, 0.2}, {0.4, 0.6, 0.4}, random);
+    CoupledBox box(c, fluid_at(at, 0.1, 1000, 1),
+                   random_grains(60, {0.2, 0.3, 0.2}, {0.6, 0.7, 0.6}, 0.05, random));
+    Buffer<BodyPose> poses;
+    poses.assign(std::vector<BodyPose>(bodies.size()));
+    box.coupling.porosity(box.fluid, box.grains, poses);
+    return box.fluid.eps.values();
+  };
+  WallBody tank = body_of("tank", {0.2, -0.5, 0.2}, {1.5, 1.5, 1.5});
+  tank.faces = {true, false, false, false, true, false};
+  const auto whole = lies_in({tank});
+  const auto parts = lies_in({body_of("box", {-0.2, -0.5, -0.2}, {0.2, 1.5, 1.5}),
+                              body_of("box", {0.2, -0.5, -0.2}, {1.5, 1.5, 0.2})});
+  std::size_t beside = 0;
+  for (std::size_t n = 0; n < whole.size(); ++n) {
+    EXPECT_NEAR(parts[n], whole[n], 1e-5);
+    beside += whole[n] < 1 && whole[n] > 0.25;
+  }
+  EXPECT_GT(beside, 100u);
+}
+
+TEST(Porosity, TakesTheSuperficialDensityOfTornFluidAlong) {
+  Config c = unit_box(0.1, 1e-3);
+  std::mt19937_64 random(10);
+  CoupledBox box(c, fluid_at(random_points(200, {0, 0, 0}, {1, 1, 1}, random), 0.1, 1000, 1),
+                 random_grains(400, {0, 0, 0}, {1, 1, 1}, 0.05, random));
+  const std::size_t n = box.fluid.size();
+  std::vector<Real> filled(n);
+  for (std::size_t a = 0; a < n; ++a) filled[a] = a % 2 == 0 ? Real(0.2) : Real(0.8);
+  box.fluid.filled.assign(filled);
+  box.fluid.eps.assign(std::vector<Real>(n, 1));
+  box.fluid.s.assign(std::vector<Real>(n, Real(0.01)));
+  box.coupling.porosity(box.fluid, box.grains, {}, true);
+  const auto eps = box.fluid.eps.values(), s = box.fluid.s.values();
+  double lowest = 1;
+  for (std::size_t a = 0; a < n; ++a) {
+    EXPECT_NEAR(1 + s[a], 1.01 * (a % 2 == 0 ? eps[a] : 1), kInvariant) << eps[a];
+    lowest = std::min(lowest, double(eps[a]));
+  }
+  EXPECT_LT(lowest, 0.99);
+  box.coupling.porosity(box.fluid, box.grains, {});
+  EXPECT_EQ(box.fluid.s.values(), s) << "not in a step";
+}
+
 TEST(Porosity, FollowsGrainsThatMoveWithinTheSkin) {
   Config c = unit_box(0.1, 1e-3);
   std::mt19937_64 random(7);

@@ -1,6 +1,7 @@
 #include "bedload/geometry/sampling.hpp"
 
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/lattice.hpp"
 #include "bedload/geometry/shape.hpp"
 #include "bedload/geometry/wall_surface.hpp"
 #include "support.hpp"
@@ -75,6 +76,13 @@ TEST(Tank, HasNoWallAcrossAPeriod) {
 TEST(Box, IsFilledToTheDepth) {
   EXPECT_EQ(sample(body("box", {0, 0, 0}, {0.05, 0.2, 0.2})).size(), 5u * 20 * 20);
   EXPECT_EQ(sample(body("box", {0, 0, 0}, {0.2, 0.2, 0.2})).size(), 8000u - 14 * 14 * 14);
+}
+
+TEST(Box, IsAsLargeAsItsParticlesTogether) {
+  for (const Vec3d& size : {Vec3d{0.033, 0.05, 0.016}, Vec3d{0.0251, 0.047, 0.03}}) {
+    const auto points = sample(body("box", {0, 0, 0}, size));
+    EXPECT_NEAR(double(points.size()) * cell_volume({0, 0, 0}, size, 0.01), size.x * size.y * size.z, 1e-12);
+  }
 }
 
 TEST(Box, HasNoEndAcrossAPeriod) {
