@@ -167,9 +167,9 @@ bedload::Setup filled(const Config& c) {
   });
 }
 
-class SlowFloat : public testing::TestWithParam<double> {};
+class SlowMixedFloat : public testing::TestWithParam<double> {};
 
-TEST_P(SlowFloat, RestsAtArchimedesDepth) {
+TEST_P(SlowMixedFloat, RestsAtArchimedesDepth) {
   const double density = GetParam();
   const Config c = tank_with_slab(density);
   auto s = started(c, filled(c));
@@ -189,7 +189,7 @@ TEST_P(SlowFloat, RestsAtArchimedesDepth) {
   EXPECT_GT(rotation_of(b).rotate({0, 0, 1}).z, std::cos(0.15)) << "upright";
 }
 
-INSTANTIATE_TEST_SUITE_P(Densities, SlowFloat, testing::Values(300.0, 500.0, 600.0));
+INSTANTIATE_TEST_SUITE_P(Densities, SlowMixedFloat, testing::Values(300.0, 500.0, 600.0));
 
 TEST(FreeBodyInFluid, PushesALightRaftUpSmoothly) {
   // a twentieth of the density of water; wall pressure that took its last acceleration would tear the fluid

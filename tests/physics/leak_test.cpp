@@ -81,7 +81,7 @@ centre = [0.05, 0.05, 0.025]
   return text.str();
 }
 
-TEST(SlowLeak, NothingLeavesAShakenVesselOfTriangles) {
+TEST(SlowMixedLeak, NothingLeavesAShakenVesselOfTriangles) {
   const Load load;
   const test::TemporaryFolder folder;
   const TriangleSoup inside = scaled(test::l_prism(), {kSide, kSide, kSide});

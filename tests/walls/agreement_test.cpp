@@ -153,7 +153,7 @@ struct DrumBed {
 };
 
 /// Beds never flow twice alike, so means agree within three standard errors.
-TEST(SlowWallAgreement, ADrumAsCylinderAndAsMeshCarriesABedAlike) {
+TEST(SlowMixedWallAgreement, ADrumAsCylinderAndAsMeshCarriesABedAlike) {
   const double radius = 0.0125, length = 0.0065;
   const int facets = 720;  // neighbours lean less than a degree: one contact
   std::vector<std::pair<double, double>> circle;

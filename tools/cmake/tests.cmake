@@ -1,4 +1,5 @@
-# Tests. Suites named Slow... are labelled slow, the rest quick; on a GPU gpu-slow and gpu-quick.
+# Tests. Suites named Slow... are labelled slow, the rest quick; on a GPU gpu-slow and gpu-quick. Of the slow ones
+# those named SlowMixed... take minutes and are left to mixed precision.
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
@@ -10,8 +11,12 @@ function(bedload_register target)
     ${target} TEST_FILTER "-Slow*:*/Slow*" TEST_PREFIX "${target}." TEST_LIST ${target}_quick
     DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS "${ARGN}quick" TIMEOUT 300 ENVIRONMENT "${environment}")
+  set(slow "Slow*:*/Slow*")
+  if(target MATCHES "single|double")
+    string(APPEND slow "-SlowMixed*:*/SlowMixed*")
+  endif()
   gtest_discover_tests(
-    ${target} TEST_FILTER "Slow*:*/Slow*" TEST_PREFIX "${target}." TEST_LIST ${target}_slow
+    ${target} TEST_FILTER "${slow}" TEST_PREFIX "${target}." TEST_LIST ${target}_slow
     DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS "${ARGN}slow" TIMEOUT 1800 ENVIRONMENT "${environment}")
 endfunction()
