@@ -120,7 +120,7 @@ TEST(SlowHydrostatics, PressureGradientAfterFiveSeconds) {  // T-9
   EXPECT_EQ(reading(s->diagnostics(), "lost_fluid_count"), 0);
 }
 
-TEST(SlowHydrostatics, PressureGradientAmongFixedGrains) {  // T-9, porosity 0.6
+TEST(SlowMixedHydrostatics, PressureGradientAmongFixedGrains) {  // T-9, porosity 0.6
   Config c = column(0.2, 0.02);
   const int across = 9, up = 15;
   const double gap = 0.16 / across;
@@ -185,7 +185,7 @@ TEST(SlowViscousFlow, PoiseuilleStartUp) {  // T-10
   EXPECT_LT(worst / peak, 2e-2);
 }
 
-TEST(SlowViscousFlow, CouetteSteady) {  // T-10
+TEST(SlowMixedViscousFlow, CouetteSteady) {  // T-10
   Config c = channel();
   c.wall.bodies[1].motion.kind = "velocity";
   c.wall.bodies[1].motion.velocity = {1.25e-5, 0, 0};
