@@ -90,7 +90,7 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
   p("couple.S_wet", &c.S_wet,
     {.meaning = "and from which it is wet, above S_dry", .range = above_to(0, 0.9)});
   p("couple.torque", &c.torque, {.meaning = "fluid torque on grains"});
-  p("couple.angmom", &c.angmom, {.meaning = "reaction couple: angular momentum exact"});
+  p("couple.angmom", &c.angmom, {.meaning = "reaction couple: what is exchanged keeps angular momentum"});
   p("couple.damping", &c.damping,
     {.meaning = "artificial viscosity alpha among grains, per solid fraction; keeps water in a bed still",
      .range = within(0, 2)});

@@ -94,9 +94,11 @@ TEST(FreeBodyInFluid, MayBeDeafToItWhileTheFluidFeelsTheBody) {
   EXPECT_GT(norm(vector_of(s->diagnostics(), "fluid_momentum")), 0.01);
 }
 
-/// Fluid, grains and a body, all pushing each other.
-TEST(SmallFreeBody, FluidGrainsAndBodyKeepMomentaTogether) {
+/// Fluid, grains and a body, all pushing each other but for what `mode` of coupling leaves out; angular
+/// momentum is kept to `along_the_way` of its scale and round-off.
+void expect_momenta_kept(const char* mode, double along_the_way) {
   Config c = drop("none");
+  c.couple.mode = mode;
   c.grain.present = true;
   c.grain.d = c.grain.d_min = c.grain.d_max = 6e-3;
   c.grain.E = 1e6;
@@ -131,8 +133,14 @@ TEST(SmallFreeBody, FluidGrainsAndBodyKeepMomentaTogether) {
   EXPECT_GT(by_fluid, 1);
   EXPECT_GT(by_grains, 0.1);
   EXPECT_LT(norm(total("momentum") - p), 10 * kInvariant * norm(p));
-  EXPECT_LT(norm(total("angular_momentum") - l), 10 * kInvariant * norm(p) * 0.05);
+  EXPECT_LT(norm(total("angular_momentum") - l), (10 * kInvariant + along_the_way) * norm(p) * 0.05);
 }
+
+TEST(SmallFreeBody, BesideFluidAndGrainsKeepsMomenta) { expect_momenta_kept("off", 0); }
+
+/// An exchange keeps the angular momentum of places at the start of a step; how far grains move while drag
+/// acts is left out. At these steps it is 2e-7 of the scale, at half of them half of that.
+TEST(SmallFreeBody, FluidGrainsAndBodyKeepMomentaTogether) { expect_momenta_kept("two_way", 5e-7); }
 
 // -- floating -------------------------------------------------------------------
 
