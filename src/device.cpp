@@ -120,8 +120,8 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts) {
                pair_position = config.precision == "double" ? 24 : 16;
   const double h = config.fluid.h(), reach = 2 * h + config.skin_fluid * config.fluid.dx;
   const double neighbours = config.fluid.present ? 4.19 * std::pow(reach / config.fluid.dx, 3) * 1.15 : 0;
-  const double fluid = 4 + 2 * position + pair_position + real * 33 + 4 * neighbours + position;
-  const double walls = 8 + 3 * 24 + pair_position + real * 12 + 4 * 12;
+  const double fluid = 4 + 2 * position + pair_position + real * 34 + 4 * neighbours + position;
+  const double walls = 8 + 3 * 24 + pair_position + real * 13 + 4 * 12;
   const double contacts = 12;
   const double touches = 60.0 * std::min(config.wall.free_bodies(), 8);  // of each grain with free bodies
   const double grains = 4 + 3 * 24 + real * 36 + contacts * (4 + 56) * 2 + touches;

@@ -1,4 +1,4 @@
-"""Reads what a run leaves behind: frames (VTKHDF), tables (CSV) and the resolved case."""
+"""Reads what a run leaves behind: frames (VTKHDF), tables (CSV) and the resolved case; writes tables."""
 
 import csv
 import re
@@ -101,6 +101,14 @@ class Table:
         raise SystemExit(f"{self.path}: has no column '{name}', only {', '.join(self.names)}")
 
 
+def write_table(path, names, rows):
+    """A CSV file of one header row, `names`, and `rows`."""
+    with open(path, "w", newline="") as file:
+        out = csv.writer(file, lineterminator="\n")
+        out.writerow(names)
+        out.writerows(rows)
+
+
 def resolved_case(run_dir):
     """case.resolved.toml of a run as nested dicts; empty if there is none."""
     path = Path(run_dir) / "case.resolved.toml"
@@ -108,3 +116,11 @@ def resolved_case(run_dir):
         return {}
     with open(path, "rb") as file:
         return tomllib.load(file)
+
+
+def case_of(run_dir):
+    """case.resolved.toml of a run that must have one."""
+    case = resolved_case(run_dir)
+    if not case:
+        raise SystemExit(f"{run_dir}: holds no case.resolved.toml")
+    return case

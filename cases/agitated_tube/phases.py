@@ -4,13 +4,12 @@
     phases.py RUN_DIR [--period N]
 
 Writes RUN_DIR/phases.csv (phase and speed of the five events of He et al. (2018), Fig. 10: A and E highest, B and D
-fastest on the way down and up, C lowest) and RUN_DIR/phases.png: height and speed of the agitator over the period, and the speed
-of the water at the five phases, across the tube and seen from above along its axis. Takes the last whole period, or
-number N from 1. Needs frames of that period (out.every of a twentieth of it or less) for the water.
+fastest on the way down and up, C lowest) and RUN_DIR/phases.png: height and speed of the agitator over the period,
+and the speed of the water at the five phases, across the tube and seen from above along its axis. Takes the last
+whole period, or number N from 1. Needs frames of that period (out.every of a twentieth of it or less) for the water.
 """
 
 import argparse
-import csv
 import sys
 from pathlib import Path
 
@@ -21,7 +20,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
-from frames import Frames, Table, resolved_case  # noqa: E402
+from frames import Frames, Table, case_of, write_table  # noqa: E402
 
 PAPER = {"A": 0.581, "B": 0.906, "C": 1.150, "D": 1.393, "E": 1.637}  # pi
 
@@ -44,12 +43,13 @@ def main():
     parser.add_argument("--period", type=int)
     args = parser.parse_args()
     run = Path(args.run)
-    f = resolved_case(run)["frame"]["motion"]["frequency"]
+    case = case_of(run)
+    f = case["frame"]["motion"]["frequency"]
     table = Table(run / "bodies" / "agitator.csv")
     t, y, z = (table.column(name) for name in ("time", "centre_y", "centre_z"))
     speed = np.hypot(table.column("velocity_y"), table.column("velocity_z"))
     whole = int(t[-1] * f + 1e-9)
-    number = args.period or whole
+    number = whole if args.period is None else args.period
     if not 1 <= number <= whole:
         raise SystemExit(f"{run}: holds {whole} whole periods, not number {number}")
     for n in range(1, whole + 1):
@@ -58,16 +58,14 @@ def main():
     part = (t >= (number - 1) / f) & (t <= number / f)
     phase = 2 * (t[part] * f - (number - 1))
     found = events(phase, z[part], speed[part])
-    with open(run / "phases.csv", "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["event", "phase [pi]", "phase in the paper [pi]", "speed [m/s]"])
-        for name, (at, v) in found.items():
-            writer.writerow([name, f"{at:.3f}", PAPER[name], f"{v:.4f}"])
-            print(f"{name}: {at:.3f} pi, {PAPER[name]} pi in the paper; {v:.4f} m/s")
-    draw(run, phase, y[part], z[part], speed[part], found, (number - 1) / f, f)
+    rows = [[name, f"{at:.3f}", PAPER[name], f"{v:.4f}"] for name, (at, v) in found.items()]
+    for name, at, paper, v in rows:
+        print(f"{name}: {at} pi, {paper} pi in the paper; {v} m/s")
+    write_table(run / "phases.csv", ["event", "phase [pi]", "phase in the paper [pi]", "speed [m/s]"], rows)
+    draw(run, case, phase, y[part], z[part], speed[part], found, (number - 1) / f, f)
 
 
-def draw(run, phase, y, z, speed, found, begin, f):
+def draw(run, case, phase, y, z, speed, found, begin, f):
     figure, axes = plt.subplots(3, 5, figsize=(17, 9), layout="constrained")
     grid = axes[0, 0].get_gridspec()
     for axis in axes[0]:
@@ -85,15 +83,18 @@ def draw(run, phase, y, z, speed, found, begin, f):
             axis.axvline(at, color="#999999", lw=0.8)
             axis.text(at, axis.get_ylim()[1], name, ha="center", va="bottom")
     water = Frames(run / "fluid.vtkhdf")
-    domain = resolved_case(run)["domain"]
-    span = [(1000 * low, 1000 * high) for low, high in zip(domain["min"], domain["max"])]
+    span = [(1000 * low, 1000 * high) for low, high in zip(case["domain"]["min"], case["domain"]["max"])]
     for k, (name, (at, _)) in enumerate(found.items()):
-        frame = water.nearest(begin + at / 2 / f)
+        wanted = begin + at / 2 / f
+        frame = water.nearest(wanted)
+        if abs(water.times[frame] - wanted) > 0.025 / f:
+            raise SystemExit(f"{run}: frames too far apart for t = {wanted:.3f} s; run with "
+                             f"--set out.every={0.04 / f:.2g}")
         x = 1000 * water.position(frame)
         v = np.linalg.norm(water.get(frame, "velocity"), axis=1)
         middle = (x[:, 0].max() + x[:, 0].min()) / 2
         slab = np.abs(x[:, 0] - middle) < 0.05 * np.ptp(x[:, 0])
-        top = surface(x, 750 * resolved_case(run)["fluid"]["dx"])
+        top = surface(x, 750 * case["fluid"]["dx"])
         for axis, pick, (a, b) in ((axes[1, k], slab, (1, 2)), (axes[2, k], top, (0, 1))):
             order = np.flatnonzero(pick)
             shown = axis.scatter(x[order, a], x[order, b], c=v[order], s=4, vmin=0, vmax=0.3, cmap="viridis", lw=0)

@@ -6,12 +6,11 @@
 Writes RUN_DIR/cell.csv and RUN_DIR/cell.png, a row for each frame, and prints what came out. The cell is seen as
 columns 1.5 mm wide. The level is the median of the columns' highest water, a dry one counting as empty, and
 its spread the mean absolute deviation from that; the jet is the highest water within 2 mm of the axis. The bed is
-immersed when the level has come up to its top at t = 0, and the jet has broken through once it is higher than the
-bed was. Displacements are from t = 0, `before_immersion` up to the immersion.
+immersed when the level has come up to its top at t = 0, and the jet breaks through when it is higher than that while
+the bed is not immersed. Displacements are from t = 0, `before_immersion` up to the immersion.
 """
 
 import argparse
-import csv
 import sys
 from pathlib import Path
 
@@ -22,7 +21,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
-from frames import Frames, Table, resolved_case  # noqa: E402
+from frames import Frames, Table, case_of, write_table  # noqa: E402
 
 COLUMN = 1.5e-3  # m
 AXIS = 2e-3  # m
@@ -32,7 +31,7 @@ class Cell:
     """What the case says of the cell, and the columns that it is seen as."""
 
     def __init__(self, run):
-        case = resolved_case(run)
+        case = case_of(run)
         inside = next(shape for shape in case["shape"] if shape["name"] == "inside")
         inlet = case["inlet"][0]
         self.radius, self.dx = inside["radius"], case["fluid"]["dx"]
@@ -84,10 +83,8 @@ UNITS = {"time": "s", "injected_mass": "kg", "wanted_mass": "kg"}
 
 
 def write(run, rows):
-    with open(run / "cell.csv", "w", newline="") as file:
-        out = csv.writer(file, lineterminator="\n")
-        out.writerow(f"{name} [{UNITS.get(name, 'm')}]" for name in rows)
-        out.writerows(np.transpose(list(rows.values())).tolist())
+    names = [f"{name} [{UNITS.get(name, 'm')}]" for name in rows]
+    write_table(run / "cell.csv", names, np.transpose(list(rows.values())).tolist())
 
 
 def draw(run, cell, bed, rows, immersion):
@@ -113,11 +110,15 @@ def report(run):
     cell, bed, rows, immersion = measure(run)
     write(run, rows)
     draw(run, cell, bed, rows, immersion)
-    through = rows["jet_height"] > bed
+    through = (rows["jet_height"] > bed + cell.d) & (rows["level"] < bed)
     broke = rows["time"][np.argmax(through)] if through.any() else np.nan
     return {"rate": cell.rate, "bed": bed, "immersion": immersion, "breakthrough": broke,
             "moved": rows["before_immersion"][-1], "diameter": cell.d, "jet": rows["jet_height"].max(),
             "end": rows["time"][-1]}
+
+
+def after(time):
+    return "never" if np.isnan(time) else f"after {time:.3f} s"
 
 
 def main():
@@ -128,9 +129,9 @@ def main():
         print(f"not immersed by {it['end']:.3g} s; displacements are those of the whole run")
     print(f"rate                {6e7 * it['rate']:.0f} ml/min")
     print(f"bed                 {1e3 * it['bed']:.1f} mm high")
-    print(f"immersed            after {it['immersion']:.3f} s")
-    print(f"jet breaks through  after {it['breakthrough']:.3f} s; highest {1e3 * it['jet']:.1f} mm")
-    print(f"grains moved        {1e3 * it['moved']:.2f} mm on average before that, "
+    print(f"immersed            {after(it['immersion'])}")
+    print(f"jet breaks through  {after(it['breakthrough'])}; highest {1e3 * it['jet']:.1f} mm")
+    print(f"grains moved        {1e3 * it['moved']:.2f} mm on average before it was immersed, "
           f"{it['moved'] / it['diameter']:.2f} diameters")
 
 

@@ -10,7 +10,6 @@ and the mean bed with two straight lines fitted to its surface.
 """
 
 import argparse
-import csv
 import sys
 from pathlib import Path
 
@@ -22,7 +21,7 @@ import numpy as np  # noqa: E402
 from matplotlib.collections import EllipseCollection  # noqa: E402
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
-from frames import Frames, resolved_case  # noqa: E402
+from frames import Frames, case_of, write_table  # noqa: E402
 
 CELL = 0.5e-3  # m
 FILLED = 0.3
@@ -32,7 +31,7 @@ class Drum:
     """The drum of the case: radius and length of its inside, m."""
 
     def __init__(self, run):
-        shapes = {shape["name"]: shape for shape in resolved_case(run)["shape"]}
+        shapes = {shape["name"]: shape for shape in case_of(run)["shape"]}
         inside = shapes["inside"]
         scale = inside["scale"]
         self.radius = scale * inside["radius"]
@@ -104,10 +103,7 @@ def main():
         share = drum.filled(grains.position(frame), grains.get(frame, "radius"))
         rows.append([grains.times[frame], *drum.extents(share)])
         mean = mean + share / args.samples
-    with open(run / "bed.csv", "w", newline="") as file:
-        writer = csv.writer(file)
-        writer.writerow(["time [s]", "width [m]", "height [m]"])
-        writer.writerows(rows)
+    write_table(run / "bed.csv", ["time [s]", "width [m]", "height [m]"], rows)
     sizes = np.array(rows)[:, 1:] * 1000
     for name, column in zip(("width", "height"), sizes.T):
         print(f"bed {name}: {column.mean():.2f} mm, standard deviation {column.std(ddof=1):.2f} mm")

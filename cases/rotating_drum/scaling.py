@@ -9,12 +9,14 @@ walls included, of a grain substep over the number of grains. Writes OUT_DIR/sca
 """
 
 import argparse
-import csv
-import json
-import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
+from frames import write_table  # noqa: E402
+from runs import run_case  # noqa: E402
 
 CASE = Path(__file__).resolve().parent / "case.toml"
 GRAINS = 7755
@@ -31,11 +33,7 @@ def run(program, out, scale, until, settle):
         "grain.settle_time": settle,
         "out.every": 1,
     }
-    command = [program, "run", str(CASE), "--out", str(out), "--overwrite", "--quiet", "--until", str(until)]
-    for key, value in settings.items():
-        command += ["--set", f"{key}={value}"]
-    subprocess.run(command, check=True)
-    summary = json.loads((out / "summary.json").read_text())
+    summary = run_case(program, CASE, out, settings, "--overwrite", "--quiet", "--until", until)
     parts = [1000 * summary["wall_time_of"][part]["value"] / summary["steps"] for part in PARTS]
     counts = summary["counts"]
     return [100 * scale, counts["fluid"], counts["walls"], counts["grains"], summary["steps"],
@@ -63,8 +61,7 @@ def main():
     for scale in (1, 2, 3, 4):
         rows.append(run(args.program, out / f"drum_{100 * scale}", scale, args.until, args.settle))
         print("  ".join(f"{name} {value:.4g}" for name, value in zip(names, rows[-1])), flush=True)
-    with open(out / "scaling.csv", "w", newline="") as file:
-        csv.writer(file).writerows([names, *rows])
+    write_table(out / "scaling.csv", names, rows)
     table = np.array(rows, dtype=float)
     fit("fluid, a step", table[:, 1] + table[:, 2], table[:, 6])
     fit("grains, a substep", table[:, 3], table[:, 7] / table[:, 5])

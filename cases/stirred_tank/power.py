@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
-from frames import Frames, Table, resolved_case  # noqa: E402
+from frames import Frames, Table, case_of  # noqa: E402
 
 
 def speed(run, body):
@@ -36,7 +36,7 @@ def main():
     args = parser.parse_args()
 
     run = Path(args.run)
-    case = resolved_case(run)
+    case = case_of(run)
     bodies = [body["name"] for body in case["wall"]["body"]]
     omega = speed(run, bodies.index("impeller"))
     table = Table(run / "probes" / "impeller.csv")

@@ -27,7 +27,7 @@ void refuse_other_run(const Options& o) {
                   o.out.string()));
 }
 
-/// "fluid 61 %, grains 20 %, ..., files 3 %".
+/// "fluid 61 %, grains 20 %, ..., output 3 %"; of a time above 0.
 std::string shares_text(const std::vector<Quantity>& parts, double all) {
   std::string text;
   double rest = all;

@@ -149,6 +149,11 @@ void check_filters(const Config& config, std::vector<std::string>& warnings) {
       return least;
     };
     const Passages ways = find_passages(distance, box, d);
+    if (!ways.seen)
+      warnings.push_back(
+          fmt::format("wall.body \"{}\": not searched for openings that grains pass; it is too large against "
+                      "grains of {:g} m",
+                      filter.name, d));
     if (ways.count > 0)
       warnings.push_back(
           fmt::format("wall.body \"{}\": grains of {:g} m pass through it or beside it, by {} opening{} up "

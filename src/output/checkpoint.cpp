@@ -45,6 +45,9 @@ std::vector<Quantity> particle_setup(const Config& c) {
   for (const WallBody& body : c.wall.bodies) {
     add_box(fmt::format("wall.{}", body.name), body.min, body.max);
     if (body.dx > 0) add(fmt::format("wall.{}.dx", body.name), body.dx);
+    // what its particles hold depends on it
+    if (c.fluid.present && body.stops_fluid())
+      add(fmt::format("wall.{}.type = \"{}\"", body.name, body.type), 1);
   }
   for (const InletConfig& inlet : c.inlets) {
     for (int k = 0; k < 3; ++k) {

@@ -9,6 +9,7 @@
 #include "bedload/output/output.hpp"
 #include "bedload/output/vtkhdf.hpp"
 #include "support.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace bedload::test {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 class ParticleFile : public ::testing::Test {
  protected:
   std::filesystem::path write(const std::string& text) const {
-    const auto path = folder_.path / "grains.csv";
+    const auto path = folder_ / "grains.csv";
     std::ofstream(path) << text;
     return path;
   }
@@ -25,7 +26,7 @@ class ParticleFile : public ::testing::Test {
     try {
       read_particles(write(text), -1);
     } catch (const CaseError& error) {
-      return std::string(error.what()).substr(folder_.path.string().size() + 1);
+      return folder_.left_out_of(error.what());
     }
     return "";
   }
@@ -35,10 +36,10 @@ class ParticleFile : public ::testing::Test {
   }
   Config read_here(const std::string& text, const std::filesystem::path& checkpoint = {}) const {
     std::vector<std::string> warnings;
-    return read_case_text(text, (folder_.path / "dam.toml").string(), {}, warnings, checkpoint);
+    return read_case_text(text, (folder_ / "dam.toml").string(), {}, warnings, checkpoint);
   }
 
-  const bedload::testing::ScratchFolder folder_;
+  const TemporaryFolder folder_;
 };
 
 TEST_F(ParticleFile, FindsColumnsByName) {
@@ -77,7 +78,7 @@ TEST_F(ParticleFile, ErrorsNameFileLineColumnAndValue) {
 }
 
 TEST_F(ParticleFile, TakesAFrameOfAFormerRun) {
-  const FrameFile frames(folder_.path / "grains.vtkhdf", true);
+  const FrameFile frames(folder_ / "grains.vtkhdf", true);
   bedload::testing::FakeSimulation s;
   for (int k = 0; k < 3; ++k, s.step()) {
     HostStore store = s.snapshot("grains");
@@ -105,7 +106,7 @@ TEST_F(ParticleFile, IsFoundBesideTheCaseAndResolvesIt) {
   write("x,y,z,d\n0.01,0.02,0.03,0.001\n0.04,0.01,0.02,0.004\n");
   const Config c = read_here(case_with("grains.csv"));
   const GrainFill& fill = c.grain.fills[0];
-  EXPECT_EQ(fill.file, (folder_.path / "grains.csv").string());
+  EXPECT_EQ(fill.file, (folder_ / "grains.csv").string());
   EXPECT_EQ(fill.min, (Vec3d{0.01, 0.01, 0.02}));
   EXPECT_EQ(fill.max, (Vec3d{0.04, 0.02, 0.03}));
   EXPECT_EQ(fill.count, 2);
@@ -131,7 +132,7 @@ TEST_F(ParticleFile, FluidSetsTheDepth) {
 TEST_F(ParticleFile, IsNotNeededBesideACheckpoint) {
   const auto path = write("x,y,z,d\n0.01,0.02,0.03,0.001\n0.04,0.01,0.02,0.004\n");
   const Config c = read_here(case_with("grains.csv"));
-  const auto checkpoint = folder_.path / "state.h5";
+  const auto checkpoint = folder_ / "state.h5";
   write_state(checkpoint, {}, c);
   std::filesystem::remove(path);
   const Config again = read_here(case_with("grains.csv"), checkpoint);
@@ -145,10 +146,7 @@ TEST_F(ParticleFile, WrongFillsNameTheCase) {
     try {
       read_here(text);
     } catch (const CaseError& error) {
-      std::string what = error.what();
-      for (std::size_t at; (at = what.find(folder_.path.string() + "/")) != what.npos;)
-        what.erase(at, folder_.path.string().size() + 1);
-      return what;
+      return folder_.left_out_of(error.what());
     }
     return std::string();
   };

@@ -10,6 +10,7 @@
 #include "kernels/smoothing/wendland_c2.hpp"
 #include "tests/support/run.hpp"
 #include "tests/support/tolerance.hpp"
+#include "tests/support/walls.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
@@ -199,13 +200,7 @@ Config thrown() {
   c.density.delta = 0.1;
   c.wall.rep_D = 4;
   c.fluid.fills = {{{0, 0, 0}, {0.06, 0.08, 0.08}, {"-2", "0", "-1"}}};
-  WallBody tank;
-  tank.name = "tank";
-  tank.shape = "tank";
-  tank.min = {0, 0, 0};
-  tank.max = {0.2, 0.08, 0.2};
-  tank.faces = {true, true, false, false, true, true};
-  c.wall.bodies = {tank};
+  c.wall.bodies = {test::tank({0, 0, 0}, {0.2, 0.08, 0.2}, "x-x+z-z+")};
   return c;
 }
 

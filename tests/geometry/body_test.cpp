@@ -5,15 +5,13 @@
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
 #include "mesh_support.hpp"
+#include "tests/support/walls.hpp"
 
 namespace bedload::test {
 namespace {
 
 WallBody body_of(ShapePtr shape, double density = 1000) {
-  WallBody b;
-  b.shape = "shape";
-  b.solid.shape = shape;
-  b.min = shape->bounds().min, b.max = shape->bounds().max;
+  WallBody b = shaped("shape", shape);
   b.free.present = true;
   b.free.density = density;
   return b;
@@ -127,6 +125,14 @@ TEST(BodyBalls, TouchTheSurfaceFromWithin) {
       EXPECT_LT(ball.radius, 0.021);
       reached.add(ball.centre + Vec3d{ball.radius, ball.radius, ball.radius});
       reached.add(ball.centre - Vec3d{ball.radius, ball.radius, ball.radius});
+    }
+    RandomPoints random(shape->bounds());
+    for (int n = 0; n < 200; ++n) {
+      const Vec3d at = shape->nearest(random()).point;
+      double gap = 1;
+      for (const BodyBall& ball : balls) gap = std::min(gap, norm(ball.centre - at) - ball.radius);
+      EXPECT_LT(gap, b.free.contact_spacing)
+          << "no ball near (" << at.x << ", " << at.y << ", " << at.z << ")";
     }
     for (int k = 0; k < 3; ++k) {
       EXPECT_NEAR(reached.min[k], shape->bounds().min[k], 2e-3);

@@ -58,9 +58,13 @@ TEST(Filters, AreComparedWithTheSmallestGrain) {
                            "openings up to 0.0"))
       << holes[0];
   EXPECT_EQ(warnings_of(sieve(0.015), 0.02, true).size(), 0u);
-  // a plate that leaves a gap to the wall of the tank all around, or to one side
+  // a plate that fits, one with a gap to one side of the tank, one with a gap all around
   EXPECT_EQ(warnings_of(make_box({-0.1, -0.1, 0}, {0.1, 0.1, 0.02}), 0.02, true).size(), 0u);
   EXPECT_EQ(warnings_of(make_box({-0.1, -0.1, 0}, {0.07, 0.1, 0.02}), 0.02, true).size(), 1u);
+  EXPECT_EQ(warnings_of(make_box({-0.07, -0.07, 0}, {0.07, 0.07, 0.02}), 0.02, true).size(), 1u);
+  const auto unseen = warnings_of(make_box({-0.1, -0.1, 0}, {0.1, 0.1, 0.02}), 1e-4, true);
+  ASSERT_EQ(unseen.size(), 1u);
+  EXPECT_NE(unseen[0].find("not searched for openings"), unseen[0].npos) << unseen[0];
   // the bore of a ring counts unless something fills it
   EXPECT_EQ(warnings_of(make_pipe({0, 0, 0}, {0, 0, 0.02}, 0.03, 0.08, PipeEnds::open), 0.02, false).size(),
             1u);

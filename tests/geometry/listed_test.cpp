@@ -1,23 +1,17 @@
 // Fluid and grains from files.
 
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 
 #include "bedload/geometry/shape.hpp"
 #include "support.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace bedload::test {
 namespace {
 
 class Listed : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "bedload_XXXXXX").string();
-    file_ = std::filesystem::path(mkdtemp(name.data())) / "p.csv";
-    config_ = empty_case({0.1, 0.1, 0.1});
-  }
-  void TearDown() override { std::filesystem::remove_all(file_.parent_path()); }
+  void SetUp() override { config_ = empty_case({0.1, 0.1, 0.1}); }
 
   void fluid(const std::string& table) {
     std::ofstream(file_) << table;
@@ -33,12 +27,10 @@ class Listed : public testing::Test {
     config_.grain.fills.resize(1);
     config_.grain.fills[0].file = file_.string();
   }
-  std::string error() const {
-    const std::string what = error_of(config_), folder = file_.parent_path().string() + "/";
-    return what.starts_with(folder) ? what.substr(folder.size()) : what;
-  }
+  std::string error() const { return folder_.left_out_of(error_of(config_)); }
 
-  std::filesystem::path file_;
+  const TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "p.csv";
   Config config_;
 };
 

@@ -1,36 +1,15 @@
 #pragma once
 // Triangle meshes made for tests.
 
-#include <cstdlib>
-#include <filesystem>
+#include <fstream>
 #include <map>
-#include <stdexcept>
 #include <utility>
 
 #include "bedload/geometry/mesh.hpp"
 #include "shape_support.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace bedload::test {
-
-/// A new folder, removed with all in it at the end of its life.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "bedload_XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 /// What a polygon (x, y), counter-clockwise, sweeps from z = 0 to `height`; `split` lists its triangles.
 inline TriangleSoup prism(const std::vector<std::pair<double, double>>& polygon,
@@ -49,6 +28,18 @@ inline TriangleSoup prism(const std::vector<std::pair<double, double>>& polygon,
     soup.triangles.push_back({k, next + n, k + n});
   }
   return soup;
+}
+
+/// About z from 0 to `height`.
+inline TriangleSoup faceted_cylinder(double radius, double height, int facets) {
+  std::vector<std::pair<double, double>> circle;
+  std::vector<Triangle> split;
+  for (int k = 0; k < facets; ++k) {
+    const double angle = 2 * M_PI * k / facets;
+    circle.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    if (k >= 2) split.push_back({0, std::uint32_t(k - 1), std::uint32_t(k)});
+  }
+  return prism(circle, split, height);
 }
 
 /// From 0 to `side`.
@@ -102,6 +93,20 @@ inline TriangleSoup together(TriangleSoup a, const TriangleSoup& b) {
   a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
   for (const Triangle& t : b.triangles) a.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
   return a;
+}
+
+inline void write_ascii_stl(const std::filesystem::path& file, const TriangleSoup& soup) {
+  std::ofstream out(file);
+  out.precision(9);
+  out << "solid test\n";
+  for (const Triangle& t : soup.triangles) {
+    out << "facet normal 0 0 0\nouter loop\n";
+    for (const std::uint32_t v : t)
+      out << "vertex " << soup.vertices[v].x << " " << soup.vertices[v].y << " " << soup.vertices[v].z
+          << "\n";
+    out << "endloop\nendfacet\n";
+  }
+  out << "endsolid test\n";
 }
 
 }  // namespace bedload::test

@@ -27,19 +27,6 @@ void write_stl(const std::filesystem::path& file, const TriangleSoup& soup) {
   }
 }
 
-void write_ascii_stl(const std::filesystem::path& file, const TriangleSoup& soup) {
-  std::ofstream out(file);
-  out << "solid test\n";
-  for (const Triangle& t : soup.triangles) {
-    out << "facet normal 0 0 0\nouter loop\n";
-    for (const std::uint32_t v : t)
-      out << "vertex " << soup.vertices[v].x << " " << soup.vertices[v].y << " " << soup.vertices[v].z
-          << "\n";
-    out << "endloop\nendfacet\n";
-  }
-  out << "endsolid test\n";
-}
-
 void write_obj(const std::filesystem::path& file, const TriangleSoup& soup) {
   std::ofstream out(file);
   for (const Vec3d& x : soup.vertices) out << "v " << x.x << " " << x.y << " " << x.z << "\n";

@@ -11,6 +11,7 @@
 #include "bedload/case/config.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/setup.hpp"
+#include "tests/support/walls.hpp"
 
 namespace bedload::test {
 
@@ -27,15 +28,6 @@ inline Config empty_case(const Vec3d& size) {
 inline void add_fill(Config& config, const Vec3d& min, const Vec3d& max) {
   config.fluid.present = true;
   config.fluid.fills.push_back({min, max});
-}
-
-inline WallBody body(const std::string& shape, const Vec3d& min, const Vec3d& max) {
-  WallBody b;
-  b.name = shape;
-  b.shape = shape;
-  b.min = min;
-  b.max = max;
-  return b;
 }
 
 inline Setup setup_of(const Config& config) {

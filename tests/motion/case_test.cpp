@@ -3,28 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 
 #include "bedload/core/error.hpp"
 #include "bedload/motion/law.hpp"
 #include "tests/case/support.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace bedload::test {
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A folder with a table beside a case, removed at the end.
 class TableCase : public testing::Test {
  protected:
-  TableCase()
-      : folder_(fs::temp_directory_path() /
-                (std::string("motion_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::create_directories(folder_);
-  }
-  ~TableCase() override { fs::remove_all(folder_); }
-
   Config with(const std::string& table, const std::string& keys = "") {
     std::ofstream(folder_ / "gate.csv") << table;
     std::ofstream(folder_ / "dam.toml") << moving("kind = \"table\"\nfile = \"gate.csv\"\n" + keys);
@@ -36,11 +27,7 @@ class TableCase : public testing::Test {
     try {
       with(table);
     } catch (const CaseError& e) {
-      std::string text = e.what();
-      for (auto at = text.find(folder_.string() + "/"); at != text.npos;
-           at = text.find(folder_.string() + "/"))
-        text.erase(at, folder_.string().size() + 1);
-      return text;
+      return folder_.left_out_of(e.what());
     }
     return "";
   }
@@ -48,7 +35,7 @@ class TableCase : public testing::Test {
     return changed("[grain]\n", "[wall.body.motion]\n" + motion + "[grain]\n");
   }
 
-  fs::path folder_;
+  const TemporaryFolder folder_;
   std::vector<std::string> warnings;
 };
 

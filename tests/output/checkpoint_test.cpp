@@ -36,11 +36,11 @@ class Checkpoint : public ::testing::Test {
     return s.save();
   }
   std::filesystem::path written() {
-    const auto path = folder.path / "state.h5";
+    const auto path = folder / "state.h5";
     write_state(path, state(), config);
     return path;
   }
-  ScratchFolder folder;
+  test::TemporaryFolder folder;
   Config config = fake_config();
 };
 
@@ -70,24 +70,23 @@ TEST_F(Checkpoint, ReturnsEveryBit) {
 }
 
 TEST_F(Checkpoint, SameStateGivesSameBytes) {
-  write_state(folder.path / "a.h5", state(), config);
+  write_state(folder / "a.h5", state(), config);
   ::sleep(1);  // a stored time of writing would differ
-  write_state(folder.path / "b.h5", state(), config);
-  EXPECT_EQ(read_file(folder.path / "a.h5"), read_file(folder.path / "b.h5"));
-  EXPECT_FALSE(std::filesystem::exists(folder.path / "a.h5.part"));
+  write_state(folder / "b.h5", state(), config);
+  EXPECT_EQ(read_file(folder / "a.h5"), read_file(folder / "b.h5"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.h5.part"));
 }
 
 TEST_F(Checkpoint, RefusesWhatIsNotOne) {
-  expect_says(refusal(folder.path / "none.h5", config), "none.h5: cannot read: no such file");
-  expect_says(refusal(folder.path, config), "no such file");
-  write_file(folder.path / "text.h5", "position = 1\n");
-  expect_says(refusal(folder.path / "text.h5", config),
-              "text.h5: cannot restart from this: it is no HDF5 file");
+  expect_says(refusal(folder / "none.h5", config), "none.h5: cannot read: no such file");
+  expect_says(refusal(folder.path(), config), "no such file");
+  write_file(folder / "text.h5", "position = 1\n");
+  expect_says(refusal(folder / "text.h5", config), "text.h5: cannot restart from this: it is no HDF5 file");
   {
-    h5::Handle other = h5::open_file(folder.path / "other.h5", h5::Mode::create);
+    h5::Handle other = h5::open_file(folder / "other.h5", h5::Mode::create);
     other.close();
   }
-  expect_says(refusal(folder.path / "other.h5", config), "it is no Bedload checkpoint");
+  expect_says(refusal(folder / "other.h5", config), "it is no Bedload checkpoint");
 }
 
 TEST_F(Checkpoint, RefusesTruncatedFile) {
@@ -122,6 +121,9 @@ TEST_F(Checkpoint, RefusesAnotherCase) {
   other.fluid.dx = 0.02;
   expect_says(refusal(path, other), "fluid.dx = 0.01, this case has 0.02");
   other = config;
+  other.wall.bodies.at(0).type = "frozen";
+  expect_says(refusal(path, other), "other particles: it was made without wall.");
+  other = config;
   other.grain.fills.emplace_back();
   expect_says(refusal(path, other), "other particles: it was made without grain.fill.0");
   other = config;
@@ -152,13 +154,13 @@ TEST_F(Checkpoint, FullDiskLeavesTheOldOne) {
   EXPECT_EXIT(exit_from_full_disk([&] { write_state(path, large, config); }), ::testing::ExitedWithCode(2),
               "state.h5: cannot write: File too large");
   EXPECT_EQ(read_file(path), before);
-  EXPECT_FALSE(std::filesystem::exists(folder.path / "state.h5.part"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "state.h5.part"));
 }
 
 TEST_F(Checkpoint, UnwritablePlaceIsNamed) {
-  write_file(folder.path / "file", "");
+  write_file(folder / "file", "");
   try {
-    write_state(folder.path / "file" / "state.h5", state(), config);
+    write_state(folder / "file" / "state.h5", state(), config);
     FAIL();
   } catch (const FileError& e) {
     expect_says(e.what(), "state.h5: cannot write: ");

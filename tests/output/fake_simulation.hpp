@@ -3,11 +3,11 @@
 // id by formulas that read_vtkhdf.py knows too.
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "bedload/simulation.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace bedload::testing {
 
@@ -102,16 +102,5 @@ inline Config fake_config() {
   probe.every = 0.2;
   return c;
 }
-
-/// A new empty folder that goes when the test ends.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "bedload_XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  ~ScratchFolder() { std::filesystem::remove_all(path); }
-  std::filesystem::path path;
-};
 
 }  // namespace bedload::testing

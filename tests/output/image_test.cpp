@@ -22,13 +22,13 @@ TEST(Image, ComesBackFromItsFile) {
   image.set(2, 0, kRed);
   image.set(0, 1, {0, 0.5f, 2});
   image.set(3, 0, kBlack);  // outside
-  const ScratchFolder folder;
-  image.write_png(folder.path / "p.png");
+  const test::TemporaryFolder folder;
+  image.write_png(folder / "p.png");
 
   png_image png;
   std::memset(&png, 0, sizeof png);
   png.version = PNG_IMAGE_VERSION;
-  ASSERT_TRUE(png_image_begin_read_from_file(&png, (folder.path / "p.png").c_str()));
+  ASSERT_TRUE(png_image_begin_read_from_file(&png, (folder / "p.png").c_str()));
   png.format = PNG_FORMAT_RGB;
   std::vector<png_byte> bytes(PNG_IMAGE_SIZE(png));
   ASSERT_TRUE(png_image_finish_read(&png, nullptr, bytes.data(), 0, nullptr));
@@ -38,9 +38,9 @@ TEST(Image, ComesBackFromItsFile) {
 }
 
 TEST(Image, NamesAFileThatCannotBeWritten) {
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   try {
-    Image(1, 1, kWhite).write_png(folder.path / "none" / "p.png");
+    Image(1, 1, kWhite).write_png(folder / "none" / "p.png");
     FAIL();
   } catch (const FileError& error) {
     EXPECT_NE(std::string(error.what()).find("none/p.png: cannot write: No such file"), std::string::npos)

@@ -52,12 +52,12 @@ class RunFolder : public ::testing::Test {
     for (const char* name : {"fluid.vtkhdf", "grains.vtkhdf", "walls.vtkhdf"})
       EXPECT_EQ(FrameFile(a / name).times(), FrameFile(b / name).times()) << name;
   }
-  ScratchFolder folder;
+  test::TemporaryFolder folder;
   Config config = fake_config();
 };
 
 TEST_F(RunFolder, WritesAtTheFirstStepEndAtOrAfterItsTime) {
-  const auto dir = folder.path / "new" / "run";
+  const auto dir = folder / "new" / "run";
   unbroken(dir);
   // Steps of 0.03 s; frames every 0.1 s, diagnostics every 0.05 s, the gauge every 0.2 s; the end is 0.75 s.
   const std::vector<int> frames{0, 4, 7, 10, 14, 17, 20, 24, 25};
@@ -78,33 +78,33 @@ TEST_F(RunFolder, HasATableForEachBodyThatMoves) {
   config.wall.bodies.back().free.present = true;
   config.wall.bodies.emplace_back().name = "gate";
   config.wall.bodies.back().motion.kind = "velocity";
-  unbroken(folder.path / "moving");
-  EXPECT_EQ(CsvTable(folder.path / "moving" / "bodies" / "raft.csv").times().size(), 16u) << "as diagnostics";
-  EXPECT_TRUE(fs::exists(folder.path / "moving" / "bodies" / "gate.csv"));
-  EXPECT_FALSE(fs::exists(folder.path / "moving" / "bodies" / "tank.csv"));
+  unbroken(folder / "moving");
+  EXPECT_EQ(CsvTable(folder / "moving" / "bodies" / "raft.csv").times().size(), 16u) << "as diagnostics";
+  EXPECT_TRUE(fs::exists(folder / "moving" / "bodies" / "gate.csv"));
+  EXPECT_FALSE(fs::exists(folder / "moving" / "bodies" / "tank.csv"));
   config.out.bodies = "all";
-  unbroken(folder.path / "all");
-  EXPECT_TRUE(fs::exists(folder.path / "all" / "bodies" / "tank.csv"));
+  unbroken(folder / "all");
+  EXPECT_TRUE(fs::exists(folder / "all" / "bodies" / "tank.csv"));
   config.out.bodies = "none";
-  unbroken(folder.path / "none");
-  EXPECT_FALSE(fs::exists(folder.path / "none" / "bodies"));
+  unbroken(folder / "none");
+  EXPECT_FALSE(fs::exists(folder / "none" / "bodies"));
 }
 
 TEST_F(RunFolder, ResolvedCaseNamesVersionDeviceAndSeed) {
   config.seed = 42;
-  RunOutput(folder.path, config, kDevice, "0.1.0", false);
-  const std::string text = read_file(folder.path / "case.resolved.toml");
+  RunOutput(folder.path(), config, kDevice, "0.1.0", false);
+  const std::string text = read_file(folder / "case.resolved.toml");
   EXPECT_EQ(text.find("# Bedload 0.1.0\n# device: cpu, two threads\n# seed: 42\n"), 0u) << text;
   EXPECT_GT(text.size(), 80u);
 }
 
 TEST_F(RunFolder, SummaryTellsHowTheRunEnded) {
   FakeSimulation s;
-  RunOutput out(folder.path, config, kDevice, "0.1.0", false);
+  RunOutput out(folder.path(), config, kDevice, "0.1.0", false);
   run_to(s, out, 12);
   out.warn("Ma = 0.2 is large");
   out.finish(s, "stopped", {2.0, 100, 36, 2});
-  const auto summary = nlohmann::json::parse(read_file(folder.path / "summary.json"));
+  const auto summary = nlohmann::json::parse(read_file(folder / "summary.json"));
   EXPECT_EQ(summary["status"], "stopped");
   EXPECT_EQ(summary["version"], "0.1.0");
   EXPECT_EQ(summary["counts"]["fluid"], 6);
@@ -120,14 +120,14 @@ TEST_F(RunFolder, SummaryTellsHowTheRunEnded) {
   EXPECT_EQ(summary["metrics"]["fluid mass"]["unit"], "kg");
   EXPECT_EQ(summary["probes"]["gauge"]["gauge"]["value"], s.time() / 3);
   EXPECT_EQ(summary["last_checkpoint"], "checkpoints/step_000000012.h5");
-  EXPECT_EQ(out.last_checkpoint(), folder.path / "checkpoints/step_000000012.h5");
+  EXPECT_EQ(out.last_checkpoint(), folder / "checkpoints/step_000000012.h5");
 }
 
 TEST_F(RunFolder, CheckpointsComeOnTimeAndAtTheEnd) {
   config.out.checkpoint_every = 0.3;
-  unbroken(folder.path);
+  unbroken(folder.path());
   std::vector<std::string> found;
-  for (const auto& entry : fs::directory_iterator(folder.path / "checkpoints"))
+  for (const auto& entry : fs::directory_iterator(folder / "checkpoints"))
     found.push_back(entry.path().filename().string());
   std::sort(found.begin(), found.end());
   EXPECT_EQ(found, (std::vector<std::string>{"step_000000010.h5", "step_000000020.h5", "step_000000025.h5"}));
@@ -135,19 +135,19 @@ TEST_F(RunFolder, CheckpointsComeOnTimeAndAtTheEnd) {
 
 TEST_F(RunFolder, FailedRunKeepsNoCheckpointOfItsState) {
   FakeSimulation s;
-  RunOutput out(folder.path, config, kDevice, "0.1.0", false);
+  RunOutput out(folder.path(), config, kDevice, "0.1.0", false);
   run_to(s, out, 5);
   const auto good = out.checkpoint(s);
   EXPECT_TRUE(fs::exists(good));
   out.write(s, s.step());
   out.finish(s, "failed", {1, 1});
   EXPECT_EQ(out.last_checkpoint(), good);
-  EXPECT_EQ(FrameFile(folder.path / "fluid.vtkhdf").times().back(), s.time());
+  EXPECT_EQ(FrameFile(folder / "fluid.vtkhdf").times().back(), s.time());
 }
 
 TEST_F(RunFolder, StoppedAndRestartedEqualsUnbroken) {
-  unbroken(folder.path / "a");
-  const auto dir = folder.path / "b";
+  unbroken(folder / "a");
+  const auto dir = folder / "b";
   for (const int stop : {0, 5, 7, 14, 25}) {  // 7 and 14 are due times of frames
     fs::remove_all(dir);
     fs::path checkpoint;
@@ -165,55 +165,55 @@ TEST_F(RunFolder, StoppedAndRestartedEqualsUnbroken) {
     EXPECT_EQ(out.last_checkpoint(), checkpoint);
     run_to(s, out, 25);
     out.finish(s, "completed", {1, 1});
-    expect_same_results(folder.path / "a", dir);
+    expect_same_results(folder / "a", dir);
   }
 }
 
 TEST_F(RunFolder, RestartDropsWhatLiesAfterItsTime) {
   config.out.checkpoint_every = 0.3;
-  unbroken(folder.path / "a");
-  unbroken(folder.path / "b");
+  unbroken(folder / "a");
+  unbroken(folder / "b");
   {  // a killed run: half a row at the end
-    std::string rows = read_file(folder.path / "b" / "diagnostics.csv");
+    std::string rows = read_file(folder / "b" / "diagnostics.csv");
     rows.resize(rows.size() - 7);
-    write_file(folder.path / "b" / "diagnostics.csv", rows);
+    write_file(folder / "b" / "diagnostics.csv", rows);
   }
   FakeSimulation s;
-  s.load(read_checkpoint(folder.path / "b/checkpoints/step_000000010.h5", config));
-  RunOutput out(folder.path / "b", config, kDevice, "0.1.0", true);
+  s.load(read_checkpoint(folder / "b/checkpoints/step_000000010.h5", config));
+  RunOutput out(folder / "b", config, kDevice, "0.1.0", true);
   out.write(s, s.step());
   EXPECT_EQ(out.checkpoint(s).filename(), "step_000000011.h5");
-  EXPECT_EQ(FrameFile(folder.path / "b/fluid.vtkhdf").times().size(), 4u);
-  EXPECT_EQ(CsvTable(folder.path / "b/diagnostics.csv").times().size(), 7u);
+  EXPECT_EQ(FrameFile(folder / "b/fluid.vtkhdf").times().size(), 4u);
+  EXPECT_EQ(CsvTable(folder / "b/diagnostics.csv").times().size(), 7u);
   run_to(s, out, 25);
   out.finish(s, "completed", {1, 1});
-  expect_same_results(folder.path / "a", folder.path / "b");
-  EXPECT_EQ(read_file(folder.path / "a/checkpoints/step_000000020.h5"),
-            read_file(folder.path / "b/checkpoints/step_000000020.h5"));
+  expect_same_results(folder / "a", folder / "b");
+  EXPECT_EQ(read_file(folder / "a/checkpoints/step_000000020.h5"),
+            read_file(folder / "b/checkpoints/step_000000020.h5"));
 }
 
 TEST_F(RunFolder, FreshRunRemovesTheFormerOne) {
   config.out.checkpoint_every = 0.3;
-  unbroken(folder.path);
-  RunOutput out(folder.path, config, kDevice, "0.1.0", false);
+  unbroken(folder.path());
+  RunOutput out(folder.path(), config, kDevice, "0.1.0", false);
   EXPECT_TRUE(out.last_checkpoint().empty());
-  EXPECT_TRUE(FrameFile(folder.path / "fluid.vtkhdf").times().empty());
-  EXPECT_FALSE(fs::exists(folder.path / "summary.json"));
-  EXPECT_FALSE(fs::exists(folder.path / "diagnostics.csv"));
+  EXPECT_TRUE(FrameFile(folder / "fluid.vtkhdf").times().empty());
+  EXPECT_FALSE(fs::exists(folder / "summary.json"));
+  EXPECT_FALSE(fs::exists(folder / "diagnostics.csv"));
 }
 
 TEST_F(RunFolder, UnwritableFolderIsOneSentence) {
-  write_file(folder.path / "file", "");
+  write_file(folder / "file", "");
   const std::string message =
-      error_of([&] { RunOutput(folder.path / "file" / "run", config, kDevice, "0.1.0", false); });
+      error_of([&] { RunOutput(folder / "file" / "run", config, kDevice, "0.1.0", false); });
   EXPECT_NE(message.find("file/run: cannot write results there: Not a directory"), std::string::npos)
       << message;
 }
 
 TEST_F(RunFolder, FullDiskSurfaces) {
   FakeSimulation s;
-  RunOutput out(folder.path, config, kDevice, "0.1.0", false);
-  fs::create_symlink("/dev/full", folder.path / "probes" / "gauge.csv");
+  RunOutput out(folder.path(), config, kDevice, "0.1.0", false);
+  fs::create_symlink("/dev/full", folder / "probes" / "gauge.csv");
   out.write(s, s.info());
   const std::string message = error_of([&] { out.checkpoint(s); });
   EXPECT_NE(message.find("gauge.csv: cannot write: No space left on device"), std::string::npos) << message;
@@ -222,8 +222,8 @@ TEST_F(RunFolder, FullDiskSurfaces) {
 
 TEST_F(RunFolder, WriterErrorSurfacesInALaterStep) {
   FakeSimulation s;
-  RunOutput out(folder.path, config, kDevice, "0.1.0", false);
-  fs::create_directory(folder.path / "grains.vtkhdf");
+  RunOutput out(folder.path(), config, kDevice, "0.1.0", false);
+  fs::create_directory(folder / "grains.vtkhdf");
   const std::string message = error_of([&] {
     run_to(s, out, 25);
     out.finish(s, "completed", {1, 1});
@@ -232,8 +232,8 @@ TEST_F(RunFolder, WriterErrorSurfacesInALaterStep) {
 }
 
 TEST(CsvTable, OtherColumnsAreRefused) {
-  const ScratchFolder folder;
-  const CsvTable table(folder.path / "a.csv");
+  const test::TemporaryFolder folder;
+  const CsvTable table(folder / "a.csv");
   table.append(0, {{"front", "m", 1}});
   table.append(0.1, {{"front", "m", 1.0 / 3}});
   EXPECT_EQ(read_file(table.path()), "time [s],front [m]\n0,1\n0.1,0.3333333333333333\n");

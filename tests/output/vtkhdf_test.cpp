@@ -28,8 +28,8 @@ void write_frames(const FrameFile& file, const std::string& store) {
 }
 
 TEST(FrameFile, HoldsTheLayoutOfTemporalPolyData) {
-  const ScratchFolder folder;
-  const FrameFile frames(folder.path / "fluid.vtkhdf");
+  const test::TemporaryFolder folder;
+  const FrameFile frames(folder / "fluid.vtkhdf");
   write_frames(frames, "fluid");
   const h5::Handle file = h5::open_file(frames.path(), h5::Mode::read);
   const h5::Handle root = h5::open_group(file, "VTKHDF");
@@ -56,8 +56,8 @@ TEST(FrameFile, HoldsTheLayoutOfTemporalPolyData) {
 }
 
 TEST(FrameFile, StoresWhatRestsOnce) {
-  const ScratchFolder folder;
-  const FrameFile frames(folder.path / "walls.vtkhdf");
+  const test::TemporaryFolder folder;
+  const FrameFile frames(folder / "walls.vtkhdf");
   write_frames(frames, "walls");
   const h5::Handle file = h5::open_file(frames.path(), h5::Mode::read);
   const h5::Handle root = h5::open_group(file, "VTKHDF");
@@ -68,8 +68,8 @@ TEST(FrameFile, StoresWhatRestsOnce) {
 }
 
 TEST(FrameFile, KeepsDoublesInADoubleRun) {
-  const ScratchFolder folder;
-  const FrameFile frames(folder.path / "grains.vtkhdf", true, 4);
+  const test::TemporaryFolder folder;
+  const FrameFile frames(folder / "grains.vtkhdf", true, 4);
   write_frames(frames, "grains");
   const h5::Handle file = h5::open_file(frames.path(), h5::Mode::read);
   const h5::Handle points = h5::open_dataset(file, "VTKHDF/Points");
@@ -80,8 +80,8 @@ TEST(FrameFile, KeepsDoublesInADoubleRun) {
 }
 
 TEST(FrameFile, DroppedFramesLeaveNoTrace) {
-  const ScratchFolder folder;
-  const FrameFile whole(folder.path / "whole.vtkhdf"), cut(folder.path / "cut.vtkhdf");
+  const test::TemporaryFolder folder;
+  const FrameFile whole(folder / "whole.vtkhdf"), cut(folder / "cut.vtkhdf");
   write_frames(whole, "fluid");
   write_frames(cut, "fluid");
   for (const std::size_t kept : {3u, 1u, 0u}) {
@@ -103,8 +103,8 @@ TEST(FrameFile, DroppedFramesLeaveNoTrace) {
 }
 
 TEST(FrameFile, OtherArraysAreRefused) {
-  const ScratchFolder folder;
-  const FrameFile frames(folder.path / "fluid.vtkhdf");
+  const test::TemporaryFolder folder;
+  const FrameFile frames(folder / "fluid.vtkhdf");
   FakeSimulation s;
   frames.append(s.snapshot("fluid"), 0);
   HostStore fewer = s.snapshot("fluid");
@@ -113,8 +113,8 @@ TEST(FrameFile, OtherArraysAreRefused) {
 }
 
 TEST(FrameFile, FailedWriteNamesFileAndReason) {
-  const ScratchFolder folder;
-  const FrameFile frames(folder.path / "fluid.vtkhdf");
+  const test::TemporaryFolder folder;
+  const FrameFile frames(folder / "fluid.vtkhdf");
   HostStore store{"fluid", 1 << 16, {}};
   store.arrays.push_back(array_of("position", "m", Scalar::f64, 3, std::vector<double>(3 << 16, 0.5)));
   EXPECT_EXIT(exit_from_full_disk([&] { frames.append(store, 0); }), ::testing::ExitedWithCode(2),
@@ -128,11 +128,10 @@ TEST(FrameFile, VtkReadsEveryFrame) {
   const char* python = std::getenv("BEDLOAD_PYTHON");
 #endif
   if (!python || !*python) GTEST_SKIP() << "needs a Python with vtk (BEDLOAD_PYTHON)";
-  const ScratchFolder folder;
+  const test::TemporaryFolder folder;
   for (const char* store : {"fluid", "grains", "walls"})
-    write_frames(FrameFile(folder.path / (std::string(store) + ".vtkhdf"), std::string(store) == "grains"),
-                 store);
-  const FrameFile fluid(folder.path / "restarted_fluid.vtkhdf");  // truncated and gone on with
+    write_frames(FrameFile(folder / (std::string(store) + ".vtkhdf"), std::string(store) == "grains"), store);
+  const FrameFile fluid(folder / "restarted_fluid.vtkhdf");  // truncated and gone on with
   write_frames(fluid, "fluid");
   fluid.keep(3);
   FakeSimulation s;
@@ -142,7 +141,7 @@ TEST(FrameFile, VtkReadsEveryFrame) {
   }
   fluid.write_xdmf();
   HostStore none = s.snapshot("walls");  // a store that empties, and fills again
-  const FrameFile emptied(folder.path / "emptied.vtkhdf");
+  const FrameFile emptied(folder / "emptied.vtkhdf");
   emptied.append(none, 0);
   none.count = 0;
   for (auto& a : none.arrays) a.bytes.clear();
@@ -150,8 +149,8 @@ TEST(FrameFile, VtkReadsEveryFrame) {
   emptied.append(s.snapshot("walls"), 2);
   const auto script = std::filesystem::path(__FILE__).parent_path() / "read_vtkhdf.py";
   EXPECT_EQ(
-      std::system(
-          ("'" + std::string(python) + "' '" + script.string() + "' '" + folder.path.string() + "'").c_str()),
+      std::system(("'" + std::string(python) + "' '" + script.string() + "' '" + folder.path().string() + "'")
+                      .c_str()),
       0);
 }
 

@@ -8,6 +8,7 @@
 #include "kernels/drag/registry.hpp"
 #include "tests/support/run.hpp"
 #include "tests/support/tolerance.hpp"
+#include "tests/support/walls.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
@@ -160,13 +161,7 @@ TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRest) {
   c.couple.hc = 2 * c.grain.d;
   FluidFill fill{{0, 0, 0}, {0.024, 0.024, 0.048}, {"0", "0", "0"}};
   c.fluid.fills = {fill};
-  WallBody floor;
-  floor.name = "floor";
-  floor.shape = "tank";
-  floor.min = {0, 0, 0};
-  floor.max = {0.024, 0.024, 0.06};
-  floor.faces = {false, false, false, false, true, false};
-  c.wall.bodies = {floor};
+  c.wall.bodies = {test::tank({0, 0, 0}, {0.024, 0.024, 0.06}, "z-")};
   std::vector<std::string> warnings;
   auto setup = build_setup(c, warnings);
   std::mt19937 random(5);
@@ -207,13 +202,7 @@ TEST(SlowCoupledFlow, OneWayTerminalVelocity) {  // T-37
   c.grain.d = c.grain.d_max = c.grain.d_min = 1e-4;
   FluidFill fill{c.domain.min, {0.004, 0.004, 0.006}, {"0", "0", "0"}};
   c.fluid.fills = {fill};
-  WallBody floor;
-  floor.name = "floor";
-  floor.shape = "tank";
-  floor.min = c.domain.min;
-  floor.max = c.domain.max;
-  floor.faces = {false, false, false, false, true, false};
-  c.wall.bodies = {floor};
+  c.wall.bodies = {test::tank(c.domain.min, c.domain.max, "z-")};
   for (const auto& [law, expected] : {std::pair{"stokes", 9.185e-3}, std::pair{"schiller_naumann", 8.057e-3},
                                       std::pair{"di_felice", 7.609e-3}}) {
     c.couple.drag = law;

@@ -48,7 +48,7 @@ Config drop(const std::string& viscosity) {
   c.visc.model = viscosity;
   c.fluid.mu = 1;
   c.wall.rep_D = 0.5;
-  WallBody box = solid("box", make_box({-0.03, -0.03, -0.03}, {0.03, 0.03, 0.03}));
+  WallBody box = test::shaped("box", make_box({-0.03, -0.03, -0.03}, {0.03, 0.03, 0.03}));
   set_free(box, 800).free.velocity = {0.3, -0.1, 0.2};
   box.free.spin = {1, 4, -2};
   c.wall.bodies = {box};
@@ -144,7 +144,7 @@ TEST(SmallFreeBody, FluidGrainsAndBodyKeepMomentaTogether) { expect_momenta_kept
 
 // -- floating -------------------------------------------------------------------
 
-constexpr double kDepth = 0.08, kSide = 0.16, kDraught = 0.02;  // of the water, its tank, the slab at first
+constexpr double kDepth = 0.08, kSide = 0.16, kDraught = 0.03;  // of the water, its tank, the slab at first
 
 Config tank_with_slab(double density) {
   const double dx = 0.01;
@@ -155,12 +155,9 @@ Config tank_with_slab(double density) {
   c.density.delta = 0.1;
   c.visc.alpha = 0.2;  // to come to rest
   c.wall.rep_D = 5 * 9.81 * kDepth;
-  WallBody tank;
-  tank.name = tank.shape = "tank";
-  tank.min = c.domain.min, tank.max = c.domain.max;
-  tank.faces[5] = false;
-  WallBody slab =
-      solid("slab", make_box({-0.04, -0.04, kDepth - kDraught}, {0.04, 0.04, kDepth - kDraught + 0.04}));
+  const WallBody tank = test::tank(c.domain.min, c.domain.max, "x-x+y-y+z-");
+  WallBody slab = test::shaped(
+      "slab", make_box({-0.04, -0.04, kDepth - kDraught}, {0.04, 0.04, kDepth - kDraught + 0.04}));
   set_free(slab, density);
   c.wall.bodies = {tank, slab};
   // room for the layers of the tank
@@ -190,14 +187,14 @@ TEST_P(SlowMixedFloat, RestsAtArchimedesDepth) {
   const double area = 0.08 * 0.08, draught = 0.04 * density / 1000;
   const double water = kSide * kSide * kDepth - area * kDraught,
                level = (water + area * draught) / (kSide * kSide);
-  EXPECT_NEAR(z / n, level - draught, 0.5 * c.fluid.dx);
+  EXPECT_NEAR(z / n, level - draught, 0.1 * c.fluid.dx);
   const auto b = s->body_state(1);
   EXPECT_NEAR(reading(b, "force_by_fluid_z") / (9.81 * c.wall.bodies[1].free.solid.mass), 1, 0.1);
   EXPECT_LT(norm(vector_of(b, "velocity")), 0.02);
   EXPECT_GT(rotation_of(b).rotate({0, 0, 1}).z, std::cos(0.15)) << "upright";
 }
 
-INSTANTIATE_TEST_SUITE_P(Densities, SlowMixedFloat, testing::Values(300.0, 500.0, 600.0));
+INSTANTIATE_TEST_SUITE_P(Densities, SlowMixedFloat, testing::Values(200.0, 500.0));
 
 TEST(FreeBodyInFluid, PushesALightRaftUpSmoothly) {
   // a twentieth of the density of water; wall pressure that took its last acceleration would tear the fluid

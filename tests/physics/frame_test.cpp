@@ -6,6 +6,7 @@
 
 #include "tests/support/run.hpp"
 #include "tests/support/tolerance.hpp"
+#include "tests/support/walls.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
@@ -33,13 +34,7 @@ Config tank(const std::string& integrator) {
   c.time.integrator = integrator;
   c.time.dt = 1e-4;
   c.fluid.fills = {{{0, 0, 0}, {0.12, 0.08, 0.06}, {"0", "0", "0"}}};
-  WallBody walls;
-  walls.name = "tank";
-  walls.shape = "tank";
-  walls.min = {0, 0, 0};
-  walls.max = {0.12, 0.08, 0.12};
-  walls.faces = {true, true, false, false, true, true};
-  c.wall.bodies = {walls};
+  c.wall.bodies = {test::tank({0, 0, 0}, {0.12, 0.08, 0.12}, "x-x+z-z+")};
   return c;
 }
 

@@ -13,12 +13,12 @@ namespace {
 
 /// A lone box without gravity that touches nothing.
 Config spinning(const Vec3d& side, const Vec3d& spin, double dt) {
-  Config c = empty_case();
+  Config c = void_case();
   c.gravity = {};
   c.time.dt = dt;
   c.time.force_dt = true;
   c.time.dt_dem = dt;
-  WallBody box = solid("box", make_box(side * -0.5, side * 0.5));
+  WallBody box = test::shaped("box", make_box(side * -0.5, side * 0.5));
   set_free(box, 500).free.spin = spin;
   box.free.contacts = false;
   c.wall.bodies = {box};
@@ -70,8 +70,8 @@ TEST(FreeBodySpin, ASymmetricTopPrecesses) {
 }
 
 TEST(FreeBodyConstraints, PendulumSwingsAtItsPeriod) {
-  Config c = empty_case();
-  WallBody rod = solid("rod", make_box({0, -0.01, -0.01}, {0.4, 0.01, 0.01}));
+  Config c = void_case();
+  WallBody rod = test::shaped("rod", make_box({0, -0.01, -0.01}, {0.4, 0.01, 0.01}));
   set_free(rod, 1000);
   rod.free.move = "none", rod.free.turn = "axis";
   rod.free.axis = {0, 1, 0};
@@ -100,7 +100,7 @@ TEST(FreeBodyConstraints, PendulumSwingsAtItsPeriod) {
 TEST(FreeBodyConstraints, LetThroughOnlyWhatTheyAllow) {
   struct Case {
     const char *move, *turn;
-    Vec3d v, omega;  // after one second of gravity along (1, 1, 1), beginning with spin (0, 0, 2)
+    Vec3d v, omega;  // after one second of gravity (1, 2, 3) m/s2, beginning with spin (1, 0, 2) rad/s
   };
   const Vec3d pull{1, 2, 3};
   for (const Case& k : {Case{"all", "none", pull, {}},
@@ -149,13 +149,13 @@ TEST(FreeBodyInAFrame, FliesAsSeenFromTheLab) {
 
 TEST(FreeBodyContacts, BounceWithTheirRestitution) {
   for (const double e : {1.0, 0.7, 0.3}) {
-    Config c = empty_case();
+    Config c = void_case();
     c.gravity = {};
     c.time.contact = 0.01;
-    WallBody ball = solid("ball", make_sphere({0, 0, 0.0501}, 0.05));
+    WallBody ball = test::shaped("ball", make_sphere({0, 0, 0.0501}, 0.05));
     set_free(ball, 2000).free.e = e;
     ball.free.velocity = {0, 0, -0.5};
-    WallBody cube = solid("cube", make_box({0.2, -0.05, 0.0001}, {0.3, 0.05, 0.1001}));
+    WallBody cube = test::shaped("cube", make_box({0.2, -0.05, 0.0001}, {0.3, 0.05, 0.1001}));
     set_free(cube, 2000).free.e = e;
     cube.free.E = 1e10;  // softer feet would give way by more than their size
     cube.free.velocity = {0, 0, -0.5};
@@ -173,8 +173,8 @@ TEST(FreeBodyContacts, BounceWithTheirRestitution) {
 }
 
 TEST(FreeBodyContacts, SlidingBlockStopsByFriction) {
-  Config c = empty_case();
-  WallBody block = solid("block", make_box({-0.05, -0.05, 0}, {0.05, 0.05, 0.04}));
+  Config c = void_case();
+  WallBody block = test::shaped("block", make_box({-0.05, -0.05, 0}, {0.05, 0.05, 0.04}));
   set_free(block, 1000);
   block.free.mu = 0.3, block.free.e = 0.3;
   block.free.velocity = {0.5, 0, 0};
@@ -192,10 +192,10 @@ TEST(FreeBodyContacts, SlidingBlockStopsByFriction) {
 }
 
 TEST(FreeBodyContacts, TwoBodiesKeepMomentumAndAngularMomentum) {
-  Config c = empty_case();
+  Config c = void_case();
   c.gravity = {};
-  WallBody a = solid("a", make_box({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}));
-  WallBody b = solid("b", make_cylinder({0.08, 0.02, -0.05}, {0.08, 0.02, 0.06}, 0.025));
+  WallBody a = test::shaped("a", make_box({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}));
+  WallBody b = test::shaped("b", make_cylinder({0.08, 0.02, -0.05}, {0.08, 0.02, 0.06}, 0.025));
   set_free(a, 1500).free.velocity = {0.8, 0.1, 0};
   a.free.spin = {1, 3, -2};
   set_free(b, 4000).free.velocity = {-0.6, 0, 0.1};
@@ -223,19 +223,19 @@ TEST(FreeBodyContacts, TwoBodiesKeepMomentumAndAngularMomentum) {
 
 // -- among grains -------------------------------------------------------------
 
-/// A box amid grains that fly about, without gravity; `held`: bounded by walls.
+/// A box amid grains that fly about, without gravity; `elastic`: without friction or loss.
 struct Cloud {
   Config config;
   bedload::Setup setup;
   explicit Cloud(bool elastic) {
-    Config& c = config = empty_case();
+    Config& c = config = void_case();
     c.domain.min = {-0.1, -0.1, -0.1}, c.domain.max = {0.1, 0.1, 0.1};
     c.gravity = {};
     c.grain.present = true;
     c.grain.d = c.grain.d_min = c.grain.d_max = 6e-3;
     c.grain.E = 1e6;
     if (elastic) c.grain.e = 1, c.grain.mu = 0, c.contact.rolling = "none";
-    WallBody box = solid("box", make_box({-0.015, -0.01, -0.0125}, {0.015, 0.01, 0.0125}));
+    WallBody box = test::shaped("box", make_box({-0.015, -0.01, -0.0125}, {0.015, 0.01, 0.0125}));
     set_free(box, 1200).free.spin = {3, -5, 8};
     c.wall.bodies = {box};
     std::mt19937 rng(5);
@@ -291,11 +291,11 @@ TEST(FreeBodyAmongGrains, ClosedSystemKeepsMomentaAndGainsNoEnergy) {
 }
 
 TEST(FreeBodyAmongGrains, RestsOnGrainsThatAreHeld) {
-  Config c = empty_case();
+  Config c = void_case();
   c.grain.present = c.grain.fixed = true;
   c.grain.d = c.grain.d_min = c.grain.d_max = 0.02;
   c.grain.e = 0.3;
-  WallBody slab = solid("slab", make_box({-0.05, -0.05, 0.0101}, {0.05, 0.05, 0.0301}));
+  WallBody slab = test::shaped("slab", make_box({-0.05, -0.05, 0.0101}, {0.05, 0.05, 0.0301}));
   set_free(slab, 1000);
   c.wall.bodies = {slab};
   bedload::Setup setup;
@@ -317,10 +317,7 @@ TEST(FreeBodyAmongGrains, RestsOnGrainsThatAreHeld) {
 
 TEST(FreeBodyRestart, GoesOnBitForBit) {
   Cloud cloud(false);
-  WallBody tank;
-  tank.name = "tank", tank.shape = "tank";
-  tank.min = {-0.035, -0.035, -0.02}, tank.max = {0.035, 0.035, 0.035};
-  cloud.config.wall.bodies.push_back(tank);
+  cloud.config.wall.bodies.push_back(test::tank({-0.035, -0.035, -0.02}, {0.035, 0.035, 0.035}));
   cloud.config.gravity = {0, 0, -9.81};
   bedload::Setup inside;
   for (std::size_t i = 0; i < cloud.setup.grains.x.size(); ++i)

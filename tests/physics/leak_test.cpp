@@ -13,7 +13,7 @@ namespace {
 
 /// How much is shaken and how long: BEDLOAD_LEAK="fluid grains seconds" if that is set.
 struct Load {
-  double fluid = BL_CUDA ? 1e6 : 1e4, grains = BL_CUDA ? 1e5 : 1e3;  ///< particles, about
+  double fluid = BL_CUDA ? 1e6 : 4e3, grains = BL_CUDA ? 1e5 : 400;  ///< particles, about
   double end = BL_CUDA ? 0.5 : 0.15;                                 ///< s
 
   Load() {
@@ -26,20 +26,6 @@ struct Load {
 
 constexpr double kSide = 0.05, kWall = 0.02;  // m
 constexpr double kVolume = 3 * kSide * kSide * kSide;
-
-void write_stl(const std::filesystem::path& file, const TriangleSoup& soup) {
-  std::ofstream out(file);
-  out.precision(9);
-  out << "solid vessel\n";
-  for (const Triangle& t : soup.triangles) {
-    out << "facet normal 0 0 0\nouter loop\n";
-    for (const std::uint32_t v : t)
-      out << "vertex " << soup.vertices[v].x << " " << soup.vertices[v].y << " " << soup.vertices[v].z
-          << "\n";
-    out << "endloop\nendfacet\n";
-  }
-  out << "endsolid vessel\n";
-}
 
 TriangleSoup scaled(TriangleSoup soup, const Vec3d& by) {
   for (Vec3d& x : soup.vertices) x = {x.x * by.x, x.y * by.y, x.z * by.z};
@@ -86,10 +72,10 @@ TEST(SlowMixedLeak, NothingLeavesAShakenVesselOfTriangles) {
   const test::TemporaryFolder folder;
   const TriangleSoup inside = scaled(test::l_prism(), {kSide, kSide, kSide});
   const Vec3d outer{2 * kSide + 2 * kWall, 2 * kSide + 2 * kWall, kSide + 2 * kWall};
-  write_stl(folder / "inside.stl", inside);
-  write_stl(folder / "vessel.stl",
-            test::together(test::moved(scaled(test::cube(), outer), {-kWall, -kWall, -kWall}),
-                           test::inside_out(inside)));
+  test::write_ascii_stl(folder / "inside.stl", inside);
+  test::write_ascii_stl(folder / "vessel.stl",
+                        test::together(test::moved(scaled(test::cube(), outer), {-kWall, -kWall, -kWall}),
+                                       test::inside_out(inside)));
   std::ofstream(folder / "case.toml") << shaken(load);
   std::vector<std::string> warnings;
   const Config config = read_case(folder / "case.toml", {}, warnings);

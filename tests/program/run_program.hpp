@@ -3,13 +3,14 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+
+#include "tests/support/temporary_folder.hpp"
 
 namespace bedload::test {
 
@@ -28,14 +29,6 @@ inline std::string content_of(const std::filesystem::path& path) {
 /// A folder of its own for each test, with a cache of its own; removed at the end.
 class ProgramTest : public testing::Test {
  protected:
-  void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    dir_ = std::filesystem::temp_directory_path() /
-           ("bedload_" + std::string(info->name()) + "_" + std::to_string(getpid()));
-    std::filesystem::create_directories(dir_);
-  }
-  void TearDown() override { std::filesystem::remove_all(dir_); }
-
   /// Runs `bedload <arguments>` in the test's folder.
   Outcome bedload(const std::string& arguments) const {
     return shell(std::string(BL_PROGRAM) + " " + arguments);
@@ -52,7 +45,8 @@ class ProgramTest : public testing::Test {
 
   void write(const std::string& name, const std::string& text) const { std::ofstream(dir_ / name) << text; }
 
-  std::filesystem::path dir_;
+  const TemporaryFolder folder_;
+  const std::filesystem::path& dir_ = folder_.path();
 };
 
 }  // namespace bedload::test

@@ -4,24 +4,17 @@
 #include "bedload/geometry/body.hpp"
 #include "bedload/geometry/shape.hpp"
 #include "tests/support/run.hpp"
+#include "tests/support/walls.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
 /// A case without fluid or grains, in a cube of 2 m.
-inline Config empty_case() {
+inline Config void_case() {
   Config c;
   c.domain.min = {-1, -1, -1};
   c.domain.max = {1, 1, 1};
   c.time.end = 10;
   return c;
-}
-
-inline WallBody solid(const std::string& name, ShapePtr shape) {
-  WallBody b;
-  b.name = b.shape = name;
-  b.solid.shape = shape;
-  b.min = shape->bounds().min, b.max = shape->bounds().max;
-  return b;
 }
 
 /// What a case file would make of [wall.body.free] with a density, kg/m3.

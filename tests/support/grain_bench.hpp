@@ -9,18 +9,9 @@
 #include "bedload/geometry/shape.hpp"
 #include "src/solids/solid_solver.hpp"
 #include "tests/support/tolerance.hpp"
+#include "tests/support/walls.hpp"
 
 namespace bedload::inline BL_VARIANT {
-
-/// A wall of that shape.
-inline WallBody body_of(ShapePtr shape) {
-  WallBody b;
-  b.shape = "shape";
-  b.solid.shape = shape;
-  const Bounds bounds = shape->bounds();
-  b.min = bounds.min, b.max = bounds.max;
-  return b;
-}
 
 class GrainBench {
  public:

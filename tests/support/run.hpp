@@ -44,8 +44,31 @@ inline std::vector<double> scalars(const HostStore& store, const std::string& na
   const HostArray& a = *store.find(name);
   const auto* id = store.find("id")->as<std::uint32_t>();
   std::vector<double> out(store.count);
-  for (std::size_t i = 0; i < store.count; ++i) out[id[i]] = a.type == Scalar::f64 ? a.as<double>()[i] : a.as<float>()[i];
+  for (std::size_t i = 0; i < store.count; ++i)
+    out[id[i]] = a.type == Scalar::f64 ? a.as<double>()[i] : a.as<float>()[i];
   return out;
+}
+
+/// The straight line through points by least squares.
+class LineFit {
+ public:
+  void add(double x, double y) { n_ += 1, x_ += x, y_ += y, xx_ += x * x, xy_ += x * y; }
+  double slope() const { return (n_ * xy_ - x_ * y_) / (n_ * xx_ - x_ * x_); }
+  double at_zero() const { return (y_ - slope() * x_) / n_; }
+
+ private:
+  double n_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0;
+};
+
+/// Through the pressure (Pa) over the height z of fluid particles between two heights (m).
+inline LineFit pressure_line(Simulation& s, double from, double to) {
+  LineFit line;
+  const auto store = s.snapshot("fluid");
+  const auto x = vectors(store, "position");
+  const auto p = scalars(store, "pressure");
+  for (std::size_t a = 0; a < x.size(); ++a)
+    if (x[a].z >= from && x[a].z <= to) line.add(x[a].z, p[a]);
+  return line;
 }
 
 /// Every bit of the kept state.

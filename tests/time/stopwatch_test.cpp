@@ -36,11 +36,12 @@ TEST(SmallStopwatch, CountsEachLapForItsPart) {
     for_each({0, 32}, Busy{work, 400000});
     watch.lap(1);
     watch.stop();
+    for_each({0, 32}, Busy{work, 800000});  // belongs to no part
   }
   const double all = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
   EXPECT_GT(watch.seconds(0), 0);
   EXPECT_GT(watch.seconds(1), 10 * watch.seconds(0));
-  EXPECT_LE(watch.seconds(0) + watch.seconds(1), all);
+  EXPECT_LT(watch.seconds(0) + watch.seconds(1), 0.8 * all);
   EXPECT_EQ(watch.seconds(2), 0);
 }
 

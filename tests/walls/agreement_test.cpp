@@ -44,13 +44,6 @@ double farthest_apart(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) 
   return most;
 }
 
-WallBody tank() {
-  WallBody b;
-  b.shape = "tank";
-  b.max = {kSide, kSide, kSide};
-  return b;
-}
-
 std::vector<WallBody> planes() {
   std::vector<WallBody> all;
   for (int face = 0; face < 6; ++face) {
@@ -67,17 +60,19 @@ std::vector<WallBody> planes() {
 WallBody block() {
   const double wall = 0.005;
   const TriangleSoup outer = moved(test::cube(kSide + 2 * wall), {-wall, -wall, -wall});
-  return body_of(std::make_shared<TriangleMesh>(together(outer, inside_out(test::cube(kSide))), "block"));
+  return test::shaped(
+      "wall", std::make_shared<TriangleMesh>(together(outer, inside_out(test::cube(kSide))), "block"));
 }
 
 /// Rounding differs, and every collision multiplies it.
 TEST(WallAgreement, ABoxOfPlanesRectanglesAndTrianglesHoldsACollapseAlike) {
-  Collapse reference({tank()});
+  Collapse reference({test::tank({}, {kSide, kSide, kSide})});
   const auto start = reference.places();
   Collapse others[] = {
       Collapse(planes()), Collapse({block()}),
-      Collapse({body_of(make_hollow(std::make_shared<TriangleMesh>(test::cube(kSide), "cube"), 0.005))}),
-      Collapse({body_of(make_hollow(make_box({}, {kSide, kSide, kSide}), 0.005))})};
+      Collapse({test::shaped("wall",
+                             make_hollow(std::make_shared<TriangleMesh>(test::cube(kSide), "cube"), 0.005))}),
+      Collapse({test::shaped("wall", make_hollow(make_box({}, {kSide, kSide, kSide}), 0.005))})};
   const double R = reference.b.R();
   double touching = 0;
   for (int stage = 0; stage < 4; ++stage) {
@@ -121,7 +116,7 @@ struct DrumBed {
     b.config.contact.rolling = "epsd";
     b.config.grain.mu_r = 0.1;
     b.config.grain.E = 5e6;
-    b.config.wall.bodies = {body_of(make_hollow(inside, 0.005))};
+    b.config.wall.bodies = {test::shaped("wall", make_hollow(inside, 0.005))};
     b.motion = [&](int, double t) {
       BodyPose p;
       p.rotation = Quat<double>::from_rotation({0, 0, rate * t});
@@ -156,15 +151,8 @@ struct DrumBed {
 TEST(SlowMixedWallAgreement, ADrumAsCylinderAndAsMeshCarriesABedAlike) {
   const double radius = 0.0125, length = 0.0065;
   const int facets = 720;  // neighbours lean less than a degree: one contact
-  std::vector<std::pair<double, double>> circle;
-  std::vector<Triangle> split;
-  for (int k = 0; k < facets; ++k) {
-    const double angle = 2 * M_PI * k / facets;
-    circle.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-    if (k >= 2) split.push_back({0, std::uint32_t(k - 1), std::uint32_t(k)});
-  }
   const DrumBed exact(make_cylinder({0, 0, 0}, {0, 0, length}, radius));
-  const DrumBed mesh(std::make_shared<TriangleMesh>(prism(circle, split, length), "drum"));
+  const DrumBed mesh(std::make_shared<TriangleMesh>(faceted_cylinder(radius, length, facets), "drum"));
   const auto print = [](const char* what, const Mean& a, const Mean& b) {
     std::cout << what << a.value() << " +- " << std::sqrt(a.error2()) << " as cylinder, " << b.value()
               << " +- " << std::sqrt(b.error2()) << " as mesh\n";

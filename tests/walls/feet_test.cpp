@@ -19,7 +19,7 @@ struct Feet {
 
   static Config config_of(ShapePtr shape) {
     Config c;
-    c.wall.bodies = {body_of(shape)};
+    c.wall.bodies = {test::shaped("wall", shape)};
     return c;
   }
   explicit Feet(ShapePtr shape) : walls(config_of(shape)) {}
@@ -159,7 +159,7 @@ TEST(MeshContacts, FlatTrianglesPushAsAPlane) {  // T-28
   for (int cuts : {1, 4, 400}) {  // 400: triangles smaller than the contact
     std::vector<std::pair<double, double>> flat;
     for (int k = 0; k <= cuts; ++k) flat.push_back({-0.05 + 0.1 * k / cuts, 0});
-    const auto bodies = {body_of(ridge(flat, cuts))};
+    const auto bodies = {test::shaped("wall", ridge(flat, cuts))};
     for (const Vec3d& x : {Vec3d{0, 0, 0}, {0.0101, 0.0003, 0}, {0.025, 0.025, 0}, {0.0250001, 0.013, 0}}) {
       const Pressed p = press(bodies, x + Vec3d{0, 0, kReach});
       EXPECT_EQ(p.contacts, 1) << cuts << ": " << x.x << " " << x.y;
@@ -170,18 +170,18 @@ TEST(MeshContacts, FlatTrianglesPushAsAPlane) {  // T-28
 
 TEST(MeshContacts, EdgeGrooveAndCornerCountOnce) {  // T-28
   const double f = plane_force(), near = tolerance(1e-9, 1e-5, 1e-5) * f;
-  const auto roof = {body_of(ridge({{-0.05, -0.02}, {0, 0}, {0.05, -0.02}}, 3))};
+  const auto roof = {test::shaped("wall", ridge({{-0.05, -0.02}, {0, 0}, {0.05, -0.02}}, 3))};
   Pressed p = press(roof, {0, 0.004, kReach});
   EXPECT_EQ(p.contacts, 1) << "convex edge";
   EXPECT_LT(norm(p.force - Vec3d{0, 0, f}), near);
 
   const double h = std::sqrt(0.5);
-  const auto groove = {body_of(ridge({{-0.03, 0.03}, {0, 0}, {0.03, 0.03}}, 3))};
+  const auto groove = {test::shaped("wall", ridge({{-0.03, 0.03}, {0, 0}, {0.03, 0.03}}, 3))};
   p = press(groove, {0, 0.004, kReach / h});
   EXPECT_EQ(p.contacts, 2) << "groove";
   EXPECT_LT(norm(p.force - Vec3d{0, 0, 2 * h * f}), 2 * near);
 
-  const auto block = {body_of(std::make_shared<TriangleMesh>(test::cube(0.05), "cube"))};
+  const auto block = {test::shaped("wall", std::make_shared<TriangleMesh>(test::cube(0.05), "cube"))};
   const double third = kReach / std::sqrt(3.0);
   p = press(block, {0.05 + third, 0.05 + third, 0.05 + third});
   EXPECT_EQ(p.contacts, 1) << "vertex";
@@ -201,7 +201,8 @@ TEST(MeshContacts, AGrainThatSlidesOverTrianglesFeelsAPlane) {
     b.run(1e-5, 6000);  // over some nine edges
     return std::pair{b.position(), b.spin()};
   };
-  const auto [x, w] = slide([&](GrainBench& b) { b.config.wall.bodies = {body_of(ridge(flat, 50))}; });
+  const auto [x, w] =
+      slide([&](GrainBench& b) { b.config.wall.bodies = {test::shaped("wall", ridge(flat, 50))}; });
   const auto [y, u] = slide([](GrainBench& b) { b.plane({0, 0, 0}, {0, 0, 1}); });
   EXPECT_GT(y.x, -0.01);
   EXPECT_LT(norm(x - y), tolerance(1e-9, 1e-7, 1e-7));
@@ -213,7 +214,7 @@ TEST(MeshContacts, TheInsideHoldsWhatIsPressedThroughAFace) {
   GrainBench b;
   b.config.grain.E = 1e4;
   b.config.wall.bodies = {
-      body_of(make_hollow(std::make_shared<TriangleMesh>(test::cube(0.05), "cube"), 0.01))};
+      test::shaped("wall", make_hollow(std::make_shared<TriangleMesh>(test::cube(0.05), "cube"), 0.01))};
   b.add({0.02, 0.02, 1.5 * b.R()}, {0.1, 0, -1.5});
   b.start();
   double lowest = 1;
@@ -228,21 +229,14 @@ TEST(MeshContacts, TheInsideHoldsWhatIsPressedThroughAFace) {
 TEST(MeshContacts, ADrumAsCylinderAndAsMeshCarriesAGrainAlike) {
   const double radius = 0.02, rate = 20;
   const int facets = 720;  // neighbours lean less than a degree: one contact
-  std::vector<std::pair<double, double>> circle;
-  std::vector<Triangle> split;
-  for (int k = 0; k < facets; ++k) {
-    const double angle = 2 * M_PI * k / facets;
-    circle.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-    if (k >= 2) split.push_back({0, std::uint32_t(k - 1), std::uint32_t(k)});
-  }
-  const auto mesh = std::make_shared<TriangleMesh>(prism(circle, split, 0.01), "drum");
+  const auto mesh = std::make_shared<TriangleMesh>(faceted_cylinder(radius, 0.01, facets), "drum");
   const auto height = [&](ShapePtr shape) {
     GrainBench b;
     b.config.gravity = {0, -9.81, 0};
     b.config.grain.mu = 0.5;
     b.config.contact.rolling = "epsd";
     b.config.grain.mu_r = 0.2;
-    b.config.wall.bodies = {body_of(make_hollow(shape, 0.005))};
+    b.config.wall.bodies = {test::shaped("wall", make_hollow(shape, 0.005))};
     b.motion = [&](int, double t) {
       BodyPose p;
       p.rotation = Quat<double>::from_rotation({0, 0, rate * t});

@@ -34,7 +34,8 @@ class Stopwatch {
     laps_ = 0;
     mark();
   }
-  /// What has been queued since the last mark belonged to `part`; beyond kMostLaps it counts with the next.
+  /// What has been queued since the last mark belonged to `part`; after kMostLaps - 1 of them nothing is
+  /// told.
   void lap(int part) {
     if (laps_ + 1 >= kMostLaps) return;
     part_[laps_++] = part;
