@@ -10,10 +10,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-TOOLS = Path(__file__).resolve().parents[2] / "tools"
-sys.path.insert(0, str(TOOLS))
+ROOT = Path(__file__).resolve().parents[2]
+TOOLS = ROOT / "tools"
+sys.path[:0] = [str(TOOLS), str(ROOT / "cases" / "agitated_tube")]
 import outlines  # noqa: E402
 import plot  # noqa: E402
+import rolling  # noqa: E402
 import solids  # noqa: E402
 
 
@@ -304,6 +306,21 @@ class Solids(unittest.TestCase):
         found, shift = outlines.motion_between(mesh.vertices, mesh.vertices @ turn.T + [1, 2, 3])
         np.testing.assert_allclose(found, turn, atol=1e-12)
         np.testing.assert_allclose(shift, [1, 2, 3])
+
+
+class Agitator(unittest.TestCase):
+    def test_rolls_or_slides_as_it_sets_off(self):
+        omega = 2 * np.pi * rolling.FREQUENCY
+        share = rolling.INERTIA / (rolling.MASS * rolling.CAP**2)
+        for friction, mass in ((0, 1), (1, 1 + share)):
+            for t, angle, v in rolling.motion(friction, 0, 0.01):
+                pass
+            self.assertLess(angle, 0.01)
+            self.assertAlmostEqual(v * mass / (rolling.AMPLITUDE * omega * (1 - np.cos(omega * t))), 1, delta=0.02)
+
+    def test_resistance_to_rolling_takes_energy(self):
+        slow, fast = (max(abs(v) for _, _, v in rolling.motion(0.3, couple, 1)) for couple in (0.13, 0))
+        self.assertLess(slow, 0.7 * fast)
 
 
 if __name__ == "__main__":
