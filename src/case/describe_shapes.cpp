@@ -69,6 +69,13 @@ void shape(Parameters& p, ShapeConfig& s) {
   }
   if (is({"hollow", "union", "difference"}))
     p("of", &s.of, {.meaning = "names of shapes listed before", .presence = required});
+  if (is({"difference"}))
+    p("facet", &s.facet,
+      {.unit = "m",
+       .meaning = "difference: width of the triangles by which grains meet it",
+       .range = above(0),
+       .fallback = "extent / 4, at most diagonal / 200",
+       .presence = optional});
   p("scale", &s.scale, {.meaning = "size / size as given", .range = above(0)});
   p("turn_axis", &s.turn_axis, {.meaning = "then turned about this axis through the origin"});
   p("turn_angle", &s.turn_angle, {.unit = "deg", .meaning = "by this angle, right-handed"});

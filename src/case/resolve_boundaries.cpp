@@ -54,9 +54,9 @@ void check_parts(const OutletConfig& outlet, const Value& root, const std::strin
   try {
     std::vector<SurfacePart> parts;
     outlet.solid.shape->add_parts(parts, {});
-  } catch (const CaseError&) {
+  } catch (const CaseError& error) {
     reject(root, path + "shape", fmt::format("\"{}\"", outlet.shape),
-           "must be a shape without differences; those can be given as a mesh");
+           std::string("cannot be used: ") + error.what());
   }
 }
 

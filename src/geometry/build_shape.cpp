@@ -72,7 +72,7 @@ ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier)
   }
   if (of.size() < 2) throw CaseError("of holds one name, must hold at least two");
   ShapePtr shape = of[0];
-  for (std::size_t n = 1; n < of.size(); ++n) shape = make_difference(shape, of[n]);
+  for (std::size_t n = 1; n < of.size(); ++n) shape = make_difference(shape, of[n], c.facet);
   return shape;
 }
 

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <mutex>
 #include <utility>
 
 #include "bedload/core/error.hpp"
-#include "bedload/geometry/shape.hpp"
+#include "bedload/geometry/mesh.hpp"
+#include "geometry/contour.hpp"
 
 namespace bedload {
 namespace {
@@ -74,7 +77,8 @@ class Union : public Shape {
 
 class Difference : public Shape {
  public:
-  Difference(ShapePtr shape, ShapePtr cut) : shape_(std::move(shape)), cut_(std::move(cut)) {}
+  Difference(ShapePtr shape, ShapePtr cut, double facet)
+      : shape_(std::move(shape)), cut_(std::move(cut)), facet_(facet) {}
 
   SurfacePoint nearest(const Vec3d& x) const override {
     const SurfacePoint kept = shape_->nearest(x), cut = inverted(cut_->nearest(x));
@@ -83,12 +87,34 @@ class Difference : public Shape {
 
   Bounds bounds() const override { return shape_->bounds(); }
 
-  void add_parts(std::vector<SurfacePart>&, const Placement&) const override {
-    throw CaseError("difference: grains can meet it only as a mesh");
+  void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
+    std::call_once(made_, [&] { mesh_ = make_mesh(); });
+    mesh_->add_parts(parts, p);
   }
 
  private:
+  std::shared_ptr<const TriangleMesh> make_mesh() const {
+    const Bounds b = bounds();
+    const Vec3d side = b.max - b.min;
+    const double facet =
+        facet_ > 0 ? facet_ : std::min(norm(side) / 200, std::min({side.x, side.y, side.z}) / 4);
+    MeshOptions options;
+    options.repair = true;
+    std::string fault;
+    for (const double size : {facet, 0.97 * facet, 0.94 * facet}) {  // another raster may do
+      try {
+        return std::make_shared<TriangleMesh>(contour(*this, size), "its triangles", options);
+      } catch (const CaseError& error) {
+        if (fault.empty()) fault = error.what();
+      }
+    }
+    throw CaseError(fmt::format("difference: with a facet of {:g} m, {}", facet, fault));
+  }
+
   ShapePtr shape_, cut_;
+  double facet_;  ///< m
+  mutable std::once_flag made_;
+  mutable std::shared_ptr<const TriangleMesh> mesh_;
 };
 
 class Placed : public Shape {
@@ -129,8 +155,8 @@ ShapePtr make_hollow(ShapePtr shape, double thickness) {
 
 ShapePtr make_union(std::vector<ShapePtr> shapes) { return std::make_shared<Union>(std::move(shapes)); }
 
-ShapePtr make_difference(ShapePtr shape, ShapePtr cut) {
-  return std::make_shared<Difference>(std::move(shape), std::move(cut));
+ShapePtr make_difference(ShapePtr shape, ShapePtr cut, double facet) {
+  return std::make_shared<Difference>(std::move(shape), std::move(cut), facet);
 }
 
 ShapePtr make_placed(ShapePtr shape, const Placement& placement) {

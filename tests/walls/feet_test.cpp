@@ -226,6 +226,22 @@ TEST(MeshContacts, TheInsideHoldsWhatIsPressedThroughAFace) {
   EXPECT_GT(b.velocity().z, 0.5) << "thrown back";
 }
 
+TEST(MeshContacts, ADrilledPlateHoldsOneGrainAndLetsAnotherThrough) {
+  GrainBench b;
+  b.config.gravity = {0, 0, -9.81};
+  b.config.grain.e = 0.3;
+  b.config.wall.bodies = {
+      test::shaped("wall", make_difference(make_box({-0.02, -0.02, -0.004}, {0.02, 0.02, 0}),
+                                           make_cylinder({0.005, 0, -1}, {0.005, 0, 1}, 2 * b.R()), 5e-4))};
+  b.add({-0.01, 0.003, 1.1 * b.R()});
+  b.add({0.005, 0, 1.1 * b.R()});
+  b.start();
+  b.run(1e-5, 6000);
+  EXPECT_NEAR(b.position(0).z, b.R(), 1e-3 * b.R());
+  EXPECT_NEAR(norm(b.position(0) - Vec3d{-0.01, 0.003, b.position(0).z}), 0, 1e-3 * b.R());
+  EXPECT_NEAR(b.position(1).z, 1.1 * b.R() - 0.5 * 9.81 * b.time * b.time, 1e-3 * b.R()) << "falls freely";
+}
+
 TEST(MeshContacts, ADrumAsCylinderAndAsMeshCarriesAGrainAlike) {
   const double radius = 0.02, rate = 20;
   const int facets = 720;  // neighbours lean less than a degree: one contact

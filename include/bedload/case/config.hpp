@@ -43,6 +43,7 @@ struct ShapeConfig {
   std::string digest;                          ///< of the file, hexadecimal; checked where it is given
   bool repair = false;                         ///< mesh
   std::vector<std::string> of;                 ///< hollow, union, difference: shapes listed before
+  double facet = 0;                            ///< difference: width of its triangles, m; 0: by its size
   double scale = 1;
   Vec3d turn_axis{0, 0, 1};
   double turn_angle = 0;                       ///< deg
