@@ -74,7 +74,7 @@ void shape(Parameters& p, ShapeConfig& s) {
       {.unit = "m",
        .meaning = "difference: width of the triangles by which grains meet it",
        .range = above(0),
-       .fallback = "extent / 4, at most diagonal / 200",
+       .fallback = "extent / 4, at most diagonal / 100",
        .presence = optional});
   p("scale", &s.scale, {.meaning = "size / size as given", .range = above(0)});
   p("turn_axis", &s.turn_axis, {.meaning = "then turned about this axis through the origin"});

@@ -97,7 +97,7 @@ class Difference : public Shape {
     const Bounds b = bounds();
     const Vec3d side = b.max - b.min;
     const double facet =
-        facet_ > 0 ? facet_ : std::min(norm(side) / 200, std::min({side.x, side.y, side.z}) / 4);
+        facet_ > 0 ? facet_ : std::min(norm(side) / 100, std::min({side.x, side.y, side.z}) / 4);
     MeshOptions options;
     options.repair = true;
     std::string fault;

@@ -120,7 +120,7 @@ ShapePtr make_union(std::vector<ShapePtr> shapes);
 
 /// `shape` without `cut`. The distance is max(d, -d_cut): exact on the surface, elsewhere never greater in
 /// magnitude than the true one. `nearest` may name a point of the part that is cut away. Its parts are
-/// triangles about `facet` (m) wide; 0: a quarter of the least extent, at most 1/200 of the diagonal.
+/// triangles about `facet` (m) wide; 0: a quarter of the least extent, at most 1/100 of the diagonal.
 ShapePtr make_difference(ShapePtr shape, ShapePtr cut, double facet = 0);
 
 /// `shape` moved, turned and scaled.
