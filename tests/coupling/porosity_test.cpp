@@ -79,24 +79,27 @@ TEST(Porosity, KnowsWhatShareOfTheKernelWallsLeave) {
   EXPECT_NEAR(share({0, 0, 0}), 0.25, 1e-6);
 }
 
+/// Porosity at random places in one box among random grains in another, beside walls that are `seen` or not.
+std::vector<Real> porosity_beside(const std::vector<WallBody>& bodies, bool seen, const Bounds& fluid,
+                                  const Bounds& grains) {
+  Config c = unit_box(0.1, 1e-3);
+  c.couple.wall_normalise = seen;
+  c.wall.bodies = bodies;
+  std::mt19937_64 random(8);
+  const auto at = random_points(300, fluid.min, fluid.max, random);
+  CoupledBox box(c, fluid_at(at, 0.1, 1000, 1), random_grains(60, grains.min, grains.max, 0.05, random));
+  Buffer<BodyPose> poses;
+  poses.assign(std::vector<BodyPose>(bodies.size()));
+  box.coupling.porosity(box.fluid, box.grains, poses);
+  return box.fluid.eps.values();
+}
+
 /// The far side of a thin wall is seen from behind: a pipe and a vessel without end around the same bore
 /// agree.
 TEST(Porosity, DoesNotSeeTheFarSideOfAThinWall) {
   const auto lies_in = [](ShapePtr shape, bool seen = true) {
-    Config c = unit_box(0.1, 1e-3);
-    c.couple.wall_normalise = seen;
-    c.wall.bodies.resize(1);
-    c.wall.bodies[0].shape = "vessel";
-    c.wall.bodies[0].solid.shape = shape;
-    std::mt19937_64 random(8);
-    const auto at = random_points(300, {0.3, 0.3, 0.4}, {0.7, 0.7, 0.6}, random);
-    CoupledBox box(c, fluid_at(at, 0.1, 1000, 1),
-                   random_grains(60, {0.3, 0.3, 0.2}, {0.7, 0.7, 0.8}, 0.05, random));
-    const std::vector<BodyPose> still(1);
-    Buffer<BodyPose> poses;
-    poses.assign(still);
-    box.coupling.porosity(box.fluid, box.grains, poses);
-    return box.fluid.eps.values();
+    return porosity_beside({test::shaped("vessel", shape)}, seen, {{0.3, 0.3, 0.4}, {0.7, 0.7, 0.6}},
+                           {{0.3, 0.3, 0.2}, {0.7, 0.7, 0.8}});
   };
   const Vec3d a{0.5, 0.5, 0}, b{0.5, 0.5, 1};
   const auto thin = lies_in(make_pipe(a, b, 0.3, 0.32, PipeEnds::open));
@@ -113,17 +116,8 @@ TEST(Porosity, DoesNotSeeTheFarSideOfAThinWall) {
 
 TEST(Porosity, IsTheSameBesideBoxesAsBesideTheTankThatTheyMakeUp) {
   const auto lies_in = [](const std::vector<WallBody>& bodies, bool seen = true) {
-    Config c = unit_box(0.1, 1e-3);
-    c.couple.wall_normalise = seen;
-    c.wall.bodies = bodies;
-    std::mt19937_64 random(9);
-    const auto at = random_points(200, {0.2, 0.4, 0.2}, {0.4, 0.6, 0.4}, random);
-    CoupledBox box(c, fluid_at(at, 0.1, 1000, 1),
-                   random_grains(60, {0.2, 0.3, 0.2}, {0.6, 0.7, 0.6}, 0.05, random));
-    Buffer<BodyPose> poses;
-    poses.assign(std::vector<BodyPose>(bodies.size()));
-    box.coupling.porosity(box.fluid, box.grains, poses);
-    return box.fluid.eps.values();
+    return porosity_beside(bodies, seen, {{0.2, 0.4, 0.2}, {0.4, 0.6, 0.4}},
+                           {{0.2, 0.3, 0.2}, {0.6, 0.7, 0.6}});
   };
   const WallBody tank = test::tank({0.2, -0.5, 0.2}, {1.5, 1.5, 1.5}, "x-z-");
   const auto whole = lies_in({tank});
