@@ -64,18 +64,19 @@ struct SavedState {
 /// Initial particles, in double precision, in the order of their ids.
 struct Setup {
   struct Fluid {
-    std::vector<Vec3d> x, v;          ///< m, m/s
-    std::vector<double> mass;         ///< kg
+    std::vector<Vec3d> x, v;   ///< m, m/s
+    std::vector<double> mass;  ///< kg
   } fluid;
   struct Walls {
     std::vector<Vec3d> x;             ///< m, at t = 0
     std::vector<std::uint32_t> body;  ///< index in Config::wall.bodies
     std::vector<std::uint8_t> outer;  ///< 1: keeps rho0 (frozen walls, behind their first layer)
-    std::vector<Vec3d> mirror;        ///< images in the fluid, m; empty without mdbc walls, else x for all others
+    std::vector<Vec3d> mirror;  ///< images in the fluid, m; empty without mdbc walls, else x for all others
   } walls;
   struct Grains {
     std::vector<Vec3d> x, v;          ///< m, m/s
     std::vector<double> radius;       ///< m
+    std::vector<std::uint32_t> fill;  ///< index in GrainConfig::fills
   } grains;
 };
 

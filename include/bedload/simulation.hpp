@@ -15,13 +15,14 @@ namespace bedload {
 
 /// What one step did.
 struct StepInfo {
-  std::int64_t step = 0;      ///< steps done
-  double time = 0;            ///< s, at the end of the step
-  double dt = 0;              ///< s
-  int substeps = 0;           ///< DEM substeps in it
-  std::string_view limit;     ///< what bound dt: "cfl", "viscous", "body", "drag", "growth", "travel", "contact", "body contact", "body turn", "fixed"
-  double vmax = 0;            ///< m/s, fastest fluid particle
-  bool rebuilt = false;       ///< neighbour lists were renewed
+  std::int64_t step = 0;   ///< steps done
+  double time = 0;         ///< s, at the end of the step
+  double dt = 0;           ///< s
+  int substeps = 0;        ///< DEM substeps in it
+  std::string_view limit;  ///< what bound dt: "cfl", "viscous", "body", "drag", "growth", "travel",
+                           ///< "contact", "body contact", "body turn", "fixed"
+  double vmax = 0;         ///< m/s, fastest fluid particle
+  bool rebuilt = false;    ///< neighbour lists were renewed
 };
 
 /// One time-step limit, for `bedload check`.
@@ -48,14 +49,16 @@ class Simulation {
   /// evaluates everything once. Called once, before the first step, not after load().
   virtual void start() = 0;
 
-  virtual double time() const = 0;          ///< s
+  virtual double time() const = 0;  ///< s
   virtual std::int64_t steps() const = 0;
   virtual Counts counts() const = 0;
   virtual std::vector<StepLimit> limits() = 0;
+  /// Limits on a substep that free bodies set, beside those of grains.
+  virtual std::vector<StepLimit> body_limits() const = 0;
   /// Bytes held on the device (or in host memory), now.
   virtual std::size_t bytes() const = 0;
-  /// Wall time that the parts of all steps took, s: "lists", "fluid", "grains", "coupling", "checks"; those that
-  /// the case has.
+  /// Wall time that the parts of all steps took, s: "lists", "fluid", "grains", "coupling", "checks"; those
+  /// that the case has.
   virtual std::vector<Quantity> time_spent() const = 0;
 
   /// Fields for pictures: store is "fluid", "grains" or "walls". First array: "position".
@@ -64,7 +67,8 @@ class Simulation {
   virtual std::vector<Quantity> diagnostics() = 0;
   /// Current reading of one probe.
   virtual std::vector<Quantity> measure(const ProbeConfig& probe) = 0;
-  /// Place, velocity, forces and their power of one wall body, by its index in the case.
+  /// Place, velocity, forces and their power of one wall body, by its index in the case; behind them come the
+  /// rigid groups of grains.
   virtual std::vector<Quantity> body_state(int body) = 0;
 
   /// The kept state, and back again; load() continues bit for bit.
@@ -78,9 +82,9 @@ class Simulation {
 
 /// "cpu" or "cuda" and the device's name; throws DeviceError if it is not there.
 struct Device {
-  std::string backend;       ///< cpu, cuda
-  std::string name;          ///< "NVIDIA H100 80GB HBM3", "AMD EPYC ..., 2 threads"
-  std::size_t memory = 0;    ///< bytes free
+  std::string backend;     ///< cpu, cuda
+  std::string name;        ///< "NVIDIA H100 80GB HBM3", "AMD EPYC ..., 2 threads"
+  std::size_t memory = 0;  ///< bytes free
 };
 
 /// backend: auto, cpu, cuda. `auto` takes a usable GPU if this build has CUDA.

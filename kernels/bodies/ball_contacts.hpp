@@ -26,8 +26,8 @@ struct BallPass {
   SurfaceSet walls;
   const BodyPose* poses;
   const RigidBody* bodies;
-  const BodyMaterial* materials;  ///< of the free bodies
-  double wall_give, wall_give_sideways;
+  const BodyMaterial* materials;         ///< of the free bodies
+  double wall_give, wall_give_sideways;  ///< of walls that are none, 1/Pa
   Span<const TouchBall> balls;
   WallMemory* const* memory;  ///< [room][balls]
   Index* contacts;            ///< [balls]
@@ -45,7 +45,7 @@ struct BallPass {
     for (Index s = 0; s < walls.surfaces.size; ++s) {
       const Surface& surface = walls.surfaces[s];
       const BodyPose& pose = poses[surface.body];
-      if (surface.body == own || !pose.present || !poses[own].present) continue;
+      if (surface.body == own || !pose.present || !poses[own].present || passes(pose)) continue;
       const double reach = surface.tracked() ? ball.radius : 2 * ball.radius;
       const SurfaceView view(surface, pose, frame, x);
       if (view.beyond(walls, reach)) continue;
@@ -62,8 +62,10 @@ struct BallPass {
   }
 
  private:
+  /// Bodies that touch nobody.
+  BL_HD bool passes(const BodyPose& pose) const { return pose.free && !bodies[pose.free - 1].touches; }
   BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
-    return frame.nearest_image(point - pose.centre - pose.translation);
+    return frame.nearest_image(point - pose.origin());
   }
   BL_HD WallMemory touch_one(Index i, const TouchBall& ball, const Vec3d& x, const WallTouch& touch,
                              const WallMemories& memories) const {

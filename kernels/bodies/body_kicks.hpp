@@ -126,8 +126,9 @@ struct BodyAccelerationPass {
 struct BodyReportPass {
   const RigidBody* bodies;
   BodyFields s;
+  double time;  ///< s
   Span<RigidMotion> out;
-  BL_HD void operator()(Index b) const { out[b] = s.motion(bodies[b], b, false); }
+  BL_HD void operator()(Index b) const { out[b] = s.motion(bodies[b], b, time < bodies[b].release); }
 };
 
 /// Force of the fluid on the wall particles of one body.
@@ -142,7 +143,7 @@ struct WallLoadReduction {
     Value sum = Value::zero();
     if (of[w] != body) return sum;
     const BodyPose& pose = poses[body];
-    sum.add(force[w], cross(pose.place(x0[w]) - pose.centre - pose.translation, force[w]));
+    sum.add(force[w], cross(pose.place(x0[w]) - pose.origin(), force[w]));
     return sum;
   }
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }

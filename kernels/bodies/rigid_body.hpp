@@ -28,15 +28,16 @@ struct RigidBody {
   std::uint32_t body = 0;  ///< among the wall bodies
   BodyMove move = BodyMove::all;
   BodyTurn turn = BodyTurn::all;
-  std::uint32_t fluid = 1;  ///< 1: moved by the fluid
-  double mass = 0;          ///< kg
-  Vec3d centre;             ///< reference point at t = 0, m
-  Vec3d arm;                ///< from there to the centre of mass at t = 0, m; 0 unless it only turns
-  Vec3d moments;            ///< principal, about the reference point, kg m2
-  Quat<double> principal;   ///< turns the coordinate axes to the principal ones at t = 0
-  Vec3d axis;               ///< of constraints, unit
-  double axial = 0;         ///< moment of inertia about it, kg m2
-  double release = 0;       ///< s
+  std::uint32_t fluid = 1;    ///< 1: moved by the fluid
+  std::uint32_t touches = 1;  ///< 1: meets other bodies
+  double mass = 0;            ///< kg
+  Vec3d centre;               ///< reference point at t = 0, m
+  Vec3d arm;                  ///< from there to the centre of mass at t = 0, m; 0 unless it only turns
+  Vec3d moments;              ///< principal, about the reference point, kg m2
+  Quat<double> principal;     ///< turns the coordinate axes to the principal ones at t = 0
+  Vec3d axis;                 ///< of constraints, unit
+  double axial = 0;           ///< moment of inertia about it, kg m2
+  double release = 0;         ///< s
 
   /// The part of a velocity or force that may move the body.
   BL_HD Vec3d movable(const Vec3d& v) const {
@@ -71,8 +72,8 @@ struct RigidBody {
     return 0.5 * dot(l, omega(rotation, l));
   }
 
-  /// Rotation after a time h without torque. Turns about the principal axes one after another, there and back
-  /// again: symplectic and reversible, and the angular momentum, kept in the lab frame, stays what it is
+  /// Rotation after a time h (s) without torque. Turns about the principal axes one after another, there and
+  /// back again: symplectic and reversible, and the angular momentum, kept in the lab frame, stays what it is
   /// [dullweber97].
   BL_HD Quat<double> turned(const Quat<double>& rotation, const Vec3d& l, double h) const {
     if (turn == BodyTurn::none) return rotation;

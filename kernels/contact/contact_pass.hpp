@@ -9,16 +9,18 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Pairs of grains closer than the sum of their radii and a skin.
+/// Pairs of grains closer than the sum of their radii and a skin, but for those of one rigid group.
 struct GrainNear {
   Frame frame;
   Span<const Vec3d> x;
   Span<const Real> radius;
-  double largest;  ///< radius, m
-  double skin;     ///< m
+  Span<const std::uint32_t> group;  ///< 0: none; empty without groups
+  double largest;                   ///< radius, m
+  double skin;                      ///< m
   BL_HD Vec3d place(Index i) const { return x[i]; }
   BL_HD double reach(Index i) const { return radius[i] + largest + skin; }
   BL_HD bool operator()(Index i, Index j) const {
+    if (group && group[i] != 0 && group[i] == group[j]) return false;
     const double range = double(radius[i]) + double(radius[j]) + skin;
     return i != j && norm2(frame.separation(x[i], x[j])) < range * range;
   }
@@ -82,18 +84,24 @@ struct ContactPass {
       each_wall(i, true, [&](std::uint32_t body, const WallContact& c) {
         sum.force += Vec3d(c.on_grain.force);
         sum.torque += Vec3d(c.on_grain.torque_i);
-        if (loads && poses[body].free) {
-          const Vec3d force = -Vec3d(c.on_grain.force);
-          loads.add(i, {force, cross(arm(poses[body], c.point), force) + Vec3d(c.on_grain.torque_j), body});
-        }
+        if (loads && poses[body].free) loads.add(i, {c.on_wall(), torque_on(body, c), body});
       });
     return sum;
   }
 
   struct WallContact {
     ContactForce on_grain;
-    Vec3d point;  ///< m
+    Vec3d point;                                                    ///< m
+    BL_HD Vec3d on_wall() const { return -Vec3d(on_grain.force); }  ///< N
   };
+  /// On a wall body, about its centre, N m.
+  BL_HD Vec3d torque_on(std::uint32_t body, const WallContact& c) const {
+    return cross(arm(poses[body], c.point), c.on_wall()) + Vec3d(c.on_grain.torque_j);
+  }
+  /// Of a place from the centre of a body, by the nearest image, m.
+  BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
+    return frame.nearest_image(point - pose.origin());
+  }
   BL_HD WallMemories memories(Index i) const { return {wall_memory, wall_contacts, i}; }
 
   /// f(body, contact) for all that grain i touches of the walls; `keep`: histories are advanced.
@@ -124,10 +132,6 @@ struct ContactPass {
   }
 
  private:
-  /// Of a place from the reference point of a body, by the nearest image, m.
-  BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
-    return frame.nearest_image(point - pose.centre - pose.translation);
-  }
   template <class F>
   BL_HD WallMemory touch_one(Index i, const WallTouch& touch, const WallMemories& memory, F& f) const {
     const Foot& foot = touch.foot;
@@ -137,14 +141,9 @@ struct ContactPass {
     h.overlap = std::abs(h.overlap);
     const Vec3d point = x[i] - foot.distance * foot.normal;
     ContactGeometry at = touch_wall(sphere(i), foot.normal, double(radius[i]) - foot.distance);
-    Vec3d v_wall;
-    if (pose.free) {
-      const Vec3d r = arm(pose, point);
-      v_wall = pose.v + cross(pose.omega, r);
+    const Vec3d r = arm(pose, point), v_wall = pose.v + cross(pose.omega, r);
+    if (pose.free)
       at.m_star /= 1 + at.m_star * Real(free_bodies[pose.free - 1].ease(pose.rotation, r, foot.normal));
-    } else {
-      v_wall = pose.velocity(point);
-    }
     const ContactForce on_grain = law(at, v[i] - Real3(v_wall), omega[i], Real3(pose.omega), dt, h);
     f(touch.body, WallContact{on_grain, point});
     h.overlap *= foot.side;

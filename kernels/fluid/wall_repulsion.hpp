@@ -26,14 +26,14 @@ struct WallRepulsion {
   SurfaceSet walls;
   Span<const BodyPose> pose;
 
-  /// f(body, acceleration) for each foot of a surface within reach of x.
+  /// f(body, acceleration) for each foot of a surface within reach of x, or of those of one body alone.
   template <class F>
-  BL_HD void each(const Vec3d& x, F&& f) const {
+  BL_HD void each(const Vec3d& x, F&& f, std::uint32_t only = kNone) const {
     const double reach = double(law.r0);
     for (Index k = 0; k < walls.surfaces.size; ++k) {
       const Surface& surface = walls.surfaces[k];
       const BodyPose& at = pose[surface.body];
-      if (!at.present || !at.repulsion) continue;
+      if (!at.present || !at.repulsion || (only != kNone && surface.body != only)) continue;
       const SurfaceView view(surface, at, frame, x);
       if (view.beyond(walls, reach)) continue;
       view.each_foot(walls, reach, 1e-4 * reach, [&](const Foot& foot) {
@@ -53,24 +53,7 @@ struct RepelPass {
   }
 };
 
-/// Force and moment about a point of the repulsion on one body, N and N m: for sum_over<6>.
-struct RepulsionLoad {
-  WallRepulsion walls;
-  std::uint32_t body;
-  Vec3d about;
-  Span<const FluidPosition> x;
-  Span<const Real> mass;
-  BL_HD void operator()(Index a, double* out) const {
-    const Vec3d at = coordinates(walls.frame, x[a]);
-    walls.each(at, [&](std::uint32_t b, const Real3& push) {
-      if (b != body) return;
-      const Vec3d force = -double(mass[a]) * Vec3d(push), moment = cross(at - about, force);
-      for (int k = 0; k < 3; ++k) out[k] += force[k], out[3 + k] += moment[k];
-    });
-  }
-};
-
-/// The same on one body, about its own centre where its pose has taken it.
+/// Force of the repulsion on one body, and its torque about the centre of the body.
 struct BodyRepulsion {
   using Value = LoadSum;
   WallRepulsion walls;
@@ -80,13 +63,12 @@ struct BodyRepulsion {
   BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index a) const {
     Value sum = Value::zero();
-    const BodyPose& pose = walls.pose[body];
     const Vec3d at = coordinates(walls.frame, x[a]);
-    walls.each(at, [&](std::uint32_t b, const Real3& push) {
-      if (b != body) return;
+    const auto take = [&](std::uint32_t, const Real3& push) {
       const Vec3d force = -double(mass[a]) * Vec3d(push);
-      sum.add(force, cross(walls.frame.nearest_image(at - pose.centre - pose.translation), force));
-    });
+      sum.add(force, cross(walls.frame.nearest_image(at - walls.pose[body].origin()), force));
+    };
+    walls.each(at, take, body);
     return sum;
   }
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }

@@ -92,33 +92,20 @@ struct TotalsReduction {
 
 /// What the grains do to one wall body; histories stay as they are.
 struct BodyLoadReduction {
-  struct Value {
-    double sum[6];  ///< force, torque about the body's moved centre
-  };
+  using Value = LoadSum;
   ContactPass contacts;  ///< with dt = 0
   std::uint32_t body;
 
-  BL_HD Value identity() const {
-    Value v{};
-    return v;
-  }
+  BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index i) const {
-    Value t{};
-    if (contacts.memories(i).count() == 0) return t;
-    const BodyPose& pose = contacts.poses[body];
+    Value sum = Value::zero();
+    if (contacts.memories(i).count() == 0) return sum;
     contacts.each_wall(i, false, [&](std::uint32_t of, const ContactPass::WallContact& c) {
-      if (of != body) return;
-      const Vec3d force = -Vec3d(c.on_grain.force);
-      const Vec3d torque =
-          cross(c.point - pose.centre - pose.translation, force) + Vec3d(c.on_grain.torque_j);
-      t.sum[0] += force.x, t.sum[1] += force.y, t.sum[2] += force.z;
-      t.sum[3] += torque.x, t.sum[4] += torque.y, t.sum[5] += torque.z;
+      if (of == body) sum.add(c.on_wall(), contacts.torque_on(body, c));
     });
-    return t;
+    return sum;
   }
-  BL_HD void combine(Value& a, const Value& b) const {
-    for (int k = 0; k < 6; ++k) a.sum[k] += b.sum[k];
-  }
+  BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -11,6 +11,7 @@
 #include "bedload/case/grain_sizes.hpp"
 #include "bedload/case/limits.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/body.hpp"
 #include "resolve.hpp"
 #include "src/motion/survey.hpp"
 
@@ -172,6 +173,8 @@ class Checks {
     for (std::size_t i = 0; i < c.outlets.size(); ++i) {
       const OutletConfig& outlet = c.outlets[i];
       const std::string path = fmt::format("outlet.{}", i);
+      if (c.grain.present && outlet.takes("grains") && !c.grain.rigid_fills().empty())
+        fail(path + ".phase", quoted(outlet.phase), "must be \"fluid\" where grains form rigid groups");
       named(path, outlet.name);
       if (outlet.shape == "box") box(path, outlet.min, outlet.max);
       if (outlet.phase != "both" && !(outlet.phase == "fluid" ? c.fluid.present : c.grain.present))

@@ -16,6 +16,7 @@ void describe_fluid_models(Parameters& p, Config& config);
 void describe_walls(Parameters& p, WallConfig& wall);
 /// Of one wall body; grain.* stands in for its material when the case is resolved.
 void describe_free_body(Parameters& p, FreeConfig& free);
+void describe_rigid_group(Parameters& p, RigidConfig& rigid);
 void describe_inlets(Parameters& p, std::vector<InletConfig>& inlets);
 void describe_outlets(Parameters& p, std::vector<OutletConfig>& outlets);
 void describe_grain_inlets(Parameters& p, std::vector<GrainInletConfig>& inlets);

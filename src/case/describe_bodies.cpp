@@ -6,6 +6,27 @@ namespace bedload {
 
 using enum Presence;
 
+/// The constraints of a rigid body, whose keys begin with `at`; `none`: what move = "none" means.
+template <class C>
+void describe_constraints(Parameters& p, const std::string& at, C& c, const char* none) {
+  p(at + ".move", &c.move,
+    {.meaning = "where its centre of mass may go",
+     .family = "models",
+     .choices = {
+         {"all", "anywhere"}, {"plane", "across the axis"}, {"axis", "along the axis"}, {"none", none}}});
+  p(at + ".turn", &c.turn,
+    {.meaning = "how it may turn",
+     .family = "models",
+     .choices = {{"all", "any way"}, {"axis", "about the axis"}, {"none", "not at all"}}});
+  if (c.move == "plane" || c.move == "axis" || c.turn == "axis" || p.everything())
+    p(at + ".axis", &c.axis, {.meaning = "direction for move and turn", .presence = required});
+}
+
+void describe_rigid_group(Parameters& p, RigidConfig& r) {
+  r.present = p.table("rigid", r.present);
+  if (r.present) describe_constraints(p, "rigid", r, "nowhere");
+}
+
 void describe_free_body(Parameters& p, FreeConfig& f) {
   f.present = p.table("free", f.present);
   if (!f.present) return;
@@ -32,20 +53,7 @@ void describe_free_body(Parameters& p, FreeConfig& f) {
   p("free.spin", &f.spin, {.unit = "rad/s", .meaning = "angular velocity at the start"});
   p("free.release_time", &f.release_time,
     {.unit = "s", .meaning = "held in place until then", .range = at_least(0)});
-  p("free.move", &f.move,
-    {.meaning = "where its centre of mass may go",
-     .family = "models",
-     .choices = {{"all", "anywhere"},
-                 {"plane", "across free.axis"},
-                 {"axis", "along free.axis"},
-                 {"none", "nowhere; free.point of the body stays in place"}}});
-  p("free.turn", &f.turn,
-    {.meaning = "how it may turn",
-     .family = "models",
-     .choices = {{"all", "any way"}, {"axis", "about free.axis"}, {"none", "not at all"}}});
-  const bool axial = f.move == "plane" || f.move == "axis" || f.turn == "axis" || p.everything();
-  if (axial)
-    p("free.axis", &f.axis, {.meaning = "direction for free.move and free.turn", .presence = required});
+  describe_constraints(p, "free", f, "nowhere; free.point of the body stays in place");
   if (f.move == "none" || p.everything())
     p("free.point", &f.point,
       {.unit = "m",

@@ -182,6 +182,7 @@ void grain_fill(Parameters& p, GrainFill& f) {
        .presence = optional});
   }
   p("velocity", &f.velocity, {.unit = "m/s", .meaning = "initial velocity"});
+  describe_rigid_group(p, f.rigid);
   p.list("sizes", f.sizes, SizeClass{}, describe_grain_size);
 }
 

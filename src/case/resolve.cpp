@@ -10,6 +10,7 @@
 
 #include "bedload/case/grain_sizes.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/body.hpp"
 #include "bedload/geometry/build_shape.hpp"
 #include "src/motion/inlet_flow.hpp"
 #include "src/motion/survey.hpp"
@@ -247,22 +248,15 @@ void resolve_grains(Config& c, const Value& root, const std::filesystem::path& c
     for (std::size_t k = 0; k < fill.sizes.size(); ++k)
       resolve_size(c, fill.sizes[k], root, fmt::format("grain.fill.{}.sizes.{}", i, k));
   }
+  for (std::size_t i = 0; i < g.fills.size(); ++i)
+    if (RigidConfig& rigid = g.fills[i].rigid; rigid.present)
+      rigid.axis = direction(rigid.axis, root, fmt::format("grain.fill.{}.rigid.axis", i));
   resolve_grain_inlets(c, root);
   const double fall = height(std::vector<DomainConfig>{c.domain}, c.gravity);
   if (g.settle && g.settle_time == 0 && fall > 0) g.settle_time = 20 * std::sqrt(2 * fall / norm(c.gravity));
 }
 
 }  // namespace
-
-std::vector<Vec3d> corners(const WallBody& body, const DomainConfig& domain) {
-  const bool bounded = body.shape != "plane";
-  const Vec3d& lo = bounded ? body.min : domain.min;
-  const Vec3d& hi = bounded ? body.max : domain.max;
-  std::vector<Vec3d> all;
-  for (int corner = 0; corner < 8; ++corner)
-    all.push_back({corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z});
-  return all;
-}
 
 double wall_speed(const WallBody& body, const DomainConfig& domain, double until) {
   const MotionConfig& m = body.motion;

@@ -52,9 +52,6 @@ void default_sizes(const Config& config, std::vector<SizeClass>& sizes, const Va
 /// Checks parameters against each other. Throws CaseError; appends warnings.
 void cross_check(const Config& config, const Value& root, std::vector<std::string>& warnings);
 
-/// Corners of what a body occupies, of the domain for one without bounds, m.
-std::vector<Vec3d> corners(const WallBody& body, const DomainConfig& domain);
-
 /// Largest speed of a wall body (m/s) up to the time `until` (s): an oscillation's peak, a rotation's
 /// outermost corner, that of a free body at the start, otherwise sampled.
 double wall_speed(const WallBody& body, const DomainConfig& domain, double until);

@@ -62,9 +62,11 @@ int check_case(const Options& options) {
   } else {
     const auto simulation = make_simulation(c, p.setup, p.device);
     simulation->start();
-    const std::vector<StepLimit> steps = simulation->limits(), substeps = grain_limits(c);
+    const std::vector<StepLimit> steps = simulation->limits();
+    std::vector<StepLimit> substeps = grain_limits(c);
+    for (const StepLimit& limit : simulation->body_limits()) substeps.push_back(limit);
     fmt::print("{}{}", limits_text("step", steps), limits_text("substep", substeps));
-    check_fixed_step(p, options, *simulation);
+    check_fixed_steps(p, options, *simulation);
 
     const double dt = c.time.dt > 0 ? c.time.dt : least(steps);
     const double dt_dem = c.time.dt_dem > 0 ? c.time.dt_dem : least(substeps);

@@ -43,18 +43,20 @@ Prepared prepare(const Options& options) {
   return p;
 }
 
-void check_fixed_step(Prepared& p, const Options& options, Simulation& simulation) {
-  const double dt = p.config.time.dt;
-  if (dt == 0) return;
-  for (const StepLimit& limit : simulation.limits()) {
-    if (dt <= limit.seconds * (1 + 1e-9)) continue;
-    if (!p.config.time.force_dt)
-      throw CaseError(fmt::format("{}: time.dt = {} must be <= {:.4g}; limited by {}",
-                                  place_in_case(options.file, options.overrides, "time.dt"), dt,
-                                  limit.seconds, limit.name));
-    p.warnings.push_back(
-        fmt::format("time.dt = {} is above its limit {:.4g} ({})", dt, limit.seconds, limit.name));
-  }
+void check_fixed_steps(Prepared& p, const Options& options, Simulation& simulation) {
+  const auto check = [&](const char* key, double dt, const std::vector<StepLimit>& limits) {
+    for (const StepLimit& limit : limits) {
+      if (dt <= limit.seconds * (1 + 1e-9)) continue;
+      if (!p.config.time.force_dt)
+        throw CaseError(fmt::format("{}: {} = {} must be <= {:.4g}; limited by {}",
+                                    place_in_case(options.file, options.overrides, key), key, dt,
+                                    limit.seconds, limit.name));
+      p.warnings.push_back(
+          fmt::format("{} = {} is above its limit {:.4g} ({})", key, dt, limit.seconds, limit.name));
+    }
+  };
+  if (p.config.time.dt > 0) check("time.dt", p.config.time.dt, simulation.limits());
+  if (p.config.time.dt_dem > 0) check("time.dt_dem", p.config.time.dt_dem, simulation.body_limits());
 }
 
 std::string grouped(std::int64_t number) {

@@ -24,8 +24,9 @@ struct Prepared {
 /// Reads the case, finds the device, lays the particles or reads the checkpoint.
 Prepared prepare(const Options& options);
 
-/// Throws CaseError if time.dt is above a limit, or warns with time.force_dt. Call after start().
-void check_fixed_step(Prepared& prepared, const Options& options, Simulation& simulation);
+/// Throws CaseError if time.dt is above a limit, or time.dt_dem above one of free bodies; with time.force_dt
+/// it warns. Call after start().
+void check_fixed_steps(Prepared& prepared, const Options& options, Simulation& simulation);
 
 /// "12 345 678".
 std::string grouped(std::int64_t number);

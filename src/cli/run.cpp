@@ -46,7 +46,7 @@ class Run {
   int go() {
     say(summary_text(p_));
     build();
-    check_fixed_step(p_, options_, *simulation_);
+    check_fixed_steps(p_, options_, *simulation_);
 
     output_.emplace(options_.out, p_.config, p_.device, version(), !options_.restart.empty());
     for (const std::string& warning : p_.warnings) {

@@ -193,15 +193,16 @@ class FluidSolverWith final : public FluidSolver {
       for_each_pair(
           fluid.owned(), fluid_wall_, SphSeparation{frame_, fluid.xp, walls.xp}, range(),
           LayerPass<W>{layer(walls, pose, dt), fluid.v_rho, fluid.m_state, fluid.theta, fluid.acc_next});
+    corrected_ = 0;
   }
 
   void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
-                   Buffer<Vec3d>& force, bool corrected) override {
+                   Buffer<Vec3d>& force) override {
     force.resize(walls.size());
-    const Real kick = Real(corrected ? corrected_ : 0);
-    WallForcePass<W> pass{wall_pair(), layer(walls, pose, dt), kick,        fluid.acc,     fluid.acc_next,
-                          fluid.v_rho, fluid.m_state,          walls.v_rho, walls.m_state, walls.v_visc,
-                          force};
+    WallForcePass<W> pass{
+        wall_pair(), layer(walls, pose, dt), Real(corrected_), fluid.acc,     fluid.acc_next,
+        fluid.v_rho, fluid.m_state,          walls.v_rho,      walls.m_state, walls.v_visc,
+        force};
     for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
 

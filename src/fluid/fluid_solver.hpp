@@ -64,19 +64,14 @@ class FluidSolver {
   /// v += kick (acc_next - acc); acc = acc_next.
   void correct(FluidStore& fluid, double kick);
   /// Force of the fluid on every wall particle (N), repulsion from surfaces apart, the opposite of what the
-  /// last forces() gave the fluid. After a step of dt (s), before the lists are renewed; `corrected`:
-  /// correct() has been called since.
+  /// last forces() gave the fluid. After a step of dt (s), before the lists are renewed.
   virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
-                           double dt, Buffer<Vec3d>& force, bool corrected = true) = 0;
+                           double dt, Buffer<Vec3d>& force) = 0;
   /// Pairs of fluid particles within the kernel's reach that see each other through one of the surfaces.
   double pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces, Span<const BodyPose> pose) const;
 
   FluidExtremes extremes(const FluidStore& fluid) const;
   const CellGrid& grid() const { return grid_; }
-  /// Sum of neighbours of all fluid particles (true and padded list entries), for reports.
-  std::uint64_t list_slots() const {
-    return fluid_fluid_.slots() + fluid_wall_.slots() + wall_fluid_.slots() + image_fluid_.slots();
-  }
 
  protected:
   FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, double kappa);
@@ -93,7 +88,7 @@ class FluidSolver {
   SurfaceSet repelling_;     ///< empty where no wall repels
   Buffer<LayerLaw> layers_;  ///< one a body; empty without single layers
   bool frozen_ = false;      ///< some walls are
-  double corrected_ = 0;     ///< kick of the last correction, s; before it, acc was what acc_next is now
+  double corrected_ = 0;     ///< kick of the last correction, s; 0 since the last forces()
 };
 
 }  // namespace bedload::inline BL_VARIANT

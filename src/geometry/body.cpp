@@ -250,4 +250,19 @@ std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& do
   return balls;
 }
 
+double particles_beyond(const WallBody& body, const Config& config) {
+  const bool outside = body.shape == "tank" || body.type == "mdbc";
+  return config.fluid.present && outside ? config.fluid.kappa() * config.fluid.h() : 0;
+}
+
+std::vector<Vec3d> corners(const WallBody& body, const DomainConfig& domain, double beyond) {
+  const bool bounded = body.shape != "plane";
+  const Vec3d out{beyond, beyond, beyond};
+  const Vec3d lo = (bounded ? body.min : domain.min) - out, hi = (bounded ? body.max : domain.max) + out;
+  std::vector<Vec3d> all;
+  for (int corner = 0; corner < 8; ++corner)
+    all.push_back({corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z});
+  return all;
+}
+
 }  // namespace bedload

@@ -325,7 +325,10 @@ class Packer {
 
 void add_grains(const Config& config, Setup::Grains& grains) {
   Packer packer(config, grains);
-  for (std::size_t index = 0; index < config.grain.fills.size(); ++index) packer.add_fill(index);
+  for (std::size_t index = 0; index < config.grain.fills.size(); ++index) {
+    packer.add_fill(index);
+    grains.fill.resize(grains.x.size(), std::uint32_t(index));
+  }
 }
 
 }  // namespace bedload

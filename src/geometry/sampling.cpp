@@ -90,8 +90,9 @@ Direction plane_direction(const Vec3d& unit, const Vec3d& origin, double spacing
   return direction;
 }
 
-std::vector<Vec3d> sample_plane(const WallBody& plane, double spacing, double depth,
-                                const DomainConfig& domain) {
+/// Of the lattice of a plane, whose layers lie `spacing` apart along its normal.
+std::array<Direction, 2> plane_lattice(const WallBody& plane, double spacing, double depth,
+                                       const DomainConfig& domain) {
   const Vec3d n = plane.normal / norm(plane.normal);
   int along = -1;  // a coordinate axis within the plane, a periodic one if there is
   for (int k = 0; k < 3; ++k) {
@@ -113,15 +114,20 @@ std::vector<Vec3d> sample_plane(const WallBody& plane, double spacing, double de
       v = {};
       v[k] = 1;
     }
-  const Direction a = plane_direction(u, plane.point, spacing, depth, domain);
-  const Direction b = plane_direction(v, plane.point, spacing, depth, domain);
+  return {plane_direction(u, plane.point, spacing, depth, domain),
+          plane_direction(v, plane.point, spacing, depth, domain)};
+}
 
+std::vector<Vec3d> sample_plane(const WallBody& plane, double spacing, double depth,
+                                const DomainConfig& domain) {
+  const Vec3d n = plane.normal / norm(plane.normal);
+  const auto [a, b] = plane_lattice(plane, spacing, depth, domain);
   std::vector<Vec3d> points;
   for (std::int64_t layer = 0; layer < layers(depth, spacing); ++layer)
     for (std::int64_t j = -b.extra; j < b.cells.count + b.extra; ++j)
       for (std::int64_t i = -a.extra; i < a.cells.count + a.extra; ++i) {
-        const Vec3d x =
-            plane.point + a.cells.centre(i) * u + b.cells.centre(j) * v - (double(layer) + 0.5) * spacing * n;
+        const Vec3d x = plane.point + a.cells.centre(i) * a.unit + b.cells.centre(j) * b.unit -
+                        (double(layer) + 0.5) * spacing * n;
         bool near = true;
         for (int k = 0; k < 3; ++k)
           near &= domain.periodic[k] || (x[k] > domain.min[k] - depth && x[k] < domain.max[k] + depth) ||
@@ -230,6 +236,17 @@ std::vector<Vec3d> sample_body(const WallBody& body, double spacing, double dept
   if (body.shape == "plane") return sample_plane(body, spacing, depth, domain);
   throw CaseError(
       fmt::format("wall.body \"{}\": shape = \"{}\" must be tank, box or plane", body.name, body.shape));
+}
+
+double particle_volume(const WallBody& body, double spacing, const DomainConfig& domain) {
+  if (body.solid.shape) return spacing * spacing * spacing;
+  if (body.shape == "plane") {
+    const auto [a, b] = plane_lattice(body, spacing, 0, domain);
+    return a.cells.step * b.cells.step * spacing;
+  }
+  double volume = 1;
+  for (int k = 0; k < 3; ++k) volume *= fit_cells(body.min[k], body.max[k], spacing).step;
+  return volume;
 }
 
 double wall_distance(const WallBody& body, const Vec3d& x, double thickness, const DomainConfig& domain) {

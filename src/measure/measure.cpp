@@ -241,24 +241,16 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
   return out;
 }
 
-std::vector<Vec3d> CoupledSimulation::wall_loads(const Vec3d& about) {
-  std::vector<Vec3d> out(2 * motion_.bodies());
+std::vector<LoadSum> CoupledSimulation::wall_loads() {
+  std::vector<LoadSum> out(motion_.bodies(), LoadSum::zero());
   if (!has_fluid() || walls_.size() == 0) return out;
-  fluid_solver_->wall_forces(fluid_, walls_, poses_now(), clock_.last_dt, wall_force_);
-  const auto force = wall_force_.to_host();
-  const auto x = walls_.x.values();
-  const auto body = walls_.body.values();
-  for (Index w = 0; w < walls_.size(); ++w) {
-    out[2 * body[w]] += force[w];
-    out[2 * body[w] + 1] += cross(x[w] - about, force[w]);
-  }
-  const WallRepulsion repulsion = fluid_solver_->repulsion(poses_now(), clock_.last_dt);
-  if (repulsion.walls.surfaces.size == 0) return out;
-  for (int b = 0; b < motion_.bodies(); ++b) {
-    const auto load =
-        sum_over<6>(fluid_.owned(), RepulsionLoad{repulsion, std::uint32_t(b), about, fluid_.x, fluid_.mass});
-    out[2 * b] += Vec3d{load.v[0], load.v[1], load.v[2]};
-    out[2 * b + 1] += Vec3d{load.v[3], load.v[4], load.v[5]};
+  const Span<const BodyPose> poses = poses_now();
+  fluid_solver_->wall_forces(fluid_, walls_, poses, clock_.last_dt, wall_force_);
+  const WallRepulsion repulsion = fluid_solver_->repulsion(poses, clock_.last_dt);
+  for (std::uint32_t b = 0; b < out.size(); ++b) {
+    out[b] = reduce(walls_.owned(), WallLoadReduction{b, walls_.body, walls_.x0, wall_force_, poses.data});
+    if (repulsion.walls.surfaces.size > 0)
+      LoadSum::combine(out[b], reduce(fluid_.owned(), BodyRepulsion{repulsion, b, fluid_.x, fluid_.mass}));
   }
   return out;
 }
@@ -280,8 +272,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"fluid_kinetic_energy", "J", t.v[7]});
     out.push_back({"fluid_potential_energy", "J", t.v[8]});
     out.push_back({"fluid_elastic_energy", "J", t.v[9]});
-    const auto loads = wall_loads({});
-    for (std::size_t b = 0; b < loads.size(); b += 2) wall_on_fluid -= loads[b];
+    for (const LoadSum& load : wall_loads()) wall_on_fluid -= load.force();
     const auto l = sum_over<9>(
         fluid_.owned(),
         FluidLoads{clock_.last_dt > 0 ? 1 / clock_.last_dt : 0, gravity_.at(clock_.time), config_.drive,
@@ -332,7 +323,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"wet_grains", "-", double(c.wet)});
   }
   if (bodies_.any()) {
-    const BodyTotals t = bodies_.totals();
+    const BodyTotals t = bodies_.totals(clock_.time);
     out.push_back({"body_mass", "kg", t.mass});
     vec("body_momentum", "kg m/s", t.momentum);
     vec("body_angular_momentum", "kg m2/s", t.angular);
@@ -408,20 +399,16 @@ std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
   int body = 0;
   for (int b = 0; b < motion_.walls(); ++b)
     if (config_.wall.bodies[b].name == p.body) body = b;
-  const auto fluid = wall_loads(p.about);
-  BodyLoad grains;
-  if (has_grains()) {
-    const BodyPose pose = motion_.pose(body, clock_.time);
-    grains = solid_solver_->body_loads(grains_, poses_now())[body];
-    grains.torque += cross(pose.centre + pose.translation - p.about, grains.force);
-  }
+  const Vec3d from = frame_.nearest_image(motion_.pose(body, clock_.time).origin() - p.about);
   const auto vec = [&](const std::string& name, const char* unit, const Vec3d& v) {
     for (int k = 0; k < 3; ++k) out.push_back({name + "_" + axis[k], unit, v[k]});
   };
-  vec("force_by_fluid", "N", fluid[2 * body]);
-  vec("torque_by_fluid", "N m", fluid[2 * body + 1]);
-  vec("force_by_grains", "N", grains.force);
-  vec("torque_by_grains", "N m", grains.torque);
+  const auto load = [&](const std::string& by, const LoadSum& sum) {
+    vec("force_by_" + by, "N", sum.force());
+    vec("torque_by_" + by, "N m", sum.torque() + cross(from, sum.force()));
+  };
+  load("fluid", wall_loads()[body]);
+  load("grains", has_grains() ? solid_solver_->body_loads(grains_, poses_now())[body] : LoadSum::zero());
   return out;
 }
 

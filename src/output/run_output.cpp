@@ -62,7 +62,7 @@ struct Frames {
 
 struct Table {
   std::optional<ProbeConfig> probe;  ///< none: a body, or diagnostics
-  std::optional<int> body;           ///< a wall body, by its place in the case
+  std::optional<int> body;           ///< a wall body or rigid group, as Simulation counts them
   CsvTable csv;
   Schedule schedule;
 };
@@ -113,6 +113,15 @@ struct RunOutput::Impl {
       if (c.out.bodies == "all" || (c.out.bodies == "moving" && body.moves()))
         tables.push_back(
             {{}, b, CsvTable(dir / "bodies" / (body.name + ".csv")), every(c.out.diagnostics_every)});
+    }
+    int group = int(c.wall.bodies.size());  // they come behind the bodies
+    for (const int fill : c.grain.rigid_fills()) {
+      if (c.out.bodies != "none")
+        tables.push_back({{},
+                          group,
+                          CsvTable(dir / "bodies" / fmt::format("grain_fill_{}.csv", fill + 1)),
+                          every(c.out.diagnostics_every)});
+      ++group;
     }
   }
 

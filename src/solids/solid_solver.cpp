@@ -27,7 +27,7 @@ struct ComeFromPass {
 }  // namespace
 
 SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeometry& walls,
-                         GrainStore& grains, const FreeBodies* bodies)
+                         GrainStore& grains, FreeBodies* bodies)
     : config_(config),
       frame_(frame),
       law_(make_contact_law(config)),
@@ -35,7 +35,8 @@ SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeo
       d_max_(config.grain.d_max > 0 ? config.grain.d_max : config.grain.d),
       skin_(config.skin_grain * d_min_),
       walls_(walls),
-      bodies_(bodies) {
+      bodies_(bodies),
+      groups_(config, frame, grains) {
   if (walls.contacts() == 0) return;
   wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
   wall_contacts_->resize(grains.size());
@@ -62,7 +63,8 @@ void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal
 
 void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
   list_.build(grains.size(), grid.view(),
-              GrainNear{frame_, grains.x_list.span(), grains.radius.span(), 0.5 * d_max_, skin_});
+              GrainNear{frame_, grains.x_list.span(), grains.radius.span(), groups_.of_grains(), 0.5 * d_max_,
+                        skin_});
   history_.reserve_and_resize(list_.slots());
   history_.zero();
 }
@@ -157,14 +159,15 @@ ContactPass SolidSolver::contact_pass(const GrainStore& g, const BodyPose* poses
           .free_bodies = bodies_ ? bodies_->constants() : nullptr};
 }
 
-void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses, const TouchLoads& loads) {
+void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
   ContactPass contacts = contact_pass(g, poses.data, 0);
-  contacts.loads = loads;
+  if (FreeBodies* free = moving()) contacts.loads = free->record(g.size());
   for_each(g.owned(), EvaluatePass{contacts, g.force, g.torque});
 }
 
 void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies, double dt, int substeps,
-                          bool held, const std::vector<Vec3d>& gravity, FreeBodies* free) {
+                          bool held, const std::vector<Vec3d>& gravity) {
+  FreeBodies* const free = moving();
   const double tau = dt / substeps;
   const TouchLoads loads = free ? free->record(g.size()) : TouchLoads{};
   const auto contacts_in = [&](int s) {
@@ -196,6 +199,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                  g.K_rot};
   for_each(g.owned(), FirstKickPass{kick, g.force, g.torque, g.x, g.v, g.omega, v_rest_, omega_rest_,
                                     g.impulse, g.spin_impulse});
+  groups_.follow(g, v_rest_, omega_rest_, tau);
   for (int s = 1; s <= substeps; ++s) {
     const ContactPass contacts = contacts_in(s);
     if (!gravity.empty()) kick.gravity = gravity[s];
@@ -209,6 +213,10 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     }
     g.v.buffer().swap(next_v_);
     g.omega.buffer().swap(next_omega_);
+    if (s < substeps)
+      groups_.follow(g, v_rest_, omega_rest_, tau);
+    else
+      groups_.follow(g, {}, {}, 0);
     if (free) free->substep(s);
   }
 }
@@ -234,12 +242,10 @@ GrainTotals SolidSolver::totals(const GrainStore& g) const {
   return t;
 }
 
-std::vector<BodyLoad> SolidSolver::body_loads(const GrainStore& g, Span<const BodyPose> poses) const {
-  std::vector<BodyLoad> loads(config_.wall.bodies.size());
-  for (std::uint32_t b = 0; b < loads.size(); ++b) {
-    const auto v = reduce(g.owned(), BodyLoadReduction{contact_pass(g, poses.data, 0), b});
-    loads[b] = {{v.sum[0], v.sum[1], v.sum[2]}, {v.sum[3], v.sum[4], v.sum[5]}};
-  }
+std::vector<LoadSum> SolidSolver::body_loads(const GrainStore& g, Span<const BodyPose> poses) const {
+  std::vector<LoadSum> loads;
+  for (std::uint32_t b = 0; b < config_.wall.bodies.size(); ++b)
+    loads.push_back(reduce(g.owned(), BodyLoadReduction{contact_pass(g, poses.data, 0), b}));
   return loads;
 }
 

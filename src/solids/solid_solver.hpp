@@ -11,6 +11,7 @@
 #include "bedload/simulation.hpp"
 #include "kernels/contact/contact_law.hpp"
 #include "kernels/contact/contact_pass.hpp"
+#include "src/solids/rigid_groups.hpp"
 #include "src/walls/free_bodies.hpp"
 #include "src/walls/wall_geometry.hpp"
 
@@ -46,12 +47,6 @@ struct GrainTotals {
   double coordination = 0;  ///< touching grains per grain, mean
 };
 
-/// Force and torque of the grains on one wall body.
-struct BodyLoad {
-  Vec3d force;   ///< N
-  Vec3d torque;  ///< about BodyPose::centre + translation, N m
-};
-
 /// Grains that were taken out or put in since the last lists.
 struct GrainRenewal {
   Span<const Index> came_from;  ///< former place of each grain; kNone if it is new
@@ -62,10 +57,10 @@ struct GrainRenewal {
 class SolidSolver {
  public:
   /// Registers what grains remember of walls with `grains`: construct before the store is filled or loaded.
-  /// `walls` must outlive this. Throws CaseError where the damping asked for cannot be had.
-  /// So must `bodies`, the free ones among the walls.
+  /// `walls` must outlive this, and so must `bodies`, the free ones among them. Throws CaseError where the
+  /// damping asked for cannot be had.
   SolidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, GrainStore& grains,
-              const FreeBodies* bodies = nullptr);
+              FreeBodies* bodies = nullptr);
 
   double skin() const { return skin_; }            ///< m
   double range() const { return d_max_ + skin_; }  ///< largest centre distance in the lists, m
@@ -84,20 +79,23 @@ class SolidSolver {
   StableStep stable_dt(const GrainStore& grains) const { return stable_dt(watch(grains)); }
 
   /// Contact forces where the grains are, with no time passing; poses: [bodies] on the device. For a fresh
-  /// start only: a loaded state brings its forces along. `loads`: where to record those on free bodies.
-  void evaluate(GrainStore& grains, Span<const BodyPose> poses, const TouchLoads& loads = {});
+  /// start only: a loaded state brings its forces along. Free bodies learn what the grains do to them.
+  void evaluate(GrainStore& grains, Span<const BodyPose> poses);
   /// `substeps` velocity-Verlet substeps over dt (s). poses: device array [substeps + 1][bodies], at the
   /// start and after each substep. Reads fluid_force, U, omega_f, K, K_rot; leaves the drag impulses of this
   /// call in impulse and spin_impulse, their mean in drag_force. Held (or fixed) grains keep place and
   /// velocity; the fluid feels them as resting. gravity: at the start and after each substep, m/s2; the
   /// case's own if empty. Free bodies, whose step has begun, move along in the substeps and fill their places
-  /// in poses; without them they stay.
+  /// in poses; while they settle they stay.
   void advance(GrainStore& grains, Span<const BodyPose> poses, int bodies, double dt, int substeps, bool held,
-               const std::vector<Vec3d>& gravity = {}, FreeBodies* free = nullptr);
+               const std::vector<Vec3d>& gravity = {});
+
+  RigidGroups& groups() { return groups_; }
+  const RigidGroups& groups() const { return groups_; }
 
   GrainTotals totals(const GrainStore& grains) const;
-  /// One entry per wall body; poses: [bodies] on the device.
-  std::vector<BodyLoad> body_loads(const GrainStore& grains, Span<const BodyPose> poses) const;
+  /// Of the grains on each wall body, about its centre; poses: [bodies] on the device.
+  std::vector<LoadSum> body_loads(const GrainStore& grains, Span<const BodyPose> poses) const;
 
   /// Histories of touching pairs: arrays "lo", "hi" (ids) and "history".
   HostStore save_contacts(const GrainStore& grains) const;
@@ -108,6 +106,8 @@ class SolidSolver {
  private:
   void build_list(const GrainStore& grains, const CellGrid& grid);
   double mass_per_r3() const;
+  /// The bodies that move along, if any do.
+  FreeBodies* moving() const { return bodies_ && bodies_->any() && !bodies_->settling() ? bodies_ : nullptr; }
   WallMemory* const* wall_memories() const;
   ContactPass contact_pass(const GrainStore& grains, const BodyPose* poses, double dt) const;
 
@@ -116,7 +116,8 @@ class SolidSolver {
   ContactLaw law_;
   double d_min_, d_max_, skin_;
   const WallGeometry& walls_;
-  const FreeBodies* bodies_;
+  FreeBodies* bodies_;
+  RigidGroups groups_;
   std::vector<std::unique_ptr<Field<WallMemory>>> wall_memory_;  ///< [walls_.contacts()]
   std::unique_ptr<Field<Index>> wall_contacts_;                  ///< of them in use
   mutable std::vector<WallMemory*> memory_pointers_;             ///< to wall_memory_, which sorting moves

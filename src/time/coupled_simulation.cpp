@@ -31,24 +31,25 @@ StepInfo CoupledSimulation::step() {
     if (bodies_.any())
       bodies_.begin(poses, motion_.bodies(), clock_.time, dt, substeps, dt - last_kick(dt), gravity);
     if (has_grains())
-      solid_solver_->advance(grains_, poses, motion_.bodies(), dt, substeps, held(), gravity,
-                             bodies_.any() ? &bodies_ : nullptr);
+      solid_solver_->advance(grains_, poses, motion_.bodies(), dt, substeps, held(), gravity);
     else
       bodies_.advance();
     watch_.lap(kGrains);
     if (two_way()) coupling_->react(fluid_, grains_);
     watch_.lap(kCoupling);
   }
-  if (has_fluid()) advance_fluid(dt);
+  if (has_fluid()) {
+    advance_fluid(dt);
+    watch_.lap(kFluid);
+  }
 
   clock_.time += dt;
   motion_.advance(clock_.time);
   clock_.last_dt = dt;
   ++clock_.step;
-  bodies_.read_back();
+  bodies_.read_back(clock_.time);
   walls_moved_ += dt * std::max(speed_before, motion_.top_speed(clock_.time));
   remove_cleared_bodies();
-  watch_.lap(kFluid);
   sweep();
   watch_.lap(kChecks);
   watch_.stop();
@@ -96,7 +97,7 @@ void CoupledSimulation::advance_fluid(double dt) {
 void CoupledSimulation::load_bodies(double kick, double dt) {
   if (!bodies_.any()) return;
   const Span<const BodyPose> poses = motion_.poses(clock_.time + dt, 0, 1);
-  if (walls_.size() > 0) fluid_solver_->wall_forces(fluid_, walls_, poses, dt, wall_force_, false);
+  if (walls_.size() > 0) fluid_solver_->wall_forces(fluid_, walls_, poses, dt, wall_force_);
   const WallRepulsion repulsion = fluid_solver_->repulsion(poses, dt);
   bodies_.feel_fluid(walls_, wall_force_, repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_,
                      poses, kick, dt);
@@ -104,14 +105,14 @@ void CoupledSimulation::load_bodies(double kick, double dt) {
 
 void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   FluidSolver& fluid = *fluid_solver_;
+  const Span<const BodyPose> pose = motion_.poses(clock_.time + dt, 0, 1);
   if (two_way()) {
     watch_.lap(kFluid);
-    coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1), dt > 0);
+    coupling_->porosity(fluid_, grains_, pose, dt > 0);
     watch_.lap(kCoupling);
   }
   fluid.state(fluid_, predict, two_way());
   fluid.set_gravity(gravity_.at(clock_.time + dt));
-  const Span<const BodyPose> pose = motion_.poses(clock_.time + dt, 0, 1);
   if (walls_.size() > 0) fluid.walls(fluid_, walls_, pose, two_way() ? dt : 0);
   fluid.forces(fluid_, walls_, pose, dt);
   fluid.repel(fluid_, pose, dt);
@@ -133,8 +134,7 @@ std::vector<StepLimit> CoupledSimulation::limits() {
   const double wall_speed = motion_.top_speed(clock_.time);
   double travel = std::numeric_limits<double>::infinity();
   if (!has_fluid())  // without fluid there is no other clock: a step is a handful of substeps
-    for (const StepLimit& limit : bodies_.limits(motion_.prescribed_speed(clock_.time)))
-      out.push_back({limit.name, 20 * limit.seconds});
+    for (const StepLimit& limit : body_limits()) out.push_back({limit.name, 20 * limit.seconds});
   if (has_grains()) {
     const double v = grain_watch_.speed;
     if (v > 0 && !held()) travel = 0.05 * config_.grain.d_min / v;
@@ -149,46 +149,39 @@ std::vector<StepLimit> CoupledSimulation::limits() {
   return out;
 }
 
+std::vector<StepLimit> CoupledSimulation::body_limits() const {
+  return bodies_.limits(motion_.prescribed_speed(clock_.time));
+}
+
 void CoupledSimulation::sweep() {
-  const auto fault = [&](const char* what, Id id, const Vec3d& x, const char* cause) {
-    char text[400];
-    std::snprintf(text, sizeof text, "%s %u at (%.6g, %.6g, %.6g) m broke down at t = %.6g s, step %lld: %s",
-                  what, id, x.x, x.y, x.z, clock_.time, static_cast<long long>(clock_.step), cause);
-    throw SimulationFault(text);
+  const auto fault = [&](const std::string& what, const Vec3d& x, const char* cause) {
+    char text[300];
+    std::snprintf(text, sizeof text, " at (%.6g, %.6g, %.6g) m broke down at t = %.6g s, step %lld: ", x.x,
+                  x.y, x.z, clock_.time, static_cast<long long>(clock_.step));
+    throw SimulationFault(what + text + cause);
   };
   if (has_fluid()) {
     fluid_extremes_ = fluid_solver_->extremes(fluid_);
     if (const Index a = fluid_extremes_.bad; a != kNone)
-      fault("fluid particle", fluid_.id.values()[a], coordinates(frame_, fluid_.x.values()[a]),
+      fault("fluid particle " + std::to_string(fluid_.id.values()[a]),
+            coordinates(frame_, fluid_.x.values()[a]),
             "its density left 0.5..2 rho0 or became NaN; likely causes: fluid.vmax too low (sound speed), "
-            "time step "
-            "too large, or fluid overlapping walls or grains at the start");
+            "time step too large, or fluid overlapping walls or grains at the start");
   }
   if (has_grains()) {
     grain_watch_ = solid_solver_->watch(grains_);
     if (const Id bad = grain_watch_.bad; bad != kNone) {
       const auto id = grains_.id.values();
       const std::size_t i = std::find(id.begin(), id.end(), bad) - id.begin();
-      fault("grain", bad, grains_.x.values()[i],
+      fault("grain " + std::to_string(bad), grains_.x.values()[i],
             "its position or velocity became NaN; likely causes: overlapping grains at the start or "
             "time.dt_dem too large");
     }
   }
-  if (const int k = bodies_.broken(); k >= 0) {
-    char text[400];
-    const RigidMotion& m = bodies_.motion(k);
-    const Vec3d x = m.centre + m.translation;
-    for (std::size_t b = 0; b < config_.wall.bodies.size(); ++b)
-      if (bodies_.place_of(int(b)) == k)
-        std::snprintf(
-            text, sizeof text,
-            "wall.body \"%s\" at (%.6g, %.6g, %.6g) m broke down at t = %.6g s, step %lld: its place or "
-            "velocity became NaN; likely causes: it overlaps others at the start, time.dt_dem too "
-            "large, or far lighter than the fluid around it",
-            config_.wall.bodies[b].name.c_str(), x.x, x.y, x.z, clock_.time,
-            static_cast<long long>(clock_.step));
-    throw SimulationFault(text);
-  }
+  if (const int k = bodies_.broken(); k >= 0)
+    fault("wall.body \"" + config_.wall.bodies[bodies_.body(k)].name + '"', bodies_.motion(k).origin(),
+          "its place or velocity became NaN; likely causes: it overlaps others at the start, time.dt_dem too "
+          "large, or far lighter than the fluid around it");
 }
 
 void CoupledSimulation::settle(double longest, const std::function<void(double)>& progress) {
@@ -215,6 +208,7 @@ void CoupledSimulation::settle(double longest, const std::function<void(double)>
   }
   grains_.v.buffer().zero();
   grains_.omega.buffer().zero();
+  solid_solver_->groups().stop();
   bodies_.settle(false);
 }
 

@@ -27,6 +27,7 @@ class CoupledSimulation final : public Simulation {
   std::int64_t steps() const override { return clock_.step; }
   Counts counts() const override { return {fluid_.size(), walls_.size(), grains_.size()}; }
   std::vector<StepLimit> limits() override;
+  std::vector<StepLimit> body_limits() const override;
   std::size_t bytes() const override { return bytes_held(); }
   std::vector<Quantity> time_spent() const override;
 
@@ -58,12 +59,13 @@ class CoupledSimulation final : public Simulation {
   void load_bodies(double kick, double dt);        ///< force of the fluid on free bodies at the end of a step
   void refresh_if_needed(double dt);
   void refresh(bool fluid, bool grains);
+  void load_grain_store(const SavedState& state);  ///< and the rigid groups of the grains
   void restore_lists(const SavedState& state);
   void relist_coupling();
   void remove_cleared_bodies();
   void sweep();  ///< extremes after a step; throws SimulationFault
   Span<const BodyPose> poses_now() { return motion_.poses(clock_.time, 0, 1); }
-  std::vector<Vec3d> wall_loads(const Vec3d& about);  ///< per body: force then torque by fluid, N and N m
+  std::vector<LoadSum> wall_loads();  ///< of the fluid on each body, about its centre
 
   enum Part { kLists, kFluid, kGrains, kCoupling, kChecks };  ///< of a step, that are timed
 
@@ -94,9 +96,8 @@ class CoupledSimulation final : public Simulation {
   Buffer<Vec3d> wall_force_;
   struct {
     std::int64_t step = -1;
-    std::vector<Vec3d> fluid;
-    std::vector<BodyLoad> grains;
-  } loads_;  ///< on prescribed walls, as told last
+    std::vector<LoadSum> fluid, grains;
+  } loads_;  ///< on each body, as told last
 };
 
 }  // namespace bedload::inline BL_VARIANT

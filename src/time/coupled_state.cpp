@@ -151,14 +151,13 @@ void CoupledSimulation::upload(const Setup& setup) {
   grains_.v.assign(converted<Real3>(g.v));
   grains_.radius.assign(converted<Real>(g.radius));
   grains_.eps.assign(std::vector<Real>(g.x.size(), Real(1)));
+  if (has_grains()) solid_solver_->groups().bind(grains_, g.fill);
   open_.start(fluid_, grains_);
 }
 
 void CoupledSimulation::start() {
   refresh(has_fluid(), has_grains());
-  if (has_grains())
-    solid_solver_->evaluate(grains_, poses_now(),
-                            bodies_.any() ? bodies_.record(grains_.size()) : TouchLoads{});
+  if (has_grains()) solid_solver_->evaluate(grains_, poses_now());
   if (bodies_.any()) bodies_.evaluate(poses_now());
   if (has_fluid()) {
     lay_fluid();
@@ -190,14 +189,22 @@ void CoupledSimulation::lay_fluid() {
 
 SavedState CoupledSimulation::save_grains() {
   SavedState out;
-  if (has_grains()) out.stores = {grains_.save(), solid_solver_->save_contacts(grains_)};
+  if (!has_grains()) return out;
+  out.stores = {grains_.save(), solid_solver_->save_contacts(grains_)};
+  solid_solver_->groups().save(out.stores);
   return out;
 }
 
 void CoupledSimulation::load_grains(const SavedState& state) {
   if (!has_grains()) return;
-  grains_.load(store_of(state, "grains"));
+  load_grain_store(state);
   solid_solver_->load_contacts(grains_, grain_grid_, store_of(state, "contacts"));
+}
+
+void CoupledSimulation::load_grain_store(const SavedState& state) {
+  grains_.load(store_of(state, "grains"));
+  RigidGroups& groups = solid_solver_->groups();
+  if (groups.any()) groups.load(store_of(state, "groups"), grains_);
 }
 
 SavedState CoupledSimulation::save() {
@@ -240,8 +247,8 @@ void CoupledSimulation::load(const SavedState& state) {
     if (std::any_of(config_.wall.bodies.begin(), config_.wall.bodies.end(), mirrored))
       walls_.mirrors.load(store_of(state, "mirrors"));
   }
-  if (has_grains()) grains_.load(store_of(state, "grains"));
-  bodies_.load([&](const char* name) -> const HostStore& { return store_of(state, name); });
+  if (has_grains()) load_grain_store(state);
+  bodies_.load([&](const char* name) -> const HostStore& { return store_of(state, name); }, clock_.time);
   loads_.step = -1;
   restore_lists(state);
   sweep();

@@ -26,13 +26,13 @@ BodyMaterial material_of(const Config& config, const FreeConfig& f) {
   return m;
 }
 
-/// Sum of another pair of loads.
+/// Sum of two loads on each body, into its fields.
 struct AddLoads {
-  Span<const LoadSum> a, b;  ///< b may be empty
+  Span<const LoadSum> a, b;
   Span<Vec3d> force, torque;
   BL_HD void operator()(Index k) const {
     LoadSum sum = a[k];
-    if (b) LoadSum::combine(sum, b[k]);
+    LoadSum::combine(sum, b[k]);
     force[k] = sum.force();
     torque[k] = sum.torque();
   }
@@ -86,43 +86,52 @@ FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeome
   for (Buffer<LoadSum>* sums : {&grain_sums_, &ball_sums_, &wall_sums_, &repulsion_sums_})
     sums->resize(size());
   report_.resize(size());
-  read_back();
+  read_back(0);
+}
+
+RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, const std::string& move,
+                     const std::string& turn, const Vec3d& axis) {
+  RigidBody k;
+  k.move = move == "plane"  ? BodyMove::plane
+           : move == "axis" ? BodyMove::axis
+           : move == "none" ? BodyMove::none
+                            : BodyMove::all;
+  k.turn = turn == "axis" ? BodyTurn::axis : turn == "none" ? BodyTurn::none : BodyTurn::all;
+  k.mass = m.mass;
+  k.centre = centre;
+  k.arm = m.centre - centre;
+  const auto inertia = shifted_inertia(m.inertia, m.mass, k.arm);
+  const PrincipalInertia principal = principal_inertia(inertia);
+  k.moments = principal.moments;
+  k.principal = principal.axes;
+  k.axis = axis;
+  const Vec3d& n = k.axis;
+  k.axial = inertia[0] * n.x * n.x + inertia[1] * n.y * n.y + inertia[2] * n.z * n.z +
+            2 * (inertia[3] * n.x * n.y + inertia[4] * n.x * n.z + inertia[5] * n.y * n.z);
+  return k;
 }
 
 void FreeBodies::add(const Config& config, std::uint32_t b) {
   const WallBody& body = config.wall.bodies[b];
   const FreeConfig& f = body.free;
   const MassProperties& m = f.solid;
-  RigidBody k;
+  const bool pivot = f.move == "none" && f.point.size() == 3;
+  const Vec3d centre = pivot ? Vec3d{f.point[0], f.point[1], f.point[2]} : m.centre;
+  RigidBody k = rigid_body(m, centre, f.move, f.turn, f.axis);
   k.body = b;
-  k.move = f.move == "plane"  ? BodyMove::plane
-           : f.move == "axis" ? BodyMove::axis
-           : f.move == "none" ? BodyMove::none
-                              : BodyMove::all;
-  k.turn = f.turn == "axis" ? BodyTurn::axis : f.turn == "none" ? BodyTurn::none : BodyTurn::all;
   k.fluid = f.fluid;
-  k.mass = m.mass;
-  k.centre = m.centre;
-  if (k.move == BodyMove::none && f.point.size() == 3) k.centre = {f.point[0], f.point[1], f.point[2]};
-  k.arm = m.centre - k.centre;
-  const auto inertia = shifted_inertia(m.inertia, m.mass, k.arm);
-  const PrincipalInertia principal = principal_inertia(inertia);
-  k.moments = principal.moments;
-  k.principal = principal.axes;
-  k.axis = f.axis;
-  const Vec3d& n = k.axis;
-  k.axial = inertia[0] * n.x * n.x + inertia[1] * n.y * n.y + inertia[2] * n.z * n.z +
-            2 * (inertia[3] * n.x * n.y + inertia[4] * n.x * n.z + inertia[5] * n.y * n.z);
+  k.touches = f.contacts;
   k.release = f.release_time;
   bodies_.push_back(k);
 
-  double reach = 0;  // of its corners from the reference point
-  for (int c = 0; c < 8; ++c) {
-    const Vec3d corner{c & 1 ? body.max.x : body.min.x, c & 2 ? body.max.y : body.min.y,
-                       c & 4 ? body.max.z : body.min.z};
-    reach = std::max(reach, norm(corner - k.centre));
-  }
+  const auto farthest = [&](double beyond) {
+    double r = 0;
+    for (const Vec3d& corner : corners(body, config.domain, beyond)) r = std::max(r, norm(corner - k.centre));
+    return r;
+  };
+  const double reach = farthest(0);
   sizes_.push_back(reach);
+  reaches_.push_back(farthest(particles_beyond(body, config)));
   double ease = 1 / m.mass;
   if (k.turn == BodyTurn::axis) ease += reach * reach / k.axial;
   if (k.turn == BodyTurn::all) ease += reach * reach / std::min({k.moments.x, k.moments.y, k.moments.z});
@@ -167,9 +176,9 @@ void FreeBodies::write_middle(Span<BodyPose> row, double dt) const {
   for_each(store_.owned(), MidPosePass{constants_.data(), fields(), dt, row.data});
 }
 
-void FreeBodies::read_back() {
+void FreeBodies::read_back(double time) {
   if (!any()) return;
-  for_each(store_.owned(), BodyReportPass{constants_.data(), fields(), report_});
+  for_each(store_.owned(), BodyReportPass{constants_.data(), fields(), time, report_});
   now_ = report_.to_host();
 }
 

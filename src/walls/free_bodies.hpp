@@ -18,9 +18,9 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// What a body feels, about its reference point, N and N m.
+/// What a body feels, about its centre.
 struct BodyForces {
-  Vec3d grain_force, grain_torque, contact_force, contact_torque, fluid_force, fluid_torque;
+  LoadSum fluid = LoadSum::zero(), grains = LoadSum::zero(), bodies = LoadSum::zero();
 };
 
 /// Sums over the free bodies.
@@ -28,6 +28,10 @@ struct BodyTotals {
   double mass = 0, kinetic = 0, rotational = 0, potential = 0;  ///< kg, J; of the centres, about them
   Vec3d momentum, angular;                                      ///< kg m/s; about the origin, kg m2/s
 };
+
+/// A rigid body about `centre` (m) under the constraints `move` and `turn` (with `axis`) of a case.
+RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, const std::string& move,
+                     const std::string& turn, const Vec3d& axis);
 
 class FreeBodies {
  public:
@@ -38,9 +42,12 @@ class FreeBodies {
   bool any() const { return !bodies_.empty(); }
   /// Place among the free bodies, -1 for a body that is none.
   int place_of(int body) const { return places_[body]; }
+  /// Place among the wall bodies.
+  int body(int place) const { return int(bodies_[place].body); }
   const RigidBody* constants() const { return constants_.data(); }
   /// While the grains settle the bodies are held.
   void settle(bool on) { settling_ = on; }
+  bool settling() const { return settling_; }
 
   /// Puts the bodies as they are into rows of poses, on the device.
   void write(Span<BodyPose> poses, int row_size, int rows, double time) const;
@@ -68,15 +75,14 @@ class FreeBodies {
   void feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force, const WallRepulsion* repulsion,
                   const FluidStore& fluid, Span<const BodyPose> poses, double kick, double dt);
 
-  /// Copies places and velocities to the host.
-  void read_back();
+  /// Copies places and velocities at `time` (s) to the host; bodies that are held have none.
+  void read_back(double time);
   /// As read back last.
   const RigidMotion& motion(int place) const { return now_[place]; }
   /// The first body whose state is not finite, -1 if all are well.
   int broken() const;
-  /// Largest speed of a point of a body, m/s, dt from now if nothing else pushes it.
-  double top_speed(double time, double dt = 0) const;
-  bool held(int place, double time) const { return settling_ || time < bodies_[place].release; }
+  /// Largest speed of a point of a body, m/s, dt (s) after what was read back if nothing else pushes it.
+  double top_speed(double dt = 0) const;
 
   /// Limits on a substep: "body contact", "body turn". wall_speed: of prescribed walls, m/s.
   std::vector<StepLimit> limits(double wall_speed) const;
@@ -85,12 +91,12 @@ class FreeBodies {
   BodyForces forces(int place) const;
   /// Force and torque by free bodies on any wall body, of the last substep in this run.
   LoadSum contact_load(int body) const;
-  BodyTotals totals() const;
+  BodyTotals totals(double time) const;
 
   void save(std::vector<HostStore>& stores) const;
-  /// `find(name)`: the store of that name.
+  /// `find(name)`: the store of that name, as it was at `time` (s).
   template <class Find>
-  void load(const Find& find) {
+  void load(const Find& find, double time) {
     if (!any()) return;
     const auto fits = [&](const HostStore& saved, const Store& own) {
       if (saved.count != own.size())
@@ -103,7 +109,7 @@ class FreeBodies {
       memory_.load(find("body_contacts"));
       point_at_memory();
     }
-    read_back();
+    read_back(time);
   }
 
  private:
@@ -120,9 +126,11 @@ class FreeBodies {
   bool settling_ = false;
   std::vector<int> places_;
   std::vector<RigidBody> bodies_;
-  std::vector<double> sizes_, eases_;  ///< half diagonals, m; largest 1/effective mass, 1/kg
+  std::vector<double> sizes_;    ///< of the corners from the centre, m
+  std::vector<double> reaches_;  ///< the same of all particles and their images, m
+  std::vector<double> eases_;    ///< largest 1/effective mass, 1/kg
   std::vector<RigidMotion> now_;
-  double contact_radius_ = 0, give_ = 0;  ///< smallest R*, m; least sum of compliances, 1/Pa
+  double contact_radius_ = 0, give_ = 0;  ///< smallest R*, m; least (1 - nu^2)/E of a body, 1/Pa
 
   mutable BodyStore store_;  ///< kernels take its spans from const members too
   Buffer<RigidBody> constants_;

@@ -21,12 +21,11 @@ int FreeBodies::broken() const {
   return -1;
 }
 
-double FreeBodies::top_speed(double time, double dt) const {
+double FreeBodies::top_speed(double dt) const {
   double top = 0;
   for (int k = 0; k < size(); ++k) {
-    if (held(k, time + dt)) continue;
     const RigidMotion& m = now_[k];
-    top = std::max(top, norm(m.v) + dt * norm(m.a) + sizes_[k] * (norm(m.omega) + dt * norm(m.alpha)));
+    top = std::max(top, norm(m.v) + dt * norm(m.a) + reaches_[k] * (norm(m.omega) + dt * norm(m.alpha)));
   }
   return top;
 }
@@ -68,9 +67,13 @@ double FreeBodies::stable_dt(double wall_speed) const {
 }
 
 BodyForces FreeBodies::forces(int k) const {
-  const auto at = [&](const Field<Vec3d>& field) { return field.values()[k]; };
-  return {at(store_.grain_force),    at(store_.grain_torque), at(store_.contact_force),
-          at(store_.contact_torque), at(store_.fluid_force),  at(store_.fluid_torque)};
+  const auto load = [&](const Field<Vec3d>& force, const Field<Vec3d>& torque) {
+    LoadSum sum = LoadSum::zero();
+    sum.add(force.values()[k], torque.values()[k]);
+    return sum;
+  };
+  return {load(store_.fluid_force, store_.fluid_torque), load(store_.grain_force, store_.grain_torque),
+          load(store_.contact_force, store_.contact_torque)};
 }
 
 LoadSum FreeBodies::contact_load(int body) const {
@@ -78,7 +81,7 @@ LoadSum FreeBodies::contact_load(int body) const {
   return reduce({0, ball_loads_.size}, TouchReduction{ball_loads_, std::uint32_t(body)});
 }
 
-BodyTotals FreeBodies::totals() const {
+BodyTotals FreeBodies::totals(double time) const {
   BodyTotals t;
   if (!any()) return t;
   const auto x = store_.x.values(), v = store_.v.values(), spin = store_.spin.values();
@@ -91,11 +94,12 @@ BodyTotals FreeBodies::totals() const {
     const Vec3d u = b.move == BodyMove::none ? cross(b.omega(turn, spin[k]), centre - x[k]) : v[k];
     const double moving = 0.5 * b.mass * norm2(u);
     t.mass += b.mass;
+    t.potential -= b.mass * dot(config_.gravity, centre);
+    if (time < b.release) continue;
     t.momentum += b.mass * u;
     t.angular += cross(x[k], b.mass * u) + spin[k];
     t.kinetic += moving;
     t.rotational += b.turning_energy(turn, spin[k]) - (b.move == BodyMove::none ? moving : 0);
-    t.potential -= b.mass * dot(config_.gravity, centre);
   }
   return t;
 }

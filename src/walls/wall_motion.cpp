@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bedload/geometry/lattice.hpp"
+#include "bedload/geometry/body.hpp"
+#include "bedload/geometry/sampling.hpp"
 #include "kernels/fluid/layer_force.hpp"
 #include "kernels/smoothing/registry.hpp"
 
@@ -33,15 +34,6 @@ struct PlaceImagesPass {
   BL_HD void operator()(Index i) const { x[i] = frame.wrap(placed[body[i]].place(x0[i])); }
 };
 
-/// Of the box around a body and what lies within `beyond` of it.
-std::vector<Vec3d> corners(const WallBody& b, double beyond = 0) {
-  const Vec3d out{beyond, beyond, beyond}, min = b.min - out, max = b.max + out;
-  std::vector<Vec3d> all;
-  for (int k = 0; k < 8; ++k)
-    all.push_back({k & 1 ? max.x : min.x, k & 2 ? max.y : min.y, k & 4 ? max.z : min.z});
-  return all;
-}
-
 WallKind kind_of(const WallBody& body) {
   if (body.type == "frozen") return WallKind::frozen;
   if (body.type == "mdbc") return WallKind::mirrored;
@@ -53,29 +45,36 @@ WallKind kind_of(const WallBody& body) {
 
 WallMotion::WallMotion(const Config& config, const FreeBodies& free)
     : config_(config), free_(free), removed_(config.wall.bodies.size(), false) {
-  for (const WallBody& body : config.wall.bodies) laws_.emplace_back(body.motion, config.time.end);
-  for (const InletConfig& inlet : config.inlets) inlets_.emplace_back(inlet, config.fluid.dx);
+  double depth = 0;  // of a single layer, m
   if (config.fluid.present)
-    with_kernel(config.fluid.kernel, config.fluid.h(), [&](const auto& w) { layer_depth_ = layer_depth(w); });
+    with_kernel(config.fluid.kernel, config.fluid.h(), [&](const auto& w) { depth = layer_depth(w); });
+  for (const WallBody& body : config.wall.bodies) {
+    laws_.emplace_back(body.motion, config.time.end);
+    BodyPose& p = still_.emplace_back();
+    p.free = std::uint32_t(free.place_of(int(still_.size()) - 1) + 1);
+    p.slip = body.slip == "slip";
+    p.kind = kind_of(body);
+    p.repulsion = body.repulsion && body.stops_fluid() && !body.single_layer();
+    const double dx = config.wall.spacing(body);
+    if (config.fluid.present)
+      p.volume = body.single_layer() ? dx * dx * depth : particle_volume(body, dx, config.domain);
+  }
+  for (const InletConfig& inlet : config.inlets) {
+    inlets_.emplace_back(inlet, config.fluid.dx);
+    BodyPose& p = still_.emplace_back();
+    p.flows = 1;
+    p.volume = cube(config.fluid.dx);
+  }
 }
 
 BodyPose WallMotion::pose(int body, double t) const {
+  BodyPose p = still_[body];
+  RigidMotion& motion = p;
   if (body >= walls()) {
-    BodyPose p{inlets_[body - walls()].motion(t)};
-    p.flows = 1;
-    p.volume = cube(config_.fluid.dx);
+    motion = inlets_[body - walls()].motion(t);
     return p;
   }
-  const WallBody& b = config_.wall.bodies[body];
-  const int place = free_.place_of(body);
-  BodyPose p{place < 0 ? laws_[body].at(t) : free_.motion(place)};
-  p.free = std::uint32_t(place + 1);
-  p.slip = b.slip == "slip";
-  p.kind = kind_of(b);
-  p.repulsion = b.repulsion && b.stops_fluid() && !b.single_layer();
-  const double dx = config_.wall.spacing(b);
-  const bool even = b.shape == "tank" || b.shape == "box";  // their particles divide the sides evenly
-  p.volume = b.single_layer() ? dx * dx * layer_depth_ : even ? cell_volume(b.min, b.max, dx) : cube(dx);
+  motion = p.free ? free_.motion(int(p.free) - 1) : laws_[body].at(t);
   p.present = !removed_[body];
   return p;
 }
@@ -97,7 +96,7 @@ Span<const BodyPose> WallMotion::poses_in_step(double t, double back, double dt)
 }
 
 double WallMotion::top_speed(double t, double dt) const {
-  return std::max(prescribed_speed(t), free_.top_speed(t, dt));
+  return std::max(prescribed_speed(t), free_.top_speed(dt));
 }
 
 double WallMotion::prescribed_speed(double t) const {
@@ -107,8 +106,8 @@ double WallMotion::prescribed_speed(double t) const {
     if (removed_[b] || !laws_[b].moves()) continue;
     const BodyPose p = pose(b, t);
     const WallBody& body = config_.wall.bodies[b];
-    const double beyond = kind_of(body) == WallKind::mirrored ? config_.fluid.kappa() * config_.fluid.h() : 0;
-    for (const auto& c : corners(body, beyond)) top = std::max(top, norm(p.velocity(p.place(c))));
+    for (const auto& c : corners(body, config_.domain, particles_beyond(body, config_)))
+      top = std::max(top, norm(p.velocity(p.place(c))));
   }
   return top;
 }
@@ -116,7 +115,8 @@ double WallMotion::prescribed_speed(double t) const {
 double WallMotion::lowest(int body, double t, const Vec3d& up) const {
   const BodyPose p = pose(body, t);
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& c : corners(config_.wall.bodies[body])) least = std::min(least, dot(up, p.place(c)));
+  for (const auto& c : corners(config_.wall.bodies[body], config_.domain))
+    least = std::min(least, dot(up, p.place(c)));
   return least;
 }
 

@@ -45,10 +45,10 @@ class WallMotion {
  private:
   Config config_;
   const FreeBodies& free_;
+  std::vector<BodyPose> still_;  ///< one a body: all but how it moves
   std::vector<MotionLaw> laws_;  ///< one a wall
   std::vector<InletFlow> inlets_;
   std::vector<bool> removed_;
-  double layer_depth_ = 0;  ///< m
   std::vector<BodyPose> host_;
   Buffer<BodyPose> device_;
 };

@@ -69,7 +69,7 @@ TEST(FreeBodyCase, ErrorsAreOneSentence) {
             "above "
             "0, none above the sum of the other two"},
            {"density = 3\nturn = \"axis\"\n",
-            "dam.toml:20: wall.body.free.axis must be given (direction for free.move and free.turn)"},
+            "dam.toml:20: wall.body.free.axis must be given (direction for move and turn)"},
            {"density = 3\nturn = \"axis\"\naxis = [0, 0, 0]\n",
             "dam.toml:23: wall.body.free.axis = [0, 0, 0] must not be zero"},
            {"density = 3\npoint = [0, 0, 0]\n",
@@ -90,6 +90,22 @@ TEST(FreeBodyCase, ErrorsAreOneSentence) {
   EXPECT_EQ(
       error_of(with_body("density = 3\n", "shape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n")),
       "dam.toml:17: wall.body.shape = \"plane\" must not move freely; it has no end");
+}
+
+TEST(RigidGroupCase, ReadsBackAsResolvedAndSaysWhatIsWrong) {
+  const auto rigid = [](const std::string& keys) {
+    return changed("[time]\n", "[grain.fill.rigid]\n" + keys + "[time]\n");
+  };
+  const Config c = read(rigid("move = \"axis\"\nturn = \"none\"\naxis = [0, 0, 2]\n"));
+  ASSERT_EQ(c.grain.rigid_fills(), std::vector<int>{0});
+  EXPECT_EQ(c.grain.fills[0].rigid.axis, Vec3d(0, 0, 1));
+  EXPECT_EQ(read(resolved_toml(c)).grain, c.grain);
+  EXPECT_TRUE(read(rigid("")).grain.fills[0].rigid.present);
+  EXPECT_NE(error_of(rigid("turn = \"axis\"\n")).find("grain.fill.rigid.axis must be given"),
+            std::string::npos);
+  EXPECT_NE(error_of(rigid("") + "[[outlet]]\nname = \"end\"\nmin = [0, 0, 0]\nmax = [0.01, 0.1, 0.1]\n")
+                .find("outlet.phase = \"both\" must be \"fluid\" where grains form rigid groups"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -80,9 +80,17 @@ TEST(Box, IsFilledToTheDepth) {
 
 TEST(Box, IsAsLargeAsItsParticlesTogether) {
   for (const Vec3d& size : {Vec3d{0.033, 0.05, 0.016}, Vec3d{0.0251, 0.047, 0.03}}) {
-    const auto points = sample(body("box", {0, 0, 0}, size));
-    EXPECT_NEAR(double(points.size()) * cell_volume({0, 0, 0}, size, 0.01), size.x * size.y * size.z, 1e-12);
+    const WallBody box = body("box", {0, 0, 0}, size);
+    EXPECT_NEAR(double(sample(box).size()) * particle_volume(box, 0.01, {}), size.x * size.y * size.z, 1e-12);
   }
+}
+
+TEST(Plane, IsAsLargeAsItsParticlesTogether) {
+  const DomainConfig domain{{0, 0, 0}, {0.033, 0.047, 0.2}, {true, true, false}};
+  WallBody plane = body("plane", {}, {});
+  plane.normal = {0, 0, 2};
+  const auto points = sample_body(plane, 0.01, 0.03, domain);
+  EXPECT_NEAR(double(points.size()) * particle_volume(plane, 0.01, domain), 0.033 * 0.047 * 0.03, 1e-12);
 }
 
 TEST(Box, HasNoEndAcrossAPeriod) {

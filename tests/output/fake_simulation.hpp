@@ -37,6 +37,7 @@ class FakeSimulation : public Simulation {
   /// One fluid particle leaves after 10 steps; the walls never move.
   Counts counts() const override { return {.fluid = steps_ < 10 ? 7 : 6, .walls = 4, .grains = 3}; }
   std::vector<StepLimit> limits() override { return {}; }
+  std::vector<StepLimit> body_limits() const override { return {}; }
   std::size_t bytes() const override { return 12345; }
   std::vector<Quantity> time_spent() const override { return {{"fluid", "s", 0.25 * double(steps_)}}; }
 

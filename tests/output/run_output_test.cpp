@@ -78,7 +78,11 @@ TEST_F(RunFolder, HasATableForEachBodyThatMoves) {
   config.wall.bodies.back().free.present = true;
   config.wall.bodies.emplace_back().name = "gate";
   config.wall.bodies.back().motion.kind = "velocity";
+  config.grain.fills.resize(2);
+  config.grain.fills[1].rigid.present = true;
   unbroken(folder / "moving");
+  EXPECT_TRUE(fs::exists(folder / "moving" / "bodies" / "grain_fill_2.csv"));
+  EXPECT_FALSE(fs::exists(folder / "moving" / "bodies" / "grain_fill_1.csv"));
   EXPECT_EQ(CsvTable(folder / "moving" / "bodies" / "raft.csv").times().size(), 16u) << "as diagnostics";
   EXPECT_TRUE(fs::exists(folder / "moving" / "bodies" / "gate.csv"));
   EXPECT_FALSE(fs::exists(folder / "moving" / "bodies" / "tank.csv"));

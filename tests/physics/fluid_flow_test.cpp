@@ -169,6 +169,23 @@ TEST(SlowViscousFlow, TaylorGreenDecay) {  // T-10, Re = 10
   EXPECT_NEAR(rate, exact, 2e-2 * exact);
 }
 
+TEST(WallTorque, IsAboutTheCentreHoweverFarTheWallHasGone) {
+  Config c = column(0.16, 0.02);
+  WallBody& floor = c.wall.bodies[0];
+  floor.slip = "slip";
+  floor.motion.kind = "velocity";
+  floor.motion.velocity = {4, 0, 0};
+  auto s = started(c);
+  const auto lever = [&] {
+    const auto b = s->body_state(0);
+    return reading(b, "torque_by_fluid_y") / reading(b, "force_by_fluid_z");
+  };
+  EXPECT_NEAR(lever(), -0.08, 1e-3);
+  run_until(*s, 0.06);  // one and a half periods
+  EXPECT_GT(reading(s->body_state(0), "centre_x"), 0.16);
+  EXPECT_NEAR(lever(), -0.08, 5e-3);
+}
+
 TEST(SmallSimulation, SameDeckTwiceIsBitEqual) {  // T-46
   std::vector<std::byte> first;
   for (int k : {0, 1}) {

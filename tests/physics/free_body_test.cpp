@@ -120,14 +120,18 @@ TEST(FreeBodyConstraints, LetThroughOnlyWhatTheyAllow) {
 }
 
 TEST(FreeBodyConstraints, HoldItUntilItsRelease) {
-  Config c = spinning({0.1, 0.1, 0.1}, {}, 1e-3);
+  Config c = spinning({0.1, 0.1, 0.1}, {0, 0, 3}, 1e-3);
   c.gravity = {0, 0, -9.81};
   c.wall.bodies[0].free.release_time = 0.05;
   auto s = started(c);
-  for (int k = 0; k < 50; ++k) s->step();
+  for (int k = 0; k < 49; ++k) s->step();
   EXPECT_EQ(reading(s->body_state(0), "centre_z"), 0);
+  EXPECT_EQ(reading(s->body_state(0), "angular_velocity_z"), 0);
+  EXPECT_EQ(reading(s->diagnostics(), "body_rotational_energy"), 0);
+  s->step();
   for (int k = 0; k < 50; ++k) s->step();
   EXPECT_NEAR(reading(s->body_state(0), "velocity_z"), -9.81 * 0.05, 2 * 9.81e-3);
+  EXPECT_NEAR(reading(s->body_state(0), "angular_velocity_z"), 3, 1e-12);
 }
 
 TEST(FreeBodyInAFrame, FliesAsSeenFromTheLab) {
@@ -189,6 +193,21 @@ TEST(FreeBodyContacts, SlidingBlockStopsByFriction) {
   EXPECT_LT(norm(vector_of(end, "velocity")), 1e-4);
   EXPECT_NEAR(reading(end, "force_by_bodies_z"), 0.4 * g, 1e-3 * 0.4 * g);
   EXPECT_NEAR(reading(s->body_state(0), "force_by_bodies_z"), -0.4 * g, 1e-3 * 0.4 * g) << "on the ground";
+}
+
+TEST(FreeBodyContacts, PassThroughABodyThatTouchesNobody) {
+  Config c = void_case();
+  c.gravity = {};
+  WallBody ghost = test::shaped("ghost", make_box({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}));
+  set_free(ghost, 1000).free.contacts = false;
+  WallBody ball = test::shaped("ball", make_sphere({0.2, 0, 0}, 0.04));
+  set_free(ball, 1000).free.velocity = {-1, 0, 0};
+  c.wall.bodies = {ghost, ball};
+  auto s = started(c);
+  run_until(*s, 0.2);
+  EXPECT_LT(reading(s->body_state(1), "centre_x"), 0.01);
+  EXPECT_EQ(vector_of(s->body_state(1), "velocity"), Vec3d(-1, 0, 0));
+  EXPECT_EQ(norm(vector_of(s->body_state(0), "velocity")), 0);
 }
 
 TEST(FreeBodyContacts, TwoBodiesKeepMomentumAndAngularMomentum) {

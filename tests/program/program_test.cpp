@@ -186,6 +186,34 @@ TEST_F(Program, RefusesAFixedStepAboveItsLimit) {
   EXPECT_TRUE(f.err.starts_with("fixed.toml:25: time.dt = 0.1 must be <= ")) << f.err;
 }
 
+TEST_F(Program, RefusesASubstepAboveTheLimitOfFreeBodies) {
+  write("ball.toml", R"([domain]
+min = [-1, -1, -1]
+max = [1, 1, 1]
+[[shape]]
+name = "ball"
+kind = "sphere"
+centre = [0, 0, 0]
+radius = 0.1
+[[wall.body]]
+name = "ball"
+shape = "ball"
+[wall.body.free]
+density = 1000
+[time]
+end = 0.1
+dt_dem = 0.05
+[out]
+every = 0.1
+)");
+  const Outcome o = bedload("run ball.toml --backend cpu --out r");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_TRUE(o.err.starts_with("ball.toml:16: time.dt_dem = 0.05 must be <= ")) << o.err;
+  EXPECT_NE(o.err.find("; limited by body contact"), std::string::npos) << o.err;
+  const Outcome check = bedload("check ball.toml --backend cpu --set time.dt_dem=1e-5");
+  EXPECT_NE(check.out.find("body contact"), std::string::npos) << check.out;
+}
+
 TEST_F(Program, RunsACaseAndLeavesItsFiles) {
   write("dam.toml", kSmall);
   const Outcome o = bedload("run dam.toml --backend cpu --until 0.005");

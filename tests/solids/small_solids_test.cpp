@@ -32,7 +32,7 @@ TEST(SmallSolids, EveryKernelRuns) {
       EXPECT_EQ(b.solver->watch(*b.grains).bad, kNone);
       EXPECT_GT(b.solver->totals(*b.grains).contacts, 10);
       EXPECT_GT(b.solver->totals(*b.grains).wall_contacts, 10);
-      EXPECT_LT(b.solver->body_loads(*b.grains, b.poses())[0].force.z, 0);
+      EXPECT_LT(b.solver->body_loads(*b.grains, b.poses())[0].force().z, 0);
       const HostStore contacts = b.solver->save_contacts(*b.grains);
       b.solver->load_contacts(*b.grains, *b.grid, contacts);
       EXPECT_EQ(b.solver->save_contacts(*b.grains).arrays[2].bytes, contacts.arrays[2].bytes);

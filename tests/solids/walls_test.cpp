@@ -149,10 +149,10 @@ TEST(Walls, LoadOfRestingGrainsIsTheirWeight) {
   const auto loads = b.solver->body_loads(*b.grains, b.poses());
   ASSERT_EQ(loads.size(), 2u);
   const double weight = 10 * b.mass() * 9.81;
-  EXPECT_NEAR(loads[0].force.z / -weight, 1, 1e-4);
-  EXPECT_NEAR(loads[0].torque.x / (-weight * 0.01), 1, 1e-4);
-  EXPECT_NEAR(loads[0].torque.y / (weight * -0.002), 1, 1e-3);
-  EXPECT_EQ(norm(loads[1].force), 0);
+  EXPECT_NEAR(loads[0].force().z / -weight, 1, 1e-4);
+  EXPECT_NEAR(loads[0].torque().x / (-weight * 0.01), 1, 1e-4);
+  EXPECT_NEAR(loads[0].torque().y / (weight * -0.002), 1, 1e-3);
+  EXPECT_EQ(norm(loads[1].force()), 0);
   const GrainTotals t = b.solver->totals(*b.grains);
   EXPECT_EQ(t.wall_contacts, 10);
   EXPECT_EQ(t.contacts, 0);

@@ -138,7 +138,7 @@ struct DrumBed {
       for (int look = 0; look < kLooks; ++look) {
         b.run(dt, 20);
         b.set_poses(1, 0);
-        torque += b.solver->body_loads(*b.grains, b.poses())[0].torque.z / kLooks;
+        torque += b.solver->body_loads(*b.grains, b.poses())[0].torque().z / kLooks;
         for (const Vec3d& at : b.grains->x.values()) middle += at / (kLooks * double(b.x.size()));
       }
       lean.blocks.push_back(std::atan2(middle.x, -middle.y) * 180 / M_PI);

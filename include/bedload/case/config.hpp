@@ -231,6 +231,15 @@ struct SizeClass {
   bool operator==(const SizeClass&) const = default;
 };
 
+/// Grains that keep their places among each other and move as one body.
+struct RigidConfig {
+  bool present = false;
+  std::string move = "all";                    ///< all, plane (across axis), axis (along it), none
+  std::string turn = "all";                    ///< all, axis, none
+  Vec3d axis{0, 0, 1};                         ///< unit (resolved)
+  bool operator==(const RigidConfig&) const = default;
+};
+
 /// Where grains come from: thrown at random into a box or a shape, then settled; or given one by one.
 struct GrainFill {
   Vec3d min, max;                              ///< m; of a shape or a file: around it (resolved)
@@ -244,6 +253,7 @@ struct GrainFill {
   Vec3d velocity;                              ///< m/s
   std::string file{};                          ///< grains instead of a box; absolute (resolved)
   std::int64_t step = -1;                      ///< frame of a .vtkhdf file; -1: the last
+  RigidConfig rigid{};
   bool operator==(const GrainFill&) const = default;
 };
 
@@ -263,6 +273,13 @@ struct GrainConfig {
   bool fixed = false;                          ///< grains never move
   double d_max = 0, d_min = 0;                 ///< m (resolved)
   std::vector<GrainFill> fills;
+  /// Of the fills that move as one body each, their places.
+  std::vector<int> rigid_fills() const {
+    std::vector<int> all;
+    for (std::size_t k = 0; k < fills.size(); ++k)
+      if (fills[k].rigid.present) all.push_back(int(k));
+    return all;
+  }
   bool operator==(const GrainConfig&) const = default;
 };
 

@@ -42,4 +42,10 @@ std::array<double, 6> shifted_inertia(const std::array<double, 6>& inertia, doub
 /// balls that touch its surface from within, contact_spacing apart.
 std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& domain);
 
+/// How far beyond the box around a wall body its particles or their images may lie, m.
+double particles_beyond(const WallBody& body, const Config& config);
+
+/// The corners of the box around a wall body, or of the domain for a plane, each moved `beyond` (m) outwards.
+std::vector<Vec3d> corners(const WallBody& body, const DomainConfig& domain, double beyond = 0);
+
 }  // namespace bedload

@@ -25,13 +25,6 @@ inline Cells fit_cells(double lo, double hi, double spacing) {
   return {lo, (hi - lo) / n, std::int64_t(n)};
 }
 
-/// Of one of the cells that fill a box evenly, m3.
-inline double cell_volume(const Vec3d& min, const Vec3d& max, double spacing) {
-  double volume = 1;
-  for (int k = 0; k < 3; ++k) volume *= fit_cells(min[k], max[k], spacing).step;
-  return volume;
-}
-
 /// Adds every fluid.fill that is a box or a shape; in a box a lattice that divides each side evenly, so that
 /// it meets walls and periodic images half a spacing off. The masses of a fill are
 /// equal and add up to rho0 times its volume. Fills must not overlap. Throws CaseError.

@@ -17,6 +17,10 @@ namespace bedload {
 std::vector<Vec3d> sample_body(const WallBody& body, double spacing, double depth,
                                const DomainConfig& domain);
 
+/// What one of those particles stands for, m3: a cell of the lattice; spacing^3 for shapes, whose layers are
+/// only about that far apart.
+double particle_volume(const WallBody& body, double spacing, const DomainConfig& domain);
+
 /// Distance of `x` from the surface of `body`, m; negative inside its solid, +infinity
 /// where a tank has no wall opposite `x`. Tank walls are `thickness` thick.
 double wall_distance(const WallBody& body, const Vec3d& x, double thickness, const DomainConfig& domain);

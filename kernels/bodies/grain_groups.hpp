@@ -1,0 +1,100 @@
+#pragma once
+// Grains that move as one rigid body. Each of them is kicked on its own; what they have gained together moves
+// the group, and they follow it.
+
+#include "kernels/bodies/body_kicks.hpp"
+#include "kernels/integrate/grain_substep.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Where the groups are, and which grains are theirs.
+struct GrainGroups {
+  const RigidBody* groups;  ///< about their centres of mass
+  Span<Vec3d> x, v, spin;   ///< of those centres: m, m/s; angular momentum, kg m2/s
+  Span<Vec4<double>> rotation;
+  Span<const std::uint32_t> group;  ///< of each grain: 1 + its group, 0 without one
+  Span<const Vec3d> arm;            ///< of each grain from the centre of its group, unturned, m
+
+  BL_HD Vec3d omega(Index g) const { return groups[g].omega(to_quat(rotation[g]), spin[g]); }
+  BL_HD Vec3d lever(Index i) const { return to_quat(rotation[group[i] - 1]).rotate(arm[i]); }
+  BL_HD Vec3d velocity(Index i) const {
+    const Index g = group[i] - 1;
+    return v[g] + cross(omega(g), lever(i));
+  }
+};
+
+/// Momentum and angular momentum about its centre that a group has gained since its grains followed it last,
+/// as impulses in the places of force and torque, N s and N m s.
+struct GainReduction {
+  using Value = LoadSum;
+  GrainGroups all;
+  Index of;
+  double mass_per_r3;  ///< 4/3 pi rho_s
+  Span<const Real> radius;
+  Span<const Real3> v, omega, v_rest, omega_rest;  ///< rests may be empty
+  BL_HD Value identity() const { return Value::zero(); }
+  BL_HD Value operator()(Index i) const {
+    Value sum = Value::zero();
+    if (all.group[i] != of + 1) return sum;
+    const double R = radius[i], m = mass_per_r3 * R * R * R;
+    const Vec3d rest = v_rest ? Vec3d(v_rest[i]) : Vec3d{},
+                spin_rest = v_rest ? Vec3d(omega_rest[i]) : Vec3d{};
+    const Vec3d gained = m * (Vec3d(v[i]) - Vec3d(Real3(all.velocity(i))) + rest);
+    const Vec3d turned = 0.4 * m * R * R * (Vec3d(omega[i]) - Vec3d(Real3(all.omega(of))) + spin_rest);
+    sum.add(gained, cross(all.lever(i), gained) + turned);
+    return sum;
+  }
+  BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
+};
+
+/// A group takes up what its grains have gained, as far as its constraints let it, and drifts.
+struct GroupPass {
+  GrainGroups all;
+  const LoadSum* gained;
+  double drift;  ///< s
+  BL_HD void operator()(Index g) const {
+    const RigidBody& k = all.groups[g];
+    all.v[g] += k.movable((1 / k.mass) * gained[g].force());
+    all.spin[g] += k.turnable(gained[g].torque());
+    if (drift == 0) return;
+    all.x[g] += drift * all.v[g];
+    all.rotation[g] = to_vec4(k.turned(to_quat(all.rotation[g]), all.spin[g], drift));
+  }
+};
+
+/// Grains take place and motion from their group.
+struct FollowPass {
+  GrainGroups all;
+  Frame frame;
+  Span<Vec3d> x;
+  Span<Real3> v, omega, v_rest, omega_rest;  ///< rests may be empty
+  BL_HD void operator()(Index i) const {
+    if (all.group[i] == 0) return;
+    const Index g = all.group[i] - 1;
+    x[i] = frame.wrap(all.x[g] + all.lever(i));
+    v[i] = Real3(all.velocity(i));
+    omega[i] = Real3(all.omega(g));
+    if (v_rest) v_rest[i] = {}, omega_rest[i] = {};
+  }
+};
+
+/// Force and torque about its centre on one group, of forces and torques on its grains.
+struct GroupLoadReduction {
+  using Value = LoadSum;
+  GrainGroups all;
+  Index of;
+  Span<const Real3> force, torque, more;  ///< N, any unit, N; `more`: another force, may be empty
+  double per_torque;                      ///< makes N m of the torque
+  BL_HD Value identity() const { return Value::zero(); }
+  BL_HD Value operator()(Index i) const {
+    Value sum = Value::zero();
+    if (all.group[i] != of + 1) return sum;
+    Vec3d f = Vec3d(force[i]);
+    if (more) f += Vec3d(more[i]);
+    sum.add(f, cross(all.lever(i), f) + per_torque * Vec3d(torque[i]));
+    return sum;
+  }
+  BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
+};
+
+}  // namespace bedload::inline BL_VARIANT

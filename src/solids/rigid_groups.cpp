@@ -1,0 +1,130 @@
+#include "src/solids/rigid_groups.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "bedload/geometry/body.hpp"
+#include "src/walls/free_bodies.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+RigidGroups::RigidGroups(const Config& config, const Frame& frame, GrainStore& grains)
+    : config_(config),
+      frame_(frame),
+      fills_(config.grain.rigid_fills()),
+      mass_per_r3_(4.0 / 3.0 * M_PI * config.grain.rho) {
+  if (!any()) return;
+  group_ = std::make_unique<Field<std::uint32_t>>(grains, "group", "-", Lifetime::kept);
+  arm_ = std::make_unique<Field<Vec3d>>(grains, "group_arm", "m", Lifetime::kept);
+  group_->resize(grains.size());
+  arm_->resize(grains.size());
+  store_.resize(Index(fills_.size()));
+  gained_.resize(fills_.size());
+}
+
+void RigidGroups::bind(const GrainStore& grains, const std::vector<std::uint32_t>& fill) {
+  if (!any()) return;
+  const auto x = grains.x.values();
+  const auto radius = grains.radius.values();
+  const std::size_t n = fills_.size();
+  std::vector<std::uint32_t> group(x.size());
+  std::vector<double> mass(n);
+  std::vector<Vec3d> centre(n), v(n), arm(x.size());
+  for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (int(fill[i]) != fills_[k]) continue;
+      const double R = radius[i], m = mass_per_r3_ * R * R * R;
+      group[i] = std::uint32_t(k + 1);
+      mass[k] += m;
+      centre[k] += m * x[i];
+    }
+    if (mass[k] > 0) centre[k] = centre[k] / mass[k];
+  }
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (group[i] > 0) arm[i] = x[i] - centre[group[i] - 1];
+  group_->assign(group);
+  arm_->assign(arm);
+  measure(grains);
+  for (std::size_t k = 0; k < n; ++k) v[k] = groups_[k].movable(config_.grain.fills[fills_[k]].velocity);
+  store_.x.assign(centre);
+  store_.v.assign(v);
+  store_.spin.assign(std::vector<Vec3d>(n));
+  store_.rotation.assign(std::vector<Vec4<double>>(n, to_vec4({})));
+}
+
+/// Mass and inertia, summed in the order of ids, which no sorting changes.
+void RigidGroups::measure(const GrainStore& grains) {
+  const auto id = grains.id.values();
+  const auto radius = grains.radius.values();
+  const auto group = group_->values();
+  const auto arm = arm_->values();
+  std::vector<std::size_t> order(id.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
+  std::vector<MassProperties> sums(fills_.size());
+  for (auto& s : sums) s.inertia.fill(0);
+  for (const std::size_t i : order) {
+    if (group[i] == 0) continue;
+    MassProperties& s = sums[group[i] - 1];
+    const double R = radius[i], m = mass_per_r3_ * R * R * R, own = 0.4 * m * R * R;
+    s.mass += m;
+    const auto grain = shifted_inertia({own, own, own, 0, 0, 0}, m, arm[i]);
+    for (int k = 0; k < 6; ++k) s.inertia[k] += grain[k];
+  }
+  groups_.clear();
+  for (std::size_t k = 0; k < fills_.size(); ++k) {
+    const RigidConfig& c = config_.grain.fills[fills_[k]].rigid;
+    groups_.push_back(rigid_body(sums[k], {}, c.move, c.turn, c.axis));
+  }
+  constants_.assign(groups_);
+}
+
+GrainGroups RigidGroups::view() const {
+  return {constants_.data(), store_.x, store_.v, store_.spin, store_.rotation, group_->span(), arm_->span()};
+}
+
+void RigidGroups::follow(GrainStore& g, Span<Real3> v_rest, Span<Real3> omega_rest, double drift) {
+  if (!any() || g.size() == 0) return;
+  const GrainGroups all = view();
+  for (Index k = 0; k < store_.size(); ++k)
+    reduce_into(gained_.data() + k, g.owned(),
+                GainReduction{all, k, mass_per_r3_, g.radius, g.v, g.omega, v_rest, omega_rest});
+  for_each(store_.owned(), GroupPass{all, gained_.data(), drift});
+  for_each(g.owned(), FollowPass{all, frame_, g.x, g.v, g.omega, v_rest, omega_rest});
+}
+
+void RigidGroups::stop() {
+  if (!any()) return;
+  store_.v.buffer().zero();
+  store_.spin.buffer().zero();
+}
+
+RigidMotion RigidGroups::motion(int k) const {
+  RigidMotion m;
+  m.centre = store_.x.values()[k];
+  m.rotation = to_quat(store_.rotation.values()[k]);
+  m.v = store_.v.values()[k];
+  m.omega = groups_[k].omega(m.rotation, store_.spin.values()[k]);
+  return m;
+}
+
+LoadSum RigidGroups::by_contacts(int k, const GrainStore& g) const {
+  return reduce(g.owned(), GroupLoadReduction{view(), Index(k), g.force, g.torque, {}, 1});
+}
+
+LoadSum RigidGroups::by_fluid(int k, const GrainStore& g, double dt) const {
+  return reduce(g.owned(), GroupLoadReduction{view(), Index(k), g.fluid_force, g.spin_impulse, g.drag_force,
+                                              dt > 0 ? 1 / dt : 0});
+}
+
+void RigidGroups::save(std::vector<HostStore>& stores) const {
+  if (any()) stores.push_back(store_.save());
+}
+
+void RigidGroups::load(const HostStore& groups, const GrainStore& grains) {
+  store_.load(groups);
+  measure(grains);
+}
+
+}  // namespace bedload::inline BL_VARIANT

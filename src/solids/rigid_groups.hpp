@@ -1,0 +1,68 @@
+#pragma once
+// Rigid groups of grains: their state, what follows from their grains, how they move.
+
+#include <memory>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+#include "bedload/parallel/loops.hpp"
+#include "bedload/particles/grains.hpp"
+#include "kernels/bodies/grain_groups.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+class RigidGroups {
+ public:
+  /// Registers what grains know of their groups with `grains`: construct before the store is filled or
+  /// loaded.
+  RigidGroups(const Config& config, const Frame& frame, GrainStore& grains);
+
+  bool any() const { return !fills_.empty(); }
+  /// Of each grain: 1 + its group, 0 without one; empty where no fill is rigid.
+  Span<const std::uint32_t> of_grains() const {
+    return group_ ? group_->span() : Span<const std::uint32_t>();
+  }
+  /// Binds grains as they are laid; `fill`: of each, by id.
+  void bind(const GrainStore& grains, const std::vector<std::uint32_t>& fill);
+
+  /// After a kick and perhaps a drift (s) of every grain on its own. Rests: what rounding left of velocities,
+  /// may be empty.
+  void follow(GrainStore& grains, Span<Real3> v_rest, Span<Real3> omega_rest, double drift);
+  /// Groups lie still, as their grains do.
+  void stop();
+
+  /// Of one of them, now; its centre is where it is.
+  RigidMotion motion(int k) const;
+  /// Force and torque about its centre by what its grains touch.
+  LoadSum by_contacts(int k, const GrainStore& grains) const;
+  /// By the fluid; the torque on single grains is a mean over the last step dt (s).
+  LoadSum by_fluid(int k, const GrainStore& grains, double dt) const;
+  void save(std::vector<HostStore>& stores) const;
+  /// After `grains` has been loaded.
+  void load(const HostStore& groups, const GrainStore& grains);
+
+ private:
+  GrainGroups view() const;
+  void measure(const GrainStore& grains);
+
+  struct GroupStore : Store {
+    GroupStore() : Store("groups") {}
+    Field<Vec3d> x{*this, "x", "m", Lifetime::kept};
+    Field<Vec3d> v{*this, "v", "m/s", Lifetime::kept};
+    Field<Vec3d> spin{*this, "angular_momentum", "kg m2/s", Lifetime::kept};
+    Field<Vec4<double>> rotation{*this, "rotation", "-", Lifetime::kept};
+  };
+
+  Config config_;
+  Frame frame_;
+  std::vector<int> fills_;         ///< one a group
+  std::vector<RigidBody> groups_;  ///< about their centres of mass
+  double mass_per_r3_;
+  std::unique_ptr<Field<std::uint32_t>> group_;
+  std::unique_ptr<Field<Vec3d>> arm_;
+  mutable GroupStore store_;
+  Buffer<RigidBody> constants_;
+  Buffer<LoadSum> gained_;
+};
+
+}  // namespace bedload::inline BL_VARIANT
