@@ -3,8 +3,8 @@
 
     phases.py RUN_DIR [--period N]
 
-Writes RUN_DIR/phases.csv (phase and speed of the five events of He et al. (2018), Fig. 10: A and E highest, B and D
-fastest on the way down and up, C lowest) and RUN_DIR/phases.png: height and speed of the agitator over the period,
+Writes RUN_DIR/periods.csv (top speed of the agitator in each period), RUN_DIR/phases.csv (phase and speed of the five events of He et al. (2018), Fig. 10: A and E highest, C lowest,
+B and D half-way down and up between them; the paper does not say what its B and D are) and RUN_DIR/phases.png: height and speed of the agitator over the period,
 and the speed of the water at the five phases, across the tube and seen from above along its axis. Takes the last
 whole period, or number N from 1. Needs frames of that period (out.every of a twentieth of it or less) for the water.
 """
@@ -30,10 +30,10 @@ def events(phase, z, speed):
     lowest = next(k for k in np.argsort(z) if 0.75 < phase[k] < 1.6)
     first, second = np.arange(lowest), np.arange(lowest, len(z))
     a, e = first[np.argmax(z[first])], second[np.argmax(z[second])]
-    falling, rising = np.arange(a, lowest), np.arange(lowest, e + 1)
-    at = {"A": a, "C": lowest, "E": e}
-    for name, span in (("B", falling), ("D", rising)):
-        at[name] = span[np.argmax(speed[span])] if len(span) else lowest
+    def half_way(begin, end):
+        return begin + np.argmin(np.abs(z[begin:end + 1] - (z[begin] + z[end]) / 2))
+
+    at = {"A": a, "B": half_way(a, lowest), "C": lowest, "D": half_way(lowest, e), "E": e}
     return {name: (phase[at[name]], speed[at[name]]) for name in PAPER}
 
 
@@ -52,16 +52,22 @@ def main():
     number = whole if args.period is None else args.period
     if not 1 <= number <= whole:
         raise SystemExit(f"{run}: holds {whole} whole periods, not number {number}")
+    tops = []
     for n in range(1, whole + 1):
         part = (t >= (n - 1) / f) & (t <= n / f)
+        tops.append([f"{n / f:.4f}", f"{speed[part].max():.5f}"])
         print(f"period {n}: top speed {speed[part].max():.4f} m/s")
+    write_table(run / "periods.csv", ["time [s]", "top_speed [m/s]"], tops)
     part = (t >= (number - 1) / f) & (t <= number / f)
     phase = 2 * (t[part] * f - (number - 1))
     found = events(phase, z[part], speed[part])
-    rows = [[name, f"{at:.3f}", PAPER[name], f"{v:.4f}"] for name, (at, v) in found.items()]
-    for name, at, paper, v in rows:
-        print(f"{name}: {at} pi, {paper} pi in the paper; {v} m/s")
-    write_table(run / "phases.csv", ["event", "phase [pi]", "phase in the paper [pi]", "speed [m/s]"], rows)
+    rows = []
+    for name, (at, v) in found.items():
+        print(f"{name}: {at:.3f} pi, {PAPER[name]} pi in the paper; {v:.4f} m/s")
+        numbers = (number - 1 + at / 2) / f, at, PAPER[name], at - PAPER[name], v
+        rows.append([*(f"{x:.4f}" for x in numbers), name])
+    names = ["time [s]", "phase [pi]", "paper [pi]", "difference [pi]", "speed [m/s]", "event"]
+    write_table(run / "phases.csv", names, rows)
     draw(run, case, phase, y[part], z[part], speed[part], found, (number - 1) / f, f)
 
 

@@ -3,10 +3,11 @@
 
     bed.py RUN_DIR [--start S] [--samples N] [--every S]
 
-Looks along the axis of the drum, y. The bed is where grains fill more than 0.3 of the drum's length, half
-of what they fill in a packing; its width and height are the extents of that region along x and z. Samples
-N frames `every` seconds apart from `start` on, and writes RUN_DIR/bed.csv and RUN_DIR/bed.png: one moment,
-and the mean bed with two straight lines fitted to its surface.
+Looks along the axis of the drum, y. Width and height of the bed are the extents along x and z of all grains, as a
+camera sees them through the end of the drum; `compact`, without lone ones: where grains cover more than half of
+the square of two diameters about a place. Samples N frames `every` seconds apart from `start` on, and writes
+RUN_DIR/bed.csv and RUN_DIR/bed.png: one moment, and the mean bed with two straight lines fitted to the surface of its
+core, where grains fill more than 0.3 of the drum's length, half of what they fill in a packing.
 """
 
 import argparse
@@ -36,6 +37,9 @@ class Drum:
         scale = inside["scale"]
         self.radius = scale * inside["radius"]
         self.length = scale * np.linalg.norm(np.subtract(inside["b"], inside["a"]))
+        self.lay_out()
+
+    def lay_out(self):
         cells = int(np.ceil(2 * self.radius / CELL))
         self.edges = (np.arange(cells + 1) - cells / 2) * CELL
         self.centres = (self.edges[1:] + self.edges[:-1]) / 2
@@ -55,9 +59,13 @@ class Drum:
                 np.add.at(share, (cell[:, 0], cell[:, 1]), chord / self.length)
         return share
 
-    def extents(self, share):
-        """Width and height of the bed, m."""
-        bed = share > FILLED
+    def compact(self, share, d):
+        """Width and height of where grains cover more than half of the square of side 2 d about a place, m."""
+        half = round(d / CELL)
+        side = 2 * half + 1
+        sums = np.pad(share > 0, half + 1).astype(int).cumsum(axis=0).cumsum(axis=1)[:-1, :-1]
+        covered = sums[side:, side:] - sums[:-side, side:] - sums[side:, :-side] + sums[:-side, :-side]
+        bed = covered > side**2 / 2
         sides = [np.flatnonzero(bed.any(axis=other)) for other in (1, 0)]
         return [(side[-1] - side[0] + 1) * CELL for side in sides]
 
@@ -69,6 +77,11 @@ class Drum:
         x = self.centres[columns]
         clear = np.hypot(x, top) < 0.93 * self.radius
         return x[clear], top[clear]
+
+
+def extents(x, radius):
+    """Of all grains along x and z, m."""
+    return [(x[:, k] + radius).max() - (x[:, k] - radius).min() for k in (0, 2)]
 
 
 def bilinear(x, z):
@@ -100,13 +113,15 @@ def main():
     rows, mean = [], 0
     for time in wanted:
         frame = grains.nearest(time)
-        share = drum.filled(grains.position(frame), grains.get(frame, "radius"))
-        rows.append([grains.times[frame], *drum.extents(share)])
+        x, radius = grains.position(frame), grains.get(frame, "radius")
+        share = drum.filled(x, radius)
+        rows.append([grains.times[frame], *extents(x, radius), *drum.compact(share, 2 * radius.mean())])
         mean = mean + share / args.samples
-    write_table(run / "bed.csv", ["time [s]", "width [m]", "height [m]"], rows)
+    names = ["width", "height", "compact_width", "compact_height"]
+    write_table(run / "bed.csv", ["time [s]"] + [f"{name} [m]" for name in names], rows)
     sizes = np.array(rows)[:, 1:] * 1000
-    for name, column in zip(("width", "height"), sizes.T):
-        print(f"bed {name}: {column.mean():.2f} mm, standard deviation {column.std(ddof=1):.2f} mm")
+    for name, column in zip(names, sizes.T):
+        print(f"{name.replace('_', ' ')}: {column.mean():.2f} mm, standard deviation {column.std(ddof=1):.2f} mm")
     x, z = drum.surface(mean)
     misfit, bend, (level, left, right) = bilinear(x, z)
     print(f"surface: {np.degrees(np.arctan(left)):.1f} deg left of x = {1000 * bend:.1f} mm, "

@@ -90,13 +90,28 @@ struct BallPass {
     law.mindlin.G_star = Real(1 / (m.give_sideways + give_sideways));
     // a push that no constraint lets through meets a mass without end, for which no damping is left
     const double m_star = 1 / max_of(ease, 1e-6 / a.mass);
-    const ContactGeometry at{
-        foot.normal, ball.radius - foot.distance, Real(ball.R_star), Real(m_star), 0, 0, 0, 0};
+    ContactGeometry at{foot.normal, ball.radius - foot.distance, Real(ball.R_star), Real(m_star), 0, 0, 0, 0};
+    if (law.rolling != RollingLaw::none) {
+      Vec3d about = mine.omega - other.omega;
+      about -= dot(about, foot.normal) * foot.normal;
+      const double spin = norm(about);
+      if (spin > 0) about *= 1 / spin;
+      double turning = a.turning_ease(mine.rotation, about),
+             rolling = a.rolling_ease(mine.rotation, r_mine, about);
+      if (other.free) {
+        const RigidBody& b = bodies[other.free - 1];
+        turning += b.turning_ease(other.rotation, about);
+        rolling += b.rolling_ease(other.rotation, r_other, about);
+      }
+      // neither matters where nothing turns, but must not be 0
+      at.inverse_spin = max_of(Real(turning), Real(1e-20));
+      at.inverse_rolling = max_of(Real(rolling), Real(1e-20));
+    }
     const Vec3d v = mine.v + cross(mine.omega, r_mine) - other.v - cross(other.omega, r_other);
     const ContactForce f = law(at, Real3(v), Real3(mine.omega), Real3(other.omega), Real(dt), h);
-    const Vec3d force = Vec3d(f.force);
-    loads.add(i, {force, cross(r_mine, force), a.body});
-    loads.add(i, {-force, -cross(r_other, force), touch.body});
+    const Vec3d force = Vec3d(f.force), couple = Vec3d(f.torque_i);  // that of rolling friction
+    loads.add(i, {force, cross(r_mine, force) + couple, a.body});
+    loads.add(i, {-force, -cross(r_other, force) - couple, touch.body});
     h.overlap *= foot.side;
     return {touch.key(), foot.normal, h};
   }

@@ -92,12 +92,16 @@ struct RigidBody {
 
   /// How easily a push along n at r from the reference point moves that place: 1 / effective mass, 1/kg.
   BL_HD double ease(const Quat<double>& rotation, const Vec3d& r, const Vec3d& n) const {
-    double e = dot(n, movable(n)) / mass;
-    if (turn == BodyTurn::none) return e;
-    const Vec3d lever = cross(r, n);
-    if (turn == BodyTurn::axis) return e + square(dot(lever, axis)) / axial;
-    const Vec3d p = (rotation * principal).conjugate().rotate(lever);
-    return e + p.x * p.x / moments.x + p.y * p.y / moments.y + p.z * p.z / moments.z;
+    return dot(n, movable(n)) / mass + turning_ease(rotation, cross(r, n));
+  }
+  /// How easily a couple along a turns it: 1 / moment of inertia, 1/(kg m2), times |a|^2.
+  BL_HD double turning_ease(const Quat<double>& rotation, const Vec3d& a) const {
+    return dot(a, omega(rotation, a));
+  }
+  /// The same where it rolls about a point at r: its mass counts too.
+  BL_HD double rolling_ease(const Quat<double>& rotation, const Vec3d& r, const Vec3d& a) const {
+    const double e = turning_ease(rotation, a);
+    return e / (1 + e * mass * norm2(r));
   }
 };
 

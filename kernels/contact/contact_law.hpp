@@ -165,7 +165,9 @@ struct ContactLaw {
   }
 };
 
-/// Reads the laws from a case. Throws CaseError where the restitution cannot be had.
+/// The laws of a case, between grains. Throws CaseError where the restitution cannot be had.
 ContactLaw make_contact_law(const Config& config);
+/// The same between grains and a wall body, with the friction and restitution of that.
+ContactLaw make_wall_law(const Config& config, const WallBody& body);
 
 }  // namespace bedload::inline BL_VARIANT

@@ -53,7 +53,7 @@ struct ContactSum {
 
 struct ContactPass {
   Frame frame;
-  ContactLaw law;
+  ContactLaw law;    ///< between grains
   Real mass_per_r3;  ///< 4/3 pi rho_s
   Real dt;           ///< s
   Span<const Vec3d> x;
@@ -66,6 +66,7 @@ struct ContactPass {
   WallMemory* const* wall_memory;  ///< [wall_room][grains]
   Index* wall_contacts;            ///< [grains]
   int wall_room;                   ///< walls that a grain may touch at once
+  const ContactLaw* wall_laws;     ///< [bodies]
   const BodyPose* poses;           ///< [bodies]
   const RigidBody* free_bodies = nullptr;
   TouchLoads loads = {};  ///< where to record what the grains do to free bodies; may be none
@@ -144,7 +145,8 @@ struct ContactPass {
     const Vec3d r = arm(pose, point), v_wall = pose.v + cross(pose.omega, r);
     if (pose.free)
       at.m_star /= 1 + at.m_star * Real(free_bodies[pose.free - 1].ease(pose.rotation, r, foot.normal));
-    const ContactForce on_grain = law(at, v[i] - Real3(v_wall), omega[i], Real3(pose.omega), dt, h);
+    const ContactForce on_grain =
+        wall_laws[touch.body](at, v[i] - Real3(v_wall), omega[i], Real3(pose.omega), dt, h);
     f(touch.body, WallContact{on_grain, point});
     h.overlap *= foot.side;
     return {touch.key(), foot.normal, h};

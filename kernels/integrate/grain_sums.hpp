@@ -77,8 +77,9 @@ struct TotalsReduction {
     const WallMemories memory = contacts.memories(i);
     for (Index k = 0; k < memory.count(); ++k) {
       const ContactHistory& h = memory[k].history;
+      const std::uint32_t body = contacts.walls.surfaces[memory[k].surface()].body;
       t.sum[walls] += 1;
-      t.sum[elastic] += contacts.law.stored(s.R, s.m, h);
+      t.sum[elastic] += contacts.wall_laws[body].stored(s.R, s.m, h);
       t.overlap = max_of(t.overlap, std::abs(h.overlap) / (2 * double(s.R)));
     }
     return t;

@@ -13,7 +13,8 @@ void describe_frame(Parameters& p, FrameConfig& frame);
 void describe_fill_file(Parameters& p, std::string& file, std::int64_t& step, std::string_view meaning);
 void describe_fluid(Parameters& p, FluidConfig& fluid);
 void describe_fluid_models(Parameters& p, Config& config);
-void describe_walls(Parameters& p, WallConfig& wall);
+/// `contact`: already described.
+void describe_walls(Parameters& p, WallConfig& wall, const ContactConfig& contact);
 /// Of one wall body; grain.* stands in for its material when the case is resolved.
 void describe_free_body(Parameters& p, FreeConfig& free);
 void describe_rigid_group(Parameters& p, RigidConfig& rigid);

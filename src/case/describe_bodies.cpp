@@ -76,6 +76,7 @@ void describe_free_body(Parameters& p, FreeConfig& f) {
        .presence = unbounded});
     p("free.mu", &f.mu,
       {.meaning = "sliding friction", .range = within(0, 5), .fallback = "grain.mu", .presence = unbounded});
+    p("free.mu_r", &f.mu_r, {.meaning = "rolling friction, by contact.rolling", .range = within(0, 1)});
     p("free.e", &f.e,
       {.meaning = "restitution of a lone contact",
        .range = within(0.05, 1),

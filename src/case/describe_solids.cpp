@@ -113,7 +113,7 @@ void body_motion(Parameters& p, MotionConfig& m) {
   motion_parts(p, "motion.", m);
 }
 
-void wall_body(Parameters& p, WallBody& b) {
+void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
   p("name", &b.name, {.meaning = "by which probes and messages know it", .presence = required});
   p("shape", &b.shape,
     {.meaning = "shape of the body",
@@ -147,6 +147,24 @@ void wall_body(Parameters& p, WallBody& b) {
      .range = above(0),
      .fallback = "wall.dx, of a single layer at most fluid.dx/2",
      .presence = optional});
+  if (b.stops_grains() || p.everything()) {
+    p("mu", &b.mu,
+      {.meaning = "sliding friction of grains on it",
+       .range = within(0, 5),
+       .fallback = "grain.mu",
+       .presence = unbounded});
+    p("mu_r", &b.mu_r,
+      {.meaning = "rolling friction of grains on it",
+       .range = within(0, 1),
+       .fallback = "grain.mu_r",
+       .presence = unbounded});
+    p("e", &b.e,
+      {.meaning = "restitution of grains from it",
+       .range = restitution(contact),
+       .hint = "give a fraction, not percent?",
+       .fallback = "grain.e",
+       .presence = optional});
+  }
   body_motion(p, b.motion);
   describe_free_body(p, b.free);
 }
@@ -240,7 +258,7 @@ void describe_frame(Parameters& p, FrameConfig& frame) {
   motion_parts(p, "frame.motion.", frame.motion);
 }
 
-void describe_walls(Parameters& p, WallConfig& w) {
+void describe_walls(Parameters& p, WallConfig& w, const ContactConfig& contact) {
   p("wall.dx", &w.dx,
     {.unit = "m",
      .meaning = "spacing of wall particles, fluid.dx/4..fluid.dx",
@@ -279,7 +297,8 @@ void describe_walls(Parameters& p, WallConfig& w) {
   prototype.force = w.force;
   prototype.slip = w.slip;
   prototype.repulsion = w.repulsion;
-  p.list("wall.body", w.bodies, prototype, wall_body);
+  p.list("wall.body", w.bodies, prototype,
+         [&](Parameters& q, WallBody& body) { wall_body(q, body, contact); });
 }
 
 void describe_contact(Parameters& p, ContactConfig& c) {

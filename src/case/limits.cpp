@@ -1,28 +1,56 @@
 #include "bedload/case/limits.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace bedload {
 
-std::vector<StepLimit> grain_limits(const Config& c) {
+using std::numbers::pi;
+
+HertzImpact hertz_impact(double m, double R, double E, double v) {
+  const double overlap = std::pow(15 * m * v * v / (16 * E * std::sqrt(R)), 0.4);
+  return {2.8683 * std::pow(m * m / (R * E * E * v), 0.2), 2 * E * std::sqrt(R * overlap)};
+}
+
+double rolling_limit(double stiffness, double mu_r, double R_star, double inertia) {
+  const double k_r = 2.25 * stiffness * mu_r * mu_r * R_star * R_star;
+  return k_r > 0 ? 0.2 * std::sqrt(inertia / k_r) : std::numeric_limits<double>::infinity();
+}
+
+std::vector<StepLimit> substep_limits(const Config& c, double speed) {
   const GrainConfig& g = c.grain;
-  if (!g.present || g.fixed || c.contact.normal == "none") return {};
-  using std::numbers::pi;
   const double R = g.d_min / 2, G = g.E / (2 * (1 + g.nu));
-  const double m = 4.0 / 3 * pi * R * R * R * g.rho / 2;  // reduced mass of equal grains
-  const double E = g.E / (2 * (1 - g.nu * g.nu));
+  const double mass = 4.0 / 3 * pi * R * R * R * g.rho, m = mass / 2;  // m: of a pair
   std::vector<StepLimit> limits{
       {"rayleigh", c.time.rayleigh * pi * R * std::sqrt(g.rho / G) / (0.1631 * g.nu + 0.8766)}};
-  const double v = std::sqrt(2 * (norm(c.gravity) + c.frame.acceleration) * R);
-  if (c.contact.normal == "linear")
-    limits.push_back({"contact", c.time.contact * pi * std::sqrt(m / c.contact.k)});
-  else if (v > 0)
-    limits.push_back({"contact", c.time.contact * 2.8683 * std::pow(m * m / (R / 2 * E * E * v), 0.2)});
-  StepLimit* least = &limits.front();
-  for (StepLimit& limit : limits)
-    if (limit.seconds < least->seconds) least = &limit;
-  least->binds = true;
+  const double v = std::max(speed, std::sqrt((norm(c.gravity) + c.frame.acceleration) * g.d_max));
+  double contact = std::numeric_limits<double>::infinity(), stiffness = 0;
+  if (c.contact.normal == "linear") {
+    const double damping = std::log(g.e) / std::hypot(pi, std::log(g.e));
+    contact = pi * std::sqrt(m / c.contact.k) / std::sqrt(1 - damping * damping);
+    stiffness = c.contact.k;
+  } else if (c.contact.normal == "hertz" && v > 0) {
+    const HertzImpact impact = hertz_impact(m, R / 2, g.E / (2 * (1 - g.nu * g.nu)), v);
+    contact = impact.duration, stiffness = impact.stiffness;
+  }
+  if (std::isfinite(contact)) limits.push_back({"contact", c.time.contact * contact});
+  if (c.contact.rolling == "epsd") {
+    double mu_r = g.mu_r;
+    for (const WallBody& body : c.wall.bodies)
+      if (std::isfinite(body.mu_r)) mu_r = std::max(mu_r, body.mu_r);
+    const double rolling = rolling_limit(stiffness, mu_r, R / 2, 0.5 * 1.4 * mass * R * R);
+    if (std::isfinite(rolling)) limits.push_back({"rolling", rolling});
+  }
+  return limits;
+}
+
+std::vector<StepLimit> grain_limits(const Config& c) {
+  if (!c.grain.present || c.grain.fixed || c.contact.normal == "none") return {};
+  std::vector<StepLimit> limits = substep_limits(c, 0);
+  const auto shorter = [](const StepLimit& a, const StepLimit& b) { return a.seconds < b.seconds; };
+  std::min_element(limits.begin(), limits.end(), shorter)->binds = true;
   return limits;
 }
 

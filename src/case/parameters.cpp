@@ -24,10 +24,10 @@ void describe(Parameters& p, Config& c) {
   describe_frame(p, c.frame);
   if (c.fluid.present) describe_fluid(p, c.fluid);
   describe_fluid_models(p, c);
-  describe_walls(p, c.wall);
+  describe_contact(p, c.contact);
+  describe_walls(p, c.wall, c.contact);
   if (c.fluid.present) describe_inlets(p, c.inlets);
   describe_outlets(p, c.outlets);
-  describe_contact(p, c.contact);
   if (c.grain.present) {
     describe_grains(p, c);
     describe_grain_inlets(p, c.grain_inlets);

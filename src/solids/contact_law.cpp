@@ -46,4 +46,12 @@ ContactLaw make_contact_law(const Config& config) {
   return law;
 }
 
+ContactLaw make_wall_law(const Config& config, const WallBody& body) {
+  Config on_wall = config;
+  if (std::isfinite(body.mu)) on_wall.grain.mu = body.mu;
+  if (std::isfinite(body.mu_r)) on_wall.grain.mu_r = body.mu_r;
+  if (body.e > 0) on_wall.grain.e = body.e;
+  return make_contact_law(on_wall);
+}
+
 }  // namespace bedload::inline BL_VARIANT

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "bedload/case/limits.hpp"
 #include "kernels/integrate/grain_substep.hpp"
 #include "kernels/integrate/grain_sums.hpp"
 
@@ -37,6 +38,10 @@ SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeo
       walls_(walls),
       bodies_(bodies),
       groups_(config, frame, grains) {
+  config_.grain.d_min = d_min_, config_.grain.d_max = d_max_;
+  std::vector<ContactLaw> wall_laws;
+  for (const WallBody& body : config.wall.bodies) wall_laws.push_back(make_wall_law(config, body));
+  wall_laws_.assign(wall_laws);
   if (walls.contacts() == 0) return;
   wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
   wall_contacts_->resize(grains.size());
@@ -79,36 +84,9 @@ GrainWatch SolidSolver::watch(const GrainStore& g) const {
 }
 
 std::vector<StepLimit> SolidSolver::limits(const GrainWatch& w) const {
-  const GrainConfig& g = config_.grain;
-  const TimeConfig& t = config_.time;
-  std::vector<StepLimit> limits;
-  const double R = 0.5 * d_min_, m = mass_per_r3() * R * R * R;
-  const double shear = g.E / (2 * (1 + g.nu));
-  limits.push_back(
-      {"rayleigh", t.rayleigh * M_PI * R * std::sqrt(g.rho / shear) / (0.1631 * g.nu + 0.8766), false});
-
-  // a pair of the smallest grains touches most briefly
-  const double m_star = 0.5 * m, R_star = 0.5 * R;
-  const double E_star = g.E / (2 * (1 - g.nu * g.nu));
-  const double v =
-      std::max(2 * w.speed, std::sqrt((norm(config_.gravity) + config_.frame.acceleration) * d_max_));
-  double contact = std::numeric_limits<double>::infinity(), stiffness = config_.contact.k;
-  if (law_.normal == NormalLaw::linear) {
-    const double share = damping_share(g.e);
-    contact = M_PI * std::sqrt(m_star / config_.contact.k) / std::sqrt(1 - share * share);
-  } else if (law_.normal == NormalLaw::hertz && v > 0) {
-    contact = 2.8683 * std::pow(m_star * m_star / (R_star * E_star * E_star * v), 0.2);
-    const double overlap = std::pow(15 * m_star * v * v / (16 * E_star * std::sqrt(R_star)), 0.4);
-    stiffness = 2 * E_star * std::sqrt(R_star * overlap);
-  }
-  if (std::isfinite(contact)) limits.push_back({"contact", t.contact * contact, false});
-  if (law_.rolling == RollingLaw::epsd && g.mu_r > 0 && stiffness > 0) {
-    const double rolling_inertia = 0.5 * 1.4 * m * R * R;
-    const double k_r = 2.25 * stiffness * g.mu_r * g.mu_r * R_star * R_star;
-    limits.push_back({"rolling", 0.2 * std::sqrt(rolling_inertia / k_r), false});
-  }
+  std::vector<StepLimit> limits = substep_limits(config_, 2 * w.speed);
   if (config_.couple.integrator == "explicit" && w.drag_rate > 0)
-    limits.push_back({"grain drag", t.drag / w.drag_rate, false});
+    limits.push_back({"grain drag", config_.time.drag / w.drag_rate, false});
   return limits;
 }
 
@@ -155,6 +133,7 @@ ContactPass SolidSolver::contact_pass(const GrainStore& g, const BodyPose* poses
           .wall_memory = wall_memories(),
           .wall_contacts = wall_contacts_ ? wall_contacts_->buffer().data() : nullptr,
           .wall_room = walls_.contacts(),
+          .wall_laws = wall_laws_.data(),
           .poses = poses,
           .free_bodies = bodies_ ? bodies_->constants() : nullptr};
 }

@@ -114,6 +114,7 @@ class SolidSolver {
   Config config_;
   Frame frame_;
   ContactLaw law_;
+  Buffer<ContactLaw> wall_laws_;  ///< [bodies]
   double d_min_, d_max_, skin_;
   const WallGeometry& walls_;
   FreeBodies* bodies_;

@@ -11,13 +11,13 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The grains' law with the material of a body: Hertz and Mindlin, without resistance to rolling.
+/// The law of a body from its material: Hertz and Mindlin, and the grains' way to resist rolling.
 BodyMaterial material_of(const Config& config, const FreeConfig& f) {
   Config own = config;
-  own.grain.E = f.E, own.grain.nu = f.nu, own.grain.mu = f.mu, own.grain.e = f.e;
+  own.grain.E = f.E, own.grain.nu = f.nu, own.grain.mu = f.mu, own.grain.mu_r = f.mu_r, own.grain.e = f.e;
   own.contact.normal = "hertz";
   own.contact.tangential = "mindlin";
-  own.contact.rolling = "none";
+  if (f.mu_r == 0) own.contact.rolling = "none";
   own.contact.he_damping = false;
   BodyMaterial m;
   m.law = make_contact_law(own);
@@ -57,6 +57,7 @@ FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeome
     for (const BodyBall& ball : contact_balls(body, config.domain)) {
       const double R_star = body.free.contact_radius > 0 ? body.free.contact_radius : ball.radius;
       contact_radius_ = std::min(contact_radius_, R_star);
+      largest_radius_ = std::max(largest_radius_, R_star);
       balls.push_back({ball.centre, ball.radius, R_star, Index(places_[b])});
     }
   }

@@ -130,7 +130,8 @@ class FreeBodies {
   std::vector<double> reaches_;  ///< the same of all particles and their images, m
   std::vector<double> eases_;    ///< largest 1/effective mass, 1/kg
   std::vector<RigidMotion> now_;
-  double contact_radius_ = 0, give_ = 0;  ///< smallest R*, m; least (1 - nu^2)/E of a body, 1/Pa
+  double contact_radius_ = 0, largest_radius_ = 0;  ///< smallest and largest R*, m
+  double give_ = 0;                                 ///< least (1 - nu^2)/E of a body, 1/Pa
 
   mutable BodyStore store_;  ///< kernels take its spans from const members too
   Buffer<RigidBody> constants_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bedload/case/limits.hpp"
 #include "src/walls/free_bodies.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -33,29 +34,36 @@ double FreeBodies::top_speed(double dt) const {
 std::vector<StepLimit> FreeBodies::limits(double wall_speed) const {
   if (!any()) return {};
   const double g = norm(config_.gravity) + config_.frame.acceleration;
-  double contact = kInfinity, turn = kInfinity;
+  double contact = kInfinity, roll = kInfinity, turn = kInfinity;
   for (int k = 0; k < size(); ++k) {
     const double size = 2 * sizes_[k];
     const double speed =
         std::max(norm(now_[k].v) + sizes_[k] * norm(now_[k].omega) + wall_speed, std::sqrt(g * size));
     turn = std::min(turn, 0.02 * size / std::max(speed, 1e-300));
-    const auto touches = [&](double m, double R, double E) {
-      contact = std::min(contact, 2.8683 * std::pow(m * m / (R * E * E * speed), 0.2));
-    };
     if (speed == 0) continue;
     const double wall_give = (1 - config_.grain.nu * config_.grain.nu) / config_.grain.E;
-    if (balls_.size() > 0)
-      touches(1 / (2 * eases_[k]), contact_radius_, 1 / (give_ + std::min(give_, wall_give)));
+    if (balls_.size() > 0) {
+      const HertzImpact impact =
+          hertz_impact(1 / (2 * eases_[k]), contact_radius_, 1 / (give_ + std::min(give_, wall_give)), speed);
+      contact = std::min(contact, impact.duration);
+      const Vec3d& I = bodies_[k].moments;
+      const double mu_r = config_.wall.bodies[bodies_[k].body].free.mu_r;
+      if (config_.contact.rolling == "epsd")
+        roll = std::min(
+            roll, rolling_limit(impact.stiffness, mu_r, largest_radius_, 0.5 * std::min({I.x, I.y, I.z})));
+    }
     if (config_.grain.present) {
       const double R = 0.5 * config_.grain.d_min;
       const double m = 1 / (1 / (4.0 / 3.0 * M_PI * R * R * R * config_.grain.rho) + eases_[k]);
-      if (config_.contact.normal == "hertz") touches(m, R, 0.5 / wall_give);
+      if (config_.contact.normal == "hertz")
+        contact = std::min(contact, hertz_impact(m, R, 0.5 / wall_give, speed).duration);
       if (config_.contact.normal == "linear")
         contact = std::min(contact, M_PI * std::sqrt(m / config_.contact.k));
     }
   }
   std::vector<StepLimit> all;
   if (std::isfinite(contact)) all.push_back({"body contact", config_.time.contact * contact});
+  if (std::isfinite(roll)) all.push_back({"body rolling", roll});
   all.push_back({"body turn", turn});
   return all;
 }

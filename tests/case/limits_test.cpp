@@ -19,11 +19,12 @@ Config bead() {
 TEST(GrainLimits, ReproduceTheReferenceTimesOfABead) {
   const Config c = bead();
   const auto limits = grain_limits(c);
-  ASSERT_EQ(limits.size(), 2u);
+  ASSERT_EQ(limits.size(), 3u);
   EXPECT_EQ(limits[0].name, "rayleigh");
   EXPECT_NEAR(limits[0].seconds / c.time.rayleigh, 3.6945e-5, 4e-9);
   EXPECT_EQ(limits[1].name, "contact");
   EXPECT_NEAR(limits[1].seconds / c.time.contact, 1.737e-4, 2e-7);
+  EXPECT_EQ(limits[2].name, "rolling");
   EXPECT_FALSE(limits[0].binds);
   EXPECT_TRUE(limits[1].binds);
 }
@@ -32,6 +33,7 @@ TEST(GrainLimits, LinearContactsLastHalfAPeriod) {
   Config c = bead();
   c.contact.normal = "linear";
   c.contact.k = 1e4;
+  c.grain.e = 1;
   const double m = 2500 * 3.14159265 / 6 * 0.0027 * 0.0027 * 0.0027 / 2;
   EXPECT_NEAR(grain_limits(c)[1].seconds, 0.04 * 3.14159265 * std::sqrt(m / 1e4), 1e-12);
 }

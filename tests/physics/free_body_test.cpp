@@ -195,6 +195,25 @@ TEST(FreeBodyContacts, SlidingBlockStopsByFriction) {
   EXPECT_NEAR(reading(s->body_state(0), "force_by_bodies_z"), -0.4 * g, 1e-3 * 0.4 * g) << "on the ground";
 }
 
+TEST(FreeBodyContacts, RollingBallStopsByRollingFriction) {
+  for (const char* law : {"epsd", "cdt"}) {
+    Config c = void_case();
+    c.contact.rolling = law;
+    WallBody ball = test::shaped("ball", make_sphere({0, 0, 0.05}, 0.05));
+    set_free(ball, 1000);
+    ball.free.mu = 0.5, ball.free.mu_r = 0.05, ball.free.e = 0.3;
+    ball.free.velocity = {0.1, 0, 0}, ball.free.spin = {0, 0.1 / 0.05, 0};
+    c.wall.bodies = {ground(), ball};
+    auto s = started(c);
+    run_until(*s, 0.15);
+    const double a = 5.0 / 7.0 * 0.05 * 9.81;
+    EXPECT_NEAR((0.1 - reading(s->body_state(1), "velocity_x")) / (a * s->time()), 1, 0.02) << law;
+    run_until(*s, 0.5);
+    EXPECT_LT(std::abs(reading(s->body_state(1), "velocity_x")), 2e-3) << law << ", epsd rocks for a while";
+    EXPECT_NEAR(reading(s->body_state(1), "centre_x") / (0.01 / (2 * a)), 1, 0.03) << law;
+  }
+}
+
 TEST(FreeBodyContacts, PassThroughABodyThatTouchesNobody) {
   Config c = void_case();
   c.gravity = {};
@@ -216,7 +235,7 @@ TEST(FreeBodyContacts, TwoBodiesKeepMomentumAndAngularMomentum) {
   WallBody a = test::shaped("a", make_box({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05}));
   WallBody b = test::shaped("b", make_cylinder({0.08, 0.02, -0.05}, {0.08, 0.02, 0.06}, 0.025));
   set_free(a, 1500).free.velocity = {0.8, 0.1, 0};
-  a.free.spin = {1, 3, -2};
+  a.free.spin = {1, 3, -2}, a.free.mu_r = 0.1;
   set_free(b, 4000).free.velocity = {-0.6, 0, 0.1};
   b.free.E = 3e7, b.free.spin = {0, -2, 5};
   c.wall.bodies = {a, b};

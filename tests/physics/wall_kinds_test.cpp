@@ -245,6 +245,15 @@ TEST(SmallThinWalls, CountPairsThatSeeEachOtherThroughThem) {
   setup.fluid.x[4].z = 0.1199;  // within reach of the lower one, 0.03 m
   setup.fluid.x[0].z = 0.0901;
   EXPECT_EQ(reading(started(c, setup)->diagnostics(), "fluid_pairs_through_walls"), 2);
+
+  WallBody& riser = c.wall.bodies[0];  // comes to where the plate was
+  riser.min.z -= 0.05, riser.max.z -= 0.05;
+  riser.motion.kind = "velocity";
+  riser.motion.velocity = {0, 0, 10};
+  const auto s = started(c, setup);
+  EXPECT_EQ(reading(s->diagnostics(), "fluid_pairs_through_walls"), 0);
+  run_until(*s, 0.005);
+  EXPECT_EQ(reading(s->diagnostics(), "fluid_pairs_through_walls"), 2);
 }
 
 }  // namespace

@@ -213,5 +213,28 @@ TEST(Walls, RotatingPlaneCarriesTheGrainRound) {
   EXPECT_NEAR(f.y / (b.config.grain.mu * f.z), 1, 1e-2);
 }
 
+TEST(Walls, HaveFrictionAndRestitutionOfTheirOwn) {
+  GrainBench b;
+  b.config.gravity = {0, 0, -9.81};
+  b.config.contact.rolling = "epsd";
+  b.config.grain.mu = 0.3, b.config.grain.mu_r = 0.02, b.config.grain.e = 0.9;
+  b.config.wall.bodies = {box({-0.05, -0.05, -0.01}, {0.05, 0, 0}), box({-0.05, 0, -0.01}, {0.05, 0.05, 0})};
+  b.config.wall.bodies[0].mu = 0.1, b.config.wall.bodies[0].mu_r = 0.1, b.config.wall.bodies[0].e = 0.5;
+  const double rest = b.R() - b.resting_overlap(b.mass() * 9.81);
+  for (double y : {-0.02, 0.02}) b.add({-0.03, y, rest}, {0.5, 0, 0});                       // slides
+  for (double y : {-0.03, 0.03}) b.add({-0.03, y, rest}, {0.2, 0, 0}, {0, 0.2 / b.R(), 0});  // rolls
+  for (double y : {-0.04, 0.04}) b.add({-0.03, y, b.R()}, {0, 0, -0.2});                     // jumps
+  b.start();
+  const double dt = 1e-6;
+  b.run(dt, 1000);
+  EXPECT_NEAR(b.velocity(4).z / 0.2, 0.5, 0.05);
+  EXPECT_NEAR(b.velocity(5).z / 0.2, 0.9, 0.05);
+  b.run(dt, 19000);
+  EXPECT_NEAR((0.5 - b.velocity(0).x) / (0.1 * 9.81 * b.time), 1, 0.01);
+  EXPECT_NEAR((0.5 - b.velocity(1).x) / (0.3 * 9.81 * b.time), 1, 0.01);
+  EXPECT_NEAR((0.2 - b.velocity(2).x) / (5.0 / 7.0 * 0.1 * 9.81 * b.time), 1, 0.05);
+  EXPECT_NEAR((0.2 - b.velocity(3).x) / (5.0 / 7.0 * 0.02 * 9.81 * b.time), 1, 0.05);
+}
+
 }  // namespace
 }  // namespace bedload::inline BL_VARIANT

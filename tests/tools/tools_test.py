@@ -12,8 +12,10 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 TOOLS = ROOT / "tools"
-sys.path[:0] = [str(TOOLS), str(ROOT / "cases" / "agitated_tube")]
+sys.path[:0] = [str(TOOLS), str(ROOT / "cases" / "agitated_tube"), str(ROOT / "cases" / "rotating_drum")]
+import bed  # noqa: E402
 import outlines  # noqa: E402
+import phases  # noqa: E402
 import plot  # noqa: E402
 import rolling  # noqa: E402
 import solids  # noqa: E402
@@ -321,6 +323,31 @@ class Agitator(unittest.TestCase):
     def test_resistance_to_rolling_takes_energy(self):
         slow, fast = (max(abs(v) for _, _, v in rolling.motion(0.3, couple, 1)) for couple in (0.13, 0))
         self.assertLess(slow, 0.7 * fast)
+
+    def test_phases_of_a_swing(self):
+        phase = np.linspace(0, 2, 2001)
+        z = -np.cos(0.5 * np.cos(np.pi * (phase - 0.6)))
+        found = phases.events(phase, z, np.zeros_like(z))
+        half = np.arccos(np.arccos((1 + np.cos(0.5)) / 2) / 0.5) / np.pi
+        for name, at in {"A": 0.6, "B": 0.6 + half, "C": 1.1, "D": 1.6 - half, "E": 1.6}.items():
+            self.assertAlmostEqual(found[name][0], at, delta=0.002, msg=name)
+
+
+class Bed(unittest.TestCase):
+    def test_extents_with_and_without_a_lone_grain(self):
+        drum = object.__new__(bed.Drum)
+        drum.radius, drum.length = 0.05, 0.1
+        drum.lay_out()
+        d = 2.5e-3
+        x, y, z = (k.ravel() * d / 2 for k in np.meshgrid(np.arange(-16, 17), [0], np.arange(-30, -9)))
+        places = np.append(np.transpose([x, y, z]), [[0.03, 0.0, 0.02]], axis=0)
+        radius = np.full(len(places), d / 2)
+        width, height = bed.extents(places, radius)
+        self.assertAlmostEqual(width, 0.03 + 8 * d + d)
+        self.assertAlmostEqual(height, 0.02 + 15 * d + d)
+        width, height = drum.compact(drum.filled(places, radius), d)
+        self.assertAlmostEqual(width, 17 * d, delta=2 * bed.CELL)
+        self.assertAlmostEqual(height, 11 * d, delta=2 * bed.CELL)
 
 
 if __name__ == "__main__":

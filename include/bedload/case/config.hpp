@@ -171,6 +171,7 @@ struct FreeConfig {
   double E = 0, e = 0;                         ///< Pa, - (default grain.*)
   double nu = std::numeric_limits<double>::infinity();  ///< (default grain.nu)
   double mu = std::numeric_limits<double>::infinity();  ///< (default grain.mu)
+  double mu_r = 0;                             ///< rolling friction
   double contact_spacing = 0;                  ///< of sampled balls, m (resolved; 0: balls are given)
   double contact_radius = 0;                   ///< R* of contacts, m; 0: the ball's own radius
   std::vector<BodyBall> balls;                 ///< instead of sampled ones
@@ -190,6 +191,9 @@ struct WallBody {
   bool repulsion = true;                       ///< Monaghan repulsion beside the wall's pressure
   std::string force = "kajtar";                ///< single_layer: kajtar, monaghan
   double dx = 0;                               ///< spacing of its particles, m; 0: wall.dx
+  double mu = std::numeric_limits<double>::infinity();    ///< sliding friction of grains on it (default grain.mu)
+  double mu_r = std::numeric_limits<double>::infinity();  ///< rolling friction (default grain.mu_r)
+  double e = 0;                                ///< restitution; 0: grain.e
   MotionConfig motion;
   FreeConfig free;                             ///< instead of a motion
   Solid solid;                                 ///< of a named shape (resolved)
