@@ -3,11 +3,11 @@
 
     phases.py RUN_DIR [--period N]
 
-Writes RUN_DIR/periods.csv (top speed of the agitator in each period), RUN_DIR/phases.csv (phase and speed of the
-five events of He et al. (2018), Fig. 10: A and E highest, C lowest, B and D half-way down and up between them; the
-paper does not say what its B and D are) and RUN_DIR/phases.png: height and speed of the agitator over the period, and the
-speed of the water at the five phases, across the tube and seen from above along its axis. Takes the last whole period,
-or number N from 1. Needs frames of that period (out.every of a twentieth of it or less) for the water.
+Writes RUN_DIR/periods.csv (top speed of the agitator in each period), RUN_DIR/phases.csv (phase and speed of the five
+events of He et al. (2018), Fig. 10: A and E highest, C lowest, B and D half-way down and up between them; the paper
+does not say what its B and D are) and RUN_DIR/phases.png: height and speed of the agitator over the period, and the
+speed of the water at the five phases, across the tube and seen from above along its axis. Takes the last whole
+period, or number N from 1. Needs frames of that period (out.every of a twentieth of it or less) for the water.
 """
 
 import argparse
