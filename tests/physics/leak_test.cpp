@@ -14,7 +14,7 @@ namespace {
 /// How much is shaken and how long: BEDLOAD_LEAK="fluid grains seconds" if that is set.
 struct Load {
   double fluid = BL_CUDA ? 1e6 : 4e3, grains = BL_CUDA ? 1e5 : 400;  ///< particles, about
-  double end = BL_CUDA ? 0.5 : 1;                                    ///< s
+  double end = 0.5;                                                  ///< s
 
   Load() {
     if (const char* given = std::getenv("BEDLOAD_LEAK")) {
