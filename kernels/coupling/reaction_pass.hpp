@@ -6,31 +6,51 @@ namespace bedload::inline BL_VARIANT {
 /// What each grain gives back: fluid particle a at r from it receives -phi (impulse - A x r), and
 /// likewise of the force. The couple A has no net force; with M A = arm x impulse - torque it takes
 /// the torque on the grain out of the fluid and cancels the moment of spreading off its centre.
+///
+/// With local slip the drag of a particle follows its own velocity: it receives -phi K dt (v_a - u) besides,
+/// u being the mean motion around the grain, with the couple a rigid one. These parts have neither net
+/// impulse nor, with the couple, net moment; the grain feels nothing of them.
 struct ReactionShares {
   Span<Real4> impulse;       ///< N s, + A x arm; w: 1/S_j
   Span<Real3> force;         ///< N, + B x arm
   Span<Real3> spin_couple;   ///< A, N s/m
   Span<Real3> force_couple;  ///< B, N/m
+  Span<Real4> mean;          ///< u at the grain's centre, m/s; w: K dt, kg
+};
+
+/// What becomes of differences of velocity around a grain.
+struct LocalSlip {
+  Real dt;  ///< s
+  Span<const Real> K;
+  Span<const Real3> U, omega_f;
 };
 
 /// Grain j makes up its shares.
-template <bool Couple>
+template <bool Couple, bool Local>
 struct SharePass {
   Span<const Real3> impulse, spin_impulse, fluid_force;
   GrainSurroundings surroundings;
+  LocalSlip slip;
   ReactionShares shares;
 
   BL_HD void operator()(Index j) const {
-    Real3 J = impulse[j], F = fluid_force[j];
+    Real3 J = impulse[j], F = fluid_force[j], u, omega;
+    const Real Kdt = Local ? slip.dt * slip.K[j] : Real(0);
+    if constexpr (Local) u = slip.U[j];
     if constexpr (Couple) {
       const Real3 arm = surroundings.arm[j];
       const Real3 A = surroundings.inv_M[j] * (cross(arm, J) - spin_impulse[j]);
       const Real3 B = surroundings.inv_M[j] * cross(arm, F);
       J += cross(A, arm);
       F += cross(B, arm);
-      shares.spin_couple[j] = A;
+      if constexpr (Local) {
+        omega = slip.omega_f[j];
+        u -= cross(omega, arm);
+      }
+      shares.spin_couple[j] = A + Kdt * omega;
       shares.force_couple[j] = B;
     }
+    if constexpr (Local) shares.mean[j] = {u, Kdt};
     shares.impulse[j] = {J, surroundings.inv_S[j]};
     shares.force[j] = F;
   }
@@ -38,7 +58,7 @@ struct SharePass {
 
 /// Fluid particle a takes the drag impulse into its velocity and keeps the pressure part as an
 /// acceleration [harting14] Eq. 14.
-template <class W, bool Couple>
+template <class W, bool Couple, bool Local>
 struct ReactionPass {
   FluidWeight<W> weight;
   ReactionShares shares;
@@ -56,6 +76,10 @@ struct ReactionPass {
     const Vec4<N> share = shares.impulse[j];
     const N phi = weight(a, r2) * share.w;
     Vec3<N> J = share.xyz(), F = shares.force[j];
+    if constexpr (Local) {
+      const Vec4<N> mean = shares.mean[j];
+      J += mean.w * (Vec3<N>(v_rho[a].xyz()) - mean.xyz());
+    }
     if constexpr (Couple) {
       const Vec3<N> A = shares.spin_couple[j], B = shares.force_couple[j];
       J -= cross(A, r_aj);

@@ -20,6 +20,7 @@ Config preset_defaults(const std::string& name) {
   c.couple.integrator = "explicit";
   c.couple.torque = false;
   c.couple.angmom = false;
+  c.couple.slip = "mean";
   c.couple.damping = 0;
   c.time.integrator = "euler";
   return c;

@@ -64,13 +64,14 @@ Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry&
       S_wet_(Real(config.couple.S_wet)),
       two_way_(config.couple.mode == "two_way"),
       torque_(config.couple.torque),
-      angmom_(config.couple.angmom) {
+      angmom_(config.couple.angmom),
+      local_slip_(config.couple.slip == "local") {
   if (config.couple.wall_normalise) walls_ = walls.view();
   with_kernel(kernel_, h_c_, [&](auto w) { half_space_ = HalfSpaceShare::of(w); });
 }
 
 GrainSurroundings Coupling::surroundings() { return {x_, inv_S_, rho_, arm_, inv_M_}; }
-ReactionShares Coupling::shares() { return {impulse_, force_, spin_couple_, force_couple_}; }
+ReactionShares Coupling::shares() { return {impulse_, force_, spin_couple_, force_couple_, mean_}; }
 
 void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid,
                              const GrainStore& grains, const CellGridView& grain_grid, double skin) {
@@ -137,7 +138,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, double dt) {
                 LimitPass{Real(dt), rate_, grains.K, grains.K_rot, stiffness_});
 }
 
-void Coupling::react(FluidStore& fluid, const GrainStore& grains) {
+void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
   if (!two_way_) {
     fluid.reaction.buffer().zero();
     fluid.drag_kick.buffer().zero();
@@ -149,13 +150,17 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains) {
     spin_couple_.resize(grains.size());
     force_couple_.resize(grains.size());
   }
+  if (local_slip_) mean_.resize(grains.size());
+  const LocalSlip slip{Real(dt), grains.K, grains.U, grains.omega_f};
   with_flag(angmom_, [&](auto couple) {
-    for_each(grains.owned(), SharePass<couple>{grains.impulse, grains.spin_impulse, grains.fluid_force,
-                                               surroundings(), shares()});
-    with_weight(kernel_, h_c_, fluid, [&](auto weight) {
-      for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, x_}, range_,
-                    ReactionPass<decltype(weight.w), couple>{weight, shares(), fluid.v_rho, fluid.reaction,
-                                                             fluid.drag_kick});
+    with_flag(local_slip_, [&](auto local) {
+      for_each(grains.owned(), SharePass<couple, local>{grains.impulse, grains.spin_impulse,
+                                                        grains.fluid_force, surroundings(), slip, shares()});
+      with_weight(kernel_, h_c_, fluid, [&](auto weight) {
+        for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, x_}, range_,
+                      ReactionPass<decltype(weight.w), couple, local>{weight, shares(), fluid.v_rho,
+                                                                      fluid.reaction, fluid.drag_kick});
+      });
     });
   });
 }

@@ -41,10 +41,9 @@ class Coupling {
   /// Fills eps, wetness, U, omega_f, fluid_force, K and K_rot of the grains. dt (s): the fluid step
   /// for which they hold, which bounds K when the fluid is to take the reaction.
   void gather(const FluidStore& fluid, GrainStore& grains, double dt);
-  /// Gives grains.impulse and spin_impulse back to the velocities of the fluid, and sets fluid.drag_kick
-  /// to what they changed by and fluid.reaction; neither fluid positions, masses nor densities may have
-  /// changed since gather.
-  void react(FluidStore& fluid, const GrainStore& grains);
+  /// Gives grains.impulse and spin_impulse, those of a step dt (s), back to the velocities of the fluid, and sets
+  /// fluid.drag_kick to what they changed by and fluid.reaction; the fluid must not have changed since gather.
+  void react(FluidStore& fluid, const GrainStore& grains, double dt);
   /// Sets fluid.eps for the present positions; pose: of every wall body, on the device.
   /// `moved`: in the course of a step, so that the superficial density of torn fluid follows; else eps alone.
   void porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, bool moved = false);
@@ -63,7 +62,7 @@ class Coupling {
   std::string kernel_, drag_law_;
   double h_c_, range_, mu_, drag_fraction_;
   Real eps_min_, S_dry_, S_wet_;
-  bool two_way_, torque_, angmom_;
+  bool two_way_, torque_, angmom_, local_slip_;
 
   SurfaceSet walls_;  ///< that the porosity knows of
   HalfSpaceShare half_space_;
@@ -73,7 +72,7 @@ class Coupling {
   Buffer<Real> inv_S_, rho_, stiffness_, rate_;
   Buffer<Real3> arm_, force_, spin_couple_, force_couple_;
   Buffer<SymmetricMatrix<Real>> inv_M_;
-  Buffer<Real4> impulse_;
+  Buffer<Real4> impulse_, mean_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -35,7 +35,7 @@ StepInfo CoupledSimulation::step() {
     else
       bodies_.advance();
     watch_.lap(kGrains);
-    if (two_way()) coupling_->react(fluid_, grains_);
+    if (two_way()) coupling_->react(fluid_, grains_, dt);
     watch_.lap(kCoupling);
   }
   if (has_fluid()) {

@@ -22,7 +22,7 @@ Feels grain_at(double z) {
   const Real3 w = box.grains.U.values()[0] - box.grains.v.values()[0];
   box.grains.impulse.assign({Real(1e-4 * K) * w});
   box.grains.spin_impulse.buffer().zero();
-  box.coupling.react(box.fluid, box.grains);
+  box.coupling.react(box.fluid, box.grains, 1e-4);
   double reaction = 0;
   for (const Real3& r : box.fluid.reaction.values()) reaction += norm(r);
   for (const Real4& v : box.fluid.v_rho.values()) reaction += norm(v.xyz());
@@ -79,7 +79,7 @@ TEST(Drying, ACoupleNeedsASpreadOfFluid) {
     box.grains.impulse.assign({Real3(1, 2, 3)});
     box.grains.spin_impulse.buffer().zero();
     const auto before = box.fluid.v_rho.values();
-    box.coupling.react(box.fluid, box.grains);
+    box.coupling.react(box.fluid, box.grains, 1e-4);
     const auto after = box.fluid.v_rho.values();
     Vec3d change;
     for (std::size_t a = 0; a < x.size(); ++a)

@@ -56,7 +56,7 @@ Balances exchange(CoupledBox& box, double dt) {
   const auto before = box.fluid.v_rho.values();
   box.coupling.gather(box.fluid, box.grains, dt);
   drag_grains(box, dt);
-  box.coupling.react(box.fluid, box.grains);
+  box.coupling.react(box.fluid, box.grains, dt);
   const auto after = box.fluid.v_rho.values();
   const auto mass = box.fluid.mass.values();
   const auto reaction = box.fluid.reaction.values(), kick = box.fluid.drag_kick.values();
@@ -100,12 +100,64 @@ TEST(Exchange, ConservesMomentumForEveryKernelAndLaw) {
 }
 
 TEST(Exchange, ConservesAngularMomentumWithTheCouple) {
-  CoupledBox box = irregular(unit_box(0.12, 20));
-  const Balances b = exchange(box, 0.05);
-  EXPECT_LT(b.momentum.error(), kInvariant);
-  EXPECT_LT(b.force.error(), kInvariant);
-  EXPECT_LT(b.spin.error(), kInvariant);
-  EXPECT_LT(b.moment.error(), kInvariant);
+  for (const char* slip : {"local", "mean"}) {
+    Config c = unit_box(0.12, 20);
+    c.couple.slip = slip;
+    CoupledBox box = irregular(c);
+    const Balances b = exchange(box, 0.05);
+    EXPECT_LT(b.momentum.error(), kInvariant) << slip;
+    EXPECT_LT(b.force.error(), kInvariant) << slip;
+    EXPECT_LT(b.spin.error(), kInvariant) << slip;
+    EXPECT_LT(b.moment.error(), kInvariant) << slip;
+  }
+}
+
+TEST(Exchange, FluidTakesWhatASumOverAllPairsGives) {
+  const double dt = 0.05;
+  for (const bool local : {true, false}) {
+    Config c = unit_box(0.12, 20);
+    c.couple.slip = local ? "local" : "mean";
+    c.couple.angmom = false;
+    CoupledBox box = irregular(c);
+    const auto before = box.fluid.v_rho.values();
+    exchange(box, dt);
+    const WendlandC2 w(0.12);
+    const auto at = box.fluid_places();
+    const auto x = box.grains.x.values();
+    const auto mass = box.fluid.mass.values(), K = box.grains.K.values();
+    const auto U = box.grains.U.values(), J = box.grains.impulse.values();
+    const auto kick = box.fluid.drag_kick.values();
+    const auto weight = [&](std::size_t a, std::size_t j) {
+      return mass[a] / before[a].w * double(w.W(Real(norm(at[a] - x[j]))));
+    };
+    std::vector<Vec3d> expected(at.size());
+    for (std::size_t j = 0; j < x.size(); ++j) {
+      double S = 0;
+      for (std::size_t a = 0; a < at.size(); ++a) S += weight(a, j);
+      for (std::size_t a = 0; a < at.size(); ++a) {
+        const Vec3d own = Vec3d(before[a].xyz() - U[j]) * (local ? dt * K[j] : 0);
+        expected[a] -= (Vec3d(J[j]) + own) * (weight(a, j) / S / mass[a]);
+      }
+    }
+    for (std::size_t a = 0; a < at.size(); ++a)
+      EXPECT_LT(norm(Vec3d(kick[a]) - expected[a]), 4 * kInvariant)
+          << "particle " << a << ", local " << local;
+  }
+}
+
+TEST(Exchange, WaterThatTurnsAsAWholeIsNotSlowedByItsSlip) {
+  std::mt19937_64 random(4);
+  Cloud fluid = random_fluid(3000, {0, 0, 0}, {1, 1, 1}, 1000, random);
+  const Vec3d spin{1, -2, 0.5}, drift{3, 0, 1};
+  for (std::size_t a = 0; a < fluid.x.size(); ++a) fluid.v[a] = drift + cross(spin, fluid.x[a]);
+  CoupledBox box(unit_box(0.12, 20), fluid,
+                 random_grains(20, {0.3, 0.3, 0.3}, {0.7, 0.7, 0.7}, 0.06, random));
+  box.coupling.gather(box.fluid, box.grains, 0.05);
+  box.grains.impulse.buffer().zero();
+  box.grains.spin_impulse.buffer().zero();
+  EXPECT_GT(box.grains.K.values()[0], 0);
+  box.coupling.react(box.fluid, box.grains, 0.05);
+  for (const Real3& kick : box.fluid.drag_kick.values()) EXPECT_LT(norm(kick), 30 * kInvariant);
 }
 
 TEST(Exchange, LosesAngularMomentumWithoutTheCouple) {
@@ -223,7 +275,7 @@ TEST(Exchange, StillWaterInAUniformBedStaysStill) {
   CoupledBox box(c, fluid, grains);
   box.coupling.gather(box.fluid, box.grains, 1e-4);
   drag_grains(box, 1e-4);
-  box.coupling.react(box.fluid, box.grains);
+  box.coupling.react(box.fluid, box.grains, 1e-4);
   for (const Real3& reaction : box.fluid.reaction.values())
     EXPECT_NEAR(9.81 / eps - 9.81 + reaction.z, 0, 2e-2 * 9.81);
   const double volume = M_PI / 6 * d * d * d;
