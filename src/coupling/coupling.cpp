@@ -134,8 +134,11 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, double dt) {
     for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, x_}, range_,
                   DragRatePass<decltype(weight.w)>{weight, inv_S_, grains.K, rate_});
   });
-  for_each_pair(grains.owned(), fluid_of_grain_, to_fluid, range_,
-                LimitPass{Real(dt), rate_, grains.K, grains.K_rot, stiffness_});
+  fastest_ = reduce({0, Index(rate_.size())}, LargestRate{rate_});
+  limits_ = dt * fastest_ > 1;
+  if (limits_)
+    for_each_pair(grains.owned(), fluid_of_grain_, to_fluid, range_,
+                  LimitPass{Real(dt), rate_, grains.K, grains.K_rot, stiffness_});
 }
 
 void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
@@ -176,14 +179,13 @@ void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const 
 }
 
 double Coupling::stable_dt() const {
-  const double rate = two_way_ ? reduce({0, Index(rate_.size())}, LargestRate{rate_}) : 0;
-  return rate > 0 ? drag_fraction_ / rate : std::numeric_limits<double>::infinity();
+  return fastest_ > 0 ? drag_fraction_ / fastest_ : std::numeric_limits<double>::infinity();
 }
 
 CouplingCounters Coupling::counters(const FluidStore& fluid, const GrainStore& grains) const {
   const Index n = Index(stiffness_.size());
   return {reduce(fluid.owned(), CountEntries{fluid.eps, eps_min_, false}),
-          two_way_ ? reduce({0, n}, CountEntries{stiffness_, 1, true}) : 0,
+          limits_ ? reduce({0, n}, CountEntries{stiffness_, 1, true}) : 0,
           reduce(grains.owned(), CountEntries{grains.wetness, 0, true})};
 }
 

@@ -39,7 +39,7 @@ class Coupling {
                      const CellGridView& grain_grid, double skin);
 
   /// Fills eps, wetness, U, omega_f, fluid_force, K and K_rot of the grains. dt (s): the fluid step
-  /// for which they hold, which bounds K when the fluid is to take the reaction.
+  /// for which they hold, which bounds K when the fluid is to take the reaction. Waits for the device then.
   void gather(const FluidStore& fluid, GrainStore& grains, double dt);
   /// Gives grains.impulse and spin_impulse, those of a step dt (s), back to the velocities of the fluid, and sets
   /// fluid.drag_kick to what they changed by and fluid.reaction; the fluid must not have changed since gather.
@@ -48,7 +48,7 @@ class Coupling {
   /// `moved`: in the course of a step, so that the superficial density of torn fluid follows; else eps alone.
   void porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, bool moved = false);
 
-  /// Largest fluid step that drag allows (s), after the last gather; infinite without a reaction. Waits.
+  /// Largest fluid step that drag allows (s), after the last gather; infinite without a reaction.
   double stable_dt() const;
   /// Counts what is to be reported. Waits for the device.
   CouplingCounters counters(const FluidStore& fluid, const GrainStore& grains) const;
@@ -63,6 +63,8 @@ class Coupling {
   double h_c_, range_, mu_, drag_fraction_;
   Real eps_min_, S_dry_, S_wet_;
   bool two_way_, torque_, angmom_, local_slip_;
+  double fastest_ = 0;   ///< how fast drag stops any fluid particle, 1/s
+  bool limits_ = false;  ///< whether that is faster than the step
 
   SurfaceSet walls_;  ///< that the porosity knows of
   HalfSpaceShare half_space_;
