@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <numeric>
 
 #include "bedload/core/error.hpp"
 #include "bedload/core/fingerprint.hpp"
@@ -91,24 +92,53 @@ ShapePtr build_shape(ShapeConfig& c, const std::vector<ShapeConfig>& earlier) {
   return placed ? make_placed(shape, placement) : shape;
 }
 
+namespace {
+
+/// A raster over what is in a shape and below a level.
+struct Raster {
+  const Shape& shape;
+  Vec3d up;
+  double level;  ///< m, along up
+  Vec3d corner;
+  double step;  ///< m
+
+  /// How many of the size^3 cells from `low` on are inside, each by the depth of its centre: a plane anywhere
+  /// in it divides it by half on average. A distance changes no faster than the place: blocks far inside or
+  /// outside are not looked into. `size` is a power of two.
+  double cells(const Vec3d& low, int size) const {
+    const Vec3d x = corner + step * (low + Vec3d(0.5, 0.5, 0.5) * double(size));
+    const double distance = std::max(shape.distance(x), dot(up, x) - level);
+    const double farthest =
+        0.5 * std::numbers::sqrt3 * (size - 1);  // centre of a cell from the block's, in steps
+    const double inside = 0.5 - distance / step;
+    if (inside <= -farthest) return 0;
+    if (inside >= 1 + farthest) return double(size) * size * size;
+    if (size == 1) return inside;
+    double sum = 0;
+    const int half = size / 2;
+    for (int part = 0; part < 8; ++part)
+      sum += cells(low + double(half) * Vec3d(part & 1, part >> 1 & 1, part >> 2), half);
+    return sum;
+  }
+};
+
+}  // namespace
+
 double volume_below(const Shape& shape, const Vec3d& up, double level, double step) {
+  constexpr int block = 16;  // cells
   const Bounds bounds = shape.bounds();
   std::array<std::int64_t, 3> n;
   for (int k = 0; k < 3; ++k)
-    n[k] = std::max<std::int64_t>(1, std::int64_t(std::ceil((bounds.max[k] - bounds.min[k]) / step)));
-  // each cell counts by the depth of its centre: a plane anywhere in it divides it by half on average
-  std::vector<double> slabs(n[2]);
-  host_for_each(slabs.size(), [&](std::size_t l) {
-    for (std::int64_t j = 0; j < n[1]; ++j)
-      for (std::int64_t i = 0; i < n[0]; ++i) {
-        const Vec3d x = bounds.min + step * Vec3d{i + 0.5, j + 0.5, double(l) + 0.5};
-        const double distance = std::max(shape.distance(x), dot(up, x) - level);
-        slabs[l] += std::clamp(0.5 - distance / step, 0.0, 1.0);
-      }
+    n[k] =
+        std::max<std::int64_t>(1, std::int64_t(std::ceil((bounds.max[k] - bounds.min[k]) / (block * step))));
+  const Raster raster{shape, up, level, bounds.min, step};
+  std::vector<double> blocks(n[0] * n[1] * n[2]);
+  host_for_each(blocks.size(), [&](std::size_t q) {
+    const std::int64_t row = std::int64_t(q) / n[0];
+    blocks[q] = raster.cells(
+        double(block) * Vec3d(double(q - row * n[0]), double(row % n[1]), double(row / n[1])), block);
   });
-  double cells = 0;
-  for (const double slab : slabs) cells += slab;
-  return cells * step * step * step;
+  return std::accumulate(blocks.begin(), blocks.end(), 0.0) * step * step * step;
 }
 
 }  // namespace bedload
