@@ -9,7 +9,7 @@
 namespace bedload::inline BL_VARIANT {
 
 /// For every particle of the wall store: those whose ids follow `first` become fluid where they are, at their
-/// velocity and the pressure that they took from the fluid ahead.
+/// velocity and the pressure that they took from the fluid ahead. An orifice is free of grains.
 struct AdmitPass {
   Frame frame;
   EquationOfState eos;
@@ -25,7 +25,7 @@ struct AdmitPass {
   Span<const Real4> wall_v_rho, wall_m_state;
   Span<Id> fluid_id;
   Span<FluidPosition> x;
-  Span<Real4> v_rho;
+  Span<Real4> v_rho, m_state;
   Span<Real> s, fluid_mass, eps;
   Span<Real3> theta, fluid_acc;
 
@@ -38,31 +38,14 @@ struct AdmitPass {
     const Real compression = touches_fluid ? eos.compression(pressure) : Real(0);
     fluid_id[a] = id + k;
     x[a] = as_position<FluidPosition>(frame, wall_x[w]);
-    v_rho[a] = {wall_v_rho[w].xyz(), eos.rho0 * (1 + compression)};
+    const Real rho = eos.rho0 * (1 + compression), p = eos.pressure(compression);
+    v_rho[a] = {wall_v_rho[w].xyz(), rho};
+    m_state[a] = {mass, p / square(rho), rho, p};
     s[a] = compression;
     fluid_mass[a] = mass;
     eps[a] = 1;
     theta[a] = acc - gravity;  // what moves it as prescribed
     fluid_acc[a] = acc;
-  }
-};
-
-/// New fluid, of ids from `first` on, among grains: the same pressure at the porosity found there.
-struct ArrivePass {
-  EquationOfState eos;
-  Id first;
-  Span<const Id> id;
-  Span<const Real> eps, mass;
-  Span<Real> s;
-  Span<Real4> v_rho, m_state;
-
-  BL_HD void operator()(Index a) const {
-    if (id[a] < first) return;
-    const Real compression = s[a], p = eos.pressure(compression);
-    s[a] = eps[a] * (1 + compression) - 1;
-    const Real superficial = eos.rho0 * (1 + s[a]);
-    v_rho[a] = {v_rho[a].xyz(), superficial};
-    m_state[a] = {mass[a], p / square(superficial), eos.rho0 * (1 + compression), p};
   }
 };
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "bedload/core/span.hpp"
+#include "kernels/coupling/orifice_share.hpp"
 #include "kernels/coupling/wall_share.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -16,6 +17,7 @@ struct PorosityPass {
   W w;
   Real floor;
   WallFreeShare wall_free;
+  OrificeShare away_from_orifices;
   Frame frame;
   Span<const FluidPosition> x;
   Span<const Real> radius;
@@ -37,7 +39,10 @@ struct PorosityPass {
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.solid += other.solid; }
   BL_HD void finish(Index a, const Sum<>& sum) const {
     Real solid = sum.solid;
-    if (solid > 0) solid /= wall_free(coordinates(frame, x[a]));
+    if (solid > 0) {
+      const Vec3d at = coordinates(frame, x[a]);
+      solid *= away_from_orifices(at) / wall_free(at);
+    }
     const Real now = max_of(floor, 1 - solid);
     if (filled && now != eps[a]) s[a] = (1 + s[a]) * std::pow(now / eps[a], torn(filled[a])) - 1;
     eps[a] = now;

@@ -76,20 +76,18 @@ bool OpenBoundaries::find_leaving(WaysOut& ways, Span<const P> x, bool domain, c
   return true;
 }
 
-bool OpenBoundaries::renew(FluidStore& fluid, WallStore& walls, const EquationOfState& eos, double t,
+void OpenBoundaries::renew(FluidStore& fluid, WallStore& walls, const EquationOfState& eos, double t,
                            const Vec3d& gravity) {
   if (find_leaving(fluid_out_, Span<const FluidPosition>(fluid.x), true, FluidMass{fluid.mass})) {
     compaction_.find(fluid.size(), StaysTest{sink_}, kept_);
     fluid.reorder(kept_);
   }
-  arrived_ = Id(next_fluid_);
   for (std::size_t i = 0; i < motion_.inlets().size(); ++i)
     while (motion_.inlets()[i].due()) {
       admit(i, fluid, walls, eos, t, gravity);
       motion_.inlets()[i].next_layer();
       WallMotion::place(frame_, walls, motion_.poses(t, 0, 1));
     }
-  return next_fluid_ > arrived_;
 }
 
 // -- fluid in ------------------------------------------------------------------------------------
@@ -121,17 +119,13 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
                                     fluid.id,
                                     fluid.x,
                                     fluid.v_rho,
+                                    fluid.m_state,
                                     fluid.s,
                                     fluid.mass,
                                     fluid.eps,
                                     fluid.theta,
                                     fluid.acc});
   next_fluid_ += count;
-}
-
-void OpenBoundaries::arrive(FluidStore& fluid, const EquationOfState& eos) const {
-  for_each(fluid.owned(),
-           ArrivePass{eos, arrived_, fluid.id, fluid.eps, fluid.mass, fluid.s, fluid.v_rho, fluid.m_state});
 }
 
 // -- grains --------------------------------------------------------------------------------------

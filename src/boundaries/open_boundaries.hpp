@@ -32,11 +32,9 @@ class OpenBoundaries {
   /// A grain has come due at time t (s).
   bool grains_due(double t) const;
 
-  /// Takes out the fluid that has left, lets in what has come through at time t; true if some has. The
-  /// fluid's lists must be renewed then.
-  bool renew(FluidStore& fluid, WallStore& walls, const EquationOfState& eos, double t, const Vec3d& gravity);
-  /// State of the fluid let in last, at the porosity found where it is.
-  void arrive(FluidStore& fluid, const EquationOfState& eos) const;
+  /// Takes out the fluid that has left, lets in what has come through at time t. The fluid's lists must be
+  /// renewed then.
+  void renew(FluidStore& fluid, WallStore& walls, const EquationOfState& eos, double t, const Vec3d& gravity);
   /// Takes out and drops in grains; their lists must be renewed with what it returns.
   GrainRenewal renew(GrainStore& grains, double t);
 
@@ -73,7 +71,6 @@ class OpenBoundaries {
   WaysOut fluid_out_, grains_out_;
   std::vector<GrainSource> sources_;
   double next_fluid_ = 0, next_grain_ = 0;  ///< ids never given before
-  Id arrived_ = 0;                          ///< first id of the fluid let in last
 
   Buffer<std::uint32_t> sink_;
   Buffer<Index> kept_, came_from_;

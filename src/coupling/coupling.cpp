@@ -49,12 +49,28 @@ struct CountEntries {
   BL_HD void combine(Value& into, const Value& v) const { into += v; }
 };
 
+std::vector<Orifice> orifices_of(const Config& config) {
+  std::vector<Orifice> all;
+  for (const InletConfig& inlet : config.inlets) {
+    Orifice o{inlet.centre, inlet.direction, {}, {inlet.radius, 0}, inlet.shape == "disc"};
+    if (!o.disc)
+      for (int k = 0; k < 2; ++k) {
+        const Vec3d side = k == 0 ? inlet.half_a : inlet.half_b;
+        o.half[k] = norm(side);
+        o.axis[k] = side / o.half[k];
+      }
+    all.push_back(o);
+  }
+  return all;
+}
+
 }  // namespace
 
 Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry& walls)
     : frame_(frame),
       kernel_(config.fluid.kernel),
       drag_law_(config.couple.drag),
+      dx_(config.fluid.dx),
       h_c_(config.couple.hc),
       range_(kernel_kappa(kernel_) * h_c_),
       mu_(config.fluid.mu),
@@ -68,6 +84,7 @@ Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry&
       local_slip_(config.couple.slip == "local") {
   if (config.couple.wall_normalise) walls_ = walls.view();
   with_kernel(kernel_, h_c_, [&](auto w) { half_space_ = HalfSpaceShare::of(w); });
+  orifices_.assign(orifices_of(config));
 }
 
 GrainSurroundings Coupling::surroundings() { return {x_, inv_S_, rho_, arm_, inv_M_}; }
@@ -171,9 +188,10 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
 void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, bool moved) {
   with_kernel(kernel_, h_c_, [&](auto w) {
     const WallFreeShare wall_free{half_space_, frame_, walls_, pose};
+    const OrificeShare orifice{frame_, orifices_, dx_, h_c_};
     for_each_pair(
         fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, grains.x}, range_,
-        PorosityPass<decltype(w)>{w, eps_min_, wall_free, frame_, fluid.x, grains.radius, fluid.eps,
+        PorosityPass<decltype(w)>{w, eps_min_, wall_free, orifice, frame_, fluid.x, grains.radius, fluid.eps,
                                   moved ? Span<const Real>(fluid.filled) : Span<const Real>(), fluid.s});
   });
 }

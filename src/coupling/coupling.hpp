@@ -13,6 +13,7 @@
 #include "bedload/neighbours/verlet_list.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/grains.hpp"
+#include "kernels/coupling/orifice_share.hpp"
 #include "kernels/coupling/reaction_pass.hpp"
 #include "kernels/coupling/wall_share.hpp"
 #include "src/walls/wall_geometry.hpp"
@@ -41,8 +42,9 @@ class Coupling {
   /// Fills eps, wetness, U, omega_f, fluid_force, K and K_rot of the grains. dt (s): the fluid step
   /// for which they hold, which bounds K when the fluid is to take the reaction. Waits for the device then.
   void gather(const FluidStore& fluid, GrainStore& grains, double dt);
-  /// Gives grains.impulse and spin_impulse, those of a step dt (s), back to the velocities of the fluid, and sets
-  /// fluid.drag_kick to what they changed by and fluid.reaction; the fluid must not have changed since gather.
+  /// Gives grains.impulse and spin_impulse, those of a step dt (s), back to the velocities of the fluid, and
+  /// sets fluid.drag_kick to what they changed by and fluid.reaction; the fluid must not have changed since
+  /// gather.
   void react(FluidStore& fluid, const GrainStore& grains, double dt);
   /// Sets fluid.eps for the present positions; pose: of every wall body, on the device.
   /// `moved`: in the course of a step, so that the superficial density of torn fluid follows; else eps alone.
@@ -60,7 +62,7 @@ class Coupling {
 
   Frame frame_;
   std::string kernel_, drag_law_;
-  double h_c_, range_, mu_, drag_fraction_;
+  double dx_, h_c_, range_, mu_, drag_fraction_;
   Real eps_min_, S_dry_, S_wet_;
   bool two_way_, torque_, angmom_, local_slip_;
   double fastest_ = 0;   ///< how fast drag stops any fluid particle, 1/s
@@ -68,6 +70,7 @@ class Coupling {
 
   SurfaceSet walls_;  ///< that the porosity knows of
   HalfSpaceShare half_space_;
+  Buffer<Orifice> orifices_;
 
   VerletList fluid_of_grain_, grains_of_fluid_;
   Buffer<Vec3d> x_;

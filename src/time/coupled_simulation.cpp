@@ -230,19 +230,14 @@ void CoupledSimulation::refresh_if_needed(double dt) {
 }
 
 void CoupledSimulation::refresh(bool fluid, bool grains) {
-  bool arrived = false;
   if (fluid) {
-    arrived = open_.renew(fluid_, walls_, fluid_solver_->eos(), clock_.time, gravity_.at(clock_.time));
+    open_.renew(fluid_, walls_, fluid_solver_->eos(), clock_.time, gravity_.at(clock_.time));
     fluid_solver_->refresh(fluid_, walls_, rebuilds_ == 0 || walls_moved_ > 0);
     walls_moved_ = 0;
   }
   if (grains) solid_solver_->refresh(grains_, grain_grid_, open_.renew(grains_, clock_.time));
   if (!fluid && !grains) return;
   if (coupled()) relist_coupling();
-  if (arrived) {
-    if (two_way()) coupling_->porosity(fluid_, grains_, poses_now());
-    open_.arrive(fluid_, fluid_solver_->eos());
-  }
   rebuilt_ = true;
   ++rebuilds_;
 }

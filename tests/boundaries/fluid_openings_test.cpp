@@ -71,7 +71,7 @@ TEST(Admit, TakesOverThePressureOfTheBuffer) {
   std::vector<Vec3d> wall_x{{0.5, 0.5, 0.5}};
   std::vector<Real4> wall_v{{Real3(1, 0, 0), superficial}}, wall_state{{1, p / square(superficial), 1000, 0}};
   std::vector<FluidPosition> x(1);
-  std::vector<Real4> v_rho(1);
+  std::vector<Real4> v_rho(1), state(1);
   std::vector<Real> s(1), mass(1), eps(1);
   std::vector<Real3> theta(1), acc(1);
   const auto span = [](auto& host) { return Span(host.data(), Index(host.size())); };
@@ -91,6 +91,7 @@ TEST(Admit, TakesOverThePressureOfTheBuffer) {
                        span(id),
                        span(x),
                        span(v_rho),
+                       span(state),
                        span(s),
                        span(mass),
                        span(eps),
@@ -99,6 +100,12 @@ TEST(Admit, TakesOverThePressureOfTheBuffer) {
   pass(0);
   EXPECT_EQ(id[0], 3u);
   EXPECT_NEAR(eos.pressure(s[0]), p, tolerance(1e-12, 1e-5, 1e-5) * p);
+  EXPECT_EQ(v_rho[0].w, Real(1000) * (1 + s[0]));
+  EXPECT_EQ(eps[0], 1) << "no grains in an orifice";
+  EXPECT_EQ(state[0].x, Real(0.5));
+  EXPECT_EQ(state[0].y, state[0].w / square(v_rho[0].w));
+  EXPECT_EQ(state[0].z, v_rho[0].w);
+  EXPECT_EQ(state[0].w, eos.pressure(s[0]));
   wall_state[0].x = 0;  // no fluid ahead
   pass(0);
   EXPECT_EQ(s[0], 0);
@@ -180,7 +187,7 @@ TEST(Inlet, GoesOnBitForBitAfterARestart) {
   expect_restart_is_bit_equal(*s, config, 150);
 }
 
-/// New fluid takes the porosity where it comes in: no pressure builds up there.
+/// Fluid makes room for the grains on its way from the orifice: no pressure builds up there.
 TEST(Inlet, FeedsFluidAmongGrains) {
   const Config config = config_of(kDuct + kFull + R"(velocity = [0.5, 0, 0]
 [grain]
@@ -205,6 +212,78 @@ velocity = [0.5, 0, 0]
   EXPECT_GT(reading(*s, "outlet_end_fluid_count"), 0);
   expect_books_balance(*s, laid);
   expect_restart_is_bit_equal(*s, config, 100);
+}
+
+/// Water let in from below stands as high among grains as their voids ask for.
+TEST(Inlet, FillsTheVoidsOfADryBed) {
+  constexpr double width = 0.08, volume = 0.6 * width * width * width;
+  auto s = started(R"([domain]
+min = [-0.02, -0.02, -0.06]
+max = [0.1, 0.1, 0.16]
+[fluid]
+dx = 0.01
+vmax = 1.8
+[[inlet]]
+name = "feed"
+shape = "rectangle"
+centre = [0.04, 0.04, 0]
+direction = [0, 0, 1]
+half_a = [0.02, 0, 0]
+half_b = [0, 0.02, 0]
+rate = 5.12e-4
+stop = 0.6
+[[wall.body]]
+name = "tank"
+shape = "tank"
+min = [0, 0, 0]
+max = [0.08, 0.08, 0.16]
+faces = ["x-", "x+", "y-", "y+"]
+[[wall.body]]
+name = "left"
+shape = "box"
+min = [0, 0, -0.06]
+max = [0.02, 0.08, 0]
+[[wall.body]]
+name = "right"
+shape = "box"
+min = [0.06, 0, -0.06]
+max = [0.08, 0.08, 0]
+[[wall.body]]
+name = "front"
+shape = "box"
+min = [0.02, 0, -0.06]
+max = [0.06, 0.02, 0]
+[[wall.body]]
+name = "back"
+shape = "box"
+min = [0.02, 0.06, -0.06]
+max = [0.06, 0.08, 0]
+[grain]
+d = 0.012
+fixed = true
+[[grain.fill]]
+min = [0, 0, 0]
+max = [0.08, 0.08, 0.16]
+packing_fraction = 0.4
+[time]
+end = 2
+[out]
+every = 1
+)");
+  run_until(*s, 0.9);
+  EXPECT_NEAR(reading(*s, "inlet_feed_mass"), 1000 * volume, 0.016);
+  EXPECT_EQ(reading(*s, "lost_fluid_count"), 0);
+  const HostStore fluid = s->snapshot("fluid");
+  const auto x = vectors(fluid, "position");
+  const auto eps = scalars(fluid, "porosity");
+  double bulk = 0, moment = 0;  // of the bed that is wet, m3, m4
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    bulk += 1e-6 / eps[a];
+    moment += 1e-6 / eps[a] * x[a].z;
+  }
+  EXPECT_GT(bulk / volume, 1.3) << "void share 0.6, more beside the orifice";
+  EXPECT_NEAR(2 * moment / bulk / (bulk / (width * width)), 1, 0.08)
+      << "level; 0.6 if it came in as in the bed";
 }
 
 TEST(Inlet, RoundJetIntoAnEmptyTank) {
@@ -256,6 +335,7 @@ b = [0.15, 0.2, 0.0]
 radius = 0.06
 [[outlet]]
 name = "left"
+shape = "box"
 min = [0, 0, 0]
 max = [0.1, 0.08, 0.05]
 [[outlet]]

@@ -79,6 +79,51 @@ TEST(Porosity, KnowsWhatShareOfTheKernelWallsLeave) {
   EXPECT_NEAR(share({0, 0, 0}), 0.25, 1e-6);
 }
 
+TEST(Porosity, IsOneInAnOrificeAndFallsToThatOfTheBed) {
+  const auto lies_in = [](const std::vector<InletConfig>& inlets) {
+    Config c = unit_box(0.2, 1e-3);
+    c.domain.periodic = {true, true, true};
+    c.fluid.dx = 0.05;
+    c.inlets = inlets;
+    std::mt19937_64 random(12);
+    return CoupledBox(c, fluid_at(random_points(4000, {0, 0, 0}, {1, 1, 1}, random), 0.1, 1000, 1),
+                      random_grains(2000, {0, 0, 0}, {1, 1, 1}, 0.05, random));
+  };
+  InletConfig disc, rectangle;
+  disc.shape = "disc";
+  disc.centre = {0.25, 0.25, 0.02};  // seen across the period, too
+  disc.direction = {0, 0, 1};
+  disc.radius = 0.1;
+  rectangle.shape = "rectangle";
+  rectangle.centre = {0.75, 0.75, 0.5};
+  rectangle.direction = {1, 0, 0};
+  rectangle.half_a = {0, 0.1, 0};
+  rectangle.half_b = {0, 0, 0.05};
+  CoupledBox plain = lies_in({}), open = lies_in({disc, rectangle});
+  plain.coupling.porosity(plain.fluid, plain.grains, {});
+  open.coupling.porosity(open.fluid, open.grains, {});
+  const auto at = open.fluid_places();
+  const auto bed = plain.fluid.eps.values(), eps = open.fluid.eps.values();
+  int one = 0, between = 0;
+  for (std::size_t a = 0; a < at.size(); ++a) {
+    const Vec3d r = open.frame.separation(at[a], disc.centre);
+    const Vec3d q = open.frame.separation(at[a], rectangle.centre);
+    const double from_disc = std::hypot(r.z, std::max(0.0, std::hypot(r.x, r.y) - 0.1));
+    const double from_rectangle =
+        std::hypot(q.x, std::max(0.0, std::abs(q.y) - 0.1), std::max(0.0, std::abs(q.z) - 0.05));
+    double share = 1;
+    for (const double distance : {from_disc, from_rectangle}) {
+      const double t = std::clamp((distance - 0.05) / 0.2, 0.0, 1.0);
+      share *= t * t * (3 - 2 * t);
+    }
+    EXPECT_NEAR(1 - eps[a], (1 - bed[a]) * share, kInvariant) << at[a].x << " " << at[a].y;
+    one += share == 0;
+    between += share > 0 && share < 1;
+  }
+  EXPECT_GT(one, 20);
+  EXPECT_GT(between, 200);
+}
+
 /// Porosity at random places in one box among random grains in another, beside walls that are `seen` or not.
 std::vector<Real> porosity_beside(const std::vector<WallBody>& bodies, bool seen, const Bounds& fluid,
                                   const Bounds& grains) {
