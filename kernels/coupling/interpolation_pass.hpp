@@ -14,18 +14,18 @@ struct GrainSurroundings {
 };
 
 /// Grain j reads the fluid: porosity, velocity, rotation, and the force of pressure and viscous
-/// stress on its volume, V_j sum phi rho~ theta [he18] Eqs. 27-29, corrected. Moments: whether the
-/// rotation and the couple are wanted.
+/// stress on its volume, V_j sum phi rho~ theta [he18] Eqs. 27-29, corrected, as if it were wet all over.
+/// Moments: whether the rotation and the couple are wanted.
 template <class W, bool Moments>
 struct InterpolationPass {
   FluidWeight<W> weight;
-  Real S_dry, S_wet, eps_min;
+  Real S_least, eps_min;  ///< of S, below which there is no mean to be had
   Span<const Real> fluid_eps;
   Span<const Real3> theta;
   Span<const Vec3d> x;
   Span<const Real3> v;
   Span<const Real> radius;
-  Span<Real> eps, wetness;
+  Span<Real> eps;
   Span<Real3> U, omega_f, fluid_force;
   GrainSurroundings surroundings;
 
@@ -72,15 +72,13 @@ struct InterpolationPass {
     }
   }
   BL_HD void finish(Index j, const Sum& sum) const {
-    const Real wet = clamp((Real(sum.S) - S_dry) / (S_wet - S_dry), Real(0), Real(1));
-    const Real inv_S = wet > 0 ? Real(1 / sum.S) : Real(0);
+    const Real inv_S = sum.S > S_least ? Real(1 / sum.S) : Real(0);
     surroundings.x[j] = x[j];
     surroundings.inv_S[j] = inv_S;
     surroundings.rho[j] = sum.rho * inv_S;
-    wetness[j] = wet;
     eps[j] = sum.S > 0 ? clamp(sum.eps / Real(sum.S), eps_min, Real(1)) : Real(1);
     U[j] = sum.v_grain + inv_S * sum.u;
-    fluid_force[j] = (wet * 4 * kPi / 3 * cube(radius[j]) * inv_S) * sum.rho_theta;
+    fluid_force[j] = (4 * kPi / 3 * cube(radius[j]) * inv_S) * sum.rho_theta;
     omega_f[j] = {};
     if constexpr (Moments) rotation(j, sum, inv_S);
   }

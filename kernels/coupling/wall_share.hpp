@@ -39,11 +39,13 @@ struct HalfSpaceShare {
 };
 
 /// Share of the kernel around a point that walls leave free. Each extent is taken for itself: exact for
-/// planes and for tanks up to the kernel's deviation from a product of three. Boxes end where they end, so what
-/// several of them hide adds up, side by side as they are and not one within another. A curved surface counts as the
-/// plane through its foot; feet that look the same way hide the same, and those on the far side of a wall,
-/// which are seen from behind, hide nothing more.
+/// planes and for tanks up to the kernel's deviation from a product of three. Boxes end where they end, so
+/// what several of them hide adds up, side by side as they are and not one within another. A curved surface
+/// counts as the plane through its foot; feet that look the same way hide the same, and those on the far side
+/// of a wall, which are seen from behind, hide nothing more.
 struct WallFreeShare {
+  static constexpr Real kLeast = Real(0.125);  ///< in a corner
+
   HalfSpaceShare half_space;
   Frame frame;
   SurfaceSet walls;
@@ -63,7 +65,7 @@ struct WallFreeShare {
       else
         share *= beside(view);
     }
-    return max_of(share - boxes, Real(0.125));  // in a corner
+    return max_of(share - boxes, kLeast);
   }
 
  private:

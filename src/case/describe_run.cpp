@@ -86,9 +86,10 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
   p("couple.wall_normalise", &c.wall_normalise,
     {.meaning = "porosity beside walls from the part of the kernel inside them"});
   p("couple.S_dry", &c.S_dry,
-    {.meaning = "fluid fraction below which a grain is dry", .range = above_to(0, 0.9)});
+    {.meaning = "a grain is dry where fluid fills less than this of the kernel that walls leave free",
+     .range = above_to(0, 0.9)});
   p("couple.S_wet", &c.S_wet,
-    {.meaning = "and from which it is wet, above S_dry", .range = above_to(0, 0.9)});
+    {.meaning = "and wet from here on, above S_dry; linear in between", .range = above_to(0, 1)});
   p("couple.torque", &c.torque, {.meaning = "fluid torque on grains"});
   p("couple.angmom", &c.angmom, {.meaning = "reaction couple: what is exchanged keeps angular momentum"});
   p("couple.slip", &c.slip,

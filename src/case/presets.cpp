@@ -17,6 +17,7 @@ Config preset_defaults(const std::string& name) {
   c.contact.he_damping = true;
   c.couple.drag = "gidaspow";
   c.couple.wall_normalise = false;
+  c.couple.S_wet = 0.5;
   c.couple.integrator = "explicit";
   c.couple.torque = false;
   c.couple.angmom = false;

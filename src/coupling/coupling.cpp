@@ -6,6 +6,7 @@
 #include "kernels/coupling/drag_pass.hpp"
 #include "kernels/coupling/limit_pass.hpp"
 #include "kernels/coupling/porosity_pass.hpp"
+#include "kernels/coupling/wetness_pass.hpp"
 #include "kernels/drag/registry.hpp"
 #include "kernels/smoothing/registry.hpp"
 
@@ -66,7 +67,8 @@ std::vector<Orifice> orifices_of(const Config& config) {
 
 }  // namespace
 
-Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry& walls)
+Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry& fluid_walls,
+                   const WallGeometry& grain_walls)
     : frame_(frame),
       kernel_(config.fluid.kernel),
       drag_law_(config.couple.drag),
@@ -81,8 +83,9 @@ Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry&
       two_way_(config.couple.mode == "two_way"),
       torque_(config.couple.torque),
       angmom_(config.couple.angmom),
-      local_slip_(config.couple.slip == "local") {
-  if (config.couple.wall_normalise) walls_ = walls.view();
+      local_slip_(config.couple.slip == "local"),
+      fluid_walls_(fluid_walls.view()) {
+  if (config.couple.wall_normalise) grain_walls_ = grain_walls.view();
   with_kernel(kernel_, h_c_, [&](auto w) { half_space_ = HalfSpaceShare::of(w); });
   orifices_.assign(orifices_of(config));
 }
@@ -99,7 +102,7 @@ void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_
                          CrossNear<FluidPosition, Vec3d>{frame_, fluid.x_list, grains.x_list, reach});
 }
 
-void Coupling::gather(const FluidStore& fluid, GrainStore& grains, double dt) {
+void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt) {
   const Index n = grains.size();
   x_.resize(n);
   inv_S_.resize(n);
@@ -112,24 +115,26 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, double dt) {
   const GrainToFluid to_fluid{frame_, grains.x, fluid.x};
   with_weight(kernel_, h_c_, fluid, [&](auto weight) {
     with_flag(moments(), [&](auto with_moments) {
-      const InterpolationPass<decltype(weight.w), with_moments> pass{.weight = weight,
-                                                                     .S_dry = S_dry_,
-                                                                     .S_wet = S_wet_,
-                                                                     .eps_min = eps_min_,
-                                                                     .fluid_eps = fluid.eps,
-                                                                     .theta = fluid.theta,
-                                                                     .x = grains.x,
-                                                                     .v = grains.v,
-                                                                     .radius = grains.radius,
-                                                                     .eps = grains.eps,
-                                                                     .wetness = grains.wetness,
-                                                                     .U = grains.U,
-                                                                     .omega_f = grains.omega_f,
-                                                                     .fluid_force = grains.fluid_force,
-                                                                     .surroundings = surroundings()};
+      const InterpolationPass<decltype(weight.w), with_moments> pass{
+          .weight = weight,
+          .S_least = S_dry_ * WallFreeShare::kLeast,
+          .eps_min = eps_min_,
+          .fluid_eps = fluid.eps,
+          .theta = fluid.theta,
+          .x = grains.x,
+          .v = grains.v,
+          .radius = grains.radius,
+          .eps = grains.eps,
+          .U = grains.U,
+          .omega_f = grains.omega_f,
+          .fluid_force = grains.fluid_force,
+          .surroundings = surroundings()};
       for_each_pair(grains.owned(), fluid_of_grain_, to_fluid, range_, pass);
     });
   });
+  const WallFreeShare wall_free{half_space_, frame_, fluid_walls_, pose};
+  for_each(grains.owned(),
+           WetnessPass{S_dry_, S_wet_, wall_free, grains.x, inv_S_, grains.wetness, grains.fluid_force});
   with_drag_law(drag_law_, [&](auto law) {
     for_each(grains.owned(), DragPass<decltype(law)>{.law = law,
                                                      .mu = Real(mu_),
@@ -187,7 +192,7 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
 
 void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, bool moved) {
   with_kernel(kernel_, h_c_, [&](auto w) {
-    const WallFreeShare wall_free{half_space_, frame_, walls_, pose};
+    const WallFreeShare wall_free{half_space_, frame_, grain_walls_, pose};
     const OrificeShare orifice{frame_, orifices_, dx_, h_c_};
     for_each_pair(
         fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, grains.x}, range_,

@@ -29,8 +29,9 @@ struct CouplingCounters {
 
 class Coupling {
  public:
-  /// `walls` must outlive this.
-  Coupling(const Config& config, const Frame& frame, const WallGeometry& walls);
+  /// The walls that fluid and that grains meet must outlive this.
+  Coupling(const Config& config, const Frame& frame, const WallGeometry& fluid_walls,
+           const WallGeometry& grain_walls);
 
   /// How far grains and fluid feel each other, m.
   double range() const { return range_; }
@@ -39,14 +40,15 @@ class Coupling {
   void rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid, const GrainStore& grains,
                      const CellGridView& grain_grid, double skin);
 
-  /// Fills eps, wetness, U, omega_f, fluid_force, K and K_rot of the grains. dt (s): the fluid step
-  /// for which they hold, which bounds K when the fluid is to take the reaction. Waits for the device then.
-  void gather(const FluidStore& fluid, GrainStore& grains, double dt);
+  /// Fills eps, wetness, U, omega_f, fluid_force, K and K_rot of the grains. pose: of every wall body, on the
+  /// device; dt (s): the fluid step for which they hold, which bounds K when the fluid is to take the
+  /// reaction. Waits for the device then.
+  void gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt);
   /// Gives grains.impulse and spin_impulse, those of a step dt (s), back to the velocities of the fluid, and
   /// sets fluid.drag_kick to what they changed by and fluid.reaction; the fluid must not have changed since
   /// gather.
   void react(FluidStore& fluid, const GrainStore& grains, double dt);
-  /// Sets fluid.eps for the present positions; pose: of every wall body, on the device.
+  /// Sets fluid.eps for the present positions; pose as in gather.
   /// `moved`: in the course of a step, so that the superficial density of torn fluid follows; else eps alone.
   void porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, bool moved = false);
 
@@ -68,7 +70,7 @@ class Coupling {
   double fastest_ = 0;   ///< how fast drag stops any fluid particle, 1/s
   bool limits_ = false;  ///< whether that is faster than the step
 
-  SurfaceSet walls_;  ///< that the porosity knows of
+  SurfaceSet fluid_walls_, grain_walls_;  ///< that the wetness and that the porosity knows of
   HalfSpaceShare half_space_;
   Buffer<Orifice> orifices_;
 

@@ -22,7 +22,7 @@ StepInfo CoupledSimulation::step() {
     if (!held() || bodies_.any()) substeps = int(std::ceil(dt / longest_substep() * (1 - 1e-9)));
     substeps = std::max(1, substeps);
     if (coupled()) {
-      coupling_->gather(fluid_, grains_, dt);
+      coupling_->gather(fluid_, grains_, poses_now(), dt);
       drag_limit_ = coupling_->stable_dt();
       watch_.lap(kCoupling);
     }

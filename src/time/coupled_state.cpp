@@ -108,7 +108,7 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
   }
   if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_, geometry_);
   if (has_fluid() && has_grains() && config.couple.mode != "off")
-    coupling_ = std::make_unique<Coupling>(config, frame_, grain_geometry_);
+    coupling_ = std::make_unique<Coupling>(config, frame_, geometry_, grain_geometry_);
   upload(setup);
 }
 
@@ -167,7 +167,7 @@ void CoupledSimulation::start() {
   }
   sweep();
   if (coupled()) {  // for the first step's drag limit
-    coupling_->gather(fluid_, grains_, 0);
+    coupling_->gather(fluid_, grains_, poses_now(), 0);
     drag_limit_ = coupling_->stable_dt();
   }
 }

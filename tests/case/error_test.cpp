@@ -150,8 +150,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[time]", "[couple]\nhc = 0.001\n[time]",
               "dam.toml:22: couple.hc = 0.001 must be >= 0.002; unresolved coupling needs kappa h_c >= 2 "
               "d_max"},
-        Wrong{"[time]", "[couple]\nS_dry = 0.6\n[time]",
-              "dam.toml:21: couple.S_wet = 0.5 must be > couple.S_dry = 0.6"},
+        Wrong{"[time]", "[couple]\nS_dry = 0.6\nS_wet = 0.5\n[time]",
+              "dam.toml:23: couple.S_wet = 0.5 must be > couple.S_dry = 0.6"},
         Wrong{"end = 0.3", "end = 0.3\ndt_dem = 1e-4",
               "dam.toml:23: time.dt_dem = 0.0001 must be <= 5.473e-06; limited by rayleigh"},
         Wrong{"d = 0.002", "d = 0.02",

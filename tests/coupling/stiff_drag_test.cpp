@@ -45,7 +45,7 @@ Totals totals(const CoupledBox& box) {
 
 /// One step of drag alone: the exponential update of the grains in `substeps`, then the reaction.
 void step(CoupledBox& box, int substeps) {
-  box.coupling.gather(box.fluid, box.grains, kStep);
+  box.coupling.gather(box.fluid, box.grains, {}, kStep);
   auto v = box.grains.v.values();
   const auto U = box.grains.U.values();
   const auto K = box.grains.K.values();
@@ -88,8 +88,8 @@ TEST(StiffDrag, NeverGainsEnergyAndKeepsMomentum) {
 
 TEST(StiffDrag, IsBoundedByTheSoftestFluidAround) {
   CoupledBox free = suspension(3, false), bound = suspension(3, false);
-  free.coupling.gather(free.fluid, free.grains, 0);  // no time, no bound
-  bound.coupling.gather(bound.fluid, bound.grains, kStep);
+  free.coupling.gather(free.fluid, free.grains, {}, 0);  // no time, no bound
+  bound.coupling.gather(bound.fluid, bound.grains, {}, kStep);
   const WendlandC2 w(0.15);
   const auto at = free.fluid_places();
   const auto x = free.grains.x.values();
@@ -131,7 +131,7 @@ TEST(SpinDecay, OfAGrainInStillFluidIsKirchhoffs) {
   const double inertia = 0.4 * rho_s * M_PI / 6 * d * d * d * d * d / 4;
   const double rate = M_PI * mu * d * d * d / inertia;
   const double dt = 1e-3 / rate;
-  box.coupling.gather(box.fluid, box.grains, dt);
+  box.coupling.gather(box.fluid, box.grains, {}, dt);
   EXPECT_NEAR(box.grains.K_rot.values()[0] / inertia, rate, 1e-3 * rate);
 
   // the angular momentum that the grain loses turns the fluid

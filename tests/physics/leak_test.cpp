@@ -84,6 +84,8 @@ TEST(SlowMixedLeak, NothingLeavesAShakenVesselOfTriangles) {
   const double laid = reading(*s, "fluid_count");
   ASSERT_GT(laid, 0.8 * load.fluid);
   ASSERT_EQ(reading(*s, "grain_count"), std::int64_t(load.grains));
+  std::cout << laid << " fluid particles, dx " << config.fluid.dx << " m, " << load.grains << " grains, d "
+            << config.grain.d << " m" << std::endl;
 
   const TriangleMesh room(inside, "inside");
   const MotionLaw law(config.wall.bodies[0].motion, load.end);
@@ -102,11 +104,11 @@ TEST(SlowMixedLeak, NothingLeavesAShakenVesselOfTriangles) {
     fluid_out = std::max(fluid_out, farthest("fluid"));
     grains_out = std::max(grains_out, farthest("grains"));
     fastest = std::max(fastest, reading(*s, "fluid_speed_max"));
+    std::cout << s->time() << " s, " << s->steps() << " steps: farthest centres " << fluid_out
+              << " m (fluid) and " << grains_out << " m (grains) beyond the room's surface, fastest fluid "
+              << fastest << " m/s; lost " << reading(*s, "lost_fluid_count") << " and "
+              << reading(*s, "grains_outside") << std::endl;
   }
-  std::cout << laid << " fluid particles, dx " << config.fluid.dx << " m, " << load.grains << " grains, d "
-            << config.grain.d << " m, " << s->steps() << " steps to " << s->time() << " s; farthest centres "
-            << fluid_out << " m (fluid) and " << grains_out << " m (grains) from the room, fastest fluid "
-            << fastest << " m/s\n";
   EXPECT_EQ(reading(*s, "fluid_count"), laid);
   EXPECT_EQ(reading(*s, "lost_fluid_count"), 0);
   EXPECT_EQ(reading(*s, "grains_outside"), 0);

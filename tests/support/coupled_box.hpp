@@ -97,7 +97,7 @@ struct CoupledBox {
       : config(c),
         frame(c.domain.min, c.domain.max, c.domain.periodic[0], c.domain.periodic[1], c.domain.periodic[2]),
         walls(c),
-        coupling(c, frame, walls) {
+        coupling(c, frame, walls, walls) {
     fill(cloud);
     fill(pebbles);
     relist();

@@ -305,7 +305,7 @@ struct CouplingConfig {
   double hc = 0;                               ///< m (default max(h, 2 d_max 2/kappa))
   double eps_min = 0.25;
   bool wall_normalise = true;                  ///< porosity counts only the kernel's share inside the walls
-  double S_dry = 0.05, S_wet = 0.5;
+  double S_dry = 0.05, S_wet = 0.95;
   bool torque = true;
   bool angmom = true;
   std::string slip = "local";                  ///< local, mean: that the drag on the fluid follows
