@@ -1,5 +1,6 @@
 #pragma once
 #include "kernels/bodies/rigid_body.hpp"
+#include "kernels/boundaries/orifice.hpp"
 #include "kernels/walls/surface.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -44,12 +45,37 @@ struct WallRepulsion {
   }
 };
 
+/// Keeps fluid from slipping back between the particles that wait in an orifice: the same from the plane of
+/// their foremost layer. What has come in, a spacing ahead of that, feels nothing.
+struct OrificeRepulsion {
+  Repulsion law;
+  Frame frame;
+  Span<const Orifice> orifices;
+  Span<const BodyPose> pose;
+
+  /// Acceleration at x, m/s2.
+  BL_HD Real3 operator()(const Vec3d& x) const {
+    Real3 sum;
+    for (Index k = 0; k < orifices.size; ++k) {
+      const Orifice& o = orifices[k];
+      const Vec3d r = frame.separation(x, pose[o.body].place(o.centre));
+      const double ahead = o.along(r) + o.behind;
+      if (ahead > -2 * o.behind && ahead < double(law.r0) && o.beside(r) == 0)
+        sum += law(Real(ahead)) * Real3(o.direction);
+    }
+    return sum;
+  }
+};
+
 struct RepelPass {
   WallRepulsion walls;
+  OrificeRepulsion orifices;
   Span<const FluidPosition> x;
   Span<Real3> acc;
   BL_HD void operator()(Index a) const {
-    walls.each(coordinates(walls.frame, x[a]), [&](std::uint32_t, const Real3& push) { acc[a] += push; });
+    const Vec3d at = coordinates(walls.frame, x[a]);
+    walls.each(at, [&](std::uint32_t, const Real3& push) { acc[a] += push; });
+    acc[a] += orifices(at);
   }
 };
 

@@ -9,6 +9,7 @@
 #include "kernels/coupling/wetness_pass.hpp"
 #include "kernels/drag/registry.hpp"
 #include "kernels/smoothing/registry.hpp"
+#include "src/boundaries/orifices.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
@@ -49,21 +50,6 @@ struct CountEntries {
   BL_HD Value operator()(Index i) const { return (entry[i] > bound) == above ? 1 : 0; }
   BL_HD void combine(Value& into, const Value& v) const { into += v; }
 };
-
-std::vector<Orifice> orifices_of(const Config& config) {
-  std::vector<Orifice> all;
-  for (const InletConfig& inlet : config.inlets) {
-    Orifice o{inlet.centre, inlet.direction, {}, {inlet.radius, 0}, inlet.shape == "disc"};
-    if (!o.disc)
-      for (int k = 0; k < 2; ++k) {
-        const Vec3d side = k == 0 ? inlet.half_a : inlet.half_b;
-        o.half[k] = norm(side);
-        o.axis[k] = side / o.half[k];
-      }
-    all.push_back(o);
-  }
-  return all;
-}
 
 }  // namespace
 

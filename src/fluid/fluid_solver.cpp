@@ -9,6 +9,7 @@
 #include "kernels/integrate/fluid_kicks.hpp"
 #include "kernels/smoothing/registry.hpp"
 #include "kernels/walls/crossing.hpp"
+#include "src/boundaries/orifices.hpp"
 #include "src/measure/sweeps.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -253,6 +254,7 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
   wall_grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
   const auto repels = [](const WallBody& body) { return body.repulsion; };
   if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), repels)) repelling_ = walls.view();
+  if (config.wall.repulsion) orifices_.assign(orifices_of(config));
   std::vector<LayerLaw> layers(config.wall.bodies.size() + config.inlets.size());
   bool layered = false;
   for (std::size_t b = 0; b < config.wall.bodies.size(); ++b) {
@@ -276,8 +278,9 @@ WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const
 }
 
 void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double dt) {
-  if (repelling_.surfaces.size > 0)
-    for_each(fluid.owned(), RepelPass{repulsion(pose, dt), fluid.x, fluid.acc_next});
+  if (repelling_.surfaces.size == 0 && orifices_.size() == 0) return;
+  const WallRepulsion walls = repulsion(pose, dt);
+  for_each(fluid.owned(), RepelPass{walls, {walls.law, frame_, orifices_, pose}, fluid.x, fluid.acc_next});
 }
 
 void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved) {

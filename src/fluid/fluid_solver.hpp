@@ -58,7 +58,7 @@ class FluidSolver {
                      double drag_dt) = 0;
   /// theta, acc_next, xsph. One pose a body; the step (s) caps the push of single layers.
   virtual void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) = 0;
-  /// Adds the repulsion of walls to acc_next. One pose a body; the step (s) caps it.
+  /// Adds the repulsion of walls and orifices to acc_next. One pose a body; the step (s) caps it.
   void repel(FluidStore& fluid, Span<const BodyPose> pose, double dt);
   WallRepulsion repulsion(Span<const BodyPose> pose, double dt) const;
   /// v += kick (acc_next - acc); acc = acc_next.
@@ -85,10 +85,11 @@ class FluidSolver {
   CellGrid grid_, wall_grid_;
   VerletList fluid_fluid_, fluid_wall_, wall_fluid_, image_fluid_;
   Buffer<Index> order_;
-  SurfaceSet repelling_;     ///< empty where no wall repels
-  Buffer<LayerLaw> layers_;  ///< one a body; empty without single layers
-  bool frozen_ = false;      ///< some walls are
-  double corrected_ = 0;     ///< kick of the last correction, s; 0 since the last forces()
+  SurfaceSet repelling_;      ///< empty where no wall repels
+  Buffer<Orifice> orifices_;  ///< empty where none repels
+  Buffer<LayerLaw> layers_;   ///< one a body; empty without single layers
+  bool frozen_ = false;       ///< some walls are
+  double corrected_ = 0;      ///< kick of the last correction, s; 0 since the last forces()
 };
 
 }  // namespace bedload::inline BL_VARIANT

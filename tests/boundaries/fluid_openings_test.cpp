@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 
 #include "kernels/boundaries/admit.hpp"
 #include "tests/boundaries/support.hpp"
@@ -215,9 +216,21 @@ velocity = [0.5, 0, 0]
 }
 
 /// Water let in from below stands as high among grains as their voids ask for.
-TEST(Inlet, FillsTheVoidsOfADryBed) {
-  constexpr double width = 0.08, volume = 0.6 * width * width * width;
-  auto s = started(R"([domain]
+constexpr double kBedWidth = 0.08;  // m
+
+/// Box of a floor, from the corner (x0, y0) to (x1, y1), m.
+std::string plate(const char* name, double x0, double y0, double x1, double y1) {
+  std::ostringstream text;
+  text << "[[wall.body]]\nname = \"" << name << "\"\nshape = \"box\"\nmin = [" << x0 << ", " << y0
+       << ", -0.06]\nmax = [" << x1 << ", " << y1 << ", 0]\n";
+  return text.str();
+}
+
+/// Bed of fixed grains in a tank of 0.08 m x 0.08 m; water comes in from below, through a square of that side
+/// (m), until 0.6 s. `walls`: the rest of the floor.
+std::string dry_bed(double side, const std::string& walls) {
+  const std::string half = std::to_string(side / 2);
+  return R"([domain]
 min = [-0.02, -0.02, -0.06]
 max = [0.1, 0.1, 0.16]
 [fluid]
@@ -228,8 +241,10 @@ name = "feed"
 shape = "rectangle"
 centre = [0.04, 0.04, 0]
 direction = [0, 0, 1]
-half_a = [0.02, 0, 0]
-half_b = [0, 0.02, 0]
+half_a = [)" +
+         half + R"(, 0, 0]
+half_b = [0, )" +
+         half + R"(, 0]
 rate = 5.12e-4
 stop = 0.6
 [[wall.body]]
@@ -238,27 +253,8 @@ shape = "tank"
 min = [0, 0, 0]
 max = [0.08, 0.08, 0.16]
 faces = ["x-", "x+", "y-", "y+"]
-[[wall.body]]
-name = "left"
-shape = "box"
-min = [0, 0, -0.06]
-max = [0.02, 0.08, 0]
-[[wall.body]]
-name = "right"
-shape = "box"
-min = [0.06, 0, -0.06]
-max = [0.08, 0.08, 0]
-[[wall.body]]
-name = "front"
-shape = "box"
-min = [0.02, 0, -0.06]
-max = [0.06, 0.02, 0]
-[[wall.body]]
-name = "back"
-shape = "box"
-min = [0.02, 0.06, -0.06]
-max = [0.06, 0.08, 0]
-[grain]
+)" + walls +
+         R"([grain]
 d = 0.012
 fixed = true
 [[grain.fill]]
@@ -269,7 +265,25 @@ packing_fraction = 0.4
 end = 2
 [out]
 every = 1
-)");
+)";
+}
+
+TEST(Inlet, IsAFloorForTheWaterThatStandsOnIt) {
+  auto s = started(dry_bed(kBedWidth, ""));
+  double deepest = 0;
+  for (int k = 1; k <= 5; ++k) {
+    run_until(*s, 0.2 * k);
+    for (const Vec3d& x : vectors(s->snapshot("fluid"), "position")) deepest = std::min(deepest, x.z);
+  }
+  EXPECT_EQ(reading(*s, "fluid_count"), 320);
+  EXPECT_GT(deepest, -0.5 * 0.01) << "the foremost layer stops within a spacing of the orifice";
+}
+
+TEST(Inlet, FillsTheVoidsOfADryBed) {
+  const double volume = 0.6 * kBedWidth * kBedWidth * kBedWidth;
+  auto s =
+      started(dry_bed(0.04, plate("left", 0, 0, 0.02, 0.08) + plate("right", 0.06, 0, 0.08, 0.08) +
+                                plate("front", 0.02, 0, 0.06, 0.02) + plate("back", 0.02, 0.06, 0.06, 0.08)));
   run_until(*s, 0.9);
   EXPECT_NEAR(reading(*s, "inlet_feed_mass"), 1000 * volume, 0.016);
   EXPECT_EQ(reading(*s, "lost_fluid_count"), 0);
@@ -282,7 +296,7 @@ every = 1
     moment += 1e-6 / eps[a] * x[a].z;
   }
   EXPECT_GT(bulk / volume, 1.3) << "void share 0.6, more beside the orifice";
-  EXPECT_NEAR(2 * moment / bulk / (bulk / (width * width)), 1, 0.06)
+  EXPECT_NEAR(2 * moment / bulk / (bulk / (kBedWidth * kBedWidth)), 1, 0.06)
       << "level; 0.9 if it came in as dense as in the bed";
 }
 

@@ -1,0 +1,24 @@
+#include "src/boundaries/orifices.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+std::vector<Orifice> orifices_of(const Config& config) {
+  std::vector<Orifice> all;
+  for (const InletConfig& inlet : config.inlets) {
+    Orifice& o = all.emplace_back();
+    o.centre = inlet.centre;
+    o.direction = inlet.direction;
+    o.disc = inlet.shape == "disc";
+    o.body = std::uint32_t(config.wall.bodies.size() + all.size() - 1);
+    o.behind = 0.5 * config.fluid.dx;
+    const Vec3d side[2] = {inlet.half_a, inlet.half_b};
+    for (int k = 0; k < 2 && !o.disc; ++k) {
+      o.half[k] = norm(side[k]);
+      o.axis[k] = side[k] / o.half[k];
+    }
+    if (o.disc) o.half[0] = inlet.radius, o.half[1] = 0;
+  }
+  return all;
+}
+
+}  // namespace bedload::inline BL_VARIANT
