@@ -54,8 +54,11 @@ int check_case(const Options& options) {
     fmt::print("preview    {}\n", (options.preview / "preview.png").string());
   }
 
-  const std::size_t bytes = estimate_bytes(c, n);
-  fmt::print("memory     about {}; {} free\n", bytes_text(bytes), bytes_text(p.device.memory));
+  const Counts later = with_arrivals(p);
+  const std::size_t bytes = estimate_bytes(c, n), most = estimate_bytes(c, later);
+  fmt::print("memory     about {}{}; {} free\n", bytes_text(bytes),
+             most > bytes ? fmt::format(", up to {} with what comes in", bytes_text(most)) : "",
+             bytes_text(p.device.memory));
   if (bytes > p.device.memory) {
     p.warnings.push_back(
         "the case needs more memory than the device has free, so its step limits were not evaluated");
@@ -70,11 +73,13 @@ int check_case(const Options& options) {
 
     const double dt = c.time.dt > 0 ? c.time.dt : least(steps);
     const double dt_dem = c.time.dt_dem > 0 ? c.time.dt_dem : least(substeps);
-    const double per_step = std::isfinite(dt_dem) && n.grains > 0 ? std::max(1.0, std::ceil(dt / dt_dem)) : 0;
-    const double count = std::ceil(c.time.end / dt);
+    const double per_step =
+        std::isfinite(dt_dem) && later.grains > 0 ? std::max(1.0, std::ceil(dt / dt_dem)) : 0;
+    const double count = std::ceil((c.time.end - p.begin) / dt);
     const Pace pace = pace_of(p.device, c.precision);
-    const double seconds = count * (pace.step + double(n.fluid) / pace.fluid +
-                                    per_step * (pace.substep + double(n.grains) / pace.grains));
+    const double fluid = 0.5 * double(n.fluid + later.fluid), grains = 0.5 * double(n.grains + later.grains);
+    const double seconds =
+        count * (pace.step + fluid / pace.fluid + per_step * (pace.substep + grains / pace.grains));
     fmt::print("steps      about {} of {:.3g} s{}\n", grouped(std::llround(count)), dt,
                per_step > 0 ? fmt::format(", each with {:.0f} substeps", per_step) : "");
     fmt::print("run time   about {}, within a factor of three\n", duration_text(seconds));

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/grain_source.hpp"
 #include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/setup.hpp"
 #include "bedload/output/output.hpp"
@@ -27,6 +31,15 @@ Counts counts_of(const SavedState& state) {
   return {count("fluid"), count("walls"), count("grains")};
 }
 
+/// Particles that come in between two times, s.
+double let_in(const InletConfig& inlet, double dx, double from, double to) {
+  InletFlow flow(inlet, dx);
+  flow.resume(from, 0, 0);
+  constexpr int pieces = 1000;
+  for (int k = 1; k <= pieces; ++k) flow.advance(from + (to - from) * k / pieces);
+  return flow.counted() / std::pow(dx, 3);
+}
+
 }  // namespace
 
 Prepared prepare(const Options& options) {
@@ -39,6 +52,8 @@ Prepared prepare(const Options& options) {
   } else {
     p.restart = read_checkpoint(options.restart, p.config);
     p.counts = counts_of(p.restart);
+    for (const Quantity& q : p.restart.scalars)
+      if (q.name == "time") p.begin = q.value;
   }
   return p;
 }
@@ -57,6 +72,26 @@ void check_fixed_steps(Prepared& p, const Options& options, Simulation& simulati
   };
   if (p.config.time.dt > 0) check("time.dt", p.config.time.dt, simulation.limits());
   if (p.config.time.dt_dem > 0) check("time.dt_dem", p.config.time.dt_dem, simulation.body_limits());
+}
+
+Counts with_arrivals(const Prepared& p) {
+  const Config& c = p.config;
+  const double from = p.begin, to = c.time.end;
+  const Vec3d size = c.domain.max - c.domain.min;
+  const auto add = [&](std::int64_t& count, double more, double spacing) {
+    const double room = size.x * size.y * size.z / std::pow(spacing, 3);
+    if (more > 0) count = std::max<std::int64_t>(count, std::llround(std::min(double(count) + more, room)));
+  };
+  double fluid = 0, grains = 0;
+  for (const InletConfig& inlet : c.inlets) fluid += let_in(inlet, c.fluid.dx, from, to);
+  for (std::size_t k = 0; k < c.grain_inlets.size(); ++k) {
+    const GrainSource source(c, k);
+    grains += source.waiting(to) - source.waiting(from);
+  }
+  Counts counts = p.counts;
+  add(counts.fluid, fluid, c.fluid.dx);
+  add(counts.grains, grains, c.grain.d_min);
+  return counts;
 }
 
 std::string grouped(std::int64_t number) {
@@ -78,6 +113,11 @@ std::string summary_text(const Prepared& p) {
   out += fmt::format("device     {}, {}; precision {}\n", p.device.backend, p.device.name, c.precision);
   out += fmt::format("particles  fluid {}, walls {}, grains {}\n", grouped(n.fluid), grouped(n.walls),
                      grouped(n.grains));
+  const Counts later = with_arrivals(p);
+  if (later.fluid > n.fluid)
+    out += fmt::format("           up to {} of fluid let in\n", grouped(later.fluid - n.fluid));
+  if (later.grains > n.grains)
+    out += fmt::format("           up to {} grains dropped in\n", grouped(later.grains - n.grains));
   if (c.fluid.present) {
     out += fmt::format("fluid      dx {} m, h {:.4g} m, vmax {:.4g} m/s, sound {:.4g} m/s\n", c.fluid.dx,
                        c.fluid.h(), c.fluid.vmax, c.fluid.c);

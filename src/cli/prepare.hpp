@@ -17,6 +17,7 @@ struct Prepared {
   Device device;
   Setup setup;         ///< none with a checkpoint
   SavedState restart;  ///< none without
+  double begin = 0;    ///< time that it goes on from, s
   Counts counts;
   std::vector<std::string> warnings;
 };
@@ -27,6 +28,9 @@ Prepared prepare(const Options& options);
 /// Throws CaseError if time.dt is above a limit, or time.dt_dem above one of free bodies; with time.force_dt
 /// it warns. Call after start().
 void check_fixed_steps(Prepared& prepared, const Options& options, Simulation& simulation);
+
+/// Counts with all particles that come in until the end, as far as the domain has room for them.
+Counts with_arrivals(const Prepared& prepared);
 
 /// "12 345 678".
 std::string grouped(std::int64_t number);

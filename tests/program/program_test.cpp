@@ -129,6 +129,42 @@ TEST_F(Program, ChecksACaseWithoutRunningIt) {
   EXPECT_FALSE(std::filesystem::exists(dir_ / "results"));
 }
 
+TEST_F(Program, CountsWhatComesIn) {
+  write("spout.toml", R"([domain]
+min = [-0.1, 0, 0]
+max = [0.3, 0.08, 0.1]
+[fluid]
+dx = 0.01
+vmax = 2
+[[inlet]]
+name = "spout"
+shape = "rectangle"
+centre = [0, 0.04, 0.05]
+direction = [1, 0, 0]
+half_a = [0, 0.04, 0]
+half_b = [0, 0, 0.02]
+velocity = 0.5
+factor = "sin(pi*t)^2"
+ramp = 1e-3
+[grain]
+d = 0.01
+E = 1e6
+[[grain_inlet]]
+name = "chute"
+min = [0.1, 0, 0.05]
+max = [0.2, 0.04, 0.1]
+rate = 30
+[time]
+end = 2
+[out]
+every = 1
+)");
+  const Outcome o = bedload("check spout.toml --backend cpu");
+  EXPECT_EQ(o.code, 0) << o.err;
+  for (const char* part : {"up to 1 600 of fluid let in", "up to 60 grains dropped in", "with what comes in"})
+    EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
+}
+
 TEST_F(Program, ShowsWhatACaseStartsWith) {
   write("dam.toml", kSmall);
   const Outcome o = bedload("check dam.toml --backend cpu --preview look/here");
