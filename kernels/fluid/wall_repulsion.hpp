@@ -46,22 +46,26 @@ struct WallRepulsion {
 };
 
 /// Keeps fluid from slipping back between the particles that wait in an orifice: the same from the plane of
-/// their foremost layer. What has come in, a spacing ahead of that, feels nothing.
+/// their foremost layer. What has come in, a spacing ahead of that, feels nothing. What falls among them from
+/// the side is let go no faster than `gentle` against them.
 struct OrificeRepulsion {
   Repulsion law;
+  Real gentle, rate;  ///< m/s; 1 / step, 1/s
   Frame frame;
   Span<const Orifice> orifices;
   Span<const BodyPose> pose;
 
-  /// Acceleration at x, m/s2.
-  BL_HD Real3 operator()(const Vec3d& x) const {
+  /// Acceleration at x of what moves at v, m/s2.
+  BL_HD Real3 operator()(const Vec3d& x, const Real3& v) const {
     Real3 sum;
     for (Index k = 0; k < orifices.size; ++k) {
       const Orifice& o = orifices[k];
-      const Vec3d r = frame.separation(x, pose[o.body].place(o.centre));
+      const BodyPose& layers = pose[o.body];
+      const Vec3d r = frame.separation(x, layers.place(o.centre));
       const double ahead = o.along(r) + o.behind;
-      if (ahead > -2 * o.behind && ahead < double(law.r0) && o.beside(r) == 0)
-        sum += law(Real(ahead)) * Real3(o.direction);
+      if (ahead >= double(law.r0) || ahead < -2 * o.behind || o.beside(r) > 0) continue;
+      const Real leaving = Real(o.along(Vec3d(v) - layers.v));
+      sum += min_of(law(Real(ahead)), max_of((gentle - leaving) * rate, Real(0))) * Real3(o.direction);
     }
     return sum;
   }
@@ -71,11 +75,12 @@ struct RepelPass {
   WallRepulsion walls;
   OrificeRepulsion orifices;
   Span<const FluidPosition> x;
+  Span<const Real4> v_rho;
   Span<Real3> acc;
   BL_HD void operator()(Index a) const {
     const Vec3d at = coordinates(walls.frame, x[a]);
     walls.each(at, [&](std::uint32_t, const Real3& push) { acc[a] += push; });
-    acc[a] += orifices(at);
+    acc[a] += orifices(at, v_rho[a].xyz());
   }
 };
 

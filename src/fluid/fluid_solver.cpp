@@ -280,7 +280,9 @@ WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const
 void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double dt) {
   if (repelling_.surfaces.size == 0 && orifices_.size() == 0) return;
   const WallRepulsion walls = repulsion(pose, dt);
-  for_each(fluid.owned(), RepelPass{walls, {walls.law, frame_, orifices_, pose}, fluid.x, fluid.acc_next});
+  const OrificeRepulsion orifices{
+      walls.law, Real(0.01 * config_.fluid.c), dt > 0 ? Real(1 / dt) : Real(0), frame_, orifices_, pose};
+  for_each(fluid.owned(), RepelPass{walls, orifices, fluid.x, fluid.v_rho, fluid.acc_next});
 }
 
 void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved) {

@@ -73,6 +73,26 @@ void check_clear_of_fluid(const Config& config, const InletConfig& inlet, const 
   }
 }
 
+/// Beside fluid that comes in along a wall that begins at the orifice, half the kernel is empty upstream.
+void check_walls_reach_upstream(const Config& config, const InletConfig& inlet,
+                                const std::vector<Vec3d>& points, std::vector<std::string>& warnings) {
+  const double dx = config.fluid.dx, depth = buffer_layers(config.fluid) * dx;
+  for (const WallBody& body : config.wall.bodies) {
+    if (!body.stops_fluid() || body.moves()) continue;
+    const auto beside = [&](const Vec3d& x) {
+      return std::abs(wall_distance(body, x, depth, config.domain)) < 0.75 * dx;
+    };
+    const auto ends_here = [&](const Vec3d& x) {
+      return beside(x + 0.5 * dx * inlet.direction) && !beside(x - 0.5 * depth * inlet.direction);
+    };
+    if (std::any_of(points.begin(), points.end(), ends_here))
+      warnings.push_back(
+          fmt::format("inlet \"{}\": wall.body \"{}\" beside it ends at its plane, so that fluid comes in "
+                      "too thin along it; let it reach {:g} m upstream",
+                      inlet.name, body.name, depth));
+  }
+}
+
 }  // namespace
 
 std::vector<Vec3d> orifice_points(const InletConfig& inlet, double dx) {
@@ -100,7 +120,8 @@ int buffer_layers(const FluidConfig& fluid) {
   return int(std::ceil(fluid.kappa() * fluid.h() / fluid.dx - 1e-6)) + 1;
 }
 
-void add_inlets(const Config& config, const Setup::Fluid& fluid, Setup::Walls& walls) {
+void add_inlets(const Config& config, const Setup::Fluid& fluid, Setup::Walls& walls,
+                std::vector<std::string>& warnings) {
   const double dx = config.fluid.dx;
   for (std::size_t i = 0; i < config.inlets.size(); ++i) {
     const InletConfig& inlet = config.inlets[i];
@@ -110,6 +131,7 @@ void add_inlets(const Config& config, const Setup::Fluid& fluid, Setup::Walls& w
       for (const Vec3d& x : points) buffer.push_back(x - (layer + 0.5) * dx * inlet.direction);
     check_clear_of_walls(config, inlet, buffer);
     check_clear_of_fluid(config, inlet, buffer, fluid);
+    check_walls_reach_upstream(config, inlet, points, warnings);
     walls.x.insert(walls.x.end(), buffer.begin(), buffer.end());
     walls.body.insert(walls.body.end(), buffer.size(), std::uint32_t(config.wall.bodies.size() + i));
     walls.outer.insert(walls.outer.end(), buffer.size(), 0);

@@ -1,11 +1,13 @@
 // Fluid that comes in through orifices and leaves through outlets.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <sstream>
 
 #include "kernels/boundaries/admit.hpp"
+#include "kernels/fluid/wall_repulsion.hpp"
 #include "tests/boundaries/support.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -216,6 +218,33 @@ velocity = [0.5, 0, 0]
 }
 
 /// Water let in from below stands as high among grains as their voids ask for.
+TEST(Inlet, LetsGoGentlyOfWhatFallsAmongItsLayers) {
+  Orifice disc{};
+  disc.direction = {0, 0, 1};
+  disc.disc = true;
+  disc.half[0] = 1;
+  disc.behind = 0.5;
+  BodyPose layers;
+  layers.translation = {0, 0, 0.2};  // the foremost is at -0.3
+  layers.v = {0, 0, 2};
+  const Repulsion law{10, 0.5, 1e9};
+  const Frame frame({-2, -2, -2}, {2, 2, 2}, false, false, false);
+  const OrificeRepulsion push{law, 0.1, 100, frame, {&disc, 1}, {&layers, 1}};
+  const auto along = [&](double x, double ahead, double v) {
+    const Real3 a = push({x, 0, -0.3 + ahead}, {5, 0, Real(v)});
+    EXPECT_EQ(a.x, 0);
+    EXPECT_EQ(a.y, 0);
+    return double(a.z);
+  };
+  EXPECT_NEAR(along(0, 0.48, 0), double(law(Real(0.48))), 1e-3) << "where there is time, the law of walls";
+  for (const double ahead : {0.1, 0.0, -0.9})
+    EXPECT_NEAR(along(0.9, ahead, 2), 10, 1e-3) << "0.1 m/s ahead of the layers in one step";
+  EXPECT_NEAR(along(0, 0, 1), 110, 1e-3);
+  for (const auto& [x, ahead, v] :
+       {std::array{0.0, 0.0, 2.2}, {0.0, 0.5, 0.0}, {0.0, -1.1, 0.0}, {1.1, 0.0, 0.0}})
+    EXPECT_EQ(along(x, ahead, v), 0) << x << " " << ahead << " " << v;
+}
+
 constexpr double kBedWidth = 0.08;  // m
 
 /// Box of a floor, from the corner (x0, y0) to (x1, y1), m.

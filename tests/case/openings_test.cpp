@@ -109,6 +109,47 @@ TEST(Openings, BuffersNeedAnOpening) {
   EXPECT_NE(in_fluid.find("must not overlap the initial fluid at"), std::string::npos) << in_fluid;
 }
 
+TEST(Openings, WallsThatEndAtAnInletAreWarnedOf) {
+  const auto from_below = [](const std::string& bottom, const std::string& side) {
+    std::vector<std::string> warnings;
+    build_setup(read(R"([domain]
+min = [0, 0, -0.1]
+max = [0.1, 0.1, 0.2]
+[fluid]
+dx = 0.01
+vmax = 2
+[[wall.body]]
+name = "column"
+shape = "tank"
+min = [0, 0, )" + bottom +
+                     R"(]
+max = [0.1, 0.1, 0.2]
+faces = ["x-", "x+", "y-", "y+"]
+[[inlet]]
+name = "feed"
+shape = "rectangle"
+centre = [0.05, 0.05, 0]
+direction = [0, 0, 1]
+half_a = [)" + side + R"(, 0, 0]
+half_b = [0, 0.03, 0]
+rate = 1e-3
+[time]
+end = 1
+[out]
+every = 1
+)"),
+                warnings);
+    return warnings;
+  };
+  EXPECT_EQ(
+      from_below("0", "0.05"),
+      std::vector<std::string>{
+          "inlet \"feed\": wall.body \"column\" beside it ends at its plane, so that fluid comes in too "
+          "thin along it; let it reach 0.04 m upstream"});
+  EXPECT_TRUE(from_below("-0.04", "0.05").empty());
+  EXPECT_TRUE(from_below("0", "0.03").empty()) << "in mid-air";
+}
+
 TEST(Openings, WrongOutletsAndGrainInlets) {
   const auto outlet = [](const std::string& rest) {
     return error_of(kCase + "[[outlet]]\nname = \"end\"\n" + rest);

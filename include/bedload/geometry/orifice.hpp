@@ -26,7 +26,8 @@ int buffer_layers(const FluidConfig& fluid);
 
 /// Adds the buffers of all inlets behind the wall particles, layer after layer from the orifice back; the
 /// first lies half a spacing upstream of it. Their bodies follow those of the walls. Throws CaseError where
-/// a buffer lies in a wall or in the initial fluid.
-void add_inlets(const Config& config, const Setup::Fluid& fluid, Setup::Walls& walls);
+/// a buffer lies in a wall or in the initial fluid; warns of walls beside an orifice that end at its plane.
+void add_inlets(const Config& config, const Setup::Fluid& fluid, Setup::Walls& walls,
+                std::vector<std::string>& warnings);
 
 }  // namespace bedload
