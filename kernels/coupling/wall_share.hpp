@@ -1,42 +1,10 @@
 #pragma once
 #include <cmath>
 
+#include "kernels/smoothing/half_space_share.hpp"
 #include "kernels/walls/surface.hpp"
 
 namespace bedload::inline BL_VARIANT {
-
-/// Share of a smoothing kernel on one side of a plane at distance z from its centre.
-struct HalfSpaceShare {
-  static constexpr int points = 65;
-  Real range = 0;           ///< support, m
-  Real below[points] = {};  ///< share below z = range k / (points - 1), 0.5..1
-
-  template <class W>
-  static HalfSpaceShare of(const W& w) {
-    HalfSpaceShare out;
-    out.range = Real(w.kappa) * w.h;
-    // the kernel integrated over the plane at z, by the midpoint rule; then over z by the trapezium rule
-    constexpr int rings = 256;
-    const double R = double(w.kappa) * double(w.h), dz = R / (points - 1);
-    double slice[points] = {};
-    for (int k = 0; k < points; ++k)
-      for (int i = 0; i < rings; ++i) {
-        const double r = R * (i + 0.5) / rings;
-        slice[k] += 2 * kPi * r * double(w.W(Real(std::hypot(r, k * dz)))) * R / rings;
-      }
-    double sum[points] = {};
-    for (int k = 1; k < points; ++k) sum[k] = sum[k - 1] + 0.5 * (slice[k - 1] + slice[k]) * dz;
-    for (int k = 0; k < points; ++k) out.below[k] = Real(0.5 + 0.5 * sum[k] / sum[points - 1]);
-    return out;
-  }
-
-  BL_HD Real operator()(double z) const {
-    const Real at = min_of(Real(std::abs(z)) / range, Real(1)) * (points - 1);
-    const int k = int(min_of(at, Real(points - 2)));
-    const Real share = below[k] + (at - k) * (below[k + 1] - below[k]);
-    return z < 0 ? 1 - share : share;
-  }
-};
 
 /// Share of the kernel around a point that walls leave free. Each extent is taken for itself: exact for
 /// planes and for tanks up to the kernel's deviation from a product of three. Boxes end where they end, so
@@ -78,7 +46,7 @@ struct WallFreeShare {
     int feet = 0;
     Real share = 1;
     double nearest = reach, within = 0;  // depth of a place inside the wall, to its nearest face
-    view.each_foot(walls, reach, 1e-4 * reach, [&](const Foot& foot) {
+    view.each_open_foot(walls, reach, 1e-4 * reach, 0.05 * reach, [&](const Foot& foot) {
       if (std::abs(foot.distance) < nearest) {
         nearest = std::abs(foot.distance);
         within = min_of(foot.distance, 0.0);

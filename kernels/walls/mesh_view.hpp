@@ -21,22 +21,52 @@ struct MeshView {
   /// neighbouring triangles closer than `merge` (m) count as one: a foot that lies on an edge by round-off.
   template <class F>
   BL_HD void each_foot(const Vec3d& x, double reach, double merge, F&& f) const {
+    walk([&](const MeshNode& node) { return node.distance2(x) <= reach * reach; },
+         [&](std::uint32_t t) { foot(t, x, reach, merge, f); });
+  }
+  /// As each_foot, but for what the nearest point of the surface hides: all behind the plane through it,
+  /// square to the way there, or before that plane by less than `flat` (m). Other triangles of a wide wall
+  /// cost nothing.
+  template <class F>
+  BL_HD void each_open_foot(const Vec3d& x, double reach, double merge, double flat, F&& f) const {
+    TrianglePoint first;
+    std::uint32_t of = 0;
+    first.distance2 = reach * reach;
+    walk([&](const MeshNode& node) { return node.distance2(x) < first.distance2; },
+         [&](std::uint32_t t) {
+           const TrianglePoint at = nearest(t, x);
+           if (at.distance2 < first.distance2) first = at, of = t;
+         });
+    if (!(first.distance2 < reach * reach)) return;
+    const double distance = std::sqrt(first.distance2);
+    const Vec3d towards = distance > 0 ? (x - first.point) * (1 / distance) : unit_normal(of);
+    walk(
+        [&](const MeshNode& node) {
+          const double d2 = node.distance2(x);
+          return d2 <= first.distance2 ||
+                 (d2 <= reach * reach && node.extent(towards) > dot(first.point, towards) + flat);
+        },
+        [&](std::uint32_t t) { foot(t, x, reach, merge, f); });
+  }
+
+ private:
+  /// visit(triangle) for those in leaves into which and above which enter(node) lets.
+  template <class E, class V>
+  BL_HD void walk(E&& enter, V&& visit) const {
     std::uint32_t stack[kMeshDepth];
     int due = 0;
     stack[due++] = 0;
     while (due > 0) {
       const std::uint32_t index = stack[--due];
       const MeshNode node = nodes[index];
-      if (node.distance2(x) > reach * reach) continue;
+      if (!enter(node)) continue;
       if (node.count == 0) {
         stack[due++] = node.next;
         stack[due++] = index + 1;
       }
-      for (std::uint32_t t = node.next; t < node.next + node.count; ++t) foot(t, x, reach, merge, f);
+      for (std::uint32_t t = node.next; t < node.next + node.count; ++t) visit(t);
     }
   }
-
- private:
   BL_HD TrianglePoint nearest(std::uint32_t t, const Vec3d& x) const {
     const Vec3d corners[3] = {corner(t, 0), corner(t, 1), corner(t, 2)};
     return nearest_on(corners, x);

@@ -77,6 +77,20 @@ struct SurfaceSet {
   /// frame of t = 0. `merge`: feet nearer to each other than this (m) may be one.
   template <class F>
   BL_HD void each_foot(const Surface& s, const Vec3d& r, double reach, double merge, F&& f) const {
+    feet(s, r, reach, f, [&](auto&& meet) { meshes[s.first].each_foot(r, reach + s.shell, merge, meet); });
+  }
+  /// As each_foot, but a mesh keeps quiet about what its nearest point hides; see MeshView::each_open_foot.
+  template <class F>
+  BL_HD void each_open_foot(const Surface& s, const Vec3d& r, double reach, double merge, double flat,
+                            F&& f) const {
+    feet(s, r, reach, f,
+         [&](auto&& meet) { meshes[s.first].each_open_foot(r, reach + s.shell, merge, flat, meet); });
+  }
+
+ private:
+  /// f(foot); of_mesh(g) calls g(normal, distance, feature) for the feet on a mesh.
+  template <class F, class M>
+  BL_HD void feet(const Surface& s, const Vec3d& r, double reach, F& f, M&& of_mesh) const {
     const double p[3] = {dot(r, s.axis[0]), dot(r, s.axis[1]), dot(r, s.axis[2])};
     const auto meet = [&](Foot foot) {
       if (s.shell > 0) {
@@ -102,14 +116,11 @@ struct SurfaceSet {
         revolution(s, p, meet);
         break;
       case SurfaceKind::mesh:
-        meshes[s.first].each_foot(r, reach + s.shell, merge, [&](const Vec3d& n, double d, std::uint32_t k) {
-          meet(Foot{n, d, k});
-        });
+        of_mesh([&](const Vec3d& n, double d, std::uint32_t k) { meet(Foot{n, d, k}); });
         break;
     }
   }
 
- private:
   /// Box or rectangle.
   template <class F>
   BL_HD void block(const Surface& s, const double* p, F& f) const {
@@ -215,6 +226,13 @@ struct SurfaceView {
   template <class F>
   BL_HD void each_foot(const SurfaceSet& set, double reach, double merge, F&& f) const {
     set.each_foot(surface, local(), reach, merge, [&](Foot foot) {
+      if (pose.turned()) foot.normal = pose.rotation.rotate(foot.normal);
+      f(foot);
+    });
+  }
+  template <class F>
+  BL_HD void each_open_foot(const SurfaceSet& set, double reach, double merge, double flat, F&& f) const {
+    set.each_open_foot(surface, local(), reach, merge, flat, [&](Foot foot) {
       if (pose.turned()) foot.normal = pose.rotation.rotate(foot.normal);
       f(foot);
     });

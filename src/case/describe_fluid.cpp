@@ -71,6 +71,8 @@ void describe_fluid_models(Parameters& p, Config& c) {
   p("eos.beta", &c.eos.beta, {.unit = "Pa", .meaning = "democritus: background; the sound speed is derived"});
   p("eos.clip_negative", &c.eos.clip_negative, {.meaning = "no pressure below zero"});
   p("density.delta", &c.density.delta, {.meaning = "density diffusion; 0 off", .range = within(0, 0.2)});
+  p("density.consolidation", &c.density.consolidation,
+    {.meaning = "how fast pressure fades where the fluid leaves room, in c/h; 0 off", .range = within(0, 10)});
   p("density.tension", &c.density.tension,
     {.meaning = "torn fluid cavitates below rho/rho0 - 1 = -tension", .range = within(1e-4, 0.5)});
   p("visc.model", &c.visc.model,

@@ -8,6 +8,7 @@ Config preset_defaults(const std::string& name) {
   if (name != "he2018") return c;
   c.fluid.h_over_dx = 1.3;
   c.density.delta = 0;
+  c.density.consolidation = 0;
   c.tensile = 1;
   c.tensile_one_sign = true;
   c.xsph = 0.3;

@@ -94,27 +94,28 @@ template <class W>
 class FluidSolverWith final : public FluidSolver {
  public:
   FluidSolverWith(const Config& config, const Frame& frame, const WallGeometry& walls, const W& w)
-      : FluidSolver(config, frame, walls, W::kappa), w_(w) {}
+      : FluidSolver(config, frame, walls, W::kappa), w_(w), cut_(CutShare::of(w)) {}
 
   void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt,
                double back) override {
     const double c = config_.fluid.c;
-    DensityPass<W> pass{
-        w_,
-        fluid.v_rho,
-        fluid.m_state,
-        walls.v_rho,
-        walls.m_state,
-        fluid.eps,
-        Real(2 * config_.density.delta * config_.fluid.h() * c),
-        gravity_ * Real(config_.fluid.rho0 / (c * c)),
-        eos_.gamma - 2,
-        Real(config_.fluid.rho0),
-        Real(dt),
-        Real(back),
-        fluid.s,
-        fluid.s_next,
-        config_.couple.mode == "two_way" && config_.grain.present ? Span<Real>(fluid.filled) : Span<Real>()};
+    DensityPass<W> pass{w_,
+                        fluid.v_rho,
+                        fluid.m_state,
+                        walls.v_rho,
+                        walls.m_state,
+                        fluid.eps,
+                        Real(2 * config_.density.delta * config_.fluid.h() * c),
+                        gravity_ * Real(config_.fluid.rho0 / (c * c)),
+                        eos_.gamma - 2,
+                        Real(config_.fluid.rho0),
+                        Real(dt),
+                        Real(back),
+                        fluid.s,
+                        fluid.s_next,
+                        cut_,
+                        Real(config_.density.consolidation * c / config_.fluid.h()),
+                        fluid.filled};
     // all listed pairs: one that is out of reach now may have been within reach half a step ago
     run(fluid, walls, range() + skin(), pass);
     if (!frozen_) return;
@@ -231,6 +232,7 @@ class FluidSolverWith final : public FluidSolver {
   WallPair<W> wall_pair() const { return {w_, viscosity()}; }
 
   W w_;
+  CutShare cut_;
 };
 
 std::unique_ptr<FluidSolver> FluidSolver::make(const Config& config, const Frame& frame,

@@ -27,6 +27,12 @@ struct MeshNode {
     }
     return sum;
   }
+  /// Farthest place of the box along n, m.
+  BL_HD double extent(const Vec3d& n) const {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) sum += n[k] * (n[k] > 0 ? hi[k] : lo[k]);
+    return sum;
+  }
 };
 
 struct MeshTriangle {

@@ -1,0 +1,44 @@
+// Fluid that has been torn and joins again.
+
+#include <fstream>
+
+#include "tests/boundaries/support.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// Height of water that begins a tenth of a spacing too far apart, over the height that its mass asks for,
+/// after `end` s.
+double level(const std::string& density, double end) {
+  constexpr int n = 8, layers = 12;
+  constexpr double dx = 0.01, gap = 1.1 * dx, width = n * gap;
+  const test::TemporaryFolder folder;
+  std::ofstream table(folder / "torn.csv");
+  table << "x,y,z\n";
+  for (int k = 0; k < n * n * layers; ++k)
+    table << gap * (k % n + 0.5) << ',' << gap * (k / n % n + 0.5) << ',' << gap * (k / (n * n) + 0.5)
+          << '\n';
+  table.close();
+  std::ostringstream text;
+  text << "[domain]\nmin = [0, 0, -0.04]\nmax = [" << width << ", " << width
+       << ", 0.2]\nperiodic = [true, true, false]\n[fluid]\ndx = " << dx
+       << "\nvmax = 1.6\n[[fluid.fill]]\nfile = \"" << (folder / "torn.csv").string()
+       << "\"\n[visc]\nalpha = 0.02\n"
+       << "[[wall.body]]\nname = \"floor\"\nshape = \"tank\"\nmin = [0, 0, 0]\nmax = [" << width << ", "
+       << width << ", 0.18]\nfaces = [\"z-\"]\n[time]\nend = 1\n[out]\nevery = 1\n[density]\n"
+       << density;
+  auto s = started(text.str());
+  run_until(*s, end);
+  double sum = 0;
+  for (const Vec3d& x : vectors(s->snapshot("fluid"), "position")) sum += x.z;
+  return 2 * sum / (n * n * layers) / (n * n * layers * dx * dx * dx / (width * width));
+}
+
+TEST(TornFluid, FillsItsVolumeAgain) {
+  EXPECT_NEAR(level("", 0.6), 1, 0.03);
+  EXPECT_GT(level("consolidation = 0", 0.6), 1.2) << "continuity alone keeps it apart";
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
