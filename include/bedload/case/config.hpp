@@ -91,7 +91,7 @@ struct EosConfig {
 
 struct DensityConfig {
   double delta = 0.1;                          ///< density diffusion
-  double consolidation = 1;                    ///< how fast pressure fades in fluid with room in it, c/h
+  double consolidation = 3;                    ///< how fast pressure fades in fluid with room in it, c/h
   double tension = 0.01;                       ///< the fluid cavitates below rho/rho0 - 1 = -tension
   bool operator==(const DensityConfig&) const = default;
 };
