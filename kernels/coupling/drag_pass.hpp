@@ -12,26 +12,91 @@ BL_HD Real spin_drag(Real d, Real rho, Real mu, Real spin) {
   return Real(0.5) * rho * square(square(r)) * r * (Real(12.9) / std::sqrt(Re) + Real(128.4) / Re) * spin;
 }
 
-/// Drag and spin drag coefficients of each grain, times its wetness.
+/// A drag coefficient that grows by `slope` with the slip, kg/s and kg/m.
+struct DragLine {
+  Real still, slope;
+  BL_HD Real at(Real slip) const { return still + slope * slip; }
+};
+
+/// The line through a law at the mean of |u| and at sum phi u2 / sum phi |u|. Exact for Ergun's law, where
+/// all slips are one, and for a jet in fluid that rests. It neither falls with the slip nor starts below
+/// zero.
+template <class K>
+BL_HD DragLine drag_line(const K& law, Real mean, Real fast) {
+  const Real top = law(fast);
+  // less apart than this is rounding
+  if (!(fast - mean > Real(1e-3) * fast)) return {top, 0};
+  const Real slope = clamp((top - law(mean)) / (fast - mean), Real(0), top / fast);
+  return {top - slope * fast, slope};
+}
+
+/// phi_ja K_ja / K_j, the share of a grain's drag that falls to a fluid particle, from V_a W: `still`, and
+/// where drag follows the slip of each particle |v_a - v_j| `by_slip` besides.
+struct DragShares {
+  Span<Real> still;
+  Span<Real4> by_slip;  ///< the grain's velocity, m/s; w: s/m
+
+  template <bool Local, class N, class J>
+  BL_HD N of(J j, N vw, const Vec3<N>& v_a) const {
+    if constexpr (!Local) return vw * still[j];
+    const Vec4<N> grain = by_slip[j];
+    return vw * (still[j] + grain.w * root(norm2(v_a - grain.xyz())));
+  }
+};
+
+/// Drag and spin drag coefficients of each grain, times its wetness, and the fluid motion that they refer to:
+/// U = sum phi K_ja v_a / K_j with K_j = sum phi K_ja, likewise omega_f. With local slip (surroundings.fast)
+/// the law is taken at the slip of each particle, so that a jet pushes by its own speed, else at the mean
+/// slip.
 template <class Law>
 struct DragPass {
   Law law;
   Real mu;      ///< Pa s
   bool torque;  ///< whether the fluid turns grains
-  Span<const Real> radius, eps, wetness;
-  Span<const Real3> v, U, omega, omega_f;
+  Span<const Real> radius, eps, bed_eps, wetness;
+  Span<const Real3> v, omega;
   GrainSurroundings surroundings;
+  DragShares shares;
+  Span<Real3> U, omega_f;
   Span<Real> K, K_rot;
 
   BL_HD void operator()(Index j) const {
-    const Real wet = wetness[j];
-    K[j] = 0;
+    const bool local = bool(surroundings.fast);
+    const Real wet = wetness[j], inv_S = surroundings.inv_S[j];
+    FlowSums flow = surroundings.flow[j];
+    Real slip = inv_S * (local ? Real(surroundings.fast[j].weight) : norm(flow.u)), k = 0;
+    DragLine line{1, 0};
+    if (wet > 0) {
+      const DragLine law_line = line_of(j, slip);
+      k = law_line.at(slip);
+      if (k > 0) line = {law_line.still / k, law_line.slope / k};
+    }
+    K[j] = wet * k;
+    shares.still[j] = inv_S * line.still;
+    if (local) {
+      shares.by_slip[j] = {v[j], inv_S * line.slope};
+      flow = flow.blend(line.still, surroundings.fast[j], line.slope);
+    }
+    U[j] = v[j] + inv_S * flow.u;
+    omega_f[j] = {};
     K_rot[j] = 0;
-    if (!(wet > 0)) return;
-    const Real d = 2 * radius[j], rho = surroundings.rho[j];
-    K[j] = wet * law.K(eps[j], d, rho, mu, norm(U[j] - v[j]));
-    if (torque && surroundings.inv_M[j].trace() > 0)
-      K_rot[j] = wet * spin_drag(d, rho, mu, norm(omega_f[j] - omega[j]));
+    const Carriers& carriers = surroundings.drag;
+    if (!carriers.inv_M) return;
+    carriers.set(j, flow, inv_S);
+    omega_f[j] = carriers.rotation(j, flow, inv_S);
+    if (torque && wet > 0 && carriers.inv_M[j].trace() > 0)
+      K_rot[j] = wet * spin_drag(2 * radius[j], surroundings.rho[j], mu, norm(omega_f[j] - omega[j]));
+  }
+
+ private:
+  /// Beside an orifice the law sees the bed as it is, at the flux that there is.
+  BL_HD DragLine line_of(Index j, Real slip) const {
+    const Real bed = bed_eps[j], ratio = eps[j] / bed;
+    const auto coefficient = [&](Real w) {
+      return ratio * law.K(bed, 2 * radius[j], surroundings.rho[j], mu, ratio * w);
+    };
+    if (!surroundings.fast) return {coefficient(slip), 0};
+    return drag_line(coefficient, slip, surroundings.fast_slip[j]);
   }
 };
 

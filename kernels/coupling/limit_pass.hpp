@@ -1,13 +1,14 @@
 #pragma once
-#include "kernels/coupling/interpolation_pass.hpp"
+#include "kernels/coupling/drag_pass.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// L_a / m_a = sum_j phi_ja K_j / m_a: how fast drag stops a fluid particle, 1/s.
-template <class W>
+/// L_a / m_a = sum_j phi_ja K_ja / m_a: how fast drag stops a fluid particle, 1/s.
+template <class W, bool Local>
 struct DragRatePass {
   FluidWeight<W> weight;
-  Span<const Real> inv_S, K;
+  DragShares shares;
+  Span<const Real> K;
   Span<Real> rate;
 
   template <class N = Real>
@@ -17,7 +18,7 @@ struct DragRatePass {
   BL_HD Sum<> start(Index) const { return {0}; }
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index a, J j, const Vec3<N>&, N r2) const {
-    sum.L += weight(a, r2) * inv_S[j] * K[j];
+    sum.L += K[j] * shares.of<Local>(j, weight(a, r2), Vec3<N>(weight.v_rho[a].xyz()));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.L += other.L; }
   BL_HD void finish(Index a, const Sum<>& sum) const { rate[a] = sum.L / weight.mass[a]; }

@@ -1,16 +1,17 @@
 #pragma once
-#include "kernels/coupling/interpolation_pass.hpp"
+#include "kernels/coupling/drag_pass.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// What each grain gives back: fluid particle a at r from it receives -phi (impulse - A x r), and
-/// likewise of the force. The couple A has no net force; with M A = arm x impulse - torque it takes
-/// the torque on the grain out of the fluid and cancels the moment of spreading off its centre.
+/// What each grain gives back: fluid particle a at r from it receives -w (impulse - A x r), w being its share
+/// of the drag (DragShares), and -phi (force - B x r). A couple has no net force; with M A = arm x impulse -
+/// torque it takes the torque on the grain out of the fluid and cancels the moment of spreading off its
+/// centre.
 ///
-/// With local slip the drag of a particle follows its own velocity: it receives -phi K dt (v_a - u) besides,
+/// With local slip the drag of a particle follows its own velocity: it receives -w K dt (v_a - u) besides,
 /// u being the mean motion around the grain, with the couple a rigid one. These parts have neither net
 /// impulse nor, with the couple, net moment; the grain feels nothing of them.
-struct ReactionShares {
+struct Reactions {
   Span<Real4> impulse;       ///< N s, + A x arm; w: 1/S_j
   Span<Real3> force;         ///< N, + B x arm
   Span<Real3> spin_couple;   ///< A, N s/m
@@ -25,34 +26,33 @@ struct LocalSlip {
   Span<const Real3> U, omega_f;
 };
 
-/// Grain j makes up its shares.
+/// Grain j makes up what it gives back.
 template <bool Couple, bool Local>
 struct SharePass {
   Span<const Real3> impulse, spin_impulse, fluid_force;
   GrainSurroundings surroundings;
   LocalSlip slip;
-  ReactionShares shares;
+  Reactions reactions;
 
   BL_HD void operator()(Index j) const {
     Real3 J = impulse[j], F = fluid_force[j], u, omega;
     const Real Kdt = Local ? slip.dt * slip.K[j] : Real(0);
     if constexpr (Local) u = slip.U[j];
     if constexpr (Couple) {
-      const Real3 arm = surroundings.arm[j];
-      const Real3 A = surroundings.inv_M[j] * (cross(arm, J) - spin_impulse[j]);
-      const Real3 B = surroundings.inv_M[j] * cross(arm, F);
-      J += cross(A, arm);
-      F += cross(B, arm);
+      const Carriers &drag = surroundings.drag, &pressure = surroundings.pressure;
+      const Real3 A = drag.couple(j, J, spin_impulse[j]), B = pressure.couple(j, F, {});
+      J += cross(A, drag.arm[j]);
+      F += cross(B, pressure.arm[j]);
       if constexpr (Local) {
         omega = slip.omega_f[j];
-        u -= cross(omega, arm);
+        u -= cross(omega, drag.arm[j]);
       }
-      shares.spin_couple[j] = A + Kdt * omega;
-      shares.force_couple[j] = B;
+      reactions.spin_couple[j] = A + Kdt * omega;
+      reactions.force_couple[j] = B;
     }
-    if constexpr (Local) shares.mean[j] = {u, Kdt};
-    shares.impulse[j] = {J, surroundings.inv_S[j]};
-    shares.force[j] = F;
+    if constexpr (Local) reactions.mean[j] = {u, Kdt};
+    reactions.impulse[j] = {J, surroundings.inv_S[j]};
+    reactions.force[j] = F;
   }
 };
 
@@ -61,7 +61,8 @@ struct SharePass {
 template <class W, bool Couple, bool Local>
 struct ReactionPass {
   FluidWeight<W> weight;
-  ReactionShares shares;
+  DragShares shares;
+  Reactions reactions;
   Span<Real4> v_rho;
   Span<Real3> reaction;   ///< m/s2
   Span<Real3> drag_kick;  ///< m/s
@@ -73,20 +74,21 @@ struct ReactionPass {
   BL_HD Sum<> start(Index) const { return {}; }
   template <class N, class At>
   BL_HD void pair(Sum<N>& sum, Index a, At j, const Vec3<N>& r_aj, N r2) const {
-    const Vec4<N> share = shares.impulse[j];
-    const N phi = weight(a, r2) * share.w;
-    Vec3<N> J = share.xyz(), F = shares.force[j];
+    const Vec4<N> impulse = reactions.impulse[j];
+    const N vw = weight(a, r2);
+    const Vec3<N> v(v_rho[a].xyz());
+    Vec3<N> J = impulse.xyz(), F = reactions.force[j];
     if constexpr (Local) {
-      const Vec4<N> mean = shares.mean[j];
-      J += mean.w * (Vec3<N>(v_rho[a].xyz()) - mean.xyz());
+      const Vec4<N> mean = reactions.mean[j];
+      J += mean.w * (v - mean.xyz());
     }
     if constexpr (Couple) {
-      const Vec3<N> A = shares.spin_couple[j], B = shares.force_couple[j];
+      const Vec3<N> A = reactions.spin_couple[j], B = reactions.force_couple[j];
       J -= cross(A, r_aj);
       F -= cross(B, r_aj);
     }
-    sum.impulse += phi * J;
-    sum.force += phi * F;
+    sum.impulse += shares.of<Local>(j, vw, v) * J;
+    sum.force += (vw * impulse.w) * F;
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.impulse += other.impulse;

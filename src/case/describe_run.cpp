@@ -93,10 +93,10 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
   p("couple.torque", &c.torque, {.meaning = "fluid torque on grains"});
   p("couple.angmom", &c.angmom, {.meaning = "reaction couple: what is exchanged keeps angular momentum"});
   p("couple.slip", &c.slip,
-    {.meaning = "what slip the drag on the fluid follows",
+    {.meaning = "what slip drag follows",
      .family = "models",
-     .choices = {{"local", "each particle's own: what differs within h_c decays as drag makes it"},
-                 {"mean", "the mean around the grain, which its own drag follows in any case"}}});
+     .choices = {{"local", "that of each fluid particle: a jet pushes, and is stopped, by its own speed"},
+                 {"mean", "the mean around the grain"}}});
   p("couple.damping", &c.damping,
     {.meaning = "artificial viscosity alpha among grains, per solid fraction; keeps water in a bed still",
      .range = within(0, 2)});

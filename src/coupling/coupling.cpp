@@ -76,8 +76,18 @@ Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry&
   orifices_.assign(orifices_of(config));
 }
 
-GrainSurroundings Coupling::surroundings() { return {x_, inv_S_, rho_, arm_, inv_M_}; }
-ReactionShares Coupling::shares() { return {impulse_, force_, spin_couple_, force_couple_, mean_}; }
+GrainSurroundings Coupling::surroundings() {
+  return {.x = x_,
+          .inv_S = inv_S_,
+          .rho = rho_,
+          .flow = flow_,
+          .fast = fast_,
+          .fast_slip = fast_slip_,
+          .pressure = {pressure_arm_, pressure_inv_M_},
+          .drag = {drag_arm_, drag_inv_M_}};
+}
+DragShares Coupling::drag_shares() { return {still_, by_slip_}; }
+Reactions Coupling::reactions() { return {impulse_, force_, spin_couple_, force_couple_, mean_}; }
 
 void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid,
                              const GrainStore& grains, const CellGridView& grain_grid, double skin) {
@@ -93,54 +103,77 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   x_.resize(n);
   inv_S_.resize(n);
   rho_.resize(n);
+  flow_.resize(n);
+  still_.resize(n);
   stiffness_.resize(n);
-  if (moments()) {
-    arm_.resize(n);
-    inv_M_.resize(n);
+  if (local_slip_) {
+    fast_.resize(n);
+    fast_slip_.resize(n);
+    by_slip_.resize(n);
   }
+  if (moments()) {
+    pressure_arm_.resize(n);
+    pressure_inv_M_.resize(n);
+    drag_arm_.resize(n);
+    drag_inv_M_.resize(n);
+  }
+  if (orifices_.size() > 0) {
+    bed_eps_.resize(n);
+    solids_counted_.resize(fluid.size());
+    for_each(fluid.owned(), OrificeSharePass{orifice_share(), frame_, fluid.x, solids_counted_});
+  }
+  const GrainSurroundings around = surroundings();
   const GrainToFluid to_fluid{frame_, grains.x, fluid.x};
   with_weight(kernel_, h_c_, fluid, [&](auto weight) {
     with_flag(moments(), [&](auto with_moments) {
-      const InterpolationPass<decltype(weight.w), with_moments> pass{
-          .weight = weight,
-          .S_least = S_dry_ * WallFreeShare::kLeast,
-          .eps_min = eps_min_,
-          .fluid_eps = fluid.eps,
-          .theta = fluid.theta,
-          .x = grains.x,
-          .v = grains.v,
-          .radius = grains.radius,
-          .eps = grains.eps,
-          .U = grains.U,
-          .omega_f = grains.omega_f,
-          .fluid_force = grains.fluid_force,
-          .surroundings = surroundings()};
-      for_each_pair(grains.owned(), fluid_of_grain_, to_fluid, range_, pass);
+      with_flag(local_slip_, [&](auto local) {
+        const InterpolationPass<decltype(weight.w), with_moments, local> pass{
+            .weight = weight,
+            .S_least = S_dry_ * WallFreeShare::kLeast,
+            .eps_min = eps_min_,
+            .fluid_eps = fluid.eps,
+            .solids_counted = solids_counted_,
+            .theta = fluid.theta,
+            .x = grains.x,
+            .v = grains.v,
+            .radius = grains.radius,
+            .eps = grains.eps,
+            .bed_eps = bed_eps_,
+            .fluid_force = grains.fluid_force,
+            .surroundings = around};
+        for_each_pair(grains.owned(), fluid_of_grain_, to_fluid, range_, pass);
+      });
     });
   });
   const WallFreeShare wall_free{half_space_, frame_, fluid_walls_, pose};
   for_each(grains.owned(),
            WetnessPass{S_dry_, S_wet_, wall_free, grains.x, inv_S_, grains.wetness, grains.fluid_force});
+  const Span<const Real> bed_eps =
+      orifices_.size() > 0 ? Span<Real>(bed_eps_) : Span<Real>(grains.eps.buffer());
   with_drag_law(drag_law_, [&](auto law) {
     for_each(grains.owned(), DragPass<decltype(law)>{.law = law,
                                                      .mu = Real(mu_),
                                                      .torque = torque_,
                                                      .radius = grains.radius,
                                                      .eps = grains.eps,
+                                                     .bed_eps = bed_eps,
                                                      .wetness = grains.wetness,
                                                      .v = grains.v,
-                                                     .U = grains.U,
                                                      .omega = grains.omega,
+                                                     .surroundings = around,
+                                                     .shares = drag_shares(),
+                                                     .U = grains.U,
                                                      .omega_f = grains.omega_f,
-                                                     .surroundings = surroundings(),
                                                      .K = grains.K,
                                                      .K_rot = grains.K_rot});
   });
   if (!two_way_) return;
   rate_.resize(fluid.size());
   with_weight(kernel_, h_c_, fluid, [&](auto weight) {
-    for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, x_}, range_,
-                  DragRatePass<decltype(weight.w)>{weight, inv_S_, grains.K, rate_});
+    with_flag(local_slip_, [&](auto local) {
+      for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, x_}, range_,
+                    DragRatePass<decltype(weight.w), local>{weight, drag_shares(), grains.K, rate_});
+    });
   });
   fastest_ = reduce({0, Index(rate_.size())}, LargestRate{rate_});
   limits_ = dt * fastest_ > 1;
@@ -165,12 +198,13 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
   const LocalSlip slip{Real(dt), grains.K, grains.U, grains.omega_f};
   with_flag(angmom_, [&](auto couple) {
     with_flag(local_slip_, [&](auto local) {
-      for_each(grains.owned(), SharePass<couple, local>{grains.impulse, grains.spin_impulse,
-                                                        grains.fluid_force, surroundings(), slip, shares()});
+      for_each(grains.owned(),
+               SharePass<couple, local>{grains.impulse, grains.spin_impulse, grains.fluid_force,
+                                        surroundings(), slip, reactions()});
       with_weight(kernel_, h_c_, fluid, [&](auto weight) {
         for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, x_}, range_,
-                      ReactionPass<decltype(weight.w), couple, local>{weight, shares(), fluid.v_rho,
-                                                                      fluid.reaction, fluid.drag_kick});
+                      ReactionPass<decltype(weight.w), couple, local>{
+                          weight, drag_shares(), reactions(), fluid.v_rho, fluid.reaction, fluid.drag_kick});
       });
     });
   });
@@ -179,11 +213,10 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
 void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, bool moved) {
   with_kernel(kernel_, h_c_, [&](auto w) {
     const WallFreeShare wall_free{half_space_, frame_, grain_walls_, pose};
-    const OrificeShare orifice{frame_, orifices_, dx_, h_c_};
-    for_each_pair(
-        fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, grains.x}, range_,
-        PorosityPass<decltype(w)>{w, eps_min_, wall_free, orifice, frame_, fluid.x, grains.radius, fluid.eps,
-                                  moved ? Span<const Real>(fluid.filled) : Span<const Real>(), fluid.s});
+    for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, grains.x}, range_,
+                  PorosityPass<decltype(w)>{
+                      w, eps_min_, wall_free, orifice_share(), frame_, fluid.x, grains.radius, fluid.eps,
+                      moved ? Span<const Real>(fluid.filled) : Span<const Real>(), fluid.s});
   });
 }
 

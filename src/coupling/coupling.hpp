@@ -59,8 +59,10 @@ class Coupling {
 
  private:
   bool moments() const { return torque_ || angmom_; }
+  OrificeShare orifice_share() const { return {frame_, orifices_, dx_, h_c_}; }
   GrainSurroundings surroundings();
-  ReactionShares shares();
+  DragShares drag_shares();
+  Reactions reactions();
 
   Frame frame_;
   std::string kernel_, drag_law_;
@@ -76,10 +78,11 @@ class Coupling {
 
   VerletList fluid_of_grain_, grains_of_fluid_;
   Buffer<Vec3d> x_;
-  Buffer<Real> inv_S_, rho_, stiffness_, rate_;
-  Buffer<Real3> arm_, force_, spin_couple_, force_couple_;
-  Buffer<SymmetricMatrix<Real>> inv_M_;
-  Buffer<Real4> impulse_, mean_;
+  Buffer<Real> inv_S_, rho_, bed_eps_, fast_slip_, stiffness_, rate_, solids_counted_, still_;
+  Buffer<FlowSums> flow_, fast_;
+  Buffer<Real3> pressure_arm_, drag_arm_, force_, spin_couple_, force_couple_;
+  Buffer<SymmetricMatrix<Real>> pressure_inv_M_, drag_inv_M_;
+  Buffer<Real4> by_slip_, impulse_, mean_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -142,6 +142,30 @@ TEST(SlowCoupledFlow, SeepagePressureDropFollowsTheDragLaw) {  // T-39
   EXPECT_NEAR(per_volume, 2000, 3e-2 * 2000);
 }
 
+/// Turbulent drag goes with the square of the slip: a jet through a quarter of a bed is stopped as a flow of
+/// its own speed is, dv/dt = - 1.75 (1 - eps) / eps v2 / d by Ergun, not as one of a quarter of that.
+TEST(CoupledFlow, AJetInABedIsStoppedByItsOwnSpeed) {
+  Slurry slurry(6, 0.4);
+  Config& c = slurry.config;
+  c.grain.fixed = true;
+  c.fluid.mu = 1e-6;
+  c.couple.drag = "ergun";
+  c.couple.damping = 0;
+  auto& setup = slurry.setup;
+  for (std::size_t a = 0; a < setup.fluid.v.size(); ++a) {
+    const Vec3d& x = setup.fluid.x[a];
+    const bool jet = std::abs(x.x - 0.04) < 0.02 && std::abs(x.y - 0.04) < 0.02;
+    setup.fluid.v[a] = {0, 0, jet ? 1.0 : 0.0};
+  }
+  for (auto& v : setup.grains.v) v = {};
+  auto s = started(c, setup);
+  const double before = momentum(s->diagnostics(), "fluid").z;
+  run_until(*s, 0.01);
+  const double after = momentum(s->diagnostics(), "fluid").z;
+  const double expected = 1 / (1 + 1.75 * (0.4 / 0.6) / c.grain.d * s->time());
+  EXPECT_NEAR(after / before, expected, 0.03 * expected);
+}
+
 /// Water over and in a bed of resting grains on a floor of that type: it stays still, and lifts each grain by
 /// its buoyancy, to that share.
 void expect_still_bed(const char* floor, double share = 0.05) {

@@ -309,7 +309,7 @@ struct CouplingConfig {
   double S_dry = 0.05, S_wet = 0.95;
   bool torque = true;
   bool angmom = true;
-  std::string slip = "local";                  ///< local, mean: that the drag on the fluid follows
+  std::string slip = "local";                  ///< local, mean: that drag follows
   double damping = 1;                          ///< artificial viscosity of fluid among grains / solid fraction
   std::string drag = "di_felice";
   std::string integrator = "exponential";      ///< exponential, explicit

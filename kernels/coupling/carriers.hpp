@@ -1,0 +1,73 @@
+#pragma once
+#include "bedload/core/span.hpp"
+#include "kernels/coupling/symmetric_matrix.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Sums over the fluid around a grain of a weight times what is named; u: velocity relative to the grain,
+/// m/s; arm: r_a - r_j, m.
+struct FlowSums {
+  double weight = 0;             // fp64: all else is divided by it
+  Real3 u, arm, spin;            // spin: arm x u
+  SymmetricMatrix<Real> moment;  // of arm
+
+  template <bool Moments>
+  BL_HD void add(Real w, const Real3& velocity, const Real3& at) {
+    weight += w;
+    u += w * velocity;
+    if constexpr (Moments) {
+      arm += w * at;
+      spin += w * cross(at, velocity);
+      moment.add_outer(w, at);
+    }
+  }
+  template <bool Moments>
+  BL_HD void merge(const FlowSums& o) {
+    weight += o.weight;
+    u += o.u;
+    if constexpr (Moments) {
+      arm += o.arm;
+      spin += o.spin;
+      moment += o.moment;
+    }
+  }
+  /// a this + b o
+  BL_HD FlowSums blend(Real a, const FlowSums& o, Real b) const {
+    FlowSums out;
+    out.weight = a * weight + b * o.weight;
+    out.u = a * u + b * o.u;
+    out.arm = a * arm + b * o.arm;
+    out.spin = a * spin + b * o.spin;
+    out.moment = moment.template as<Real>(a);
+    out.moment += o.moment.template as<Real>(b);
+    return out;
+  }
+};
+
+/// The fluid that takes a grain's force, as a rigid body by weights w_a: what a couple on it turns.
+struct Carriers {
+  Span<Real3> arm;                    ///< mean of r_a - r_j, m
+  Span<SymmetricMatrix<Real>> inv_M;  ///< 1/m2, M = sum w (s2 1 - s s) about that mean; zero where undefined
+
+  /// scale: one over the sum of the weights, or 0.
+  BL_HD void set(Index j, const FlowSums& flow, Real scale) const {
+    arm[j] = scale * flow.arm;
+    auto moment = flow.moment.template as<double>(1);
+    const double second = moment.trace();
+    moment.add_outer(-flow.weight, Vec3d(arm[j]));
+    // Against the moment about the grain, never smaller than M: rounding cannot pass for a spread.
+    const auto inverse = moment.inertia().inverse();
+    const bool usable = scale > 0 && inverse.norm() * second < 1e6;  // false for NaN
+    inv_M[j] = usable ? inverse.template as<Real>(flow.weight) : SymmetricMatrix<Real>{};
+  }
+  /// By how the fluid turns, rad/s.
+  BL_HD Real3 rotation(Index j, const FlowSums& flow, Real scale) const {
+    return scale * (inv_M[j] * (flow.spin - cross(arm[j], flow.u)));
+  }
+  /// A of the couple w A x s that, with the force -F, leaves the fluid a moment -T about the grain's centre.
+  BL_HD Real3 couple(Index j, const Real3& F, const Real3& T) const {
+    return inv_M[j] * (cross(arm[j], F) - T);
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT
