@@ -79,7 +79,9 @@ TEST(Drying, ABedThatStandsOutOfTheWaterIsLiftedByWhatIsUnderIt) {
   for (std::size_t j = 0; j < n; ++j) {
     lift += box.grains.fluid_force.values()[j].z;
     under += (x[j].z < level) + 0.5 * (x[j].z == level);
-    if (x[j].z < level - 0.15) EXPECT_GT(wet[j], 0.97) << x[j].x << " " << x[j].y << " " << x[j].z;
+    if (x[j].z < level - 0.15) {
+      EXPECT_GT(wet[j], 0.97) << x[j].x << " " << x[j].y << " " << x[j].z;
+    }
   }
   const double expected = under * M_PI / 6 * d * d * d * 9810;
   EXPECT_NEAR(lift, expected, 0.01 * expected);
