@@ -4,15 +4,25 @@
 
 namespace bedload::inline BL_VARIANT {
 
+#if BL_CUDA
+/// A sum that all else is divided by, in fp64 where one thread adds up a long row.
+template <class N>
+using Divisor = double;
+#else
+template <class N>
+using Divisor = N;
+#endif
+
 /// Sums over the fluid around a grain of a weight times what is named; u: velocity relative to the grain,
 /// m/s; arm: r_a - r_j, m.
+template <class N = Real>
 struct FlowSums {
-  double weight = 0;             // fp64: all else is divided by it
-  Real3 u, arm, spin;            // spin: arm x u
-  SymmetricMatrix<Real> moment;  // of arm
+  Divisor<N> weight{};
+  Vec3<N> u, arm, spin;       // spin: arm x u
+  SymmetricMatrix<N> moment;  // of arm
 
   template <bool Moments>
-  BL_HD void add(Real w, const Real3& velocity, const Real3& at) {
+  BL_HD void add(N w, const Vec3<N>& velocity, const Vec3<N>& at) {
     weight += w;
     u += w * velocity;
     if constexpr (Moments) {
@@ -50,18 +60,18 @@ struct Carriers {
   Span<SymmetricMatrix<Real>> inv_M;  ///< 1/m2, M = sum w (s2 1 - s s) about that mean; zero where undefined
 
   /// scale: one over the sum of the weights, or 0.
-  BL_HD void set(Index j, const FlowSums& flow, Real scale) const {
+  BL_HD void set(Index j, const FlowSums<>& flow, Real scale) const {
     arm[j] = scale * flow.arm;
     auto moment = flow.moment.template as<double>(1);
     const double second = moment.trace();
-    moment.add_outer(-flow.weight, Vec3d(arm[j]));
+    moment.add_outer(-double(flow.weight), Vec3d(arm[j]));
     // Against the moment about the grain, never smaller than M: rounding cannot pass for a spread.
     const auto inverse = moment.inertia().inverse();
     const bool usable = scale > 0 && inverse.norm() * second < 1e6;  // false for NaN
     inv_M[j] = usable ? inverse.template as<Real>(flow.weight) : SymmetricMatrix<Real>{};
   }
   /// By how the fluid turns, rad/s.
-  BL_HD Real3 rotation(Index j, const FlowSums& flow, Real scale) const {
+  BL_HD Real3 rotation(Index j, const FlowSums<>& flow, Real scale) const {
     return scale * (inv_M[j] * (flow.spin - cross(arm[j], flow.u)));
   }
   /// A of the couple w A x s that, with the force -F, leaves the fluid a moment -T about the grain's centre.

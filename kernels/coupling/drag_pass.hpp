@@ -63,7 +63,7 @@ struct DragPass {
   BL_HD void operator()(Index j) const {
     const bool local = bool(surroundings.fast);
     const Real wet = wetness[j], inv_S = surroundings.inv_S[j];
-    FlowSums flow = surroundings.flow[j];
+    FlowSums<> flow = surroundings.flow[j];
     Real slip = inv_S * (local ? Real(surroundings.fast[j].weight) : norm(flow.u)), k = 0;
     DragLine line{1, 0};
     if (wet > 0) {

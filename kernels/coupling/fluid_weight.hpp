@@ -13,8 +13,8 @@ struct FluidWeight {
   Span<const Real4> v_rho;
   Span<const Real> mass;
 
-  template <class N>
-  BL_HD N operator()(Index a, N r2) const {
+  template <class A, class N>
+  BL_HD N operator()(A a, N r2) const {
     return mass[a] / v_rho[a].w * w.W(root(r2));
   }
 };

@@ -9,8 +9,8 @@ struct GrainSurroundings {
   Span<Vec3d> x;            ///< where the grain was, m
   Span<Real> inv_S;         ///< 0: dry
   Span<Real> rho;           ///< intrinsic fluid density, kg/m3
-  Span<FlowSums> flow;      ///< by V_a W
-  Span<FlowSums> fast;      ///< by V_a W |u|
+  Span<FlowSums<>> flow;    ///< by V_a W
+  Span<FlowSums<>> fast;    ///< by V_a W |u|
   Span<Real> fast_slip;     ///< mean of |u| by that weight, m/s
   Carriers pressure, drag;  ///< weighted with phi_ja and with phi_ja K_ja
 };
@@ -33,33 +33,35 @@ struct InterpolationPass {
   GrainSurroundings surroundings;
 
   /// Sums over the fluid of V_a W times what is named; velocities relative to the grain.
+  template <class N = Real>
   struct Sum {
-    Real3 v_grain;
-    Real eps = 0, counted = 0, rho = 0, speed2 = 0;
-    Real3 rho_theta;
-    FlowSums flow, fast;
+    Vec3<N> v_grain;
+    N eps{}, counted{}, rho{}, speed2{};
+    Vec3<N> rho_theta;
+    FlowSums<N> flow, fast;
   };
-  BL_HD Sum start(Index j) const {
-    Sum sum;
+  BL_HD Sum<> start(Index j) const {
+    Sum<> sum;
     sum.v_grain = v[j];
     return sum;
   }
-  BL_HD void pair(Sum& sum, Index, Index a, const Real3& r_ja, Real r2) const {
-    const Real4 state = weight.v_rho[a];
-    const Real vw = weight(a, r2);
-    const Real3 u = state.xyz() - sum.v_grain;
-    sum.eps += vw * fluid_eps[a];
+  template <class N, class A>
+  BL_HD void pair(Sum<N>& sum, Index, A a, const Vec3<N>& r_ja, N r2) const {
+    const Vec4<N> state = weight.v_rho[a];
+    const N vw = weight(a, r2), eps_a = fluid_eps[a];
+    const Vec3<N> u = state.xyz() - sum.v_grain;
+    sum.eps += vw * eps_a;
     if (solids_counted) sum.counted += vw * solids_counted[a];
-    sum.rho += vw * state.w / fluid_eps[a];
+    sum.rho += vw * state.w / eps_a;
     sum.rho_theta += vw * state.w * theta[a];
     sum.flow.template add<Moments>(vw, u, -r_ja);
     if constexpr (Local) {
-      const Real speed2 = norm2(u);
-      sum.fast.template add<Moments>(vw * std::sqrt(speed2), u, -r_ja);
+      const N speed2 = norm2(u);
+      sum.fast.template add<Moments>(vw * root(speed2), u, -r_ja);
       sum.speed2 += vw * speed2;
     }
   }
-  BL_HD void merge(Sum& into, const Sum& other) const {
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.eps += other.eps;
     into.counted += other.counted;
     into.rho += other.rho;
@@ -70,7 +72,7 @@ struct InterpolationPass {
       into.fast.template merge<Moments>(other.fast);
     }
   }
-  BL_HD void finish(Index j, const Sum& sum) const {
+  BL_HD void finish(Index j, const Sum<>& sum) const {
     const double S = sum.flow.weight;
     const Real inv_S = S > S_least ? Real(1 / S) : Real(0);
     surroundings.x[j] = x[j];

@@ -79,7 +79,7 @@ class Coupling {
   VerletList fluid_of_grain_, grains_of_fluid_;
   Buffer<Vec3d> x_;
   Buffer<Real> inv_S_, rho_, bed_eps_, fast_slip_, stiffness_, rate_, solids_counted_, still_;
-  Buffer<FlowSums> flow_, fast_;
+  Buffer<FlowSums<>> flow_, fast_;
   Buffer<Real3> pressure_arm_, drag_arm_, force_, spin_couple_, force_couple_;
   Buffer<SymmetricMatrix<Real>> pressure_inv_M_, drag_inv_M_;
   Buffer<Real4> by_slip_, impulse_, mean_;
