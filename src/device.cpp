@@ -128,7 +128,8 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts) {
   const double cross =
       config.couple.mode == "off" || !config.fluid.present
           ? 0
-          : 8 * 4.19 * std::pow((2 * config.couple.hc + config.grain.d_max * 0.1) / config.fluid.dx, 3);
+          : 24 + real * 78 +
+                8 * 4.19 * std::pow((2 * config.couple.hc + config.grain.d_max * 0.1) / config.fluid.dx, 3);
   return std::size_t(counts.fluid * fluid + counts.walls * walls + counts.grains * (grains + cross)) +
          (64u << 20);
 }
