@@ -20,8 +20,8 @@ struct GrainStore : Store {
   Field<Real3> drag_force{*this, "drag_force", "N", Lifetime::kept};        ///< mean over the last step
   Field<Real> eps{*this, "porosity", "-", Lifetime::kept};
   Field<Real> wetness{*this, "wetness", "-", Lifetime::kept};
-  Field<Real3> U{*this, "U", "m/s", Lifetime::derived};       ///< fluid velocity here
-  Field<Real3> omega_f{*this, "omega_f", "rad/s", Lifetime::derived};  ///< fluid rotation here
+  Field<Real3> U{*this, "U", "m/s", Lifetime::derived};       ///< of the fluid, as drag weighs it
+  Field<Real3> omega_f{*this, "omega_f", "rad/s", Lifetime::derived};  ///< of the fluid, likewise
   Field<Real> K{*this, "K", "kg/s", Lifetime::kept};          ///< limited drag coefficient K'
   Field<Real> K_rot{*this, "K_rot", "N m s", Lifetime::derived};  ///< fluid torque per relative spin
   Field<Real3> impulse{*this, "impulse", "N s", Lifetime::derived};    ///< drag impulse of this fluid step
