@@ -45,10 +45,9 @@ struct DragShares {
 };
 
 /// Drag and spin drag coefficients of each grain, times its wetness, and the fluid motion that they refer to:
-/// U = sum phi K_ja v_a / K_j with K_j = sum phi K_ja, likewise omega_f. With local slip (surroundings.fast)
-/// the law is taken at the slip of each particle, so that a jet pushes by its own speed, else at the mean
-/// slip.
-template <class Law>
+/// U = sum phi K_ja v_a / K_j with K_j = sum phi K_ja, likewise omega_f. Local: the law is taken at the slip
+/// of each particle, so that a jet pushes by its own speed; else at the mean slip.
+template <class Law, bool Local>
 struct DragPass {
   Law law;
   Real mu;      ///< Pa s
@@ -61,19 +60,19 @@ struct DragPass {
   Span<Real> K, K_rot;
 
   BL_HD void operator()(Index j) const {
-    const bool local = bool(surroundings.fast);
     const Real wet = wetness[j], inv_S = surroundings.inv_S[j];
     FlowSums<> flow = surroundings.flow[j];
-    Real slip = inv_S * (local ? Real(surroundings.fast[j].weight) : norm(flow.u)), k = 0;
+    Real k = 0;
     DragLine line{1, 0};
     if (wet > 0) {
+      const Real slip = mean_slip(j);
       const DragLine law_line = line_of(j, slip);
       k = law_line.at(slip);
       if (k > 0) line = {law_line.still / k, law_line.slope / k};
     }
     K[j] = wet * k;
     shares.still[j] = inv_S * line.still;
-    if (local) {
+    if constexpr (Local) {
       shares.by_slip[j] = {v[j], inv_S * line.slope};
       flow = flow.blend(line.still, surroundings.fast[j], line.slope);
     }
@@ -89,14 +88,24 @@ struct DragPass {
   }
 
  private:
+  /// The mean of |u|, or the norm of the mean of u, m/s.
+  BL_HD Real mean_slip(Index j) const {
+    const Real inv_S = surroundings.inv_S[j];
+    if constexpr (Local)
+      return inv_S * Real(surroundings.fast[j].weight);
+    else
+      return inv_S * norm(surroundings.flow[j].u);
+  }
   /// Beside an orifice the law sees the bed as it is, at the flux that there is.
   BL_HD DragLine line_of(Index j, Real slip) const {
     const Real bed = bed_eps[j], ratio = eps[j] / bed;
     const auto coefficient = [&](Real w) {
       return ratio * law.K(bed, 2 * radius[j], surroundings.rho[j], mu, ratio * w);
     };
-    if (!surroundings.fast) return {coefficient(slip), 0};
-    return drag_line(coefficient, slip, surroundings.fast_slip[j]);
+    if constexpr (Local)
+      return drag_line(coefficient, slip, surroundings.fast_slip[j]);
+    else
+      return {coefficient(slip), 0};
   }
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // How much of a grain's exchange falls to a fluid particle. Interpolation to the grain and
-// spreading back use the same weights, which makes momentum exact and drag dissipative.
+// spreading back use the same weights, which makes momentum exact and drag dissipative; the couple that keeps
+// angular momentum too may give back up to K |omega_f x arm|2 / 4 W, beside a surface of fluid that turns.
 
 #include "bedload/core/span.hpp"
 

@@ -151,21 +151,23 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   const Span<const Real> bed_eps =
       orifices_.size() > 0 ? Span<Real>(bed_eps_) : Span<Real>(grains.eps.buffer());
   with_drag_law(drag_law_, [&](auto law) {
-    for_each(grains.owned(), DragPass<decltype(law)>{.law = law,
-                                                     .mu = Real(mu_),
-                                                     .torque = torque_,
-                                                     .radius = grains.radius,
-                                                     .eps = grains.eps,
-                                                     .bed_eps = bed_eps,
-                                                     .wetness = grains.wetness,
-                                                     .v = grains.v,
-                                                     .omega = grains.omega,
-                                                     .surroundings = around,
-                                                     .shares = drag_shares(),
-                                                     .U = grains.U,
-                                                     .omega_f = grains.omega_f,
-                                                     .K = grains.K,
-                                                     .K_rot = grains.K_rot});
+    with_flag(local_slip_, [&](auto local) {
+      for_each(grains.owned(), DragPass<decltype(law), local>{.law = law,
+                                                              .mu = Real(mu_),
+                                                              .torque = torque_,
+                                                              .radius = grains.radius,
+                                                              .eps = grains.eps,
+                                                              .bed_eps = bed_eps,
+                                                              .wetness = grains.wetness,
+                                                              .v = grains.v,
+                                                              .omega = grains.omega,
+                                                              .surroundings = around,
+                                                              .shares = drag_shares(),
+                                                              .U = grains.U,
+                                                              .omega_f = grains.omega_f,
+                                                              .K = grains.K,
+                                                              .K_rot = grains.K_rot});
+    });
   });
   if (!two_way_) return;
   rate_.resize(fluid.size());
