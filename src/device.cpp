@@ -119,17 +119,17 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts) {
   const double position = config.precision == "single" ? 16 : 24,
                pair_position = config.precision == "double" ? 24 : 16;
   const double h = config.fluid.h(), reach = 2 * h + config.skin_fluid * config.fluid.dx;
-  const double neighbours = config.fluid.present ? 4.19 * std::pow(reach / config.fluid.dx, 3) * 1.15 : 0;
+  const double neighbours = config.fluid.present ? 4.19 * std::pow(reach / config.fluid.dx, 3) * 1.2 : 0;
   const double fluid = 4 + 2 * position + pair_position + real * 34 + 4 * neighbours + position;
-  const double walls = 8 + 3 * 24 + pair_position + real * 13 + 4 * 12;
+  const double walls = 8 + 3 * 24 + pair_position + real * 13 + 4 * 32;
   const double contacts = 12;
   const double touches = 60.0 * std::min(config.wall.free_bodies(), 8);  // of each grain with free bodies
   const double grains = 4 + 3 * 24 + real * 36 + contacts * (4 + 56) * 2 + touches;
+  const double skin = 0.5 * (config.skin_fluid * config.fluid.dx + config.skin_grain * config.grain.d_min);
   const double cross =
       config.couple.mode == "off" || !config.fluid.present
           ? 0
-          : 24 + real * 78 +
-                8 * 4.19 * std::pow((2 * config.couple.hc + config.grain.d_max * 0.1) / config.fluid.dx, 3);
+          : 24 + real * 78 + 2 * 4 * 4.19 * std::pow((2 * config.couple.hc + skin) / config.fluid.dx, 3);
   return std::size_t(counts.fluid * fluid + counts.walls * walls + counts.grains * (grains + cross)) +
          (64u << 20);
 }

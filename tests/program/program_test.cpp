@@ -129,6 +129,26 @@ TEST_F(Program, ChecksACaseWithoutRunningIt) {
   EXPECT_FALSE(std::filesystem::exists(dir_ / "results"));
 }
 
+TEST_F(Program, EstimatesItsMemory) {
+  write("dam.toml", kSmall);
+  const auto number_after = [](const std::string& text, const std::string& words) {
+    return std::stod(text.substr(text.find(words) + words.size()));
+  };
+  const std::string fine = " --backend cpu --set fluid.dx=0.002 --set wall.dx=0.002 --set grain.settle=false";
+  for (const char* grains : {"--set grain.d=0.005", "--set grain.d=0.0025 --set grain.fill.0.count=3000"}) {
+    const std::string options = fine + " " + grains;
+    const Outcome check = bedload("check dam.toml" + options);
+    ASSERT_EQ(check.code, 0) << check.err;
+    ASSERT_EQ(bedload("run dam.toml --out run --overwrite --until 1e-6" + options).code, 0);
+    const double slack = 67.1;  // of the device itself, MB
+    const double told = number_after(check.out, "memory     about ") - slack;
+    const std::string summary = content_of(dir_ / "run/summary.json");
+    const double held = 1e-6 * number_after(summary.substr(summary.find("\"solver\"")), "\"value\": ");
+    EXPECT_GT(told, 0.85 * held) << options;
+    EXPECT_LT(told, 1.3 * held) << options;
+  }
+}
+
 TEST_F(Program, CountsWhatComesIn) {
   write("spout.toml", R"([domain]
 min = [-0.1, 0, 0]
