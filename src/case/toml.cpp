@@ -48,10 +48,12 @@ std::string reason(const toml::parse_error& error) {
   return "is not TOML: " + (text.starts_with(preamble) ? text.substr(preamble.size()) : text);
 }
 
+/// Or the name of a file.
 bool is_bare_word(std::string_view text) {
   return !text.empty() && !std::isdigit(static_cast<unsigned char>(text[0])) &&
-         std::all_of(text.begin(), text.end(),
-                     [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-' || c == '+'; });
+         std::all_of(text.begin(), text.end(), [](unsigned char c) {
+           return std::isalnum(c) || std::string_view("_-+./").find(char(c)) != std::string_view::npos;
+         });
 }
 
 std::string trimmed(std::string_view text) {

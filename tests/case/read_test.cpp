@@ -122,6 +122,7 @@ TEST(ReadCase, OverridesWinAndTakeBareWords) {
   EXPECT_EQ(c.grain.seed, 9u);
   EXPECT_DOUBLE_EQ(c.visc.alpha, 0.02);
   EXPECT_TRUE(c.domain.periodic[1]);
+  EXPECT_EQ(read(kCase, {"title=../meshes/none-2.stl"}).title, "../meshes/none-2.stl");
 }
 
 TEST(ReadCase, GrainsAloneNeedNoFluid) {
