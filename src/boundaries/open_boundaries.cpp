@@ -192,7 +192,7 @@ bool OpenBoundaries::has_room(const NewGrain& grain, double t) const {
     const WallBody& body = config_.wall.bodies[b];
     if (!body.stops_grains() || motion_.removed(b)) continue;
     const Vec3d x = motion_.pose(b, t).undo(grain.x);
-    if (wall_distance(body, x, 10 * config_.grain.d_max, config_.domain) < grain.radius) return false;
+    if (wall_clearance(body, x, 10 * config_.grain.d_max, config_.domain) < grain.radius) return false;
   }
   return true;
 }

@@ -29,6 +29,11 @@ class Hollow : public Shape {
     return {inner.distance - thickness_, inner.point + thickness_ * inner.normal, inner.normal};
   }
 
+  double clearance(const Vec3d& x) const override {
+    const double inner = shape_->distance(x);
+    return inner < thickness_ / 2 ? -inner : shape_->clearance(x) - thickness_;
+  }
+
   Bounds bounds() const override { return shape_->bounds().grown(thickness_); }
 
   void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
@@ -61,6 +66,12 @@ class Union : public Shape {
     return least;
   }
 
+  double clearance(const Vec3d& x) const override {
+    double least = Bounds::kInfinity;
+    for (const ShapePtr& shape : shapes_) least = std::min(least, shape->clearance(x));
+    return least;
+  }
+
   Bounds bounds() const override {
     Bounds b;
     for (const ShapePtr& shape : shapes_) b.add(shape->bounds());
@@ -85,34 +96,47 @@ class Difference : public Shape {
     return kept.distance >= cut.distance ? kept : cut;
   }
 
+  double clearance(const Vec3d& x) const override {
+    const SurfacePoint s = nearest(x);
+    if (s.distance <= 0 || distance(s.point) < 1e-6 * facet()) return s.distance;
+    return std::max(s.distance, mesh().distance(x) - facet() / 2);
+  }
+
   Bounds bounds() const override { return shape_->bounds(); }
 
   void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
-    std::call_once(made_, [&] { mesh_ = make_mesh(); });
-    mesh_->add_parts(parts, p);
+    mesh().add_parts(parts, p);
   }
 
  private:
-  std::shared_ptr<const TriangleMesh> make_mesh() const {
+  double facet() const {
+    if (facet_ > 0) return facet_;
     const Bounds b = bounds();
     const Vec3d side = b.max - b.min;
-    const double facet =
-        facet_ > 0 ? facet_ : std::min(norm(side) / 100, std::min({side.x, side.y, side.z}) / 4);
+    return std::min(norm(side) / 100, std::min({side.x, side.y, side.z}) / 4);
+  }
+
+  const TriangleMesh& mesh() const {
+    std::call_once(made_, [&] { mesh_ = make_mesh(); });
+    return *mesh_;
+  }
+
+  std::shared_ptr<const TriangleMesh> make_mesh() const {
     MeshOptions options;
     options.repair = true;
     std::string fault;
-    for (const double size : {facet, 0.97 * facet, 0.94 * facet}) {  // another raster may do
+    for (const double size : {facet(), 0.97 * facet(), 0.94 * facet()}) {  // another raster may do
       try {
         return std::make_shared<TriangleMesh>(contour(*this, size), "its triangles", options);
       } catch (const CaseError& error) {
         if (fault.empty()) fault = error.what();
       }
     }
-    throw CaseError(fmt::format("difference: with a facet of {:g} m, {}", facet, fault));
+    throw CaseError(fmt::format("difference: with a facet of {:g} m, {}", facet(), fault));
   }
 
   ShapePtr shape_, cut_;
-  double facet_;  ///< m
+  double facet_;  ///< as asked for, m
   mutable std::once_flag made_;
   mutable std::shared_ptr<const TriangleMesh> mesh_;
 };
@@ -127,6 +151,10 @@ class Placed : public Shape {
   SurfacePoint nearest(const Vec3d& x) const override {
     const SurfacePoint s = shape_->nearest(placement_.undo(x));
     return {placement_.scale * s.distance, placement_.apply(s.point), placement_.rotation.rotate(s.normal)};
+  }
+
+  double clearance(const Vec3d& x) const override {
+    return placement_.scale * shape_->clearance(placement_.undo(x));
   }
 
   Bounds bounds() const override {

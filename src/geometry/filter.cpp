@@ -145,7 +145,7 @@ void check_filters(const Config& config, std::vector<std::string>& warnings) {
     const auto distance = [&](const Vec3d& x) {
       double least = INFINITY;
       for (const WallBody& body : config.wall.bodies)
-        if (body.stops_grains()) least = std::min(least, wall_distance(body, x, d, config.domain));
+        if (body.stops_grains()) least = std::min(least, wall_clearance(body, x, d, config.domain));
       return least;
     };
     const Passages ways = find_passages(distance, box, d);

@@ -179,7 +179,7 @@ class Packer {
   bool clear_of_walls(const Vec3d& x, double radius, double allowed) const {
     for (const WallBody& body : config_.wall.bodies)
       if (body.stops_grains() &&
-          wall_distance(body, x, 10 * config_.grain.d_max, config_.domain) < radius - allowed)
+          wall_clearance(body, x, 10 * config_.grain.d_max, config_.domain) < radius - allowed)
         return false;
     return true;
   }

@@ -256,6 +256,11 @@ double wall_distance(const WallBody& body, const Vec3d& x, double thickness, con
   return box_distance(body, x, domain);
 }
 
+double wall_clearance(const WallBody& body, const Vec3d& x, double thickness, const DomainConfig& domain) {
+  if (body.solid.shape) return body.solid.shape->clearance(x);
+  return wall_distance(body, x, thickness, domain);
+}
+
 void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::string>& warnings) {
   const double reach = config.fluid.kappa() * config.fluid.h();
   const auto& bodies = config.wall.bodies;

@@ -43,8 +43,11 @@ void check_fluid_is_clear(const Config& config, const Setup::Fluid& fluid) {
     const Vec3d& x = fluid.x[first];
     throw CaseError(
         fmt::format("fluid.fill: {} fluid particles, the first at ({:g}, {:g}, {:g}) m, lie "
-                    "inside wall.body \"{}\"",
-                    count, x.x, x.y, x.z, body.name));
+                    "inside wall.body \"{}\"{}",
+                    count, x.x, x.y, x.z, body.name,
+                    body.shape == "tank" || body.shape == "plane"
+                        ? ""
+                        : "; fill a shape of kind \"difference\" that leaves it out"));
   }
 }
 

@@ -9,12 +9,13 @@
 namespace bedload::test {
 namespace {
 
-/// A square plate of 0.2 m at z = 0 with 2 x 2 round holes of `width`.
-ShapePtr sieve(double width) {
+/// A square plate of 0.2 m at z = 0 with 2 x 2 round holes of `width`, cut by cylinders of half length
+/// `reach`.
+ShapePtr sieve(double width, double reach = 0.1) {
   ShapePtr plate = make_box({-0.1, -0.1, -0.01}, {0.1, 0.1, 0.01});
   for (const double x : {-0.05, 0.05})
     for (const double y : {-0.05, 0.05})
-      plate = make_difference(plate, make_cylinder({x, y, -0.1}, {x, y, 0.1}, width / 2));
+      plate = make_difference(plate, make_cylinder({x, y, -reach}, {x, y, reach}, width / 2));
   return plate;
 }
 
@@ -58,6 +59,10 @@ TEST(Filters, AreComparedWithTheSmallestGrain) {
                            "openings up to 0.0"))
       << holes[0];
   EXPECT_EQ(warnings_of(sieve(0.015), 0.02, true).size(), 0u);
+  // cut by tools that are hardly longer than the plate is thick
+  const auto short_cut = warnings_of(sieve(0.04, 0.011), 0.02, true);
+  ASSERT_EQ(short_cut.size(), 1u);
+  EXPECT_NE(short_cut[0].find("by 4 openings up to 0.03"), std::string::npos) << short_cut[0];
   // a plate that fits, one with a gap to one side of the tank, one with a gap all around
   EXPECT_EQ(warnings_of(make_box({-0.1, -0.1, 0}, {0.1, 0.1, 0.02}), 0.02, true).size(), 0u);
   EXPECT_EQ(warnings_of(make_box({-0.1, -0.1, 0}, {0.07, 0.1, 0.02}), 0.02, true).size(), 1u);

@@ -127,7 +127,7 @@ TEST(FluidLattice, RefusesFluidInsideASolid) {
   config.wall.bodies = {body("box", {0.09, 0, 0}, {0.2, 0.1, 0.1})};
   EXPECT_EQ(error_of(config),
             "fluid.fill: 100 fluid particles, the first at (0.095, 0.005, 0.005) m, lie "
-            "inside wall.body \"box\"");
+            "inside wall.body \"box\"; fill a shape of kind \"difference\" that leaves it out");
   config.wall.bodies[0].min.x = 0.1;
   EXPECT_EQ(error_of(config), "");
   config.wall.bodies = {body("tank", {0.01, 0, 0}, {0.5, 0.5, 0.5})};

@@ -258,6 +258,26 @@ TEST(Difference, CutsOneFromTheOther) {
   });
 }
 
+TEST(Difference, HasNoLidWhereItIsCut) {
+  const double facet = 0.05;
+  const auto drilled = make_difference(make_box({-1, -1, -1}, {1, 1, 1}),
+                                       make_cylinder({0, 0, -1.05}, {0, 0, 1.05}, 0.5), facet);
+  const auto placed = make_placed(drilled, {2, {}, {10, 0, 0}});
+  const auto far = make_union({make_sphere({9, 9, 9}, 1), drilled});
+  for (const double z : {0.0, 0.9, 1.02, 1.2, 3.0}) {
+    const Vec3d x{0, 0, z};
+    const double exact = std::hypot(0.5, std::max(z - 1, 0.0));
+    EXPECT_LE(drilled->distance(x), exact + kRound);
+    EXPECT_NEAR(drilled->clearance(x), exact - facet / 4, 0.3 * facet) << z;
+    EXPECT_NEAR(placed->clearance(2.0 * x + Vec3d{10, 0, 0}), 2 * drilled->clearance(x), kRound);
+    EXPECT_EQ(far->clearance(x), drilled->clearance(x));
+  }
+  EXPECT_LT(drilled->distance({0, 0, 1.02}), 0.1) << "of the top that is cut away";
+  EXPECT_NEAR(make_hollow(drilled, 0.1)->clearance({0, 0, 2}), drilled->clearance({0, 0, 2}) - 0.1, kRound);
+  EXPECT_EQ(drilled->clearance({0.9, 0, 0.9}), drilled->distance({0.9, 0, 0.9})) << "inside";
+  EXPECT_EQ(drilled->clearance({2, 0, 0}), 1);
+}
+
 TEST(Placed, MovesTurnsAndScales) {
   const auto quarter = Quat<double>::from_rotation({0, 0, M_PI / 2});  // x to y
   const auto placed = make_placed(make_box({0, 0, 0}, {1, 2, 3}), {2, quarter, {10, 0, 0}});

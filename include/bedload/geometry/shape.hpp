@@ -85,6 +85,9 @@ class Shape {
 
   /// m, negative inside the solid.
   double distance(const Vec3d& x) const { return nearest(x).distance; }
+
+  /// distance(), but true also where that is only a bound outside the solid: how large a sphere has room, m.
+  virtual double clearance(const Vec3d& x) const { return distance(x); }
 };
 
 using ShapePtr = std::shared_ptr<const Shape>;
@@ -119,8 +122,10 @@ ShapePtr make_hollow(ShapePtr shape, double thickness);
 ShapePtr make_union(std::vector<ShapePtr> shapes);
 
 /// `shape` without `cut`. The distance is max(d, -d_cut): exact on the surface, elsewhere never greater in
-/// magnitude than the true one. `nearest` may name a point of the part that is cut away. Its parts are
-/// triangles about `facet` (m) wide; 0: a quarter of the least extent, at most 1/100 of the diagonal.
+/// magnitude than the true one: beside what is cut away it may be that from the surface which is gone, a lid
+/// on a hole. `nearest` names a point of that then; `clearance` is that from the triangles, up to half a
+/// facet less. Its parts are triangles about `facet` (m) wide; 0: a quarter of the least extent, at most
+/// 1/100 of the diagonal.
 ShapePtr make_difference(ShapePtr shape, ShapePtr cut, double facet = 0);
 
 /// `shape` moved, turned and scaled.
