@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Runs the injection cell at several rates and looks for the lowest at which the jet stirs the bed.
 
-    sweep.py PROGRAM OUT_DIR [--rates 50,100,200,400,600] [-- --set fluid.c_factor=5 ...]
+    sweep.py PROGRAM OUT_DIR [--case coarse.toml] [--rates 50,100,200,400,600] [-- --set fluid.c_factor=5 ...]
 
-Each run lasts until 1.2 times the time that the rate takes to fill the voids of the bed, as in the case at
-100 ml/min, and leaves 85 frames. Runs that OUT_DIR holds completed are not repeated. What follows -- goes to the
+Each run lasts until 1.2 times the time that the rate takes to fill the voids of the bed, as in the cases, and leaves
+85 frames. Runs that OUT_DIR holds completed are not repeated. What follows -- goes to the
 program. Prints a table; a bed is stirred if its grains have moved half a diameter on average before it is immersed.
 """
 
@@ -20,14 +20,15 @@ from runs import run_case, summary_of  # noqa: E402
 
 END = 2.0 * 100  # s ml/min
 FRAMES = 85
+HERE = Path(__file__).parent
 
 
-def run(program, folder, rate, further):
+def run(program, case, folder, rate, further):
     end = END / rate
     settings = {"inlet.0.rate": rate / 6e7, "time.end": end, "out.every": end / FRAMES,
                 "out.diagnostics_every": end / FRAMES / 2}
-    run_case(program, Path(__file__).parent / "case.toml", folder,
-             {key: f"{value:.9g}" for key, value in settings.items()}, "--overwrite", *further)
+    run_case(program, case, folder, {key: f"{value:.9g}" for key, value in settings.items()},
+             "--overwrite", *further)
 
 
 def rates(text):
@@ -45,6 +46,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("out")
+    parser.add_argument("--case", default="case.toml", help="beside this file; default %(default)s")
     parser.add_argument("--rates", type=rates, default="50,100,200,400,600", help="ml/min; default %(default)s")
     cut = sys.argv.index("--") if "--" in sys.argv else len(sys.argv)
     args, further = parser.parse_args(sys.argv[1:cut]), sys.argv[cut + 1:]
@@ -54,7 +56,7 @@ def main():
     for rate in args.rates:
         folder = Path(args.out) / f"{rate:g}"
         if summary_of(folder).get("status") != "completed":
-            run(args.program, folder, rate, further)
+            run(args.program, HERE / args.case, folder, rate, further)
         it = report(folder)
         immersed, through = (f"{it[name]:.3f}".replace("nan", "never") for name in ("immersion", "breakthrough"))
         print(f"{rate:6g}  {immersed:>12}  {through:>11}  {1e3 * it['jet']:12.1f}"

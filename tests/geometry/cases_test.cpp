@@ -26,6 +26,7 @@ TEST(Cases, AreLaidWithoutOtherWarningsThanTheyExplain) {
       {"hopper/case.toml", {0, 5000}},
       {"hydrostatic_column/case.toml", {8 * 8 * 25, 0}},
       {"injection_cell/case.toml", {0, 4948}},
+      {"injection_cell/coarse.toml", {0, 618, {"fluid.c_factor"}}},
       {"poiseuille/case.toml", {8 * 8 * 50, 0}},
       {"rotating_drum/case.toml", {14553, 7755}},
       {"sphere_settling/air.toml", {20 * 20 * 30, 1}},
