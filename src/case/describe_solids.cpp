@@ -359,6 +359,11 @@ void describe_grains(Parameters& p, Config& c) {
      .range = above(0),
      .fallback = "20 sqrt(2 H/g)",
      .presence = optional});
+  p("grain.settle_mu", &g.settle_mu,
+    {.meaning = "sliding friction while settling; the lower, the denser the bed",
+     .range = within(0, 5),
+     .fallback = "grain.mu",
+     .presence = unbounded});
   p("grain.release_time", &g.release_time,
     {.unit = "s", .meaning = "held in place until then", .range = at_least(0)});
   p("grain.fixed", &g.fixed, {.meaning = "grains never move"});

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "bedload/case/read.hpp"
 
 namespace bedload {
@@ -38,6 +40,8 @@ Config settling_case(const Config& config) {
   dry.contact = config.contact;
   dry.grain = config.grain;
   dry.grain.release_time = 0;
+  if (std::isfinite(config.grain.settle_mu)) dry.grain.mu = config.grain.settle_mu;
+  dry.grain.settle_mu = GrainConfig{}.settle_mu;
   dry.couple.mode = "off";
   dry.time.rayleigh = config.time.rayleigh;
   dry.time.contact = config.time.contact;

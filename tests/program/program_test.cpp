@@ -310,6 +310,9 @@ TEST_F(Program, TakesASettledBedFromItsCache) {
   EXPECT_NE(second.out.find("settled    as kept in cache/bedload/settled-"), std::string::npos) << second.out;
   const Outcome third = bedload("run dam.toml --backend cpu --until 0.002 --out c --set grain.mu=0.5");
   EXPECT_NE(third.out.find("settled    in "), std::string::npos) << third.out;
+  const Outcome fourth = bedload("run dam.toml --backend cpu --until 0.002 --out d --set grain.settle_mu=0.5");
+  ASSERT_EQ(fourth.code, 0) << fourth.err;
+  EXPECT_NE(fourth.out.find("settled    as kept in cache/bedload/settled-"), std::string::npos) << fourth.out;
 }
 
 TEST_F(Program, AKeptBedGivesTheSameRunAsAFreshOne) {

@@ -274,6 +274,7 @@ struct GrainConfig {
   std::uint64_t seed = 1;
   bool settle = false;                         ///< settle before t = 0
   double settle_time = 0;                      ///< longest settling, s (0: 20 sqrt(2 H / g))
+  double settle_mu = std::numeric_limits<double>::infinity();  ///< sliding friction meanwhile (default mu)
   double release_time = 0;                     ///< grains are held until then, s
   bool fixed = false;                          ///< grains never move
   double d_max = 0, d_min = 0;                 ///< m (resolved)
