@@ -136,6 +136,9 @@ class Checks {
         if (law == "linear") missing("contact.k", fmt::format("spring, N/m, with {} = \"linear\"", key));
     if (g.settle && norm(c.gravity) == 0) fail("grain.settle", "true", "must be false without gravity");
     if (g.settle && g.fixed) fail("grain.settle", "true", "must be false with grain.fixed");
+    for (const auto& [key, given] :
+         {std::pair{"grain.settle_time", g.settle_time > 0}, {"grain.settle_mu", std::isfinite(g.settle_mu)}})
+      if (given && !g.settle) warn("{}: not used, since grain.settle = false", key);
     if (!c.contact.cap_rolling && c.contact.rolling == "cdt")
       warn("contact.cap_rolling = false: resting grains will buzz and heaps creep");
     if (c.contact.he_damping) warn("paper.he_damping: the restitution reached is below grain.e");

@@ -179,6 +179,9 @@ TEST(Warnings, NameWhatIsDoubtful) {
   EXPECT_EQ(warnings_of(changed("end = 0.3", "end = 0.3\nintegrator = \"euler\"")),
             (std::vector<std::string>{"time.integrator = \"euler\" is first order in time"}));
   EXPECT_EQ(warnings_of(changed("d = 0.002", "d = 0.002\nE = 1e4")).size(), 1u);
+  EXPECT_EQ(warnings_of(changed("d = 0.002", "d = 0.002\nsettle_time = 0.1\nsettle_mu = 0.1")),
+            (std::vector<std::string>{"grain.settle_time: not used, since grain.settle = false",
+                                      "grain.settle_mu: not used, since grain.settle = false"}));
   EXPECT_EQ(
       warnings_of(changed("max = [0.05, 0.1, 0.1]\n[[wall",
                           "max = [0.05, 0.1, 0.1]\n"
