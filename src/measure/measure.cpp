@@ -261,7 +261,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
   const auto vec = [&](const std::string& name, const char* unit, const Vec3d& v) {
     for (int k = 0; k < 3; ++k) out.push_back({name + "_" + axis[k], unit, v[k]});
   };
-  Vec3d wall_on_fluid, wall_on_grains;
+  Vec3d wall_on_fluid;
   if (has_fluid()) {
     const auto t =
         sum_over<10>(fluid_.owned(), FluidTotals{frame_, fluid_solver_->eos(), config_.gravity, fluid_.x,
