@@ -126,11 +126,14 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts) {
   const double touches = 60.0 * std::min(config.wall.free_bodies(), 8);  // of each grain with free bodies
   const double grains = 4 + 3 * 24 + real * 36 + contacts * (4 + 56) * 2 + touches;
   const double skin = 0.5 * (config.skin_fluid * config.fluid.dx + config.skin_grain * config.grain.d_min);
-  const double cross =
-      config.couple.mode == "off" || !config.fluid.present
-          ? 0
-          : 24 + real * 78 + 2 * 4 * 4.19 * std::pow((2 * config.couple.hc + skin) / config.fluid.dx, 3);
-  return std::size_t(counts.fluid * fluid + counts.walls * walls + counts.grains * (grains + cross)) +
+  const bool coupled = config.couple.mode != "off" && config.fluid.present && config.grain.present;
+  const double records = coupled ? real * 9 : 0;
+  const double cross = coupled
+                           ? pair_position + real * 78 +
+                                 2 * 4 * 4.19 * std::pow((2 * config.couple.hc + skin) / config.fluid.dx, 3)
+                           : 0;
+  return std::size_t(counts.fluid * (fluid + records) + counts.walls * walls +
+                     counts.grains * (grains + cross)) +
          (64u << 20);
 }
 

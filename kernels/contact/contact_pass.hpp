@@ -79,8 +79,10 @@ struct ContactPass {
     if (loads) loads.clear(i);
     if (law.normal == NormalLaw::none) return sum;
     const std::uint32_t n = list.count[i];
-    std::uint64_t slot = list.first(i);
-    for (std::uint32_t k = 0; k < n; ++k, slot += kSlice) pair(i, list.entry[slot], history[slot], sum);
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const std::uint64_t slot = list.slot(i, k);
+      pair(i, list.entry[slot], history[slot], sum);
+    }
     if (walls.surfaces.size > 0)
       each_wall(i, true, [&](std::uint32_t body, const WallContact& c) {
         sum.force += Vec3d(c.on_grain.force);

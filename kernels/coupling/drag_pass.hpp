@@ -30,17 +30,17 @@ BL_HD DragLine drag_line(const K& law, Real mean, Real fast) {
   return {top - slope * fast, slope};
 }
 
-/// phi_ja K_ja / K_j, the share of a grain's drag that falls to a fluid particle, from V_a W: `still`, and
+/// phi_ja K_ja / K_j, the share of a grain's drag that falls to a fluid particle, per V_a W: `still`, and
 /// where drag follows the slip of each particle |v_a - v_j| `by_slip` besides.
 struct DragShares {
   Span<Real> still;
   Span<Real4> by_slip;  ///< the grain's velocity, m/s; w: s/m
 
   template <bool Local, class N, class J>
-  BL_HD N of(J j, N vw, const Vec3<N>& v_a) const {
-    if constexpr (!Local) return vw * still[j];
+  BL_HD N of(J j, const Vec3<N>& v_a) const {
+    if constexpr (!Local) return still[j];
     const Vec4<N> grain = by_slip[j];
-    return vw * (still[j] + grain.w * root(norm2(v_a - grain.xyz())));
+    return still[j] + grain.w * root(norm2(v_a - grain.xyz()));
   }
 };
 

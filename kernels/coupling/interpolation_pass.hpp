@@ -1,12 +1,11 @@
 #pragma once
 #include "kernels/coupling/carriers.hpp"
-#include "kernels/coupling/fluid_weight.hpp"
+#include "kernels/coupling/fluid_records.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
 /// What a grain found in the fluid around it, kept until the reaction is spread.
 struct GrainSurroundings {
-  Span<Vec3d> x;            ///< where the grain was, m
   Span<Real> inv_S;         ///< 0: dry
   Span<Real> rho;           ///< intrinsic fluid density, kg/m3
   Span<FlowSums<>> flow;    ///< by V_a W
@@ -20,12 +19,10 @@ struct GrainSurroundings {
 /// whether rotation and couple are wanted; Local: whether drag follows the slip of each particle.
 template <class W, bool Moments, bool Local>
 struct InterpolationPass {
-  FluidWeight<W> weight;
+  W w;
   Real S_least, eps_min;  ///< of S, below which there is no mean to be had
-  Span<const Real> fluid_eps;
-  Span<const Real> solids_counted;  ///< share of the solids that count for fluid_eps; empty: all
-  Span<const Real3> theta;
-  Span<const Vec3d> x;
+  Span<const Real4> v_rho;
+  FluidRecords fluid;
   Span<const Real3> v;
   Span<const Real> radius;
   Span<Real> eps, bed_eps;  ///< bed_eps: beside orifices, too, that of the bed
@@ -47,13 +44,13 @@ struct InterpolationPass {
   }
   template <class N, class A>
   BL_HD void pair(Sum<N>& sum, Index, A a, const Vec3<N>& r_ja, N r2) const {
-    const Vec4<N> state = weight.v_rho[a];
-    const N vw = weight(a, r2), eps_a = fluid_eps[a];
+    const Vec4<N> state = v_rho[a], theta = fluid.theta[a], solids = fluid.solids[a];
+    const N vw = theta.w * w.W(root(r2));
     const Vec3<N> u = state.xyz() - sum.v_grain;
-    sum.eps += vw * eps_a;
-    if (solids_counted) sum.counted += vw * solids_counted[a];
-    sum.rho += vw * state.w / eps_a;
-    sum.rho_theta += vw * state.w * theta[a];
+    sum.eps += vw * solids.x;
+    sum.rho += vw * solids.y;
+    sum.counted += vw * solids.z;
+    sum.rho_theta += vw * state.w * theta.xyz();
     sum.flow.template add<Moments>(vw, u, -r_ja);
     if constexpr (Local) {
       const N speed2 = norm2(u);
@@ -75,7 +72,6 @@ struct InterpolationPass {
   BL_HD void finish(Index j, const Sum<>& sum) const {
     const double S = sum.flow.weight;
     const Real inv_S = S > S_least ? Real(1 / S) : Real(0);
-    surroundings.x[j] = x[j];
     surroundings.inv_S[j] = inv_S;
     surroundings.rho[j] = sum.rho * inv_S;
     surroundings.flow[j] = sum.flow;
@@ -84,10 +80,8 @@ struct InterpolationPass {
       surroundings.fast_slip[j] = sum.fast.weight > 0 ? sum.speed2 / Real(sum.fast.weight) : Real(0);
     }
     eps[j] = S > 0 ? clamp(sum.eps / Real(S), eps_min, Real(1)) : Real(1);
-    if (solids_counted) {
-      const Real counted = max_of(sum.counted * inv_S, Real(1e-3));
-      bed_eps[j] = max_of(1 - (1 - eps[j]) / counted, eps_min);
-    }
+    const Real counted = max_of(sum.counted * inv_S, Real(1e-3));
+    bed_eps[j] = max_of(1 - (1 - eps[j]) / counted, eps_min);
     fluid_force[j] = (4 * kPi / 3 * cube(radius[j]) * inv_S) * sum.rho_theta;
     if constexpr (Moments) surroundings.pressure.set(j, sum.flow, inv_S);
   }

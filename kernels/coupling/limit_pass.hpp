@@ -6,22 +6,24 @@ namespace bedload::inline BL_VARIANT {
 /// L_a / m_a = sum_j phi_ja K_ja / m_a: how fast drag stops a fluid particle, 1/s.
 template <class W, bool Local>
 struct DragRatePass {
-  FluidWeight<W> weight;
+  W w;
   DragShares shares;
-  Span<const Real> K;
+  Span<const Real> K, mass;
+  Span<const Real4> v_rho;
   Span<Real> rate;
 
   template <class N = Real>
   struct Sum {
-    N L;
+    Vec3<N> v;
+    N V, L;
   };
-  BL_HD Sum<> start(Index) const { return {0}; }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(mass[a], v_rho[a]), 0}; }
   template <class N, class J>
-  BL_HD void pair(Sum<N>& sum, Index a, J j, const Vec3<N>&, N r2) const {
-    sum.L += K[j] * shares.of<Local>(j, weight(a, r2), Vec3<N>(weight.v_rho[a].xyz()));
+  BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>&, N r2) const {
+    sum.L += K[j] * sum.V * w.W(root(r2)) * shares.template of<Local>(j, sum.v);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.L += other.L; }
-  BL_HD void finish(Index a, const Sum<>& sum) const { rate[a] = sum.L / weight.mass[a]; }
+  BL_HD void finish(Index a, const Sum<>& sum) const { rate[a] = sum.L / mass[a]; }
 };
 
 /// The largest share of drag that a fluid particle can take in one step, x = dt L_a / m_a. Row sums of

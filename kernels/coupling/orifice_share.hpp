@@ -24,14 +24,4 @@ struct OrificeShare {
   }
 };
 
-/// That share where each fluid particle is.
-struct OrificeSharePass {
-  OrificeShare at;
-  Frame frame;
-  Span<const FluidPosition> x;
-  Span<Real> share;
-
-  BL_HD void operator()(Index a) const { share[a] = at(coordinates(frame, x[a])); }
-};
-
 }  // namespace bedload::inline BL_VARIANT

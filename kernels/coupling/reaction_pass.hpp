@@ -12,11 +12,10 @@ namespace bedload::inline BL_VARIANT {
 /// u being the mean motion around the grain, with the couple a rigid one. These parts have neither net
 /// impulse nor, with the couple, net moment; the grain feels nothing of them.
 struct Reactions {
-  Span<Real4> impulse;       ///< N s, + A x arm; w: 1/S_j
-  Span<Real3> force;         ///< N, + B x arm
-  Span<Real3> spin_couple;   ///< A, N s/m
-  Span<Real3> force_couple;  ///< B, N/m
-  Span<Real4> mean;          ///< u at the grain's centre, m/s; w: K dt, kg
+  Span<Real4> impulse;  ///< N s, + A x arm - K dt (u - v_j), u at the grain's centre; w: K dt, kg
+  Span<Real4> force;    ///< N, + B x arm; w: 1/S_j
+  Span<Real4> spin;     ///< A, N s/m; w: DragShares::still
+  Span<Real4> couple;   ///< B, N/m
 };
 
 /// What becomes of differences of velocity around a grain.
@@ -31,28 +30,30 @@ template <bool Couple, bool Local>
 struct SharePass {
   Span<const Real3> impulse, spin_impulse, fluid_force;
   GrainSurroundings surroundings;
+  DragShares shares;
   LocalSlip slip;
   Reactions reactions;
 
   BL_HD void operator()(Index j) const {
-    Real3 J = impulse[j], F = fluid_force[j], u, omega;
+    Real3 J = impulse[j], F = fluid_force[j], A, u;
     const Real Kdt = Local ? slip.dt * slip.K[j] : Real(0);
-    if constexpr (Local) u = slip.U[j];
+    if constexpr (Local) u = slip.U[j] - shares.by_slip[j].xyz();
     if constexpr (Couple) {
       const Carriers &drag = surroundings.drag, &pressure = surroundings.pressure;
-      const Real3 A = drag.couple(j, J, spin_impulse[j]), B = pressure.couple(j, F, {});
+      const Real3 B = pressure.couple(j, F, {});
+      A = drag.couple(j, J, spin_impulse[j]);
       J += cross(A, drag.arm[j]);
       F += cross(B, pressure.arm[j]);
       if constexpr (Local) {
-        omega = slip.omega_f[j];
+        const Real3 omega = slip.omega_f[j];
         u -= cross(omega, drag.arm[j]);
+        A += Kdt * omega;
       }
-      reactions.spin_couple[j] = A + Kdt * omega;
-      reactions.force_couple[j] = B;
+      reactions.couple[j] = {B, 0};
     }
-    if constexpr (Local) reactions.mean[j] = {u, Kdt};
-    reactions.impulse[j] = {J, surroundings.inv_S[j]};
-    reactions.force[j] = F;
+    reactions.impulse[j] = {J - Kdt * u, Kdt};
+    reactions.force[j] = {F, surroundings.inv_S[j]};
+    reactions.spin[j] = {A, shares.still[j]};
   }
 };
 
@@ -60,8 +61,9 @@ struct SharePass {
 /// acceleration [harting14] Eq. 14.
 template <class W, bool Couple, bool Local>
 struct ReactionPass {
-  FluidWeight<W> weight;
-  DragShares shares;
+  W w;
+  Span<const Real> mass;
+  Span<const Real4> by_slip;  ///< of DragShares
   Reactions reactions;
   Span<Real4> v_rho;
   Span<Real3> reaction;   ///< m/s2
@@ -69,33 +71,37 @@ struct ReactionPass {
 
   template <class N = Real>
   struct Sum {
+    Vec3<N> v;
+    N V;
     Vec3<N> impulse, force;
   };
-  BL_HD Sum<> start(Index) const { return {}; }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(mass[a], v_rho[a]), {}, {}}; }
   template <class N, class At>
-  BL_HD void pair(Sum<N>& sum, Index a, At j, const Vec3<N>& r_aj, N r2) const {
-    const Vec4<N> impulse = reactions.impulse[j];
-    const N vw = weight(a, r2);
-    const Vec3<N> v(v_rho[a].xyz());
-    Vec3<N> J = impulse.xyz(), F = reactions.force[j];
+  BL_HD void pair(Sum<N>& sum, Index, At j, const Vec3<N>& r_aj, N r2) const {
+    const Vec4<N> impulse = reactions.impulse[j], force = reactions.force[j], spin = reactions.spin[j];
+    const N vw = sum.V * w.W(root(r2));
+    N share = spin.w;
+    Vec3<N> J = impulse.xyz(), F = force.xyz();
     if constexpr (Local) {
-      const Vec4<N> mean = reactions.mean[j];
-      J += mean.w * (v - mean.xyz());
+      const Vec4<N> grain = by_slip[j];
+      const Vec3<N> slip = sum.v - grain.xyz();
+      share += grain.w * root(norm2(slip));
+      J += impulse.w * slip;
     }
     if constexpr (Couple) {
-      const Vec3<N> A = reactions.spin_couple[j], B = reactions.force_couple[j];
-      J -= cross(A, r_aj);
-      F -= cross(B, r_aj);
+      const Vec4<N> couple = reactions.couple[j];
+      J -= cross(spin.xyz(), r_aj);
+      F -= cross(couple.xyz(), r_aj);
     }
-    sum.impulse += shares.of<Local>(j, vw, v) * J;
-    sum.force += (vw * impulse.w) * F;
+    sum.impulse += (vw * share) * J;
+    sum.force += (vw * force.w) * F;
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.impulse += other.impulse;
     into.force += other.force;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    const Real inv_m = 1 / weight.mass[a];
+    const Real inv_m = 1 / mass[a];
     const Real4 old = v_rho[a];
     const Real3 kick = -(inv_m * sum.impulse);
     v_rho[a] = {old.xyz() + kick, old.w};

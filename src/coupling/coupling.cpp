@@ -14,15 +14,6 @@
 namespace bedload::inline BL_VARIANT {
 namespace {
 
-using GrainToFluid = CrossSeparation<Vec3d, FluidPosition>;
-using FluidToGrain = CrossSeparation<FluidPosition, Vec3d>;
-
-/// with_kernel, with the weight of fluid particles built on it.
-template <class F>
-void with_weight(const std::string& kernel, double h_c, const FluidStore& fluid, F&& f) {
-  with_kernel(kernel, h_c, [&](auto w) { f(FluidWeight<decltype(w)>{w, fluid.v_rho, fluid.mass}); });
-}
-
 /// f(std::true_type) or f(std::false_type).
 template <class F>
 void with_flag(bool flag, F&& f) {
@@ -31,6 +22,9 @@ void with_flag(bool flag, F&& f) {
   else
     f(std::false_type{});
 }
+
+/// log2 of the lanes that share a row: rows are long, and what four lanes read lies side by side.
+unsigned lanes_for(Index rows) { return min_of(max_of(lane_bits(rows), 2u), kSliceBits); }
 
 struct LargestRate {
   using Value = Real;
@@ -77,8 +71,7 @@ Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry&
 }
 
 GrainSurroundings Coupling::surroundings() {
-  return {.x = x_,
-          .inv_S = inv_S_,
+  return {.inv_S = inv_S_,
           .rho = rho_,
           .flow = flow_,
           .fast = fast_,
@@ -87,20 +80,27 @@ GrainSurroundings Coupling::surroundings() {
           .drag = {drag_arm_, drag_inv_M_}};
 }
 DragShares Coupling::drag_shares() { return {still_, by_slip_}; }
-Reactions Coupling::reactions() { return {impulse_, force_, spin_couple_, force_couple_, mean_}; }
+Reactions Coupling::reactions() { return {impulse_, force_, spin_, couple_}; }
+
+void Coupling::pack(const GrainStore& grains) {
+  grains_at_.resize(grains.size());
+  for_each(grains.owned(), PackPass<Vec3d>{frame_, grains.x, grains_at_});
+}
 
 void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid,
                              const GrainStore& grains, const CellGridView& grain_grid, double skin) {
   const double reach = range_ + skin;
   fluid_of_grain_.build(grains.size(), fluid_grid,
-                        CrossNear<Vec3d, FluidPosition>{frame_, grains.x_list, fluid.x_list, reach});
+                        CrossNear<Vec3d, FluidPosition>{frame_, grains.x_list, fluid.x_list, reach},
+                        lanes_for(grains.size()));
   grains_of_fluid_.build(fluid.size(), grain_grid,
-                         CrossNear<FluidPosition, Vec3d>{frame_, fluid.x_list, grains.x_list, reach});
+                         CrossNear<FluidPosition, Vec3d>{frame_, fluid.x_list, grains.x_list, reach},
+                         lanes_for(fluid.size()));
 }
 
 void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt) {
   const Index n = grains.size();
-  x_.resize(n);
+  pack(grains);
   inv_S_.resize(n);
   rho_.resize(n);
   flow_.resize(n);
@@ -117,24 +117,23 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
     drag_arm_.resize(n);
     drag_inv_M_.resize(n);
   }
-  if (orifices_.size() > 0) {
-    bed_eps_.resize(n);
-    solids_counted_.resize(fluid.size());
-    for_each(fluid.owned(), OrificeSharePass{orifice_share(), frame_, fluid.x, solids_counted_});
-  }
+  bed_eps_.resize(n);
+  theta_.resize(fluid.size());
+  solids_.resize(fluid.size());
+  const FluidRecords records{theta_, solids_};
+  for_each(fluid.owned(), RecordPass{frame_, orifice_share(), fluid.x, fluid.mass, fluid.eps, fluid.theta,
+                                     fluid.v_rho, records});
   const GrainSurroundings around = surroundings();
-  const GrainToFluid to_fluid{frame_, grains.x, fluid.x};
-  with_weight(kernel_, h_c_, fluid, [&](auto weight) {
+  const PairSeparation to_fluid{frame_, grains_at_, fluid.xp};
+  with_kernel(kernel_, h_c_, [&](auto w) {
     with_flag(moments(), [&](auto with_moments) {
       with_flag(local_slip_, [&](auto local) {
-        const InterpolationPass<decltype(weight.w), with_moments, local> pass{
-            .weight = weight,
+        const InterpolationPass<decltype(w), with_moments, local> pass{
+            .w = w,
             .S_least = S_dry_ * WallFreeShare::kLeast,
             .eps_min = eps_min_,
-            .fluid_eps = fluid.eps,
-            .solids_counted = solids_counted_,
-            .theta = fluid.theta,
-            .x = grains.x,
+            .v_rho = fluid.v_rho,
+            .fluid = records,
             .v = grains.v,
             .radius = grains.radius,
             .eps = grains.eps,
@@ -148,8 +147,6 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   const WallFreeShare wall_free{half_space_, frame_, fluid_walls_, pose};
   for_each(grains.owned(),
            WetnessPass{S_dry_, S_wet_, wall_free, grains.x, inv_S_, grains.wetness, grains.fluid_force});
-  const Span<const Real> bed_eps =
-      orifices_.size() > 0 ? Span<Real>(bed_eps_) : Span<Real>(grains.eps.buffer());
   with_drag_law(drag_law_, [&](auto law) {
     with_flag(local_slip_, [&](auto local) {
       for_each(grains.owned(), DragPass<decltype(law), local>{.law = law,
@@ -157,7 +154,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
                                                               .torque = torque_,
                                                               .radius = grains.radius,
                                                               .eps = grains.eps,
-                                                              .bed_eps = bed_eps,
+                                                              .bed_eps = bed_eps_,
                                                               .wetness = grains.wetness,
                                                               .v = grains.v,
                                                               .omega = grains.omega,
@@ -171,10 +168,11 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   });
   if (!two_way_) return;
   rate_.resize(fluid.size());
-  with_weight(kernel_, h_c_, fluid, [&](auto weight) {
+  with_kernel(kernel_, h_c_, [&](auto w) {
     with_flag(local_slip_, [&](auto local) {
-      for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, x_}, range_,
-                    DragRatePass<decltype(weight.w), local>{weight, drag_shares(), grains.K, rate_});
+      for_each_pair(
+          fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
+          DragRatePass<decltype(w), local>{w, drag_shares(), grains.K, fluid.mass, fluid.v_rho, rate_});
     });
   });
   fastest_ = reduce({0, Index(rate_.size())}, LargestRate{rate_});
@@ -192,30 +190,28 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
   }
   impulse_.resize(grains.size());
   force_.resize(grains.size());
-  if (angmom_) {
-    spin_couple_.resize(grains.size());
-    force_couple_.resize(grains.size());
-  }
-  if (local_slip_) mean_.resize(grains.size());
+  spin_.resize(grains.size());
+  if (angmom_) couple_.resize(grains.size());
   const LocalSlip slip{Real(dt), grains.K, grains.U, grains.omega_f};
   with_flag(angmom_, [&](auto couple) {
     with_flag(local_slip_, [&](auto local) {
       for_each(grains.owned(),
                SharePass<couple, local>{grains.impulse, grains.spin_impulse, grains.fluid_force,
-                                        surroundings(), slip, reactions()});
-      with_weight(kernel_, h_c_, fluid, [&](auto weight) {
-        for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, x_}, range_,
-                      ReactionPass<decltype(weight.w), couple, local>{
-                          weight, drag_shares(), reactions(), fluid.v_rho, fluid.reaction, fluid.drag_kick});
+                                        surroundings(), drag_shares(), slip, reactions()});
+      with_kernel(kernel_, h_c_, [&](auto w) {
+        for_each_pair(fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
+                      ReactionPass<decltype(w), couple, local>{w, fluid.mass, by_slip_, reactions(),
+                                                               fluid.v_rho, fluid.reaction, fluid.drag_kick});
       });
     });
   });
 }
 
 void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, bool moved) {
+  pack(grains);
   with_kernel(kernel_, h_c_, [&](auto w) {
     const WallFreeShare wall_free{half_space_, frame_, grain_walls_, pose};
-    for_each_pair(fluid.owned(), grains_of_fluid_, FluidToGrain{frame_, fluid.x, grains.x}, range_,
+    for_each_pair(fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
                   PorosityPass<decltype(w)>{
                       w, eps_min_, wall_free, orifice_share(), frame_, fluid.x, grains.radius, fluid.eps,
                       moved ? Span<const Real>(fluid.filled) : Span<const Real>(), fluid.s});

@@ -59,6 +59,7 @@ class Coupling {
 
  private:
   bool moments() const { return torque_ || angmom_; }
+  void pack(const GrainStore& grains);
   OrificeShare orifice_share() const { return {frame_, orifices_, dx_, h_c_}; }
   GrainSurroundings surroundings();
   DragShares drag_shares();
@@ -77,12 +78,12 @@ class Coupling {
   Buffer<Orifice> orifices_;
 
   VerletList fluid_of_grain_, grains_of_fluid_;
-  Buffer<Vec3d> x_;
-  Buffer<Real> inv_S_, rho_, bed_eps_, fast_slip_, stiffness_, rate_, solids_counted_, still_;
+  Buffer<PairPosition> grains_at_;  ///< as pair loops read them
+  Buffer<Real> inv_S_, rho_, bed_eps_, fast_slip_, stiffness_, rate_, still_;
   Buffer<FlowSums<>> flow_, fast_;
-  Buffer<Real3> pressure_arm_, drag_arm_, force_, spin_couple_, force_couple_;
+  Buffer<Real3> pressure_arm_, drag_arm_;
   Buffer<SymmetricMatrix<Real>> pressure_inv_M_, drag_inv_M_;
-  Buffer<Real4> by_slip_, impulse_, mean_;
+  Buffer<Real4> theta_, solids_, by_slip_, impulse_, force_, spin_, couple_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

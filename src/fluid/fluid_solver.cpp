@@ -26,14 +26,6 @@ struct WrapPass {
   }
 };
 
-template <class P>
-struct PackPass {
-  Frame frame;
-  Span<const P> x;
-  Span<PairPosition> xp;
-  BL_HD void operator()(Index i) const { xp[i] = as_position<PairPosition>(frame, coordinates(frame, x[i])); }
-};
-
 struct ExtremesSweep {
   using Value = FluidExtremes;
   Frame frame;
@@ -131,7 +123,7 @@ class FluidSolverWith final : public FluidSolver {
                                walls.body,
                                pose,
                                walls.compression};
-    for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range() + skin(),
+    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range() + skin(),
                   frozen);
   }
 
@@ -151,7 +143,7 @@ class FluidSolverWith final : public FluidSolver {
                                  walls.body,
                                  pose,
                                  walls.compression};
-      for_each_pair(walls.owned(), image_fluid_, SphSeparation{frame_, walls.mirrors.xp, fluid.xp}, range(),
+      for_each_pair(walls.owned(), image_fluid_, PairSeparation{frame_, walls.mirrors.xp, fluid.xp}, range(),
                     mirror);
     }
     WallPass<W> pass{w_,
@@ -170,7 +162,7 @@ class FluidSolverWith final : public FluidSolver {
                      walls.v_visc,
                      walls.m_state,
                      walls.compression};
-    for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
+    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
 
   void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
@@ -193,7 +185,7 @@ class FluidSolverWith final : public FluidSolver {
     run(fluid, walls, range(), pass);
     if (layers_.size() > 0)
       for_each_pair(
-          fluid.owned(), fluid_wall_, SphSeparation{frame_, fluid.xp, walls.xp}, range(),
+          fluid.owned(), fluid_wall_, PairSeparation{frame_, fluid.xp, walls.xp}, range(),
           LayerPass<W>{layer(walls, pose, dt), fluid.v_rho, fluid.m_state, fluid.theta, fluid.acc_next});
     corrected_ = 0;
   }
@@ -205,14 +197,14 @@ class FluidSolverWith final : public FluidSolver {
         wall_pair(), layer(walls, pose, dt), Real(corrected_), fluid.acc,     fluid.acc_next,
         fluid.v_rho, fluid.m_state,          walls.v_rho,      walls.m_state, walls.v_visc,
         force};
-    for_each_pair(walls.owned(), wall_fluid_, SphSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
+    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
 
  private:
   template <class Pass>
   void run(const FluidStore& fluid, const WallStore& walls, double cutoff, const Pass& pass) {
-    for_each_pair(fluid.owned(), fluid_fluid_, SphSeparation{frame_, fluid.xp, fluid.xp}, fluid_wall_,
-                  SphSeparation{frame_, fluid.xp, walls.xp}, cutoff, pass);
+    for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, fluid_wall_,
+                  PairSeparation{frame_, fluid.xp, walls.xp}, cutoff, pass);
   }
   Real least() const { return -Real(config_.density.tension); }
   Real viscosity() const { return config_.visc.model == "none" ? Real(0) : Real(config_.fluid.mu); }
@@ -358,7 +350,7 @@ double FluidSolver::pairs_through(const FluidStore& fluid, const SurfaceSet& sur
   Buffer<std::uint32_t> count(fluid.size());
   const FootPass foot{frame_, surfaces, pose, range(), fluid.x, feet};
   for_each(fluid.owned(), foot);
-  for_each_pair(fluid.owned(), fluid_fluid_, SphSeparation{frame_, fluid.xp, fluid.xp}, range(),
+  for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, range(),
                 CrossingPass{foot, 0.25 * config_.fluid.dx, count});
   return sum_over<1>(fluid.owned(), CountBody{count}).v[0] / 2;  // a pair stands in two lists
 }

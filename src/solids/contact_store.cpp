@@ -9,24 +9,6 @@
 namespace bedload::inline BL_VARIANT {
 namespace {
 
-/// The lists as they stand, on the host.
-struct HostList {
-  std::vector<std::uint64_t> offset;
-  std::vector<std::uint32_t> count;
-  std::vector<Index> entry;
-
-  explicit HostList(const VerletList& list) {
-    const VerletListView view = list.view();
-    offset.resize((list.rows() + kSlice - 1) / kSlice + 1);
-    count.resize(list.rows());
-    entry.resize(list.slots());
-    copy_to_host(offset.data(), view.offset, offset.size() * sizeof offset[0]);
-    copy_to_host(count.data(), view.count, count.size() * sizeof count[0]);
-    copy_to_host(entry.data(), view.entry, entry.size() * sizeof entry[0]);
-  }
-  VerletListView view() const { return {offset.data(), count.data(), entry.data()}; }
-};
-
 template <class T>
 HostArray to_array(const char* name, const char* unit, const std::vector<T>& values) {
   HostArray a{name, unit, FileType<T>::scalar, FileType<T>::components, {}};
@@ -49,7 +31,7 @@ std::uint64_t pair_key(Id lo, Id hi) { return std::uint64_t(lo) << 32 | hi; }
 }  // namespace
 
 HostStore SolidSolver::save_contacts(const GrainStore& grains) const {
-  const HostList list(list_);
+  const HostVerletList list(list_);
   const std::vector<ContactHistory> history = history_.to_host();
   const std::vector<Id> id = grains.id.values();
   std::vector<Id> lo, hi;
@@ -80,7 +62,7 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
   std::map<std::uint64_t, const ContactHistory*> by_pair;
   for (std::size_t c = 0; c < contacts.count; ++c) by_pair[pair_key(lo[c], hi[c])] = &kept[c];
 
-  const HostList list(list_);
+  const HostVerletList list(list_);
   const std::vector<Id> id = grains.id.values();
   std::vector<ContactHistory> history(list_.slots());
   std::size_t found = 0;

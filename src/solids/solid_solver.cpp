@@ -67,9 +67,10 @@ void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal
 }
 
 void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
-  list_.build(grains.size(), grid.view(),
-              GrainNear{frame_, grains.x_list.span(), grains.radius.span(), groups_.of_grains(), 0.5 * d_max_,
-                        skin_});
+  list_.build(
+      grains.size(), grid.view(),
+      GrainNear{frame_, grains.x_list.span(), grains.radius.span(), groups_.of_grains(), 0.5 * d_max_, skin_},
+      0);
   history_.reserve_and_resize(list_.slots());
   history_.zero();
 }

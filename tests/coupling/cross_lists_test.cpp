@@ -12,17 +12,10 @@ namespace {
 using Rows = std::vector<std::vector<Index>>;
 
 Rows rows_of(const VerletList& list) {
-  const auto view = list.view();
-  std::vector<std::uint32_t> count(list.rows());
-  std::vector<std::uint64_t> offset((list.rows() + kSlice - 1) / kSlice + 1);
-  std::vector<Index> entry(list.slots());
-  copy_to_host(count.data(), view.count, count.size() * sizeof(count[0]));
-  copy_to_host(offset.data(), view.offset, offset.size() * sizeof(offset[0]));
-  copy_to_host(entry.data(), view.entry, entry.size() * sizeof(entry[0]));
+  const HostVerletList host(list);
   Rows rows(list.rows());
   for (Index i = 0; i < list.rows(); ++i) {
-    for (std::uint32_t k = 0; k < count[i]; ++k)
-      rows[i].push_back(entry[offset[i / kSlice] + i % kSlice + std::uint64_t(k) * kSlice]);
+    for (std::uint32_t k = 0; k < host.count[i]; ++k) rows[i].push_back(host.entry[host.view().slot(i, k)]);
     std::sort(rows[i].begin(), rows[i].end());
   }
   return rows;
@@ -72,10 +65,16 @@ TEST_P(CrossLists, HoldEveryPairInRangeOnce) {
   const auto grains_at = grains.to_host();
 
   VerletList list;
-  list.build(500, grain_grid.view(), CrossNear<FluidPosition, Vec3d>{frame, fluid, grains, c.range});
-  EXPECT_EQ(rows_of(list), all_pairs(frame, fluid_at, grains_at, c.range));
-  list.build(70, fluid_grid.view(), CrossNear<Vec3d, FluidPosition>{frame, grains, fluid, c.range});
-  EXPECT_EQ(rows_of(list), all_pairs(frame, grains_at, fluid_at, c.range));
+  const CrossNear<FluidPosition, Vec3d> grains_of_fluid{frame, fluid, grains, c.range};
+  const CrossNear<Vec3d, FluidPosition> fluid_of_grains{frame, grains, fluid, c.range};
+  const Rows by_fluid = all_pairs(frame, fluid_at, grains_at, c.range);
+  const Rows by_grain = all_pairs(frame, grains_at, fluid_at, c.range);
+  for (unsigned bits = 0; bits <= kSliceBits; ++bits) {  // whatever number of lanes shares a row
+    list.build(500, grain_grid.view(), grains_of_fluid, bits);
+    EXPECT_EQ(rows_of(list), by_fluid) << bits;
+    list.build(70, fluid_grid.view(), fluid_of_grains, bits);
+    EXPECT_EQ(rows_of(list), by_grain) << bits;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Small, CrossLists,

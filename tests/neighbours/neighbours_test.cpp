@@ -89,7 +89,7 @@ TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
   {
     const Index width = Index(x.size()) + 1;
     Buffer<Index> rows(std::size_t(x.size()) * width);
-    for_each_pair({0, Index(x.size())}, list, SphSeparation{c.frame, p, p}, range, RowPass{rows, width});
+    for_each_pair({0, Index(x.size())}, list, PairSeparation{c.frame, p, p}, range, RowPass{rows, width});
     const auto host = rows.to_host();
     for (Index i = 0; i < x.size(); ++i)
       for (Index k = i * width; host[k] != kNone; ++k)
@@ -99,7 +99,7 @@ TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
 
   Buffer<std::uint32_t> count(x.size());
   for_each_pair({0, Index(x.size())}, grid.view(), SphNear<Vec3d>{c.frame, device, p, p, range, true},
-                SphSeparation{c.frame, p, p}, range, CountRow{count});
+                PairSeparation{c.frame, p, p}, range, CountRow{count});
   const auto counts = count.to_host();
   for (Index i = 0; i < x.size(); ++i) EXPECT_EQ(counts[i], expected[i].size());
 }
@@ -173,7 +173,7 @@ void expect_lists_and_cells_agree(bool periodic) {
   fours.assign(four);
 
   const SphNear<Vec3d> near{c.frame, place, p, p, 1.2 * range, true};
-  const SphSeparation separation{c.frame, p, p};
+  const PairSeparation separation{c.frame, p, p};
   VerletList list;
   list.build(n, grid.view(), near);
   const W w(h);
@@ -209,8 +209,9 @@ TEST(SmallNeighbours, ListAndCellsMatchAllPairs) {
   VerletList list;
   list.build(Index(x.size()), grid.view(), CrossNear<Vec3d, Vec3d>{c.frame, device, device, 0.1});
   Buffer<std::uint32_t> count(x.size());
-  for_each_pair({0, Index(x.size())}, list, CrossSeparation<Vec3d, Vec3d>{c.frame, device, device}, 0.1,
-                CountRow{count});
+  Buffer<PairPosition> packed(x.size());
+  for_each({0, Index(x.size())}, PackPass<Vec3d>{c.frame, device, packed});
+  for_each_pair({0, Index(x.size())}, list, PairSeparation{c.frame, packed, packed}, 0.1, CountRow{count});
   const auto counts = count.to_host();
   for (Index i = 0; i < x.size(); ++i) {
     std::uint32_t n = 0;

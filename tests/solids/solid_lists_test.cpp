@@ -35,19 +35,11 @@ struct Heap : GrainBench {
 
 std::set<Pair> listed_pairs(const GrainBench& b) {
   const auto id = b.grains->id.values();
-  const VerletListView view = b.solver->list().view();
-  const Index rows = b.solver->list().rows();
-  std::vector<std::uint64_t> offset((rows + kSlice - 1) / kSlice + 1);
-  std::vector<std::uint32_t> count(rows);
-  std::vector<Index> entry(b.solver->list().slots());
-  copy_to_host(offset.data(), view.offset, offset.size() * 8);
-  copy_to_host(count.data(), view.count, count.size() * 4);
-  copy_to_host(entry.data(), view.entry, entry.size() * 4);
-  const VerletListView host{offset.data(), count.data(), entry.data()};
+  const HostVerletList host(b.solver->list());
   std::set<Pair> pairs;
-  for (Index i = 0; i < rows; ++i)
-    for (std::uint32_t k = 0; k < count[i]; ++k) {
-      const bool fresh = pairs.insert({id[i], id[entry[host.slot(i, k)]]}).second;
+  for (Index i = 0; i < b.solver->list().rows(); ++i)
+    for (std::uint32_t k = 0; k < host.count[i]; ++k) {
+      const bool fresh = pairs.insert({id[i], id[host.entry[host.view().slot(i, k)]]}).second;
       EXPECT_TRUE(fresh) << "listed twice";
     }
   return pairs;

@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/smoothing/registry.hpp"
 #include "src/coupling/coupling.hpp"
 
@@ -113,6 +114,7 @@ struct CoupledBox {
     grains.reorder(order);
     fluid.x_list.buffer().assign(fluid.x.values());
     grains.x_list.buffer().assign(grains.x.values());
+    for_each(fluid.owned(), PackPass<FluidPosition>{frame, fluid.x, fluid.xp});
     coupling.rebuild_lists(fluid, fluid_grid.view(), grains, grain_grid.view(), kSkin * coupling.range());
   }
 

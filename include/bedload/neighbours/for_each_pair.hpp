@@ -16,8 +16,17 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// r_i - r_j of SPH particles, nearest image.
-struct SphSeparation {
+/// A copy of positions as pair loops read them.
+template <class P>
+struct PackPass {
+  Frame frame;
+  Span<const P> x;
+  Span<PairPosition> xp;
+  BL_HD void operator()(Index i) const { xp[i] = as_position<PairPosition>(frame, coordinates(frame, x[i])); }
+};
+
+/// r_i - r_j, nearest image.
+struct PairSeparation {
   Frame frame;
   Span<const PairPosition> a, b;
   template <class J>
@@ -26,37 +35,15 @@ struct SphSeparation {
   }
 };
 
-/// r_i - r_j across the phases or between grains: formed in fp64, handed over as Real.
-template <class PA, class PB>
-struct CrossSeparation {
-  Frame frame;
-  Span<const PA> a;
-  Span<const PB> b;
-  BL_HD Real3 operator()(Index i, Index j) const {
-    return Real3(frame.separation(coordinates(frame, a[i]), coordinates(frame, b[j])));
-  }
-#if !BL_CUDA
-  Vec3<Pack> operator()(Index i, PackIndex j) const {
-    const Vec3d here = coordinates(frame, a[i]);
-    Vec3<Pack> out;
-    for (int l = 0; l < kLanes; ++l) {
-      const Real3 r(frame.separation(here, coordinates(frame, b[j[l]])));
-      out.x.v[l] = r.x, out.y.v[l] = r.y, out.z.v[l] = r.z;
-    }
-    return out;
-  }
-#endif
-};
-
 template <class Pass, class Sum>
 concept Mergeable = requires(const Pass& pass, Sum& into, const Sum& other) {
   pass.merge(into, other);
 };
 
 template <class Pass>
-unsigned pass_lane_bits(const Pass&, Range range) {
+unsigned pass_lane_bits(const Pass&, const VerletList& list) {
   using Sum = decltype(std::declval<const Pass&>().start(Index()));
-  return Mergeable<Pass, Sum> ? lane_bits(range.size()) : 0;
+  return Mergeable<Pass, Sum> ? list.view().bits : 0;
 }
 
 #if BL_CUDA
@@ -121,9 +108,11 @@ struct ListRow {
       in_packs(i, f);
     } else {
       const std::uint32_t n = list.count[i];
+      const bool turns = lane.count == 1u << list.bits;  // the list was built for as many lanes
       std::uint64_t slot = list.slot(i, lane.index);
-      for (std::uint32_t k = lane.index; k < n; k += lane.count, slot += lane.count * kSlice) {
+      for (std::uint32_t k = lane.index; k < n; k += lane.count) {
         const Index j = list.entry[slot];
+        slot = turns ? slot + VerletListView::kTurn : list.slot(i, k + lane.count);
         const Real3 r = separation(i, j);
         const Real r2 = norm2(r);
         if (r2 < range2) f(j, r, r2);
@@ -135,7 +124,7 @@ struct ListRow {
 #if !BL_CUDA
   template <class F>
   void in_packs(Index i, F& f) const {
-    const Index* entry = list.entry + list.first(i);
+    const Index* entry = list.entry + list.slot(i, 0);
     int left = int(list.count[i]);
     for (; left >= kLanes; left -= kLanes, entry += kLanes) {
       const PackIndex j{entry};
@@ -193,7 +182,7 @@ struct ListLoop {
 template <class Separation, class Pass>
 void for_each_pair(Range range, const VerletList& list, const Separation& separation, double cutoff,
                    const Pass& pass) {
-  const unsigned bits = pass_lane_bits(pass, range);
+  const unsigned bits = pass_lane_bits(pass, list);
   for_each(
       {0, range.size() << bits},
       ListLoop<Separation, Pass>{{list.view(), separation, Real(cutoff * cutoff)}, pass, range.begin, bits});
@@ -220,7 +209,7 @@ template <class Separation, class Pass>
 void for_each_pair(Range range, const VerletList& list, const Separation& separation,
                    const VerletList& wall_list, const Separation& wall_separation, double cutoff,
                    const Pass& pass) {
-  const unsigned bits = pass_lane_bits(pass, range);
+  const unsigned bits = pass_lane_bits(pass, list);
   const Real range2 = Real(cutoff * cutoff);
   for_each({0, range.size() << bits},
            TwoListLoop<Separation, Pass>{{list.view(), separation, range2},

@@ -1,8 +1,9 @@
 #pragma once
 // Stored neighbours of each particle: every j within range of i at the time of building.
-// Rows are cut into slices whose entries are interleaved, so that a warp reads its lists
-// coalesced; a slice is 32 rows on the GPU and one on the CPU. The GPU counts, then fills; the CPU
-// joins what blocks of rows found: never too small, never padded beyond the longest row of a slice.
+// Rows are cut into slices that one warp reads: the entries of its 32 lanes stand side by side, those of
+// lanes that share a row first, so that loads are coalesced however many lanes a row has. On the CPU a slice
+// is one row. The GPU counts, then fills; the CPU joins what blocks of rows found: never too small, never
+// padded beyond the longest row of a slice and a turn of its lanes.
 
 #include <algorithm>
 #include <vector>
@@ -12,34 +13,51 @@
 
 namespace bedload::inline BL_VARIANT {
 
+/// log2 of the entries that a slice reads in one go.
 #if BL_CUDA
-constexpr Index kSlice = 32;
+constexpr unsigned kSliceBits = 5;
 #else
-constexpr Index kSlice = 1;
+constexpr unsigned kSliceBits = 0;
 #endif
 
 struct VerletListView {
   const std::uint64_t* offset = nullptr;  ///< [slices + 1]
   const std::uint32_t* count = nullptr;   ///< [rows]
   const Index* entry = nullptr;
+  unsigned bits = 0;  ///< log2 of the lanes that share a row
 
-  BL_HD std::uint64_t first(Index i) const { return offset[i / kSlice] + i % kSlice; }
+  BL_HD unsigned row_bits() const { return kSliceBits - bits; }  ///< log2 of the rows of a slice
   /// Where entry k of row i is, also for arrays that go with the entries.
-  BL_HD std::uint64_t slot(Index i, std::uint32_t k) const { return first(i) + std::uint64_t(k) * kSlice; }
+  BL_HD std::uint64_t slot(Index i, std::uint32_t k) const {
+    const Index row = i & ((1u << row_bits()) - 1);
+    return offset[i >> row_bits()] + (std::uint64_t(k >> bits) << kSliceBits) + (row << bits) +
+           (k & ((1u << bits) - 1));
+  }
+  /// From an entry of a lane to its next.
+  static constexpr std::uint64_t kTurn = 1u << kSliceBits;
 };
 
 class VerletList {
  public:
   Index rows() const { return Index(count_.size()); }
   std::uint64_t slots() const { return slots_; }
-  VerletListView view() const { return {offset_.data(), count_.data(), entry_.data()}; }
+  VerletListView view() const { return {offset_.data(), count_.data(), entry_.data(), bits_}; }
 
   /// Rows: all of `targets`; entries: sources near them, in the order of the sources' cells.
-  /// Near(i, j) says whether to keep a pair; `reach(i)` is how far to look (m).
+  /// Near(i, j) says whether to keep a pair; `reach(i)` is how far to look (m). As many lanes are to share a
+  /// row as keep the device busy, or 2^bits.
   template <class Near>
-  void build(Index rows, const CellGridView& sources, const Near& near);
+  void build(Index rows, const CellGridView& sources, const Near& near) {
+    build(rows, sources, near, lane_bits(rows));
+  }
+  template <class Near>
+  void build(Index rows, const CellGridView& sources, const Near& near, unsigned bits);
 
  private:
+  friend struct HostVerletList;
+  std::size_t slices() const { return (rows() + (1u << view().row_bits()) - 1) >> view().row_bits(); }
+
+  unsigned bits_ = 0;
   Buffer<std::uint32_t> count_;
   Buffer<std::uint64_t> width_, offset_;
   Buffer<Index> entry_;
@@ -69,17 +87,18 @@ struct CountPass {
 
 struct WidthPass {
   Span<const std::uint32_t> count;
+  VerletListView list;
   Span<std::uint64_t> width;
   BL_HD void operator()(Index s) const {
     std::uint32_t widest = 0;
-    const Index end = min_of(count.size, (s + 1) * kSlice);
-    for (Index i = s * kSlice; i < end; ++i) widest = max_of(widest, count[i]);
-    width[s] = std::uint64_t(widest) * kSlice;
+    const Index end = min_of(count.size, (s + 1) << list.row_bits());
+    for (Index i = s << list.row_bits(); i < end; ++i) widest = max_of(widest, count[i]);
+    const std::uint64_t turns = (std::uint64_t(widest) + (1u << list.bits) - 1) >> list.bits;
+    width[s] = turns << kSliceBits;
   }
 };
 
-/// Each lane takes every count-th cell; all lanes test one candidate at a time, and those that keep
-/// theirs write side by side.
+/// Each lane takes every count-th cell; all lanes test one candidate at a time.
 template <class Near>
 struct FillPass {
   CellGridView sources;
@@ -90,12 +109,10 @@ struct FillPass {
   BL_HD void operator()(Index thread) const {
     const Lane lane(thread, bits);
     const Index i = lane.row;
-    std::uint64_t slot = list.first(i);
+    std::uint32_t n = 0;
     if (lane.count == 1) {
       sources.each_near(near.place(i), near.reach(i), [&](Index j) {
-        if (!near(i, j)) return;
-        entry[slot] = j;
-        slot += kSlice;
+        if (near(i, j)) entry[list.slot(i, n++)] = j;
       });
       return;
     }
@@ -114,8 +131,8 @@ struct FillPass {
       if (lane.ballot(some) == 0) return;
       const bool keep = some && near(i, j);
       const unsigned kept = lane.ballot(keep);
-      if (keep) entry[slot + std::uint64_t(Lane::bits_in(kept & ((1u << lane.index) - 1))) * kSlice] = j;
-      slot += std::uint64_t(Lane::bits_in(kept)) * kSlice;
+      if (keep) entry[list.slot(i, n + Lane::bits_in(kept & ((1u << lane.index) - 1)))] = j;
+      n += Lane::bits_in(kept);
       j += some;
     }
   }
@@ -166,20 +183,20 @@ class NearSearch {
 #endif
 
 template <class Near>
-void VerletList::build(Index rows, const CellGridView& sources, const Near& near) {
+void VerletList::build(Index rows, const CellGridView& sources, const Near& near, unsigned bits) {
   count_.resize(rows);
+  bits_ = bits;
 #if BL_CUDA
-  const unsigned bits = lane_bits(rows);
-  for_each({0, rows << bits}, detail::CountPass<Near>{sources, near, bits, count_});
-  const Index slices = (rows + kSlice - 1) / kSlice;
-  width_.resize(slices);
-  for_each({0, slices}, detail::WidthPass{count_, width_});
+  const unsigned search = lane_bits(rows);
+  for_each({0, rows << search}, detail::CountPass<Near>{sources, near, search, count_});
+  width_.resize(slices());
+  for_each({0, Index(slices())}, detail::WidthPass{count_, view(), width_});
   slots_ = sorter_.exclusive_scan(width_, offset_);
   entry_.reserve_and_resize(slots_);
-  for_each({0, rows << bits}, detail::FillPass<Near>{sources, near, bits, view(), entry_.data()});
+  for_each({0, rows << search}, detail::FillPass<Near>{sources, near, search, view(), entry_.data()});
 #else
   // one search instead of two: blocks of rows grow lists of their own, which are then joined
-  static_assert(kSlice == 1);
+  static_assert(kSliceBits == 0);
   constexpr Index block = 256;
   const Index blocks = (rows + block - 1) / block;
   const auto end = [&](Index b) { return min_of(rows, (b + 1) * block); };
@@ -203,6 +220,23 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
   }
 #endif
 }
+
+/// A list as it stands, on the host.
+struct HostVerletList {
+  std::vector<std::uint64_t> offset;
+  std::vector<std::uint32_t> count;
+  std::vector<Index> entry;
+  unsigned bits;
+
+  explicit HostVerletList(const VerletList& list)
+      : offset(list.slices() + 1), count(list.rows()), entry(list.slots()), bits(list.view().bits) {
+    const VerletListView from = list.view();
+    copy_to_host(offset.data(), from.offset, offset.size() * sizeof offset[0]);
+    copy_to_host(count.data(), from.count, count.size() * sizeof count[0]);
+    copy_to_host(entry.data(), from.entry, entry.size() * sizeof entry[0]);
+  }
+  VerletListView view() const { return {offset.data(), count.data(), entry.data(), bits}; }
+};
 
 /// Pairs of SPH particles (fluid or wall) closer than `range`.
 template <class PA>
