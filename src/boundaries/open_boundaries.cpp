@@ -94,10 +94,11 @@ void OpenBoundaries::renew(FluidStore& fluid, WallStore& walls, const EquationOf
 
 void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& walls,
                            const EquationOfState& eos, double t, const Vec3d& gravity) {
-  const Index layers = Index(buffer_layers(config_.fluid));
   Index first = walls.size();  // the particles of all inlets are the last of the wall particles
-  for (std::size_t k = i; k < motion_.inlets().size(); ++k)
-    first -= layers * Index(motion_.inlets()[k].points());
+  for (std::size_t k = i; k < motion_.inlets().size(); ++k) {
+    const InletFlow& inlet = motion_.inlets()[k];
+    first -= Index(buffer_layers(config_.fluid, inlet.thickness()) * inlet.points());
+  }
   const Index count = Index(motion_.inlets()[i].points()), before = fluid.size();
   if (next_fluid_ + count >= double(kNone))
     throw SimulationFault("inlet \"" + config_.inlets[i].name +

@@ -130,7 +130,8 @@ std::string summary_text(const Prepared& p) {
   }
   for (const InletConfig& inlet : c.inlets)
     out += fmt::format("inlet      {}: {} particles a layer, up to {:.4g} m/s\n", inlet.name,
-                       orifice_points(inlet, c.fluid.dx).size(), inlet_speed(inlet, c.fluid.dx, c.time.end));
+                       orifice_layer(inlet, c.fluid.dx).points.size(),
+                       inlet_speed(inlet, c.fluid.dx, c.time.end));
   if (c.fluid.present && c.grain.present && c.couple.mode != "off")
     out += fmt::format("coupling   {}, {}, h_c {:.4g} m = {:.3g} d_max\n", c.couple.mode, c.couple.drag,
                        c.couple.hc, c.couple.hc / c.grain.d_max);

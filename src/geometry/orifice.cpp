@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/sampling.hpp"
@@ -38,6 +39,7 @@ struct HalfSides {
 };
 
 int cells_along(double half_side, double dx) { return int(std::floor(2 * half_side / dx + 1e-6)); }
+int nearest_cells(double half_side, double dx) { return std::max(1, int(std::lround(2 * half_side / dx))); }
 
 [[noreturn]] void fail(const InletConfig& inlet, const std::string& why) {
   throw CaseError(fmt::format("inlet \"{}\": {}", inlet.name, why));
@@ -46,7 +48,8 @@ int cells_along(double half_side, double dx) { return int(std::floor(2 * half_si
 std::string place(const Vec3d& x) { return fmt::format("({:g}, {:g}, {:g}) m", x.x, x.y, x.z); }
 
 /// A buffer belongs in an opening, such as the bore of a pipe or an open side of a tank.
-void check_clear_of_walls(const Config& config, const InletConfig& inlet, const std::vector<Vec3d>& buffer) {
+void check_clear_of_walls(const Config& config, const InletConfig& inlet, const std::vector<Vec3d>& buffer,
+                          double depth) {
   const double reach = config.fluid.kappa() * config.fluid.h(), slack = 1e-6 * config.fluid.dx;
   for (const WallBody& body : config.wall.bodies) {
     if (!body.stops_fluid()) continue;
@@ -54,13 +57,13 @@ void check_clear_of_walls(const Config& config, const InletConfig& inlet, const 
       if (wall_distance(body, x, reach, config.domain) < -slack)
         fail(inlet, fmt::format("the fluid upstream of it, at {}, must not lie inside wall.body \"{}\"; "
                                 "leave an opening there, {:g} m deep",
-                                place(x), body.name, buffer_layers(config.fluid) * config.fluid.dx));
+                                place(x), body.name, depth));
   }
 }
 
 void check_clear_of_fluid(const Config& config, const InletConfig& inlet, const std::vector<Vec3d>& buffer,
-                          const Setup::Fluid& fluid) {
-  const double near = 0.7 * config.fluid.dx, depth = buffer_layers(config.fluid) * config.fluid.dx;
+                          double depth, const Setup::Fluid& fluid) {
+  const double near = 0.7 * config.fluid.dx;
   const double wide = HalfSides(inlet).a + HalfSides(inlet).b + near;
   for (const Vec3d& x : fluid.x) {
     const Vec3d r = x - inlet.centre;
@@ -75,8 +78,9 @@ void check_clear_of_fluid(const Config& config, const InletConfig& inlet, const 
 
 /// Beside fluid that comes in along a wall that begins at the orifice, half the kernel is empty upstream.
 void check_walls_reach_upstream(const Config& config, const InletConfig& inlet,
-                                const std::vector<Vec3d>& points, std::vector<std::string>& warnings) {
-  const double dx = config.fluid.dx, depth = buffer_layers(config.fluid) * dx;
+                                const std::vector<Vec3d>& points, double depth,
+                                std::vector<std::string>& warnings) {
+  const double dx = config.fluid.dx;
   for (const WallBody& body : config.wall.bodies) {
     if (!body.stops_fluid() || body.moves()) continue;
     const auto beside = [&](const Vec3d& x) {
@@ -95,19 +99,36 @@ void check_walls_reach_upstream(const Config& config, const InletConfig& inlet,
 
 }  // namespace
 
-std::vector<Vec3d> orifice_points(const InletConfig& inlet, double dx) {
+double orifice_area(const InletConfig& inlet) {
+  const HalfSides half(inlet);
+  return inlet.shape == "disc" ? std::numbers::pi * half.a * half.a : 4 * half.a * half.b;
+}
+
+OrificeLayer orifice_layer(const InletConfig& inlet, double dx) {
   const PlaneAxes axes(inlet);
   const HalfSides half(inlet);
-  const int na = cells_along(half.a, dx), nb = cells_along(half.b, dx);
-  std::vector<Vec3d> points;
-  for (int j = 0; j < nb; ++j)
-    for (int i = 0; i < na; ++i) {
-      const double a = (i - 0.5 * (na - 1)) * dx, b = (j - 0.5 * (nb - 1)) * dx;
-      const double most = inlet.radius - 0.25 * dx;
-      if (inlet.shape == "disc" && (most <= 0 || a * a + b * b > most * most)) continue;
-      points.push_back(inlet.centre + a * axes.a + b * axes.b);
+  OrificeLayer layer;
+  const auto add = [&](double a, double b) {
+    layer.points.push_back(inlet.centre + a * axes.a + b * axes.b);
+  };
+  const int na = nearest_cells(half.a, dx), nb = nearest_cells(half.b, dx);
+  const double sa = 2 * half.a / na, sb = 2 * half.b / nb;
+  if (inlet.shape == "disc") {
+    const double turn = std::numbers::pi * (3 - std::sqrt(5.0));  // no ring lines up with another
+    for (int ring = 0; ring < (na + 1) / 2; ++ring) {
+      const double radius = (ring + (na % 2 ? 0 : 0.5)) * sa;
+      const int count = std::max(1, int(std::lround(2 * std::numbers::pi * radius / sa)));
+      for (int k = 0; k < count; ++k) {
+        const double angle = ring * turn + 2 * std::numbers::pi * k / count;
+        add(radius * std::cos(angle), radius * std::sin(angle));
+      }
     }
-  return points;
+  } else {
+    for (int j = 0; j < nb; ++j)
+      for (int i = 0; i < na; ++i) add((i - 0.5 * (na - 1)) * sa, (j - 0.5 * (nb - 1)) * sb);
+  }
+  layer.thickness = double(layer.points.size()) * dx * dx * dx / orifice_area(inlet);
+  return layer;
 }
 
 OrificeWidth orifice_width(const InletConfig& inlet, double dx) {
@@ -116,22 +137,23 @@ OrificeWidth orifice_width(const InletConfig& inlet, double dx) {
   return {cells_along(narrow, dx), narrow / 2};
 }
 
-int buffer_layers(const FluidConfig& fluid) {
-  return int(std::ceil(fluid.kappa() * fluid.h() / fluid.dx - 1e-6)) + 1;
+int buffer_layers(const FluidConfig& fluid, double thickness) {
+  return int(std::ceil(fluid.kappa() * fluid.h() / thickness - 1e-6)) + 1;
 }
 
 void add_inlets(const Config& config, const Setup::Fluid& fluid, Setup::Walls& walls,
                 std::vector<std::string>& warnings) {
-  const double dx = config.fluid.dx;
   for (std::size_t i = 0; i < config.inlets.size(); ++i) {
     const InletConfig& inlet = config.inlets[i];
-    const std::vector<Vec3d> points = orifice_points(inlet, dx);
+    const OrificeLayer layer = orifice_layer(inlet, config.fluid.dx);
+    const int layers = buffer_layers(config.fluid, layer.thickness);
     std::vector<Vec3d> buffer;
-    for (int layer = 0; layer < buffer_layers(config.fluid); ++layer)
-      for (const Vec3d& x : points) buffer.push_back(x - (layer + 0.5) * dx * inlet.direction);
-    check_clear_of_walls(config, inlet, buffer);
-    check_clear_of_fluid(config, inlet, buffer, fluid);
-    check_walls_reach_upstream(config, inlet, points, warnings);
+    for (int k = 0; k < layers; ++k)
+      for (const Vec3d& x : layer.points) buffer.push_back(x - (k + 0.5) * layer.thickness * inlet.direction);
+    const double depth = layers * layer.thickness;
+    check_clear_of_walls(config, inlet, buffer, depth);
+    check_clear_of_fluid(config, inlet, buffer, depth, fluid);
+    check_walls_reach_upstream(config, inlet, layer.points, depth, warnings);
     walls.x.insert(walls.x.end(), buffer.begin(), buffer.end());
     walls.body.insert(walls.body.end(), buffer.size(), std::uint32_t(config.wall.bodies.size() + i));
     walls.outer.insert(walls.outer.end(), buffer.size(), 0);

@@ -18,8 +18,11 @@ double smooth_step(double s, double ramp) {
 }  // namespace
 
 InletFlow::InletFlow(const InletConfig& inlet, double dx)
-    : inlet_(inlet), factor_(inlet.factor, "t"), points_(int(orifice_points(inlet, dx).size())), dx_(dx) {
-  full_ = inlet.rate > 0 ? inlet.rate : inlet.velocity * points_ * dx * dx;
+    : inlet_(inlet), factor_(inlet.factor, "t"), area_(orifice_area(inlet)) {
+  const OrificeLayer layer = orifice_layer(inlet, dx);
+  points_ = int(layer.points.size());
+  thickness_ = layer.thickness;
+  full_ = inlet.rate > 0 ? inlet.rate : inlet.velocity * area_;
 }
 
 double InletFlow::open(double t) const {
@@ -54,14 +57,14 @@ void InletFlow::advance(double t) {
   time_ = t;
 }
 
-double InletFlow::travel(double t) const { return volume(t) / (points_ * dx_ * dx_) - layers_ * dx_; }
+double InletFlow::travel(double t) const { return volume(t) / area_ - layers_ * thickness_; }
 
 RigidMotion InletFlow::motion(double t) const {
-  const double area = points_ * dx_ * dx_, apart = 1e-3 * (inlet_.ramp > 0 ? inlet_.ramp : 1e-3);
+  const double apart = 1e-3 * (inlet_.ramp > 0 ? inlet_.ramp : 1e-3);
   RigidMotion m;
   m.translation = travel(t) * inlet_.direction;
-  m.v = rate(t) / area * inlet_.direction;
-  m.a = (rate(t + apart) - rate(t - apart)) / (2 * apart * area) * inlet_.direction;
+  m.v = rate(t) / area_ * inlet_.direction;
+  m.a = (rate(t + apart) - rate(t - apart)) / (2 * apart * area_) * inlet_.direction;
   return m;
 }
 
@@ -71,7 +74,7 @@ double inlet_speed(const InletConfig& inlet, double dx, double until) {
   constexpr int samples = 2000;
   double most = 0;
   for (int i = 0; i <= samples; ++i) most = std::max(most, flow.rate(until * i / samples));
-  return most / (flow.points() * dx * dx);
+  return most / orifice_area(inlet);
 }
 
 }  // namespace bedload

@@ -8,23 +8,24 @@
 namespace bedload {
 
 /// Flow through one inlet. Upstream of the orifice lie layers of fluid particles that move as one body; when
-/// a layer has come through, the body starts over a spacing further back, as one layer more.
+/// a layer has come through, the body starts over by its thickness further back, as one layer more.
 class InletFlow {
  public:
   /// `dx`: spacing of the fluid, m.
   InletFlow(const InletConfig& inlet, double dx);
 
-  int points() const { return points_; }  ///< of the orifice: particles a layer
-  double rate(double t) const;            ///< m3/s
+  int points() const { return points_; }           ///< of the orifice: particles a layer
+  double thickness() const { return thickness_; }  ///< of a layer, m
+  double rate(double t) const;                     ///< m3/s
   /// Volume let in up to t, m3; t no earlier than that of the last advance().
   double volume(double t) const;
   double counted() const { return volume_; }  ///< up to the last advance(), m3
   double layers() const { return layers_; }   ///< come through so far
 
-  /// Of the particles upstream, which begin half a spacing behind the orifice.
+  /// Of the particles upstream, which begin half a layer behind the orifice.
   RigidMotion motion(double t) const;
   /// The foremost layer has come through.
-  bool due() const { return travel(time_) >= 0.5 * dx_; }
+  bool due() const { return travel(time_) >= 0.5 * thickness_; }
   void next_layer() { ++layers_; }
 
   /// Counts the volume up to t from now on.
@@ -40,7 +41,7 @@ class InletFlow {
   InletConfig inlet_;
   Formula factor_;
   int points_;
-  double dx_, full_;  ///< m; m3/s
+  double thickness_, area_, full_;  ///< m; m2; m3/s
   double time_ = 0, volume_ = 0, layers_ = 0;
 };
 

@@ -354,8 +354,8 @@ every = 1
 )");
   run_until(*s, 0.2);
   const auto d = s->diagnostics();
-  EXPECT_NEAR(reading(d, "inlet_feed_volume") / (0.2 * 21 * 25e-6), 1, 0.1);
-  EXPECT_GE(reading(d, "fluid_count"), 21 * 35);
+  EXPECT_NEAR(reading(d, "inlet_feed_volume") / (0.2 * 3.14159 * 0.0125 * 0.0125), 1, 0.1);
+  EXPECT_GE(reading(d, "fluid_count"), 20 * 35);
   // falls 0.08 m, no faster than its head allows
   EXPECT_LT(reading(d, "fluid_speed_max"), 2.2);
 }

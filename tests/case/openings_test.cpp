@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/setup.hpp"
@@ -46,12 +47,52 @@ TEST(Openings, AnInletIsResolved) {
   ASSERT_EQ(c.inlets.size(), 1u);
   EXPECT_EQ(c.inlets[0].direction, (Vec3d{0, 0, -1}));
   EXPECT_DOUBLE_EQ(c.inlets[0].ramp, 10 * c.fluid.h() / c.fluid.c);
-  const auto points = orifice_points(c.inlets[0], c.fluid.dx);
-  EXPECT_EQ(points.size(), 21u);
+  EXPECT_EQ(orifice_layer(c.inlets[0], c.fluid.dx).points.size(), 20u);
   InletFlow flow(c.inlets[0], c.fluid.dx);
-  EXPECT_NEAR(flow.motion(1).v.z, -1e-4 / (21 * 16e-6), 1e-12);
+  EXPECT_NEAR(flow.motion(1).v.z, -1 / std::numbers::pi, 1e-12) << "the rate over the area";
   EXPECT_DOUBLE_EQ(flow.rate(1), 1e-4);
   EXPECT_EQ(read(resolved_toml(c)), c);
+}
+
+TEST(Openings, LayersFillTheirOrifice) {
+  InletConfig inlet;
+  inlet.centre = {0.3, 0.1, 0.2};
+  inlet.direction = {0, 0, 1};
+  const auto expect_full = [&](double dx, std::size_t count, double area) {
+    const OrificeLayer layer = orifice_layer(inlet, dx);
+    EXPECT_EQ(layer.points.size(), count);
+    EXPECT_NEAR(orifice_area(inlet), area, 1e-12 * area);
+    EXPECT_NEAR(layer.thickness * area, double(count) * dx * dx * dx, 1e-12 * area * dx);
+    return layer;
+  };
+  inlet.shape = "rectangle";
+  inlet.half_a = {0.0245, 0, 0}, inlet.half_b = {0, 0.027, 0};  // 4.9 x 5.4 spacings
+  double most_a = 0, most_b = 0;
+  for (const Vec3d& x : expect_full(0.01, 5 * 5, 0.049 * 0.054).points) {
+    most_a = std::max(most_a, x.x - inlet.centre.x);
+    most_b = std::max(most_b, x.y - inlet.centre.y);
+    EXPECT_DOUBLE_EQ(x.z, inlet.centre.z);
+  }
+  EXPECT_NEAR(most_a, 0.0245 * 4 / 5, 1e-12) << "half a cell from the side";
+  EXPECT_NEAR(most_b, 0.027 * 4 / 5, 1e-12);
+
+  inlet.shape = "disc";
+  inlet.velocity = 2;
+  for (const auto& [spacings, count] :
+       {std::pair{2.0, 3 + 9}, {2.5, 1 + 6 + 13}, {3.1, 3 + 9 + 16}, {4.7, 1 + 6 + 13 + 19 + 25}}) {
+    inlet.radius = 0.01 * spacings;
+    const double area = std::numbers::pi * inlet.radius * inlet.radius;
+    const double spacing = 2 * inlet.radius / std::round(2 * spacings);
+    const std::vector<Vec3d> points = expect_full(0.01, std::size_t(count), area).points;
+    for (const Vec3d& x : points) {
+      EXPECT_LT(norm(x - inlet.centre), inlet.radius - 0.499 * spacing);
+      for (const Vec3d& y : points) {
+        EXPECT_TRUE(&x == &y || norm(x - y) > 0.86 * spacing);
+      }
+    }
+    InletFlow flow(inlet, 0.01);
+    EXPECT_NEAR(flow.rate(1), 2 * area, 1e-12) << "the velocity times the area";
+  }
 }
 
 TEST(Openings, TheFlowSetsTheSoundSpeed) {
@@ -71,9 +112,10 @@ TEST(Openings, BuffersFollowTheWallParticles) {
   const Config c = read(with_inlet());
   std::vector<std::string> warnings;
   const auto with = build_setup(c, warnings), without = build_setup(read(kCase), warnings);
-  EXPECT_EQ(with.walls.x.size(), without.walls.x.size() + 21 * buffer_layers(c.fluid));
+  const double thickness = orifice_layer(c.inlets[0], c.fluid.dx).thickness;
+  EXPECT_EQ(with.walls.x.size(), without.walls.x.size() + 20 * buffer_layers(c.fluid, thickness));
   EXPECT_EQ(with.walls.body.back(), 1u);
-  EXPECT_NEAR(with.walls.x[without.walls.x.size()].z, 0.1 + c.fluid.dx / 2, 1e-12);
+  EXPECT_NEAR(with.walls.x[without.walls.x.size()].z, 0.1 + thickness / 2, 1e-12);
 }
 
 TEST(Openings, WrongInlets) {
@@ -103,7 +145,7 @@ TEST(Openings, BuffersNeedAnOpening) {
   const std::string in_wall = setup_error(with_inlet("[0.15, 0.05, 0.1]", "[0.15, 0.05, 0.2]"));
   EXPECT_TRUE(in_wall.starts_with("inlet \"feed\": the fluid upstream of it, at (0.1")) << in_wall;
   EXPECT_TRUE(
-      in_wall.ends_with("must not lie inside wall.body \"tank\"; leave an opening there, 0.016 m deep"))
+      in_wall.ends_with("must not lie inside wall.body \"tank\"; leave an opening there, 0.0162975 m deep"))
       << in_wall;
   const std::string in_fluid = setup_error(with_inlet("[0.15, 0.05, 0.1]", "[0.03, 0.05, 0.09]"));
   EXPECT_NE(in_fluid.find("must not overlap the initial fluid at"), std::string::npos) << in_fluid;

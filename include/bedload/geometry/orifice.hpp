@@ -9,9 +9,17 @@
 
 namespace bedload {
 
-/// Points of a square lattice of spacing `dx` over the orifice, m, in its plane: those whose cells lie in a
-/// rectangle, those that are dx/4 or more inside the rim of a disc.
-std::vector<Vec3d> orifice_points(const InletConfig& inlet, double dx);
+/// m2
+double orifice_area(const InletConfig& inlet);
+
+/// Particles that come through side by side.
+struct OrificeLayer {
+  std::vector<Vec3d> points;  ///< m, in the plane of the orifice
+  double thickness =
+      0;  ///< m, so that each stands for dx^3: what comes in is as fast as its rate over the area
+};
+/// About `dx` (m) apart and half of that from the rim: rows and columns in a rectangle, rings in a disc.
+OrificeLayer orifice_layer(const InletConfig& inlet, double dx);
 
 /// Points of the lattice across the narrowest part of the orifice, and the spacing that would give four, m.
 struct OrificeWidth {
@@ -20,13 +28,14 @@ struct OrificeWidth {
 };
 OrificeWidth orifice_width(const InletConfig& inlet, double dx);
 
-/// Layers of fluid particles that wait upstream of an orifice: they fill the reach of the kernel however far
-/// the foremost has come.
-int buffer_layers(const FluidConfig& fluid);
+/// Layers of that thickness (m) that wait upstream of an orifice: they fill the reach of the kernel however
+/// far the foremost has come.
+int buffer_layers(const FluidConfig& fluid, double thickness);
 
 /// Adds the buffers of all inlets behind the wall particles, layer after layer from the orifice back; the
-/// first lies half a spacing upstream of it. Their bodies follow those of the walls. Throws CaseError where
-/// a buffer lies in a wall or in the initial fluid; warns of walls beside an orifice that end at its plane.
+/// first lies half its thickness upstream of it. Their bodies follow those of the walls. Throws CaseError
+/// where a buffer lies in a wall or in the initial fluid; warns of walls beside an orifice that end at its
+/// plane.
 void add_inlets(const Config& config, const Setup::Fluid& fluid, Setup::Walls& walls,
                 std::vector<std::string>& warnings);
 
