@@ -12,11 +12,11 @@ namespace bedload {
 /// m2
 double orifice_area(const InletConfig& inlet);
 
-/// Particles that come through side by side.
+/// Particles that come through side by side. It is as thick as each asks for that stands for dx^3, so that
+/// what comes in is as fast as its rate over the area.
 struct OrificeLayer {
   std::vector<Vec3d> points;  ///< m, in the plane of the orifice
-  double thickness =
-      0;  ///< m, so that each stands for dx^3: what comes in is as fast as its rate over the area
+  double thickness = 0;       ///< m
 };
 /// About `dx` (m) apart and half of that from the rim: rows and columns in a rectangle, rings in a disc.
 OrificeLayer orifice_layer(const InletConfig& inlet, double dx);
