@@ -59,8 +59,8 @@ struct Carriers {
   Span<Real3> arm;                    ///< mean of r_a - r_j, m
   Span<SymmetricMatrix<Real>> inv_M;  ///< 1/m2, M = sum w (s2 1 - s s) about that mean; zero where undefined
 
-  /// scale: one over the sum of the weights, or 0.
-  BL_HD void set(Index j, const FlowSums<>& flow, Real scale) const {
+  /// scale: one over the sum of the weights, or 0. Returns the root mean square of |s|, m.
+  BL_HD Real set(Index j, const FlowSums<>& flow, Real scale) const {
     arm[j] = scale * flow.arm;
     auto moment = flow.moment.template as<double>(1);
     const double second = moment.trace();
@@ -69,6 +69,7 @@ struct Carriers {
     const auto inverse = moment.inertia().inverse();
     const bool usable = scale > 0 && inverse.norm() * second < 1e6;  // false for NaN
     inv_M[j] = usable ? inverse.template as<Real>(flow.weight) : SymmetricMatrix<Real>{};
+    return Real(std::sqrt(max_of(moment.trace() * scale, 0.0)));
   }
   /// By how the fluid turns, rad/s.
   BL_HD Real3 rotation(Index j, const FlowSums<>& flow, Real scale) const {

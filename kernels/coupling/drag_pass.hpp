@@ -30,6 +30,19 @@ BL_HD DragLine drag_line(const K& law, Real mean, Real fast) {
   return {top - slope * fast, slope};
 }
 
+/// How much more of a force at its centre a grain hands to the fluid by the couple that turns it: particle a
+/// gets up to 1 + off_centre |r_a - r_j - arm| times its share, all of them `sum` times the force.
+struct DragLevers {
+  Span<Real4> arm;  ///< m; w: off_centre, 1/m
+  Span<Real> sum;
+
+  template <class N, class J>
+  BL_HD N of(J j, const Vec3<N>& r_aj) const {
+    const Vec4<N> lever = arm[j];
+    return 1 + lever.w * root(norm2(r_aj - lever.xyz()));
+  }
+};
+
 /// phi_ja K_ja / K_j, the share of a grain's drag that falls to a fluid particle, per V_a W: `still`, and
 /// where drag follows the slip of each particle |v_a - v_j| `by_slip` besides.
 struct DragShares {
@@ -45,19 +58,22 @@ struct DragShares {
 };
 
 /// Drag and spin drag coefficients of each grain, times its wetness, and the fluid motion that they refer to:
-/// U = sum phi K_ja v_a / K_j with K_j = sum phi K_ja, likewise omega_f. Local: the law is taken at the slip
+/// mean velocity and rotation of the fluid weighted with phi K_ja / K_j, K_j = sum phi K_ja, and with the couple
+/// the velocity of that motion at the grain's centre, where the force acts. Local: the law is taken at the slip
 /// of each particle, so that a jet pushes by its own speed; else at the mean slip.
 template <class Law, bool Local>
 struct DragPass {
   Law law;
   Real mu;      ///< Pa s
   bool torque;  ///< whether the fluid turns grains
+  bool couple;  ///< whether the reaction has a couple
   Span<const Real> radius, eps, bed_eps, wetness;
   Span<const Real3> v, omega;
   GrainSurroundings surroundings;
   DragShares shares;
   Span<Real3> U, omega_f;
   Span<Real> K, K_rot;
+  DragLevers levers;
 
   BL_HD void operator()(Index j) const {
     const Real wet = wetness[j], inv_S = surroundings.inv_S[j];
@@ -81,8 +97,15 @@ struct DragPass {
     K_rot[j] = 0;
     const Carriers& carriers = surroundings.drag;
     if (!carriers.inv_M) return;
-    carriers.set(j, flow, inv_S);
+    const Real spread = carriers.set(j, flow, inv_S);
     omega_f[j] = carriers.rotation(j, flow, inv_S);
+    if (couple) {
+      const Real3 arm = carriers.arm[j];
+      U[j] -= cross(omega_f[j], arm);
+      const Real off_centre = norm(arm) * carriers.inv_M[j].norm();
+      levers.arm[j] = {arm, off_centre};
+      levers.sum[j] = 1 + off_centre * spread;
+    }
     if (torque && wet > 0 && carriers.inv_M[j].trace() > 0)
       K_rot[j] = wet * spin_drag(2 * radius[j], surroundings.rho[j], mu, norm(omega_f[j] - omega[j]));
   }

@@ -8,27 +8,28 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Mixture volume of a fluid particle, m3; v_rho: w is its superficial density.
-BL_HD Real mixture_volume(Real mass, const Real4& v_rho) { return mass / v_rho.w; }
+/// Volume of fluid and grains that a fluid particle stands for, m3.
+BL_HD Real mixture_volume(const Real4& m_state) { return m_state.x / m_state.z; }
 
 /// What grains read of a fluid particle, besides its velocity, in few loads.
 struct FluidRecords {
-  Span<Real4> theta;   ///< m/s2; w: V_a, m3
-  Span<Real4> solids;  ///< porosity; intrinsic density, kg/m3; share of the solids around that count for it
+  Span<Real4> push;    ///< stress on the mixture, as far as it counts grains, N; w: V_a, m3
+  Span<Real4> solids;  ///< porosity; density, kg/m3; share of the solids around that count beside orifices
 };
 
 struct RecordPass {
   Frame frame;
   OrificeShare counted;
   Span<const FluidPosition> x;
-  Span<const Real> mass, eps;
+  Span<const Real> solid_factor;
   Span<const Real3> theta;
-  Span<const Real4> v_rho;
+  Span<const Real4> m_state;
   FluidRecords records;
 
   BL_HD void operator()(Index a) const {
-    records.theta[a] = {theta[a], mixture_volume(mass[a], v_rho[a])};
-    records.solids[a] = {eps[a], v_rho[a].w / eps[a], counted(coordinates(frame, x[a])), 0};
+    const Real4 m = m_state[a];
+    records.push[a] = {solid_factor[a] * m.x * theta[a], mixture_volume(m)};
+    records.solids[a] = {m.w, m.z, counted(coordinates(frame, x[a])), 0};
   }
 };
 

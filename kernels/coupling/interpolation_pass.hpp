@@ -11,22 +11,23 @@ struct GrainSurroundings {
   Span<FlowSums<>> flow;    ///< by V_a W
   Span<FlowSums<>> fast;    ///< by V_a W |u|
   Span<Real> fast_slip;     ///< mean of |u| by that weight, m/s
-  Carriers pressure, drag;  ///< weighted with phi_ja and with phi_ja K_ja
+  Carriers stress, drag;    ///< weighted with phi_ja and with phi_ja K_ja
+  Span<Real3> lost_moment;  ///< of the stress that the grain takes at its centre instead of where the fluid is, N m
 };
 
-/// Grain j reads the fluid: porosity, what DragPass needs, and the force of pressure and viscous stress on
-/// its volume, V_j sum phi rho~ theta [he18] Eqs. 27-29, corrected, as if it were wet all over. Moments:
-/// whether rotation and couple are wanted; Local: whether drag follows the slip of each particle.
+/// Grain j reads the fluid: porosity, what DragPass needs, and the moment that is lost as it takes its part of
+/// the stress at its own place; but not that of the part of its volume that walls cut off, which they bear.
+/// Moments: whether rotation and couple are wanted; Local: whether drag follows the slip of each particle.
 template <class W, bool Moments, bool Local>
 struct InterpolationPass {
   W w;
   Real S_least, eps_min;  ///< of S, below which there is no mean to be had
   Span<const Real4> v_rho;
   FluidRecords fluid;
-  Span<const Real3> v;
-  Span<const Real> radius;
+  Span<const Real3> v, fluid_force;
+  Span<const Real4> volume;  ///< w: of GrainVolumePass
+  Span<const Real> wall_free;
   Span<Real> eps, bed_eps;  ///< bed_eps: beside orifices, too, that of the bed
-  Span<Real3> fluid_force;
   GrainSurroundings surroundings;
 
   /// Sums over the fluid of V_a W times what is named; velocities relative to the grain.
@@ -34,7 +35,7 @@ struct InterpolationPass {
   struct Sum {
     Vec3<N> v_grain;
     N eps{}, counted{}, rho{}, speed2{};
-    Vec3<N> rho_theta;
+    Vec3<N> turn;
     FlowSums<N> flow, fast;
   };
   BL_HD Sum<> start(Index j) const {
@@ -44,13 +45,13 @@ struct InterpolationPass {
   }
   template <class N, class A>
   BL_HD void pair(Sum<N>& sum, Index, A a, const Vec3<N>& r_ja, N r2) const {
-    const Vec4<N> state = v_rho[a], theta = fluid.theta[a], solids = fluid.solids[a];
-    const N vw = theta.w * w.W(root(r2));
+    const Vec4<N> state = v_rho[a], push = fluid.push[a], solids = fluid.solids[a];
+    const N W_ja = w.W(root(r2)), vw = push.w * W_ja;
     const Vec3<N> u = state.xyz() - sum.v_grain;
     sum.eps += vw * solids.x;
     sum.rho += vw * solids.y;
     sum.counted += vw * solids.z;
-    sum.rho_theta += vw * state.w * theta.xyz();
+    if constexpr (Moments) sum.turn -= W_ja * cross(r_ja, push.xyz());
     sum.flow.template add<Moments>(vw, u, -r_ja);
     if constexpr (Local) {
       const N speed2 = norm2(u);
@@ -62,7 +63,7 @@ struct InterpolationPass {
     into.eps += other.eps;
     into.counted += other.counted;
     into.rho += other.rho;
-    into.rho_theta += other.rho_theta;
+    if constexpr (Moments) into.turn += other.turn;
     into.flow.template merge<Moments>(other.flow);
     if constexpr (Local) {
       into.speed2 += other.speed2;
@@ -82,8 +83,13 @@ struct InterpolationPass {
     eps[j] = S > 0 ? clamp(sum.eps / Real(S), eps_min, Real(1)) : Real(1);
     const Real counted = max_of(sum.counted * inv_S, Real(1e-3));
     bed_eps[j] = max_of(1 - (1 - eps[j]) / counted, eps_min);
-    fluid_force[j] = (4 * kPi / 3 * cube(radius[j]) * inv_S) * sum.rho_theta;
-    if constexpr (Moments) surroundings.pressure.set(j, sum.flow, inv_S);
+    if constexpr (Moments) {
+      surroundings.stress.set(j, sum.flow, inv_S);
+      const Real hidden = 1 - wall_free[j], missing = 1 - Real(S);
+      const Real by_walls = hidden > 0 && missing > 0 ? min_of(hidden / missing, Real(1)) : Real(0);
+      surroundings.lost_moment[j] =
+          volume[j].w * sum.turn - by_walls * cross(surroundings.stress.arm[j], fluid_force[j]);
+    }
   }
 };
 

@@ -3,13 +3,14 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// L_a / m_a = sum_j phi_ja K_ja / m_a: how fast drag stops a fluid particle, 1/s.
-template <class W, bool Local>
+/// L_a / m_a = sum_j phi_ja K_ja / m_a: how fast drag, with its couple, stops a fluid particle, 1/s.
+template <class W, bool Local, bool Couple>
 struct DragRatePass {
   W w;
   DragShares shares;
+  DragLevers levers;
   Span<const Real> K, mass;
-  Span<const Real4> v_rho;
+  Span<const Real4> v_rho, m_state;
   Span<Real> rate;
 
   template <class N = Real>
@@ -17,10 +18,12 @@ struct DragRatePass {
     Vec3<N> v;
     N V, L;
   };
-  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(mass[a], v_rho[a]), 0}; }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(m_state[a]), 0}; }
   template <class N, class J>
-  BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>&, N r2) const {
-    sum.L += K[j] * sum.V * w.W(root(r2)) * shares.template of<Local>(j, sum.v);
+  BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>& r_aj, N r2) const {
+    N L = K[j] * sum.V * w.W(root(r2)) * shares.template of<Local>(j, sum.v);
+    if constexpr (Couple) L *= levers.of(j, r_aj);
+    sum.L += L;
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.L += other.L; }
   BL_HD void finish(Index a, const Sum<>& sum) const { rate[a] = sum.L / mass[a]; }
@@ -37,6 +40,7 @@ BL_HD Real allowed_share(Real x) { return x > 1 ? 1 / x : Real(1); }
 struct LimitPass {
   Real dt;  ///< s
   Span<const Real> rate;
+  Span<const Real> lever_sum;  ///< of DragLevers; empty without a couple
   Span<Real> K, K_rot;
   Span<Real> stiffness;  ///< largest dt L_a / m_a around each grain
 
@@ -44,6 +48,7 @@ struct LimitPass {
   BL_HD void pair(Real& most, Index, Index a, const Real3&, Real) const { most = max_of(most, rate[a]); }
   BL_HD void merge(Real& most, Real other) const { most = max_of(most, other); }
   BL_HD void finish(Index j, Real most) const {
+    if (lever_sum) most *= lever_sum[j];
     const Real share = allowed_share(dt * most);
     K[j] *= share;
     K_rot[j] *= share;

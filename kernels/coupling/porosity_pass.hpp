@@ -1,56 +1,76 @@
 #pragma once
-#include <cmath>
-
 #include "bedload/core/span.hpp"
 #include "kernels/coupling/orifice_share.hpp"
 #include "kernels/coupling/wall_share.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// eps_a = 1 - sum_j V_j W(|r_a - r_j|; h_c), with a floor [harting14] Eq. 6. Beside walls the sum is
-/// divided by the share of the kernel that is free of them: a bed reaches a wall as dense as it is inside.
-/// Fluid that fills its surroundings must make room by its velocity where the porosity changes. Torn fluid, a
-/// drop that falls into a bed, has room: there its superficial density follows the porosity, and it is not
-/// pressed.
+/// Where grain j is, for its volume: V_j W(r; h_c) / s_j, s_j being the share of the kernel that walls leave
+/// free, so that none of it is lost to them.
+struct GrainVolumePass {
+  WallFreeShare free;
+  Frame frame;
+  double per_dt;  ///< 1 / step (s), or 0 where no step has been made
+  Span<const Vec3d> x, x_before;
+  Span<const Real3> v;
+  Span<const Real> radius;
+  Span<Real> wall_free;
+  Span<Real4> volume;  ///< mean velocity over the step, m/s; V_j / s_j, m3
+
+  BL_HD void operator()(Index j) const {
+    const Real3 u = per_dt > 0 ? Real3(per_dt * frame.nearest_image(x[j] - x_before[j])) : v[j];
+    const Real s = free(x[j]);
+    wall_free[j] = s;
+    volume[j] = {u, 4 * kPi / 3 * cube(radius[j]) / s};
+  }
+};
+
+/// eps_a = 1 - sum_j w_ja with w_ja = f_a V_j W(|r_a - r_j|; h_c) / s_j [harting14] Eq. 6, and the volume flux of
+/// the mixture, eps_a v_a + sum_j w_ja u_j. f_a is one but for fluid beside orifices and where the porosity would
+/// fall below its floor. With the same weights grains take their share of the stress (BuoyancyPass).
 template <class W>
 struct PorosityPass {
   W w;
   Real floor;
-  WallFreeShare wall_free;
   OrificeShare away_from_orifices;
   Frame frame;
   Span<const FluidPosition> x;
-  Span<const Real> radius;
-  Span<Real> eps;
-  Span<const Real>
-      filled;    ///< share of the kernel that fluid and walls fill; empty: superficial densities stay
-  Span<Real> s;  ///< superficial density / rho0 - 1
+  Span<const Real4> volume, v_rho;
+  Span<const Real> mass;
+  Span<Real> eps, solid_factor;
+  Span<Real4> flux, m_state;
 
   template <class N = Real>
   struct Sum {
     N solid;
+    Vec3<N> q;
   };
-  BL_HD Sum<> start(Index) const { return {0}; }
+  BL_HD Sum<> start(Index) const { return {}; }
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>&, N r2) const {
-    const N R = radius[j];
-    sum.solid += 4 * kPi / 3 * cube(R) * w.W(root(r2));
+    const Vec4<N> grain = volume[j];
+    const N share = grain.w * w.W(root(r2));
+    sum.solid += share;
+    sum.q += share * grain.xyz();
   }
-  BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.solid += other.solid; }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
+    into.solid += other.solid;
+    into.q += other.q;
+  }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    Real solid = sum.solid;
-    if (solid > 0) {
-      const Vec3d at = coordinates(frame, x[a]);
-      solid *= away_from_orifices(at) / wall_free(at);
+    Real factor = sum.solid > 0 ? away_from_orifices(coordinates(frame, x[a])) : Real(1);
+    Real porosity = 1 - factor * sum.solid;
+    if (porosity < floor) {
+      porosity = floor;
+      factor = (1 - floor) / sum.solid;
     }
-    const Real now = max_of(floor, 1 - solid);
-    if (filled && now != eps[a]) s[a] = (1 + s[a]) * std::pow(now / eps[a], torn(filled[a])) - 1;
-    eps[a] = now;
+    const Real4 v = v_rho[a];
+    eps[a] = porosity;
+    solid_factor[a] = factor;
+    flux[a] = {porosity * v.xyz() + factor * sum.q, v.w};
+    m_state[a].x = mass[a] / porosity;
+    m_state[a].w = porosity;
   }
-
- private:
-  /// From 0 where the kernel is filled as at a calm surface or better to 1 where a particle is all but alone.
-  BL_HD static Real torn(Real filled) { return clamp((Real(0.6) - filled) / Real(0.3), Real(0), Real(1)); }
 };
 
 }  // namespace bedload::inline BL_VARIANT

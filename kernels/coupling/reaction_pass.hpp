@@ -4,16 +4,17 @@
 namespace bedload::inline BL_VARIANT {
 
 /// What each grain gives back: fluid particle a at r from it receives -w (impulse - A x r), w being its share
-/// of the drag (DragShares), and -phi (force - B x r). A couple has no net force; with M A = arm x impulse -
+/// of the drag (DragShares), and -phi (force - B x r). A couple has no net force: with M A = arm x impulse -
 /// torque it takes the torque on the grain out of the fluid and cancels the moment of spreading off its
-/// centre.
+/// centre, and with M B = lost_moment, force = B x arm, it returns what moment the stress shared with the
+/// grain has lost.
 ///
 /// With local slip the drag of a particle follows its own velocity: it receives -w K dt (v_a - u) besides,
 /// u being the mean motion around the grain, with the couple a rigid one. These parts have neither net
 /// impulse nor, with the couple, net moment; the grain feels nothing of them.
 struct Reactions {
   Span<Real4> impulse;  ///< N s, + A x arm - K dt (u - v_j), u at the grain's centre; w: K dt, kg
-  Span<Real4> force;    ///< N, + B x arm; w: 1/S_j
+  Span<Real4> force;    ///< N; w: 1/S_j
   Span<Real4> spin;     ///< A, N s/m; w: DragShares::still
   Span<Real4> couple;   ///< B, N/m
 };
@@ -28,27 +29,23 @@ struct LocalSlip {
 /// Grain j makes up what it gives back.
 template <bool Couple, bool Local>
 struct SharePass {
-  Span<const Real3> impulse, spin_impulse, fluid_force;
+  Span<const Real3> impulse, spin_impulse;
   GrainSurroundings surroundings;
   DragShares shares;
   LocalSlip slip;
   Reactions reactions;
 
   BL_HD void operator()(Index j) const {
-    Real3 J = impulse[j], F = fluid_force[j], A, u;
+    Real3 J = impulse[j], F, A, u;
     const Real Kdt = Local ? slip.dt * slip.K[j] : Real(0);
     if constexpr (Local) u = slip.U[j] - shares.by_slip[j].xyz();
     if constexpr (Couple) {
-      const Carriers &drag = surroundings.drag, &pressure = surroundings.pressure;
-      const Real3 B = pressure.couple(j, F, {});
+      const Carriers &drag = surroundings.drag, &stress = surroundings.stress;
+      const Real3 B = stress.inv_M[j] * surroundings.lost_moment[j];
       A = drag.couple(j, J, spin_impulse[j]);
       J += cross(A, drag.arm[j]);
-      F += cross(B, pressure.arm[j]);
-      if constexpr (Local) {
-        const Real3 omega = slip.omega_f[j];
-        u -= cross(omega, drag.arm[j]);
-        A += Kdt * omega;
-      }
+      F = cross(B, stress.arm[j]);
+      if constexpr (Local) A += Kdt * slip.omega_f[j];
       reactions.couple[j] = {B, 0};
     }
     reactions.impulse[j] = {J - Kdt * u, Kdt};
@@ -57,12 +54,13 @@ struct SharePass {
   }
 };
 
-/// Fluid particle a takes the drag impulse into its velocity and keeps the pressure part as an
-/// acceleration [harting14] Eq. 14.
+/// Fluid particle a takes the drag impulse into its velocity [harting14] Eq. 14 and keeps the couples of the
+/// stress as an acceleration.
 template <class W, bool Couple, bool Local>
 struct ReactionPass {
   W w;
   Span<const Real> mass;
+  Span<const Real4> m_state;
   Span<const Real4> by_slip;  ///< of DragShares
   Reactions reactions;
   Span<Real4> v_rho;
@@ -75,7 +73,7 @@ struct ReactionPass {
     N V;
     Vec3<N> impulse, force;
   };
-  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(mass[a], v_rho[a]), {}, {}}; }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(m_state[a]), {}, {}}; }
   template <class N, class At>
   BL_HD void pair(Sum<N>& sum, Index, At j, const Vec3<N>& r_aj, N r2) const {
     const Vec4<N> impulse = reactions.impulse[j], force = reactions.force[j], spin = reactions.spin[j];

@@ -11,7 +11,7 @@ struct WallPair {
   W w;
   Real mu;  ///< Pa s; 0 switches the viscous term off
 
-  /// a: {v, rho~}, {m, P/rho~^2, ..}; b: the wall's, with its no-slip velocity `visc` (w: mass that drags).
+  /// a: {v, rho}, {M, P/rho^2, ..}; b: the wall's, with its no-slip velocity `visc` (w: mass that drags).
   /// Both masses of an inactive wall particle are zero.
   template <class N>
   BL_HD Vec3<N> operator()(const Vec4<N>& va, const Vec4<N>& ma, const Vec4<N>& vw, const Vec4<N>& mw,
@@ -24,13 +24,14 @@ struct WallPair {
   }
 };
 
-/// Momentum of locally averaged WCSPH [H (9)-(12)]: theta = pressure + physical viscosity,
-/// acc = theta + gravity + artificial and tensile terms; XSPH drift correction.
+/// Momentum of locally averaged WCSPH [H (9)-(12)]. theta: stress of the mixture over its density, which
+/// accelerates the fluid by as much (theta M eps / m = theta) and pushes the grains by the rest of it;
+/// acc = theta + gravity + drive. XSPH drift correction.
 template <class W>
 struct ForcePass {
   W w;
   WallPair<W> wall;
-  Span<const Real4> v_rho, m_state, wall_v_rho, wall_m_state, wall_v_visc;
+  Span<const Real4> flux, m_state, wall_v_rho, wall_m_state, wall_v_visc;
   Real mu;
   ArtificialViscosity artificial;
   TensileTerm tensile;
@@ -42,24 +43,21 @@ struct ForcePass {
   template <class N = Real>
   struct Sum {
     Vec4<N> v, m;
-    Vec3<N> theta, other, xsph;
+    Vec3<N> theta, xsph;
   };
-  BL_HD Sum<> start(Index a) const { return {v_rho[a], m_state[a], {}, {}, {}}; }
+  BL_HD Sum<> start(Index a) const { return {flux[a], m_state[a], {}, {}}; }
 
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
-    const Vec4<N> vb = v_rho[b], mb = m_state[b];
+    const Vec4<N> vb = flux[b], mb = m_state[b];
     const N distance = root(r2);
     const N F = w.F(distance);
     const Vec3<N> v = sum.v.xyz() - vb.xyz();
     sum.theta += pressure_term(mb.x, sum.m.y, mb.y, F) * r;
     if (mu > 0) sum.theta -= morris_term(mb.x, 2 * mu, sum.v.w, vb.w, r2, F, square(w.h)) * v;
     const N rho_mean = Real(0.5) * (sum.v.w + vb.w);
-    if (artificial.acts()) {
-      const N solid = 1 - Real(0.5) * (sum.v.w / sum.m.z + vb.w / mb.z);  // porosity = rho~ / rho
-      sum.other += artificial.term(mb.x, dot(v, r), rho_mean, solid, r2, F) * r;
-    }
-    if (tensile.s_negative > 0) sum.other += mb.x * tensile.R(w.W(distance), sum.m.y, mb.y) * F * r;
+    if (artificial.acts()) sum.theta += artificial.term(mb.x, dot(v, r), rho_mean, r2, F) * r;
+    if (tensile.s_negative > 0) sum.theta += mb.x * tensile.R(w.W(distance), sum.m.y, mb.y) * F * r;
     if (xsph_factor > 0) sum.xsph -= xsph_factor * mb.x * w.W(distance) / rho_mean * v;
   }
   template <class N, class J>
@@ -69,35 +67,35 @@ struct ForcePass {
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.theta += other.theta;
-    into.other += other.other;
     into.xsph += other.xsph;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
+    const Real rho = sum.m.z, eps = sum.m.w;
     theta[a] = sum.theta;
-    acc[a] = sum.theta + sum.other + gravity + drive / sum.v.w;
+    acc[a] = sum.theta + gravity + drive / (eps * rho);
     if (xsph_factor > 0) xsph[a] = sum.xsph;
   }
 };
 
-/// Force of the fluid on each wall particle [N]: minus what ForcePass and LayerPass gave the fluid, whose
-/// velocities have been corrected by `kick` since.
+/// Force of the mixture on each wall particle [N]: minus what ForcePass and LayerPass gave it, by velocities
+/// that have been corrected by `kick` since.
 template <class W>
 struct WallForcePass {
   WallPair<W> wall;
   LayerForces<W> layer;  ///< empty without single layers
   Real kick;             ///< s
   Span<const Real3> acc, acc_before;
-  Span<const Real4> v_rho, m_state, wall_v_rho, wall_m_state, wall_v_visc;
+  Span<const Real4> flux, m_state, wall_v_rho, wall_m_state, wall_v_visc;
   Span<Vec3d> force;
 
   BL_HD Vec3d start(Index) const { return {}; }
   BL_HD void pair(Vec3d& sum, Index b, Index a, const Real3& r_ba, Real r2) const {
-    Real4 va = v_rho[a];
+    Real4 va = flux[a];
     const Real4 ma = m_state[a];
     if (kick != 0) va = {va.xyz() - kick * (acc[a] - acc_before[a]), va.w};
     Real3 push = wall(va, ma, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], -r_ba, r2);
     if (layer.law) {
-      const auto more = layer(va, ma, b, -r_ba, r2);
+      const auto more = layer(va, b, -r_ba, r2);
       push += more.push + more.damping;
     }
     sum -= Vec3d(push * ma.x);

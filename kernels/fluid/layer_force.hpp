@@ -57,16 +57,16 @@ struct LayerForces {
   struct Acceleration {
     Real3 push, damping;  ///< m/s2
   };
-  /// Of fluid with {v, rho~} and {.., .., intrinsic rho, ..} at r from wall particle b.
-  BL_HD Acceleration operator()(const Real4& va, const Real4& ma, Index b, const Real3& r, Real r2) const {
+  /// Of fluid with {v, rho} at r from wall particle b.
+  BL_HD Acceleration operator()(const Real4& va, Index b, const Real3& r, Real r2) const {
     const BodyPose& k = pose[body[b]];
     if (k.kind != WallKind::single_layer || !k.present || r2 == 0) return {};
     const Real distance = std::sqrt(r2);
     Acceleration out{min_of(law[body[b]](distance), cap) / distance * r, {}};
     if (artificial.acts()) {
       const Real4 vb = v_rho[b];
-      const Real rho_mean = Real(0.5) * (va.w + vb.w), solid = 1 - va.w / ma.z;
-      out.damping = artificial.term(vb.w * Real(k.volume), dot(va.xyz() - vb.xyz(), r), rho_mean, solid, r2,
+      const Real rho_mean = Real(0.5) * (va.w + vb.w);
+      out.damping = artificial.term(vb.w * Real(k.volume), dot(va.xyz() - vb.xyz(), r), rho_mean, r2,
                                     w.F(distance)) *
                     r;
     }
@@ -74,18 +74,17 @@ struct LayerForces {
   }
 };
 
-/// Adds what single layers give the fluid. Their push stands for the pressure of the wall, so it is part of
-/// theta.
+/// Adds what single layers give the mixture. Their push stands for the pressure of the wall.
 template <class W>
 struct LayerPass {
   LayerForces<W> layer;
-  Span<const Real4> v_rho, m_state;
+  Span<const Real4> flux;
   Span<Real3> theta, acc;
 
   using Sum = typename LayerForces<W>::Acceleration;
   BL_HD Sum start(Index) const { return {}; }
   BL_HD void pair(Sum& sum, Index a, Index b, const Real3& r, Real r2) const {
-    const Sum more = layer(v_rho[a], m_state[a], b, r, r2);
+    const Sum more = layer(flux[a], b, r, r2);
     sum.push += more.push;
     sum.damping += more.damping;
   }
@@ -94,7 +93,7 @@ struct LayerPass {
     into.damping += other.damping;
   }
   BL_HD void finish(Index a, const Sum& sum) const {
-    theta[a] += sum.push;
+    theta[a] += sum.push + sum.damping;
     acc[a] += sum.push + sum.damping;
   }
 };

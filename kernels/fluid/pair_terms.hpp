@@ -1,12 +1,12 @@
 #pragma once
-// Accelerations that one SPH particle b gives particle a, per term. All densities are
-// superficial; r = r_a - r_b, v = v_a - v_b; every term is antisymmetric after times m_a.
+// Accelerations that one SPH particle b gives particle a, per term; r = r_a - r_b, v = v_a - v_b; every term
+// is antisymmetric after times M_a. Among grains these are terms of the mixture: M = m / eps, v its volume flux.
 
 #include "bedload/core/pack.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Pressure of locally averaged WCSPH [H (9)], [R (8)]. pa, pb: P / rho~^2; F: kernel factor.
+/// Pressure [H (9)], [R (8)]. pa, pb: P / rho^2; F: kernel factor.
 template <class N>
 BL_HD N pressure_term(N m_b, N pa, N pb, N F) {
   return m_b * (pa + pb) * F;
@@ -18,19 +18,14 @@ BL_HD N morris_term(N m_b, Real mu_sum, N rho_a, N rho_b, N r2, N F, Real h2) {
   return m_b * mu_sum * r2 * F / (rho_a * rho_b * (r2 + Real(0.01) * h2));
 }
 
-/// Artificial viscosity (Monaghan 1992): times r gives the acceleration; zero for receding pairs. Among grains
-/// it is stronger by `bed` times the share that they fill: averaged pressure, its reaction and a porosity that
-/// changes from place to place exchange energy only up to the error of their sums, and without damping the
-/// water in a bed at rest would stir itself.
+/// Artificial viscosity (Monaghan 1992): times r gives the acceleration; zero for receding pairs.
 struct ArtificialViscosity {
-  Real alpha = 0, beta = 0, bed = 0, c = 0, h = 0;
-  BL_HD bool acts() const { return alpha > 0 || beta > 0 || bed > 0; }
-  /// solid: mean solid fraction of the two.
+  Real alpha = 0, beta = 0, c = 0, h = 0;
+  BL_HD bool acts() const { return alpha > 0 || beta > 0; }
   template <class N>
-  BL_HD N term(N m_b, N v_dot_r, N rho_mean, N solid, N r2, N F) const {
+  BL_HD N term(N m_b, N v_dot_r, N rho_mean, N r2, N F) const {
     const N mu = h * v_dot_r / (r2 + Real(0.01) * h * h);
-    const N linear = (alpha + bed * solid) * c;
-    return select(v_dot_r < N(0), m_b * (beta * mu * mu - linear * mu) / rho_mean * F, N(0));
+    return select(v_dot_r < N(0), m_b * (beta * mu * mu - alpha * c * mu) / rho_mean * F, N(0));
   }
 };
 

@@ -7,13 +7,13 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Continuity of the inner layer of frozen walls, of the fluid's share of their volume: as DensityPass, from
-/// the side of the wall. No thinner than torn fluid.
+/// Continuity of the inner layer of frozen walls: as DensityPass, from the side of the wall. No thinner than
+/// torn fluid.
 template <class W>
 struct FrozenPass {
   W w;
-  Real rho0, dt, back, least;  ///< kg/m3, s, s, -
-  Span<const Real4> v_rho, m_state, wall_v_rho, wall_m_state;
+  Real rho0, dt, least;  ///< kg/m3, s, -
+  Span<const Real4> flux, m_state, wall_v_rho, wall_m_state;
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
   Span<Real> compression;
@@ -26,17 +26,13 @@ struct FrozenPass {
   BL_HD Sum<> start(Index b) const { return {wall_v_rho[b].xyz(), 0}; }
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J a, const Vec3<N>& r, N) const {
-    const Vec4<N> va = v_rho[a], ma = m_state[a];
-    const Vec3<N> v = sum.v - va.xyz();
-    const Vec3<N> rm = r - back * v;
-    sum.rate += ma.x * w.F(norm(rm)) * dot(v, rm);
+    sum.rate += m_state[a].x * w.F(norm(r)) * dot(sum.v - Vec4<N>(flux[a]).xyz(), r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rate += other.rate; }
   BL_HD void finish(Index b, const Sum<>& sum) const {
     const bool dry = wall_m_state[b].x == 0;
     if (dry || pose[body[b]].kind != WallKind::frozen || compression[b] == kNoCompression) return;
-    const Real porosity = wall_v_rho[b].w / wall_m_state[b].z;
-    compression[b] = max_of(least, compression[b] - dt * sum.rate / (porosity * rho0));
+    compression[b] = max_of(least, compression[b] - dt * sum.rate / rho0);
   }
 };
 
@@ -48,7 +44,7 @@ struct MirrorPass {
   W w;
   Frame frame;
   Real rho0, least, least_sum;  ///< kg/m3; lower bound on the result; no fluid below this sum of W, 1/m3
-  Span<const Real4> v_rho, m_state;
+  Span<const Real4> flux, m_state;
   Span<const Vec3d> x, image;
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
@@ -68,7 +64,7 @@ struct MirrorPass {
   BL_HD Sum<> start(Index) const { return {0, 0, {}, {}, {}, 0, {}}; }
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J a, const Vec3<N>& r, N r2) const {
-    const Vec4<N> va = v_rho[a], ma = m_state[a];
+    const Vec4<N> va = flux[a], ma = m_state[a];
     const N volume = ma.x / va.w, distance = root(r2), here = w.W(distance);
     const N W_a = volume * here, F_a = volume * w.F(distance), rho = ma.z / rho0 - 1;
     sum.number += here;

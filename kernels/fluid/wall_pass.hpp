@@ -6,8 +6,7 @@
 namespace bedload::inline BL_VARIANT {
 
 /// State of wall particles from the fluid beside them (Adami et al. 2012, [H (13)-(15)] with
-/// physics errata 5-7): pressure with the hydrostatic correction, porosity, no-slip velocity. The porosity of
-/// a wall is that of the fluid beside it; what its mass changes by when that does goes to continuity.
+/// physics errata 5-7): pressure with the hydrostatic correction, no-slip velocity.
 /// Fluid beside a turning wall is on a circle only as far as it turns along: where the layer that it drags is
 /// thinner than a particle, nothing holds water at rest off a drum that spins around it.
 /// Frozen and mirrored walls bring their own density, where they have one. Single layers keep rho0: fluid
@@ -16,8 +15,7 @@ template <class W>
 struct WallPass {
   W w;
   EquationOfState eos;
-  Span<const Real4> fluid_v_rho, fluid_m_state;
-  Span<const Real> fluid_eps;
+  Span<const Real4> fluid_flux, fluid_m_state;
   Span<const Real3>
       drag_kick;  ///< velocity that the grains' drag gave the fluid this step, m/s; empty without grains
   Real rate;      ///< 1 / step, 1/s
@@ -31,26 +29,24 @@ struct WallPass {
 
   template <class N = Real>
   struct Sum {
-    N weight, p, eps;
+    N weight, p;
     Vec3<N> v, rho_r;  ///< r from the fluid to the wall
   };
   BL_HD Sum<> start(Index) const { return {}; }
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J a, const Vec3<N>& r_wf, N r2) const {
     const N wk = w.W(root(r2));
-    const Vec4<N> m = fluid_m_state[a], v = fluid_v_rho[a];
+    const Vec4<N> m = fluid_m_state[a], v = fluid_flux[a];
     const Vec3<N> rho_r = wk * m.z * r_wf;
     sum.weight += wk;
-    sum.p += wk * m.w;
+    sum.p += wk * m.y * square(m.z);
     if (drag_kick) sum.p += rate * dot(Vec3<N>(drag_kick[a]), rho_r);
-    sum.eps += wk * fluid_eps[a];
     sum.v += wk * v.xyz();
     sum.rho_r += rho_r;
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.weight += other.weight;
     into.p += other.p;
-    into.eps += other.eps;
     into.v += other.v;
     into.rho_r += other.rho_r;
   }
@@ -64,31 +60,28 @@ struct WallPass {
       m_state[b] = {0, 0, eos.rho0, 0};
       return;
     }
-    const Real porosity_before = m_state[b].x > 0 ? v_rho[b].w / m_state[b].z : Real(-1);
+    const bool was_dry = m_state[b].x == 0;
     const Real3 v_fluid = sum.v / sum.weight;
     const Real3 push = gravity - Real3(k.speeding_up(at)) -
                        square(turning_along(k, v_wall, v_fluid)) * Real3(k.centripetal(at));
     Real p = (sum.p + dot(push, sum.rho_r)) / sum.weight, x = eos.compression(p);
-    const Real own = compression[b], eps = sum.eps / sum.weight;
+    const Real own = compression[b];
     const bool layer = k.kind == WallKind::single_layer;
     if (layer) p = eos.pressure(x = 0);
     if (k.kind == WallKind::mirrored && own != kNoCompression) p = eos.pressure(x = own);
     if (k.kind == WallKind::frozen) {
       if (own == kNoCompression)
         p = eos.pressure(x = 0);
-      else if (porosity_before < 0)
+      else if (was_dry)
         compression[b] = x;  // begins in balance with the fluid that has come
       else
         p = eos.pressure(x = own);
     }
-    const Real rho = eos.rho0 * (1 + x), superficial = eps * rho;
+    const Real rho = eos.rho0 * (1 + x), mass = rho * Real(k.volume);
     const bool prescribed = k.flows || layer || k.kind == WallKind::frozen;
-    // the mass that keeps the wall particle's volume, and how much at rho0 came with the porosity
-    const Real volume = Real(k.volume), mass = superficial * volume;
-    const Real came = porosity_before < 0 ? Real(0) : (eps - porosity_before) * eos.rho0 * volume;
-    v_rho[b] = {v_wall, superficial};
+    v_rho[b] = {v_wall, rho};
     v_visc[b] = {prescribed ? v_wall : 2 * v_wall - v_fluid, k.slip ? Real(0) : mass};
-    m_state[b] = {mass, p / square(superficial), rho, came};
+    m_state[b] = {mass, p / square(rho), rho, 0};
   }
 
  private:

@@ -12,7 +12,6 @@ struct KickDriftPass {
   Span<const Real3> acc, reaction, xsph;  ///< reaction empty without grains
   Span<Real4> v_rho;
   Span<FluidPosition> x;
-  Span<PairPosition> xp;
 
   BL_HD void operator()(Index a) const {
     const Real4 old = v_rho[a];
@@ -21,13 +20,11 @@ struct KickDriftPass {
     v_rho[a] = {v, old.w};
     if (drift == 0) return;
     const Real3 move = xsph ? v + xsph[a] : v;
-    const Vec3d at = coordinates(frame, x[a]) + Vec3d(move) * double(drift);
-    x[a] = as_position<FluidPosition>(frame, at);
-    xp[a] = as_position<PairPosition>(frame, at);
+    x[a] = as_position<FluidPosition>(frame, coordinates(frame, x[a]) + Vec3d(move) * double(drift));
   }
 };
 
-/// Density and pressure from s and the porosity; velocity predicted by `kick` (0: Euler).
+/// Pressure from s; velocity and, among grains, volume flux predicted by `kick` (0: Euler).
 /// A fluid that is torn apart cavitates: below `least` compression the density does not follow.
 struct StatePass {
   EquationOfState eos;
@@ -36,21 +33,16 @@ struct StatePass {
   Span<const Real3> acc, reaction;
   Span<Real> s;
   Span<const Real> mass, eps;
-  Span<Real4> v_rho, m_state;
+  Span<Real4> v_rho, flux, m_state;  ///< flux empty without grains
 
   BL_HD void operator()(Index a) const {
-    Real3 v = v_rho[a].xyz() + kick * acc[a];
-    if (reaction) v += kick * reaction[a];
-    // rho/rho0 - 1 = (s + solid fraction) / eps: no cancellation where there are no grains
-    Real compression = (s[a] + (1 - eps[a])) / eps[a];
-    if (compression < least) {
-      compression = least;
-      s[a] = eps[a] * (1 + least) - 1;
-    }
-    const Real superficial = eos.rho0 * (1 + s[a]);
-    const Real p = eos.pressure(compression);
-    v_rho[a] = {v, superficial};
-    m_state[a] = {mass[a], p / square(superficial), eos.rho0 * (1 + compression), p};
+    Real3 gain = kick * acc[a];
+    if (reaction) gain += kick * reaction[a];
+    const Real compression = max_of(s[a], least), rho = eos.rho0 * (1 + compression);
+    s[a] = compression;
+    v_rho[a] = {v_rho[a].xyz() + gain, rho};
+    if (flux) flux[a] = {flux[a].xyz() + eps[a] * gain, rho};
+    m_state[a] = {mass[a] / eps[a], eos.pressure(compression) / square(rho), rho, eps[a]};
   }
 };
 

@@ -120,10 +120,12 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
                                     fluid.id,
                                     fluid.x,
                                     fluid.v_rho,
+                                    fluid.flux,
                                     fluid.m_state,
                                     fluid.s,
                                     fluid.mass,
                                     fluid.eps,
+                                    fluid.solid_factor,
                                     fluid.theta,
                                     fluid.acc});
   next_fluid_ += count;

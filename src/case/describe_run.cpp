@@ -84,7 +84,10 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
      .presence = optional});
   p("couple.eps_min", &c.eps_min, {.meaning = "lowest porosity", .range = within(0.1, 0.5)});
   p("couple.wall_normalise", &c.wall_normalise,
-    {.meaning = "porosity beside walls from the part of the kernel inside them"});
+    {.meaning = "a grain beside a wall has all its volume, and its buoyancy, on this side of it"});
+  p("couple.spreading", &c.spreading,
+    {.meaning = "how fast fluid among grains whose particles overfill their volume grows denser, in c/h; 0 off",
+     .range = within(0, 1)});
   p("couple.S_dry", &c.S_dry,
     {.meaning = "a grain is dry where fluid fills less than this of the kernel that walls leave free",
      .range = above_to(0, 0.9)});
@@ -95,11 +98,9 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
   p("couple.slip", &c.slip,
     {.meaning = "what slip drag follows",
      .family = "models",
-     .choices = {{"local", "that of each fluid particle: a jet pushes, and is stopped, by its own speed"},
-                 {"mean", "the mean around the grain"}}});
-  p("couple.damping", &c.damping,
-    {.meaning = "artificial viscosity alpha among grains, per solid fraction; keeps water in a bed still",
-     .range = within(0, 2)});
+     .choices = {{"mean", "the mean around the grain"},
+                 {"local", "that of each fluid particle: a jet pushes, and is stopped, by its own speed; but grains "
+                           "resist shear of the fluid over h_c, too"}}});
   p("drag.law", &c.drag,
     {.meaning = "drag on a grain",
      .family = "laws",

@@ -25,7 +25,6 @@ Config preset_defaults(const std::string& name) {
   c.couple.torque = false;
   c.couple.angmom = false;
   c.couple.slip = "mean";
-  c.couple.damping = 0;
   c.time.integrator = "euler";
   return c;
 }

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "bedload/neighbours/for_each_pair.hpp"
+#include "kernels/coupling/buoyancy_pass.hpp"
 #include "kernels/coupling/drag_pass.hpp"
 #include "kernels/coupling/limit_pass.hpp"
 #include "kernels/coupling/porosity_pass.hpp"
@@ -47,8 +48,7 @@ struct CountEntries {
 
 }  // namespace
 
-Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry& fluid_walls,
-                   const WallGeometry& grain_walls)
+Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry& walls)
     : frame_(frame),
       kernel_(config.fluid.kernel),
       drag_law_(config.couple.drag),
@@ -60,12 +60,13 @@ Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry&
       eps_min_(Real(config.couple.eps_min)),
       S_dry_(Real(config.couple.S_dry)),
       S_wet_(Real(config.couple.S_wet)),
+      mass_per_r3_(4.0 / 3.0 * kPi * config.grain.rho),
       two_way_(config.couple.mode == "two_way"),
       torque_(config.couple.torque),
       angmom_(config.couple.angmom),
       local_slip_(config.couple.slip == "local"),
-      fluid_walls_(fluid_walls.view()) {
-  if (config.couple.wall_normalise) grain_walls_ = grain_walls.view();
+      walls_(walls.view()),
+      wall_normalise_(config.couple.wall_normalise) {
   with_kernel(kernel_, h_c_, [&](auto w) { half_space_ = HalfSpaceShare::of(w); });
   orifices_.assign(orifices_of(config));
 }
@@ -76,8 +77,9 @@ GrainSurroundings Coupling::surroundings() {
           .flow = flow_,
           .fast = fast_,
           .fast_slip = fast_slip_,
-          .pressure = {pressure_arm_, pressure_inv_M_},
-          .drag = {drag_arm_, drag_inv_M_}};
+          .stress = {stress_arm_, stress_inv_M_},
+          .drag = {drag_arm_, drag_inv_M_},
+          .lost_moment = lost_moment_};
 }
 DragShares Coupling::drag_shares() { return {still_, by_slip_}; }
 Reactions Coupling::reactions() { return {impulse_, force_, spin_, couple_}; }
@@ -98,9 +100,20 @@ void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_
                          lanes_for(fluid.size()));
 }
 
+void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt) {
+  wall_free_.resize(grains.size());
+  volume_.resize(grains.size());
+  const WallFreeShare free{half_space_, frame_, wall_normalise_ ? walls_ : SurfaceSet{}, pose};
+  for_each(grains.owned(), GrainVolumePass{free, frame_, dt > 0 ? 1 / dt : 0, grains.x, x_before_, grains.v,
+                                           grains.radius, wall_free_, volume_});
+}
+
 void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt) {
   const Index n = grains.size();
   pack(grains);
+  volumes(grains, pose, 0);
+  x_before_.resize(n);
+  copy_on_device(x_before_.data(), grains.x.buffer().data(), n * sizeof(Vec3d));
   inv_S_.resize(n);
   rho_.resize(n);
   flow_.resize(n);
@@ -112,17 +125,22 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
     by_slip_.resize(n);
   }
   if (moments()) {
-    pressure_arm_.resize(n);
-    pressure_inv_M_.resize(n);
+    stress_arm_.resize(n);
+    stress_inv_M_.resize(n);
     drag_arm_.resize(n);
     drag_inv_M_.resize(n);
+    lost_moment_.resize(n);
+  }
+  if (angmom_) {
+    lever_.resize(n);
+    lever_sum_.resize(n);
   }
   bed_eps_.resize(n);
-  theta_.resize(fluid.size());
+  push_.resize(fluid.size());
   solids_.resize(fluid.size());
-  const FluidRecords records{theta_, solids_};
-  for_each(fluid.owned(), RecordPass{frame_, orifice_share(), fluid.x, fluid.mass, fluid.eps, fluid.theta,
-                                     fluid.v_rho, records});
+  const FluidRecords records{push_, solids_};
+  for_each(fluid.owned(), RecordPass{frame_, orifice_share(), fluid.x, fluid.solid_factor, fluid.theta,
+                                     fluid.m_state, records});
   const GrainSurroundings around = surroundings();
   const PairSeparation to_fluid{frame_, grains_at_, fluid.xp};
   with_kernel(kernel_, h_c_, [&](auto w) {
@@ -135,23 +153,23 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
             .v_rho = fluid.v_rho,
             .fluid = records,
             .v = grains.v,
-            .radius = grains.radius,
+            .fluid_force = grains.fluid_force,
+            .volume = volume_,
+            .wall_free = wall_free_,
             .eps = grains.eps,
             .bed_eps = bed_eps_,
-            .fluid_force = grains.fluid_force,
             .surroundings = around};
         for_each_pair(grains.owned(), fluid_of_grain_, to_fluid, range_, pass);
       });
     });
   });
-  const WallFreeShare wall_free{half_space_, frame_, fluid_walls_, pose};
-  for_each(grains.owned(),
-           WetnessPass{S_dry_, S_wet_, wall_free, grains.x, inv_S_, grains.wetness, grains.fluid_force});
+  for_each(grains.owned(), WetnessPass{S_dry_, S_wet_, wall_free_, inv_S_, grains.wetness});
   with_drag_law(drag_law_, [&](auto law) {
     with_flag(local_slip_, [&](auto local) {
       for_each(grains.owned(), DragPass<decltype(law), local>{.law = law,
                                                               .mu = Real(mu_),
                                                               .torque = torque_,
+                                                              .couple = angmom_,
                                                               .radius = grains.radius,
                                                               .eps = grains.eps,
                                                               .bed_eps = bed_eps_,
@@ -163,23 +181,26 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
                                                               .U = grains.U,
                                                               .omega_f = grains.omega_f,
                                                               .K = grains.K,
-                                                              .K_rot = grains.K_rot});
+                                                              .K_rot = grains.K_rot,
+                                                              .levers = levers()});
     });
   });
   if (!two_way_) return;
   rate_.resize(fluid.size());
   with_kernel(kernel_, h_c_, [&](auto w) {
     with_flag(local_slip_, [&](auto local) {
-      for_each_pair(
-          fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
-          DragRatePass<decltype(w), local>{w, drag_shares(), grains.K, fluid.mass, fluid.v_rho, rate_});
+      with_flag(angmom_, [&](auto couple) {
+        for_each_pair(fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
+                      DragRatePass<decltype(w), local, couple>{w, drag_shares(), levers(), grains.K,
+                                                               fluid.mass, fluid.v_rho, fluid.m_state, rate_});
+      });
     });
   });
   fastest_ = reduce({0, Index(rate_.size())}, LargestRate{rate_});
   limits_ = dt * fastest_ > 1;
   if (limits_)
     for_each_pair(grains.owned(), fluid_of_grain_, to_fluid, range_,
-                  LimitPass{Real(dt), rate_, grains.K, grains.K_rot, stiffness_});
+                  LimitPass{Real(dt), rate_, angmom_ ? Span<const Real>(lever_sum_) : Span<const Real>(), grains.K, grains.K_rot, stiffness_});
 }
 
 void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
@@ -196,26 +217,42 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
   with_flag(angmom_, [&](auto couple) {
     with_flag(local_slip_, [&](auto local) {
       for_each(grains.owned(),
-               SharePass<couple, local>{grains.impulse, grains.spin_impulse, grains.fluid_force,
-                                        surroundings(), drag_shares(), slip, reactions()});
+               SharePass<couple, local>{grains.impulse, grains.spin_impulse, surroundings(), drag_shares(), slip, reactions()});
       with_kernel(kernel_, h_c_, [&](auto w) {
         for_each_pair(fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
-                      ReactionPass<decltype(w), couple, local>{w, fluid.mass, by_slip_, reactions(),
+                      ReactionPass<decltype(w), couple, local>{w, fluid.mass, fluid.m_state, by_slip_, reactions(),
                                                                fluid.v_rho, fluid.reaction, fluid.drag_kick});
       });
     });
   });
 }
 
-void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, bool moved) {
+void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, double dt) {
   pack(grains);
+  volumes(grains, pose, dt);
   with_kernel(kernel_, h_c_, [&](auto w) {
-    const WallFreeShare wall_free{half_space_, frame_, grain_walls_, pose};
     for_each_pair(fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
-                  PorosityPass<decltype(w)>{
-                      w, eps_min_, wall_free, orifice_share(), frame_, fluid.x, grains.radius, fluid.eps,
-                      moved ? Span<const Real>(fluid.filled) : Span<const Real>(), fluid.s});
+                  PorosityPass<decltype(w)>{w, eps_min_, orifice_share(), frame_, fluid.x, volume_, fluid.v_rho,
+                                            fluid.mass, fluid.eps, fluid.solid_factor, fluid.flux,
+                                            fluid.m_state});
   });
+}
+
+void Coupling::push(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double kick,
+                    bool held) {
+  if (!two_way_) {
+    pack(grains);
+    volumes(grains, pose, 0);
+  }
+  push_.resize(fluid.size());
+  buoyancy_.resize(grains.size());
+  for_each(fluid.owned(), PushPass{fluid.solid_factor, fluid.theta, fluid.m_state, push_});
+  with_kernel(kernel_, h_c_, [&](auto w) {
+    for_each_pair(grains.owned(), fluid_of_grain_, PairSeparation{frame_, grains_at_, fluid.xp}, range_,
+                  BuoyancyPass<decltype(w)>{w, push_, volume_, buoyancy_});
+  });
+  for_each(grains.owned(), BuoyancyKick{Real(kick), Real(mass_per_r3_), !held && kick > 0, buoyancy_,
+                                        grains.radius, grains.fluid_force, grains.v});
 }
 
 double Coupling::stable_dt() const {

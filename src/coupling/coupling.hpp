@@ -1,11 +1,17 @@
 #pragma once
 // Exchange of volume, force and momentum between grains and fluid (unresolved, locally averaged).
 //
+// Fluid and grains make up a mixture: a fluid particle stands for the volume V_a = m_a / (eps_a rho_a), of which
+// grain j holds w_ja, and the fluid solver moves that volume as if all of it were fluid. The stress on it then
+// falls to fluid and grains by eps_a and w_ja, the shares with which their velocities make up the volume flux that
+// its density balances: momentum is kept pair by pair, and what one does to the other is no source of energy.
+//
 // Order in a step, everything at time n until the fluid drifts:
-//   gather    grains read the fluid and get force, velocity and drag coefficients, held for the step;
+//   gather    grains read the fluid and get velocity and drag coefficients, held for the step;
 //   (substeps of the grains, which add up the drag impulse and the spin impulse)
-//   react     the fluid takes the impulses and the force back, with the weights of gather;
-//   porosity  after both have moved.
+//   react     the fluid takes the impulses back, with the weights of gather;
+//   porosity  after both have moved: shares and volume flux;
+//   push      the grains' share of the stress, once the fluid has its forces.
 
 #include <string>
 
@@ -29,9 +35,8 @@ struct CouplingCounters {
 
 class Coupling {
  public:
-  /// The walls that fluid and that grains meet must outlive this.
-  Coupling(const Config& config, const Frame& frame, const WallGeometry& fluid_walls,
-           const WallGeometry& grain_walls);
+  /// The walls that fluid meets must outlive this.
+  Coupling(const Config& config, const Frame& frame, const WallGeometry& walls);
 
   /// How far grains and fluid feel each other, m.
   double range() const { return range_; }
@@ -40,17 +45,19 @@ class Coupling {
   void rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid, const GrainStore& grains,
                      const CellGridView& grain_grid, double skin);
 
-  /// Fills eps, wetness, U, omega_f, fluid_force, K and K_rot of the grains. pose: of every wall body, on the
-  /// device; dt (s): the fluid step for which they hold, which bounds K when the fluid is to take the
+  /// Fills eps, wetness, U, omega_f, K and K_rot of the grains. pose: of every wall body, on the device; dt (s): the fluid step for which they hold, which bounds K when the fluid is to take the
   /// reaction. Waits for the device then.
   void gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt);
   /// Gives grains.impulse and spin_impulse, those of a step dt (s), back to the velocities of the fluid, and
   /// sets fluid.drag_kick to what they changed by and fluid.reaction; the fluid must not have changed since
   /// gather.
   void react(FluidStore& fluid, const GrainStore& grains, double dt);
-  /// Sets fluid.eps for the present positions; pose as in gather.
-  /// `moved`: in the course of a step, so that the superficial density of torn fluid follows; else eps alone.
-  void porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, bool moved = false);
+  /// Sets eps, flux and the mass in m_state of the fluid for the present positions; pose as in gather. dt (s):
+  /// the step in which the grains came here since gather, 0 where they have not moved.
+  void porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, double dt);
+  /// Sets fluid_force of the grains from the fluid's theta, and adds `kick` (s) of what it changed by to their
+  /// velocities, unless they are held. After porosity, or for one-way coupling in its place.
+  void push(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double kick, bool held);
 
   /// Largest fluid step that drag allows (s), after the last gather; infinite without a reaction.
   double stable_dt() const;
@@ -60,6 +67,8 @@ class Coupling {
  private:
   bool moments() const { return torque_ || angmom_; }
   void pack(const GrainStore& grains);
+  void volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt);
+  DragLevers levers() { return {lever_, lever_sum_}; }
   OrificeShare orifice_share() const { return {frame_, orifices_, dx_, h_c_}; }
   GrainSurroundings surroundings();
   DragShares drag_shares();
@@ -69,21 +78,24 @@ class Coupling {
   std::string kernel_, drag_law_;
   double dx_, h_c_, range_, mu_, drag_fraction_;
   Real eps_min_, S_dry_, S_wet_;
+  double mass_per_r3_;
   bool two_way_, torque_, angmom_, local_slip_;
   double fastest_ = 0;   ///< how fast drag stops any fluid particle, 1/s
   bool limits_ = false;  ///< whether that is faster than the step
 
-  SurfaceSet fluid_walls_, grain_walls_;  ///< that the wetness and that the porosity knows of
+  SurfaceSet walls_;  ///< that cut the grains' kernels off from fluid
+  bool wall_normalise_;
   HalfSpaceShare half_space_;
   Buffer<Orifice> orifices_;
 
   VerletList fluid_of_grain_, grains_of_fluid_;
   Buffer<PairPosition> grains_at_;  ///< as pair loops read them
-  Buffer<Real> inv_S_, rho_, bed_eps_, fast_slip_, stiffness_, rate_, still_;
+  Buffer<Vec3d> x_before_;          ///< of the grains, in gather
+  Buffer<Real> wall_free_, inv_S_, rho_, bed_eps_, fast_slip_, stiffness_, rate_, still_, lever_sum_;
   Buffer<FlowSums<>> flow_, fast_;
-  Buffer<Real3> pressure_arm_, drag_arm_;
-  Buffer<SymmetricMatrix<Real>> pressure_inv_M_, drag_inv_M_;
-  Buffer<Real4> theta_, solids_, by_slip_, impulse_, force_, spin_, couple_;
+  Buffer<Real3> stress_arm_, drag_arm_, lost_moment_, buoyancy_;
+  Buffer<SymmetricMatrix<Real>> stress_inv_M_, drag_inv_M_;
+  Buffer<Real4> volume_, push_, solids_, by_slip_, lever_, impulse_, force_, spin_, couple_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -26,6 +26,21 @@ struct WrapPass {
   }
 };
 
+/// Copies of positions as pair loops read them, `back` (s) before where they are.
+template <class P>
+struct PackBackPass {
+  Frame frame;
+  Real back;
+  Span<const P> x;
+  Span<const Real4> v;
+  Span<PairPosition> xp;
+  BL_HD void operator()(Index i) const {
+    Vec3d at = coordinates(frame, x[i]);
+    if (back != 0) at -= Vec3d(back * v[i].xyz());
+    xp[i] = as_position<PairPosition>(frame, at);
+  }
+};
+
 struct ExtremesSweep {
   using Value = FluidExtremes;
   Frame frame;
@@ -43,8 +58,7 @@ struct ExtremesSweep {
     out.acc2 = norm2(acc[a]);
     out.moved2 = norm2(frame.separation(coordinates(frame, x[a]), coordinates(frame, x_list[a])));
     out.eps_min = eps[a];
-    const Real compression = (s[a] + (1 - eps[a])) / eps[a];
-    const bool good = out.v2 < 1e30 && out.acc2 < 1e30 && compression >= Real(-0.5) && compression <= Real(1);
+    const bool good = out.v2 < 1e30 && out.acc2 < 1e30 && s[a] >= Real(-0.5) && s[a] <= Real(1);
     out.bad = good ? kNone : a;
     return out;
   }
@@ -88,43 +102,37 @@ class FluidSolverWith final : public FluidSolver {
   FluidSolverWith(const Config& config, const Frame& frame, const WallGeometry& walls, const W& w)
       : FluidSolver(config, frame, walls, W::kappa), w_(w), cut_(CutShare::of(w)) {}
 
-  void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt,
-               double back) override {
+  void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) override {
     const double c = config_.fluid.c;
     DensityPass<W> pass{w_,
-                        fluid.v_rho,
+                        flux(fluid),
                         fluid.m_state,
                         walls.v_rho,
                         walls.m_state,
-                        fluid.eps,
                         Real(2 * config_.density.delta * config_.fluid.h() * c),
                         gravity_ * Real(config_.fluid.rho0 / (c * c)),
                         eos_.gamma - 2,
                         Real(config_.fluid.rho0),
                         Real(dt),
-                        Real(back),
                         fluid.s,
                         fluid.s_next,
                         cut_,
                         Real(config_.density.consolidation * c / config_.fluid.h()),
-                        fluid.filled};
-    // all listed pairs: one that is out of reach now may have been within reach half a step ago
-    run(fluid, walls, range() + skin(), pass);
+                        Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0)};
+    run(fluid, walls, range(), pass);
     if (!frozen_) return;
     const FrozenPass<W> frozen{w_,
                                Real(config_.fluid.rho0),
                                Real(dt),
-                               Real(back),
                                least(),
-                               fluid.v_rho,
+                               flux(fluid),
                                fluid.m_state,
                                walls.v_rho,
                                walls.m_state,
                                walls.body,
                                pose,
                                walls.compression};
-    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range() + skin(),
-                  frozen);
+    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), frozen);
   }
 
   void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt) override {
@@ -136,7 +144,7 @@ class FluidSolverWith final : public FluidSolver {
                                  Real(config_.fluid.rho0),
                                  least(),
                                  least_sum,
-                                 fluid.v_rho,
+                                 flux(fluid),
                                  fluid.m_state,
                                  walls.x,
                                  walls.mirrors.x,
@@ -148,9 +156,8 @@ class FluidSolverWith final : public FluidSolver {
     }
     WallPass<W> pass{w_,
                      eos_,
-                     fluid.v_rho,
+                     flux(fluid),
                      fluid.m_state,
-                     fluid.eps,
                      drag_dt > 0 ? Span<const Real3>(fluid.drag_kick) : Span<const Real3>(),
                      Real(drag_dt > 0 ? 1 / drag_dt : 0),
                      walls.x0,
@@ -168,7 +175,7 @@ class FluidSolverWith final : public FluidSolver {
   void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
     ForcePass<W> pass{w_,
                       wall_pair(),
-                      fluid.v_rho,
+                      flux(fluid),
                       fluid.m_state,
                       walls.v_rho,
                       walls.m_state,
@@ -186,7 +193,7 @@ class FluidSolverWith final : public FluidSolver {
     if (layers_.size() > 0)
       for_each_pair(
           fluid.owned(), fluid_wall_, PairSeparation{frame_, fluid.xp, walls.xp}, range(),
-          LayerPass<W>{layer(walls, pose, dt), fluid.v_rho, fluid.m_state, fluid.theta, fluid.acc_next});
+          LayerPass<W>{layer(walls, pose, dt), flux(fluid), fluid.theta, fluid.acc_next});
     corrected_ = 0;
   }
 
@@ -194,8 +201,8 @@ class FluidSolverWith final : public FluidSolver {
                    Buffer<Vec3d>& force) override {
     force.resize(walls.size());
     WallForcePass<W> pass{
-        wall_pair(), layer(walls, pose, dt), Real(corrected_), fluid.acc,     fluid.acc_next,
-        fluid.v_rho, fluid.m_state,          walls.v_rho,      walls.m_state, walls.v_visc,
+        wall_pair(), layer(walls, pose, dt), Real(mixed_ ? 0 : corrected_), fluid.acc,     fluid.acc_next,
+        flux(fluid), fluid.m_state,          walls.v_rho,                   walls.m_state, walls.v_visc,
         force};
     for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
@@ -209,9 +216,7 @@ class FluidSolverWith final : public FluidSolver {
   Real least() const { return -Real(config_.density.tension); }
   Real viscosity() const { return config_.visc.model == "none" ? Real(0) : Real(config_.fluid.mu); }
   ArtificialViscosity artificial() const {
-    const bool coupled = config_.grain.present && config_.couple.mode == "two_way";
-    return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(coupled ? config_.couple.damping : 0),
-            Real(config_.fluid.c), Real(config_.fluid.h())};
+    return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c), Real(config_.fluid.h())};
   }
   TensileTerm tensile() const {
     if (config_.tensile == 0) return {};
@@ -237,7 +242,11 @@ std::unique_ptr<FluidSolver> FluidSolver::make(const Config& config, const Frame
 }
 
 FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, double kappa)
-    : config_(config), frame_(frame), kappa_(kappa), gravity_(config.gravity) {
+    : config_(config),
+      frame_(frame),
+      kappa_(kappa),
+      mixed_(config.grain.present && config.couple.mode == "two_way"),
+      gravity_(config.gravity) {
   const auto& e = config.eos;
   const double c = config.fluid.c, rho0 = config.fluid.rho0;
   if (e.type == "democritus")
@@ -311,9 +320,9 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
                        SphNear<Vec3d>{frame_, images.x, images.xp, fluid.xp, reach, false});
 }
 
-void FluidSolver::pack(FluidStore& fluid, WallStore& walls) {
-  for_each(fluid.owned(), PackPass<FluidPosition>{frame_, fluid.x, fluid.xp});
-  for_each(walls.owned(), PackPass<Vec3d>{frame_, walls.x, walls.xp});
+void FluidSolver::pack(FluidStore& fluid, WallStore& walls, double back) {
+  for_each(fluid.owned(), PackBackPass<FluidPosition>{frame_, Real(back), fluid.x, fluid.v_rho, fluid.xp});
+  for_each(walls.owned(), PackBackPass<Vec3d>{frame_, Real(back), walls.x, walls.v_rho, walls.xp});
   for_each(walls.mirrors.owned(), PackPass<Vec3d>{frame_, walls.mirrors.x, walls.mirrors.xp});
 }
 
@@ -322,13 +331,14 @@ void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, bool 
            KickDriftPass{frame_, Real(kick), Real(drift), fluid.acc,
                          coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
                          config_.xsph > 0 ? Span<const Real3>(fluid.xsph) : Span<const Real3>(), fluid.v_rho,
-                         fluid.x, fluid.xp});
+                         fluid.x});
 }
 
 void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
   for_each(fluid.owned(), StatePass{eos_, Real(kick), -Real(config_.density.tension), fluid.acc,
                                     coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
-                                    fluid.s, fluid.mass, fluid.eps, fluid.v_rho, fluid.m_state});
+                                    fluid.s, fluid.mass, fluid.eps, fluid.v_rho,
+                                    mixed_ ? Span<Real4>(fluid.flux) : Span<Real4>(), fluid.m_state});
 }
 
 void FluidSolver::correct(FluidStore& fluid, double kick) {

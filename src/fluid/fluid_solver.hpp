@@ -40,15 +40,13 @@ class FluidSolver {
   void refresh(FluidStore& fluid, WallStore& walls, bool walls_moved);
   /// Renews the lists for the positions as they are; `sort`: cells too (after a restart).
   void relist(FluidStore& fluid, WallStore& walls, bool sort);
-  /// Copies of positions as pair loops read them.
-  void pack(FluidStore& fluid, WallStore& walls);
+  /// Copies of positions as pair loops read them, `back` (s) before where they are.
+  void pack(FluidStore& fluid, WallStore& walls, double back = 0);
 
   /// v += kick (acc + reaction), x += drift (v + xsph); `coupled`: there is a reaction.
   void kick_drift(FluidStore& fluid, double kick, double drift, bool coupled);
-  /// s_next, and the density of frozen walls, from continuity over dt; pairs are taken `back` s before where
-  /// they are.
-  virtual void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt,
-                       double back) = 0;
+  /// s_next, and the density of frozen walls, from continuity over dt, with positions as packed.
+  virtual void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) = 0;
   void accept_density(FluidStore& fluid) { fluid.s.buffer().swap(fluid.s_next.buffer()); }
   /// Density, pressure, velocity predicted by `kick`.
   void state(FluidStore& fluid, double kick, bool coupled);
@@ -75,11 +73,14 @@ class FluidSolver {
 
  protected:
   FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, double kappa);
+  /// Velocity and density as pair loops read them: of the mixture where grains share the space.
+  Span<const Real4> flux(const FluidStore& fluid) const { return mixed_ ? fluid.flux : fluid.v_rho; }
   double repulsion_cap(double dt) const;  ///< m/s2, in a step of dt, s
 
   Config config_;
   Frame frame_;
   double kappa_;
+  bool mixed_;  ///< grains share the space
   EquationOfState eos_;
   Real3 gravity_;
   CellGrid grid_, wall_grid_;

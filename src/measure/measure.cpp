@@ -27,19 +27,18 @@ struct VelocityPass {
   BL_HD void operator()(Index i) const { out[i] = v_rho[i].xyz(); }
 };
 
-/// Component 2 (intrinsic density) or 3 (pressure) of the pair-loop record.
-struct StatePart {
-  Span<const Real4> m_state;
-  int part;
-  Span<Real> out;
-  BL_HD void operator()(Index i) const { out[i] = part == 2 ? m_state[i].z : m_state[i].w; }
-};
+/// Pressure from the pair-loop record of fluid or walls, Pa.
+BL_HD Real pressure_of(const Real4& m_state) { return m_state.y * square(m_state.z); }
 
-/// Pressure of a wall particle from P / rho~^2.
-struct WallPressurePart {
-  Span<const Real4> m_state, v_rho;
+struct DensityPart {
+  Span<const Real4> m_state;
   Span<Real> out;
-  BL_HD void operator()(Index i) const { out[i] = m_state[i].y * square(v_rho[i].w); }
+  BL_HD void operator()(Index i) const { out[i] = m_state[i].z; }
+};
+struct PressurePart {
+  Span<const Real4> m_state;
+  Span<Real> out;
+  BL_HD void operator()(Index i) const { out[i] = pressure_of(m_state[i]); }
 };
 
 template <class T>
@@ -73,7 +72,7 @@ struct FluidTotals {
   Vec3d gravity;  ///< true gravity: a frame's acceleration has no potential energy here
   Span<const FluidPosition> x;
   Span<const Real4> v_rho;
-  Span<const Real> mass, s, eps;
+  Span<const Real> mass, s;
   BL_HD void operator()(Index a, double* out) const {
     const double m = mass[a];
     const Vec3d at = coordinates(frame, x[a]), v = Vec3d(v_rho[a].xyz()), l = cross(at, v);
@@ -81,23 +80,26 @@ struct FluidTotals {
     for (int k = 0; k < 3; ++k) out[1 + k] = m * v[k], out[4 + k] = m * l[k];
     out[7] = 0.5 * m * norm2(v);
     out[8] = -m * dot(gravity, at);
-    out[9] = m * eos.energy((s[a] + (1 - eps[a])) / eps[a]);
+    out[9] = m * eos.energy(s[a]);
   }
 };
 
-/// Rates of change of fluid momentum, N: by gravity and drive, by all but grains, by grains.
+/// Rates of change of fluid momentum, N: by gravity and drive, by all but grains, by grains, which take their
+/// share of the stress.
 struct FluidLoads {
   double rate;  ///< 1 / step, 1/s
   Vec3d gravity, drive;
   Span<const Real> mass;
-  Span<const Real4> v_rho;
-  Span<const Real3> acc, reaction, drag_kick;
+  Span<const Real4> m_state;
+  Span<const Real3> theta, acc, reaction, drag_kick;
   BL_HD void operator()(Index a, double* out) const {
     const double m = mass[a];
+    const Real4 state = m_state[a];
     for (int k = 0; k < 3; ++k) {
-      out[k] = m * (gravity[k] + drive[k] / double(v_rho[a].w));
-      out[3 + k] = m * double(acc[a][k]);
-      if (reaction) out[6 + k] = m * (double(reaction[a][k]) + rate * drag_kick[a][k]);
+      const double grains = (double(state.x) - m) * theta[a][k];
+      out[k] = m * (gravity[k] + drive[k] / (double(state.w) * state.z));
+      out[3 + k] = m * double(acc[a][k]) + grains;
+      if (reaction) out[6 + k] = m * (double(reaction[a][k]) + rate * drag_kick[a][k]) - grains;
     }
   }
 };
@@ -116,7 +118,7 @@ struct GrainLoads {
 struct PressureBody {
   Span<const Real4> m_state;
   double sign;
-  BL_HD double operator()(Index a) const { return sign * m_state[a].w; }
+  BL_HD double operator()(Index a) const { return sign * pressure_of(m_state[a]); }
 };
 struct DensityBody {
   Span<const Real4> m_state;
@@ -142,9 +144,9 @@ struct PointBody {
     const Vec3d r = frame.nearest_image(coordinates(frame, x[a]) - at);
     const double r2 = norm2(r), support = w.kappa * double(w.h);
     if (r2 >= support * support) return;
-    const double share = double(m_state[a].x) / v_rho[a].w * w.W(Real(std::sqrt(r2)));
+    const double share = double(m_state[a].x) / m_state[a].z * w.W(Real(std::sqrt(r2)));
     out[0] = share;
-    out[1] = share * m_state[a].w;
+    out[1] = share * pressure_of(m_state[a]);
     out[2] = share * v_rho[a].x;
     out[3] = share * v_rho[a].y;
     out[4] = share * v_rho[a].z;
@@ -175,13 +177,13 @@ struct FluidBox {
   Vec3d lo, hi;
   Span<const FluidPosition> x;
   Span<const Real4> v_rho, m_state;
-  Span<const Real> eps;
+  Span<const Real> mass;
   BL_HD void operator()(Index a, double* out) const {
     if (!within(coordinates(frame, x[a]), lo, hi)) return;
-    const double m = m_state[a].x;
-    out[0] = 1, out[1] = m, out[2] = m * m_state[a].w;
+    const double m = mass[a];
+    out[0] = 1, out[1] = m, out[2] = m * pressure_of(m_state[a]);
     out[3] = m * v_rho[a].x, out[4] = m * v_rho[a].y, out[5] = m * v_rho[a].z;
-    out[6] = m * eps[a];
+    out[6] = m * m_state[a].w;
   }
 };
 struct GrainBox {
@@ -208,9 +210,8 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
     out.arrays.push_back(made<Real3, PointPass<FluidPosition>>("position", "m", all, frame_,
                                                                Span<const FluidPosition>(fluid_.x)));
     out.arrays.push_back(made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(fluid_.v_rho)));
-    out.arrays.push_back(made<Real, StatePart>("pressure", "Pa", all, Span<const Real4>(fluid_.m_state), 3));
-    out.arrays.push_back(
-        made<Real, StatePart>("density", "kg/m3", all, Span<const Real4>(fluid_.m_state), 2));
+    out.arrays.push_back(made<Real, PressurePart>("pressure", "Pa", all, Span<const Real4>(fluid_.m_state)));
+    out.arrays.push_back(made<Real, DensityPart>("density", "kg/m3", all, Span<const Real4>(fluid_.m_state)));
     if (coupled()) out.arrays.push_back(fluid_.eps.to_host());
     out.arrays.push_back(fluid_.id.to_host());
   } else if (name == "grains" && has_grains()) {
@@ -233,8 +234,7 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
     out.arrays.push_back(
         made<Real3, PointPass<Vec3d>>("position", "m", all, frame_, Span<const Vec3d>(walls_.x)));
     out.arrays.push_back(made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(walls_.v_rho)));
-    out.arrays.push_back(made<Real, WallPressurePart>(
-        "pressure", "Pa", all, Span<const Real4>(walls_.m_state), Span<const Real4>(walls_.v_rho)));
+    out.arrays.push_back(made<Real, PressurePart>("pressure", "Pa", all, Span<const Real4>(walls_.m_state)));
     out.arrays.push_back(walls_.body.to_host());
     out.arrays.push_back(walls_.id.to_host());
   }
@@ -265,7 +265,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
   if (has_fluid()) {
     const auto t =
         sum_over<10>(fluid_.owned(), FluidTotals{frame_, fluid_solver_->eos(), config_.gravity, fluid_.x,
-                                                 fluid_.v_rho, fluid_.mass, fluid_.s, fluid_.eps});
+                                                 fluid_.v_rho, fluid_.mass, fluid_.s});
     out.push_back({"fluid_mass", "kg", t.v[0]});
     vec("fluid_momentum", "kg m/s", {t.v[1], t.v[2], t.v[3]});
     vec("fluid_angular_momentum", "kg m2/s", {t.v[4], t.v[5], t.v[6]});
@@ -276,7 +276,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     const auto l = sum_over<9>(
         fluid_.owned(),
         FluidLoads{clock_.last_dt > 0 ? 1 / clock_.last_dt : 0, gravity_.at(clock_.time), config_.drive,
-                   fluid_.mass, fluid_.v_rho, fluid_.acc,
+                   fluid_.mass, fluid_.m_state, fluid_.theta, fluid_.acc,
                    two_way() ? Span<const Real3>(fluid_.reaction) : Span<const Real3>(), fluid_.drag_kick});
     const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
     vec("force_walls_on_fluid", "N", wall_on_fluid);
@@ -378,7 +378,7 @@ std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
     double s[7] = {};
     if (p.phase == "fluid") {
       const auto r = sum_over<7>(
-          fluid_.owned(), FluidBox{frame_, p.min, p.max, fluid_.x, fluid_.v_rho, fluid_.m_state, fluid_.eps});
+          fluid_.owned(), FluidBox{frame_, p.min, p.max, fluid_.x, fluid_.v_rho, fluid_.m_state, fluid_.mass});
       std::copy(r.v, r.v + 7, s);
     } else {
       const auto r = sum_over<7>(

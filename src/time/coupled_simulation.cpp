@@ -80,18 +80,35 @@ void CoupledSimulation::advance_fluid(double dt) {
   FluidSolver& fluid = *fluid_solver_;
   const double half = last_kick(dt);
   fluid.kick_drift(fluid_, dt - half, dt, two_way());
+  // density follows from places and velocities in the middle of a kick-drift-kick step, the fluid's and the walls'
   Span<const BodyPose> pose;
   if (walls_.size() > 0) {
-    // density follows from velocities in the middle of a kick-drift-kick step, the fluid's and the walls'
     pose = motion_.poses_in_step(clock_.time + dt, half, dt);
     WallMotion::place(frame_, walls_, pose);
-    fluid.pack(fluid_, walls_);
   }
-  fluid.density(fluid_, walls_, pose, dt, half);
+  if (two_way()) share_volume(dt);
+  fluid.pack(fluid_, walls_, half);
+  fluid.density(fluid_, walls_, pose, dt);
   fluid.accept_density(fluid_);
+  fluid.pack(fluid_, walls_);
   evaluate_fluid(dt, half);
   load_bodies(half, dt);
   fluid.correct(fluid_, half);
+  if (coupled()) share_stress(dt, half);
+}
+
+void CoupledSimulation::share_volume(double dt) {
+  fluid_solver_->pack(fluid_, walls_);
+  watch_.lap(kFluid);
+  coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1), dt);
+  watch_.lap(kCoupling);
+}
+
+void CoupledSimulation::share_stress(double dt, double kick) {
+  watch_.lap(kFluid);
+  coupling_->push(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1), kick, held());
+  solid_solver_->groups().follow(grains_, {}, {}, 0);
+  watch_.lap(kCoupling);
 }
 
 void CoupledSimulation::load_bodies(double kick, double dt) {
@@ -106,11 +123,6 @@ void CoupledSimulation::load_bodies(double kick, double dt) {
 void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   FluidSolver& fluid = *fluid_solver_;
   const Span<const BodyPose> pose = motion_.poses(clock_.time + dt, 0, 1);
-  if (two_way()) {
-    watch_.lap(kFluid);
-    coupling_->porosity(fluid_, grains_, pose, dt > 0);
-    watch_.lap(kCoupling);
-  }
   fluid.state(fluid_, predict, two_way());
   fluid.set_gravity(gravity_.at(clock_.time + dt));
   if (walls_.size() > 0) fluid.walls(fluid_, walls_, pose, two_way() ? dt : 0);

@@ -52,9 +52,11 @@ class CoupledSimulation final : public Simulation {
   double last_kick(double dt) const { return config_.time.integrator == "euler" ? 0 : dt / 2; }
 
   void upload(const Setup& setup);
-  void lay_fluid();  ///< superficial mass and density over the grains, hydrostatic pressure
+  void lay_fluid();  ///< mass for the porosity, hydrostatic pressure
   void advance_fluid(double dt);
-  void evaluate_fluid(double dt, double predict);  ///< density known: porosity, state, walls, forces
+  void share_volume(double dt);  ///< between fluid and grains that have both moved
+  void evaluate_fluid(double dt, double predict);  ///< density known: state, walls, forces
+  void share_stress(double dt, double kick);       ///< forces known: what of them falls to the grains
   double longest_substep();                        ///< s, that grains and free bodies allow
   void load_bodies(double kick, double dt);        ///< force of the fluid on free bodies at the end of a step
   void refresh_if_needed(double dt);

@@ -34,7 +34,7 @@ struct LayPass {
   BL_HD void operator()(Index a) const {
     const Real x = eos.compression(pressure[a]);
     mass[a] *= eps[a] * (1 + x);
-    s[a] = eps[a] * (1 + x) - 1;
+    s[a] = x;
   }
 };
 
@@ -108,7 +108,7 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
   }
   if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_, geometry_);
   if (has_fluid() && has_grains() && config.couple.mode != "off")
-    coupling_ = std::make_unique<Coupling>(config, frame_, geometry_, grain_geometry_);
+    coupling_ = std::make_unique<Coupling>(config, frame_, geometry_);
   upload(setup);
 }
 
@@ -126,6 +126,8 @@ void CoupledSimulation::upload(const Setup& setup) {
   fluid_.v_rho.assign(v);
   fluid_.mass.assign(converted<Real>(f.mass));
   fluid_.eps.assign(std::vector<Real>(f.x.size(), Real(1)));
+  fluid_.solid_factor.assign(std::vector<Real>(f.x.size(), Real(1)));
+  fluid_.m_state.assign(std::vector<Real4>(f.x.size()));
 
   const auto& w = setup.walls;
   walls_.resize(Index(w.x.size()));
@@ -161,9 +163,11 @@ void CoupledSimulation::start() {
   if (bodies_.any()) bodies_.evaluate(poses_now());
   if (has_fluid()) {
     lay_fluid();
+    if (two_way()) share_volume(0);
     evaluate_fluid(0, 0);
     load_bodies(0, 0);
     fluid_solver_->correct(fluid_, 0);
+    if (coupled()) share_stress(0, 0);
   }
   sweep();
   if (coupled()) {  // for the first step's drag limit
@@ -173,7 +177,7 @@ void CoupledSimulation::start() {
 }
 
 void CoupledSimulation::lay_fluid() {
-  if (two_way()) coupling_->porosity(fluid_, grains_, poses_now());
+  if (two_way()) share_volume(0);
   std::vector<Real> pressure(fluid_.size(), Real(0));
   if (hydrostatic(config_)) {
     const Vec3d g = laid_gravity(config_, gravity_.at(0));

@@ -74,8 +74,8 @@ TEST(Admit, TakesOverThePressureOfTheBuffer) {
   std::vector<Vec3d> wall_x{{0.5, 0.5, 0.5}};
   std::vector<Real4> wall_v{{Real3(1, 0, 0), superficial}}, wall_state{{1, p / square(superficial), 1000, 0}};
   std::vector<FluidPosition> x(1);
-  std::vector<Real4> v_rho(1), state(1);
-  std::vector<Real> s(1), mass(1), eps(1);
+  std::vector<Real4> v_rho(1), flux(1), state(1);
+  std::vector<Real> s(1), mass(1), eps(1), solid_factor(1);
   std::vector<Real3> theta(1), acc(1);
   const auto span = [](auto& host) { return Span(host.data(), Index(host.size())); };
   const AdmitPass pass{frame,
@@ -94,10 +94,12 @@ TEST(Admit, TakesOverThePressureOfTheBuffer) {
                        span(id),
                        span(x),
                        span(v_rho),
+                       span(flux),
                        span(state),
                        span(s),
                        span(mass),
                        span(eps),
+                       span(solid_factor),
                        span(theta),
                        span(acc)};
   pass(0);
@@ -106,9 +108,11 @@ TEST(Admit, TakesOverThePressureOfTheBuffer) {
   EXPECT_EQ(v_rho[0].w, Real(1000) * (1 + s[0]));
   EXPECT_EQ(eps[0], 1) << "no grains in an orifice";
   EXPECT_EQ(state[0].x, Real(0.5));
-  EXPECT_EQ(state[0].y, state[0].w / square(v_rho[0].w));
+  EXPECT_EQ(state[0].y, eos.pressure(s[0]) / square(v_rho[0].w));
   EXPECT_EQ(state[0].z, v_rho[0].w);
-  EXPECT_EQ(state[0].w, eos.pressure(s[0]));
+  EXPECT_EQ(state[0].w, 1);
+  EXPECT_EQ(flux[0].xyz(), v_rho[0].xyz());
+  EXPECT_EQ(flux[0].w, v_rho[0].w);
   wall_state[0].x = 0;  // no fluid ahead
   pass(0);
   EXPECT_EQ(s[0], 0);

@@ -30,7 +30,7 @@ TEST(Porosity, OfAUniformBedIsItsVoidShare) {
   for (const char* kernel : {"wendland_c2", "cubic", "lucy"})
     for (double spacing : {0.105, 0.125}) {
       CoupledBox box = lattice_of_grains(spacing, kernel);
-      box.coupling.porosity(box.fluid, box.grains, {});
+      box.coupling.porosity(box.fluid, box.grains, {}, 0);
       const double expected = 1 - M_PI / 6 * std::pow(0.1 / spacing, 3);
       for (Real eps : box.fluid.eps.values()) EXPECT_NEAR(eps, expected, 1e-2) << kernel << " " << spacing;
       EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).floor_hits, 0u);
@@ -39,7 +39,7 @@ TEST(Porosity, OfAUniformBedIsItsVoidShare) {
 
 TEST(Porosity, HasAFloorAndCountsWhoIsHeldThere) {
   CoupledBox box = lattice_of_grains(0.085);  // solid share 0.85: overlapping spheres
-  box.coupling.porosity(box.fluid, box.grains, {});
+  box.coupling.porosity(box.fluid, box.grains, {}, 0);
   for (Real eps : box.fluid.eps.values()) EXPECT_EQ(eps, Real(0.25));
   EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).floor_hits, 400u);
 }
@@ -49,7 +49,7 @@ TEST(Porosity, IsOneWhereThereIsNoGrain) {
   std::mt19937_64 random(6);
   CoupledBox box(c, fluid_at(random_points(50, {0, 0, 0}, {1, 1, 0.5}, random), 0.1, 1000, 0.5),
                  {{{0.5, 0.5, 0.9}}, {{}}, {{}}, {0.05}});
-  box.coupling.porosity(box.fluid, box.grains, {});
+  box.coupling.porosity(box.fluid, box.grains, {}, 0);
   for (Real eps : box.fluid.eps.values()) EXPECT_EQ(eps, Real(1));
 }
 
@@ -100,8 +100,8 @@ TEST(Porosity, IsOneInAnOrificeAndFallsToThatOfTheBed) {
   rectangle.half_a = {0, 0.1, 0};
   rectangle.half_b = {0, 0, 0.05};
   CoupledBox plain = lies_in({}), open = lies_in({disc, rectangle});
-  plain.coupling.porosity(plain.fluid, plain.grains, {});
-  open.coupling.porosity(open.fluid, open.grains, {});
+  plain.coupling.porosity(plain.fluid, plain.grains, {}, 0);
+  open.coupling.porosity(open.fluid, open.grains, {}, 0);
   const auto at = open.fluid_places();
   const auto bed = plain.fluid.eps.values(), eps = open.fluid.eps.values();
   int one = 0, between = 0;
@@ -135,7 +135,7 @@ std::vector<Real> porosity_beside(const std::vector<WallBody>& bodies, bool seen
   CoupledBox box(c, fluid_at(at, 0.1, 1000, 1), random_grains(60, grains.min, grains.max, 0.05, random));
   Buffer<BodyPose> poses;
   poses.assign(std::vector<BodyPose>(bodies.size()));
-  box.coupling.porosity(box.fluid, box.grains, poses);
+  box.coupling.porosity(box.fluid, box.grains, poses, 0);
   return box.fluid.eps.values();
 }
 
@@ -177,31 +177,6 @@ TEST(Porosity, IsTheSameBesideBoxesAsBesideTheTankThatTheyMakeUp) {
   EXPECT_GT(beside, 50u);
 }
 
-TEST(Porosity, TakesTheSuperficialDensityOfTornFluidAlong) {
-  Config c = unit_box(0.1, 1e-3);
-  std::mt19937_64 random(10);
-  CoupledBox box(c, fluid_at(random_points(200, {0, 0, 0}, {1, 1, 1}, random), 0.1, 1000, 1),
-                 random_grains(400, {0, 0, 0}, {1, 1, 1}, 0.05, random));
-  const std::size_t n = box.fluid.size();
-  std::vector<Real> filled(n);
-  constexpr double kinds[]{0.2, 0.45, 0.8}, share[]{1, 0.5, 0};  // torn, half and not
-  for (std::size_t a = 0; a < n; ++a) filled[a] = Real(kinds[a % 3]);
-  box.fluid.filled.assign(filled);
-  box.fluid.eps.assign(std::vector<Real>(n, 1));
-  box.fluid.s.assign(std::vector<Real>(n, Real(0.01)));
-  box.coupling.porosity(box.fluid, box.grains, {}, true);
-  const auto eps = box.fluid.eps.values(), s = box.fluid.s.values();
-  double lowest = 1;
-  for (std::size_t a = 0; a < n; ++a) {
-    EXPECT_NEAR(1 + s[a], 1.01 * std::pow(eps[a], share[a % 3]), 4 * kInvariant) << eps[a];
-    lowest = std::min(lowest, double(eps[a]));
-  }
-  EXPECT_LT(lowest, 0.99);
-  box.fluid.eps.assign(std::vector<Real>(n, 1));
-  box.coupling.porosity(box.fluid, box.grains, {});
-  EXPECT_EQ(box.fluid.s.values(), s) << "not in a step";
-}
-
 TEST(Porosity, FollowsGrainsThatMoveWithinTheSkin) {
   Config c = unit_box(0.1, 1e-3);
   std::mt19937_64 random(7);
@@ -210,7 +185,7 @@ TEST(Porosity, FollowsGrainsThatMoveWithinTheSkin) {
   auto x = box.grains.x.values();
   for (auto& at : x) at += Vec3d{0.003, -0.002, 0.004};  // skin 0.02
   box.grains.x.assign(x);
-  box.coupling.porosity(box.fluid, box.grains, {});
+  box.coupling.porosity(box.fluid, box.grains, {}, 0);
   const auto at = box.fluid_places();
   const auto eps = box.fluid.eps.values();
   const WendlandC2 w(0.1);

@@ -113,6 +113,83 @@ TEST(CoupledFlow, SkinsOfThePhasesDoNotMatter) {
   }
 }
 
+/// Pressure and buoyancy are adjoint to continuity: without viscosity and drag, what fluid and grains lose of
+/// kinetic energy is stored in the fluid, also where the porosity is held at its floor.
+TEST(SlowCoupledFlow, KeepsItsEnergy) {  // T-8, at the step of the default
+  for (const double floor : {0.25, 0.57}) {
+    Slurry slurry(6, 0.45);
+    Config& c = slurry.config;
+    c.visc.model = "none";
+    c.fluid.mu = 1e-12;
+    c.couple.drag = "stokes";
+    c.couple.spreading = 0;
+    c.couple.eps_min = floor;
+    c.grain.e = 1;
+    c.grain.mu = c.grain.mu_r = 0;
+    auto s = started(c, slurry.setup);
+    const auto energy = [&](bool stored) {
+      const auto d = s->diagnostics();
+      double sum = reading(d, "fluid_kinetic_energy") + reading(d, "grain_kinetic_energy") +
+                   reading(d, "grain_rotational_energy");
+      if (stored) sum += reading(d, "fluid_elastic_energy") + reading(d, "grain_elastic_energy");
+      return sum;
+    };
+    const double before = energy(true), moving = energy(false);
+    EXPECT_EQ(reading(s->diagnostics(), "porosity_floor_hits") > 0, floor > 0.5);
+    double least = moving;
+    for (int k = 0; k < 400; ++k) {
+      s->step();
+      if (k % 20 == 0) least = std::min(least, energy(false));
+    }
+    EXPECT_NEAR(energy(true) / before, 1, 1e-3) << floor;
+    EXPECT_LT(least, 0.98 * moving) << "nothing is compressed";
+  }
+}
+
+/// A shear wave of water, or of a suspension whose grains go along: how fast it decays over nu k2.
+double decay_of_a_shear_wave(double Re, double phi) {
+  const int n = 12;
+  const double L = 0.08, k = 2 * pi / L, speed = 0.1;
+  Slurry slurry(n, phi > 0 ? phi : 0.1);
+  Config c = periodic_box(n, L / n);
+  c.fluid.c = 10 * speed;
+  c.fluid.vmax = speed;
+  c.fluid.mu = 1000 * speed * L / Re;
+  c.density = DensityConfig{};
+  c.fluid.fills = {{c.domain.min, c.domain.max, {"0.1*sin(78.53981634*z)", "0", "0"}}};
+  std::vector<std::string> warnings;
+  bedload::Setup setup = build_setup(c, warnings);
+  if (phi > 0) {
+    c.grain = slurry.config.grain;
+    c.grain.rho = 1000;
+    c.couple.hc = std::max(c.fluid.h(), 2 * c.grain.d);
+    setup.grains = slurry.setup.grains;
+    for (std::size_t j = 0; j < setup.grains.x.size(); ++j)
+      setup.grains.v[j] = {speed * std::sin(k * setup.grains.x[j].z), 0, 0};
+  }
+  auto s = started(c, setup);
+  const auto amplitude = [&] {
+    const HostStore fluid = s->snapshot("fluid");
+    const auto x = vectors(fluid, "position"), v = vectors(fluid, "velocity");
+    double sum = 0;
+    for (std::size_t a = 0; a < x.size(); ++a) sum += 2.0 / x.size() * v[a].x * std::sin(k * x[a].z);
+    return sum;
+  };
+  const double rate = c.fluid.mu / 1000 * k * k;
+  run_until(*s, std::min(0.2 / rate, 0.1 * L / speed));  // the grains take up the motion of the fluid
+  const double before = amplitude(), from = s->time();
+  run_until(*s, from + std::min(0.3 / rate, L / speed));
+  return std::log(before / amplitude()) / (s->time() - from) / rate;
+}
+
+TEST(SlowMixedCoupledFlow, AShearWaveInASuspensionDecaysByTheViscosityOfItsFluid) {
+  for (const double Re : {10.0, 100.0, 500.0}) {
+    const double water = decay_of_a_shear_wave(Re, 0), suspension = decay_of_a_shear_wave(Re, 0.3);
+    std::cout << "Re " << Re << ": water " << water << ", suspension " << suspension << "\n";
+    EXPECT_NEAR(suspension / water, 1, 0.05) << Re;
+  }
+}
+
 TEST(CoupledFlow, LaidFluidTakesTheSpaceBetweenGrains) {
   Slurry slurry(6, 0.3);
   auto s = started(slurry.config, slurry.setup);
@@ -150,7 +227,7 @@ TEST(CoupledFlow, AJetInABedIsStoppedByItsOwnSpeed) {
   c.grain.fixed = true;
   c.fluid.mu = 1e-6;
   c.couple.drag = "ergun";
-  c.couple.damping = 0;
+  c.couple.slip = "local";
   auto& setup = slurry.setup;
   for (std::size_t a = 0; a < setup.fluid.v.size(); ++a) {
     const Vec3d& x = setup.fluid.x[a];
@@ -168,7 +245,7 @@ TEST(CoupledFlow, AJetInABedIsStoppedByItsOwnSpeed) {
 
 /// Water over and in a bed of resting grains on a floor of that type: it stays still, and lifts each grain by
 /// its buoyancy, to that share.
-void expect_still_bed(const char* floor, double share = 0.05) {
+void expect_still_bed(const char* floor, double share = 0.03, double fastest_allowed = 3e-3) {
   Config c = periodic_box(8, 3e-3);
   c.gravity = {0, 0, -9.81};
   c.domain.periodic = {true, true, false};
@@ -177,8 +254,8 @@ void expect_still_bed(const char* floor, double share = 0.05) {
   c.fluid.mu = 8.9e-4;
   c.fluid.vmax = std::sqrt(2 * 9.81 * 0.048);
   c.fluid.c = 10 * c.fluid.vmax;
-  c.visc.alpha = 0.02;
   c.density.delta = 0.1;
+  c.density.consolidation = DensityConfig{}.consolidation;
   c.wall.rep_D = 5 * 9.81 * 0.048;
   c.wall.rep_r0 = 1.5e-3;
   c.grain.present = c.grain.fixed = true;
@@ -190,6 +267,7 @@ void expect_still_bed(const char* floor, double share = 0.05) {
   c.wall.bodies[0].type = floor;
   c.wall.layer_r0 = c.fluid.dx;
   if (c.wall.bodies[0].single_layer()) {
+    c.visc.alpha = 0.02;  // its soft push lets the column bob
     c.wall.bodies[0].dx = c.fluid.dx / 2;
     c.fluid.fills[0].min.z += c.fluid.dx / 2;
     c.fluid.fills[0].max.z += c.fluid.dx / 2;
@@ -213,7 +291,8 @@ void expect_still_bed(const char* floor, double share = 0.05) {
     fastest = std::max(fastest, reading(d, "fluid_speed_max"));
     if (k > 5) lift += reading(d, "force_fluid_on_grains_z") / 5;
   }
-  EXPECT_LT(fastest, 0.1) << "0.9 m/s without couple.damping";
+  std::cout << "fastest " << fastest << " m/s, lift " << lift / (9.81 * 1000 * 567 * pi / 6 * std::pow(2.7e-3, 3)) << "\n";
+  EXPECT_LT(fastest, fastest_allowed);
   const double buoyancy = 9.81 * 1000 * 567 * pi / 6 * 2.7e-3 * 2.7e-3 * 2.7e-3;
   EXPECT_NEAR(lift / buoyancy, 1, share);
 }
@@ -221,9 +300,9 @@ void expect_still_bed(const char* floor, double share = 0.05) {
 TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRest) { expect_still_bed("adami"); }
 TEST(SlowMixedCoupledFlow, WaterInABedAtRestStaysAtRestOnAnMdbcFloor) { expect_still_bed("mdbc"); }
 // what these walls give the fluid beside them is not that of a wall among grains
-TEST(SlowMixedCoupledFlow, WaterInABedAtRestStaysAtRestOnAFrozenFloor) { expect_still_bed("frozen", 0.2); }
+TEST(SlowMixedCoupledFlow, WaterInABedAtRestStaysAtRestOnAFrozenFloor) { expect_still_bed("frozen", 0.15); }
 TEST(SlowMixedCoupledFlow, WaterInABedAtRestStaysAtRestOnASingleLayer) {
-  expect_still_bed("single_layer", 0.2);
+  expect_still_bed("single_layer", 0.15, 0.15);
 }
 
 /// One grain released in still water over a floor, drag on the grain alone.

@@ -12,7 +12,7 @@ namespace bedload::inline BL_VARIANT {
 
 struct Cloud {
   std::vector<Vec3d> x, v;             ///< m, m/s
-  std::vector<double> mass, rho, eps;  ///< kg; superficial, kg/m3
+  std::vector<double> mass, rho, eps;  ///< kg, kg/m3, -
   std::vector<Vec3d> theta;            ///< m/s2
 };
 struct Pebbles {
@@ -46,13 +46,13 @@ inline std::vector<Vec3d> lattice(const Vec3d& min, const Vec3d& max, double dx)
       for (int ix = 0; ix < cells(0); ++ix) all.push_back(min + Vec3d(ix + 0.5, iy + 0.5, iz + 0.5) * dx);
   return all;
 }
-/// Fluid at rest of intrinsic density rho (kg/m3) and one porosity, a particle for each dx^3 of mixture.
+/// Fluid at rest of density rho (kg/m3) and one porosity, a particle for each dx^3 of fluid and grains.
 inline Cloud fluid_at(const std::vector<Vec3d>& x, double dx, double rho, double eps) {
   const std::size_t n = x.size();
   return {x,
           std::vector<Vec3d>(n),
           std::vector<double>(n, eps * rho * dx * dx * dx),
-          std::vector<double>(n, eps * rho),
+          std::vector<double>(n, rho),
           std::vector<double>(n, eps),
           std::vector<Vec3d>(n)};
 }
@@ -65,8 +65,8 @@ inline Cloud random_fluid(std::size_t n, const Vec3d& min, const Vec3d& max, dou
           random_vectors(n, 9, random)};
   for (std::size_t a = 0; a < n; ++a) {
     c.eps.push_back(porosity(random));
-    c.rho.push_back(c.eps[a] * rho);
-    c.mass.push_back(factor(random) * c.rho[a] * volume);
+    c.rho.push_back(rho);
+    c.mass.push_back(factor(random) * c.eps[a] * rho * volume);
   }
   return c;
 }
@@ -98,7 +98,7 @@ struct CoupledBox {
       : config(c),
         frame(c.domain.min, c.domain.max, c.domain.periodic[0], c.domain.periodic[1], c.domain.periodic[2]),
         walls(c),
-        coupling(c, frame, walls, walls) {
+        coupling(c, frame, walls) {
     fill(cloud);
     fill(pebbles);
     relist();
@@ -128,13 +128,16 @@ struct CoupledBox {
   void fill(const Cloud& c) {
     fluid.resize(Index(c.x.size()));
     std::vector<FluidPosition> x;
-    std::vector<Real4> v_rho;
+    std::vector<Real4> v_rho, m_state;
     for (std::size_t a = 0; a < c.x.size(); ++a) {
       x.push_back(as_position<FluidPosition>(frame, c.x[a]));
       v_rho.push_back({Real3(c.v[a]), Real(c.rho[a])});
+      m_state.push_back({Real(c.mass[a] / c.eps[a]), 0, Real(c.rho[a]), Real(c.eps[a])});
     }
     fluid.x.assign(x);
     fluid.v_rho.assign(v_rho);
+    fluid.m_state.assign(m_state);
+    fluid.solid_factor.assign(std::vector<Real>(c.x.size(), Real(1)));
     fluid.mass.assign(converted<Real>(c.mass));
     fluid.eps.assign(converted<Real>(c.eps));
     fluid.theta.assign(converted<Real3>(c.theta));

@@ -306,12 +306,12 @@ struct CouplingConfig {
   std::string mode = "two_way";                ///< off, one_way, two_way
   double hc = 0;                               ///< m (default max(h, 2 d_max 2/kappa))
   double eps_min = 0.25;
-  bool wall_normalise = true;                  ///< porosity counts only the kernel's share inside the walls
+  bool wall_normalise = true;                  ///< a grain's volume lies in the kernel's share that walls leave free
+  double spreading = 0.01;                     ///< how fast fluid that overfills its volume grows denser, c/h
   double S_dry = 0.05, S_wet = 0.95;
   bool torque = true;
   bool angmom = true;
-  std::string slip = "local";                  ///< local, mean: that drag follows
-  double damping = 1;                          ///< artificial viscosity of fluid among grains / solid fraction
+  std::string slip = "mean";                   ///< mean, local: that drag follows
   std::string drag = "di_felice";
   std::string integrator = "exponential";      ///< exponential, explicit
   bool operator==(const CouplingConfig&) const = default;

@@ -3,27 +3,29 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Fluid particles. Densities are superficial (rho~ = eps rho) unless said otherwise.
+/// Fluid particles. Densities are intrinsic: mass per volume of fluid, whatever grains share the space. Pair
+/// loops see the mixture: particle a stands for the volume m_a / (eps_a rho_a) of fluid and grains.
 struct FluidStore : Store {
   FluidStore() : Store("fluid") {}
 
   Field<Id> id{*this, "id", "-", Lifetime::kept};
   Field<FluidPosition> x{*this, "x", "m", Lifetime::kept};
   Field<FluidPosition> x_list{*this, "x_list", "m", Lifetime::kept};  ///< where the neighbour lists were built
-  Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept};   ///< velocity, superficial density
-  Field<Real> s{*this, "s", "-", Lifetime::kept};                     ///< superficial density / rho0 - 1
+  Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept};   ///< velocity, density
+  Field<Real4> flux{*this, "flux", "m/s, kg/m3", Lifetime::kept};     ///< volume flux of fluid and grains, eps v + sum w u; density
+  Field<Real> s{*this, "s", "-", Lifetime::kept};                     ///< density / rho0 - 1
   Field<Real> mass{*this, "mass", "kg", Lifetime::kept};
   Field<Real> eps{*this, "porosity", "-", Lifetime::kept};
-  Field<Real3> theta{*this, "theta", "m/s2", Lifetime::kept};   ///< pressure + physical viscosity
-  Field<Real3> acc{*this, "acceleration", "m/s2", Lifetime::kept};  ///< theta + gravity + artificial and repulsive terms
+  Field<Real> solid_factor{*this, "solid_factor", "-", Lifetime::kept};  ///< of the grains around it as it counts them: below 1 beside orifices and at the least porosity
+  Field<Real3> theta{*this, "theta", "m/s2", Lifetime::kept};   ///< stress of the mixture: pressure, viscosity
+  Field<Real3> acc{*this, "acceleration", "m/s2", Lifetime::kept};  ///< theta + gravity + drive + repulsion
   Field<Real3> xsph{*this, "xsph", "m/s", Lifetime::kept};      ///< added to the drift velocity
-  Field<Real4> m_state{*this, "m_state", "kg, m5/(kg s2), kg/m3, Pa", Lifetime::kept};  ///< what pair loops read: mass, P/rho~2, intrinsic rho, P
+  Field<Real4> m_state{*this, "m_state", "kg, m5/(kg s2), kg/m3, -", Lifetime::kept};  ///< what pair loops read: mass / porosity, P/rho2, density, porosity
   Field<Real3> drag_kick{*this, "drag_kick", "m/s", Lifetime::derived};  ///< by the drag of the grains, this step
   Field<Real3> acc_next{*this, "acc_next", "m/s2", Lifetime::derived};
   Field<Real> s_next{*this, "s_next", "-", Lifetime::derived};
-  Field<Real> filled{*this, "filled", "-", Lifetime::derived};  ///< share of the kernel with fluid or wall in it
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};  ///< x as pair loops read it
-  Field<Real3> reaction{*this, "reaction", "m/s2", Lifetime::derived};  ///< - pressure part of the force on grains / m
+  Field<Real3> reaction{*this, "reaction", "m/s2", Lifetime::derived};  ///< couples that keep the angular momentum of the stress shared with grains
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -16,7 +16,7 @@ struct GrainStore : Store {
   Field<Real3> force{*this, "contact_force", "N", Lifetime::kept};    ///< contacts, walls
   Field<Real3> torque{*this, "contact_torque", "N m", Lifetime::kept};
   // from the fluid, held during a fluid step
-  Field<Real3> fluid_force{*this, "fluid_force", "N", Lifetime::kept};      ///< pressure and viscous stress on its volume
+  Field<Real3> fluid_force{*this, "fluid_force", "N", Lifetime::kept};      ///< stress of the mixture on its volume: buoyancy
   Field<Real3> drag_force{*this, "drag_force", "N", Lifetime::kept};        ///< mean over the last step
   Field<Real> eps{*this, "porosity", "-", Lifetime::kept};
   Field<Real> wetness{*this, "wetness", "-", Lifetime::kept};

@@ -47,10 +47,10 @@ struct WallStore : Store {
   Field<Vec3d> x{*this, "x", "m", Lifetime::kept};
   Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::kept};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};
-  Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept};  ///< true velocity, superficial density
+  Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept};  ///< true velocity, density
   Field<Real4> v_visc{*this, "v_visc", "m/s, kg",
                       Lifetime::kept};  ///< no-slip velocity; w: mass with which it drags, 0 with slip
-  /// mass (kg; 0: inactive), P / rho~^2, intrinsic density, mass that came with the last change of porosity
+  /// mass (kg; 0: inactive), P / rho^2, density; the last is unused
   Field<Real4> m_state{*this, "m_state", "-", Lifetime::kept};
   /// rho / rho0 - 1 of frozen and mirrored walls; kNoCompression: outer layers of a frozen one, or no fluid
   /// about the image

@@ -1,0 +1,50 @@
+#pragma once
+#include "bedload/core/span.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Stress on the mixture around each fluid particle as far as it counts grains, f_a M_a theta_a, N.
+struct PushPass {
+  Span<const Real> solid_factor;
+  Span<const Real3> theta;
+  Span<const Real4> m_state;
+  Span<Real4> push;
+  BL_HD void operator()(Index a) const { push[a] = {solid_factor[a] * m_state[a].x * theta[a], 0}; }
+};
+
+/// Force of the fluid's stress on a grain, its buoyancy: sum_a w_ja M_a theta_a, the part that the fluid, which
+/// takes eps_a of M_a theta_a, leaves to it. In place of V_j sum phi rho~ theta [he18] Eqs. 27-29.
+template <class W>
+struct BuoyancyPass {
+  W w;
+  Span<const Real4> push, volume;
+  Span<Real3> force;
+
+  template <class N = Real>
+  struct Sum {
+    Vec3<N> f;
+  };
+  BL_HD Sum<> start(Index) const { return {}; }
+  template <class N, class A>
+  BL_HD void pair(Sum<N>& sum, Index, A a, const Vec3<N>&, N r2) const {
+    sum.f += w.W(root(r2)) * Vec4<N>(push[a]).xyz();
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.f += other.f; }
+  BL_HD void finish(Index j, const Sum<>& sum) const { force[j] = volume[j].w * sum.f; }
+};
+
+/// Ends the step of the grains as kick-drift-kick: they went through it under the force at its start.
+struct BuoyancyKick {
+  Real kick;         ///< s
+  Real mass_per_r3;  ///< kg/m3
+  bool moves;
+  Span<const Real3> now;
+  Span<const Real> radius;
+  Span<Real3> force, v;
+  BL_HD void operator()(Index j) const {
+    if (moves) v[j] += kick / (mass_per_r3 * cube(radius[j])) * (now[j] - force[j]);
+    force[j] = now[j];
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT
