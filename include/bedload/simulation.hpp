@@ -45,7 +45,7 @@ class Simulation {
   /// Grains alone, without fluid, until they rest or `longest` s are over; the
   /// clock stays. Calls `progress` with the time settled so far (s) now and then.
   virtual void settle(double longest, const std::function<void(double)>& progress) = 0;
-  /// Lays the fluid over the settled grains (superficial density and mass) and
+  /// Lays the fluid over the settled grains (its mass by the porosity) and
   /// evaluates everything once. Called once, before the first step, not after load().
   virtual void start() = 0;
 
@@ -55,6 +55,11 @@ class Simulation {
   virtual std::vector<StepLimit> limits() = 0;
   /// Limits on a substep that free bodies set, beside those of grains.
   virtual std::vector<StepLimit> body_limits() const = 0;
+  /// How much of the run's viscosity is numerical, each as a multiple of the fluid's own: "artificial_bulk"
+  /// and "artificial_bed", of visc.alpha; "local_slip_bed", of drag that follows the slip of each particle,
+  /// in a bed of porosity 0.4; "density_diffusion", which smooths density, not velocity. Zero where there is
+  /// none; empty without viscous fluid.
+  virtual std::vector<Quantity> numerical_viscosity() const = 0;
   /// Bytes held on the device (or in host memory), now.
   virtual std::size_t bytes() const = 0;
   /// Wall time that the parts of all steps took, s: "lists", "fluid", "grains", "coupling", "checks"; those

@@ -12,8 +12,8 @@ struct PushPass {
   BL_HD void operator()(Index a) const { push[a] = {solid_factor[a] * m_state[a].x * theta[a], 0}; }
 };
 
-/// Force of the fluid's stress on a grain, its buoyancy: sum_a w_ja M_a theta_a, the part that the fluid, which
-/// takes eps_a of M_a theta_a, leaves to it. In place of V_j sum phi rho~ theta [he18] Eqs. 27-29.
+/// Force of the fluid's stress on a grain, its buoyancy: sum_a w_ja M_a theta_a, the part that the fluid,
+/// which takes eps_a of M_a theta_a, leaves to it. In place of V_j sum phi rho~ theta [he18] Eqs. 27-29.
 template <class W>
 struct BuoyancyPass {
   W w;

@@ -58,9 +58,9 @@ struct DragShares {
 };
 
 /// Drag and spin drag coefficients of each grain, times its wetness, and the fluid motion that they refer to:
-/// mean velocity and rotation of the fluid weighted with phi K_ja / K_j, K_j = sum phi K_ja, and with the couple
-/// the velocity of that motion at the grain's centre, where the force acts. Local: the law is taken at the slip
-/// of each particle, so that a jet pushes by its own speed; else at the mean slip.
+/// mean velocity and rotation of the fluid weighted with phi K_ja / K_j, K_j = sum phi K_ja, and with the
+/// couple the velocity of that motion at the grain's centre, where the force acts. Local: the law is taken at
+/// the slip of each particle, so that a jet pushes by its own speed; else at the mean slip.
 template <class Law, bool Local>
 struct DragPass {
   Law law;

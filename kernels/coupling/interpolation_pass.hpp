@@ -6,18 +6,20 @@ namespace bedload::inline BL_VARIANT {
 
 /// What a grain found in the fluid around it, kept until the reaction is spread.
 struct GrainSurroundings {
-  Span<Real> inv_S;         ///< 0: dry
-  Span<Real> rho;           ///< intrinsic fluid density, kg/m3
-  Span<FlowSums<>> flow;    ///< by V_a W
-  Span<FlowSums<>> fast;    ///< by V_a W |u|
-  Span<Real> fast_slip;     ///< mean of |u| by that weight, m/s
-  Carriers stress, drag;    ///< weighted with phi_ja and with phi_ja K_ja
-  Span<Real3> lost_moment;  ///< of the stress that the grain takes at its centre instead of where the fluid is, N m
+  Span<Real> inv_S;       ///< 0: dry
+  Span<Real> rho;         ///< intrinsic fluid density, kg/m3
+  Span<FlowSums<>> flow;  ///< by V_a W
+  Span<FlowSums<>> fast;  ///< by V_a W |u|
+  Span<Real> fast_slip;   ///< mean of |u| by that weight, m/s
+  Carriers stress, drag;  ///< weighted with phi_ja and with phi_ja K_ja
+  Span<Real3>
+      lost_moment;  ///< of the stress that the grain takes at its centre instead of where the fluid is, N m
 };
 
-/// Grain j reads the fluid: porosity, what DragPass needs, and the moment that is lost as it takes its part of
-/// the stress at its own place; but not that of the part of its volume that walls cut off, which they bear.
-/// Moments: whether rotation and couple are wanted; Local: whether drag follows the slip of each particle.
+/// Grain j reads the fluid: porosity, what DragPass needs, and the moment that is lost as it takes its part
+/// of the stress at its own place; but not that of the part of its volume that walls cut off, which they
+/// bear. Moments: whether rotation and couple are wanted; Local: whether drag follows the slip of each
+/// particle.
 template <class W, bool Moments, bool Local>
 struct InterpolationPass {
   W w;

@@ -25,9 +25,10 @@ struct GrainVolumePass {
   }
 };
 
-/// eps_a = 1 - sum_j w_ja with w_ja = f_a V_j W(|r_a - r_j|; h_c) / s_j [harting14] Eq. 6, and the volume flux of
-/// the mixture, eps_a v_a + sum_j w_ja u_j. f_a is one but for fluid beside orifices and where the porosity would
-/// fall below its floor. With the same weights grains take their share of the stress (BuoyancyPass).
+/// eps_a = 1 - sum_j w_ja with w_ja = f_a V_j W(|r_a - r_j|; h_c) / s_j [harting14] Eq. 6, and the volume
+/// flux of the mixture, eps_a v_a + sum_j w_ja u_j. f_a is one but for fluid beside orifices and where the
+/// porosity would fall below its floor. With the same weights grains take their share of the stress
+/// (BuoyancyPass).
 template <class W>
 struct PorosityPass {
   W w;

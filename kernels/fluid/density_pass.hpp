@@ -10,27 +10,27 @@ namespace bedload::inline BL_VARIANT {
 /// no grains. Its adjoint is the pressure force of ForcePass, of which fluid and grains take the shares with
 /// which they make up q: what pressure does to both is what the energy of compression loses.
 /// Kick-drift-kick passes positions and velocities of the middle of the step, which makes it reversible.
-/// Walls count at rho0: with the density of their pressure, a wall that slides past resting fluid would change
-/// the fluid's density for as long as it slides.
-/// Continuity tells changes of density alone. Fluid that has been torn, whose density does not follow how
-/// thin it is, keeps what it then missed when it joins again, and would stand under pressure with room
-/// between its particles. So pressure fades where less of the kernel is filled than a plane surface would
-/// leave, as fast as it is high and the room wide, until the fluid fills its volume. Nor is continuity of the
-/// mixture that of the particles: what the gradient of the porosity in its sum differs from how the porosity
-/// changes along the way adds up, and fluid that has entered a bed may stand more closely than its volume allows.
-/// So among grains density grows where particles overfill the kernel by more than `slack`.
+/// Walls count at rho0: with the density of their pressure, a wall that slides past resting fluid would
+/// change the fluid's density for as long as it slides. Continuity tells changes of density alone. Fluid that
+/// has been torn, whose density does not follow how thin it is, keeps what it then missed when it joins
+/// again, and would stand under pressure with room between its particles. So pressure fades where less of the
+/// kernel is filled than a plane surface would leave, as fast as it is high and the room wide, until the
+/// fluid fills its volume. Nor is continuity of the mixture that of the particles: what the gradient of the
+/// porosity in its sum differs from how the porosity changes along the way adds up, and fluid that has
+/// entered a bed may stand more closely than its volume allows. So among grains density grows where particles
+/// overfill the kernel by more than `slack`.
 template <class W>
 struct DensityPass {
   W w;
   Span<const Real4> flux, m_state, wall_v_rho, wall_m_state;
-  Real diffusion;    ///< 2 delta h c [m2/s]
+  Real diffusion;     ///< 2 delta h c [m2/s]
   Real3 hydrostatic;  ///< rho0 g / c^2 [kg/m4]: how density grows downwards at rho0
   Real stiffening;    ///< and by which power of rho0 / rho elsewhere: gamma - 2
   Real rho0, dt;      ///< kg/m3, s
   Span<const Real> s;
   Span<Real> s_new;
   CutShare cut;
-  Real fading;  ///< of pressure where there is room [1/s]
+  Real fading;     ///< of pressure where there is room [1/s]
   Real spreading;  ///< of density where particles overfill their volume [1/s]
 
   static constexpr Real slack = Real(0.02);  ///< twice what the sum over particles at rest scatters

@@ -66,9 +66,9 @@ struct LayerForces {
     if (artificial.acts()) {
       const Real4 vb = v_rho[b];
       const Real rho_mean = Real(0.5) * (va.w + vb.w);
-      out.damping = artificial.term(vb.w * Real(k.volume), dot(va.xyz() - vb.xyz(), r), rho_mean, r2,
-                                    w.F(distance)) *
-                    r;
+      out.damping =
+          artificial.term(vb.w * Real(k.volume), dot(va.xyz() - vb.xyz(), r), rho_mean, r2, w.F(distance)) *
+          r;
     }
     return out;
   }

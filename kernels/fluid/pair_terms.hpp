@@ -1,6 +1,7 @@
 #pragma once
 // Accelerations that one SPH particle b gives particle a, per term; r = r_a - r_b, v = v_a - v_b; every term
-// is antisymmetric after times M_a. Among grains these are terms of the mixture: M = m / eps, v its volume flux.
+// is antisymmetric after times M_a. Among grains these are terms of the mixture: M = m / eps, v its volume
+// flux.
 
 #include "bedload/core/pack.hpp"
 

@@ -8,7 +8,7 @@ namespace bedload::inline BL_VARIANT {
 /// v += kick (acc + reaction); x += drift (v + xsph).
 struct KickDriftPass {
   Frame frame;
-  Real kick, drift;  ///< s
+  Real kick, drift;                       ///< s
   Span<const Real3> acc, reaction, xsph;  ///< reaction empty without grains
   Span<Real4> v_rho;
   Span<FluidPosition> x;

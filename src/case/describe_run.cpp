@@ -86,7 +86,8 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
   p("couple.wall_normalise", &c.wall_normalise,
     {.meaning = "a grain beside a wall has all its volume, and its buoyancy, on this side of it"});
   p("couple.spreading", &c.spreading,
-    {.meaning = "how fast fluid among grains whose particles overfill their volume grows denser, in c/h; 0 off",
+    {.meaning =
+         "how fast fluid among grains whose particles overfill their volume grows denser, in c/h; 0 off",
      .range = within(0, 1)});
   p("couple.S_dry", &c.S_dry,
     {.meaning = "a grain is dry where fluid fills less than this of the kernel that walls leave free",
@@ -99,8 +100,9 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
     {.meaning = "what slip drag follows",
      .family = "models",
      .choices = {{"mean", "the mean around the grain"},
-                 {"local", "that of each fluid particle: a jet pushes, and is stopped, by its own speed; but grains "
-                           "resist shear of the fluid over h_c, too"}}});
+                 {"local",
+                  "that of each fluid particle: a jet pushes, and is stopped, by its own speed; but grains "
+                  "resist shear of the fluid over h_c, too"}}});
   p("drag.law", &c.drag,
     {.meaning = "drag on a grain",
      .family = "laws",

@@ -44,6 +44,21 @@ std::string limits_text(const char* title, const std::vector<StepLimit>& limits)
 
 }  // namespace
 
+/// What numerical viscosities there are, as multiples of the fluid's own.
+std::string viscosity_text(const Config& c, const std::vector<Quantity>& numerical) {
+  if (numerical.empty()) return "";
+  std::string out = fmt::format("viscosity  {:.3g} m2/s", c.fluid.mu / c.fluid.rho0);
+  bool any = false;
+  for (const Quantity& q : numerical) {
+    if (!(q.value > 0)) continue;
+    std::string name = q.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    out += fmt::format("{} {} {:.3g} times that", any ? "," : "; numerical:", name, q.value);
+    any = true;
+  }
+  return out + (any ? "\n" : ", none of it numerical\n");
+}
+
 int check_case(const Options& options) {
   Prepared p = prepare(options);
   const Config& c = p.config;
@@ -68,6 +83,7 @@ int check_case(const Options& options) {
     const std::vector<StepLimit> steps = simulation->limits();
     std::vector<StepLimit> substeps = grain_limits(c);
     for (const StepLimit& limit : simulation->body_limits()) substeps.push_back(limit);
+    fmt::print("{}", viscosity_text(c, simulation->numerical_viscosity()));
     fmt::print("{}{}", limits_text("step", steps), limits_text("substep", substeps));
     check_fixed_steps(p, options, *simulation);
 

@@ -190,9 +190,10 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   with_kernel(kernel_, h_c_, [&](auto w) {
     with_flag(local_slip_, [&](auto local) {
       with_flag(angmom_, [&](auto couple) {
-        for_each_pair(fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
-                      DragRatePass<decltype(w), local, couple>{w, drag_shares(), levers(), grains.K,
-                                                               fluid.mass, fluid.v_rho, fluid.m_state, rate_});
+        for_each_pair(
+            fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
+            DragRatePass<decltype(w), local, couple>{w, drag_shares(), levers(), grains.K, fluid.mass,
+                                                     fluid.v_rho, fluid.m_state, rate_});
       });
     });
   });
@@ -200,7 +201,8 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   limits_ = dt * fastest_ > 1;
   if (limits_)
     for_each_pair(grains.owned(), fluid_of_grain_, to_fluid, range_,
-                  LimitPass{Real(dt), rate_, angmom_ ? Span<const Real>(lever_sum_) : Span<const Real>(), grains.K, grains.K_rot, stiffness_});
+                  LimitPass{Real(dt), rate_, angmom_ ? Span<const Real>(lever_sum_) : Span<const Real>(),
+                            grains.K, grains.K_rot, stiffness_});
 }
 
 void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
@@ -216,12 +218,13 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
   const LocalSlip slip{Real(dt), grains.K, grains.U, grains.omega_f};
   with_flag(angmom_, [&](auto couple) {
     with_flag(local_slip_, [&](auto local) {
-      for_each(grains.owned(),
-               SharePass<couple, local>{grains.impulse, grains.spin_impulse, surroundings(), drag_shares(), slip, reactions()});
+      for_each(grains.owned(), SharePass<couple, local>{grains.impulse, grains.spin_impulse, surroundings(),
+                                                        drag_shares(), slip, reactions()});
       with_kernel(kernel_, h_c_, [&](auto w) {
-        for_each_pair(fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
-                      ReactionPass<decltype(w), couple, local>{w, fluid.mass, fluid.m_state, by_slip_, reactions(),
-                                                               fluid.v_rho, fluid.reaction, fluid.drag_kick});
+        for_each_pair(
+            fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
+            ReactionPass<decltype(w), couple, local>{w, fluid.mass, fluid.m_state, by_slip_, reactions(),
+                                                     fluid.v_rho, fluid.reaction, fluid.drag_kick});
       });
     });
   });
@@ -231,10 +234,10 @@ void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const 
   pack(grains);
   volumes(grains, pose, dt);
   with_kernel(kernel_, h_c_, [&](auto w) {
-    for_each_pair(fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
-                  PorosityPass<decltype(w)>{w, eps_min_, orifice_share(), frame_, fluid.x, volume_, fluid.v_rho,
-                                            fluid.mass, fluid.eps, fluid.solid_factor, fluid.flux,
-                                            fluid.m_state});
+    for_each_pair(
+        fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
+        PorosityPass<decltype(w)>{w, eps_min_, orifice_share(), frame_, fluid.x, volume_, fluid.v_rho,
+                                  fluid.mass, fluid.eps, fluid.solid_factor, fluid.flux, fluid.m_state});
   });
 }
 
@@ -253,6 +256,23 @@ void Coupling::push(const FluidStore& fluid, GrainStore& grains, Span<const Body
   });
   for_each(grains.owned(), BuoyancyKick{Real(kick), Real(mass_per_r3_), !held && kick > 0, buoyancy_,
                                         grains.radius, grains.fluid_force, grains.v});
+}
+
+double Coupling::bed_viscosity(double porosity, double d) const {
+  if (!local_slip_) return 0;
+  double beta = 0, second = 0;  // kg/(m3 s); mean of s^2 over the kernel, m2
+  with_drag_law(drag_law_, [&](auto law) {
+    beta =
+        (1 - porosity) * 6 / (M_PI * d * d * d) * double(law.K(Real(porosity), Real(d), 1000, Real(mu_), 0));
+  });
+  with_kernel(kernel_, h_c_, [&](auto w) {
+    constexpr int shells = 1000;
+    for (int k = 0; k < shells; ++k) {
+      const double r = (k + 0.5) * range_ / shells;
+      second += 4 * M_PI * r * r * r * r * double(w.W(Real(r))) * range_ / shells;
+    }
+  });
+  return beta * second / 6;
 }
 
 double Coupling::stable_dt() const {

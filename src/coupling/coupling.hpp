@@ -1,10 +1,11 @@
 #pragma once
 // Exchange of volume, force and momentum between grains and fluid (unresolved, locally averaged).
 //
-// Fluid and grains make up a mixture: a fluid particle stands for the volume V_a = m_a / (eps_a rho_a), of which
-// grain j holds w_ja, and the fluid solver moves that volume as if all of it were fluid. The stress on it then
-// falls to fluid and grains by eps_a and w_ja, the shares with which their velocities make up the volume flux that
-// its density balances: momentum is kept pair by pair, and what one does to the other is no source of energy.
+// Fluid and grains make up a mixture: a fluid particle stands for the volume V_a = m_a / (eps_a rho_a), of
+// which grain j holds w_ja, and the fluid solver moves that volume as if all of it were fluid. The stress on
+// it then falls to fluid and grains by eps_a and w_ja, the shares with which their velocities make up the
+// volume flux that its density balances: momentum is kept pair by pair, and what one does to the other is no
+// source of energy.
 //
 // Order in a step, everything at time n until the fluid drifts:
 //   gather    grains read the fluid and get velocity and drag coefficients, held for the step;
@@ -45,20 +46,25 @@ class Coupling {
   void rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid, const GrainStore& grains,
                      const CellGridView& grain_grid, double skin);
 
-  /// Fills eps, wetness, U, omega_f, K and K_rot of the grains. pose: of every wall body, on the device; dt (s): the fluid step for which they hold, which bounds K when the fluid is to take the
-  /// reaction. Waits for the device then.
+  /// Fills eps, wetness, U, omega_f, K and K_rot of the grains. pose: of every wall body, on the device; dt
+  /// (s): the fluid step for which they hold, which bounds K when the fluid is to take the reaction. Waits
+  /// for the device then.
   void gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt);
   /// Gives grains.impulse and spin_impulse, those of a step dt (s), back to the velocities of the fluid, and
   /// sets fluid.drag_kick to what they changed by and fluid.reaction; the fluid must not have changed since
   /// gather.
   void react(FluidStore& fluid, const GrainStore& grains, double dt);
-  /// Sets eps, flux and the mass in m_state of the fluid for the present positions; pose as in gather. dt (s):
-  /// the step in which the grains came here since gather, 0 where they have not moved.
+  /// Sets eps, flux and the mass in m_state of the fluid for the present positions; pose as in gather. dt
+  /// (s): the step in which the grains came here since gather, 0 where they have not moved.
   void porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, double dt);
-  /// Sets fluid_force of the grains from the fluid's theta, and adds `kick` (s) of what it changed by to their
-  /// velocities, unless they are held. After porosity, or for one-way coupling in its place.
+  /// Sets fluid_force of the grains from the fluid's theta, and adds `kick` (s) of what it changed by to
+  /// their velocities, unless they are held. After porosity, or for one-way coupling in its place.
   void push(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double kick, bool held);
 
+  /// With what viscosity (Pa s) drag by each slip resists shear of slow fluid in a bed of that porosity and
+  /// grain diameter (m): half of the dissipation beta |s . grad u|^2 over the kernel of h_c. Zero with the
+  /// mean slip.
+  double bed_viscosity(double porosity, double d) const;
   /// Largest fluid step that drag allows (s), after the last gather; infinite without a reaction.
   double stable_dt() const;
   /// Counts what is to be reported. Waits for the device.

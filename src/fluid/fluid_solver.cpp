@@ -191,19 +191,25 @@ class FluidSolverWith final : public FluidSolver {
                       fluid.xsph};
     run(fluid, walls, range(), pass);
     if (layers_.size() > 0)
-      for_each_pair(
-          fluid.owned(), fluid_wall_, PairSeparation{frame_, fluid.xp, walls.xp}, range(),
-          LayerPass<W>{layer(walls, pose, dt), flux(fluid), fluid.theta, fluid.acc_next});
+      for_each_pair(fluid.owned(), fluid_wall_, PairSeparation{frame_, fluid.xp, walls.xp}, range(),
+                    LayerPass<W>{layer(walls, pose, dt), flux(fluid), fluid.theta, fluid.acc_next});
     corrected_ = 0;
   }
 
   void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
                    Buffer<Vec3d>& force) override {
     force.resize(walls.size());
-    WallForcePass<W> pass{
-        wall_pair(), layer(walls, pose, dt), Real(mixed_ ? 0 : corrected_), fluid.acc,     fluid.acc_next,
-        flux(fluid), fluid.m_state,          walls.v_rho,                   walls.m_state, walls.v_visc,
-        force};
+    WallForcePass<W> pass{wall_pair(),
+                          layer(walls, pose, dt),
+                          Real(mixed_ ? 0 : corrected_),
+                          fluid.acc,
+                          fluid.acc_next,
+                          flux(fluid),
+                          fluid.m_state,
+                          walls.v_rho,
+                          walls.m_state,
+                          walls.v_visc,
+                          force};
     for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
 
@@ -216,7 +222,8 @@ class FluidSolverWith final : public FluidSolver {
   Real least() const { return -Real(config_.density.tension); }
   Real viscosity() const { return config_.visc.model == "none" ? Real(0) : Real(config_.fluid.mu); }
   ArtificialViscosity artificial() const {
-    return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c), Real(config_.fluid.h())};
+    return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c),
+            Real(config_.fluid.h())};
   }
   TensileTerm tensile() const {
     if (config_.tensile == 0) return {};

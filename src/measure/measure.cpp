@@ -263,9 +263,8 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
   };
   Vec3d wall_on_fluid;
   if (has_fluid()) {
-    const auto t =
-        sum_over<10>(fluid_.owned(), FluidTotals{frame_, fluid_solver_->eos(), config_.gravity, fluid_.x,
-                                                 fluid_.v_rho, fluid_.mass, fluid_.s});
+    const auto t = sum_over<10>(fluid_.owned(), FluidTotals{frame_, fluid_solver_->eos(), config_.gravity,
+                                                            fluid_.x, fluid_.v_rho, fluid_.mass, fluid_.s});
     out.push_back({"fluid_mass", "kg", t.v[0]});
     vec("fluid_momentum", "kg m/s", {t.v[1], t.v[2], t.v[3]});
     vec("fluid_angular_momentum", "kg m2/s", {t.v[4], t.v[5], t.v[6]});
@@ -377,8 +376,8 @@ std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
   if (p.type == "box") {
     double s[7] = {};
     if (p.phase == "fluid") {
-      const auto r = sum_over<7>(
-          fluid_.owned(), FluidBox{frame_, p.min, p.max, fluid_.x, fluid_.v_rho, fluid_.m_state, fluid_.mass});
+      const auto r = sum_over<7>(fluid_.owned(), FluidBox{frame_, p.min, p.max, fluid_.x, fluid_.v_rho,
+                                                          fluid_.m_state, fluid_.mass});
       std::copy(r.v, r.v + 7, s);
     } else {
       const auto r = sum_over<7>(

@@ -236,6 +236,7 @@ struct RunOutput::Impl {
         {"time", {{"value", simulation.time()}, {"unit", "s"}}},
         {"wall_time", {{"value", effort.wall_seconds}, {"unit", "s"}}},
         {"wall_time_of", to_json(simulation.time_spent())},
+        {"numerical_viscosity", to_json(simulation.numerical_viscosity())},
         {"particle_steps", effort.particle_steps},
         {"particle_steps_rate", {{"value", rate}, {"unit", "1/s"}}},
         {"memory",

@@ -80,7 +80,8 @@ void CoupledSimulation::advance_fluid(double dt) {
   FluidSolver& fluid = *fluid_solver_;
   const double half = last_kick(dt);
   fluid.kick_drift(fluid_, dt - half, dt, two_way());
-  // density follows from places and velocities in the middle of a kick-drift-kick step, the fluid's and the walls'
+  // density follows from places and velocities in the middle of a kick-drift-kick step, the fluid's and the
+  // walls'
   Span<const BodyPose> pose;
   if (walls_.size() > 0) {
     pose = motion_.poses_in_step(clock_.time + dt, half, dt);
@@ -159,6 +160,17 @@ std::vector<StepLimit> CoupledSimulation::limits() {
       std::min_element(out.begin(), out.end(), [](auto& a, auto& b) { return a.seconds < b.seconds; });
   if (least != out.end()) least->binds = true;
   return out;
+}
+
+std::vector<Quantity> CoupledSimulation::numerical_viscosity() const {
+  const FluidConfig& f = config_.fluid;
+  if (!has_fluid() || f.mu == 0) return {};
+  const double own = f.mu / f.rho0, sound = f.h() * f.c;
+  const double artificial = config_.visc.alpha * sound / 20 / own;
+  return {{"artificial_bulk", "-", artificial},
+          {"artificial_bed", "-", two_way() ? artificial : 0},
+          {"local_slip_bed", "-", two_way() ? coupling_->bed_viscosity(0.4, config_.grain.d_max) / f.mu : 0},
+          {"density_diffusion", "-", config_.density.delta * sound / own}};
 }
 
 std::vector<StepLimit> CoupledSimulation::body_limits() const {

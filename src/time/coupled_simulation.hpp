@@ -28,6 +28,7 @@ class CoupledSimulation final : public Simulation {
   Counts counts() const override { return {fluid_.size(), walls_.size(), grains_.size()}; }
   std::vector<StepLimit> limits() override;
   std::vector<StepLimit> body_limits() const override;
+  std::vector<Quantity> numerical_viscosity() const override;
   std::size_t bytes() const override { return bytes_held(); }
   std::vector<Quantity> time_spent() const override;
 
@@ -54,7 +55,7 @@ class CoupledSimulation final : public Simulation {
   void upload(const Setup& setup);
   void lay_fluid();  ///< mass for the porosity, hydrostatic pressure
   void advance_fluid(double dt);
-  void share_volume(double dt);  ///< between fluid and grains that have both moved
+  void share_volume(double dt);                    ///< between fluid and grains that have both moved
   void evaluate_fluid(double dt, double predict);  ///< density known: state, walls, forces
   void share_stress(double dt, double kick);       ///< forces known: what of them falls to the grains
   double longest_substep();                        ///< s, that grains and free bodies allow

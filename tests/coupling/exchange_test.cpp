@@ -51,8 +51,9 @@ struct Balances {
   Balance momentum, spin, force, moment;
 };
 
-/// Impulse and force on both phases over one gather and react, and their moments about the origin. Of the stress
-/// M theta on the mixture that each fluid particle stands for, it takes m theta and leaves the rest to the grains.
+/// Impulse and force on both phases over one gather and react, and their moments about the origin. Of the
+/// stress M theta on the mixture that each fluid particle stands for, it takes m theta and leaves the rest to
+/// the grains.
 Balances exchange(CoupledBox& box, double dt) {
   const auto before = box.fluid.v_rho.values();
   box.coupling.porosity(box.fluid, box.grains, {}, 0);
@@ -285,8 +286,9 @@ TEST(Exchange, UniformStressPushesAGrainAsItsVolume) {
   const auto flow = box.grains.wetness.values();
   for (std::size_t j = 0; j < F.size(); ++j) {
     EXPECT_GT(flow[j], 0.3);  // fluid lies at random
-    if (flow[j] < 1)          // as much of it as there is
+    if (flow[j] < 1) {        // as much of it as there is
       EXPECT_LT(norm(Vec3d(F[j]) - expected * (0.05 + 0.9 * flow[j])), 4 * kInvariant * norm(expected));
+    }
   }
   EXPECT_NEAR(expected.z, 1000 * 9.81 * volume, 1e-9);  // buoyancy is of the intrinsic density
 }

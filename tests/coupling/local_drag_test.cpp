@@ -92,8 +92,7 @@ TEST(LocalDrag, BesideAnOrificeIsThatOfTheBed) {
     box.coupling.porosity(box.fluid, box.grains, {}, 0);
     auto v_rho = box.fluid.v_rho.values();
     const auto eps = box.fluid.eps.values();
-    for (std::size_t a = 0; a < v_rho.size(); ++a)
-      v_rho[a] = {Real3(0, 0, Real(flux / eps[a])), 1000};
+    for (std::size_t a = 0; a < v_rho.size(); ++a) v_rho[a] = {Real3(0, 0, Real(flux / eps[a])), 1000};
     box.fluid.v_rho.assign(v_rho);
     box.coupling.gather(box.fluid, box.grains, {}, 1e-6);
     std::vector<double> all;

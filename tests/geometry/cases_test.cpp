@@ -20,9 +20,12 @@ TEST(Cases, AreLaidWithoutOtherWarningsThanTheyExplain) {
   };
   const std::map<std::string, Count> expected{
       {"agitated_tube/case.toml", {9775, 0, {"wall.body \"agitator\""}}},
+      {"constant_porosity_block/block_065.toml", {9 * 9 * 60, 2112}},
       {"dam_break_single_phase/case.toml", {37 * 73 * 10, 0}},
       {"dam_break_two_phase/case.toml", {17 * 33 * 50, 7762}},
       {"grain_heap/case.toml", {0, 2000}},
+      {"hindered_settling/sand_060.toml", {9 * 9 * 60, 2432}},
+      {"hindered_settling/sand_080.toml", {9 * 9 * 60, 1225}},
       {"hopper/case.toml", {0, 5000}},
       {"hydrostatic_column/case.toml", {8 * 8 * 25, 0}},
       {"injection_cell/case.toml", {0, 4948}},
@@ -32,6 +35,7 @@ TEST(Cases, AreLaidWithoutOtherWarningsThanTheyExplain) {
       {"sphere_settling/air.toml", {20 * 20 * 30, 1}},
       {"sphere_settling/glycerol.toml", {20 * 20 * 30, 1}},
       {"sphere_settling/water.toml", {20 * 20 * 30, 1}},
+      {"still_bed/case.toml", {12 * 12 * 20, 600}},
       {"stirred_tank/case.toml", {49680, 0, {"wall.body \"impeller\""}}},
       {"taylor_green/case.toml", {50 * 50 * 8, 0}},
   };

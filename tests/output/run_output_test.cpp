@@ -118,6 +118,7 @@ TEST_F(RunFolder, SummaryTellsHowTheRunEnded) {
   EXPECT_EQ(summary["time"]["value"], s.time());
   EXPECT_EQ(summary["wall_time_of"]["fluid"]["value"], 3.0);
   EXPECT_EQ(summary["wall_time_of"]["fluid"]["unit"], "s");
+  EXPECT_EQ(summary["numerical_viscosity"]["artificial_bulk"]["value"], 12.5);
   EXPECT_EQ(summary["particle_steps_rate"]["value"], 50.0);
   EXPECT_EQ(summary["memory"]["solver"]["value"], 12345);
   EXPECT_EQ(summary["warnings"], nlohmann::json::array({"Ma = 0.2 is large"}));

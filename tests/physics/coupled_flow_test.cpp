@@ -185,8 +185,26 @@ double decay_of_a_shear_wave(double Re, double phi) {
 TEST(SlowMixedCoupledFlow, AShearWaveInASuspensionDecaysByTheViscosityOfItsFluid) {
   for (const double Re : {10.0, 100.0, 500.0}) {
     const double water = decay_of_a_shear_wave(Re, 0), suspension = decay_of_a_shear_wave(Re, 0.3);
-    std::cout << "Re " << Re << ": water " << water << ", suspension " << suspension << "\n";
     EXPECT_NEAR(suspension / water, 1, 0.05) << Re;
+  }
+}
+
+TEST(CoupledFlow, TellsItsNumericalViscosity) {
+  Slurry slurry(6, 0.3);
+  Config& c = slurry.config;
+  c.fluid.mu = 1e-3;
+  c.visc.alpha = 0.02;
+  c.couple.drag = "stokes";
+  for (const char* slip : {"mean", "local"}) {
+    c.couple.slip = slip;
+    const auto told = make_coupled(c, slurry.setup)->numerical_viscosity();
+    EXPECT_NEAR(reading(told, "artificial_bulk"), 0.02 * c.fluid.h() * c.fluid.c / 20 / 1e-6, 1e-6);
+    EXPECT_EQ(reading(told, "artificial_bed"), reading(told, "artificial_bulk"));
+    EXPECT_EQ(reading(told, "density_diffusion"), 0) << "off in these tests";
+    // beta s^2 / 6 with beta = 18 phi mu / d2 and s^2 = 0.8 h_c2 of Wendland's kernel
+    const double d = c.grain.d, expected = 18 * 0.6 / (d * d) * 0.8 * c.couple.hc * c.couple.hc / 6;
+    EXPECT_NEAR(reading(told, "local_slip_bed"), slip == std::string("local") ? expected : 0,
+                1e-3 * expected);
   }
 }
 
@@ -291,7 +309,6 @@ void expect_still_bed(const char* floor, double share = 0.03, double fastest_all
     fastest = std::max(fastest, reading(d, "fluid_speed_max"));
     if (k > 5) lift += reading(d, "force_fluid_on_grains_z") / 5;
   }
-  std::cout << "fastest " << fastest << " m/s, lift " << lift / (9.81 * 1000 * 567 * pi / 6 * std::pow(2.7e-3, 3)) << "\n";
   EXPECT_LT(fastest, fastest_allowed);
   const double buoyancy = 9.81 * 1000 * 567 * pi / 6 * 2.7e-3 * 2.7e-3 * 2.7e-3;
   EXPECT_NEAR(lift / buoyancy, 1, share);
