@@ -1,8 +1,7 @@
 #pragma once
 // How much of a grain's exchange falls to a fluid particle: V_a W(|r_a - r_j|; h_c), divided by its sum S_j
 // over a grain's fluid the weight phi_ja. Interpolation to the grain and spreading back use the same weights,
-// which makes momentum exact and drag dissipative; the couple that keeps angular momentum too may give back
-// up to K |omega_f x arm|2 / 4 W, beside a surface of fluid that turns.
+// which makes momentum exact and drag dissipative.
 
 #include "kernels/coupling/orifice_share.hpp"
 

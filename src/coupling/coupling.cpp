@@ -27,11 +27,11 @@ void with_flag(bool flag, F&& f) {
 /// log2 of the lanes that share a row: rows are long, and what four lanes read lies side by side.
 unsigned lanes_for(Index rows) { return min_of(max_of(lane_bits(rows), 2u), kSliceBits); }
 
-struct LargestRate {
+struct Largest {
   using Value = Real;
-  Span<const Real> rate;
+  Span<const Real> of;
   BL_HD Value identity() const { return 0; }
-  BL_HD Value operator()(Index a) const { return rate[a]; }
+  BL_HD Value operator()(Index i) const { return of[i]; }
   BL_HD void combine(Value& into, const Value& v) const { into = max_of(into, v); }
 };
 
@@ -197,8 +197,9 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
       });
     });
   });
-  fastest_ = reduce({0, Index(rate_.size())}, LargestRate{rate_});
-  limits_ = dt * fastest_ > 1;
+  fastest_ = reduce({0, Index(rate_.size())}, Largest{rate_});
+  const double lever = angmom_ ? reduce({0, n}, Largest{lever_sum_}) : 1;
+  limits_ = dt * fastest_ * lever > 1;
   if (limits_)
     for_each_pair(grains.owned(), fluid_of_grain_, to_fluid, range_,
                   LimitPass{Real(dt), rate_, angmom_ ? Span<const Real>(lever_sum_) : Span<const Real>(),

@@ -80,6 +80,7 @@ void CoupledSimulation::advance_fluid(double dt) {
   FluidSolver& fluid = *fluid_solver_;
   const double half = last_kick(dt);
   fluid.kick_drift(fluid_, dt - half, dt, two_way());
+  if (two_way()) share_volume(dt);
   // density follows from places and velocities in the middle of a kick-drift-kick step, the fluid's and the
   // walls'
   Span<const BodyPose> pose;
@@ -87,7 +88,6 @@ void CoupledSimulation::advance_fluid(double dt) {
     pose = motion_.poses_in_step(clock_.time + dt, half, dt);
     WallMotion::place(frame_, walls_, pose);
   }
-  if (two_way()) share_volume(dt);
   fluid.pack(fluid_, walls_, half);
   fluid.density(fluid_, walls_, pose, dt);
   fluid.accept_density(fluid_);

@@ -43,6 +43,21 @@ if(BEDLOAD_PYTHON)
   set_tests_properties(tools PROPERTIES LABELS quick TIMEOUT 300)
 endif()
 
+# Small cases as a user runs them, against what they should come to.
+if(BEDLOAD_PYTHON AND "mixed" IN_LIST BEDLOAD_PRECISIONS)
+  foreach(case still_bed/case:expect hindered_settling/sand_080:expect_sand_080 sphere_settling/water:expect_water
+               sphere_settling/glycerol:expect_glycerol)
+    string(REGEX MATCH "^(.*)/(.*):(.*)$" _ ${case})
+    set(folder ${CMAKE_SOURCE_DIR}/cases/${CMAKE_MATCH_1})
+    set(results ${CMAKE_BINARY_DIR}/cases/${CMAKE_MATCH_1}_${CMAKE_MATCH_2})
+    add_test(NAME case.${CMAKE_MATCH_1}.${CMAKE_MATCH_2}
+             COMMAND bash -c "'$<TARGET_FILE:bedload>' run '${folder}/${CMAKE_MATCH_2}.toml' --out '${results}' \
+--overwrite --quiet && '${BEDLOAD_PYTHON}' '${CMAKE_SOURCE_DIR}/tools/compare.py' '${folder}/${CMAKE_MATCH_3}.toml' \
+'${results}'")
+    set_tests_properties(case.${CMAKE_MATCH_1}.${CMAKE_MATCH_2} PROPERTIES LABELS slow TIMEOUT 900)
+  endforeach()
+endif()
+
 # Times, but asserts nothing.
 add_executable(bedload_bench tests/bench/bench.cpp)
 target_link_libraries(bedload_bench PRIVATE bedload_host bedload_device)
