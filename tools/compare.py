@@ -7,9 +7,10 @@ CASE is a case folder with an expect.toml, or such a file itself. Prints one lin
 exits with 1 if one failed, with 2 if it cannot be evaluated. A [[check]] has a `name`, a `kind`
 and, if it is only a plausibility check, `advice = true`: missing it is shown but does not fail.
 
-A series over time is `data = "probes/front.csv"` with `column`, or `data = "fluid.vtkhdf"` with
-`field`, `component` (omit for the magnitude) and `reduce` = "mean" (default), "max", "min" or
-"mean_square" over all particles. `factor` multiplies it, `time_factor` its time; `from_start = true`
+A series over time is `data = "probes/front.csv"` with `column`, one name or several whose values are added, or
+`data = "fluid.vtkhdf"` with `field` (or "position"), `component` (omit for the magnitude) and `reduce` = "mean"
+(default), "max", "min", "mean_square", "deviation" (standard deviation) or a share of 1 (0.99: what 99 % of the
+particles do not exceed). `factor` multiplies it, `time_factor` its time; `from_start = true`
 subtracts its first value.
 
 kind       keys                                            passes if
@@ -26,6 +27,7 @@ value      series; statistic = final, mean, max, min,      low <= value <= high
 decay      series; time_range; rate, tolerance             fitted exponential rate (1/s) is within
                                                            `tolerance` (relative) of `rate`
 below      series; other_data, other_column; slack         series <= other + slack at all times
+falls      series; time_range; slack                       series never rises by more than `slack`
 """
 
 import sys
@@ -53,7 +55,7 @@ class Check:
 
     def evaluate(self):
         kinds = {"curve": self.curve, "profile": self.profile, "value": self.value, "decay": self.decay,
-                 "below": self.below}
+                 "below": self.below, "falls": self.falls}
         kind = self.need("kind")
         if kind not in kinds:
             raise SystemExit(f"{self.name}: kind = '{kind}' must be one of {', '.join(kinds)}")
@@ -71,11 +73,12 @@ class Check:
         data = self.need(prefix + "data")
         if data.endswith(".csv"):
             table = Table(self.run_dir / data)
-            t, y = table.column(table.names[0]), table.column(self.need(prefix + "column"))
+            names = self.need(prefix + "column")
+            names = [names] if isinstance(names, str) else names
+            t, y = table.column(table.names[0]), sum(table.column(name) for name in names)
         else:
             frames = Frames(self.run_dir / data)
-            reduce = {"mean": np.mean, "max": np.max, "min": np.min, "mean_square": lambda v: np.mean(v * v)}
-            pick = reduce[self.spec.get("reduce", "mean")]
+            pick = self.reduction()
             t = np.array(frames.times)
             y = np.array([pick(self.field(frames, k)) for k in range(len(t))])
         if len(t) == 0:
@@ -84,8 +87,20 @@ class Check:
             y = y - y[0]
         return t * self.spec.get("time_factor", 1.0), y * self.spec.get("factor", 1.0)
 
+    def reduction(self):
+        """What makes one number of all particles' values."""
+        reduce = {"mean": np.mean, "max": np.max, "min": np.min, "mean_square": lambda v: np.mean(v * v),
+                  "deviation": np.std}
+        how = self.spec.get("reduce", "mean")
+        if isinstance(how, (int, float)) and 0 <= how <= 1:
+            return lambda v: np.quantile(v, how)
+        if how not in reduce:
+            raise SystemExit(f"{self.name}: reduce = '{how}' must be one of {', '.join(reduce)} or a number within 0..1")
+        return reduce[how]
+
     def field(self, frames, k):
-        values = frames.get(k, self.need("field"))
+        name = self.need("field")
+        values = frames.position(k) if name == "position" else frames.get(k, name)
         if values is None:
             raise SystemExit(f"{frames.path}: has no field '{self.spec['field']}', only {frames.fields()}")
         if values.ndim == 1:
@@ -189,6 +204,16 @@ class Check:
         slack = self.spec.get("slack", 0.0)
         text = f"at most {excess[k]:.4g} above (<= {slack:g}), at t = {t[k]:.4g}"
         return Result(bool(excess[k] <= slack), text)
+
+    def falls(self):
+        t, y = self.series()
+        t, y = t[self.window(t)], y[self.window(t)]
+        if len(t) < 2:
+            return Result(False, "fewer than two values in time_range")
+        rise = y - np.minimum.accumulate(y)
+        k, slack = int(np.argmax(rise)), self.spec.get("slack", 0.0)
+        return Result(bool(rise[k] <= slack), f"rises by at most {rise[k]:.4g} (<= {slack:g}), at t = {t[k]:.4g}; "
+                                              f"from {y[0]:.6g} to {y[-1]:.6g}")
 
 
 def main(arguments):

@@ -1,15 +1,14 @@
 #pragma once
-#include "bedload/core/span.hpp"
+#include "kernels/coupling/fluid_records.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Stress on the mixture around each fluid particle as far as it counts grains, f_a M_a theta_a, N.
 struct PushPass {
   Span<const Real> solid_factor;
   Span<const Real3> theta;
   Span<const Real4> m_state;
   Span<Real4> push;
-  BL_HD void operator()(Index a) const { push[a] = {solid_factor[a] * m_state[a].x * theta[a], 0}; }
+  BL_HD void operator()(Index a) const { push[a] = push_record(solid_factor[a], theta[a], m_state[a]); }
 };
 
 /// Force of the fluid's stress on a grain, its buoyancy: sum_a w_ja M_a theta_a, the part that the fluid,

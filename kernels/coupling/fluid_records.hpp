@@ -10,9 +10,14 @@ namespace bedload::inline BL_VARIANT {
 /// Volume of fluid and grains that a fluid particle stands for, m3.
 BL_HD Real mixture_volume(const Real4& m_state) { return m_state.x / m_state.z; }
 
+/// Stress on the mixture around a fluid particle as far as it counts grains, f_a M_a theta_a, N; w: V_a, m3.
+BL_HD Real4 push_record(Real solid_factor, const Real3& theta, const Real4& m_state) {
+  return {solid_factor * m_state.x * theta, mixture_volume(m_state)};
+}
+
 /// What grains read of a fluid particle, besides its velocity, in few loads.
 struct FluidRecords {
-  Span<Real4> push;    ///< stress on the mixture, as far as it counts grains, N; w: V_a, m3
+  Span<Real4> push;    ///< push_record
   Span<Real4> solids;  ///< porosity; density, kg/m3; share of the solids around that count beside orifices
 };
 
@@ -27,7 +32,7 @@ struct RecordPass {
 
   BL_HD void operator()(Index a) const {
     const Real4 m = m_state[a];
-    records.push[a] = {solid_factor[a] * m.x * theta[a], mixture_volume(m)};
+    records.push[a] = push_record(solid_factor[a], theta[a], m);
     records.solids[a] = {m.w, m.z, counted(coordinates(frame, x[a])), 0};
   }
 };

@@ -1,5 +1,6 @@
 #pragma once
 #include "bedload/neighbours/for_each_pair.hpp"
+#include "kernels/fluid/drive.hpp"
 #include "kernels/fluid/layer_force.hpp"
 #include "kernels/fluid/pair_terms.hpp"
 
@@ -36,8 +37,8 @@ struct ForcePass {
   ArtificialViscosity artificial;
   TensileTerm tensile;
   Real xsph_factor;
-  Real3 gravity;  ///< with the driving force per mass and minus the frame's acceleration, m/s2
-  Real3 drive;    ///< force density, N/m3
+  Real3 gravity;  ///< minus the frame's acceleration, m/s2
+  Drive drive;
   Span<Real3> theta, acc, xsph;
 
   template <class N = Real>
@@ -70,9 +71,8 @@ struct ForcePass {
     into.xsph += other.xsph;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    const Real rho = sum.m.z, eps = sum.m.w;
     theta[a] = sum.theta;
-    acc[a] = sum.theta + gravity + drive / (eps * rho);
+    acc[a] = sum.theta + gravity + drive(a, m_state[a]);
     if (xsph_factor > 0) xsph[a] = sum.xsph;
   }
 };

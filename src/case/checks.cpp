@@ -31,6 +31,9 @@ class Checks {
       throw CaseError(root_.place() + ": nothing to compute; give [fluid], [grain] or both");
     for (int k = 0; k < 3; ++k) {
       if (!c.domain.periodic[k]) continue;
+      if (c.drive.rate[k] != 0)
+        fail("drive.rate", to_text(c.drive.rate),
+             fmt::format("must be 0 along {}, which is periodic and has no centre", "xyz"[k]));
       period(k, 2 * c.fluid.kappa() * c.fluid.h(), "2 kappa h", c.fluid.present);
       period(k, 2 * c.fluid.kappa() * c.couple.hc, "2 kappa h_c", coupled());
       period(k, 2 * c.grain.d_max, "4 R", c.grain.present);

@@ -72,7 +72,8 @@ void describe_fluid_models(Parameters& p, Config& c) {
   p("eos.clip_negative", &c.eos.clip_negative, {.meaning = "no pressure below zero"});
   p("density.delta", &c.density.delta, {.meaning = "density diffusion; 0 off", .range = within(0, 0.2)});
   p("density.consolidation", &c.density.consolidation,
-    {.meaning = "how fast pressure fades where the fluid leaves room, in c/h; 0 off", .range = within(0, 10)});
+    {.meaning = "how fast pressure fades where the fluid leaves room, in c/h; 0 off",
+     .range = within(0, 10)});
   p("density.tension", &c.density.tension,
     {.meaning = "torn fluid cavitates below rho/rho0 - 1 = -tension", .range = within(1e-4, 0.5)});
   p("visc.model", &c.visc.model,
@@ -82,7 +83,10 @@ void describe_fluid_models(Parameters& p, Config& c) {
   p("visc.alpha", &c.visc.alpha,
     {.meaning = "artificial viscosity, linear [monaghan92]", .range = within(0, 1)});
   p("visc.beta", &c.visc.beta, {.meaning = "artificial viscosity, quadratic", .range = within(0, 2)});
-  p("drive.f", &c.drive, {.unit = "N/m3", .meaning = "constant force density on the fluid"});
+  p("drive.f", &c.drive.f, {.unit = "N/m3", .meaning = "constant force per volume of space, on the fluid"});
+  p("drive.rate", &c.drive.rate,
+    {.unit = "1/s", .meaning = "per axis; fluid is pulled by -rate^2 (r - centre) in m/s2"});
+  p("drive.centre", &c.drive.centre, {.unit = "m", .meaning = "where to"});
 }
 
 }  // namespace bedload

@@ -173,22 +173,10 @@ class FluidSolverWith final : public FluidSolver {
   }
 
   void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
-    ForcePass<W> pass{w_,
-                      wall_pair(),
-                      flux(fluid),
-                      fluid.m_state,
-                      walls.v_rho,
-                      walls.m_state,
-                      walls.v_visc,
-                      viscosity(),
-                      artificial(),
-                      tensile(),
-                      Real(config_.xsph),
-                      gravity_,
-                      Real3(config_.drive),
-                      fluid.theta,
-                      fluid.acc_next,
-                      fluid.xsph};
+    ForcePass<W> pass{w_,           wall_pair(),   flux(fluid),        fluid.m_state,
+                      walls.v_rho,  walls.m_state, walls.v_visc,       viscosity(),
+                      artificial(), tensile(),     Real(config_.xsph), gravity_,
+                      drive(fluid), fluid.theta,   fluid.acc_next,     fluid.xsph};
     run(fluid, walls, range(), pass);
     if (layers_.size() > 0)
       for_each_pair(fluid.owned(), fluid_wall_, PairSeparation{frame_, fluid.xp, walls.xp}, range(),
@@ -278,6 +266,12 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
 
 double FluidSolver::repulsion_cap(double dt) const {
   return dt > 0 ? 0.1 * config_.fluid.dx / (dt * dt) : 1e30;
+}
+
+Drive FluidSolver::drive(const FluidStore& fluid) const {
+  const DriveConfig& d = config_.drive;
+  const Vec3d spring{d.rate.x * d.rate.x, d.rate.y * d.rate.y, d.rate.z * d.rate.z};
+  return {frame_, fluid.x, d.f, spring, d.centre, d.pulls()};
 }
 
 WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const {

@@ -7,6 +7,7 @@
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/walls.hpp"
+#include "kernels/fluid/drive.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
 #include "kernels/fluid/layer_force.hpp"
 #include "kernels/fluid/pair_terms.hpp"
@@ -32,6 +33,7 @@ class FluidSolver {
   double range() const { return kappa_ * config_.fluid.h(); }            ///< kernel support, m
   double skin() const { return config_.skin_fluid * config_.fluid.dx; }  ///< m
   const EquationOfState& eos() const { return eos_; }
+  Drive drive(const FluidStore& fluid) const;
   /// Gravity minus the frame's acceleration (m/s2), for the next walls() and forces(). density() takes it for
   /// its hydrostatic slope, as it was for the state from which it starts.
   void set_gravity(const Vec3d& g) { gravity_ = Real3(g); }

@@ -70,6 +70,7 @@ struct FluidTotals {
   Frame frame;
   EquationOfState eos;
   Vec3d gravity;  ///< true gravity: a frame's acceleration has no potential energy here
+  Drive drive;    ///< its constant part has none either
   Span<const FluidPosition> x;
   Span<const Real4> v_rho;
   Span<const Real> mass, s;
@@ -79,7 +80,7 @@ struct FluidTotals {
     out[0] = m;
     for (int k = 0; k < 3; ++k) out[1 + k] = m * v[k], out[4 + k] = m * l[k];
     out[7] = 0.5 * m * norm2(v);
-    out[8] = -m * dot(gravity, at);
+    out[8] = m * (drive.energy(a) - dot(gravity, at));
     out[9] = m * eos.energy(s[a]);
   }
 };
@@ -88,16 +89,18 @@ struct FluidTotals {
 /// share of the stress.
 struct FluidLoads {
   double rate;  ///< 1 / step, 1/s
-  Vec3d gravity, drive;
+  Vec3d gravity;
+  Drive drive;
   Span<const Real> mass;
   Span<const Real4> m_state;
   Span<const Real3> theta, acc, reaction, drag_kick;
   BL_HD void operator()(Index a, double* out) const {
     const double m = mass[a];
     const Real4 state = m_state[a];
+    const Real3 driven = drive(a, state);
     for (int k = 0; k < 3; ++k) {
       const double grains = (double(state.x) - m) * theta[a][k];
-      out[k] = m * (gravity[k] + drive[k] / (double(state.w) * state.z));
+      out[k] = m * (gravity[k] + driven[k]);
       out[3 + k] = m * double(acc[a][k]) + grains;
       if (reaction) out[6 + k] = m * (double(reaction[a][k]) + rate * drag_kick[a][k]) - grains;
     }
@@ -263,8 +266,10 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
   };
   Vec3d wall_on_fluid;
   if (has_fluid()) {
-    const auto t = sum_over<10>(fluid_.owned(), FluidTotals{frame_, fluid_solver_->eos(), config_.gravity,
-                                                            fluid_.x, fluid_.v_rho, fluid_.mass, fluid_.s});
+    const Drive drive = fluid_solver_->drive(fluid_);
+    const auto t =
+        sum_over<10>(fluid_.owned(), FluidTotals{frame_, fluid_solver_->eos(), config_.gravity, drive,
+                                                 fluid_.x, fluid_.v_rho, fluid_.mass, fluid_.s});
     out.push_back({"fluid_mass", "kg", t.v[0]});
     vec("fluid_momentum", "kg m/s", {t.v[1], t.v[2], t.v[3]});
     vec("fluid_angular_momentum", "kg m2/s", {t.v[4], t.v[5], t.v[6]});
@@ -274,8 +279,8 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     for (const LoadSum& load : wall_loads()) wall_on_fluid -= load.force();
     const auto l = sum_over<9>(
         fluid_.owned(),
-        FluidLoads{clock_.last_dt > 0 ? 1 / clock_.last_dt : 0, gravity_.at(clock_.time), config_.drive,
-                   fluid_.mass, fluid_.m_state, fluid_.theta, fluid_.acc,
+        FluidLoads{clock_.last_dt > 0 ? 1 / clock_.last_dt : 0, gravity_.at(clock_.time), drive, fluid_.mass,
+                   fluid_.m_state, fluid_.theta, fluid_.acc,
                    two_way() ? Span<const Real3>(fluid_.reaction) : Span<const Real3>(), fluid_.drag_kick});
     const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
     vec("force_walls_on_fluid", "N", wall_on_fluid);

@@ -221,6 +221,57 @@ velocity = [0.5, 0, 0]
   expect_restart_is_bit_equal(*s, config, 100);
 }
 
+TEST(Inlet, GoesOnBitForBitWithABodyAmongGrains) {
+  const Config config = config_of(kDuct + R"(
+[[shape]]
+name = "duct"
+kind = "box"
+min = [0, 0, 0]
+max = [0.2, 0.08, 0.08]
+[[shape]]
+name = "block"
+kind = "box"
+min = [0.06, 0.02, 0.02]
+max = [0.1, 0.06, 0.06]
+[[shape]]
+name = "water"
+kind = "difference"
+of = ["duct", "block"]
+[[fluid.fill]]
+shape = "water"
+velocity = [0.5, 0, 0]
+[grain]
+d = 0.008
+E = 1e6
+[[grain.fill]]
+min = [0, 0, 0]
+max = [0.04, 0.08, 0.08]
+packing_fraction = 0.2
+velocity = [0.5, 0, 0]
+[[grain_inlet]]
+name = "sand"
+shape = "disc"
+centre = [0.01, 0.04, 0.04]
+direction = [1, 0, 0]
+radius = 0.02
+rate = 0.2
+velocity = [0.5, 0, 0]
+[[wall.body]]
+name = "block"
+shape = "block"
+[wall.body.free]
+density = 800
+velocity = [0.3, 0, 0.1]
+)");
+  auto s = started(config);
+  run_until(*s, 0.05);
+  ASSERT_GT(reading(*s, "inlet_feed_mass"), 0);
+  const auto block = s->body_state(0);
+  ASSERT_GT(std::abs(reading(block, "force_by_grains_x")) + std::abs(reading(block, "angular_velocity_y")),
+            0);
+  expect_restart_is_bit_equal(*s, config, 100);
+}
+
 /// Water let in from below stands as high among grains as their voids ask for.
 TEST(Inlet, LetsGoGentlyOfWhatFallsAmongItsLayers) {
   Orifice disc{};

@@ -140,6 +140,29 @@ TEST(SmallRigidGroup, GoesOnFromACheckpointBitForBit) {
   EXPECT_EQ(bits(*whole), bits(*parted));
 }
 
+TEST(SmallRigidGroup, InFluidGoesOnFromACheckpointBitForBit) {
+  Swarm swarm;
+  Config& c = swarm.config;
+  c.domain.periodic = {true, true, true};
+  c.fluid.present = true;
+  c.fluid.dx = 0.01;
+  c.fluid.c = 30;
+  c.fluid.vmax = 3;
+  c.couple.hc = 2 * kDiameter;
+  c.fluid.fills = {{c.domain.min, c.domain.max, {"0.3*sin(31.4159265*y)", "0.1", "0"}}};
+  Config fluid_only = c;
+  fluid_only.grain.present = false;
+  std::vector<std::string> warnings;
+  swarm.setup.fluid = build_setup(fluid_only, warnings).fluid;
+  auto whole = started(c, swarm.setup);
+  for (int k = 0; k < 40; ++k) whole->step();
+  auto parted = make_coupled(c, {});
+  parted->load(whole->save());
+  for (int k = 0; k < 20; ++k) whole->step(), parted->step();
+  EXPECT_GT(norm(vector_of(whole->body_state(0), "velocity")), 1e-4) << "nothing moves the group";
+  EXPECT_EQ(bits(*whole), bits(*parted));
+}
+
 /// A block of fixed porosity across the whole column sinks as fast as its weight under water and the drag law
 /// at its superficial slip have it: eps V (rho_s - rho) g = drag [robinson14].
 TEST(SlowMixedRigidGroup, BlockOfConstantPorositySinksAtItsTerminalVelocity) {

@@ -98,13 +98,14 @@ TEST_P(SlowMixedWallKinds, HoldStillWater) {  // T-9
   auto s = started(column(height, dx));
   const double settled = std::string(GetParam().type) == "adami" ? 4 : 2;  // s
   run_until(*s, settled);
-  double slope = 0, at_zero = 0;
+  double slope = 0, at_zero = 0, push = 0;
   constexpr int instants = 5;
   for (int k = 1; k <= instants; ++k) {
     run_until(*s, settled + 0.2 * k);
     const LineFit line = pressure_line(*s, 2 * dx, height - dx);
     slope += line.slope() / instants;
     at_zero += line.at_zero() / instants;
+    push += reading(s->diagnostics(), "force_walls_on_fluid_z") / instants;
   }
   double lowest = 1, highest = 0;
   for (const Vec3d& x : vectors(s->snapshot("fluid"), "position"))
@@ -113,7 +114,7 @@ TEST_P(SlowMixedWallKinds, HoldStillWater) {  // T-9
   const double weight = kG * reading(d, "fluid_mass"), level = GetParam().level;
   EXPECT_NEAR(slope, -9810, level * 9810);
   EXPECT_NEAR(at_zero, 9810 * (highest + dx / 2), level * 9810 * height);
-  EXPECT_NEAR(reading(d, "force_walls_on_fluid_z"), weight, 0.02 * weight);
+  EXPECT_NEAR(push, weight, 0.02 * weight);
   // on the lumps of a steep layer single particles still change places, now and then, by the third second
   EXPECT_LT(std::sqrt(2 * reading(d, "fluid_kinetic_energy") / reading(d, "fluid_mass")), 0.02);
   if (GetParam().level < 0.1) {
@@ -123,7 +124,8 @@ TEST_P(SlowMixedWallKinds, HoldStillWater) {  // T-9
   EXPECT_EQ(reading(d, "lost_fluid_count"), 0);
 }
 
-TEST_P(SlowMixedWallKinds, CarryShear) {  // T-10, start-up over: linear between a wall at rest and one that moves
+TEST_P(SlowMixedWallKinds,
+       CarryShear) {  // T-10, start-up over: linear between a wall at rest and one that moves
   const int n = 24;
   const double L = 1e-3, dx = L / n, u = 1.25e-5;
   Config c = periodic_box(8, dx);

@@ -24,8 +24,6 @@ inline Config periodic_box(int n, double dx = 0.01) {
   c.wall.dx = dx;
   c.wall.rep_D = 1;
   c.wall.rep_r0 = dx / 2;
-  c.density.delta = 0;
-  c.density.consolidation = 0;
   return c;
 }
 

@@ -113,6 +113,15 @@ relative = true
         self.assertEqual(self.compare(slope + "time_range = [0, 1]\nlow = 0.999\nhigh = 1.001")[0], 0)
         self.assertEqual(self.compare(slope + "time_range = [0, 0]\nlow = 0")[0], 1)
 
+    def test_falls(self):
+        (self.run_dir / "probes" / "energy.csv").write_text("time [s],a [J],b [J]\n0,3,0\n1,2,0.5\n2,1,1.6\n3,1,0\n")
+        falls = 'kind = "falls"\ndata = "probes/energy.csv"\n'
+        self.assertEqual(self.compare(falls + 'column = "a"')[0], 0)
+        status, out, _ = self.compare(falls + 'column = ["a", "b"]')
+        self.assertEqual(status, 1, out)
+        self.assertIn("rises by at most 0.1 (<= 0), at t = 2", out)
+        self.assertEqual(self.compare(falls + 'column = ["a", "b"]\nslack = 0.11')[0], 0)
+
     def test_below(self):
         (self.run_dir / "probes" / "slow.csv").write_text("time [s],front [m]\n0,1\n1,1.5\n")
         below = 'kind = "below"\ndata = "probes/{}.csv"\ncolumn = "front"\nother_data = "probes/{}.csv"\n' \
@@ -139,6 +148,15 @@ class CompareFrames(Folders):
         write_frames(self.run_dir / "fluid.vtkhdf", times, points, {"velocity": flow})
         rows = "".join(f"{a},{a * (1 - a) * np.exp(-0.5)}\n" for a in np.linspace(0, 1, 201))
         (self.case / "profile.csv").write_text("z_m,v_m_s\n" + rows)
+
+    def test_positions(self):
+        place = 'kind = "value"\ndata = "fluid.vtkhdf"\nfield = "position"\ncomponent = 2\n'
+        self.assertEqual(self.compare(place + 'reduce = 0.9\nlow = 0.899\nhigh = 0.901')[0], 0)
+        # of 50 places evenly along 0..1
+        self.assertEqual(self.compare(place + 'reduce = "deviation"\nlow = 0.2944\nhigh = 0.2946')[0], 0)
+        status, _, err = self.compare(place + 'reduce = "median"\nlow = 0')
+        self.assertEqual(status, 2)
+        self.assertIn("reduce = 'median' must be one of mean, max", err)
 
     def test_profile(self):
         profile = 'kind = "profile"\ndata = "fluid.vtkhdf"\nfield = "velocity"\ncomponent = 0\nalong = 2\n' \

@@ -81,6 +81,15 @@ struct FluidConfig {
   bool operator==(const FluidConfig&) const = default;
 };
 
+/// What drives the fluid besides gravity.
+struct DriveConfig {
+  Vec3d f{0, 0, 0};                            ///< constant force per volume of space, N/m3
+  Vec3d rate{0, 0, 0};                         ///< pulls towards the centre: acceleration -rate^2 (r - centre), 1/s
+  Vec3d centre{0, 0, 0};                       ///< m
+  bool pulls() const { return rate != Vec3d{}; }
+  bool operator==(const DriveConfig&) const = default;
+};
+
 struct EosConfig {
   std::string type = "tait";                   ///< tait, democritus
   double gamma = 7;
@@ -401,7 +410,7 @@ struct Config {
   std::string preset = "default";              ///< default, he2018
   std::string file;                            ///< where it came from
   Vec3d gravity{0, 0, -9.81};                  ///< m/s2
-  Vec3d drive{0, 0, 0};                        ///< drive.f: constant force density on the fluid, N/m3
+  DriveConfig drive;
   double xsph = 0;
   double tensile = 0;                          ///< 0 off; 1 switches the Monaghan 2000 term on
   bool tensile_one_sign = false;               ///< he2018: 0.01 for both signs of P
@@ -423,6 +432,7 @@ struct Config {
   OutputConfig out;
   std::string precision = "mixed";             ///< single, mixed, double
   std::uint64_t seed = 1;
+  double max_lost = 1e-3;                      ///< share of fluid or grains that may leave the domain unasked
   double skin_fluid = 0.3;                     ///< neighbour skin / fluid.dx
   double skin_grain = 0.2;                     ///< neighbour skin / grain.d_min
   bool operator==(const Config&) const = default;

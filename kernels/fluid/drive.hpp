@@ -1,0 +1,30 @@
+#pragma once
+#include "bedload/particles/fluid.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// What drives the fluid besides gravity, m/s2.
+struct Drive {
+  Frame frame;
+  Span<const FluidPosition> x;
+  Vec3d f;               ///< force per volume of space, N/m3
+  Vec3d spring, centre;  ///< acceleration -spring (x - centre) per axis, 1/s2, m
+  bool pulls;
+
+  BL_HD Real3 operator()(Index a, const Real4& m_state) const {
+    Real3 acc = Real3(f) / (m_state.w * m_state.z);
+    if (pulls) acc -= Real3(pull(a));
+    return acc;
+  }
+  BL_HD double energy(Index a) const {
+    return 0.5 * dot(pull(a), coordinates(frame, x[a]) - centre);
+  }  ///< J/kg
+
+ private:
+  BL_HD Vec3d pull(Index a) const {
+    const Vec3d r = coordinates(frame, x[a]) - centre;
+    return {spring.x * r.x, spring.y * r.y, spring.z * r.z};
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT
