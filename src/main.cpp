@@ -23,9 +23,9 @@ int dispatch(const bedload::Options& options) {
   return 0;
 }
 
-/// OpenMP's waiting threads spin for longer than most loops here take: beside another busy program that makes a
-/// run several times slower than threads that sleep, and alone it gains nothing. The runtime reads its settings
-/// as it is loaded, so the program starts anew with them.
+/// OpenMP's waiting threads spin for longer than most loops here take: beside another busy program that makes
+/// a run several times slower than threads that sleep, and alone it gains nothing. The runtime reads its
+/// settings as it is loaded, so the program starts anew with them.
 void let_waiting_threads_sleep(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
   std::error_code none;
@@ -59,6 +59,13 @@ int main(int argc, char** argv) {
     return bedload::kExitStopped;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "out of memory; `bedload check` tells how much a case needs\n");
+    return bedload::kExitBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::string path = error.path1().string();
+    fmt::print(stderr, "{}: {}\n", path.empty() ? "working directory" : path, error.code().message());
+    return bedload::kExitBadInput;
+  } catch (const std::system_error& error) {  // standard output takes no more
+    std::fputs(("output: " + error.code().message() + "\n").c_str(), stderr);
     return bedload::kExitBadInput;
   }
 }

@@ -68,8 +68,10 @@ struct SurfaceSet {
   BL_HD bool beyond(const Surface& s, const Vec3d& r, double distance) const {
     if (s.kind == SurfaceKind::plane) return dot(r, s.axis[2]) > distance;
     const double reach = distance + s.shell;
-    for (int k = 2; k >= 0; --k)
-      if (std::abs(dot(r, s.axis[k])) - s.half[k] > reach) return true;
+    for (int k = 2; k >= 0; --k) {
+      const double half = k == 2 ? s.half[2] + s.radius : s.half[k];  // a capsule's ends are round
+      if (std::abs(dot(r, s.axis[k])) - half > reach) return true;
+    }
     return false;
   }
 

@@ -10,6 +10,7 @@
 #include "bedload/case/formula.hpp"
 #include "bedload/case/grain_sizes.hpp"
 #include "bedload/case/limits.hpp"
+#include "bedload/case/parameters.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
 #include "resolve.hpp"
@@ -83,6 +84,7 @@ class Checks {
         fail(path + ".name", quoted(body.name), "must differ from other bodies'");
       if (body.shape != "plane") box(path, body.min, body.max);
       if (body.solid.shape) within_period(path + ".shape", body);
+      if (!body.moves()) met(body);
     }
     if (!c.fluid.present) return;
     const double dx = c.fluid.dx;
@@ -175,6 +177,7 @@ class Checks {
       const std::string path = fmt::format("inlet.{}", i);
       named(path, c.inlets[i].name);
       inside_domain(path + ".centre", c.inlets[i].centre);
+      finite_factor(path + ".factor", c.inlets[i].factor);
     }
     for (std::size_t i = 0; i < c.outlets.size(); ++i) {
       const OutletConfig& outlet = c.outlets[i];
@@ -183,6 +186,8 @@ class Checks {
         fail(path + ".phase", quoted(outlet.phase), "must be \"fluid\" where grains form rigid groups");
       named(path, outlet.name);
       if (outlet.shape == "box") box(path, outlet.min, outlet.max);
+      if (outlet.shape != "plane" && !in_sight(outlet.min, outlet.max))
+        fail(path + ".shape", quoted(outlet.shape), "must reach into the domain");
       if (outlet.phase != "both" && !(outlet.phase == "fluid" ? c.fluid.present : c.grain.present))
         fail(path + ".phase", quoted(outlet.phase),
              fmt::format("must name something in this case; it has no {}", outlet.phase));
@@ -212,7 +217,12 @@ class Checks {
       file_name(path + ".name", probe.name);
       if (!names.insert(probe.name).second)
         fail(path + ".name", quoted(probe.name), "must differ from other probes'");
-      if (probe.type == "box") box(path, probe.min, probe.max);
+      if (probe.type == "box") {
+        box(path, probe.min, probe.max);
+        if (!in_sight(probe.min, probe.max))
+          fail(path + ".min", to_text(probe.min), "must have a part of the domain in its box");
+      }
+      if (probe.type == "point") inside_domain(path + ".at", probe.at);
       const bool has_phase = probe.type == "front" || probe.type == "box";
       const std::string phase = has_phase ? probe.phase : "fluid";
       if (probe.type != "force" && !(phase == "fluid" ? c.fluid.present : c.grain.present))
@@ -264,6 +274,49 @@ class Checks {
     if (applies && length <= least)
       fail("domain.periodic", fmt::format("{} m along {}", length, "xyz"[axis]),
            fmt::format("must be a period > {} = {}; enlarge the domain or refine", name, least));
+  }
+  /// Whether a box shares space with the domain.
+  bool in_sight(const Vec3d& lo, const Vec3d& hi) const {
+    for (int k = 0; k < 3; ++k)
+      if (!c.domain.periodic[k] && (hi[k] < c.domain.min[k] || lo[k] > c.domain.max[k])) return false;
+    return true;
+  }
+  /// Particles leave a domain before they meet a wall beyond it.
+  void met(const WallBody& body) const {
+    const Vec3d &lo = c.domain.min, &hi = c.domain.max;
+    const double rounding = 1e-9 * norm(hi - lo);
+    if (body.shape == "plane") {
+      double nearest = 1e300;  // of the domain's corners, before the plane
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d at{corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z};
+        nearest = std::min(nearest, dot(at - body.point, body.normal));
+      }
+      if (nearest > rounding)
+        warn("wall.body \"{}\" lies {:.3g} m outside the domain, so particles leave before they meet it",
+             body.name, nearest);
+    } else if (body.shape == "tank") {
+      for (int face = 0; face < 6; ++face) {
+        const int k = face / 2;
+        const double beyond = face % 2 ? body.max[k] - hi[k] : lo[k] - body.min[k];
+        if (body.faces[face] && !c.domain.periodic[k] && beyond > rounding)
+          warn(
+              "face {} of wall.body \"{}\" lies {:.3g} m outside the domain, so particles leave before they "
+              "meet it",
+              kFaces[face], body.name, beyond);
+      }
+    } else if (!in_sight(body.min, body.max)) {
+      warn("wall.body \"{}\" lies outside the domain, so particles leave before they meet it", body.name);
+    }
+  }
+  void finite_factor(const std::string& path, const std::string& text) const {
+    const Formula factor(text, "t");
+    constexpr int looks = 1000;
+    for (int n = 0; n <= looks; ++n) {
+      const double t = c.time.end * n / looks;
+      if (!std::isfinite(factor({t, 0, 0})))
+        fail(path, quoted(text),
+             fmt::format("must be a finite number at all times; it is none at t = {:.4g} s", t));
+    }
   }
   /// Shapes do not repeat.
   void within_period(const std::string& path, const WallBody& body) const {

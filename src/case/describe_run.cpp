@@ -152,6 +152,9 @@ void describe_time(Parameters& p, Config& c) {
                  {"single", "fp32, cell-relative positions"},
                  {"double", "fp64 throughout"}}});
   p("run.seed", &c.seed, {.meaning = "of everything random", .range = within(0, kLargest)});
+  p("run.max_lost", &c.max_lost,
+    {.meaning = "share of fluid or grains that may leave the domain where no outlet is; more: exit code 4",
+     .range = within(0, 1)});
   p("run.skin_fluid", &c.skin_fluid,
     {.unit = "fluid.dx", .meaning = "margin of the fluid's neighbour lists", .range = within(0.01, 2)});
   p("run.skin_grain", &c.skin_grain,

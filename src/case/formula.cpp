@@ -3,6 +3,7 @@
 #include <muParser.h>
 
 #include <numbers>
+#include <string_view>
 
 #include "bedload/core/error.hpp"
 
@@ -21,7 +22,17 @@ Formula::Formula(const std::string& text, std::string_view variables) : impl_(st
     for (std::size_t k = 0; k < variables.size(); ++k)
       p.DefineVar(std::string(1, variables[k]), &impl_->at[int(k)]);
     p.SetExpr(text);
-    p.Eval();  // muParser reads the text only now
+    int values = 0;
+    p.Eval(values);  // muParser reads the text only now
+    if (values != 1)
+      throw CaseError("it makes " + std::to_string(values) + " values; is a decimal comma meant as a point?");
+    for (std::size_t at = text.find('='); at != text.npos; at = text.find('=', at + 1)) {
+      const bool compares = at + 1 < text.size() && text[at + 1] == '=';
+      if (compares)
+        ++at;
+      else if (at == 0 || std::string_view("<>!").find(text[at - 1]) == std::string_view::npos)
+        throw CaseError("= assigns; == compares");
+    }
   } catch (const mu::Parser::exception_type& error) {
     std::string reason = error.GetMsg();
     while (!reason.empty() && (reason.back() == '.' || reason.back() == ' ')) reason.pop_back();

@@ -81,7 +81,11 @@ class ParticleTable {
       names_.push_back(name);
       const std::string unit = name == "vx" || name == "vy" || name == "vz" ? "[m/s]" : "[m]";
       const bool ours = std::find(kNames.begin(), kNames.end(), name) != kNames.end();
-      if (ours && bracket != cell.npos && cell.substr(bracket) != unit)
+      if (name == "id") continue;  // as exported; particles are numbered anew
+      if (!ours)
+        fail(fmt::format("has a column {}, which means nothing here; known are {}", name,
+                         fmt::join(kNames, ", ")));
+      if (bracket != cell.npos && cell.substr(bracket) != unit)
         fail(fmt::format("column {} must be in {}", cell, unit));
     }
     for (const char* name : {"x", "y", "z"}) need(name, "");

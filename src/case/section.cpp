@@ -48,6 +48,21 @@ bool is_place(std::string_view part) {
   return !part.empty() && part.find_first_not_of("0123456789") == part.npos;
 }
 
+/// What a key may be called by who does not know it.
+std::vector<std::string_view> names_of(std::string_view name) {
+  struct Synonym {
+    std::string_view word, key;
+  };
+  static constexpr Synonym synonyms[]{{"diameter", "d"},    {"friction", "mu"}, {"rolling_friction", "mu_r"},
+                                      {"viscosity", "mu"},  {"density", "rho"}, {"density", "rho0"},
+                                      {"restitution", "e"}, {"young", "E"},     {"youngs_modulus", "E"},
+                                      {"poisson", "nu"},    {"rpm", "rate"},    {"spacing", "dx"}};
+  std::vector<std::string_view> names{name};
+  for (const Synonym& s : synonyms)
+    if (s.word == name) names.push_back(s.key);
+  return names;
+}
+
 template <class F>
 void for_parts(std::string_view path, F f) {
   while (!path.empty()) {
@@ -123,8 +138,10 @@ std::string nearest_key(const std::string& key, const std::vector<std::string>& 
   double least = 1e9;
   for (const std::string& k : known) {
     const auto [t, n] = split(k);
-    const double d = difference(name, n) + table_weight * difference(table, t);
-    if (d < least) least = d, best = k;
+    for (const std::string_view called : names_of(name)) {
+      const double d = difference(called, n) + table_weight * difference(table, t);
+      if (d < least) least = d, best = k;
+    }
   }
   return best;
 }

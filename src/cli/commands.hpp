@@ -3,9 +3,10 @@
 
 namespace bedload {
 
-inline constexpr int kExitBadInput = 2, kExitFault = 3, kExitStopped = 130;
+inline constexpr int kExitBadInput = 2, kExitFault = 3, kExitLost = 4, kExitStopped = 130;
 
-/// Runs a case to its end; returns the exit code (0, or 130 if stopped by a signal).
+/// Runs a case to its end; returns the exit code: 0, 4 if more than run.max_lost has left the domain, 130 if
+/// stopped by a signal.
 int run_case(const Options& options);
 /// Prints what a run of the case would be: particles, step limits, memory, run time, warnings.
 int check_case(const Options& options);

@@ -94,7 +94,7 @@ void show_json(const nlohmann::ordered_json& value, const std::string& name, int
   const auto line = [&](const std::string& text) {
     fmt::print("{:{}}{:<24} {}\n", "", 2 * depth, name, text);
   };
-  if (value.is_object() && value.contains("value") && value.contains("unit")) {
+  if (value.is_object() && value.contains("value") && value.contains("unit") && value["unit"].is_string()) {
     const std::string unit = value["unit"].get<std::string>();
     line(value["value"].dump() + (unit == "-" ? "" : " " + unit));
   } else if (value.is_structured()) {
@@ -124,7 +124,11 @@ int show_file(const fs::path& file) {
     return 0;
   }
   std::ifstream in(file);
-  const auto summary = nlohmann::ordered_json::parse(in, nullptr, false);
+  constexpr int deepest = 100;
+  const auto shallow = [](int depth, nlohmann::ordered_json::parse_event_t, nlohmann::ordered_json&) {
+    return depth <= deepest;
+  };
+  const auto summary = nlohmann::ordered_json::parse(in, shallow, false);
   if (summary.is_discarded() || !summary.is_object())
     throw FileError(file.string() + ": is neither a checkpoint, a .vtkhdf file nor a summary.json");
   show_json(summary, "", 0);

@@ -52,12 +52,29 @@ std::string parameters_text(std::vector<ParameterRow> rows) {
 
 }  // namespace
 
+std::vector<std::string> sections() {
+  std::vector<std::string> all;
+  for (const ParameterRow& row : parameter_table()) {
+    const std::string section = row.key.substr(0, row.key.find('.'));
+    if (row.key.find('.') != row.key.npos && std::find(all.begin(), all.end(), section) == all.end())
+      all.push_back(section);
+  }
+  return all;
+}
+
 std::vector<std::string> families() {
   return {"laws", "models", "shapes", "outputs", "parameters", "presets"};
 }
 
 std::string list_text(const std::string& family) {
   if (family == "parameters") return parameters_text(parameter_table());
+  const auto known = families();
+  if (!family.empty() && std::find(known.begin(), known.end(), family) == known.end()) {
+    std::vector<ParameterRow> rows;
+    for (const ParameterRow& row : parameter_table())
+      if (row.key.starts_with(family + ".")) rows.push_back(row);
+    return parameters_text(rows);
+  }
   if (!family.empty()) return choices_text(family);
   std::string out;
   for (const std::string& name : families())

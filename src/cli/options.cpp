@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 
 #include "bedload/core/error.hpp"
 #include "list.hpp"
@@ -47,7 +48,7 @@ void add_case_options(CLI::App& app, Options& o, std::string& precision, bool& f
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--threads", o.threads, "CPU threads; all if not given")->check(CLI::PositiveNumber);
+  app.add_option("--threads", o.threads, "CPU threads; all if not given")->check(CLI::Range(1, 1024));
   app.add_flag("--force-dt", force_dt, "A fixed step above its limit only warns");
 }
 
@@ -67,8 +68,12 @@ Options parse_options(int argc, const char* const* argv) {
   add_case_options(*run, o, precision, force_dt);
   run->add_option("--out", o.out, "Results folder; results/<case> if not given")->type_name("DIR");
   run->add_option("--until", o.until, "Stop at this time in s, in place of time.end")
-      ->check(CLI::NonNegativeNumber);
-  run->add_option("--restart", o.restart, "Go on from this checkpoint")->type_name("FILE");
+      ->check(CLI::Range(0.0, 1e12));
+  run->add_option("--restart", o.restart,
+                  "Go on from this checkpoint; latest: the newest in the results folder")
+      ->type_name("FILE");
+  run->add_flag("--allow-changes", o.allow_changes,
+                "Go on though the case computes otherwise than the checkpoint's");
   run->add_flag("--overwrite", o.overwrite, "Replace the run that the results folder holds");
   run->add_flag("--quiet", o.quiet, "Print nothing but warnings and errors");
 
@@ -79,7 +84,10 @@ Options parse_options(int argc, const char* const* argv) {
       ->type_name("DIR");
 
   CLI::App* list = app.add_subcommand("list", "Show what a case may hold");
-  list->add_option("family", o.family, "One of them; all if not given")->check(CLI::IsMember(families()));
+  std::vector<std::string> listed = families();
+  for (const std::string& section : sections()) listed.push_back(section);
+  list->add_option("family", o.family, "One of them, or a section of a case; all if not given")
+      ->check(CLI::IsMember(listed));
 
   CLI::App* info = app.add_subcommand("info", "Show what a result file holds");
   info->add_option("file", o.file, "Checkpoint, .vtkhdf or summary.json")->required()->type_name("FILE");
@@ -96,6 +104,7 @@ Options parse_options(int argc, const char* const* argv) {
     throw CaseError(std::string("command line: ") + error.what() + "; see bedload --help");
   }
   o.command = app.get_subcommands().front()->get_name();
+  if (o.until && !std::isfinite(*o.until)) throw CaseError("command line: --until: must be a time in s");
   if (!precision.empty()) o.overrides.push_back("run.precision=" + precision);
   if (force_dt) o.overrides.push_back("time.force_dt=true");
   if (o.command == "run" && o.out.empty()) o.out = default_folder(o.file);

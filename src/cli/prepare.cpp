@@ -42,15 +42,51 @@ double let_in(const InletConfig& inlet, double dx, double from, double to) {
 
 }  // namespace
 
+namespace {
+
+/// Told from the volume of the blocks before any particle is laid: laying takes time and memory itself.
+void refuse_too_fine(const Options& options, const Prepared& p) {
+  const double dx = p.config.fluid.dx;
+  double volume = 0;
+  for (const FluidFill& fill : p.config.fluid.fills) {
+    const Vec3d side = fill.max - fill.min;
+    if (fill.file.empty() && !fill.solid.shape) volume += side.x * side.y * side.z;
+  }
+  const double count = volume / (dx * dx * dx), memory = double(p.device.memory);
+  const double need = double(estimate_bytes(p.config, {std::int64_t(count), 0, 0}));
+  if (memory == 0 || need <= memory) return;
+  throw CaseError(fmt::format(
+      "{}: fluid.dx = {} makes {:.3g} fluid particles, which need {}; {} has {} free, enough "
+      "for {:.3g} m and more",
+      place_in_case(options.file, options.overrides, "fluid.dx"), dx, count, bytes_text(std::size_t(need)),
+      p.device.name, bytes_text(p.device.memory), dx * std::cbrt(need / memory) * 1.001));
+}
+
+/// A run that goes on computes as it began, unless told otherwise.
+void refuse_changes(const Options& options, Prepared& p) {
+  const auto changes = changes_between(checkpoint_case(options.restart), resolved_toml(p.config));
+  if (changes.empty()) return;
+  const std::string text = fmt::format("{}", fmt::join(changes, ", "));
+  if (!options.allow_changes)
+    throw CaseError(
+        fmt::format("{}: the case computes otherwise than this checkpoint's: {}; --allow-changes goes on",
+                    options.restart.string(), text));
+  p.warnings.push_back("differs from the checkpoint's case: " + text);
+}
+
+}  // namespace
+
 Prepared prepare(const Options& options) {
   Prepared p;
   p.config = read_case(options.file, options.overrides, p.warnings, options.restart);
   p.device = find_device(options.backend, options.threads);
   if (options.restart.empty()) {
+    if (p.config.fluid.present) refuse_too_fine(options, p);
     p.setup = build_setup(p.config, p.warnings);
     p.counts = counts_of(p.setup);
   } else {
     p.restart = read_checkpoint(options.restart, p.config);
+    refuse_changes(options, p);
     p.counts = counts_of(p.restart);
     for (const Quantity& q : p.restart.scalars)
       if (q.name == "time") p.begin = q.value;

@@ -6,6 +6,7 @@
 
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/output/folder_lock.hpp"
 #include "bedload/output/output.hpp"
 #include "commands.hpp"
 #include "prepare.hpp"
@@ -40,8 +41,13 @@ std::string shares_text(const std::vector<Quantity>& parts, double all) {
 
 class Run {
  public:
-  explicit Run(const Options& options)
-      : options_(options), p_(prepare(options)), end_(options.until.value_or(p_.config.time.end)) {}
+  Run(const Options& options, Prepared prepared)
+      : options_(options), p_(std::move(prepared)), end_(options.until.value_or(p_.config.time.end)) {
+    if (end_ < p_.begin)
+      throw CaseError(fmt::format("{}: {} = {} s lies before the checkpoint's time, {} s",
+                                  options.restart.string(), options.until ? "--until" : "time.end", end_,
+                                  p_.begin));
+  }
 
   int go() {
     say(summary_text(p_));
@@ -133,7 +139,34 @@ class Run {
                       effort.wall_seconds > 0 ? double(effort.particle_steps) / effort.wall_seconds : 0));
       say(fmt::format("of it      {}\n", shares_text(simulation_->time_spent(), effort.wall_seconds)));
     }
-    return stopped ? kExitStopped : 0;
+    if (stopped) return kExitStopped;
+    return losses() ? kExitLost : 0;
+  }
+
+  /// Tells what has left the domain unasked; true if it is more than the case allows.
+  bool losses() const {
+    const auto d = simulation_->diagnostics();
+    const auto read = [&](const char* name) {
+      const auto q =
+          std::find_if(d.begin(), d.end(), [&](const Quantity& each) { return each.name == name; });
+      return q == d.end() ? 0 : q->value;
+    };
+    bool too_many = false;
+    const auto tell = [&](const std::string& what, double lost, double left) {
+      if (!(lost > 0)) return;
+      const double share = lost / (lost + left), allowed = p_.config.max_lost;
+      too_many = too_many || share > allowed;
+      const std::string text =
+          fmt::format("{}, {:.3g} %, left the domain where there is no outlet", what, 100 * share);
+      if (share > allowed)
+        fmt::print(stderr, "{}; run.max_lost = {} allows {:.3g} %\n", text, allowed, 100 * allowed);
+      else
+        say("lost       " + text + "\n");
+    };
+    const double fluid = read("lost_fluid_mass"), grains = read("grains_outside"), all = read("grain_count");
+    tell(fmt::format("{:.4g} kg of fluid", fluid), fluid, read("fluid_mass"));
+    tell(fmt::format("{:.0f} of {:.0f} grains", grains, all), grains, all - grains);
+    return too_many;
   }
 
   /// Shows the broken state in a last frame; returns the rest of the fault's sentence.
@@ -157,10 +190,15 @@ class Run {
 
 }  // namespace
 
-int run_case(const Options& options) {
+int run_case(const Options& given) {
   watch_signals();
+  Options options = given;
+  if (options.restart == "latest") options.restart = latest_checkpoint(options.out);
   refuse_other_run(options);
-  return Run(options).go();
+  Prepared prepared = prepare(options);
+  const FolderLock lock(options.out);  // before hours go into settling
+  refuse_other_run(options);
+  return Run(options, std::move(prepared)).go();
 }
 
 }  // namespace bedload

@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <vector>
 
 #include "bedload/core/error.hpp"
 
@@ -29,6 +33,26 @@ void sync(const std::filesystem::path& path) {
 
 void move(const std::filesystem::path& part, const std::filesystem::path& path) {
   if (std::rename(part.c_str(), path.c_str()) != 0) throw cannot("write", path);
+}
+
+constexpr std::array<char, 8> kSeal{'B', 'E', 'D', 'L', 'O', 'A', 'D', '\n'};
+
+/// FNV-1a over 8-byte words of the first `length` bytes; a changed bit changes it.
+std::uint64_t checksum(std::istream& in, std::uintmax_t length) {
+  std::uint64_t sum = 0xcbf29ce484222325u;
+  std::vector<std::uint64_t> words(1 << 17);
+  while (length > 0) {
+    const auto bytes = std::min<std::uintmax_t>(length, 8 * words.size());
+    const auto count = std::size_t((bytes + 7) / 8);
+    words[count - 1] = 0;
+    in.read(reinterpret_cast<char*>(words.data()), std::streamsize(bytes));
+    for (std::size_t k = 0; k < count; ++k) {
+      sum = (sum ^ words[k]) * 0x100000001b3u;
+      sum ^= sum >> 32;
+    }
+    length -= bytes;
+  }
+  return sum;
 }
 
 }  // namespace
@@ -70,6 +94,32 @@ void need_space(const std::filesystem::path& path, std::size_t bytes) {
   if (unknown || space.available >= bytes) return;
   throw FileError(fmt::format("{}: cannot write: the disk has {:.1f} MB left and {:.1f} MB are needed",
                               path.string(), space.available * 1e-6, bytes * 1e-6));
+}
+
+void seal_file(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  const std::uint64_t sum = checksum(in, std::filesystem::file_size(path));
+  std::ofstream out(path, std::ios::binary | std::ios::app);
+  out.write(kSeal.data(), kSeal.size());
+  out.write(reinterpret_cast<const char*>(&sum), sizeof sum);
+  out.close();
+  if (!in || !out) throw cannot("write", path);
+}
+
+std::string broken_seal(const std::filesystem::path& path) {
+  const char* const none =
+      "it is no Bedload checkpoint, or cut off, or of an older version (no checksum at its end)";
+  constexpr std::uintmax_t tail = kSeal.size() + sizeof(std::uint64_t);
+  const std::uintmax_t size = std::filesystem::file_size(path);
+  if (size < tail) return none;
+  std::ifstream in(path, std::ios::binary);
+  const std::uint64_t sum = checksum(in, size - tail);
+  std::array<char, 8> seal{};
+  std::uint64_t found = 0;
+  in.read(seal.data(), seal.size());
+  in.read(reinterpret_cast<char*>(&found), sizeof found);
+  if (!in || seal != kSeal) return none;
+  return sum == found ? "" : "it is damaged (wrong checksum)";
 }
 
 }  // namespace bedload

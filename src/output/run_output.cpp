@@ -79,6 +79,17 @@ double host_peak_bytes() {
   return 1024.0 * double(usage.ru_maxrss);
 }
 
+/// Oldest first.
+std::vector<fs::path> checkpoints_in(const fs::path& dir) {
+  std::vector<fs::path> found;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(dir / "checkpoints", none))
+    if (entry.path().extension() == ".h5" && entry.path().stem().string().starts_with("step_"))
+      found.push_back(entry.path());
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 std::string commented(const std::string& text) {
   std::string out = "# ";
   for (const char c : text) out += c == '\n' ? ' ' : c;
@@ -132,7 +143,7 @@ struct RunOutput::Impl {
       if (std::any_of(tables.begin(), tables.end(), [](const Table& t) { return t.body.has_value(); }))
         fs::create_directories(dir / "bodies");
       if (!continuing) remove_former_run();
-      newest = newest_checkpoint();
+      if (const auto all = checkpoints_in(dir); !all.empty()) newest = all.back();
     } catch (const fs::filesystem_error& e) {
       throw FileError(fmt::format("{}: cannot write results there: {}", dir.string(), e.code().message()));
     }
@@ -147,20 +158,7 @@ struct RunOutput::Impl {
       for (const char* ending : {".vtkhdf", ".xdmf"}) fs::remove(dir / (std::string(store) + ending));
     for (const auto& table : tables) fs::remove(table.csv.path());
     fs::remove(dir / "summary.json");
-    for (const auto& path : checkpoints()) fs::remove(path);
-  }
-
-  std::vector<fs::path> checkpoints() const {
-    std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(dir / "checkpoints"))
-      if (entry.path().extension() == ".h5" && entry.path().stem().string().starts_with("step_"))
-        found.push_back(entry.path());
-    return found;
-  }
-
-  fs::path newest_checkpoint() const {
-    const auto all = checkpoints();
-    return all.empty() ? fs::path() : *std::max_element(all.begin(), all.end());
+    for (const auto& path : checkpoints_in(dir)) fs::remove(path);
   }
 
   /// Takes up the series of an earlier run before the step that ends at `time`, once.
@@ -299,5 +297,11 @@ void RunOutput::finish(Simulation& simulation, const std::string& status, const 
 }
 
 fs::path RunOutput::last_checkpoint() const { return impl_->last_checkpoint(); }
+
+fs::path latest_checkpoint(const fs::path& dir) {
+  const auto all = checkpoints_in(dir);
+  if (all.empty()) throw FileError(dir.string() + ": has no checkpoint to go on from");
+  return all.back();
+}
 
 }  // namespace bedload

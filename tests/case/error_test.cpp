@@ -193,6 +193,13 @@ TEST(NearestKey, PrefersAWrongTableToAWrongName) {
   EXPECT_EQ(nearest_key("fluid.xd", known), "fluid.dx");
   EXPECT_EQ(nearest_key("grian.d", known), "grain.d");
   EXPECT_EQ(nearest_key("end", known), "time.end");
+  EXPECT_EQ(nearest_key("grain.diameter", {"grain.d", "grain.mu", "fluid.mu"}), "grain.d");
+  EXPECT_EQ(nearest_key("grain.friction", {"grain.d", "grain.mu", "fluid.mu"}), "grain.mu");
+  EXPECT_EQ(nearest_key("fluid.viscosity", {"grain.d", "grain.mu", "fluid.mu", "visc.model"}), "fluid.mu");
+  EXPECT_EQ(nearest_key("fluid.density", {"fluid.rho0", "grain.rho", "density.delta"}), "fluid.rho0");
+  EXPECT_EQ(nearest_key("grain.density", {"fluid.rho0", "grain.rho", "density.delta"}), "grain.rho");
+  EXPECT_EQ(nearest_key("wall.body.motion.rpm", {"wall.body.motion.rate", "wall.body.mu"}),
+            "wall.body.motion.rate");
 }
 
 }  // namespace

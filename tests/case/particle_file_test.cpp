@@ -67,6 +67,9 @@ TEST_F(ParticleFile, ErrorsNameFileLineColumnAndValue) {
   EXPECT_EQ(error("x,y,z,vx\n"),
             "grains.csv:1: has no column vy beside the other velocities; it names x, y, z, vx");
   EXPECT_EQ(error("x,y,z,d,radius\n"), "grains.csv:1: has both columns d and radius; one of them is enough");
+  EXPECT_EQ(error("x,y,z,diameter\n1,2,3,4\n"),
+            "grains.csv:1: has a column diameter, which means nothing here; known are x, y, z, d, radius, "
+            "vx, vy, vz");
   EXPECT_EQ(error("x,x,y,z\n"), "grains.csv:1: has two columns x");
   EXPECT_EQ(error("x [mm],y,z\n"), "grains.csv:1: column x [mm] must be in [m]");
   EXPECT_EQ(error("x,y,z\n1,2,3\n4,5\n"), "grains.csv:3: has 2 values where the first line names 3 columns");

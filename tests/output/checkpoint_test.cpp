@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <random>
+
 #include <fstream>
 
 #include "bedload/core/error.hpp"
@@ -94,21 +96,22 @@ TEST_F(Checkpoint, RefusesTruncatedFile) {
   const auto size = std::filesystem::file_size(path);
   for (const double part : {0.99, 0.5, 0.1}) {
     std::filesystem::resize_file(path, std::uintmax_t(double(size) * part));
-    expect_says(refusal(path, config), "truncated");
+    expect_says(refusal(path, config), "or cut off, or of an older version (no checksum at its end)");
   }
 }
 
-TEST_F(Checkpoint, RefusesEveryFlippedByteOfTheArrays) {
+TEST_F(Checkpoint, RefusesAnyFlippedBit) {
   const auto path = written();
   const std::string whole = read_file(path);
-  const double third = 1.0 / 3;
-  const auto at = whole.find(std::string(reinterpret_cast<const char*>(&third), sizeof third));
-  ASSERT_NE(at, std::string::npos);
-  for (std::size_t k = 0; k < 24; ++k) {
+  std::mt19937 rng(3);
+  for (int n = 0; n < 500; ++n) {
+    const std::size_t at = n < 16 ? whole.size() - 1 - n : rng() % whole.size();
     std::string damaged = whole;
-    damaged[at + k] ^= 0x10;
+    damaged[at] = char(damaged[at] ^ (1 << (rng() % 8)));
     write_file(path, damaged);
-    expect_says(refusal(path, config), "fluid/position is damaged");
+    const std::string why = refusal(path, config);
+    EXPECT_TRUE(why.find("checksum") != why.npos || why.find("it is no HDF5 file") != why.npos)
+        << at << ": " << why;
   }
 }
 
@@ -142,7 +145,8 @@ TEST_F(Checkpoint, RefusesAnotherFormat) {
     h5::write_integer(file, "format", 7);
     file.close();
   }
-  expect_says(refusal(path, config), "it has checkpoint format 7, this version reads 1");
+  seal_file(path);
+  expect_says(refusal(path, config), "it has checkpoint format 7, this version reads 2");
 }
 
 TEST_F(Checkpoint, FullDiskLeavesTheOldOne) {

@@ -1,8 +1,11 @@
 // The program from outside: exit codes, messages, files.
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <vector>
 
+#include "bedload/output/folder_lock.hpp"
 #include "run_program.hpp"
 
 namespace bedload::test {
@@ -310,7 +313,8 @@ TEST_F(Program, TakesASettledBedFromItsCache) {
   EXPECT_NE(second.out.find("settled    as kept in cache/bedload/settled-"), std::string::npos) << second.out;
   const Outcome third = bedload("run dam.toml --backend cpu --until 0.002 --out c --set grain.mu=0.5");
   EXPECT_NE(third.out.find("settled    in "), std::string::npos) << third.out;
-  const Outcome fourth = bedload("run dam.toml --backend cpu --until 0.002 --out d --set grain.settle_mu=0.5");
+  const Outcome fourth =
+      bedload("run dam.toml --backend cpu --until 0.002 --out d --set grain.settle_mu=0.5");
   ASSERT_EQ(fourth.code, 0) << fourth.err;
   EXPECT_NE(fourth.out.find("settled    as kept in cache/bedload/settled-"), std::string::npos) << fourth.out;
 }
@@ -325,6 +329,17 @@ TEST_F(Program, AKeptBedGivesTheSameRunAsAFreshOne) {
   expect_same_checkpoints("fresh", "kept");
 }
 
+TEST_F(Program, TheNumberOfThreadsChangesNothing) {
+  write("dam.toml", kSmall);
+  for (const char* threads : {"1", "2", "7"}) {
+    const Outcome o = bedload(std::string("run dam.toml --backend cpu --quiet --threads ") + threads +
+                              " --out threads" + threads);
+    ASSERT_EQ(o.code, 0) << o.err;
+  }
+  expect_same_checkpoints("threads1", "threads2");
+  expect_same_checkpoints("threads1", "threads7");
+}
+
 TEST_F(Program, ARestartedRunEqualsAnUnbrokenOne) {
   write("dam.toml", kSmall);
   const std::string run = "run dam.toml --backend cpu --quiet ";
@@ -337,6 +352,119 @@ TEST_F(Program, ARestartedRunEqualsAnUnbrokenOne) {
   ASSERT_EQ(o.code, 0) << o.err;
 
   expect_same_checkpoints("whole", "parts");
+}
+
+TEST_F(Program, TwoRunsDoNotShareAFolder) {
+  write("dam.toml", kSmall);
+  const FolderLock lock(dir_ / "out");
+  for (const char* how : {"", " --overwrite"}) {
+    const Outcome o = bedload(std::string("run dam.toml --backend cpu --quiet --out out") + how);
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find("out: process " + std::to_string(::getpid()) + " on "), o.err.npos) << o.err;
+    EXPECT_NE(o.err.find("writes there; wait for it, stop it or give another --out"), o.err.npos) << o.err;
+  }
+  EXPECT_FALSE(std::filesystem::exists(dir_ / "out/case.resolved.toml")) << "nothing has been written";
+}
+
+TEST_F(Program, GoesOnOnlyAsItBegan) {
+  write("dam.toml", kSmall);
+  const std::string run = "run dam.toml --backend cpu --quiet --out out ";
+  EXPECT_EQ(bedload(run + "--restart latest").err, "out: has no checkpoint to go on from\n");
+  ASSERT_EQ(bedload(run + "--until 0.01").code, 0);
+  const Outcome other = bedload(run + "--restart latest --set fluid.mu=0.5 --set out.every=0.02");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("the case computes otherwise than this checkpoint's: fluid.mu = 0.5 (0.001 then); "
+                           "--allow-changes goes on"),
+            other.err.npos)
+      << other.err;
+  const Outcome early = bedload(run + "--restart latest --until 0.005");
+  EXPECT_EQ(early.code, 2);
+  EXPECT_NE(early.err.find("--until = 0.005 s lies before the checkpoint's time"), early.err.npos)
+      << early.err;
+  const Outcome told = bedload(run + "--restart latest --set fluid.mu=0.5 --allow-changes");
+  EXPECT_EQ(told.code, 0);
+  EXPECT_NE(told.err.find("warning: differs from the checkpoint's case: fluid.mu = 0.5"), told.err.npos)
+      << told.err;
+}
+
+TEST_F(Program, TellsWhatHasLeftTheDomain) {
+  std::string text = kSmall;
+  for (const std::string faces : {"\"z-\"", ", \"x+\""}) {  // no floor, an open side
+    const auto at = text.find(faces);
+    text.erase(at, faces.size());
+  }
+  const auto comma = text.find("\"y+\", ]");
+  text.replace(comma, 7, "\"y+\"]");
+  text.replace(text.find("end = 0.02"), 10, "end = 0.2 ");
+  text.replace(text.find("settle = true\nsettle_time = 0.05\n"), 33, "");
+  write("open.toml", text);
+  const std::string run = "run open.toml --backend cpu --out out --overwrite";
+  const Outcome lost = bedload(run);
+  EXPECT_EQ(lost.code, 4) << lost.err;
+  EXPECT_NE(lost.err.find(" of 40 grains, "), lost.err.npos) << lost.err;
+  EXPECT_NE(lost.err.find("left the domain where there is no outlet; run.max_lost = 0.001 allows 0.1 %"),
+            lost.err.npos)
+      << lost.err;
+  const Outcome allowed = bedload(run + " --set run.max_lost=1");
+  EXPECT_EQ(allowed.code, 0) << allowed.err;
+  EXPECT_NE(allowed.out.find("lost       "), allowed.out.npos) << allowed.out;
+}
+
+TEST_F(Program, WarnsOfWallsAndRefusesProbesOutsideTheDomain) {
+  write("dam.toml", kSmall);
+  const Outcome low = bedload("check dam.toml --set 'wall.body.0.min=[0, 0, -0.05]'");
+  EXPECT_EQ(low.code, 0) << low.err;
+  EXPECT_NE(low.out.find("face z- of wall.body \"tank\" lies 0.05 m outside the domain"), low.out.npos)
+      << low.out;
+  write("probe.toml", kSmall + "[[probe]]\nname = \"far\"\ntype = \"point\"\nat = [0.5, 0.03, 0.02]\n");
+  const Outcome far = bedload("check probe.toml");
+  EXPECT_EQ(far.code, 2);
+  EXPECT_NE(far.err.find("probe.at = [0.5, 0.03, 0.02]"), far.err.npos) << far.err;
+  write("floor.toml", kSmall +
+                          "[[wall.body]]\nname = \"floor\"\nshape = \"plane\"\npoint = [0, 0, -0.01]\n"
+                          "normal = [0, 0, 1]\n");
+  const Outcome floor = bedload("check floor.toml");
+  EXPECT_NE(floor.out.find("wall.body \"floor\" lies 0.01 m outside the domain"), floor.out.npos)
+      << floor.out;
+}
+
+TEST_F(Program, RefusesWhatIsTooFineForTheMemoryBeforeLayingIt) {
+  write("dam.toml", kSmall);
+  const Outcome o = bedload("check dam.toml --backend cpu --set fluid.dx=0.00005");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("fluid.dx = 5e-05 makes 1.2e+09 fluid particles, which need "), o.err.npos) << o.err;
+  EXPECT_NE(o.err.find(" free, enough for "), o.err.npos) << o.err;
+}
+
+TEST_F(Program, ListsASection) {
+  const Outcome o = bedload("list couple");
+  EXPECT_EQ(o.code, 0);
+  EXPECT_NE(o.out.find("couple.hc"), o.out.npos);
+  EXPECT_EQ(o.out.find("fluid.dx"), o.out.npos);
+}
+
+TEST_F(Program, OneSentenceForWhatTheSystemRefuses) {
+  write("dam.toml", kSmall);
+  const auto refused = [&](const Outcome& o, const std::string& sentence) {
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find(sentence), o.err.npos) << o.err;
+    EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+  };
+  refused(bedload("run dam.toml --out " + std::string(300, 'x')), "File name too long");
+  refused(bedload("run dam.toml --until nan"), "command line: --until: must be a time in s");
+  for (const char* threads : {"0", "100000", "-1"})
+    refused(bedload(std::string("run dam.toml --threads ") + threads), "not in range 1 to 1024");
+  refused(shell("sh -c 'mkdir gone && cd gone && rmdir ../gone && " BL_PROGRAM " run ../dam.toml --out q'"),
+          "cannot write results there: No such file or directory");
+  refused(shell("sh -c '" BL_PROGRAM " list > /dev/full'"), "output: No space left on device");
+  refused(bedload("check dam.toml --set 'fluid.fill.0.velocity=[\"0,05*x\", \"0\", \"0\"]'"),
+          "it makes 2 values; is a decimal comma meant as a point?");
+  refused(bedload("check dam.toml --set 'fluid.fill.0.velocity=[\"x=3\", \"0\", \"0\"]'"),
+          "= assigns; == compares");
+  write("deep.json", std::string(100000, '[') + std::string(100000, ']'));
+  refused(bedload("info deep.json"), "deep.json: is neither");
+  write("odd.json", R"({"a": {"value": 1, "unit": 3}})");
+  EXPECT_EQ(bedload("info odd.json").code, 0);
 }
 
 TEST_F(Program, ARestartNeedsNoFileOfInitialParticles) {

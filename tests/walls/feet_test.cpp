@@ -1,7 +1,10 @@
 // Feet of shapes: their distances are those of the shape itself, each feature is touched once, and what a
 // contact remembers goes with it from triangle to triangle.
 #include <functional>
+#include <random>
 
+#include "kernels/boundaries/sinks.hpp"
+#include "kernels/fluid/wall_repulsion.hpp"
 #include "tests/geometry/mesh_support.hpp"
 #include "tests/support/grain_bench.hpp"
 
@@ -98,6 +101,186 @@ TEST(Feet, OfAVesselLieOnBothSidesOfItsWall) {
   const auto edge = drum({0.095, 0, 0.098}, 0.01);
   ASSERT_EQ(edge.size(), 2u) << "shell and end";
   EXPECT_NEAR(edge[0].distance + edge[1].distance, 0.007, 1e-12);
+}
+#endif
+
+/// Random solids of every kind, moved, turned and scaled.
+class RandomShapes {
+ public:
+  explicit RandomShapes(unsigned seed) : rng_(seed) {}
+  static constexpr int kKinds = 9;
+
+  ShapePtr primitive(int kind) {
+    const Vec3d a = point(0.2), b = a + direction() * between(0.15, 0.4);
+    const double r = between(0.05, 0.15);
+    switch (kind) {
+      case 0:
+        return make_sphere(a, r);
+      case 1:
+        return make_capsule(a, b, r);
+      case 2:
+        return make_cylinder(a, b, r);
+      case 3:
+        return make_cone(a, b, r, between(0, 1) < 0.3 ? 0.0 : between(0.05, 0.15));
+      case 4: {
+        const auto ends =
+            std::array{PipeEnds::open, PipeEnds::closed_a, PipeEnds::closed_b, PipeEnds::closed};
+        return make_pipe(a, b, r, r + between(0.02, 0.05), ends[rng_() % 4]);
+      }
+      case 5:
+        return make_box(a, a + Vec3d{between(0.1, 0.3), between(0.1, 0.3), between(0.1, 0.3)});
+      case 6:
+        return std::make_shared<TriangleMesh>(ball(2), "ball");
+      case 7:
+        return std::make_shared<TriangleMesh>(l_prism(), "l");
+      default:
+        return make_hollow(primitive(int(rng_() % 6)), between(0.02, 0.05));
+    }
+  }
+  ShapePtr placed(ShapePtr shape) {
+    const Bounds b = shape->bounds();
+    Placement p;
+    p.scale = between(0.3, 0.6) / norm(b.max - b.min);
+    p.rotation = Quat<double>::from_rotation(direction() * between(0, 3));
+    p.translation = (b.min + b.max) * -0.5 * p.scale + point(0.1);
+    return make_placed(shape, p);
+  }
+  Vec3d direction() {
+    Vec3d v;
+    do v = point(1);
+    while (norm(v) > 1 || norm(v) < 0.1);
+    return v / norm(v);
+  }
+  Vec3d point(double half) { return {between(-half, half), between(-half, half), between(-half, half)}; }
+  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng_); }
+
+ private:
+  std::mt19937_64 rng_;
+};
+
+/// Balls of radius R that must touch a wall, and some that must not, in places around it, on either side.
+struct Balls {
+  std::vector<Vec3d> x;
+  std::vector<double> distance;  ///< of the wall's surface, m
+};
+Balls balls_around(const Shape& shape, RandomShapes& random, double R) {
+  Balls balls;
+  for (int tries = 0; tries < 4000 && balls.x.size() < 40; ++tries) {
+    const SurfacePoint at = shape.nearest(random.point(0.45));
+    const Vec3d x = at.point + at.normal * (R * random.between(0.3, 1.7));
+    const double d = shape.clearance(x);
+    if (d < 0.2 * R || std::abs(d - R) < 0.02 * R) continue;
+    if (std::abs(d - shape.distance(x)) > 0.05 * R) continue;  // beside what a difference has cut away
+    bool free = std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) < 0.9;
+    for (const Vec3d& y : balls.x) free = free && norm(x - y) > 2.2 * R;
+    if (free) balls.x.push_back(x), balls.distance.push_back(d);
+  }
+  return balls;
+}
+
+/// What is far from a wall feels nothing of it, what is near is pushed away from it: grains and fluid, at
+/// every kind of shape, from outside and from the hollow within.
+void expect_wall_pushes(const std::vector<ShapePtr>& shapes, const Shape& solid, RandomShapes& random,
+                        const std::string& what) {
+  SCOPED_TRACE(what);
+  const double R = 0.012;
+  const Balls balls = balls_around(solid, random, R);
+  ASSERT_GT(balls.x.size(), 10u);
+  GrainBench b;
+  b.config.domain.min = {-1, -1, -1}, b.config.domain.max = {1, 1, 1};
+  b.config.grain.d = 2 * R;
+  b.config.grain.E = 1e6;
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    b.config.wall.bodies.push_back(test::shaped("wall" + std::to_string(k), shapes[k]));
+  for (const Vec3d& x : balls.x) b.add(x);
+  b.start();
+  b.run(1e-7, 1);
+  const Frame frame({-1, -1, -1}, {1, 1, 1}, false, false, false);
+  std::vector<BodyPose> still(shapes.size());
+  for (BodyPose& pose : still) pose.repulsion = true;
+  for (std::size_t i = 0; i < balls.x.size(); ++i) {
+    const SurfacePoint at = solid.nearest(balls.x[i]);
+    const Vec3d push = b.velocity(Id(i));
+    const bool near = balls.distance[i] < R;
+    EXPECT_EQ(norm(push) > 0, near) << balls.distance[i] / R << " R away";
+    if (near) {
+      EXPECT_GT(dot(push, at.normal), 0.3 * norm(push)) << "it is pushed off the wall";
+    }
+#if !BL_CUDA
+    const WallRepulsion fluid{{1, Real(R), 1e6}, frame, b.walls->view(), {still.data(), Index(still.size())}};
+    Vec3d off;
+    fluid.each(balls.x[i], [&](std::uint32_t, const Real3& acc) { off += Vec3d(acc); });
+    EXPECT_EQ(norm(off) > 0, near) << "fluid, " << balls.distance[i] / R << " R away";
+    if (near) {
+      EXPECT_GT(dot(off, at.normal), 0.3 * norm(off));
+    }
+#endif
+  }
+}
+
+TEST(RandomShapes, PushGrainsOffFromEverySide) {
+  RandomShapes random(7);
+  for (int n = 0; n < 5 * RandomShapes::kKinds; ++n) {
+    const ShapePtr shape = random.placed(random.primitive(n % RandomShapes::kKinds));
+    expect_wall_pushes({shape}, *shape, random, "shape " + std::to_string(n));
+  }
+  for (int n = 0; n < 12; ++n) {
+    const ShapePtr one = random.placed(random.primitive(n % 7)),
+                   other = random.placed(random.primitive((n + 3) % 7));
+    const ShapePtr both = make_union({one, other});
+    expect_wall_pushes({both}, *both, random, "union " + std::to_string(n));
+  }
+  for (int n = 0; n < 4; ++n) {
+    const ShapePtr rest = make_difference(make_box({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}),
+                                          make_sphere(random.point(0.1), random.between(0.15, 0.25)), 0.004);
+    expect_wall_pushes({rest}, *rest, random, "difference " + std::to_string(n));
+  }
+}
+
+#if !BL_CUDA
+/// Who is close enough for a foot is never passed over, wherever the shape has moved and turned.
+TEST(RandomShapes, AreNotPassedOver) {
+  RandomShapes random(11);
+  int near = 0;
+  for (int n = 0; n < 20 * RandomShapes::kKinds; ++n) {
+    const ShapePtr shape = random.placed(random.primitive(n % RandomShapes::kKinds));
+    const Feet feet(shape);
+    BodyPose pose;
+    pose.rotation = Quat<double>::from_rotation(random.direction());
+    for (int k = 0; k < 50; ++k) {
+      const Vec3d x = random.point(0.6);
+      const double reach = random.between(0, 0.2);
+      for (const Surface& s : feet.walls.surfaces()) {
+        const SurfaceView view(s, pose, feet.frame, x);
+        bool touched = false;
+        view.each_foot(feet.walls.view(), reach, 1e-9,
+                       [&](const Foot& foot) { touched = touched || foot.distance >= -reach; });
+        near += touched;
+        EXPECT_FALSE(touched && view.beyond(feet.walls.view(), reach)) << "shape " << n;
+      }
+    }
+  }
+  EXPECT_GT(near, 200);
+}
+
+/// An outlet takes what lies in it.
+TEST(RandomShapes, TakeWhatLiesWithin) {
+  RandomShapes random(13);
+  int within = 0;
+  for (int n = 0; n < 4 * RandomShapes::kKinds; ++n) {
+    const ShapePtr shape = random.placed(random.primitive(n % RandomShapes::kKinds));
+    const Feet feet(shape);
+    for (int k = 0; k < 100; ++k) {
+      const Vec3d x = random.point(0.4);
+      if (std::abs(shape->distance(x)) < 1e-4) continue;
+      bool taken = false;
+      for (const Surface& s : feet.walls.surfaces())
+        taken = taken || inside(feet.walls.view(), s, feet.frame, x);
+      EXPECT_EQ(taken, shape->distance(x) < 0) << "shape " << n;
+      within += taken;
+    }
+  }
+  EXPECT_GT(within, 40);
 }
 #endif
 

@@ -30,6 +30,9 @@ std::string place_in_case(const std::filesystem::path& path, const std::vector<s
 /// The case with every default filled in, as TOML that read_case takes back to an equal Config.
 std::string resolved_toml(const Config& config);
 
+/// Where the resolved case `now` would compute otherwise than `then`: "fluid.mu = 0.002 (0.001 then)".
+std::vector<std::string> changes_between(const std::string& then, const std::string& now);
+
 /// The defaults of a preset; `name` is "default" or "he2018".
 Config preset_defaults(const std::string& name);
 

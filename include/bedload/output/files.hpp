@@ -17,6 +17,13 @@ void write_file(const std::filesystem::path& path, const std::string& text);
 /// Puts the finished file `part` in the place of `path`, surely on disk. Throws FileError.
 void commit_file(const std::filesystem::path& part, const std::filesystem::path& path);
 
+/// Puts a seal behind the content of a file: "BEDLOAD", a new line and a checksum of all before. Throws
+/// FileError.
+void seal_file(const std::filesystem::path& path);
+
+/// What is wrong with a sealed file, as the rest of a sentence; empty if nothing is.
+std::string broken_seal(const std::filesystem::path& path);
+
 /// Name of the unfinished file beside `path`.
 std::filesystem::path part_of(const std::filesystem::path& path);
 

@@ -70,6 +70,12 @@ SavedState read_checkpoint(const std::filesystem::path& path, const Config& conf
 /// FileError.
 std::map<std::string, double> checkpoint_setup(const std::filesystem::path& path);
 
+/// The resolved case that a checkpoint was made with. Throws FileError.
+std::string checkpoint_case(const std::filesystem::path& path);
+
+/// The newest checkpoint of a results folder. Throws FileError if there is none.
+std::filesystem::path latest_checkpoint(const std::filesystem::path& dir);
+
 /// Writes a checkpoint: first beside its place, then synced and renamed. The same
 /// state gives the same bytes. Throws FileError.
 void write_state(const std::filesystem::path& path, const SavedState& state, const Config& config);
