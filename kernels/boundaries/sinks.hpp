@@ -21,8 +21,10 @@ BL_HD bool inside(const SurfaceSet& set, const Surface& s, const Frame& frame, c
   const BodyPose still;
   const SurfaceView view(s, still, frame, x);
   if (view.beyond(set, 0)) return false;
+  // of a mesh, whose edges would belong to none of their triangles by round-off; others have no need of it
+  const double size = s.kind == SurfaceKind::mesh ? 2 * (s.half[0] + s.half[1] + s.half[2]) : 0;
   double nearest = 1e300, distance = 1e300;
-  view.each_foot(set, nearest, 0, [&](const Foot& foot) {
+  view.each_foot(set, size > 0 ? size : nearest, 1e-9 * size, [&](const Foot& foot) {
     const double away = std::abs(foot.distance);
     if (away >= nearest) return;
     nearest = away, distance = foot.distance;

@@ -129,6 +129,7 @@ class Conversion {
     const auto* x = v.get<double>();
     if (!x) reject(must);
     if (!std::isfinite(*x)) reject("must be finite");
+    if (std::abs(*x) > 1e30) reject("must be below 1e30 in size");
     return *x;
   }
   std::string variables() const { return fmt::format("{}", fmt::join(about_.variables, ", ")); }

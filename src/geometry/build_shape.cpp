@@ -18,10 +18,10 @@
 namespace bedload {
 namespace {
 
-ShapePtr find(const std::string& name, const std::vector<ShapeConfig>& earlier) {
+const ShapeConfig& find(const std::string& name, const std::vector<ShapeConfig>& earlier) {
   std::string names;
   for (const ShapeConfig& shape : earlier) {
-    if (shape.name == name) return shape.solid.shape;
+    if (shape.name == name) return shape;
     names += (names.empty() ? "" : ", ") + shape.name;
   }
   throw CaseError(fmt::format("of = \"{}\" must name a shape listed before it{}", name,
@@ -65,7 +65,15 @@ ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier)
   if (c.kind == "mesh") return build_mesh(c);
 
   std::vector<ShapePtr> of;
-  for (const std::string& name : c.of) of.push_back(find(name, earlier));
+  c.pieces = 0;
+  for (const std::string& name : c.of) {
+    const ShapeConfig& part = find(name, earlier);
+    of.push_back(part.solid.shape);
+    c.pieces += part.pieces;
+  }
+  constexpr std::int64_t most = 10000;
+  if (c.pieces > most)
+    throw CaseError(fmt::format("is made of {} pieces, must be of at most {}", c.pieces, most));
   if (c.kind == "union") return make_union(of);
   if (c.kind == "hollow") {
     if (of.size() != 1) throw CaseError(fmt::format("of holds {} names, must hold one", of.size()));

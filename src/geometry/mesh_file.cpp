@@ -2,15 +2,43 @@
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cctype>
+#include <cstdint>
+#include <cstring>
 
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/mesh.hpp"
+#include "bedload/output/files.hpp"
 
 namespace bedload {
+namespace {
+
+/// What is missing in a file that has been cut off, which the importer tells badly or hangs on; empty if
+/// nothing.
+std::string missing_in(const std::filesystem::path& file, const std::string& kind) {
+  const std::string text = read_file(file);
+  if (text.empty()) return "is empty";
+  if (kind == ".ply" && !text.starts_with("ply")) return "is no PLY file: it does not begin with ply";
+  if (kind == ".ply" && text.substr(0, 1 << 16).find("end_header") == text.npos)
+    return "is cut off: its header has no end_header";
+  if (kind != ".stl") return "";
+  constexpr std::size_t head = 84, triangle = 50;  // of a binary file, bytes
+  std::uint32_t count = 0;
+  if (text.size() >= head) std::memcpy(&count, text.data() + head - sizeof count, sizeof count);
+  if (text.size() >= head && text.size() == head + triangle * std::size_t(count)) return "";
+  if (text.starts_with("solid"))
+    return text.find("endsolid") == text.npos ? "is cut off: it has no endsolid" : "";
+  if (text.size() < head) return "is cut off: it ends within its head";
+  if (text.size() > head + triangle * std::size_t(count)) return "";  // with more behind, as some write it
+  return fmt::format("is cut off: its {} triangles take {} bytes, and it has {}", count,
+                     head + triangle * std::size_t(count), text.size());
+}
+
+}  // namespace
 
 TriangleSoup read_triangles(const std::filesystem::path& file) {
   const std::string name = file.string();
@@ -21,6 +49,7 @@ TriangleSoup read_triangles(const std::filesystem::path& file) {
     throw CaseError(name + ": must be an STL, OBJ or PLY file");
   if (!std::filesystem::is_regular_file(file)) throw FileError(name + ": cannot read: no such file");
 
+  if (const std::string why = missing_in(file, kind); !why.empty()) throw FileError(name + ": " + why);
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate);
   if (scene == nullptr) throw FileError(name + ": cannot read: " + importer.GetErrorString());

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "bedload/case/parameters.hpp"
 #include "bedload/case/section.hpp"
 #include "support.hpp"
 
@@ -41,6 +44,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"dx = 0.004", "dx = \"4mm\"", "dam.toml:6: fluid.dx = \"4mm\" must be a number in m"},
         Wrong{"dx = 0.004", "dx = nan", "dam.toml:6: fluid.dx = nan must be finite"},
         Wrong{"dx = 0.004", "dx = inf", "dam.toml:6: fluid.dx = inf must be finite"},
+        Wrong{"dx = 0.004", "dx = 1e308", "dam.toml:6: fluid.dx = 1e+308 must be below 1e30 in size"},
         Wrong{"dx = 0.004", "dx = 0.004\nkernel = 2",
               "dam.toml:7: fluid.kernel = 2 must be one of wendland_c2, cubic, lucy"},
         Wrong{"d = 0.002", "d = 0.002\nfixed = 2", "dam.toml:17: grain.fixed = 2 must be true or false"},
@@ -166,6 +170,50 @@ INSTANTIATE_TEST_SUITE_P(
               "dam.toml:26: probe.body = \"gate\" must name a wall.body; this case has tank"},
         Wrong{"[out]", "[[probe]]\nname = \"../f\"\ntype = \"height\"\nat = [0, 0, 0]\n[out]",
               "dam.toml:24: probe.name = \"../f\" must consist of letters, digits, '_', '-' and '.'"}));
+
+/// Every key of a case, given what it cannot be: one sentence that names place and key.
+TEST(CaseError, EveryKeySaysWhatItCannotBe) {
+  const std::string text = kCase + R"([[shape]]
+name = "ball"
+kind = "sphere"
+centre = [0.1, 0.05, 0.1]
+radius = 0.02
+[[outlet]]
+name = "drain"
+shape = "box"
+min = [0.18, 0, 0]
+max = [0.2, 0.1, 0.02]
+[[probe]]
+name = "top"
+type = "height"
+at = [0.01, 0.05, 0]
+)";
+  ASSERT_EQ(error_of(text), "");
+  int tried = 0;
+  for (const ParameterRow& row : parameter_table()) {
+    std::string path = row.key;
+    bool listed = true;  // in the lists that this case has
+    for (const std::string list : {"inlet.", "grain_inlet.", "wall.body.motion.add.", "frame.motion.add.",
+                                   "wall.body.free.contact.", "grain.fill.sizes."})
+      listed = listed && !row.key.starts_with(list);
+    if (!listed) continue;
+    for (const std::string list : {"fluid.fill.", "wall.body.", "grain.fill.", "shape.", "outlet.", "probe."})
+      if (path.starts_with(list)) path.insert(list.size(), "0.");
+    std::vector<std::string> wrong{"1979-05-27", "[[1, 2]]", "{odd = 1}"};
+    if (!row.allowed.empty() && row.allowed.find("..") != row.allowed.npos) wrong.push_back("-1e29");
+    for (const std::string& value : wrong) {
+      const std::string assignment = path + "=" + value, message = error_of(text, {assignment});
+      EXPECT_TRUE(message.starts_with("--set " + assignment + ": ") || message.starts_with("dam.toml"))
+          << message;
+      const std::string leaf = row.key.substr(row.key.rfind('.') + 1);
+      EXPECT_NE(message.find(leaf, message.starts_with("--set") ? assignment.size() : 0), message.npos)
+          << assignment << ": " << message;
+      EXPECT_EQ(std::count(message.begin(), message.end(), '\n'), 0) << message;
+      ++tried;
+    }
+  }
+  EXPECT_GT(tried, 600);
+}
 
 TEST(CaseError, NamesTheOverrideAtFault) {
   EXPECT_EQ(error_of(kCase, {"grain.e=2"}),

@@ -164,6 +164,14 @@ TEST(ShapeCase, SaysWhatIsWrong) {
             "drum.toml:11: shape \"drum\": of = \"later\" must name a shape listed before it: inside");
   EXPECT_EQ(refused("name = \"drum\"\nkind", "name = \"inside\"\nkind"),
             "drum.toml:12: shape.name = \"inside\" must differ from other shapes'");
+  std::string doubled = "kind = \"union\"\nof = [\"inside\", \"inside\"]\n";
+  for (int n = 0; n < 40; ++n)
+    doubled += "[[shape]]\nname = \"u" + std::to_string(n) + "\"\nkind = \"union\"\nof = [\"" +
+               (n == 0 ? std::string("drum") : "u" + std::to_string(n - 1)) + "\", \"" +
+               (n == 0 ? std::string("drum") : "u" + std::to_string(n - 1)) + "\"]\n";
+  EXPECT_NE(refused("kind = \"hollow\"\nof = [\"inside\"]\n", doubled)
+                .find("is made of 16384 pieces, must be of at most 10000"),
+            std::string::npos);
   EXPECT_EQ(refused("radius = 0.05", "radius = 0"), "drum.toml:10: shape.radius = 0 must be > 0");
   EXPECT_EQ(refused("b = [0, 0.05, 0]", "b = [0, -0.05, 0]"),
             "drum.toml:5: shape \"inside\": cylinder: its ends (0, -0.05, 0) and (0, -0.05, 0) m must lie "

@@ -104,15 +104,17 @@ TEST(Feet, OfAVesselLieOnBothSidesOfItsWall) {
 }
 #endif
 
-/// Random solids of every kind, moved, turned and scaled.
+/// Random solids of every kind, moved, turned and scaled. One draw a statement: the same with every compiler.
 class RandomShapes {
  public:
   explicit RandomShapes(unsigned seed) : rng_(seed) {}
   static constexpr int kKinds = 9;
 
   ShapePtr primitive(int kind) {
-    const Vec3d a = point(0.2), b = a + direction() * between(0.15, 0.4);
-    const double r = between(0.05, 0.15);
+    const Vec3d a = point(0.2), along = direction();
+    const Vec3d b = a + along * between(0.15, 0.4);
+    const double r = between(0.05, 0.15), wall = between(0.02, 0.05);
+    const int choice = int(rng_() % 12);
     switch (kind) {
       case 0:
         return make_sphere(a, r);
@@ -121,11 +123,11 @@ class RandomShapes {
       case 2:
         return make_cylinder(a, b, r);
       case 3:
-        return make_cone(a, b, r, between(0, 1) < 0.3 ? 0.0 : between(0.05, 0.15));
+        return make_cone(a, b, r, choice < 4 ? 0.0 : between(0.05, 0.15));
       case 4: {
         const auto ends =
             std::array{PipeEnds::open, PipeEnds::closed_a, PipeEnds::closed_b, PipeEnds::closed};
-        return make_pipe(a, b, r, r + between(0.02, 0.05), ends[rng_() % 4]);
+        return make_pipe(a, b, r, r + wall, ends[choice % 4]);
       }
       case 5:
         return make_box(a, a + Vec3d{between(0.1, 0.3), between(0.1, 0.3), between(0.1, 0.3)});
@@ -134,14 +136,15 @@ class RandomShapes {
       case 7:
         return std::make_shared<TriangleMesh>(l_prism(), "l");
       default:
-        return make_hollow(primitive(int(rng_() % 6)), between(0.02, 0.05));
+        return make_hollow(primitive(choice % 6), wall);
     }
   }
   ShapePtr placed(ShapePtr shape) {
     const Bounds b = shape->bounds();
     Placement p;
     p.scale = between(0.3, 0.6) / norm(b.max - b.min);
-    p.rotation = Quat<double>::from_rotation(direction() * between(0, 3));
+    const Vec3d axis = direction();
+    p.rotation = Quat<double>::from_rotation(axis * between(0, 3));
     p.translation = (b.min + b.max) * -0.5 * p.scale + point(0.1);
     return make_placed(shape, p);
   }
@@ -181,7 +184,7 @@ Balls balls_around(const Shape& shape, RandomShapes& random, double R) {
 /// What is far from a wall feels nothing of it, what is near is pushed away from it: grains and fluid, at
 /// every kind of shape, from outside and from the hollow within.
 void expect_wall_pushes(const std::vector<ShapePtr>& shapes, const Shape& solid, RandomShapes& random,
-                        const std::string& what) {
+                        const std::string& what, bool directed = true) {
   SCOPED_TRACE(what);
   const double R = 0.012;
   const Balls balls = balls_around(solid, random, R);
@@ -203,7 +206,7 @@ void expect_wall_pushes(const std::vector<ShapePtr>& shapes, const Shape& solid,
     const Vec3d push = b.velocity(Id(i));
     const bool near = balls.distance[i] < R;
     EXPECT_EQ(norm(push) > 0, near) << balls.distance[i] / R << " R away";
-    if (near) {
+    if (near && directed) {
       EXPECT_GT(dot(push, at.normal), 0.3 * norm(push)) << "it is pushed off the wall";
     }
 #if !BL_CUDA
@@ -211,7 +214,7 @@ void expect_wall_pushes(const std::vector<ShapePtr>& shapes, const Shape& solid,
     Vec3d off;
     fluid.each(balls.x[i], [&](std::uint32_t, const Real3& acc) { off += Vec3d(acc); });
     EXPECT_EQ(norm(off) > 0, near) << "fluid, " << balls.distance[i] / R << " R away";
-    if (near) {
+    if (near && directed) {
       EXPECT_GT(dot(off, at.normal), 0.3 * norm(off));
     }
 #endif
@@ -225,15 +228,17 @@ TEST(RandomShapes, PushGrainsOffFromEverySide) {
     expect_wall_pushes({shape}, *shape, random, "shape " + std::to_string(n));
   }
   for (int n = 0; n < 12; ++n) {
-    const ShapePtr one = random.placed(random.primitive(n % 7)),
-                   other = random.placed(random.primitive((n + 3) % 7));
+    const ShapePtr one = random.placed(random.primitive(n % 7));
+    const ShapePtr other = random.placed(random.primitive((n + 3) % 7));
     const ShapePtr both = make_union({one, other});
     expect_wall_pushes({both}, *both, random, "union " + std::to_string(n));
   }
   for (int n = 0; n < 4; ++n) {
+    const Vec3d middle = random.point(0.1);
     const ShapePtr rest = make_difference(make_box({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}),
-                                          make_sphere(random.point(0.1), random.between(0.15, 0.25)), 0.004);
-    expect_wall_pushes({rest}, *rest, random, "difference " + std::to_string(n));
+                                          make_sphere(middle, random.between(0.15, 0.25)), 0.004);
+    // beside what is cut away its normal may be that of the surface which is gone
+    expect_wall_pushes({rest}, *rest, random, "difference " + std::to_string(n), false);
   }
 }
 
@@ -270,17 +275,18 @@ TEST(RandomShapes, TakeWhatLiesWithin) {
   for (int n = 0; n < 4 * RandomShapes::kKinds; ++n) {
     const ShapePtr shape = random.placed(random.primitive(n % RandomShapes::kKinds));
     const Feet feet(shape);
-    for (int k = 0; k < 100; ++k) {
+    for (int k = 0; k < 2000; ++k) {
       const Vec3d x = random.point(0.4);
       if (std::abs(shape->distance(x)) < 1e-4) continue;
       bool taken = false;
       for (const Surface& s : feet.walls.surfaces())
         taken = taken || inside(feet.walls.view(), s, feet.frame, x);
-      EXPECT_EQ(taken, shape->distance(x) < 0) << "shape " << n;
+      EXPECT_EQ(taken, shape->distance(x) < 0)
+          << "shape " << n << ", " << shape->distance(x) << " m from its surface";
       within += taken;
     }
   }
-  EXPECT_GT(within, 40);
+  EXPECT_GT(within, 800);
 }
 #endif
 

@@ -48,6 +48,7 @@ struct ShapeConfig {
   Vec3d turn_axis{0, 0, 1};
   double turn_angle = 0;                       ///< deg
   Vec3d translate;                             ///< m
+  std::int64_t pieces = 1;                     ///< primitives in it, each as often as it is named (resolved)
   Solid solid;                                 ///< resolved
   bool operator==(const ShapeConfig&) const = default;
 };
