@@ -64,8 +64,8 @@ int main(int argc, char** argv) {
     const std::string path = error.path1().string();
     fmt::print(stderr, "{}: {}\n", path.empty() ? "working directory" : path, error.code().message());
     return bedload::kExitBadInput;
-  } catch (const std::system_error& error) {  // standard output takes no more
-    std::fputs(("output: " + error.code().message() + "\n").c_str(), stderr);
+  } catch (const std::system_error& error) {  // such as a standard output that takes no more
+    std::fputs((std::string(error.what()) + "\n").c_str(), stderr);
     return bedload::kExitBadInput;
   }
 }

@@ -72,7 +72,7 @@ struct ForcePass {
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
     theta[a] = sum.theta;
-    acc[a] = sum.theta + gravity + drive(a, m_state[a]);
+    acc[a] = sum.theta + gravity + drive(a, sum.m);
     if (xsph_factor > 0) xsph[a] = sum.xsph;
   }
 };

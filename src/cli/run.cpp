@@ -139,8 +139,8 @@ class Run {
                       effort.wall_seconds > 0 ? double(effort.particle_steps) / effort.wall_seconds : 0));
       say(fmt::format("of it      {}\n", shares_text(simulation_->time_spent(), effort.wall_seconds)));
     }
-    if (stopped) return kExitStopped;
-    return losses() ? kExitLost : 0;
+    const bool lost = losses();
+    return stopped ? kExitStopped : lost ? kExitLost : 0;
   }
 
   /// Tells what has left the domain unasked; true if it is more than the case allows.
@@ -194,10 +194,10 @@ int run_case(const Options& given) {
   watch_signals();
   Options options = given;
   if (options.restart == "latest") options.restart = latest_checkpoint(options.out);
-  refuse_other_run(options);
+  refuse_other_run(options);  // before time goes into laying particles
   Prepared prepared = prepare(options);
   const FolderLock lock(options.out);  // before hours go into settling
-  refuse_other_run(options);
+  refuse_other_run(options);           // that has come and gone meanwhile
   return Run(options, std::move(prepared)).go();
 }
 

@@ -185,7 +185,11 @@ auto on_checkpoint(const std::filesystem::path& path, F f) {
   if (!std::filesystem::is_regular_file(path)) throw FileError(path.string() + ": cannot read: no such file");
   return h5::with_file_errors(path, "restart from this", [&] {
     if (!h5::is_hdf5(path)) throw h5::Error("it is no HDF5 file");
-    if (const std::string broken = broken_seal(path); !broken.empty()) throw h5::Error(broken);
+    const Seal seal = seal_of(path);
+    if (seal == Seal::missing)
+      throw h5::Error(
+          "it is no Bedload checkpoint, or cut off, or of an older version (no checksum at its end)");
+    if (seal == Seal::broken) throw h5::Error("it is damaged (wrong checksum)");
     const Handle file = h5::open_file(path, h5::Mode::read);
     if (!h5::has_attribute(file, "format")) throw h5::Error("it is no Bedload checkpoint");
     return f(hid_t(file));

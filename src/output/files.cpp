@@ -106,20 +106,18 @@ void seal_file(const std::filesystem::path& path) {
   if (!in || !out) throw cannot("write", path);
 }
 
-std::string broken_seal(const std::filesystem::path& path) {
-  const char* const none =
-      "it is no Bedload checkpoint, or cut off, or of an older version (no checksum at its end)";
+Seal seal_of(const std::filesystem::path& path) {
   constexpr std::uintmax_t tail = kSeal.size() + sizeof(std::uint64_t);
   const std::uintmax_t size = std::filesystem::file_size(path);
-  if (size < tail) return none;
+  if (size < tail) return Seal::missing;
   std::ifstream in(path, std::ios::binary);
   const std::uint64_t sum = checksum(in, size - tail);
   std::array<char, 8> seal{};
   std::uint64_t found = 0;
   in.read(seal.data(), seal.size());
   in.read(reinterpret_cast<char*>(&found), sizeof found);
-  if (!in || seal != kSeal) return none;
-  return sum == found ? "" : "it is damaged (wrong checksum)";
+  if (!in || seal != kSeal) return Seal::missing;
+  return sum == found ? Seal::whole : Seal::broken;
 }
 
 }  // namespace bedload

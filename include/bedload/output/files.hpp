@@ -21,8 +21,9 @@ void commit_file(const std::filesystem::path& part, const std::filesystem::path&
 /// FileError.
 void seal_file(const std::filesystem::path& path);
 
-/// What is wrong with a sealed file, as the rest of a sentence; empty if nothing is.
-std::string broken_seal(const std::filesystem::path& path);
+enum class Seal { whole, missing, broken };
+/// Whether a file ends with a seal that fits what lies before.
+Seal seal_of(const std::filesystem::path& path);
 
 /// Name of the unfinished file beside `path`.
 std::filesystem::path part_of(const std::filesystem::path& path);
