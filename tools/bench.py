@@ -79,7 +79,7 @@ def case_text(row):
 
 def measure(program, case, precision, settings, options):
     """One row of the table, and the device."""
-    command = [program, case, "--precision", precision, "--backend", options.backend, "--at", options.at,
+    command = [program.resolve(), case, "--precision", precision, "--backend", options.backend, "--at", options.at,
                "--steps", options.steps, "--spans", options.spans]
     if options.threads:
         command += ["--threads", options.threads]

@@ -137,8 +137,9 @@ class Run:
         """Lower and upper corner of what is worth showing, m."""
         points = [np.array([low, high]) for body, low, high in self.boxes(0) if body["shape"] == "tank"]
         points += [mesh.vertices for mesh in self.meshes(0)]
-        if not points:
-            points = [f.position(f.nearest(t)) for f in self.frames.values() for t in times]
+        shown = list(self.frames.values()) if not points else [f for n, f in self.frames.items() if n == "grains"]
+        points += [f.position(f.nearest(t)) for f in shown for t in times]
+        points = [p for p in points if len(p)]
         low, high = np.min([p.min(0) for p in points], axis=0), np.max([p.max(0) for p in points], axis=0)
         pick = [self.across, self.up]
         margin = 0.03 * np.max((high - low)[pick])
@@ -189,7 +190,12 @@ def draw_walls(axes, run, time, scale, plane):
 
 def plot_frames(options):
     run = Run(options.run_dir, options.view)
-    times = [float(t) for t in options.times.split(",")] if options.times else [run.times()[-1]]
+    first, last = run.times()[[0, -1]]
+    times = [float(t) for t in options.times.split(",")] if options.times else [last]
+    slack = 0.5 * (last - first) / max(len(run.times()) - 1, 1)
+    for time in times:
+        if not first - slack <= time <= last + slack:
+            raise SystemExit(f"--times: {time:g} s is not in this run, which has frames from {first:.4g} to {last:.4g} s")
     low, high = run.window(times)
     scale, unit = (1e3, "mm") if np.max(high - low) < 1 else (1, "m")
     columns = len(times) if len(times) <= 2 else int(np.ceil(np.sqrt(len(times) * 0.7)))
@@ -233,16 +239,29 @@ def plot_frames(options):
     save(figure, options.out)
 
 
+def unit_of(name):
+    """Unit of a column named "speed [m/s]"."""
+    return name[name.rindex("[") + 1 : -1] if name.endswith("]") else ""
+
+
 def plot_probe(options):
-    figure, axes = plt.subplots(figsize=(7, 4.5), layout="constrained")
-    labels = set()
-    for path in options.csv:
-        table = Table(path)
-        names = options.column or table.names[1:]
-        for name in names:
-            label = f"{Path(path).stem}: {name}" if len(names) > 1 else Path(path).stem
+    tables = {Path(path).stem: Table(path) for path in options.csv}
+    curves = [(stem, table, name) for stem, table in tables.items() for name in options.column or table.names[1:]]
+    units = list(dict.fromkeys(unit_of(name) for _, _, name in curves))  # what has another unit has its own panel
+    columns = int(np.ceil(np.sqrt(len(units) / 2)))
+    rows = int(np.ceil(len(units) / columns))
+    figure, panels = plt.subplots(rows, columns, squeeze=False, figsize=(7 * columns, 4.5 if rows == 1 else 3.2 * rows),
+                                  layout="constrained")
+    for axes, unit in zip(panels.flat, units):
+        mine = [curve for curve in curves if unit_of(curve[2]) == unit]
+        names = sorted({name for _, _, name in mine})
+        for stem, table, name in mine:
+            label = stem if len(names) == 1 else name if len(tables) == 1 else f"{stem}: {name}"
             axes.plot(table.column(table.names[0]), table.column(name), label=label, linewidth=1.5)
-            labels.add(name)
+        axes.set_ylabel(", ".join(names) if len(names) <= 2 else unit)
+    for axes in list(panels.flat)[len(units):]:
+        axes.set_axis_off()
+    axes = panels[0, 0]
     markers = iter("osD^v<>PX*")
     for path in options.reference:
         table = Table(path)
@@ -255,10 +274,10 @@ def plot_probe(options):
             picked = np.array([name == series for name in names])
             axes.plot(table.column(x)[picked], table.column(y)[picked], next(markers, "."), label=series,
                       markersize=5, markerfacecolor="none")
-    axes.set_xlabel("time (s)")
-    axes.set_ylabel(", ".join(sorted(labels)) if len(labels) <= 2 else "")
-    axes.grid(alpha=0.3)
-    axes.legend(frameon=False, fontsize=9)
+    for axes in panels.flat[: len(units)]:
+        axes.set_xlabel("time (s)")
+        axes.grid(alpha=0.3)
+        axes.legend(frameon=False, fontsize=9)
     save(figure, options.out)
 
 

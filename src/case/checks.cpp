@@ -13,6 +13,7 @@
 #include "bedload/case/parameters.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
+#include "bedload/geometry/shape.hpp"
 #include "resolve.hpp"
 #include "src/motion/survey.hpp"
 
@@ -65,6 +66,7 @@ class Checks {
           "fluid.vmax = {:.3g} m/s sets the sound speed; fluid from an inlet that stands or falls as high as "
           "the domain, {:.3g} m, reaches {:.3g} m/s",
           f.vmax, fall, v);
+    falling_grains();
     if (f.c < 10 * f.vmax * (1 - 1e-9))
       warn(
           "fluid.c_factor: sound is only {:.3g} times as fast as the flow (Mach {:.2g}); density will vary "
@@ -72,6 +74,24 @@ class Checks {
           "than 1 %",
           f.c / f.vmax, f.vmax / f.c);
     if (coupled() && f.mu == 0) fail("fluid.mu", f.mu, "must be > 0 with grains; drag needs mu");
+  }
+
+  /// Meshes in mm that are taken for m lie far outside the domain, or are lost in it.
+  void meshes() const {
+    const auto largest = [](const Vec3d& side) { return std::max({side.x, side.y, side.z}); };
+    const Vec3d room = c.domain.max - c.domain.min;
+    for (const ShapeConfig& shape : c.shapes) {
+      if (shape.kind != "mesh") continue;
+      const Bounds bounds = shape.solid.shape->bounds();
+      const Vec3d side = bounds.max - bounds.min;
+      const double times = largest(side) / largest(room);
+      if (times > 20 || times < 1e-3)
+        warn(
+            "shape \"{}\": its mesh is {:.3g} x {:.3g} x {:.3g} m large, the domain {:.3g} x {:.3g} x {:.3g} "
+            "m; "
+            "does it need another scale?",
+            shape.name, side.x, side.y, side.z, room.x, room.y, room.z);
+    }
   }
 
   void walls() const {
@@ -84,6 +104,7 @@ class Checks {
         fail(path + ".name", quoted(body.name), "must differ from other bodies'");
       if (body.shape != "plane") box(path, body.min, body.max);
       if (body.solid.shape) within_period(path + ".shape", body);
+      countable(path + ".shape", body);
       if (!body.moves()) met(body);
     }
     if (!c.fluid.present) return;
@@ -275,11 +296,40 @@ class Checks {
       fail("domain.periodic", fmt::format("{} m along {}", length, "xyz"[axis]),
            fmt::format("must be a period > {} = {}; enlarge the domain or refine", name, least));
   }
+  /// Grains in air fall into the fluid faster than it flows by itself.
+  void falling_grains() const {
+    if (!c.grain.present || c.grain.settle || c.grain.fixed) return;
+    std::vector<DomainConfig> all;
+    for (const FluidFill& fill : c.fluid.fills) all.push_back({.min = fill.min, .max = fill.max});
+    const std::size_t fluid = all.size();
+    for (const GrainFill& fill : c.grain.fills)
+      if (fill.file.empty() && fill.positions.empty()) all.push_back({.min = fill.min, .max = fill.max});
+    if (fluid == 0 || all.size() == fluid) return;
+    const double fall = height(all, c.gravity), v = std::sqrt(2 * norm(c.gravity) * fall);
+    if (v > c.fluid.vmax * (1 + 1e-9))
+      warn(
+          "fluid.vmax = {:.3g} m/s sets the sound speed; grains that fall {:.3g} m into the fluid reach "
+          "{:.3g} m/s",
+          c.fluid.vmax, fall, v);
+  }
   /// Whether a box shares space with the domain.
   bool in_sight(const Vec3d& lo, const Vec3d& hi) const {
     for (int k = 0; k < 3; ++k)
       if (!c.domain.periodic[k] && (hi[k] < c.domain.min[k] || lo[k] > c.domain.max[k])) return false;
     return true;
+  }
+  /// The largest side of a body alone must not have more wall particles than there can be.
+  void countable(const std::string& path, const WallBody& body) const {
+    if (!c.fluid.present || body.shape == "plane" || !body.stops_fluid()) return;
+    const Vec3d side = body.max - body.min;
+    const double spacing = c.wall.spacing(body);
+    const double layer = std::max({side.x * side.y, side.y * side.z, side.z * side.x}) / (spacing * spacing);
+    if (layer >= 2147483648.0)
+      fail(path, quoted(body.shape),
+           fmt::format(
+               "must be smaller; at {:.3g} x {:.3g} x {:.3g} m a layer of wall particles {} m apart has "
+               "{:.3g} of at most 2147483647",
+               side.x, side.y, side.z, spacing, layer));
   }
   /// Particles leave a domain before they meet a wall beyond it.
   void met(const WallBody& body) const {
@@ -430,6 +480,7 @@ void cross_check(const Config& config, const Value& root, std::vector<std::strin
   const Checks checks(config, root, warnings);
   checks.domain();
   if (config.fluid.present) checks.fluid();
+  checks.meshes();
   checks.walls();
   checks.motions();
   if (config.grain.present) checks.grains();

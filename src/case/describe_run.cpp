@@ -17,7 +17,7 @@ void probe(Parameters& p, ProbeConfig& b) {
      .presence = required,
      .family = "outputs",
      .choices = {{"front", "furthest place of a phase along a direction"},
-                 {"point", "fluid velocity, pressure and porosity at a place"},
+                 {"point", "fluid velocity, pressure and, among grains, porosity at a place"},
                  {"height", "fluid surface over a place"},
                  {"box", "mass and momentum in a box"},
                  {"force", "force and torque on a wall body"}}});

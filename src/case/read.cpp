@@ -1,7 +1,7 @@
 #include "bedload/case/read.hpp"
 
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include "bedload/core/error.hpp"
 #include "reader.hpp"
@@ -20,9 +20,11 @@ Config defaults(const Value& root) {
 std::string text_of(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) throw FileError(path.string() + ": is a folder, not a case file");
   std::ifstream file(path);
-  std::stringstream text;
-  if (!file || !(text << file.rdbuf())) throw FileError(path.string() + ": cannot read this case file");
-  return text.str();
+  if (!file) throw FileError(path.string() + ": cannot read this case file");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (file.bad()) throw FileError(path.string() + ": cannot read this case file");
+  if (text.find_first_not_of(" \t\r\n") == text.npos) throw CaseError(path.string() + ": is empty");
+  return text;
 }
 
 Value tree_of(const std::string& text, const std::string& name, const std::vector<std::string>& overrides) {

@@ -8,6 +8,7 @@
 
 #include "bedload/case/formula.hpp"
 #include "bedload/core/error.hpp"
+#include "units.hpp"
 
 namespace bedload {
 namespace {
@@ -126,11 +127,21 @@ class Conversion {
   }
   double number(const Value& v, const std::string& must) const {
     if (const auto* i = v.get<std::int64_t>()) return double(*i);
-    const auto* x = v.get<double>();
-    if (!x) reject(must);
-    if (!std::isfinite(*x)) reject("must be finite");
-    if (std::abs(*x) > 1e30) reject("must be below 1e30 in size");
-    return *x;
+    const auto* text = v.get<std::string>();
+    const bool with_unit = text && takes_units(about_.unit);
+    const auto* given = v.get<double>();
+    if (!given && !with_unit) reject(must);
+    const double x = given ? *given : in_own_unit(*text, must);
+    if (!std::isfinite(x)) reject("must be finite");
+    if (std::abs(x) > 1e30) reject("must be below 1e30 in size");
+    return x;
+  }
+  double in_own_unit(const std::string& text, const std::string& must) const {
+    try {
+      return quantity(text, about_.unit);
+    } catch (const CaseError& error) {
+      reject(fmt::format("{}, or in quotes with another unit; {}", must, error.what()));
+    }
   }
   std::string variables() const { return fmt::format("{}", fmt::join(about_.variables, ", ")); }
   const Value::Array& triple(const std::string& shape) const {

@@ -116,6 +116,16 @@ void resolve_shapes(Config& c, const Value& root) {
   }
 }
 
+/// A shape without a surface that grains could meet makes no wall.
+void check_surface(const WallBody& body, const Value& root, const std::string& path) {
+  try {
+    std::vector<SurfacePart> parts;
+    body.solid.shape->add_parts(parts, {});
+  } catch (const CaseError& error) {
+    reject(root, path, fmt::format("\"{}\"", body.shape), fmt::format("makes no wall: {}", error.what()));
+  }
+}
+
 void resolve_walls(Config& c, const Value& root) {
   for (std::size_t i = 0; i < c.wall.bodies.size(); ++i) {
     WallBody& body = c.wall.bodies[i];
@@ -125,6 +135,7 @@ void resolve_walls(Config& c, const Value& root) {
                                "must be tank, box, plane or the name of a [[shape]]");
       const Bounds bounds = body.solid.shape->bounds();
       body.min = bounds.min, body.max = bounds.max;
+      check_surface(body, root, path + "shape");
     }
     if (body.shape == "plane") body.normal = direction(body.normal, root, path + "normal");
   }

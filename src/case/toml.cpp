@@ -61,13 +61,23 @@ std::string trimmed(std::string_view text) {
   return from == text.npos ? std::string() : std::string(text.substr(from, to - from + 1));
 }
 
-/// The right side of an override: TOML, or a bare word taken as a string.
+/// A number with a unit behind it: 3mm, 50 ml/min.
+bool is_quantity(std::string_view text) {
+  const std::string_view marks = " .*/^+-";
+  return !text.empty() &&
+         (std::isdigit(static_cast<unsigned char>(text[0])) || marks.find(text[0]) != marks.npos) &&
+         std::all_of(text.begin(), text.end(), [&](unsigned char c) {
+           return std::isalnum(c) || c >= 0x80 || marks.find(char(c)) != marks.npos;
+         });
+}
+
+/// The right side of an override: TOML, or a bare word or quantity taken as a string.
 Value override_value(const std::string& text, const std::string& source) {
   try {
     const toml::table parsed = toml::parse("value = " + text);
     if (parsed.size() == 1) return convert(*parsed.get("value"), source, false);
   } catch (const toml::parse_error& error) {
-    if (!is_bare_word(text)) throw CaseError(source + ": " + reason(error));
+    if (!is_bare_word(text) && !is_quantity(text)) throw CaseError(source + ": " + reason(error));
   }
   return {.data = text, .source = source};
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -14,18 +15,48 @@
 namespace bedload {
 namespace {
 
-/// Rough pace of each backend, for an order of magnitude.
+/// Rough pace of each backend, for what is not there to be timed.
 struct Pace {
-  double fluid;    ///< fluid particle-steps/s
-  double grains;   ///< grain-substeps/s
-  double step;     ///< s, floor of a step
-  double substep;  ///< s, floor of a substep
+  double fluid;   ///< fluid particle-steps/s
+  double grains;  ///< grain-substeps/s
 };
 
 Pace pace_of(const Device& device, const std::string& precision) {
   const double slower = precision == "double" ? 2 : 1;
-  if (device.backend == "cuda") return {1e9 / slower, 1e9 / slower, 1e-4, 2e-5};
-  return {1e6, 3e6, 1e-5, 1e-6};
+  if (device.backend == "cuda") return {3e8 / slower, 1e9 / slower};
+  return {3e5, 3e6};
+}
+
+/// What steps of the case as it begins took.
+struct Trial {
+  double step = 0;      ///< wall time of one, s
+  double substep = 0;   ///< of that, a substep of the grains, s
+  double dt = 0;        ///< s
+  double substeps = 0;  ///< in a step
+};
+
+/// Takes steps for some two seconds; the first, which makes the lists, does not count.
+Trial timed_steps(Simulation& simulation) {
+  constexpr double kLongest = 2;  // s
+  constexpr int kMost = 200;
+  const auto grains = [&] {
+    for (const Quantity& part : simulation.time_spent())
+      if (part.name == "grains") return part.value;
+    return 0.0;
+  };
+  simulation.step();
+  const double grains_before = grains(), begin = simulation.time();
+  const auto from = std::chrono::steady_clock::now();
+  double seconds = 0;
+  int steps = 0;
+  std::int64_t substeps = 0;
+  while (steps < kMost && seconds < kLongest) {
+    substeps += simulation.step().substeps;
+    ++steps;
+    seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+  }
+  const double of_grains = substeps > 0 ? (grains() - grains_before) / double(substeps) : 0;
+  return {seconds / steps, of_grains, (simulation.time() - begin) / steps, double(substeps) / steps};
 }
 
 double least(const std::vector<StepLimit>& limits) {
@@ -87,18 +118,20 @@ int check_case(const Options& options) {
     fmt::print("{}{}", limits_text("step", steps), limits_text("substep", substeps));
     check_fixed_steps(p, options, *simulation);
 
-    const double dt = c.time.dt > 0 ? c.time.dt : least(steps);
-    const double dt_dem = c.time.dt_dem > 0 ? c.time.dt_dem : least(substeps);
-    const double per_step =
-        std::isfinite(dt_dem) && later.grains > 0 ? std::max(1.0, std::ceil(dt / dt_dem)) : 0;
-    const double count = std::ceil((c.time.end - p.begin) / dt);
-    const Pace pace = pace_of(p.device, c.precision);
-    const double fluid = 0.5 * double(n.fluid + later.fluid), grains = 0.5 * double(n.grains + later.grains);
+    const Trial trial = timed_steps(*simulation);
+    const double count = std::ceil((c.time.end - p.begin) / trial.dt);
+    const Pace pace = pace_of(p.device, c.precision);  // of what comes in; the rest is measured
+    const double fluid = 0.5 * double(later.fluid - n.fluid), grains = 0.5 * double(later.grains - n.grains);
     const double seconds =
-        count * (pace.step + fluid / pace.fluid + per_step * (pace.substep + grains / pace.grains));
-    fmt::print("steps      about {} of {:.3g} s{}\n", grouped(std::llround(count)), dt,
-               per_step > 0 ? fmt::format(", each with {:.0f} substeps", per_step) : "");
-    fmt::print("run time   about {}, within a factor of three\n", duration_text(seconds));
+        count * (trial.step + fluid / pace.fluid + std::max(trial.substeps, 1.0) * grains / pace.grains);
+    fmt::print("steps      about {} of {:.3g} s{}\n", grouped(std::llround(count)), trial.dt,
+               trial.substeps > 0 ? fmt::format(", each with {:.0f} substeps", trial.substeps) : "");
+    fmt::print("run time   about {} by the pace of the first steps, output apart\n", duration_text(seconds));
+    if (c.grain.present && c.grain.settle) {
+      const double many = std::ceil(c.grain.settle_time / least(substeps));
+      fmt::print("settling   before that, at most {} substeps, {}, unless the bed is kept from before\n",
+                 grouped(std::llround(many)), duration_text(many * trial.substep));
+    }
   }
   for (const std::string& warning : p.warnings) fmt::print("warning: {}\n", warning);
   fmt::print("the case is in order\n");

@@ -1,5 +1,7 @@
 #include "options.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -52,6 +54,16 @@ void add_case_options(CLI::App& app, Options& o, std::string& precision, bool& f
   app.add_flag("--force-dt", force_dt, "A fixed step above its limit only warns");
 }
 
+void refuse_unknown_command(const CLI::App& app, int argc, const char* const* argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == argv[1]) return;
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  throw CaseError(fmt::format("command line: {} is no command; it must be one of {}", argv[1], names));
+}
+
 }  // namespace
 
 std::string version() { return BL_VERSION; }
@@ -92,6 +104,7 @@ Options parse_options(int argc, const char* const* argv) {
   CLI::App* info = app.add_subcommand("info", "Show what a result file holds");
   info->add_option("file", o.file, "Checkpoint, .vtkhdf or summary.json")->required()->type_name("FILE");
 
+  refuse_unknown_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

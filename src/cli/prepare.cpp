@@ -10,6 +10,7 @@
 #include "bedload/geometry/grain_source.hpp"
 #include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/setup.hpp"
+#include "bedload/geometry/shape.hpp"
 #include "bedload/output/output.hpp"
 #include "src/motion/inlet_flow.hpp"
 
@@ -163,6 +164,12 @@ std::string summary_text(const Prepared& p) {
       out += fmt::format("           visc.alpha acts like a kinematic viscosity of {:.3g} m2/s{}\n", nu,
                          physical > 0 ? fmt::format(", {:.3g} times the physical one", nu / physical) : "");
     }
+  }
+  for (const ShapeConfig& shape : c.shapes) {
+    if (shape.kind != "mesh") continue;
+    const Bounds bounds = shape.solid.shape->bounds();
+    const Vec3d side = bounds.max - bounds.min;
+    out += fmt::format("mesh       {}: {:.4g} x {:.4g} x {:.4g} m\n", shape.name, side.x, side.y, side.z);
   }
   for (const InletConfig& inlet : c.inlets)
     out += fmt::format("inlet      {}: {} particles a layer, up to {:.4g} m/s\n", inlet.name,

@@ -127,7 +127,10 @@ class Difference : public Shape {
     std::string fault;
     for (const double size : {facet(), 0.97 * facet(), 0.94 * facet()}) {  // another raster may do
       try {
-        return std::make_shared<TriangleMesh>(contour(*this, size), "its triangles", options);
+        TriangleSoup surface = contour(*this, size);
+        if (surface.triangles.empty())
+          throw CaseError("nothing is left of what the difference is taken from, or less than that");
+        return std::make_shared<TriangleMesh>(std::move(surface), "its triangles", options);
       } catch (const CaseError& error) {
         if (fault.empty()) fault = error.what();
       }

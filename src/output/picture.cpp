@@ -26,9 +26,12 @@ void stretch(Scene& scene, const std::vector<Sphere>& spheres) {
     }
 }
 
-/// Spacing of one layer of particles below the surfaces, fine enough for a picture, m.
+/// Spacing of one layer of particles below the surfaces, fine enough for a picture of all that there is, m.
 double surface_spacing(const Config& config, double at_least) {
-  return std::max(at_least, norm(config.domain.max - config.domain.min) / 400);
+  double largest = norm(config.domain.max - config.domain.min);
+  for (const WallBody& body : config.wall.bodies)
+    if (body.shape != "plane") largest = std::max(largest, norm(body.max - body.min));
+  return std::max(at_least, largest / 400);
 }
 
 Scene scene_of(const Config& config, const Setup& setup, const Setup::Walls& walls, double spacing) {

@@ -41,7 +41,10 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Type, CaseErrors,
     testing::Values(
-        Wrong{"dx = 0.004", "dx = \"4mm\"", "dam.toml:6: fluid.dx = \"4mm\" must be a number in m"},
+        Wrong{"dx = 0.004", "dx = \"4mg\"",
+              "dam.toml:6: fluid.dx = \"4mg\" must be a number in m, or in quotes with another unit; mg is "
+              "no unit of "
+              "that kind"},
         Wrong{"dx = 0.004", "dx = nan", "dam.toml:6: fluid.dx = nan must be finite"},
         Wrong{"dx = 0.004", "dx = inf", "dam.toml:6: fluid.dx = inf must be finite"},
         Wrong{"dx = 0.004", "dx = 1e308", "dam.toml:6: fluid.dx = 1e+308 must be below 1e30 in size"},

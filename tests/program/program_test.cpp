@@ -78,6 +78,10 @@ TEST_F(Program, RefusesWrongCommandLinesWithOneSentence) {
     EXPECT_EQ(o.err, message + "\n") << arguments;
   };
   refused("", "command line: A subcommand is required; see bedload --help");
+  refused("simulate dam.toml",
+          "command line: simulate is no command; it must be one of run, check, list, info");
+  write("empty.toml", "\n");
+  refused("check empty.toml", "empty.toml: is empty");
   refused("run", "command line: case is required; see bedload --help");
   refused("run dam.toml --bogus",
           "command line: The following argument was not expected: --bogus; see bedload --help");
@@ -126,8 +130,9 @@ TEST_F(Program, ChecksACaseWithoutRunningIt) {
   write("dam.toml", kSmall);
   const Outcome o = bedload("check dam.toml --backend cpu");
   EXPECT_EQ(o.code, 0) << o.err;
-  for (const char* part : {"fluid 150, walls ", "grains 40", "<- binds", "substep    rayleigh",
-                           "memory     about ", "run time   about ", "the case is in order"})
+  for (const char* part :
+       {"fluid 150, walls ", "grains 40", "<- binds", "substep    rayleigh", "memory     about ",
+        "run time   about ", "settling   before that, at most ", "the case is in order"})
     EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
   EXPECT_FALSE(std::filesystem::exists(dir_ / "results"));
 }
@@ -428,6 +433,38 @@ TEST_F(Program, RefusesWhatIsTooFineForTheMemoryBeforeLayingIt) {
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("fluid.dx = 5e-05 makes 1.2e+09 fluid particles, which need "), o.err.npos) << o.err;
   EXPECT_NE(o.err.find(" free, enough for "), o.err.npos) << o.err;
+}
+
+TEST_F(Program, TellsHowLargeMeshesAre) {
+  const std::string hopper = std::string(BL_SOURCE_DIR) + "/cases/hopper/hopper.stl";
+  std::filesystem::copy_file(hopper, dir_ / "hopper.stl");
+  write("dam.toml", kSmall + "[[shape]]\nname = \"hopper\"\nkind = \"mesh\"\nfile = \"hopper.stl\"\n");
+  const Outcome right = bedload("check dam.toml --backend cpu");
+  EXPECT_NE(right.out.find("mesh       hopper: 0.056 x 0.056 x 0.08 m\n"), right.out.npos) << right.out;
+  EXPECT_EQ(right.out.find("does it need another scale?"), right.out.npos);
+  const Outcome large = bedload("check dam.toml --backend cpu --set shape.0.scale=1000");
+  EXPECT_EQ(large.code, 0);
+  EXPECT_NE(large.out.find(
+                "shape \"hopper\": its mesh is 56 x 56 x 80 m large, the domain 0.1 x 0.06 x 0.1 m; does "
+                "it need another scale?"),
+            large.out.npos)
+      << large.out;
+  const Outcome wall =
+      bedload("check dam.toml --backend cpu --set shape.0.scale=1e6 --set wall.body.0.shape=hopper");
+  EXPECT_EQ(wall.code, 2);
+}
+
+TEST_F(Program, WarnsOfGrainsThatFallIntoTheFluid) {
+  write("dam.toml", kSmall);
+  const auto warned = [&](const std::string& settings) {
+    return bedload("check dam.toml --backend cpu " + settings).out.find("grains that fall ") !=
+           std::string::npos;
+  };
+  const std::string above =
+      "--set 'grain.fill.0.min=[0, 0, 0.06]' --set 'grain.fill.0.max=[0.05, 0.06, 0.09]'";
+  EXPECT_FALSE(warned(above));  // they settle first
+  EXPECT_TRUE(warned(above + " --set grain.settle=false --set grain.settle_time=1"));
+  EXPECT_FALSE(warned("--set grain.settle=false"));
 }
 
 TEST_F(Program, ListsASection) {

@@ -265,6 +265,25 @@ turn_angle = 5
         self.assertNotEqual(status, 0)
         self.assertIn("has no porosity, only pressure, velocity", err)
 
+    def test_time_that_is_not_there(self):
+        status, _, err = tool("plot.py", "frames", self.run_dir, "--times", "0.1,0.3", "--out", "none.png")
+        self.assertNotEqual(status, 0)
+        self.assertIn("--times: 0.3 s is not in this run, which has frames from 0 to 0.2 s", err)
+
+    def test_window_holds_the_grains(self):
+        (self.run_dir / "case.resolved.toml").write_text(self.CASE)
+        heap = np.array([[0.3, 0.05, 0.0], [0.05, 0.05, -0.2]])
+        write_frames(self.run_dir / "grains.vtkhdf", [0, 0.1], [heap, heap], {"radius": [np.full(2, 0.005)] * 2})
+        low, high = plot.Run(self.run_dir, "xz").window([0.1])
+        self.assertLess(low[1], -0.2)
+        self.assertGreater(high[0], 0.3)
+
+    def test_each_unit_has_its_panel(self):
+        table = self.run_dir / "diagnostics.csv"
+        table.write_text("time [s],mass [kg],speed [m/s],fast [m/s]\n0,1,2,3\n1,2,3,4\n")
+        self.expect_picture("probe", table)
+        self.assertEqual([plot.unit_of(n) for n in ("mass [kg]", "fast [m/s]", "t")], ["kg", "m/s", ""])
+
     def test_probe(self):
         table = self.run_dir / "probes" / "front.csv"
         table.write_text("time [s],front [m]\n0,1\n1,2\n")
