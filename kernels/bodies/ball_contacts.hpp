@@ -1,18 +1,14 @@
 #pragma once
 // Free bodies against other bodies: balls fixed to one meet the surfaces of the others, with the contact laws
-// of the grains. Both bodies are pushed at the same point.
+// of the grains. Both bodies are pushed at the same point. Where two balls overlap each of them meets the
+// surface of the other's body, so that one contact is found twice; either then pushes with half its force.
 
+#include "bedload/case/materials.hpp"
 #include "kernels/bodies/rigid_body.hpp"
 #include "kernels/contact/contact_law.hpp"
 #include "kernels/contact/wall_contacts.hpp"
 
 namespace bedload::inline BL_VARIANT {
-
-/// Contact law of a body and what its material gives to the moduli of a pair.
-struct BodyMaterial {
-  ContactLaw law;
-  double give = 0, give_sideways = 0;  ///< (1 - nu^2)/E, (2 - nu)/G, 1/Pa
-};
 
 struct TouchBall {
   Vec3d x0;       ///< centre at t = 0, m
@@ -26,8 +22,8 @@ struct BallPass {
   SurfaceSet walls;
   const BodyPose* poses;
   const RigidBody* bodies;
-  const BodyMaterial* materials;         ///< of the free bodies
-  double wall_give, wall_give_sideways;  ///< of walls that are none, 1/Pa
+  const ContactLaw* laws;    ///< of the free bodies
+  const ElasticGive* gives;  ///< of all wall bodies
   Span<const TouchBall> balls;
   WallMemory* const* memory;  ///< [room][balls]
   Index* contacts;            ///< [balls]
@@ -67,6 +63,17 @@ struct BallPass {
   BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
     return frame.nearest_image(point - pose.origin());
   }
+  /// R* of the ball of `other` that overlaps most with this one at x, m; 0 if none does.
+  BL_HD double ball_opposite(const TouchBall& ball, const Vec3d& x, const BodyPose& other) const {
+    double most = 0, R_star = 0;
+    for (Index j = 0; j < balls.size; ++j) {
+      const TouchBall& b = balls[j];
+      if (b.owner != other.free - 1) continue;
+      const double overlap = ball.radius + b.radius - norm(frame.nearest_image(other.place(b.x0) - x));
+      if (overlap > most) most = overlap, R_star = b.R_star;
+    }
+    return R_star;
+  }
   BL_HD WallMemory touch_one(Index i, const TouchBall& ball, const Vec3d& x, const WallTouch& touch,
                              const WallMemories& memories) const {
     const Foot& foot = touch.foot;
@@ -79,18 +86,17 @@ struct BallPass {
     const Vec3d point = x - foot.distance * foot.normal;
     const Vec3d r_mine = arm(mine, point), r_other = arm(other, point);
     double ease = a.ease(mine.rotation, r_mine, foot.normal);
-    double give = wall_give, give_sideways = wall_give_sideways;
-    if (other.free) {
-      ease += bodies[other.free - 1].ease(other.rotation, r_other, foot.normal);
-      give = materials[other.free - 1].give, give_sideways = materials[other.free - 1].give_sideways;
-    }
-    const BodyMaterial& m = materials[ball.owner];
-    ContactLaw law = m.law;
-    law.hertz.E_star = Real(1 / (m.give + give));
-    law.mindlin.G_star = Real(1 / (m.give_sideways + give_sideways));
+    if (other.free) ease += bodies[other.free - 1].ease(other.rotation, r_other, foot.normal);
+    const ElasticGive &give = gives[a.body], &other_give = gives[touch.body];
+    ContactLaw law = laws[ball.owner];
+    law.hertz.E_star = Real(1 / (give.normal + other_give.normal));
+    law.mindlin.G_star = Real(1 / (give.sideways + other_give.sideways));
+    const double opposite = other.free ? ball_opposite(ball, x, other) : 0;
+    const double R_star = opposite > 0 ? 1 / (1 / ball.R_star + 1 / opposite) : ball.R_star;
+    const double share = opposite > 0 ? 0.5 : 1;
     // a push that no constraint lets through meets a mass without end, for which no damping is left
     const double m_star = 1 / max_of(ease, 1e-6 / a.mass);
-    ContactGeometry at{foot.normal, ball.radius - foot.distance, Real(ball.R_star), Real(m_star), 0, 0, 0, 0};
+    ContactGeometry at{foot.normal, ball.radius - foot.distance, Real(R_star), Real(m_star), 0, 0, 0, 0};
     if (law.rolling != RollingLaw::none) {
       Vec3d about = mine.omega - other.omega;
       about -= dot(about, foot.normal) * foot.normal;
@@ -109,7 +115,8 @@ struct BallPass {
     }
     const Vec3d v = mine.v + cross(mine.omega, r_mine) - other.v - cross(other.omega, r_other);
     const ContactForce f = law(at, Real3(v), Real3(mine.omega), Real3(other.omega), Real(dt), h);
-    const Vec3d force = Vec3d(f.force), couple = Vec3d(f.torque_i);  // that of rolling friction
+    const Vec3d force = share * Vec3d(f.force),
+                couple = share * Vec3d(f.torque_i);  // that of rolling friction
     loads.add(i, {force, cross(r_mine, force) + couple, a.body});
     loads.add(i, {-force, -cross(r_other, force) - couple, touch.body});
     h.overlap *= foot.side;

@@ -56,6 +56,7 @@ struct ContactLaw {
   RollingLaw rolling = RollingLaw::epsd;
   bool clip_tension = true;
   Real mu = 0;
+  Real sliding_damping = 1;  ///< share of the damping of friction's spring
   Hertz hertz;
   LinearSpring spring;
   Mindlin mindlin;
@@ -68,9 +69,11 @@ struct ContactLaw {
     return normal == NormalLaw::hertz ? hertz(R_star, m_star, overlap) : spring(R_star, m_star, overlap);
   }
   BL_HD SlidingState sliding_state(const SlidingInput& in, const Vec3d& xi) const {
-    if (sliding == SlidingLaw::mindlin) return mindlin(in, xi);
-    if (sliding == SlidingLaw::linear) return linear_sliding(in, xi);
-    return deresiewicz(in, xi);
+    SlidingState s = sliding == SlidingLaw::mindlin  ? mindlin(in, xi)
+                     : sliding == SlidingLaw::linear ? linear_sliding(in, xi)
+                                                     : deresiewicz(in, xi);
+    s.damping *= sliding_damping;
+    return s;
   }
 
   /// Force now and history after dt (s). v is the relative velocity of the centres, for a wall of the grain's

@@ -52,7 +52,7 @@ struct LinearSliding {
 /// reaches `slip * overlap`.
 struct MindlinDeresiewicz {
   Real mu = 0;
-  Real slip = 0;  ///< mu (2 - nu) / (2 - 2 nu)
+  Real slip = 0;  ///< mu E* / (4 G*), of one material mu (2 - nu) / (2 - 2 nu)
   Real beta = 0;  ///< damping share of the restitution asked for
 
   BL_HD double longest(double overlap) const { return double(slip) * overlap; }

@@ -164,6 +164,17 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
        .hint = "give a fraction, not percent?",
        .fallback = "grain.e",
        .presence = optional});
+    p("E", &b.E,
+      {.unit = "Pa",
+       .meaning = "Young's modulus of the wall",
+       .range = within(1e4, 1e12),
+       .fallback = "grain.E",
+       .presence = optional});
+    p("nu", &b.nu,
+      {.meaning = "Poisson's ratio of the wall",
+       .range = {.lo = -1, .hi = 0.5},
+       .fallback = "grain.nu",
+       .presence = unbounded});
   }
   body_motion(p, b.motion);
   describe_free_body(p, b.free);
@@ -329,6 +340,10 @@ void describe_contact(Parameters& p, ContactConfig& c) {
      .presence = optional});
   p("contact.kt_ratio", &c.kt_ratio,
     {.meaning = "tangential / normal spring, linear", .range = above_to(0, 1)});
+  p("contact.tangential_damping", &c.tangential_damping,
+    {.meaning = "share of the damping of friction's spring, c_n sqrt(S_t/S_n); 0: none, so that spheres that "
+                "stick recoil sideways whatever e",
+     .range = within(0, 1)});
   p("contact.eta_r", &c.eta_r, {.meaning = "damping of epsd rolling", .range = within(0, 1)});
   p("contact.clip_tension", &c.clip_tension,
     {.meaning = "no pull while separating; damping set so that e holds"});

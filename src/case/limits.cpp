@@ -1,5 +1,7 @@
 #include "bedload/case/limits.hpp"
 
+#include "bedload/case/materials.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -32,17 +34,27 @@ std::vector<StepLimit> substep_limits(const Config& c, double speed) {
     contact = pi * std::sqrt(m / c.contact.k) / std::sqrt(1 - damping * damping);
     stiffness = c.contact.k;
   } else if (c.contact.normal == "hertz" && v > 0) {
-    const HertzImpact impact = hertz_impact(m, R / 2, g.E / (2 * (1 - g.nu * g.nu)), v);
+    const HertzImpact impact = hertz_impact(m, R / 2, 0.5 / ElasticGive(g.E, g.nu).normal, v);
     contact = impact.duration, stiffness = impact.stiffness;
   }
-  if (std::isfinite(contact)) limits.push_back({"contact", c.time.contact * contact});
-  if (c.contact.rolling == "epsd") {
-    double mu_r = g.mu_r;
-    for (const WallBody& body : c.wall.bodies)
-      if (std::isfinite(body.mu_r)) mu_r = std::max(mu_r, body.mu_r);
-    const double rolling = rolling_limit(stiffness, mu_r, R / 2, 0.5 * 1.4 * mass * R * R);
-    if (std::isfinite(rolling)) limits.push_back({"rolling", rolling});
+  double rolling = std::numeric_limits<double>::infinity();
+  const auto rolls = [&](double stiffness, double mu_r, double R_star, double inertia) {
+    if (c.contact.rolling == "epsd")
+      rolling = std::min(rolling, rolling_limit(stiffness, mu_r, R_star, inertia));
+  };
+  const double inertia = 1.4 * mass * R * R;
+  double mu_r = g.mu_r;
+  for (const WallBody& body : c.wall.bodies) {
+    if (std::isfinite(body.mu_r)) mu_r = std::max(mu_r, body.mu_r);
+    if ((body.E == 0 && !std::isfinite(body.nu)) || c.contact.normal != "hertz" || v == 0) continue;
+    const double E_star = 1 / (ElasticGive(g.E, g.nu).normal + wall_give(c, body).normal);
+    const HertzImpact impact = hertz_impact(mass, R, E_star, v);
+    contact = std::min(contact, impact.duration);
+    rolls(impact.stiffness, std::isfinite(body.mu_r) ? body.mu_r : g.mu_r, R, inertia);
   }
+  rolls(stiffness, mu_r, R / 2, 0.5 * inertia);
+  if (std::isfinite(contact)) limits.push_back({"contact", c.time.contact * contact});
+  if (std::isfinite(rolling)) limits.push_back({"rolling", rolling});
   return limits;
 }
 

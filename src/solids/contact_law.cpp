@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bedload/case/materials.hpp"
 #include "bedload/core/error.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -23,10 +24,10 @@ ContactLaw make_contact_law(const Config& config) {
   law.clip_tension = c.clip_tension;
   law.mu = Real(g.mu);
 
-  // grains and walls are of one material
-  const double shear = g.E / (2 * (1 + g.nu));
-  law.hertz.E_star = Real(g.E / (2 * (1 - g.nu * g.nu)));
-  law.mindlin.G_star = Real(shear / (2 * (2 - g.nu)));
+  const ElasticGive give(g.E, g.nu);
+  law.hertz.E_star = Real(1 / (2 * give.normal));
+  law.mindlin.G_star = Real(1 / (2 * give.sideways));
+  law.sliding_damping = Real(c.tangential_damping);
   const double share = damping_share(g.e);
   law.hertz.alpha = Real(c.he_damping ? std::sqrt(6.0) * share : hertz_damping(g.e, c.clip_tension));
   law.spring.k = Real(c.k);
@@ -40,7 +41,7 @@ ContactLaw make_contact_law(const Config& config) {
     law.spring.beta = Real(c.clip_tension ? damping_share_clipped(g.e) : share);
   }
   law.linear_sliding.ratio = Real(c.kt_ratio);
-  law.deresiewicz = {Real(g.mu), Real(g.mu * (2 - g.nu) / (2 - 2 * g.nu)), Real(share)};
+  law.deresiewicz = {Real(g.mu), Real(g.mu * give.sideways / (4 * give.normal)), Real(share)};
   law.epsd = {Real(g.mu_r), Real(c.eta_r)};
   law.cdt = {Real(g.mu_r), c.cap_rolling};
   return law;
@@ -51,7 +52,13 @@ ContactLaw make_wall_law(const Config& config, const WallBody& body) {
   if (std::isfinite(body.mu)) on_wall.grain.mu = body.mu;
   if (std::isfinite(body.mu_r)) on_wall.grain.mu_r = body.mu_r;
   if (body.e > 0) on_wall.grain.e = body.e;
-  return make_contact_law(on_wall);
+  ContactLaw law = make_contact_law(on_wall);
+  const ElasticGive grain(config.grain.E, config.grain.nu), wall = wall_give(config, body);
+  law.hertz.E_star = Real(1 / (grain.normal + wall.normal));
+  law.mindlin.G_star = Real(1 / (grain.sideways + wall.sideways));
+  law.deresiewicz.slip =
+      Real(on_wall.grain.mu * (grain.sideways + wall.sideways) / (4 * (grain.normal + wall.normal)));
+  return law;
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -12,18 +12,14 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The law of a body from its material: Hertz and Mindlin, and the grains' way to resist rolling.
-BodyMaterial material_of(const Config& config, const FreeConfig& f) {
+ContactLaw law_of(const Config& config, const FreeConfig& f) {
   Config own = config;
   own.grain.E = f.E, own.grain.nu = f.nu, own.grain.mu = f.mu, own.grain.mu_r = f.mu_r, own.grain.e = f.e;
   own.contact.normal = "hertz";
   own.contact.tangential = "mindlin";
   if (f.mu_r == 0) own.contact.rolling = "none";
   own.contact.he_damping = false;
-  BodyMaterial m;
-  m.law = make_contact_law(own);
-  m.give = (1 - f.nu * f.nu) / f.E;
-  m.give_sideways = 2 * (1 + f.nu) * (2 - f.nu) / f.E;
-  return m;
+  return make_contact_law(own);
 }
 
 /// Sum of two loads on each body, into its fields.
@@ -43,16 +39,18 @@ struct AddLoads {
 FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeometry& walls)
     : config_(config), frame_(frame), walls_(walls), places_(config.wall.bodies.size(), -1) {
   if (config.wall.free_bodies() == 0) return;
-  give_ = kInfinity, contact_radius_ = kInfinity;
-  std::vector<BodyMaterial> materials;
+  contact_radius_ = kInfinity;
+  std::vector<ContactLaw> laws;
+  std::vector<ElasticGive> gives;
+  for (const WallBody& body : config.wall.bodies)
+    gives.push_back(body.free.present ? ElasticGive(body.free.E, body.free.nu) : wall_give(config, body));
   std::vector<TouchBall> balls;
   for (std::uint32_t b = 0; b < config.wall.bodies.size(); ++b) {
     const WallBody& body = config.wall.bodies[b];
     if (!body.free.present) continue;
     places_[b] = size();
     add(config, b);
-    materials.push_back(material_of(config, body.free));
-    give_ = std::min(give_, materials.back().give);
+    laws.push_back(law_of(config, body.free));
     if (!body.stops_grains()) continue;
     for (const BodyBall& ball : contact_balls(body, config.domain)) {
       const double R_star = body.free.contact_radius > 0 ? body.free.contact_radius : ball.radius;
@@ -62,7 +60,8 @@ FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeome
     }
   }
   constants_.assign(bodies_);
-  materials_.assign(materials);
+  laws_.assign(laws);
+  gives_.assign(gives);
   balls_.assign(balls);
 
   store_.resize(Index(size()));
@@ -245,12 +244,10 @@ TouchLoads FreeBodies::record(Index grains) {
 
 /// Balls against surfaces, then the sums over what they and the grains have recorded.
 void FreeBodies::touch(Span<const BodyPose> poses, double dt) {
-  const GrainConfig& g = config_.grain;
   if (balls_.size() > 0)
-    for_each({0, Index(balls_.size())},
-             BallPass{frame_, walls_.view(), poses.data, constants_.data(), materials_.data(),
-                      (1 - g.nu * g.nu) / g.E, 2 * (1 + g.nu) * (2 - g.nu) / g.E, balls_,
-                      memory_pointers_.data(), memory_.count.buffer().data(), room_, dt, ball_loads_});
+    for_each({0, Index(balls_.size())}, BallPass{frame_, walls_.view(), poses.data, constants_.data(),
+                                                 laws_.data(), gives_.data(), balls_, memory_pointers_.data(),
+                                                 memory_.count.buffer().data(), room_, dt, ball_loads_});
   grain_sums_.zero();
   ball_sums_.zero();
   for (int k = 0; k < size(); ++k) {

@@ -131,11 +131,11 @@ class FreeBodies {
   std::vector<double> eases_;    ///< largest 1/effective mass, 1/kg
   std::vector<RigidMotion> now_;
   double contact_radius_ = 0, largest_radius_ = 0;  ///< smallest and largest R*, m
-  double give_ = 0;                                 ///< least (1 - nu^2)/E of a body, 1/Pa
 
   mutable BodyStore store_;  ///< kernels take its spans from const members too
   Buffer<RigidBody> constants_;
-  Buffer<BodyMaterial> materials_;
+  Buffer<ContactLaw> laws_;    ///< of the free bodies
+  Buffer<ElasticGive> gives_;  ///< of all wall bodies
   Buffer<TouchBall> balls_;
   /// [room][balls], as one list
   struct Memory : Store {

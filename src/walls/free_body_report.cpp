@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bedload/case/limits.hpp"
+#include "bedload/case/materials.hpp"
 #include "src/walls/free_bodies.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -35,19 +36,25 @@ std::vector<StepLimit> FreeBodies::limits(double wall_speed) const {
   if (!any()) return {};
   const double g = norm(config_.gravity) + config_.frame.acceleration;
   double contact = kInfinity, roll = kInfinity, turn = kInfinity;
+  const auto give_of = [&](const WallBody& body) {
+    return body.free.present ? ElasticGive(body.free.E, body.free.nu).normal
+                             : wall_give(config_, body).normal;
+  };
+  double hardest = kInfinity;
+  for (const WallBody& body : config_.wall.bodies) hardest = std::min(hardest, give_of(body));
   for (int k = 0; k < size(); ++k) {
     const double size = 2 * sizes_[k];
     const double speed =
         std::max(norm(now_[k].v) + sizes_[k] * norm(now_[k].omega) + wall_speed, std::sqrt(g * size));
     turn = std::min(turn, 0.02 * size / std::max(speed, 1e-300));
     if (speed == 0) continue;
-    const double wall_give = (1 - config_.grain.nu * config_.grain.nu) / config_.grain.E;
+    const WallBody& body = config_.wall.bodies[bodies_[k].body];
     if (balls_.size() > 0) {
       const HertzImpact impact =
-          hertz_impact(1 / (2 * eases_[k]), contact_radius_, 1 / (give_ + std::min(give_, wall_give)), speed);
+          hertz_impact(1 / (2 * eases_[k]), contact_radius_, 1 / (give_of(body) + hardest), speed);
       contact = std::min(contact, impact.duration);
       const Vec3d& I = bodies_[k].moments;
-      const double mu_r = config_.wall.bodies[bodies_[k].body].free.mu_r;
+      const double mu_r = body.free.mu_r;
       if (config_.contact.rolling == "epsd")
         roll = std::min(
             roll, rolling_limit(impact.stiffness, mu_r, largest_radius_, 0.5 * std::min({I.x, I.y, I.z})));
@@ -55,8 +62,10 @@ std::vector<StepLimit> FreeBodies::limits(double wall_speed) const {
     if (config_.grain.present) {
       const double R = 0.5 * config_.grain.d_min;
       const double m = 1 / (1 / (4.0 / 3.0 * M_PI * R * R * R * config_.grain.rho) + eases_[k]);
+      const double give =
+          ElasticGive(config_.grain.E, config_.grain.nu).normal + wall_give(config_, body).normal;
       if (config_.contact.normal == "hertz")
-        contact = std::min(contact, hertz_impact(m, R, 0.5 / wall_give, speed).duration);
+        contact = std::min(contact, hertz_impact(m, R, 1 / give, speed).duration);
       if (config_.contact.normal == "linear")
         contact = std::min(contact, M_PI * std::sqrt(m / config_.contact.k));
     }

@@ -38,6 +38,18 @@ TEST(GrainLimits, LinearContactsLastHalfAPeriod) {
   EXPECT_NEAR(grain_limits(c)[1].seconds, 0.04 * 3.14159265 * std::sqrt(m / 1e4), 1e-12);
 }
 
+TEST(GrainLimits, AreShorterOnAHarderWall) {
+  Config c = bead();
+  const double among = grain_limits(c)[1].seconds;
+  c.wall.bodies.emplace_back();
+  EXPECT_EQ(grain_limits(c)[1].seconds, among);
+  c.wall.bodies[0].E = 1e12;
+  // twice the E*, R* and four times m^2 of a pair: (4 / 2 / 4)^(1/5)
+  EXPECT_NEAR(grain_limits(c)[1].seconds / among, std::pow(0.5, 0.2), 1e-3);
+  c.wall.bodies[0].E = 1e5;
+  EXPECT_EQ(grain_limits(c)[1].seconds, among);
+}
+
 TEST(GrainLimits, AreNoneForGrainsThatNeverMove) {
   Config c = bead();
   c.grain.fixed = true;

@@ -176,6 +176,26 @@ TEST(FreeBodyContacts, BounceWithTheirRestitution) {
   }
 }
 
+TEST(FreeBodyContacts, TwoSpheresMakeOneContact) {
+  for (const double e : {1.0, 0.5})
+    for (const double radius : {0.05, 0.02}) {
+      Config c = void_case();
+      c.gravity = {};
+      c.time.contact = 0.01;
+      WallBody a = test::shaped("a", make_sphere({0, 0, 0}, 0.05));
+      WallBody b = test::shaped("b", make_sphere({0.0501 + radius, 0, 0}, radius));
+      set_free(a, 2000).free.velocity = {0.5, 0, 0};
+      set_free(b, 2000);
+      a.free.e = b.free.e = e;
+      c.wall.bodies = {a, b};
+      auto s = started(c);
+      run_until(*s, 5e-3);
+      const double va = reading(s->body_state(0), "velocity_x"), vb = reading(s->body_state(1), "velocity_x");
+      EXPECT_NEAR((vb - va) / 0.5, e, 5e-3) << "radius " << radius;
+      EXPECT_NEAR(a.free.solid.mass * (0.5 - va), b.free.solid.mass * vb, 1e-12 * a.free.solid.mass);
+    }
+}
+
 TEST(FreeBodyContacts, SlidingBlockStopsByFriction) {
   Config c = void_case();
   WallBody block = test::shaped("block", make_box({-0.05, -0.05, 0}, {0.05, 0.05, 0.04}));

@@ -82,6 +82,50 @@ TEST(Impact, DurationAndDeepestOverlapAreHertz) {
   EXPECT_NEAR(deepest / 5.901e-6, 1, 1e-3);
 }
 
+TEST(Impact, StickingRecoilsByTheDampingOfItsSpring) {
+  // Both springs swing alike at k_t = 2/7 k, where the point of contact moves as 2/7 of the mass would.
+  // Undamped it comes back with about -1. A damping of c_n sqrt(k_t/k) has sqrt(7/2) of the damping ratio
+  // along the normal. Near the end, where damping pulls, friction has nothing left to act with: hence e close
+  // to 1.
+  const double e = 0.9;
+  for (const double damping : {1.0, 0.5, 0.0}) {
+    GrainBench b;
+    b.config.contact.normal = b.config.contact.tangential = "linear";
+    b.config.contact.k = 1e4;
+    b.config.contact.clip_tension = false;
+    b.config.contact.tangential_damping = damping;
+    b.config.grain.e = e;
+    b.config.grain.mu = 5;
+    const double speed = 0.1, along = 0.005;
+    b.plane({0, 0, 0}, {0, 0, 1});
+    b.add({0, 0, b.R()}, {along, 0, -speed});
+    b.start();
+    b.run(M_PI * std::sqrt(b.mass() / b.config.contact.k) / 2000, 2400);
+    ASSERT_EQ(b.solver->totals(*b.grains).wall_contacts, 0);
+    const double beta = -std::log(e) / std::hypot(M_PI, std::log(e)), w = M_PI / std::sqrt(1 - beta * beta);
+    const double g = damping * beta * std::sqrt(3.5), wd = std::sqrt(1 - g * g);
+    const double expected = std::exp(-g * w) * (std::cos(wd * w) - g / wd * std::sin(wd * w));
+    const double point = b.velocity().x - b.spin().y * b.R();
+    EXPECT_NEAR(point / along, expected, 0.01) << "damping " << damping;
+  }
+}
+
+TEST(Impact, AWallOfItsOwnMaterialGivesWayByIt) {
+  GrainBench b;
+  b.plane({0, 0, 0}, {0, 0, 1});
+  b.config.wall.bodies[0].E = 3e9;
+  b.config.wall.bodies[0].nu = 0.2;
+  const double overlap = 1e-6;
+  b.add({0, 0, b.R() - overlap});
+  b.start();
+  const auto& g = b.config.grain;
+  const double E = 1 / ((1 - g.nu * g.nu) / g.E + (1 - 0.04) / 3e9);
+  const double force = 4.0 / 3 * E * std::sqrt(b.R()) * std::pow(overlap, 1.5);
+  EXPECT_NEAR(b.force().z / force, 1, 1e-3);
+  EXPECT_GT(force, 1.5 * 4.0 / 3 * b.E_star() * std::sqrt(b.R()) * std::pow(overlap, 1.5))
+      << "as if of grains";
+}
+
 TEST(Impact, GrossSlipObeysCoulombThroughout) {
   GrainBench b;
   b.config.grain.mu = 0.1;

@@ -205,6 +205,8 @@ struct WallBody {
   double mu = std::numeric_limits<double>::infinity();    ///< sliding friction of grains on it (default grain.mu)
   double mu_r = std::numeric_limits<double>::infinity();  ///< rolling friction (default grain.mu_r)
   double e = 0;                                ///< restitution; 0: grain.e
+  double E = 0;                                ///< Young's modulus, Pa; 0: grain.E
+  double nu = std::numeric_limits<double>::infinity();    ///< Poisson's ratio (default grain.nu)
   MotionConfig motion;
   FreeConfig free;                             ///< instead of a motion
   Solid solid;                                 ///< of a named shape (resolved)
@@ -305,6 +307,7 @@ struct ContactConfig {
   std::string rolling = "epsd";                ///< epsd, cdt, none
   double k = 0;                                ///< N/m, linear only
   double kt_ratio = 2.0 / 7.0;
+  double tangential_damping = 1;               ///< share of c_n sqrt(S_t/S_n) that damps friction's spring
   double eta_r = 0.3;
   bool clip_tension = true;
   bool he_damping = false;                     ///< paper.he_damping: sqrt(6) prefactor of He et al. (20b)
