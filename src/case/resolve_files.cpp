@@ -31,7 +31,7 @@ Extent extent_of(const ParticleList& list) {
   return e;
 }
 
-/// The same as a checkpoint keeps it.
+/// The same as a checkpoint keeps it; the file had diameters if the fill was given no sizes.
 Extent extent_in(const std::filesystem::path& checkpoint, const std::string& fill) {
   const auto numbers = checkpoint_setup(checkpoint);
   const auto number = [&](const std::string& name) {
@@ -44,6 +44,8 @@ Extent extent_in(const std::filesystem::path& checkpoint, const std::string& fil
     e.max[k] = number(fmt::format("{}.max[{}]", fill, k));
   }
   e.count = std::int64_t(number(fill + ".count"));
+  const Value then = parse_toml(checkpoint_case(checkpoint), checkpoint.string());
+  if (nearest_value(then, fill).find("sizes")) e.d_min = e.d_max = 0;
   return e;
 }
 

@@ -54,6 +54,36 @@ class Program : public ProgramTest {
     EXPECT_EQ(last(one).filename(), last(other).filename());
     EXPECT_TRUE(content_of(last(one)) == content_of(last(other))) << one << " and " << other << " differ";
   }
+  /// Runs in halves, the second without the file that the grains of the first come from.
+  void expect_restart_without_file(bool sizes) const {
+    std::string text = kSmall, table = sizes ? "x,y,z,d\n" : "x,y,z\n";
+    const std::string box = "min = [0, 0, 0]\nmax = [0.05, 0.06, 0.03]\ncount = 40\n";
+    text.replace(text.find(box), box.size(), "file = \"grains.csv\"\n");
+    for (int n = 0; n < 40; ++n)
+      table += std::to_string(0.005 + 0.007 * (n % 5)) + "," + std::to_string(0.005 + 0.007 * (n / 5)) +
+               ",0.01" +
+               (!sizes  ? ""
+                : n % 2 ? ",0.005"
+                        : ",0.004") +
+               "\n";
+    write("dam.toml", text);
+    write("grains.csv", table);
+    const std::string run = "run dam.toml --backend cpu --quiet ";
+    ASSERT_EQ(bedload(run + "--overwrite --out whole").code, 0);
+    ASSERT_EQ(bedload(run + "--overwrite --out parts --until 0.01").code, 0);
+    std::filesystem::path middle;
+    for (const auto& entry : std::filesystem::directory_iterator(dir_ / "parts/checkpoints"))
+      middle = entry.path();
+    std::filesystem::remove(dir_ / "grains.csv");
+    const Outcome o = bedload(run + "--out parts --restart " + middle.string());
+    ASSERT_EQ(o.code, 0) << o.err;
+    expect_same_checkpoints("whole", "parts");
+    const Outcome missing = bedload(run + "--out other");
+    EXPECT_EQ(missing.code, 2);
+    EXPECT_TRUE(
+        missing.err.starts_with("dam.toml:21: grain.fill.file = \"grains.csv\" must be a file; there is no "))
+        << missing.err;
+  }
 };
 
 TEST_F(Program, SaysItsVersion) {
@@ -499,29 +529,7 @@ TEST_F(Program, OneSentenceForWhatTheSystemRefuses) {
 }
 
 TEST_F(Program, ARestartNeedsNoFileOfInitialParticles) {
-  std::string text = kSmall, table = "x,y,z,d\n";
-  const std::string box = "min = [0, 0, 0]\nmax = [0.05, 0.06, 0.03]\ncount = 40\n";
-  text.replace(text.find(box), box.size(), "file = \"grains.csv\"\n");
-  for (int n = 0; n < 40; ++n)
-    table += std::to_string(0.005 + 0.007 * (n % 5)) + "," + std::to_string(0.005 + 0.007 * (n / 5)) +
-             ",0.01," + (n % 2 ? "0.005" : "0.004") + "\n";
-  write("dam.toml", text);
-  write("grains.csv", table);
-  const std::string run = "run dam.toml --backend cpu --quiet ";
-  ASSERT_EQ(bedload(run + "--out whole").code, 0);
-  ASSERT_EQ(bedload(run + "--out parts --until 0.01").code, 0);
-  std::filesystem::path middle;
-  for (const auto& entry : std::filesystem::directory_iterator(dir_ / "parts/checkpoints"))
-    middle = entry.path();
-  std::filesystem::remove(dir_ / "grains.csv");
-  const Outcome o = bedload(run + "--out parts --restart " + middle.string());
-  ASSERT_EQ(o.code, 0) << o.err;
-  expect_same_checkpoints("whole", "parts");
-  const Outcome missing = bedload(run + "--out other");
-  EXPECT_EQ(missing.code, 2);
-  EXPECT_TRUE(
-      missing.err.starts_with("dam.toml:21: grain.fill.file = \"grains.csv\" must be a file; there is no "))
-      << missing.err;
+  for (const bool sizes : {true, false}) expect_restart_without_file(sizes);
 }
 
 TEST_F(Program, TheBedFollowsTheContentsOfItsFile) {
