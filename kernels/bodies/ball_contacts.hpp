@@ -115,8 +115,8 @@ struct BallPass {
     }
     const Vec3d v = mine.v + cross(mine.omega, r_mine) - other.v - cross(other.omega, r_other);
     const ContactForce f = law(at, Real3(v), Real3(mine.omega), Real3(other.omega), Real(dt), h);
-    const Vec3d force = share * Vec3d(f.force),
-                couple = share * Vec3d(f.torque_i);  // that of rolling friction
+    const Vec3d force = share * Vec3d(f.force);
+    const Vec3d couple = share * Vec3d(f.torque_i);  // that of rolling friction
     loads.add(i, {force, cross(r_mine, force) + couple, a.body});
     loads.add(i, {-force, -cross(r_other, force) - couple, touch.body});
     h.overlap *= foot.side;

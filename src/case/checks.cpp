@@ -88,8 +88,7 @@ class Checks {
       if (times > 20 || times < 1e-3)
         warn(
             "shape \"{}\": its mesh is {:.3g} x {:.3g} x {:.3g} m large, the domain {:.3g} x {:.3g} x {:.3g} "
-            "m; "
-            "does it need another scale?",
+            "m; does it need another scale?",
             shape.name, side.x, side.y, side.z, room.x, room.y, room.z);
     }
   }

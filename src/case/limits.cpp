@@ -1,11 +1,11 @@
 #include "bedload/case/limits.hpp"
 
-#include "bedload/case/materials.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+
+#include "bedload/case/materials.hpp"
 
 namespace bedload {
 

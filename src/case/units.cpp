@@ -6,6 +6,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 #include <optional>
 
@@ -86,9 +87,7 @@ Unit parse(std::string_view text, std::string_view whole) {
   bool first = true;
   while (!text.empty()) {
     const auto skip = [&](std::string_view marks) {
-      bool any = false;
-      while (!text.empty() && marks.find(text[0]) != marks.npos) text.remove_prefix(1), any = true;
-      return any;
+      while (!text.empty() && marks.find(text[0]) != marks.npos) text.remove_prefix(1);
     };
     skip(" *");
     if (!text.empty() && text[0] == '/') {
@@ -144,10 +143,10 @@ double quantity(std::string_view text, std::string_view unit) {
   if (from.powers != to.powers) throw CaseError(fmt::format("{} is no unit of that kind", name));
   // The exponent goes into the digits, so that rounding happens once.
   const auto e = digits.find_first_of("eE");
-  int ten = from.ten - to.ten;
+  std::int64_t ten = from.ten - to.ten;
   if (e != digits.npos) {
     const std::size_t sign = digits[e + 1] == '+' ? 1 : 0;
-    int given = 0;
+    std::int64_t given = 0;
     std::from_chars(digits.data() + e + 1 + sign, digits.data() + digits.size(), given);
     ten += given;
   }

@@ -90,7 +90,7 @@ Options parse_options(int argc, const char* const* argv) {
   run->add_flag("--quiet", o.quiet, "Print nothing but warnings and errors");
 
   CLI::App* check =
-      app.add_subcommand("check", "Check a case: particles, step limits, memory, time; runs nothing");
+      app.add_subcommand("check", "Check a case: particles, step limits, memory, time; leaves nothing behind");
   add_case_options(*check, o, precision, force_dt);
   check->add_option("--preview", o.preview, "Write the initial particles and a picture of them there")
       ->type_name("DIR");

@@ -25,6 +25,7 @@ TEST(Units, DecimalOnesGiveTheNumberThatTheDigitsWould) {
   EXPECT_EQ(quantity("0.89 cP", "Pa s"), 0.89e-3);
   EXPECT_EQ(quantity("0.89e-3 N s m-2", "Pa s"), 0.89e-3);
   EXPECT_EQ(quantity("981 cm/s/s", "m/s2"), 9.81);
+  EXPECT_EQ(quantity("0e2147483647 km", "m"), 0);
   EXPECT_EQ(quantity("1 kHz", "Hz"), 1000);
   EXPECT_EQ(quantity("20 1/ms", "1/s"), 20000);
   EXPECT_EQ(quantity("3 kg*mm^2", "kg m2"), 3e-6);
