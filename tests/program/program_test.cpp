@@ -479,9 +479,14 @@ TEST_F(Program, TellsHowLargeMeshesAre) {
                 "it need another scale?"),
             large.out.npos)
       << large.out;
-  const Outcome wall =
-      bedload("check dam.toml --backend cpu --set shape.0.scale=1e6 --set wall.body.0.shape=hopper");
+  const Outcome wall = bedload(
+      "check dam.toml --backend cpu --set shape.0.scale=1e6 --set 'wall.body=[{name=\"h\", "
+      "shape=\"hopper\"}]'");
   EXPECT_EQ(wall.code, 2);
+  EXPECT_NE(
+      wall.err.find("must be smaller; at 5.6e+04 x 5.6e+04 x 8e+04 m a layer of wall particles 0.01 m apart"),
+      wall.err.npos)
+      << wall.err;
 }
 
 TEST_F(Program, WarnsOfGrainsThatFallIntoTheFluid) {
