@@ -114,12 +114,20 @@ std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& s
   throw CaseError("run.precision = " + config.precision + ": this program was built without it");
 }
 
+namespace {
+
+/// Places of a lattice within `reach` spacings.
+double around(double reach, bool two_d) { return two_d ? 3.14 * reach * reach : 4.19 * std::pow(reach, 3); }
+
+}  // namespace
+
 std::size_t estimate_bytes(const Config& config, const Counts& counts) {
   const double real = config.precision == "double" ? 8 : 4;
   const double position = config.precision == "single" ? 16 : 24,
                pair_position = config.precision == "double" ? 24 : 16;
   const double h = config.fluid.h(), reach = 2 * h + config.skin_fluid * config.fluid.dx;
-  const double neighbours = config.fluid.present ? 4.19 * std::pow(reach / config.fluid.dx, 3) * 1.2 : 0;
+  const double neighbours =
+      config.fluid.present ? 1.2 * around(reach / config.fluid.dx, config.domain.two_d) : 0;
   const double fluid = 4 + 2 * position + pair_position + real * 34 + 4 * neighbours + position;
   const double walls = 8 + 3 * 24 + pair_position + real * 13 + 4 * 32;
   const double contacts = 12;
@@ -128,10 +136,9 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts) {
   const double skin = 0.5 * (config.skin_fluid * config.fluid.dx + config.skin_grain * config.grain.d_min);
   const bool coupled = config.couple.mode != "off" && config.fluid.present && config.grain.present;
   const double records = coupled ? real * 9 : 0;
-  const double cross = coupled
-                           ? pair_position + real * 78 +
-                                 2 * 4 * 4.19 * std::pow((2 * config.couple.hc + skin) / config.fluid.dx, 3)
-                           : 0;
+  const double cross = coupled ? pair_position + real * 78 +
+                                     2 * 4 * around((2 * config.couple.hc + skin) / config.fluid.dx, false)
+                               : 0;
   return std::size_t(counts.fluid * (fluid + records) + counts.walls * walls +
                      counts.grains * (grains + cross)) +
          (64u << 20);

@@ -12,11 +12,12 @@ namespace bedload::inline BL_VARIANT {
 template <class W>
 double layer_depth(const W& w) {
   constexpr int shells = 4000;
-  const double step = double(w.kappa) * double(w.h) / shells;
+  const double step = double(w.kappa) * double(w.h) / shells, slab = double(w.thickness);
   double sum = 0;
   for (int k = 0; k < shells; ++k) {
     const double r = (k + 0.5) * step;
-    sum += 2 * double(kPi) * r * r * r * double(w.F(Real(r))) * step;
+    const double round = slab > 0 ? 4 * slab : 2 * double(kPi) * r;  // of |z| / r over the shell
+    sum += round * r * r * double(w.F(Real(r))) * step;
   }
   return 1 / sum;
 }

@@ -1,22 +1,29 @@
 #pragma once
+#include <numbers>
+
 #include "bedload/core/pack.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Cubic spline in three dimensions, support 2h [monaghan92].
-/// The integral of W is 1, that of F r2 is 3; both vanish at and beyond the support.
+/// Cubic spline in three or two dimensions, support 2h [monaghan92].
+/// The integral of W is 1, that of F r2 the number of dimensions; both vanish at and beyond the support.
 struct CubicSpline {
   static constexpr const char* name = "cubic";
   static constexpr double kappa = 2;  ///< support / h
 
   Real h, inv_h, norm_W, norm_F;
+  Real thickness;  ///< of a plane flow, m; 0 in three dimensions
 
-  /// h: smoothing length (m).
-  explicit CubicSpline(double h)
+  /// h: smoothing length (m). In a plane flow of that `thickness` (m; 0: three dimensions) the function in
+  /// two dimensions over the thickness, so that volumes are those of the slab.
+  explicit CubicSpline(double h, double thickness = 0)
       : h(Real(h)),
         inv_h(Real(1 / h)),
-        norm_W(Real(1 / (3.14159265358979323846 * h * h * h))),
-        norm_F(Real(1 / (3.14159265358979323846 * h * h * h * h * h))) {}
+        norm_W(Real(thickness > 0 ? 10.0 / 7 / (std::numbers::pi * h * h * thickness)
+                                  : 1 / (std::numbers::pi * h * h * h))),
+        norm_F(Real(thickness > 0 ? 10.0 / 7 / (std::numbers::pi * h * h * h * h * thickness)
+                                  : 1 / (std::numbers::pi * h * h * h * h * h))),
+        thickness(Real(thickness)) {}
 
   /// 1/m3, at distance r (m).
   template <class N>

@@ -23,16 +23,18 @@ struct HalfSpaceShare {
     for (int k = 0; k < points; ++k) out.below[k] = Real(0.5 + 0.5 * sum[k] / sum[points - 1]);
     return out;
   }
-  /// The kernel integrated over the planes at those z, by the midpoint rule, 1/m.
+  /// The kernel integrated over the planes at those z, or, of a plane flow, over the lines, by the midpoint
+  /// rule, 1/m.
   template <class W>
   static std::array<double, points> slices(const W& w) {
     constexpr int rings = 256;
-    const double R = double(w.kappa) * double(w.h);
+    const double R = double(w.kappa) * double(w.h), slab = double(w.thickness);
     std::array<double, points> slice{};
     for (int k = 0; k < points; ++k)
       for (int i = 0; i < rings; ++i) {
         const double r = R * (i + 0.5) / rings;
-        slice[k] += 2 * kPi * r * double(w.W(Real(std::hypot(r, R * k / (points - 1))))) * R / rings;
+        const double round = slab > 0 ? 2 * slab : 2 * kPi * r;
+        slice[k] += round * double(w.W(Real(std::hypot(r, R * k / (points - 1))))) * R / rings;
       }
     return slice;
   }

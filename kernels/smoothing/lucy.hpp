@@ -1,22 +1,29 @@
 #pragma once
+#include <numbers>
+
 #include "bedload/core/pack.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Lucy's function in three dimensions; h is its support [lucy77].
-/// The integral of W is 1, that of F r2 is 3; both vanish at and beyond the support.
+/// Lucy's function in three or two dimensions; h is its support [lucy77].
+/// The integral of W is 1, that of F r2 the number of dimensions; both vanish at and beyond the support.
 struct Lucy {
   static constexpr const char* name = "lucy";
   static constexpr double kappa = 1;  ///< support / h
 
   Real h, inv_h, norm_W, norm_F;
+  Real thickness;  ///< of a plane flow, m; 0 in three dimensions
 
-  /// h: smoothing length (m).
-  explicit Lucy(double h)
+  /// h: smoothing length (m). In a plane flow of that `thickness` (m; 0: three dimensions) the function in
+  /// two dimensions over the thickness, so that volumes are those of the slab.
+  explicit Lucy(double h, double thickness = 0)
       : h(Real(h)),
         inv_h(Real(1 / h)),
-        norm_W(Real(105 / (16 * 3.14159265358979323846 * h * h * h))),
-        norm_F(Real(315 / (4 * 3.14159265358979323846 * h * h * h * h * h))) {}
+        norm_W(Real(thickness > 0 ? 5 / (std::numbers::pi * h * h * thickness)
+                                  : 105.0 / 16 / (std::numbers::pi * h * h * h))),
+        norm_F(Real(thickness > 0 ? 60 / (std::numbers::pi * h * h * h * h * thickness)
+                                  : 315.0 / 4 / (std::numbers::pi * h * h * h * h * h))),
+        thickness(Real(thickness)) {}
 
   /// 1/m3, at distance r (m).
   template <class N>

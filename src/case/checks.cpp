@@ -36,10 +36,15 @@ class Checks {
       if (c.drive.rate[k] != 0)
         fail("drive.rate", to_text(c.drive.rate),
              fmt::format("must be 0 along {}, which is periodic and has no centre", "xyz"[k]));
+      if (c.domain.two_d && k == 1) continue;
       period(k, 2 * c.fluid.kappa() * c.fluid.h(), "2 kappa h", c.fluid.present);
       period(k, 2 * c.fluid.kappa() * c.couple.hc, "2 kappa h_c", coupled());
       period(k, 2 * c.grain.d_max, "4 R", c.grain.present);
     }
+    if (!c.domain.two_d) return;
+    if (c.grain.present) fail("domain.two_d", "true", "must be false with [grain]; grains are spheres");
+    if (!c.inlets.empty()) fail("domain.two_d", "true", "must be false with [[inlet]]");
+    if (c.gravity.y != 0) fail("gravity", to_text(c.gravity), "must be 0 along y with domain.two_d");
   }
 
   void fluid() const {
@@ -54,7 +59,7 @@ class Checks {
         inside_domain(path + ".max", f.fills[i].max);
       }
       const Vec3d side = f.fills[i].max - f.fills[i].min;
-      particles += side.x * side.y * side.z / (f.dx * f.dx * f.dx);
+      particles += side.x * side.y * side.z / c.domain.cell_volume(f.dx);
       initial_speed(f.fills[i]);
     }
     if (particles >= 2147483648.0)
@@ -368,7 +373,8 @@ class Checks {
   /// Shapes do not repeat.
   void within_period(const std::string& path, const WallBody& body) const {
     for (int k = 0; k < 3; ++k)
-      if (c.domain.periodic[k] && (body.min[k] < c.domain.min[k] || body.max[k] > c.domain.max[k]))
+      if (c.domain.periodic[k] && !(c.domain.two_d && k == 1) &&
+          (body.min[k] < c.domain.min[k] || body.max[k] > c.domain.max[k]))
         fail(
             path, quoted(body.shape),
             fmt::format("must lie within the period along {}, {}..{} m; only tank, box and plane run through",

@@ -53,14 +53,15 @@ void refuse_too_fine(const Options& options, const Prepared& p) {
     const Vec3d side = fill.max - fill.min;
     if (fill.file.empty() && !fill.solid.shape) volume += side.x * side.y * side.z;
   }
-  const double count = volume / (dx * dx * dx), memory = double(p.device.memory);
+  const double count = volume / p.config.domain.cell_volume(dx), memory = double(p.device.memory);
   const double need = double(estimate_bytes(p.config, {std::int64_t(count), 0, 0}));
   if (memory == 0 || need <= memory) return;
-  throw CaseError(fmt::format(
-      "{}: fluid.dx = {} makes {:.3g} fluid particles, which need {}; {} has {} free, enough "
-      "for {:.3g} m and more",
-      place_in_case(options.file, options.overrides, "fluid.dx"), dx, count, bytes_text(std::size_t(need)),
-      p.device.name, bytes_text(p.device.memory), dx * std::cbrt(need / memory) * 1.001));
+  throw CaseError(
+      fmt::format("{}: fluid.dx = {} makes {:.3g} fluid particles, which need {}; {} has {} free, enough "
+                  "for {:.3g} m and more",
+                  place_in_case(options.file, options.overrides, "fluid.dx"), dx, count,
+                  bytes_text(std::size_t(need)), p.device.name, bytes_text(p.device.memory),
+                  dx * std::pow(need / memory, p.config.domain.two_d ? 1.0 / 2 : 1.0 / 3) * 1.001));
 }
 
 /// A run that goes on computes as it began, unless told otherwise.

@@ -81,9 +81,10 @@ LayerLaw layer_law(const Config& config, const WallBody& body, double kappa) {
     return law;
   }
   double volume = 0;
-  with_kernel(config.fluid.kernel, config.fluid.h(),
-              [&](const auto& w) { volume = spacing * spacing * layer_depth(w); });
-  const double share = 2 * volume / (dx * dx * dx + volume), beta = dx / spacing;
+  with_fluid_kernel(config, [&](const auto& w) {
+    volume = spacing * config.domain.spacing_along(1, spacing) * layer_depth(w);
+  });
+  const double share = 2 * volume / (config.domain.cell_volume(dx) + volume), beta = dx / spacing;
   law.soft = {Real(D / 5 / beta * share), Real(kappa * config.fluid.h() / 2)};
   return law;
 }
@@ -136,8 +137,7 @@ class FluidSolverWith final : public FluidSolver {
   }
 
   void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt) override {
-    const double h = config_.fluid.h();
-    const Real least_sum = Real(1e-3 / (h * h * h));
+    const Real least_sum = Real(1e-3 / config_.domain.cell_volume(config_.fluid.h()));
     if (walls.mirrors.size() > 0) {
       const MirrorPass<W> mirror{w_,
                                  frame_,
@@ -230,7 +230,7 @@ class FluidSolverWith final : public FluidSolver {
 std::unique_ptr<FluidSolver> FluidSolver::make(const Config& config, const Frame& frame,
                                                const WallGeometry& walls) {
   std::unique_ptr<FluidSolver> solver;
-  with_kernel(config.fluid.kernel, config.fluid.h(), [&](const auto& w) {
+  with_fluid_kernel(config, [&](const auto& w) {
     solver = std::make_unique<FluidSolverWith<std::decay_t<decltype(w)>>>(config, frame, walls, w);
   });
   return solver;

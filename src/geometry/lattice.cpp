@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/slice.hpp"
 #include "geometry/fill_region.hpp"
 #include "geometry/fill_velocity.hpp"
 #include "geometry/shape_fill.hpp"
@@ -43,7 +44,11 @@ void check_fill(const Config& config, std::size_t index) {
 void add_shape(const Config& config, std::size_t index, Setup::Fluid& fluid) {
   const FluidFill& fill = config.fluid.fills[index];
   double volume = 0;
-  const auto places = fill_shape(*fill.solid.shape, upwards(config), fill.level, config.fluid.dx, volume);
+  const double dx = config.fluid.dx;
+  const Slice slice(*fill.solid.shape, config.domain.middle(), dx);
+  const Shape& shape = config.domain.two_d ? static_cast<const Shape&>(slice) : *fill.solid.shape;
+  const auto places = fill_shape(shape, upwards(config), fill.level, dx, volume);
+  volume *= config.domain.spacing_along(1, dx) / dx;
   const auto fail = [&](const std::string& why) {
     throw CaseError(fmt::format("fluid.fill {}: {}", index + 1, why));
   };
@@ -97,10 +102,10 @@ void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::strin
     std::array<Cells, 3> cells;
     double wanted = 1, volume = 1;
     for (int k = 0; k < 3; ++k) {
-      cells[k] = fit_cells(fill.min[k], fill.max[k], dx);
+      cells[k] = fit_cells(fill.min[k], fill.max[k], config.domain.spacing_along(k, dx));
       wanted *= double(cells[k].count);
       volume *= fill.max[k] - fill.min[k];
-      if (std::abs(cells[k].step / dx - 1) > 0.05)
+      if (std::abs(cells[k].step / config.domain.spacing_along(k, dx) - 1) > 0.05)
         warnings.push_back(
             fmt::format("fluid.fill {}: {:g} m along {} is not near a multiple of fluid.dx = "
                         "{:g} m; {} layers {:g} m apart are laid",

@@ -66,7 +66,7 @@ class ListedFluid {
       check(list, n, index);
       fluid_.x.push_back(list.x[n]);
       fluid_.v.push_back(list.v.empty() ? velocity(list.x[n]) : list.v[n]);
-      fluid_.mass.push_back(config_.fluid.rho0 * dx * dx * dx);
+      fluid_.mass.push_back(config_.fluid.rho0 * config_.domain.cell_volume(dx));
       places_.add(list.x[n]);
       fastest = std::max(fastest, norm(fluid_.v.back()));
     }

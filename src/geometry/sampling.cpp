@@ -27,7 +27,7 @@ std::vector<Vec3d> sample_tank(const WallBody& tank, double spacing, double dept
   std::array<Cells, 3> cells;
   std::array<std::int64_t, 3> first{}, last{};  // cell numbers, inside is [0, count)
   for (int k = 0; k < 3; ++k) {
-    cells[k] = fit_cells(tank.min[k], tank.max[k], spacing);
+    cells[k] = fit_cells(tank.min[k], tank.max[k], domain.spacing_along(k, spacing));
     const std::int64_t extra = layers(depth, cells[k].step);
     first[k] = closed[2 * k] ? -extra : 0;
     last[k] = cells[k].count + (closed[2 * k + 1] ? extra : 0);
@@ -49,7 +49,7 @@ std::vector<Vec3d> sample_box(const WallBody& box, double spacing, double depth,
   std::array<Cells, 3> cells;
   std::array<bool, 3> endless{};
   for (int k = 0; k < 3; ++k) {
-    cells[k] = fit_cells(box.min[k], box.max[k], spacing);
+    cells[k] = fit_cells(box.min[k], box.max[k], domain.spacing_along(k, spacing));
     endless[k] = spans_period(box, domain, k);
   }
   const auto behind_face = [&](int k, std::int64_t i) {
@@ -79,6 +79,7 @@ Direction plane_direction(const Vec3d& unit, const Vec3d& origin, double spacing
                           const DomainConfig& domain) {
   double lo = 0, hi = 0;
   bool periodic = false;
+  if (std::abs(unit.y) == 1) spacing = domain.spacing_along(1, spacing);
   for (int k = 0; k < 3; ++k) {
     const double a = unit[k] * (domain.min[k] - origin[k]), b = unit[k] * (domain.max[k] - origin[k]);
     lo += std::min(a, b);
@@ -230,7 +231,7 @@ bool is_fixed(const WallBody& body) { return !body.moves(); }
 
 std::vector<Vec3d> sample_body(const WallBody& body, double spacing, double depth,
                                const DomainConfig& domain) {
-  if (body.solid.shape) return sample_shape(*body.solid.shape, spacing, depth);
+  if (body.solid.shape) return sample_solid(*body.solid.shape, spacing, depth, domain);
   if (body.shape == "tank") return sample_tank(body, spacing, depth, domain);
   if (body.shape == "box") return sample_box(body, spacing, depth, domain);
   if (body.shape == "plane") return sample_plane(body, spacing, depth, domain);
@@ -239,13 +240,14 @@ std::vector<Vec3d> sample_body(const WallBody& body, double spacing, double dept
 }
 
 double particle_volume(const WallBody& body, double spacing, const DomainConfig& domain) {
-  if (body.solid.shape) return spacing * spacing * spacing;
+  if (body.solid.shape) return domain.cell_volume(spacing);
   if (body.shape == "plane") {
     const auto [a, b] = plane_lattice(body, spacing, 0, domain);
     return a.cells.step * b.cells.step * spacing;
   }
   double volume = 1;
-  for (int k = 0; k < 3; ++k) volume *= fit_cells(body.min[k], body.max[k], spacing).step;
+  for (int k = 0; k < 3; ++k)
+    volume *= fit_cells(body.min[k], body.max[k], domain.spacing_along(k, spacing)).step;
   return volume;
 }
 

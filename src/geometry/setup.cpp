@@ -61,6 +61,9 @@ Setup build_setup(const Config& config, std::vector<std::string>& warnings) {
     add_listed_fluid(config, setup.fluid, warnings);
     add_walls(config, setup.walls, warnings);
     add_inlets(config, setup.fluid, setup.walls, warnings);
+    if (config.domain.two_d)
+      for (auto* places : {&setup.fluid.x, &setup.walls.x, &setup.walls.mirror})
+        for (Vec3d& x : *places) x.y = config.domain.middle();
   }
   if (config.grain.present) {
     check_filters(config, warnings);

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/slice.hpp"
 #include "bedload/parallel/host_loop.hpp"
 
 namespace bedload {
@@ -298,6 +299,12 @@ std::vector<Vec3d> sample_shape(const Shape& shape, double spacing, double depth
   std::vector<Vec3d> x;
   for (const Particle& p : particles) x.push_back(p.x);
   return x;
+}
+
+std::vector<Vec3d> sample_solid(const Shape& shape, double spacing, double depth,
+                                const DomainConfig& domain) {
+  if (!domain.two_d) return sample_shape(shape, spacing, depth);
+  return sample_shape(Slice(shape, domain.middle(), spacing), spacing, depth);
 }
 
 }  // namespace bedload

@@ -45,7 +45,8 @@ std::array<bool, 6> sides(const WallBody& body, const DomainConfig& domain) {
 std::vector<Vec3d> sample_sides(const WallBody& body, double spacing, const DomainConfig& domain) {
   const auto closed = sides(body, domain);
   std::array<Cells, 3> cells;
-  for (int k = 0; k < 3; ++k) cells[k] = fit_cells(body.min[k], body.max[k], spacing);
+  for (int k = 0; k < 3; ++k)
+    cells[k] = fit_cells(body.min[k], body.max[k], domain.spacing_along(k, spacing));
   std::vector<Vec3d> points;
   for (int face = 0; face < 6; ++face) {
     if (!closed[face]) continue;
@@ -81,7 +82,7 @@ double chord(const Shape& shape, const SurfacePoint& from, double reach) {
 }  // namespace
 
 std::vector<Vec3d> sample_surface(const WallBody& body, double spacing, const DomainConfig& domain) {
-  if (body.solid.shape) return sample_shape(Skin(*body.solid.shape, spacing), spacing, spacing);
+  if (body.solid.shape) return sample_solid(Skin(*body.solid.shape, spacing), spacing, spacing, domain);
   if (body.shape == "plane") return sample_plane_surface(body, spacing, domain);
   return sample_sides(body, spacing, domain);
 }

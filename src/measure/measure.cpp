@@ -358,7 +358,7 @@ std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
   if (p.type == "point") {
     double sum[5] = {};
     if (has_fluid())
-      with_kernel(config_.fluid.kernel, config_.fluid.h(), [&](const auto& w) {
+      with_fluid_kernel(config_, [&](const auto& w) {
         const auto s = sum_over<5>(
             fluid_.owned(),
             PointBody<std::decay_t<decltype(w)>>{w, frame_, p.at, fluid_.x, fluid_.v_rho, fluid_.m_state});

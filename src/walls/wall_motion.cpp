@@ -46,8 +46,7 @@ WallKind kind_of(const WallBody& body) {
 WallMotion::WallMotion(const Config& config, const FreeBodies& free)
     : config_(config), free_(free), removed_(config.wall.bodies.size(), false) {
   double depth = 0;  // of a single layer, m
-  if (config.fluid.present)
-    with_kernel(config.fluid.kernel, config.fluid.h(), [&](const auto& w) { depth = layer_depth(w); });
+  if (config.fluid.present) with_fluid_kernel(config, [&](const auto& w) { depth = layer_depth(w); });
   for (const WallBody& body : config.wall.bodies) {
     laws_.emplace_back(body.motion, config.time.end);
     BodyPose& p = still_.emplace_back();
@@ -57,7 +56,8 @@ WallMotion::WallMotion(const Config& config, const FreeBodies& free)
     p.repulsion = body.repulsion && body.stops_fluid() && !body.single_layer();
     const double dx = config.wall.spacing(body);
     if (config.fluid.present)
-      p.volume = body.single_layer() ? dx * dx * depth : particle_volume(body, dx, config.domain);
+      p.volume = body.single_layer() ? dx * config.domain.spacing_along(1, dx) * depth
+                                     : particle_volume(body, dx, config.domain);
   }
   for (const InletConfig& inlet : config.inlets) {
     inlets_.emplace_back(inlet, config.fluid.dx);

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "bedload/case/config.hpp"
 #include "bedload/geometry/shape.hpp"
 
 namespace bedload {
@@ -13,5 +14,8 @@ namespace bedload {
 /// lies midway. The same arguments give the same particles, bit by bit, on any number of threads. Throws
 /// CaseError.
 std::vector<Vec3d> sample_shape(const Shape& shape, double spacing, double depth);
+
+/// The same, or of its slice in the middle of the domain of a plane flow.
+std::vector<Vec3d> sample_solid(const Shape& shape, double spacing, double depth, const DomainConfig& domain);
 
 }  // namespace bedload
