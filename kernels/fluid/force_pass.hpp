@@ -18,10 +18,17 @@ struct WallPair {
   BL_HD Vec3<N> operator()(const Vec4<N>& va, const Vec4<N>& ma, const Vec4<N>& vw, const Vec4<N>& mw,
                            const Vec4<N>& visc, const Vec3<N>& r, N r2) const {
     const N F = w.F(root(r2));
-    Vec3<N> theta = pressure_term(mw.x, ma.y, mw.y, F) * r;
-    if (mu > 0)
-      theta -= morris_term(visc.w, 2 * mu, va.w, vw.w, r2, F, square(w.h)) * (va.xyz() - visc.xyz());
+    Vec3<N> theta = pressure(ma, mw, r, F);
+    if (mu > 0) theta += friction(va, vw, visc, r2, F);
     return theta;
+  }
+  template <class N>
+  BL_HD Vec3<N> pressure(const Vec4<N>& ma, const Vec4<N>& mw, const Vec3<N>& r, N F) const {
+    return pressure_term(mw.x, ma.y, mw.y, F) * r;
+  }
+  template <class N>
+  BL_HD Vec3<N> friction(const Vec4<N>& va, const Vec4<N>& vw, const Vec4<N>& visc, N r2, N F) const {
+    return morris_term(visc.w, 2 * mu, va.w, vw.w, r2, F, square(w.h)) * (visc.xyz() - va.xyz());
   }
 };
 
@@ -77,31 +84,50 @@ struct ForcePass {
   }
 };
 
+/// The force on a wall particle as a whole.
+struct WholeForce {
+  Vec3d sum;  ///< N
+  BL_HD void add(const Real3& pressure, const Real3& friction) { sum += Vec3d(pressure + friction); }
+  BL_HD void add(const WholeForce& other) { sum += other.sum; }
+  BL_HD void write(Index b, Span<Vec3d> force, Span<Vec3d>) const { force[b] = sum; }
+};
+/// Its parts: pressure with the push of single layers; friction.
+struct ForceParts {
+  Vec3d pressure, friction;  ///< N
+  BL_HD void add(const Real3& p, const Real3& f) { pressure += Vec3d(p), friction += Vec3d(f); }
+  BL_HD void add(const ForceParts& other) { pressure += other.pressure, friction += other.friction; }
+  BL_HD void write(Index b, Span<Vec3d> p, Span<Vec3d> f) const { p[b] = pressure, f[b] = friction; }
+};
+
 /// Force of the mixture on each wall particle [N]: minus what ForcePass and LayerPass gave it, by velocities
-/// that have been corrected by `kick` since.
-template <class W>
+/// that have been corrected by `kick` since. `Force`: WholeForce, which leaves `friction` alone, or
+/// ForceParts.
+template <class W, class Force>
 struct WallForcePass {
   WallPair<W> wall;
   LayerForces<W> layer;  ///< empty without single layers
   Real kick;             ///< s
   Span<const Real3> acc, acc_before;
   Span<const Real4> flux, m_state, wall_v_rho, wall_m_state, wall_v_visc;
-  Span<Vec3d> force;
+  Span<Vec3d> force, friction;
 
-  BL_HD Vec3d start(Index) const { return {}; }
-  BL_HD void pair(Vec3d& sum, Index b, Index a, const Real3& r_ba, Real r2) const {
+  BL_HD Force start(Index) const { return {}; }
+  BL_HD void pair(Force& sum, Index b, Index a, const Real3& r_ba, Real r2) const {
     Real4 va = flux[a];
     const Real4 ma = m_state[a];
     if (kick != 0) va = {va.xyz() - kick * (acc[a] - acc_before[a]), va.w};
-    Real3 push = wall(va, ma, wall_v_rho[b], wall_m_state[b], wall_v_visc[b], -r_ba, r2);
+    const Real F = wall.w.F(std::sqrt(r2));
+    Real3 push = wall.pressure(ma, wall_m_state[b], -r_ba, F), drag;
+    if (wall.mu > 0) drag = wall.friction(va, wall_v_rho[b], wall_v_visc[b], r2, F);
     if (layer.law) {
       const auto more = layer(va, b, -r_ba, r2);
-      push += more.push + more.damping;
+      push += more.push;
+      drag += more.damping;
     }
-    sum -= Vec3d(push * ma.x);
+    sum.add(-ma.x * push, -ma.x * drag);
   }
-  BL_HD void merge(Vec3d& into, const Vec3d& other) const { into += other; }
-  BL_HD void finish(Index b, const Vec3d& sum) const { force[b] = sum; }
+  BL_HD void merge(Force& into, const Force& other) const { into.add(other); }
+  BL_HD void finish(Index b, const Force& sum) const { sum.write(b, force, friction); }
 };
 
 }  // namespace bedload::inline BL_VARIANT

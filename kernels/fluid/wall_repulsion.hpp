@@ -27,7 +27,8 @@ struct WallRepulsion {
   SurfaceSet walls;
   Span<const BodyPose> pose;
 
-  /// f(body, acceleration) for each foot of a surface within reach of x, or of those of one body alone.
+  /// f(body, acceleration, foot) for each foot (m) of a surface within reach of x, or of those of one body
+  /// alone.
   template <class F>
   BL_HD void each(const Vec3d& x, F&& f, std::uint32_t only = kNone) const {
     const double reach = double(law.r0);
@@ -39,7 +40,7 @@ struct WallRepulsion {
       if (view.beyond(walls, reach)) continue;
       view.each_foot(walls, reach, 1e-4 * reach, [&](const Foot& foot) {
         const Real push = law(Real(foot.distance));
-        if (push > 0) f(surface.body, push * Real3(foot.normal));
+        if (push > 0) f(surface.body, push * Real3(foot.normal), view.point(foot));
       });
     }
   }
@@ -79,7 +80,7 @@ struct RepelPass {
   Span<Real3> acc;
   BL_HD void operator()(Index a) const {
     const Vec3d at = coordinates(walls.frame, x[a]);
-    walls.each(at, [&](std::uint32_t, const Real3& push) { acc[a] += push; });
+    walls.each(at, [&](std::uint32_t, const Real3& push, const Vec3d&) { acc[a] += push; });
     acc[a] += orifices(at, v_rho[a].xyz());
   }
 };
@@ -95,7 +96,7 @@ struct BodyRepulsion {
   BL_HD Value operator()(Index a) const {
     Value sum = Value::zero();
     const Vec3d at = coordinates(walls.frame, x[a]);
-    const auto take = [&](std::uint32_t, const Real3& push) {
+    const auto take = [&](std::uint32_t, const Real3& push, const Vec3d&) {
       const Vec3d force = -double(mass[a]) * Vec3d(push);
       sum.add(force, cross(walls.frame.nearest_image(at - walls.pose[body].origin()), force));
     };

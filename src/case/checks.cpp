@@ -13,6 +13,7 @@
 #include "bedload/case/parameters.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
+#include "bedload/geometry/depth.hpp"
 #include "bedload/geometry/shape.hpp"
 #include "resolve.hpp"
 #include "src/motion/survey.hpp"
@@ -245,13 +246,14 @@ class Checks {
         if (!in_sight(probe.min, probe.max))
           fail(path + ".min", to_text(probe.min), "must have a part of the domain in its box");
       }
-      if (probe.type == "point") inside_domain(path + ".at", probe.at);
+      if (probe.type == "point" || probe.type == "wall_pressure") inside_domain(path + ".at", probe.at);
+      if (probe.type == "height") column_in_domain(path + ".at", probe.at);
       const bool has_phase = probe.type == "front" || probe.type == "box";
       const std::string phase = has_phase ? probe.phase : "fluid";
       if (probe.type != "force" && !(phase == "fluid" ? c.fluid.present : c.grain.present))
         fail(path + (has_phase ? ".phase" : ".type"), quoted(has_phase ? phase : probe.type),
              fmt::format("must name something in this case; it has no {}", phase));
-      if (probe.type == "force") body_exists(path + ".body", probe.body);
+      if (probe.type == "force" || !probe.body.empty()) body_exists(path + ".body", probe.body);
     }
   }
 
@@ -387,6 +389,14 @@ class Checks {
       if (x[k] < lo[k] - slack || x[k] > hi[k] + slack)
         fail(path, to_text(x), fmt::format("must lie in the domain {}..{}", to_text(lo), to_text(hi)));
     }
+  }
+  /// The line along gravity through x must meet the domain.
+  void column_in_domain(const std::string& path, const Vec3d& x) const {
+    const auto [from, to] = line_in_box(x, upwards(c.gravity), c.domain.min, c.domain.max);
+    if (from > to)
+      fail(path, to_text(x),
+           fmt::format("must have a part of the domain {}..{} above or below it", to_text(c.domain.min),
+                       to_text(c.domain.max)));
   }
   void file_name(const std::string& path, const std::string& name) const {
     const auto plain = [](unsigned char ch) {

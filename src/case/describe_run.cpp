@@ -10,6 +10,32 @@ constexpr double kLargest = 9.2e18;  // of TOML's integers
 
 const std::vector<Choice> kPhases{{"fluid", "the fluid"}, {"grains", "the grains"}};
 
+void patches(Parameters& p, ProbeConfig& b) {
+  p("radius", &b.radius,
+    {.unit = "m",
+     .meaning = "wall_pressure: of a disc, which counts as the square of its area",
+     .range = above(0),
+     .fallback = "a rectangle",
+     .presence = optional});
+  if (b.radius == 0 || p.everything()) {
+    p("size", &b.size,
+      {.unit = "m",
+       .meaning = "wall_pressure: sides of a rectangle, [a, b]",
+       .range = above(0),
+       .fallback = "a disc",
+       .presence = optional});
+    p("count", &b.count,
+      {.meaning = "wall_pressure: patches into which the rectangle is cut along a and b",
+       .range = within(1, 1000),
+       .fallback = "[1, 1]",
+       .presence = optional});
+  }
+  p("normal", &b.normal,
+    {.meaning = "wall_pressure: into the fluid", .fallback = "of the surface nearest to at"});
+  p("along", &b.along,
+    {.meaning = "wall_pressure: direction of side a", .fallback = "horizontal, to the right; x on a floor"});
+}
+
 void probe(Parameters& p, ProbeConfig& b) {
   p("name", &b.name, {.meaning = "file under probes/", .presence = required});
   p("type", &b.type,
@@ -17,10 +43,11 @@ void probe(Parameters& p, ProbeConfig& b) {
      .presence = required,
      .family = "outputs",
      .choices = {{"front", "furthest place of a phase along a direction"},
-                 {"point", "fluid velocity, pressure and, among grains, porosity at a place"},
-                 {"height", "fluid surface over a place"},
+                 {"point", "fluid velocity and pressure at a place"},
+                 {"height", "fluid surface over a place, and depth of connected water there"},
                  {"box", "mass and momentum in a box"},
-                 {"force", "force and torque on a wall body"}}});
+                 {"force", "force and torque on a wall body"},
+                 {"wall_pressure", "force per area on patches of a wall body, as transducers feel it"}}});
   const auto wanted = [&](const char* type) { return b.type == type || p.everything(); };
   if (wanted("front") || wanted("box"))
     p("phase", &b.phase, {.meaning = "front, box: of which", .choices = kPhases});
@@ -32,16 +59,23 @@ void probe(Parameters& p, ProbeConfig& b) {
     b.axis = direction[0] - 'x';
     b.sign = direction[1] == '+' ? 1 : -1;
   }
-  if (wanted("point") || wanted("height"))
-    p("at", &b.at, {.unit = "m", .meaning = "point, height: place", .presence = required});
+  if (wanted("point") || wanted("height") || wanted("wall_pressure"))
+    p("at", &b.at,
+      {.unit = "m",
+       .meaning = "point, height: place; wall_pressure: centre, on the surface; at t = 0",
+       .presence = required});
   if (wanted("box")) {
     p("min", &b.min, {.unit = "m", .meaning = "box: lower corner", .presence = required});
     p("max", &b.max, {.unit = "m", .meaning = "box: upper corner", .presence = required});
   }
-  if (wanted("force")) {
-    p("body", &b.body, {.meaning = "force: name of the wall body", .presence = required});
-    p("about", &b.about, {.unit = "m", .meaning = "force: torque about this point"});
-  }
+  if (wanted("force") || wanted("wall_pressure"))
+    p("body", &b.body,
+      {.meaning = "force, wall_pressure: name of the wall body; point: of one that carries it (optional)",
+       .presence = required});
+  else if (wanted("point"))
+    p("body", &b.body, {.meaning = "name of a wall body that carries the point", .presence = optional});
+  if (wanted("force")) p("about", &b.about, {.unit = "m", .meaning = "force: torque about this point"});
+  if (wanted("wall_pressure")) patches(p, b);
   p("every", &b.every,
     {.unit = "s", .meaning = "interval", .range = above(0), .fallback = "out.every", .presence = optional});
 }

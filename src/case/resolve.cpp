@@ -319,8 +319,7 @@ void resolve(Config& c, const Value& root, const std::filesystem::path& checkpoi
   if (c.fluid.present && c.grain.present && c.couple.hc == 0)
     c.couple.hc = std::max(c.fluid.h(), 4 * c.grain.d_max / c.fluid.kappa());
   if (c.out.diagnostics_every == 0) c.out.diagnostics_every = c.out.every;
-  for (ProbeConfig& probe : c.out.probes)
-    if (probe.every == 0) probe.every = c.out.every;
+  resolve_probes(c, root);
 }
 
 }  // namespace bedload

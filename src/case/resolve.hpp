@@ -32,6 +32,9 @@ void resolve_openings(Config& config, const Value& root);
 /// The grains' sizes of [[grain_inlet]], and what they mean for the case.
 void resolve_grain_inlets(Config& config, const Value& root);
 
+/// Intervals of probes, and the directions of patches on walls.
+void resolve_probes(Config& config, const Value& root);
+
 /// Unit vector along `v`, given at `path`; one that already is stays as it is, so that a resolved case reads
 /// back unchanged. CaseError for zero.
 Vec3d direction(const Vec3d& v, const Value& root, const std::string& path);

@@ -187,21 +187,33 @@ class FluidSolverWith final : public FluidSolver {
   void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
                    Buffer<Vec3d>& force) override {
     force.resize(walls.size());
-    WallForcePass<W> pass{wall_pair(),
-                          layer(walls, pose, dt),
-                          Real(mixed_ ? 0 : corrected_),
-                          fluid.acc,
-                          fluid.acc_next,
-                          flux(fluid),
-                          fluid.m_state,
-                          walls.v_rho,
-                          walls.m_state,
-                          walls.v_visc,
-                          force};
-    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
+    forces_on_walls<WholeForce>(fluid, walls, pose, dt, force, {});
+  }
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
+                   Buffer<Vec3d>& pressure, Buffer<Vec3d>& friction) override {
+    pressure.resize(walls.size());
+    friction.resize(walls.size());
+    forces_on_walls<ForceParts>(fluid, walls, pose, dt, pressure, friction);
   }
 
  private:
+  template <class Force>
+  void forces_on_walls(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
+                       Span<Vec3d> force, Span<Vec3d> friction) {
+    const WallForcePass<W, Force> pass{wall_pair(),
+                                       layer(walls, pose, dt),
+                                       Real(mixed_ ? 0 : corrected_),
+                                       fluid.acc,
+                                       fluid.acc_next,
+                                       flux(fluid),
+                                       fluid.m_state,
+                                       walls.v_rho,
+                                       walls.m_state,
+                                       walls.v_visc,
+                                       force,
+                                       friction};
+    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
+  }
   template <class Pass>
   void run(const FluidStore& fluid, const WallStore& walls, double cutoff, const Pass& pass) {
     for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, fluid_wall_,

@@ -67,6 +67,9 @@ class FluidSolver {
   /// last forces() gave the fluid. After a step of dt (s), before the lists are renewed.
   virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
                            double dt, Buffer<Vec3d>& force) = 0;
+  /// The same by parts: pressure with the push of single layers; friction.
+  virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
+                           double dt, Buffer<Vec3d>& pressure, Buffer<Vec3d>& friction) = 0;
   /// Pairs of fluid particles within the kernel's reach that see each other through one of the surfaces.
   double pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces, Span<const BodyPose> pose) const;
 

@@ -10,6 +10,25 @@
 
 namespace bedload {
 
+Vec3d upwards(const Vec3d& gravity) {
+  const double g = norm(gravity);
+  return g > 0 ? gravity * (-1 / g) : Vec3d{0, 0, 1};
+}
+
+LinePart line_in_box(const Vec3d& x, const Vec3d& up, const Vec3d& min, const Vec3d& max) {
+  LinePart part{-1e300, 1e300};
+  for (int k = 0; k < 3; ++k) {
+    const double slack = 1e-9 * (max[k] - min[k]), lo = min[k] - slack - x[k], hi = max[k] + slack - x[k];
+    if (up[k] == 0) {
+      if (lo > 0 || hi < 0) return {1, -1};
+      continue;
+    }
+    part.from = std::max(part.from, std::min(lo / up[k], hi / up[k]));
+    part.to = std::min(part.to, std::max(lo / up[k], hi / up[k]));
+  }
+  return part;
+}
+
 std::vector<double> depth_in_columns(const std::vector<Vec3d>& x, const Vec3d& up, double spacing) {
   const Vec3d along = perpendicular(up), across = cross(up, along);
   using Column = std::pair<std::int64_t, std::int64_t>;

@@ -110,6 +110,33 @@ Vec3d surface_point(const WallBody& body, const Vec3d& x, const DomainConfig& do
   return on;
 }
 
+SurfacePoint nearest_surface(const WallBody& body, const Vec3d& x, const DomainConfig& domain) {
+  if (body.solid.shape) {
+    const SurfacePoint from = body.solid.shape->nearest(x);
+    return {from.distance, from.point, body.solid.shape->nearest(from.point).normal};
+  }
+  if (body.shape == "plane") {
+    const Vec3d n = body.normal / norm(body.normal);
+    const double height = dot(x - body.point, n);
+    return {height, x - height * n, n};
+  }
+  const auto closed = sides(body, domain);
+  SurfacePoint best{kInfinity, x, {}};
+  for (int face = 0; face < 6; ++face) {
+    if (!closed[face]) continue;
+    const int axis = face / 2;
+    const bool upper = face % 2;
+    Vec3d on = x, normal;
+    for (int k = 0; k < 3; ++k)
+      if (!spans_period(body, domain, k)) on[k] = std::clamp(x[k], body.min[k], body.max[k]);
+    on[axis] = upper ? body.max[axis] : body.min[axis];
+    normal[axis] = upper == (body.shape == "box") ? 1 : -1;
+    const double away = norm(x - on), side = dot(x - on, normal) < 0 ? -1 : 1;
+    if (away < std::abs(best.distance)) best = {side * away, on, normal};
+  }
+  return best;
+}
+
 double thickness(const WallBody& body, const std::vector<Vec3d>& points, double reach,
                  const DomainConfig& domain) {
   if (body.shape == "box") {

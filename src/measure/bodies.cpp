@@ -30,6 +30,67 @@ std::vector<Quantity> rows_of(const RigidMotion& m, const NamedLoads& loads) {
 
 }  // namespace
 
+const CoupledSimulation::WallForces& CoupledSimulation::wall_forces() {
+  if (wall_forces_.due(clock_.step))
+    fluid_solver_->wall_forces(fluid_, walls_, poses_now(), clock_.last_dt, wall_forces_.value.pressure,
+                               wall_forces_.value.friction);
+  return wall_forces_.value;
+}
+
+const CoupledSimulation::FluidLoads& CoupledSimulation::fluid_loads() {
+  FluidLoads& loads = fluid_loads_.value;
+  if (!fluid_loads_.due(clock_.step)) return loads;
+  loads.pressure.assign(motion_.bodies(), LoadSum::zero());
+  loads.friction = loads.pressure;
+  if (!has_fluid() || walls_.size() == 0) return loads;
+  const WallForces& forces = wall_forces();
+  const Span<const BodyPose> poses = poses_now();
+  const WallRepulsion repulsion = fluid_solver_->repulsion(poses, clock_.last_dt);
+  for (std::uint32_t b = 0; b < loads.pressure.size(); ++b) {
+    const auto sum = [&](const Buffer<Vec3d>& force) {
+      return reduce(walls_.owned(), WallLoadReduction{b, walls_.body, walls_.x0, force, poses.data});
+    };
+    loads.pressure[b] = sum(forces.pressure);
+    loads.friction[b] = sum(forces.friction);
+    if (repulsion.walls.surfaces.size > 0)
+      LoadSum::combine(loads.pressure[b],
+                       reduce(fluid_.owned(), BodyRepulsion{repulsion, b, fluid_.x, fluid_.mass}));
+  }
+  return loads;
+}
+
+LoadSum CoupledSimulation::grain_load(int body) {
+  if (!has_grains()) return LoadSum::zero();
+  if (grain_loads_.due(clock_.step)) grain_loads_.value = solid_solver_->body_loads(grains_, poses_now());
+  return grain_loads_.value[body];
+}
+
+int CoupledSimulation::wall_named(const std::string& name) const {
+  int body = 0;
+  for (int b = 0; b < motion_.walls(); ++b)
+    if (config_.wall.bodies[b].name == name) body = b;
+  return body;
+}
+
+std::vector<Quantity> CoupledSimulation::body_force(const ProbeConfig& p) {
+  std::vector<Quantity> out;
+  const int body = wall_named(p.body);
+  const Vec3d from = frame_.nearest_image(motion_.pose(body, clock_.time).origin() - p.about);
+  const auto vec = [&](const std::string& name, const char* unit, const Vec3d& v) {
+    for (int k = 0; k < 3; ++k) out.push_back({name + "_" + "xyz"[k], unit, v[k]});
+  };
+  const auto load = [&](const std::string& by, const LoadSum& sum) {
+    vec("force_by_" + by, "N", sum.force());
+    vec("torque_by_" + by, "N m", sum.torque() + cross(from, sum.force()));
+  };
+  const FluidLoads& loads = fluid_loads();
+  load("fluid", loads.all(body));
+  load("grains", grain_load(body));
+  vec("pressure_force", "N", loads.pressure[body].force());
+  vec("friction_force", "N", loads.friction[body].force());
+  return out;
+}
+
 std::vector<Quantity> CoupledSimulation::body_state(int body) {
   NamedLoads loads;
   if (const int group = body - motion_.walls(); group >= 0) {
@@ -38,16 +99,12 @@ std::vector<Quantity> CoupledSimulation::body_state(int body) {
     loads.push_back({"contacts", groups.by_contacts(group, grains_)});
     return rows_of(groups.motion(group), loads);
   }
-  if (loads_.step != clock_.step) {
-    loads_ = {clock_.step, wall_loads(), {}};
-    if (has_grains()) loads_.grains = solid_solver_->body_loads(grains_, poses_now());
-  }
   BodyForces f;
   if (const int k = bodies_.place_of(body); k >= 0) {
     f = bodies_.forces(k);
   } else {
-    f.fluid = loads_.fluid[body];
-    if (has_grains()) f.grains = loads_.grains[body];
+    f.fluid = fluid_loads().all(body);
+    f.grains = grain_load(body);
     if (bodies_.any()) f.bodies = bodies_.contact_load(body);
   }
   if (has_fluid()) loads.push_back({"fluid", f.fluid});

@@ -1,10 +1,9 @@
-// What a simulation tells: snapshots, diagnostics, probes.
+// What a simulation tells: snapshots and diagnostics.
 
 #include <algorithm>
 #include <cmath>
 
 #include "kernels/boundaries/sinks.hpp"
-#include "kernels/smoothing/registry.hpp"
 #include "src/measure/sweeps.hpp"
 #include "src/time/coupled_simulation.hpp"
 
@@ -26,9 +25,6 @@ struct VelocityPass {
   Span<Real3> out;
   BL_HD void operator()(Index i) const { out[i] = v_rho[i].xyz(); }
 };
-
-/// Pressure from the pair-loop record of fluid or walls, Pa.
-BL_HD Real pressure_of(const Real4& m_state) { return m_state.y * square(m_state.z); }
 
 struct DensityPart {
   Span<const Real4> m_state;
@@ -87,7 +83,7 @@ struct FluidTotals {
 
 /// Rates of change of fluid momentum, N: by gravity and drive, by all but grains, by grains, which take their
 /// share of the stress.
-struct FluidLoads {
+struct MomentumRates {
   double rate;  ///< 1 / step, 1/s
   Vec3d gravity;
   Drive drive;
@@ -133,76 +129,6 @@ struct PorosityBody {
   BL_HD double operator()(Index a) const { return -double(eps[a]); }
 };
 
-// --- probes ----------------------------------------------------------------------------------
-
-/// Shepard sums about a point: W V, pressure, velocity 3.
-template <class W>
-struct PointBody {
-  W w;
-  Frame frame;
-  Vec3d at;
-  Span<const FluidPosition> x;
-  Span<const Real4> v_rho, m_state;
-  BL_HD void operator()(Index a, double* out) const {
-    const Vec3d r = frame.nearest_image(coordinates(frame, x[a]) - at);
-    const double r2 = norm2(r), support = w.kappa * double(w.h);
-    if (r2 >= support * support) return;
-    const double share = double(m_state[a].x) / m_state[a].z * w.W(Real(std::sqrt(r2)));
-    out[0] = share;
-    out[1] = share * pressure_of(m_state[a]);
-    out[2] = share * v_rho[a].x;
-    out[3] = share * v_rho[a].y;
-    out[4] = share * v_rho[a].z;
-  }
-};
-
-/// Highest fluid along `up` within `radius` of the vertical line through `at`.
-struct HeightBody {
-  Frame frame;
-  Vec3d at, up;
-  double radius;
-  Span<const FluidPosition> x;
-  BL_HD double operator()(Index a) const {
-    const Vec3d p = coordinates(frame, x[a]);
-    const Vec3d r = frame.nearest_image(p - at);
-    const Vec3d side = r - up * dot(r, up);
-    return norm2(side) <= radius * radius ? dot(p, up) : -1e300;
-  }
-};
-
-BL_HD bool within(const Vec3d& x, const Vec3d& lo, const Vec3d& hi) {
-  return x.x >= lo.x && x.x <= hi.x && x.y >= lo.y && x.y <= hi.y && x.z >= lo.z && x.z <= hi.z;
-}
-
-/// Over a box: count, mass, pressure, velocity 3, porosity.
-struct FluidBox {
-  Frame frame;
-  Vec3d lo, hi;
-  Span<const FluidPosition> x;
-  Span<const Real4> v_rho, m_state;
-  Span<const Real> mass;
-  BL_HD void operator()(Index a, double* out) const {
-    if (!within(coordinates(frame, x[a]), lo, hi)) return;
-    const double m = mass[a];
-    out[0] = 1, out[1] = m, out[2] = m * pressure_of(m_state[a]);
-    out[3] = m * v_rho[a].x, out[4] = m * v_rho[a].y, out[5] = m * v_rho[a].z;
-    out[6] = m * m_state[a].w;
-  }
-};
-struct GrainBox {
-  Vec3d lo, hi;
-  double rho;
-  Span<const Vec3d> x;
-  Span<const Real3> v;
-  Span<const Real> radius;
-  BL_HD void operator()(Index i, double* out) const {
-    if (!within(x[i], lo, hi)) return;
-    const double r = radius[i], m = rho * 4.1887902047863905 * r * r * r;
-    out[0] = 1, out[1] = m;
-    for (int k = 0; k < 3; ++k) out[3 + k] = m * v[i][k];
-  }
-};
-
 }  // namespace
 
 HostStore CoupledSimulation::snapshot(const std::string& name) {
@@ -244,20 +170,6 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
   return out;
 }
 
-std::vector<LoadSum> CoupledSimulation::wall_loads() {
-  std::vector<LoadSum> out(motion_.bodies(), LoadSum::zero());
-  if (!has_fluid() || walls_.size() == 0) return out;
-  const Span<const BodyPose> poses = poses_now();
-  fluid_solver_->wall_forces(fluid_, walls_, poses, clock_.last_dt, wall_force_);
-  const WallRepulsion repulsion = fluid_solver_->repulsion(poses, clock_.last_dt);
-  for (std::uint32_t b = 0; b < out.size(); ++b) {
-    out[b] = reduce(walls_.owned(), WallLoadReduction{b, walls_.body, walls_.x0, wall_force_, poses.data});
-    if (repulsion.walls.surfaces.size > 0)
-      LoadSum::combine(out[b], reduce(fluid_.owned(), BodyRepulsion{repulsion, b, fluid_.x, fluid_.mass}));
-  }
-  return out;
-}
-
 std::vector<Quantity> CoupledSimulation::diagnostics() {
   static const char* const axis[3] = {"x", "y", "z"};
   std::vector<Quantity> out;
@@ -276,12 +188,13 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"fluid_kinetic_energy", "J", t.v[7]});
     out.push_back({"fluid_potential_energy", "J", t.v[8]});
     out.push_back({"fluid_elastic_energy", "J", t.v[9]});
-    for (const LoadSum& load : wall_loads()) wall_on_fluid -= load.force();
+    const FluidLoads& loads = fluid_loads();
+    for (int b = 0; b < motion_.bodies(); ++b) wall_on_fluid -= loads.all(b).force();
     const auto l = sum_over<9>(
-        fluid_.owned(),
-        FluidLoads{clock_.last_dt > 0 ? 1 / clock_.last_dt : 0, gravity_.at(clock_.time), drive, fluid_.mass,
-                   fluid_.m_state, fluid_.theta, fluid_.acc,
-                   two_way() ? Span<const Real3>(fluid_.reaction) : Span<const Real3>(), fluid_.drag_kick});
+        fluid_.owned(), MomentumRates{clock_.last_dt > 0 ? 1 / clock_.last_dt : 0, gravity_.at(clock_.time),
+                                      drive, fluid_.mass, fluid_.m_state, fluid_.theta, fluid_.acc,
+                                      two_way() ? Span<const Real3>(fluid_.reaction) : Span<const Real3>(),
+                                      fluid_.drag_kick});
     const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
     vec("force_walls_on_fluid", "N", wall_on_fluid);
     vec("force_grains_on_fluid", "N", {l.v[6], l.v[7], l.v[8]});
@@ -337,82 +250,6 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
   }
   for (const Quantity& q : open_.report(clock_.time)) out.push_back(q);
   out.push_back({"rebuilds", "-", double(rebuilds_)});
-  return out;
-}
-
-std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
-  static const char* const axis[3] = {"x", "y", "z"};
-  const double nan = std::nan("");
-  if (p.type == "front") {
-    Vec3d direction;
-    direction[p.axis] = p.sign;
-    double front = nan;
-    if (p.phase == "fluid" && fluid_.size() > 0)
-      front = p.sign * (max_over(fluid_.owned(), AlongBody<FluidPosition>{frame_, fluid_.x, direction}) +
-                        config_.fluid.dx / 2);
-    if (p.phase == "grains" && grains_.size() > 0)
-      front = p.sign * (max_over(grains_.owned(), AlongBody<Vec3d>{frame_, grains_.x, direction}) +
-                        config_.grain.d_max / 2);
-    return {{std::string("front_") + axis[p.axis], "m", front}};
-  }
-  if (p.type == "point") {
-    double sum[5] = {};
-    if (has_fluid())
-      with_fluid_kernel(config_, [&](const auto& w) {
-        const auto s = sum_over<5>(
-            fluid_.owned(),
-            PointBody<std::decay_t<decltype(w)>>{w, frame_, p.at, fluid_.x, fluid_.v_rho, fluid_.m_state});
-        std::copy(s.v, s.v + 5, sum);
-      });
-    const bool wet = sum[0] > 0.05;  // fewer neighbours say nothing
-    return {{"pressure", "Pa", wet ? sum[1] / sum[0] : nan},
-            {"velocity_x", "m/s", wet ? sum[2] / sum[0] : nan},
-            {"velocity_y", "m/s", wet ? sum[3] / sum[0] : nan},
-            {"velocity_z", "m/s", wet ? sum[4] / sum[0] : nan},
-            {"kernel_sum", "-", sum[0]}};
-  }
-  if (p.type == "height") {
-    const double g = norm(config_.gravity);
-    const Vec3d up = g > 0 ? config_.gravity * (-1 / g) : Vec3d{0, 0, 1};
-    const double top =
-        max_over(fluid_.owned(), HeightBody{frame_, p.at, up, 1.5 * config_.fluid.dx, fluid_.x});
-    return {{"height", "m", top > -1e299 ? top + config_.fluid.dx / 2 - dot(p.at, up) : 0.0}};
-  }
-  if (p.type == "box") {
-    double s[7] = {};
-    if (p.phase == "fluid") {
-      const auto r = sum_over<7>(fluid_.owned(), FluidBox{frame_, p.min, p.max, fluid_.x, fluid_.v_rho,
-                                                          fluid_.m_state, fluid_.mass});
-      std::copy(r.v, r.v + 7, s);
-    } else {
-      const auto r = sum_over<7>(
-          grains_.owned(), GrainBox{p.min, p.max, config_.grain.rho, grains_.x, grains_.v, grains_.radius});
-      std::copy(r.v, r.v + 7, s);
-    }
-    const double m = s[1] > 0 ? s[1] : nan;
-    std::vector<Quantity> out = {{"count", "-", s[0]}, {"mass", "kg", s[1]}};
-    for (int k = 0; k < 3; ++k) out.push_back({std::string("velocity_") + axis[k], "m/s", s[3 + k] / m});
-    if (p.phase == "fluid") {
-      out.push_back({"pressure", "Pa", s[2] / m});
-      out.push_back({"porosity", "-", s[6] / m});
-    }
-    return out;
-  }
-  // force: on one wall body, by fluid and by grains
-  std::vector<Quantity> out;
-  int body = 0;
-  for (int b = 0; b < motion_.walls(); ++b)
-    if (config_.wall.bodies[b].name == p.body) body = b;
-  const Vec3d from = frame_.nearest_image(motion_.pose(body, clock_.time).origin() - p.about);
-  const auto vec = [&](const std::string& name, const char* unit, const Vec3d& v) {
-    for (int k = 0; k < 3; ++k) out.push_back({name + "_" + axis[k], unit, v[k]});
-  };
-  const auto load = [&](const std::string& by, const LoadSum& sum) {
-    vec("force_by_" + by, "N", sum.force());
-    vec("torque_by_" + by, "N m", sum.torque() + cross(from, sum.force()));
-  };
-  load("fluid", wall_loads()[body]);
-  load("grains", has_grains() ? solid_solver_->body_loads(grains_, poses_now())[body] : LoadSum::zero());
   return out;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // One simulation: the state, the solvers that advance it, and the order of work in a step.
 
+#include <utility>
+
 #include "bedload/parallel/stopwatch.hpp"
 #include "bedload/simulation.hpp"
 #include "src/boundaries/open_boundaries.hpp"
@@ -68,7 +70,36 @@ class CoupledSimulation final : public Simulation {
   void remove_cleared_bodies();
   void sweep();  ///< extremes after a step; throws SimulationFault
   Span<const BodyPose> poses_now() { return motion_.poses(clock_.time, 0, 1); }
-  std::vector<LoadSum> wall_loads();  ///< of the fluid on each body, about its centre
+
+  /// What was worked out after one step, kept until the next.
+  template <class T>
+  struct Kept {
+    T value;
+    std::int64_t step = -1;
+    bool due(std::int64_t now) { return std::exchange(step, now) != now; }
+  };
+  struct WallForces {
+    Buffer<Vec3d> pressure, friction;
+  };
+  /// On each body about its centre; pressure with the push of single layers and repulsion.
+  struct FluidLoads {
+    std::vector<LoadSum> pressure, friction;
+    LoadSum all(int body) const {
+      LoadSum sum = pressure[body];
+      LoadSum::combine(sum, friction[body]);
+      return sum;
+    }
+  };
+  const WallForces& wall_forces();  ///< of the fluid on wall particles, repulsion from surfaces apart
+  const FluidLoads& fluid_loads();
+  LoadSum grain_load(int body);                   ///< of the grains on a body about its centre
+  int wall_named(const std::string& name) const;  ///< place among the wall bodies
+  std::vector<Quantity> front(const ProbeConfig& probe);
+  std::vector<Quantity> point(const ProbeConfig& probe);
+  std::vector<Quantity> column(const ProbeConfig& probe);
+  std::vector<Quantity> box(const ProbeConfig& probe);
+  std::vector<Quantity> body_force(const ProbeConfig& probe);
+  std::vector<Quantity> wall_pressure(const ProbeConfig& probe);
 
   enum Part { kLists, kFluid, kGrains, kCoupling, kChecks };  ///< of a step, that are timed
 
@@ -96,11 +127,10 @@ class CoupledSimulation final : public Simulation {
   double walls_moved_ = 0;  ///< bound on wall travel since the lists were built, m
   bool rebuilt_ = false;
   std::int64_t rebuilds_ = 0;
-  Buffer<Vec3d> wall_force_;
-  struct {
-    std::int64_t step = -1;
-    std::vector<LoadSum> fluid, grains;
-  } loads_;  ///< on each body, as told last
+  Buffer<Vec3d> wall_force_;  ///< by which free bodies move
+  Kept<WallForces> wall_forces_;
+  Kept<FluidLoads> fluid_loads_;
+  Kept<std::vector<LoadSum>> grain_loads_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

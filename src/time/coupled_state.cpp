@@ -253,7 +253,7 @@ void CoupledSimulation::load(const SavedState& state) {
   }
   if (has_grains()) load_grain_store(state);
   bodies_.load([&](const char* name) -> const HostStore& { return store_of(state, name); }, clock_.time);
-  loads_.step = -1;
+  wall_forces_.step = fluid_loads_.step = grain_loads_.step = -1;
   restore_lists(state);
   sweep();
 }

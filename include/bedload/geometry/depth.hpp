@@ -1,11 +1,22 @@
 #pragma once
-// How deep particles lie below the surface that they make up.
+// What lies above what: columns along the vertical, and how deep particles lie below the surface they make
+// up.
 
 #include <vector>
 
 #include "bedload/core/vec.hpp"
 
 namespace bedload {
+
+/// Unit vector against gravity; z where there is none.
+Vec3d upwards(const Vec3d& gravity);
+
+/// The part within a box of the line through x along the unit vector `up`, m from x upwards; from > to where
+/// it misses the box.
+struct LinePart {
+  double from, to;
+};
+LinePart line_in_box(const Vec3d& x, const Vec3d& up, const Vec3d& min, const Vec3d& max);
 
 /// Depth of each particle below the topmost of those above it, m, in columns two spacings wide along the unit
 /// vector `up`; the surface lies half a spacing above the topmost. A gap of more than three spacings ends a

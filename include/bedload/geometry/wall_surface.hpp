@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "bedload/case/config.hpp"
+#include "bedload/geometry/shape.hpp"
 
 namespace bedload {
 
@@ -14,6 +15,10 @@ std::vector<Vec3d> sample_surface(const WallBody& body, double spacing, const Do
 
 /// Place on the surface of `body` nearest to x, which lies behind it, m.
 Vec3d surface_point(const WallBody& body, const Vec3d& x, const DomainConfig& domain);
+
+/// The surface of `body` as seen from x; the normal is that of the surface at its nearest place, into the
+/// flow.
+SurfacePoint nearest_surface(const WallBody& body, const Vec3d& x, const DomainConfig& domain);
 
 /// How thick the solid is behind the surface beside `points`, m: by its sides for a box, for a shape such
 /// that a twentieth of it is thinner; 0 and more, +infinity from `reach` on and where nothing lies behind.

@@ -27,12 +27,15 @@ struct Values {
 };
 
 /// Kernel `name` of smoothing length h at distances r, where the solver computes it.
-Values evaluate(const std::string& name, double h, const std::vector<double>& r) {
+Values evaluate(const std::string& name, double h, const std::vector<double>& r, double thickness = 0) {
   Buffer<Real> at, W(r.size()), F(r.size());
   at.assign({r.begin(), r.end()});
-  with_kernel(name, h, [&](auto w) {
-    for_each({0, Index(r.size())}, EvaluatePass<decltype(w)>{w, at, W, F});
-  });
+  with_kernel(
+      name, h,
+      [&](auto w) {
+        for_each({0, Index(r.size())}, EvaluatePass<decltype(w)>{w, at, W, F});
+      },
+      thickness);
   return {W.to_host(), F.to_host()};
 }
 
@@ -41,6 +44,22 @@ class KernelFunctions : public testing::TestWithParam<const char*> {
   const double h = 0.003;
   const double kappa = kernel_kappa(GetParam());
 };
+
+TEST_P(KernelFunctions, IntegralsInAPlaneFlowAreOneAndTwo) {
+  const double thickness = 0.02;
+  const int rings = 2000;
+  std::vector<double> r;
+  for (int k = 0; k < rings; ++k) r.push_back((k + 0.5) * kappa * h / rings);
+  const Values v = evaluate(GetParam(), h, r, thickness);
+  double W = 0, F = 0;
+  for (int k = 0; k < rings; ++k) {
+    const double ring = 2 * M_PI * r[k] * kappa * h / rings * thickness;
+    W += v.W[k] * ring;
+    F += v.F[k] * ring * r[k] * r[k];
+  }
+  EXPECT_NEAR(W, 1, 1e-5);
+  EXPECT_NEAR(F, 2, 2e-5);
+}
 
 TEST_P(KernelFunctions, IntegralsAreOneAndThree) {
   // Five-point Gauss rule on twenty intervals: exact for these piecewise polynomials.

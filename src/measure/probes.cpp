@@ -1,0 +1,197 @@
+// What probes tell of fluid and grains: fronts, points, columns, boxes.
+
+#include <algorithm>
+#include <cmath>
+
+#include "bedload/geometry/depth.hpp"
+#include "kernels/smoothing/registry.hpp"
+#include "src/measure/sweeps.hpp"
+#include "src/time/coupled_simulation.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr const char* kAxis[3] = {"x", "y", "z"};
+
+/// Shepard sums about a point over the cells around it, cell by cell: W V, pressure, velocity 3.
+template <class W>
+struct PointBody {
+  CellGridView grid;
+  CellGridView::Block cells;
+  W w;
+  Frame frame;
+  Vec3d at;
+  Span<const FluidPosition> x;
+  Span<const Real4> v_rho, m_state;
+  BL_HD void operator()(Index q, double* out) const {
+    if (!cells.touches(int(q))) return;
+    const std::uint32_t c = grid.key(cells, int(q));
+    for (Index a = grid.start[c]; a < grid.start[c + 1]; ++a) add(a, out);
+  }
+
+ private:
+  BL_HD void add(Index a, double* out) const {
+    const Vec3d r = frame.nearest_image(coordinates(frame, x[a]) - at);
+    const double r2 = norm2(r), support = w.kappa * double(w.h);
+    if (r2 >= support * support) return;
+    const double share = double(m_state[a].x) / m_state[a].z * w.W(Real(std::sqrt(r2)));
+    out[0] += share;
+    out[1] += share * pressure_of(m_state[a]);
+    out[2] += share * v_rho[a].x;
+    out[3] += share * v_rho[a].y;
+    out[4] += share * v_rho[a].z;
+  }
+};
+
+/// Heights above `at` between which fluid lies in one piece of a column, m.
+struct Extent {
+  double lowest, highest;
+};
+
+/// Cuts the column of `radius` around the line through `at` into pieces and finds the extent of the fluid in
+/// each; what lies on a border belongs to both.
+struct ColumnPass {
+  CellGridView grid;
+  Frame frame;
+  Vec3d at, up;
+  double radius, length, skin;  ///< m; length: of a piece
+  int first;                    ///< piece; that of number 0 begins at `at`
+  Span<const FluidPosition> x;
+  Span<Extent> out;
+  BL_HD void operator()(Index n) const {
+    const double middle = (first + int(n) + 0.5) * length, half = 0.5 * length * (1 + 1e-9);
+    const Vec3d centre = at + middle * up;
+    Extent extent{1e300, -1e300};
+    grid.each_near(centre, std::sqrt(radius * radius + half * half) + skin, [&](Index a) {
+      const Vec3d r = frame.nearest_image(coordinates(frame, x[a]) - centre);
+      const double height = dot(r, up);
+      if (norm2(r - height * up) > radius * radius || std::abs(height) > half) return;
+      extent.lowest = min_of(extent.lowest, middle + height);
+      extent.highest = max_of(extent.highest, middle + height);
+    });
+    out[n] = extent;
+  }
+};
+
+BL_HD bool within(const Vec3d& x, const Vec3d& lo, const Vec3d& hi) {
+  return x.x >= lo.x && x.x <= hi.x && x.y >= lo.y && x.y <= hi.y && x.z >= lo.z && x.z <= hi.z;
+}
+
+/// Over a box: count, mass, pressure, velocity 3, porosity.
+struct FluidBox {
+  Frame frame;
+  Vec3d lo, hi;
+  Span<const FluidPosition> x;
+  Span<const Real4> v_rho, m_state;
+  Span<const Real> mass;
+  BL_HD void operator()(Index a, double* out) const {
+    if (!within(coordinates(frame, x[a]), lo, hi)) return;
+    const double m = mass[a];
+    out[0] = 1, out[1] = m, out[2] = m * pressure_of(m_state[a]);
+    out[3] = m * v_rho[a].x, out[4] = m * v_rho[a].y, out[5] = m * v_rho[a].z;
+    out[6] = m * m_state[a].w;
+  }
+};
+struct GrainBox {
+  Vec3d lo, hi;
+  double rho;
+  Span<const Vec3d> x;
+  Span<const Real3> v;
+  Span<const Real> radius;
+  BL_HD void operator()(Index i, double* out) const {
+    if (!within(x[i], lo, hi)) return;
+    const double r = radius[i], m = rho * 4.1887902047863905 * r * r * r;
+    out[0] = 1, out[1] = m;
+    for (int k = 0; k < 3; ++k) out[3 + k] = m * v[i][k];
+  }
+};
+
+}  // namespace
+
+std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
+  if (p.type == "front") return front(p);
+  if (p.type == "point") return point(p);
+  if (p.type == "height") return column(p);
+  if (p.type == "box") return box(p);
+  return p.type == "force" ? body_force(p) : wall_pressure(p);
+}
+
+std::vector<Quantity> CoupledSimulation::front(const ProbeConfig& p) {
+  Vec3d direction;
+  direction[p.axis] = p.sign;
+  double front = std::nan("");
+  if (p.phase == "fluid" && fluid_.size() > 0)
+    front = p.sign * (max_over(fluid_.owned(), AlongBody<FluidPosition>{frame_, fluid_.x, direction}) +
+                      config_.fluid.dx / 2);
+  if (p.phase == "grains" && grains_.size() > 0)
+    front = p.sign * (max_over(grains_.owned(), AlongBody<Vec3d>{frame_, grains_.x, direction}) +
+                      config_.grain.d_max / 2);
+  return {{std::string("front_") + kAxis[p.axis], "m", front}};
+}
+
+std::vector<Quantity> CoupledSimulation::point(const ProbeConfig& p) {
+  const Vec3d at = p.body.empty() ? p.at : motion_.pose(wall_named(p.body), clock_.time).place(p.at);
+  double sum[5] = {};
+  if (has_fluid())
+    with_fluid_kernel(config_, [&](const auto& w) {
+      const CellGridView grid = fluid_solver_->grid().view();
+      const auto cells = grid.block(at, fluid_solver_->range() + fluid_solver_->skin());
+      const auto s = sum_over<5>({0, Index(cells.size())},
+                                 PointBody<std::decay_t<decltype(w)>>{grid, cells, w, frame_, at, fluid_.x,
+                                                                      fluid_.v_rho, fluid_.m_state});
+      std::copy(s.v, s.v + 5, sum);
+    });
+  const double nan = std::nan("");
+  const bool wet = sum[0] > 0.05;  // fewer neighbours say nothing
+  return {{"pressure", "Pa", wet ? sum[1] / sum[0] : nan},
+          {"velocity_x", "m/s", wet ? sum[2] / sum[0] : nan},
+          {"velocity_y", "m/s", wet ? sum[3] / sum[0] : nan},
+          {"velocity_z", "m/s", wet ? sum[4] / sum[0] : nan},
+          {"kernel_sum", "-", sum[0]}};
+}
+
+std::vector<Quantity> CoupledSimulation::column(const ProbeConfig& p) {
+  const double dx = config_.fluid.dx, radius = 1.5 * dx;
+  const double piece = 2 * dx;  // whatever lies in one is connected
+  const Vec3d up = upwards(config_.gravity);
+  const LinePart part = line_in_box(p.at, up, frame_.origin, frame_.origin + frame_.length);
+  const int first = int(std::floor((part.from - radius) / piece));
+  const int last = int(std::floor((part.to + radius) / piece));
+  Buffer<Extent> found(std::size_t(std::max(0, last - first + 1)));
+  for_each({0, Index(found.size())}, ColumnPass{fluid_solver_->grid().view(), frame_, p.at, up, radius, piece,
+                                                fluid_solver_->skin(), first, fluid_.x, found.span()});
+  double top = -1e300, connected = 0;
+  int number = first;
+  bool joins = true;
+  for (const Extent& extent : found.to_host()) {
+    if (extent.highest >= extent.lowest) top = std::max(top, extent.highest);
+    if (number++ < 0) continue;
+    joins = joins && extent.highest >= extent.lowest && extent.lowest - connected < piece;
+    if (joins) connected = extent.highest;
+  }
+  return {{"height", "m", top > -1e299 ? top + dx / 2 : 0.0},
+          {"column_depth", "m", connected > 0 ? connected + dx / 2 : 0.0}};
+}
+
+std::vector<Quantity> CoupledSimulation::box(const ProbeConfig& p) {
+  double s[7] = {};
+  if (p.phase == "fluid") {
+    const auto r = sum_over<7>(
+        fluid_.owned(), FluidBox{frame_, p.min, p.max, fluid_.x, fluid_.v_rho, fluid_.m_state, fluid_.mass});
+    std::copy(r.v, r.v + 7, s);
+  } else {
+    const auto r = sum_over<7>(
+        grains_.owned(), GrainBox{p.min, p.max, config_.grain.rho, grains_.x, grains_.v, grains_.radius});
+    std::copy(r.v, r.v + 7, s);
+  }
+  const double m = s[1] > 0 ? s[1] : std::nan("");
+  std::vector<Quantity> out = {{"count", "-", s[0]}, {"mass", "kg", s[1]}};
+  for (int k = 0; k < 3; ++k) out.push_back({std::string("velocity_") + kAxis[k], "m/s", s[3 + k] / m});
+  if (p.phase == "fluid") {
+    out.push_back({"pressure", "Pa", s[2] / m});
+    out.push_back({"porosity", "-", s[6] / m});
+  }
+  return out;
+}
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,94 @@
+// Plane flows: one layer of particles that stands for the whole length of the domain along y.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bedload/geometry/shape.hpp"
+#include "tests/support/run.hpp"
+#include "tests/support/tolerance.hpp"
+#include "tests/support/walls.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr double kG = 9.81, kDx = 0.01, kLong = 0.37;
+
+/// Still water 0.2 m deep in a tank 0.3 m wide.
+Config tank() {
+  Config c = periodic_box(8, kDx);
+  c.gravity = {0, 0, -kG};
+  c.domain.min = {-0.05, -0.1, -0.05};
+  c.domain.max = {0.35, -0.1 + kLong, 0.3};
+  c.domain.periodic = {false, true, false};
+  c.domain.two_d = true;
+  c.fluid.c = 10 * std::sqrt(2 * kG * 0.2);
+  c.visc.alpha = 0.1;
+  c.wall.rep_D = 5 * kG * 0.2;
+  c.wall.rep_r0 = kDx / 2;
+  c.fluid.fills = {{{0, c.domain.min.y, 0}, {0.3, c.domain.max.y, 0.2}}};
+  c.wall.bodies = {test::tank({0, c.domain.min.y, 0}, {0.3, c.domain.max.y, 0.3}, "x-x+z-")};
+  c.wall.bodies[0].name = "tank";
+  return c;
+}
+
+ProbeConfig on_tank(const std::string& type) {
+  ProbeConfig p;
+  p.name = p.body = "tank";
+  p.type = type;
+  return p;
+}
+
+TEST(PlaneFlow, IsOneLayerThatWeighsAsMuchAsAllOfIt) {
+  const Config c = tank();
+  std::vector<std::string> warnings;
+  const auto setup = build_setup(c, warnings);
+  EXPECT_EQ(setup.fluid.x.size(), 30u * 20u);
+  double mass = 0;
+  for (const double m : setup.fluid.mass) mass += m;
+  EXPECT_NEAR(mass / (1000 * 0.3 * 0.2 * kLong), 1, 1e-12);
+  for (const auto* places : {&setup.fluid.x, &setup.walls.x})
+    for (const Vec3d& x : *places) EXPECT_EQ(x.y, c.domain.middle());
+  EXPECT_EQ(setup.walls.x.size(), 3u * (30 + 6) + 2 * 3 * 30u);
+}
+
+TEST(PlaneFlow, SeesASliceOfAShape) {
+  Config c = tank();
+  const double radius = 0.05;
+  const ShapePtr cylinder = make_cylinder({0.15, -1, 0.1}, {0.15, 1, 0.1}, radius);
+  c.wall.bodies.push_back(test::body("cylinder", {0.1, -1, 0.05}, {0.2, 1, 0.15}));
+  c.wall.bodies.back().name = "cylinder";
+  c.wall.bodies.back().solid.shape = cylinder;
+  c.fluid.fills = {{{0, c.domain.min.y, 0}, {0.3, c.domain.max.y, 0.04}}};
+  std::vector<std::string> warnings;
+  const auto setup = build_setup(c, warnings);
+  int count = 0;
+  for (std::size_t w = 0; w < setup.walls.x.size(); ++w) {
+    if (setup.walls.body[w] != 1) continue;
+    ++count;
+    EXPECT_EQ(setup.walls.x[w].y, c.domain.middle());
+    const double depth = -cylinder->distance(setup.walls.x[w]) / kDx;
+    EXPECT_NEAR(depth - std::floor(depth), 0.5, 1e-6);
+  }
+  // three layers hold what the ring between the radii does
+  EXPECT_NEAR(count, M_PI * (radius * radius - 0.02 * 0.02) / (kDx * kDx), 2);
+}
+
+TEST(PlaneFlow, StandsOnItsFloor) {
+  auto s = started(tank());
+  ProbeConfig floor = on_tank("wall_pressure");
+  floor.at = {0.15, 0.085, 0}, floor.normal = {0, 0, 1}, floor.along = {1, 0, 0}, floor.size = {0.1, 1};
+  double pressure = 0, force = 0;
+  constexpr int instants = 10;
+  for (int k = 0; k < instants; ++k) {
+    run_until(*s, 0.2 + 0.02 * k);
+    pressure += reading(s->measure(floor), "pressure") / instants;
+    force += -reading(s->measure(on_tank("force")), "force_by_fluid_z") / instants;
+  }
+  EXPECT_NEAR(pressure / (1000 * kG * 0.2), 1, 0.02);
+  EXPECT_NEAR(force / (1000 * kG * 0.2 * 0.3 * kLong), 1, 0.02);
+  for (const Vec3d& x : vectors(s->snapshot("fluid"), "position")) EXPECT_NEAR(x.y, 0.085, 1e-6);
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT

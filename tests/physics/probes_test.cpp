@@ -1,0 +1,175 @@
+// Points and columns, found through the fluid's cells, against sums over all particles.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/smoothing/registry.hpp"
+#include "tests/support/run.hpp"
+#include "tests/support/tolerance.hpp"
+#include "tests/support/walls.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr double kDx = 0.01;
+
+ProbeConfig at(const std::string& type, const Vec3d& x, const std::string& body = "") {
+  ProbeConfig p;
+  p.name = p.type = type;
+  p.at = x, p.body = body;
+  return p;
+}
+
+/// A block of water that falls apart over a floor, periodic along x.
+Config block() {
+  Config c = periodic_box(16, kDx);
+  c.gravity = {0, 0, -9.81};
+  c.domain.periodic = {true, false, false};
+  c.fluid.c = 15;
+  c.fluid.fills = {{{0, 0.02, 0}, {0.16, 0.08, 0.09}}};
+  c.wall.bodies = {test::tank(c.domain.min, c.domain.max, "z-y-y+")};
+  return c;
+}
+
+Vec3d apart(const Config& c, const Vec3d& a, const Vec3d& b) { return frame_of(c).separation(a, b); }
+
+struct Shepard {
+  double weight = 0, pressure = 0;
+  Vec3d velocity;
+};
+
+/// Over all particles of a snapshot.
+Shepard summed(const Config& c, Simulation& s, const Vec3d& x) {
+  const HostStore fluid = s.snapshot("fluid");
+  const auto place = vectors(fluid, "position"), v = vectors(fluid, "velocity");
+  const auto p = scalars(fluid, "pressure"), rho = scalars(fluid, "density");
+  const SavedState saved = s.save();
+  const auto kept = std::find_if(saved.stores.begin(), saved.stores.end(),
+                                 [](const HostStore& store) { return store.name == "fluid"; });
+  const auto mass = scalars(*kept, "mass");
+  Shepard sum;
+  with_kernel(c.fluid.kernel, c.fluid.h(), [&](const auto& w) {
+    for (std::size_t a = 0; a < place.size(); ++a) {
+      const double r = norm(apart(c, place[a], x));
+      if (r >= double(w.kappa) * c.fluid.h()) continue;
+      const double share = mass[a] / rho[a] * w.W(Real(r));
+      sum.weight += share, sum.pressure += share * p[a], sum.velocity += share * v[a];
+    }
+  });
+  return sum;
+}
+
+TEST(SmallPointProbe, SeesAllFluidWithinTheKernel) {
+  const Config c = block();
+  auto s = started(c);
+  for (int k = 0; k < 60; ++k) s->step();
+  // within, across the period, at the surface, outside all, and so far off that only drops are near
+  for (const Vec3d& x : {Vec3d{0.08, 0.05, 0.06},
+                         {0.001, 0.05, 0.03},
+                         {0.159, 0.02, 0.01},
+                         {0.05, 0.05, 0.095},
+                         {0.05, 0.02, 0}}) {
+    const Shepard all = summed(c, *s, x);
+    const auto p = s->measure(at("point", x));
+    ASSERT_GT(all.weight, 0.05);
+    const double close = tolerance(1e-12, 1e-5, 1e-4);  // round-off of places, kernel and pressure
+    EXPECT_NEAR(reading(p, "kernel_sum") / all.weight, 1, close);
+    EXPECT_NEAR(reading(p, "pressure"), all.pressure / all.weight, close * 1200);
+    EXPECT_NEAR(reading(p, "velocity_z"), all.velocity.z / all.weight, close);
+  }
+  EXPECT_EQ(reading(s->measure(at("point", {0.05, 0.05, 0.155})), "kernel_sum"), 0);
+  EXPECT_TRUE(std::isnan(reading(s->measure(at("point", {0.05, 0.05, 0.155})), "pressure")));
+}
+
+TEST(SmallPointProbe, RidesOnABody) {
+  Config c = block();
+  c.wall.bodies.push_back(test::body("box", {0.02, 0.1, 0.02}, {0.04, 0.12, 0.04}));
+  MotionConfig& motion = c.wall.bodies[1].motion;
+  motion.kind = "rotation";
+  motion.axis = {1, 0, 0};
+  motion.centre = {0.03, 0.11, 0.06};
+  motion.rate = 40;
+  auto s = started(c);
+  run_until(*s, 0.03);
+  const Vec3d from{0.03, 0.11, 0.11};
+  const double angle = 40 * s->time();
+  const Vec3d now{0.03, 0.11 - 0.05 * std::sin(angle), 0.06 + 0.05 * std::cos(angle)};
+  const auto carried = s->measure(at("point", from, "box")), there = s->measure(at("point", now));
+  ASSERT_GT(reading(there, "kernel_sum"), 0.3);
+  EXPECT_EQ(reading(s->measure(at("point", from)), "kernel_sum"), 0);
+  for (const char* name : {"kernel_sum", "pressure", "velocity_y"})
+    EXPECT_NEAR(reading(carried, name), reading(there, name), 1e-6 * std::abs(reading(there, name))) << name;
+}
+
+/// Height of the topmost particle in the column over x, and that up to which gaps are below two spacings.
+std::pair<double, double> searched(const Config& c, Simulation& s, const Vec3d& x, const Vec3d& up) {
+  std::vector<double> heights;
+  for (const Vec3d& place : vectors(s.snapshot("fluid"), "position")) {
+    const Vec3d r = apart(c, place, x);
+    if (norm(r - dot(r, up) * up) <= 1.5 * kDx) heights.push_back(dot(r, up));
+  }
+  std::sort(heights.begin(), heights.end());
+  double connected = 0;
+  for (const double h : heights)
+    if (h >= 0 && h - connected < 2 * kDx) connected = h;
+  return {heights.empty() ? 0 : heights.back() + kDx / 2, connected > 0 ? connected + kDx / 2 : 0};
+}
+
+TEST(SmallHeightProbe, FindsTheColumnAmongAllFluid) {
+  Config c = block();
+  c.fluid.fills.push_back({{0.04, 0.04, 0.12}, {0.09, 0.09, 0.15}});  // above the block
+  auto s = started(c);
+  const double close = tolerance(1e-12, 1e-6, 1e-5);
+  int sprays = 0;
+  for (int k = 0; k < 12; ++k) {
+    for (int n = 0; n < 20; ++n) s->step();
+    for (const Vec3d& x : {Vec3d{0.08, 0.05, 0},
+                           {0, 0.05, 0},
+                           {0.05, 0.115, 0},
+                           {0.06, 0.115, 0.05},
+                           {0.155, 0.081, 0.01},
+                           {0.1, 0.05, 0.2},
+                           {0.1, 0.05, -0.035}}) {
+      const auto [height, depth] = searched(c, *s, x, {0, 0, 1});
+      const auto p = s->measure(at("height", x));
+      EXPECT_NEAR(reading(p, "height"), height, close);
+      EXPECT_NEAR(reading(p, "column_depth"), depth, close);
+      sprays += depth > 0 && depth < height;
+    }
+  }
+  EXPECT_GT(sprays, 0);
+}
+
+TEST(SmallHeightProbe, TellsSprayFromTheColumn) {
+  for (const double gap : {0.9, 1.1}) {  // between blocks; particles are one spacing farther apart
+    for (const int axis : {2, 0}) {      // gravity along -z, then along -x
+      Config c = periodic_box(16, kDx);
+      c.domain.periodic = {false, false, false};
+      c.gravity = {};
+      c.gravity[axis] = -9.81;
+      const auto layer = [&](double from, double to) {
+        FluidFill fill{{0.04, 0.04, 0.04}, {0.12, 0.12, 0.12}};
+        fill.min[axis] = from, fill.max[axis] = to;
+        return fill;
+      };
+      const double lift = 0.05 + gap * kDx;
+      c.fluid.fills = {layer(0, 0.05), layer(lift, lift + 0.02), layer(0.12, 0.14)};
+      auto s = started(c);
+      Vec3d x{0.08, 0.08, 0.08};
+      x[axis] = 0;
+      const auto p = s->measure(at("height", x));
+      EXPECT_NEAR(reading(p, "height"), 0.14, 1e-6);
+      EXPECT_NEAR(reading(p, "column_depth"), gap < 1 ? lift + 0.02 : 0.05, 1e-6);
+      x[axis] = 0.1;  // in the air
+      EXPECT_NEAR(reading(s->measure(at("height", x)), "height"), 0.04, 1e-6);
+      EXPECT_EQ(reading(s->measure(at("height", x)), "column_depth"), 0);
+      x[axis] = 0.01;  // within the water
+      EXPECT_NEAR(reading(s->measure(at("height", x)), "column_depth"), gap < 1 ? lift + 0.01 : 0.04, 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
