@@ -1,6 +1,8 @@
 #pragma once
 // Triangle meshes made for tests.
 
+#include <array>
+#include <cstdint>
 #include <fstream>
 #include <map>
 #include <utility>
@@ -107,6 +109,35 @@ inline void write_ascii_stl(const std::filesystem::path& file, const TriangleSou
     out << "endloop\nendfacet\n";
   }
   out << "endsolid test\n";
+}
+
+inline void write_stl(const std::filesystem::path& file, const TriangleSoup& soup) {
+  std::ofstream out(file, std::ios::binary);
+  char header[80] = "binary";
+  const std::uint32_t count = std::uint32_t(soup.triangles.size());
+  out.write(header, 80).write(reinterpret_cast<const char*>(&count), 4);
+  for (const Triangle& t : soup.triangles) {
+    std::array<float, 12> numbers{};  // a normal of zeros, then the corners
+    for (int c = 0; c < 3; ++c)
+      for (int k = 0; k < 3; ++k) numbers[3 + 3 * c + k] = float(soup.vertices[t[c]][k]);
+    out.write(reinterpret_cast<const char*>(numbers.data()), 48).write("\0\0", 2);
+  }
+}
+
+inline void write_obj(const std::filesystem::path& file, const TriangleSoup& soup) {
+  std::ofstream out(file);
+  for (const Vec3d& x : soup.vertices) out << "v " << x.x << " " << x.y << " " << x.z << "\n";
+  for (const Triangle& t : soup.triangles)
+    out << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
+}
+
+inline void write_ply(const std::filesystem::path& file, const TriangleSoup& soup) {
+  std::ofstream out(file);
+  out << "ply\nformat ascii 1.0\nelement vertex " << soup.vertices.size()
+      << "\nproperty float x\nproperty float y\nproperty float z\nelement face " << soup.triangles.size()
+      << "\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const Vec3d& x : soup.vertices) out << x.x << " " << x.y << " " << x.z << "\n";
+  for (const Triangle& t : soup.triangles) out << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
 }
 
 }  // namespace bedload::test
