@@ -37,15 +37,12 @@ class Checks {
       if (c.drive.rate[k] != 0)
         fail("drive.rate", to_text(c.drive.rate),
              fmt::format("must be 0 along {}, which is periodic and has no centre", "xyz"[k]));
-      if (c.domain.two_d && k == 1) continue;
+      if (c.domain.flat(k)) continue;
       period(k, 2 * c.fluid.kappa() * c.fluid.h(), "2 kappa h", c.fluid.present);
       period(k, 2 * c.fluid.kappa() * c.couple.hc, "2 kappa h_c", coupled());
       period(k, 2 * c.grain.d_max, "4 R", c.grain.present);
     }
-    if (!c.domain.two_d) return;
-    if (c.grain.present) fail("domain.two_d", "true", "must be false with [grain]; grains are spheres");
-    if (!c.inlets.empty()) fail("domain.two_d", "true", "must be false with [[inlet]]");
-    if (c.gravity.y != 0) fail("gravity", to_text(c.gravity), "must be 0 along y with domain.two_d");
+    if (c.domain.two_d) check_plane(c, root_);
   }
 
   void fluid() const {
@@ -375,7 +372,7 @@ class Checks {
   /// Shapes do not repeat.
   void within_period(const std::string& path, const WallBody& body) const {
     for (int k = 0; k < 3; ++k)
-      if (c.domain.periodic[k] && !(c.domain.two_d && k == 1) &&
+      if (c.domain.periodic[k] && !c.domain.flat(k) &&
           (body.min[k] < c.domain.min[k] || body.max[k] > c.domain.max[k]))
         fail(
             path, quoted(body.shape),

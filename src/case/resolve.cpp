@@ -267,19 +267,6 @@ void resolve_grains(Config& c, const Value& root, const std::filesystem::path& c
   if (g.settle && g.settle_time == 0 && fall > 0) g.settle_time = 20 * std::sqrt(2 * fall / norm(c.gravity));
 }
 
-/// A plane flow is the same along its domain's length, and so is what bounds it.
-void resolve_plane(Config& c) {
-  const double lo = c.domain.min.y, hi = c.domain.max.y;
-  c.domain.periodic[1] = true;
-  for (WallBody& body : c.wall.bodies)
-    if (!body.solid.shape) body.min.y = lo, body.max.y = hi;
-  for (FluidFill& fill : c.fluid.fills) fill.min.y = lo, fill.max.y = hi;
-  for (ProbeConfig& probe : c.out.probes) {
-    probe.at.y = c.domain.middle();
-    probe.min.y = lo, probe.max.y = hi;
-  }
-}
-
 }  // namespace
 
 double wall_speed(const WallBody& body, const DomainConfig& domain, double until) {

@@ -32,6 +32,12 @@ void resolve_openings(Config& config, const Value& root);
 /// The grains' sizes of [[grain_inlet]], and what they mean for the case.
 void resolve_grain_inlets(Config& config, const Value& root);
 
+/// Lets what bounds a plane flow run through its domain along y, where it is the same everywhere.
+void resolve_plane(Config& config);
+
+/// CaseError for what no plane flow has.
+void check_plane(const Config& config, const Value& root);
+
 /// Intervals of probes, and the directions of patches on walls.
 void resolve_probes(Config& config, const Value& root);
 

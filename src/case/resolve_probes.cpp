@@ -64,6 +64,9 @@ void resolve_patches(const Config& c, ProbeConfig& p, const Value& root, const s
                     p.body, off));
   p.normal = direction(p.normal == Vec3d{} ? surface.normal : p.normal, root, path + "normal");
   const Vec3d given = p.along == Vec3d{} ? default_along(p.normal, c.gravity) : p.along;
+  if (c.domain.two_d && given.y != 0 && std::abs(given.y) < norm(given) * (1 - 1e-9))
+    reject(root, path + "along", fmt::format("[{}, {}, {}]", given.x, given.y, given.z),
+           "must lie in the plane of x and z, or along y, with domain.two_d");
   const double lean = dot(given, p.normal);
   if (std::abs(lean) <= 1e-9 * norm(given)) {
     p.along = direction(given, root, path + "along");

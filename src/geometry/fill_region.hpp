@@ -9,12 +9,6 @@
 
 namespace bedload {
 
-/// Against gravity; z without any.
-inline Vec3d upwards(const Config& config) {
-  const double g = norm(config.gravity);
-  return g > 0 ? config.gravity * (-1 / g) : Vec3d{0, 0, 1};
-}
-
 /// Depth of x in the box or shape of `fill`, up to its level, m; negative outside. Particles of a file occupy
 /// none.
 inline double depth_in(const FluidFill& fill, const Vec3d& up, const Vec3d& x) {

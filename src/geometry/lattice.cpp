@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/depth.hpp"
 #include "bedload/geometry/slice.hpp"
 #include "geometry/fill_region.hpp"
 #include "geometry/fill_velocity.hpp"
@@ -47,7 +48,7 @@ void add_shape(const Config& config, std::size_t index, Setup::Fluid& fluid) {
   const double dx = config.fluid.dx;
   const Slice slice(*fill.solid.shape, config.domain.middle(), dx);
   const Shape& shape = config.domain.two_d ? static_cast<const Shape&>(slice) : *fill.solid.shape;
-  const auto places = fill_shape(shape, upwards(config), fill.level, dx, volume);
+  const auto places = fill_shape(shape, upwards(config.gravity), fill.level, dx, volume);
   volume *= config.domain.spacing_along(1, dx) / dx;
   const auto fail = [&](const std::string& why) {
     throw CaseError(fmt::format("fluid.fill {}: {}", index + 1, why));
@@ -71,7 +72,7 @@ void add_shape(const Config& config, std::size_t index, Setup::Fluid& fluid) {
 /// such.
 void check_shapes(const Config& config, const Setup::Fluid& fluid, const std::vector<std::size_t>& first) {
   const auto& fills = config.fluid.fills;
-  const Vec3d up = upwards(config);
+  const Vec3d up = upwards(config.gravity);
   for (std::size_t other = 0; other < fills.size(); ++other)
     for (std::size_t index = 0; index < fills.size(); ++index) {
       if (index == other || !(fills[index].solid.shape || fills[other].solid.shape)) continue;

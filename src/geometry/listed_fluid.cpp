@@ -7,6 +7,7 @@
 
 #include "bedload/case/particle_file.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/depth.hpp"
 #include "bedload/geometry/lattice.hpp"
 #include "bedload/geometry/sampling.hpp"
 #include "geometry/fill_region.hpp"
@@ -92,7 +93,7 @@ class ListedFluid {
         fail(fmt::format("lies inside wall.body \"{}\"", body.name));
     }
     for (std::size_t other = 0; other < config_.fluid.fills.size(); ++other)
-      if (other != index && depth_in(config_.fluid.fills[other], upwards(config_), x) > 1e-6 * dx)
+      if (other != index && depth_in(config_.fluid.fills[other], upwards(config_.gravity), x) > 1e-6 * dx)
         fail(fmt::format("lies inside fluid.fill {}", other + 1));
     if (places_.taken(x)) fail("lies on another fluid particle");
   }

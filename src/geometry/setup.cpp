@@ -51,6 +51,16 @@ void check_fluid_is_clear(const Config& config, const Setup::Fluid& fluid) {
   }
 }
 
+/// Everything to the middle of a plane flow.
+void flatten(const Config& config, Setup& setup) {
+  for (const Vec3d& v : setup.fluid.v)
+    if (v.y != 0)
+      throw CaseError(fmt::format(
+          "fluid.fill: a velocity along y of {:g} m/s must be 0 in a plane flow (domain.two_d)", v.y));
+  for (auto* places : {&setup.fluid.x, &setup.walls.x, &setup.walls.mirror})
+    for (Vec3d& x : *places) x.y = config.domain.middle();
+}
+
 }  // namespace
 
 Setup build_setup(const Config& config, std::vector<std::string>& warnings) {
@@ -61,9 +71,7 @@ Setup build_setup(const Config& config, std::vector<std::string>& warnings) {
     add_listed_fluid(config, setup.fluid, warnings);
     add_walls(config, setup.walls, warnings);
     add_inlets(config, setup.fluid, setup.walls, warnings);
-    if (config.domain.two_d)
-      for (auto* places : {&setup.fluid.x, &setup.walls.x, &setup.walls.mirror})
-        for (Vec3d& x : *places) x.y = config.domain.middle();
+    if (config.domain.two_d) flatten(config, setup);
   }
   if (config.grain.present) {
     check_filters(config, warnings);

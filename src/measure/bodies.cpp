@@ -10,19 +10,20 @@ namespace {
 /// Who pushes a body, and how.
 using NamedLoads = std::vector<std::pair<const char*, LoadSum>>;
 
+void add(std::vector<Quantity>& out, const std::string& name, const char* unit, const Vec3d& v) {
+  for (int k = 0; k < 3; ++k) out.push_back({name + "_" + "xyz"[k], unit, v[k]});
+}
+
 std::vector<Quantity> rows_of(const RigidMotion& m, const NamedLoads& loads) {
   std::vector<Quantity> out;
-  const auto vec = [&](const std::string& name, const char* unit, const Vec3d& v) {
-    for (int k = 0; k < 3; ++k) out.push_back({name + "_" + "xyz"[k], unit, v[k]});
-  };
-  vec("centre", "m", m.origin());
+  add(out, "centre", "m", m.origin());
   out.push_back({"rotation_w", "-", m.rotation.w});
-  vec("rotation", "-", {m.rotation.x, m.rotation.y, m.rotation.z});
-  vec("velocity", "m/s", m.v);
-  vec("angular_velocity", "rad/s", m.omega);
+  add(out, "rotation", "-", {m.rotation.x, m.rotation.y, m.rotation.z});
+  add(out, "velocity", "m/s", m.v);
+  add(out, "angular_velocity", "rad/s", m.omega);
   for (const auto& [by, load] : loads) {
-    vec(std::string("force_by_") + by, "N", load.force());
-    vec(std::string("torque_by_") + by, "N m", load.torque());
+    add(out, std::string("force_by_") + by, "N", load.force());
+    add(out, std::string("torque_by_") + by, "N m", load.torque());
     out.push_back({std::string("power_by_") + by, "W", dot(load.force(), m.v) + dot(load.torque(), m.omega)});
   }
   return out;
@@ -76,18 +77,15 @@ std::vector<Quantity> CoupledSimulation::body_force(const ProbeConfig& p) {
   std::vector<Quantity> out;
   const int body = wall_named(p.body);
   const Vec3d from = frame_.nearest_image(motion_.pose(body, clock_.time).origin() - p.about);
-  const auto vec = [&](const std::string& name, const char* unit, const Vec3d& v) {
-    for (int k = 0; k < 3; ++k) out.push_back({name + "_" + "xyz"[k], unit, v[k]});
-  };
   const auto load = [&](const std::string& by, const LoadSum& sum) {
-    vec("force_by_" + by, "N", sum.force());
-    vec("torque_by_" + by, "N m", sum.torque() + cross(from, sum.force()));
+    add(out, "force_by_" + by, "N", sum.force());
+    add(out, "torque_by_" + by, "N m", sum.torque() + cross(from, sum.force()));
   };
   const FluidLoads& loads = fluid_loads();
   load("fluid", loads.all(body));
   load("grains", grain_load(body));
-  vec("pressure_force", "N", loads.pressure[body].force());
-  vec("friction_force", "N", loads.friction[body].force());
+  add(out, "pressure_force", "N", loads.pressure[body].force());
+  add(out, "friction_force", "N", loads.friction[body].force());
   return out;
 }
 

@@ -210,7 +210,9 @@ std::map<std::string, double> checkpoint_setup(const std::filesystem::path& path
 std::string checkpoint_case(const std::filesystem::path& path) {
   return on_checkpoint(path, [](hid_t file) {
     const Handle table = h5::open_dataset(file, "case");
-    std::string text(h5::extent(table).at(0), ' ');
+    const auto length = h5::extent(table);
+    if (length.size() != 1) throw h5::Error("its case is no text");
+    std::string text(length[0], ' ');
     check(H5Dread(table, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));
     return text;
   });

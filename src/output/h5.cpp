@@ -27,7 +27,13 @@ void put(hid_t object, const char* attribute, hid_t stored, hid_t in_memory, con
   check(H5Awrite(a, in_memory, value));
 }
 
-Handle get(hid_t object, const char* attribute) { return Handle(H5Aopen(object, attribute, H5P_DEFAULT)); }
+/// An attribute of one value, as all are here.
+Handle get(hid_t object, const char* attribute) {
+  Handle a(H5Aopen(object, attribute, H5P_DEFAULT));
+  if (H5Sget_simple_extent_npoints(Handle(H5Aget_space(a))) != 1)
+    throw Error("attribute '" + std::string(attribute) + "' does not hold one value");
+  return a;
+}
 
 }  // namespace
 
@@ -135,6 +141,13 @@ std::string read_text(hid_t object, const char* attribute) {
   const Handle a = get(object, attribute);
   const Handle type(H5Aget_type(a));
   if (H5Tget_class(type) != H5T_STRING) throw Error("attribute '" + std::string(attribute) + "' is no text");
+  if (check(H5Tis_variable_str(type)) > 0) {
+    char* value = nullptr;
+    check(H5Aread(a, type, &value));
+    const std::string text = value ? value : "";
+    H5free_memory(value);
+    return text;
+  }
   std::string text(H5Tget_size(type), '\0');
   check(H5Aread(a, type, text.data()));
   text.resize(text.find_last_not_of('\0') + 1);

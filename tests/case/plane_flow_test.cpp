@@ -51,6 +51,29 @@ TEST(PlaneFlowCase, RefusesWhatIsNoPlaneFlow) {
   EXPECT_EQ(error_of(kWithout + "[[inlet]]\nname = \"in\"\ncentre = [0.1, 0, 0.1]\ndirection = [1, 0, 0]\n"
                                 "radius = 0.02\nrate = 1e-5\n"),
             "dam.toml:5: domain.two_d = true must be false with [[inlet]]");
+  EXPECT_EQ(error_of(kWithout + "[[wall.body]]\nname = \"float\"\nshape = \"box\"\nmin = [0.1, 0, 0.05]\n"
+                                "max = [0.15, 1, 0.1]\n[wall.body.free]\nmass = 1\n"),
+            "dam.toml:5: domain.two_d = true must be false with free bodies");
+}
+
+TEST(PlaneFlowCase, StaysInItsPlane) {
+  EXPECT_EQ(error_of(kWithout, {"drive.f=[0, 1, 0]"}),
+            "--set drive.f=[0, 1, 0]: drive.f = [0, 1, 0] must be 0 along y with domain.two_d");
+  const auto moving = [](const std::string& motion) {
+    return error_of(kWithout +
+                    "[[wall.body]]\nname = \"paddle\"\nshape = \"box\"\nmin = [0.1, 0, 0.05]\n"
+                    "max = [0.15, 1, 0.1]\n[wall.body.motion]\n" +
+                    motion);
+  };
+  const std::string must =
+      " must stay in the plane of x and z with domain.two_d: nothing along y, turning about y alone";
+  EXPECT_EQ(moving("kind = \"velocity\"\nvelocity = [0.1, 0, 0.2]\n"), "");
+  EXPECT_EQ(moving("kind = \"velocity\"\nvelocity = [0.1, 0.1, 0]\n"),
+            "dam.toml:30: wall.body.motion.kind = \"velocity\"" + must);
+  const std::string turning = "kind = \"rotation\"\nrate = 2\ncentre = [0.12, 0, 0.07]\n";
+  EXPECT_EQ(moving(turning + "axis = [0, -1, 0]\n"), "");
+  EXPECT_EQ(moving(turning + "axis = [0.1, 1, 0]\n"),
+            "dam.toml:30: wall.body.motion.kind = \"rotation\"" + must);
 }
 
 }  // namespace

@@ -167,9 +167,10 @@ TEST(Walls, MirrorTheMeanWhereFluidSaysNothingOfItsSlope) {
   EXPECT_EQ(mirrored({}, {0, 0, -0.05}, {}, field), double(kNoCompression));
 }
 
-/// One over the integral of F |z|: 2/3 h for Wendland's function.
+/// One over the integral of F |z|: 2/3 h for Wendland's function, 3 pi/14 h in a plane flow of any thickness.
 TEST(Walls, OfOneLayerStandForTheDepthThatCarriesShear) {
   EXPECT_NEAR(layer_depth(WendlandC2(0.15)), 0.1, 1e-5);
+  EXPECT_NEAR(layer_depth(WendlandC2(0.15, 0.4)), 3 * M_PI / 14 * 0.15, 1e-5);
 }
 
 TEST(Walls, OfOneLayerPushAsMonaghanAndKajtarSay) {

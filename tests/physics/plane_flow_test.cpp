@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bedload/geometry/shape.hpp"
+#include "kernels/smoothing/registry.hpp"
 #include "tests/support/run.hpp"
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
@@ -88,6 +89,41 @@ TEST(PlaneFlow, StandsOnItsFloor) {
   EXPECT_NEAR(pressure / (1000 * kG * 0.2), 1, 0.02);
   EXPECT_NEAR(force / (1000 * kG * 0.2 * 0.3 * kLong), 1, 0.02);
   for (const Vec3d& x : vectors(s->snapshot("fluid"), "position")) EXPECT_NEAR(x.y, 0.085, 1e-6);
+}
+
+/// A shear wave decays as viscosity has it, the second derivative in two dimensions, less what the term that
+/// guards Morris' quotient, 0.01 h2, takes from it.
+TEST(PlaneFlow, HasTheViscosityOfTheFluid) {
+  const int n = 40;
+  Config c = periodic_box(n, kDx);
+  c.domain.max.y = 0.05;
+  c.domain.two_d = true;
+  c.fluid.mu = 0.5;
+  c.fluid.c = 2;
+  const double k = 2 * M_PI / (n * kDx);
+  c.fluid.fills = {{c.domain.min, c.domain.max, {"0.1*sin(" + std::to_string(k) + "*z)", "0", "0"}}};
+  auto s = started(c);
+  const double before = reading(s->diagnostics(), "fluid_kinetic_energy");
+  run_until(*s, 1);
+  const double after = reading(s->diagnostics(), "fluid_kinetic_energy");
+  double guarded = 0, whole = 0;
+  with_fluid_kernel(c, [&](const auto& w) {
+    const double step = double(w.kappa * w.h) / 1000, h2 = double(w.h) * double(w.h);
+    for (double r = step / 2; r < 1000 * step; r += step) {
+      const double ring = r * r * r * double(w.F(Real(r)));
+      whole += ring, guarded += ring * r * r / (r * r + 0.01 * h2);
+    }
+  });
+  EXPECT_NEAR(guarded / whole, 0.983, 0.001);
+  const double rate = std::log(before / after) / (2 * s->time());
+  EXPECT_NEAR(rate / (c.fluid.mu / c.fluid.rho0 * k * k), guarded / whole, 0.005);
+}
+
+TEST(PlaneFlow, RefusesFluidThatLeavesThePlane) {
+  Config c = tank();
+  c.fluid.fills[0].velocity[1] = "0.1*x";
+  std::vector<std::string> warnings;
+  EXPECT_THROW(build_setup(c, warnings), CaseError);
 }
 
 }  // namespace

@@ -86,6 +86,25 @@ class Program : public ProgramTest {
   }
 };
 
+/// Batch systems stop runs so, and terminals that close.
+TEST_F(Program, StopsAtASignalWithACheckpointToGoOnFrom) {
+  write("dam.toml", kSmall);
+  for (const std::string signal : {"HUP", "TERM"}) {
+    const std::string out = "out_" + signal;
+    const Outcome stopped =
+        shell("sh -c '" BL_PROGRAM " run dam.toml --backend cpu --quiet --until 1000 --out " + out +
+              " & run=$!; until [ -s " + out + "/diagnostics.csv ]; do sleep 0.05; done; kill -" + signal +
+              " $run; wait $run'");
+    EXPECT_EQ(stopped.code, 130) << signal << ": " << stopped.err;
+    std::size_t checkpoints = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(dir_ / out / "checkpoints")) {
+      ++checkpoints;
+      EXPECT_EQ(bedload("info " + entry.path().string()).code, 0) << signal;
+    }
+    EXPECT_EQ(checkpoints, 1u) << signal;
+  }
+}
+
 TEST_F(Program, SaysItsVersion) {
   const Outcome o = bedload("--version");
   EXPECT_EQ(o.code, 0);

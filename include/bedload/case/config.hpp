@@ -20,8 +20,9 @@ struct DomainConfig {
   bool two_d = false;                          ///< flow in the plane of x and z, the same at every y
   double thickness() const { return two_d ? max.y - min.y : 0; }  ///< of the plane flow, m; 0 in 3-D
   double middle() const { return 0.5 * (min.y + max.y); }         ///< y of the plane, m
+  bool flat(int k) const { return two_d && k == 1; }              ///< whether nothing changes along axis k
   /// Spacing of a lattice along axis k: a plane flow has one layer.
-  double spacing_along(int k, double spacing) const { return two_d && k == 1 ? max.y - min.y : spacing; }
+  double spacing_along(int k, double spacing) const { return flat(k) ? thickness() : spacing; }
   /// What a particle of a lattice of that spacing stands for, m3.
   double cell_volume(double spacing) const { return spacing * spacing * spacing_along(1, spacing); }
   bool operator==(const DomainConfig&) const = default;

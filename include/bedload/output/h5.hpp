@@ -32,6 +32,8 @@ auto with_file_errors(const std::filesystem::path& path, const std::string& verb
     return action();
   } catch (const Error& e) {
     throw FileError(path.string() + ": cannot " + verb + ": " + e.what());
+  } catch (const std::length_error&) {
+    throw FileError(path.string() + ": cannot " + verb + ": it says that an array is larger than memory");
   }
 }
 
