@@ -17,13 +17,17 @@
 namespace bedload {
 namespace {
 
+bool has_line(const std::string& text, const std::string& line) {
+  return text.find("\n" + line + "\n") != text.npos || text.find("\n" + line + "\r") != text.npos;
+}
+
 /// What is missing in a file that has been cut off, which the importer tells badly or hangs on; empty if
 /// nothing.
 std::string missing_in(const std::filesystem::path& file, const std::string& kind) {
   const std::string text = read_file(file);
   if (text.empty()) return "is empty";
   if (kind == ".ply" && !text.starts_with("ply")) return "is no PLY file: it does not begin with ply";
-  if (kind == ".ply" && text.substr(0, 1 << 16).find("end_header") == text.npos)
+  if (kind == ".ply" && !has_line(text.substr(0, 1 << 16), "end_header"))
     return "is cut off: its header has no end_header";
   if (kind != ".stl") return "";
   constexpr std::size_t head = 84, triangle = 50;  // of a binary file, bytes
@@ -36,6 +40,24 @@ std::string missing_in(const std::filesystem::path& file, const std::string& kin
   if (text.size() > head + triangle * std::size_t(count)) return "";  // with more behind, as some write it
   return fmt::format("is cut off: its {} triangles take {} bytes, and it has {}", count,
                      head + triangle * std::size_t(count), text.size());
+}
+
+/// Whether there are faces to triangulate. The importer takes damaged ones for sound and then stops the
+/// program.
+bool has_polygons(const aiScene& scene, const std::string& name) {
+  bool any = false;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& mesh = *scene.mMeshes[m];
+    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+      const aiFace& face = mesh.mFaces[f];
+      any |= face.mNumIndices > 3;
+      for (unsigned i = 0; i < face.mNumIndices; ++i)
+        if (face.mIndices[i] >= mesh.mNumVertices)
+          throw FileError(fmt::format("{}: face {} names vertex {}, the mesh has {} (from 0)", name, f,
+                                      face.mIndices[i], mesh.mNumVertices));
+    }
+  }
+  return any;
 }
 
 }  // namespace
@@ -51,7 +73,9 @@ TriangleSoup read_triangles(const std::filesystem::path& file) {
 
   if (const std::string why = missing_in(file, kind); !why.empty()) throw FileError(name + ": " + why);
   Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate);
+  const aiScene* scene = importer.ReadFile(name, 0);
+  if (scene != nullptr && has_polygons(*scene, name))
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   if (scene == nullptr) throw FileError(name + ": cannot read: " + importer.GetErrorString());
   TriangleSoup soup;
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {

@@ -92,7 +92,7 @@ void write_array(hid_t group, const HostArray& a) {
 
 HostArray read_array(hid_t group, const std::string& store, const std::string& name) {
   const Handle table = h5::open_dataset(group, name);
-  const auto n = h5::extent(table);
+  const auto n = h5::stored_extent(table);
   if (n.size() != 2 || n[1] == 0) throw h5::Error(fmt::format("{}/{} has an unknown shape", store, name));
   HostArray a{.name = name,
               .unit = h5::read_text(table, "unit"),
@@ -210,7 +210,7 @@ std::map<std::string, double> checkpoint_setup(const std::filesystem::path& path
 std::string checkpoint_case(const std::filesystem::path& path) {
   return on_checkpoint(path, [](hid_t file) {
     const Handle table = h5::open_dataset(file, "case");
-    const auto length = h5::extent(table);
+    const auto length = h5::stored_extent(table);
     if (length.size() != 1) throw h5::Error("its case is no text");
     std::string text(length[0], ' ');
     check(H5Dread(table, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));

@@ -130,6 +130,16 @@ std::vector<hsize_t> extent(hid_t dataset) {
   return n;
 }
 
+std::vector<hsize_t> stored_extent(hid_t dataset) {
+  constexpr double kMostDeflated = 1032;  // times, by zlib
+  const auto n = extent(dataset);
+  double bytes = double(H5Tget_size(Handle(H5Dget_type(dataset))));
+  for (const hsize_t length : n) bytes *= double(length);
+  if (bytes > kMostDeflated * double(H5Dget_storage_size(dataset)))
+    throw Error("an array in it says that it is larger than what is stored of it");
+  return n;
+}
+
 void write_text(hid_t object, const char* attribute, const std::string& text) {
   const Handle type(H5Tcopy(H5T_C_S1));
   check(H5Tset_size(type, text.empty() ? 1 : text.size()));

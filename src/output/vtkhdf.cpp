@@ -133,7 +133,9 @@ std::int64_t last_of(hid_t parent, const std::string& name, std::size_t frames) 
 /// Rows [first, first + count) of a stored array.
 HostArray read_array(hid_t parent, const std::string& name, std::int64_t first, std::int64_t count) {
   const Handle table = open_dataset(parent, name);
-  const auto n = h5::extent(table);
+  const auto n = h5::stored_extent(table);
+  if (n.empty() || first < 0 || count < 0 || double(first) + double(count) > double(n[0]))
+    throw h5::Error("array '" + name + "' is shorter than its frames");
   HostArray a{.name = name,
               .unit = h5::has_attribute(table, "unit") ? h5::read_text(table, "unit") : "-",
               .type = h5::scalar_of(table),

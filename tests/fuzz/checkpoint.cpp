@@ -49,12 +49,12 @@ h5::Handle type_from(FuzzedDataProvider& orders) {
   return text;
 }
 
-/// Up to three extents; some of them huge.
-h5::Handle space_from(FuzzedDataProvider& orders) {
+/// Up to three extents; of an array, which is not written, some huge.
+h5::Handle space_from(FuzzedDataProvider& orders, bool array) {
   std::array<hsize_t, 3> n{};
   const int rank = orders.ConsumeIntegralInRange(0, 3);
   for (hsize_t& extent : n) extent = orders.ConsumeIntegralInRange<hsize_t>(0, 6);
-  if (orders.ConsumeProbability<float>() < 0.1f) n[0] = orders.ConsumeIntegral<hsize_t>() >> 1;
+  if (array && orders.ConsumeProbability<float>() < 0.1f) n[0] = orders.ConsumeIntegral<hsize_t>() >> 1;
   return h5::Handle(rank == 0 ? H5Screate(H5S_SCALAR) : H5Screate_simple(rank, n.data(), nullptr));
 }
 
@@ -70,14 +70,14 @@ void change(hid_t file, FuzzedDataProvider& orders) {
       break;
     case 2: {
       H5Adelete_by_name(file, object.c_str(), attribute.c_str(), H5P_DEFAULT);
-      const h5::Handle type = type_from(orders), space = space_from(orders);
+      const h5::Handle type = type_from(orders), space = space_from(orders, false);
       const h5::Handle made(H5Acreate_by_name(file, object.c_str(), attribute.c_str(), type, space,
                                               H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
       break;
     }
     case 3: {
       H5Ldelete(file, object.c_str(), H5P_DEFAULT);
-      const h5::Handle type = type_from(orders), space = space_from(orders);
+      const h5::Handle type = type_from(orders), space = space_from(orders, true);
       const h5::Handle made(
           H5Dcreate2(file, object.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
       if (orders.ConsumeBool()) h5::write_text(made, "unit", "m");

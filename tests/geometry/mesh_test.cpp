@@ -68,6 +68,14 @@ TEST(MeshFile, SaysWhatItCannotRead) {
   EXPECT_EQ(error("noise.ply"), ": is no PLY file: it does not begin with ply");
   std::ofstream(folder / "cut.ply") << "ply\nformat ascii 1.0\nelement vertex 4000000000\n";
   EXPECT_EQ(error("cut.ply"), ": is cut off: its header has no end_header");
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices";
+  const std::string places = "end_header\n0 0 0\n1 0 0\n0 1 0\n";
+  std::ofstream(folder / "joined.ply") << head << places << "3 0 1 2\n";  // the importer would never return
+  EXPECT_EQ(error("joined.ply"), ": is cut off: its header has no end_header");
+  std::ofstream(folder / "far.ply") << head << '\n' << places << "3 0 1 7\n";
+  EXPECT_EQ(error("far.ply"), ": face 0 names vertex 7, the mesh has 3 (from 0)");
   write_stl(folder / "cut.stl", cube());
   std::filesystem::resize_file(folder / "cut.stl", 300);
   const std::string cut = error("cut.stl");

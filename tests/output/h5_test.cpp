@@ -49,6 +49,17 @@ TEST_F(Attributes, AreTextsOfFixedOrAnyLength) {
   EXPECT_EQ(h5::read_text(file, "theirs"), text);
 }
 
+TEST_F(Attributes, OfAnArrayThatIsLargerThanWhatIsStoredAreNotBelieved) {
+  const hsize_t n[2] = {hsize_t(1) << 50, 4};
+  const h5::Handle space(H5Screate_simple(2, n, nullptr));
+  const h5::Handle creation(H5Pcreate(H5P_DATASET_CREATE));
+  h5::check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_LATE));
+  const h5::Handle table(
+      H5Dcreate2(file, "huge", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+  EXPECT_EQ(h5::extent(table).at(0), n[0]);
+  EXPECT_THROW(h5::stored_extent(table), h5::Error);
+}
+
 TEST(FileErrors, TellOfArraysThatCannotBe) {
   try {
     h5::with_file_errors("a.h5", "read",

@@ -83,6 +83,8 @@ Scalar scalar_of(hid_t dataset);  ///< type of a stored dataset
 
 /// Extent of a dataset; {} for a single value.
 std::vector<hsize_t> extent(hid_t dataset);
+/// The same of one that is to be read whole: Error where less is stored than could ever unfold to it.
+std::vector<hsize_t> stored_extent(hid_t dataset);
 
 void write_text(hid_t object, const char* attribute, const std::string& text);
 std::string read_text(hid_t object, const char* attribute);
