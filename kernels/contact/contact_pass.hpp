@@ -144,7 +144,7 @@ struct ContactPass {
     h.overlap = std::abs(h.overlap);
     const Vec3d point = x[i] - foot.distance * foot.normal;
     ContactGeometry at = touch_wall(sphere(i), foot.normal, double(radius[i]) - foot.distance);
-    const Vec3d r = arm(pose, point), v_wall = pose.v + cross(pose.omega, r);
+    const Vec3d r = arm(pose, point), v_wall = pose.v + cross(pose.omega, r) + pose.rotation.rotate(pose.slide);
     if (pose.free)
       at.m_star /= 1 + at.m_star * Real(free_bodies[pose.free - 1].ease(pose.rotation, r, foot.normal));
     const ContactForce on_grain =

@@ -11,14 +11,14 @@ namespace bedload::inline BL_VARIANT {
 /// which they make up q: what pressure does to both is what the energy of compression loses.
 /// Kick-drift-kick passes positions and velocities of the middle of the step, which makes it reversible.
 /// Walls count at rho0: with the density of their pressure, a wall that slides past resting fluid would
-/// change the fluid's density for as long as it slides. Continuity tells changes of density alone. Fluid that
-/// has been torn, whose density does not follow how thin it is, keeps what it then missed when it joins
-/// again, and would stand under pressure with room between its particles. So pressure fades where less of the
-/// kernel is filled than a plane surface would leave, as fast as it is high and the room wide, until the
-/// fluid fills its volume. Nor is continuity of the mixture that of the particles: what the gradient of the
-/// porosity in its sum differs from how the porosity changes along the way adds up, and fluid that has
-/// entered a bed may stand more closely than its volume allows. So among grains density grows where particles
-/// overfill the kernel by more than `slack`.
+/// change the fluid's density for as long as it slides. Continuity tells changes of density alone. Where
+/// fluid is torn, s follows the room, by which less of the kernel is filled than a plane surface would leave,
+/// so that there is pressure again no sooner than the room has closed. Surfaces that meet would hold each
+/// other off by a gap, since each counts as filled up to the other: under pressure that fades, as fast as it
+/// is high and the room wide, until the fluid fills its volume. Nor is continuity of the mixture that of the
+/// particles: what the gradient of the porosity in its sum differs from how the porosity changes along the
+/// way adds up, and fluid that has entered a bed may stand more closely than its volume allows. So among
+/// grains density grows where particles overfill the kernel by more than `slack`.
 template <class W>
 struct DensityPass {
   W w;
@@ -30,7 +30,9 @@ struct DensityPass {
   Span<const Real> s;
   Span<Real> s_new;
   CutShare cut;
+  Real least;      ///< s at which fluid tears
   Real fading;     ///< of pressure where there is room [1/s]
+  Real follow;     ///< of the density of torn fluid after its room [1/s]
   Real spreading;  ///< of density where particles overfill their volume [1/s]
 
   static constexpr Real slack = Real(0.02);  ///< twice what the sum over particles at rest scatters
@@ -74,10 +76,13 @@ struct DensityPass {
   BL_HD void finish(Index a, const Sum<>& sum) const {
     const Real filled = m_state[a].x / sum.rho * w.W(Real(0)) + sum.filled;
     const Real room = max_of(Real(0), 1 - filled - cut(norm(sum.gradient)));
-    const Real excess = max_of(Real(0), filled - 1 - slack);
-    const Real pressed = max_of(Real(0), sum.rho / rho0 - 1);
-    s_new[a] = s[a] + dt * (diffusion * sum.diffused - sum.rate) / (sum.eps * rho0) -
-               min_of(dt * fading * room, Real(1)) * pressed + dt * spreading * excess;
+    const Real excess = max_of(Real(0), filled - 1 - slack), pressed = max_of(Real(0), s[a]);
+    Real s_a = s[a] + dt * (diffusion * sum.diffused - sum.rate) / (sum.eps * rho0) + dt * spreading * excess;
+    if (s[a] < least)
+      s_a += min_of(dt * follow, Real(1)) * (min_of(least, slack - room) - s[a]);
+    else
+      s_a -= min_of(dt * fading * room, Real(1)) * pressed;
+    s_new[a] = s_a;
   }
 };
 

@@ -9,9 +9,12 @@ namespace bedload::inline BL_VARIANT {
 struct EquationOfState {
   Real B = 1, gamma = 7, P_ref = 0, rho0 = 1000;
   bool clip_negative = false;
+  Real least = -1;  ///< x at which the fluid tears: thinner fluid keeps the pressure and the density of that
 
+  BL_HD Real density(Real x) const { return rho0 * (1 + max_of(x, least)); }  ///< kg/m3
   /// Pressure [Pa].
   BL_HD Real pressure(Real x) const {
+    x = max_of(x, least);
     const Real p = B * std::expm1(gamma * std::log1p(x)) + P_ref;
     return clip_negative ? max_of(p, Real(0)) : p;
   }
@@ -21,6 +24,8 @@ struct EquationOfState {
   }
   /// Elastic energy per mass against rho0 [J/kg]: integral of P / rho^2.
   BL_HD double energy(double x) const {
+    const double torn = double(least) - x;
+    if (torn > 0) return energy(least) - torn * double(pressure(least)) / (rho0 * square(1 + double(least)));
     const double g = gamma, l = std::log1p(x);
     const double work = g > 1 ? std::expm1((g - 1) * l) / (g - 1) : l;
     return (double(B) * (work + std::expm1(-l)) - double(P_ref) * std::expm1(-l)) / rho0;

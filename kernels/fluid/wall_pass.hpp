@@ -53,7 +53,7 @@ struct WallPass {
   BL_HD void finish(Index b, const Sum<>& sum) const {
     const BodyPose& k = pose[body[b]];
     const Vec3d at = k.place(x0[b]);
-    const Real3 v_wall = Real3(k.velocity(at));
+    const Real3 v_wall = Real3(k.velocity(at)), v_surface = v_wall + Real3(k.rotation.rotate(k.slide));
     if (sum.weight < least_sum || !k.present) {
       v_rho[b] = {v_wall, eos.rho0};
       v_visc[b] = {v_wall, Real(0)};
@@ -80,7 +80,7 @@ struct WallPass {
     const Real rho = eos.rho0 * (1 + x), mass = rho * Real(k.volume);
     const bool prescribed = k.flows || layer || k.kind == WallKind::frozen;
     v_rho[b] = {v_wall, rho};
-    v_visc[b] = {prescribed ? v_wall : 2 * v_wall - v_fluid, k.slip ? Real(0) : mass};
+    v_visc[b] = {prescribed ? v_surface : 2 * v_surface - v_fluid, k.slip ? Real(0) : mass};
     m_state[b] = {mass, p / square(rho), rho, 0};
   }
 

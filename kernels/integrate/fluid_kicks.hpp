@@ -24,12 +24,12 @@ struct KickDriftPass {
   }
 };
 
+constexpr Real kThinnest = Real(-0.5);  // of s; thinner fluid is spray
+
 /// Pressure from s; velocity and, among grains, volume flux predicted by `kick` (0: Euler).
-/// A fluid that is torn apart cavitates: below `least` compression the density does not follow.
 struct StatePass {
   EquationOfState eos;
-  Real kick;   ///< s
-  Real least;  ///< lower bound on rho/rho0 - 1
+  Real kick;  ///< s
   Span<const Real3> acc, reaction;
   Span<Real> s;
   Span<const Real> mass, eps;
@@ -38,7 +38,7 @@ struct StatePass {
   BL_HD void operator()(Index a) const {
     Real3 gain = kick * acc[a];
     if (reaction) gain += kick * reaction[a];
-    const Real compression = max_of(s[a], least), rho = eos.rho0 * (1 + compression);
+    const Real compression = max_of(s[a], kThinnest), rho = eos.density(compression);
     s[a] = compression;
     v_rho[a] = {v_rho[a].xyz() + gain, rho};
     if (flux) flux[a] = {flux[a].xyz() + eps[a] * gain, rho};

@@ -66,6 +66,10 @@ void describe_fluid_models(Parameters& p, Config& c) {
      .choices = {{"tait", "B [(rho/rho0)^gamma - 1], B = c^2 rho0 / gamma"},
                  {"democritus", "p0 (rho/rho0)^alpha - beta, c = sqrt(alpha p0 / rho0)"}}});
   p("eos.gamma", &c.eos.gamma, {.meaning = "Tait exponent", .range = within(1, 7)});
+  p("eos.background", &c.eos.background,
+    {.unit = "Pa",
+     .meaning = "tait: pressure at rho0, for fluid without a free surface, which it keeps from tearing",
+     .range = at_least(0)});
   p("eos.p0", &c.eos.p0, {.unit = "Pa", .meaning = "democritus: pressure scale", .range = above(0)});
   p("eos.alpha", &c.eos.alpha, {.meaning = "democritus: exponent", .range = at_least(1)});
   p("eos.beta", &c.eos.beta, {.unit = "Pa", .meaning = "democritus: background; the sound speed is derived"});

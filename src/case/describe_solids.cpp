@@ -139,8 +139,14 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
   if (b.single_layer() || p.everything())
     p("force", &b.force,
       {.meaning = "single_layer: what keeps fluid off", .fallback = "wall.force", .choices = kLayerForces});
-  if (!b.single_layer() || p.everything())
-    p("repulsion", &b.repulsion, {.meaning = "Monaghan repulsion beside it", .fallback = "wall.repulsion"});
+  if (!b.single_layer() || p.everything()) {
+    p("no_penetration", &b.no_penetration,
+      {.meaning = "stops fluid within a quarter of fluid.dx", .fallback = "wall.no_penetration"});
+    p("repulsion", &b.repulsion,
+      {.meaning = "Monaghan repulsion beside it; frozen walls always have it", .fallback = "wall.repulsion"});
+  }
+  p("surface_velocity", &b.surface_velocity,
+    {.unit = "m/s", .meaning = "of a surface that slides in its place (lid, belt), in the body's axes"});
   p("dx", &b.dx,
     {.unit = "m",
      .meaning = "spacing of its particles, fluid.dx/4..fluid.dx, of a single layer at most fluid.dx/2",
@@ -282,19 +288,19 @@ void describe_walls(Parameters& p, WallConfig& w, const ContactConfig& contact) 
     {.meaning = "default of the bodies: force of single layers",
      .family = "models",
      .choices = kLayerForces});
+  p("wall.no_penetration", &w.no_penetration,
+    {.meaning = "default of the bodies: stops fluid within a quarter of fluid.dx"});
   p("wall.repulsion", &w.repulsion, {.meaning = "default of the bodies: Monaghan repulsion [monaghan94]"});
   p("wall.rep_D", &w.rep_D,
     {.unit = "m2/s2",
      .meaning = "strength D of the repulsion and of single layers; K = D/5 with kajtar",
      .range = above(0),
-     .hint = "repulsion = false switches it off",
      .fallback = "5 g H",
      .presence = optional});
   p("wall.rep_r0", &w.rep_r0,
     {.unit = "m",
      .meaning = "reach of the repulsion, up to fluid.dx",
      .range = above(0),
-     .hint = "repulsion = false switches it off",
      .fallback = "0.5 fluid.dx",
      .presence = optional});
   p("wall.layer_r0", &w.layer_r0,
@@ -307,6 +313,7 @@ void describe_walls(Parameters& p, WallConfig& w, const ContactConfig& contact) 
   prototype.type = w.type;
   prototype.force = w.force;
   prototype.slip = w.slip;
+  prototype.no_penetration = w.no_penetration;
   prototype.repulsion = w.repulsion;
   p.list("wall.body", w.bodies, prototype,
          [&](Parameters& q, WallBody& body) { wall_body(q, body, contact); });

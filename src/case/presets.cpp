@@ -11,6 +11,8 @@ Config preset_defaults(const std::string& name) {
   c.fluid.h_over_dx = 1.3;
   c.density.delta = 0;
   c.density.consolidation = 0;
+  c.wall.repulsion = true;
+  c.wall.no_penetration = false;
   c.tensile = 1;
   c.tensile_one_sign = true;
   c.xsph = 0.3;

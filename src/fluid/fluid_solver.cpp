@@ -118,7 +118,9 @@ class FluidSolverWith final : public FluidSolver {
                         fluid.s,
                         fluid.s_next,
                         cut_,
+                        least(),
                         Real(config_.density.consolidation * c / config_.fluid.h()),
+                        Real(3 * c / config_.fluid.h()),
                         Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0)};
     run(fluid, walls, range(), pass);
     if (!frozen_) return;
@@ -259,12 +261,13 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
   if (e.type == "democritus")
     eos_ = {Real(e.p0), Real(e.alpha), Real(e.p0 - e.beta), Real(rho0), e.clip_negative};
   else
-    eos_ = {Real(c * c * rho0 / e.gamma), Real(e.gamma), 0, Real(rho0), e.clip_negative};
+    eos_ = {Real(c * c * rho0 / e.gamma), Real(e.gamma), Real(e.background), Real(rho0), e.clip_negative};
+  eos_.least = -Real(config.density.tension);
   grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
   wall_grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
-  const auto repels = [](const WallBody& body) { return body.repulsion; };
-  if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), repels)) repelling_ = walls.view();
-  if (config.wall.repulsion) orifices_.assign(orifices_of(config));
+  const auto acts = [](const WallBody& body) { return body.repels() || body.no_penetration; };
+  if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), acts)) repelling_ = walls.view();
+  orifices_.assign(orifices_of(config));
   std::vector<LayerLaw> layers(config.wall.bodies.size() + config.inlets.size());
   bool layered = false;
   for (std::size_t b = 0; b < config.wall.bodies.size(); ++b) {
@@ -287,18 +290,21 @@ Drive FluidSolver::drive(const FluidStore& fluid) const {
 }
 
 WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const {
+  const double dx = config_.fluid.dx, rate = dt > 0 ? std::min(config_.fluid.c / dx, 0.5 / dt) : 0;
   return {{Real(config_.wall.rep_D), Real(config_.wall.rep_r0), Real(repulsion_cap(dt))},
+          {Real(0.25 * dx), Real(rate), Real(dt > 0 ? 1 / dt : 0)},
           frame_,
           repelling_,
           pose};
 }
 
-void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double dt) {
+void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double kick, double dt) {
   if (repelling_.surfaces.size == 0 && orifices_.size() == 0) return;
   const WallRepulsion walls = repulsion(pose, dt);
   const OrificeRepulsion orifices{
       walls.law, Real(0.01 * config_.fluid.c), dt > 0 ? Real(1 / dt) : Real(0), frame_, orifices_, pose};
-  for_each(fluid.owned(), RepelPass{walls, orifices, fluid.x, fluid.v_rho, fluid.acc_next});
+  for_each(fluid.owned(), RepelPass{walls, orifices, Real(kick), Real(dt), fluid.x, fluid.v_rho, fluid.acc,
+                                    fluid.acc_next, fluid.heading});
 }
 
 void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved) {
@@ -348,7 +354,7 @@ void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, bool 
 }
 
 void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
-  for_each(fluid.owned(), StatePass{eos_, Real(kick), -Real(config_.density.tension), fluid.acc,
+  for_each(fluid.owned(), StatePass{eos_, Real(kick), fluid.acc,
                                     coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
                                     fluid.s, fluid.mass, fluid.eps, fluid.v_rho,
                                     mixed_ ? Span<Real4>(fluid.flux) : Span<Real4>(), fluid.m_state});

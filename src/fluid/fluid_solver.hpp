@@ -58,12 +58,13 @@ class FluidSolver {
                      double drag_dt) = 0;
   /// theta, acc_next, xsph. One pose a body; the step (s) caps the push of single layers.
   virtual void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) = 0;
-  /// Adds the repulsion of walls and orifices to acc_next. One pose a body; the step (s) caps it.
-  void repel(FluidStore& fluid, Span<const BodyPose> pose, double dt);
+  /// Adds what surfaces of walls and orifices do to acc_next. One pose a body; velocities are predicted by
+  /// `kick` in a step of dt, s.
+  void repel(FluidStore& fluid, Span<const BodyPose> pose, double kick, double dt);
   WallRepulsion repulsion(Span<const BodyPose> pose, double dt) const;
   /// v += kick (acc_next - acc); acc = acc_next.
   void correct(FluidStore& fluid, double kick);
-  /// Force of the fluid on every wall particle (N), repulsion from surfaces apart, the opposite of what the
+  /// Force of the fluid on every wall particle (N), push of surfaces apart, the opposite of what the
   /// last forces() gave the fluid. After a step of dt (s), before the lists are renewed.
   virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
                            double dt, Buffer<Vec3d>& force) = 0;

@@ -42,8 +42,41 @@ void check_fill(const Config& config, std::size_t index) {
   }
 }
 
-void add_shape(const Config& config, std::size_t index, Setup::Fluid& fluid) {
-  const FluidFill& fill = config.fluid.fills[index];
+/// The solid that `body` takes from a fill in which it stands; none of what may hold fluid, for which side of
+/// it was meant the case has to say.
+ShapePtr solid_in_fluid(const Config& config, const WallBody& body) {
+  if (!body.stops_fluid() || body.single_layer()) return nullptr;
+  if (body.shape == "box") {
+    Vec3d min = body.min, max = body.max;
+    for (int k = 0; k < 3; ++k) {  // goes on beyond the faces of a period
+      if (!config.domain.periodic[k]) continue;
+      if (min[k] <= config.domain.min[k]) min[k] -= config.domain.max[k] - config.domain.min[k];
+      if (max[k] >= config.domain.max[k]) max[k] += config.domain.max[k] - config.domain.min[k];
+    }
+    return make_box(min, max);
+  }
+  for (const ShapeConfig& shape : config.shapes)
+    if (shape.name == body.shape && (shape.kind == "hollow" || shape.kind == "pipe")) return nullptr;
+  return body.solid.shape;
+}
+
+/// What is left of a fill between the bodies that stand in its particles, from `begin` on; none: all of it.
+ShapePtr left_between_bodies(const Config& config, const FluidFill& fill, const Setup::Fluid& fluid,
+                             std::size_t begin, std::string& names) {
+  std::vector<ShapePtr> standing;
+  for (const WallBody& body : config.wall.bodies) {
+    const ShapePtr solid = solid_in_fluid(config, body);
+    const auto inside = [&](const Vec3d& x) { return solid->distance(x) < -1e-6 * config.fluid.dx; };
+    if (!solid || std::none_of(fluid.x.begin() + std::ptrdiff_t(begin), fluid.x.end(), inside)) continue;
+    standing.push_back(solid);
+    names += (names.empty() ? "\"" : ", \"") + body.name + '"';
+  }
+  if (standing.empty()) return nullptr;
+  return make_difference(fill.solid.shape ? fill.solid.shape : make_box(fill.min, fill.max),
+                         make_union(std::move(standing)));
+}
+
+void add_shape(const Config& config, const FluidFill& fill, std::size_t index, Setup::Fluid& fluid) {
   double volume = 0;
   const double dx = config.fluid.dx;
   const Slice slice(*fill.solid.shape, config.domain.middle(), dx);
@@ -54,7 +87,9 @@ void add_shape(const Config& config, std::size_t index, Setup::Fluid& fluid) {
     throw CaseError(fmt::format("fluid.fill {}: {}", index + 1, why));
   };
   if (places.empty())
-    fail(fmt::format("shape \"{}\" has no room for a particle of {:g} m", fill.shape, config.fluid.dx));
+    fail(fmt::format("{} has no room for a particle of {:g} m",
+                     fill.shape.empty() ? "what its bodies leave" : "shape \"" + fill.shape + '"',
+                     config.fluid.dx));
   const FillVelocity velocity(fill, index);
   const double mass = config.fluid.rho0 * volume / double(places.size());
   for (const Vec3d& x : places) {
@@ -85,47 +120,67 @@ void check_shapes(const Config& config, const Setup::Fluid& fluid, const std::ve
     }
 }
 
+void add_box(const Config& config, const FluidFill& fill, std::size_t index, Setup::Fluid& fluid,
+             std::vector<std::string>& warnings) {
+  const double dx = config.fluid.dx;
+  std::array<Cells, 3> cells;
+  double wanted = 1, volume = 1;
+  for (int k = 0; k < 3; ++k) {
+    cells[k] = fit_cells(fill.min[k], fill.max[k], config.domain.spacing_along(k, dx));
+    wanted *= double(cells[k].count);
+    volume *= fill.max[k] - fill.min[k];
+    if (std::abs(cells[k].step / config.domain.spacing_along(k, dx) - 1) > 0.05)
+      warnings.push_back(
+          fmt::format("fluid.fill {}: {:g} m along {} is not near a multiple of fluid.dx = "
+                      "{:g} m; {} layers {:g} m apart are laid",
+                      index + 1, fill.max[k] - fill.min[k], "xyz"[k], dx, cells[k].count, cells[k].step));
+  }
+  if (double(fluid.x.size()) + wanted >= kMaxParticles)
+    throw CaseError(fmt::format("fluid.dx = {:g} m makes {:.3g} fluid particles: must be fewer than 2^31", dx,
+                                double(fluid.x.size()) + wanted));
+
+  const FillVelocity velocity(fill, index);
+  const double mass = config.fluid.rho0 * volume / wanted;
+  for (std::int64_t k = 0; k < cells[2].count; ++k)
+    for (std::int64_t j = 0; j < cells[1].count; ++j)
+      for (std::int64_t i = 0; i < cells[0].count; ++i) {
+        const Vec3d x{cells[0].centre(i), cells[1].centre(j), cells[2].centre(k)};
+        fluid.x.push_back(x);
+        fluid.v.push_back(velocity(x));
+        fluid.mass.push_back(mass);
+      }
+}
+
+/// The fluid of one fill, around the bodies that stand in it.
+void add_fill(const Config& config, std::size_t index, Setup::Fluid& fluid,
+              std::vector<std::string>& warnings) {
+  FluidFill fill = config.fluid.fills[index];
+  const std::size_t begin = fluid.x.size();
+  if (fill.solid.shape)
+    add_shape(config, fill, index, fluid);
+  else
+    add_box(config, fill, index, fluid, warnings);
+
+  std::string names;
+  const std::size_t all = fluid.x.size() - begin;
+  fill.solid.shape = left_between_bodies(config, fill, fluid, begin, names);
+  if (!fill.solid.shape) return;
+  for (auto* values : {&fluid.x, &fluid.v}) values->resize(begin);
+  fluid.mass.resize(begin);
+  add_shape(config, fill, index, fluid);
+  warnings.push_back(fmt::format("fluid.fill {}: leaves out wall.body {}, {} of {} particles", index + 1,
+                                 names, all - (fluid.x.size() - begin), all));
+}
+
 }  // namespace
 
 void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::string>& warnings) {
-  const double dx = config.fluid.dx;
   std::vector<std::size_t> first;
   for (std::size_t index = 0; index < config.fluid.fills.size(); ++index) {
     first.push_back(fluid.x.size());
     if (!config.fluid.fills[index].file.empty()) continue;
     check_fill(config, index);
-    const FluidFill& fill = config.fluid.fills[index];
-    if (fill.solid.shape) {
-      add_shape(config, index, fluid);
-      continue;
-    }
-
-    std::array<Cells, 3> cells;
-    double wanted = 1, volume = 1;
-    for (int k = 0; k < 3; ++k) {
-      cells[k] = fit_cells(fill.min[k], fill.max[k], config.domain.spacing_along(k, dx));
-      wanted *= double(cells[k].count);
-      volume *= fill.max[k] - fill.min[k];
-      if (std::abs(cells[k].step / config.domain.spacing_along(k, dx) - 1) > 0.05)
-        warnings.push_back(
-            fmt::format("fluid.fill {}: {:g} m along {} is not near a multiple of fluid.dx = "
-                        "{:g} m; {} layers {:g} m apart are laid",
-                        index + 1, fill.max[k] - fill.min[k], "xyz"[k], dx, cells[k].count, cells[k].step));
-    }
-    if (double(fluid.x.size()) + wanted >= kMaxParticles)
-      throw CaseError(fmt::format("fluid.dx = {:g} m makes {:.3g} fluid particles: must be fewer than 2^31",
-                                  dx, double(fluid.x.size()) + wanted));
-
-    const FillVelocity velocity(fill, index);
-    const double mass = config.fluid.rho0 * volume / wanted;
-    for (std::int64_t k = 0; k < cells[2].count; ++k)
-      for (std::int64_t j = 0; j < cells[1].count; ++j)
-        for (std::int64_t i = 0; i < cells[0].count; ++i) {
-          const Vec3d x{cells[0].centre(i), cells[1].centre(j), cells[2].centre(k)};
-          fluid.x.push_back(x);
-          fluid.v.push_back(velocity(x));
-          fluid.mass.push_back(mass);
-        }
+    add_fill(config, index, fluid, warnings);
   }
   first.push_back(fluid.x.size());
   check_shapes(config, fluid, first);

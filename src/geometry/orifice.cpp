@@ -91,8 +91,8 @@ void check_walls_reach_upstream(const Config& config, const InletConfig& inlet,
     };
     if (std::any_of(points.begin(), points.end(), ends_here))
       warnings.push_back(
-          fmt::format("inlet \"{}\": wall.body \"{}\" beside it ends at its plane, so that fluid comes in "
-                      "too thin along it; let it reach {:g} m upstream",
+          fmt::format("inlet \"{}\": wall.body \"{}\" beside it ends at its plane, so that fluid leaks "
+                      "out along its edge; let it reach {:g} m upstream",
                       inlet.name, body.name, depth));
   }
 }

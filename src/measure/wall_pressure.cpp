@@ -89,15 +89,16 @@ struct PatchRepulsion {
   WallRepulsion walls;
   Span<const FluidPosition> x;
   Span<const Real> mass;
+  Span<const Real3> heading;
   BL_HD void operator()(Index a, double* out) const {
     const BodyPose& pose = walls.pose[body];
     const Vec3d at = coordinates(walls.frame, x[a]);
     const Vec3d beside = pose.origin() + walls.frame.nearest_image(at - pose.origin());
-    if (!patches.near(pose.undo(beside), 0.5 * dx + double(walls.law.r0))) return;
+    if (!patches.near(pose.undo(beside), 0.5 * dx + walls.reach())) return;
     const auto take = [&](std::uint32_t, const Real3& push, const Vec3d& foot) {
       patches.spread(pose.undo(foot), dx, -double(mass[a]) * dot(Vec3d(push), inwards), first, out);
     };
-    walls.each(at, take, body);
+    walls.each(at, heading[a], take, body);
   }
 };
 
@@ -132,7 +133,7 @@ std::vector<Quantity> CoupledSimulation::wall_pressure(const ProbeConfig& p) {
     if (repulsion.walls.surfaces.size > 0) {
       const auto more = sum_over<kAtOnce>(
           fluid_.owned(), PatchRepulsion{patches, first, std::uint32_t(body), config_.fluid.dx, inwards,
-                                         repulsion, fluid_.x, fluid_.mass});
+                                         repulsion, fluid_.x, fluid_.mass, fluid_.heading});
       for (int k = 0; k < kAtOnce; ++k) sum.v[k] += more.v[k];
     }
     for (int k = 0; k < kAtOnce && first + k < all; ++k)

@@ -128,7 +128,7 @@ void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   fluid.set_gravity(gravity_.at(clock_.time + dt));
   if (walls_.size() > 0) fluid.walls(fluid_, walls_, pose, two_way() ? dt : 0);
   fluid.forces(fluid_, walls_, pose, dt);
-  fluid.repel(fluid_, pose, dt);
+  fluid.repel(fluid_, pose, predict, dt);
 }
 
 std::vector<StepLimit> CoupledSimulation::limits() {

@@ -178,13 +178,13 @@ void CoupledSimulation::start() {
 
 void CoupledSimulation::lay_fluid() {
   if (two_way()) share_volume(0);
-  std::vector<Real> pressure(fluid_.size(), Real(0));
+  std::vector<Real> pressure(fluid_.size(), Real(config_.eos.background));
   if (hydrostatic(config_)) {
     const Vec3d g = laid_gravity(config_, gravity_.at(0));
     std::vector<Vec3d> x;
     for (const auto& at : fluid_.x.values()) x.push_back(coordinates(frame_, at));
     const std::vector<double> depth = depths_of(config_, g, x);
-    for (Index a = 0; a < fluid_.size(); ++a) pressure[a] = Real(config_.fluid.rho0 * norm(g) * depth[a]);
+    for (Index a = 0; a < fluid_.size(); ++a) pressure[a] += Real(config_.fluid.rho0 * norm(g) * depth[a]);
   }
   Buffer<Real> device;
   device.assign(pressure);

@@ -271,7 +271,7 @@ void FreeBodies::feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force,
                   WallLoadReduction{body, walls.body, walls.x0, force, poses.data});
     if (repulsion && fluid.size() > 0)
       reduce_into(repulsion_sums_.data() + k, fluid.owned(),
-                  BodyRepulsion{*repulsion, body, fluid.x, fluid.mass});
+                  BodyRepulsion{*repulsion, body, fluid.x, fluid.mass, fluid.heading});
   }
   for_each(store_.owned(), AddLoads{wall_sums_, repulsion_sums_, store_.fluid_force, store_.fluid_torque});
   if (dt == 0) return;

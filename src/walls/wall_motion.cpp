@@ -53,7 +53,9 @@ WallMotion::WallMotion(const Config& config, const FreeBodies& free)
     p.free = std::uint32_t(free.place_of(int(still_.size()) - 1) + 1);
     p.slip = body.slip == "slip";
     p.kind = kind_of(body);
-    p.repulsion = body.repulsion && body.stops_fluid() && !body.single_layer();
+    p.repulsion = body.repels();
+    p.no_penetration = body.no_penetration && body.stops_fluid() && !body.single_layer();
+    p.slide = body.surface_velocity;
     const double dx = config.wall.spacing(body);
     if (config.fluid.present)
       p.volume = body.single_layer() ? dx * config.domain.spacing_along(1, dx) * depth

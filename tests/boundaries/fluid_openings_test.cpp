@@ -334,7 +334,7 @@ stop = 0.6
 [[wall.body]]
 name = "tank"
 shape = "tank"
-min = [0, 0, 0]
+min = [0, 0, -0.06]
 max = [0.08, 0.08, 0.16]
 faces = ["x-", "x+", "y-", "y+"]
 )" + walls +

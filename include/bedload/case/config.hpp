@@ -103,6 +103,7 @@ struct EosConfig {
   std::string type = "tait";                   ///< tait, democritus
   double gamma = 7;
   double p0 = 100, alpha = 7, beta = 100;      ///< democritus: Pa, -, Pa
+  double background = 0;                       ///< tait: pressure at rho0, Pa
   bool clip_negative = false;
   bool operator==(const EosConfig&) const = default;
 };
@@ -110,7 +111,7 @@ struct EosConfig {
 struct DensityConfig {
   double delta = 0.1;                          ///< density diffusion
   double consolidation = 3;                    ///< how fast pressure fades in fluid with room in it, c/h
-  double tension = 0.01;                       ///< the fluid cavitates below rho/rho0 - 1 = -tension
+  double tension = 0.001;                      ///< the fluid cavitates below rho/rho0 - 1 = -tension
   bool operator==(const DensityConfig&) const = default;
 };
 
@@ -207,7 +208,9 @@ struct WallBody {
   Vec3d point, normal;                         ///< plane: normal points into the flow
   std::string type = "adami";                  ///< adami, mdbc, frozen, single_layer, grains_only, fluid_only
   std::string slip = "noslip";                 ///< noslip, slip
-  bool repulsion = true;                       ///< Monaghan repulsion beside the wall's pressure
+  bool no_penetration = true;                  ///< what comes too near is stopped
+  bool repulsion = false;                      ///< Monaghan repulsion beside the wall's pressure
+  Vec3d surface_velocity;                      ///< of the surface in its own plane, as of a belt, in the body's axes, m/s
   std::string force = "kajtar";                ///< single_layer: kajtar, monaghan
   double dx = 0;                               ///< spacing of its particles, m; 0: wall.dx
   double mu = std::numeric_limits<double>::infinity();    ///< sliding friction of grains on it (default grain.mu)
@@ -219,6 +222,8 @@ struct WallBody {
   FreeConfig free;                             ///< instead of a motion
   Solid solid;                                 ///< of a named shape (resolved)
   bool stops_fluid() const { return type != "grains_only"; }
+  /// Frozen walls, whose pressure does not follow the fluid's, need it.
+  bool repels() const { return stops_fluid() && !single_layer() && (repulsion || type == "frozen"); }
   bool single_layer() const { return type == "single_layer"; }
   bool stops_grains() const { return type != "fluid_only"; }
   bool moves() const { return motion.moves() || free.present; }
@@ -228,7 +233,8 @@ struct WallBody {
 struct WallConfig {
   std::string type = "adami", slip = "noslip";  ///< defaults of the bodies
   std::string force = "kajtar";                ///< of single layers
-  bool repulsion = true;
+  bool no_penetration = true;
+  bool repulsion = false;
   double dx = 0;                               ///< spacing of wall particles, m (default fluid.dx)
   double rep_D = 0;                            ///< m2/s2 (default 5 g H)
   double rep_r0 = 0;                           ///< m (default 0.5 dx)

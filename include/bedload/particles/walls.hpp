@@ -16,11 +16,13 @@ enum class WallKind : std::uint32_t {
 struct BodyPose : RigidMotion {
   std::uint32_t slip = 0;       ///< 1: slip
   std::uint32_t repulsion = 0;  ///< 1: Monaghan repulsion
+  std::uint32_t no_penetration = 0;  ///< 1: stops fluid that comes too near
   std::uint32_t present = 1;    ///< 0: removed
   std::uint32_t flows = 0;      ///< 1: fluid on its way in
   std::uint32_t free = 0;       ///< 1 + place among the free bodies; 0: motion prescribed
   WallKind kind = WallKind::extrapolated;
   double volume = 0;  ///< that one of its particles stands for, m3
+  Vec3d slide;        ///< velocity of its surface in place, in the body's axes, m/s
 };
 
 /// Images of wall particles in the fluid. Empty, or one for each wall particle and in their order; those of
