@@ -106,11 +106,16 @@ void resolve_shapes(Config& c, const Value& root) {
       const auto folder = std::filesystem::absolute(c.file).parent_path();
       shape.file = (folder / shape.file).lexically_normal().string();
     }
+    const auto fail = [&](const std::string& key, const std::exception& error) {
+      throw CaseError(
+          fmt::format("{}: shape \"{}\": {}", nearest_value(root, key).place(), shape.name, error.what()));
+    };
     try {
       shape.solid.shape = build_shape(shape, done);
+    } catch (const FileError& error) {
+      fail(path + ".file", error);
     } catch (const CaseError& error) {
-      throw CaseError(
-          fmt::format("{}: shape \"{}\": {}", nearest_value(root, path).place(), shape.name, error.what()));
+      fail(path, error);
     }
     done.push_back(shape);
   }

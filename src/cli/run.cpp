@@ -52,7 +52,7 @@ class Run {
   int go() {
     say(summary_text(p_));
     build();
-    check_fixed_steps(p_, options_, *simulation_);
+    check_fixed_steps(p_, *simulation_);
 
     output_.emplace(options_.out, p_.config, p_.device, version(), !options_.restart.empty());
     for (const std::string& warning : p_.warnings) {
@@ -122,10 +122,9 @@ class Run {
     } catch (const SimulationFault& fault) {
       progress.close();
       throw SimulationFault(fault.what() + after_fault(spent()));
-    } catch (const CaseError& error) {  // a fixed step has come to exceed its limit
+    } catch (const KeyError& error) {  // a fixed step has come to exceed its limit
       progress.close();
-      throw CaseError(place_in_case(options_.file, options_.overrides, "time.dt") + ": " + error.what() +
-                      after_fault(spent()));
+      throw KeyError(error.key, error.what() + after_fault(spent()));
     }
     progress.close();
     const bool stopped = simulation_->time() < end_;
