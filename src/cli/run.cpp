@@ -119,6 +119,11 @@ class Run {
         output_->write(*simulation_, info);
         progress.update(info, effort.particle_steps);
       }
+      progress.close();
+      output_->finish(*simulation_, simulation_->time() < end_ ? "stopped" : "completed", spent());
+    } catch (const FileError& error) {
+      progress.close();
+      throw FileError(error.what() + kept());
     } catch (const SimulationFault& fault) {
       progress.close();
       throw SimulationFault(fault.what() + after_fault(spent()));
@@ -126,9 +131,7 @@ class Run {
       progress.close();
       throw KeyError(error.key, error.what() + after_fault(spent()));
     }
-    progress.close();
     const bool stopped = simulation_->time() < end_;
-    output_->finish(*simulation_, stopped ? "stopped" : "completed", spent());
     if (stopped)
       fmt::print("stopped at t = {:.6g} s; continue with: {} --restart {}\n", simulation_->time(),
                  options_.repeat, output_->last_checkpoint().string());
@@ -166,6 +169,13 @@ class Run {
     tell(fmt::format("{:.4g} kg of fluid", fluid), fluid, read("fluid_mass"));
     tell(fmt::format("{:.0f} of {:.0f} grains", grains, all), grains, all - grains);
     return too_many;
+  }
+
+  /// What there is to go on from after an error of writing, as the rest of its sentence.
+  std::string kept() const {
+    const fs::path last = output_->last_checkpoint();
+    std::error_code unknown;
+    return fs::exists(last, unknown) ? "; the last good checkpoint is " + last.string() : "";
   }
 
   /// Shows the broken state in a last frame; returns the rest of the fault's sentence.
