@@ -124,6 +124,10 @@ class Run {
     } catch (const FileError& error) {
       progress.close();
       throw FileError(error.what() + kept());
+    } catch (const fs::filesystem_error& error) {
+      progress.close();
+      throw FileError(
+          fmt::format("{}: cannot write: {}{}", error.path1().string(), error.code().message(), kept()));
     } catch (const SimulationFault& fault) {
       progress.close();
       throw SimulationFault(fault.what() + after_fault(spent()));

@@ -207,7 +207,7 @@ struct RunOutput::Impl {
   }
 
   fs::path post_checkpoint(Simulation& simulation) {
-    const auto path = dir / "checkpoints" / fmt::format("step_{:09}.h5", simulation.steps());
+    auto path = dir / "checkpoints" / fmt::format("step_{:09}.h5", simulation.steps());
     writer.post([this, path, state = simulation.save()] {
       write_state(path, state, config);
       const std::lock_guard lock(mutex);
@@ -288,7 +288,7 @@ void RunOutput::write(Simulation& simulation, const StepInfo& info) {
 }
 
 fs::path RunOutput::checkpoint(Simulation& simulation) {
-  const auto path = impl_->post_checkpoint(simulation);
+  auto path = impl_->post_checkpoint(simulation);
   impl_->writer.drain();
   return path;
 }
