@@ -112,7 +112,7 @@ void append_part(hid_t root, std::int64_t n) {
     append_integer(topology, "NumberOfCells", cells);
     append_integer(topology, "NumberOfConnectivityIds", cells);
     append_integers(topology, "Connectivity", ids, hsize_t(cells));
-    append_integers(topology, "Offsets", ids, hsize_t(cells + 1));
+    append_integers(topology, "Offsets", ids, hsize_t(cells) + 1);
   }
 }
 
