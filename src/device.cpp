@@ -111,7 +111,8 @@ std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& s
 #if BL_HAS_DOUBLE
   BL_TRY(double)
 #endif
-  throw CaseError("run.precision = " + config.precision + ": this program was built without it");
+  throw KeyError("run.precision",
+                 "run.precision = " + config.precision + ": this program was built without it");
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include <exception>
 #include <filesystem>
 
+#include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
 #include "cli/commands.hpp"
 #include "cli/list.hpp"
@@ -16,8 +17,13 @@
 namespace {
 
 int dispatch(const bedload::Options& options) {
-  if (options.command == "run") return bedload::run_case(options);
-  if (options.command == "check") return bedload::check_case(options);
+  try {
+    if (options.command == "run") return bedload::run_case(options);
+    if (options.command == "check") return bedload::check_case(options);
+  } catch (const bedload::KeyError& error) {
+    throw bedload::CaseError(bedload::place_in_case(options.file, options.overrides, error.key) + ": " +
+                             error.what());
+  }
   if (options.command == "info") return bedload::show_file(options.file);
   fmt::print("{}", options.command == "list" ? bedload::list_text(options.family) : options.text);
   return 0;

@@ -137,19 +137,17 @@ class Checks {
       if (const double shift = initial_shift(body.motion, at); shift > 1e-9)
         warn("wall.body \"{}\": its motion begins {:.4g} m away from where fluid and grains are laid for it",
              body.name, shift);
-      for (const VelocityJump& jump : velocity_jumps(body.motion, at, c.time.end))
-        if (jump.time > 0 || !steady(body.motion))
-          warn("wall.body \"{}\": its velocity jumps by {:.4g} m/s at t = {:.4g} s", body.name, jump.size,
-               jump.time);
+      auto jumps = velocity_jumps(body.motion, at, c.time.end);
+      std::erase_if(jumps, [&](const VelocityJump& jump) { return jump.time == 0 && steady(body.motion); });
+      warn_of(jumps, fmt::format("wall.body \"{}\"", body.name), "");
     }
     const MotionConfig& frame = c.frame.motion;
     for_parts(frame, "frame.motion",
               [&](const MotionPart& m, const std::string& path) { translates(m, path); });
-    for (const VelocityJump& jump : velocity_jumps(frame, {Vec3d{}}, c.time.end))
-      if (jump.time > 0)  // what is inside begins at the frame's own velocity
-        warn(
-            "frame.motion: its velocity jumps by {:.4g} m/s at t = {:.4g} s; what is inside does not feel it",
-            jump.size, jump.time);
+    auto jumps = velocity_jumps(frame, {Vec3d{}}, c.time.end);
+    // what is inside begins at the frame's own velocity
+    std::erase_if(jumps, [](const VelocityJump& jump) { return jump.time == 0; });
+    warn_of(jumps, "frame.motion", "; what is inside does not feel it");
   }
 
   void grains() const {
@@ -258,6 +256,15 @@ class Checks {
   /// Moves as it does from the first: a jump at t = 0 is meant.
   static bool steady(const MotionConfig& m) {
     return m.add.empty() && (m.kind == "velocity" || m.kind == "rotation");
+  }
+  /// The first jumps of a motion, and how many more there are.
+  void warn_of(const std::vector<VelocityJump>& jumps, const std::string& of, const char* note) const {
+    constexpr std::size_t few = 4;
+    for (std::size_t k = 0; k < jumps.size() && (k < few || jumps.size() == few + 1); ++k)
+      warn("{}: its velocity jumps by {:.4g} m/s at t = {:.4g} s{}", of, jumps[k].size, jumps[k].time, note);
+    if (jumps.size() > few + 1)
+      warn("{}: its velocity jumps {} times more until t = {:.4g} s", of, jumps.size() - few,
+           jumps.back().time);
   }
   /// A turning frame would need centrifugal, Coriolis and Euler forces.
   void translates(const MotionPart& m, const std::string& path) const {

@@ -12,6 +12,7 @@
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
 #include "bedload/geometry/build_shape.hpp"
+#include "src/motion/formula_breaks.hpp"
 #include "src/motion/inlet_flow.hpp"
 #include "src/motion/survey.hpp"
 #include "src/motion/table.hpp"
@@ -106,11 +107,16 @@ void resolve_shapes(Config& c, const Value& root) {
       const auto folder = std::filesystem::absolute(c.file).parent_path();
       shape.file = (folder / shape.file).lexically_normal().string();
     }
+    const auto fail = [&](const std::string& key, const std::exception& error) {
+      throw CaseError(
+          fmt::format("{}: shape \"{}\": {}", nearest_value(root, key).place(), shape.name, error.what()));
+    };
     try {
       shape.solid.shape = build_shape(shape, done);
+    } catch (const FileError& error) {
+      fail(path + ".file", error);
     } catch (const CaseError& error) {
-      throw CaseError(
-          fmt::format("{}: shape \"{}\": {}", nearest_value(root, path).place(), shape.name, error.what()));
+      fail(path, error);
     }
     done.push_back(shape);
   }
@@ -161,6 +167,20 @@ void resolve_table(MotionPart& m, const std::string& path, const std::string& ca
   });
 }
 
+/// What jumps from place to place passes through what is between.
+void refuse_jumps(const MotionPart& m, const std::string& path, double until, const Value& root) {
+  const double span = std::min(m.stop, until) - m.start;
+  if (m.kind != "formula" || !(span > 0)) return;
+  for (const auto& [key, texts, unit] :
+       {std::tuple{".displacement", &m.displacement, "m"}, {".rotation", &m.rotation, "deg"}})
+    for (const std::string& text : *texts)
+      for (const Break& b : breaks_of(Formula(text, "t"), span))
+        if (b.jump != 0)
+          reject(root, path + key, nearest_value(root, path + key).text(),
+                 fmt::format("must not jump; \"{}\" does by {:.4g} {} at t = {:.4g} s", text, b.jump, unit,
+                             m.start + b.time));
+}
+
 void resolve_motions(Config& c, const Value& root) {
   for_motions(c, [&](MotionConfig& motion, const std::string& path) {
     for_parts(motion, path, [&](MotionPart& m, const std::string& at) {
@@ -170,6 +190,8 @@ void resolve_motions(Config& c, const Value& root) {
     if (const double t = motion.moves() ? first_gap(motion, c.time.end) : INFINITY; std::isfinite(t))
       throw CaseError(fmt::format("{}: {} must have a value at all times; it has none at t = {} s",
                                   nearest_value(root, path).place(), key_of(path), t));
+    for_parts(motion, path,
+              [&](const MotionPart& m, const std::string& at) { refuse_jumps(m, at, c.time.end, root); });
   });
 }
 

@@ -116,7 +116,7 @@ int check_case(const Options& options) {
     for (const StepLimit& limit : simulation->body_limits()) substeps.push_back(limit);
     fmt::print("{}", viscosity_text(c, simulation->numerical_viscosity()));
     fmt::print("{}{}", limits_text("step", steps), limits_text("substep", substeps));
-    check_fixed_steps(p, options, *simulation);
+    check_fixed_steps(p, *simulation);
 
     const Trial trial = timed_steps(*simulation);
     const double count = std::ceil((c.time.end - p.begin) / trial.dt);

@@ -46,7 +46,7 @@ double let_in(const InletConfig& inlet, double dx, double from, double to) {
 namespace {
 
 /// Told from the volume of the blocks before any particle is laid: laying takes time and memory itself.
-void refuse_too_fine(const Options& options, const Prepared& p) {
+void refuse_too_fine(const Prepared& p) {
   const double dx = p.config.fluid.dx;
   double volume = 0;
   for (const FluidFill& fill : p.config.fluid.fills) {
@@ -56,11 +56,11 @@ void refuse_too_fine(const Options& options, const Prepared& p) {
   const double count = volume / p.config.domain.cell_volume(dx), memory = double(p.device.memory);
   const double need = double(estimate_bytes(p.config, {std::int64_t(count), 0, 0}));
   if (memory == 0 || need <= memory) return;
-  throw CaseError(
-      fmt::format("{}: fluid.dx = {} makes {:.3g} fluid particles, which need {}; {} has {} free, enough "
+  throw KeyError(
+      "fluid.dx",
+      fmt::format("fluid.dx = {} makes {:.3g} fluid particles, which need {}; {} has {} free, enough "
                   "for {:.3g} m and more",
-                  place_in_case(options.file, options.overrides, "fluid.dx"), dx, count,
-                  bytes_text(std::size_t(need)), p.device.name, bytes_text(p.device.memory),
+                  dx, count, bytes_text(std::size_t(need)), p.device.name, bytes_text(p.device.memory),
                   dx * std::pow(need / memory, p.config.domain.two_d ? 1.0 / 2 : 1.0 / 3) * 1.001));
 }
 
@@ -83,7 +83,7 @@ Prepared prepare(const Options& options) {
   p.config = read_case(options.file, options.overrides, p.warnings, options.restart);
   p.device = find_device(options.backend, options.threads);
   if (options.restart.empty()) {
-    if (p.config.fluid.present) refuse_too_fine(options, p);
+    if (p.config.fluid.present) refuse_too_fine(p);
     p.setup = build_setup(p.config, p.warnings);
     p.counts = counts_of(p.setup);
   } else {
@@ -96,14 +96,13 @@ Prepared prepare(const Options& options) {
   return p;
 }
 
-void check_fixed_steps(Prepared& p, const Options& options, Simulation& simulation) {
+void check_fixed_steps(Prepared& p, Simulation& simulation) {
   const auto check = [&](const char* key, double dt, const std::vector<StepLimit>& limits) {
     for (const StepLimit& limit : limits) {
       if (dt <= limit.seconds * (1 + 1e-9)) continue;
       if (!p.config.time.force_dt)
-        throw CaseError(fmt::format("{}: {} = {} must be <= {:.4g}; limited by {}",
-                                    place_in_case(options.file, options.overrides, key), key, dt,
-                                    limit.seconds, limit.name));
+        throw KeyError(
+            key, fmt::format("{} = {} must be <= {:.4g}; limited by {}", key, dt, limit.seconds, limit.name));
       p.warnings.push_back(
           fmt::format("{} = {} is above its limit {:.4g} ({})", key, dt, limit.seconds, limit.name));
     }

@@ -25,9 +25,9 @@ struct Prepared {
 /// Reads the case, finds the device, lays the particles or reads the checkpoint.
 Prepared prepare(const Options& options);
 
-/// Throws CaseError if time.dt is above a limit, or time.dt_dem above one of free bodies; with time.force_dt
+/// Throws KeyError if time.dt is above a limit, or time.dt_dem above one of free bodies; with time.force_dt
 /// it warns. Call after start().
-void check_fixed_steps(Prepared& prepared, const Options& options, Simulation& simulation);
+void check_fixed_steps(Prepared& prepared, Simulation& simulation);
 
 /// Counts with all particles that come in until the end, as far as the domain has room for them.
 Counts with_arrivals(const Prepared& prepared);

@@ -52,7 +52,7 @@ class Run {
   int go() {
     say(summary_text(p_));
     build();
-    check_fixed_steps(p_, options_, *simulation_);
+    check_fixed_steps(p_, *simulation_);
 
     output_.emplace(options_.out, p_.config, p_.device, version(), !options_.restart.empty());
     for (const std::string& warning : p_.warnings) {
@@ -119,17 +119,23 @@ class Run {
         output_->write(*simulation_, info);
         progress.update(info, effort.particle_steps);
       }
+      progress.close();
+      output_->finish(*simulation_, simulation_->time() < end_ ? "stopped" : "completed", spent());
+    } catch (const FileError& error) {
+      progress.close();
+      throw FileError(error.what() + kept());
+    } catch (const fs::filesystem_error& error) {
+      progress.close();
+      throw FileError(
+          fmt::format("{}: cannot write: {}{}", error.path1().string(), error.code().message(), kept()));
     } catch (const SimulationFault& fault) {
       progress.close();
       throw SimulationFault(fault.what() + after_fault(spent()));
-    } catch (const CaseError& error) {  // a fixed step has come to exceed its limit
+    } catch (const KeyError& error) {  // a fixed step has come to exceed its limit
       progress.close();
-      throw CaseError(place_in_case(options_.file, options_.overrides, "time.dt") + ": " + error.what() +
-                      after_fault(spent()));
+      throw KeyError(error.key, error.what() + after_fault(spent()));
     }
-    progress.close();
     const bool stopped = simulation_->time() < end_;
-    output_->finish(*simulation_, stopped ? "stopped" : "completed", spent());
     if (stopped)
       fmt::print("stopped at t = {:.6g} s; continue with: {} --restart {}\n", simulation_->time(),
                  options_.repeat, output_->last_checkpoint().string());
@@ -167,6 +173,13 @@ class Run {
     tell(fmt::format("{:.4g} kg of fluid", fluid), fluid, read("fluid_mass"));
     tell(fmt::format("{:.0f} of {:.0f} grains", grains, all), grains, all - grains);
     return too_many;
+  }
+
+  /// What there is to go on from after an error of writing, as the rest of its sentence.
+  std::string kept() const {
+    const fs::path last = output_->last_checkpoint();
+    std::error_code unknown;
+    return fs::exists(last, unknown) ? "; the last good checkpoint is " + last.string() : "";
   }
 
   /// Shows the broken state in a last frame; returns the rest of the fault's sentence.

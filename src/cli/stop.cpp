@@ -25,6 +25,7 @@ void watch_signals() {
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGHUP, &action, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file larger than allowed is then an error of whoever writes it
 }
 
 bool stop_requested() { return stop != 0; }

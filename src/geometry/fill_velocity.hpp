@@ -39,7 +39,8 @@ class FillVelocity {
 
  private:
   [[noreturn]] void fail(int k, const std::string& why) const {
-    throw CaseError(
+    throw KeyError(
+        fmt::format("fluid.fill.{}.velocity", index_),
         fmt::format("fluid.fill {}: velocity {} = \"{}\": {}", index_ + 1, "xyz"[k], fill_.velocity[k], why));
   }
 

@@ -21,24 +21,26 @@ constexpr double kMaxParticles = 2147483648.0;  // ids are 32 bits, one of them 
 void check_fill(const Config& config, std::size_t index) {
   const auto& fills = config.fluid.fills;
   const FluidFill& fill = fills[index];
+  const std::string key = fmt::format("fluid.fill.{}", index);
   const double slack = 1e-6 * config.fluid.dx;
   for (int k = 0; k < 3; ++k) {
     if (!(fill.max[k] > fill.min[k]))
-      throw CaseError(fmt::format("fluid.fill {}: max {} = {:g} m must exceed min {} = {:g} m", index + 1,
-                                  "xyz"[k], fill.max[k], "xyz"[k], fill.min[k]));
+      throw KeyError(key + ".max", fmt::format("fluid.fill {}: max {} = {:g} m must exceed min {} = {:g} m",
+                                               index + 1, "xyz"[k], fill.max[k], "xyz"[k], fill.min[k]));
     if (fill.solid.shape) continue;
     if (fill.min[k] < config.domain.min[k] - slack || fill.max[k] > config.domain.max[k] + slack)
-      throw CaseError(fmt::format(
-          "fluid.fill {}: its box runs from {} = {:g} to {:g} m, the domain only "
-          "from {:g} to {:g} m",
-          index + 1, "xyz"[k], fill.min[k], fill.max[k], config.domain.min[k], config.domain.max[k]));
+      throw KeyError(key, fmt::format("fluid.fill {}: its box runs from {} = {:g} to {:g} m, the domain only "
+                                      "from {:g} to {:g} m",
+                                      index + 1, "xyz"[k], fill.min[k], fill.max[k], config.domain.min[k],
+                                      config.domain.max[k]));
   }
   for (std::size_t other = 0; other < index; ++other) {
     // shapes are looked at particle by particle, as are those listed
     bool apart = fill.solid.shape || fills[other].solid.shape || !fills[other].file.empty();
     for (int k = 0; k < 3; ++k)
       apart |= fill.min[k] > fills[other].max[k] - slack || fills[other].min[k] > fill.max[k] - slack;
-    if (!apart) throw CaseError(fmt::format("fluid.fill {} overlaps fluid.fill {}", index + 1, other + 1));
+    if (!apart)
+      throw KeyError(key, fmt::format("fluid.fill {} overlaps fluid.fill {}", index + 1, other + 1));
   }
 }
 
@@ -84,7 +86,8 @@ void add_shape(const Config& config, const FluidFill& fill, std::size_t index, S
   const auto places = fill_shape(shape, upwards(config.gravity), fill.level, dx, volume);
   volume *= config.domain.spacing_along(1, dx) / dx;
   const auto fail = [&](const std::string& why) {
-    throw CaseError(fmt::format("fluid.fill {}: {}", index + 1, why));
+    throw KeyError(fmt::format("fluid.fill.{}{}", index, fill.shape.empty() ? "" : ".shape"),
+                   fmt::format("fluid.fill {}: {}", index + 1, why));
   };
   if (places.empty())
     fail(fmt::format("{} has no room for a particle of {:g} m",
@@ -114,8 +117,9 @@ void check_shapes(const Config& config, const Setup::Fluid& fluid, const std::ve
       for (std::size_t a = first[index]; a < first[index + 1]; ++a) {
         const Vec3d& x = fluid.x[a];
         if (depth_in(fills[other], up, x) > 0.1 * config.fluid.dx)
-          throw CaseError(fmt::format("fluid.fill {} overlaps fluid.fill {} at ({:g}, {:g}, {:g}) m",
-                                      std::max(index, other) + 1, std::min(index, other) + 1, x.x, x.y, x.z));
+          throw KeyError(fmt::format("fluid.fill.{}", std::max(index, other)),
+                         fmt::format("fluid.fill {} overlaps fluid.fill {} at ({:g}, {:g}, {:g}) m",
+                                     std::max(index, other) + 1, std::min(index, other) + 1, x.x, x.y, x.z));
       }
     }
 }
@@ -136,8 +140,9 @@ void add_box(const Config& config, const FluidFill& fill, std::size_t index, Set
                       index + 1, fill.max[k] - fill.min[k], "xyz"[k], dx, cells[k].count, cells[k].step));
   }
   if (double(fluid.x.size()) + wanted >= kMaxParticles)
-    throw CaseError(fmt::format("fluid.dx = {:g} m makes {:.3g} fluid particles: must be fewer than 2^31", dx,
-                                double(fluid.x.size()) + wanted));
+    throw KeyError("fluid.dx",
+                   fmt::format("fluid.dx = {:g} m makes {:.3g} fluid particles: must be fewer than 2^31", dx,
+                               double(fluid.x.size()) + wanted));
 
   const FillVelocity velocity(fill, index);
   const double mass = config.fluid.rho0 * volume / wanted;
@@ -174,7 +179,8 @@ void add_fill(const Config& config, std::size_t index, Setup::Fluid& fluid,
 
 }  // namespace
 
-void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::string>& warnings) {
+std::vector<std::size_t> add_fluid(const Config& config, Setup::Fluid& fluid,
+                                   std::vector<std::string>& warnings) {
   std::vector<std::size_t> first;
   for (std::size_t index = 0; index < config.fluid.fills.size(); ++index) {
     first.push_back(fluid.x.size());
@@ -184,6 +190,7 @@ void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::strin
   }
   first.push_back(fluid.x.size());
   check_shapes(config, fluid, first);
+  return first;
 }
 
 }  // namespace bedload

@@ -41,8 +41,9 @@ struct HalfSides {
 int cells_along(double half_side, double dx) { return int(std::floor(2 * half_side / dx + 1e-6)); }
 int nearest_cells(double half_side, double dx) { return std::max(1, int(std::lround(2 * half_side / dx))); }
 
-[[noreturn]] void fail(const InletConfig& inlet, const std::string& why) {
-  throw CaseError(fmt::format("inlet \"{}\": {}", inlet.name, why));
+[[noreturn]] void fail(const Config& config, const InletConfig& inlet, const std::string& why) {
+  throw KeyError(fmt::format("inlet.{}", &inlet - config.inlets.data()),
+                 fmt::format("inlet \"{}\": {}", inlet.name, why));
 }
 
 std::string place(const Vec3d& x) { return fmt::format("({:g}, {:g}, {:g}) m", x.x, x.y, x.z); }
@@ -55,9 +56,10 @@ void check_clear_of_walls(const Config& config, const InletConfig& inlet, const 
     if (!body.stops_fluid()) continue;
     for (const Vec3d& x : buffer)
       if (wall_distance(body, x, reach, config.domain) < -slack)
-        fail(inlet, fmt::format("the fluid upstream of it, at {}, must not lie inside wall.body \"{}\"; "
-                                "leave an opening there, {:g} m deep",
-                                place(x), body.name, depth));
+        fail(config, inlet,
+             fmt::format("the fluid upstream of it, at {}, must not lie inside wall.body \"{}\"; "
+                         "leave an opening there, {:g} m deep",
+                         place(x), body.name, depth));
   }
 }
 
@@ -71,8 +73,9 @@ void check_clear_of_fluid(const Config& config, const InletConfig& inlet, const 
     if (along > near || along < -depth - near || norm2(r - along * inlet.direction) > wide * wide) continue;
     for (const Vec3d& y : buffer)
       if (norm2(x - y) < near * near)
-        fail(inlet, fmt::format("the fluid upstream of it, at {}, must not overlap the initial fluid at {}",
-                                place(y), place(x)));
+        fail(config, inlet,
+             fmt::format("the fluid upstream of it, at {}, must not overlap the initial fluid at {}",
+                         place(y), place(x)));
   }
 }
 

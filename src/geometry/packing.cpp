@@ -112,7 +112,7 @@ class Packer {
 
  private:
   [[noreturn]] void fail(const std::string& why) const {
-    throw CaseError(fmt::format("grain.fill {}: {}", index_ + 1, why));
+    throw KeyError(fmt::format("grain.fill.{}", index_), fmt::format("grain.fill {}: {}", index_ + 1, why));
   }
 
   std::vector<SizeClass> sizes() const {

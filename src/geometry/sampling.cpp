@@ -263,6 +263,22 @@ double wall_clearance(const WallBody& body, const Vec3d& x, double thickness, co
   return wall_distance(body, x, thickness, domain);
 }
 
+namespace {
+
+/// Places of the particles of a body.
+std::vector<Vec3d> layers_of(const Config& config, std::size_t index) {
+  const WallBody& body = config.wall.bodies[index];
+  const double spacing = config.wall.spacing(body), reach = config.fluid.kappa() * config.fluid.h();
+  try {
+    return body.single_layer() ? sample_surface(body, spacing, config.domain)
+                               : sample_body(body, spacing, reach, config.domain);
+  } catch (const CaseError& error) {
+    throw KeyError(fmt::format("wall.body.{}", index), error.what());
+  }
+}
+
+}  // namespace
+
 void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::string>& warnings) {
   const double reach = config.fluid.kappa() * config.fluid.h();
   const auto& bodies = config.wall.bodies;
@@ -272,8 +288,7 @@ void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::strin
     if (!body.stops_fluid()) continue;
     const double spacing = config.wall.spacing(body);
     const std::size_t begin = walls.x.size();
-    const std::vector<Vec3d> points = body.single_layer() ? sample_surface(body, spacing, config.domain)
-                                                          : sample_body(body, spacing, reach, config.domain);
+    const std::vector<Vec3d> points = layers_of(config, index);
     check_thickness(config, body, points, warnings);
     for (const Vec3d& x : points) {
       bool taken = earlier.has_near(x);

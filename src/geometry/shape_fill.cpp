@@ -59,7 +59,8 @@ std::vector<Vec3d> deepest_places(const Region& region, double spacing, double v
   for (const auto& slab : slabs)
     for (const Place& p : slab) depths.push_back(p.depth);
   const std::size_t wanted = std::min(depths.size(), std::size_t(std::llround(volume / cell)));
-  if (wanted == 0) return {};
+  // what is thinner than its raster has a volume by that, but no place
+  if (wanted == 0 || *std::max_element(depths.begin(), depths.end()) < 1e-9 * spacing) return {};
   const auto last = depths.end() - std::ptrdiff_t(wanted);
   std::nth_element(depths.begin(), last, depths.end());
   const double least = *last - 1e-9 * spacing;  // places alike stay together

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace bedload {
@@ -44,6 +45,7 @@ FormulaTrack::Triple::Triple(const Texts& texts, double factor, double span) : f
   for (int k = 0; k < 3; ++k) {
     formulas_.emplace_back(texts[k], "t");
     step_[k] = step_for(formulas_[k], span);
+    breaks_[k] = breaks_of(formulas_[k], span);
   }
 }
 
@@ -63,10 +65,24 @@ double FormulaTrack::Triple::step_for(const Formula& formula, double span) {
   return fastest > 0 ? std::min(longest, 1e-4 * std::sqrt(span * largest / fastest)) : longest;
 }
 
+FormulaTrack::Triple::Piece FormulaTrack::Triple::piece_at(int k, double s) const {
+  const std::vector<Break>& all = breaks_[k];
+  const auto next = std::partition_point(all.begin(), all.end(), [&](const Break& b) { return b.time <= s; });
+  return {next == all.begin() ? 0 : (next - 1)->time + (next - 1)->within,  // no value before the start
+          next == all.end() ? std::numeric_limits<double>::infinity() : next->time - next->within};
+}
+
+void FormulaTrack::Triple::add_breaks(std::vector<double>& times) const {
+  for (const auto& breaks : breaks_)
+    for (const Break& b : breaks) times.push_back(b.time);
+}
+
 Jet FormulaTrack::Triple::at(double s) const {
   Jet jet;
   for (std::size_t k = 0; k < formulas_.size(); ++k) {
-    const double h = step_[k], middle = std::max(s, kReach * h);  // no value before the start is asked for
+    const Piece piece = piece_at(int(k), s);
+    const double h = std::min(step_[k], (piece.end - piece.begin) / (kNodes - 1));
+    const double middle = std::max(std::min(s, piece.end - kReach * h), piece.begin + kReach * h);
     const Stencil stencil((s - middle) / h);
     for (int i = 0; i < kNodes; ++i) {
       const double f = factor_ * formulas_[k](middle + (i - kReach) * h);
@@ -80,6 +96,13 @@ Jet FormulaTrack::Triple::at(double s) const {
 
 FormulaTrack::FormulaTrack(const Texts& displacement, const Texts& rotation, double span)
     : displacement_(displacement, 1, span), rotation_(rotation, std::numbers::pi / 180, span) {}
+
+std::vector<double> FormulaTrack::breaks() const {
+  std::vector<double> times;
+  displacement_.add_breaks(times);
+  rotation_.add_breaks(times);
+  return times;
+}
 
 TrackPoint FormulaTrack::at(double s) const { return {displacement_.at(s), rotation_.at(s)}; }
 

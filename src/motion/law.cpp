@@ -116,6 +116,8 @@ std::vector<double> MotionLaw::events() const {
     const Window moves(part.stop - part.start, *part.track);
     all.push_back(part.start + moves.begin);
     all.push_back(part.start + moves.end);
+    for (const double s : part.track->breaks())
+      if (s > moves.begin && s < moves.end) all.push_back(part.start + s);
   }
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());

@@ -65,9 +65,11 @@ std::vector<VelocityJump> velocity_jumps(const MotionConfig& motion, const std::
   const MotionLaw law(motion, until);
   std::vector<VelocityJump> jumps;
   const double least = 0.01 * top_speed(motion, points, until);
+  const double aside = 1e-8 * until;  // s; more than the error of the times at which formulas break
+  double last = -1;
   for (const double t : law.events()) {
-    if (t < 0 || t >= until) continue;
-    const double aside = 1e-9 * std::max(t, 1e-3 * until);
+    if (t < 0 || t >= until || t < last + aside) continue;
+    last = t;
     const RigidMotion now = law.at(t), before = law.at(t - aside), after = law.at(t + aside);
     double size = 0;
     for (const Vec3d& x0 : points) {

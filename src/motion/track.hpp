@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include "bedload/case/config.hpp"
 
@@ -24,6 +25,8 @@ class Track {
   virtual ~Track() = default;
   virtual TrackPoint at(double s) const = 0;
   virtual bool turns() const { return false; }
+  /// Times between which it goes on smoothly, in any order.
+  virtual std::vector<double> breaks() const { return {}; }
   /// Moves from `begin` to `end`; rests where it is before and after.
   virtual double begin() const { return 0; }
   virtual double end() const { return std::numeric_limits<double>::infinity(); }

@@ -50,10 +50,15 @@ void CsvTable::append(double time, const std::vector<Quantity>& row) const {
   for (const auto& q : row) text += fmt::format(",{}", q.value);
   text += '\n';
 
+  std::error_code none;
+  const auto before = std::filesystem::file_size(path_, none);
   std::FILE* file = std::fopen(path_.c_str(), "ab");
   bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
   if (file) written = (std::fclose(file) == 0) && written;
-  if (!written) throw FileError(fmt::format("{}: cannot write: {}", path_.string(), std::strerror(errno)));
+  if (written) return;
+  const FileError error(fmt::format("{}: cannot write: {}", path_.string(), std::strerror(errno)));
+  if (!none) std::filesystem::resize_file(path_, before, none);  // no half a row
+  throw error;
 }
 
 std::vector<double> CsvTable::times() const {

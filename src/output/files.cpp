@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,6 +34,22 @@ void sync(const std::filesystem::path& path) {
 
 void move(const std::filesystem::path& part, const std::filesystem::path& path) {
   if (std::rename(part.c_str(), path.c_str()) != 0) throw cannot("write", path);
+}
+
+/// Takes room behind the end of a file, so that nobody else does; false where there is no file or its file
+/// system knows no such thing.
+bool reserved(const std::filesystem::path& path, std::size_t bytes) {
+  const int file = ::open(path.c_str(), O_WRONLY);
+  if (file < 0) return false;
+  const off_t end = ::lseek(file, 0, SEEK_END);
+  rlimit most{};
+  const bool allowed = ::getrlimit(RLIMIT_FSIZE, &most) != 0 || std::size_t(end) + bytes <= most.rlim_cur;
+  const bool done = allowed && ::fallocate(file, FALLOC_FL_KEEP_SIZE, end, off_t(bytes)) == 0;
+  const int reason = allowed ? errno : EFBIG;
+  ::close(file);
+  errno = reason;
+  if (!done && (errno == ENOSPC || errno == EDQUOT || errno == EFBIG)) throw cannot("write", path);
+  return done;
 }
 
 constexpr std::array<char, 8> kSeal{'B', 'E', 'D', 'L', 'O', 'A', 'D', '\n'};
@@ -88,12 +105,25 @@ void write_file(const std::filesystem::path& path, const std::string& text) {
 }
 
 void need_space(const std::filesystem::path& path, std::size_t bytes) {
+  if (reserved(path, bytes)) return;
   std::error_code unknown;
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   const auto space = std::filesystem::space(folder, unknown);
   if (unknown || space.available >= bytes) return;
   throw FileError(fmt::format("{}: cannot write: the disk has {:.1f} MB left and {:.1f} MB are needed",
                               path.string(), space.available * 1e-6, bytes * 1e-6));
+}
+
+void free_reserve(const std::filesystem::path& path) {
+  std::error_code none;
+  const auto size = std::filesystem::file_size(path, none);
+  if (!none) std::filesystem::resize_file(path, size, none);
+}
+
+void must_be_there(const std::filesystem::path& path) {
+  std::error_code unknown;
+  if (std::filesystem::exists(path, unknown) || unknown) return;
+  throw FileError(path.string() + ": cannot write: it was removed while the run went on");
 }
 
 void seal_file(const std::filesystem::path& path) {

@@ -29,6 +29,7 @@ class Schedule {
   explicit Schedule(double every) : every_(every) {}
 
   bool due(double time) const { return multiple(time) > last_multiple_; }
+  bool begun() const { return last_time_ >= 0; }
   bool written_at(double time) const { return time == last_time_; }
   void written(double time) {
     last_time_ = time;
@@ -181,16 +182,22 @@ struct RunOutput::Impl {
     const auto wanted = [&](const Schedule& s) { return everything ? !s.written_at(time) : s.due(time); };
     for (auto& f : frames) {
       if (!wanted(f.schedule)) continue;
+      const bool again = f.schedule.begun();
       f.schedule.written(time);
-      writer.post([file = &f.file, store = simulation.snapshot(f.store), time] {
+      writer.post([file = &f.file, store = simulation.snapshot(f.store), time, again] {
+        if (again) must_be_there(file->path());
         file->append(store, time);
         file->write_xdmf();
       });
     }
     for (auto& t : tables) {
       if (!wanted(t.schedule)) continue;
+      const bool again = t.schedule.begun();
       t.schedule.written(time);
-      writer.post([csv = &t.csv, row = row_of(simulation, t), time] { csv->append(time, row); });
+      writer.post([csv = &t.csv, row = row_of(simulation, t), time, again] {
+        if (again) must_be_there(csv->path());
+        csv->append(time, row);
+      });
     }
   }
 
@@ -200,7 +207,7 @@ struct RunOutput::Impl {
   }
 
   fs::path post_checkpoint(Simulation& simulation) {
-    const auto path = dir / "checkpoints" / fmt::format("step_{:09}.h5", simulation.steps());
+    auto path = dir / "checkpoints" / fmt::format("step_{:09}.h5", simulation.steps());
     writer.post([this, path, state = simulation.save()] {
       write_state(path, state, config);
       const std::lock_guard lock(mutex);
@@ -281,7 +288,7 @@ void RunOutput::write(Simulation& simulation, const StepInfo& info) {
 }
 
 fs::path RunOutput::checkpoint(Simulation& simulation) {
-  const auto path = impl_->post_checkpoint(simulation);
+  auto path = impl_->post_checkpoint(simulation);
   impl_->writer.drain();
   return path;
 }

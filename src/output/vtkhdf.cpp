@@ -112,7 +112,7 @@ void append_part(hid_t root, std::int64_t n) {
     append_integer(topology, "NumberOfCells", cells);
     append_integer(topology, "NumberOfConnectivityIds", cells);
     append_integers(topology, "Connectivity", ids, hsize_t(cells));
-    append_integers(topology, "Offsets", ids, hsize_t(cells + 1));
+    append_integers(topology, "Offsets", ids, hsize_t(cells) + 1);
   }
 }
 
@@ -189,9 +189,10 @@ void FrameFile::append(const HostStore& store, double time) const {
   for (const auto& a : store.arrays) bytes += a.bytes.size();
   need_space(path_, bytes);
 
-  h5::with_file_errors(path_, "write", [&] {
+  const bool first = !std::filesystem::exists(path_);
+  const auto write = [&] {
     const HostArray points = stored_points(store.arrays.at(0), double_points_);
-    if (!std::filesystem::exists(path_)) create_layout(path_, store, points, deflate_);
+    if (first) create_layout(path_, store, points, deflate_);
     Handle file = h5::open_file(path_, h5::Mode::append);
     {
       const Handle root = h5::open_group(file, "VTKHDF");
@@ -224,7 +225,15 @@ void FrameFile::append(const HostStore& store, double time) const {
       h5::write_integer(steps, "NSteps", std::int64_t(frames) + 1);
     }
     file.close();
-  });
+  };
+  try {
+    h5::with_file_errors(path_, "write", write);
+  } catch (const FileError&) {
+    std::error_code not_there;
+    if (first) std::filesystem::remove(path_, not_there);  // it holds no frame
+    throw;
+  }
+  free_reserve(path_);
 }
 
 std::vector<double> FrameFile::times() const {

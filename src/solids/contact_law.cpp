@@ -33,11 +33,12 @@ ContactLaw make_contact_law(const Config& config) {
   law.spring.k = Real(c.k);
   if (law.normal == NormalLaw::linear) {
     if (!(c.k > 0))
-      throw CaseError("contact.k = " + std::to_string(c.k) + ": must be > 0 N/m for a linear spring");
+      throw KeyError("contact.k",
+                     "contact.k = " + std::to_string(c.k) + ": must be > 0 N/m for a linear spring");
     if (c.clip_tension && g.e < std::exp(-2.0))
-      throw CaseError("grain.e = " + std::to_string(g.e) +
-                      ": must be at least 0.136 for a linear spring that never pulls; "
-                      "set contact.clip_tension = false");
+      throw KeyError("grain.e", "grain.e = " + std::to_string(g.e) +
+                                    ": must be at least 0.136 for a linear spring that never pulls; "
+                                    "set contact.clip_tension = false");
     law.spring.beta = Real(c.clip_tension ? damping_share_clipped(g.e) : share);
   }
   law.linear_sliding.ratio = Real(c.kt_ratio);

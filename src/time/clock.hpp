@@ -15,20 +15,21 @@ class Clock {
  public:
   explicit Clock(const TimeConfig& config) : config_(config) {}
 
-  double time = 0;       ///< s
+  double time = 0;  ///< s
   std::int64_t step = 0;
-  double last_dt = 0;    ///< s
+  double last_dt = 0;  ///< s
 
   /// The least of the limits; adaptive steps grow by at most 5 %. A fixed step above a limit is
-  /// a CaseError unless forced.
+  /// a KeyError unless forced.
   double next_dt(std::vector<StepLimit> limits, std::string_view& binding) const {
     if (config_.dt > 0) {
       binding = "fixed";
       for (const auto& l : limits)
         if (config_.dt > l.seconds * (1 + 1e-9) && !config_.force_dt)
-          throw CaseError("time.dt = " + std::to_string(config_.dt * 1e6) + " us: must be at most " +
-                          std::to_string(l.seconds * 1e6) + " us; limited by " + l.name + " at t = " +
-                          std::to_string(time) + " s");
+          throw KeyError("time.dt", "time.dt = " + std::to_string(config_.dt * 1e6) +
+                                        " us: must be at most " + std::to_string(l.seconds * 1e6) +
+                                        " us; limited by " + l.name + " at t = " + std::to_string(time) +
+                                        " s");
       return config_.dt;
     }
     double dt = last_dt > 0 ? 1.05 * last_dt : std::numeric_limits<double>::infinity();
@@ -40,8 +41,8 @@ class Clock {
 
  private:
   static std::string_view intern(const std::string& name) {
-    for (std::string_view known : {"cfl", "viscous", "body", "drag", "travel", "contact", "rayleigh", "rolling",
-                                   "body contact", "body turn"})
+    for (std::string_view known : {"cfl", "viscous", "body", "drag", "travel", "contact", "rayleigh",
+                                   "rolling", "body contact", "body turn"})
       if (known == name) return known;
     return "other";
   }

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Every shipped case, a few steps of it, unbroken and in two halves: the end must be the same, byte for byte.
 
-    halves.py BEDLOAD [--only NAME ...] [--steps 24] [--backend cpu] [--threads 2] [--settle]
+    halves.py BEDLOAD [--only NAME ...] [--steps 24] [--backend cpu] [--threads 2 1 3] [--settle]
 
-BEDLOAD is the program. The second half goes on from the checkpoint that the first leaves. Beds are as laid unless
---settle is given, which some cases take minutes for. Prints a line for each case; exits with 1 if one differs or fails.
+BEDLOAD is the program. The second half goes on from the checkpoint that the first leaves; the whole and either half
+run on different numbers of threads. Beds are as laid unless --settle is given, which some cases take minutes for. Prints a line for each case; exits with 1 if one differs or fails.
 Not part of the test suite.
 """
 
@@ -24,23 +24,24 @@ def last_checkpoint(run):
 
 def halves(case, options, folder):
     """What became of a case, and whether that is as it should be."""
-    settings = ["--backend", options.backend, "--threads", str(options.threads)]
+    settings = ["--backend", options.backend]
     if not options.settle:
         settings += ["--set", "grain.settle=false"] if "settle = true" in case.read_text() else []
 
-    def run(name, *arguments):
-        done = subprocess.run([options.program, "run", case, "--out", folder / name, "--quiet", *settings, *arguments],
-                              capture_output=True, text=True)
+    def run(name, threads, *arguments):
+        done = subprocess.run([options.program, "run", case, "--out", folder / name, "--quiet", *settings, "--threads",
+                               str(threads), *arguments], capture_output=True, text=True)
         if done.returncode:
             raise RuntimeError(f"ended with {done.returncode}: {done.stderr.strip().splitlines()[-1:]}")
         return json.loads((folder / name / "summary.json").read_text())
 
     try:
-        first = run("trial", "--until", "1e-12")  # one step
+        of_whole, of_first, of_second = options.threads
+        first = run("trial", of_whole, "--until", "1e-12")  # one step
         end = options.steps * first["time"]["value"]
-        whole = run("whole", "--until", repr(end))
-        run("halves", "--until", repr(0.5 * end))
-        run("halves", "--until", repr(end), "--restart", "latest")
+        whole = run("whole", of_whole, "--until", repr(end))
+        run("halves", of_first, "--until", repr(0.5 * end))
+        run("halves", of_second, "--until", repr(end), "--restart", "latest")
     except RuntimeError as error:
         return str(error), False
     a, b = last_checkpoint(folder / "whole"), last_checkpoint(folder / "halves")
@@ -54,7 +55,7 @@ def main():
     parser.add_argument("--only", nargs="*", default=[], help="names of cases or their folders")
     parser.add_argument("--steps", type=int, default=24, help="of the first step's length")
     parser.add_argument("--backend", default="cpu")
-    parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--threads", type=int, nargs=3, default=[2, 1, 3], help="of the whole and of either half")
     parser.add_argument("--settle", action="store_true", help="beds settle first, as the cases have it")
     options = parser.parse_args()
     options.program = options.program.resolve()

@@ -107,6 +107,29 @@ TEST(MotionCase, TablesMayStandInTheCase) {
             "dam.toml:17: wall.body.motion.file = \"none.csv\" must name a table; there is no file none.csv");
 }
 
+TEST(MotionCase, FormulasMayBreakButNotJump) {
+  const auto with = [](const std::string& displacement, const std::string& rotation = "0") {
+    return changed("[grain]\n", "[wall.body.motion]\nkind = \"formula\"\ndisplacement = [0, 0, \"" +
+                                    displacement + "\"]\nrotation = [\"" + rotation + "\", 0, 0]\n[grain]\n");
+  };
+  EXPECT_EQ(error_of(with("t < 0.2 ? 0 : 0.01")),
+            "dam.toml:17: wall.body.motion.displacement = [0, 0, \"t < 0.2 ? 0 : 0.01\"] must not jump; \"t "
+            "< 0.2 ? 0 "
+            ": 0.01\" does by 0.01 m at t = 0.2 s");
+  EXPECT_EQ(error_of(with("0", "rint(5*t)")),
+            "dam.toml:18: wall.body.motion.rotation = [\"rint(5*t)\", 0, 0] must not jump; \"rint(5*t)\" "
+            "does by 1 deg "
+            "at t = 0.1 s");
+  EXPECT_EQ(error_of(with("t < 0.4 ? 0 : 0.01")), "") << "the run ends before";
+  const std::string jump = "wall.body \"tank\": its velocity jumps ";
+  EXPECT_EQ(warnings_of(with("max(0, t - 0.15)^1")),
+            (std::vector<std::string>{jump + "by 1 m/s at t = 0.15 s"}));
+  EXPECT_TRUE(warnings_of(with("0.001*(1 - cos(5000*t))")).empty());
+  const auto teeth = warnings_of(with("0.001*abs(sin(pi*t/0.01 + pi/2))"));  // one every 10 ms
+  ASSERT_EQ(teeth.size(), 6u) << "the motion begins elsewhere as well";
+  EXPECT_EQ(teeth.back(), jump + "26 times more until t = 0.295 s");
+}
+
 TEST(MotionCase, SteadyMotionsJumpWithoutWarningOnlyAtTheVeryStart) {
   const auto warnings = [](const std::string& text) {
     return warnings_of(changed("[grain]\n", "[wall.body.motion]\n" + text + "\n[grain]\n"));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "src/motion/formula_breaks.hpp"
 #include "src/motion/spline.hpp"
 #include "src/motion/survey.hpp"
 
@@ -226,6 +227,63 @@ TEST(Spline, SmoothKeepsItsCurvatureAcrossPoints) {
   }
   EXPECT_NEAR(Spline({0, 1, 3}, {0, 1, 9}, false).at(2).y, 4, 1e-14);  // a parabola
   EXPECT_NEAR(Spline({0, 2}, {0, 4}, false).at(0.5).rate, 2, 1e-14);
+}
+
+TEST(Formula, BreaksAreFoundWhereTheyAre) {
+  const auto found = [](const char* text, double span) { return breaks_of(Formula(text, "t"), span); };
+  const auto at = found("t < 1.2345678 ? 0 : 0.3*(t - 1.2345678)", 4);
+  ASSERT_EQ(at.size(), 1u);
+  EXPECT_NEAR(at[0].time, 1.2345678, 1e-8);
+  EXPECT_NEAR(at[0].rate_jump, 0.3, 1e-6);
+  EXPECT_EQ(at[0].jump, 0);
+  const auto jump =
+      found("100 + 0.01*sin(t) + (t < 3 ? 0 : 1e-4)", 4);  // far from zero, small against the rest
+  ASSERT_EQ(jump.size(), 1u);
+  EXPECT_NEAR(jump[0].time, 3, 1e-6);
+  EXPECT_NEAR(jump[0].jump, 1e-4, 1e-8);
+  const auto teeth = found("abs(sin(50*t))", 1);
+  ASSERT_EQ(teeth.size(), 15u);
+  for (std::size_t k = 0; k < teeth.size(); ++k) {
+    EXPECT_NEAR(teeth[k].time, double(k + 1) * pi / 50, 1e-8);
+    EXPECT_NEAR(teeth[k].rate_jump, 100, 0.01);
+  }
+  EXPECT_EQ(found("0.01*rint(10*t)", 1).size(), 10u);
+  const auto both = found("max(0, t - 0.1) - 2*max(0, t - 0.1004)", 1);  // nearer than two samples
+  ASSERT_EQ(both.size(), 2u);
+  EXPECT_NEAR(both[0].rate_jump, 1, 1e-4);
+  EXPECT_NEAR(both[1].rate_jump, -2, 1e-4);
+}
+
+TEST(Formula, SmoothOnesDoNotBreak) {
+  for (const char* text :
+       {"0.3", "t", "1000 + 1e-3*sin(7*t)", "sin(4e4*t)", "sin(6e5*t)", "t^2.5", "sqrt(t)", "sqrt(t + 1e-4)",
+        "exp(-100*t)*sin(2000*t)", "tanh(200*(t - 0.5))", "t < 0.5 ? t^2 : t - 0.25", "1e20*t"})
+    EXPECT_TRUE(breaks_of(Formula(text, "t"), 1).empty()) << text;
+}
+
+TEST(Formula, RatesBesideABreakAreThoseOfEitherSide) {
+  const MotionLaw law(motion_of({formula({"t < 0.5 ? 0.1*t : 0.05 + 2*(t - 0.5)", "0", "0"})}), 1);
+  for (const double aside : {1e-8, 1e-5, 1e-3, 0.1}) {
+    EXPECT_NEAR(law.at(0.5 - aside).v.x, 0.1, 1e-7) << aside;
+    EXPECT_NEAR(law.at(0.5 + aside).v.x, 2, 1e-7) << aside;
+    EXPECT_NEAR(law.at(0.5 + aside).a.x, 0, 2e-3) << aside;
+  }
+}
+
+TEST(Survey, FindsJumpsWithinFormulas) {
+  const std::vector<Vec3d> points{{0, 0, 0}, {1, 0, 0}};
+  auto part = formula({"t < 0.5 ? 0 : 2*(t - 0.5)", "0", "t < 0.5 ? 0 : t - 0.5"},
+                      {"0", "0", "max(0, t - 0.8)*180/pi"});
+  part.start = 0.1;
+  const auto jumps = velocity_jumps(motion_of({part}), points, 2);
+  ASSERT_EQ(jumps.size(), 2u);
+  EXPECT_NEAR(jumps[0].time, 0.6, 1e-7);
+  EXPECT_NEAR(jumps[0].size, std::sqrt(5), 1e-6);
+  EXPECT_NEAR(jumps[1].time, 0.9, 1e-7);
+  EXPECT_NEAR(jumps[1].size, 1, 1e-6);
+  part.stop = 0.3;
+  EXPECT_TRUE(velocity_jumps(motion_of({part}), points, 2).empty()) << "it has stopped by then";
+  EXPECT_TRUE(velocity_jumps(motion_of({formula({"0.001*(1-cos(6e4*t))", "0", "0"})}), points, 2).empty());
 }
 
 TEST(Survey, FindsTopSpeedAndJumps) {

@@ -484,6 +484,43 @@ TEST_F(Program, RefusesWhatIsTooFineForTheMemoryBeforeLayingIt) {
   EXPECT_NE(o.err.find(" free, enough for "), o.err.npos) << o.err;
 }
 
+/// Errors that come up as particles are laid and meshes are read name their place as those of the reader do.
+TEST_F(Program, NamesThePlaceOfWhatCannotBeLaid) {
+  const auto refused = [&](const std::string& more, const std::string& message, const std::string& set = "") {
+    write("dam.toml", kSmall + more);  // whose next line is the 28th
+    for (const std::string command : {"check", "run"}) {
+      const Outcome o = bedload(command + " dam.toml --backend cpu" + set);
+      EXPECT_EQ(o.code, 2) << command;
+      EXPECT_TRUE(o.err.starts_with(message)) << o.err;
+      EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+    }
+  };
+  const std::string fill = "[[fluid.fill]]\n", shape = "[[shape]]\nname = \"part\"\n";
+  refused(
+      "[[wall.body]]\nname = \"side\"\nshape = \"plane\"\npoint = [0.02, 0, 0]\nnormal = [1, 0, 0]\n",
+      "dam.toml:7: fluid.fill: 60 fluid particles, the first at (0.005, 0.005, 0.005) m, lie inside "
+      "wall.body \"side\"");
+  refused(fill + "min = [0.04, 0, 0]\nmax = [0.06, 0.06, 0.05]\n",
+          "dam.toml:28: fluid.fill 2 overlaps fluid.fill 1\n");
+  refused(fill + "min = [0.06, 0, 0]\nmax = [0.08, 0.06, 0.05]\nvelocity = [\"1/(x - 0.065)\", 0, 0]\n",
+          "dam.toml:31: fluid.fill 2: velocity x = \"1/(x - 0.065)\": is not a number at (0.065, ");
+  refused(fill + "shape = \"part\"\n" + shape + "kind = \"difference\"\nof = [\"all\", \"all\"]\n",
+          "dam.toml:30: shape \"part\": of = \"all\" must name a shape listed before it");
+  refused(shape +
+              "kind = \"sphere\"\ncentre = [0.08, 0.03, 0.05]\nradius = 0.01\n[[shape]]\nname = \"none\"\n"
+              "kind = \"difference\"\nof = [\"part\", \"part\"]\n" +
+              fill + "shape = \"none\"\n",
+          "dam.toml:38: fluid.fill 2: shape \"none\" has no room for a particle of 0.01 m\n");
+  refused("", "dam.toml:20: grain.fill 1: 800 grains of 0.005 m need at least ",
+          " --set grain.fill.0.count=800");
+  const std::string mesh = (dir_ / "part.stl").string();
+  refused(shape + "kind = \"mesh\"\nfile = \"part.stl\"\n",
+          "dam.toml:31: shape \"part\": " + mesh + ": cannot read: no such file\n");
+  const std::string hopper = content_of(BL_SOURCE_DIR "/cases/hopper/hopper.stl");
+  write("part.stl", hopper.substr(0, hopper.size() / 2));
+  refused(shape + "kind = \"mesh\"\nfile = \"part.stl\"\n", "dam.toml:31: shape \"part\": " + mesh + ": ");
+}
+
 TEST_F(Program, TellsHowLargeMeshesAre) {
   const std::string hopper = std::string(BL_SOURCE_DIR) + "/cases/hopper/hopper.stl";
   std::filesystem::copy_file(hopper, dir_ / "hopper.stl");

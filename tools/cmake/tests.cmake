@@ -5,12 +5,16 @@ include(GoogleTest)
 
 # bedload_register(<executable> [label prefix]): its tests, which ctest calls <executable>.<suite>.<test>.
 function(bedload_register target)
+  set(seconds 300)
+  if(BEDLOAD_SANITIZE OR BEDLOAD_COVERAGE)
+    set(seconds 1800)
+  endif()
   # Two tests may run at once, and waiting threads that spin would starve each other.
   set(environment OMP_WAIT_POLICY=passive)
   gtest_discover_tests(
     ${target} TEST_FILTER "-Slow*:*/Slow*" TEST_PREFIX "${target}." TEST_LIST ${target}_quick
     DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${ARGN}quick" TIMEOUT 300 ENVIRONMENT "${environment}")
+    PROPERTIES LABELS "${ARGN}quick" TIMEOUT ${seconds} ENVIRONMENT "${environment}")
   set(slow "Slow*:*/Slow*")
   if(target MATCHES "single|double")
     string(APPEND slow "-SlowMixed*:*/SlowMixed*")

@@ -3,12 +3,20 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace bedload {
 
 /// A case, command line or input file that cannot be run. Exit code 2.
 struct CaseError : std::runtime_error {
   using std::runtime_error::runtime_error;
+};
+
+/// The same of a case that was read already, by the path of a key ("fluid.fill.0.max"): whoever knows the
+/// file adds where it says so.
+struct KeyError : CaseError {
+  KeyError(std::string of, const std::string& what) : CaseError(what), key(std::move(of)) {}
+  std::string key;
 };
 
 /// A file that cannot be read or written. Exit code 2.

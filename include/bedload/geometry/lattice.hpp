@@ -27,8 +27,10 @@ inline Cells fit_cells(double lo, double hi, double spacing) {
 
 /// Adds every fluid.fill that is a box or a shape; in a box a lattice that divides each side evenly, so that
 /// it meets walls and periodic images half a spacing off. The masses of a fill are
-/// equal and add up to rho0 times its volume. Fills must not overlap. Throws CaseError.
-void add_fluid(const Config& config, Setup::Fluid& fluid, std::vector<std::string>& warnings);
+/// equal and add up to rho0 times its volume. Fills must not overlap. Returns the first particle of each
+/// fill, and their number at the end. Throws KeyError.
+std::vector<std::size_t> add_fluid(const Config& config, Setup::Fluid& fluid,
+                                   std::vector<std::string>& warnings);
 
 /// Adds every fluid.fill that comes from a file; call it after add_fluid. Each particle weighs rho0 dx^3.
 /// Throws CaseError with file and line for particles outside the domain, inside walls or in other fluid.

@@ -20,7 +20,7 @@ class MotionLaw {
 
   RigidMotion at(double t) const;
   bool moves() const { return !parts_.empty(); }
-  /// Times at which a part sets in or ends, ascending, s: there the velocity may jump.
+  /// Times at which a part sets in, breaks or ends, ascending, s: there the velocity may jump.
   std::vector<double> events() const;
 
  private:

@@ -28,7 +28,14 @@ Seal seal_of(const std::filesystem::path& path);
 /// Name of the unfinished file beside `path`.
 std::filesystem::path part_of(const std::filesystem::path& path);
 
-/// Throws FileError unless the disk that holds `path` has room for `bytes` more.
+/// Throws FileError unless the disk that holds `path` has room for `bytes` more. A file that is there keeps
+/// the room, even against others that write, until free_reserve.
 void need_space(const std::filesystem::path& path, std::size_t bytes);
+
+/// Gives back what need_space took and the file did not grow by.
+void free_reserve(const std::filesystem::path& path);
+
+/// Throws FileError if a file has gone that was written before.
+void must_be_there(const std::filesystem::path& path);
 
 }  // namespace bedload
