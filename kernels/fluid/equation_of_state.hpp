@@ -24,11 +24,12 @@ struct EquationOfState {
   }
   /// Elastic energy per mass against rho0 [J/kg]: integral of P / rho^2.
   BL_HD double energy(double x) const {
-    const double torn = double(least) - x;
-    if (torn > 0) return energy(least) - torn * double(pressure(least)) / (rho0 * square(1 + double(least)));
-    const double g = gamma, l = std::log1p(x);
+    const double torn = max_of(double(least) - x, 0.0), whole = x + torn;
+    const double g = gamma, l = std::log1p(whole);
     const double work = g > 1 ? std::expm1((g - 1) * l) / (g - 1) : l;
-    return (double(B) * (work + std::expm1(-l)) - double(P_ref) * std::expm1(-l)) / rho0;
+    return (double(B) * (work + std::expm1(-l)) - double(P_ref) * std::expm1(-l) -
+            torn * double(pressure(least)) / square(1 + whole)) /
+           rho0;
   }
 };
 
