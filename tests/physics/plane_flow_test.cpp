@@ -75,6 +75,27 @@ TEST(PlaneFlow, SeesASliceOfAShape) {
   EXPECT_NEAR(count, M_PI * (radius * radius - 0.02 * 0.02) / (kDx * kDx), 2);
 }
 
+TEST(PlaneFlow, LeavesOutTheSliceOfABodyAtAnySpacing) {
+  for (const double dx : {0.01, 0.008, 0.00625, 0.005}) {
+    Config c = tank();
+    c.fluid.dx = c.wall.dx = dx;
+    ShapeConfig pile;
+    pile.name = "pile", pile.kind = "cylinder";
+    pile.solid.shape = make_cylinder({0.15, -1, 0.1}, {0.15, 1, 0.1}, 0.04);
+    c.shapes = {pile};
+    c.wall.bodies.push_back(test::body("pile", {0.1, -1, 0.05}, {0.2, 1, 0.15}));
+    c.wall.bodies.back().shape = "pile", c.wall.bodies.back().solid = pile.solid;
+    std::vector<std::string> warnings;
+    const auto setup = build_setup(c, warnings);
+    const double area = 0.3 * 0.2 - M_PI * 0.04 * 0.04;
+    double mass = 0;
+    for (const double m : setup.fluid.mass) mass += m;
+    EXPECT_NEAR(mass / (1000 * area * kLong), 1, 2e-3) << dx;
+    EXPECT_NEAR(double(setup.fluid.x.size()) * dx * dx / area, 1, 0.02)
+        << dx << ": places alike stay together";
+  }
+}
+
 TEST(PlaneFlow, StandsOnItsFloor) {
   auto s = started(tank());
   ProbeConfig floor = on_tank("wall_pressure");

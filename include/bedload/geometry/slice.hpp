@@ -14,7 +14,7 @@ class Slice final : public Shape {
   SurfacePoint nearest(const Vec3d& x) const override {
     SurfacePoint p = shape_.nearest({x.x, middle_, x.z});
     const double beyond = std::abs(x.y - middle_) - half_;
-    if (beyond > std::fmax(p.distance, 0)) {
+    if (beyond > std::fmax(p.distance, -1e-6 * half_)) {  // on its faces too, whatever rounding says
       const double side = x.y < middle_ ? -1 : 1;
       return {beyond, {x.x, middle_ + side * half_, x.z}, {0, side, 0}};
     }
