@@ -31,8 +31,7 @@ struct DensityPass {
   Span<Real> s_new;
   CutShare cut;
   Real least;      ///< s at which fluid tears
-  Real fading;     ///< of pressure where there is room [1/s]
-  Real follow;     ///< of the density of torn fluid after its room [1/s]
+  Real fading;     ///< of pressure where there is room, and pace at which torn fluid follows it [1/s]
   Real spreading;  ///< of density where particles overfill their volume [1/s]
 
   static constexpr Real slack = Real(0.02);  ///< twice what the sum over particles at rest scatters
@@ -79,7 +78,7 @@ struct DensityPass {
     const Real excess = max_of(Real(0), filled - 1 - slack), pressed = max_of(Real(0), s[a]);
     Real s_a = s[a] + dt * (diffusion * sum.diffused - sum.rate) / (sum.eps * rho0) + dt * spreading * excess;
     if (s[a] < least)
-      s_a += min_of(dt * follow, Real(1)) * (min_of(least, slack - room) - s[a]);
+      s_a += min_of(dt * fading, Real(1)) * (min_of(least, slack - room) - s[a]);
     else
       s_a -= min_of(dt * fading * room, Real(1)) * pressed;
     s_new[a] = s_a;

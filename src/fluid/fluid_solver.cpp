@@ -120,7 +120,6 @@ class FluidSolverWith final : public FluidSolver {
                         cut_,
                         least(),
                         Real(config_.density.consolidation * c / config_.fluid.h()),
-                        Real(3 * c / config_.fluid.h()),
                         Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0)};
     run(fluid, walls, range(), pass);
     if (!frozen_) return;
