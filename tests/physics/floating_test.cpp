@@ -151,9 +151,10 @@ TEST(SmallFreeBody, FluidGrainsAndBodyKeepMomentaTogether) {
 }
 
 /// The part of a grain's volume that the body has pushed aside is lifted beside the grain, and the moment of
-/// that is given to no one: the more, the higher the pressure.
+/// that is given to no one: the more, the higher the pressure, and as it is where fluid is torn. Clipping the
+/// density there instead of the pressure, with the repulsion of walls, leaves 5e-6 of the scale for 9e-6.
 TEST(SmallFreeBody, KeepsAngularMomentumButForVolumeThatItPushesAside) {
-  expect_momenta_kept("two_way", 5e-6, true, 0.25, false);
+  expect_momenta_kept("two_way", 9e-6, true, 0.25, false);
   expect_momenta_kept("two_way", 1.2e-5);
 }
 
