@@ -37,7 +37,10 @@ Config settling_case(const Config& config) {
   dry.gravity = config.gravity;
   dry.shapes = config.shapes;
   dry.wall.bodies = config.wall.bodies;
-  for (WallBody& body : dry.wall.bodies) body.motion = {};  // walls begin to move at t = 0
+  for (WallBody& body : dry.wall.bodies) {  // walls begin to move at t = 0
+    body.motion = {};
+    body.surface_velocity = {};
+  }
   dry.contact = config.contact;
   dry.grain = config.grain;
   dry.grain.release_time = 0;

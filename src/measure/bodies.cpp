@@ -54,8 +54,8 @@ const CoupledSimulation::FluidLoads& CoupledSimulation::fluid_loads() {
     loads.pressure[b] = sum(forces.pressure);
     loads.friction[b] = sum(forces.friction);
     if (repulsion.walls.surfaces.size > 0)
-      LoadSum::combine(loads.pressure[b],
-                       reduce(fluid_.owned(), BodyRepulsion{repulsion, b, fluid_.x, fluid_.mass, fluid_.heading}));
+      LoadSum::combine(loads.pressure[b], reduce(fluid_.owned(), BodyRepulsion{repulsion, b, fluid_.x,
+                                                                               fluid_.mass, fluid_.heading}));
   }
   return loads;
 }

@@ -77,8 +77,8 @@ TEST(PlaneDamBreak, LeaksNothingWhereItStrikes) {
   EXPECT_GT(lost("no_penetration = false\n"), 0) << "pressure alone holds it";
 }
 
-/// Force along x (N) on a floor of 0.1 by 0.1 m under water between it and a lid at rest 0.01 m above, which
-/// has begun to shear.
+/// Force along x (N) of a floor of 0.1 by 0.1 m on the liquid between it and a lid at rest 0.01 m above,
+/// before the shear reaches that.
 double drag_of(const std::string& floor) {
   auto s = started(R"(gravity = [0, 0, 0]
 [domain]
@@ -110,14 +110,14 @@ end = 1
 [out]
 every = 1
 )");
-  run_until(*s, 0.05);
+  run_until(*s, 0.005);
   return reading(*s, "force_walls_on_fluid_x");
 }
 
 TEST(SlidingSurface, DragsFluidAsAWallThatMoves) {
   const double slides = drag_of("surface_velocity = [0.05, 0, 0]\n");
   const double moves = drag_of("[wall.body.motion]\nkind = \"velocity\"\nvelocity = [0.05, 0, 0]\n");
-  ASSERT_GT(std::abs(moves), 0);
+  EXPECT_NEAR(moves, 0.126, 0.02) << "diffusion into a half-space: mu u / sqrt(pi nu t)";
   EXPECT_NEAR(slides / moves, 1, 0.01);
 }
 
