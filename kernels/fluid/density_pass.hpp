@@ -4,6 +4,40 @@
 
 namespace bedload::inline BL_VARIANT {
 
+/// How far particles are shifted, by what the kernel sees.
+struct Shifting {
+  Real area;      ///< A h^2 [m2]
+  Real stiffest;  ///< h^2 / (2 dt) [m2/s]; beyond it places would overshoot
+  Real fastest;   ///< 0.1 dx / dt [m/s]
+  Real per_axis;  ///< 1 / dimensions
+
+  BL_HD bool acts() const { return area > 0; }
+  /// Drift velocity by the strain S, div r and -grad C.
+  template <class S>
+  BL_HD Real3 operator()(const S& strain, Real divergence, const Real3& gradient) const {
+    const Real inside = clamp(20 * (divergence * per_axis - Real(0.9)), Real(0), Real(1));
+    const Real3 u = inside * min_of(area * strain.magnitude(), stiffest) * gradient;
+    const Real u2 = norm2(u);
+    return u2 > square(fastest) ? fastest / std::sqrt(u2) * u : u;
+  }
+};
+
+/// Symmetric part of a gradient, 1/s.
+template <class N>
+struct Strain {
+  N xx, yy, zz, xy, yz, zx;
+  BL_HD void add(const N& w, const Vec3<N>& v, const Vec3<N>& r) {
+    xx += w * v.x * r.x, yy += w * v.y * r.y, zz += w * v.z * r.z;
+    xy += w * (v.x * r.y + v.y * r.x), yz += w * (v.y * r.z + v.z * r.y), zx += w * (v.z * r.x + v.x * r.z);
+  }
+  BL_HD void merge(const Strain& o) {
+    xx += o.xx, yy += o.yy, zz += o.zz, xy += o.xy, yz += o.yz, zx += o.zx;
+  }
+  BL_HD N magnitude() const {
+    return root(square(xx) + square(yy) + square(zz) + Real(0.5) * (square(xy) + square(yz) + square(zx)));
+  }
+};
+
 /// Continuity of the mixture with density diffusion (Fourtakas et al. 2019), over `dt`:
 ///   eps_a d rho_a / dt = - sum_b M_b (q_a - q_b) . r_ab F_ab,  M = m / eps,  q = eps v + sum_j w_j u_j,
 /// q being the volume flux of fluid and grains, which the density balances; [H (6)], [R (7)] where there are
@@ -19,6 +53,16 @@ namespace bedload::inline BL_VARIANT {
 /// particles: what the gradient of the porosity in its sum differs from how the porosity changes along the
 /// way adds up, and fluid that has entered a bed may stand more closely than its volume allows. So among
 /// grains density grows where particles overfill the kernel by more than `slack`.
+///
+/// Particle shifting after Lind et al. 2012: where fluid strains, particles drift from where they crowd,
+///   u = -min(A h^2 |S|, h^2 / (2 dt)) grad C,    grad C = sum_b V_b grad W_ab,    |u| <= 0.1 dx / dt,
+/// S being the rate of strain, the symmetric part of sum_b V_b F_ab (q_a - q_b) r_ab, in which the noise of
+/// single particles averages out: what rests or turns as a whole is left alone. A lattice that lasts bears
+/// shear by its pressure, at any resolution. Not within about h of a free surface, where
+/// div r = sum_b V_b F_ab r_ab^2 is below 0.9 d; just below that the surface is still felt, and fluid whose
+/// surface turns over and over swells. The velocities of particles stay, so momentum holds; what that takes
+/// along is of the order of h^2 |S|. Drift by nearest neighbours alone, which does not feel the surface, has
+/// another equilibrium than the pressure and pumps energy into still water.
 template <class W>
 struct DensityPass {
   W w;
@@ -33,27 +77,35 @@ struct DensityPass {
   Real least;      ///< s at which fluid tears
   Real fading;     ///< of pressure where there is room, and pace at which torn fluid follows it [1/s]
   Real spreading;  ///< of density where particles overfill their volume [1/s]
+  Shifting shifting;
+  Span<Real3> drift;  ///< empty where nothing drifts
 
   static constexpr Real slack = Real(0.02);  ///< twice what the sum over particles at rest scatters
 
   template <class N = Real>
   struct Sum {
     Vec3<N> q;
-    N rho, eps, rate, diffused, filled;
+    N rho, eps, rate, diffused, filled, divergence;
     Vec3<N> gradient;
+    Strain<N> strain;
   };
   BL_HD Sum<> start(Index a) const {
     const Real4 m = m_state[a];
-    return {flux[a].xyz(), m.z, m.w, 0, 0, 0, {}};
+    return {flux[a].xyz(), m.z, m.w, 0, 0, 0, 0, {}, {}};
   }
 
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
     const Vec4<N> qb = flux[b], mb = m_state[b];
     const N distance = root(r2), F = w.F(distance), V = mb.x / mb.z;
-    sum.rate += mb.x * F * dot(sum.q - qb.xyz(), r);
+    const Vec3<N> v = sum.q - qb.xyz();
+    sum.rate += mb.x * F * dot(v, r);
     sum.filled += V * w.W(distance);
     sum.gradient += V * F * r;
+    if (shifting.acts()) {
+      sum.divergence += V * F * r2;
+      sum.strain.add(V * F, v, r);
+    }
     const N still = 1 - stiffening * (Real(0.5) * (sum.rho + mb.z) / rho0 - 1);
     const N shared = Real(0.5) * (sum.eps + mb.w);  // what one gains the other loses
     sum.diffused += shared * V * F * (mb.z - sum.rho + still * dot(Vec3<N>(hydrostatic), r));
@@ -65,12 +117,15 @@ struct DensityPass {
     sum.rate += V * rho0 * F * dot(sum.q - vb.xyz(), r);
     sum.filled += V * w.W(distance);
     sum.gradient += V * F * r;
+    if (shifting.acts()) sum.divergence += V * F * r2;
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.rate += other.rate;
     into.diffused += other.diffused;
     into.filled += other.filled;
     into.gradient += other.gradient;
+    into.strain.merge(other.strain);
+    into.divergence += other.divergence;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
     const Real filled = m_state[a].x / sum.rho * w.W(Real(0)) + sum.filled;
@@ -82,6 +137,7 @@ struct DensityPass {
     else
       s_a -= min_of(dt * fading * room, Real(1)) * pressed;
     s_new[a] = s_a;
+    if (drift) drift[a] = shifting(sum.strain, sum.divergence, sum.gradient);
   }
 };
 

@@ -10,7 +10,7 @@ namespace bedload::inline BL_VARIANT {
 template <class W>
 struct WallPair {
   W w;
-  Real mu;  ///< Pa s; 0 switches the viscous term off
+  Viscosity viscosity;
 
   /// a: {v, rho}, {M, P/rho^2, ..}; b: the wall's, with its no-slip velocity `visc` (w: mass that drags).
   /// Both masses of an inactive wall particle are zero.
@@ -19,7 +19,7 @@ struct WallPair {
                            const Vec4<N>& visc, const Vec3<N>& r, N r2) const {
     const N F = w.F(root(r2));
     Vec3<N> theta = pressure(ma, mw, r, F);
-    if (mu > 0) theta += friction(va, vw, visc, r2, F);
+    if (viscosity.acts()) theta += friction(va, vw, visc, r, r2, F);
     return theta;
   }
   template <class N>
@@ -27,8 +27,9 @@ struct WallPair {
     return pressure_term(mw.x, ma.y, mw.y, F) * r;
   }
   template <class N>
-  BL_HD Vec3<N> friction(const Vec4<N>& va, const Vec4<N>& vw, const Vec4<N>& visc, N r2, N F) const {
-    return morris_term(visc.w, 2 * mu, va.w, vw.w, r2, F, square(w.h)) * (visc.xyz() - va.xyz());
+  BL_HD Vec3<N> friction(const Vec4<N>& va, const Vec4<N>& vw, const Vec4<N>& visc, const Vec3<N>& r, N r2,
+                         N F) const {
+    return viscosity(visc.w, va.w, vw.w, va.xyz() - visc.xyz(), r, r2, F);
   }
 };
 
@@ -40,13 +41,12 @@ struct ForcePass {
   W w;
   WallPair<W> wall;
   Span<const Real4> flux, m_state, wall_v_rho, wall_m_state, wall_v_visc;
-  Real mu;
   ArtificialViscosity artificial;
   TensileTerm tensile;
   Real xsph_factor;
   Real3 gravity;  ///< minus the frame's acceleration, m/s2
   Drive drive;
-  Span<Real3> theta, acc, xsph;
+  Span<Real3> theta, acc, drift;
 
   template <class N = Real>
   struct Sum {
@@ -62,7 +62,7 @@ struct ForcePass {
     const N F = w.F(distance);
     const Vec3<N> v = sum.v.xyz() - vb.xyz();
     sum.theta += pressure_term(mb.x, sum.m.y, mb.y, F) * r;
-    if (mu > 0) sum.theta -= morris_term(mb.x, 2 * mu, sum.v.w, vb.w, r2, F, square(w.h)) * v;
+    if (wall.viscosity.acts()) sum.theta += wall.viscosity(mb.x, sum.v.w, vb.w, v, r, r2, F);
     const N rho_mean = Real(0.5) * (sum.v.w + vb.w);
     if (artificial.acts()) sum.theta += artificial.term(mb.x, dot(v, r), rho_mean, r2, F) * r;
     if (tensile.s_negative > 0) sum.theta += mb.x * tensile.R(w.W(distance), sum.m.y, mb.y) * F * r;
@@ -80,7 +80,7 @@ struct ForcePass {
   BL_HD void finish(Index a, const Sum<>& sum) const {
     theta[a] = sum.theta;
     acc[a] = sum.theta + gravity + drive(a, sum.m);
-    if (xsph_factor > 0) xsph[a] = sum.xsph;
+    if (xsph_factor > 0) drift[a] += sum.xsph;
   }
 };
 
@@ -118,7 +118,7 @@ struct WallForcePass {
     if (kick != 0) va = {va.xyz() - kick * (acc[a] - acc_before[a]), va.w};
     const Real F = wall.w.F(std::sqrt(r2));
     Real3 push = wall.pressure(ma, wall_m_state[b], -r_ba, F), drag;
-    if (wall.mu > 0) drag = wall.friction(va, wall_v_rho[b], wall_v_visc[b], r2, F);
+    if (wall.viscosity.acts()) drag = wall.friction(va, wall_v_rho[b], wall_v_visc[b], -r_ba, r2, F);
     if (layer.law) {
       const auto more = layer(va, b, -r_ba, r2);
       push += more.push;

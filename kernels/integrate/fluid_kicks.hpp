@@ -5,11 +5,11 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// v += kick (acc + reaction); x += drift (v + xsph).
+/// v += kick (acc + reaction); x += drift (v + beside).
 struct KickDriftPass {
   Frame frame;
   Real kick, drift;                       ///< s
-  Span<const Real3> acc, reaction, xsph;  ///< reaction empty without grains
+  Span<const Real3> acc, reaction, beside;  ///< reaction empty without grains
   Span<Real4> v_rho;
   Span<FluidPosition> x;
 
@@ -19,7 +19,7 @@ struct KickDriftPass {
     if (reaction) v += kick * reaction[a];
     v_rho[a] = {v, old.w};
     if (drift == 0) return;
-    const Real3 move = xsph ? v + xsph[a] : v;
+    const Real3 move = beside ? v + beside[a] : v;
     x[a] = as_position<FluidPosition>(frame, coordinates(frame, x[a]) + Vec3d(move) * double(drift));
   }
 };

@@ -83,7 +83,10 @@ void describe_fluid_models(Parameters& p, Config& c) {
   p("visc.model", &c.visc.model,
     {.meaning = "physical viscosity",
      .family = "laws",
-     .choices = {{"morris", "Laplacian form, conserves linear momentum [morris97]"}, {"none", "inviscid"}}});
+     .choices = {
+         {"morris", "Laplacian of the velocity, conserves linear momentum [morris97]"},
+         {"monaghan", "divergence of the stress, right at free surfaces, conserves both [monaghan05]"},
+         {"none", "inviscid"}}});
   p("visc.alpha", &c.visc.alpha,
     {.meaning = "artificial viscosity, linear [monaghan92]", .range = within(0, 1)});
   p("visc.beta", &c.visc.beta, {.meaning = "artificial viscosity, quadratic", .range = within(0, 2)});

@@ -95,6 +95,10 @@ void describe_top(Parameters& p, Config& c) {
     {.meaning = "1: pressure term against clumping [monaghan00]", .range = within(0, 1)});
   p("xsph", &c.xsph,
     {.meaning = "share of the neighbours' velocity in the motion (XSPH)", .range = within(0, 1)});
+  p("shift.A", &c.shift,
+    {.meaning = "particle shifting: how fast particles of straining fluid leave where they crowd, after "
+                "[lind12]; 0 off; not with grains coupled both ways, nor single layers",
+     .range = within(0, 1000)});
 }
 
 void describe_domain(Parameters& p, DomainConfig& d) {

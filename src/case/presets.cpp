@@ -16,6 +16,7 @@ Config preset_defaults(const std::string& name) {
   c.tensile = 1;
   c.tensile_one_sign = true;
   c.xsph = 0.3;
+  c.shift = 0;
   c.contact.tangential = "mindlin_deresiewicz";
   c.contact.rolling = "cdt";
   c.contact.clip_tension = false;

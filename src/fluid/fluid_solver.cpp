@@ -46,13 +46,13 @@ struct ExtremesSweep {
   Frame frame;
   Span<const Real4> v_rho, m_state;
   Span<const Real> eps, s;
-  Span<const Real3> acc, xsph;
+  Span<const Real3> acc, drift;
   Span<const FluidPosition> x, x_list;
 
   BL_HD Value identity() const { return {}; }
   BL_HD Value operator()(Index a) const {
     Real3 v = v_rho[a].xyz();
-    if (xsph) v += xsph[a];
+    if (drift) v += drift[a];
     Value out;
     out.v2 = norm2(v);
     out.acc2 = norm2(acc[a]);
@@ -120,7 +120,9 @@ class FluidSolverWith final : public FluidSolver {
                         cut_,
                         least(),
                         Real(config_.density.consolidation * c / config_.fluid.h()),
-                        Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0)};
+                        Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0),
+                        shifting(dt),
+                        drift_of(fluid)};
     run(fluid, walls, range(), pass);
     if (!frozen_) return;
     const FrozenPass<W> frozen{w_,
@@ -174,10 +176,10 @@ class FluidSolverWith final : public FluidSolver {
   }
 
   void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
-    ForcePass<W> pass{w_,           wall_pair(),   flux(fluid),        fluid.m_state,
-                      walls.v_rho,  walls.m_state, walls.v_visc,       viscosity(),
-                      artificial(), tensile(),     Real(config_.xsph), gravity_,
-                      drive(fluid), fluid.theta,   fluid.acc_next,     fluid.xsph};
+    ForcePass<W> pass{w_,          wall_pair(),        flux(fluid),  fluid.m_state,
+                      walls.v_rho, walls.m_state,      walls.v_visc, artificial(),
+                      tensile(),   Real(config_.xsph), gravity_,     drive(fluid),
+                      fluid.theta, fluid.acc_next,     fluid.drift};
     run(fluid, walls, range(), pass);
     if (layers_.size() > 0)
       for_each_pair(fluid.owned(), fluid_wall_, PairSeparation{frame_, fluid.xp, walls.xp}, range(),
@@ -221,10 +223,20 @@ class FluidSolverWith final : public FluidSolver {
                   PairSeparation{frame_, fluid.xp, walls.xp}, cutoff, pass);
   }
   Real least() const { return -Real(config_.density.tension); }
-  Real viscosity() const { return config_.visc.model == "none" ? Real(0) : Real(config_.fluid.mu); }
+  Viscosity viscosity() const {
+    const std::string& model = config_.visc.model;
+    const double d = config_.domain.two_d ? 2 : 3, h = config_.fluid.h();
+    return {Real(model == "none" ? 0 : config_.fluid.mu), Real(model == "monaghan" ? d + 2 : 0),
+            Real(1e-4 * h * h)};
+  }
   ArtificialViscosity artificial() const {
     return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c),
             Real(config_.fluid.h())};
+  }
+  Shifting shifting(double dt) const {
+    const double h = config_.fluid.h(), dx = config_.fluid.dx, rate = dt > 0 ? 1 / dt : 0;
+    return {Real(shifts() ? config_.shift * h * h : 0), Real(0.5 * h * h * rate), Real(0.1 * dx * rate),
+            Real(config_.domain.two_d ? 1. / 2 : 1. / 3)};
   }
   TensileTerm tensile() const {
     if (config_.tensile == 0) return {};
@@ -345,11 +357,9 @@ void FluidSolver::pack(FluidStore& fluid, WallStore& walls, double back) {
 }
 
 void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, bool coupled) {
-  for_each(fluid.owned(),
-           KickDriftPass{frame_, Real(kick), Real(drift), fluid.acc,
-                         coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
-                         config_.xsph > 0 ? Span<const Real3>(fluid.xsph) : Span<const Real3>(), fluid.v_rho,
-                         fluid.x});
+  for_each(fluid.owned(), KickDriftPass{frame_, Real(kick), Real(drift), fluid.acc,
+                                        coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
+                                        drift_of(fluid), fluid.v_rho, fluid.x});
 }
 
 void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
@@ -366,10 +376,8 @@ void FluidSolver::correct(FluidStore& fluid, double kick) {
 }
 
 FluidExtremes FluidSolver::extremes(const FluidStore& fluid) const {
-  return reduce(fluid.owned(),
-                ExtremesSweep{frame_, fluid.v_rho, fluid.m_state, fluid.eps, fluid.s, fluid.acc,
-                              config_.xsph > 0 ? Span<const Real3>(fluid.xsph) : Span<const Real3>(), fluid.x,
-                              fluid.x_list});
+  return reduce(fluid.owned(), ExtremesSweep{frame_, fluid.v_rho, fluid.m_state, fluid.eps, fluid.s,
+                                             fluid.acc, drift_of(fluid), fluid.x, fluid.x_list});
 }
 
 double FluidSolver::pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces,

@@ -34,6 +34,15 @@ class FluidSolver {
   double skin() const { return config_.skin_fluid * config_.fluid.dx; }  ///< m
   const EquationOfState& eos() const { return eos_; }
   Drive drive(const FluidStore& fluid) const;
+  /// With which particles move beside their velocity; empty where nothing gives one.
+  Span<const Real3> drift_of(const FluidStore& fluid) const {
+    return drifts() ? Span<const Real3>(fluid.drift) : Span<const Real3>();
+  }
+  Span<Real3> drift_of(FluidStore& fluid) const {
+    return drifts() ? Span<Real3>(fluid.drift) : Span<Real3>();
+  }
+  bool shifts() const { return config_.shift > 0 && !mixed_ && layers_.size() == 0; }
+  bool drifts() const { return shifts() || config_.xsph > 0; }
   /// Gravity minus the frame's acceleration (m/s2), for the next walls() and forces(). density() takes it for
   /// its hydrostatic slope, as it was for the state from which it starts.
   void set_gravity(const Vec3d& g) { gravity_ = Real3(g); }
@@ -45,7 +54,7 @@ class FluidSolver {
   /// Copies of positions as pair loops read them, `back` (s) before where they are.
   void pack(FluidStore& fluid, WallStore& walls, double back = 0);
 
-  /// v += kick (acc + reaction), x += drift (v + xsph); `coupled`: there is a reaction.
+  /// v += kick (acc + reaction), x += drift (v + what they drift beside it); `coupled`: there is a reaction.
   void kick_drift(FluidStore& fluid, double kick, double drift, bool coupled);
   /// s_next, and the density of frozen walls, from continuity over dt, with positions as packed.
   virtual void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) = 0;
@@ -56,7 +65,8 @@ class FluidSolver {
   /// drag_kick arose (s), 0 where there is none.
   virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
                      double drag_dt) = 0;
-  /// theta, acc_next, xsph. One pose a body; the step (s) caps the push of single layers.
+  /// theta, acc_next, XSPH's share of the drift. One pose a body; the step (s) caps the push of single
+  /// layers.
   virtual void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) = 0;
   /// Adds what surfaces of walls and orifices do to acc_next. One pose a body; velocities are predicted by
   /// `kick` in a step of dt, s.

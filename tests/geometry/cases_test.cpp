@@ -50,6 +50,8 @@ TEST(Cases, AreLaidWithoutOtherWarningsThanTheyExplain) {
       {"still_bed/case.toml", {12 * 12 * 20, 600}},
       {"stirred_tank/case.toml", {49680, 0, {"wall.body \"impeller\""}}},
       {"taylor_green/case.toml", {50 * 50 * 8, 0}},
+      {"taylor_green/re100.toml", {100 * 100, 0}},
+      {"taylor_green/re1000.toml", {100 * 100, 0}},
   };
   std::size_t found = 0;
   const fs::path cases = fs::path(BL_SOURCE_DIR) / "cases";

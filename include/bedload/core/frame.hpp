@@ -80,12 +80,13 @@ struct Frame {
     return d;
   }
 #if !BL_CUDA
-  template <class B>  // PackedPositions or Vec3<Pack>
-  Vec3<Pack> separation(const PairPosition& a, const B& b) const {
-    if constexpr (std::is_same_v<B, PackedPositions>)
-      return separation<Pack>(a, b, b.cell);
-    else
-      return nearest_image(Vec3<Pack>(a) - b);
+  Vec3<Pack> separation(const PackedPosition& a, const PackedPositions& b) const {
+    return separation<Pack>(a, b, b.cell);
+  }
+  template <class N>
+    requires std::is_same_v<N, Pack>
+  Vec3<N> separation(const Vec3<Real>& a, const Vec3<N>& b) const {
+    return nearest_image(Vec3<N>(a) - b);
   }
 #endif
 

@@ -19,7 +19,7 @@ struct FluidStore : Store {
   Field<Real> solid_factor{*this, "solid_factor", "-", Lifetime::kept};  ///< of the grains around it as it counts them: below 1 beside orifices and at the least porosity
   Field<Real3> theta{*this, "theta", "m/s2", Lifetime::kept};   ///< stress of the mixture: pressure, viscosity
   Field<Real3> acc{*this, "acceleration", "m/s2", Lifetime::kept};  ///< theta + gravity + drive + repulsion
-  Field<Real3> xsph{*this, "xsph", "m/s", Lifetime::kept};      ///< added to the drift velocity
+  Field<Real3> drift{*this, "drift", "m/s", Lifetime::kept};    ///< with which particles move beside their velocity: shifting, XSPH
   Field<Real4> m_state{*this, "m_state", "kg, m5/(kg s2), kg/m3, -", Lifetime::kept};  ///< what pair loops read: mass / porosity, P/rho2, density, porosity
   Field<Real3> drag_kick{*this, "drag_kick", "m/s", Lifetime::derived};  ///< by the drag of the grains, this step
   Field<Real3> acc_next{*this, "acc_next", "m/s2", Lifetime::derived};

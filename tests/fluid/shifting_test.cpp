@@ -1,0 +1,102 @@
+// Particle shifting: what drifts, what does not, and what it is for.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/fluid_box.hpp"
+#include "tests/support/run.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr double kShift = 200;
+
+/// Drift of a disordered free block, 12 spacings wide, whose fluid moves as `velocity` has it at the middle's
+/// distance.
+template <class Velocity>
+std::unique_ptr<FluidBox> drifting(const Velocity& velocity) {
+  Config c = periodic_box(12);
+  c.shift = kShift;
+  c.domain.periodic = {false, false, false};
+  auto out = std::make_unique<FluidBox>(c, 0.2);
+  FluidBox& box = *out;
+  const Vec3d middle = 0.5 * (c.domain.min + c.domain.max);
+  for (std::size_t a = 0; a < box.position.size(); ++a) box.velocity[a] = velocity(box.position[a] - middle);
+  box.upload();
+  box.solver->density(box.fluid, box.walls, {}, 1e-4);
+  return out;
+}
+
+double largest(const std::unique_ptr<FluidBox>& box) {
+  double out = 0;
+  for (const Real3& u : box->fluid.drift.values()) out = std::max(out, double(norm(u)));
+  return out;
+}
+
+TEST(Shifting, TakesStrainAndNeitherTranslationNorRotation) {
+  const double strained = largest(drifting([](const Vec3d& r) { return Vec3d{r.z, 0, 0}; }));
+  const double faster = largest(drifting([](const Vec3d& r) { return Vec3d{2 * r.z, 0, 0}; }));
+  EXPECT_GT(strained, 1e-3);
+  EXPECT_NEAR(faster / strained, 2, 1e-3) << "in proportion to the strain";
+  EXPECT_LT(largest(drifting([](const Vec3d& r) {
+              return cross(Vec3d{0.3, 1, -0.5}, r);
+            })),
+            0.25 * strained)
+      << "what disorder makes of it";
+  EXPECT_LT(largest(drifting([](const Vec3d&) {
+              return Vec3d{2, -1, 3};
+            })),
+            strained * tolerance(1e-9, 1e-3, 1e-3));
+  const double fastest = largest(drifting([](const Vec3d& r) { return Vec3d{1e4 * r.z, 0, 0}; }));
+  EXPECT_NEAR(fastest * 1e-4, 0.1 * 0.01, 1e-8) << "a tenth of a spacing a step at most";
+}
+
+TEST(Shifting, LeavesCrowdedPlacesWithinTheFluidAndNothingAtItsSurface) {
+  const auto block = drifting([](const Vec3d& r) { return Vec3d{r.z, 0, 0}; });
+  const FluidBox& box = *block;
+  const auto x = box.coordinates_now();
+  const auto u = box.fluid.drift.values();
+  const auto crowding = [&](double step) {  // of what is well within the fluid
+    double sum = 0;
+    for (std::size_t a = 0; a < x.size(); ++a)
+      for (std::size_t b = 0; b < a; ++b) {
+        const Vec3d r = x[a] - x[b] + step * (Vec3d(u[a]) - Vec3d(u[b]));
+        sum += std::exp(-2e4 * norm2(r));
+      }
+    return sum;
+  };
+  EXPECT_LT(crowding(1e-3 * 0.01 / norm(u[x.size() / 2])), crowding(0));
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    const Vec3d r = x[a], far = box.config.domain.max - r;
+    if (std::min({r.x, r.y, r.z, far.x, far.y, far.z}) < 0.8 * box.config.fluid.h()) {
+      EXPECT_EQ(norm(u[a]), 0);
+    }
+  }
+}
+
+double left_of_vortices(double shift) {
+  Config c = periodic_box(40, 0.025);
+  c.domain.max.y = 0.025;
+  c.domain.two_d = true;
+  c.fluid.mu = 10;
+  c.fluid.c = 10;
+  c.shift = shift;
+  c.fluid.fills = {
+      {c.domain.min, c.domain.max, {"sin(2*pi*x)*cos(2*pi*z)", "0", "-cos(2*pi*x)*sin(2*pi*z)"}}};
+  auto s = started(c);
+  const double before = reading(s->diagnostics(), "fluid_kinetic_energy");
+  run_until(*s, 0.5);
+  const double exact = std::exp(-16 * M_PI * M_PI * 0.01 * s->time());
+  return reading(s->diagnostics(), "fluid_kinetic_energy") / before / exact;
+}
+
+/// Without it a lattice resists shear by its pressure, at any resolution; Taylor-Green, Re 100.
+TEST(Shifting, LetsVorticesDecayByViscosityAlone) {
+  EXPECT_NEAR(left_of_vortices(kShift), 1, 0.05);
+  EXPECT_LT(left_of_vortices(0), 0.5);
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
