@@ -57,8 +57,8 @@ struct Strain {
 /// Particle shifting after Lind et al. 2012: where fluid strains, particles drift from where they crowd,
 ///   u = -min(A h^2 |S|, h^2 / (2 dt)) grad C,    grad C = sum_b V_b grad W_ab,    |u| <= 0.1 dx / dt,
 /// S being the rate of strain, the symmetric part of sum_b V_b F_ab (q_a - q_b) r_ab, in which the noise of
-/// single particles averages out: what rests or turns as a whole is left alone. A lattice that lasts bears
-/// shear by its pressure, at any resolution. Not within about h of a free surface, where
+/// single particles averages out: what rests is left alone, what turns as a whole nearly. A lattice that lasts
+/// bears shear by its pressure, at any resolution. Not within about h of a free surface, where
 /// div r = sum_b V_b F_ab r_ab^2 is below 0.9 d; just below that the surface is still felt, and fluid whose
 /// surface turns over and over swells. The velocities of particles stay, so momentum holds; what that takes
 /// along is of the order of h^2 |S|. Drift by nearest neighbours alone, which does not feel the surface, has

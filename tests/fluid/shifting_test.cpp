@@ -58,7 +58,7 @@ TEST(Shifting, LeavesCrowdedPlacesWithinTheFluidAndNothingAtItsSurface) {
   const FluidBox& box = *block;
   const auto x = box.coordinates_now();
   const auto u = box.fluid.drift.values();
-  const auto crowding = [&](double step) {  // of what is well within the fluid
+  const auto crowding = [&](double step) {
     double sum = 0;
     for (std::size_t a = 0; a < x.size(); ++a)
       for (std::size_t b = 0; b < a; ++b) {
