@@ -42,6 +42,11 @@ void resolve_inlet(InletConfig& inlet, double dx, const Value& root, const std::
   if ((inlet.rate > 0) == (inlet.velocity > 0))
     throw CaseError(fmt::format("{}: inlet \"{}\" must have exactly one of rate and velocity",
                                 nearest_value(root, path + "rate").place(), inlet.name));
+  constexpr double most = 1e7;  // particles side by side
+  if (const double area = orifice_area(inlet); area > most * dx * dx)
+    reject(root, "fluid.dx", fmt::format("{}", dx),
+           fmt::format("must be at least {:.4g} m for no more than ten million particles in inlet \"{}\"",
+                       std::sqrt(area / most), inlet.name));
   const OrificeWidth width = orifice_width(inlet, dx);
   if (width.points < 4)
     reject(root, "fluid.dx", fmt::format("{}", dx),

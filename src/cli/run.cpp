@@ -124,6 +124,9 @@ class Run {
     } catch (const FileError& error) {
       progress.close();
       throw FileError(error.what() + kept());
+    } catch (const DeviceError& error) {  // lost while it computed, or out of its memory
+      progress.close();
+      throw DeviceError(error.what() + kept());
     } catch (const fs::filesystem_error& error) {
       progress.close();
       throw FileError(

@@ -20,7 +20,7 @@ from pathlib import Path
 CASE = """title = "small dam"
 [domain]
 min = [0, 0, 0]
-max = [0.1, 0.06, 0.1]
+max = [0.1, 0.06, 0.15]
 [fluid]
 dx = 0.01
 [[fluid.fill]]
@@ -30,7 +30,7 @@ max = [0.05, 0.06, 0.05]
 name = "tank"
 shape = "tank"
 min = [0, 0, 0]
-max = [0.1, 0.06, 0.1]
+max = [0.1, 0.06, 0.15]
 faces = ["x-", "x+", "y-", "y+", "z-"]
 [grain]
 d = 0.005

@@ -198,7 +198,7 @@ double decay_of_a_shear_wave(double Re, double phi) {
   return std::log(before / amplitude()) / (s->time() - from) / rate;
 }
 
-TEST(SlowMixedCoupledFlow, AShearWaveInASuspensionDecaysByTheViscosityOfItsFluid) {
+TEST(SlowCoupledFlow, AShearWaveInASuspensionDecaysByTheViscosityOfItsFluid) {
   for (const double Re : {10.0, 100.0, 500.0}) {
     const double water = decay_of_a_shear_wave(Re, 0), suspension = decay_of_a_shear_wave(Re, 0.3);
     EXPECT_NEAR(suspension / water, 1, 0.05) << Re;
@@ -331,10 +331,10 @@ void expect_still_bed(const char* floor, double share = 0.03, double fastest_all
 }
 
 TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRest) { expect_still_bed("adami"); }
-TEST(SlowMixedCoupledFlow, WaterInABedAtRestStaysAtRestOnAnMdbcFloor) { expect_still_bed("mdbc"); }
+TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRestOnAnMdbcFloor) { expect_still_bed("mdbc"); }
 // what these walls give the fluid beside them is not that of a wall among grains
-TEST(SlowMixedCoupledFlow, WaterInABedAtRestStaysAtRestOnAFrozenFloor) { expect_still_bed("frozen", 0.15); }
-TEST(SlowMixedCoupledFlow, WaterInABedAtRestStaysAtRestOnASingleLayer) {
+TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRestOnAFrozenFloor) { expect_still_bed("frozen", 0.15); }
+TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRestOnASingleLayer) {
   expect_still_bed("single_layer", 0.15, 0.15);
 }
 

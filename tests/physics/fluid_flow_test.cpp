@@ -132,7 +132,7 @@ Config column(double height, double dx) {
   return c;
 }
 
-TEST(SlowMixedHydrostatics, PressureGradientAmongFixedGrains) {  // T-9, porosity 0.6
+TEST(SlowHydrostatics, PressureGradientAmongFixedGrains) {  // T-9, porosity 0.6
   Config c = column(0.2, 0.02);
   const int across = 9, up = 15;
   const double gap = 0.16 / across;

@@ -68,7 +68,7 @@ centre = [0.5, 0.5, 0.25]
   return text.str();
 }
 
-TEST(SlowMixedLeak, NothingLeavesAShakenVesselOfTriangles) {
+TEST(SlowLeak, NothingLeavesAShakenVesselOfTriangles) {
   const Load load;
   const test::TemporaryFolder folder;
   const TriangleSoup inside = scaled(test::l_prism(), {kSide, kSide, kSide});

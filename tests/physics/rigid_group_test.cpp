@@ -165,7 +165,7 @@ TEST(SmallRigidGroup, InFluidGoesOnFromACheckpointBitForBit) {
 
 /// A block of fixed porosity across the whole column sinks as fast as its weight under water and the drag law
 /// at its superficial slip have it: eps V (rho_s - rho) g = drag [robinson14].
-TEST(SlowMixedRigidGroup, BlockOfConstantPorositySinksAtItsTerminalVelocity) {
+TEST(SlowRigidGroup, BlockOfConstantPorositySinksAtItsTerminalVelocity) {
   const double d = 1e-4, eps = 0.8, width = 1e-3, mu = 8.9e-4, rho_s = 2500;
   Config c = periodic_box(8, width / 8);
   c.gravity = {0, 0, -9.81};

@@ -85,15 +85,15 @@ class WallKinds : public testing::TestWithParam<Kind> {
     return c;
   }
 };
-using SlowMixedWallKinds = WallKinds;
+using SlowWallKinds = WallKinds;
 using SmallWallKinds = WallKinds;
 
 const auto kNamed = [](const testing::TestParamInfo<Kind>& info) { return std::string(info.param.name); };
 INSTANTIATE_TEST_SUITE_P(Each, WallKinds, testing::ValuesIn(kKinds), kNamed);
-INSTANTIATE_TEST_SUITE_P(Each, SlowMixedWallKinds, testing::ValuesIn(kKinds), kNamed);
+INSTANTIATE_TEST_SUITE_P(Each, SlowWallKinds, testing::ValuesIn(kKinds), kNamed);
 INSTANTIATE_TEST_SUITE_P(Each, SmallWallKinds, testing::ValuesIn(kKinds), kNamed);
 
-TEST_P(SlowMixedWallKinds, HoldStillWater) {  // T-9
+TEST_P(SlowWallKinds, HoldStillWater) {  // T-9
   const double height = 0.2, dx = 0.02;
   auto s = started(column(height, dx));
   const double settled = std::string(GetParam().type) == "adami" ? 4 : 2;  // s
@@ -124,7 +124,7 @@ TEST_P(SlowMixedWallKinds, HoldStillWater) {  // T-9
   EXPECT_EQ(reading(d, "lost_fluid_count"), 0);
 }
 
-TEST_P(SlowMixedWallKinds,
+TEST_P(SlowWallKinds,
        CarryShear) {  // T-10, start-up over: linear between a wall at rest and one that moves
   const int n = 24;
   const double L = 1e-3, dx = L / n, u = 1.25e-5;
@@ -160,7 +160,7 @@ TEST_P(SlowMixedWallKinds,
   EXPECT_NEAR(stress / (1e-3 * slope), 1, 2e-2);
 }
 
-TEST_P(SlowMixedWallKinds, KeepAHeadOfWaterOnOneSideOfAPlate) {
+TEST_P(SlowWallKinds, KeepAHeadOfWaterOnOneSideOfAPlate) {
   auto s = started(pool(GetParam(), 0.1));
   double farthest = 0;
   for (int k = 0; s->time() < 0.5; ++k) {

@@ -108,7 +108,7 @@ TEST(SmallPatch, RidesOnABodyThatTurns) {
   EXPECT_NEAR(reading(p, "pressure") * 0.01 / -dot(force, now), 1, 1e-9);
 }
 
-TEST(SlowMixedPatches, FeelHydrostaticPressure) {
+TEST(SlowPatches, FeelHydrostaticPressure) {
   Config c = water();
   const double depth = 0.12, wide = 0.16;
   c.domain.periodic = {false, true, false};

@@ -148,7 +148,7 @@ struct DrumBed {
 };
 
 /// Beds never flow twice alike, so means agree within three standard errors.
-TEST(SlowMixedWallAgreement, ADrumAsCylinderAndAsMeshCarriesABedAlike) {
+TEST(SlowWallAgreement, ADrumAsCylinderAndAsMeshCarriesABedAlike) {
   const double radius = 0.0125, length = 0.0065;
   const int facets = 720;  // neighbours lean less than a degree: one contact
   const DrumBed exact(make_cylinder({0, 0, 0}, {0, 0, length}, radius));

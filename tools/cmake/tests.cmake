@@ -1,5 +1,5 @@
-# Tests. Suites named Slow... are labelled slow, the rest quick; on a GPU gpu-slow and gpu-quick. Of the slow ones
-# those named SlowMixed... take minutes and are left to mixed precision.
+# Tests. Suites named Slow... are labelled slow and left to mixed precision, the rest quick; on a GPU gpu-slow and
+# gpu-quick.
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
@@ -15,14 +15,12 @@ function(bedload_register target)
     ${target} TEST_FILTER "-Slow*:*/Slow*" TEST_PREFIX "${target}." TEST_LIST ${target}_quick
     DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS "${ARGN}quick" TIMEOUT ${seconds} ENVIRONMENT "${environment}")
-  set(slow "Slow*:*/Slow*")
-  if(target MATCHES "single|double")
-    string(APPEND slow "-SlowMixed*:*/SlowMixed*")
+  if(NOT target MATCHES "single|double")
+    gtest_discover_tests(
+      ${target} TEST_FILTER "Slow*:*/Slow*" TEST_PREFIX "${target}." TEST_LIST ${target}_slow
+      DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+      PROPERTIES LABELS "${ARGN}slow" TIMEOUT 1800 ENVIRONMENT "${environment}")
   endif()
-  gtest_discover_tests(
-    ${target} TEST_FILTER "${slow}" TEST_PREFIX "${target}." TEST_LIST ${target}_slow
-    DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${ARGN}slow" TIMEOUT 1800 ENVIRONMENT "${environment}")
 endfunction()
 
 # With the modules for plots: made by tools/install_dependencies.
