@@ -4,24 +4,6 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// How far particles are shifted, by what the kernel sees.
-struct Shifting {
-  Real area;      ///< A h^2 [m2]
-  Real stiffest;  ///< h^2 / (2 dt) [m2/s]; beyond it places would overshoot
-  Real fastest;   ///< 0.1 dx / dt [m/s]
-  Real per_axis;  ///< 1 / dimensions
-
-  BL_HD bool acts() const { return area > 0; }
-  /// Drift velocity by the strain S, div r and -grad C.
-  template <class S>
-  BL_HD Real3 operator()(const S& strain, Real divergence, const Real3& gradient) const {
-    const Real inside = clamp(20 * (divergence * per_axis - Real(0.9)), Real(0), Real(1));
-    const Real3 u = inside * min_of(area * strain.magnitude(), stiffest) * gradient;
-    const Real u2 = norm2(u);
-    return u2 > square(fastest) ? fastest / std::sqrt(u2) * u : u;
-  }
-};
-
 /// Symmetric part of a gradient, 1/s.
 template <class N>
 struct Strain {
@@ -36,6 +18,57 @@ struct Strain {
   BL_HD N magnitude() const {
     return root(square(xx) + square(yy) + square(zz) + Real(0.5) * (square(xy) + square(yz) + square(zx)));
   }
+};
+
+/// Particle shifting after Lind et al. 2012: where fluid strains, particles drift from where they crowd,
+///   u = -min(A h^2 |S|, h^2 / (2 dt)) grad C,    grad C = sum_b V_b grad W_ab,    |u| <= 0.1 dx / dt,
+/// S being the rate of strain, the symmetric part of sum_b V_b F_ab (q_a - q_b) r_ab, in which the noise of
+/// single particles averages out: what rests is left alone, what turns as a whole nearly. A lattice that lasts
+/// bears shear by its pressure, at any resolution. Nothing drifts beside a free surface, which grad C would
+/// let swell: where div r = sum_b V_b F_ab r_ab^2 is no more than that of the second layer of a lattice. The
+/// velocities of particles stay, so momentum holds; what that takes along is of the order of h^2 |S|, of
+/// angular momentum too. Drift by nearest neighbours alone, which does not feel the surface, has another
+/// equilibrium than the pressure and pumps energy into still water.
+struct Shifting {
+  Real area;      ///< A h^2 [m2]
+  Real stiffest;  ///< h^2 / (2 dt) [m2/s]; beyond it places would overshoot
+  Real fastest;   ///< 0.1 dx / dt [m/s]
+  Real per_axis;  ///< 1 / dimensions
+  Real surface;   ///< div r / dimensions up to which nothing drifts
+
+  template <class N>
+  struct Sum {
+    N divergence;
+    Strain<N> strain;
+    /// b: V_b F_ab; q = q_a - q_b.
+    BL_HD void add(const N& b, const Vec3<N>& q, const Vec3<N>& r, const N& r2) {
+      add_wall(b, r2);
+      strain.add(b, q, r);
+    }
+    BL_HD void add_wall(const N& b, const N& r2) { divergence += b * r2; }
+    BL_HD void merge(const Sum& o) {
+      divergence += o.divergence;
+      strain.merge(o.strain);
+    }
+  };
+  /// Drift velocity; gradient: -grad C.
+  BL_HD Real3 operator()(const Sum<Real>& sum, const Real3& gradient) const {
+    const Real inside = clamp(50 * (sum.divergence * per_axis - surface), Real(0), Real(1));
+    const Real3 u = inside * min_of(area * sum.strain.magnitude(), stiffest) * gradient;
+    const Real u2 = norm2(u);
+    return u2 > square(fastest) ? fastest / std::sqrt(u2) * u : u;
+  }
+};
+
+/// Particles move with their velocity.
+struct NoShifting {
+  template <class N>
+  struct Sum {
+    BL_HD void add(const N&, const Vec3<N>&, const Vec3<N>&, const N&) {}
+    BL_HD void add_wall(const N&, const N&) {}
+    BL_HD void merge(const Sum&) {}
+  };
+  BL_HD Real3 operator()(const Sum<Real>&, const Real3&) const { return {}; }
 };
 
 /// Continuity of the mixture with density diffusion (Fourtakas et al. 2019), over `dt`:
@@ -53,17 +86,7 @@ struct Strain {
 /// particles: what the gradient of the porosity in its sum differs from how the porosity changes along the
 /// way adds up, and fluid that has entered a bed may stand more closely than its volume allows. So among
 /// grains density grows where particles overfill the kernel by more than `slack`.
-///
-/// Particle shifting after Lind et al. 2012: where fluid strains, particles drift from where they crowd,
-///   u = -min(A h^2 |S|, h^2 / (2 dt)) grad C,    grad C = sum_b V_b grad W_ab,    |u| <= 0.1 dx / dt,
-/// S being the rate of strain, the symmetric part of sum_b V_b F_ab (q_a - q_b) r_ab, in which the noise of
-/// single particles averages out: what rests is left alone, what turns as a whole nearly. A lattice that lasts
-/// bears shear by its pressure, at any resolution. Not within about h of a free surface, where
-/// div r = sum_b V_b F_ab r_ab^2 is below 0.9 d; just below that the surface is still felt, and fluid whose
-/// surface turns over and over swells. The velocities of particles stay, so momentum holds; what that takes
-/// along is of the order of h^2 |S|. Drift by nearest neighbours alone, which does not feel the surface, has
-/// another equilibrium than the pressure and pumps energy into still water.
-template <class W>
+template <class W, class Shift>
 struct DensityPass {
   W w;
   Span<const Real4> flux, m_state, wall_v_rho, wall_m_state;
@@ -77,7 +100,7 @@ struct DensityPass {
   Real least;      ///< s at which fluid tears
   Real fading;     ///< of pressure where there is room, and pace at which torn fluid follows it [1/s]
   Real spreading;  ///< of density where particles overfill their volume [1/s]
-  Shifting shifting;
+  Shift shift;
   Span<Real3> drift;  ///< empty where nothing drifts
 
   static constexpr Real slack = Real(0.02);  ///< twice what the sum over particles at rest scatters
@@ -85,13 +108,13 @@ struct DensityPass {
   template <class N = Real>
   struct Sum {
     Vec3<N> q;
-    N rho, eps, rate, diffused, filled, divergence;
+    N rho, eps, rate, diffused, filled;
     Vec3<N> gradient;
-    Strain<N> strain;
+    [[no_unique_address]] typename Shift::template Sum<N> shift;
   };
   BL_HD Sum<> start(Index a) const {
     const Real4 m = m_state[a];
-    return {flux[a].xyz(), m.z, m.w, 0, 0, 0, 0, {}, {}};
+    return {flux[a].xyz(), m.z, m.w, 0, 0, 0, {}, {}};
   }
 
   template <class N, class J>
@@ -102,10 +125,7 @@ struct DensityPass {
     sum.rate += mb.x * F * dot(v, r);
     sum.filled += V * w.W(distance);
     sum.gradient += V * F * r;
-    if (shifting.acts()) {
-      sum.divergence += V * F * r2;
-      sum.strain.add(V * F, v, r);
-    }
+    sum.shift.add(V * F, v, r, r2);
     const N still = 1 - stiffening * (Real(0.5) * (sum.rho + mb.z) / rho0 - 1);
     const N shared = Real(0.5) * (sum.eps + mb.w);  // what one gains the other loses
     sum.diffused += shared * V * F * (mb.z - sum.rho + still * dot(Vec3<N>(hydrostatic), r));
@@ -117,15 +137,14 @@ struct DensityPass {
     sum.rate += V * rho0 * F * dot(sum.q - vb.xyz(), r);
     sum.filled += V * w.W(distance);
     sum.gradient += V * F * r;
-    if (shifting.acts()) sum.divergence += V * F * r2;
+    sum.shift.add_wall(V * F, r2);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.rate += other.rate;
     into.diffused += other.diffused;
     into.filled += other.filled;
     into.gradient += other.gradient;
-    into.strain.merge(other.strain);
-    into.divergence += other.divergence;
+    into.shift.merge(other.shift);
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
     const Real filled = m_state[a].x / sum.rho * w.W(Real(0)) + sum.filled;
@@ -137,7 +156,7 @@ struct DensityPass {
     else
       s_a -= min_of(dt * fading * room, Real(1)) * pressed;
     s_new[a] = s_a;
-    if (drift) drift[a] = shifting(sum.strain, sum.divergence, sum.gradient);
+    if (drift) drift[a] = shift(sum.shift, sum.gradient);
   }
 };
 

@@ -97,7 +97,7 @@ void describe_top(Parameters& p, Config& c) {
     {.meaning = "share of the neighbours' velocity in the motion (XSPH)", .range = within(0, 1)});
   p("shift.A", &c.shift,
     {.meaning = "particle shifting: how fast particles of straining fluid leave where they crowd, after "
-                "[lind12]; 0 off; not with grains coupled both ways, nor single layers",
+                "[lind12]; 0 off; no effect with grains coupled both ways and with single layers",
      .range = within(0, 1000)});
 }
 

@@ -104,26 +104,10 @@ class FluidSolverWith final : public FluidSolver {
       : FluidSolver(config, frame, walls, W::kappa), w_(w), cut_(CutShare::of(w)) {}
 
   void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) override {
-    const double c = config_.fluid.c;
-    DensityPass<W> pass{w_,
-                        flux(fluid),
-                        fluid.m_state,
-                        walls.v_rho,
-                        walls.m_state,
-                        Real(2 * config_.density.delta * config_.fluid.h() * c),
-                        gravity_ * Real(config_.fluid.rho0 / (c * c)),
-                        eos_.gamma - 2,
-                        Real(config_.fluid.rho0),
-                        Real(dt),
-                        fluid.s,
-                        fluid.s_next,
-                        cut_,
-                        least(),
-                        Real(config_.density.consolidation * c / config_.fluid.h()),
-                        Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0),
-                        shifting(dt),
-                        drift_of(fluid)};
-    run(fluid, walls, range(), pass);
+    if (shifts())
+      continuity(fluid, walls, dt, shifting(dt));
+    else
+      continuity(fluid, walls, dt, NoShifting{});
     if (!frozen_) return;
     const FrozenPass<W> frozen{w_,
                                Real(config_.fluid.rho0),
@@ -233,10 +217,34 @@ class FluidSolverWith final : public FluidSolver {
     return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c),
             Real(config_.fluid.h())};
   }
+  template <class Shift>
+  void continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {
+    const double c = config_.fluid.c;
+    run(fluid, walls, range(),
+        DensityPass<W, Shift>{w_,
+                              flux(fluid),
+                              fluid.m_state,
+                              walls.v_rho,
+                              walls.m_state,
+                              Real(2 * config_.density.delta * config_.fluid.h() * c),
+                              gravity_ * Real(config_.fluid.rho0 / (c * c)),
+                              eos_.gamma - 2,
+                              Real(config_.fluid.rho0),
+                              Real(dt),
+                              fluid.s,
+                              fluid.s_next,
+                              cut_,
+                              least(),
+                              Real(config_.density.consolidation * c / config_.fluid.h()),
+                              Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0),
+                              shift,
+                              drift_of(fluid)});
+  }
   Shifting shifting(double dt) const {
     const double h = config_.fluid.h(), dx = config_.fluid.dx, rate = dt > 0 ? 1 / dt : 0;
-    return {Real(shifts() ? config_.shift * h * h : 0), Real(0.5 * h * h * rate), Real(0.1 * dx * rate),
-            Real(config_.domain.two_d ? 1. / 2 : 1. / 3)};
+    const bool plane = config_.domain.two_d;
+    return {Real(config_.shift * h * h), Real(0.5 * h * h * rate), Real(0.1 * dx * rate),
+            Real(plane ? 1. / 2 : 1. / 3), Real(plane ? 0.93 : 0.97)};
   }
   TensileTerm tensile() const {
     if (config_.tensile == 0) return {};

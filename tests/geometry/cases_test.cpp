@@ -42,6 +42,7 @@ TEST(Cases, AreLaidWithoutOtherWarningsThanTheyExplain) {
       {"rayleigh_taylor_grains/lattice.toml", {2548, 0}},
       {"rayleigh_taylor_grains/water.toml", {2548, 1960, {"grain.E"}}},
       {"rotating_drum/case.toml", {14553, 7755}},
+      {"sloshing/case.toml", {2000, 0}},
       {"sphere_settling/air.toml", {20 * 20 * 30, 1}},
       {"sphere_settling/glycerol.toml", {20 * 20 * 30, 1}},
       {"sphere_settling/water.toml", {20 * 20 * 30, 1}},

@@ -435,7 +435,7 @@ struct Config {
   Vec3d gravity{0, 0, -9.81};                  ///< m/s2
   DriveConfig drive;
   double xsph = 0;
-  double shift = 0;                            ///< factor A of particle shifting
+  double shift = 200;                          ///< factor A of particle shifting
   double tensile = 0;                          ///< 0 off; 1 switches the Monaghan 2000 term on
   bool tensile_one_sign = false;               ///< he2018: 0.01 for both signs of P
   DomainConfig domain;
