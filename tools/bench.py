@@ -2,8 +2,8 @@
 """Speed of Bedload, as a Markdown table.
 
 Fluid rows (0.1M to 14M): the single-phase dam break, widened. The column is 146 mm long and 292 mm high in a
-tank of 584 x 584 mm, spacing 4 mm, h = 1.3 dx, Wendland C2, Morris and artificial viscosity, no density
-diffusion; the width sets the size. Grain rows (8.8k, 1M spheres): equal frictional spheres in a box, settling.
+tank of 584 x 584 mm, spacing 4 mm, h = 1.3 dx, Wendland C2, Morris and artificial viscosity, continuity alone for the
+density, no shifting; the width sets the size. Grain rows (8.8k, 1M spheres): equal frictional spheres in a box, settling.
 Whole steps are timed, with every kernel, the list rebuilds and the adaptive step, but neither start nor files.
 Particle-steps count fluid particles alone.
 """
@@ -30,6 +30,9 @@ min = [0.0, 0.0, 0.0]
 max = [0.146, {width}, 0.292]
 [density]
 delta = 0.0
+consolidation = 0.0
+[shift]
+A = 0.0
 [visc]
 alpha = 0.02
 [[wall.body]]
@@ -43,7 +46,7 @@ end = 10.0
 [out]
 every = 1.0
 """
-DEFAULT_SETTINGS = ["fluid.h_over_dx=1.5", "density.delta=0.1"]
+DEFAULT_SETTINGS = ["fluid.h_over_dx=1.5", "density.delta=0.1", "density.consolidation=3", "shift.A=200"]
 
 SPHERES = """
 [domain]
@@ -130,7 +133,7 @@ def main():
     parser.add_argument("--steps", type=int, default=200, help="steps of one span")
     parser.add_argument("--spans", type=int, default=3, help="of which the median counts")
     parser.add_argument("--default-settings", action="store_true",
-                        help="also the fluid rows with Bedload's own h and density diffusion")
+                        help="also the fluid rows with Bedload's own h, density diffusion, void relaxation and shifting")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", help="override a key in all rows")
     options = parser.parse_args()
 

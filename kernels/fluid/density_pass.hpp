@@ -86,10 +86,12 @@ struct NoShifting {
 /// particles: what the gradient of the porosity in its sum differs from how the porosity changes along the
 /// way adds up, and fluid that has entered a bed may stand more closely than its volume allows. So among
 /// grains density grows where particles overfill the kernel by more than `slack`.
-template <class W, class Shift>
+/// kSmooth: with density diffusion and all that follows the room; without, continuity alone.
+template <class W, class Shift, bool kSmooth>
 struct DensityPass {
   W w;
   Span<const Real4> flux, m_state, wall_v_rho, wall_m_state;
+  bool porous;        ///< there are grains
   Real diffusion;     ///< 2 delta h c [m2/s]
   Real3 hydrostatic;  ///< rho0 g / c^2 [kg/m4]: how density grows downwards at rho0
   Real stiffening;    ///< and by which power of rho0 / rho elsewhere: gamma - 2
@@ -118,23 +120,27 @@ struct DensityPass {
   }
 
   template <class N, class J>
-  BL_HD void pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
-    const Vec4<N> qb = flux[b], mb = m_state[b];
-    const N distance = root(r2), F = w.F(distance), V = mb.x / mb.z;
+  BL_HD void pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2, N M) const {
+    const Vec4<N> qb = flux[b];
+    const N distance = root(r2), F = w.F(distance);
     const Vec3<N> v = sum.q - qb.xyz();
-    sum.rate += mb.x * F * dot(v, r);
+    sum.rate += M * F * dot(v, r);
+    if constexpr (!kSmooth) return;
+    const N rho = qb.w, V = quotient(M, rho), VF = V * F;
     sum.filled += V * w.W(distance);
-    sum.gradient += V * F * r;
-    sum.shift.add(V * F, v, r, r2);
-    const N still = 1 - stiffening * (Real(0.5) * (sum.rho + mb.z) / rho0 - 1);
-    const N shared = Real(0.5) * (sum.eps + mb.w);  // what one gains the other loses
-    sum.diffused += shared * V * F * (mb.z - sum.rho + still * dot(Vec3<N>(hydrostatic), r));
+    sum.gradient += VF * r;
+    sum.shift.add(VF, v, r, r2);
+    const N still = 1 - stiffening * (Real(0.5) * (sum.rho + rho) / rho0 - 1);
+    N shared = sum.eps;
+    if (porous) shared = Real(0.5) * (sum.eps + m_state[b].w);  // what one gains the other loses
+    sum.diffused += shared * VF * (rho - sum.rho + still * dot(Vec3<N>(hydrostatic), r));
   }
   template <class N, class J>
   BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
     const Vec4<N> vb = wall_v_rho[b], mb = wall_m_state[b];
-    const N distance = root(r2), F = w.F(distance), V = mb.x / mb.z;
+    const N distance = root(r2), F = w.F(distance), V = quotient(mb.x, mb.z);
     sum.rate += V * rho0 * F * dot(sum.q - vb.xyz(), r);
+    if constexpr (!kSmooth) return;
     sum.filled += V * w.W(distance);
     sum.gradient += V * F * r;
     sum.shift.add_wall(V * F, r2);
@@ -147,6 +153,11 @@ struct DensityPass {
     into.shift.merge(other.shift);
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
+    if constexpr (!kSmooth) {
+      s_new[a] = s[a] - dt * sum.rate / (sum.eps * rho0);
+      if (drift) drift[a] = {};
+      return;
+    }
     const Real filled = m_state[a].x / sum.rho * w.W(Real(0)) + sum.filled;
     const Real room = max_of(Real(0), 1 - filled - cut(norm(sum.gradient)));
     const Real excess = max_of(Real(0), filled - 1 - slack), pressed = max_of(Real(0), s[a]);

@@ -35,12 +35,15 @@ struct WallPair {
 
 /// Momentum of locally averaged WCSPH [H (9)-(12)]. theta: stress of the mixture over its density, which
 /// accelerates the fluid by as much (theta M eps / m = theta) and pushes the grains by the rest of it;
-/// acc = theta + gravity + drive. XSPH drift correction.
-template <class W>
+/// acc = theta + gravity + drive. kArtificial: with artificial viscosity; kAdded: with the tensile term and the
+/// drift of XSPH.
+template <class W, bool kArtificial, bool kAdded>
 struct ForcePass {
   W w;
   WallPair<W> wall;
-  Span<const Real4> flux, m_state, wall_v_rho, wall_m_state, wall_v_visc;
+  Span<const Real4> flux, m_state;
+  Span<const Real> p_rho2;  ///< P / rho^2, m5/(kg s2)
+  Span<const Real4> wall_v_rho, wall_m_state, wall_v_visc;
   ArtificialViscosity artificial;
   TensileTerm tensile;
   Real xsph_factor;
@@ -56,17 +59,21 @@ struct ForcePass {
   BL_HD Sum<> start(Index a) const { return {flux[a], m_state[a], {}, {}}; }
 
   template <class N, class J>
-  BL_HD void pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
-    const Vec4<N> vb = flux[b], mb = m_state[b];
+  BL_HD void pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2, N M) const {
+    const Vec4<N> vb = flux[b];
+    const N p = p_rho2[b];
     const N distance = root(r2);
     const N F = w.F(distance);
     const Vec3<N> v = sum.v.xyz() - vb.xyz();
-    sum.theta += pressure_term(mb.x, sum.m.y, mb.y, F) * r;
-    if (wall.viscosity.acts()) sum.theta += wall.viscosity(mb.x, sum.v.w, vb.w, v, r, r2, F);
-    const N rho_mean = Real(0.5) * (sum.v.w + vb.w);
-    if (artificial.acts()) sum.theta += artificial.term(mb.x, dot(v, r), rho_mean, r2, F) * r;
-    if (tensile.s_negative > 0) sum.theta += mb.x * tensile.R(w.W(distance), sum.m.y, mb.y) * F * r;
-    if (xsph_factor > 0) sum.xsph -= xsph_factor * mb.x * w.W(distance) / rho_mean * v;
+    [[maybe_unused]] const N rho_mean = Real(0.5) * (sum.v.w + vb.w);
+    N along = pressure_term(M, sum.m.y, p, F);
+    if constexpr (kArtificial) along += artificial.term(M, dot(v, r), rho_mean, r2, F);
+    if constexpr (kAdded) {
+      along += M * tensile.R(w.W(distance), sum.m.y, p) * F;
+      sum.xsph -= quotient(xsph_factor * M * w.W(distance), rho_mean) * v;
+    }
+    sum.theta += along * r;
+    if (wall.viscosity.acts()) sum.theta += wall.viscosity(M, sum.v.w, vb.w, v, r, r2, F);
   }
   template <class N, class J>
   BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
@@ -80,7 +87,7 @@ struct ForcePass {
   BL_HD void finish(Index a, const Sum<>& sum) const {
     theta[a] = sum.theta;
     acc[a] = sum.theta + gravity + drive(a, sum.m);
-    if (xsph_factor > 0) drift[a] += sum.xsph;
+    if (kAdded && xsph_factor > 0) drift[a] += sum.xsph;
   }
 };
 

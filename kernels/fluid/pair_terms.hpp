@@ -26,8 +26,8 @@ struct Viscosity {
   BL_HD bool acts() const { return mu > 0; }
   template <class N>
   BL_HD Vec3<N> operator()(N m_b, N rho_a, N rho_b, const Vec3<N>& v, const Vec3<N>& r, N r2, N F) const {
-    const N k = -m_b * (2 * mu) * F / (rho_a * rho_b);
-    if (central > 0) return k * central * dot(v, r) / (r2 + guard) * r;
+    const N k = quotient(-m_b * (2 * mu) * F, rho_a * rho_b);
+    if (central > 0) return quotient(k * central * dot(v, r), r2 + guard) * r;
     return k * v;
   }
 };
@@ -38,8 +38,8 @@ struct ArtificialViscosity {
   BL_HD bool acts() const { return alpha > 0 || beta > 0; }
   template <class N>
   BL_HD N term(N m_b, N v_dot_r, N rho_mean, N r2, N F) const {
-    const N mu = h * v_dot_r / (r2 + Real(0.01) * h * h);
-    return select(v_dot_r < N(0), m_b * (beta * mu * mu - alpha * c * mu) / rho_mean * F, N(0));
+    const N mu = quotient(h * v_dot_r, r2 + Real(0.01) * h * h);
+    return select(v_dot_r < N(0), quotient(m_b * F * (beta * mu * mu - alpha * c * mu), rho_mean), N(0));
   }
 };
 

@@ -44,8 +44,10 @@ struct WallRepulsion {
   BL_HD double reach() const { return double(max_of(law.r0, limit.reach)); }
   /// f(body, acceleration, foot) for each foot (m) of a surface that acts on fluid at x, which would go on at
   /// `heading` (m/s) without; of one body alone or all. What one surface stops the next does not stop again.
+  /// Takes from `drift` (m/s), which moves fluid beside its velocity, what would near it to the surface.
   template <class F>
-  BL_HD void each(const Vec3d& x, Real3 heading, F&& f, std::uint32_t only = kNone) const {
+  BL_HD void each(const Vec3d& x, Real3 heading, F&& f, std::uint32_t only = kNone,
+                  Real3* drift = nullptr) const {
     for (Index k = 0; k < walls.surfaces.size; ++k) {
       const Surface& surface = walls.surfaces[k];
       const BodyPose& at = pose[surface.body];
@@ -59,6 +61,7 @@ struct WallRepulsion {
         if (at.no_penetration && limit.per_step > 0) {
           push = limit(Real(foot.distance), dot(Real3(at.velocity(point)) - heading, normal));
           heading += push / limit.per_step * normal;
+          if (drift) *drift -= min_of(dot(*drift, normal), Real(0)) * normal;
         }
         if (at.repulsion) push += law(Real(foot.distance));
         if (push > 0 && (only == kNone || surface.body == only)) f(surface.body, push * normal, point);
@@ -97,15 +100,18 @@ struct RepelPass {
   WallRepulsion walls;
   OrificeRepulsion orifices;
   Real kick, dt;  ///< by which v is ahead of the middle of the step; the step, s
+  Span<const Index> beside_walls;
   Span<const FluidPosition> x;
   Span<const Real4> v_rho;
   Span<const Real3> acc_before;
-  Span<Real3> acc, heading;
-  BL_HD void operator()(Index a) const {
+  Span<Real3> acc, heading, drift;  ///< drift: empty where nothing drifts
+  BL_HD void operator()(Index k) const {
+    const Index a = beside_walls[k];
     const Vec3d at = coordinates(walls.frame, x[a]);
     const Real3 v = v_rho[a].xyz(), next = v + dt * acc[a] - kick * acc_before[a];
     heading[a] = next;
-    walls.each(at, next, [&](std::uint32_t, const Real3& push, const Vec3d&) { acc[a] += push; });
+    const auto take = [&](std::uint32_t, const Real3& push, const Vec3d&) { acc[a] += push; };
+    walls.each(at, next, take, kNone, drift ? &drift[a] : nullptr);
     acc[a] += orifices(at, v);
   }
 };

@@ -5,13 +5,14 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// v += kick (acc + reaction); x += drift (v + beside).
+/// v += kick (acc + reaction); x += drift (v + beside), packed `back` before where it is.
 struct KickDriftPass {
   Frame frame;
-  Real kick, drift;                       ///< s
+  Real kick, drift, back;                 ///< s
   Span<const Real3> acc, reaction, beside;  ///< reaction empty without grains
   Span<Real4> v_rho;
   Span<FluidPosition> x;
+  Span<PairPosition> xp;
 
   BL_HD void operator()(Index a) const {
     const Real4 old = v_rho[a];
@@ -20,7 +21,9 @@ struct KickDriftPass {
     v_rho[a] = {v, old.w};
     if (drift == 0) return;
     const Real3 move = beside ? v + beside[a] : v;
-    x[a] = as_position<FluidPosition>(frame, coordinates(frame, x[a]) + Vec3d(move) * double(drift));
+    const Vec3d at = coordinates(frame, x[a]) + Vec3d(move) * double(drift);
+    x[a] = as_position<FluidPosition>(frame, at);
+    xp[a] = pair_position(frame, coordinates(frame, x[a]) - Vec3d(back * v), xp[a].weight);
   }
 };
 
@@ -28,12 +31,16 @@ constexpr Real kThinnest = Real(-0.5);  // of s; thinner fluid is spray
 
 /// Pressure from s; velocity and, among grains, volume flux predicted by `kick` (0: Euler).
 struct StatePass {
+  Frame frame;
   EquationOfState eos;
   Real kick;  ///< s
+  Span<const FluidPosition> x;
   Span<const Real3> acc, reaction;
   Span<Real> s;
   Span<const Real> mass, eps;
   Span<Real4> v_rho, flux, m_state;  ///< flux empty without grains
+  Span<Real> p_rho2;
+  Span<PairPosition> xp;
 
   BL_HD void operator()(Index a) const {
     Real3 gain = kick * acc[a];
@@ -42,7 +49,10 @@ struct StatePass {
     s[a] = compression;
     v_rho[a] = {v_rho[a].xyz() + gain, rho};
     if (flux) flux[a] = {flux[a].xyz() + eps[a] * gain, rho};
-    m_state[a] = {mass[a] / eps[a], eos.pressure(compression) / square(rho), rho, eps[a]};
+    const Real M = mass[a] / eps[a], p = eos.pressure(compression) / square(rho);
+    m_state[a] = {M, p, rho, eps[a]};
+    p_rho2[a] = p;
+    xp[a] = pair_position(frame, coordinates(frame, x[a]), M);
   }
 };
 

@@ -26,19 +26,23 @@ struct WrapPass {
   }
 };
 
-/// Copies of positions as pair loops read them, `back` (s) before where they are.
+/// Copies of positions as pair loops read them, `back` (s) before where they are, with their weights.
 template <class P>
 struct PackBackPass {
   Frame frame;
   Real back;
   Span<const P> x;
-  Span<const Real4> v;
+  Span<const Real4> v, m_state;  ///< m_state: empty without weights
   Span<PairPosition> xp;
   BL_HD void operator()(Index i) const {
-    Vec3d at = coordinates(frame, x[i]);
-    if (back != 0) at -= Vec3d(back * v[i].xyz());
-    xp[i] = as_position<PairPosition>(frame, at);
+    const Vec3d at = coordinates(frame, x[i]) - Vec3d(back * v[i].xyz());
+    xp[i] = pair_position(frame, at, m_state ? m_state[i].x : Real(0));
   }
+};
+
+struct HasEntries {
+  VerletListView list;
+  BL_HD bool operator()(Index i) const { return list.count[i] > 0; }
 };
 
 struct ExtremesSweep {
@@ -105,9 +109,11 @@ class FluidSolverWith final : public FluidSolver {
 
   void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) override {
     if (shifts())
-      continuity(fluid, walls, dt, shifting(dt));
+      continuity<true>(fluid, walls, dt, shifting(dt));
+    else if (smooths())
+      continuity<true>(fluid, walls, dt, NoShifting{});
     else
-      continuity(fluid, walls, dt, NoShifting{});
+      continuity<false>(fluid, walls, dt, NoShifting{});
     if (!frozen_) return;
     const FrozenPass<W> frozen{w_,
                                Real(config_.fluid.rho0),
@@ -160,11 +166,11 @@ class FluidSolverWith final : public FluidSolver {
   }
 
   void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
-    ForcePass<W> pass{w_,          wall_pair(),        flux(fluid),  fluid.m_state,
-                      walls.v_rho, walls.m_state,      walls.v_visc, artificial(),
-                      tensile(),   Real(config_.xsph), gravity_,     drive(fluid),
-                      fluid.theta, fluid.acc_next,     fluid.drift};
-    run(fluid, walls, range(), pass);
+    const bool added = config_.tensile > 0 || config_.xsph > 0;
+    if (artificial().acts())
+      added ? momentum<true, true>(fluid, walls) : momentum<true, false>(fluid, walls);
+    else
+      added ? momentum<false, true>(fluid, walls) : momentum<false, false>(fluid, walls);
     if (layers_.size() > 0)
       for_each_pair(fluid.owned(), fluid_wall_, PairSeparation{frame_, fluid.xp, walls.xp}, range(),
                     LayerPass<W>{layer(walls, pose, dt), flux(fluid), fluid.theta, fluid.acc_next});
@@ -217,15 +223,16 @@ class FluidSolverWith final : public FluidSolver {
     return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c),
             Real(config_.fluid.h())};
   }
-  template <class Shift>
+  template <bool kSmooth, class Shift>
   void continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {
     const double c = config_.fluid.c;
     run(fluid, walls, range(),
-        DensityPass<W, Shift>{w_,
+        DensityPass<W, Shift, kSmooth>{w_,
                               flux(fluid),
                               fluid.m_state,
                               walls.v_rho,
                               walls.m_state,
+                              mixed_,
                               Real(2 * config_.density.delta * config_.fluid.h() * c),
                               gravity_ * Real(config_.fluid.rho0 / (c * c)),
                               eos_.gamma - 2,
@@ -239,6 +246,13 @@ class FluidSolverWith final : public FluidSolver {
                               Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0),
                               shift,
                               drift_of(fluid)});
+  }
+  template <bool kArtificial, bool kAdded>
+  void momentum(FluidStore& fluid, const WallStore& walls) {
+    run(fluid, walls, range(),
+        ForcePass<W, kArtificial, kAdded>{
+            w_, wall_pair(), flux(fluid), fluid.m_state, fluid.p_rho2, walls.v_rho, walls.m_state, walls.v_visc, artificial(),
+            tensile(), Real(config_.xsph), gravity_, drive(fluid), fluid.theta, fluid.acc_next, fluid.drift});
   }
   Shifting shifting(double dt) const {
     const double h = config_.fluid.h(), dx = config_.fluid.dx, rate = dt > 0 ? 1 / dt : 0;
@@ -322,8 +336,9 @@ void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double kic
   const WallRepulsion walls = repulsion(pose, dt);
   const OrificeRepulsion orifices{
       walls.law, Real(0.01 * config_.fluid.c), dt > 0 ? Real(1 / dt) : Real(0), frame_, orifices_, pose};
-  for_each(fluid.owned(), RepelPass{walls, orifices, Real(kick), Real(dt), fluid.x, fluid.v_rho, fluid.acc,
-                                    fluid.acc_next, fluid.heading});
+  for_each({0, Index(beside_walls_.size())},
+           RepelPass{walls, orifices, Real(kick), Real(dt), beside_walls_, fluid.x, fluid.v_rho, fluid.acc,
+                     fluid.acc_next, fluid.heading, drift_of(fluid)});
 }
 
 void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved) {
@@ -345,11 +360,13 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
     grid_.sort(frame_, Span<const FluidPosition>(fluid.x), order_);
     wall_grid_.sort(frame_, Span<const Vec3d>(walls.x), order_);
   }
-  pack(fluid, walls);
+  pack(fluid);
+  pack(walls);
   const double reach = range() + skin();
   using Near = SphNear<FluidPosition>;
   fluid_fluid_.build(fluid.size(), grid_.view(), Near{frame_, fluid.x, fluid.xp, fluid.xp, reach, true});
   fluid_wall_.build(fluid.size(), wall_grid_.view(), Near{frame_, fluid.x, fluid.xp, walls.xp, reach, false});
+  compaction_.find(fluid.size(), HasEntries{fluid_wall_.view()}, beside_walls_);
   wall_fluid_.build(walls.size(), grid_.view(),
                     SphNear<Vec3d>{frame_, walls.x, walls.xp, fluid.xp, reach, false});
   const MirrorStore& images = walls.mirrors;
@@ -358,23 +375,27 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
                        SphNear<Vec3d>{frame_, images.x, images.xp, fluid.xp, reach, false});
 }
 
-void FluidSolver::pack(FluidStore& fluid, WallStore& walls, double back) {
-  for_each(fluid.owned(), PackBackPass<FluidPosition>{frame_, Real(back), fluid.x, fluid.v_rho, fluid.xp});
-  for_each(walls.owned(), PackBackPass<Vec3d>{frame_, Real(back), walls.x, walls.v_rho, walls.xp});
+void FluidSolver::pack(FluidStore& fluid, double back) {
+  for_each(fluid.owned(), PackBackPass<FluidPosition>{frame_, Real(back), fluid.x, fluid.v_rho, fluid.m_state, fluid.xp});
+}
+
+void FluidSolver::pack(WallStore& walls, double back) {
+  for_each(walls.owned(), PackBackPass<Vec3d>{frame_, Real(back), walls.x, walls.v_rho, {}, walls.xp});
   for_each(walls.mirrors.owned(), PackPass<Vec3d>{frame_, walls.mirrors.x, walls.mirrors.xp});
 }
 
-void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, bool coupled) {
-  for_each(fluid.owned(), KickDriftPass{frame_, Real(kick), Real(drift), fluid.acc,
+void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, double back, bool coupled) {
+  for_each(fluid.owned(), KickDriftPass{frame_, Real(kick), Real(drift), Real(back), fluid.acc,
                                         coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
-                                        drift_of(fluid), fluid.v_rho, fluid.x});
+                                        drift_of(fluid), fluid.v_rho, fluid.x, fluid.xp});
 }
 
 void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
-  for_each(fluid.owned(), StatePass{eos_, Real(kick), fluid.acc,
+  for_each(fluid.owned(), StatePass{frame_, eos_, Real(kick), fluid.x, fluid.acc,
                                     coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
                                     fluid.s, fluid.mass, fluid.eps, fluid.v_rho,
-                                    mixed_ ? Span<Real4>(fluid.flux) : Span<Real4>(), fluid.m_state});
+                                    mixed_ ? Span<Real4>(fluid.flux) : Span<Real4>(), fluid.m_state,
+                                    fluid.p_rho2, fluid.xp});
 }
 
 void FluidSolver::correct(FluidStore& fluid, double kick) {

@@ -5,6 +5,7 @@
 
 #include "bedload/case/config.hpp"
 #include "bedload/neighbours/for_each_pair.hpp"
+#include "bedload/parallel/compact.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/walls.hpp"
 #include "kernels/fluid/drive.hpp"
@@ -42,6 +43,11 @@ class FluidSolver {
     return drifts() ? Span<Real3>(fluid.drift) : Span<Real3>();
   }
   bool shifts() const { return config_.shift > 0 && !mixed_ && layers_.size() == 0; }
+  /// Whether anything but continuity changes the density.
+  bool smooths() const {
+    return config_.density.delta > 0 || config_.density.consolidation > 0 ||
+           (mixed_ && config_.couple.spreading > 0);
+  }
   bool drifts() const { return shifts() || config_.xsph > 0; }
   /// Gravity minus the frame's acceleration (m/s2), for the next walls() and forces(). density() takes it for
   /// its hydrostatic slope, as it was for the state from which it starts.
@@ -52,14 +58,16 @@ class FluidSolver {
   /// Renews the lists for the positions as they are; `sort`: cells too (after a restart).
   void relist(FluidStore& fluid, WallStore& walls, bool sort);
   /// Copies of positions as pair loops read them, `back` (s) before where they are.
-  void pack(FluidStore& fluid, WallStore& walls, double back = 0);
+  void pack(FluidStore& fluid, double back = 0);
+  void pack(WallStore& walls, double back = 0);
 
-  /// v += kick (acc + reaction), x += drift (v + what they drift beside it); `coupled`: there is a reaction.
-  void kick_drift(FluidStore& fluid, double kick, double drift, bool coupled);
+  /// v += kick (acc + reaction), x += drift (v + what they drift beside it), and packs x, `back` (s) before
+  /// where it is; `coupled`: there is a reaction.
+  void kick_drift(FluidStore& fluid, double kick, double drift, double back, bool coupled);
   /// s_next, and the density of frozen walls, from continuity over dt, with positions as packed.
   virtual void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) = 0;
   void accept_density(FluidStore& fluid) { fluid.s.buffer().swap(fluid.s_next.buffer()); }
-  /// Density, pressure, velocity predicted by `kick`.
+  /// Density, pressure, velocity predicted by `kick`; packs x.
   void state(FluidStore& fluid, double kick, bool coupled);
   /// Wall particles' state from the fluid. Poses on the device, one a body; drag_dt: the step in which
   /// drag_kick arose (s), 0 where there is none.
@@ -102,6 +110,8 @@ class FluidSolver {
   CellGrid grid_, wall_grid_;
   VerletList fluid_fluid_, fluid_wall_, wall_fluid_, image_fluid_;
   Buffer<Index> order_;
+  Compaction compaction_;
+  Buffer<Index> beside_walls_;  ///< fluid with wall particles around it
   SurfaceSet repelling_;      ///< empty where no wall repels
   Buffer<Orifice> orifices_;  ///< empty where none repels
   Buffer<LayerLaw> layers_;   ///< one a body; empty without single layers

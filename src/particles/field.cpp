@@ -32,6 +32,7 @@ template void Field<double>::gather(Span<const Index>);
 template void Field<Vec3<double>>::gather(Span<const Index>);
 template void Field<Vec4<double>>::gather(Span<const Index>);
 template void Field<PackedPosition>::gather(Span<const Index>);
+template void Field<PairPosition>::gather(Span<const Index>);
 template void Field<WallMemory>::gather(Span<const Index>);
 
 }  // namespace bedload::inline BL_VARIANT

@@ -79,19 +79,24 @@ double CoupledSimulation::longest_substep() {
 void CoupledSimulation::advance_fluid(double dt) {
   FluidSolver& fluid = *fluid_solver_;
   const double half = last_kick(dt);
-  fluid.kick_drift(fluid_, dt - half, dt, two_way());
-  if (two_way()) share_volume(dt);
+  fluid.kick_drift(fluid_, dt - half, dt, half, two_way());
+  if (two_way()) {
+    share_volume(dt);
+    fluid.pack(fluid_, half);
+  }
   // density follows from places and velocities in the middle of a kick-drift-kick step, the fluid's and the
   // walls'
   Span<const BodyPose> pose;
   if (walls_.size() > 0) {
     pose = motion_.poses_in_step(clock_.time + dt, half, dt);
-    WallMotion::place(frame_, walls_, pose);
+    if (motion_.moves()) {
+      WallMotion::place(frame_, walls_, pose);
+      fluid.pack(walls_, half);
+    }
   }
-  fluid.pack(fluid_, walls_, half);
   fluid.density(fluid_, walls_, pose, dt);
   fluid.accept_density(fluid_);
-  fluid.pack(fluid_, walls_);
+  if (motion_.moves()) fluid.pack(walls_);
   evaluate_fluid(dt, half);
   load_bodies(half, dt);
   fluid.correct(fluid_, half);
@@ -99,7 +104,7 @@ void CoupledSimulation::advance_fluid(double dt) {
 }
 
 void CoupledSimulation::share_volume(double dt) {
-  fluid_solver_->pack(fluid_, walls_);
+  fluid_solver_->pack(fluid_);
   watch_.lap(kFluid);
   coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1), dt);
   watch_.lap(kCoupling);
@@ -278,7 +283,8 @@ void CoupledSimulation::restore_lists(const SavedState& state) {
     swap_positions();
     fluid_solver_->relist(fluid_, walls_, true);
     swap_positions();
-    fluid_solver_->pack(fluid_, walls_);
+    fluid_solver_->pack(fluid_);
+    fluid_solver_->pack(walls_);
   }
   if (coupled()) relist_coupling();
 }

@@ -90,10 +90,15 @@ const HostStore& store_of(const SavedState& state, const std::string& name) {
   throw FileError("checkpoint has no " + name);
 }
 
+namespace {
+/// More than any pair loop looks for, m.
+double farthest_pair(const Config& c) { return 8 * std::max({c.fluid.h(), c.couple.hc, c.grain.d_max}); }
+}  // namespace
+
 CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
     : config_(config),
       frame_(config.domain.min, config.domain.max, config.domain.periodic[0], config.domain.periodic[1],
-             config.domain.periodic[2]),
+             config.domain.periodic[2], farthest_pair(config)),
       clock_(config.time),
       geometry_(config),
       grain_geometry_(config, [](const WallBody& body) { return body.stops_grains(); }),

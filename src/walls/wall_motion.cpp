@@ -81,6 +81,11 @@ BodyPose WallMotion::pose(int body, double t) const {
   return p;
 }
 
+bool WallMotion::moves() const {
+  return !inlets_.empty() || free_.any() ||
+         std::any_of(laws_.begin(), laws_.end(), [](const MotionLaw& law) { return law.moves(); });
+}
+
 Span<BodyPose> WallMotion::poses(double t, double dt, int n) {
   host_.clear();
   for (int k = 0; k <= n; ++k)

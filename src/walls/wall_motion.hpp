@@ -19,6 +19,8 @@ class WallMotion {
   int walls() const { return int(config_.wall.bodies.size()); }
   int bodies() const { return walls() + int(inlets_.size()); }
   std::vector<InletFlow>& inlets() { return inlets_; }
+  /// Whether wall particles ever change place.
+  bool moves() const;
   /// Poses at t + k dt / n for k = 0..n, [n + 1][bodies], on the device.
   Span<BodyPose> poses(double t, double dt, int n);
   /// Two rows: at t - back, where free bodies are in the middle of the step dt that ends now, and at t.

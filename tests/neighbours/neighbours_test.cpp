@@ -42,7 +42,7 @@ std::vector<Vec3d> sorted(const Cloud& c, CellGrid& grid) {
 
 std::vector<PairPosition> packed(const Frame& f, const std::vector<Vec3d>& x) {
   std::vector<PairPosition> out;
-  for (const auto& p : x) out.push_back(as_position<PairPosition>(f, p));
+  for (const auto& p : x) out.push_back(pair_position(f, p));
   return out;
 }
 
@@ -220,17 +220,25 @@ TEST(SmallNeighbours, ListAndCellsMatchAllPairs) {
   }
 }
 
-TEST(Frame, PackedPositionsKeepPlaceAndSeparation) {
-  const Frame f({-3, 0, 1}, {20, 0.6, 1.6}, false, true, false);
+TEST(Frame, PackedAndFixedPositionsKeepPlaceAndSeparation) {
+  const Frame f({-3, 0, 1}, {20, 0.6, 1.6}, false, true, false, 0.1);
   std::mt19937 rng(1);
   std::uniform_real_distribution<double> u(0, 1);
   for (int i = 0; i < 1000; ++i) {
     const Vec3d a = f.origin + Vec3d{u(rng) * 23, u(rng) * 0.6, u(rng) * 0.6};
     const Vec3d b = f.wrap(a + Vec3d{0.01 * u(rng), 0.01 * u(rng), 0.01 * u(rng)});
-    const auto pa = f.pack(a), pb = f.pack(b);
-    EXPECT_LT(norm(f.unpack(pa) - a), 4e-9);
-    EXPECT_LT(norm(Vec3d(f.separation(pa, pb)) - f.separation(a, b)), 1e-8);
+    EXPECT_LT(norm(f.unpack(f.pack(a)) - a), 4e-9);
+    EXPECT_LT(norm(Vec3d(f.separation(f.fixed(a), f.fixed(b))) - f.separation(a, b)), 2e-8);
   }
+}
+
+TEST(Frame, FixedPositionsTellApartWhatIsBeyondTheDomain) {
+  const Frame f({0, 0, 0}, {1, 1, 1}, false, true, false, 0.25);
+  const auto apart = [&](const Vec3d& a, const Vec3d& b) { return Vec3d(f.separation(f.fixed(a), f.fixed(b))); };
+  EXPECT_NEAR(apart({-0.2, 0, 0}, {1.2, 0, 0}).x, -1.4, 1e-6);
+  EXPECT_NEAR(apart({-7, 0, 0}, {0, 0, 0}).x, -0.25, 1e-6) << "as far as it can be told";
+  EXPECT_NEAR(apart({0, 0, -7}, {0, 0, 8}).z, -1.5, 1e-6);
+  EXPECT_NEAR(apart({0, 0.9, 0}, {0, 3.1, 0}).y, -0.2, 1e-6);
 }
 
 TEST(CellGrid, CurveVisitsEachCellOnceAndStepsToNeighbours) {

@@ -3,6 +3,7 @@
 // number type N: Real, or Pack, which holds kLanes of them.
 
 #include <cstring>
+#include <type_traits>
 
 #include "bedload/core/types.hpp"
 
@@ -18,7 +19,19 @@ BL_HD N root(N x) {
   using std::sqrt;
   return sqrt(x);
 }
-BL_HD float as_real(int i) { return float(i); }
+/// a / b for b that is neither tiny nor vast, to 2 ulp.
+template <class N>
+BL_HD N quotient(N a, N b) {
+#if defined(__CUDA_ARCH__)
+  if constexpr (std::is_same_v<N, float>) return __fdividef(a, b);
+#endif
+  return a / b;
+}
+BL_HD float as_real(std::int32_t i) { return float(i); }
+/// a - b, modulo 2^32.
+BL_HD std::int32_t wrapped_difference(std::int32_t a, std::int32_t b) {
+  return std::int32_t(std::uint32_t(a) - std::uint32_t(b));
+}
 
 #if !BL_CUDA
 #if defined(__AVX__)
@@ -63,18 +76,16 @@ struct Pack {
   }
 };
 
-/// Frame cells of packed positions.
+/// Coordinates in fixed point.
 struct PackInt {
   using Native [[gnu::vector_size(kLanes * sizeof(std::int32_t))]] = std::int32_t;
+  using Unsigned [[gnu::vector_size(kLanes * sizeof(std::int32_t))]] = std::uint32_t;
   Native v{};
 
   PackInt() = default;
-  PackInt(int x) : v(x - Native{}) {}
+  PackInt(std::int32_t x) : v(x - Native{}) {}
   explicit PackInt(Native x) : v(x) {}
-  friend PackInt operator+(PackInt a, PackInt b) { return PackInt(a.v + b.v); }
-  friend PackInt operator-(PackInt a, PackInt b) { return PackInt(a.v - b.v); }
-  friend PackInt operator&(PackInt a, PackInt b) { return PackInt(a.v & b.v); }
-  friend PackInt operator>>(PackInt a, int n) { return PackInt(a.v >> n); }
+  friend PackInt wrapped_difference(PackInt a, PackInt b) { return PackInt(Native(Unsigned(a.v) - Unsigned(b.v))); }
   friend Pack as_real(PackInt a) { return Pack(__builtin_convertvector(a.v, Pack::Native)); }
 };
 

@@ -1,7 +1,8 @@
 #pragma once
 // Runs a pass over the pairs of a Verlet list or, list-free, over the cells. A pass has
 //   Sum start(i); void pair(Sum&, i, j, r_ij, r2); void finish(i, Sum);
-// and knows nothing of where its neighbours come from. Where it can also
+// and knows nothing of where its neighbours come from. `pair` may also take the weight of j, which comes with
+// its position. Where a pass can also
 //   void merge(Sum& into, const Sum& other);
 // two partial sums of one row, several GPU lanes share a row of a small system. Where its Sum is a template
 //   template <class N = Real> struct Sum;
@@ -22,28 +23,41 @@ struct PackPass {
   Frame frame;
   Span<const P> x;
   Span<PairPosition> xp;
-  BL_HD void operator()(Index i) const { xp[i] = as_position<PairPosition>(frame, coordinates(frame, x[i])); }
+  BL_HD void operator()(Index i) const { xp[i] = pair_position(frame, coordinates(frame, x[i])); }
 };
 
 /// r_i - r_j, nearest image.
 struct PairSeparation {
   Frame frame;
   Span<const PairPosition> a, b;
-  template <class J>
-  BL_HD auto operator()(Index i, J j) const {
-    return frame.separation(a[i], b[j]);
+  template <class Source>
+  BL_HD auto operator()(Index i, const Source& source) const {
+    return frame.separation(a[i], source);
   }
 };
 
-template <class Pass, class Sum>
-concept Mergeable = requires(const Pass& pass, Sum& into, const Sum& other) {
-  pass.merge(into, other);
+template <class Pass, class Sum, class J, class R, class N>
+BL_HD void add_pair(const Pass& pass, Sum& sum, Index i, const J& j, const R& r, const N& r2,
+                    [[maybe_unused]] const N& weight) {
+  if constexpr (requires { pass.pair(sum, i, j, r, r2, weight); })
+    pass.pair(sum, i, j, r, r2, weight);
+  else
+    pass.pair(sum, i, j, r, r2);
+}
+
+/// A pass of which several lanes can share a row.
+template <class Pass>
+concept Mergeable = requires(const Pass& pass, decltype(std::declval<const Pass&>().start(Index()))& sum) {
+  pass.merge(sum, sum);
 };
+
+/// A pass to which a pair at or beyond the cut-off adds nothing.
+template <class Pass>
+constexpr bool kFades = requires { typename Pass::template Sum<Real>; };
 
 template <class Pass>
 unsigned pass_lane_bits(const Pass&, const VerletList& list) {
-  using Sum = decltype(std::declval<const Pass&>().start(Index()));
-  return Mergeable<Pass, Sum> ? list.view().bits : 0;
+  return Mergeable<Pass> ? list.view().bits : 0;
 }
 
 #if BL_CUDA
@@ -51,9 +65,7 @@ template <class Pass>
 constexpr bool kInPacks = false;
 #else
 template <class Pass>
-constexpr bool kInPacks = requires {
-  typename Pass::template Sum<Pack>;
-};
+constexpr bool kInPacks = kFades<Pass>;
 
 /// Partial sums of one row, one for each lane of a pack.
 template <class Pass>
@@ -96,31 +108,42 @@ BL_HD auto start_row(const Pass& pass, Index i) {
     return pass.start(i);
 }
 
-/// One lane's share of the pairs of row i that are closer than the cut-off now; in packs, all listed pairs.
-template <class Separation, bool InPacks>
+/// One lane's share of the pairs of row i that are closer than the cut-off now; of a pass that fades all listed
+/// pairs, in packs on the CPU.
+template <class Separation, class Pass>
 struct ListRow {
   VerletListView list;
   Separation separation;
   Real range2;
   template <class F>
   BL_HD void operator()(Index i, const Lane& lane, F&& f) const {
-    if constexpr (InPacks) {
+    if constexpr (kInPacks<Pass>) {
       in_packs(i, f);
     } else {
       const std::uint32_t n = list.count[i];
-      const bool turns = lane.count == 1u << list.bits;  // the list was built for as many lanes
-      std::uint64_t slot = list.slot(i, lane.index);
-      for (std::uint32_t k = lane.index; k < n; k += lane.count) {
-        const Index j = list.entry[slot];
-        slot = turns ? slot + VerletListView::kTurn : list.slot(i, k + lane.count);
-        const Real3 r = separation(i, j);
-        const Real r2 = norm2(r);
-        if (r2 < range2) f(j, r, r2);
+      if constexpr (Mergeable<Pass>) {  // the list was built for as many lanes
+        const Index* entry = list.entry + list.slot(i, lane.index);
+        Index next = *entry;
+        for (std::uint32_t k = lane.index; k < n; k += lane.count) {
+          const Index j = next;
+          entry += VerletListView::kTurn;
+          next = *entry;  // while this pair is worked on; after the last row there is room for it
+          visit(i, j, f);
+        }
+      } else {
+        for (std::uint32_t k = 0; k < n; ++k) visit(i, list.entry[list.slot(i, k)], f);
       }
     }
   }
 
  private:
+  template <class F>
+  BL_HD void visit(Index i, Index j, F& f) const {
+    const auto source = separation.b[j];
+    const Real3 r = separation(i, source);
+    const Real r2 = norm2(r);
+    if (kFades<Pass> || r2 < range2) f(j, r, r2, Real(source.weight));
+  }
 #if !BL_CUDA
   template <class F>
   void in_packs(Index i, F& f) const {
@@ -128,8 +151,9 @@ struct ListRow {
     int left = int(list.count[i]);
     for (; left >= kLanes; left -= kLanes, entry += kLanes) {
       const PackIndex j{entry};
-      const auto r = separation(i, j);
-      f(j, r, norm2(r));
+      const auto sources = separation.b[j];
+      const auto r = separation(i, sources);
+      f(j, r, norm2(r), sources.weight);
     }
     if (left == 0) return;
     // lanes without an entry repeat the last one, out of reach
@@ -140,9 +164,10 @@ struct ListRow {
       if (l >= left) away.v[l] = 100 * std::sqrt(range2);
     }
     const PackIndex j{rest};
-    auto r = separation(i, j);
+    const auto sources = separation.b[j];
+    auto r = separation(i, sources);
     r.x += away;
-    f(j, r, norm2(r));
+    f(j, r, norm2(r), sources.weight);
   }
 #endif
 };
@@ -157,7 +182,7 @@ BL_HD void finish_row(const Pass& pass, Index i, const Lane& lane, Sum& sum) {
   } else
 #endif
   {
-    if constexpr (Mergeable<Pass, Sum>)
+    if constexpr (Mergeable<Pass>)
       lane.combine(sum, [&](Sum& into, const Sum& other) { pass.merge(into, other); });
     if (lane.index == 0) pass.finish(i, sum);
   }
@@ -165,7 +190,7 @@ BL_HD void finish_row(const Pass& pass, Index i, const Lane& lane, Sum& sum) {
 
 template <class Separation, class Pass>
 struct ListLoop {
-  ListRow<Separation, kInPacks<Pass>> row;
+  ListRow<Separation, Pass> row;
   Pass pass;
   Index begin;
   unsigned bits;
@@ -173,7 +198,7 @@ struct ListLoop {
     const Lane lane(thread, bits);
     const Index i = begin + lane.row;
     auto sum = start_row(pass, i);
-    row(i, lane, [&](auto j, const auto& r, auto r2) { pass.pair(sum, i, j, r, r2); });
+    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, i, j, r, r2, weight); });
     finish_row(pass, i, lane, sum);
   }
 };
@@ -191,7 +216,7 @@ void for_each_pair(Range range, const VerletList& list, const Separation& separa
 /// A pass over two lists in one go: `pair` for the first, `wall_pair` for the second.
 template <class Separation, class Pass>
 struct TwoListLoop {
-  ListRow<Separation, kInPacks<Pass>> row, wall_row;
+  ListRow<Separation, Pass> row, wall_row;
   Pass pass;
   Index begin;
   unsigned bits;
@@ -199,8 +224,8 @@ struct TwoListLoop {
     const Lane lane(thread, bits);
     const Index i = begin + lane.row;
     auto sum = start_row(pass, i);
-    row(i, lane, [&](auto j, const auto& r, auto r2) { pass.pair(sum, i, j, r, r2); });
-    wall_row(i, lane, [&](auto j, const auto& r, auto r2) { pass.wall_pair(sum, i, j, r, r2); });
+    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, i, j, r, r2, weight); });
+    wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) { pass.wall_pair(sum, i, j, r, r2); });
     finish_row(pass, i, lane, sum);
   }
 };
@@ -230,9 +255,10 @@ struct CellLoop {
     auto sum = pass.start(i);
     sources.each_near(near.place(i), near.reach(i), [&](Index j) {
       if (!near(i, j)) return;
-      const Real3 r = separation(i, j);
+      const auto source = separation.b[j];
+      const Real3 r = separation(i, source);
       const Real r2 = norm2(r);
-      if (r2 < range2) pass.pair(sum, i, j, r, r2);
+      if (r2 < range2) add_pair(pass, sum, i, j, r, r2, Real(source.weight));
     });
     pass.finish(i, sum);
   }

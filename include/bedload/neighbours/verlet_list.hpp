@@ -33,7 +33,7 @@ struct VerletListView {
     return offset[i >> row_bits()] + (std::uint64_t(k >> bits) << kSliceBits) + (row << bits) +
            (k & ((1u << bits) - 1));
   }
-  /// From an entry of a lane to its next.
+  /// From an entry of a lane to its next. Loops read one turn ahead, so there are two more at the end.
   static constexpr std::uint64_t kTurn = 1u << kSliceBits;
 };
 
@@ -192,7 +192,7 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
   width_.resize(slices());
   for_each({0, Index(slices())}, detail::WidthPass{count_, view(), width_});
   slots_ = sorter_.exclusive_scan(width_, offset_);
-  entry_.reserve_and_resize(slots_);
+  entry_.reserve_and_resize(slots_ + 2 * VerletListView::kTurn);
   for_each({0, rows << search}, detail::FillPass<Near>{sources, near, search, view(), entry_.data()});
 #else
   // one search instead of two: blocks of rows grow lists of their own, which are then joined
@@ -212,7 +212,7 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
     offset_.data()[i] = slots_;
     if (i < rows) slots_ += count_.data()[i];
   }
-  entry_.reserve_and_resize(slots_);
+  entry_.reserve_and_resize(slots_ + 2 * VerletListView::kTurn);
 #pragma omp parallel for schedule(dynamic, 1)
   for (Index b = 0; b < blocks; ++b) {
     std::copy(found[b].begin(), found[b].end(), entry_.data() + offset_.data()[b * block]);

@@ -37,7 +37,8 @@ template <class F>
 void for_each(Range range, const F& f) {
   if (range.size() == 0) return;
 #if BL_CUDA
-  const Index block = range.size() < 1u << 16 ? 32 : 128;  // small ranges reach every multiprocessor
+  // small ranges reach every multiprocessor; in large ones what lies together shares a first-level cache
+  const Index block = range.size() < 1u << 16 ? 32 : range.size() < 1u << 18 ? 128 : 256;
   for_each_kernel<<<(range.size() + block - 1) / block, block>>>(range.begin, range.end, f);
   check_cuda(cudaGetLastError(), "kernel launch");
 #else

@@ -49,6 +49,10 @@ struct FileType<PackedPosition> {
   static constexpr Scalar scalar = Scalar::u32;
   static constexpr int components = 4;
 };
+template <>
+struct FileType<FixedPosition> : FileType<PackedPosition> {};
+template <>
+struct FileType<PlainPosition> : FileType<Vec4<double>> {};
 
 class Store;
 
