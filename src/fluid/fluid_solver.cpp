@@ -129,7 +129,8 @@ class FluidSolverWith final : public FluidSolver {
     for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), frozen);
   }
 
-  void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt) override {
+  void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt,
+             bool moving) override {
     const Real least_sum = Real(1e-3 / config_.domain.cell_volume(config_.fluid.h()));
     if (walls.mirrors.size() > 0) {
       const MirrorPass<W> mirror{w_,
@@ -162,7 +163,12 @@ class FluidSolverWith final : public FluidSolver {
                      walls.v_visc,
                      walls.m_state,
                      walls.compression};
-    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
+    const PairSeparation separation{frame_, walls.xp, fluid.xp};
+    if (moving || relisted_)
+      for_each_pair(walls.owned(), wall_fluid_, separation, range(), pass);
+    else
+      for_each_pair_of(wet_walls_, wall_fluid_, separation, range(), pass);
+    relisted_ = false;
   }
 
   void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
@@ -369,6 +375,8 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   compaction_.find(fluid.size(), HasEntries{fluid_wall_.view()}, beside_walls_);
   wall_fluid_.build(walls.size(), grid_.view(),
                     SphNear<Vec3d>{frame_, walls.x, walls.xp, fluid.xp, reach, false});
+  compaction_.find(walls.size(), HasEntries{wall_fluid_.view()}, wet_walls_);
+  relisted_ = true;
   const MirrorStore& images = walls.mirrors;
   if (images.size() > 0)
     image_fluid_.build(images.size(), grid_.view(),

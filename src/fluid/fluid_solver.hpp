@@ -69,10 +69,10 @@ class FluidSolver {
   void accept_density(FluidStore& fluid) { fluid.s.buffer().swap(fluid.s_next.buffer()); }
   /// Density, pressure, velocity predicted by `kick`; packs x.
   void state(FluidStore& fluid, double kick, bool coupled);
-  /// Wall particles' state from the fluid. Poses on the device, one a body; drag_dt: the step in which
-  /// drag_kick arose (s), 0 where there is none.
-  virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
-                     double drag_dt) = 0;
+  /// Wall particles' state from the fluid; of dry ones only where `moving` walls may change it. Poses on the
+  /// device, one a body; drag_dt: the step in which drag_kick arose (s), 0 where there is none.
+  virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt,
+                     bool moving) = 0;
   /// theta, acc_next, XSPH's share of the drift. One pose a body; the step (s) caps the push of single
   /// layers.
   virtual void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) = 0;
@@ -112,6 +112,8 @@ class FluidSolver {
   Buffer<Index> order_;
   Compaction compaction_;
   Buffer<Index> beside_walls_;  ///< fluid with wall particles around it
+  Buffer<Index> wet_walls_;     ///< wall particles with fluid around them
+  bool relisted_ = true;        ///< since walls() was last called
   SurfaceSet repelling_;      ///< empty where no wall repels
   Buffer<Orifice> orifices_;  ///< empty where none repels
   Buffer<LayerLaw> layers_;   ///< one a body; empty without single layers

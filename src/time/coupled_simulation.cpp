@@ -131,7 +131,7 @@ void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   const Span<const BodyPose> pose = motion_.poses(clock_.time + dt, 0, 1);
   fluid.state(fluid_, predict, two_way());
   fluid.set_gravity(gravity_.at(clock_.time + dt));
-  if (walls_.size() > 0) fluid.walls(fluid_, walls_, pose, two_way() ? dt : 0);
+  if (walls_.size() > 0) fluid.walls(fluid_, walls_, pose, two_way() ? dt : 0, motion_.moves());
   fluid.forces(fluid_, walls_, pose, dt);
   fluid.repel(fluid_, pose, predict, dt);
 }

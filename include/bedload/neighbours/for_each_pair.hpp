@@ -193,10 +193,11 @@ struct ListLoop {
   ListRow<Separation, Pass> row;
   Pass pass;
   Index begin;
+  Span<const Index> rows;  ///< empty: all from `begin` on
   unsigned bits;
   BL_HD void operator()(Index thread) const {
     const Lane lane(thread, bits);
-    const Index i = begin + lane.row;
+    const Index i = rows ? rows[lane.row] : begin + lane.row;
     auto sum = start_row(pass, i);
     row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, i, j, r, r2, weight); });
     finish_row(pass, i, lane, sum);
@@ -210,7 +211,17 @@ void for_each_pair(Range range, const VerletList& list, const Separation& separa
   const unsigned bits = pass_lane_bits(pass, list);
   for_each(
       {0, range.size() << bits},
-      ListLoop<Separation, Pass>{{list.view(), separation, Real(cutoff * cutoff)}, pass, range.begin, bits});
+      ListLoop<Separation, Pass>{
+          {list.view(), separation, Real(cutoff * cutoff)}, pass, range.begin, {}, bits});
+}
+
+/// The same of some rows alone.
+template <class Separation, class Pass>
+void for_each_pair_of(Span<const Index> rows, const VerletList& list, const Separation& separation,
+                      double cutoff, const Pass& pass) {
+  const unsigned bits = pass_lane_bits(pass, list);
+  for_each({0, rows.size << bits},
+           ListLoop<Separation, Pass>{{list.view(), separation, Real(cutoff * cutoff)}, pass, 0, rows, bits});
 }
 
 /// A pass over two lists in one go: `pair` for the first, `wall_pair` for the second.

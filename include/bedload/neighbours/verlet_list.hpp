@@ -110,6 +110,13 @@ struct FillPass {
     const Lane lane(thread, bits);
     const Index i = lane.row;
     std::uint32_t n = 0;
+    if (lane.count == 1 && list.bits == 0) {
+      Index* next = entry + list.slot(i, 0);
+      sources.each_near(near.place(i), near.reach(i), [&](Index j) {
+        if (near(i, j)) *next = j, next += VerletListView::kTurn;
+      });
+      return;
+    }
     if (lane.count == 1) {
       sources.each_near(near.place(i), near.reach(i), [&](Index j) {
         if (near(i, j)) entry[list.slot(i, n++)] = j;
