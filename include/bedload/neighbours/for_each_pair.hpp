@@ -6,7 +6,8 @@
 //   void merge(Sum& into, const Sum& other);
 // two partial sums of one row, several GPU lanes share a row of a small system. Where its Sum is a template
 //   template <class N = Real> struct Sum;
-// of nothing but N, and `pair` adds nothing at and beyond the cut-off, the CPU takes pairs in packs.
+// of nothing but N, `pair` must add nothing at and beyond the cut-off: all listed pairs are taken, on the CPU in
+// packs.
 
 #include <cstring>
 #include <iterator>
