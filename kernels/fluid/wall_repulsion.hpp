@@ -61,7 +61,7 @@ struct WallRepulsion {
         if (at.no_penetration && limit.per_step > 0) {
           push = limit(Real(foot.distance), dot(Real3(at.velocity(point)) - heading, normal));
           heading += push / limit.per_step * normal;
-          if (drift) *drift -= min_of(dot(*drift, normal), Real(0)) * normal;
+          if (drift && foot.distance < limit.reach) *drift -= min_of(dot(*drift, normal), Real(0)) * normal;
         }
         if (at.repulsion) push += law(Real(foot.distance));
         if (push > 0 && (only == kNone || surface.body == only)) f(surface.body, push * normal, point);
