@@ -23,12 +23,12 @@ struct Strain {
 /// Particle shifting after Lind et al. 2012: where fluid strains, particles drift from where they crowd,
 ///   u = -min(A h^2 |S|, h^2 / (2 dt)) grad C,    grad C = sum_b V_b grad W_ab,    |u| <= 0.1 dx / dt,
 /// S being the rate of strain, the symmetric part of sum_b V_b F_ab (q_a - q_b) r_ab, in which the noise of
-/// single particles averages out: what rests is left alone, what turns as a whole nearly. A lattice that lasts
-/// bears shear by its pressure, at any resolution. Nothing drifts beside a free surface, which grad C would
-/// let swell: where div r = sum_b V_b F_ab r_ab^2 is no more than that of the second layer of a lattice. The
-/// velocities of particles stay, so momentum holds; what that takes along is of the order of h^2 |S|, of
-/// angular momentum too. Drift by nearest neighbours alone, which does not feel the surface, has another
-/// equilibrium than the pressure and pumps energy into still water.
+/// single particles averages out: what rests is left alone, what turns as a whole nearly. A lattice that
+/// lasts bears shear by its pressure, at any resolution. Nothing drifts beside a free surface, which grad C
+/// would let swell: where div r = sum_b V_b F_ab r_ab^2 is no more than that of the second layer of a
+/// lattice. The velocities of particles stay, so momentum holds; what that takes along is of the order of h^2
+/// |S|, of angular momentum too. Drift by nearest neighbours alone, which does not feel the surface, has
+/// another equilibrium than the pressure and pumps energy into still water.
 struct Shifting {
   Real area;      ///< A h^2 [m2]
   Real stiffest;  ///< h^2 / (2 dt) [m2/s]; beyond it places would overshoot

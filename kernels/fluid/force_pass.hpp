@@ -35,8 +35,8 @@ struct WallPair {
 
 /// Momentum of locally averaged WCSPH [H (9)-(12)]. theta: stress of the mixture over its density, which
 /// accelerates the fluid by as much (theta M eps / m = theta) and pushes the grains by the rest of it;
-/// acc = theta + gravity + drive. kArtificial: with artificial viscosity; kAdded: with the tensile term and the
-/// drift of XSPH.
+/// acc = theta + gravity + drive. kArtificial: with artificial viscosity; kAdded: with the tensile term and
+/// the drift of XSPH.
 template <class W, bool kArtificial, bool kAdded>
 struct ForcePass {
   W w;

@@ -6,11 +6,13 @@
 namespace bedload::inline BL_VARIANT {
 
 /// State of wall particles from the fluid beside them (Adami et al. 2012, [H (13)-(15)] with
-/// physics errata 5-7): pressure with the hydrostatic correction, no-slip velocity.
-/// Fluid beside a turning wall is on a circle only as far as it turns along: where the layer that it drags is
-/// thinner than a particle, nothing holds water at rest off a drum that spins around it.
-/// Frozen and mirrored walls bring their own density, where they have one. Single layers keep rho0: fluid
-/// that comes near them grows denser by their mass and is pushed off by its own pressure alone.
+/// physics errata 5-7): pressure with the hydrostatic correction, no-slip velocity. The mean velocity of the
+/// fluid around is that of its middle, x_f, so the wall's counterpart of it is 2 v_w - v_f plus what a
+/// turning body's own velocity differs by from there to the wall, v(x_f) - v_w: fluid that turns with its
+/// vessel feels no friction. Fluid beside a turning wall is on a circle only as far as it turns along: where
+/// the layer that it drags is thinner than a particle, nothing holds water at rest off a drum that spins
+/// around it. Frozen and mirrored walls bring their own density, where they have one. Single layers keep
+/// rho0: fluid that comes near them grows denser by their mass and is pushed off by its own pressure alone.
 template <class W>
 struct WallPass {
   W w;
@@ -80,7 +82,9 @@ struct WallPass {
     const Real rho = eos.rho0 * (1 + x), mass = rho * Real(k.volume);
     const bool prescribed = k.flows || layer || k.kind == WallKind::frozen;
     v_rho[b] = {v_wall, rho};
-    v_visc[b] = {prescribed ? v_surface : 2 * v_surface - v_fluid, k.slip ? Real(0) : mass};
+    const Real3 away = sum.rho_r / (sum.weight * eos.rho0);  // of the wall from the middle of the fluid, m
+    const Real3 inward = Real3(k.velocity(at - Vec3d(away))) - v_wall;
+    v_visc[b] = {prescribed ? v_surface : 2 * v_surface + inward - v_fluid, k.slip ? Real(0) : mass};
     m_state[b] = {mass, p / square(rho), rho, 0};
   }
 

@@ -8,7 +8,7 @@ namespace bedload::inline BL_VARIANT {
 /// v += kick (acc + reaction); x += drift (v + beside), packed `back` before where it is.
 struct KickDriftPass {
   Frame frame;
-  Real kick, drift, back;                 ///< s
+  Real kick, drift, back;                   ///< s
   Span<const Real3> acc, reaction, beside;  ///< reaction empty without grains
   Span<Real4> v_rho;
   Span<FluidPosition> x;

@@ -233,32 +233,20 @@ class FluidSolverWith final : public FluidSolver {
   void continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {
     const double c = config_.fluid.c;
     run(fluid, walls, range(),
-        DensityPass<W, Shift, kSmooth>{w_,
-                              flux(fluid),
-                              fluid.m_state,
-                              walls.v_rho,
-                              walls.m_state,
-                              mixed_,
-                              Real(2 * config_.density.delta * config_.fluid.h() * c),
-                              gravity_ * Real(config_.fluid.rho0 / (c * c)),
-                              eos_.gamma - 2,
-                              Real(config_.fluid.rho0),
-                              Real(dt),
-                              fluid.s,
-                              fluid.s_next,
-                              cut_,
-                              least(),
-                              Real(config_.density.consolidation * c / config_.fluid.h()),
-                              Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0),
-                              shift,
-                              drift_of(fluid)});
+        DensityPass<W, Shift, kSmooth>{
+            w_, flux(fluid), fluid.m_state, walls.v_rho, walls.m_state, mixed_,
+            Real(2 * config_.density.delta * config_.fluid.h() * c),
+            gravity_ * Real(config_.fluid.rho0 / (c * c)), eos_.gamma - 2, Real(config_.fluid.rho0), Real(dt),
+            fluid.s, fluid.s_next, cut_, least(), Real(config_.density.consolidation * c / config_.fluid.h()),
+            Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0), shift, drift_of(fluid)});
   }
   template <bool kArtificial, bool kAdded>
   void momentum(FluidStore& fluid, const WallStore& walls) {
     run(fluid, walls, range(),
-        ForcePass<W, kArtificial, kAdded>{
-            w_, wall_pair(), flux(fluid), fluid.m_state, fluid.p_rho2, walls.v_rho, walls.m_state, walls.v_visc, artificial(),
-            tensile(), Real(config_.xsph), gravity_, drive(fluid), fluid.theta, fluid.acc_next, fluid.drift});
+        ForcePass<W, kArtificial, kAdded>{w_, wall_pair(), flux(fluid), fluid.m_state, fluid.p_rho2,
+                                          walls.v_rho, walls.m_state, walls.v_visc, artificial(), tensile(),
+                                          Real(config_.xsph), gravity_, drive(fluid), fluid.theta,
+                                          fluid.acc_next, fluid.drift});
   }
   Shifting shifting(double dt) const {
     const double h = config_.fluid.h(), dx = config_.fluid.dx, rate = dt > 0 ? 1 / dt : 0;
@@ -384,7 +372,8 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
 }
 
 void FluidSolver::pack(FluidStore& fluid, double back) {
-  for_each(fluid.owned(), PackBackPass<FluidPosition>{frame_, Real(back), fluid.x, fluid.v_rho, fluid.m_state, fluid.xp});
+  for_each(fluid.owned(),
+           PackBackPass<FluidPosition>{frame_, Real(back), fluid.x, fluid.v_rho, fluid.m_state, fluid.xp});
 }
 
 void FluidSolver::pack(WallStore& walls, double back) {
@@ -399,11 +388,11 @@ void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, doubl
 }
 
 void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
-  for_each(fluid.owned(), StatePass{frame_, eos_, Real(kick), fluid.x, fluid.acc,
-                                    coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
-                                    fluid.s, fluid.mass, fluid.eps, fluid.v_rho,
-                                    mixed_ ? Span<Real4>(fluid.flux) : Span<Real4>(), fluid.m_state,
-                                    fluid.p_rho2, fluid.xp});
+  for_each(fluid.owned(),
+           StatePass{frame_, eos_, Real(kick), fluid.x, fluid.acc,
+                     coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(), fluid.s, fluid.mass,
+                     fluid.eps, fluid.v_rho, mixed_ ? Span<Real4>(fluid.flux) : Span<Real4>(), fluid.m_state,
+                     fluid.p_rho2, fluid.xp});
 }
 
 void FluidSolver::correct(FluidStore& fluid, double kick) {

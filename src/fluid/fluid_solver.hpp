@@ -114,11 +114,11 @@ class FluidSolver {
   Buffer<Index> beside_walls_;  ///< fluid with wall particles around it
   Buffer<Index> wet_walls_;     ///< wall particles with fluid around them
   bool relisted_ = true;        ///< since walls() was last called
-  SurfaceSet repelling_;      ///< empty where no wall repels
-  Buffer<Orifice> orifices_;  ///< empty where none repels
-  Buffer<LayerLaw> layers_;   ///< one a body; empty without single layers
-  bool frozen_ = false;       ///< some walls are
-  double corrected_ = 0;      ///< kick of the last correction, s; 0 since the last forces()
+  SurfaceSet repelling_;        ///< empty where no wall repels
+  Buffer<Orifice> orifices_;    ///< empty where none repels
+  Buffer<LayerLaw> layers_;     ///< one a body; empty without single layers
+  bool frozen_ = false;         ///< some walls are
+  double corrected_ = 0;        ///< kick of the last correction, s; 0 since the last forces()
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -123,9 +123,10 @@ TEST(Openings, WrongInlets) {
       error_of(with_inlet("radius = 0.01", "radius = 0.007")),
       "dam.toml:6: fluid.dx = 0.004 must be at most 0.0035 m for four particles across inlet \"feed\"; it "
       "makes 3");
-  EXPECT_EQ(error_of(with_inlet("radius = 0.01", "radius = 10.01")),
-            "dam.toml:6: fluid.dx = 0.004 must be at least 0.005611 m for no more than ten million particles in "
-            "inlet \"feed\"");
+  EXPECT_EQ(
+      error_of(with_inlet("radius = 0.01", "radius = 10.01")),
+      "dam.toml:6: fluid.dx = 0.004 must be at least 0.005611 m for no more than ten million particles in "
+      "inlet \"feed\"");
   EXPECT_EQ(error_of(with_inlet("rate = 1e-4", "")),
             "dam.toml:25: inlet \"feed\" must have exactly one of rate and velocity");
   EXPECT_EQ(error_of(with_inlet("rate = 1e-4", "rate = 1e-4\nvelocity = 1")),

@@ -234,7 +234,9 @@ TEST(Frame, PackedAndFixedPositionsKeepPlaceAndSeparation) {
 
 TEST(Frame, FixedPositionsTellApartWhatIsBeyondTheDomain) {
   const Frame f({0, 0, 0}, {1, 1, 1}, false, true, false, 0.25);
-  const auto apart = [&](const Vec3d& a, const Vec3d& b) { return Vec3d(f.separation(f.fixed(a), f.fixed(b))); };
+  const auto apart = [&](const Vec3d& a, const Vec3d& b) {
+    return Vec3d(f.separation(f.fixed(a), f.fixed(b)));
+  };
   EXPECT_NEAR(apart({-0.2, 0, 0}, {1.2, 0, 0}).x, -1.4, 1e-6);
   EXPECT_NEAR(apart({-7, 0, 0}, {0, 0, 0}).x, -0.25, 1e-6) << "as far as it can be told";
   EXPECT_NEAR(apart({0, 0, -7}, {0, 0, 8}).z, -1.5, 1e-6);

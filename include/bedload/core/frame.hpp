@@ -93,7 +93,8 @@ struct Frame {
 
   /// a - b, nearest image.
   BL_HD Vec3f separation(const FixedPosition& a, const FixedPosition& b) const {
-    return {as_real(wrapped_difference(a.x, b.x)) * quantum.x, as_real(wrapped_difference(a.y, b.y)) * quantum.y,
+    return {as_real(wrapped_difference(a.x, b.x)) * quantum.x,
+            as_real(wrapped_difference(a.y, b.y)) * quantum.y,
             as_real(wrapped_difference(a.z, b.z)) * quantum.z};
   }
   BL_HD Vec3d separation(const Vec3d& a, const Vec3d& b) const { return nearest_image(a - b); }

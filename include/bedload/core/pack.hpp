@@ -85,7 +85,9 @@ struct PackInt {
   PackInt() = default;
   PackInt(std::int32_t x) : v(x - Native{}) {}
   explicit PackInt(Native x) : v(x) {}
-  friend PackInt wrapped_difference(PackInt a, PackInt b) { return PackInt(Native(Unsigned(a.v) - Unsigned(b.v))); }
+  friend PackInt wrapped_difference(PackInt a, PackInt b) {
+    return PackInt(Native(Unsigned(a.v) - Unsigned(b.v)));
+  }
   friend Pack as_real(PackInt a) { return Pack(__builtin_convertvector(a.v, Pack::Native)); }
 };
 

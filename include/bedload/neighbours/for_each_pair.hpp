@@ -6,8 +6,8 @@
 //   void merge(Sum& into, const Sum& other);
 // two partial sums of one row, several GPU lanes share a row of a small system. Where its Sum is a template
 //   template <class N = Real> struct Sum;
-// of nothing but N, `pair` must add nothing at and beyond the cut-off: all listed pairs are taken, on the CPU in
-// packs.
+// of nothing but N, `pair` must add nothing at and beyond the cut-off: all listed pairs are taken, on the CPU
+// in packs.
 
 #include <cstring>
 #include <iterator>
@@ -54,7 +54,9 @@ concept Mergeable = requires(const Pass& pass, decltype(std::declval<const Pass&
 
 /// A pass to which a pair at or beyond the cut-off adds nothing.
 template <class Pass>
-constexpr bool kFades = requires { typename Pass::template Sum<Real>; };
+constexpr bool kFades = requires {
+  typename Pass::template Sum<Real>;
+};
 
 template <class Pass>
 unsigned pass_lane_bits(const Pass&, const VerletList& list) {
@@ -109,8 +111,8 @@ BL_HD auto start_row(const Pass& pass, Index i) {
     return pass.start(i);
 }
 
-/// One lane's share of the pairs of row i that are closer than the cut-off now; of a pass that fades all listed
-/// pairs, in packs on the CPU.
+/// One lane's share of the pairs of row i that are closer than the cut-off now; of a pass that fades all
+/// listed pairs, in packs on the CPU.
 template <class Separation, class Pass>
 struct ListRow {
   VerletListView list;
@@ -200,7 +202,8 @@ struct ListLoop {
     const Lane lane(thread, bits);
     const Index i = rows ? rows[lane.row] : begin + lane.row;
     auto sum = start_row(pass, i);
-    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, i, j, r, r2, weight); });
+    row(i, lane,
+        [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, i, j, r, r2, weight); });
     finish_row(pass, i, lane, sum);
   }
 };
@@ -210,10 +213,9 @@ template <class Separation, class Pass>
 void for_each_pair(Range range, const VerletList& list, const Separation& separation, double cutoff,
                    const Pass& pass) {
   const unsigned bits = pass_lane_bits(pass, list);
-  for_each(
-      {0, range.size() << bits},
-      ListLoop<Separation, Pass>{
-          {list.view(), separation, Real(cutoff * cutoff)}, pass, range.begin, {}, bits});
+  for_each({0, range.size() << bits},
+           ListLoop<Separation, Pass>{
+               {list.view(), separation, Real(cutoff * cutoff)}, pass, range.begin, {}, bits});
 }
 
 /// The same of some rows alone.
@@ -236,7 +238,8 @@ struct TwoListLoop {
     const Lane lane(thread, bits);
     const Index i = begin + lane.row;
     auto sum = start_row(pass, i);
-    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, i, j, r, r2, weight); });
+    row(i, lane,
+        [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, i, j, r, r2, weight); });
     wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) { pass.wall_pair(sum, i, j, r, r2); });
     finish_row(pass, i, lane, sum);
   }

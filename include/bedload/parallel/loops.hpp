@@ -16,7 +16,8 @@ __global__ void __launch_bounds__(256) for_each_kernel(Index begin, Index end, F
 }
 
 template <class F>
-__global__ void __launch_bounds__(128) reduce_kernel(Index begin, Index end, F f, typename F::Value* partial) {
+__global__ void __launch_bounds__(128)
+    reduce_kernel(Index begin, Index end, F f, typename F::Value* partial) {
   __shared__ typename F::Value shared[128];
   const Index first = begin + blockIdx.x * kReduceChunk;
   const Index last = min_of(end, first + kReduceChunk);
