@@ -32,7 +32,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-void CsvTable::append(double time, const std::vector<Quantity>& row) const {
+void CsvTable::append(double time, const std::vector<Quantity>& row, bool begun) const {
   std::string text, found;
   const std::string header = header_of(row);
   if (std::filesystem::is_regular_file(path_)) {
@@ -44,6 +44,7 @@ void CsvTable::append(double time, const std::vector<Quantity>& row) const {
       throw FileError(
           fmt::format("{}: has the columns '{}', this run writes '{}'", path_.string(), found, header));
   } else {
+    if (begun) must_be_there(path_);
     text = header + '\n';
   }
   text += fmt::format("{}", time);
@@ -52,7 +53,8 @@ void CsvTable::append(double time, const std::vector<Quantity>& row) const {
 
   std::error_code none;
   const auto before = std::filesystem::file_size(path_, none);
-  std::FILE* file = std::fopen(path_.c_str(), "ab");
+  std::FILE* file = std::fopen(path_.c_str(), begun ? "r+b" : "ab");  // r+ makes no file
+  if (file && begun) std::fseek(file, 0, SEEK_END);
   bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
   if (file) written = (std::fclose(file) == 0) && written;
   if (written) return;

@@ -21,6 +21,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Writes to a file; if that fails since a file that was `begun` has gone, says so.
+template <class F>
+void while_there(const fs::path& path, bool begun, const F& write) {
+  try {
+    write();
+  } catch (const FileError&) {
+    if (begun) must_be_there(path);
+    throw;
+  }
+}
+
 /// When something is written: at the first step end at or after every multiple of
 /// `every`. Everything follows from the times written so far, so a restarted run
 /// continues the series where the unbroken one would.
@@ -185,9 +196,10 @@ struct RunOutput::Impl {
       const bool again = f.schedule.begun();
       f.schedule.written(time);
       writer.post([file = &f.file, store = simulation.snapshot(f.store), time, again] {
-        if (again) must_be_there(file->path());
-        file->append(store, time);
-        file->write_xdmf();
+        while_there(file->path(), again, [&] {
+          file->append(store, time, again);
+          file->write_xdmf();
+        });
       });
     }
     for (auto& t : tables) {
@@ -195,8 +207,7 @@ struct RunOutput::Impl {
       const bool again = t.schedule.begun();
       t.schedule.written(time);
       writer.post([csv = &t.csv, row = row_of(simulation, t), time, again] {
-        if (again) must_be_there(csv->path());
-        csv->append(time, row);
+        while_there(csv->path(), again, [&] { csv->append(time, row, again); });
       });
     }
   }

@@ -184,12 +184,13 @@ void truncate(hid_t root, std::size_t frames) {
 
 }  // namespace
 
-void FrameFile::append(const HostStore& store, double time) const {
+void FrameFile::append(const HostStore& store, double time, bool begun) const {
   std::size_t bytes = 1 << 20;
   for (const auto& a : store.arrays) bytes += a.bytes.size();
   need_space(path_, bytes);
 
-  const bool first = !std::filesystem::exists(path_);
+  if (begun) must_be_there(path_);
+  const bool first = !begun && !std::filesystem::exists(path_);
   const auto write = [&] {
     const HostArray points = stored_points(store.arrays.at(0), double_points_);
     if (first) create_layout(path_, store, points, deflate_);

@@ -93,7 +93,7 @@ TEST_F(Disk, AFolderThatIsMovedAwayStopsTheRun) {
   const Outcome o = harmed("mv out gone");
   EXPECT_EQ(o.code, 2);
   EXPECT_TRUE(o.err.starts_with("out/")) << o.err;
-  EXPECT_NE(o.err.find(": cannot "), o.err.npos) << "write, or read what was just written: " << o.err;
+  EXPECT_NE(o.err.find(": cannot "), o.err.npos) << "write, or open for it: " << o.err;
   EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
   EXPECT_EQ(o.err.find("checkpoint is"), o.err.npos) << "it has gone as well: " << o.err;
   EXPECT_FALSE(std::filesystem::exists(dir_ / "out"));

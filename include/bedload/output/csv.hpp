@@ -15,9 +15,9 @@ class CsvTable {
  public:
   explicit CsvTable(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// Adds one row at `time` s; the first one makes the file and its header.
+  /// Adds one row at `time` s; the first one makes the file and its header, unless it is `begun`.
   /// Throws FileError, also if the columns differ from those in the file.
-  void append(double time, const std::vector<Quantity>& row) const;
+  void append(double time, const std::vector<Quantity>& row, bool begun = false) const;
 
   /// Times of the rows, s; none if there is no file. A row cut short by a kill counts as absent.
   std::vector<double> times() const;

@@ -20,9 +20,10 @@ class FrameFile {
   explicit FrameFile(std::filesystem::path path, bool double_points = false, int deflate = 0)
       : path_(std::move(path)), double_points_(double_points), deflate_(deflate) {}
 
-  /// Adds one frame at `time` s; the first array of the store is the position.
+  /// Adds one frame at `time` s; the first array of the store is the position. The first frame makes the file,
+  /// unless it is `begun`.
   /// Throws FileError; on a full disk before the file is touched.
-  void append(const HostStore& store, double time) const;
+  void append(const HostStore& store, double time, bool begun = false) const;
 
   /// Times of the frames, s; none if there is no file.
   std::vector<double> times() const;
