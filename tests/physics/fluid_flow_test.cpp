@@ -24,11 +24,11 @@ double energy(Simulation& s) {
 }
 
 /// A sound wave and a shear wave in an inviscid periodic box; `smoothed`: with what smooths and mends
-/// density.
+/// density, and shifts particles.
 Config inviscid_box(int n, double dt, bool smoothed = false) {
   Config c = periodic_box(n);
   c.visc.model = "none";
-  if (!smoothed) c.density.delta = c.density.consolidation = 0;
+  if (!smoothed) c.density.delta = c.density.consolidation = c.shift = 0;
   c.density.tension = 0.5;  // out of the waves' way
   c.time.dt = dt;
   c.time.force_dt = true;
