@@ -21,7 +21,7 @@ class Clock {
 
   /// The least of the limits; adaptive steps grow by at most 5 %. A fixed step above a limit is
   /// a KeyError unless forced.
-  double next_dt(std::vector<StepLimit> limits, std::string_view& binding) const {
+  double next_dt(const std::vector<StepLimit>& limits, std::string_view& binding) const {
     if (config_.dt > 0) {
       binding = "fixed";
       for (const auto& l : limits)
