@@ -1,4 +1,4 @@
-// bedload: run, check, list, info. Errors become one sentence and an exit code.
+// bedload: run, check, list, info, bench. Errors become one sentence and an exit code.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -20,6 +20,7 @@ int dispatch(const bedload::Options& options) {
   try {
     if (options.command == "run") return bedload::run_case(options);
     if (options.command == "check") return bedload::check_case(options);
+    if (options.command == "bench") return bedload::bench(options);
   } catch (const bedload::KeyError& error) {
     throw bedload::CaseError(bedload::place_in_case(options.file, options.overrides, error.key) + ": " +
                              error.what());

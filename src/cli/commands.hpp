@@ -12,5 +12,8 @@ int run_case(const Options& options);
 int check_case(const Options& options);
 /// Prints what a checkpoint, a .vtkhdf file or a summary.json holds. Throws FileError.
 int show_file(const std::filesystem::path& file);
+/// Times whole steps of cases, built in or from files, and prints a table. Bad input is told before anything
+/// is timed; after an error later on, what was timed before is printed.
+int bench(const Options& options);
 
 }  // namespace bedload

@@ -7,16 +7,12 @@
 #include <cmath>
 
 #include "bedload/core/error.hpp"
+#include "bench_rows.hpp"
+#include "commit.hpp"
 #include "list.hpp"
 
 namespace bedload {
 namespace {
-
-/// results/<case>; for cases/dam/case.toml results/dam.
-std::filesystem::path default_folder(const std::filesystem::path& file) {
-  const auto folder = std::filesystem::absolute(file).parent_path().filename();
-  return std::filesystem::path("results") / (file.stem() == "case" ? folder : file.stem());
-}
 
 std::string shell_word(const std::string& word) {
   const auto safe = [](unsigned char c) {
@@ -40,18 +36,53 @@ std::string repeatable(int argc, const char* const* argv) {
   return text;
 }
 
-void add_case_options(CLI::App& app, Options& o, std::string& precision, bool& force_dt) {
-  app.add_option("case", o.file, "Case file")->required()->type_name("CASE.toml");
+/// Those of all commands that compute.
+void add_common_options(CLI::App& app, Options& o) {
   app.add_option("--backend", o.backend, "Where to compute: auto takes a GPU if there is one")
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}));
-  app.add_option("--precision", precision, "single, mixed or double; wins over the case")
-      ->check(CLI::IsMember({"single", "mixed", "double"}));
   app.add_option("--set", o.overrides, "Wins over the case, e.g. grain.e=0.5; repeatable")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--threads", o.threads, "CPU threads; all if not given")->check(CLI::Range(1, 1024));
+}
+
+const CLI::IsMember kPrecisions({"single", "mixed", "double"});
+
+void add_case_options(CLI::App& app, Options& o, std::string& precision, bool& force_dt) {
+  app.add_option("case", o.file, "Case file")->required()->type_name("CASE.toml");
+  add_common_options(app, o);
+  app.add_option("--precision", precision, "single, mixed or double; wins over the case")->check(kPrecisions);
   app.add_flag("--force-dt", force_dt, "A fixed step above its limit only warns");
+}
+
+void add_bench_options(CLI::App& app, Options& o) {
+  BenchOptions& b = o.bench;
+  std::string names;
+  for (const BenchRow& row : bench_rows()) names += " " + row.name;
+  app.add_option(
+         "row", b.cases,
+         "Case files or rows built in:" + names + "; if none is given, 0.1M on a CPU, 1M 5M 8M 14M on a GPU")
+      ->type_name("ROW | CASE.toml");
+  app.add_option("--widths", b.widths, "Dam breaks of these widths in m besides, e.g. 0.2,0.4")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0.01, 1e4));
+  add_common_options(app, o);
+  app.add_option("--precision", b.precisions, "single, mixed or double; repeatable")
+      ->check(kPrecisions)
+      ->allow_extra_args(false);
+  app.add_option("--at", b.at, "Measure from this time in s; dam breaks splash at 0.6")
+      ->check(CLI::Range(0.0, 1e12));
+  app.add_option("--warm", b.warm, "Steps after that which do not count; 20 if not given")
+      ->check(CLI::Range(0, 1000000000));
+  app.add_option("--steps", b.steps, "Steps of one span; 200 if not given")->check(CLI::Range(1, 1000000000));
+  app.add_option("--spans", b.spans, "Spans, of which the median counts; 3 if not given")
+      ->check(CLI::Range(1, 1000000));
+  app.add_flag(
+      "--default-settings", b.default_settings,
+      "Rows with fluid once more with Bedload's own h, density diffusion, void relaxation, shifting");
+  app.add_option("--json", b.json, "Write the numbers there, too")->type_name("FILE");
 }
 
 void refuse_unknown_command(const CLI::App& app, int argc, const char* const* argv) {
@@ -67,6 +98,11 @@ void refuse_unknown_command(const CLI::App& app, int argc, const char* const* ar
 }  // namespace
 
 std::string version() { return BL_VERSION; }
+std::string commit() { return BL_COMMIT; }
+
+std::string case_name(const std::filesystem::path& file) {
+  return file.stem() == "case" ? std::filesystem::absolute(file).parent_path().filename() : file.stem();
+}
 
 Options parse_options(int argc, const char* const* argv) {
   Options o;
@@ -104,6 +140,9 @@ Options parse_options(int argc, const char* const* argv) {
   CLI::App* info = app.add_subcommand("info", "Show what a result file holds");
   info->add_option("file", o.file, "Checkpoint, .vtkhdf or summary.json")->required()->type_name("FILE");
 
+  CLI::App* bench = app.add_subcommand("bench", "Time whole steps of cases, as a table");
+  add_bench_options(*bench, o);
+
   refuse_unknown_command(app, argc, argv);
   try {
     app.parse(argc, argv);
@@ -120,7 +159,7 @@ Options parse_options(int argc, const char* const* argv) {
   if (o.until && !std::isfinite(*o.until)) throw CaseError("command line: --until: must be a time in s");
   if (!precision.empty()) o.overrides.push_back("run.precision=" + precision);
   if (force_dt) o.overrides.push_back("time.force_dt=true");
-  if (o.command == "run" && o.out.empty()) o.out = default_folder(o.file);
+  if (o.command == "run" && o.out.empty()) o.out = std::filesystem::path("results") / case_name(o.file);
   o.repeat = repeatable(argc, argv);
   return o;
 }

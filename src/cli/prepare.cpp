@@ -81,6 +81,11 @@ void refuse_changes(const Options& options, Prepared& p) {
 Prepared prepare(const Options& options) {
   Prepared p;
   p.config = read_case(options.file, options.overrides, p.warnings, options.restart);
+  lay(options, p);
+  return p;
+}
+
+void lay(const Options& options, Prepared& p) {
   p.device = find_device(options.backend, options.threads);
   if (options.restart.empty()) {
     if (p.config.fluid.present) refuse_too_fine(p);
@@ -93,7 +98,6 @@ Prepared prepare(const Options& options) {
     for (const Quantity& q : p.restart.scalars)
       if (q.name == "time") p.begin = q.value;
   }
-  return p;
 }
 
 void check_fixed_steps(Prepared& p, Simulation& simulation) {

@@ -24,6 +24,8 @@ struct Prepared {
 
 /// Reads the case, finds the device, lays the particles or reads the checkpoint.
 Prepared prepare(const Options& options);
+/// The same without reading the case: `prepared` has its config.
+void lay(const Options& options, Prepared& prepared);
 
 /// Throws KeyError if time.dt is above a limit, or time.dt_dem above one of free bodies; with time.force_dt
 /// it warns. Call after start().

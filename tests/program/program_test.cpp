@@ -128,7 +128,7 @@ TEST_F(Program, RefusesWrongCommandLinesWithOneSentence) {
   };
   refused("", "command line: A subcommand is required; see bedload --help");
   refused("simulate dam.toml",
-          "command line: simulate is no command; it must be one of run, check, list, info");
+          "command line: simulate is no command; it must be one of run, check, list, info, bench");
   write("empty.toml", "\n");
   refused("check empty.toml", "empty.toml: is empty");
   refused("run", "command line: case is required; see bedload --help");

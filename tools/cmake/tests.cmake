@@ -60,10 +60,6 @@ if(BEDLOAD_PYTHON AND "mixed" IN_LIST BEDLOAD_PRECISIONS)
   endforeach()
 endif()
 
-# Times, but asserts nothing.
-add_executable(bedload_bench tests/bench/bench.cpp)
-target_link_libraries(bedload_bench PRIVATE bedload_host bedload_device)
-
 file(GLOB_RECURSE BEDLOAD_SOLVER_TESTS CONFIGURE_DEPENDS
      tests/kernels/*_test.cpp tests/parallel/*_test.cpp tests/particles/*_test.cpp
      tests/neighbours/*_test.cpp tests/fluid/*_test.cpp tests/solids/*_test.cpp tests/walls/*_test.cpp

@@ -1,0 +1,285 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <nlohmann/json.hpp>
+
+#include "bedload/case/read.hpp"
+#include "bedload/core/error.hpp"
+#include "bedload/output/files.hpp"
+#include "bench_rows.hpp"
+#include "commands.hpp"
+#include "prepare.hpp"
+#include "progress.hpp"
+#include "settle.hpp"
+
+namespace bedload {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using Table = std::vector<std::vector<std::string>>;
+
+/// One case in one precision.
+struct Job {
+  std::string name;
+  fs::path file;  ///< empty: built in
+  std::vector<std::string> overrides;
+  Prepared p;  ///< its config so far
+};
+
+/// A number for the table and for the file, where it is null if the case has no such thing.
+struct Cell {
+  std::string head, text, key;
+  Json value;
+};
+
+struct Result {
+  std::string name, precision;
+  double ms = 0;  ///< of a step
+  std::vector<Cell> cells;
+  std::vector<Quantity> stages;  ///< of a step, ms; the last is what lies between the others
+};
+
+/// Some steps in a row.
+struct Span {
+  double seconds = 0;
+  std::int64_t substeps = 0, rebuilds = 0;
+  std::vector<Quantity> stages;  ///< s
+};
+
+std::vector<Job> jobs_of(const Options& o) {
+  const std::vector<BenchRow> built_in = bench_rows();
+  std::vector<Job> jobs;
+  const auto add = [&](const std::string& name, const fs::path& file, const std::string& text,
+                       std::vector<std::string> overrides) {
+    overrides.insert(overrides.end(), o.overrides.begin(), o.overrides.end());
+    for (std::size_t k = 0; k < std::max<std::size_t>(1, o.bench.precisions.size()); ++k) {
+      Job job{name, file, overrides, {}};
+      if (!o.bench.precisions.empty()) job.overrides.push_back("run.precision=" + o.bench.precisions[k]);
+      job.p.config = file.empty() ? read_case_text(text, name, job.overrides, job.p.warnings)
+                                  : read_case(file, job.overrides, job.p.warnings);
+      jobs.push_back(std::move(job));
+    }
+  };
+  const auto add_row = [&](const BenchRow& row) {
+    add(row.name, {}, row.text, row.settings);
+    if (o.bench.default_settings && !row.settings.empty())
+      add(row.name + ", default settings", {}, row.text, {});
+  };
+
+  std::vector<std::string> wanted = o.bench.cases;
+  if (wanted.empty() && o.bench.widths.empty()) {
+    wanted = {"0.1M"};
+    if (find_device(o.backend, o.threads).backend == "cuda") wanted = {"1M", "5M", "8M", "14M"};
+  }
+  for (const std::string& name : wanted) {
+    const auto row = std::find_if(built_in.begin(), built_in.end(),
+                                  [&](const BenchRow& each) { return each.name == name; });
+    if (row != built_in.end()) {
+      add_row(*row);
+    } else if (name.ends_with(".toml") || fs::exists(name)) {
+      add(case_name(name), name, "", {});
+    } else {
+      std::string names;
+      for (const BenchRow& each : built_in) names += each.name + ", ";
+      throw CaseError(
+          fmt::format("command line: {} is no row; it must be one of {}or a case file", name, names));
+    }
+  }
+  for (const double width : o.bench.widths)
+    add_row(widened_dam_break(fmt::format("{} m wide", width), width));
+  return jobs;
+}
+
+Span time_steps(Simulation& simulation, int steps) {
+  Span span;
+  const std::vector<Quantity> before = simulation.time_spent();
+  const auto from = std::chrono::steady_clock::now();
+  for (int k = 0; k < steps; ++k) {
+    const StepInfo info = simulation.step();
+    span.substeps += info.substeps;
+    span.rebuilds += info.rebuilt;
+  }
+  span.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+  span.stages = simulation.time_spent();
+  for (std::size_t k = 0; k < before.size(); ++k) span.stages[k].value -= before[k].value;
+  return span;
+}
+
+/// A number that only some cases have.
+Cell if_any(bool any, const std::string& head, const std::string& format, const std::string& key,
+            double value) {
+  return any ? Cell{head, fmt::format(fmt::runtime(format), value), key, value}
+             : Cell{head, "-", key, nullptr};
+}
+
+/// Of the median span, but for spread and rebuilds.
+Result result_of(const Job& job, const Simulation& simulation, int steps, std::vector<Span> spans) {
+  std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.seconds < b.seconds; });
+  const Span& median = spans[spans.size() / 2];
+  std::int64_t rebuilds = 0;
+  for (const Span& span : spans) rebuilds += span.rebuilds;
+  const std::int64_t all = std::int64_t(steps) * std::int64_t(spans.size());
+  const Counts n = simulation.counts();
+  const double ms = 1e3 * median.seconds / steps, substeps = double(median.substeps);
+  const double spread = 100 * (spans.back().seconds - spans.front().seconds) / median.seconds;
+  const double bytes = double(simulation.bytes()) / double(n.fluid + n.walls + n.grains);
+  const bool fluid = n.fluid > 0, grains = n.grains > 0 && substeps > 0;
+
+  Cell rebuilt = if_any(rebuilds > 0, "steps per rebuild", "{:.1f}", "steps_per_rebuild",
+                        double(all) / double(rebuilds));
+  if (rebuilds == 0) rebuilt.text = fmt::format("> {}", all);
+  Result result{job.name,
+                job.p.config.precision,
+                ms,
+                {{"row", job.name, "row", job.name},
+                 {"N fluid", grouped(n.fluid), "fluid_particles", n.fluid},
+                 {"N wall", grouped(n.walls), "wall_particles", n.walls},
+                 {"N grains", grouped(n.grains), "grains", n.grains},
+                 {"precision", job.p.config.precision, "precision", job.p.config.precision},
+                 if_any(fluid, "h/dx", "{:g}", "h_over_dx", job.p.config.fluid.h_over_dx),
+                 rebuilt,
+                 {"ms/step", fmt::format("{:.3f}", ms), "step_ms", ms},
+                 {"spread", fmt::format("{:.1f} %", spread), "spread_percent", spread},
+                 if_any(fluid, "fluid particle-steps/s", "{:.3g}", "fluid_particle_steps_per_s",
+                        1e3 * double(n.fluid) / ms),
+                 if_any(substeps > 0, "us/substep", "{:.2f}", "substep_us", 1e6 * median.seconds / substeps),
+                 if_any(grains, "sphere-substeps/s", "{:.3g}", "sphere_substeps_per_s",
+                        double(n.grains) * substeps / median.seconds),
+                 {"bytes/particle", fmt::format("{:.0f}", bytes), "bytes_per_particle", bytes}},
+                median.stages};
+  double rest = ms;
+  for (Quantity& stage : result.stages) rest -= stage.value *= 1e3 / steps;
+  result.stages.push_back({"rest", "ms", std::max(0.0, rest)});
+  return result;
+}
+
+Result measure(Job& job, const Options& o) {
+  Prepared& p = job.p;
+  lay(o, p);
+  SavedState bed;
+  const bool settle = p.config.grain.present && p.config.grain.settle;
+  if (settle) {
+    Progress progress(false, 0, p.config.grain.settle_time);
+    bed = settled_grains(p.config, p.setup, p.device, progress, p.warnings).state;
+    progress.close();
+  }
+  for (const std::string& warning : p.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  const auto simulation = make_simulation(p.config, p.setup, p.device);
+  p.setup = {};
+  if (settle) simulation->load_grains(bed);
+  simulation->start();
+  while (simulation->time() < o.bench.at) simulation->step();
+  time_steps(*simulation, o.bench.warm);
+  std::vector<Span> spans;
+  for (int k = 0; k < o.bench.spans; ++k) spans.push_back(time_steps(*simulation, o.bench.steps));
+  return result_of(job, *simulation, o.bench.steps, std::move(spans));
+}
+
+/// The place of what is wrong goes before it.
+Result measure_or_tell(Job& job, const Options& o) {
+  try {
+    return measure(job, o);
+  } catch (const KeyError& error) {
+    throw CaseError((job.file.empty() ? job.name : place_in_case(job.file, job.overrides, error.key)) + ": " +
+                    error.what());
+  }
+}
+
+Table numbers_table(const std::vector<Result>& results) {
+  Table table(1);
+  for (const Cell& cell : results.front().cells) table.front().push_back(cell.head);
+  for (const Result& result : results) {
+    table.emplace_back();
+    for (const Cell& cell : result.cells) table.back().push_back(cell.text);
+  }
+  return table;
+}
+
+/// Milliseconds and percent of a step.
+Table stages_table(const std::vector<Result>& results) {
+  std::vector<std::string> stages;
+  for (const Result& result : results)
+    for (const Quantity& stage : result.stages)
+      if (std::find(stages.begin(), stages.end(), stage.name) == stages.end()) stages.push_back(stage.name);
+  Table table{{"row", "precision"}};
+  table[0].insert(table[0].end(), stages.begin(), stages.end());
+  for (const Result& result : results) {
+    std::vector<std::string> line{result.name, result.precision};
+    for (const std::string& name : stages) {
+      const auto stage = std::find_if(result.stages.begin(), result.stages.end(),
+                                      [&](const Quantity& each) { return each.name == name; });
+      line.push_back(stage == result.stages.end()
+                         ? "-"
+                         : fmt::format("{:.3f} ({:.0f} %)", stage->value, 100 * stage->value / result.ms));
+    }
+    table.push_back(line);
+  }
+  return table;
+}
+
+/// As Markdown; the first line is the head.
+void print_table(const Table& table) {
+  std::vector<std::size_t> widths(table.front().size());
+  for (const auto& line : table)
+    for (std::size_t k = 0; k < widths.size(); ++k) widths[k] = std::max(widths[k], line[k].size());
+  std::string rule = "|";
+  for (const std::size_t width : widths) rule += std::string(width + 1, '-') + ":|";
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    std::string text = "|";
+    for (std::size_t k = 0; k < widths.size(); ++k) text += fmt::format(" {:>{}} |", table[i][k], widths[k]);
+    fmt::print("{}\n", i == 0 ? text + "\n" + rule : text);
+  }
+}
+
+Json json_of(const Options& o, const Device& device, const std::vector<Result>& results) {
+  auto rows = Json::array();
+  for (const Result& result : results) {
+    auto row = Json::object(), stages = Json::object();
+    for (const Cell& cell : result.cells) row[cell.key] = cell.value;
+    for (const Quantity& stage : result.stages) stages[stage.name] = stage.value;
+    row["stages_ms"] = stages;
+    rows.push_back(row);
+  }
+  return {{"version", version()},        {"commit", commit()},     {"backend", device.backend},
+          {"device", device.name},       {"from_s", o.bench.at},   {"warm_steps", o.bench.warm},
+          {"span_steps", o.bench.steps}, {"spans", o.bench.spans}, {"rows", rows}};
+}
+
+}  // namespace
+
+int bench(const Options& o) {
+  std::vector<Job> jobs = jobs_of(o);
+  const Device device = find_device(o.backend, o.threads);
+  std::vector<Result> results;
+  const auto save = [&] {
+    if (o.bench.json.empty()) return;
+    write_file(o.bench.json,
+               json_of(o, device, results).dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
+  };
+  save();  // a wrong place is told before minutes have gone
+  std::exception_ptr failure;
+  for (std::size_t k = 0; k < jobs.size() && !failure; ++k) {
+    try {
+      results.push_back(measure_or_tell(jobs[k], o));
+      const Result& last = results.back();
+      fmt::print(stderr, "{} {}: {:.3f} ms/step\n", last.name, last.precision, last.ms);
+      save();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  }
+  if (!results.empty()) {
+    fmt::print("bedload {}, commit {}, {}: {}. From t = {:g} s, median of {} x {} steps.\n\n", version(),
+               commit(), device.backend, device.name, o.bench.at, o.bench.spans, o.bench.steps);
+    print_table(numbers_table(results));
+    fmt::print("\nOf a step, ms:\n\n");
+    print_table(stages_table(results));
+  }
+  if (failure) std::rethrow_exception(failure);
+  return 0;
+}
+
+}  // namespace bedload

@@ -1,0 +1,110 @@
+// `bedload bench` from outside. What it measures is not judged here.
+
+#include <nlohmann/json.hpp>
+
+#include "bedload/case/read.hpp"
+#include "cli/bench_rows.hpp"
+#include "run_program.hpp"
+
+namespace bedload::test {
+namespace {
+
+/// 150 fluid particles and 40 grains.
+constexpr const char* kSmall = R"([domain]
+min = [0, 0, 0]
+max = [0.1, 0.06, 0.1]
+[fluid]
+dx = 0.01
+[[fluid.fill]]
+min = [0, 0, 0]
+max = [0.05, 0.06, 0.05]
+[[wall.body]]
+name = "tank"
+shape = "tank"
+min = [0, 0, 0]
+max = [0.1, 0.06, 0.1]
+faces = ["x-", "x+", "y-", "y+", "z-"]
+[grain]
+d = 0.005
+[[grain.fill]]
+min = [0, 0, 0]
+max = [0.05, 0.06, 0.03]
+count = 40
+[time]
+end = 1
+[out]
+every = 1
+)";
+
+using Bench = ProgramTest;
+
+TEST_F(Bench, TimesTheStepsOfACaseByStage) {
+  write("dam.toml", kSmall);
+  const Outcome o = bedload(
+      "bench dam.toml --backend cpu --precision mixed --at 1e-4 --warm 1 --steps 3 --spans 2 --json "
+      "speed.json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("fluid particle-steps/s"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("| dam | "), std::string::npos) << o.out;
+
+  const auto json = nlohmann::json::parse(content_of(dir_ / "speed.json"));
+  EXPECT_EQ(json.at("version"), BL_VERSION);
+  EXPECT_FALSE(json.at("commit").get<std::string>().empty());
+  EXPECT_EQ(json.at("backend"), "cpu");
+  EXPECT_EQ(json.at("span_steps"), 3);
+  ASSERT_EQ(json.at("rows").size(), 1u);
+  const auto& row = json["rows"][0];
+  EXPECT_EQ(row.at("row"), "dam");
+  EXPECT_EQ(row.at("precision"), "mixed");
+  EXPECT_EQ(row.at("fluid_particles"), 150);
+  EXPECT_EQ(row.at("grains"), 40);
+  EXPECT_EQ(row.at("h_over_dx"), 1.5);
+  EXPECT_GT(row.at("wall_particles"), 0);
+  const double ms = row.at("step_ms");
+  EXPECT_GT(ms, 0);
+  EXPECT_NEAR(row.at("fluid_particle_steps_per_s"), 150e3 / ms, 1e-6 * 150e3 / ms);
+  EXPECT_LE(row.at("substep_us"), 1e3 * ms);
+  EXPECT_GT(row.at("sphere_substeps_per_s"), 0);
+  EXPECT_GT(row.at("bytes_per_particle"), 100);
+  double stages = 0;
+  for (const char* name : {"lists", "fluid", "grains", "coupling", "checks"}) {
+    const double stage = row.at("stages_ms").at(name);
+    EXPECT_GE(stage, 0) << name;
+    stages += stage;
+  }
+  EXPECT_GT(stages, 0);
+  EXPECT_LE(stages, ms);
+}
+
+TEST_F(Bench, RefusesWhatItDoesNotKnowWithOneSentence) {
+  write("dam.toml", kSmall);
+  const auto refused = [&](const std::string& arguments, const std::string& message) {
+    const Outcome o = bedload("bench " + arguments + " --backend cpu");
+    EXPECT_EQ(o.code, 2) << arguments;
+    EXPECT_EQ(o.err, message + "\n") << arguments;
+    EXPECT_EQ(o.out, "") << arguments;
+  };
+  refused("dam.toml 2M",
+          "command line: 2M is no row; it must be one of 0.1M, 1M, 5M, 8M, 14M, spheres-8.8k, spheres-1M, "
+          "coupled, "
+          "coupled-10M, or a case file");
+  refused("no.toml", "no.toml: cannot read this case file");
+  refused("dam.toml --set grain.e=1.4",
+          "--set grain.e=1.4: grain.e = 1.4 must be within 0.05..1; give a fraction, not percent?");
+  refused("0.1M --set fluid.d=1", "--set fluid.d=1: fluid.d is not a parameter; did you mean grain.d?");
+}
+
+TEST_F(Bench, ReadsEveryRow) {
+  std::vector<BenchRow> rows = bench_rows();
+  rows.push_back(widened_dam_break("0.2 m wide", 0.2));
+  for (const BenchRow& row : rows) {
+    std::vector<std::string> warnings;
+    EXPECT_NO_THROW(read_case_text(row.text, row.name, {}, warnings)) << row.name;
+    const Config config = read_case_text(row.text, row.name, row.settings, warnings);
+    EXPECT_EQ(config.fluid.present, !row.settings.empty()) << row.name;
+    EXPECT_EQ(warnings, std::vector<std::string>{}) << row.name;
+  }
+}
+
+}  // namespace
+}  // namespace bedload::test
