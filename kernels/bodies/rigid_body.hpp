@@ -35,7 +35,8 @@ struct RigidBody {
   Vec3d arm;                  ///< from there to the centre of mass at t = 0, m; 0 unless it only turns
   Vec3d moments;              ///< principal, about the reference point, kg m2
   Quat<double> principal;     ///< turns the coordinate axes to the principal ones at t = 0
-  Vec3d axis;                 ///< of constraints, unit
+  Vec3d axis;                 ///< of what constrains its moves, unit
+  Vec3d hinge;                ///< of what constrains its turns, unit
   double axial = 0;           ///< moment of inertia about it, kg m2
   double release = 0;         ///< s
 
@@ -49,12 +50,12 @@ struct RigidBody {
   /// The part of a torque that may turn it.
   BL_HD Vec3d turnable(const Vec3d& t) const {
     if (turn == BodyTurn::all) return t;
-    return turn == BodyTurn::axis ? dot(t, axis) * axis : Vec3d{};
+    return turn == BodyTurn::axis ? dot(t, hinge) * hinge : Vec3d{};
   }
   /// Angular velocity at angular momentum l, rad/s.
   BL_HD Vec3d omega(const Quat<double>& rotation, const Vec3d& l) const {
     if (turn == BodyTurn::none) return {};
-    if (turn == BodyTurn::axis) return (dot(l, axis) / axial) * axis;
+    if (turn == BodyTurn::axis) return (dot(l, hinge) / axial) * hinge;
     const Quat<double> frame = rotation * principal;
     const Vec3d p = frame.conjugate().rotate(l);
     return frame.rotate({p.x / moments.x, p.y / moments.y, p.z / moments.z});
@@ -62,7 +63,7 @@ struct RigidBody {
   /// Angular momentum at angular velocity w, kg m2/s.
   BL_HD Vec3d momentum(const Quat<double>& rotation, const Vec3d& w) const {
     if (turn == BodyTurn::none) return {};
-    if (turn == BodyTurn::axis) return (axial * dot(w, axis)) * axis;
+    if (turn == BodyTurn::axis) return (axial * dot(w, hinge)) * hinge;
     const Quat<double> frame = rotation * principal;
     const Vec3d p = frame.conjugate().rotate(w);
     return frame.rotate({p.x * moments.x, p.y * moments.y, p.z * moments.z});
@@ -78,7 +79,7 @@ struct RigidBody {
   BL_HD Quat<double> turned(const Quat<double>& rotation, const Vec3d& l, double h) const {
     if (turn == BodyTurn::none) return rotation;
     if (turn == BodyTurn::axis)
-      return normalised(Quat<double>::from_rotation((h * dot(l, axis) / axial) * axis) * rotation);
+      return normalised(Quat<double>::from_rotation((h * dot(l, hinge) / axial) * hinge) * rotation);
     Quat<double> frame = rotation * principal;
     const int order[5] = {0, 1, 2, 1, 0};
     for (int s = 0; s < 5; ++s) {

@@ -28,7 +28,7 @@ Config outlets_as_walls(Config c, const char* phase) {
   return c;
 }
 
-double fluid_mass(const Config& c) { return c.fluid.rho0 * c.fluid.dx * c.fluid.dx * c.fluid.dx; }
+double fluid_mass(const Config& c) { return c.fluid.rho0 * c.domain.cell_volume(c.fluid.dx); }
 
 }  // namespace
 

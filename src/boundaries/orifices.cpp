@@ -12,7 +12,7 @@ std::vector<Orifice> orifices_of(const Config& config) {
     o.direction = inlet.direction;
     o.disc = inlet.shape == "disc";
     o.body = std::uint32_t(config.wall.bodies.size() + all.size() - 1);
-    o.behind = 0.5 * orifice_layer(inlet, config.fluid.dx).thickness;
+    o.behind = 0.5 * orifice_layer(inlet, config.fluid.dx, config.domain).thickness;
     const Vec3d side[2] = {inlet.half_a, inlet.half_b};
     for (int k = 0; k < 2 && !o.disc; ++k) {
       o.half[k] = norm(side[k]);

@@ -106,7 +106,9 @@ void describe_domain(Parameters& p, DomainConfig& d) {
   p("domain.max", &d.max, {.unit = "m", .meaning = "upper corner, above domain.min", .presence = required});
   p("domain.periodic", &d.periodic, {.meaning = "per axis; a period exceeds 2 kappa h and 4 R"});
   p("domain.two_d", &d.two_d,
-    {.meaning = "plane flow in x and z, one layer of particles that stands for the domain's length along y"});
+    {.meaning =
+         "plane flow in x and z, one layer of particles that stands for the domain's length along y, without "
+         "grains"});
 }
 
 void describe_coupling(Parameters& p, CouplingConfig& c) {

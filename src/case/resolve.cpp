@@ -247,7 +247,8 @@ void resolve_fluid(Config& c, const Value& root, const std::filesystem::path& ch
   }
   vmax = std::max(vmax, std::sqrt(2 * gH));
   for (const WallBody& body : c.wall.bodies) vmax = std::max(vmax, wall_speed(body, c.domain, c.time.end));
-  for (const InletConfig& inlet : c.inlets) vmax = std::max(vmax, inlet_speed(inlet, f.dx, c.time.end));
+  for (const InletConfig& inlet : c.inlets)
+    vmax = std::max(vmax, inlet_speed(inlet, f.dx, c.domain, c.time.end));
   if (vmax == 0) missing(root, "fluid.vmax", "m/s; neither gravity nor a wall or inlet sets a speed here");
   f.vmax = vmax;
   f.c = c.eos.type == "tait" ? f.c_factor * vmax : std::sqrt(c.eos.alpha * c.eos.p0 / f.rho0);
@@ -293,13 +294,14 @@ void resolve_grains(Config& c, const Value& root, const std::filesystem::path& c
 
 double wall_speed(const WallBody& body, const DomainConfig& domain, double until) {
   const MotionConfig& m = body.motion;
+  const std::vector<Vec3d> at = corners(body, domain);
   if (body.free.present)
-    return norm(body.free.velocity) + 0.5 * norm(body.free.spin) * norm(body.max - body.min);
+    return norm(body.free.velocity) + 0.5 * norm(body.free.spin) * norm(at.back() - at.front());
   if (m.add.empty()) {
     if (m.kind == "velocity") return norm(m.velocity);
     if (m.kind == "oscillation") return 2 * std::numbers::pi * m.frequency * norm(m.amplitude);
   }
-  return top_speed(m, corners(body, domain), until);
+  return top_speed(m, at, until);
 }
 
 double fill_volume(const GrainFill& fill) {
@@ -318,7 +320,7 @@ double solid_volume(const GrainFill& fill, double rho) {
 void resolve(Config& c, const Value& root, const std::filesystem::path& checkpoint) {
   resolve_shapes(c, root);
   resolve_walls(c, root);
-  if (c.domain.two_d) resolve_plane(c);
+  if (c.domain.two_d) resolve_plane(c, root);
   resolve_motions(c, root);
   resolve_free_bodies(c, root);
   resolve_openings(c, root);

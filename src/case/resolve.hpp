@@ -32,8 +32,9 @@ void resolve_openings(Config& config, const Value& root);
 /// The grains' sizes of [[grain_inlet]], and what they mean for the case.
 void resolve_grain_inlets(Config& config, const Value& root);
 
-/// Lets what bounds a plane flow run through its domain along y, where it is the same everywhere.
-void resolve_plane(Config& config);
+/// Lets what bounds a plane flow run through its domain along y, where it is the same everywhere, and keeps
+/// free bodies in its middle. CaseError for what would leave the plane.
+void resolve_plane(Config& config, const Value& root);
 
 /// CaseError for what no plane flow has.
 void check_plane(const Config& config, const Value& root);

@@ -35,7 +35,7 @@ void resolve_free_bodies(Config& c, const Value& root) {
           fmt::format("{}: wall.body \"{}\" must have only one of motion and free", place, body.name));
     f.axis = direction(f.axis, root, path + ".axis");
     try {
-      f.solid = mass_properties(body);
+      f.solid = mass_properties(body, c.domain);
     } catch (const CaseError& error) {
       throw CaseError(fmt::format("{}: wall.body.free {}", place, error.what()));
     }
@@ -53,8 +53,10 @@ void resolve_free_bodies(Config& c, const Value& root) {
       throw CaseError(
           fmt::format("{}: wall.body.free must have only one of contact and contact_spacing", place));
     if (f.contacts && f.balls.empty() && f.contact_spacing == 0) {
-      const Vec3d side = body.max - body.min;
-      f.contact_spacing = std::max(std::min({side.x, side.y, side.z}) / 4, norm(side) / 60);
+      const std::vector<Vec3d> at = corners(body, c.domain);
+      const Vec3d side = at.back() - at.front();
+      const double least = std::min({side.x, c.domain.two_d ? side.x : side.y, side.z});
+      f.contact_spacing = std::max(least / 4, norm(side) / 60);
     }
   }
 }

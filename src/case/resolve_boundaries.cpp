@@ -35,7 +35,8 @@ void check_factor(const InletConfig& inlet, const Value& root, const std::string
   }
 }
 
-void resolve_inlet(InletConfig& inlet, double dx, const Value& root, const std::string& path) {
+void resolve_inlet(InletConfig& inlet, double dx, const DomainConfig& domain, const Value& root,
+                   const std::string& path) {
   inlet.direction = direction(inlet.direction, root, path + "direction");
   if (inlet.shape == "rectangle") check_right_angles(inlet, root, path);
   check_factor(inlet, root, path);
@@ -43,11 +44,11 @@ void resolve_inlet(InletConfig& inlet, double dx, const Value& root, const std::
     throw CaseError(fmt::format("{}: inlet \"{}\" must have exactly one of rate and velocity",
                                 nearest_value(root, path + "rate").place(), inlet.name));
   constexpr double most = 1e7;  // particles side by side
-  if (const double area = orifice_area(inlet); area > most * dx * dx)
+  if (const double over = orifice_area(inlet) * dx / domain.cell_volume(dx) / most; over > 1)
     reject(root, "fluid.dx", fmt::format("{}", dx),
            fmt::format("must be at least {:.4g} m for no more than ten million particles in inlet \"{}\"",
-                       std::sqrt(area / most), inlet.name));
-  const OrificeWidth width = orifice_width(inlet, dx);
+                       dx * std::pow(over, domain.two_d ? 1.0 : 0.5), inlet.name));
+  const OrificeWidth width = orifice_width(inlet, dx, domain);
   if (width.points < 4)
     reject(root, "fluid.dx", fmt::format("{}", dx),
            fmt::format("must be at most {:.4g} m for four particles across inlet \"{}\"; it makes {}",
@@ -69,7 +70,7 @@ void check_parts(const OutletConfig& outlet, const Value& root, const std::strin
 
 void resolve_openings(Config& c, const Value& root) {
   for (std::size_t i = 0; i < c.inlets.size(); ++i)
-    resolve_inlet(c.inlets[i], c.fluid.dx, root, fmt::format("inlet.{}.", i));
+    resolve_inlet(c.inlets[i], c.fluid.dx, c.domain, root, fmt::format("inlet.{}.", i));
   for (std::size_t i = 0; i < c.outlets.size(); ++i) {
     OutletConfig& outlet = c.outlets[i];
     const std::string path = fmt::format("outlet.{}.", i);

@@ -33,12 +33,12 @@ Counts counts_of(const SavedState& state) {
 }
 
 /// Particles that come in between two times, s.
-double let_in(const InletConfig& inlet, double dx, double from, double to) {
-  InletFlow flow(inlet, dx);
+double let_in(const InletConfig& inlet, const Config& c, double from, double to) {
+  InletFlow flow(inlet, c.fluid.dx, c.domain);
   flow.resume(from, 0, 0);
   constexpr int pieces = 1000;
   for (int k = 1; k <= pieces; ++k) flow.advance(from + (to - from) * k / pieces);
-  return flow.counted() / std::pow(dx, 3);
+  return flow.counted() / c.domain.cell_volume(c.fluid.dx);
 }
 
 }  // namespace
@@ -120,11 +120,11 @@ Counts with_arrivals(const Prepared& p) {
   const double from = p.begin, to = c.time.end;
   const Vec3d size = c.domain.max - c.domain.min;
   const auto add = [&](std::int64_t& count, double more, double spacing) {
-    const double room = size.x * size.y * size.z / std::pow(spacing, 3);
+    const double room = size.x * size.y * size.z / c.domain.cell_volume(spacing);
     if (more > 0) count = std::max<std::int64_t>(count, std::llround(std::min(double(count) + more, room)));
   };
   double fluid = 0, grains = 0;
-  for (const InletConfig& inlet : c.inlets) fluid += let_in(inlet, c.fluid.dx, from, to);
+  for (const InletConfig& inlet : c.inlets) fluid += let_in(inlet, c, from, to);
   for (std::size_t k = 0; k < c.grain_inlets.size(); ++k) {
     const GrainSource source(c, k);
     grains += source.waiting(to) - source.waiting(from);
@@ -177,8 +177,8 @@ std::string summary_text(const Prepared& p) {
   }
   for (const InletConfig& inlet : c.inlets)
     out += fmt::format("inlet      {}: {} particles a layer, up to {:.4g} m/s\n", inlet.name,
-                       orifice_layer(inlet, c.fluid.dx).points.size(),
-                       inlet_speed(inlet, c.fluid.dx, c.time.end));
+                       orifice_layer(inlet, c.fluid.dx, c.domain).points.size(),
+                       inlet_speed(inlet, c.fluid.dx, c.domain, c.time.end));
   if (c.fluid.present && c.grain.present && c.couple.mode != "off")
     out += fmt::format("coupling   {}, {}, h_c {:.4g} m = {:.3g} d_max\n", c.couple.mode, c.couple.drag,
                        c.couple.hc, c.couple.hc / c.grain.d_max);

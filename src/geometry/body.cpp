@@ -1,5 +1,7 @@
 #include "bedload/geometry/body.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -98,18 +100,20 @@ void add_mesh(SolidMoments& all, const SurfacePart& part) {
   }
 }
 
-SolidMoments raster_moments(const Shape& shape) {
+SolidMoments raster_moments(const Shape& shape, const DomainConfig& domain) {
   const Bounds bounds = shape.bounds();
   const Vec3d side = bounds.max - bounds.min;
-  const double step = std::cbrt(side.x * side.y * side.z / 1e6);
+  const double step =
+      domain.two_d ? std::sqrt(side.x * side.z / 1e6) : std::cbrt(side.x * side.y * side.z / 1e6);
   int n[3];
-  for (int k = 0; k < 3; ++k) n[k] = std::max(1, int(std::ceil(side[k] / step)));
-  const double cell = step * step * step;
+  for (int k = 0; k < 3; ++k) n[k] = domain.flat(k) ? 1 : std::max(1, int(std::ceil(side[k] / step)));
+  const double cell = domain.cell_volume(step);
   std::vector<SolidMoments> slabs(n[2]);
   host_for_each(slabs.size(), [&](std::size_t l) {
     for (int j = 0; j < n[1]; ++j)
       for (int i = 0; i < n[0]; ++i) {
-        const Vec3d x = bounds.min + step * Vec3d{i + 0.5, j + 0.5, double(l) + 0.5};
+        Vec3d x = bounds.min + step * Vec3d{i + 0.5, j + 0.5, double(l) + 0.5};
+        if (domain.two_d) x.y = domain.middle();
         slabs[l].add(cell * std::clamp(0.5 - shape.distance(x) / step, 0.0, 1.0), x);
       }
   });
@@ -119,6 +123,7 @@ SolidMoments raster_moments(const Shape& shape) {
     all.first += slab.first;
     for (int k = 0; k < 6; ++k) all.second[k] += slab.second[k];
   }
+  all.second[1] += all.volume * domain.thickness() * domain.thickness() / 12;
   return all;
 }
 
@@ -152,9 +157,9 @@ void SolidMoments::add(double piece, const Vec3d& at) {
   add_second(*this, piece, at, at);
 }
 
-SolidMoments solid_moments(const Shape& shape) {
+SolidMoments solid_moments(const Shape& shape, const DomainConfig& domain) {
   const auto parts = parts_of(shape);
-  if (parts.size() != 1 || parts[0].shell > 0) return raster_moments(shape);
+  if (domain.two_d || parts.size() != 1 || parts[0].shell > 0) return raster_moments(shape, domain);
   const SurfacePart& part = parts[0];
   SolidMoments all;
   switch (part.kind) {
@@ -178,22 +183,26 @@ SolidMoments solid_moments(const Shape& shape) {
   return all;
 }
 
-MassProperties mass_properties(const WallBody& body) {
+MassProperties mass_properties(const WallBody& body, const DomainConfig& domain) {
   const FreeConfig& f = body.free;
   MassProperties out;
   out.mass = f.mass;
   if (f.centre_of_mass.size() == 3)
-    out.centre = {f.centre_of_mass[0], f.centre_of_mass[1], f.centre_of_mass[2]};
+    out.centre = {f.centre_of_mass[0], domain.two_d ? domain.middle() : f.centre_of_mass[1],
+                  f.centre_of_mass[2]};
   if (f.inertia.size() == 6) std::copy(f.inertia.begin(), f.inertia.end(), out.inertia.begin());
   if (f.mass > 0 && !f.centre_of_mass.empty() && !f.inertia.empty()) return out;
   if (!closed(body))
     throw CaseError("needs mass, centre_of_mass and inertia; shape = \"" + body.shape +
                     "\" is not closed, so they do not follow from it");
   const SolidMoments m =
-      body.solid.shape ? solid_moments(*body.solid.shape) : box_moments(body.min, body.max);
+      body.solid.shape ? solid_moments(*body.solid.shape, domain) : box_moments(body.min, body.max);
+  if (domain.two_d && m.volume == 0)
+    throw CaseError(fmt::format("needs a shape that the plane y = {:g} m cuts", domain.middle()));
   if (out.mass == 0) out.mass = f.density * m.volume;
   const double density = out.mass / m.volume;
-  const Vec3d middle = m.first / m.volume;
+  Vec3d middle = m.first / m.volume;
+  if (domain.two_d) middle.y = domain.middle();  // whatever rounding says
   if (f.centre_of_mass.empty()) out.centre = middle;
   if (!f.inertia.empty()) return out;
   std::array<double, 6> s{};  // second moments about the shape's own centre
@@ -233,7 +242,8 @@ std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& do
   const double spacing = f.contact_spacing;
   std::vector<BodyBall> balls;
   const auto parts = body.solid.shape ? parts_of(*body.solid.shape) : std::vector<SurfacePart>{};
-  if (parts.size() == 1 && parts[0].kind == SurfacePart::Kind::capsule && parts[0].shell == 0) {
+  if (!domain.two_d && parts.size() == 1 && parts[0].kind == SurfacePart::Kind::capsule &&
+      parts[0].shell == 0) {
     const SurfacePart& part = parts[0];
     const int n = std::max(0, int(std::ceil(2 * part.half.z / part.radius - 1e-9)));
     for (int k = 0; k <= n; ++k) {
@@ -243,7 +253,8 @@ std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& do
     return balls;
   }
   if (!closed(body)) return {};
-  for (const Vec3d& x : sample_body(body, spacing, 0.9 * spacing, domain)) {
+  for (Vec3d x : sample_body(body, spacing, 0.9 * spacing, domain)) {
+    if (domain.two_d) x.y = domain.middle();
     const double depth = -wall_distance(body, x, spacing, domain);
     if (depth > 0) balls.push_back({x, depth});
   }
@@ -258,7 +269,8 @@ double particles_beyond(const WallBody& body, const Config& config) {
 std::vector<Vec3d> corners(const WallBody& body, const DomainConfig& domain, double beyond) {
   const bool bounded = body.shape != "plane";
   const Vec3d out{beyond, beyond, beyond};
-  const Vec3d lo = (bounded ? body.min : domain.min) - out, hi = (bounded ? body.max : domain.max) + out;
+  Vec3d lo = (bounded ? body.min : domain.min) - out, hi = (bounded ? body.max : domain.max) + out;
+  if (domain.two_d) lo.y = hi.y = domain.middle();
   std::vector<Vec3d> all;
   for (int corner = 0; corner < 8; ++corner)
     all.push_back({corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z});

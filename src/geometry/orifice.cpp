@@ -107,14 +107,14 @@ double orifice_area(const InletConfig& inlet) {
   return inlet.shape == "disc" ? std::numbers::pi * half.a * half.a : 4 * half.a * half.b;
 }
 
-OrificeLayer orifice_layer(const InletConfig& inlet, double dx) {
+OrificeLayer orifice_layer(const InletConfig& inlet, double dx, const DomainConfig& domain) {
   const PlaneAxes axes(inlet);
   const HalfSides half(inlet);
   OrificeLayer layer;
   const auto add = [&](double a, double b) {
     layer.points.push_back(inlet.centre + a * axes.a + b * axes.b);
   };
-  const int na = nearest_cells(half.a, dx), nb = nearest_cells(half.b, dx);
+  const int na = nearest_cells(half.a, dx), nb = domain.two_d ? 1 : nearest_cells(half.b, dx);
   const double sa = 2 * half.a / na, sb = 2 * half.b / nb;
   if (inlet.shape == "disc") {
     const double turn = std::numbers::pi * (3 - std::sqrt(5.0));  // no ring lines up with another
@@ -130,13 +130,13 @@ OrificeLayer orifice_layer(const InletConfig& inlet, double dx) {
     for (int j = 0; j < nb; ++j)
       for (int i = 0; i < na; ++i) add((i - 0.5 * (na - 1)) * sa, (j - 0.5 * (nb - 1)) * sb);
   }
-  layer.thickness = double(layer.points.size()) * dx * dx * dx / orifice_area(inlet);
+  layer.thickness = double(layer.points.size()) * domain.cell_volume(dx) / orifice_area(inlet);
   return layer;
 }
 
-OrificeWidth orifice_width(const InletConfig& inlet, double dx) {
+OrificeWidth orifice_width(const InletConfig& inlet, double dx, const DomainConfig& domain) {
   const HalfSides half(inlet);
-  const double narrow = std::min(half.a, half.b);
+  const double narrow = domain.two_d ? half.a : std::min(half.a, half.b);
   return {cells_along(narrow, dx), narrow / 2};
 }
 
@@ -148,7 +148,7 @@ void add_inlets(const Config& config, const Setup::Fluid& fluid, Setup::Walls& w
                 std::vector<std::string>& warnings) {
   for (std::size_t i = 0; i < config.inlets.size(); ++i) {
     const InletConfig& inlet = config.inlets[i];
-    const OrificeLayer layer = orifice_layer(inlet, config.fluid.dx);
+    const OrificeLayer layer = orifice_layer(inlet, config.fluid.dx, config.domain);
     const int layers = buffer_layers(config.fluid, layer.thickness);
     std::vector<Vec3d> buffer;
     for (int k = 0; k < layers; ++k)

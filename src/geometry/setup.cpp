@@ -88,8 +88,8 @@ Setup build_setup(const Config& config, std::vector<std::string>& warnings) {
     check_fluid_is_clear(config, setup.fluid, first);
     add_listed_fluid(config, setup.fluid, warnings);
     add_walls(config, setup.walls, warnings);
-    add_inlets(config, setup.fluid, setup.walls, warnings);
     if (config.domain.two_d) flatten(config, setup, first);
+    add_inlets(config, setup.fluid, setup.walls, warnings);
   }
   if (config.grain.present) {
     check_filters(config, warnings);

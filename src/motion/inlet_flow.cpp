@@ -17,9 +17,9 @@ double smooth_step(double s, double ramp) {
 
 }  // namespace
 
-InletFlow::InletFlow(const InletConfig& inlet, double dx)
+InletFlow::InletFlow(const InletConfig& inlet, double dx, const DomainConfig& domain)
     : inlet_(inlet), factor_(inlet.factor, "t"), area_(orifice_area(inlet)) {
-  const OrificeLayer layer = orifice_layer(inlet, dx);
+  const OrificeLayer layer = orifice_layer(inlet, dx, domain);
   points_ = int(layer.points.size());
   thickness_ = layer.thickness;
   full_ = inlet.rate > 0 ? inlet.rate : inlet.velocity * area_;
@@ -68,8 +68,8 @@ RigidMotion InletFlow::motion(double t) const {
   return m;
 }
 
-double inlet_speed(const InletConfig& inlet, double dx, double until) {
-  const InletFlow flow(inlet, dx);
+double inlet_speed(const InletConfig& inlet, double dx, const DomainConfig& domain, double until) {
+  const InletFlow flow(inlet, dx, domain);
   if (flow.points() == 0) return 0;
   constexpr int samples = 2000;
   double most = 0;

@@ -12,7 +12,7 @@ namespace bedload {
 class InletFlow {
  public:
   /// `dx`: spacing of the fluid, m.
-  InletFlow(const InletConfig& inlet, double dx);
+  InletFlow(const InletConfig& inlet, double dx, const DomainConfig& domain);
 
   int points() const { return points_; }           ///< of the orifice: particles a layer
   double thickness() const { return thickness_; }  ///< of a layer, m
@@ -46,6 +46,6 @@ class InletFlow {
 };
 
 /// Largest speed of the fluid in the orifice (m/s) up to `until` (s), sampled where a formula sets it.
-double inlet_speed(const InletConfig& inlet, double dx, double until);
+double inlet_speed(const InletConfig& inlet, double dx, const DomainConfig& domain, double until);
 
 }  // namespace bedload

@@ -56,7 +56,8 @@ std::vector<Quantity> particle_setup(const Config& c) {
       add(fmt::format("inlet.{}.centre[{}]", inlet.name, k), inlet.centre[k]);
       add(fmt::format("inlet.{}.direction[{}]", inlet.name, k), inlet.direction[k]);
     }
-    add(fmt::format("inlet.{}.points", inlet.name), double(orifice_layer(inlet, c.fluid.dx).points.size()));
+    add(fmt::format("inlet.{}.points", inlet.name),
+        double(orifice_layer(inlet, c.fluid.dx, c.domain).points.size()));
   }
   if (c.grain.present) {
     for (std::size_t k = 0; k < c.grain.fills.size(); ++k) {

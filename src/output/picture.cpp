@@ -232,7 +232,7 @@ Setup::Walls wall_surfaces(const Config& config, double at_least) {
       walls.body.push_back(std::uint32_t(index));
     }
   for (std::size_t i = 0; i < config.inlets.size(); ++i)
-    for (const Vec3d& x : orifice_layer(config.inlets[i], spacing).points) {
+    for (const Vec3d& x : orifice_layer(config.inlets[i], spacing, config.domain).points) {
       walls.x.push_back(x);
       walls.body.push_back(std::uint32_t(config.wall.bodies.size() + i));
     }

@@ -75,7 +75,7 @@ void RigidGroups::measure(const GrainStore& grains) {
   groups_.clear();
   for (std::size_t k = 0; k < fills_.size(); ++k) {
     const RigidConfig& c = config_.grain.fills[fills_[k]].rigid;
-    groups_.push_back(rigid_body(sums[k], {}, c.move, c.turn, c.axis));
+    groups_.push_back(rigid_body(sums[k], {}, c.move, c.turn, c.axis, config_.domain.two_d));
   }
   constants_.assign(groups_);
 }

@@ -34,6 +34,24 @@ struct AddLoads {
   }
 };
 
+/// A plane flow leaves of a body's freedom what moves it in x and z and turns it about y.
+void confine(RigidBody& k) {
+  const Vec3d y{0, 1, 0};
+  const bool in_plane = k.axis.y == 0;
+  if (k.move == BodyMove::all) {
+    k.move = BodyMove::plane;
+    k.axis = y;
+  } else if (k.move == BodyMove::plane && in_plane) {
+    k.move = BodyMove::axis;
+    k.axis = cross(k.axis, y);
+  } else if (k.move == BodyMove::axis && !in_plane) {
+    k.move = BodyMove::none;
+  }
+  if (k.turn == BodyTurn::axis && in_plane) k.turn = BodyTurn::none;
+  if (k.turn == BodyTurn::all) k.turn = BodyTurn::axis;
+  k.hinge = y;
+}
+
 }  // namespace
 
 FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeometry& walls)
@@ -90,7 +108,7 @@ FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeome
 }
 
 RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, const std::string& move,
-                     const std::string& turn, const Vec3d& axis) {
+                     const std::string& turn, const Vec3d& axis, bool plane) {
   RigidBody k;
   k.move = move == "plane"  ? BodyMove::plane
            : move == "axis" ? BodyMove::axis
@@ -104,8 +122,9 @@ RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, const std::st
   const PrincipalInertia principal = principal_inertia(inertia);
   k.moments = principal.moments;
   k.principal = principal.axes;
-  k.axis = axis;
-  const Vec3d& n = k.axis;
+  k.axis = k.hinge = axis;
+  if (plane) confine(k);
+  const Vec3d& n = k.hinge;
   k.axial = inertia[0] * n.x * n.x + inertia[1] * n.y * n.y + inertia[2] * n.z * n.z +
             2 * (inertia[3] * n.x * n.y + inertia[4] * n.x * n.z + inertia[5] * n.y * n.z);
   return k;
@@ -117,7 +136,7 @@ void FreeBodies::add(const Config& config, std::uint32_t b) {
   const MassProperties& m = f.solid;
   const bool pivot = f.move == "none" && f.point.size() == 3;
   const Vec3d centre = pivot ? Vec3d{f.point[0], f.point[1], f.point[2]} : m.centre;
-  RigidBody k = rigid_body(m, centre, f.move, f.turn, f.axis);
+  RigidBody k = rigid_body(m, centre, f.move, f.turn, f.axis, config.domain.two_d);
   k.body = b;
   k.fluid = f.fluid;
   k.touches = f.contacts;

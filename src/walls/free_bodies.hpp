@@ -29,9 +29,10 @@ struct BodyTotals {
   Vec3d momentum, angular;                                      ///< kg m/s; about the origin, kg m2/s
 };
 
-/// A rigid body about `centre` (m) under the constraints `move` and `turn` (with `axis`) of a case.
+/// A rigid body about `centre` (m) under the constraints `move` and `turn` (with `axis`) of a case, and those
+/// of a plane flow if it is one.
 RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, const std::string& move,
-                     const std::string& turn, const Vec3d& axis);
+                     const std::string& turn, const Vec3d& axis, bool plane);
 
 class FreeBodies {
  public:

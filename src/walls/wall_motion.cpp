@@ -62,10 +62,10 @@ WallMotion::WallMotion(const Config& config, const FreeBodies& free)
                                      : particle_volume(body, dx, config.domain);
   }
   for (const InletConfig& inlet : config.inlets) {
-    inlets_.emplace_back(inlet, config.fluid.dx);
+    inlets_.emplace_back(inlet, config.fluid.dx, config.domain);
     BodyPose& p = still_.emplace_back();
     p.flows = 1;
-    p.volume = cube(config.fluid.dx);
+    p.volume = config.domain.cell_volume(config.fluid.dx);
   }
 }
 

@@ -47,8 +47,8 @@ TEST(Openings, AnInletIsResolved) {
   ASSERT_EQ(c.inlets.size(), 1u);
   EXPECT_EQ(c.inlets[0].direction, (Vec3d{0, 0, -1}));
   EXPECT_DOUBLE_EQ(c.inlets[0].ramp, 10 * c.fluid.h() / c.fluid.c);
-  EXPECT_EQ(orifice_layer(c.inlets[0], c.fluid.dx).points.size(), 20u);
-  InletFlow flow(c.inlets[0], c.fluid.dx);
+  EXPECT_EQ(orifice_layer(c.inlets[0], c.fluid.dx, c.domain).points.size(), 20u);
+  InletFlow flow(c.inlets[0], c.fluid.dx, c.domain);
   EXPECT_NEAR(flow.motion(1).v.z, -1 / std::numbers::pi, 1e-12) << "the rate over the area";
   EXPECT_DOUBLE_EQ(flow.rate(1), 1e-4);
   EXPECT_EQ(read(resolved_toml(c)), c);
@@ -59,7 +59,7 @@ TEST(Openings, LayersFillTheirOrifice) {
   inlet.centre = {0.3, 0.1, 0.2};
   inlet.direction = {0, 0, 1};
   const auto expect_full = [&](double dx, std::size_t count, double area) {
-    const OrificeLayer layer = orifice_layer(inlet, dx);
+    const OrificeLayer layer = orifice_layer(inlet, dx, {});
     EXPECT_EQ(layer.points.size(), count);
     EXPECT_NEAR(orifice_area(inlet), area, 1e-12 * area);
     EXPECT_NEAR(layer.thickness * area, double(count) * dx * dx * dx, 1e-12 * area * dx);
@@ -90,7 +90,7 @@ TEST(Openings, LayersFillTheirOrifice) {
         EXPECT_TRUE(&x == &y || norm(x - y) > 0.86 * spacing);
       }
     }
-    InletFlow flow(inlet, 0.01);
+    InletFlow flow(inlet, 0.01, {});
     EXPECT_NEAR(flow.rate(1), 2 * area, 1e-12) << "the velocity times the area";
   }
 }
@@ -112,7 +112,7 @@ TEST(Openings, BuffersFollowTheWallParticles) {
   const Config c = read(with_inlet());
   std::vector<std::string> warnings;
   const auto with = build_setup(c, warnings), without = build_setup(read(kCase), warnings);
-  const double thickness = orifice_layer(c.inlets[0], c.fluid.dx).thickness;
+  const double thickness = orifice_layer(c.inlets[0], c.fluid.dx, c.domain).thickness;
   EXPECT_EQ(with.walls.x.size(), without.walls.x.size() + 20 * buffer_layers(c.fluid, thickness));
   EXPECT_EQ(with.walls.body.back(), 1u);
   EXPECT_NEAR(with.walls.x[without.walls.x.size()].z, 0.1 + thickness / 2, 1e-12);

@@ -85,6 +85,32 @@ TEST(BodyMass, OfUnionsAndVesselsComesFromARaster) {
               {j, j, j, 0, 0, 0}, 1e-2);
 }
 
+TEST(BodyMass, OfASliceIsThatOfItsSlab) {
+  DomainConfig plane;
+  plane.min = {-1, 0, -1}, plane.max = {1, 0.3, 1};
+  plane.two_d = true;
+  // moments about y alone count there
+  const auto expect_slab = [&](ShapePtr shape, double area, const Vec3d& centre, double moment) {
+    const MassProperties m = mass_properties(body_of(shape), plane);
+    EXPECT_NEAR(m.mass / (1000 * area * 0.3), 1, 1e-4);
+    EXPECT_LT(norm(m.centre - centre), 1e-4 * std::sqrt(area));
+    EXPECT_EQ(m.centre.y, 0.15);
+    EXPECT_NEAR(m.inertia[1] / (m.mass * moment), 1, 1e-4);
+    EXPECT_NEAR(m.inertia[0] + m.inertia[2] - m.inertia[1], m.mass * 0.3 * 0.3 / 6, 1e-4 * m.mass * 0.015);
+  };
+  const double disc = kPi * 0.01, low = kPi * (0.04 - 0.0225);
+  expect_slab(make_cylinder({0.1, -2, 0.2}, {0.1, 2, 0.2}, 0.1), disc, {0.1, 0.15, 0.2}, 0.005);
+  expect_slab(make_sphere({0.1, 0, 0.2}, 0.2), low, {0.1, 0.15, 0.2}, (0.04 - 0.0225) / 2);
+  Placement turned;
+  turned.rotation = Quat<double>::from_rotation({0, 0.4, 0});
+  turned.translation = {0.3, 0, -0.2};
+  const auto mesh = std::make_shared<TriangleMesh>(cube(0.4), "cube");
+  const Vec3d middle = 0.5 * (mesh->bounds().min + mesh->bounds().max);
+  Vec3d centre = turned.rotation.rotate(middle) + turned.translation;
+  centre.y = 0.15;
+  expect_slab(make_placed(mesh, turned), 0.16, centre, 0.16 / 6);
+}
+
 TEST(BodyMass, TakesWhatIsGivenAndAsksForTheRest) {
   WallBody b = body_of(make_box({0, 0, 0}, {1, 1, 1}), 0);
   b.free.mass = 6;
@@ -108,6 +134,23 @@ TEST(BodyMass, PrincipalAxesTurnItBack) {
     const Vec3d want{j[0] * v.x + j[3] * v.y + j[4] * v.z, j[3] * v.x + j[1] * v.y + j[5] * v.z,
                      j[4] * v.x + j[5] * v.y + j[2] * v.z};
     EXPECT_LT(norm(got - want), 1e-14);
+  }
+}
+
+TEST(BodyBalls, OfAPlaneFlowLieInItsMiddle) {
+  DomainConfig plane;
+  plane.max = {1, 0.3, 1};
+  plane.two_d = true;
+  for (const ShapePtr& shape :
+       {make_box({0, -1, 0}, {0.2, 1, 0.3}), make_capsule({0.5, -1, 0.5}, {0.5, 1, 0.5}, 0.1)}) {
+    WallBody b = body_of(shape);
+    b.free.contact_spacing = 0.02;
+    const auto balls = contact_balls(b, plane);
+    EXPECT_GT(balls.size(), 25u);
+    for (const BodyBall& ball : balls) {
+      EXPECT_EQ(ball.centre.y, 0.15);
+      EXPECT_NEAR(ball.radius, -shape->distance(ball.centre), 1e-12);
+    }
   }
 }
 

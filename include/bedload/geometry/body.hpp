@@ -20,13 +20,13 @@ struct SolidMoments {
   void add(double volume, const Vec3d& at);
 };
 
-/// Of a closed solid: in closed form for one box, sphere, capsule, cylinder, cone, pipe or mesh, else on a
-/// raster of about a million cells.
-SolidMoments solid_moments(const Shape& shape);
+/// Of a closed solid: in closed form for one box, sphere, capsule, cylinder, cone, pipe or mesh, else, and of
+/// the slab that its slice makes of a plane flow, on a raster of about a million cells.
+SolidMoments solid_moments(const Shape& shape, const DomainConfig& domain = {});
 
 /// Mass, centre and inertia of a free body: as the case gives them, the rest from its shape at uniform
 /// density. Throws CaseError, a sentence that goes on after "wall.body.free", where there is no closed shape.
-MassProperties mass_properties(const WallBody& body);
+MassProperties mass_properties(const WallBody& body, const DomainConfig& domain = {});
 
 /// Principal moments of inertia, kg m2, and the turn of their axes.
 struct PrincipalInertia {
@@ -38,14 +38,15 @@ PrincipalInertia principal_inertia(const std::array<double, 6>& inertia);
 /// `inertia` of a mass (kg) about its centre, as seen from a point `offset` (m) away.
 std::array<double, 6> shifted_inertia(const std::array<double, 6>& inertia, double mass, const Vec3d& offset);
 
-/// The balls by which a free body touches others: those given; else the line of a sphere or capsule; else
-/// balls that touch its surface from within, contact_spacing apart.
+/// The balls by which a free body touches others: those given; else the line of a sphere or capsule; else,
+/// and in a plane flow, balls that touch its surface from within, contact_spacing apart.
 std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& domain);
 
 /// How far beyond the box around a wall body its particles or their images may lie, m.
 double particles_beyond(const WallBody& body, const Config& config);
 
-/// The corners of the box around a wall body, or of the domain for a plane, each moved `beyond` (m) outwards.
+/// The corners of the box around a wall body, or of the domain for a plane, each moved `beyond` (m) outwards;
+/// those of a plane flow in its middle.
 std::vector<Vec3d> corners(const WallBody& body, const DomainConfig& domain, double beyond = 0);
 
 }  // namespace bedload

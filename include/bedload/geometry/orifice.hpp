@@ -12,21 +12,22 @@ namespace bedload {
 /// m2
 double orifice_area(const InletConfig& inlet);
 
-/// Particles that come through side by side. It is as thick as each asks for that stands for dx^3, so that
-/// what comes in is as fast as its rate over the area.
+/// Particles that come through side by side. It is as thick as each asks for that stands for a cell of the
+/// lattice, so that what comes in is as fast as its rate over the area.
 struct OrificeLayer {
   std::vector<Vec3d> points;  ///< m, in the plane of the orifice
   double thickness = 0;       ///< m
 };
-/// About `dx` (m) apart and half of that from the rim: rows and columns in a rectangle, rings in a disc.
-OrificeLayer orifice_layer(const InletConfig& inlet, double dx);
+/// About `dx` (m) apart and half of that from the rim: rows and columns in a rectangle, of which a plane flow
+/// has one row, rings in a disc.
+OrificeLayer orifice_layer(const InletConfig& inlet, double dx, const DomainConfig& domain);
 
 /// Points of the lattice across the narrowest part of the orifice, and the spacing that would give four, m.
 struct OrificeWidth {
   int points = 0;
   double spacing_for_four = 0;
 };
-OrificeWidth orifice_width(const InletConfig& inlet, double dx);
+OrificeWidth orifice_width(const InletConfig& inlet, double dx, const DomainConfig& domain);
 
 /// Layers of that thickness (m) that wait upstream of an orifice: they fill the reach of the kernel however
 /// far the foremost has come.
