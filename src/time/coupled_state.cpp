@@ -97,8 +97,10 @@ double farthest_pair(const Config& c) { return 8 * std::max({c.fluid.h(), c.coup
 
 CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
     : config_(config),
-      frame_(config.domain.min, config.domain.max, config.domain.periodic[0], config.domain.periodic[1],
-             config.domain.periodic[2], farthest_pair(config)),
+      // all of a plane flow is in one place along y, and shapes have no images there
+      frame_(config.domain.min, config.domain.max, config.domain.periodic[0],
+             config.domain.periodic[1] && !config.domain.two_d, config.domain.periodic[2],
+             farthest_pair(config)),
       clock_(config.time),
       geometry_(config),
       grain_geometry_(config, [](const WallBody& body) { return body.stops_grains(); }),

@@ -127,6 +127,33 @@ spin = [0, -2, 0]
   for (int k : {0, 1}) expect_in_plane(s->body_state(k));
 }
 
+/// A union of cylinders along y, of which the plane cuts the lower one.
+TEST(PlaneBody, MeetsOfAShapeWhatThePlaneCuts) {
+  auto s = started(without_step(block("e = 0.3\nmove = \"axis\"\naxis = [0, 0, 1]\n", "[0, 0, -9.81]")) +
+                   R"([[shape]]
+name = "cut"
+kind = "cylinder"
+a = [0, -0.5, -0.06]
+b = [0, 1, -0.06]
+radius = 0.05
+[[shape]]
+name = "beside"
+kind = "cylinder"
+a = [0, -1, -0.05]
+b = [0, -0.5, -0.05]
+radius = 0.045
+[[shape]]
+name = "pile"
+kind = "union"
+of = ["cut", "beside"]
+[[wall.body]]
+name = "pile"
+shape = "pile"
+)");
+  run_until(*s, 0.3);
+  EXPECT_NEAR(reading(s->body_state(0), "centre_z"), 0.02 - 0.01, 1e-3);
+}
+
 // -- in fluid -------------------------------------------------------------------
 
 /// A box that drives through a drop, without gravity or walls.
