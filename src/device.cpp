@@ -122,14 +122,15 @@ double around(double reach, bool two_d) { return two_d ? 3.14 * reach * reach : 
 
 }  // namespace
 
-std::size_t estimate_bytes(const Config& config, const Counts& counts) {
+std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda) {
   const double real = config.precision == "double" ? 8 : 4;
   const double position = config.precision == "single" ? 16 : 24,
                pair_position = config.precision == "double" ? 32 : 16;
   const double h = config.fluid.h(), reach = 2 * h + config.skin_fluid * config.fluid.dx;
   const double neighbours =
       config.fluid.present ? 1.2 * around(reach / config.fluid.dx, config.domain.two_d) : 0;
-  const double fluid = 4 + 2 * position + pair_position + real * 35 + 4 * neighbours + position;
+  const double entry = cuda ? 2.4 : 4;
+  const double fluid = 4 + 2 * position + pair_position + real * 35 + entry * neighbours + position;
   const double walls = 8 + 3 * 24 + pair_position + real * 13 + 4 * 32;
   const double contacts = 12;
   const double touches = 60.0 * std::min(config.wall.free_bodies(), 8);  // of each grain with free bodies

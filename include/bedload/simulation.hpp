@@ -90,6 +90,7 @@ struct Device {
   std::string backend;     ///< cpu, cuda
   std::string name;        ///< "NVIDIA H100 80GB HBM3", "AMD EPYC ..., 2 threads"
   std::size_t memory = 0;  ///< bytes free
+  bool cuda() const { return backend == "cuda"; }
 };
 
 /// backend: auto, cpu, cuda. `auto` takes a usable GPU if this build has CUDA.
@@ -98,7 +99,7 @@ Device find_device(const std::string& backend, int threads);
 /// Builds the solver for config.precision on `device`.
 std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& setup, const Device& device);
 
-/// Estimated bytes for `counts` particles of this case on either backend.
-std::size_t estimate_bytes(const Config& config, const Counts& counts);
+/// Estimated bytes for `counts` particles of this case.
+std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda);
 
 }  // namespace bedload

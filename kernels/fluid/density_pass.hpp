@@ -86,12 +86,12 @@ struct NoShifting {
 /// particles: what the gradient of the porosity in its sum differs from how the porosity changes along the
 /// way adds up, and fluid that has entered a bed may stand more closely than its volume allows. So among
 /// grains density grows where particles overfill the kernel by more than `slack`.
-/// kSmooth: with density diffusion and all that follows the room; without, continuity alone.
-template <class W, class Shift, bool kSmooth>
+/// kSmooth: with density diffusion and all that follows the room; without, continuity alone. kPorous: there
+/// are grains.
+template <class W, class Shift, bool kSmooth, bool kPorous>
 struct DensityPass {
   W w;
   Span<const Real4> flux, m_state, wall_v_rho, wall_m_state;
-  bool porous;        ///< there are grains
   Real diffusion;     ///< 2 delta h c [m2/s]
   Real3 hydrostatic;  ///< rho0 g / c^2 [kg/m4]: how density grows downwards at rho0
   Real stiffening;    ///< and by which power of rho0 / rho elsewhere: gamma - 2
@@ -119,9 +119,19 @@ struct DensityPass {
     return {flux[a].xyz(), m.z, m.w, 0, 0, 0, {}, {}};
   }
 
-  template <class N, class J>
-  BL_HD void pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2, N M) const {
-    const Vec4<N> qb = flux[b];
+  BL_HD auto sources() const {
+    if constexpr (kSmooth && kPorous)
+      return sources_of(flux, m_state);
+    else
+      return sources_of(flux);
+  }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb) const {
+    pair(sum, r, r2, M, qb, {});
+  }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb,
+                  [[maybe_unused]] const Vec4<N>& state) const {
     const N distance = root(r2), F = w.F(distance);
     const Vec3<N> v = sum.q - qb.xyz();
     sum.rate += M * F * dot(v, r);
@@ -132,7 +142,7 @@ struct DensityPass {
     sum.shift.add(VF, v, r, r2);
     const N still = 1 - stiffening * (Real(0.5) * (sum.rho + rho) / rho0 - 1);
     N shared = sum.eps;
-    if (porous) shared = Real(0.5) * (sum.eps + m_state[b].w);  // what one gains the other loses
+    if constexpr (kPorous) shared = Real(0.5) * (sum.eps + state.w);  // what one gains the other loses
     sum.diffused += shared * VF * (rho - sum.rho + still * dot(Vec3<N>(hydrostatic), r));
   }
   template <class N, class J>

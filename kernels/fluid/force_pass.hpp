@@ -58,10 +58,9 @@ struct ForcePass {
   };
   BL_HD Sum<> start(Index a) const { return {flux[a], m_state[a], {}, {}}; }
 
-  template <class N, class J>
-  BL_HD void pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2, N M) const {
-    const Vec4<N> vb = flux[b];
-    const N p = p_rho2[b];
+  BL_HD auto sources() const { return sources_of(flux, p_rho2); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p) const {
     const N distance = root(r2);
     const N F = w.F(distance);
     const Vec3<N> v = sum.v.xyz() - vb.xyz();

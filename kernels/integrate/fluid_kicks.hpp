@@ -56,15 +56,4 @@ struct StatePass {
   }
 };
 
-/// Turns the predicted velocity into the final one: v += kick (acc_new - acc_old).
-struct CorrectPass {
-  Real kick;
-  Span<const Real3> acc_new, acc_old;
-  Span<Real4> v_rho;
-  BL_HD void operator()(Index a) const {
-    const Real4 old = v_rho[a];
-    v_rho[a] = {old.xyz() + kick * (acc_new[a] - acc_old[a]), old.w};
-  }
-};
-
 }  // namespace bedload::inline BL_VARIANT

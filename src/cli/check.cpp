@@ -101,11 +101,15 @@ int check_case(const Options& options) {
   }
 
   const Counts later = with_arrivals(p);
-  const std::size_t bytes = estimate_bytes(c, n), most = estimate_bytes(c, later);
-  fmt::print("memory     about {}{}; {} free\n", bytes_text(bytes),
-             most > bytes ? fmt::format(", up to {} with what comes in", bytes_text(most)) : "",
-             bytes_text(p.device.memory));
-  if (bytes > p.device.memory) {
+  const std::size_t estimate = estimate_bytes(c, n, p.device.cuda()),
+                    more = estimate_bytes(c, later, p.device.cuda()) - estimate;
+  const auto print_memory = [&](const char* about, std::size_t bytes) {
+    fmt::print("memory     {}{}{}; {} free\n", about, bytes_text(bytes),
+               more > 0 ? fmt::format(", up to {} with what comes in", bytes_text(bytes + more)) : "",
+               bytes_text(p.device.memory));
+  };
+  if (estimate > p.device.memory) {
+    print_memory("about ", estimate);
     p.warnings.push_back(
         "the case needs more memory than the device has free, so its step limits were not evaluated");
   } else {
@@ -119,6 +123,7 @@ int check_case(const Options& options) {
     check_fixed_steps(p, *simulation);
 
     const Trial trial = timed_steps(*simulation);
+    print_memory("", simulation->bytes());
     const double count = std::ceil((c.time.end - p.begin) / trial.dt);
     const Pace pace = pace_of(p.device, c.precision);  // of what comes in; the rest is measured
     const double fluid = 0.5 * double(later.fluid - n.fluid), grains = 0.5 * double(later.grains - n.grains);

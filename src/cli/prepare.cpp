@@ -54,7 +54,7 @@ void refuse_too_fine(const Prepared& p) {
     if (fill.file.empty() && !fill.solid.shape) volume += side.x * side.y * side.z;
   }
   const double count = volume / p.config.domain.cell_volume(dx), memory = double(p.device.memory);
-  const double need = double(estimate_bytes(p.config, {std::int64_t(count), 0, 0}));
+  const double need = double(estimate_bytes(p.config, {std::int64_t(count), 0, 0}, p.device.cuda()));
   if (memory == 0 || need <= memory) return;
   throw KeyError(
       "fluid.dx",

@@ -75,7 +75,7 @@ class Run {
     const bool settle = !restart && p_.config.grain.present && p_.config.grain.settle;
     SavedState state;
     if (settle) state = settled();
-    if (estimate_bytes(p_.config, p_.counts) > p_.device.memory)
+    if (estimate_bytes(p_.config, p_.counts, p_.device.cuda()) > p_.device.memory)
       p_.warnings.push_back("the case may need more memory than the device has free");
     simulation_ = make_simulation(p_.config, p_.setup, p_.device);
     p_.setup = {};  // as large as the simulation itself

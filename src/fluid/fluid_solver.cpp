@@ -45,23 +45,32 @@ struct HasEntries {
   BL_HD bool operator()(Index i) const { return list.count[i] > 0; }
 };
 
-struct ExtremesSweep {
+/// What bounds the next step; on the way velocities are corrected by `kick` of what the acceleration has
+/// changed.
+struct CorrectSweep {
   using Value = FluidExtremes;
   Frame frame;
-  Span<const Real4> v_rho, m_state;
+  Real kick;  ///< s
+  Span<const Real3> acc_old, acc;
   Span<const Real> eps, s;
-  Span<const Real3> acc, drift;
+  Span<const Real3> drift;
   Span<const FluidPosition> x, x_list;
+  Span<Real4> v_rho;
 
   BL_HD Value identity() const { return {}; }
   BL_HD Value operator()(Index a) const {
+    const Real3 acceleration = acc[a];
     Real3 v = v_rho[a].xyz();
+    if (kick != 0) {
+      v += kick * (acceleration - acc_old[a]);
+      v_rho[a] = {v, v_rho[a].w};
+    }
     if (drift) v += drift[a];
     Value out;
     out.v2 = norm2(v);
-    out.acc2 = norm2(acc[a]);
+    out.acc2 = norm2(acceleration);
     out.moved2 = norm2(frame.separation(coordinates(frame, x[a]), coordinates(frame, x_list[a])));
-    out.eps_min = eps[a];
+    if (eps) out.eps_min = eps[a];
     const bool good = out.v2 < 1e30 && out.acc2 < 1e30 && s[a] >= Real(-0.5) && s[a] <= Real(1);
     out.bad = good ? kNone : a;
     return out;
@@ -109,11 +118,13 @@ class FluidSolverWith final : public FluidSolver {
 
   void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) override {
     if (shifts())
-      continuity<true>(fluid, walls, dt, shifting(dt));
-    else if (smooths())
-      continuity<true>(fluid, walls, dt, NoShifting{});
+      continuity<true, false>(fluid, walls, dt, shifting(dt));
+    else if (!smooths())
+      continuity<false, false>(fluid, walls, dt, NoShifting{});
+    else if (mixed_)
+      continuity<true, true>(fluid, walls, dt, NoShifting{});
     else
-      continuity<false>(fluid, walls, dt, NoShifting{});
+      continuity<true, false>(fluid, walls, dt, NoShifting{});
     if (!frozen_) return;
     const FrozenPass<W> frozen{w_,
                                Real(config_.fluid.rho0),
@@ -229,12 +240,12 @@ class FluidSolverWith final : public FluidSolver {
     return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c),
             Real(config_.fluid.h())};
   }
-  template <bool kSmooth, class Shift>
+  template <bool kSmooth, bool kPorous, class Shift>
   void continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {
     const double c = config_.fluid.c;
     run(fluid, walls, range(),
-        DensityPass<W, Shift, kSmooth>{
-            w_, flux(fluid), fluid.m_state, walls.v_rho, walls.m_state, mixed_,
+        DensityPass<W, Shift, kSmooth, kPorous>{
+            w_, flux(fluid), fluid.m_state, walls.v_rho, walls.m_state,
             Real(2 * config_.density.delta * config_.fluid.h() * c),
             gravity_ * Real(config_.fluid.rho0 / (c * c)), eos_.gamma - 2, Real(config_.fluid.rho0), Real(dt),
             fluid.s, fluid.s_next, cut_, least(), Real(config_.density.consolidation * c / config_.fluid.h()),
@@ -358,8 +369,14 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   pack(walls);
   const double reach = range() + skin();
   using Near = SphNear<FluidPosition>;
+#if BL_CUDA
+  fluid_fluid_.build(grid_, frame_, Span<const FluidPosition>(fluid.x), Span<const PairPosition>(fluid.xp),
+                     reach);
+#else
   fluid_fluid_.build(fluid.size(), grid_.view(), Near{frame_, fluid.x, fluid.xp, fluid.xp, reach, true});
-  fluid_wall_.build(fluid.size(), wall_grid_.view(), Near{frame_, fluid.x, fluid.xp, walls.xp, reach, false});
+#endif
+  fluid_wall_.build(fluid.size(), wall_grid_.view(), Near{frame_, fluid.x, fluid.xp, walls.xp, reach, false},
+                    fluid_fluid_.view().bits);
   compaction_.find(fluid.size(), HasEntries{fluid_wall_.view()}, beside_walls_);
   wall_fluid_.build(walls.size(), grid_.view(),
                     SphNear<Vec3d>{frame_, walls.x, walls.xp, fluid.xp, reach, false});
@@ -396,15 +413,21 @@ void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
 }
 
 void FluidSolver::correct(FluidStore& fluid, double kick) {
-  if (kick != 0) for_each(fluid.owned(), CorrectPass{Real(kick), fluid.acc_next, fluid.acc, fluid.v_rho});
   fluid.acc.buffer().swap(fluid.acc_next.buffer());
+  survey(fluid, kick);
   corrected_ = kick;
 }
 
-FluidExtremes FluidSolver::extremes(const FluidStore& fluid) const {
-  return reduce(fluid.owned(), ExtremesSweep{frame_, fluid.v_rho, fluid.m_state, fluid.eps, fluid.s,
-                                             fluid.acc, drift_of(fluid), fluid.x, fluid.x_list});
+void FluidSolver::survey(FluidStore& fluid, double kick) {
+  extremes_.resize(1);
+  if (fluid.size() == 0) return extremes_.assign({FluidExtremes{}});
+  reduce_into(extremes_.data(), fluid.owned(),
+              CorrectSweep{frame_, Real(kick), fluid.acc_next, fluid.acc,
+                           mixed_ ? Span<const Real>(fluid.eps) : Span<const Real>(), fluid.s,
+                           drift_of(fluid), fluid.x, fluid.x_list, fluid.v_rho});
 }
+
+FluidExtremes FluidSolver::extremes() const { return extremes_.to_host()[0]; }
 
 double FluidSolver::pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces,
                                   Span<const BodyPose> pose) const {

@@ -80,8 +80,12 @@ class FluidSolver {
   /// `kick` in a step of dt, s.
   void repel(FluidStore& fluid, Span<const BodyPose> pose, double kick, double dt);
   WallRepulsion repulsion(Span<const BodyPose> pose, double dt) const;
-  /// v += kick (acc_next - acc); acc = acc_next.
+  /// v += kick (acc_next - acc); acc = acc_next; and a survey.
   void correct(FluidStore& fluid, double kick);
+  /// Finds what bounds the next step, for extremes(); v += kick (acc - acc_next).
+  void survey(FluidStore& fluid, double kick = 0);
+  /// As of the last survey. Waits for it.
+  FluidExtremes extremes() const;
   /// Force of the fluid on every wall particle (N), push of surfaces apart, the opposite of what the
   /// last forces() gave the fluid. After a step of dt (s), before the lists are renewed.
   virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
@@ -92,7 +96,6 @@ class FluidSolver {
   /// Pairs of fluid particles within the kernel's reach that see each other through one of the surfaces.
   double pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces, Span<const BodyPose> pose) const;
 
-  FluidExtremes extremes(const FluidStore& fluid) const;
   const CellGrid& grid() const { return grid_; }
 
  protected:
@@ -108,7 +111,13 @@ class FluidSolver {
   EquationOfState eos_;
   Real3 gravity_;
   CellGrid grid_, wall_grid_;
-  VerletList fluid_fluid_, fluid_wall_, wall_fluid_, image_fluid_;
+#if BL_CUDA
+  TileList fluid_fluid_;
+#else
+  VerletList fluid_fluid_;
+#endif
+  VerletList fluid_wall_, wall_fluid_, image_fluid_;
+  Buffer<FluidExtremes> extremes_;
   Buffer<Index> order_;
   Compaction compaction_;
   Buffer<Index> beside_walls_;  ///< fluid with wall particles around it

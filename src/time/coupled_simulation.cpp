@@ -190,7 +190,7 @@ void CoupledSimulation::sweep() {
     throw SimulationFault(what + text + cause);
   };
   if (has_fluid()) {
-    fluid_extremes_ = fluid_solver_->extremes(fluid_);
+    fluid_extremes_ = fluid_solver_->extremes();
     if (const Index a = fluid_extremes_.bad; a != kNone)
       fault("fluid particle " + std::to_string(fluid_.id.values()[a]),
             coordinates(frame_, fluid_.x.values()[a]),

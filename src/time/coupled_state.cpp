@@ -262,6 +262,7 @@ void CoupledSimulation::load(const SavedState& state) {
   bodies_.load([&](const char* name) -> const HostStore& { return store_of(state, name); }, clock_.time);
   wall_forces_.step = fluid_loads_.step = grain_loads_.step = -1;
   restore_lists(state);
+  if (has_fluid()) fluid_solver_->survey(fluid_);
   sweep();
 }
 

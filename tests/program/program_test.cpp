@@ -180,13 +180,13 @@ TEST_F(Program, ChecksACaseWithoutRunningIt) {
   const Outcome o = bedload("check dam.toml --backend cpu");
   EXPECT_EQ(o.code, 0) << o.err;
   for (const char* part :
-       {"fluid 150, walls ", "grains 40", "<- binds", "substep    rayleigh", "memory     about ",
+       {"fluid 150, walls ", "grains 40", "<- binds", "substep    rayleigh", "memory     ",
         "run time   about ", "settling   before that, at most ", "the case is in order"})
     EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
   EXPECT_FALSE(std::filesystem::exists(dir_ / "results"));
 }
 
-TEST_F(Program, EstimatesItsMemory) {
+TEST_F(Program, TellsItsMemory) {
   write("dam.toml", kSmall);
   const auto number_after = [](const std::string& text, const std::string& words) {
     return std::stod(text.substr(text.find(words) + words.size()));
@@ -197,12 +197,10 @@ TEST_F(Program, EstimatesItsMemory) {
     const Outcome check = bedload("check dam.toml" + options);
     ASSERT_EQ(check.code, 0) << check.err;
     ASSERT_EQ(bedload("run dam.toml --out run --overwrite --until 1e-6" + options).code, 0);
-    const double slack = 67.1;  // of the device itself, MB
-    const double told = number_after(check.out, "memory     about ") - slack;
+    const double told = number_after(check.out, "memory     ");  // MB
     const std::string summary = content_of(dir_ / "run/summary.json");
     const double held = 1e-6 * number_after(summary.substr(summary.find("\"solver\"")), "\"value\": ");
-    EXPECT_GT(told, 0.85 * held) << options;
-    EXPECT_LT(told, 1.3 * held) << options;
+    EXPECT_NEAR(told, held, 0.1 * held) << options;  // lists grow in the first steps
   }
 }
 

@@ -13,8 +13,9 @@ struct CellGridView {
   int n[3] = {1, 1, 1};   ///< cells that can hold particles
   int bricks[3] = {1, 1, 1};
   bool periodic[3] = {false, false, false};
-  const std::uint16_t* curve = nullptr;  ///< [512] place on the Hilbert curve of a cell in its brick
-  const Index* start = nullptr;          ///< [cells + 1] first particle of each cell
+  const std::uint16_t* curve = nullptr;     ///< [512] place on the Hilbert curve of a cell in its brick
+  const Index* start = nullptr;             ///< [cells + 1] first particle of each cell
+  const std::uint8_t* inhabited = nullptr;  ///< [cells] whether it or a cell beside it holds any
 
   /// Cell coordinate along axis k; outside positions go to the nearest cell, periodic ones wrap.
   BL_HD int coordinate(double x, int k) const {
@@ -89,6 +90,24 @@ struct CellGridView {
     b.cell(q, i);
     return key(wrapped(b.lo[0] + i[0], 0), wrapped(b.lo[1] + i[1], 1), wrapped(b.lo[2] + i[2], 2));
   }
+  /// Whether any particle may be within `range` of x.
+  BL_HD bool any_near(const Vec3d& x, double range) const {
+    const bool beyond = range * max_of(inverse.x, max_of(inverse.y, inverse.z)) > 1;
+    return beyond || inhabited[key(x)] != 0;
+  }
+  /// f(key) for the cell of x and those beside it; on a short periodic axis more than once.
+  template <class F>
+  BL_HD void each_beside(const Vec3d& x, F&& f) const {
+    int lo[3], hi[3];
+    for (int k = 0; k < 3; ++k) {
+      const int c = coordinate(x[k], k);
+      lo[k] = periodic[k] ? c - 1 : max_of(c - 1, 0);
+      hi[k] = periodic[k] ? c + 1 : min_of(c + 1, n[k] - 1);
+    }
+    for (int iz = lo[2]; iz <= hi[2]; ++iz)
+      for (int iy = lo[1]; iy <= hi[1]; ++iy)
+        for (int ix = lo[0]; ix <= hi[0]; ++ix) f(key(wrapped(ix, 0), wrapped(iy, 1), wrapped(iz, 2)));
+  }
   /// Calls f(j) for each particle in every stride-th of the cells that a sphere of radius `range` about x
   /// touches.
   template <class F>
@@ -120,7 +139,7 @@ struct CellGridView {
     }
   }
 
- private:
+  /// Coordinate of a cell on a periodic axis.
   BL_HD int wrapped(int i, int k) const {
     if (!periodic[k]) return i;
     i %= n[k];
@@ -139,6 +158,7 @@ class CellGrid {
   void sort(const Frame& frame, Span<const P> x, Buffer<Index>& order);
 
   CellGridView view() const;
+  Index bricks() const { return cells_ / 512; }
 
  private:
   CellGridView shape_;
@@ -147,6 +167,7 @@ class CellGrid {
   Buffer<std::uint16_t> curve_;
   Buffer<std::uint32_t> keys_;
   Buffer<Index> start_;
+  Buffer<std::uint8_t> inhabited_;
   Sorter sorter_;
 };
 

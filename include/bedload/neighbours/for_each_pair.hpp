@@ -1,20 +1,26 @@
 #pragma once
-// Runs a pass over the pairs of a Verlet list or, list-free, over the cells. A pass has
-//   Sum start(i); void pair(Sum&, i, j, r_ij, r2); void finish(i, Sum);
-// and knows nothing of where its neighbours come from. `pair` may also take the weight of j, which comes with
-// its position. Where a pass can also
+// Runs a pass over the pairs of a list or, list-free, over the cells. A pass has
+//   Sum start(i); auto sources(); void pair(Sum&, r_ij, r2, weight, ...); void finish(i, Sum);
+// and knows nothing of where its neighbours come from: `sources` says what it reads of each, in the order in
+// which `pair` takes it after the weight that comes with a position. A pass without `sources` is given
+// places instead, pair(Sum&, i, j, r_ij, r2). Where a pass can also
 //   void merge(Sum& into, const Sum& other);
 // two partial sums of one row, several GPU lanes share a row of a small system. Where its Sum is a template
 //   template <class N = Real> struct Sum;
-// of nothing but N, `pair` must add nothing at and beyond the cut-off: all listed pairs are taken, on the CPU
-// in packs.
+// of nothing but N, `pair` must add nothing at and beyond the cut-off, nor for what has no weight: all listed
+// pairs are taken, on the CPU in packs.
 
 #include <cstring>
 #include <iterator>
 #include <utility>
 
+#include "bedload/neighbours/tile_list.hpp"
 #include "bedload/neighbours/verlet_list.hpp"
 #include "bedload/parallel/lanes.hpp"
+
+#if BL_CUDA
+#include <cuda_pipeline.h>
+#endif
 
 namespace bedload::inline BL_VARIANT {
 
@@ -37,11 +43,40 @@ struct PairSeparation {
   }
 };
 
+/// What a pass reads of a neighbour: one of each field.
+template <class... T>
+struct Sources {
+  template <class J, class F>
+  BL_HD void load(J, F&& f) const {
+    f();
+  }
+};
+template <class T, class... Rest>
+struct Sources<T, Rest...> {
+  Span<const T> field;
+  Sources<Rest...> rest;
+  template <class J, class F>
+  BL_HD void load(J j, F&& f) const {
+    const auto value = field[j];
+    rest.load(j, [&](const auto&... more) { f(value, more...); });
+  }
+};
+BL_HD Sources<> sources_of() { return {}; }
+template <class T, class... Rest>
+BL_HD Sources<T, Rest...> sources_of(Span<const T> field, Span<const Rest>... rest) {
+  return {field, sources_of(rest...)};
+}
+
+template <class Pass>
+concept ReadsSources = requires(const Pass& pass) {
+  pass.sources();
+};
+
 template <class Pass, class Sum, class J, class R, class N>
 BL_HD void add_pair(const Pass& pass, Sum& sum, Index i, const J& j, const R& r, const N& r2,
                     [[maybe_unused]] const N& weight) {
-  if constexpr (requires { pass.pair(sum, i, j, r, r2, weight); })
-    pass.pair(sum, i, j, r, r2, weight);
+  if constexpr (ReadsSources<Pass>)
+    pass.sources().load(j, [&](const auto&... of_j) { pass.pair(sum, r, r2, weight, of_j...); });
   else
     pass.pair(sum, i, j, r, r2);
 }
@@ -258,6 +293,169 @@ void for_each_pair(Range range, const VerletList& list, const Separation& separa
                                          range.begin,
                                          bits});
 }
+
+#if BL_CUDA
+/// Whether tiles stage what a pass reads.
+template <class Pass>
+constexpr bool kStages = ReadsSources<Pass>&& kFades<Pass>;
+
+namespace detail {
+
+/// Shared memory of one source, bytes; and the fields of a tile's sources there, one after another.
+template <class... T>
+struct Staged;
+template <>
+struct Staged<> {
+  static constexpr std::size_t bytes = 0;
+  using All = Sources<>;
+  __device__ static All at(std::byte*, Index) { return {}; }
+  __device__ static void copy(const All&, const All&, Index, Index) {}
+  __device__ static void end(const All&, Index) {}
+};
+template <class T, class... Rest>
+struct Staged<T, Rest...> {
+  static constexpr std::size_t bytes = sizeof(T) + Staged<Rest...>::bytes;
+  using All = Sources<T, Rest...>;
+  __device__ static All at(std::byte* memory, Index room) {
+    return {{reinterpret_cast<T*>(memory), room}, Staged<Rest...>::at(memory + room * sizeof(T), room)};
+  }
+  __device__ static void copy(const All& to, const All& from, Index local, Index j) {
+    constexpr std::size_t piece = sizeof(T) % 16 == 0 ? 16 : sizeof(T) % 8 == 0 ? 8 : 4;
+    auto* const there = reinterpret_cast<std::byte*>(const_cast<T*>(to.field.data) + local);
+    const auto* const here = reinterpret_cast<const std::byte*>(from.field.data + j);
+    for (std::size_t k = 0; k < sizeof(T); k += piece) __pipeline_memcpy_async(there + k, here + k, piece);
+    Staged<Rest...>::copy(to.rest, from.rest, local, j);
+  }
+  /// Something for what has no weight.
+  __device__ static void end(const All& to, Index local) {
+    Real one[sizeof(T) / sizeof(Real)];
+    for (Real& n : one) n = 1;
+    memcpy(const_cast<T*>(to.field.data) + local, one, sizeof(T));
+    Staged<Rest...>::end(to.rest, local);
+  }
+};
+template <class... T>
+Staged<T...> staged_of(const Sources<T...>&);
+
+}  // namespace detail
+
+struct NoWalls {};
+
+template <class Pass, class WallRow>
+struct TileLoop {
+  TileListView list;
+  PairSeparation separation;
+  Real range2;
+  WallRow wall_row;
+  Pass pass;
+  Index room;  ///< sources that can be staged; 0 for none
+
+  __device__ void operator()() const {
+    const Tile tile = list.tile[blockIdx.x];
+    const Index end = list.tile[blockIdx.x + 1].row;
+    extern __shared__ uint4 memory[];
+    const Lane lane(threadIdx.x, list.bits);
+    const Index i = tile.row + lane.row;
+    if constexpr (kStages<Pass>) {
+      if (tile.sources < room) {  // places as distances from the first row, with the weight
+        using Fields = decltype(detail::staged_of(pass.sources()));
+        auto* const place = reinterpret_cast<Real4*>(memory);
+        const auto fields = Fields::at(reinterpret_cast<std::byte*>(place + room), room);
+        const auto origin = separation.b[tile.row];
+#pragma unroll 4
+        for (Index local = threadIdx.x; local < tile.sources; local += kTileThreads) {
+          const Index j = list.source[tile.source + local];
+          Fields::copy(fields, pass.sources(), local, j);
+          const auto b = separation.b[j];
+          place[local] = {separation.frame.separation(b, origin), Real(b.weight)};
+        }
+        if (threadIdx.x == 0) {
+          Fields::end(fields, tile.sources);
+          place[tile.sources] = {};
+        }
+        __pipeline_commit();
+        __pipeline_wait_prior(0);
+        __syncthreads();
+        if (i >= end) return;
+        const Real3 a = separation.frame.separation(separation.a[i], origin);
+        row(i, lane, [&](auto& sum, Index local) {
+          const Real4 b = place[local];
+          const Real3 r = list.periods(a - b.xyz());
+          fields.load(local, [&](const auto&... of_b) { pass.pair(sum, r, norm2(r), b.w, of_b...); });
+        });
+        return;
+      }
+    }
+    if (i >= end) return;
+    row(i, lane, [&](auto& sum, Index local) {
+      if (local == tile.sources) return;
+      const Index j = list.source[tile.source + local];
+      const auto b = separation.b[j];
+      const Real3 r = separation(i, b);
+      const Real r2 = norm2(r);
+      if (r2 < range2) add_pair(pass, sum, i, j, r, r2, Real(b.weight));
+    });
+  }
+
+ private:
+  template <class F>
+  __device__ void row(Index i, const Lane& lane, const F& add) const {
+    auto sum = pass.start(i);
+    const Index threads = Mergeable<Pass> ? 1 : lane.count;  // whose entries this one takes
+    if (threads > 1 && lane.index > 0) return;
+    for (Index thread = threadIdx.x; thread < threadIdx.x + threads; ++thread) {
+      const uint2* entry = list.entry + list.word(blockIdx.x, thread);
+      for (int left = list.count[blockIdx.x * kTileThreads + thread]; left > 0; left -= 4) {
+        const uint2 word = *entry;
+        entry += kTileThreads;
+        add(sum, word.x & 0xffff);
+        add(sum, word.x >> 16);
+        add(sum, word.y & 0xffff);
+        add(sum, word.y >> 16);
+      }
+    }
+    if constexpr (!std::is_same_v<WallRow, NoWalls>)
+      wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) { pass.wall_pair(sum, i, j, r, r2); });
+    finish_row(pass, i, lane, sum);
+  }
+};
+
+template <class Loop>
+__global__ void __launch_bounds__(kTileThreads) tile_kernel(Loop loop) {
+  loop();
+}
+
+template <class Pass, class WallRow>
+void run_tiles(const TileList& list, const PairSeparation& separation, double cutoff, const WallRow& wall_row,
+               const Pass& pass) {
+  if (list.tiles() == 0) return;
+  using Loop = TileLoop<Pass, WallRow>;
+  std::size_t each = 0;
+  if constexpr (kStages<Pass>) each = sizeof(Real4) + decltype(detail::staged_of(pass.sources()))::bytes;
+  const Index most = each > 0 ? Index(tile_memory() / each) / 4 * 4 : 0;
+  const Index room = min_of(most, (list.view().most + 1 + 3) / 4 * 4);
+  if (each > 0)
+    check_cuda(cudaFuncSetAttribute(tile_kernel<Loop>, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                    int(tile_memory())),
+               "shared memory of a pass");
+  tile_kernel<<<list.tiles(), kTileThreads, room * each>>>(
+      Loop{list.view(), separation, Real(cutoff * cutoff), wall_row, pass, room});
+  check_cuda(cudaGetLastError(), "pass over pairs");
+}
+
+template <class Pass>
+void for_each_pair(Range, const TileList& list, const PairSeparation& separation, double cutoff,
+                   const Pass& pass) {
+  run_tiles(list, separation, cutoff, NoWalls{}, pass);
+}
+/// The walls' list has as many lanes a row.
+template <class Pass>
+void for_each_pair(Range, const TileList& list, const PairSeparation& separation, const VerletList& wall_list,
+                   const PairSeparation& wall_separation, double cutoff, const Pass& pass) {
+  run_tiles(list, separation, cutoff,
+            ListRow<PairSeparation, Pass>{wall_list.view(), wall_separation, Real(cutoff * cutoff)}, pass);
+}
+#endif
 
 template <class Near, class Separation, class Pass>
 struct CellLoop {

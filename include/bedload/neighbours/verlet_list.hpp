@@ -79,7 +79,9 @@ struct CountPass {
     const Index i = lane.row;
     std::uint32_t n = 0;
     const auto look = [&](Index j) { n += near(i, j) ? 1u : 0u; };
-    sources.each_near(near.place(i), near.reach(i), look, int(lane.index), int(lane.count));
+    const Vec3d place = near.place(i);
+    if (sources.any_near(place, near.reach(i)))
+      sources.each_near(place, near.reach(i), look, int(lane.index), int(lane.count));
     lane.combine(n, [](std::uint32_t& into, std::uint32_t other) { into += other; });
     if (lane.index == 0) count[i] = n;
   }
@@ -110,6 +112,7 @@ struct FillPass {
     const Lane lane(thread, bits);
     const Index i = lane.row;
     std::uint32_t n = 0;
+    if (list.count[i] == 0) return;
     if (lane.count == 1 && list.bits == 0) {
       Index* next = entry + list.slot(i, 0);
       sources.each_near(near.place(i), near.reach(i), [&](Index j) {
@@ -159,6 +162,7 @@ class NearSearch {
 
   std::uint32_t row(Index i, const CellGridView& sources) {
     const std::size_t before = n_;
+    if (!sources.any_near(near_.place(i), near_.reach(i))) return 0;
     sources.each_run(near_.place(i), near_.reach(i), [&](Index j, Index end) {
       if (found_.size() < n_ + (end - j)) found_.resize(2 * (n_ + (end - j)));
       Index* out = found_.data() + n_;

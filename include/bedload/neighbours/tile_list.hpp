@@ -1,0 +1,478 @@
+#pragma once
+// Neighbours of one phase in itself, on the GPU: blocks of threads work on tiles of rows that lie together, and
+// what they read of all particles near a tile, its sources, is staged in shared memory, where the entries of
+// the list point with 16 bits. Tiles are runs of sorted particles of one brick of cells. Shared memory has
+// eight banks of 16 bytes, from which eight threads read at a time: so the entries of a thread stand in such
+// an order that neighbouring threads read from different ones while that is possible.
+
+#include "bedload/neighbours/cell_grid.hpp"
+#include "bedload/parallel/lanes.hpp"
+
+#if BL_CUDA
+namespace bedload::inline BL_VARIANT {
+
+constexpr Index kTileThreads = sizeof(Real) == 4 ? 256 : 128;
+
+struct Tile {
+  Index row;      ///< first row; the next tile's ends it
+  Index source;   ///< where its sources begin
+  Index sources;  ///< how many there are
+};
+
+/// Takes differences of places seen from a tile's first row to the nearest image where a period is so short
+/// that a tile and what is around it meet themselves.
+struct ShortPeriods {
+  bool any = false;
+  Vec3<Real> length, inverse;  ///< m, 1/m; 0 along other axes
+
+  ShortPeriods() = default;
+  ShortPeriods(const Frame& frame, const CellGridView& grid) {
+    for (int k = 0; k < 3; ++k)
+      if (frame.periodic[k] && grid.n[k] < 20) {
+        any = true;
+        length[k] = Real(frame.length[k]), inverse[k] = Real(1 / frame.length[k]);
+      }
+  }
+  BL_HD Vec3<Real> operator()(const Vec3<Real>& d) const {
+    if (!any) return d;
+    using std::rint;
+    return {d.x - length.x * rint(d.x * inverse.x), d.y - length.y * rint(d.y * inverse.y),
+            d.z - length.z * rint(d.z * inverse.z)};
+  }
+};
+
+struct TileListView {
+  const Tile* tile = nullptr;            ///< [tiles + 1]
+  const Index* source = nullptr;         ///< places among all particles
+  const std::uint16_t* count = nullptr;  ///< [tiles x threads] entries of a thread
+  const uint2* entry = nullptr;          ///< four at a time: [tiles x words x threads]
+  Index words = 0;                       ///< room of each thread
+  unsigned bits = 0;                     ///< log2 of the threads that share a row
+  Index most = 0;                        ///< sources of any tile
+  ShortPeriods periods;
+
+  BL_HD std::size_t word(Index tile, Index thread) const {
+    return std::size_t(tile) * words * kTileThreads + thread;
+  }
+};
+
+/// Every j within `reach` of i at the time of building, among sorted particles. The unused places of an
+/// entry's word number one source more than there are.
+class TileList {
+ public:
+  Index rows() const { return rows_; }
+  Index tiles() const { return tiles_; }
+  TileListView view() const {
+    return {tile_.data(), source_.data(), count_.data(), entry_.data(), words_, bits_, most_, periods_};
+  }
+
+  /// x: as sorted into the cells; xp: the same as pair loops read them. As many threads share a row as keep
+  /// the device busy, or 2^bits.
+  template <class P>
+  void build(const CellGrid& grid, const Frame& frame, Span<const P> x, Span<const PairPosition> xp,
+             double reach) {
+    build(grid, frame, x, xp, reach, lane_bits(x.size));
+  }
+  template <class P>
+  void build(const CellGrid& grid, const Frame& frame, Span<const P> x, Span<const PairPosition> xp,
+             double reach, unsigned bits);
+
+ private:
+  Index rows_ = 0, tiles_ = 0, words_ = 16, most_ = 0;
+  std::size_t crowd_ = 2500;  ///< particles in the cells around a tile, about
+  unsigned bits_ = 0;
+  ShortPeriods periods_;
+  Buffer<Tile> tile_;
+  Buffer<Index> source_;
+  Buffer<std::uint16_t> count_;
+  Buffer<uint2> entry_;
+  Buffer<std::uint64_t> width_, offset_;
+  Buffer<Index> used_;
+  Sorter sorter_;
+};
+
+/// What a tile may take of a multiprocessor's shared memory, bytes: half of it where that is much, so that
+/// two run at a time.
+inline std::size_t tile_memory() {
+  static const std::size_t bytes = [] {
+    int device = 0, all = 0, one = 0;
+    check_cuda(cudaGetDevice(&device), "GPU");
+    check_cuda(cudaDeviceGetAttribute(&all, cudaDevAttrMaxSharedMemoryPerMultiprocessor, device), "GPU");
+    check_cuda(cudaDeviceGetAttribute(&one, cudaDevAttrMaxSharedMemoryPerBlockOptin, device), "GPU");
+    constexpr std::size_t own = 1 << 10, fixed = 16 << 10;  // of each block; what a search takes beside
+    return max_of(std::size_t(all) / 2 - own, min_of(std::size_t(one), std::size_t(99) << 10)) - fixed;
+  }();
+  return bytes;
+}
+
+namespace detail {
+
+/// How many tiles there are in a brick of cells.
+struct TilesOfBrick {
+  Span<const Index> start;  ///< of cells
+  Index rows;               ///< of a tile, at most
+  Span<std::uint64_t> width;
+  BL_HD void operator()(Index b) const {
+    width[b] = (start[(b + 1) * 512] - start[b * 512] + rows - 1) / rows;
+  }
+};
+struct CutBrick {
+  Span<const Index> start;
+  Span<const std::uint64_t> offset;
+  Span<Tile> tile;
+  Index rows;
+  BL_HD void operator()(Index b) const {
+    const Index tiles = Index(offset[b + 1] - offset[b]);
+    for (Index t = 0; t < tiles; ++t) tile[Index(offset[b]) + t].row = start[b * 512] + t * rows;
+    if (b + 1 == width()) tile[Index(offset[b + 1])].row = start[width() * 512];
+  }
+  BL_HD Index width() const { return offset.size - 1; }
+};
+
+/// Cells of a brick and around it.
+struct BrickCells {
+  static constexpr int kSide = 10, kCells = kSide * kSide * kSide;
+  int base[3];
+  /// Place of coordinate c along axis k, wrapped, beside or in the brick.
+  BL_HD int place(const CellGridView& grid, int k, int c) const {
+    const int d = c - base[k];
+    const bool below = d == -1 || (base[k] == 0 && c == grid.n[k] - 1);
+    return d >= 0 && d < 8 ? d + 1 : below ? 0 : 9;
+  }
+};
+
+/// The cells, three a side at most, that a sphere reaches into, by their places among those of a brick.
+struct CellsAround {
+  std::uint32_t touched = 0;  ///< a bit each
+  std::uint32_t place[3]{};   ///< along an axis, four bits each
+
+  CellsAround() = default;
+  BL_HD CellsAround(const CellGridView& grid, const BrickCells& brick, const CellGridView::Block& b) {
+    double gap2[3][3];
+    int c[3][3];
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) {
+        gap2[k][i] = i < b.n[k] ? b.gap2(k, i) : 2 * b.range2;
+        c[k][i] = grid.wrapped(b.lo[k] + i, k);
+        place[k] |= std::uint32_t(brick.place(grid, k, c[k][i])) << 4 * i;
+      }
+    for (int q = 0; q < 27; ++q)
+      if (gap2[0][q % 3] + gap2[1][q / 3 % 3] + gap2[2][q / 9] < b.range2) touched |= 1u << q;
+  }
+  /// f(place, cell q of 27) of every stride-th.
+  template <class F>
+  BL_HD void each(int first, int stride, const F& f) const {
+    for (int q = first; q < 27; q += stride)
+      if (touched >> q & 1) {
+        const int along[3] = {q % 3, q / 3 % 3, q / 9};
+        f(int((place[0] >> 4 * along[0] & 15) + BrickCells::kSide * (place[1] >> 4 * along[1] & 15) +
+              BrickCells::kSide * BrickCells::kSide * (place[2] >> 4 * along[2] & 15)),
+          along);
+      }
+  }
+};
+
+/// Sums over the threads of a block below each; `total` over all of them. `sums`: one a warp.
+template <class T>
+__device__ T sum_below(T own, T* sums, T& total) {
+  const unsigned lane = threadIdx.x % 32, warp = threadIdx.x / 32;
+  T sum = own;
+  for (unsigned d = 1; d < 32; d *= 2) {
+    const T below = __shfl_up_sync(0xffffffffu, sum, d);
+    if (lane >= d) sum += below;
+  }
+  __syncthreads();
+  if (lane == 31) sums[warp] = sum;
+  __syncthreads();
+  total = 0;
+  for (unsigned w = 0; w < kTileThreads / 32; ++w) {
+    if (w == warp) sum += total;
+    total += sums[w];
+  }
+  return sum - own;
+}
+
+/// The entries of one thread.
+struct ThreadEntries {
+  uint2* word;  ///< its first
+  Index words;  ///< for how many there is room
+  Index n = 0;
+  uint2 next{};
+
+  __device__ void append(Index j) {
+    next.x = __byte_perm(next.x, next.y, 0x5432);
+    next.y = __byte_perm(next.y, j, 0x5432);
+    ++n;
+    if ((n & 3) == 0 && n <= 4 * words) word[std::size_t(n / 4 - 1) * kTileThreads] = next;
+  }
+  __device__ void end(Index padding) {
+    const Index all = n;
+    while ((n & 3) != 0) append(padding);
+    n = all;
+  }
+  template <class F>
+  __device__ void each(const F& f) const {
+    for (Index k = 0; k < n; k += 4) {
+      const uint2 w = word[std::size_t(k / 4) * kTileThreads];
+      f(w.x & 0xffff);
+      if (k + 1 < n) f(w.x >> 16);
+      if (k + 2 < n) f(w.y & 0xffff);
+      if (k + 3 < n) f(w.y >> 16);
+    }
+  }
+};
+
+/// One block, one tile: all particles of the cells around it are numbered and searched; then those that are
+/// near any row alone are numbered, and the entries put in order.
+template <class P>
+struct TileSearch {
+  CellGridView grid;
+  Frame frame;
+  Span<const P> x;
+  Span<const PairPosition> xp;
+  double reach;
+  ShortPeriods periods;
+  unsigned bits;
+  Index words, room, memory;  ///< of entries of a thread; for the sources of all tiles; bytes to stage in
+  Tile* tile;
+  Index* source;
+  std::uint16_t* count;
+  uint2* entry;
+  Index* used;  ///< sources of all tiles; most entries of a thread; most sources of a tile, first and last
+};
+
+template <class P>
+__global__ void __launch_bounds__(kTileThreads) tile_search(TileSearch<P> s) {
+  constexpr Index kEach = (BrickCells::kCells + kTileThreads - 1) / kTileThreads,
+                  kSlots = kEach * kTileThreads;
+  constexpr Index kWarps = kTileThreads / 32;
+  __shared__ std::uint32_t cell[kSlots];  // key of a cell that is near, kNone of others
+  __shared__ Index local[kSlots];         // number of its first particle, or of the next cell's
+  static_assert(kSlots > BrickCells::kCells);
+  __shared__ Index sums[kWarps], first_source, most;
+  extern __shared__ uint4 staged[];
+
+  const Index t = threadIdx.x, warp = t / 32, lane_of_warp = t % 32;
+  for (Index k = 0; k < kEach; ++k) cell[t + k * kTileThreads] = kNone;
+  if (t == 0) most = 0;
+  __syncthreads();
+
+  // the cells that any row reaches into
+  const Lane lane(t, s.bits);
+  const Index first = s.tile[blockIdx.x].row, end = s.tile[blockIdx.x + 1].row;
+  const Index i = first + lane.row;
+  const bool some = i < end;
+  CellsAround around;
+  if (some) {
+    BrickCells brick;
+    const Vec3d corner = coordinates(s.frame, s.x[first]);
+    for (int k = 0; k < 3; ++k) brick.base[k] = s.grid.coordinate(corner[k], k) & ~7;
+    const auto block = s.grid.block(coordinates(s.frame, s.x[i]), s.reach);
+    around = CellsAround(s.grid, brick, block);
+    around.each(int(lane.index), int(lane.count), [&](int slot, const int(&along)[3]) {
+      int c[3];
+      for (int k = 0; k < 3; ++k) c[k] = s.grid.wrapped(block.lo[k] + along[k], k);
+      atomicExch(&cell[slot], s.grid.key(c[0], c[1], c[2]));  // all who write here write the same
+    });
+  }
+  __syncthreads();
+
+  // number their particles
+  const auto particles = [&](std::uint32_t c) {
+    return c == kNone ? 0 : s.grid.start[c + 1] - s.grid.start[c];
+  };
+  Index own = 0, all = 0;
+  for (Index k = 0; k < kEach; ++k) own += particles(cell[t * kEach + k]);
+  Index at = sum_below(own, sums, all);
+  for (Index k = 0; k < kEach; ++k) {
+    local[t * kEach + k] = at;
+    at += particles(cell[t * kEach + k]);
+  }
+  __syncthreads();
+  const auto each_particle = [&](const auto& f) {
+    for (Index slot = warp; slot < BrickCells::kCells; slot += kWarps) {
+      if (cell[slot] == kNone) continue;
+      const Index begin = s.grid.start[cell[slot]], n = local[slot + 1] - local[slot];
+      for (Index k = lane_of_warp; k < n; k += 32) f(local[slot] + k, begin + k);
+    }
+  };
+
+  // search among their places from the first row, which are staged where there is room
+  auto* const near = reinterpret_cast<Vec4<Real>*>(staged);
+  const PairPosition origin = s.xp[first];
+  const auto from_origin = [&](Index j) { return s.frame.separation(s.xp[j], origin); };
+  const bool fits = (all + (4u << s.bits)) * sizeof(Vec4<Real>) <= s.memory;  // tests run on
+  if (fits) each_particle([&](Index number, Index j) { near[number] = {from_origin(j), 0}; });
+  __syncthreads();
+  ThreadEntries list{s.entry + std::size_t(blockIdx.x) * s.words * kTileThreads + t, s.words};
+  if (some) {
+    const Vec3<Real> a = from_origin(i);
+    const Real range2 = Real(s.reach * s.reach);
+    around.each(0, 1, [&](int slot, const int(&)[3]) {
+      const Index from = local[slot], to = local[slot + 1], begin = s.grid.start[cell[slot]];
+      const Index self = from + (i - begin);
+      const auto search = [&](const auto& place) {
+        for (Index k = from + lane.index; k < to; k += 32 * lane.count) {
+          const Index n = min_of(32u, (to - k + lane.count - 1) >> s.bits);
+          unsigned hits = 0;
+          for (Index b = 0; b < n; b += 4)
+#pragma unroll
+            for (Index c = 0; c < 4; ++c)
+              if (norm2(s.periods(a - place(k + ((b + c) << s.bits)))) < range2) hits |= 1u << (b + c);
+          hits &= 0xffffffffu >> (32 - n);
+          if (((self - k) & (lane.count - 1)) == 0 && self - k < 32 * lane.count)
+            hits &= ~(1u << ((self - k) >> s.bits));
+          while (hits != 0) {
+            const int b = 31 - __clz(int(hits));
+            hits ^= 1u << b;
+            list.append(k + (Index(b) << s.bits));
+          }
+        }
+      };
+      if (fits)
+        search([&](Index k) { return near[k].xyz(); });
+      else
+        search([&](Index k) { return from_origin(begin + (min_of(k, to - 1) - from)); });
+    });
+    list.end(all);
+  }
+  s.count[blockIdx.x * kTileThreads + t] = std::uint16_t(list.n);
+  atomicMax(&most, list.n);
+  __syncthreads();
+  if (t == 0) {
+    atomicMax(s.used + 1, most);
+    atomicMax(s.used + 2, all);
+  }
+  if (most > 4 * s.words || all > 65534) return;  // to be done again with more room
+
+  // number those that are near: a bit each, and how many there are before its word
+  const Index fields = (all + 31) / 32;
+  auto* const near_row = reinterpret_cast<std::uint32_t*>(staged);
+  auto* const before = near_row + fields;
+  for (Index k = t; k < fields; k += kTileThreads) near_row[k] = 0;
+  __syncthreads();
+  list.each([&](Index k) { atomicOr(&near_row[k / 32], 1u << (k % 32)); });
+  __syncthreads();
+  const Index each = (fields + kTileThreads - 1) / kTileThreads;
+  const Index from = min_of(fields, t * each), to = min_of(fields, from + each);
+  own = 0;
+  for (Index k = from; k < to; ++k) own += __popc(near_row[k]);
+  Index sources = 0;
+  at = sum_below(own, sums, sources);
+  for (Index k = from; k < to; ++k) {
+    before[k] = at;
+    at += __popc(near_row[k]);
+  }
+  if (t == 0) {
+    first_source = atomicAdd(s.used, sources);
+    atomicMax(s.used + 3, sources);
+    s.tile[blockIdx.x].source = first_source;
+    s.tile[blockIdx.x].sources = sources;
+  }
+  __syncthreads();
+  if (first_source + sources > s.room) return;
+  const auto number = [&](Index k) {
+    return before[k / 32] + __popc(near_row[k / 32] & ((1u << (k % 32)) - 1));
+  };
+  each_particle([&](Index k, Index j) {
+    if (near_row[k / 32] >> (k % 32) & 1) s.source[first_source + number(k)] = j;
+  });
+  if (!some) return;
+  const ThreadEntries searched = list;
+  list.n = 0;
+  searched.each([&](Index k) { list.append(number(k)); });
+  list.end(sources);
+}
+
+/// Orders the entries of each thread t: at step k a source whose number is t + k modulo 8, or the next there
+/// is.
+template <class Word>
+__global__ void __launch_bounds__(kTileThreads) tile_order(TileListView list, Word* entry) {
+  extern __shared__ std::uint16_t sorted[];  // by remainder, [entries x threads]
+  const Index t = threadIdx.x;
+  ThreadEntries in{entry + list.word(blockIdx.x, t), list.words};
+  const Index n = in.n = list.count[blockIdx.x * kTileThreads + t];
+  if (n > 255) return;
+  std::uint64_t left = 0;  // entries of each remainder, a byte each
+  in.each([&](Index k) { left += std::uint64_t(1) << 8 * (k & 7); });
+  const std::uint64_t begin = left * 0x0101010101010100u;
+  std::uint64_t next = begin;
+  const auto take = [&](Index r) {
+    const Index place = Index(next >> 8 * r) & 255;
+    next += std::uint64_t(1) << 8 * r;
+    return place * kTileThreads + t;
+  };
+  in.each([&](Index k) { sorted[take(k & 7)] = std::uint16_t(k); });
+  Index least = 255;  // as often as every remainder is there
+  for (Index r = 0; r < 8; ++r) least = min_of(least, Index(left >> 8 * r) & 255);
+  ThreadEntries out{in.word, list.words};
+  for (Index k = 0; k < 8 * least; ++k) {
+    const Index r = (t + k) & 7;
+    out.append(sorted[((Index(begin >> 8 * r) & 255) + k / 8) * kTileThreads + t]);
+  }
+  left -= least * 0x0101010101010101u;
+  next = begin + least * 0x0101010101010101u;
+  unsigned some = 0;  // which remainders are left, twice over
+  for (Index r = 0; r < 8; ++r) some |= (left >> 8 * r & 255) != 0 ? 0x101u << r : 0;
+  for (Index k = 8 * least; k < n; ++k) {
+    const Index r = (Index(__ffs(int(some >> ((t + k) & 7)))) - 1 + t + k) & 7;
+    left -= std::uint64_t(1) << 8 * r;
+    if ((left >> 8 * r & 255) == 0) some &= ~(0x101u << r);
+    out.append(sorted[take(r)]);
+  }
+  out.end(list.tile[blockIdx.x].sources);
+}
+
+}  // namespace detail
+
+template <class P>
+void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, Span<const PairPosition> xp,
+                     double reach, unsigned bits) {
+  rows_ = x.size;
+  bits_ = min_of(bits, 5u);
+  periods_ = ShortPeriods(frame, grid.view());
+  const Index bricks = grid.bricks(), rows = kTileThreads >> bits_;
+  const Span<const Index> start{grid.view().start, bricks * 512 + 1};
+  width_.resize(bricks);
+  for_each({0, bricks}, detail::TilesOfBrick{start, rows, width_});
+  tiles_ = Index(sorter_.exclusive_scan(width_, offset_));
+  tile_.reserve_and_resize(tiles_ + 1);
+  for_each({0, bricks}, detail::CutBrick{start, offset_, tile_, rows});
+  count_.reserve_and_resize(std::size_t(tiles_) * kTileThreads);
+  most_ = 0;
+  if (tiles_ == 0) return;
+  used_.resize(4);
+  check_cuda(cudaFuncSetAttribute(detail::tile_search<P>, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                  int(tile_memory())),
+             "shared memory of a search");
+  Index longest = 0;
+  for (bool done = false; !done;) {
+    const std::size_t memory = min_of(tile_memory(), crowd_ * sizeof(Vec4<Real>));
+    entry_.reserve_and_resize(std::size_t(tiles_) * words_ * kTileThreads);
+    used_.zero();
+    detail::tile_search<P><<<tiles_, kTileThreads, memory>>>(
+        {grid.view(), frame, x, xp, reach, periods_, bits_, words_, Index(source_.size()), Index(memory),
+         tile_.data(), source_.data(), count_.data(), entry_.data(), used_.data()});
+    check_cuda(cudaGetLastError(), "search for neighbours");
+    const auto used = used_.to_host();
+    if (used[2] > 65534)
+      throw DeviceError("more than 65534 particles around " + std::to_string(rows) + " that lie together");
+    done = used[0] <= source_.size() && used[1] <= 4 * words_;
+    longest = used[1];
+    most_ = used[3];
+    crowd_ = used[2] + used[2] / 16 + (4u << bits_);
+    if (used[1] > 4 * words_) words_ = (used[1] + 3) / 4 + 1;
+    if (used[0] > source_.size()) source_.reserve_and_resize(used[0]);
+  }
+  // by what there is now, not by what there has been room for: a run that goes on from here orders the same
+  const std::size_t sorted = std::size_t(longest + 3) / 4 * 4 * kTileThreads * sizeof(std::uint16_t);
+  if (sorted > tile_memory()) return;
+  check_cuda(cudaFuncSetAttribute(detail::tile_order<uint2>, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                  int(sorted)),
+             "shared memory of an order");
+  detail::tile_order<uint2><<<tiles_, kTileThreads, sorted>>>(view(), entry_.data());
+  check_cuda(cudaGetLastError(), "order of neighbours");
+}
+
+}  // namespace bedload::inline BL_VARIANT
+#endif
