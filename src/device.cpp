@@ -14,31 +14,13 @@
 #include <cuda_runtime_api.h>
 #endif
 
-// One factory a variant; a build may leave precisions out (BEDLOAD_PRECISIONS).
-#define BL_DECLARE(variant)                                                           \
-  namespace bedload::variant {                                                        \
-  std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup); \
+// One factory a variant; CMake lists those of this build: BL_USE(single, cpu) BL_USE(single, cuda) and so on.
+#define BL_USE(which, where)                                                            \
+  namespace bedload::which##_##where {                                                  \
+    std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup); \
   }
-#if BL_HAS_CUDA
-#define BL_DECLARE_BOTH(which) BL_DECLARE(which##_cpu) BL_DECLARE(which##_cuda)
-#define BL_TRY(which)                                                           \
-  if (config.precision == #which)                                               \
-    return device.backend == "cuda" ? which##_cuda::make_coupled(config, setup) \
-                                    : which##_cpu::make_coupled(config, setup);
-#else
-#define BL_DECLARE_BOTH(which) BL_DECLARE(which##_cpu)
-#define BL_TRY(which) \
-  if (config.precision == #which) return which##_cpu::make_coupled(config, setup);
-#endif
-#if BL_HAS_SINGLE
-BL_DECLARE_BOTH(single)
-#endif
-#if BL_HAS_MIXED
-BL_DECLARE_BOTH(mixed)
-#endif
-#if BL_HAS_DOUBLE
-BL_DECLARE_BOTH(double)
-#endif
+BL_VARIANTS
+#undef BL_USE
 
 namespace bedload {
 namespace {
@@ -59,9 +41,25 @@ std::size_t free_memory() {
   return 0;
 }
 
-Device cpu(int threads) {
+/// Whether to run what was compiled for AVX2.
+bool wants_avx2(const std::string& simd) {
+#if BL_HAS_AVX2
+  const bool can = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+  const std::string why = "this processor has no AVX2";
+#else
+  const bool can = false;
+  const std::string why = "this program was built without a choice";
+#endif
+  if (simd == "avx2" && !can) throw KeyError("run.simd", "run.simd = avx2: " + why);
+  return can && simd != "baseline";
+}
+
+Device cpu(int threads, const std::string& simd) {
   if (threads > 0) omp_set_num_threads(threads);
-  return {"cpu", processor_name() + ", " + std::to_string(omp_get_max_threads()) + " threads", free_memory()};
+  const bool avx2 = wants_avx2(simd);
+  return {"cpu",
+          processor_name() + (avx2 ? ", AVX2, " : ", ") + std::to_string(omp_get_max_threads()) + " threads",
+          free_memory(), avx2};
 }
 
 /// Why there is no GPU, or an empty string.
@@ -88,29 +86,25 @@ std::string find_gpu(Device& device) {
 
 }  // namespace
 
-Device find_device(const std::string& backend, int threads) {
-  if (backend == "cpu") return cpu(threads);
+Device find_device(const std::string& backend, int threads, const std::string& simd) {
+  if (backend == "cpu") return cpu(threads, simd);
   Device device;
   const std::string why = find_gpu(device);
   if (why.empty()) {
-    cpu(threads);
+    cpu(threads, "auto");
     return device;
   }
   if (backend == "cuda") throw DeviceError("--backend = cuda: " + why);
-  return cpu(threads);
+  return cpu(threads, simd);
 }
 
-std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& setup,
+std::unique_ptr<Simulation> make_simulation(const Config& config, [[maybe_unused]] const Setup& setup,
                                             [[maybe_unused]] const Device& device) {
-#if BL_HAS_SINGLE
-  BL_TRY(single)
-#endif
-#if BL_HAS_MIXED
-  BL_TRY(mixed)
-#endif
-#if BL_HAS_DOUBLE
-  BL_TRY(double)
-#endif
+#define BL_USE(which, where)                                                                 \
+  if (config.precision == #which && device.backend + (device.avx2 ? "_avx2" : "") == #where) \
+    return which##_##where::make_coupled(config, setup);
+  BL_VARIANTS
+#undef BL_USE
   throw KeyError("run.precision",
                  "run.precision = " + config.precision + ": this program was built without it");
 }

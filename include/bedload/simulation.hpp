@@ -85,16 +85,18 @@ class Simulation {
   virtual void load_grains(const SavedState& state) = 0;
 };
 
-/// "cpu" or "cuda" and the device's name; throws DeviceError if it is not there.
+/// Where a case runs.
 struct Device {
   std::string backend;     ///< cpu, cuda
-  std::string name;        ///< "NVIDIA H100 80GB HBM3", "AMD EPYC ..., 2 threads"
+  std::string name;        ///< "NVIDIA H100 80GB HBM3", "AMD EPYC ..., AVX2, 2 threads"
   std::size_t memory = 0;  ///< bytes free
+  bool avx2 = false;       ///< a CPU that runs what was compiled for AVX2
   bool cuda() const { return backend == "cuda"; }
 };
 
-/// backend: auto, cpu, cuda. `auto` takes a usable GPU if this build has CUDA.
-Device find_device(const std::string& backend, int threads);
+/// backend: auto, cpu, cuda. `auto` takes a usable GPU if this build has CUDA. simd is run.simd. Throws
+/// DeviceError if there is no such device, KeyError if the CPU has no such instructions.
+Device find_device(const std::string& backend, int threads, const std::string& simd = "auto");
 
 /// Builds the solver for config.precision on `device`.
 std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& setup, const Device& device);

@@ -193,6 +193,12 @@ void describe_time(Parameters& p, Config& c) {
      .choices = {{"mixed", "fp64 positions, fp32 velocities and pairs"},
                  {"single", "fp32, cell-relative positions"},
                  {"double", "fp64 throughout"}}});
+  p("run.simd", &c.simd,
+    {.meaning = "instructions of the CPU; results differ by rounding",
+     .family = "models",
+     .choices = {{"auto", "avx2 if the CPU has it"},
+                 {"baseline", "those that every x86-64 has"},
+                 {"avx2", "AVX2 and FMA"}}});
   p("run.seed", &c.seed, {.meaning = "of everything random", .range = within(0, kLargest)});
   p("run.max_lost", &c.max_lost,
     {.meaning = "share of fluid or grains that may leave the domain where no outlet is; more: exit code 4",

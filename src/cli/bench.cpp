@@ -252,7 +252,7 @@ Json json_of(const Options& o, const Device& device, const std::vector<Result>& 
 
 int bench(const Options& o) {
   std::vector<Job> jobs = jobs_of(o);
-  const Device device = find_device(o.backend, o.threads);
+  const Device device = find_device(o.backend, o.threads, jobs.front().p.config.simd);
   std::vector<Result> results;
   const auto save = [&] {
     if (o.bench.json.empty()) return;

@@ -86,7 +86,7 @@ Prepared prepare(const Options& options) {
 }
 
 void lay(const Options& options, Prepared& p) {
-  p.device = find_device(options.backend, options.threads);
+  p.device = find_device(options.backend, options.threads, p.config.simd);
   if (options.restart.empty()) {
     if (p.config.fluid.present) refuse_too_fine(p);
     p.setup = build_setup(p.config, p.warnings);

@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "bedload/output/folder_lock.hpp"
@@ -341,6 +343,34 @@ TEST_F(Program, RunsACaseAndLeavesItsFiles) {
   const Outcome checkpoint = bedload("info results/dam/checkpoints/*.h5");
   EXPECT_EQ(checkpoint.code, 0) << checkpoint.err;
   EXPECT_NE(checkpoint.out.find("precision = mixed"), std::string::npos) << checkpoint.out;
+}
+
+TEST_F(Program, RunsWithAndWithoutAvx2) {
+  write("dam.toml", kSmall);
+  const std::string run =
+      "run dam.toml --backend cpu --quiet --until 0.002 --set grain.settle=false --set run.simd=";
+  ASSERT_EQ(bedload(run + "baseline --out baseline").code, 0);
+  ASSERT_EQ(bedload(run + "auto --out auto").code, 0);
+  const auto summary = [&](const char* of) {
+    return nlohmann::json::parse(content_of(dir_ / of / "summary.json"));
+  };
+  const auto has_avx2 = [&](const char* of) {
+    return summary(of)["device"]["name"].get<std::string>().find("AVX2") != std::string::npos;
+  };
+  EXPECT_FALSE(has_avx2("baseline"));
+  const Outcome o = bedload(run + "avx2 --out avx2");
+  if (o.code) {  // no such processor, or built without
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find("--set run.simd=avx2: run.simd = avx2: this pro"), std::string::npos) << o.err;
+    EXPECT_FALSE(has_avx2("auto"));
+    return;
+  }
+  EXPECT_TRUE(has_avx2("auto"));
+  EXPECT_EQ(summary("auto")["metrics"], summary("avx2")["metrics"]);
+  for (const char* what : {"fluid_potential_energy", "fluid_kinetic_energy", "grain_kinetic_energy"}) {
+    const double value = summary("baseline")["metrics"][what]["value"];
+    EXPECT_NEAR(summary("avx2")["metrics"][what]["value"], value, 1e-4 * std::abs(value)) << what;
+  }
 }
 
 TEST_F(Program, KeepsARunFromBeingWrittenOver) {

@@ -94,6 +94,27 @@ endfunction()
 foreach(precision IN LISTS BEDLOAD_PRECISIONS)
   bedload_variant_tests(${precision}_cpu)
 endforeach()
+
+# AVX2: the tests whose loops take packs, as one test, skipped where the CPU has none; and what would let its
+# instructions out.
+if(BEDLOAD_CPU_DISPATCH)
+  set(avx2_tests ${BEDLOAD_PRECISION_TESTS})
+  list(FILTER avx2_tests INCLUDE REGEX "/tests/(neighbours|coupling|fluid|physics/coupled)")
+  foreach(precision IN LISTS BEDLOAD_PRECISIONS)
+    add_test(NAME sealed.${precision}_cpu_avx2
+             COMMAND sh -c "test $('${CMAKE_NM}' --defined-only --extern-only \"$1\" | wc -l) = 1 && \
+! '${CMAKE_OBJDUMP}' -h \"$1\" | grep -E 'init_array|ctors'" sh ${CMAKE_BINARY_DIR}/bedload_${precision}_cpu_avx2.o)
+    set_tests_properties(sealed.${precision}_cpu_avx2 PROPERTIES LABELS quick)
+  endforeach()
+  if("mixed" IN_LIST BEDLOAD_PRECISIONS)
+    set_source_files_properties(tests/support/skip_without_avx2.cpp PROPERTIES COMPILE_OPTIONS -mno-avx)
+    add_executable(bedload_tests_mixed_cpu_avx2 ${avx2_tests} tests/support/skip_without_avx2.cpp)
+    target_link_libraries(bedload_tests_mixed_cpu_avx2 PRIVATE bedload_mixed_cpu_avx2 bedload_host GTest::gtest_main)
+    add_test(NAME bedload_tests_mixed_cpu_avx2 COMMAND bedload_tests_mixed_cpu_avx2 --gtest_filter=-Slow*:*/Slow*)
+    set_tests_properties(bedload_tests_mixed_cpu_avx2 PROPERTIES LABELS quick TIMEOUT 300 SKIP_RETURN_CODE 77
+                         ENVIRONMENT OMP_WAIT_POLICY=passive)
+  endif()
+endif()
 if(BEDLOAD_CUDA)
   add_subdirectory(tools/cmake/cuda_tests)
 endif()

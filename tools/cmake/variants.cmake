@@ -1,5 +1,5 @@
-# The solver library is compiled once per precision and backend from the same files. Each build lives in
-# its own inline namespace (BL_VARIANT), so that one program holds them all and chooses at run time.
+# The solver library is compiled once per precision and backend from the same files, for the CPU also with AVX2 and FMA.
+# Each build lives in its own inline namespace (BL_VARIANT), so that one program holds them all and chooses at run time.
 #
 # precision  pair arithmetic  fluid positions in memory
 # single     float            packed: float, relative to the cell
@@ -13,7 +13,7 @@ file(GLOB BEDLOAD_SOLVER_SOURCES CONFIGURE_DEPENDS
      ${CMAKE_SOURCE_DIR}/src/boundaries/*.cpp
      ${CMAKE_SOURCE_DIR}/src/time/*.cpp ${CMAKE_SOURCE_DIR}/src/measure/*.cpp)
 
-# bedload_variant(single|mixed|double cpu|cuda): the static library bedload_<precision>_<backend>.
+# bedload_variant(single|mixed|double cpu|cpu_avx2|cuda): the static library bedload_<precision>_<backend>.
 # A cuda variant is made in a directory in which the sources' LANGUAGE is CUDA.
 function(bedload_variant precision backend)
   set(variant ${precision}_${backend})
@@ -45,6 +45,27 @@ function(bedload_variant precision backend)
       # GCC 12's SLP vectoriser drops the rounding in double(float(x))
       target_compile_options(bedload_${variant} PUBLIC -fno-tree-slp-vectorize)
     endif()
+    if(backend STREQUAL "cpu_avx2")
+      target_compile_options(bedload_${variant} PUBLIC -mavx2 -mfma)
+      if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # objcopy leaves unique symbols to be seen
+        target_compile_options(bedload_${variant} PRIVATE -fno-gnu-unique)
+      endif()
+    endif()
     target_link_libraries(bedload_${variant} PUBLIC OpenMP::OpenMP_CXX)
   endif()
+endfunction()
+
+# bedload_seal(<variant>): the static library bedload_<variant>_sealed, the same as one object of which make_coupled
+# alone is seen from outside. Else the linker could take a function of a common header, compiled for AVX2, for the whole
+# program, which would then stop on CPUs without it.
+function(bedload_seal variant)
+  set(object ${CMAKE_BINARY_DIR}/bedload_${variant}.o)
+  add_custom_command(
+    OUTPUT ${object} DEPENDS bedload_${variant}
+    COMMAND ${CMAKE_LINKER} -r --force-group-allocation --whole-archive $<TARGET_FILE:bedload_${variant}> -o ${object}
+    COMMAND ${CMAKE_OBJCOPY} --wildcard --keep-global-symbol=_ZN7bedload*12make_coupledERKNS_6ConfigERKNS_5SetupE
+            ${object} VERBATIM)
+  add_library(bedload_${variant}_sealed STATIC ${object})
+  set_target_properties(bedload_${variant}_sealed PROPERTIES LINKER_LANGUAGE CXX)
+  target_link_libraries(bedload_${variant}_sealed PRIVATE $<LINK_ONLY:bedload_host> OpenMP::OpenMP_CXX)
 endfunction()

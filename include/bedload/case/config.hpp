@@ -455,6 +455,7 @@ struct Config {
   TimeConfig time;
   OutputConfig out;
   std::string precision = "mixed";             ///< single, mixed, double
+  std::string simd = "auto";                   ///< auto, baseline, avx2
   std::uint64_t seed = 1;
   double max_lost = 1e-3;                      ///< share of fluid or grains that may leave the domain unasked
   double skin_fluid = 0.3;                     ///< neighbour skin / fluid.dx
