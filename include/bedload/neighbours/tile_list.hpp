@@ -447,7 +447,8 @@ void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, 
              "shared memory of a search");
   Index longest = 0;
   for (bool done = false; !done;) {
-    const std::size_t memory = min_of(tile_memory(), crowd_ * sizeof(Vec4<Real>));
+    constexpr std::size_t least = 2 * 65536 / 8;  // a bit for each of the most there may be, and sums of them
+    const std::size_t memory = max_of(least, min_of(tile_memory(), crowd_ * sizeof(Vec4<Real>)));
     entry_.reserve_and_resize(std::size_t(tiles_) * words_ * kTileThreads);
     used_.zero();
     detail::tile_search<P><<<tiles_, kTileThreads, memory>>>(

@@ -33,26 +33,13 @@ __global__ void __launch_bounds__(128)
 }
 #endif
 
-#if BL_CUDA
-/// Threads of a block: small ranges reach every multiprocessor; in large ones what lies together shares a
-/// first-level cache, unless threads need so many registers that smaller blocks fill more of them.
-template <class F>
-Index block_size(Index threads) {
-  static const bool heavy = [] {
-    cudaFuncAttributes kernel;
-    check_cuda(cudaFuncGetAttributes(&kernel, for_each_kernel<F>), "kernel");
-    return kernel.numRegs > 80;
-  }();
-  return threads < 1u << 16 ? 32 : heavy || threads < 1u << 18 ? 128 : 256;
-}
-#endif
-
 /// Calls f(i) for every i of the range.
 template <class F>
 void for_each(Range range, const F& f) {
   if (range.size() == 0) return;
 #if BL_CUDA
-  const Index block = block_size<F>(range.size());
+  // small ranges reach every multiprocessor; in large ones what lies together shares a first-level cache
+  const Index block = range.size() < 1u << 16 ? 32 : range.size() < 1u << 18 ? 128 : 256;
   for_each_kernel<<<(range.size() + block - 1) / block, block>>>(range.begin, range.end, f);
   check_cuda(cudaGetLastError(), "kernel launch");
 #else
