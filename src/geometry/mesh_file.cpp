@@ -1,97 +1,332 @@
-// Triangles from files, through assimp.
+// Triangles from STL, OBJ and PLY files. Files come damaged and cut off: every count and index is checked
+// before it is used, and what is wrong is told with its line.
 
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <assimp/Importer.hpp>
+#include <bit>
 #include <cctype>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <string_view>
 
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/mesh.hpp"
 #include "bedload/output/files.hpp"
+#include "geometry/polygon.hpp"
 
 namespace bedload {
 namespace {
 
-bool has_line(const std::string& text, const std::string& line) {
-  return text.find("\n" + line + "\n") != text.npos || text.find("\n" + line + "\r") != text.npos;
+std::string lower(std::string_view text) {
+  std::string out(text);
+  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  return out;
 }
 
-/// What is missing in a file that has been cut off, which the importer tells badly or hangs on; empty if
-/// nothing.
-std::string missing_in(const std::filesystem::path& file, const std::string& kind) {
-  const std::string text = read_file(file);
-  if (text.empty()) return "is empty";
-  if (kind == ".ply" && !text.starts_with("ply")) return "is no PLY file: it does not begin with ply";
-  if (kind == ".ply" && !has_line(text.substr(0, 1 << 16), "end_header"))
-    return "is cut off: its header has no end_header";
-  if (kind != ".stl") return "";
-  constexpr std::size_t head = 84, triangle = 50;  // of a binary file, bytes
-  std::uint32_t count = 0;
-  if (text.size() >= head) std::memcpy(&count, text.data() + head - sizeof count, sizeof count);
-  if (text.size() >= head && text.size() == head + triangle * std::size_t(count)) return "";
-  if (text.starts_with("solid"))
-    return text.find("endsolid") == text.npos ? "is cut off: it has no endsolid" : "";
-  if (text.size() < head) return "is cut off: it ends within its head";
-  if (text.size() > head + triangle * std::size_t(count)) return "";  // with more behind, as some write it
-  return fmt::format("is cut off: its {} triangles take {} bytes, and it has {}", count,
-                     head + triangle * std::size_t(count), text.size());
-}
+/// A text, word by word and line by line.
+class Text {
+ public:
+  Text(const std::string& name, std::string_view rest) : name_(name), rest_(rest) {}
 
-/// Whether there are faces to triangulate. The importer takes damaged ones for sound and then stops the
-/// program.
-bool has_polygons(const aiScene& scene, const std::string& name) {
-  bool any = false;
-  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
-    const aiMesh& mesh = *scene.mMeshes[m];
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      const aiFace& face = mesh.mFaces[f];
-      any |= face.mNumIndices > 3;
-      for (unsigned i = 0; i < face.mNumIndices; ++i)
-        if (face.mIndices[i] >= mesh.mNumVertices)
-          throw FileError(fmt::format("{}: face {} names vertex {}, the mesh has {} (from 0)", name, f,
-                                      face.mIndices[i], mesh.mNumVertices));
+  [[noreturn]] void fail(const std::string& what) const {
+    throw FileError(fmt::format("{}: line {}: {}", name_, line_, what));
+  }
+  /// Goes to the next line; false if there is none. A backslash at its end goes on with the next one.
+  bool next_line() {
+    if (rest_.empty()) return false;
+    line_ = next_;
+    words_.clear();
+    for (bool more = true; more && !rest_.empty(); ++next_) {
+      const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+      std::string_view line = rest_.substr(0, end);
+      rest_.remove_prefix(std::min(end + 1, rest_.size()));
+      if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+      more = !line.empty() && line.back() == '\\';
+      if (more) line.remove_suffix(1);
+      split(line.substr(0, line.find('#')));
+    }
+    at_ = 0;
+    return true;
+  }
+  /// The next word of the line; empty at its end.
+  std::string_view word() { return at_ < words_.size() ? words_[at_++] : std::string_view(); }
+  std::string_view rest() const { return rest_; }  ///< behind the line
+
+  /// A number that `word` is, or what it begins with up to a slash.
+  template <class T>
+  T number(std::string_view word) const {
+    std::string_view digits = word.substr(0, word.find('/'));
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    T value{};
+    const auto [end, wrong] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    bool good = wrong == std::errc() && end == digits.data() + digits.size();
+    if constexpr (std::is_floating_point_v<T>) good = good && std::isfinite(value);
+    if (!good) fail(fmt::format("\"{}\" must be a number", printable(word)));
+    return value;
+  }
+  Vec3d place() {
+    Vec3d x;
+    for (int k = 0; k < 3; ++k) {
+      const std::string_view w = word();
+      if (w.empty()) fail("a vertex must have three coordinates");
+      x[k] = number<double>(w);
+    }
+    return x;
+  }
+
+ private:
+  void split(std::string_view line) {
+    constexpr std::string_view blank = " \t\v\f\r";
+    for (std::size_t end; !line.empty(); line.remove_prefix(end)) {
+      line.remove_prefix(std::min(line.find_first_not_of(blank), line.size()));
+      end = std::min(line.find_first_of(blank), line.size());
+      if (end > 0) words_.push_back(line.substr(0, end));
     }
   }
-  return any;
+  static std::string printable(std::string_view word) {
+    std::string out(word.substr(0, 40));
+    std::replace_if(
+        out.begin(), out.end(), [](unsigned char c) { return c < ' ' || c > '~'; }, '?');
+    return out;
+  }
+
+  const std::string& name_;
+  std::string_view rest_;
+  std::vector<std::string_view> words_;
+  std::size_t at_ = 0;
+  long line_ = 1, next_ = 1;
+};
+
+// -- STL -----------------------------------------------------------------------
+
+TriangleSoup read_ascii_stl(const std::string& name, std::string_view bytes) {
+  TriangleSoup soup;
+  Text text(name, bytes);
+  while (text.next_line()) {
+    const std::string word = lower(text.word());
+    if (word == "vertex") soup.vertices.push_back(text.place());
+    if (word == "endloop" && soup.vertices.size() % 3 != 0) text.fail("a facet must have three vertices");
+  }
+  if (soup.vertices.size() % 3 != 0) text.fail("the last facet is cut off");
+  for (std::uint32_t v = 0; v < soup.vertices.size(); v += 3) soup.triangles.push_back({v, v + 1, v + 2});
+  return soup;
+}
+
+TriangleSoup read_stl(const std::string& name, std::string_view bytes) {
+  constexpr std::size_t head = 84, triangle = 50, normal = 12;  // of a binary file, bytes
+  std::uint32_t count = 0;
+  if (bytes.size() >= head) std::memcpy(&count, bytes.data() + head - sizeof count, sizeof count);
+  const std::size_t size = head + triangle * std::size_t(count);
+  if (bytes.starts_with("solid") && bytes.size() != size) {
+    if (bytes.find("endsolid") == bytes.npos) throw FileError(name + ": is cut off: it has no endsolid");
+    return read_ascii_stl(name, bytes);
+  }
+  if (bytes.size() < head) throw FileError(name + ": is cut off: it ends within its head");
+  if (bytes.size() < size)  // some write more behind
+    throw FileError(fmt::format("{}: is cut off: its {} triangles take {} bytes, and it has {}", name, count,
+                                size, bytes.size()));
+  TriangleSoup soup;
+  for (std::uint32_t t = 0; t < count; ++t) {
+    float corners[9];
+    std::memcpy(corners, bytes.data() + head + triangle * t + normal, sizeof corners);
+    for (const float* c = corners; c < corners + 9; c += 3) soup.vertices.push_back({c[0], c[1], c[2]});
+    soup.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+  }
+  return soup;
+}
+
+// -- OBJ -----------------------------------------------------------------------
+
+TriangleSoup read_obj(const std::string& name, std::string_view bytes) {
+  TriangleSoup soup;
+  Text text(name, bytes);
+  std::vector<std::uint32_t> face;
+  while (text.next_line()) {
+    const std::string_view word = text.word();
+    if (word == "v") soup.vertices.push_back(text.place());
+    if (word != "f") continue;
+    face.clear();
+    const long there = long(soup.vertices.size());
+    for (std::string_view w = text.word(); !w.empty(); w = text.word()) {
+      const long v = text.number<long>(w);  // from 1, or backwards from -1
+      if (v == 0 || v > there || v < -there)
+        text.fail(fmt::format("a face names vertex {}; {} stand before it (from 1)", v, there));
+      face.push_back(std::uint32_t(v > 0 ? v - 1 : there + v));
+    }
+    if (face.size() > kMostCorners)
+      text.fail(fmt::format("a face has {} corners; at most {}", face.size(), kMostCorners));
+    add_polygon(soup, face);
+  }
+  return soup;
+}
+
+// -- PLY -----------------------------------------------------------------------
+
+struct PlyType {
+  int bytes = 0;
+  enum { whole, natural, real } kind = whole;
+};
+
+/// No bytes: an unknown type.
+PlyType ply_type(std::string_view word) {
+  for (const auto& [names, type] : {std::pair{std::pair{"char", "int8"}, PlyType{1, PlyType::whole}},
+                                    {{"uchar", "uint8"}, {1, PlyType::natural}},
+                                    {{"short", "int16"}, {2, PlyType::whole}},
+                                    {{"ushort", "uint16"}, {2, PlyType::natural}},
+                                    {{"int", "int32"}, {4, PlyType::whole}},
+                                    {{"uint", "uint32"}, {4, PlyType::natural}},
+                                    {{"float", "float32"}, {4, PlyType::real}},
+                                    {{"double", "float64"}, {8, PlyType::real}}})
+    if (word == names.first || word == names.second) return type;
+  return {};
+}
+
+struct PlyProperty {
+  std::string name;
+  PlyType type, count;  ///< count.bytes > 0: a list
+};
+struct PlyElement {
+  std::string name;
+  std::size_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+/// The numbers behind the header, in text or binary.
+class PlyNumbers {
+ public:
+  PlyNumbers(const std::string& name, const Text& text, bool ascii, bool swap)
+      : name_(name), text_(text), rest_(text.rest()), ascii_(ascii), swap_(swap) {}
+
+  double next(PlyType type) {
+    if (ascii_) {
+      std::string_view w = text_.word();
+      while (w.empty() && text_.next_line()) w = text_.word();
+      if (w.empty()) cut_off();
+      return text_.number<double>(w);
+    }
+    if (rest_.size() < std::size_t(type.bytes)) cut_off();
+    unsigned char b[8] = {};
+    std::memcpy(b, rest_.data(), std::size_t(type.bytes));
+    rest_.remove_prefix(std::size_t(type.bytes));
+    if (swap_) std::reverse(b, b + type.bytes);
+    if (type.kind == PlyType::real) return type.bytes == 4 ? double(as<float>(b)) : as<double>(b);
+    if (type.kind == PlyType::natural)
+      return type.bytes == 1 ? double(b[0]) : type.bytes == 2 ? as<std::uint16_t>(b) : as<std::uint32_t>(b);
+    return type.bytes == 1   ? double(as<std::int8_t>(b))
+           : type.bytes == 2 ? as<std::int16_t>(b)
+                             : as<std::int32_t>(b);
+  }
+  [[noreturn]] void cut_off() const {
+    throw FileError(name_ + ": is cut off: it ends before its last element");
+  }
+
+ private:
+  template <class T>
+  static T as(const unsigned char* b) {
+    T value;
+    std::memcpy(&value, b, sizeof value);
+    return value;
+  }
+
+  const std::string& name_;
+  Text text_;
+  std::string_view rest_;
+  bool ascii_, swap_;
+};
+
+TriangleSoup read_ply(const std::string& name, std::string_view bytes) {
+  if (!bytes.starts_with("ply")) throw FileError(name + ": is no PLY file: it does not begin with ply");
+  Text text(name, bytes);
+  std::vector<PlyElement> elements;
+  std::string format;
+  for (std::string word;;) {
+    if (!text.next_line()) throw FileError(name + ": is cut off: its header has no end_header");
+    word = text.word();
+    if (word == "end_header") break;
+    if (word == "format") format = text.word();
+    if (word == "element") {
+      const std::string what(text.word());
+      elements.push_back({what, text.number<std::size_t>(text.word()), {}});
+    }
+    if (word != "property") continue;
+    if (elements.empty()) text.fail("a property stands before the first element");
+    PlyProperty property;
+    std::string type(text.word());
+    if (type == "list") {
+      property.count = ply_type(text.word());
+      type = text.word();
+      if (property.count.bytes == 0) type = "";
+    }
+    property.type = ply_type(type);
+    property.name = text.word();
+    if (property.type.bytes == 0) text.fail("a property must be of a type such as float, or list uchar int");
+    elements.back().properties.push_back(property);
+  }
+  if (format != "ascii" && format != "binary_little_endian" && format != "binary_big_endian")
+    throw FileError(name + ": its format must be ascii, binary_little_endian or binary_big_endian");
+
+  TriangleSoup soup;
+  std::vector<std::vector<std::uint32_t>> faces;
+  PlyNumbers numbers(name, text, format == "ascii",
+                     (format == "binary_big_endian") != (std::endian::native == std::endian::big));
+  for (const PlyElement& element : elements) {
+    if (element.properties.empty()) continue;
+    if (element.count > bytes.size()) numbers.cut_off();
+    for (std::size_t k = 0; k < element.count; ++k) {
+      Vec3d x;
+      for (const PlyProperty& p : element.properties) {
+        if (p.count.bytes == 0) {
+          const double value = numbers.next(p.type);
+          if (p.name == "x" || p.name == "y" || p.name == "z") x[p.name[0] - 'x'] = value;
+          continue;
+        }
+        const double n = numbers.next(p.count);
+        const bool corners =
+            element.name == "face" && (p.name == "vertex_indices" || p.name == "vertex_index");
+        if (!(n >= 0) || n != std::floor(n) || (corners && n > kMostCorners))
+          throw FileError(fmt::format("{}: {} {} has a list of {} numbers; {}", name, element.name, k, n,
+                                      corners ? fmt::format("at most {} corners", kMostCorners) : "damaged"));
+        if (n > double(bytes.size())) numbers.cut_off();
+        if (corners) faces.emplace_back();
+        for (std::size_t l = 0; l < std::size_t(n); ++l) {
+          const double v = numbers.next(p.type);
+          if (!corners) continue;
+          if (!(v >= 0 && v < 4294967295.0))
+            throw FileError(fmt::format("{}: face {} names vertex {}", name, k, v));
+          faces.back().push_back(std::uint32_t(v));
+        }
+      }
+      if (element.name == "vertex") soup.vertices.push_back(x);
+    }
+  }
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (const std::uint32_t v : faces[f])
+      if (v >= soup.vertices.size())
+        throw FileError(fmt::format("{}: face {} names vertex {}, the mesh has {} (from 0)", name, f, v,
+                                    soup.vertices.size()));
+    add_polygon(soup, faces[f]);
+  }
+  return soup;
 }
 
 }  // namespace
 
 TriangleSoup read_triangles(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::string kind = file.extension().string();
-  std::transform(kind.begin(), kind.end(), kind.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string name = file.string(), kind = lower(file.extension().string());
   if (kind != ".stl" && kind != ".obj" && kind != ".ply")
     throw CaseError(name + ": must be an STL, OBJ or PLY file");
   if (!std::filesystem::is_regular_file(file)) throw FileError(name + ": cannot read: no such file");
-
-  if (const std::string why = missing_in(file, kind); !why.empty()) throw FileError(name + ": " + why);
-  Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(name, 0);
-  if (scene != nullptr && has_polygons(*scene, name))
-    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  if (scene == nullptr) throw FileError(name + ": cannot read: " + importer.GetErrorString());
-  TriangleSoup soup;
-  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
-    const aiMesh& mesh = *scene->mMeshes[m];
-    const std::uint32_t first = std::uint32_t(soup.vertices.size());
-    for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
-      const aiVector3D& x = mesh.mVertices[v];
-      soup.vertices.push_back({x.x, x.y, x.z});
-    }
-    for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
-      const aiFace& face = mesh.mFaces[f];
-      if (face.mNumIndices != 3) continue;  // points and lines
-      soup.triangles.push_back(
-          {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
-    }
-  }
+  const std::string bytes = read_file(file);
+  if (bytes.empty()) throw FileError(name + ": is empty");
+  TriangleSoup soup = kind == ".stl"   ? read_stl(name, bytes)
+                      : kind == ".obj" ? read_obj(name, bytes)
+                                       : read_ply(name, bytes);
+  for (std::size_t v = 0; v < soup.vertices.size(); ++v)
+    if (const Vec3d& x = soup.vertices[v]; !std::isfinite(x.x + x.y + x.z))
+      throw FileError(fmt::format("{}: vertex {} (from 0) is not at a finite place", name, v));
   if (soup.triangles.empty()) throw CaseError(name + ": holds no triangles");
   return soup;
 }

@@ -64,6 +64,8 @@ void write_meshes(const fs::path& folder) {
   add("cube.ply", 2, test::write_ply);
   write_file(folder / "polygons.obj",
              "\1v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\nf 1/1/1 2/1/1 3/1/1 4/1/1\n");
+  write_file(folder / "little.ply", "\2" + test::binary_ply(false));
+  write_file(folder / "big.ply", "\2" + test::binary_ply(true));
   write_file(folder / "hopper.stl", '\0' + read_file(BL_SOURCE_DIR "/cases/hopper/hopper.stl"));
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 // Triangle meshes made for tests.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <utility>
@@ -138,6 +140,29 @@ inline void write_ply(const std::filesystem::path& file, const TriangleSoup& sou
       << "\nproperty list uchar int vertex_indices\nend_header\n";
   for (const Vec3d& x : soup.vertices) out << x.x << " " << x.y << " " << x.z << "\n";
   for (const Triangle& t : soup.triangles) out << "3 " << t[0] << " " << t[1] << " " << t[2] << "\n";
+}
+
+/// A cube in numbers of several types, with an element and lists that are not wanted.
+inline std::string binary_ply(bool big) {
+  std::string out = std::string("ply\nformat binary_") + (big ? "big" : "little") +
+                    "_endian 1.0\ncomment cube\nelement note 1\nproperty list uchar short what\n"
+                    "element vertex 8\nproperty uchar red\nproperty double x\nproperty float y\n"
+                    "property short z\nelement face 6\nproperty list uint8 uint32 vertex_index\nend_header\n";
+  const auto put = [&](auto value) {
+    char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    if (big) std::reverse(bytes, bytes + sizeof value);
+    out.append(bytes, sizeof value);
+  };
+  put(std::uint8_t(2)), put(std::int16_t(-7)), put(std::int16_t(8));
+  for (int v = 0; v < 8; ++v)
+    put(std::uint8_t(255)), put(double(v & 1)), put(float(v >> 1 & 1)), put(std::int16_t(v >> 2));
+  for (const auto& face :
+       {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}}) {
+    put(std::uint8_t(4));
+    for (const int v : face) put(std::uint32_t(v));
+  }
+  return out;
 }
 
 }  // namespace bedload::test

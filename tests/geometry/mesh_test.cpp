@@ -40,6 +40,30 @@ TEST(MeshFile, SplitsPolygons) {
   EXPECT_EQ(read_mesh(folder / "cube.obj")->triangles().size(), 12u);
 }
 
+/// An L of six corners and depth 1 as two polygons and six quads.
+TEST(MeshFile, SplitsPolygonsThatAreNotConvex) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "l.obj")
+      << "# L\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n"
+         "v 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1 # the last\n"
+         "f -7/1/1 -8 -9 -10 \\\n -11 -12\r\nf 9//2 10 11 12 7 8\n"
+         "f 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n";
+  const auto mesh = read_mesh(folder / "l.obj");
+  EXPECT_EQ(mesh->triangles().size(), 20u);
+  EXPECT_NEAR(mesh->volume(), 3, kRound);
+  EXPECT_NEAR(mesh->distance({1.5, 1.5, 0.5}), 0.5, kRound);
+}
+
+TEST(MeshFile, ReadsBinaryPly) {
+  const TemporaryFolder folder;
+  for (const bool big : {false, true}) {
+    std::ofstream(folder / "cube.ply", std::ios::binary) << binary_ply(big);
+    const auto mesh = read_mesh(folder / "cube.ply");
+    EXPECT_EQ(mesh->triangles().size(), 12u);
+    EXPECT_NEAR(mesh->volume(), 1, kRound);
+  }
+}
+
 TEST(MeshFile, IsPlaced) {
   const TemporaryFolder folder;
   write_stl(folder / "l.stl", l_prism());
@@ -76,6 +100,27 @@ TEST(MeshFile, SaysWhatItCannotRead) {
   EXPECT_EQ(error("joined.ply"), ": is cut off: its header has no end_header");
   std::ofstream(folder / "far.ply") << head << '\n' << places << "3 0 1 7\n";
   EXPECT_EQ(error("far.ply"), ": face 0 names vertex 7, the mesh has 3 (from 0)");
+  std::ofstream(folder / "short.ply") << head << '\n' << places << "3 0 1\n";
+  EXPECT_EQ(error("short.ply"), ": is cut off: it ends before its last element");
+  std::ofstream(folder / "word.ply") << head << '\n' << places << "3 0 one 2\n";
+  EXPECT_EQ(error("word.ply"), ": line 13: \"one\" must be a number");
+  std::ofstream(folder / "many.ply") << head << "\nelement edge 99999\nproperty int a\n"
+                                     << places << "3 0 1 2\n";
+  EXPECT_EQ(error("many.ply"), ": is cut off: it ends before its last element");
+  std::ofstream(folder / "minus.ply") << head << '\n' << places << "-3 0 1 2\n";
+  EXPECT_EQ(error("minus.ply"), ": face 0 has a list of -3 numbers; at most 4096 corners");
+  std::ofstream(folder / "cube.ply", std::ios::binary) << binary_ply(true).substr(0, 300);
+  EXPECT_EQ(error("cube.ply"), ": is cut off: it ends before its last element");
+  std::ofstream(folder / "early.obj") << "v 0 0 0\nv 1 0 0\nf 1 2 3\nv 0 1 0\n";
+  EXPECT_EQ(error("early.obj"), ": line 3: a face names vertex 3; 2 stand before it (from 1)");
+  std::ofstream(folder / "zero.obj") << "v 0 0 0\n\nf 1 0 -1\n";
+  EXPECT_EQ(error("zero.obj"), ": line 3: a face names vertex 0; 1 stand before it (from 1)");
+  std::ofstream(folder / "flat.obj") << "v 0 0\n";
+  EXPECT_EQ(error("flat.obj"), ": line 1: a vertex must have three coordinates");
+  std::ofstream(folder / "far.obj") << "v 0 1e999 0\n";
+  EXPECT_EQ(error("far.obj"), ": line 1: \"1e999\" must be a number");
+  std::ofstream(folder / "two.stl") << "solid\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendsolid\n";
+  EXPECT_EQ(error("two.stl"), ": line 4: a facet must have three vertices");
   write_stl(folder / "cut.stl", cube());
   std::filesystem::resize_file(folder / "cut.stl", 300);
   const std::string cut = error("cut.stl");
