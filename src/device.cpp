@@ -125,6 +125,7 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda
       config.fluid.present ? 1.2 * around(reach / config.fluid.dx, config.domain.two_d) : 0;
   const double entry = cuda ? 2.4 : 4;
   const double fluid = 4 + 2 * position + pair_position + real * 35 + entry * neighbours + position;
+  const double rates = config.time.integrator == "ab3" ? 3 * real : 0;
   const double walls = 8 + 3 * 24 + pair_position + real * 13 + 4 * 32;
   const double contacts = 12;
   const double touches = 60.0 * std::min(config.wall.free_bodies(), 8);  // of each grain with free bodies
@@ -135,7 +136,7 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda
   const double cross = coupled ? pair_position + real * 78 +
                                      2 * 4 * around((2 * config.couple.hc + skin) / config.fluid.dx, false)
                                : 0;
-  return std::size_t(counts.fluid * (fluid + records) + counts.walls * walls +
+  return std::size_t(counts.fluid * (fluid + rates + records) + counts.walls * walls +
                      counts.grains * (grains + cross)) +
          (64u << 20);
 }

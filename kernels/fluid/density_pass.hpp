@@ -163,21 +163,23 @@ struct DensityPass {
     into.shift.merge(other.shift);
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    if constexpr (!kSmooth) {
-      s_new[a] = s[a] - dt * sum.rate / (sum.eps * rho0);
-      if (drift) drift[a] = {};
-      return;
-    }
+    const Change change = of(a, sum);
+    s_new[a] = s[a] + dt * change.rate + change.settled;
+    if (drift) drift[a] = shift(sum.shift, sum.gradient);
+  }
+  /// How s changes.
+  struct Change {
+    Real rate;     ///< 1/s
+    Real settled;  ///< over dt, where there is room
+  };
+  BL_HD Change of(Index a, const Sum<>& sum) const {
+    if constexpr (!kSmooth) return {-sum.rate / (sum.eps * rho0), 0};
     const Real filled = m_state[a].x / sum.rho * w.W(Real(0)) + sum.filled;
     const Real room = max_of(Real(0), 1 - filled - cut(norm(sum.gradient)));
     const Real excess = max_of(Real(0), filled - 1 - slack), pressed = max_of(Real(0), s[a]);
-    Real s_a = s[a] + dt * (diffusion * sum.diffused - sum.rate) / (sum.eps * rho0) + dt * spreading * excess;
-    if (s[a] < least)
-      s_a += min_of(dt * fading, Real(1)) * (min_of(least, slack - room) - s[a]);
-    else
-      s_a -= min_of(dt * fading * room, Real(1)) * pressed;
-    s_new[a] = s_a;
-    if (drift) drift[a] = shift(sum.shift, sum.gradient);
+    return {(diffusion * sum.diffused - sum.rate) / (sum.eps * rho0) + spreading * excess,
+            s[a] < least ? min_of(dt * fading, Real(1)) * (min_of(least, slack - room) - s[a])
+                         : -min_of(dt * fading * room, Real(1)) * pressed};
   }
 };
 

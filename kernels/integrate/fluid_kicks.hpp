@@ -27,12 +27,47 @@ struct KickDriftPass {
   }
 };
 
+/// s a step on from rates of it at the ends of former steps, by Adams and Bashforth with steps that vary:
+/// exact for rates that are a parabola in time, or a line or constant where there are fewer.
+struct DensityHistory {
+  Span<const Real> rate, before, long_before;  ///< 1/s, the last first; empty where there are none
+  Real weight[3] = {0, 0, 0};                  ///< s
+
+  DensityHistory() = default;
+  /// Over a step dt, after steps of h1 and, before it, h2, s; 0: there was none.
+  DensityHistory(Span<const Real> r0, Span<const Real> r1, Span<const Real> r2, double dt, double h1,
+                 double h2)
+      : rate(r0), weight{Real(dt), 0, 0} {
+    if (h1 == 0) return;
+    before = r1;
+    if (h2 == 0) {
+      weight[0] = Real(dt * (1 + 0.5 * dt / h1));
+      weight[1] = Real(-0.5 * dt * dt / h1);
+      return;
+    }
+    long_before = r2;
+    const double both = h1 + h2;
+    weight[0] = Real(dt * (1 + dt * (2 * dt + 6 * h1 + 3 * h2) / (6 * h1 * both)));
+    weight[1] = Real(-dt * dt * (2 * dt + 3 * both) / (6 * h1 * h2));
+    weight[2] = Real(dt * dt * (2 * dt + 3 * h1) / (6 * h2 * both));
+  }
+  BL_HD Real operator()(Index a) const {
+    Real change = 0;
+    if (rate) change += weight[0] * rate[a];
+    if (before) change += weight[1] * before[a];
+    if (long_before) change += weight[2] * long_before[a];
+    return change;
+  }
+};
+
 constexpr Real kThinnest = Real(-0.5);  // of s; thinner fluid is spray
 
-/// Pressure from s; velocity and, among grains, volume flux predicted by `kick` (0: Euler).
+/// Pressure from s, which `history` may advance; velocity and, among grains, volume flux predicted by `kick`
+/// (0: Euler).
 struct StatePass {
   Frame frame;
   EquationOfState eos;
+  DensityHistory history;
   Real kick;  ///< s
   Span<const FluidPosition> x;
   Span<const Real3> acc, reaction;
@@ -45,7 +80,7 @@ struct StatePass {
   BL_HD void operator()(Index a) const {
     Real3 gain = kick * acc[a];
     if (reaction) gain += kick * reaction[a];
-    const Real compression = max_of(s[a], kThinnest), rho = eos.density(compression);
+    const Real compression = max_of(s[a] + history(a), kThinnest), rho = eos.density(compression);
     s[a] = compression;
     v_rho[a] = {v_rho[a].xyz() + gain, rho};
     if (flux) flux[a] = {flux[a].xyz() + eps[a] * gain, rho};

@@ -225,7 +225,19 @@ class Checks {
              fmt::format("must be <= {:.4g}; limited by {}", limit.seconds, limit.name));
       warn("time.dt_dem = {} is above its limit {:.4g} ({})", c.time.dt_dem, limit.seconds, limit.name);
     }
+    if (c.time.integrator == "ab3") one_pass();
     if (c.time.integrator == "euler") warn("time.integrator = \"euler\" is first order in time");
+  }
+
+  /// Density from former rates goes with what one visit of each pair can find.
+  void one_pass() const {
+    const auto frozen = [](const WallBody& body) { return body.type == "frozen"; };
+    for (const auto& [there, what] :
+         {std::pair{coupled() && c.couple.mode == "two_way", "grains that the fluid feels"},
+          {std::any_of(c.wall.bodies.begin(), c.wall.bodies.end(), frozen), "frozen walls"},
+          {c.tensile > 0, "tensile > 0"},
+          {c.xsph > 0, "xsph > 0"}})
+      if (there) fail("time.integrator", "\"ab3\"", fmt::format("must be \"kdk\" with {}", what));
   }
 
   void probes() const {

@@ -186,7 +186,10 @@ void describe_time(Parameters& p, Config& c) {
   p("time.integrator", &t.integrator,
     {.meaning = "scheme",
      .family = "models",
-     .choices = {{"kdk", "kick-drift-kick, second order"}, {"euler", "forward Euler"}}});
+     .choices = {
+         {"kdk", "kick-drift-kick, second order, reversible: two passes over pairs a step"},
+         {"ab3", "kick-drift-kick, density by Adams-Bashforth of third order: one pass over pairs a step"},
+         {"euler", "forward Euler"}}});
   p("run.precision", &c.precision,
     {.meaning = "number types",
      .family = "models",

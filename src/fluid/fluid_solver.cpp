@@ -4,6 +4,7 @@
 
 #include "kernels/fluid/density_pass.hpp"
 #include "kernels/fluid/force_pass.hpp"
+#include "kernels/fluid/one_pass.hpp"
 #include "kernels/fluid/wall_density.hpp"
 #include "kernels/fluid/wall_pass.hpp"
 #include "kernels/integrate/fluid_kicks.hpp"
@@ -113,8 +114,9 @@ struct CountBody {
 template <class W>
 class FluidSolverWith final : public FluidSolver {
  public:
-  FluidSolverWith(const Config& config, const Frame& frame, const WallGeometry& walls, const W& w)
-      : FluidSolver(config, frame, walls, W::kappa), w_(w), cut_(CutShare::of(w)) {}
+  FluidSolverWith(const Config& config, const Frame& frame, const WallGeometry& walls, FluidStore& fluid,
+                  const W& w)
+      : FluidSolver(config, frame, walls, fluid, W::kappa), w_(w), cut_(CutShare::of(w)) {}
 
   void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) override {
     if (shifts())
@@ -184,7 +186,10 @@ class FluidSolverWith final : public FluidSolver {
 
   void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
     const bool added = config_.tensile > 0 || config_.xsph > 0;
-    if (artificial().acts())
+    if (one_pass())
+      smooths() ? momentum_and_continuity<true>(fluid, walls, dt, shifting(dt))
+                : momentum_and_continuity<false>(fluid, walls, dt, NoShifting{});
+    else if (artificial().acts())
       added ? momentum<true, true>(fluid, walls) : momentum<true, false>(fluid, walls);
     else
       added ? momentum<false, true>(fluid, walls) : momentum<false, false>(fluid, walls);
@@ -240,24 +245,56 @@ class FluidSolverWith final : public FluidSolver {
     return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c),
             Real(config_.fluid.h())};
   }
+  /// Writes s_new.
+  template <bool kSmooth, bool kPorous, class Shift>
+  DensityPass<W, Shift, kSmooth, kPorous> density_pass(FluidStore& fluid, const WallStore& walls, double dt,
+                                                       const Shift& shift, Span<Real> s_new) {
+    const double c = config_.fluid.c;
+    return {w_,
+            flux(fluid),
+            fluid.m_state,
+            walls.v_rho,
+            walls.m_state,
+            Real(2 * config_.density.delta * config_.fluid.h() * c),
+            gravity_ * Real(config_.fluid.rho0 / (c * c)),
+            eos_.gamma - 2,
+            Real(config_.fluid.rho0),
+            Real(dt),
+            fluid.s,
+            s_new,
+            cut_,
+            least(),
+            Real(config_.density.consolidation * c / config_.fluid.h()),
+            Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0),
+            shift,
+            drift_of(fluid)};
+  }
+  template <bool kArtificial, bool kAdded>
+  ForcePass<W, kArtificial, kAdded> force_pass(FluidStore& fluid, const WallStore& walls) {
+    return {w_,           wall_pair(), flux(fluid),        fluid.m_state,
+            fluid.p_rho2, walls.v_rho, walls.m_state,      walls.v_visc,
+            artificial(), tensile(),   Real(config_.xsph), gravity_,
+            drive(fluid), fluid.theta, fluid.acc_next,     fluid.drift};
+  }
   template <bool kSmooth, bool kPorous, class Shift>
   void continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {
-    const double c = config_.fluid.c;
-    run(fluid, walls, range(),
-        DensityPass<W, Shift, kSmooth, kPorous>{
-            w_, flux(fluid), fluid.m_state, walls.v_rho, walls.m_state,
-            Real(2 * config_.density.delta * config_.fluid.h() * c),
-            gravity_ * Real(config_.fluid.rho0 / (c * c)), eos_.gamma - 2, Real(config_.fluid.rho0), Real(dt),
-            fluid.s, fluid.s_next, cut_, least(), Real(config_.density.consolidation * c / config_.fluid.h()),
-            Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0), shift, drift_of(fluid)});
+    run(fluid, walls, range(), density_pass<kSmooth, kPorous>(fluid, walls, dt, shift, fluid.s_next));
   }
   template <bool kArtificial, bool kAdded>
   void momentum(FluidStore& fluid, const WallStore& walls) {
-    run(fluid, walls, range(),
-        ForcePass<W, kArtificial, kAdded>{w_, wall_pair(), flux(fluid), fluid.m_state, fluid.p_rho2,
-                                          walls.v_rho, walls.m_state, walls.v_visc, artificial(), tensile(),
-                                          Real(config_.xsph), gravity_, drive(fluid), fluid.theta,
-                                          fluid.acc_next, fluid.drift});
+    run(fluid, walls, range(), force_pass<kArtificial, kAdded>(fluid, walls));
+  }
+  template <bool kSmooth, class Shift>
+  void momentum_and_continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {
+    const auto both = [&](const auto& force) {
+      const auto density = density_pass<kSmooth, false>(fluid, walls, dt, shift, fluid.s);
+      run(fluid, walls, range(),
+          OnePass<std::decay_t<decltype(force)>, std::decay_t<decltype(density)>>{force, density,
+                                                                                  *rates_.back()});
+    };
+    artificial().acts() ? both(force_pass<true, false>(fluid, walls))
+                        : both(force_pass<false, false>(fluid, walls));
+    accept_rates(dt);
   }
   Shifting shifting(double dt) const {
     const double h = config_.fluid.h(), dx = config_.fluid.dx, rate = dt > 0 ? 1 / dt : 0;
@@ -280,15 +317,16 @@ class FluidSolverWith final : public FluidSolver {
 };
 
 std::unique_ptr<FluidSolver> FluidSolver::make(const Config& config, const Frame& frame,
-                                               const WallGeometry& walls) {
+                                               const WallGeometry& walls, FluidStore& fluid) {
   std::unique_ptr<FluidSolver> solver;
   with_fluid_kernel(config, [&](const auto& w) {
-    solver = std::make_unique<FluidSolverWith<std::decay_t<decltype(w)>>>(config, frame, walls, w);
+    solver = std::make_unique<FluidSolverWith<std::decay_t<decltype(w)>>>(config, frame, walls, fluid, w);
   });
   return solver;
 }
 
-FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, double kappa)
+FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls,
+                         FluidStore& fluid, double kappa)
     : config_(config),
       frame_(frame),
       kappa_(kappa),
@@ -315,6 +353,22 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
     if (body.single_layer()) layers[b] = layer_law(config, body, kappa);
   }
   if (layered) layers_.assign(layers);
+  if (config.time.integrator != "ab3") return;
+  for (const char* name : {"density_rate", "density_rate_before", "density_rate_long_before"})
+    rates_.push_back(std::make_unique<Field<Real>>(fluid, name, "1/s", Lifetime::kept));
+}
+
+void FluidSolver::accept_rates(double dt) {
+  rates_[0]->buffer().swap(rates_[2]->buffer());
+  rates_[1]->buffer().swap(rates_[2]->buffer());
+  dt_before_ = last_dt_;
+  last_dt_ = dt;
+}
+
+void FluidSolver::save(std::vector<Quantity>& scalars) const {
+  if (!one_pass()) return;
+  scalars.push_back({"density_last_dt", "s", last_dt_});
+  scalars.push_back({"density_dt_before", "s", dt_before_});
 }
 
 double FluidSolver::repulsion_cap(double dt) const {
@@ -404,9 +458,11 @@ void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, doubl
                                         drift_of(fluid), fluid.v_rho, fluid.x, fluid.xp});
 }
 
-void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
+void FluidSolver::state(FluidStore& fluid, double kick, double dt, bool coupled) {
+  DensityHistory history;
+  if (one_pass() && dt > 0) history = {*rates_[0], *rates_[1], *rates_[2], dt, last_dt_, dt_before_};
   for_each(fluid.owned(),
-           StatePass{frame_, eos_, Real(kick), fluid.x, fluid.acc,
+           StatePass{frame_, eos_, history, Real(kick), fluid.x, fluid.acc,
                      coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(), fluid.s, fluid.mass,
                      fluid.eps, fluid.v_rho, mixed_ ? Span<Real4>(fluid.flux) : Span<Real4>(), fluid.m_state,
                      fluid.p_rho2, fluid.xp});

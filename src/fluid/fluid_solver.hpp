@@ -13,6 +13,7 @@
 #include "kernels/fluid/layer_force.hpp"
 #include "kernels/fluid/pair_terms.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
+#include "kernels/integrate/fluid_kicks.hpp"
 #include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -26,9 +27,10 @@ struct FluidExtremes {
 
 class FluidSolver {
  public:
-  /// Chooses the kernel function once. `walls` must outlive it.
+  /// Chooses the kernel function once. `walls` and `fluid`, of which it may keep more, must outlive it;
+  /// construct it before `fluid` is filled or loaded.
   static std::unique_ptr<FluidSolver> make(const Config& config, const Frame& frame,
-                                           const WallGeometry& walls);
+                                           const WallGeometry& walls, FluidStore& fluid);
   virtual ~FluidSolver() = default;
 
   double range() const { return kappa_ * config_.fluid.h(); }            ///< kernel support, m
@@ -49,6 +51,9 @@ class FluidSolver {
            (mixed_ && config_.couple.spreading > 0);
   }
   bool drifts() const { return shifts() || config_.xsph > 0; }
+  /// Whether forces() finds how the density changes, too, by which state() advances it: then without
+  /// density().
+  bool one_pass() const { return !rates_.empty(); }
   /// Gravity minus the frame's acceleration (m/s2), for the next walls() and forces(). density() takes it for
   /// its hydrostatic slope, as it was for the state from which it starts.
   void set_gravity(const Vec3d& g) { gravity_ = Real3(g); }
@@ -67,8 +72,8 @@ class FluidSolver {
   /// s_next, and the density of frozen walls, from continuity over dt, with positions as packed.
   virtual void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) = 0;
   void accept_density(FluidStore& fluid) { fluid.s.buffer().swap(fluid.s_next.buffer()); }
-  /// Density, pressure, velocity predicted by `kick`; packs x.
-  void state(FluidStore& fluid, double kick, bool coupled);
+  /// Density (one_pass(): dt, s, on), pressure, velocity predicted by `kick`; packs x.
+  void state(FluidStore& fluid, double kick, double dt, bool coupled);
   /// Wall particles' state from the fluid; of dry ones only where `moving` walls may change it. Poses on the
   /// device, one a body; drag_dt: the step in which drag_kick arose (s), 0 where there is none.
   virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt,
@@ -98,8 +103,18 @@ class FluidSolver {
 
   const CellGrid& grid() const { return grid_; }
 
+  /// What it keeps beside the store.
+  void save(std::vector<Quantity>& scalars) const;
+  template <class Scalar>
+  void load(const Scalar& scalar) {
+    if (one_pass()) last_dt_ = scalar("density_last_dt"), dt_before_ = scalar("density_dt_before");
+  }
+
  protected:
-  FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, double kappa);
+  FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, FluidStore& fluid,
+              double kappa);
+  /// Takes in the rates that forces() has written to the last of rates_, at the end of a step dt (s).
+  void accept_rates(double dt);
   /// Velocity and density as pair loops read them: of the mixture where grains share the space.
   Span<const Real4> flux(const FluidStore& fluid) const { return mixed_ ? fluid.flux : fluid.v_rho; }
   double repulsion_cap(double dt) const;  ///< m/s2, in a step of dt, s
@@ -128,6 +143,8 @@ class FluidSolver {
   Buffer<LayerLaw> layers_;     ///< one a body; empty without single layers
   bool frozen_ = false;         ///< some walls are
   double corrected_ = 0;        ///< kick of the last correction, s; 0 since the last forces()
+  std::vector<std::unique_ptr<Field<Real>>> rates_;  ///< of s, one_pass(): at the last three ends of steps
+  double last_dt_ = 0, dt_before_ = 0;               ///< s, of the steps between them; 0: there was none
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -74,12 +74,13 @@ double CoupledSimulation::longest_substep() {
   return longest;
 }
 
-/// Kick-drift-kick, or symplectic Euler: velocity, then position and density from the new velocity, which is
-/// the cycle of [H] Fig. 3 (density, velocity, position) begun at its second station.
+/// Kick-drift-kick, with density from a pass of its own in the middle of the step or from former rates; or
+/// symplectic Euler: velocity, then position and density from the new velocity, which is the cycle of [H]
+/// Fig. 3 (density, velocity, position) begun at its second station.
 void CoupledSimulation::advance_fluid(double dt) {
   FluidSolver& fluid = *fluid_solver_;
-  const double half = last_kick(dt);
-  fluid.kick_drift(fluid_, dt - half, dt, half, two_way());
+  const double half = last_kick(dt), back = fluid.one_pass() ? 0 : half;
+  fluid.kick_drift(fluid_, dt - half, dt, back, two_way());
   if (two_way()) {
     share_volume(dt);
     fluid.pack(fluid_, half);
@@ -88,15 +89,17 @@ void CoupledSimulation::advance_fluid(double dt) {
   // walls'
   Span<const BodyPose> pose;
   if (walls_.size() > 0) {
-    pose = motion_.poses_in_step(clock_.time + dt, half, dt);
+    pose = motion_.poses_in_step(clock_.time + dt, back, dt);
     if (motion_.moves()) {
       WallMotion::place(frame_, walls_, pose);
-      fluid.pack(walls_, half);
+      fluid.pack(walls_, back);
     }
   }
-  fluid.density(fluid_, walls_, pose, dt);
-  fluid.accept_density(fluid_);
-  if (motion_.moves()) fluid.pack(walls_);
+  if (!fluid.one_pass()) {
+    fluid.density(fluid_, walls_, pose, dt);
+    fluid.accept_density(fluid_);
+    if (motion_.moves()) fluid.pack(walls_);
+  }
   evaluate_fluid(dt, half);
   load_bodies(half, dt);
   fluid.correct(fluid_, half);
@@ -129,7 +132,7 @@ void CoupledSimulation::load_bodies(double kick, double dt) {
 void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   FluidSolver& fluid = *fluid_solver_;
   const Span<const BodyPose> pose = motion_.poses(clock_.time + dt, 0, 1);
-  fluid.state(fluid_, predict, two_way());
+  fluid.state(fluid_, predict, dt, two_way());
   fluid.set_gravity(gravity_.at(clock_.time + dt));
   if (walls_.size() > 0) fluid.walls(fluid_, walls_, pose, two_way() ? dt : 0, motion_.moves());
   fluid.forces(fluid_, walls_, pose, dt);

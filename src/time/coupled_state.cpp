@@ -113,7 +113,7 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
     solid_solver_ = std::make_unique<SolidSolver>(config, frame_, grain_geometry_, grains_, &bodies_);
     grain_grid_ = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, solid_solver_->range());
   }
-  if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_, geometry_);
+  if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_, geometry_, fluid_);
   if (has_fluid() && has_grains() && config.couple.mode != "off")
     coupling_ = std::make_unique<Coupling>(config, frame_, geometry_);
   upload(setup);
@@ -230,6 +230,7 @@ SavedState CoupledSimulation::save() {
                  {"walls_moved", "m", walls_moved_}, {"rebuilds", "-", double(rebuilds_)}};
   bodies_.save(out.stores);
   open_.save(out.scalars);
+  if (has_fluid()) fluid_solver_->save(out.scalars);
   for (int b = 0; b < motion_.walls(); ++b)
     out.scalars.push_back({"removed_" + std::to_string(b), "-", motion_.removed(b) ? 1.0 : 0.0});
   return out;
@@ -252,6 +253,7 @@ void CoupledSimulation::load(const SavedState& state) {
     if (scalar("removed_" + std::to_string(b)) != 0) motion_.remove(b);
   if (has_fluid()) {
     fluid_.load(store_of(state, "fluid"));
+    fluid_solver_->load(scalar);
     fluid_solver_->set_gravity(gravity_.at(clock_.time));
     walls_.load(store_of(state, "walls"));
     const auto mirrored = [](const WallBody& body) { return body.type == "mdbc"; };

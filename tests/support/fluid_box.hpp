@@ -37,7 +37,7 @@ struct FluidBox {
       : config(config),
         frame(frame_of(config)),
         geometry(config),
-        solver(FluidSolver::make(config, frame, geometry)) {
+        solver(FluidSolver::make(config, frame, geometry, fluid)) {
     std::mt19937 rng(7);
     std::uniform_real_distribution<double> u(-1, 1);
     const double dx = config.fluid.dx;
@@ -77,7 +77,7 @@ struct FluidBox {
     fluid.s.assign(c);
     fluid.eps.assign(std::vector<Real>(n, Real(1)));
     solver->refresh(fluid, walls, true);
-    solver->state(fluid, 0, false);
+    solver->state(fluid, 0, 0, false);
   }
   std::vector<Vec3d> coordinates_now() const {
     std::vector<Vec3d> out;
@@ -88,8 +88,8 @@ struct FluidBox {
   Config config;
   Frame frame;
   WallGeometry geometry;
-  std::unique_ptr<FluidSolver> solver;
   FluidStore fluid;
+  std::unique_ptr<FluidSolver> solver;
   WallStore walls;
   std::vector<Vec3d> position, velocity;
   std::vector<double> mass, s;

@@ -1,0 +1,46 @@
+#pragma once
+#include "kernels/fluid/density_pass.hpp"
+#include "kernels/fluid/force_pass.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Momentum and continuity at one time, each pair visited once: what ForcePass writes, and the rate of s, by
+/// which DensityHistory advances the next step. What DensityPass does where there is room, it does at once.
+template <class Force, class Density>
+struct OnePass {
+  Force force;
+  Density density;
+  Span<Real> rate;  ///< of s, 1/s
+
+  template <class N = Real>
+  struct Sum {
+    typename Force::template Sum<N> force;
+    typename Density::template Sum<N> density;
+  };
+  BL_HD Sum<> start(Index a) const { return {force.start(a), density.start(a)}; }
+
+  BL_HD auto sources() const { return force.sources(); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p) const {
+    force.pair(sum.force, r, r2, M, vb, p);
+    density.pair(sum.density, r, r2, M, vb);
+  }
+  template <class N, class J>
+  BL_HD void wall_pair(Sum<N>& sum, Index a, J b, const Vec3<N>& r, N r2) const {
+    force.wall_pair(sum.force, a, b, r, r2);
+    density.wall_pair(sum.density, a, b, r, r2);
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
+    force.merge(into.force, other.force);
+    density.merge(into.density, other.density);
+  }
+  BL_HD void finish(Index a, const Sum<>& sum) const {
+    force.finish(a, sum.force);
+    const auto change = density.of(a, sum.density);
+    rate[a] = change.rate;
+    density.s_new[a] = density.s[a] + change.settled;
+    if (density.drift) density.drift[a] = density.shift(sum.density.shift, sum.density.gradient);
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT
