@@ -7,6 +7,7 @@
 
 #include "bedload/case/read.hpp"
 #include "bedload/case/section.hpp"
+#include "reader.hpp"
 
 namespace bedload {
 namespace {
@@ -36,7 +37,10 @@ bool computes(const std::string& key) {
 
 std::vector<std::string> changes_between(const std::string& then, const std::string& now) {
   Leaves before, after;
-  add_leaves(before, parse_toml(then, "checkpoint"), "");
+  Value former = parse_toml(then, "checkpoint");
+  std::vector<std::string> renamed;
+  rename_keys(former, renamed);
+  add_leaves(before, former, "");
   add_leaves(after, parse_toml(now, "case"), "");
   std::vector<std::string> changes;
   for (const auto& [key, value] : after) {

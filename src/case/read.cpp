@@ -27,9 +27,14 @@ std::string text_of(const std::filesystem::path& path) {
   return text;
 }
 
-Value tree_of(const std::string& text, const std::string& name, const std::vector<std::string>& overrides) {
+Value tree_of(const std::string& text, const std::string& name, const std::vector<std::string>& overrides,
+              std::vector<std::string>& warnings) {
   Value root = parse_toml(text, name);
-  for (const std::string& assignment : overrides) apply_override(root, assignment);
+  rename_keys(root, warnings);
+  for (const std::string& assignment : overrides) {
+    apply_override(root, assignment);
+    rename_keys(root, warnings);
+  }
   return root;
 }
 
@@ -38,7 +43,7 @@ Value tree_of(const std::string& text, const std::string& name, const std::vecto
 Config read_case_text(const std::string& text, const std::string& name,
                       const std::vector<std::string>& overrides, std::vector<std::string>& warnings,
                       const std::filesystem::path& checkpoint) {
-  const Value root = tree_of(text, name, overrides);
+  const Value root = tree_of(text, name, overrides, warnings);
   reject_unknown(root);
 
   Config config = defaults(root);
@@ -60,7 +65,8 @@ Config read_case(const std::filesystem::path& path, const std::vector<std::strin
 
 std::string place_in_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                           std::string_view key) {
-  return nearest_value(tree_of(text_of(path), path.string(), overrides), key).place();
+  std::vector<std::string> known;  // from when the case was read
+  return nearest_value(tree_of(text_of(path), path.string(), overrides, known), key).place();
 }
 
 }  // namespace bedload

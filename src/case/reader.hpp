@@ -34,6 +34,11 @@ class Reader final : public Parameters {
   std::set<const Value*> read_;
 };
 
+/// Gives keys of the version before their present names, with a warning each. A value from another source, as
+/// that of --set, takes the place of one that has the present name. Throws CaseError where one source has
+/// both.
+void rename_keys(Value& root, std::vector<std::string>& warnings);
+
 /// Throws CaseError for the first key of the file that is no parameter.
 void reject_unknown(const Value& root);
 

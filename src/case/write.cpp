@@ -117,6 +117,8 @@ class Lister final : public Parameters {
     row.meaning = about.meaning;
     row.family = about.family;
     row.choices = about.choices;
+    if (!about.formerly.empty())
+      row.formerly = row.key.substr(0, row.key.rfind('.') + 1) + std::string(about.formerly);
     rows_.push_back(std::move(row));
   }
   bool everything() const override { return true; }

@@ -52,8 +52,9 @@ struct About {
   Presence presence = Presence::defaulted;
   std::string_view family = {};  ///< under which `bedload list` shows the choices
   std::vector<Choice> choices = {};
-  std::string_view or_else = {};  ///< what may stand beside the choices: "the name of a shape"
+  std::string_view or_else = {};       ///< what may stand beside the choices: "the name of a shape"
   std::string_view variables = "xyz";  ///< of formulas, a letter each
+  std::string_view formerly = {};  ///< last part of the key in the version before; still read, with a warning
 };
 
 using Formulas = std::array<std::string, 3>;
@@ -101,6 +102,7 @@ void describe(Parameters& p, Config& config);
 struct ParameterRow {
   std::string key, unit, fallback, allowed, meaning, family;
   std::vector<Choice> choices;
+  std::string formerly = {};  ///< key in the version before, where it was another
 };
 std::vector<ParameterRow> parameter_table();
 
