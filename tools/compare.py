@@ -9,7 +9,7 @@ and, if it is only a plausibility check, `advice = true`: missing it is shown bu
 
 A series over time is `data = "probes/front.csv"` with `column`, one name or several whose values are added, or
 `data = "fluid.vtkhdf"` with `field` (or "position"), `component` (omit for the magnitude) and `reduce` = "mean"
-(default), "max", "min", "mean_square", "deviation" (standard deviation) or a share of 1 (0.99: what 99 % of the
+(default), "max", "min", "mean_square", "deviation" (standard deviation) or a fraction of 1 (0.99: what 99 % of the
 particles do not exceed). `factor` multiplies it, `time_factor` its time; `from_start = true`
 subtracts its first value.
 

@@ -107,7 +107,7 @@ def cut(mesh, depth, place):
     for k in range(3):
         a, b = crossed[:, k], crossed[:, (k + 1) % 3]
         meets = np.flatnonzero((a[:, depth] > place) != (b[:, depth] > place))
-        share = (place - a[meets, depth]) / (b[meets, depth] - a[meets, depth])
-        lines[meets, found[meets]] = a[meets] + share[:, None] * (b - a)[meets]
+        fraction = (place - a[meets, depth]) / (b[meets, depth] - a[meets, depth])
+        lines[meets, found[meets]] = a[meets] + fraction[:, None] * (b - a)[meets]
         found[meets] += 1
     return lines

@@ -99,7 +99,7 @@ class Run:
         return x[order][:, [self.across, self.up]], 2 * radius[order]
 
     def bodies(self, time):
-        """Wall bodies that are there at `time`, each with its turn and shift since it was laid: (body, R, s)."""
+        """Wall bodies that are there at `time`, each with its turn and shift since the start: (body, R, s)."""
         for number, body in enumerate(self.case.get("wall", {}).get("body", [])):
             motion = body.get("motion", {})
             parts = [motion, *motion.get("add", [])]

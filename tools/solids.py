@@ -201,8 +201,8 @@ def tube(inner=0.0069, outer=0.0072, around=4, rows=4, pitch=0.01, along=0.007, 
     rim = np.concatenate([np.stack(p, axis=1) for p in ((step, -one), (one, step), (-step, one), (-one, -step))])
     rim_place = rim * [pitch / 2, wide / 2]
     hole = rim / np.linalg.norm(rim, axis=1, keepdims=True) * [along / 2, across / 2]
-    share = np.linspace(0, 1, rings + 1)[:, None, None]
-    sheet = ((1 - share) * hole + share * rim_place).reshape(-1, 2)
+    fraction = np.linspace(0, 1, rings + 1)[:, None, None]
+    sheet = ((1 - fraction) * hole + fraction * rim_place).reshape(-1, 2)
     number = np.arange(len(sheet)).reshape(rings + 1, -1)
     onward = np.roll(number, -1, axis=1)
     cell = np.concatenate([np.stack(q, axis=1) for q in zip(number, number[1:], onward[1:], onward)])

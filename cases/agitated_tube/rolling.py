@@ -21,18 +21,18 @@ STEP = 2e-5  # s
 def motion(friction, rolling, periods):
     """(t, angle of the centre about the axis of the tube from below, its speed) at each step; s, rad, m/s."""
     omega = 2 * math.pi * FREQUENCY
-    arm, share = BORE - CAP, INERTIA / (MASS * CAP**2)
+    arm, ratio = BORE - CAP, INERTIA / (MASS * CAP**2)
     t = angle = v = rim = 0.0  # rim: speed of the cap's surface by its spin, m/s
     while t < periods / FREQUENCY:
         sideways = AMPLITUDE * omega**2 * math.sin(omega * t)
         along = sideways * math.cos(angle) - G * math.sin(angle)
         press = max(0.0, G * math.cos(angle) + sideways * math.sin(angle) + v**2 / arm)
-        couple = rolling * press / share * STEP
+        couple = rolling * press / ratio * STEP
         rim -= max(-couple, min(couple, rim))
-        hold = -((v + rim) / STEP + along) / (1 + 1 / share)  # that would end the slip in this step
+        hold = -((v + rim) / STEP + along) / (1 + 1 / ratio)  # that would end the slip in this step
         grip = max(-friction * press, min(friction * press, hold))
         v += (along + grip) * STEP
-        rim += grip / share * STEP
+        rim += grip / ratio * STEP
         angle += v / arm * STEP
         t += STEP
         yield t, angle, v

@@ -52,8 +52,8 @@ def main(arguments):
         drag.append(grains.get(k, "drag_force")[inner, 2].mean())
         lift.append(grains.get(k, "fluid_force")[inner, 2].mean())
     law = ergun(porosity, speed, d, rho, mu)
-    share = porosity * spacing**3                       # what of the law's gradient is drag, for each grain
-    rows = [("drag", np.mean(drag) / (law * share)), ("gradient less rho g", (np.mean(gradient) - weight) / law)]
+    volume = porosity * spacing**3                       # what of the law's gradient is drag, for each grain
+    rows = [("drag", np.mean(drag) / (law * volume)), ("gradient less rho g", (np.mean(gradient) - weight) / law)]
     print(f"porosity {porosity:.4f}, {speed * 1e3:g} mm/s, law {law:.5g} Pa/m, {len(drag)} frames")
     failed = 0
     for name, found in rows:

@@ -37,16 +37,16 @@ class Drum:
         scale = inside["scale"]
         self.radius = scale * inside["radius"]
         self.length = scale * np.linalg.norm(np.subtract(inside["b"], inside["a"]))
-        self.lay_out()
+        self.arrange()
 
-    def lay_out(self):
+    def arrange(self):
         cells = int(np.ceil(2 * self.radius / CELL))
         self.edges = (np.arange(cells + 1) - cells / 2) * CELL
         self.centres = (self.edges[1:] + self.edges[:-1]) / 2
 
     def filled(self, x, radius):
-        """Share of the length that grains fill, [x, z]: every grain by its chord along the axis."""
-        share = np.zeros((len(self.centres), len(self.centres)))
+        """Fraction of the length that grains fill, [x, z]: every grain by its chord along the axis."""
+        fraction = np.zeros((len(self.centres), len(self.centres)))
         reach = int(np.ceil(radius.max() / CELL)) + 1
         at = np.floor((x[:, [0, 2]] - self.edges[0]) / CELL).astype(int)
         for i in range(-reach, reach + 1):
@@ -56,22 +56,22 @@ class Drum:
                 cell = cell[inside]
                 r2 = (self.centres[cell[:, 0]] - x[inside, 0]) ** 2 + (self.centres[cell[:, 1]] - x[inside, 2]) ** 2
                 chord = 2 * np.sqrt(np.maximum(radius[inside] ** 2 - r2, 0))
-                np.add.at(share, (cell[:, 0], cell[:, 1]), chord / self.length)
-        return share
+                np.add.at(fraction, (cell[:, 0], cell[:, 1]), chord / self.length)
+        return fraction
 
-    def compact(self, share, d):
+    def compact(self, fraction, d):
         """Width and height of where grains cover more than half of the square of side 2 d about a place, m."""
         half = round(d / CELL)
         side = 2 * half + 1
-        sums = np.pad(share > 0, half + 1).astype(int).cumsum(axis=0).cumsum(axis=1)[:-1, :-1]
+        sums = np.pad(fraction > 0, half + 1).astype(int).cumsum(axis=0).cumsum(axis=1)[:-1, :-1]
         covered = sums[side:, side:] - sums[:-side, side:] - sums[side:, :-side] + sums[:-side, :-side]
         bed = covered > side**2 / 2
         sides = [np.flatnonzero(bed.any(axis=other)) for other in (1, 0)]
         return [(side[-1] - side[0] + 1) * CELL for side in sides]
 
-    def surface(self, share):
+    def surface(self, fraction):
         """Top of the bed over x, m; where there is one, away from the drum's wall."""
-        bed = share > FILLED
+        bed = fraction > FILLED
         columns = np.flatnonzero(bed.any(axis=1))
         top = np.array([self.centres[np.flatnonzero(bed[c]).max()] for c in columns])
         x = self.centres[columns]
@@ -114,9 +114,9 @@ def main():
     for time in wanted:
         frame = grains.nearest(time)
         x, radius = grains.position(frame), grains.get(frame, "radius")
-        share = drum.filled(x, radius)
-        rows.append([grains.times[frame], *extents(x, radius), *drum.compact(share, 2 * radius.mean())])
-        mean = mean + share / args.samples
+        fraction = drum.filled(x, radius)
+        rows.append([grains.times[frame], *extents(x, radius), *drum.compact(fraction, 2 * radius.mean())])
+        mean = mean + fraction / args.samples
     names = ["width", "height", "compact_width", "compact_height"]
     write_table(run / "bed.csv", ["time [s]"] + [f"{name} [m]" for name in names], rows)
     sizes = np.array(rows)[:, 1:] * 1000
@@ -152,7 +152,7 @@ def draw(run, drum, grains, frame, mean, fit):
     edge = 1000 * drum.edges
     picture = axes[1].pcolormesh(edge, edge, mean.T, cmap="YlOrBr", vmin=0, vmax=0.65)
     axes[1].contour(1000 * drum.centres, 1000 * drum.centres, mean.T, [FILLED], colors="black", linewidths=1)
-    axes[1].set_title("mean share filled by grains")
+    axes[1].set_title("mean fraction filled by grains")
     figure.colorbar(picture, ax=axes[1])
     figure.savefig(run / "bed.png", dpi=120)
 

@@ -45,7 +45,7 @@ class Simulation {
   /// Grains alone, without fluid, until they rest or `longest` s are over; the
   /// clock stays. Calls `progress` with the time settled so far (s) now and then.
   virtual void settle(double longest, const std::function<void(double)>& progress) = 0;
-  /// Lays the fluid over the settled grains (its mass by the porosity) and
+  /// Initialises the fluid over the settled grains (its mass by the porosity) and
   /// evaluates everything once. Called once, before the first step, not after load().
   virtual void start() = 0;
 

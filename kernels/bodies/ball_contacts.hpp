@@ -22,12 +22,12 @@ struct BallPass {
   SurfaceSet walls;
   const BodyPose* poses;
   const RigidBody* bodies;
-  const ContactLaw* laws;    ///< of the free bodies
-  const ElasticGive* gives;  ///< of all wall bodies
+  const ContactLaw* laws;                ///< of the free bodies
+  const ElasticCompliance* compliances;  ///< of all wall bodies
   Span<const TouchBall> balls;
-  WallMemory* const* memory;  ///< [room][balls]
+  WallMemory* const* memory;  ///< [capacity][balls]
   Index* contacts;            ///< [balls]
-  int room;
+  int capacity;
   double dt;  ///< s
   TouchLoads loads;
 
@@ -37,7 +37,7 @@ struct BallPass {
     const std::uint32_t own = bodies[ball.owner].body;
     const Vec3d x = poses[own].place(ball.x0);
     const WallMemories memories{memory, contacts, i};
-    WallTouches touches(memories, walls.surfaces.data, room);
+    WallTouches touches(memories, walls.surfaces.data, capacity);
     for (Index s = 0; s < walls.surfaces.size; ++s) {
       const Surface& surface = walls.surfaces[s];
       const BodyPose& pose = poses[surface.body];
@@ -45,8 +45,8 @@ struct BallPass {
       const double reach = surface.tracked() ? ball.radius : 2 * ball.radius;
       const SurfaceView view(surface, pose, frame, x);
       if (view.beyond(walls, reach)) continue;
-      view.each_foot(walls, reach, 1e-4 * ball.radius,
-                     [&](const Foot& foot) { touches.add(s, foot, ball.radius); });
+      view.each_closest_point(walls, reach, 1e-4 * ball.radius,
+                              [&](const ClosestPoint& closest) { touches.add(s, closest, ball.radius); });
     }
     if (touches.size() > 0) {
       touches.settle();
@@ -76,30 +76,32 @@ struct BallPass {
   }
   BL_HD WallMemory touch_one(Index i, const TouchBall& ball, const Vec3d& x, const WallTouch& touch,
                              const WallMemories& memories) const {
-    const Foot& foot = touch.foot;
+    const ClosestPoint& closest = touch.closest;
     const RigidBody& a = bodies[ball.owner];
     const BodyPose &mine = poses[a.body], &other = poses[touch.body];
     ContactHistory h;
     if (touch.from != kNone) h = memories[touch.from].history;
     h.overlap = std::abs(h.overlap);
 
-    const Vec3d point = x - foot.distance * foot.normal;
+    const Vec3d point = x - closest.distance * closest.normal;
     const Vec3d r_mine = arm(mine, point), r_other = arm(other, point);
-    double ease = a.ease(mine.rotation, r_mine, foot.normal);
-    if (other.free) ease += bodies[other.free - 1].ease(other.rotation, r_other, foot.normal);
-    const ElasticGive &give = gives[a.body], &other_give = gives[touch.body];
+    double inverse_mass = a.inverse_effective_mass(mine.rotation, r_mine, closest.normal);
+    if (other.free)
+      inverse_mass += bodies[other.free - 1].inverse_effective_mass(other.rotation, r_other, closest.normal);
+    const ElasticCompliance &compliance = compliances[a.body], &other_compliance = compliances[touch.body];
     ContactLaw law = laws[ball.owner];
-    law.hertz.E_star = Real(1 / (give.normal + other_give.normal));
-    law.mindlin.G_star = Real(1 / (give.sideways + other_give.sideways));
+    law.hertz.E_star = Real(1 / (compliance.normal + other_compliance.normal));
+    law.mindlin.G_star = Real(1 / (compliance.tangential + other_compliance.tangential));
     const double opposite = other.free ? ball_opposite(ball, x, other) : 0;
     const double R_star = opposite > 0 ? 1 / (1 / ball.R_star + 1 / opposite) : ball.R_star;
-    const double share = opposite > 0 ? 0.5 : 1;
+    const double weight = opposite > 0 ? 0.5 : 1;
     // a push that no constraint lets through meets a mass without end, for which no damping is left
-    const double m_star = 1 / max_of(ease, 1e-6 / a.mass);
-    ContactGeometry at{foot.normal, ball.radius - foot.distance, Real(R_star), Real(m_star), 0, 0, 0, 0};
+    const double m_star = 1 / max_of(inverse_mass, 1e-6 / a.mass);
+    ContactGeometry at{
+        closest.normal, ball.radius - closest.distance, Real(R_star), Real(m_star), 0, 0, 0, 0};
     if (law.rolling != RollingLaw::none) {
       Vec3d about = mine.omega - other.omega;
-      about -= dot(about, foot.normal) * foot.normal;
+      about -= dot(about, closest.normal) * closest.normal;
       const double spin = norm(about);
       if (spin > 0) about *= 1 / spin;
       double turning = a.turning_ease(mine.rotation, about),
@@ -115,12 +117,12 @@ struct BallPass {
     }
     const Vec3d v = mine.v + cross(mine.omega, r_mine) - other.v - cross(other.omega, r_other);
     const ContactForce f = law(at, Real3(v), Real3(mine.omega), Real3(other.omega), Real(dt), h);
-    const Vec3d force = share * Vec3d(f.force);
-    const Vec3d couple = share * Vec3d(f.torque_i);  // that of rolling friction
+    const Vec3d force = weight * Vec3d(f.force);
+    const Vec3d couple = weight * Vec3d(f.torque_i);  // that of rolling friction
     loads.add(i, {force, cross(r_mine, force) + couple, a.body});
     loads.add(i, {-force, -cross(r_other, force) - couple, touch.body});
-    h.overlap *= foot.side;
-    return {touch.key(), foot.normal, h};
+    h.overlap *= closest.side;
+    return {touch.key(), closest.normal, h};
   }
 };
 

@@ -109,16 +109,16 @@ struct MidPosePass {
 /// The acceleration that the fluid beside a body sees: that of its last steps, averaged over a few times that
 /// sound takes across the kernel. Wall pressure answers it like a mass of fluid that moves along; taken as it
 /// was a step ago, it would throw a body lighter than that mass to and fro, further each step, however short.
-/// With a new share of s the answer stays bounded while the mass of fluid is below 2/s - 1 times the body's,
+/// With a new weight of s the answer stays bounded while the mass of fluid is below 2/s - 1 times the body's,
 /// about 60.
 struct BodyAccelerationPass {
   const RigidBody* bodies;
   BodyFields s;
-  double dt, share;  ///< s; of the new value
+  double dt, weight;  ///< s; of the new value
   BL_HD void operator()(Index b) const {
     const Vec3d omega = bodies[b].omega(to_quat(s.rotation[b]), s.spin[b]);
-    s.a[b] += share * ((s.v[b] - s.v_before[b]) * (1 / dt) - s.a[b]);
-    s.alpha[b] += share * ((omega - s.omega_before[b]) * (1 / dt) - s.alpha[b]);
+    s.a[b] += weight * ((s.v[b] - s.v_before[b]) * (1 / dt) - s.a[b]);
+    s.alpha[b] += weight * ((omega - s.omega_before[b]) * (1 / dt) - s.alpha[b]);
   }
 };
 

@@ -92,7 +92,7 @@ struct RigidBody {
   }
 
   /// How easily a push along n at r from the reference point moves that place: 1 / effective mass, 1/kg.
-  BL_HD double ease(const Quat<double>& rotation, const Vec3d& r, const Vec3d& n) const {
+  BL_HD double inverse_effective_mass(const Quat<double>& rotation, const Vec3d& r, const Vec3d& n) const {
     return dot(n, movable(n)) / mass + turning_ease(rotation, cross(r, n));
   }
   /// How easily a couple along a turns it: 1 / moment of inertia, 1/(kg m2), times |a|^2.
@@ -115,10 +115,10 @@ struct TouchLoad {
 
 /// What each grain, or each ball of a body, does to the bodies that it touches: an entry a body.
 struct TouchLoads {
-  TouchLoad* slots = nullptr;  ///< [room][size]
+  TouchLoad* slots = nullptr;  ///< [capacity][size]
   Index* counts = nullptr;     ///< [size]
   Index size = 0;
-  int room = 0;  ///< bodies that one may touch at once
+  int capacity = 0;  ///< bodies that one may touch at once
 
   BL_HD explicit operator bool() const { return slots != nullptr; }
   BL_HD void clear(Index i) const { counts[i] = 0; }
@@ -131,7 +131,7 @@ struct TouchLoads {
       slot.torque += load.torque;
       return;
     }
-    if (n >= Index(room)) return;
+    if (n >= Index(capacity)) return;
     slots[std::size_t(n) * size + i] = load;
     counts[i] = n + 1;
   }

@@ -19,7 +19,7 @@ struct AdmitPass {
   Id id;          ///< of that particle
   Real mass;      ///< of each, kg
   Real3 acc;      ///< of the layer, m/s2
-  Real3 gravity;  ///< felt, m/s2
+  Real3 gravity;  ///< effective, m/s2
   Span<const Id> wall_id;
   Span<const Vec3d> wall_x;
   Span<const Real4> wall_v_rho, wall_m_state;

@@ -6,7 +6,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// A sphere that wants room.
+/// A sphere that is to be placed.
 struct NewGrain {
   Vec3d x, v;         ///< m, m/s
   double radius = 0;  ///< m
@@ -14,7 +14,7 @@ struct NewGrain {
 
 /// Up to N places for a grain; which of them are taken by grains that are there.
 template <int N>
-struct RoomBody {
+struct ClearanceBody {
   Frame frame;
   Vec3d place[N];
   double radius;

@@ -24,10 +24,10 @@ BL_HD bool inside(const SurfaceSet& set, const Surface& s, const Frame& frame, c
   // of a mesh, whose edges would belong to none of their triangles by round-off; others have no need of it
   const double size = s.kind == SurfaceKind::mesh ? 2 * (s.half[0] + s.half[1] + s.half[2]) : 0;
   double nearest = 1e300, distance = 1e300;
-  view.each_foot(set, size > 0 ? size : nearest, 1e-9 * size, [&](const Foot& foot) {
-    const double away = std::abs(foot.distance);
+  view.each_closest_point(set, size > 0 ? size : nearest, 1e-9 * size, [&](const ClosestPoint& closest) {
+    const double away = std::abs(closest.distance);
     if (away >= nearest) return;
-    nearest = away, distance = foot.distance;
+    nearest = away, distance = closest.distance;
   });
   return distance < 0;
 }

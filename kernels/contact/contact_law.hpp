@@ -56,7 +56,7 @@ struct ContactLaw {
   RollingLaw rolling = RollingLaw::epsd;
   bool clip_tension = true;
   Real mu = 0;
-  Real sliding_damping = 1;  ///< share of the damping of friction's spring
+  Real sliding_damping = 1;  ///< fraction of the damping of friction's spring
   Hertz hertz;
   LinearSpring spring;
   Mindlin mindlin;
@@ -86,7 +86,7 @@ struct ContactLaw {
     const Real v_n = dot(v, n);
     Real damping = ns.damping;
     if (normal == NormalLaw::linear)
-      damping *= dashpot_share(h.overlap, Real(at.overlap), v_n, dt, !clip_tension);
+      damping *= dashpot_fraction(h.overlap, Real(at.overlap), v_n, dt, !clip_tension);
     const Real ahead = dt > 0 && h.overlap > 0 ? Real(0.5) * (v_n - Real(h.recede)) : Real(0);
     Real f_n = ns.elastic - damping * (v_n + ahead);
     if (clip_tension) f_n = max_of(f_n, Real(0));

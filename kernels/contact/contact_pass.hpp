@@ -63,9 +63,9 @@ struct ContactPass {
   VerletListView list;
   ContactHistory* history;
   SurfaceSet walls;
-  WallMemory* const* wall_memory;  ///< [wall_room][grains]
+  WallMemory* const* wall_memory;  ///< [wall_capacity][grains]
   Index* wall_contacts;            ///< [grains]
-  int wall_room;                   ///< walls that a grain may touch at once
+  int wall_capacity;               ///< walls that a grain may touch at once
   const ContactLaw* wall_laws;     ///< [bodies]
   const BodyPose* poses;           ///< [bodies]
   const RigidBody* free_bodies = nullptr;
@@ -112,7 +112,7 @@ struct ContactPass {
   BL_HD void each_wall(Index i, bool keep, F&& f) const {
     const WallMemories memory = memories(i);
     const double R = double(radius[i]);
-    WallTouches touches(memory, walls.surfaces.data, wall_room);
+    WallTouches touches(memory, walls.surfaces.data, wall_capacity);
     for (Index s = 0; s < walls.surfaces.size; ++s) {
       const Surface& surface = walls.surfaces[s];
       const BodyPose& pose = poses[surface.body];
@@ -120,7 +120,8 @@ struct ContactPass {
       const double reach = surface.tracked() ? R : 2 * R;
       const SurfaceView view(surface, pose, frame, x[i]);
       if (!pose.present || view.beyond(walls, reach)) continue;
-      view.each_foot(walls, reach, 1e-4 * R, [&](const Foot& foot) { touches.add(s, foot, R); });
+      view.each_closest_point(walls, reach, 1e-4 * R,
+                              [&](const ClosestPoint& closest) { touches.add(s, closest, R); });
     }
     if (touches.size() > 0) {
       touches.settle();
@@ -137,21 +138,23 @@ struct ContactPass {
  private:
   template <class F>
   BL_HD WallMemory touch_one(Index i, const WallTouch& touch, const WallMemories& memory, F& f) const {
-    const Foot& foot = touch.foot;
+    const ClosestPoint& closest = touch.closest;
     const BodyPose& pose = poses[touch.body];
     ContactHistory h;
     if (touch.from != kNone) h = memory[touch.from].history;
     h.overlap = std::abs(h.overlap);
-    const Vec3d point = x[i] - foot.distance * foot.normal;
-    ContactGeometry at = touch_wall(sphere(i), foot.normal, double(radius[i]) - foot.distance);
-    const Vec3d r = arm(pose, point), v_wall = pose.v + cross(pose.omega, r) + pose.rotation.rotate(pose.slide);
+    const Vec3d point = x[i] - closest.distance * closest.normal;
+    ContactGeometry at = touch_wall(sphere(i), closest.normal, double(radius[i]) - closest.distance);
+    const Vec3d r = arm(pose, point),
+                v_wall = pose.v + cross(pose.omega, r) + pose.rotation.rotate(pose.slide);
     if (pose.free)
-      at.m_star /= 1 + at.m_star * Real(free_bodies[pose.free - 1].ease(pose.rotation, r, foot.normal));
+      at.m_star /= 1 + at.m_star * Real(free_bodies[pose.free - 1].inverse_effective_mass(pose.rotation, r,
+                                                                                          closest.normal));
     const ContactForce on_grain =
         wall_laws[touch.body](at, v[i] - Real3(v_wall), omega[i], Real3(pose.omega), dt, h);
     f(touch.body, WallContact{on_grain, point});
-    h.overlap *= foot.side;
-    return {touch.key(), foot.normal, h};
+    h.overlap *= closest.side;
+    return {touch.key(), closest.normal, h};
   }
   BL_HD void pair(Index i, Index j, ContactHistory& h, ContactSum& sum) const {
     const Vec3d r_ij = frame.separation(x[i], x[j]);

@@ -38,7 +38,7 @@ struct Mindlin {
   }
 };
 
-/// Spring of a constant share of the normal stiffness.
+/// Spring of a constant fraction of the normal stiffness.
 struct LinearSliding {
   Real ratio = Real(2.0 / 7.0);
 
@@ -53,7 +53,7 @@ struct LinearSliding {
 struct MindlinDeresiewicz {
   Real mu = 0;
   Real slip = 0;  ///< mu E* / (4 G*), of one material mu (2 - nu) / (2 - 2 nu)
-  Real beta = 0;  ///< damping share of the restitution asked for
+  Real beta = 0;  ///< damping ratio of the restitution asked for
 
   BL_HD double longest(double overlap) const { return double(slip) * overlap; }
   BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {

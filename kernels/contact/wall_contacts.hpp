@@ -1,6 +1,6 @@
 #pragma once
-// What a grain touches of the walls: the feet of all surfaces, none of them twice, and what is remembered of
-// each from one substep to the next.
+// What a grain touches of the walls: the closest points of all surfaces, none of them twice, and what is
+// remembered of each from one substep to the next.
 
 #include "kernels/contact/history.hpp"
 #include "kernels/walls/surface.hpp"
@@ -38,36 +38,37 @@ struct WallMemories {
   BL_HD WallMemory& operator[](Index k) const { return slots[k][grain]; }
 };
 
-/// A foot of surface `surface` and where it came from in the memories.
+/// A closest point of surface `surface` and where it came from in the memories.
 struct WallTouch {
-  Foot foot;
+  ClosestPoint closest;
   Index surface;
   std::uint32_t body;
   Index from = kNone;
-  BL_HD double key() const { return WallMemory::key_of(surface, foot.feature); }
+  BL_HD double key() const { return WallMemory::key_of(surface, closest.feature); }
 };
 
 /// Collects the touches of one grain.
 class WallTouches {
  public:
-  BL_HD WallTouches(const WallMemories& memories, const Surface* surfaces, int room)
-      : memories_(memories), surfaces_(surfaces), remembered_(memories.count()), room_(room) {}
+  BL_HD WallTouches(const WallMemories& memories, const Surface* surfaces, int capacity)
+      : memories_(memories), surfaces_(surfaces), remembered_(memories.count()), capacity_(capacity) {}
 
-  /// A foot of surface s. What lies behind a tracked surface counts only where it came through; a patch is
-  /// felt from the side of the last touch. radius: of the grain, m.
-  BL_HD void add(Index s, Foot foot, double radius) {
+  /// A closest point of surface s. What lies behind a tracked surface counts only where it came through; a
+  /// patch is touched from the side of the last contact. radius: of the grain, m.
+  BL_HD void add(Index s, ClosestPoint closest, double radius) {
     const Surface& surface = surfaces_[s];
-    WallTouch touch{foot, s, surface.body};
+    WallTouch touch{closest, s, surface.body};
     touch.from = find(touch.key());
-    if (foot.two_sided && touch.from != kNone)
-      touch.foot.face(memories_[touch.from].history.overlap < 0 ? -1.0 : 1.0);
-    if (!(touch.foot.distance < radius)) return;
-    if (surface.tracked() && touch.foot.distance < 0 && touch.from == kNone && heir_of(touch, false) == kNone)
+    if (closest.two_sided && touch.from != kNone)
+      touch.closest.face(memories_[touch.from].history.overlap < 0 ? -1.0 : 1.0);
+    if (!(touch.closest.distance < radius)) return;
+    if (surface.tracked() && touch.closest.distance < 0 && touch.from == kNone &&
+        inherited(touch, false) == kNone)
       return;
     insert(touch);
   }
 
-  /// In ascending order of key, each with its memory or that of a neighbouring feature that it takes over.
+  /// In ascending order of key, each with its memory or the one that it inherits from a neighbouring feature.
   BL_HD void settle() {
     for (int k = 1; k < size_; ++k)
       for (int l = k; l > 0 && touches_[l].key() < touches_[l - 1].key(); --l) {
@@ -76,7 +77,7 @@ class WallTouches {
         touches_[l - 1] = other;
       }
     for (int k = 0; k < size_; ++k)
-      if (touches_[k].from == kNone) touches_[k].from = heir_of(touches_[k], true);
+      if (touches_[k].from == kNone) touches_[k].from = inherited(touches_[k], true);
   }
 
   BL_HD int size() const { return size_; }
@@ -91,9 +92,9 @@ class WallTouches {
       if (memories_[k].key == key) return k;
     return kNone;
   }
-  /// Memory of another feature of the same body from which a touch descends. `left`: only one that no other
+  /// Memory of another feature of the same body that a touch inherits. `left`: only one that no other
   /// touch holds.
-  BL_HD Index heir_of(const WallTouch& touch, bool left) const {
+  BL_HD Index inherited(const WallTouch& touch, bool left) const {
     Index best = kNone;
     double nearest = kNear;
     for (Index k = 0; k < remembered_; ++k) {
@@ -101,7 +102,7 @@ class WallTouches {
       if (surfaces_[memory.surface()].body != touch.body) continue;
       bool held = false;
       for (int l = 0; left && l < size_; ++l) held = held || touches_[l].from == k;
-      const double along = dot(memory.normal, touch.foot.normal);
+      const double along = dot(memory.normal, touch.closest.normal);
       if (!held && along > nearest) nearest = along, best = k;
     }
     return best;
@@ -109,11 +110,11 @@ class WallTouches {
   BL_HD void insert(const WallTouch& touch) {
     for (int k = 0; k < size_; ++k) {
       WallTouch& other = touches_[k];
-      if (other.body != touch.body || dot(other.foot.normal, touch.foot.normal) < kSame) continue;
+      if (other.body != touch.body || dot(other.closest.normal, touch.closest.normal) < kSame) continue;
       if (deeper(touch, other)) other = touch;
       return;
     }
-    if (size_ < room_) {
+    if (size_ < capacity_) {
       touches_[size_++] = touch;
       return;
     }
@@ -123,13 +124,14 @@ class WallTouches {
     if (deeper(touch, touches_[shallowest])) touches_[shallowest] = touch;
   }
   static BL_HD bool deeper(const WallTouch& a, const WallTouch& b) {
-    return a.foot.distance < b.foot.distance || (a.foot.distance == b.foot.distance && a.key() < b.key());
+    return a.closest.distance < b.closest.distance ||
+           (a.closest.distance == b.closest.distance && a.key() < b.key());
   }
 
   WallMemories memories_;
   const Surface* surfaces_;
   Index remembered_;
-  int room_, size_ = 0;
+  int capacity_, size_ = 0;
   WallTouch touches_[kMostWallContacts];
 };
 

@@ -31,7 +31,7 @@ BL_HD DragLine drag_line(const K& law, Real mean, Real fast) {
 }
 
 /// How much more of a force at its centre a grain hands to the fluid by the couple that turns it: particle a
-/// gets up to 1 + off_centre |r_a - r_j - arm| times its share, all of them `sum` times the force.
+/// gets up to 1 + off_centre |r_a - r_j - arm| times its fraction, all of them `sum` times the force.
 struct DragLevers {
   Span<Real4> arm;  ///< m; w: off_centre, 1/m
   Span<Real> sum;
@@ -43,9 +43,9 @@ struct DragLevers {
   }
 };
 
-/// phi_ja K_ja / K_j, the share of a grain's drag that falls to a fluid particle, per V_a W: `still`, and
+/// phi_ja K_ja / K_j, the fraction of a grain's drag that falls to a fluid particle, per V_a W: `still`, and
 /// where drag follows the slip of each particle |v_a - v_j| `by_slip` besides.
-struct DragShares {
+struct DragWeights {
   Span<Real> still;
   Span<Real4> by_slip;  ///< the grain's velocity, m/s; w: s/m
 
@@ -70,7 +70,7 @@ struct DragPass {
   Span<const Real> radius, eps, bed_eps, wetness;
   Span<const Real3> v, omega;
   GrainSurroundings surroundings;
-  DragShares shares;
+  DragWeights weights;
   Span<Real3> U, omega_f;
   Span<Real> K, K_rot;
   DragLevers levers;
@@ -87,9 +87,9 @@ struct DragPass {
       if (k > 0) line = {law_line.still / k, law_line.slope / k};
     }
     K[j] = wet * k;
-    shares.still[j] = inv_S * line.still;
+    weights.still[j] = inv_S * line.still;
     if constexpr (Local) {
-      shares.by_slip[j] = {v[j], inv_S * line.slope};
+      weights.by_slip[j] = {v[j], inv_S * line.slope};
       flow = flow.blend(line.still, surroundings.fast[j], line.slope);
     }
     U[j] = v[j] + inv_S * flow.u;

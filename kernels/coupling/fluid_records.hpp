@@ -3,7 +3,7 @@
 // over a grain's fluid the weight phi_ja. Interpolation to the grain and spreading back use the same weights,
 // which makes momentum exact and drag dissipative.
 
-#include "kernels/coupling/orifice_share.hpp"
+#include "kernels/coupling/orifice_weight.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -18,12 +18,12 @@ BL_HD Real4 push_record(Real solid_factor, const Real3& theta, const Real4& m_st
 /// What grains read of a fluid particle, besides its velocity, in few loads.
 struct FluidRecords {
   Span<Real4> push;    ///< push_record
-  Span<Real4> solids;  ///< porosity; density, kg/m3; share of the solids around that count beside orifices
+  Span<Real4> solids;  ///< porosity; density, kg/m3; weight of the solids around that count beside orifices
 };
 
 struct RecordPass {
   Frame frame;
-  OrificeShare counted;
+  OrificeWeight counted;
   Span<const FluidPosition> x;
   Span<const Real> solid_factor;
   Span<const Real3> theta;

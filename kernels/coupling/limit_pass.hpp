@@ -7,7 +7,7 @@ namespace bedload::inline BL_VARIANT {
 template <class W, bool Local, bool Couple>
 struct DragRatePass {
   W w;
-  DragShares shares;
+  DragWeights weights;
   DragLevers levers;
   Span<const Real> K, mass;
   Span<const Real4> v_rho, m_state;
@@ -21,7 +21,7 @@ struct DragRatePass {
   BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(m_state[a]), 0}; }
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>& r_aj, N r2) const {
-    N L = K[j] * sum.V * w.W(root(r2)) * shares.template of<Local>(j, sum.v);
+    N L = K[j] * sum.V * w.W(root(r2)) * weights.template of<Local>(j, sum.v);
     if constexpr (Couple) L *= levers.of(j, r_aj);
     sum.L += L;
   }
@@ -29,14 +29,14 @@ struct DragRatePass {
   BL_HD void finish(Index a, const Sum<>& sum) const { rate[a] = sum.L / mass[a]; }
 };
 
-/// The largest share of drag that a fluid particle can take in one step, x = dt L_a / m_a. Row sums of
+/// The largest fraction of drag that a fluid particle can take in one step, x = dt L_a / m_a. Row sums of
 /// the exchange stay at or below one, which is all that the energy argument needs, and drag is exact up to
 /// x = 1; (1 - exp(-x)) / x would already be 21 % weak at the step that time.drag allows.
-BL_HD Real allowed_share(Real x) { return x > 1 ? 1 / x : Real(1); }
+BL_HD Real allowed_fraction(Real x) { return x > 1 ? 1 / x : Real(1); }
 
 /// Weakens the drag of each grain to what the fluid around it can take in a step, so that kinetic
 /// energy cannot grow however stiff the drag. Spin drag reaches the fluid more weakly, by about
-/// d2 / 3 M < 1, so the same share is enough for it.
+/// d2 / 3 M < 1, so the same fraction is enough for it.
 struct LimitPass {
   Real dt;  ///< s
   Span<const Real> rate;
@@ -49,9 +49,9 @@ struct LimitPass {
   BL_HD void merge(Real& most, Real other) const { most = max_of(most, other); }
   BL_HD void finish(Index j, Real most) const {
     if (lever_sum) most *= lever_sum[j];
-    const Real share = allowed_share(dt * most);
-    K[j] *= share;
-    K_rot[j] *= share;
+    const Real fraction = allowed_fraction(dt * most);
+    K[j] *= fraction;
+    K_rot[j] *= fraction;
     stiffness[j] = K[j] > 0 ? dt * most : Real(0);
   }
 };

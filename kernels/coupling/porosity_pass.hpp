@@ -1,14 +1,14 @@
 #pragma once
 #include "bedload/core/span.hpp"
-#include "kernels/coupling/orifice_share.hpp"
-#include "kernels/coupling/wall_share.hpp"
+#include "kernels/coupling/orifice_weight.hpp"
+#include "kernels/coupling/wall_free_fraction.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Where grain j is, for its volume: V_j W(r; h_c) / s_j, s_j being the share of the kernel that walls leave
-/// free, so that none of it is lost to them.
+/// Where grain j is, for its volume: V_j W(r; h_c) / s_j, s_j being the fraction of the kernel that walls
+/// leave free, so that none of it is lost to them.
 struct GrainVolumePass {
-  WallFreeShare free;
+  WallFreeFraction free;
   Frame frame;
   double per_dt;  ///< 1 / step (s), or 0 where no step has been made
   Span<const Vec3d> x, x_before;
@@ -27,13 +27,13 @@ struct GrainVolumePass {
 
 /// eps_a = 1 - sum_j w_ja with w_ja = f_a V_j W(|r_a - r_j|; h_c) / s_j [harting14] Eq. 6, and the volume
 /// flux of the mixture, eps_a v_a + sum_j w_ja u_j. f_a is one but for fluid beside orifices and where the
-/// porosity would fall below its floor. With the same weights grains take their share of the stress
+/// porosity would fall below its floor. With the same weights grains take their part of the stress
 /// (BuoyancyPass).
 template <class W>
 struct PorosityPass {
   W w;
   Real floor;
-  OrificeShare away_from_orifices;
+  OrificeWeight away_from_orifices;
   Frame frame;
   Span<const FluidPosition> x;
   Span<const Real4> volume, v_rho;
@@ -50,9 +50,9 @@ struct PorosityPass {
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>&, N r2) const {
     const Vec4<N> grain = volume[j];
-    const N share = grain.w * w.W(root(r2));
-    sum.solid += share;
-    sum.q += share * grain.xyz();
+    const N weight = grain.w * w.W(root(r2));
+    sum.solid += weight;
+    sum.q += weight * grain.xyz();
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.solid += other.solid;

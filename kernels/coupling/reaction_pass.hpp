@@ -3,19 +3,19 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// What each grain gives back: fluid particle a at r from it receives -w (impulse - A x r), w being its share
-/// of the drag (DragShares), and -phi (force - B x r). A couple has no net force: with M A = arm x impulse -
-/// torque it takes the torque on the grain out of the fluid and cancels the moment of spreading off its
-/// centre, and with M B = lost_moment, force = B x arm, it returns what moment the stress shared with the
+/// What each grain gives back: fluid particle a at r from it receives -w (impulse - A x r), w being its
+/// weight of the drag (DragWeights), and -phi (force - B x r). A couple has no net force: with M A = arm x
+/// impulse - torque it takes the torque on the grain out of the fluid and cancels the moment of spreading off
+/// its centre, and with M B = lost_moment, force = B x arm, it returns what moment the stress shared with the
 /// grain has lost.
 ///
 /// With local slip the drag of a particle follows its own velocity: it receives -w K dt (v_a - u) besides,
 /// u being the mean motion around the grain, with the couple a rigid one. These parts have neither net
-/// impulse nor, with the couple, net moment; the grain feels nothing of them.
+/// impulse nor, with the couple, net moment; they do not act on the grain.
 struct Reactions {
   Span<Real4> impulse;  ///< N s, + A x arm - K dt (u - v_j), u at the grain's centre; w: K dt, kg
   Span<Real4> force;    ///< N; w: 1/S_j
-  Span<Real4> spin;     ///< A, N s/m; w: DragShares::still
+  Span<Real4> spin;     ///< A, N s/m; w: DragWeights::still
   Span<Real4> couple;   ///< B, N/m
 };
 
@@ -28,17 +28,17 @@ struct LocalSlip {
 
 /// Grain j makes up what it gives back.
 template <bool Couple, bool Local>
-struct SharePass {
+struct ReactionTermsPass {
   Span<const Real3> impulse, spin_impulse;
   GrainSurroundings surroundings;
-  DragShares shares;
+  DragWeights weights;
   LocalSlip slip;
   Reactions reactions;
 
   BL_HD void operator()(Index j) const {
     Real3 J = impulse[j], F, A, u;
     const Real Kdt = Local ? slip.dt * slip.K[j] : Real(0);
-    if constexpr (Local) u = slip.U[j] - shares.by_slip[j].xyz();
+    if constexpr (Local) u = slip.U[j] - weights.by_slip[j].xyz();
     if constexpr (Couple) {
       const Carriers &drag = surroundings.drag, &stress = surroundings.stress;
       const Real3 B = stress.inv_M[j] * surroundings.lost_moment[j];
@@ -50,7 +50,7 @@ struct SharePass {
     }
     reactions.impulse[j] = {J - Kdt * u, Kdt};
     reactions.force[j] = {F, surroundings.inv_S[j]};
-    reactions.spin[j] = {A, shares.still[j]};
+    reactions.spin[j] = {A, weights.still[j]};
   }
 };
 
@@ -61,7 +61,7 @@ struct ReactionPass {
   W w;
   Span<const Real> mass;
   Span<const Real4> m_state;
-  Span<const Real4> by_slip;  ///< of DragShares
+  Span<const Real4> by_slip;  ///< of DragWeights
   Reactions reactions;
   Span<Real4> v_rho;
   Span<Real3> reaction;   ///< m/s2
@@ -78,12 +78,12 @@ struct ReactionPass {
   BL_HD void pair(Sum<N>& sum, Index, At j, const Vec3<N>& r_aj, N r2) const {
     const Vec4<N> impulse = reactions.impulse[j], force = reactions.force[j], spin = reactions.spin[j];
     const N vw = sum.V * w.W(root(r2));
-    N share = spin.w;
+    N weight = spin.w;
     Vec3<N> J = impulse.xyz(), F = force.xyz();
     if constexpr (Local) {
       const Vec4<N> grain = by_slip[j];
       const Vec3<N> slip = sum.v - grain.xyz();
-      share += grain.w * root(norm2(slip));
+      weight += grain.w * root(norm2(slip));
       J += impulse.w * slip;
     }
     if constexpr (Couple) {
@@ -91,7 +91,7 @@ struct ReactionPass {
       J -= cross(spin.xyz(), r_aj);
       F -= cross(couple.xyz(), r_aj);
     }
-    sum.impulse += (vw * share) * J;
+    sum.impulse += (vw * weight) * J;
     sum.force += (vw * force.w) * F;
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {

@@ -3,10 +3,10 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// How wet each grain is, from 0 to 1, and so how much of its drag it feels. Linear in the share S / S_free
-/// of the kernel that fluid fills where walls leave it free. With S_dry + S_wet = 1 a flat surface makes half
-/// a grain wet; and as wetness is nearly S itself, fluid in a bed feels the drag of all grains around it,
-/// however little fluid there is besides.
+/// The wetted fraction of each grain, from 0 to 1, and so how much of its drag acts on it. Linear in the
+/// fraction S / S_free of the kernel that fluid fills where walls leave it free. With S_dry + S_wet = 1 a
+/// flat surface makes half a grain wet; and as wetness is nearly S itself, the drag of all grains around it
+/// acts on fluid in a bed, however little fluid there is besides.
 struct WetnessPass {
   Real S_dry, S_wet;
   Span<const Real> wall_free;

@@ -1,6 +1,6 @@
 #pragma once
 #include "bedload/neighbours/for_each_pair.hpp"
-#include "kernels/smoothing/half_space_share.hpp"
+#include "kernels/smoothing/half_space_fraction.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -27,7 +27,7 @@ struct Strain {
 /// lasts bears shear by its pressure, at any resolution. Nothing drifts beside a free surface, which grad C
 /// would let swell: where div r = sum_b V_b F_ab r_ab^2 is no more than that of the second layer of a
 /// lattice. The velocities of particles stay, so momentum holds; what that takes along is of the order of h^2
-/// |S|, of angular momentum too. Drift by nearest neighbours alone, which does not feel the surface, has
+/// |S|, of angular momentum too. Drift by nearest neighbours alone, which does not know the surface, has
 /// another equilibrium than the pressure and pumps energy into still water.
 struct Shifting {
   Real area;      ///< A h^2 [m2]
@@ -74,19 +74,19 @@ struct NoShifting {
 /// Continuity of the mixture with density diffusion (Fourtakas et al. 2019), over `dt`:
 ///   eps_a d rho_a / dt = - sum_b M_b (q_a - q_b) . r_ab F_ab,  M = m / eps,  q = eps v + sum_j w_j u_j,
 /// q being the volume flux of fluid and grains, which the density balances; [H (6)], [R (7)] where there are
-/// no grains. Its adjoint is the pressure force of ForcePass, of which fluid and grains take the shares with
-/// which they make up q: what pressure does to both is what the energy of compression loses.
+/// no grains. Its adjoint is the pressure force of ForcePass, of which fluid and grains take the fractions
+/// with which they make up q: what pressure does to both is what the energy of compression loses.
 /// Kick-drift-kick passes positions and velocities of the middle of the step, which makes it reversible.
 /// Walls count at rho0: with the density of their pressure, a wall that slides past resting fluid would
 /// change the fluid's density for as long as it slides. Continuity tells changes of density alone. Where
-/// fluid is torn, s follows the room, by which less of the kernel is filled than a plane surface would leave,
-/// so that there is pressure again no sooner than the room has closed. Surfaces that meet would hold each
-/// other off by a gap, since each counts as filled up to the other: under pressure that fades, as fast as it
-/// is high and the room wide, until the fluid fills its volume. Nor is continuity of the mixture that of the
-/// particles: what the gradient of the porosity in its sum differs from how the porosity changes along the
-/// way adds up, and fluid that has entered a bed may stand more closely than its volume allows. So among
+/// fluid is fragmented, s follows the void, by which less of the kernel is filled than a plane surface would
+/// leave, so that there is pressure again no sooner than the void has closed. Surfaces that meet would hold
+/// each other off by a gap, since each counts as filled up to the other: under pressure that fades, as fast
+/// as it is high and the void wide, until the fluid fills its volume. Nor is continuity of the mixture that
+/// of the particles: what the gradient of the porosity in its sum differs from how the porosity changes along
+/// the way adds up, and fluid that has entered a bed may stand more closely than its volume allows. So among
 /// grains density grows where particles overfill the kernel by more than `slack`.
-/// kSmooth: with density diffusion and all that follows the room; without, continuity alone. kPorous: there
+/// kSmooth: with density diffusion and all that follows the void; without, continuity alone. kPorous: there
 /// are grains.
 template <class W, class Shift, bool kSmooth, bool kPorous>
 struct DensityPass {
@@ -98,9 +98,9 @@ struct DensityPass {
   Real rho0, dt;      ///< kg/m3, s
   Span<const Real> s;
   Span<Real> s_new;
-  CutShare cut;
-  Real least;      ///< s at which fluid tears
-  Real fading;     ///< of pressure where there is room, and pace at which torn fluid follows it [1/s]
+  CutFraction cut;
+  Real least;      ///< s at which fluid cavitates
+  Real fading;     ///< of pressure where there is a void, and pace at which fragmented fluid follows it [1/s]
   Real spreading;  ///< of density where particles overfill their volume [1/s]
   Shift shift;
   Span<Real3> drift;  ///< empty where nothing drifts
@@ -170,16 +170,16 @@ struct DensityPass {
   /// How s changes.
   struct Change {
     Real rate;     ///< 1/s
-    Real settled;  ///< over dt, where there is room
+    Real settled;  ///< over dt, where there is a void
   };
   BL_HD Change of(Index a, const Sum<>& sum) const {
     if constexpr (!kSmooth) return {-sum.rate / (sum.eps * rho0), 0};
     const Real filled = m_state[a].x / sum.rho * w.W(Real(0)) + sum.filled;
-    const Real room = max_of(Real(0), 1 - filled - cut(norm(sum.gradient)));
+    const Real void_fraction = max_of(Real(0), 1 - filled - cut(norm(sum.gradient)));
     const Real excess = max_of(Real(0), filled - 1 - slack), pressed = max_of(Real(0), s[a]);
     return {(diffusion * sum.diffused - sum.rate) / (sum.eps * rho0) + spreading * excess,
-            s[a] < least ? min_of(dt * fading, Real(1)) * (min_of(least, slack - room) - s[a])
-                         : -min_of(dt * fading * room, Real(1)) * pressed};
+            s[a] < least ? min_of(dt * fading, Real(1)) * (min_of(least, slack - void_fraction) - s[a])
+                         : -min_of(dt * fading * void_fraction, Real(1)) * pressed};
   }
 };
 

@@ -9,7 +9,8 @@ namespace bedload::inline BL_VARIANT {
 struct EquationOfState {
   Real B = 1, gamma = 7, P_ref = 0, rho0 = 1000;
   bool clip_negative = false;
-  Real least = -1;  ///< x at which the fluid tears: thinner fluid keeps the pressure and the density of that
+  Real least =
+      -1;  ///< x at which the fluid cavitates: thinner fluid keeps the pressure and the density of that
 
   BL_HD Real density(Real x) const { return rho0 * (1 + max_of(x, least)); }  ///< kg/m3
   /// Pressure [Pa].
@@ -24,11 +25,11 @@ struct EquationOfState {
   }
   /// Elastic energy per mass against rho0 [J/kg]: integral of P / rho^2.
   BL_HD double energy(double x) const {
-    const double torn = max_of(double(least) - x, 0.0), whole = x + torn;
+    const double cavity = max_of(double(least) - x, 0.0), whole = x + cavity;
     const double g = gamma, l = std::log1p(whole);
     const double work = g > 1 ? std::expm1((g - 1) * l) / (g - 1) : l;
     return (double(B) * (work + std::expm1(-l)) - double(P_ref) * std::expm1(-l) -
-            torn * double(pressure(least)) / square(1 + whole)) /
+            cavity * double(pressure(least)) / square(1 + whole)) /
            rho0;
   }
 };

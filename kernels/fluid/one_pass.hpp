@@ -5,7 +5,7 @@
 namespace bedload::inline BL_VARIANT {
 
 /// Momentum and continuity at one time, each pair visited once: what ForcePass writes, and the rate of s, by
-/// which DensityHistory advances the next step. What DensityPass does where there is room, it does at once.
+/// which DensityHistory advances the next step. What DensityPass does where there is a void, it does at once.
 template <class Force, class Density>
 struct OnePass {
   Force force;

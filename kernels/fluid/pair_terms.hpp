@@ -49,12 +49,12 @@ struct TensileTerm {
   template <class N>
   BL_HD N R(N W, N pa, N pb) const {
     const N f = square(square(W / W_dx));
-    return f * (share(pa) * pa + share(pb) * pb);
+    return f * (weight(pa) * pa + weight(pb) * pb);
   }
 
  private:
   template <class N>
-  BL_HD N share(N p) const {
+  BL_HD N weight(N p) const {
     return select(p > N(0), N(s_positive), N(-s_negative));
   }
 };

@@ -8,7 +8,7 @@
 namespace bedload::inline BL_VARIANT {
 
 /// Continuity of the inner layer of frozen walls: as DensityPass, from the side of the wall. No thinner than
-/// torn fluid.
+/// fragmented fluid.
 template <class W>
 struct FrozenPass {
   W w;

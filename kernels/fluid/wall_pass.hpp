@@ -9,7 +9,7 @@ namespace bedload::inline BL_VARIANT {
 /// physics errata 5-7): pressure with the hydrostatic correction, no-slip velocity. The mean velocity of the
 /// fluid around is that of its middle, x_f, so the wall's counterpart of it is 2 v_w - v_f plus what a
 /// turning body's own velocity differs by from there to the wall, v(x_f) - v_w: fluid that turns with its
-/// vessel feels no friction. Fluid beside a turning wall is on a circle only as far as it turns along: where
+/// vessel has no friction. Fluid beside a turning wall is on a circle only as far as it turns along: where
 /// the layer that it drags is thinner than a particle, nothing holds water at rest off a drum that spins
 /// around it. Frozen and mirrored walls bring their own density, where they have one. Single layers keep
 /// rho0: fluid that comes near them grows denser by their mass and is pushed off by its own pressure alone.
@@ -89,7 +89,7 @@ struct WallPass {
   }
 
  private:
-  /// Share of the wall's velocity of rotation that fluid beside it has, 0..1.
+  /// Fraction of the wall's velocity of rotation that fluid beside it has, 0..1.
   BL_HD static Real turning_along(const BodyPose& k, const Real3& v_wall, const Real3& v_fluid) {
     const Real3 turn = v_wall - Real3(k.v);
     const Real speed2 = norm2(turn);

@@ -42,9 +42,10 @@ struct WallRepulsion {
   Span<const BodyPose> pose;
 
   BL_HD double reach() const { return double(max_of(law.r0, limit.reach)); }
-  /// f(body, acceleration, foot) for each foot (m) of a surface that acts on fluid at x, which would go on at
-  /// `heading` (m/s) without; of one body alone or all. What one surface stops the next does not stop again.
-  /// Takes from `drift` (m/s), which moves fluid beside its velocity, what would near it to the surface.
+  /// f(body, acceleration, point) for each closest point (m) of a surface that acts on fluid at x, which
+  /// would go on at `heading` (m/s) without; of one body alone or all. What one surface stops the next does
+  /// not stop again. Takes from `drift` (m/s), which moves fluid beside its velocity, what would near it to
+  /// the surface.
   template <class F>
   BL_HD void each(const Vec3d& x, Real3 heading, F&& f, std::uint32_t only = kNone,
                   Real3* drift = nullptr) const {
@@ -54,16 +55,17 @@ struct WallRepulsion {
       if (!at.present || !(at.repulsion || at.no_penetration)) continue;
       const SurfaceView view(surface, at, frame, x);
       if (view.beyond(walls, reach())) continue;
-      view.each_foot(walls, reach(), 1e-4 * reach(), [&](const Foot& foot) {
-        const Real3 normal(foot.normal);
-        const Vec3d point = view.point(foot);
+      view.each_closest_point(walls, reach(), 1e-4 * reach(), [&](const ClosestPoint& closest) {
+        const Real3 normal(closest.normal);
+        const Vec3d point = view.point(closest);
         Real push = 0;
         if (at.no_penetration && limit.per_step > 0) {
-          push = limit(Real(foot.distance), dot(Real3(at.velocity(point)) - heading, normal));
+          push = limit(Real(closest.distance), dot(Real3(at.velocity(point)) - heading, normal));
           heading += push / limit.per_step * normal;
-          if (drift && foot.distance < limit.reach) *drift -= min_of(dot(*drift, normal), Real(0)) * normal;
+          if (drift && closest.distance < limit.reach)
+            *drift -= min_of(dot(*drift, normal), Real(0)) * normal;
         }
-        if (at.repulsion) push += law(Real(foot.distance));
+        if (at.repulsion) push += law(Real(closest.distance));
         if (push > 0 && (only == kNone || surface.body == only)) f(surface.body, push * normal, point);
       });
     }
@@ -71,7 +73,7 @@ struct WallRepulsion {
 };
 
 /// Keeps fluid from slipping back between the particles that wait in an orifice: the same from the plane of
-/// their foremost layer. What has come in, a spacing ahead of that, feels nothing. What falls among them from
+/// their foremost layer. What has come in, a spacing ahead of that, is not pushed. What falls among them from
 /// the side is let go no faster than `gentle` against them.
 struct OrificeRepulsion {
   Repulsion law;

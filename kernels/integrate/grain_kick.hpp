@@ -8,24 +8,24 @@ namespace bedload::inline BL_VARIANT {
 
 /// Relaxation towards the fluid in a time h at the rate k (1/s).
 struct Relaxation {
-  double share = 0;  ///< of the slip that goes: 1 - exp(-k h)
-  double lag = 0;    ///< share of a h that drag takes back: psi(k h) - 1, psi(x) = (1 - exp(-x))/x
+  double fraction = 0;  ///< of the slip that goes: 1 - exp(-k h)
+  double lag = 0;       ///< fraction of a h that drag takes back: psi(k h) - 1, psi(x) = (1 - exp(-x))/x
   BL_HD Relaxation(double rate, double h, bool exponential) {
     const double x = rate * h;
     if (!(x > 0)) return;
     if (!exponential) {
-      share = x;
+      fraction = x;
     } else if (x < 1e-4) {
-      share = -std::expm1(-x);
+      fraction = -std::expm1(-x);
       lag = -x / 2 * (1 - x / 3);
     } else {
-      share = -std::expm1(-x);
-      lag = share / x - 1;
+      fraction = -std::expm1(-x);
+      lag = fraction / x - 1;
     }
   }
   /// What drag adds to v in time h while all else accelerates by a.
   BL_HD Vec3d drag(const Vec3d& v, const Vec3d& fluid, const Vec3d& a, double h) const {
-    return share * (fluid - v) + (lag * h) * a;
+    return fraction * (fluid - v) + (lag * h) * a;
   }
 };
 
@@ -58,8 +58,8 @@ struct KickedGrain {
         alpha_(torque * (1 / inertia_)),
         slide_(k.K[i] / m_, k.h, k.exponential),
         spin_(k.K_rot[i] / inertia_, k.h, k.exponential),
-        U_(slide_.share > 0 ? Vec3d(k.U[i]) : Vec3d{}),
-        omega_f_(spin_.share > 0 ? Vec3d(k.omega_f[i]) : Vec3d{}) {}
+        U_(slide_.fraction > 0 ? Vec3d(k.U[i]) : Vec3d{}),
+        omega_f_(spin_.fraction > 0 ? Vec3d(k.omega_f[i]) : Vec3d{}) {}
 
   /// Half a substep.
   BL_HD void kick() {

@@ -7,56 +7,56 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Foot nearest to a place, on any of the surfaces.
-struct NearestFoot {
+/// Point nearest to a place, on any of the surfaces.
+struct NearestPoint {
   Vec3d normal;
   double distance = 0;    ///< m
   Index surface = kNone;  ///< none within reach
 };
 
-struct FootPass {
+struct NearestPointPass {
   Frame frame;
   SurfaceSet walls;
   Span<const BodyPose> pose;
   double reach;  ///< m
   Span<const FluidPosition> x;
-  Span<NearestFoot> foot;
+  Span<NearestPoint> points;
 
-  BL_HD void operator()(Index a) const { foot[a] = nearest(coordinates(frame, x[a])); }
-  BL_HD NearestFoot nearest(const Vec3d& at) const {
-    NearestFoot best;
+  BL_HD void operator()(Index a) const { points[a] = nearest(coordinates(frame, x[a])); }
+  BL_HD NearestPoint nearest(const Vec3d& at) const {
+    NearestPoint best;
     for (Index k = 0; k < walls.surfaces.size; ++k) look(k, at, best);
     return best;
   }
-  BL_HD void look(Index k, const Vec3d& at, NearestFoot& best) const {
+  BL_HD void look(Index k, const Vec3d& at, NearestPoint& best) const {
     const Surface& surface = walls.surfaces[k];
     if (!pose[surface.body].present) return;
     const SurfaceView view(surface, pose[surface.body], frame, at);
     if (view.beyond(walls, reach)) return;
-    view.each_foot(walls, reach, 1e-4 * reach, [&](const Foot& foot) {
-      const bool nearer = best.surface == kNone || std::abs(foot.distance) < std::abs(best.distance);
-      if (nearer && std::abs(foot.distance) < reach) best = {foot.normal, foot.distance, k};
+    view.each_closest_point(walls, reach, 1e-4 * reach, [&](const ClosestPoint& closest) {
+      const bool nearer = best.surface == kNone || std::abs(closest.distance) < std::abs(best.distance);
+      if (nearer && std::abs(closest.distance) < reach) best = {closest.normal, closest.distance, k};
     });
   }
 };
 
 /// Counts for each particle a the partners b that its nearest surface keeps out of sight: each lies behind
-/// the plane through the other's foot, and the line between them meets the surface where it meets a's plane,
-/// which tells a shell from its rim.
+/// the plane through the other's closest point, and the line between them meets the surface where it meets
+/// a's plane, which tells a shell from its rim.
 struct CrossingPass {
-  FootPass feet;
+  NearestPointPass near;
   double tolerance;  ///< m
   Span<std::uint32_t> count;
 
   BL_HD std::uint32_t start(Index) const { return 0; }
   BL_HD void pair(std::uint32_t& sum, Index a, Index b, const Real3& r_ab, Real) const {
-    const NearestFoot &at = feet.foot[a], &other = feet.foot[b];
+    const NearestPoint &at = near.points[a], &other = near.points[b];
     if (at.surface == kNone || other.surface == kNone) return;
     const Vec3d r(r_ab);
     const double towards = dot(r, at.normal);
     if (!(towards > at.distance && -dot(r, other.normal) > other.distance)) return;
-    NearestFoot there;
-    feet.look(at.surface, coordinates(feet.frame, feet.x[a]) - (at.distance / towards) * r, there);
+    NearestPoint there;
+    near.look(at.surface, coordinates(near.frame, near.x[a]) - (at.distance / towards) * r, there);
     if (there.surface != kNone && std::abs(there.distance) < tolerance) ++sum;
   }
   BL_HD void finish(Index a, std::uint32_t sum) const { count[a] = sum; }

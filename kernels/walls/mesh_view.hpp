@@ -1,5 +1,5 @@
 #pragma once
-// A closed surface of triangles as kernels see it: its own tree of boxes, feet by local minima.
+// A closed surface of triangles as kernels see it: its own tree of boxes, closest points by local minima.
 
 #include <cmath>
 #include <cstdint>
@@ -17,18 +17,19 @@ struct MeshView {
   const std::uint32_t* ring_start = nullptr;  ///< [vertices + 1]
   const std::uint32_t* ring = nullptr;        ///< triangles around each vertex, ascending
 
-  /// f(normal, signed distance, feature) for every foot no farther than `reach` (m) from x. Points of
-  /// neighbouring triangles closer than `merge` (m) count as one: a foot that lies on an edge by round-off.
+  /// f(normal, signed distance, feature) for every closest point no farther than `reach` (m) from x. Points
+  /// of neighbouring triangles closer than `merge` (m) count as one: a closest point that lies on an edge by
+  /// round-off.
   template <class F>
-  BL_HD void each_foot(const Vec3d& x, double reach, double merge, F&& f) const {
+  BL_HD void each_closest_point(const Vec3d& x, double reach, double merge, F&& f) const {
     walk([&](const MeshNode& node) { return node.distance2(x) <= reach * reach; },
-         [&](std::uint32_t t) { foot(t, x, reach, merge, f); });
+         [&](std::uint32_t t) { closest(t, x, reach, merge, f); });
   }
-  /// As each_foot, but for what the nearest point of the surface hides: all behind the plane through it,
-  /// square to the way there, or before that plane by less than `flat` (m). Other triangles of a wide wall
-  /// cost nothing.
+  /// As each_closest_point, but for what the nearest point of the surface hides: all behind the plane through
+  /// it, square to the way there, or before that plane by less than `flat` (m). Other triangles of a wide
+  /// wall cost nothing.
   template <class F>
-  BL_HD void each_open_foot(const Vec3d& x, double reach, double merge, double flat, F&& f) const {
+  BL_HD void each_exposed_point(const Vec3d& x, double reach, double merge, double flat, F&& f) const {
     TrianglePoint first;
     std::uint32_t of = 0;
     first.distance2 = reach * reach;
@@ -46,7 +47,7 @@ struct MeshView {
           return d2 <= first.distance2 ||
                  (d2 <= reach * reach && node.extent(towards) > dot(first.point, towards) + flat);
         },
-        [&](std::uint32_t t) { foot(t, x, reach, merge, f); });
+        [&](std::uint32_t t) { closest(t, x, reach, merge, f); });
   }
 
  private:
@@ -77,9 +78,10 @@ struct MeshView {
     return n * (1 / norm(n));
   }
 
-  /// The foot that triangle t answers for: on its face, on an edge or at a corner of which it is the first.
+  /// The closest point that triangle t answers for: on its face, on an edge or at a corner of which it is the
+  /// first.
   template <class F>
-  BL_HD void foot(std::uint32_t t, const Vec3d& x, double reach, double merge, F& f) const {
+  BL_HD void closest(std::uint32_t t, const Vec3d& x, double reach, double merge, F& f) const {
     const TrianglePoint at = nearest(t, x);
     if (at.distance2 > reach * reach) return;
     const std::uint32_t key = 7 * t +

@@ -1,7 +1,7 @@
 #pragma once
 // Wall surfaces as grains and fluid meet them. Geometry is that at t = 0; a pose moves it.
 //
-// What a surface shows to a place are its feet: the points where its distance from there is least in their
+// What a surface shows to a place are its closest points: where its distance from there is least in their
 // neighbourhood. A face has one, a convex edge or corner one, a groove one on each side, so that a sphere
 // touches each feature once, however finely the surface is cut.
 
@@ -12,7 +12,7 @@ namespace bedload::inline BL_VARIANT {
 
 enum class SurfaceKind : std::uint32_t {
   plane,       ///< half-space behind the plane
-  rectangle,   ///< finite patch, felt from both sides
+  rectangle,   ///< finite patch, acts on both sides
   box,         ///< solid
   capsule,     ///< within a distance of a line; a sphere if that has no length
   revolution,  ///< a profile turned about an axis: cylinder, cone, pipe
@@ -25,15 +25,15 @@ struct ProfileCorner {
   double z, r;  ///< along the axis and away from it, m
 };
 
-/// Foot of a surface, seen from a place.
-struct Foot {
+/// Closest point of a surface, seen from a place.
+struct ClosestPoint {
   Vec3d normal;            ///< unit, from the surface towards its open side
   double distance;         ///< m; negative where the place lies behind the surface
   std::uint32_t feature;   ///< of the surface: face, edge or corner
   double side = 1;         ///< of a patch: +1 in front, -1 behind
   bool two_sided = false;  ///< on a patch, which opens to either side
 
-  /// The same patch felt from side s (+1, -1).
+  /// The same patch seen from side s (+1, -1).
   BL_HD void face(double s) {
     if (!two_sided || s == side) return;
     normal = -normal, distance = -distance, side = s;
@@ -64,7 +64,7 @@ struct SurfaceSet {
   const ProfileCorner* corners = nullptr;
   const MeshView* meshes = nullptr;
 
-  /// Whether r is surely farther than `distance` (m) from surface s; cheaper than its feet.
+  /// Whether r is surely farther than `distance` (m) from surface s; cheaper than its closest points.
   BL_HD bool beyond(const Surface& s, const Vec3d& r, double distance) const {
     if (s.kind == SurfaceKind::plane) return dot(r, s.axis[2]) > distance;
     const double reach = distance + s.shell;
@@ -75,37 +75,40 @@ struct SurfaceSet {
     return false;
   }
 
-  /// f(foot) for each foot of s no farther than `reach` (m) from r, the place as seen from s.centre in the
-  /// frame of t = 0. `merge`: feet nearer to each other than this (m) may be one.
+  /// f(point) for each closest point of s no farther than `reach` (m) from r, the place as seen from s.centre
+  /// in the frame of t = 0. `merge`: closest points nearer to each other than this (m) may be one.
   template <class F>
-  BL_HD void each_foot(const Surface& s, const Vec3d& r, double reach, double merge, F&& f) const {
-    feet(s, r, reach, f, [&](auto&& meet) { meshes[s.first].each_foot(r, reach + s.shell, merge, meet); });
+  BL_HD void each_closest_point(const Surface& s, const Vec3d& r, double reach, double merge, F&& f) const {
+    closest_points(s, r, reach, f,
+                   [&](auto&& meet) { meshes[s.first].each_closest_point(r, reach + s.shell, merge, meet); });
   }
-  /// As each_foot, but a mesh keeps quiet about what its nearest point hides; see MeshView::each_open_foot.
+  /// As each_closest_point, but a mesh leaves out what its nearest point hides; see
+  /// MeshView::each_exposed_point.
   template <class F>
-  BL_HD void each_open_foot(const Surface& s, const Vec3d& r, double reach, double merge, double flat,
-                            F&& f) const {
-    feet(s, r, reach, f,
-         [&](auto&& meet) { meshes[s.first].each_open_foot(r, reach + s.shell, merge, flat, meet); });
+  BL_HD void each_exposed_point(const Surface& s, const Vec3d& r, double reach, double merge, double flat,
+                                F&& f) const {
+    closest_points(s, r, reach, f, [&](auto&& meet) {
+      meshes[s.first].each_exposed_point(r, reach + s.shell, merge, flat, meet);
+    });
   }
 
  private:
-  /// f(foot); of_mesh(g) calls g(normal, distance, feature) for the feet on a mesh.
+  /// f(point); of_mesh(g) calls g(normal, distance, feature) for the closest points on a mesh.
   template <class F, class M>
-  BL_HD void feet(const Surface& s, const Vec3d& r, double reach, F& f, M&& of_mesh) const {
+  BL_HD void closest_points(const Surface& s, const Vec3d& r, double reach, F& f, M&& of_mesh) const {
     const double p[3] = {dot(r, s.axis[0]), dot(r, s.axis[1]), dot(r, s.axis[2])};
-    const auto meet = [&](Foot foot) {
+    const auto meet = [&](ClosestPoint closest) {
       if (s.shell > 0) {
-        const bool inner = foot.distance < 0.5 * s.shell;
-        if (inner) foot.normal = -foot.normal;
-        foot.distance = inner ? -foot.distance : foot.distance - s.shell;
-        foot.feature = 2 * foot.feature + inner;
+        const bool inner = closest.distance < 0.5 * s.shell;
+        if (inner) closest.normal = -closest.normal;
+        closest.distance = inner ? -closest.distance : closest.distance - s.shell;
+        closest.feature = 2 * closest.feature + inner;
       }
-      if (foot.distance <= reach && (foot.distance >= -reach || !s.tracked())) f(foot);
+      if (closest.distance <= reach && (closest.distance >= -reach || !s.tracked())) f(closest);
     };
     switch (s.kind) {
       case SurfaceKind::plane:
-        if (p[2] <= reach) f(Foot{s.axis[2], p[2], 0});
+        if (p[2] <= reach) f(ClosestPoint{s.axis[2], p[2], 0});
         break;
       case SurfaceKind::rectangle:
       case SurfaceKind::box:
@@ -118,7 +121,7 @@ struct SurfaceSet {
         revolution(s, p, meet);
         break;
       case SurfaceKind::mesh:
-        of_mesh([&](const Vec3d& n, double d, std::uint32_t k) { meet(Foot{n, d, k}); });
+        of_mesh([&](const Vec3d& n, double d, std::uint32_t k) { meet(ClosestPoint{n, d, k}); });
         break;
     }
   }
@@ -135,12 +138,12 @@ struct SurfaceSet {
     }
     if (inside[0] && inside[1] && patch) {
       const double side = p[2] >= 0 ? 1.0 : -1.0;
-      return f(Foot{side * s.axis[2], side * p[2], 0, side, true});
+      return f(ClosestPoint{side * s.axis[2], side * p[2], 0, side, true});
     }
     if (inside[0] && inside[1] && inside[2]) return s.shell > 0 ? six_faces(s, p, f) : nearest_face(s, p, f);
     const Vec3d away = d[0] * s.axis[0] + d[1] * s.axis[1] + d[2] * s.axis[2];
     const double distance = norm(away);
-    f(Foot{away * (1 / distance), distance, 0, patch && p[2] < 0 ? -1.0 : 1.0});
+    f(ClosestPoint{away * (1 / distance), distance, 0, patch && p[2] < 0 ? -1.0 : 1.0});
   }
   template <class F>
   BL_HD void nearest_face(const Surface& s, const double* p, F& f) const {
@@ -150,13 +153,13 @@ struct SurfaceSet {
       const double other = s.half[k] - std::abs(p[k]);
       if (other < depth) depth = other, face = k;
     }
-    f(Foot{(p[face] >= 0 ? 1.0 : -1.0) * s.axis[face], -depth, 0});
+    f(ClosestPoint{(p[face] >= 0 ? 1.0 : -1.0) * s.axis[face], -depth, 0});
   }
   template <class F>
   BL_HD void six_faces(const Surface& s, const double* p, F& f) const {
     for (int k = 0; k < 3; ++k) {
-      f(Foot{s.axis[k], p[k] - s.half[k], std::uint32_t(2 * k + 1)});
-      f(Foot{-s.axis[k], -p[k] - s.half[k], std::uint32_t(2 * k + 2)});
+      f(ClosestPoint{s.axis[k], p[k] - s.half[k], std::uint32_t(2 * k + 1)});
+      f(ClosestPoint{-s.axis[k], -p[k] - s.half[k], std::uint32_t(2 * k + 2)});
     }
   }
 
@@ -166,10 +169,10 @@ struct SurfaceSet {
     const double away = std::sqrt(p[0] * p[0] + p[1] * p[1] + z * z);
     Vec3d n = s.axis[0];
     if (away > 0) n = (p[0] * s.axis[0] + p[1] * s.axis[1] + z * s.axis[2]) * (1 / away);
-    f(Foot{n, away - s.radius, 0});
+    f(ClosestPoint{n, away - s.radius, 0});
   }
 
-  /// Every foot lies in the half-plane of the place itself.
+  /// Every closest point lies in the half-plane of the place itself.
   template <class F>
   BL_HD void revolution(const Surface& s, const double* p, F& f) const {
     const double z = p[2], r = std::sqrt(p[0] * p[0] + p[1] * p[1]);
@@ -183,12 +186,12 @@ struct SurfaceSet {
       const ProfileCorner at = corner(n);
       const ProfileSide side(at, corner(n + 1), z, r);
       if (side.real && side.t >= 0 && side.t <= 1)
-        f(Foot{side.nz * s.axis[2] + side.nr * radial, side.height, 2 * n});
+        f(ClosestPoint{side.nz * s.axis[2] + side.nr * radial, side.height, 2 * n});
       if ((before.real || side.real) && (!before.real || before.t > 1) && (!side.real || side.t < 0)) {
         const double dz = z - at.z, dr = r - at.r, d = std::sqrt(dz * dz + dr * dr);
         const double nz = before.nz + side.nz, nr = before.nr + side.nr;
         const double front = dz * nz + dr * nr >= 0 ? 1.0 : -1.0;
-        f(Foot{(dz * s.axis[2] + dr * radial) * (front / d), front * d, 2 * n + 1});
+        f(ClosestPoint{(dz * s.axis[2] + dr * radial) * (front / d), front * d, 2 * n + 1});
       }
       before = side;
     }
@@ -224,23 +227,25 @@ struct SurfaceView {
   BL_HD bool beyond(const SurfaceSet& set, double distance) const {
     return set.beyond(surface, local(), distance);
   }
-  /// f(foot), its normal in the lab frame; see SurfaceSet::each_foot.
+  /// f(point), its normal in the lab frame; see SurfaceSet::each_closest_point.
   template <class F>
-  BL_HD void each_foot(const SurfaceSet& set, double reach, double merge, F&& f) const {
-    set.each_foot(surface, local(), reach, merge, [&](Foot foot) {
-      if (pose.turned()) foot.normal = pose.rotation.rotate(foot.normal);
-      f(foot);
+  BL_HD void each_closest_point(const SurfaceSet& set, double reach, double merge, F&& f) const {
+    set.each_closest_point(surface, local(), reach, merge, [&](ClosestPoint closest) {
+      if (pose.turned()) closest.normal = pose.rotation.rotate(closest.normal);
+      f(closest);
     });
   }
   template <class F>
-  BL_HD void each_open_foot(const SurfaceSet& set, double reach, double merge, double flat, F&& f) const {
-    set.each_open_foot(surface, local(), reach, merge, flat, [&](Foot foot) {
-      if (pose.turned()) foot.normal = pose.rotation.rotate(foot.normal);
-      f(foot);
+  BL_HD void each_exposed_point(const SurfaceSet& set, double reach, double merge, double flat, F&& f) const {
+    set.each_exposed_point(surface, local(), reach, merge, flat, [&](ClosestPoint closest) {
+      if (pose.turned()) closest.normal = pose.rotation.rotate(closest.normal);
+      f(closest);
     });
   }
-  /// Of the foot on the surface, lab frame, m.
-  BL_HD Vec3d point(const Foot& foot) const { return centre + r - foot.distance * foot.normal; }
+  /// Of the closest point on the surface, lab frame, m.
+  BL_HD Vec3d point(const ClosestPoint& closest) const {
+    return centre + r - closest.distance * closest.normal;
+  }
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -174,15 +174,15 @@ std::vector<NewGrain> OpenBoundaries::new_grains(const GrainStore& grains, doubl
 bool OpenBoundaries::drop_one(GrainSource& source, const GrainStore& grains, double t,
                               std::vector<NewGrain>& all) const {
   const std::vector<Vec3d> places = source.places();
-  RoomBody<kPlaces> room{frame_, {}, source.radius(), grains.x, grains.radius};
-  std::copy_n(places.begin(), kPlaces, room.place);
-  const auto touching = sum_over<kPlaces>(grains.owned(), room);
+  ClearanceBody<kPlaces> space{frame_, {}, source.radius(), grains.x, grains.radius};
+  std::copy_n(places.begin(), kPlaces, space.place);
+  const auto touching = sum_over<kPlaces>(grains.owned(), space);
   for (int k = 0; k < kPlaces; ++k) {
     const NewGrain grain{places[k], source.velocity(), source.radius()};
     const auto touches = [&](const NewGrain& other) {
       return norm(frame_.separation(grain.x, other.x)) < grain.radius + other.radius;
     };
-    if (touching.v[k] > 0 || std::any_of(all.begin(), all.end(), touches) || !has_room(grain, t)) continue;
+    if (touching.v[k] > 0 || std::any_of(all.begin(), all.end(), touches) || !is_clear(grain, t)) continue;
     all.push_back(grain);
     return true;
   }
@@ -190,7 +190,7 @@ bool OpenBoundaries::drop_one(GrainSource& source, const GrainStore& grains, dou
 }
 
 /// Clear of every wall where that is at time t.
-bool OpenBoundaries::has_room(const NewGrain& grain, double t) const {
+bool OpenBoundaries::is_clear(const NewGrain& grain, double t) const {
   for (int b = 0; b < motion_.walls(); ++b) {
     const WallBody& body = config_.wall.bodies[b];
     if (!body.stops_grains() || motion_.removed(b)) continue;
@@ -200,7 +200,7 @@ bool OpenBoundaries::has_room(const NewGrain& grain, double t) const {
   return true;
 }
 
-// -- books ---------------------------------------------------------------------------------------
+// -- mass balance ---------------------------------------------------------------------------------------
 
 std::vector<Quantity> OpenBoundaries::report(double t) const {
   std::vector<Quantity> out;

@@ -58,7 +58,7 @@ class OpenBoundaries {
   bool find_leaving(WaysOut& ways, Span<const P> x, bool domain, const Mass& mass);
   void admit(std::size_t inlet, FluidStore& fluid, const WallStore& walls, const EquationOfState& eos,
              double t, const Vec3d& gravity);
-  bool has_room(const NewGrain& grain, double t) const;
+  bool is_clear(const NewGrain& grain, double t) const;
   std::vector<NewGrain> new_grains(const GrainStore& grains, double t);
   bool drop_one(GrainSource& source, const GrainStore& grains, double t, std::vector<NewGrain>& all) const;
   /// f(name, unit, value) for all that a restart must know; value may be set.

@@ -82,17 +82,17 @@ class Checks {
   /// Meshes in mm that are taken for m lie far outside the domain, or are lost in it.
   void meshes() const {
     const auto largest = [](const Vec3d& side) { return std::max({side.x, side.y, side.z}); };
-    const Vec3d room = c.domain.max - c.domain.min;
+    const Vec3d extent = c.domain.max - c.domain.min;
     for (const ShapeConfig& shape : c.shapes) {
       if (shape.kind != "mesh") continue;
       const Bounds bounds = shape.solid.shape->bounds();
       const Vec3d side = bounds.max - bounds.min;
-      const double times = largest(side) / largest(room);
+      const double times = largest(side) / largest(extent);
       if (times > 20 || times < 1e-3)
         warn(
             "shape \"{}\": its mesh is {:.3g} x {:.3g} x {:.3g} m large, the domain {:.3g} x {:.3g} x {:.3g} "
             "m; does it need another scale?",
-            shape.name, side.x, side.y, side.z, room.x, room.y, room.z);
+            shape.name, side.x, side.y, side.z, extent.x, extent.y, extent.z);
     }
   }
 
@@ -135,7 +135,7 @@ class Checks {
     for (const WallBody& body : c.wall.bodies) {
       const std::vector<Vec3d> at = corners(body, c.domain);
       if (const double shift = initial_shift(body.motion, at); shift > 1e-9)
-        warn("wall.body \"{}\": its motion begins {:.4g} m away from where fluid and grains are laid for it",
+        warn("wall.body \"{}\": its motion begins {:.4g} m away from where fluid and grains start for it",
              body.name, shift);
       auto jumps = velocity_jumps(body.motion, at, c.time.end);
       std::erase_if(jumps, [&](const VelocityJump& jump) { return jump.time == 0 && steady(body.motion); });
@@ -147,7 +147,7 @@ class Checks {
     auto jumps = velocity_jumps(frame, {Vec3d{}}, c.time.end);
     // what is inside begins at the frame's own velocity
     std::erase_if(jumps, [](const VelocityJump& jump) { return jump.time == 0; });
-    warn_of(jumps, "frame.motion", "; what is inside does not feel it");
+    warn_of(jumps, "frame.motion", "; it does not act on what is inside");
   }
 
   void grains() const {
@@ -461,7 +461,7 @@ class Checks {
     for (int k = 0; k < 3; ++k)
       if (inlet.max[k] - inlet.min[k] < d * (1 - 1e-9))
         fail(path + ".max", to_text(inlet.max),
-             fmt::format("must leave room along {} for the largest grain, {} m", "xyz"[k], d));
+             fmt::format("must leave space along {} for the largest grain, {} m", "xyz"[k], d));
   }
   void grain_fill(const std::string& path, const GrainFill& fill) const {
     for (const Vec3d& x : fill.positions) inside_domain(path + ".positions", x);
@@ -474,13 +474,13 @@ class Checks {
     if ((fill.count > 0) + (fill.mass > 0) + (fill.packing_fraction > 0) != 1)
       throw CaseError(fmt::format("{}: grain.fill must have exactly one of count, mass and packing_fraction",
                                   nearest_value(root_, path).place()));
-    const double share = solid_volume(fill, c.grain.rho) / fill_volume(fill);
-    if (share > 0.64) {
+    const double fraction = solid_volume(fill, c.grain.rho) / fill_volume(fill);
+    if (fraction > 0.64) {
       const bool by_mass = fill.mass > 0;
       fail(path + (by_mass ? ".mass" : ".count"), fmt::format("{}", by_mass ? fill.mass : double(fill.count)),
            fmt::format(
                "must fit the space to fill; it takes {:.0f} % where 64 % is the densest random packing",
-               100 * share));
+               100 * fraction));
     }
   }
   /// Overlap at the foot of the bed by its own weight.

@@ -60,7 +60,7 @@ void describe_free_body(Parameters& p, FreeConfig& f) {
        .meaning = "move = \"none\": pivot [x, y, z]",
        .fallback = "centre of mass",
        .presence = optional});
-  p("free.fluid", &f.fluid, {.meaning = "feels the fluid; if not, the fluid still feels the body"});
+  p("free.fluid", &f.fluid, {.meaning = "the fluid acts on it; if not, it still acts on the fluid"});
   p("free.contacts", &f.contacts, {.meaning = "touches other wall bodies"});
   if (f.contacts || p.everything()) {
     p("free.E", &f.E,

@@ -68,18 +68,21 @@ void describe_fluid_models(Parameters& p, Config& c) {
   p("eos.gamma", &c.eos.gamma, {.meaning = "Tait exponent", .range = within(1, 7)});
   p("eos.background", &c.eos.background,
     {.unit = "Pa",
-     .meaning = "tait: pressure at rho0, for fluid without a free surface, which it keeps from tearing",
+     .meaning = "tait: pressure at rho0, for fluid without a free surface, which it keeps from fragmenting",
      .range = at_least(0)});
   p("eos.p0", &c.eos.p0, {.unit = "Pa", .meaning = "democritus: pressure scale", .range = above(0)});
   p("eos.alpha", &c.eos.alpha, {.meaning = "democritus: exponent", .range = at_least(1)});
   p("eos.beta", &c.eos.beta, {.unit = "Pa", .meaning = "democritus: background; the sound speed is derived"});
   p("eos.clip_negative", &c.eos.clip_negative, {.meaning = "no pressure below zero"});
   p("density.delta", &c.density.delta, {.meaning = "density diffusion; 0 off", .range = within(0, 0.2)});
-  p("density.consolidation", &c.density.consolidation,
-    {.meaning = "how fast pressure fades where the fluid leaves room, in c/h; 0 off",
-     .range = within(0, 10)});
-  p("density.tension", &c.density.tension,
-    {.meaning = "torn fluid cavitates below rho/rho0 - 1 = -tension", .range = within(1e-4, 0.5)});
+  p("density.void_relaxation", &c.density.void_relaxation,
+    {.meaning = "void relaxation: how fast pressure fades where the fluid leaves voids, in c/h; 0 off",
+     .range = within(0, 10),
+     .formerly = "consolidation"});
+  p("density.cavitation_limit", &c.density.cavitation_limit,
+    {.meaning = "fluid cavitates below rho/rho0 - 1 = minus this",
+     .range = within(1e-4, 0.5),
+     .formerly = "tension"});
   p("visc.model", &c.visc.model,
     {.meaning = "physical viscosity",
      .family = "laws",

@@ -47,7 +47,7 @@ void probe(Parameters& p, ProbeConfig& b) {
                  {"height", "fluid surface over a place, and depth of connected water there"},
                  {"box", "mass and momentum in a box"},
                  {"force", "force and torque on a wall body"},
-                 {"wall_pressure", "force per area on patches of a wall body, as transducers feel it"}}});
+                 {"wall_pressure", "force per area on patches of a wall body, as transducers read it"}}});
   const auto wanted = [&](const char* type) { return b.type == type || p.everything(); };
   if (wanted("front") || wanted("box"))
     p("phase", &b.phase, {.meaning = "front, box: of which", .choices = kPhases});
@@ -94,7 +94,7 @@ void describe_top(Parameters& p, Config& c) {
   p("tensile", &c.tensile,
     {.meaning = "1: pressure term against clumping [monaghan00]", .range = within(0, 1)});
   p("xsph", &c.xsph,
-    {.meaning = "share of the neighbours' velocity in the motion (XSPH)", .range = within(0, 1)});
+    {.meaning = "fraction of the neighbours' velocity in the motion (XSPH)", .range = within(0, 1)});
   p("shift.A", &c.shift,
     {.meaning = "particle shifting: how fast particles of straining fluid leave where they crowd, after "
                 "[lind12]; 0 off; no effect with grains coupled both ways and with single layers",
@@ -115,8 +115,8 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
   p("couple.mode", &c.mode,
     {.meaning = "what fluid and grains exchange",
      .family = "models",
-     .choices = {{"two_way", "both feel each other"},
-                 {"one_way", "grains feel the fluid, not the reverse"},
+     .choices = {{"two_way", "grains and fluid act on each other"},
+                 {"one_way", "the fluid acts on the grains, not the reverse"},
                  {"off", "nothing"}}});
   p("couple.hc", &c.hc,
     {.unit = "m",
@@ -135,7 +135,7 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
     {.meaning = "a grain is dry where fluid fills less than this of the kernel that walls leave free",
      .range = above_to(0, 0.9)});
   p("couple.S_wet", &c.S_wet,
-    {.meaning = "and wet from here on, above S_dry; linear in between", .range = above_to(0, 1)});
+    {.meaning = "and fully wetted from here on, above S_dry; linear in between", .range = above_to(0, 1)});
   p("couple.torque", &c.torque, {.meaning = "fluid torque on grains"});
   p("couple.angmom", &c.angmom, {.meaning = "reaction couple: what is exchanged keeps angular momentum"});
   p("couple.slip", &c.slip,
@@ -177,7 +177,7 @@ void describe_time(Parameters& p, Config& c) {
      .fallback = "adaptive",
      .presence = optional});
   p("time.force_dt", &t.force_dt, {.meaning = "a fixed step above its limit only warns"});
-  p("time.cfl", &t.cfl, fraction("share of the limit by sound"));
+  p("time.cfl", &t.cfl, fraction("fraction of the limit by sound"));
   p("time.visc", &t.visc, fraction("by viscosity"));
   p("time.body", &t.body, fraction("by acceleration"));
   p("time.drag", &t.drag, fraction("by drag"));
@@ -204,7 +204,7 @@ void describe_time(Parameters& p, Config& c) {
                  {"avx2", "AVX2 and FMA"}}});
   p("run.seed", &c.seed, {.meaning = "of everything random", .range = within(0, kLargest)});
   p("run.max_lost", &c.max_lost,
-    {.meaning = "share of fluid or grains that may leave the domain where no outlet is; more: exit code 4",
+    {.meaning = "fraction of fluid or grains that may leave the domain where no outlet is; more: exit code 4",
      .range = within(0, 1)});
   p("run.skin_fluid", &c.skin_fluid,
     {.unit = "fluid.dx", .meaning = "margin of the fluid's neighbour lists", .range = within(0.01, 2)});

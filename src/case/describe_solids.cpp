@@ -231,7 +231,10 @@ void describe_grain_size(Parameters& p, SizeClass& s) {
                  {"uniform", "as many grains of any diameter between d_min and d_max"},
                  {"log_normal", "by count about the median, cut at d_min and d_max"},
                  {"sieve", "mass by mesh opening, log-linear in between"}}});
-  p("share", &s.share, {.meaning = "share of the number of grains, relative", .range = above(0)});
+  p("number_fraction", &s.number_fraction,
+    {.meaning = "number of its grains, relative to the other entries",
+     .range = above(0),
+     .formerly = "share"});
   const auto wanted = [&](const char* kind) { return s.kind == kind || p.everything(); };
   if (wanted("class"))
     p("d", &s.d, {.unit = "m", .meaning = "class: diameter", .range = above(0), .presence = required});
@@ -263,7 +266,7 @@ void describe_grain_size(Parameters& p, SizeClass& s) {
        .range = above(0),
        .presence = required});
     p("passing", &s.passing,
-      {.meaning = "sieve: share of the mass that passes each mesh, from 0 to 1",
+      {.meaning = "sieve: fraction of the mass that passes each mesh, from 0 to 1",
        .range = within(0, 1),
        .hint = "give fractions, not percent?",
        .presence = required});
@@ -348,8 +351,9 @@ void describe_contact(Parameters& p, ContactConfig& c) {
   p("contact.kt_ratio", &c.kt_ratio,
     {.meaning = "tangential / normal spring, linear", .range = above_to(0, 1)});
   p("contact.tangential_damping", &c.tangential_damping,
-    {.meaning = "share of the damping of friction's spring, c_n sqrt(S_t/S_n); 0: none, so that spheres that "
-                "stick recoil sideways whatever e",
+    {.meaning =
+         "fraction of the damping of friction's spring, c_n sqrt(S_t/S_n); 0: none, so that spheres that "
+         "stick recoil sideways whatever e",
      .range = within(0, 1)});
   p("contact.eta_r", &c.eta_r, {.meaning = "damping of epsd rolling", .range = within(0, 1)});
   p("contact.clip_tension", &c.clip_tension,

@@ -11,9 +11,9 @@ constexpr double kSample = 1e5;  // beyond that many grains their mean no longer
 
 double sphere(double d) { return std::numbers::pi / 6 * d * d * d; }
 
-double total_share(const std::vector<SizeClass>& sizes) {
+double total_weight(const std::vector<SizeClass>& sizes) {
   double sum = 0;
-  for (const SizeClass& size : sizes) sum += size.share;
+  for (const SizeClass& size : sizes) sum += size.number_fraction;
   return sum;
 }
 
@@ -72,9 +72,9 @@ std::vector<double> sieve(const SizeClass& s, std::size_t count) {
     const double wanted = number * (double(k) + 0.5) / double(count);
     while (at + 1 < all.size() && finer + all[at].number < wanted) finer += all[at++].number;
     const Fraction& f = all[at];
-    const double share = std::clamp((wanted - finer) / f.number, 0.0, 1.0);
+    const double fraction = std::clamp((wanted - finer) / f.number, 0.0, 1.0);
     const double lo = std::pow(f.lo, -3), hi = std::pow(f.hi, -3);
-    d.push_back(std::clamp(1 / std::cbrt(lo + share * (hi - lo)), f.lo, f.hi));
+    d.push_back(std::clamp(1 / std::cbrt(lo + fraction * (hi - lo)), f.lo, f.hi));
   }
   return d;
 }
@@ -99,11 +99,11 @@ std::vector<double> quantiles(const SizeClass& size, std::size_t count) {
 }
 
 std::vector<double> diameters(const std::vector<SizeClass>& sizes, std::size_t count) {
-  const double shares = total_share(sizes);
+  const double total = total_weight(sizes);
   double reached = 0;
   std::vector<double> all;
   for (const SizeClass& size : sizes) {
-    reached += size.share / shares;
+    reached += size.number_fraction / total;
     const auto upto = std::size_t(std::llround(reached * double(count)));
     const auto part = quantiles(size, upto - std::min(upto, all.size()));
     all.insert(all.end(), part.begin(), part.end());
@@ -113,19 +113,20 @@ std::vector<double> diameters(const std::vector<SizeClass>& sizes, std::size_t c
 }
 
 double mean_volume(const std::vector<SizeClass>& sizes, std::size_t count) {
-  const double shares = total_share(sizes);
+  const double total = total_weight(sizes);
   double mean = 0;
   for (const SizeClass& size : sizes) {
     double volume = 0;
-    const auto part = std::size_t(std::clamp(std::round(size.share / shares * double(count)), 1.0, kSample));
+    const auto part =
+        std::size_t(std::clamp(std::round(size.number_fraction / total * double(count)), 1.0, kSample));
     if (size.kind == "class") {
       volume = sphere(size.d);
     } else {
       for (const double d : quantiles(size, part)) volume += sphere(d) / double(part);
     }
-    mean += size.share * volume;
+    mean += size.number_fraction * volume;
   }
-  return mean / shares;
+  return mean / total;
 }
 
 double count_for_volume(const std::vector<SizeClass>& sizes, double volume) {

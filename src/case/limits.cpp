@@ -34,7 +34,7 @@ std::vector<StepLimit> substep_limits(const Config& c, double speed) {
     contact = pi * std::sqrt(m / c.contact.k) / std::sqrt(1 - damping * damping);
     stiffness = c.contact.k;
   } else if (c.contact.normal == "hertz" && v > 0) {
-    const HertzImpact impact = hertz_impact(m, R / 2, 0.5 / ElasticGive(g.E, g.nu).normal, v);
+    const HertzImpact impact = hertz_impact(m, R / 2, 0.5 / ElasticCompliance(g.E, g.nu).normal, v);
     contact = impact.duration, stiffness = impact.stiffness;
   }
   double rolling = std::numeric_limits<double>::infinity();
@@ -47,7 +47,7 @@ std::vector<StepLimit> substep_limits(const Config& c, double speed) {
   for (const WallBody& body : c.wall.bodies) {
     if (std::isfinite(body.mu_r)) mu_r = std::max(mu_r, body.mu_r);
     if ((body.E == 0 && !std::isfinite(body.nu)) || c.contact.normal != "hertz" || v == 0) continue;
-    const double E_star = 1 / (ElasticGive(g.E, g.nu).normal + wall_give(c, body).normal);
+    const double E_star = 1 / (ElasticCompliance(g.E, g.nu).normal + wall_compliance(c, body).normal);
     const HertzImpact impact = hertz_impact(mass, R, E_star, v);
     contact = std::min(contact, impact.duration);
     rolls(impact.stiffness, std::isfinite(body.mu_r) ? body.mu_r : g.mu_r, R, inertia);

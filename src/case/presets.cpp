@@ -10,7 +10,7 @@ Config preset_defaults(const std::string& name) {
   if (name != "he2018") return c;
   c.fluid.h_over_dx = 1.3;
   c.density.delta = 0;
-  c.density.consolidation = 0;
+  c.density.void_relaxation = 0;
   c.wall.repulsion = true;
   c.wall.no_penetration = false;
   c.tensile = 1;

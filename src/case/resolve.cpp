@@ -27,7 +27,7 @@ void check_sieve(const SizeClass& s, const Value& root, const std::string& path)
   if (s.openings.size() < 2) fail(".openings", s.openings, "must hold two openings or more");
   if (s.passing.size() != s.openings.size())
     fail(".passing", s.passing,
-         fmt::format("must hold a share for each of the {} openings", s.openings.size()));
+         fmt::format("must hold a fraction for each of the {} openings", s.openings.size()));
   if (std::adjacent_find(s.openings.begin(), s.openings.end(), std::greater_equal<>()) != s.openings.end())
     fail(".openings", s.openings, "must rise from each to the next");
   if (!std::is_sorted(s.passing.begin(), s.passing.end()))
@@ -63,7 +63,7 @@ Solid shape_named(const Config& c, const std::string& name, const Value& root, c
 void default_sizes(const Config& c, std::vector<SizeClass>& sizes, const Value& root) {
   if (!sizes.empty()) return;
   if (c.grain.d == 0) missing(root, "grain.d", "diameter, m, where a grain.fill or grain_inlet has no sizes");
-  sizes = {{.d = c.grain.d, .share = 1}};
+  sizes = {{.d = c.grain.d, .number_fraction = 1}};
 }
 
 void resolve_size(Config& c, SizeClass& s, const Value& root, const std::string& path) {
@@ -195,17 +195,17 @@ void resolve_motions(Config& c, const Value& root) {
   });
 }
 
-/// What the moving frame adds: the largest acceleration, how far gravity g H reaches while it is felt
+/// What the moving frame adds: the largest acceleration, how far gravity g H reaches while it acts
 /// askew, and how fast contents that stayed behind would seem.
 struct FrameEffects {
   double acceleration = 0, gH = 0, speed = 0;  ///< m/s2, m2/s2, m/s
 
   explicit FrameEffects(const Config& c) {
-    const FeltGravity felt(c);
+    const EffectiveGravity effective(c);
     const MotionLaw law(c.frame.motion, c.time.end);
     const Vec3d start = law.at(0).v;
     for (const double t : survey_times(c.frame.motion, c.time.end)) {
-      const Vec3d g = felt.at(t);
+      const Vec3d g = effective.at(t);
       acceleration = std::max(acceleration, norm(g - c.gravity));
       gH = std::max(gH, norm(g) * height(c.fluid.fills, g));
       speed = std::max(speed, norm(law.at(t).v - start));

@@ -6,8 +6,8 @@
 
 namespace bedload {
 
-/// Whether values in `unit` may be written with a unit of their own: not shares, nor multiples of a length of
-/// the case.
+/// Whether values in `unit` may be written with a unit of their own: not fractions, nor multiples of a length
+/// of the case.
 bool takes_units(std::string_view unit);
 
 /// `text`, a number and its unit, as a number in `unit` ("m3/s"). Factors of a unit follow each other or

@@ -158,7 +158,7 @@ Result result_of(const Job& job, const Simulation& simulation, int steps, std::v
 
 Result measure(Job& job, const Options& o) {
   Prepared& p = job.p;
-  lay(o, p);
+  initialise(o, p);
   SavedState bed;
   const bool settle = p.config.grain.present && p.config.grain.settle;
   if (settle) {

@@ -45,7 +45,7 @@ double let_in(const InletConfig& inlet, const Config& c, double from, double to)
 
 namespace {
 
-/// Told from the volume of the blocks before any particle is laid: laying takes time and memory itself.
+/// Told from the volume of the blocks before any particle is placed: that takes time and memory itself.
 void refuse_too_fine(const Prepared& p) {
   const double dx = p.config.fluid.dx;
   double volume = 0;
@@ -81,11 +81,11 @@ void refuse_changes(const Options& options, Prepared& p) {
 Prepared prepare(const Options& options) {
   Prepared p;
   p.config = read_case(options.file, options.overrides, p.warnings, options.restart);
-  lay(options, p);
+  initialise(options, p);
   return p;
 }
 
-void lay(const Options& options, Prepared& p) {
+void initialise(const Options& options, Prepared& p) {
   p.device = find_device(options.backend, options.threads, p.config.simd);
   if (options.restart.empty()) {
     if (p.config.fluid.present) refuse_too_fine(p);
@@ -120,8 +120,8 @@ Counts with_arrivals(const Prepared& p) {
   const double from = p.begin, to = c.time.end;
   const Vec3d size = c.domain.max - c.domain.min;
   const auto add = [&](std::int64_t& count, double more, double spacing) {
-    const double room = size.x * size.y * size.z / c.domain.cell_volume(spacing);
-    if (more > 0) count = std::max<std::int64_t>(count, std::llround(std::min(double(count) + more, room)));
+    const double fits = size.x * size.y * size.z / c.domain.cell_volume(spacing);
+    if (more > 0) count = std::max<std::int64_t>(count, std::llround(std::min(double(count) + more, fits)));
   };
   double fluid = 0, grains = 0;
   for (const InletConfig& inlet : c.inlets) fluid += let_in(inlet, c, from, to);

@@ -22,16 +22,16 @@ struct Prepared {
   std::vector<std::string> warnings;
 };
 
-/// Reads the case, finds the device, lays the particles or reads the checkpoint.
+/// Reads the case, finds the device, places the particles or reads the checkpoint.
 Prepared prepare(const Options& options);
 /// The same without reading the case: `prepared` has its config.
-void lay(const Options& options, Prepared& prepared);
+void initialise(const Options& options, Prepared& prepared);
 
 /// Throws KeyError if time.dt is above a limit, or time.dt_dem above one of free bodies; with time.force_dt
 /// it warns. Call after start().
 void check_fixed_steps(Prepared& prepared, Simulation& simulation);
 
-/// Counts with all particles that come in until the end, as far as the domain has room for them.
+/// Counts with all particles that come in until the end, as far as the domain has space for them.
 Counts with_arrivals(const Prepared& prepared);
 
 /// "12 345 678".

@@ -26,7 +26,7 @@ std::string duration_text(double seconds) {
 std::string ProgressLine::text() const {
   return fmt::format(
       "t = {:.5g} of {:.5g} s  {:3.0f} %  {:.3g} steps/s  {:.3g} particle-steps/s  dt {:.3g} s ({})  {} left",
-      time, end, 100 * share, steps_per_second, particle_steps_per_second, dt, limit,
+      time, end, 100 * fraction, steps_per_second, particle_steps_per_second, dt, limit,
       duration_text(seconds_left));
 }
 
@@ -46,7 +46,7 @@ void Progress::update(const StepInfo& info, std::int64_t particle_steps) {
   if (passed < (terminal_ ? kLiveInterval : kPlainInterval) && info.time < end_) return;
 
   ProgressLine line{.time = info.time, .end = end_, .dt = info.dt, .limit = info.limit};
-  line.share = end_ > begin_ ? std::clamp((info.time - begin_) / (end_ - begin_), 0.0, 1.0) : 1;
+  line.fraction = end_ > begin_ ? std::clamp((info.time - begin_) / (end_ - begin_), 0.0, 1.0) : 1;
   if (passed > 0) {
     line.steps_per_second = double(info.step - shown_steps_) / passed;
     line.particle_steps_per_second = double(particle_steps - shown_particle_steps_) / passed;

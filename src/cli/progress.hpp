@@ -16,7 +16,7 @@ std::string duration_text(double seconds);
 /// One line of progress.
 struct ProgressLine {
   double time = 0, end = 0;  ///< s
-  double share = 0;          ///< of the run, 0..1
+  double fraction = 0;       ///< of the run, 0..1
   double steps_per_second = 0, particle_steps_per_second = 0;
   double dt = 0;  ///< s
   std::string_view limit;

@@ -29,7 +29,7 @@ void refuse_other_run(const Options& o) {
 }
 
 /// "fluid 61 %, grains 20 %, ..., output 3 %"; of a time above 0.
-std::string shares_text(const std::vector<Quantity>& parts, double all) {
+std::string fractions_text(const std::vector<Quantity>& parts, double all) {
   std::string text;
   double rest = all;
   for (const Quantity& part : parts) {
@@ -69,7 +69,7 @@ class Run {
     std::fflush(stdout);
   }
 
-  /// The simulation at its first step: from a checkpoint, over settled grains, or as laid.
+  /// The simulation at its first step: from a checkpoint, over settled grains, or as initialised.
   void build() {
     const bool restart = !options_.restart.empty();
     const bool settle = !restart && p_.config.grain.present && p_.config.grain.settle;
@@ -146,7 +146,7 @@ class Run {
       say(fmt::format("completed  t = {:.6g} s, {} steps in {}, {:.3g} particle-steps/s\n",
                       simulation_->time(), grouped(simulation_->steps()), duration_text(effort.wall_seconds),
                       effort.wall_seconds > 0 ? double(effort.particle_steps) / effort.wall_seconds : 0));
-      say(fmt::format("of it      {}\n", shares_text(simulation_->time_spent(), effort.wall_seconds)));
+      say(fmt::format("of it      {}\n", fractions_text(simulation_->time_spent(), effort.wall_seconds)));
     }
     const bool lost = losses();
     return stopped ? kExitStopped : lost ? kExitLost : 0;
@@ -163,11 +163,11 @@ class Run {
     bool too_many = false;
     const auto tell = [&](const std::string& what, double lost, double left) {
       if (!(lost > 0)) return;
-      const double share = lost / (lost + left), allowed = p_.config.max_lost;
-      too_many = too_many || share > allowed;
+      const double fraction = lost / (lost + left), allowed = p_.config.max_lost;
+      too_many = too_many || fraction > allowed;
       const std::string text =
-          fmt::format("{}, {:.3g} %, left the domain where there is no outlet", what, 100 * share);
-      if (share > allowed)
+          fmt::format("{}, {:.3g} %, left the domain where there is no outlet", what, 100 * fraction);
+      if (fraction > allowed)
         fmt::print(stderr, "{}; run.max_lost = {} allows {:.3g} %\n", text, allowed, 100 * allowed);
       else
         say("lost       " + text + "\n");
@@ -210,7 +210,7 @@ int run_case(const Options& given) {
   watch_signals();
   Options options = given;
   if (options.restart == "latest") options.restart = latest_checkpoint(options.out);
-  refuse_other_run(options);  // before time goes into laying particles
+  refuse_other_run(options);  // before time goes into placing particles
   Prepared prepared = prepare(options);
   const FolderLock lock(options.out);  // before hours go into settling
   refuse_other_run(options);           // that has come and gone meanwhile

@@ -67,7 +67,7 @@ Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry&
       local_slip_(config.couple.slip == "local"),
       walls_(walls.view()),
       wall_normalise_(config.couple.wall_normalise) {
-  with_kernel(kernel_, h_c_, [&](auto w) { half_space_ = HalfSpaceShare::of(w); });
+  with_kernel(kernel_, h_c_, [&](auto w) { half_space_ = HalfSpaceFraction::of(w); });
   orifices_.assign(orifices_of(config));
 }
 
@@ -81,7 +81,7 @@ GrainSurroundings Coupling::surroundings() {
           .drag = {drag_arm_, drag_inv_M_},
           .lost_moment = lost_moment_};
 }
-DragShares Coupling::drag_shares() { return {still_, by_slip_}; }
+DragWeights Coupling::drag_weights() { return {still_, by_slip_}; }
 Reactions Coupling::reactions() { return {impulse_, force_, spin_, couple_}; }
 
 void Coupling::pack(const GrainStore& grains) {
@@ -103,7 +103,7 @@ void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_
 void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt) {
   wall_free_.resize(grains.size());
   volume_.resize(grains.size());
-  const WallFreeShare free{half_space_, frame_, wall_normalise_ ? walls_ : SurfaceSet{}, pose};
+  const WallFreeFraction free{half_space_, frame_, wall_normalise_ ? walls_ : SurfaceSet{}, pose};
   for_each(grains.owned(), GrainVolumePass{free, frame_, dt > 0 ? 1 / dt : 0, grains.x, x_before_, grains.v,
                                            grains.radius, wall_free_, volume_});
 }
@@ -139,7 +139,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   push_.resize(fluid.size());
   solids_.resize(fluid.size());
   const FluidRecords records{push_, solids_};
-  for_each(fluid.owned(), RecordPass{frame_, orifice_share(), fluid.x, fluid.solid_factor, fluid.theta,
+  for_each(fluid.owned(), RecordPass{frame_, orifice_weight(), fluid.x, fluid.solid_factor, fluid.theta,
                                      fluid.m_state, records});
   const GrainSurroundings around = surroundings();
   const PairSeparation to_fluid{frame_, grains_at_, fluid.xp};
@@ -148,7 +148,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
       with_flag(local_slip_, [&](auto local) {
         const InterpolationPass<decltype(w), with_moments, local> pass{
             .w = w,
-            .S_least = S_dry_ * WallFreeShare::kLeast,
+            .S_least = S_dry_ * WallFreeFraction::kLeast,
             .eps_min = eps_min_,
             .v_rho = fluid.v_rho,
             .fluid = records,
@@ -177,7 +177,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
                                                               .v = grains.v,
                                                               .omega = grains.omega,
                                                               .surroundings = around,
-                                                              .shares = drag_shares(),
+                                                              .weights = drag_weights(),
                                                               .U = grains.U,
                                                               .omega_f = grains.omega_f,
                                                               .K = grains.K,
@@ -192,7 +192,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
       with_flag(angmom_, [&](auto couple) {
         for_each_pair(
             fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
-            DragRatePass<decltype(w), local, couple>{w, drag_shares(), levers(), grains.K, fluid.mass,
+            DragRatePass<decltype(w), local, couple>{w, drag_weights(), levers(), grains.K, fluid.mass,
                                                      fluid.v_rho, fluid.m_state, rate_});
       });
     });
@@ -219,8 +219,9 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
   const LocalSlip slip{Real(dt), grains.K, grains.U, grains.omega_f};
   with_flag(angmom_, [&](auto couple) {
     with_flag(local_slip_, [&](auto local) {
-      for_each(grains.owned(), SharePass<couple, local>{grains.impulse, grains.spin_impulse, surroundings(),
-                                                        drag_shares(), slip, reactions()});
+      for_each(grains.owned(),
+               ReactionTermsPass<couple, local>{grains.impulse, grains.spin_impulse, surroundings(),
+                                                drag_weights(), slip, reactions()});
       with_kernel(kernel_, h_c_, [&](auto w) {
         for_each_pair(
             fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
@@ -237,7 +238,7 @@ void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const 
   with_kernel(kernel_, h_c_, [&](auto w) {
     for_each_pair(
         fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
-        PorosityPass<decltype(w)>{w, eps_min_, orifice_share(), frame_, fluid.x, volume_, fluid.v_rho,
+        PorosityPass<decltype(w)>{w, eps_min_, orifice_weight(), frame_, fluid.x, volume_, fluid.v_rho,
                                   fluid.mass, fluid.eps, fluid.solid_factor, fluid.flux, fluid.m_state});
   });
 }

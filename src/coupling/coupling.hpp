@@ -3,7 +3,7 @@
 //
 // Fluid and grains make up a mixture: a fluid particle stands for the volume V_a = m_a / (eps_a rho_a), of
 // which grain j holds w_ja, and the fluid solver moves that volume as if all of it were fluid. The stress on
-// it then falls to fluid and grains by eps_a and w_ja, the shares with which their velocities make up the
+// it then falls to fluid and grains by eps_a and w_ja, the weights with which their velocities make up the
 // volume flux that its density balances: momentum is kept pair by pair, and what one does to the other is no
 // source of energy.
 //
@@ -11,8 +11,8 @@
 //   gather    grains read the fluid and get velocity and drag coefficients, held for the step;
 //   (substeps of the grains, which add up the drag impulse and the spin impulse)
 //   react     the fluid takes the impulses back, with the weights of gather;
-//   porosity  after both have moved: shares and volume flux;
-//   push      the grains' share of the stress, once the fluid has its forces.
+//   porosity  after both have moved: weights and volume flux;
+//   push      the grains' part of the stress, once the fluid has its forces.
 
 #include <string>
 
@@ -20,9 +20,9 @@
 #include "bedload/neighbours/verlet_list.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/grains.hpp"
-#include "kernels/coupling/orifice_share.hpp"
+#include "kernels/coupling/orifice_weight.hpp"
 #include "kernels/coupling/reaction_pass.hpp"
-#include "kernels/coupling/wall_share.hpp"
+#include "kernels/coupling/wall_free_fraction.hpp"
 #include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -31,7 +31,7 @@ namespace bedload::inline BL_VARIANT {
 struct CouplingCounters {
   std::uint64_t floor_hits = 0;  ///< fluid particles held at the least porosity
   std::uint64_t limited = 0;     ///< grains in fluid that drag would stop within one step
-  std::uint64_t wet = 0;         ///< grains that feel fluid
+  std::uint64_t wet = 0;         ///< grains that fluid wets
 };
 
 class Coupling {
@@ -39,7 +39,7 @@ class Coupling {
   /// The walls that fluid meets must outlive this.
   Coupling(const Config& config, const Frame& frame, const WallGeometry& walls);
 
-  /// How far grains and fluid feel each other, m.
+  /// How far grains and fluid act on each other, m.
   double range() const { return range_; }
 
   /// Renews both lists: all pairs within range() + skin (m) where the phases' own lists were built.
@@ -75,9 +75,9 @@ class Coupling {
   void pack(const GrainStore& grains);
   void volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt);
   DragLevers levers() { return {lever_, lever_sum_}; }
-  OrificeShare orifice_share() const { return {frame_, orifices_, dx_, h_c_}; }
+  OrificeWeight orifice_weight() const { return {frame_, orifices_, dx_, h_c_}; }
   GrainSurroundings surroundings();
-  DragShares drag_shares();
+  DragWeights drag_weights();
   Reactions reactions();
 
   Frame frame_;
@@ -91,7 +91,7 @@ class Coupling {
 
   SurfaceSet walls_;  ///< that cut the grains' kernels off from fluid
   bool wall_normalise_;
-  HalfSpaceShare half_space_;
+  HalfSpaceFraction half_space_;
   Buffer<Orifice> orifices_;
 
   VerletList fluid_of_grain_, grains_of_fluid_;

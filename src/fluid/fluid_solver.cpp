@@ -98,8 +98,8 @@ LayerLaw layer_law(const Config& config, const WallBody& body, double kappa) {
   with_fluid_kernel(config, [&](const auto& w) {
     volume = spacing * config.domain.spacing_along(1, spacing) * layer_depth(w);
   });
-  const double share = 2 * volume / (config.domain.cell_volume(dx) + volume), beta = dx / spacing;
-  law.soft = {Real(D / 5 / beta * share), Real(kappa * config.fluid.h() / 2)};
+  const double fraction = 2 * volume / (config.domain.cell_volume(dx) + volume), beta = dx / spacing;
+  law.soft = {Real(D / 5 / beta * fraction), Real(kappa * config.fluid.h() / 2)};
   return law;
 }
 
@@ -116,7 +116,7 @@ class FluidSolverWith final : public FluidSolver {
  public:
   FluidSolverWith(const Config& config, const Frame& frame, const WallGeometry& walls, FluidStore& fluid,
                   const W& w)
-      : FluidSolver(config, frame, walls, fluid, W::kappa), w_(w), cut_(CutShare::of(w)) {}
+      : FluidSolver(config, frame, walls, fluid, W::kappa), w_(w), cut_(CutFraction::of(w)) {}
 
   void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) override {
     if (shifts())
@@ -234,7 +234,7 @@ class FluidSolverWith final : public FluidSolver {
     for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, fluid_wall_,
                   PairSeparation{frame_, fluid.xp, walls.xp}, cutoff, pass);
   }
-  Real least() const { return -Real(config_.density.tension); }
+  Real least() const { return -Real(config_.density.cavitation_limit); }
   Viscosity viscosity() const {
     const std::string& model = config_.visc.model;
     const double d = config_.domain.two_d ? 2 : 3, h = config_.fluid.h();
@@ -264,7 +264,7 @@ class FluidSolverWith final : public FluidSolver {
             s_new,
             cut_,
             least(),
-            Real(config_.density.consolidation * c / config_.fluid.h()),
+            Real(config_.density.void_relaxation * c / config_.fluid.h()),
             Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0),
             shift,
             drift_of(fluid)};
@@ -313,7 +313,7 @@ class FluidSolverWith final : public FluidSolver {
   WallPair<W> wall_pair() const { return {w_, viscosity()}; }
 
   W w_;
-  CutShare cut_;
+  CutFraction cut_;
 };
 
 std::unique_ptr<FluidSolver> FluidSolver::make(const Config& config, const Frame& frame,
@@ -338,7 +338,7 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
     eos_ = {Real(e.p0), Real(e.alpha), Real(e.p0 - e.beta), Real(rho0), e.clip_negative};
   else
     eos_ = {Real(c * c * rho0 / e.gamma), Real(e.gamma), Real(e.background), Real(rho0), e.clip_negative};
-  eos_.least = -Real(config.density.tension);
+  eos_.least = -Real(config.density.cavitation_limit);
   grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
   wall_grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
   const auto acts = [](const WallBody& body) { return body.repels() || body.no_penetration; };
@@ -487,12 +487,12 @@ FluidExtremes FluidSolver::extremes() const { return extremes_.to_host()[0]; }
 
 double FluidSolver::pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces,
                                   Span<const BodyPose> pose) const {
-  Buffer<NearestFoot> feet(fluid.size());
+  Buffer<NearestPoint> points(fluid.size());
   Buffer<std::uint32_t> count(fluid.size());
-  const FootPass foot{frame_, surfaces, pose, range(), fluid.x, feet};
-  for_each(fluid.owned(), foot);
+  const NearestPointPass nearest{frame_, surfaces, pose, range(), fluid.x, points};
+  for_each(fluid.owned(), nearest);
   for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, range(),
-                CrossingPass{foot, 0.25 * config_.fluid.dx, count});
+                CrossingPass{nearest, 0.25 * config_.fluid.dx, count});
   return sum_over<1>(fluid.owned(), CountBody{count}).v[0] / 2;  // a pair stands in two lists
 }
 

@@ -47,7 +47,7 @@ class FluidSolver {
   bool shifts() const { return config_.shift > 0 && !mixed_ && layers_.size() == 0; }
   /// Whether anything but continuity changes the density.
   bool smooths() const {
-    return config_.density.delta > 0 || config_.density.consolidation > 0 ||
+    return config_.density.delta > 0 || config_.density.void_relaxation > 0 ||
            (mixed_ && config_.couple.spreading > 0);
   }
   bool drifts() const { return shifts() || config_.xsph > 0; }
@@ -78,7 +78,7 @@ class FluidSolver {
   /// device, one a body; drag_dt: the step in which drag_kick arose (s), 0 where there is none.
   virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt,
                      bool moving) = 0;
-  /// theta, acc_next, XSPH's share of the drift. One pose a body; the step (s) caps the push of single
+  /// theta, acc_next, XSPH's part of the drift. One pose a body; the step (s) caps the push of single
   /// layers.
   virtual void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) = 0;
   /// Adds what surfaces of walls and orifices do to acc_next. One pose a body; velocities are predicted by

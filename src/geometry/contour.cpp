@@ -15,7 +15,7 @@ namespace bedload {
 namespace {
 
 constexpr double kMostCells = 5e7;
-constexpr double kSharp = 0.05;  // share of the largest eigenvalue from which two planes make an edge
+constexpr double kSharp = 0.05;  // fraction of the largest eigenvalue from which two planes make an edge
 constexpr double kClear = 0.01;  // of a cell, that vertices keep from what is not theirs
 
 class Contour {
@@ -102,9 +102,9 @@ class Contour {
     const Vec3d low = place(cell), way = x - middle;
     double part = 1;
     for (int k = 0; k < 3; ++k) {
-      const double room = way[k] > 0 ? low[k] + size_ - middle[k] : middle[k] - low[k];
-      if (std::abs(way[k]) > (1 - kClear) * room)
-        part = std::min(part, (1 - kClear) * room / std::abs(way[k]));
+      const double space = way[k] > 0 ? low[k] + size_ - middle[k] : middle[k] - low[k];
+      if (std::abs(way[k]) > (1 - kClear) * space)
+        part = std::min(part, (1 - kClear) * space / std::abs(way[k]));
     }
     return middle + part * way;
   }

@@ -33,10 +33,11 @@ double GrainSource::mass_of(double radius) const {
 double GrainSource::next_radius() const {
   CounterRandom random(seed_, stream_ + std::uint64_t(state.count));
   double total = 0;
-  for (const SizeClass& size : inlet_.sizes) total += size.share;
+  for (const SizeClass& size : inlet_.sizes) total += size.number_fraction;
   double at = random.uniform() * total;
   std::size_t k = 0;
-  while (k + 1 < sizes_.size() && at >= inlet_.sizes[k].share) at -= inlet_.sizes[k++].share;
+  while (k + 1 < sizes_.size() && at >= inlet_.sizes[k].number_fraction)
+    at -= inlet_.sizes[k++].number_fraction;
   return 0.5 * sizes_[k][random.below(sizes_[k].size())];
 }
 
@@ -66,8 +67,8 @@ std::vector<Vec3d> GrainSource::places() {
       all.push_back(inlet_.centre + r * std::cos(angle) * a + r * std::sin(angle) * b);
     } else {
       const Vec3d margin{radius_, radius_, radius_}, lo = inlet_.min + margin,
-                                                     room = inlet_.max - margin - lo;
-      all.push_back(lo + Vec3d{u * room.x, v * room.y, w * room.z});
+                                                     space = inlet_.max - margin - lo;
+      all.push_back(lo + Vec3d{u * space.x, v * space.y, w * space.z});
     }
   }
   return all;

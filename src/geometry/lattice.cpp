@@ -90,7 +90,7 @@ void add_shape(const Config& config, const FluidFill& fill, std::size_t index, S
                    fmt::format("fluid.fill {}: {}", index + 1, why));
   };
   if (places.empty())
-    fail(fmt::format("{} has no room for a particle of {:g} m",
+    fail(fmt::format("{} has no space for a particle of {:g} m",
                      fill.shape.empty() ? "what its bodies leave" : "shape \"" + fill.shape + '"',
                      config.fluid.dx));
   const FillVelocity velocity(fill, index);
@@ -136,7 +136,7 @@ void add_box(const Config& config, const FluidFill& fill, std::size_t index, Set
     if (std::abs(cells[k].step / config.domain.spacing_along(k, dx) - 1) > 0.05)
       warnings.push_back(
           fmt::format("fluid.fill {}: {:g} m along {} is not near a multiple of fluid.dx = "
-                      "{:g} m; {} layers {:g} m apart are laid",
+                      "{:g} m; {} layers {:g} m apart are placed",
                       index + 1, fill.max[k] - fill.min[k], "xyz"[k], dx, cells[k].count, cells[k].step));
   }
   if (double(fluid.x.size()) + wanted >= kMaxParticles)

@@ -31,7 +31,7 @@ Vec3d middle_of(const TriangleSoup& soup, std::uint32_t e) {
 void turn(Triangle& t) { std::swap(t[1], t[2]); }
 
 /// Solid angle of a triangle seen from the origin, over 4 pi, after van Oosterom and Strackee (1983).
-double solid_angle_share(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+double solid_angle_fraction(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
   const double la = norm(a), lb = norm(b), lc = norm(c);
   const double over = la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb;
   return std::atan2(dot(a, cross(b, c)), over) / (2 * std::numbers::pi);
@@ -230,7 +230,7 @@ bool orient_outward(TriangleSoup& soup, const std::vector<std::uint32_t>& surfac
     double turns = 0;
     for (const std::uint32_t t : s.triangles) {
       const Corners c = corners_of(soup, t);
-      turns += solid_angle_share(c[0] - x, c[1] - x, c[2] - x);
+      turns += solid_angle_fraction(c[0] - x, c[1] - x, c[2] - x);
     }
     return std::abs(turns) > 0.5;
   };

@@ -229,7 +229,7 @@ class Packer {
     }
   }
 
-  /// One after the other, the largest first, wherever there is room; nothing if room runs out.
+  /// One after the other, the largest first, wherever there is space; nothing if space runs out.
   std::optional<std::vector<Vec3d>> random_places(const std::vector<double>& radii, CounterRandom& random) {
     const PlacedGrains before = placed_;
     std::vector<std::size_t> order(radii.size());

@@ -71,7 +71,7 @@ std::vector<Vec3d> deepest_places(const Region& region, double spacing, double v
   return places;
 }
 
-/// Points in cells as wide as they feel each other.
+/// Points in cells as wide as they act on each other.
 class Neighbours {
  public:
   Neighbours(const std::vector<Vec3d>& points, double width) : points_(points), width_(width) {

@@ -1,5 +1,5 @@
 // Each layer of a body is the set of places equally deep below its surface. The volume between two such sets
-// says how many particles the layer holds; those are laid where lattice cells share in it and then pushed
+// says how many particles the layer holds; those are placed where lattice cells lie in it and then pushed
 // apart along it until they lie evenly. Number and depth are thus exact by construction, and what relaxation
 // leaves to chance is only the pattern within a layer. Free packings (all particles pushed in all directions)
 // were tried: their first layer keeps no depth and their density sags behind the surface by some per cent.
@@ -25,7 +25,7 @@ namespace {
 constexpr double kReach = 2;         // of the repulsion
 constexpr double kSkin = 0.3;        // by which cells are wider than that
 constexpr double kStiffness = 0.08;  // step per force; larger ones ring
-constexpr double kMemory = 0.8;      // share of the last step kept in the next
+constexpr double kMemory = 0.8;      // fraction of the last step kept in the next
 constexpr double kLongestStep = 0.2;
 constexpr int kSteps = 60;
 constexpr double kStray = 0.05;  // way after which a particle is brought back to its layer
@@ -38,7 +38,7 @@ struct Particle {
 };
 
 /// Part of a layer in one lattice cell.
-struct Share {
+struct LayerPart {
   Vec3d centroid;
   double volume;  // spacing^3
   int layer;
@@ -58,26 +58,26 @@ class LayerVolumes {
     constexpr std::int64_t kBlock = 8;  // cubes along the sides of a piece of work
     std::vector<Block> blocks;
     split({{0, 0, 0}, count}, kBlock, blocks);
-    shares_.resize(blocks.size());
+    parts_.resize(blocks.size());
     host_for_each(blocks.size(), [&](std::size_t n) {
       std::vector<Block> cubes;
       split(blocks[n], 1, cubes);
-      for (const Block& cube : cubes) add_shares(cube.begin, shares_[n]);
+      for (const Block& cube : cubes) add_parts(cube.begin, parts_[n]);
     });
   }
 
   /// One particle for each full spacing^3 of a layer, met on a way through the body that stays in one
   /// neighbourhood as long as it can.
-  std::vector<Particle> lay() const {
+  std::vector<Particle> place() const {
     std::vector<double> owed(layers_, 0);
     std::vector<Particle> particles;
-    for (const auto& block : shares_)
-      for (const Share& share : block) {
-        owed[share.layer] += share.volume;
-        if (owed[share.layer] < 0.5) continue;
-        owed[share.layer] -= 1;
+    for (const auto& block : parts_)
+      for (const LayerPart& part : block) {
+        owed[part.layer] += part.volume;
+        if (owed[part.layer] < 0.5) continue;
+        owed[part.layer] -= 1;
         Particle p;
-        p.x = share.centroid, p.layer = share.layer;
+        p.x = part.centroid, p.layer = part.layer;
         particles.push_back(p);
       }
     return particles;
@@ -109,8 +109,8 @@ class LayerVolumes {
     split(upper, size, pieces);
   }
 
-  void add_shares(const Index3& cube, std::vector<Share>& shares) const {
-    const std::size_t begin = shares.size();
+  void add_parts(const Index3& cube, std::vector<LayerPart>& parts) const {
+    const std::size_t begin = parts.size();
     for (int part = 0; part < 8; ++part) {  // each eighth as if its layers ran across one of its sides
       Vec3d x;
       for (int k = 0; k < 3; ++k)
@@ -121,21 +121,21 @@ class LayerVolumes {
         const double volume =
             0.25 * (std::min(depth + 0.25, layer + 1.0) - std::max(depth - 0.25, double(layer)));
         if (!(volume > 0)) continue;
-        auto share = std::find_if(shares.begin() + begin, shares.end(),
-                                  [&](const Share& s) { return s.layer == layer; });
-        if (share == shares.end()) share = shares.insert(share, {{}, 0, layer});
-        share->centroid += volume * x;
-        share->volume += volume;
+        auto part = std::find_if(parts.begin() + begin, parts.end(),
+                                 [&](const LayerPart& s) { return s.layer == layer; });
+        if (part == parts.end()) part = parts.insert(part, {{}, 0, layer});
+        part->centroid += volume * x;
+        part->volume += volume;
       }
     }
-    for (std::size_t n = begin; n < shares.size(); ++n) shares[n].centroid *= 1 / shares[n].volume;
+    for (std::size_t n = begin; n < parts.size(); ++n) parts[n].centroid *= 1 / parts[n].volume;
   }
 
   const Shape& shape_;
   double spacing_;
   int layers_;
   Vec3d origin_;
-  std::vector<std::vector<Share>> shares_;
+  std::vector<std::vector<LayerPart>> parts_;
 };
 
 /// Particles sorted by cells, so that the neighbours of a cell stand in nine runs.
@@ -294,7 +294,7 @@ std::vector<Vec3d> sample_shape(const Shape& shape, double spacing, double depth
         fmt::format("wall particles: spacing = {:g} m is too small for a body of {:g} m", spacing, size));
 
   const int layers = int(std::ceil(std::min(depth, size) / spacing - 1e-6));
-  std::vector<Particle> particles = LayerVolumes(shape, spacing, layers).lay();
+  std::vector<Particle> particles = LayerVolumes(shape, spacing, layers).place();
   if (!particles.empty()) Relaxation(shape, spacing, particles);
   std::vector<Vec3d> x;
   for (const Particle& p : particles) x.push_back(p.x);

@@ -62,7 +62,7 @@ std::vector<Vec3d> sample_sides(const WallBody& body, double spacing, const Doma
   return points;
 }
 
-/// The layer that sampling lays half a spacing behind a plane, moved onto it.
+/// The layer that sampling puts half a spacing behind a plane, moved onto it.
 std::vector<Vec3d> sample_plane_surface(const WallBody& plane, double spacing, const DomainConfig& domain) {
   std::vector<Vec3d> points = sample_body(plane, spacing, spacing, domain);
   const Vec3d n = plane.normal / norm(plane.normal);

@@ -82,7 +82,7 @@ struct FluidTotals {
 };
 
 /// Rates of change of fluid momentum, N: by gravity and drive, by all but grains, by grains, which take their
-/// share of the stress.
+/// part of the stress.
 struct MomentumRates {
   double rate;  ///< 1 / step, 1/s
   Vec3d gravity;

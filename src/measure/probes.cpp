@@ -34,12 +34,12 @@ struct PointBody {
     const Vec3d r = frame.nearest_image(coordinates(frame, x[a]) - at);
     const double r2 = norm2(r), support = w.kappa * double(w.h);
     if (r2 >= support * support) return;
-    const double share = double(m_state[a].x) / m_state[a].z * w.W(Real(std::sqrt(r2)));
-    out[0] += share;
-    out[1] += share * pressure_of(m_state[a]);
-    out[2] += share * v_rho[a].x;
-    out[3] += share * v_rho[a].y;
-    out[4] += share * v_rho[a].z;
+    const double weight = double(m_state[a].x) / m_state[a].z * w.W(Real(std::sqrt(r2)));
+    out[0] += weight;
+    out[1] += weight * pressure_of(m_state[a]);
+    out[2] += weight * v_rho[a].x;
+    out[3] += weight * v_rho[a].y;
+    out[4] += weight * v_rho[a].z;
   }
 };
 

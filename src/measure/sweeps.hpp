@@ -10,7 +10,7 @@ namespace bedload::inline BL_VARIANT {
 /// Pressure from the pair-loop record of fluid or walls, Pa.
 BL_HD Real pressure_of(const Real4& m_state) { return m_state.y * square(m_state.z); }
 
-/// Sum of N doubles: Body(i, double out[N]) fills one particle's share.
+/// Sum of N doubles: Body(i, double out[N]) fills one particle's part.
 template <int N, class Body>
 struct SumSweep {
   struct Value {

@@ -1,4 +1,4 @@
-// Force per area on patches of a wall, as transducers feel it.
+// Force per area on patches of a wall, as transducers read it.
 
 #include <cmath>
 
@@ -55,7 +55,7 @@ struct PatchGrid {
       if (std::abs(u) < a && std::abs(v) < b) f(u, v);
     }
   }
-  /// Share of a square about u that lies in strip i across side k.
+  /// Fraction of a square about u that lies in strip i across side k.
   BL_HD double covered(int k, int i, double u, double square) const {
     if (k == through) return 1.0 / count[k];
     const double lo = (i - 0.5 * count[k]) * side[k], hi = (i + 1 - 0.5 * count[k]) * side[k];
@@ -79,7 +79,7 @@ struct PatchForces {
   }
 };
 
-/// The same from the repulsion of its surfaces, taken at the feet of the fluid.
+/// The same from the repulsion of its surfaces, taken at the points closest to the fluid.
 struct PatchRepulsion {
   PatchGrid patches;
   int first;
@@ -95,8 +95,8 @@ struct PatchRepulsion {
     const Vec3d at = coordinates(walls.frame, x[a]);
     const Vec3d beside = pose.origin() + walls.frame.nearest_image(at - pose.origin());
     if (!patches.near(pose.undo(beside), 0.5 * dx + walls.reach())) return;
-    const auto take = [&](std::uint32_t, const Real3& push, const Vec3d& foot) {
-      patches.spread(pose.undo(foot), dx, -double(mass[a]) * dot(Vec3d(push), inwards), first, out);
+    const auto take = [&](std::uint32_t, const Real3& push, const Vec3d& closest) {
+      patches.spread(pose.undo(closest), dx, -double(mass[a]) * dot(Vec3d(push), inwards), first, out);
     };
     walls.each(at, heading[a], take, body);
   }

@@ -34,7 +34,7 @@ class InletFlow {
   void resume(double t, double volume, double layers) { time_ = t, volume_ = volume, layers_ = layers; }
 
  private:
-  double open(double t) const;    ///< share of the flow that opening and closing let through
+  double open(double t) const;    ///< fraction of the flow that opening and closing let through
   double travel(double t) const;  ///< of the particles upstream from where they began, m
   double integral(double from, double to) const;
 

@@ -29,9 +29,9 @@ void solve(const std::vector<double>& below, std::vector<double>& diagonal, cons
            std::vector<double>& b) {
   const std::size_t n = b.size();
   for (std::size_t i = 1; i < n; ++i) {
-    const double share = below[i] / diagonal[i - 1];
-    diagonal[i] -= share * above[i - 1];
-    b[i] -= share * b[i - 1];
+    const double factor = below[i] / diagonal[i - 1];
+    diagonal[i] -= factor * above[i - 1];
+    b[i] -= factor * b[i - 1];
   }
   b[n - 1] /= diagonal[n - 1];
   for (std::size_t i = n - 1; i-- > 0;) b[i] = (b[i] - above[i] * b[i + 1]) / diagonal[i];

@@ -36,7 +36,7 @@ void move(const std::filesystem::path& part, const std::filesystem::path& path) 
   if (std::rename(part.c_str(), path.c_str()) != 0) throw cannot("write", path);
 }
 
-/// Takes room behind the end of a file, so that nobody else does; false where there is no file or its file
+/// Takes space behind the end of a file, so that nobody else does; false where there is no file or its file
 /// system knows no such thing.
 bool reserved(const std::filesystem::path& path, std::size_t bytes) {
   const int file = ::open(path.c_str(), O_WRONLY);

@@ -40,9 +40,9 @@ Scene scene_of(const Config& config, const Setup& setup, const Setup::Walls& wal
   const double d_min = config.grain.d_min, range = config.grain.d_max - d_min;
   for (std::size_t i = 0; i < setup.grains.x.size(); ++i) {
     const double r = setup.grains.radius[i];
-    const auto share = float(range > 1e-9 * d_min ? (2 * r - d_min) / range : 0);
+    const auto weight = float(range > 1e-9 * d_min ? (2 * r - d_min) / range : 0);
     scene.grains.push_back(
-        {setup.grains.x[i], r, range > 1e-9 * d_min ? mix(kSmall, kLarge, share) : kGrain});
+        {setup.grains.x[i], r, range > 1e-9 * d_min ? mix(kSmall, kLarge, weight) : kGrain});
   }
   for (std::size_t w = 0; w < walls.x.size(); ++w) {
     const bool inlet = walls.body[w] >= config.wall.bodies.size();
@@ -101,9 +101,9 @@ class Picture {
     const double wide = size_[axes_.along], high = size_[axes_.up] + size_[axes_.into];
     const bool strip = wide > 2.5 * high;  // then the flat views take the whole width
     const int left = kMargin + 80, top = 140, gap = 100, bottom = 60;
-    const double room_x = strip ? kWidth - left - kMargin : 0.44 * kWidth - left;
-    const double room_y = (strip ? 0.5 * kHeight : kHeight) - top - bottom - gap;
-    const double scale = std::min(room_x / wide, room_y / high);
+    const double space_x = strip ? kWidth - left - kMargin : 0.44 * kWidth - left;
+    const double space_y = (strip ? 0.5 * kHeight : kHeight) - top - bottom - gap;
+    const double scale = std::min(space_x / wide, space_y / high);
 
     const Vec3d along = axis(axes_.along), up = axes_.sign * axis(axes_.up);
     const Vec3d front = cross(along, up);
@@ -172,9 +172,9 @@ class Picture {
 
   void marks(const View& view, int k, int x0, int y0, int height, int width, bool upright) {
     const double step = mark_distance(size_[k]);
-    const double room = upright ? text_height() + 6 : text_width("-0000 mm");
+    const double space = upright ? text_height() + 6 : text_width("-0000 mm");
     int every = 1;
-    while (every * step * view.scale < room && every < 20) ++every;
+    while (every * step * view.scale < space && every < 20) ++every;
     const auto letter = fmt::format("{} [{}]", "xyz"[k], lengths_.unit);
     for (double n = std::ceil(scene_.min[k] / (every * step)); n * every * step <= scene_.max[k]; ++n) {
       const double value = n * every * step;

@@ -70,8 +70,8 @@ class Renderer {
           const Colour c = colour_at(std::size_t(y * kFine + n / kFine) * width_ + x * kFine + n % kFine);
           sum = {sum.r + c.r, sum.g + c.g, sum.b + c.b};
         }
-        constexpr float share = 1.0f / (kFine * kFine);
-        out.set(x, y, {share * sum.r, share * sum.g, share * sum.b});
+        constexpr float weight = 1.0f / (kFine * kFine);
+        out.set(x, y, {weight * sum.r, weight * sum.g, weight * sum.b});
       }
     return out;
   }
@@ -137,7 +137,7 @@ class Renderer {
     return front_.over(c, pixel, grain || fluid ? kMostHaze : 1);
   }
 
-  /// The share of fluid in the colour of a grain `distance` behind it.
+  /// The weight of fluid in the colour of a grain `distance` behind it.
   float veil(float distance) const {
     return kThinFluid + (kThickFluid - kThinFluid) * (1 - std::exp(-distance / thick_));
   }

@@ -24,12 +24,12 @@ ContactLaw make_contact_law(const Config& config) {
   law.clip_tension = c.clip_tension;
   law.mu = Real(g.mu);
 
-  const ElasticGive give(g.E, g.nu);
-  law.hertz.E_star = Real(1 / (2 * give.normal));
-  law.mindlin.G_star = Real(1 / (2 * give.sideways));
+  const ElasticCompliance compliance(g.E, g.nu);
+  law.hertz.E_star = Real(1 / (2 * compliance.normal));
+  law.mindlin.G_star = Real(1 / (2 * compliance.tangential));
   law.sliding_damping = Real(c.tangential_damping);
-  const double share = damping_share(g.e);
-  law.hertz.alpha = Real(c.he_damping ? std::sqrt(6.0) * share : hertz_damping(g.e, c.clip_tension));
+  const double ratio = damping_ratio(g.e);
+  law.hertz.alpha = Real(c.he_damping ? std::sqrt(6.0) * ratio : hertz_damping(g.e, c.clip_tension));
   law.spring.k = Real(c.k);
   if (law.normal == NormalLaw::linear) {
     if (!(c.k > 0))
@@ -39,10 +39,10 @@ ContactLaw make_contact_law(const Config& config) {
       throw KeyError("grain.e", "grain.e = " + std::to_string(g.e) +
                                     ": must be at least 0.136 for a linear spring that never pulls; "
                                     "set contact.clip_tension = false");
-    law.spring.beta = Real(c.clip_tension ? damping_share_clipped(g.e) : share);
+    law.spring.beta = Real(c.clip_tension ? damping_ratio_clipped(g.e) : ratio);
   }
   law.linear_sliding.ratio = Real(c.kt_ratio);
-  law.deresiewicz = {Real(g.mu), Real(g.mu * give.sideways / (4 * give.normal)), Real(share)};
+  law.deresiewicz = {Real(g.mu), Real(g.mu * compliance.tangential / (4 * compliance.normal)), Real(ratio)};
   law.epsd = {Real(g.mu_r), Real(c.eta_r)};
   law.cdt = {Real(g.mu_r), c.cap_rolling};
   return law;
@@ -54,11 +54,11 @@ ContactLaw make_wall_law(const Config& config, const WallBody& body) {
   if (std::isfinite(body.mu_r)) on_wall.grain.mu_r = body.mu_r;
   if (body.e > 0) on_wall.grain.e = body.e;
   ContactLaw law = make_contact_law(on_wall);
-  const ElasticGive grain(config.grain.E, config.grain.nu), wall = wall_give(config, body);
+  const ElasticCompliance grain(config.grain.E, config.grain.nu), wall = wall_compliance(config, body);
   law.hertz.E_star = Real(1 / (grain.normal + wall.normal));
-  law.mindlin.G_star = Real(1 / (grain.sideways + wall.sideways));
+  law.mindlin.G_star = Real(1 / (grain.tangential + wall.tangential));
   law.deresiewicz.slip =
-      Real(on_wall.grain.mu * (grain.sideways + wall.sideways) / (4 * (grain.normal + wall.normal)));
+      Real(on_wall.grain.mu * (grain.tangential + wall.tangential) / (4 * (grain.normal + wall.normal)));
   return law;
 }
 

@@ -22,7 +22,7 @@ class RigidGroups {
   Span<const std::uint32_t> of_grains() const {
     return group_ ? group_->span() : Span<const std::uint32_t>();
   }
-  /// Binds grains as they are laid; `fill`: of each, by id.
+  /// Binds grains as they are initialised; `fill`: of each, by id.
   void bind(const GrainStore& grains, const std::vector<std::uint32_t>& fill);
 
   /// After a kick and perhaps a drift (s) of every grain on its own. Rests: what rounding left of velocities,

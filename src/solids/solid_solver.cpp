@@ -133,7 +133,7 @@ ContactPass SolidSolver::contact_pass(const GrainStore& g, const BodyPose* poses
           .walls = walls_.view(),
           .wall_memory = wall_memories(),
           .wall_contacts = wall_contacts_ ? wall_contacts_->buffer().data() : nullptr,
-          .wall_room = walls_.contacts(),
+          .wall_capacity = walls_.contacts(),
           .wall_laws = wall_laws_.data(),
           .poses = poses,
           .free_bodies = bodies_ ? bodies_->constants() : nullptr};

@@ -84,7 +84,7 @@ class SolidSolver {
   /// `substeps` velocity-Verlet substeps over dt (s). poses: device array [substeps + 1][bodies], at the
   /// start and after each substep. Reads fluid_force, U, omega_f, K, K_rot; leaves the drag impulses of this
   /// call in impulse and spin_impulse, their mean in drag_force. Held (or fixed) grains keep place and
-  /// velocity; the fluid feels them as resting. gravity: at the start and after each substep, m/s2; the
+  /// velocity; the fluid sees them at rest. gravity: at the start and after each substep, m/s2; the
   /// case's own if empty. Free bodies, whose step has begun, move along in the substeps and fill their places
   /// in poses; while they settle they stay.
   void advance(GrainStore& grains, Span<const BodyPose> poses, int bodies, double dt, int substeps, bool held,

@@ -82,7 +82,7 @@ void CoupledSimulation::advance_fluid(double dt) {
   const double half = last_kick(dt), back = fluid.one_pass() ? 0 : half;
   fluid.kick_drift(fluid_, dt - half, dt, back, two_way());
   if (two_way()) {
-    share_volume(dt);
+    update_porosity(dt);
     fluid.pack(fluid_, half);
   }
   // density follows from places and velocities in the middle of a kick-drift-kick step, the fluid's and the
@@ -103,17 +103,17 @@ void CoupledSimulation::advance_fluid(double dt) {
   evaluate_fluid(dt, half);
   load_bodies(half, dt);
   fluid.correct(fluid_, half);
-  if (coupled()) share_stress(dt, half);
+  if (coupled()) push_grains(dt, half);
 }
 
-void CoupledSimulation::share_volume(double dt) {
+void CoupledSimulation::update_porosity(double dt) {
   fluid_solver_->pack(fluid_);
   watch_.lap(kFluid);
   coupling_->porosity(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1), dt);
   watch_.lap(kCoupling);
 }
 
-void CoupledSimulation::share_stress(double dt, double kick) {
+void CoupledSimulation::push_grains(double dt, double kick) {
   watch_.lap(kFluid);
   coupling_->push(fluid_, grains_, motion_.poses(clock_.time + dt, 0, 1), kick, held());
   solid_solver_->groups().follow(grains_, {}, {}, 0);

@@ -55,11 +55,11 @@ class CoupledSimulation final : public Simulation {
   double last_kick(double dt) const { return config_.time.integrator == "euler" ? 0 : dt / 2; }
 
   void upload(const Setup& setup);
-  void lay_fluid();  ///< mass for the porosity, hydrostatic pressure
+  void initialise_fluid();  ///< mass for the porosity, hydrostatic pressure
   void advance_fluid(double dt);
-  void share_volume(double dt);                    ///< between fluid and grains that have both moved
+  void update_porosity(double dt);                 ///< between fluid and grains that have both moved
   void evaluate_fluid(double dt, double predict);  ///< density known: state, walls, forces
-  void share_stress(double dt, double kick);       ///< forces known: what of them falls to the grains
+  void push_grains(double dt, double kick);        ///< forces known: what of them falls to the grains
   double longest_substep();                        ///< s, that grains and free bodies allow
   void load_bodies(double kick, double dt);        ///< force of the fluid on free bodies at the end of a step
   void refresh_if_needed(double dt);
@@ -115,7 +115,7 @@ class CoupledSimulation final : public Simulation {
   FreeBodies bodies_;
   WallMotion motion_;
   OpenBoundaries open_;
-  FeltGravity gravity_;
+  EffectiveGravity gravity_;
   CellGrid grain_grid_;
   std::unique_ptr<FluidSolver> fluid_solver_;
   std::unique_ptr<SolidSolver> solid_solver_;

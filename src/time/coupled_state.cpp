@@ -24,7 +24,7 @@ std::vector<Id> ids(std::size_t n) {
   return out;
 }
 
-/// Laid fluid takes the share that the grains leave, at hydrostatic pressure and the density that goes with
+/// Initial fluid fills what the grains leave, at hydrostatic pressure and the density that goes with
 /// it: in balance from the start, and heavier than at rho0 by its compression.
 struct LayPass {
   EquationOfState eos;
@@ -77,9 +77,10 @@ bool hydrostatic(const Config& config) {
   return norm(config.gravity) > 0;
 }
 
-/// What is felt along gravity. Fluid is laid with a level surface, which cannot balance what is felt across.
-Vec3d laid_gravity(const Config& config, const Vec3d& felt) {
-  return config.gravity * std::max(0.0, dot(felt, config.gravity) / norm2(config.gravity));
+/// The part of the effective gravity along gravity. Fluid starts with a level surface, which cannot balance
+/// what acts across it.
+Vec3d level_gravity(const Config& config, const Vec3d& effective) {
+  return config.gravity * std::max(0.0, dot(effective, config.gravity) / norm2(config.gravity));
 }
 
 }  // namespace
@@ -169,12 +170,12 @@ void CoupledSimulation::start() {
   if (has_grains()) solid_solver_->evaluate(grains_, poses_now());
   if (bodies_.any()) bodies_.evaluate(poses_now());
   if (has_fluid()) {
-    lay_fluid();
-    if (two_way()) share_volume(0);
+    initialise_fluid();
+    if (two_way()) update_porosity(0);
     evaluate_fluid(0, 0);
     load_bodies(0, 0);
     fluid_solver_->correct(fluid_, 0);
-    if (coupled()) share_stress(0, 0);
+    if (coupled()) push_grains(0, 0);
   }
   sweep();
   if (coupled()) {  // for the first step's drag limit
@@ -183,11 +184,11 @@ void CoupledSimulation::start() {
   }
 }
 
-void CoupledSimulation::lay_fluid() {
-  if (two_way()) share_volume(0);
+void CoupledSimulation::initialise_fluid() {
+  if (two_way()) update_porosity(0);
   std::vector<Real> pressure(fluid_.size(), Real(config_.eos.background));
   if (hydrostatic(config_)) {
-    const Vec3d g = laid_gravity(config_, gravity_.at(0));
+    const Vec3d g = level_gravity(config_, gravity_.at(0));
     std::vector<Vec3d> x;
     for (const auto& at : fluid_.x.values()) x.push_back(coordinates(frame_, at));
     const std::vector<double> depth = depths_of(config_, g, x);

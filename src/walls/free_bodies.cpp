@@ -59,9 +59,10 @@ FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeome
   if (config.wall.free_bodies() == 0) return;
   contact_radius_ = kInfinity;
   std::vector<ContactLaw> laws;
-  std::vector<ElasticGive> gives;
+  std::vector<ElasticCompliance> compliances;
   for (const WallBody& body : config.wall.bodies)
-    gives.push_back(body.free.present ? ElasticGive(body.free.E, body.free.nu) : wall_give(config, body));
+    compliances.push_back(body.free.present ? ElasticCompliance(body.free.E, body.free.nu)
+                                            : wall_compliance(config, body));
   std::vector<TouchBall> balls;
   for (std::uint32_t b = 0; b < config.wall.bodies.size(); ++b) {
     const WallBody& body = config.wall.bodies[b];
@@ -79,7 +80,7 @@ FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeome
   }
   constants_.assign(bodies_);
   laws_.assign(laws);
-  gives_.assign(gives);
+  compliances_.assign(compliances);
   balls_.assign(balls);
 
   store_.resize(Index(size()));
@@ -94,8 +95,8 @@ FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeome
   store_.rotation.assign(std::vector<Vec4<double>>(size(), to_vec4({})));
 
   const Index n = Index(balls.size());
-  room_ = walls.contacts();
-  memory_.resize(Index(n * room_));
+  capacity_ = walls.contacts();
+  memory_.resize(Index(n * capacity_));
   point_at_memory();
   const int bodies_met = std::min(int(config.wall.bodies.size()), kMostWallContacts + 1);
   ball_slots_.resize(std::size_t(n) * bodies_met);
@@ -151,15 +152,16 @@ void FreeBodies::add(const Config& config, std::uint32_t b) {
   const double reach = farthest(0);
   sizes_.push_back(reach);
   reaches_.push_back(farthest(particles_beyond(body, config)));
-  double ease = 1 / m.mass;
-  if (k.turn == BodyTurn::axis) ease += reach * reach / k.axial;
-  if (k.turn == BodyTurn::all) ease += reach * reach / std::min({k.moments.x, k.moments.y, k.moments.z});
-  eases_.push_back(ease);
+  double inverse_mass = 1 / m.mass;
+  if (k.turn == BodyTurn::axis) inverse_mass += reach * reach / k.axial;
+  if (k.turn == BodyTurn::all)
+    inverse_mass += reach * reach / std::min({k.moments.x, k.moments.y, k.moments.z});
+  inverse_masses_.push_back(inverse_mass);
 }
 
 void FreeBodies::point_at_memory() {
   std::vector<WallMemory*> slots;
-  for (int k = 0; k < room_; ++k)
+  for (int k = 0; k < capacity_; ++k)
     slots.push_back(memory_.memory.buffer().data() + std::size_t(k) * balls_.size());
   memory_pointers_.assign(slots);
 }
@@ -254,19 +256,20 @@ void FreeBodies::evaluate(Span<const BodyPose> poses) {
 }
 
 TouchLoads FreeBodies::record(Index grains) {
-  const int room = std::min(size(), kMostWallContacts);
-  grain_slots_.resize(std::size_t(grains) * room);
+  const int capacity = std::min(size(), kMostWallContacts);
+  grain_slots_.resize(std::size_t(grains) * capacity);
   grain_counts_.resize(grains);
-  grain_loads_ = {grain_slots_.data(), grain_counts_.data(), grains, room};
+  grain_loads_ = {grain_slots_.data(), grain_counts_.data(), grains, capacity};
   return grain_loads_;
 }
 
 /// Balls against surfaces, then the sums over what they and the grains have recorded.
 void FreeBodies::touch(Span<const BodyPose> poses, double dt) {
   if (balls_.size() > 0)
-    for_each({0, Index(balls_.size())}, BallPass{frame_, walls_.view(), poses.data, constants_.data(),
-                                                 laws_.data(), gives_.data(), balls_, memory_pointers_.data(),
-                                                 memory_.count.buffer().data(), room_, dt, ball_loads_});
+    for_each(
+        {0, Index(balls_.size())},
+        BallPass{frame_, walls_.view(), poses.data, constants_.data(), laws_.data(), compliances_.data(),
+                 balls_, memory_pointers_.data(), memory_.count.buffer().data(), capacity_, dt, ball_loads_});
   grain_sums_.zero();
   ball_sums_.zero();
   for (int k = 0; k < size(); ++k) {

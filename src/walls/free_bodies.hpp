@@ -18,7 +18,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// What a body feels, about its centre.
+/// What acts on a body, about its centre.
 struct BodyForces {
   LoadSum fluid = LoadSum::zero(), grains = LoadSum::zero(), bodies = LoadSum::zero();
 };
@@ -127,24 +127,24 @@ class FreeBodies {
   bool settling_ = false;
   std::vector<int> places_;
   std::vector<RigidBody> bodies_;
-  std::vector<double> sizes_;    ///< of the corners from the centre, m
-  std::vector<double> reaches_;  ///< the same of all particles and their images, m
-  std::vector<double> eases_;    ///< largest 1/effective mass, 1/kg
+  std::vector<double> sizes_;           ///< of the corners from the centre, m
+  std::vector<double> reaches_;         ///< the same of all particles and their images, m
+  std::vector<double> inverse_masses_;  ///< largest 1/effective mass, 1/kg
   std::vector<RigidMotion> now_;
   double contact_radius_ = 0, largest_radius_ = 0;  ///< smallest and largest R*, m
 
   mutable BodyStore store_;  ///< kernels take its spans from const members too
   Buffer<RigidBody> constants_;
-  Buffer<ContactLaw> laws_;    ///< of the free bodies
-  Buffer<ElasticGive> gives_;  ///< of all wall bodies
+  Buffer<ContactLaw> laws_;                ///< of the free bodies
+  Buffer<ElasticCompliance> compliances_;  ///< of all wall bodies
   Buffer<TouchBall> balls_;
-  /// [room][balls], as one list
+  /// [capacity][balls], as one list
   struct Memory : Store {
     Memory() : Store("body_contacts") {}
     Field<WallMemory> memory{*this, "memory", "-, -, m, N m, m, m/s", Lifetime::kept};
     Field<Index> count{*this, "count", "-", Lifetime::kept};  ///< of a ball; the rest unused
   } memory_;
-  int room_ = 0;
+  int capacity_ = 0;
   Buffer<WallMemory*> memory_pointers_;
 
   Buffer<TouchLoad> grain_slots_, ball_slots_;

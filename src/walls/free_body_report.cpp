@@ -36,12 +36,12 @@ std::vector<StepLimit> FreeBodies::limits(double wall_speed) const {
   if (!any()) return {};
   const double g = norm(config_.gravity) + config_.frame.acceleration;
   double contact = kInfinity, roll = kInfinity, turn = kInfinity;
-  const auto give_of = [&](const WallBody& body) {
-    return body.free.present ? ElasticGive(body.free.E, body.free.nu).normal
-                             : wall_give(config_, body).normal;
+  const auto compliance_of = [&](const WallBody& body) {
+    return body.free.present ? ElasticCompliance(body.free.E, body.free.nu).normal
+                             : wall_compliance(config_, body).normal;
   };
   double hardest = kInfinity;
-  for (const WallBody& body : config_.wall.bodies) hardest = std::min(hardest, give_of(body));
+  for (const WallBody& body : config_.wall.bodies) hardest = std::min(hardest, compliance_of(body));
   for (int k = 0; k < size(); ++k) {
     const double size = 2 * sizes_[k];
     const double speed =
@@ -50,8 +50,8 @@ std::vector<StepLimit> FreeBodies::limits(double wall_speed) const {
     if (speed == 0) continue;
     const WallBody& body = config_.wall.bodies[bodies_[k].body];
     if (balls_.size() > 0) {
-      const HertzImpact impact =
-          hertz_impact(1 / (2 * eases_[k]), contact_radius_, 1 / (give_of(body) + hardest), speed);
+      const HertzImpact impact = hertz_impact(1 / (2 * inverse_masses_[k]), contact_radius_,
+                                              1 / (compliance_of(body) + hardest), speed);
       contact = std::min(contact, impact.duration);
       const Vec3d& I = bodies_[k].moments;
       const double mu_r = body.free.mu_r;
@@ -61,11 +61,11 @@ std::vector<StepLimit> FreeBodies::limits(double wall_speed) const {
     }
     if (config_.grain.present) {
       const double R = 0.5 * config_.grain.d_min;
-      const double m = 1 / (1 / (4.0 / 3.0 * M_PI * R * R * R * config_.grain.rho) + eases_[k]);
-      const double give =
-          ElasticGive(config_.grain.E, config_.grain.nu).normal + wall_give(config_, body).normal;
+      const double m = 1 / (1 / (4.0 / 3.0 * M_PI * R * R * R * config_.grain.rho) + inverse_masses_[k]);
+      const double compliance =
+          ElasticCompliance(config_.grain.E, config_.grain.nu).normal + wall_compliance(config_, body).normal;
       if (config_.contact.normal == "hertz")
-        contact = std::min(contact, hertz_impact(m, R, 1 / give, speed).duration);
+        contact = std::min(contact, hertz_impact(m, R, 1 / compliance, speed).duration);
       if (config_.contact.normal == "linear")
         contact = std::min(contact, M_PI * std::sqrt(m / config_.contact.k));
     }

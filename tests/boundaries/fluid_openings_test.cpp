@@ -55,15 +55,15 @@ std::string with(std::string text, const std::string& from, const std::string& t
 }
 
 /// Layers are let in when they have come through whole: what is under way makes up the difference.
-void expect_books_balance(Simulation& s, double laid) {
+void expect_mass_balance(Simulation& s, double initial) {
   const auto d = s.diagnostics();
   const double volume = reading(d, "inlet_feed_volume"), in = reading(d, "inlet_feed_mass");
   const double layers = std::floor(1000 * volume / kLayer + 0.5);
   // the layer that came through in the last step is fluid from the next one on
   EXPECT_LE(std::abs(in / kLayer - layers), std::fmod(1000 * volume / kLayer + 0.5, 1) < 0.02 ? 1 : 1e-9);
-  EXPECT_NEAR(laid + in,
+  EXPECT_NEAR(initial + in,
               reading(d, "fluid_mass") + reading(d, "outlet_end_fluid_mass") + reading(d, "lost_fluid_mass"),
-              tolerance(1e-9, 1e-6, 1e-6) * (laid + in));
+              tolerance(1e-9, 1e-6, 1e-6) * (initial + in));
 }
 
 TEST(Admit, TakesOverThePressureOfTheBuffer) {
@@ -131,7 +131,7 @@ TEST(Inlet, LetsInTheVolumeOfItsRate) {  // T-42
   }
   EXPECT_NEAR(reading(*s, "inlet_feed_volume") / volume, 1, 1e-9);
   EXPECT_GT(reading(*s, "inlet_feed_mass"), 8 * kLayer);
-  expect_books_balance(*s, 0);
+  expect_mass_balance(*s, 0);
 }
 
 TEST(Inlet, ConstantRateIsExact) {  // T-42
@@ -139,7 +139,7 @@ TEST(Inlet, ConstantRateIsExact) {  // T-42
   run_until(*s, 0.2);
   const double ramp = 10 * 0.015 / 10;
   EXPECT_NEAR(reading(*s, "inlet_feed_volume") / (kRate * (s->time() - ramp / 2)), 1, 1e-9);
-  expect_books_balance(*s, 0);
+  expect_mass_balance(*s, 0);
 }
 
 TEST(Inlet, StopsWhenToldTo) {
@@ -147,7 +147,7 @@ TEST(Inlet, StopsWhenToldTo) {
   run_until(*s, 0.2);
   // closing takes as long as opening
   EXPECT_NEAR(reading(*s, "inlet_feed_volume") / (kRate * 0.08), 1, 1e-9);
-  expect_books_balance(*s, 0);
+  expect_mass_balance(*s, 0);
 }
 
 /// The flow runs from the first, so that there are no waves but those of layers coming in and going out.
@@ -169,7 +169,7 @@ TEST(Inlet, FeedsASteadyFlowWithoutPressureSpikes) {
   run_until(*s, 0.8);  // 20 layers
   const double flux = (reading(*s, "outlet_end_fluid_mass") - out) / (s->time() - from);
   EXPECT_NEAR(flux / (1000 * kRate), 1, 0.05);
-  expect_books_balance(*s, 1.28);
+  expect_mass_balance(*s, 1.28);
   const auto ids = ids_of(s->snapshot("fluid"));
   EXPECT_EQ(std::set<Id>(ids.begin(), ids.end()).size(), ids.size());
   EXPECT_GT(*std::max_element(ids.begin(), ids.end()), 1280u + 64 * 38);
@@ -194,7 +194,7 @@ TEST(Inlet, GoesOnBitForBitAfterARestart) {
   expect_restart_is_bit_equal(*s, config, 150);
 }
 
-/// Fluid makes room for the grains on its way from the orifice: no pressure builds up there.
+/// Fluid gives way to the grains on its way from the orifice: no pressure builds up there.
 TEST(Inlet, FeedsFluidAmongGrains) {
   const Config config = config_of(kDuct + kFull + R"(velocity = [0.5, 0, 0]
 [grain]
@@ -207,8 +207,8 @@ packing_fraction = 0.2
 velocity = [0.5, 0, 0]
 )");
   auto s = started(config);
-  const double laid = reading(*s, "fluid_mass");
-  EXPECT_LT(laid, 0.92 * 1.28);
+  const double initial = reading(*s, "fluid_mass");
+  EXPECT_LT(initial, 0.92 * 1.28);
   double highest = 0;
   while (s->time() < 0.15) {
     s->step();
@@ -217,7 +217,7 @@ velocity = [0.5, 0, 0]
   EXPECT_LT(highest, 0.5 * 1000 * kSpeed * 10);  // half of rho u c: the flow is set going within 15 ms
   EXPECT_GT(reading(*s, "inlet_feed_mass"), 5 * kLayer);
   EXPECT_GT(reading(*s, "outlet_end_fluid_count"), 0);
-  expect_books_balance(*s, laid);
+  expect_mass_balance(*s, initial);
   expect_restart_is_bit_equal(*s, config, 100);
 }
 
@@ -379,7 +379,7 @@ TEST(Inlet, FillsTheVoidsOfADryBed) {
     bulk += 1e-6 / eps[a];
     moment += 1e-6 / eps[a] * x[a].z;
   }
-  EXPECT_GT(bulk / volume, 1.3) << "void share 0.6, more beside the orifice";
+  EXPECT_GT(bulk / volume, 1.3) << "void fraction 0.6, more beside the orifice";
   EXPECT_NEAR(2 * moment / bulk / (bulk / (kBedWidth * kBedWidth)), 1, 0.06)
       << "level; 0.9 if it came in as dense as in the bed";
 }
@@ -444,13 +444,14 @@ end = 1
 [out]
 every = 1
 )");
-  const double laid = reading(*s, "fluid_mass");
+  const double initial = reading(*s, "fluid_mass");
   run_until(*s, 0.3);
   const auto d = s->diagnostics();
   const double left = reading(d, "outlet_left_fluid_mass"), right = reading(d, "outlet_right_fluid_mass");
-  EXPECT_GT(left, 0.4 * laid);
-  EXPECT_GT(right, 0.4 * laid);
-  EXPECT_NEAR(left + right + reading(d, "lost_fluid_mass") + reading(d, "fluid_mass"), laid, 1e-6 * laid);
+  EXPECT_GT(left, 0.4 * initial);
+  EXPECT_GT(right, 0.4 * initial);
+  EXPECT_NEAR(left + right + reading(d, "lost_fluid_mass") + reading(d, "fluid_mass"), initial,
+              1e-6 * initial);
   EXPECT_EQ(reading(d, "outlet_left_fluid_count") + reading(d, "outlet_right_fluid_count") +
                 reading(d, "lost_fluid_count") + reading(d, "fluid_count"),
             20 * 8 * 5);

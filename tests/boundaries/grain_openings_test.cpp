@@ -139,7 +139,7 @@ max = [0.06, 0.03, 0.03]
   for (std::size_t i = 0; i < y.size(); ++i) EXPECT_LT(norm(x[i] - y[i]), 1e-7) << i;
 }
 
-TEST(GrainInlet, WaitsForRoomAndSaysSo) {
+TEST(GrainInlet, WaitsForSpaceAndSaysSo) {
   auto s = started(with(with(kHopper, "rate = 400", "rate = 20000"), "velocity = [0, 0, -0.3]", ""));
   run_until(*s, 0.01);
   const auto d = s->diagnostics();
@@ -151,7 +151,7 @@ TEST(GrainInlet, WaitsForRoomAndSaysSo) {
 
 TEST(GrainInlet, MassRateWithSeveralSizes) {
   const Config config = config_of(with(kHopper, "rate = 400", R"(mass_rate = 0.02
-sizes = [{ d = 0.003, share = 3 }, { kind = "uniform", d_min = 0.004, d_max = 0.006, share = 1 }])"));
+sizes = [{ d = 0.003, number_fraction = 3 }, { kind = "uniform", d_min = 0.004, d_max = 0.006, number_fraction = 1 }])"));
   EXPECT_EQ(config.grain.d_min, 0.003);
   EXPECT_EQ(config.grain.d_max, 0.006);
   GrainSource source(config, 0), again(config, 0);

@@ -58,17 +58,17 @@ every = 1
 
 TEST(PlaneInlet, LetsInTheVolumeOfItsRate) {
   auto s = started(channel(true));
-  const double laid = reading(*s, "fluid_mass");
-  EXPECT_NEAR(laid, 1000 * 0.2 * kWidth * kWidth, 1e-6);
+  const double initial = reading(*s, "fluid_mass");
+  EXPECT_NEAR(initial, 1000 * 0.2 * kWidth * kWidth, 1e-6);
   run_until(*s, 0.3);
   const auto d = s->diagnostics();
   const double in = reading(d, "inlet_feed_mass"), asked = 1000 * kRate * s->time();
   EXPECT_NEAR(reading(d, "inlet_feed_volume"), kRate * s->time(), 1e-8);
   EXPECT_NEAR(in, asked, 0.51 * kLayer);
   EXPECT_NEAR(std::fmod(in / kLayer + 0.5, 1), 0.5, 1e-9) << "whole layers";
-  EXPECT_NEAR(laid + in,
+  EXPECT_NEAR(initial + in,
               reading(d, "fluid_mass") + reading(d, "outlet_end_fluid_mass") + reading(d, "lost_fluid_mass"),
-              tolerance(1e-9, 1e-6, 1e-6) * (laid + in));
+              tolerance(1e-9, 1e-6, 1e-6) * (initial + in));
   EXPECT_EQ(reading(d, "lost_fluid_count"), 0);
   const HostStore fluid = s->snapshot("fluid");
   const HostArray& x = *fluid.find("position");

@@ -35,7 +35,7 @@ double mean_cube(const std::vector<double>& d) {
   return sum / double(d.size());
 }
 
-/// Share of the mass of `d` in grains finer than `opening`.
+/// Fraction of the mass of `d` in grains finer than `opening`.
 double finer(const std::vector<double>& d, double opening) {
   double fine = 0, all = 0;
   for (const double x : d) (x < opening ? fine : all) += x * x * x;
@@ -88,9 +88,9 @@ TEST(GrainSizes, RangeLeavesOutEmptyMeshes) {
   EXPECT_EQ(size_range({0.5, 1}), (std::pair{0.5, 0.5}));
 }
 
-TEST(GrainSizes, EntriesMixByTheirShares) {
+TEST(GrainSizes, EntriesMixByTheirNumberFractions) {
   SizeClass fine = uniform(0.001, 0.002);
-  fine.share = 3;
+  fine.number_fraction = 3;
   const auto d = diameters({{0.004, 1}, fine}, 1000);
   ASSERT_EQ(d.size(), 1000u);
   EXPECT_EQ(std::count(d.begin(), d.end(), 0.004), 250);
@@ -113,7 +113,8 @@ TEST(GrainSizes, ResolveTheDiametersOfTheCase) {
   const auto with = [](const std::string& sizes) {
     return read(kCase, {"grain.fill.0.sizes=[" + sizes + "]"});
   };
-  const Config c = with("{kind = \"log_normal\", median = 0.002, sigma = 0.2}, {d = 0.005, share = 0.1}");
+  const Config c =
+      with("{kind = \"log_normal\", median = 0.002, sigma = 0.2}, {d = 0.005, number_fraction = 0.1}");
   EXPECT_DOUBLE_EQ(c.grain.d_min, 0.002 * std::exp(-0.6));
   EXPECT_DOUBLE_EQ(c.grain.d_max, 0.005);
   EXPECT_DOUBLE_EQ(c.grain.fills[0].sizes[0].d_max, 0.002 * std::exp(0.6));
@@ -153,7 +154,7 @@ TEST(GrainSizes, ErrorsNameTheEntryAtFault) {
             "dam.toml:23: grain.fill.sizes.openings = [0.002, 0.001] must rise from each to the next");
   EXPECT_EQ(
       error("kind = \"sieve\"\nopenings = [0.001, 0.002]\npassing = [0, 0.5, 1]"),
-      "dam.toml:24: grain.fill.sizes.passing = [0, 0.5, 1] must hold a share for each of the 2 openings");
+      "dam.toml:24: grain.fill.sizes.passing = [0, 0.5, 1] must hold a fraction for each of the 2 openings");
   EXPECT_EQ(
       error("kind = \"sieve\"\nopenings = [0.001, 0.002, 0.003]\npassing = [0, 1, 0.5]"),
       "dam.toml:24: grain.fill.sizes.passing = [0, 1, 0.5] must not fall from the finer mesh to the coarser");

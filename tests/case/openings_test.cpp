@@ -217,7 +217,7 @@ TEST(Openings, WrongOutletsAndGrainInlets) {
   };
   EXPECT_NE(grains("min = [0, 0, 0]\nmax = [0.1, 0.1, 0.1]").find("exactly one of rate and mass_rate"),
             std::string::npos);
-  EXPECT_NE(grains("rate = 5\nmin = [0, 0, 0]\nmax = [0.1, 0.1, 0.001]").find("must leave room along z"),
+  EXPECT_NE(grains("rate = 5\nmin = [0, 0, 0]\nmax = [0.1, 0.1, 0.001]").find("must leave space along z"),
             std::string::npos);
   EXPECT_NE(grains("rate = 5\nshape = \"disc\"\ncentre = [0, 0, 0]\ndirection = [0, 0, 1]\nradius = 5e-4")
                 .find("must be at least 0.001"),

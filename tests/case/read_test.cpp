@@ -99,7 +99,7 @@ TEST(ReadCase, ReadsFacesProbesSizesAndFormulas) {
                "[[probe]]\nname = \"toe\"\ntype = \"front\"\nphase = \"grains\"\ndirection = \"z-\"\n"
                "[[probe]]\nname = \"lift\"\ntype = \"force\"\nbody = \"tank\"\nevery = 0.002\n",
            {"fluid.fill.0.velocity=[1, \"-0.5*z\", \"sin(pi*x)\"]",
-            "grain.fill.0.sizes=[{d = 0.001}, {d = 0.002, share = 3}]"});
+            "grain.fill.0.sizes=[{d = 0.001}, {d = 0.002, number_fraction = 3}]"});
   EXPECT_EQ(c.wall.bodies[0].faces, (std::array<bool, 6>{true, false, false, false, true, false}));
   ASSERT_EQ(c.out.probes.size(), 2u);
   EXPECT_EQ(c.out.probes[0].axis, 2);
@@ -108,7 +108,7 @@ TEST(ReadCase, ReadsFacesProbesSizesAndFormulas) {
   EXPECT_DOUBLE_EQ(c.out.probes[1].every, 0.002);
   EXPECT_EQ(c.fluid.fills[0].velocity, (std::array<std::string, 3>{"1", "-0.5*z", "sin(pi*x)"}));
   ASSERT_EQ(c.grain.fills[0].sizes.size(), 2u);
-  EXPECT_DOUBLE_EQ(c.grain.fills[0].sizes[1].share, 3);
+  EXPECT_DOUBLE_EQ(c.grain.fills[0].sizes[1].number_fraction, 3);
   EXPECT_DOUBLE_EQ(c.grain.d_min, 0.001);
 }
 
@@ -167,6 +167,39 @@ TEST(SettlingCase, ForgetsWhatSettlingDoesNotDependOn) {
   EXPECT_EQ(key({"grain.settle_mu=0.1", "grain.mu=0.4"}), key({"grain.mu=0.1"}));
 }
 
+/// Keys of the version before are read, from files and --set, and warned of where they stand.
+TEST(RenamedKeys, AreReadWithAWarning) {
+  const std::string sizes =
+      changed("count = 500", "count = 500\nsizes = [{d = 0.002}, {d = 0.001, share = 3}]");
+  std::vector<std::string> warnings;
+  Config c = read_case_text(sizes, "dam.toml", {"density.tension=0.02"}, warnings);
+  EXPECT_EQ(c.grain.fills[0].sizes[1].number_fraction, 3);
+  EXPECT_EQ(c.density.cavitation_limit, 0.02);
+  EXPECT_EQ(
+      warnings,
+      (std::vector<std::string>{
+          "dam.toml:21: grain.fill.sizes.share is now called grain.fill.sizes.number_fraction; the next "
+          "version will not read the former name",
+          "--set density.tension=0.02: density.tension is now called density.cavitation_limit; the next "
+          "version will not read the former name"}));
+  EXPECT_EQ(resolved_toml(c).find("share"), std::string::npos);
+
+  // what wins does not depend on which name it has
+  const std::string before = changed("[grain]", "[density]\ntension = 0.03\n[grain]");
+  const std::string now = changed("[grain]", "[density]\ncavitation_limit = 0.03\n[grain]");
+  for (const std::string& text : {before, now})
+    for (const char* override : {"density.tension=0.04", "density.cavitation_limit=0.04"})
+      EXPECT_EQ(read(text, {override}).density.cavitation_limit, 0.04) << override;
+  EXPECT_EQ(
+      error_of(changed("[grain]", "[density]\ntension = 0.03\ncavitation_limit = 0.03\n[grain]")),
+      "dam.toml:16: density.tension is the former name of density.cavitation_limit, which is given too; "
+      "leave it out");
+  EXPECT_EQ(error_of(changed("[grain]", "[density]\ntension = 2\n[grain]")),
+            "dam.toml:16: density.cavitation_limit = 2 must be within 0.0001..0.5");
+  // nor is a run that goes on one of another case
+  EXPECT_TRUE(changes_between(before, now).empty());
+}
+
 TEST(Warnings, NameWhatIsDoubtful) {
   EXPECT_TRUE(warnings_of(kCase).empty());
   EXPECT_EQ(warnings_of(changed("dx = 0.004", "dx = 0.004\nc_factor = 5")),
@@ -201,8 +234,10 @@ TEST(ParameterTable, HoldsEveryKeyOnceWithUnitAndMeaning) {
     EXPECT_FALSE(row.unit.empty()) << row.key;
     EXPECT_FALSE(row.fallback.empty()) << row.key;
   }
+  for (const auto& row : rows)
+    EXPECT_FALSE(keys.contains(row.formerly)) << "the former name of " << row.key << " is taken";
   for (const char* key :
-       {"fluid.dx", "wall.body.motion.rate", "grain.fill.sizes.share", "probe.at", "drag.law"})
+       {"fluid.dx", "wall.body.motion.rate", "grain.fill.sizes.number_fraction", "probe.at", "drag.law"})
     EXPECT_EQ(keys.count(key), 1u) << key;
 }
 

@@ -8,12 +8,12 @@
 namespace bedload::inline BL_VARIANT {
 namespace {
 
-struct Feels {
+struct Exchange {
   double K, K_rot, force, wetness, reaction;
 };
 
 /// One grain at height z (m) over fluid whose surface is at z = 0.5.
-Feels grain_at(double z) {
+Exchange grain_at(double z) {
   Config c = unit_box(0.1, 20);
   Cloud fluid = fluid_at(lattice({0.25, 0.25, 0.2}, {0.75, 0.75, 0.5}, 0.05), 0.05, 1000, 1);
   for (auto& t : fluid.theta) t = {0, 0, 9.81};
@@ -35,13 +35,13 @@ Feels grain_at(double z) {
 }
 
 TEST(Drying, IsContinuousAndEndsAtExactlyNothing) {
-  const Feels deep = grain_at(0.35), surface = grain_at(0.5);
+  const Exchange deep = grain_at(0.35), surface = grain_at(0.5);
   EXPECT_EQ(deep.wetness, 1);
   EXPECT_NEAR(surface.wetness, 0.5, 0.02);
-  Feels last = deep;
+  Exchange last = deep;
   bool dried = false;
   for (double z = 0.35; z < 0.8; z += 0.005) {
-    const Feels now = grain_at(z);
+    const Exchange now = grain_at(z);
     // the kernel takes up at most 1.4 / h of itself per height, the wetness 1/0.9 of that
     const double jump = 0.005 * 1.4 / 0.1 / 0.9 * 1.1;
     EXPECT_NEAR(now.K, last.K, jump * deep.K) << z;
@@ -91,7 +91,7 @@ TEST(Drying, ABedThatStandsOutOfTheWaterIsLiftedByWhatIsUnderIt) {
 }
 
 TEST(Drying, AGrainWithoutAnyFluidFeelsNothing) {
-  const Feels far = grain_at(0.9);
+  const Exchange far = grain_at(0.9);
   EXPECT_EQ(far.wetness, 0);
   EXPECT_EQ(far.K, 0);
   EXPECT_EQ(far.force, 0);

@@ -121,7 +121,7 @@ TEST(Exchange, ConservesAngularMomentumWithTheCouple) {
 
 /// Grain j by sums over all pairs, with Ergun's law.
 struct ByAllPairs {
-  std::vector<double> share;  ///< phi_ja K_ja / K_j of each fluid particle
+  std::vector<double> weight;  ///< phi_ja K_ja / K_j of each fluid particle
   double S = 0, eps = 0, rho = 0, wet = 0, K = 0;
   Vec3d U, omega_f, force;
 };
@@ -137,7 +137,7 @@ ByAllPairs by_all_pairs(const CoupledBox& box, const std::vector<Real4>& v_rho, 
   Vec3d mean_slip;
   for (std::size_t a = 0; a < at.size(); ++a) {
     const double vw = mass[a] / (eps[a] * v_rho[a].w) * double(w.W(Real(norm(at[a] - x))));
-    out.share.push_back(vw);
+    out.weight.push_back(vw);
     out.S += vw, out.eps += vw * eps[a], out.rho += vw * v_rho[a].w;
     out.force += Vec3d(theta[a]) * (vw * v_rho[a].w * M_PI / 6 * d * d * d);
     mean_slip += (Vec3d(v_rho[a].xyz()) - v) * vw;
@@ -148,20 +148,20 @@ ByAllPairs by_all_pairs(const CoupledBox& box, const std::vector<Real4>& v_rho, 
   Vec3d centre;
   for (std::size_t a = 0; a < at.size(); ++a) {
     const double slip = norm(local ? Vec3d(v_rho[a].xyz()) - v : mean_slip);
-    out.share[a] *=
+    out.weight[a] *=
         Ergun{}.K(Real(out.eps), Real(d), Real(out.rho), Real(box.config.fluid.mu), Real(slip)) / out.S;
-    out.K += out.share[a];
+    out.K += out.weight[a];
   }
   for (std::size_t a = 0; a < at.size(); ++a) {
-    out.share[a] /= out.K;
-    out.U += Vec3d(v_rho[a].xyz()) * out.share[a];
-    centre += at[a] * out.share[a];
+    out.weight[a] /= out.K;
+    out.U += Vec3d(v_rho[a].xyz()) * out.weight[a];
+    centre += at[a] * out.weight[a];
   }
   SymmetricMatrix<double> second;
   Vec3d circulation;
   for (std::size_t a = 0; a < at.size(); ++a) {
-    second.add_outer(out.share[a], at[a] - centre);
-    circulation += cross(at[a] - centre, Vec3d(v_rho[a].xyz())) * out.share[a];
+    second.add_outer(out.weight[a], at[a] - centre);
+    circulation += cross(at[a] - centre, Vec3d(v_rho[a].xyz())) * out.weight[a];
   }
   out.omega_f = second.inertia().inverse() * circulation;
   if (box.config.couple.angmom) out.U -= cross(out.omega_f, centre - x);  // at the grain's centre
@@ -184,10 +184,10 @@ TEST(Exchange, FluidTakesWhatASumOverAllPairsGives) {
     const auto kick = box.fluid.drag_kick.values();
     std::vector<Vec3d> expected(mass.size());
     for (std::size_t j = 0; j < K.size(); ++j) {
-      const auto share = by_all_pairs(box, before, j, local).share;
+      const auto weight = by_all_pairs(box, before, j, local).weight;
       for (std::size_t a = 0; a < mass.size(); ++a) {
         const Vec3d own = Vec3d(before[a].xyz() - U[j]) * (local ? dt * K[j] : 0);
-        expected[a] -= (Vec3d(J[j]) + own) * (share[a] / mass[a]);
+        expected[a] -= (Vec3d(J[j]) + own) * (weight[a] / mass[a]);
       }
     }
     for (std::size_t a = 0; a < mass.size(); ++a)

@@ -29,7 +29,7 @@ TEST(DragLine, MeetsTheLawAtBothSlipsAndStaysPositive) {
   EXPECT_NEAR(one.still / di_felice(Real(0.1)), 1, 4 * kInvariant);
 }
 
-/// A grain in fluid that rests but for a jet along z, with the share of its weights that the jet has.
+/// A grain in fluid that rests but for a jet along z, with the fraction of its weights that the jet has.
 TEST(LocalDrag, AJetPushesByItsOwnSpeed) {
   const double d = 0.06, dx = 0.02, mu = 1e-3;
   const Vec3d speed{0, 0, 2};

@@ -26,7 +26,7 @@ CoupledBox lattice_of_grains(double spacing, const char* kernel = "wendland_c2")
                     grains);
 }
 
-TEST(Porosity, OfAUniformBedIsItsVoidShare) {
+TEST(Porosity, OfAUniformBedIsItsVoidFraction) {
   for (const char* kernel : {"wendland_c2", "cubic", "lucy"})
     for (double spacing : {0.105, 0.125}) {
       CoupledBox box = lattice_of_grains(spacing, kernel);
@@ -38,7 +38,7 @@ TEST(Porosity, OfAUniformBedIsItsVoidShare) {
 }
 
 TEST(Porosity, HasAFloorAndCountsWhoIsHeldThere) {
-  CoupledBox box = lattice_of_grains(0.085);  // solid share 0.85: overlapping spheres
+  CoupledBox box = lattice_of_grains(0.085);  // solid fraction 0.85: overlapping spheres
   box.coupling.porosity(box.fluid, box.grains, {}, 0);
   for (Real eps : box.fluid.eps.values()) EXPECT_EQ(eps, Real(0.25));
   EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).floor_hits, 400u);
@@ -53,7 +53,7 @@ TEST(Porosity, IsOneWhereThereIsNoGrain) {
   for (Real eps : box.fluid.eps.values()) EXPECT_EQ(eps, Real(1));
 }
 
-TEST(Porosity, KnowsWhatShareOfTheKernelWallsLeave) {
+TEST(Porosity, KnowsWhatFractionOfTheKernelWallsLeave) {
   const WendlandC2 w(0.1);
   std::vector<Surface> planes(2);
   planes[0].axis[2] = {0, 0, 1};
@@ -61,9 +61,9 @@ TEST(Porosity, KnowsWhatShareOfTheKernelWallsLeave) {
   planes[1].body = 1;
   std::vector<BodyPose> pose(2);
   pose[1].present = 0;
-  const auto share = [&](const Vec3d& x) {
+  const auto fraction = [&](const Vec3d& x) {
     const Frame frame({-1, -1, -1}, {1, 1, 1}, false, false, false);
-    return WallFreeShare{HalfSpaceShare::of(w), frame, {{planes.data(), 2}}, {pose.data(), 2}}(x);
+    return WallFreeFraction{HalfSpaceFraction::of(w), frame, {{planes.data(), 2}}, {pose.data(), 2}}(x);
   };
   for (double z : {0.0, 0.04, 0.11, 0.25}) {
     double free = 0, all = 0;
@@ -72,11 +72,11 @@ TEST(Porosity, KnowsWhatShareOfTheKernelWallsLeave) {
       all += weight;
       if (r.z > -z) free += weight;
     }
-    EXPECT_NEAR(share({0, 0, z}), free / all, 5e-3) << z;
+    EXPECT_NEAR(fraction({0, 0, z}), free / all, 5e-3) << z;
   }
-  EXPECT_EQ(share({0.3, 0, 0.25}), Real(1));
+  EXPECT_EQ(fraction({0.3, 0, 0.25}), Real(1));
   pose[1].present = 1;
-  EXPECT_NEAR(share({0, 0, 0}), 0.25, 1e-6);
+  EXPECT_NEAR(fraction({0, 0, 0}), 0.25, 1e-6);
 }
 
 TEST(Porosity, IsOneInAnOrificeAndFallsToThatOfTheBed) {
@@ -111,14 +111,14 @@ TEST(Porosity, IsOneInAnOrificeAndFallsToThatOfTheBed) {
     const double from_disc = std::hypot(r.z, std::max(0.0, std::hypot(r.x, r.y) - 0.1));
     const double from_rectangle =
         std::hypot(q.x, std::max(0.0, std::abs(q.y) - 0.1), std::max(0.0, std::abs(q.z) - 0.05));
-    double share = 1;
+    double fraction = 1;
     for (const double distance : {from_disc, from_rectangle}) {
       const double t = std::clamp((distance - 0.05) / 0.2, 0.0, 1.0);
-      share *= t * t * (3 - 2 * t);
+      fraction *= t * t * (3 - 2 * t);
     }
-    EXPECT_NEAR(1 - eps[a], (1 - bed[a]) * share, kInvariant) << at[a].x << " " << at[a].y;
-    one += share == 0;
-    between += share > 0 && share < 1;
+    EXPECT_NEAR(1 - eps[a], (1 - bed[a]) * fraction, kInvariant) << at[a].x << " " << at[a].y;
+    one += fraction == 0;
+    between += fraction > 0 && fraction < 1;
   }
   EXPECT_GT(one, 20);
   EXPECT_GT(between, 200);

@@ -4,7 +4,7 @@
     halves.py BEDLOAD [--only NAME ...] [--steps 24] [--backend cpu] [--threads 2 1 3] [--settle]
 
 BEDLOAD is the program. The second half goes on from the checkpoint that the first leaves; the whole and either half
-run on different numbers of threads. Beds are as laid unless --settle is given, which some cases take minutes for. Prints a line for each case; exits with 1 if one differs or fails.
+run on different numbers of threads. Beds are as initialised unless --settle is given, which some cases take minutes for. Prints a line for each case; exits with 1 if one differs or fails.
 Not part of the test suite.
 """
 

@@ -109,11 +109,11 @@ TEST(FluidPairs, TaitAndDemocritusPressures) {  // T-5
   EXPECT_EQ((EquationOfState{Real(1000), 7, 0, Real(1000), true}).pressure(Real(-0.1)), Real(0));
 }
 
-TEST(FluidPairs, TornFluidCavitates) {
+TEST(FluidPairs, FragmentedFluidCavitates) {
   Config c = periodic_box(4);
-  c.density.tension = 0.02;
+  c.density.cavitation_limit = 0.02;
   FluidBox box(c);
-  for (std::size_t a = 0; a < box.s.size(); ++a) box.s[a] = a % 2 ? -0.1 : -0.01;  // torn, stretched
+  for (std::size_t a = 0; a < box.s.size(); ++a) box.s[a] = a % 2 ? -0.1 : -0.01;  // fragmented, stretched
   box.upload();
   const auto id = box.fluid.id.values();
   const auto m = box.fluid.m_state.values();
@@ -121,12 +121,12 @@ TEST(FluidPairs, TornFluidCavitates) {
   for (std::size_t k = 0; k < id.size(); ++k) {
     const double density = id[k] % 2 ? -0.02 : -0.01;
     EXPECT_NEAR(m[k].z, 1000 * (1 + density), 1e-3);
-    EXPECT_NEAR(s[k], id[k] % 2 ? -0.1 : -0.01, 1e-7) << "it forgets how far it is torn";
+    EXPECT_NEAR(s[k], id[k] % 2 ? -0.1 : -0.01, 1e-7) << "it forgets how far it is fragmented";
     EXPECT_LT(m[k].y, 0) << "it pulls";
   }
 }
 
-TEST(FluidPairs, EnergyOfCompressionIsTheWorkOfThePressure) {  // torn fluid too
+TEST(FluidPairs, EnergyOfCompressionIsTheWorkOfThePressure) {  // fragmented fluid too
   EquationOfState eos{Real(1e5), 7, Real(300), Real(1000), false};
   eos.least = Real(-0.02);
   for (const double x : {-0.3, -0.05, -0.01, 0.0, 0.03}) {

@@ -86,11 +86,11 @@ TEST(Walls, ThatTurnSeeFluidOnACircleAsFarAsItTurnsAlong) {
   RigidMotion drum;
   drum.centre = {-1, 0, 0};
   drum.omega = {0, 0, 10};
-  for (double share : {0.0, 0.5, 1.0, 1.5})
-    EXPECT_NEAR(
-        extrapolated(g, drum, g - Vec3d{-100 * std::min(share * share, 1.0), 0, 0}, {0, 10 * share, 3}), 500,
-        500 * 20 * kInvariant)
-        << share;
+  for (double fraction : {0.0, 0.5, 1.0, 1.5})
+    EXPECT_NEAR(extrapolated(g, drum, g - Vec3d{-100 * std::min(fraction * fraction, 1.0), 0, 0},
+                             {0, 10 * fraction, 3}),
+                500, 500 * 20 * kInvariant)
+        << fraction;
 }
 
 TEST(Walls, FallingFreelyTakeTheMeanPressure) {  // T-11: a_w = g

@@ -10,21 +10,21 @@
 namespace bedload::fuzz {
 namespace {
 
-/// Few enough particles to lay them here.
+/// Few enough particles to place them here.
 bool is_small(const Config& c) {
-  const Vec3d room = c.domain.max - c.domain.min;
+  const Vec3d space = c.domain.max - c.domain.min;
   double particles = 0;
   const auto add = [&](double length, double spacing, double power) {
     particles += std::pow(length / spacing, power);
   };
   if (c.fluid.present) {
-    add(std::max({room.x, room.y, room.z}), c.fluid.dx, 3);
+    add(std::max({space.x, space.y, space.z}), c.fluid.dx, 3);
     for (const WallBody& body : c.wall.bodies) {
       const Vec3d side = body.max - body.min;
       if (body.shape != "plane") add(std::max({side.x, side.y, side.z}), c.wall.spacing(body), 3);
     }
   }
-  if (c.grain.present) add(std::max({room.x, room.y, room.z}), c.grain.d_min, 3);
+  if (c.grain.present) add(std::max({space.x, space.y, space.z}), c.grain.d_min, 3);
   return particles < 1e5;
 }
 

@@ -1,4 +1,4 @@
-// Every case that comes with Bedload can be read and laid.
+// Every case that comes with Bedload can be read and initialised.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(Cases, AreLaidWithoutOtherWarningsThanTheyExplain) {
+TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
   struct Count {
     std::size_t fluid, grains;
     std::vector<std::string> warnings = {};  ///< how they begin

@@ -34,7 +34,7 @@ TEST(Passages, AreHolesWiderThanTheSphere) {
   EXPECT_EQ(ways(make_hollow(make_sphere({}, 0.1), 0.02), 0.03).count, 0) << "a cavity is no way";
   EXPECT_EQ(ways(make_union({make_sphere({-0.1, 0, 0}, 0.05), make_sphere({0.1, 0, 0}, 0.05)}), 0.03).count,
             0)
-      << "between two pieces there is room, but nothing to pass through";
+      << "between two pieces there is a gap, but nothing to pass through";
   EXPECT_FALSE(ways(sieve(0.03), 1e-4).seen);
 }
 

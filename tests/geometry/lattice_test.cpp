@@ -50,7 +50,7 @@ TEST(FluidLattice, WarnsWhereTheBoxIsNoMultiple) {
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_EQ(warnings[0],
             "fluid.fill 1: 0.034 m along z is not near a multiple of fluid.dx = 0.01 m; "
-            "3 layers 0.0113333 m apart are laid");
+            "3 layers 0.0113333 m apart are placed");
 }
 
 TEST(FluidLattice, VelocityFollowsItsFormulas) {

@@ -366,13 +366,13 @@ TEST(TrianglePoint, MatchesASampleOfTheTriangle) {
                                           (double(j) / steps) * (t[2] - t[0]))));
     EXPECT_LE(std::sqrt(p.distance2), least + kRound);
     EXPECT_GE(std::sqrt(p.distance2), least - 2.0 / steps);
-    // It belongs to the triangle: shares of the area are positive and add up.
+    // It belongs to the triangle: weights of the area are positive and add up.
     const Vec3d area = area_vector(t);
     double sum = 0;
     for (int k = 0; k < 3; ++k) {
-      const double share = dot(cross(t[(k + 1) % 3] - t[k], p.point - t[k]), area) / norm2(area);
-      EXPECT_GE(share, -1e-9);
-      sum += share;
+      const double weight = dot(cross(t[(k + 1) % 3] - t[k], p.point - t[k]), area) / norm2(area);
+      EXPECT_GE(weight, -1e-9);
+      sum += weight;
     }
     EXPECT_NEAR(sum, 1, 1e-9);
     if (p.feature == Feature::vertex) {

@@ -117,7 +117,7 @@ TEST(GrainPacking, SaysWhatDoesNotFit) {
   EXPECT_EQ(error_of(config), "grain.fill 1: holds no grain; raise its count, mass or packing_fraction");
 }
 
-TEST(GrainPacking, SizesComeInTheirShares) {
+TEST(GrainPacking, SizesComeInTheirFractions) {
   Config config = grain_case({0.2, 0.2, 0.2});
   config.grain.d_max = 0.01;
   config.grain.fills[0].sizes = {{0.01, 1}, {0.006, 2}, {0.004, 1}};

@@ -111,7 +111,7 @@ void expect_even(const Shape& shape, const Limits& limits) {
     }
   }
   EXPECT_LT(surface_hole, limits.hole);
-  // wider than in a cubic lattice; the pattern, and with it this share, changes with the last digit of any
+  // wider than in a cubic lattice; the pattern, and with it this fraction, changes with the last digit of any
   // number
   EXPECT_LT(wide, limits.hole > 1 ? 0.04 * on_surface : 0.005 * on_surface);
   EXPECT_LT(hole, 1);

@@ -29,8 +29,8 @@ void sweep(std::vector<Vec3d>& points, const Vec3d& a, const Vec3d& u, double z0
   }
 }
 
-/// The distance must be that of the nearest of `points`, laid `step` apart on the surface, and its sign what
-/// `inside` says.
+/// The distance must be that of the nearest of `points`, placed `step` apart on the surface, and its sign
+/// what `inside` says.
 void expect_brute_force(const Shape& shape, const std::vector<Vec3d>& points, double step,
                         const std::function<bool(const Vec3d&)>& inside) {
   RandomPoints random(shape.bounds().grown(0.4));

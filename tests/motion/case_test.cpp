@@ -151,7 +151,7 @@ TEST(MotionCase, AWallThatBeginsElsewhereIsWarnedOf) {
                           "[wall.body.motion]\nkind = \"formula\"\n"
                           "displacement = [\"0.01*cos(t)\", 0, 0]\n[grain]\n")),
       (std::vector<std::string>{"wall.body \"tank\": its motion begins 0.01 m away from where fluid and "
-                                "grains are laid for it"}));
+                                "grains start for it"}));
 }
 
 TEST(MotionCase, FormulasAreInTAndHaveValues) {
@@ -218,7 +218,7 @@ TEST(FrameCase, BeginsWithItsContentsAndMayNotTurn) {
   EXPECT_TRUE(warnings_of(kCase + kShaken).empty()) << "no blow at t = 0";
   EXPECT_EQ(warnings_of(kCase + kShaken + "start = 0.1\n"),
             (std::vector<std::string>{"frame.motion: its velocity jumps by 0.1811 m/s at t = 0.1 s; what is "
-                                      "inside does not feel it"}));
+                                      "does not act on what is inside"}));
   const std::string must = " must not turn; a frame can only be translated";
   EXPECT_EQ(
       error_of(kCase + "[frame.motion]\nkind = \"rotation\"\naxis = [0, 0, 1]\ncentre = [0, 0, 0]\nrate = 1"),

@@ -140,17 +140,17 @@ TEST(MotionLaw, AgitatorPeaks) {  // T-43
     c.gravity = {};
     c.time.end = end;
     c.frame.motion = motion_of({part});
-    const FeltGravity felt(c);
+    const EffectiveGravity effective(c);
     const MotionLaw law(c.frame.motion, end);
     double v = 0, a = 0;
     for (int i = 200; i < 2800; ++i) {
       v = std::max(v, norm(law.at(end * i / 3000).v));
-      a = std::max(a, norm(felt.at(end * i / 3000)));
+      a = std::max(a, norm(effective.at(end * i / 3000)));
     }
     EXPECT_NEAR(v, 0.1811, exact) << part.kind;
     EXPECT_NEAR(a, 4.6203, exact * (part.kind == "table" ? 4.62 : 1)) << part.kind;
     const double t = 0.3;  // minus the frame's acceleration
-    EXPECT_NEAR(felt.at(t).x, 4.6203 * std::sin(2 * pi * f * t), 4.62 * exact) << part.kind;
+    EXPECT_NEAR(effective.at(t).x, 4.6203 * std::sin(2 * pi * f * t), 4.62 * exact) << part.kind;
   }
 }
 
@@ -304,9 +304,9 @@ TEST(Survey, FindsTopSpeedAndJumps) {
   EXPECT_DOUBLE_EQ(velocity_jumps(drum, points, 1).at(0).size, 3);
   EXPECT_NEAR(top_speed(drum, points, 1), 3, 1e-12);
   // from rest to rest without a jump, 1 m in 1 s
-  const auto ease = table(101, 0.01, [](double t) { return MotionRow{t, (1 - std::cos(pi * t)) / 2}; });
-  EXPECT_TRUE(velocity_jumps(motion_of({ease}), points, 2).empty());
-  EXPECT_NEAR(top_speed(motion_of({ease}), points, 2), pi / 2, 1e-4);
+  const auto swing = table(101, 0.01, [](double t) { return MotionRow{t, (1 - std::cos(pi * t)) / 2}; });
+  EXPECT_TRUE(velocity_jumps(motion_of({swing}), points, 2).empty());
+  EXPECT_NEAR(top_speed(motion_of({swing}), points, 2), pi / 2, 1e-4);
   EXPECT_TRUE(velocity_jumps(motion_of({formula({"0.1*(1-cos(7*t))", "0", "0"})}), points, 2).empty());
 }
 

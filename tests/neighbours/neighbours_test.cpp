@@ -142,9 +142,9 @@ struct MomentPass {
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N weight, N a, const Vec3<N>& b,
                   const Vec4<N>& c) const {
     const N d = root(r2);
-    const N share = select(b.x < c.w, a * w.W(d), 2 * c.x * square(w.h) * w.F(d));
-    sum.weight += weight * share;
-    sum.moment += weight * share * (r + w.h * cross(b, c.xyz()));
+    const N factor = select(b.x < c.w, a * w.W(d), 2 * c.x * square(w.h) * w.F(d));
+    sum.weight += weight * factor;
+    sum.moment += weight * factor * (r + w.h * cross(b, c.xyz()));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.weight += other.weight;

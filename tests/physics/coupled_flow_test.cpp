@@ -131,7 +131,7 @@ void expect_energy_kept(bool smoothed) {
     c.visc.model = "none";
     c.fluid.mu = 1e-12;
     c.couple.drag = "stokes";
-    if (!smoothed) c.density.delta = c.density.consolidation = c.couple.spreading = 0;
+    if (!smoothed) c.density.delta = c.density.void_relaxation = c.couple.spreading = 0;
     c.couple.eps_min = floor;
     c.grain.e = 1;
     c.grain.mu = c.grain.mu_r = 0;
@@ -278,8 +278,8 @@ TEST(CoupledFlow, AJetInABedIsStoppedByItsOwnSpeed) {
 }
 
 /// Water over and in a bed of resting grains on a floor of that type: it stays still, and lifts each grain by
-/// its buoyancy, to that share.
-void expect_still_bed(const char* floor, double share = 0.03, double fastest_allowed = 3e-3) {
+/// its buoyancy, to that fraction.
+void expect_still_bed(const char* floor, double fraction = 0.03, double fastest_allowed = 3e-3) {
   Config c = periodic_box(8, 3e-3);
   c.gravity = {0, 0, -9.81};
   c.domain.periodic = {true, true, false};
@@ -289,7 +289,7 @@ void expect_still_bed(const char* floor, double share = 0.03, double fastest_all
   c.fluid.vmax = std::sqrt(2 * 9.81 * 0.048);
   c.fluid.c = 10 * c.fluid.vmax;
   c.density.delta = 0.1;
-  c.density.consolidation = DensityConfig{}.consolidation;
+  c.density.void_relaxation = DensityConfig{}.void_relaxation;
   c.wall.rep_D = 5 * 9.81 * 0.048;
   c.wall.rep_r0 = 1.5e-3;
   c.grain.present = c.grain.fixed = true;
@@ -327,7 +327,7 @@ void expect_still_bed(const char* floor, double share = 0.03, double fastest_all
   }
   EXPECT_LT(fastest, fastest_allowed);
   const double buoyancy = 9.81 * 1000 * 567 * pi / 6 * 2.7e-3 * 2.7e-3 * 2.7e-3;
-  EXPECT_NEAR(lift / buoyancy, 1, share);
+  EXPECT_NEAR(lift / buoyancy, 1, fraction);
 }
 
 TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRest) { expect_still_bed("adami"); }

@@ -13,7 +13,7 @@ namespace {
 
 /// Fluid where `wet` says on a lattice that leaves out the bodies, and their wall particles.
 template <class Wet>
-bedload::Setup laid(const Config& c, const Wet& wet) {
+bedload::Setup initialised(const Config& c, const Wet& wet) {
   bedload::Setup setup;
   const double dx = c.fluid.dx;
   const Vec3d &lo = c.domain.min, &hi = c.domain.max;
@@ -60,7 +60,7 @@ TEST(FreeBodyInFluid, ClosedSystemKeepsMomenta) {
     for (const double shift : {0.0, 200.0}) {
       Config c = drop(viscosity);
       c.shift = shift;
-      auto s = started(c, laid(c, [](const Vec3d& x) {
+      auto s = started(c, initialised(c, [](const Vec3d& x) {
                          return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) < 0.06;
                        }));
       const auto total = [&](const char* what) {
@@ -90,7 +90,7 @@ TEST(FreeBodyInFluid, ClosedSystemKeepsMomenta) {
 TEST(FreeBodyInFluid, MayBeDeafToItWhileTheFluidFeelsTheBody) {
   Config c = drop("none");
   c.wall.bodies[0].free.fluid = false;
-  auto s = started(c, laid(c, [](const Vec3d& x) {
+  auto s = started(c, initialised(c, [](const Vec3d& x) {
                      return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) < 0.06;
                    }));
   for (int k = 0; k < 100; ++k) s->step();
@@ -105,7 +105,7 @@ void expect_momenta_kept(const char* mode, double along_the_way, bool wall_norma
                          double cfl = 0.25, bool smoothed = true, double shift = Config{}.shift) {
   Config c = drop("none");
   c.shift = shift;
-  if (!smoothed) c.density.delta = c.density.consolidation = 0;
+  if (!smoothed) c.density.delta = c.density.void_relaxation = 0;
   c.couple.mode = mode;
   c.couple.wall_normalise = wall_normalise;
   c.time.cfl = cfl;
@@ -116,7 +116,7 @@ void expect_momenta_kept(const char* mode, double along_the_way, bool wall_norma
   const auto within = [](const Vec3d& x) {
     return std::max({std::abs(x.x), std::abs(x.y), std::abs(x.z)}) < 0.06;
   };
-  bedload::Setup setup = laid(c, within);
+  bedload::Setup setup = initialised(c, within);
   for (int k = 0; k < 12; ++k) {  // one beside each face touches at once
     const double side = k % 2 ? 1 : -1;
     Vec3d x{0.004 * (k / 6), 0.007 * (k / 6) - 0.003, 0.005};
@@ -161,8 +161,9 @@ TEST(SmallFreeBody, FluidGrainsAndBodyKeepMomentaTogether) {
 }
 
 /// The part of a grain's volume that the body has pushed aside is lifted beside the grain, and the moment of
-/// that is given to no one: the more, the higher the pressure, and as it is where fluid is torn. Clipping the
-/// density there instead of the pressure, with the repulsion of walls, leaves 5e-6 of the scale for 9e-6.
+/// that is given to no one: the more, the higher the pressure, and as it is where fluid is fragmented.
+/// Clipping the density there instead of the pressure, with the repulsion of walls, leaves 5e-6 of the scale
+/// for 9e-6.
 TEST(SmallFreeBody, KeepsAngularMomentumButForVolumeThatItPushesAside) {
   expect_momenta_kept("two_way", 9e-6, true, 0.25, false);
   expect_momenta_kept("two_way", 1.2e-5);
@@ -186,14 +187,14 @@ Config tank_with_slab(double density) {
       "slab", make_box({-0.04, -0.04, kDepth - kDraught}, {0.04, 0.04, kDepth - kDraught + 0.04}));
   set_free(slab, density);
   c.wall.bodies = {tank, slab};
-  // room for the layers of the tank
+  // space for the layers of the tank
   for (int k = 0; k < 2; ++k) c.domain.min[k] -= 0.04, c.domain.max[k] += 0.04;
   c.domain.min.z = -0.04;
   return c;
 }
 
 bedload::Setup filled(const Config& c) {
-  return laid(c, [](const Vec3d& x) {
+  return initialised(c, [](const Vec3d& x) {
     return std::max(std::abs(x.x), std::abs(x.y)) < 0.5 * kSide && x.z > 0 && x.z < kDepth;
   });
 }
@@ -223,7 +224,8 @@ TEST_P(SlowFloat, RestsAtArchimedesDepth) {
 INSTANTIATE_TEST_SUITE_P(Densities, SlowFloat, testing::Values(200.0, 500.0));
 
 TEST(FreeBodyInFluid, PushesALightRaftUpSmoothly) {
-  // a twentieth of the density of water; wall pressure that took its last acceleration would tear the fluid
+  // a twentieth of the density of water; wall pressure that took its last acceleration would fragment the
+  // fluid
   const Config c = tank_with_slab(50);
   auto s = started(c, filled(c));
   const double weight = 9.81 * c.wall.bodies[1].free.solid.mass,

@@ -28,8 +28,8 @@ double energy(Simulation& s) {
 Config inviscid_box(int n, double dt, bool smoothed = false) {
   Config c = periodic_box(n);
   c.visc.model = "none";
-  if (!smoothed) c.density.delta = c.density.consolidation = c.shift = 0;
-  c.density.tension = 0.5;  // out of the waves' way
+  if (!smoothed) c.density.delta = c.density.void_relaxation = c.shift = 0;
+  c.density.cavitation_limit = 0.5;  // out of the waves' way
   c.time.dt = dt;
   c.time.force_dt = true;
   const double k = 2 * pi / (n * c.fluid.dx);

@@ -81,10 +81,10 @@ TEST(SlowLeak, NothingLeavesAShakenVesselOfTriangles) {
   std::vector<std::string> warnings;
   const Config config = read_case(folder / "case.toml", {}, warnings);
   auto s = started(config);
-  const double laid = reading(*s, "fluid_count");
-  ASSERT_GT(laid, 0.8 * load.fluid);
+  const double initial = reading(*s, "fluid_count");
+  ASSERT_GT(initial, 0.8 * load.fluid);
   ASSERT_EQ(reading(*s, "grain_count"), std::int64_t(load.grains));
-  std::cout << laid << " fluid particles, dx " << config.fluid.dx << " m, " << load.grains << " grains, d "
+  std::cout << initial << " fluid particles, dx " << config.fluid.dx << " m, " << load.grains << " grains, d "
             << config.grain.d << " m" << std::endl;
 
   const TriangleMesh room(inside, "inside");
@@ -109,7 +109,7 @@ TEST(SlowLeak, NothingLeavesAShakenVesselOfTriangles) {
               << fastest << " m/s; lost " << reading(*s, "lost_fluid_count") << " and "
               << reading(*s, "grains_outside") << std::endl;
   }
-  EXPECT_EQ(reading(*s, "fluid_count"), laid);
+  EXPECT_EQ(reading(*s, "fluid_count"), initial);
   EXPECT_EQ(reading(*s, "lost_fluid_count"), 0);
   EXPECT_EQ(reading(*s, "grains_outside"), 0);
   EXPECT_LT(grains_out, 0) << "no centre of a grain";

@@ -54,8 +54,8 @@ Shepard summed(const Config& c, Simulation& s, const Vec3d& x) {
     for (std::size_t a = 0; a < place.size(); ++a) {
       const double r = norm(apart(c, place[a], x));
       if (r >= double(w.kappa) * c.fluid.h()) continue;
-      const double share = mass[a] / rho[a] * w.W(Real(r));
-      sum.weight += share, sum.pressure += share * p[a], sum.velocity += share * v[a];
+      const double weight = mass[a] / rho[a] * w.W(Real(r));
+      sum.weight += weight, sum.pressure += weight * p[a], sum.velocity += weight * v[a];
     }
   });
   return sum;

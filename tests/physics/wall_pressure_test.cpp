@@ -45,7 +45,7 @@ Config water() {
   c.fluid.c = 15;
   c.visc.alpha = 0.1;
   c.wall.rep_D = 5 * kG * 0.08;
-  c.wall.rep_r0 = kDx;  // felt by the first layer
+  c.wall.rep_r0 = kDx;  // acts on the first layer
   c.wall.layer_r0 = kDx;
   c.fluid.fills = {{c.domain.min, {0.08, 0.08, 0.08}}};
   return c;

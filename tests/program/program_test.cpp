@@ -512,8 +512,8 @@ TEST_F(Program, RefusesWhatIsTooFineForTheMemoryBeforeLayingIt) {
   EXPECT_NE(o.err.find(" free, enough for "), o.err.npos) << o.err;
 }
 
-/// Errors that come up as particles are laid and meshes are read name their place as those of the reader do.
-TEST_F(Program, NamesThePlaceOfWhatCannotBeLaid) {
+/// Errors that come up as particles are placed and meshes are read name their place as those of the reader do.
+TEST_F(Program, NamesThePlaceOfWhatCannotBeInitialised) {
   const auto refused = [&](const std::string& more, const std::string& message, const std::string& set = "") {
     write("dam.toml", kSmall + more);  // whose next line is the 28th
     for (const std::string command : {"check", "run"}) {
@@ -538,7 +538,7 @@ TEST_F(Program, NamesThePlaceOfWhatCannotBeLaid) {
               "kind = \"sphere\"\ncentre = [0.08, 0.03, 0.05]\nradius = 0.01\n[[shape]]\nname = \"none\"\n"
               "kind = \"difference\"\nof = [\"part\", \"part\"]\n" +
               fill + "shape = \"none\"\n",
-          "dam.toml:38: fluid.fill 2: shape \"none\" has no room for a particle of 0.01 m\n");
+          "dam.toml:38: fluid.fill 2: shape \"none\" has no space for a particle of 0.01 m\n");
   refused("", "dam.toml:20: grain.fill 1: 800 grains of 0.005 m need at least ",
           " --set grain.fill.0.count=800");
   const std::string mesh = (dir_ / "part.stl").string();

@@ -22,7 +22,7 @@ TEST(DurationText, PicksItsUnits) {
 TEST(ProgressLine, TellsTimeRatesStepAndWhatLimitsIt) {
   const ProgressLine line{.time = 0.123,
                           .end = 0.3,
-                          .share = 0.41,
+                          .fraction = 0.41,
                           .steps_per_second = 812,
                           .particle_steps_per_second = 3.2e7,
                           .dt = 1.2e-5,

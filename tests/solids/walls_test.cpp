@@ -30,7 +30,7 @@ TEST(Surfaces, NearestPointsOfABox) {
   auto at = [&](const Vec3d& x) {
     Seen seen{};
     const SurfaceView view(surfaces[0], still, frame, x);
-    view.each_foot(geometry.view(), 1, 1e-9, [&](const Foot& f) {
+    view.each_closest_point(geometry.view(), 1, 1e-9, [&](const ClosestPoint& f) {
       seen = {f.normal, view.point(f), f.distance};
     });
     return seen;

@@ -31,7 +31,7 @@ inline Frame frame_of(const Config& c) {
   return {c.domain.min, c.domain.max, c.domain.periodic[0], c.domain.periodic[1], c.domain.periodic[2]};
 }
 
-/// Fluid and its solver with lists ready; `jitter` displaces lattice points by up to that share of dx.
+/// Fluid and its solver with lists ready; `jitter` displaces lattice points by up to that fraction of dx.
 struct FluidBox {
   explicit FluidBox(const Config& config, double jitter = 0, bool random_mass = false)
       : config(config),

@@ -248,10 +248,10 @@ turn_angle = 5
 
     def test_bodies_stand_where_their_particles_are(self):
         (self.run_dir / "case.resolved.toml").write_text(self.CASE)
-        laid = np.random.default_rng(2).random((30, 3))
+        placed = np.random.default_rng(2).random((30, 3))
         turned = outlines.rotation([0, 0, 1], 0.3)
         order = np.random.default_rng(3).permutation(30)  # frames keep no order
-        write_frames(self.run_dir / "walls.vtkhdf", [0, 0.1], [laid, (laid @ turned.T)[order]],
+        write_frames(self.run_dir / "walls.vtkhdf", [0, 0.1], [placed, (placed @ turned.T)[order]],
                      {"body": [np.ones(30), np.ones(30)], "id": [np.arange(30), order]})
         _, turn, shift = list(plot.Run(self.run_dir, "xz").bodies(0.1))[1]
         np.testing.assert_allclose(turn, turned, atol=1e-5)
@@ -350,8 +350,8 @@ class Solids(unittest.TestCase):
 class Agitator(unittest.TestCase):
     def test_rolls_or_slides_as_it_sets_off(self):
         omega = 2 * np.pi * rolling.FREQUENCY
-        share = rolling.INERTIA / (rolling.MASS * rolling.CAP**2)
-        for friction, mass in ((0, 1), (1, 1 + share)):
+        ratio = rolling.INERTIA / (rolling.MASS * rolling.CAP**2)
+        for friction, mass in ((0, 1), (1, 1 + ratio)):
             for t, angle, v in rolling.motion(friction, 0, 0.01):
                 pass
             self.assertLess(angle, 0.01)
@@ -374,7 +374,7 @@ class Bed(unittest.TestCase):
     def test_extents_with_and_without_a_lone_grain(self):
         drum = object.__new__(bed.Drum)
         drum.radius, drum.length = 0.05, 0.1
-        drum.lay_out()
+        drum.arrange()
         d = 2.5e-3
         x, y, z = (k.ravel() * d / 2 for k in np.meshgrid(np.arange(-16, 17), [0], np.arange(-30, -9)))
         places = np.append(np.transpose([x, y, z]), [[0.03, 0.0, 0.02]], axis=0)

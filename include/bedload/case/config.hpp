@@ -61,7 +61,7 @@ struct ShapeConfig {
   bool operator==(const ShapeConfig&) const = default;
 };
 
-/// A block of fluid, laid on a lattice of spacing fluid.dx, or the particles of a file.
+/// A block of fluid, placed on a lattice of spacing fluid.dx, or the particles of a file.
 struct FluidFill {
   Vec3d min, max;                              ///< box, m; of a shape or a file: around what is filled (resolved)
   std::array<std::string, 3> velocity{"0", "0", "0"};  ///< formulas in x, y, z, m/s
@@ -110,8 +110,8 @@ struct EosConfig {
 
 struct DensityConfig {
   double delta = 0.1;                          ///< density diffusion
-  double consolidation = 3;                    ///< how fast pressure fades in fluid with room in it, c/h
-  double tension = 0.001;                      ///< the fluid cavitates below rho/rho0 - 1 = -tension
+  double void_relaxation = 3;                  ///< how fast pressure fades in fluid with voids in it, c/h
+  double cavitation_limit = 0.001;             ///< the fluid cavitates below rho/rho0 - 1 = minus this
   bool operator==(const DensityConfig&) const = default;
 };
 
@@ -150,7 +150,7 @@ struct MotionConfig : MotionPart {
   bool operator==(const MotionConfig&) const = default;
 };
 
-/// How the domain itself moves: translation only. Gravity is then felt as g - a_frame.
+/// How the domain itself moves: translation only. The effective gravity is then g - a_frame.
 struct FrameConfig {
   MotionConfig motion;
   double acceleration = 0;                     ///< largest, m/s2 (resolved)
@@ -186,7 +186,7 @@ struct FreeConfig {
   std::string turn = "all";                    ///< all, axis, none
   Vec3d axis{0, 0, 1};                         ///< unit (resolved)
   std::vector<double> point;                   ///< move = none: stays where it is, m; empty: centre of mass
-  bool fluid = true;                           ///< feels the fluid
+  bool fluid = true;                           ///< the fluid acts on it
   bool contacts = true;                        ///< touches other bodies
   double E = 0, e = 0;                         ///< Pa, - (default grain.*)
   double nu = std::numeric_limits<double>::infinity();  ///< (default grain.nu)
@@ -249,16 +249,16 @@ struct WallConfig {
   bool operator==(const WallConfig&) const = default;
 };
 
-/// Grain sizes: one of several entries, each with a share of the count; one diameter or a distribution.
+/// Grain sizes: one of several entries, each with a number fraction; one diameter or a distribution.
 struct SizeClass {
   double d = 0;                                ///< class: diameter, m
-  double share = 1;                            ///< of the number of grains
+  double number_fraction = 1;                  ///< of the grains, relative to the other entries
   std::string kind = "class";                  ///< class, uniform, log_normal, sieve
   double d_min = 0, d_max = 0;                 ///< uniform, log_normal: ends, m
   double median = 0;                           ///< log_normal: m
   double sigma = 0;                            ///< log_normal: standard deviation of ln d
   std::vector<double> openings{};              ///< sieve: of its meshes, m
-  std::vector<double> passing{};               ///< sieve: share of the mass that each lets through
+  std::vector<double> passing{};               ///< sieve: fraction of the mass that each lets through
   bool operator==(const SizeClass&) const = default;
 };
 
@@ -321,7 +321,7 @@ struct ContactConfig {
   std::string rolling = "epsd";                ///< epsd, cdt, none
   double k = 0;                                ///< N/m, linear only
   double kt_ratio = 2.0 / 7.0;
-  double tangential_damping = 1;               ///< share of c_n sqrt(S_t/S_n) that damps friction's spring
+  double tangential_damping = 1;               ///< fraction of c_n sqrt(S_t/S_n) that damps friction's spring
   double eta_r = 0.3;
   bool clip_tension = true;
   bool he_damping = false;                     ///< paper.he_damping: sqrt(6) prefactor of He et al. (20b)
@@ -333,7 +333,7 @@ struct CouplingConfig {
   std::string mode = "two_way";                ///< off, one_way, two_way
   double hc = 0;                               ///< m (default max(h, 2 d_max 2/kappa))
   double eps_min = 0.25;
-  bool wall_normalise = true;                  ///< a grain's volume lies in the kernel's share that walls leave free
+  bool wall_normalise = true;                  ///< a grain's volume lies in the kernel's fraction that walls leave free
   double spreading = 0.01;                     ///< how fast fluid that overfills its volume grows denser, c/h
   double S_dry = 0.05, S_wet = 0.95;
   bool torque = true;
@@ -457,7 +457,7 @@ struct Config {
   std::string precision = "mixed";             ///< single, mixed, double
   std::string simd = "auto";                   ///< auto, baseline, avx2
   std::uint64_t seed = 1;
-  double max_lost = 1e-3;                      ///< share of fluid or grains that may leave the domain unasked
+  double max_lost = 1e-3;                      ///< fraction of fluid or grains that may leave the domain unasked
   double skin_fluid = 0.3;                     ///< neighbour skin / fluid.dx
   double skin_grain = 0.2;                     ///< neighbour skin / grain.d_min
   bool operator==(const Config&) const = default;

@@ -12,15 +12,15 @@ namespace bedload {
 /// Smallest and largest diameter that `size` can give, m.
 std::pair<double, double> size_range(const SizeClass& size);
 
-/// `count` diameters in rising order, m: the k-th is where the share (k + 0.5) / count of all grains is
+/// `count` diameters in rising order, m: the k-th is where the fraction (k + 0.5) / count of all grains is
 /// finer. Such a sample has the mass of the distribution to within a few grains.
 std::vector<double> quantiles(const SizeClass& size, std::size_t count);
 
-/// Diameters of `count` grains, m, entry after entry in whole numbers as near to the shares as their sum
+/// Diameters of `count` grains, m, entry after entry in whole numbers as near to the fractions as their sum
 /// allows.
 std::vector<double> diameters(const std::vector<SizeClass>& sizes, std::size_t count);
 
-/// Mean volume of `count` such grains, m3; shares taken exactly.
+/// Mean volume of `count` such grains, m3; fractions taken exactly.
 double mean_volume(const std::vector<SizeClass>& sizes, std::size_t count);
 
 /// The number of grains that fill `volume` m3 best, as a real number near a whole one.

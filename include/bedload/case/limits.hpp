@@ -20,8 +20,9 @@ HertzImpact hertz_impact(double m, double R, double E, double v);
 /// reduced, about the contact, kg m2. Infinite without rolling friction.
 double rolling_limit(double stiffness, double mu_r, double R_star, double inertia);
 
-/// Rayleigh time, contact duration and rolling of the smallest grains, each times its share (time.rayleigh,
-/// time.contact), s; impacts at `speed` (m/s), or at what gravity gives over a diameter if that is more.
+/// Rayleigh time, contact duration and rolling of the smallest grains, each times its fraction
+/// (time.rayleigh, time.contact), s; impacts at `speed` (m/s), or at what gravity gives over a diameter if
+/// that is more.
 std::vector<StepLimit> substep_limits(const Config& config, double speed);
 
 /// The same of grains at rest, known before anything moves; the least binds. Empty without grains or

@@ -19,7 +19,7 @@ class GrainSource {
     double count = 0;   ///< grains dropped so far
     double mass = 0;    ///< of them, kg
     double rounds = 0;  ///< of places tried
-    double asked = 0;   ///< grains due when room was last looked for
+    double asked = 0;   ///< grains due when space was last looked for
   };
   State state;
 
@@ -27,7 +27,7 @@ class GrainSource {
   Vec3d velocity() const { return inlet_.velocity; }
   /// The next grain is due.
   bool due(double t) const { return waiting(t) > 0; }
-  /// Another has come due since room was last looked for.
+  /// Another has come due since space was last looked for.
   bool news(double t) const { return state.count + waiting(t) > state.asked; }
   /// Grains due but not yet dropped.
   double waiting(double t) const;

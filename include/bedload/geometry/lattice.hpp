@@ -1,5 +1,5 @@
 #pragma once
-// Points at equal distances, and the fluid laid on them.
+// Points at equal distances, and the fluid placed on them.
 
 #include <cmath>
 #include <cstdint>

@@ -25,7 +25,7 @@ double particle_volume(const WallBody& body, double spacing, const DomainConfig&
 /// where a tank has no wall opposite `x`. Tank walls are `thickness` thick.
 double wall_distance(const WallBody& body, const Vec3d& x, double thickness, const DomainConfig& domain);
 
-/// Room for a sphere about `x` before `body`, m: wall_distance, but see Shape::clearance.
+/// Clearance of a sphere about `x` before `body`, m: wall_distance, but see Shape::clearance.
 double wall_clearance(const WallBody& body, const Vec3d& x, double thickness, const DomainConfig& domain);
 
 /// Adds the particles of every wall body that stops fluid. Where bodies share space the

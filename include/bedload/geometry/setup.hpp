@@ -9,7 +9,7 @@
 
 namespace bedload {
 
-/// Lays the fluid, the wall particles and the grains of `config`, each in the order
+/// Initialises the fluid, the wall particles and the grains of `config`, each in the order
 /// of its ids. The same case gives the same particles on every machine. Remarks the
 /// user should read are appended to `warnings`. Throws CaseError if fluid or grains
 /// lie outside the domain or inside a wall, or do not fit.

@@ -86,7 +86,7 @@ class Shape {
   /// m, negative inside the solid.
   double distance(const Vec3d& x) const { return nearest(x).distance; }
 
-  /// distance(), but true also where that is only a bound outside the solid: how large a sphere has room, m.
+  /// distance(), but true also where that is only a bound outside the solid: how large a sphere fits, m.
   virtual double clearance(const Vec3d& x) const { return distance(x); }
 };
 

@@ -33,10 +33,10 @@ class MotionLaw {
   Vec3d centre_;  ///< of the first part that turns, m
 };
 
-/// Gravity as it is felt in the frame of the case, g - a_frame(t).
-class FeltGravity {
+/// Effective gravity in the frame of the case, g - a_frame(t).
+class EffectiveGravity {
  public:
-  explicit FeltGravity(const Config& config)
+  explicit EffectiveGravity(const Config& config)
       : gravity_(config.gravity), frame_(config.frame.motion, config.time.end) {}
 
   Vec3d at(double t) const { return gravity_ - frame_.at(t).a; }  ///< m/s2

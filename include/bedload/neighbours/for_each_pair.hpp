@@ -146,7 +146,7 @@ BL_HD auto start_row(const Pass& pass, Index i) {
     return pass.start(i);
 }
 
-/// One lane's share of the pairs of row i that are closer than the cut-off now; of a pass that fades all
+/// One lane's part of the pairs of row i that are closer than the cut-off now; of a pass that fades all
 /// listed pairs, in packs on the CPU.
 template <class Separation, class Pass>
 struct ListRow {
@@ -165,7 +165,7 @@ struct ListRow {
         for (std::uint32_t k = lane.index; k < n; k += lane.count) {
           const Index j = next;
           entry += VerletListView::kTurn;
-          next = *entry;  // while this pair is worked on; after the last row there is room for it
+          next = *entry;  // while this pair is worked on; after the last row there is space for it
           visit(i, j, f);
         }
       } else {
@@ -316,8 +316,9 @@ template <class T, class... Rest>
 struct Staged<T, Rest...> {
   static constexpr std::size_t bytes = sizeof(T) + Staged<Rest...>::bytes;
   using All = Sources<T, Rest...>;
-  __device__ static All at(std::byte* memory, Index room) {
-    return {{reinterpret_cast<T*>(memory), room}, Staged<Rest...>::at(memory + room * sizeof(T), room)};
+  __device__ static All at(std::byte* memory, Index capacity) {
+    return {{reinterpret_cast<T*>(memory), capacity},
+            Staged<Rest...>::at(memory + capacity * sizeof(T), capacity)};
   }
   __device__ static void copy(const All& to, const All& from, Index local, Index j) {
     constexpr std::size_t piece = sizeof(T) % 16 == 0 ? 16 : sizeof(T) % 8 == 0 ? 8 : 4;
@@ -348,7 +349,7 @@ struct TileLoop {
   Real range2;
   WallRow wall_row;
   Pass pass;
-  Index room;  ///< sources that can be staged; 0 for none
+  Index capacity;  ///< sources that can be staged; 0 for none
 
   __device__ void operator()() const {
     const Tile tile = list.tile[blockIdx.x];
@@ -357,10 +358,10 @@ struct TileLoop {
     const Lane lane(threadIdx.x, list.bits);
     const Index i = tile.row + lane.row;
     if constexpr (kStages<Pass>) {
-      if (tile.sources < room) {  // places as distances from the first row, with the weight
+      if (tile.sources < capacity) {  // places as distances from the first row, with the weight
         using Fields = decltype(detail::staged_of(pass.sources()));
         auto* const place = reinterpret_cast<Real4*>(memory);
-        const auto fields = Fields::at(reinterpret_cast<std::byte*>(place + room), room);
+        const auto fields = Fields::at(reinterpret_cast<std::byte*>(place + capacity), capacity);
         const auto origin = separation.b[tile.row];
 #pragma unroll 4
         for (Index local = threadIdx.x; local < tile.sources; local += kTileThreads) {
@@ -433,13 +434,13 @@ void run_tiles(const TileList& list, const PairSeparation& separation, double cu
   std::size_t each = 0;
   if constexpr (kStages<Pass>) each = sizeof(Real4) + decltype(detail::staged_of(pass.sources()))::bytes;
   const Index most = each > 0 ? Index(tile_memory() / each) / 4 * 4 : 0;
-  const Index room = min_of(most, (list.view().most + 1 + 3) / 4 * 4);
+  const Index capacity = min_of(most, (list.view().most + 1 + 3) / 4 * 4);
   if (each > 0)
     check_cuda(cudaFuncSetAttribute(tile_kernel<Loop>, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                     int(tile_memory())),
                "shared memory of a pass");
-  tile_kernel<<<list.tiles(), kTileThreads, room * each>>>(
-      Loop{list.view(), separation, Real(cutoff * cutoff), wall_row, pass, room});
+  tile_kernel<<<list.tiles(), kTileThreads, capacity * each>>>(
+      Loop{list.view(), separation, Real(cutoff * cutoff), wall_row, pass, capacity});
   check_cuda(cudaGetLastError(), "pass over pairs");
 }
 

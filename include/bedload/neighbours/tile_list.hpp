@@ -1,7 +1,7 @@
 #pragma once
-// Neighbours of one phase in itself, on the GPU: blocks of threads work on tiles of rows that lie together, and
-// what they read of all particles near a tile, its sources, is staged in shared memory, where the entries of
-// the list point with 16 bits. Tiles are runs of sorted particles of one brick of cells. Shared memory has
+// Neighbours of one phase in itself, on the GPU: blocks of threads work on tiles of rows that lie together,
+// and what they read of all particles near a tile, its sources, is staged in shared memory, where the entries
+// of the list point with 16 bits. Tiles are runs of sorted particles of one brick of cells. Shared memory has
 // eight banks of 16 bytes, from which eight threads read at a time: so the entries of a thread stand in such
 // an order that neighbouring threads read from different ones while that is possible.
 
@@ -46,7 +46,7 @@ struct TileListView {
   const Index* source = nullptr;         ///< places among all particles
   const std::uint16_t* count = nullptr;  ///< [tiles x threads] entries of a thread
   const uint2* entry = nullptr;          ///< four at a time: [tiles x words x threads]
-  Index words = 0;                       ///< room of each thread
+  Index words = 0;                       ///< capacity of each thread
   unsigned bits = 0;                     ///< log2 of the threads that share a row
   Index most = 0;                        ///< sources of any tile
   ShortPeriods periods;
@@ -195,7 +195,7 @@ __device__ T sum_below(T own, T* sums, T& total) {
 /// The entries of one thread.
 struct ThreadEntries {
   uint2* word;  ///< its first
-  Index words;  ///< for how many there is room
+  Index words;  ///< capacity
   Index n = 0;
   uint2 next{};
 
@@ -233,7 +233,7 @@ struct TileSearch {
   double reach;
   ShortPeriods periods;
   unsigned bits;
-  Index words, room, memory;  ///< of entries of a thread; for the sources of all tiles; bytes to stage in
+  Index words, capacity, memory;  ///< of entries of a thread; for the sources of all tiles; bytes to stage in
   Tile* tile;
   Index* source;
   std::uint16_t* count;
@@ -297,7 +297,7 @@ __global__ void __launch_bounds__(kTileThreads) tile_search(TileSearch<P> s) {
     }
   };
 
-  // search among their places from the first row, which are staged where there is room
+  // search among their places from the first row, which are staged where they fit
   auto* const near = reinterpret_cast<Vec4<Real>*>(staged);
   const PairPosition origin = s.xp[first];
   const auto from_origin = [&](Index j) { return s.frame.separation(s.xp[j], origin); };
@@ -343,7 +343,7 @@ __global__ void __launch_bounds__(kTileThreads) tile_search(TileSearch<P> s) {
     atomicMax(s.used + 1, most);
     atomicMax(s.used + 2, all);
   }
-  if (most > 4 * s.words || all > 65534) return;  // to be done again with more room
+  if (most > 4 * s.words || all > 65534) return;  // to be done again with more capacity
 
   // number those that are near: a bit each, and how many there are before its word
   const Index fields = (all + 31) / 32;
@@ -370,7 +370,7 @@ __global__ void __launch_bounds__(kTileThreads) tile_search(TileSearch<P> s) {
     s.tile[blockIdx.x].sources = sources;
   }
   __syncthreads();
-  if (first_source + sources > s.room) return;
+  if (first_source + sources > s.capacity) return;
   const auto number = [&](Index k) {
     return before[k / 32] + __popc(near_row[k / 32] & ((1u << (k % 32)) - 1));
   };
@@ -465,7 +465,8 @@ void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, 
     if (used[1] > 4 * words_) words_ = (used[1] + 3) / 4 + 1;
     if (used[0] > source_.size()) source_.reserve_and_resize(used[0]);
   }
-  // by what there is now, not by what there has been room for: a run that goes on from here orders the same
+  // by what there is now, not by the capacity that there has been: a run that goes on from here orders the
+  // same
   const std::size_t sorted = std::size_t(longest + 3) / 4 * 4 * kTileThreads * sizeof(std::uint16_t);
   if (sorted > tile_memory()) return;
   check_cuda(cudaFuncSetAttribute(detail::tile_order<uint2>, cudaFuncAttributeMaxDynamicSharedMemorySize,

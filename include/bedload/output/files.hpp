@@ -28,8 +28,8 @@ Seal seal_of(const std::filesystem::path& path);
 /// Name of the unfinished file beside `path`.
 std::filesystem::path part_of(const std::filesystem::path& path);
 
-/// Throws FileError unless the disk that holds `path` has room for `bytes` more. A file that is there keeps
-/// the room, even against others that write, until free_reserve.
+/// Throws FileError unless the disk that holds `path` has space for `bytes` more. A file that is there keeps
+/// the space, even against others that write, until free_reserve.
 void need_space(const std::filesystem::path& path, std::size_t bytes);
 
 /// Gives back what need_space took and the file did not grow by.

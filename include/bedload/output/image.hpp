@@ -12,9 +12,9 @@ struct Colour {
   float r = 0, g = 0, b = 0;
 };
 
-/// `share` of `b` over `a`.
-inline Colour mix(const Colour& a, const Colour& b, float share) {
-  return {a.r + share * (b.r - a.r), a.g + share * (b.g - a.g), a.b + share * (b.b - a.b)};
+/// `weight` of `b` over `a`.
+inline Colour mix(const Colour& a, const Colour& b, float weight) {
+  return {a.r + weight * (b.r - a.r), a.g + weight * (b.g - a.g), a.b + weight * (b.b - a.b)};
 }
 
 /// Pixels in rows from the top; places outside are passed over.

@@ -8,7 +8,7 @@
 
 namespace bedload {
 
-/// Writes fluid.vtkhdf, grains.vtkhdf and walls.vtkhdf with the particles of `setup` as laid (grains
+/// Writes fluid.vtkhdf, grains.vtkhdf and walls.vtkhdf with the particles of `setup` as initialised (grains
 /// unsettled; walls sampled on their surfaces where the case has no fluid to meet them), and preview.png:
 /// views from the front, from above and in perspective. Makes the folder. Throws FileError, also if a run
 /// lies there.

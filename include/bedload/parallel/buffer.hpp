@@ -118,7 +118,7 @@ class Buffer {
     }
     size_ = n;
   }
-  /// New length, keeping what fits; what is added is zero. Room to grow on.
+  /// New length, keeping what fits; what is added is zero. Keeps capacity to grow.
   void grow(std::size_t n) {
     if (n > capacity_) {
       Buffer larger(n + n / 8 + 64);
@@ -129,7 +129,7 @@ class Buffer {
     if (n > size_) fill_zero(data_ + size_, (n - size_) * sizeof(T));
     size_ = n;
   }
-  /// As resize, with room to grow so that it seldom has to.
+  /// As resize, with spare capacity so that it seldom has to.
   void reserve_and_resize(std::size_t n) {
     if (n > capacity_) resize(n + n / 8 + 64);
     size_ = n;

@@ -29,7 +29,7 @@ TEST(ContactLaw, HertzForceAndStiffnessByHand) {
   EXPECT_NEAR(s.stiffness / (2 * E * std::sqrt(R * overlap)), 1, tolerance(1e-12, 1e-6, 1e-6));
 }
 
-TEST(ContactLaw, PaperDampingIsRootSixTimesTheShare) {
+TEST(ContactLaw, PaperDampingIsRootSixTimesTheRatio) {
   Config c = glass();
   c.contact.clip_tension = false;
   const Real exact = make_contact_law(c).hertz.alpha;

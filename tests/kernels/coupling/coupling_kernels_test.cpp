@@ -28,9 +28,9 @@ TEST(SpinDrag, FollowsTheFitAtHighReynoldsNumber) {
   EXPECT_NEAR(spin_drag(Real(d), Real(rho), Real(mu), Real(spin)), per_spin, 5 * kInvariant * per_spin);
 }
 
-TEST(AllowedShare, IsWholeUpToOneStepAndNeverMoreThanTheFluidHolds) {
-  for (double x : {0.0, 1e-9, 0.5, 1.0}) EXPECT_EQ(allowed_share(Real(x)), Real(1));
-  for (double x : {1.001, 50.0, 1e8}) EXPECT_NEAR(double(allowed_share(Real(x))) * x, 1, 2e-7);
+TEST(AllowedFraction, IsWholeUpToOneStepAndNeverMoreThanTheFluidHolds) {
+  for (double x : {0.0, 1e-9, 0.5, 1.0}) EXPECT_EQ(allowed_fraction(Real(x)), Real(1));
+  for (double x : {1.001, 50.0, 1e8}) EXPECT_NEAR(double(allowed_fraction(Real(x))) * x, 1, 2e-7);
 }
 
 TEST(SymmetricMatrix, InverseUndoesTheProduct) {

@@ -45,7 +45,7 @@ def wen_yu(eps, d, rho, mu, w):
 
 def ergun(eps, d, rho, mu, w):
     # pressure gradient of the superficial velocity u = eps w; force on one grain without the
-    # pressure share of its volume: eps V / (1 - eps) times the gradient
+    # part of the pressure force on its volume: eps V / (1 - eps) times the gradient
     solid = 1 - eps
     u = eps * w
     viscous = 150 * mu * solid ** 2 / (eps ** 3 * d ** 2)

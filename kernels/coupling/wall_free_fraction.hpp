@@ -1,64 +1,64 @@
 #pragma once
 #include <cmath>
 
-#include "kernels/smoothing/half_space_share.hpp"
+#include "kernels/smoothing/half_space_fraction.hpp"
 #include "kernels/walls/surface.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Share of the kernel around a point that walls leave free. Each extent is taken for itself: exact for
+/// Fraction of the kernel around a point that walls leave free. Each extent is taken for itself: exact for
 /// planes and for tanks up to the kernel's deviation from a product of three. Boxes end where they end, so
 /// what several of them hide adds up, side by side as they are and not one within another. A curved surface
-/// counts as the plane through its foot; feet that look the same way hide the same, and those on the far side
-/// of a wall, which are seen from behind, hide nothing more.
-struct WallFreeShare {
+/// counts as the plane through its closest point; closest points that look the same way hide the same, and
+/// those on the far side of a wall, which are seen from behind, hide nothing more.
+struct WallFreeFraction {
   static constexpr Real kLeast = Real(0.125);  ///< in a corner
 
-  HalfSpaceShare half_space;
+  HalfSpaceFraction half_space;
   Frame frame;
   SurfaceSet walls;
   Span<const BodyPose> pose;
 
   BL_HD Real operator()(const Vec3d& x) const {
-    Real share = 1, boxes = 0;
+    Real fraction = 1, boxes = 0;
     for (Index k = 0; k < walls.surfaces.size; ++k) {
       const Surface& s = walls.surfaces[k];
       const BodyPose& at = pose[s.body];
       if (!at.present) continue;
       const SurfaceView view(s, at, frame, x);
       if (s.kind == SurfaceKind::plane || s.kind == SurfaceKind::rectangle)
-        share *= 1 - behind(s, view.local());
+        fraction *= 1 - behind(s, view.local());
       else if (s.kind == SurfaceKind::box && s.shell == 0)
         boxes += behind(s, view.local());
       else
-        share *= beside(view);
+        fraction *= beside(view);
     }
-    return max_of(share - boxes, kLeast);
+    return max_of(fraction - boxes, kLeast);
   }
 
  private:
-  static constexpr int kFeet = 6;  ///< that the next are compared with
+  static constexpr int kCompared = 6;  ///< that the next are compared with
 
   BL_HD Real beside(const SurfaceView& view) const {
     const double reach = double(half_space.range);
     if (view.beyond(walls, reach)) return 1;
-    Vec3d normals[kFeet];
-    int feet = 0;
-    Real share = 1;
+    Vec3d normals[kCompared];
+    int compared = 0;
+    Real fraction = 1;
     double nearest = reach, within = 0;  // depth of a place inside the wall, to its nearest face
-    view.each_open_foot(walls, reach, 1e-4 * reach, 0.05 * reach, [&](const Foot& foot) {
-      if (std::abs(foot.distance) < nearest) {
-        nearest = std::abs(foot.distance);
-        within = min_of(foot.distance, 0.0);
+    view.each_exposed_point(walls, reach, 1e-4 * reach, 0.05 * reach, [&](const ClosestPoint& closest) {
+      if (std::abs(closest.distance) < nearest) {
+        nearest = std::abs(closest.distance);
+        within = min_of(closest.distance, 0.0);
       }
-      if (foot.distance < 0) return;
+      if (closest.distance < 0) return;
       Real fresh = 1;
-      for (int k = 0; k < feet; ++k)
-        fresh = min_of(fresh, max_of(Real(0), 1 - Real(dot(normals[k], foot.normal))));
-      share *= 1 - fresh * (1 - half_space(foot.distance));
-      if (feet < kFeet) normals[feet++] = foot.normal;
+      for (int k = 0; k < compared; ++k)
+        fresh = min_of(fresh, max_of(Real(0), 1 - Real(dot(normals[k], closest.normal))));
+      fraction *= 1 - fresh * (1 - half_space(closest.distance));
+      if (compared < kCompared) normals[compared++] = closest.normal;
     });
-    return within < 0 ? share * half_space(within) : share;
+    return within < 0 ? fraction * half_space(within) : fraction;
   }
   BL_HD Real behind(const Surface& s, const Vec3d& r) const {
     const double p[3] = {dot(r, s.axis[0]), dot(r, s.axis[1]), dot(r, s.axis[2])};

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Energy books of the rolled tank: work of the tank on the water, energy of the water, and what is missing.
+"""Energy balance of the rolled tank: work of the tank on the water, energy of the water, and what is missing.
 
-    books.py RUN...
+    energy_balance.py RUN...
 
 RUN is a folder of results. The work is that of the tank's torque about its axis, by trapezes over the readings of the
 probe. What is missing has gone into heat or is an error of the scheme: it must never fall. Prints joules.
@@ -27,7 +27,7 @@ def columns(path, *names):
     return [[float(row[head]) for row in rows] for head in heads]
 
 
-def books(run):
+def balance(run):
     """Times, work and energy gained since the start."""
     t, torque = columns(run / "probes" / "tank.csv", "time", "torque_by_fluid_y")
     work = [0.0]
@@ -46,7 +46,7 @@ def books(run):
 
 def main():
     for run in map(Path, sys.argv[1:]):
-        rows = books(run)
+        rows = balance(run)
         missing = [w - e for _, w, e in rows]
         highest, fall = missing[0], 0.0
         for m in missing:

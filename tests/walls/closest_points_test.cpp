@@ -1,5 +1,5 @@
-// Feet of shapes: their distances are those of the shape itself, each feature is touched once, and what a
-// contact remembers goes with it from triangle to triangle.
+// Closest points of shapes: their distances are those of the shape itself, each feature is touched once, and
+// what a contact remembers goes with it from triangle to triangle.
 #include <functional>
 #include <random>
 
@@ -15,7 +15,7 @@ using namespace bedload::test;
 
 /// Refers to host memory: for geometry built in a CPU variant.
 #if !BL_CUDA
-struct Feet {
+struct ClosestPoints {
   WallGeometry walls;
   Frame frame{{-1, -1, -1}, {1, 1, 1}, false, false, false};
   BodyPose still;
@@ -25,30 +25,29 @@ struct Feet {
     c.wall.bodies = {test::shaped("wall", shape)};
     return c;
   }
-  explicit Feet(ShapePtr shape) : walls(config_of(shape)) {}
+  explicit ClosestPoints(ShapePtr shape) : walls(config_of(shape)) {}
 
-  std::vector<Foot> operator()(const Vec3d& x, double reach) const {
-    std::vector<Foot> feet;
+  std::vector<ClosestPoint> operator()(const Vec3d& x, double reach) const {
+    std::vector<ClosestPoint> points;
     for (const Surface& s : walls.surfaces())
-      SurfaceView(s, still, frame, x).each_foot(walls.view(), reach, 1e-9, [&](const Foot& f) {
-        feet.push_back(f);
-      });
-    return feet;
+      SurfaceView(s, still, frame, x)
+          .each_closest_point(walls.view(), reach, 1e-9, [&](const ClosestPoint& f) { points.push_back(f); });
+    return points;
   }
 };
 
-/// The nearest foot lies as far off as the shape is, in the direction of its gradient.
-void expect_feet_of(ShapePtr shape) {
-  const Feet feet(shape);
+/// The nearest of them lies as far off as the shape is, in the direction of its gradient.
+void expect_closest_points_of(ShapePtr shape) {
+  const ClosestPoints points(shape);
   const Bounds bounds = shape->bounds();
   const double size = norm(bounds.max - bounds.min);
   RandomPoints random(bounds.grown(0.2 * size));
   for (int n = 0; n < 2000; ++n) {
     const Vec3d x = random();
     const SurfacePoint at = shape->nearest(x);
-    const Foot* nearest = nullptr;
-    const auto all = feet(x, 2 * size);
-    for (const Foot& f : all)
+    const ClosestPoint* nearest = nullptr;
+    const auto all = points(x, 2 * size);
+    for (const ClosestPoint& f : all)
       if (!nearest || std::abs(f.distance) < std::abs(nearest->distance)) nearest = &f;
     ASSERT_TRUE(nearest);
     EXPECT_NEAR(nearest->distance, at.distance, 1e-6 * size) << x.x << " " << x.y << " " << x.z;
@@ -63,30 +62,30 @@ ShapePtr scaled(ShapePtr shape, double scale) {
   return make_placed(shape, p);
 }
 
-TEST(Feet, AreNearestWhereTheShapeIs) {
+TEST(ClosestPoints, AreNearestWhereTheShapeIs) {
   const Vec3d a{-0.1, 0.05, -0.2}, b{0.2, 0.1, 0.15};
-  expect_feet_of(make_sphere(a, 0.1));
-  expect_feet_of(make_capsule(a, b, 0.1));
-  expect_feet_of(make_cylinder(a, b, 0.1));
-  expect_feet_of(make_cone(a, b, 0.15, 0.05));
-  expect_feet_of(make_cone(a, b, 0, 0.1));
-  expect_feet_of(make_pipe(a, b, 0.1, 0.15, PipeEnds::closed_a));
-  expect_feet_of(scaled(std::make_shared<TriangleMesh>(l_prism(), "l"), 0.2));
-  expect_feet_of(scaled(std::make_shared<TriangleMesh>(ball(3), "ball"), 0.3));
+  expect_closest_points_of(make_sphere(a, 0.1));
+  expect_closest_points_of(make_capsule(a, b, 0.1));
+  expect_closest_points_of(make_cylinder(a, b, 0.1));
+  expect_closest_points_of(make_cone(a, b, 0.15, 0.05));
+  expect_closest_points_of(make_cone(a, b, 0, 0.1));
+  expect_closest_points_of(make_pipe(a, b, 0.1, 0.15, PipeEnds::closed_a));
+  expect_closest_points_of(scaled(std::make_shared<TriangleMesh>(l_prism(), "l"), 0.2));
+  expect_closest_points_of(scaled(std::make_shared<TriangleMesh>(ball(3), "ball"), 0.3));
 }
 
-TEST(Feet, FollowAPlacement) {
+TEST(ClosestPoints, FollowAPlacement) {
   Placement p;
   p.scale = 0.7;
   p.rotation = Quat<double>::from_rotation({0.4, -1, 0.3});
   p.translation = {0.1, -0.2, 0.05};
-  expect_feet_of(make_placed(make_box({-0.2, -0.1, -0.3}, {0.2, 0.1, 0.3}), p));
-  expect_feet_of(make_placed(make_cone({-0.1, 0.1, 0}, {0.1, 0, 0.3}, 0.1, 0.2), p));
-  expect_feet_of(make_placed(std::make_shared<TriangleMesh>(test::cube(0.3), "cube"), p));
+  expect_closest_points_of(make_placed(make_box({-0.2, -0.1, -0.3}, {0.2, 0.1, 0.3}), p));
+  expect_closest_points_of(make_placed(make_cone({-0.1, 0.1, 0}, {0.1, 0, 0.3}, 0.1, 0.2), p));
+  expect_closest_points_of(make_placed(std::make_shared<TriangleMesh>(test::cube(0.3), "cube"), p));
 }
 
-TEST(Feet, OfAVesselLieOnBothSidesOfItsWall) {
-  const Feet box(make_hollow(make_box({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}), 0.05));
+TEST(ClosestPoints, OfAVesselLieOnBothSidesOfItsWall) {
+  const ClosestPoints box(make_hollow(make_box({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}), 0.05));
   const auto corner = box({0.19, 0.18, 0.1}, 0.03);
   ASSERT_EQ(corner.size(), 2u) << "two faces seen from within";
   EXPECT_NEAR(corner[0].distance, 0.01, 1e-12);
@@ -97,7 +96,7 @@ TEST(Feet, OfAVesselLieOnBothSidesOfItsWall) {
   EXPECT_NEAR(outside[0].distance, 0.05, 1e-12);
   EXPECT_NEAR(outside[0].normal.x, 1, 1e-12);
 
-  const Feet drum(make_hollow(make_cylinder({0, 0, -0.1}, {0, 0, 0.1}, 0.1), 0.02));
+  const ClosestPoints drum(make_hollow(make_cylinder({0, 0, -0.1}, {0, 0, 0.1}, 0.1), 0.02));
   const auto edge = drum({0.095, 0, 0.098}, 0.01);
   ASSERT_EQ(edge.size(), 2u) << "shell and end";
   EXPECT_NEAR(edge[0].distance + edge[1].distance, 0.007, 1e-12);
@@ -181,7 +180,7 @@ Balls balls_around(const Shape& shape, RandomShapes& random, double R) {
   return balls;
 }
 
-/// What is far from a wall feels nothing of it, what is near is pushed away from it: grains and fluid, at
+/// What is far from a wall is not pushed by it, what is near is pushed away from it: grains and fluid, at
 /// every kind of shape, from outside and from the hollow within.
 void expect_wall_pushes(const ShapePtr& shape, RandomShapes& random, const std::string& what,
                         bool directed = true) {
@@ -242,25 +241,26 @@ TEST(RandomShapes, PushGrainsOffFromEverySide) {
 }
 
 #if !BL_CUDA
-/// Who is close enough for a foot is never passed over, wherever the shape has moved and turned.
+/// Who is close enough for a closest point is never passed over, wherever the shape has moved and turned.
 TEST(RandomShapes, AreNotPassedOver) {
   RandomShapes random(11);
   int near = 0;
   for (int n = 0; n < 20 * RandomShapes::kKinds; ++n) {
     const ShapePtr shape = random.placed(random.primitive(n % RandomShapes::kKinds));
-    const Feet feet(shape);
+    const ClosestPoints points(shape);
     BodyPose pose;
     pose.rotation = Quat<double>::from_rotation(random.direction());
     for (int k = 0; k < 50; ++k) {
       const Vec3d x = random.point(0.6);
       const double reach = random.between(0, 0.2);
-      for (const Surface& s : feet.walls.surfaces()) {
-        const SurfaceView view(s, pose, feet.frame, x);
+      for (const Surface& s : points.walls.surfaces()) {
+        const SurfaceView view(s, pose, points.frame, x);
         bool touched = false;
-        view.each_foot(feet.walls.view(), reach, 1e-9,
-                       [&](const Foot& foot) { touched = touched || foot.distance >= -reach; });
+        view.each_closest_point(points.walls.view(), reach, 1e-9, [&](const ClosestPoint& closest) {
+          touched = touched || closest.distance >= -reach;
+        });
         near += touched;
-        EXPECT_FALSE(touched && view.beyond(feet.walls.view(), reach)) << "shape " << n;
+        EXPECT_FALSE(touched && view.beyond(points.walls.view(), reach)) << "shape " << n;
       }
     }
   }
@@ -273,13 +273,13 @@ TEST(RandomShapes, TakeWhatLiesWithin) {
   int within = 0;
   for (int n = 0; n < 4 * RandomShapes::kKinds; ++n) {
     const ShapePtr shape = random.placed(random.primitive(n % RandomShapes::kKinds));
-    const Feet feet(shape);
+    const ClosestPoints points(shape);
     for (int k = 0; k < 2000; ++k) {
       const Vec3d x = random.point(0.4);
       if (std::abs(shape->distance(x)) < 1e-4) continue;
       bool taken = false;
-      for (const Surface& s : feet.walls.surfaces())
-        taken = taken || inside(feet.walls.view(), s, feet.frame, x);
+      for (const Surface& s : points.walls.surfaces())
+        taken = taken || inside(points.walls.view(), s, points.frame, x);
       EXPECT_EQ(taken, shape->distance(x) < 0)
           << "shape " << n << ", " << shape->distance(x) << " m from its surface";
       within += taken;

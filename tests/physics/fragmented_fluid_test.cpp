@@ -1,4 +1,4 @@
-// Fluid that has been torn and joins again.
+// Fluid that has been fragmented and joins again.
 
 #include <fstream>
 
@@ -14,7 +14,7 @@ double level(const std::string& density, double end) {
   constexpr int n = 8, layers = 12;
   constexpr double dx = 0.01, gap = 1.1 * dx, width = n * gap;
   const test::TemporaryFolder folder;
-  std::ofstream table(folder / "torn.csv");
+  std::ofstream table(folder / "fragments.csv");
   table << "x,y,z\n";
   for (int k = 0; k < n * n * layers; ++k)
     table << gap * (k % n + 0.5) << ',' << gap * (k / n % n + 0.5) << ',' << gap * (k / (n * n) + 0.5)
@@ -23,7 +23,7 @@ double level(const std::string& density, double end) {
   std::ostringstream text;
   text << "[domain]\nmin = [0, 0, -0.04]\nmax = [" << width << ", " << width
        << ", 0.2]\nperiodic = [true, true, false]\n[fluid]\ndx = " << dx
-       << "\nvmax = 1.6\n[[fluid.fill]]\nfile = \"" << (folder / "torn.csv").string()
+       << "\nvmax = 1.6\n[[fluid.fill]]\nfile = \"" << (folder / "fragments.csv").string()
        << "\"\n[visc]\nalpha = 0.02\n"
        << "[[wall.body]]\nname = \"floor\"\nshape = \"tank\"\nmin = [0, 0, 0]\nmax = [" << width << ", "
        << width << ", 0.18]\nfaces = [\"z-\"]\n[time]\nend = 1\n[out]\nevery = 1\n[density]\n"
@@ -35,9 +35,9 @@ double level(const std::string& density, double end) {
   return 2 * sum / (n * n * layers) / (n * n * layers * dx * dx * dx / (width * width));
 }
 
-TEST(TornFluid, FillsItsVolumeAgain) {
+TEST(FragmentedFluid, FillsItsVolumeAgain) {
   EXPECT_NEAR(level("", 0.6), 1, 0.03);
-  EXPECT_GT(level("consolidation = 0", 0.6), 1.2) << "continuity alone keeps it apart";
+  EXPECT_GT(level("void_relaxation = 0", 0.6), 1.2) << "continuity alone keeps it apart";
 }
 
 }  // namespace

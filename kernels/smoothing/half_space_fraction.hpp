@@ -6,15 +6,15 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Share of a smoothing kernel on one side of a plane at distance z from its centre.
-struct HalfSpaceShare {
+/// Fraction of a smoothing kernel on one side of a plane at distance z from its centre.
+struct HalfSpaceFraction {
   static constexpr int points = 65;
   Real range = 0;           ///< support, m
-  Real below[points] = {};  ///< share below z = range k / (points - 1), 0.5..1
+  Real below[points] = {};  ///< fraction below z = range k / (points - 1), 0.5..1
 
   template <class W>
-  static HalfSpaceShare of(const W& w) {
-    HalfSpaceShare out;
+  static HalfSpaceFraction of(const W& w) {
+    HalfSpaceFraction out;
     out.range = Real(w.kappa) * w.h;
     const auto slice = slices(w);
     // over z by the trapezium rule
@@ -42,31 +42,31 @@ struct HalfSpaceShare {
   BL_HD Real operator()(double z) const {
     const Real at = min_of(Real(std::abs(z)) / range, Real(1)) * (points - 1);
     const int k = int(min_of(at, Real(points - 2)));
-    const Real share = below[k] + (at - k) * (below[k + 1] - below[k]);
-    return z < 0 ? 1 - share : share;
+    const Real fraction = below[k] + (at - k) * (below[k + 1] - below[k]);
+    return z < 0 ? 1 - fraction : fraction;
   }
 };
 
 /// What a plane surface takes from the sum of V W over fluid that fills one side of it, by the length of the
 /// sum of V grad W: both go with the distance to the surface. Exact for planes; where two of them meet, too
 /// little.
-struct CutShare {
+struct CutFraction {
   static constexpr int points = 17;
   Real inv_steepest = 0;  ///< 1 / length of the gradient's sum on the surface itself, m
   Real cut[points] = {};  ///< by sqrt(1 - length / steepest), in steps of 1 / (points - 1): 0.5..0
 
   template <class W>
-  static CutShare of(const W& w) {
-    const HalfSpaceShare side = HalfSpaceShare::of(w);
-    const auto slice = HalfSpaceShare::slices(w);  // the length for a surface at that distance
+  static CutFraction of(const W& w) {
+    const HalfSpaceFraction side = HalfSpaceFraction::of(w);
+    const auto slice = HalfSpaceFraction::slices(w);  // the length for a surface at that distance
     const auto root = [&](int k) { return std::sqrt(1 - slice[k] / slice[0]); };
-    CutShare out;
+    CutFraction out;
     out.inv_steepest = Real(1 / slice[0]);
     for (int i = 0, k = 0; i < points; ++i) {
       const double at = double(i) / (points - 1);
-      while (k + 2 < HalfSpaceShare::points && root(k + 1) < at) ++k;
-      const double share = (at - root(k)) / (root(k + 1) - root(k));
-      out.cut[i] = Real(1 - double(side.below[k]) - share * double(side.below[k + 1] - side.below[k]));
+      while (k + 2 < HalfSpaceFraction::points && root(k + 1) < at) ++k;
+      const double fraction = (at - root(k)) / (root(k + 1) - root(k));
+      out.cut[i] = Real(1 - double(side.below[k]) - fraction * double(side.below[k + 1] - side.below[k]));
     }
     return out;
   }
