@@ -125,13 +125,14 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda
       config.fluid.present ? 1.2 * around(reach / config.fluid.dx, config.domain.two_d) : 0;
   const double entry = cuda ? 2.4 : 4;
   const double fluid = 4 + 2 * position + pair_position + real * 35 + entry * neighbours + position;
-  const double rates = config.time.integrator == "ab3" ? 3 * real : 0;
+  const double rates = config.time.integrator == TimeIntegrator::ab3 ? 3 * real : 0;
   const double walls = 8 + 3 * 24 + pair_position + real * 13 + 4 * 32;
   const double contacts = 12;
   const double touches = 60.0 * std::min(config.wall.free_bodies(), 8);  // of each grain with free bodies
   const double grains = 4 + 3 * 24 + real * 36 + contacts * (4 + 56) * 2 + touches;
   const double skin = 0.5 * (config.skin_fluid * config.fluid.dx + config.skin_grain * config.grain.d_min);
-  const bool coupled = config.couple.mode != "off" && config.fluid.present && config.grain.present;
+  const bool coupled =
+      config.couple.mode != CouplingMode::off && config.fluid.present && config.grain.present;
   const double records = coupled ? real * 9 : 0;
   const double cross = coupled ? pair_position + real * 78 +
                                      2 * 4 * around((2 * config.couple.hc + skin) / config.fluid.dx, false)

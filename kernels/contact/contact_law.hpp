@@ -9,10 +9,6 @@
 
 namespace bedload::inline BL_VARIANT {
 
-enum class NormalLaw : std::uint32_t { none, hertz, linear };
-enum class SlidingLaw : std::uint32_t { none, mindlin, mindlin_deresiewicz, linear };
-enum class RollingLaw : std::uint32_t { none, epsd, cdt };
-
 /// Where two bodies touch. Walls: R_star = R, m_star = m, arm_i = R - overlap, arm_j = 0.
 struct ContactGeometry {
   Vec3d n;
@@ -49,7 +45,7 @@ struct ContactForce {
   Real3 torque_i, torque_j;  ///< about the centres, N m
 };
 
-/// All laws of a case with their parameters.
+/// The laws of a contact with their parameters. Which of them acts is decided pair by pair, here alone.
 struct ContactLaw {
   NormalLaw normal = NormalLaw::hertz;
   SlidingLaw sliding = SlidingLaw::mindlin;
@@ -65,15 +61,45 @@ struct ContactLaw {
   ElasticPlasticRolling epsd;
   ConstantRolling cdt;
 
-  BL_HD NormalState normal_state(Real R_star, Real m_star, Real overlap) const {
-    return normal == NormalLaw::hertz ? hertz(R_star, m_star, overlap) : spring(R_star, m_star, overlap);
+  /// f(law) with the law that acts along the normal; not to be asked where there is none, as the next two.
+  template <class Laws, class F>
+  BL_HD static auto normal_of(Laws& all, F&& f) {
+    switch (all.normal) {
+      case NormalLaw::linear:
+        return f(all.spring);
+      case NormalLaw::hertz:
+      case NormalLaw::none:
+        break;
+    }
+    return f(all.hertz);
   }
-  BL_HD SlidingState sliding_state(const SlidingInput& in, const Vec3d& xi) const {
-    SlidingState s = sliding == SlidingLaw::mindlin  ? mindlin(in, xi)
-                     : sliding == SlidingLaw::linear ? linear_sliding(in, xi)
-                                                     : deresiewicz(in, xi);
-    s.damping *= sliding_damping;
-    return s;
+  template <class Laws, class F>
+  BL_HD static auto sliding_of(Laws& all, F&& f) {
+    switch (all.sliding) {
+      case SlidingLaw::mindlin_deresiewicz:
+        return f(all.deresiewicz);
+      case SlidingLaw::linear:
+        return f(all.linear_sliding);
+      case SlidingLaw::mindlin:
+      case SlidingLaw::none:
+        break;
+    }
+    return f(all.mindlin);
+  }
+  template <class Laws, class F>
+  BL_HD static auto rolling_of(Laws& all, F&& f) {
+    switch (all.rolling) {
+      case RollingLaw::cdt:
+        return f(all.cdt);
+      case RollingLaw::epsd:
+      case RollingLaw::none:
+        break;
+    }
+    return f(all.epsd);
+  }
+
+  BL_HD NormalState normal_state(Real R_star, Real m_star, Real overlap) const {
+    return normal_of(*this, [&](const auto& law) { return law(R_star, m_star, overlap); });
   }
 
   /// Force now and history after dt (s). v is the relative velocity of the centres, for a wall of the grain's
@@ -84,9 +110,10 @@ struct ContactLaw {
     const Real3 n = Real3(at.n);
     const NormalState ns = normal_state(at.R_star, at.m_star, Real(at.overlap));
     const Real v_n = dot(v, n);
-    Real damping = ns.damping;
-    if (normal == NormalLaw::linear)
-      damping *= dashpot_fraction(h.overlap, Real(at.overlap), v_n, dt, !clip_tension);
+    const Real acts = normal_of(*this, [&](const auto& law) {
+      return law.dashpot(h.overlap, Real(at.overlap), v_n, dt, !clip_tension);
+    });
+    const Real damping = ns.damping * acts;
     const Real ahead = dt > 0 && h.overlap > 0 ? Real(0.5) * (v_n - Real(h.recede)) : Real(0);
     Real f_n = ns.elastic - damping * (v_n + ahead);
     if (clip_tension) f_n = max_of(f_n, Real(0));
@@ -106,13 +133,8 @@ struct ContactLaw {
       Real3 w = omega_i - omega_j;
       w -= dot(w, n) * n;
       const RollingInput in{w, pressing, ns.stiffness, at.R_star, at.inverse_spin, at.inverse_rolling, dt};
-      Real3 couple;
-      if (rolling == RollingLaw::epsd) {
-        h.couple = turn_with_contact(h.couple, at.n, twist);
-        couple = epsd(in, h.couple);
-      } else {
-        couple = cdt(in);
-      }
+      h.couple = turn_with_contact(h.couple, at.n, twist);
+      const Real3 couple = rolling_of(*this, [&](const auto& law) { return law(in, h.couple); });
       out.torque_i += couple;
       out.torque_j -= couple;
     }
@@ -125,46 +147,38 @@ struct ContactLaw {
   BL_HD double stored(Real R_star, Real m_star, const ContactHistory& h) const {
     const double overlap = h.overlap < 0 ? -h.overlap : h.overlap;
     const NormalState ns = normal_state(R_star, m_star, Real(overlap));
-    double energy = (normal == NormalLaw::hertz ? 0.4 : 0.5) * double(ns.elastic) * overlap;
+    double energy =
+        normal_of(*this, [](const auto& law) { return law.kEnergy; }) * double(ns.elastic) * overlap;
     const SlidingInput in{ns.elastic, ns.stiffness, ns.damping, std::sqrt(R_star * Real(overlap)),
                           m_star,     overlap};
-    if (sliding == SlidingLaw::mindlin_deresiewicz) {
-      const double longest = deresiewicz.longest(overlap);
-      if (longest > 0) {
-        const double s = min_of(norm(h.xi) / longest, 1.0), q = std::sqrt(1 - s);
-        energy += double(mu) * ns.elastic * longest * (s - 0.4 * (1 - q * q * q * q * q));
-      }
-    } else if (sliding != SlidingLaw::none) {
-      energy += 0.5 * double(sliding_state(in, h.xi).stiffness) * norm2(h.xi);
-    }
-    if (rolling == RollingLaw::epsd && epsd.mu_r > 0)
-      energy += 0.5 * norm2(h.couple) / double(epsd.stiffness(ns.stiffness, R_star));
+    if (sliding != SlidingLaw::none)
+      energy += sliding_of(*this, [&](const auto& law) { return law.stored(in, h.xi); });
+    if (rolling != RollingLaw::none)
+      energy +=
+          rolling_of(*this, [&](const auto& law) { return law.stored(ns.stiffness, R_star, h.couple); });
     return energy;
   }
 
  private:
   BL_HD Real3 slide(const ContactGeometry& at, const NormalState& ns, Real pressing, const Real3& v_t,
                     double twist, Real dt, ContactHistory& h) const {
-    Vec3d xi = turn_with_contact(h.xi, at.n, twist);
-    if (sliding == SlidingLaw::mindlin) xi = Mindlin::rescale(xi, h.overlap, at.overlap);
-    xi += double(dt) * Vec3d(v_t);
-    const bool partial_slip = sliding == SlidingLaw::mindlin_deresiewicz;
-    if (partial_slip) {
-      const double longest = deresiewicz.longest(at.overlap), length = norm(xi);
-      if (length > longest) xi *= longest / length;
-    }
+    const Vec3d turned = turn_with_contact(h.xi, at.n, twist), step = double(dt) * Vec3d(v_t);
     const SlidingInput in{pressing,  ns.stiffness, ns.damping, std::sqrt(at.R_star * Real(at.overlap)),
                           at.m_star, at.overlap};
-    const SlidingState s = sliding_state(in, xi);
-    Real3 f_t = s.elastic - s.damping * v_t;
-    const Real size = norm(f_t), limit = mu * pressing;
-    if (size > limit) {
-      f_t *= limit / size;
-      if (!partial_slip && s.stiffness > 0)
-        xi = (Vec3d(f_t) + double(s.damping) * Vec3d(v_t)) * (-1 / double(s.stiffness));
-    }
-    h.xi = xi;
-    return f_t;
+    return sliding_of(*this, [&](const auto& law) {
+      Vec3d xi = law.stretch(turned, step, h.overlap, at.overlap);
+      SlidingState s = law(in, xi);
+      s.damping *= sliding_damping;
+      Real3 f_t = s.elastic - s.damping * v_t;
+      const Real size = norm(f_t), limit = mu * pressing;
+      if (size > limit) {
+        f_t *= limit / size;
+        if (!law.kPartialSlip && s.stiffness > 0)
+          xi = (Vec3d(f_t) + double(s.damping) * Vec3d(v_t)) * (-1 / double(s.stiffness));
+      }
+      h.xi = xi;
+      return f_t;
+    });
   }
 };
 

@@ -1,7 +1,9 @@
 #pragma once
-// Rolling friction: a couple M on the first partner, -M on the second.
+// Rolling friction: a couple M on the first partner, -M on the second. A law has its parameters from `of`, M
+// from its operator, which may keep `couple` for the next substep, and `stored`, J.
 
 #include "kernels/contact/history.hpp"
+#include "kernels/contact/materials.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -21,6 +23,7 @@ struct ElasticPlasticRolling {
   Real mu_r = 0;
   Real eta = Real(0.3);
 
+  static ElasticPlasticRolling of(const ContactMaterials& m) { return {Real(m.mu_r), Real(m.contact.eta_r)}; }
   BL_HD Real stiffness(Real normal_stiffness, Real R_star) const {
     return Real(2.25) * normal_stiffness * square(mu_r * R_star);
   }
@@ -40,6 +43,9 @@ struct ElasticPlasticRolling {
     if (damped > limit) total *= limit / damped;
     return total;
   }
+  BL_HD double stored(Real normal_stiffness, Real R_star, const Vec3d& couple) const {
+    return mu_r > 0 ? 0.5 * norm2(couple) / double(stiffness(normal_stiffness, R_star)) : 0;
+  }
 };
 
 /// Constant couple against the relative spin, He et al. (25); capped where it would turn the spin round.
@@ -47,6 +53,7 @@ struct ConstantRolling {
   Real mu_r = 0;
   bool cap = true;
 
+  static ConstantRolling of(const ContactMaterials& m) { return {Real(m.mu_r), m.contact.cap_rolling}; }
   BL_HD Real3 operator()(const RollingInput& in) const {
     const Real speed = norm(in.omega);
     if (speed == 0) return {};
@@ -54,6 +61,8 @@ struct ConstantRolling {
     if (cap && in.dt > 0) couple = min_of(couple, speed / (in.inverse_spin * in.dt));
     return in.omega * (-couple / speed);
   }
+  BL_HD Real3 operator()(const RollingInput& in, Vec3d&) const { return (*this)(in); }
+  BL_HD double stored(Real, Real, const Vec3d&) const { return 0; }
 };
 
 }  // namespace bedload::inline BL_VARIANT

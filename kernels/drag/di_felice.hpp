@@ -5,7 +5,7 @@ namespace bedload::inline BL_VARIANT {
 
 /// One form from packed to dilute, without a jump [difelice94].
 struct DiFelice {
-  static constexpr const char* name = "di_felice";
+  static constexpr DragLaw law = DragLaw::di_felice;
   BL_HD Real K(Real eps, Real d, Real rho, Real mu, Real w) const {
     const Real Re = grain_reynolds(eps, d, rho, mu, w);
     const Real away = Real(1.5) - std::log10(max_of(Re, Real(1e-30)));  // at rest: as slow as it gets

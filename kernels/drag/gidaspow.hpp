@@ -6,7 +6,7 @@ namespace bedload::inline BL_VARIANT {
 
 /// Ergun where dense, Wen-Yu where dilute; jumps at porosity 0.8 [gidaspow94].
 struct Gidaspow {
-  static constexpr const char* name = "gidaspow";
+  static constexpr DragLaw law = DragLaw::gidaspow;
   BL_HD Real K(Real eps, Real d, Real rho, Real mu, Real w) const {
     return eps <= Real(0.8) ? Ergun{}.K(eps, d, rho, mu, w) : WenYu{}.K(eps, d, rho, mu, w);
   }

@@ -1,9 +1,8 @@
 #pragma once
-// The drag laws that a case may name. A new law is an include and its name in the list.
+// The drag laws that a case may name. A new law is an include and its place in the list.
 
-#include <string>
+#include <algorithm>
 
-#include "bedload/core/error.hpp"
 #include "kernels/drag/di_felice.hpp"
 #include "kernels/drag/ergun.hpp"
 #include "kernels/drag/gidaspow.hpp"
@@ -15,28 +14,26 @@
 namespace bedload::inline BL_VARIANT {
 
 template <class... Laws>
-struct DragChoices {
-  /// f(law) for the law called `name`; false if there is none.
+struct DragLawList {
+  static constexpr bool holds(DragLaw law) { return ((law == Laws::law) || ...); }
+  /// f(law) for the law of that name.
   template <class F>
-  static bool with(const std::string& name, F& f) {
-    return ((name == Laws::name && (f(Laws{}), true)) || ...);
-  }
-  /// "stokes, schiller_naumann, ..."
-  static std::string names() {
-    std::string all;
-    ((all += (all.empty() ? "" : ", ") + std::string(Laws::name)), ...);
-    return all;
+  static void with(DragLaw law, F& f) {
+    (void)((law == Laws::law && (f(Laws{}), true)) || ...);
   }
 };
 
-using DragLaws = DragChoices<Stokes, SchillerNaumann, WenYu, Ergun, Gidaspow, GidaspowBlend, DiFelice>;
+using DragLaws = DragLawList<Stokes, SchillerNaumann, WenYu, Ergun, Gidaspow, GidaspowBlend, DiFelice>;
 
-/// f(law) with the drag law called `name`: the choice is made here, once, on the host.
-/// Throws CaseError for an unknown name.
+static_assert(std::all_of(kNames<DragLaw>.begin(), kNames<DragLaw>.end(),
+                          [](const auto& row) { return DragLaws::holds(row.value); }),
+              "a drag law that a case may name is missing in DragLaws");
+
+/// f(law) with the drag law of that name: the choice is made here, once, on the host. Throws CaseError where
+/// a text is no name.
 template <class F>
-void with_drag_law(const std::string& name, F&& f) {
-  if (!DragLaws::with(name, f))
-    throw CaseError("drag.law = " + name + ": must be one of " + DragLaws::names());
+void with_drag_law(Chosen<DragLaw> name, F&& f) {
+  DragLaws::with(name, f);
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -5,7 +5,7 @@ namespace bedload::inline BL_VARIANT {
 
 /// A lone sphere at any Reynolds number [schiller33].
 struct SchillerNaumann {
-  static constexpr const char* name = "schiller_naumann";
+  static constexpr DragLaw law = DragLaw::schiller_naumann;
   BL_HD Real K(Real eps, Real d, Real rho, Real mu, Real w) const {
     return stokes_drag(d, mu) * sphere_drag_factor(grain_reynolds(eps, d, rho, mu, w));
   }

@@ -1,9 +1,10 @@
 #pragma once
-// What the drag laws share. A law has a name and
+// What the drag laws share. A law has `law`, its enumerator, and
 //   Real K(eps, d, rho, mu, w): drag on one grain per slip velocity, kg/s,
 // at porosity eps in (0, 1], diameter d (m), intrinsic fluid density rho (kg/m3), viscosity
 // mu > 0 (Pa s) and interstitial slip speed w >= 0 (m/s). Every K is finite at w = 0 and eps = 1.
 
+#include "bedload/case/choices.hpp"
 #include "bedload/core/types.hpp"
 
 namespace bedload::inline BL_VARIANT {

@@ -5,7 +5,7 @@ namespace bedload::inline BL_VARIANT {
 
 /// Dilute suspensions: a lone sphere times a power of the porosity [wen66].
 struct WenYu {
-  static constexpr const char* name = "wen_yu";
+  static constexpr DragLaw law = DragLaw::wen_yu;
   BL_HD Real K(Real eps, Real d, Real rho, Real mu, Real w) const {
     return stokes_drag(d, mu) * sphere_drag_factor(grain_reynolds(eps, d, rho, mu, w)) *
            std::pow(eps, Real(-2.65));

@@ -1,4 +1,5 @@
 #pragma once
+#include "bedload/case/config.hpp"
 #include "bedload/core/types.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -11,6 +12,22 @@ struct EquationOfState {
   bool clip_negative = false;
   Real least =
       -1;  ///< x at which the fluid cavitates: thinner fluid keeps the pressure and the density of that
+
+  /// Of the fluid of a case that is resolved.
+  static EquationOfState of(const Config& config) {
+    const EosConfig& e = config.eos;
+    const double c = config.fluid.c, rho0 = config.fluid.rho0, least = -config.density.cavitation_limit;
+    const auto law = [&](double B, double gamma, double P_ref) -> EquationOfState {
+      return {Real(B), Real(gamma), Real(P_ref), Real(rho0), e.clip_negative, Real(least)};
+    };
+    switch (e.type) {
+      case EosType::tait:
+        return law(c * c * rho0 / e.gamma, e.gamma, e.background);
+      case EosType::democritus:
+        return law(e.p0, e.alpha, e.p0 - e.beta);
+    }
+    return {};
+  }
 
   BL_HD Real density(Real x) const { return rho0 * (1 + max_of(x, least)); }  ///< kg/m3
   /// Pressure [Pa].

@@ -3,6 +3,7 @@
 // is antisymmetric after times M_a. Among grains these are terms of the mixture: M = m / eps, v its volume
 // flux.
 
+#include "bedload/case/choices.hpp"
 #include "bedload/core/pack.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -23,6 +24,20 @@ struct Viscosity {
   Real mu = 0;       ///< Pa s
   Real central = 0;  ///< d + 2 for Monaghan's form, 0 for Morris'
   Real guard = 0;    ///< m2, far below the square of any distance
+
+  /// mu: Pa s; h: smoothing length, m.
+  static Viscosity of(ViscosityModel model, double mu, double h, int dimensions) {
+    const Real guard = Real(1e-4 * h * h);
+    switch (model) {
+      case ViscosityModel::morris:
+        return {Real(mu), 0, guard};
+      case ViscosityModel::monaghan:
+        return {Real(mu), Real(dimensions + 2), guard};
+      case ViscosityModel::none:
+        break;
+    }
+    return {0, 0, guard};
+  }
   BL_HD bool acts() const { return mu > 0; }
   template <class N>
   BL_HD Vec3<N> operator()(N m_b, N rho_a, N rho_b, const Vec3<N>& v, const Vec3<N>& r, N r2, N F) const {

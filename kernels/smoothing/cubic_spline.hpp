@@ -8,7 +8,6 @@ namespace bedload::inline BL_VARIANT {
 /// Cubic spline in three or two dimensions, support 2h [monaghan92].
 /// The integral of W is 1, that of F r2 the number of dimensions; both vanish at and beyond the support.
 struct CubicSpline {
-  static constexpr const char* name = "cubic";
   static constexpr double kappa = 2;  ///< support / h
 
   Real h, inv_h, norm_W, norm_F;

@@ -8,7 +8,6 @@ namespace bedload::inline BL_VARIANT {
 /// Lucy's function in three or two dimensions; h is its support [lucy77].
 /// The integral of W is 1, that of F r2 the number of dimensions; both vanish at and beyond the support.
 struct Lucy {
-  static constexpr const char* name = "lucy";
   static constexpr double kappa = 1;  ///< support / h
 
   Real h, inv_h, norm_W, norm_F;

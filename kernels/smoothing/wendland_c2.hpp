@@ -8,7 +8,6 @@ namespace bedload::inline BL_VARIANT {
 /// Wendland's C2 function in three or two dimensions, support 2h [wendland95].
 /// The integral of W is 1, that of F r2 the number of dimensions; both vanish at and beyond the support.
 struct WendlandC2 {
-  static constexpr const char* name = "wendland_c2";
   static constexpr double kappa = 2;  ///< support / h
 
   Real h, inv_h, norm_W, norm_F;

@@ -10,6 +10,8 @@
 #include "bedload/case/formula.hpp"
 #include "bedload/case/grain_sizes.hpp"
 #include "bedload/case/limits.hpp"
+#include "bedload/case/materials.hpp"
+#include "bedload/case/normal_laws.hpp"
 #include "bedload/case/parameters.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
@@ -156,14 +158,14 @@ class Checks {
       fail("grain.fill", fmt::format("{:.4g}..{:.4g} m", g.d_min, g.d_max),
            "must span at most a factor of 20 in diameter");
     for (std::size_t i = 0; i < g.fills.size(); ++i) grain_fill(fmt::format("grain.fill.{}", i), g.fills[i]);
-    if (c.contact.k == 0 && c.contact.normal == "linear")
+    if (c.contact.k == 0 && c.contact.normal == NormalLaw::linear)
       missing("contact.k", "spring, N/m, with contact.normal = \"linear\"");
     if (g.settle && norm(c.gravity) == 0) fail("grain.settle", "true", "must be false without gravity");
     if (g.settle && g.fixed) fail("grain.settle", "true", "must be false with grain.fixed");
     for (const auto& [key, given] :
          {std::pair{"grain.settle_time", g.settle_time > 0}, {"grain.settle_mu", std::isfinite(g.settle_mu)}})
       if (given && !g.settle) warn("{}: not used, since grain.settle = false", key);
-    if (!c.contact.cap_rolling && c.contact.rolling == "cdt")
+    if (!c.contact.cap_rolling && c.contact.rolling == RollingLaw::cdt)
       warn("contact.cap_rolling = false: resting grains will buzz and heaps creep");
     if (c.contact.he_damping) warn("paper.he_damping: the restitution reached is below grain.e");
     softness();
@@ -225,15 +227,16 @@ class Checks {
              fmt::format("must be <= {:.4g}; limited by {}", limit.seconds, limit.name));
       warn("time.dt_dem = {} is above its limit {:.4g} ({})", c.time.dt_dem, limit.seconds, limit.name);
     }
-    if (c.time.integrator == "ab3") one_pass();
-    if (c.time.integrator == "euler") warn("time.integrator = \"euler\" is first order in time");
+    if (c.time.integrator == TimeIntegrator::ab3) one_pass();
+    if (c.time.integrator == TimeIntegrator::euler)
+      warn("time.integrator = \"euler\" is first order in time");
   }
 
   /// Density from former rates goes with what one visit of each pair can find.
   void one_pass() const {
-    const auto frozen = [](const WallBody& body) { return body.type == "frozen"; };
+    const auto frozen = [](const WallBody& body) { return body.type == WallType::frozen; };
     for (const auto& [there, what] :
-         {std::pair{coupled() && c.couple.mode == "two_way", "grains that the fluid feels"},
+         {std::pair{coupled() && c.couple.mode == CouplingMode::two_way, "grains that the fluid feels"},
           {std::any_of(c.wall.bodies.begin(), c.wall.bodies.end(), frozen), "frozen walls"},
           {c.tensile > 0, "tensile > 0"},
           {c.xsph > 0, "xsph > 0"}})
@@ -289,7 +292,7 @@ class Checks {
         fail(path + ".kind", fmt::format("a table with rx, ry, rz = {}, {}, {} deg", row[4], row[5], row[6]),
              must);
   }
-  bool coupled() const { return c.fluid.present && c.grain.present && c.couple.mode != "off"; }
+  bool coupled() const { return c.fluid.present && c.grain.present && c.couple.mode != CouplingMode::off; }
 
   static std::string quoted(const std::string& text) { return fmt::format("\"{}\"", text); }
   template <class T>
@@ -488,14 +491,12 @@ class Checks {
     const GrainConfig& g = c.grain;
     const double R = g.d_max / 2, layers = std::max(1.0, height(g.fills, c.gravity) / g.d_max);
     const double weight = 4.18879 * R * R * R * g.rho * norm(c.gravity) * layers;
-    const double k = 4.0 / 3 * g.E / (2 * (1 - g.nu * g.nu)) * std::sqrt(R / 2);
-    const double overlap =
-        c.contact.normal == "hertz" ? std::pow(weight / k, 2.0 / 3) : weight / std::max(c.contact.k, 1e-300);
-    if (c.contact.normal != "none" && overlap > 0.01 * R)
+    const double overlap = overlap_under(c.contact, weight, R / 2, 0.5 / ElasticCompliance(g.E, g.nu).normal);
+    if (overlap > 0.01 * R)
       warn(
           "{}: grains at the foot of the bed will overlap by about {:.2g} % of their radius; stiffer is more "
           "accurate",
-          c.contact.normal == "hertz" ? "grain.E" : "contact.k", 100 * overlap / R);
+          takes_moduli(c.contact.normal) ? "grain.E" : "contact.k", 100 * overlap / R);
   }
 
   const Config& c;

@@ -38,15 +38,10 @@ void describe_fill_file(Parameters& p, std::string& file, std::int64_t& step, st
 
 void describe_fluid(Parameters& p, FluidConfig& f) {
   p("fluid.dx", &f.dx, {.unit = "m", .meaning = "particle spacing", .range = above(0), .presence = required});
-  p("fluid.kernel", &f.kernel,
-    {.meaning = "smoothing kernel",
-     .family = "models",
-     .choices = {{"wendland_c2", "Wendland C2, support 2 h"},
-                 {"cubic", "cubic spline, support 2 h"},
-                 {"lucy", "Lucy, support h"}}});
+  p("fluid.kernel", &f.kernel, {.meaning = "smoothing kernel", .family = "models"});
   p("fluid.h_over_dx", &f.h_over_dx,
     {.meaning = "smoothing length / spacing (lucy: 2..4)",
-     .range = f.kernel == "lucy" ? within(2, 4) : within(1.2, 3)});
+     .range = f.kernel == KernelFunction::lucy ? within(2, 4) : within(1.2, 3)});
   p("fluid.rho0", &f.rho0, {.unit = "kg/m3", .meaning = "density at rest", .range = above(0)});
   p("fluid.mu", &f.mu, {.unit = "Pa s", .meaning = "shear viscosity; > 0 with grains", .range = at_least(0)});
   p("fluid.vmax", &f.vmax,
@@ -60,11 +55,7 @@ void describe_fluid(Parameters& p, FluidConfig& f) {
 }
 
 void describe_fluid_models(Parameters& p, Config& c) {
-  p("eos.type", &c.eos.type,
-    {.meaning = "equation of state",
-     .family = "laws",
-     .choices = {{"tait", "B [(rho/rho0)^gamma - 1], B = c^2 rho0 / gamma"},
-                 {"democritus", "p0 (rho/rho0)^alpha - beta, c = sqrt(alpha p0 / rho0)"}}});
+  p("eos.type", &c.eos.type, {.meaning = "equation of state", .family = "laws"});
   p("eos.gamma", &c.eos.gamma, {.meaning = "Tait exponent", .range = within(1, 7)});
   p("eos.background", &c.eos.background,
     {.unit = "Pa",
@@ -83,13 +74,7 @@ void describe_fluid_models(Parameters& p, Config& c) {
     {.meaning = "fluid cavitates below rho/rho0 - 1 = minus this",
      .range = within(1e-4, 0.5),
      .formerly = "tension"});
-  p("visc.model", &c.visc.model,
-    {.meaning = "physical viscosity",
-     .family = "laws",
-     .choices = {
-         {"morris", "Laplacian of the velocity, conserves linear momentum [morris97]"},
-         {"monaghan", "divergence of the stress, right at free surfaces, conserves both [monaghan05]"},
-         {"none", "inviscid"}}});
+  p("visc.model", &c.visc.model, {.meaning = "physical viscosity", .family = "laws"});
   p("visc.alpha", &c.visc.alpha,
     {.meaning = "artificial viscosity, linear [monaghan92]", .range = within(0, 1)});
   p("visc.beta", &c.visc.beta, {.meaning = "artificial viscosity, quadratic", .range = within(0, 2)});

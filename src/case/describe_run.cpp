@@ -112,12 +112,7 @@ void describe_domain(Parameters& p, DomainConfig& d) {
 }
 
 void describe_coupling(Parameters& p, CouplingConfig& c) {
-  p("couple.mode", &c.mode,
-    {.meaning = "what fluid and grains exchange",
-     .family = "models",
-     .choices = {{"two_way", "grains and fluid act on each other"},
-                 {"one_way", "the fluid acts on the grains, not the reverse"},
-                 {"off", "nothing"}}});
+  p("couple.mode", &c.mode, {.meaning = "what fluid and grains exchange", .family = "models"});
   p("couple.hc", &c.hc,
     {.unit = "m",
      .meaning = "smoothing length of the coupling",
@@ -138,28 +133,9 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
     {.meaning = "and fully wetted from here on, above S_dry; linear in between", .range = above_to(0, 1)});
   p("couple.torque", &c.torque, {.meaning = "fluid torque on grains"});
   p("couple.angmom", &c.angmom, {.meaning = "reaction couple: what is exchanged keeps angular momentum"});
-  p("couple.slip", &c.slip,
-    {.meaning = "what slip drag follows",
-     .family = "models",
-     .choices = {{"mean", "the mean around the grain"},
-                 {"local",
-                  "that of each fluid particle: a jet pushes, and is stopped, by its own speed; but grains "
-                  "resist shear of the fluid over h_c, too"}}});
-  p("drag.law", &c.drag,
-    {.meaning = "drag on a grain",
-     .family = "laws",
-     .choices = {{"di_felice", "one smooth law from lone grain to packed bed [difelice94]"},
-                 {"gidaspow", "Ergun up to porosity 0.8, then Wen-Yu; jumps there [gidaspow94]"},
-                 {"gidaspow_blend", "the same, blended [huilin03]"},
-                 {"ergun", "packed beds [ergun52]"},
-                 {"wen_yu", "suspensions [wen66]"},
-                 {"schiller_naumann", "a lone sphere"},
-                 {"stokes", "a lone sphere, creeping flow"}}});
-  p("drag.integrator", &c.integrator,
-    {.meaning = "how drag advances a grain",
-     .family = "models",
-     .choices = {{"exponential", "exact for constant slip, stable for any drag"},
-                 {"explicit", "limits the step"}}});
+  p("couple.slip", &c.slip, {.meaning = "what slip drag follows", .family = "models"});
+  p("drag.law", &c.drag, {.meaning = "drag on a grain", .family = "laws"});
+  p("drag.integrator", &c.integrator, {.meaning = "how drag advances a grain", .family = "models"});
 }
 
 void describe_time(Parameters& p, Config& c) {
@@ -183,13 +159,7 @@ void describe_time(Parameters& p, Config& c) {
   p("time.drag", &t.drag, fraction("by drag"));
   p("time.rayleigh", &t.rayleigh, fraction("by Rayleigh waves in a grain"));
   p("time.contact", &t.contact, fraction("of a contact's duration"));
-  p("time.integrator", &t.integrator,
-    {.meaning = "scheme",
-     .family = "models",
-     .choices = {
-         {"kdk", "kick-drift-kick, second order, reversible: two passes over pairs a step"},
-         {"ab3", "kick-drift-kick, density by Adams-Bashforth of third order: one pass over pairs a step"},
-         {"euler", "forward Euler"}}});
+  p("time.integrator", &t.integrator, {.meaning = "scheme", .family = "models"});
   p("run.precision", &c.precision,
     {.meaning = "number types",
      .family = "models",

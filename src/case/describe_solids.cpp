@@ -2,32 +2,13 @@
 
 #include <string>
 
+#include "bedload/case/normal_laws.hpp"
 #include "describe.hpp"
 
 namespace bedload {
 namespace {
 
 using enum Presence;
-
-const std::vector<Choice> kSlips{{"noslip", "the fluid sticks to the wall"},
-                                 {"slip", "no viscous wall pairs"}};
-
-const std::vector<Choice> kWallTypes{
-    {"adami", "layers of wall particles with pressure extrapolated from the fluid [adami12]"},
-    {"mdbc", "layers of wall particles with the density about their images in the fluid [english22]"},
-    {"frozen", "layers of wall particles, the first with a density of its own"},
-    {"single_layer", "one layer of particles on the surface that push the fluid away; for thin shells"},
-    {"grains_only", "stops grains, lets the fluid pass"},
-    {"fluid_only", "as adami, but lets grains pass"}};
-
-const std::vector<Choice> kLayerForces{{"kajtar", "soft, as far as the kernel reaches [monaghan09]"},
-                                       {"monaghan", "steep, up to wall.layer_r0 [monaghan94]"}};
-
-/// Restitution that the damping can reach.
-Range restitution(const ContactConfig& contact) {
-  if (!contact.clip_tension) return within(0.01, 1);
-  return contact.normal == "linear" ? within(0.136, 1) : within(0.05, 1);
-}
 
 /// Keys of tables and formulas.
 void motion_law(Parameters& p, const std::string& at, MotionPart& m) {
@@ -134,11 +115,10 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
     p("point", &b.point, {.unit = "m", .meaning = "plane: a point on it", .presence = required});
     p("normal", &b.normal, {.meaning = "plane: direction into the flow", .presence = required});
   }
-  p("type", &b.type, {.meaning = "how the fluid meets it", .fallback = "wall.type", .choices = kWallTypes});
-  p("slip", &b.slip, {.meaning = "friction with the fluid", .fallback = "wall.slip", .choices = kSlips});
+  p("type", &b.type, {.meaning = "how the fluid meets it", .fallback = "wall.type"});
+  p("slip", &b.slip, {.meaning = "friction with the fluid", .fallback = "wall.slip"});
   if (b.single_layer() || p.everything())
-    p("force", &b.force,
-      {.meaning = "single_layer: what keeps fluid off", .fallback = "wall.force", .choices = kLayerForces});
+    p("force", &b.force, {.meaning = "single_layer: what keeps fluid off", .fallback = "wall.force"});
   if (!b.single_layer() || p.everything()) {
     p("no_penetration", &b.no_penetration,
       {.meaning = "stops fluid within a quarter of fluid.dx", .fallback = "wall.no_penetration"});
@@ -166,7 +146,7 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
        .presence = unbounded});
     p("e", &b.e,
       {.meaning = "restitution of grains from it",
-       .range = restitution(contact),
+       .range = within(least_restitution(contact), 1),
        .hint = "give a fraction, not percent?",
        .fallback = "grain.e",
        .presence = optional});
@@ -285,12 +265,9 @@ void describe_walls(Parameters& p, WallConfig& w, const ContactConfig& contact) 
      .range = above(0),
      .fallback = "fluid.dx",
      .presence = optional});
-  p("wall.type", &w.type, {.meaning = "default of the bodies", .family = "models", .choices = kWallTypes});
-  p("wall.slip", &w.slip, {.meaning = "default of the bodies", .family = "models", .choices = kSlips});
-  p("wall.force", &w.force,
-    {.meaning = "default of the bodies: force of single layers",
-     .family = "models",
-     .choices = kLayerForces});
+  p("wall.type", &w.type, {.meaning = "default of the bodies", .family = "models"});
+  p("wall.slip", &w.slip, {.meaning = "default of the bodies", .family = "models"});
+  p("wall.force", &w.force, {.meaning = "default of the bodies: force of single layers", .family = "models"});
   p("wall.no_penetration", &w.no_penetration,
     {.meaning = "default of the bodies: stops fluid within a quarter of fluid.dx"});
   p("wall.repulsion", &w.repulsion, {.meaning = "default of the bodies: Monaghan repulsion [monaghan94]"});
@@ -323,25 +300,9 @@ void describe_walls(Parameters& p, WallConfig& w, const ContactConfig& contact) 
 }
 
 void describe_contact(Parameters& p, ContactConfig& c) {
-  p("contact.normal", &c.normal,
-    {.meaning = "force along the line of centres",
-     .family = "laws",
-     .choices = {{"hertz", "Hertz spring, damping exact in e"},
-                 {"linear", "linear spring and dashpot"},
-                 {"none", "grains pass through each other"}}});
-  p("contact.tangential", &c.tangential,
-    {.meaning = "friction",
-     .family = "laws",
-     .choices = {{"mindlin", "Mindlin spring, rescaled on unloading"},
-                 {"mindlin_deresiewicz", "Mindlin-Deresiewicz, full micro-slip"},
-                 {"linear", "linear spring kt_ratio k"},
-                 {"none", "frictionless"}}});
-  p("contact.rolling", &c.rolling,
-    {.meaning = "resistance to rolling",
-     .family = "laws",
-     .choices = {{"epsd", "elastic-plastic spring-dashpot, holds slopes [ai11]"},
-                 {"cdt", "constant directional torque"},
-                 {"none", "free rolling"}}});
+  p("contact.normal", &c.normal, {.meaning = "force along the line of centres", .family = "laws"});
+  p("contact.tangential", &c.tangential, {.meaning = "friction", .family = "laws"});
+  p("contact.rolling", &c.rolling, {.meaning = "resistance to rolling", .family = "laws"});
   p("contact.k", &c.k,
     {.unit = "N/m",
      .meaning = "linear spring",
@@ -376,7 +337,7 @@ void describe_grains(Parameters& p, Config& c) {
   p("grain.mu_r", &g.mu_r, {.meaning = "rolling friction", .range = within(0, 1)});
   p("grain.e", &g.e,
     {.meaning = "restitution (linear 0.136..1, without clip_tension 0.01..1)",
-     .range = restitution(c.contact),
+     .range = within(least_restitution(c.contact), 1),
      .hint = "give a fraction, not percent?"});
   p("grain.settle", &g.settle, {.meaning = "settle dry before t = 0; kept for later runs"});
   p("grain.settle_time", &g.settle_time,

@@ -17,18 +17,18 @@ Config preset_defaults(const std::string& name) {
   c.tensile_one_sign = true;
   c.xsph = 0.3;
   c.shift = 0;
-  c.contact.tangential = "mindlin_deresiewicz";
-  c.contact.rolling = "cdt";
+  c.contact.tangential = SlidingLaw::mindlin_deresiewicz;
+  c.contact.rolling = RollingLaw::cdt;
   c.contact.clip_tension = false;
   c.contact.he_damping = true;
-  c.couple.drag = "gidaspow";
+  c.couple.drag = DragLaw::gidaspow;
   c.couple.wall_normalise = false;
   c.couple.S_wet = 0.5;
-  c.couple.integrator = "explicit";
+  c.couple.integrator = DragIntegrator::explicit_steps;
   c.couple.torque = false;
   c.couple.angmom = false;
-  c.couple.slip = "mean";
-  c.time.integrator = "euler";
+  c.couple.slip = DragSlip::mean;
+  c.time.integrator = TimeIntegrator::euler;
   return c;
 }
 
@@ -47,7 +47,7 @@ Config settling_case(const Config& config) {
   dry.grain.release_time = 0;
   if (std::isfinite(config.grain.settle_mu)) dry.grain.mu = config.grain.settle_mu;
   dry.grain.settle_mu = GrainConfig{}.settle_mu;
-  dry.couple.mode = "off";
+  dry.couple.mode = CouplingMode::off;
   dry.time.rayleigh = config.time.rayleigh;
   dry.time.contact = config.time.contact;
   dry.time.dt_dem = config.time.dt_dem;

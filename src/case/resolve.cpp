@@ -251,7 +251,14 @@ void resolve_fluid(Config& c, const Value& root, const std::filesystem::path& ch
     vmax = std::max(vmax, inlet_speed(inlet, f.dx, c.domain, c.time.end));
   if (vmax == 0) missing(root, "fluid.vmax", "m/s; neither gravity nor a wall or inlet sets a speed here");
   f.vmax = vmax;
-  f.c = c.eos.type == "tait" ? f.c_factor * vmax : std::sqrt(c.eos.alpha * c.eos.p0 / f.rho0);
+  switch (c.eos.type) {
+    case EosType::tait:
+      f.c = f.c_factor * vmax;
+      break;
+    case EosType::democritus:
+      f.c = std::sqrt(c.eos.alpha * c.eos.p0 / f.rho0);
+      break;
+  }
   for (InletConfig& inlet : c.inlets)
     if (inlet.ramp == 0) inlet.ramp = 10 * f.h() / f.c;
   if (c.wall.dx == 0) c.wall.dx = f.dx;

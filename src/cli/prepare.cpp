@@ -164,7 +164,7 @@ std::string summary_text(const Prepared& p) {
                        c.fluid.h(), c.fluid.vmax, c.fluid.c);
     if (c.visc.alpha > 0) {
       const double nu = c.visc.alpha * c.fluid.h() * c.fluid.c / 20;  // [monaghan92], approaching pairs only
-      const double physical = c.visc.model == "none" ? 0 : c.fluid.mu / c.fluid.rho0;
+      const double physical = c.visc.model == ViscosityModel::none ? 0 : c.fluid.mu / c.fluid.rho0;
       out += fmt::format("           visc.alpha acts like a kinematic viscosity of {:.3g} m2/s{}\n", nu,
                          physical > 0 ? fmt::format(", {:.3g} times the physical one", nu / physical) : "");
     }
@@ -179,9 +179,9 @@ std::string summary_text(const Prepared& p) {
     out += fmt::format("inlet      {}: {} particles a layer, up to {:.4g} m/s\n", inlet.name,
                        orifice_layer(inlet, c.fluid.dx, c.domain).points.size(),
                        inlet_speed(inlet, c.fluid.dx, c.domain, c.time.end));
-  if (c.fluid.present && c.grain.present && c.couple.mode != "off")
-    out += fmt::format("coupling   {}, {}, h_c {:.4g} m = {:.3g} d_max\n", c.couple.mode, c.couple.drag,
-                       c.couple.hc, c.couple.hc / c.grain.d_max);
+  if (c.fluid.present && c.grain.present && c.couple.mode != CouplingMode::off)
+    out += fmt::format("coupling   {}, {}, h_c {:.4g} m = {:.3g} d_max\n", c.couple.mode.name(),
+                       c.couple.drag.name(), c.couple.hc, c.couple.hc / c.grain.d_max);
   return out;
 }
 

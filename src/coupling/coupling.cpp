@@ -61,10 +61,10 @@ Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry&
       S_dry_(Real(config.couple.S_dry)),
       S_wet_(Real(config.couple.S_wet)),
       mass_per_r3_(4.0 / 3.0 * kPi * config.grain.rho),
-      two_way_(config.couple.mode == "two_way"),
+      two_way_(config.couple.mode == CouplingMode::two_way),
       torque_(config.couple.torque),
       angmom_(config.couple.angmom),
-      local_slip_(config.couple.slip == "local"),
+      local_slip_(config.couple.slip == DragSlip::local),
       walls_(walls.view()),
       wall_normalise_(config.couple.wall_normalise) {
   with_kernel(kernel_, h_c_, [&](auto w) { half_space_ = HalfSpaceFraction::of(w); });

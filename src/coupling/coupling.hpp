@@ -81,7 +81,8 @@ class Coupling {
   Reactions reactions();
 
   Frame frame_;
-  std::string kernel_, drag_law_;
+  Chosen<KernelFunction> kernel_;
+  Chosen<DragLaw> drag_law_;
   double dx_, h_c_, range_, mu_, drag_fraction_;
   Real eps_min_, S_dry_, S_wet_;
   double mass_per_r3_;

@@ -90,9 +90,12 @@ struct CorrectSweep {
 LayerLaw layer_law(const Config& config, const WallBody& body, double kappa) {
   const double dx = config.fluid.dx, spacing = config.wall.spacing(body), D = config.wall.rep_D;
   LayerLaw law;
-  if (body.force == "monaghan") {
-    law.steep = {Real(D), Real(config.wall.layer_r0 > 0 ? config.wall.layer_r0 : dx), Real(1e30)};
-    return law;
+  switch (body.force) {
+    case LayerForce::monaghan:
+      law.steep = {Real(D), Real(config.wall.layer_r0 > 0 ? config.wall.layer_r0 : dx), Real(1e30)};
+      return law;
+    case LayerForce::kajtar:
+      break;
   }
   double volume = 0;
   with_fluid_kernel(config, [&](const auto& w) {
@@ -236,10 +239,8 @@ class FluidSolverWith final : public FluidSolver {
   }
   Real least() const { return -Real(config_.density.cavitation_limit); }
   Viscosity viscosity() const {
-    const std::string& model = config_.visc.model;
-    const double d = config_.domain.two_d ? 2 : 3, h = config_.fluid.h();
-    return {Real(model == "none" ? 0 : config_.fluid.mu), Real(model == "monaghan" ? d + 2 : 0),
-            Real(1e-4 * h * h)};
+    const int dimensions = config_.domain.two_d ? 2 : 3;
+    return Viscosity::of(config_.visc.model, config_.fluid.mu, config_.fluid.h(), dimensions);
   }
   ArtificialViscosity artificial() const {
     return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c),
@@ -330,15 +331,9 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
     : config_(config),
       frame_(frame),
       kappa_(kappa),
-      mixed_(config.grain.present && config.couple.mode == "two_way"),
+      mixed_(config.grain.present && config.couple.mode == CouplingMode::two_way),
       gravity_(config.gravity) {
-  const auto& e = config.eos;
-  const double c = config.fluid.c, rho0 = config.fluid.rho0;
-  if (e.type == "democritus")
-    eos_ = {Real(e.p0), Real(e.alpha), Real(e.p0 - e.beta), Real(rho0), e.clip_negative};
-  else
-    eos_ = {Real(c * c * rho0 / e.gamma), Real(e.gamma), Real(e.background), Real(rho0), e.clip_negative};
-  eos_.least = -Real(config.density.cavitation_limit);
+  eos_ = EquationOfState::of(config);
   grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
   wall_grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
   const auto acts = [](const WallBody& body) { return body.repels() || body.no_penetration; };
@@ -348,12 +343,12 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
   bool layered = false;
   for (std::size_t b = 0; b < config.wall.bodies.size(); ++b) {
     const WallBody& body = config.wall.bodies[b];
-    frozen_ = frozen_ || body.type == "frozen";
+    frozen_ = frozen_ || body.type == WallType::frozen;
     layered = layered || body.single_layer();
     if (body.single_layer()) layers[b] = layer_law(config, body, kappa);
   }
   if (layered) layers_.assign(layers);
-  if (config.time.integrator != "ab3") return;
+  if (config.time.integrator != TimeIntegrator::ab3) return;
   for (const char* name : {"density_rate", "density_rate_before", "density_rate_long_before"})
     rates_.push_back(std::make_unique<Field<Real>>(fluid, name, "1/s", Lifetime::kept));
 }

@@ -262,7 +262,7 @@ std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& do
 }
 
 double particles_beyond(const WallBody& body, const Config& config) {
-  const bool outside = body.shape == "tank" || body.type == "mdbc";
+  const bool outside = body.shape == "tank" || body.type == WallType::mdbc;
   return config.fluid.present && outside ? config.fluid.kappa() * config.fluid.h() : 0;
 }
 

@@ -215,7 +215,7 @@ void check_thickness(const Config& config, const WallBody& body, const std::vect
 
 /// Images of the particles of mdbc walls in the fluid.
 void add_images(const Config& config, Setup::Walls& walls) {
-  const auto mirrored = [](const WallBody& body) { return body.type == "mdbc"; };
+  const auto mirrored = [](const WallBody& body) { return body.type == WallType::mdbc; };
   const auto& bodies = config.wall.bodies;
   if (std::none_of(bodies.begin(), bodies.end(), mirrored)) return;
   for (std::size_t w = 0; w < walls.x.size(); ++w) {
@@ -298,7 +298,8 @@ void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::strin
       if (taken) continue;
       walls.x.push_back(x);
       walls.body.push_back(std::uint32_t(index));
-      walls.outer.push_back(body.type == "frozen" && wall_distance(body, x, reach, config.domain) < -spacing);
+      walls.outer.push_back(body.type == WallType::frozen &&
+                            wall_distance(body, x, reach, config.domain) < -spacing);
     }
     if (index + 1 < bodies.size())
       for (std::size_t w = begin; w < walls.x.size(); ++w) earlier.add(walls.x[w]);

@@ -27,7 +27,7 @@ std::string fill_key(const First& first, std::size_t particle) {
 void check_layer_is_clear(const Config& config, const WallBody& body, const Setup::Fluid& fluid,
                           const First& first) {
   if (!body.single_layer()) return;
-  const double dx = config.fluid.dx, r0 = body.force == "monaghan" ? config.wall.layer_r0 : dx;
+  const double dx = config.fluid.dx, r0 = body.force == LayerForce::monaghan ? config.wall.layer_r0 : dx;
   const double reach = config.fluid.kappa() * config.fluid.h();
   double nearest = r0;
   std::size_t at = 0;

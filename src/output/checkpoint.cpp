@@ -49,7 +49,7 @@ std::vector<Quantity> particle_setup(const Config& c) {
     if (body.dx > 0) add(fmt::format("wall.{}.dx", body.name), body.dx);
     // what its particles hold depends on it
     if (c.fluid.present && body.stops_fluid())
-      add(fmt::format("wall.{}.type = \"{}\"", body.name, body.type), 1);
+      add(fmt::format("wall.{}.type = \"{}\"", body.name, body.type.name()), 1);
   }
   for (const InletConfig& inlet : c.inlets) {
     for (int k = 0; k < 3; ++k) {

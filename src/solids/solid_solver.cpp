@@ -86,7 +86,7 @@ GrainWatch SolidSolver::watch(const GrainStore& g) const {
 
 std::vector<StepLimit> SolidSolver::limits(const GrainWatch& w) const {
   std::vector<StepLimit> limits = substep_limits(config_, 2 * w.speed);
-  if (config_.couple.integrator == "explicit" && w.drag_rate > 0)
+  if (config_.couple.integrator == DragIntegrator::explicit_steps && w.drag_rate > 0)
     limits.push_back({"grain drag", config_.time.drag / w.drag_rate, false});
   return limits;
 }
@@ -170,7 +170,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   GrainKick kick{gravity.empty() ? config_.gravity : gravity[0],
                  mass_per_r3(),
                  0.5 * tau,
-                 config_.couple.integrator == "exponential",
+                 config_.couple.integrator == DragIntegrator::exponential,
                  g.radius,
                  g.fluid_force,
                  g.U,

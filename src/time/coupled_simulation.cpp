@@ -145,7 +145,7 @@ std::vector<StepLimit> CoupledSimulation::limits() {
   if (has_fluid()) {
     const double hs = fluid_solver_->range() / 2, c = config_.fluid.c;
     out.push_back({"cfl", t.cfl * hs / (c + std::sqrt(fluid_extremes_.v2))});
-    if (config_.visc.model != "none" && config_.fluid.mu > 0)
+    if (config_.visc.model != ViscosityModel::none && config_.fluid.mu > 0)
       out.push_back(
           {"viscous", t.visc * hs * hs * fluid_extremes_.eps_min * config_.fluid.rho0 / config_.fluid.mu});
     if (fluid_extremes_.acc2 > 0)

@@ -48,11 +48,11 @@ class CoupledSimulation final : public Simulation {
   bool has_fluid() const { return config_.fluid.present; }
   bool has_grains() const { return config_.grain.present; }
   bool coupled() const { return coupling_ != nullptr; }
-  bool two_way() const { return coupled() && config_.couple.mode == "two_way"; }
+  bool two_way() const { return coupled() && config_.couple.mode == CouplingMode::two_way; }
   bool held() const { return config_.grain.fixed || clock_.time < config_.grain.release_time; }
 
   /// Of the second half-kick of a step dt that ends with the fluid's forces, s.
-  double last_kick(double dt) const { return config_.time.integrator == "euler" ? 0 : dt / 2; }
+  double last_kick(double dt) const { return config_.time.integrator == TimeIntegrator::euler ? 0 : dt / 2; }
 
   void upload(const Setup& setup);
   void initialise_fluid();  ///< mass for the porosity, hydrostatic pressure

@@ -115,7 +115,7 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
     grain_grid_ = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, solid_solver_->range());
   }
   if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_, geometry_, fluid_);
-  if (has_fluid() && has_grains() && config.couple.mode != "off")
+  if (has_fluid() && has_grains() && config.couple.mode != CouplingMode::off)
     coupling_ = std::make_unique<Coupling>(config, frame_, geometry_);
   upload(setup);
 }
@@ -257,7 +257,7 @@ void CoupledSimulation::load(const SavedState& state) {
     fluid_solver_->load(scalar);
     fluid_solver_->set_gravity(gravity_.at(clock_.time));
     walls_.load(store_of(state, "walls"));
-    const auto mirrored = [](const WallBody& body) { return body.type == "mdbc"; };
+    const auto mirrored = [](const WallBody& body) { return body.type == WallType::mdbc; };
     if (std::any_of(config_.wall.bodies.begin(), config_.wall.bodies.end(), mirrored))
       walls_.mirrors.load(store_of(state, "mirrors"));
   }

@@ -6,6 +6,7 @@
 
 #include "bedload/case/limits.hpp"
 #include "bedload/case/materials.hpp"
+#include "bedload/case/normal_laws.hpp"
 #include "src/walls/free_bodies.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -50,24 +51,21 @@ std::vector<StepLimit> FreeBodies::limits(double wall_speed) const {
     if (speed == 0) continue;
     const WallBody& body = config_.wall.bodies[bodies_[k].body];
     if (balls_.size() > 0) {
-      const HertzImpact impact = hertz_impact(1 / (2 * inverse_masses_[k]), contact_radius_,
-                                              1 / (compliance_of(body) + hardest), speed);
-      contact = std::min(contact, impact.duration);
+      const Impact hit = hertz_impact(1 / (2 * inverse_masses_[k]), contact_radius_,
+                                      1 / (compliance_of(body) + hardest), speed);
+      contact = std::min(contact, hit.duration);
       const Vec3d& I = bodies_[k].moments;
       const double mu_r = body.free.mu_r;
-      if (config_.contact.rolling == "epsd")
-        roll = std::min(
-            roll, rolling_limit(impact.stiffness, mu_r, largest_radius_, 0.5 * std::min({I.x, I.y, I.z})));
+      if (config_.contact.rolling == RollingLaw::epsd)
+        roll = std::min(roll,
+                        rolling_limit(hit.stiffness, mu_r, largest_radius_, 0.5 * std::min({I.x, I.y, I.z})));
     }
     if (config_.grain.present) {
       const double R = 0.5 * config_.grain.d_min;
       const double m = 1 / (1 / (4.0 / 3.0 * M_PI * R * R * R * config_.grain.rho) + inverse_masses_[k]);
       const double compliance =
           ElasticCompliance(config_.grain.E, config_.grain.nu).normal + wall_compliance(config_, body).normal;
-      if (config_.contact.normal == "hertz")
-        contact = std::min(contact, hertz_impact(m, R, 1 / compliance, speed).duration);
-      if (config_.contact.normal == "linear")
-        contact = std::min(contact, M_PI * std::sqrt(m / config_.contact.k));
+      contact = std::min(contact, impact(config_.contact, m, R, 1 / compliance, speed).duration);
     }
   }
   std::vector<StepLimit> all;

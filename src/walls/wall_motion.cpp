@@ -35,9 +35,18 @@ struct PlaceImagesPass {
 };
 
 WallKind kind_of(const WallBody& body) {
-  if (body.type == "frozen") return WallKind::frozen;
-  if (body.type == "mdbc") return WallKind::mirrored;
-  if (body.type == "single_layer") return WallKind::single_layer;
+  switch (body.type) {
+    case WallType::frozen:
+      return WallKind::frozen;
+    case WallType::mdbc:
+      return WallKind::mirrored;
+    case WallType::single_layer:
+      return WallKind::single_layer;
+    case WallType::adami:
+    case WallType::fluid_only:
+    case WallType::grains_only:
+      break;  // the last has no particles
+  }
   return WallKind::extrapolated;
 }
 
@@ -51,7 +60,7 @@ WallMotion::WallMotion(const Config& config, const FreeBodies& free)
     laws_.emplace_back(body.motion, config.time.end);
     BodyPose& p = still_.emplace_back();
     p.free = std::uint32_t(free.place_of(int(still_.size()) - 1) + 1);
-    p.slip = body.slip == "slip";
+    p.slip = body.slip == WallSlip::slip;
     p.kind = kind_of(body);
     p.repulsion = body.repels();
     p.no_penetration = body.no_penetration && body.stops_fluid() && !body.single_layer();

@@ -241,6 +241,49 @@ TEST(ParameterTable, HoldsEveryKeyOnceWithUnitAndMeaning) {
     EXPECT_EQ(keys.count(key), 1u) << key;
 }
 
+/// What `bedload list` shows of a key is what its type can be.
+template <class E>
+void expect_choices(const std::string& key) {
+  int seen = 0;
+  for (const ParameterRow& row : parameter_table()) {
+    if (row.key != key) continue;
+    ++seen;
+    EXPECT_EQ(row.allowed, names_of<E>()) << key;
+    ASSERT_EQ(row.choices.size(), kNames<E>.size()) << key;
+    for (std::size_t k = 0; k < row.choices.size(); ++k)
+      EXPECT_EQ(row.choices[k].meaning, kNames<E>[k].meaning) << key;
+  }
+  EXPECT_EQ(seen, 1) << key;
+}
+
+TEST(ParameterTable, TakesChoicesFromTheirRegistry) {
+  expect_choices<NormalLaw>("contact.normal");
+  expect_choices<SlidingLaw>("contact.tangential");
+  expect_choices<RollingLaw>("contact.rolling");
+  expect_choices<KernelFunction>("fluid.kernel");
+  expect_choices<EosType>("eos.type");
+  expect_choices<ViscosityModel>("visc.model");
+  expect_choices<WallType>("wall.type");
+  expect_choices<WallType>("wall.body.type");
+  expect_choices<WallSlip>("wall.slip");
+  expect_choices<LayerForce>("wall.force");
+  expect_choices<CouplingMode>("couple.mode");
+  expect_choices<DragSlip>("couple.slip");
+  expect_choices<DragLaw>("drag.law");
+  expect_choices<DragIntegrator>("drag.integrator");
+  expect_choices<TimeIntegrator>("time.integrator");
+}
+
+/// A name that nobody listed is an error wherever it comes from, never a default.
+TEST(Choices, RefuseWhatIsNotListed) {
+  Config c;
+  EXPECT_THROW(c.contact.normal = "hertzz", CaseError);
+  EXPECT_THROW((void)(c.visc.model == "moris"), CaseError);
+  EXPECT_EQ(c.contact.normal, NormalLaw::hertz);
+  EXPECT_EQ(error_of(kCase, {"eos.type=tate"}),
+            "--set eos.type=tate: eos.type = \"tate\" must be one of tait, democritus");
+}
+
 TEST(ReadCase, NamesAFileThatIsNotThere) {
   std::vector<std::string> warnings;
   try {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bedload/case/choices.hpp"
 #include "bedload/core/vec.hpp"
 
 namespace bedload {
@@ -77,7 +78,7 @@ struct FluidConfig {
   bool present = false;
   double dx = 0;                               ///< particle spacing, m
   double h_over_dx = 1.5;
-  std::string kernel = "wendland_c2";          ///< wendland_c2, cubic, lucy
+  Chosen<KernelFunction> kernel = KernelFunction::wendland_c2;
   double rho0 = 1000;                          ///< kg/m3
   double mu = 1e-3;                            ///< Pa s
   double vmax = 0;                             ///< m/s; 0: sqrt(2 g H)
@@ -86,7 +87,7 @@ struct FluidConfig {
   double depth = 0;                            ///< H: height of the initial fluid along gravity, m (resolved)
   std::vector<FluidFill> fills;
   double h() const { return h_over_dx * dx; }
-  double kappa() const { return kernel == "lucy" ? 1 : 2; }  ///< support / h
+  double kappa() const { return kernel == KernelFunction::lucy ? 1 : 2; }  ///< support / h
   bool operator==(const FluidConfig&) const = default;
 };
 
@@ -100,7 +101,7 @@ struct DriveConfig {
 };
 
 struct EosConfig {
-  std::string type = "tait";                   ///< tait, democritus
+  Chosen<EosType> type = EosType::tait;
   double gamma = 7;
   double p0 = 100, alpha = 7, beta = 100;      ///< democritus: Pa, -, Pa
   double background = 0;                       ///< tait: pressure at rho0, Pa
@@ -116,7 +117,7 @@ struct DensityConfig {
 };
 
 struct ViscosityConfig {
-  std::string model = "morris";                ///< morris, none
+  Chosen<ViscosityModel> model = ViscosityModel::morris;
   double alpha = 0, beta = 0;                  ///< artificial viscosity
   bool operator==(const ViscosityConfig&) const = default;
 };
@@ -206,12 +207,12 @@ struct WallBody {
   Vec3d min, max;                              ///< box, tank: m; of a shape: around it (resolved)
   std::array<bool, 6> faces{true, true, true, true, true, true};  ///< tank: x-, x+, y-, y+, z-, z+
   Vec3d point, normal;                         ///< plane: normal points into the flow
-  std::string type = "adami";                  ///< adami, mdbc, frozen, single_layer, grains_only, fluid_only
-  std::string slip = "noslip";                 ///< noslip, slip
+  Chosen<WallType> type = WallType::adami;
+  Chosen<WallSlip> slip = WallSlip::noslip;
   bool no_penetration = true;                  ///< what comes too near is stopped
   bool repulsion = false;                      ///< Monaghan repulsion beside the wall's pressure
   Vec3d surface_velocity;                      ///< of the surface in its own plane, as of a belt, in the body's axes, m/s
-  std::string force = "kajtar";                ///< single_layer: kajtar, monaghan
+  Chosen<LayerForce> force = LayerForce::kajtar;  ///< of a single layer
   double dx = 0;                               ///< spacing of its particles, m; 0: wall.dx
   double mu = std::numeric_limits<double>::infinity();    ///< sliding friction of grains on it (default grain.mu)
   double mu_r = std::numeric_limits<double>::infinity();  ///< rolling friction (default grain.mu_r)
@@ -221,18 +222,19 @@ struct WallBody {
   MotionConfig motion;
   FreeConfig free;                             ///< instead of a motion
   Solid solid;                                 ///< of a named shape (resolved)
-  bool stops_fluid() const { return type != "grains_only"; }
+  bool stops_fluid() const { return type != WallType::grains_only; }
   /// Frozen walls, whose pressure does not follow the fluid's, need it.
-  bool repels() const { return stops_fluid() && !single_layer() && (repulsion || type == "frozen"); }
-  bool single_layer() const { return type == "single_layer"; }
-  bool stops_grains() const { return type != "fluid_only"; }
+  bool repels() const { return stops_fluid() && !single_layer() && (repulsion || type == WallType::frozen); }
+  bool single_layer() const { return type == WallType::single_layer; }
+  bool stops_grains() const { return type != WallType::fluid_only; }
   bool moves() const { return motion.moves() || free.present; }
   bool operator==(const WallBody&) const = default;
 };
 
 struct WallConfig {
-  std::string type = "adami", slip = "noslip";  ///< defaults of the bodies
-  std::string force = "kajtar";                ///< of single layers
+  Chosen<WallType> type = WallType::adami;     ///< default of the bodies, as what follows
+  Chosen<WallSlip> slip = WallSlip::noslip;
+  Chosen<LayerForce> force = LayerForce::kajtar;
   bool no_penetration = true;
   bool repulsion = false;
   double dx = 0;                               ///< spacing of wall particles, m (default fluid.dx)
@@ -316,9 +318,9 @@ struct GrainConfig {
 };
 
 struct ContactConfig {
-  std::string normal = "hertz";                ///< hertz, linear, none
-  std::string tangential = "mindlin";          ///< mindlin, mindlin_deresiewicz, linear, none
-  std::string rolling = "epsd";                ///< epsd, cdt, none
+  Chosen<NormalLaw> normal = NormalLaw::hertz;
+  Chosen<SlidingLaw> tangential = SlidingLaw::mindlin;
+  Chosen<RollingLaw> rolling = RollingLaw::epsd;
   double k = 0;                                ///< N/m, linear only
   double kt_ratio = 2.0 / 7.0;
   double tangential_damping = 1;               ///< fraction of c_n sqrt(S_t/S_n) that damps friction's spring
@@ -330,7 +332,7 @@ struct ContactConfig {
 };
 
 struct CouplingConfig {
-  std::string mode = "two_way";                ///< off, one_way, two_way
+  Chosen<CouplingMode> mode = CouplingMode::two_way;
   double hc = 0;                               ///< m (default max(h, 2 d_max 2/kappa))
   double eps_min = 0.25;
   bool wall_normalise = true;                  ///< a grain's volume lies in the kernel's fraction that walls leave free
@@ -338,9 +340,9 @@ struct CouplingConfig {
   double S_dry = 0.05, S_wet = 0.95;
   bool torque = true;
   bool angmom = true;
-  std::string slip = "mean";                   ///< mean, local: that drag follows
-  std::string drag = "di_felice";
-  std::string integrator = "exponential";      ///< exponential, explicit
+  Chosen<DragSlip> slip = DragSlip::mean;      ///< that drag follows
+  Chosen<DragLaw> drag = DragLaw::di_felice;
+  Chosen<DragIntegrator> integrator = DragIntegrator::exponential;
   bool operator==(const CouplingConfig&) const = default;
 };
 
@@ -349,7 +351,7 @@ struct TimeConfig {
   double dt = 0;                               ///< s; 0: adaptive
   double dt_dem = 0;                           ///< s; 0: adaptive
   double cfl = 0.25, visc = 0.125, body = 0.25, drag = 0.5, rayleigh = 0.2, contact = 0.04;
-  std::string integrator = "kdk";              ///< kdk, ab3, euler
+  Chosen<TimeIntegrator> integrator = TimeIntegrator::kdk;
   bool force_dt = false;
   bool operator==(const TimeConfig&) const = default;
 };

@@ -8,14 +8,6 @@
 
 namespace bedload {
 
-/// An elastic impact by Hertz's law.
-struct HertzImpact {
-  double duration;   ///< s
-  double stiffness;  ///< where it is deepest, dF/d(overlap), N/m
-};
-/// Of reduced mass m (kg), radius R (m) and modulus E (Pa), at v (m/s).
-HertzImpact hertz_impact(double m, double R, double E, double v);
-
 /// Longest stable step of a rolling spring [ai11] in a contact of the given stiffness (N/m), s; inertia:
 /// reduced, about the contact, kg m2. Infinite without rolling friction.
 double rolling_limit(double stiffness, double mu_r, double R_star, double inertia);

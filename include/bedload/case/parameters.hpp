@@ -72,6 +72,15 @@ class Parameters {
   virtual ~Parameters() = default;
   virtual void operator()(std::string_view key, Slot value, const About& about) = 0;
 
+  /// A key that takes one of the names of E, with kNames<E> as its choices.
+  template <class E>
+  void operator()(std::string_view key, Chosen<E>* value, About about) {
+    for (const auto& row : kNames<E>)
+      about.choices.push_back({std::string(row.name), std::string(row.meaning)});
+    std::string name = value->name();
+    (*this)(key, Slot(&name), about);
+    *value = name;
+  }
   /// A list of tables, [[key]]: `describe` is called for each.
   template <class T, class F>
   void list(std::string_view key, std::vector<T>& items, const T& prototype, F describe) {

@@ -1,0 +1,221 @@
+#pragma once
+// The laws and models that a case may name. Each is written here once: enumerator, name, meaning. Reader,
+// `bedload list` and messages take them from here, and code asks for enumerators: a name that nobody listed
+// does not compile, or is a CaseError where it comes as text. `switch` over an enumeration must know all of
+// it.
+
+#include <array>
+#include <concepts>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "bedload/core/error.hpp"
+
+namespace bedload {
+
+template <class E>
+struct Named {
+  E value;
+  std::string_view name, meaning;
+};
+
+/// All that a key of type E may be, in the order of the enumerators; the first is the default.
+template <class E>
+inline constexpr std::array<Named<E>, 0> kNames{};
+
+/// "hertz, linear, none".
+template <class E>
+std::string names_of() {
+  std::string all;
+  for (const auto& row : kNames<E>) all += (all.empty() ? "" : ", ") + std::string(row.name);
+  return all;
+}
+
+/// One of the names of E. Throws CaseError for a text that is none of them.
+template <class E>
+class Chosen {
+ public:
+  constexpr Chosen(E value) : value_(value) {}
+  template <std::convertible_to<std::string_view> Text>
+  Chosen(const Text& name) : value_(value_of(name)) {}
+
+  constexpr operator E() const { return value_; }
+  std::string name() const { return std::string(kNames<E>[std::size_t(value_)].name); }
+  constexpr bool operator==(const Chosen&) const = default;
+  constexpr bool operator==(E value) const { return value_ == value; }
+
+ private:
+  static E value_of(std::string_view name) {
+    for (const auto& row : kNames<E>)
+      if (row.name == name) return row.value;
+    throw CaseError("\"" + std::string(name) + "\" must be one of " + names_of<E>());
+  }
+
+  E value_;
+};
+
+// -- contact -------------------------------------------------------------------------------------
+
+/// contact.normal
+enum class NormalLaw : std::uint32_t { hertz, linear, none };
+template <>
+inline constexpr auto kNames<NormalLaw> = std::to_array<Named<NormalLaw>>({
+    {NormalLaw::hertz, "hertz", "Hertz spring, damping exact in e"},
+    {NormalLaw::linear, "linear", "linear spring and dashpot"},
+    {NormalLaw::none, "none", "grains pass through each other"},
+});
+
+/// contact.tangential
+enum class SlidingLaw : std::uint32_t { mindlin, mindlin_deresiewicz, linear, none };
+template <>
+inline constexpr auto kNames<SlidingLaw> = std::to_array<Named<SlidingLaw>>({
+    {SlidingLaw::mindlin, "mindlin", "Mindlin spring, rescaled on unloading"},
+    {SlidingLaw::mindlin_deresiewicz, "mindlin_deresiewicz", "Mindlin-Deresiewicz, full micro-slip"},
+    {SlidingLaw::linear, "linear", "linear spring kt_ratio k"},
+    {SlidingLaw::none, "none", "frictionless"},
+});
+
+/// contact.rolling
+enum class RollingLaw : std::uint32_t { epsd, cdt, none };
+template <>
+inline constexpr auto kNames<RollingLaw> = std::to_array<Named<RollingLaw>>({
+    {RollingLaw::epsd, "epsd", "elastic-plastic spring-dashpot, holds slopes [ai11]"},
+    {RollingLaw::cdt, "cdt", "constant directional torque"},
+    {RollingLaw::none, "none", "free rolling"},
+});
+
+// -- fluid ---------------------------------------------------------------------------------------
+
+/// fluid.kernel
+enum class KernelFunction { wendland_c2, cubic, lucy };
+template <>
+inline constexpr auto kNames<KernelFunction> = std::to_array<Named<KernelFunction>>({
+    {KernelFunction::wendland_c2, "wendland_c2", "Wendland C2, support 2 h"},
+    {KernelFunction::cubic, "cubic", "cubic spline, support 2 h"},
+    {KernelFunction::lucy, "lucy", "Lucy, support h"},
+});
+
+/// eos.type
+enum class EosType { tait, democritus };
+template <>
+inline constexpr auto kNames<EosType> = std::to_array<Named<EosType>>({
+    {EosType::tait, "tait", "B [(rho/rho0)^gamma - 1], B = c^2 rho0 / gamma"},
+    {EosType::democritus, "democritus", "p0 (rho/rho0)^alpha - beta, c = sqrt(alpha p0 / rho0)"},
+});
+
+/// visc.model
+enum class ViscosityModel { morris, monaghan, none };
+template <>
+inline constexpr auto kNames<ViscosityModel> = std::to_array<Named<ViscosityModel>>({
+    {ViscosityModel::morris, "morris", "Laplacian of the velocity, conserves linear momentum [morris97]"},
+    {ViscosityModel::monaghan, "monaghan",
+     "divergence of the stress, right at free surfaces, conserves both [monaghan05]"},
+    {ViscosityModel::none, "none", "inviscid"},
+});
+
+// -- walls ---------------------------------------------------------------------------------------
+
+/// wall.type
+enum class WallType { adami, mdbc, frozen, single_layer, grains_only, fluid_only };
+template <>
+inline constexpr auto kNames<WallType> = std::to_array<Named<WallType>>({
+    {WallType::adami, "adami",
+     "layers of wall particles with pressure extrapolated from the fluid [adami12]"},
+    {WallType::mdbc, "mdbc",
+     "layers of wall particles with the density about their images in the fluid [english22]"},
+    {WallType::frozen, "frozen", "layers of wall particles, the first with a density of its own"},
+    {WallType::single_layer, "single_layer",
+     "one layer of particles on the surface that push the fluid away; for thin shells"},
+    {WallType::grains_only, "grains_only", "stops grains, lets the fluid pass"},
+    {WallType::fluid_only, "fluid_only", "as adami, but lets grains pass"},
+});
+
+/// wall.slip
+enum class WallSlip { noslip, slip };
+template <>
+inline constexpr auto kNames<WallSlip> = std::to_array<Named<WallSlip>>({
+    {WallSlip::noslip, "noslip", "the fluid sticks to the wall"},
+    {WallSlip::slip, "slip", "no viscous wall pairs"},
+});
+
+/// wall.force, of single layers
+enum class LayerForce { kajtar, monaghan };
+template <>
+inline constexpr auto kNames<LayerForce> = std::to_array<Named<LayerForce>>({
+    {LayerForce::kajtar, "kajtar", "soft, as far as the kernel reaches [monaghan09]"},
+    {LayerForce::monaghan, "monaghan", "steep, up to wall.layer_r0 [monaghan94]"},
+});
+
+// -- coupling ------------------------------------------------------------------------------------
+
+/// couple.mode
+enum class CouplingMode { two_way, one_way, off };
+template <>
+inline constexpr auto kNames<CouplingMode> = std::to_array<Named<CouplingMode>>({
+    {CouplingMode::two_way, "two_way", "grains and fluid act on each other"},
+    {CouplingMode::one_way, "one_way", "the fluid acts on the grains, not the reverse"},
+    {CouplingMode::off, "off", "nothing"},
+});
+
+/// couple.slip
+enum class DragSlip { mean, local };
+template <>
+inline constexpr auto kNames<DragSlip> = std::to_array<Named<DragSlip>>({
+    {DragSlip::mean, "mean", "the mean around the grain"},
+    {DragSlip::local, "local",
+     "that of each fluid particle: a jet pushes, and is stopped, by its own speed; but grains resist shear "
+     "of "
+     "the fluid over h_c, too"},
+});
+
+/// drag.law
+enum class DragLaw { di_felice, gidaspow, gidaspow_blend, ergun, wen_yu, schiller_naumann, stokes };
+template <>
+inline constexpr auto kNames<DragLaw> = std::to_array<Named<DragLaw>>({
+    {DragLaw::di_felice, "di_felice", "one smooth law from lone grain to packed bed [difelice94]"},
+    {DragLaw::gidaspow, "gidaspow", "Ergun up to porosity 0.8, then Wen-Yu; jumps there [gidaspow94]"},
+    {DragLaw::gidaspow_blend, "gidaspow_blend", "the same, blended [huilin03]"},
+    {DragLaw::ergun, "ergun", "packed beds [ergun52]"},
+    {DragLaw::wen_yu, "wen_yu", "suspensions [wen66]"},
+    {DragLaw::schiller_naumann, "schiller_naumann", "a lone sphere"},
+    {DragLaw::stokes, "stokes", "a lone sphere, creeping flow"},
+});
+
+/// drag.integrator
+enum class DragIntegrator { exponential, explicit_steps };
+template <>
+inline constexpr auto kNames<DragIntegrator> = std::to_array<Named<DragIntegrator>>({
+    {DragIntegrator::exponential, "exponential", "exact for constant slip, stable for any drag"},
+    {DragIntegrator::explicit_steps, "explicit", "limits the step"},
+});
+
+// -- time ----------------------------------------------------------------------------------------
+
+/// time.integrator
+enum class TimeIntegrator { kdk, ab3, euler };
+template <>
+inline constexpr auto kNames<TimeIntegrator> = std::to_array<Named<TimeIntegrator>>({
+    {TimeIntegrator::kdk, "kdk", "kick-drift-kick, second order; two passes over pairs a step"},
+    {TimeIntegrator::ab3, "ab3", "the same with density by Adams-Bashforth: one pass over pairs a step"},
+    {TimeIntegrator::euler, "euler", "forward Euler"},
+});
+
+/// Every enumerator has its row, at its place.
+template <class E, E last>
+inline constexpr bool all_named = [] {
+  for (std::size_t k = 0; k < kNames<E>.size(); ++k)
+    if (std::size_t(kNames<E>[k].value) != k) return false;
+  return kNames<E>.size() == std::size_t(last) + 1;
+}();
+
+static_assert(all_named<NormalLaw, NormalLaw::none> && all_named<SlidingLaw, SlidingLaw::none> &&
+              all_named<RollingLaw, RollingLaw::none> && all_named<KernelFunction, KernelFunction::lucy> &&
+              all_named<EosType, EosType::democritus> && all_named<ViscosityModel, ViscosityModel::none> &&
+              all_named<WallType, WallType::fluid_only> && all_named<WallSlip, WallSlip::slip> &&
+              all_named<LayerForce, LayerForce::monaghan> && all_named<CouplingMode, CouplingMode::off> &&
+              all_named<DragSlip, DragSlip::local> && all_named<DragLaw, DragLaw::stokes> &&
+              all_named<DragIntegrator, DragIntegrator::explicit_steps> &&
+              all_named<TimeIntegrator, TimeIntegrator::euler>);
+
+}  // namespace bedload

@@ -1,0 +1,32 @@
+#pragma once
+// What the host knows of the laws of contact.normal: bounds of e, impacts, softness. Their forces are in
+// kernels/contact/normal.hpp.
+
+#include <limits>
+
+#include "bedload/case/config.hpp"
+
+namespace bedload {
+
+/// The least restitution that the damping can reach; the largest is 1.
+double least_restitution(const ContactConfig& contact);
+
+/// Whether Young's moduli enter; else contact.k does.
+bool takes_moduli(NormalLaw law);
+
+/// Two bodies that meet and part.
+struct Impact {
+  double duration = std::numeric_limits<double>::infinity();  ///< s
+  double stiffness = 0;                                       ///< where it is deepest, dF/d(overlap), N/m
+};
+/// Of reduced mass m (kg), radius R (m) and modulus E (Pa), at v (m/s). e: the restitution, which draws out
+/// the contact of linear springs.
+Impact impact(const ContactConfig& contact, double m, double R, double E, double v, double e = 1);
+
+/// By Hertz's law; v > 0.
+Impact hertz_impact(double m, double R, double E, double v);
+
+/// Overlap under a force at rest (N), m; 0 where there is no contact. R, E as above.
+double overlap_under(const ContactConfig& contact, double force, double R, double E);
+
+}  // namespace bedload
