@@ -117,6 +117,8 @@ double around(double reach, bool two_d) { return two_d ? 3.14 * reach * reach : 
 }  // namespace
 
 std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda) {
+  const bool coupled =
+      config.couple.mode != CouplingMode::off && config.fluid.present && config.grain.present;
   const double real = config.precision == "double" ? 8 : 4;
   const double position = config.precision == "single" ? 16 : 24,
                pair_position = config.precision == "double" ? 32 : 16;
@@ -124,20 +126,21 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda
   const double neighbours =
       config.fluid.present ? 1.2 * around(reach / config.fluid.dx, config.domain.two_d) : 0;
   const double entry = cuda ? 2.4 : 4;
-  const double fluid = 4 + 2 * position + pair_position + real * 35 + entry * neighbours + position;
-  const double rates = config.time.integrator == TimeIntegrator::ab3 ? 3 * real : 0;
+  const double fluid = 4 + 2 * position + pair_position + real * 20 + entry * neighbours + position;
+  const bool two_way = coupled && config.couple.mode == CouplingMode::two_way;
+  const double optional =
+      real * ((config.time.integrator == TimeIntegrator::ab3 ? 3 : 1) + (coupled ? 1 : 0) +
+              (two_way ? 10 : 0) + (config.shift > 0 || config.xsph > 0 ? 3 : 0));
   const double walls = 8 + 3 * 24 + pair_position + real * 13 + 4 * 32;
   const double contacts = 12;
   const double touches = 60.0 * std::min(config.wall.free_bodies(), 8);  // of each grain with free bodies
   const double grains = 4 + 3 * 24 + real * 36 + contacts * (4 + 56) * 2 + touches;
   const double skin = 0.5 * (config.skin_fluid * config.fluid.dx + config.skin_grain * config.grain.d_min);
-  const bool coupled =
-      config.couple.mode != CouplingMode::off && config.fluid.present && config.grain.present;
   const double records = coupled ? real * 9 : 0;
   const double cross = coupled ? pair_position + real * 78 +
                                      2 * 4 * around((2 * config.couple.hc + skin) / config.fluid.dx, false)
                                : 0;
-  return std::size_t(counts.fluid * (fluid + rates + records) + counts.walls * walls +
+  return std::size_t(counts.fluid * (fluid + optional + records) + counts.walls * walls +
                      counts.grains * (grains + cross)) +
          (64u << 20);
 }

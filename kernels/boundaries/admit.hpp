@@ -25,7 +25,7 @@ struct AdmitPass {
   Span<const Real4> wall_v_rho, wall_m_state;
   Span<Id> fluid_id;
   Span<FluidPosition> x;
-  Span<Real4> v_rho, flux, m_state;
+  Span<Real4> v_rho, flux, m_state;  ///< flux, solid_factor: empty without grains
   Span<Real> s, fluid_mass, eps, solid_factor;
   Span<Real3> theta, fluid_acc;
 
@@ -39,12 +39,13 @@ struct AdmitPass {
     fluid_id[a] = id + k;
     x[a] = as_position<FluidPosition>(frame, wall_x[w]);
     const Real rho = eos.rho0 * (1 + compression), p = eos.pressure(compression);
-    v_rho[a] = flux[a] = {wall_v_rho[w].xyz(), rho};
+    v_rho[a] = {wall_v_rho[w].xyz(), rho};
+    if (flux) flux[a] = v_rho[a];
     m_state[a] = {mass, p / square(rho), rho, 1};
     s[a] = compression;
     fluid_mass[a] = mass;
     eps[a] = 1;
-    solid_factor[a] = 0;
+    if (solid_factor) solid_factor[a] = 0;
     theta[a] = acc - gravity;  // what moves it as prescribed
     fluid_acc[a] = acc;
   }

@@ -91,4 +91,14 @@ struct StatePass {
   }
 };
 
+/// Both, where no pass over pairs stands between them.
+struct AdvancePass {
+  KickDriftPass move;
+  StatePass state;
+  BL_HD void operator()(Index a) const {
+    move(a);
+    state(a);
+  }
+};
+
 }  // namespace bedload::inline BL_VARIANT

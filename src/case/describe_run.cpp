@@ -177,7 +177,10 @@ void describe_time(Parameters& p, Config& c) {
     {.meaning = "fraction of fluid or grains that may leave the domain where no outlet is; more: exit code 4",
      .range = within(0, 1)});
   p("run.skin_fluid", &c.skin_fluid,
-    {.unit = "fluid.dx", .meaning = "margin of the fluid's neighbour lists", .range = within(0.01, 2)});
+    {.unit = "fluid.dx",
+     .meaning = "margin of the fluid's neighbour lists; half as much again while they would last less than "
+                "four steps",
+     .range = within(0.01, 2)});
   p("run.skin_grain", &c.skin_grain,
     {.unit = "d_min", .meaning = "margin of the grains' neighbour lists", .range = within(0.01, 2)});
 }

@@ -334,8 +334,7 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
       mixed_(config.grain.present && config.couple.mode == CouplingMode::two_way),
       gravity_(config.gravity) {
   eos_ = EquationOfState::of(config);
-  grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
-  wall_grid_ = CellGrid(frame, frame.origin, frame.origin + frame.length, range() + skin());
+  set_skin(config.skin_fluid * config.fluid.dx);
   const auto acts = [](const WallBody& body) { return body.repels() || body.no_penetration; };
   if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), acts)) repelling_ = walls.view();
   orifices_.assign(orifices_of(config));
@@ -348,7 +347,9 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
     if (body.single_layer()) layers[b] = layer_law(config, body, kappa);
   }
   if (layered) layers_.assign(layers);
+  if (!drifts()) fluid.drift.leave_out();
   if (config.time.integrator != TimeIntegrator::ab3) return;
+  fluid.s_next.leave_out();
   for (const char* name : {"density_rate", "density_rate_before", "density_rate_long_before"})
     rates_.push_back(std::make_unique<Field<Real>>(fluid, name, "1/s", Lifetime::kept));
 }
@@ -360,7 +361,15 @@ void FluidSolver::accept_rates(double dt) {
   last_dt_ = dt;
 }
 
+void FluidSolver::set_skin(double skin) {
+  if (skin == skin_) return;
+  skin_ = skin;
+  for (CellGrid* grid : {&grid_, &wall_grid_})
+    *grid = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, range() + skin);
+}
+
 void FluidSolver::save(std::vector<Quantity>& scalars) const {
+  scalars.push_back({"skin_fluid", "m", skin_});
   if (!one_pass()) return;
   scalars.push_back({"density_last_dt", "s", last_dt_});
   scalars.push_back({"density_dt_before", "s", dt_before_});
@@ -395,7 +404,13 @@ void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double kic
                      fluid.acc_next, fluid.heading, drift_of(fluid)});
 }
 
-void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved) {
+void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved, double travel) {
+  const double narrow = config_.skin_fluid * config_.fluid.dx, four_steps = 8 * travel;
+  if (four_steps > narrow || 2 * four_steps < narrow) {  // in between, as it was
+    const double former = skin_;
+    set_skin(four_steps > narrow ? 1.5 * narrow : narrow);
+    walls_moved = walls_moved || skin_ != former;
+  }
   for_each(fluid.owned(), WrapPass<FluidPosition>{frame_, fluid.x, fluid.x_list});
   grid_.sort(frame_, Span<const FluidPosition>(fluid.x), order_);
   fluid.reorder(order_);
@@ -447,20 +462,45 @@ void FluidSolver::pack(WallStore& walls, double back) {
   for_each(walls.mirrors.owned(), PackPass<Vec3d>{frame_, walls.mirrors.x, walls.mirrors.xp});
 }
 
-void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, double back, bool coupled) {
-  for_each(fluid.owned(), KickDriftPass{frame_, Real(kick), Real(drift), Real(back), fluid.acc,
-                                        coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
-                                        drift_of(fluid), fluid.v_rho, fluid.x, fluid.xp});
+KickDriftPass FluidSolver::kick_drift_pass(FluidStore& fluid, double kick, double drift, double back,
+                                           bool coupled) {
+  return {frame_,          Real(kick),  Real(drift),
+          Real(back),      fluid.acc,   coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
+          drift_of(fluid), fluid.v_rho, fluid.x,
+          fluid.xp};
 }
 
-void FluidSolver::state(FluidStore& fluid, double kick, double dt, bool coupled) {
-  DensityHistory history;
-  if (one_pass() && dt > 0) history = {*rates_[0], *rates_[1], *rates_[2], dt, last_dt_, dt_before_};
-  for_each(fluid.owned(),
-           StatePass{frame_, eos_, history, Real(kick), fluid.x, fluid.acc,
-                     coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(), fluid.s, fluid.mass,
-                     fluid.eps, fluid.v_rho, mixed_ ? Span<Real4>(fluid.flux) : Span<Real4>(), fluid.m_state,
-                     fluid.p_rho2, fluid.xp});
+StatePass FluidSolver::state_pass(FluidStore& fluid, const DensityHistory& history, double kick,
+                                  bool coupled) {
+  return {frame_,
+          eos_,
+          history,
+          Real(kick),
+          fluid.x,
+          fluid.acc,
+          coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
+          fluid.s,
+          fluid.mass,
+          fluid.eps,
+          fluid.v_rho,
+          mixed_ ? Span<Real4>(fluid.flux) : Span<Real4>(),
+          fluid.m_state,
+          fluid.p_rho2,
+          fluid.xp};
+}
+
+void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, double back, bool coupled) {
+  for_each(fluid.owned(), kick_drift_pass(fluid, kick, drift, back, coupled));
+}
+
+void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
+  for_each(fluid.owned(), state_pass(fluid, {}, kick, coupled));
+}
+
+void FluidSolver::advance(FluidStore& fluid, double kick, double dt, double predict) {
+  const DensityHistory history(*rates_[0], *rates_[1], *rates_[2], dt, last_dt_, dt_before_);
+  for_each(fluid.owned(), AdvancePass{kick_drift_pass(fluid, kick, dt, 0, false),
+                                      state_pass(fluid, history, predict, false)});
 }
 
 void FluidSolver::correct(FluidStore& fluid, double kick) {

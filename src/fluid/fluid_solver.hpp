@@ -33,8 +33,8 @@ class FluidSolver {
                                            const WallGeometry& walls, FluidStore& fluid);
   virtual ~FluidSolver() = default;
 
-  double range() const { return kappa_ * config_.fluid.h(); }            ///< kernel support, m
-  double skin() const { return config_.skin_fluid * config_.fluid.dx; }  ///< m
+  double range() const { return kappa_ * config_.fluid.h(); }  ///< kernel support, m
+  double skin() const { return skin_; }                        ///< m
   const EquationOfState& eos() const { return eos_; }
   Drive drive(const FluidStore& fluid) const;
   /// With which particles move beside their velocity; empty where nothing gives one.
@@ -58,8 +58,9 @@ class FluidSolver {
   /// its hydrostatic slope, as it was for the state from which it starts.
   void set_gravity(const Vec3d& g) { gravity_ = Real3(g); }
 
-  /// Sorts the fluid and renews all lists; sorts the walls too where they have moved.
-  void refresh(FluidStore& fluid, WallStore& walls, bool walls_moved);
+  /// Sorts the fluid and renews all lists; sorts the walls too where they have moved. travel: of the fastest
+  /// in a step, m; where lists would last less than four steps they get half as much skin again.
+  void refresh(FluidStore& fluid, WallStore& walls, bool walls_moved, double travel);
   /// Renews the lists for the positions as they are; `sort`: cells too (after a restart).
   void relist(FluidStore& fluid, WallStore& walls, bool sort);
   /// Copies of positions as pair loops read them, `back` (s) before where they are.
@@ -72,8 +73,10 @@ class FluidSolver {
   /// s_next, and the density of frozen walls, from continuity over dt, with positions as packed.
   virtual void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) = 0;
   void accept_density(FluidStore& fluid) { fluid.s.buffer().swap(fluid.s_next.buffer()); }
-  /// Density (one_pass(): dt, s, on), pressure, velocity predicted by `kick`; packs x.
-  void state(FluidStore& fluid, double kick, double dt, bool coupled);
+  /// Pressure from the density, velocity predicted by `kick`; packs x.
+  void state(FluidStore& fluid, double kick, bool coupled);
+  /// one_pass(): kick_drift() over dt, density a step dt (s) on, and state().
+  void advance(FluidStore& fluid, double kick, double dt, double predict);
   /// Wall particles' state from the fluid; of dry ones only where `moving` walls may change it. Poses on the
   /// device, one a body; drag_dt: the step in which drag_kick arose (s), 0 where there is none.
   virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt,
@@ -108,11 +111,15 @@ class FluidSolver {
   template <class Scalar>
   void load(const Scalar& scalar) {
     if (one_pass()) last_dt_ = scalar("density_last_dt"), dt_before_ = scalar("density_dt_before");
+    set_skin(scalar("skin_fluid"));
   }
 
  protected:
   FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, FluidStore& fluid,
               double kappa);
+  void set_skin(double skin);
+  KickDriftPass kick_drift_pass(FluidStore& fluid, double kick, double drift, double back, bool coupled);
+  StatePass state_pass(FluidStore& fluid, const DensityHistory& history, double kick, bool coupled);
   /// Takes in the rates that forces() has written to the last of rates_, at the end of a step dt (s).
   void accept_rates(double dt);
   /// Velocity and density as pair loops read them: of the mixture where grains share the space.
@@ -125,6 +132,7 @@ class FluidSolver {
   bool mixed_;  ///< grains share the space
   EquationOfState eos_;
   Real3 gravity_;
+  double skin_ = 0;  ///< m
   CellGrid grid_, wall_grid_;
 #if BL_CUDA
   TileList fluid_fluid_;

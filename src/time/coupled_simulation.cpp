@@ -80,7 +80,10 @@ double CoupledSimulation::longest_substep() {
 void CoupledSimulation::advance_fluid(double dt) {
   FluidSolver& fluid = *fluid_solver_;
   const double half = last_kick(dt), back = fluid.one_pass() ? 0 : half;
-  fluid.kick_drift(fluid_, dt - half, dt, back, two_way());
+  if (fluid.one_pass())
+    fluid.advance(fluid_, dt - half, dt, half);
+  else
+    fluid.kick_drift(fluid_, dt - half, dt, back, two_way());
   if (two_way()) {
     update_porosity(dt);
     fluid.pack(fluid_, half);
@@ -99,6 +102,7 @@ void CoupledSimulation::advance_fluid(double dt) {
     fluid.density(fluid_, walls_, pose, dt);
     fluid.accept_density(fluid_);
     if (motion_.moves()) fluid.pack(walls_);
+    fluid.state(fluid_, half, two_way());
   }
   evaluate_fluid(dt, half);
   load_bodies(half, dt);
@@ -132,7 +136,6 @@ void CoupledSimulation::load_bodies(double kick, double dt) {
 void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   FluidSolver& fluid = *fluid_solver_;
   const Span<const BodyPose> pose = motion_.poses(clock_.time + dt, 0, 1);
-  fluid.state(fluid_, predict, dt, two_way());
   fluid.set_gravity(gravity_.at(clock_.time + dt));
   if (walls_.size() > 0) fluid.walls(fluid_, walls_, pose, two_way() ? dt : 0, motion_.moves());
   fluid.forces(fluid_, walls_, pose, dt);
@@ -247,9 +250,10 @@ void CoupledSimulation::settle(double longest, const std::function<void(double)>
 void CoupledSimulation::refresh_if_needed(double dt) {
   // by the end of this step; while each phase keeps to half its skin, the lists across the phases hold too
   bool fluid_due = open_.fluid_due(), grains_due = open_.grains_due(clock_.time);
+  double travel = 0;
   if (has_fluid()) {
-    const double moved = std::sqrt(fluid_extremes_.moved2) +
-                         dt * (std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2));
+    travel = dt * (std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2));
+    const double moved = std::sqrt(fluid_extremes_.moved2) + travel;
     const double wall = walls_moved_ + dt * motion_.top_speed(clock_.time, dt);
     fluid_due = fluid_due || 2 * moved > fluid_solver_->skin() || moved + wall > fluid_solver_->skin();
   }
@@ -258,13 +262,13 @@ void CoupledSimulation::refresh_if_needed(double dt) {
         grain_watch_.displacement + 1.5 * dt * (grain_watch_.speed + dt * norm(gravity_.at(clock_.time)));
     grains_due = grains_due || 2 * moved > solid_solver_->skin();
   }
-  refresh(fluid_due, grains_due);
+  refresh(fluid_due, grains_due, travel);
 }
 
-void CoupledSimulation::refresh(bool fluid, bool grains) {
+void CoupledSimulation::refresh(bool fluid, bool grains, double travel) {
   if (fluid) {
     open_.renew(fluid_, walls_, fluid_solver_->eos(), clock_.time, gravity_.at(clock_.time));
-    fluid_solver_->refresh(fluid_, walls_, rebuilds_ == 0 || walls_moved_ > 0);
+    fluid_solver_->refresh(fluid_, walls_, rebuilds_ == 0 || walls_moved_ > 0, travel);
     walls_moved_ = 0;
   }
   if (grains) solid_solver_->refresh(grains_, grain_grid_, open_.renew(grains_, clock_.time));

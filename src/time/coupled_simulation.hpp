@@ -58,13 +58,13 @@ class CoupledSimulation final : public Simulation {
   void initialise_fluid();  ///< mass for the porosity, hydrostatic pressure
   void advance_fluid(double dt);
   void update_porosity(double dt);                 ///< between fluid and grains that have both moved
-  void evaluate_fluid(double dt, double predict);  ///< density known: state, walls, forces
+  void evaluate_fluid(double dt, double predict);  ///< density and state known: walls, forces
   void push_grains(double dt, double kick);        ///< forces known: what of them falls to the grains
   double longest_substep();                        ///< s, that grains and free bodies allow
   void load_bodies(double kick, double dt);        ///< force of the fluid on free bodies at the end of a step
   void refresh_if_needed(double dt);
-  void refresh(bool fluid, bool grains);
-  void load_grain_store(const SavedState& state);  ///< and the rigid groups of the grains
+  void refresh(bool fluid, bool grains, double travel = 0);  ///< travel: of the fastest fluid in a step, m
+  void load_grain_store(const SavedState& state);            ///< and the rigid groups of the grains
   void restore_lists(const SavedState& state);
   void relist_coupling();
   void remove_cleared_bodies();

@@ -117,6 +117,11 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
   if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_, geometry_, fluid_);
   if (has_fluid() && has_grains() && config.couple.mode != CouplingMode::off)
     coupling_ = std::make_unique<Coupling>(config, frame_, geometry_);
+  if (!coupled()) fluid_.solid_factor.leave_out();
+  if (!two_way())
+    for (FieldBase* field :
+         std::initializer_list<FieldBase*>{&fluid_.flux, &fluid_.reaction, &fluid_.drag_kick})
+      field->leave_out();
   upload(setup);
 }
 
@@ -172,6 +177,7 @@ void CoupledSimulation::start() {
   if (has_fluid()) {
     initialise_fluid();
     if (two_way()) update_porosity(0);
+    fluid_solver_->state(fluid_, 0, two_way());
     evaluate_fluid(0, 0);
     load_bodies(0, 0);
     fluid_solver_->correct(fluid_, 0);

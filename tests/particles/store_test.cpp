@@ -35,6 +35,25 @@ TEST(Store, GrowsAndKeepsWhatItHolds) {
   }
 }
 
+TEST(Store, SpendsNothingOnFieldsLeftOut) {
+  Pairs store;
+  store.id.leave_out();
+  store.grow(3);
+  store.resize(5);
+  store.id.assign({5, 6, 7});
+  EXPECT_EQ(store.id.span().size, 0u);
+  EXPECT_EQ(store.scratch.span().size, 5u);
+  EXPECT_TRUE(store.save().arrays.empty());
+  store.load(store.save());
+  Compaction compaction;
+  Buffer<Index> kept;
+  Buffer<Id> id;
+  id.assign({1, 3, 2, 6, 5});
+  compaction.find(store.size(), NotThirds{id}, kept);
+  store.reorder(kept);
+  EXPECT_EQ(store.size(), 3u);
+}
+
 TEST(Store, LosesWhatDoesNotStayAndGrowsAgain) {
   Pairs store;
   std::vector<Id> all(10000), left;

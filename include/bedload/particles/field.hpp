@@ -65,6 +65,10 @@ class FieldBase {
   const std::string name, unit;
   const Lifetime lifetime;
 
+  bool used() const { return used_; }
+  /// For good: a case that does not need the field spends no memory on it. Its span is empty.
+  void leave_out() { used_ = false; }
+
   virtual void resize(Index n) = 0;
   /// To n entries, the new ones zero.
   virtual void grow(Index n) = 0;
@@ -72,6 +76,9 @@ class FieldBase {
   virtual void gather(Span<const Index> order) = 0;
   virtual HostArray to_host() const = 0;
   virtual void from_host(const HostArray& array) = 0;
+
+ private:
+  bool used_ = true;
 };
 
 template <class T>
@@ -96,7 +103,9 @@ class Field final : public FieldBase {
   }
 
   Buffer<T>& buffer() { return data_; }
-  void assign(const std::vector<T>& host) { data_.assign(host); }
+  void assign(const std::vector<T>& host) {
+    if (used()) data_.assign(host);
+  }
   std::vector<T> values() const { return data_.to_host(); }
   Span<T> span() { return data_.span(); }
   Span<const T> span() const { return data_.span(); }

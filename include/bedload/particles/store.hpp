@@ -19,32 +19,36 @@ class Store {
   /// All fields to n entries; contents are lost where they grow.
   void resize(Index n) {
     size_ = n;
-    for (auto* f : fields_) f->resize(n);
+    for (auto* f : fields_)
+      if (f->used()) f->resize(n);
   }
   /// Adds particles up to n, all of whose fields are zero.
   void grow(Index n) {
     size_ = n;
-    for (auto* f : fields_) f->grow(n);
+    for (auto* f : fields_)
+      if (f->used()) f->grow(n);
   }
   /// Reorders everything that outlives a step; may drop particles (order shorter than size).
   void reorder(Span<const Index> order) {
-    for (auto* f : fields_)
+    for (auto* f : fields_) {
+      if (!f->used()) continue;
       if (f->lifetime == Lifetime::derived)
         f->resize(order.size);
       else
         f->gather(order);
+    }
     size_ = order.size;
   }
   HostStore save() const {
     HostStore s{name, size_, {}};
     for (auto* f : fields_)
-      if (f->lifetime == Lifetime::kept) s.arrays.push_back(f->to_host());
+      if (f->used() && f->lifetime == Lifetime::kept) s.arrays.push_back(f->to_host());
     return s;
   }
   void load(const HostStore& s) {
     resize(Index(s.count));
     for (auto* f : fields_) {
-      if (f->lifetime != Lifetime::kept) continue;
+      if (!f->used() || f->lifetime != Lifetime::kept) continue;
       const HostArray* a = s.find(f->name);
       if (!a) throw FileError("checkpoint has no array " + name + "/" + f->name);
       f->from_host(*a);
