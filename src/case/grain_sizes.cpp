@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "bedload/core/error.hpp"
+
 namespace bedload {
 namespace {
 
@@ -92,6 +94,7 @@ std::vector<double> quantiles(const SizeClass& size, std::size_t count) {
   if (size.kind == "class") return std::vector<double>(count, size.d);
   if (size.kind == "log_normal") return log_normal(size, count);
   if (size.kind == "sieve") return sieve(size, count);
+  if (size.kind != "uniform") throw CaseError("sizes.kind = \"" + size.kind + "\" is not built in");
   std::vector<double> d;
   for (std::size_t k = 0; k < count; ++k)
     d.push_back(size.d_min + (size.d_max - size.d_min) * (double(k) + 0.5) / double(count));

@@ -31,7 +31,9 @@ const ShapeConfig& find(const std::string& name, const std::vector<ShapeConfig>&
 PipeEnds ends_of(const std::string& name) {
   if (name == "closed") return PipeEnds::closed;
   if (name == "closed_a") return PipeEnds::closed_a;
-  return name == "closed_b" ? PipeEnds::closed_b : PipeEnds::open;
+  if (name == "closed_b") return PipeEnds::closed_b;
+  if (name == "open") return PipeEnds::open;
+  throw CaseError("ends = \"" + name + "\" must be one of open, closed_a, closed_b, closed");
 }
 
 std::string digest_of(const std::string& path) {
@@ -79,6 +81,7 @@ ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier)
     if (of.size() != 1) throw CaseError(fmt::format("of holds {} names, must hold one", of.size()));
     return make_hollow(of[0], c.thickness);
   }
+  if (c.kind != "difference") throw CaseError("kind = \"" + c.kind + "\" is not built in");
   if (of.size() < 2) throw CaseError("of holds one name, must hold at least two");
   ShapePtr shape = of[0];
   for (std::size_t n = 1; n < of.size(); ++n) shape = make_difference(shape, of[n], c.facet);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bedload/core/error.hpp"
 #include "bedload/geometry/depth.hpp"
 #include "kernels/smoothing/registry.hpp"
 #include "src/measure/sweeps.hpp"
@@ -113,7 +114,9 @@ std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
   if (p.type == "point") return point(p);
   if (p.type == "height") return column(p);
   if (p.type == "box") return box(p);
-  return p.type == "force" ? body_force(p) : wall_pressure(p);
+  if (p.type == "force") return body_force(p);
+  if (p.type == "wall_pressure") return wall_pressure(p);
+  throw CaseError("probe.type = \"" + p.type + "\" is not built in");
 }
 
 std::vector<Quantity> CoupledSimulation::front(const ProbeConfig& p) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "bedload/core/error.hpp"
 #include "src/motion/formula_track.hpp"
 #include "src/motion/spline.hpp"
 
@@ -89,7 +90,8 @@ std::unique_ptr<Track> make_track(const MotionPart& m, double span) {
   if (m.kind == "rotation") return std::make_unique<SteadyTurn>(m.axis * m.rate);
   if (m.kind == "table") return std::make_unique<TableTrack>(m.rows, m.spline == "monotone");
   if (m.kind == "formula") return std::make_unique<FormulaTrack>(m.displacement, m.rotation, span);
-  return nullptr;
+  if (m.kind == "fixed") return nullptr;
+  throw CaseError("motion.kind = \"" + m.kind + "\" is not built in");
 }
 
 }  // namespace bedload
