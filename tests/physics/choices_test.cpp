@@ -16,9 +16,9 @@ min = [-0.1, -0.1, -0.1]
 max = [0.2, 0.2, 0.2]
 [fluid]
 dx = 0.01
-[[fluid.fill]]
-min = [0, 0, 0]
-max = [0.1, 0.1, 0.08]
+[[fluid.fill]]  # half a spacing from the walls, as single layers want it
+min = [0.005, 0.005, 0.005]
+max = [0.095, 0.095, 0.085]
 [[wall.body]]
 name = "tank"
 shape = "tank"

@@ -45,7 +45,7 @@ TEST(Impact, LinearRestitutionIsTheOneAskedFor) {
     for (double e : {0.15, 0.3, 0.5, 0.7, 0.9, 0.99})
       for (double speed : {1e-3, 1.0}) {
         ContactConfig c;
-        c.normal = c.tangential = "linear";
+        c.normal = NormalLaw::linear, c.tangential = SlidingLaw::linear;
         c.k = 1e4;
         c.clip_tension = clip;
         EXPECT_NEAR(rebound(c, e, speed), e, 2e-3) << "clip " << clip << ", speed " << speed;
@@ -90,7 +90,7 @@ TEST(Impact, StickingRecoilsByTheDampingOfItsSpring) {
   const double e = 0.9;
   for (const double damping : {1.0, 0.5, 0.0}) {
     GrainBench b;
-    b.config.contact.normal = b.config.contact.tangential = "linear";
+    b.config.contact.normal = NormalLaw::linear, b.config.contact.tangential = SlidingLaw::linear;
     b.config.contact.k = 1e4;
     b.config.contact.clip_tension = false;
     b.config.contact.tangential_damping = damping;

@@ -33,7 +33,7 @@ TEST(SolidLimits, ContactTimeUsesTheFastestGrainAndAtLeastFreeFallOverADiameter)
 
 TEST(SolidLimits, LinearSpringAndRollingLimits) {
   GrainBench b;
-  b.config.contact.normal = b.config.contact.tangential = "linear";
+  b.config.contact.normal = NormalLaw::linear, b.config.contact.tangential = SlidingLaw::linear;
   b.config.contact.rolling = "epsd";
   b.config.contact.k = 1e3;
   b.config.grain.mu_r = 1;
