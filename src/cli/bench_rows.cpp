@@ -106,7 +106,9 @@ BenchRow coupled(const std::string& name, double side, double depth, int count, 
 }  // namespace
 
 BenchRow widened_dam_break(const std::string& name, double width) {
-  return {name, fmt::format(kDamBreak, width, width + 0.04), kPeers};
+  std::vector<std::string> settings = kPeers;
+  settings.push_back("time.integrator=ab3");
+  return {name, fmt::format(kDamBreak, width, width + 0.04), settings};
 }
 
 std::vector<BenchRow> bench_rows() {

@@ -10,7 +10,7 @@ struct BenchRow {
   std::string name;
   std::string text;  ///< TOML
   /// What other programs compute with, as for --set: h = 1.3 dx, the continuity equation alone for the
-  /// density, no shifting. Empty without fluid.
+  /// density, no shifting; forces once a step where the fluid is alone. Empty without fluid.
   std::vector<std::string> settings;
 };
 

@@ -105,6 +105,11 @@ INSTANTIATE_TEST_SUITE_P(
               "dam.toml:15: wall.body.mu = -0.1 must be within 0..5"},
         Wrong{"d = 0.002", "d = 0.002\nnu = 0.5", "dam.toml:17: grain.nu = 0.5 must be > -1 and < 0.5"},
         Wrong{"end = 0.3", "end = 0.3\ncfl = 0.6", "dam.toml:23: time.cfl = 0.6 must be > 0 and <= 0.5"},
+        Wrong{"end = 0.3", "end = 0.3\nintegrator = \"ab3\"",
+              "dam.toml:23: time.integrator = \"ab3\" must be \"kdk\" with grains that the fluid feels"},
+        Wrong{"[time]\nend = 0.3",
+              "[couple]\nmode = \"one_way\"\n[time]\nend = 0.3\ncfl = 0.4\nintegrator = \"ab3\"",
+              "dam.toml:25: time.cfl = 0.4 must be <= 0.3 with time.integrator = \"ab3\""},
         Wrong{"count = 500", "packing_fraction = 0.7",
               "dam.toml:20: grain.fill.packing_fraction = 0.7 must be > 0 and <= 0.64; 0.64 is random close "
               "packing"},

@@ -217,7 +217,7 @@ TEST(FrameCase, RaisesTheSpeedsExpected) {
 TEST(FrameCase, BeginsWithItsContentsAndMayNotTurn) {
   EXPECT_TRUE(warnings_of(kCase + kShaken).empty()) << "no blow at t = 0";
   EXPECT_EQ(warnings_of(kCase + kShaken + "start = 0.1\n"),
-            (std::vector<std::string>{"frame.motion: its velocity jumps by 0.1811 m/s at t = 0.1 s; what is "
+            (std::vector<std::string>{"frame.motion: its velocity jumps by 0.1811 m/s at t = 0.1 s; it "
                                       "does not act on what is inside"}));
   const std::string must = " must not turn; a frame can only be translated";
   EXPECT_EQ(

@@ -68,7 +68,7 @@ TEST(Choices, OfTheFluidRun) {
   expect_all_run<KernelFunction>("fluid.kernel", {{"lucy", "fluid.h_over_dx=3"}});
   expect_all_run<EosType>("eos.type");
   expect_all_run<ViscosityModel>("visc.model");
-  expect_all_run<TimeIntegrator>("time.integrator");
+  expect_all_run<TimeIntegrator>("time.integrator", {{"ab3", "couple.mode=one_way"}});
 }
 
 TEST(Choices, OfWallsRun) {

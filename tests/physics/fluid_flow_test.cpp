@@ -48,7 +48,9 @@ TEST_P(SlowInviscidBox, EnergyIsKept) {  // T-8
   auto s = started(c);
   const double start = energy(*s);
   for (int k = 0; k < 10000; ++k) s->step();
-  EXPECT_LT(std::abs(energy(*s) - start) / start, 1e-4);
+  const double change = (energy(*s) - start) / start;
+  EXPECT_LT(change, 1e-4);
+  EXPECT_GT(change, std::string(GetParam()) == "kdk" ? -1e-4 : -5e-4);  // ab3 damps sound by (w dt)^4
 }
 
 class InviscidBox : public testing::TestWithParam<const char*> {};
@@ -283,7 +285,7 @@ TEST(SmallLists, OfFastFlowLastFourSteps) {
 /// Water at rest stays at rest, with hydrostatic pressure, over a floor that slides beneath it without
 /// friction.
 TEST_P(SmallSimulation, WaterRestsOverASlidingFloor) {
-  Config c = column(0.16, 0.02);
+  Config c = column(0.32, 0.02);
   c.time.integrator = GetParam();
   c.wall.bodies[0].slip = "slip";
   c.wall.bodies[0].motion.kind = "velocity";
@@ -292,9 +294,9 @@ TEST_P(SmallSimulation, WaterRestsOverASlidingFloor) {
   const double start = energy(*s);
   run_until(*s, 0.5);
   EXPECT_NEAR(energy(*s), start, 2e-3 * start);
-  EXPECT_NEAR(pressure_line(*s, 0.04, 0.12).slope(), -9810, 2e-2 * 9810);
+  EXPECT_NEAR(pressure_line(*s, 0.06, 0.24).slope(), -9810, 2e-2 * 9810);
   for (const Vec3d& v : vectors(s->snapshot("fluid"), "velocity"))
-    EXPECT_LT(norm(v), 0.01 * std::sqrt(9.81 * 0.16));
+    EXPECT_LT(norm(v), 0.01 * std::sqrt(9.81 * 0.32));
 }
 
 }  // namespace
