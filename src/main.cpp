@@ -1,4 +1,4 @@
-// bedload: run, check, list, info, bench. Errors become one sentence and an exit code.
+// bedload: dispatches commands. Errors become one sentence and an exit code.
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -26,7 +26,10 @@ int dispatch(const bedload::Options& options) {
                              error.what());
   }
   if (options.command == "info") return bedload::show_file(options.file);
-  fmt::print("{}", options.command == "list" ? bedload::list_text(options.family) : options.text);
+  if (options.command == "list")
+    fmt::print("{}", options.json ? bedload::list_json(options.family) : bedload::list_text(options.family));
+  else
+    fmt::print("{}", options.text);
   return 0;
 }
 

@@ -1,9 +1,13 @@
-// The two visitors that write: a resolved case, and the table of parameters.
+// The visitors that write: a resolved case, and the table of parameters.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
 
 #include "bedload/case/parameters.hpp"
 #include "bedload/case/read.hpp"
@@ -101,11 +105,120 @@ class Writer final : public Parameters {
   std::vector<std::string> outer_;
 };
 
-class Lister final : public Parameters {
+/// A visitor that enters every table, and each list once; keeps the full keys.
+class Tour : public Parameters {
+ public:
+  bool table(std::string_view, bool) override { return true; }
+
+ protected:
+  std::string key_of(std::string_view key) const { return prefix_ + std::string(key); }
+  std::string path_of(std::string_view key) const { return path_ + std::string(key); }
+
+ private:
+  std::size_t open_list(std::string_view, std::size_t) override { return 1; }
+  void open_item(std::string_view key, std::size_t) override {
+    outer_.emplace_back(prefix_, path_);
+    prefix_ += std::string(key) + ".";
+    path_ += std::string(key) + "[].";
+  }
+  void close_item() override {
+    std::tie(prefix_, path_) = outer_.back();
+    outer_.pop_back();
+  }
+
+  std::string prefix_, path_;
+  std::vector<std::pair<std::string, std::string>> outer_;
+};
+
+/// What is required of a table whatever else it holds: of one that has every name and list that it may have,
+/// and whose choices are none of those known.
+class RequiredKeys final : public Tour {
+ public:
+  void operator()(std::string_view key, Slot value, const About& about) override {
+    if (about.presence == Presence::required) keys_.insert(key_of(key));
+    std::visit(Give{}, value);
+  }
+  const std::set<std::string>& keys() const { return keys_; }
+
+ private:
+  struct Give {
+    void operator()(std::string* text) const { *text = "?"; }
+    template <class T>
+    void operator()(std::vector<T>* list) const {
+      list->resize(1);
+    }
+    void operator()(const void*) const {}
+  };
+  std::set<std::string> keys_;
+};
+
+/// `present`: with fluid and grains.
+std::set<std::string> keys_required(bool present) {
+  Config config;
+  config.fluid.present = config.grain.present = present;
+  RequiredKeys visitor;
+  describe(visitor, config);
+  return visitor.keys();
+}
+
+/// The ranges of a case in which all values are others than by default.
+class OtherRanges final : public Tour {
+ public:
+  void operator()(std::string_view key, Slot value, const About& about) override {
+    ranges_[key_of(key)] = about.range;
+    std::visit(Change{about}, value);
+  }
+  bool everything() const override { return true; }
+  const std::map<std::string, Range>& ranges() const { return ranges_; }
+
+ private:
+  struct Change {
+    const About& about;
+    void operator()(bool* flag) const { *flag = !*flag; }
+    void operator()(double* number) const { *number = 1.5 * *number + 1e-3; }
+    void operator()(std::string* text) const {
+      if (!about.choices.empty()) *text = about.choices.back().name;
+    }
+    void operator()(const void*) const {}
+  };
+  std::map<std::string, Range> ranges_;
+};
+
+std::map<std::string, Range> other_ranges() {
+  Config config;
+  config.fluid.present = config.grain.present = true;
+  OtherRanges visitor;
+  describe(visitor, config);
+  return visitor.ranges();
+}
+
+ValueKind kind_of(const Slot& value) {
+  using enum ValueKind;
+  struct Kind {
+    ValueKind operator()(const bool*) const { return boolean; }
+    ValueKind operator()(const std::int64_t*) const { return integer; }
+    ValueKind operator()(const std::uint64_t*) const { return integer; }
+    ValueKind operator()(const double*) const { return number; }
+    ValueKind operator()(const std::string*) const { return text; }
+    ValueKind operator()(const Vec3d*) const { return vector; }
+    ValueKind operator()(const Formulas*) const { return formulas; }
+    ValueKind operator()(const std::array<bool, 3>*) const { return booleans; }
+    ValueKind operator()(const Faces*) const { return faces; }
+    ValueKind operator()(const std::vector<double>*) const { return numbers; }
+    ValueKind operator()(const std::vector<Vec3d>*) const { return vectors; }
+    ValueKind operator()(const std::vector<std::string>*) const { return texts; }
+    ValueKind operator()(const std::vector<MotionRow>*) const { return rows; }
+  };
+  return std::visit(Kind{}, value);
+}
+
+class Lister final : public Tour {
  public:
   void operator()(std::string_view key, Slot value, const About& about) override {
     ParameterRow row;
-    row.key = prefix_ + std::string(key);
+    row.key = key_of(key);
+    row.path = path_of(key);
+    row.kind = kind_of(value);
     row.unit = about.unit;
     if (about.presence == Presence::required)
       row.fallback = "required";
@@ -119,26 +232,19 @@ class Lister final : public Parameters {
     row.choices = about.choices;
     if (!about.formerly.empty())
       row.formerly = row.key.substr(0, row.key.rfind('.') + 1) + std::string(about.formerly);
+    if (others_.at(row.key) == about.range) row.range = about.range;
+    row.or_else = about.or_else;
+    row.fixed_default = about.presence == Presence::defaulted && about.fallback.empty();
+    row.required = required_.contains(row.key);
     rows_.push_back(std::move(row));
   }
   bool everything() const override { return true; }
-  bool table(std::string_view, bool) override { return true; }
   std::vector<ParameterRow> take() { return std::move(rows_); }
 
  private:
-  std::size_t open_list(std::string_view, std::size_t) override { return 1; }
-  void open_item(std::string_view key, std::size_t) override {
-    outer_.push_back(prefix_);
-    prefix_ += std::string(key) + ".";
-  }
-  void close_item() override {
-    prefix_ = outer_.back();
-    outer_.pop_back();
-  }
-
-  std::string prefix_;
-  std::vector<std::string> outer_;
   std::vector<ParameterRow> rows_;
+  const std::set<std::string> required_ = keys_required(true);
+  const std::map<std::string, Range> others_ = other_ranges();
 };
 
 }  // namespace
@@ -156,6 +262,14 @@ std::vector<ParameterRow> parameter_table() {
   Lister lister;
   describe(lister, config);
   return lister.take();
+}
+
+std::vector<std::string> required_keys() {
+  const std::set<std::string> required = keys_required(false);
+  std::vector<std::string> keys;
+  for (const ParameterRow& row : parameter_table())
+    if (row.path == row.key && required.contains(row.key)) keys.push_back(row.key);
+  return keys;
 }
 
 }  // namespace bedload

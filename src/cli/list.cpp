@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "bedload/case/parameters.hpp"
@@ -33,6 +35,21 @@ std::string choices_text(const std::string& family) {
   for (const ParameterRow& row : parameter_table())
     if (tables.contains(table_of(row.key))) rows.push_back(row);
   return out + '\n' + parameters_text(rows);
+}
+
+bool is_section(const std::string& name) {
+  const auto known = families();
+  return !name.empty() && std::find(known.begin(), known.end(), name) == known.end();
+}
+
+/// Those of a section or a family; all for "parameters" and an empty name.
+std::vector<ParameterRow> rows_of(const std::string& name) {
+  std::vector<ParameterRow> rows = parameter_table();
+  if (!name.empty() && name != "parameters")
+    std::erase_if(rows, [&](const ParameterRow& row) {
+      return is_section(name) ? !row.key.starts_with(name + ".") : row.family != name;
+    });
+  return rows;
 }
 
 std::string parameters_text(std::vector<ParameterRow> rows) {
@@ -68,18 +85,34 @@ std::vector<std::string> families() {
 
 std::string list_text(const std::string& family) {
   if (family == "parameters") return parameters_text(parameter_table());
-  const auto known = families();
-  if (!family.empty() && std::find(known.begin(), known.end(), family) == known.end()) {
-    std::vector<ParameterRow> rows;
-    for (const ParameterRow& row : parameter_table())
-      if (row.key.starts_with(family + ".")) rows.push_back(row);
-    return parameters_text(rows);
-  }
+  if (is_section(family)) return parameters_text(rows_of(family));
   if (!family.empty()) return choices_text(family);
   std::string out;
   for (const std::string& name : families())
     out += fmt::format("{}{}\n\n{}", out.empty() ? "" : "\n", name, list_text(name));
   return out;
+}
+
+std::string list_json(const std::string& family) {
+  static constexpr std::array kinds{"boolean",  "integer", "number",  "text",    "vector", "formulas",
+                                    "booleans", "faces",   "numbers", "vectors", "texts",  "rows"};
+  auto out = nlohmann::ordered_json::array();
+  for (const ParameterRow& row : rows_of(family)) {
+    auto choices = nlohmann::ordered_json::array();
+    for (const Choice& choice : row.choices)
+      choices.push_back({{"name", choice.name}, {"meaning", choice.meaning}});
+    out.push_back({{"key", row.key},
+                   {"path", row.path},
+                   {"kind", kinds[std::size_t(row.kind)]},
+                   {"unit", row.unit},
+                   {"default", row.fallback},
+                   {"allowed", row.allowed},
+                   {"meaning", row.meaning},
+                   {"family", row.family},
+                   {"required", row.required},
+                   {"choices", choices}});
+  }
+  return out.dump(1) + '\n';
 }
 
 }  // namespace bedload

@@ -13,4 +13,11 @@ std::vector<std::string> sections();
 /// One family as text, or all for an empty name.
 std::string list_text(const std::string& family);
 
+/// The same parameters for programs: a JSON list of {key, path, kind, unit, default, allowed, meaning,
+/// family, required, choices}. `path` has [] behind lists of tables.
+std::string list_json(const std::string& family);
+
+/// A JSON schema (draft 7) of case files, by which editors complete and check them.
+std::string schema_text();
+
 }  // namespace bedload

@@ -10,6 +10,7 @@
 #include "bench_rows.hpp"
 #include "commit.hpp"
 #include "list.hpp"
+#include "shell.hpp"
 
 namespace bedload {
 namespace {
@@ -85,6 +86,43 @@ void add_bench_options(CLI::App& app, Options& o) {
   app.add_option("--json", b.json, "Write the numbers there, too")->type_name("FILE");
 }
 
+void add_run(CLI::App& app, Options& o, std::string& precision, bool& force_dt) {
+  CLI::App* run = app.add_subcommand("run", "Run a case");
+  add_case_options(*run, o, precision, force_dt);
+  run->add_option("--out", o.out, "Results folder; results/<case> if not given")->type_name("DIR");
+  run->add_option("--until", o.until, "Stop at this time in s, in place of time.end")
+      ->check(CLI::Range(0.0, 1e12));
+  run->add_option("--restart", o.restart,
+                  "Go on from this checkpoint; latest: the newest in the results folder")
+      ->type_name("FILE");
+  run->add_flag("--allow-changes", o.allow_changes,
+                "Go on though the case computes otherwise than the checkpoint's");
+  run->add_flag("--overwrite", o.overwrite, "Replace the run that the results folder holds");
+  run->add_flag("--quiet", o.quiet, "Print nothing but warnings and errors");
+}
+
+void add_check(CLI::App& app, Options& o, std::string& precision, bool& force_dt) {
+  CLI::App* check = app.add_subcommand(
+      "check", "Check a case: particles, step limits, memory, time; leaves nothing behind");
+  add_case_options(*check, o, precision, force_dt);
+  check->add_option("--preview", o.preview, "Write the initial particles and a picture of them there")
+      ->type_name("DIR");
+}
+
+void add_list(CLI::App& app, Options& o) {
+  CLI::App* list = app.add_subcommand("list", "Show what a case may hold");
+  std::vector<std::string> listed = families();
+  for (const std::string& section : sections()) listed.push_back(section);
+  list->add_option("family", o.family, "One of them, or a section of a case; all if not given")
+      ->check(CLI::IsMember(listed));
+  list->add_flag("--json", o.json, "For programs: key, kind, unit, default, bounds, choices");
+}
+
+void add_info(CLI::App& app, Options& o) {
+  CLI::App* info = app.add_subcommand("info", "Show what a result file holds");
+  info->add_option("file", o.file, "Checkpoint, .vtkhdf or summary.json")->required()->type_name("FILE");
+}
+
 void refuse_unknown_command(const CLI::App& app, int argc, const char* const* argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::string names;
@@ -111,37 +149,17 @@ Options parse_options(int argc, const char* const* argv) {
   CLI::App app("Bedload computes free-surface flow with grains (SPH-DEM).", "bedload");
   app.require_subcommand(1);
   app.set_version_flag("--version", "bedload " + version());
-
-  CLI::App* run = app.add_subcommand("run", "Run a case");
-  add_case_options(*run, o, precision, force_dt);
-  run->add_option("--out", o.out, "Results folder; results/<case> if not given")->type_name("DIR");
-  run->add_option("--until", o.until, "Stop at this time in s, in place of time.end")
-      ->check(CLI::Range(0.0, 1e12));
-  run->add_option("--restart", o.restart,
-                  "Go on from this checkpoint; latest: the newest in the results folder")
-      ->type_name("FILE");
-  run->add_flag("--allow-changes", o.allow_changes,
-                "Go on though the case computes otherwise than the checkpoint's");
-  run->add_flag("--overwrite", o.overwrite, "Replace the run that the results folder holds");
-  run->add_flag("--quiet", o.quiet, "Print nothing but warnings and errors");
-
-  CLI::App* check =
-      app.add_subcommand("check", "Check a case: particles, step limits, memory, time; leaves nothing behind");
-  add_case_options(*check, o, precision, force_dt);
-  check->add_option("--preview", o.preview, "Write the initial particles and a picture of them there")
-      ->type_name("DIR");
-
-  CLI::App* list = app.add_subcommand("list", "Show what a case may hold");
-  std::vector<std::string> listed = families();
-  for (const std::string& section : sections()) listed.push_back(section);
-  list->add_option("family", o.family, "One of them, or a section of a case; all if not given")
-      ->check(CLI::IsMember(listed));
-
-  CLI::App* info = app.add_subcommand("info", "Show what a result file holds");
-  info->add_option("file", o.file, "Checkpoint, .vtkhdf or summary.json")->required()->type_name("FILE");
-
-  CLI::App* bench = app.add_subcommand("bench", "Time whole steps of cases, as a table");
-  add_bench_options(*bench, o);
+  add_run(app, o, precision, force_dt);
+  add_check(app, o, precision, force_dt);
+  add_list(app, o);
+  add_info(app, o);
+  add_bench_options(*app.add_subcommand("bench", "Time whole steps of cases, as a table"), o);
+  app.add_subcommand("schema", "Print the JSON schema of case files, for editors");
+  CLI::App* completion =
+      app.add_subcommand("completion", "Print a script that completes commands in a shell");
+  std::string shell;
+  completion->add_option("shell", shell, "Which shell")->required()->check(CLI::IsMember({"bash"}));
+  app.add_subcommand("man", "Print the manual page: bedload man | man -l -");
 
   refuse_unknown_command(app, argc, argv);
   try {
@@ -156,6 +174,9 @@ Options parse_options(int argc, const char* const* argv) {
     throw CaseError(std::string("command line: ") + error.what() + "; see bedload --help");
   }
   o.command = app.get_subcommands().front()->get_name();
+  if (o.command == "schema") o.text = schema_text();
+  if (o.command == "completion") o.text = bash_completion(app);
+  if (o.command == "man") o.text = man_page(app);
   if (o.until && !std::isfinite(*o.until)) throw CaseError("command line: --until: must be a time in s");
   if (!precision.empty()) o.overrides.push_back("run.precision=" + precision);
   if (force_dt) o.overrides.push_back("time.force_dt=true");

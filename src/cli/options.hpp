@@ -20,7 +20,7 @@ struct BenchOptions {
 };
 
 struct Options {
-  std::string command;                 ///< run, check, list, info, bench; empty: `text` is all
+  std::string command;                 ///< run, check, list, ...; empty: `text` is all
   std::filesystem::path file;          ///< case, or what info shows
   std::filesystem::path out;           ///< results folder
   std::filesystem::path preview;       ///< folder for a look at the start, with check
@@ -33,7 +33,8 @@ struct Options {
   bool allow_changes = false;  ///< goes on from a checkpoint of a case that computes otherwise
   BenchOptions bench;
   std::string family;  ///< of list
-  std::string text;    ///< help or version asked for
+  bool json = false;   ///< with list
+  std::string text;    ///< what help, --version, schema, completion and man print
   std::string repeat;  ///< the command without what begins or continues a run
 };
 

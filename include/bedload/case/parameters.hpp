@@ -24,6 +24,7 @@ struct Range {
   bool holds(double x) const { return (lo_open ? x > lo : x >= lo) && (hi_open ? x < hi : x <= hi); }
   /// "within 0..1", "> 0", ">= 0", "> -1 and < 0.5"; empty if everything is allowed.
   std::string text() const;
+  bool operator==(const Range&) const = default;
 };
 inline Range above(double lo) { return {.lo = lo}; }
 inline Range at_least(double lo) { return {.lo = lo, .lo_open = false}; }
@@ -107,12 +108,37 @@ class Parameters {
 /// Walks all parameters of a case, in the order in which they are written.
 void describe(Parameters& p, Config& config);
 
+/// What a value is made of.
+enum class ValueKind {
+  boolean,
+  integer,
+  number,
+  text,
+  vector,
+  formulas,
+  booleans,
+  faces,
+  numbers,
+  vectors,
+  texts,
+  rows
+};
+
 /// A row of `bedload list parameters`.
 struct ParameterRow {
   std::string key, unit, fallback, allowed, meaning, family;
   std::vector<Choice> choices;
   std::string formerly = {};  ///< key in the version before, where it was another
+  std::string path = {};  ///< the key with [] behind lists: "wall.body[].motion.add[].kind"
+  ValueKind kind = ValueKind::text;
+  Range range = {};  ///< all numbers where it depends on other keys; `allowed` is that of a case of defaults
+  std::string or_else = {};
+  bool fixed_default = false;  ///< `fallback` is a value, not words
+  bool required = false;       ///< wherever its table is, whatever else that holds
 };
+/// All of them, in the order in which they are written.
 std::vector<ParameterRow> parameter_table();
+/// Those that a case must have which has neither fluid nor grains nor any list.
+std::vector<std::string> required_keys();
 
 }  // namespace bedload
