@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""The documents name what there is: cases of the tutorial, snippets, keys. Usage: docs_test.py <bedload>"""
+
+import json
+import re
+import subprocess
+import sys
+import tomllib
+import unittest
+from pathlib import Path
+
+import jsonschema
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else ROOT / "build/cpu/bedload"
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")), *sorted(ROOT.glob("cases/*/README.md"))]
+FENCE = re.compile(r"^```(\w*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+
+
+def output(*arguments):
+    return subprocess.run([PROGRAM, *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def without_required(schema):
+    """A snippet may leave out what a case must have."""
+    if isinstance(schema, dict):
+        return {k: without_required(v) for k, v in schema.items() if k != "required" or not isinstance(v, list)}
+    return [without_required(v) for v in schema] if isinstance(schema, list) else schema
+
+
+class Documents(unittest.TestCase):
+    def test_every_step_of_the_tutorial_is_in_order(self):
+        files = sorted((ROOT / "docs/tutorial").glob("*.toml"))
+        self.assertGreaterEqual(len(files), 5)
+        text = (ROOT / "docs/tutorial.md").read_text()
+        for file in files:
+            with self.subTest(file=file.name):
+                self.assertIn(f'--8<-- "tutorial/{file.name}', text)
+                ran = subprocess.run([PROGRAM, "check", file, "--backend", "cpu"], capture_output=True, text=True)
+                self.assertEqual(ran.returncode, 0, ran.stderr)
+                self.assertNotIn("warning", ran.stdout)
+
+    def test_snippets_are_valid(self):
+        validator = jsonschema.Draft7Validator(without_required(json.loads(output("schema"))))
+        tried = 0
+        for page in PAGES:
+            for language, text in FENCE.findall(page.read_text()):
+                if language != "toml" or "--8<--" in text:
+                    continue
+                with self.subTest(page=str(page.relative_to(ROOT)), snippet=text[:60]):
+                    errors = [f"{e.json_path}: {e.message}" for e in validator.iter_errors(tomllib.loads(text))]
+                    self.assertEqual(errors, [])
+                tried += 1
+        self.assertGreater(tried, 5)
+
+    def test_keys_that_are_named_exist(self):
+        keys = {row["key"] for row in json.loads(output("list", "--json"))}
+        tables = {key[:dot] for key in keys for dot in range(len(key)) if key[dot] == "."}
+        name = re.compile(r"\b((?:%s)(?:\.\w+)+)" % "|".join(sorted({key.split(".")[0] for key in keys if "." in key})))
+        named = 0
+        for page in PAGES:
+            text = page.read_text()
+            spans = re.findall(r"`([^`\n]+)`", FENCE.sub("", text)) + re.findall(r"--set '?([\w.]+)=", text)
+            for span in spans:
+                if re.search(r"\.(toml|csv|vtkhdf|md|py|cpp|hpp|png|stl)\b|::|/", span):
+                    continue
+                for found in name.findall(span):
+                    key = re.sub(r"\.\d+(?=\.|$)", "", found)
+                    with self.subTest(page=str(page.relative_to(ROOT)), key=found):
+                        self.assertIn(key, keys | tables)
+                    named += 1
+        self.assertGreater(named, 200)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,90 @@
+"""Pages of the site that are made as it is built (mkdocs hook): keys and commands from the program, the READMEs of the
+cases, the record of speed, the change log. The program is that of $BEDLOAD, by default build/cpu/bedload."""
+
+import json
+import os
+import posixpath
+import re
+import subprocess
+from pathlib import Path
+
+from mkdocs.structure.files import File
+
+ROOT = Path(__file__).resolve().parents[1]
+PROGRAM = os.environ.get("BEDLOAD", ROOT / "build/cpu/bedload")
+COMMANDS = ["run", "check", "list", "info", "bench", "schema", "completion", "man"]
+# Files outside docs/ as pages of the site.
+PAGES = {f"cases/{path.parent.name}/README.md": f"cases/{path.parent.name}.md"
+         for path in sorted(ROOT.glob("cases/*/README.md"))}
+PAGES |= {"tests/bench/README.md": "speed.md", "CHANGELOG.md": "changelog.md", "CONTRIBUTING.md": "contributing.md",
+          "kernels/references.md": "references.md"}
+
+
+def program(*arguments):
+    return subprocess.run([PROGRAM, *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def cell(text):
+    return text.replace("|", "\\|").replace("<", "&lt;").replace("*", "\\*").replace("_", "\\_")
+
+
+def keys_page():
+    out = ["# Keys of a case", "",
+           "Made from the program's own descriptions; `bedload list` prints the same, `bedload list --json` for programs.",
+           "Numbers are in the unit given; one in quotes may have another of the same kind: `\"2.7 mm\"`. **Bold** keys",
+           "must be given wherever their table is, others that say *required* where their kind asks for them. `[]` stands",
+           "behind lists of tables, written `[[...]]`; in `--set`, the number of one, from 0, stands in its place."]
+    section = None
+    for row in json.loads(program("list", "--json")):
+        table, _, name = row["path"].rpartition(".")
+        if table != section:
+            section = table
+            title = f"`{table}`" if table else "Of the whole case"
+            out += ["", f"## {title}", "", "| key | unit | default | allowed | meaning |", "|---|---|---|---|---|"]
+        key = f"**`{name}`**" if row["required"] else f"`{name}`"
+        choices = [f"<br>`{c['name']}`: {cell(c['meaning'])}" for c in row["choices"] if c["meaning"]]
+        default = row["default"] if row["default"] == "required" else f"`{row['default']}`"
+        allowed = "" if choices else cell(row["allowed"])
+        out.append(f"| {key} | {row['unit']} | {default} | {allowed} | {cell(row['meaning'])}{''.join(choices)} |")
+    return "\n".join(out) + "\n"
+
+
+def commands_page():
+    out = ["# Commands", "", "What `--help` of each prints; `bedload man | man -l -` shows all of it as a manual page.", ""]
+    for command in COMMANDS:
+        out += [f"## bedload {command}", "", "```text", program(command, "--help").strip(), "```", ""]
+    return "\n".join(out)
+
+
+def on_config(config):
+    for entry in config.nav:
+        if isinstance(entry, dict) and "Validation" in entry:
+            entry["Validation"] += [page for page in PAGES.values() if page.startswith("cases/")]
+    return config
+
+
+def on_files(files, config):
+    made = {"keys.md": keys_page(), "commands.md": commands_page()}
+    made |= {page: (ROOT / source).read_text() for source, page in PAGES.items()}
+    for page, content in made.items():
+        files.append(File.generated(config, page, content=content))
+    return files
+
+
+def on_page_markdown(markdown, page, config, files):
+    """Links to files outside docs/, as they are seen in the repository, become links to their pages."""
+    here = page.file.src_uri
+    source = next((s for s, p in PAGES.items() if p == here), f"docs/{here}")
+
+    def link(match):
+        target, anchor = match[1], match[2] or ""
+        path = posixpath.normpath(posixpath.join(posixpath.dirname(source), target))
+        if path in PAGES:
+            return f"]({posixpath.relpath(PAGES[path], posixpath.dirname(here) or '.')}{anchor})"
+        if path.startswith("docs/") and source != f"docs/{here}":
+            return f"]({posixpath.relpath(path[5:], posixpath.dirname(here) or '.')}{anchor})"
+        return match[0]
+
+    return re.sub(r"\]\(([^)#:\s]+\.(?:md|png))(#[^)\s]*)?\)", link, markdown)
+
+
