@@ -13,11 +13,12 @@ from mkdocs.structure.files import File
 ROOT = Path(__file__).resolve().parents[1]
 PROGRAM = os.environ.get("BEDLOAD", ROOT / "build/cpu/bedload")
 COMMANDS = ["run", "check", "list", "info", "bench", "schema", "completion", "man"]
-# Files outside docs/ as pages of the site.
+# Files outside docs/ as pages and pictures of the site.
 PAGES = {f"cases/{path.parent.name}/README.md": f"cases/{path.parent.name}.md"
          for path in sorted(ROOT.glob("cases/*/README.md"))}
 PAGES |= {"tests/bench/README.md": "speed.md", "CHANGELOG.md": "changelog.md", "CONTRIBUTING.md": "contributing.md",
           "kernels/references.md": "references.md"}
+PICTURES = {str(path.relative_to(ROOT)): str(path.relative_to(ROOT)) for path in sorted(ROOT.glob("cases/*/*.png"))}
 
 
 def program(*arguments):
@@ -64,10 +65,10 @@ def on_config(config):
 
 
 def on_files(files, config):
-    made = {"keys.md": keys_page(), "commands.md": commands_page()}
-    made |= {page: (ROOT / source).read_text() for source, page in PAGES.items()}
-    for page, content in made.items():
-        files.append(File.generated(config, page, content=content))
+    files.append(File.generated(config, "keys.md", content=keys_page()))
+    files.append(File.generated(config, "commands.md", content=commands_page()))
+    for source, place in (PAGES | PICTURES).items():
+        files.append(File.generated(config, place, abs_src_path=str(ROOT / source)))
     return files
 
 
@@ -79,11 +80,8 @@ def on_page_markdown(markdown, page, config, files):
     def link(match):
         target, anchor = match[1], match[2] or ""
         path = posixpath.normpath(posixpath.join(posixpath.dirname(source), target))
-        if path in PAGES:
-            return f"]({posixpath.relpath(PAGES[path], posixpath.dirname(here) or '.')}{anchor})"
-        if path.startswith("docs/") and source != f"docs/{here}":
-            return f"]({posixpath.relpath(path[5:], posixpath.dirname(here) or '.')}{anchor})"
-        return match[0]
+        place = (PAGES | PICTURES).get(path) or (path.removeprefix("docs/") if path.startswith("docs/") else None)
+        return f"]({posixpath.relpath(place, posixpath.dirname(here) or '.')}{anchor})" if place else match[0]
 
     return re.sub(r"\]\(([^)#:\s]+\.(?:md|png))(#[^)\s]*)?\)", link, markdown)
 
