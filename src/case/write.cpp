@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -130,35 +131,49 @@ class Tour : public Parameters {
   std::vector<std::pair<std::string, std::string>> outer_;
 };
 
-/// What is required of a table whatever else it holds: of one that has every name and list that it may have,
-/// and whose choices are none of those known.
+/// What is required of tables that hold every name and list that they may, and the n-th of each choice.
 class RequiredKeys final : public Tour {
  public:
+  explicit RequiredKeys(std::size_t n) : n_(n) {}
   void operator()(std::string_view key, Slot value, const About& about) override {
     if (about.presence == Presence::required) keys_.insert(key_of(key));
-    std::visit(Give{}, value);
+    most_ = std::max(most_, about.choices.size());
+    std::visit(Give{about, n_}, value);
   }
   const std::set<std::string>& keys() const { return keys_; }
+  std::size_t most_choices() const { return most_; }
 
  private:
   struct Give {
-    void operator()(std::string* text) const { *text = "?"; }
+    const About& about;
+    std::size_t n;
+    void operator()(std::string* text) const {
+      *text = about.choices.empty() ? "?" : about.choices[n % about.choices.size()].name;
+    }
     template <class T>
     void operator()(std::vector<T>* list) const {
       list->resize(1);
     }
     void operator()(const void*) const {}
   };
+  std::size_t n_, most_ = 1;
   std::set<std::string> keys_;
 };
 
-/// `present`: with fluid and grains.
+/// Whatever the choices. `present`: of a case with fluid and grains.
 std::set<std::string> keys_required(bool present) {
-  Config config;
-  config.fluid.present = config.grain.present = present;
-  RequiredKeys visitor;
-  describe(visitor, config);
-  return visitor.keys();
+  std::set<std::string> keys;
+  std::size_t most = 1;
+  for (std::size_t n = 0; n < most; ++n) {
+    Config config;
+    config.fluid.present = config.grain.present = present;
+    RequiredKeys visitor(n);
+    describe(visitor, config);
+    most = std::max(most, visitor.most_choices());
+    if (n == 0) keys = visitor.keys();
+    std::erase_if(keys, [&](const std::string& key) { return !visitor.keys().contains(key); });
+  }
+  return keys;
 }
 
 /// The ranges of a case in which all values are others than by default.
