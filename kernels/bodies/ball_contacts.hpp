@@ -42,7 +42,7 @@ struct BallPass {
       const Surface& surface = walls.surfaces[s];
       const BodyPose& pose = poses[surface.body];
       if (surface.body == own || !pose.present || !poses[own].present || passes(pose)) continue;
-      const double reach = surface.tracked() ? ball.radius : 2 * ball.radius;
+      const double reach = surface.reach(ball.radius);
       const SurfaceView view(surface, pose, frame, x);
       if (view.beyond(walls, reach)) continue;
       view.each_closest_point(walls, reach, 1e-4 * ball.radius,

@@ -138,7 +138,7 @@ struct ContactLaw {
       out.torque_i += couple;
       out.torque_j -= couple;
     }
-    h.overlap = at.overlap;
+    h.overlap = Real(at.overlap);
     h.recede = v_n;
     return out;
   }
@@ -166,7 +166,7 @@ struct ContactLaw {
     const SlidingInput in{pressing,  ns.stiffness, ns.damping, std::sqrt(at.R_star * Real(at.overlap)),
                           at.m_star, at.overlap};
     return sliding_of(*this, [&](const auto& law) {
-      Vec3d xi = law.stretch(turned, step, h.overlap, at.overlap);
+      Vec3d xi = law.stretch(turned, step, h.overlap, Real(at.overlap));
       SlidingState s = law(in, xi);
       s.damping *= sliding_damping;
       Real3 f_t = s.elastic - s.damping * v_t;

@@ -1,11 +1,10 @@
 #pragma once
-// All contacts of one grain: its list, then the walls. Both partners of a pair evaluate it, each seen from
-// the lower to the higher id, so forces are opposite and histories equal to the last bit.
+// Contacts between grains. Both partners of a pair evaluate it, each seen from the lower to the higher id, so
+// forces are opposite and histories equal to the last bit.
 
 #include "bedload/neighbours/verlet_list.hpp"
-#include "kernels/bodies/rigid_body.hpp"
 #include "kernels/contact/contact_law.hpp"
-#include "kernels/contact/wall_contacts.hpp"
+#include "kernels/contact/pair_histories.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -21,39 +20,64 @@ struct GrainNear {
   BL_HD double reach(Index i) const { return radius[i] + largest + skin; }
   BL_HD bool operator()(Index i, Index j) const {
     if (group && group[i] != 0 && group[i] == group[j]) return false;
-    const double range = double(radius[i]) + double(radius[j]) + skin;
-    return i != j && norm2(frame.separation(x[i], x[j])) < range * range;
+    return i != j && closer(i, j, skin);
+  }
+  BL_HD bool closer(Index i, Index j, double gap) const {
+    const double range = double(radius[i]) + double(radius[j]) + gap;
+    return norm2(frame.separation(x[i], x[j])) < range * range;
   }
 };
 
-/// Takes history over into a new list; entries are places in the sorted store.
-struct CarryHistoryPass {
-  VerletListView from, to;
-  Span<const Index> order;  ///< former place of each grain; kNone if it is new
-  const ContactHistory* old_history;
-  ContactHistory* history;
+/// Puts what touches where the list was built before what does not, so that the threads of a warp meet their
+/// contacts at the same time.
+struct ContactsFirstPass {
+  GrainNear near;
+  VerletListView list;
+  Index* entry;
   BL_HD void operator()(Index i) const {
-    const Index was_i = order[i];
-    if (was_i == kNone) return;
-    for (std::uint32_t k = 0; k < to.count[i]; ++k) {
-      const Index was_j = order[to.entry[to.slot(i, k)]];
-      ContactHistory h;
-      for (std::uint32_t l = 0; l < from.count[was_i]; ++l)
-        if (from.entry[from.slot(was_i, l)] == was_j) h = old_history[from.slot(was_i, l)];
-      history[to.slot(i, k)] = h;
+    std::uint32_t contacts = 0;
+    for (std::uint32_t k = 0; k < list.count[i]; ++k) {
+      Index &here = entry[list.slot(i, k)], &first = entry[list.slot(i, contacts)];
+      if (!near.closer(i, here, 0)) continue;
+      const Index j = here;
+      here = first, first = j;
+      ++contacts;
     }
   }
 };
 
-/// Everything that acts on grain i by touch.
+/// Takes histories over into a new list; entries are places in the sorted store.
+struct CarryHistoryPass {
+  VerletListView from, to;
+  Span<const Index> order;  ///< former place of each grain; kNone if it is new
+  PairHistories old_histories, histories;
+  BL_HD void operator()(Index i) const {
+    const Index was_i = order[i];
+    if (was_i == kNone) return;
+    for (std::uint32_t l = 0; l < from.count[was_i]; ++l) {
+      const std::uint64_t old_slot = from.slot(was_i, l);
+      if (!old_histories.touching[old_slot]) continue;
+      for (std::uint32_t k = 0; k < to.count[i]; ++k) {
+        const std::uint64_t slot = to.slot(i, k);
+        if (order[to.entry[slot]] != from.entry[old_slot]) continue;
+        histories.store(slot, old_histories[old_slot]);
+        histories.touching[slot] = 1;
+      }
+    }
+  }
+};
+
+/// Everything that acts on a grain by touch.
 struct ContactSum {
   Vec3d force;   ///< N
   Vec3d torque;  ///< N m
+
+  BL_HD void add(const ContactSum& other) { force += other.force, torque += other.torque; }
 };
 
 struct ContactPass {
   Frame frame;
-  ContactLaw law;    ///< between grains
+  ContactLaw law;
   Real mass_per_r3;  ///< 4/3 pi rho_s
   Real dt;           ///< s
   Span<const Vec3d> x;
@@ -61,116 +85,66 @@ struct ContactPass {
   Span<const Real> radius;
   Span<const Id> id;
   VerletListView list;
-  ContactHistory* history;
-  SurfaceSet walls;
-  WallMemory* const* wall_memory;  ///< [wall_capacity][grains]
-  Index* wall_contacts;            ///< [grains]
-  int wall_capacity;               ///< walls that a grain may touch at once
-  const ContactLaw* wall_laws;     ///< [bodies]
-  const BodyPose* poses;           ///< [bodies]
-  const RigidBody* free_bodies = nullptr;
-  TouchLoads loads = {};  ///< where to record what the grains do to free bodies; may be none
+  PairHistories histories;
+  Span<const Index> wall_row = {};  ///< of each grain in by_walls, kNone: far from walls; empty: all are
+  const ContactSum* by_walls = nullptr;
 
-  BL_HD Sphere sphere(Index i) const { return {radius[i], mass_per_r3 * cube(radius[i])}; }
+  BL_HD Sphere sphere(Real R) const { return {R, mass_per_r3 * cube(R)}; }
 
-  /// Sums over the contacts of i and advances their histories by dt.
-  BL_HD ContactSum operator()(Index i) const {
+  /// Sums over all contacts of the lane's row, and advances the histories of its pairs by dt.
+  BL_HD ContactSum operator()(const Lane& lane) const {
     ContactSum sum;
-    if (loads) loads.clear(i);
+    const Index i = lane.row;
     if (law.normal == NormalLaw::none) return sum;
+    const Grain own{x[i], radius[i], v[i], omega[i], id[i]};
     const std::uint32_t n = list.count[i];
-    for (std::uint32_t k = 0; k < n; ++k) {
-      const std::uint64_t slot = list.slot(i, k);
-      pair(i, list.entry[slot], history[slot], sum);
+    std::uint64_t slot = list.slot(i, lane.index);
+    Index next = list.entry[slot];
+    for (std::uint32_t k = lane.index; k < n; k += lane.count) {
+      const Index j = next;
+      next = list.entry[slot + VerletListView::kTurn];  // while this pair is worked on
+      pair(own, j, slot, sum);
+      slot += VerletListView::kTurn;
     }
-    if (walls.surfaces.size > 0)
-      each_wall(i, true, [&](std::uint32_t body, const WallContact& c) {
-        sum.force += Vec3d(c.on_grain.force);
-        sum.torque += Vec3d(c.on_grain.torque_i);
-        if (loads && poses[body].free) loads.add(i, {c.on_wall(), torque_on(body, c), body});
-      });
+    lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
+    if (wall_row && wall_row[i] != kNone) sum.add(by_walls[wall_row[i]]);
     return sum;
   }
 
-  struct WallContact {
-    ContactForce on_grain;
-    Vec3d point;                                                    ///< m
-    BL_HD Vec3d on_wall() const { return -Vec3d(on_grain.force); }  ///< N
-  };
-  /// On a wall body, about its centre, N m.
-  BL_HD Vec3d torque_on(std::uint32_t body, const WallContact& c) const {
-    return cross(arm(poses[body], c.point), c.on_wall()) + Vec3d(c.on_grain.torque_j);
-  }
-  /// Of a place from the centre of a body, by the nearest image, m.
-  BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
-    return frame.nearest_image(point - pose.origin());
-  }
-  BL_HD WallMemories memories(Index i) const { return {wall_memory, wall_contacts, i}; }
-
-  /// f(body, contact) for all that grain i touches of the walls; `keep`: histories are advanced.
-  template <class F>
-  BL_HD void each_wall(Index i, bool keep, F&& f) const {
-    const WallMemories memory = memories(i);
-    const double R = double(radius[i]);
-    WallTouches touches(memory, walls.surfaces.data, wall_capacity);
-    for (Index s = 0; s < walls.surfaces.size; ++s) {
-      const Surface& surface = walls.surfaces[s];
-      const BodyPose& pose = poses[surface.body];
-      // a patch that holds a grain on its side may be behind its centre
-      const double reach = surface.tracked() ? R : 2 * R;
-      const SurfaceView view(surface, pose, frame, x[i]);
-      if (!pose.present || view.beyond(walls, reach)) continue;
-      view.each_closest_point(walls, reach, 1e-4 * R,
-                              [&](const ClosestPoint& closest) { touches.add(s, closest, R); });
-    }
-    if (touches.size() > 0) {
-      touches.settle();
-      WallMemory next[kMostWallContacts];
-      for (int k = 0; k < touches.size(); ++k) {
-        next[k] = touch_one(i, touches[k], memory, f);
-      }
-      if (keep)
-        for (int k = 0; k < touches.size(); ++k) memory[k] = next[k];
-    }
-    if (keep && memory.count() != Index(touches.size())) wall_contacts[i] = Index(touches.size());
-  }
-
  private:
-  template <class F>
-  BL_HD WallMemory touch_one(Index i, const WallTouch& touch, const WallMemories& memory, F& f) const {
-    const ClosestPoint& closest = touch.closest;
-    const BodyPose& pose = poses[touch.body];
-    ContactHistory h;
-    if (touch.from != kNone) h = memory[touch.from].history;
-    h.overlap = std::abs(h.overlap);
-    const Vec3d point = x[i] - closest.distance * closest.normal;
-    ContactGeometry at = touch_wall(sphere(i), closest.normal, double(radius[i]) - closest.distance);
-    const Vec3d r = arm(pose, point),
-                v_wall = pose.v + cross(pose.omega, r) + pose.rotation.rotate(pose.slide);
-    if (pose.free)
-      at.m_star /= 1 + at.m_star * Real(free_bodies[pose.free - 1].inverse_effective_mass(pose.rotation, r,
-                                                                                          closest.normal));
-    const ContactForce on_grain =
-        wall_laws[touch.body](at, v[i] - Real3(v_wall), omega[i], Real3(pose.omega), dt, h);
-    f(touch.body, WallContact{on_grain, point});
-    h.overlap *= closest.side;
-    return {touch.key(), closest.normal, h};
+  struct Grain {
+    Vec3d x;
+    Real R;
+    Real3 v, omega;
+    Id id;
+  };
+  /// By value: one of two places would have to lie in memory.
+  BL_HD static Real3 either(bool first, const Real3& a, const Real3& b) {
+    return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
   }
-  BL_HD void pair(Index i, Index j, ContactHistory& h, ContactSum& sum) const {
-    const Vec3d r_ij = frame.separation(x[i], x[j]);
-    const double reach = double(radius[i]) + double(radius[j]), r2 = norm2(r_ij);
-    if (!(r2 < reach * reach)) {
-      if (h.overlap != 0) h = {};
+  BL_HD void pair(const Grain& own, Index j, std::uint64_t slot, ContactSum& sum) const {
+    const bool touched = histories.touching[slot];
+    ContactHistory h;
+    if (touched) h = histories[slot];
+    const Real R = radius[j];
+    const Vec3d r = frame.separation(own.x, x[j]);
+    const double reach = double(own.R) + double(R), r2 = norm2(r);
+    const bool near = r2 < reach * reach;
+    const double distance = near ? std::sqrt(r2) : reach;
+    if (!(distance < reach)) {
+      if (touched) histories.touching[slot] = 0;
       return;
     }
-    const bool first = id[i] < id[j];
-    const Index lo = first ? i : j, hi = first ? j : i;
-    const double distance = std::sqrt(r2);
-    const ContactGeometry at =
-        touch(sphere(lo), sphere(hi), first ? r_ij : -r_ij, distance, reach - distance);
-    const ContactForce f = law(at, v[lo] - v[hi], omega[lo], omega[hi], dt, h);
+    const bool first = own.id < id[j];
+    const Real3 v_j = v[j], omega_j = omega[j];
+    const Real R_lo = first ? own.R : R, R_hi = first ? R : own.R;
+    const ContactGeometry at = touch(sphere(R_lo), sphere(R_hi), first ? r : -r, distance, reach - distance);
+    const ContactForce f = law(at, first ? own.v - v_j : v_j - own.v, either(first, own.omega, omega_j),
+                               either(first, omega_j, own.omega), dt, h);
     sum.force += Vec3d(first ? f.force : -f.force);
-    sum.torque += Vec3d(first ? f.torque_i : f.torque_j);
+    sum.torque += Vec3d(either(first, f.torque_i, f.torque_j));
+    histories.store(slot, h);
+    if (!touched) histories.touching[slot] = 1;
   }
 };
 

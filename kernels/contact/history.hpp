@@ -1,5 +1,5 @@
 #pragma once
-// What a contact remembers from one substep to the next. fp64 in every precision: increments are
+// What a contact remembers from one substep to the next. Springs are fp64 in every precision: increments are
 // tiny beside the sums.
 
 #include "bedload/particles/field.hpp"
@@ -8,10 +8,11 @@ namespace bedload::inline BL_VARIANT {
 
 /// Kept for the pair (lower id, higher id), or for (grain, wall surface).
 struct ContactHistory {
-  Vec3d xi;            ///< tangential spring, m
-  Vec3d couple;        ///< elastic rolling couple on the first grain, N m
-  double overlap = 0;  ///< at the last evaluation, m; 0: apart. Walls: negative when behind the surface
-  double recede = 0;   ///< normal speed at the last evaluation, m/s
+  Vec3d xi;      ///< tangential spring, m
+  Vec3d couple;  ///< elastic rolling couple on the first grain, N m
+  double overlap =
+      0;  ///< a Real: at the last evaluation, m; 0: apart. Walls: negative when behind the surface
+  double recede = 0;  ///< a Real: normal speed at the last evaluation, m/s
 };
 
 template <>

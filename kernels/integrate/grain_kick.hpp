@@ -36,9 +36,10 @@ struct GrainKick {
   double h;            ///< half a substep, s
   bool exponential;
   Span<const Real> radius;
-  Span<const Real3> fluid_force, U, omega_f;
+  Span<const Real3> fluid_force, U, omega_f;  ///< these and K are empty where there is no fluid
   Span<const Real> K, K_rot;
 
+  BL_HD bool wet() const { return bool(K); }
   BL_HD double mass(Index i) const { return mass_per_r3 * radius[i] * radius[i] * radius[i]; }
 };
 
@@ -54,10 +55,10 @@ struct KickedGrain {
         m_(k.mass(i)),
         inertia_(0.4 * m_ * k.radius[i] * k.radius[i]),
         h_(k.h),
-        a_((force + Vec3d(k.fluid_force[i])) * (1 / m_) + k.gravity),
+        a_((k.wet() ? force + Vec3d(k.fluid_force[i]) : force) * (1 / m_) + k.gravity),
         alpha_(torque * (1 / inertia_)),
-        slide_(k.K[i] / m_, k.h, k.exponential),
-        spin_(k.K_rot[i] / inertia_, k.h, k.exponential),
+        slide_(k.wet() ? k.K[i] / m_ : 0, k.h, k.exponential),
+        spin_(k.wet() ? k.K_rot[i] / inertia_ : 0, k.h, k.exponential),
         U_(slide_.fraction > 0 ? Vec3d(k.U[i]) : Vec3d{}),
         omega_f_(spin_.fraction > 0 ? Vec3d(k.omega_f[i]) : Vec3d{}) {}
 

@@ -34,20 +34,25 @@ struct FirstKickPass {
     split(g.v, v[i], v_rest[i]);
     split(g.omega, omega[i], omega_rest[i]);
     x[i] += 2 * kick.h * g.v;
+    if (!kick.wet()) return;
     impulse[i] = Real3(g.impulse);
     spin_impulse[i] = Real3(g.spin_impulse);
   }
 };
 
 /// Contacts where the grains have arrived, the second half kick, and the first half kick and drift of the
-/// next substep. Neighbours are read, so results go to other arrays.
+/// next substep. Neighbours are read, so results go to other arrays. This pass and those below run over the
+/// threads that share the rows of the contacts' list.
 struct SubstepPass {
   ContactPass contacts;
   GrainKick kick;
   Span<Vec3d> next_x;
   Span<Real3> next_v, next_omega, v_rest, omega_rest, impulse, spin_impulse;
-  BL_HD void operator()(Index i) const {
-    const ContactSum sum = contacts(i);
+  BL_HD void operator()(Index thread) const {
+    const Lane lane(thread, contacts.list.bits);
+    const Index i = lane.row;
+    const ContactSum sum = contacts(lane);
+    if (lane.index != 0) return;
     KickedGrain g(kick, i, join(contacts.v[i], v_rest[i]), join(contacts.omega[i], omega_rest[i]), sum.force,
                   sum.torque);
     g.kick();
@@ -55,6 +60,7 @@ struct SubstepPass {
     split(g.v, next_v[i], v_rest[i]);
     split(g.omega, next_omega[i], omega_rest[i]);
     next_x[i] = contacts.x[i] + 2 * kick.h * g.v;
+    if (!kick.wet()) return;
     impulse[i] += Real3(g.impulse);
     spin_impulse[i] += Real3(g.spin_impulse);
   }
@@ -68,8 +74,11 @@ struct LastKickPass {
   Span<Real3> next_v, next_omega;
   Span<const Real3> v_rest, omega_rest;
   Span<Real3> impulse, spin_impulse, force, torque, drag_force;
-  BL_HD void operator()(Index i) const {
-    const ContactSum sum = contacts(i);
+  BL_HD void operator()(Index thread) const {
+    const Lane lane(thread, contacts.list.bits);
+    const Index i = lane.row;
+    const ContactSum sum = contacts(lane);
+    if (lane.index != 0) return;
     KickedGrain g(kick, i, join(contacts.v[i], v_rest[i]), join(contacts.omega[i], omega_rest[i]), sum.force,
                   sum.torque);
     g.kick();
@@ -77,6 +86,7 @@ struct LastKickPass {
     next_omega[i] = Real3(g.omega);
     force[i] = Real3(sum.force);
     torque[i] = Real3(sum.torque);
+    if (!kick.wet()) return;
     const Vec3d all = Vec3d(impulse[i]) + g.impulse;
     impulse[i] = Real3(all);
     spin_impulse[i] = Real3(Vec3d(spin_impulse[i]) + g.spin_impulse);
@@ -88,8 +98,11 @@ struct LastKickPass {
 struct EvaluatePass {
   ContactPass contacts;
   Span<Real3> force, torque;
-  BL_HD void operator()(Index i) const {
-    const ContactSum sum = contacts(i);
+  BL_HD void operator()(Index thread) const {
+    const Lane lane(thread, contacts.list.bits);
+    const ContactSum sum = contacts(lane);
+    if (lane.index != 0) return;
+    const Index i = lane.row;
     force[i] = Real3(sum.force);
     torque[i] = Real3(sum.torque);
   }

@@ -1,7 +1,7 @@
 #pragma once
 // Sums and extremes over grains, for reduce(). Values are plain arrays: shared memory runs no constructors.
 
-#include "kernels/contact/contact_pass.hpp"
+#include "kernels/contact/wall_pass.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -40,12 +40,13 @@ struct WatchReduction {
 
 /// Conserved sums, energies, contacts. Each partner of a pair counts half of it.
 struct TotalsReduction {
-  enum Sum { mass, kinetic, rotational, elastic, px, py, pz, lx, ly, lz, cx, cy, cz, pairs, walls, kSums };
+  enum Sum { mass, kinetic, rotational, elastic, px, py, pz, lx, ly, lz, cx, cy, cz, pairs, on_walls, kSums };
   struct Value {
     double sum[kSums];
     double speed2, overlap;  ///< largest
   };
   ContactPass contacts;
+  WallContacts walls;
 
   BL_HD Value identity() const {
     Value v{};
@@ -53,7 +54,7 @@ struct TotalsReduction {
   }
   BL_HD Value operator()(Index i) const {
     Value t{};
-    const Sphere s = contacts.sphere(i);
+    const Sphere s = contacts.sphere(contacts.radius[i]);
     const double m = s.m, inertia = 0.4 * m * s.R * s.R;
     const Vec3d v = Vec3d(contacts.v[i]), w = Vec3d(contacts.omega[i]), x = contacts.x[i];
     const Vec3d spin = cross(x, m * v) + inertia * w;
@@ -67,19 +68,19 @@ struct TotalsReduction {
     const VerletListView& list = contacts.list;
     for (std::uint32_t k = 0; k < list.count[i]; ++k) {
       const std::uint64_t slot = list.slot(i, k);
-      const ContactHistory& h = contacts.history[slot];
-      if (h.overlap == 0) continue;
-      const Sphere o = contacts.sphere(list.entry[slot]);
+      if (!contacts.histories.touching[slot]) continue;
+      const ContactHistory h = contacts.histories[slot];
+      const Sphere o = contacts.sphere(contacts.radius[list.entry[slot]]);
       t.sum[pairs] += 0.5;
       t.sum[elastic] += 0.5 * contacts.law.stored(s.R * o.R / (s.R + o.R), s.m * o.m / (s.m + o.m), h);
       t.overlap = max_of(t.overlap, h.overlap / (2 * double(s.R)));
     }
-    const WallMemories memory = contacts.memories(i);
+    const WallMemories memory = walls.memories(i);
     for (Index k = 0; k < memory.count(); ++k) {
       const ContactHistory& h = memory[k].history;
-      const std::uint32_t body = contacts.walls.surfaces[memory[k].surface()].body;
-      t.sum[walls] += 1;
-      t.sum[elastic] += contacts.wall_laws[body].stored(s.R, s.m, h);
+      const std::uint32_t body = walls.walls.surfaces[memory[k].surface()].body;
+      t.sum[on_walls] += 1;
+      t.sum[elastic] += walls.laws[body].stored(s.R, s.m, h);
       t.overlap = max_of(t.overlap, std::abs(h.overlap) / (2 * double(s.R)));
     }
     return t;
@@ -94,16 +95,18 @@ struct TotalsReduction {
 /// What the grains do to one wall body; histories stay as they are.
 struct BodyLoadReduction {
   using Value = LoadSum;
-  ContactPass contacts;  ///< with dt = 0
+  WallContacts contacts;  ///< with dt = 0
   std::uint32_t body;
 
   BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index i) const {
     Value sum = Value::zero();
     if (contacts.memories(i).count() == 0) return sum;
-    contacts.each_wall(i, false, [&](std::uint32_t of, const ContactPass::WallContact& c) {
-      if (of == body) sum.add(c.on_wall(), contacts.torque_on(body, c));
-    });
+    contacts.each(
+        i, contacts.walls.surfaces.size, [](Index s) { return s; }, false,
+        [&](std::uint32_t of, const WallContacts::Contact& c) {
+          if (of == body) sum.add(c.on_wall(), contacts.torque_on(body, c));
+        });
     return sum;
   }
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }

@@ -49,6 +49,13 @@ struct MeshView {
         },
         [&](std::uint32_t t) { closest(t, x, reach, merge, f); });
   }
+  /// Whether any of it is within `reach` (m) of x.
+  BL_HD bool within(const Vec3d& x, double reach) const {
+    bool found = false;
+    walk([&](const MeshNode& node) { return !found && node.distance2(x) <= reach * reach; },
+         [&](std::uint32_t t) { found = found || nearest(t, x).distance2 <= reach * reach; });
+    return found;
+  }
 
  private:
   /// visit(triangle) for those in leaves into which and above which enter(node) lets.

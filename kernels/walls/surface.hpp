@@ -56,6 +56,9 @@ struct Surface {
     return kind == SurfaceKind::revolution || kind == SurfaceKind::mesh ||
            (kind == SurfaceKind::box && shell > 0);
   }
+  /// How far from it the centre of a sphere of radius R may be that touches it, m: a patch that holds the
+  /// sphere on its side may be behind the centre.
+  BL_HD double reach(double R) const { return tracked() ? R : 2 * R; }
 };
 
 /// All surfaces of a case, with what they refer to.
@@ -73,6 +76,19 @@ struct SurfaceSet {
       if (std::abs(dot(r, s.axis[k])) - half > reach) return true;
     }
     return false;
+  }
+
+  /// Whether s may be within `distance` (m) of r. Sees into hollows: slower than `beyond`.
+  BL_HD bool within(const Surface& s, const Vec3d& r, double distance) const {
+    if (beyond(s, r, distance)) return false;
+    const double reach = distance + s.shell;
+    if (s.kind == SurfaceKind::mesh) return meshes[s.first].within(r, reach);
+    const double p[3] = {dot(r, s.axis[0]), dot(r, s.axis[1]), dot(r, s.axis[2])};
+    if (s.kind == SurfaceKind::revolution) return profile_within(s, p, reach);
+    if (!s.tracked()) return true;
+    double depth = s.half[0] - std::abs(p[0]);
+    for (int k = 1; k < 3; ++k) depth = min_of(depth, s.half[k] - std::abs(p[k]));
+    return depth <= reach;
   }
 
   /// f(point) for each closest point of s no farther than `reach` (m) from r, the place as seen from s.centre
@@ -195,6 +211,18 @@ struct SurfaceSet {
       }
       before = side;
     }
+  }
+  BL_HD bool profile_within(const Surface& s, const double* p, double reach) const {
+    const double z = p[2], r = std::sqrt(p[0] * p[0] + p[1] * p[1]);
+    for (std::uint32_t n = 0; n < s.count; ++n) {
+      const ProfileCorner a = corners[s.first + n], b = corners[s.first + (n + 1 == s.count ? 0 : n + 1)];
+      const ProfileSide side(a, b, z, r);
+      if (!side.real) continue;
+      const double t = clamp(side.t, 0.0, 1.0);
+      const double dz = z - a.z - t * (b.z - a.z), dr = r - a.r - t * (b.r - a.r);
+      if (dz * dz + dr * dr <= reach * reach) return true;
+    }
+    return false;
   }
   /// One side of a profile, seen from a place in its half-plane.
   struct ProfileSide {

@@ -9,6 +9,7 @@ namespace {
 ContactLaw law_between(const ContactMaterials& m) {
   ContactLaw all;
   all.normal = m.contact.normal, all.sliding = m.contact.tangential, all.rolling = m.contact.rolling;
+  if (m.mu_r == 0) all.rolling = RollingLaw::none;
   all.clip_tension = m.contact.clip_tension;
   all.mu = Real(m.mu);
   all.sliding_damping = Real(m.contact.tangential_damping);

@@ -32,7 +32,7 @@ std::uint64_t pair_key(Id lo, Id hi) { return std::uint64_t(lo) << 32 | hi; }
 
 HostStore SolidSolver::save_contacts(const GrainStore& grains) const {
   const HostVerletList list(list_);
-  const std::vector<ContactHistory> history = history_.to_host();
+  const std::vector<ContactHistory> history = histories_.to_host();
   const std::vector<Id> id = grains.id.values();
   std::vector<Id> lo, hi;
   std::vector<ContactHistory> kept;
@@ -77,7 +77,7 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
     }
   if (found != 2 * contacts.count)
     throw FileError("checkpoint: contacts between grains that are not near each other");
-  history_.assign(history);
+  histories_.assign(history);
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -28,16 +28,20 @@ struct ComeFromPass {
 }  // namespace
 
 SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeometry& walls,
-                         GrainStore& grains, FreeBodies* bodies)
+                         GrainStore& grains, FreeBodies* bodies, bool wet)
     : config_(config),
       frame_(frame),
       law_(make_contact_law(config)),
       d_min_(config.grain.d_min > 0 ? config.grain.d_min : config.grain.d),
       d_max_(config.grain.d_max > 0 ? config.grain.d_max : config.grain.d),
       skin_(config.skin_grain * d_min_),
+      wet_(wet),
       walls_(walls),
       bodies_(bodies),
-      groups_(config, frame, grains) {
+      groups_(config, frame, grains),
+      histories_(law_),
+      old_histories_(law_),
+      wall_list_(frame, walls, skin_) {
   config_.grain.d_min = d_min_, config_.grain.d_max = d_max_;
   std::vector<ContactLaw> wall_laws;
   for (const WallBody& body : config.wall.bodies) wall_laws.push_back(make_wall_law(config, body));
@@ -59,20 +63,21 @@ void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal
   grains.reorder(order_);
   if (renewal.any) for_each(grains.owned(), ComeFromPass{renewal.came_from, order_});
   std::swap(list_, old_list_);
-  history_.swap(old_history_);
+  histories_.swap(old_histories_);
   build_list(grains, grid);
   if (old_list_.rows() == (renewal.any ? renewal.before : grains.size()))
-    for_each(grains.owned(),
-             CarryHistoryPass{old_list_.view(), list_.view(), order_, old_history_.data(), history_.data()});
+    for_each(grains.owned(), CarryHistoryPass{old_list_.view(), list_.view(), order_, old_histories_.view(),
+                                              histories_.view()});
 }
 
 void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
-  list_.build(
-      grains.size(), grid.view(),
-      GrainNear{frame_, grains.x_list.span(), grains.radius.span(), groups_.of_grains(), 0.5 * d_max_, skin_},
-      0);
-  history_.reserve_and_resize(list_.slots());
-  history_.zero();
+  const GrainNear near{frame_, grains.x_list.span(), grains.radius.span(), groups_.of_grains(), 0.5 * d_max_,
+                       skin_};
+  // rows are short: of more lanes most would have nothing to do
+  list_.build(grains.size(), grid.view(), near, std::min(lane_bits(grains.size()), 3u));
+  for_each(grains.owned(), ContactsFirstPass{near, list_.view(), list_.entries()});
+  histories_.reset(list_.slots());
+  wall_list_.forget();
 }
 
 // -- limits ------------------------------------------------------------------
@@ -118,7 +123,7 @@ WallMemory* const* SolidSolver::wall_memories() const {
   return device_memory_pointers_.data();
 }
 
-ContactPass SolidSolver::contact_pass(const GrainStore& g, const BodyPose* poses, double dt) const {
+ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
   return {.frame = frame_,
           .law = law_,
           .mass_per_r3 = Real(mass_per_r3()),
@@ -129,37 +134,59 @@ ContactPass SolidSolver::contact_pass(const GrainStore& g, const BodyPose* poses
           .radius = g.radius.span(),
           .id = g.id.span(),
           .list = list_.view(),
-          .history = const_cast<ContactHistory*>(history_.data()),
+          .histories = histories_.view()};
+}
+
+WallContacts SolidSolver::wall_contacts(const GrainStore& g, const BodyPose* poses, double dt) const {
+  return {.frame = frame_,
+          .mass_per_r3 = Real(mass_per_r3()),
+          .dt = Real(dt),
+          .x = g.x.span(),
+          .v = g.v.span(),
+          .omega = g.omega.span(),
+          .radius = g.radius.span(),
           .walls = walls_.view(),
-          .wall_memory = wall_memories(),
-          .wall_contacts = wall_contacts_ ? wall_contacts_->buffer().data() : nullptr,
-          .wall_capacity = walls_.contacts(),
-          .wall_laws = wall_laws_.data(),
+          .memory = wall_memories(),
+          .count = wall_contacts_ ? wall_contacts_->buffer().data() : nullptr,
+          .capacity = walls_.contacts(),
+          .laws = wall_laws_.data(),
           .poses = poses,
           .free_bodies = bodies_ ? bodies_->constants() : nullptr};
 }
 
+ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses, double dt,
+                                     const TouchLoads& loads) {
+  ContactPass pass = contact_pass(g, dt);
+  if (wall_list_.size() == 0 || law_.normal == NormalLaw::none) return pass;
+  by_walls_.reserve_and_resize(wall_list_.size());
+  for_each({0, wall_list_.size()},
+           WallContactPass{wall_contacts(g, poses, dt), wall_list_.rows(), by_walls_.data(), loads});
+  pass.wall_row = wall_list_.row_of();
+  pass.by_walls = by_walls_.data();
+  return pass;
+}
+
 void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
-  ContactPass contacts = contact_pass(g, poses.data, 0);
-  if (FreeBodies* free = moving()) contacts.loads = free->record(g.size());
-  for_each(g.owned(), EvaluatePass{contacts, g.force, g.torque});
+  FreeBodies* const free = moving();
+  wall_list_.cover(g, poses, wall_counts(), 0);
+  const ContactPass contacts = contacts_at(g, poses.data, 0, free ? free->record(g.size()) : TouchLoads{});
+  for_each(threads(), EvaluatePass{contacts, g.force, g.torque});
 }
 
 void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies, double dt, int substeps,
-                          bool held, const std::vector<Vec3d>& gravity) {
+                          bool held, const std::vector<Vec3d>& gravity, double wall_travel) {
   FreeBodies* const free = moving();
   const double tau = dt / substeps;
   const TouchLoads loads = free ? free->record(g.size()) : TouchLoads{};
   const auto contacts_in = [&](int s) {
-    ContactPass contacts = contact_pass(g, poses.data + std::size_t(s) * bodies, tau);
-    contacts.loads = loads;
-    return contacts;
+    return contacts_at(g, poses.data + std::size_t(s) * bodies, tau, loads);
   };
+  wall_list_.cover(g, poses, wall_counts(), wall_travel);
   if (free) free->first_kick();
   if (held || config_.grain.fixed) {
     for_each(g.owned(), HeldPass{dt, g.U, g.omega_f, g.K, g.K_rot, g.impulse, g.spin_impulse, g.drag_force});
     for (int s = 1; free && s <= substeps; ++s) {
-      for_each(g.owned(), EvaluatePass{contacts_in(s), g.force, g.torque});
+      for_each(threads(), EvaluatePass{contacts_in(s), g.force, g.torque});
       free->substep(s);
     }
     if (!free) evaluate(g, {poses.data + std::size_t(substeps) * bodies, Index(bodies)});
@@ -172,11 +199,14 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                  0.5 * tau,
                  config_.couple.integrator == DragIntegrator::exponential,
                  g.radius,
-                 g.fluid_force,
-                 g.U,
-                 g.omega_f,
-                 g.K,
-                 g.K_rot};
+                 {},
+                 {},
+                 {},
+                 {},
+                 {}};
+  if (wet_)
+    kick.fluid_force = g.fluid_force, kick.U = g.U, kick.omega_f = g.omega_f, kick.K = g.K,
+    kick.K_rot = g.K_rot;
   for_each(g.owned(), FirstKickPass{kick, g.force, g.torque, g.x, g.v, g.omega, v_rest_, omega_rest_,
                                     g.impulse, g.spin_impulse});
   groups_.follow(g, v_rest_, omega_rest_, tau);
@@ -184,11 +214,11 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     const ContactPass contacts = contacts_in(s);
     if (!gravity.empty()) kick.gravity = gravity[s];
     if (s < substeps) {
-      for_each(g.owned(), SubstepPass{contacts, kick, next_x_, next_v_, next_omega_, v_rest_, omega_rest_,
+      for_each(threads(), SubstepPass{contacts, kick, next_x_, next_v_, next_omega_, v_rest_, omega_rest_,
                                       g.impulse, g.spin_impulse});
       g.x.buffer().swap(next_x_);
     } else {
-      for_each(g.owned(), LastKickPass{contacts, kick, dt, next_v_, next_omega_, v_rest_, omega_rest_,
+      for_each(threads(), LastKickPass{contacts, kick, dt, next_v_, next_omega_, v_rest_, omega_rest_,
                                        g.impulse, g.spin_impulse, g.force, g.torque, g.drag_force});
     }
     g.v.buffer().swap(next_v_);
@@ -205,7 +235,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
 
 GrainTotals SolidSolver::totals(const GrainStore& g) const {
   using T = TotalsReduction;
-  const T::Value v = reduce(g.owned(), T{contact_pass(g, nullptr, 0)});
+  const T::Value v = reduce(g.owned(), T{contact_pass(g, 0), wall_contacts(g, nullptr, 0)});
   GrainTotals t;
   t.mass = v.sum[T::mass];
   t.kinetic = v.sum[T::kinetic];
@@ -217,7 +247,7 @@ GrainTotals SolidSolver::totals(const GrainStore& g) const {
   t.max_speed = std::sqrt(v.speed2);
   t.max_overlap = v.overlap;
   t.contacts = v.sum[T::pairs];
-  t.wall_contacts = v.sum[T::walls];
+  t.wall_contacts = v.sum[T::on_walls];
   if (g.size() > 0) t.coordination = 2 * t.contacts / g.size();
   return t;
 }
@@ -225,7 +255,7 @@ GrainTotals SolidSolver::totals(const GrainStore& g) const {
 std::vector<LoadSum> SolidSolver::body_loads(const GrainStore& g, Span<const BodyPose> poses) const {
   std::vector<LoadSum> loads;
   for (std::uint32_t b = 0; b < config_.wall.bodies.size(); ++b)
-    loads.push_back(reduce(g.owned(), BodyLoadReduction{contact_pass(g, poses.data, 0), b}));
+    loads.push_back(reduce(g.owned(), BodyLoadReduction{wall_contacts(g, poses.data, 0), b}));
   return loads;
 }
 

@@ -11,7 +11,9 @@
 #include "bedload/simulation.hpp"
 #include "kernels/contact/contact_law.hpp"
 #include "kernels/contact/contact_pass.hpp"
+#include "src/solids/pair_histories.hpp"
 #include "src/solids/rigid_groups.hpp"
+#include "src/solids/wall_list.hpp"
 #include "src/walls/free_bodies.hpp"
 #include "src/walls/wall_geometry.hpp"
 
@@ -57,10 +59,10 @@ struct GrainRenewal {
 class SolidSolver {
  public:
   /// Registers what grains remember of walls with `grains`: construct before the store is filled or loaded.
-  /// `walls` must outlive this, and so must `bodies`, the free ones among them. Throws CaseError where the
-  /// damping asked for cannot be had.
+  /// `walls` must outlive this, and so must `bodies`, the free ones among them. `wet`: a fluid may act on
+  /// grains. Throws CaseError where the damping asked for cannot be had.
   SolidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, GrainStore& grains,
-              FreeBodies* bodies = nullptr);
+              FreeBodies* bodies = nullptr, bool wet = true);
 
   double skin() const { return skin_; }            ///< m
   double range() const { return d_max_ + skin_; }  ///< largest centre distance in the lists, m
@@ -86,9 +88,9 @@ class SolidSolver {
   /// call in impulse and spin_impulse, their mean in drag_force. Held (or fixed) grains keep place and
   /// velocity; the fluid sees them at rest. gravity: at the start and after each substep, m/s2; the
   /// case's own if empty. Free bodies, whose step has begun, move along in the substeps and fill their places
-  /// in poses; while they settle they stay.
+  /// in poses; while they settle they stay. wall_travel: the farthest that any wall goes in dt, m.
   void advance(GrainStore& grains, Span<const BodyPose> poses, int bodies, double dt, int substeps, bool held,
-               const std::vector<Vec3d>& gravity = {});
+               const std::vector<Vec3d>& gravity = {}, double wall_travel = WallList::kAnywhere);
 
   RigidGroups& groups() { return groups_; }
   const RigidGroups& groups() const { return groups_; }
@@ -109,13 +111,21 @@ class SolidSolver {
   /// The bodies that move along, if any do.
   FreeBodies* moving() const { return bodies_ && bodies_->any() && !bodies_->settling() ? bodies_ : nullptr; }
   WallMemory* const* wall_memories() const;
-  ContactPass contact_pass(const GrainStore& grains, const BodyPose* poses, double dt) const;
+  ContactPass contact_pass(const GrainStore& grains, double dt) const;
+  WallContacts wall_contacts(const GrainStore& grains, const BodyPose* poses, double dt) const;
+  /// Evaluates the contacts with walls and returns the pass over those between grains, which adds them.
+  ContactPass contacts_at(const GrainStore& grains, const BodyPose* poses, double dt,
+                          const TouchLoads& loads);
+  /// Over the threads of the passes that evaluate contacts.
+  Range threads() const { return {0, list_.rows() << list_.view().bits}; }
+  const Index* wall_counts() const { return wall_contacts_ ? wall_contacts_->buffer().data() : nullptr; }
 
   Config config_;
   Frame frame_;
   ContactLaw law_;
   Buffer<ContactLaw> wall_laws_;  ///< [bodies]
   double d_min_, d_max_, skin_;
+  bool wet_;
   const WallGeometry& walls_;
   FreeBodies* bodies_;
   RigidGroups groups_;
@@ -125,7 +135,10 @@ class SolidSolver {
   mutable Buffer<WallMemory*> device_memory_pointers_;
 
   VerletList list_, old_list_;
-  Buffer<ContactHistory> history_, old_history_;
+  mutable PairHistoryBuffers histories_;  ///< sums read them through the pass that writes them
+  PairHistoryBuffers old_histories_;
+  WallList wall_list_;
+  Buffer<ContactSum> by_walls_;  ///< [rows of wall_list_]
   Buffer<Index> order_;
   // scratch of advance
   Buffer<Vec3d> next_x_;

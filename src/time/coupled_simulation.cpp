@@ -31,7 +31,8 @@ StepInfo CoupledSimulation::step() {
     if (bodies_.any())
       bodies_.begin(poses, motion_.bodies(), clock_.time, dt, substeps, dt - last_kick(dt), gravity);
     if (has_grains())
-      solid_solver_->advance(grains_, poses, motion_.bodies(), dt, substeps, held(), gravity);
+      solid_solver_->advance(grains_, poses, motion_.bodies(), dt, substeps, held(), gravity,
+                             wall_travel(dt));
     else
       bodies_.advance();
     watch_.lap(kGrains);
@@ -64,6 +65,12 @@ std::vector<Quantity> CoupledSimulation::time_spent() const {
   if (coupled()) out.push_back({"coupling", "s", watch_.seconds(kCoupling)});
   out.push_back({"checks", "s", watch_.seconds(kChecks)});
   return out;
+}
+
+double CoupledSimulation::wall_travel(double dt) const {
+  const double before = motion_.top_speed(clock_.time, dt),
+               after = motion_.prescribed_speed(clock_.time + dt);
+  return 1.5 * dt * std::max(before, after);
 }
 
 double CoupledSimulation::longest_substep() {
@@ -233,7 +240,7 @@ void CoupledSimulation::settle(double longest, const std::function<void(double)>
     if (2 * (grain_watch_.displacement + 1.5 * v * dt) > solid_solver_->skin())
       solid_solver_->refresh(grains_, grain_grid_);
     const int n = std::max(1, int(std::ceil(dt / tau)));
-    solid_solver_->advance(grains_, motion_.poses(clock_.time, 0, n), motion_.bodies(), dt, n, false);
+    solid_solver_->advance(grains_, motion_.poses(clock_.time, 0, n), motion_.bodies(), dt, n, false, {}, 0);
     done += dt;
     if (k % 50 == 0) {
       progress(done);

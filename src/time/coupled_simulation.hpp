@@ -60,6 +60,7 @@ class CoupledSimulation final : public Simulation {
   void update_porosity(double dt);                 ///< between fluid and grains that have both moved
   void evaluate_fluid(double dt, double predict);  ///< density and state known: walls, forces
   void push_grains(double dt, double kick);        ///< forces known: what of them falls to the grains
+  double wall_travel(double dt) const;             ///< m, that no wall goes beyond in the step to come
   double longest_substep();                        ///< s, that grains and free bodies allow
   void load_bodies(double kick, double dt);        ///< force of the fluid on free bodies at the end of a step
   void refresh_if_needed(double dt);

@@ -111,7 +111,8 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
       open_(config, frame_, motion_),
       gravity_(config) {
   if (has_grains()) {
-    solid_solver_ = std::make_unique<SolidSolver>(config, frame_, grain_geometry_, grains_, &bodies_);
+    const bool wet = has_fluid() && config.couple.mode != CouplingMode::off;
+    solid_solver_ = std::make_unique<SolidSolver>(config, frame_, grain_geometry_, grains_, &bodies_, wet);
     grain_grid_ = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, solid_solver_->range());
   }
   if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_, geometry_, fluid_);

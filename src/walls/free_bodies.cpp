@@ -276,6 +276,7 @@ TouchLoads FreeBodies::record(Index grains) {
   const int capacity = std::min(size(), kMostWallContacts);
   grain_slots_.resize(std::size_t(grains) * capacity);
   grain_counts_.resize(grains);
+  grain_counts_.zero();  // grains that no wall is near are not asked
   grain_loads_ = {grain_slots_.data(), grain_counts_.data(), grains, capacity};
   return grain_loads_;
 }

@@ -42,6 +42,8 @@ class VerletList {
   Index rows() const { return Index(count_.size()); }
   std::uint64_t slots() const { return slots_; }
   VerletListView view() const { return {offset_.data(), count_.data(), entry_.data(), bits_}; }
+  /// To put the entries of a row into another order.
+  Index* entries() { return entry_.data(); }
 
   /// Rows: all of `targets`; entries: sources near them, in the order of the sources' cells.
   /// Near(i, j) says whether to keep a pair; `reach(i)` is how far to look (m). As many lanes are to share a

@@ -1,0 +1,35 @@
+#include "src/solids/wall_list.hpp"
+
+#include <algorithm>
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+struct NoRowPass {
+  Span<Index> row_of;
+  BL_HD void operator()(Index i) const { row_of[i] = kNone; }
+};
+
+}  // namespace
+
+void WallList::cover(const GrainStore& grains, Span<const BodyPose> poses, const Index* remembered,
+                     double travel) {
+  if (walls_.surfaces().empty()) return;
+  moved_ += travel;
+  if (!stale_ && moved_ <= covered_) return;
+  stale_ = false;
+  moved_ = travel;
+  covered_ = std::max(travel, 0.5 * skin_);
+  const WallNear near{
+      frame_,     walls_.view(),         poses.data, grains.x_list.span(), grains.radius.span(),
+      remembered, 0.5 * skin_ + covered_};
+  compaction_.find(grains.size(), near, grain_);
+  count_.resize(size());
+  for_each({0, size()}, CountWallsPass{near, grain_, count_});
+  surface_.reserve_and_resize(sorter_.exclusive_scan(count_, offset_));
+  row_of_.resize(grains.size());
+  for_each(grains.owned(), NoRowPass{row_of_});
+  for_each({0, size()}, FillWallsPass{near, rows(), surface_.data(), row_of_});
+}
+
+}  // namespace bedload::inline BL_VARIANT
