@@ -1,6 +1,7 @@
 #pragma once
 #include "kernels/fluid/density_pass.hpp"
 #include "kernels/fluid/force_pass.hpp"
+#include "kernels/integrate/fluid_kicks.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -38,7 +39,7 @@ struct OnePass {
     force.finish(a, sum.force);
     const auto change = density.of(a, sum.density);
     rate[a] = change.rate;
-    density.s_new[a] = density.s[a] + change.settled;
+    density.s_new[a] = max_of(density.s[a] + change.settled, kThinnest);
     if (density.drift) density.drift[a] = density.shift(sum.density.shift, sum.density.gradient);
   }
 };
