@@ -20,7 +20,8 @@ from matplotlib.collections import EllipseCollection, LineCollection  # noqa: E4
 from matplotlib.patches import Rectangle  # noqa: E402
 
 import outlines  # noqa: E402
-from frames import Frames, Table, resolved_case  # noqa: E402
+from frames import Table  # noqa: E402
+from scene import Scene  # noqa: E402
 
 FIELDS = {
     "speed": ("velocity", "speed (m/s)", "viridis"),
@@ -32,38 +33,14 @@ GRAIN_FILL, GRAIN_EDGE, WALL = "#d98e4a", "#5b3416", "#9a9a9a"
 FACES = ["x-", "x+", "y-", "y+", "z-", "z+"]
 
 
-class Run:
-    """Frames and geometry of a run folder, seen along one axis."""
+class Run(Scene):
+    """A run folder seen along one axis."""
 
     def __init__(self, folder, view):
-        self.case = resolved_case(folder)
+        super().__init__(folder)
         self.across, self.up = ("xyz".index(axis) for axis in view)
         self.depth = 3 - self.across - self.up
         self.nearer = -1 if view == "xz" else 1  # direction of the viewer along the depth
-        stores = {name: Path(folder) / f"{name}.vtkhdf" for name in ("fluid", "grains")}
-        self.frames = {name: Frames(path) for name, path in stores.items() if path.exists()}
-        if not self.frames:
-            raise SystemExit(f"{folder}: holds neither fluid.vtkhdf nor grains.vtkhdf")
-        walls = Path(folder) / "walls.vtkhdf"
-        self.walls = Frames(walls) if walls.exists() else None
-        shapes = {shape["name"]: shape for shape in self.case.get("shape", [])}
-        self.surfaces = {name: outlines.surfaces(name, shapes, Path(folder)) for name in shapes}
-        self.dx = self.case.get("fluid", {}).get("dx") or self.estimated_spacing()
-
-    def times(self):
-        return next(iter(self.frames.values())).times
-
-    def estimated_spacing(self):
-        """Usual distance to the nearest particle of the first frame, m."""
-        if "fluid" not in self.frames:
-            return 0.0
-        x = self.frames["fluid"].position(0)
-        nearest = []
-        for a in np.linspace(0, len(x) - 1, min(200, len(x)), dtype=int):
-            r = np.linalg.norm(x - x[a], axis=1)
-            r[a] = np.inf
-            nearest.append(r.min())
-        return float(np.median(nearest))
 
     def fluid(self, time, field, cut):
         """Places [n, 2], disc diameters [n] and values [n] of the fluid near `time`, far ones first.
@@ -87,51 +64,13 @@ class Run:
         """Places [n, 2] and diameters [n] of the grains, far ones first; of their cut if there is one."""
         frames = self.frames["grains"]
         k = frames.nearest(time)
-        x, radius = frames.position(k), frames.get(k, "radius")
-        if radius is None:
-            diameter = frames.get(k, "diameter")
-            radius = diameter / 2 if diameter is not None else np.full(len(x), self.case["grain"]["d"] / 2)
+        x, radius = frames.position(k), self.radii(k)
         if cut is not None:
             off = np.abs(x[:, self.depth] - cut)
             keep = off < radius
             x, radius = x[keep], np.sqrt(radius[keep] ** 2 - off[keep] ** 2)
         order = np.argsort(self.nearer * x[:, self.depth], kind="stable")
         return x[order][:, [self.across, self.up]], 2 * radius[order]
-
-    def bodies(self, time):
-        """Wall bodies that are there at `time`, each with its turn and shift since the start: (body, R, s)."""
-        for number, body in enumerate(self.case.get("wall", {}).get("body", [])):
-            motion = body.get("motion", {})
-            parts = [motion, *motion.get("add", [])]
-            turn, shift = np.eye(3), sum((displacement(part, time) for part in parts), np.zeros(3))
-            moves = "free" in body or any(part.get("kind", "fixed") != "fixed" for part in parts)
-            if self.walls and moves:
-                before, after = (self.particles_of(number, t) for t in (0, time))
-                if len(after) != len(before):
-                    continue
-                if len(before) > 2:
-                    turn, shift = outlines.motion_between(before, after)
-            yield body, turn, shift
-
-    def particles_of(self, body, time):
-        """Places of a body's particles near `time`, in the order of their numbers."""
-        frame = self.walls.nearest(time)
-        own = np.flatnonzero(self.walls.get(frame, "body") == body)
-        return self.walls.position(frame)[own[np.argsort(self.walls.get(frame, "id")[own])]]
-
-    def boxes(self, time):
-        """Tanks and boxes with corners as they stand at `time`: (body, min, max)."""
-        for body, turn, shift in self.bodies(time):
-            if body.get("shape") in ("tank", "box"):
-                low, high = np.array(body["min"]), np.array(body["max"])
-                moved = turn @ (low + high) / 2 + shift - (low + high) / 2
-                yield body, low + moved, high + moved
-
-    def meshes(self, time):
-        """Surfaces of named shapes as they stand at `time`."""
-        for body, turn, shift in self.bodies(time):
-            for mesh in self.surfaces.get(body.get("shape"), []):
-                yield outlines.Mesh(mesh.vertices @ turn.T + shift, mesh.triangles)
 
     def window(self, times):
         """Lower and upper corner of what is worth showing, m."""
@@ -144,20 +83,6 @@ class Run:
         pick = [self.across, self.up]
         margin = 0.03 * np.max((high - low)[pick])
         return low[pick] - margin, high[pick] + margin
-
-
-def displacement(motion, time):
-    """How far a part of a motion has moved by `time`, m; turns and formulas show only where walls.vtkhdf does."""
-    begin = motion.get("start", 0.0)
-    t = min(max(time, begin), motion.get("stop", np.inf)) - begin
-    if motion.get("kind") == "velocity":
-        return np.array(motion["velocity"]) * t
-    if motion.get("kind") == "oscillation":
-        return np.array(motion["amplitude"]) * np.sin(2 * np.pi * motion["frequency"] * t)
-    if motion.get("kind") == "table":
-        rows = np.array([row[:4] for row in motion["rows"]])
-        return np.array([np.interp(t, rows[:, 0], rows[:, k]) for k in (1, 2, 3)])
-    return np.zeros(3)
 
 
 def discs(axes, places, diameters, **style):

@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
-"""compare.py and plot.py on small runs made here, whose answers are known; solids of solids.py."""
+"""compare.py, plot.py and render.py on small runs made here, whose answers are known; validate.py with a program that
+takes the place of the solver; solids of solids.py."""
 
+import contextlib
+import io
 import subprocess
 import sys
 import tempfile
@@ -9,16 +12,21 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
 TOOLS = ROOT / "tools"
 sys.path[:0] = [str(TOOLS), str(ROOT / "cases" / "agitated_tube"), str(ROOT / "cases" / "rotating_drum")]
 import bed  # noqa: E402
+import compare  # noqa: E402
 import outlines  # noqa: E402
 import phases  # noqa: E402
 import plot  # noqa: E402
+import render  # noqa: E402
 import rolling  # noqa: E402
 import solids  # noqa: E402
+import validate  # noqa: E402
+from scene import Scene  # noqa: E402
 
 
 def write_frames(path, times, points, fields):
@@ -45,6 +53,18 @@ def tool(name, *arguments):
     return done.returncode, done.stdout, done.stderr
 
 
+def direct(main, *arguments):
+    """As tool, of a main that takes arguments: saves loading what it is made of again."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        try:
+            status = main([str(a) for a in arguments]) or 0
+        except SystemExit as stop:
+            status = stop.code if isinstance(stop.code, int) else 2
+            err.write(stop.code if isinstance(stop.code, str) else "")
+    return status, out.getvalue(), err.getvalue()
+
+
 class Folders(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory()
@@ -57,7 +77,7 @@ class Folders(unittest.TestCase):
 
     def compare(self, check):
         (self.case / "expect.toml").write_text("[[check]]\nname = 'it'\n" + check)
-        return tool("compare.py", self.case, self.run_dir)
+        return direct(compare.main, self.case, self.run_dir)
 
 
 class Compare(Folders):
@@ -112,6 +132,16 @@ relative = true
         slope = value + 'statistic = "slope"\n'  # of 1 + t2
         self.assertEqual(self.compare(slope + "time_range = [0, 1]\nlow = 0.999\nhigh = 1.001")[0], 0)
         self.assertEqual(self.compare(slope + "time_range = [0, 0]\nlow = 0")[0], 1)
+
+    def test_growth_is_fitted_within_a_range_of_values(self):
+        t = np.linspace(0, 2, 41)
+        y = np.where(0.01 * np.exp(3 * t) < 0.1, 0.01 * np.exp(3 * t), 0.5)  # and then it saturates
+        y[:3] = 0.019  # before, it is noise
+        rows = "".join(f"{a},{b}\n" for a, b in zip(t, y))
+        (self.run_dir / "probes" / "wave.csv").write_text("time [s],amplitude [m]\n" + rows)
+        growth = 'kind = "decay"\ndata = "probes/wave.csv"\ncolumn = "amplitude"\ntolerance = 0.01\nrate = -3\n'
+        self.assertEqual(self.compare(growth + "value_range = [0.02, 0.1]")[0], 0)
+        self.assertEqual(self.compare(growth)[0], 1)
 
     def test_falls(self):
         (self.run_dir / "probes" / "energy.csv").write_text("time [s],a [J],b [J]\n0,3,0\n1,2,0.5\n2,1,1.6\n3,1,0\n")
@@ -290,6 +320,197 @@ turn_angle = 5
         reference = self.case / "reference.csv"
         reference.write_text("series,t_s,x_m\nA,0.5,1.4\nB,0.7,1.8\n")
         self.expect_picture("probe", table, "--reference", reference)
+
+
+class Render(Folders):
+    CASE = """[domain]
+min = [0, 0, 0]
+max = [0.1, 0.1, 0.1]
+[fluid]
+dx = 0.01
+[[wall.body]]
+name = "tank"
+shape = "tank"
+min = [0, 0, 0]
+max = [0.1, 0.1, 0.1]
+faces = ["x-", "x+", "y-", "y+", "z-"]
+"""
+
+    def setUp(self):
+        super().setUp()
+        (self.run_dir / "case.resolved.toml").write_text(self.CASE)
+        place = (np.arange(10) + 0.5) * 0.01
+        self.block = np.array(np.meshgrid(place, place, place[:5])).reshape(3, -1).T
+        lone = np.array([[0.05, 0.05, 0.095]])
+        water = np.concatenate([self.block, lone])
+        flow = np.zeros_like(water)
+        flow[:, 0] = water[:, 2]
+        write_frames(self.run_dir / "fluid.vtkhdf", [0, 0.1, 0.2], [water] * 3,
+                     {"velocity": [flow] * 3, "pressure": [np.ones(len(water))] * 3})
+
+    def picture(self, frame=0, **chosen):
+        look = {"size": (160, 120), "fluid": "surface", "colour": "speed", "limits": None, "camera": None, "clip": None,
+                "walls": True}
+        return render.Picture(Scene(self.run_dir), [frame], **look | chosen)
+
+    def test_surface_lies_half_a_spacing_beyond_the_particles(self):
+        mesh, alone, _ = self.picture().surface(0)
+        low, high = np.array(mesh.bounds).reshape(3, 2).T
+        np.testing.assert_allclose(low, 0, atol=0.003)
+        np.testing.assert_allclose(high, [0.1, 0.1, 0.05], atol=0.003)
+        np.testing.assert_allclose(alone, [[0.05, 0.05, 0.095]], atol=1e-6)
+        inner = np.abs(mesh.points[:, 2] - 0.025) < 0.002  # speed is the height
+        self.assertGreater(inner.sum(), 10)
+        np.testing.assert_allclose(mesh["field"][inner], mesh.points[inner, 2], atol=0.002)
+
+    def test_clip_leaves_out_what_is_nearer(self):
+        mesh, _, _ = self.picture(clip=(1, 0.05)).surface(0)  # seen from -y
+        self.assertGreater(mesh.bounds[2], 0.045)
+
+    def test_pictures_show_fluid_and_grains(self):
+        write_frames(self.run_dir / "grains.vtkhdf", [0, 0.1, 0.2], [self.block[:5] + [0, 0, 0.045]] * 3,
+                     {"radius": [np.full(5, 0.01)] * 3})
+        out = Path(self.folder.name) / "it.png"
+        status, _, err = tool("render.py", self.run_dir, "--out", out, "--size", "300,200", "--time", "0.1")
+        self.assertEqual(status, 0, err)
+        pixels = np.asarray(Image.open(out).convert("RGB")).astype(int)
+        self.assertEqual(pixels.shape, (200, 300, 3))
+        red, blue = (pixels[:, :, k] - pixels[:, :, 2 - k] for k in (0, 2))
+        self.assertGreater((blue > 40).sum(), 2000)  # water
+        self.assertGreater((red > 40).sum(), 50)  # grains
+
+    def test_film_has_a_picture_for_each_frame(self):
+        film = Path(self.folder.name) / "it.gif"
+        status, _, err = direct(render.main, self.run_dir, "--film", film, "--size", "96,64", "--fluid", "points")
+        self.assertEqual(status, 0, err)
+        with Image.open(film) as frames:
+            self.assertIn(frames.n_frames, (1, 3))  # equal pictures may become one
+        film = film.with_suffix(".mp4")
+        status, _, err = direct(render.main, self.run_dir, "--film", film, "--size", "96,64", "--no-walls")
+        self.assertEqual(status, 0, err)
+        self.assertEqual(film.read_bytes()[4:8], b"ftyp")
+
+    def test_says_what_is_wrong(self):
+        for arguments, text in ((["--time", "3"], "--time 3: this run has frames from 0 to 0.2 s"),
+                                (["--frame", "7"], "--frame 7: this run has frames 0 to 2"),
+                                (["--colour", "porosity"], "has no grains and so no porosity"),
+                                (["--camera", "left"], "'left' must be 2 to 3 numbers with commas between them"),
+                                (["--film", "it.avi"], "'it.avi' must end in .mp4 or .gif")):
+            status, _, err = direct(render.main, self.run_dir, *arguments)
+            self.assertEqual(status, 2)
+            self.assertIn(text, err)
+        look = self.case / "look.toml"
+        look.write_text("[picture]\ncamra = [0, 0]\n")
+        status, _, err = tool("render.py", self.run_dir, "--like", look)
+        self.assertEqual(status, 2)
+        self.assertIn("[picture] has no 'camra', only fluid, colour", err)
+
+
+class Validate(Folders):
+    PROGRAM = """#!/usr/bin/env python3
+# Takes the place of the solver: h(t) = 1 + dx^2 + t, and a case named broken.
+import json, sys
+from pathlib import Path
+case, out = Path(sys.argv[2]), Path(sys.argv[4])
+with open(Path(__file__).parent / "calls", "a") as calls:
+    calls.write(out.name + "\\n")
+if case.parent.name == "broken":
+    sys.exit(3)
+settings = dict(word.split("=") for before, word in zip(sys.argv, sys.argv[1:]) if before == "--set")
+dx = float(settings.get("fluid.dx", 0.1))
+out.mkdir(parents=True, exist_ok=True)
+(out / "h.csv").write_text("time [s],h [m]\\n" + "".join(f"{t / 10},{1 + dx**2 + t / 10}\\n" for t in range(11)))
+(out / "summary.json").write_text(json.dumps({"wall_time": {"value": 2.5}, "device": {"name": "a device"},
+                                              "precision": "mixed", "counts": {"fluid": 12}}))
+"""
+    EXPECT = """proves = "that {0} rises"
+quick = {1}
+[convergence]
+check = "rise"
+quick = [0.4, 0.2, 0.1]
+[[check]]
+name = "rise"
+kind = "value"
+data = "h.csv"
+column = "h"
+exact = 2.0
+low = 1.99
+high = {2}
+"""
+
+    def setUp(self):
+        super().setUp()
+        self.root, self.cases = Path(self.folder.name), Path(self.folder.name) / "cases"
+        self.program = self.root / "program"
+        self.program.write_text(self.PROGRAM)
+        self.program.chmod(0o755)
+        for name, quick, high in (("broken", "true", 3), ("good", "true", 2.02), ("bad", "true", 2.001),
+                                  ("long", "false", 3)):
+            (self.cases / name).mkdir(parents=True)
+            (self.cases / name / "case.toml").write_text("")
+            (self.cases / name / "expect.toml").write_text(self.EXPECT.format(name, quick, high))
+        fitted = self.cases / "good" / "expect_fitted.toml"
+        fitted.write_text('case = "case.toml"\ncalibrated = "h"\n' + self.EXPECT.format("h", "true", 2.02))
+
+    def validate(self, *arguments):
+        return direct(validate.main, "--cases", self.cases, "--program", self.program, "--out", self.root / "out",
+                    *arguments)
+
+    def calls(self):
+        return (self.root / "calls").read_text().split()
+
+    def test_report(self):
+        status, out, err = self.validate()
+        self.assertEqual(status, 1, out + err)  # one could not be run
+        self.assertIn("4 entries: 1 pass, 1 calibrated, 1 miss, 1 not run.", out)
+        table = (self.root / "out" / "report.md").read_text()
+        self.assertIn("| bad | that bad rises | - | rise: final 2.01 (within 1.99 .. 2.001) | 0 of 1 | **miss** "
+                      "| 2.5 s | 12 fluid | a device | mixed |", table)
+        self.assertIn("the computation broke down", table)
+        self.assertIn("| good | rise | 0.1 | 5.000e-03 | 2.00 | 2.5 s |", table)
+        self.assertNotIn("long", table)
+        page = (self.root / "out" / "report.html").read_text()
+        self.assertEqual(page.count("data:image/png;base64,"), 6)  # a check and a convergence each
+        self.assertNotIn("src='http", page)
+        self.assertLess(len(page), 500_000)
+
+    def test_does_not_run_again_what_it_has(self):
+        self.validate("--only", "good")
+        self.assertEqual(self.calls(), ["good_case", "good_case_0.4", "good_case_0.2", "good_case_0.1"])
+        self.validate("--only", "good")
+        self.assertEqual(len(self.calls()), 4)
+        (self.cases / "good" / "case.toml").write_text("# other\n")
+        self.validate("--only", "good", "--no-convergence")
+        self.assertEqual(self.calls()[4:], ["good_case"])
+        self.program.write_text(self.PROGRAM + "# other\n")
+        self.validate("--only", "good", "--no-convergence")
+        self.assertEqual(self.calls()[5:], ["good_case"])
+
+    def test_says_what_is_wrong(self):
+        status, _, err = self.validate("--only", "god")
+        self.assertEqual(status, 2)
+        self.assertIn("--only god: there is no such case; there are bad, broken, good", err)
+        (self.cases / "bad" / "expect.toml").write_text("porves = 'x'\n" + self.EXPECT.format("x", "true", 3))
+        status, _, err = self.validate()
+        self.assertEqual(status, 2)
+        self.assertIn("expect.toml: unknown key 'porves'; there are check, proves", err)
+
+    def test_cases_can_be_told_of(self):
+        found = [validate.Entry(path, ROOT / "cases") for path in (ROOT / "cases").glob("*/expect*.toml")]
+        self.assertGreater(len(found), 30)
+        for entry in found:
+            self.assertTrue(entry.case.is_file(), entry.path)
+            self.assertIn("proves", entry.header, entry.path)
+            self.assertIn("quick", entry.header, entry.path)
+            render.settings(entry.path)
+            for script in entry.header.get("measure", []):
+                self.assertTrue((entry.folder / script.split()[0]).is_file(), entry.path)
+            for spec in entry.header["check"]:
+                if "reference" in spec:
+                    self.assertTrue((entry.folder / spec["reference"]).is_file(), entry.path)
+            if "convergence" in entry.header:
+                checks = [spec["name"] for spec in entry.header["check"]]
+                self.assertIn(entry.header["convergence"]["check"], checks)
 
 
 class Solids(unittest.TestCase):
