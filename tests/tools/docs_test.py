@@ -36,7 +36,8 @@ class Documents(unittest.TestCase):
         for file in files:
             with self.subTest(file=file.name):
                 self.assertIn(f'--8<-- "tutorial/{file.name}', text)
-                ran = subprocess.run([PROGRAM, "check", file, "--backend", "cpu"], capture_output=True, text=True)
+                check = [PROGRAM, "check", file, "--backend", "cpu", "--threads", "1"]
+                ran = subprocess.run(check, capture_output=True, text=True)
                 self.assertEqual(ran.returncode, 0, ran.stderr)
                 self.assertNotIn("warning", ran.stdout)
 
