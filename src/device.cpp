@@ -126,7 +126,8 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda
   const double neighbours =
       config.fluid.present ? 1.2 * around(reach / config.fluid.dx, config.domain.two_d) : 0;
   const double entry = cuda ? 2.4 : 4;
-  const double fluid = 4 + 2 * position + pair_position + real * 20 + entry * neighbours + position;
+  const double fluid = 4 + 2 * position + pair_position + real * 20 + entry * neighbours + position +
+                       (config.fluid.sdpd() ? real * 12 : 0);
   const bool two_way = coupled && config.couple.mode == CouplingMode::two_way;
   const double optional =
       real * ((config.time.integrator == TimeIntegrator::ab3 ? 3 : 1) + (coupled ? 1 : 0) +

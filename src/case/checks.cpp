@@ -79,6 +79,7 @@ class Checks {
           "than 1 %",
           f.c / f.vmax, f.vmax / f.c);
     if (coupled() && f.mu == 0) fail("fluid.mu", f.mu, "must be > 0 with grains; drag needs mu");
+    if (f.sdpd()) sdpd();
   }
 
   /// Meshes in mm that are taken for m lie far outside the domain, or are lost in it.
@@ -270,6 +271,45 @@ class Checks {
   }
 
  private:
+  /// What SDPD needs, and what of WCSPH's it leaves out.
+  void sdpd() const {
+    const FluidConfig& f = c.fluid;
+    const SdpdConfig& s = c.sdpd;
+    const std::string with = fmt::format("with fluid.model = \"{}\"", f.model.name());
+    if (c.domain.two_d) fail("domain.two_d", "true", "must be false " + with);
+    for (const auto& [key, value] : {std::pair{"shift.A", c.shift},
+                                     {"xsph", c.xsph},
+                                     {"tensile", c.tensile},
+                                     {"density.delta", c.density.delta},
+                                     {"density.void_relaxation", c.density.void_relaxation},
+                                     {"visc.alpha", c.visc.alpha},
+                                     {"visc.beta", c.visc.beta}})
+      if (value != 0) fail(key, value, fmt::format("must be 0 {}, whose noise would set it off", with));
+    if (c.visc.model != ViscosityModel::none)
+      fail("visc.model", quoted(c.visc.model.name()),
+           fmt::format("must be \"none\" {}, which brings its own viscosity", with));
+    if (c.time.integrator != TimeIntegrator::kdk)
+      fail("time.integrator", quoted(c.time.integrator.name()), "must be \"kdk\" " + with);
+    for (std::size_t i = 0; i < c.wall.bodies.size(); ++i)
+      if (const WallBody& body = c.wall.bodies[i]; body.stops_fluid() && body.type != WallType::adami)
+        fail(fmt::format("wall.body.{}.type", i), quoted(body.type.name()), "must be \"adami\" " + with);
+    const bool tensor = s.noise == NoiseForm::tensor && f.model == FluidModel::sdpd_a && s.kT > 0;
+    const double most = 5.0 / 3 * f.mu, least = tensor ? 40.0 / 51 * f.mu : 0;
+    if (f.zeta > most * (1 + 1e-9) || f.zeta < least * (1 - 1e-9))
+      fail("fluid.zeta", f.zeta,
+           fmt::format("must be within {:.6g}..{:.6g}, {}..5/3 of fluid.mu{}", least, most,
+                       tensor ? "40/51" : "0", tensor ? " with sdpd.noise = \"tensor\"" : ""));
+    if (s.force_scale.size() != 4)
+      fail("sdpd.force_scale", fmt::format("[{}]", fmt::join(s.force_scale, ", ")),
+           "must be four numbers: pressure, friction, friction of spins, noise");
+    const double thermal = std::sqrt(3 * s.kT / (f.rho0 * c.domain.cell_volume(f.dx)));
+    if (thermal > 0.3 * f.c)
+      warn("sdpd.kT: particles move at {:.3g} m/s by heat alone, sound at {:.3g}; density will vary widely",
+           thermal, f.c);
+    if (c.density.reinit_every > 0 && c.density.method != DensityMethod::continuity)
+      fail("density.reinit_every", c.density.reinit_every,
+           "must be 0 unless density.method = \"continuity\"");
+  }
   /// Moves as it does from the first: a jump at t = 0 is meant.
   static bool steady(const MotionConfig& m) {
     return m.add.empty() && (m.kind == "velocity" || m.kind == "rotation");

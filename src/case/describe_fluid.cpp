@@ -27,6 +27,19 @@ void fluid_fill(Parameters& p, FluidFill& f) {
   p("velocity", &f.velocity, {.unit = "m/s", .meaning = "three numbers or formulas in x, y, z"});
 }
 
+void describe_sdpd(Parameters& p, Config& c) {
+  p("pressure.filter", &c.eos.filter,
+    {.meaning = "SDPD: pressure averaged over the neighbours, once a step; smears pressure out"});
+  p("sdpd.kT", &c.sdpd.kT,
+    {.unit = "J", .meaning = "energy k_B T of thermal fluctuations; 0: no noise", .range = at_least(0)});
+  p("sdpd.kI", &c.sdpd.kI,
+    {.meaning = "sdpd_a: moment of inertia of a particle / m dx^2", .range = within(0.01, 1)});
+  p("sdpd.noise", &c.sdpd.noise, {.meaning = "random numbers of a pair", .family = "models"});
+  p("sdpd.force_scale", &c.sdpd.force_scale,
+    {.meaning = "factors on pressure, friction of velocities, that of spins, noise, to switch them off",
+     .range = at_least(0)});
+}
+
 }  // namespace
 
 void describe_fill_file(Parameters& p, std::string& file, std::int64_t& step, std::string_view meaning) {
@@ -37,6 +50,7 @@ void describe_fill_file(Parameters& p, std::string& file, std::int64_t& step, st
 }
 
 void describe_fluid(Parameters& p, FluidConfig& f) {
+  p("fluid.model", &f.model, {.meaning = "what the fluid's particles do to each other", .family = "models"});
   p("fluid.dx", &f.dx, {.unit = "m", .meaning = "particle spacing", .range = above(0), .presence = required});
   p("fluid.kernel", &f.kernel, {.meaning = "smoothing kernel", .family = "models"});
   p("fluid.h_over_dx", &f.h_over_dx,
@@ -44,6 +58,13 @@ void describe_fluid(Parameters& p, FluidConfig& f) {
      .range = f.kernel == KernelFunction::lucy ? within(2, 4) : within(1.2, 3)});
   p("fluid.rho0", &f.rho0, {.unit = "kg/m3", .meaning = "density at rest", .range = above(0)});
   p("fluid.mu", &f.mu, {.unit = "Pa s", .meaning = "shear viscosity; > 0 with grains", .range = at_least(0)});
+  if (f.sdpd() || p.everything())
+    p("fluid.zeta", &f.zeta,
+      {.unit = "Pa s",
+       .meaning = "bulk viscosity of SDPD, up to 5 mu / 3",
+       .range = at_least(0),
+       .fallback = "20 mu / 21",
+       .presence = unbounded});
   p("fluid.vmax", &f.vmax,
     {.unit = "m/s",
      .meaning = "fastest flow expected; at least sqrt(2 g H) and the walls'",
@@ -65,6 +86,8 @@ void describe_fluid_models(Parameters& p, Config& c) {
   p("eos.alpha", &c.eos.alpha, {.meaning = "democritus: exponent", .range = at_least(1)});
   p("eos.beta", &c.eos.beta, {.unit = "Pa", .meaning = "democritus: background; the sound speed is derived"});
   p("eos.clip_negative", &c.eos.clip_negative, {.meaning = "no pressure below zero"});
+  const bool sdpd = c.fluid.sdpd() || p.everything();
+  if (sdpd) describe_sdpd(p, c);
   p("density.delta", &c.density.delta, {.meaning = "density diffusion; 0 off", .range = within(0, 0.2)});
   p("density.void_relaxation", &c.density.void_relaxation,
     {.meaning = "void relaxation: how fast pressure fades where the fluid leaves voids, in c/h; 0 off",
@@ -74,11 +97,22 @@ void describe_fluid_models(Parameters& p, Config& c) {
     {.meaning = "fluid cavitates below rho/rho0 - 1 = minus this",
      .range = within(1e-4, 0.5),
      .formerly = "tension"});
+  if (sdpd) {
+    p("density.method", &c.density.method,
+      {.meaning = "SDPD: where the density comes from", .family = "models"});
+    p("density.reinit_every", &c.density.reinit_every,
+      {.meaning = "SDPD, continuity: steps after which density is averaged over the neighbours; 0: never",
+       .range = within(0, 1000000)});
+  }
   p("visc.model", &c.visc.model, {.meaning = "physical viscosity", .family = "laws"});
   p("visc.alpha", &c.visc.alpha,
     {.meaning = "artificial viscosity, linear [monaghan92]", .range = within(0, 1)});
   p("visc.beta", &c.visc.beta, {.meaning = "artificial viscosity, quadratic", .range = within(0, 2)});
-  p("drive.f", &c.drive.f, {.unit = "N/m3", .meaning = "constant force per volume of space, on the fluid"});
+  p("drive.f", &c.drive.f,
+    {.unit = "N/m3", .meaning = "constant force on the fluid, per volume of space or (drive.mode) of mass"});
+  p("drive.mode", &c.drive.mode, {.meaning = "what drive.f is counted by", .family = "models"});
+  p("drive.opposed", &c.drive.opposed,
+    {.meaning = "axis along which drive.f is reversed in the upper half of the domain", .family = "models"});
   p("drive.rate", &c.drive.rate,
     {.unit = "1/s", .meaning = "per axis; fluid is pulled by -rate^2 (r - centre) in m/s2"});
   p("drive.centre", &c.drive.centre, {.unit = "m", .meaning = "where to"});

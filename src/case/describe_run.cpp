@@ -155,6 +155,8 @@ void describe_time(Parameters& p, Config& c) {
   p("time.force_dt", &t.force_dt, {.meaning = "a fixed step above its limit only warns"});
   p("time.cfl", &t.cfl, fraction("fraction of the limit by sound"));
   p("time.visc", &t.visc, fraction("by viscosity"));
+  if (c.fluid.sdpd() || p.everything())
+    p("time.friction", &t.friction, fraction("SDPD: of the time in which friction stops a particle"));
   p("time.body", &t.body, fraction("by acceleration"));
   p("time.drag", &t.drag, fraction("by drag"));
   p("time.rayleigh", &t.rayleigh, fraction("by Rayleigh waves in a grain"));

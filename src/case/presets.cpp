@@ -4,7 +4,21 @@
 
 namespace bedload {
 
-Config preset_defaults(const std::string& name) {
+namespace {
+
+/// None of what keeps WCSPH smooth: noise would set it off.
+void set_sdpd(Config& c) {
+  c.shift = c.xsph = c.tensile = 0;
+  c.tensile_one_sign = false;
+  c.density.delta = c.density.void_relaxation = 0;
+  c.density.cavitation_limit = 0.5;
+  c.density.method = DensityMethod::summation;
+  c.visc.model = ViscosityModel::none;
+  c.wall.no_penetration = c.wall.repulsion = false;
+  c.time.integrator = TimeIntegrator::kdk;
+}
+
+Config preset_of(const std::string& name) {
   Config c;
   c.preset = name;
   if (name != "he2018") return c;
@@ -29,6 +43,15 @@ Config preset_defaults(const std::string& name) {
   c.couple.angmom = false;
   c.couple.slip = DragSlip::mean;
   c.time.integrator = TimeIntegrator::euler;
+  return c;
+}
+
+}  // namespace
+
+Config preset_defaults(const std::string& name, Chosen<FluidModel> fluid_model) {
+  Config c = preset_of(name);
+  c.fluid.model = fluid_model;
+  if (c.fluid.sdpd()) set_sdpd(c);
   return c;
 }
 

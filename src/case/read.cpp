@@ -10,11 +10,18 @@
 namespace bedload {
 namespace {
 
-/// The preset is read before all else, since it sets what stands where a key is absent.
+/// Preset and fluid model are read before all else, since they set what stands where a key is absent.
 Config defaults(const Value& root) {
-  const Value* preset = root.find("preset");
-  const auto* name = preset ? preset->get<std::string>() : nullptr;
-  return preset_defaults(name ? *name : "default");
+  const auto text = [](const Value* table, const char* key, const char* fallback) {
+    const Value* value = table ? table->find(key) : nullptr;
+    const auto* name = value ? value->get<std::string>() : nullptr;
+    return name ? *name : std::string(fallback);
+  };
+  const std::string model = text(root.find("fluid"), "model", "");
+  Chosen<FluidModel> chosen = FluidModel::wcsph;  // the reader tells of a name that is none
+  for (const auto& row : kNames<FluidModel>)
+    if (row.name == model) chosen = row.value;
+  return preset_defaults(text(&root, "preset", "default"), chosen);
 }
 
 std::string text_of(const std::filesystem::path& path) {

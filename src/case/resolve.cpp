@@ -251,6 +251,7 @@ void resolve_fluid(Config& c, const Value& root, const std::filesystem::path& ch
     vmax = std::max(vmax, inlet_speed(inlet, f.dx, c.domain, c.time.end));
   if (vmax == 0) missing(root, "fluid.vmax", "m/s; neither gravity nor a wall or inlet sets a speed here");
   f.vmax = vmax;
+  if (f.sdpd() && std::isinf(f.zeta)) f.zeta = 20.0 / 21 * f.mu;
   switch (c.eos.type) {
     case EosType::tait:
       f.c = f.c_factor * vmax;

@@ -1,6 +1,7 @@
 #include "src/fluid/fluid_solver.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "kernels/fluid/density_pass.hpp"
 #include "kernels/fluid/force_pass.hpp"
@@ -11,6 +12,7 @@
 #include "kernels/smoothing/registry.hpp"
 #include "kernels/walls/crossing.hpp"
 #include "src/boundaries/orifices.hpp"
+#include "src/fluid/registry.hpp"
 #include "src/measure/sweeps.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -319,6 +321,11 @@ class FluidSolverWith final : public FluidSolver {
 
 std::unique_ptr<FluidSolver> FluidSolver::make(const Config& config, const Frame& frame,
                                                const WallGeometry& walls, FluidStore& fluid) {
+  return FluidModels::make(config, frame, walls, fluid);
+}
+
+std::unique_ptr<FluidSolver> Wcsph::make(const Config& config, const Frame& frame, const WallGeometry& walls,
+                                         FluidStore& fluid) {
   std::unique_ptr<FluidSolver> solver;
   with_fluid_kernel(config, [&](const auto& w) {
     solver = std::make_unique<FluidSolverWith<std::decay_t<decltype(w)>>>(config, frame, walls, fluid, w);
@@ -375,6 +382,12 @@ void FluidSolver::save(std::vector<Quantity>& scalars) const {
   scalars.push_back({"density_dt_before", "s", dt_before_});
 }
 
+double FluidSolver::friction_limit(double eps_min) const {
+  if (config_.visc.model == ViscosityModel::none || config_.fluid.mu == 0)
+    return std::numeric_limits<double>::infinity();
+  return config_.time.visc * square(range() / 2) * eps_min * config_.fluid.rho0 / config_.fluid.mu;
+}
+
 double FluidSolver::repulsion_cap(double dt) const {
   return dt > 0 ? 0.1 * config_.fluid.dx / (dt * dt) : 1e30;
 }
@@ -382,7 +395,8 @@ double FluidSolver::repulsion_cap(double dt) const {
 Drive FluidSolver::drive(const FluidStore& fluid) const {
   const DriveConfig& d = config_.drive;
   const Vec3d spring{d.rate.x * d.rate.x, d.rate.y * d.rate.y, d.rate.z * d.rate.z};
-  return {frame_, fluid.x, d.f, spring, d.centre, d.pulls()};
+  const int opposed = int(DriveReversal(d.opposed)) - int(DriveReversal::x);
+  return {frame_, fluid.x, d.f, d.mode == DriveMode::mass, opposed, spring, d.centre, d.pulls()};
 }
 
 WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const {

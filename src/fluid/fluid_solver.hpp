@@ -25,9 +25,20 @@ struct FluidExtremes {
   Index bad = kNone;  ///< lowest place of a particle with NaN or a density out of range
 };
 
+/// Spin of fluid particles: fields of a model that has it.
+struct Spin {
+  double inertia;  ///< moment of a particle over its mass, m2
+  Field<Real3> omega, acc;
+
+  Spin(FluidStore& fluid, double inertia)
+      : inertia(inertia),
+        omega(fluid, "angular_velocity", "rad/s", Lifetime::kept),
+        acc(fluid, "angular_acceleration", "rad/s2", Lifetime::kept) {}
+};
+
 class FluidSolver {
  public:
-  /// Chooses the kernel function once. `walls` and `fluid`, of which it may keep more, must outlive it;
+  /// Chooses model and kernel function once. `walls` and `fluid`, of which it may keep more, must outlive it;
   /// construct it before `fluid` is filled or loaded.
   static std::unique_ptr<FluidSolver> make(const Config& config, const Frame& frame,
                                            const WallGeometry& walls, FluidStore& fluid);
@@ -57,6 +68,12 @@ class FluidSolver {
   /// Gravity minus the frame's acceleration (m/s2), for the next walls() and forces(). density() takes it for
   /// its hydrostatic slope, as it was for the state from which it starts.
   void set_gravity(const Vec3d& g) { gravity_ = Real3(g); }
+  /// Which step the next forces() end; of noise.
+  void set_step(std::int64_t step) { step_ = std::uint64_t(step); }
+  /// Longest step that viscosity allows, s.
+  virtual double friction_limit(double eps_min) const;
+  /// Null where particles do not spin.
+  virtual Spin* spin() { return nullptr; }
 
   /// Sorts the fluid and renews all lists; sorts the walls too where they have moved. travel: of the fastest
   /// in a step, m; where lists would last less than four steps they get half as much skin again.
@@ -153,6 +170,7 @@ class FluidSolver {
   double corrected_ = 0;        ///< kick of the last correction, s; 0 since the last forces()
   std::vector<std::unique_ptr<Field<Real>>> rates_;  ///< of s, one_pass(): at the last three ends of steps
   double last_dt_ = 0, dt_before_ = 0;               ///< s, of the steps between them; 0: there was none
+  std::uint64_t step_ = 0;
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -61,7 +61,7 @@ HostArray made(const char* name, const char* unit, Range range, Args... args) {
 
 // --- diagnostics -----------------------------------------------------------------------------
 
-/// mass, momentum 3, angular momentum 3, kinetic, potential, elastic energy.
+/// mass, momentum 3, angular momentum 3, kinetic, potential, elastic, spin energy.
 struct FluidTotals {
   Frame frame;
   EquationOfState eos;
@@ -70,14 +70,18 @@ struct FluidTotals {
   Span<const FluidPosition> x;
   Span<const Real4> v_rho;
   Span<const Real> mass, s;
+  double inertia;  ///< of a particle over its mass, m2
+  Span<const Real3> spin;
   BL_HD void operator()(Index a, double* out) const {
     const double m = mass[a];
-    const Vec3d at = coordinates(frame, x[a]), v = Vec3d(v_rho[a].xyz()), l = cross(at, v);
+    const Vec3d w = inertia > 0 ? Vec3d(spin[a]) : Vec3d{};
+    const Vec3d at = coordinates(frame, x[a]), v = Vec3d(v_rho[a].xyz()), l = cross(at, v) + inertia * w;
     out[0] = m;
     for (int k = 0; k < 3; ++k) out[1 + k] = m * v[k], out[4 + k] = m * l[k];
     out[7] = 0.5 * m * norm2(v);
     out[8] = m * (drive.energy(a) - dot(gravity, at));
     out[9] = m * eos.energy(s[a]);
+    out[10] = 0.5 * m * inertia * norm2(w);
   }
 };
 
@@ -142,6 +146,7 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
     out.arrays.push_back(made<Real, PressurePart>("pressure", "Pa", all, Span<const Real4>(fluid_.m_state)));
     out.arrays.push_back(made<Real, DensityPart>("density", "kg/m3", all, Span<const Real4>(fluid_.m_state)));
     if (coupled()) out.arrays.push_back(fluid_.eps.to_host());
+    if (const Spin* spin = fluid_solver_->spin()) out.arrays.push_back(spin->omega.to_host());
     out.arrays.push_back(fluid_.id.to_host());
   } else if (name == "grains" && has_grains()) {
     out.count = grains_.size();
@@ -179,15 +184,18 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
   Vec3d wall_on_fluid;
   if (has_fluid()) {
     const Drive drive = fluid_solver_->drive(fluid_);
-    const auto t =
-        sum_over<10>(fluid_.owned(), FluidTotals{frame_, fluid_solver_->eos(), config_.gravity, drive,
-                                                 fluid_.x, fluid_.v_rho, fluid_.mass, fluid_.s});
+    const Spin* spin = fluid_solver_->spin();
+    const auto t = sum_over<11>(fluid_.owned(),
+                                FluidTotals{frame_, fluid_solver_->eos(), config_.gravity, drive, fluid_.x,
+                                            fluid_.v_rho, fluid_.mass, fluid_.s, spin ? spin->inertia : 0,
+                                            spin ? Span<const Real3>(spin->omega) : Span<const Real3>()});
     out.push_back({"fluid_mass", "kg", t.v[0]});
     vec("fluid_momentum", "kg m/s", {t.v[1], t.v[2], t.v[3]});
     vec("fluid_angular_momentum", "kg m2/s", {t.v[4], t.v[5], t.v[6]});
     out.push_back({"fluid_kinetic_energy", "J", t.v[7]});
     out.push_back({"fluid_potential_energy", "J", t.v[8]});
     out.push_back({"fluid_elastic_energy", "J", t.v[9]});
+    if (spin) out.push_back({"fluid_spin_energy", "J", t.v[10]});
     const FluidLoads& loads = fluid_loads();
     for (int b = 0; b < motion_.bodies(); ++b) wall_on_fluid -= loads.all(b).force();
     const auto l = sum_over<9>(

@@ -73,6 +73,8 @@ class SolidSolver {
   void refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal = {});
   const Buffer<Index>& order() const { return order_; }
   const VerletList& list() const { return list_; }
+  /// Grains that have a row of walls that they may meet.
+  Index near_walls() const { return wall_list_.size(); }
 
   GrainWatch watch(const GrainStore& grains) const;
   /// All limits on a substep; none of them binds is marked (the caller takes the least).

@@ -144,6 +144,7 @@ void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   FluidSolver& fluid = *fluid_solver_;
   const Span<const BodyPose> pose = motion_.poses(clock_.time + dt, 0, 1);
   fluid.set_gravity(gravity_.at(clock_.time + dt));
+  fluid.set_step(clock_.step + 1);
   if (walls_.size() > 0) fluid.walls(fluid_, walls_, pose, two_way() ? dt : 0, motion_.moves());
   fluid.forces(fluid_, walls_, pose, dt);
   fluid.repel(fluid_, pose, predict, dt);
@@ -155,9 +156,8 @@ std::vector<StepLimit> CoupledSimulation::limits() {
   if (has_fluid()) {
     const double hs = fluid_solver_->range() / 2, c = config_.fluid.c;
     out.push_back({"cfl", t.cfl * hs / (c + std::sqrt(fluid_extremes_.v2))});
-    if (config_.visc.model != ViscosityModel::none && config_.fluid.mu > 0)
-      out.push_back(
-          {"viscous", t.visc * hs * hs * fluid_extremes_.eps_min * config_.fluid.rho0 / config_.fluid.mu});
+    if (const double longest = fluid_solver_->friction_limit(fluid_extremes_.eps_min); std::isfinite(longest))
+      out.push_back({"viscous", longest});
     if (fluid_extremes_.acc2 > 0)
       out.push_back({"body", t.body * std::sqrt(hs / std::sqrt(fluid_extremes_.acc2))});
     if (coupled()) out.push_back({"drag", drag_limit_});

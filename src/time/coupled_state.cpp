@@ -263,6 +263,7 @@ void CoupledSimulation::load(const SavedState& state) {
     fluid_.load(store_of(state, "fluid"));
     fluid_solver_->load(scalar);
     fluid_solver_->set_gravity(gravity_.at(clock_.time));
+    fluid_solver_->set_step(clock_.step);
     walls_.load(store_of(state, "walls"));
     const auto mirrored = [](const WallBody& body) { return body.type == WallType::mdbc; };
     if (std::any_of(config_.wall.bodies.begin(), config_.wall.bodies.end(), mirrored))

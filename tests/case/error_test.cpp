@@ -88,6 +88,30 @@ INSTANTIATE_TEST_SUITE_P(
               "here)"}));
 
 INSTANTIATE_TEST_SUITE_P(
+    FluidModel, CaseErrors,
+    testing::Values(
+        Wrong{"dx = 0.004", "dx = 0.004\nmodel = \"spdp\"",
+              "dam.toml:7: fluid.model = \"spdp\" must be one of wcsph, sdpd, sdpd_a"},
+        Wrong{"[fluid]", "[sdpd]\nkT = 1\n[fluid]",
+              "dam.toml:6: sdpd.kT = 1 has no use here; leave it out or change what it belongs to"},
+        Wrong{"[fluid]", "[shift]\nA = 5\n[fluid]\nmodel = \"sdpd\"",
+              "dam.toml:6: shift.A = 5 must be 0 with fluid.model = \"sdpd\", whose noise would set it off"},
+        Wrong{"[fluid]", "[visc]\nmodel = \"morris\"\n[fluid]\nmodel = \"sdpd\"",
+              "dam.toml:6: visc.model = \"morris\" must be \"none\" with fluid.model = \"sdpd\", which "
+              "brings its "
+              "own viscosity"},
+        Wrong{"[fluid]", "[fluid]\nmodel = \"sdpd_a\"\nzeta = 1",
+              "dam.toml:7: fluid.zeta = 1 must be within 0..0.00166667, 0..5/3 of fluid.mu"},
+        Wrong{"[fluid]", "[sdpd]\nforce_scale = [1, 1]\n[fluid]\nmodel = \"sdpd\"",
+              "dam.toml:6: sdpd.force_scale = [1, 1] must be four numbers: pressure, friction, friction of "
+              "spins, "
+              "noise"},
+        Wrong{"[fluid]", "[sdpd]\nnoise = \"tensor\"\nkT = 1e-20\n[fluid]\nmodel = \"sdpd_a\"\nzeta = 5e-4",
+              "dam.toml:10: fluid.zeta = 0.0005 must be within 0.000784314..0.00166667, 40/51..5/3 of "
+              "fluid.mu with "
+              "sdpd.noise = \"tensor\""}));
+
+INSTANTIATE_TEST_SUITE_P(
     Bounds, CaseErrors,
     testing::Values(
         Wrong{"dx = 0.004", "dx = 0", "dam.toml:6: fluid.dx = 0 must be > 0"},

@@ -41,6 +41,8 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"rayleigh_taylor_grains/glycerol.toml", {2548, 1960, {"grain.E"}}},
       {"rayleigh_taylor_grains/lattice.toml", {2548, 0}},
       {"rayleigh_taylor_grains/water.toml", {2548, 1960, {"grain.E"}}},
+      {"reverse_poiseuille/case.toml", {28 * 56 * 14, 0}},
+      {"reverse_poiseuille/small.toml", {7 * 7 * 14, 0}},
       {"rotating_drum/case.toml", {14553, 7755}},
       {"sloshing/case.toml", {2000, 0}},
       {"sphere_settling/air.toml", {20 * 20 * 30, 1}},

@@ -65,6 +65,13 @@ TEST(Choices, OfContactsRun) {
 }
 
 TEST(Choices, OfTheFluidRun) {
+  expect_all_run<FluidModel>("fluid.model");
+  expect_all_run<DensityMethod>("density.method",
+                                {{"continuity", "fluid.model=sdpd"}, {"summation", "fluid.model=sdpd"}});
+  expect_all_run<NoiseForm>("sdpd.noise",
+                            {{"vector", "fluid.model=sdpd_a"}, {"tensor", "fluid.model=sdpd_a"}});
+  expect_all_run<DriveMode>("drive.mode");
+  expect_all_run<DriveReversal>("drive.opposed");
   expect_all_run<KernelFunction>("fluid.kernel", {{"lucy", "fluid.h_over_dx=3"}});
   expect_all_run<EosType>("eos.type");
   expect_all_run<ViscosityModel>("visc.model");

@@ -170,6 +170,34 @@ TEST(SolidLists, RefusesContactsThatDoNotBelong) {
   EXPECT_THROW(b.solver->load_contacts(*b.grains, *b.grid, contacts), FileError);
 }
 
+TEST(SolidLists, WallsAreMetByTheListAsWithoutOne) {
+  // a lid comes down on a heap and goes farther than a skin
+  const auto boxed = [](double told_speed) {
+    auto b = std::make_unique<Heap>(200, false);
+    WallBody lid;
+    lid.shape = "box";
+    lid.min = {-0.01, -0.01, 0.0145}, lid.max = {0.03, 0.03, 0.02};
+    b->config.wall.bodies.push_back(lid);
+    b->motion = [](int body, double t) {
+      BodyPose pose;
+      if (body == 1) pose.v = {0, 0, -2}, pose.translation = t * pose.v;
+      return pose;
+    };
+    b->wall_speed = told_speed;
+    b->start();
+    b->run(2e-6, 1500);
+    return b;
+  };
+  const auto all = boxed(WallList::kAnywhere), listed = boxed(2);
+  EXPECT_EQ(all->solver->near_walls(), 200u);
+  EXPECT_LT(listed->solver->near_walls(), 150u);
+  EXPECT_GT(listed->solver->near_walls(), 50u);
+  listed->set_poses(1, 0);
+  EXPECT_GT(listed->solver->body_loads(*listed->grains, listed->poses())[1].force().z, 0) << "the lid is met";
+  EXPECT_EQ(bits(*all->grains), bits(*listed->grains));
+  EXPECT_EQ(histories(*all), histories(*listed));
+}
+
 TEST(SolidLists, TheSameRunTwiceIsBitEqual) {
   Heap a(200), b(200);
   a.start(), b.start();

@@ -25,6 +25,7 @@ class GrainBench {
   std::unique_ptr<SolidSolver> solver;
   std::unique_ptr<CellGrid> grid;
   std::function<BodyPose(int body, double time)> motion = [](int, double) { return BodyPose{}; };
+  double wall_speed = WallList::kAnywhere;  ///< of no wall more, m/s; without it all surfaces are listed
   double time = 0;
   int refreshes = 0;
 
@@ -102,7 +103,7 @@ class GrainBench {
     for (int done = 0; done < steps;) {
       const int n = std::min(kChunk, steps - done);
       set_poses(n, dt);
-      solver->advance(*grains, poses(), int(config.wall.bodies.size()), n * dt, n, held);
+      solver->advance(*grains, poses(), int(config.wall.bodies.size()), n * dt, n, held, {}, n * dt * wall_speed);
       time += n * dt;
       done += n;
       if (grains->size() > 1 && solver->watch(*grains).displacement > 0.4 * solver->skin()) refresh();

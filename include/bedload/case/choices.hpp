@@ -87,6 +87,49 @@ inline constexpr auto kNames<RollingLaw> = std::to_array<Named<RollingLaw>>({
 
 // -- fluid ---------------------------------------------------------------------------------------
 
+/// fluid.model
+enum class FluidModel { wcsph, sdpd, sdpd_a };
+template <>
+inline constexpr auto kNames<FluidModel> = std::to_array<Named<FluidModel>>({
+    {FluidModel::wcsph, "wcsph", "weakly compressible SPH, with terms that keep it smooth"},
+    {FluidModel::sdpd, "sdpd", "smoothed dissipative particle dynamics: friction and noise [espanol03]"},
+    {FluidModel::sdpd_a, "sdpd_a", "the same with spin, which keeps angular momentum [mueller15]"},
+});
+
+/// density.method, of SDPD
+enum class DensityMethod { continuity, summation };
+template <>
+inline constexpr auto kNames<DensityMethod> = std::to_array<Named<DensityMethod>>({
+    {DensityMethod::continuity, "continuity", "the divergence of the flow; drifts with noise"},
+    {DensityMethod::summation, "summation", "the particles around"},
+});
+
+/// sdpd.noise
+enum class NoiseForm { vector, tensor };
+template <>
+inline constexpr auto kNames<NoiseForm> = std::to_array<Named<NoiseForm>>({
+    {NoiseForm::vector, "vector", "three random numbers a pair"},
+    {NoiseForm::tensor, "tensor", "nine, of the same covariance [tsuzuki]"},
+});
+
+/// drive.mode
+enum class DriveMode { volume, mass };
+template <>
+inline constexpr auto kNames<DriveMode> = std::to_array<Named<DriveMode>>({
+    {DriveMode::volume, "volume", "N/m3"},
+    {DriveMode::mass, "mass", "m/s2, given without a unit"},
+});
+
+/// drive.opposed
+enum class DriveReversal { none, x, y, z };
+template <>
+inline constexpr auto kNames<DriveReversal> = std::to_array<Named<DriveReversal>>({
+    {DriveReversal::none, "none", "drive.f is the same everywhere"},
+    {DriveReversal::x, "x", "it is reversed in the upper half of the domain along x"},
+    {DriveReversal::y, "y", "along y"},
+    {DriveReversal::z, "z", "along z"},
+});
+
 /// fluid.kernel
 enum class KernelFunction { wendland_c2, cubic, lucy };
 template <>
@@ -210,11 +253,14 @@ inline constexpr bool all_named = [] {
 }();
 
 static_assert(all_named<NormalLaw, NormalLaw::none> && all_named<SlidingLaw, SlidingLaw::none> &&
-              all_named<RollingLaw, RollingLaw::none> && all_named<KernelFunction, KernelFunction::lucy> &&
-              all_named<EosType, EosType::democritus> && all_named<ViscosityModel, ViscosityModel::none> &&
-              all_named<WallType, WallType::fluid_only> && all_named<WallSlip, WallSlip::slip> &&
-              all_named<LayerForce, LayerForce::monaghan> && all_named<CouplingMode, CouplingMode::off> &&
-              all_named<DragSlip, DragSlip::local> && all_named<DragLaw, DragLaw::stokes> &&
+              all_named<RollingLaw, RollingLaw::none> && all_named<FluidModel, FluidModel::sdpd_a> &&
+              all_named<DensityMethod, DensityMethod::summation> && all_named<NoiseForm, NoiseForm::tensor> &&
+              all_named<DriveMode, DriveMode::mass> && all_named<DriveReversal, DriveReversal::z> &&
+              all_named<KernelFunction, KernelFunction::lucy> && all_named<EosType, EosType::democritus> &&
+              all_named<ViscosityModel, ViscosityModel::none> && all_named<WallType, WallType::fluid_only> &&
+              all_named<WallSlip, WallSlip::slip> && all_named<LayerForce, LayerForce::monaghan> &&
+              all_named<CouplingMode, CouplingMode::off> && all_named<DragSlip, DragSlip::local> &&
+              all_named<DragLaw, DragLaw::stokes> &&
               all_named<DragIntegrator, DragIntegrator::explicit_steps> &&
               all_named<TimeIntegrator, TimeIntegrator::euler>);
 

@@ -78,9 +78,11 @@ struct FluidConfig {
   bool present = false;
   double dx = 0;                               ///< particle spacing, m
   double h_over_dx = 1.5;
+  Chosen<FluidModel> model = FluidModel::wcsph;
   Chosen<KernelFunction> kernel = KernelFunction::wendland_c2;
   double rho0 = 1000;                          ///< kg/m3
   double mu = 1e-3;                            ///< Pa s
+  double zeta = std::numeric_limits<double>::infinity();  ///< bulk viscosity of SDPD, Pa s (default 20 mu / 21)
   double vmax = 0;                             ///< m/s; 0: sqrt(2 g H)
   double c_factor = 10;                        ///< sound speed / vmax
   double c = 0;                                ///< numerical sound speed, m/s (resolved)
@@ -88,12 +90,15 @@ struct FluidConfig {
   std::vector<FluidFill> fills;
   double h() const { return h_over_dx * dx; }
   double kappa() const { return kernel == KernelFunction::lucy ? 1 : 2; }  ///< support / h
+  bool sdpd() const { return model != FluidModel::wcsph; }
   bool operator==(const FluidConfig&) const = default;
 };
 
 /// What drives the fluid besides gravity.
 struct DriveConfig {
-  Vec3d f{0, 0, 0};                            ///< constant force per volume of space, N/m3
+  Vec3d f{0, 0, 0};                            ///< constant force per volume of space, N/m3; or per mass, m/s2
+  Chosen<DriveMode> mode = DriveMode::volume;
+  Chosen<DriveReversal> opposed = DriveReversal::none;
   Vec3d rate{0, 0, 0};                         ///< pulls towards the centre: acceleration -rate^2 (r - centre), 1/s
   Vec3d centre{0, 0, 0};                       ///< m
   bool pulls() const { return rate != Vec3d{}; }
@@ -106,6 +111,7 @@ struct EosConfig {
   double p0 = 100, alpha = 7, beta = 100;      ///< democritus: Pa, -, Pa
   double background = 0;                       ///< tait: pressure at rho0, Pa
   bool clip_negative = false;
+  bool filter = false;                         ///< pressure averaged over neighbours
   bool operator==(const EosConfig&) const = default;
 };
 
@@ -113,6 +119,8 @@ struct DensityConfig {
   double delta = 0.1;                          ///< density diffusion
   double void_relaxation = 3;                  ///< how fast pressure fades in fluid with voids in it, c/h
   double cavitation_limit = 0.001;             ///< the fluid cavitates below rho/rho0 - 1 = minus this
+  Chosen<DensityMethod> method = DensityMethod::continuity;
+  std::int64_t reinit_every = 0;               ///< steps; 0: never
   bool operator==(const DensityConfig&) const = default;
 };
 
@@ -120,6 +128,15 @@ struct ViscosityConfig {
   Chosen<ViscosityModel> model = ViscosityModel::morris;
   double alpha = 0, beta = 0;                  ///< artificial viscosity
   bool operator==(const ViscosityConfig&) const = default;
+};
+
+/// Smoothed dissipative particle dynamics: what it adds to the fluid.
+struct SdpdConfig {
+  double kT = 0;                               ///< energy of fluctuations, k_B T, J
+  double kI = 0.1;                             ///< moment of inertia of a particle / m dx^2
+  Chosen<NoiseForm> noise = NoiseForm::vector;
+  std::vector<double> force_scale{1, 1, 1, 1}; ///< of pressure, friction, its part by spin, noise
+  bool operator==(const SdpdConfig&) const = default;
 };
 
 /// A row of a motion table: t (s), x, y, z (m), rotation vector (deg).
@@ -351,6 +368,7 @@ struct TimeConfig {
   double dt = 0;                               ///< s; 0: adaptive
   double dt_dem = 0;                           ///< s; 0: adaptive
   double cfl = 0.25, visc = 0.125, body = 0.25, drag = 0.5, rayleigh = 0.2, contact = 0.04;
+  double friction = 0.05;                      ///< of SDPD
   Chosen<TimeIntegrator> integrator = TimeIntegrator::kdk;
   bool force_dt = false;
   bool operator==(const TimeConfig&) const = default;
@@ -447,6 +465,7 @@ struct Config {
   EosConfig eos;
   DensityConfig density;
   ViscosityConfig visc;
+  SdpdConfig sdpd;
   WallConfig wall;
   std::vector<InletConfig> inlets;
   std::vector<OutletConfig> outlets;

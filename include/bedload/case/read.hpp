@@ -34,7 +34,7 @@ std::string resolved_toml(const Config& config);
 std::vector<std::string> changes_between(const std::string& then, const std::string& now);
 
 /// The defaults of a preset; `name` is "default" or "he2018".
-Config preset_defaults(const std::string& name);
+Config preset_defaults(const std::string& name, Chosen<FluidModel> fluid_model = FluidModel::wcsph);
 
 /// What the settling of the grains before t = 0 depends on, and nothing else: a
 /// dry case of grains and walls.

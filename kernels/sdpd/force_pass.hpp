@@ -1,0 +1,168 @@
+#pragma once
+#include "bedload/particles/walls.hpp"
+#include "kernels/fluid/force_pass.hpp"
+#include "kernels/sdpd/pair_law.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// What a wall particle does to fluid particle a. It turns with the particle that it meets, u = v_a - v_w + r
+/// x w_a, so that fluid in simple shear beside a no-slip wall slips as little as in the bulk. Friction with
+/// what does not move by itself takes heat out, so walls make noise, too: they are at the fluid's
+/// temperature.
+template <class W>
+struct SdpdWallPair {
+  W w;
+  PairLaw law;
+  Real pressing;  ///< factor on the pressure
+  bool noisy;
+
+  template <class N>
+  struct Force {
+    Vec3<N> push, friction, noise;  ///< m/s2, N, N
+  };
+  /// a: {v, rho}, V, P / rho^2, spin, id; b: wall's as in WallPair, and its label.
+  template <class N>
+  BL_HD Force<N> operator()(const Vec4<N>& va, N V, N pa, const Vec3<N>& spin, const RowId<N>& id,
+                            const Vec4<N>& vw, const Vec4<N>& mw, const Vec4<N>& visc, N label,
+                            const Vec3<N>& r, N r2) const {
+    const N F = w.F(root(r2)), g = V * quotient(visc.w, vw.w) * F;
+    Force<N> out;
+    out.push = (pressing * pressure_term(mw.x, pa, mw.y, F)) * r;
+    out.friction = law.friction(g, va.xyz() - visc.xyz(), cross(r, spin), r, r2);
+    if (noisy) out.noise = law.noise(g, id, label, r, r2);
+    return out;
+  }
+};
+
+/// Momentum and spin of SDPD. theta: stress of the mixture over its density, as in WCSPH's ForcePass; noise
+/// acts on the fluid alone, acc = theta + gravity + drive + noise. Both partners of a pair feel the couple -r
+/// x F / 2, F being friction and noise, which with r x F adds up to none. kSpin: particles spin; kNoise:
+/// there is noise.
+template <class W, bool kSpin, bool kNoise>
+struct SdpdForcePass {
+  SdpdWallPair<W> wall;
+  Span<const Real4> flux, m_state, spin_label;
+  Span<const Real> p_rho2, mass;
+  Span<const Id> id;
+  Span<const Real4> wall_v_rho, wall_m_state, wall_v_visc;
+  Span<const Real> wall_label;
+  Real3 gravity;  ///< minus the frame's acceleration, m/s2
+  Drive drive;
+  Real dt, inertia;  ///< s; k_I dx^2, m2
+  Span<Real3> theta, acc, spin, spin_acc;
+
+  template <class N = Real>
+  struct Sum {
+    Vec4<N> v;
+    N V, p;
+    Vec3<N> spin;
+    RowId<N> id;
+    Vec3<N> push, friction, noise, couple;  ///< m/s2; N; N; N m
+  };
+  BL_HD Sum<> start(Index a) const {
+    const Real4 m = m_state[a], v = flux[a];
+    Sum<> sum{v, quotient(m.x, m.z), m.y, {}, row_id(id[a]), {}, {}, {}, {}};
+    if (kSpin) sum.spin = spin_label[a].xyz();
+    return sum;
+  }
+  BL_HD auto sources() const {
+    if constexpr (kSpin || kNoise)
+      return sources_of(flux, p_rho2, spin_label);
+    else
+      return sources_of(flux, p_rho2);
+  }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p) const {
+    pair(sum, r, r2, M, vb, p, Vec4<N>{});
+  }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
+                  [[maybe_unused]] const Vec4<N>& own) const {
+    const N F = wall.w.F(root(r2)), g = sum.V * quotient(M, vb.w) * F;
+    sum.push += (wall.pressing * pressure_term(M, sum.p, p, F)) * r;
+    Vec3<N> turn;
+    if constexpr (kSpin) turn = Real(0.5) * cross(r, sum.spin + own.xyz());
+    const Vec3<N> friction = wall.law.friction(g, sum.v.xyz() - vb.xyz(), turn, r, r2);
+    sum.friction += friction;
+    if constexpr (kSpin) sum.couple -= Real(0.5) * cross(r, friction);
+    if constexpr (kNoise) {
+      const Vec3<N> noise = wall.law.noise(g, sum.id, own.w, r, r2);
+      sum.noise += noise;
+      if constexpr (kSpin) sum.couple -= Real(0.5) * cross(r, noise);
+    }
+  }
+  template <class N, class J>
+  BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
+    const auto f = wall(sum.v, sum.V, sum.p, sum.spin, sum.id, Vec4<N>(wall_v_rho[b]),
+                        Vec4<N>(wall_m_state[b]), Vec4<N>(wall_v_visc[b]), N(wall_label[b]), r, r2);
+    sum.push += f.push;
+    sum.friction += f.friction;
+    if constexpr (kNoise) sum.noise += f.noise;
+    if constexpr (kSpin) sum.couple -= cross(r, f.friction + f.noise);
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
+    into.push += other.push;
+    into.friction += other.friction;
+    into.noise += other.noise;
+    into.couple += other.couple;
+  }
+  BL_HD void finish(Index a, const Sum<>& sum) const {
+    const Real4 m = m_state[a];
+    const Real3 stress = sum.push + (1 / m.x) * sum.friction;
+    theta[a] = stress;
+    acc[a] = stress + gravity + drive(a, m) + (1 / mass[a]) * sum.noise;
+    if constexpr (kSpin) {  // from the value predicted with the last acceleration to the mean of both
+      const Real3 turning = (1 / (mass[a] * inertia)) * sum.couple;
+      spin[a] = sum.spin + (dt / 2) * (turning - spin_acc[a]);
+      spin_acc[a] = turning;
+    }
+  }
+};
+
+/// Spin at the end of the step, predicted by the acceleration at its start.
+struct PredictSpin {
+  Real dt;  ///< s
+  Span<const Real3> spin, spin_acc;
+  Span<const Id> id;
+  Span<Real4> spin_label;
+  BL_HD void operator()(Index a) const {
+    const Real3 w = spin ? spin[a] + dt * spin_acc[a] : Real3();
+    spin_label[a] = {w, as_label(id[a])};
+  }
+};
+
+/// Ids of wall particles, above those of the fluid.
+struct LabelWalls {
+  Span<const Id> id;
+  Span<Real> label;
+  BL_HD void operator()(Index b) const { label[b] = as_label(id[b] | 0x80000000u); }
+};
+
+/// Force on each wall particle [N]: minus what SdpdForcePass gave the fluid, by velocities that have been
+/// corrected by `kick` since. The noise counts as friction.
+template <class W, class Force>
+struct SdpdWallForcePass {
+  SdpdWallPair<W> wall;
+  Real kick;  ///< s
+  Span<const Real3> acc, acc_before;
+  Span<const Real4> flux, m_state, spin_label;
+  Span<const Id> id;
+  bool spins;
+  Span<const Real4> wall_v_rho, wall_m_state, wall_v_visc;
+  Span<const Real> wall_label;
+  Span<Vec3d> force, friction;
+
+  BL_HD Force start(Index) const { return {}; }
+  BL_HD void pair(Force& sum, Index b, Index a, const Real3& r_ba, Real r2) const {
+    const Real4 va = flux[a], ma = m_state[a];
+    const Real3 v = kick != 0 ? va.xyz() - kick * (acc[a] - acc_before[a]) : va.xyz();
+    const Real3 spin = spins ? spin_label[a].xyz() : Real3();
+    const auto f = wall(Real4(v, va.w), quotient(ma.x, ma.z), ma.y, spin, row_id(id[a]), wall_v_rho[b],
+                        wall_m_state[b], wall_v_visc[b], wall_label[b], -r_ba, r2);
+    sum.add(-ma.x * f.push, -(f.friction + f.noise));
+  }
+  BL_HD void merge(Force& into, const Force& other) const { into.add(other); }
+  BL_HD void finish(Index b, const Force& sum) const { sum.write(b, force, friction); }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,119 @@
+#pragma once
+#include "bedload/neighbours/for_each_pair.hpp"
+#include "bedload/particles/walls.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Continuity of the mixture over dt, eps_a d rho_a / dt = -sum_b M_b (q_a - q_b) . r_ab F_ab, and nothing
+/// else that changes density; walls count at rho0, as in DensityPass.
+template <class W>
+struct ContinuityPass {
+  W w;
+  Real rho0, dt;  ///< kg/m3, s
+  Span<const Real4> flux, m_state, wall_v_rho, wall_m_state;
+  Span<const Real> s;
+  Span<Real> s_next;
+
+  template <class N = Real>
+  struct Sum {
+    Vec3<N> q;
+    N rate;
+  };
+  BL_HD Sum<> start(Index a) const { return {flux[a].xyz(), 0}; }
+  BL_HD auto sources() const { return sources_of(flux); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb) const {
+    sum.rate += M * w.F(root(r2)) * dot(sum.q - qb.xyz(), r);
+  }
+  template <class N, class J>
+  BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
+    const Vec4<N> vb = wall_v_rho[b], mb = wall_m_state[b];
+    sum.rate += quotient(mb.x, mb.z) * rho0 * w.F(root(r2)) * dot(sum.q - vb.xyz(), r);
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rate += other.rate; }
+  BL_HD void finish(Index a, const Sum<>& sum) const {
+    s_next[a] = s[a] - dt * sum.rate / (m_state[a].w * rho0);
+  }
+};
+
+/// Density by summation [tsuzuki (16)], as s = density / rho0 - 1:
+///   rho_a = n sum_b M_b W_ab, with b = a and walls, n making it rho0 on the lattice on which fluid is laid.
+template <class W>
+struct SummationPass {
+  W w;
+  Real rho0, n;  ///< kg/m3, -
+  Span<const Real4> m_state, wall_m_state;
+  Span<Real> s;
+
+  template <class N = Real>
+  struct Sum {
+    N rho;
+  };
+  BL_HD Sum<> start(Index) const { return {}; }
+  BL_HD auto sources() const { return sources_of(); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N M) const {
+    sum.rho += M * w.W(root(r2));
+  }
+  template <class N, class J>
+  BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>&, N r2) const {
+    const Vec4<N> m = wall_m_state[b];
+    sum.rho += m.x * w.W(root(r2));
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rho += other.rho; }
+  BL_HD void finish(Index a, const Sum<>& sum) const {
+    s[a] = n * (m_state[a].x * w.W(Real(0)) + sum.rho) / rho0 - 1;
+  }
+};
+
+/// Shepard's mean over a particle and the fluid around it,
+///   q_a <- sum_b V_b q_b W_ab / sum_b V_b W_ab,   V = M / (rho0 (1 + s)),
+/// which leaves what is the same everywhere as it is.
+template <class W>
+struct ShepardPass {
+  W w;
+  Real rho0;
+  Span<const Real4> m_state;
+  Span<const Real> s, q;
+  Span<Real> mean;
+
+  template <class N = Real>
+  struct Sum {
+    N weight, q;
+  };
+  BL_HD Sum<> start(Index) const { return {}; }
+  BL_HD auto sources() const { return sources_of(s, q); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N M, N s_b, N q_b) const {
+    const N V = quotient(M, rho0 * (1 + s_b)) * w.W(root(r2));
+    sum.weight += V;
+    sum.q += V * q_b;
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
+    into.weight += other.weight;
+    into.q += other.q;
+  }
+  BL_HD void finish(Index a, const Sum<>& sum) const {
+    const Real V = m_state[a].x / (rho0 * (1 + s[a])) * w.W(Real(0));
+    mean[a] = (sum.q + V * q[a]) / (sum.weight + V);
+  }
+};
+
+/// P from P / rho^2, and back.
+struct PressureOf {
+  Span<const Real4> m_state;
+  Span<Real> p;
+  BL_HD void operator()(Index a) const { p[a] = m_state[a].y * square(m_state[a].z); }
+};
+struct SetPressure {
+  Span<const Real> p;
+  Span<Real4> m_state;
+  Span<Real> p_rho2;
+  BL_HD void operator()(Index a) const {
+    const Real4 m = m_state[a];
+    p_rho2[a] = p[a] / square(m.z);
+    m_state[a] = {m.x, p_rho2[a], m.z, m.w};
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,29 @@
+#pragma once
+// The fluid models that a case may name. A new one is an include and its place in the list.
+
+#include <algorithm>
+
+#include "src/fluid/sdpd.hpp"
+#include "src/fluid/wcsph.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+template <class... Models>
+struct FluidModelList {
+  static constexpr bool holds(FluidModel model) { return ((model == Models::model) || ...); }
+  static std::unique_ptr<FluidSolver> make(const Config& config, const Frame& frame,
+                                           const WallGeometry& walls, FluidStore& fluid) {
+    std::unique_ptr<FluidSolver> solver;
+    (void)((config.fluid.model == Models::model && (solver = Models::make(config, frame, walls, fluid))) ||
+           ...);
+    return solver;
+  }
+};
+
+using FluidModels = FluidModelList<Wcsph, Sdpd, SpinningSdpd>;
+
+static_assert(std::all_of(kNames<FluidModel>.begin(), kNames<FluidModel>.end(),
+                          [](const auto& row) { return FluidModels::holds(row.value); }),
+              "a fluid model that a case may name is missing in FluidModels");
+
+}  // namespace bedload::inline BL_VARIANT

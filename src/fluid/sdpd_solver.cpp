@@ -1,0 +1,221 @@
+// SDPD: density, forces and spin; what it shares with WCSPH is in FluidSolver.
+
+#include <cmath>
+#include <limits>
+
+#include "kernels/fluid/wall_pass.hpp"
+#include "kernels/sdpd/force_pass.hpp"
+#include "kernels/sdpd/kernel_sums.hpp"
+#include "kernels/smoothing/registry.hpp"
+#include "src/fluid/sdpd.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// Sums over a lattice of spacing dx around one of its points: volume times W, itself included; volume times
+/// F.
+struct LatticeSums {
+  double W = 0, F = 0;  ///< -, 1/m2
+  template <class Kernel>
+  LatticeSums(const Kernel& w, double dx, double range) {
+    const int n = int(range / dx) + 1;
+    for (int i = -n; i <= n; ++i)
+      for (int j = -n; j <= n; ++j)
+        for (int k = -n; k <= n; ++k) {
+          const double r = dx * std::sqrt(double(i * i + j * j + k * k));
+          W += double(w.W(Real(r))) * dx * dx * dx;
+          if (r > 0) F += double(w.F(Real(r))) * dx * dx * dx;
+        }
+  }
+};
+
+/// None of what keeps WCSPH smooth: noise would set it off.
+Config without_safety_terms(Config c) {
+  c.shift = c.xsph = c.tensile = 0;
+  c.density.delta = c.density.void_relaxation = 0;
+  c.density.cavitation_limit = 1;
+  c.time.integrator = TimeIntegrator::kdk;
+  return c;
+}
+
+template <class W, class Model>
+class SdpdSolver final : public FluidSolver {
+ public:
+  SdpdSolver(const Config& config, const Frame& frame, const WallGeometry& walls, FluidStore& fluid,
+             const W& w)
+      : FluidSolver(without_safety_terms(config), frame, walls, fluid, W::kappa),
+        w_(w),
+        friction_(Model::coefficients(config.fluid.mu, bulk_viscosity(config.fluid))),
+        lattice_(w, config.fluid.dx, range()),
+        label_(fluid, "spin_label", "rad/s, -", Lifetime::derived) {
+    if (Model::spins) spin_ = std::make_unique<Spin>(fluid, config.sdpd.kI * square(config.fluid.dx));
+  }
+
+  /// The shortest time in which friction stops a particle or its spin, times time.friction.
+  double friction_limit(double) const override {
+    const double rho = config_.fluid.rho0;
+    double rate = std::max(friction_.across, friction_.along) * lattice_.F / rho;
+    if (Model::spins) rate = std::max(rate, friction_.across / (rho * spin_->inertia));
+    return rate > 0 ? config_.time.friction / rate : std::numeric_limits<double>::infinity();
+  }
+  Spin* spin() override { return spin_.get(); }
+
+  void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose>, double dt) override {
+    const DensityConfig& d = config_.density;
+    if (d.method == DensityMethod::summation) {
+      pack(fluid);
+      pack(walls);
+      run(fluid, walls,
+          SummationPass<W>{w_, Real(config_.fluid.rho0), Real(1 / lattice_.W), fluid.m_state, walls.m_state,
+                           fluid.s_next});
+      return;
+    }
+    run(fluid, walls,
+        ContinuityPass<W>{w_, Real(config_.fluid.rho0), Real(dt), flux(fluid), fluid.m_state, walls.v_rho,
+                          walls.m_state, fluid.s, fluid.s_next});
+    if (d.reinit_every > 0 && (step_ + 1) % std::uint64_t(d.reinit_every) == 0) {
+      pack(fluid);
+      reinitialise(fluid);
+    }
+  }
+
+  void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt,
+             bool moving) override {
+    const WallPass<W> pass{w_,
+                           eos_,
+                           flux(fluid),
+                           fluid.m_state,
+                           drag_dt > 0 ? Span<const Real3>(fluid.drag_kick) : Span<const Real3>(),
+                           Real(drag_dt > 0 ? 1 / drag_dt : 0),
+                           walls.x0,
+                           walls.body,
+                           pose,
+                           gravity_,
+                           Real(1e-3 / config_.domain.cell_volume(config_.fluid.h())),
+                           walls.v_rho,
+                           walls.v_visc,
+                           walls.m_state,
+                           walls.compression};
+    const PairSeparation separation{frame_, walls.xp, fluid.xp};
+    if (moving || relisted_)
+      for_each_pair(walls.owned(), wall_fluid_, separation, range(), pass);
+    else
+      for_each_pair_of(wet_walls_, wall_fluid_, separation, range(), pass);
+    relisted_ = false;
+  }
+
+  void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose>, double dt) override {
+    if (config_.eos.filter) filter_pressure(fluid);
+    for_each(fluid.owned(), PredictSpin{Real(dt), omega(), turning(), fluid.id, label_});
+    wall_label_.resize(walls.size());
+    for_each(walls.owned(), LabelWalls{walls.id, wall_label_});
+    if (config_.sdpd.kT > 0 && dt > 0)
+      momentum<true>(fluid, walls, dt);
+    else
+      momentum<false>(fluid, walls, dt);
+    corrected_ = 0;
+  }
+
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose>, double dt,
+                   Buffer<Vec3d>& force) override {
+    force.resize(walls.size());
+    forces_on_walls<WholeForce>(fluid, walls, dt, force, {});
+  }
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose>, double dt,
+                   Buffer<Vec3d>& pressure, Buffer<Vec3d>& friction) override {
+    pressure.resize(walls.size());
+    friction.resize(walls.size());
+    forces_on_walls<ForceParts>(fluid, walls, dt, pressure, friction);
+  }
+
+ private:
+  static double bulk_viscosity(const FluidConfig& f) {
+    return std::isfinite(f.zeta) ? f.zeta : 20.0 / 21 * f.mu;
+  }
+  Span<Real3> omega() { return spin_ ? Span<Real3>(spin_->omega) : Span<Real3>(); }
+  Span<Real3> turning() { return spin_ ? Span<Real3>(spin_->acc) : Span<Real3>(); }
+  template <class Pass>
+  void run(const FluidStore& fluid, const WallStore& walls, const Pass& pass) {
+    for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, fluid_wall_,
+                  PairSeparation{frame_, fluid.xp, walls.xp}, range(), pass);
+  }
+  SdpdWallPair<W> pair(double dt) const {
+    const SdpdConfig& s = config_.sdpd;
+    PairLaw law;
+    law.across = Real(friction_.across), law.along = Real(friction_.along);
+    law.sliding = Real(s.force_scale[1]), law.spinning = Real(s.force_scale[2]);
+    law.thermal = dt > 0 ? Real(2 * s.kT / dt * square(s.force_scale[3])) : Real(0);
+    law.tensor = s.noise == NoiseForm::tensor;
+    law.key = {config_.seed, step_};
+    law.guard = Real(1e-12 * square(config_.fluid.h()));
+    return {w_, law, Real(s.force_scale[0]), law.thermal > 0};
+  }
+  template <bool kNoise>
+  void momentum(FluidStore& fluid, const WallStore& walls, double dt) {
+    run(fluid, walls,
+        SdpdForcePass<W, Model::spins, kNoise>{
+            pair(dt), flux(fluid), fluid.m_state, label_, fluid.p_rho2, fluid.mass, fluid.id, walls.v_rho,
+            walls.m_state, walls.v_visc, wall_label_, gravity_, drive(fluid), Real(dt),
+            Real(spin_ ? spin_->inertia : 0), fluid.theta, fluid.acc_next, omega(), turning()});
+  }
+  template <class Force>
+  void forces_on_walls(const FluidStore& fluid, const WallStore& walls, double dt, Span<Vec3d> force,
+                       Span<Vec3d> friction) {
+    const SdpdWallForcePass<W, Force> pass{pair(dt),      Real(mixed_ ? 0 : corrected_),
+                                           fluid.acc,     fluid.acc_next,
+                                           flux(fluid),   fluid.m_state,
+                                           label_,        fluid.id,
+                                           Model::spins,  walls.v_rho,
+                                           walls.m_state, walls.v_visc,
+                                           wall_label_,   force,
+                                           friction};
+    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
+  }
+  /// Shepard's mean of q over the fluid; densities are rho0 (1 + s).
+  void average(const FluidStore& fluid, Span<const Real> s, Span<const Real> q, Span<Real> mean) {
+    for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, range(),
+                  ShepardPass<W>{w_, Real(config_.fluid.rho0), fluid.m_state, s, q, mean});
+  }
+  /// Of a density, the mean is sum M W / sum V W.
+  void reinitialise(FluidStore& fluid) {
+    average(fluid, fluid.s_next, fluid.s_next, fluid.s);
+    fluid.s.buffer().swap(fluid.s_next.buffer());
+  }
+  void filter_pressure(FluidStore& fluid) {
+    pressure_.resize(fluid.size());
+    filtered_.resize(fluid.size());
+    for_each(fluid.owned(), PressureOf{fluid.m_state, pressure_});
+    average(fluid, fluid.s, pressure_, filtered_);
+    for_each(fluid.owned(), SetPressure{filtered_, fluid.m_state, fluid.p_rho2});
+  }
+
+  W w_;
+  FrictionCoefficients friction_;
+  LatticeSums lattice_;
+  Field<Real4> label_;  ///< spin at the end of the step as predicted; id as pair loops carry it
+  std::unique_ptr<Spin> spin_;
+  Buffer<Real> wall_label_, pressure_, filtered_;
+};
+
+template <class Model>
+std::unique_ptr<FluidSolver> make_sdpd(const Config& config, const Frame& frame, const WallGeometry& walls,
+                                       FluidStore& fluid) {
+  std::unique_ptr<FluidSolver> solver;
+  with_fluid_kernel(config, [&](const auto& w) {
+    solver = std::make_unique<SdpdSolver<std::decay_t<decltype(w)>, Model>>(config, frame, walls, fluid, w);
+  });
+  return solver;
+}
+
+}  // namespace
+
+std::unique_ptr<FluidSolver> Sdpd::make(const Config& config, const Frame& frame, const WallGeometry& walls,
+                                        FluidStore& fluid) {
+  return make_sdpd<Sdpd>(config, frame, walls, fluid);
+}
+std::unique_ptr<FluidSolver> SpinningSdpd::make(const Config& config, const Frame& frame,
+                                                const WallGeometry& walls, FluidStore& fluid) {
+  return make_sdpd<SpinningSdpd>(config, frame, walls, fluid);
+}
+
+}  // namespace bedload::inline BL_VARIANT

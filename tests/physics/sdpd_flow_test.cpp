@@ -1,0 +1,202 @@
+// Moving SDPD fluid through whole simulations.
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/run.hpp"
+#include "tests/support/tolerance.hpp"
+#include "tests/support/walls.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// A periodic box in reduced units: spacing and mass of a particle are one.
+Config bath(int n, const std::string& model, double kT) {
+  Config c = periodic_box(n, 1.0);
+  c.fluid.model = model;
+  c.fluid.kernel = "lucy";
+  c.fluid.h_over_dx = 2.5;
+  c.fluid.rho0 = 1;
+  c.fluid.mu = 2;
+  c.eos.type = EosType::democritus;
+  c.eos.p0 = c.eos.beta = 100 / 7.0;
+  c.fluid.c = 10;
+  c.density.method = DensityMethod::summation;
+  c.visc.model = ViscosityModel::none;
+  c.sdpd.kT = kT;
+  c.sdpd.kI = 0.4;
+  c.fluid.fills = {{c.domain.min, c.domain.max}};
+  c.time.end = 1;
+  return c;
+}
+
+double probability_of(double v) { return 0.5 * std::erfc(-v / std::sqrt(2.0)); }
+
+TEST(SlowSdpdFluid, IsAtItsTemperature) {  // T-16, and Maxwell's distribution by Kolmogorov and Smirnov
+  const double kT = 0.8;
+  const Config c = bath(8, "sdpd_a", kT);
+  auto s = started(c);
+  const double inertia = c.sdpd.kI * square(c.fluid.dx);
+  while (s->steps() < 1000) s->step();
+  double linear = 0, spin = 0;
+  int samples = 0;
+  std::vector<double> components;
+  for (int n = 0; n < 3000; ++n) {
+    s->step();
+    if (n % 20 != 0) continue;
+    const auto store = s->snapshot("fluid");
+    const auto v = vectors(store, "velocity"), w = vectors(store, "angular_velocity");
+    for (std::size_t a = 0; a < v.size(); ++a) {
+      linear += norm2(v[a]) / (3 * kT * double(v.size() - 1));
+      spin += inertia * norm2(w[a]) / (3 * kT * double(w.size()));
+    }
+    if (samples++ % 25 == 0)  // apart by many times of friction
+      for (const Vec3d& u : v)
+        for (int k = 0; k < 3; ++k) components.push_back(probability_of(u[k] / std::sqrt(kT)));
+  }
+  EXPECT_NEAR(linear / samples, 1, 2e-2);
+  EXPECT_NEAR(spin / samples, 1, 2e-2);
+  std::sort(components.begin(), components.end());
+  double distance = 0;
+  const double n = double(components.size());
+  for (std::size_t k = 0; k < components.size(); ++k)
+    distance = std::max({distance, (double(k) + 1) / n - components[k], components[k] - double(k) / n});
+  EXPECT_LT(distance * std::sqrt(n), 1.63) << "less likely than 1 % for a normal distribution";
+}
+
+TEST(SdpdFluid, KeepsItsMomentum) {
+  auto s = started(bath(8, "sdpd_a", 0.8));
+  double magnitude = 0;
+  Vec3d sum;
+  for (int n = 0; n < 200; ++n) s->step();
+  for (const Vec3d& v : vectors(s->snapshot("fluid"), "velocity")) sum += v, magnitude += norm(v);
+  EXPECT_GT(magnitude, 300);
+  EXPECT_LT(norm(sum) / magnitude, 20 * kInvariant);
+}
+
+TEST(SdpdFluid, ADropKeepsItsAngularMomentum) {  // without periodic images
+  Config c = bath(8, "sdpd_a", 0.3);
+  c.domain.periodic = {false, false, false};
+  c.domain.min = {-8, -8, -8}, c.domain.max = {16, 16, 16};
+  c.fluid.fills = {{{0, 0, 0}, {8, 8, 8}, {"0", "0.5*(z-4)", "-0.5*(y-4)"}}};
+  c.eos.clip_negative = true;
+  auto s = started(c);
+  const auto moment = [&] {
+    const auto d = s->diagnostics();
+    return Vec3d{reading(d, "fluid_angular_momentum_x"), reading(d, "fluid_angular_momentum_y"),
+                 reading(d, "fluid_angular_momentum_z")};
+  };
+  const Vec3d start = moment();
+  ASSERT_GT(norm(start), 1000);
+  for (int n = 0; n < 200; ++n) s->step();
+  EXPECT_GT(reading(s->diagnostics(), "fluid_spin_energy"), 50);
+  EXPECT_LT(norm(moment() - start) / norm(start), tolerance(1e-9, 2e-5, 1e-4));
+}
+
+TEST(SdpdFluid, RunsTheSameOnAnyNumberOfThreads) {  // T-13
+  std::vector<std::byte> all[2];
+  const int most = omp_get_max_threads();
+  for (int threads : {1, 3}) {
+    omp_set_num_threads(threads);
+    auto s = started(bath(8, "sdpd_a", 0.8));
+    for (int n = 0; n < 30; ++n) s->step();
+    all[threads / 2] = bits(*s);
+  }
+  omp_set_num_threads(most);
+  EXPECT_TRUE(all[0] == all[1]);
+}
+
+TEST(SdpdFluid, ContinuesBitForBit) {  // T-13
+  const Config c = bath(8, "sdpd_a", 0.8);
+  auto whole = started(c);
+  for (int n = 0; n < 40; ++n) whole->step();
+  const SavedState saved = whole->save();
+  for (int n = 0; n < 40; ++n) whole->step();
+  std::vector<std::string> warnings;
+  auto again = make_coupled(c, build_setup(c, warnings));
+  again->load(saved);
+  for (int n = 0; n < 40; ++n) again->step();
+  EXPECT_TRUE(bits(*whole) == bits(*again));
+}
+
+/// How fast flow driven one way below, the other way above becomes, over what the viscosity lets it.
+double reverse_poiseuille(const std::string& model) {
+  Config c = bath(8, model, 0);
+  c.domain.max = {6, 6, 24};
+  c.fluid.fills = {{c.domain.min, c.domain.max}};
+  c.drive.f = {0.02, 0, 0};
+  c.drive.mode = DriveMode::mass;
+  c.drive.opposed = DriveReversal::z;
+  c.time.friction = 0.4;
+  auto s = started(c);
+  run_until(*s, 5 * 144 / 2.0 / 9.87);
+  LineFit line;
+  const auto store = s->snapshot("fluid");
+  const auto x = vectors(store, "position"), v = vectors(store, "velocity");
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    const bool upper = x[a].z > 12;
+    const double z = upper ? x[a].z - 12 : x[a].z;
+    if (z > 2.5 && z < 9.5) line.add(z * (12 - z), upper ? -v[a].x : v[a].x);
+  }
+  return line.slope() / (0.02 / (2 * c.fluid.mu));
+}
+
+TEST(SlowSdpdFlow, ReversePoiseuilleFlowHasTheViscosity) {  // T-45
+  for (const std::string model : {"sdpd", "sdpd_a"})
+    EXPECT_NEAR(1 / reverse_poiseuille(model), 1, 3e-2) << model;
+}
+
+TEST(SdpdFluid, OpposedDriveChangesItsSignAtTheMiddle) {
+  Config c = bath(8, "sdpd", 0);
+  c.drive.f = {0, 3, 0};
+  c.drive.mode = DriveMode::mass;
+  c.drive.opposed = DriveReversal::x;
+  c.time.dt = 1e-6;
+  c.sdpd.force_scale = {0, 0, 0, 0};
+  auto s = started(c);
+  s->step();
+  const auto store = s->snapshot("fluid");
+  const auto x = vectors(store, "position"), v = vectors(store, "velocity");
+  for (std::size_t a = 0; a < x.size(); ++a) ASSERT_NEAR(v[a].y, x[a].x < 4 ? 3e-6 : -3e-6, 1e-9);
+}
+
+/// Between no-slip plates, one of which moves: simple shear up to the plates, spin half the vorticity.
+TEST(SlowSdpdFlow, CouetteFlowBetweenWalls) {
+  Config c = bath(6, "sdpd_a", 0);
+  c.domain.min = {0, 0, -4}, c.domain.max = {6, 6, 14};
+  c.domain.periodic = {true, true, false};
+  c.fluid.fills = {{{0, 0, 0}, {6, 6, 10}}};
+  c.wall.no_penetration = false;
+  for (const double z : {-4.0, 10.0}) {
+    WallBody plate = test::body("box", {0, 0, z}, {6, 6, z + 4});
+    plate.name = z < 0 ? "lower" : "upper";
+    plate.no_penetration = false;
+    if (z > 0) plate.motion.kind = "velocity", plate.motion.velocity = {0.5, 0, 0};
+    c.wall.bodies.push_back(plate);
+  }
+  c.time.friction = 0.4;
+  auto s = started(c);
+  run_until(*s, 60);
+  LineFit line;
+  const auto store = s->snapshot("fluid");
+  const auto x = vectors(store, "position"), v = vectors(store, "velocity"),
+             w = vectors(store, "angular_velocity");
+  double spin = 0;
+  for (std::size_t a = 0; a < x.size(); ++a) line.add(x[a].z, v[a].x), spin += w[a].y / double(w.size());
+  EXPECT_NEAR(line.slope(), 0.05, 0.05 * 0.03);
+  EXPECT_NEAR(line.at_zero(), 0, 0.5 * 0.02);
+  EXPECT_NEAR(spin, 0.025, 0.025 * 0.05);
+  // its friction on the plates
+  for (const WallBody& plate : c.wall.bodies) {
+    ProbeConfig probe;
+    probe.name = probe.body = plate.name, probe.type = "force";
+    const double expected = 36 * 2 * 0.05 * (plate.name == "lower" ? 1 : -1);
+    EXPECT_NEAR(reading(s->measure(probe), "force_x"), expected, 0.03 * std::abs(expected)) << plate.name;
+  }
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
