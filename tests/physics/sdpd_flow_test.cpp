@@ -194,7 +194,8 @@ TEST(SlowSdpdFlow, CouetteFlowBetweenWalls) {
     ProbeConfig probe;
     probe.name = probe.body = plate.name, probe.type = "force";
     const double expected = 36 * 2 * 0.05 * (plate.name == "lower" ? 1 : -1);
-    EXPECT_NEAR(reading(s->measure(probe), "force_x"), expected, 0.03 * std::abs(expected)) << plate.name;
+    EXPECT_NEAR(reading(s->measure(probe), "force_by_fluid_x"), expected, 0.03 * std::abs(expected))
+        << plate.name;
   }
 }
 
