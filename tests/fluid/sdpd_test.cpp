@@ -186,7 +186,7 @@ Temperatures frozen_bath(const std::string& model, const std::string& noise, dou
   std::vector<double> linear(blocks), spin(blocks);
   for (int n = 0; n < steps; ++n) {
     box.solver->kick_drift(box.fluid, dt / 2, 0, 0, false);
-    box.solver->state(box.fluid, dt / 2, dt, false);
+    box.solver->state(box.fluid, dt / 2, false);
     box.solver->set_step(n + 1);
     box.solver->forces(box.fluid, box.walls, {}, dt);
     box.solver->correct(box.fluid, dt / 2);
