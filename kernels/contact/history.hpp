@@ -8,11 +8,10 @@ namespace bedload::inline BL_VARIANT {
 
 /// Kept for the pair (lower id, higher id), or for (grain, wall surface).
 struct ContactHistory {
-  Vec3d xi;      ///< tangential spring, m
-  Vec3d couple;  ///< elastic rolling couple on the first grain, N m
-  double overlap =
-      0;  ///< a Real: at the last evaluation, m; 0: apart. Walls: negative when behind the surface
-  double recede = 0;  ///< a Real: normal speed at the last evaluation, m/s
+  Vec3d xi;            ///< tangential spring, m
+  Vec3d couple;        ///< elastic rolling couple on the first grain, N m
+  double overlap = 0;  ///< at the last evaluation, m, to Real's digits; 0: apart. Walls: negative behind them
+  double recede = 0;   ///< normal speed at the last evaluation, m/s, to Real's digits
 };
 
 template <>
