@@ -354,11 +354,14 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
     if (body.single_layer()) layers[b] = layer_law(config, body, kappa);
   }
   if (layered) layers_.assign(layers);
+  fluid.drift.begin_at_zero();
   if (!drifts()) fluid.drift.leave_out();
   if (config.time.integrator != TimeIntegrator::ab3) return;
   fluid.s_next.leave_out();
-  for (const char* name : {"density_rate", "density_rate_before", "density_rate_long_before"})
+  for (const char* name : {"density_rate", "density_rate_before", "density_rate_long_before"}) {
     rates_.push_back(std::make_unique<Field<Real>>(fluid, name, "1/s", Lifetime::kept));
+    rates_.back()->begin_at_zero();
+  }
 }
 
 void FluidSolver::accept_rates(double dt) {
@@ -377,7 +380,6 @@ void FluidSolver::set_skin(double skin) {
 
 void FluidSolver::save(std::vector<Quantity>& scalars) const {
   scalars.push_back({"skin_fluid", "m", skin_});
-  if (!one_pass()) return;
   scalars.push_back({"density_last_dt", "s", last_dt_});
   scalars.push_back({"density_dt_before", "s", dt_before_});
 }

@@ -127,7 +127,7 @@ class FluidSolver {
   void save(std::vector<Quantity>& scalars) const;
   template <class Scalar>
   void load(const Scalar& scalar) {
-    if (one_pass()) last_dt_ = scalar("density_last_dt"), dt_before_ = scalar("density_dt_before");
+    last_dt_ = scalar("density_last_dt"), dt_before_ = scalar("density_dt_before");  // 0 without rates
     set_skin(scalar("skin_fluid"));
   }
 

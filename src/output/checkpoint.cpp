@@ -44,10 +44,13 @@ std::vector<Quantity> particle_setup(const Config& c) {
     for (std::size_t k = 0; k < c.fluid.fills.size(); ++k)
       add_box(fmt::format("fluid.fill.{}", k), c.fluid.fills[k].min, c.fluid.fills[k].max);
   }
+  // what particles hold depends on these and on the walls' types
+  if (c.fluid.sdpd()) add(fmt::format("fluid.model = \"{}\"", c.fluid.model.name()), 1);
+  if (c.fluid.present && c.grain.present && c.couple.mode != CouplingMode::off)
+    add(fmt::format("couple.mode = \"{}\"", c.couple.mode.name()), 1);
   for (const WallBody& body : c.wall.bodies) {
     add_box(fmt::format("wall.{}", body.name), body.min, body.max);
     if (body.dx > 0) add(fmt::format("wall.{}.dx", body.name), body.dx);
-    // what its particles hold depends on it
     if (c.fluid.present && body.stops_fluid())
       add(fmt::format("wall.{}.type = \"{}\"", body.name, body.type.name()), 1);
   }

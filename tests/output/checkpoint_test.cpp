@@ -127,6 +127,9 @@ TEST_F(Checkpoint, RefusesAnotherCase) {
   other.wall.bodies.at(0).type = "frozen";
   expect_says(refusal(path, other), "other particles: it was made without wall.");
   other = config;
+  other.fluid.model = FluidModel::sdpd;
+  expect_says(refusal(path, other), "other particles: it was made without fluid.model = \"sdpd\"");
+  other = config;
   other.grain.fills.emplace_back();
   expect_says(refusal(path, other), "other particles: it was made without grain.fill.0");
   other = config;

@@ -269,6 +269,21 @@ TEST_P(SmallSimulation, GoesOnFromACheckpointBitForBit) {
   }
 }
 
+TEST(SmallRestart, GoesOnWithShiftingAndAnotherIntegrator) {
+  Config c = column(0.16, 0.02);
+  c.shift = 0;
+  auto s = started(c);
+  for (int step = 0; step < 20; ++step) s->step();
+  const double before = energy(*s);
+  c.shift = 200;
+  c.time.integrator = TimeIntegrator::ab3;
+  std::vector<std::string> warnings;
+  auto again = make_coupled(c, build_setup(c, warnings));
+  again->load(s->save());
+  for (int step = 0; step < 200; ++step) again->step();
+  EXPECT_NEAR(energy(*again), before, 1e-3 * before);
+}
+
 /// 3.4 steps is what the narrow skin would bear here.
 TEST(SmallLists, OfFastFlowLastFourSteps) {
   Config c = column(0.16, 0.02);

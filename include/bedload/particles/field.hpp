@@ -68,6 +68,9 @@ class FieldBase {
   bool used() const { return used_; }
   /// For good: a case that does not need the field spends no memory on it. Its span is empty.
   void leave_out() { used_ = false; }
+  /// Checkpoints of cases that left it out can be gone on with: it begins at zero.
+  void begin_at_zero() { needed_ = false; }
+  bool needed() const { return needed_; }
 
   virtual void resize(Index n) = 0;
   /// To n entries, the new ones zero.
@@ -78,7 +81,7 @@ class FieldBase {
   virtual void from_host(const HostArray& array) = 0;
 
  private:
-  bool used_ = true;
+  bool used_ = true, needed_ = true;
 };
 
 template <class T>

@@ -50,8 +50,11 @@ class Store {
     for (auto* f : fields_) {
       if (!f->used() || f->lifetime != Lifetime::kept) continue;
       const HostArray* a = s.find(f->name);
-      if (!a) throw FileError("checkpoint has no array " + name + "/" + f->name);
-      f->from_host(*a);
+      if (!a && f->needed()) throw FileError("checkpoint has no array " + name + "/" + f->name);
+      if (a)
+        f->from_host(*a);
+      else
+        f->resize(0), f->grow(size_);
     }
   }
 
