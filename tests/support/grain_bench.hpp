@@ -103,7 +103,8 @@ class GrainBench {
     for (int done = 0; done < steps;) {
       const int n = std::min(kChunk, steps - done);
       set_poses(n, dt);
-      solver->advance(*grains, poses(), int(config.wall.bodies.size()), n * dt, n, held, {}, n * dt * wall_speed);
+      solver->advance(*grains, poses(), int(config.wall.bodies.size()), n * dt, n, held, {},
+                      n * dt * wall_speed);
       time += n * dt;
       done += n;
       if (grains->size() > 1 && solver->watch(*grains).displacement > 0.4 * solver->skin()) refresh();

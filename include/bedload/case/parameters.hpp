@@ -129,7 +129,7 @@ struct ParameterRow {
   std::string key, unit, fallback, allowed, meaning, family;
   std::vector<Choice> choices;
   std::string formerly = {};  ///< key in the version before, where it was another
-  std::string path = {};  ///< the key with [] behind lists: "wall.body[].motion.add[].kind"
+  std::string path = {};      ///< the key with [] behind lists: "wall.body[].motion.add[].kind"
   ValueKind kind = ValueKind::text;
   Range range = {};  ///< all numbers where it depends on other keys; `allowed` is that of a case of defaults
   std::string or_else = {};
