@@ -233,8 +233,8 @@ class Checks {
       warn("time.integrator = \"euler\" is first order in time");
   }
 
-  /// Density from former rates goes with what one visit of each pair can find, and bears shorter steps: sound
-  /// is damped up to a cfl of 0.6, density diffusion at its largest up to 0.39.
+  /// Density from former rates goes with what one visit of each pair can find, and bears shorter steps, by
+  /// linear analysis: sound is damped up to a cfl of 0.6, density diffusion at its largest up to 0.39.
   void one_pass() const {
     if (c.time.cfl > 0.3) fail("time.cfl", c.time.cfl, "must be <= 0.3 with time.integrator = \"ab3\"");
     const auto frozen = [](const WallBody& body) { return body.type == WallType::frozen; };

@@ -7,7 +7,6 @@
 #include "kernels/fluid/force_pass.hpp"
 #include "kernels/fluid/one_pass.hpp"
 #include "kernels/fluid/wall_density.hpp"
-#include "kernels/fluid/wall_pass.hpp"
 #include "kernels/integrate/fluid_kicks.hpp"
 #include "kernels/smoothing/registry.hpp"
 #include "kernels/walls/crossing.hpp"
@@ -149,13 +148,12 @@ class FluidSolverWith final : public FluidSolver {
 
   void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt,
              bool moving) override {
-    const Real least_sum = Real(1e-3 / config_.domain.cell_volume(config_.fluid.h()));
     if (walls.mirrors.size() > 0) {
       const MirrorPass<W> mirror{w_,
                                  frame_,
                                  Real(config_.fluid.rho0),
                                  least(),
-                                 least_sum,
+                                 least_sum(),
                                  flux(fluid),
                                  fluid.m_state,
                                  walls.x,
@@ -166,34 +164,14 @@ class FluidSolverWith final : public FluidSolver {
       for_each_pair(walls.owned(), image_fluid_, PairSeparation{frame_, walls.mirrors.xp, fluid.xp}, range(),
                     mirror);
     }
-    WallPass<W> pass{w_,
-                     eos_,
-                     flux(fluid),
-                     fluid.m_state,
-                     drag_dt > 0 ? Span<const Real3>(fluid.drag_kick) : Span<const Real3>(),
-                     Real(drag_dt > 0 ? 1 / drag_dt : 0),
-                     walls.x0,
-                     walls.body,
-                     pose,
-                     gravity_,
-                     least_sum,
-                     walls.v_rho,
-                     walls.v_visc,
-                     walls.m_state,
-                     walls.compression};
-    const PairSeparation separation{frame_, walls.xp, fluid.xp};
-    if (moving || relisted_)
-      for_each_pair(walls.owned(), wall_fluid_, separation, range(), pass);
-    else
-      for_each_pair_of(wet_walls_, wall_fluid_, separation, range(), pass);
-    relisted_ = false;
+    extrapolate(w_, fluid, walls, pose, drag_dt, moving);
   }
 
   void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
     const bool added = config_.tensile > 0 || config_.xsph > 0;
     if (one_pass())
-      smooths() ? momentum_and_continuity<true>(fluid, walls, dt, shifting(dt))
-                : momentum_and_continuity<false>(fluid, walls, dt, NoShifting{});
+      smooths() || shifts() ? momentum_and_continuity<true>(fluid, walls, dt, shifting(dt))
+                            : momentum_and_continuity<false>(fluid, walls, dt, NoShifting{});
     else if (artificial().acts())
       added ? momentum<true, true>(fluid, walls) : momentum<true, false>(fluid, walls);
     else

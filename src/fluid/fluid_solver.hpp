@@ -12,6 +12,7 @@
 #include "kernels/fluid/equation_of_state.hpp"
 #include "kernels/fluid/layer_force.hpp"
 #include "kernels/fluid/pair_terms.hpp"
+#include "kernels/fluid/wall_pass.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
 #include "kernels/integrate/fluid_kicks.hpp"
 #include "src/walls/wall_geometry.hpp"
@@ -141,6 +142,34 @@ class FluidSolver {
   void accept_rates(double dt);
   /// Velocity and density as pair loops read them: of the mixture where grains share the space.
   Span<const Real4> flux(const FluidStore& fluid) const { return mixed_ ? fluid.flux : fluid.v_rho; }
+  /// Of W over the fluid around, below which it is none, 1/m3.
+  Real least_sum() const { return Real(1e-3 / config_.domain.cell_volume(config_.fluid.h())); }
+  /// walls() by WallPass.
+  template <class W>
+  void extrapolate(const W& w, const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
+                   double drag_dt, bool moving) {
+    const WallPass<W> pass{w,
+                           eos_,
+                           flux(fluid),
+                           fluid.m_state,
+                           drag_dt > 0 ? Span<const Real3>(fluid.drag_kick) : Span<const Real3>(),
+                           Real(drag_dt > 0 ? 1 / drag_dt : 0),
+                           walls.x0,
+                           walls.body,
+                           pose,
+                           gravity_,
+                           least_sum(),
+                           walls.v_rho,
+                           walls.v_visc,
+                           walls.m_state,
+                           walls.compression};
+    const PairSeparation separation{frame_, walls.xp, fluid.xp};
+    if (moving || relisted_)
+      for_each_pair(walls.owned(), wall_fluid_, separation, range(), pass);
+    else
+      for_each_pair_of(wet_walls_, wall_fluid_, separation, range(), pass);
+    relisted_ = false;
+  }
   double repulsion_cap(double dt) const;  ///< m/s2, in a step of dt, s
 
   Config config_;

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/fluid/wall_pass.hpp"
 #include "kernels/sdpd/force_pass.hpp"
 #include "kernels/sdpd/kernel_sums.hpp"
 #include "kernels/smoothing/registry.hpp"
@@ -81,27 +80,7 @@ class SdpdSolver final : public FluidSolver {
 
   void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt,
              bool moving) override {
-    const WallPass<W> pass{w_,
-                           eos_,
-                           flux(fluid),
-                           fluid.m_state,
-                           drag_dt > 0 ? Span<const Real3>(fluid.drag_kick) : Span<const Real3>(),
-                           Real(drag_dt > 0 ? 1 / drag_dt : 0),
-                           walls.x0,
-                           walls.body,
-                           pose,
-                           gravity_,
-                           Real(1e-3 / config_.domain.cell_volume(config_.fluid.h())),
-                           walls.v_rho,
-                           walls.v_visc,
-                           walls.m_state,
-                           walls.compression};
-    const PairSeparation separation{frame_, walls.xp, fluid.xp};
-    if (moving || relisted_)
-      for_each_pair(walls.owned(), wall_fluid_, separation, range(), pass);
-    else
-      for_each_pair_of(wet_walls_, wall_fluid_, separation, range(), pass);
-    relisted_ = false;
+    extrapolate(w_, fluid, walls, pose, drag_dt, moving);
   }
 
   void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose>, double dt) override {
