@@ -123,11 +123,11 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda
   const double position = config.precision == "single" ? 16 : 24,
                pair_position = config.precision == "double" ? 32 : 16;
   const double h = config.fluid.h(), reach = 2 * h + config.skin_fluid * config.fluid.dx;
-  const double neighbours =
-      config.fluid.present ? 1.2 * around(reach / config.fluid.dx, config.domain.two_d) : 0;
-  const double entry = cuda ? 2.4 : 4;
-  const double fluid = 4 + 2 * position + pair_position + real * 20 + entry * neighbours + position +
-                       (config.fluid.sdpd() ? real * 12 : 0);
+  const double neighbours = config.fluid.present ? around(reach / config.fluid.dx, config.domain.two_d) : 0;
+  const double lists = cuda ? 2.25 * neighbours + 26 : 4.8 * neighbours;
+  const double sorting = real * 4 + (cuda ? 34 : 20);
+  const double fluid =
+      4 + 2 * position + pair_position + real * 24 + lists + sorting + (config.fluid.sdpd() ? real * 12 : 0);
   const bool two_way = coupled && config.couple.mode == CouplingMode::two_way;
   const double optional =
       real * ((config.time.integrator == TimeIntegrator::ab3 ? 3 : 1) + (coupled ? 1 : 0) +
@@ -143,7 +143,7 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda
                                : 0;
   return std::size_t(counts.fluid * (fluid + optional + records) + counts.walls * walls +
                      counts.grains * (grains + cross)) +
-         (64u << 20);
+         (32u << 20);
 }
 
 }  // namespace bedload

@@ -3,6 +3,7 @@
 // forces are opposite and histories equal to the last bit.
 
 #include "bedload/neighbours/verlet_list.hpp"
+#include "bedload/parallel/overlap.hpp"
 #include "kernels/contact/contact_law.hpp"
 #include "kernels/contact/pair_histories.hpp"
 
@@ -107,6 +108,7 @@ struct ContactPass {
       slot += VerletListView::kTurn;
     }
     lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
+    wait_for_loop_before();  // over the walls, which may go on so far
     if (wall_row && wall_row[i] != kNone) sum.add(by_walls[wall_row[i]]);
     return sum;
   }

@@ -104,6 +104,8 @@ struct WallContactPass {
   ContactSum* sums;       ///< [rows]
   TouchLoads loads = {};  ///< where to record what the grains do to free bodies; may be none
   BL_HD void operator()(Index row) const {
+    wait_for_loop_before();
+    let_next_loop_begin();
     const Index i = rows.grain[row];
     const Index* surface = rows.surface + rows.offset[row];
     if (loads) loads.clear(i);

@@ -18,18 +18,18 @@ struct OnePass {
     typename Force::template Sum<N> force;
     typename Density::template Sum<N> density;
   };
-  BL_HD Sum<> start(Index a) const { return {force.start(a), density.start(a)}; }
+  BL_HD Sum<> start(Index a) const { return {force.start(a), seen().start(a)}; }
 
   BL_HD auto sources() const { return force.sources(); }
   template <class N>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p) const {
     force.pair(sum.force, r, r2, M, vb, p);
-    density.pair(sum.density, r, r2, M, vb);
+    seen().pair(sum.density, r, r2, M, vb);
   }
   template <class N, class J>
   BL_HD void wall_pair(Sum<N>& sum, Index a, J b, const Vec3<N>& r, N r2) const {
     force.wall_pair(sum.force, a, b, r, r2);
-    density.wall_pair(sum.density, a, b, r, r2);
+    seen().wall_pair(sum.density, a, b, r, r2);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     force.merge(into.force, other.force);
@@ -41,6 +41,16 @@ struct OnePass {
     rate[a] = change.rate;
     density.s_new[a] = max_of(density.s[a] + change.settled, kThinnest);
     if (density.drift) density.drift[a] = density.shift(sum.density.shift, sum.density.gradient);
+  }
+
+ private:
+  /// The density's pass through the eyes of the force's: a compiler knows what both read and work out.
+  BL_HD Density seen() const {
+    Density same = density;
+    same.w = force.w;
+    same.flux = force.flux, same.m_state = force.m_state;
+    same.wall_v_rho = force.wall_v_rho, same.wall_m_state = force.wall_m_state;
+    return same;
   }
 };
 

@@ -29,14 +29,14 @@ struct CubicSpline {
   BL_HD N W(N r) const {
     const N q = r * inv_h;
     return select(q < 1, norm_W * (1 - q * q * (Real(1.5) - Real(0.75) * q)),
-                  norm_W * Real(0.25) * cube(max_of(N(0), 2 - q)));
+                  norm_W * Real(0.25) * cube(positive_part(2 - q)));
   }
   /// -W'/r, 1/m5.
   template <class N>
   BL_HD N F(N r) const {
     const N q = r * inv_h;
     return select(q < 1, norm_F * (3 - Real(2.25) * q),
-                  norm_F * Real(0.75) * square(max_of(N(0), 2 - q)) / q);
+                  norm_F * Real(0.75) * square(positive_part(2 - q)) / q);
   }
 };
 

@@ -28,12 +28,12 @@ struct Lucy {
   template <class N>
   BL_HD N W(N r) const {
     const N q = r * inv_h;
-    return norm_W * (1 + 3 * q) * cube(max_of(N(0), 1 - q));
+    return norm_W * (1 + 3 * q) * cube(positive_part(1 - q));
   }
   /// -W'/r, 1/m5.
   template <class N>
   BL_HD N F(N r) const {
-    return norm_F * square(max_of(N(0), 1 - r * inv_h));
+    return norm_F * square(positive_part(1 - r * inv_h));
   }
 };
 

@@ -28,13 +28,13 @@ struct WendlandC2 {
   template <class N>
   BL_HD N W(N r) const {
     const N q = r * inv_h;
-    const N t = max_of(N(0), 1 - Real(0.5) * q);
+    const N t = positive_part(1 - Real(0.5) * q);
     return norm_W * square(square(t)) * (1 + 2 * q);
   }
   /// -W'/r, 1/m5.
   template <class N>
   BL_HD N F(N r) const {
-    return norm_F * cube(max_of(N(0), 1 - Real(0.5) * r * inv_h));
+    return norm_F * cube(positive_part(1 - Real(0.5) * r * inv_h));
   }
 };
 

@@ -21,11 +21,7 @@ template <class P>
 struct WrapPass {
   Frame frame;
   Span<P> x;
-  Span<P> x_list;
-  BL_HD void operator()(Index i) const {
-    x[i] = as_position<P>(frame, frame.wrap(coordinates(frame, x[i])));
-    x_list[i] = x[i];
-  }
+  BL_HD void operator()(Index i) const { x[i] = as_position<P>(frame, frame.wrap(coordinates(frame, x[i]))); }
 };
 
 /// Copies of positions as pair loops read them, `back` (s) before where they are, with their weights.
@@ -405,15 +401,18 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved,
     set_skin(four_steps > narrow ? 1.5 * narrow : narrow);
     walls_moved = walls_moved || skin_ != former;
   }
-  for_each(fluid.owned(), WrapPass<FluidPosition>{frame_, fluid.x, fluid.x_list});
+  for_each(fluid.owned(), WrapPass<FluidPosition>{frame_, fluid.x});
   grid_.sort(frame_, Span<const FluidPosition>(fluid.x), order_);
   fluid.reorder(order_);
+  fluid.x_list.copy(fluid.x);
   if (walls_moved && walls.size() > 0) {
-    for_each(walls.owned(), WrapPass<Vec3d>{frame_, walls.x, walls.x_list});
-    for_each(walls.mirrors.owned(), WrapPass<Vec3d>{frame_, walls.mirrors.x, walls.mirrors.x_list});
+    MirrorStore& images = walls.mirrors;
+    for_each(walls.owned(), WrapPass<Vec3d>{frame_, walls.x});
+    for_each(images.owned(), WrapPass<Vec3d>{frame_, images.x});
     wall_grid_.sort(frame_, Span<const Vec3d>(walls.x), order_);
     walls.reorder(order_);
-    if (walls.mirrors.size() > 0) walls.mirrors.reorder(order_);
+    walls.x_list.copy(walls.x);
+    if (images.size() > 0) images.reorder(order_), images.x_list.copy(images.x);
   }
   relist(fluid, walls, false);
 }

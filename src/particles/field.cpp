@@ -17,22 +17,24 @@ struct GatherPass {
 }  // namespace
 
 template <class T>
-void Field<T>::gather(Span<const Index> order) {
-  static Buffer<T> spare;  // one a type: a gather swaps it with the field
-  spare.reserve_and_resize(order.size);
-  for_each({0, order.size}, GatherPass<T>{data_, order, spare});
-  data_.swap(spare);
+void Field<T>::gather(Span<const Index> order, FieldBase* by) {
+  static thread_local Buffer<T> spare;
+  auto* const lender = dynamic_cast<Field<T>*>(by);
+  Buffer<T>& room = lender ? lender->data_ : spare;
+  room.reserve_and_resize(order.size);
+  for_each({0, order.size}, GatherPass<T>{data_, order, room});
+  data_.swap(room);
 }
 
-template void Field<std::uint32_t>::gather(Span<const Index>);
-template void Field<float>::gather(Span<const Index>);
-template void Field<Vec3<float>>::gather(Span<const Index>);
-template void Field<Vec4<float>>::gather(Span<const Index>);
-template void Field<double>::gather(Span<const Index>);
-template void Field<Vec3<double>>::gather(Span<const Index>);
-template void Field<Vec4<double>>::gather(Span<const Index>);
-template void Field<PackedPosition>::gather(Span<const Index>);
-template void Field<PairPosition>::gather(Span<const Index>);
-template void Field<WallMemory>::gather(Span<const Index>);
+template void Field<std::uint32_t>::gather(Span<const Index>, FieldBase*);
+template void Field<float>::gather(Span<const Index>, FieldBase*);
+template void Field<Vec3<float>>::gather(Span<const Index>, FieldBase*);
+template void Field<Vec4<float>>::gather(Span<const Index>, FieldBase*);
+template void Field<double>::gather(Span<const Index>, FieldBase*);
+template void Field<Vec3<double>>::gather(Span<const Index>, FieldBase*);
+template void Field<Vec4<double>>::gather(Span<const Index>, FieldBase*);
+template void Field<PackedPosition>::gather(Span<const Index>, FieldBase*);
+template void Field<PairPosition>::gather(Span<const Index>, FieldBase*);
+template void Field<WallMemory>::gather(Span<const Index>, FieldBase*);
 
 }  // namespace bedload::inline BL_VARIANT

@@ -14,8 +14,8 @@ namespace {
 
 struct WrapGrains {
   Frame frame;
-  Span<Vec3d> x, x_list;
-  BL_HD void operator()(Index i) const { x_list[i] = x[i] = frame.wrap(x[i]); }
+  Span<Vec3d> x;
+  BL_HD void operator()(Index i) const { x[i] = frame.wrap(x[i]); }
 };
 
 /// Places among the grains as listed last, from places among those that are left.
@@ -58,9 +58,10 @@ SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeo
 }
 
 void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal) {
-  for_each(grains.owned(), WrapGrains{frame_, grains.x, grains.x_list});
+  for_each(grains.owned(), WrapGrains{frame_, grains.x});
   grid.sort<Vec3d>(frame_, grains.x.span(), order_);
   grains.reorder(order_);
+  grains.x_list.copy(grains.x);
   if (renewal.any) for_each(grains.owned(), ComeFromPass{renewal.came_from, order_});
   std::swap(list_, old_list_);
   histories_.swap(old_histories_);
@@ -159,8 +160,8 @@ ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses,
   ContactPass pass = contact_pass(g, dt);
   if (wall_list_.size() == 0 || law_.normal == NormalLaw::none) return pass;
   by_walls_.reserve_and_resize(wall_list_.size());
-  for_each({0, wall_list_.size()},
-           WallContactPass{wall_contacts(g, poses, dt), wall_list_.rows(), by_walls_.data(), loads});
+  for_each_early({0, wall_list_.size()},
+                 WallContactPass{wall_contacts(g, poses, dt), wall_list_.rows(), by_walls_.data(), loads});
   pass.wall_row = wall_list_.row_of();
   pass.by_walls = by_walls_.data();
   return pass;
@@ -170,7 +171,7 @@ void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
   FreeBodies* const free = moving();
   wall_list_.cover(g, poses, wall_counts(), 0);
   const ContactPass contacts = contacts_at(g, poses.data, 0, free ? free->record(g.size()) : TouchLoads{});
-  for_each(threads(), EvaluatePass{contacts, g.force, g.torque});
+  evaluate(EvaluatePass{contacts, g.force, g.torque});
 }
 
 void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies, double dt, int substeps,
@@ -186,7 +187,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   if (held || config_.grain.fixed) {
     for_each(g.owned(), HeldPass{dt, g.U, g.omega_f, g.K, g.K_rot, g.impulse, g.spin_impulse, g.drag_force});
     for (int s = 1; free && s <= substeps; ++s) {
-      for_each(threads(), EvaluatePass{contacts_in(s), g.force, g.torque});
+      evaluate(EvaluatePass{contacts_in(s), g.force, g.torque});
       free->substep(s);
     }
     if (!free) evaluate(g, {poses.data + std::size_t(substeps) * bodies, Index(bodies)});
@@ -214,12 +215,12 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     const ContactPass contacts = contacts_in(s);
     if (!gravity.empty()) kick.gravity = gravity[s];
     if (s < substeps) {
-      for_each(threads(), SubstepPass{contacts, kick, next_x_, next_v_, next_omega_, v_rest_, omega_rest_,
-                                      g.impulse, g.spin_impulse});
+      evaluate(SubstepPass{contacts, kick, next_x_, next_v_, next_omega_, v_rest_, omega_rest_, g.impulse,
+                           g.spin_impulse});
       g.x.buffer().swap(next_x_);
     } else {
-      for_each(threads(), LastKickPass{contacts, kick, dt, next_v_, next_omega_, v_rest_, omega_rest_,
-                                       g.impulse, g.spin_impulse, g.force, g.torque, g.drag_force});
+      evaluate(LastKickPass{contacts, kick, dt, next_v_, next_omega_, v_rest_, omega_rest_, g.impulse,
+                            g.spin_impulse, g.force, g.torque, g.drag_force});
     }
     g.v.buffer().swap(next_v_);
     g.omega.buffer().swap(next_omega_);

@@ -118,8 +118,15 @@ class SolidSolver {
   /// Evaluates the contacts with walls and returns the pass over those between grains, which adds them.
   ContactPass contacts_at(const GrainStore& grains, const BodyPose* poses, double dt,
                           const TouchLoads& loads);
-  /// Over the threads of the passes that evaluate contacts.
-  Range threads() const { return {0, list_.rows() << list_.view().bits}; }
+  /// Runs a pass with `contacts` of contacts_at, from then on beside the walls'.
+  template <class Pass>
+  void evaluate(const Pass& pass) {
+    const Range threads{0, list_.rows() << list_.view().bits};
+    if (pass.contacts.by_walls)
+      for_each_early(threads, pass);
+    else
+      for_each(threads, pass);
+  }
   const Index* wall_counts() const { return wall_contacts_ ? wall_contacts_->buffer().data() : nullptr; }
 
   Config config_;

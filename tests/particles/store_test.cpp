@@ -54,6 +54,33 @@ TEST(Store, SpendsNothingOnFieldsLeftOut) {
   EXPECT_EQ(store.size(), 3u);
 }
 
+TEST(Store, SortsWhatIsKeptAndSavesWhatIsRenewed) {
+  struct Sorted : Store {
+    Sorted() : Store("sorted") {}
+    Field<Real> kept{*this, "kept", "-", Lifetime::kept}, second{*this, "second", "-", Lifetime::kept};
+    Field<Real> carried{*this, "carried", "-", Lifetime::carried};
+    Field<Real> renewed{*this, "renewed", "-", Lifetime::renewed};
+    Field<Real> derived{*this, "derived", "-", Lifetime::derived};
+  } store;
+  store.grow(3);
+  store.kept.assign({5, 6, 7}), store.second.assign({50, 60, 70}), store.carried.assign({1, 2, 3});
+  store.renewed.assign({8, 8, 8}), store.derived.assign({9, 9, 9});
+  Buffer<Index> order;
+  order.assign({2, 0});
+  store.reorder(order);
+  EXPECT_EQ(store.kept.values(), (std::vector<Real>{7, 5}));
+  EXPECT_EQ(store.second.values(), (std::vector<Real>{70, 50}));
+  EXPECT_EQ(store.carried.values(), (std::vector<Real>{3, 1}));
+  EXPECT_EQ(store.derived.values().size(), 2u);
+  store.renewed.copy(store.kept);
+  const HostStore saved = store.save();
+  EXPECT_EQ(saved.arrays.size(), 3u);
+  ASSERT_TRUE(saved.find("renewed"));
+  store.renewed.assign({0, 0});
+  store.load(saved);
+  EXPECT_EQ(store.renewed.values(), (std::vector<Real>{7, 5}));
+}
+
 TEST(Store, LosesWhatDoesNotStayAndGrowsAgain) {
   Pairs store;
   std::vector<Id> all(10000), left;

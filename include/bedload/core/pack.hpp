@@ -27,6 +27,14 @@ BL_HD N quotient(N a, N b) {
 #endif
   return a / b;
 }
+/// x, or 0 where that is negative.
+template <class N>
+BL_HD N positive_part(N x) {
+#if defined(__CUDA_ARCH__)
+  if constexpr (std::is_same_v<N, float>) return fmaxf(x, 0.0f);
+#endif
+  return max_of(N(0), x);
+}
 BL_HD float as_real(std::int32_t i) { return float(i); }
 /// a - b, modulo 2^32.
 BL_HD std::int32_t wrapped_difference(std::int32_t a, std::int32_t b) {

@@ -37,10 +37,10 @@ struct CellGridView {
   /// The cells around a sphere. Cells on a periodic axis are visited once, also where the sphere
   /// is as wide as the period.
   struct Block {
-    int lo[3], n[3];
-    double at[3];             ///< the sphere's centre from the first cell's corner, in cells
-    double width[3];          ///< of a cell, m; 0 on an axis that is covered whole
-    double range2;            ///< m2
+    int lo[3], n[3];  ///< first cell, inside the grid, and how many: those on a periodic axis may wrap
+    double at[3];     ///< the sphere's centre from the first cell's corner, in cells
+    double width[3];  ///< of a cell, m; 0 on an axis that is covered whole
+    double range2;    ///< m2
     bool below[3], above[3];  ///< whether the first or last cell also holds what lies outside the grid
 
     BL_HD int size() const { return n[0] * n[1] * n[2]; }
@@ -76,8 +76,9 @@ struct CellGridView {
         lo = clamp(lo, 0, n[k] - 1);
         hi = clamp(hi, 0, n[k] - 1);
       }
-      b.lo[k] = lo, b.n[k] = hi - lo + 1;
+      b.n[k] = hi - lo + 1;
       b.at[k] = (x[k] - origin[k]) * inverse[k] - lo;
+      b.lo[k] = !periodic[k] ? lo : lo % n[k] < 0 ? lo % n[k] + n[k] : lo % n[k];
       b.width[k] = whole ? 0 : 1 / inverse[k];
       b.below[k] = !periodic[k] && lo == 0;
       b.above[k] = !periodic[k] && hi == n[k] - 1;
@@ -108,42 +109,39 @@ struct CellGridView {
       for (int iy = lo[1]; iy <= hi[1]; ++iy)
         for (int ix = lo[0]; ix <= hi[0]; ++ix) f(key(wrapped(ix, 0), wrapped(iy, 1), wrapped(iz, 2)));
   }
-  /// Calls f(j) for each particle in every stride-th of the cells that a sphere of radius `range` about x
-  /// touches.
+  /// f(begin, end) for the particles of each of the cells that a sphere of radius `range` about x touches; of
+  /// a stride that is a power of two, every stride-th of the cells.
   template <class F>
-  BL_HD void each_near(const Vec3d& x, double range, F&& f, int first = 0, int stride = 1) const {
+  BL_HD void each_run(const Vec3d& x, double range, F&& f, unsigned first = 0, unsigned stride = 1) const {
     const Block b = block(x, range);
-    for (int q = first; q < b.size(); q += stride) {
-      if (!b.touches(q)) continue;
-      const std::uint32_t c = key(b, q);
-      for (Index j = start[c]; j < start[c + 1]; ++j) f(j);
-    }
-  }
-  /// f(begin, end) for the particles of each cell that the sphere touches.
-  template <class F>
-  void each_run(const Vec3d& x, double range, F&& f) const {
-    const Block b = block(x, range);
+    unsigned q = 0;
     for (int k = 0; k < b.n[2]; ++k) {
       const double gap_z = b.gap2(2, k);
       const int iz = wrapped(b.lo[2] + k, 2);
       for (int j = 0; j < b.n[1]; ++j) {
         const double gap_yz = gap_z + b.gap2(1, j);
-        if (gap_yz >= b.range2) continue;
         const int iy = wrapped(b.lo[1] + j, 1);
         for (int i = 0; i < b.n[0]; ++i) {
-          if (gap_yz + b.gap2(0, i) >= b.range2) continue;
+          if ((q++ & (stride - 1)) != first || gap_yz + b.gap2(0, i) >= b.range2) continue;
           const std::uint32_t c = key(wrapped(b.lo[0] + i, 0), iy, iz);
           if (start[c] < start[c + 1]) f(start[c], start[c + 1]);
         }
       }
     }
   }
+  /// f(j) for each of these particles.
+  template <class F>
+  BL_HD void each_near(const Vec3d& x, double range, F&& f, unsigned first = 0, unsigned stride = 1) const {
+    const auto run = [&](Index begin, Index end) {
+      for (Index j = begin; j < end; ++j) f(j);
+    };
+    each_run(x, range, run, first, stride);
+  }
 
-  /// Coordinate of a cell on a periodic axis.
+  /// Coordinate of a cell no more than a period beyond the ends of a periodic axis.
   BL_HD int wrapped(int i, int k) const {
     if (!periodic[k]) return i;
-    i %= n[k];
-    return i < 0 ? i + n[k] : i;
+    return i < 0 ? i + n[k] : i >= n[k] ? i - n[k] : i;
   }
 };
 

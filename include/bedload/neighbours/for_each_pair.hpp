@@ -354,67 +354,80 @@ struct TileLoop {
   __device__ void operator()() const {
     const Tile tile = list.tile[blockIdx.x];
     const Index end = list.tile[blockIdx.x + 1].row;
-    extern __shared__ uint4 memory[];
     const Lane lane(threadIdx.x, list.bits);
     const Index i = tile.row + lane.row;
+    const auto among_all = [&](auto& sum) {
+      each_entry(lane, [&](Index local) {
+        if (local == tile.sources) return;
+        const Index j = list.source[tile.source + local];
+        const auto b = separation.b[j];
+        const Real3 r = separation(i, b);
+        const Real r2 = norm2(r);
+        if (r2 < range2) add_pair(pass, sum, i, j, r, r2, Real(b.weight));
+      });
+    };
     if constexpr (kStages<Pass>) {
-      if (tile.sources < capacity) {  // places as distances from the first row, with the weight
-        using Fields = decltype(detail::staged_of(pass.sources()));
-        auto* const place = reinterpret_cast<Real4*>(memory);
-        const auto fields = Fields::at(reinterpret_cast<std::byte*>(place + capacity), capacity);
-        const auto origin = separation.b[tile.row];
-#pragma unroll 4
-        for (Index local = threadIdx.x; local < tile.sources; local += kTileThreads) {
-          const Index j = list.source[tile.source + local];
-          Fields::copy(fields, pass.sources(), local, j);
-          const auto b = separation.b[j];
-          place[local] = {separation.frame.separation(b, origin), Real(b.weight)};
-        }
-        if (threadIdx.x == 0) {
-          Fields::end(fields, tile.sources);
-          place[tile.sources] = {};
-        }
-        __pipeline_commit();
-        __pipeline_wait_prior(0);
-        __syncthreads();
-        if (i >= end) return;
-        const Real3 a = separation.frame.separation(separation.a[i], origin);
-        row(i, lane, [&](auto& sum, Index local) {
-          const Real4 b = place[local];
-          const Real3 r = list.periods(a - b.xyz());
-          fields.load(local, [&](const auto&... of_b) { pass.pair(sum, r, norm2(r), b.w, of_b...); });
-        });
-        return;
-      }
+      if (tile.sources < capacity) return among_staged(tile, i, end, lane);
     }
-    if (i >= end) return;
-    row(i, lane, [&](auto& sum, Index local) {
-      if (local == tile.sources) return;
-      const Index j = list.source[tile.source + local];
-      const auto b = separation.b[j];
-      const Real3 r = separation(i, b);
-      const Real r2 = norm2(r);
-      if (r2 < range2) add_pair(pass, sum, i, j, r, r2, Real(b.weight));
-    });
+    finish(i, end, lane, among_all);
   }
 
  private:
+  /// Places are staged as distances from the first row, with the weight.
+  __device__ void among_staged(const Tile& tile, Index i, Index end, const Lane& lane) const {
+    extern __shared__ uint4 memory[];
+    using Fields = decltype(detail::staged_of(pass.sources()));
+    auto* const place = reinterpret_cast<Real4*>(memory);
+    const auto fields = Fields::at(reinterpret_cast<std::byte*>(place + capacity), capacity);
+    const auto origin = separation.b[tile.row];
+#pragma unroll 4
+    for (Index local = threadIdx.x; local < tile.sources; local += kTileThreads) {
+      const Index j = list.source[tile.source + local];
+      Fields::copy(fields, pass.sources(), local, j);
+      const auto b = separation.b[j];
+      place[local] = {separation.frame.separation(b, origin), Real(b.weight)};
+    }
+    if (threadIdx.x == 0) {
+      Fields::end(fields, tile.sources);
+      place[tile.sources] = {};
+    }
+    __pipeline_commit();
+    __pipeline_wait_prior(0);
+    __syncthreads();
+    const Real3 a = separation.frame.separation(separation.a[min_of(i, end - 1)], origin);
+    finish(i, end, lane, [&](auto& sum) {
+      const auto pairs = [&](const auto& nearest_image) {
+        each_entry(lane, [&](Index local) {
+          const Real4 b = place[local];
+          const Real3 r = nearest_image(a - b.xyz());
+          fields.load(local, [&](const auto&... of_b) { pass.pair(sum, r, norm2(r), b.w, of_b...); });
+        });
+      };
+      list.periods.any ? pairs(list.periods) : pairs([](const Real3& r) { return r; });
+    });
+  }
+  /// f(local) for each entry of a row.
   template <class F>
-  __device__ void row(Index i, const Lane& lane, const F& add) const {
-    auto sum = pass.start(i);
+  __device__ void each_entry(const Lane& lane, const F& f) const {
     const Index threads = Mergeable<Pass> ? 1 : lane.count;  // whose entries this one takes
-    if (threads > 1 && lane.index > 0) return;
     for (Index thread = threadIdx.x; thread < threadIdx.x + threads; ++thread) {
-      const uint2* entry = list.entry + list.word(blockIdx.x, thread);
+      const uint2* entry = list.entry + list.first_word(blockIdx.x, thread);
       for (int left = list.count[blockIdx.x * kTileThreads + thread]; left > 0; left -= 4) {
         const uint2 word = *entry;
         entry += kTileThreads;
-        add(sum, word.x & 0xffff);
-        add(sum, word.x >> 16);
-        add(sum, word.y & 0xffff);
-        add(sum, word.y >> 16);
+        f(word.x & 0xffff);
+        f(word.x >> 16);
+        f(word.y & 0xffff);
+        f(word.y >> 16);
       }
     }
+  }
+  /// A whole row, whose fluid `among` adds up.
+  template <class F>
+  __device__ void finish(Index i, Index end, const Lane& lane, const F& among) const {
+    if (i >= end || (!Mergeable<Pass> && lane.index > 0)) return;
+    auto sum = pass.start(i);
+    among(sum);
     if constexpr (!std::is_same_v<WallRow, NoWalls>)
       wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) { pass.wall_pair(sum, i, j, r, r2); });
     finish_row(pass, i, lane, sum);

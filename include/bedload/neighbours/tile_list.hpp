@@ -17,12 +17,13 @@ struct Tile {
   Index row;      ///< first row; the next tile's ends it
   Index source;   ///< where its sources begin
   Index sources;  ///< how many there are
+  Index word;     ///< where the words of its entries begin
 };
 
 /// Takes differences of places seen from a tile's first row to the nearest image where a period is so short
 /// that a tile and what is around it meet themselves.
 struct ShortPeriods {
-  bool any = false;
+  bool any = false;            ///< else there is nothing to do, and loops over pairs are built without it
   Vec3<Real> length, inverse;  ///< m, 1/m; 0 along other axes
 
   ShortPeriods() = default;
@@ -34,7 +35,6 @@ struct ShortPeriods {
       }
   }
   BL_HD Vec3<Real> operator()(const Vec3<Real>& d) const {
-    if (!any) return d;
     using std::rint;
     return {d.x - length.x * rint(d.x * inverse.x), d.y - length.y * rint(d.y * inverse.y),
             d.z - length.z * rint(d.z * inverse.z)};
@@ -45,16 +45,26 @@ struct TileListView {
   const Tile* tile = nullptr;            ///< [tiles + 1]
   const Index* source = nullptr;         ///< places among all particles
   const std::uint16_t* count = nullptr;  ///< [tiles x threads] entries of a thread
-  const uint2* entry = nullptr;          ///< four at a time: [tiles x words x threads]
-  Index words = 0;                       ///< capacity of each thread
+  const uint2* entry = nullptr;          ///< four to a word: [words of all tiles x threads]
   unsigned bits = 0;                     ///< log2 of the threads that share a row
   Index most = 0;                        ///< sources of any tile
   ShortPeriods periods;
 
-  BL_HD std::size_t word(Index tile, Index thread) const {
-    return std::size_t(tile) * words * kTileThreads + thread;
+  /// Place of the first word of a thread; the next are as far apart as there are threads.
+  BL_HD std::size_t first_word(Index of_tile, Index thread) const {
+    return std::size_t(tile[of_tile].word) * kTileThreads + thread;
   }
 };
+
+namespace detail {
+/// What a search has come to.
+struct TileCounts {
+  Index next;             ///< tile that no block has taken yet
+  Index sources, words;   ///< of all tiles
+  Index longest;          ///< most entries of a thread
+  Index around, nearest;  ///< most particles in the cells around a tile, and most sources of one
+};
+}  // namespace detail
 
 /// Every j within `reach` of i at the time of building, among sorted particles. The unused places of an
 /// entry's word number one source more than there are.
@@ -63,7 +73,7 @@ class TileList {
   Index rows() const { return rows_; }
   Index tiles() const { return tiles_; }
   TileListView view() const {
-    return {tile_.data(), source_.data(), count_.data(), entry_.data(), words_, bits_, most_, periods_};
+    return {tile_.data(), source_.data(), count_.data(), entry_.data(), bits_, most_, periods_};
   }
 
   /// x: as sorted into the cells; xp: the same as pair loops read them. As many threads share a row as keep
@@ -78,16 +88,17 @@ class TileList {
              double reach, unsigned bits);
 
  private:
-  Index rows_ = 0, tiles_ = 0, words_ = 16, most_ = 0;
+  Index rows_ = 0, tiles_ = 0, most_ = 0;
+  Index words_ = 32;          ///< of a thread's entries, at most
   std::size_t crowd_ = 2500;  ///< particles in the cells around a tile, about
   unsigned bits_ = 0;
   ShortPeriods periods_;
   Buffer<Tile> tile_;
   Buffer<Index> source_;
   Buffer<std::uint16_t> count_;
-  Buffer<uint2> entry_;
+  Buffer<uint2> entry_, found_;
   Buffer<std::uint64_t> width_, offset_;
-  Buffer<Index> used_;
+  Buffer<detail::TileCounts> counts_;
   Sorter sorter_;
 };
 
@@ -103,6 +114,16 @@ inline std::size_t tile_memory() {
     return max_of(std::size_t(all) / 2 - own, min_of(std::size_t(one), std::size_t(99) << 10)) - fixed;
   }();
   return bytes;
+}
+
+/// Blocks of a kernel that the device runs at a time.
+template <class Kernel>
+Index resident_blocks(Kernel kernel, Index threads, std::size_t memory) {
+  int device = 0, processors = 0, blocks = 0;
+  check_cuda(cudaGetDevice(&device), "GPU");
+  check_cuda(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), "GPU");
+  check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, int(threads), memory), "GPU");
+  return Index(max_of(blocks, 1) * processors);
 }
 
 namespace detail {
@@ -222,8 +243,12 @@ struct ThreadEntries {
   }
 };
 
-/// One block, one tile: all particles of the cells around it are numbered and searched; then those that are
-/// near any row alone are numbered, and the entries put in order.
+/// So many particles can be numbered around a tile.
+constexpr Index kMostAround = 65534;
+
+/// One block, one tile after another, as they come: all particles of the cells around it are numbered and
+/// searched; then those that are near any row alone are numbered, and what was found is written by their
+/// numbers.
 template <class P>
 struct TileSearch {
   CellGridView grid;
@@ -233,23 +258,26 @@ struct TileSearch {
   double reach;
   ShortPeriods periods;
   unsigned bits;
-  Index words, capacity, memory;  ///< of entries of a thread; for the sources of all tiles; bytes to stage in
+  Index tiles, memory;           ///< memory: to stage in, bytes
+  Index words, sources, places;  ///< there is room for: of a thread; of all tiles; words of all tiles
   Tile* tile;
   Index* source;
   std::uint16_t* count;
-  uint2* entry;
-  Index* used;  ///< sources of all tiles; most entries of a thread; most sources of a tile, first and last
+  uint2 *entry, *found;  ///< found: [blocks x words x threads]
+  TileCounts* counts;
 };
 
-template <class P>
-__global__ void __launch_bounds__(kTileThreads) tile_search(TileSearch<P> s) {
+/// kAlone: one thread a row.
+template <bool kAlone, class P>
+__device__ void search_tile(const TileSearch<P>& s, const Index tile) {
+  const unsigned bits = kAlone ? 0 : s.bits;
   constexpr Index kEach = (BrickCells::kCells + kTileThreads - 1) / kTileThreads,
                   kSlots = kEach * kTileThreads;
   constexpr Index kWarps = kTileThreads / 32;
   __shared__ std::uint32_t cell[kSlots];  // key of a cell that is near, kNone of others
   __shared__ Index local[kSlots];         // number of its first particle, or of the next cell's
   static_assert(kSlots > BrickCells::kCells);
-  __shared__ Index sums[kWarps], first_source, most;
+  __shared__ Index sums[kWarps], first_source, first_word, most;
   extern __shared__ uint4 staged[];
 
   const Index t = threadIdx.x, warp = t / 32, lane_of_warp = t % 32;
@@ -258,8 +286,8 @@ __global__ void __launch_bounds__(kTileThreads) tile_search(TileSearch<P> s) {
   __syncthreads();
 
   // the cells that any row reaches into
-  const Lane lane(t, s.bits);
-  const Index first = s.tile[blockIdx.x].row, end = s.tile[blockIdx.x + 1].row;
+  const Lane lane(t, bits);
+  const Index first = s.tile[tile].row, end = s.tile[tile + 1].row;
   const Index i = first + lane.row;
   const bool some = i < end;
   CellsAround around;
@@ -289,6 +317,8 @@ __global__ void __launch_bounds__(kTileThreads) tile_search(TileSearch<P> s) {
     at += particles(cell[t * kEach + k]);
   }
   __syncthreads();
+  if (t == 0) atomicMax(&s.counts->around, all);
+  if (all > kMostAround) return;  // an error of the caller's
   const auto each_particle = [&](const auto& f) {
     for (Index slot = warp; slot < BrickCells::kCells; slot += kWarps) {
       if (cell[slot] == kNone) continue;
@@ -301,49 +331,52 @@ __global__ void __launch_bounds__(kTileThreads) tile_search(TileSearch<P> s) {
   auto* const near = reinterpret_cast<Vec4<Real>*>(staged);
   const PairPosition origin = s.xp[first];
   const auto from_origin = [&](Index j) { return s.frame.separation(s.xp[j], origin); };
-  const bool fits = (all + (4u << s.bits)) * sizeof(Vec4<Real>) <= s.memory;  // tests run on
+  const bool fits = (all + (4u << bits)) * sizeof(Vec4<Real>) <= s.memory;  // tests run on
   if (fits) each_particle([&](Index number, Index j) { near[number] = {from_origin(j), 0}; });
   __syncthreads();
-  ThreadEntries list{s.entry + std::size_t(blockIdx.x) * s.words * kTileThreads + t, s.words};
+  ThreadEntries list{s.found + std::size_t(blockIdx.x) * s.words * kTileThreads + t, s.words};
   if (some) {
     const Vec3<Real> a = from_origin(i);
     const Real range2 = Real(s.reach * s.reach);
     around.each(0, 1, [&](int slot, const int(&)[3]) {
       const Index from = local[slot], to = local[slot + 1], begin = s.grid.start[cell[slot]];
       const Index self = from + (i - begin);
-      const auto search = [&](const auto& place) {
+      const auto search = [&](const auto& from_row) {
         for (Index k = from + lane.index; k < to; k += 32 * lane.count) {
-          const Index n = min_of(32u, (to - k + lane.count - 1) >> s.bits);
+          const Index n = min_of(32u, (to - k + lane.count - 1) >> bits);
           unsigned hits = 0;
-          for (Index b = 0; b < n; b += 4)
+          for (Index b = 0; b < n; b += 4) {
+            unsigned four = 0;
 #pragma unroll
             for (Index c = 0; c < 4; ++c)
-              if (norm2(s.periods(a - place(k + ((b + c) << s.bits)))) < range2) hits |= 1u << (b + c);
+              if (norm2(from_row(k + ((b + c) << bits))) < range2) four |= 1u << c;
+            hits |= four << b;
+          }
           hits &= 0xffffffffu >> (32 - n);
           if (((self - k) & (lane.count - 1)) == 0 && self - k < 32 * lane.count)
-            hits &= ~(1u << ((self - k) >> s.bits));
+            hits &= ~(1u << ((self - k) >> bits));
           while (hits != 0) {
             const int b = 31 - __clz(int(hits));
             hits ^= 1u << b;
-            list.append(k + (Index(b) << s.bits));
+            list.append(k + (Index(b) << bits));
           }
         }
       };
-      if (fits)
-        search([&](Index k) { return near[k].xyz(); });
+      if (fits && !s.periods.any)
+        search([&](Index k) { return a - near[k].xyz(); });
       else
-        search([&](Index k) { return from_origin(begin + (min_of(k, to - 1) - from)); });
+        search([&](Index k) {
+          const Vec3<Real> b = fits ? near[k].xyz() : from_origin(begin + (min_of(k, to - 1) - from));
+          return s.periods(a - b);
+        });
     });
     list.end(all);
   }
-  s.count[blockIdx.x * kTileThreads + t] = std::uint16_t(list.n);
+  s.count[tile * kTileThreads + t] = std::uint16_t(list.n);
   atomicMax(&most, list.n);
   __syncthreads();
-  if (t == 0) {
-    atomicMax(s.used + 1, most);
-    atomicMax(s.used + 2, all);
-  }
-  if (most > 4 * s.words || all > 65534) return;  // to be done again with more capacity
+  if (t == 0) atomicMax(&s.counts->longest, most);
+  if (most > 4 * s.words) return;  // to be done again with more capacity
 
   // number those that are near: a bit each, and how many there are before its word
   const Index fields = (all + 31) / 32;
@@ -363,14 +396,17 @@ __global__ void __launch_bounds__(kTileThreads) tile_search(TileSearch<P> s) {
     before[k] = at;
     at += __popc(near_row[k]);
   }
+  const Index words = (most + 3) / 4;
   if (t == 0) {
-    first_source = atomicAdd(s.used, sources);
-    atomicMax(s.used + 3, sources);
-    s.tile[blockIdx.x].source = first_source;
-    s.tile[blockIdx.x].sources = sources;
+    first_source = atomicAdd(&s.counts->sources, sources);
+    first_word = atomicAdd(&s.counts->words, words);
+    atomicMax(&s.counts->nearest, sources);
+    s.tile[tile].source = first_source;
+    s.tile[tile].sources = sources;
+    s.tile[tile].word = first_word;
   }
   __syncthreads();
-  if (first_source + sources > s.capacity) return;
+  if (first_source + sources > s.sources || first_word + words > s.places) return;
   const auto number = [&](Index k) {
     return before[k / 32] + __popc(near_row[k / 32] & ((1u << (k % 32)) - 1));
   };
@@ -378,10 +414,21 @@ __global__ void __launch_bounds__(kTileThreads) tile_search(TileSearch<P> s) {
     if (near_row[k / 32] >> (k % 32) & 1) s.source[first_source + number(k)] = j;
   });
   if (!some) return;
-  const ThreadEntries searched = list;
-  list.n = 0;
-  searched.each([&](Index k) { list.append(number(k)); });
-  list.end(sources);
+  ThreadEntries numbered{s.entry + std::size_t(first_word) * kTileThreads + t, words};
+  list.each([&](Index k) { numbered.append(number(k)); });
+  numbered.end(sources);
+}
+
+template <bool kAlone, class P>
+__global__ void __launch_bounds__(kTileThreads) tile_search(TileSearch<P> s) {
+  __shared__ Index tile;
+  for (;;) {
+    if (threadIdx.x == 0) tile = atomicAdd(&s.counts->next, 1);
+    __syncthreads();
+    if (tile >= s.tiles) return;
+    search_tile<kAlone>(s, tile);
+    __syncthreads();
+  }
 }
 
 /// Orders the entries of each thread t: at step k a source whose number is t + k modulo 8, or the next there
@@ -390,7 +437,7 @@ template <class Word>
 __global__ void __launch_bounds__(kTileThreads) tile_order(TileListView list, Word* entry) {
   extern __shared__ std::uint16_t sorted[];  // by remainder, [entries x threads]
   const Index t = threadIdx.x;
-  ThreadEntries in{entry + list.word(blockIdx.x, t), list.words};
+  ThreadEntries in{entry + list.first_word(blockIdx.x, t), 64};
   const Index n = in.n = list.count[blockIdx.x * kTileThreads + t];
   if (n > 255) return;
   std::uint64_t left = 0;  // entries of each remainder, a byte each
@@ -405,7 +452,7 @@ __global__ void __launch_bounds__(kTileThreads) tile_order(TileListView list, Wo
   in.each([&](Index k) { sorted[take(k & 7)] = std::uint16_t(k); });
   Index least = 255;  // as often as every remainder is there
   for (Index r = 0; r < 8; ++r) least = min_of(least, Index(left >> 8 * r) & 255);
-  ThreadEntries out{in.word, list.words};
+  ThreadEntries out{in.word, in.words};
   for (Index k = 0; k < 8 * least; ++k) {
     const Index r = (t + k) & 7;
     out.append(sorted[((Index(begin >> 8 * r) & 255) + k / 8) * kTileThreads + t]);
@@ -441,29 +488,36 @@ void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, 
   count_.reserve_and_resize(std::size_t(tiles_) * kTileThreads);
   most_ = 0;
   if (tiles_ == 0) return;
-  used_.resize(4);
-  check_cuda(cudaFuncSetAttribute(detail::tile_search<P>, cudaFuncAttributeMaxDynamicSharedMemorySize,
-                                  int(tile_memory())),
+  counts_.resize(1);
+  const auto search = bits_ == 0 ? detail::tile_search<true, P> : detail::tile_search<false, P>;
+  check_cuda(cudaFuncSetAttribute(search, cudaFuncAttributeMaxDynamicSharedMemorySize, int(tile_memory())),
              "shared memory of a search");
   Index longest = 0;
   for (bool done = false; !done;) {
     constexpr std::size_t least = 2 * 65536 / 8;  // a bit for each of the most there may be, and sums of them
     const std::size_t memory = max_of(least, min_of(tile_memory(), crowd_ * sizeof(Vec4<Real>)));
-    entry_.reserve_and_resize(std::size_t(tiles_) * words_ * kTileThreads);
-    used_.zero();
-    detail::tile_search<P><<<tiles_, kTileThreads, memory>>>(
-        {grid.view(), frame, x, xp, reach, periods_, bits_, words_, Index(source_.size()), Index(memory),
-         tile_.data(), source_.data(), count_.data(), entry_.data(), used_.data()});
+    const Index blocks = min_of(tiles_, resident_blocks(search, kTileThreads, memory));
+    const Index places = Index(entry_.size() / kTileThreads);
+    found_.reserve_and_resize(std::size_t(blocks) * words_ * kTileThreads);
+    counts_.zero();
+    search<<<blocks, kTileThreads, memory>>>({grid.view(), frame, x, xp, reach, periods_, bits_, tiles_,
+                                              Index(memory), words_, Index(source_.size()), places,
+                                              tile_.data(), source_.data(), count_.data(), entry_.data(),
+                                              found_.data(), counts_.data()});
     check_cuda(cudaGetLastError(), "search for neighbours");
-    const auto used = used_.to_host();
-    if (used[2] > 65534)
-      throw DeviceError("more than 65534 particles around " + std::to_string(rows) + " that lie together");
-    done = used[0] <= source_.size() && used[1] <= 4 * words_;
-    longest = used[1];
-    most_ = used[3];
-    crowd_ = used[2] + used[2] / 16 + (4u << bits_);
-    if (used[1] > 4 * words_) words_ = (used[1] + 3) / 4 + 1;
-    if (used[0] > source_.size()) source_.reserve_and_resize(used[0]);
+    const detail::TileCounts counts = counts_.to_host()[0];
+    if (counts.around > detail::kMostAround)
+      throw DeviceError("more than " + std::to_string(detail::kMostAround) + " particles around " +
+                        std::to_string(rows) + " that lie together");
+    done = counts.sources <= source_.size() && counts.words <= places && counts.longest <= 4 * words_;
+    longest = counts.longest;
+    most_ = counts.nearest;
+    crowd_ = counts.around + counts.around / 16 + (4u << bits_);
+    // with room for a little more: what does not fit takes another search
+    if (counts.longest > 4 * words_) words_ = (counts.longest + 3) / 4 + 1;
+    if (counts.sources > source_.size()) source_.resize(counts.sources + counts.sources / 16);
+    if (counts.words > places)
+      entry_.resize(std::size_t(counts.words + counts.words / 32 + 1) * kTileThreads);
   }
   // by what there is now, not by the capacity that there has been: a run that goes on from here orders the
   // same

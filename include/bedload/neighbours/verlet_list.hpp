@@ -83,7 +83,7 @@ struct CountPass {
     const auto look = [&](Index j) { n += near(i, j) ? 1u : 0u; };
     const Vec3d place = near.place(i);
     if (sources.any_near(place, near.reach(i)))
-      sources.each_near(place, near.reach(i), look, int(lane.index), int(lane.count));
+      sources.each_near(place, near.reach(i), look, lane.index, lane.count);
     lane.combine(n, [](std::uint32_t& into, std::uint32_t other) { into += other; });
     if (lane.index == 0) count[i] = n;
   }

@@ -8,15 +8,15 @@ namespace detail {
 template <class Keep>
 struct KeepFlagPass {
   Keep keep;
-  Span<std::uint64_t> flag;
+  Span<Index> flag;
   BL_HD void operator()(Index i) const { flag[i] = keep(i) ? 1 : 0; }
 };
 
 struct KeptPlacePass {
-  Span<const std::uint64_t> flag, before;
+  Span<const Index> flag, before;
   Span<Index> kept;
   BL_HD void operator()(Index i) const {
-    if (flag[i]) kept[Index(before[i])] = i;
+    if (flag[i]) kept[before[i]] = i;
   }
 };
 
@@ -35,7 +35,7 @@ class Compaction {
   }
 
  private:
-  Buffer<std::uint64_t> flag_, before_;
+  Buffer<Index> flag_, before_;
   Sorter sorter_;
 };
 

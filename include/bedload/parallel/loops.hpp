@@ -33,13 +33,19 @@ __global__ void __launch_bounds__(128)
 }
 #endif
 
+#if BL_CUDA
+/// Small ranges reach every multiprocessor; in large ones what lies together shares a first-level cache.
+inline Index block_size(Range range) {
+  return range.size() < 1u << 16 ? 32 : range.size() < 1u << 18 ? 128 : 256;
+}
+#endif
+
 /// Calls f(i) for every i of the range.
 template <class F>
 void for_each(Range range, const F& f) {
   if (range.size() == 0) return;
 #if BL_CUDA
-  // small ranges reach every multiprocessor; in large ones what lies together shares a first-level cache
-  const Index block = range.size() < 1u << 16 ? 32 : range.size() < 1u << 18 ? 128 : 256;
+  const Index block = block_size(range);
   for_each_kernel<<<(range.size() + block - 1) / block, block>>>(range.begin, range.end, f);
   check_cuda(cudaGetLastError(), "kernel launch");
 #else
@@ -66,7 +72,7 @@ namespace detail {
 template <class F>
 const typename F::Value* reduce_there(Range range, const F& f) {
   using Value = typename F::Value;
-  static Buffer<Value> partial[2];
+  static thread_local Buffer<Value> partial[2];
   Index chunks = (range.size() + kReduceChunk - 1) / kReduceChunk;
   partial[0].reserve_and_resize(chunks);
 #if BL_CUDA

@@ -49,10 +49,11 @@ class Sorter {
   }
 
   /// out[i] = sum of in[0..i); out has in.size() + 1 entries, the last is the total, which is returned.
-  std::uint64_t exclusive_scan(const Buffer<std::uint64_t>& in, Buffer<std::uint64_t>& out) {
+  template <class T>
+  T exclusive_scan(const Buffer<T>& in, Buffer<T>& out) {
     const Index n = Index(in.size());
     out.resize(n + 1);
-    fill_zero(out.data(), sizeof(std::uint64_t));
+    fill_zero(out.data(), sizeof(T));
     if (n > 0) {
 #if BL_CUDA
       std::size_t bytes = 0;
@@ -60,11 +61,11 @@ class Sorter {
       scratch_.reserve_and_resize(bytes);
       check_cuda(cub::DeviceScan::InclusiveSum(scratch_.data(), bytes, in.data(), out.data() + 1, n), "scan");
 #else
-      std::uint64_t sum = 0;
+      T sum = 0;
       for (Index i = 0; i < n; ++i) out.data()[i + 1] = (sum += in.data()[i]);
 #endif
     }
-    std::uint64_t total = 0;
+    T total = 0;
     copy_to_host(&total, out.data() + n, sizeof total);
     return total;
   }

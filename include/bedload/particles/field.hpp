@@ -13,6 +13,7 @@ namespace bedload::inline BL_VARIANT {
 enum class Lifetime {
   kept,     ///< state: sorted with the particles, saved in checkpoints
   carried,  ///< like kept but recomputed before use after a restart: sorted, not saved
+  renewed,  ///< like kept but set anew whenever particles are sorted: saved, not sorted
   derived,  ///< recomputed from state every step: neither sorted nor saved
 };
 
@@ -66,6 +67,8 @@ class FieldBase {
   const Lifetime lifetime;
 
   bool used() const { return used_; }
+  bool sorted() const { return lifetime == Lifetime::kept || lifetime == Lifetime::carried; }
+  bool saved() const { return lifetime == Lifetime::kept || lifetime == Lifetime::renewed; }
   /// For good: a case that does not need the field spends no memory on it. Its span is empty.
   void leave_out() { used_ = false; }
   /// Checkpoints of cases that left it out can be gone on with: it begins at zero.
@@ -75,8 +78,9 @@ class FieldBase {
   virtual void resize(Index n) = 0;
   /// To n entries, the new ones zero.
   virtual void grow(Index n) = 0;
-  /// x[i] = old x[order[i]]; shrinks to order.size.
-  virtual void gather(Span<const Index> order) = 0;
+  /// x[i] = old x[order[i]]; shrinks to order.size. Takes the memory of `by` for it, whose values are lost,
+  /// if that is of the same type.
+  virtual void gather(Span<const Index> order, FieldBase* by) = 0;
   virtual HostArray to_host() const = 0;
   virtual void from_host(const HostArray& array) = 0;
 
@@ -91,7 +95,7 @@ class Field final : public FieldBase {
 
   void resize(Index n) override { data_.resize(n); }
   void grow(Index n) override { data_.grow(n); }
-  void gather(Span<const Index> order) override;  // in field.cpp, for the types listed there
+  void gather(Span<const Index> order, FieldBase* by) override;  // in field.cpp, for the types listed there
   HostArray to_host() const override {
     HostArray a{name, unit, FileType<T>::scalar, FileType<T>::components, {}};
     a.bytes.resize(data_.size() * sizeof(T));
@@ -106,6 +110,8 @@ class Field final : public FieldBase {
   }
 
   Buffer<T>& buffer() { return data_; }
+  /// The values of another field of as many entries.
+  void copy(const Field& from) { copy_on_device(data_.data(), from.data_.data(), data_.size() * sizeof(T)); }
   void assign(const std::vector<T>& host) {
     if (used()) data_.assign(host);
   }

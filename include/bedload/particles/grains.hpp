@@ -9,7 +9,7 @@ struct GrainStore : Store {
 
   Field<Id> id{*this, "id", "-", Lifetime::kept};
   Field<Vec3d> x{*this, "x", "m", Lifetime::kept};
-  Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::kept};  ///< where the neighbour lists were built
+  Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::renewed};  ///< where the neighbour lists were built
   Field<Real> radius{*this, "radius", "m", Lifetime::kept};
   Field<Real3> v{*this, "v", "m/s", Lifetime::kept};
   Field<Real3> omega{*this, "omega", "rad/s", Lifetime::kept};

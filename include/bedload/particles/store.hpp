@@ -1,6 +1,7 @@
 #pragma once
 // Fields that are resized, sorted and saved as one.
 
+#include <typeinfo>
 #include <vector>
 
 #include "bedload/particles/field.hpp"
@@ -30,25 +31,22 @@ class Store {
   }
   /// Reorders everything that outlives a step; may drop particles (order shorter than size).
   void reorder(Span<const Index> order) {
-    for (auto* f : fields_) {
-      if (!f->used()) continue;
-      if (f->lifetime == Lifetime::derived)
-        f->resize(order.size);
-      else
-        f->gather(order);
-    }
+    for (auto* f : fields_)
+      if (f->used() && f->sorted()) f->gather(order, lender_for(*f));
+    for (auto* f : fields_)
+      if (f->used() && !f->sorted()) f->resize(order.size);
     size_ = order.size;
   }
   HostStore save() const {
     HostStore s{name, size_, {}};
     for (auto* f : fields_)
-      if (f->used() && f->lifetime == Lifetime::kept) s.arrays.push_back(f->to_host());
+      if (f->used() && f->saved()) s.arrays.push_back(f->to_host());
     return s;
   }
   void load(const HostStore& s) {
     resize(Index(s.count));
     for (auto* f : fields_) {
-      if (!f->used() || f->lifetime != Lifetime::kept) continue;
+      if (!f->used() || !f->saved()) continue;
       const HostArray* a = s.find(f->name);
       if (!a && f->needed()) throw FileError("checkpoint has no array " + name + "/" + f->name);
       if (a)
@@ -60,6 +58,12 @@ class Store {
 
  private:
   friend class FieldBase;
+  /// A field of the same type whose values need not last while particles are sorted.
+  FieldBase* lender_for(const FieldBase& field) const {
+    for (auto* f : fields_)
+      if (f->used() && !f->sorted() && typeid(*f) == typeid(field)) return f;
+    return nullptr;
+  }
   std::vector<FieldBase*> fields_;
   Index size_ = 0;
 };

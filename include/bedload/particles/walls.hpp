@@ -32,7 +32,7 @@ struct MirrorStore : Store {
 
   Field<Vec3d> x0{*this, "x0", "m", Lifetime::kept};  ///< place at t = 0
   Field<Vec3d> x{*this, "x", "m", Lifetime::kept};
-  Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::kept};
+  Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::renewed};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};
 };
 
@@ -47,7 +47,7 @@ struct WallStore : Store {
   Field<Vec3d> x0{*this, "x0", "m", Lifetime::kept};  ///< place at t = 0
   Field<std::uint32_t> body{*this, "body", "-", Lifetime::kept};
   Field<Vec3d> x{*this, "x", "m", Lifetime::kept};
-  Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::kept};
+  Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::renewed};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};
   Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept};  ///< true velocity, density
   Field<Real4> v_visc{*this, "v_visc", "m/s, kg",
