@@ -64,8 +64,9 @@ struct SavedState {
 /// Initial particles, in double precision, in the order of their ids.
 struct Setup {
   struct Fluid {
-    std::vector<Vec3d> x, v;   ///< m, m/s
-    std::vector<double> mass;  ///< kg
+    std::vector<Vec3d> x, v;          ///< m, m/s
+    std::vector<double> mass;         ///< kg
+    std::vector<std::uint32_t> fill;  ///< index in FluidConfig::fills
   } fluid;
   struct Walls {
     std::vector<Vec3d> x;             ///< m, at t = 0
@@ -75,6 +76,7 @@ struct Setup {
   } walls;
   struct Grains {
     std::vector<Vec3d> x, v;          ///< m, m/s
+    std::vector<Vec3d> omega;         ///< rad/s; empty: none spins
     std::vector<double> radius;       ///< m
     std::vector<std::uint32_t> fill;  ///< index in GrainConfig::fills
   } grains;

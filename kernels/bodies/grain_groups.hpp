@@ -29,14 +29,14 @@ struct GainReduction {
   using Value = LoadSum;
   GrainGroups all;
   Index of;
-  double mass_per_r3;  ///< 4/3 pi rho_s
+  MassPerR3 mass_per_r3;
   Span<const Real> radius;
   Span<const Real3> v, omega, v_rest, omega_rest;  ///< rests may be empty
   BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index i) const {
     Value sum = Value::zero();
     if (all.group[i] != of + 1) return sum;
-    const double R = radius[i], m = mass_per_r3 * R * R * R;
+    const double R = radius[i], m = mass_per_r3(i) * R * R * R;
     const Vec3d rest = v_rest ? Vec3d(v_rest[i]) : Vec3d{},
                 spin_rest = v_rest ? Vec3d(omega_rest[i]) : Vec3d{};
     const Vec3d gained = m * (Vec3d(v[i]) - Vec3d(Real3(all.velocity(i))) + rest);

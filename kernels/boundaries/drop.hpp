@@ -10,6 +10,7 @@ namespace bedload::inline BL_VARIANT {
 struct NewGrain {
   Vec3d x, v;         ///< m, m/s
   double radius = 0;  ///< m
+  std::uint32_t material = 0;
 };
 
 /// Up to N places for a grain; which of them are taken by grains that are there.
@@ -35,6 +36,7 @@ struct DropPass {
   Span<Vec3d> x;
   Span<Real3> v;
   Span<Real> radius, eps;
+  Span<std::uint32_t> material;  ///< may be empty
   Span<Index> came_from;
   BL_HD void operator()(Index k) const {
     const Index i = place + k;
@@ -43,6 +45,7 @@ struct DropPass {
     v[i] = Real3(grain[k].v);
     radius[i] = Real(grain[k].radius);
     eps[i] = 1;
+    if (material) material[i] = grain[k].material;
     came_from[i] = kNone;
   }
 };

@@ -2,6 +2,7 @@
 // Which particles leave a simulation, and by which way.
 
 #include "bedload/core/frame.hpp"
+#include "kernels/contact/grain_mass.hpp"
 #include "kernels/walls/surface.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -81,9 +82,9 @@ struct FluidMass {
   BL_HD double operator()(Index a) const { return mass[a]; }
 };
 struct GrainMass {
-  double per_r3;  ///< kg/m3
+  MassPerR3 per_r3;
   Span<const Real> radius;
-  BL_HD double operator()(Index i) const { return per_r3 * cube(double(radius[i])); }
+  BL_HD double operator()(Index i) const { return per_r3(i) * cube(double(radius[i])); }
 };
 
 }  // namespace bedload::inline BL_VARIANT

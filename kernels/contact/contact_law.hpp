@@ -68,6 +68,7 @@ struct ContactLaw {
       case NormalLaw::linear:
         return f(all.spring);
       case NormalLaw::hertz:
+      case NormalLaw::democritus:
       case NormalLaw::none:
         break;
     }
@@ -81,6 +82,7 @@ struct ContactLaw {
       case SlidingLaw::linear:
         return f(all.linear_sliding);
       case SlidingLaw::mindlin:
+      case SlidingLaw::democritus:
       case SlidingLaw::none:
         break;
     }
@@ -182,9 +184,12 @@ struct ContactLaw {
   }
 };
 
-/// The laws of a case, between grains. Throws CaseError where the restitution cannot be had.
+/// The laws of a case, between grains of the materials that grain.* gives. Throws CaseError where the
+/// restitution cannot be had.
 ContactLaw make_contact_law(const Config& config);
+/// Between grains of two materials, with the mean of their friction.
+ContactLaw make_contact_law(const Config& config, const GrainMaterial& a, const GrainMaterial& b);
 /// The same between grains and a wall body, with the friction and restitution of that.
-ContactLaw make_wall_law(const Config& config, const WallBody& body);
+ContactLaw make_wall_law(const Config& config, const GrainMaterial& grain, const WallBody& body);
 
 }  // namespace bedload::inline BL_VARIANT

@@ -4,12 +4,14 @@
 
 #include "bedload/neighbours/verlet_list.hpp"
 #include "bedload/parallel/overlap.hpp"
-#include "kernels/contact/contact_law.hpp"
+#include "kernels/contact/grain_mass.hpp"
+#include "kernels/contact/lubrication.hpp"
 #include "kernels/contact/pair_histories.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Pairs of grains closer than the sum of their radii and a skin, but for those of one rigid group.
+/// Pairs of grains closer than the sum of their radii, a skin and, where there is any, the gap up to which
+/// lubrication acts, but for those of one rigid group.
 struct GrainNear {
   Frame frame;
   Span<const Vec3d> x;
@@ -17,12 +19,14 @@ struct GrainNear {
   Span<const std::uint32_t> group;  ///< 0: none; empty without groups
   double largest;                   ///< radius, m
   double skin;                      ///< m
+  double film = 0;                  ///< that gap / R*
   BL_HD Vec3d place(Index i) const { return x[i]; }
-  BL_HD double reach(Index i) const { return radius[i] + largest + skin; }
+  BL_HD double reach(Index i) const { return radius[i] + largest + skin + film_between(radius[i], largest); }
   BL_HD bool operator()(Index i, Index j) const {
     if (group && group[i] != 0 && group[i] == group[j]) return false;
-    return i != j && closer(i, j, skin);
+    return i != j && closer(i, j, skin + film_between(radius[i], radius[j]));
   }
+  BL_HD double film_between(double R_i, double R_j) const { return film * R_i * R_j / (R_i + R_j); }
   BL_HD bool closer(Index i, Index j, double gap) const {
     const double range = double(radius[i]) + double(radius[j]) + gap;
     return norm2(frame.separation(x[i], x[j])) < range * range;
@@ -79,8 +83,8 @@ struct ContactSum {
 struct ContactPass {
   Frame frame;
   ContactLaw law;
-  Real mass_per_r3;  ///< 4/3 pi rho_s
-  Real dt;           ///< s
+  MassPerR3 mass_per_r3;
+  Real dt;  ///< s
   Span<const Vec3d> x;
   Span<const Real3> v, omega;
   Span<const Real> radius;
@@ -89,15 +93,22 @@ struct ContactPass {
   PairHistories histories;
   Span<const Index> wall_row = {};  ///< of each grain in by_walls, kNone: far from walls; empty: all are
   const ContactSum* by_walls = nullptr;
+  const ContactSum* by_films = nullptr;  ///< [grains], of the fluid between them; null: none
+  const ContactLaw* laws = nullptr;      ///< [materials][materials]; null: `law` for all
+  std::uint32_t materials = 1;
 
-  BL_HD Sphere sphere(Real R) const { return {R, mass_per_r3 * cube(R)}; }
+  BL_HD Sphere sphere(Index i, Real R) const { return {R, Real(mass_per_r3(i)) * cube(R)}; }
+  /// Place in `laws` of that between two grains.
+  BL_HD std::uint32_t pair_of(Index i, Index j) const {
+    return mass_per_r3.material[i] * materials + mass_per_r3.material[j];
+  }
 
   /// Sums over all contacts of the lane's row, and advances the histories of its pairs by dt.
   BL_HD ContactSum operator()(const Lane& lane) const {
     ContactSum sum;
     const Index i = lane.row;
     if (law.normal == NormalLaw::none) return sum;
-    const Grain own{x[i], radius[i], v[i], omega[i], id[i]};
+    const Grain own{i, x[i], radius[i], v[i], omega[i], id[i]};
     const std::uint32_t n = list.count[i];
     std::uint64_t slot = list.slot(i, lane.index);
     Index next = list.entry[slot];
@@ -110,11 +121,13 @@ struct ContactPass {
     lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
     wait_for_loop_before();  // over the walls, which may go on so far
     if (wall_row && wall_row[i] != kNone) sum.add(by_walls[wall_row[i]]);
+    if (by_films) sum.add(by_films[i]);
     return sum;
   }
 
  private:
   struct Grain {
+    Index i;
     Vec3d x;
     Real R;
     Real3 v, omega;
@@ -139,10 +152,15 @@ struct ContactPass {
     }
     const bool first = own.id < id[j];
     const Real3 v_j = v[j], omega_j = omega[j];
+    const Index lo = first ? own.i : j, hi = first ? j : own.i;
     const Real R_lo = first ? own.R : R, R_hi = first ? R : own.R;
-    const ContactGeometry at = touch(sphere(R_lo), sphere(R_hi), first ? r : -r, distance, reach - distance);
-    const ContactForce f = law(at, first ? own.v - v_j : v_j - own.v, either(first, own.omega, omega_j),
-                               either(first, omega_j, own.omega), dt, h);
+    const ContactGeometry at =
+        touch(sphere(lo, R_lo), sphere(hi, R_hi), first ? r : -r, distance, reach - distance);
+    const Real3 v_rel = first ? own.v - v_j : v_j - own.v, omega_lo = either(first, own.omega, omega_j),
+                omega_hi = either(first, omega_j, own.omega);
+    // the one law of most cases is a parameter of the kernel, which a reference would put in memory
+    const ContactForce f = laws ? laws[pair_of(lo, hi)](at, v_rel, omega_lo, omega_hi, dt, h)
+                                : law(at, v_rel, omega_lo, omega_hi, dt, h);
     sum.force += Vec3d(first ? f.force : -f.force);
     sum.torque += Vec3d(either(first, f.torque_i, f.torque_j));
     histories.store(slot, h);

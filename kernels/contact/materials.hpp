@@ -8,6 +8,7 @@ namespace bedload::inline BL_VARIANT {
 /// Two materials that touch, and [contact].
 struct ContactMaterials {
   double normal, tangential;  ///< sums of the compliances of both sides, 1/Pa
+  double nu;                  ///< Poisson's ratio, mean of both sides
   double mu, mu_r, e;
   const ContactConfig& contact;
 

@@ -54,6 +54,10 @@ inline double hertz_damping(double e, bool clip) {
   return x * (0.71149 + x * (0.14661 + x * (0.018182 + x * 0.0051058)));
 }
 
+/// Of `democritus`: the damping 2 sqrt(2 m* S_n) of [tsuzuki] Eq. 32, sqrt 2 times critical, S_n being the
+/// tangent stiffness in place of the k_n of its linear spring.
+constexpr double kDemocritus = 3.4641016151377544;  // 2 sqrt 3
+
 /// F = k_H overlap^1.5, damping alpha sqrt(m* k_H) overlap^0.25: restitution does not depend on speed.
 struct Hertz {
   static constexpr double kEnergy = 0.4;  ///< stored, over force times overlap
@@ -62,8 +66,8 @@ struct Hertz {
 
   static Hertz of(const ContactMaterials& m) {
     const bool paper = m.contact.he_damping;
-    const double alpha =
-        paper ? std::sqrt(6.0) * damping_ratio(m.e) : hertz_damping(m.e, m.contact.clip_tension);
+    double alpha = paper ? std::sqrt(6.0) * damping_ratio(m.e) : hertz_damping(m.e, m.contact.clip_tension);
+    if (m.contact.normal == NormalLaw::democritus) alpha = kDemocritus;
     return {Real(m.E_star()), Real(alpha)};
   }
   /// R_star, m_star: reduced radius and mass (m, kg); overlap > 0 (m).

@@ -24,12 +24,16 @@ struct SlidingState {
   Real damping;    ///< N s/m
 };
 
-/// Incremental Mindlin: stiffness 8 G* sqrt(R* overlap).
+/// Incremental Mindlin: stiffness 8 G* sqrt(R* overlap); as `democritus` S_n / (2 + 2 nu) [tsuzuki] Eq. 31,
+/// with the mean nu of both sides.
 struct Mindlin {
   static constexpr bool kPartialSlip = false;
   Real G_star = 0;  ///< Pa
 
-  static Mindlin of(const ContactMaterials& m) { return {Real(m.G_star())}; }
+  static Mindlin of(const ContactMaterials& m) {
+    if (m.contact.tangential == SlidingLaw::democritus) return {Real(m.E_star() / (8 * (1 + m.nu)))};
+    return {Real(m.G_star())};
+  }
   BL_HD Vec3d stretch(const Vec3d& xi, const Vec3d& step, double before, double now) const {
     return rescale(xi, before, now) + step;
   }

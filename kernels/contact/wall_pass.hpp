@@ -16,8 +16,8 @@ struct WallRows {
 
 struct WallContacts {
   Frame frame;
-  Real mass_per_r3;  ///< 4/3 pi rho_s
-  Real dt;           ///< s
+  MassPerR3 mass_per_r3;
+  Real dt;  ///< s
   Span<const Vec3d> x;
   Span<const Real3> v, omega;
   Span<const Real> radius;
@@ -25,9 +25,12 @@ struct WallContacts {
   WallMemory* const* memory;  ///< [capacity][grains]
   Index* count;               ///< [grains], of them in use
   int capacity;               ///< walls that a grain may touch at once
-  const ContactLaw* laws;     ///< [bodies]
-  const BodyPose* poses;      ///< [bodies]
+  const ContactLaw* laws;     ///< [bodies][materials]
+  std::uint32_t materials;
+  const BodyPose* poses;  ///< [bodies]
   const RigidBody* free_bodies = nullptr;
+  Lubrication lubrication = {};
+  Span<const Real> wetness = {};  ///< for lubrication
 
   struct Contact {
     ContactForce on_grain;
@@ -39,26 +42,17 @@ struct WallContacts {
     return cross(arm(poses[body], c.point), c.on_wall()) + Vec3d(c.on_grain.torque_j);
   }
   BL_HD WallMemories memories(Index i) const { return {memory, count, i}; }
+  BL_HD const ContactLaw& law(std::uint32_t body, Index i) const {
+    return laws[body * materials + (mass_per_r3.material ? mass_per_r3.material[i] : 0)];
+  }
 
-  /// f(body, contact) for all that grain i touches of the surfaces `surface(k)`, ascending, k < n; `keep`:
-  /// histories are advanced.
+  /// f(body, contact) for all that grain i touches of the surfaces `surface(k)`, ascending, k < n, and then
+  /// for all from which fluid parts it; `keep`: histories are advanced.
   template <class Surfaces, class F>
   BL_HD void each(Index i, Index n, Surfaces&& surface, bool keep, F&& f) const {
     const WallMemories remembered = memories(i);
-    const double R = double(radius[i]);
-    const Vec3d at = x[i];
     WallTouches touches(remembered, walls.surfaces.data, capacity);
-    for (Index k = 0; k < n; ++k) {
-      const Index s = surface(k);
-      const Surface& of = walls.surfaces[s];
-      const BodyPose& pose = poses[of.body];
-      if (!pose.present) continue;
-      const SurfaceView view(of, pose, frame, at);
-      const double reach = of.reach(R);
-      if (view.beyond(walls, reach)) continue;
-      view.each_closest_point(walls, reach, 1e-4 * R,
-                              [&](const ClosestPoint& closest) { touches.add(s, closest, R); });
-    }
+    find(i, n, surface, double(radius[i]), touches);
     if (touches.size() > 0) {
       touches.settle();
       WallMemory next[kMostWallContacts];
@@ -67,9 +61,48 @@ struct WallContacts {
         for (int k = 0; k < touches.size(); ++k) remembered[k] = next[k];
     }
     if (keep && remembered.count() != Index(touches.size())) count[i] = Index(touches.size());
+    if (lubrication.acts() && wetness[i] > 0) films(i, n, surface, f);
   }
 
  private:
+  /// Collects what is within `range` of the centre of grain i, m.
+  template <class Surfaces>
+  BL_HD void find(Index i, Index n, Surfaces&& surface, double range, WallTouches& touches) const {
+    const Vec3d at = x[i];
+    for (Index k = 0; k < n; ++k) {
+      const Index s = surface(k);
+      const Surface& of = walls.surfaces[s];
+      const BodyPose& pose = poses[of.body];
+      if (!pose.present) continue;
+      const SurfaceView view(of, pose, frame, at);
+      const double reach = of.reach(range);
+      if (view.beyond(walls, reach)) continue;
+      view.each_closest_point(walls, reach, 1e-4 * double(radius[i]),
+                              [&](const ClosestPoint& closest) { touches.add(s, closest, range); });
+    }
+  }
+  template <class Surfaces, class F>
+  BL_HD void films(Index i, Index n, Surfaces&& surface, F& f) const {
+    const Real R = radius[i];
+    WallTouches near(WallMemories{nullptr, nullptr, i}, walls.surfaces.data, kMostWallContacts);
+    find(i, n, surface, double(R) + double(lubrication.range(R)), near);
+    if (near.size() == 0) return;
+    near.settle();
+    for (int k = 0; k < near.size(); ++k) {
+      const ClosestPoint& closest = near[k].closest;
+      const BodyPose& pose = poses[near[k].body];
+      const Vec3d point = x[i] - closest.distance * closest.normal;
+      const NearSurfaces at{closest.normal, closest.distance - double(R), R, 1, Real(closest.distance), 0};
+      ContactForce on_grain = lubrication(at, v[i] - Real3(surface_velocity(pose, arm(pose, point))),
+                                          omega[i], Real3(pose.omega));
+      on_grain.force *= wetness[i], on_grain.torque_i *= wetness[i], on_grain.torque_j *= wetness[i];
+      f(near[k].body, Contact{on_grain, point});
+    }
+  }
+  /// r: from the body's centre, m.
+  BL_HD static Vec3d surface_velocity(const BodyPose& pose, const Vec3d& r) {
+    return pose.v + cross(pose.omega, r) + pose.rotation.rotate(pose.slide);
+  }
   /// Of a place from the centre of a body, by the nearest image, m.
   BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
     return frame.nearest_image(point - pose.origin());
@@ -82,15 +115,14 @@ struct WallContacts {
     if (touch.from != kNone) h = remembered[touch.from].history;
     h.overlap = std::abs(h.overlap);
     const Vec3d point = x[i] - closest.distance * closest.normal;
-    const Sphere grain{radius[i], mass_per_r3 * cube(radius[i])};
+    const Sphere grain{radius[i], Real(mass_per_r3(i)) * cube(radius[i])};
     ContactGeometry at = touch_wall(grain, closest.normal, double(radius[i]) - closest.distance);
-    const Vec3d r = arm(pose, point),
-                v_wall = pose.v + cross(pose.omega, r) + pose.rotation.rotate(pose.slide);
+    const Vec3d r = arm(pose, point), v_wall = surface_velocity(pose, r);
     if (pose.free)
       at.m_star /= 1 + at.m_star * Real(free_bodies[pose.free - 1].inverse_effective_mass(pose.rotation, r,
                                                                                           closest.normal));
     const ContactForce on_grain =
-        laws[touch.body](at, v[i] - Real3(v_wall), omega[i], Real3(pose.omega), dt, h);
+        law(touch.body, i)(at, v[i] - Real3(v_wall), omega[i], Real3(pose.omega), dt, h);
     f(touch.body, Contact{on_grain, point});
     h.overlap *= closest.side;
     return {touch.key(), closest.normal, h};

@@ -1,4 +1,5 @@
 #pragma once
+#include "kernels/contact/grain_mass.hpp"
 #include "kernels/coupling/fluid_records.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -34,14 +35,14 @@ struct BuoyancyPass {
 
 /// Ends the step of the grains as kick-drift-kick: they went through it under the force at its start.
 struct BuoyancyKick {
-  Real kick;         ///< s
-  Real mass_per_r3;  ///< kg/m3
+  Real kick;  ///< s
+  MassPerR3 mass_per_r3;
   bool moves;
   Span<const Real3> now;
   Span<const Real> radius;
   Span<Real3> force, v;
   BL_HD void operator()(Index j) const {
-    if (moves) v[j] += kick / (mass_per_r3 * cube(radius[j])) * (now[j] - force[j]);
+    if (moves) v[j] += kick / (Real(mass_per_r3(j)) * cube(radius[j])) * (now[j] - force[j]);
     force[j] = now[j];
   }
 };

@@ -1,36 +1,79 @@
 #pragma once
+#include "bedload/case/choices.hpp"
 #include "bedload/particles/fluid.hpp"
+#include "kernels/contact/grain_mass.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
+/// A force given in a case, as it is now and where a particle is.
+struct DriveField {
+  Frame frame;
+  Vec3d f;                   ///< N/m3, m/s2 or N
+  Span<const Real> factors;  ///< of each particle; empty: f as it is
+  int opposed;               ///< axis along which f is reversed in the upper half of the domain; -1: none
+
+  BL_HD Vec3d at(Index i, const Vec3d& x) const {
+    const Vec3d force = factors ? double(factors[i]) * f : f;
+    return opposed >= 0 && upper(x) ? -force : force;
+  }
+
+ private:
+  BL_HD bool upper(const Vec3d& x) const {
+    return frame.wrap(x)[opposed] - frame.origin[opposed] > 0.5 * frame.length[opposed];
+  }
+};
+
 /// What drives the fluid besides gravity, m/s2.
 struct Drive {
-  Frame frame;
+  DriveField field;
   Span<const FluidPosition> x;
-  Vec3d f;  ///< force per volume of space, N/m3; or per mass, m/s2
-  bool per_mass;
-  int opposed;           ///< axis along which f is reversed in the upper half of the domain; -1: none
+  DriveMode mode;
+  bool shared;           ///< grains are driven, too: fluid takes the force per volume of its own
   Vec3d spring, centre;  ///< acceleration -spring (x - centre) per axis, 1/s2, m
   bool pulls;
 
   BL_HD Real3 operator()(Index a, const Real4& m_state) const {
-    Real3 acc = per_mass ? Real3(f) : Real3(f) / (m_state.w * m_state.z);
-    if (opposed >= 0 && upper(a)) acc = -acc;
+    const Real3 f = Real3(field.at(a, coordinates(field.frame, x[a])));
+    Real3 acc;
+    switch (mode) {
+      case DriveMode::volume:
+        acc = f / (shared ? m_state.z : m_state.w * m_state.z);
+        break;
+      case DriveMode::mass:
+        acc = f;
+        break;
+      case DriveMode::particle:
+        acc = f / (m_state.x * m_state.w);
+        break;
+    }
     if (pulls) acc -= Real3(pull(a));
     return acc;
   }
-  BL_HD double energy(Index a) const {
-    return 0.5 * dot(pull(a), coordinates(frame, x[a]) - centre);
-  }  ///< J/kg
+  /// J/kg
+  BL_HD double energy(Index a) const { return 0.5 * dot(pull(a), coordinates(field.frame, x[a]) - centre); }
 
  private:
-  BL_HD bool upper(Index a) const {
-    const Vec3d at = frame.wrap(coordinates(frame, x[a]));
-    return at[opposed] - frame.origin[opposed] > 0.5 * frame.length[opposed];
-  }
   BL_HD Vec3d pull(Index a) const {
-    const Vec3d r = coordinates(frame, x[a]) - centre;
+    const Vec3d r = coordinates(field.frame, x[a]) - centre;
     return {spring.x * r.x, spring.y * r.y, spring.z * r.z};
+  }
+};
+
+/// The same on grains, N.
+struct GrainDrivePass {
+  DriveField field;
+  DriveMode mode;
+  MassPerR3 mass_per_r3;
+  Span<const Vec3d> x;
+  Span<const Real> radius;
+  Span<Real3> force;
+
+  BL_HD void operator()(Index i) const {
+    const double R3 = cube(double(radius[i]));
+    double times = 1;
+    if (mode == DriveMode::volume) times = 4 * M_PI / 3 * R3;
+    if (mode == DriveMode::mass) times = mass_per_r3(i) * R3;
+    force[i] = Real3(times * field.at(i, x[i]));
   }
 };
 

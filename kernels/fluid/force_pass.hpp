@@ -13,13 +13,13 @@ struct WallPair {
   Viscosity viscosity;
 
   /// a: {v, rho}, {M, P/rho^2, ..}; b: the wall's, with its no-slip velocity `visc` (w: mass that drags).
-  /// Both masses of an inactive wall particle are zero.
+  /// Both masses of an inactive wall particle are zero. relative: viscosity of a over that of `viscosity`.
   template <class N>
   BL_HD Vec3<N> operator()(const Vec4<N>& va, const Vec4<N>& ma, const Vec4<N>& vw, const Vec4<N>& mw,
-                           const Vec4<N>& visc, const Vec3<N>& r, N r2) const {
+                           const Vec4<N>& visc, const Vec3<N>& r, N r2, N relative) const {
     const N F = w.F(root(r2));
     Vec3<N> theta = pressure(ma, mw, r, F);
-    if (viscosity.acts()) theta += friction(va, vw, visc, r, r2, F);
+    if (viscosity.acts()) theta += relative * friction(va, vw, visc, r, r2, F);
     return theta;
   }
   template <class N>
@@ -36,8 +36,8 @@ struct WallPair {
 /// Momentum of locally averaged WCSPH [H (9)-(12)]. theta: stress of the mixture over its density, which
 /// accelerates the fluid by as much (theta M eps / m = theta) and pushes the grains by the rest of it;
 /// acc = theta + gravity + drive. kArtificial: with artificial viscosity; kAdded: with the tensile term and
-/// the drift of XSPH.
-template <class W, bool kArtificial, bool kAdded>
+/// the drift of XSPH; kSpecies: fluids of several viscosities, the mean of which counts for a pair.
+template <class W, bool kArtificial, bool kAdded, bool kSpecies = false>
 struct ForcePass {
   W w;
   WallPair<W> wall;
@@ -50,17 +50,31 @@ struct ForcePass {
   Real3 gravity;  ///< minus the frame's acceleration, m/s2
   Drive drive;
   Span<Real3> theta, acc, drift;
+  Span<const Real> relative_viscosity = {};  ///< over that of wall.viscosity
 
   template <class N = Real>
   struct Sum {
     Vec4<N> v, m;
     Vec3<N> theta, xsph;
+    N viscosity;
   };
-  BL_HD Sum<> start(Index a) const { return {flux[a], m_state[a], {}, {}}; }
+  BL_HD Sum<> start(Index a) const {
+    return {flux[a], m_state[a], {}, {}, kSpecies ? relative_viscosity[a] : Real(1)};
+  }
 
-  BL_HD auto sources() const { return sources_of(flux, p_rho2); }
+  BL_HD auto sources() const {
+    if constexpr (kSpecies)
+      return sources_of(flux, p_rho2, relative_viscosity);
+    else
+      return sources_of(flux, p_rho2);
+  }
   template <class N>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p) const {
+    pair(sum, r, r2, M, vb, p, N(1));
+  }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
+                  [[maybe_unused]] N viscosity_b) const {
     const N distance = root(r2);
     const N F = w.F(distance);
     const Vec3<N> v = sum.v.xyz() - vb.xyz();
@@ -72,12 +86,17 @@ struct ForcePass {
       sum.xsph -= quotient(xsph_factor * M * w.W(distance), rho_mean) * v;
     }
     sum.theta += along * r;
-    if (wall.viscosity.acts()) sum.theta += wall.viscosity(M, sum.v.w, vb.w, v, r, r2, F);
+    if (!wall.viscosity.acts()) return;
+    const Vec3<N> friction = wall.viscosity(M, sum.v.w, vb.w, v, r, r2, F);
+    if constexpr (kSpecies)
+      sum.theta += Real(0.5) * (sum.viscosity + viscosity_b) * friction;
+    else
+      sum.theta += friction;
   }
   template <class N, class J>
   BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
     const Vec4<N> vb = wall_v_rho[b], mb = wall_m_state[b], visc = wall_v_visc[b];
-    sum.theta += wall(sum.v, sum.m, vb, mb, visc, r, r2);
+    sum.theta += wall(sum.v, sum.m, vb, mb, visc, r, r2, kSpecies ? sum.viscosity : N(1));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.theta += other.theta;
@@ -116,6 +135,7 @@ struct WallForcePass {
   Span<const Real3> acc, acc_before;
   Span<const Real4> flux, m_state, wall_v_rho, wall_m_state, wall_v_visc;
   Span<Vec3d> force, friction;
+  Span<const Real> relative_viscosity;  ///< of fluid over that of wall.viscosity; empty: the same
 
   BL_HD Force start(Index) const { return {}; }
   BL_HD void pair(Force& sum, Index b, Index a, const Real3& r_ba, Real r2) const {
@@ -124,7 +144,9 @@ struct WallForcePass {
     if (kick != 0) va = {va.xyz() - kick * (acc[a] - acc_before[a]), va.w};
     const Real F = wall.w.F(std::sqrt(r2));
     Real3 push = wall.pressure(ma, wall_m_state[b], -r_ba, F), drag;
-    if (wall.viscosity.acts()) drag = wall.friction(va, wall_v_rho[b], wall_v_visc[b], -r_ba, r2, F);
+    if (wall.viscosity.acts())
+      drag = (relative_viscosity ? relative_viscosity[a] : Real(1)) *
+             wall.friction(va, wall_v_rho[b], wall_v_visc[b], -r_ba, r2, F);
     if (layer.law) {
       const auto more = layer(va, b, -r_ba, r2);
       push += more.push;

@@ -2,7 +2,7 @@
 // Kicks of a grain under drag. The fluid velocity and the drag coefficient are frozen over a fluid step,
 // so drag is integrated exactly: terminal velocity holds for any stiffness [physics section 6].
 
-#include "bedload/core/span.hpp"
+#include "kernels/contact/grain_mass.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -31,16 +31,17 @@ struct Relaxation {
 
 /// What a grain does between two evaluations of its contacts, except contacts.
 struct GrainKick {
-  Vec3d gravity;       ///< m/s2
-  double mass_per_r3;  ///< 4/3 pi rho_s
-  double h;            ///< half a substep, s
+  Vec3d gravity;  ///< m/s2
+  MassPerR3 mass_per_r3;
+  double h;  ///< half a substep, s
   bool exponential;
   Span<const Real> radius;
   Span<const Real3> fluid_force, U, omega_f;  ///< these and K are empty where there is no fluid
   Span<const Real> K, K_rot;
+  Span<const Real3> drive = {};  ///< N; empty: none
 
   BL_HD bool wet() const { return bool(K); }
-  BL_HD double mass(Index i) const { return mass_per_r3 * radius[i] * radius[i] * radius[i]; }
+  BL_HD double mass(Index i) const { return mass_per_r3(i) * radius[i] * radius[i] * radius[i]; }
 };
 
 /// Velocity and spin of one grain under forces that hold for the present kicks.
@@ -55,7 +56,7 @@ struct KickedGrain {
         m_(k.mass(i)),
         inertia_(0.4 * m_ * k.radius[i] * k.radius[i]),
         h_(k.h),
-        a_((k.wet() ? force + Vec3d(k.fluid_force[i]) : force) * (1 / m_) + k.gravity),
+        a_(applied(k, i, force) * (1 / m_) + k.gravity),
         alpha_(torque * (1 / inertia_)),
         slide_(k.wet() ? k.K[i] / m_ : 0, k.h, k.exponential),
         spin_(k.wet() ? k.K_rot[i] / inertia_ : 0, k.h, k.exponential),
@@ -73,6 +74,12 @@ struct KickedGrain {
   }
 
  private:
+  BL_HD static Vec3d applied(const GrainKick& k, Index i, Vec3d force) {
+    if (k.wet()) force += Vec3d(k.fluid_force[i]);
+    if (k.drive) force += Vec3d(k.drive[i]);
+    return force;
+  }
+
   double m_, inertia_, h_;
   Vec3d a_, alpha_;
   Relaxation slide_, spin_;

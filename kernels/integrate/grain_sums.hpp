@@ -16,7 +16,7 @@ struct WatchReduction {
     double speed2, displacement2, drag_rate, bad;
   };
   Frame frame;
-  double mass_per_r3;
+  MassPerR3 mass_per_r3;
   Span<const Vec3d> x, x_list;
   Span<const Real3> v, omega;
   Span<const Real> radius, K;
@@ -28,7 +28,7 @@ struct WatchReduction {
     const bool good = finite(x[i]) && finite(u) && finite(Vec3d(omega[i]));
     if (!good) return {0, 0, 0, double(id[i])};
     return {norm2(u), norm2(frame.nearest_image(x[i] - x_list[i])),
-            double(K[i]) / (mass_per_r3 * radius[i] * radius[i] * radius[i]), double(kNone)};
+            double(K[i]) / (mass_per_r3(i) * radius[i] * radius[i] * radius[i]), double(kNone)};
   }
   BL_HD void combine(Value& a, const Value& b) const {
     a.speed2 = max_of(a.speed2, b.speed2);
@@ -54,7 +54,7 @@ struct TotalsReduction {
   }
   BL_HD Value operator()(Index i) const {
     Value t{};
-    const Sphere s = contacts.sphere(contacts.radius[i]);
+    const Sphere s = contacts.sphere(i, contacts.radius[i]);
     const double m = s.m, inertia = 0.4 * m * s.R * s.R;
     const Vec3d v = Vec3d(contacts.v[i]), w = Vec3d(contacts.omega[i]), x = contacts.x[i];
     const Vec3d spin = cross(x, m * v) + inertia * w;
@@ -70,9 +70,11 @@ struct TotalsReduction {
       const std::uint64_t slot = list.slot(i, k);
       if (!contacts.histories.touching[slot]) continue;
       const ContactHistory h = contacts.histories[slot];
-      const Sphere o = contacts.sphere(contacts.radius[list.entry[slot]]);
+      const Index j = list.entry[slot];
+      const Sphere o = contacts.sphere(j, contacts.radius[j]);
       t.sum[pairs] += 0.5;
-      t.sum[elastic] += 0.5 * contacts.law.stored(s.R * o.R / (s.R + o.R), s.m * o.m / (s.m + o.m), h);
+      const ContactLaw& law = contacts.laws ? contacts.laws[contacts.pair_of(i, j)] : contacts.law;
+      t.sum[elastic] += 0.5 * law.stored(s.R * o.R / (s.R + o.R), s.m * o.m / (s.m + o.m), h);
       t.overlap = max_of(t.overlap, h.overlap / (2 * double(s.R)));
     }
     const WallMemories memory = walls.memories(i);
@@ -80,7 +82,7 @@ struct TotalsReduction {
       const ContactHistory& h = memory[k].history;
       const std::uint32_t body = walls.walls.surfaces[memory[k].surface()].body;
       t.sum[on_walls] += 1;
-      t.sum[elastic] += walls.laws[body].stored(s.R, s.m, h);
+      t.sum[elastic] += walls.law(body, i).stored(s.R, s.m, h);
       t.overlap = max_of(t.overlap, std::abs(h.overlap) / (2 * double(s.R)));
     }
     return t;
@@ -101,7 +103,7 @@ struct BodyLoadReduction {
   BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index i) const {
     Value sum = Value::zero();
-    if (contacts.memories(i).count() == 0) return sum;
+    if (contacts.memories(i).count() == 0 && !contacts.lubrication.acts()) return sum;
     contacts.each(
         i, contacts.walls.surfaces.size, [](Index s) { return s; }, false,
         [&](std::uint32_t of, const WallContacts::Contact& c) {

@@ -20,12 +20,13 @@ struct SdpdWallPair {
   struct Force {
     Vec3<N> push, friction, noise;  ///< m/s2, N, N
   };
-  /// a: {v, rho}, V, P / rho^2, spin, id; b: wall's as in WallPair, and its label.
+  /// a: {v, rho}, V, P / rho^2, spin, id, viscosity over that of `law`; b: wall's as in WallPair, and its
+  /// label.
   template <class N>
-  BL_HD Force<N> operator()(const Vec4<N>& va, N V, N pa, const Vec3<N>& spin, const RowId<N>& id,
+  BL_HD Force<N> operator()(const Vec4<N>& va, N V, N pa, const Vec3<N>& spin, const RowId<N>& id, N relative,
                             const Vec4<N>& vw, const Vec4<N>& mw, const Vec4<N>& visc, N label,
                             const Vec3<N>& r, N r2) const {
-    const N F = w.F(root(r2)), g = V * quotient(visc.w, vw.w) * F;
+    const N F = w.F(root(r2)), g = relative * V * quotient(visc.w, vw.w) * F;
     Force<N> out;
     out.push = (pressing * pressure_term(mw.x, pa, mw.y, F)) * r;
     out.friction = law.friction(g, va.xyz() - visc.xyz(), cross(r, spin), r, r2);
@@ -37,8 +38,8 @@ struct SdpdWallPair {
 /// Momentum and spin of SDPD. theta: stress of the mixture over its density, as in WCSPH's ForcePass; noise
 /// acts on the fluid alone, acc = theta + gravity + drive + noise. Both partners of a pair feel the couple -r
 /// x F / 2, F being friction and noise, which with r x F adds up to none. kSpin: particles spin; kNoise:
-/// there is noise.
-template <class W, bool kSpin, bool kNoise>
+/// there is noise; kSpecies: fluids of several viscosities, the harmonic mean of which counts for a pair.
+template <class W, bool kSpin, bool kNoise, bool kSpecies>
 struct SdpdForcePass {
   SdpdWallPair<W> wall;
   Span<const Real4> flux, m_state, spin_label;
@@ -50,6 +51,7 @@ struct SdpdForcePass {
   Drive drive;
   Real dt, inertia;  ///< s; k_I dx^2, m2
   Span<Real3> theta, acc, spin, spin_acc;
+  Span<const Real> viscosity;  ///< over that of `wall.law`
 
   template <class N = Real>
   struct Sum {
@@ -58,27 +60,44 @@ struct SdpdForcePass {
     Vec3<N> spin;
     RowId<N> id;
     Vec3<N> push, friction, noise, couple;  ///< m/s2; N; N; N m
+    N viscosity;
   };
   BL_HD Sum<> start(Index a) const {
     const Real4 m = m_state[a], v = flux[a];
-    Sum<> sum{v, quotient(m.x, m.z), m.y, {}, row_id(id[a]), {}, {}, {}, {}};
+    Sum<> sum{v, quotient(m.x, m.z), m.y, {}, row_id(id[a]), {}, {}, {}, {}, 1};
+    if (kSpecies) sum.viscosity = viscosity[a];
     if (kSpin) sum.spin = spin_label[a].xyz();
     return sum;
   }
   BL_HD auto sources() const {
-    if constexpr (kSpin || kNoise)
+    if constexpr ((kSpin || kNoise) && kSpecies)
+      return sources_of(flux, p_rho2, spin_label, viscosity);
+    else if constexpr (kSpin || kNoise)
       return sources_of(flux, p_rho2, spin_label);
+    else if constexpr (kSpecies)
+      return sources_of(flux, p_rho2, viscosity);
     else
       return sources_of(flux, p_rho2);
   }
   template <class N>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p) const {
-    pair(sum, r, r2, M, vb, p, Vec4<N>{});
+    pair(sum, r, r2, M, vb, p, Vec4<N>{}, N(1));
   }
   template <class N>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
-                  [[maybe_unused]] const Vec4<N>& own) const {
-    const N F = wall.w.F(root(r2)), g = sum.V * quotient(M, vb.w) * F;
+                  const Vec4<N>& own) const {
+    pair(sum, r, r2, M, vb, p, own, N(1));
+  }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, N viscosity_b) const {
+    pair(sum, r, r2, M, vb, p, Vec4<N>{}, viscosity_b);
+  }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
+                  [[maybe_unused]] const Vec4<N>& own, [[maybe_unused]] N viscosity_b) const {
+    const N F = wall.w.F(root(r2));
+    N g = sum.V * quotient(M, vb.w) * F;
+    if constexpr (kSpecies) g *= quotient(2 * sum.viscosity * viscosity_b, sum.viscosity + viscosity_b);
     sum.push += (wall.pressing * pressure_term(M, sum.p, p, F)) * r;
     Vec3<N> turn;
     if constexpr (kSpin) turn = Real(0.5) * cross(r, sum.spin + own.xyz());
@@ -93,8 +112,9 @@ struct SdpdForcePass {
   }
   template <class N, class J>
   BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
-    const auto f = wall(sum.v, sum.V, sum.p, sum.spin, sum.id, Vec4<N>(wall_v_rho[b]),
-                        Vec4<N>(wall_m_state[b]), Vec4<N>(wall_v_visc[b]), N(wall_label[b]), r, r2);
+    const auto f =
+        wall(sum.v, sum.V, sum.p, sum.spin, sum.id, kSpecies ? sum.viscosity : N(1), Vec4<N>(wall_v_rho[b]),
+             Vec4<N>(wall_m_state[b]), Vec4<N>(wall_v_visc[b]), N(wall_label[b]), r, r2);
     sum.push += f.push;
     sum.friction += f.friction;
     if constexpr (kNoise) sum.noise += f.noise;
@@ -151,14 +171,16 @@ struct SdpdWallForcePass {
   Span<const Real4> wall_v_rho, wall_m_state, wall_v_visc;
   Span<const Real> wall_label;
   Span<Vec3d> force, friction;
+  Span<const Real> viscosity;  ///< over that of `wall.law`; empty: the same
 
   BL_HD Force start(Index) const { return {}; }
   BL_HD void pair(Force& sum, Index b, Index a, const Real3& r_ba, Real r2) const {
     const Real4 va = flux[a], ma = m_state[a];
+    const Real relative = viscosity ? viscosity[a] : Real(1);
     const Real3 v = kick != 0 ? va.xyz() - kick * (acc[a] - acc_before[a]) : va.xyz();
     const Real3 spin = spins ? spin_label[a].xyz() : Real3();
-    const auto f = wall(Real4(v, va.w), quotient(ma.x, ma.z), ma.y, spin, row_id(id[a]), wall_v_rho[b],
-                        wall_m_state[b], wall_v_visc[b], wall_label[b], -r_ba, r2);
+    const auto f = wall(Real4(v, va.w), quotient(ma.x, ma.z), ma.y, spin, row_id(id[a]), relative,
+                        wall_v_rho[b], wall_m_state[b], wall_v_visc[b], wall_label[b], -r_ba, r2);
     sum.add(-ma.x * f.push, -(f.friction + f.noise));
   }
   BL_HD void merge(Force& into, const Force& other) const { into.add(other); }

@@ -40,7 +40,8 @@ OpenBoundaries::OpenBoundaries(const Config& config, const Frame& frame, WallMot
       frame_(frame),
       motion_(motion),
       fluid_out_(config, "fluid"),
-      grains_out_(config, "grains") {
+      grains_out_(config, "grains"),
+      matter_(config.grain) {
   for (std::size_t i = 0; i < config.grain_inlets.size(); ++i) sources_.emplace_back(config, i);
 }
 
@@ -135,7 +136,7 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
 
 GrainRenewal OpenBoundaries::renew(GrainStore& grains, double t) {
   const Index before = grains.size();
-  const GrainMass mass{4.0 / 3 * M_PI * config_.grain.rho, grains.radius};
+  const GrainMass mass{matter_.of(grains), grains.radius};
   const bool fewer = find_leaving(grains_out_, Span<const Vec3d>(grains.x), false, mass);
   if (fewer) {
     compaction_.find(before, StaysTest{sink_}, came_from_);
@@ -155,7 +156,7 @@ GrainRenewal OpenBoundaries::renew(GrainStore& grains, double t) {
     came_from_.grow(grains.size());
     dropped_.assign(more);
     for_each({0, Index(more.size())}, DropPass{dropped_, kept, Id(next_grain_), grains.id, grains.x, grains.v,
-                                               grains.radius, grains.eps, came_from_});
+                                               grains.radius, grains.eps, grains.material, came_from_});
     next_grain_ += double(more.size());
   }
   return {came_from_, before, true};
@@ -178,7 +179,7 @@ bool OpenBoundaries::drop_one(GrainSource& source, const GrainStore& grains, dou
   std::copy_n(places.begin(), kPlaces, space.place);
   const auto touching = sum_over<kPlaces>(grains.owned(), space);
   for (int k = 0; k < kPlaces; ++k) {
-    const NewGrain grain{places[k], source.velocity(), source.radius()};
+    const NewGrain grain{places[k], source.velocity(), source.radius(), source.material()};
     const auto touches = [&](const NewGrain& other) {
       return norm(frame_.separation(grain.x, other.x)) < grain.radius + other.radius;
     };

@@ -13,6 +13,7 @@
 #include "bedload/particles/grains.hpp"
 #include "kernels/boundaries/drop.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
+#include "src/solids/grain_matter.hpp"
 #include "src/solids/solid_solver.hpp"
 #include "src/walls/wall_geometry.hpp"
 #include "src/walls/wall_motion.hpp"
@@ -69,6 +70,7 @@ class OpenBoundaries {
   Frame frame_;
   WallMotion& motion_;
   WaysOut fluid_out_, grains_out_;
+  GrainMatter matter_;
   std::vector<GrainSource> sources_;
   double next_fluid_ = 0, next_grain_ = 0;  ///< ids never given before
 

@@ -13,6 +13,7 @@
 #include "bedload/case/materials.hpp"
 #include "bedload/case/normal_laws.hpp"
 #include "bedload/case/parameters.hpp"
+#include "bedload/case/particle_file.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
 #include "bedload/geometry/depth.hpp"
@@ -80,6 +81,13 @@ class Checks {
           f.c / f.vmax, f.vmax / f.c);
     if (coupled() && f.mu == 0) fail("fluid.mu", f.mu, "must be > 0 with grains; drag needs mu");
     if (f.sdpd()) sdpd();
+    if (!f.species.empty()) species();
+    if (c.visc.collision && c.sdpd.kT > 0)
+      fail("visc.collision", "true",
+           "must be false with sdpd.kT > 0, since collisions take out what noise brings");
+    if (c.drive.factor != DriveConfig().factor) drive();
+    if (!c.grain.present && c.drive.on != DrivenPhase::fluid)
+      fail("drive.on", quoted(c.drive.on.name()), "must be \"fluid\" without [grain]");
   }
 
   /// Meshes in mm that are taken for m lie far outside the domain, or are lost in it.
@@ -170,6 +178,10 @@ class Checks {
       warn("contact.cap_rolling = false: resting grains will buzz and heaps creep");
     if (c.contact.he_damping) warn("paper.he_damping: the restitution reached is below grain.e");
     softness();
+    if (c.lubrication.acts()) lubrication();
+    materials();
+    if (!c.fluid.present && c.drive.on_fluid())
+      fail("drive.on", quoted(c.drive.on.name()), "must be \"grains\" without [fluid]");
   }
 
   void coupling() const {
@@ -271,6 +283,73 @@ class Checks {
   }
 
  private:
+  void lubrication() const {
+    const LubricationConfig& l = c.lubrication;
+    const auto refuse = [&](const char* with) {
+      fail("lubrication.forces", quoted(l.forces.name()), fmt::format("must be \"none\" {}", with));
+    };
+    if (!coupled()) refuse("without [fluid] to which grains are coupled");
+    if (c.contact.normal == NormalLaw::none) refuse("with contact.normal = \"none\"");
+    if (c.wall.free_bodies() > 0) refuse("with wall bodies that move freely");
+    if (l.least_gap >= l.cut_off)
+      fail("lubrication.least_gap", l.least_gap,
+           fmt::format("must be below lubrication.cut_off = {}", l.cut_off));
+  }
+  void materials() const {
+    std::set<std::string> names;
+    std::string all;
+    for (std::size_t k = 0; k < c.grain.materials.size(); ++k) {
+      const std::string& name = c.grain.materials[k].name;
+      if (!names.insert(name).second)
+        fail(fmt::format("grain.material.{}.name", k), quoted(name), "must differ from other materials'");
+      all += (all.empty() ? "" : ", ") + name;
+    }
+    const auto known = [&](const std::string& path, const std::string& name) {
+      if (!name.empty() && !names.contains(name))
+        fail(path + ".material", quoted(name),
+             "must name a grain.material; this case has " + (all.empty() ? "none" : all));
+    };
+    for (std::size_t i = 0; i < c.grain.fills.size(); ++i)
+      known(fmt::format("grain.fill.{}", i), c.grain.fills[i].material);
+    for (std::size_t i = 0; i < c.grain_inlets.size(); ++i)
+      known(fmt::format("grain_inlet.{}", i), c.grain_inlets[i].material);
+  }
+  /// Several fluids.
+  void species() const {
+    const FluidConfig& f = c.fluid;
+    std::set<std::string> names;
+    std::string all;
+    for (std::size_t k = 0; k < f.species.size(); ++k) {
+      if (!names.insert(f.species[k].name).second)
+        fail(fmt::format("fluid.species.{}.name", k), quoted(f.species[k].name),
+             "must differ from other species'");
+      all += (all.empty() ? "" : ", ") + f.species[k].name;
+    }
+    for (std::size_t i = 0; i < f.fills.size(); ++i)
+      if (const std::string& name = f.fills[i].species; !name.empty() && !names.contains(name))
+        fail(fmt::format("fluid.fill.{}.species", i), quoted(name),
+             "must name a fluid.species; this case has " + all);
+    for (const auto& [there, what] :
+         {std::pair{coupled(), "grains that the fluid acts on"},
+          {!c.inlets.empty(), "[[inlet]]"},
+          {c.time.integrator == TimeIntegrator::ab3, "time.integrator = \"ab3\""}})
+      if (there)
+        fail("fluid.species", fmt::format("{} fluids", f.species.size()),
+             fmt::format("must be none with {}", what));
+  }
+  void drive() const {
+    const Formula factor(c.drive.factor, "xyzt");
+    const Vec3d side = c.domain.max - c.domain.min;
+    for (int n = 0; n < 1000; ++n) {
+      const double t = c.time.end * (n / 125) / 7.0;
+      const Vec3d s{(n % 5) / 4.0, (n / 5 % 5) / 4.0, (n / 25 % 5) / 4.0};
+      const Vec3d x{c.domain.min.x + s.x * side.x, c.domain.min.y + s.y * side.y,
+                    c.domain.min.z + s.z * side.z};
+      if (!std::isfinite(factor(x, t)))
+        fail("drive.factor", quoted(c.drive.factor),
+             fmt::format("must be a finite number; it is none at {} m, t = {:.4g} s", to_text(x), t));
+    }
+  }
   /// What SDPD needs, and what of WCSPH's it leaves out.
   void sdpd() const {
     const FluidConfig& f = c.fluid;
@@ -509,17 +588,38 @@ class Checks {
              fmt::format("must leave space along {} for the largest grain, {} m", "xyz"[k], d));
   }
   void grain_fill(const std::string& path, const GrainFill& fill) const {
-    for (const Vec3d& x : fill.positions) inside_domain(path + ".positions", x);
+    if (fill.file.empty())
+      for (const Vec3d& x : listed_grains(fill, c.domain).x) inside_domain(path + ".positions", x);
+    for (const auto& [key, list] : {std::pair{".velocities", &fill.velocities}, {".spins", &fill.spins}})
+      if (!list->empty() && list->size() != fill.positions.size())
+        fail(path + key, fmt::format("{} vectors", list->size()),
+             fmt::format("must be as many as positions, {}", fill.positions.size()));
+    if (fill.replaces_fluid && (!c.fluid.present || c.grain.settle))
+      fail(path + ".replaces_fluid", "true", "must be false without [fluid], and with grain.settle");
+    if (fill.rigid.present && (fill.spin != Vec3d{} || !fill.spins.empty() || !fill.velocities.empty()))
+      fail(path + ".rigid", "[grain.fill.rigid]",
+           "must be left out where grains have spins or velocities of their own");
+    if (!fill.every.empty()) {
+      const bool whole =
+          std::all_of(fill.every.begin(), fill.every.end(), [](double n) { return n == std::round(n); });
+      if (fill.every.size() != 3 || !whole)
+        fail(path + ".every", fmt::format("[{}]", fmt::join(fill.every, ", ")),
+             "must be three whole numbers");
+      if (!c.fluid.present)
+        fail(path + ".every", "given", "must be left out without [fluid], whose lattice it counts");
+    }
     if (!fill.positions.empty() || !fill.file.empty()) return;
     box(path, fill.min, fill.max);
     if (!fill.solid.shape) {
       inside_domain(path + ".min", fill.min);
       inside_domain(path + ".max", fill.max);
     }
+    if (!fill.every.empty()) return;
     if ((fill.count > 0) + (fill.mass > 0) + (fill.packing_fraction > 0) != 1)
       throw CaseError(fmt::format("{}: grain.fill must have exactly one of count, mass and packing_fraction",
                                   nearest_value(root_, path).place()));
-    const double fraction = solid_volume(fill, c.grain.rho) / fill_volume(fill);
+    const double fraction =
+        solid_volume(fill, c.grain.all_materials()[c.grain.material(fill.material)].rho) / fill_volume(fill);
     if (fraction > 0.64) {
       const bool by_mass = fill.mass > 0;
       fail(path + (by_mass ? ".mass" : ".count"), fmt::format("{}", by_mass ? fill.mass : double(fill.count)),

@@ -100,6 +100,7 @@ void grain_inlet(Parameters& p, GrainInletConfig& i) {
      .fallback = "one of two",
      .presence = optional});
   p("velocity", &i.velocity, {.unit = "m/s", .meaning = "of a grain as it comes in"});
+  describe_grain_material(p, i.material);
   start_and_stop(p, i.start, i.stop, "from then on, after grain.release_time", "and until then");
   p.list("sizes", i.sizes, SizeClass{}, describe_grain_size);
 }

@@ -25,6 +25,13 @@ void fluid_fill(Parameters& p, FluidFill& f) {
        .fallback = "to the top",
        .presence = unbounded});
   p("velocity", &f.velocity, {.unit = "m/s", .meaning = "three numbers or formulas in x, y, z"});
+  p("species", &f.species,
+    {.meaning = "name of the fluid.species that it is of", .fallback = "the first", .presence = optional});
+}
+
+void fluid_species(Parameters& p, FluidSpecies& s) {
+  p("name", &s.name, {.meaning = "by which fills name it", .presence = required});
+  p("mu", &s.mu, {.unit = "Pa s", .meaning = "shear viscosity", .range = above(0), .presence = required});
 }
 
 void describe_sdpd(Parameters& p, Config& c) {
@@ -72,6 +79,7 @@ void describe_fluid(Parameters& p, FluidConfig& f) {
      .fallback = "sqrt(2 g H)",
      .presence = optional});
   p("fluid.c_factor", &f.c_factor, {.meaning = "sound speed / vmax", .range = within(5, 50)});
+  p.list("fluid.species", f.species, FluidSpecies{}, fluid_species);
   p.list("fluid.fill", f.fills, FluidFill{}, fluid_fill);
 }
 
@@ -108,9 +116,18 @@ void describe_fluid_models(Parameters& p, Config& c) {
   p("visc.alpha", &c.visc.alpha,
     {.meaning = "artificial viscosity, linear [monaghan92]", .range = within(0, 1)});
   p("visc.beta", &c.visc.beta, {.meaning = "artificial viscosity, quadratic", .range = within(0, 2)});
+  p("visc.collision", &c.visc.collision,
+    {.meaning = "fluid particles that approach each other within collision_range collide, as if solid "
+                "[shakibaeinia12]"});
+  p("visc.collision_range", &c.visc.collision_range,
+    {.unit = "fluid.dx", .meaning = "distance from which they collide", .range = above_to(0, 1)});
+  p("visc.collision_restitution", &c.visc.collision_restitution,
+    {.meaning = "restitution of these collisions", .range = within(0, 1)});
   p("drive.f", &c.drive.f,
-    {.unit = "N/m3", .meaning = "constant force on the fluid, per volume of space or (drive.mode) of mass"});
+    {.unit = "N/m3", .meaning = "force per volume of space or (drive.mode) by mass or particle"});
+  p("drive.factor", &c.drive.factor, {.meaning = "of drive.f; a formula in x, y, z, t", .variables = "xyzt"});
   p("drive.mode", &c.drive.mode, {.meaning = "what drive.f is counted by", .family = "models"});
+  p("drive.on", &c.drive.on, {.meaning = "what it acts on", .family = "models"});
   p("drive.opposed", &c.drive.opposed,
     {.meaning = "axis along which drive.f is reversed in the upper half of the domain", .family = "models"});
   p("drive.rate", &c.drive.rate,

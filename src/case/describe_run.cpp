@@ -89,7 +89,10 @@ void describe_top(Parameters& p, Config& c) {
      .family = "presets",
      .choices = {
          {"default", "Wendland C2, h/dx 1.5, density diffusion, EPSD rolling, Di Felice, kick-drift-kick"},
-         {"he2018", "He et al. 2018: h/dx 1.3, XSPH, Mindlin-Deresiewicz, CDT, Gidaspow, Euler"}}});
+         {"he2018", "He et al. 2018: h/dx 1.3, XSPH, Mindlin-Deresiewicz, CDT, Gidaspow, Euler"},
+         {"democritus",
+          "Tsuzuki's DEMocritus: SDPD with spin, Lucy, pressure filter and clip, Gidaspow, top-hat "
+          "porosity"}}});
   p("gravity", &c.gravity, {.unit = "m/s2", .meaning = "acceleration of gravity"});
   p("tensile", &c.tensile,
     {.meaning = "1: pressure term against clumping [monaghan00]", .range = within(0, 1)});
@@ -119,6 +122,8 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
      .range = above(0),
      .fallback = "max(h, 4 d_max/kappa)",
      .presence = optional});
+  p("couple.kernel", &c.kernel,
+    {.meaning = "by which grains and fluid weigh each other", .family = "models"});
   p("couple.eps_min", &c.eps_min, {.meaning = "lowest porosity", .range = within(0.1, 0.5)});
   p("couple.wall_normalise", &c.wall_normalise,
     {.meaning = "a grain beside a wall has all its volume, and its buoyancy, on this side of it"});

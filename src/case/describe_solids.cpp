@@ -166,18 +166,71 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
   describe_free_body(p, b.free);
 }
 
+void grain_material(Parameters& p, GrainMaterial& m) {
+  p("name", &m.name, {.meaning = "by which fills and inlets name it", .presence = required});
+  p("rho", &m.rho,
+    {.unit = "kg/m3",
+     .meaning = "density",
+     .range = above(0),
+     .fallback = "grain.rho",
+     .presence = optional});
+  p("E", &m.E,
+    {.unit = "Pa",
+     .meaning = "Young's modulus",
+     .range = within(1e4, 1e12),
+     .fallback = "grain.E",
+     .presence = optional});
+  p("nu", &m.nu,
+    {.meaning = "Poisson's ratio",
+     .range = {.lo = -1, .hi = 0.5},
+     .fallback = "grain.nu",
+     .presence = unbounded});
+  p("mu", &m.mu,
+    {.meaning = "sliding friction; between two materials the mean of both",
+     .range = within(0, 5),
+     .fallback = "grain.mu",
+     .presence = unbounded});
+}
+
 void grain_fill(Parameters& p, GrainFill& f) {
   describe_fill_file(p, f.file, f.step, "grains from a .csv or .vtkhdf file, instead of a box");
   if (f.file.empty() || p.everything())
     p("positions", &f.positions,
       {.unit = "m", .meaning = "centres, instead of a box", .fallback = "none", .presence = optional});
-  if ((f.file.empty() && f.positions.empty()) || p.everything()) {
+  const bool listed = !f.file.empty() || !f.positions.empty();
+  if (listed || p.everything())
+    p("relative", &f.relative,
+      {.meaning =
+           "positions, also those of a file, are fractions of the domain's sides from its lower corner"});
+  if (!f.positions.empty() || p.everything()) {
+    p("velocities", &f.velocities,
+      {.unit = "m/s",
+       .meaning = "of the grains at `positions`, one each",
+       .fallback = "velocity",
+       .presence = optional});
+    p("spins", &f.spins,
+      {.unit = "rad/s",
+       .meaning = "of the grains at `positions`, one each",
+       .fallback = "spin",
+       .presence = optional});
+  }
+  if (!listed || p.everything())
+    p("every", &f.every,
+      {.meaning = "[i, j, k]: instead of random places, each i-th, j-th and k-th site along x, y and z of "
+                  "the lattice "
+                  "of spacing fluid.dx in the box or shape",
+       .range = within(1, 1e6),
+       .fallback = "none",
+       .presence = optional});
+  if (!listed || p.everything()) {
     p("shape", &f.shape,
       {.meaning = "name of a shape to fill, instead of a box", .fallback = "none", .presence = optional});
     if (f.shape.empty() || p.everything()) {
       p("min", &f.min, {.unit = "m", .meaning = "lower corner of the box to fill", .presence = required});
       p("max", &f.max, {.unit = "m", .meaning = "upper corner", .presence = required});
     }
+  }
+  if ((!listed && f.every.empty()) || p.everything()) {
     p("count", &f.count,
       {.meaning = "number of grains; or mass, or packing_fraction",
        .range = within(1, 2147483647),
@@ -197,11 +250,34 @@ void grain_fill(Parameters& p, GrainFill& f) {
        .presence = optional});
   }
   p("velocity", &f.velocity, {.unit = "m/s", .meaning = "initial velocity"});
+  p("spin", &f.spin, {.unit = "rad/s", .meaning = "initial angular velocity"});
+  p("replaces_fluid", &f.replaces_fluid,
+    {.meaning =
+         "each grain takes the place of the fluid particle nearest to it, whose volume the others share"});
+  describe_grain_material(p, f.material);
   describe_rigid_group(p, f.rigid);
   p.list("sizes", f.sizes, SizeClass{}, describe_grain_size);
 }
 
 }  // namespace
+
+void describe_grain_material(Parameters& p, std::string& material) {
+  p("material", &material,
+    {.meaning = "name of the grain.material that they are made of",
+     .fallback = "that of grain.*",
+     .presence = optional});
+}
+
+void describe_lubrication(Parameters& p, LubricationConfig& l) {
+  p("lubrication.forces", &l.forces,
+    {.meaning = "what fluid between near grains, and grains and walls, resists", .family = "laws"});
+  p("lubrication.cut_off", &l.cut_off,
+    {.unit = "R*", .meaning = "gap beyond which there is no lubrication", .range = above_to(0, 2)});
+  p("lubrication.least_gap", &l.least_gap,
+    {.unit = "R*",
+     .meaning = "gap below which it grows no further, up to the cut-off",
+     .range = within(1e-4, 2)});
+}
 
 void describe_grain_size(Parameters& p, SizeClass& s) {
   p("kind", &s.kind,
@@ -354,6 +430,7 @@ void describe_grains(Parameters& p, Config& c) {
   p("grain.release_time", &g.release_time,
     {.unit = "s", .meaning = "held in place until then", .range = at_least(0)});
   p("grain.fixed", &g.fixed, {.meaning = "grains never move"});
+  p.list("grain.material", g.materials, GrainMaterial{}, grain_material);
   p.list("grain.fill", g.fills, GrainFill{}, grain_fill);
 }
 

@@ -10,7 +10,7 @@
 namespace bedload {
 
 struct Formula::Impl {
-  Vec3d at;
+  double at[4] = {};
   mu::Parser parser;
 };
 
@@ -20,7 +20,7 @@ Formula::Formula(const std::string& text, std::string_view variables) : impl_(st
     p.DefineConst("pi", std::numbers::pi);
     p.DefineConst("e", std::numbers::e);
     for (std::size_t k = 0; k < variables.size(); ++k)
-      p.DefineVar(std::string(1, variables[k]), &impl_->at[int(k)]);
+      p.DefineVar(std::string(1, variables[k]), &impl_->at[k]);
     p.SetExpr(text);
     int values = 0;
     p.Eval(values);  // muParser reads the text only now
@@ -43,9 +43,16 @@ Formula::Formula(const std::string& text, std::string_view variables) : impl_(st
 Formula::Formula(Formula&&) noexcept = default;
 Formula::~Formula() = default;
 
-double Formula::operator()(const Vec3d& x) const {
-  impl_->at = x;
+double Formula::operator()(const Vec3d& x) const { return (*this)(x, impl_->at[3]); }
+
+double Formula::operator()(const Vec3d& x, double t) const {
+  for (int k = 0; k < 3; ++k) impl_->at[k] = x[k];
+  impl_->at[3] = t;
   return impl_->parser.Eval();
+}
+
+bool Formula::uses(char variable) const {
+  return impl_->parser.GetUsedVar().contains(std::string(1, variable));
 }
 
 }  // namespace bedload

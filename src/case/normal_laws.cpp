@@ -14,6 +14,7 @@ double least_restitution(const ContactConfig& contact) {
     case NormalLaw::linear:
       return 0.136;
     case NormalLaw::hertz:
+    case NormalLaw::democritus:
     case NormalLaw::none:
       break;
   }
@@ -23,6 +24,7 @@ double least_restitution(const ContactConfig& contact) {
 bool takes_moduli(NormalLaw law) {
   switch (law) {
     case NormalLaw::hertz:
+    case NormalLaw::democritus:
       return true;
     case NormalLaw::linear:
     case NormalLaw::none:
@@ -34,6 +36,7 @@ bool takes_moduli(NormalLaw law) {
 Impact impact(const ContactConfig& contact, double m, double R, double E, double v, double e) {
   switch (contact.normal) {
     case NormalLaw::hertz:
+    case NormalLaw::democritus:
       if (v > 0) return hertz_impact(m, R, E, v);
       break;
     case NormalLaw::linear: {
@@ -54,6 +57,7 @@ Impact hertz_impact(double m, double R, double E, double v) {
 double overlap_under(const ContactConfig& contact, double force, double R, double E) {
   switch (contact.normal) {
     case NormalLaw::hertz:
+    case NormalLaw::democritus:
       return std::pow(force / (4.0 / 3 * E * std::sqrt(R)), 2.0 / 3);
     case NormalLaw::linear:
       return force / std::max(contact.k, 1e-300);

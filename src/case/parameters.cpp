@@ -25,6 +25,7 @@ void describe(Parameters& p, Config& c) {
   if (c.fluid.present) describe_fluid(p, c.fluid);
   describe_fluid_models(p, c);
   describe_contact(p, c.contact);
+  if (c.grain.present) describe_lubrication(p, c.lubrication);
   describe_walls(p, c.wall, c.contact);
   if (c.fluid.present) describe_inlets(p, c.inlets);
   describe_outlets(p, c.outlets);

@@ -34,7 +34,8 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 /// A table of numbers, read line by line.
 class ParticleTable {
  public:
-  explicit ParticleTable(const std::filesystem::path& file) : file_(file), text_(read_file(file)) {}
+  ParticleTable(const std::filesystem::path& file, std::string_view type)
+      : file_(file), text_(read_file(file)), type_(type) {}
 
   ParticleList read() {
     ParticleList list;
@@ -46,17 +47,27 @@ class ParticleTable {
       if (cells_.size() != names_.size())
         fail(
             fmt::format("has {} values where the first line names {} columns", cells_.size(), names_.size()));
+      if (has("type") && !is_wanted(cell("type"))) continue;
       list.line.push_back(number_);
       list.x.push_back(vector({"x", "y", "z"}));
       if (has("vx")) list.v.push_back(vector({"vx", "vy", "vz"}));
+      if (has("wx")) list.omega.push_back(vector({"wx", "wy", "wz"}));
       if (has("d")) list.d.push_back(length("d"));
       if (has("radius")) list.d.push_back(2 * length("radius"));
     }
-    if (list.x.empty()) fail("holds no particles");
+    if (list.x.empty())
+      fail(has("type") ? fmt::format("holds no particles of type {}", type_) : "holds no particles");
     return list;
   }
 
  private:
+  bool is_wanted(std::string_view type) const {
+    if (type != "fluid" && type != "grain") fail(fmt::format("type = \"{}\" must be fluid or grain", type));
+    return type == type_;
+  }
+  std::string_view cell(std::string_view name) const {
+    return cells_[std::find(names_.begin(), names_.end(), name) - names_.begin()];
+  }
   [[noreturn]] void fail(const std::string& why) const {
     throw CaseError(fmt::format("{}:{}: {}", file_.string(), std::max<std::int64_t>(number_, 1), why));
   }
@@ -79,7 +90,10 @@ class ParticleTable {
       const std::string name(trimmed(cell.substr(0, bracket)));
       if (has(name) && !name.empty()) fail(fmt::format("has two columns {}", name));
       names_.push_back(name);
-      const std::string unit = name == "vx" || name == "vy" || name == "vz" ? "[m/s]" : "[m]";
+      const std::string unit = name == "type"   ? "[-]"
+                               : name[0] == 'v' ? "[m/s]"
+                               : name[0] == 'w' ? "[rad/s]"
+                                                : "[m]";
       const bool ours = std::find(kNames.begin(), kNames.end(), name) != kNames.end();
       if (name == "id") continue;  // as exported; particles are numbered anew
       if (!ours)
@@ -91,6 +105,8 @@ class ParticleTable {
     for (const char* name : {"x", "y", "z"}) need(name, "");
     if (has("vx") || has("vy") || has("vz"))
       for (const char* name : {"vx", "vy", "vz"}) need(name, " beside the other velocities");
+    if (has("wx") || has("wy") || has("wz"))
+      for (const char* name : {"wx", "wy", "wz"}) need(name, " beside the other spins");
     if (has("d") && has("radius")) fail("has both columns d and radius; one of them is enough");
   }
   void need(const char* name, const char* why) const {
@@ -102,7 +118,7 @@ class ParticleTable {
   }
 
   double number(std::string_view name) const {
-    const std::string_view cell = cells_[std::find(names_.begin(), names_.end(), name) - names_.begin()];
+    const std::string_view cell = this->cell(name);
     double value = 0;
     const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
     const auto [end, error] = std::from_chars(begin, cell.data() + cell.size(), value);
@@ -120,10 +136,12 @@ class ParticleTable {
     return value;
   }
 
-  static constexpr std::array<std::string_view, 8> kNames{"x", "y", "z", "d", "radius", "vx", "vy", "vz"};
+  static constexpr std::array<std::string_view, 12> kNames{"x",  "y",  "z",  "d",  "radius", "vx",
+                                                           "vy", "vz", "wx", "wy", "wz",     "type"};
 
   std::filesystem::path file_;
   std::string text_;
+  std::string_view type_;
   std::size_t at_ = 0;
   std::int64_t number_ = 0;
   std::string_view line_;
@@ -154,6 +172,7 @@ ParticleList read_frame(const std::filesystem::path& file, std::int64_t step) {
   list.file = file;
   list.x = vectors(store.arrays.at(0));
   if (const HostArray* v = store.find("velocity"); v && v->components == 3) list.v = vectors(*v);
+  if (const HostArray* w = store.find("angular_velocity"); w && w->components == 3) list.omega = vectors(*w);
   if (const HostArray* r = store.find("radius"); r && r->components == 1)
     for (std::size_t n = 0; n < r->count(); ++n) list.d.push_back(2 * component(*r, n));
   if (list.x.empty()) throw CaseError(fmt::format("{}: holds no particles in that frame", file.string()));
@@ -178,8 +197,20 @@ bool lies_inside(const DomainConfig& domain, Vec3d& x) {
 
 bool has_frames(const std::filesystem::path& file) { return file.extension() == ".vtkhdf"; }
 
-ParticleList read_particles(const std::filesystem::path& file, std::int64_t step) {
-  return has_frames(file) ? read_frame(file, step) : ParticleTable(file).read();
+ParticleList read_particles(const std::filesystem::path& file, std::int64_t step, std::string_view type) {
+  return has_frames(file) ? read_frame(file, step) : ParticleTable(file, type).read();
+}
+
+ParticleList listed_grains(const GrainFill& fill, const DomainConfig& domain) {
+  ParticleList list;
+  if (fill.file.empty())
+    list.x = fill.positions, list.v = fill.velocities, list.omega = fill.spins;
+  else
+    list = read_particles(fill.file, fill.step, "grain");
+  if (!fill.relative) return list;
+  for (Vec3d& x : list.x)
+    for (int k = 0; k < 3; ++k) x[k] = domain.min[k] + x[k] * (domain.max[k] - domain.min[k]);
+  return list;
 }
 
 }  // namespace bedload

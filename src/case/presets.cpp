@@ -18,9 +18,27 @@ void set_sdpd(Config& c) {
   c.time.integrator = TimeIntegrator::kdk;
 }
 
+/// What DEMocritus does, as far as it is built: no frozen walls with SDPD, and no density that counts grains.
+void set_democritus(Config& c) {
+  c.fluid.kernel = KernelFunction::lucy;
+  c.fluid.h_over_dx = 3;
+  c.fluid.model = FluidModel::sdpd_a;
+  c.eos.type = EosType::democritus;
+  c.eos.clip_negative = true;
+  c.eos.filter = true;
+  c.sdpd.noise = NoiseForm::tensor;
+  c.contact.normal = NormalLaw::democritus;
+  c.contact.tangential = SlidingLaw::democritus;
+  c.contact.rolling = RollingLaw::none;
+  c.couple.kernel = CouplingKernel::top_hat;
+  c.couple.drag = DragLaw::gidaspow;
+  c.couple.torque = false;
+}
+
 Config preset_of(const std::string& name) {
   Config c;
   c.preset = name;
+  if (name == "democritus") set_democritus(c);
   if (name != "he2018") return c;
   c.fluid.h_over_dx = 1.3;
   c.density.delta = 0;
@@ -48,9 +66,9 @@ Config preset_of(const std::string& name) {
 
 }  // namespace
 
-Config preset_defaults(const std::string& name, Chosen<FluidModel> fluid_model) {
+Config preset_defaults(const std::string& name, std::optional<FluidModel> fluid_model) {
   Config c = preset_of(name);
-  c.fluid.model = fluid_model;
+  if (fluid_model) c.fluid.model = *fluid_model;
   if (c.fluid.sdpd()) set_sdpd(c);
   return c;
 }

@@ -18,7 +18,7 @@ Config defaults(const Value& root) {
     return name ? *name : std::string(fallback);
   };
   const std::string model = text(root.find("fluid"), "model", "");
-  Chosen<FluidModel> chosen = FluidModel::wcsph;  // the reader tells of a name that is none
+  std::optional<FluidModel> chosen;  // the reader tells of a name that is none
   for (const auto& row : kNames<FluidModel>)
     if (row.name == model) chosen = row.value;
   return preset_defaults(text(&root, "preset", "default"), chosen);

@@ -251,6 +251,8 @@ void resolve_fluid(Config& c, const Value& root, const std::filesystem::path& ch
     vmax = std::max(vmax, inlet_speed(inlet, f.dx, c.domain, c.time.end));
   if (vmax == 0) missing(root, "fluid.vmax", "m/s; neither gravity nor a wall or inlet sets a speed here");
   f.vmax = vmax;
+  for (std::size_t k = 0; k < f.species.size(); ++k)
+    f.mu = k > 0 ? std::max(f.mu, f.species[k].mu) : f.species[k].mu;
   if (f.sdpd() && std::isinf(f.zeta)) f.zeta = 20.0 / 21 * f.mu;
   switch (c.eos.type) {
     case EosType::tait:
@@ -275,6 +277,12 @@ void resolve_grains(Config& c, const Value& root, const std::filesystem::path& c
   if (g.fills.empty() && c.grain_inlets.empty())
     missing(root, "grain.fill", "[[grain.fill]] with a box or positions, or [[grain_inlet]]");
   g.seed = c.seed;
+  for (GrainMaterial& m : g.materials) {
+    if (m.rho == 0) m.rho = g.rho;
+    if (m.E == 0) m.E = g.E;
+    if (std::isinf(m.nu)) m.nu = g.nu;
+    if (std::isinf(m.mu)) m.mu = g.mu;
+  }
   g.d_min = 1e300;
   for (std::size_t i = 0; i < g.fills.size(); ++i) {
     GrainFill& fill = g.fills[i];

@@ -80,7 +80,7 @@ void resolve_listed_fluid(Config& c, const Value& root, const std::filesystem::p
       fill.min = extent.min, fill.max = extent.max;
       continue;
     }
-    const ParticleList list = read_particles(fill.file, fill.step);
+    const ParticleList list = read_particles(fill.file, fill.step, "fluid");
     if (!list.v.empty() && fill.velocity != FluidFill().velocity)
       not_beside(root, path + ".velocity", fill.file);
     const Extent extent = extent_of(list);
@@ -97,8 +97,9 @@ bool resolve_listed_grains(Config& c, std::size_t index, const Value& root,
   find_file(c, fill.file, root, path, checkpoint.empty());
   Extent extent;
   if (checkpoint.empty()) {
-    const ParticleList list = read_particles(fill.file, fill.step);
+    const ParticleList list = listed_grains(fill, c.domain);
     if (!list.v.empty() && fill.velocity != Vec3d{}) not_beside(root, path + ".velocity", fill.file);
+    if (!list.omega.empty() && fill.spin != Vec3d{}) not_beside(root, path + ".spin", fill.file);
     if (!list.d.empty() && !fill.sizes.empty()) not_beside(root, path + ".sizes", fill.file);
     extent = extent_of(list);
   } else {

@@ -122,7 +122,7 @@ Unit parse(std::string_view text, std::string_view whole) {
 
 }  // namespace
 
-bool takes_units(std::string_view unit) { return unit != "-" && unit.find_first_of(",._") == unit.npos; }
+bool takes_units(std::string_view unit) { return unit != "-" && unit.find_first_of(",._*") == unit.npos; }
 
 double quantity(std::string_view text, std::string_view unit) {
   const auto trim = [](std::string_view t) {

@@ -10,6 +10,7 @@
 #include "kernels/coupling/wetness_pass.hpp"
 #include "kernels/drag/registry.hpp"
 #include "kernels/smoothing/registry.hpp"
+#include "kernels/smoothing/top_hat.hpp"
 #include "src/boundaries/orifices.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -48,6 +49,14 @@ struct CountEntries {
 
 }  // namespace
 
+template <class F>
+void Coupling::with_coupling_kernel(F&& f) const {
+  if (top_hat_)
+    f(TopHat(range_));
+  else
+    with_kernel(kernel_, h_c_, f);
+}
+
 Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry& walls)
     : frame_(frame),
       kernel_(config.fluid.kernel),
@@ -55,19 +64,20 @@ Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry&
       dx_(config.fluid.dx),
       h_c_(config.couple.hc),
       range_(kernel_kappa(kernel_) * h_c_),
+      top_hat_(config.couple.kernel == CouplingKernel::top_hat),
       mu_(config.fluid.mu),
       drag_fraction_(config.time.drag),
       eps_min_(Real(config.couple.eps_min)),
       S_dry_(Real(config.couple.S_dry)),
       S_wet_(Real(config.couple.S_wet)),
-      mass_per_r3_(4.0 / 3.0 * kPi * config.grain.rho),
+      matter_(config.grain),
       two_way_(config.couple.mode == CouplingMode::two_way),
       torque_(config.couple.torque),
       angmom_(config.couple.angmom),
       local_slip_(config.couple.slip == DragSlip::local),
       walls_(walls.view()),
       wall_normalise_(config.couple.wall_normalise) {
-  with_kernel(kernel_, h_c_, [&](auto w) { half_space_ = HalfSpaceFraction::of(w); });
+  with_coupling_kernel([&](auto w) { half_space_ = HalfSpaceFraction::of(w); });
   orifices_.assign(orifices_of(config));
 }
 
@@ -143,7 +153,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
                                      fluid.m_state, records});
   const GrainSurroundings around = surroundings();
   const PairSeparation to_fluid{frame_, grains_at_, fluid.xp};
-  with_kernel(kernel_, h_c_, [&](auto w) {
+  with_coupling_kernel([&](auto w) {
     with_flag(moments(), [&](auto with_moments) {
       with_flag(local_slip_, [&](auto local) {
         const InterpolationPass<decltype(w), with_moments, local> pass{
@@ -187,7 +197,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   });
   if (!two_way_) return;
   rate_.resize(fluid.size());
-  with_kernel(kernel_, h_c_, [&](auto w) {
+  with_coupling_kernel([&](auto w) {
     with_flag(local_slip_, [&](auto local) {
       with_flag(angmom_, [&](auto couple) {
         for_each_pair(
@@ -222,7 +232,7 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
       for_each(grains.owned(),
                ReactionTermsPass<couple, local>{grains.impulse, grains.spin_impulse, surroundings(),
                                                 drag_weights(), slip, reactions()});
-      with_kernel(kernel_, h_c_, [&](auto w) {
+      with_coupling_kernel([&](auto w) {
         for_each_pair(
             fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
             ReactionPass<decltype(w), couple, local>{w, fluid.mass, fluid.m_state, by_slip_, reactions(),
@@ -235,7 +245,7 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
 void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, double dt) {
   pack(grains);
   volumes(grains, pose, dt);
-  with_kernel(kernel_, h_c_, [&](auto w) {
+  with_coupling_kernel([&](auto w) {
     for_each_pair(
         fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
         PorosityPass<decltype(w)>{w, eps_min_, orifice_weight(), frame_, fluid.x, volume_, fluid.v_rho,
@@ -252,11 +262,11 @@ void Coupling::push(const FluidStore& fluid, GrainStore& grains, Span<const Body
   push_.resize(fluid.size());
   buoyancy_.resize(grains.size());
   for_each(fluid.owned(), PushPass{fluid.solid_factor, fluid.theta, fluid.m_state, push_});
-  with_kernel(kernel_, h_c_, [&](auto w) {
+  with_coupling_kernel([&](auto w) {
     for_each_pair(grains.owned(), fluid_of_grain_, PairSeparation{frame_, grains_at_, fluid.xp}, range_,
                   BuoyancyPass<decltype(w)>{w, push_, volume_, buoyancy_});
   });
-  for_each(grains.owned(), BuoyancyKick{Real(kick), Real(mass_per_r3_), !held && kick > 0, buoyancy_,
+  for_each(grains.owned(), BuoyancyKick{Real(kick), matter_.of(grains), !held && kick > 0, buoyancy_,
                                         grains.radius, grains.fluid_force, grains.v});
 }
 
@@ -267,7 +277,7 @@ double Coupling::bed_viscosity(double porosity, double d) const {
     beta =
         (1 - porosity) * 6 / (M_PI * d * d * d) * double(law.K(Real(porosity), Real(d), 1000, Real(mu_), 0));
   });
-  with_kernel(kernel_, h_c_, [&](auto w) {
+  with_coupling_kernel([&](auto w) {
     constexpr int shells = 1000;
     for (int k = 0; k < shells; ++k) {
       const double r = (k + 0.5) * range_ / shells;

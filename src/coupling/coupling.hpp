@@ -23,6 +23,7 @@
 #include "kernels/coupling/orifice_weight.hpp"
 #include "kernels/coupling/reaction_pass.hpp"
 #include "kernels/coupling/wall_free_fraction.hpp"
+#include "src/solids/grain_matter.hpp"
 #include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -71,6 +72,9 @@ class Coupling {
   CouplingCounters counters(const FluidStore& fluid, const GrainStore& grains) const;
 
  private:
+  /// f(kernel) with that by which grains and fluid weigh each other.
+  template <class F>
+  void with_coupling_kernel(F&& f) const;
   bool moments() const { return torque_ || angmom_; }
   void pack(const GrainStore& grains);
   void volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt);
@@ -83,9 +87,11 @@ class Coupling {
   Frame frame_;
   Chosen<KernelFunction> kernel_;
   Chosen<DragLaw> drag_law_;
-  double dx_, h_c_, range_, mu_, drag_fraction_;
+  double dx_, h_c_, range_;
+  bool top_hat_;
+  double mu_, drag_fraction_;
   Real eps_min_, S_dry_, S_wet_;
-  double mass_per_r3_;
+  GrainMatter matter_;
   bool two_way_, torque_, angmom_, local_slip_;
   double fastest_ = 0;   ///< how fast drag stops any fluid particle, 1/s
   bool limits_ = false;  ///< whether that is faster than the step

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "kernels/fluid/collision_pass.hpp"
 #include "kernels/fluid/density_pass.hpp"
 #include "kernels/fluid/force_pass.hpp"
 #include "kernels/fluid/one_pass.hpp"
@@ -168,6 +169,8 @@ class FluidSolverWith final : public FluidSolver {
     if (one_pass())
       smooths() || shifts() ? momentum_and_continuity<true>(fluid, walls, dt, shifting(dt))
                             : momentum_and_continuity<false>(fluid, walls, dt, NoShifting{});
+    else if (!config_.fluid.species.empty())
+      momentum<true, true, true>(fluid, walls);
     else if (artificial().acts())
       added ? momentum<true, true>(fluid, walls) : momentum<true, false>(fluid, walls);
     else
@@ -205,7 +208,8 @@ class FluidSolverWith final : public FluidSolver {
                                        walls.m_state,
                                        walls.v_visc,
                                        force,
-                                       friction};
+                                       friction,
+                                       fluid.viscosity};
     for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
   template <class Pass>
@@ -246,20 +250,33 @@ class FluidSolverWith final : public FluidSolver {
             shift,
             drift_of(fluid)};
   }
-  template <bool kArtificial, bool kAdded>
-  ForcePass<W, kArtificial, kAdded> force_pass(FluidStore& fluid, const WallStore& walls) {
-    return {w_,           wall_pair(), flux(fluid),        fluid.m_state,
-            fluid.p_rho2, walls.v_rho, walls.m_state,      walls.v_visc,
-            artificial(), tensile(),   Real(config_.xsph), gravity_,
-            drive(fluid), fluid.theta, fluid.acc_next,     fluid.drift};
+  template <bool kArtificial, bool kAdded, bool kSpecies = false>
+  ForcePass<W, kArtificial, kAdded, kSpecies> force_pass(FluidStore& fluid, const WallStore& walls) {
+    return {w_,
+            wall_pair(),
+            flux(fluid),
+            fluid.m_state,
+            fluid.p_rho2,
+            walls.v_rho,
+            walls.m_state,
+            walls.v_visc,
+            artificial(),
+            tensile(),
+            Real(config_.xsph),
+            gravity_,
+            drive(fluid),
+            fluid.theta,
+            fluid.acc_next,
+            fluid.drift,
+            fluid.viscosity};
   }
   template <bool kSmooth, bool kPorous, class Shift>
   void continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {
     run(fluid, walls, range(), density_pass<kSmooth, kPorous>(fluid, walls, dt, shift, fluid.s_next));
   }
-  template <bool kArtificial, bool kAdded>
+  template <bool kArtificial, bool kAdded, bool kSpecies = false>
   void momentum(FluidStore& fluid, const WallStore& walls) {
-    run(fluid, walls, range(), force_pass<kArtificial, kAdded>(fluid, walls));
+    run(fluid, walls, range(), force_pass<kArtificial, kAdded, kSpecies>(fluid, walls));
   }
   template <bool kSmooth, class Shift>
   void momentum_and_continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {
@@ -313,7 +330,8 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
       frame_(frame),
       kappa_(kappa),
       mixed_(config.grain.present && config.couple.mode == CouplingMode::two_way),
-      gravity_(config.gravity) {
+      gravity_(config.gravity),
+      drive_factor_(config.drive) {
   eos_ = EquationOfState::of(config);
   set_skin(config.skin_fluid * config.fluid.dx);
   const auto acts = [](const WallBody& body) { return body.repels() || body.no_penetration; };
@@ -328,6 +346,7 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
     if (body.single_layer()) layers[b] = layer_law(config, body, kappa);
   }
   if (layered) layers_.assign(layers);
+  if (config.fluid.species.empty()) fluid.species.leave_out(), fluid.viscosity.leave_out();
   fluid.drift.begin_at_zero();
   if (!drifts()) fluid.drift.leave_out();
   if (config.time.integrator != TimeIntegrator::ab3) return;
@@ -371,8 +390,31 @@ double FluidSolver::repulsion_cap(double dt) const {
 Drive FluidSolver::drive(const FluidStore& fluid) const {
   const DriveConfig& d = config_.drive;
   const Vec3d spring{d.rate.x * d.rate.x, d.rate.y * d.rate.y, d.rate.z * d.rate.z};
-  const int opposed = int(DriveReversal(d.opposed)) - int(DriveReversal::x);
-  return {frame_, fluid.x, d.f, d.mode == DriveMode::mass, opposed, spring, d.centre, d.pulls()};
+  const DriveField field = d.on_fluid() ? drive_now_ : DriveField{frame_, {}, {}, -1};
+  return {field, fluid.x, d.mode, d.on == DrivenPhase::both, spring, d.centre, d.pulls()};
+}
+
+void FluidSolver::set_drive(const FluidStore& fluid, double t) {
+  if (!config_.drive.on_fluid()) return;
+  std::vector<Vec3d> x;
+  if (drive_factor_.varies())
+    for (const auto& at : fluid.x.values()) x.push_back(frame_.wrap(coordinates(frame_, at)));
+  drive_now_ = drive_field(config_.drive, drive_factor_, frame_, x, t, drive_factors_);
+}
+
+void FluidSolver::collide(FluidStore& fluid) {
+  const ViscosityConfig& c = config_.visc;
+  if (!c.collision) return;
+  const double range = c.collision_range * config_.fluid.dx;
+  collisions_.resize(fluid.size());
+  collided_.resize(fluid.size());
+  const PairSeparation separation{frame_, fluid.xp, fluid.xp};
+  for_each_pair(fluid.owned(), fluid_fluid_, separation, range,
+                CollisionCountPass{Real(range * range), fluid.v_rho, collisions_});
+  for_each_pair(fluid.owned(), fluid_fluid_, separation, range,
+                CollisionPass{Real(range * range), Real(c.collision_restitution), Real(1e-12 * range * range),
+                              fluid.v_rho, fluid.mass, collisions_, collided_});
+  fluid.v_rho.buffer().swap(collided_);
 }
 
 WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const {

@@ -15,6 +15,7 @@
 #include "kernels/fluid/wall_pass.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
 #include "kernels/integrate/fluid_kicks.hpp"
+#include "src/fluid/drive_field.hpp"
 #include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -71,6 +72,11 @@ class FluidSolver {
   void set_gravity(const Vec3d& g) { gravity_ = Real3(g); }
   /// Which step the next forces() end; of noise.
   void set_step(std::int64_t step) { step_ = std::uint64_t(step); }
+  /// What drive() gives from now on, which is that at the time t (s).
+  void set_drive(const FluidStore& fluid, double t);
+  /// Changes velocities of fluid particles that have come too near to each other (visc.collision), which
+  /// positions as packed and lists tell.
+  void collide(FluidStore& fluid);
   /// Longest step that viscosity allows, s.
   virtual double friction_limit(double eps_min) const;
   /// Null where particles do not spin.
@@ -178,6 +184,11 @@ class FluidSolver {
   bool mixed_;  ///< grains share the space
   EquationOfState eos_;
   Real3 gravity_;
+  DriveFactor drive_factor_;
+  DriveField drive_now_;
+  Buffer<Real> drive_factors_;
+  Buffer<Real> collisions_;  ///< of each particle
+  Buffer<Real4> collided_;
   double skin_ = 0;  ///< m
   CellGrid grid_, wall_grid_;
 #if BL_CUDA

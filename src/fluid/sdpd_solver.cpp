@@ -88,10 +88,11 @@ class SdpdSolver final : public FluidSolver {
     for_each(fluid.owned(), PredictSpin{Real(dt), omega(), turning(), fluid.id, label_});
     wall_label_.resize(walls.size());
     for_each(walls.owned(), LabelWalls{walls.id, wall_label_});
-    if (config_.sdpd.kT > 0 && dt > 0)
-      momentum<true>(fluid, walls, dt);
+    const bool noisy = config_.sdpd.kT > 0 && dt > 0;
+    if (config_.fluid.species.empty())
+      noisy ? momentum<true, false>(fluid, walls, dt) : momentum<false, false>(fluid, walls, dt);
     else
-      momentum<false>(fluid, walls, dt);
+      noisy ? momentum<true, true>(fluid, walls, dt) : momentum<false, true>(fluid, walls, dt);
     corrected_ = 0;
   }
 
@@ -129,13 +130,14 @@ class SdpdSolver final : public FluidSolver {
     law.guard = Real(1e-12 * square(config_.fluid.h()));
     return {w_, law, Real(s.force_scale[0]), law.thermal > 0};
   }
-  template <bool kNoise>
+  template <bool kNoise, bool kSpecies>
   void momentum(FluidStore& fluid, const WallStore& walls, double dt) {
     run(fluid, walls,
-        SdpdForcePass<W, Model::spins, kNoise>{
-            pair(dt), flux(fluid), fluid.m_state, label_, fluid.p_rho2, fluid.mass, fluid.id, walls.v_rho,
-            walls.m_state, walls.v_visc, wall_label_, gravity_, drive(fluid), Real(dt),
-            Real(spin_ ? spin_->inertia : 0), fluid.theta, fluid.acc_next, omega(), turning()});
+        SdpdForcePass<W, Model::spins, kNoise, kSpecies>{
+            pair(dt),    flux(fluid),    fluid.m_state, label_,        fluid.p_rho2,
+            fluid.mass,  fluid.id,       walls.v_rho,   walls.m_state, walls.v_visc,
+            wall_label_, gravity_,       drive(fluid),  Real(dt),      Real(spin_ ? spin_->inertia : 0),
+            fluid.theta, fluid.acc_next, omega(),       turning(),     fluid.viscosity});
   }
   template <class Force>
   void forces_on_walls(const FluidStore& fluid, const WallStore& walls, double dt, Span<Vec3d> force,
@@ -147,7 +149,7 @@ class SdpdSolver final : public FluidSolver {
                                            Model::spins,  walls.v_rho,
                                            walls.m_state, walls.v_visc,
                                            wall_label_,   force,
-                                           friction};
+                                           friction,      fluid.viscosity};
     for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
   /// Shepard's mean of q over the fluid; densities are rho0 (1 + s).

@@ -18,7 +18,8 @@ constexpr std::uint64_t kPlaceStream = std::uint64_t(1) << 62;
 
 GrainSource::GrainSource(const Config& config, std::size_t index)
     : inlet_(config.grain_inlets[index]),
-      rho_(config.grain.rho),
+      material_(config.grain.material(inlet_.material)),
+      rho_(config.grain.all_materials()[material_].rho),
       seed_(config.grain.seed),
       stream_((std::uint64_t(index) + 1) << 40) {
   for (const SizeClass& size : inlet_.sizes)

@@ -187,6 +187,7 @@ std::vector<std::size_t> add_fluid(const Config& config, Setup::Fluid& fluid,
     if (!config.fluid.fills[index].file.empty()) continue;
     check_fill(config, index);
     add_fill(config, index, fluid, warnings);
+    fluid.fill.resize(fluid.x.size(), std::uint32_t(index));
   }
   first.push_back(fluid.x.size());
   check_shapes(config, fluid, first);

@@ -59,7 +59,7 @@ class ListedFluid {
 
   void add_fill(std::size_t index) {
     const FluidFill& fill = config_.fluid.fills[index];
-    ParticleList list = read_particles(fill.file, fill.step);
+    ParticleList list = read_particles(fill.file, fill.step, "fluid");
     const FillVelocity velocity(fill, index);
     const double dx = config_.fluid.dx;
     double fastest = 0;
@@ -68,6 +68,7 @@ class ListedFluid {
       fluid_.x.push_back(list.x[n]);
       fluid_.v.push_back(list.v.empty() ? velocity(list.x[n]) : list.v[n]);
       fluid_.mass.push_back(config_.fluid.rho0 * config_.domain.cell_volume(dx));
+      fluid_.fill.push_back(std::uint32_t(index));
       places_.add(list.x[n]);
       fastest = std::max(fastest, norm(fluid_.v.back()));
     }

@@ -94,12 +94,9 @@ class Packer {
     index_ = index;
     fill_ = &config_.grain.fills[index];
     CounterRandom random(config_.grain.seed, index);
-    if (!fill_->file.empty()) return add_listed(read_particles(fill_->file, fill_->step), random);
-    if (!fill_->positions.empty()) {
-      ParticleList given;
-      given.x = fill_->positions;
-      return add_listed(given, random);
-    }
+    if (!fill_->file.empty() || !fill_->positions.empty())
+      return add_listed(listed_grains(*fill_, config_.domain), random);
+    if (!fill_->every.empty()) return add_listed(lattice_sites(), random);
     const std::size_t count = wanted_count();
     std::vector<double> radii = radii_of(count);
     shuffle(radii, random);
@@ -136,7 +133,8 @@ class Packer {
 
   std::size_t wanted_count() const {
     double n = double(fill_->count);
-    if (fill_->mass > 0) n = std::round(count_for_volume(sizes(), fill_->mass / config_.grain.rho));
+    const double rho = config_.grain.all_materials()[config_.grain.material(fill_->material)].rho;
+    if (fill_->mass > 0) n = std::round(count_for_volume(sizes(), fill_->mass / rho));
     if (fill_->packing_fraction > 0)
       n = std::round(count_for_volume(sizes(), fill_->packing_fraction * volume()));
     if (n < 1) fail("holds no grain; raise its count, mass or packing_fraction");
@@ -189,11 +187,12 @@ class Packer {
       if (x[k] < config_.domain.min[k] || x[k] > config_.domain.max[k])
         fail(fmt::format("shape \"{}\" reaches to ({:g}, {:g}, {:g}) m, outside the domain", fill_->shape,
                          x.x, x.y, x.z));
-    add(x, radius, fill_->velocity);
+    add(x, radius, fill_->velocity, fill_->spin);
   }
-  void add(const Vec3d& x, double radius, const Vec3d& v) {
+  void add(const Vec3d& x, double radius, const Vec3d& v, const Vec3d& omega) {
     grains_.x.push_back(x);
     grains_.v.push_back(v);
+    grains_.omega.push_back(omega);
     grains_.radius.push_back(radius);
     placed_.add(x, radius);
   }
@@ -225,8 +224,31 @@ class Packer {
       const double allowed = 0.1 * radii[n];  // grains may be given in contact
       if (!clear_of_walls(x, radii[n], allowed)) reject("lies inside a wall");
       if (!placed_.is_free(x, radii[n] - allowed)) reject("lies inside another grain");
-      add(x, radii[n], list.v.empty() ? fill_->velocity : list.v[n]);
+      add(x, radii[n], list.v.empty() ? fill_->velocity : list.v[n],
+          list.omega.empty() ? fill_->spin : list.omega[n]);
     }
+  }
+
+  /// Of the lattice on which fluid is laid in a box, each so many along every axis that lie in the space to
+  /// fill.
+  ParticleList lattice_sites() const {
+    std::array<Cells, 3> cells;
+    std::array<std::int64_t, 3> every;
+    for (int k = 0; k < 3; ++k) {
+      cells[k] = fit_cells(fill_->min[k], fill_->max[k], config_.fluid.dx);
+      every[k] = std::llround(fill_->every[k]);
+    }
+    ParticleList sites;
+    for (std::int64_t l = every[2] - 1; l < cells[2].count; l += every[2])
+      for (std::int64_t j = every[1] - 1; j < cells[1].count; j += every[1])
+        for (std::int64_t i = every[0] - 1; i < cells[0].count; i += every[0]) {
+          const Vec3d x{cells[0].centre(i), cells[1].centre(j), cells[2].centre(l)};
+          if (inside_shape(x, 0, 0)) sites.x.push_back(x);
+        }
+    if (sites.x.empty())
+      fail(fmt::format("holds no grain: its lattice has {} x {} x {} sites", cells[0].count, cells[1].count,
+                       cells[2].count));
+    return sites;
   }
 
   /// One after the other, the largest first, wherever there is space; nothing if space runs out.

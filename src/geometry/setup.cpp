@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/filter.hpp"
@@ -79,6 +82,93 @@ void flatten(const Config& config, Setup& setup, const First& first) {
     for (Vec3d& x : *places) x.y = config.domain.middle();
 }
 
+/// The fluid in cells at least as wide as fluid.dx, to find what is within that of a place.
+class FluidCells {
+ public:
+  FluidCells(const Config& config, const Setup::Fluid& fluid) : domain_(config.domain), fluid_(fluid) {
+    for (int k = 0; k < 3; ++k) {
+      const double length = domain_.max[k] - domain_.min[k];
+      count_[k] = std::max<std::int64_t>(1, std::int64_t(length / config.fluid.dx));
+      width_[k] = length / double(count_[k]);
+    }
+    for (std::size_t a = 0; a < fluid.x.size(); ++a) cells_[cell(fluid.x[a])].push_back(a);
+  }
+  /// The particle nearest to x of those within `reach` (m, at most fluid.dx) that are not `gone`; none: their
+  /// number.
+  std::size_t nearest(const Vec3d& x, double reach, const std::vector<bool>& gone) const {
+    double least = reach * reach;
+    std::size_t found = fluid_.x.size();
+    for (int n = 0; n < 27; ++n) {
+      const Vec3d side{(n % 3 - 1) * width_.x, (n / 3 % 3 - 1) * width_.y, (n / 9 - 1) * width_.z};
+      const auto here = cells_.find(cell(x + side));
+      if (here == cells_.end()) continue;
+      for (const std::size_t a : here->second) {
+        const double r2 = norm2(apart(fluid_.x[a], x));
+        if (gone[a] || r2 > least || (r2 == least && a > found)) continue;
+        least = r2, found = a;
+      }
+    }
+    return found;
+  }
+
+ private:
+  Vec3d apart(const Vec3d& x, const Vec3d& y) const {
+    Vec3d r = x - y;
+    for (int k = 0; k < 3; ++k)
+      if (const double period = domain_.max[k] - domain_.min[k]; domain_.periodic[k])
+        r[k] -= period * std::round(r[k] / period);
+    return r;
+  }
+  std::array<std::int64_t, 3> cell(const Vec3d& x) const {
+    std::array<std::int64_t, 3> at;
+    for (int k = 0; k < 3; ++k) {
+      at[k] = std::int64_t(std::floor((x[k] - domain_.min[k]) / width_[k]));
+      if (domain_.periodic[k]) at[k] = (at[k] % count_[k] + count_[k]) % count_[k];
+    }
+    return at;
+  }
+
+  const DomainConfig& domain_;
+  const Setup::Fluid& fluid_;
+  std::array<std::int64_t, 3> count_;
+  Vec3d width_;
+  std::map<std::array<std::int64_t, 3>, std::vector<std::size_t>> cells_;
+};
+
+/// Takes out the fluid particle nearest to each grain of the fills that say so. Those that are left of its
+/// fluid.fill share its volume, so that fluid and grains still fill the space together.
+void replace_fluid(const Config& config, const Setup::Grains& grains, Setup::Fluid& fluid) {
+  const auto& fills = config.grain.fills;
+  if (std::none_of(fills.begin(), fills.end(), [](const GrainFill& fill) { return fill.replaces_fluid; }))
+    return;
+  const FluidCells cells(config, fluid);
+  std::vector<bool> gone(fluid.x.size(), false);
+  std::vector<double> was(config.fluid.fills.size()), left(config.fluid.fills.size());
+  for (std::size_t i = 0; i < grains.x.size(); ++i) {
+    if (!fills[grains.fill[i]].replaces_fluid) continue;
+    const Vec3d& x = grains.x[i];
+    const std::size_t at = cells.nearest(x, config.fluid.dx, gone);
+    if (at == fluid.x.size())
+      throw KeyError(
+          fmt::format("grain.fill.{}.replaces_fluid", grains.fill[i]),
+          fmt::format("grain.fill {}: no fluid particle lies within fluid.dx of its grain at ({:g}, {:g}, "
+                      "{:g}) m that it could replace",
+                      grains.fill[i] + 1, x.x, x.y, x.z));
+    gone[at] = true;
+  }
+  for (std::size_t a = 0; a < gone.size(); ++a) {
+    was[fluid.fill[a]] += fluid.mass[a];
+    if (!gone[a]) left[fluid.fill[a]] += fluid.mass[a];
+  }
+  std::size_t kept = 0;
+  for (std::size_t a = 0; a < gone.size(); ++a) {
+    if (gone[a]) continue;
+    fluid.x[kept] = fluid.x[a], fluid.v[kept] = fluid.v[a], fluid.fill[kept] = fluid.fill[a];
+    fluid.mass[kept++] = fluid.mass[a] * was[fluid.fill[a]] / left[fluid.fill[a]];
+  }
+  fluid.x.resize(kept), fluid.v.resize(kept), fluid.mass.resize(kept), fluid.fill.resize(kept);
+}
+
 }  // namespace
 
 Setup build_setup(const Config& config, std::vector<std::string>& warnings) {
@@ -89,12 +179,13 @@ Setup build_setup(const Config& config, std::vector<std::string>& warnings) {
     add_listed_fluid(config, setup.fluid, warnings);
     add_walls(config, setup.walls, warnings);
     if (config.domain.two_d) flatten(config, setup, first);
-    add_inlets(config, setup.fluid, setup.walls, warnings);
   }
   if (config.grain.present) {
     check_filters(config, warnings);
     add_grains(config, setup.grains);
+    replace_fluid(config, setup.grains, setup.fluid);
   }
+  if (config.fluid.present) add_inlets(config, setup.fluid, setup.walls, warnings);
   return setup;
 }
 

@@ -147,6 +147,7 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
     out.arrays.push_back(made<Real, DensityPart>("density", "kg/m3", all, Span<const Real4>(fluid_.m_state)));
     if (coupled()) out.arrays.push_back(fluid_.eps.to_host());
     if (const Spin* spin = fluid_solver_->spin()) out.arrays.push_back(spin->omega.to_host());
+    if (fluid_.species.used()) out.arrays.push_back(fluid_.species.to_host());
     out.arrays.push_back(fluid_.id.to_host());
   } else if (name == "grains" && has_grains()) {
     out.count = grains_.size();
@@ -156,6 +157,7 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
     out.arrays.push_back(renamed(grains_.omega, "angular_velocity"));
     for (FieldBase* f : {static_cast<FieldBase*>(&grains_.radius), static_cast<FieldBase*>(&grains_.force)})
       out.arrays.push_back(f->to_host());
+    if (grains_.material.used()) out.arrays.push_back(grains_.material.to_host());
     if (coupled())
       for (FieldBase* f :
            {static_cast<FieldBase*>(&grains_.drag_force), static_cast<FieldBase*>(&grains_.fluid_force),

@@ -95,13 +95,13 @@ struct FluidBox {
 };
 struct GrainBox {
   Vec3d lo, hi;
-  double rho;
+  MassPerR3 per_r3;
   Span<const Vec3d> x;
   Span<const Real3> v;
   Span<const Real> radius;
   BL_HD void operator()(Index i, double* out) const {
     if (!within(x[i], lo, hi)) return;
-    const double r = radius[i], m = rho * 4.1887902047863905 * r * r * r;
+    const double r = radius[i], m = per_r3(i) * r * r * r;
     out[0] = 1, out[1] = m;
     for (int k = 0; k < 3; ++k) out[3 + k] = m * v[i][k];
   }
@@ -183,8 +183,8 @@ std::vector<Quantity> CoupledSimulation::box(const ProbeConfig& p) {
         fluid_.owned(), FluidBox{frame_, p.min, p.max, fluid_.x, fluid_.v_rho, fluid_.m_state, fluid_.mass});
     std::copy(r.v, r.v + 7, s);
   } else {
-    const auto r = sum_over<7>(
-        grains_.owned(), GrainBox{p.min, p.max, config_.grain.rho, grains_.x, grains_.v, grains_.radius});
+    const auto r = sum_over<7>(grains_.owned(), GrainBox{p.min, p.max, GrainMatter(config_.grain).of(grains_),
+                                                         grains_.x, grains_.v, grains_.radius});
     std::copy(r.v, r.v + 7, s);
   }
   const double m = s[1] > 0 ? s[1] : std::nan("");

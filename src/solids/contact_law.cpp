@@ -23,17 +23,31 @@ ContactLaw law_between(const ContactMaterials& m) {
 }  // namespace
 
 ContactLaw make_contact_law(const Config& config) {
-  const GrainConfig& g = config.grain;
-  const ElasticCompliance grain(g.E, g.nu);
-  return law_between({2 * grain.normal, 2 * grain.tangential, g.mu, g.mu_r, g.e, config.contact});
+  const GrainMaterial all = config.grain.all_materials()[0];
+  return make_contact_law(config, all, all);
 }
 
-ContactLaw make_wall_law(const Config& config, const WallBody& body) {
+ContactLaw make_contact_law(const Config& config, const GrainMaterial& a, const GrainMaterial& b) {
+  const ElasticCompliance i(a.E, a.nu), j(b.E, b.nu);
+  return law_between({.normal = i.normal + j.normal,
+                      .tangential = i.tangential + j.tangential,
+                      .nu = 0.5 * (a.nu + b.nu),
+                      .mu = 0.5 * (a.mu + b.mu),
+                      .mu_r = config.grain.mu_r,
+                      .e = config.grain.e,
+                      .contact = config.contact});
+}
+
+ContactLaw make_wall_law(const Config& config, const GrainMaterial& material, const WallBody& body) {
   const GrainConfig& g = config.grain;
-  const ElasticCompliance grain(g.E, g.nu), wall = wall_compliance(config, body);
-  return law_between({grain.normal + wall.normal, grain.tangential + wall.tangential,
-                      std::isfinite(body.mu) ? body.mu : g.mu, std::isfinite(body.mu_r) ? body.mu_r : g.mu_r,
-                      body.e > 0 ? body.e : g.e, config.contact});
+  const ElasticCompliance grain(material.E, material.nu), wall = wall_compliance(config, body);
+  return law_between({.normal = grain.normal + wall.normal,
+                      .tangential = grain.tangential + wall.tangential,
+                      .nu = 0.5 * (material.nu + (std::isfinite(body.nu) ? body.nu : g.nu)),
+                      .mu = std::isfinite(body.mu) ? body.mu : material.mu,
+                      .mu_r = std::isfinite(body.mu_r) ? body.mu_r : g.mu_r,
+                      .e = body.e > 0 ? body.e : g.e,
+                      .contact = config.contact});
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -10,10 +10,7 @@
 namespace bedload::inline BL_VARIANT {
 
 RigidGroups::RigidGroups(const Config& config, const Frame& frame, GrainStore& grains)
-    : config_(config),
-      frame_(frame),
-      fills_(config.grain.rigid_fills()),
-      mass_per_r3_(4.0 / 3.0 * M_PI * config.grain.rho) {
+    : config_(config), frame_(frame), fills_(config.grain.rigid_fills()), matter_(config.grain) {
   if (!any()) return;
   group_ = std::make_unique<Field<std::uint32_t>>(grains, "group", "-", Lifetime::kept);
   arm_ = std::make_unique<Field<Vec3d>>(grains, "group_arm", "m", Lifetime::kept);
@@ -32,9 +29,10 @@ void RigidGroups::bind(const GrainStore& grains, const std::vector<std::uint32_t
   std::vector<double> mass(n);
   std::vector<Vec3d> centre(n), v(n), arm(x.size());
   for (std::size_t k = 0; k < n; ++k) {
+    const std::string& made_of = config_.grain.fills[fills_[k]].material;
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (int(fill[i]) != fills_[k]) continue;
-      const double R = radius[i], m = mass_per_r3_ * R * R * R;
+      const double R = radius[i], m = matter_.per_r3(config_.grain.material(made_of)) * R * R * R;
       group[i] = std::uint32_t(k + 1);
       mass[k] += m;
       centre[k] += m * x[i];
@@ -62,12 +60,15 @@ void RigidGroups::measure(const GrainStore& grains) {
   std::vector<std::size_t> order(id.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
+  const auto material_of = [&](std::uint32_t of) {
+    return config_.grain.material(config_.grain.fills[fills_[of - 1]].material);
+  };
   std::vector<MassProperties> sums(fills_.size());
   for (auto& s : sums) s.inertia.fill(0);
   for (const std::size_t i : order) {
     if (group[i] == 0) continue;
     MassProperties& s = sums[group[i] - 1];
-    const double R = radius[i], m = mass_per_r3_ * R * R * R, own = 0.4 * m * R * R;
+    const double R = radius[i], m = matter_.per_r3(material_of(group[i])) * R * R * R, own = 0.4 * m * R * R;
     s.mass += m;
     const auto grain = shifted_inertia({own, own, own, 0, 0, 0}, m, arm[i]);
     for (int k = 0; k < 6; ++k) s.inertia[k] += grain[k];
@@ -89,7 +90,7 @@ void RigidGroups::follow(GrainStore& g, Span<Real3> v_rest, Span<Real3> omega_re
   const GrainGroups all = view();
   for (Index k = 0; k < store_.size(); ++k)
     reduce_into(gained_.data() + k, g.owned(),
-                GainReduction{all, k, mass_per_r3_, g.radius, g.v, g.omega, v_rest, omega_rest});
+                GainReduction{all, k, matter_.of(g), g.radius, g.v, g.omega, v_rest, omega_rest});
   for_each(store_.owned(), GroupPass{all, gained_.data(), drift});
   for_each(g.owned(), FollowPass{all, frame_, g.x, g.v, g.omega, v_rest, omega_rest});
 }

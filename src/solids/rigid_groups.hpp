@@ -8,6 +8,7 @@
 #include "bedload/parallel/loops.hpp"
 #include "bedload/particles/grains.hpp"
 #include "kernels/bodies/grain_groups.hpp"
+#include "src/solids/grain_matter.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -57,7 +58,7 @@ class RigidGroups {
   Frame frame_;
   std::vector<int> fills_;         ///< one a group
   std::vector<RigidBody> groups_;  ///< about their centres of mass
-  double mass_per_r3_;
+  GrainMatter matter_;
   std::unique_ptr<Field<std::uint32_t>> group_;
   std::unique_ptr<Field<Vec3d>> arm_;
   mutable GroupStore store_;

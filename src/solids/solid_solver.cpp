@@ -6,6 +6,7 @@
 #include <string>
 
 #include "bedload/case/limits.hpp"
+#include "kernels/contact/lubrication_pass.hpp"
 #include "kernels/integrate/grain_substep.hpp"
 #include "kernels/integrate/grain_sums.hpp"
 
@@ -32,6 +33,8 @@ SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeo
     : config_(config),
       frame_(frame),
       law_(make_contact_law(config)),
+      films_(Lubrication::of(config)),
+      matter_(config.grain),
       d_min_(config.grain.d_min > 0 ? config.grain.d_min : config.grain.d),
       d_max_(config.grain.d_max > 0 ? config.grain.d_max : config.grain.d),
       skin_(config.skin_grain * d_min_),
@@ -41,11 +44,16 @@ SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeo
       groups_(config, frame, grains),
       histories_(law_),
       old_histories_(law_),
-      wall_list_(frame, walls, skin_) {
+      wall_list_(frame, walls, skin_, double(films_.range(Real(d_max_ / 2)))) {
   config_.grain.d_min = d_min_, config_.grain.d_max = d_max_;
-  std::vector<ContactLaw> wall_laws;
-  for (const WallBody& body : config.wall.bodies) wall_laws.push_back(make_wall_law(config, body));
+  const std::vector<GrainMaterial> materials = config.grain.all_materials();
+  std::vector<ContactLaw> wall_laws, pair_laws;
+  for (const WallBody& body : config.wall.bodies)
+    for (const GrainMaterial& m : materials) wall_laws.push_back(make_wall_law(config, m, body));
   wall_laws_.assign(wall_laws);
+  for (const GrainMaterial& a : materials)
+    for (const GrainMaterial& b : materials) pair_laws.push_back(make_contact_law(config, a, b));
+  if (materials.size() > 1) pair_laws_.assign(pair_laws);
   if (walls.contacts() == 0) return;
   wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
   wall_contacts_->resize(grains.size());
@@ -72,10 +80,11 @@ void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal
 }
 
 void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
-  const GrainNear near{frame_, grains.x_list.span(), grains.radius.span(), groups_.of_grains(), 0.5 * d_max_,
-                       skin_};
+  GrainNear near{frame_, grains.x_list.span(),   grains.radius.span(), groups_.of_grains(), 0.5 * d_max_,
+                 skin_,  double(films_.range(1))};
   // rows are short: of more lanes most would have nothing to do
   list_.build(grains.size(), grid.view(), near, std::min(lane_bits(grains.size()), 3u));
+  near.film = 0;
   for_each(grains.owned(), ContactsFirstPass{near, list_.view(), list_.entries()});
   histories_.reset(list_.slots());
   wall_list_.forget();
@@ -85,7 +94,7 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
 
 GrainWatch SolidSolver::watch(const GrainStore& g) const {
   const auto v =
-      reduce(g.owned(), WatchReduction{frame_, mass_per_r3(), g.x.span(), g.x_list.span(), g.v.span(),
+      reduce(g.owned(), WatchReduction{frame_, matter_.of(g), g.x.span(), g.x_list.span(), g.v.span(),
                                        g.omega.span(), g.radius.span(), g.K.span(), g.id.span()});
   return {std::sqrt(v.speed2), std::sqrt(v.displacement2), v.drag_rate, Id(v.bad)};
 }
@@ -102,17 +111,16 @@ StableStep SolidSolver::stable_dt(const GrainWatch& w) const {
   for (const StepLimit& l : limits(w)) {
     if (!(l.seconds < least.seconds)) continue;
     least.seconds = l.seconds;
-    least.limit = l.name == "rayleigh"  ? "rayleigh"
-                  : l.name == "contact" ? "contact"
-                  : l.name == "rolling" ? "rolling"
-                                        : "grain drag";
+    least.limit = l.name == "rayleigh"      ? "rayleigh"
+                  : l.name == "contact"     ? "contact"
+                  : l.name == "rolling"     ? "rolling"
+                  : l.name == "lubrication" ? "lubrication"
+                                            : "grain drag";
   }
   return least;
 }
 
 // -- motion ------------------------------------------------------------------
-
-double SolidSolver::mass_per_r3() const { return 4.0 / 3.0 * M_PI * config_.grain.rho; }
 
 WallMemory* const* SolidSolver::wall_memories() const {
   std::vector<WallMemory*> now;
@@ -127,7 +135,7 @@ WallMemory* const* SolidSolver::wall_memories() const {
 ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
   return {.frame = frame_,
           .law = law_,
-          .mass_per_r3 = Real(mass_per_r3()),
+          .mass_per_r3 = matter_.of(g),
           .dt = Real(dt),
           .x = g.x.span(),
           .v = g.v.span(),
@@ -135,12 +143,14 @@ ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
           .radius = g.radius.span(),
           .id = g.id.span(),
           .list = list_.view(),
-          .histories = histories_.view()};
+          .histories = histories_.view(),
+          .laws = pair_laws_.size() > 0 ? pair_laws_.data() : nullptr,
+          .materials = matter_.materials()};
 }
 
 WallContacts SolidSolver::wall_contacts(const GrainStore& g, const BodyPose* poses, double dt) const {
   return {.frame = frame_,
-          .mass_per_r3 = Real(mass_per_r3()),
+          .mass_per_r3 = matter_.of(g),
           .dt = Real(dt),
           .x = g.x.span(),
           .v = g.v.span(),
@@ -151,13 +161,22 @@ WallContacts SolidSolver::wall_contacts(const GrainStore& g, const BodyPose* pos
           .count = wall_contacts_ ? wall_contacts_->buffer().data() : nullptr,
           .capacity = walls_.contacts(),
           .laws = wall_laws_.data(),
+          .materials = matter_.materials(),
           .poses = poses,
-          .free_bodies = bodies_ ? bodies_->constants() : nullptr};
+          .free_bodies = bodies_ ? bodies_->constants() : nullptr,
+          .lubrication = films_,
+          .wetness = g.wetness.span()};
 }
 
 ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses, double dt,
                                      const TouchLoads& loads) {
   ContactPass pass = contact_pass(g, dt);
+  if (films_.acts()) {
+    by_films_.reserve_and_resize(g.size());
+    for_each(threads(), LubricationPass{frame_, films_, g.x, g.v, g.omega, g.radius, g.wetness, g.id,
+                                        list_.view(), by_films_.data()});
+    pass.by_films = by_films_.data();
+  }
   if (wall_list_.size() == 0 || law_.normal == NormalLaw::none) return pass;
   by_walls_.reserve_and_resize(wall_list_.size());
   for_each_early({0, wall_list_.size()},
@@ -175,7 +194,8 @@ void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
 }
 
 void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies, double dt, int substeps,
-                          bool held, const std::vector<Vec3d>& gravity, double wall_travel) {
+                          bool held, const std::vector<Vec3d>& gravity, double wall_travel,
+                          Span<const Real3> drive) {
   FreeBodies* const free = moving();
   const double tau = dt / substeps;
   const TouchLoads loads = free ? free->record(g.size()) : TouchLoads{};
@@ -196,7 +216,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   const Index n = g.size();
   next_x_.resize(n), next_v_.resize(n), next_omega_.resize(n), v_rest_.resize(n), omega_rest_.resize(n);
   GrainKick kick{gravity.empty() ? config_.gravity : gravity[0],
-                 mass_per_r3(),
+                 matter_.of(g),
                  0.5 * tau,
                  config_.couple.integrator == DragIntegrator::exponential,
                  g.radius,
@@ -204,7 +224,8 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                  {},
                  {},
                  {},
-                 {}};
+                 {},
+                 drive};
   if (wet_)
     kick.fluid_force = g.fluid_force, kick.U = g.U, kick.omega_f = g.omega_f, kick.K = g.K,
     kick.K_rot = g.K_rot;

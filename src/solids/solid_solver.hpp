@@ -11,6 +11,7 @@
 #include "bedload/simulation.hpp"
 #include "kernels/contact/contact_law.hpp"
 #include "kernels/contact/contact_pass.hpp"
+#include "src/solids/grain_matter.hpp"
 #include "src/solids/pair_histories.hpp"
 #include "src/solids/rigid_groups.hpp"
 #include "src/solids/wall_list.hpp"
@@ -64,8 +65,9 @@ class SolidSolver {
   SolidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, GrainStore& grains,
               FreeBodies* bodies = nullptr, bool wet = true);
 
-  double skin() const { return skin_; }            ///< m
-  double range() const { return d_max_ + skin_; }  ///< largest centre distance in the lists, m
+  double skin() const { return skin_; }  ///< m
+  /// Largest centre distance in the lists, m.
+  double range() const { return d_max_ + skin_ + double(films_.range(Real(d_max_ / 4))); }
   const ContactLaw& law() const { return law_; }
 
   /// Wraps, sorts and lists the grains anew; histories of surviving pairs carry over.
@@ -90,9 +92,11 @@ class SolidSolver {
   /// call in impulse and spin_impulse, their mean in drag_force. Held (or fixed) grains keep place and
   /// velocity; the fluid sees them at rest. gravity: at the start and after each substep, m/s2; the
   /// case's own if empty. Free bodies, whose step has begun, move along in the substeps and fill their places
-  /// in poses; while they settle they stay. wall_travel: the farthest that any wall goes in dt, m.
+  /// in poses; while they settle they stay. wall_travel: the farthest that any wall goes in dt, m. drive: a
+  /// force on each grain that holds for dt, N; may be empty.
   void advance(GrainStore& grains, Span<const BodyPose> poses, int bodies, double dt, int substeps, bool held,
-               const std::vector<Vec3d>& gravity = {}, double wall_travel = WallList::kAnywhere);
+               const std::vector<Vec3d>& gravity = {}, double wall_travel = WallList::kAnywhere,
+               Span<const Real3> drive = {});
 
   RigidGroups& groups() { return groups_; }
   const RigidGroups& groups() const { return groups_; }
@@ -109,30 +113,34 @@ class SolidSolver {
 
  private:
   void build_list(const GrainStore& grains, const CellGrid& grid);
-  double mass_per_r3() const;
   /// The bodies that move along, if any do.
   FreeBodies* moving() const { return bodies_ && bodies_->any() && !bodies_->settling() ? bodies_ : nullptr; }
   WallMemory* const* wall_memories() const;
   ContactPass contact_pass(const GrainStore& grains, double dt) const;
   WallContacts wall_contacts(const GrainStore& grains, const BodyPose* poses, double dt) const;
-  /// Evaluates the contacts with walls and returns the pass over those between grains, which adds them.
+  /// Evaluates the contacts with walls, and lubrication, and returns the pass over the contacts between
+  /// grains, which adds them.
   ContactPass contacts_at(const GrainStore& grains, const BodyPose* poses, double dt,
                           const TouchLoads& loads);
   /// Runs a pass with `contacts` of contacts_at, from then on beside the walls'.
   template <class Pass>
   void evaluate(const Pass& pass) {
-    const Range threads{0, list_.rows() << list_.view().bits};
     if (pass.contacts.by_walls)
-      for_each_early(threads, pass);
+      for_each_early(threads(), pass);
     else
-      for_each(threads, pass);
+      for_each(threads(), pass);
   }
+  /// Over the threads of the passes that evaluate pairs.
+  Range threads() const { return {0, list_.rows() << list_.view().bits}; }
   const Index* wall_counts() const { return wall_contacts_ ? wall_contacts_->buffer().data() : nullptr; }
 
   Config config_;
   Frame frame_;
   ContactLaw law_;
-  Buffer<ContactLaw> wall_laws_;  ///< [bodies]
+  Lubrication films_;
+  GrainMatter matter_;
+  Buffer<ContactLaw> pair_laws_;  ///< [materials][materials]; empty where all are of one
+  Buffer<ContactLaw> wall_laws_;  ///< [bodies][materials]
   double d_min_, d_max_, skin_;
   bool wet_;
   const WallGeometry& walls_;
@@ -148,6 +156,7 @@ class SolidSolver {
   PairHistoryBuffers old_histories_;
   WallList wall_list_;
   Buffer<ContactSum> by_walls_;  ///< [rows of wall_list_]
+  Buffer<ContactSum> by_films_;  ///< [grains]
   Buffer<Index> order_;
   // scratch of advance
   Buffer<Vec3d> next_x_;

@@ -20,9 +20,13 @@ void WallList::cover(const GrainStore& grains, Span<const BodyPose> poses, const
   stale_ = false;
   moved_ = travel;
   covered_ = std::max(travel, 0.5 * skin_);
-  const WallNear near{
-      frame_,     walls_.view(),         poses.data, grains.x_list.span(), grains.radius.span(),
-      remembered, 0.5 * skin_ + covered_};
+  const WallNear near{frame_,
+                      walls_.view(),
+                      poses.data,
+                      grains.x_list.span(),
+                      grains.radius.span(),
+                      remembered,
+                      0.5 * skin_ + covered_ + gap_};
   compaction_.find(grains.size(), near, grain_);
   count_.resize(size());
   for_each({0, size()}, CountWallsPass{near, grain_, count_});

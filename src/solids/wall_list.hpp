@@ -16,9 +16,10 @@ class WallList {
  public:
   static constexpr double kAnywhere = std::numeric_limits<double>::infinity();
 
-  /// `walls` must outlive it; skin: of the grains' list, m.
-  WallList(const Frame& frame, const WallGeometry& walls, double skin)
-      : frame_(frame), walls_(walls), skin_(skin) {}
+  /// `walls` must outlive it; skin: of the grains' list, m; gap: between grain and wall across which they act
+  /// on each other, m.
+  WallList(const Frame& frame, const WallGeometry& walls, double skin, double gap)
+      : frame_(frame), walls_(walls), skin_(skin), gap_(gap) {}
 
   /// Grains are in other places of their store, or x_list has changed.
   void forget() { stale_ = true; }
@@ -32,7 +33,7 @@ class WallList {
  private:
   Frame frame_;
   const WallGeometry& walls_;
-  double skin_;
+  double skin_, gap_;
   bool stale_ = true;
   double covered_ = 0, moved_ = 0;  ///< how far walls may go and have gone since the list was made, m
   Compaction compaction_;

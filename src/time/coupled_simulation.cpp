@@ -31,8 +31,8 @@ StepInfo CoupledSimulation::step() {
     if (bodies_.any())
       bodies_.begin(poses, motion_.bodies(), clock_.time, dt, substeps, dt - last_kick(dt), gravity);
     if (has_grains())
-      solid_solver_->advance(grains_, poses, motion_.bodies(), dt, substeps, held(), gravity,
-                             wall_travel(dt));
+      solid_solver_->advance(grains_, poses, motion_.bodies(), dt, substeps, held(), gravity, wall_travel(dt),
+                             drive_grains());
     else
       bodies_.advance();
     watch_.lap(kGrains);
@@ -86,6 +86,7 @@ double CoupledSimulation::longest_substep() {
 /// Fig. 3 (density, velocity, position) begun at its second station.
 void CoupledSimulation::advance_fluid(double dt) {
   FluidSolver& fluid = *fluid_solver_;
+  fluid.collide(fluid_);
   const double half = last_kick(dt), back = fluid.one_pass() ? 0 : half;
   if (fluid.one_pass())
     fluid.advance(fluid_, dt - half, dt, half);
@@ -117,6 +118,17 @@ void CoupledSimulation::advance_fluid(double dt) {
   if (coupled()) push_grains(dt, half);
 }
 
+Span<const Real3> CoupledSimulation::drive_grains() {
+  if (!config_.drive.on_grains()) return {};
+  const std::vector<Vec3d> x = drive_factor_.varies() ? grains_.x.values() : std::vector<Vec3d>();
+  grain_drive_.resize(grains_.size());
+  for_each(grains_.owned(), GrainDrivePass{drive_field(config_.drive, drive_factor_, frame_, x, clock_.time,
+                                                       grain_drive_factors_),
+                                           config_.drive.mode, GrainMatter(config_.grain).of(grains_),
+                                           grains_.x, grains_.radius, grain_drive_});
+  return grain_drive_;
+}
+
 void CoupledSimulation::update_porosity(double dt) {
   fluid_solver_->pack(fluid_);
   watch_.lap(kFluid);
@@ -144,6 +156,7 @@ void CoupledSimulation::evaluate_fluid(double dt, double predict) {
   FluidSolver& fluid = *fluid_solver_;
   const Span<const BodyPose> pose = motion_.poses(clock_.time + dt, 0, 1);
   fluid.set_gravity(gravity_.at(clock_.time + dt));
+  fluid.set_drive(fluid_, clock_.time + dt);
   fluid.set_step(clock_.step + 1);
   if (walls_.size() > 0) fluid.walls(fluid_, walls_, pose, two_way() ? dt : 0, motion_.moves());
   fluid.forces(fluid_, walls_, pose, dt);

@@ -7,6 +7,7 @@
 #include "bedload/simulation.hpp"
 #include "src/boundaries/open_boundaries.hpp"
 #include "src/coupling/coupling.hpp"
+#include "src/fluid/drive_field.hpp"
 #include "src/fluid/fluid_solver.hpp"
 #include "src/solids/solid_solver.hpp"
 #include "src/time/clock.hpp"
@@ -57,7 +58,8 @@ class CoupledSimulation final : public Simulation {
   void upload(const Setup& setup);
   void initialise_fluid();  ///< mass for the porosity, hydrostatic pressure
   void advance_fluid(double dt);
-  void update_porosity(double dt);                 ///< between fluid and grains that have both moved
+  Span<const Real3> drive_grains();  ///< force on each of them now, N; empty where nothing drives them
+  void update_porosity(double dt);   ///< between fluid and grains that have both moved
   void evaluate_fluid(double dt, double predict);  ///< density and state known: walls, forces
   void push_grains(double dt, double kick);        ///< forces known: what of them falls to the grains
   double wall_travel(double dt) const;             ///< m, that no wall goes beyond in the step to come
@@ -117,6 +119,9 @@ class CoupledSimulation final : public Simulation {
   WallMotion motion_;
   OpenBoundaries open_;
   EffectiveGravity gravity_;
+  DriveFactor drive_factor_;
+  Buffer<Real> grain_drive_factors_;
+  Buffer<Real3> grain_drive_;  ///< N
   CellGrid grain_grid_;
   std::unique_ptr<FluidSolver> fluid_solver_;
   std::unique_ptr<SolidSolver> solid_solver_;

@@ -109,7 +109,8 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
       bodies_(config, frame_, grain_geometry_),
       motion_(config, bodies_),
       open_(config, frame_, motion_),
-      gravity_(config) {
+      gravity_(config),
+      drive_factor_(config.drive) {
   if (has_grains()) {
     const bool wet = has_fluid() && config.couple.mode != CouplingMode::off;
     solid_solver_ = std::make_unique<SolidSolver>(config, frame_, grain_geometry_, grains_, &bodies_, wet);
@@ -119,6 +120,7 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
   if (has_fluid() && has_grains() && config.couple.mode != CouplingMode::off)
     coupling_ = std::make_unique<Coupling>(config, frame_, geometry_);
   if (!coupled()) fluid_.solid_factor.leave_out();
+  if (config.grain.materials.empty()) grains_.material.leave_out();
   if (!two_way())
     for (FieldBase* field :
          std::initializer_list<FieldBase*>{&fluid_.flux, &fluid_.reaction, &fluid_.drag_kick})
@@ -142,6 +144,16 @@ void CoupledSimulation::upload(const Setup& setup) {
   fluid_.eps.assign(std::vector<Real>(f.x.size(), Real(1)));
   fluid_.solid_factor.assign(std::vector<Real>(f.x.size(), Real(1)));
   fluid_.m_state.assign(std::vector<Real4>(f.x.size()));
+  if (const FluidConfig& fluid = config_.fluid; !fluid.species.empty()) {
+    std::vector<std::uint32_t> species;
+    std::vector<Real> viscosity;
+    for (const std::uint32_t fill : f.fill) {
+      species.push_back(fluid.species_of(fluid.fills[fill]));
+      viscosity.push_back(Real(fluid.species[species.back()].mu / fluid.mu));
+    }
+    fluid_.species.assign(species);
+    fluid_.viscosity.assign(viscosity);
+  }
 
   const auto& w = setup.walls;
   walls_.resize(Index(w.x.size()));
@@ -165,6 +177,11 @@ void CoupledSimulation::upload(const Setup& setup) {
   grains_.id.assign(ids(g.x.size()));
   grains_.x.assign(g.x);
   grains_.v.assign(converted<Real3>(g.v));
+  if (!g.omega.empty()) grains_.omega.assign(converted<Real3>(g.omega));
+  std::vector<std::uint32_t> material;
+  for (const std::uint32_t fill : g.fill)
+    material.push_back(config_.grain.material(config_.grain.fills[fill].material));
+  if (!config_.grain.materials.empty()) grains_.material.assign(material);
   grains_.radius.assign(converted<Real>(g.radius));
   grains_.eps.assign(std::vector<Real>(g.x.size(), Real(1)));
   if (has_grains()) solid_solver_->groups().bind(grains_, g.fill);
@@ -263,6 +280,7 @@ void CoupledSimulation::load(const SavedState& state) {
     fluid_.load(store_of(state, "fluid"));
     fluid_solver_->load(scalar);
     fluid_solver_->set_gravity(gravity_.at(clock_.time));
+    fluid_solver_->set_drive(fluid_, clock_.time);
     fluid_solver_->set_step(clock_.step);
     walls_.load(store_of(state, "walls"));
     const auto mirrored = [](const WallBody& body) { return body.type == WallType::mdbc; };

@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(
               "ergun, wen_yu, "
               "schiller_naumann, stokes"},
         Wrong{"title = \"dam\"", "preset = \"hee\"",
-              "dam.toml:1: preset = \"hee\" must be one of default, he2018"}));
+              "dam.toml:1: preset = \"hee\" must be one of default, he2018, democritus"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Together, CaseErrors,
@@ -225,8 +225,9 @@ at = [0.01, 0.05, 0]
   for (const ParameterRow& row : parameter_table()) {
     std::string path = row.key;
     bool listed = true;  // in the lists that this case has
-    for (const std::string list : {"inlet.", "grain_inlet.", "wall.body.motion.add.", "frame.motion.add.",
-                                   "wall.body.free.contact.", "grain.fill.sizes."})
+    for (const std::string list :
+         {"inlet.", "grain_inlet.", "wall.body.motion.add.", "frame.motion.add.", "wall.body.free.contact.",
+          "grain.fill.sizes.", "grain.material.", "fluid.species."})
       listed = listed && !row.key.starts_with(list);
     if (!listed) continue;
     for (const std::string list : {"fluid.fill.", "wall.body.", "grain.fill.", "shape.", "outlet.", "probe."})

@@ -52,6 +52,18 @@ TEST_F(ParticleFile, FindsColumnsByName) {
   EXPECT_TRUE(list.place(1).ends_with("grains.csv:6"));
 }
 
+TEST_F(ParticleFile, TellsFluidFromGrainsAndHasSpins) {
+  const auto file =
+      write("type,x,y,z,wx [rad/s],wy,wz\nfluid,1,2,3,0,0,0\ngrain,4,5,6,7,8,9\nfluid,2,2,2,0,0,0\n");
+  EXPECT_EQ(read_particles(file, -1, "fluid").x, (std::vector<Vec3d>{{1, 2, 3}, {2, 2, 2}}));
+  const auto grains = read_particles(file, -1, "grain");
+  EXPECT_EQ(grains.x, (std::vector<Vec3d>{{4, 5, 6}}));
+  EXPECT_EQ(grains.omega, (std::vector<Vec3d>{{7, 8, 9}}));
+  EXPECT_TRUE(grains.place(0).ends_with("grains.csv:3"));
+  EXPECT_EQ(error("type,x,y,z\nfluid,1,2,3\n"), "grains.csv:2: holds no particles of type grain");
+  EXPECT_EQ(error("type,x,y,z\nwall,1,2,3\n"), "grains.csv:2: type = \"wall\" must be fluid or grain");
+}
+
 TEST_F(ParticleFile, NeedsNoMoreThanPlaces) {
   const auto list = read_particles(write("\"x\",\"y\",\"z\"\n1,2,3"), -1);
   EXPECT_EQ(list.x, (std::vector<Vec3d>{{1, 2, 3}}));
@@ -69,7 +81,7 @@ TEST_F(ParticleFile, ErrorsNameFileLineColumnAndValue) {
   EXPECT_EQ(error("x,y,z,d,radius\n"), "grains.csv:1: has both columns d and radius; one of them is enough");
   EXPECT_EQ(error("x,y,z,diameter\n1,2,3,4\n"),
             "grains.csv:1: has a column diameter, which means nothing here; known are x, y, z, d, radius, "
-            "vx, vy, vz");
+            "vx, vy, vz, wx, wy, wz, type");
   EXPECT_EQ(error("x,x,y,z\n"), "grains.csv:1: has two columns x");
   EXPECT_EQ(error("x [mm],y,z\n"), "grains.csv:1: column x [mm] must be in [m]");
   EXPECT_EQ(error("x,y,z\n1,2,3\n4,5\n"), "grains.csv:3: has 2 values where the first line names 3 columns");

@@ -37,6 +37,24 @@ TEST(Porosity, OfAUniformBedIsItsVoidFraction) {
     }
 }
 
+TEST(Porosity, ByATopHatCountsTheGrainsWithinReach) {  // [tsuzuki] Eq. 43
+  Config c = unit_box(0.2, 1e-3);
+  c.domain.periodic = {true, true, true};
+  c.couple.kernel = CouplingKernel::top_hat;
+  std::mt19937_64 random(8);
+  const Pebbles grains = random_grains(300, {0, 0, 0}, {1, 1, 1}, 0.1, random);
+  CoupledBox box(c, fluid_at(random_points(200, {0, 0, 0}, {1, 1, 1}, random), 0.1, 1000, 1), grains);
+  box.coupling.porosity(box.fluid, box.grains, {}, 0);
+  const double V_f = 4 * M_PI / 3 * std::pow(box.coupling.range(), 3), V_s = M_PI / 6 * 1e-3;
+  const auto at = box.fluid_places();
+  const auto eps = box.fluid.eps.values();
+  for (std::size_t a = 0; a < at.size(); ++a) {
+    int near = 0;
+    for (const Vec3d& x : grains.x) near += norm(box.frame.separation(at[a], x)) < box.coupling.range();
+    EXPECT_NEAR(eps[a], 1 - near * V_s / V_f, 1e-5) << at[a].x;
+  }
+}
+
 TEST(Porosity, HasAFloorAndCountsWhoIsHeldThere) {
   CoupledBox box = lattice_of_grains(0.085);  // solid fraction 0.85: overlapping spheres
   box.coupling.porosity(box.fluid, box.grains, {}, 0);

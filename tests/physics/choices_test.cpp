@@ -62,6 +62,7 @@ TEST(Choices, OfContactsRun) {
   expect_all_run<NormalLaw>("contact.normal", {{"linear", "contact.k=1000"}});
   expect_all_run<SlidingLaw>("contact.tangential");
   expect_all_run<RollingLaw>("contact.rolling");
+  expect_all_run<LubricationForces>("lubrication.forces");
 }
 
 TEST(Choices, OfTheFluidRun) {
@@ -71,6 +72,7 @@ TEST(Choices, OfTheFluidRun) {
   expect_all_run<NoiseForm>("sdpd.noise",
                             {{"vector", "fluid.model=sdpd_a"}, {"tensor", "fluid.model=sdpd_a"}});
   expect_all_run<DriveMode>("drive.mode");
+  expect_all_run<DrivenPhase>("drive.on");
   expect_all_run<DriveReversal>("drive.opposed");
   expect_all_run<KernelFunction>("fluid.kernel", {{"lucy", "fluid.h_over_dx=3"}});
   expect_all_run<EosType>("eos.type");
@@ -87,6 +89,7 @@ TEST(Choices, OfWallsRun) {
 
 TEST(Choices, OfTheCouplingRun) {
   expect_all_run<CouplingMode>("couple.mode");
+  expect_all_run<CouplingKernel>("couple.kernel");
   expect_all_run<DragSlip>("couple.slip");
   expect_all_run<DragLaw>("drag.law");
   expect_all_run<DragIntegrator>("drag.integrator");

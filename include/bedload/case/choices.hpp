@@ -58,21 +58,24 @@ class Chosen {
 // -- contact -------------------------------------------------------------------------------------
 
 /// contact.normal
-enum class NormalLaw : std::uint32_t { hertz, linear, none };
+enum class NormalLaw : std::uint32_t { hertz, linear, democritus, none };
 template <>
 inline constexpr auto kNames<NormalLaw> = std::to_array<Named<NormalLaw>>({
     {NormalLaw::hertz, "hertz", "Hertz spring, damping exact in e"},
     {NormalLaw::linear, "linear", "linear spring and dashpot"},
+    {NormalLaw::democritus, "democritus", "Hertz spring, damped beyond rebound whatever grain.e [tsuzuki]"},
     {NormalLaw::none, "none", "grains pass through each other"},
 });
 
 /// contact.tangential
-enum class SlidingLaw : std::uint32_t { mindlin, mindlin_deresiewicz, linear, none };
+enum class SlidingLaw : std::uint32_t { mindlin, mindlin_deresiewicz, linear, democritus, none };
 template <>
 inline constexpr auto kNames<SlidingLaw> = std::to_array<Named<SlidingLaw>>({
     {SlidingLaw::mindlin, "mindlin", "Mindlin spring, rescaled on unloading"},
     {SlidingLaw::mindlin_deresiewicz, "mindlin_deresiewicz", "Mindlin-Deresiewicz, full micro-slip"},
     {SlidingLaw::linear, "linear", "linear spring kt_ratio k"},
+    {SlidingLaw::democritus, "democritus",
+     "Mindlin's, but 1/(2 + 2 nu) as stiff as the normal spring [tsuzuki]"},
     {SlidingLaw::none, "none", "frictionless"},
 });
 
@@ -83,6 +86,15 @@ inline constexpr auto kNames<RollingLaw> = std::to_array<Named<RollingLaw>>({
     {RollingLaw::epsd, "epsd", "elastic-plastic spring-dashpot, holds slopes [ai11]"},
     {RollingLaw::cdt, "cdt", "constant directional torque"},
     {RollingLaw::none, "none", "free rolling"},
+});
+
+/// lubrication.forces
+enum class LubricationForces : std::uint32_t { none, normal, all };
+template <>
+inline constexpr auto kNames<LubricationForces> = std::to_array<Named<LubricationForces>>({
+    {LubricationForces::none, "none", "fluid between near surfaces is not accounted for"},
+    {LubricationForces::normal, "normal", "against approach and recession"},
+    {LubricationForces::all, "all", "against sliding and rolling, too [jeffrey84]"},
 });
 
 // -- fluid ---------------------------------------------------------------------------------------
@@ -113,11 +125,21 @@ inline constexpr auto kNames<NoiseForm> = std::to_array<Named<NoiseForm>>({
 });
 
 /// drive.mode
-enum class DriveMode { volume, mass };
+enum class DriveMode { volume, mass, particle };
 template <>
 inline constexpr auto kNames<DriveMode> = std::to_array<Named<DriveMode>>({
     {DriveMode::volume, "volume", "N/m3"},
     {DriveMode::mass, "mass", "m/s2, given without a unit"},
+    {DriveMode::particle, "particle", "N on each fluid particle and grain, given without a unit"},
+});
+
+/// drive.on
+enum class DrivenPhase { fluid, grains, both };
+template <>
+inline constexpr auto kNames<DrivenPhase> = std::to_array<Named<DrivenPhase>>({
+    {DrivenPhase::fluid, "fluid", "the fluid"},
+    {DrivenPhase::grains, "grains", "the grains"},
+    {DrivenPhase::both, "both", "both of them"},
 });
 
 /// drive.opposed
@@ -201,6 +223,14 @@ inline constexpr auto kNames<CouplingMode> = std::to_array<Named<CouplingMode>>(
     {CouplingMode::off, "off", "nothing"},
 });
 
+/// couple.kernel
+enum class CouplingKernel { fluid, top_hat };
+template <>
+inline constexpr auto kNames<CouplingKernel> = std::to_array<Named<CouplingKernel>>({
+    {CouplingKernel::fluid, "fluid", "fluid.kernel"},
+    {CouplingKernel::top_hat, "top_hat", "the same everywhere within kappa h_c: noisy [tsuzuki]"},
+});
+
 /// couple.slip
 enum class DragSlip { mean, local };
 template <>
@@ -255,7 +285,10 @@ inline constexpr bool all_named = [] {
 static_assert(all_named<NormalLaw, NormalLaw::none> && all_named<SlidingLaw, SlidingLaw::none> &&
               all_named<RollingLaw, RollingLaw::none> && all_named<FluidModel, FluidModel::sdpd_a> &&
               all_named<DensityMethod, DensityMethod::summation> && all_named<NoiseForm, NoiseForm::tensor> &&
-              all_named<DriveMode, DriveMode::mass> && all_named<DriveReversal, DriveReversal::z> &&
+              all_named<LubricationForces, LubricationForces::all> &&
+              all_named<DriveMode, DriveMode::particle> && all_named<DrivenPhase, DrivenPhase::both> &&
+              all_named<DriveReversal, DriveReversal::z> &&
+              all_named<CouplingKernel, CouplingKernel::top_hat> &&
               all_named<KernelFunction, KernelFunction::lucy> && all_named<EosType, EosType::democritus> &&
               all_named<ViscosityModel, ViscosityModel::none> && all_named<WallType, WallType::fluid_only> &&
               all_named<WallSlip, WallSlip::slip> && all_named<LayerForce, LayerForce::monaghan> &&

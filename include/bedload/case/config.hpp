@@ -71,7 +71,15 @@ struct FluidFill {
   Solid solid = {};                            ///< resolved
   std::string file{};                          ///< particles instead of a lattice; absolute (resolved)
   std::int64_t step = -1;                      ///< frame of a .vtkhdf file; -1: the last
+  std::string species{};                       ///< which of fluid.species it is of; empty: the first
   bool operator==(const FluidFill&) const = default;
+};
+
+/// One of several fluids that differ in viscosity alone.
+struct FluidSpecies {
+  std::string name;
+  double mu = 0;                               ///< Pa s
+  bool operator==(const FluidSpecies&) const = default;
 };
 
 struct FluidConfig {
@@ -88,20 +96,31 @@ struct FluidConfig {
   double c = 0;                                ///< numerical sound speed, m/s (resolved)
   double depth = 0;                            ///< H: height of the initial fluid along gravity, m (resolved)
   std::vector<FluidFill> fills;
+  std::vector<FluidSpecies> species;           ///< none: the fluid is one; else mu is the largest of theirs (resolved)
+  /// Place in `species`; the first for a name that is none.
+  std::uint32_t species_of(const FluidFill& fill) const {
+    for (std::size_t k = 0; k < species.size(); ++k)
+      if (species[k].name == fill.species) return std::uint32_t(k);
+    return 0;
+  }
   double h() const { return h_over_dx * dx; }
   double kappa() const { return kernel == KernelFunction::lucy ? 1 : 2; }  ///< support / h
   bool sdpd() const { return model != FluidModel::wcsph; }
   bool operator==(const FluidConfig&) const = default;
 };
 
-/// What drives the fluid besides gravity.
+/// What drives fluid and grains besides gravity.
 struct DriveConfig {
-  Vec3d f{0, 0, 0};                            ///< constant force per volume of space, N/m3; or per mass, m/s2
+  Vec3d f{0, 0, 0};                            ///< force per volume of space, N/m3; per mass, m/s2; per particle, N
+  std::string factor = "1";                    ///< of f; formula in x, y, z, t
   Chosen<DriveMode> mode = DriveMode::volume;
+  Chosen<DrivenPhase> on = DrivenPhase::fluid;
   Chosen<DriveReversal> opposed = DriveReversal::none;
   Vec3d rate{0, 0, 0};                         ///< pulls towards the centre: acceleration -rate^2 (r - centre), 1/s
   Vec3d centre{0, 0, 0};                       ///< m
   bool pulls() const { return rate != Vec3d{}; }
+  bool on_fluid() const { return f != Vec3d{} && on != DrivenPhase::grains; }
+  bool on_grains() const { return f != Vec3d{} && on != DrivenPhase::fluid; }
   bool operator==(const DriveConfig&) const = default;
 };
 
@@ -127,6 +146,9 @@ struct DensityConfig {
 struct ViscosityConfig {
   Chosen<ViscosityModel> model = ViscosityModel::morris;
   double alpha = 0, beta = 0;                  ///< artificial viscosity
+  bool collision = false;                      ///< fluid particles that come too near collide
+  double collision_range = 0.5;                ///< / fluid.dx
+  double collision_restitution = 0.2;
   bool operator==(const ViscosityConfig&) const = default;
 };
 
@@ -301,10 +323,26 @@ struct GrainFill {
   std::vector<SizeClass> sizes;                ///< default: one class, grain.d
   std::vector<Vec3d> positions;                ///< explicit centres instead of random ones, m
   Vec3d velocity;                              ///< m/s
+  Vec3d spin{};                                ///< rad/s
+  std::vector<Vec3d> velocities{}, spins{};    ///< of `positions`, one each: m/s, rad/s
+  std::vector<double> every{};                 ///< x, y, z: each so many sites of the fluid's lattice carry a grain; empty: not on the lattice
+  bool relative = false;                       ///< positions, also those of a file, are fractions of the domain
+  bool replaces_fluid = false;                 ///< each grain takes the place of the nearest fluid particle
+  std::string material{};                      ///< which of grain.material; empty: grain.*
   std::string file{};                          ///< grains instead of a box; absolute (resolved)
   std::int64_t step = -1;                      ///< frame of a .vtkhdf file; -1: the last
   RigidConfig rigid{};
   bool operator==(const GrainFill&) const = default;
+};
+
+/// What grains of a fill are made of; 0 and infinity: as grain.* (until resolved).
+struct GrainMaterial {
+  std::string name;
+  double rho = 0;                              ///< kg/m3
+  double E = 0;                                ///< Pa
+  double nu = std::numeric_limits<double>::infinity();
+  double mu = std::numeric_limits<double>::infinity();
+  bool operator==(const GrainMaterial&) const = default;
 };
 
 struct GrainConfig {
@@ -324,6 +362,19 @@ struct GrainConfig {
   bool fixed = false;                          ///< grains never move
   double d_max = 0, d_min = 0;                 ///< m (resolved)
   std::vector<GrainFill> fills;
+  std::vector<GrainMaterial> materials;        ///< beside that of grain.*
+  /// All of them as they are numbered: first that of grain.*.
+  std::vector<GrainMaterial> all_materials() const {
+    std::vector<GrainMaterial> all{{"", rho, E, nu, mu}};
+    all.insert(all.end(), materials.begin(), materials.end());
+    return all;
+  }
+  /// Its number; that of grain.* for a name that is none.
+  std::uint32_t material(const std::string& name) const {
+    for (std::size_t k = 0; k < materials.size(); ++k)
+      if (materials[k].name == name) return std::uint32_t(k + 1);
+    return 0;
+  }
   /// Of the fills that move as one body each, their places.
   std::vector<int> rigid_fills() const {
     std::vector<int> all;
@@ -348,10 +399,20 @@ struct ContactConfig {
   bool operator==(const ContactConfig&) const = default;
 };
 
+/// Forces of the fluid that grains squeeze out from between them.
+struct LubricationConfig {
+  Chosen<LubricationForces> forces = LubricationForces::none;
+  double cut_off = 1;                          ///< gap beyond which there is none / R*
+  double least_gap = 0.01;                     ///< gap below which it grows no further / R*
+  bool acts() const { return forces != LubricationForces::none; }
+  bool operator==(const LubricationConfig&) const = default;
+};
+
 struct CouplingConfig {
   Chosen<CouplingMode> mode = CouplingMode::two_way;
   double hc = 0;                               ///< m (default max(h, 2 d_max 2/kappa))
   double eps_min = 0.25;
+  Chosen<CouplingKernel> kernel = CouplingKernel::fluid;  ///< by which grains and fluid weigh each other
   bool wall_normalise = true;                  ///< a grain's volume lies in the kernel's fraction that walls leave free
   double spreading = 0.01;                     ///< how fast fluid that overfills its volume grows denser, c/h
   double S_dry = 0.05, S_wet = 0.95;
@@ -415,6 +476,7 @@ struct GrainInletConfig {
   double start = 0;                            ///< s
   double stop = std::numeric_limits<double>::infinity();  ///< s
   std::vector<SizeClass> sizes;                ///< default: one class, grain.d
+  std::string material;                        ///< which of grain.material; empty: grain.*
   bool operator==(const GrainInletConfig&) const = default;
 };
 
@@ -450,7 +512,7 @@ struct OutputConfig {
 
 struct Config {
   std::string title;
-  std::string preset = "default";              ///< default, he2018
+  std::string preset = "default";              ///< default, he2018, democritus
   std::string file;                            ///< where it came from
   Vec3d gravity{0, 0, -9.81};                  ///< m/s2
   DriveConfig drive;
@@ -472,6 +534,7 @@ struct Config {
   GrainConfig grain;
   std::vector<GrainInletConfig> grain_inlets;
   ContactConfig contact;
+  LubricationConfig lubrication;
   CouplingConfig couple;
   TimeConfig time;
   OutputConfig out;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bedload/case/config.hpp"
@@ -15,6 +16,7 @@ struct ParticleList {
   std::filesystem::path file;
   std::vector<Vec3d> x;            ///< m
   std::vector<Vec3d> v;            ///< m/s; empty if the file has none
+  std::vector<Vec3d> omega;        ///< rad/s; empty if the file has none
   std::vector<double> d;           ///< diameters, m; empty if the file has none
   std::vector<std::int64_t> line;  ///< of a text file
 
@@ -30,9 +32,13 @@ bool lies_inside(const DomainConfig& domain, Vec3d& x);
 bool has_frames(const std::filesystem::path& file);
 
 /// The particles of a table, or of frame `step` (-1: the last) of a .vtkhdf file that a run wrote. A table
-/// has a line of column names, x, y, z [m], optionally d or radius [m] and vx, vy, vz [m/s], in any order and
-/// with or without their units; columns are separated by commas; other columns, empty lines and lines that
-/// begin with # are passed over. Throws CaseError with file, line and column, and FileError.
-ParticleList read_particles(const std::filesystem::path& file, std::int64_t step);
+/// has a line of column names, x, y, z [m], optionally d or radius [m], vx, vy, vz [m/s] and wx, wy, wz
+/// [rad/s], in any order and with or without their units; columns are separated by commas; empty lines and
+/// lines that begin with # are passed over. Where it has a column `type`, fluid or grain, only those of
+/// `type` count. Throws CaseError with file, line and column, and FileError.
+ParticleList read_particles(const std::filesystem::path& file, std::int64_t step,
+                            std::string_view type = "grain");
+/// The particles of a grain.fill, from its file or its positions, where they lie in the domain.
+ParticleList listed_grains(const GrainFill& fill, const DomainConfig& domain);
 
 }  // namespace bedload

@@ -2,6 +2,7 @@
 // From a case file to a Config and back.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,8 +34,9 @@ std::string resolved_toml(const Config& config);
 /// Where the resolved case `now` would compute otherwise than `then`: "fluid.mu = 0.002 (0.001 then)".
 std::vector<std::string> changes_between(const std::string& then, const std::string& now);
 
-/// The defaults of a preset; `name` is "default" or "he2018".
-Config preset_defaults(const std::string& name, Chosen<FluidModel> fluid_model = FluidModel::wcsph);
+/// The defaults of a preset; `name` is "default", "he2018" or "democritus". Without a fluid model, with its
+/// own.
+Config preset_defaults(const std::string& name, std::optional<FluidModel> fluid_model = {});
 
 /// What the settling of the grains before t = 0 depends on, and nothing else: a
 /// dry case of grains and walls.

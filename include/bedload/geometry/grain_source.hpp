@@ -23,7 +23,8 @@ class GrainSource {
   };
   State state;
 
-  double radius() const { return radius_; }  ///< of the next grain, m
+  double radius() const { return radius_; }             ///< of the next grain, m
+  std::uint32_t material() const { return material_; }  ///< place in GrainConfig::all_materials
   Vec3d velocity() const { return inlet_.velocity; }
   /// The next grain is due.
   bool due(double t) const { return waiting(t) > 0; }
@@ -43,6 +44,7 @@ class GrainSource {
   double mass_of(double radius) const;
 
   GrainInletConfig inlet_;
+  std::uint32_t material_;
   double rho_;
   std::uint64_t seed_, stream_;
   std::vector<std::vector<double>> sizes_;  ///< diameters in rising order, equally frequent, of each entry

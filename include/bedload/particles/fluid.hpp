@@ -17,6 +17,8 @@ struct FluidStore : Store {
   Field<Real> mass{*this, "mass", "kg", Lifetime::kept};
   Field<Real> eps{*this, "porosity", "-", Lifetime::kept};
   Field<Real> solid_factor{*this, "solid_factor", "-", Lifetime::kept};  ///< of the grains around it as it counts them: below 1 beside orifices and at the least porosity
+  Field<std::uint32_t> species{*this, "species", "-", Lifetime::kept};  ///< place in fluid.species; left out where there are none, as the next
+  Field<Real> viscosity{*this, "relative_viscosity", "-", Lifetime::kept};  ///< over that of fluid.mu
   Field<Real3> theta{*this, "theta", "m/s2", Lifetime::kept};   ///< stress of the mixture: pressure, viscosity
   Field<Real3> acc{*this, "acceleration", "m/s2", Lifetime::kept};  ///< theta + gravity + drive + repulsion
   Field<Real3> drift{*this, "drift", "m/s", Lifetime::kept};    ///< with which particles move beside their velocity: shifting, XSPH

@@ -11,6 +11,7 @@ struct GrainStore : Store {
   Field<Vec3d> x{*this, "x", "m", Lifetime::kept};
   Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::renewed};  ///< where the neighbour lists were built
   Field<Real> radius{*this, "radius", "m", Lifetime::kept};
+  Field<std::uint32_t> material{*this, "material", "-", Lifetime::kept};  ///< place in GrainConfig::all_materials; left out where there is one
   Field<Real3> v{*this, "v", "m/s", Lifetime::kept};
   Field<Real3> omega{*this, "omega", "rad/s", Lifetime::kept};
   Field<Real3> force{*this, "contact_force", "N", Lifetime::kept};    ///< contacts, walls

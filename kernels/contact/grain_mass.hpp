@@ -1,0 +1,14 @@
+#pragma once
+#include "bedload/core/span.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Mass of a grain over the cube of its radius, 4/3 pi rho_s, kg/m3.
+struct MassPerR3 {
+  double one = 0;                           ///< of all grains, where they are of one material
+  Span<const std::uint32_t> material = {};  ///< of each grain; empty: one
+  Span<const double> each = {};             ///< by material
+  BL_HD double operator()(Index i) const { return material ? each[material[i]] : one; }
+};
+
+}  // namespace bedload::inline BL_VARIANT

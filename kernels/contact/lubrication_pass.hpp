@@ -1,0 +1,45 @@
+#pragma once
+#include "kernels/contact/contact_pass.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Lubrication between grains, in fluid as far as the drier of them is. Both partners of a pair evaluate it,
+/// each seen from the lower to the higher id. Runs over the threads that share the rows of the list.
+struct LubricationPass {
+  Frame frame;
+  Lubrication law;
+  Span<const Vec3d> x;
+  Span<const Real3> v, omega;
+  Span<const Real> radius, wetness;
+  Span<const Id> id;
+  VerletListView list;
+  ContactSum* sums;  ///< [grains]
+
+  BL_HD void operator()(Index thread) const {
+    const Lane lane(thread, list.bits);
+    const Index i = lane.row;
+    ContactSum sum;
+    if (wetness[i] > 0)
+      for (std::uint32_t k = lane.index; k < list.count[i]; k += lane.count)
+        pair(i, list.entry[list.slot(i, k)], sum);
+    lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
+    if (lane.index == 0) sums[i] = sum;
+  }
+
+ private:
+  BL_HD void pair(Index i, Index j, ContactSum& sum) const {
+    const bool first = id[i] < id[j];
+    const Index lo = first ? i : j, hi = first ? j : i;
+    const Real R_lo = radius[lo], R_hi = radius[hi], wet = min_of(wetness[lo], wetness[hi]);
+    const Vec3d r = frame.separation(x[lo], x[hi]);
+    const double range = double(R_lo) + double(R_hi) + double(law.range(R_lo * R_hi / (R_lo + R_hi)));
+    const double r2 = norm2(r);
+    if (!(wet > 0) || !(r2 < range * range)) return;
+    const NearSurfaces at = NearSurfaces::spheres(R_lo, R_hi, r, std::sqrt(r2));
+    const ContactForce f = law(at, v[lo] - v[hi], omega[lo], omega[hi]);
+    sum.force += Vec3d(wet * (first ? f.force : -f.force));
+    sum.torque += Vec3d(wet * (first ? f.torque_i : f.torque_j));
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

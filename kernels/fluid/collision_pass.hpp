@@ -1,0 +1,56 @@
+#pragma once
+#include "bedload/neighbours/for_each_pair.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// With how many fluid particles within `range` of it each one approaches.
+struct CollisionCountPass {
+  Real range2;  ///< m2
+  Span<const Real4> v_rho;
+  Span<Real> count;
+
+  template <class N = Real>
+  struct Sum {
+    Vec3<N> v;
+    N count;
+  };
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), 0}; }
+  BL_HD auto sources() const { return sources_of(v_rho); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N, const Vec4<N>& vb) const {
+    const N near = select(r2 < N(range2), N(1), N(0));
+    sum.count += select(dot(sum.v - vb.xyz(), r) < N(0), near, N(0));
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.count += other.count; }
+  BL_HD void finish(Index a, const Sum<>& sum) const { count[a] = sum.count; }
+};
+
+/// Fluid particles that come too near collide like balls [shakibaeinia12]: along the line of centres e a pair
+/// exchanges the impulse (1 + restitution) m_a m_b / (m_a + m_b) |v . e|, divided by the larger of both
+/// numbers of such pairs, so that many at once turn no approach round.
+struct CollisionPass {
+  Real range2, restitution;  ///< m2, -
+  Real guard;                ///< m2, far below the square of any distance
+  Span<const Real4> v_rho;
+  Span<const Real> mass, count;
+  Span<Real4> v_next;
+
+  template <class N = Real>
+  struct Sum {
+    Vec3<N> v;
+    N mass, count;
+    Vec3<N> change;
+  };
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mass[a], count[a], {}}; }
+  BL_HD auto sources() const { return sources_of(v_rho, mass, count); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N, const Vec4<N>& vb, N m, N n) const {
+    const N v_r = dot(sum.v - vb.xyz(), r), pairs = max_of(max_of(sum.count, n), N(1));
+    const N k = quotient((1 + restitution) * m * v_r, (sum.mass + m) * (r2 + guard) * pairs);
+    sum.change -= select(v_r < N(0), select(r2 < N(range2), k, N(0)), N(0)) * r;
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.change += other.change; }
+  BL_HD void finish(Index a, const Sum<>& sum) const { v_next[a] = {sum.v + sum.change, v_rho[a].w}; }
+};
+
+}  // namespace bedload::inline BL_VARIANT

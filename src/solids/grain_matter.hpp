@@ -1,0 +1,33 @@
+#pragma once
+// What grains are made of, as passes read it.
+
+#include <cmath>
+
+#include "bedload/case/config.hpp"
+#include "bedload/parallel/buffer.hpp"
+#include "bedload/particles/grains.hpp"
+#include "kernels/contact/grain_mass.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+class GrainMatter {
+ public:
+  explicit GrainMatter(const GrainConfig& grain) {
+    for (const GrainMaterial& m : grain.all_materials()) per_r3_.push_back(4.0 / 3.0 * M_PI * m.rho);
+    each_.assign(per_r3_);
+  }
+  std::uint32_t materials() const { return std::uint32_t(per_r3_.size()); }
+  /// The store's grains; it must outlive what is returned.
+  MassPerR3 of(const GrainStore& grains) const {
+    if (materials() == 1) return {per_r3_[0]};
+    return {per_r3_[0], grains.material, each_};
+  }
+  /// kg/m3, for the host.
+  double per_r3(std::uint32_t material) const { return per_r3_[material]; }
+
+ private:
+  std::vector<double> per_r3_;
+  Buffer<double> each_;
+};
+
+}  // namespace bedload::inline BL_VARIANT

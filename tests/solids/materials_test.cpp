@@ -1,0 +1,114 @@
+// Grains of several materials among each other and on walls.
+#include "bedload/case/limits.hpp"
+#include "tests/support/grain_bench.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// Glass (grain.*), steel and rubber.
+struct MixedBench : GrainBench {
+  MixedBench() {
+    config.grain.mu = 0.2;
+    config.grain.materials = {{"steel", 7800, 2e9, 0.28, 0.6}, {"rubber", 1100, 1e7, 0.45, 0.9}};
+    config.grain.fills.resize(3);
+    config.grain.fills[1].material = "steel", config.grain.fills[2].material = "rubber";
+  }
+  /// `material`: of each grain, 0 glass.
+  void begin(const std::vector<std::uint32_t>& material) {
+    build();
+    grains->material.assign(material);
+    refresh();
+    set_poses(1, 0);
+    solver->evaluate(*grains, poses());
+  }
+  double mass_of(int k) const { return mass() / config.grain.rho * config.grain.all_materials()[k].rho; }
+  /// Of two of them that touch.
+  double E_star(int i, int j) const {
+    const auto all = config.grain.all_materials();
+    const auto give = [&](int k) { return (1 - all[k].nu * all[k].nu) / all[k].E; };
+    return 1 / (give(i) + give(j));
+  }
+};
+
+TEST(MaterialsSmall, UnlikeGrainsGiveWayByBothModuli) {
+  MixedBench b;
+  const double overlap = 1e-6;
+  for (int k = 0; k < 3; ++k) {  // glass on glass, on steel, steel on rubber
+    const double z = 0.01 * k;
+    b.add({0, 0, z});
+    b.add({2 * b.R() - overlap, 0, z});
+  }
+  b.begin({0, 0, 0, 1, 1, 2});
+  const std::pair<int, int> pairs[] = {{0, 0}, {0, 1}, {1, 2}};
+  for (Id k = 0; k < 3; ++k) {
+    const auto [i, j] = pairs[k];
+    const double force = 4.0 / 3 * b.E_star(i, j) * std::sqrt(b.R() / 2) * std::pow(overlap, 1.5);
+    EXPECT_NEAR(b.force(2 * k + 1).x / force, 1, 1e-3) << k;
+  }
+  EXPECT_NEAR(b.solver->totals(*b.grains).mass / (3 * b.mass_of(0) + 2 * b.mass_of(1) + b.mass_of(2)), 1,
+              1e-6);
+}
+
+TEST(Materials, UnlikeMassesReboundAsAskedFor) {
+  MixedBench b;
+  b.config.grain.e = 0.7;
+  b.add({-b.R(), 0, 0}, {0.1, 0, 0});
+  b.add({b.R(), 0, 0}, {});
+  b.begin({1, 2});
+  b.run(1e-7, 8000);
+  const double m1 = b.mass_of(1), m2 = b.mass_of(2), common = m1 * 0.1 / (m1 + m2);
+  ASSERT_EQ(b.solver->totals(*b.grains).contacts, 0);
+  EXPECT_NEAR(b.velocity(0).x, common - 0.7 * 0.1 * m2 / (m1 + m2), 2e-4);
+  EXPECT_NEAR(b.velocity(1).x, common + 0.7 * 0.1 * m1 / (m1 + m2), 2e-4);
+}
+
+TEST(MaterialsSmall, FrictionIsTheMeanAndTheOwnOnWalls) {
+  MixedBench b;
+  b.plane({0, 0, -0.05}, {0, 0, 1});
+  const double overlap = 1e-6;
+  b.add({0, 0, 0}, {1, 0, 0});
+  b.add({0, 0, 2 * b.R() - overlap});
+  b.add({0.03, 0, -0.05 + b.R() - overlap}, {1, 0, 0});
+  b.begin({0, 1, 1});
+  b.run(1e-8, 20);  // sliding at once
+  EXPECT_NEAR(-b.force(0).x / std::abs(b.force(0).z), 0.4, 1e-3);
+  EXPECT_NEAR(-b.force(2).x / b.force(2).z, 0.6, 1e-3);
+}
+
+TEST(MaterialsSmall, StepsFollowTheStiffestAndLightest) {
+  Config c = MixedBench().config;
+  c.grain.d_min = c.grain.d_max = c.grain.d;
+  const auto rayleigh = [](const Config& config) { return substep_limits(config, 0.1)[0].seconds; };
+  Config glass = c;
+  glass.grain.materials.clear(), glass.grain.fills.resize(1);
+  const double G0 = 1e8 / 2.6, G1 = 2e9 / 2.56;
+  EXPECT_NEAR(rayleigh(c) / rayleigh(glass),
+              std::sqrt(7800 / G1 / (2500 / G0)) * (0.1631 * 0.3 + 0.8766) / (0.1631 * 0.28 + 0.8766), 1e-9);
+  c.grain.fills.resize(1);
+  EXPECT_EQ(rayleigh(c), rayleigh(glass)) << "of materials that are there";
+}
+
+TEST(DemocritusContact, DampsByRootTwoTimesCriticalAndSlidesBySofterSprings) {
+  // [tsuzuki] Eqs. 28-33: c_n = 2 sqrt(2 m* k_n), k_t = k_n / (2 (1 + nu)), c_t = 2 sqrt(2 m* k_t)
+  Config c;
+  c.grain.d = 2.7e-3, c.grain.nu = 0.25;
+  c.contact.normal = NormalLaw::democritus, c.contact.tangential = SlidingLaw::democritus;
+  c.contact.rolling = RollingLaw::none, c.contact.clip_tension = false;
+  c.grain.mu = 1e6;
+  const ContactLaw law = make_contact_law(c);
+  const Real R = Real(1.35e-3), m = Real(1e-5);
+  const double overlap = 1e-6, distance = 2 * double(R) - overlap;
+  const NormalState s = law.normal_state(R / 2, m / 2, Real(overlap));
+  EXPECT_NEAR(s.damping / (2 * std::sqrt(2 * 0.5 * double(m) * double(s.stiffness))), 1, 1e-6);
+  const ContactGeometry at = touch({R, m}, {R, m}, {0, 0, distance}, distance, overlap);
+  ContactHistory h{{1e-8, 0, 0}, {}, overlap};
+  const Real3 still = law(at, {}, {}, {}, 0, h).force;
+  const double k_t = double(s.stiffness) / 2.5;
+  EXPECT_NEAR(-still.x / (k_t * 1e-8), 1, 1e-5);
+  h = {{1e-8, 0, 0}, {}, overlap};
+  const Real3 slipping = law(at, {Real(0.01), 0, 0}, {}, {}, 0, h).force;
+  EXPECT_NEAR((still.x - slipping.x) / 0.01 / (2 * std::sqrt(2 * 0.5 * double(m) * k_t)), 1, 1e-4);
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
