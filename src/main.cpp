@@ -19,6 +19,7 @@ namespace {
 int dispatch(const bedload::Options& options) {
   try {
     if (options.command == "run") return bedload::run_case(options);
+    if (options.command == "viscometer") return bedload::viscometer(options);
     if (options.command == "check") return bedload::check_case(options);
     if (options.command == "bench") return bedload::bench(options);
   } catch (const bedload::KeyError& error) {

@@ -19,14 +19,14 @@ def in_toml(value):
     return f"[{', '.join(map(in_toml, value))}]" if isinstance(value, list) else str(value)
 
 
-def start_case(program, case, out, settings, *options, log=None):
+def start_case(program, case, out, settings, *options, command="run", log=None):
     """Runs a case into the folder `out` with `settings` (key -> value) instead of its own, then `options` of
-    `bedload run`; returns the exit code. What the program prints goes to the open file `log` if there is one."""
-    command = [program, "run", case, "--out", out]
+    the command; returns the exit code. What the program prints goes to the open file `log` if there is one."""
+    words = [program, command, case, "--out", out]
     for key, value in settings.items():
-        command += ["--set", f"{key}={in_toml(value)}"]
+        words += ["--set", f"{key}={in_toml(value)}"]
     try:
-        return subprocess.run([str(word) for word in [*command, *options]], stdout=log, stderr=log).returncode
+        return subprocess.run([str(word) for word in [*words, *options]], stdout=log, stderr=log).returncode
     except OSError as error:
         raise SystemExit(f"{program}: cannot be run: {error.strerror}") from None
 

@@ -202,7 +202,7 @@ class Runner:
             if code:
                 return f"{first} ended with {code}"
         return start_case(self.options.program, entry.case, folder, settings, "--overwrite", "--quiet", "--backend",
-                          self.options.backend, log=log)
+                          self.options.backend, command=entry.header.get("command", "run"), log=log)
 
     def row(self, entry):
         """All of an entry; what goes wrong ends in its message."""

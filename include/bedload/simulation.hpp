@@ -68,6 +68,11 @@ class Simulation {
 
   /// Fields for pictures: store is "fluid", "grains" or "walls". First array: "position".
   virtual HostStore snapshot(const std::string& store) = 0;
+  /// What the rheology of "fluid" or "grains" is measured by, after a step: arrays position (m), velocity
+  /// (m/s), mass (kg), volume (m3, of the mixture that a fluid particle stands for), drive (N, by gravity and
+  /// drive) and stress_... (J), one each part of the pair forces: [3 i + j] is the sum of half of F_i r_j, so
+  /// that minus its sum over a volume, divided by it, is a stress.
+  virtual HostStore rheology(const std::string& store) = 0;
   /// Masses, momenta, energies, extremes, counters; see output/diagnostics.
   virtual std::vector<Quantity> diagnostics() = 0;
   /// Current reading of one probe.

@@ -103,6 +103,8 @@ struct ContactPass {
     return mass_per_r3.material[i] * materials + mass_per_r3.material[j];
   }
 
+  BL_HD const ContactLaw& law_of(Index i, Index j) const { return laws ? laws[pair_of(i, j)] : law; }
+
   /// Sums over all contacts of the lane's row, and advances the histories of its pairs by dt.
   BL_HD ContactSum operator()(const Lane& lane) const {
     ContactSum sum;

@@ -26,19 +26,27 @@ struct LubricationPass {
     if (lane.index == 0) sums[i] = sum;
   }
 
- private:
-  BL_HD void pair(Index i, Index j, ContactSum& sum) const {
-    const bool first = id[i] < id[j];
-    const Index lo = first ? i : j, hi = first ? j : i;
+  /// f(force on lo, x_lo - x_hi) of the two grains, ordered by id, if there is a film between them.
+  template <class F>
+  BL_HD void between(Index lo, Index hi, F&& f) const {
     const Real R_lo = radius[lo], R_hi = radius[hi], wet = min_of(wetness[lo], wetness[hi]);
     const Vec3d r = frame.separation(x[lo], x[hi]);
     const double range = double(R_lo) + double(R_hi) + double(law.range(R_lo * R_hi / (R_lo + R_hi)));
     const double r2 = norm2(r);
     if (!(wet > 0) || !(r2 < range * range)) return;
     const NearSurfaces at = NearSurfaces::spheres(R_lo, R_hi, r, std::sqrt(r2));
-    const ContactForce f = law(at, v[lo] - v[hi], omega[lo], omega[hi]);
-    sum.force += Vec3d(wet * (first ? f.force : -f.force));
-    sum.torque += Vec3d(wet * (first ? f.torque_i : f.torque_j));
+    ContactForce force = law(at, v[lo] - v[hi], omega[lo], omega[hi]);
+    force.force *= wet, force.torque_i *= wet, force.torque_j *= wet;
+    f(force, r);
+  }
+
+ private:
+  BL_HD void pair(Index i, Index j, ContactSum& sum) const {
+    const bool first = id[i] < id[j];
+    between(first ? i : j, first ? j : i, [&](const ContactForce& f, const Vec3d&) {
+      sum.force += Vec3d(first ? f.force : -f.force);
+      sum.torque += Vec3d(first ? f.torque_i : f.torque_j);
+    });
   }
 };
 

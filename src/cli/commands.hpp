@@ -3,13 +3,17 @@
 
 namespace bedload {
 
-inline constexpr int kExitBadInput = 2, kExitFault = 3, kExitLost = 4, kExitStopped = 130;
+inline constexpr int kExitBadInput = 2, kExitFault = 3, kExitLost = 4, kExitNoViscosity = 5,
+                     kExitStopped = 130;
 
 /// Runs a case to its end; returns the exit code: 0, 4 if more than run.max_lost has left the domain, 130 if
 /// stopped by a signal.
 int run_case(const Options& options);
 /// Prints what a run of the case would be: particles, step limits, memory, run time, warnings.
 int check_case(const Options& options);
+/// Runs a plane shear flow and tells its viscosity; returns the exit code of the run, or 5 if the profile is
+/// not that of a viscous fluid. Throws KeyError where the case is no such flow.
+int viscometer(const Options& options);
 /// Prints what a checkpoint, a .vtkhdf file or a summary.json holds. Throws FileError.
 int show_file(const std::filesystem::path& file);
 /// Times whole steps of cases, built in or from files, and prints a table. Bad input is told before anything

@@ -64,6 +64,9 @@ The computation broke down; the message names particle, place and time, and the 
 .B 4
 More fluid or grains than run.max_lost have left the domain where there is no outlet.
 .TP
+.B 5
+A viscometer found no profile of a viscous fluid.
+.TP
 .B 130
 Stopped by a signal, with a checkpoint.
 .SH SIGNALS
@@ -79,6 +82,7 @@ Settled beds are kept in $XDG_CACHE_HOME/bedload, by default ~/.cache/bedload.
 bedload check dam.toml \-\-preview look
 bedload run dam.toml \-\-out results/dam \-\-set grain.d=3mm
 bedload run dam.toml \-\-out results/dam \-\-restart latest
+bedload viscometer slurry.toml \-\-relative
 bedload list fluid
 .fi
 )";

@@ -86,19 +86,33 @@ void add_bench_options(CLI::App& app, Options& o) {
   app.add_option("--json", b.json, "Write the numbers there, too")->type_name("FILE");
 }
 
+/// Those of commands that leave results.
+void add_results_options(CLI::App& app, Options& o) {
+  app.add_option("--out", o.out, "Results folder; results/<case> if not given")->type_name("DIR");
+  app.add_option("--until", o.until, "Stop at this time in s, in place of time.end")
+      ->check(CLI::Range(0.0, 1e12));
+  app.add_flag("--overwrite", o.overwrite, "Replace the run that the results folder holds");
+  app.add_flag("--quiet", o.quiet, "Print nothing but results, warnings and errors");
+}
+
 void add_run(CLI::App& app, Options& o, std::string& precision, bool& force_dt) {
   CLI::App* run = app.add_subcommand("run", "Run a case");
   add_case_options(*run, o, precision, force_dt);
-  run->add_option("--out", o.out, "Results folder; results/<case> if not given")->type_name("DIR");
-  run->add_option("--until", o.until, "Stop at this time in s, in place of time.end")
-      ->check(CLI::Range(0.0, 1e12));
+  add_results_options(*run, o);
   run->add_option("--restart", o.restart,
                   "Go on from this checkpoint; latest: the newest in the results folder")
       ->type_name("FILE");
   run->add_flag("--allow-changes", o.allow_changes,
                 "Go on though the case computes otherwise than the checkpoint's");
-  run->add_flag("--overwrite", o.overwrite, "Replace the run that the results folder holds");
-  run->add_flag("--quiet", o.quiet, "Print nothing but warnings and errors");
+}
+
+void add_viscometer(CLI::App& app, Options& o, std::string& precision, bool& force_dt) {
+  CLI::App* viscometer =
+      app.add_subcommand("viscometer", "Run a plane shear flow and tell its viscosity and stress");
+  add_case_options(*viscometer, o, precision, force_dt);
+  add_results_options(*viscometer, o);
+  viscometer->add_flag("--relative", o.relative,
+                       "Run the case without its grains first, and tell the relative viscosity");
 }
 
 void add_check(CLI::App& app, Options& o, std::string& precision, bool& force_dt) {
@@ -133,6 +147,14 @@ void refuse_unknown_command(const CLI::App& app, int argc, const char* const* ar
   throw CaseError(fmt::format("command line: {} is no command; it must be one of {}", argv[1], names));
 }
 
+void refuse_to_go_on(int argc, const char* const* argv) {
+  for (int i = 2; i < argc; ++i)
+    if (argv[1] == std::string_view("viscometer") && std::string_view(argv[i]).starts_with("--restart"))
+      throw CaseError(
+          "command line: --restart: a viscometer measures a run as a whole and cannot go on from a "
+          "checkpoint");
+}
+
 }  // namespace
 
 std::string version() { return BL_VERSION; }
@@ -150,6 +172,7 @@ Options parse_options(int argc, const char* const* argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "bedload " + version());
   add_run(app, o, precision, force_dt);
+  add_viscometer(app, o, precision, force_dt);
   add_check(app, o, precision, force_dt);
   add_list(app, o);
   add_info(app, o);
@@ -162,6 +185,7 @@ Options parse_options(int argc, const char* const* argv) {
   app.add_subcommand("man", "Print the manual page: bedload man | man -l -");
 
   refuse_unknown_command(app, argc, argv);
+  refuse_to_go_on(argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -180,7 +204,8 @@ Options parse_options(int argc, const char* const* argv) {
   if (o.until && !std::isfinite(*o.until)) throw CaseError("command line: --until: must be a time in s");
   if (!precision.empty()) o.overrides.push_back("run.precision=" + precision);
   if (force_dt) o.overrides.push_back("time.force_dt=true");
-  if (o.command == "run" && o.out.empty()) o.out = std::filesystem::path("results") / case_name(o.file);
+  if ((o.command == "run" || o.command == "viscometer") && o.out.empty())
+    o.out = std::filesystem::path("results") / case_name(o.file);
   o.repeat = repeatable(argc, argv);
   return o;
 }

@@ -31,6 +31,7 @@ struct Options {
   int threads = 0;                     ///< 0: all
   bool quiet = false, overwrite = false;
   bool allow_changes = false;  ///< goes on from a checkpoint of a case that computes otherwise
+  bool relative = false;       ///< of viscometer: runs the case without its grains, too
   BenchOptions bench;
   std::string family;  ///< of list
   bool json = false;   ///< with list

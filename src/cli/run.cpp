@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "prepare.hpp"
 #include "progress.hpp"
+#include "run.hpp"
 #include "settle.hpp"
 #include "stop.hpp"
 
@@ -22,10 +23,8 @@ namespace fs = std::filesystem;
 /// A folder that holds a run is not written over by accident.
 void refuse_other_run(const Options& o) {
   if (!o.restart.empty() || o.overwrite || !fs::exists(o.out / "case.resolved.toml")) return;
-  throw FileError(
-      fmt::format("{}: holds a run already; use --restart to go on from it, --overwrite to replace it, or "
-                  "another --out",
-                  o.out.string()));
+  throw FileError(fmt::format("{}: holds a run already; use {}--overwrite to replace it, or another --out",
+                              o.out.string(), o.command == "run" ? "--restart to go on from it, " : ""));
 }
 
 /// "fluid 61 %, grains 20 %, ..., output 3 %"; of a time above 0.
@@ -41,12 +40,16 @@ std::string fractions_text(const std::vector<Quantity>& parts, double all) {
 
 class Run {
  public:
-  Run(const Options& options, Prepared prepared)
-      : options_(options), p_(std::move(prepared)), end_(options.until.value_or(p_.config.time.end)) {
+  Run(const Options& options, Prepared prepared, RunWatcher* watcher)
+      : options_(options),
+        p_(std::move(prepared)),
+        watcher_(watcher),
+        end_(options.until.value_or(p_.config.time.end)) {
     if (end_ < p_.begin)
       throw CaseError(fmt::format("{}: {} = {} s lies before the checkpoint's time, {} s",
                                   options.restart.string(), options.until ? "--until" : "time.end", end_,
                                   p_.begin));
+    if (watcher_) watcher_->begin(p_.config, end_);
   }
 
   int go() {
@@ -117,9 +120,11 @@ class Run {
         effort.substeps += info.substeps;
         effort.rebuilds += info.rebuilt;
         output_->write(*simulation_, info);
+        if (watcher_) watcher_->after_step(*simulation_, info);
         progress.update(info, effort.particle_steps);
       }
       progress.close();
+      if (watcher_ && simulation_->time() >= end_) take(watcher_->findings());
       output_->finish(*simulation_, simulation_->time() < end_ ? "stopped" : "completed", spent());
     } catch (const FileError& error) {
       progress.close();
@@ -139,7 +144,10 @@ class Run {
       throw KeyError(error.key, error.what() + after_fault(spent()));
     }
     const bool stopped = simulation_->time() < end_;
-    if (stopped)
+    if (stopped && watcher_)
+      fmt::print("stopped at t = {:.6g} s; what was measured is lost, begin again with --overwrite\n",
+                 simulation_->time());
+    else if (stopped)
       fmt::print("stopped at t = {:.6g} s; continue with: {} --restart {}\n", simulation_->time(),
                  options_.repeat, output_->last_checkpoint().string());
     else {
@@ -150,6 +158,14 @@ class Run {
     }
     const bool lost = losses();
     return stopped ? kExitStopped : lost ? kExitLost : 0;
+  }
+
+  void take(const RunFindings& found) {
+    for (const std::string& warning : found.warnings) {
+      fmt::print(stderr, "warning: {}\n", warning);
+      output_->warn(warning);
+    }
+    output_->add(found.name, found.quantities);
   }
 
   /// Tells what has left the domain unasked; true if it is more than the case allows.
@@ -199,6 +215,7 @@ class Run {
 
   const Options& options_;
   Prepared p_;
+  RunWatcher* watcher_;  ///< null: nobody looks on
   double end_;
   std::unique_ptr<Simulation> simulation_;
   std::optional<RunOutput> output_;
@@ -206,15 +223,19 @@ class Run {
 
 }  // namespace
 
+int run_prepared(const Options& options, Prepared prepared, RunWatcher* watcher) {
+  Run run(options, std::move(prepared), watcher);
+  const FolderLock lock(options.out);  // before hours go into settling
+  refuse_other_run(options);           // that has come and gone meanwhile
+  return run.go();
+}
+
 int run_case(const Options& given) {
   watch_signals();
   Options options = given;
   if (options.restart == "latest") options.restart = latest_checkpoint(options.out);
   refuse_other_run(options);  // before time goes into placing particles
-  Prepared prepared = prepare(options);
-  const FolderLock lock(options.out);  // before hours go into settling
-  refuse_other_run(options);           // that has come and gone meanwhile
-  return Run(options, std::move(prepared)).go();
+  return run_prepared(options, prepare(options));
 }
 
 }  // namespace bedload

@@ -193,6 +193,10 @@ class FluidSolverWith final : public FluidSolver {
     forces_on_walls<ForceParts>(fluid, walls, pose, dt, pressure, friction);
   }
 
+  void moments(FluidStore& fluid, const WallStore& walls, double, FluidMoments& out) override {
+    config_.tensile > 0 ? stress<true>(fluid, walls, out) : stress<false>(fluid, walls, out);
+  }
+
  private:
   template <class Force>
   void forces_on_walls(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
@@ -277,6 +281,15 @@ class FluidSolverWith final : public FluidSolver {
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
   void momentum(FluidStore& fluid, const WallStore& walls) {
     run(fluid, walls, range(), force_pass<kArtificial, kAdded, kSpecies>(fluid, walls));
+  }
+  template <bool kTensile>
+  void stress(FluidStore& fluid, const WallStore& walls, FluidMoments& out) {
+    using Force = ForcePass<W, true, kTensile>;
+    const Force whole = force_pass<true, kTensile>(fluid, walls);
+    Force inviscid = whole;
+    inviscid.artificial = {};
+    inviscid.wall.viscosity.mu = 0;
+    run(fluid, walls, range(), StressPass<Force>{whole, inviscid, out.parts(fluid.size(), false)});
   }
   template <bool kSmooth, class Shift>
   void momentum_and_continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {

@@ -15,6 +15,7 @@
 #include "kernels/fluid/wall_pass.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
 #include "kernels/integrate/fluid_kicks.hpp"
+#include "kernels/stress/fluid_stress.hpp"
 #include "src/fluid/drive_field.hpp"
 #include "src/walls/wall_geometry.hpp"
 
@@ -25,6 +26,16 @@ struct FluidExtremes {
   double v2 = 0, acc2 = 0, moved2 = 0;  ///< (m/s)2, (m/s2)2, m2 since the lists were built
   double eps_min = 1;
   Index bad = kNone;  ///< lowest place of a particle with NaN or a density out of range
+};
+
+/// Of the forces between pairs of fluid, a particle each: what its stress is made of, J.
+struct FluidMoments {
+  Buffer<PairMoment<>> pressure, friction, noise;  ///< noise: empty without any
+
+  StressParts parts(Index count, bool noisy) {
+    pressure.resize(count), friction.resize(count), noise.resize(noisy ? count : 0);
+    return {pressure, friction, noise};
+  }
 };
 
 /// Spin of fluid particles: fields of a model that has it.
@@ -125,6 +136,9 @@ class FluidSolver {
   /// The same by parts: pressure with the push of single layers; friction.
   virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
                            double dt, Buffer<Vec3d>& pressure, Buffer<Vec3d>& friction) = 0;
+  /// Moments of the forces between pairs, by the laws of forces() for the velocities that the fluid has now.
+  /// After a step of dt (s), before the lists are renewed.
+  virtual void moments(FluidStore& fluid, const WallStore& walls, double dt, FluidMoments& out) = 0;
   /// Pairs of fluid particles within the kernel's reach that see each other through one of the surfaces.
   double pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces, Span<const BodyPose> pose) const;
 

@@ -108,6 +108,11 @@ class SdpdSolver final : public FluidSolver {
     forces_on_walls<ForceParts>(fluid, walls, dt, pressure, friction);
   }
 
+  void moments(FluidStore& fluid, const WallStore& walls, double dt, FluidMoments& out) override {
+    const bool noisy = config_.sdpd.kT > 0 && dt > 0;
+    noisy ? stress<true>(fluid, walls, dt, out) : stress<false>(fluid, walls, dt, out);
+  }
+
  private:
   static double bulk_viscosity(const FluidConfig& f) {
     return std::isfinite(f.zeta) ? f.zeta : 20.0 / 21 * f.mu;
@@ -131,13 +136,24 @@ class SdpdSolver final : public FluidSolver {
     return {w_, law, Real(s.force_scale[0]), law.thermal > 0};
   }
   template <bool kNoise, bool kSpecies>
-  void momentum(FluidStore& fluid, const WallStore& walls, double dt) {
-    run(fluid, walls,
-        SdpdForcePass<W, Model::spins, kNoise, kSpecies>{
-            pair(dt),    flux(fluid),    fluid.m_state, label_,        fluid.p_rho2,
+  using Force = SdpdForcePass<W, Model::spins, kNoise, kSpecies>;
+  template <bool kNoise, bool kSpecies>
+  Force<kNoise, kSpecies> force_pass(FluidStore& fluid, const WallStore& walls, double dt) {
+    return {pair(dt),    flux(fluid),    fluid.m_state, label_,        fluid.p_rho2,
             fluid.mass,  fluid.id,       walls.v_rho,   walls.m_state, walls.v_visc,
             wall_label_, gravity_,       drive(fluid),  Real(dt),      Real(spin_ ? spin_->inertia : 0),
-            fluid.theta, fluid.acc_next, omega(),       turning(),     fluid.viscosity});
+            fluid.theta, fluid.acc_next, omega(),       turning(),     fluid.viscosity};
+  }
+  template <bool kNoise, bool kSpecies>
+  void momentum(FluidStore& fluid, const WallStore& walls, double dt) {
+    run(fluid, walls, force_pass<kNoise, kSpecies>(fluid, walls, dt));
+  }
+  /// Of one fluid: stress of several is not asked for.
+  template <bool kNoise>
+  void stress(FluidStore& fluid, const WallStore& walls, double dt, FluidMoments& out) {
+    run(fluid, walls,
+        SdpdStressPass<Force<kNoise, false>, kNoise>{force_pass<kNoise, false>(fluid, walls, dt),
+                                                     out.parts(fluid.size(), kNoise)});
   }
   template <class Force>
   void forces_on_walls(const FluidStore& fluid, const WallStore& walls, double dt, Span<Vec3d> force,

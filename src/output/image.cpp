@@ -51,6 +51,13 @@ void Image::write_png(const std::filesystem::path& path) const {
     throw FileError(fmt::format("{}: cannot write: {}", path.string(), png.message));
 }
 
+double mark_distance(double length) {
+  const double rough = length / 5, power = std::pow(10, std::floor(std::log10(rough)));
+  for (const double round : {1.0, 2.0, 5.0})
+    if (rough <= round * power) return round * power;
+  return 10 * power;
+}
+
 int text_width(std::string_view text, int scale) { return int(text.size()) * (kGlyphWidth + 1) * scale; }
 int text_height(int scale) { return kGlyphHeight * scale; }
 

@@ -78,14 +78,6 @@ struct Lengths {
   explicit Lengths(double largest) : factor(largest < 1 ? 1000 : 1), unit(largest < 1 ? "mm" : "m") {}
 };
 
-/// A round distance of marks, about a fifth of `length`.
-double mark_distance(double length) {
-  const double rough = length / 5, power = std::pow(10, std::floor(std::log10(rough)));
-  for (const double round : {1.0, 2.0, 5.0})
-    if (rough <= round * power) return round * power;
-  return 10 * power;
-}
-
 class Picture {
  public:
   Picture(const Config& config, const Scene& scene)

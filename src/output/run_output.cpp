@@ -238,7 +238,7 @@ struct RunOutput::Impl {
     auto probes = nlohmann::ordered_json::object();
     for (const auto& t : tables)
       if (t.probe) probes[t.probe->name] = to_json(simulation.measure(*t.probe));
-    const nlohmann::ordered_json summary{
+    nlohmann::ordered_json summary{
         {"status", status},
         {"title", config.title},
         {"version", version},
@@ -262,6 +262,7 @@ struct RunOutput::Impl {
         {"warnings", warnings},
         {"metrics", to_json(simulation.diagnostics())},
         {"probes", probes}};
+    for (const auto& [name, quantities] : added) summary[name] = to_json(quantities);
     write_file(dir / "summary.json",
                summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
   }
@@ -276,7 +277,8 @@ struct RunOutput::Impl {
   std::vector<Table> tables;
   Schedule checkpoint_schedule;
   std::vector<std::string> warnings;
-  mutable std::mutex mutex;  ///< guards `newest`
+  std::vector<std::pair<std::string, std::vector<Quantity>>> added;  ///< to the summary
+  mutable std::mutex mutex;                                          ///< guards `newest`
   fs::path newest;
   WriterThread writer;  ///< last: its jobs use all of the above
 };
@@ -305,6 +307,10 @@ fs::path RunOutput::checkpoint(Simulation& simulation) {
 }
 
 void RunOutput::warn(std::string message) { impl_->warnings.push_back(std::move(message)); }
+
+void RunOutput::add(std::string name, std::vector<Quantity> quantities) {
+  impl_->added.emplace_back(std::move(name), std::move(quantities));
+}
 
 void RunOutput::finish(Simulation& simulation, const std::string& status, const Effort& effort) {
   impl_->take_up(simulation.time(), 0);

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "bedload/case/limits.hpp"
-#include "kernels/contact/lubrication_pass.hpp"
 #include "kernels/integrate/grain_substep.hpp"
 #include "kernels/integrate/grain_sums.hpp"
+#include "kernels/stress/contact_stress.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
@@ -168,13 +168,16 @@ WallContacts SolidSolver::wall_contacts(const GrainStore& g, const BodyPose* pos
           .wetness = g.wetness.span()};
 }
 
+LubricationPass SolidSolver::films(const GrainStore& g, ContactSum* sums) const {
+  return {frame_, films_, g.x, g.v, g.omega, g.radius, g.wetness, g.id, list_.view(), sums};
+}
+
 ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses, double dt,
                                      const TouchLoads& loads) {
   ContactPass pass = contact_pass(g, dt);
   if (films_.acts()) {
     by_films_.reserve_and_resize(g.size());
-    for_each(threads(), LubricationPass{frame_, films_, g.x, g.v, g.omega, g.radius, g.wetness, g.id,
-                                        list_.view(), by_films_.data()});
+    for_each(threads(), films(g, by_films_.data()));
     pass.by_films = by_films_.data();
   }
   if (wall_list_.size() == 0 || law_.normal == NormalLaw::none) return pass;
@@ -272,6 +275,17 @@ GrainTotals SolidSolver::totals(const GrainStore& g) const {
   t.wall_contacts = v.sum[T::on_walls];
   if (g.size() > 0) t.coordination = 2 * t.contacts / g.size();
   return t;
+}
+
+void SolidSolver::contact_moments(const GrainStore& g, Buffer<PairMoment<>>& out) const {
+  out.resize(g.size());
+  if (law_.normal == NormalLaw::none) return out.zero();
+  for_each(g.owned(), ContactStressPass{contact_pass(g, 0), out});
+}
+
+void SolidSolver::film_moments(const GrainStore& g, Buffer<PairMoment<>>& out) const {
+  out.resize(g.size());
+  for_each(g.owned(), LubricationStressPass{films(g, nullptr), out});
 }
 
 std::vector<LoadSum> SolidSolver::body_loads(const GrainStore& g, Span<const BodyPose> poses) const {

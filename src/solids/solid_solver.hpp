@@ -10,7 +10,8 @@
 #include "bedload/particles/walls.hpp"
 #include "bedload/simulation.hpp"
 #include "kernels/contact/contact_law.hpp"
-#include "kernels/contact/contact_pass.hpp"
+#include "kernels/contact/lubrication_pass.hpp"
+#include "kernels/stress/pair_moment.hpp"
 #include "src/solids/grain_matter.hpp"
 #include "src/solids/pair_histories.hpp"
 #include "src/solids/rigid_groups.hpp"
@@ -105,6 +106,12 @@ class SolidSolver {
   /// Of the grains on each wall body, about its centre; poses: [bodies] on the device.
   std::vector<LoadSum> body_loads(const GrainStore& grains, Span<const BodyPose> poses) const;
 
+  /// Moments of the contacts between grains, a grain each, J.
+  void contact_moments(const GrainStore& grains, Buffer<PairMoment<>>& out) const;
+  /// The same of lubrication; whether there is any.
+  void film_moments(const GrainStore& grains, Buffer<PairMoment<>>& out) const;
+  bool lubricates() const { return films_.acts(); }
+
   /// Histories of touching pairs: arrays "lo", "hi" (ids) and "history".
   HostStore save_contacts(const GrainStore& grains) const;
   /// After `grains` has been loaded: rebuilds the lists as they were at the last refresh and restores the
@@ -118,6 +125,7 @@ class SolidSolver {
   WallMemory* const* wall_memories() const;
   ContactPass contact_pass(const GrainStore& grains, double dt) const;
   WallContacts wall_contacts(const GrainStore& grains, const BodyPose* poses, double dt) const;
+  LubricationPass films(const GrainStore& grains, ContactSum* sums) const;
   /// Evaluates the contacts with walls, and lubrication, and returns the pass over the contacts between
   /// grains, which adds them.
   ContactPass contacts_at(const GrainStore& grains, const BodyPose* poses, double dt,

@@ -36,6 +36,7 @@ class CoupledSimulation final : public Simulation {
   std::vector<Quantity> time_spent() const override;
 
   HostStore snapshot(const std::string& store) override;
+  HostStore rheology(const std::string& store) override;
   std::vector<Quantity> diagnostics() override;
   std::vector<Quantity> measure(const ProbeConfig& probe) override;
   std::vector<Quantity> body_state(int body) override;
@@ -133,7 +134,9 @@ class CoupledSimulation final : public Simulation {
   double walls_moved_ = 0;  ///< bound on wall travel since the lists were built, m
   bool rebuilt_ = false;
   std::int64_t rebuilds_ = 0;
-  Buffer<Vec3d> wall_force_;  ///< by which free bodies move
+  Buffer<Vec3d> wall_force_;    ///< by which free bodies move
+  FluidMoments fluid_moments_;  ///< scratch of rheology
+  Buffer<PairMoment<>> contact_moments_;
   Kept<WallForces> wall_forces_;
   Kept<FluidLoads> fluid_loads_;
   Kept<std::vector<LoadSum>> grain_loads_;

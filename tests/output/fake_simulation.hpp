@@ -61,6 +61,7 @@ class FakeSimulation : public Simulation {
             {array_of("position", "m", Scalar::f64, 3, x), array_of("speed", "m/s", Scalar::f32, 1, speed),
              array_of("spin", "rad/s", Scalar::f64, 3, spin), array_of("id", "-", Scalar::u32, 1, id)}};
   }
+  HostStore rheology(const std::string& store) override { return {store, 0, {}}; }
   std::vector<Quantity> diagnostics() override {
     return {{"fluid mass", "kg", 0.1 * double(counts().fluid)}, {"kinetic energy", "J", time_ * time_}};
   }

@@ -27,7 +27,8 @@ endfunction()
 find_program(BEDLOAD_PYTHON python PATHS ${CMAKE_SOURCE_DIR}/build/venv/bin NO_DEFAULT_PATH)
 
 file(GLOB host_tests CONFIGURE_DEPENDS tests/case/*_test.cpp tests/geometry/*_test.cpp
-                                       tests/motion/*_test.cpp tests/output/*_test.cpp tests/program/*_test.cpp)
+                                       tests/motion/*_test.cpp tests/output/*_test.cpp tests/program/*_test.cpp
+                                       tests/viscometer/*_test.cpp)
 if(host_tests)
   add_executable(bedload_host_tests ${host_tests})
   add_dependencies(bedload_host_tests bedload)

@@ -45,6 +45,9 @@ class Image {
   std::vector<Colour> pixels_;
 };
 
+/// A round distance of marks, about a fifth of `length`.
+double mark_distance(double length);
+
 /// Size of a text in pixels.
 int text_width(std::string_view text, int scale = 2);
 int text_height(int scale = 2);

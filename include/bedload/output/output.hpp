@@ -49,6 +49,9 @@ class RunOutput {
   /// Notes a warning for summary.json.
   void warn(std::string message);
 
+  /// Quantities for summary.json, under that name.
+  void add(std::string name, std::vector<Quantity> quantities);
+
   /// Ends the output: last frame and rows, checkpoint, summary.json. `status` is
   /// "completed", "stopped" or "failed"; the state of a failed run is shown in a
   /// frame but not kept as a checkpoint.

@@ -1,0 +1,57 @@
+#pragma once
+#include "kernels/contact/lubrication_pass.hpp"
+#include "kernels/stress/pair_moment.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Stress by the contacts of grains with each other, for the velocities that they have now; histories stay as
+/// they are.
+struct ContactStressPass {
+  ContactPass contacts;  ///< with dt = 0
+  Span<PairMoment<>> out;
+
+  BL_HD void operator()(Index i) const {
+    PairMoment<> sum;
+    const VerletListView& list = contacts.list;
+    for (std::uint32_t k = 0; k < list.count[i]; ++k) {
+      const std::uint64_t slot = list.slot(i, k);
+      if (!contacts.histories.touching[slot]) continue;
+      const Index j = list.entry[slot];
+      const bool first = contacts.id[i] < contacts.id[j];
+      const Index lo = first ? i : j, hi = first ? j : i;  // as ContactPass sees them
+      const Real R_lo = contacts.radius[lo], R_hi = contacts.radius[hi];
+      const Vec3d r = contacts.frame.separation(contacts.x[lo], contacts.x[hi]);
+      const double distance = norm(r), overlap = double(R_lo) + double(R_hi) - distance;
+      if (!(overlap > 0)) continue;
+      const ContactGeometry at =
+          touch(contacts.sphere(lo, R_lo), contacts.sphere(hi, R_hi), r, distance, overlap);
+      ContactHistory h = contacts.histories[slot];
+      sum.add(contacts
+                  .law_of(lo, hi)(at, contacts.v[lo] - contacts.v[hi], contacts.omega[lo], contacts.omega[hi],
+                                  0, h)
+                  .force,
+              Real3(r));
+    }
+    out[i] = sum.times(Real(0.5));
+  }
+};
+
+/// Stress by lubrication between grains.
+struct LubricationStressPass {
+  LubricationPass films;  ///< its sums are left alone
+  Span<PairMoment<>> out;
+
+  BL_HD void operator()(Index i) const {
+    PairMoment<> sum;
+    const VerletListView& list = films.list;
+    for (std::uint32_t k = 0; k < list.count[i]; ++k) {
+      const Index j = list.entry[list.slot(i, k)];
+      const bool first = films.id[i] < films.id[j];
+      films.between(first ? i : j, first ? j : i,
+                    [&](const ContactForce& f, const Vec3d& r) { sum.add(f.force, Real3(r)); });
+    }
+    out[i] = sum.times(Real(0.5));
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,102 @@
+#pragma once
+// Stress by the forces of pairs of fluid, taken from the passes that move it.
+
+#include "kernels/fluid/force_pass.hpp"
+#include "kernels/sdpd/force_pass.hpp"
+#include "kernels/stress/pair_moment.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Of fluid particles, by parts: pressure, friction, noise (empty without any).
+struct StressParts {
+  Span<PairMoment<>> pressure, friction, noise;
+
+  BL_HD void write(Index a, const PairMoment<>& p, const PairMoment<>& f, const PairMoment<>& n) const {
+    pressure[a] = p.times(Real(0.5));
+    friction[a] = f.times(Real(0.5));
+    if (noise) noise[a] = n.times(Real(0.5));
+  }
+};
+
+/// What the pairs of WCSPH come to. `whole` is its pass; `inviscid` the same without physical and artificial
+/// viscosity.
+template <class Force>
+struct StressPass {
+  Force whole, inviscid;
+  StressParts out;
+
+  template <class N = Real>
+  struct Sum {
+    typename Force::template Sum<N> of;
+    PairMoment<N> pressure, friction;
+  };
+  BL_HD Sum<> start(Index a) const { return {whole.start(a), {}, {}}; }
+  BL_HD auto sources() const { return whole.sources(); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p) const {
+    auto pressed = sum.of, rubbed = sum.of;
+    inviscid.pair(pressed, r, r2, M, vb, p);
+    rubbed.m.y = N(0);  // no pressure on either side
+    whole.pair(rubbed, r, r2, M, vb, N(0));
+    sum.pressure.add(pressed.theta, r);
+    sum.friction.add(rubbed.theta, r);
+  }
+  template <class N, class J>
+  BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
+    const Vec4<N> vw = whole.wall_v_rho[b], mw = whole.wall_m_state[b], visc = whole.wall_v_visc[b];
+    const N F = whole.w.F(root(r2));
+    sum.pressure.add(whole.wall.pressure(sum.of.m, mw, r, F), r);
+    if (whole.wall.viscosity.acts()) sum.friction.add(whole.wall.friction(sum.of.v, vw, visc, r, r2, F), r);
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
+    into.pressure.add(other.pressure);
+    into.friction.add(other.friction);
+  }
+  BL_HD void finish(Index a, const Sum<>& sum) const {
+    const Real M = whole.m_state[a].x;
+    out.write(a, sum.pressure.times(M), sum.friction.times(M), {});
+  }
+};
+
+/// The same of SDPD.
+template <class Force, bool kNoise>
+struct SdpdStressPass {
+  Force force;
+  StressParts out;
+
+  template <class N = Real>
+  struct Sum {
+    typename Force::template Sum<N> of;
+    PairMoment<N> pressure, friction, noise;
+
+    BL_HD void add(const Vec3<N>& push, const Vec3<N>& rub, const Vec3<N>& kick, const Vec3<N>& r) {
+      pressure.add(push, r);
+      friction.add(rub, r);
+      if constexpr (kNoise) noise.add(kick, r);
+    }
+  };
+  BL_HD Sum<> start(Index a) const { return {force.start(a), {}, {}, {}}; }
+  BL_HD auto sources() const { return force.sources(); }
+  template <class N, class... Own>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, const Own&... own) const {
+    auto one = sum.of;
+    force.pair(one, r, r2, M, vb, p, own...);
+    sum.add(one.push, one.friction, one.noise, r);
+  }
+  template <class N, class J>
+  BL_HD void wall_pair(Sum<N>& sum, Index a, J b, const Vec3<N>& r, N r2) const {
+    auto one = sum.of;
+    force.wall_pair(one, a, b, r, r2);
+    sum.add(one.push, one.friction, one.noise, r);
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
+    into.pressure.add(other.pressure);
+    into.friction.add(other.friction);
+    if constexpr (kNoise) into.noise.add(other.noise);
+  }
+  BL_HD void finish(Index a, const Sum<>& sum) const {
+    out.write(a, sum.pressure.times(force.m_state[a].x), sum.friction, sum.noise);
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

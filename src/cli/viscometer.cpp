@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+#include "bedload/core/error.hpp"
+#include "run.hpp"
+#include "src/viscometer/report.hpp"
+#include "stop.hpp"
+
+namespace bedload {
+namespace {
+
+constexpr int kLayers = 40, kLeastBlocks = 10, kMostBlocks = 50, kSamples = 50;  // samples a block
+/// Left out at the start, in times in which the flow comes e times closer to being steady: over ten more of
+/// them what is missing then takes 0.2 % of the mean.
+constexpr int kStart = 4;
+
+double reading(const std::vector<Quantity>& all, const std::string& name) {
+  for (const Quantity& q : all)
+    if (q.name == name) return q.value;
+  return 0;
+}
+
+/// Samples the flow once it is steady.
+class Viscometer final : public RunWatcher {
+ public:
+  /// without: what the same case comes to without grains, if it is to be compared.
+  explicit Viscometer(std::optional<Measured> without = {}) : without_(without) {}
+
+  void begin(const Config& config, double end) override {
+    config_ = config;
+    flow_ = plane_flow_of(config);
+    const double gap = flow_.gap();
+    const double relaxation = gap * gap / (M_PI * M_PI) * config.fluid.rho0 / config.fluid.mu;
+    from_ = kStart * relaxation;
+    const int blocks = int(std::min((end - from_) / relaxation * (1 + 1e-9), double(kMostBlocks)));
+    if (blocks < kLeastBlocks)
+      throw KeyError(
+          "time.end",
+          fmt::format("time.end = {:g} must be >= {:.4g} in a viscometer: the flow takes {:.3g} s to become "
+                      "steady, and {} blocks of {:.3g} s (D^2 / pi^2 nu) are to be measured",
+                      end, from_ + kLeastBlocks * relaxation, from_, kLeastBlocks, relaxation));
+    interval_ = (end - from_) / blocks / kSamples;
+    layers_.emplace(flow_, config.fluid.h(), kLayers, blocks);
+  }
+
+  void after_step(Simulation& simulation, const StepInfo& info) override {
+    const double number = std::floor((info.time - from_) / interval_ + 1e-9);
+    if (info.time < from_ || number <= last_) return;
+    last_ = number;
+    const int block = std::min(int(number) / kSamples, int(layers_->blocks().size()) - 1);
+    layers_->add(block, simulation.rheology("fluid"), simulation.rheology("grains"), wall_stress(simulation));
+  }
+
+  RunFindings findings() override {
+    result_ = evaluate(*layers_, config_, config_.fluid.kappa() * config_.fluid.h());
+    quantities_ = quantities_of(*result_, flow_);
+    if (const auto ratio = relative()) {
+      quantities_.push_back({"relative_viscosity", "-", ratio->mean});
+      quantities_.push_back({"relative_viscosity_error", "-", ratio->error});
+    }
+    RunFindings out{"viscometer", quantities_, {}};
+    if (!result_->stationary())
+      out.warnings.push_back(
+          fmt::format("the flow is not steady: its viscosity changes by {:.2g} % from the first "
+                      "half of the blocks to the second",
+                      100 * result_->drift));
+    if (result_->mach > 0.1)
+      out.warnings.push_back(fmt::format("Mach number {:.3g} is above 0.1: raise fluid.vmax", result_->mach));
+    return out;
+  }
+
+  const std::optional<ViscosityResult>& result() const { return result_; }
+  const std::vector<Quantity>& quantities() const { return quantities_; }
+  const PlaneFlow& flow() const { return flow_; }
+  const Config& config() const { return config_; }
+  /// Viscosity over that without grains.
+  std::optional<Measured> relative() const {
+    if (!without_ || !result_ || !result_->accepted()) return {};
+    const Measured &with = result_->viscosity, &bare = *without_;
+    const double ratio = with.mean / bare.mean;
+    return Measured{ratio, ratio * std::hypot(with.error / with.mean, bare.error / bare.mean)};
+  }
+
+ private:
+  /// Mean shear stress that the walls bear, Pa.
+  double wall_stress(Simulation& simulation) const {
+    if (flow_.kind != PlaneFlowKind::couette) return 0;
+    const std::string axis(1, "xyz"[flow_.along]);
+    const auto force = [&](int body) {
+      const auto state = simulation.body_state(body);
+      return reading(state, "force_by_fluid_" + axis) + reading(state, "force_by_grains_" + axis);
+    };
+    return (force(flow_.lower) - force(flow_.upper)) / (2 * flow_.area);
+  }
+
+  std::optional<Measured> without_;
+  Config config_;
+  PlaneFlow flow_;
+  std::optional<Layers> layers_;
+  std::optional<ViscosityResult> result_;
+  std::vector<Quantity> quantities_;
+  double from_ = 0, interval_ = 0, last_ = -1;
+};
+
+/// Runs and reports; the exit code.
+int measure(const Options& o, Prepared prepared, Viscometer& viscometer) {
+  const int code = run_prepared(o, std::move(prepared), &viscometer);
+  if (!viscometer.result()) return code;
+  const ViscosityResult& r = *viscometer.result();
+  write_report(o.out / "viscometer", r, viscometer.flow(), viscometer.quantities(),
+               viscometer.config().title);
+  fmt::print("{}", report_text(r, viscometer.flow(), viscometer.config().fluid.mu));
+  if (const auto ratio = viscometer.relative())
+    fmt::print("relative   {:.4f} +- {:.4f} of the viscosity without grains\n", ratio->mean, ratio->error);
+  if (r.accepted()) return code;
+  fmt::print(
+      stderr,
+      "{}: R^2 = {:.3f} of the profile is below {}: it is not that of {} flow, and no viscosity is told\n",
+      (o.out / "viscometer" / "profile.csv").string(), r.r_squared, ViscosityResult::kLeastR2,
+      viscometer.flow().name());
+  return code ? code : kExitNoViscosity;
+}
+
+Config without_grains(Config c) {
+  c.grain.present = false;
+  c.grain.fills.clear();
+  return c;
+}
+
+}  // namespace
+
+int viscometer(const Options& o) {
+  watch_signals();
+  Prepared prepared = prepare(o);
+  Viscometer().begin(prepared.config,
+                     o.until.value_or(prepared.config.time.end));  // refused before it is run
+  std::optional<Measured> without;
+  if (o.relative) {
+    if (!prepared.config.grain.present)
+      throw CaseError(fmt::format("command line: --relative: {} has no grains", o.file.string()));
+    Options bare = o;
+    bare.out = o.out / "without_grains";
+    Prepared again;
+    again.config = without_grains(prepared.config);
+    initialise(bare, again);
+    Viscometer first;
+    const int code = measure(bare, std::move(again), first);
+    if (code != 0) return code;
+    without = first.result()->viscosity;
+  }
+  Viscometer main(without);
+  return measure(o, std::move(prepared), main);
+}
+
+}  // namespace bedload

@@ -1,0 +1,27 @@
+#pragma once
+// Curves and points over axes, as a picture.
+
+#include <string>
+#include <vector>
+
+#include "bedload/output/image.hpp"
+
+namespace bedload {
+
+/// One set of points, or the line through them.
+struct Curve {
+  std::string name;
+  std::vector<double> x, y;  ///< places that are not finite are passed over
+  Colour colour;
+  bool line = false;
+};
+
+struct Plot {
+  std::string title, x_name, y_name;  ///< names with units: "z [m]"
+  std::vector<Curve> curves;
+};
+
+/// The plots side by side, each 900 x 700 pixels.
+Image draw(const std::vector<Plot>& plots);
+
+}  // namespace bedload

@@ -1,0 +1,205 @@
+#include "src/viscometer/plane_flow.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "bedload/core/error.hpp"
+
+namespace bedload {
+namespace {
+
+constexpr const char* kFlows =
+    "a viscometer takes reverse Poiseuille flow (drive.opposed in a periodic box), or flow between two "
+    "parallel walls "
+    "that is driven along them (Poiseuille) or sheared by their motion (Couette)";
+
+[[noreturn]] void refuse(const std::string& key, const std::string& why) {
+  throw KeyError(key, fmt::format("{}: {}; {}", key, why, kFlows));
+}
+
+/// A plane surface that fluid meets; side +1: fluid lies above it.
+struct Surface {
+  int body, axis;
+  double at;  ///< m
+  int side;
+};
+
+class Walls {
+ public:
+  explicit Walls(const Config& config) : c_(config) {
+    for (int b = 0; b < int(c_.wall.bodies.size()); ++b)
+      if (c_.wall.bodies[b].stops_fluid()) add(b);
+  }
+
+  /// The two between which the fluid lies.
+  std::pair<Surface, Surface> pair() const {
+    std::optional<Surface> low, high;
+    for (const Surface& s : surfaces_) {
+      const double fluid = middle_of_fluid(s.axis);
+      if (s.side > 0 ? s.at > fluid : s.at < fluid) continue;  // the far side of a plate
+      auto& place = s.side > 0 ? low : high;
+      if (place) refuse(key(s.body), "there are more than two walls around the fluid");
+      place = s;
+    }
+    if (!low || !high) refuse("wall.body", "there is a wall on one side of the fluid alone");
+    if (low->axis != high->axis) refuse(key(high->body), "the walls are not parallel");
+    return {*low, *high};
+  }
+  static std::string key(int body) { return fmt::format("wall.body.{}", body); }
+
+ private:
+  double middle_of_fluid(int axis) const {
+    double low = 1e300, high = -1e300;
+    for (const FluidFill& fill : c_.fluid.fills)
+      low = std::min(low, fill.min[axis]), high = std::max(high, fill.max[axis]);
+    return 0.5 * (low + high);
+  }
+  bool spans(const WallBody& body, int axis) const {
+    const double slack = 1e-6 * (c_.domain.max[axis] - c_.domain.min[axis]);
+    return body.min[axis] <= c_.domain.min[axis] + slack && body.max[axis] >= c_.domain.max[axis] - slack;
+  }
+  void add(int b) {
+    const WallBody& body = c_.wall.bodies[b];
+    if (body.free.present) refuse(key(b) + ".free", "a free body moves in the flow");
+    const std::size_t before = surfaces_.size();
+    if (body.shape == "plane") {
+      for (int k = 0; k < 3; ++k)
+        if (std::abs(body.normal[k]) > 1 - 1e-9)
+          surfaces_.push_back({b, k, body.point[k], body.normal[k] > 0 ? 1 : -1});
+    } else if (body.shape == "tank") {
+      for (int face = 0; face < 6; ++face) {
+        if (!body.faces[face]) continue;
+        const int k = face / 2;
+        surfaces_.push_back({b, k, face % 2 ? body.max[k] : body.min[k], face % 2 ? -1 : 1});
+      }
+    } else if (body.shape == "box") {
+      for (int k = 0; k < 3; ++k)
+        if (spans(body, (k + 1) % 3) && spans(body, (k + 2) % 3)) {
+          surfaces_.push_back({b, k, body.max[k], 1});
+          surfaces_.push_back({b, k, body.min[k], -1});
+        }
+    }
+    if (surfaces_.size() == before)
+      refuse(key(b) + ".shape", fmt::format("\"{}\" is no plane wall across the whole domain", body.shape));
+  }
+
+  const Config& c_;
+  std::vector<Surface> surfaces_;
+};
+
+/// Velocity of a wall in its own plane, m/s.
+Vec3d velocity_of(const Config& c, int b) {
+  const WallBody& body = c.wall.bodies[b];
+  const MotionConfig& m = body.motion;
+  Vec3d v = body.surface_velocity;
+  if (!m.moves()) return v;
+  if (m.kind != "velocity" || !m.add.empty() || m.start > 0 || std::isfinite(m.stop))
+    refuse(Walls::key(b) + ".motion", "the wall does not move evenly throughout");
+  return v + m.velocity;
+}
+
+/// The one axis along which a vector points; none if it points along none or several.
+std::optional<int> axis_of(const Vec3d& v) {
+  std::optional<int> axis;
+  for (int k = 0; k < 3; ++k) {
+    if (v[k] == 0) continue;
+    if (axis) return {};
+    axis = k;
+  }
+  return axis;
+}
+
+/// What would be measured along with the viscosity, or has no steady state.
+void refuse_additions(const Config& c) {
+  const auto refuse_key = [](const std::string& key, const std::string& why) {
+    throw KeyError(key, fmt::format("{}: {}", key, why));
+  };
+  if (!c.fluid.present) refuse_key("fluid.dx", "a viscometer needs a fluid");
+  if (!(c.fluid.mu > 0)) refuse_key("fluid.mu", "a viscometer needs fluid with a viscosity above 0");
+  if (c.visc.alpha > 0 || c.visc.beta > 0)
+    refuse_key("visc.alpha",
+               "artificial viscosity must be 0 in a viscometer: it would be measured as the fluid's");
+  if (c.frame.motion.moves()) refuse_key("frame.motion", "must be fixed in a viscometer");
+  if (!c.inlets.empty()) refuse_key("inlet.0", "a viscometer's flow has no inlets");
+  if (!c.outlets.empty()) refuse_key("outlet.0", "a viscometer's flow has no outlets");
+  if (!c.grain_inlets.empty()) refuse_key("grain_inlet.0", "a viscometer's flow has no inlets");
+  if (c.drive.pulls()) refuse_key("drive.rate", "must be 0 in a viscometer");
+  if (c.drive.factor != "1") refuse_key("drive.factor", "must be 1 in a viscometer: its flow is steady");
+  if (!c.fluid.species.empty())
+    refuse_key("fluid.species.0", "a viscometer measures one fluid; leave the species out");
+}
+
+PlaneFlow reverse_poiseuille(const Config& c) {
+  PlaneFlow flow;
+  if (c.drive.opposed == DriveReversal::none)
+    refuse("drive.opposed", "the case has neither walls nor an opposed drive");
+  flow.gradient = int(DriveReversal(c.drive.opposed)) - int(DriveReversal::x);
+  const auto along = axis_of(c.drive.f);
+  if (!along || *along == flow.gradient)
+    refuse("drive.f", "must point along one axis, another than that along which it is reversed");
+  if (norm(c.gravity) > 0) refuse("gravity", "must be 0 in reverse Poiseuille flow");
+  flow.along = *along;
+  flow.low = c.domain.min[flow.gradient], flow.high = c.domain.max[flow.gradient];
+  return flow;
+}
+
+PlaneFlow between_walls(const Config& c) {
+  PlaneFlow flow;
+  const auto [low, high] = Walls(c).pair();
+  flow.gradient = low.axis;
+  flow.low = low.at, flow.high = high.at;
+  flow.lower = low.body, flow.upper = high.body;
+  if (c.drive.opposed != DriveReversal::none) refuse("drive.opposed", "must be \"none\" between walls");
+  const Vec3d slip = velocity_of(c, high.body) - velocity_of(c, low.body);
+  const Vec3d push = c.drive.f + c.gravity;
+  const bool driven = norm(push) > 0, sheared = norm(slip) > 0;
+  if (driven && sheared) refuse("drive.f", "the flow is driven and sheared at the same time");
+  if (!driven && !sheared) refuse("drive.f", "nothing drives the flow");
+  const auto along = axis_of(driven ? push : slip);
+  if (!along || *along == flow.gradient)
+    refuse(driven ? (norm(c.drive.f) > 0 ? "drive.f" : "gravity") : Walls::key(high.body),
+           "the flow must be driven along one axis, within the walls' planes");
+  flow.kind = driven ? PlaneFlowKind::poiseuille : PlaneFlowKind::couette;
+  flow.along = *along;
+  flow.relative_speed = slip[*along];
+  return flow;
+}
+
+}  // namespace
+
+std::string PlaneFlow::name() const {
+  switch (kind) {
+    case PlaneFlowKind::reverse_poiseuille:
+      return "reverse Poiseuille";
+    case PlaneFlowKind::poiseuille:
+      return "Poiseuille";
+    case PlaneFlowKind::couette:
+      return "Couette";
+  }
+  return "";
+}
+
+PlaneFlow plane_flow_of(const Config& c) {
+  refuse_additions(c);
+  bool walls = false;
+  for (const WallBody& body : c.wall.bodies) walls = walls || body.stops_fluid();
+  PlaneFlow flow = walls ? between_walls(c) : reverse_poiseuille(c);
+  for (int k = 0; k < 3; ++k)
+    if (!c.domain.periodic[k] && !c.domain.flat(k) && !(walls && k == flow.gradient))
+      refuse("domain.periodic", fmt::format("must be true along {}", "xyz"[k]));
+  const Vec3d size = c.domain.max - c.domain.min;
+  flow.area = size[flow.along] * size[flow.across()];
+  const double h = c.fluid.h(), least = flow.kind == PlaneFlowKind::poiseuille ? 3.5 : 2.5;
+  if (flow.gap() < least * h)
+    throw KeyError(
+        "fluid.dx",
+        fmt::format("fluid.dx = {}: {:g} m from {} are too narrow for h = {:.4g} m, of which "
+                    "one is left out on each side; a viscometer needs {} in {} flow",
+                    c.fluid.dx, flow.gap(), walls ? "wall to wall" : "flip to flip", h, least, flow.name()));
+  return flow;
+}
+
+}  // namespace bedload

@@ -1,0 +1,292 @@
+#include "src/viscometer/viscosity.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bedload {
+namespace {
+
+Measured mean_of(const std::vector<double>& values) {
+  const double n = double(values.size());
+  double sum = 0, squares = 0;
+  for (const double v : values) sum += v;
+  for (const double v : values) squares += (v - sum / n) * (v - sum / n);
+  return {sum / n, std::sqrt(squares / (n * std::max(n - 1, 1.0)))};
+}
+
+/// u = a + b s + c s^2, m/s; s = distance from the lower end / gap.
+struct Fit {
+  double a = 0, b = 0, c = 0;
+  double at(double s, double s2) const { return a + b * s + c * s2; }
+  /// By which the imposed force or stress is divided, m/s.
+  double strength(PlaneFlowKind kind) const { return kind == PlaneFlowKind::couette ? b : -2 * c; }
+};
+
+/// Least squares: reverse Poiseuille A s (1 - s), Couette a line, Poiseuille a parabola.
+Fit fit_of(PlaneFlowKind kind, const std::array<double, 5>& s, const std::array<double, 3>& u) {
+  switch (kind) {
+    case PlaneFlowKind::reverse_poiseuille: {
+      const double A = (u[1] - u[2]) / (s[2] - 2 * s[3] + s[4]);
+      return {0, A, -A};
+    }
+    case PlaneFlowKind::couette: {
+      const double b = (s[0] * u[1] - s[1] * u[0]) / (s[0] * s[2] - s[1] * s[1]);
+      return {(u[0] - b * s[1]) / s[0], b, 0};
+    }
+    case PlaneFlowKind::poiseuille:
+      break;
+  }
+  const double d = s[0] * (s[2] * s[4] - s[3] * s[3]) - s[1] * (s[1] * s[4] - s[3] * s[2]) +
+                   s[2] * (s[1] * s[3] - s[2] * s[2]);
+  const auto with = [&](int column) {  // Cramer's rule
+    double m[3][3] = {{s[0], s[1], s[2]}, {s[1], s[2], s[3]}, {s[2], s[3], s[4]}};
+    for (int k = 0; k < 3; ++k) m[k][column] = u[k];
+    return (m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+            m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0])) /
+           d;
+  };
+  return {with(0), with(1), with(2)};
+}
+
+class Evaluation {
+ public:
+  Evaluation(const Layers& layers, const Config& config, double reach)
+      : layers_(layers), c_(config), flow_(layers.flow()), n_(layers.count()) {
+    all_.layers.resize(n_);
+    for (const Block& block : layers.blocks()) {
+      for (int l = 0; l < n_; ++l) all_.layers[l].add(block.layers[l]);
+      for (int k = 0; k < 5; ++k) all_.s[k] += block.s[k];
+      for (int k = 0; k < 3; ++k) all_.u[k] += block.u[k];
+      all_.stress += block.stress, all_.samples += block.samples;
+    }
+    double volume = 0;
+    for (const LayerSums& layer : all_.layers) volume += layer.volume / all_.samples;
+    stretch_ = flow_.area * (flow_.high - flow_.low) / volume;
+    const double margin = flow_.gap() > 2.5 * reach ? reach : layers.h();
+    for (int l = 0; l < n_; ++l)
+      if (!flow_.walled() || layers.inside(l, margin)) averaged_.push_back(l);
+    for (int l = 0; l < n_; ++l)
+      if (layers.inside(l, layers.h())) inner_.push_back(l);
+  }
+
+  ViscosityResult result() {
+    ViscosityResult r;
+    r.blocks = int(layers_.blocks().size()), r.samples = all_.samples;
+    r.imposed = imposed(all_);
+    fit_ = fit_of(flow_.kind, all_.s, all_.u);
+    const double gap = flow_.gap(), strength = fit_.strength(flow_.kind);
+    const bool couette = flow_.kind == PlaneFlowKind::couette;
+    r.viscosity.mean = r.imposed * (couette ? gap : gap * gap) / strength;
+
+    std::vector<double> deviation;  // of each block, relative
+    for (const Block& block : layers_.blocks())
+      deviation.push_back(imposed(block) / r.imposed -
+                          fit_of(flow_.kind, block.s, block.u).strength(flow_.kind) / strength);
+    r.viscosity.error = std::abs(r.viscosity.mean) * mean_of(deviation).error;
+    const auto half = deviation.begin() + std::ptrdiff_t(deviation.size() / 2);
+    const Measured first = mean_of({deviation.begin(), half}), second = mean_of({half, deviation.end()});
+    r.drift = second.mean - first.mean;
+    r.drift_limit = std::max(0.01, 3 * std::hypot(first.error, second.error));
+
+    r.r_squared = r_squared();
+    if (couette) r.peak = std::abs(flow_.relative_speed);
+    double speed = 0, mass = 0;  // mean of the flow one way
+    for (const LayerSums& layer : all_.layers) {
+      if (layer.fluid.mass == 0) continue;  // fluid on a lattice is in some layers alone
+      const double v = std::abs(velocity(layer.fluid));
+      if (!couette) r.peak = std::max(r.peak, v);
+      speed += v * layer.fluid.mass, mass += layer.fluid.mass;
+    }
+    speed = couette ? r.peak : speed / mass;
+    r.reynolds = c_.fluid.rho0 * speed * gap / r.viscosity.mean;
+    r.mach = r.peak / c_.fluid.c;
+    if (flow_.walled()) walls(r);
+    stresses(r);
+    for (int l = 0; l < n_; ++l)
+      if (all_.layers[l].fluid.mass > 0) r.profile.push_back(row(l, r.imposed));
+    double grains = 0;
+    for (const LayerSums& layer : all_.layers) grains += layer.grains.mass / all_.samples;
+    r.concentration = grains / c_.grain.rho / (flow_.area * (flow_.high - flow_.low));
+    return r;
+  }
+
+ private:
+  double velocity(const MotionSums& m) const {
+    return m.mass > 0 ? m.momentum[flow_.along] / m.mass : std::nan("");
+  }
+  /// Whether what is in a layer flows against the direction of the drive's force below.
+  bool turned(int l) const { return !flow_.walled() && 2 * l >= n_; }
+  double sign(int l) const { return turned(l) ? -1 : 1; }
+
+  double imposed(const Block& block) const {
+    if (flow_.kind == PlaneFlowKind::couette) return block.stress / block.samples;
+    double force = 0;
+    for (int l = 0; l < n_; ++l) force += sign(l) * block.layers[l].drive / block.samples;
+    return force / (flow_.area * (flow_.high - flow_.low));
+  }
+
+  double r_squared() const {
+    double rest = 0, all = 0, mean = 0, mass = 0;
+    const int folds = flow_.walled() ? 1 : 2, rows = n_ / folds;
+    std::vector<std::array<double, 3>> points;  // mass, velocity, fit
+    for (int l = 0; l < rows; ++l) {
+      double m = 0, momentum = 0, s = 0, s2 = 0;
+      for (int k = l; k < n_; k += rows) {
+        const LayerSums& layer = all_.layers[k];
+        m += layer.fluid.mass, momentum += sign(k) * layer.fluid.momentum[flow_.along];
+        s += layer.place, s2 += layer.place2;
+      }
+      if (m == 0) continue;
+      points.push_back({m, momentum / m, fit_.at(s / m, s2 / m)});
+      mean += momentum, mass += m;
+    }
+    for (const auto& [m, v, fit] : points)
+      rest += m * (v - fit) * (v - fit), all += m * (v - mean / mass) * (v - mean / mass);
+    return 1 - rest / all;
+  }
+
+  /// Where the fit has the walls' velocities.
+  void walls(ViscosityResult& r) const {
+    const double gap = flow_.gap();
+    if (flow_.kind == PlaneFlowKind::couette) {
+      const double low = fit_.a - lower_speed(),
+                   high = fit_.a + fit_.b - lower_speed() - flow_.relative_speed;
+      r.slip_length = 0.5 * gap * (low - high) / fit_.b;
+      r.offset = -0.5 * gap * (low + high) / fit_.b;
+      return;
+    }
+    const double root = std::sqrt(std::max(fit_.b * fit_.b - 4 * fit_.a * fit_.c, 0.0));
+    r.slip_length = 0.5 * gap * (root / std::abs(fit_.c) - 1);
+    r.offset = gap * (-fit_.b / (2 * fit_.c) - 0.5);
+  }
+  double lower_speed() const {
+    const WallBody& body = c_.wall.bodies[flow_.lower];
+    return body.surface_velocity[flow_.along] + (body.motion.moves() ? body.motion.velocity[flow_.along] : 0);
+  }
+
+  /// Parts of the stress in some layers, Pa, with the whole last.
+  std::vector<StressPart> stress_in(const std::vector<LayerSums>& layers,
+                                    const std::vector<int>& which) const {
+    LayerSums sum;
+    Tensor kinetic{};
+    for (const int l : which) {
+      sum.add(layers[l]);
+      for (const MotionSums* m : {&layers[l].fluid, &layers[l].grains}) {
+        const Tensor own = m->fluctuation();
+        for (int k = 0; k < 9; ++k) kinetic[k] += own[k];
+      }
+    }
+    std::vector<StressPart> out;
+    sum.parts["kinetic"] = kinetic;
+    StressPart total{"total", {}};
+    for (const auto& [name, tensor] : sum.parts) {
+      out.push_back({name, tensor});
+      for (double& x : out.back().mean) x = sum.volume > 0 ? -x / (stretch_ * sum.volume) : 0;
+      for (int k = 0; k < 9; ++k) total.mean[k] += out.back().mean[k];
+    }
+    out.push_back(total);
+    return out;
+  }
+  double component(const Tensor& t, int i, int j) const { return t[3 * i + j]; }
+
+  /// Shear stress that a layer with fluid must carry, Pa.
+  double imposed_at(int l, double imposed) const {
+    if (flow_.kind == PlaneFlowKind::couette) return imposed;
+    const LayerSums& layer = all_.layers[l];
+    const double s = layer.place / layer.fluid.mass;
+    return sign(l) * imposed * flow_.gap() * (0.5 - s);
+  }
+  double shear_in(const std::vector<LayerSums>& layers, int l) const {
+    return component(stress_in(layers, {l}).back().mean, flow_.along, flow_.gradient);
+  }
+  double stress_ratio(const std::vector<LayerSums>& layers, double imposed) const {
+    double top = 0, bottom = 0;
+    for (const int l : inner_) {
+      const double weight = layers[l].volume;
+      if (weight == 0) continue;
+      const double due = imposed_at(l, imposed);
+      top += weight * due * shear_in(layers, l), bottom += weight * due * due;
+    }
+    return top / bottom;
+  }
+
+  void stresses(ViscosityResult& r) const {
+    const int x = flow_.along, z = flow_.gradient, y = flow_.across();
+    std::vector<double> ratio, first, second;
+    for (const Block& block : layers_.blocks()) {
+      const Tensor t = stress_in(block.layers, averaged_).back().mean;
+      first.push_back(component(t, x, x) - component(t, z, z));
+      second.push_back(component(t, z, z) - component(t, y, y));
+      ratio.push_back(stress_ratio(block.layers, r.imposed));
+    }
+    r.stress = stress_in(all_.layers, averaged_);
+    const Tensor& t = r.stress.back().mean;
+    r.pressure = -(t[0] + t[4] + t[8]) / 3;
+    r.normal_1 = {component(t, x, x) - component(t, z, z), mean_of(first).error};
+    r.normal_2 = {component(t, z, z) - component(t, y, y), mean_of(second).error};
+    r.stress_ratio = {stress_ratio(all_.layers, r.imposed), mean_of(ratio).error};
+  }
+
+  ProfileRow row(int l, double imposed) const {
+    const LayerSums& layer = all_.layers[l];
+    const double s = layer.place / layer.fluid.mass, s2 = layer.place2 / layer.fluid.mass;
+    return {flow_.low + (s + (turned(l) ? 1 : 0)) * flow_.gap(),
+            velocity(layer.fluid),
+            sign(l) * fit_.at(s, s2),
+            velocity(layer.grains),
+            shear_in(all_.layers, l),
+            imposed_at(l, imposed)};
+  }
+
+  const Layers& layers_;
+  const Config& c_;
+  const PlaneFlow& flow_;
+  int n_;
+  Block all_;
+  double stretch_ = 1;  ///< volume between walls, or of the domain, over that by the particles' densities
+  std::vector<int> averaged_, inner_;
+  Fit fit_;
+};
+
+}  // namespace
+
+ViscosityResult evaluate(const Layers& layers, const Config& config, double reach) {
+  return Evaluation(layers, config, reach).result();
+}
+
+std::vector<Quantity> quantities_of(const ViscosityResult& r, const PlaneFlow& flow) {
+  std::vector<Quantity> out;
+  if (r.accepted())
+    out = {{"viscosity", "Pa s", r.viscosity.mean}, {"viscosity_error", "Pa s", r.viscosity.error}};
+  const bool couette = flow.kind == PlaneFlowKind::couette;
+  out.push_back(couette ? Quantity{"wall_shear_stress", "Pa", r.imposed}
+                        : Quantity{"force_density", "N/m3", r.imposed});
+  for (const Quantity& q : std::vector<Quantity>{{"r_squared", "-", r.r_squared},
+                                                 {"peak_velocity", "m/s", r.peak},
+                                                 {"reynolds_number", "-", r.reynolds},
+                                                 {"mach_number", "-", r.mach},
+                                                 {"drift", "-", r.drift},
+                                                 {"drift_limit", "-", r.drift_limit}})
+    out.push_back(q);
+  if (flow.walled()) {
+    out.push_back({"slip_length", "m", r.slip_length});
+    out.push_back({"offset", "m", r.offset});
+  }
+  for (const Quantity& q :
+       std::vector<Quantity>{{"shear_stress_over_imposed", "-", r.stress_ratio.mean},
+                             {"shear_stress_over_imposed_error", "-", r.stress_ratio.error},
+                             {"normal_stress_difference_1", "Pa", r.normal_1.mean},
+                             {"normal_stress_difference_1_error", "Pa", r.normal_1.error},
+                             {"normal_stress_difference_2", "Pa", r.normal_2.mean},
+                             {"normal_stress_difference_2_error", "Pa", r.normal_2.error},
+                             {"pressure", "Pa", r.pressure},
+                             {"grain_concentration", "-", r.concentration},
+                             {"blocks", "-", double(r.blocks)},
+                             {"samples", "-", double(r.samples)}})
+    out.push_back(q);
+  return out;
+}
+
+}  // namespace bedload

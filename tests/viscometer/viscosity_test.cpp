@@ -1,0 +1,167 @@
+// What layers of made-up particles come to.
+
+#include "src/viscometer/viscosity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+namespace bedload::test {
+namespace {
+
+constexpr double kEta = 7, kForce = 3, kH = 0.2, kBlocks = 12;
+
+HostArray array_of(const char* name, int components, const std::vector<double>& values) {
+  HostArray a{name, "-", Scalar::f64, components, {}};
+  a.bytes.resize(values.size() * sizeof(double));
+  std::memcpy(a.bytes.data(), values.data(), a.bytes.size());
+  return a;
+}
+
+/// A particle in the middle of each of 200 layers, which moves along y as told, and carries the stress that
+/// does.
+struct Channel {
+  PlaneFlow flow;
+  std::function<double(double z)> velocity, stress, drive;
+  double noise = 0;
+  std::mt19937 random{4};
+
+  HostStore sample(double drift) {
+    std::normal_distribution<double> normal;
+    std::vector<double> x, v, m, volume, force, moment;
+    const double height = (flow.high - flow.low) / 200, V = flow.area * height;
+    for (int n = 0; n < 200; ++n) {
+      const double z = flow.low + (n + 0.5) * height;
+      x.insert(x.end(), {0, 0, z});
+      v.insert(v.end(), {0, velocity(z) + drift + noise * normal(random), 0});
+      m.push_back(2 * V), volume.push_back(0.98 * V);  // densities come out 2 % too high
+      force.insert(force.end(), {0, drive(z) * V, 0});
+      moment.insert(moment.end(), {5 * V, 0, 0, 0, 6 * V, -stress(z) * V, 0, 0, 8 * V});
+    }
+    return {
+        "fluid",
+        200,
+        {array_of("position", 3, x), array_of("velocity", 3, v), array_of("mass", 1, m),
+         array_of("volume", 1, volume), array_of("drive", 3, force), array_of("stress_pressure", 9, moment)}};
+  }
+  ViscosityResult measure(double wall_stress = 0) {
+    Config c;
+    c.fluid.rho0 = 2, c.fluid.mu = kEta, c.fluid.c = 10;
+    c.wall.bodies.resize(2);
+    Layers layers(flow, kH, 40, int(kBlocks));
+    for (int block = 0; block < kBlocks; ++block)
+      for (int k = 0; k < 5; ++k)
+        layers.add(block, sample(flow.walled() ? 0 : 0.3 + 0.1 * k), {}, wall_stress);
+    return evaluate(layers, c, kH);
+  }
+};
+
+/// From z = -1 on, with a gap of 2.
+Channel channel(PlaneFlowKind kind) {
+  Channel c;
+  const bool reverse = kind == PlaneFlowKind::reverse_poiseuille;
+  c.flow = {kind, 1, 2, -1, reverse ? 3.0 : 1.0, -1, -1, 0.5, 0};
+  if (!reverse) c.flow.lower = 0, c.flow.upper = 1;
+  const auto turned = [reverse](double z) { return reverse && z > 1; };
+  c.velocity = [=](double z) {
+    const double s = turned(z) ? z - 1 : z + 1;
+    return (turned(z) ? -1 : 1) * kForce / (2 * kEta) * s * (2 - s);
+  };
+  c.stress = [=](double z) { return (turned(z) ? -1 : 1) * kForce * (1 - (turned(z) ? z - 1 : z + 1)); };
+  c.drive = [=](double z) { return turned(z) ? -kForce : kForce; };
+  return c;
+}
+
+double named(const std::vector<Quantity>& all, const std::string& name) {
+  for (const Quantity& q : all)
+    if (q.name == name) return q.value;
+  return std::nan("");
+}
+
+TEST(Viscosity, IsThatOfReversePoiseuilleFlow) {
+  Channel c = channel(PlaneFlowKind::reverse_poiseuille);
+  const ViscosityResult r = c.measure();
+  EXPECT_NEAR(r.viscosity.mean, kEta, 1e-9) << "whatever the box drifts with";
+  EXPECT_LT(r.viscosity.error, 1e-9);
+  EXPECT_NEAR(r.r_squared, 1, 1e-9);
+  EXPECT_NEAR(r.imposed, kForce, 1e-12);
+  EXPECT_NEAR(r.peak, kForce / (2 * kEta), 1e-3);
+  EXPECT_NEAR(r.mach, r.peak / 10, 1e-12);
+  EXPECT_NEAR(r.reynolds, 2 * (kForce / (3 * kEta)) * 2 / kEta, 1e-3);
+  EXPECT_TRUE(r.stationary());
+  EXPECT_NEAR(r.stress_ratio.mean, 1, 1e-9);
+  EXPECT_NEAR(r.normal_1.mean, 8 - 6,
+              2e-3);  // along y, gradient z; the kinetic part has a trace of the shear
+  EXPECT_NEAR(r.normal_2.mean, 5 - 8, 1e-9);
+  EXPECT_NEAR(r.pressure, 19 / 3.0, 1e-3);
+  EXPECT_EQ(r.stress.back().name, "total");
+  const auto q = quantities_of(r, c.flow);
+  EXPECT_NEAR(named(q, "viscosity"), kEta, 1e-9);
+  EXPECT_NEAR(named(q, "force_density"), kForce, 1e-12);
+}
+
+TEST(Viscosity, HasAnErrorThatFitsItsNoise) {
+  Channel c = channel(PlaneFlowKind::reverse_poiseuille);
+  c.noise = 0.05;
+  double squares = 0, told = 0;
+  for (int n = 0; n < 40; ++n) {
+    const ViscosityResult r = c.measure();
+    squares += (r.viscosity.mean - kEta) * (r.viscosity.mean - kEta) / 40;
+    told += r.viscosity.error * r.viscosity.error / 40;
+  }
+  EXPECT_GT(squares, 1e-6);
+  EXPECT_NEAR(std::sqrt(told / squares), 1, 0.35);  // 40 draws of one deviation: 11 %
+}
+
+TEST(Viscosity, OfWallsThatSlipIsThatOfTheFluid) {
+  Channel c = channel(PlaneFlowKind::poiseuille);
+  const double slip = 0.05;
+  c.velocity = [=](double z) {
+    return kForce / (2 * kEta) * ((1 + slip) * (1 + slip) - (z - 0.01) * (z - 0.01));
+  };
+  const ViscosityResult r = c.measure();
+  EXPECT_NEAR(r.viscosity.mean, kEta, 1e-7);
+  EXPECT_NEAR(r.slip_length, slip, 1e-9);
+  EXPECT_NEAR(r.offset, 0.01, 1e-9);
+}
+
+TEST(Viscosity, OfCouetteFlowIsStressOverShear) {
+  Channel c = channel(PlaneFlowKind::couette);
+  c.flow.relative_speed = 0.6;
+  c.velocity = [](double z) { return 0.3 + 0.6 / 2.2 * z; };
+  c.stress = [](double) { return kEta * 0.6 / 2.2; };
+  c.drive = [](double) { return 0; };
+  const ViscosityResult r = c.measure(kEta * 0.6 / 2.2);
+  EXPECT_NEAR(r.viscosity.mean, kEta, 1e-9);
+  EXPECT_NEAR(r.slip_length, 0.1, 1e-9);
+  EXPECT_NEAR(r.offset, 0, 1e-9);
+  EXPECT_NEAR(r.stress_ratio.mean, 1, 1e-9);
+}
+
+TEST(Viscosity, IsNotToldOfAnotherProfile) {
+  Channel c = channel(PlaneFlowKind::reverse_poiseuille);
+  c.velocity = [](double z) { return z < 1 ? 0.1 : -0.1; };  // plugs
+  const ViscosityResult r = c.measure();
+  EXPECT_LT(r.r_squared, 0.95);
+  EXPECT_TRUE(std::isnan(named(quantities_of(r, c.flow), "viscosity")));
+}
+
+TEST(Viscosity, IsNotSteadyWhereItDrifts) {
+  Channel c = channel(PlaneFlowKind::reverse_poiseuille);
+  Config config;
+  config.fluid.rho0 = 2, config.fluid.mu = kEta, config.fluid.c = 10;
+  Layers layers(c.flow, kH, 40, 12);
+  const auto steady = c.velocity;
+  for (int block = 0; block < 12; ++block) {
+    c.velocity = [=](double z) { return (0.9 + 0.01 * block) * steady(z); };
+    layers.add(block, c.sample(0), {}, 0);
+  }
+  const ViscosityResult r = evaluate(layers, config, kH);
+  EXPECT_NEAR(r.drift, -0.063, 0.005);
+  EXPECT_FALSE(r.stationary());
+}
+
+}  // namespace
+}  // namespace bedload::test
