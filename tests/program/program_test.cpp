@@ -130,7 +130,7 @@ TEST_F(Program, RefusesWrongCommandLinesWithOneSentence) {
   };
   refused("", "command line: A subcommand is required; see bedload --help");
   refused("simulate dam.toml",
-          "command line: simulate is no command; it must be one of run, check, list, info, bench, "
+          "command line: simulate is no command; it must be one of run, viscometer, check, list, info, bench, "
           "schema, completion, man");
   write("empty.toml", "\n");
   refused("check empty.toml", "empty.toml: is empty");
