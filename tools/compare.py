@@ -38,7 +38,7 @@ from pathlib import Path
 
 import numpy as np
 
-from frames import Frames, Table
+from frames import FileError, Frames, Table
 
 
 @dataclass
@@ -326,7 +326,7 @@ def main(arguments):
             word = "pass" if result.passed else "note" if spec.get("advice") else "FAIL"
             failed += word == "FAIL"
             print(f"{word}  {check.name}: {result.text}")
-    except SystemExit as error:
+    except (SystemExit, FileError) as error:
         print(error, file=sys.stderr)
         return 2
     print(f"{len(checks) - failed} of {len(checks)} as expected")

@@ -16,16 +16,15 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
 from frames import Frames, Table, case_of  # noqa: E402
+from bedload.measures import angular_velocity, power_number  # noqa: E402
 
 
 def speed(run, body):
-    """Angular velocity about z of a wall body in the last frame, rad/s, by least squares over its particles."""
+    """Angular velocity about z of a wall body in the last frame, rad/s."""
     walls = Frames(run / "walls.vtkhdf")
     frame = len(walls.times) - 1
     own = walls.get(frame, "body") == body
-    x, v = walls.position(frame)[own], walls.get(frame, "velocity")[own]
-    x, v = x - x.mean(axis=0), v - v.mean(axis=0)
-    return float(np.sum(x[:, 0] * v[:, 1] - x[:, 1] * v[:, 0]) / np.sum(x[:, :2] ** 2))
+    return float(angular_velocity(walls.position(frame)[own], walls.get(frame, "velocity")[own])[2])
 
 
 def main():
@@ -50,7 +49,7 @@ def main():
     print(f"torque           {1e3 * torque.mean():.4g} mN m, standard deviation {1e3 * torque.std():.2g} mN m")
     print(f"power            {1e3 * power:.4g} mW")
     print(f"Reynolds number  {rho * turns * args.diameter**2 / mu:.4g}")
-    print(f"power number     {power / (rho * turns**3 * args.diameter**5):.3g}")
+    print(f"power number     {power_number(power, rho, turns, args.diameter):.3g}")
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,18 @@ struct HostStore {
       if (a.name == array) return &a;
     return nullptr;
   }
+};
+
+/// One named array where the solver keeps it, host or device memory: `components` scalars of each particle,
+/// `stride` bytes from one particle to the next. Right until the next step; `memory` keeps it from being
+/// freed even then.
+struct FieldView {
+  std::string name, unit;
+  Scalar type = Scalar::f64;
+  int components = 1;
+  const void* data = nullptr;
+  std::size_t count = 0, stride = 0;
+  std::shared_ptr<const void> memory;
 };
 
 /// A number that reaches the user, with its unit.

@@ -73,6 +73,8 @@ class Simulation {
   /// drive) and stress_... (J), one each part of the pair forces: [3 i + j] is the sum of half of F_i r_j, so
   /// that minus its sum over a volume, divided by it, is a stress.
   virtual HostStore rheology(const std::string& store) = 0;
+  /// What of a snapshot is kept as it is, and the mass of fluid, in the solver's memory and order.
+  virtual std::vector<FieldView> fields(const std::string& store) = 0;
   /// Masses, momenta, energies, extremes, counters; see output/diagnostics.
   virtual std::vector<Quantity> diagnostics() = 0;
   /// Current reading of one probe.

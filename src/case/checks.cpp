@@ -186,6 +186,7 @@ class Checks {
 
   void coupling() const {
     const double reach = c.fluid.kappa() * c.couple.hc, d = c.grain.d_max;
+    if (c.couple.drag == DragLaw::table) drag_table();
     if (c.couple.S_wet <= c.couple.S_dry)
       fail("couple.S_wet", c.couple.S_wet, fmt::format("must be > couple.S_dry = {}", c.couple.S_dry));
     if (!coupled()) return;
@@ -198,6 +199,25 @@ class Checks {
           "couple.hc: the coupling reaches {:.3g} diameters of the largest grain, which feels its own wake "
           "below 4",
           reach / d);
+  }
+
+  void drag_table() const {
+    const DragTable& t = c.couple.table;
+    const auto nodes = [&](const char* key, const std::vector<double>& list, std::size_t least) {
+      const auto say = [&](const std::string& must) {
+        fail(key, fmt::format("[{}]", fmt::join(list, ", ")), must);
+      };
+      if (list.size() < least || list.size() > 1000) say(fmt::format("must hold {} to 1000 numbers", least));
+      if (std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) != list.end())
+        say("must rise from each to the next");
+    };
+    nodes("drag.porosity", t.porosity, 1);
+    nodes("drag.reynolds", t.reynolds, 2);
+    if (t.reynolds.front() != 0) fail("drag.reynolds", t.reynolds.front(), "must begin with 0");
+    if (t.factor.size() != t.porosity.size() * t.reynolds.size())
+      fail("drag.factor", fmt::format("[...] of {}", t.factor.size()),
+           fmt::format("must hold {} numbers, {} Reynolds numbers for each of {} porosities",
+                       t.porosity.size() * t.reynolds.size(), t.reynolds.size(), t.porosity.size()));
   }
 
   void openings() const {

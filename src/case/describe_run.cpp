@@ -140,6 +140,19 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
   p("couple.angmom", &c.angmom, {.meaning = "reaction couple: what is exchanged keeps angular momentum"});
   p("couple.slip", &c.slip, {.meaning = "what slip drag follows", .family = "models"});
   p("drag.law", &c.drag, {.meaning = "drag on a grain", .family = "laws"});
+  if (c.drag == DragLaw::table || p.everything()) {
+    const auto p_table = [&](std::string_view key, std::vector<double>& list, Range range,
+                             std::string_view meaning) {
+      p(key, &list,
+        {.meaning = meaning, .range = range, .presence = c.drag == DragLaw::table ? required : optional});
+    };
+    p_table("drag.porosity", c.table.porosity, above_to(0, 1), "table: porosities, rising");
+    p_table("drag.reynolds", c.table.reynolds, at_least(0),
+            "table: Reynolds numbers of the superficial slip, rho eps w d / mu, rising from 0");
+    p_table("drag.factor", c.table.factor, above(0),
+            "table: drag over Stokes drag, K / (3 pi mu d); for each porosity a number for each of "
+            "drag.reynolds");
+  }
   p("drag.integrator", &c.integrator, {.meaning = "how drag advances a grain", .family = "models"});
 }
 

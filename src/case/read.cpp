@@ -50,7 +50,12 @@ Value tree_of(const std::string& text, const std::string& name, const std::vecto
 Config read_case_text(const std::string& text, const std::string& name,
                       const std::vector<std::string>& overrides, std::vector<std::string>& warnings,
                       const std::filesystem::path& checkpoint) {
-  const Value root = tree_of(text, name, overrides, warnings);
+  return read_case_tree(tree_of(text, name, overrides, warnings), name, warnings, checkpoint);
+}
+
+Config read_case_tree(Value root, const std::string& name, std::vector<std::string>& warnings,
+                      const std::filesystem::path& checkpoint) {
+  rename_keys(root, warnings);
   reject_unknown(root);
 
   Config config = defaults(root);

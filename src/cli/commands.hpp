@@ -6,6 +6,10 @@ namespace bedload {
 inline constexpr int kExitBadInput = 2, kExitFault = 3, kExitLost = 4, kExitNoViscosity = 5,
                      kExitStopped = 130;
 
+/// The program: runs the command that the arguments name. Errors are printed, a sentence each; returns the
+/// exit code.
+int run_program(int argc, const char* const* argv);
+
 /// Runs a case to its end; returns the exit code: 0, 4 if more than run.max_lost has left the domain, 130 if
 /// stopped by a signal.
 int run_case(const Options& options);

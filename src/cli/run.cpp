@@ -1,31 +1,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/output/folder_lock.hpp"
-#include "bedload/output/output.hpp"
 #include "commands.hpp"
 #include "prepare.hpp"
 #include "progress.hpp"
 #include "run.hpp"
-#include "settle.hpp"
+#include "session.hpp"
 #include "stop.hpp"
 
 namespace bedload {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that holds a run is not written over by accident.
-void refuse_other_run(const Options& o) {
-  if (!o.restart.empty() || o.overwrite || !fs::exists(o.out / "case.resolved.toml")) return;
-  throw FileError(fmt::format("{}: holds a run already; use {}--overwrite to replace it, or another --out",
-                              o.out.string(), o.command == "run" ? "--restart to go on from it, " : ""));
-}
 
 /// "fluid 61 %, grains 20 %, ..., output 3 %"; of a time above 0.
 std::string fractions_text(const std::vector<Quantity>& parts, double all) {
@@ -54,14 +45,9 @@ class Run {
 
   int go() {
     say(summary_text(p_));
-    build();
-    check_fixed_steps(p_, *simulation_);
-
-    output_.emplace(options_.out, p_.config, p_.device, version(), !options_.restart.empty());
-    for (const std::string& warning : p_.warnings) {
+    session_.emplace(options_, std::move(p_), [this](const std::string& text) { say(text); });
+    for (const std::string& warning : session_->prepared().warnings)
       fmt::print(stderr, "warning: {}\n", warning);
-      output_->warn(warning);
-    }
     say(fmt::format("results    {}\n", options_.out.string()));
     return steps();
   }
@@ -72,60 +58,19 @@ class Run {
     std::fflush(stdout);
   }
 
-  /// The simulation at its first step: from a checkpoint, over settled grains, or as initialised.
-  void build() {
-    const bool restart = !options_.restart.empty();
-    const bool settle = !restart && p_.config.grain.present && p_.config.grain.settle;
-    SavedState state;
-    if (settle) state = settled();
-    if (estimate_bytes(p_.config, p_.counts, p_.device.cuda()) > p_.device.memory)
-      p_.warnings.push_back("the case may need more memory than the device has free");
-    simulation_ = make_simulation(p_.config, p_.setup, p_.device);
-    p_.setup = {};  // as large as the simulation itself
-    if (restart) {
-      simulation_->load(p_.restart);
-      p_.restart = {};
-      say(fmt::format("restart    {} at t = {:.6g} s\n", options_.restart.string(), simulation_->time()));
-    } else {
-      if (settle) simulation_->load_grains(state);
-      simulation_->start();
-    }
-  }
-
-  SavedState settled() {
-    Progress progress(options_.quiet, 0, p_.config.grain.settle_time);
-    const auto from = std::chrono::steady_clock::now();
-    const SettledGrains bed = settled_grains(p_.config, p_.setup, p_.device, progress, p_.warnings);
-    progress.close();
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
-    say(bed.kept.empty() ? fmt::format("settled    in {}\n", duration_text(took.count()))
-                         : fmt::format("settled    as kept in {}\n", bed.kept.string()));
-    return bed.state;
-  }
-
   int steps() {
-    const auto from = std::chrono::steady_clock::now();
-    Progress progress(options_.quiet, simulation_->time(), end_);
-    Effort effort;
-    const auto spent = [&] {
-      effort.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
-      return effort;
-    };
+    Simulation& simulation = session_->simulation();
+    Progress progress(options_.quiet, simulation.time(), end_);
     try {
-      if (options_.restart.empty()) output_->write(*simulation_, StepInfo{});
-      while (simulation_->time() < end_ && !stop_requested()) {
-        const StepInfo info = simulation_->step();
-        const Counts n = simulation_->counts();
-        effort.particle_steps += n.fluid > 0 ? n.fluid : n.grains * info.substeps;
-        effort.substeps += info.substeps;
-        effort.rebuilds += info.rebuilt;
-        output_->write(*simulation_, info);
-        if (watcher_) watcher_->after_step(*simulation_, info);
-        progress.update(info, effort.particle_steps);
+      session_->begin();
+      while (simulation.time() < end_ && !stop_requested()) {
+        const StepInfo info = session_->step();
+        if (watcher_) watcher_->after_step(simulation, info);
+        progress.update(info, session_->effort().particle_steps);
       }
       progress.close();
-      if (watcher_ && simulation_->time() >= end_) take(watcher_->findings());
-      output_->finish(*simulation_, simulation_->time() < end_ ? "stopped" : "completed", spent());
+      if (watcher_ && simulation.time() >= end_) take(watcher_->findings());
+      session_->finish(simulation.time() < end_ ? "stopped" : "completed");
     } catch (const FileError& error) {
       progress.close();
       throw FileError(error.what() + kept());
@@ -138,23 +83,24 @@ class Run {
           fmt::format("{}: cannot write: {}{}", error.path1().string(), error.code().message(), kept()));
     } catch (const SimulationFault& fault) {
       progress.close();
-      throw SimulationFault(fault.what() + after_fault(spent()));
+      throw SimulationFault(fault.what() + after_fault());
     } catch (const KeyError& error) {  // a fixed step has come to exceed its limit
       progress.close();
-      throw KeyError(error.key, error.what() + after_fault(spent()));
+      throw KeyError(error.key, error.what() + after_fault());
     }
-    const bool stopped = simulation_->time() < end_;
-    if (stopped && watcher_)
+    const bool stopped = simulation.time() < end_;
+    if (stopped && watcher_) {
       fmt::print("stopped at t = {:.6g} s; what was measured is lost, begin again with --overwrite\n",
-                 simulation_->time());
-    else if (stopped)
-      fmt::print("stopped at t = {:.6g} s; continue with: {} --restart {}\n", simulation_->time(),
-                 options_.repeat, output_->last_checkpoint().string());
-    else {
-      say(fmt::format("completed  t = {:.6g} s, {} steps in {}, {:.3g} particle-steps/s\n",
-                      simulation_->time(), grouped(simulation_->steps()), duration_text(effort.wall_seconds),
+                 simulation.time());
+    } else if (stopped) {
+      fmt::print("stopped at t = {:.6g} s; continue with: {} --restart {}\n", simulation.time(),
+                 options_.repeat, session_->output()->last_checkpoint().string());
+    } else {
+      const Effort effort = session_->effort();
+      say(fmt::format("completed  t = {:.6g} s, {} steps in {}, {:.3g} particle-steps/s\n", simulation.time(),
+                      grouped(simulation.steps()), duration_text(effort.wall_seconds),
                       effort.wall_seconds > 0 ? double(effort.particle_steps) / effort.wall_seconds : 0));
-      say(fmt::format("of it      {}\n", fractions_text(simulation_->time_spent(), effort.wall_seconds)));
+      say(fmt::format("of it      {}\n", fractions_text(simulation.time_spent(), effort.wall_seconds)));
     }
     const bool lost = losses();
     return stopped ? kExitStopped : lost ? kExitLost : 0;
@@ -163,14 +109,14 @@ class Run {
   void take(const RunFindings& found) {
     for (const std::string& warning : found.warnings) {
       fmt::print(stderr, "warning: {}\n", warning);
-      output_->warn(warning);
+      session_->output()->warn(warning);
     }
-    output_->add(found.name, found.quantities);
+    session_->output()->add(found.name, found.quantities);
   }
 
   /// Tells what has left the domain unasked; true if it is more than the case allows.
-  bool losses() const {
-    const auto d = simulation_->diagnostics();
+  bool losses() {
+    const auto d = session_->simulation().diagnostics();
     const auto read = [&](const char* name) {
       const auto q =
           std::find_if(d.begin(), d.end(), [&](const Quantity& each) { return each.name == name; });
@@ -179,7 +125,7 @@ class Run {
     bool too_many = false;
     const auto tell = [&](const std::string& what, double lost, double left) {
       if (!(lost > 0)) return;
-      const double fraction = lost / (lost + left), allowed = p_.config.max_lost;
+      const double fraction = lost / (lost + left), allowed = session_->prepared().config.max_lost;
       too_many = too_many || fraction > allowed;
       const std::string text =
           fmt::format("{}, {:.3g} %, left the domain where there is no outlet", what, 100 * fraction);
@@ -195,17 +141,17 @@ class Run {
   }
 
   /// What there is to go on from after an error of writing, as the rest of its sentence.
-  std::string kept() const {
-    const fs::path last = output_->last_checkpoint();
+  std::string kept() {
+    const fs::path last = session_->output()->last_checkpoint();
     std::error_code unknown;
     return fs::exists(last, unknown) ? "; the last good checkpoint is " + last.string() : "";
   }
 
   /// Shows the broken state in a last frame; returns the rest of the fault's sentence.
-  std::string after_fault(const Effort& effort) {
-    const fs::path good = output_->last_checkpoint();
+  std::string after_fault() {
+    const fs::path good = session_->output()->last_checkpoint();
     try {
-      output_->finish(*simulation_, "failed", effort);
+      session_->finish("failed");
     } catch (const std::runtime_error& error) {
       fmt::print(stderr, "warning: the last frame is missing: {}\n", error.what());
     }
@@ -217,8 +163,7 @@ class Run {
   Prepared p_;
   RunWatcher* watcher_;  ///< null: nobody looks on
   double end_;
-  std::unique_ptr<Simulation> simulation_;
-  std::optional<RunOutput> output_;
+  std::optional<Session> session_;
 };
 
 }  // namespace

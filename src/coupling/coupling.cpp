@@ -61,6 +61,7 @@ Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry&
     : frame_(frame),
       kernel_(config.fluid.kernel),
       drag_law_(config.couple.drag),
+      drag_table_(config.couple.table),
       dx_(config.fluid.dx),
       h_c_(config.couple.hc),
       range_(kernel_kappa(kernel_) * h_c_),
@@ -174,27 +175,30 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
     });
   });
   for_each(grains.owned(), WetnessPass{S_dry_, S_wet_, wall_free_, inv_S_, grains.wetness});
-  with_drag_law(drag_law_, [&](auto law) {
-    with_flag(local_slip_, [&](auto local) {
-      for_each(grains.owned(), DragPass<decltype(law), local>{.law = law,
-                                                              .mu = Real(mu_),
-                                                              .torque = torque_,
-                                                              .couple = angmom_,
-                                                              .radius = grains.radius,
-                                                              .eps = grains.eps,
-                                                              .bed_eps = bed_eps_,
-                                                              .wetness = grains.wetness,
-                                                              .v = grains.v,
-                                                              .omega = grains.omega,
-                                                              .surroundings = around,
-                                                              .weights = drag_weights(),
-                                                              .U = grains.U,
-                                                              .omega_f = grains.omega_f,
-                                                              .K = grains.K,
-                                                              .K_rot = grains.K_rot,
-                                                              .levers = levers()});
-    });
-  });
+  with_drag_law(
+      drag_law_,
+      [&](auto law) {
+        with_flag(local_slip_, [&](auto local) {
+          for_each(grains.owned(), DragPass<decltype(law), local>{.law = law,
+                                                                  .mu = Real(mu_),
+                                                                  .torque = torque_,
+                                                                  .couple = angmom_,
+                                                                  .radius = grains.radius,
+                                                                  .eps = grains.eps,
+                                                                  .bed_eps = bed_eps_,
+                                                                  .wetness = grains.wetness,
+                                                                  .v = grains.v,
+                                                                  .omega = grains.omega,
+                                                                  .surroundings = around,
+                                                                  .weights = drag_weights(),
+                                                                  .U = grains.U,
+                                                                  .omega_f = grains.omega_f,
+                                                                  .K = grains.K,
+                                                                  .K_rot = grains.K_rot,
+                                                                  .levers = levers()});
+        });
+      },
+      drag_table_.on_device());
   if (!two_way_) return;
   rate_.resize(fluid.size());
   with_coupling_kernel([&](auto w) {
@@ -273,10 +277,13 @@ void Coupling::push(const FluidStore& fluid, GrainStore& grains, Span<const Body
 double Coupling::bed_viscosity(double porosity, double d) const {
   if (!local_slip_) return 0;
   double beta = 0, second = 0;  // kg/(m3 s); mean of s^2 over the kernel, m2
-  with_drag_law(drag_law_, [&](auto law) {
-    beta =
-        (1 - porosity) * 6 / (M_PI * d * d * d) * double(law.K(Real(porosity), Real(d), 1000, Real(mu_), 0));
-  });
+  with_drag_law(
+      drag_law_,
+      [&](auto law) {
+        beta = (1 - porosity) * 6 / (M_PI * d * d * d) *
+               double(law.K(Real(porosity), Real(d), 1000, Real(mu_), 0));
+      },
+      drag_table_.on_host());
   with_coupling_kernel([&](auto w) {
     constexpr int shells = 1000;
     for (int k = 0; k < shells; ++k) {

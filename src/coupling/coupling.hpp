@@ -23,6 +23,7 @@
 #include "kernels/coupling/orifice_weight.hpp"
 #include "kernels/coupling/reaction_pass.hpp"
 #include "kernels/coupling/wall_free_fraction.hpp"
+#include "src/coupling/drag_table.hpp"
 #include "src/solids/grain_matter.hpp"
 #include "src/walls/wall_geometry.hpp"
 
@@ -87,6 +88,7 @@ class Coupling {
   Frame frame_;
   Chosen<KernelFunction> kernel_;
   Chosen<DragLaw> drag_law_;
+  TableOfDrag drag_table_;
   double dx_, h_c_, range_;
   bool top_hat_;
   double mu_, drag_fraction_;

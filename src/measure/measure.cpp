@@ -24,6 +24,26 @@ struct PressurePart {
   BL_HD void operator()(Index i) const { out[i] = pressure_of(m_state[i]); }
 };
 
+/// `field`, or of each particle the `components` scalars from number `first` on.
+template <class T>
+FieldView view_of(const char* name, const char* unit, const Field<T>& field,
+                  int components = FileType<T>::components, int first = 0) {
+  const auto* data = reinterpret_cast<const std::byte*>(field.buffer().data());
+  if (data) data += first * size_of(FileType<T>::scalar);
+  return {name,
+          unit,
+          FileType<T>::scalar,
+          components,
+          data,
+          field.buffer().size(),
+          sizeof(T),
+          field.buffer().memory()};
+}
+template <class T>
+FieldView view_of(const Field<T>& field) {
+  return view_of(field.name.c_str(), field.unit.c_str(), field);
+}
+
 // --- diagnostics -----------------------------------------------------------------------------
 
 /// mass, momentum 3, angular momentum 3, kinetic, potential, elastic, spin energy.
@@ -140,6 +160,36 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
     out.arrays.push_back(walls_.id.to_host());
   }
   return out;
+}
+
+std::vector<FieldView> CoupledSimulation::fields(const std::string& name) {
+  synchronize();
+  if (name == "fluid" && has_fluid()) {
+    std::vector<FieldView> out{view_of("velocity", "m/s", fluid_.v_rho, 3),
+                               view_of("density", "kg/m3", fluid_.m_state, 1, 2), view_of(fluid_.mass),
+                               view_of(fluid_.id)};
+    if constexpr (std::is_same_v<FluidPosition, Vec3d>) out.push_back(view_of("position", "m", fluid_.x));
+    if (coupled()) out.push_back(view_of(fluid_.eps));
+    if (const Spin* spin = fluid_solver_->spin()) out.push_back(view_of(spin->omega));
+    return out;
+  }
+  if (name == "grains" && has_grains()) {
+    std::vector<FieldView> out{view_of("position", "m", grains_.x),
+                               view_of("velocity", "m/s", grains_.v),
+                               view_of("angular_velocity", "rad/s", grains_.omega),
+                               view_of(grains_.radius),
+                               view_of(grains_.force),
+                               view_of(grains_.id)};
+    if (coupled())
+      for (const FieldView& view : {view_of(grains_.drag_force), view_of(grains_.fluid_force),
+                                    view_of(grains_.eps), view_of(grains_.wetness)})
+        out.push_back(view);
+    return out;
+  }
+  if (name == "walls" && walls_.size() > 0)
+    return {view_of("position", "m", walls_.x), view_of("velocity", "m/s", walls_.v_rho, 3),
+            view_of(walls_.body), view_of(walls_.id)};
+  return {};
 }
 
 std::vector<Quantity> CoupledSimulation::diagnostics() {

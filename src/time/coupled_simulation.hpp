@@ -37,6 +37,7 @@ class CoupledSimulation final : public Simulation {
 
   HostStore snapshot(const std::string& store) override;
   HostStore rheology(const std::string& store) override;
+  std::vector<FieldView> fields(const std::string& store) override;
   std::vector<Quantity> diagnostics() override;
   std::vector<Quantity> measure(const ProbeConfig& probe) override;
   std::vector<Quantity> body_state(int body) override;

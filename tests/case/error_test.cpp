@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[time]", "[drag]\nlaw = \"gidspow\"\n[time]",
               "dam.toml:22: drag.law = \"gidspow\" must be one of di_felice, gidaspow, gidaspow_blend, "
               "ergun, wen_yu, "
-              "schiller_naumann, stokes"},
+              "schiller_naumann, stokes, table"},
         Wrong{"title = \"dam\"", "preset = \"hee\"",
               "dam.toml:1: preset = \"hee\" must be one of default, he2018, democritus"}));
 

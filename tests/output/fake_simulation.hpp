@@ -42,6 +42,7 @@ class FakeSimulation : public Simulation {
   std::vector<Quantity> numerical_viscosity() const override { return {{"artificial_bulk", "-", 12.5}}; }
   std::vector<Quantity> time_spent() const override { return {{"fluid", "s", 0.25 * double(steps_)}}; }
 
+  std::vector<FieldView> fields(const std::string&) override { return {}; }
   HostStore snapshot(const std::string& store) override {
     const auto n = std::size_t(store == "fluid"    ? counts().fluid
                                : store == "grains" ? counts().grains

@@ -91,7 +91,10 @@ TEST(Choices, OfTheCouplingRun) {
   expect_all_run<CouplingMode>("couple.mode");
   expect_all_run<CouplingKernel>("couple.kernel");
   expect_all_run<DragSlip>("couple.slip");
-  expect_all_run<DragLaw>("drag.law");
+  expect_all_run<DragLaw>(
+      "drag.law",
+      {{"table",
+        "drag={law = \"table\", porosity = [0.4, 1], reynolds = [0, 10], factor = [30, 40, 1, 2]}"}});
   expect_all_run<DragIntegrator>("drag.integrator");
 }
 

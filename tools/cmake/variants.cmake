@@ -29,7 +29,7 @@ function(bedload_variant precision backend)
   target_compile_definitions(bedload_${variant} PUBLIC BL_VARIANT=${variant} BL_REAL=${real}
                                                        BL_PACKED_POSITIONS=${packed})
   # LINK_ONLY: a solver file must compile without the host's libraries.
-  target_link_libraries(bedload_${variant} PUBLIC bedload_headers PRIVATE $<LINK_ONLY:bedload_host>)
+  target_link_libraries(bedload_${variant} PUBLIC bedload_headers PRIVATE $<LINK_ONLY:$<TARGET_NAME:bedload_host>>)
   if(backend STREQUAL "cuda")
     target_compile_definitions(bedload_${variant} PUBLIC BL_CUDA=1)
     target_compile_options(bedload_${variant} PUBLIC --expt-relaxed-constexpr -lineinfo
@@ -68,5 +68,5 @@ function(bedload_seal variant)
             ${object} VERBATIM)
   add_library(bedload_${variant}_sealed STATIC ${object})
   set_target_properties(bedload_${variant}_sealed PROPERTIES LINKER_LANGUAGE CXX)
-  target_link_libraries(bedload_${variant}_sealed PRIVATE $<LINK_ONLY:bedload_host> OpenMP::OpenMP_CXX)
+  target_link_libraries(bedload_${variant}_sealed PRIVATE $<LINK_ONLY:$<TARGET_NAME:bedload_host>> OpenMP::OpenMP_CXX)
 endfunction()

@@ -243,7 +243,7 @@ inline constexpr auto kNames<DragSlip> = std::to_array<Named<DragSlip>>({
 });
 
 /// drag.law
-enum class DragLaw { di_felice, gidaspow, gidaspow_blend, ergun, wen_yu, schiller_naumann, stokes };
+enum class DragLaw { di_felice, gidaspow, gidaspow_blend, ergun, wen_yu, schiller_naumann, stokes, table };
 template <>
 inline constexpr auto kNames<DragLaw> = std::to_array<Named<DragLaw>>({
     {DragLaw::di_felice, "di_felice", "one smooth law from lone grain to packed bed [difelice94]"},
@@ -253,6 +253,7 @@ inline constexpr auto kNames<DragLaw> = std::to_array<Named<DragLaw>>({
     {DragLaw::wen_yu, "wen_yu", "suspensions [wen66]"},
     {DragLaw::schiller_naumann, "schiller_naumann", "a lone sphere"},
     {DragLaw::stokes, "stokes", "a lone sphere, creeping flow"},
+    {DragLaw::table, "table", "a law of your own: drag.factor over drag.porosity and drag.reynolds"},
 });
 
 /// drag.integrator
@@ -293,7 +294,7 @@ static_assert(all_named<NormalLaw, NormalLaw::none> && all_named<SlidingLaw, Sli
               all_named<ViscosityModel, ViscosityModel::none> && all_named<WallType, WallType::fluid_only> &&
               all_named<WallSlip, WallSlip::slip> && all_named<LayerForce, LayerForce::monaghan> &&
               all_named<CouplingMode, CouplingMode::off> && all_named<DragSlip, DragSlip::local> &&
-              all_named<DragLaw, DragLaw::stokes> &&
+              all_named<DragLaw, DragLaw::table> &&
               all_named<DragIntegrator, DragIntegrator::explicit_steps> &&
               all_named<TimeIntegrator, TimeIntegrator::euler>);
 

@@ -408,6 +408,13 @@ struct LubricationConfig {
   bool operator==(const LubricationConfig&) const = default;
 };
 
+/// drag.law = table: drag on a grain over its Stokes drag, by porosity and superficial Reynolds number.
+struct DragTable {
+  std::vector<double> porosity, reynolds;      ///< rising; reynolds from 0
+  std::vector<double> factor;                  ///< K / (3 pi mu d), a row over reynolds for each porosity
+  bool operator==(const DragTable&) const = default;
+};
+
 struct CouplingConfig {
   Chosen<CouplingMode> mode = CouplingMode::two_way;
   double hc = 0;                               ///< m (default max(h, 2 d_max 2/kappa))
@@ -420,6 +427,7 @@ struct CouplingConfig {
   bool angmom = true;
   Chosen<DragSlip> slip = DragSlip::mean;      ///< that drag follows
   Chosen<DragLaw> drag = DragLaw::di_felice;
+  DragTable table;                             ///< of law = table
   Chosen<DragIntegrator> integrator = DragIntegrator::exponential;
   bool operator==(const CouplingConfig&) const = default;
 };

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bedload/case/config.hpp"
+#include "bedload/case/section.hpp"
 
 namespace bedload {
 
@@ -21,6 +22,10 @@ Config read_case(const std::filesystem::path& path, const std::vector<std::strin
 /// The same from text; `name` stands for the file in messages.
 Config read_case_text(const std::string& text, const std::string& name,
                       const std::vector<std::string>& overrides, std::vector<std::string>& warnings,
+                      const std::filesystem::path& checkpoint = {});
+
+/// The same from a tree, which remembers where each of its values was given.
+Config read_case_tree(Value root, const std::string& name, std::vector<std::string>& warnings,
                       const std::filesystem::path& checkpoint = {});
 
 /// Where a case says `key`: "dam.toml:14" or "--set key=value"; the file alone if it does not. For errors

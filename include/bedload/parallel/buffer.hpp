@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -105,14 +106,15 @@ class Buffer {
     swap(o);
     return *this;
   }
-  ~Buffer() { device_free(data_, capacity_ * sizeof(T)); }
 
   /// New length; contents are lost when it must grow. Grown memory is zero.
   void resize(std::size_t n) {
     if (n > capacity_) {
-      device_free(data_, capacity_ * sizeof(T));
+      memory_.reset();
       data_ = nullptr, capacity_ = 0;
-      data_ = static_cast<T*>(device_allocate(n * sizeof(T)));
+      const std::size_t bytes = n * sizeof(T);
+      memory_ = {device_allocate(bytes), [bytes](void* p) { device_free(p, bytes); }};
+      data_ = static_cast<T*>(memory_.get());
       capacity_ = n;
       fill_zero(data_, n * sizeof(T));
     }
@@ -145,18 +147,22 @@ class Buffer {
     return host;
   }
   void swap(Buffer& o) noexcept {
+    memory_.swap(o.memory_);
     std::swap(data_, o.data_), std::swap(size_, o.size_), std::swap(capacity_, o.capacity_);
   }
 
   T* data() { return data_; }
   const T* data() const { return data_; }
   std::size_t size() const { return size_; }
+  /// Keeps the memory, whatever the buffer does, for who looks at it from outside.
+  std::shared_ptr<const void> memory() const { return memory_; }
   Span<T> span() { return {data_, Index(size_)}; }
   Span<const T> span() const { return {data_, Index(size_)}; }
   operator Span<T>() { return span(); }
   operator Span<const T>() const { return span(); }
 
  private:
+  std::shared_ptr<void> memory_;
   T* data_ = nullptr;
   std::size_t size_ = 0, capacity_ = 0;
 };

@@ -112,6 +112,7 @@ class Field final : public FieldBase {
   Buffer<T>& buffer() { return data_; }
   /// The values of another field of as many entries.
   void copy(const Field& from) { copy_on_device(data_.data(), from.data_.data(), data_.size() * sizeof(T)); }
+  const Buffer<T>& buffer() const { return data_; }
   void assign(const std::vector<T>& host) {
     if (used()) data_.assign(host);
   }

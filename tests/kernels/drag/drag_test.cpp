@@ -9,6 +9,7 @@
 
 #include "bedload/parallel/loops.hpp"
 #include "kernels/drag/registry.hpp"
+#include "src/coupling/drag_table.hpp"
 #include "tests/support/tolerance.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -125,6 +126,50 @@ TEST(DragLaws, SmallGrainsInWaterFallAtTheKnownSpeeds) {
 TEST(DragLaws, ALargeGrainFallsInTheNewtonRegime) {
   // d = 0.1 m, density ratio 2.7, mu = 0.01 Pa s: Re = 2.2e4, C_D = 0.44
   EXPECT_NEAR(terminal_speed("schiller_naumann", 0.1, 2700, 1000, 0.01), 2.248, 2.248e-3);
+}
+
+/// Drag over Stokes drag of a law at a porosity and a Reynolds number.
+double factor(const std::string& law, double eps, double Re) {
+  return evaluate(law, eps, 1, 1, 1, Re / eps) / (3 * M_PI);
+}
+
+TEST(SmallDragLaws, ATableIsTheLawThatItWasMadeOf) {
+  DragTable table;
+  for (int k = 0; k <= 15; ++k) table.porosity.push_back(0.25 + 0.05 * k);
+  table.reynolds.push_back(0);
+  for (int k = 0; k <= 64; ++k) table.reynolds.push_back(1e-3 * std::pow(10, k / 8.0));
+  for (const double eps : table.porosity)
+    for (const double Re : table.reynolds) table.factor.push_back(factor("di_felice", eps, Re));
+  const TableOfDrag made(table);
+
+  std::vector<Flow> flows;
+  for (const double eps : {0.2, 0.4, 0.4321, 0.98, 1.0})
+    for (const double Re : {0.0, 0.03, 1.0, 77.0, 5.4e4, 1e6})
+      flows.push_back({Real(eps), 1, 1, 1, Real(Re / eps)});
+  Buffer<Flow> in;
+  in.assign(flows);
+  Buffer<Real> K(flows.size());
+  for_each({0, Index(flows.size())}, EvaluatePass<Tabulated>{made.on_device(), in, K});
+  const auto found = K.to_host();
+  for (std::size_t i = 0; i < flows.size(); ++i) {
+    const Flow& f = flows[i];
+    const double eps = std::max(double(f.eps), 0.25), Re = f.eps * f.w;  // its first porosity stands below it
+    const double expected = 3 * M_PI * factor("di_felice", eps, Re);
+    const double bound =
+        Re > 1e5 ? 0.03 : 0.006;  // the power that goes on is not yet that far from creeping flow
+    EXPECT_NEAR(found[i], expected, bound * expected) << "eps " << f.eps << " Re " << Re;
+    EXPECT_NEAR(made.on_host().K(f.eps, f.d, f.rho, f.mu, f.w), found[i], 1e-4 * expected);
+  }
+}
+
+TEST(SmallDragLaws, ATableOfOneRowHoldsAtAnyPorosity) {
+  const TableOfDrag table(DragTable{{0.5}, {0, 9}, {2, 20}});
+  const Tabulated law = table.on_host();
+  const double stokes = 3 * M_PI;
+  EXPECT_NEAR(law.K(1, 1, 1, 1, 0), 2 * stokes, 1e-4);
+  EXPECT_NEAR(law.K(Real(0.4), 1, 1, 1, Real(9 / 0.4)), 20 * stokes, 1e-3);
+  EXPECT_NEAR(law.K(1, 1, 1, 1, 99), 200 * stokes,
+              1e-2);  // 1 + Re ten times, so the factor ten times, once more
 }
 
 TEST(DragLaws, AnUnknownNameIsAnErrorThatListsTheLaws) {

@@ -1,0 +1,69 @@
+// Dispatches commands. Errors become one sentence and an exit code.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+
+#include "bedload/case/read.hpp"
+#include "bedload/core/error.hpp"
+#include "commands.hpp"
+#include "list.hpp"
+#include "stop.hpp"
+
+namespace bedload {
+namespace {
+
+int dispatch(const Options& options) {
+  try {
+    if (options.command == "run") return run_case(options);
+    if (options.command == "viscometer") return viscometer(options);
+    if (options.command == "check") return check_case(options);
+    if (options.command == "bench") return bench(options);
+  } catch (const KeyError& error) {
+    throw CaseError(place_in_case(options.file, options.overrides, error.key) + ": " + error.what());
+  }
+  if (options.command == "info") return show_file(options.file);
+  if (options.command == "list")
+    fmt::print("{}", options.json ? list_json(options.family) : list_text(options.family));
+  else
+    fmt::print("{}", options.text);
+  return 0;
+}
+
+int complain(const std::exception& error, int code) {
+  fmt::print(stderr, "{}\n", error.what());
+  return code;
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) {
+  try {
+    return dispatch(parse_options(argc, argv));
+  } catch (const SimulationFault& error) {
+    return complain(error, kExitFault);
+  } catch (const CaseError& error) {
+    return complain(error, kExitBadInput);
+  } catch (const FileError& error) {
+    return complain(error, kExitBadInput);
+  } catch (const DeviceError& error) {
+    return complain(error, kExitBadInput);
+  } catch (const Stopped&) {
+    fmt::print("stopped before t = 0; there is nothing to continue from\n");
+    return kExitStopped;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "out of memory; `bedload check` tells how much a case needs\n");
+    return kExitBadInput;
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::string path = error.path1().string();
+    fmt::print(stderr, "{}: {}\n", path.empty() ? "working directory" : path, error.code().message());
+    return kExitBadInput;
+  } catch (const std::system_error& error) {  // such as a standard output that takes no more
+    std::fputs((std::string(error.what()) + "\n").c_str(), stderr);
+    return kExitBadInput;
+  }
+}
+
+}  // namespace bedload

@@ -1,0 +1,239 @@
+"""Quantities that follow from places, velocities and sizes of particles: maps, mixing, outline of a bed, power, time of
+residence, contacts. Arrays come from frames (`run.grains.position(k)`) or from a simulation (`s.grains.position`).
+
+SI units; positions [n, 3].
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Sequence
+
+import numpy as np
+
+_SAMPLES = 8  # points along the diameter by which a sphere is spread over cells
+
+
+@dataclass
+class Grid:
+    """Cells over a box: `Grid.over(low, high, cell)`."""
+
+    low: np.ndarray  #: lower corner, m
+    cell: np.ndarray  #: sides of a cell, m
+    shape: tuple[int, int, int]
+
+    @classmethod
+    def over(cls, low: Sequence[float], high: Sequence[float], cell: float | Sequence[float]) -> Grid:
+        """Cells of about side `cell` (m, one number or three) that fill the box from `low` to `high`."""
+        low, high = np.asarray(low, float), np.asarray(high, float)
+        if not np.all(high > low):
+            raise ValueError(f"high = {high.tolist()} must exceed low = {low.tolist()} on every axis")
+        counts = np.maximum(1, np.round((high - low) / np.broadcast_to(cell, 3))).astype(int)
+        return cls(low, (high - low) / counts, tuple(int(n) for n in counts))
+
+    @property
+    def volume(self) -> float:
+        """Of a cell, m3."""
+        return float(np.prod(self.cell))
+
+    def centres(self, axis: int) -> np.ndarray:
+        """Of the cells along an axis, m."""
+        return self.low[axis] + (np.arange(self.shape[axis]) + 0.5) * self.cell[axis]
+
+    def edges(self, axis: int) -> np.ndarray:
+        """Between the cells along an axis, m."""
+        return self.low[axis] + np.arange(self.shape[axis] + 1) * self.cell[axis]
+
+    def index(self, x: np.ndarray) -> np.ndarray:
+        """Number of the cell of each place, in C order; -1 outside."""
+        at = np.floor((np.asarray(x, float) - self.low) / self.cell).astype(int)
+        inside = np.all((at >= 0) & (at < self.shape), axis=-1)
+        return np.where(inside, np.ravel_multi_index(np.moveaxis(np.where(inside[..., None], at, 0), -1, 0), self.shape), -1)
+
+    def sum(self, x: np.ndarray, weight: np.ndarray) -> np.ndarray:
+        """Sums of `weight` over the cells, [nx, ny, nz]; what is outside does not count."""
+        at = self.index(x).ravel()
+        inside = at >= 0
+        weight = np.broadcast_to(weight, np.shape(x)[:-1]).ravel()
+        return np.bincount(at[inside], weight[inside], int(np.prod(self.shape))).reshape(self.shape)
+
+
+def solid_fraction_map(grid: Grid, x: np.ndarray, radius: np.ndarray) -> np.ndarray:
+    """Fraction of each cell that grains fill, [nx, ny, nz]: spheres are spread over cells, which keeps their volume."""
+    x, radius = np.asarray(x, float), np.broadcast_to(np.asarray(radius, float), len(x))
+    line = (np.arange(_SAMPLES) + 0.5) / _SAMPLES * 2 - 1
+    points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
+    points = points[np.sum(points**2, axis=1) < 1]
+    weight = 4 / 3 * np.pi * radius**3 / len(points)
+    filled = np.zeros(grid.shape)
+    for point in points:
+        filled += grid.sum(x + radius[:, None] * point, weight)
+    return filled / grid.volume
+
+
+def porosity_map(grid: Grid, x: np.ndarray, radius: np.ndarray) -> np.ndarray:
+    """1 less `solid_fraction_map`."""
+    return 1 - solid_fraction_map(grid, x, radius)
+
+
+def mean_map(grid: Grid, x: np.ndarray, value: np.ndarray, weight: np.ndarray | float = 1.0) -> np.ndarray:
+    """Weighted mean of a value [n] or [n, 3] of the particles in each cell; NaN where there are none.
+
+    With velocities, and masses as weights, it is the velocity map.
+    """
+    value = np.asarray(value, float)
+    columns = value.reshape(len(value), -1)
+    weight = np.broadcast_to(np.asarray(weight, float), len(value))
+    total = grid.sum(x, weight)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        means = np.stack([grid.sum(x, weight * column) / total for column in columns.T], axis=-1)
+    return means[..., 0] if value.ndim == 1 else means
+
+
+def lacey_index(grid: Grid, x: np.ndarray, kind: np.ndarray, least: int = 5) -> float:
+    """How well two kinds of grains are mixed: 0 apart, 1 as if at random [lacey54].
+
+    kind: True or 1 for one kind. Cells are the samples; those of fewer than `least` grains do not count, the others by
+    their number of grains. (S0^2 - S^2) / (S0^2 - Sr^2), with S0^2 = p (1 - p) apart and Sr^2 = S0^2 / n at random.
+    """
+    kind = np.asarray(kind, float)
+    number, of_kind = grid.sum(x, 1.0).ravel(), grid.sum(x, kind).ravel()
+    used = number >= least
+    if not used.any():
+        raise ValueError(f"no cell holds {least} grains; take larger cells")
+    n, p = number[used], of_kind[used].sum() / number[used].sum()
+    apart = p * (1 - p)
+    if apart == 0:
+        raise ValueError("all grains are of one kind")
+    variance = np.average((of_kind[used] / n - p) ** 2, weights=n)
+    at_random = apart * np.average(1 / n, weights=n)
+    return float((apart - variance) / (apart - at_random))
+
+
+def segregation_intensity(grid: Grid, x: np.ndarray, value: np.ndarray, weight: np.ndarray | float = 1.0) -> float:
+    """Intensity of segregation [danckwerts52]: variance of the cells' means over that of the particles; 1 apart.
+
+    value: of each particle, such as its radius, or 1 and 0 for two kinds.
+    """
+    value, weight = np.asarray(value, float), np.broadcast_to(np.asarray(weight, float), len(value))
+    inside = grid.index(x) >= 0
+    x, value, weight = np.asarray(x)[inside], value[inside], weight[inside]
+    mean = np.average(value, weights=weight)
+    variance = np.average((value - mean) ** 2, weights=weight)
+    if variance == 0:
+        raise ValueError("all particles have the same value")
+    total, means = grid.sum(x, weight), mean_map(grid, x, value, weight)
+    filled = total > 0
+    return float(np.average((means[filled] - mean) ** 2, weights=total[filled]) / variance)
+
+
+def bed_surface(grid: Grid, fraction: np.ndarray, up: int = 2, filled: float = 0.3) -> np.ndarray:
+    """Height of the bed over the other two axes, m: top of the highest cell whose solid fraction exceeds `filled`.
+
+    fraction: of `solid_fraction_map`. NaN where there is no bed.
+    """
+    bed = np.moveaxis(fraction > filled, up, -1)
+    top = bed.shape[-1] - 1 - np.argmax(bed[..., ::-1], axis=-1)
+    return np.where(bed.any(axis=-1), grid.low[up] + (top + 1) * grid.cell[up], np.nan)
+
+
+def bed_outline(x: np.ndarray, radius: np.ndarray, along: int, up: int, cell: float) -> np.ndarray:
+    """Outline of the bed as seen from the side: [m, 2] of place along an axis and highest point of any grain there, m."""
+    x, radius = np.asarray(x, float), np.broadcast_to(np.asarray(radius, float), len(x))
+    low, high = (x[:, along] - radius).min(), (x[:, along] + radius).max()
+    place = np.arange(low + cell / 2, high, cell)
+    top = np.full(len(place), -np.inf)
+    first = np.maximum(np.ceil((x[:, along] - radius - place[0]) / cell).astype(int), 0)
+    last = np.minimum(np.floor((x[:, along] + radius - place[0]) / cell).astype(int), len(place) - 1)
+    for step in range(int((last - first).max()) + 1):
+        k = first + step
+        own = k <= last
+        away = place[k[own]] - x[own, along]
+        height = x[own, up] + np.sqrt(np.maximum(radius[own] ** 2 - away**2, 0))
+        np.maximum.at(top, k[own], height)
+    there = np.isfinite(top)
+    return np.stack([place[there], top[there]], axis=1)
+
+
+def surface_slope(outline: np.ndarray) -> float:
+    """Angle of the straight line through an outline, by least squares, degrees."""
+    return float(np.degrees(np.arctan(np.polyfit(outline[:, 0], outline[:, 1], 1)[0])))
+
+
+def contact_pairs(x: np.ndarray, radius: np.ndarray, gap: float = 0.0,
+                  period: Sequence[float] | None = None) -> np.ndarray:
+    """Pairs [m, 2] of grains whose surfaces are no farther apart than `gap`, m, each once.
+
+    period: length of the domain along each axis, m; 0 where it is not periodic.
+    """
+    x, radius = np.asarray(x, float), np.broadcast_to(np.asarray(radius, float), len(x))
+    if len(x) < 2:
+        return np.zeros((0, 2), int)
+    period = np.zeros(3) if period is None else np.asarray(period, float)
+    reach = 2 * radius.max() + gap
+    low = x.min(axis=0)
+    length = np.where(period > 0, period, x.max(axis=0) - low + 1e-9 * reach)
+    cells = np.maximum(1, np.floor(length / reach)).astype(int)
+    at = np.floor((x - low) / length * cells).astype(int) % cells
+    key = np.ravel_multi_index(at.T, cells)
+    order = np.argsort(key, kind="stable")
+    begins = np.searchsorted(key[order], np.arange(np.prod(cells) + 1))
+    found = []
+    for shift in np.ndindex(3, 3, 3):
+        to = at + np.array(shift) - 1
+        valid = np.all(((to >= 0) & (to < cells)) | (period > 0), axis=1)
+        other = np.where(valid, np.ravel_multi_index((to % cells).T, cells), 0)
+        first, count = begins[other], np.where(valid, begins[other + 1] - begins[other], 0)
+        i = np.repeat(np.arange(len(x)), count)
+        j = order[np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count) + np.repeat(first, count)]
+        i, j = i[i < j], j[i < j]
+        apart = x[i] - x[j]
+        apart -= np.where(period > 0, period, 0) * np.round(apart / np.where(period > 0, period, 1))
+        touch = np.sum(apart**2, axis=1) <= (radius[i] + radius[j] + gap) ** 2
+        found.append(np.stack([i[touch], j[touch]], axis=1))
+    return np.unique(np.concatenate(found), axis=0)  # with few cells a neighbour is met by several ways
+
+
+def coordination(x: np.ndarray, radius: np.ndarray, gap: float = 0.0,
+                 period: Sequence[float] | None = None) -> np.ndarray:
+    """Grains that each grain touches, [n]; as `contact_pairs`."""
+    return np.bincount(contact_pairs(x, radius, gap, period).ravel(), minlength=len(x))
+
+
+def residence_times(frames: Any) -> tuple[np.ndarray, np.ndarray]:
+    """How long particles were there, s: those that came after the first frame and left before the last, and of those
+    that are there still, so far. To within the time between frames."""
+    first: dict[int, float] = {}
+    last: dict[int, float] = {}
+    for k, time in enumerate(frames.times):
+        for name in frames.read(k, "id").tolist():
+            first.setdefault(name, float(time))
+            last[name] = float(time)
+    begin, end = float(frames.times[0]), float(frames.times[-1])
+    came = [name for name, time in first.items() if time > begin]
+    gone = np.array([last[name] - first[name] for name in came if last[name] < end])
+    here = np.array([end - first[name] for name in came if last[name] == end])
+    return gone, here
+
+
+def angular_velocity(x: np.ndarray, v: np.ndarray) -> np.ndarray:
+    """Of a rigid body whose particles are at x and move with v, by least squares, rad/s, [3]."""
+    x, v = np.asarray(x, float), np.asarray(v, float)
+    x, v = x - x.mean(axis=0), v - v.mean(axis=0)
+    inertia = np.sum(x**2) * np.eye(3) - x.T @ x
+    return np.linalg.lstsq(inertia, np.sum(np.cross(x, v), axis=0), rcond=None)[0]
+
+
+def mean_power(table: Any, column: str = "power_by_fluid", start: float = 0.0) -> float:
+    """Mean over time, from `start` (s) on, of a power in a table of a body, W, by trapezes."""
+    time, power = table.column("time"), table.column(column)
+    used = time >= start
+    if used.sum() < 2:
+        raise ValueError(f"{table.path}: ends at {time[-1]:g} s; fewer than two rows from {start:g} s on")
+    time, power = time[used], power[used]
+    return float(np.sum(np.diff(time) * (power[1:] + power[:-1]) / 2) / (time[-1] - time[0]))
+
+
+def power_number(power: float, density: float, turns: float, diameter: float) -> float:
+    """P / (rho N^3 D^5) of an impeller: W, kg/m3, 1/s, m."""
+    return power / (density * turns**3 * diameter**5)

@@ -1,0 +1,252 @@
+"""Runs in this process, step by step."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, Callable, Iterator
+
+import numpy as np
+
+from ._module import module
+from .case import Case
+from .errors import CaseError, SimulationFault
+
+
+class DeviceArray:
+    """An array in the memory of a GPU, for CuPy, PyTorch, Numba: `cupy.asarray(a)`, `torch.from_dlpack(a)`.
+
+    Not to be written to. As arrays of the CPU it is right until the next step.
+    """
+
+    def __init__(self, window: tuple):
+        self._exporter, pointer, shape, strides, kind = window
+        self.shape: tuple[int, ...] = shape
+        self.dtype = np.dtype(kind)
+        self.__cuda_array_interface__ = {"shape": shape, "typestr": kind, "data": (pointer, True), "strides": strides,
+                                         "stream": 1, "version": 3}
+
+    def __dlpack__(self, **options: Any) -> Any:
+        return self._exporter.__dlpack__(**options)
+
+    def __dlpack_device__(self) -> tuple[int, int]:
+        return self._exporter.__dlpack_device__()
+
+    def __len__(self) -> int:
+        return self.shape[0]
+
+    def __repr__(self) -> str:
+        return f"<DeviceArray of {self.dtype}, {self.shape}>"
+
+
+class Particles:
+    """Fluid, grains or walls of a simulation, in the solver's own order: `simulation.fluid.velocity`.
+
+    Arrays are read-only windows on the solver's memory, without a copy, and right until the next step: ask anew after
+    it, or `.copy()` what is to be kept. (An older array stays valid memory, but holds what the solver left there.)
+    `fluid.pressure` is computed, so a copy, and in single precision so is `fluid.position`. Where neighbour lists were
+    renewed (`Step.rebuilt`) particles have another order, and may be more or fewer; `id` tells who is who.
+    """
+
+    def __init__(self, run: Any, store: str):
+        self._run, self._store = run, store
+
+    def __len__(self) -> int:
+        fluid, walls, grains = self._run.counts
+        return {"fluid": fluid, "walls": walls, "grains": grains}[self._store]
+
+    def names(self) -> list[str]:
+        """Of all arrays."""
+        return sorted(self._run.fields(self._store).keys() | self._run.snapshot(self._store).keys())
+
+    def unit(self, name: str) -> str:
+        """Of an array: "m/s"; "-" for a pure number."""
+        return self._find(name)[1]
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        array = self._find(name)[0]
+        return DeviceArray(array) if isinstance(array, tuple) else array
+
+    def __getitem__(self, name: str) -> Any:
+        return getattr(self, name)
+
+    def copy(self, name: str) -> np.ndarray:
+        """An array in host memory that stays as it is now; from a GPU, too."""
+        copied = self._run.snapshot(self._store)
+        return copied[name][0] if name in copied else np.array(getattr(self, name))
+
+    def by_id(self, name: str) -> np.ndarray:
+        """A copy of an array in the order of the particles' ids, which stays the same while none comes or goes."""
+        return self.copy(name)[np.argsort(self.copy("id"))]
+
+    def __dir__(self):
+        return [*object.__dir__(self), *self.names()]
+
+    def __repr__(self) -> str:
+        return f"<{self._store}: {len(self)} particles; {', '.join(self.names())}>"
+
+    def _find(self, name: str) -> tuple[Any, str]:
+        for arrays in (self._run.fields, self._run.snapshot):
+            found = arrays(self._store)
+            if name in found:
+                return found[name]
+        raise AttributeError(f"{self._store} has no array '{name}', only {', '.join(self.names())}")
+
+
+class Simulation:
+    """A run in this process.
+
+    case: a Case or the name of a file. out: folder of results, as `bedload run --out`; without one nothing is written.
+    restart: a checkpoint to go on from, or "latest" of `out`. backend: "cpu", "cuda" or "auto". threads: 0 for all.
+    overwrite: replaces a run that `out` holds. allow_changes: goes on from a checkpoint of a case that computes
+    otherwise. Grains that are to settle do so here. Raises CaseError, FileError, DeviceError, SimulationFault.
+
+    Use it in a `with` block, or call `close()`: that writes the last frame, checkpoint and summary.json. Several
+    simulations may be there at once; one at a time computes.
+    """
+
+    def __init__(self, case: Case | str | Path, out: str | Path | None = None, *, restart: str | Path | None = None,
+                 backend: str = "auto", threads: int = 0, overwrite: bool = False, allow_changes: bool = False):
+        self.case = case if isinstance(case, Case) else Case(case)
+        self.out = None if out is None else Path(out)
+        if restart == "latest":
+            if self.out is None:
+                raise CaseError("restart = \"latest\" goes on from the newest checkpoint of `out`, which is not given")
+            restart = module().latest_checkpoint(self.out)
+        read = self.case._read(restart or "")
+        self._run = module().Run(read, self.out or "", restart or "", backend, threads, overwrite, allow_changes)
+        self._begun = self._ended = False
+        self.fluid = Particles(self._run, "fluid")
+        self.grains = Particles(self._run, "grains")
+        self.walls = Particles(self._run, "walls")
+
+    # -- going on --------------------------------------------------------------------------------
+
+    def step(self):
+        """One step; returns what it did. Results that fall due are written."""
+        if self._ended:
+            raise CaseError("this simulation is closed")
+        try:
+            self._begin()
+            return self._run.step()
+        except SimulationFault:
+            self._finish("failed")
+            raise
+
+    def steps(self, until: float | None = None) -> Iterator[Any]:
+        """Steps one by one until a time, s; without one to the case's time.end."""
+        end = self.end if until is None else until
+        self._begin()
+        while self.time < end:
+            yield self.step()
+
+    def run(self, until: float | None = None, *, every: float | None = None,
+            call: Callable[[Simulation], Any] | None = None) -> None:
+        """Runs until a time, s; without one to the case's time.end.
+
+        Calls `call(self)` after each step, or with `every` (s) at the start and at the first step end at or after each
+        multiple of it. Stops where it returns False.
+        """
+        def multiple() -> int:
+            return int(np.floor(self.time / every + 1e-9))
+
+        if every is not None and not every > 0:
+            raise CaseError(f"every = {every} must be > 0")
+        told = -1 if every is None else multiple() - 1
+        if call and every is not None:
+            told = multiple()
+            if call(self) is False:
+                return
+        for _ in self.steps(until):
+            if call is None or (every is not None and multiple() <= told):
+                continue
+            told = told if every is None else multiple()
+            if call(self) is False:
+                return
+
+    def checkpoint(self) -> Path:
+        """Saves the state in the results folder now; returns the file."""
+        self._begin()
+        return self._run.checkpoint()
+
+    def close(self) -> None:
+        """Ends the results: last frame, checkpoint, summary.json. Arrays can still be looked at."""
+        if not self._ended:
+            self._begin()
+            self._finish("completed" if self.time >= self.end else "stopped")
+
+    def __enter__(self) -> Simulation:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        self.close()
+
+    # -- looking at it ---------------------------------------------------------------------------
+
+    @property
+    def time(self) -> float:
+        """s."""
+        return self._run.time
+
+    @property
+    def end(self) -> float:
+        """The case's time.end, s."""
+        return self._run.end
+
+    @property
+    def step_count(self) -> int:
+        """Steps done."""
+        return self._run.steps
+
+    @property
+    def warnings(self) -> list[str]:
+        """A sentence each."""
+        return self._run.warnings
+
+    @property
+    def memory(self) -> int:
+        """Bytes that the solver holds."""
+        return self._run.bytes
+
+    def diagnostics(self) -> dict[str, float]:
+        """Masses, momenta, energies, extremes, counters, as in diagnostics.csv, in SI units."""
+        return _values(self._run.diagnostics())
+
+    def probe(self, name: str) -> dict[str, float]:
+        """What a probe of the case reads now, in SI units."""
+        return _values(self._run.measure(name))
+
+    def body(self, name: str) -> dict[str, float]:
+        """Place, velocity, forces and their power of a wall body, in SI units."""
+        return _values(self._run.body(name))
+
+    def units(self) -> dict[str, str]:
+        """Of the diagnostics."""
+        return {name: unit for name, (_, unit) in self._run.diagnostics().items()}
+
+    def step_limits(self) -> dict[str, float]:
+        """What limits the next step, s."""
+        return _values(self._run.limits())
+
+    def time_spent(self) -> dict[str, float]:
+        """Wall time of the parts of all steps, s."""
+        return _values(self._run.time_spent())
+
+    def __repr__(self) -> str:
+        fluid, walls, grains = self._run.counts
+        return (f"<Simulation at t = {self.time:.6g} s of {self.end:.6g} s: {fluid} fluid, {walls} wall particles, "
+                f"{grains} grains>")
+
+    def _begin(self) -> None:
+        if not self._begun:
+            self._begun = True
+            self._run.begin()
+
+    def _finish(self, status: str) -> None:
+        self._ended = True
+        self._run.finish(status)
+
+
+def _values(found: dict[str, tuple[float, Any]]) -> dict[str, float]:
+    return {name: value for name, (value, _) in found.items()}
