@@ -12,7 +12,7 @@ class Cases(unittest.TestCase):
     def test_errors_are_the_programs_sentences(self):
         wrong = [("dx = 0.01", "dx = -0.01"), ("dx = 0.01", "dy = 0.01"), ("[time]\nend = 0.02", "[time]"),
                  ("max = [0.05, 0.1, 0.08]", "max = [0.05, 0.1, 0.08"), ('direction = "x+"', 'direction = "w"'),
-                 ("[time]", "[drag]\nlaw = \"table\"\nporosity = [0.5, 0.4]\nreynolds = [0, 1]\nfactor = [1, 1, 1, 1]\n[time]"),
+                 ("[domain]", 'drag = {law = "table", porosity = [0.5, 0.4], reynolds = [0, 1], factor = [1, 1]}\n[domain]'),
                  ("max = [0.05, 0.1, 0.08]", "max = [0.05, 0.1, 0.3]"), ("end = 0.02", "end = 0.02\ndt = 0.01")]
         for old, new in wrong:
             with self.subTest(new=new), folder() as place:
@@ -31,7 +31,8 @@ class Cases(unittest.TestCase):
             case.check()
         case.fluid.dx = 0.01
         case.fluid.fill[0].max = (0.05, 0.1)
-        with self.assertRaisesRegex(bedload.CaseError, r"^case_test\.py:\d+: fluid\.fill\.max = \[0\.05, 0\.1\] must be three"):
+        told = r"^case_test\.py:\d+: fluid\.fill\.max = \[0\.05, 0\.1\] must be three"
+        with self.assertRaisesRegex(bedload.CaseError, told):
             case.check()
 
     def test_a_case_from_nothing_is_that_of_its_file(self):

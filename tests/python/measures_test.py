@@ -3,8 +3,8 @@
 import unittest
 
 import numpy as np
-from bedload.measures import (Grid, angular_velocity, bed_outline, bed_surface, contact_pairs, coordination, lacey_index,
-                              mean_map, mean_power, porosity_map, power_number, segregation_intensity,
+from bedload.measures import (Grid, angular_velocity, bed_outline, bed_surface, contact_pairs, coordination,
+                              lacey_index, mean_map, mean_power, porosity_map, power_number, segregation_intensity,
                               solid_fraction_map, surface_slope)
 
 

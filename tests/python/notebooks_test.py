@@ -17,7 +17,8 @@ class Notebooks(unittest.TestCase):
             with self.subTest(notebook=path.name), folder() as place:
                 notebook = nbformat.read(path, as_version=4)
                 self.assertFalse(any(cell.get("outputs") for cell in notebook.cells), "outputs are not kept")
-                NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": place}}).execute()
+                where = {"metadata": {"path": place}}
+                NotebookClient(notebook, timeout=300, kernel_name="python3", resources=where).execute()
                 last = notebook.cells[-1].source
                 self.assertIn("assert", last)
                 self.assertTrue((Path(place) / "results").is_dir())

@@ -23,8 +23,9 @@ class Simulations(unittest.TestCase):
             mine, its = (bedload.open_run(place / name) for name in ("here", "program"))
             self.assertEqual(mine.status, "completed")
             for store in ("fluid", "grains", "walls"):
-                for name in ("position", *getattr(its, store).fields()):
-                    np.testing.assert_array_equal(getattr(mine, store).read(-1, name), getattr(its, store).read(-1, name))
+                here, there = getattr(mine, store), getattr(its, store)
+                for name in ("position", *there.fields()):
+                    np.testing.assert_array_equal(here.read(-1, name), there.read(-1, name))
             with self.assertRaisesRegex(bedload.FileError, "holds a run already"):
                 bedload.Simulation(path, place / "here")
 
@@ -44,7 +45,8 @@ class Simulations(unittest.TestCase):
                 np.testing.assert_array_equal(rest.fluid.by_id("velocity"), whole.fluid.by_id("velocity"))
             self.assertEqual(tables(place / "whole"), tables(place / "halves"))
             with self.assertRaisesRegex(bedload.CaseError, "computes otherwise"):
-                bedload.Simulation(bedload.Case(path).with_values({"fluid.mu": 0.002}), place / "halves", restart="latest")
+                other = bedload.Case(path).with_values({"fluid.mu": 0.002})
+                bedload.Simulation(other, place / "halves", restart="latest")
 
     def test_arrays_are_windows_on_the_solvers_memory(self):
         tank = bedload.Simulation(bedload.Case.from_toml(TANK), threads=1)
@@ -62,7 +64,8 @@ class Simulations(unittest.TestCase):
                     self.assertNotEqual(particles.unit(name), "")
                     if name != "pressure":
                         self.assertFalse(window.flags.writeable)
-                        self.assertEqual(window.__array_interface__["data"], particles[name].__array_interface__["data"])
+                        again = particles[name].__array_interface__
+                        self.assertEqual(window.__array_interface__["data"], again["data"])
                         self.assertFalse(np.shares_memory(window, copy))
         self.assertEqual(tank.fluid.velocity.strides, (16, 4))
         self.assertEqual(tank.grains.position.dtype, np.float64)

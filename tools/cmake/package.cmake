@@ -49,6 +49,7 @@ install(FILES ${CMAKE_BINARY_DIR}/bedload-config.cmake ${CMAKE_BINARY_DIR}/bedlo
 
 # `cpack`: a .deb that takes libraries from the system, a tarball that brings its own.
 set(CPACK_GENERATOR DEB TGZ)
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # packages need no tests
 set(CPACK_PACKAGE_NAME bedload)
 set(CPACK_PACKAGE_CONTACT "The Bedload developers")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Grains in free-surface flow: SPH and DEM, coupled both ways")

@@ -51,6 +51,13 @@ if(BEDLOAD_PYTHON)
   endforeach()
 endif()
 
+# What is installed and packed.
+if(BEDLOAD_PYTHON AND "mixed" IN_LIST BEDLOAD_PRECISIONS AND NOT BEDLOAD_SANITIZE AND NOT BEDLOAD_COVERAGE)
+  add_test(NAME package
+           COMMAND ${BEDLOAD_PYTHON} ${CMAKE_SOURCE_DIR}/tests/package/package_test.py ${CMAKE_BINARY_DIR})
+  set_tests_properties(package PROPERTIES LABELS slow TIMEOUT 600)
+endif()
+
 # Small cases as a user runs them, against what they should come to.
 if(BEDLOAD_PYTHON AND "mixed" IN_LIST BEDLOAD_PRECISIONS)
   foreach(case still_bed/case:expect hindered_settling/sand_080:expect_sand_080 sphere_settling/water:expect_water

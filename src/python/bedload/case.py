@@ -221,7 +221,8 @@ def _taken(value: Any, path: str, place: tuple[str, int]) -> Any:
         for name, member in value.items():
             section._put(name, member, place)
         return section
-    if isinstance(value, Items) or (isinstance(value, (list, tuple)) and value and isinstance(value[0], (dict, Section))):
+    tables = isinstance(value, (list, tuple)) and value and isinstance(value[0], (dict, Section))
+    if isinstance(value, Items) or tables:
         return Items(path, list(value), place)
     return _plain(value)
 

@@ -48,7 +48,8 @@ class Grid:
         """Number of the cell of each place, in C order; -1 outside."""
         at = np.floor((np.asarray(x, float) - self.low) / self.cell).astype(int)
         inside = np.all((at >= 0) & (at < self.shape), axis=-1)
-        return np.where(inside, np.ravel_multi_index(np.moveaxis(np.where(inside[..., None], at, 0), -1, 0), self.shape), -1)
+        at = np.moveaxis(np.where(inside[..., None], at, 0), -1, 0)
+        return np.where(inside, np.ravel_multi_index(at, self.shape), -1)
 
     def sum(self, x: np.ndarray, weight: np.ndarray) -> np.ndarray:
         """Sums of `weight` over the cells, [nx, ny, nz]; what is outside does not count."""
@@ -138,7 +139,7 @@ def bed_surface(grid: Grid, fraction: np.ndarray, up: int = 2, filled: float = 0
 
 
 def bed_outline(x: np.ndarray, radius: np.ndarray, along: int, up: int, cell: float) -> np.ndarray:
-    """Outline of the bed as seen from the side: [m, 2] of place along an axis and highest point of any grain there, m."""
+    """Outline of the bed as seen from the side: [m, 2] of place along an axis and highest point of grains there, m."""
     x, radius = np.asarray(x, float), np.broadcast_to(np.asarray(radius, float), len(x))
     low, high = (x[:, along] - radius).min(), (x[:, along] + radius).max()
     place = np.arange(low + cell / 2, high, cell)

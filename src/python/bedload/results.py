@@ -20,7 +20,7 @@ from .errors import FileError
 
 
 class Frames:
-    """Frames of one store, e.g. RUN_DIR/fluid.vtkhdf: temporal PolyData of points. Arrays are read as they are asked for.
+    """Frames of one store, e.g. RUN_DIR/fluid.vtkhdf: temporal PolyData of points. Arrays are read when asked for.
 
     times: of the frames, s.
     """

@@ -1,5 +1,5 @@
-"""Many runs of one case, with other values of its keys: each in a process of its own, some at a time, gone on with after
-an interruption."""
+"""Many runs of one case, with other values of its keys: each in a process of its own, some at a time, gone on with
+after an interruption."""
 
 from __future__ import annotations
 
