@@ -23,7 +23,7 @@ class DeviceArray:
         self.shape: tuple[int, ...] = shape
         self.dtype = np.dtype(kind)
         self.__cuda_array_interface__ = {"shape": shape, "typestr": kind, "data": (pointer, True), "strides": strides,
-                                         "stream": 1, "version": 3}
+                                         "stream": None, "version": 3}  # the solver has been waited for
 
     def __dlpack__(self, **options: Any) -> Any:
         return self._exporter.__dlpack__(**options)
