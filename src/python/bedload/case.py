@@ -264,7 +264,7 @@ class Case(Section):
         elif source is not None:
             path = Path(source)
             try:
-                text = path.read_text()
+                text = path.read_text(encoding="utf-8")
             except (OSError, UnicodeDecodeError):
                 what = "is a folder, not a case file" if path.is_dir() else "cannot read this case file"
                 raise FileError(f"{path}: {what}") from None
@@ -299,7 +299,7 @@ class Case(Section):
 
     def write(self, path: str | Path) -> None:
         """Writes `to_toml()`."""
-        Path(path).write_text(self.to_toml())
+        Path(path).write_text(self.to_toml(), encoding="utf-8")
 
     def resolved(self) -> Case:
         """The case with every default filled in. Raises CaseError if it cannot be computed."""

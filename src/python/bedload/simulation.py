@@ -149,21 +149,18 @@ class Simulation:
         multiple of it. Stops where it returns False.
         """
         def multiple() -> int:
-            return int(np.floor(self.time / every + 1e-9))
+            return self.step_count if every is None else int(np.floor(self.time / every + 1e-9))
 
         if every is not None and not every > 0:
             raise CaseError(f"every = {every} must be > 0")
-        told = -1 if every is None else multiple() - 1
-        if call and every is not None:
-            told = multiple()
-            if call(self) is False:
-                return
+        told = multiple()
+        if call and every is not None and call(self) is False:
+            return
         for _ in self.steps(until):
-            if call is None or (every is not None and multiple() <= told):
-                continue
-            told = told if every is None else multiple()
-            if call(self) is False:
-                return
+            if call and multiple() > told:
+                told = multiple()
+                if call(self) is False:
+                    return
 
     def checkpoint(self) -> Path:
         """Saves the state in the results folder now; returns the file."""

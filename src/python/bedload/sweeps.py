@@ -155,17 +155,17 @@ def _name(values: dict[str, Any]) -> str:
 
 
 def _case_file(case: Any, out: Path) -> tuple[Path, str]:
-    """The file to run, and its text. A Case without one is written to `out`; beside its own file if it has changed."""
+    """The file to run, and its text. A Case is written to `out`, with the files that it names found from there."""
     if isinstance(case, (str, Path)):
         try:
-            return Path(case), Path(case).read_text()
+            return Path(case), Path(case).read_text(encoding="utf-8")
         except OSError:
             raise FileError(f"{case}: cannot read this case file") from None
     text = case.to_toml()
     own = Path(case._name)
     folder = own.parent if own.suffix == ".toml" else Path()
     file = out / "case.toml"
-    file.write_text(_with_absolute_files(case, folder.resolve()).to_toml())
+    file.write_text(_with_absolute_files(case, folder.resolve()).to_toml(), encoding="utf-8")
     return file, text
 
 
