@@ -1,6 +1,7 @@
 #pragma once
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/smoothing/half_space_fraction.hpp"
+#include "kernels/smoothing/lengths.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -87,8 +88,8 @@ struct NoShifting {
 /// the way adds up, and fluid that has entered a bed may stand more closely than its volume allows. So among
 /// grains density grows where particles overfill the kernel by more than `slack`.
 /// kSmooth: with density diffusion and all that follows the void; without, continuity alone. kPorous: there
-/// are grains.
-template <class W, class Shift, bool kSmooth, bool kPorous>
+/// are grains. Where smoothing lengths vary, the sum of continuity is taken at h_a and divided by Omega_a.
+template <class W, class Shift, bool kSmooth, bool kPorous, class Lengths>
 struct DensityPass {
   W w;
   Span<const Real4> flux, m_state, wall_v_rho, wall_m_state;
@@ -104,6 +105,7 @@ struct DensityPass {
   Real spreading;  ///< of density where particles overfill their volume [1/s]
   Shift shift;
   Span<Real3> drift;  ///< empty where nothing drifts
+  [[no_unique_address]] Lengths lengths;
 
   static constexpr Real slack = Real(0.02);  ///< twice what the sum over particles at rest scatters
 
@@ -113,45 +115,55 @@ struct DensityPass {
     N rho, eps, rate, diffused, filled;
     Vec3<N> gradient;
     [[no_unique_address]] typename Shift::template Sum<N> shift;
+    [[no_unique_address]] typename Lengths::template Own<N> own;
   };
   BL_HD Sum<> start(Index a) const {
     const Real4 m = m_state[a];
-    return {flux[a].xyz(), m.z, m.w, 0, 0, 0, {}, {}};
+    return {flux[a].xyz(), m.z, m.w, 0, 0, 0, {}, {}, lengths.template own<Real>(a)};
   }
 
   BL_HD auto sources() const {
     if constexpr (kSmooth && kPorous)
-      return sources_of(flux, m_state);
+      return lengths.sources(flux, m_state);
+    else if constexpr (kSmooth)
+      return lengths.sources(flux);
     else
       return sources_of(flux);
   }
-  template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb) const {
-    pair(sum, r, r2, M, qb, {});
+  /// more: state of b, if porous; h_b, if lengths vary.
+  template <class N, class... More>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb, const More&... more) const {
+    if constexpr (kSmooth && kPorous)
+      add(sum, r, r2, M, qb, more...);
+    else
+      add(sum, r, r2, M, qb, Vec4<N>{}, more...);
   }
-  template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb,
-                  [[maybe_unused]] const Vec4<N>& state) const {
-    const N distance = root(r2), F = w.F(distance);
+  template <class N, class... H>
+  BL_HD void add(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb,
+                 [[maybe_unused]] const Vec4<N>& state, const H&... h_b) const {
+    const N distance = root(r2);
+    const auto factor = lengths.F(w, sum.own, distance, h_b...);
+    const N F = own_factor(factor);
     const Vec3<N> v = sum.q - qb.xyz();
     sum.rate += M * F * dot(v, r);
     if constexpr (!kSmooth) return;
     const N rho = qb.w, V = quotient(M, rho), VF = V * F;
-    sum.filled += V * w.W(distance);
+    sum.filled += V * lengths.W(w, sum.own, distance);
     sum.gradient += VF * r;
     sum.shift.add(VF, v, r, r2);
     const N still = 1 - stiffening * (Real(0.5) * (sum.rho + rho) / rho0 - 1);
     N shared = sum.eps;
     if constexpr (kPorous) shared = Real(0.5) * (sum.eps + state.w);  // what one gains the other loses
-    sum.diffused += shared * VF * (rho - sum.rho + still * dot(Vec3<N>(hydrostatic), r));
+    const N spread = shared * (V * mean_factor(factor)) * pair_length(factor);  // D_a goes with h
+    sum.diffused += spread * (rho - sum.rho + still * dot(Vec3<N>(hydrostatic), r));
   }
   template <class N, class J>
   BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
     const Vec4<N> vb = wall_v_rho[b], mb = wall_m_state[b];
-    const N distance = root(r2), F = w.F(distance), V = quotient(mb.x, mb.z);
+    const N distance = root(r2), F = own_factor(lengths.F(w, sum.own, distance)), V = quotient(mb.x, mb.z);
     sum.rate += V * rho0 * F * dot(sum.q - vb.xyz(), r);
     if constexpr (!kSmooth) return;
-    sum.filled += V * w.W(distance);
+    sum.filled += V * lengths.W(w, sum.own, distance);
     sum.gradient += V * F * r;
     sum.shift.add_wall(V * F, r2);
   }
@@ -173,11 +185,12 @@ struct DensityPass {
     Real settled;  ///< over dt, where there is a void
   };
   BL_HD Change of(Index a, const Sum<>& sum) const {
-    if constexpr (!kSmooth) return {-sum.rate / (sum.eps * rho0), 0};
-    const Real filled = m_state[a].x / sum.rho * w.W(Real(0)) + sum.filled;
-    const Real void_fraction = max_of(Real(0), 1 - filled - cut(norm(sum.gradient)));
+    const Real rate = lengths.corrected(a, sum.rate);
+    if constexpr (!kSmooth) return {-rate / (sum.eps * rho0), 0};
+    const Real filled = m_state[a].x / sum.rho * lengths.W(w, sum.own, Real(0)) + sum.filled;
+    const Real void_fraction = max_of(Real(0), 1 - filled - cut(norm(sum.gradient) * lengths.ratio(a)));
     const Real excess = max_of(Real(0), filled - 1 - slack), pressed = max_of(Real(0), s[a]);
-    return {(diffusion * sum.diffused - sum.rate) / (sum.eps * rho0) + spreading * excess,
+    return {(diffusion * sum.diffused - rate) / (sum.eps * rho0) + spreading * excess,
             s[a] < least ? min_of(dt * fading, Real(1)) * (min_of(least, slack - void_fraction) - s[a])
                          : -min_of(dt * fading * void_fraction, Real(1)) * pressed};
   }

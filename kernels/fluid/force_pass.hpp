@@ -7,28 +7,25 @@
 namespace bedload::inline BL_VARIANT {
 
 /// What a wall particle does to fluid particle a; the same terms with the opposite sign act on the wall.
-template <class W>
 struct WallPair {
-  W w;
   Viscosity viscosity;
 
   /// a: {v, rho}, {M, P/rho^2, ..}; b: the wall's, with its no-slip velocity `visc` (w: mass that drags).
   /// Both masses of an inactive wall particle are zero. relative: viscosity of a over that of `viscosity`.
-  template <class N>
+  template <class N, class Factor>
   BL_HD Vec3<N> operator()(const Vec4<N>& va, const Vec4<N>& ma, const Vec4<N>& vw, const Vec4<N>& mw,
-                           const Vec4<N>& visc, const Vec3<N>& r, N r2, N relative) const {
-    const N F = w.F(root(r2));
+                           const Vec4<N>& visc, const Vec3<N>& r, N r2, const Factor& F, N relative) const {
     Vec3<N> theta = pressure(ma, mw, r, F);
     if (viscosity.acts()) theta += relative * friction(va, vw, visc, r, r2, F);
     return theta;
   }
-  template <class N>
-  BL_HD Vec3<N> pressure(const Vec4<N>& ma, const Vec4<N>& mw, const Vec3<N>& r, N F) const {
+  template <class N, class Factor>
+  BL_HD Vec3<N> pressure(const Vec4<N>& ma, const Vec4<N>& mw, const Vec3<N>& r, const Factor& F) const {
     return pressure_term(mw.x, ma.y, mw.y, F) * r;
   }
-  template <class N>
+  template <class N, class Factor>
   BL_HD Vec3<N> friction(const Vec4<N>& va, const Vec4<N>& vw, const Vec4<N>& visc, const Vec3<N>& r, N r2,
-                         N F) const {
+                         const Factor& F) const {
     return viscosity(visc.w, va.w, vw.w, va.xyz() - visc.xyz(), r, r2, F);
   }
 };
@@ -36,13 +33,14 @@ struct WallPair {
 /// Momentum of locally averaged WCSPH [H (9)-(12)]. theta: stress of the mixture over its density, which
 /// accelerates the fluid by as much (theta M eps / m = theta) and pushes the grains by the rest of it;
 /// acc = theta + gravity + drive. kArtificial: with artificial viscosity; kAdded: with the tensile term and
-/// the drift of XSPH; kSpecies: fluids of several viscosities, the mean of which counts for a pair.
-template <class W, bool kArtificial, bool kAdded, bool kSpecies = false>
+/// the drift of XSPH; kSpecies: fluids of several viscosities, the mean of which counts for a pair; Lengths:
+/// OneLength or, without species, OwnLengths.
+template <class W, bool kArtificial, bool kAdded, bool kSpecies = false, class Lengths = OneLength>
 struct ForcePass {
   W w;
-  WallPair<W> wall;
+  WallPair wall;
   Span<const Real4> flux, m_state;
-  Span<const Real> p_rho2;  ///< P / rho^2, m5/(kg s2)
+  Span<const Real> p_rho2;  ///< P / rho^2, where lengths vary over Omega, m5/(kg s2)
   Span<const Real4> wall_v_rho, wall_m_state, wall_v_visc;
   ArtificialViscosity artificial;
   TensileTerm tensile;
@@ -51,38 +49,47 @@ struct ForcePass {
   Drive drive;
   Span<Real3> theta, acc, drift;
   Span<const Real> relative_viscosity = {};  ///< over that of wall.viscosity
+  [[no_unique_address]] Lengths lengths = {};
 
   template <class N = Real>
   struct Sum {
     Vec4<N> v, m;
     Vec3<N> theta, xsph;
     N viscosity;
+    [[no_unique_address]] typename Lengths::template Own<N> own;
   };
   BL_HD Sum<> start(Index a) const {
-    return {flux[a], m_state[a], {}, {}, kSpecies ? relative_viscosity[a] : Real(1)};
+    Real4 m = m_state[a];
+    m.y = lengths.corrected(a, m.y);
+    return {flux[a], m, {}, {}, kSpecies ? relative_viscosity[a] : Real(1), lengths.template own<Real>(a)};
   }
 
   BL_HD auto sources() const {
     if constexpr (kSpecies)
       return sources_of(flux, p_rho2, relative_viscosity);
     else
-      return sources_of(flux, p_rho2);
+      return lengths.sources(flux, p_rho2);
   }
-  template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p) const {
-    pair(sum, r, r2, M, vb, p, N(1));
-  }
-  template <class N>
+  /// more: viscosity of b, with species; h_b, if lengths vary.
+  template <class N, class... More>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
-                  [[maybe_unused]] N viscosity_b) const {
+                  const More&... more) const {
+    if constexpr (kSpecies)
+      add(sum, r, r2, M, vb, p, more...);
+    else
+      add(sum, r, r2, M, vb, p, N(1), more...);
+  }
+  template <class N, class... H>
+  BL_HD void add(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
+                 [[maybe_unused]] N viscosity_b, const H&... h_b) const {
     const N distance = root(r2);
-    const N F = w.F(distance);
+    const auto F = lengths.F(w, sum.own, distance, h_b...);
     const Vec3<N> v = sum.v.xyz() - vb.xyz();
     [[maybe_unused]] const N rho_mean = Real(0.5) * (sum.v.w + vb.w);
     N along = pressure_term(M, sum.m.y, p, F);
     if constexpr (kArtificial) along += artificial.term(M, dot(v, r), rho_mean, r2, F);
     if constexpr (kAdded) {
-      along += M * tensile.R(w.W(distance), sum.m.y, p) * F;
+      along += M * tensile.R(w.W(distance), sum.m.y, p) * mean_factor(F);
       sum.xsph -= quotient(xsph_factor * M * w.W(distance), rho_mean) * v;
     }
     sum.theta += along * r;
@@ -96,7 +103,8 @@ struct ForcePass {
   template <class N, class J>
   BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
     const Vec4<N> vb = wall_v_rho[b], mb = wall_m_state[b], visc = wall_v_visc[b];
-    sum.theta += wall(sum.v, sum.m, vb, mb, visc, r, r2, kSpecies ? sum.viscosity : N(1));
+    sum.theta += wall(sum.v, sum.m, vb, mb, visc, r, r2, lengths.F(w, sum.own, root(r2)),
+                      kSpecies ? sum.viscosity : N(1));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.theta += other.theta;
@@ -127,22 +135,25 @@ struct ForceParts {
 /// Force of the mixture on each wall particle [N]: minus what ForcePass and LayerPass gave it, by velocities
 /// that have been corrected by `kick` since. `Force`: WholeForce, which leaves `friction` alone, or
 /// ForceParts.
-template <class W, class Force>
+template <class W, class Force, class Lengths>
 struct WallForcePass {
-  WallPair<W> wall;
+  W w;
+  WallPair wall;
   LayerForces<W> layer;  ///< empty without single layers
   Real kick;             ///< s
   Span<const Real3> acc, acc_before;
   Span<const Real4> flux, m_state, wall_v_rho, wall_m_state, wall_v_visc;
   Span<Vec3d> force, friction;
   Span<const Real> relative_viscosity;  ///< of fluid over that of wall.viscosity; empty: the same
+  [[no_unique_address]] Lengths lengths = {};
 
   BL_HD Force start(Index) const { return {}; }
   BL_HD void pair(Force& sum, Index b, Index a, const Real3& r_ba, Real r2) const {
     Real4 va = flux[a];
-    const Real4 ma = m_state[a];
+    Real4 ma = m_state[a];
+    ma.y = lengths.corrected(a, ma.y);
     if (kick != 0) va = {va.xyz() - kick * (acc[a] - acc_before[a]), va.w};
-    const Real F = wall.w.F(std::sqrt(r2));
+    const auto F = lengths.F(w, lengths.template own<Real>(a), std::sqrt(r2));
     Real3 push = wall.pressure(ma, wall_m_state[b], -r_ba, F), drag;
     if (wall.viscosity.acts())
       drag = (relative_viscosity ? relative_viscosity[a] : Real(1)) *

@@ -5,45 +5,83 @@
 
 #include "bedload/case/choices.hpp"
 #include "bedload/core/pack.hpp"
+#include "kernels/smoothing/lengths.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Pressure [H (9)], [R (8)]. pa, pb: P / rho^2; F: kernel factor.
+/// Pressure [H (9)], [R (8)]. pa, pb: P / rho^2, where lengths vary over Omega; F: kernel factor.
 template <class N>
 BL_HD N pressure_term(N m_b, N pa, N pb, N F) {
   return m_b * (pa + pb) * F;
+}
+template <class N>
+BL_HD N pressure_term(N m_b, N pa, N pb, const PairFactors<N>& F) {
+  return m_b * (pa * F.a + pb * F.b);
 }
 
 /// Physical viscosity, as the acceleration that b gives a:
 ///   Morris et al. 1997 [H (10)]   -M_b 2 mu / (rho_a rho_b) F v, the Laplacian of the velocity;
 ///   Monaghan 2005                 -M_b 2 (d + 2) mu / (rho_a rho_b) F (v . r / r^2) r, the divergence of the
-///                                 whole stress, in d dimensions.
+///                                 whole stress, in d dimensions;
+///   signal velocity [R (9)]       -M_b alpha (c + |u|) u / rho F r, u = v . r / |r|, the same with the mean
+///                                 distance of the kernel for |r|, alpha c = 2 (d + 2) mu / rho0 times the
+///                                 integrals of F r^2 over F r^3, whether particles approach or recede.
 /// [H] divides by r^2 + 0.01 h^2 instead of r^2, which would take 1 to 2 % of the viscosity at any
 /// resolution.
 struct Viscosity {
   Real mu = 0;       ///< Pa s
-  Real central = 0;  ///< d + 2 for Monaghan's form, 0 for Morris'
+  Real central = 0;  ///< d + 2 for forms along the line of centres, 0 for Morris'
   Real guard = 0;    ///< m2, far below the square of any distance
+  Real signal = 0;   ///< alpha c of that form, m/s; else 0
+  Real alpha = 0;
 
-  /// mu: Pa s; h: smoothing length, m.
-  static Viscosity of(ViscosityModel model, double mu, double h, int dimensions) {
-    const Real guard = Real(1e-4 * h * h);
+  /// mu: Pa s; rho0: kg/m3; c: speed of sound, m/s.
+  template <class W>
+  static Viscosity of(ViscosityModel model, double mu, double rho0, double c, const W& w) {
+    const Real guard = Real(1e-4 * double(w.h) * double(w.h));
+    const int d = w.thickness > 0 ? 2 : 3;
     switch (model) {
       case ViscosityModel::morris:
         return {Real(mu), 0, guard};
       case ViscosityModel::monaghan:
-        return {Real(mu), Real(dimensions + 2), guard};
+        return {Real(mu), Real(d + 2), guard};
+      case ViscosityModel::signal: {
+        const double speed = 2 * (d + 2) * mu / rho0 / mean_distance(w);
+        return {Real(mu), Real(d + 2), guard, Real(speed), Real(speed / c)};
+      }
       case ViscosityModel::none:
         break;
     }
     return {0, 0, guard};
   }
   BL_HD bool acts() const { return mu > 0; }
-  template <class N>
-  BL_HD Vec3<N> operator()(N m_b, N rho_a, N rho_b, const Vec3<N>& v, const Vec3<N>& r, N r2, N F) const {
+  template <class N, class Factor>
+  BL_HD Vec3<N> operator()(N m_b, N rho_a, N rho_b, const Vec3<N>& v, const Vec3<N>& r, N r2,
+                           const Factor& factor) const {
+    const N F = mean_factor(factor);
+    if (signal > 0) {
+      const N u = quotient(dot(v, r), root(r2 + guard));
+      const N speed = quotient(N(signal + alpha * max_of(u, -u)), N(pair_length(factor)));
+      return quotient(-m_b * speed * u * F, Real(0.5) * (rho_a + rho_b)) * r;
+    }
     const N k = quotient(-m_b * (2 * mu) * F, rho_a * rho_b);
     if (central > 0) return quotient(k * central * dot(v, r), r2 + guard) * r;
     return k * v;
+  }
+
+ private:
+  /// Integral of F r^3 over that of F r^2, m.
+  template <class W>
+  static double mean_distance(const W& w) {
+    constexpr int shells = 4000;
+    const double step = double(w.kappa) * double(w.h) / shells;
+    double second = 0, third = 0;
+    for (int k = 0; k < shells; ++k) {
+      const double r = (k + 0.5) * step, round = w.thickness > 0 ? r : r * r;
+      second += round * r * r * double(w.F(Real(r)));
+      third += round * r * r * r * double(w.F(Real(r)));
+    }
+    return third / second;
   }
 };
 
@@ -51,9 +89,11 @@ struct Viscosity {
 struct ArtificialViscosity {
   Real alpha = 0, beta = 0, c = 0, h = 0;
   BL_HD bool acts() const { return alpha > 0 || beta > 0; }
-  template <class N>
-  BL_HD N term(N m_b, N v_dot_r, N rho_mean, N r2, N F) const {
-    const N mu = quotient(h * v_dot_r, r2 + Real(0.01) * h * h);
+  template <class N, class Factor>
+  BL_HD N term(N m_b, N v_dot_r, N rho_mean, N r2, const Factor& factor) const {
+    const N F = mean_factor(factor);
+    const auto length = h * pair_length(factor);
+    const N mu = quotient(length * v_dot_r, r2 + Real(0.01) * length * length);
     return select(v_dot_r < N(0), quotient(m_b * F * (beta * mu * mu - alpha * c * mu), rho_mean), N(0));
   }
 };

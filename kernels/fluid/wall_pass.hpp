@@ -2,6 +2,7 @@
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "bedload/particles/walls.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
+#include "kernels/smoothing/lengths.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -13,7 +14,7 @@ namespace bedload::inline BL_VARIANT {
 /// the layer that it drags is thinner than a particle, nothing holds water at rest off a drum that spins
 /// around it. Frozen and mirrored walls bring their own density, where they have one. Single layers keep
 /// rho0: fluid that comes near them grows denser by their mass and is pushed off by its own pressure alone.
-template <class W>
+template <class W, class Lengths = OneLength>
 struct WallPass {
   W w;
   EquationOfState eos;
@@ -28,6 +29,7 @@ struct WallPass {
   Real least_sum;  ///< inactive below this sum of W, 1/m3
   Span<Real4> v_rho, v_visc, m_state;
   Span<Real> compression;
+  [[no_unique_address]] Lengths lengths = {};
 
   template <class N = Real>
   struct Sum {
@@ -37,7 +39,7 @@ struct WallPass {
   BL_HD Sum<> start(Index) const { return {}; }
   template <class N, class J>
   BL_HD void pair(Sum<N>& sum, Index, J a, const Vec3<N>& r_wf, N r2) const {
-    const N wk = w.W(root(r2));
+    const N wk = lengths.W(w, lengths.template own<N>(a), root(r2));
     const Vec4<N> m = fluid_m_state[a], v = fluid_flux[a];
     const Vec3<N> rho_r = wk * m.z * r_wf;
     sum.weight += wk;

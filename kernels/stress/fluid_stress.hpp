@@ -32,19 +32,19 @@ struct StressPass {
   };
   BL_HD Sum<> start(Index a) const { return {whole.start(a), {}, {}}; }
   BL_HD auto sources() const { return whole.sources(); }
-  template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p) const {
+  template <class N, class... H>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, const H&... h_b) const {
     auto pressed = sum.of, rubbed = sum.of;
-    inviscid.pair(pressed, r, r2, M, vb, p);
+    inviscid.pair(pressed, r, r2, M, vb, p, h_b...);
     rubbed.m.y = N(0);  // no pressure on either side
-    whole.pair(rubbed, r, r2, M, vb, N(0));
+    whole.pair(rubbed, r, r2, M, vb, N(0), h_b...);
     sum.pressure.add(pressed.theta, r);
     sum.friction.add(rubbed.theta, r);
   }
   template <class N, class J>
   BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
     const Vec4<N> vw = whole.wall_v_rho[b], mw = whole.wall_m_state[b], visc = whole.wall_v_visc[b];
-    const N F = whole.w.F(root(r2));
+    const auto F = whole.lengths.F(whole.w, sum.of.own, root(r2));
     sum.pressure.add(whole.wall.pressure(sum.of.m, mw, r, F), r);
     if (whole.wall.viscosity.acts()) sum.friction.add(whole.wall.friction(sum.of.v, vw, visc, r, r2, F), r);
   }

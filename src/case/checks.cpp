@@ -41,7 +41,7 @@ class Checks {
         fail("drive.rate", to_text(c.drive.rate),
              fmt::format("must be 0 along {}, which is periodic and has no centre", "xyz"[k]));
       if (c.domain.flat(k)) continue;
-      period(k, 2 * c.fluid.kappa() * c.fluid.h(), "2 kappa h", c.fluid.present);
+      period(k, 2 * c.fluid.reach(), c.fluid.variable_h ? "4 kappa h" : "2 kappa h", c.fluid.present);
       period(k, 2 * c.fluid.kappa() * c.couple.hc, "2 kappa h_c", coupled());
       period(k, 2 * c.grain.d_max, "4 R", c.grain.present);
     }
@@ -88,6 +88,7 @@ class Checks {
     if (c.drive.factor != DriveConfig().factor) drive();
     if (!c.grain.present && c.drive.on != DrivenPhase::fluid)
       fail("drive.on", quoted(c.drive.on.name()), "must be \"fluid\" without [grain]");
+    if (f.variable_h) variable_h();
   }
 
   /// Meshes in mm that are taken for m lie far outside the domain, or are lost in it.
@@ -369,6 +370,25 @@ class Checks {
         fail("drive.factor", quoted(c.drive.factor),
              fmt::format("must be a finite number; it is none at {} m, t = {:.4g} s", to_text(x), t));
     }
+  }
+  /// What needs one smoothing length for all.
+  void variable_h() const {
+    const std::string with = "with fluid.variable_h";
+    if (c.fluid.sdpd()) fail("fluid.model", quoted(c.fluid.model.name()), "must be \"wcsph\" " + with);
+    if (c.fluid.kernel == KernelFunction::lucy)
+      fail("fluid.kernel", "\"lucy\"", "must be wendland_c2 or cubic " + with);
+    if (c.time.integrator == TimeIntegrator::ab3)
+      fail("time.integrator", "\"ab3\"", "must be \"kdk\" or \"euler\" " + with);
+    for (const auto& [key, value] : {std::pair{"shift.A", c.shift}, {"xsph", c.xsph}, {"tensile", c.tensile}})
+      if (value != 0) fail(key, value, "must be 0 " + with);
+    if (!c.fluid.species.empty())
+      fail("fluid.species", fmt::format("{} fluids", c.fluid.species.size()), "must be none " + with);
+    if (c.visc.collision) fail("visc.collision", "true", "must be false " + with);
+    for (std::size_t i = 0; i < c.wall.bodies.size(); ++i)
+      if (const WallBody& body = c.wall.bodies[i];
+          body.type == WallType::frozen || body.type == WallType::mdbc)
+        fail(fmt::format("wall.body.{}.type", i), quoted(body.type.name()),
+             "must be adami, single_layer, grains_only or fluid_only " + with);
   }
   /// What SDPD needs, and what of WCSPH's it leaves out.
   void sdpd() const {

@@ -63,6 +63,14 @@ void describe_fluid(Parameters& p, FluidConfig& f) {
   p("fluid.h_over_dx", &f.h_over_dx,
     {.meaning = "smoothing length / spacing (lucy: 2..4)",
      .range = f.kernel == KernelFunction::lucy ? within(2, 4) : within(1.2, 3)});
+  p("fluid.variable_h", &f.variable_h,
+    {.meaning = "each particle's smoothing length follows its volume, from 0.5 to 2 sigma_h dx"});
+  if (f.variable_h || p.everything())
+    p("fluid.sigma_h", &f.sigma_h,
+      {.meaning =
+           "variable_h: smoothing length / cube root of the particle's volume (plane flow: square root "
+           "of its area), in place of h_over_dx",
+       .range = within(1.2, 2)});
   p("fluid.rho0", &f.rho0, {.unit = "kg/m3", .meaning = "density at rest", .range = above(0)});
   p("fluid.mu", &f.mu, {.unit = "Pa s", .meaning = "shear viscosity; > 0 with grains", .range = at_least(0)});
   if (f.sdpd() || p.everything())

@@ -92,7 +92,10 @@ void describe_top(Parameters& p, Config& c) {
          {"he2018", "He et al. 2018: h/dx 1.3, XSPH, Mindlin-Deresiewicz, CDT, Gidaspow, Euler"},
          {"democritus",
           "Tsuzuki's DEMocritus: SDPD with spin, Lucy, pressure filter and clip, Gidaspow, top-hat "
-          "porosity"}}});
+          "porosity"},
+         {"robinson2014",
+          "Robinson et al. 2014: cubic spline, variable h, signal viscosity, linear frictionless contacts, "
+          "single layers"}}});
   p("gravity", &c.gravity, {.unit = "m/s2", .meaning = "acceleration of gravity"});
   p("tensile", &c.tensile,
     {.meaning = "1: pressure term against clumping [monaghan00]", .range = within(0, 1)});

@@ -52,8 +52,9 @@ class ParticleTable {
       list.x.push_back(vector({"x", "y", "z"}));
       if (has("vx")) list.v.push_back(vector({"vx", "vy", "vz"}));
       if (has("wx")) list.omega.push_back(vector({"wx", "wy", "wz"}));
-      if (has("d")) list.d.push_back(length("d"));
-      if (has("radius")) list.d.push_back(2 * length("radius"));
+      if (has("d")) list.d.push_back(positive("d"));
+      if (has("radius")) list.d.push_back(2 * positive("radius"));
+      if (has("volume")) list.volume.push_back(positive("volume"));
     }
     if (list.x.empty())
       fail(has("type") ? fmt::format("holds no particles of type {}", type_) : "holds no particles");
@@ -90,10 +91,11 @@ class ParticleTable {
       const std::string name(trimmed(cell.substr(0, bracket)));
       if (has(name) && !name.empty()) fail(fmt::format("has two columns {}", name));
       names_.push_back(name);
-      const std::string unit = name == "type"   ? "[-]"
-                               : name[0] == 'v' ? "[m/s]"
-                               : name[0] == 'w' ? "[rad/s]"
-                                                : "[m]";
+      const std::string unit = name == "type"     ? "[-]"
+                               : name == "volume" ? "[m3]"
+                               : name[0] == 'v'   ? "[m/s]"
+                               : name[0] == 'w'   ? "[rad/s]"
+                                                  : "[m]";
       const bool ours = std::find(kNames.begin(), kNames.end(), name) != kNames.end();
       if (name == "id") continue;  // as exported; particles are numbered anew
       if (!ours)
@@ -130,13 +132,13 @@ class ParticleTable {
   Vec3d vector(std::array<const char*, 3> names) const {
     return {number(names[0]), number(names[1]), number(names[2])};
   }
-  double length(const char* name) const {
+  double positive(const char* name) const {
     const double value = number(name);
     if (!(value > 0)) fail(fmt::format("{} = {} must be > 0", name, value));
     return value;
   }
 
-  static constexpr std::array<std::string_view, 12> kNames{"x",  "y",  "z",  "d",  "radius", "vx",
+  static constexpr std::array<std::string_view, 13> kNames{"x",  "y",  "z",  "d",  "radius", "volume", "vx",
                                                            "vy", "vz", "wx", "wy", "wz",     "type"};
 
   std::filesystem::path file_;
@@ -175,6 +177,8 @@ ParticleList read_frame(const std::filesystem::path& file, std::int64_t step) {
   if (const HostArray* w = store.find("angular_velocity"); w && w->components == 3) list.omega = vectors(*w);
   if (const HostArray* r = store.find("radius"); r && r->components == 1)
     for (std::size_t n = 0; n < r->count(); ++n) list.d.push_back(2 * component(*r, n));
+  if (const HostArray* v = store.find("volume"); v && v->components == 1)
+    for (std::size_t n = 0; n < v->count(); ++n) list.volume.push_back(component(*v, n));
   if (list.x.empty()) throw CaseError(fmt::format("{}: holds no particles in that frame", file.string()));
   return list;
 }

@@ -35,11 +35,7 @@ void set_democritus(Config& c) {
   c.couple.torque = false;
 }
 
-Config preset_of(const std::string& name) {
-  Config c;
-  c.preset = name;
-  if (name == "democritus") set_democritus(c);
-  if (name != "he2018") return c;
+void set_he2018(Config& c) {
   c.fluid.h_over_dx = 1.3;
   c.density.delta = 0;
   c.density.void_relaxation = 0;
@@ -61,14 +57,42 @@ Config preset_of(const std::string& name) {
   c.couple.angmom = false;
   c.couple.slip = DragSlip::mean;
   c.time.integrator = TimeIntegrator::euler;
-  return c;
+}
+
+/// Section 3 of [harting14]. A grain is wet where fluid fills more than half of its kernel, and dry
+/// elsewhere.
+void set_robinson2014(Config& c) {
+  c.fluid.kernel = KernelFunction::cubic;
+  c.fluid.variable_h = true;
+  c.visc.model = ViscosityModel::signal;
+  c.density.delta = 0;
+  c.density.void_relaxation = 0;
+  c.density.cavitation_limit = 0.5;
+  c.wall.type = WallType::single_layer;
+  c.wall.no_penetration = false;
+  c.contact.normal = NormalLaw::linear;
+  c.contact.tangential = SlidingLaw::none;
+  c.contact.rolling = RollingLaw::none;
+  c.contact.clip_tension = false;
+  c.couple.wall_normalise = false;
+  c.couple.S_dry = 0.499;
+  c.couple.S_wet = 0.501;
+  c.couple.torque = false;
+  c.couple.angmom = false;
 }
 
 }  // namespace
 
-Config preset_defaults(const std::string& name, std::optional<FluidModel> fluid_model) {
-  Config c = preset_of(name);
+Config preset_defaults(const std::string& name, std::optional<FluidModel> fluid_model,
+                       std::optional<bool> variable_h) {
+  Config c;
+  c.preset = name;
+  if (name == "he2018") set_he2018(c);
+  if (name == "democritus") set_democritus(c);
+  if (name == "robinson2014") set_robinson2014(c);
   if (fluid_model) c.fluid.model = *fluid_model;
+  if (variable_h) c.fluid.variable_h = *variable_h;
+  if (c.fluid.variable_h) c.shift = 0;  // whose steps go with one smoothing length
   if (c.fluid.sdpd()) set_sdpd(c);
   return c;
 }

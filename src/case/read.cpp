@@ -10,7 +10,8 @@
 namespace bedload {
 namespace {
 
-/// Preset and fluid model are read before all else, since they set what stands where a key is absent.
+/// Preset, fluid model and variable h are read before all else, since they set what stands where a key is
+/// absent.
 Config defaults(const Value& root) {
   const auto text = [](const Value* table, const char* key, const char* fallback) {
     const Value* value = table ? table->find(key) : nullptr;
@@ -21,7 +22,11 @@ Config defaults(const Value& root) {
   std::optional<FluidModel> chosen;  // the reader tells of a name that is none
   for (const auto& row : kNames<FluidModel>)
     if (row.name == model) chosen = row.value;
-  return preset_defaults(text(&root, "preset", "default"), chosen);
+  std::optional<bool> variable_h;
+  if (const Value* fluid = root.find("fluid"))
+    if (const Value* given = fluid->find("variable_h"))
+      if (const auto* yes = given->get<bool>()) variable_h = *yes;
+  return preset_defaults(text(&root, "preset", "default"), chosen, variable_h);
 }
 
 std::string text_of(const std::filesystem::path& path) {

@@ -83,7 +83,7 @@ namespace {
 double vessel_thickness(const Config& c) {
   if (c.fluid.present) {
     const double step = c.wall.dx > 0 ? c.wall.dx : c.fluid.dx;
-    return step * std::ceil(c.fluid.kappa() * c.fluid.h() / step - 1e-6);
+    return step * std::ceil(c.fluid.reach() / step - 1e-6);
   }
   double d = c.grain.d;
   for (const GrainFill& fill : c.grain.fills)

@@ -98,6 +98,8 @@ bool resolve_listed_grains(Config& c, std::size_t index, const Value& root,
   Extent extent;
   if (checkpoint.empty()) {
     const ParticleList list = listed_grains(fill, c.domain);
+    if (!list.volume.empty())
+      throw CaseError(fill.file + ": has a column volume, which is for fluid; grains take d or radius");
     if (!list.v.empty() && fill.velocity != Vec3d{}) not_beside(root, path + ".velocity", fill.file);
     if (!list.omega.empty() && fill.spin != Vec3d{}) not_beside(root, path + ".spin", fill.file);
     if (!list.d.empty() && !fill.sizes.empty()) not_beside(root, path + ".sizes", fill.file);

@@ -1,6 +1,7 @@
 #include "src/fluid/fluid_solver.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "kernels/fluid/collision_pass.hpp"
@@ -54,6 +55,7 @@ struct CorrectSweep {
   Span<const Real> eps, s;
   Span<const Real3> drift;
   Span<const FluidPosition> x, x_list;
+  Span<const Real> h, h_list;  ///< empty where all have one length
   Span<Real4> v_rho;
 
   BL_HD Value identity() const { return {}; }
@@ -70,6 +72,7 @@ struct CorrectSweep {
     out.acc2 = norm2(acceleration);
     out.moved2 = norm2(frame.separation(coordinates(frame, x[a]), coordinates(frame, x_list[a])));
     if (eps) out.eps_min = eps[a];
+    if (h) out.h_min = h[a], out.growth = h[a] / h_list[a];
     const bool good = out.v2 < 1e30 && out.acc2 < 1e30 && s[a] >= Real(-0.5) && s[a] <= Real(1);
     out.bad = good ? kNone : a;
     return out;
@@ -79,6 +82,8 @@ struct CorrectSweep {
     into.acc2 = max_of(into.acc2, v.acc2);
     into.moved2 = max_of(into.moved2, v.moved2);
     into.eps_min = min_of(into.eps_min, v.eps_min);
+    into.h_min = min_of(into.h_min, v.h_min);
+    into.growth = max_of(into.growth, v.growth);
     into.bad = min_of(into.bad, v.bad);
   }
 };
@@ -104,6 +109,11 @@ LayerLaw layer_law(const Config& config, const WallBody& body, double kappa) {
   return law;
 }
 
+struct LengthBody {
+  Span<const Real> h;
+  BL_HD double operator()(Index a) const { return h[a]; }
+};
+
 struct CountBody {
   Span<const std::uint32_t> count;
   BL_HD void operator()(Index a, double* out) const { out[0] = count[a]; }
@@ -111,8 +121,8 @@ struct CountBody {
 
 }  // namespace
 
-/// The passes that know the kernel function.
-template <class W>
+/// The passes that know the kernel function, and whether particles have smoothing lengths of their own.
+template <class W, class Lengths>
 class FluidSolverWith final : public FluidSolver {
  public:
   FluidSolverWith(const Config& config, const Frame& frame, const WallGeometry& walls, FluidStore& fluid,
@@ -120,14 +130,14 @@ class FluidSolverWith final : public FluidSolver {
       : FluidSolver(config, frame, walls, fluid, W::kappa), w_(w), cut_(CutFraction::of(w)) {}
 
   void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) override {
-    if (shifts())
-      continuity<true, false>(fluid, walls, dt, shifting(dt));
-    else if (!smooths())
+    if (!smooths() && !shifts())
       continuity<false, false>(fluid, walls, dt, NoShifting{});
     else if (mixed_)
       continuity<true, true>(fluid, walls, dt, NoShifting{});
-    else
+    else if (!shifts())
       continuity<true, false>(fluid, walls, dt, NoShifting{});
+    else if constexpr (!Lengths::vary)
+      continuity<true, false>(fluid, walls, dt, shifting(dt));
     if (!frozen_) return;
     const FrozenPass<W> frozen{w_,
                                Real(config_.fluid.rho0),
@@ -161,20 +171,19 @@ class FluidSolverWith final : public FluidSolver {
       for_each_pair(walls.owned(), image_fluid_, PairSeparation{frame_, walls.mirrors.xp, fluid.xp}, range(),
                     mirror);
     }
-    extrapolate(w_, fluid, walls, pose, drag_dt, moving);
+    extrapolate(w_, fluid, walls, pose, drag_dt, moving, lengths());
   }
 
   void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
-    const bool added = config_.tensile > 0 || config_.xsph > 0;
-    if (one_pass())
-      smooths() || shifts() ? momentum_and_continuity<true>(fluid, walls, dt, shifting(dt))
-                            : momentum_and_continuity<false>(fluid, walls, dt, NoShifting{});
-    else if (!config_.fluid.species.empty())
-      momentum<true, true, true>(fluid, walls);
-    else if (artificial().acts())
-      added ? momentum<true, true>(fluid, walls) : momentum<true, false>(fluid, walls);
-    else
-      added ? momentum<false, true>(fluid, walls) : momentum<false, false>(fluid, walls);
+    if constexpr (Lengths::vary) {
+      run(fluid, walls, range(),
+          OmegaPass<W>{w_, lengths(), Real(config_.fluid.h_least()), Real(config_.fluid.h_most()),
+                       Real(config_.fluid.rho0), fluid.m_state, walls.m_state, lengths_->omega,
+                       fluid.p_rho2});
+      artificial().acts() ? momentum<true, false>(fluid, walls) : momentum<false, false>(fluid, walls);
+    } else {
+      constant_length_forces(fluid, walls, dt);
+    }
     if (layers_.size() > 0)
       for_each_pair(fluid.owned(), fluid_wall_, PairSeparation{frame_, fluid.xp, walls.xp}, range(),
                     LayerPass<W>{layer(walls, pose, dt), flux(fluid), fluid.theta, fluid.acc_next});
@@ -198,22 +207,42 @@ class FluidSolverWith final : public FluidSolver {
   }
 
  private:
+  Lengths lengths() const {
+    if constexpr (Lengths::vary)
+      return {lengths_->h, lengths_->omega, Real(config_.fluid.h()), config_.domain.two_d};
+    else
+      return {};
+  }
+  void constant_length_forces(FluidStore& fluid, const WallStore& walls, double dt) {
+    const bool added = config_.tensile > 0 || config_.xsph > 0;
+    if (one_pass())
+      smooths() || shifts() ? momentum_and_continuity<true>(fluid, walls, dt, shifting(dt))
+                            : momentum_and_continuity<false>(fluid, walls, dt, NoShifting{});
+    else if (!config_.fluid.species.empty())
+      momentum<true, true, true>(fluid, walls);
+    else if (artificial().acts())
+      added ? momentum<true, true>(fluid, walls) : momentum<true, false>(fluid, walls);
+    else
+      added ? momentum<false, true>(fluid, walls) : momentum<false, false>(fluid, walls);
+  }
   template <class Force>
   void forces_on_walls(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
                        Span<Vec3d> force, Span<Vec3d> friction) {
-    const WallForcePass<W, Force> pass{wall_pair(),
-                                       layer(walls, pose, dt),
-                                       Real(mixed_ ? 0 : corrected_),
-                                       fluid.acc,
-                                       fluid.acc_next,
-                                       flux(fluid),
-                                       fluid.m_state,
-                                       walls.v_rho,
-                                       walls.m_state,
-                                       walls.v_visc,
-                                       force,
-                                       friction,
-                                       fluid.viscosity};
+    const WallForcePass<W, Force, Lengths> pass{w_,
+                                                WallPair{viscosity()},
+                                                layer(walls, pose, dt),
+                                                Real(mixed_ ? 0 : corrected_),
+                                                fluid.acc,
+                                                fluid.acc_next,
+                                                flux(fluid),
+                                                fluid.m_state,
+                                                walls.v_rho,
+                                                walls.m_state,
+                                                walls.v_visc,
+                                                force,
+                                                friction,
+                                                fluid.viscosity,
+                                                lengths()};
     for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
   template <class Pass>
@@ -223,8 +252,7 @@ class FluidSolverWith final : public FluidSolver {
   }
   Real least() const { return -Real(config_.density.cavitation_limit); }
   Viscosity viscosity() const {
-    const int dimensions = config_.domain.two_d ? 2 : 3;
-    return Viscosity::of(config_.visc.model, config_.fluid.mu, config_.fluid.h(), dimensions);
+    return Viscosity::of(config_.visc.model, config_.fluid.mu, config_.fluid.rho0, config_.fluid.c, w_);
   }
   ArtificialViscosity artificial() const {
     return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c),
@@ -232,8 +260,9 @@ class FluidSolverWith final : public FluidSolver {
   }
   /// Writes s_new.
   template <bool kSmooth, bool kPorous, class Shift>
-  DensityPass<W, Shift, kSmooth, kPorous> density_pass(FluidStore& fluid, const WallStore& walls, double dt,
-                                                       const Shift& shift, Span<Real> s_new) {
+  DensityPass<W, Shift, kSmooth, kPorous, Lengths> density_pass(FluidStore& fluid, const WallStore& walls,
+                                                                double dt, const Shift& shift,
+                                                                Span<Real> s_new) {
     const double c = config_.fluid.c;
     return {w_,
             flux(fluid),
@@ -252,12 +281,13 @@ class FluidSolverWith final : public FluidSolver {
             Real(config_.density.void_relaxation * c / config_.fluid.h()),
             Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0),
             shift,
-            drift_of(fluid)};
+            drift_of(fluid),
+            lengths()};
   }
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
-  ForcePass<W, kArtificial, kAdded, kSpecies> force_pass(FluidStore& fluid, const WallStore& walls) {
+  ForcePass<W, kArtificial, kAdded, kSpecies, Lengths> force_pass(FluidStore& fluid, const WallStore& walls) {
     return {w_,
-            wall_pair(),
+            WallPair{viscosity()},
             flux(fluid),
             fluid.m_state,
             fluid.p_rho2,
@@ -272,7 +302,8 @@ class FluidSolverWith final : public FluidSolver {
             fluid.theta,
             fluid.acc_next,
             fluid.drift,
-            fluid.viscosity};
+            fluid.viscosity,
+            lengths()};
   }
   template <bool kSmooth, bool kPorous, class Shift>
   void continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {
@@ -284,7 +315,7 @@ class FluidSolverWith final : public FluidSolver {
   }
   template <bool kTensile>
   void stress(FluidStore& fluid, const WallStore& walls, FluidMoments& out) {
-    using Force = ForcePass<W, true, kTensile>;
+    using Force = ForcePass<W, true, kTensile, false, Lengths>;
     const Force whole = force_pass<true, kTensile>(fluid, walls);
     Force inviscid = whole;
     inviscid.artificial = {};
@@ -317,7 +348,6 @@ class FluidSolverWith final : public FluidSolver {
   LayerForces<W> layer(const WallStore& walls, Span<const BodyPose> pose, double dt) const {
     return {w_, artificial(), layers_, Real(repulsion_cap(dt)), walls.body, pose, walls.v_rho};
   }
-  WallPair<W> wall_pair() const { return {w_, viscosity()}; }
 
   W w_;
   CutFraction cut_;
@@ -332,7 +362,11 @@ std::unique_ptr<FluidSolver> Wcsph::make(const Config& config, const Frame& fram
                                          FluidStore& fluid) {
   std::unique_ptr<FluidSolver> solver;
   with_fluid_kernel(config, [&](const auto& w) {
-    solver = std::make_unique<FluidSolverWith<std::decay_t<decltype(w)>>>(config, frame, walls, fluid, w);
+    using W = std::decay_t<decltype(w)>;
+    if (config.fluid.variable_h)
+      solver = std::make_unique<FluidSolverWith<W, OwnLengths>>(config, frame, walls, fluid, w);
+    else
+      solver = std::make_unique<FluidSolverWith<W, OneLength>>(config, frame, walls, fluid, w);
   });
   return solver;
 }
@@ -343,6 +377,8 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
       frame_(frame),
       kappa_(kappa),
       mixed_(config.grain.present && config.couple.mode == CouplingMode::two_way),
+      lengths_(config.fluid.variable_h ? std::make_unique<SmoothingLengths>(fluid, config.fluid.h())
+                                       : nullptr),
       gravity_(config.gravity),
       drive_factor_(config.drive) {
   eos_ = EquationOfState::of(config);
@@ -380,20 +416,25 @@ void FluidSolver::accept_rates(double dt) {
 void FluidSolver::set_skin(double skin) {
   if (skin == skin_) return;
   skin_ = skin;
+  make_cells();
+}
+
+void FluidSolver::make_cells() {
   for (CellGrid* grid : {&grid_, &wall_grid_})
-    *grid = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, range() + skin);
+    *grid = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, range() + skin_);
 }
 
 void FluidSolver::save(std::vector<Quantity>& scalars) const {
   scalars.push_back({"skin_fluid", "m", skin_});
+  if (lengths_) scalars.push_back({"smoothing_length_listed", "m", lengths_->listed});
   scalars.push_back({"density_last_dt", "s", last_dt_});
   scalars.push_back({"density_dt_before", "s", dt_before_});
 }
 
-double FluidSolver::friction_limit(double eps_min) const {
+double FluidSolver::friction_limit(const FluidExtremes& now) const {
   if (config_.visc.model == ViscosityModel::none || config_.fluid.mu == 0)
     return std::numeric_limits<double>::infinity();
-  return config_.time.visc * square(range() / 2) * eps_min * config_.fluid.rho0 / config_.fluid.mu;
+  return config_.time.visc * square(half_range(now)) * now.eps_min * config_.fluid.rho0 / config_.fluid.mu;
 }
 
 double FluidSolver::repulsion_cap(double dt) const {
@@ -456,10 +497,12 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved,
     set_skin(four_steps > narrow ? 1.5 * narrow : narrow);
     walls_moved = walls_moved || skin_ != former;
   }
+  if (lengths_ && renew_lengths(fluid)) walls_moved = true;
   for_each(fluid.owned(), WrapPass<FluidPosition>{frame_, fluid.x});
   grid_.sort(frame_, Span<const FluidPosition>(fluid.x), order_);
   fluid.reorder(order_);
   fluid.x_list.copy(fluid.x);
+  if (lengths_) lengths_->h_list.copy(lengths_->h);
   if (walls_moved && walls.size() > 0) {
     MirrorStore& images = walls.mirrors;
     for_each(walls.owned(), WrapPass<Vec3d>{frame_, walls.x});
@@ -481,17 +524,30 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   pack(walls);
   const double reach = range() + skin();
   using Near = SphNear<FluidPosition>;
+  const Near fluid_near{frame_, fluid.x, fluid.xp, fluid.xp, reach, true};
+  const Near fluid_near_walls{frame_, fluid.x, fluid.xp, walls.xp, reach, false};
+  const SphNear<Vec3d> walls_near{frame_, walls.x, walls.xp, fluid.xp, reach, false};
 #if BL_CUDA
   fluid_fluid_.build(grid_, frame_, Span<const FluidPosition>(fluid.x), Span<const PairPosition>(fluid.xp),
                      reach);
-#else
-  fluid_fluid_.build(fluid.size(), grid_.view(), Near{frame_, fluid.x, fluid.xp, fluid.xp, reach, true});
 #endif
-  fluid_wall_.build(fluid.size(), wall_grid_.view(), Near{frame_, fluid.x, fluid.xp, walls.xp, reach, false},
-                    fluid_fluid_.view().bits);
+  if (lengths_) {
+    const Span<const Real> h = lengths_->h_list, none;
+    const PairReach pairs{Real(kappa_ * double(kLengthGrowth)), Real(skin()), Real(config_.fluid.h())};
+#if !BL_CUDA
+    fluid_fluid_.build(fluid.size(), grid_.view(), LengthNear<FluidPosition>{fluid_near, pairs, h, h});
+#endif
+    fluid_wall_.build(fluid.size(), wall_grid_.view(),
+                      LengthNear<FluidPosition>{fluid_near_walls, pairs, h, none}, fluid_fluid_.view().bits);
+    wall_fluid_.build(walls.size(), grid_.view(), LengthNear<Vec3d>{walls_near, pairs, none, h});
+  } else {
+#if !BL_CUDA
+    fluid_fluid_.build(fluid.size(), grid_.view(), fluid_near);
+#endif
+    fluid_wall_.build(fluid.size(), wall_grid_.view(), fluid_near_walls, fluid_fluid_.view().bits);
+    wall_fluid_.build(walls.size(), grid_.view(), walls_near);
+  }
   compaction_.find(fluid.size(), HasEntries{fluid_wall_.view()}, beside_walls_);
-  wall_fluid_.build(walls.size(), grid_.view(),
-                    SphNear<Vec3d>{frame_, walls.x, walls.xp, fluid.xp, reach, false});
   compaction_.find(walls.size(), HasEntries{wall_fluid_.view()}, wet_walls_);
   relisted_ = true;
   const MirrorStore& images = walls.mirrors;
@@ -543,6 +599,35 @@ void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, doubl
 
 void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
   for_each(fluid.owned(), state_pass(fluid, {}, kick, coupled));
+  if (lengths_) for_each(fluid.owned(), length_pass(fluid, false));
+}
+
+LengthPass FluidSolver::length_pass(FluidStore& fluid, bool renew) {
+  const FluidConfig& f = config_.fluid;
+  return {.sigma = Real(f.sigma_h),
+          .least = Real(f.h_least()),
+          .most = Real(f.h_most()),
+          .thickness = Real(config_.domain.thickness()),
+          .rho0 = Real(f.rho0),
+          .first = !lengths_->begun,
+          .renew = renew,
+          .mass = fluid.mass,
+          .m_state = fluid.m_state,
+          .listed = lengths_->h_list,
+          .h = lengths_->h,
+          .omega = lengths_->omega};
+}
+
+bool FluidSolver::renew_lengths(FluidStore& fluid) {
+  for_each(fluid.owned(), length_pass(fluid, true));
+  lengths_->begun = true;
+  const double h0 = config_.fluid.h(), longest = max_over(fluid.owned(), LengthBody{lengths_->h});
+  // in steps of a ninth, so that cells seldom change; never below h0, to which walls reach
+  const double listed = h0 * std::exp2(std::ceil(8 * std::log2(std::max(1.0, longest / h0)) - 1e-6) / 8);
+  if (listed == lengths_->listed) return false;
+  lengths_->listed = listed;
+  make_cells();
+  return true;
 }
 
 void FluidSolver::advance(FluidStore& fluid, double kick, double dt, double predict) {
@@ -560,13 +645,19 @@ void FluidSolver::correct(FluidStore& fluid, double kick) {
 void FluidSolver::survey(FluidStore& fluid, double kick) {
   extremes_.resize(1);
   if (fluid.size() == 0) return extremes_.assign({FluidExtremes{}});
-  reduce_into(extremes_.data(), fluid.owned(),
-              CorrectSweep{frame_, Real(kick), fluid.acc_next, fluid.acc,
-                           mixed_ ? Span<const Real>(fluid.eps) : Span<const Real>(), fluid.s,
-                           drift_of(fluid), fluid.x, fluid.x_list, fluid.v_rho});
+  reduce_into(
+      extremes_.data(), fluid.owned(),
+      CorrectSweep{frame_, Real(kick), fluid.acc_next, fluid.acc,
+                   mixed_ ? Span<const Real>(fluid.eps) : Span<const Real>(), fluid.s, drift_of(fluid),
+                   fluid.x, fluid.x_list, lengths_ ? Span<const Real>(lengths_->h) : Span<const Real>(),
+                   lengths_ ? Span<const Real>(lengths_->h_list) : Span<const Real>(), fluid.v_rho});
 }
 
-FluidExtremes FluidSolver::extremes() const { return extremes_.to_host()[0]; }
+FluidExtremes FluidSolver::extremes() const {
+  FluidExtremes out = extremes_.to_host()[0];
+  if (!std::isfinite(out.h_min)) out.h_min = config_.fluid.h();  // one length, or no fluid
+  return out;
+}
 
 double FluidSolver::pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces,
                                   Span<const BodyPose> pose) const {

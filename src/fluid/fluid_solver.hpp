@@ -1,6 +1,7 @@
 #pragma once
 // Locally averaged WCSPH between walls: rates, advance, stable time step.
 
+#include <limits>
 #include <memory>
 
 #include "bedload/case/config.hpp"
@@ -11,6 +12,7 @@
 #include "kernels/fluid/drive.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
 #include "kernels/fluid/layer_force.hpp"
+#include "kernels/fluid/omega_pass.hpp"
 #include "kernels/fluid/pair_terms.hpp"
 #include "kernels/fluid/wall_pass.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
@@ -25,6 +27,8 @@ namespace bedload::inline BL_VARIANT {
 struct FluidExtremes {
   double v2 = 0, acc2 = 0, moved2 = 0;  ///< (m/s)2, (m/s2)2, m2 since the lists were built
   double eps_min = 1;
+  double h_min = std::numeric_limits<double>::infinity();  ///< smallest smoothing length, m
+  double growth = 1;  ///< largest factor by which one has grown since the lists were built
   Index bad = kNone;  ///< lowest place of a particle with NaN or a density out of range
 };
 
@@ -49,6 +53,19 @@ struct Spin {
         acc(fluid, "angular_acceleration", "rad/s2", Lifetime::kept) {}
 };
 
+/// Smoothing lengths of particles, where each has its own.
+struct SmoothingLengths {
+  Field<Real> h, h_list, omega;  ///< h_list: where the lists were built
+  double listed;                 ///< m, that lists and cells are made for
+  bool begun = false;            ///< particles have a state
+
+  SmoothingLengths(FluidStore& fluid, double h0)
+      : h(fluid, "smoothing_length", "m", Lifetime::kept),
+        h_list(fluid, "smoothing_length_list", "m", Lifetime::renewed),
+        omega(fluid, "omega", "-", Lifetime::kept),
+        listed(h0) {}
+};
+
 class FluidSolver {
  public:
   /// Chooses model and kernel function once. `walls` and `fluid`, of which it may keep more, must outlive it;
@@ -57,8 +74,17 @@ class FluidSolver {
                                            const WallGeometry& walls, FluidStore& fluid);
   virtual ~FluidSolver() = default;
 
-  double range() const { return kappa_ * config_.fluid.h(); }  ///< kernel support, m
-  double skin() const { return skin_; }                        ///< m
+  /// Kernel support, m; where smoothing lengths vary, the most it may be until lists are renewed.
+  double range() const {
+    return lengths_ ? kappa_ * lengths_->listed * double(kLengthGrowth) : kappa_ * config_.fluid.h();
+  }
+  double skin() const { return skin_; }  ///< m
+  /// Half the smallest kernel support, m, to which time steps go.
+  double half_range(const FluidExtremes& now) const { return kappa_ * now.h_min / 2; }
+  /// Null where all particles have the same smoothing length.
+  const SmoothingLengths* lengths() const { return lengths_.get(); }
+  /// Whether smoothing lengths may outgrow the lists within another step.
+  bool outgrows(const FluidExtremes& now) const { return now.growth > 0.25 + 0.75 * double(kLengthGrowth); }
   const EquationOfState& eos() const { return eos_; }
   Drive drive(const FluidStore& fluid) const;
   /// With which particles move beside their velocity; empty where nothing gives one.
@@ -89,7 +115,7 @@ class FluidSolver {
   /// positions as packed and lists tell.
   void collide(FluidStore& fluid);
   /// Longest step that viscosity allows, s.
-  virtual double friction_limit(double eps_min) const;
+  virtual double friction_limit(const FluidExtremes& now) const;
   /// Null where particles do not spin.
   virtual Spin* spin() { return nullptr; }
 
@@ -149,13 +175,19 @@ class FluidSolver {
   template <class Scalar>
   void load(const Scalar& scalar) {
     last_dt_ = scalar("density_last_dt"), dt_before_ = scalar("density_dt_before");  // 0 without rates
-    set_skin(scalar("skin_fluid"));
+    if (lengths_) lengths_->listed = scalar("smoothing_length_listed"), lengths_->begun = true;
+    skin_ = scalar("skin_fluid");
+    make_cells();
   }
 
  protected:
   FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, FluidStore& fluid,
               double kappa);
   void set_skin(double skin);
+  void make_cells();
+  /// Lengths from volumes, to be listed; whether that takes other cells.
+  bool renew_lengths(FluidStore& fluid);
+  LengthPass length_pass(FluidStore& fluid, bool renew);
   KickDriftPass kick_drift_pass(FluidStore& fluid, double kick, double drift, double back, bool coupled);
   StatePass state_pass(FluidStore& fluid, const DensityHistory& history, double kick, bool coupled);
   /// Takes in the rates that forces() has written to the last of rates_, at the end of a step dt (s).
@@ -163,26 +195,27 @@ class FluidSolver {
   /// Velocity and density as pair loops read them: of the mixture where grains share the space.
   Span<const Real4> flux(const FluidStore& fluid) const { return mixed_ ? fluid.flux : fluid.v_rho; }
   /// Of W over the fluid around, below which it is none, 1/m3.
-  Real least_sum() const { return Real(1e-3 / config_.domain.cell_volume(config_.fluid.h())); }
+  Real least_sum() const { return Real(1e-3 / config_.domain.cell_volume(config_.fluid.h_most())); }
   /// walls() by WallPass.
-  template <class W>
+  template <class W, class Lengths = OneLength>
   void extrapolate(const W& w, const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
-                   double drag_dt, bool moving) {
-    const WallPass<W> pass{w,
-                           eos_,
-                           flux(fluid),
-                           fluid.m_state,
-                           drag_dt > 0 ? Span<const Real3>(fluid.drag_kick) : Span<const Real3>(),
-                           Real(drag_dt > 0 ? 1 / drag_dt : 0),
-                           walls.x0,
-                           walls.body,
-                           pose,
-                           gravity_,
-                           least_sum(),
-                           walls.v_rho,
-                           walls.v_visc,
-                           walls.m_state,
-                           walls.compression};
+                   double drag_dt, bool moving, const Lengths& lengths = {}) {
+    const WallPass<W, Lengths> pass{w,
+                                    eos_,
+                                    flux(fluid),
+                                    fluid.m_state,
+                                    drag_dt > 0 ? Span<const Real3>(fluid.drag_kick) : Span<const Real3>(),
+                                    Real(drag_dt > 0 ? 1 / drag_dt : 0),
+                                    walls.x0,
+                                    walls.body,
+                                    pose,
+                                    gravity_,
+                                    least_sum(),
+                                    walls.v_rho,
+                                    walls.v_visc,
+                                    walls.m_state,
+                                    walls.compression,
+                                    lengths};
     const PairSeparation separation{frame_, walls.xp, fluid.xp};
     if (moving || relisted_)
       for_each_pair(walls.owned(), wall_fluid_, separation, range(), pass);
@@ -196,6 +229,7 @@ class FluidSolver {
   Frame frame_;
   double kappa_;
   bool mixed_;  ///< grains share the space
+  std::unique_ptr<SmoothingLengths> lengths_;
   EquationOfState eos_;
   Real3 gravity_;
   DriveFactor drive_factor_;

@@ -51,7 +51,7 @@ class SdpdSolver final : public FluidSolver {
   }
 
   /// The shortest time in which friction stops a particle or its spin, times time.friction.
-  double friction_limit(double) const override {
+  double friction_limit(const FluidExtremes&) const override {
     const double rho = config_.fluid.rho0;
     double rate = std::max(friction_.across, friction_.along) * lattice_.F / rho;
     if (Model::spins) rate = std::max(rate, friction_.across / (rho * spin_->inertia));

@@ -263,7 +263,7 @@ std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& do
 
 double particles_beyond(const WallBody& body, const Config& config) {
   const bool outside = body.shape == "tank" || body.type == WallType::mdbc;
-  return config.fluid.present && outside ? config.fluid.kappa() * config.fluid.h() : 0;
+  return config.fluid.present && outside ? config.fluid.reach() : 0;
 }
 
 std::vector<Vec3d> corners(const WallBody& body, const DomainConfig& domain, double beyond) {

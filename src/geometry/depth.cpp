@@ -29,7 +29,8 @@ LinePart line_in_box(const Vec3d& x, const Vec3d& up, const Vec3d& min, const Ve
   return part;
 }
 
-std::vector<double> depth_in_columns(const std::vector<Vec3d>& x, const Vec3d& up, double spacing) {
+std::vector<double> depth_in_columns(const std::vector<Vec3d>& x, const Vec3d& up, double spacing,
+                                     const std::vector<double>& size) {
   const Vec3d along = perpendicular(up), across = cross(up, along);
   using Column = std::pair<std::int64_t, std::int64_t>;
   std::vector<Column> column;
@@ -50,7 +51,7 @@ std::vector<double> depth_in_columns(const std::vector<Vec3d>& x, const Vec3d& u
     const std::size_t a = order[n];
     const bool connected =
         n > 0 && column[order[n - 1]] == column[a] && height[order[n - 1]] - height[a] <= 3 * spacing;
-    if (!connected) top = height[a] + spacing / 2;
+    if (!connected) top = height[a] + (size.empty() ? spacing : size[a]) / 2;
     depth[a] = top - height[a];
   }
   return depth;

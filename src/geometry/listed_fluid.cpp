@@ -67,7 +67,8 @@ class ListedFluid {
       check(list, n, index);
       fluid_.x.push_back(list.x[n]);
       fluid_.v.push_back(list.v.empty() ? velocity(list.x[n]) : list.v[n]);
-      fluid_.mass.push_back(config_.fluid.rho0 * config_.domain.cell_volume(dx));
+      const double volume = list.volume.empty() ? config_.domain.cell_volume(dx) : list.volume[n];
+      fluid_.mass.push_back(config_.fluid.rho0 * volume);
       fluid_.fill.push_back(std::uint32_t(index));
       places_.add(list.x[n]);
       fastest = std::max(fastest, norm(fluid_.v.back()));
@@ -89,7 +90,7 @@ class ListedFluid {
     };
     if (!lies_inside(config_.domain, x)) fail("lies outside the domain");
     for (const WallBody& body : config_.wall.bodies) {
-      const double reach = config_.fluid.kappa() * config_.fluid.h();
+      const double reach = config_.fluid.reach();
       if (body.stops_fluid() && wall_distance(body, x, reach, config_.domain) < -kInWall * dx)
         fail(fmt::format("lies inside wall.body \"{}\"", body.name));
     }

@@ -51,7 +51,7 @@ std::string place(const Vec3d& x) { return fmt::format("({:g}, {:g}, {:g}) m", x
 /// A buffer belongs in an opening, such as the bore of a pipe or an open side of a tank.
 void check_clear_of_walls(const Config& config, const InletConfig& inlet, const std::vector<Vec3d>& buffer,
                           double depth) {
-  const double reach = config.fluid.kappa() * config.fluid.h(), slack = 1e-6 * config.fluid.dx;
+  const double reach = config.fluid.reach(), slack = 1e-6 * config.fluid.dx;
   for (const WallBody& body : config.wall.bodies) {
     if (!body.stops_fluid()) continue;
     for (const Vec3d& x : buffer)
@@ -141,7 +141,7 @@ OrificeWidth orifice_width(const InletConfig& inlet, double dx, const DomainConf
 }
 
 int buffer_layers(const FluidConfig& fluid, double thickness) {
-  return int(std::ceil(fluid.kappa() * fluid.h() / thickness - 1e-6)) + 1;
+  return int(std::ceil(fluid.reach() / thickness - 1e-6)) + 1;
 }
 
 void add_inlets(const Config& config, const Setup::Fluid& fluid, Setup::Walls& walls,

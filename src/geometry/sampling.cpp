@@ -200,7 +200,7 @@ class PointFinder {
 /// Where fluid on two sides of a body meets through it.
 void check_thickness(const Config& config, const WallBody& body, const std::vector<Vec3d>& points,
                      std::vector<std::string>& warnings) {
-  const double reach = config.fluid.kappa() * config.fluid.h();
+  const double reach = config.fluid.reach();
   const double thick = thickness(body, points, reach, config.domain);
   if (thick >= reach - 0.5 * config.wall.spacing(body)) return;
   const std::string what = fmt::format(
@@ -268,7 +268,7 @@ namespace {
 /// Places of the particles of a body.
 std::vector<Vec3d> layers_of(const Config& config, std::size_t index) {
   const WallBody& body = config.wall.bodies[index];
-  const double spacing = config.wall.spacing(body), reach = config.fluid.kappa() * config.fluid.h();
+  const double spacing = config.wall.spacing(body), reach = config.fluid.reach();
   try {
     return body.single_layer() ? sample_surface(body, spacing, config.domain)
                                : sample_body(body, spacing, reach, config.domain);
@@ -280,7 +280,7 @@ std::vector<Vec3d> layers_of(const Config& config, std::size_t index) {
 }  // namespace
 
 void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::string>& warnings) {
-  const double reach = config.fluid.kappa() * config.fluid.h();
+  const double reach = config.fluid.reach();
   const auto& bodies = config.wall.bodies;
   PointFinder earlier(0.3 * config.wall.dx);
   for (std::size_t index = 0; index < bodies.size(); ++index) {

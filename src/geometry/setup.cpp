@@ -31,7 +31,7 @@ void check_layer_is_clear(const Config& config, const WallBody& body, const Setu
                           const First& first) {
   if (!body.single_layer()) return;
   const double dx = config.fluid.dx, r0 = body.force == LayerForce::monaghan ? config.wall.layer_r0 : dx;
-  const double reach = config.fluid.kappa() * config.fluid.h();
+  const double reach = config.fluid.reach();
   double nearest = r0;
   std::size_t at = 0;
   for (std::size_t a = 0; a < fluid.x.size(); ++a) {
@@ -49,7 +49,7 @@ void check_layer_is_clear(const Config& config, const WallBody& body, const Setu
 
 /// Every fluid particle must start in the open.
 void check_fluid_is_clear(const Config& config, const Setup::Fluid& fluid, const First& first) {
-  const double reach = config.fluid.kappa() * config.fluid.h(), slack = 1e-6 * config.fluid.dx;
+  const double reach = config.fluid.reach(), slack = 1e-6 * config.fluid.dx;
   for (const WallBody& body : config.wall.bodies) {
     if (!body.stops_fluid()) continue;
     std::size_t count = 0, at = 0;

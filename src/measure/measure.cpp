@@ -18,6 +18,11 @@ struct DensityPart {
   Span<Real> out;
   BL_HD void operator()(Index i) const { out[i] = m_state[i].z; }
 };
+struct VolumePart {
+  Span<const Real4> m_state;
+  Span<Real> out;
+  BL_HD void operator()(Index i) const { out[i] = m_state[i].x / m_state[i].z; }
+};
 struct PressurePart {
   Span<const Real4> m_state;
   Span<Real> out;
@@ -131,6 +136,10 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
     out.arrays.push_back(made<Real, PressurePart>("pressure", "Pa", all, Span<const Real4>(fluid_.m_state)));
     out.arrays.push_back(made<Real, DensityPart>("density", "kg/m3", all, Span<const Real4>(fluid_.m_state)));
     if (coupled()) out.arrays.push_back(fluid_.eps.to_host());
+    if (const SmoothingLengths* own = fluid_solver_->lengths()) {
+      out.arrays.push_back(own->h.to_host());
+      out.arrays.push_back(made<Real, VolumePart>("volume", "m3", all, Span<const Real4>(fluid_.m_state)));
+    }
     if (const Spin* spin = fluid_solver_->spin()) out.arrays.push_back(spin->omega.to_host());
     if (fluid_.species.used()) out.arrays.push_back(fluid_.species.to_host());
     out.arrays.push_back(fluid_.id.to_host());

@@ -167,9 +167,9 @@ std::vector<StepLimit> CoupledSimulation::limits() {
   std::vector<StepLimit> out;
   const auto& t = config_.time;
   if (has_fluid()) {
-    const double hs = fluid_solver_->range() / 2, c = config_.fluid.c;
+    const double hs = fluid_solver_->half_range(fluid_extremes_), c = config_.fluid.c;
     out.push_back({"cfl", t.cfl * hs / (c + std::sqrt(fluid_extremes_.v2))});
-    if (const double longest = fluid_solver_->friction_limit(fluid_extremes_.eps_min); std::isfinite(longest))
+    if (const double longest = fluid_solver_->friction_limit(fluid_extremes_); std::isfinite(longest))
       out.push_back({"viscous", longest});
     if (fluid_extremes_.acc2 > 0)
       out.push_back({"body", t.body * std::sqrt(hs / std::sqrt(fluid_extremes_.acc2))});
@@ -275,7 +275,8 @@ void CoupledSimulation::refresh_if_needed(double dt) {
     travel = dt * (std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2));
     const double moved = std::sqrt(fluid_extremes_.moved2) + travel;
     const double wall = walls_moved_ + dt * motion_.top_speed(clock_.time, dt);
-    fluid_due = fluid_due || 2 * moved > fluid_solver_->skin() || moved + wall > fluid_solver_->skin();
+    fluid_due = fluid_due || 2 * moved > fluid_solver_->skin() || moved + wall > fluid_solver_->skin() ||
+                fluid_solver_->outgrows(fluid_extremes_);
   }
   if (has_grains() && !config_.grain.fixed) {
     const double moved =

@@ -57,14 +57,22 @@ double depth_at(const Config& config, const Vec3d& gravity, const Vec3d& x) {
   return depth;
 }
 
-/// Depth of each fluid particle, m: in its block, or among the particles themselves where a file gave some.
-std::vector<double> depths_of(const Config& config, const Vec3d& gravity, const std::vector<Vec3d>& x) {
+/// Depth of each fluid particle of that mass (kg), m: in its block, or among the particles themselves where a
+/// file gave some.
+std::vector<double> depths_of(const Config& config, const Vec3d& gravity, const std::vector<Vec3d>& x,
+                              const std::vector<Real>& mass) {
   std::vector<double> depth;
   for (const Vec3d& at : x) depth.push_back(depth_at(config, gravity, at));
   bool listed = false;
   for (const auto& fill : config.fluid.fills) listed = listed || !fill.file.empty();
   if (!listed || norm(gravity) == 0) return depth;
-  const auto below = depth_in_columns(x, gravity * (-1 / norm(gravity)), config.fluid.dx);
+  std::vector<double> size;  // edge of the cell for which a particle stands, m
+  const double thickness = config.domain.thickness();
+  for (const Real m : mass) {
+    const double volume = double(m) / config.fluid.rho0;
+    size.push_back(thickness > 0 ? std::sqrt(volume / thickness) : std::cbrt(volume));
+  }
+  const auto below = depth_in_columns(x, gravity * (-1 / norm(gravity)), config.fluid.dx, size);
   for (std::size_t a = 0; a < x.size(); ++a)
     if (depth[a] == 0) depth[a] = below[a];
   return depth;
@@ -215,7 +223,7 @@ void CoupledSimulation::initialise_fluid() {
     const Vec3d g = level_gravity(config_, gravity_.at(0));
     std::vector<Vec3d> x;
     for (const auto& at : fluid_.x.values()) x.push_back(coordinates(frame_, at));
-    const std::vector<double> depth = depths_of(config_, g, x);
+    const std::vector<double> depth = depths_of(config_, g, x, fluid_.mass.values());
     for (Index a = 0; a < fluid_.size(); ++a) pressure[a] += Real(config_.fluid.rho0 * norm(g) * depth[a]);
   }
   Buffer<Real> device;

@@ -112,6 +112,29 @@ INSTANTIATE_TEST_SUITE_P(
               "sdpd.noise = \"tensor\""}));
 
 INSTANTIATE_TEST_SUITE_P(
+    VariableH, CaseErrors,
+    testing::Values(
+        Wrong{"[fluid]", "[fluid]\nsigma_h = 1.5",
+              "dam.toml:6: fluid.sigma_h = 1.5 has no use here; leave it out or change what it belongs to"},
+        Wrong{"[fluid]", "[fluid]\nvariable_h = true\nsigma_h = 2.5",
+              "dam.toml:7: fluid.sigma_h = 2.5 must be within 1.2..2"},
+        Wrong{"[fluid]", "[fluid]\nvariable_h = true\nmodel = \"sdpd\"",
+              "dam.toml:7: fluid.model = \"sdpd\" must be \"wcsph\" with fluid.variable_h"},
+        Wrong{"[fluid]", "[fluid]\nvariable_h = true\nkernel = \"lucy\"\nh_over_dx = 3",
+              "dam.toml:7: fluid.kernel = \"lucy\" must be wendland_c2 or cubic with fluid.variable_h"},
+        Wrong{"[fluid]", "[shift]\nA = 5\n[fluid]\nvariable_h = true",
+              "dam.toml:6: shift.A = 5 must be 0 with fluid.variable_h"},
+        Wrong{"[fluid]", "[wall]\ntype = \"mdbc\"\n[fluid]\nvariable_h = true",
+              "dam.toml:13: wall.body.type = \"mdbc\" must be adami, single_layer, grains_only or "
+              "fluid_only with fluid.variable_h"},
+        Wrong{
+            "[domain]\nmin = [0, 0, 0]\nmax = [0.2, 0.1, 0.2]\n[fluid]",
+            "[domain]\nmin = [0, 0, 0]\nmax = [0.2, 0.04, 0.2]\nperiodic = [false, true, false]\n[fluid]\n"
+            "variable_h = true",
+            "dam.toml:5: domain.periodic = 0.04 m along y must be a period > 4 kappa h = 0.048; enlarge the "
+            "domain or refine"}));
+
+INSTANTIATE_TEST_SUITE_P(
     Bounds, CaseErrors,
     testing::Values(
         Wrong{"dx = 0.004", "dx = 0", "dam.toml:6: fluid.dx = 0 must be > 0"},
@@ -142,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(
               "ergun, wen_yu, "
               "schiller_naumann, stokes, table"},
         Wrong{"title = \"dam\"", "preset = \"hee\"",
-              "dam.toml:1: preset = \"hee\" must be one of default, he2018, democritus"}));
+              "dam.toml:1: preset = \"hee\" must be one of default, he2018, democritus, robinson2014"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Together, CaseErrors,

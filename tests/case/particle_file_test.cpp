@@ -81,13 +81,15 @@ TEST_F(ParticleFile, ErrorsNameFileLineColumnAndValue) {
   EXPECT_EQ(error("x,y,z,d,radius\n"), "grains.csv:1: has both columns d and radius; one of them is enough");
   EXPECT_EQ(error("x,y,z,diameter\n1,2,3,4\n"),
             "grains.csv:1: has a column diameter, which means nothing here; known are x, y, z, d, radius, "
-            "vx, vy, vz, wx, wy, wz, type");
+            "volume, vx, vy, vz, wx, wy, wz, type");
   EXPECT_EQ(error("x,x,y,z\n"), "grains.csv:1: has two columns x");
   EXPECT_EQ(error("x [mm],y,z\n"), "grains.csv:1: column x [mm] must be in [m]");
   EXPECT_EQ(error("x,y,z\n1,2,3\n4,5\n"), "grains.csv:3: has 2 values where the first line names 3 columns");
   EXPECT_EQ(error("x,y,z\n1,2,3e\n"), "grains.csv:2: z = \"3e\" must be a number");
   EXPECT_EQ(error("x,y,z\n1,,3\n"), "grains.csv:2: y = \"\" must be a number");
   EXPECT_EQ(error("x,y,z\n1,nan,3\n"), "grains.csv:2: y = nan must be finite");
+  EXPECT_EQ(error("x,y,z,volume [m]\n"), "grains.csv:1: column volume [m] must be in [m3]");
+  EXPECT_EQ(error("x,y,z,volume\n1,2,3,0\n"), "grains.csv:2: volume = 0 must be > 0");
   EXPECT_EQ(error("x,y,z,d\n1,2,3,0\n"), "grains.csv:2: d = 0 must be > 0");
   EXPECT_EQ(error("x,y,z,radius\n1,2,3,-1\n"), "grains.csv:2: radius = -1 must be > 0");
 }
@@ -129,6 +131,17 @@ TEST_F(ParticleFile, IsFoundBesideTheCaseAndResolvesIt) {
   EXPECT_EQ(c.grain.d_max, 0.004);
   Config again = read_here(resolved_toml(c));
   EXPECT_TRUE(again == c) << resolved_toml(c);
+}
+
+TEST_F(ParticleFile, VolumesAreForFluid) {
+  write("x,y,z,volume\n0.01,0.02,0.03,1e-9\n");
+  try {
+    read_here(case_with("grains.csv"));
+    FAIL();
+  } catch (const CaseError& error) {
+    EXPECT_EQ(folder_.left_out_of(error.what()),
+              "grains.csv: has a column volume, which is for fluid; grains take d or radius");
+  }
 }
 
 TEST_F(ParticleFile, WithoutDiametersTakesThoseOfTheCase) {

@@ -83,6 +83,24 @@ TEST(ReadCase, HonoursPresetsUnderTheCasesOwnKeys) {
   EXPECT_EQ(read("preset = \"he2018\"\n" + kCase, {"drag.law=ergun"}).couple.drag, "ergun");
 }
 
+TEST(ReadCase, RobinsonHasLengthsOfItsOwn) {
+  const Config c = read("preset = \"robinson2014\"\n" + kCase, {"contact.k=1000"});
+  EXPECT_TRUE(c.fluid.variable_h);
+  EXPECT_DOUBLE_EQ(c.fluid.h(), 1.5 * 0.004);
+  EXPECT_EQ(c.fluid.kernel, "cubic");
+  EXPECT_EQ(c.visc.model, "signal");
+  EXPECT_EQ(c.wall.bodies[0].type, "single_layer");
+  EXPECT_EQ(c.contact.normal, "linear");
+  EXPECT_EQ(c.contact.tangential, "none");
+  EXPECT_DOUBLE_EQ(c.density.delta, 0);
+  EXPECT_DOUBLE_EQ(c.shift, 0);
+  EXPECT_NEAR(c.couple.S_dry, c.couple.S_wet, 0.01) << "grains dry in a step";
+  const Config constant =
+      read("preset = \"robinson2014\"\n" + kCase, {"contact.k=1000", "fluid.variable_h=false"});
+  EXPECT_DOUBLE_EQ(constant.shift, 200);
+  EXPECT_DOUBLE_EQ(read(kCase, {"fluid.variable_h=true"}).shift, 0);
+}
+
 TEST(ReadCase, BodiesInheritFromWall) {
   const Config c =
       read(changed("[[wall.body]]", "[wall]\nslip = \"slip\"\nrepulsion = false\n[[wall.body]]"));
@@ -140,6 +158,7 @@ TEST(ResolvedToml, ReadsBackToTheSameCase) {
   const std::vector<std::vector<std::string>> variations = {
       {},
       {"preset=he2018"},
+      {"preset=robinson2014", "contact.k=1000", "fluid.sigma_h=1.4"},
       {"run.precision=double", "visc.alpha=0.1", "gravity=[0.3, 0.1, -9.7]"},
       {"title=\"a \\\"quoted\\\" \\\\ name\"", "contact.normal=linear", "contact.k=1e4", "fluid.kernel=lucy",
        "fluid.h_over_dx=3"},

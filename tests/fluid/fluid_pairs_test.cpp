@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "kernels/smoothing/wendland_c2.hpp"
 #include "tests/support/fluid_box.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -137,12 +138,17 @@ TEST(FluidPairs, EnergyOfCompressionIsTheWorkOfThePressure) {  // fragmented flu
   }
 }
 
-TEST(FluidPairs, MorrisViscosityOnALattice) {  // T-7: v = cos kz, h/dx = 1.5
-  Config c = periodic_box(20);
-  c.fluid.mu = 2;
+/// From the friction of v = cos kz in slow flow on a lattice, h/dx = 1.5, kh = 0.24, Pa s.
+double viscosity_on_a_lattice(const char* model, const char* kernel, double mu) {
+  Config c = periodic_box(10);
+  c.domain.max.z = 0.4;
+  c.fluid.mu = mu;
+  c.visc.model = model;
+  c.fluid.kernel = kernel;
   FluidBox box(c);
-  const double k = 2 * 3.14159265358979 / 0.2;
-  for (std::size_t a = 0; a < box.position.size(); ++a) box.velocity[a].x = std::cos(k * box.position[a].z);
+  const double k = 2 * 3.14159265358979 / 0.4;
+  for (std::size_t a = 0; a < box.position.size(); ++a)
+    box.velocity[a].x = 1e-3 * c.fluid.c * std::cos(k * box.position[a].z);
   box.upload();
   box.solver->forces(box.fluid, box.walls, {}, 0);
   const auto v = box.fluid.v_rho.values();
@@ -152,7 +158,31 @@ TEST(FluidPairs, MorrisViscosityOnALattice) {  // T-7: v = cos kz, h/dx = 1.5
     top -= double(theta[a].x) * v[a].x * 1000;
     bottom += double(v[a].x) * v[a].x * k * k;
   }
-  EXPECT_NEAR(top / bottom, c.fluid.mu, 3e-2 * c.fluid.mu);
+  return top / bottom;
+}
+
+TEST(FluidPairs, ViscosityOnALattice) {  // T-7
+  const double mu = 2;
+  EXPECT_NEAR(viscosity_on_a_lattice("morris", "wendland_c2", mu), mu, 3e-2 * mu);
+  for (const char* kernel : {"wendland_c2", "cubic"})
+    EXPECT_NEAR(viscosity_on_a_lattice("signal", kernel, mu), mu, 3e-2 * mu) << kernel;
+}
+
+TEST(FluidPairs, SignalsRunFasterBetweenParticlesInRelativeMotion) {  // whichever way
+  const WendlandC2 w(0.015);
+  const double nu = 2e-3, c = 20;
+  const Viscosity viscosity = Viscosity::of(ViscosityModel::signal, 1000 * nu, 1000, c, w);
+  const Real3 r{Real(0.01), Real(0.005), 0};
+  const Real r2 = norm2(r), F = w.F(std::sqrt(r2));
+  for (const double speed : {-4.0, 0.1, 4.0}) {
+    const Real3 v = Real(speed) / std::sqrt(r2) * r;
+    // alpha = 9 nu / (h c) with this kernel; Eq. 9 times grad W
+    const double alpha = 9 * nu / (0.015 * c), u_sig = c + std::abs(speed);
+    const Real3 found = viscosity(Real(1e-3), Real(1000), Real(1010), v, r, r2, F);
+    const double expected = -1e-3 * alpha * u_sig * speed / 1005 * double(F) * double(r.x);
+    EXPECT_NEAR(found.x, expected, 1e-3 * std::abs(expected));
+    EXPECT_NEAR(found.y, found.x / 2, 1e-5 * std::abs(expected));
+  }
 }
 
 TEST(FluidPairs, XsphMovesTheCentreOfMassWithTheMomentum) {  // T-12

@@ -44,6 +44,11 @@ TEST_F(Listed, FluidWeighsADensityTimesACubicSpacing) {
   EXPECT_DOUBLE_EQ(setup.fluid.mass[0], 1e-3);
 }
 
+TEST_F(Listed, FluidBringsItsVolumes) {
+  fluid("x,y,z,volume [m3]\n0.01,0.02,0.03,2e-6\n0.04,0.02,0.03,5e-7\n");
+  EXPECT_EQ(setup_of(config_).fluid.mass, (std::vector<double>{2e-3, 5e-4}));
+}
+
 TEST_F(Listed, FluidBringsItsVelocities) {
   fluid("x,y,z,vx,vy,vz\n0.01,0.02,0.03,1,2,3\n");
   EXPECT_EQ(setup_of(config_).fluid.v[0], (Vec3d{1, 2, 3}));

@@ -170,12 +170,14 @@ inline constexpr auto kNames<EosType> = std::to_array<Named<EosType>>({
 });
 
 /// visc.model
-enum class ViscosityModel { morris, monaghan, none };
+enum class ViscosityModel { morris, monaghan, signal, none };
 template <>
 inline constexpr auto kNames<ViscosityModel> = std::to_array<Named<ViscosityModel>>({
     {ViscosityModel::morris, "morris", "Laplacian of the velocity, conserves linear momentum [morris97]"},
     {ViscosityModel::monaghan, "monaghan",
      "divergence of the stress, right at free surfaces, conserves both [monaghan05]"},
+    {ViscosityModel::signal, "signal",
+     "along the line of centres by the speed of signals, conserves both [harting14]"},
     {ViscosityModel::none, "none", "inviscid"},
 });
 

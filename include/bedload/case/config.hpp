@@ -86,6 +86,8 @@ struct FluidConfig {
   bool present = false;
   double dx = 0;                               ///< particle spacing, m
   double h_over_dx = 1.5;
+  bool variable_h = false;                     ///< each particle's smoothing length follows its volume
+  double sigma_h = 1.5;                        ///< variable_h: smoothing length / cube root of the volume
   Chosen<FluidModel> model = FluidModel::wcsph;
   Chosen<KernelFunction> kernel = KernelFunction::wendland_c2;
   double rho0 = 1000;                          ///< kg/m3
@@ -103,7 +105,11 @@ struct FluidConfig {
       if (species[k].name == fill.species) return std::uint32_t(k);
     return 0;
   }
-  double h() const { return h_over_dx * dx; }
+  /// Smoothing length, m; with variable_h that of a particle of volume dx^3.
+  double h() const { return (variable_h ? sigma_h : h_over_dx) * dx; }
+  double h_least() const { return variable_h ? 0.5 * h() : h(); }  ///< m
+  double h_most() const { return variable_h ? 2 * h() : h(); }     ///< m
+  double reach() const { return kappa() * h_most(); }              ///< farthest that particles act, m
   double kappa() const { return kernel == KernelFunction::lucy ? 1 : 2; }  ///< support / h
   bool sdpd() const { return model != FluidModel::wcsph; }
   bool operator==(const FluidConfig&) const = default;
@@ -520,7 +526,7 @@ struct OutputConfig {
 
 struct Config {
   std::string title;
-  std::string preset = "default";              ///< default, he2018, democritus
+  std::string preset = "default";              ///< default, he2018, democritus, robinson2014
   std::string file;                            ///< where it came from
   Vec3d gravity{0, 0, -9.81};                  ///< m/s2
   DriveConfig drive;

@@ -18,6 +18,7 @@ struct ParticleList {
   std::vector<Vec3d> v;            ///< m/s; empty if the file has none
   std::vector<Vec3d> omega;        ///< rad/s; empty if the file has none
   std::vector<double> d;           ///< diameters, m; empty if the file has none
+  std::vector<double> volume;      ///< of fluid particles, m3; empty if the file has none
   std::vector<std::int64_t> line;  ///< of a text file
 
   /// Where particle n stands: "grains.csv:12", "grains.vtkhdf".
@@ -32,9 +33,9 @@ bool lies_inside(const DomainConfig& domain, Vec3d& x);
 bool has_frames(const std::filesystem::path& file);
 
 /// The particles of a table, or of frame `step` (-1: the last) of a .vtkhdf file that a run wrote. A table
-/// has a line of column names, x, y, z [m], optionally d or radius [m], vx, vy, vz [m/s] and wx, wy, wz
-/// [rad/s], in any order and with or without their units; columns are separated by commas; empty lines and
-/// lines that begin with # are passed over. Where it has a column `type`, fluid or grain, only those of
+/// has a line of column names, x, y, z [m], optionally d or radius [m], volume [m3], vx, vy, vz [m/s] and wx,
+/// wy, wz [rad/s], in any order and with or without their units; columns are separated by commas; empty lines
+/// and lines that begin with # are passed over. Where it has a column `type`, fluid or grain, only those of
 /// `type` count. Throws CaseError with file, line and column, and FileError.
 ParticleList read_particles(const std::filesystem::path& file, std::int64_t step,
                             std::string_view type = "grain");

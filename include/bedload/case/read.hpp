@@ -39,9 +39,10 @@ std::string resolved_toml(const Config& config);
 /// Where the resolved case `now` would compute otherwise than `then`: "fluid.mu = 0.002 (0.001 then)".
 std::vector<std::string> changes_between(const std::string& then, const std::string& now);
 
-/// The defaults of a preset; `name` is "default", "he2018" or "democritus". Without a fluid model, with its
-/// own.
-Config preset_defaults(const std::string& name, std::optional<FluidModel> fluid_model = {});
+/// The defaults of a preset; `name` is one of those of the key. What the case says of the fluid model and of
+/// variable h comes before the preset's own.
+Config preset_defaults(const std::string& name, std::optional<FluidModel> fluid_model = {},
+                       std::optional<bool> variable_h = {});
 
 /// What the settling of the grains before t = 0 depends on, and nothing else: a
 /// dry case of grains and walls.

@@ -273,6 +273,38 @@ struct SphNear {
 #endif
 };
 
+/// How far pairs of particles with smoothing lengths of their own are listed: `times` the larger length, and
+/// `beyond`.
+struct PairReach {
+  Real times, beyond, other;  ///< -, m; length of what has none, m
+};
+
+/// SphNear among such particles; it looks as far as the largest of them reaches.
+template <class PA>
+struct LengthNear {
+  SphNear<PA> near;
+  PairReach reaches;
+  Span<const Real> h_a, h_b;  ///< m; empty for what has none
+  BL_HD Vec3d place(Index i) const { return near.place(i); }
+  BL_HD double reach(Index i) const { return near.reach(i); }
+  BL_HD bool operator()(Index i, Index j) const {
+    const Real h = max_of(own(i), h_b ? h_b[j] : reaches.other), r = reaches.times * h + reaches.beyond;
+    return !(near.same && i == j) && norm2(near.frame.separation(near.a[i], near.b[j])) < r * r;
+  }
+#if !BL_CUDA
+  PackMask lanes(Index i, PackRun j) const {
+    const Pack h = max_of(Pack(own(i)), h_b ? Pack(h_b[j]) : Pack(reaches.other));
+    const Pack r = Pack(reaches.times) * h + Pack(reaches.beyond);
+    PackMask listed = norm2(near.frame.separation(near.a[i], near.b[j])) < r * r;
+    if (near.same && i - j.first < Index(kLanes)) listed.v[i - j.first] = 0;
+    return listed;
+  }
+#endif
+
+ private:
+  BL_HD Real own(Index i) const { return h_a ? h_a[i] : reaches.other; }
+};
+
 /// Pairs across the phases closer than `range`, in fp64.
 template <class PA, class PB>
 struct CrossNear {
