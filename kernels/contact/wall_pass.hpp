@@ -46,8 +46,8 @@ struct WallContacts {
     return laws[body * materials + (mass_per_r3.material ? mass_per_r3.material[i] : 0)];
   }
 
-  /// f(body, contact) for all that grain i touches of the surfaces `surface(k)`, ascending, k < n, and then
-  /// for all from which fluid parts it; `keep`: histories are advanced.
+  /// f(body, contact) for all that grain i touches of the surfaces `surface(k)`, ascending, k < n; `keep`:
+  /// histories are advanced.
   template <class Surfaces, class F>
   BL_HD void each(Index i, Index n, Surfaces&& surface, bool keep, F&& f) const {
     const WallMemories remembered = memories(i);
@@ -61,7 +61,27 @@ struct WallContacts {
         for (int k = 0; k < touches.size(); ++k) remembered[k] = next[k];
     }
     if (keep && remembered.count() != Index(touches.size())) count[i] = Index(touches.size());
-    if (lubrication.acts() && wetness[i] > 0) films(i, n, surface, f);
+  }
+  /// The same for all walls from which fluid parts a wet grain, touched or not; not to be called without
+  /// lubrication.
+  template <class Surfaces, class F>
+  BL_HD void each_film(Index i, Index n, Surfaces&& surface, F&& f) const {
+    if (!(wetness[i] > 0)) return;
+    const Real R = radius[i];
+    WallTouches near(WallMemories{nullptr, nullptr, i}, walls.surfaces.data, kMostWallContacts);
+    find(i, n, surface, double(R) + double(lubrication.range(R)), near);
+    if (near.size() == 0) return;
+    near.settle();
+    for (int k = 0; k < near.size(); ++k) {
+      const ClosestPoint& closest = near[k].closest;
+      const BodyPose& pose = poses[near[k].body];
+      const Vec3d point = x[i] - closest.distance * closest.normal;
+      const NearSurfaces at{closest.normal, closest.distance - double(R), R, 1, Real(closest.distance), 0};
+      ContactForce on_grain = lubrication(at, v[i] - Real3(surface_velocity(pose, arm(pose, point))),
+                                          omega[i], Real3(pose.omega));
+      on_grain.force *= wetness[i], on_grain.torque_i *= wetness[i], on_grain.torque_j *= wetness[i];
+      f(near[k].body, Contact{on_grain, point});
+    }
   }
 
  private:
@@ -79,24 +99,6 @@ struct WallContacts {
       if (view.beyond(walls, reach)) continue;
       view.each_closest_point(walls, reach, 1e-4 * double(radius[i]),
                               [&](const ClosestPoint& closest) { touches.add(s, closest, range); });
-    }
-  }
-  template <class Surfaces, class F>
-  BL_HD void films(Index i, Index n, Surfaces&& surface, F& f) const {
-    const Real R = radius[i];
-    WallTouches near(WallMemories{nullptr, nullptr, i}, walls.surfaces.data, kMostWallContacts);
-    find(i, n, surface, double(R) + double(lubrication.range(R)), near);
-    if (near.size() == 0) return;
-    near.settle();
-    for (int k = 0; k < near.size(); ++k) {
-      const ClosestPoint& closest = near[k].closest;
-      const BodyPose& pose = poses[near[k].body];
-      const Vec3d point = x[i] - closest.distance * closest.normal;
-      const NearSurfaces at{closest.normal, closest.distance - double(R), R, 1, Real(closest.distance), 0};
-      ContactForce on_grain = lubrication(at, v[i] - Real3(surface_velocity(pose, arm(pose, point))),
-                                          omega[i], Real3(pose.omega));
-      on_grain.force *= wetness[i], on_grain.torque_i *= wetness[i], on_grain.torque_j *= wetness[i];
-      f(near[k].body, Contact{on_grain, point});
     }
   }
   /// r: from the body's centre, m.
@@ -150,6 +152,21 @@ struct WallContactPass {
             loads.add(i, {c.on_wall(), contacts.torque_on(body, c), body});
         });
     sums[row] = sum;
+  }
+};
+
+/// Adds what fluid between grains and walls does to the sums of each row.
+struct WallFilmPass {
+  WallContacts contacts;
+  WallRows rows;
+  ContactSum* sums;  ///< [rows]
+  BL_HD void operator()(Index row) const {
+    const Index* surface = rows.surface + rows.offset[row];
+    contacts.each_film(
+        rows.grain[row], Index(rows.offset[row + 1] - rows.offset[row]), [&](Index k) { return surface[k]; },
+        [&](std::uint32_t, const WallContacts::Contact& c) {
+          sums[row].add({Vec3d(c.on_grain.force), Vec3d(c.on_grain.torque_i)});
+        });
   }
 };
 

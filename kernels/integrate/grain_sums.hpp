@@ -103,12 +103,12 @@ struct BodyLoadReduction {
   BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index i) const {
     Value sum = Value::zero();
-    if (contacts.memories(i).count() == 0 && !contacts.lubrication.acts()) return sum;
-    contacts.each(
-        i, contacts.walls.surfaces.size, [](Index s) { return s; }, false,
-        [&](std::uint32_t of, const WallContacts::Contact& c) {
-          if (of == body) sum.add(c.on_wall(), contacts.torque_on(body, c));
-        });
+    const auto surface = [](Index s) { return s; };
+    const auto add = [&](std::uint32_t of, const WallContacts::Contact& c) {
+      if (of == body) sum.add(c.on_wall(), contacts.torque_on(body, c));
+    };
+    if (contacts.lubrication.acts()) contacts.each_film(i, contacts.walls.surfaces.size, surface, add);
+    if (contacts.memories(i).count() > 0) contacts.each(i, contacts.walls.surfaces.size, surface, false, add);
     return sum;
   }
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }

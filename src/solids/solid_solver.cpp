@@ -184,6 +184,9 @@ ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses,
   by_walls_.reserve_and_resize(wall_list_.size());
   for_each_early({0, wall_list_.size()},
                  WallContactPass{wall_contacts(g, poses, dt), wall_list_.rows(), by_walls_.data(), loads});
+  if (films_.acts())
+    for_each({0, wall_list_.size()},
+             WallFilmPass{wall_contacts(g, poses, dt), wall_list_.rows(), by_walls_.data()});
   pass.wall_row = wall_list_.row_of();
   pass.by_walls = by_walls_.data();
   return pass;
