@@ -290,7 +290,7 @@ class Check:
 
 
 # Keys of an expect file beside its [[check]]s, and what they may be.
-HEADER = {"proves": str, "case": str, "set": dict, "quick": bool, "measure": list, "calibrated": str,
+HEADER = {"proves": str, "case": str, "command": str, "set": dict, "quick": bool, "measure": list, "calibrated": str,
           "convergence": dict, "picture": dict}
 
 
