@@ -69,9 +69,9 @@ class Simulation {
   /// Fields for pictures: store is "fluid", "grains" or "walls". First array: "position".
   virtual HostStore snapshot(const std::string& store) = 0;
   /// What the rheology of "fluid" or "grains" is measured by, after a step: arrays position (m), velocity
-  /// (m/s), mass (kg), volume (m3, of the mixture that a fluid particle stands for), drive (N, by gravity and
-  /// drive) and stress_... (J), one each part of the pair forces: [3 i + j] is the sum of half of F_i r_j, so
-  /// that minus its sum over a volume, divided by it, is a stress.
+  /// (m/s), mass (kg), volume (m3, of a grain, or of the mixture that a fluid particle stands for), drive (N,
+  /// by gravity and drive) and stress_... (J), one each part of the pair forces: [3 i + j] is the sum of half
+  /// of F_i r_j, so that minus its sum over a volume, divided by it, is a stress.
   virtual HostStore rheology(const std::string& store) = 0;
   /// What of a snapshot is kept as it is, and the mass of fluid, in the solver's memory and order.
   virtual std::vector<FieldView> fields(const std::string& store) = 0;

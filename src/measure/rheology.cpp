@@ -25,6 +25,11 @@ struct GrainMass {
   Span<Real> out;
   BL_HD void operator()(Index i) const { out[i] = Real(mass_per_r3(i)) * cube(radius[i]); }
 };
+struct GrainVolume {
+  Span<const Real> radius;
+  Span<Real> out;
+  BL_HD void operator()(Index i) const { out[i] = Real(4.0 / 3) * kPi * cube(radius[i]); }
+};
 struct GrainDrivingForce {
   Real3 gravity;  ///< m/s2
   MassPerR3 mass_per_r3;
@@ -74,6 +79,7 @@ HostStore CoupledSimulation::rheology(const std::string& name) {
         made<Real3, PointPass<Vec3d>>("position", "m", all, frame_, Span<const Vec3d>(grains_.x)));
     out.arrays.push_back(renamed(grains_.v, "velocity"));
     out.arrays.push_back(made<Real, GrainMass>("mass", "kg", all, mass_per_r3, radius));
+    out.arrays.push_back(made<Real, GrainVolume>("volume", "m3", all, radius));
     out.arrays.push_back(
         made<Real3, GrainDrivingForce>("drive", "N", all, gravity, mass_per_r3, radius, drive_grains()));
     solid_solver_->contact_moments(grains_, contact_moments_);

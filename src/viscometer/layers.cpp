@@ -65,7 +65,7 @@ Tensor MotionSums::fluctuation() const {
 
 void LayerSums::add(const LayerSums& o) {
   fluid.add(o.fluid), grains.add(o.grains);
-  volume += o.volume, place += o.place, place2 += o.place2, drive += o.drive;
+  volume += o.volume, grain_volume += o.grain_volume, place += o.place, place2 += o.place2, drive += o.drive;
   for (const auto& [name, tensor] : o.parts) {
     Tensor& sum = parts.try_emplace(name, Tensor{}).first->second;
     for (int k = 0; k < 9; ++k) sum[k] += tensor[k];
@@ -102,8 +102,8 @@ void Layers::add(int number, const HostStore& fluid_store, const HostStore& grai
       const bool turned = !flow_.walled() && z >= gap;
       const double s = (turned ? z - gap : z) / gap;
       layer.drive += value(*all.drive, 3 * i + flow_.along);
+      (is_fluid ? layer.volume : layer.grain_volume) += value(*all.volume, i);
       if (!is_fluid) continue;
-      layer.volume += value(*all.volume, i);
       layer.place += m * s, layer.place2 += m * s * s;
       if (s * gap <= h_ || (1 - s) * gap <= h_) continue;
       const double u = turned ? -v[flow_.along] : v[flow_.along];

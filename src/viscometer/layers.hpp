@@ -30,6 +30,7 @@ struct MotionSums {
 struct LayerSums {
   MotionSums fluid, grains;
   double volume = 0;             ///< of the mixture that fluid particles stand for, m3
+  double grain_volume = 0;       ///< m3
   double place = 0, place2 = 0;  ///< fluid mass times s and s^2, kg; s = distance from the lower end / gap
   double drive = 0;              ///< force along the flow by gravity and drive, N
   std::map<std::string, Tensor> parts;  ///< moments of pair forces by their part, J

@@ -107,8 +107,8 @@ class Evaluation {
     for (int l = 0; l < n_; ++l)
       if (all_.layers[l].fluid.mass > 0) r.profile.push_back(row(l, r.imposed));
     double grains = 0;
-    for (const LayerSums& layer : all_.layers) grains += layer.grains.mass / all_.samples;
-    r.concentration = grains / c_.grain.rho / (flow_.area * (flow_.high - flow_.low));
+    for (const LayerSums& layer : all_.layers) grains += layer.grain_volume / all_.samples;
+    r.concentration = grains / (flow_.area * (flow_.high - flow_.low));
     return r;
   }
 
