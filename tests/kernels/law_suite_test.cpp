@@ -142,8 +142,8 @@ TEST(SmallContactLaws, KnowNoDirectionOfSpace) {
 /// that across it, spins too, are stepped as the solver steps them.
 TEST(SmallContactLaws, NeverMakeEnergyInAnImpact) {
   for_each_contact_law([](const ContactLaw& law) {
-    // one in six of these gains 2 to 3 %: its damping exceeds friction, and what it exceeds by is left in a
-    // spring that is not shortened on unloading
+    // a case refuses this one, which gains 2 to 3 %: its damping exceeds friction, and what it exceeds by is
+    // left in a spring that is not shortened on unloading
     if (law.normal == NormalLaw::democritus && law.sliding == SlidingLaw::linear) return;
     Random random;
     for (int k = 0; k < 6; ++k) {
