@@ -17,9 +17,10 @@ struct CollisionCountPass {
   BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), 0}; }
   BL_HD auto sources() const { return sources_of(v_rho); }
   template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N, const Vec4<N>& vb) const {
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb) const {
     const N near = select(r2 < N(range2), N(1), N(0));
-    sum.count += select(dot(sum.v - vb.xyz(), r) < N(0), near, N(0));
+    const N there = select(M > N(0), near, N(0));  // what fills up a list weighs nothing
+    sum.count += select(dot(sum.v - vb.xyz(), r) < N(0), there, N(0));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.count += other.count; }
   BL_HD void finish(Index a, const Sum<>& sum) const { count[a] = sum.count; }
@@ -44,10 +45,11 @@ struct CollisionPass {
   BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mass[a], count[a], {}}; }
   BL_HD auto sources() const { return sources_of(v_rho, mass, count); }
   template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N, const Vec4<N>& vb, N m, N n) const {
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N m, N n) const {
     const N v_r = dot(sum.v - vb.xyz(), r), pairs = max_of(max_of(sum.count, n), N(1));
     const N k = quotient((1 + restitution) * m * v_r, (sum.mass + m) * (r2 + guard) * pairs);
-    sum.change -= select(v_r < N(0), select(r2 < N(range2), k, N(0)), N(0)) * r;
+    const N near = select(r2 < N(range2), k, N(0)), there = select(M > N(0), near, N(0));
+    sum.change -= select(v_r < N(0), there, N(0)) * r;
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.change += other.change; }
   BL_HD void finish(Index a, const Sum<>& sum) const { v_next[a] = {sum.v + sum.change, v_rho[a].w}; }

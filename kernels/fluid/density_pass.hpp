@@ -105,7 +105,7 @@ struct DensityPass {
   Real spreading;  ///< of density where particles overfill their volume [1/s]
   Shift shift;
   Span<Real3> drift;  ///< empty where nothing drifts
-  [[no_unique_address]] Lengths lengths;
+  Lengths lengths;
 
   static constexpr Real slack = Real(0.02);  ///< twice what the sum over particles at rest scatters
 

@@ -49,7 +49,7 @@ struct ForcePass {
   Drive drive;
   Span<Real3> theta, acc, drift;
   Span<const Real> relative_viscosity = {};  ///< over that of wall.viscosity
-  [[no_unique_address]] Lengths lengths = {};
+  Lengths lengths = {};
 
   template <class N = Real>
   struct Sum {
@@ -145,7 +145,7 @@ struct WallForcePass {
   Span<const Real4> flux, m_state, wall_v_rho, wall_m_state, wall_v_visc;
   Span<Vec3d> force, friction;
   Span<const Real> relative_viscosity;  ///< of fluid over that of wall.viscosity; empty: the same
-  [[no_unique_address]] Lengths lengths = {};
+  Lengths lengths = {};
 
   BL_HD Force start(Index) const { return {}; }
   BL_HD void pair(Force& sum, Index b, Index a, const Real3& r_ba, Real r2) const {

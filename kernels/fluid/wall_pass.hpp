@@ -29,7 +29,7 @@ struct WallPass {
   Real least_sum;  ///< inactive below this sum of W, 1/m3
   Span<Real4> v_rho, v_visc, m_state;
   Span<Real> compression;
-  [[no_unique_address]] Lengths lengths = {};
+  Lengths lengths = {};
 
   template <class N = Real>
   struct Sum {
