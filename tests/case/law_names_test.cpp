@@ -34,7 +34,10 @@ TEST(LawNames, GoThroughACaseFile) {
   expect_round_trips<NormalLaw>("contact.normal", {{"linear", spring}});
   expect_round_trips<SlidingLaw>("contact.tangential");
   expect_round_trips<RollingLaw>("contact.rolling");
-  expect_round_trips<DragLaw>("drag.law");
+  expect_round_trips<DragLaw>(
+      "drag.law",
+      {{"table",
+        {"drag.porosity=[0.4, 1]", "drag.reynolds=[0, 10, 1000]", "drag.factor=[7, 20, 150, 1, 3, 20]"}}});
   expect_round_trips<DragIntegrator>("drag.integrator");
   expect_round_trips<DragSlip>("couple.slip");
   expect_round_trips<CouplingMode>("couple.mode");

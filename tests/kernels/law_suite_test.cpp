@@ -178,25 +178,27 @@ TEST(SmallContactLaws, NeverMakeEnergyInAnImpact) {
 // -- drag ----------------------------------------------------------------------------------------
 
 TEST(SmallDragLawSuite, OpposesSlipAndKnowsNoUnits) {
-  for_each_name<DragLaw>([](DragLaw name) {
-    with_drag_law(name, [](const auto& law) {
-      Random random;
-      for (int k = 0; k < 200; ++k) {
-        const double eps = k % 10 == 0 ? 1 : random.within(0.3, 1), d = std::pow(10, random.within(-4, -2)),
-                     rho = random.within(1, 2000), mu = std::pow(10, random.within(-5, 0)),
-                     w = k % 7 == 0 ? 0 : std::pow(10, random.within(-4, 1));
-        const double K = law.K(Real(eps), Real(d), Real(rho), Real(mu), Real(w));
-        EXPECT_TRUE(std::isfinite(K));
-        EXPECT_GT(K, eps < 1 ? 0 : -1e-30) << "the force along the slip gives energy to it";
-        const double faster = law.K(Real(eps), Real(d), Real(rho), Real(mu), Real(1.01 * w + 1e-9));
-        EXPECT_GE(faster * (1.01 * w + 1e-9), K * w) << "force falls with slip at eps " << eps << ", w " << w;
-        const double L = 20, M = 3, T = 0.5;  // new units
-        const double again = law.K(Real(eps), Real(d * L), Real(rho * M / (L * L * L)),
-                                   Real(mu * M / (L * T)), Real(w * L / T));
-        EXPECT_NEAR(again, K * M / T, tolerance(1e-12, 1e-5, 1e-5) * K * M / T);
-      }
-    });
-  });
+  const Real porosity[] = {Real(0.4), 1}, log_re[] = {0, Real(std::log(11)), Real(std::log(1001))},
+             log_factor[] = {2, 3, 5, 0, 1, 3};
+  const Tabulated table{{porosity, 2}, {log_re, 3}, {log_factor, 6}};
+  const auto keeps_the_rules = [](const auto& law) {
+    Random random;
+    for (int k = 0; k < 200; ++k) {
+      const double eps = k % 10 == 0 ? 1 : random.within(0.3, 1), d = std::pow(10, random.within(-4, -2)),
+                   rho = random.within(1, 2000), mu = std::pow(10, random.within(-5, 0)),
+                   w = k % 7 == 0 ? 0 : std::pow(10, random.within(-4, 1));
+      const double K = law.K(Real(eps), Real(d), Real(rho), Real(mu), Real(w));
+      EXPECT_TRUE(std::isfinite(K));
+      EXPECT_GT(K, eps < 1 ? 0 : -1e-30) << "the force along the slip gives energy to it";
+      const double faster = law.K(Real(eps), Real(d), Real(rho), Real(mu), Real(1.01 * w + 1e-9));
+      EXPECT_GE(faster * (1.01 * w + 1e-9), K * w) << "force falls with slip at eps " << eps << ", w " << w;
+      const double L = 20, M = 3, T = 0.5;  // new units
+      const double again =
+          law.K(Real(eps), Real(d * L), Real(rho * M / (L * L * L)), Real(mu * M / (L * T)), Real(w * L / T));
+      EXPECT_NEAR(again, K * M / T, tolerance(1e-12, 1e-5, 1e-5) * K * M / T);
+    }
+  };
+  for_each_name<DragLaw>([&](DragLaw name) { with_drag_law(name, keeps_the_rules, table); });
 }
 
 // -- viscosity -----------------------------------------------------------------------------------
