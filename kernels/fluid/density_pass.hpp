@@ -115,7 +115,7 @@ struct DensityPass {
     N rho, eps, rate, diffused, filled;
     Vec3<N> gradient;
     [[no_unique_address]] typename Shift::template Sum<N> shift;
-    [[no_unique_address]] typename Lengths::template Own<N> own;
+    typename Lengths::template Own<N> own;
   };
   BL_HD Sum<> start(Index a) const {
     const Real4 m = m_state[a];

@@ -56,7 +56,7 @@ struct ForcePass {
     Vec4<N> v, m;
     Vec3<N> theta, xsph;
     N viscosity;
-    [[no_unique_address]] typename Lengths::template Own<N> own;
+    typename Lengths::template Own<N> own;
   };
   BL_HD Sum<> start(Index a) const {
     Real4 m = m_state[a];

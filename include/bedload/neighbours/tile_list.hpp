@@ -210,6 +210,7 @@ __device__ T sum_below(T own, T* sums, T& total) {
     if (w == warp) sum += total;
     total += sums[w];
   }
+  __syncthreads();
   return sum - own;
 }
 
