@@ -183,8 +183,8 @@ std::vector<Quantity> CoupledSimulation::box(const ProbeConfig& p) {
         fluid_.owned(), FluidBox{frame_, p.min, p.max, fluid_.x, fluid_.v_rho, fluid_.m_state, fluid_.mass});
     std::copy(r.v, r.v + 7, s);
   } else {
-    const auto r = sum_over<7>(grains_.owned(), GrainBox{p.min, p.max, GrainMatter(config_.grain).of(grains_),
-                                                         grains_.x, grains_.v, grains_.radius});
+    const auto r = sum_over<7>(
+        grains_.owned(), GrainBox{p.min, p.max, matter_.of(grains_), grains_.x, grains_.v, grains_.radius});
     std::copy(r.v, r.v + 7, s);
   }
   const double m = s[1] > 0 ? s[1] : std::nan("");

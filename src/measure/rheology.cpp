@@ -72,8 +72,7 @@ HostStore CoupledSimulation::rheology(const std::string& name) {
   } else if (name == "grains" && has_grains()) {
     const Range all = grains_.owned();
     out.count = all.size();
-    const GrainMatter matter(config_.grain);
-    const MassPerR3 mass_per_r3 = matter.of(grains_);
+    const MassPerR3 mass_per_r3 = matter_.of(grains_);
     const Span<const Real> radius = grains_.radius;
     out.arrays.push_back(
         made<Real3, PointPass<Vec3d>>("position", "m", all, frame_, Span<const Vec3d>(grains_.x)));

@@ -121,6 +121,7 @@ class CoupledSimulation final : public Simulation {
   WallMotion motion_;
   OpenBoundaries open_;
   EffectiveGravity gravity_;
+  GrainMatter matter_;
   DriveFactor drive_factor_;
   Buffer<Real> grain_drive_factors_;
   Buffer<Real3> grain_drive_;  ///< N

@@ -118,6 +118,7 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
       motion_(config, bodies_),
       open_(config, frame_, motion_),
       gravity_(config),
+      matter_(config.grain),
       drive_factor_(config.drive) {
   if (has_grains()) {
     const bool wet = has_fluid() && config.couple.mode != CouplingMode::off;
