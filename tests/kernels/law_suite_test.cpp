@@ -122,6 +122,9 @@ TEST(SmallContactLaws, GiveOppositeForcesThatKeepAngularMomentum) {
 
 TEST(SmallContactLaws, KnowNoDirectionOfSpace) {
   for_each_contact_law([](const ContactLaw& law) {
+    // damping of Mindlin-Deresiewicz goes with the fourth root of what is left to full slip, 1e-4 of 1e-16
+    const bool rooted = law.sliding == SlidingLaw::mindlin_deresiewicz;
+    const double allowed = tolerance(rooted ? 1e-4 : 1e-9, 1e-4, 1e-4);
     Random random;
     for (int k = 0; k < 20; ++k) {
       Touching here(random);
@@ -129,11 +132,9 @@ TEST(SmallContactLaws, KnowNoDirectionOfSpace) {
       Touching there = here.turned(q);
       const ContactForce a = here.force(law), b = there.force(law);
       const double force = norm(Vec3d(a.force)) + 1e-6, torque = force * norm(here.r);
-      EXPECT_LT(difference(q.rotate(Vec3d(a.force)), Vec3d(b.force), force), tolerance(1e-9, 1e-4, 1e-4));
-      EXPECT_LT(difference(q.rotate(Vec3d(a.torque_i)), Vec3d(b.torque_i), torque),
-                tolerance(1e-9, 1e-4, 1e-4));
-      EXPECT_LT(difference(q.rotate(Vec3d(a.torque_j)), Vec3d(b.torque_j), torque),
-                tolerance(1e-9, 1e-4, 1e-4));
+      EXPECT_LT(difference(q.rotate(Vec3d(a.force)), Vec3d(b.force), force), allowed);
+      EXPECT_LT(difference(q.rotate(Vec3d(a.torque_i)), Vec3d(b.torque_i), torque), allowed);
+      EXPECT_LT(difference(q.rotate(Vec3d(a.torque_j)), Vec3d(b.torque_j), torque), allowed);
     }
   });
 }
