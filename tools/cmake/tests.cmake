@@ -116,7 +116,7 @@ if(BEDLOAD_CPU_DISPATCH)
   foreach(precision IN LISTS BEDLOAD_PRECISIONS)
     add_test(NAME sealed.${precision}_cpu_avx2
              COMMAND sh -c "test $('${CMAKE_NM}' --defined-only --extern-only \"$1\" | wc -l) = 1 && \
-! '${CMAKE_OBJDUMP}' -h \"$1\" | grep -E 'init_array|ctors'" sh ${CMAKE_BINARY_DIR}/bedload_${precision}_cpu_avx2.o)
+! '${CMAKE_OBJDUMP}' -h \"$1\" | grep -E ' [.](init_array|ctors)'" sh ${CMAKE_BINARY_DIR}/bedload_${precision}_cpu_avx2.o)
     set_tests_properties(sealed.${precision}_cpu_avx2 PROPERTIES LABELS quick)
   endforeach()
   if("mixed" IN_LIST BEDLOAD_PRECISIONS)
