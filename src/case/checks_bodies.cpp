@@ -1,0 +1,156 @@
+// Shapes, wall bodies and motions against the rest of a case.
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+
+#include "bedload/geometry/body.hpp"
+#include "bedload/geometry/shape.hpp"
+#include "checks.hpp"
+
+namespace bedload {
+
+void Checks::meshes() const {
+  const auto largest = [](const Vec3d& side) { return std::max({side.x, side.y, side.z}); };
+  const Vec3d extent = c.domain.max - c.domain.min;
+  for (const ShapeConfig& shape : c.shapes) {
+    if (shape.kind != "mesh") continue;
+    const Bounds bounds = shape.solid.shape->bounds();
+    const Vec3d side = bounds.max - bounds.min;
+    const double times = largest(side) / largest(extent);
+    if (times > 20 || times < 1e-3)
+      warn(
+          "shape \"{}\": its mesh is {:.3g} x {:.3g} x {:.3g} m large, the domain {:.3g} x {:.3g} x {:.3g} "
+          "m; does it need another scale?",
+          shape.name, side.x, side.y, side.z, extent.x, extent.y, extent.z);
+  }
+}
+
+void Checks::walls() const {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < c.wall.bodies.size(); ++i) {
+    const WallBody& body = c.wall.bodies[i];
+    const std::string path = fmt::format("wall.body.{}", i);
+    file_name(path + ".name", body.name);
+    if (!names.insert(body.name).second)
+      fail(path + ".name", quoted(body.name), "must differ from other bodies'");
+    if (body.shape != "plane") box(path, body.min, body.max);
+    if (body.solid.shape) within_period(path + ".shape", body);
+    countable(path + ".shape", body);
+    if (!body.moves()) met(body);
+  }
+  if (!c.fluid.present) return;
+  const double dx = c.fluid.dx;
+  if (c.wall.dx < 0.25 * dx * (1 - 1e-9) || c.wall.dx > dx * (1 + 1e-9))
+    fail("wall.dx", c.wall.dx,
+         fmt::format("must be within {}..{}; a quarter of fluid.dx to fluid.dx", dx / 4, dx));
+  if (c.wall.rep_r0 > dx * (1 + 1e-9))
+    fail("wall.rep_r0", c.wall.rep_r0, fmt::format("must be at most fluid.dx = {}", dx));
+  for (std::size_t i = 0; i < c.wall.bodies.size(); ++i) {
+    const WallBody& body = c.wall.bodies[i];
+    const double spacing = c.wall.spacing(body), most = body.single_layer() ? dx / 2 : dx;
+    if (spacing < 0.25 * dx * (1 - 1e-9) || spacing > most * (1 + 1e-9))
+      fail(fmt::format("wall.body.{}.dx", i), spacing,
+           fmt::format("must be within {}..{}; a quarter of fluid.dx to {}", dx / 4, most,
+                       body.single_layer() ? "half of it for a single_layer" : "fluid.dx"));
+    const double r0 = c.wall.layer_r0;
+    if (body.single_layer() && (r0 < spacing * (1 - 1e-9) || r0 > dx * (1 + 1e-9)))
+      fail("wall.layer_r0", r0,
+           fmt::format("must be within {}..{}; the spacing of wall.body \"{}\" to fluid.dx", spacing, dx,
+                       body.name));
+  }
+}
+
+void Checks::countable(const std::string& path, const WallBody& body) const {
+  if (!c.fluid.present || body.shape == "plane" || !body.stops_fluid()) return;
+  const Vec3d side = body.max - body.min;
+  const double spacing = c.wall.spacing(body);
+  const double layer = std::max({side.x * side.y, side.y * side.z, side.z * side.x}) / (spacing * spacing);
+  if (layer >= 2147483648.0)
+    fail(
+        path, quoted(body.shape),
+        fmt::format("must be smaller; at {:.3g} x {:.3g} x {:.3g} m a layer of wall particles {} m apart has "
+                    "{:.3g} of at most 2147483647",
+                    side.x, side.y, side.z, spacing, layer));
+}
+
+void Checks::met(const WallBody& body) const {
+  const Vec3d &lo = c.domain.min, &hi = c.domain.max;
+  const double rounding = 1e-9 * norm(hi - lo);
+  if (body.shape == "plane") {
+    double nearest = 1e300;  // of the domain's corners, before the plane
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3d at{corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z};
+      nearest = std::min(nearest, dot(at - body.point, body.normal));
+    }
+    if (nearest > rounding)
+      warn("wall.body \"{}\" lies {:.3g} m outside the domain, so particles leave before they meet it",
+           body.name, nearest);
+  } else if (body.shape == "tank") {
+    for (int face = 0; face < 6; ++face) {
+      const int k = face / 2;
+      const double beyond = face % 2 ? body.max[k] - hi[k] : lo[k] - body.min[k];
+      if (body.faces[face] && !c.domain.periodic[k] && beyond > rounding)
+        warn(
+            "face {} of wall.body \"{}\" lies {:.3g} m outside the domain, so particles leave before they "
+            "meet it",
+            kFaces[face], body.name, beyond);
+    }
+  } else if (!in_sight(body.min, body.max)) {
+    warn("wall.body \"{}\" lies outside the domain, so particles leave before they meet it", body.name);
+  }
+}
+
+void Checks::within_period(const std::string& path, const WallBody& body) const {
+  for (int k = 0; k < 3; ++k)
+    if (c.domain.periodic[k] && !c.domain.flat(k) &&
+        (body.min[k] < c.domain.min[k] || body.max[k] > c.domain.max[k]))
+      fail(path, quoted(body.shape),
+           fmt::format("must lie within the period along {}, {}..{} m; only tank, box and plane run through",
+                       "xyz"[k], c.domain.min[k], c.domain.max[k]));
+}
+
+void Checks::motions() const {
+  for (const WallBody& body : c.wall.bodies) {
+    const std::vector<Vec3d> at = corners(body, c.domain);
+    if (const double shift = initial_shift(body.motion, at); shift > 1e-9)
+      warn("wall.body \"{}\": its motion begins {:.4g} m away from where fluid and grains start for it",
+           body.name, shift);
+    auto jumps = velocity_jumps(body.motion, at, c.time.end);
+    std::erase_if(jumps, [&](const VelocityJump& jump) { return jump.time == 0 && steady(body.motion); });
+    warn_of(jumps, fmt::format("wall.body \"{}\"", body.name), "");
+  }
+  const MotionConfig& frame = c.frame.motion;
+  for_parts(frame, "frame.motion",
+            [&](const MotionPart& m, const std::string& path) { translates(m, path); });
+  auto jumps = velocity_jumps(frame, {Vec3d{}}, c.time.end);
+  // what is inside begins at the frame's own velocity
+  std::erase_if(jumps, [](const VelocityJump& jump) { return jump.time == 0; });
+  warn_of(jumps, "frame.motion", "; it does not act on what is inside");
+}
+
+bool Checks::steady(const MotionConfig& m) {
+  return m.add.empty() && (m.kind == "velocity" || m.kind == "rotation");
+}
+
+void Checks::warn_of(const std::vector<VelocityJump>& jumps, const std::string& of, const char* note) const {
+  constexpr std::size_t few = 4;
+  for (std::size_t k = 0; k < jumps.size() && (k < few || jumps.size() == few + 1); ++k)
+    warn("{}: its velocity jumps by {:.4g} m/s at t = {:.4g} s{}", of, jumps[k].size, jumps[k].time, note);
+  if (jumps.size() > few + 1)
+    warn("{}: its velocity jumps {} times more until t = {:.4g} s", of, jumps.size() - few,
+         jumps.back().time);
+}
+
+void Checks::translates(const MotionPart& m, const std::string& path) const {
+  const char* must = "must not turn; a frame can only be translated";
+  if (m.kind == "rotation") fail(path + ".kind", quoted(m.kind), must);
+  if (m.rotation != MotionPart().rotation)
+    fail(path + ".rotation", fmt::format("[{}]", fmt::join(m.rotation, ", ")), must);
+  for (const MotionRow& row : m.rows)
+    if (row[4] != 0 || row[5] != 0 || row[6] != 0)
+      fail(path + ".kind", fmt::format("a table with rx, ry, rz = {}, {}, {} deg", row[4], row[5], row[6]),
+           must);
+}
+}  // namespace bedload

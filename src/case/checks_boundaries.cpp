@@ -1,0 +1,85 @@
+// Inlets, outlets and probes against the rest of a case.
+
+#include <algorithm>
+#include <set>
+
+#include "bedload/case/grain_sizes.hpp"
+#include "checks.hpp"
+
+namespace bedload {
+
+void Checks::openings() const {
+  std::set<std::string> names;
+  const auto named = [&](const std::string& path, const std::string& name) {
+    file_name(path + ".name", name);
+    if (!names.insert(name).second)
+      fail(path + ".name", quoted(name), "must differ from other inlets' and outlets'");
+  };
+  for (std::size_t i = 0; i < c.inlets.size(); ++i) {
+    const std::string path = fmt::format("inlet.{}", i);
+    named(path, c.inlets[i].name);
+    inside_domain(path + ".centre", c.inlets[i].centre);
+    finite_factor(path + ".factor", c.inlets[i].factor);
+  }
+  for (std::size_t i = 0; i < c.outlets.size(); ++i) {
+    const OutletConfig& outlet = c.outlets[i];
+    const std::string path = fmt::format("outlet.{}", i);
+    if (c.grain.present && outlet.takes("grains") && !c.grain.rigid_fills().empty())
+      fail(path + ".phase", quoted(outlet.phase), "must be \"fluid\" where grains form rigid groups");
+    named(path, outlet.name);
+    if (outlet.shape == "box") box(path, outlet.min, outlet.max);
+    if (outlet.shape != "plane" && !in_sight(outlet.min, outlet.max))
+      fail(path + ".shape", quoted(outlet.shape), "must reach into the domain");
+    if (outlet.phase != "both" && !(outlet.phase == "fluid" ? c.fluid.present : c.grain.present))
+      fail(path + ".phase", quoted(outlet.phase),
+           fmt::format("must name something in this case; it has no {}", outlet.phase));
+  }
+  for (std::size_t i = 0; i < c.grain_inlets.size(); ++i) {
+    named(fmt::format("grain_inlet.{}", i), c.grain_inlets[i].name);
+    grain_inlet(fmt::format("grain_inlet.{}", i), c.grain_inlets[i]);
+  }
+}
+
+void Checks::grain_inlet(const std::string& path, const GrainInletConfig& inlet) const {
+  double d = 0;
+  for (const SizeClass& size : inlet.sizes) d = std::max(d, size_range(size).second);
+  if (c.grain.fixed) fail("grain.fixed", "true", "must be false with grain_inlet");
+  if (inlet.shape == "disc") {
+    inside_domain(path + ".centre", inlet.centre);
+    if (2 * inlet.radius < d)
+      fail(path + ".radius", inlet.radius, fmt::format("must be at least {}, for the largest grain", d / 2));
+    return;
+  }
+  box(path, inlet.min, inlet.max);
+  inside_domain(path + ".min", inlet.min);
+  inside_domain(path + ".max", inlet.max);
+  for (int k = 0; k < 3; ++k)
+    if (inlet.max[k] - inlet.min[k] < d * (1 - 1e-9))
+      fail(path + ".max", to_text(inlet.max),
+           fmt::format("must leave space along {} for the largest grain, {} m", "xyz"[k], d));
+}
+
+void Checks::probes() const {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < c.out.probes.size(); ++i) {
+    const ProbeConfig& probe = c.out.probes[i];
+    const std::string path = fmt::format("probe.{}", i);
+    file_name(path + ".name", probe.name);
+    if (!names.insert(probe.name).second)
+      fail(path + ".name", quoted(probe.name), "must differ from other probes'");
+    if (probe.type == "box") {
+      box(path, probe.min, probe.max);
+      if (!in_sight(probe.min, probe.max))
+        fail(path + ".min", to_text(probe.min), "must have a part of the domain in its box");
+    }
+    if (probe.type == "point" || probe.type == "wall_pressure") inside_domain(path + ".at", probe.at);
+    if (probe.type == "height") column_in_domain(path + ".at", probe.at);
+    const bool has_phase = probe.type == "front" || probe.type == "box";
+    const std::string phase = has_phase ? probe.phase : "fluid";
+    if (probe.type != "force" && !(phase == "fluid" ? c.fluid.present : c.grain.present))
+      fail(path + (has_phase ? ".phase" : ".type"), quoted(has_phase ? phase : probe.type),
+           fmt::format("must name something in this case; it has no {}", phase));
+    if (probe.type == "force" || !probe.body.empty()) body_exists(path + ".body", probe.body);
+  }
+}
+}  // namespace bedload

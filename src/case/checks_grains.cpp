@@ -1,0 +1,164 @@
+// Keys of grains and coupling against others.
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bedload/case/grain_sizes.hpp"
+#include "bedload/case/materials.hpp"
+#include "bedload/case/normal_laws.hpp"
+#include "bedload/case/particle_file.hpp"
+#include "bedload/geometry/depth.hpp"
+#include "checks.hpp"
+
+namespace bedload {
+
+void Checks::grains() const {
+  const GrainConfig& g = c.grain;
+  if (g.d_max > 20 * g.d_min)
+    fail("grain.fill", fmt::format("{:.4g}..{:.4g} m", g.d_min, g.d_max),
+         "must span at most a factor of 20 in diameter");
+  for (std::size_t i = 0; i < g.fills.size(); ++i) grain_fill(fmt::format("grain.fill.{}", i), g.fills[i]);
+  if (c.contact.k == 0 && c.contact.normal == NormalLaw::linear)
+    missing("contact.k", "spring, N/m, with contact.normal = \"linear\"");
+  if (c.contact.normal == NormalLaw::democritus && c.contact.tangential == SlidingLaw::linear)
+    fail("contact.tangential", "\"linear\"",
+         "must be another with contact.normal = \"democritus\", whose damping would make energy with it");
+  if (g.settle && norm(c.gravity) == 0) fail("grain.settle", "true", "must be false without gravity");
+  if (g.settle && g.fixed) fail("grain.settle", "true", "must be false with grain.fixed");
+  for (const auto& [key, given] :
+       {std::pair{"grain.settle_time", g.settle_time > 0}, {"grain.settle_mu", std::isfinite(g.settle_mu)}})
+    if (given && !g.settle) warn("{}: not used, since grain.settle = false", key);
+  if (!c.contact.cap_rolling && c.contact.rolling == RollingLaw::cdt)
+    warn("contact.cap_rolling = false: resting grains will buzz and heaps creep");
+  if (c.contact.he_damping) warn("paper.he_damping: the restitution reached is below grain.e");
+  softness();
+  if (c.lubrication.acts()) lubrication();
+  materials();
+  if (!c.fluid.present && c.drive.on_fluid())
+    fail("drive.on", quoted(c.drive.on.name()), "must be \"grains\" without [fluid]");
+}
+
+void Checks::grain_fill(const std::string& path, const GrainFill& fill) const {
+  if (fill.file.empty())
+    for (const Vec3d& x : listed_grains(fill, c.domain).x) inside_domain(path + ".positions", x);
+  for (const auto& [key, list] : {std::pair{".velocities", &fill.velocities}, {".spins", &fill.spins}})
+    if (!list->empty() && list->size() != fill.positions.size())
+      fail(path + key, fmt::format("{} vectors", list->size()),
+           fmt::format("must be as many as positions, {}", fill.positions.size()));
+  if (fill.replaces_fluid && (!c.fluid.present || c.grain.settle))
+    fail(path + ".replaces_fluid", "true", "must be false without [fluid], and with grain.settle");
+  if (fill.rigid.present && (fill.spin != Vec3d{} || !fill.spins.empty() || !fill.velocities.empty()))
+    fail(path + ".rigid", "[grain.fill.rigid]",
+         "must be left out where grains have spins or velocities of their own");
+  if (!fill.every.empty()) {
+    const bool whole =
+        std::all_of(fill.every.begin(), fill.every.end(), [](double n) { return n == std::round(n); });
+    if (fill.every.size() != 3 || !whole)
+      fail(path + ".every", fmt::format("[{}]", fmt::join(fill.every, ", ")), "must be three whole numbers");
+    if (!c.fluid.present)
+      fail(path + ".every", "given", "must be left out without [fluid], whose lattice it counts");
+  }
+  if (!fill.positions.empty() || !fill.file.empty()) return;
+  box(path, fill.min, fill.max);
+  if (!fill.solid.shape) {
+    inside_domain(path + ".min", fill.min);
+    inside_domain(path + ".max", fill.max);
+  }
+  if (!fill.every.empty()) return;
+  if ((fill.count > 0) + (fill.mass > 0) + (fill.packing_fraction > 0) != 1)
+    throw CaseError(fmt::format("{}: grain.fill must have exactly one of count, mass and packing_fraction",
+                                nearest_value(root_, path).place()));
+  const double fraction =
+      solid_volume(fill, c.grain.all_materials()[c.grain.material(fill.material)].rho) / fill_volume(fill);
+  if (fraction > 0.64) {
+    const bool by_mass = fill.mass > 0;
+    fail(path + (by_mass ? ".mass" : ".count"), fmt::format("{}", by_mass ? fill.mass : double(fill.count)),
+         fmt::format("must fit the space to fill; it takes {:.0f} % where 64 % is the densest random packing",
+                     100 * fraction));
+  }
+}
+
+void Checks::materials() const {
+  std::set<std::string> names;
+  std::string all;
+  for (std::size_t k = 0; k < c.grain.materials.size(); ++k) {
+    const std::string& name = c.grain.materials[k].name;
+    if (!names.insert(name).second)
+      fail(fmt::format("grain.material.{}.name", k), quoted(name), "must differ from other materials'");
+    all += (all.empty() ? "" : ", ") + name;
+  }
+  const auto known = [&](const std::string& path, const std::string& name) {
+    if (!name.empty() && !names.contains(name))
+      fail(path + ".material", quoted(name),
+           "must name a grain.material; this case has " + (all.empty() ? "none" : all));
+  };
+  for (std::size_t i = 0; i < c.grain.fills.size(); ++i)
+    known(fmt::format("grain.fill.{}", i), c.grain.fills[i].material);
+  for (std::size_t i = 0; i < c.grain_inlets.size(); ++i)
+    known(fmt::format("grain_inlet.{}", i), c.grain_inlets[i].material);
+}
+
+void Checks::softness() const {
+  const GrainConfig& g = c.grain;
+  const double R = g.d_max / 2, layers = std::max(1.0, height(g.fills, c.gravity) / g.d_max);
+  const double weight = 4.18879 * R * R * R * g.rho * norm(c.gravity) * layers;
+  const double overlap = overlap_under(c.contact, weight, R / 2, 0.5 / ElasticCompliance(g.E, g.nu).normal);
+  if (overlap > 0.01 * R)
+    warn(
+        "{}: grains at the foot of the bed will overlap by about {:.2g} % of their radius; stiffer is more "
+        "accurate",
+        takes_moduli(c.contact.normal) ? "grain.E" : "contact.k", 100 * overlap / R);
+}
+
+void Checks::lubrication() const {
+  const LubricationConfig& l = c.lubrication;
+  const auto refuse = [&](const char* with) {
+    fail("lubrication.forces", quoted(l.forces.name()), fmt::format("must be \"none\" {}", with));
+  };
+  if (!coupled()) refuse("without [fluid] to which grains are coupled");
+  if (c.contact.normal == NormalLaw::none) refuse("with contact.normal = \"none\"");
+  if (c.wall.free_bodies() > 0) refuse("with wall bodies that move freely");
+  if (l.least_gap >= l.cut_off)
+    fail("lubrication.least_gap", l.least_gap,
+         fmt::format("must be below lubrication.cut_off = {}", l.cut_off));
+}
+
+void Checks::coupling() const {
+  const double reach = c.fluid.kappa() * c.couple.hc, d = c.grain.d_max;
+  if (c.couple.drag == DragLaw::table) drag_table();
+  if (c.couple.S_wet <= c.couple.S_dry)
+    fail("couple.S_wet", c.couple.S_wet, fmt::format("must be > couple.S_dry = {}", c.couple.S_dry));
+  if (!coupled()) return;
+  if (reach < 2 * d * (1 - 1e-9))
+    fail("couple.hc", c.couple.hc,
+         fmt::format("must be >= {}; unresolved coupling needs kappa h_c >= 2 d_max",
+                     2 * d / c.fluid.kappa()));
+  if (reach < 4 * d * (1 - 1e-9))
+    warn(
+        "couple.hc: the coupling reaches {:.3g} diameters of the largest grain, which feels its own wake "
+        "below 4",
+        reach / d);
+}
+
+void Checks::drag_table() const {
+  const DragTable& t = c.couple.table;
+  const auto nodes = [&](const char* key, const std::vector<double>& list, std::size_t least) {
+    const auto say = [&](const std::string& must) {
+      fail(key, fmt::format("[{}]", fmt::join(list, ", ")), must);
+    };
+    if (list.size() < least || list.size() > 1000) say(fmt::format("must hold {} to 1000 numbers", least));
+    if (std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) != list.end())
+      say("must rise from each to the next");
+  };
+  nodes("drag.porosity", t.porosity, 1);
+  nodes("drag.reynolds", t.reynolds, 2);
+  if (t.reynolds.front() != 0) fail("drag.reynolds", t.reynolds.front(), "must begin with 0");
+  if (t.factor.size() != t.porosity.size() * t.reynolds.size())
+    fail("drag.factor", fmt::format("[...] of {}", t.factor.size()),
+         fmt::format("must hold {} numbers, {} Reynolds numbers for each of {} porosities",
+                     t.porosity.size() * t.reynolds.size(), t.reynolds.size(), t.porosity.size()));
+}
+}  // namespace bedload

@@ -1,0 +1,160 @@
+// Cells, order and lists of fluid and walls.
+
+#include <cmath>
+
+#include "kernels/walls/crossing.hpp"
+#include "src/fluid/fluid_solver.hpp"
+#include "src/measure/sweeps.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+template <class P>
+struct WrapPass {
+  Frame frame;
+  Span<P> x;
+  BL_HD void operator()(Index i) const { x[i] = as_position<P>(frame, frame.wrap(coordinates(frame, x[i]))); }
+};
+
+/// Copies of positions as pair loops read them, `back` (s) before where they are, with their weights.
+template <class P>
+struct PackBackPass {
+  Frame frame;
+  Real back;
+  Span<const P> x;
+  Span<const Real4> v, m_state;  ///< m_state: empty without weights
+  Span<PairPosition> xp;
+  BL_HD void operator()(Index i) const {
+    const Vec3d at = coordinates(frame, x[i]) - Vec3d(back * v[i].xyz());
+    xp[i] = pair_position(frame, at, m_state ? m_state[i].x : Real(0));
+  }
+};
+
+struct HasEntries {
+  VerletListView list;
+  BL_HD bool operator()(Index i) const { return list.count[i] > 0; }
+};
+
+struct LengthBody {
+  Span<const Real> h;
+  BL_HD double operator()(Index a) const { return h[a]; }
+};
+
+struct CountBody {
+  Span<const std::uint32_t> count;
+  BL_HD void operator()(Index a, double* out) const { out[0] = count[a]; }
+};
+
+}  // namespace
+
+void FluidSolver::set_skin(double skin) {
+  if (skin == skin_) return;
+  skin_ = skin;
+  make_cells();
+}
+
+void FluidSolver::make_cells() {
+  for (CellGrid* grid : {&grid_, &wall_grid_})
+    *grid = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, range() + skin_);
+}
+
+bool FluidSolver::renew_lengths(FluidStore& fluid) {
+  for_each(fluid.owned(), length_pass(fluid, true));
+  lengths_->begun = true;
+  const double h0 = config_.fluid.h(), longest = max_over(fluid.owned(), LengthBody{lengths_->h});
+  // in steps of a ninth, so that cells seldom change; never below h0, to which walls reach
+  const double listed = h0 * std::exp2(std::ceil(8 * std::log2(std::max(1.0, longest / h0)) - 1e-6) / 8);
+  if (listed == lengths_->listed) return false;
+  lengths_->listed = listed;
+  make_cells();
+  return true;
+}
+
+void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved, double travel) {
+  const double narrow = config_.skin_fluid * config_.fluid.dx, four_steps = 8 * travel;
+  if (four_steps > narrow || 2 * four_steps < narrow) {  // in between, as it was
+    const double former = skin_;
+    set_skin(four_steps > narrow ? 1.5 * narrow : narrow);
+    walls_moved = walls_moved || skin_ != former;
+  }
+  if (lengths_ && renew_lengths(fluid)) walls_moved = true;
+  for_each(fluid.owned(), WrapPass<FluidPosition>{frame_, fluid.x});
+  grid_.sort(frame_, Span<const FluidPosition>(fluid.x), order_);
+  fluid.reorder(order_);
+  fluid.x_list.copy(fluid.x);
+  if (lengths_) lengths_->h_list.copy(lengths_->h);
+  if (walls_moved && walls.size() > 0) {
+    MirrorStore& images = walls.mirrors;
+    for_each(walls.owned(), WrapPass<Vec3d>{frame_, walls.x});
+    for_each(images.owned(), WrapPass<Vec3d>{frame_, images.x});
+    wall_grid_.sort(frame_, Span<const Vec3d>(walls.x), order_);
+    walls.reorder(order_);
+    walls.x_list.copy(walls.x);
+    if (images.size() > 0) images.reorder(order_), images.x_list.copy(images.x);
+  }
+  relist(fluid, walls, false);
+}
+
+void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
+  if (sort) {  // saved sorted: the order is the identity
+    grid_.sort(frame_, Span<const FluidPosition>(fluid.x), order_);
+    wall_grid_.sort(frame_, Span<const Vec3d>(walls.x), order_);
+  }
+  pack(fluid);
+  pack(walls);
+  const double reach = range() + skin();
+  using Near = SphNear<FluidPosition>;
+  const Near fluid_near{frame_, fluid.x, fluid.xp, fluid.xp, reach, true};
+  const Near fluid_near_walls{frame_, fluid.x, fluid.xp, walls.xp, reach, false};
+  const SphNear<Vec3d> walls_near{frame_, walls.x, walls.xp, fluid.xp, reach, false};
+#if BL_CUDA
+  fluid_fluid_.build(grid_, frame_, Span<const FluidPosition>(fluid.x), Span<const PairPosition>(fluid.xp),
+                     reach);
+#endif
+  if (lengths_) {
+    const Span<const Real> h = lengths_->h_list, none;
+    const PairReach pairs{Real(kappa_ * double(kLengthGrowth)), Real(skin()), Real(config_.fluid.h())};
+#if !BL_CUDA
+    fluid_fluid_.build(fluid.size(), grid_.view(), LengthNear<FluidPosition>{fluid_near, pairs, h, h});
+#endif
+    fluid_wall_.build(fluid.size(), wall_grid_.view(),
+                      LengthNear<FluidPosition>{fluid_near_walls, pairs, h, none}, fluid_fluid_.view().bits);
+    wall_fluid_.build(walls.size(), grid_.view(), LengthNear<Vec3d>{walls_near, pairs, none, h});
+  } else {
+#if !BL_CUDA
+    fluid_fluid_.build(fluid.size(), grid_.view(), fluid_near);
+#endif
+    fluid_wall_.build(fluid.size(), wall_grid_.view(), fluid_near_walls, fluid_fluid_.view().bits);
+    wall_fluid_.build(walls.size(), grid_.view(), walls_near);
+  }
+  compaction_.find(fluid.size(), HasEntries{fluid_wall_.view()}, beside_walls_);
+  compaction_.find(walls.size(), HasEntries{wall_fluid_.view()}, wet_walls_);
+  relisted_ = true;
+  const MirrorStore& images = walls.mirrors;
+  if (images.size() > 0)
+    image_fluid_.build(images.size(), grid_.view(),
+                       SphNear<Vec3d>{frame_, images.x, images.xp, fluid.xp, reach, false});
+}
+
+void FluidSolver::pack(FluidStore& fluid, double back) {
+  for_each(fluid.owned(),
+           PackBackPass<FluidPosition>{frame_, Real(back), fluid.x, fluid.v_rho, fluid.m_state, fluid.xp});
+}
+
+void FluidSolver::pack(WallStore& walls, double back) {
+  for_each(walls.owned(), PackBackPass<Vec3d>{frame_, Real(back), walls.x, walls.v_rho, {}, walls.xp});
+  for_each(walls.mirrors.owned(), PackPass<Vec3d>{frame_, walls.mirrors.x, walls.mirrors.xp});
+}
+
+double FluidSolver::pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces,
+                                  Span<const BodyPose> pose) const {
+  Buffer<NearestPoint> points(fluid.size());
+  Buffer<std::uint32_t> count(fluid.size());
+  const NearestPointPass nearest{frame_, surfaces, pose, range(), fluid.x, points};
+  for_each(fluid.owned(), nearest);
+  for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, range(),
+                CrossingPass{nearest, 0.25 * config_.fluid.dx, count});
+  return sum_over<1>(fluid.owned(), CountBody{count}).v[0] / 2;  // a pair stands in two lists
+}
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,260 @@
+#include <cmath>
+
+#include "kernels/fluid/density_pass.hpp"
+#include "kernels/fluid/force_pass.hpp"
+#include "kernels/fluid/one_pass.hpp"
+#include "kernels/fluid/wall_density.hpp"
+#include "kernels/smoothing/registry.hpp"
+#include "src/fluid/wcsph.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// The passes that know the kernel function, and whether particles have smoothing lengths of their own.
+template <class W, class Lengths>
+class WcsphSolver final : public FluidSolver {
+ public:
+  WcsphSolver(const Config& config, const Frame& frame, const WallGeometry& walls, FluidStore& fluid,
+              const W& w)
+      : FluidSolver(config, frame, walls, fluid, W::kappa), w_(w), cut_(CutFraction::of(w)) {}
+
+  void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) override {
+    if (!smooths() && !shifts())
+      continuity<false, false>(fluid, walls, dt, NoShifting{});
+    else if (mixed_)
+      continuity<true, true>(fluid, walls, dt, NoShifting{});
+    else if (!shifts())
+      continuity<true, false>(fluid, walls, dt, NoShifting{});
+    else if constexpr (!Lengths::vary)
+      continuity<true, false>(fluid, walls, dt, shifting(dt));
+    if (!frozen_) return;
+    const FrozenPass<W> frozen{w_,
+                               Real(config_.fluid.rho0),
+                               Real(dt),
+                               least(),
+                               flux(fluid),
+                               fluid.m_state,
+                               walls.v_rho,
+                               walls.m_state,
+                               walls.body,
+                               pose,
+                               walls.compression};
+    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), frozen);
+  }
+
+  void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt,
+             bool moving) override {
+    if (walls.mirrors.size() > 0) {
+      const MirrorPass<W> mirror{w_,
+                                 frame_,
+                                 Real(config_.fluid.rho0),
+                                 least(),
+                                 least_sum(),
+                                 flux(fluid),
+                                 fluid.m_state,
+                                 walls.x,
+                                 walls.mirrors.x,
+                                 walls.body,
+                                 pose,
+                                 walls.compression};
+      for_each_pair(walls.owned(), image_fluid_, PairSeparation{frame_, walls.mirrors.xp, fluid.xp}, range(),
+                    mirror);
+    }
+    extrapolate(w_, fluid, walls, pose, drag_dt, moving, lengths());
+  }
+
+  void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
+    if constexpr (Lengths::vary) {
+      run(fluid, walls, range(),
+          OmegaPass<W>{w_, lengths(), Real(config_.fluid.h_least()), Real(config_.fluid.h_most()),
+                       Real(config_.fluid.rho0), fluid.m_state, walls.m_state, lengths_->omega,
+                       fluid.p_rho2});
+      artificial().acts() ? momentum<true, false>(fluid, walls) : momentum<false, false>(fluid, walls);
+    } else {
+      constant_length_forces(fluid, walls, dt);
+    }
+    if (layers_.size() > 0)
+      for_each_pair(fluid.owned(), fluid_wall_, PairSeparation{frame_, fluid.xp, walls.xp}, range(),
+                    LayerPass<W>{layer(walls, pose, dt), flux(fluid), fluid.theta, fluid.acc_next});
+    corrected_ = 0;
+  }
+
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
+                   Buffer<Vec3d>& force) override {
+    force.resize(walls.size());
+    forces_on_walls<WholeForce>(fluid, walls, pose, dt, force, {});
+  }
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
+                   Buffer<Vec3d>& pressure, Buffer<Vec3d>& friction) override {
+    pressure.resize(walls.size());
+    friction.resize(walls.size());
+    forces_on_walls<ForceParts>(fluid, walls, pose, dt, pressure, friction);
+  }
+
+  void moments(FluidStore& fluid, const WallStore& walls, double, FluidMoments& out) override {
+    config_.tensile > 0 ? stress<true>(fluid, walls, out) : stress<false>(fluid, walls, out);
+  }
+
+ private:
+  Lengths lengths() const {
+    if constexpr (Lengths::vary)
+      return {lengths_->h, lengths_->omega, Real(config_.fluid.h()), config_.domain.two_d};
+    else
+      return {};
+  }
+  void constant_length_forces(FluidStore& fluid, const WallStore& walls, double dt) {
+    const bool added = config_.tensile > 0 || config_.xsph > 0;
+    if (one_pass())
+      smooths() || shifts() ? momentum_and_continuity<true>(fluid, walls, dt, shifting(dt))
+                            : momentum_and_continuity<false>(fluid, walls, dt, NoShifting{});
+    else if (!config_.fluid.species.empty())
+      momentum<true, true, true>(fluid, walls);
+    else if (artificial().acts())
+      added ? momentum<true, true>(fluid, walls) : momentum<true, false>(fluid, walls);
+    else
+      added ? momentum<false, true>(fluid, walls) : momentum<false, false>(fluid, walls);
+  }
+  template <class Force>
+  void forces_on_walls(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
+                       Span<Vec3d> force, Span<Vec3d> friction) {
+    const WallForcePass<W, Force, Lengths> pass{w_,
+                                                WallPair{viscosity()},
+                                                layer(walls, pose, dt),
+                                                Real(mixed_ ? 0 : corrected_),
+                                                fluid.acc,
+                                                fluid.acc_next,
+                                                flux(fluid),
+                                                fluid.m_state,
+                                                walls.v_rho,
+                                                walls.m_state,
+                                                walls.v_visc,
+                                                force,
+                                                friction,
+                                                fluid.viscosity,
+                                                lengths()};
+    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
+  }
+  template <class Pass>
+  void run(const FluidStore& fluid, const WallStore& walls, double cutoff, const Pass& pass) {
+    for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, fluid_wall_,
+                  PairSeparation{frame_, fluid.xp, walls.xp}, cutoff, pass);
+  }
+  Real least() const { return -Real(config_.density.cavitation_limit); }
+  Viscosity viscosity() const {
+    return Viscosity::of(config_.visc.model, config_.fluid.mu, config_.fluid.rho0, config_.fluid.c, w_);
+  }
+  ArtificialViscosity artificial() const {
+    return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c),
+            Real(config_.fluid.h())};
+  }
+  /// Writes s_new.
+  template <bool kSmooth, bool kPorous, class Shift>
+  DensityPass<W, Shift, kSmooth, kPorous, Lengths> density_pass(FluidStore& fluid, const WallStore& walls,
+                                                                double dt, const Shift& shift,
+                                                                Span<Real> s_new) {
+    const double c = config_.fluid.c;
+    return {w_,
+            flux(fluid),
+            fluid.m_state,
+            walls.v_rho,
+            walls.m_state,
+            Real(2 * config_.density.delta * config_.fluid.h() * c),
+            gravity_ * Real(config_.fluid.rho0 / (c * c)),
+            eos_.gamma - 2,
+            Real(config_.fluid.rho0),
+            Real(dt),
+            fluid.s,
+            s_new,
+            cut_,
+            least(),
+            Real(config_.density.void_relaxation * c / config_.fluid.h()),
+            Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0),
+            shift,
+            drift_of(fluid),
+            lengths()};
+  }
+  template <bool kArtificial, bool kAdded, bool kSpecies = false>
+  ForcePass<W, kArtificial, kAdded, kSpecies, Lengths> force_pass(FluidStore& fluid, const WallStore& walls) {
+    return {w_,
+            WallPair{viscosity()},
+            flux(fluid),
+            fluid.m_state,
+            fluid.p_rho2,
+            walls.v_rho,
+            walls.m_state,
+            walls.v_visc,
+            artificial(),
+            tensile(),
+            Real(config_.xsph),
+            gravity_,
+            drive(fluid),
+            fluid.theta,
+            fluid.acc_next,
+            fluid.drift,
+            fluid.viscosity,
+            lengths()};
+  }
+  template <bool kSmooth, bool kPorous, class Shift>
+  void continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {
+    run(fluid, walls, range(), density_pass<kSmooth, kPorous>(fluid, walls, dt, shift, fluid.s_next));
+  }
+  template <bool kArtificial, bool kAdded, bool kSpecies = false>
+  void momentum(FluidStore& fluid, const WallStore& walls) {
+    run(fluid, walls, range(), force_pass<kArtificial, kAdded, kSpecies>(fluid, walls));
+  }
+  template <bool kTensile>
+  void stress(FluidStore& fluid, const WallStore& walls, FluidMoments& out) {
+    using Force = ForcePass<W, true, kTensile, false, Lengths>;
+    const Force whole = force_pass<true, kTensile>(fluid, walls);
+    Force inviscid = whole;
+    inviscid.artificial = {};
+    inviscid.wall.viscosity.mu = 0;
+    run(fluid, walls, range(), StressPass<Force>{whole, inviscid, out.parts(fluid.size(), false)});
+  }
+  template <bool kSmooth, class Shift>
+  void momentum_and_continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {
+    const auto both = [&](const auto& force) {
+      const auto density = density_pass<kSmooth, false>(fluid, walls, dt, shift, fluid.s);
+      run(fluid, walls, range(),
+          OnePass<std::decay_t<decltype(force)>, std::decay_t<decltype(density)>>{force, density,
+                                                                                  *rates_.back()});
+    };
+    artificial().acts() ? both(force_pass<true, false>(fluid, walls))
+                        : both(force_pass<false, false>(fluid, walls));
+    accept_rates(dt);
+  }
+  Shifting shifting(double dt) const {
+    const double h = config_.fluid.h(), dx = config_.fluid.dx, rate = dt > 0 ? 1 / dt : 0;
+    const bool plane = config_.domain.two_d;
+    return {Real(config_.shift * h * h), Real(0.5 * h * h * rate), Real(0.1 * dx * rate),
+            Real(plane ? 1. / 2 : 1. / 3), Real(plane ? 0.93 : 0.97)};
+  }
+  TensileTerm tensile() const {
+    if (config_.tensile == 0) return {};
+    const Real s = Real(0.01);
+    return {s, config_.tensile_one_sign ? s : Real(0.2), w_.W(Real(config_.fluid.dx))};
+  }
+  LayerForces<W> layer(const WallStore& walls, Span<const BodyPose> pose, double dt) const {
+    return {w_, artificial(), layers_, Real(repulsion_cap(dt)), walls.body, pose, walls.v_rho};
+  }
+
+  W w_;
+  CutFraction cut_;
+};
+
+}  // namespace
+
+std::unique_ptr<FluidSolver> Wcsph::make(const Config& config, const Frame& frame, const WallGeometry& walls,
+                                         FluidStore& fluid) {
+  std::unique_ptr<FluidSolver> solver;
+  with_fluid_kernel(config, [&](const auto& w) {
+    using W = std::decay_t<decltype(w)>;
+    if (config.fluid.variable_h)
+      solver = std::make_unique<WcsphSolver<W, OwnLengths>>(config, frame, walls, fluid, w);
+    else
+      solver = std::make_unique<WcsphSolver<W, OneLength>>(config, frame, walls, fluid, w);
+  });
+  return solver;
+}
+
+}  // namespace bedload::inline BL_VARIANT
