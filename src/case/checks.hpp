@@ -47,6 +47,10 @@ class Checks {
   void finite_factor(const std::string& path, const std::string& text) const;
 
   // checks_fluid.cpp
+  /// A number as the case gives it, in `unit`; infinity where it gives none.
+  double given(const char* path, const char* unit) const;
+  /// Gravity pulls the fluid out of the domain.
+  bool unsupported() const;
   /// Several fluids.
   void species() const;
   void drive() const;

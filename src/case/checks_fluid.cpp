@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "bedload/case/formula.hpp"
 #include "bedload/geometry/depth.hpp"
 #include "checks.hpp"
+#include "units.hpp"
 
 namespace bedload {
 
@@ -37,6 +39,12 @@ void Checks::fluid() const {
         "the domain, {:.3g} m, reaches {:.3g} m/s",
         f.vmax, fall, v);
   falling_grains();
+  if (const double v = given("fluid.vmax", "m/s"); v < f.vmax * (1 - 1e-9))
+    warn(
+        "fluid.vmax = {:.3g} m/s: not used, since a fall through the fluid's height, a wall or an inlet "
+        "reaches {:.3g} m/s",
+        v, f.vmax);
+  if (unsupported()) warn("no wall.body stops the fluid, which leaves the domain along gravity");
   if (f.c < 10 * f.vmax * (1 - 1e-9))
     warn(
         "fluid.c_factor: sound is only {:.3g} times as fast as the flow (Mach {:.2g}); density will vary "
@@ -53,6 +61,21 @@ void Checks::fluid() const {
   if (!c.grain.present && c.drive.on != DrivenPhase::fluid)
     fail("drive.on", quoted(c.drive.on.name()), "must be \"fluid\" without [grain]");
   if (f.variable_h) variable_h();
+}
+
+double Checks::given(const char* path, const char* unit) const {
+  const Value& value = nearest_value(root_, path);
+  if (const auto* number = value.get<double>()) return *number;
+  if (const auto* whole = value.get<std::int64_t>()) return double(*whole);
+  const auto* text = value.get<std::string>();
+  return text ? quantity(*text, unit) : std::numeric_limits<double>::infinity();
+}
+
+bool Checks::unsupported() const {
+  for (int k = 0; k < 3; ++k)
+    if (c.gravity[k] != 0 && c.domain.periodic[k]) return false;
+  return norm(c.gravity) > 0 && std::none_of(c.wall.bodies.begin(), c.wall.bodies.end(),
+                                             [](const WallBody& body) { return body.stops_fluid(); });
 }
 
 void Checks::species() const {

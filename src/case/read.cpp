@@ -31,6 +31,8 @@ Config defaults(const Value& root) {
 
 std::string text_of(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) throw FileError(path.string() + ": is a folder, not a case file");
+  if (!std::filesystem::exists(path))
+    throw FileError(path.string() + ": cannot read this case file: no such file");
   std::ifstream file(path);
   if (!file) throw FileError(path.string() + ": cannot read this case file");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -69,7 +71,12 @@ Config read_case_tree(Value root, const std::string& name, std::vector<std::stri
   config.grain.present = root.find("grain") != nullptr;
   Reader reader(root);
   describe(reader, config);
-  reader.reject_unread();
+  try {
+    reader.reject_unread();
+  } catch (const CaseError&) {
+    check_shape_names(config, root);  // what a misspelt shape leaves unread
+    throw;
+  }
   resolve(config, root, checkpoint);
   cross_check(config, root, warnings);
   return config;

@@ -37,6 +37,11 @@ void check_sieve(const SizeClass& s, const Value& root, const std::string& path)
          "must begin with 0 and end with 1; add the meshes that stop and pass everything");
 }
 
+/// What a wall body may be.
+constexpr const char* kWallShapes = "must be tank, box, plane or the name of a [[shape]]";
+
+bool built_in(const std::string& shape) { return shape == "tank" || shape == "box" || shape == "plane"; }
+
 }  // namespace
 
 Vec3d direction(const Vec3d& v, const Value& root, const std::string& path) {
@@ -58,6 +63,12 @@ Solid shape_named(const Config& c, const std::string& name, const Value& root, c
   }
   reject(root, path, fmt::format("\"{}\"", name),
          fmt::format("{}; this case has {}", must, names.empty() ? "none" : names));
+}
+
+void check_shape_names(const Config& c, const Value& root) {
+  for (std::size_t i = 0; i < c.wall.bodies.size(); ++i)
+    if (const std::string& shape = c.wall.bodies[i].shape; !built_in(shape))
+      (void)shape_named(c, shape, root, fmt::format("wall.body.{}.shape", i), kWallShapes);
 }
 
 void default_sizes(const Config& c, std::vector<SizeClass>& sizes, const Value& root) {
@@ -96,7 +107,7 @@ void resolve_shapes(Config& c, const Value& root) {
   for (std::size_t i = 0; i < c.shapes.size(); ++i) {
     ShapeConfig& shape = c.shapes[i];
     const std::string path = fmt::format("shape.{}", i), name = path + ".name";
-    if (shape.name == "tank" || shape.name == "box" || shape.name == "plane")
+    if (built_in(shape.name))
       reject(root, name, fmt::format("\"{}\"", shape.name), "must not be the name of a built-in shape");
     for (const ShapeConfig& other : done)
       if (other.name == shape.name)
@@ -136,9 +147,8 @@ void resolve_walls(Config& c, const Value& root) {
   for (std::size_t i = 0; i < c.wall.bodies.size(); ++i) {
     WallBody& body = c.wall.bodies[i];
     const std::string path = fmt::format("wall.body.{}.", i);
-    if (body.shape != "tank" && body.shape != "box" && body.shape != "plane") {
-      body.solid = shape_named(c, body.shape, root, path + "shape",
-                               "must be tank, box, plane or the name of a [[shape]]");
+    if (!built_in(body.shape)) {
+      body.solid = shape_named(c, body.shape, root, path + "shape", kWallShapes);
       const Bounds bounds = body.solid.shape->bounds();
       body.min = bounds.min, body.max = bounds.max;
       check_surface(body, root, path + "shape");

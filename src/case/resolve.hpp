@@ -53,6 +53,9 @@ Solid shape_named(const Config& config, const std::string& name, const Value& ro
 /// Completes one of the sizes of grains at `path` and widens grain.d_min, d_max to it.
 void resolve_size(Config& config, SizeClass& size, const Value& root, const std::string& path);
 
+/// CaseError for a wall body of a shape that there is not.
+void check_shape_names(const Config& config, const Value& root);
+
 /// Sizes where none are given: grain.d.
 void default_sizes(const Config& config, std::vector<SizeClass>& sizes, const Value& root);
 

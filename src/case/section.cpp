@@ -53,10 +53,13 @@ std::vector<std::string_view> names_of(std::string_view name) {
   struct Synonym {
     std::string_view word, key;
   };
-  static constexpr Synonym synonyms[]{{"diameter", "d"},    {"friction", "mu"}, {"rolling_friction", "mu_r"},
-                                      {"viscosity", "mu"},  {"density", "rho"}, {"density", "rho0"},
-                                      {"restitution", "e"}, {"young", "E"},     {"youngs_modulus", "E"},
-                                      {"poisson", "nu"},    {"rpm", "rate"},    {"spacing", "dx"}};
+  static constexpr Synonym synonyms[]{
+      {"diameter", "d"},     {"friction", "mu"},       {"rolling_friction", "mu_r"},
+      {"viscosity", "mu"},   {"density", "rho"},       {"density", "rho0"},
+      {"restitution", "e"},  {"young", "E"},           {"youngs_modulus", "E"},
+      {"poisson", "nu"}, {"nu", "mu"},     {"rpm", "rate"},          {"spacing", "dx"},
+      {"dp", "dx"},          {"vicosity", "mu"},       {"c0", "c_factor"},
+      {"sound", "c_factor"}, {"coefsound", "c_factor"}};
   std::vector<std::string_view> names{name};
   for (const Synonym& s : synonyms)
     if (s.word == name) names.push_back(s.key);

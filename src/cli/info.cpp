@@ -113,6 +113,8 @@ void show_json(const nlohmann::ordered_json& value, const std::string& name, int
 }  // namespace
 
 int show_file(const fs::path& file) {
+  if (fs::is_directory(file))
+    throw FileError(file.string() + ": cannot read: is a folder; name a file in it");
   if (!fs::is_regular_file(file)) throw FileError(file.string() + ": cannot read: no such file");
   if (h5::is_hdf5(file)) {
     try {

@@ -1,6 +1,7 @@
 #include "list.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -8,6 +9,7 @@
 #include <set>
 
 #include "bedload/case/parameters.hpp"
+#include "bedload/case/section.hpp"
 
 namespace bedload {
 namespace {
@@ -42,12 +44,12 @@ bool is_section(const std::string& name) {
   return !name.empty() && std::find(known.begin(), known.end(), name) == known.end();
 }
 
-/// Those of a section or a family; all for "parameters" and an empty name.
+/// Those of a section, a key or a family; all for "parameters" and an empty name.
 std::vector<ParameterRow> rows_of(const std::string& name) {
   std::vector<ParameterRow> rows = parameter_table();
   if (!name.empty() && name != "parameters")
     std::erase_if(rows, [&](const ParameterRow& row) {
-      return is_section(name) ? !row.key.starts_with(name + ".") : row.family != name;
+      return is_section(name) ? row.key != name && !row.key.starts_with(name + ".") : row.family != name;
     });
   return rows;
 }
@@ -83,21 +85,29 @@ std::vector<std::string> families() {
   return {"laws", "models", "shapes", "outputs", "parameters", "presets"};
 }
 
-std::string list_text(const std::string& family) {
-  if (family == "parameters") return parameters_text(parameter_table());
-  if (is_section(family)) return parameters_text(rows_of(family));
-  if (!family.empty()) return choices_text(family);
+std::string not_listed(const std::string& name) {
+  if (!is_section(name) || !rows_of(name).empty()) return "";
+  std::vector<std::string> known;
+  for (const ParameterRow& row : parameter_table()) known.push_back(row.key);
+  return fmt::format("{} is none of {}, no section of a case and no key; did you mean {}?", name,
+                     fmt::join(families(), ", "), nearest_key(name, known));
+}
+
+std::string list_text(const std::string& name) {
+  if (name == "parameters") return parameters_text(parameter_table());
+  if (is_section(name)) return parameters_text(rows_of(name));
+  if (!name.empty()) return choices_text(name);
   std::string out;
-  for (const std::string& name : families())
-    out += fmt::format("{}{}\n\n{}", out.empty() ? "" : "\n", name, list_text(name));
+  for (const std::string& family : families())
+    out += fmt::format("{}{}\n\n{}", out.empty() ? "" : "\n", family, list_text(family));
   return out;
 }
 
-std::string list_json(const std::string& family) {
+std::string list_json(const std::string& name) {
   static constexpr std::array kinds{"boolean",  "integer", "number",  "text",    "vector", "formulas",
                                     "booleans", "faces",   "numbers", "vectors", "texts",  "rows"};
   auto out = nlohmann::ordered_json::array();
-  for (const ParameterRow& row : rows_of(family)) {
+  for (const ParameterRow& row : rows_of(name)) {
     auto choices = nlohmann::ordered_json::array();
     for (const Choice& choice : row.choices)
       choices.push_back({{"name", choice.name}, {"meaning", choice.meaning}});

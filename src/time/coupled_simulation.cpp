@@ -186,7 +186,7 @@ std::vector<StepLimit> CoupledSimulation::limits() {
   }
   if (wall_speed > 0 && (has_fluid() || has_grains()))
     travel = std::min(travel, 0.1 * (has_fluid() ? config_.fluid.dx : config_.grain.d_min) / wall_speed);
-  if (std::isfinite(travel)) out.push_back({"travel", travel});
+  if (travel < t.end) out.push_back({"travel", travel});
   auto least =
       std::min_element(out.begin(), out.end(), [](auto& a, auto& b) { return a.seconds < b.seconds; });
   if (least != out.end()) least->binds = true;

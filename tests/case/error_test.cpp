@@ -36,6 +36,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[grain]", "[grian]", "dam.toml:16: grian.d is not a parameter; did you mean grain.d?"},
         Wrong{"[grain]", "[contact]\ne = 0.5\n[grain]",
               "dam.toml:16: contact.e is not a parameter; did you mean grain.e?"},
+        Wrong{"dx = 0.004", "nu = 900\ndx = 0.004",
+              "dam.toml:6: fluid.nu is not a parameter; did you mean fluid.mu?"},
         Wrong{"end = 0.3", "edn = 0.3", "dam.toml:22: time.edn is not a parameter; did you mean time.end?"}));
 
 INSTANTIATE_TEST_SUITE_P(
@@ -73,6 +75,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{"dx = 0.004\n", "", "dam.toml:5: fluid.dx must be given (particle spacing, m)"},
         Wrong{"[time]\nend = 0.3\n", "", "dam.toml: time.end must be given (end of the run, s)"},
+        Wrong{"shape = \"tank\"", "shape = \"tnk\"",
+              "dam.toml:12: wall.body.shape = \"tnk\" must be tank, box, plane or the name of a [[shape]]; "
+              "this case has none"},
         Wrong{"shape = \"tank\"\n", "", "dam.toml:10: wall.body.shape must be given (shape of the body)"},
         Wrong{"d = 0.002\n", "",
               "dam.toml:15: grain.d must be given (diameter, m, where a grain.fill or grain_inlet has no "

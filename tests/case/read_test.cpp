@@ -229,6 +229,12 @@ TEST(Warnings, NameWhatIsDoubtful) {
       warnings_of(changed("[time]", "[couple]\nhc = 0.0025\n[time]")),
       (std::vector<std::string>{"couple.hc: the coupling reaches 2.5 diameters of the largest grain, which "
                                 "feels its own wake below 4"}));
+  EXPECT_EQ(
+      warnings_of(changed("dx = 0.004", "dx = 0.004\nvmax = \"50 cm/s\"")),
+      std::vector<std::string>{"fluid.vmax = 0.5 m/s: not used, since a fall through the fluid's height, a "
+                               "wall or an inlet reaches 1.4 m/s"});
+  EXPECT_EQ(warnings_of(changed("name = \"tank\"", "type = \"grains_only\"\nname = \"tank\"")),
+            std::vector<std::string>{"no wall.body stops the fluid, which leaves the domain along gravity"});
   EXPECT_EQ(warnings_of(changed("end = 0.3", "end = 0.3\nintegrator = \"euler\"")),
             (std::vector<std::string>{"time.integrator = \"euler\" is first order in time"}));
   EXPECT_EQ(warnings_of(changed("d = 0.002", "d = 0.002\nE = 1e4")).size(), 1u);
@@ -309,7 +315,7 @@ TEST(ReadCase, NamesAFileThatIsNotThere) {
     read_case("/nonexistent/dam.toml", {}, warnings);
     FAIL();
   } catch (const FileError& error) {
-    EXPECT_STREQ(error.what(), "/nonexistent/dam.toml: cannot read this case file");
+    EXPECT_STREQ(error.what(), "/nonexistent/dam.toml: cannot read this case file: no such file");
   }
 }
 

@@ -176,6 +176,7 @@ TEST_F(Program, ListsItsFamilies) {
   EXPECT_NE(bedload("list laws").out.find("contact.k "), std::string::npos);
   EXPECT_NE(bedload("list outputs").out.find("out.diagnostics_every "), std::string::npos);
   EXPECT_EQ(bedload("list lawz").code, 2);
+  EXPECT_NE(bedload("list fluid.dx").out.find("particle spacing"), std::string::npos);
 }
 
 TEST_F(Program, ChecksACaseWithoutRunningIt) {
