@@ -88,7 +88,7 @@ TEST_F(Bench, RefusesWhatItDoesNotKnowWithOneSentence) {
           "command line: 2M is no row; it must be one of 0.1M, 1M, 5M, 8M, 14M, spheres-8.8k, spheres-1M, "
           "coupled, "
           "coupled-10M, or a case file");
-  refused("no.toml", "no.toml: cannot read this case file");
+  refused("no.toml", "no.toml: cannot read this case file: no such file");
   refused("dam.toml --set grain.e=1.4",
           "--set grain.e=1.4: grain.e = 1.4 must be within 0.05..1; give a fraction, not percent?");
   refused("0.1M --set fluid.d=1", "--set fluid.d=1: fluid.d is not a parameter; did you mean grain.d?");

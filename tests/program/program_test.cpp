@@ -139,7 +139,7 @@ TEST_F(Program, RefusesWrongCommandLinesWithOneSentence) {
           "command line: The following argument was not expected: --bogus; see bedload --help");
   refused("run dam.toml --backend gpu",
           "command line: --backend: gpu not in {auto,cpu,cuda}; see bedload --help");
-  refused("run no.toml", "no.toml: cannot read this case file");
+  refused("run no.toml", "no.toml: cannot read this case file: no such file");
   refused("check dam.toml --set grain.e=1.4",
           "--set grain.e=1.4: grain.e = 1.4 must be within 0.05..1; give a fraction, not percent?");
   refused("run dam.toml --backend cpu --restart no.h5", "no.h5: cannot read: no such file");

@@ -265,6 +265,8 @@ class Case(Section):
             path = Path(source)
             try:
                 text = path.read_text(encoding="utf-8")
+            except FileNotFoundError:
+                raise FileError(f"{path}: cannot read this case file: no such file") from None
             except (OSError, UnicodeDecodeError):
                 what = "is a folder, not a case file" if path.is_dir() else "cannot read this case file"
                 raise FileError(f"{path}: {what}") from None
