@@ -5,7 +5,7 @@
 
 #include "bedload/case/materials.hpp"
 #include "kernels/bodies/rigid_body.hpp"
-#include "kernels/contact/contact_law.hpp"
+#include "kernels/contact/registry.hpp"
 #include "kernels/contact/wall_contacts.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -17,12 +17,15 @@ struct TouchBall {
   Index owner;    ///< among the free bodies
 };
 
+/// Of free bodies: the grains' way to resist rolling beside Hertz and Mindlin.
+using BodyLaw = ContactLawOf<Hertz, Mindlin, RollingLaws::Any>;
+
 struct BallPass {
   Frame frame;
   SurfaceSet walls;
   const BodyPose* poses;
   const RigidBody* bodies;
-  const ContactLaw* laws;                ///< of the free bodies
+  const BodyLaw* laws;                   ///< of the free bodies
   const ElasticCompliance* compliances;  ///< of all wall bodies
   Span<const TouchBall> balls;
   WallMemory* const* memory;  ///< [capacity][balls]
@@ -37,7 +40,7 @@ struct BallPass {
     const std::uint32_t own = bodies[ball.owner].body;
     const Vec3d x = poses[own].place(ball.x0);
     const WallMemories memories{memory, contacts, i};
-    WallTouches touches(memories, walls.surfaces.data, capacity);
+    WallTouches<> touches(memories, walls.surfaces.data, capacity);
     for (Index s = 0; s < walls.surfaces.size; ++s) {
       const Surface& surface = walls.surfaces[s];
       const BodyPose& pose = poses[surface.body];
@@ -89,9 +92,9 @@ struct BallPass {
     if (other.free)
       inverse_mass += bodies[other.free - 1].inverse_effective_mass(other.rotation, r_other, closest.normal);
     const ElasticCompliance &compliance = compliances[a.body], &other_compliance = compliances[touch.body];
-    ContactLaw law = laws[ball.owner];
-    law.hertz.E_star = Real(1 / (compliance.normal + other_compliance.normal));
-    law.mindlin.G_star = Real(1 / (compliance.tangential + other_compliance.tangential));
+    BodyLaw law = laws[ball.owner];
+    law.normal.E_star = Real(1 / (compliance.normal + other_compliance.normal));
+    law.sliding.G_star = Real(1 / (compliance.tangential + other_compliance.tangential));
     const double opposite = other.free ? ball_opposite(ball, x, other) : 0;
     const double R_star = opposite > 0 ? 1 / (1 / ball.R_star + 1 / opposite) : ball.R_star;
     const double weight = opposite > 0 ? 0.5 : 1;
@@ -99,7 +102,7 @@ struct BallPass {
     const double m_star = 1 / max_of(inverse_mass, 1e-6 / a.mass);
     ContactGeometry at{
         closest.normal, ball.radius - closest.distance, Real(R_star), Real(m_star), 0, 0, 0, 0};
-    if (law.rolling != RollingLaw::none) {
+    if (law.rolls()) {
       Vec3d about = mine.omega - other.omega;
       about -= dot(about, closest.normal) * closest.normal;
       const double spin = norm(about);

@@ -3,7 +3,7 @@
 // Signs: n points from j to i, v = v_i - v_j, the force is that on i.
 
 #include "bedload/case/config.hpp"
-#include "kernels/contact/normal.hpp"
+#include "kernels/contact/one_of.hpp"
 #include "kernels/contact/rolling.hpp"
 #include "kernels/contact/tangential.hpp"
 
@@ -45,63 +45,44 @@ struct ContactForce {
   Real3 torque_i, torque_j;  ///< about the centres, N m
 };
 
-/// The laws of a contact with their parameters. Which of them acts is decided pair by pair, here alone.
-struct ContactLaw {
-  NormalLaw normal = NormalLaw::hertz;
-  SlidingLaw sliding = SlidingLaw::mindlin;
-  RollingLaw rolling = RollingLaw::epsd;
+/// The laws of a contact with their parameters, each a type or OneOf several.
+template <class Normal, class Sliding, class Rolling>
+struct ContactLawOf {
+  Normal normal;
+  Sliding sliding;
+  Rolling rolling;
   bool clip_tension = true;
   Real mu = 0;
   Real sliding_damping = 1;  ///< fraction of the damping of friction's spring
-  Hertz hertz;
-  LinearSpring spring;
-  Mindlin mindlin;
-  MindlinDeresiewicz deresiewicz;
-  LinearSliding linear_sliding;
-  ElasticPlasticRolling epsd;
-  ConstantRolling cdt;
 
-  /// f(law) with the law that acts along the normal; not to be asked where there is none, as the next two.
-  template <class Laws, class F>
-  BL_HD static auto normal_of(Laws& all, F&& f) {
-    switch (all.normal) {
-      case NormalLaw::linear:
-        return f(all.spring);
-      case NormalLaw::hertz:
-      case NormalLaw::democritus:
-      case NormalLaw::none:
-        break;
-    }
-    return f(all.hertz);
+  /// Whether `law` acts as these do.
+  template <class Law>
+  static bool is(const Law& law) {
+    return acts_as<Normal>(law.normal) && acts_as<Sliding>(law.sliding) && acts_as<Rolling>(law.rolling);
   }
-  template <class Laws, class F>
-  BL_HD static auto sliding_of(Laws& all, F&& f) {
-    switch (all.sliding) {
-      case SlidingLaw::mindlin_deresiewicz:
-        return f(all.deresiewicz);
-      case SlidingLaw::linear:
-        return f(all.linear_sliding);
-      case SlidingLaw::mindlin:
-      case SlidingLaw::democritus:
-      case SlidingLaw::none:
-        break;
-    }
-    return f(all.mindlin);
-  }
-  template <class Laws, class F>
-  BL_HD static auto rolling_of(Laws& all, F&& f) {
-    switch (all.rolling) {
-      case RollingLaw::cdt:
-        return f(all.cdt);
-      case RollingLaw::epsd:
-      case RollingLaw::none:
-        break;
-    }
-    return f(all.epsd);
+  /// These, of a law that acts as they do.
+  template <class Law>
+  BL_HD static ContactLawOf of(const Law& law) {
+    return {.normal = law.normal,
+            .sliding = law.sliding,
+            .rolling = law.rolling,
+            .clip_tension = law.clip_tension,
+            .mu = law.mu,
+            .sliding_damping = law.sliding_damping};
   }
 
+  BL_HD bool slides() const {
+    return with_law(sliding, [](const auto& law) { return law.kActs; });
+  }
+  BL_HD bool rolls() const {
+    return with_law(rolling, [](const auto& law) { return law.kActs; });
+  }
+  /// Whether rolling friction keeps a couple from one substep to the next.
+  BL_HD bool remembers_couple() const {
+    return with_law(rolling, [](const auto& law) { return law.kRemembers; });
+  }
   BL_HD NormalState normal_state(Real R_star, Real m_star, Real overlap) const {
-    return normal_of(*this, [&](const auto& law) { return law(R_star, m_star, overlap); });
+    return with_law(normal, [&](const auto& law) { return law(R_star, m_star, overlap); });
   }
 
   /// Force now and history after dt (s). v is the relative velocity of the centres, for a wall of the grain's
@@ -112,7 +93,7 @@ struct ContactLaw {
     const Real3 n = Real3(at.n);
     const NormalState ns = normal_state(at.R_star, at.m_star, Real(at.overlap));
     const Real v_n = dot(v, n);
-    const Real acts = normal_of(*this, [&](const auto& law) {
+    const Real acts = with_law(normal, [&](const auto& law) {
       return law.dashpot(h.overlap, Real(at.overlap), v_n, dt, !clip_tension);
     });
     const Real damping = ns.damping * acts;
@@ -123,20 +104,24 @@ struct ContactLaw {
 
     const double twist = 0.5 * dt * double(dot(omega_i + omega_j, n));
     ContactForce out{f_n * n, {}, {}};
-    if (sliding != SlidingLaw::none) {
+    if (slides()) {
       const Real3 v_t = v - v_n * n - cross(at.arm_i * omega_i + at.arm_j * omega_j, n);
-      const Real3 f_t = slide(at, ns, pressing, v_t, twist, dt, h);
+      const Vec3d turned = turn_with_contact(h.xi, at.n, twist), step = double(dt) * Vec3d(v_t);
+      const SlidingInput in{pressing,  ns.stiffness, ns.damping, std::sqrt(at.R_star * Real(at.overlap)),
+                            at.m_star, at.overlap};
+      const Real3 f_t =
+          with_law(sliding, [&](const auto& law) { return slide(law, in, v_t, turned, step, h); });
       const Real3 couple = cross(f_t, n);  // - n x F_t
       out.force += f_t;
       out.torque_i = at.arm_i * couple;
       out.torque_j = at.arm_j * couple;
     }
-    if (rolling != RollingLaw::none) {
+    if (rolls()) {
       Real3 w = omega_i - omega_j;
       w -= dot(w, n) * n;
       const RollingInput in{w, pressing, ns.stiffness, at.R_star, at.inverse_spin, at.inverse_rolling, dt};
-      h.couple = turn_with_contact(h.couple, at.n, twist);
-      const Real3 couple = rolling_of(*this, [&](const auto& law) { return law(in, h.couple); });
+      if (remembers_couple()) h.couple = turn_with_contact(h.couple, at.n, twist);
+      const Real3 couple = with_law(rolling, [&](const auto& law) { return law(in, h.couple); });
       out.torque_i += couple;
       out.torque_j -= couple;
     }
@@ -150,46 +135,32 @@ struct ContactLaw {
     const double overlap = h.overlap < 0 ? -h.overlap : h.overlap;
     const NormalState ns = normal_state(R_star, m_star, Real(overlap));
     double energy =
-        normal_of(*this, [](const auto& law) { return law.kEnergy; }) * double(ns.elastic) * overlap;
+        with_law(normal, [](const auto& law) { return law.kEnergy; }) * double(ns.elastic) * overlap;
     const SlidingInput in{ns.elastic, ns.stiffness, ns.damping, std::sqrt(R_star * Real(overlap)),
                           m_star,     overlap};
-    if (sliding != SlidingLaw::none)
-      energy += sliding_of(*this, [&](const auto& law) { return law.stored(in, h.xi); });
-    if (rolling != RollingLaw::none)
-      energy +=
-          rolling_of(*this, [&](const auto& law) { return law.stored(ns.stiffness, R_star, h.couple); });
+    energy += with_law(sliding, [&](const auto& law) { return law.stored(in, h.xi); });
+    energy += with_law(rolling, [&](const auto& law) { return law.stored(ns.stiffness, R_star, h.couple); });
     return energy;
   }
 
  private:
-  BL_HD Real3 slide(const ContactGeometry& at, const NormalState& ns, Real pressing, const Real3& v_t,
-                    double twist, Real dt, ContactHistory& h) const {
-    const Vec3d turned = turn_with_contact(h.xi, at.n, twist), step = double(dt) * Vec3d(v_t);
-    const SlidingInput in{pressing,  ns.stiffness, ns.damping, std::sqrt(at.R_star * Real(at.overlap)),
-                          at.m_star, at.overlap};
-    return sliding_of(*this, [&](const auto& law) {
-      Vec3d xi = law.stretch(turned, step, h.overlap, Real(at.overlap));
-      SlidingState s = law(in, xi);
-      s.damping *= sliding_damping;
-      Real3 f_t = s.elastic - s.damping * v_t;
-      const Real size = norm(f_t), limit = mu * pressing;
-      if (size > limit) {
-        f_t *= limit / size;
-        if (!law.kPartialSlip && s.stiffness > 0)
-          xi = (Vec3d(f_t) + double(s.damping) * Vec3d(v_t)) * (-1 / double(s.stiffness));
-      }
-      h.xi = xi;
-      return f_t;
-    });
+  /// Friction's force and the spring that is left, Coulomb's limit kept.
+  template <class Law>
+  BL_HD Real3 slide(const Law& law, const SlidingInput& in, const Real3& v_t, const Vec3d& turned,
+                    const Vec3d& step, ContactHistory& h) const {
+    Vec3d xi = law.stretch(turned, step, h.overlap, Real(in.overlap));
+    SlidingState s = law(in, xi);
+    s.damping *= sliding_damping;
+    Real3 f_t = s.elastic - s.damping * v_t;
+    const Real size = norm(f_t), limit = mu * in.normal_force;
+    if (size > limit) {
+      f_t *= limit / size;
+      if (!law.kPartialSlip && s.stiffness > 0)
+        xi = (Vec3d(f_t) + double(s.damping) * Vec3d(v_t)) * (-1 / double(s.stiffness));
+    }
+    h.xi = xi;
+    return f_t;
   }
 };
-
-/// The laws of a case, between grains of the materials that grain.* gives. Throws CaseError where the
-/// restitution cannot be had.
-ContactLaw make_contact_law(const Config& config);
-/// Between grains of two materials, with the mean of their friction.
-ContactLaw make_contact_law(const Config& config, const GrainMaterial& a, const GrainMaterial& b);
-/// The same between grains and a wall body, with the friction and restitution of that.
-ContactLaw make_wall_law(const Config& config, const GrainMaterial& grain, const WallBody& body);
 
 }  // namespace bedload::inline BL_VARIANT

@@ -7,6 +7,7 @@
 #include "kernels/contact/grain_mass.hpp"
 #include "kernels/contact/lubrication.hpp"
 #include "kernels/contact/pair_histories.hpp"
+#include "kernels/contact/registry.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -96,6 +97,7 @@ struct ContactPass {
   const ContactSum* by_films = nullptr;  ///< [grains], of the fluid between them; null: none
   const ContactLaw* laws = nullptr;      ///< [materials][materials]; null: `law` for all
   std::uint32_t materials = 1;
+  bool acts = true;  ///< false: grains pass through each other
 
   BL_HD Sphere sphere(Index i, Real R) const { return {R, Real(mass_per_r3(i)) * cube(R)}; }
   /// Place in `laws` of that between two grains.
@@ -107,9 +109,16 @@ struct ContactPass {
 
   /// Sums over all contacts of the lane's row, and advances the histories of its pairs by dt.
   BL_HD ContactSum operator()(const Lane& lane) const {
+    ContactSum sum = pairs<ContactLaw>(lane);
+    add_others(lane.row, sum);
+    return sum;
+  }
+  /// Those between grains alone. The laws act as Law.
+  template <class Law>
+  BL_HD ContactSum pairs(const Lane& lane) const {
     ContactSum sum;
     const Index i = lane.row;
-    if (law.normal == NormalLaw::none) return sum;
+    if (!acts) return sum;
     const Grain own{i, x[i], radius[i], v[i], omega[i], id[i]};
     const std::uint32_t n = list.count[i];
     std::uint64_t slot = list.slot(i, lane.index);
@@ -117,14 +126,19 @@ struct ContactPass {
     for (std::uint32_t k = lane.index; k < n; k += lane.count) {
       const Index j = next;
       next = list.entry[slot + VerletListView::kTurn];  // while this pair is worked on
-      pair(own, j, slot, sum);
+      pair<Law>(own, j, slot, sum);
       slot += VerletListView::kTurn;
     }
     lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
-    wait_for_loop_before();  // over the walls, which may go on so far
-    if (wall_row && wall_row[i] != kNone) sum.add(by_walls[wall_row[i]]);
-    if (by_films) sum.add(by_films[i]);
     return sum;
+  }
+  /// What walls and films do, when the loop over the walls has ended.
+  BL_HD void add_others(Index i, ContactSum& sum) const {
+    if (!acts) return;
+    const Index row = wall_row ? wall_row[i] : kNone;
+    wait_for_loop_before();
+    if (row != kNone) sum.add(by_walls[row]);
+    if (by_films) sum.add(by_films[i]);
   }
 
  private:
@@ -135,16 +149,24 @@ struct ContactPass {
     Real3 v, omega;
     Id id;
   };
+  struct Other {
+    Real3 v, omega;
+    Id id = 0;
+  };
   /// By value: one of two places would have to lie in memory.
   BL_HD static Real3 either(bool first, const Real3& a, const Real3& b) {
     return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
   }
+  template <class Law>
   BL_HD void pair(const Grain& own, Index j, std::uint64_t slot, ContactSum& sum) const {
+    // what is read is asked for as early as it is sure to be needed: one pair waits for memory all in all
     const bool touched = histories.touching[slot];
-    ContactHistory h;
-    if (touched) h = histories[slot];
     const Real R = radius[j];
-    const Vec3d r = frame.separation(own.x, x[j]);
+    const Vec3d x_j = x[j];
+    Other other;
+    ContactHistory h;
+    if (touched) h = histories[slot], other = {v[j], omega[j], id[j]};
+    const Vec3d r = frame.separation(own.x, x_j);
     const double reach = double(own.R) + double(R), r2 = norm2(r);
     const bool near = r2 < reach * reach;
     const double distance = near ? std::sqrt(r2) : reach;
@@ -152,8 +174,9 @@ struct ContactPass {
       if (touched) histories.touching[slot] = 0;
       return;
     }
-    const bool first = own.id < id[j];
-    const Real3 v_j = v[j], omega_j = omega[j];
+    if (!touched) other = {v[j], omega[j], id[j]};
+    const bool first = own.id < other.id;
+    const Real3 v_j = other.v, omega_j = other.omega;
     const Index lo = first ? own.i : j, hi = first ? j : own.i;
     const Real R_lo = first ? own.R : R, R_hi = first ? R : own.R;
     const ContactGeometry at =
@@ -161,8 +184,8 @@ struct ContactPass {
     const Real3 v_rel = first ? own.v - v_j : v_j - own.v, omega_lo = either(first, own.omega, omega_j),
                 omega_hi = either(first, omega_j, own.omega);
     // the one law of most cases is a parameter of the kernel, which a reference would put in memory
-    const ContactForce f = laws ? laws[pair_of(lo, hi)](at, v_rel, omega_lo, omega_hi, dt, h)
-                                : law(at, v_rel, omega_lo, omega_hi, dt, h);
+    const Law acting = laws ? Law::of(laws[pair_of(lo, hi)]) : Law::of(law);
+    const ContactForce f = acting(at, v_rel, omega_lo, omega_hi, dt, h);
     sum.force += Vec3d(first ? f.force : -f.force);
     sum.torque += Vec3d(either(first, f.torque_i, f.torque_j));
     histories.store(slot, h);

@@ -2,6 +2,7 @@
 // What a grain touches of the walls: the closest points of all surfaces, none of them twice, and what is
 // remembered of each from one substep to the next.
 
+#include "bedload/core/raw_array.hpp"
 #include "kernels/contact/history.hpp"
 #include "kernels/walls/surface.hpp"
 
@@ -47,7 +48,8 @@ struct WallTouch {
   BL_HD double key() const { return WallMemory::key_of(surface, closest.feature); }
 };
 
-/// Collects the touches of one grain.
+/// Collects the touches of one grain, with surfaces of these kinds.
+template <class Kinds = AllKinds>
 class WallTouches {
  public:
   BL_HD WallTouches(const WallMemories& memories, const Surface* surfaces, int capacity)
@@ -62,7 +64,7 @@ class WallTouches {
     if (closest.two_sided && touch.from != kNone)
       touch.closest.face(memories_[touch.from].history.overlap < 0 ? -1.0 : 1.0);
     if (!(touch.closest.distance < radius)) return;
-    if (surface.tracked() && touch.closest.distance < 0 && touch.from == kNone &&
+    if (Kinds::tracked(surface) && touch.closest.distance < 0 && touch.from == kNone &&
         inherited(touch, false) == kNone)
       return;
     insert(touch);
@@ -81,6 +83,7 @@ class WallTouches {
   }
 
   BL_HD int size() const { return size_; }
+  BL_HD Index remembered() const { return remembered_; }
   BL_HD const WallTouch& operator[](int k) const { return touches_[k]; }
 
  private:
@@ -132,7 +135,7 @@ class WallTouches {
   const Surface* surfaces_;
   Index remembered_;
   int capacity_, size_ = 0;
-  WallTouch touches_[kMostWallContacts];
+  RawArray<WallTouch, kMostWallContacts> touches_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -14,6 +14,15 @@ struct WallRows {
   const Index* surface = nullptr;
 };
 
+/// What a pass over walls has code for.
+template <class ContactLaws, class SurfaceKinds, bool free>
+struct WallScope {
+  using Law = ContactLaws;
+  using Kinds = SurfaceKinds;
+  static constexpr bool kFree = free;  ///< bodies that grains move
+};
+using AnyWalls = WallScope<ContactLaw, AllKinds, true>;
+
 struct WallContacts {
   Frame frame;
   MassPerR3 mass_per_r3;
@@ -46,21 +55,26 @@ struct WallContacts {
     return laws[body * materials + (mass_per_r3.material ? mass_per_r3.material[i] : 0)];
   }
 
-  /// f(body, contact) for all that grain i touches of the surfaces `surface(k)`, ascending, k < n; `keep`:
-  /// histories are advanced.
-  template <class Surfaces, class F>
-  BL_HD void each(Index i, Index n, Surfaces&& surface, bool keep, F&& f) const {
+  /// f(body, contact) for those that grain i touches of the surfaces `surface(k)`, ascending, k < n, and that
+  /// are the lane's: the lanes of a grain share them. `keep`: histories are advanced.
+  template <class Scope = AnyWalls, class Surfaces, class F>
+  BL_HD void each(const Lane& lane, Index i, Index n, Surfaces&& surface, bool keep, F&& f) const {
+    const Grain grain{x[i], v[i], omega[i], {radius[i], Real(mass_per_r3(i)) * cube(radius[i])}};
     const WallMemories remembered = memories(i);
-    WallTouches touches(remembered, walls.surfaces.data, capacity);
-    find(i, n, surface, double(radius[i]), touches);
-    if (touches.size() > 0) {
-      touches.settle();
-      WallMemory next[kMostWallContacts];
-      for (int k = 0; k < touches.size(); ++k) next[k] = touch_one(i, touches[k], remembered, f);
-      if (keep)
-        for (int k = 0; k < touches.size(); ++k) remembered[k] = next[k];
+    WallTouches<typename Scope::Kinds> touches(remembered, walls.surfaces.data, capacity);
+    find(grain.x, grain.R(), n, surface, double(grain.R()), touches);
+    touches.settle();
+    RawArray<ContactHistory, kMostWallContacts> history;
+    for (int k = int(lane.index); k < touches.size(); k += int(lane.count))
+      history[k] = touches[k].from != kNone ? remembered[touches[k].from].history : ContactHistory{};
+    lane.wait();  // all have read what they remember
+    for (int k = int(lane.index); k < touches.size(); k += int(lane.count)) {
+      const WallTouch& touch = touches[k];
+      touch_one<Scope>(grain, touch, law(touch.body, i), history[k], f);
+      if (keep) remembered[k] = {touch.key(), touch.closest.normal, history[k]};
     }
-    if (keep && remembered.count() != Index(touches.size())) count[i] = Index(touches.size());
+    if (keep && lane.index == 0 && touches.remembered() != Index(touches.size()))
+      count[i] = Index(touches.size());
   }
   /// The same for all walls from which fluid parts a wet grain, touched or not; not to be called without
   /// lubrication.
@@ -68,8 +82,8 @@ struct WallContacts {
   BL_HD void each_film(Index i, Index n, Surfaces&& surface, F&& f) const {
     if (!(wetness[i] > 0)) return;
     const Real R = radius[i];
-    WallTouches near(WallMemories{nullptr, nullptr, i}, walls.surfaces.data, kMostWallContacts);
-    find(i, n, surface, double(R) + double(lubrication.range(R)), near);
+    WallTouches<> near(WallMemories{nullptr, nullptr, i}, walls.surfaces.data, kMostWallContacts);
+    find(x[i], R, n, surface, double(R) + double(lubrication.range(R)), near);
     if (near.size() == 0) return;
     near.settle();
     for (int k = 0; k < near.size(); ++k) {
@@ -85,73 +99,84 @@ struct WallContacts {
   }
 
  private:
-  /// Collects what is within `range` of the centre of grain i, m.
-  template <class Surfaces>
-  BL_HD void find(Index i, Index n, Surfaces&& surface, double range, WallTouches& touches) const {
-    const Vec3d at = x[i];
+  struct Grain {
+    Vec3d x;
+    Real3 v, omega;
+    Sphere sphere;
+    BL_HD Real R() const { return sphere.R; }
+  };
+  /// Collects what is within `range` (m) of the centre of a grain at x.
+  template <class Kinds, class Surfaces>
+  BL_HD void find(const Vec3d& at, Real R, Index n, Surfaces&& surface, double range,
+                  WallTouches<Kinds>& touches) const {
     for (Index k = 0; k < n; ++k) {
       const Index s = surface(k);
       const Surface& of = walls.surfaces[s];
       const BodyPose& pose = poses[of.body];
       if (!pose.present) continue;
       const SurfaceView view(of, pose, frame, at);
-      const double reach = of.reach(range);
-      if (view.beyond(walls, reach)) continue;
-      view.each_closest_point(walls, reach, 1e-4 * double(radius[i]),
-                              [&](const ClosestPoint& closest) { touches.add(s, closest, range); });
+      const double reach = Kinds::reach(of, range);
+      if (Kinds::kTracked && view.beyond(walls, reach))
+        continue;  // of others the closest point costs as much
+      view.template each_closest_point<Kinds>(
+          walls, reach, 1e-4 * double(R),
+          [&](const ClosestPoint& closest) { touches.add(s, closest, range); });
     }
   }
   /// r: from the body's centre, m.
   BL_HD static Vec3d surface_velocity(const BodyPose& pose, const Vec3d& r) {
-    return pose.v + cross(pose.omega, r) + pose.rotation.rotate(pose.slide);
+    return pose.v + cross(pose.omega, r) + (pose.turned() ? pose.rotation.rotate(pose.slide) : pose.slide);
   }
   /// Of a place from the centre of a body, by the nearest image, m.
   BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
     return frame.nearest_image(point - pose.origin());
   }
-  template <class F>
-  BL_HD WallMemory touch_one(Index i, const WallTouch& touch, const WallMemories& remembered, F& f) const {
+  template <class Scope, class F>
+  BL_HD void touch_one(const Grain& grain, const WallTouch& touch, const ContactLaw& law, ContactHistory& h,
+                       F& f) const {
     const ClosestPoint& closest = touch.closest;
     const BodyPose& pose = poses[touch.body];
-    ContactHistory h;
-    if (touch.from != kNone) h = remembered[touch.from].history;
     h.overlap = std::abs(h.overlap);
-    const Vec3d point = x[i] - closest.distance * closest.normal;
-    const Sphere grain{radius[i], Real(mass_per_r3(i)) * cube(radius[i])};
-    ContactGeometry at = touch_wall(grain, closest.normal, double(radius[i]) - closest.distance);
+    const Vec3d point = grain.x - closest.distance * closest.normal;
+    ContactGeometry at = touch_wall(grain.sphere, closest.normal, double(grain.R()) - closest.distance);
     const Vec3d r = arm(pose, point), v_wall = surface_velocity(pose, r);
-    if (pose.free)
+    if (Scope::kFree && pose.free)
       at.m_star /= 1 + at.m_star * Real(free_bodies[pose.free - 1].inverse_effective_mass(pose.rotation, r,
                                                                                           closest.normal));
-    const ContactForce on_grain =
-        law(touch.body, i)(at, v[i] - Real3(v_wall), omega[i], Real3(pose.omega), dt, h);
+    const ContactForce on_grain = composed<typename Scope::Law>(law)(at, grain.v - Real3(v_wall), grain.omega,
+                                                                     Real3(pose.omega), dt, h);
     f(touch.body, Contact{on_grain, point});
     h.overlap *= closest.side;
-    return {touch.key(), closest.normal, h};
   }
 };
 
-/// Sums over the wall contacts of each row's grain; advances their histories.
+/// Sums over the wall contacts of each row's grain; advances their histories. Runs over the lanes that share
+/// the rows.
+template <class Scope>
 struct WallContactPass {
   WallContacts contacts;
   WallRows rows;
+  unsigned lane_bits;     ///< 0 with loads
   ContactSum* sums;       ///< [rows]
   TouchLoads loads = {};  ///< where to record what the grains do to free bodies; may be none
-  BL_HD void operator()(Index row) const {
+  BL_HD void operator()(Index thread) const {
     wait_for_loop_before();
     let_next_loop_begin();
-    const Index i = rows.grain[row];
-    const Index* surface = rows.surface + rows.offset[row];
-    if (loads) loads.clear(i);
+    const Lane lane(thread, lane_bits);
+    const Index i = rows.grain[lane.row];
+    const std::uint64_t first = rows.offset[lane.row];
+    const Index* surface = rows.surface + first;
+    if (Scope::kFree && loads) loads.clear(i);
     ContactSum sum;
-    contacts.each(
-        i, Index(rows.offset[row + 1] - rows.offset[row]), [&](Index k) { return surface[k]; }, true,
+    contacts.each<Scope>(
+        lane, i, Index(rows.offset[lane.row + 1] - first), [&](Index k) { return surface[k]; }, true,
         [&](std::uint32_t body, const WallContacts::Contact& c) {
           sum.add({Vec3d(c.on_grain.force), Vec3d(c.on_grain.torque_i)});
-          if (loads && contacts.poses[body].free)
+          if (Scope::kFree && loads && contacts.poses[body].free)
             loads.add(i, {c.on_wall(), contacts.torque_on(body, c), body});
         });
-    sums[row] = sum;
+    lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
+    if (lane.index == 0) sums[lane.row] = sum;
   }
 };
 

@@ -44,25 +44,34 @@ struct GrainKick {
   BL_HD double mass(Index i) const { return mass_per_r3(i) * radius[i] * radius[i] * radius[i]; }
 };
 
-/// Velocity and spin of one grain under forces that hold for the present kicks.
+/// Velocity and spin of one grain under forces that hold for the present kicks: `under` before them.
 struct KickedGrain {
   Vec3d v, omega;
   Vec3d impulse, spin_impulse;  ///< from drag, so far: N s, N m s
 
-  BL_HD KickedGrain(const GrainKick& k, Index i, const Vec3d& v0, const Vec3d& omega0, const Vec3d& force,
-                    const Vec3d& torque)
+  BL_HD KickedGrain(const GrainKick& k, Index i, const Vec3d& v0, const Vec3d& omega0)
       : v(v0),
         omega(omega0),
+        wet_(k.wet()),
+        driven_(k.drive),
         m_(k.mass(i)),
         inertia_(0.4 * m_ * k.radius[i] * k.radius[i]),
         h_(k.h),
-        a_(applied(k, i, force) * (1 / m_) + k.gravity),
-        alpha_(torque * (1 / inertia_)),
-        slide_(k.wet() ? k.K[i] / m_ : 0, k.h, k.exponential),
-        spin_(k.wet() ? k.K_rot[i] / inertia_ : 0, k.h, k.exponential),
+        fluid_force_(wet_ ? Vec3d(k.fluid_force[i]) : Vec3d{}),
+        drive_(driven_ ? Vec3d(k.drive[i]) : Vec3d{}),
+        gravity_(k.gravity),
+        slide_(wet_ ? k.K[i] / m_ : 0, k.h, k.exponential),
+        spin_(wet_ ? k.K_rot[i] / inertia_ : 0, k.h, k.exponential),
         U_(slide_.fraction > 0 ? Vec3d(k.U[i]) : Vec3d{}),
         omega_f_(spin_.fraction > 0 ? Vec3d(k.omega_f[i]) : Vec3d{}) {}
 
+  /// By contacts: force (N) and torque (N m).
+  BL_HD void under(Vec3d force, const Vec3d& torque) {
+    if (wet_) force += fluid_force_;
+    if (driven_) force += drive_;
+    a_ = force * (1 / m_) + gravity_;
+    alpha_ = torque * (1 / inertia_);
+  }
   /// Half a substep.
   BL_HD void kick() {
     const Vec3d dv = slide_.drag(v, U_, a_, h_);
@@ -74,14 +83,9 @@ struct KickedGrain {
   }
 
  private:
-  BL_HD static Vec3d applied(const GrainKick& k, Index i, Vec3d force) {
-    if (k.wet()) force += Vec3d(k.fluid_force[i]);
-    if (k.drive) force += Vec3d(k.drive[i]);
-    return force;
-  }
-
+  bool wet_, driven_;
   double m_, inertia_, h_;
-  Vec3d a_, alpha_;
+  Vec3d fluid_force_, drive_, gravity_, a_, alpha_;
   Relaxation slide_, spin_;
   Vec3d U_, omega_f_;
 };

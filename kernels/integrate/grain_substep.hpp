@@ -29,7 +29,8 @@ struct FirstKickPass {
   Span<Vec3d> x;
   Span<Real3> v, omega, v_rest, omega_rest, impulse, spin_impulse;
   BL_HD void operator()(Index i) const {
-    KickedGrain g(kick, i, Vec3d(v[i]), Vec3d(omega[i]), Vec3d(force[i]), Vec3d(torque[i]));
+    KickedGrain g(kick, i, Vec3d(v[i]), Vec3d(omega[i]));
+    g.under(Vec3d(force[i]), Vec3d(torque[i]));
     g.kick();
     split(g.v, v[i], v_rest[i]);
     split(g.omega, omega[i], omega_rest[i]);
@@ -42,7 +43,8 @@ struct FirstKickPass {
 
 /// Contacts where the grains have arrived, the second half kick, and the first half kick and drift of the
 /// next substep. Neighbours are read, so results go to other arrays. This pass and those below run over the
-/// threads that share the rows of the contacts' list.
+/// threads that share the rows of the contacts' list. Laws act as Law.
+template <class Law>
 struct SubstepPass {
   ContactPass contacts;
   GrainKick kick;
@@ -51,10 +53,11 @@ struct SubstepPass {
   BL_HD void operator()(Index thread) const {
     const Lane lane(thread, contacts.list.bits);
     const Index i = lane.row;
-    const ContactSum sum = contacts(lane);
+    ContactSum sum = contacts.pairs<Law>(lane);
+    KickedGrain g(kick, i, join(contacts.v[i], v_rest[i]), join(contacts.omega[i], omega_rest[i]));
+    contacts.add_others(i, sum);
     if (lane.index != 0) return;
-    KickedGrain g(kick, i, join(contacts.v[i], v_rest[i]), join(contacts.omega[i], omega_rest[i]), sum.force,
-                  sum.torque);
+    g.under(sum.force, sum.torque);
     g.kick();
     g.kick();
     split(g.v, next_v[i], v_rest[i]);
@@ -67,6 +70,7 @@ struct SubstepPass {
 };
 
 /// Contacts and half kick that end an advance; leaves forces and mean drag.
+template <class Law>
 struct LastKickPass {
   ContactPass contacts;
   GrainKick kick;
@@ -77,10 +81,11 @@ struct LastKickPass {
   BL_HD void operator()(Index thread) const {
     const Lane lane(thread, contacts.list.bits);
     const Index i = lane.row;
-    const ContactSum sum = contacts(lane);
+    ContactSum sum = contacts.pairs<Law>(lane);
+    KickedGrain g(kick, i, join(contacts.v[i], v_rest[i]), join(contacts.omega[i], omega_rest[i]));
+    contacts.add_others(i, sum);
     if (lane.index != 0) return;
-    KickedGrain g(kick, i, join(contacts.v[i], v_rest[i]), join(contacts.omega[i], omega_rest[i]), sum.force,
-                  sum.torque);
+    g.under(sum.force, sum.torque);
     g.kick();
     next_v[i] = Real3(g.v);
     next_omega[i] = Real3(g.omega);

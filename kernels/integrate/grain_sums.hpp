@@ -108,7 +108,8 @@ struct BodyLoadReduction {
       if (of == body) sum.add(c.on_wall(), contacts.torque_on(body, c));
     };
     if (contacts.lubrication.acts()) contacts.each_film(i, contacts.walls.surfaces.size, surface, add);
-    if (contacts.memories(i).count() > 0) contacts.each(i, contacts.walls.surfaces.size, surface, false, add);
+    if (contacts.memories(i).count() > 0)
+      contacts.each(Lane(i, 0), i, contacts.walls.surfaces.size, surface, false, add);
     return sum;
   }
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }

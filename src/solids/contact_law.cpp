@@ -1,23 +1,18 @@
-#include "kernels/contact/contact_law.hpp"
+#include "kernels/contact/registry.hpp"
 
 #include <cmath>
-#include <type_traits>
 
 namespace bedload::inline BL_VARIANT {
 namespace {
 
 ContactLaw law_between(const ContactMaterials& m) {
-  ContactLaw all;
-  all.normal = m.contact.normal, all.sliding = m.contact.tangential, all.rolling = m.contact.rolling;
-  if (m.mu_r == 0) all.rolling = RollingLaw::none;
-  all.clip_tension = m.contact.clip_tension;
-  all.mu = Real(m.mu);
-  all.sliding_damping = Real(m.contact.tangential_damping);
-  const auto set = [&](auto& law) { law = std::decay_t<decltype(law)>::of(m); };
-  ContactLaw::normal_of(all, set);
-  ContactLaw::sliding_of(all, set);
-  ContactLaw::rolling_of(all, set);
-  return all;
+  const ContactConfig& c = m.contact;
+  return {.normal = NormalLaws::of(NormalLaw(c.normal), m),
+          .sliding = SlidingLaws::of(SlidingLaw(c.tangential), m),
+          .rolling = RollingLaws::of(m.mu_r == 0 ? RollingLaw::none : RollingLaw(c.rolling), m),
+          .clip_tension = c.clip_tension,
+          .mu = Real(m.mu),
+          .sliding_damping = Real(c.tangential_damping)};
 }
 
 }  // namespace

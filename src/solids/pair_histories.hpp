@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/parallel/buffer.hpp"
-#include "kernels/contact/contact_law.hpp"
 #include "kernels/contact/pair_histories.hpp"
+#include "kernels/contact/registry.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -9,7 +9,7 @@ namespace bedload::inline BL_VARIANT {
 class PairHistoryBuffers {
  public:
   explicit PairHistoryBuffers(const ContactLaw& law)
-      : slides_(law.sliding != SlidingLaw::none), rolls_(law.rolling == RollingLaw::epsd) {}
+      : slides_(law.slides()), rolls_(law.remembers_couple()) {}
 
   /// Of as many slots, none of which touches.
   void reset(std::size_t slots) {

@@ -47,13 +47,12 @@ SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeo
       wall_list_(frame, walls, skin_, double(films_.range(Real(d_max_ / 2)))) {
   config_.grain.d_min = d_min_, config_.grain.d_max = d_max_;
   const std::vector<GrainMaterial> materials = config.grain.all_materials();
-  std::vector<ContactLaw> wall_laws, pair_laws;
   for (const WallBody& body : config.wall.bodies)
-    for (const GrainMaterial& m : materials) wall_laws.push_back(make_wall_law(config, m, body));
-  wall_laws_.assign(wall_laws);
+    for (const GrainMaterial& m : materials) all_wall_laws_.push_back(make_wall_law(config, m, body));
+  wall_laws_.assign(all_wall_laws_);
   for (const GrainMaterial& a : materials)
-    for (const GrainMaterial& b : materials) pair_laws.push_back(make_contact_law(config, a, b));
-  if (materials.size() > 1) pair_laws_.assign(pair_laws);
+    for (const GrainMaterial& b : materials) all_pair_laws_.push_back(make_contact_law(config, a, b));
+  if (materials.size() > 1) pair_laws_.assign(all_pair_laws_);
   if (walls.contacts() == 0) return;
   wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
   wall_contacts_->resize(grains.size());
@@ -145,7 +144,8 @@ ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
           .list = list_.view(),
           .histories = histories_.view(),
           .laws = pair_laws_.size() > 0 ? pair_laws_.data() : nullptr,
-          .materials = matter_.materials()};
+          .materials = matter_.materials(),
+          .acts = config_.contact.normal != NormalLaw::none};
 }
 
 WallContacts SolidSolver::wall_contacts(const GrainStore& g, const BodyPose* poses, double dt) const {
@@ -180,16 +180,32 @@ ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses,
     for_each(threads(), films(g, by_films_.data()));
     pass.by_films = by_films_.data();
   }
-  if (wall_list_.size() == 0 || law_.normal == NormalLaw::none) return pass;
+  if (wall_list_.size() == 0 || config_.contact.normal == NormalLaw::none) return pass;
   by_walls_.reserve_and_resize(wall_list_.size());
-  for_each_early({0, wall_list_.size()},
-                 WallContactPass{wall_contacts(g, poses, dt), wall_list_.rows(), by_walls_.data(), loads});
+  touch_walls(wall_contacts(g, poses, dt), loads);
   if (films_.acts())
     for_each({0, wall_list_.size()},
              WallFilmPass{wall_contacts(g, poses, dt), wall_list_.rows(), by_walls_.data()});
   pass.wall_row = wall_list_.row_of();
   pass.by_walls = by_walls_.data();
   return pass;
+}
+
+void SolidSolver::touch_walls(const WallContacts& contacts, const TouchLoads& loads) {
+  // few grains would wait for the one that touches several walls; what moves bodies is recorded by one thread
+  const unsigned bits = loads ? 0 : std::min(lane_bits(4 * wall_list_.size()), 2u);
+  const Range lanes{0, wall_list_.size() << bits};
+  const auto run = [&]<class Scope>(std::type_identity<Scope>) {
+    for_each_early(lanes, WallContactPass<Scope>{contacts, wall_list_.rows(), bits, by_walls_.data(), loads});
+  };
+  with_surface_kinds(walls_.surfaces(), [&]<class Kinds>(std::type_identity<Kinds>) {
+    if constexpr (std::is_same_v<Kinds, FlatKinds>)
+      if (!bodies_ || !bodies_->any())
+        return with_contact_law(all_wall_laws_, [&]<class Law>(std::type_identity<Law>) {
+          run(std::type_identity<WallScope<Law, Kinds, false>>{});
+        });
+    run(std::type_identity<WallScope<ContactLaw, Kinds, true>>{});
+  });
 }
 
 void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
@@ -241,14 +257,15 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   for (int s = 1; s <= substeps; ++s) {
     const ContactPass contacts = contacts_in(s);
     if (!gravity.empty()) kick.gravity = gravity[s];
-    if (s < substeps) {
-      evaluate(SubstepPass{contacts, kick, next_x_, next_v_, next_omega_, v_rest_, omega_rest_, g.impulse,
-                           g.spin_impulse});
-      g.x.buffer().swap(next_x_);
-    } else {
-      evaluate(LastKickPass{contacts, kick, dt, next_v_, next_omega_, v_rest_, omega_rest_, g.impulse,
-                            g.spin_impulse, g.force, g.torque, g.drag_force});
-    }
+    with_contact_law(all_pair_laws_, [&]<class Law>(std::type_identity<Law>) {
+      if (s < substeps)
+        evaluate(SubstepPass<Law>{contacts, kick, next_x_, next_v_, next_omega_, v_rest_, omega_rest_,
+                                  g.impulse, g.spin_impulse});
+      else
+        evaluate(LastKickPass<Law>{contacts, kick, dt, next_v_, next_omega_, v_rest_, omega_rest_, g.impulse,
+                                   g.spin_impulse, g.force, g.torque, g.drag_force});
+    });
+    if (s < substeps) g.x.buffer().swap(next_x_);
     g.v.buffer().swap(next_v_);
     g.omega.buffer().swap(next_omega_);
     if (s < substeps)
@@ -282,7 +299,7 @@ GrainTotals SolidSolver::totals(const GrainStore& g) const {
 
 void SolidSolver::contact_moments(const GrainStore& g, Buffer<PairMoment<>>& out) const {
   out.resize(g.size());
-  if (law_.normal == NormalLaw::none) return out.zero();
+  if (config_.contact.normal == NormalLaw::none) return out.zero();
   for_each(g.owned(), ContactStressPass{contact_pass(g, 0), out});
 }
 

@@ -9,8 +9,8 @@
 #include "bedload/particles/grains.hpp"
 #include "bedload/particles/walls.hpp"
 #include "bedload/simulation.hpp"
-#include "kernels/contact/contact_law.hpp"
 #include "kernels/contact/lubrication_pass.hpp"
+#include "kernels/contact/registry.hpp"
 #include "kernels/stress/pair_moment.hpp"
 #include "src/solids/grain_matter.hpp"
 #include "src/solids/pair_histories.hpp"
@@ -126,6 +126,8 @@ class SolidSolver {
   ContactPass contact_pass(const GrainStore& grains, double dt) const;
   WallContacts wall_contacts(const GrainStore& grains, const BodyPose* poses, double dt) const;
   LubricationPass films(const GrainStore& grains, ContactSum* sums) const;
+  /// Into by_walls_.
+  void touch_walls(const WallContacts& contacts, const TouchLoads& loads);
   /// Evaluates the contacts with walls, and lubrication, and returns the pass over the contacts between
   /// grains, which adds them.
   ContactPass contacts_at(const GrainStore& grains, const BodyPose* poses, double dt,
@@ -147,6 +149,7 @@ class SolidSolver {
   ContactLaw law_;
   Lubrication films_;
   GrainMatter matter_;
+  std::vector<ContactLaw> all_pair_laws_, all_wall_laws_;
   Buffer<ContactLaw> pair_laws_;  ///< [materials][materials]; empty where all are of one
   Buffer<ContactLaw> wall_laws_;  ///< [bodies][materials]
   double d_min_, d_max_, skin_;

@@ -13,14 +13,14 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The law of a body from its material: Hertz and Mindlin, and the grains' way to resist rolling.
-ContactLaw law_of(const Config& config, const FreeConfig& f) {
+BodyLaw law_of(const Config& config, const FreeConfig& f) {
   Config own = config;
   own.grain.E = f.E, own.grain.nu = f.nu, own.grain.mu = f.mu, own.grain.mu_r = f.mu_r, own.grain.e = f.e;
   own.contact.normal = "hertz";
   own.contact.tangential = "mindlin";
   if (f.mu_r == 0) own.contact.rolling = "none";
   own.contact.he_damping = false;
-  return make_contact_law(own);
+  return BodyLaw::of(make_contact_law(own));
 }
 
 /// Sum of two loads on each body, into its fields.
@@ -59,7 +59,7 @@ FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeome
     : config_(config), frame_(frame), walls_(walls), places_(config.wall.bodies.size(), -1) {
   if (config.wall.free_bodies() == 0) return;
   contact_radius_ = kInfinity;
-  std::vector<ContactLaw> laws;
+  std::vector<BodyLaw> laws;
   std::vector<ElasticCompliance> compliances;
   for (const WallBody& body : config.wall.bodies)
     compliances.push_back(body.free.present ? ElasticCompliance(body.free.E, body.free.nu)

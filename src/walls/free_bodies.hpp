@@ -135,7 +135,7 @@ class FreeBodies {
 
   mutable BodyStore store_;  ///< kernels take its spans from const members too
   Buffer<RigidBody> constants_;
-  Buffer<ContactLaw> laws_;                ///< of the free bodies
+  Buffer<BodyLaw> laws_;                   ///< of the free bodies
   Buffer<ElasticCompliance> compliances_;  ///< of all wall bodies
   Buffer<TouchBall> balls_;
   /// [capacity][balls], as one list

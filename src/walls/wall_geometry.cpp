@@ -91,7 +91,7 @@ WallGeometry::WallGeometry(const Config& config, const std::function<bool(const 
 }
 
 SurfaceSet WallGeometry::view() const {
-  return {device_surfaces_, device_corners_.data(), device_meshes_.data()};
+  return {{device_surfaces_, device_corners_.data(), device_meshes_.data()}};
 }
 
 void WallGeometry::add(const SurfacePart& part, std::uint32_t body) {

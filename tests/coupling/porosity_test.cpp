@@ -81,7 +81,7 @@ TEST(Porosity, KnowsWhatFractionOfTheKernelWallsLeave) {
   pose[1].present = 0;
   const auto fraction = [&](const Vec3d& x) {
     const Frame frame({-1, -1, -1}, {1, 1, 1}, false, false, false);
-    return WallFreeFraction{HalfSpaceFraction::of(w), frame, {{planes.data(), 2}}, {pose.data(), 2}}(x);
+    return WallFreeFraction{HalfSpaceFraction::of(w), frame, {{{planes.data(), 2}}}, {pose.data(), 2}}(x);
   };
   for (double z : {0.0, 0.04, 0.11, 0.25}) {
     double free = 0, all = 0;

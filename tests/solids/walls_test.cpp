@@ -1,4 +1,5 @@
 // Grains against surfaces: geometry, motion, loads, boxes that keep their contents.
+#include <array>
 #include <limits>
 
 #include "tests/support/grain_bench.hpp"
@@ -133,6 +134,46 @@ TEST(Walls, RectangleIsFeltFromBothSidesAndPushesBackWhatHasPassed) {
   EXPECT_LT(b.velocity(1).z, -0.05) << "from below";
   EXPECT_GT(b.velocity(2).x, 0.05) << "from beyond its edge";
   EXPECT_NEAR(b.velocity(3).z, -0.5, 1e-6) << "nothing there";
+}
+
+/// Where a grain is after sliding and rolling along faces, an edge and into a corner of a tank, with
+/// friction, beside another body, which it never meets.
+std::vector<Vec3d> along_a_tank(const std::function<void(GrainBench&)>& with) {
+  GrainBench b;
+  b.config.grain.mu_r = 0.05;
+  b.config.contact.rolling = "cdt";
+  b.config.gravity = {-3, -4, -9};
+  b.config.wall.bodies = {box({0, 0, 0}, {0.05, 0.05, 0.05}, "tank")};
+  with(b);
+  const double R = b.R(), in = 0.999 * R;
+  b.add({8 * R, 8 * R, in}, {-0.3, -0.1, 0}, {30, 0, 10});
+  b.add({8 * R, in, in}, {-0.3, 0, 0}, {0, 50, 0});
+  b.add({in, in, in}, {0.05, 0.1, 0}, {10, 20, 30});
+  b.add({in, in, 0.05 + 0.3 * R}, {0, 0, -0.1});  // on the rim
+  b.start();
+  b.run(1e-5, 200);
+  std::vector<Vec3d> out;
+  for (Id i = 0; i < 4; ++i) out.insert(out.end(), {b.position(i), b.velocity(i), b.spin(i)});
+  return out;
+}
+
+TEST(SmallWalls, ActTheSameBesideBodiesOfOtherKinds) {
+  const auto flat = along_a_tank([](GrainBench&) {});
+  EXPECT_LT(flat[0].x, 8 * 1.35e-3 - 0.3e-3);
+  EXPECT_NE(norm(flat[8]), 0) << "no spin in the corner";
+  const Vec3d far{0.09, 0.09, 0.09};
+  const std::function<void(GrainBench&)> others[] = {
+      [&](GrainBench& b) { b.config.wall.bodies.push_back(test::shaped("ball", make_sphere(far, 0.005))); },
+      [&](GrainBench& b) {
+        b.plane({0, 0, -0.09}, {0, 0, 1}), b.config.wall.bodies[1].mu_r = 0;
+      }};
+  for (const auto& other : others) {
+    const auto beside = along_a_tank(other);
+    for (std::size_t k = 0; k < flat.size(); ++k) {
+      const double scale = std::array{1e-3, 0.1, 50.0}[k % 3];
+      EXPECT_LT(norm(beside[k] - flat[k]), tolerance(1e-9, 1e-3, 1e-3) * scale) << k;
+    }
+  }
 }
 
 TEST(Walls, LoadOfRestingGrainsIsTheirWeight) {

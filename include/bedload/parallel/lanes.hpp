@@ -27,6 +27,12 @@ struct Lane {
   BL_HD Lane(Index thread, unsigned bits)
       : row(thread >> bits), index(thread & ((1u << bits) - 1)), count(1u << bits) {}
 
+  /// Returns when all lanes of the team have come here; they see what each has written.
+  BL_HD void wait() const {
+#if defined(__CUDA_ARCH__)
+    if (count > 1) __syncwarp(mask());
+#endif
+  }
   /// Leaves on every lane what merge(into, other) makes of all lanes' sums.
   template <class Sum, class Merge>
   BL_HD void combine(Sum& sum, const Merge& merge) const {

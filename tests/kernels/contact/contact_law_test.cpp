@@ -1,4 +1,4 @@
-#include "kernels/contact/contact_law.hpp"
+#include "kernels/contact/registry.hpp"
 
 #include <gtest/gtest.h>
 
@@ -29,12 +29,33 @@ TEST(ContactLaw, HertzForceAndStiffnessByHand) {
   EXPECT_NEAR(s.stiffness / (2 * E * std::sqrt(R * overlap)), 1, tolerance(1e-12, 1e-6, 1e-6));
 }
 
+template <class Law>
+bool composed_as(const std::vector<ContactLaw>& laws) {
+  bool found = false;
+  with_contact_law(laws,
+                   [&]<class Chosen>(std::type_identity<Chosen>) { found = std::is_same_v<Chosen, Law>; });
+  return found;
+}
+
+TEST(ContactLaw, IsComposedOfWhatActs) {
+  Config c = glass();
+  c.contact.rolling = "cdt", c.grain.mu_r = 0.1;
+  const ContactLaw rolls = make_contact_law(c);
+  EXPECT_TRUE((composed_as<ContactLawOf<Hertz, Mindlin, ConstantRolling>>({rolls, rolls})));
+  c.grain.mu_r = 0, c.contact.normal = "democritus", c.contact.tangential = "democritus";
+  const ContactLaw slides = make_contact_law(c);
+  EXPECT_TRUE((composed_as<ContactLawOf<Hertz, Mindlin, NoRolling>>({slides})));
+  EXPECT_TRUE((composed_as<ContactLaw>({rolls, slides}))) << "no composition is both";
+  c.contact.normal = "linear", c.contact.tangential = "linear", c.contact.k = 1e4;
+  EXPECT_TRUE((composed_as<ContactLaw>({make_contact_law(c)})));
+}
+
 TEST(ContactLaw, PaperDampingIsRootSixTimesTheRatio) {
   Config c = glass();
   c.contact.clip_tension = false;
-  const Real exact = make_contact_law(c).hertz.alpha;
+  const Real exact = make_contact_law(c).normal.alpha;
   c.contact.he_damping = true;
-  EXPECT_NEAR(make_contact_law(c).hertz.alpha / exact, std::sqrt(6.0 / 5.0), 1e-6);
+  EXPECT_NEAR(make_contact_law(c).normal.alpha / exact, std::sqrt(6.0 / 5.0), 1e-6);
 }
 
 TEST(ContactLaw, RefusesALinearSpringThatCannotDampEnough) {
@@ -67,9 +88,9 @@ TEST(ContactLaw, MindlinDeresiewiczStartsAtMindlinStiffnessAndEndsAtCoulomb) {
   const ContactGeometry at = touch(kGrain, kGrain, {gap, 0, 0}, gap, overlap);
   c.contact.tangential = "mindlin";
   const double stiffness =
-      8 * double(make_contact_law(c).mindlin.G_star) * std::sqrt(0.5 * kRadius * overlap);
+      8 * double(make_contact_law(c).sliding.G_star) * std::sqrt(0.5 * kRadius * overlap);
 
-  const double longest = md.deresiewicz.longest(overlap), small = longest * 1e-7;
+  const double longest = md.sliding.longest(overlap), small = longest * 1e-7;
   ContactHistory h{{0, small, 0}, {}, overlap};
   const ContactForce start = md(at, {}, {}, {}, 0, h);
   EXPECT_NEAR(-start.force.y / (stiffness * small), 1, tolerance(1e-6, 1e-5, 1e-4));

@@ -1,0 +1,38 @@
+#pragma once
+#include "kernels/contact/rolling.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Elastic-plastic spring-dashpot, type C of [ai11]: holds slopes below mu_r.
+struct ElasticPlasticRolling {
+  static constexpr bool kActs = true, kRemembers = true;
+  Real mu_r = 0;
+  Real eta = Real(0.3);
+
+  static constexpr bool is(RollingLaw law) { return law == RollingLaw::epsd; }
+  static ElasticPlasticRolling of(const ContactMaterials& m) { return {Real(m.mu_r), Real(m.contact.eta_r)}; }
+  BL_HD Real stiffness(Real normal_stiffness, Real R_star) const {
+    return Real(2.25) * normal_stiffness * square(mu_r * R_star);
+  }
+  /// `couple` is the elastic part, already turned with the contact.
+  BL_HD Real3 operator()(const RollingInput& in, Vec3d& couple) const {
+    const Real limit = mu_r * in.R_star * in.normal_force;
+    const Real k_r = stiffness(in.normal_stiffness, in.R_star);
+    couple -= double(k_r * in.dt) * Vec3d(in.omega);
+    const double size = norm(couple);
+    if (size > limit) {
+      couple *= limit / size;
+      return Real3(couple);
+    }
+    // sqrt(I_r) sqrt(k_r): the product is too small for fp32 where grains are tiny
+    Real3 total = Real3(couple) - in.omega * (2 * eta * std::sqrt(k_r) / std::sqrt(in.inverse_rolling));
+    const Real damped = norm(total);
+    if (damped > limit) total *= limit / damped;
+    return total;
+  }
+  BL_HD double stored(Real normal_stiffness, Real R_star, const Vec3d& couple) const {
+    return mu_r > 0 ? 0.5 * norm2(couple) / double(stiffness(normal_stiffness, R_star)) : 0;
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,41 @@
+#pragma once
+#include "kernels/contact/normal.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Prefactor alpha of Hertz damping: sqrt 5 damping_ratio(e) where the spring may pull, else a fit
+/// (error in e below 7e-5 on [0.05, 1]).
+inline double hertz_damping(double e, bool clip) {
+  if (!clip) return std::sqrt(5.0) * damping_ratio(e);
+  const double x = -std::log(e);
+  return x * (0.71149 + x * (0.14661 + x * (0.018182 + x * 0.0051058)));
+}
+
+/// Of `democritus`: the damping 2 sqrt(2 m* S_n) of [tsuzuki] Eq. 32, sqrt 2 times critical, S_n being the
+/// tangent stiffness in place of the k_n of its linear spring.
+constexpr double kDemocritus = 3.4641016151377544;  // 2 sqrt 3
+
+/// F = k_H overlap^1.5, damping alpha sqrt(m* k_H) overlap^0.25: restitution does not depend on speed.
+struct Hertz {
+  static constexpr double kEnergy = 0.4;  ///< stored, over force times overlap
+  Real E_star = 0;                        ///< Pa
+  Real alpha = 0;
+
+  static constexpr bool is(NormalLaw law) { return law == NormalLaw::hertz || law == NormalLaw::democritus; }
+  static Hertz of(const ContactMaterials& m) {
+    const bool paper = m.contact.he_damping;
+    double alpha = paper ? std::sqrt(6.0) * damping_ratio(m.e) : hertz_damping(m.e, m.contact.clip_tension);
+    if (m.contact.normal == NormalLaw::democritus) alpha = kDemocritus;
+    return {Real(m.E_star()), Real(alpha)};
+  }
+  /// R_star, m_star: reduced radius and mass (m, kg); overlap > 0 (m).
+  BL_HD NormalState operator()(Real R_star, Real m_star, Real overlap) const {
+    const Real stiffness = 2 * E_star * std::sqrt(R_star * overlap);
+    return {stiffness * overlap * Real(2.0 / 3.0), stiffness,
+            alpha * std::sqrt(m_star * stiffness * Real(2.0 / 3.0))};
+  }
+  /// Of a substep, in which the dashpot acts: it grows from nothing at touch.
+  BL_HD Real dashpot(double, Real, Real, Real, bool) const { return 1; }
+};
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,95 @@
+#pragma once
+// The contact laws that a case may name, and compositions of them. A new law is an include and its place in a
+// list.
+
+#include <algorithm>
+#include <vector>
+
+#include "kernels/contact/constant_rolling.hpp"
+#include "kernels/contact/contact_law.hpp"
+#include "kernels/contact/elastic_plastic_rolling.hpp"
+#include "kernels/contact/hertz.hpp"
+#include "kernels/contact/linear_sliding.hpp"
+#include "kernels/contact/linear_spring.hpp"
+#include "kernels/contact/mindlin.hpp"
+#include "kernels/contact/mindlin_deresiewicz.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+template <class... Laws>
+struct LawList {
+  using Any = OneOf<Laws...>;
+  template <class Name>
+  static constexpr bool holds(Name name) {
+    return (Laws::is(name) || ...);
+  }
+  /// The law of that name between two materials; the first one, without parameters, where a name has none.
+  template <class Name>
+  static Any of(Name name, const ContactMaterials& between) {
+    Any any;
+    (void)((Laws::is(name) && (any.take(Laws::of(between)), true)) || ...);
+    return any;
+  }
+};
+
+using NormalLaws = LawList<Hertz, LinearSpring>;
+using SlidingLaws = LawList<Mindlin, MindlinDeresiewicz, LinearSliding, NoSliding>;
+using RollingLaws = LawList<ElasticPlasticRolling, ConstantRolling, NoRolling>;
+
+static_assert(std::all_of(kNames<NormalLaw>.begin(), kNames<NormalLaw>.end(),
+                          [](const auto& row) {
+                            return NormalLaws::holds(row.value) || row.value == NormalLaw::none;
+                          }),
+              "a normal law that a case may name is missing in NormalLaws");
+static_assert(std::all_of(kNames<SlidingLaw>.begin(), kNames<SlidingLaw>.end(),
+                          [](const auto& row) { return SlidingLaws::holds(row.value); }),
+              "a tangential law that a case may name is missing in SlidingLaws");
+static_assert(std::all_of(kNames<RollingLaw>.begin(), kNames<RollingLaw>.end(),
+                          [](const auto& row) { return RollingLaws::holds(row.value); }),
+              "a rolling law that a case may name is missing in RollingLaws");
+
+/// Any laws that a case may name: which of them act is decided pair by pair.
+using ContactLaw = ContactLawOf<NormalLaws::Any, SlidingLaws::Any, RollingLaws::Any>;
+
+/// Compositions of which the passes of each substep have code of their own; all others run with ContactLaw,
+/// to the same results.
+template <class... Laws>
+struct LawCompositions {
+  template <class F>
+  static void with(const std::vector<ContactLaw>& laws, F& f) {
+    const auto is = [&](const auto& composed) {
+      using Law = typename std::decay_t<decltype(composed)>::type;
+      return std::all_of(laws.begin(), laws.end(), [](const ContactLaw& law) { return Law::is(law); });
+    };
+    (void)((is(std::type_identity<Laws>{}) && (f(std::type_identity<Laws>{}), true)) || ...);
+  }
+};
+using ContactLaws = LawCompositions<ContactLawOf<Hertz, Mindlin, NoRolling>,              //
+                                    ContactLawOf<Hertz, Mindlin, ElasticPlasticRolling>,  //
+                                    ContactLawOf<Hertz, Mindlin, ConstantRolling>,        //
+                                    ContactLawOf<Hertz, MindlinDeresiewicz, ConstantRolling>, ContactLaw>;
+
+/// f(std::type_identity<Law>) with the first composition as which all of `laws` act: the choice is made here,
+/// on the host.
+template <class F>
+void with_contact_law(const std::vector<ContactLaw>& laws, F&& f) {
+  ContactLaws::with(laws, f);
+}
+/// The composed law of a general one that acts as it.
+template <class Law>
+BL_HD decltype(auto) composed(const ContactLaw& law) {
+  if constexpr (std::is_same_v<Law, ContactLaw>)
+    return (law);
+  else
+    return Law::of(law);
+}
+
+/// The laws of a case, between grains of the materials that grain.* gives. Throws CaseError where the
+/// restitution cannot be had.
+ContactLaw make_contact_law(const Config& config);
+/// Between grains of two materials, with the mean of their friction.
+ContactLaw make_contact_law(const Config& config, const GrainMaterial& a, const GrainMaterial& b);
+/// The same between grains and a wall body, with the friction and restitution of that.
+ContactLaw make_wall_law(const Config& config, const GrainMaterial& grain, const WallBody& body);
+
+}  // namespace bedload::inline BL_VARIANT
