@@ -74,4 +74,24 @@ struct PorosityPass {
   }
 };
 
+/// Volume of grains around fluid as its density counts it, sum_j V_j W(|r_a - r_j|; h).
+template <class W>
+struct GrainsAroundPass {
+  W w;
+  Span<const Real> radius;
+  Span<Real> around;
+
+  template <class N = Real>
+  struct Sum {
+    N volume;
+  };
+  BL_HD Sum<> start(Index) const { return {}; }
+  template <class N, class J>
+  BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>&, N r2) const {
+    sum.volume += 4 * kPi / 3 * cube(N(radius[j])) * w.W(root(r2));
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.volume += other.volume; }
+  BL_HD void finish(Index a, const Sum<>& sum) const { around[a] = sum.volume; }
+};
+
 }  // namespace bedload::inline BL_VARIANT

@@ -12,7 +12,8 @@ namespace bedload::inline BL_VARIANT {
 /// turning body's own velocity differs by from there to the wall, v(x_f) - v_w: fluid that turns with its
 /// vessel has no friction. Fluid beside a turning wall is on a circle only as far as it turns along: where
 /// the layer that it drags is thinner than a particle, nothing holds water at rest off a drum that spins
-/// around it. Frozen and mirrored walls bring their own density, where they have one. Single layers keep
+/// around it. Frozen and mirrored walls bring their own density, where they have one; frozen particles keep
+/// their mass, as fluid does. Single layers keep
 /// rho0: fluid that comes near them grows denser by their mass and is pushed off by its own pressure alone.
 template <class W, class Lengths = OneLength>
 struct WallPass {
@@ -81,13 +82,13 @@ struct WallPass {
       else
         p = eos.pressure(x = own);
     }
-    const Real rho = eos.rho0 * (1 + x), mass = rho * Real(k.volume);
-    const bool prescribed = k.flows || layer || k.kind == WallKind::frozen;
+    const bool frozen = k.kind == WallKind::frozen, prescribed = k.flows || layer || frozen;
+    const Real rho = eos.rho0 * (1 + x), mass = (frozen ? eos.rho0 : rho) * Real(k.volume);
     v_rho[b] = {v_wall, rho};
     const Real3 away = sum.rho_r / (sum.weight * eos.rho0);  // of the wall from the middle of the fluid, m
     const Real3 inward = Real3(k.velocity(at - Vec3d(away))) - v_wall;
     v_visc[b] = {prescribed ? v_surface : 2 * v_surface + inward - v_fluid, k.slip ? Real(0) : mass};
-    m_state[b] = {mass, p / square(rho), rho, 0};
+    m_state[b] = {mass, p / square(rho), rho, Real(frozen ? 1 : 0)};
   }
 
  private:

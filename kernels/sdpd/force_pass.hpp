@@ -5,10 +5,11 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// What a wall particle does to fluid particle a. It turns with the particle that it meets, u = v_a - v_w + r
-/// x w_a, so that fluid in simple shear beside a no-slip wall slips as little as in the bulk. Friction with
-/// what does not move by itself takes heat out, so walls make noise, too: they are at the fluid's
-/// temperature.
+/// What a wall particle does to fluid particle a. A frozen one does what a fluid particle does that moves and
+/// turns with the wall [tsuzuki]. Any other turns with the particle that it meets, u = v_a - v_w + r x w_a,
+/// so that fluid in simple shear beside a no-slip wall slips as little as in the bulk; that particle then
+/// bears the whole couple -r x F. Friction with what does not move by itself takes heat out, so walls make
+/// noise, too: they are at the fluid's temperature.
 template <class W>
 struct SdpdWallPair {
   W w;
@@ -19,18 +20,21 @@ struct SdpdWallPair {
   template <class N>
   struct Force {
     Vec3<N> push, friction, noise;  ///< m/s2, N, N
+    N arm;                          ///< part of -r x F that turns a
   };
   /// a: {v, rho}, V, P / rho^2, spin, id, viscosity over that of `law`; b: wall's as in WallPair, and its
-  /// label.
+  /// spin and label.
   template <class N>
   BL_HD Force<N> operator()(const Vec4<N>& va, N V, N pa, const Vec3<N>& spin, const RowId<N>& id, N relative,
-                            const Vec4<N>& vw, const Vec4<N>& mw, const Vec4<N>& visc, N label,
+                            const Vec4<N>& vw, const Vec4<N>& mw, const Vec4<N>& visc, const Vec4<N>& own,
                             const Vec3<N>& r, N r2) const {
     const N F = w.F(root(r2)), g = relative * V * quotient(visc.w, vw.w) * F;
     Force<N> out;
+    out.arm = 1 - Real(0.5) * mw.w;
     out.push = (pressing * pressure_term(mw.x, pa, mw.y, F)) * r;
-    out.friction = law.friction(g, va.xyz() - visc.xyz(), cross(r, spin), r, r2);
-    if (noisy) out.noise = law.noise(g, id, label, r, r2);
+    const Vec3<N> turn = cross(r, out.arm * spin + (1 - out.arm) * own.xyz());
+    out.friction = law.friction(g, va.xyz() - visc.xyz(), turn, r, r2);
+    if (noisy) out.noise = law.noise(g, id, own.w, r, r2);
     return out;
   }
 };
@@ -46,8 +50,8 @@ struct SdpdForcePass {
   Span<const Real> p_rho2, mass;
   Span<const Id> id;
   Span<const Real4> wall_v_rho, wall_m_state, wall_v_visc;
-  Span<const Real> wall_label;
-  Real3 gravity;  ///< minus the frame's acceleration, m/s2
+  Span<const Real4> wall_label;  ///< spin, id
+  Real3 gravity;                 ///< minus the frame's acceleration, m/s2
   Drive drive;
   Real dt, inertia;  ///< s; k_I dx^2, m2
   Span<Real3> theta, acc, spin, spin_acc;
@@ -114,11 +118,11 @@ struct SdpdForcePass {
   BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
     const auto f =
         wall(sum.v, sum.V, sum.p, sum.spin, sum.id, kSpecies ? sum.viscosity : N(1), Vec4<N>(wall_v_rho[b]),
-             Vec4<N>(wall_m_state[b]), Vec4<N>(wall_v_visc[b]), N(wall_label[b]), r, r2);
+             Vec4<N>(wall_m_state[b]), Vec4<N>(wall_v_visc[b]), Vec4<N>(wall_label[b]), r, r2);
     sum.push += f.push;
     sum.friction += f.friction;
     if constexpr (kNoise) sum.noise += f.noise;
-    if constexpr (kSpin) sum.couple -= cross(r, f.friction + f.noise);
+    if constexpr (kSpin) sum.couple -= f.arm * cross(r, f.friction + f.noise);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.push += other.push;
@@ -151,11 +155,16 @@ struct PredictSpin {
   }
 };
 
-/// Ids of wall particles, above those of the fluid.
+/// Spin of wall particles, if there is any, and their ids, above those of the fluid.
 struct LabelWalls {
+  bool spins;
   Span<const Id> id;
-  Span<Real> label;
-  BL_HD void operator()(Index b) const { label[b] = as_label(id[b] | 0x80000000u); }
+  Span<const std::uint32_t> body;
+  Span<const BodyPose> pose;
+  Span<Real4> label;
+  BL_HD void operator()(Index b) const {
+    label[b] = {spins ? Real3(pose[body[b]].omega) : Real3(), as_label(id[b] | 0x80000000u)};
+  }
 };
 
 /// Force on each wall particle [N]: minus what SdpdForcePass gave the fluid, by velocities that have been
@@ -169,7 +178,7 @@ struct SdpdWallForcePass {
   Span<const Id> id;
   bool spins;
   Span<const Real4> wall_v_rho, wall_m_state, wall_v_visc;
-  Span<const Real> wall_label;
+  Span<const Real4> wall_label;
   Span<Vec3d> force, friction;
   Span<const Real> viscosity;  ///< over that of `wall.law`; empty: the same
 

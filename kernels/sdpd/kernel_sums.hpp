@@ -38,11 +38,15 @@ struct ContinuityPass {
 
 /// Density by summation [tsuzuki (16)], as s = density / rho0 - 1:
 ///   rho_a = n sum_b M_b W_ab, with b = a and walls, n making it rho0 on the lattice on which fluid is laid.
-template <class W>
+/// kGrains: grains are counted as fluid of their volume [tsuzuki 2.4], and fluid by its own mass instead of
+/// that of the mixture:
+///   rho_a = n (sum_b m_b W_ab + rho0 sum_j V_j W_aj).
+template <class W, bool kGrains>
 struct SummationPass {
   W w;
   Real rho0, n;  ///< kg/m3, -
   Span<const Real4> m_state, wall_m_state;
+  Span<const Real> eps, grains;  ///< grains: sum_j V_j W_aj; both of kGrains
   Span<Real> s;
 
   template <class N = Real>
@@ -50,10 +54,19 @@ struct SummationPass {
     N rho;
   };
   BL_HD Sum<> start(Index) const { return {}; }
-  BL_HD auto sources() const { return sources_of(); }
+  BL_HD auto sources() const {
+    if constexpr (kGrains)
+      return sources_of(eps);
+    else
+      return sources_of();
+  }
   template <class N>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N M) const {
     sum.rho += M * w.W(root(r2));
+  }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N M, N eps_b) const {
+    sum.rho += eps_b * M * w.W(root(r2));
   }
   template <class N, class J>
   BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>&, N r2) const {
@@ -62,7 +75,52 @@ struct SummationPass {
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rho += other.rho; }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    s[a] = n * (m_state[a].x * w.W(Real(0)) + sum.rho) / rho0 - 1;
+    Real rho = m_state[a].x * w.W(Real(0));
+    if constexpr (kGrains) rho = eps[a] * rho + rho0 * grains[a];
+    s[a] = n * (rho + sum.rho) / rho0 - 1;
+  }
+};
+
+/// The same for frozen wall particles that have a density of their own: over the walls around, all of which
+/// count at rho0, and the fluid.
+template <class W>
+struct FrozenSummationPass {
+  W w;
+  Real rho0, n;  ///< kg/m3, -
+  Span<const Real> volume;
+  Span<const Real4> fluid_m_state;
+  Span<const std::uint32_t> body;
+  Span<const BodyPose> pose;
+  Span<Real> compression;
+
+  template <class N = Real>
+  struct Sum {
+    N s;
+  };
+  BL_HD Sum<> start(Index) const { return {}; }
+  template <class N, class J>
+  BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>&, N r2) const {
+    sum.s += N(volume[j]) * w.W(root(r2));
+  }
+  template <class N, class J>
+  BL_HD void wall_pair(Sum<N>& sum, Index, J a, const Vec3<N>&, N r2) const {
+    sum.s += quotient(Vec4<N>(fluid_m_state[a]).x, N(rho0)) * w.W(root(r2));
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.s += other.s; }
+  BL_HD void finish(Index b, const Sum<>& sum) const {
+    if (pose[body[b]].kind != WallKind::frozen || compression[b] == kNoCompression) return;
+    compression[b] = n * (volume[b] * w.W(Real(0)) + sum.s) - 1;
+  }
+};
+
+/// For how much each wall particle stands, m3.
+struct WallVolume {
+  Span<const std::uint32_t> body;
+  Span<const BodyPose> pose;
+  Span<Real> volume;
+  BL_HD void operator()(Index b) const {
+    const BodyPose& k = pose[body[b]];
+    volume[b] = k.present ? Real(k.volume) : Real(0);
   }
 };
 

@@ -58,6 +58,7 @@ class Checks {
   void variable_h() const;
   /// What SDPD needs, and what of WCSPH's it leaves out.
   void sdpd() const;
+  void sdpd_wall(const std::string& path, const WallBody& body, const std::string& with) const;
   /// Grains in air fall into the fluid faster than it flows by itself.
   void falling_grains() const;
   /// The formulas of a fill on a 5 x 5 x 5 raster.

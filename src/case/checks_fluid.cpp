@@ -151,8 +151,7 @@ void Checks::sdpd() const {
   if (c.time.integrator != TimeIntegrator::kdk)
     fail("time.integrator", quoted(c.time.integrator.name()), "must be \"kdk\" " + with);
   for (std::size_t i = 0; i < c.wall.bodies.size(); ++i)
-    if (const WallBody& body = c.wall.bodies[i]; body.stops_fluid() && body.type != WallType::adami)
-      fail(fmt::format("wall.body.{}.type", i), quoted(body.type.name()), "must be \"adami\" " + with);
+    sdpd_wall(fmt::format("wall.body.{}", i), c.wall.bodies[i], with);
   const bool tensor = s.noise == NoiseForm::tensor && f.model == FluidModel::sdpd_a && s.kT > 0;
   const double most = 5.0 / 3 * f.mu, least = tensor ? 40.0 / 51 * f.mu : 0;
   if (f.zeta > most * (1 + 1e-9) || f.zeta < least * (1 - 1e-9))
@@ -168,6 +167,24 @@ void Checks::sdpd() const {
          thermal, f.c);
   if (c.density.reinit_every > 0 && c.density.method != DensityMethod::continuity)
     fail("density.reinit_every", c.density.reinit_every, "must be 0 unless density.method = \"continuity\"");
+  if (!c.density.count_grains || !c.grain.present) return;
+  const auto counting = [&](bool fits, const std::string& must) {
+    if (!fits) fail("density.count_grains", "true", "must be false unless " + must);
+  };
+  counting(c.density.method == DensityMethod::summation, "density.method = \"summation\"");
+  counting(c.couple.mode == CouplingMode::two_way, "couple.mode = \"two_way\"");
+  counting(c.couple.hc >= f.h() * (1 - 1e-9),
+           fmt::format("couple.hc is at least the smoothing length, {:.6g} m", f.h()));
+}
+
+void Checks::sdpd_wall(const std::string& path, const WallBody& body, const std::string& with) const {
+  if (!body.stops_fluid()) return;
+  const bool frozen = body.type == WallType::frozen;
+  if (!frozen && body.type != WallType::adami)
+    fail(path + ".type", quoted(body.type.name()), "must be \"adami\" or \"frozen\" " + with);
+  if (frozen && body.free.present && c.fluid.model == FluidModel::sdpd_a)
+    fail(path + ".type", quoted(body.type.name()),
+         "must be \"adami\" for a free body " + with + ", whose frozen particles bear couples");
 }
 
 void Checks::falling_grains() const {

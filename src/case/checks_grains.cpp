@@ -56,8 +56,9 @@ void Checks::grain_fill(const std::string& path, const GrainFill& fill) const {
   if (!fill.every.empty()) {
     const bool whole =
         std::all_of(fill.every.begin(), fill.every.end(), [](double n) { return n == std::round(n); });
-    if (fill.every.size() != 3 || !whole)
-      fail(path + ".every", fmt::format("[{}]", fmt::join(fill.every, ", ")), "must be three whole numbers");
+    if ((fill.every.size() != 3 && fill.every.size() != 1) || !whole)
+      fail(path + ".every", fmt::format("[{}]", fmt::join(fill.every, ", ")),
+           "must be one whole number, or three");
     if (!c.fluid.present)
       fail(path + ".every", "given", "must be left out without [fluid], whose lattice it counts");
   }

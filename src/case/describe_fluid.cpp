@@ -119,6 +119,8 @@ void describe_fluid_models(Parameters& p, Config& c) {
     p("density.reinit_every", &c.density.reinit_every,
       {.meaning = "SDPD, continuity: steps after which density is averaged over the neighbours; 0: never",
        .range = within(0, 1000000)});
+    p("density.count_grains", &c.density.count_grains,
+      {.meaning = "SDPD, summation: grains count as fluid of their volume, \"single pressure\" [tsuzuki]"});
   }
   p("visc.model", &c.visc.model, {.meaning = "physical viscosity", .family = "laws"});
   p("visc.alpha", &c.visc.alpha,

@@ -217,8 +217,8 @@ void grain_fill(Parameters& p, GrainFill& f) {
   if (!listed || p.everything())
     p("every", &f.every,
       {.meaning = "[i, j, k]: instead of random places, each i-th, j-th and k-th site along x, y and z of "
-                  "the lattice "
-                  "of spacing fluid.dx in the box or shape",
+                  "the lattice of spacing fluid.dx in the box or shape; [n]: each n-th of its sites, counted "
+                  "along x, then y, then z",
        .range = within(1, 1e6),
        .fallback = "none",
        .presence = optional});

@@ -18,7 +18,7 @@ void set_sdpd(Config& c) {
   c.time.integrator = TimeIntegrator::kdk;
 }
 
-/// What DEMocritus does, as far as it is built: no frozen walls with SDPD, and no density that counts grains.
+/// What DEMocritus does, but for velocities that are reversed at the edges of the domain.
 void set_democritus(Config& c) {
   c.fluid.kernel = KernelFunction::lucy;
   c.fluid.h_over_dx = 3;
@@ -27,6 +27,8 @@ void set_democritus(Config& c) {
   c.eos.clip_negative = true;
   c.eos.filter = true;
   c.sdpd.noise = NoiseForm::tensor;
+  c.density.count_grains = true;
+  c.wall.type = WallType::frozen;
   c.contact.normal = NormalLaw::democritus;
   c.contact.tangential = SlidingLaw::democritus;
   c.contact.rolling = RollingLaw::none;

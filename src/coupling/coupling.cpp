@@ -63,6 +63,7 @@ Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry&
       drag_law_(config.couple.drag),
       drag_table_(config.couple.table),
       dx_(config.fluid.dx),
+      h_(config.fluid.h()),
       h_c_(config.couple.hc),
       range_(kernel_kappa(kernel_) * h_c_),
       top_hat_(config.couple.kernel == CouplingKernel::top_hat),
@@ -73,6 +74,7 @@ Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry&
       S_wet_(Real(config.couple.S_wet)),
       matter_(config.grain),
       two_way_(config.couple.mode == CouplingMode::two_way),
+      counts_grains_(config.density.count_grains),
       torque_(config.couple.torque),
       angmom_(config.couple.angmom),
       local_slip_(config.couple.slip == DragSlip::local),
@@ -254,6 +256,12 @@ void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const 
         fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
         PorosityPass<decltype(w)>{w, eps_min_, orifice_weight(), frame_, fluid.x, volume_, fluid.v_rho,
                                   fluid.mass, fluid.eps, fluid.solid_factor, fluid.flux, fluid.m_state});
+  });
+  if (!counts_grains_) return;
+  with_kernel(kernel_, h_, [&](auto w) {
+    for_each_pair(fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_},
+                  kernel_kappa(kernel_) * h_,
+                  GrainsAroundPass<decltype(w)>{w, grains.radius, fluid.grains_around});
   });
 }
 

@@ -56,7 +56,8 @@ class Coupling {
   /// sets fluid.drag_kick to what they changed by and fluid.reaction; the fluid must not have changed since
   /// gather.
   void react(FluidStore& fluid, const GrainStore& grains, double dt);
-  /// Sets eps, flux and the mass in m_state of the fluid for the present positions; pose as in gather. dt
+  /// Sets eps, flux, the mass in m_state and, where it counts, grains_around of the fluid for the present
+  /// positions; pose as in gather. dt
   /// (s): the step in which the grains came here since gather, 0 where they have not moved.
   void porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, double dt);
   /// Sets fluid_force of the grains from the fluid's theta, and adds `kick` (s) of what it changed by to
@@ -89,12 +90,12 @@ class Coupling {
   Chosen<KernelFunction> kernel_;
   Chosen<DragLaw> drag_law_;
   TableOfDrag drag_table_;
-  double dx_, h_c_, range_;
+  double dx_, h_, h_c_, range_;
   bool top_hat_;
   double mu_, drag_fraction_;
   Real eps_min_, S_dry_, S_wet_;
   GrainMatter matter_;
-  bool two_way_, torque_, angmom_, local_slip_;
+  bool two_way_, counts_grains_, torque_, angmom_, local_slip_;
   double fastest_ = 0;   ///< how fast drag stops any fluid particle, 1/s
   bool limits_ = false;  ///< whether that is faster than the step
 

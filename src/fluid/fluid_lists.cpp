@@ -40,6 +40,19 @@ struct LengthBody {
   BL_HD double operator()(Index a) const { return h[a]; }
 };
 
+/// Walls around those that have a density of their own.
+struct BesideFrozen : SphNear<Vec3d> {
+  Span<const Real> compression;
+  BL_HD bool operator()(Index b, Index j) const {
+    return compression[b] != kNoCompression && SphNear<Vec3d>::operator()(b, j);
+  }
+#if !BL_CUDA
+  PackMask lanes(Index b, PackRun j) const {
+    return compression[b] != kNoCompression ? SphNear<Vec3d>::lanes(b, j) : PackMask{};
+  }
+#endif
+};
+
 struct CountBody {
   Span<const std::uint32_t> count;
   BL_HD void operator()(Index a, double* out) const { out[0] = count[a]; }
@@ -127,6 +140,9 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
     fluid_wall_.build(fluid.size(), wall_grid_.view(), fluid_near_walls, fluid_fluid_.view().bits);
     wall_fluid_.build(walls.size(), grid_.view(), walls_near);
   }
+  if (frozen_ && config_.density.method == DensityMethod::summation)
+    wall_wall_.build(walls.size(), wall_grid_.view(),
+                     BesideFrozen{{frame_, walls.x, walls.xp, walls.xp, reach, true}, walls.compression});
   compaction_.find(fluid.size(), HasEntries{fluid_wall_.view()}, beside_walls_);
   compaction_.find(walls.size(), HasEntries{wall_fluid_.view()}, wet_walls_);
   relisted_ = true;

@@ -109,6 +109,7 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
     if (body.single_layer()) layers[b] = layer_law(config, body, kappa);
   }
   if (layered) layers_.assign(layers);
+  if (!(config.density.count_grains && mixed_)) fluid.grains_around.leave_out();
   if (config.fluid.species.empty()) fluid.species.leave_out(), fluid.viscosity.leave_out();
   fluid.drift.begin_at_zero();
   if (!drifts()) fluid.drift.leave_out();

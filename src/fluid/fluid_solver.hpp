@@ -14,6 +14,7 @@
 #include "kernels/fluid/layer_force.hpp"
 #include "kernels/fluid/omega_pass.hpp"
 #include "kernels/fluid/pair_terms.hpp"
+#include "kernels/fluid/wall_density.hpp"
 #include "kernels/fluid/wall_pass.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
 #include "kernels/integrate/fluid_kicks.hpp"
@@ -223,6 +224,15 @@ class FluidSolver {
       for_each_pair_of(wet_walls_, wall_fluid_, separation, range(), pass);
     relisted_ = false;
   }
+  /// Density of frozen walls over dt by continuity; no thinner than `least`.
+  template <class W>
+  void frozen_continuity(const W& w, const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
+                         double dt, Real least) {
+    if (!frozen_) return;
+    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(),
+                  FrozenPass<W>{w, Real(config_.fluid.rho0), Real(dt), least, flux(fluid), fluid.m_state,
+                                walls.v_rho, walls.m_state, walls.body, pose, walls.compression});
+  }
   double repulsion_cap(double dt) const;  ///< m/s2, in a step of dt, s
 
   Config config_;
@@ -245,6 +255,7 @@ class FluidSolver {
   VerletList fluid_fluid_;
 #endif
   VerletList fluid_wall_, wall_fluid_, image_fluid_;
+  VerletList wall_wall_;  ///< of frozen walls whose density is summed up
   Buffer<FluidExtremes> extremes_;
   Buffer<Index> order_;
   Compaction compaction_;

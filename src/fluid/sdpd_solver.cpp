@@ -59,16 +59,16 @@ class SdpdSolver final : public FluidSolver {
   }
   Spin* spin() override { return spin_.get(); }
 
-  void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose>, double dt) override {
+  void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) override {
     const DensityConfig& d = config_.density;
     if (d.method == DensityMethod::summation) {
       pack(fluid);
       pack(walls);
-      run(fluid, walls,
-          SummationPass<W>{w_, Real(config_.fluid.rho0), Real(1 / lattice_.W), fluid.m_state, walls.m_state,
-                           fluid.s_next});
+      d.count_grains&& mixed_ ? sum_up<true>(fluid, walls) : sum_up<false>(fluid, walls);
+      if (frozen_) sum_up_frozen(fluid, walls, pose);
       return;
     }
+    frozen_continuity(w_, fluid, walls, pose, dt, Real(-0.5));
     run(fluid, walls,
         ContinuityPass<W>{w_, Real(config_.fluid.rho0), Real(dt), flux(fluid), fluid.m_state, walls.v_rho,
                           walls.m_state, fluid.s, fluid.s_next});
@@ -83,11 +83,11 @@ class SdpdSolver final : public FluidSolver {
     extrapolate(w_, fluid, walls, pose, drag_dt, moving);
   }
 
-  void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose>, double dt) override {
+  void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
     if (config_.eos.filter) filter_pressure(fluid);
     for_each(fluid.owned(), PredictSpin{Real(dt), omega(), turning(), fluid.id, label_});
     wall_label_.resize(walls.size());
-    for_each(walls.owned(), LabelWalls{walls.id, wall_label_});
+    for_each(walls.owned(), LabelWalls{Model::spins, walls.id, walls.body, pose, wall_label_});
     const bool noisy = config_.sdpd.kT > 0 && dt > 0;
     if (config_.fluid.species.empty())
       noisy ? momentum<true, false>(fluid, walls, dt) : momentum<false, false>(fluid, walls, dt);
@@ -123,6 +123,20 @@ class SdpdSolver final : public FluidSolver {
   void run(const FluidStore& fluid, const WallStore& walls, const Pass& pass) {
     for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, fluid_wall_,
                   PairSeparation{frame_, fluid.xp, walls.xp}, range(), pass);
+  }
+  template <bool kGrains>
+  void sum_up(FluidStore& fluid, const WallStore& walls) {
+    run(fluid, walls,
+        SummationPass<W, kGrains>{w_, Real(config_.fluid.rho0), Real(1 / lattice_.W), fluid.m_state,
+                                  walls.m_state, fluid.eps, fluid.grains_around, fluid.s_next});
+  }
+  void sum_up_frozen(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose) {
+    wall_volume_.resize(walls.size());
+    for_each(walls.owned(), WallVolume{walls.body, pose, wall_volume_});
+    for_each_pair(walls.owned(), wall_wall_, PairSeparation{frame_, walls.xp, walls.xp}, wall_fluid_,
+                  PairSeparation{frame_, walls.xp, fluid.xp}, range(),
+                  FrozenSummationPass<W>{w_, Real(config_.fluid.rho0), Real(1 / lattice_.W), wall_volume_,
+                                         fluid.m_state, walls.body, pose, walls.compression});
   }
   SdpdWallPair<W> pair(double dt) const {
     const SdpdConfig& s = config_.sdpd;
@@ -191,7 +205,8 @@ class SdpdSolver final : public FluidSolver {
   LatticeSums lattice_;
   Field<Real4> label_;  ///< spin at the end of the step as predicted; id as pair loops carry it
   std::unique_ptr<Spin> spin_;
-  Buffer<Real> wall_label_, pressure_, filtered_;
+  Buffer<Real4> wall_label_;
+  Buffer<Real> wall_volume_, pressure_, filtered_;
 };
 
 template <class Model>

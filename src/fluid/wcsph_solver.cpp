@@ -27,19 +27,7 @@ class WcsphSolver final : public FluidSolver {
       continuity<true, false>(fluid, walls, dt, NoShifting{});
     else if constexpr (!Lengths::vary)
       continuity<true, false>(fluid, walls, dt, shifting(dt));
-    if (!frozen_) return;
-    const FrozenPass<W> frozen{w_,
-                               Real(config_.fluid.rho0),
-                               Real(dt),
-                               least(),
-                               flux(fluid),
-                               fluid.m_state,
-                               walls.v_rho,
-                               walls.m_state,
-                               walls.body,
-                               pose,
-                               walls.compression};
-    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), frozen);
+    frozen_continuity(w_, fluid, walls, pose, dt, least());
   }
 
   void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt,

@@ -229,21 +229,24 @@ class Packer {
     }
   }
 
-  /// Of the lattice on which fluid is laid in a box, each so many along every axis that lie in the space to
-  /// fill.
+  /// Of the lattice on which fluid is laid in a box, each so many along every axis, or of all, that lie in
+  /// the space to fill.
   ParticleList lattice_sites() const {
     std::array<Cells, 3> cells;
-    std::array<std::int64_t, 3> every;
+    std::array<std::int64_t, 3> every{1, 1, 1};
+    const bool by_axis = fill_->every.size() == 3;
     for (int k = 0; k < 3; ++k) {
       cells[k] = fit_cells(fill_->min[k], fill_->max[k], config_.fluid.dx);
-      every[k] = std::llround(fill_->every[k]);
+      if (by_axis) every[k] = std::llround(fill_->every[k]);
     }
+    const std::int64_t interval = by_axis ? 1 : std::llround(fill_->every[0]);
+    std::int64_t count = 0;
     ParticleList sites;
     for (std::int64_t l = every[2] - 1; l < cells[2].count; l += every[2])
       for (std::int64_t j = every[1] - 1; j < cells[1].count; j += every[1])
         for (std::int64_t i = every[0] - 1; i < cells[0].count; i += every[0]) {
           const Vec3d x{cells[0].centre(i), cells[1].centre(j), cells[2].centre(l)};
-          if (inside_shape(x, 0, 0)) sites.x.push_back(x);
+          if (inside_shape(x, 0, 0) && ++count % interval == 0) sites.x.push_back(x);
         }
     if (sites.x.empty())
       fail(fmt::format("holds no grain: its lattice has {} x {} x {} sites", cells[0].count, cells[1].count,

@@ -53,9 +53,10 @@ Fit fit_of(PlaneFlowKind kind, const std::array<double, 5>& s, const std::array<
 class Evaluation {
  public:
   Evaluation(const Layers& layers, const Config& config, double reach)
-      : layers_(layers), c_(config), flow_(layers.flow()), n_(layers.count()) {
+      : blocks_(layers.blocks()), c_(config), flow_(layers.flow()), n_(layers.count()) {
+    gather_grains();
     all_.layers.resize(n_);
-    for (const Block& block : layers.blocks()) {
+    for (const Block& block : blocks_) {
       for (int l = 0; l < n_; ++l) all_.layers[l].add(block.layers[l]);
       for (int k = 0; k < 5; ++k) all_.s[k] += block.s[k];
       for (int k = 0; k < 3; ++k) all_.u[k] += block.u[k];
@@ -73,7 +74,7 @@ class Evaluation {
 
   ViscosityResult result() {
     ViscosityResult r;
-    r.blocks = int(layers_.blocks().size()), r.samples = all_.samples;
+    r.blocks = int(blocks_.size()), r.samples = all_.samples;
     r.imposed = imposed(all_);
     fit_ = fit_of(flow_.kind, all_.s, all_.u);
     const double gap = flow_.gap(), strength = fit_.strength(flow_.kind);
@@ -81,7 +82,7 @@ class Evaluation {
     r.viscosity.mean = r.imposed * (couette ? gap : gap * gap) / strength;
 
     std::vector<double> deviation;  // of each block, relative
-    for (const Block& block : layers_.blocks())
+    for (const Block& block : blocks_)
       deviation.push_back(imposed(block) / r.imposed -
                           fit_of(flow_.kind, block.s, block.u).strength(flow_.kind) / strength);
     r.viscosity.error = std::abs(r.viscosity.mean) * mean_of(deviation).error;
@@ -113,6 +114,28 @@ class Evaluation {
   }
 
  private:
+  /// Fluid without noise keeps its lattice and leaves layers empty; the grains in them count in the nearest
+  /// layer with fluid, whose stress they are part of.
+  void gather_grains() {
+    std::vector<int> wet;
+    for (int l = 0; l < n_; ++l)
+      if (std::any_of(blocks_.begin(), blocks_.end(),
+                      [&](const Block& block) { return block.layers[l].fluid.mass > 0; }))
+        wet.push_back(l);
+    if (wet.empty()) return;
+    for (int l = 0; l < n_; ++l) {
+      const auto nearer = [&](int a, int b) {
+        const auto distance = [&](int k) { return (turned(k) == turned(l) ? 0 : n_) + std::abs(k - l); };
+        return distance(a) < distance(b);
+      };
+      const int home = *std::min_element(wet.begin(), wet.end(), nearer);
+      if (home == l) continue;
+      for (Block& block : blocks_) {
+        block.layers[home].add(block.layers[l]);
+        block.layers[l] = {};
+      }
+    }
+  }
   double velocity(const MotionSums& m) const {
     return m.mass > 0 ? m.momentum[flow_.along] / m.mass : std::nan("");
   }
@@ -166,7 +189,9 @@ class Evaluation {
     return body.surface_velocity[flow_.along] + (body.motion.moves() ? body.motion.velocity[flow_.along] : 0);
   }
 
-  /// Parts of the stress in some layers, Pa, with the whole last.
+  /// Parts of the stress in some layers, Pa, with the whole last. Noise is no part of the whole: that of a
+  /// step is drawn once places are known, so that its moments are nothing on average, and what they come to
+  /// in samples far apart hides all else.
   std::vector<StressPart> stress_in(const std::vector<LayerSums>& layers,
                                     const std::vector<int>& which) const {
     LayerSums sum;
@@ -184,6 +209,7 @@ class Evaluation {
     for (const auto& [name, tensor] : sum.parts) {
       out.push_back({name, tensor});
       for (double& x : out.back().mean) x = sum.volume > 0 ? -x / (stretch_ * sum.volume) : 0;
+      if (name == "noise") continue;
       for (int k = 0; k < 9; ++k) total.mean[k] += out.back().mean[k];
     }
     out.push_back(total);
@@ -215,7 +241,7 @@ class Evaluation {
   void stresses(ViscosityResult& r) const {
     const int x = flow_.along, z = flow_.gradient, y = flow_.across();
     std::vector<double> ratio, first, second;
-    for (const Block& block : layers_.blocks()) {
+    for (const Block& block : blocks_) {
       const Tensor t = stress_in(block.layers, averaged_).back().mean;
       first.push_back(component(t, x, x) - component(t, z, z));
       second.push_back(component(t, z, z) - component(t, y, y));
@@ -240,7 +266,7 @@ class Evaluation {
             imposed_at(l, imposed)};
   }
 
-  const Layers& layers_;
+  std::vector<Block> blocks_;
   const Config& c_;
   const PlaneFlow& flow_;
   int n_;

@@ -39,7 +39,37 @@ TEST(SuspensionCase, PresetOfDemocritus) {
   EXPECT_EQ(c.couple.drag, DragLaw::gidaspow);
   EXPECT_EQ(c.couple.kernel, CouplingKernel::top_hat);
   EXPECT_EQ(c.density.method, DensityMethod::summation) << "what SDPD brings along";
+  EXPECT_TRUE(c.density.count_grains);
+  EXPECT_EQ(c.wall.type, WallType::frozen);
   EXPECT_EQ(read("preset = \"democritus\"\n" + kCase, {"fluid.model=wcsph"}).fluid.model, FluidModel::wcsph);
+}
+
+TEST(SuspensionCase, SaysWhatSdpdDoesNotTake) {
+  const std::string sdpd = "preset = \"democritus\"\n" + kCase;
+  const std::vector<std::string> viscous{"fluid.mu=0.01"};
+  const auto refused = [&](std::vector<std::string> overrides) {
+    overrides.push_back(viscous[0]);
+    return error_of(sdpd, overrides);
+  };
+  EXPECT_EQ(
+      refused({"density.method=continuity"}),
+      "--set density.method=continuity: density.count_grains = true must be false unless density.method "
+      "= \"summation\"");
+  EXPECT_EQ(refused({"couple.mode=one_way"}),
+            "dam.toml: density.count_grains = true must be false unless couple.mode = \"two_way\"");
+  EXPECT_EQ(refused({"couple.hc=0.001"}),
+            "dam.toml: density.count_grains = true must be false unless couple.hc is at least the smoothing "
+            "length, 0.012 m");
+  EXPECT_EQ(
+      refused({"wall.type=mdbc"}),
+      "dam.toml:11: wall.body.type = \"mdbc\" must be \"adami\" or \"frozen\" with fluid.model = \"sdpd_a\"");
+  const std::string raft =
+      "preset = \"democritus\"\n" +
+      changed("[grain]\n",
+              "[[wall.body]]\nname = \"raft\"\nshape = \"box\"\nmin = [0.08, 0.02, 0.12]\nmax = [0.12, 0.06, "
+              "0.16]\n[wall.body.free]\ndensity = 500\n[grain]\n");
+  EXPECT_NE(error_of(raft, viscous).find("must be \"adami\" for a free body"), std::string::npos)
+      << error_of(raft, viscous);
 }
 
 struct Refused {
@@ -79,7 +109,7 @@ TEST(SuspensionCase, SaysWhatDoesNotGoTogether) {
             "dam.toml:22: grain.fill.rigid = [grain.fill.rigid] must be left out where grains have spins or "
             "velocities of their own");
   EXPECT_EQ(error_of(changed("count = 500", "every = [5, 1]")),
-            "dam.toml:20: grain.fill.every = [5, 1] must be three whole numbers");
+            "dam.toml:20: grain.fill.every = [5, 1] must be one whole number, or three");
   EXPECT_EQ(error_of(changed("min = [0, 0, 0]\nmax = [0.05, 0.1, 0.1]\ncount = 500",
                              "positions = [[0.01, 0.01, 0.01]]\nspins = [[0, 0, 1], [0, 0, 2]]")),
             "dam.toml:19: grain.fill.spins = 2 vectors must be as many as positions, 1");

@@ -35,6 +35,17 @@ TEST(GrainLattice, EachSoManyAlongEveryAxis) {
   EXPECT_NEAR(total(s.fluid.mass), 1000 * 0.1 * 0.06 * 0.04, 1e-9) << "what is left shares the volume";
 }
 
+TEST(GrainLattice, EachSoManyOfAllSites) {
+  Config c = full_box();
+  c.grain.fills[0].every = {7};
+  const auto s = setup_of(c);
+  ASSERT_EQ(s.grains.x.size(), 240u / 7);
+  EXPECT_LT(norm(s.grains.x[0] - Vec3d{0.065, 0.005, 0.005}), 1e-12);
+  EXPECT_LT(norm(s.grains.x[1] - Vec3d{0.035, 0.015, 0.005}), 1e-12) << "on in the next row";
+  EXPECT_LT(norm(s.grains.x[8] - Vec3d{0.025, 0.005, 0.015}), 1e-12) << "and in the next layer";
+  EXPECT_EQ(s.fluid.x.size(), 240u - 34);
+}
+
 TEST(GrainLattice, RelativePlacesReplaceTheNearestFluid) {
   Config c = full_box();
   c.grain.fills[0].positions = {{0.5, 0.5, 0.5}, {0.149, 0.75, 0.6}};

@@ -83,10 +83,14 @@ file(GLOB_RECURSE BEDLOAD_SOLVER_TESTS CONFIGURE_DEPENDS
 file(GLOB_RECURSE BEDLOAD_PRECISION_TESTS CONFIGURE_DEPENDS
      tests/kernels/*_test.cpp tests/particles/*_test.cpp tests/neighbours/*_test.cpp)
 foreach(test
+        coupling/counted_grains  # density that counts grains
         coupling/exchange        # momenta of a two-way bed, sums against all pairs
         fluid/fluid_pairs        # forces that balance
+        fluid/frozen_wall        # SDPD between frozen walls, against all fluid
+        fluid/sdpd               # SDPD: what its pairs keep, viscosity, temperature, densities
         physics/coupled_flow     # grains in fluid: momenta, restart and repeat bit for bit
         physics/fluid_flow       # energy; repeat bit for bit
+        physics/sdpd_flow        # SDPD: momentum, angular momentum, restart and threads bit for bit
         physics/wall_surface     # a dam break, a jet
         solids/impact            # a grain that strikes a floor, a gas of grains
         solids/solid_lists)      # contacts: restart and repeat bit for bit

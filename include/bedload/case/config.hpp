@@ -146,6 +146,7 @@ struct DensityConfig {
   double cavitation_limit = 0.001;             ///< the fluid cavitates below rho/rho0 - 1 = minus this
   Chosen<DensityMethod> method = DensityMethod::continuity;
   std::int64_t reinit_every = 0;               ///< steps; 0: never
+  bool count_grains = false;                   ///< summation takes in grains as fluid of their volume
   bool operator==(const DensityConfig&) const = default;
 };
 

@@ -27,6 +27,7 @@ struct FluidStore : Store {
   Field<Real3> acc_next{*this, "acc_next", "m/s2", Lifetime::derived};
   Field<Real3> heading{*this, "heading", "m/s", Lifetime::derived};  ///< velocity in the middle of the next step but for the push of wall surfaces
   Field<Real> p_rho2{*this, "p_rho2", "m5/(kg s2)", Lifetime::derived};  ///< P / rho^2
+  Field<Real> grains_around{*this, "grains_around", "-", Lifetime::derived};  ///< sum of V_j W(r_aj; h) over grains; left out where density does not count them
   Field<Real> s_next{*this, "s_next", "-", Lifetime::derived};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};  ///< x as pair loops read it
   Field<Real3> reaction{*this, "reaction", "m/s2", Lifetime::derived};  ///< couples that keep the angular momentum of the stress shared with grains

@@ -52,7 +52,8 @@ struct WallStore : Store {
   Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept};  ///< true velocity, density
   Field<Real4> v_visc{*this, "v_visc", "m/s, kg",
                       Lifetime::kept};  ///< no-slip velocity; w: mass with which it drags, 0 with slip
-  /// mass (kg; 0: inactive), P / rho^2, density; the last is unused
+  /// mass (kg; 0: inactive), P / rho^2, density; 1 where a particle has the spin of its body, as frozen fluid,
+  /// and not that of the fluid which it meets
   Field<Real4> m_state{*this, "m_state", "-", Lifetime::kept};
   /// rho / rho0 - 1 of frozen and mirrored walls; kNoCompression: outer layers of a frozen one, or no fluid
   /// about the image
