@@ -1,11 +1,13 @@
 #pragma once
 #include "bedload/core/frame.hpp"
+#include "bedload/core/mean_shear.hpp"
 #include "bedload/core/span.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// v += kick (acc + reaction); x += drift (v + beside), packed `back` before where it is.
+/// v += kick (acc + reaction); x += drift (v + beside), packed `back` before where it is; of sheared fluid
+/// also the peculiar velocity there.
 struct KickDriftPass {
   Frame frame;
   Real kick, drift, back;                   ///< s
@@ -13,6 +15,8 @@ struct KickDriftPass {
   Span<Real4> v_rho;
   Span<FluidPosition> x;
   Span<PairPosition> xp;
+  MeanShear shear;   ///< as it is after the drift
+  Span<Real4> flux;  ///< empty without shear
 
   BL_HD void operator()(Index a) const {
     const Real4 old = v_rho[a];
@@ -21,9 +25,17 @@ struct KickDriftPass {
     v_rho[a] = {v, old.w};
     if (drift == 0) return;
     const Real3 move = beside ? v + beside[a] : v;
-    const Vec3d at = coordinates(frame, x[a]) + Vec3d(move) * double(drift);
+    Vec3d at = coordinates(frame, x[a]) + Vec3d(move) * double(drift);
+    if (shear.acts()) {
+      shear.wrap(at, v);
+      at = frame.wrap(at);
+      v_rho[a] = {v, old.w};
+    }
     x[a] = as_position<FluidPosition>(frame, at);
-    xp[a] = pair_position(frame, coordinates(frame, x[a]) - Vec3d(back * v), xp[a].weight);
+    const Vec3d packed = coordinates(frame, x[a]) - Vec3d(back * v);
+    const MeanShear then = shear.before(double(back));
+    xp[a] = pair_position(frame, then.lattice(packed), xp[a].weight);
+    if (flux) flux[a] = {then.peculiar(v, packed.z), old.w};
   }
 };
 
@@ -62,8 +74,8 @@ struct DensityHistory {
 
 constexpr Real kThinnest = Real(-0.5);  // of s; thinner fluid is spray
 
-/// Pressure from s, which `history` may advance; velocity and, among grains, volume flux predicted by `kick`
-/// (0: Euler).
+/// Pressure from s, which `history` may advance; velocity and, among grains, volume flux, of sheared fluid
+/// peculiar velocity, predicted by `kick` (0: Euler).
 struct StatePass {
   Frame frame;
   EquationOfState eos;
@@ -73,21 +85,27 @@ struct StatePass {
   Span<const Real3> acc, reaction;
   Span<Real> s;
   Span<const Real> mass, eps;
-  Span<Real4> v_rho, flux, m_state;  ///< flux empty without grains
+  Span<Real4> v_rho, flux, m_state;  ///< flux empty without grains and shear
   Span<Real> p_rho2;
   Span<PairPosition> xp;
+  MeanShear shear;
 
   BL_HD void operator()(Index a) const {
     Real3 gain = kick * acc[a];
     if (reaction) gain += kick * reaction[a];
     const Real compression = max_of(s[a] + history(a), kThinnest), rho = eos.density(compression);
     s[a] = compression;
-    v_rho[a] = {v_rho[a].xyz() + gain, rho};
-    if (flux) flux[a] = {flux[a].xyz() + eps[a] * gain, rho};
+    const Real3 v = v_rho[a].xyz() + gain;
+    const Vec3d at = coordinates(frame, x[a]);
+    v_rho[a] = {v, rho};
+    if (shear.acts())
+      flux[a] = {shear.peculiar(v, at.z), rho};
+    else if (flux)
+      flux[a] = {flux[a].xyz() + eps[a] * gain, rho};
     const Real M = mass[a] / eps[a], p = eos.pressure(compression) / square(rho);
     m_state[a] = {M, p, rho, eps[a]};
     p_rho2[a] = p;
-    xp[a] = pair_position(frame, coordinates(frame, x[a]), M);
+    xp[a] = pair_position(frame, shear.lattice(at), M);
   }
 };
 

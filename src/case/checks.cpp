@@ -25,6 +25,36 @@ void Checks::domain() const {
     period(k, 2 * c.grain.d_max, "4 R", c.grain.present);
   }
   if (c.domain.two_d) check_plane(c, root_);
+  if (c.domain.sheared()) shear();
+}
+
+void Checks::shear() const {
+  const FluidConfig& f = c.fluid;
+  if (!f.present) fail("domain.shear_rate", c.domain.shear_rate, "must be 0 without [fluid]");
+  for (const auto& [there, what] : {std::pair{c.grain.present, "[grain]"},
+                                    {!c.wall.bodies.empty(), "[[wall.body]]"},
+                                    {!c.inlets.empty() || !c.grain_inlets.empty(), "inlets"},
+                                    {!c.outlets.empty(), "[[outlet]]"},
+                                    {c.frame.motion.moves(), "frame.motion"},
+                                    {norm(c.gravity) > 0, "gravity"},
+                                    {norm(c.drive.f) > 0 || c.drive.pulls(), "[drive]"},
+                                    {f.variable_h, "fluid.variable_h"},
+                                    {!f.species.empty(), "fluid.species"},
+                                    {c.visc.collision, "visc.collision"},
+                                    {c.xsph > 0, "xsph > 0"},
+                                    {c.tensile > 0, "tensile > 0"},
+                                    {c.time.integrator == TimeIntegrator::ab3, "time.integrator = \"ab3\""}})
+    if (there) fail("domain.shear_rate", c.domain.shear_rate, fmt::format("must be 0 with {}", what));
+  for (std::size_t i = 0; i < c.out.probes.size(); ++i)
+    if (const std::string& type = c.out.probes[i].type; type == "point" || type == "height")
+      fail(fmt::format("probe.{}.type", i), quoted(type), "must be another with domain.shear_rate");
+  for (const int k : {0, 2})
+    if (!c.domain.periodic[k])
+      fail("domain.periodic", fmt::format("false along {}", "xyz"[k]), "must be true with domain.shear_rate");
+  // images across x are apart also where those across z have moved by half a period
+  const Vec3d side = c.domain.max - c.domain.min;
+  const double strain = 0.5 * side.x / side.z + 1.5 * c.skin_fluid * f.dx / f.reach();
+  period(0, 2 * f.reach() * std::sqrt(1 + strain * strain), "2 kappa h, sheared", true);
 }
 
 void Checks::time() const {

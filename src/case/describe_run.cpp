@@ -115,6 +115,11 @@ void describe_domain(Parameters& p, DomainConfig& d) {
     {.meaning =
          "plane flow in x and z, one layer of particles that stands for the domain's length along y, without "
          "grains"});
+  p("domain.shear_rate", &d.shear_rate,
+    {.unit = "1/s",
+     .meaning =
+         "mean dv_x/dz that Lees-Edwards boundaries impose on fluid in a periodic domain: images across "
+         "z move along x [lees72]; 0 none"});
 }
 
 void describe_coupling(Parameters& p, CouplingConfig& c) {

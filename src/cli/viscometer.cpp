@@ -33,16 +33,16 @@ class Viscometer final : public RunWatcher {
   void begin(const Config& config, double end) override {
     config_ = config;
     flow_ = plane_flow_of(config);
-    const double gap = flow_.gap();
-    const double relaxation = gap * gap / (M_PI * M_PI) * config.fluid.rho0 / config.fluid.mu;
+    const double relaxation = flow_.relaxation(config.fluid.mu / config.fluid.rho0);
     from_ = kStart * relaxation;
     const int blocks = int(std::min((end - from_) / relaxation * (1 + 1e-9), double(kMostBlocks)));
     if (blocks < kLeastBlocks)
       throw KeyError(
           "time.end",
           fmt::format("time.end = {:g} must be >= {:.4g} in a viscometer: the flow takes {:.3g} s to become "
-                      "steady, and {} blocks of {:.3g} s (D^2 / pi^2 nu) are to be measured",
-                      end, from_ + kLeastBlocks * relaxation, from_, kLeastBlocks, relaxation));
+                      "steady, and {} blocks of {:.3g} s ({}) are to be measured",
+                      end, from_ + kLeastBlocks * relaxation, from_, kLeastBlocks, relaxation,
+                      flow_.kind == PlaneFlowKind::lees_edwards ? "L^2 / 4 pi^2 nu" : "D^2 / pi^2 nu"));
     interval_ = (end - from_) / blocks / kSamples;
     layers_.emplace(flow_, config.fluid.h(), kLayers, blocks);
   }

@@ -1,6 +1,7 @@
 // Cells, order and lists of fluid and walls.
 
 #include <cmath>
+#include <utility>
 
 #include "kernels/walls/crossing.hpp"
 #include "src/fluid/fluid_solver.hpp"
@@ -16,7 +17,31 @@ struct WrapPass {
   BL_HD void operator()(Index i) const { x[i] = as_position<P>(frame, frame.wrap(coordinates(frame, x[i]))); }
 };
 
-/// Copies of positions as pair loops read them, `back` (s) before where they are, with their weights.
+/// The same of sheared fluid, which changes its velocity where it comes back.
+struct ShearedWrapPass {
+  Frame frame;
+  MeanShear shear;
+  Span<FluidPosition> x;
+  Span<Real4> v_rho;
+  BL_HD void operator()(Index a) const {
+    Vec3d at = coordinates(frame, x[a]);
+    Real3 v = v_rho[a].xyz();
+    shear.wrap(at, v);
+    x[a] = as_position<FluidPosition>(frame, frame.wrap(at));
+    v_rho[a] = {v, v_rho[a].w};
+  }
+};
+
+struct LatticePass {
+  Frame frame;
+  MeanShear shear;
+  Span<const FluidPosition> x;
+  Span<Vec3d> out;
+  BL_HD void operator()(Index a) const { out[a] = shear.lattice(coordinates(frame, x[a])); }
+};
+
+/// Copies of positions as pair loops read them, `back` (s) before where they are, with their weights; of
+/// sheared fluid also peculiar velocities.
 template <class P>
 struct PackBackPass {
   Frame frame;
@@ -24,9 +49,13 @@ struct PackBackPass {
   Span<const P> x;
   Span<const Real4> v, m_state;  ///< m_state: empty without weights
   Span<PairPosition> xp;
+  MeanShear shear = {};   ///< as it was then
+  Span<Real4> flux = {};  ///< empty without shear
   BL_HD void operator()(Index i) const {
-    const Vec3d at = coordinates(frame, x[i]) - Vec3d(back * v[i].xyz());
-    xp[i] = pair_position(frame, at, m_state ? m_state[i].x : Real(0));
+    const Real4 now = v[i];
+    const Vec3d at = coordinates(frame, x[i]) - Vec3d(back * now.xyz());
+    xp[i] = pair_position(frame, shear.lattice(at), m_state ? m_state[i].x : Real(0));
+    if (flux) flux[i] = {shear.peculiar(now.xyz(), at.z), now.w};
   }
 };
 
@@ -67,8 +96,24 @@ void FluidSolver::set_skin(double skin) {
 }
 
 void FluidSolver::make_cells() {
+  MeanShear most = shear_;  // strains are taken to half a period
+  if (shear_.acts()) most.strain = 0.5 * frame_.length.x / frame_.length.z;
   for (CellGrid* grid : {&grid_, &wall_grid_})
-    *grid = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, range() + skin_);
+    *grid =
+        CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, most.stretch() * (range() + skin_));
+}
+
+Span<const Vec3d> FluidSolver::lattice(const FluidStore& fluid) {
+  lattice_.resize(fluid.size());
+  for_each(fluid.owned(), LatticePass{frame_, shear_, fluid.x, lattice_});
+  return lattice_;
+}
+
+void FluidSolver::sort_cells(const FluidStore& fluid) {
+  if (shear_.acts())
+    grid_.sort(frame_, lattice(fluid), order_);
+  else
+    grid_.sort(frame_, Span<const FluidPosition>(fluid.x), order_);
 }
 
 bool FluidSolver::renew_lengths(FluidStore& fluid) {
@@ -91,8 +136,14 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved,
     walls_moved = walls_moved || skin_ != former;
   }
   if (lengths_ && renew_lengths(fluid)) walls_moved = true;
-  for_each(fluid.owned(), WrapPass<FluidPosition>{frame_, fluid.x});
-  grid_.sort(frame_, Span<const FluidPosition>(fluid.x), order_);
+  if (shear_.acts()) {
+    const double period = frame_.length.x / frame_.length.z;
+    listed_strain_ = shear_.strain -= period * std::rint(shear_.strain / period);
+    for_each(fluid.owned(), ShearedWrapPass{frame_, shear_, fluid.x, fluid.v_rho});
+  } else {
+    for_each(fluid.owned(), WrapPass<FluidPosition>{frame_, fluid.x});
+  }
+  sort_cells(fluid);
   fluid.reorder(order_);
   fluid.x_list.copy(fluid.x);
   if (lengths_) lengths_->h_list.copy(lengths_->h);
@@ -109,8 +160,9 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved,
 }
 
 void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
+  const double strain = std::exchange(shear_.strain, listed_strain_);
   if (sort) {  // saved sorted: the order is the identity
-    grid_.sort(frame_, Span<const FluidPosition>(fluid.x), order_);
+    sort_cells(fluid);
     wall_grid_.sort(frame_, Span<const Vec3d>(walls.x), order_);
   }
   pack(fluid);
@@ -121,8 +173,20 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   const Near fluid_near_walls{frame_, fluid.x, fluid.xp, walls.xp, reach, false};
   const SphNear<Vec3d> walls_near{frame_, walls.x, walls.xp, fluid.xp, reach, false};
 #if BL_CUDA
-  fluid_fluid_.build(grid_, frame_, Span<const FluidPosition>(fluid.x), Span<const PairPosition>(fluid.xp),
-                     reach);
+  if (shear_.acts())  // by distances among positions that are sheared back
+    fluid_fluid_.build(grid_, frame_, lattice(fluid), Span<const PairPosition>(fluid.xp),
+                       reach * shear_.stretch());
+  else
+    fluid_fluid_.build(grid_, frame_, Span<const FluidPosition>(fluid.x), Span<const PairPosition>(fluid.xp),
+                       reach);
+#else
+  if (shear_.acts())
+    fluid_fluid_.build(fluid.size(), grid_.view(),
+                       ShearedNear<Vec3d>{{frame_, lattice(fluid), fluid.xp, fluid.xp, reach, true},
+                                          Real(shear_.strain),
+                                          reach * shear_.stretch()});
+  else if (!lengths_)
+    fluid_fluid_.build(fluid.size(), grid_.view(), fluid_near);
 #endif
   if (lengths_) {
     const Span<const Real> h = lengths_->h_list, none;
@@ -134,9 +198,6 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
                       LengthNear<FluidPosition>{fluid_near_walls, pairs, h, none}, fluid_fluid_.view().bits);
     wall_fluid_.build(walls.size(), grid_.view(), LengthNear<Vec3d>{walls_near, pairs, none, h});
   } else {
-#if !BL_CUDA
-    fluid_fluid_.build(fluid.size(), grid_.view(), fluid_near);
-#endif
     fluid_wall_.build(fluid.size(), wall_grid_.view(), fluid_near_walls, fluid_fluid_.view().bits);
     wall_fluid_.build(walls.size(), grid_.view(), walls_near);
   }
@@ -150,11 +211,12 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   if (images.size() > 0)
     image_fluid_.build(images.size(), grid_.view(),
                        SphNear<Vec3d>{frame_, images.x, images.xp, fluid.xp, reach, false});
+  shear_.strain = strain;
 }
 
 void FluidSolver::pack(FluidStore& fluid, double back) {
-  for_each(fluid.owned(),
-           PackBackPass<FluidPosition>{frame_, Real(back), fluid.x, fluid.v_rho, fluid.m_state, fluid.xp});
+  for_each(fluid.owned(), PackBackPass<FluidPosition>{frame_, Real(back), fluid.x, fluid.v_rho, fluid.m_state,
+                                                      fluid.xp, shear_.before(back), peculiar(fluid)});
 }
 
 void FluidSolver::pack(WallStore& walls, double back) {

@@ -26,6 +26,7 @@ struct CorrectSweep {
   Span<const FluidPosition> x, x_list;
   Span<const Real> h, h_list;  ///< empty where all have one length
   Span<Real4> v_rho;
+  MeanShear shear, listed;  ///< now, and where the lists were built
 
   BL_HD Value identity() const { return {}; }
   BL_HD Value operator()(Index a) const {
@@ -36,10 +37,13 @@ struct CorrectSweep {
       v_rho[a] = {v, v_rho[a].w};
     }
     if (drift) v += drift[a];
+    const Vec3d now = coordinates(frame, x[a]);
+    Vec3d moved = frame.separation(shear.lattice(now), listed.lattice(coordinates(frame, x_list[a])));
+    moved.x += listed.strain * moved.z;
     Value out;
-    out.v2 = norm2(v);
+    out.v2 = norm2(shear.peculiar(v, now.z));
     out.acc2 = norm2(acceleration);
-    out.moved2 = norm2(frame.separation(coordinates(frame, x[a]), coordinates(frame, x_list[a])));
+    out.moved2 = norm2(moved);
     if (eps) out.eps_min = eps[a];
     if (h) out.h_min = h[a], out.growth = h[a] / h_list[a];
     const bool good = out.v2 < 1e30 && out.acc2 < 1e30 && s[a] >= Real(-0.5) && s[a] <= Real(1);
@@ -93,6 +97,7 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
       mixed_(config.grain.present && config.couple.mode == CouplingMode::two_way),
       lengths_(config.fluid.variable_h ? std::make_unique<SmoothingLengths>(fluid, config.fluid.h())
                                        : nullptr),
+      shear_{config.domain.shear_rate, 0, config.domain.min.z, config.domain.max.z - config.domain.min.z},
       gravity_(config.gravity),
       drive_factor_(config.drive) {
   eos_ = EquationOfState::of(config);
@@ -131,6 +136,10 @@ void FluidSolver::accept_rates(double dt) {
 void FluidSolver::save(std::vector<Quantity>& scalars) const {
   scalars.push_back({"skin_fluid", "m", skin_});
   if (lengths_) scalars.push_back({"smoothing_length_listed", "m", lengths_->listed});
+  if (shear_.acts()) {
+    scalars.push_back({"shear_strain", "-", shear_.strain});
+    scalars.push_back({"shear_strain_listed", "-", listed_strain_});
+  }
   scalars.push_back({"density_last_dt", "s", last_dt_});
   scalars.push_back({"density_dt_before", "s", dt_before_});
 }
@@ -199,7 +208,7 @@ KickDriftPass FluidSolver::kick_drift_pass(FluidStore& fluid, double kick, doubl
   return {frame_,          Real(kick),  Real(drift),
           Real(back),      fluid.acc,   coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
           drift_of(fluid), fluid.v_rho, fluid.x,
-          fluid.xp};
+          fluid.xp,        shear_,      peculiar(fluid)};
 }
 
 StatePass FluidSolver::state_pass(FluidStore& fluid, const DensityHistory& history, double kick,
@@ -215,13 +224,15 @@ StatePass FluidSolver::state_pass(FluidStore& fluid, const DensityHistory& histo
           fluid.mass,
           fluid.eps,
           fluid.v_rho,
-          mixed_ ? Span<Real4>(fluid.flux) : Span<Real4>(),
+          mixed_ ? Span<Real4>(fluid.flux) : peculiar(fluid),
           fluid.m_state,
           fluid.p_rho2,
-          fluid.xp};
+          fluid.xp,
+          shear_};
 }
 
 void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, double back, bool coupled) {
+  shear_.strain += shear_.rate * drift;
   for_each(fluid.owned(), kick_drift_pass(fluid, kick, drift, back, coupled));
 }
 
@@ -261,12 +272,15 @@ void FluidSolver::correct(FluidStore& fluid, double kick) {
 void FluidSolver::survey(FluidStore& fluid, double kick) {
   extremes_.resize(1);
   if (fluid.size() == 0) return extremes_.assign({FluidExtremes{}});
+  MeanShear listed = shear_;
+  listed.strain = listed_strain_;
   reduce_into(
       extremes_.data(), fluid.owned(),
       CorrectSweep{frame_, Real(kick), fluid.acc_next, fluid.acc,
                    mixed_ ? Span<const Real>(fluid.eps) : Span<const Real>(), fluid.s, drift_of(fluid),
                    fluid.x, fluid.x_list, lengths_ ? Span<const Real>(lengths_->h) : Span<const Real>(),
-                   lengths_ ? Span<const Real>(lengths_->h_list) : Span<const Real>(), fluid.v_rho});
+                   lengths_ ? Span<const Real>(lengths_->h_list) : Span<const Real>(), fluid.v_rho, shear_,
+                   listed});
 }
 
 FluidExtremes FluidSolver::extremes() const {

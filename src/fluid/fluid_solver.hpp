@@ -14,6 +14,7 @@
 #include "kernels/fluid/layer_force.hpp"
 #include "kernels/fluid/omega_pass.hpp"
 #include "kernels/fluid/pair_terms.hpp"
+#include "kernels/fluid/sheared_pass.hpp"
 #include "kernels/fluid/wall_density.hpp"
 #include "kernels/fluid/wall_pass.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
@@ -84,6 +85,12 @@ class FluidSolver {
   double half_range(const FluidExtremes& now) const { return kappa_ * now.h_min / 2; }
   /// Null where all particles have the same smoothing length.
   const SmoothingLengths* lengths() const { return lengths_.get(); }
+  const MeanShear& shear() const { return shear_; }
+  /// How far the mean shear will have moved a particle at the end of the kernel's reach, since the lists were
+  /// built, a time dt (s) from now, m.
+  double sheared(double dt) const {
+    return std::abs(shear_.strain + shear_.rate * dt - listed_strain_) * range();
+  }
   /// Whether smoothing lengths may outgrow the lists within another step.
   bool outgrows(const FluidExtremes& now) const { return now.growth > 0.25 + 0.75 * double(kLengthGrowth); }
   const EquationOfState& eos() const { return eos_; }
@@ -178,6 +185,7 @@ class FluidSolver {
     last_dt_ = scalar("density_last_dt"), dt_before_ = scalar("density_dt_before");  // 0 without rates
     if (lengths_) lengths_->listed = scalar("smoothing_length_listed"), lengths_->begun = true;
     skin_ = scalar("skin_fluid");
+    if (shear_.acts()) shear_.strain = scalar("shear_strain"), listed_strain_ = scalar("shear_strain_listed");
     make_cells();
   }
 
@@ -193,8 +201,36 @@ class FluidSolver {
   StatePass state_pass(FluidStore& fluid, const DensityHistory& history, double kick, bool coupled);
   /// Takes in the rates that forces() has written to the last of rates_, at the end of a step dt (s).
   void accept_rates(double dt);
-  /// Velocity and density as pair loops read them: of the mixture where grains share the space.
-  Span<const Real4> flux(const FluidStore& fluid) const { return mixed_ ? fluid.flux : fluid.v_rho; }
+  /// Velocity and density as pair loops read them: of the mixture where grains share the space, peculiar
+  /// where fluid is sheared.
+  Span<const Real4> flux(const FluidStore& fluid) const {
+    return mixed_ || shear_.acts() ? fluid.flux : fluid.v_rho;
+  }
+  /// To be set along with positions that pair loops read; empty without shear.
+  Span<Real4> peculiar(FluidStore& fluid) const {
+    return shear_.acts() ? Span<Real4>(fluid.flux) : Span<Real4>();
+  }
+  void sort_cells(const FluidStore& fluid);
+  /// Positions sheared back.
+  Span<const Vec3d> lattice(const FluidStore& fluid);
+  /// Runs a pass over the pairs of fluid.
+  template <class Pass>
+  void run(const FluidStore& fluid, double cutoff, const Pass& pass) {
+    const PairSeparation separation{frame_, fluid.xp, fluid.xp};
+    if constexpr (kBearsShear<Pass>)
+      if (shear_.acts())
+        return for_each_pair(fluid.owned(), fluid_fluid_, separation, cutoff * shear_.stretch(),
+                             ShearedPass<Pass>{pass, Real(shear_.strain), Real(shear_.rate)});
+    for_each_pair(fluid.owned(), fluid_fluid_, separation, cutoff, pass);
+  }
+  /// And of fluid and walls.
+  template <class Pass>
+  void run(const FluidStore& fluid, const WallStore& walls, double cutoff, const Pass& pass) {
+    if constexpr (kBearsShear<Pass>)
+      if (shear_.acts()) return run(fluid, cutoff, pass);
+    for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, fluid_wall_,
+                  PairSeparation{frame_, fluid.xp, walls.xp}, cutoff, pass);
+  }
   /// Of W over the fluid around, below which it is none, 1/m3.
   Real least_sum() const { return Real(1e-3 / config_.domain.cell_volume(config_.fluid.h_most())); }
   /// walls() by WallPass.
@@ -241,6 +277,9 @@ class FluidSolver {
   bool mixed_;  ///< grains share the space
   std::unique_ptr<SmoothingLengths> lengths_;
   EquationOfState eos_;
+  MeanShear shear_;
+  double listed_strain_ = 0;  ///< where the lists were built
+  Buffer<Vec3d> lattice_;
   Real3 gravity_;
   DriveFactor drive_factor_;
   DriveField drive_now_;

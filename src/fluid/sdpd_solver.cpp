@@ -69,7 +69,7 @@ class SdpdSolver final : public FluidSolver {
       return;
     }
     frozen_continuity(w_, fluid, walls, pose, dt, Real(-0.5));
-    run(fluid, walls,
+    run(fluid, walls, range(),
         ContinuityPass<W>{w_, Real(config_.fluid.rho0), Real(dt), flux(fluid), fluid.m_state, walls.v_rho,
                           walls.m_state, fluid.s, fluid.s_next});
     if (d.reinit_every > 0 && (step_ + 1) % std::uint64_t(d.reinit_every) == 0) {
@@ -119,14 +119,9 @@ class SdpdSolver final : public FluidSolver {
   }
   Span<Real3> omega() { return spin_ ? Span<Real3>(spin_->omega) : Span<Real3>(); }
   Span<Real3> turning() { return spin_ ? Span<Real3>(spin_->acc) : Span<Real3>(); }
-  template <class Pass>
-  void run(const FluidStore& fluid, const WallStore& walls, const Pass& pass) {
-    for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, fluid_wall_,
-                  PairSeparation{frame_, fluid.xp, walls.xp}, range(), pass);
-  }
   template <bool kGrains>
   void sum_up(FluidStore& fluid, const WallStore& walls) {
-    run(fluid, walls,
+    run(fluid, walls, range(),
         SummationPass<W, kGrains>{w_, Real(config_.fluid.rho0), Real(1 / lattice_.W), fluid.m_state,
                                   walls.m_state, fluid.eps, fluid.grains_around, fluid.s_next});
   }
@@ -160,12 +155,13 @@ class SdpdSolver final : public FluidSolver {
   }
   template <bool kNoise, bool kSpecies>
   void momentum(FluidStore& fluid, const WallStore& walls, double dt) {
-    run(fluid, walls, force_pass<kNoise, kSpecies>(fluid, walls, dt));
+    run(fluid, walls, range(), force_pass<kNoise, kSpecies>(fluid, walls, dt));
   }
   /// Of one fluid: stress of several is not asked for.
   template <bool kNoise>
   void stress(FluidStore& fluid, const WallStore& walls, double dt, FluidMoments& out) {
-    run(fluid, walls,
+    if (shear_.acts()) pack(fluid);  // velocities as they are now
+    run(fluid, walls, range(),
         SdpdStressPass<Force<kNoise, false>, kNoise>{force_pass<kNoise, false>(fluid, walls, dt),
                                                      out.parts(fluid.size(), kNoise)});
   }
@@ -184,8 +180,7 @@ class SdpdSolver final : public FluidSolver {
   }
   /// Shepard's mean of q over the fluid; densities are rho0 (1 + s).
   void average(const FluidStore& fluid, Span<const Real> s, Span<const Real> q, Span<Real> mean) {
-    for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, range(),
-                  ShepardPass<W>{w_, Real(config_.fluid.rho0), fluid.m_state, s, q, mean});
+    run(fluid, range(), ShepardPass<W>{w_, Real(config_.fluid.rho0), fluid.m_state, s, q, mean});
   }
   /// Of a density, the mean is sum M W / sum V W.
   void reinitialise(FluidStore& fluid) {

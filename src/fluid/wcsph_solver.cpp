@@ -80,6 +80,7 @@ class WcsphSolver final : public FluidSolver {
   }
 
   void moments(FluidStore& fluid, const WallStore& walls, double, FluidMoments& out) override {
+    if (shear_.acts()) pack(fluid);  // velocities as they are now
     config_.tensile > 0 ? stress<true>(fluid, walls, out) : stress<false>(fluid, walls, out);
   }
 
@@ -121,11 +122,6 @@ class WcsphSolver final : public FluidSolver {
                                                 fluid.viscosity,
                                                 lengths()};
     for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
-  }
-  template <class Pass>
-  void run(const FluidStore& fluid, const WallStore& walls, double cutoff, const Pass& pass) {
-    for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, fluid_wall_,
-                  PairSeparation{frame_, fluid.xp, walls.xp}, cutoff, pass);
   }
   Real least() const { return -Real(config_.density.cavitation_limit); }
   Viscosity viscosity() const {

@@ -272,8 +272,11 @@ void CoupledSimulation::refresh_if_needed(double dt) {
   bool fluid_due = open_.fluid_due(), grains_due = open_.grains_due(clock_.time);
   double travel = 0;
   if (has_fluid()) {
+    const FluidSolver& fluid = *fluid_solver_;
     travel = dt * (std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2));
-    const double moved = std::sqrt(fluid_extremes_.moved2) + travel;
+    // sheared: pairs drift apart; among positions sheared back, what moves along z moves along x, too
+    const double strained = fluid.sheared(dt) / fluid.range();
+    const double moved = std::sqrt(fluid_extremes_.moved2) + travel * (1 + strained) + fluid.sheared(dt) / 2;
     const double wall = walls_moved_ + dt * motion_.top_speed(clock_.time, dt);
     fluid_due = fluid_due || 2 * moved > fluid_solver_->skin() || moved + wall > fluid_solver_->skin() ||
                 fluid_solver_->outgrows(fluid_extremes_);

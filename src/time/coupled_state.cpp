@@ -131,9 +131,9 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
   if (!coupled()) fluid_.solid_factor.leave_out();
   if (config.grain.materials.empty()) grains_.material.leave_out();
   if (!two_way())
-    for (FieldBase* field :
-         std::initializer_list<FieldBase*>{&fluid_.flux, &fluid_.reaction, &fluid_.drag_kick})
+    for (FieldBase* field : std::initializer_list<FieldBase*>{&fluid_.reaction, &fluid_.drag_kick})
       field->leave_out();
+  if (!two_way() && !config.domain.sheared()) fluid_.flux.leave_out();
   upload(setup);
 }
 

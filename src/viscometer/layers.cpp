@@ -73,7 +73,7 @@ void LayerSums::add(const LayerSums& o) {
 }
 
 Layers::Layers(const PlaneFlow& flow, double h, int layers, int blocks)
-    : flow_(flow), h_(h), layers_(layers), blocks_(blocks) {
+    : flow_(flow), h_(flow.kind == PlaneFlowKind::lees_edwards ? 0 : h), layers_(layers), blocks_(blocks) {
   for (Block& block : blocks_) block.layers.resize(layers);
 }
 
@@ -99,13 +99,13 @@ void Layers::add(int number, const HostStore& fluid_store, const HostStore& grai
         Tensor& sum = layer.parts.try_emplace(name, Tensor{}).first->second;
         for (int k = 0; k < 9; ++k) sum[k] += value(*a, 9 * i + k);
       }
-      const bool turned = !flow_.walled() && z >= gap;
+      const bool turned = flow_.reversed() && z >= gap;
       const double s = (turned ? z - gap : z) / gap;
       layer.drive += value(*all.drive, 3 * i + flow_.along);
       (is_fluid ? layer.volume : layer.grain_volume) += value(*all.volume, i);
       if (!is_fluid) continue;
       layer.place += m * s, layer.place2 += m * s * s;
-      if (s * gap <= h_ || (1 - s) * gap <= h_) continue;
+      if (s * gap < h_ || (1 - s) * gap < h_) continue;
       const double u = turned ? -v[flow_.along] : v[flow_.along];
       double power = m;
       for (int k = 0; k < 5; ++k, power *= s) {

@@ -43,15 +43,15 @@ struct Block {
   std::vector<LayerSums> layers;
   int samples = 0;
   double stress = 0;  ///< shear stress on the walls, mean of both, summed over the samples, Pa
-  // Over the fluid farther than one h from flips or walls, with s and the velocity u turned as in the lower
-  // half:
+  // Over the fluid farther than one h from flips or walls, with s and the velocity u of reverse flow turned
+  // as in the lower half:
   std::array<double, 5> s{};  ///< M s^k, kg
   std::array<double, 3> u{};  ///< M u s^k, kg m/s
 };
 
 class Layers {
  public:
-  /// Layers of the same height; h: left out beside flips and walls, m.
+  /// Layers of the same height; h: left out beside flips and walls, m. Images have none beside them.
   Layers(const PlaneFlow& flow, double h, int layers, int blocks);
 
   /// One sample, from Simulation::rheology; wall_stress: mean shear stress on the walls, Pa.

@@ -12,9 +12,10 @@ namespace bedload {
 namespace {
 
 constexpr const char* kFlows =
-    "a viscometer takes reverse Poiseuille flow (drive.opposed in a periodic box), or flow between two "
-    "parallel walls "
-    "that is driven along them (Poiseuille) or sheared by their motion (Couette)";
+    "a viscometer takes reverse Poiseuille flow (drive.opposed in a periodic box), shear by Lees-Edwards "
+    "boundaries (domain.shear_rate), or flow between two parallel walls that is driven along them "
+    "(Poiseuille) "
+    "or sheared by their motion (Couette)";
 
 [[noreturn]] void refuse(const std::string& key, const std::string& why) {
   throw KeyError(key, fmt::format("{}: {}; {}", key, why, kFlows));
@@ -146,6 +147,14 @@ PlaneFlow reverse_poiseuille(const Config& c) {
   return flow;
 }
 
+/// What a case with such boundaries must have besides is checked when it is read.
+PlaneFlow lees_edwards(const Config& c) {
+  PlaneFlow flow{PlaneFlowKind::lees_edwards, 0, 2};
+  flow.low = c.domain.min.z, flow.high = c.domain.max.z;
+  flow.relative_speed = c.domain.shear_rate * (flow.high - flow.low);
+  return flow;
+}
+
 PlaneFlow between_walls(const Config& c) {
   PlaneFlow flow;
   const auto [low, high] = Walls(c).pair();
@@ -178,22 +187,29 @@ std::string PlaneFlow::name() const {
       return "Poiseuille";
     case PlaneFlowKind::couette:
       return "Couette";
+    case PlaneFlowKind::lees_edwards:
+      return "Lees-Edwards";
   }
   return "";
+}
+
+double PlaneFlow::relaxation(double nu) const {
+  const double width = kind == PlaneFlowKind::lees_edwards ? gap() / 2 : gap();  // half of a wave
+  return width * width / (M_PI * M_PI * nu);
 }
 
 PlaneFlow plane_flow_of(const Config& c) {
   refuse_additions(c);
   bool walls = false;
   for (const WallBody& body : c.wall.bodies) walls = walls || body.stops_fluid();
-  PlaneFlow flow = walls ? between_walls(c) : reverse_poiseuille(c);
+  PlaneFlow flow = c.domain.sheared() ? lees_edwards(c) : walls ? between_walls(c) : reverse_poiseuille(c);
   for (int k = 0; k < 3; ++k)
     if (!c.domain.periodic[k] && !c.domain.flat(k) && !(walls && k == flow.gradient))
       refuse("domain.periodic", fmt::format("must be true along {}", "xyz"[k]));
   const Vec3d size = c.domain.max - c.domain.min;
   flow.area = size[flow.along] * size[flow.across()];
   const double h = c.fluid.h(), least = flow.kind == PlaneFlowKind::poiseuille ? 3.5 : 2.5;
-  if (flow.gap() < least * h)
+  if (flow.kind != PlaneFlowKind::lees_edwards && flow.gap() < least * h)
     throw KeyError(
         "fluid.dx",
         fmt::format("fluid.dx = {}: {:g} m from {} are too narrow for h = {:.4g} m, of which "

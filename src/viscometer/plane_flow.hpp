@@ -8,8 +8,9 @@
 namespace bedload {
 
 /// reverse_poiseuille: periodic, driven one way below, the other way above; poiseuille: driven between
-/// resting walls; couette: between walls of which one or both move along.
-enum class PlaneFlowKind { reverse_poiseuille, poiseuille, couette };
+/// resting walls; couette: between walls of which one or both move along; lees_edwards: between images that
+/// do.
+enum class PlaneFlowKind { reverse_poiseuille, poiseuille, couette, lees_edwards };
 
 struct PlaneFlow {
   PlaneFlowKind kind = PlaneFlowKind::reverse_poiseuille;
@@ -17,12 +18,18 @@ struct PlaneFlow {
   double low = 0, high = 0;     ///< ends along the gradient: of the domain, or surfaces of the walls, m
   int lower = -1, upper = -1;   ///< wall bodies with those surfaces, by their index; -1: none
   double area = 0;              ///< of such a surface, m2
-  double relative_speed = 0;    ///< of the walls: upper less lower, m/s
+  double relative_speed = 0;    ///< of the walls, or what an image moves by: upper less lower, m/s
 
-  bool walled() const { return kind != PlaneFlowKind::reverse_poiseuille; }
+  bool walled() const { return kind == PlaneFlowKind::poiseuille || kind == PlaneFlowKind::couette; }
+  /// Driven one way below the middle, the other way above.
+  bool reversed() const { return kind == PlaneFlowKind::reverse_poiseuille; }
+  /// By what moves at its ends; else by a force within.
+  bool sheared() const { return kind == PlaneFlowKind::couette || kind == PlaneFlowKind::lees_edwards; }
   int across() const { return 3 - along - gradient; }  ///< axis of the vorticity
-  /// Between flips of the drive, or walls, m.
-  double gap() const { return (walled() ? 1 : 0.5) * (high - low); }
+  /// Between flips of the drive, walls, or images, m.
+  double gap() const { return (reversed() ? 0.5 : 1) * (high - low); }
+  /// Time in which the flow comes e times closer to being steady, s; nu: kinematic viscosity, m2/s.
+  double relaxation(double nu) const;
   /// "reverse Poiseuille".
   std::string name() const;
 };

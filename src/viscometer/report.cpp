@@ -70,11 +70,13 @@ Image picture(const ViscosityResult& r, const PlaneFlow& flow, const std::string
 }  // namespace
 
 std::string report_text(const ViscosityResult& r, const PlaneFlow& flow, double mu) {
-  const bool couette = flow.kind == PlaneFlowKind::couette;
-  std::string out =
-      fmt::format("flow       {} along {}, gradient along {}, {} = {:.6g} {}\n", flow.name(),
-                  kAxes[flow.along], kAxes[flow.gradient], couette ? "shear stress on the walls" : "force",
-                  r.imposed, couette ? "Pa" : "N/m3");
+  const bool images = flow.kind == PlaneFlowKind::lees_edwards;
+  std::string out = fmt::format("flow       {} along {}, gradient along {}, {} = {:.6g} {}\n", flow.name(),
+                                kAxes[flow.along], kAxes[flow.gradient],
+                                images           ? "shear stress"
+                                : flow.sheared() ? "shear stress on the walls"
+                                                 : "force",
+                                r.imposed, flow.sheared() ? "Pa" : "N/m3");
   out +=
       fmt::format("measured   {} samples in {} blocks; peak {:.4g} m/s, Re {:.3g}, Ma {:.3g}, R^2 {:.4f}\n",
                   r.samples, r.blocks, r.peak, r.reynolds, r.mach, r.r_squared);
@@ -84,11 +86,11 @@ std::string report_text(const ViscosityResult& r, const PlaneFlow& flow, double 
   out += fmt::format(
       "steady     {}: viscosity of the second half {:+.2g} % against the first, {:.2g} % allowed\n",
       r.stationary() ? "yes" : "NO", 100 * r.drift, 100 * r.drift_limit);
-  out += fmt::format(
-      "stress     shear {:.4g} +- {:.2g} of that imposed; N1 {:.3g} +- {:.2g} Pa, N2 {:.3g} +- {:.2g} Pa; "
-      "pressure {:.4g} Pa\n",
-      r.stress_ratio.mean, r.stress_ratio.error, r.normal_1.mean, r.normal_1.error, r.normal_2.mean,
-      r.normal_2.error, r.pressure);
+  out += "stress     ";
+  if (!images)
+    out += fmt::format("shear {:.4g} +- {:.2g} of that imposed; ", r.stress_ratio.mean, r.stress_ratio.error);
+  out += fmt::format("N1 {:.3g} +- {:.2g} Pa, N2 {:.3g} +- {:.2g} Pa; pressure {:.4g} Pa\n", r.normal_1.mean,
+                     r.normal_1.error, r.normal_2.mean, r.normal_2.error, r.pressure);
   if (r.accepted())
     out += fmt::format("viscosity  {:.6g} +- {:.2g} Pa s, {:.4f} of fluid.mu\n", r.viscosity.mean,
                        r.viscosity.error, r.viscosity.mean / mu);

@@ -19,18 +19,22 @@ Measured mean_of(const std::vector<double>& values) {
 struct Fit {
   double a = 0, b = 0, c = 0;
   double at(double s, double s2) const { return a + b * s + c * s2; }
-  /// By which the imposed force or stress is divided, m/s.
-  double strength(PlaneFlowKind kind) const { return kind == PlaneFlowKind::couette ? b : -2 * c; }
+  /// By which the imposed force or stress is divided, m/s. The shear of images is imposed, too.
+  double strength(const PlaneFlow& flow) const {
+    if (flow.kind == PlaneFlowKind::lees_edwards) return flow.relative_speed;
+    return flow.sheared() ? b : -2 * c;
+  }
 };
 
-/// Least squares: reverse Poiseuille A s (1 - s), Couette a line, Poiseuille a parabola.
+/// Least squares: reverse Poiseuille A s (1 - s), Couette and Lees-Edwards a line, Poiseuille a parabola.
 Fit fit_of(PlaneFlowKind kind, const std::array<double, 5>& s, const std::array<double, 3>& u) {
   switch (kind) {
     case PlaneFlowKind::reverse_poiseuille: {
       const double A = (u[1] - u[2]) / (s[2] - 2 * s[3] + s[4]);
       return {0, A, -A};
     }
-    case PlaneFlowKind::couette: {
+    case PlaneFlowKind::couette:
+    case PlaneFlowKind::lees_edwards: {
       const double b = (s[0] * u[1] - s[1] * u[0]) / (s[0] * s[2] - s[1] * s[1]);
       return {(u[0] - b * s[1]) / s[0], b, 0};
     }
@@ -53,7 +57,7 @@ Fit fit_of(PlaneFlowKind kind, const std::array<double, 5>& s, const std::array<
 class Evaluation {
  public:
   Evaluation(const Layers& layers, const Config& config, double reach)
-      : blocks_(layers.blocks()), c_(config), flow_(layers.flow()), n_(layers.count()) {
+      : blocks_(layers.blocks()), c_(config), flow_(layers.flow()), reach_(reach), n_(layers.count()) {
     gather_grains();
     all_.layers.resize(n_);
     for (const Block& block : blocks_) {
@@ -77,14 +81,14 @@ class Evaluation {
     r.blocks = int(blocks_.size()), r.samples = all_.samples;
     r.imposed = imposed(all_);
     fit_ = fit_of(flow_.kind, all_.s, all_.u);
-    const double gap = flow_.gap(), strength = fit_.strength(flow_.kind);
-    const bool couette = flow_.kind == PlaneFlowKind::couette;
-    r.viscosity.mean = r.imposed * (couette ? gap : gap * gap) / strength;
+    const double gap = flow_.gap(), strength = fit_.strength(flow_);
+    const bool sheared = flow_.sheared();
+    r.viscosity.mean = r.imposed * (sheared ? gap : gap * gap) / strength;
 
     std::vector<double> deviation;  // of each block, relative
     for (const Block& block : blocks_)
       deviation.push_back(imposed(block) / r.imposed -
-                          fit_of(flow_.kind, block.s, block.u).strength(flow_.kind) / strength);
+                          fit_of(flow_.kind, block.s, block.u).strength(flow_) / strength);
     r.viscosity.error = std::abs(r.viscosity.mean) * mean_of(deviation).error;
     const auto half = deviation.begin() + std::ptrdiff_t(deviation.size() / 2);
     const Measured first = mean_of({deviation.begin(), half}), second = mean_of({half, deviation.end()});
@@ -92,17 +96,19 @@ class Evaluation {
     r.drift_limit = std::max(0.01, 3 * std::hypot(first.error, second.error));
 
     r.r_squared = r_squared();
-    if (couette) r.peak = std::abs(flow_.relative_speed);
+    if (sheared) r.peak = std::abs(flow_.relative_speed);
     double speed = 0, mass = 0;  // mean of the flow one way
     for (const LayerSums& layer : all_.layers) {
       if (layer.fluid.mass == 0) continue;  // fluid on a lattice is in some layers alone
       const double v = std::abs(velocity(layer.fluid));
-      if (!couette) r.peak = std::max(r.peak, v);
+      if (!sheared) r.peak = std::max(r.peak, v);
       speed += v * layer.fluid.mass, mass += layer.fluid.mass;
     }
-    speed = couette ? r.peak : speed / mass;
+    speed = sheared ? r.peak : speed / mass;
     r.reynolds = c_.fluid.rho0 * speed * gap / r.viscosity.mean;
-    r.mach = r.peak / c_.fluid.c;
+    // no fluid meets any that is faster than across the kernel's reach, however high the box
+    const bool images = flow_.kind == PlaneFlowKind::lees_edwards;
+    r.mach = (images ? r.peak * reach_ / gap : r.peak) / c_.fluid.c;
     if (flow_.walled()) walls(r);
     stresses(r);
     for (int l = 0; l < n_; ++l)
@@ -140,19 +146,24 @@ class Evaluation {
     return m.mass > 0 ? m.momentum[flow_.along] / m.mass : std::nan("");
   }
   /// Whether what is in a layer flows against the direction of the drive's force below.
-  bool turned(int l) const { return !flow_.walled() && 2 * l >= n_; }
+  bool turned(int l) const { return flow_.reversed() && 2 * l >= n_; }
   double sign(int l) const { return turned(l) ? -1 : 1; }
 
   double imposed(const Block& block) const {
     if (flow_.kind == PlaneFlowKind::couette) return block.stress / block.samples;
+    if (flow_.kind == PlaneFlowKind::lees_edwards) return shear_stress(block.layers);
     double force = 0;
     for (int l = 0; l < n_; ++l) force += sign(l) * block.layers[l].drive / block.samples;
     return force / (flow_.area * (flow_.high - flow_.low));
   }
 
+  double shear_stress(const std::vector<LayerSums>& layers) const {
+    return component(stress_in(layers, averaged_).back().mean, flow_.along, flow_.gradient);
+  }
+
   double r_squared() const {
     double rest = 0, all = 0, mean = 0, mass = 0;
-    const int folds = flow_.walled() ? 1 : 2, rows = n_ / folds;
+    const int folds = flow_.reversed() ? 2 : 1, rows = n_ / folds;
     std::vector<std::array<double, 3>> points;  // mass, velocity, fit
     for (int l = 0; l < rows; ++l) {
       double m = 0, momentum = 0, s = 0, s2 = 0;
@@ -219,7 +230,7 @@ class Evaluation {
 
   /// Shear stress that a layer with fluid must carry, Pa.
   double imposed_at(int l, double imposed) const {
-    if (flow_.kind == PlaneFlowKind::couette) return imposed;
+    if (flow_.sheared()) return imposed;
     const LayerSums& layer = all_.layers[l];
     const double s = layer.place / layer.fluid.mass;
     return sign(l) * imposed * flow_.gap() * (0.5 - s);
@@ -269,6 +280,7 @@ class Evaluation {
   std::vector<Block> blocks_;
   const Config& c_;
   const PlaneFlow& flow_;
+  double reach_;  ///< of the kernel, m
   int n_;
   Block all_;
   double stretch_ = 1;  ///< volume between walls, or of the domain, over that by the particles' densities
@@ -286,9 +298,10 @@ std::vector<Quantity> quantities_of(const ViscosityResult& r, const PlaneFlow& f
   std::vector<Quantity> out;
   if (r.accepted())
     out = {{"viscosity", "Pa s", r.viscosity.mean}, {"viscosity_error", "Pa s", r.viscosity.error}};
-  const bool couette = flow.kind == PlaneFlowKind::couette;
-  out.push_back(couette ? Quantity{"wall_shear_stress", "Pa", r.imposed}
-                        : Quantity{"force_density", "N/m3", r.imposed});
+  const bool images = flow.kind == PlaneFlowKind::lees_edwards;
+  out.push_back(images           ? Quantity{"shear_stress", "Pa", r.imposed}
+                : flow.sheared() ? Quantity{"wall_shear_stress", "Pa", r.imposed}
+                                 : Quantity{"force_density", "N/m3", r.imposed});
   for (const Quantity& q : std::vector<Quantity>{{"r_squared", "-", r.r_squared},
                                                  {"peak_velocity", "m/s", r.peak},
                                                  {"reynolds_number", "-", r.reynolds},
@@ -300,17 +313,18 @@ std::vector<Quantity> quantities_of(const ViscosityResult& r, const PlaneFlow& f
     out.push_back({"slip_length", "m", r.slip_length});
     out.push_back({"offset", "m", r.offset});
   }
-  for (const Quantity& q :
-       std::vector<Quantity>{{"shear_stress_over_imposed", "-", r.stress_ratio.mean},
-                             {"shear_stress_over_imposed_error", "-", r.stress_ratio.error},
-                             {"normal_stress_difference_1", "Pa", r.normal_1.mean},
-                             {"normal_stress_difference_1_error", "Pa", r.normal_1.error},
-                             {"normal_stress_difference_2", "Pa", r.normal_2.mean},
-                             {"normal_stress_difference_2_error", "Pa", r.normal_2.error},
-                             {"pressure", "Pa", r.pressure},
-                             {"grain_concentration", "-", r.concentration},
-                             {"blocks", "-", double(r.blocks)},
-                             {"samples", "-", double(r.samples)}})
+  if (!images) {
+    out.push_back({"shear_stress_over_imposed", "-", r.stress_ratio.mean});
+    out.push_back({"shear_stress_over_imposed_error", "-", r.stress_ratio.error});
+  }
+  for (const Quantity& q : std::vector<Quantity>{{"normal_stress_difference_1", "Pa", r.normal_1.mean},
+                                                 {"normal_stress_difference_1_error", "Pa", r.normal_1.error},
+                                                 {"normal_stress_difference_2", "Pa", r.normal_2.mean},
+                                                 {"normal_stress_difference_2_error", "Pa", r.normal_2.error},
+                                                 {"pressure", "Pa", r.pressure},
+                                                 {"grain_concentration", "-", r.concentration},
+                                                 {"blocks", "-", double(r.blocks)},
+                                                 {"samples", "-", double(r.samples)}})
     out.push_back(q);
   return out;
 }

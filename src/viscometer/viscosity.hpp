@@ -29,11 +29,13 @@ struct ProfileRow {
 };
 
 struct ViscosityResult {
-  Measured viscosity;             ///< Pa s
-  double r_squared = 0;           ///< of the whole profile, of halves laid on each other
-  double imposed = 0;             ///< force density, N/m3; Couette: shear stress on the walls, Pa
-  double peak = 0;                ///< fastest layer, m/s; Couette: of the walls against each other
-  double reynolds = 0, mach = 0;  ///< by mean speed and gap; by peak and sound
+  Measured viscosity;    ///< Pa s
+  double r_squared = 0;  ///< of the whole profile, of halves laid on each other
+  double imposed = 0;    ///< force density, N/m3; Couette: shear stress on the walls, Pa; Lees-Edwards:
+                         ///< shear stress, Pa
+  double peak = 0;       ///< fastest layer, m/s; Couette and Lees-Edwards: of the ends against each other
+  double reynolds = 0, mach = 0;  ///< by mean speed and gap; by peak and sound, Lees-Edwards: by what the
+                                  ///< shear comes to over the kernel's reach
   double drift = 0,
          drift_limit = 0;  ///< of the viscosity from the first half of the blocks to the second, relative
   double slip_length = 0;  ///< walls: mean distance behind them at which the fit moves along with them, m

@@ -37,6 +37,8 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"hydrostatic_column/stretched.toml", {468, 0}},
       {"injection_cell/case.toml", {0, 4948}},
       {"injection_cell/coarse.toml", {0, 618, {"fluid.c_factor"}}},
+      {"lees_edwards/case.toml", {10 * 10 * 10, 0}},
+      {"lees_edwards/wcsph.toml", {10 * 10 * 10, 0}},
       {"minimum_fluidisation/case.toml", {4200, 1800, {"grain.E"}}},
       {"oblique_impact/case.toml", {0, 36}},
       {"oscillating_drop/case.toml", {8848, 0}},

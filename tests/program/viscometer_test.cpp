@@ -61,6 +61,15 @@ faces = ["z-", "z+"]
 )";
 }
 
+/// Between images 7 apart that move at 1.4 against each other; the fluid starts at rest.
+std::string between_images() {
+  std::string text = kReverse;
+  for (std::size_t at; (at = text.find("20]")) != std::string::npos;) text.replace(at, 2, "7");
+  text.replace(text.find("[drive]"), text.find("[time]") - text.find("[drive]"), "");
+  text.replace(text.find("end = 72"), 8, "end = 12");
+  return text.replace(text.find("periodic"), 0, "shear_rate = 0.2\n");
+}
+
 class ViscometerTest : public ProgramTest {
  protected:
   nlohmann::json measured(const std::string& text, const std::string& options = "") {
@@ -116,6 +125,18 @@ surface_velocity = [0.3, 0, 0]
   EXPECT_NEAR(value(couette, "viscosity") / 2, 1, 0.02);
   EXPECT_NEAR(value(couette, "wall_shear_stress"), 2 * 0.03, 2 * 0.03 * 0.03);
   EXPECT_NEAR(value(couette, "shear_stress_over_imposed"), 1, 0.01);
+}
+
+TEST_F(ViscometerTest, FindsItBetweenImagesThatMove) {
+  for (const std::string options :
+       {"--set fluid.h_over_dx=1.2",
+        "--set fluid.model=sdpd_a --set fluid.kernel=lucy --set fluid.h_over_dx=2.5 "
+        "--set time.friction=0.4"}) {
+    const auto m = measured(between_images() + (options.find("sdpd") == options.npos ? "" : kSdpd), options);
+    EXPECT_NEAR(value(m, "viscosity") / 2, 1, 0.03) << options;
+    EXPECT_NEAR(value(m, "shear_stress"), 0.2 * value(m, "viscosity"), 1e-6) << options;
+    EXPECT_GT(value(m, "r_squared"), 0.99) << options;
+  }
 }
 
 TEST_F(ViscometerTest, RefusesWithASentence) {

@@ -86,6 +86,17 @@ TEST(ViscometerCase, IsDecidedFromTheCase) {
       flow_of(kWalled, {"wall.body.1.surface_velocity=[0,0,0]", "wall.body.0.motion.kind=velocity",
                         "wall.body.0.motion.velocity=[0.02,0,0]"});
   EXPECT_DOUBLE_EQ(moved.relative_speed, -0.02);
+
+  const PlaneFlow images = flow_of(
+      kReverse, {"drive.f=[0,0,0]", "drive.opposed=none", "domain.shear_rate=0.5", "fluid.h_over_dx=1.2"});
+  EXPECT_EQ(images.kind, PlaneFlowKind::lees_edwards);
+  EXPECT_EQ(images.along, 0);
+  EXPECT_EQ(images.gradient, 2);
+  EXPECT_DOUBLE_EQ(images.gap(), 0.4);
+  EXPECT_DOUBLE_EQ(images.relative_speed, 0.2);
+  EXPECT_DOUBLE_EQ(images.area, 0.06);
+  EXPECT_DOUBLE_EQ(images.relaxation(2), 0.4 * 0.4 / (4 * M_PI * M_PI * 2)) << "of a wave of that length";
+  EXPECT_DOUBLE_EQ(couette.relaxation(2), 0.4 * 0.4 / (M_PI * M_PI * 2));
 }
 
 struct Refused {

@@ -19,9 +19,11 @@ struct DomainConfig {
   Vec3d min, max;                              ///< m
   std::array<bool, 3> periodic{false, false, false};
   bool two_d = false;                          ///< flow in the plane of x and z, the same at every y
+  double shear_rate = 0;                       ///< of Lees-Edwards boundaries, dv_x / dz, 1/s; 0: none
   double thickness() const { return two_d ? max.y - min.y : 0; }  ///< of the plane flow, m; 0 in 3-D
   double middle() const { return 0.5 * (min.y + max.y); }         ///< y of the plane, m
   bool flat(int k) const { return two_d && k == 1; }              ///< whether nothing changes along axis k
+  bool sheared() const { return shear_rate != 0; }
   /// Spacing of a lattice along axis k: a plane flow has one layer.
   double spacing_along(int k, double spacing) const { return flat(k) ? thickness() : spacing; }
   /// What a particle of a lattice of that spacing stands for, m3.

@@ -305,6 +305,34 @@ struct LengthNear {
   BL_HD Real own(Index i) const { return h_a ? h_a[i] : reaches.other; }
 };
 
+/// SphNear among positions that are sheared back by `strain` (MeanShear), by true distances.
+template <class PA>
+struct ShearedNear {
+  SphNear<PA> near;
+  Real strain;
+  double longest;  ///< that near.range may be among such positions, m
+  BL_HD Vec3d place(Index i) const { return near.place(i); }
+  BL_HD double reach(Index) const { return longest; }
+  BL_HD bool operator()(Index i, Index j) const {
+    return !(near.same && i == j) && distance2(i, near.b[j]) < Real(near.range * near.range);
+  }
+#if !BL_CUDA
+  PackMask lanes(Index i, PackRun j) const {
+    PackMask listed = distance2(i, near.b[j]) < Real(near.range * near.range);
+    if (near.same && i - j.first < Index(kLanes)) listed.v[i - j.first] = 0;
+    return listed;
+  }
+#endif
+
+ private:
+  template <class Source>
+  BL_HD auto distance2(Index i, const Source& source) const {
+    auto r = near.frame.separation(near.a[i], source);
+    r.x += strain * r.z;
+    return norm2(r);
+  }
+};
+
 /// Pairs across the phases closer than `range`, in fp64.
 template <class PA, class PB>
 struct CrossNear {

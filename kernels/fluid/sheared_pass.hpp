@@ -1,0 +1,62 @@
+#pragma once
+#include "bedload/core/mean_shear.hpp"
+#include "kernels/fluid/density_pass.hpp"
+#include "kernels/sdpd/kernel_sums.hpp"
+#include "kernels/stress/fluid_stress.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// A pass over pairs of fluid that is sheared as a whole (MeanShear): of positions that are sheared back and
+/// peculiar velocities, which loops bring, it makes true separations and velocities relative to the row's.
+template <class Pass>
+struct ShearedPass {
+  Pass pass;
+  Real strain, rate;  ///< -, 1/s
+
+  template <class N = Real>
+  using Sum = typename Pass::template Sum<N>;
+
+  BL_HD Sum<> start(Index a) const { return pass.start(a); }
+  BL_HD auto sources() const { return pass.sources(); }
+  /// Of passes that read velocities, as the first of their sources.
+  template <class N, class... Of>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& lattice, N, N M, const Vec4<N>& vb, const Of&... of_b) const {
+    const Vec3<N> r = separation(lattice);
+    pass.pair(sum, r, norm2(r), M, Vec4<N>{vb.x - rate * r.z, vb.y, vb.z, vb.w}, of_b...);
+  }
+  template <class N, class... Of>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& lattice, N, N M, const Of&... of_b) const {
+    const Vec3<N> r = separation(lattice);
+    pass.pair(sum, r, norm2(r), M, of_b...);
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const { pass.merge(into, other); }
+  BL_HD void finish(Index a, const Sum<>& sum) const { pass.finish(a, sum); }
+
+ private:
+  template <class N>
+  BL_HD Vec3<N> separation(const Vec3<N>& lattice) const {
+    return {lattice.x + strain * lattice.z, lattice.y, lattice.z};
+  }
+};
+
+/// Which passes are built for sheared fluid, too: those of one fluid alone with one smoothing length.
+template <class Pass>
+constexpr bool kBearsShear = false;
+template <class W, class Shift, bool kSmooth>
+constexpr bool kBearsShear<DensityPass<W, Shift, kSmooth, false, OneLength>> = true;
+template <class W, bool kArtificial>
+constexpr bool kBearsShear<ForcePass<W, kArtificial, false, false, OneLength>> = true;
+template <class Force>
+constexpr bool kBearsShear<StressPass<Force>> = kBearsShear<Force>;
+template <class W>
+constexpr bool kBearsShear<ContinuityPass<W>> = true;
+template <class W>
+constexpr bool kBearsShear<SummationPass<W, false>> = true;
+template <class W>
+constexpr bool kBearsShear<ShepardPass<W>> = true;
+template <class W, bool kSpin, bool kNoise>
+constexpr bool kBearsShear<SdpdForcePass<W, kSpin, kNoise, false>> = true;
+template <class Force, bool kNoise>
+constexpr bool kBearsShear<SdpdStressPass<Force, kNoise>> = kBearsShear<Force>;
+
+}  // namespace bedload::inline BL_VARIANT
