@@ -1,0 +1,56 @@
+// Contacts of grains with walls: which code evaluates them.
+#include <algorithm>
+#include <type_traits>
+
+#include "src/solids/solid_solver.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+WallMemory* const* SolidSolver::wall_memories() const {
+  std::vector<WallMemory*> now;
+  for (const auto& field : wall_memory_) now.push_back(field->buffer().data());
+  if (now != memory_pointers_) {
+    memory_pointers_ = now;
+    device_memory_pointers_.assign(memory_pointers_);
+  }
+  return device_memory_pointers_.data();
+}
+
+WallContacts SolidSolver::wall_contacts(const GrainStore& g, const BodyPose* poses, double dt) const {
+  return {.frame = frame_,
+          .mass_per_r3 = matter_.of(g),
+          .dt = Real(dt),
+          .x = g.x.span(),
+          .v = g.v.span(),
+          .omega = g.omega.span(),
+          .radius = g.radius.span(),
+          .walls = walls_.view(),
+          .memory = wall_memories(),
+          .count = wall_contacts_ ? wall_contacts_->buffer().data() : nullptr,
+          .capacity = walls_.contacts(),
+          .laws = wall_laws_.data(),
+          .materials = matter_.materials(),
+          .poses = poses,
+          .free_bodies = bodies_ ? bodies_->constants() : nullptr,
+          .lubrication = films_,
+          .wetness = g.wetness.span()};
+}
+
+void SolidSolver::touch_walls(const WallContacts& contacts, const TouchLoads& loads) {
+  // few grains would wait for the one that touches several walls; what moves bodies is recorded by one thread
+  const unsigned bits = loads ? 0 : std::min(lane_bits(4 * wall_list_.size()), 2u);
+  const Range lanes{0, wall_list_.size() << bits};
+  const auto run = [&]<class Scope>(std::type_identity<Scope>) {
+    for_each_early(lanes, WallContactPass<Scope>{contacts, wall_list_.rows(), bits, by_walls_.data(), loads});
+  };
+  with_surface_kinds(walls_.surfaces(), [&]<class Kinds>(std::type_identity<Kinds>) {
+    if constexpr (std::is_same_v<Kinds, FlatKinds>)
+      if (!bodies_ || !bodies_->any())
+        return with_contact_law(all_wall_laws_, [&]<class Law>(std::type_identity<Law>) {
+          run(std::type_identity<WallScope<Law, Kinds, false>>{});
+        });
+    run(std::type_identity<WallScope<ContactLaw, Kinds, true>>{});
+  });
+}
+
+}  // namespace bedload::inline BL_VARIANT
