@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "bedload/core/error.hpp"
@@ -11,6 +12,7 @@
 #include "commit.hpp"
 #include "list.hpp"
 #include "shell.hpp"
+#include "src/live/server.hpp"
 
 namespace bedload {
 namespace {
@@ -95,6 +97,28 @@ void add_results_options(CLI::App& app, Options& o) {
   app.add_flag("--quiet", o.quiet, "Print nothing but results, warnings and errors");
 }
 
+/// A port, or none for the default one.
+void add_live(CLI::App& run, Options& o) {
+  run.add_option_function<std::string>(
+         "--live",
+         [&o](const std::string& port) {
+           o.live = LiveServer::kDefaultPort;
+           if (port.empty()) return;
+           const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), *o.live);
+           const bool free = *o.live == 0,
+                      within = *o.live >= LiveServer::kLeastPort && *o.live <= LiveServer::kMostPort;
+           if (error != std::errc() || end != port.data() + port.size() || !(free || within))
+             throw CLI::ValidationError(
+                 "--live", fmt::format("{} is no port within {}..{}, nor 0 for any that is free", port,
+                                       LiveServer::kLeastPort, LiveServer::kMostPort));
+         },
+         fmt::format(
+             "Show the run in a browser on this machine, at 127.0.0.1 and this port; {} if none is named",
+             LiveServer::kDefaultPort))
+      ->expected(0, 1)
+      ->type_name("[PORT]");
+}
+
 void add_run(CLI::App& app, Options& o, std::string& precision, bool& force_dt) {
   CLI::App* run = app.add_subcommand("run", "Run a case");
   add_case_options(*run, o, precision, force_dt);
@@ -102,6 +126,7 @@ void add_run(CLI::App& app, Options& o, std::string& precision, bool& force_dt) 
   run->add_option("--restart", o.restart,
                   "Go on from this checkpoint; latest: the newest in the results folder")
       ->type_name("FILE");
+  add_live(*run, o);
   run->add_flag("--allow-changes", o.allow_changes,
                 "Go on though the case computes otherwise than the checkpoint's");
 }

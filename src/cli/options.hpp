@@ -31,6 +31,7 @@ struct Options {
   int threads = 0;                     ///< 0: all
   bool quiet = false, overwrite = false;
   bool allow_changes = false;  ///< goes on from a checkpoint of a case that computes otherwise
+  std::optional<int> live;     ///< of run: port of a live view, 0 for any; none: there is none
   bool relative = false;       ///< of viscometer: runs the case without its grains, too
   BenchOptions bench;
   std::string family;  ///< of list

@@ -30,43 +30,51 @@ std::string ProgressLine::text() const {
       duration_text(seconds_left));
 }
 
-Progress::Progress(bool quiet, double begin, double end)
-    : quiet_(quiet),
-      terminal_(isatty(STDOUT_FILENO)),
-      begin_(begin),
-      end_(end),
-      shown_(Clock::now()),
-      shown_time_(begin) {}
+ProgressMeter::ProgressMeter(double begin, double end, std::int64_t steps)
+    : begin_(begin), end_(end), time_(begin), steps_(steps) {}
 
-void Progress::update(const StepInfo& info, std::int64_t particle_steps) {
-  if (quiet_) return;
-  if (shown_steps_ < 0) shown_steps_ = info.step - 1;
+double ProgressMeter::waited() const {
+  return std::chrono::duration<double>(Clock::now() - read_at_).count();
+}
+
+double ProgressMeter::fraction(double time) const {
+  return end_ > begin_ ? std::clamp((time - begin_) / (end_ - begin_), 0.0, 1.0) : 1;
+}
+
+ProgressLine ProgressMeter::read(const StepInfo& info, std::int64_t particle_steps) {
   const auto now = Clock::now();
-  const double passed = std::chrono::duration<double>(now - shown_).count();
-  if (passed < (terminal_ ? kLiveInterval : kPlainInterval) && info.time < end_) return;
-
+  const double passed = std::chrono::duration<double>(now - read_at_).count();
   ProgressLine line{.time = info.time, .end = end_, .dt = info.dt, .limit = info.limit};
-  line.fraction = end_ > begin_ ? std::clamp((info.time - begin_) / (end_ - begin_), 0.0, 1.0) : 1;
+  line.fraction = fraction(info.time);
   if (passed > 0) {
-    line.steps_per_second = double(info.step - shown_steps_) / passed;
-    line.particle_steps_per_second = double(particle_steps - shown_particle_steps_) / passed;
-    const double speed = (info.time - shown_time_) / passed;
+    line.steps_per_second = double(info.step - steps_) / passed;
+    line.particle_steps_per_second = double(particle_steps - particle_steps_) / passed;
+    const double speed = (info.time - time_) / passed;
     speed_ = speed_ == 0 ? speed : 0.9 * speed_ + 0.1 * speed;
   }
   if (speed_ > 0) line.seconds_left = std::max(0.0, end_ - info.time) / speed_;
-  show(line.text());
-  shown_ = now;
-  shown_time_ = info.time;
-  shown_steps_ = info.step;
-  shown_particle_steps_ = particle_steps;
+  read_at_ = now;
+  time_ = info.time;
+  steps_ = info.step;
+  particle_steps_ = particle_steps;
+  return line;
+}
+
+Progress::Progress(bool quiet, double begin, double end, std::int64_t steps)
+    : quiet_(quiet), terminal_(isatty(STDOUT_FILENO)), meter_(begin, end, steps), noted_(Clock::now()) {}
+
+void Progress::update(const StepInfo& info, std::int64_t particle_steps) {
+  if (quiet_) return;
+  if (meter_.waited() < (terminal_ ? kLiveInterval : kPlainInterval) && info.time < meter_.end()) return;
+  show(meter_.read(info, particle_steps).text());
 }
 
 void Progress::note(const std::string& text) {
   if (quiet_) return;
   const auto now = Clock::now();
-  if (std::chrono::duration<double>(now - shown_).count() < (terminal_ ? kLiveInterval : kPlainInterval))
+  if (std::chrono::duration<double>(now - noted_).count() < (terminal_ ? kLiveInterval : kPlainInterval))
     return;
-  shown_ = now;
+  noted_ = now;
   show(text);
 }
 

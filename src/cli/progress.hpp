@@ -25,10 +25,32 @@ struct ProgressLine {
   std::string text() const;
 };
 
+/// How fast a run goes on, from one reading to the next.
+class ProgressMeter {
+ public:
+  /// Times of its beginning and its end, s; steps done before.
+  ProgressMeter(double begin, double end, std::int64_t steps);
+  /// Wall time since the last reading, s.
+  double waited() const;
+  /// After a step; `particle_steps` so far.
+  ProgressLine read(const StepInfo& info, std::int64_t particle_steps);
+  double end() const { return end_; }
+  /// How much of the run is done at that time, 0..1.
+  double fraction(double time) const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double begin_, end_;
+  Clock::time_point read_at_ = Clock::now();
+  double time_;
+  std::int64_t steps_, particle_steps_ = 0;
+  double speed_ = 0;  ///< simulated s per s, smoothed
+};
+
 /// Rewrites one line on a terminal four times a second, or prints a line now and then.
 class Progress {
  public:
-  Progress(bool quiet, double begin, double end);
+  Progress(bool quiet, double begin, double end, std::int64_t steps = 0);
   /// After every step; `particle_steps` so far.
   void update(const StepInfo& info, std::int64_t particle_steps);
   /// A line of its own, e.g. while grains settle.
@@ -41,11 +63,8 @@ class Progress {
   void show(const std::string& line);
 
   bool quiet_, terminal_, open_line_ = false;
-  double begin_, end_;
-  Clock::time_point shown_;
-  double shown_time_ = 0;
-  std::int64_t shown_steps_ = -1, shown_particle_steps_ = 0;
-  double speed_ = 0;  ///< simulated s per s, smoothed
+  ProgressMeter meter_;
+  Clock::time_point noted_;
 };
 
 }  // namespace bedload

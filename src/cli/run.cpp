@@ -11,6 +11,7 @@
 #include "progress.hpp"
 #include "run.hpp"
 #include "session.hpp"
+#include "src/live/server.hpp"
 #include "stop.hpp"
 
 namespace bedload {
@@ -31,10 +32,11 @@ std::string fractions_text(const std::vector<Quantity>& parts, double all) {
 
 class Run {
  public:
-  Run(const Options& options, Prepared prepared, RunWatcher* watcher)
+  Run(const Options& options, Prepared prepared, RunWatcher* watcher, LiveView* live)
       : options_(options),
         p_(std::move(prepared)),
         watcher_(watcher),
+        live_(live),
         end_(options.until.value_or(p_.config.time.end)) {
     if (end_ < p_.begin)
       throw CaseError(fmt::format("{}: {} = {} s lies before the checkpoint's time, {} s",
@@ -60,13 +62,20 @@ class Run {
 
   int steps() {
     Simulation& simulation = session_->simulation();
-    Progress progress(options_.quiet, simulation.time(), end_);
+    Progress progress(options_.quiet, simulation.time(), end_, simulation.steps());
+    if (live_) {
+      live_->begin(session_->prepared().config, session_->prepared().device, simulation, end_);
+      session_->output()->watch_rows([this](const std::string& table, double time, const auto& row) {
+        live_->add_row(table, time, row);
+      });
+    }
     try {
       session_->begin();
       while (simulation.time() < end_ && !stop_requested()) {
         const StepInfo info = session_->step();
         if (watcher_) watcher_->after_step(simulation, info);
         progress.update(info, session_->effort().particle_steps);
+        if (live_) live_->after_step(simulation, info, session_->effort().particle_steps);
       }
       progress.close();
       if (watcher_ && simulation.time() >= end_) take(watcher_->findings());
@@ -103,6 +112,10 @@ class Run {
       say(fmt::format("of it      {}\n", fractions_text(simulation.time_spent(), effort.wall_seconds)));
     }
     const bool lost = losses();
+    if (live_)
+      live_->end(stopped ? "stopped" : "completed",
+                 lost ? "More than run.max_lost has left the domain where there is no outlet." : "",
+                 &simulation);
     return stopped ? kExitStopped : lost ? kExitLost : 0;
   }
 
@@ -162,14 +175,15 @@ class Run {
   const Options& options_;
   Prepared p_;
   RunWatcher* watcher_;  ///< null: nobody looks on
+  LiveView* live_;       ///< null: there is none
   double end_;
   std::optional<Session> session_;
 };
 
 }  // namespace
 
-int run_prepared(const Options& options, Prepared prepared, RunWatcher* watcher) {
-  Run run(options, std::move(prepared), watcher);
+int run_prepared(const Options& options, Prepared prepared, RunWatcher* watcher, LiveView* live) {
+  Run run(options, std::move(prepared), watcher, live);
   const FolderLock lock(options.out);  // before hours go into settling
   refuse_other_run(options);           // that has come and gone meanwhile
   return run.go();
@@ -180,7 +194,20 @@ int run_case(const Options& given) {
   Options options = given;
   if (options.restart == "latest") options.restart = latest_checkpoint(options.out);
   refuse_other_run(options);  // before time goes into placing particles
-  return run_prepared(options, prepare(options));
+  if (!options.live) return run_prepared(options, prepare(options));
+
+  LiveServer server(*options.live, case_name(options.file));
+  if (!options.quiet) fmt::print("live       {}\n", server.address());
+  std::fflush(stdout);
+  try {
+    return run_prepared(options, prepare(options), nullptr, &server.view());
+  } catch (const std::exception& error) {
+    server.view().end("failed", error.what());
+    throw;
+  } catch (const Stopped&) {
+    server.view().end("stopped", "Before t = 0.");
+    throw;
+  }
 }
 
 }  // namespace bedload

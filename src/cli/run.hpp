@@ -27,7 +27,10 @@ class RunWatcher {
   virtual RunFindings findings() = 0;
 };
 
+class LiveView;
+
 /// Runs a case that is read and whose particles are placed; returns the exit code, as run_case.
-int run_prepared(const Options& options, Prepared prepared, RunWatcher* watcher = nullptr);
+int run_prepared(const Options& options, Prepared prepared, RunWatcher* watcher = nullptr,
+                 LiveView* live = nullptr);
 
 }  // namespace bedload

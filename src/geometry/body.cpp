@@ -212,6 +212,11 @@ MassProperties mass_properties(const WallBody& body, const DomainConfig& domain)
   return out;
 }
 
+Vec3d turning_centre(const FreeConfig& free) {
+  const bool held = free.move == "none" && free.point.size() == 3;
+  return held ? Vec3d{free.point[0], free.point[1], free.point[2]} : free.solid.centre;
+}
+
 PrincipalInertia principal_inertia(const std::array<double, 6>& j) {
   Eigen::Matrix3d m;
   m << j[0], j[3], j[4], j[3], j[1], j[5], j[4], j[5], j[2];

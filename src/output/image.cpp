@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 
 #include "bedload/core/error.hpp"
 #include "font.hpp"
@@ -35,20 +36,44 @@ void Image::text(int x, int y, std::string_view text, const Colour& colour, int 
   }
 }
 
-void Image::write_png(const std::filesystem::path& path) const {
+namespace {
+
+/// What libpng needs to know of an image, and its bytes.
+struct PngImage {
+  png_image head;
   std::vector<png_byte> bytes;
-  bytes.reserve(3 * pixels_.size());
-  for (const Colour& c : pixels_)
-    for (const float part : {c.r, c.g, c.b})
-      bytes.push_back(png_byte(std::lround(255 * std::clamp(part, 0.0f, 1.0f))));
-  png_image png;
-  std::memset(&png, 0, sizeof png);
-  png.version = PNG_IMAGE_VERSION;
-  png.width = png_uint_32(width_);
-  png.height = png_uint_32(height_);
-  png.format = PNG_FORMAT_RGB;
-  if (!png_image_write_to_file(&png, path.c_str(), 0, bytes.data(), 0, nullptr))
-    throw FileError(fmt::format("{}: cannot write: {}", path.string(), png.message));
+
+  PngImage(int width, int height, const std::vector<Colour>& pixels) {
+    bytes.reserve(3 * pixels.size());
+    for (const Colour& c : pixels)
+      for (const float part : {c.r, c.g, c.b})
+        bytes.push_back(png_byte(std::lround(255 * std::clamp(part, 0.0f, 1.0f))));
+    std::memset(&head, 0, sizeof head);
+    head.version = PNG_IMAGE_VERSION;
+    head.width = png_uint_32(width);
+    head.height = png_uint_32(height);
+    head.format = PNG_FORMAT_RGB;
+  }
+};
+
+}  // namespace
+
+std::string Image::png() const {
+  PngImage image(width_, height_, pixels_);
+  image.head.flags = PNG_IMAGE_FLAG_FAST;
+  std::string out;
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image.head);
+  out.resize(size);
+  if (!png_image_write_to_memory(&image.head, out.data(), &size, 0, image.bytes.data(), 0, nullptr))
+    throw std::runtime_error(image.head.message);
+  out.resize(size);
+  return out;
+}
+
+void Image::write_png(const std::filesystem::path& path) const {
+  PngImage image(width_, height_, pixels_);
+  if (!png_image_write_to_file(&image.head, path.c_str(), 0, image.bytes.data(), 0, nullptr))
+    throw FileError(fmt::format("{}: cannot write: {}", path.string(), image.head.message));
 }
 
 double mark_distance(double length) {

@@ -13,9 +13,7 @@
 namespace bedload {
 namespace {
 
-constexpr double kFluidRadius = 0.71;  // spacings; no gaps between spheres on a lattice
-constexpr Colour kPaper{1, 1, 1}, kInk{0.15f, 0.17f, 0.2f}, kFrame{0.72f, 0.74f, 0.77f};
-constexpr Colour kFluid{0.2f, 0.55f, 0.95f}, kWall{0.35f, 0.38f, 0.45f}, kMoving{0.85f, 0.25f, 0.15f};
+constexpr Colour kInk{0.15f, 0.17f, 0.2f}, kFrame{0.72f, 0.74f, 0.77f}, kFluid{0.2f, 0.55f, 0.95f};
 constexpr Colour kGrain{0.9f, 0.68f, 0.36f}, kSmall{1.0f, 0.85f, 0.5f}, kLarge{0.5f, 0.22f, 0.1f};
 
 void stretch(Scene& scene, const std::vector<Sphere>& spheres) {
@@ -24,14 +22,6 @@ void stretch(Scene& scene, const std::vector<Sphere>& spheres) {
       scene.min[k] = std::min(scene.min[k], s.x[k] - s.radius);
       scene.max[k] = std::max(scene.max[k], s.x[k] + s.radius);
     }
-}
-
-/// Spacing of one layer of particles below the surfaces, fine enough for a picture of all that there is, m.
-double surface_spacing(const Config& config, double at_least) {
-  double largest = norm(config.domain.max - config.domain.min);
-  for (const WallBody& body : config.wall.bodies)
-    if (body.shape != "plane") largest = std::max(largest, norm(body.max - body.min));
-  return std::max(at_least, largest / 400);
 }
 
 Scene scene_of(const Config& config, const Setup& setup, const Setup::Walls& walls, double spacing) {
@@ -55,21 +45,6 @@ Scene scene_of(const Config& config, const Setup& setup, const Setup::Walls& wal
 }
 
 Vec3d axis(int k) { return {k == 0 ? 1.0 : 0.0, k == 1 ? 1.0 : 0.0, k == 2 ? 1.0 : 0.0}; }
-
-/// Which axes of the case run along, up and into the picture seen from the front.
-struct Axes {
-  int along = 0, up = 2, into = 1;
-  double sign = 1;  // of up
-
-  explicit Axes(const Vec3d& gravity) {
-    if (norm(gravity) == 0) return;
-    for (int k = 0; k < 3; ++k)
-      if (std::abs(gravity[k]) > std::abs(gravity[up])) up = k;
-    along = up == 0 ? 1 : 0;
-    into = 3 - up - along;
-    sign = gravity[up] > 0 ? -1 : 1;
-  }
-};
 
 /// Millimetres, or metres for what is larger than one.
 struct Lengths {
@@ -97,27 +72,21 @@ class Picture {
     const double space_y = (strip ? 0.5 * kHeight : kHeight) - top - bottom - gap;
     const double scale = std::min(space_x / wide, space_y / high);
 
-    const Vec3d along = axis(axes_.along), up = axes_.sign * axis(axes_.up);
-    const Vec3d front = cross(along, up);
     const int across = std::max(1, int(std::lround(scale * wide)));
     int y = top;
-    y += flat({along, up, front}, axes_.up, left, y, across, scale, "From the front") + gap;
-    y += flat({along, cross(up, along), up}, axes_.into, left, y, across, scale, "From above") + bottom;
+    y += flat(axes_.front(), axes_.up, left, y, across, scale, "From the front") + gap;
+    y += flat(axes_.above(), axes_.into, left, y, across, scale, "From above") + bottom;
 
     if (strip)
-      perspective(kMargin, y, kWidth - 2 * kMargin, kHeight - y - kMargin, along, up, front);
+      perspective(kMargin, y, kWidth - 2 * kMargin, kHeight - y - kMargin);
     else
-      perspective(left + across + kMargin, top, kWidth - left - across - 2 * kMargin, kHeight - top - kMargin,
-                  along, up, front);
+      perspective(left + across + kMargin, top, kWidth - left - across - 2 * kMargin,
+                  kHeight - top - kMargin);
     return image_;
   }
 
  private:
   static constexpr int kWidth = 1800, kHeight = 1100, kMargin = 40;
-
-  struct Sides {
-    Vec3d right, up, toward;
-  };
 
   void title(const Counts& n) {
     image_.text(kMargin, 24, config_.title.empty() ? "Case" : config_.title, kInk, 3);
@@ -190,13 +159,9 @@ class Picture {
       image_.text(x0 + width - text_width(letter), y0 + height + 33, letter, kInk);
   }
 
-  void perspective(int x0, int y0, int width, int height, const Vec3d& along, const Vec3d& up,
-                   const Vec3d& front) {
-    Vec3d toward = 0.55 * along + 0.8 * front + 0.5 * up;
-    toward = toward / norm(toward);
-    Vec3d right = cross(up, toward);
-    right = right / norm(right);
-    View view{right, cross(toward, right), toward, 0.5 * (scene_.min + scene_.max), 2.2 * norm(size_)};
+  void perspective(int x0, int y0, int width, int height) {
+    const Sides sides = axes_.aslant();
+    View view{sides.right, sides.up, sides.toward, 0.5 * (scene_.min + scene_.max), 2.2 * norm(size_)};
     fit(view, scene_, width, height);
     put(render(scene_, view, width, height, kPaper), x0, y0);
     const auto length = [&](double l) { return fmt::format("{:.3g}", l * lengths_.factor); };
@@ -214,6 +179,41 @@ class Picture {
 };
 
 }  // namespace
+
+Axes::Axes(const Vec3d& gravity) {
+  if (norm(gravity) == 0) return;
+  for (int k = 0; k < 3; ++k)
+    if (std::abs(gravity[k]) > std::abs(gravity[up])) up = k;
+  along = up == 0 ? 1 : 0;
+  into = 3 - up - along;
+  sign = gravity[up] > 0 ? -1 : 1;
+}
+
+Sides Axes::front() const {
+  const Vec3d right = axis(along), upward = sign * axis(up);
+  return {right, upward, cross(right, upward)};
+}
+
+Sides Axes::above() const {
+  const Sides f = front();
+  return {f.right, cross(f.up, f.right), f.up};
+}
+
+Sides Axes::aslant() const {
+  const Sides f = front();
+  Vec3d toward = 0.55 * f.right + 0.8 * f.toward + 0.5 * f.up;
+  toward = toward / norm(toward);
+  Vec3d right = cross(f.up, toward);
+  right = right / norm(right);
+  return {right, cross(toward, right), toward};
+}
+
+double surface_spacing(const Config& config, double at_least) {
+  double largest = norm(config.domain.max - config.domain.min);
+  for (const WallBody& body : config.wall.bodies)
+    if (body.shape != "plane") largest = std::max(largest, norm(body.max - body.min));
+  return std::max(at_least, largest / 400);
+}
 
 Setup::Walls wall_surfaces(const Config& config, double at_least) {
   const double spacing = surface_spacing(config, at_least);

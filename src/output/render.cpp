@@ -7,7 +7,6 @@
 namespace bedload {
 namespace {
 
-constexpr int kFine = 2;                                 // pixels are computed this many times finer each way
 constexpr float kThinFluid = 0.25f, kThickFluid = 0.7f;  // how much of a grain the fluid in front of it hides
 constexpr double kThick = 5;                             // diameters of fluid in between
 constexpr float kFluidOverWalls = 0.85f;
@@ -44,16 +43,17 @@ struct Haze {
 
 class Renderer {
  public:
-  Renderer(const Scene& scene, const View& view, int width, int height, Colour background)
+  Renderer(const Scene& scene, const View& view, int width, int height, Colour background, int fine)
       : view_(view),
-        width_(kFine * width),
-        height_(kFine * height),
+        fine_(fine),
+        width_(fine * width),
+        height_(fine * height),
         background_(background),
         grains_(pixels()),
         fluid_(pixels()),
         front_(pixels()),
         behind_(pixels()) {
-    view_.scale *= kFine, view_.x0 *= kFine, view_.y0 *= kFine;
+    view_.scale *= fine, view_.x0 *= fine, view_.y0 *= fine;
     if (!scene.fluid.empty()) thick_ = float(2 * kThick * scene.fluid.front().radius);
     measure_depth(scene);
     for (const Sphere& s : scene.grains) add_solid(grains_, s);
@@ -62,15 +62,15 @@ class Renderer {
   }
 
   Image picture() const {
-    Image out(width_ / kFine, height_ / kFine, background_);
+    Image out(width_ / fine_, height_ / fine_, background_);
+    const float weight = 1.0f / float(fine_ * fine_);
     for (int y = 0; y < out.height(); ++y)
       for (int x = 0; x < out.width(); ++x) {
         Colour sum;
-        for (int n = 0; n < kFine * kFine; ++n) {
-          const Colour c = colour_at(std::size_t(y * kFine + n / kFine) * width_ + x * kFine + n % kFine);
+        for (int n = 0; n < fine_ * fine_; ++n) {
+          const Colour c = colour_at(std::size_t(y * fine_ + n / fine_) * width_ + x * fine_ + n % fine_);
           sum = {sum.r + c.r, sum.g + c.g, sum.b + c.b};
         }
-        constexpr float weight = 1.0f / (kFine * kFine);
         out.set(x, y, {weight * sum.r, weight * sum.g, weight * sum.b});
       }
     return out;
@@ -143,7 +143,7 @@ class Renderer {
   }
 
   View view_;
-  int width_, height_;
+  int fine_, width_, height_;
   Colour background_;
   Layer grains_, fluid_;
   Haze front_, behind_;
@@ -178,8 +178,8 @@ void fit(View& view, const Scene& scene, int width, int height) {
   view.y0 = 0.5 * height - 0.5 * view.scale * (y[0] + y[1]);
 }
 
-Image render(const Scene& scene, const View& view, int width, int height, Colour background) {
-  return Renderer(scene, view, width, height, background).picture();
+Image render(const Scene& scene, const View& view, int width, int height, Colour background, int fine) {
+  return Renderer(scene, view, width, height, background, fine).picture();
 }
 
 }  // namespace bedload

@@ -42,7 +42,7 @@ struct View {
 /// Makes `view` show `scene` as large as width x height pixels allow, in their middle.
 void fit(View& view, const Scene& scene, int width, int height);
 
-/// The scene in width x height pixels.
-Image render(const Scene& scene, const View& view, int width, int height, Colour background);
+/// The scene in width x height pixels, each of which is the mean of fine x fine.
+Image render(const Scene& scene, const View& view, int width, int height, Colour background, int fine = 2);
 
 }  // namespace bedload

@@ -206,7 +206,12 @@ struct RunOutput::Impl {
       if (!wanted(t.schedule)) continue;
       const bool again = t.schedule.begun();
       t.schedule.written(time);
-      writer.post([csv = &t.csv, row = row_of(simulation, t), time, again] {
+      std::vector<Quantity> row = row_of(simulation, t);
+      if (row_watcher) {
+        fs::path name = t.csv.path().lexically_relative(dir);
+        row_watcher(name.replace_extension().generic_string(), time, row);
+      }
+      writer.post([csv = &t.csv, row = std::move(row), time, again] {
         while_there(csv->path(), again, [&] { csv->append(time, row, again); });
       });
     }
@@ -276,6 +281,7 @@ struct RunOutput::Impl {
   std::vector<Frames> frames;
   std::vector<Table> tables;
   Schedule checkpoint_schedule;
+  RowWatcher row_watcher;
   std::vector<std::string> warnings;
   std::vector<std::pair<std::string, std::vector<Quantity>>> added;  ///< to the summary
   mutable std::mutex mutex;                                          ///< guards `newest`
@@ -305,6 +311,8 @@ fs::path RunOutput::checkpoint(Simulation& simulation) {
   impl_->writer.drain();
   return path;
 }
+
+void RunOutput::watch_rows(RowWatcher watcher) { impl_->row_watcher = std::move(watcher); }
 
 void RunOutput::warn(std::string message) { impl_->warnings.push_back(std::move(message)); }
 

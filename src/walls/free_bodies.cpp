@@ -151,10 +151,7 @@ RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, const std::st
 void FreeBodies::add(const Config& config, std::uint32_t b) {
   const WallBody& body = config.wall.bodies[b];
   const FreeConfig& f = body.free;
-  const MassProperties& m = f.solid;
-  const bool pivot = f.move == "none" && f.point.size() == 3;
-  const Vec3d centre = pivot ? Vec3d{f.point[0], f.point[1], f.point[2]} : m.centre;
-  RigidBody k = rigid_body(m, centre, f.move, f.turn, f.axis, config.domain.two_d);
+  RigidBody k = rigid_body(f.solid, turning_centre(f), f.move, f.turn, f.axis, config.domain.two_d);
   k.body = b;
   k.fluid = f.fluid;
   k.touches = f.contacts;
@@ -169,7 +166,7 @@ void FreeBodies::add(const Config& config, std::uint32_t b) {
   const double reach = farthest(0);
   sizes_.push_back(reach);
   reaches_.push_back(farthest(particles_beyond(body, config)));
-  double inverse_mass = 1 / m.mass;
+  double inverse_mass = 1 / f.solid.mass;
   if (k.turn == BodyTurn::axis) inverse_mass += reach * reach / k.axial;
   if (k.turn == BodyTurn::all)
     inverse_mass += reach * reach / std::min({k.moments.x, k.moments.y, k.moments.z});

@@ -27,8 +27,8 @@ endfunction()
 find_program(BEDLOAD_PYTHON python PATHS ${CMAKE_SOURCE_DIR}/build/venv/bin NO_DEFAULT_PATH)
 
 file(GLOB host_tests CONFIGURE_DEPENDS tests/case/*_test.cpp tests/geometry/*_test.cpp
-                                       tests/motion/*_test.cpp tests/output/*_test.cpp tests/program/*_test.cpp
-                                       tests/viscometer/*_test.cpp)
+                                       tests/live/*_test.cpp tests/motion/*_test.cpp tests/output/*_test.cpp
+                                       tests/program/*_test.cpp tests/viscometer/*_test.cpp)
 if(host_tests)
   add_executable(bedload_host_tests ${host_tests})
   add_dependencies(bedload_host_tests bedload)
@@ -49,6 +49,13 @@ if(BEDLOAD_PYTHON)
              COMMAND ${BEDLOAD_PYTHON} ${CMAKE_SOURCE_DIR}/tests/tools/${test}_test.py $<TARGET_FILE:bedload>)
     set_tests_properties(${test} PROPERTIES LABELS quick TIMEOUT 300)
   endforeach()
+endif()
+
+# The page of a live view; skipped where there is no Chromium.
+if(BEDLOAD_PYTHON AND "mixed" IN_LIST BEDLOAD_PRECISIONS)
+  add_test(NAME live_browser
+           COMMAND ${BEDLOAD_PYTHON} ${CMAKE_SOURCE_DIR}/tests/program/live_browser_test.py $<TARGET_FILE:bedload>)
+  set_tests_properties(live_browser PROPERTIES LABELS slow TIMEOUT 300 SKIP_RETURN_CODE 77)
 endif()
 
 # What is installed and packed.

@@ -28,6 +28,10 @@ SolidMoments solid_moments(const Shape& shape, const DomainConfig& domain = {});
 /// density. Throws CaseError, a sentence that goes on after "wall.body.free", where there is no closed shape.
 MassProperties mass_properties(const WallBody& body, const DomainConfig& domain = {});
 
+/// What a free body turns about and is placed by, m: the point that is held, else its centre of mass
+/// (resolved).
+Vec3d turning_centre(const FreeConfig& free);
+
 /// Principal moments of inertia, kg m2, and the turn of their axes.
 struct PrincipalInertia {
   Vec3d moments;

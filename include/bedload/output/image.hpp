@@ -2,6 +2,7 @@
 // A picture in memory, with lines and text, and its way to a PNG file.
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -37,6 +38,8 @@ class Image {
   /// wide.
   void text(int x, int y, std::string_view text, const Colour& colour, int scale = 2);
 
+  /// The bytes of a PNG file, compressed quickly.
+  std::string png() const;
   /// Throws FileError.
   void write_png(const std::filesystem::path& path) const;
 

@@ -9,9 +9,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bedload/case/config.hpp"
 #include "bedload/host_data.hpp"
@@ -45,6 +47,11 @@ class RunOutput {
 
   /// Saves the state as checkpoints/step_<step>.h5 and returns once it is safely on disk.
   std::filesystem::path checkpoint(Simulation& simulation);
+
+  /// Is told of every row that is written from now on: table ("diagnostics", "probes/gauge"), time (s),
+  /// values.
+  using RowWatcher = std::function<void(const std::string&, double, const std::vector<Quantity>&)>;
+  void watch_rows(RowWatcher watcher);
 
   /// Notes a warning for summary.json.
   void warn(std::string message);

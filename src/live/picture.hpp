@@ -1,0 +1,43 @@
+#pragma once
+// Frames of a run, drawn.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bedload/case/config.hpp"
+#include "bedload/output/image.hpp"
+#include "frame.hpp"
+
+namespace bedload {
+
+enum class LiveSide { front, above, aslant };
+
+/// "front", "above" or "perspective".
+std::optional<LiveSide> live_side(const std::string& name);
+
+/// Colours of the speeds 0, half of the top speed, and the top speed or more.
+using SpeedColours = std::array<Colour, 3>;
+inline constexpr SpeedColours kFluidColours{
+    {{0.10f, 0.27f, 0.62f}, {0.16f, 0.62f, 0.76f}, {0.72f, 0.93f, 0.55f}}};
+inline constexpr SpeedColours kGrainColours{
+    {{0.98f, 0.83f, 0.52f}, {0.93f, 0.50f, 0.20f}, {0.62f, 0.08f, 0.10f}}};
+
+/// Draws the frames of one run. What they show stays at its place: the view widens and never narrows.
+class LivePicture {
+ public:
+  explicit LivePicture(Config config) : config_(std::move(config)) {}
+  Image draw(const LiveFrame& frame, LiveSide side);
+
+ private:
+  void sample_walls();
+
+  Config config_;
+  bool sampled_ = false;
+  Setup::Walls walls_;              ///< at t = 0
+  double spacing_ = 0;              ///< of them, m
+  std::optional<Vec3d> min_, max_;  ///< around all that was seen, m
+};
+
+}  // namespace bedload
