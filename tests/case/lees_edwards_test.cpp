@@ -30,7 +30,7 @@ TEST(LeesEdwardsCase, TakesFluidAlone) {
   EXPECT_EQ(read(kSheared).domain.shear_rate, 0.5);
   EXPECT_EQ(error_of(kSheared, {"domain.periodic=[true,false,true]"}), "");
   const std::string key = "domain.shear_rate = 0.5 must be 0 with ", at = "dam.toml:6: ";
-  const std::string wall = "[[wall.body]]\nname = \"floor\"\nshape = \"plane\"\n";
+  const std::string wall = "[[wall.body]]\nname = \"floor\"\nshape = \"plane\"\npoint = [0, 0, 0]\n";
   EXPECT_EQ(error_of(kSheared + wall), at + key + "[[wall.body]]");
   EXPECT_EQ(error_of(kSheared + "[grain]\nd = 0.002\n[[grain.fill]]\nmin = [0, 0, 0]\nmax = [0.1, 0.1, 0.1]\n"
                                 "count = 5\n"),
@@ -67,7 +67,7 @@ TEST(LeesEdwardsCase, NeedsAPeriodicBoxThatIsWideEnough) {
 
 TEST(LeesEdwardsCase, HasNoProbesThatAverageAcrossItsFaces) {
   EXPECT_NE(error_of(kSheared + "[[probe]]\nname = \"gauge\"\ntype = \"point\"\nat = [0.1, 0.05, 0.1]\n")
-                .find("probe.0.type = \"point\" must be another with domain.shear_rate"),
+                .find("probe.type = \"point\" must be another with domain.shear_rate"),
             std::string::npos);
 }
 

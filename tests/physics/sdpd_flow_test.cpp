@@ -43,10 +43,10 @@ struct MixedBath {
   explicit MixedBath(bool alone) {
     config.fluid.h_over_dx = 2;
     if (alone) {  // a drop that hangs together, without periodic images
-      config.sdpd.kT = 0.02;
+      config.sdpd.kT = 0.01;
       config.domain.periodic = {false, false, false};
       config.domain.min = {-40, -40, -40}, config.domain.max = {45, 45, 45};
-      config.fluid.fills = {{{0, 0, 0}, {5, 5, 5}, {"0", "0.3*(z-2.5)", "-0.3*(y-2.5)"}}};
+      config.fluid.fills = {{{0, 0, 0}, {5, 5, 5}, {"0", "0.1*(z-2.5)", "-0.1*(y-2.5)"}}};
     }
     std::vector<std::string> warnings;
     setup = build_setup(config, warnings);
@@ -122,10 +122,10 @@ TEST(SlowSdpdFluid, ADropKeepsItsAngularMomentumOverManySteps) {
   const MixedBath mixed(true);
   auto s = started(mixed.config, mixed.setup);
   const Vec3d start = moment_of(*s);
-  ASSERT_GT(norm(start), 50);
+  ASSERT_GT(norm(start), 25);
   while (s->steps() < kManySteps) s->step();
   EXPECT_EQ(s->snapshot("fluid").count, 125u);
-  EXPECT_GT(reading(s->diagnostics(), "fluid_spin_energy"), 0.5);
+  EXPECT_GT(reading(s->diagnostics(), "fluid_spin_energy"), 0.2);
   EXPECT_LT(norm(moment_of(*s) - start) / norm(start), std::sqrt(double(kManySteps)) * kInvariant);
 }
 
