@@ -187,50 +187,51 @@ TEST(Viscosity, CountsGrainsBetweenTheLayersOfALattice) {
   EXPECT_NEAR(r.viscosity.mean, kEta, 1e-9);
   EXPECT_NEAR(r.stress_ratio.mean, 1, 0.01);
   EXPECT_EQ(r.profile.size(), 20u);
+}
 
-  TEST(Viscosity, OfImagesThatMoveIsStressOverTheirShear) {
-    Channel c = channel(PlaneFlowKind::lees_edwards);
-    c.flow.lower = c.flow.upper = -1;
-    c.flow.relative_speed = 0.6;
-    c.velocity = [](double z) { return 0.3 * z; };
-    c.stress = [](double) { return kEta * 0.3; };
-    c.drive = [](double) { return 0; };
-    const ViscosityResult r = c.measure();
-    EXPECT_NEAR(r.viscosity.mean, kEta, 1e-9);
-    EXPECT_NEAR(r.r_squared, 1, 1e-9);
-    EXPECT_NEAR(r.peak, 0.6, 1e-12);
-    EXPECT_NEAR(r.mach, 0.3 * kH / 10, 1e-12) << "by the reach, which is h here";
-    EXPECT_NEAR(named(quantities_of(r, c.flow), "shear_stress"), kEta * 0.3, 1e-9);
-    c.kicks = 2;
-    EXPECT_NEAR(c.measure().viscosity.mean, kEta, 1e-9) << "noise has no mean";
-    c.velocity = [](double z) { return 0.29 * z; };
-    EXPECT_NEAR(c.measure().viscosity.mean, kEta, 1e-9) << "the mean shear is imposed, whatever the profile";
-    c.velocity = [](double z) { return z < 0 ? -0.1 : 0.1; };
-    EXPECT_LT(c.measure().r_squared, 0.95);
-  }
+TEST(Viscosity, OfImagesThatMoveIsStressOverTheirShear) {
+  Channel c = channel(PlaneFlowKind::lees_edwards);
+  c.flow.lower = c.flow.upper = -1;
+  c.flow.relative_speed = 0.6;
+  c.velocity = [](double z) { return 0.3 * z; };
+  c.stress = [](double) { return kEta * 0.3; };
+  c.drive = [](double) { return 0; };
+  const ViscosityResult r = c.measure();
+  EXPECT_NEAR(r.viscosity.mean, kEta, 1e-9);
+  EXPECT_NEAR(r.r_squared, 1, 1e-9);
+  EXPECT_NEAR(r.peak, 0.6, 1e-12);
+  EXPECT_NEAR(r.mach, 0.3 * kH / 10, 1e-12) << "by the reach, which is h here";
+  EXPECT_NEAR(named(quantities_of(r, c.flow), "shear_stress"), kEta * 0.3, 1e-9);
+  c.kicks = 2;
+  EXPECT_NEAR(c.measure().viscosity.mean, kEta, 1e-9) << "noise has no mean";
+  c.velocity = [](double z) { return 0.29 * z; };
+  EXPECT_NEAR(c.measure().viscosity.mean, kEta, 1e-9) << "the mean shear is imposed, whatever the profile";
+  c.velocity = [](double z) { return z < 0 ? -0.1 : 0.1; };
+  EXPECT_LT(c.measure().r_squared, 0.95);
+}
 
-  TEST(Viscosity, IsNotToldOfAnotherProfile) {
-    Channel c = channel(PlaneFlowKind::reverse_poiseuille);
-    c.velocity = [](double z) { return z < 1 ? 0.1 : -0.1; };  // plugs
-    const ViscosityResult r = c.measure();
-    EXPECT_LT(r.r_squared, 0.95);
-    EXPECT_TRUE(std::isnan(named(quantities_of(r, c.flow), "viscosity")));
-  }
+TEST(Viscosity, IsNotToldOfAnotherProfile) {
+  Channel c = channel(PlaneFlowKind::reverse_poiseuille);
+  c.velocity = [](double z) { return z < 1 ? 0.1 : -0.1; };  // plugs
+  const ViscosityResult r = c.measure();
+  EXPECT_LT(r.r_squared, 0.95);
+  EXPECT_TRUE(std::isnan(named(quantities_of(r, c.flow), "viscosity")));
+}
 
-  TEST(Viscosity, IsNotSteadyWhereItDrifts) {
-    Channel c = channel(PlaneFlowKind::reverse_poiseuille);
-    Config config;
-    config.fluid.rho0 = 2, config.fluid.mu = kEta, config.fluid.c = 10;
-    Layers layers(c.flow, kH, 40, 12);
-    const auto steady = c.velocity;
-    for (int block = 0; block < 12; ++block) {
-      c.velocity = [=](double z) { return (0.9 + 0.01 * block) * steady(z); };
-      layers.add(block, c.sample(0), {}, 0);
-    }
-    const ViscosityResult r = evaluate(layers, config, kH);
-    EXPECT_NEAR(r.drift, -0.063, 0.005);
-    EXPECT_FALSE(r.stationary());
+TEST(Viscosity, IsNotSteadyWhereItDrifts) {
+  Channel c = channel(PlaneFlowKind::reverse_poiseuille);
+  Config config;
+  config.fluid.rho0 = 2, config.fluid.mu = kEta, config.fluid.c = 10;
+  Layers layers(c.flow, kH, 40, 12);
+  const auto steady = c.velocity;
+  for (int block = 0; block < 12; ++block) {
+    c.velocity = [=](double z) { return (0.9 + 0.01 * block) * steady(z); };
+    layers.add(block, c.sample(0), {}, 0);
   }
+  const ViscosityResult r = evaluate(layers, config, kH);
+  EXPECT_NEAR(r.drift, -0.063, 0.005);
+  EXPECT_FALSE(r.stationary());
+}
 
 }  // namespace
 }  // namespace bedload::test

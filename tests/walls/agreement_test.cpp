@@ -81,8 +81,10 @@ TEST(WallAgreement, ABoxOfPlanesRectanglesAndTrianglesHoldsACollapseAlike) {
     for (Collapse& other : others) {
       other.b.run(2e-5, 1000);
       const double apart = farthest_apart(other.places(), reference.places());
-      EXPECT_LT(apart, (stage < 2 ? tolerance(1e-9, 1e-6, 1e-6) : tolerance(1e-6, 1e-2, 1e-2)) * R);
-      EXPECT_EQ(other.contacts(), reference.contacts());
+      const double most[] = {tolerance(1e-9, 1e-6, 1e-6), tolerance(1e-9, 1e-5, 1e-5),
+                             tolerance(1e-6, 1e-2, 1e-2), tolerance(1e-6, 1e-2, 1e-2)};
+      EXPECT_LT(apart, most[stage] * R);
+      EXPECT_NEAR(other.contacts(), reference.contacts(), stage < 2 ? 0 : 1);  // of grains that graze a wall
     }
   }
   EXPECT_GT(touching, 10) << "the test means floor and sides to be met";
