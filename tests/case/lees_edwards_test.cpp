@@ -30,7 +30,8 @@ TEST(LeesEdwardsCase, TakesFluidAlone) {
   EXPECT_EQ(read(kSheared).domain.shear_rate, 0.5);
   EXPECT_EQ(error_of(kSheared, {"domain.periodic=[true,false,true]"}), "");
   const std::string key = "domain.shear_rate = 0.5 must be 0 with ", at = "dam.toml:6: ";
-  const std::string wall = "[[wall.body]]\nname = \"floor\"\nshape = \"plane\"\npoint = [0, 0, 0]\n";
+  const std::string wall =
+      "[[wall.body]]\nname = \"floor\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n";
   EXPECT_EQ(error_of(kSheared + wall), at + key + "[[wall.body]]");
   EXPECT_EQ(error_of(kSheared + "[grain]\nd = 0.002\n[[grain.fill]]\nmin = [0, 0, 0]\nmax = [0.1, 0.1, 0.1]\n"
                                 "count = 5\n"),
