@@ -56,6 +56,7 @@ struct Channel : FluidBox {
       const auto own = walls.compression.values();
       solver->walls(fluid, walls, poses, 0, true);
       walls.compression.assign(own);
+      solver->walls(fluid, walls, poses, 0, true);  // its mass over its density, by which continuity goes
     }
     solver->density(fluid, walls, poses, kStep);
     found = fluid.s_next.values();
