@@ -206,8 +206,8 @@ void describe_time(Parameters& p, Config& c) {
      .range = within(0, 1)});
   p("run.skin_fluid", &c.skin_fluid,
     {.unit = "fluid.dx",
-     .meaning = "margin of the fluid's neighbour lists; half as much again while they would last less than "
-                "four steps",
+     .meaning = "margin of the fluid's neighbour lists; up to four times that for what is fast, while they "
+                "would last less than eight steps",
      .range = within(0.01, 2)});
   p("run.skin_grain", &c.skin_grain,
     {.unit = "d_min", .meaning = "margin of the grains' neighbour lists", .range = within(0.01, 2)});

@@ -64,6 +64,24 @@ struct HasEntries {
   BL_HD bool operator()(Index i) const { return list.count[i] > 0; }
 };
 
+/// How far particles will have gone in a time to come, m, between bounds.
+struct HalfSkinPass {
+  Frame frame;
+  MeanShear shear;
+  Real horizon;  ///< s
+  Real least, most;
+  Span<const FluidPosition> x;
+  Span<const Real4> v_rho;
+  Span<const Real3> drift, acc;  ///< drift: empty where nothing moves beside its velocity
+  Span<Real> half_skin;
+  BL_HD void operator()(Index a) const {
+    Real3 v = v_rho[a].xyz();
+    if (drift) v += drift[a];
+    const Real speed = norm(shear.peculiar(v, coordinates(frame, x[a]).z));
+    half_skin[a] = clamp(horizon * (speed + horizon / 2 * norm(acc[a])), least, most);
+  }
+};
+
 struct LengthBody {
   Span<const Real> h;
   BL_HD double operator()(Index a) const { return h[a]; }
@@ -89,10 +107,24 @@ struct CountBody {
 
 }  // namespace
 
-void FluidSolver::set_skin(double skin) {
-  if (skin == skin_) return;
-  skin_ = skin;
+double FluidSolver::least_skin() const { return config_.skin_fluid * config_.fluid.dx / 2; }
+
+double FluidSolver::longest_step() const {
+  const TimeConfig& time = config_.time;
+  return time.dt > 0 ? time.dt : time.cfl * kappa_ * config_.fluid.h_most() / 2 / config_.fluid.c;
+}
+
+bool FluidSolver::renew_skins(const ListSpeeds& now) {
+  // sheared, positions and velocities are peculiar and all reach as far
+  const double least = least_skin(), wide = shear_.acts() ? 1.5 : 4, former = half_skin_;
+  const double fastest = std::max(now.fluid, now.walls), eight_steps = 8 * now.dt * fastest;
+  if (eight_steps > least) half_skin_ = wide * least;
+  if (2 * eight_steps < least || former == 0) half_skin_ = least;  // in between, as it was
+  horizon_ = fastest > 0 ? half_skin_ / fastest : 0;
+  wall_skin_ = now.walls_move ? std::clamp(horizon_ * now.walls, least, half_skin_) : 0;
+  if (half_skin_ == former) return false;
   make_cells();
+  return true;
 }
 
 void FluidSolver::make_cells() {
@@ -100,7 +132,7 @@ void FluidSolver::make_cells() {
   if (shear_.acts()) most.strain = 0.5 * frame_.length.x / frame_.length.z;
   for (CellGrid* grid : {&grid_, &wall_grid_})
     *grid =
-        CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, most.stretch() * (range() + skin_));
+        CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, most.stretch() * (range() + skin()));
 }
 
 Span<const Vec3d> FluidSolver::lattice(const FluidStore& fluid) {
@@ -128,13 +160,8 @@ bool FluidSolver::renew_lengths(FluidStore& fluid) {
   return true;
 }
 
-void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved, double travel) {
-  const double narrow = config_.skin_fluid * config_.fluid.dx, four_steps = 8 * travel;
-  if (four_steps > narrow || 2 * four_steps < narrow) {  // in between, as it was
-    const double former = skin_;
-    set_skin(four_steps > narrow ? 1.5 * narrow : narrow);
-    walls_moved = walls_moved || skin_ != former;
-  }
+void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved, const ListSpeeds& speeds) {
+  if (renew_skins(speeds)) walls_moved = true;
   if (lengths_ && renew_lengths(fluid)) walls_moved = true;
   if (shear_.acts()) {
     const double period = frame_.length.x / frame_.length.z;
@@ -146,6 +173,9 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved,
   sort_cells(fluid);
   fluid.reorder(order_);
   fluid.x_list.copy(fluid.x);
+  for_each(fluid.owned(),
+           HalfSkinPass{frame_, shear_, Real(horizon_), Real(shear_.acts() ? half_skin_ : least_skin()),
+                        Real(half_skin_), fluid.x, fluid.v_rho, drift_of(fluid), fluid.acc, fluid.half_skin});
   if (lengths_) lengths_->h_list.copy(lengths_->h);
   if (walls_moved && walls.size() > 0) {
     MirrorStore& images = walls.mirrors;
@@ -167,30 +197,31 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   }
   pack(fluid);
   pack(walls);
-  const double reach = range() + skin();
+  const HalfSkins own(fluid.half_skin, half_skin_), of_walls(wall_skin_);
   using Near = SphNear<FluidPosition>;
-  const Near fluid_near{frame_, fluid.x, fluid.xp, fluid.xp, reach, true};
-  const Near fluid_near_walls{frame_, fluid.x, fluid.xp, walls.xp, reach, false};
-  const SphNear<Vec3d> walls_near{frame_, walls.x, walls.xp, fluid.xp, reach, false};
+  const Near fluid_near{frame_, fluid.x, fluid.xp, fluid.xp, range(), true, own, own};
+  const Near fluid_near_walls{frame_, fluid.x, fluid.xp, walls.xp, range(), false, own, of_walls};
+  const SphNear<Vec3d> walls_near{frame_, walls.x, walls.xp, fluid.xp, range(), false, of_walls, own};
 #if BL_CUDA
   if (shear_.acts())  // by distances among positions that are sheared back
     fluid_fluid_.build(grid_, frame_, lattice(fluid), Span<const PairPosition>(fluid.xp),
-                       reach * shear_.stretch());
+                       (range() + skin()) * shear_.stretch(), {});
   else
     fluid_fluid_.build(grid_, frame_, Span<const FluidPosition>(fluid.x), Span<const PairPosition>(fluid.xp),
-                       reach);
+                       range(), own);
 #else
   if (shear_.acts())
-    fluid_fluid_.build(fluid.size(), grid_.view(),
-                       ShearedNear<Vec3d>{{frame_, lattice(fluid), fluid.xp, fluid.xp, reach, true},
-                                          Real(shear_.strain),
-                                          reach * shear_.stretch()});
+    fluid_fluid_.build(
+        fluid.size(), grid_.view(),
+        ShearedNear<Vec3d>{{frame_, lattice(fluid), fluid.xp, fluid.xp, range() + skin(), true},
+                           Real(shear_.strain),
+                           (range() + skin()) * shear_.stretch()});
   else if (!lengths_)
     fluid_fluid_.build(fluid.size(), grid_.view(), fluid_near);
 #endif
   if (lengths_) {
     const Span<const Real> h = lengths_->h_list, none;
-    const PairReach pairs{Real(kappa_ * double(kLengthGrowth)), Real(skin()), Real(config_.fluid.h())};
+    const PairReach pairs{Real(kappa_ * double(kLengthGrowth)), Real(config_.fluid.h())};
 #if !BL_CUDA
     fluid_fluid_.build(fluid.size(), grid_.view(), LengthNear<FluidPosition>{fluid_near, pairs, h, h});
 #endif
@@ -203,14 +234,15 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   }
   if (frozen_ && config_.density.method == DensityMethod::summation)
     wall_wall_.build(walls.size(), wall_grid_.view(),
-                     BesideFrozen{{frame_, walls.x, walls.xp, walls.xp, reach, true}, walls.compression});
+                     BesideFrozen{{frame_, walls.x, walls.xp, walls.xp, range(), true, of_walls, of_walls},
+                                  walls.compression});
   compaction_.find(fluid.size(), HasEntries{fluid_wall_.view()}, beside_walls_);
   compaction_.find(walls.size(), HasEntries{wall_fluid_.view()}, wet_walls_);
   relisted_ = true;
   const MirrorStore& images = walls.mirrors;
   if (images.size() > 0)
     image_fluid_.build(images.size(), grid_.view(),
-                       SphNear<Vec3d>{frame_, images.x, images.xp, fluid.xp, reach, false});
+                       SphNear<Vec3d>{frame_, images.x, images.xp, fluid.xp, range(), false, of_walls, own});
   shear_.strain = strain;
 }
 

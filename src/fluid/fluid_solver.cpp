@@ -24,6 +24,11 @@ struct CorrectSweep {
   Span<const Real> eps, s;
   Span<const Real3> drift;
   Span<const FluidPosition> x, x_list;
+  Span<const Real> half_skin;
+  double longest;  ///< of steps, s
+  /// By the end of the next, how far the mean shear will have parted pairs (m) since the lists were built,
+  /// and the strain: among positions sheared back, what moves along z moves along x, too.
+  double spread, strained;
   Span<const Real> h, h_list;  ///< empty where all have one length
   Span<Real4> v_rho;
   MeanShear shear, listed;  ///< now, and where the lists were built
@@ -43,7 +48,9 @@ struct CorrectSweep {
     Value out;
     out.v2 = norm2(shear.peculiar(v, now.z));
     out.acc2 = norm2(acceleration);
-    out.moved2 = norm2(moved);
+    const double speed = std::sqrt(out.v2) + longest * std::sqrt(out.acc2);
+    const double left = half_skin[a] - norm(moved) - spread / 2;
+    out.lasts = left < 0 ? 0 : left / max_of(speed * (1 + strained), 1e-30);
     if (eps) out.eps_min = eps[a];
     if (h) out.h_min = h[a], out.growth = h[a] / h_list[a];
     const bool good = out.v2 < 1e30 && out.acc2 < 1e30 && s[a] >= Real(-0.5) && s[a] <= Real(1);
@@ -53,7 +60,7 @@ struct CorrectSweep {
   BL_HD void combine(Value& into, const Value& v) const {
     into.v2 = max_of(into.v2, v.v2);
     into.acc2 = max_of(into.acc2, v.acc2);
-    into.moved2 = max_of(into.moved2, v.moved2);
+    into.lasts = min_of(into.lasts, v.lasts);
     into.eps_min = min_of(into.eps_min, v.eps_min);
     into.h_min = min_of(into.h_min, v.h_min);
     into.growth = max_of(into.growth, v.growth);
@@ -101,7 +108,7 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
       gravity_(config.gravity),
       drive_factor_(config.drive) {
   eos_ = EquationOfState::of(config);
-  set_skin(config.skin_fluid * config.fluid.dx);
+  renew_skins({});
   const auto acts = [](const WallBody& body) { return body.repels() || body.no_penetration; };
   if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), acts)) repelling_ = walls.view();
   orifices_.assign(orifices_of(config));
@@ -134,7 +141,8 @@ void FluidSolver::accept_rates(double dt) {
 }
 
 void FluidSolver::save(std::vector<Quantity>& scalars) const {
-  scalars.push_back({"skin_fluid", "m", skin_});
+  scalars.push_back({"half_skin_fluid", "m", half_skin_});
+  scalars.push_back({"half_skin_walls", "m", wall_skin_});
   if (lengths_) scalars.push_back({"smoothing_length_listed", "m", lengths_->listed});
   if (shear_.acts()) {
     scalars.push_back({"shear_strain", "-", shear_.strain});
@@ -274,13 +282,31 @@ void FluidSolver::survey(FluidStore& fluid, double kick) {
   if (fluid.size() == 0) return extremes_.assign({FluidExtremes{}});
   MeanShear listed = shear_;
   listed.strain = listed_strain_;
-  reduce_into(
-      extremes_.data(), fluid.owned(),
-      CorrectSweep{frame_, Real(kick), fluid.acc_next, fluid.acc,
-                   mixed_ ? Span<const Real>(fluid.eps) : Span<const Real>(), fluid.s, drift_of(fluid),
-                   fluid.x, fluid.x_list, lengths_ ? Span<const Real>(lengths_->h) : Span<const Real>(),
-                   lengths_ ? Span<const Real>(lengths_->h_list) : Span<const Real>(), fluid.v_rho, shear_,
-                   listed});
+  const double longest = longest_step();
+  const auto strained = [&](double dt) {
+    return std::abs(shear_.strain + shear_.rate * dt - listed_strain_);
+  };
+  const double most = std::max(strained(0), strained(longest));
+  const Span<const Real> none;
+  reduce_into(extremes_.data(), fluid.owned(),
+              CorrectSweep{.frame = frame_,
+                           .kick = Real(kick),
+                           .acc_old = fluid.acc_next,
+                           .acc = fluid.acc,
+                           .eps = mixed_ ? Span<const Real>(fluid.eps) : none,
+                           .s = fluid.s,
+                           .drift = drift_of(fluid),
+                           .x = fluid.x,
+                           .x_list = fluid.x_list,
+                           .half_skin = fluid.half_skin,
+                           .longest = longest,
+                           .spread = most * range(),
+                           .strained = most,
+                           .h = lengths_ ? Span<const Real>(lengths_->h) : none,
+                           .h_list = lengths_ ? Span<const Real>(lengths_->h_list) : none,
+                           .v_rho = fluid.v_rho,
+                           .shear = shear_,
+                           .listed = listed});
 }
 
 FluidExtremes FluidSolver::extremes() const {

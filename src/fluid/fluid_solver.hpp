@@ -27,11 +27,19 @@ namespace bedload::inline BL_VARIANT {
 
 /// Largest values that bound the next step, from one sweep over the fluid.
 struct FluidExtremes {
-  double v2 = 0, acc2 = 0, moved2 = 0;  ///< (m/s)2, (m/s2)2, m2 since the lists were built
+  double v2 = 0, acc2 = 0;                                 ///< (m/s)2, (m/s2)2
+  double lasts = std::numeric_limits<double>::infinity();  ///< for how long the lists hold, at least, s
   double eps_min = 1;
   double h_min = std::numeric_limits<double>::infinity();  ///< smallest smoothing length, m
   double growth = 1;  ///< largest factor by which one has grown since the lists were built
   Index bad = kNone;  ///< lowest place of a particle with NaN or a density out of range
+};
+
+/// How fast that goes for which lists are made.
+struct ListSpeeds {
+  double dt = 0;                ///< of a step, s
+  double fluid = 0, walls = 0;  ///< fastest, m/s
+  bool walls_move = false;      ///< now or later
 };
 
 /// Of the forces between pairs of fluid, a particle each: what its stress is made of, J.
@@ -80,19 +88,18 @@ class FluidSolver {
   double range() const {
     return lengths_ ? kappa_ * lengths_->listed * double(kLengthGrowth) : kappa_ * config_.fluid.h();
   }
-  double skin() const { return skin_; }  ///< m
+  double skin() const { return 2 * half_skin_; }  ///< by which lists reach beyond that, at most, m
   /// Half the smallest kernel support, m, to which time steps go.
   double half_range(const FluidExtremes& now) const { return kappa_ * now.h_min / 2; }
   /// Null where all particles have the same smoothing length.
   const SmoothingLengths* lengths() const { return lengths_.get(); }
   const MeanShear& shear() const { return shear_; }
-  /// How far the mean shear will have moved a particle at the end of the kernel's reach, since the lists were
-  /// built, a time dt (s) from now, m.
-  double sheared(double dt) const {
-    return std::abs(shear_.strain + shear_.rate * dt - listed_strain_) * range();
+  /// Whether the lists must be built anew before another step of dt (s), by the end of which the fastest wall
+  /// will have gone so far (m) since they were built.
+  bool due(const FluidExtremes& now, double dt, double walls_moved) const {
+    const bool outgrown = now.growth > 0.25 + 0.75 * double(kLengthGrowth);  // perhaps within the step
+    return dt > now.lasts || dt > longest_step() || walls_moved > wall_skin_ || outgrown;
   }
-  /// Whether smoothing lengths may outgrow the lists within another step.
-  bool outgrows(const FluidExtremes& now) const { return now.growth > 0.25 + 0.75 * double(kLengthGrowth); }
   const EquationOfState& eos() const { return eos_; }
   Drive drive(const FluidStore& fluid) const;
   /// With which particles move beside their velocity; empty where nothing gives one.
@@ -127,9 +134,10 @@ class FluidSolver {
   /// Null where particles do not spin.
   virtual Spin* spin() { return nullptr; }
 
-  /// Sorts the fluid and renews all lists; sorts the walls too where they have moved. travel: of the fastest
-  /// in a step, m; where lists would last less than four steps they get half as much skin again.
-  void refresh(FluidStore& fluid, WallStore& walls, bool walls_moved, double travel);
+  /// Sorts the fluid and renews all lists; sorts the walls too where they have moved. Where lists would last
+  /// less than eight steps, what is fast gets up to four times the skin, so that it does not make all others
+  /// pay.
+  void refresh(FluidStore& fluid, WallStore& walls, bool walls_moved, const ListSpeeds& speeds);
   /// Renews the lists for the positions as they are; `sort`: cells too (after a restart).
   void relist(FluidStore& fluid, WallStore& walls, bool sort);
   /// Copies of positions as pair loops read them, `back` (s) before where they are.
@@ -184,7 +192,7 @@ class FluidSolver {
   void load(const Scalar& scalar) {
     last_dt_ = scalar("density_last_dt"), dt_before_ = scalar("density_dt_before");  // 0 without rates
     if (lengths_) lengths_->listed = scalar("smoothing_length_listed"), lengths_->begun = true;
-    skin_ = scalar("skin_fluid");
+    half_skin_ = scalar("half_skin_fluid"), wall_skin_ = scalar("half_skin_walls");
     if (shear_.acts()) shear_.strain = scalar("shear_strain"), listed_strain_ = scalar("shear_strain_listed");
     make_cells();
   }
@@ -192,8 +200,11 @@ class FluidSolver {
  protected:
   FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, FluidStore& fluid,
               double kappa);
-  void set_skin(double skin);
   void make_cells();
+  /// Gives everything its half skin; whether that takes other cells.
+  bool renew_skins(const ListSpeeds& speeds);
+  double least_skin() const;    ///< half the skin that a case asks for, m
+  double longest_step() const;  ///< no step is longer, s
   /// Lengths from volumes, to be listed; whether that takes other cells.
   bool renew_lengths(FluidStore& fluid);
   LengthPass length_pass(FluidStore& fluid, bool renew);
@@ -286,7 +297,8 @@ class FluidSolver {
   Buffer<Real> drive_factors_;
   Buffer<Real> collisions_;  ///< of each particle
   Buffer<Real4> collided_;
-  double skin_ = 0;  ///< m
+  double half_skin_ = 0, wall_skin_ = 0;  ///< the largest of fluid, that of walls, m
+  double horizon_ = 0;                    ///< time for which fast particles get a skin, s
   CellGrid grid_, wall_grid_;
 #if BL_CUDA
   TileList fluid_fluid_;

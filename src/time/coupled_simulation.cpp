@@ -268,31 +268,25 @@ void CoupledSimulation::settle(double longest, const std::function<void(double)>
 }
 
 void CoupledSimulation::refresh_if_needed(double dt) {
-  // by the end of this step; while each phase keeps to half its skin, the lists across the phases hold too
+  // by the end of this step; while each particle keeps to its half skin, the lists across the phases hold too
   bool fluid_due = open_.fluid_due(), grains_due = open_.grains_due(clock_.time);
-  double travel = 0;
-  if (has_fluid()) {
-    const FluidSolver& fluid = *fluid_solver_;
-    travel = dt * (std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2));
-    // sheared: pairs drift apart; among positions sheared back, what moves along z moves along x, too
-    const double strained = fluid.sheared(dt) / fluid.range();
-    const double moved = std::sqrt(fluid_extremes_.moved2) + travel * (1 + strained) + fluid.sheared(dt) / 2;
-    const double wall = walls_moved_ + dt * motion_.top_speed(clock_.time, dt);
-    fluid_due = fluid_due || 2 * moved > fluid_solver_->skin() || moved + wall > fluid_solver_->skin() ||
-                fluid_solver_->outgrows(fluid_extremes_);
-  }
+  if (has_fluid())
+    fluid_due = fluid_due || fluid_solver_->due(fluid_extremes_, dt,
+                                                walls_moved_ + dt * motion_.top_speed(clock_.time, dt));
   if (has_grains() && !config_.grain.fixed) {
     const double moved =
         grain_watch_.displacement + 1.5 * dt * (grain_watch_.speed + dt * norm(gravity_.at(clock_.time)));
     grains_due = grains_due || 2 * moved > solid_solver_->skin();
   }
-  refresh(fluid_due, grains_due, travel);
+  refresh(fluid_due, grains_due, dt);
 }
 
-void CoupledSimulation::refresh(bool fluid, bool grains, double travel) {
+void CoupledSimulation::refresh(bool fluid, bool grains, double dt) {
   if (fluid) {
     open_.renew(fluid_, walls_, fluid_solver_->eos(), clock_.time, gravity_.at(clock_.time));
-    fluid_solver_->refresh(fluid_, walls_, rebuilds_ == 0 || walls_moved_ > 0, travel);
+    const double fastest = std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2);
+    fluid_solver_->refresh(fluid_, walls_, rebuilds_ == 0 || walls_moved_ > 0,
+                           {dt, fastest, motion_.top_speed(clock_.time, dt), motion_.moves()});
     walls_moved_ = 0;
   }
   if (grains) solid_solver_->refresh(grains_, grain_grid_, open_.renew(grains_, clock_.time));

@@ -68,7 +68,7 @@ class CoupledSimulation final : public Simulation {
   double longest_substep();                        ///< s, that grains and free bodies allow
   void load_bodies(double kick, double dt);        ///< force of the fluid on free bodies at the end of a step
   void refresh_if_needed(double dt);
-  void refresh(bool fluid, bool grains, double travel = 0);  ///< travel: of the fastest fluid in a step, m
+  void refresh(bool fluid, bool grains, double dt = 0);  ///< dt: of the step to come, s
   void load_grain_store(const SavedState& state);            ///< and the rigid groups of the grains
   void restore_lists(const SavedState& state);
   void relist_coupling();

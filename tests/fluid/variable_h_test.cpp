@@ -88,7 +88,7 @@ class Summation {
 void upload_at(FluidBox& box, const std::vector<double>& rho) {
   for (std::size_t a = 0; a < rho.size(); ++a) box.s[a] = rho[a] / box.config.fluid.rho0 - 1;
   box.upload();
-  box.solver->refresh(box.fluid, box.walls, true, 0);
+  box.solver->refresh(box.fluid, box.walls, true, {});
   box.solver->state(box.fluid, 0, false);
 }
 
@@ -184,17 +184,17 @@ TEST(SmallVariableH, ListsBoundHowFarLengthsGrow) {
     return box.solver->extremes();
   };
   const double most = double(kLengthGrowth) * 0.015;
-  EXPECT_FALSE(box.solver->outgrows(extremes()));
+  EXPECT_FALSE(box.solver->due(extremes(), 0, 0));
   EXPECT_NEAR(length(), 0.015, 1e-7);
   box.fluid.s.assign(std::vector<Real>(box.s.size(), Real(-0.2)));  // volumes grow by a quarter
   box.solver->state(box.fluid, 0, false);
   EXPECT_NEAR(length(), most, 1e-6);
-  EXPECT_TRUE(box.solver->outgrows(extremes()));
+  EXPECT_TRUE(box.solver->due(extremes(), 0, 0));
   EXPECT_NEAR(extremes().h_min, most, 1e-6);
   const double range = box.solver->range();
-  box.solver->refresh(box.fluid, box.walls, false, 0);
+  box.solver->refresh(box.fluid, box.walls, false, {});
   EXPECT_NEAR(length(), 0.015 * std::cbrt(1.25), 1e-6);
-  EXPECT_FALSE(box.solver->outgrows(extremes()));
+  EXPECT_FALSE(box.solver->due(extremes(), 0, 0));
   EXPECT_GE(box.solver->range(), 2 * double(kLengthGrowth) * length());
   EXPECT_GT(box.solver->range(), range) << "cells grow with the lengths";
 }

@@ -104,7 +104,7 @@ TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
 #if BL_CUDA
   TileList tiles;
   for (unsigned bits : {0, 2}) {
-    tiles.build(grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p), range, bits);
+    tiles.build(grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p), range, {}, bits);
     found = rows_of(tiles, separation, range);
     for (Index i = 0; i < x.size(); ++i) EXPECT_EQ(found[i], expected[i]) << "tiles, particle " << i;
   }
@@ -115,6 +115,48 @@ TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
                 PairSeparation{c.frame, p, p}, range, CountRow{count});
   const auto counts = count.to_host();
   for (Index i = 0; i < x.size(); ++i) EXPECT_EQ(counts[i], expected[i].size());
+}
+
+/// Each row holds all that come within the range while everyone keeps to a half skin of its own, and no more.
+TEST(SmallNeighbours, ListsReachAsFarAsHalfSkinsSay) {
+  const double range = 0.06, most = 0.02;
+  for (const bool periodic : {false, true}) {
+    const Cloud c = cloud(400, periodic, false, periodic, {0.5, 0.31, 0.42}, 4);
+    CellGrid grid(c.frame, c.frame.origin, c.frame.origin + c.frame.length, range + 2 * most);
+    const auto x = sorted(c, grid);
+    const Index n = Index(x.size());
+    Buffer<Vec3d> device;
+    device.assign(x);
+    Buffer<PairPosition> p;
+    p.assign(packed(c.frame, x));
+    std::vector<Real> skin;
+    for (Index i = 0; i < n; ++i) skin.push_back(Real(i % 7 == 0 ? most : 0.001 * (i % 5)));
+    Buffer<Real> own;
+    own.assign(skin);
+    std::vector<std::set<Index>> expected(n);
+    std::size_t uniform = 0, listed = 0;
+    for (Index i = 0; i < n; ++i)
+      for (Index j = 0; j < n; ++j) {
+        const double r = norm(c.frame.separation(x[i], x[j]));
+        if (i != j && r < range + double(skin[i]) + double(skin[j])) expected[i].insert(j), ++listed;
+        uniform += i != j && r < range + 2 * most;
+      }
+    EXPECT_LT(listed, 2 * uniform / 3);
+    const HalfSkins skins(own, most);
+    VerletList list;
+    list.build(n, grid.view(), SphNear<Vec3d>{c.frame, device, p, p, range, true, skins, skins});
+    const PairSeparation separation{c.frame, p, p};
+    auto found = rows_of(list, separation, range + 2 * most);
+    for (Index i = 0; i < n; ++i) EXPECT_EQ(found[i], expected[i]) << "particle " << i;
+#if BL_CUDA
+    TileList tiles;
+    for (unsigned bits : {0, 2}) {
+      tiles.build(grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p), range, skins, bits);
+      found = rows_of(tiles, separation, range + 2 * most);
+      for (Index i = 0; i < n; ++i) EXPECT_EQ(found[i], expected[i]) << "tiles, particle " << i;
+    }
+#endif
+  }
 }
 
 // ranges from well below to half the smallest period; 0.131 leaves a thin last layer of cells
@@ -211,7 +253,7 @@ void expect_lists_and_cells_agree(bool periodic, int many = 700) {
 #if BL_CUDA
   TileList tiles;
   for (unsigned bits : {0, 1, 3, 5}) {
-    tiles.build(grid, c.frame, Span<const Vec3d>(place), Span<const PairPosition>(p), 1.2 * range, bits);
+    tiles.build(grid, c.frame, Span<const Vec3d>(place), Span<const PairPosition>(p), 1.2 * range, {}, bits);
     // places rounded to 2^-24 of a tile that is as wide as the box, six times the range
     expect_same(tiles, "tiles of " + std::to_string(1 << bits) + " lanes, ", 2 * bound);
   }

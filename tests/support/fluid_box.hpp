@@ -76,7 +76,7 @@ struct FluidBox {
     fluid.mass.assign(m);
     fluid.s.assign(c);
     fluid.eps.assign(std::vector<Real>(n, Real(1)));
-    solver->refresh(fluid, walls, true, 0);
+    solver->refresh(fluid, walls, true, {});
     solver->state(fluid, 0, false);
   }
   std::vector<Vec3d> coordinates_now() const {

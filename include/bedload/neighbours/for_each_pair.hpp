@@ -446,8 +446,8 @@ void run_tiles(const TileList& list, const PairSeparation& separation, double cu
   using Loop = TileLoop<Pass, WallRow>;
   std::size_t each = 0;
   if constexpr (kStages<Pass>) each = sizeof(Real4) + decltype(detail::staged_of(pass.sources()))::bytes;
-  const Index most = each > 0 ? Index(tile_memory() / each) / 4 * 4 : 0;
-  const Index capacity = min_of(most, (list.view().most + 1 + 3) / 4 * 4);
+  static const Index blocks = blocks_at_a_time(tile_kernel<Loop>, kTileThreads, 0);
+  const Index capacity = list.capacity(each, blocks);
   if (each > 0)
     check_cuda(cudaFuncSetAttribute(tile_kernel<Loop>, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                     int(tile_memory())),

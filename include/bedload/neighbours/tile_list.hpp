@@ -6,6 +6,7 @@
 // an order that neighbouring threads read from different ones while that is possible.
 
 #include "bedload/neighbours/cell_grid.hpp"
+#include "bedload/neighbours/half_skins.hpp"
 #include "bedload/parallel/lanes.hpp"
 
 #if BL_CUDA
@@ -57,17 +58,23 @@ struct TileListView {
 };
 
 namespace detail {
+/// Of a block beside what it stages, in a search, at most, bytes.
+constexpr std::size_t kSearchMemory = 9 << 10;
+
 /// What a search has come to.
 struct TileCounts {
   Index next;             ///< tile that no block has taken yet
   Index sources, words;   ///< of all tiles
   Index longest;          ///< most entries of a thread
   Index around, nearest;  ///< most particles in the cells around a tile, and most sources of one
+  Index crowded;          ///< tiles whose surroundings take more than a third of shared memory
+  static constexpr Index kBin = 64, kBins = 64;
+  Index tiles[kBins];  ///< with so many times kBin sources, or more in the last
 };
 }  // namespace detail
 
-/// Every j within `reach` of i at the time of building, among sorted particles. The unused places of an
-/// entry's word number one source more than there are.
+/// Every j within range and half skins of i at the time of building, among sorted particles. The unused
+/// places of an entry's word number one source more than there are.
 class TileList {
  public:
   Index rows() const { return rows_; }
@@ -75,22 +82,26 @@ class TileList {
   TileListView view() const {
     return {tile_.data(), source_.data(), count_.data(), entry_.data(), bits_, most_, periods_};
   }
+  /// How many sources of a tile are to be staged, `each` bytes a source, by blocks of which no more than
+  /// `blocks` fit on a multiprocessor anyway: of all tiles, or of nearly all where that lets more blocks run.
+  Index capacity(std::size_t each, Index blocks) const;
 
   /// x: as sorted into the cells; xp: the same as pair loops read them. As many threads share a row as keep
   /// the device busy, or 2^bits.
   template <class P>
   void build(const CellGrid& grid, const Frame& frame, Span<const P> x, Span<const PairPosition> xp,
-             double reach) {
-    build(grid, frame, x, xp, reach, lane_bits(x.size));
+             double range, const HalfSkins& skins) {
+    build(grid, frame, x, xp, range, skins, lane_bits(x.size));
   }
   template <class P>
   void build(const CellGrid& grid, const Frame& frame, Span<const P> x, Span<const PairPosition> xp,
-             double reach, unsigned bits);
+             double range, const HalfSkins& skins, unsigned bits);
 
  private:
   Index rows_ = 0, tiles_ = 0, most_ = 0;
-  Index words_ = 32;          ///< of a thread's entries, at most
-  std::size_t crowd_ = 2500;  ///< particles in the cells around a tile, about
+  detail::TileCounts numbers_{};  ///< of the last search
+  Index words_ = 32;              ///< of a thread's entries, at most
+  std::size_t crowd_ = 2500;      ///< particles in the cells around a tile, about
   unsigned bits_ = 0;
   ShortPeriods periods_;
   Buffer<Tile> tile_;
@@ -102,28 +113,58 @@ class TileList {
   Sorter sorter_;
 };
 
-/// What a tile may take of a multiprocessor's shared memory, bytes: half of it where that is much, so that
-/// two run at a time.
+/// What each of so many blocks may take of a multiprocessor's shared memory, bytes.
+inline std::size_t shared_memory(Index blocks) {
+  static const std::size_t all = [] {
+    int device = 0, bytes = 0;
+    check_cuda(cudaGetDevice(&device), "GPU");
+    check_cuda(cudaDeviceGetAttribute(&bytes, cudaDevAttrMaxSharedMemoryPerMultiprocessor, device), "GPU");
+    return std::size_t(bytes);
+  }();
+  constexpr std::size_t own = 1 << 10;  // of each block, for the system
+  return all / blocks - own;
+}
+
+/// What a tile may take, bytes: half of a multiprocessor's memory where that is much, so that two run at a
+/// time.
 inline std::size_t tile_memory() {
   static const std::size_t bytes = [] {
-    int device = 0, all = 0, one = 0;
+    int device = 0, one = 0;
     check_cuda(cudaGetDevice(&device), "GPU");
-    check_cuda(cudaDeviceGetAttribute(&all, cudaDevAttrMaxSharedMemoryPerMultiprocessor, device), "GPU");
     check_cuda(cudaDeviceGetAttribute(&one, cudaDevAttrMaxSharedMemoryPerBlockOptin, device), "GPU");
-    constexpr std::size_t own = 1 << 10, fixed = 16 << 10;  // of each block; what a search takes beside
-    return max_of(std::size_t(all) / 2 - own, min_of(std::size_t(one), std::size_t(99) << 10)) - fixed;
+    return max_of(shared_memory(2), min_of(std::size_t(one), std::size_t(99) << 10)) - detail::kSearchMemory;
   }();
   return bytes;
 }
 
-/// Blocks of a kernel that the device runs at a time.
+inline Index TileList::capacity(std::size_t each, Index blocks) const {
+  if (each == 0) return 0;
+  const auto places = [&](std::size_t bytes) { return Index(bytes / each) / 4 * 4; };
+  const Index all = min_of(places(tile_memory()), (most_ + 1 + 3) / 4 * 4);
+  for (; blocks > 1 && places(shared_memory(blocks)) < all; --blocks) {
+    const Index fit = places(shared_memory(blocks));
+    Index beyond = 0;
+    for (Index bin = fit / detail::TileCounts::kBin; bin < detail::TileCounts::kBins; ++bin)
+      beyond += numbers_.tiles[bin];
+    if (beyond <= tiles_ / 64) return fit;
+  }
+  return all;
+}
+
+/// Blocks of a kernel that a multiprocessor runs at a time.
+template <class Kernel>
+Index blocks_at_a_time(Kernel kernel, Index threads, std::size_t memory) {
+  int blocks = 0;
+  check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, int(threads), memory), "GPU");
+  return Index(max_of(blocks, 1));
+}
+/// And the device.
 template <class Kernel>
 Index resident_blocks(Kernel kernel, Index threads, std::size_t memory) {
-  int device = 0, processors = 0, blocks = 0;
+  int device = 0, processors = 0;
   check_cuda(cudaGetDevice(&device), "GPU");
   check_cuda(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device), "GPU");
-  check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, kernel, int(threads), memory), "GPU");
-  return Index(max_of(blocks, 1) * processors);
+  return blocks_at_a_time(kernel, threads, memory) * Index(processors);
 }
 
 namespace detail {
@@ -256,10 +297,11 @@ struct TileSearch {
   Frame frame;
   Span<const P> x;
   Span<const PairPosition> xp;
-  double reach;
+  double range;
+  HalfSkins skins;
   ShortPeriods periods;
   unsigned bits;
-  Index tiles, memory;           ///< memory: to stage in, bytes
+  Index tiles, memory, third;    ///< memory: to stage in, bytes; that of each where three blocks run
   Index words, sources, places;  ///< there is room for: of a thread; of all tiles; words of all tiles
   Tile* tile;
   Index* source;
@@ -296,7 +338,7 @@ __device__ void search_tile(const TileSearch<P>& s, const Index tile) {
     BrickCells brick;
     const Vec3d corner = coordinates(s.frame, s.x[first]);
     for (int k = 0; k < 3; ++k) brick.base[k] = s.grid.coordinate(corner[k], k) & ~7;
-    const auto block = s.grid.block(coordinates(s.frame, s.x[i]), s.reach);
+    const auto block = s.grid.block(coordinates(s.frame, s.x[i]), s.range + s.skins[i] + s.skins.most);
     around = CellsAround(s.grid, brick, block);
     around.each(int(lane.index), int(lane.count), [&](int slot, const int(&along)[3]) {
       int c[3];
@@ -318,7 +360,11 @@ __device__ void search_tile(const TileSearch<P>& s, const Index tile) {
     at += particles(cell[t * kEach + k]);
   }
   __syncthreads();
-  if (t == 0) atomicMax(&s.counts->around, all);
+  const std::size_t to_stage = (all + (4u << bits)) * sizeof(Vec4<Real>);  // tests run on
+  if (t == 0) {
+    atomicMax(&s.counts->around, all);
+    if (to_stage > s.third) atomicAdd(&s.counts->crowded, 1);
+  }
   if (all > kMostAround) return;  // an error of the caller's
   const auto each_particle = [&](const auto& f) {
     for (Index slot = warp; slot < BrickCells::kCells; slot += kWarps) {
@@ -332,17 +378,17 @@ __device__ void search_tile(const TileSearch<P>& s, const Index tile) {
   auto* const near = reinterpret_cast<Vec4<Real>*>(staged);
   const PairPosition origin = s.xp[first];
   const auto from_origin = [&](Index j) { return s.frame.separation(s.xp[j], origin); };
-  const bool fits = (all + (4u << bits)) * sizeof(Vec4<Real>) <= s.memory;  // tests run on
-  if (fits) each_particle([&](Index number, Index j) { near[number] = {from_origin(j), 0}; });
+  const bool fits = to_stage <= s.memory;
+  if (fits) each_particle([&](Index number, Index j) { near[number] = {from_origin(j), s.skins[j]}; });
   __syncthreads();
   ThreadEntries list{s.found + std::size_t(blockIdx.x) * s.words * kTileThreads + t, s.words};
   if (some) {
     const Vec3<Real> a = from_origin(i);
-    const Real range2 = Real(s.reach * s.reach);
+    const Real reach = Real(s.range) + s.skins[i];
     around.each(0, 1, [&](int slot, const int(&)[3]) {
       const Index from = local[slot], to = local[slot + 1], begin = s.grid.start[cell[slot]];
       const Index self = from + (i - begin);
-      const auto search = [&](const auto& from_row) {
+      const auto search = [&](const auto& is_near) {
         for (Index k = from + lane.index; k < to; k += 32 * lane.count) {
           const Index n = min_of(32u, (to - k + lane.count - 1) >> bits);
           unsigned hits = 0;
@@ -350,7 +396,7 @@ __device__ void search_tile(const TileSearch<P>& s, const Index tile) {
             unsigned four = 0;
 #pragma unroll
             for (Index c = 0; c < 4; ++c)
-              if (norm2(from_row(k + ((b + c) << bits))) < range2) four |= 1u << c;
+              if (is_near(k + ((b + c) << bits))) four |= 1u << c;
             hits |= four << b;
           }
           hits &= 0xffffffffu >> (32 - n);
@@ -364,11 +410,15 @@ __device__ void search_tile(const TileSearch<P>& s, const Index tile) {
         }
       };
       if (fits && !s.periods.any)
-        search([&](Index k) { return a - near[k].xyz(); });
+        search([&](Index k) {
+          const Vec4<Real> b = near[k];
+          return norm2(a - b.xyz()) < square(reach + b.w);
+        });
       else
         search([&](Index k) {
-          const Vec3<Real> b = fits ? near[k].xyz() : from_origin(begin + (min_of(k, to - 1) - from));
-          return s.periods(a - b);
+          const Index j = begin + (min_of(k, to - 1) - from);
+          const Vec4<Real> b = fits ? near[k] : Vec4<Real>{from_origin(j), s.skins[j]};
+          return norm2(s.periods(a - b.xyz())) < square(reach + b.w);
         });
     });
     list.end(all);
@@ -402,6 +452,7 @@ __device__ void search_tile(const TileSearch<P>& s, const Index tile) {
     first_source = atomicAdd(&s.counts->sources, sources);
     first_word = atomicAdd(&s.counts->words, words);
     atomicMax(&s.counts->nearest, sources);
+    atomicAdd(&s.counts->tiles[min_of(sources / TileCounts::kBin, TileCounts::kBins - 1)], 1);
     s.tile[tile].source = first_source;
     s.tile[tile].sources = sources;
     s.tile[tile].word = first_word;
@@ -475,7 +526,7 @@ __global__ void __launch_bounds__(kTileThreads) tile_order(TileListView list, Wo
 
 template <class P>
 void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, Span<const PairPosition> xp,
-                     double reach, unsigned bits) {
+                     double range, const HalfSkins& skins, unsigned bits) {
   rows_ = x.size;
   bits_ = min_of(bits, 5u);
   periods_ = ShortPeriods(frame, grid.view());
@@ -496,17 +547,36 @@ void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, 
   Index longest = 0;
   for (bool done = false; !done;) {
     constexpr std::size_t least = 2 * 65536 / 8;  // a bit for each of the most there may be, and sums of them
-    const std::size_t memory = max_of(least, min_of(tile_memory(), crowd_ * sizeof(Vec4<Real>)));
+    const bool few_crowded = numbers_.crowded <= tiles_ / 64;  // at the last search
+    const std::size_t third = shared_memory(3) - detail::kSearchMemory;
+    const std::size_t memory =
+        max_of(least, min_of(few_crowded ? third : tile_memory(), crowd_ * sizeof(Vec4<Real>)));
     const Index blocks = min_of(tiles_, resident_blocks(search, kTileThreads, memory));
     const Index places = Index(entry_.size() / kTileThreads);
     found_.reserve_and_resize(std::size_t(blocks) * words_ * kTileThreads);
     counts_.zero();
-    search<<<blocks, kTileThreads, memory>>>({grid.view(), frame, x, xp, reach, periods_, bits_, tiles_,
-                                              Index(memory), words_, Index(source_.size()), places,
-                                              tile_.data(), source_.data(), count_.data(), entry_.data(),
-                                              found_.data(), counts_.data()});
+    search<<<blocks, kTileThreads, memory>>>({grid.view(),
+                                              frame,
+                                              x,
+                                              xp,
+                                              range,
+                                              skins,
+                                              periods_,
+                                              bits_,
+                                              tiles_,
+                                              Index(memory),
+                                              Index(third),
+                                              words_,
+                                              Index(source_.size()),
+                                              places,
+                                              tile_.data(),
+                                              source_.data(),
+                                              count_.data(),
+                                              entry_.data(),
+                                              found_.data(),
+                                              counts_.data()});
     check_cuda(cudaGetLastError(), "search for neighbours");
-    const detail::TileCounts counts = counts_.to_host()[0];
+    const detail::TileCounts counts = numbers_ = counts_.to_host()[0];
     if (counts.around > detail::kMostAround)
       throw DeviceError("more than " + std::to_string(detail::kMostAround) + " particles around " +
                         std::to_string(rows) + " that lie together");

@@ -2,13 +2,14 @@
 // Stored neighbours of each particle: every j within range of i at the time of building.
 // Rows are cut into slices that one warp reads: the entries of its 32 lanes stand side by side, those of
 // lanes that share a row first, so that loads are coalesced however many lanes a row has. On the CPU a slice
-// is one row. The GPU counts, then fills; the CPU joins what blocks of rows found: never too small, never
-// padded beyond the longest row of a slice and a turn of its lanes.
+// is one row. On the GPU slices take places as they are found, on the CPU what blocks of rows found is
+// joined: never too small, never padded beyond the longest row of a slice and a turn of its lanes.
 
 #include <algorithm>
 #include <vector>
 
 #include "bedload/neighbours/cell_grid.hpp"
+#include "bedload/neighbours/half_skins.hpp"
 #include "bedload/parallel/lanes.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -21,7 +22,7 @@ constexpr unsigned kSliceBits = 0;
 #endif
 
 struct VerletListView {
-  const std::uint64_t* offset = nullptr;  ///< [slices + 1]
+  const std::uint64_t* offset = nullptr;  ///< [slices] in any order
   const std::uint32_t* count = nullptr;   ///< [rows]
   const Index* entry = nullptr;
   unsigned bits = 0;  ///< log2 of the lanes that share a row
@@ -61,74 +62,83 @@ class VerletList {
 
   unsigned bits_ = 0;
   Buffer<std::uint32_t> count_;
-  Buffer<std::uint64_t> width_, offset_;
+  Buffer<std::uint64_t> offset_;
+  Buffer<std::uint64_t> taken_;  ///< slots, while slices are searched for
   Buffer<Index> entry_;
   std::uint64_t slots_ = 0;
-  Sorter sorter_;
 };
 
 #if BL_CUDA
 namespace detail {
 
+/// A warp searches for a slice. What it finds stands in shared memory in the order of the slice until it is
+/// known how long that is; then the slice takes the next place in the list. A slice too long for that is
+/// searched for once more.
 template <class Near>
-struct CountPass {
+struct SliceSearch {
+  static constexpr Index kThreads = 128, kTurns = 64;  ///< of a block; of a slice in shared memory
+
   CellGridView sources;
   Near near;
-  unsigned bits;
-  Span<std::uint32_t> count;
-  BL_HD void operator()(Index thread) const {
-    const Lane lane(thread, bits);
-    const Index i = lane.row;
-    std::uint32_t n = 0;
-    const auto look = [&](Index j) { n += near(i, j) ? 1u : 0u; };
-    const Vec3d place = near.place(i);
-    if (sources.any_near(place, near.reach(i)))
-      sources.each_near(place, near.reach(i), look, lane.index, lane.count);
-    lane.combine(n, [](std::uint32_t& into, std::uint32_t other) { into += other; });
-    if (lane.index == 0) count[i] = n;
-  }
-};
-
-struct WidthPass {
-  Span<const std::uint32_t> count;
   VerletListView list;
-  Span<std::uint64_t> width;
-  BL_HD void operator()(Index s) const {
-    std::uint32_t widest = 0;
-    const Index end = min_of(count.size, (s + 1) << list.row_bits());
-    for (Index i = s << list.row_bits(); i < end; ++i) widest = max_of(widest, count[i]);
-    const std::uint64_t turns = (std::uint64_t(widest) + (1u << list.bits) - 1) >> list.bits;
-    width[s] = turns << kSliceBits;
-  }
-};
-
-/// Each lane takes every count-th cell; all lanes test one candidate at a time.
-template <class Near>
-struct FillPass {
-  CellGridView sources;
-  Near near;
-  unsigned bits;
-  VerletListView list;
+  Index rows;
+  std::uint64_t room;  ///< entries
+  std::uint32_t* count;
+  std::uint64_t *offset, *slots;  ///< slots: taken by all slices
   Index* entry;
-  BL_HD void operator()(Index thread) const {
-    const Lane lane(thread, bits);
+
+  __device__ void operator()() const {
+    __shared__ Index found[kThreads * kTurns];
+    const Index thread = blockIdx.x * kThreads + threadIdx.x, in_warp = threadIdx.x % 32;
+    const Lane lane(thread, list.bits);
+    Index* const own = found + (threadIdx.x - in_warp) * kTurns;
+    const std::uint32_t n = lane.row < rows ? search(lane, own, kTurns) : 0;
+    std::uint32_t turns = (n + lane.count - 1) >> list.bits;
+    for (unsigned step = 1; step < 32; step *= 2)
+      turns = max_of(turns, __shfl_xor_sync(0xffffffffu, turns, step));
+    unsigned long long first = 0;
+    if (in_warp == 0) {
+      first = atomicAdd(reinterpret_cast<unsigned long long*>(slots), turns * VerletListView::kTurn);
+      if (lane.row < rows) offset[thread / 32] = first;
+    }
+    first = __shfl_sync(0xffffffffu, first, 0);  // all have written what they found
+    if (lane.row >= rows) return;
+    if (lane.index == 0) count[lane.row] = n;
+    if (first + turns * VerletListView::kTurn > room) return;  // to be done again with more
+    if (turns > kTurns) {
+      search(lane, entry + first, turns);
+      return;
+    }
+    for (std::uint32_t k = lane.index, turn = 0; k < n; k += lane.count, ++turn)
+      entry[first + turn * VerletListView::kTurn + in_warp] = own[turn * VerletListView::kTurn + in_warp];
+  }
+
+ private:
+  /// Writes the first `turns` turns of a row to its lanes of a slice; how many entries there are.
+  __device__ std::uint32_t search(const Lane& lane, Index* slice, std::uint32_t turns) const {
     const Index i = lane.row;
+    const Vec3d place = near.place(i);
+    const double reach = near.reach(i);
+    if (!sources.any_near(place, reach)) return 0;
+    slice += threadIdx.x % 32 - lane.index;
     std::uint32_t n = 0;
-    if (list.count[i] == 0) return;
-    if (lane.count == 1 && list.bits == 0) {
-      Index* next = entry + list.slot(i, 0);
-      sources.each_near(near.place(i), near.reach(i), [&](Index j) {
-        if (near(i, j)) *next = j, next += VerletListView::kTurn;
-      });
-      return;
-    }
+    const auto keep = [&](std::uint32_t k, Index j) {
+      if (k >> list.bits < turns)
+        slice[(k >> list.bits) * VerletListView::kTurn + (k & (lane.count - 1))] = j;
+    };
     if (lane.count == 1) {
-      sources.each_near(near.place(i), near.reach(i), [&](Index j) {
-        if (near(i, j)) entry[list.slot(i, n++)] = j;
+      sources.each_run(place, reach, [&](Index begin, Index end) {
+        for (; begin < end; begin += 32) {
+          unsigned hits = 0;
+          const Index some = min_of(32u, end - begin);
+          for (Index b = 0; b < some; ++b) hits |= unsigned(near(i, begin + b)) << b;
+          for (; hits != 0; hits &= hits - 1) keep(n++, begin + Index(__ffs(int(hits)) - 1));
+        }
       });
-      return;
+      return n;
     }
-    const auto block = sources.block(near.place(i), near.reach(i));
+    // each lane takes every count-th cell; all test one candidate at a time
+    const auto block = sources.block(place, reach);
     int q = int(lane.index);
     Index j = 0, end = 0;
     for (;;) {
@@ -140,15 +150,20 @@ struct FillPass {
         q += int(lane.count);
       }
       const bool some = j < end;
-      if (lane.ballot(some) == 0) return;
-      const bool keep = some && near(i, j);
-      const unsigned kept = lane.ballot(keep);
-      if (keep) entry[list.slot(i, n + Lane::bits_in(kept & ((1u << lane.index) - 1)))] = j;
+      if (lane.ballot(some) == 0) return n;
+      const bool hit = some && near(i, j);
+      const unsigned kept = lane.ballot(hit);
+      if (hit) keep(n + Lane::bits_in(kept & ((1u << lane.index) - 1)), j);
       n += Lane::bits_in(kept);
       j += some;
     }
   }
 };
+
+template <class Search>
+__global__ void __launch_bounds__(Search::kThreads) slice_search(Search search) {
+  search();
+}
 
 }  // namespace detail
 #endif
@@ -200,13 +215,23 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
   count_.resize(rows);
   bits_ = bits;
 #if BL_CUDA
-  const unsigned search = lane_bits(rows);
-  for_each({0, rows << search}, detail::CountPass<Near>{sources, near, search, count_});
-  width_.resize(slices());
-  for_each({0, Index(slices())}, detail::WidthPass{count_, view(), width_});
-  slots_ = sorter_.exclusive_scan(width_, offset_);
-  entry_.reserve_and_resize(slots_ + 2 * VerletListView::kTurn);
-  for_each({0, rows << search}, detail::FillPass<Near>{sources, near, search, view(), entry_.data()});
+  offset_.resize(slices());
+  slots_ = 0;
+  if (rows == 0) return;
+  taken_.resize(1);
+  using Search = detail::SliceSearch<Near>;
+  const Index blocks = Index((slices() * 32 + Search::kThreads - 1) / Search::kThreads);
+  constexpr std::uint64_t beyond = 2 * VerletListView::kTurn;
+  for (;;) {
+    const std::uint64_t room = entry_.size() > beyond ? entry_.size() - beyond : 0;
+    taken_.zero();
+    detail::slice_search<<<blocks, Search::kThreads>>>(Search{
+        sources, near, view(), rows, room, count_.data(), offset_.data(), taken_.data(), entry_.data()});
+    check_cuda(cudaGetLastError(), "search for neighbours");
+    slots_ = taken_.to_host()[0];
+    if (slots_ <= room) return;
+    entry_.resize(slots_ + slots_ / 32 + beyond);
+  }
 #else
   // one search instead of two: blocks of rows grow lists of their own, which are then joined
   static_assert(kSliceBits == 0);
@@ -219,11 +244,11 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
     detail::NearSearch<Near> search{near, found[b]};
     for (Index i = b * block; i < end(b); ++i) count_.data()[i] = search.row(i, sources);
   }
-  offset_.resize(rows + 1);
+  offset_.resize(rows);
   slots_ = 0;
-  for (Index i = 0; i <= rows; ++i) {
+  for (Index i = 0; i < rows; ++i) {
     offset_.data()[i] = slots_;
-    if (i < rows) slots_ += count_.data()[i];
+    slots_ += count_.data()[i];
   }
   entry_.reserve_and_resize(slots_ + 2 * VerletListView::kTurn);
 #pragma omp parallel for schedule(dynamic, 1)
@@ -242,7 +267,7 @@ struct HostVerletList {
   unsigned bits;
 
   explicit HostVerletList(const VerletList& list)
-      : offset(list.slices() + 1), count(list.rows()), entry(list.slots()), bits(list.view().bits) {
+      : offset(list.slices()), count(list.rows()), entry(list.slots()), bits(list.view().bits) {
     const VerletListView from = list.view();
     copy_to_host(offset.data(), from.offset, offset.size() * sizeof offset[0]);
     copy_to_host(count.data(), from.count, count.size() * sizeof count[0]);
@@ -251,7 +276,7 @@ struct HostVerletList {
   VerletListView view() const { return {offset.data(), count.data(), entry.data(), bits}; }
 };
 
-/// Pairs of SPH particles (fluid or wall) closer than `range`.
+/// Pairs of SPH particles (fluid or wall) closer than `range` and their half skins.
 template <class PA>
 struct SphNear {
   Frame frame;
@@ -259,24 +284,25 @@ struct SphNear {
   Span<const PairPosition> a, b;
   double range;  ///< m
   bool same;     ///< targets are the sources: a particle is not its own neighbour
+  HalfSkins skin_a = {}, skin_b = {};
   BL_HD Vec3d place(Index i) const { return coordinates(frame, x[i]); }
-  BL_HD double reach(Index) const { return range; }
+  BL_HD double reach(Index i) const { return range + skin_a[i] + skin_b.most; }
   BL_HD bool operator()(Index i, Index j) const {
-    return !(same && i == j) && norm2(frame.separation(a[i], b[j])) < Real(range * range);
+    return !(same && i == j) &&
+           norm2(frame.separation(a[i], b[j])) < square(Real(range) + skin_a[i] + skin_b[j]);
   }
 #if !BL_CUDA
   PackMask lanes(Index i, PackRun j) const {
-    PackMask near = norm2(frame.separation(a[i], b[j])) < Real(range * range);
+    PackMask near = norm2(frame.separation(a[i], b[j])) < square(Pack(Real(range) + skin_a[i]) + skin_b[j]);
     if (same && i - j.first < Index(kLanes)) near.v[i - j.first] = 0;
     return near;
   }
 #endif
 };
 
-/// How far pairs of particles with smoothing lengths of their own are listed: `times` the larger length, and
-/// `beyond`.
+/// The range of pairs of particles with smoothing lengths of their own: `times` the larger length.
 struct PairReach {
-  Real times, beyond, other;  ///< -, m; length of what has none, m
+  Real times, other;  ///< -; length of what has none, m
 };
 
 /// SphNear among such particles; it looks as far as the largest of them reaches.
@@ -288,13 +314,14 @@ struct LengthNear {
   BL_HD Vec3d place(Index i) const { return near.place(i); }
   BL_HD double reach(Index i) const { return near.reach(i); }
   BL_HD bool operator()(Index i, Index j) const {
-    const Real h = max_of(own(i), h_b ? h_b[j] : reaches.other), r = reaches.times * h + reaches.beyond;
+    const Real h = max_of(own(i), h_b ? h_b[j] : reaches.other),
+               r = reaches.times * h + near.skin_a[i] + near.skin_b[j];
     return !(near.same && i == j) && norm2(near.frame.separation(near.a[i], near.b[j])) < r * r;
   }
 #if !BL_CUDA
   PackMask lanes(Index i, PackRun j) const {
     const Pack h = max_of(Pack(own(i)), h_b ? Pack(h_b[j]) : Pack(reaches.other));
-    const Pack r = Pack(reaches.times) * h + Pack(reaches.beyond);
+    const Pack r = Pack(reaches.times) * h + Pack(near.skin_a[i]) + near.skin_b[j];
     PackMask listed = norm2(near.frame.separation(near.a[i], near.b[j])) < r * r;
     if (near.same && i - j.first < Index(kLanes)) listed.v[i - j.first] = 0;
     return listed;

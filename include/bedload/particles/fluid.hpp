@@ -11,6 +11,7 @@ struct FluidStore : Store {
   Field<Id> id{*this, "id", "-", Lifetime::kept};
   Field<FluidPosition> x{*this, "x", "m", Lifetime::kept};
   Field<FluidPosition> x_list{*this, "x_list", "m", Lifetime::renewed};  ///< where the neighbour lists were built
+  Field<Real> half_skin{*this, "half_skin", "m", Lifetime::renewed};     ///< how far it may go from there until they are built anew
   Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept};   ///< velocity, density
   Field<Real4> flux{*this, "flux", "m/s, kg/m3", Lifetime::kept};     ///< volume flux of fluid and grains, eps v + sum w u, or, of sheared fluid, peculiar velocity; density
   Field<Real> s{*this, "s", "-", Lifetime::kept};                     ///< density / rho0 - 1
