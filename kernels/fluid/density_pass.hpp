@@ -1,5 +1,6 @@
 #pragma once
 #include "bedload/neighbours/for_each_pair.hpp"
+#include "kernels/fluid/wall_mass.hpp"
 #include "kernels/smoothing/half_space_fraction.hpp"
 #include "kernels/smoothing/lengths.hpp"
 
@@ -78,14 +79,13 @@ struct NoShifting {
 /// no grains. Its adjoint is the pressure force of ForcePass, of which fluid and grains take the fractions
 /// with which they make up q: what pressure does to both is what the energy of compression loses.
 /// Kick-drift-kick passes positions and velocities of the middle of the step, which makes it reversible.
-/// Walls count at rho0: with the density of their pressure, a wall that slides past resting fluid would
-/// change the fluid's density for as long as it slides. Continuity tells changes of density alone. Where
-/// fluid is fragmented, s follows the void, by which less of the kernel is filled than a plane surface would
-/// leave, so that there is pressure again no sooner than the void has closed. Surfaces that meet would hold
-/// each other off by a gap, since each counts as filled up to the other: under pressure that fades, as fast
-/// as it is high and the void wide, until the fluid fills its volume. Nor is continuity of the mixture that
-/// of the particles: what the gradient of the porosity in its sum differs from how the porosity changes along
-/// the way adds up, and fluid that has entered a bed may stand more closely than its volume allows. So among
+/// Walls count by their continuity_mass. Continuity tells changes of density alone. Where fluid is
+/// fragmented, s follows the void, by which less of the kernel is filled than a plane surface would leave, so
+/// that there is pressure again no sooner than the void has closed. Surfaces that meet would hold each other
+/// off by a gap, since each counts as filled up to the other: under pressure that fades, as fast as it is
+/// high and the void wide, until the fluid fills its volume. Nor is continuity of the mixture that of the
+/// particles: what the gradient of the porosity in its sum differs from how the porosity changes along the
+/// way adds up, and fluid that has entered a bed may stand more closely than its volume allows. So among
 /// grains density grows where particles overfill the kernel by more than `slack`.
 /// kSmooth: with density diffusion and all that follows the void; without, continuity alone. kPorous: there
 /// are grains. Where smoothing lengths vary, the sum of continuity is taken at h_a and divided by Omega_a.
@@ -161,7 +161,7 @@ struct DensityPass {
   BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
     const Vec4<N> vb = wall_v_rho[b], mb = wall_m_state[b];
     const N distance = root(r2), F = own_factor(lengths.F(w, sum.own, distance)), V = quotient(mb.x, mb.z);
-    sum.rate += V * rho0 * F * dot(sum.q - vb.xyz(), r);
+    sum.rate += continuity_mass(mb, rho0) * F * dot(sum.q - vb.xyz(), r);
     if constexpr (!kSmooth) return;
     sum.filled += V * lengths.W(w, sum.own, distance);
     sum.gradient += V * F * r;

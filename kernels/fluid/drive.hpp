@@ -1,5 +1,6 @@
 #pragma once
 #include "bedload/case/choices.hpp"
+#include "bedload/core/formula_code.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "kernels/contact/grain_mass.hpp"
 
@@ -20,6 +21,20 @@ struct DriveField {
  private:
   BL_HD bool upper(const Vec3d& x) const {
     return frame.wrap(x)[opposed] - frame.origin[opposed] > 0.5 * frame.length[opposed];
+  }
+};
+
+/// drive.factor at the places of particles.
+template <class Position>
+struct DriveFactorPass {
+  Frame frame;
+  FormulaCode formula;  ///< of x, y, z (m) and t (s)
+  double t;
+  Span<const Position> x;
+  Span<Real> factors;
+
+  BL_HD void operator()(Index i) const {
+    factors[i] = Real(formula(frame.wrap(coordinates(frame, x[i])), t));
   }
 };
 

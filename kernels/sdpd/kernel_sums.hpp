@@ -1,11 +1,12 @@
 #pragma once
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "bedload/particles/walls.hpp"
+#include "kernels/fluid/wall_mass.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
 /// Continuity of the mixture over dt, eps_a d rho_a / dt = -sum_b M_b (q_a - q_b) . r_ab F_ab, and nothing
-/// else that changes density; walls count at rho0, as in DensityPass.
+/// else that changes density; walls count as in DensityPass.
 template <class W>
 struct ContinuityPass {
   W w;
@@ -28,7 +29,7 @@ struct ContinuityPass {
   template <class N, class J>
   BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
     const Vec4<N> vb = wall_v_rho[b], mb = wall_m_state[b];
-    sum.rate += quotient(mb.x, mb.z) * rho0 * w.F(root(r2)) * dot(sum.q - vb.xyz(), r);
+    sum.rate += continuity_mass(mb, rho0) * w.F(root(r2)) * dot(sum.q - vb.xyz(), r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rate += other.rate; }
   BL_HD void finish(Index a, const Sum<>& sum) const {

@@ -1,18 +1,36 @@
 #pragma once
+#include "bedload/case/config.hpp"
+#include "bedload/case/formula.hpp"
+#include "bedload/parallel/loops.hpp"
 #include "kernels/fluid/drive.hpp"
-#include "src/motion/drive_factor.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// The drive of a case at time t (s) for particles at x (m; may be empty where its factor is the same
-/// everywhere). `factors` keeps what it refers to.
-inline DriveField drive_field(const DriveConfig& drive, const DriveFactor& factor, const Frame& frame,
-                              const std::vector<Vec3d>& x, double t, Buffer<Real>& factors) {
-  const int opposed = int(DriveReversal(drive.opposed)) - int(DriveReversal::x);
-  if (!factor.varies()) return {frame, factor.at(t) * drive.f, {}, opposed};
-  const std::vector<double> at = factor.at(x, t);
-  factors.assign(std::vector<Real>(at.begin(), at.end()));
-  return {frame, drive.f, factors, opposed};
-}
+/// By what drive.factor multiplies drive.f, over time and place.
+class DriveFactor {
+ public:
+  explicit DriveFactor(const DriveConfig& drive)
+      : formula_(drive.factor, "xyzt"),
+        varies_(formula_.uses('x') || formula_.uses('y') || formula_.uses('z')) {
+    if (varies_) steps_.assign(formula_.steps());
+  }
+
+  /// The drive of a case at time t (s) for particles at x; it holds until the next call.
+  template <class Position>
+  DriveField field(const DriveConfig& drive, const Frame& frame, Span<const Position> x, double t) {
+    const int opposed = int(DriveReversal(drive.opposed)) - int(DriveReversal::x);
+    if (!varies_) return {frame, formula_({}, t) * drive.f, {}, opposed};
+    at_.resize(x.size);
+    const FormulaCode code{steps_.data(), int(steps_.size())};
+    for_each({0, x.size}, DriveFactorPass<Position>{frame, code, t, x, at_});
+    return {frame, drive.f, at_, opposed};
+  }
+
+ private:
+  Formula formula_;
+  bool varies_;  ///< from place to place
+  Buffer<FormulaStep> steps_;
+  Buffer<Real> at_;  ///< of each particle
+};
 
 }  // namespace bedload::inline BL_VARIANT

@@ -171,10 +171,7 @@ Drive FluidSolver::drive(const FluidStore& fluid) const {
 
 void FluidSolver::set_drive(const FluidStore& fluid, double t) {
   if (!config_.drive.on_fluid()) return;
-  std::vector<Vec3d> x;
-  if (drive_factor_.varies())
-    for (const auto& at : fluid.x.values()) x.push_back(frame_.wrap(coordinates(frame_, at)));
-  drive_now_ = drive_field(config_.drive, drive_factor_, frame_, x, t, drive_factors_);
+  drive_now_ = drive_factor_.field<FluidPosition>(config_.drive, frame_, fluid.x, t);
 }
 
 void FluidSolver::collide(FluidStore& fluid) {

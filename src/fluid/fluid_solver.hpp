@@ -294,7 +294,6 @@ class FluidSolver {
   Real3 gravity_;
   DriveFactor drive_factor_;
   DriveField drive_now_;
-  Buffer<Real> drive_factors_;
   Buffer<Real> collisions_;  ///< of each particle
   Buffer<Real4> collided_;
   double half_skin_ = 0, wall_skin_ = 0;  ///< the largest of fluid, that of walls, m

@@ -120,12 +120,10 @@ void CoupledSimulation::advance_fluid(double dt) {
 
 Span<const Real3> CoupledSimulation::drive_grains() {
   if (!config_.drive.on_grains()) return {};
-  const std::vector<Vec3d> x = drive_factor_.varies() ? grains_.x.values() : std::vector<Vec3d>();
   grain_drive_.resize(grains_.size());
-  for_each(
-      grains_.owned(),
-      GrainDrivePass{drive_field(config_.drive, drive_factor_, frame_, x, clock_.time, grain_drive_factors_),
-                     config_.drive.mode, matter_.of(grains_), grains_.x, grains_.radius, grain_drive_});
+  for_each(grains_.owned(),
+           GrainDrivePass{drive_factor_.field<Vec3d>(config_.drive, frame_, grains_.x, clock_.time),
+                          config_.drive.mode, matter_.of(grains_), grains_.x, grains_.radius, grain_drive_});
   return grain_drive_;
 }
 

@@ -123,7 +123,6 @@ class CoupledSimulation final : public Simulation {
   EffectiveGravity gravity_;
   GrainMatter matter_;
   DriveFactor drive_factor_;
-  Buffer<Real> grain_drive_factors_;
   Buffer<Real3> grain_drive_;  ///< N
   CellGrid grain_grid_;
   std::unique_ptr<FluidSolver> fluid_solver_;

@@ -22,6 +22,7 @@ Config channel(const std::string& model, DensityMethod method) {
   c.fluid.zeta = 20.0 / 21 * c.fluid.mu;
   c.fluid.c = 10;
   c.density.method = method;
+  c.density.delta = c.density.void_relaxation = 0;
   WallBody wall = test::body("box", {0, 0, kSurface}, {9, 9, kTop});
   wall.type = WallType::frozen;
   c.wall.bodies = {wall};
@@ -43,20 +44,21 @@ struct Channel : FluidBox {
     for (std::size_t a = 0; a < position.size(); ++a) {
       for (int k = 0; k < 3; ++k) velocity[a][k] = u(rng);
       spin.push_back({u(rng), u(rng), u(rng)});
+      s[a] = 0.1 * u(rng);
       if (a / 81 < kSurface) continue;
       velocity[a] = pose.velocity(position[a]), spin[a] = pose.omega;
       inside[a] = a / 81 == 9 || a / 81 == 12 ? kInner : kOuter;
+      if (inside[a] == kOuter) s[a] = 0;
     }
     if (walled) make_wall();
     upload();
     std::vector<Real3> sorted;
     for (const Id id : fluid.id.values()) sorted.push_back(Real3(spin[id]));
     if (solver->spin()) solver->spin()->omega.assign(sorted);
-    if (walled) {  // meets fluid for the first time, and begins in balance with it, but here at rho0
+    if (walled) {  // meets fluid for the first time, and begins in balance with it, but here as fluid does
       const auto own = walls.compression.values();
       solver->walls(fluid, walls, poses, 0, true);
       walls.compression.assign(own);
-      solver->walls(fluid, walls, poses, 0, true);  // its mass over its density, by which continuity goes
     }
     solver->density(fluid, walls, poses, kStep);
     found = fluid.s_next.values();
@@ -89,7 +91,7 @@ struct Channel : FluidBox {
     for (std::size_t a = 9 * 81; a < position.size(); ++a) {
       id.push_back(Id(x.size()));
       x.push_back(position[a]);
-      own.push_back(inside[a] == kInner ? Real(0) : kNoCompression);
+      own.push_back(inside[a] == kInner ? Real(s[a]) : kNoCompression);
     }
     position.resize(9 * 81), velocity.resize(9 * 81), mass.resize(9 * 81), s.resize(9 * 81);
     walls.resize(Index(x.size()));
@@ -154,6 +156,18 @@ TEST(FrozenWalls, AreFluidThatMovesAndTurnsWithThem) {
       for (const Real3& acc : walled.fluid.acc_next.values()) sum += Vec3d(acc), forces += norm(Vec3d(acc));
       EXPECT_LT(norm(sum) / forces, kInvariant);
     }
+}
+
+TEST(FrozenWalls, ChangeTheDensityOfWcsphAsFluidOfTheirMass) {
+  Channel walled("wcsph", DensityMethod::continuity, true), all("wcsph", DensityMethod::continuity, false);
+  const auto density = all.by_id(all.found), beside = walled.by_id(walled.found);
+  const double close = tolerance(1e-12, 1e-6, 2e-6);
+  double most = 0;
+  for (std::size_t a = 0; a < beside.size(); ++a) {
+    ASSERT_NEAR(beside[a], density[a], close) << a;
+    most = std::max(most, std::abs(double(beside[a])));
+  }
+  EXPECT_GT(most, 1e3 * close);
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"rayleigh_taylor_grains/water.toml", {2548, 1960, {"grain.E"}}},
       {"reverse_poiseuille/case.toml", {28 * 56 * 14, 0}},
       {"reverse_poiseuille/small.toml", {7 * 7 * 14, 0}},
+      {"reverse_poiseuille/walled.toml", {10 * 10 * 10, 0}},
       {"reverse_poiseuille_slurry/phi_03.toml", {686 - 45, 45, {"couple.hc"}}},
       {"reverse_poiseuille_slurry/phi_05.toml", {686 - 68, 68, {"couple.hc"}}},
       {"reverse_poiseuille_slurry/phi_11.toml", {686 - 137, 137, {"couple.hc"}}},

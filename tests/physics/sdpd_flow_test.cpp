@@ -103,8 +103,8 @@ TEST(SlowSdpdFluid, IsAtItsTemperatureWithMixedMasses) {
   auto s = started(mixed.config, mixed.setup);
   const Equilibrium found = equilibrium_of(*s, mixed.config);
   for (int kind = 0; kind < 2; ++kind) {
-    EXPECT_NEAR(found.linear[kind], 1, 2e-2) << kind;
-    EXPECT_NEAR(found.spin[kind], 1, 2e-2) << kind;
+    EXPECT_NEAR(found.linear[kind], 1, 1.5e-2) << kind;  // 1 % by the step, and chance
+    EXPECT_NEAR(found.spin[kind], 1, 1.5e-2) << kind;
     RecordProperty("linear" + std::to_string(kind), std::to_string(found.linear[kind]));
     RecordProperty("spin" + std::to_string(kind), std::to_string(found.spin[kind]));
   }
