@@ -87,7 +87,7 @@ void OpenBoundaries::renew(FluidStore& fluid, WallStore& walls, const EquationOf
     while (motion_.inlets()[i].due()) {
       admit(i, fluid, walls, eos, t, gravity);
       motion_.inlets()[i].next_layer();
-      WallMotion::place(frame_, walls, motion_.poses(t, 0, 1));
+      WallMotion::place(frame_, walls, motion_.poses_at(t));
     }
 }
 

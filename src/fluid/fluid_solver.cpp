@@ -104,9 +104,7 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
       mixed_(config.grain.present && config.couple.mode == CouplingMode::two_way),
       lengths_(config.fluid.variable_h ? std::make_unique<SmoothingLengths>(fluid, config.fluid.h())
                                        : nullptr),
-      shear_{config.domain.shear_rate, 0, config.domain.min.z, config.domain.max.z - config.domain.min.z},
-      gravity_(config.gravity),
-      drive_factor_(config.drive) {
+      shear_{config.domain.shear_rate, 0, config.domain.min.z, config.domain.max.z - config.domain.min.z} {
   eos_ = EquationOfState::of(config);
   renew_skins({});
   const auto acts = [](const WallBody& body) { return body.repels() || body.no_penetration; };
@@ -162,16 +160,11 @@ double FluidSolver::repulsion_cap(double dt) const {
   return dt > 0 ? 0.1 * config_.fluid.dx / (dt * dt) : 1e30;
 }
 
-Drive FluidSolver::drive(const FluidStore& fluid) const {
+Drive FluidSolver::drive(const FluidStore& fluid, const Moment& now) const {
   const DriveConfig& d = config_.drive;
   const Vec3d spring{d.rate.x * d.rate.x, d.rate.y * d.rate.y, d.rate.z * d.rate.z};
-  const DriveField field = d.on_fluid() ? drive_now_ : DriveField{frame_, {}, {}, -1};
+  const DriveField field = d.on_fluid() ? now.drive : DriveField{frame_, {}, {}, -1};
   return {field, fluid.x, d.mode, d.on == DrivenPhase::both, spring, d.centre, d.pulls()};
-}
-
-void FluidSolver::set_drive(const FluidStore& fluid, double t) {
-  if (!config_.drive.on_fluid()) return;
-  drive_now_ = drive_factor_.field<FluidPosition>(config_.drive, frame_, fluid.x, t);
 }
 
 void FluidSolver::collide(FluidStore& fluid) {
@@ -199,7 +192,7 @@ WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const
 }
 
 void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double kick, double dt) {
-  if (repelling_.surfaces.size == 0 && orifices_.size() == 0) return;
+  if (!repels()) return;
   const WallRepulsion walls = repulsion(pose, dt);
   const OrificeRepulsion orifices{
       walls.law, Real(0.01 * config_.fluid.c), dt > 0 ? Real(1 / dt) : Real(0), frame_, orifices_, pose};
@@ -271,7 +264,6 @@ void FluidSolver::advance(FluidStore& fluid, double kick, double dt, double pred
 void FluidSolver::correct(FluidStore& fluid, double kick) {
   fluid.acc.buffer().swap(fluid.acc_next.buffer());
   survey(fluid, kick);
-  corrected_ = kick;
 }
 
 void FluidSolver::survey(FluidStore& fluid, double kick) {

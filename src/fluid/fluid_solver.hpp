@@ -20,7 +20,6 @@
 #include "kernels/fluid/wall_repulsion.hpp"
 #include "kernels/integrate/fluid_kicks.hpp"
 #include "kernels/stress/fluid_stress.hpp"
-#include "src/fluid/drive_field.hpp"
 #include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -76,6 +75,13 @@ struct SmoothingLengths {
         listed(h0) {}
 };
 
+/// Under what the fluid's forces act: at the end of a step, or where a run begins.
+struct Moment {
+  std::uint64_t step = 0;  ///< which one ends then; of noise
+  Real3 gravity;           ///< minus the frame's acceleration, m/s2
+  DriveField drive{};      ///< where the case drives fluid
+};
+
 class FluidSolver {
  public:
   /// Chooses model and kernel function once. `walls` and `fluid`, of which it may keep more, must outlive it;
@@ -101,7 +107,7 @@ class FluidSolver {
     return dt > now.lasts || dt > longest_step() || walls_moved > wall_skin_ || outgrown;
   }
   const EquationOfState& eos() const { return eos_; }
-  Drive drive(const FluidStore& fluid) const;
+  Drive drive(const FluidStore& fluid, const Moment& now) const;
   /// With which particles move beside their velocity; empty where nothing gives one.
   Span<const Real3> drift_of(const FluidStore& fluid) const {
     return drifts() ? Span<const Real3>(fluid.drift) : Span<const Real3>();
@@ -116,16 +122,9 @@ class FluidSolver {
            (mixed_ && config_.couple.spreading > 0);
   }
   bool drifts() const { return shifts() || config_.xsph > 0; }
-  /// Whether forces() finds how the density changes, too, by which state() advances it: then without
+  /// Whether forces() finds how the density changes, too, by which advance() takes it on: then without
   /// density().
   bool one_pass() const { return !rates_.empty(); }
-  /// Gravity minus the frame's acceleration (m/s2), for the next walls() and forces(). density() takes it for
-  /// its hydrostatic slope, as it was for the state from which it starts.
-  void set_gravity(const Vec3d& g) { gravity_ = Real3(g); }
-  /// Which step the next forces() end; of noise.
-  void set_step(std::int64_t step) { step_ = std::uint64_t(step); }
-  /// What drive() gives from now on, which is that at the time t (s).
-  void set_drive(const FluidStore& fluid, double t);
   /// Changes velocities of fluid particles that have come too near to each other (visc.collision), which
   /// positions as packed and lists tell.
   void collide(FluidStore& fluid);
@@ -133,6 +132,17 @@ class FluidSolver {
   virtual double friction_limit(const FluidExtremes& now) const;
   /// Null where particles do not spin.
   virtual Spin* spin() { return nullptr; }
+  /// What it adds to the store that forces() sets.
+  virtual std::vector<const FieldBase*> fields_of_forces() const {
+    std::vector<const FieldBase*> out;
+    for (const auto& rate : rates_) out.push_back(rate.get());
+    if (lengths_) out.push_back(&lengths_->omega);
+    return out;
+  }
+  /// Whether repel() has anything to do.
+  bool repels() const { return repelling_.surfaces.size > 0 || orifices_.size() > 0; }
+  /// Whether some walls have a density of their own, which density() takes on.
+  bool freezes() const { return frozen_; }
 
   /// Sorts the fluid and renews all lists; sorts the walls too where they have moved. Where lists would last
   /// less than eight steps, what is fast gets up to four times the skin, so that it does not make all others
@@ -147,20 +157,26 @@ class FluidSolver {
   /// v += kick (acc + reaction), x += drift (v + what they drift beside it), and packs x, `back` (s) before
   /// where it is; `coupled`: there is a reaction.
   void kick_drift(FluidStore& fluid, double kick, double drift, double back, bool coupled);
-  /// s_next, and the density of frozen walls, from continuity over dt, with positions as packed.
-  virtual void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) = 0;
-  void accept_density(FluidStore& fluid) { fluid.s.buffer().swap(fluid.s_next.buffer()); }
+  /// s, and the density of frozen walls, from continuity over dt since `start`, whose gravity is that of the
+  /// hydrostatic slope, with positions as packed. s_next has the former s.
+  void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Moment& start,
+               double dt) {
+    find_density(fluid, walls, pose, start, dt);
+    fluid.s.buffer().swap(fluid.s_next.buffer());
+  }
   /// Pressure from the density, velocity predicted by `kick`; packs x.
   void state(FluidStore& fluid, double kick, bool coupled);
   /// one_pass(): kick_drift() over dt, density a step dt (s) on, and state().
   void advance(FluidStore& fluid, double kick, double dt, double predict);
   /// Wall particles' state from the fluid; of dry ones only where `moving` walls may change it. Poses on the
-  /// device, one a body; drag_dt: the step in which drag_kick arose (s), 0 where there is none.
-  virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt,
-                     bool moving) = 0;
-  /// theta, acc_next, XSPH's part of the drift. One pose a body; the step (s) caps the push of single
-  /// layers.
-  virtual void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) = 0;
+  /// device, one a body; gravity as of Moment; drag_dt: the step in which drag_kick arose (s), 0 where there
+  /// is none.
+  virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
+                     const Real3& gravity, double drag_dt, bool moving) = 0;
+  /// theta, acc_next, XSPH's part of the drift. One pose a body; the step (s) that ends now caps the push of
+  /// single layers.
+  virtual void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment& now,
+                      double dt) = 0;
   /// Adds what surfaces of walls and orifices do to acc_next. One pose a body; velocities are predicted by
   /// `kick` in a step of dt, s.
   void repel(FluidStore& fluid, Span<const BodyPose> pose, double kick, double dt);
@@ -171,16 +187,19 @@ class FluidSolver {
   void survey(FluidStore& fluid, double kick = 0);
   /// As of the last survey. Waits for it.
   FluidExtremes extremes() const;
-  /// Force of the fluid on every wall particle (N), push of surfaces apart, the opposite of what the
-  /// last forces() gave the fluid. After a step of dt (s), before the lists are renewed.
+  /// Force of the fluid on every wall particle (N), push of surfaces apart, the opposite of what forces()
+  /// gave the fluid `now`. After a step of dt (s), before the lists are renewed; corrected: the kick by which
+  /// correct() has changed velocities since then, s.
   virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
-                           double dt, Buffer<Vec3d>& force) = 0;
+                           const Moment& now, double corrected, double dt, Buffer<Vec3d>& force) = 0;
   /// The same by parts: pressure with the push of single layers; friction.
   virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
-                           double dt, Buffer<Vec3d>& pressure, Buffer<Vec3d>& friction) = 0;
+                           const Moment& now, double corrected, double dt, Buffer<Vec3d>& pressure,
+                           Buffer<Vec3d>& friction) = 0;
   /// Moments of the forces between pairs, by the laws of forces() for the velocities that the fluid has now.
   /// After a step of dt (s), before the lists are renewed.
-  virtual void moments(FluidStore& fluid, const WallStore& walls, double dt, FluidMoments& out) = 0;
+  virtual void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt,
+                       FluidMoments& out) = 0;
   /// Pairs of fluid particles within the kernel's reach that see each other through one of the surfaces.
   double pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces, Span<const BodyPose> pose) const;
 
@@ -200,6 +219,9 @@ class FluidSolver {
  protected:
   FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, FluidStore& fluid,
               double kappa);
+  /// density(), into s_next.
+  virtual void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
+                            const Moment& start, double dt) = 0;
   void make_cells();
   /// Gives everything its half skin; whether that takes other cells.
   bool renew_skins(const ListSpeeds& speeds);
@@ -247,7 +269,7 @@ class FluidSolver {
   /// walls() by WallPass.
   template <class W, class Lengths = OneLength>
   void extrapolate(const W& w, const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
-                   double drag_dt, bool moving, const Lengths& lengths = {}) {
+                   const Real3& gravity, double drag_dt, bool moving, const Lengths& lengths = {}) {
     const WallPass<W, Lengths> pass{w,
                                     eos_,
                                     flux(fluid),
@@ -257,7 +279,7 @@ class FluidSolver {
                                     walls.x0,
                                     walls.body,
                                     pose,
-                                    gravity_,
+                                    gravity,
                                     least_sum(),
                                     walls.v_rho,
                                     walls.v_visc,
@@ -291,9 +313,6 @@ class FluidSolver {
   MeanShear shear_;
   double listed_strain_ = 0;  ///< where the lists were built
   Buffer<Vec3d> lattice_;
-  Real3 gravity_;
-  DriveFactor drive_factor_;
-  DriveField drive_now_;
   Buffer<Real> collisions_;  ///< of each particle
   Buffer<Real4> collided_;
   double half_skin_ = 0, wall_skin_ = 0;  ///< the largest of fluid, that of walls, m
@@ -309,17 +328,15 @@ class FluidSolver {
   Buffer<FluidExtremes> extremes_;
   Buffer<Index> order_;
   Compaction compaction_;
-  Buffer<Index> beside_walls_;  ///< fluid with wall particles around it
-  Buffer<Index> wet_walls_;     ///< wall particles with fluid around them
-  bool relisted_ = true;        ///< since walls() was last called
-  SurfaceSet repelling_;        ///< empty where no wall repels
-  Buffer<Orifice> orifices_;    ///< empty where none repels
-  Buffer<LayerLaw> layers_;     ///< one a body; empty without single layers
-  bool frozen_ = false;         ///< some walls are
-  double corrected_ = 0;        ///< kick of the last correction, s; 0 since the last forces()
+  Buffer<Index> beside_walls_;                       ///< fluid with wall particles around it
+  Buffer<Index> wet_walls_;                          ///< wall particles with fluid around them
+  bool relisted_ = true;                             ///< since walls() was last called
+  SurfaceSet repelling_;                             ///< empty where no wall repels
+  Buffer<Orifice> orifices_;                         ///< empty where none repels
+  Buffer<LayerLaw> layers_;                          ///< one a body; empty without single layers
+  bool frozen_ = false;                              ///< some walls are
   std::vector<std::unique_ptr<Field<Real>>> rates_;  ///< of s, one_pass(): at the last three ends of steps
   double last_dt_ = 0, dt_before_ = 0;               ///< s, of the steps between them; 0: there was none
-  std::uint64_t step_ = 0;
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -58,8 +58,50 @@ class SdpdSolver final : public FluidSolver {
     return rate > 0 ? config_.time.friction / rate : std::numeric_limits<double>::infinity();
   }
   Spin* spin() override { return spin_.get(); }
+  std::vector<const FieldBase*> fields_of_forces() const override {
+    if (!spin_) return {&label_};
+    return {&label_, &spin_->omega, &spin_->acc};
+  }
 
-  void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) override {
+  void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Real3& gravity,
+             double drag_dt, bool moving) override {
+    extrapolate(w_, fluid, walls, pose, gravity, drag_dt, moving);
+  }
+
+  void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment& now,
+              double dt) override {
+    if (config_.eos.filter) filter_pressure(fluid);
+    for_each(fluid.owned(), PredictSpin{Real(dt), omega(), turning(), fluid.id, label_});
+    wall_label_.resize(walls.size());
+    for_each(walls.owned(), LabelWalls{Model::spins, walls.id, walls.body, pose, wall_label_});
+    const bool noisy = config_.sdpd.kT > 0 && dt > 0;
+    if (config_.fluid.species.empty())
+      noisy ? momentum<true, false>(fluid, walls, now, dt) : momentum<false, false>(fluid, walls, now, dt);
+    else
+      noisy ? momentum<true, true>(fluid, walls, now, dt) : momentum<false, true>(fluid, walls, now, dt);
+  }
+
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose>, const Moment& now,
+                   double corrected, double dt, Buffer<Vec3d>& force) override {
+    force.resize(walls.size());
+    forces_on_walls<WholeForce>(fluid, walls, now, corrected, dt, force, {});
+  }
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose>, const Moment& now,
+                   double corrected, double dt, Buffer<Vec3d>& pressure, Buffer<Vec3d>& friction) override {
+    pressure.resize(walls.size());
+    friction.resize(walls.size());
+    forces_on_walls<ForceParts>(fluid, walls, now, corrected, dt, pressure, friction);
+  }
+
+  void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt,
+               FluidMoments& out) override {
+    const bool noisy = config_.sdpd.kT > 0 && dt > 0;
+    noisy ? stress<true>(fluid, walls, now, dt, out) : stress<false>(fluid, walls, now, dt, out);
+  }
+
+ private:
+  void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Moment& start,
+                    double dt) override {
     const DensityConfig& d = config_.density;
     if (d.method == DensityMethod::summation) {
       pack(fluid);
@@ -72,48 +114,11 @@ class SdpdSolver final : public FluidSolver {
     run(fluid, walls, range(),
         ContinuityPass<W>{w_, Real(config_.fluid.rho0), Real(dt), flux(fluid), fluid.m_state, walls.v_rho,
                           walls.m_state, fluid.s, fluid.s_next});
-    if (d.reinit_every > 0 && (step_ + 1) % std::uint64_t(d.reinit_every) == 0) {
+    if (d.reinit_every > 0 && (start.step + 1) % std::uint64_t(d.reinit_every) == 0) {
       pack(fluid);
       reinitialise(fluid);
     }
   }
-
-  void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt,
-             bool moving) override {
-    extrapolate(w_, fluid, walls, pose, drag_dt, moving);
-  }
-
-  void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
-    if (config_.eos.filter) filter_pressure(fluid);
-    for_each(fluid.owned(), PredictSpin{Real(dt), omega(), turning(), fluid.id, label_});
-    wall_label_.resize(walls.size());
-    for_each(walls.owned(), LabelWalls{Model::spins, walls.id, walls.body, pose, wall_label_});
-    const bool noisy = config_.sdpd.kT > 0 && dt > 0;
-    if (config_.fluid.species.empty())
-      noisy ? momentum<true, false>(fluid, walls, dt) : momentum<false, false>(fluid, walls, dt);
-    else
-      noisy ? momentum<true, true>(fluid, walls, dt) : momentum<false, true>(fluid, walls, dt);
-    corrected_ = 0;
-  }
-
-  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose>, double dt,
-                   Buffer<Vec3d>& force) override {
-    force.resize(walls.size());
-    forces_on_walls<WholeForce>(fluid, walls, dt, force, {});
-  }
-  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose>, double dt,
-                   Buffer<Vec3d>& pressure, Buffer<Vec3d>& friction) override {
-    pressure.resize(walls.size());
-    friction.resize(walls.size());
-    forces_on_walls<ForceParts>(fluid, walls, dt, pressure, friction);
-  }
-
-  void moments(FluidStore& fluid, const WallStore& walls, double dt, FluidMoments& out) override {
-    const bool noisy = config_.sdpd.kT > 0 && dt > 0;
-    noisy ? stress<true>(fluid, walls, dt, out) : stress<false>(fluid, walls, dt, out);
-  }
-
- private:
   static double bulk_viscosity(const FluidConfig& f) {
     return std::isfinite(f.zeta) ? f.zeta : 20.0 / 21 * f.mu;
   }
@@ -133,42 +138,43 @@ class SdpdSolver final : public FluidSolver {
                   FrozenSummationPass<W>{w_, Real(config_.fluid.rho0), Real(1 / lattice_.W), wall_volume_,
                                          fluid.m_state, walls.body, pose, walls.compression});
   }
-  SdpdWallPair<W> pair(double dt) const {
+  SdpdWallPair<W> pair(const Moment& now, double dt) const {
     const SdpdConfig& s = config_.sdpd;
     PairLaw law;
     law.across = Real(friction_.across), law.along = Real(friction_.along);
     law.sliding = Real(s.force_scale[1]), law.spinning = Real(s.force_scale[2]);
     law.thermal = dt > 0 ? Real(2 * s.kT / dt * square(s.force_scale[3])) : Real(0);
     law.tensor = s.noise == NoiseForm::tensor;
-    law.key = {config_.seed, step_};
+    law.key = {config_.seed, now.step};
     law.guard = Real(1e-12 * square(config_.fluid.h()));
     return {w_, law, Real(s.force_scale[0]), law.thermal > 0};
   }
   template <bool kNoise, bool kSpecies>
   using Force = SdpdForcePass<W, Model::spins, kNoise, kSpecies>;
   template <bool kNoise, bool kSpecies>
-  Force<kNoise, kSpecies> force_pass(FluidStore& fluid, const WallStore& walls, double dt) {
-    return {pair(dt),    flux(fluid),    fluid.m_state, label_,        fluid.p_rho2,
-            fluid.mass,  fluid.id,       walls.v_rho,   walls.m_state, walls.v_visc,
-            wall_label_, gravity_,       drive(fluid),  Real(dt),      Real(spin_ ? spin_->inertia : 0),
-            fluid.theta, fluid.acc_next, omega(),       turning(),     fluid.viscosity};
+  Force<kNoise, kSpecies> force_pass(FluidStore& fluid, const WallStore& walls, const Moment& now,
+                                     double dt) {
+    return {pair(now, dt), flux(fluid),    fluid.m_state,     label_,        fluid.p_rho2,
+            fluid.mass,    fluid.id,       walls.v_rho,       walls.m_state, walls.v_visc,
+            wall_label_,   now.gravity,    drive(fluid, now), Real(dt),      Real(spin_ ? spin_->inertia : 0),
+            fluid.theta,   fluid.acc_next, omega(),           turning(),     fluid.viscosity};
   }
   template <bool kNoise, bool kSpecies>
-  void momentum(FluidStore& fluid, const WallStore& walls, double dt) {
-    run(fluid, walls, range(), force_pass<kNoise, kSpecies>(fluid, walls, dt));
+  void momentum(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt) {
+    run(fluid, walls, range(), force_pass<kNoise, kSpecies>(fluid, walls, now, dt));
   }
   /// Of one fluid: stress of several is not asked for.
   template <bool kNoise>
-  void stress(FluidStore& fluid, const WallStore& walls, double dt, FluidMoments& out) {
+  void stress(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt, FluidMoments& out) {
     if (shear_.acts()) pack(fluid);  // velocities as they are now
     run(fluid, walls, range(),
-        SdpdStressPass<Force<kNoise, false>, kNoise>{force_pass<kNoise, false>(fluid, walls, dt),
+        SdpdStressPass<Force<kNoise, false>, kNoise>{force_pass<kNoise, false>(fluid, walls, now, dt),
                                                      out.parts(fluid.size(), kNoise)});
   }
   template <class Force>
-  void forces_on_walls(const FluidStore& fluid, const WallStore& walls, double dt, Span<Vec3d> force,
-                       Span<Vec3d> friction) {
-    const SdpdWallForcePass<W, Force> pass{pair(dt),      Real(mixed_ ? 0 : corrected_),
+  void forces_on_walls(const FluidStore& fluid, const WallStore& walls, const Moment& now, double corrected,
+                       double dt, Span<Vec3d> force, Span<Vec3d> friction) {
+    const SdpdWallForcePass<W, Force> pass{pair(now, dt), Real(mixed_ ? 0 : corrected),
                                            fluid.acc,     fluid.acc_next,
                                            flux(fluid),   fluid.m_state,
                                            label_,        fluid.id,

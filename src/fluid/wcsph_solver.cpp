@@ -18,20 +18,8 @@ class WcsphSolver final : public FluidSolver {
               const W& w)
       : FluidSolver(config, frame, walls, fluid, W::kappa), w_(w), cut_(CutFraction::of(w)) {}
 
-  void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) override {
-    if (!smooths() && !shifts())
-      continuity<false, false>(fluid, walls, dt, NoShifting{});
-    else if (mixed_)
-      continuity<true, true>(fluid, walls, dt, NoShifting{});
-    else if (!shifts())
-      continuity<true, false>(fluid, walls, dt, NoShifting{});
-    else if constexpr (!Lengths::vary)
-      continuity<true, false>(fluid, walls, dt, shifting(dt));
-    frozen_continuity(w_, fluid, walls, pose, dt, least());
-  }
-
-  void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double drag_dt,
-             bool moving) override {
+  void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Real3& gravity,
+             double drag_dt, bool moving) override {
     if (walls.mirrors.size() > 0) {
       const MirrorPass<W> mirror{w_,
                                  frame_,
@@ -48,68 +36,83 @@ class WcsphSolver final : public FluidSolver {
       for_each_pair(walls.owned(), image_fluid_, PairSeparation{frame_, walls.mirrors.xp, fluid.xp}, range(),
                     mirror);
     }
-    extrapolate(w_, fluid, walls, pose, drag_dt, moving, lengths());
+    extrapolate(w_, fluid, walls, pose, gravity, drag_dt, moving, lengths());
   }
 
-  void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt) override {
+  void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment& now,
+              double dt) override {
     if constexpr (Lengths::vary) {
       run(fluid, walls, range(),
           OmegaPass<W>{w_, lengths(), Real(config_.fluid.h_least()), Real(config_.fluid.h_most()),
                        Real(config_.fluid.rho0), fluid.m_state, walls.m_state, lengths_->omega,
                        fluid.p_rho2});
-      artificial().acts() ? momentum<true, false>(fluid, walls) : momentum<false, false>(fluid, walls);
+      artificial().acts() ? momentum<true, false>(fluid, walls, now)
+                          : momentum<false, false>(fluid, walls, now);
     } else {
-      constant_length_forces(fluid, walls, dt);
+      constant_length_forces(fluid, walls, now, dt);
     }
     if (layers_.size() > 0)
       for_each_pair(fluid.owned(), fluid_wall_, PairSeparation{frame_, fluid.xp, walls.xp}, range(),
                     LayerPass<W>{layer(walls, pose, dt), flux(fluid), fluid.theta, fluid.acc_next});
-    corrected_ = 0;
   }
 
-  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
-                   Buffer<Vec3d>& force) override {
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment&,
+                   double corrected, double dt, Buffer<Vec3d>& force) override {
     force.resize(walls.size());
-    forces_on_walls<WholeForce>(fluid, walls, pose, dt, force, {});
+    forces_on_walls<WholeForce>(fluid, walls, pose, corrected, dt, force, {});
   }
-  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
-                   Buffer<Vec3d>& pressure, Buffer<Vec3d>& friction) override {
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment&,
+                   double corrected, double dt, Buffer<Vec3d>& pressure, Buffer<Vec3d>& friction) override {
     pressure.resize(walls.size());
     friction.resize(walls.size());
-    forces_on_walls<ForceParts>(fluid, walls, pose, dt, pressure, friction);
+    forces_on_walls<ForceParts>(fluid, walls, pose, corrected, dt, pressure, friction);
   }
 
-  void moments(FluidStore& fluid, const WallStore& walls, double, FluidMoments& out) override {
+  void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double,
+               FluidMoments& out) override {
     if (shear_.acts()) pack(fluid);  // velocities as they are now
-    config_.tensile > 0 ? stress<true>(fluid, walls, out) : stress<false>(fluid, walls, out);
+    config_.tensile > 0 ? stress<true>(fluid, walls, now, out) : stress<false>(fluid, walls, now, out);
   }
 
  private:
+  void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Moment& start,
+                    double dt) override {
+    const Real3& gravity = start.gravity;
+    if (!smooths() && !shifts())
+      continuity<false, false>(fluid, walls, gravity, dt, NoShifting{});
+    else if (mixed_)
+      continuity<true, true>(fluid, walls, gravity, dt, NoShifting{});
+    else if (!shifts())
+      continuity<true, false>(fluid, walls, gravity, dt, NoShifting{});
+    else if constexpr (!Lengths::vary)
+      continuity<true, false>(fluid, walls, gravity, dt, shifting(dt));
+    frozen_continuity(w_, fluid, walls, pose, dt, least());
+  }
   Lengths lengths() const {
     if constexpr (Lengths::vary)
       return {lengths_->h, lengths_->omega, Real(config_.fluid.h()), config_.domain.two_d};
     else
       return {};
   }
-  void constant_length_forces(FluidStore& fluid, const WallStore& walls, double dt) {
+  void constant_length_forces(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt) {
     const bool added = config_.tensile > 0 || config_.xsph > 0;
     if (one_pass())
-      smooths() || shifts() ? momentum_and_continuity<true>(fluid, walls, dt, shifting(dt))
-                            : momentum_and_continuity<false>(fluid, walls, dt, NoShifting{});
+      smooths() || shifts() ? momentum_and_continuity<true>(fluid, walls, now, dt, shifting(dt))
+                            : momentum_and_continuity<false>(fluid, walls, now, dt, NoShifting{});
     else if (!config_.fluid.species.empty())
-      momentum<true, true, true>(fluid, walls);
+      momentum<true, true, true>(fluid, walls, now);
     else if (artificial().acts())
-      added ? momentum<true, true>(fluid, walls) : momentum<true, false>(fluid, walls);
+      added ? momentum<true, true>(fluid, walls, now) : momentum<true, false>(fluid, walls, now);
     else
-      added ? momentum<false, true>(fluid, walls) : momentum<false, false>(fluid, walls);
+      added ? momentum<false, true>(fluid, walls, now) : momentum<false, false>(fluid, walls, now);
   }
   template <class Force>
-  void forces_on_walls(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, double dt,
-                       Span<Vec3d> force, Span<Vec3d> friction) {
+  void forces_on_walls(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
+                       double corrected, double dt, Span<Vec3d> force, Span<Vec3d> friction) {
     const WallForcePass<W, Force, Lengths> pass{w_,
                                                 WallPair{viscosity()},
                                                 layer(walls, pose, dt),
-                                                Real(mixed_ ? 0 : corrected_),
+                                                Real(mixed_ ? 0 : corrected),
                                                 fluid.acc,
                                                 fluid.acc_next,
                                                 flux(fluid),
@@ -134,8 +137,8 @@ class WcsphSolver final : public FluidSolver {
   /// Writes s_new.
   template <bool kSmooth, bool kPorous, class Shift>
   DensityPass<W, Shift, kSmooth, kPorous, Lengths> density_pass(FluidStore& fluid, const WallStore& walls,
-                                                                double dt, const Shift& shift,
-                                                                Span<Real> s_new) {
+                                                                const Real3& gravity, double dt,
+                                                                const Shift& shift, Span<Real> s_new) {
     const double c = config_.fluid.c;
     return {w_,
             flux(fluid),
@@ -143,7 +146,7 @@ class WcsphSolver final : public FluidSolver {
             walls.v_rho,
             walls.m_state,
             Real(2 * config_.density.delta * config_.fluid.h() * c),
-            gravity_ * Real(config_.fluid.rho0 / (c * c)),
+            gravity * Real(config_.fluid.rho0 / (c * c)),
             eos_.gamma - 2,
             Real(config_.fluid.rho0),
             Real(dt),
@@ -158,7 +161,8 @@ class WcsphSolver final : public FluidSolver {
             lengths()};
   }
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
-  ForcePass<W, kArtificial, kAdded, kSpecies, Lengths> force_pass(FluidStore& fluid, const WallStore& walls) {
+  ForcePass<W, kArtificial, kAdded, kSpecies, Lengths> force_pass(FluidStore& fluid, const WallStore& walls,
+                                                                  const Moment& now) {
     return {w_,
             WallPair{viscosity()},
             flux(fluid),
@@ -170,8 +174,8 @@ class WcsphSolver final : public FluidSolver {
             artificial(),
             tensile(),
             Real(config_.xsph),
-            gravity_,
-            drive(fluid),
+            now.gravity,
+            drive(fluid, now),
             fluid.theta,
             fluid.acc_next,
             fluid.drift,
@@ -179,32 +183,35 @@ class WcsphSolver final : public FluidSolver {
             lengths()};
   }
   template <bool kSmooth, bool kPorous, class Shift>
-  void continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {
-    run(fluid, walls, range(), density_pass<kSmooth, kPorous>(fluid, walls, dt, shift, fluid.s_next));
+  void continuity(FluidStore& fluid, const WallStore& walls, const Real3& gravity, double dt,
+                  const Shift& shift) {
+    run(fluid, walls, range(),
+        density_pass<kSmooth, kPorous>(fluid, walls, gravity, dt, shift, fluid.s_next));
   }
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
-  void momentum(FluidStore& fluid, const WallStore& walls) {
-    run(fluid, walls, range(), force_pass<kArtificial, kAdded, kSpecies>(fluid, walls));
+  void momentum(FluidStore& fluid, const WallStore& walls, const Moment& now) {
+    run(fluid, walls, range(), force_pass<kArtificial, kAdded, kSpecies>(fluid, walls, now));
   }
   template <bool kTensile>
-  void stress(FluidStore& fluid, const WallStore& walls, FluidMoments& out) {
+  void stress(FluidStore& fluid, const WallStore& walls, const Moment& now, FluidMoments& out) {
     using Force = ForcePass<W, true, kTensile, false, Lengths>;
-    const Force whole = force_pass<true, kTensile>(fluid, walls);
+    const Force whole = force_pass<true, kTensile>(fluid, walls, now);
     Force inviscid = whole;
     inviscid.artificial = {};
     inviscid.wall.viscosity.mu = 0;
     run(fluid, walls, range(), StressPass<Force>{whole, inviscid, out.parts(fluid.size(), false)});
   }
   template <bool kSmooth, class Shift>
-  void momentum_and_continuity(FluidStore& fluid, const WallStore& walls, double dt, const Shift& shift) {
+  void momentum_and_continuity(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt,
+                               const Shift& shift) {
     const auto both = [&](const auto& force) {
-      const auto density = density_pass<kSmooth, false>(fluid, walls, dt, shift, fluid.s);
+      const auto density = density_pass<kSmooth, false>(fluid, walls, now.gravity, dt, shift, fluid.s);
       run(fluid, walls, range(),
           OnePass<std::decay_t<decltype(force)>, std::decay_t<decltype(density)>>{force, density,
                                                                                   *rates_.back()});
     };
-    artificial().acts() ? both(force_pass<true, false>(fluid, walls))
-                        : both(force_pass<false, false>(fluid, walls));
+    artificial().acts() ? both(force_pass<true, false>(fluid, walls, now))
+                        : both(force_pass<false, false>(fluid, walls, now));
     accept_rates(dt);
   }
   Shifting shifting(double dt) const {

@@ -32,43 +32,47 @@ std::vector<Quantity> rows_of(const RigidMotion& m, const NamedLoads& loads) {
 }  // namespace
 
 const CoupledSimulation::WallForces& CoupledSimulation::wall_forces() {
-  if (wall_forces_.due(clock_.step))
-    fluid_solver_->wall_forces(fluid_, walls_, poses_now(), clock_.last_dt, wall_forces_.value.pressure,
-                               wall_forces_.value.friction);
+  if (wall_forces_.due(state_.clock.step))
+    stepper_.fluid().wall_forces(state_.fluid, state_.walls, state_.poses_now(), stepper_.moment(),
+                                 stepper_.corrected(), state_.clock.last_dt, wall_forces_.value.pressure,
+                                 wall_forces_.value.friction);
   return wall_forces_.value;
 }
 
 const CoupledSimulation::FluidLoads& CoupledSimulation::fluid_loads() {
   FluidLoads& loads = fluid_loads_.value;
-  if (!fluid_loads_.due(clock_.step)) return loads;
-  loads.pressure.assign(motion_.bodies(), LoadSum::zero());
+  if (!fluid_loads_.due(state_.clock.step)) return loads;
+  loads.pressure.assign(state_.motion.bodies(), LoadSum::zero());
   loads.friction = loads.pressure;
-  if (!has_fluid() || walls_.size() == 0) return loads;
+  if (!state_.has_fluid || state_.walls.size() == 0) return loads;
   const WallForces& forces = wall_forces();
-  const Span<const BodyPose> poses = poses_now();
-  const WallRepulsion repulsion = fluid_solver_->repulsion(poses, clock_.last_dt);
+  const Span<const BodyPose> poses = state_.poses_now();
+  const WallRepulsion repulsion = stepper_.fluid().repulsion(poses, state_.clock.last_dt);
   for (std::uint32_t b = 0; b < loads.pressure.size(); ++b) {
     const auto sum = [&](const Buffer<Vec3d>& force) {
-      return reduce(walls_.owned(), WallLoadReduction{b, walls_.body, walls_.x0, force, poses.data});
+      return reduce(state_.walls.owned(),
+                    WallLoadReduction{b, state_.walls.body, state_.walls.x0, force, poses.data});
     };
     loads.pressure[b] = sum(forces.pressure);
     loads.friction[b] = sum(forces.friction);
     if (repulsion.walls.surfaces.size > 0)
-      LoadSum::combine(loads.pressure[b], reduce(fluid_.owned(), BodyRepulsion{repulsion, b, fluid_.x,
-                                                                               fluid_.mass, fluid_.heading}));
+      LoadSum::combine(loads.pressure[b],
+                       reduce(state_.fluid.owned(), BodyRepulsion{repulsion, b, state_.fluid.x,
+                                                                  state_.fluid.mass, state_.fluid.heading}));
   }
   return loads;
 }
 
 LoadSum CoupledSimulation::grain_load(int body) {
-  if (!has_grains()) return LoadSum::zero();
-  if (grain_loads_.due(clock_.step)) grain_loads_.value = solid_solver_->body_loads(grains_, poses_now());
+  if (!state_.has_grains) return LoadSum::zero();
+  if (grain_loads_.due(state_.clock.step))
+    grain_loads_.value = stepper_.solids().body_loads(state_.grains, state_.poses_now());
   return grain_loads_.value[body];
 }
 
 int CoupledSimulation::wall_named(const std::string& name) const {
   int body = 0;
-  for (int b = 0; b < motion_.walls(); ++b)
+  for (int b = 0; b < state_.motion.walls(); ++b)
     if (config_.wall.bodies[b].name == name) body = b;
   return body;
 }
@@ -76,7 +80,8 @@ int CoupledSimulation::wall_named(const std::string& name) const {
 std::vector<Quantity> CoupledSimulation::body_force(const ProbeConfig& p) {
   std::vector<Quantity> out;
   const int body = wall_named(p.body);
-  const Vec3d from = frame_.nearest_image(motion_.pose(body, clock_.time).origin() - p.about);
+  const Vec3d from =
+      state_.frame.nearest_image(state_.motion.pose(body, state_.clock.time).origin() - p.about);
   const auto load = [&](const std::string& by, const LoadSum& sum) {
     add(out, "force_by_" + by, "N", sum.force());
     add(out, "torque_by_" + by, "N m", sum.torque() + cross(from, sum.force()));
@@ -91,24 +96,25 @@ std::vector<Quantity> CoupledSimulation::body_force(const ProbeConfig& p) {
 
 std::vector<Quantity> CoupledSimulation::body_state(int body) {
   NamedLoads loads;
-  if (const int group = body - motion_.walls(); group >= 0) {
-    const RigidGroups& groups = solid_solver_->groups();
-    if (has_fluid()) loads.push_back({"fluid", groups.by_fluid(group, grains_, clock_.last_dt)});
-    loads.push_back({"contacts", groups.by_contacts(group, grains_)});
+  if (const int group = body - state_.motion.walls(); group >= 0) {
+    const RigidGroups& groups = stepper_.solids().groups();
+    if (state_.has_fluid)
+      loads.push_back({"fluid", groups.by_fluid(group, state_.grains, state_.clock.last_dt)});
+    loads.push_back({"contacts", groups.by_contacts(group, state_.grains)});
     return rows_of(groups.motion(group), loads);
   }
   BodyForces f;
-  if (const int k = bodies_.place_of(body); k >= 0) {
-    f = bodies_.forces(k);
+  if (const int k = state_.bodies.place_of(body); k >= 0) {
+    f = state_.bodies.forces(k);
   } else {
     f.fluid = fluid_loads().all(body);
     f.grains = grain_load(body);
-    if (bodies_.any()) f.bodies = bodies_.contact_load(body);
+    if (state_.bodies.any()) f.bodies = state_.bodies.contact_load(body);
   }
-  if (has_fluid()) loads.push_back({"fluid", f.fluid});
-  if (has_grains()) loads.push_back({"grains", f.grains});
-  if (bodies_.any()) loads.push_back({"bodies", f.bodies});
-  return rows_of(motion_.pose(body, clock_.time), loads);
+  if (state_.has_fluid) loads.push_back({"fluid", f.fluid});
+  if (state_.has_grains) loads.push_back({"grains", f.grains});
+  if (state_.bodies.any()) loads.push_back({"bodies", f.bodies});
+  return rows_of(state_.motion.pose(body, state_.clock.time), loads);
 }
 
 }  // namespace bedload::inline BL_VARIANT

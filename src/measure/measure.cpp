@@ -127,77 +127,86 @@ struct PorosityBody {
 
 HostStore CoupledSimulation::snapshot(const std::string& name) {
   HostStore out{name, 0, {}};
-  if (name == "fluid" && has_fluid()) {
-    const Range all = fluid_.owned();
+  if (name == "fluid" && state_.has_fluid) {
+    const Range all = state_.fluid.owned();
     out.count = all.size();
-    out.arrays.push_back(made<Real3, PointPass<FluidPosition>>("position", "m", all, frame_,
-                                                               Span<const FluidPosition>(fluid_.x)));
-    out.arrays.push_back(made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(fluid_.v_rho)));
-    out.arrays.push_back(made<Real, PressurePart>("pressure", "Pa", all, Span<const Real4>(fluid_.m_state)));
-    out.arrays.push_back(made<Real, DensityPart>("density", "kg/m3", all, Span<const Real4>(fluid_.m_state)));
-    if (coupled()) out.arrays.push_back(fluid_.eps.to_host());
-    if (const SmoothingLengths* own = fluid_solver_->lengths()) {
+    out.arrays.push_back(made<Real3, PointPass<FluidPosition>>("position", "m", all, state_.frame,
+                                                               Span<const FluidPosition>(state_.fluid.x)));
+    out.arrays.push_back(
+        made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(state_.fluid.v_rho)));
+    out.arrays.push_back(
+        made<Real, PressurePart>("pressure", "Pa", all, Span<const Real4>(state_.fluid.m_state)));
+    out.arrays.push_back(
+        made<Real, DensityPart>("density", "kg/m3", all, Span<const Real4>(state_.fluid.m_state)));
+    if (state_.coupled) out.arrays.push_back(state_.fluid.eps.to_host());
+    if (const SmoothingLengths* own = stepper_.fluid().lengths()) {
       out.arrays.push_back(own->h.to_host());
-      out.arrays.push_back(made<Real, VolumePart>("volume", "m3", all, Span<const Real4>(fluid_.m_state)));
+      out.arrays.push_back(
+          made<Real, VolumePart>("volume", "m3", all, Span<const Real4>(state_.fluid.m_state)));
     }
-    if (const Spin* spin = fluid_solver_->spin()) out.arrays.push_back(spin->omega.to_host());
-    if (fluid_.species.used()) out.arrays.push_back(fluid_.species.to_host());
-    out.arrays.push_back(fluid_.id.to_host());
-  } else if (name == "grains" && has_grains()) {
-    out.count = grains_.size();
-    out.arrays.push_back(made<Real3, PointPass<Vec3d>>("position", "m", grains_.owned(), frame_,
-                                                       Span<const Vec3d>(grains_.x)));
-    out.arrays.push_back(renamed(grains_.v, "velocity"));
-    out.arrays.push_back(renamed(grains_.omega, "angular_velocity"));
-    for (FieldBase* f : {static_cast<FieldBase*>(&grains_.radius), static_cast<FieldBase*>(&grains_.force)})
+    if (const Spin* spin = stepper_.fluid().spin()) out.arrays.push_back(spin->omega.to_host());
+    if (state_.fluid.species.used()) out.arrays.push_back(state_.fluid.species.to_host());
+    out.arrays.push_back(state_.fluid.id.to_host());
+  } else if (name == "grains" && state_.has_grains) {
+    out.count = state_.grains.size();
+    out.arrays.push_back(made<Real3, PointPass<Vec3d>>("position", "m", state_.grains.owned(), state_.frame,
+                                                       Span<const Vec3d>(state_.grains.x)));
+    out.arrays.push_back(renamed(state_.grains.v, "velocity"));
+    out.arrays.push_back(renamed(state_.grains.omega, "angular_velocity"));
+    for (FieldBase* f :
+         {static_cast<FieldBase*>(&state_.grains.radius), static_cast<FieldBase*>(&state_.grains.force)})
       out.arrays.push_back(f->to_host());
-    if (grains_.material.used()) out.arrays.push_back(grains_.material.to_host());
-    if (coupled())
+    if (state_.grains.material.used()) out.arrays.push_back(state_.grains.material.to_host());
+    if (state_.coupled)
       for (FieldBase* f :
-           {static_cast<FieldBase*>(&grains_.drag_force), static_cast<FieldBase*>(&grains_.fluid_force),
-            static_cast<FieldBase*>(&grains_.eps), static_cast<FieldBase*>(&grains_.wetness)})
+           {static_cast<FieldBase*>(&state_.grains.drag_force),
+            static_cast<FieldBase*>(&state_.grains.fluid_force), static_cast<FieldBase*>(&state_.grains.eps),
+            static_cast<FieldBase*>(&state_.grains.wetness)})
         out.arrays.push_back(f->to_host());
-    out.arrays.push_back(grains_.id.to_host());
-  } else if (name == "walls" && walls_.size() > 0) {
-    const Range all = walls_.owned();
+    out.arrays.push_back(state_.grains.id.to_host());
+  } else if (name == "walls" && state_.walls.size() > 0) {
+    const Range all = state_.walls.owned();
     out.count = all.size();
     out.arrays.push_back(
-        made<Real3, PointPass<Vec3d>>("position", "m", all, frame_, Span<const Vec3d>(walls_.x)));
-    out.arrays.push_back(made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(walls_.v_rho)));
-    out.arrays.push_back(made<Real, PressurePart>("pressure", "Pa", all, Span<const Real4>(walls_.m_state)));
-    out.arrays.push_back(walls_.body.to_host());
-    out.arrays.push_back(walls_.id.to_host());
+        made<Real3, PointPass<Vec3d>>("position", "m", all, state_.frame, Span<const Vec3d>(state_.walls.x)));
+    out.arrays.push_back(
+        made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(state_.walls.v_rho)));
+    out.arrays.push_back(
+        made<Real, PressurePart>("pressure", "Pa", all, Span<const Real4>(state_.walls.m_state)));
+    out.arrays.push_back(state_.walls.body.to_host());
+    out.arrays.push_back(state_.walls.id.to_host());
   }
   return out;
 }
 
 std::vector<FieldView> CoupledSimulation::fields(const std::string& name) {
   synchronize();
-  if (name == "fluid" && has_fluid()) {
-    std::vector<FieldView> out{view_of("velocity", "m/s", fluid_.v_rho, 3),
-                               view_of("density", "kg/m3", fluid_.m_state, 1, 2), view_of(fluid_.mass),
-                               view_of(fluid_.id)};
-    if constexpr (std::is_same_v<FluidPosition, Vec3d>) out.push_back(view_of("position", "m", fluid_.x));
-    if (coupled()) out.push_back(view_of(fluid_.eps));
-    if (const Spin* spin = fluid_solver_->spin()) out.push_back(view_of(spin->omega));
+  if (name == "fluid" && state_.has_fluid) {
+    std::vector<FieldView> out{view_of("velocity", "m/s", state_.fluid.v_rho, 3),
+                               view_of("density", "kg/m3", state_.fluid.m_state, 1, 2),
+                               view_of(state_.fluid.mass), view_of(state_.fluid.id)};
+    if constexpr (std::is_same_v<FluidPosition, Vec3d>)
+      out.push_back(view_of("position", "m", state_.fluid.x));
+    if (state_.coupled) out.push_back(view_of(state_.fluid.eps));
+    if (const Spin* spin = stepper_.fluid().spin()) out.push_back(view_of(spin->omega));
     return out;
   }
-  if (name == "grains" && has_grains()) {
-    std::vector<FieldView> out{view_of("position", "m", grains_.x),
-                               view_of("velocity", "m/s", grains_.v),
-                               view_of("angular_velocity", "rad/s", grains_.omega),
-                               view_of(grains_.radius),
-                               view_of(grains_.force),
-                               view_of(grains_.id)};
-    if (coupled())
-      for (const FieldView& view : {view_of(grains_.drag_force), view_of(grains_.fluid_force),
-                                    view_of(grains_.eps), view_of(grains_.wetness)})
+  if (name == "grains" && state_.has_grains) {
+    std::vector<FieldView> out{view_of("position", "m", state_.grains.x),
+                               view_of("velocity", "m/s", state_.grains.v),
+                               view_of("angular_velocity", "rad/s", state_.grains.omega),
+                               view_of(state_.grains.radius),
+                               view_of(state_.grains.force),
+                               view_of(state_.grains.id)};
+    if (state_.coupled)
+      for (const FieldView& view : {view_of(state_.grains.drag_force), view_of(state_.grains.fluid_force),
+                                    view_of(state_.grains.eps), view_of(state_.grains.wetness)})
         out.push_back(view);
     return out;
   }
-  if (name == "walls" && walls_.size() > 0)
-    return {view_of("position", "m", walls_.x), view_of("velocity", "m/s", walls_.v_rho, 3),
-            view_of(walls_.body), view_of(walls_.id)};
+  if (name == "walls" && state_.walls.size() > 0)
+    return {view_of("position", "m", state_.walls.x), view_of("velocity", "m/s", state_.walls.v_rho, 3),
+            view_of(state_.walls.body), view_of(state_.walls.id)};
   return {};
 }
 
@@ -208,13 +217,14 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     for (int k = 0; k < 3; ++k) out.push_back({name + "_" + axis[k], unit, v[k]});
   };
   Vec3d wall_on_fluid;
-  if (has_fluid()) {
-    const Drive drive = fluid_solver_->drive(fluid_);
-    const Spin* spin = fluid_solver_->spin();
-    const auto t = sum_over<11>(fluid_.owned(),
-                                FluidTotals{frame_, fluid_solver_->eos(), config_.gravity, drive, fluid_.x,
-                                            fluid_.v_rho, fluid_.mass, fluid_.s, spin ? spin->inertia : 0,
-                                            spin ? Span<const Real3>(spin->omega) : Span<const Real3>()});
+  if (state_.has_fluid) {
+    const Drive drive = stepper_.fluid().drive(state_.fluid, stepper_.moment());
+    const Spin* spin = stepper_.fluid().spin();
+    const auto t = sum_over<11>(
+        state_.fluid.owned(),
+        FluidTotals{state_.frame, stepper_.fluid().eos(), config_.gravity, drive, state_.fluid.x,
+                    state_.fluid.v_rho, state_.fluid.mass, state_.fluid.s, spin ? spin->inertia : 0,
+                    spin ? Span<const Real3>(spin->omega) : Span<const Real3>()});
     out.push_back({"fluid_mass", "kg", t.v[0]});
     vec("fluid_momentum", "kg m/s", {t.v[1], t.v[2], t.v[3]});
     vec("fluid_angular_momentum", "kg m2/s", {t.v[4], t.v[5], t.v[6]});
@@ -223,32 +233,34 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"fluid_elastic_energy", "J", t.v[9]});
     if (spin) out.push_back({"fluid_spin_energy", "J", t.v[10]});
     const FluidLoads& loads = fluid_loads();
-    for (int b = 0; b < motion_.bodies(); ++b) wall_on_fluid -= loads.all(b).force();
+    for (int b = 0; b < state_.motion.bodies(); ++b) wall_on_fluid -= loads.all(b).force();
     const auto l = sum_over<9>(
-        fluid_.owned(), MomentumRates{clock_.last_dt > 0 ? 1 / clock_.last_dt : 0, gravity_.at(clock_.time),
-                                      drive, fluid_.mass, fluid_.m_state, fluid_.theta, fluid_.acc,
-                                      two_way() ? Span<const Real3>(fluid_.reaction) : Span<const Real3>(),
-                                      fluid_.drag_kick});
+        state_.fluid.owned(),
+        MomentumRates{state_.clock.last_dt > 0 ? 1 / state_.clock.last_dt : 0,
+                      state_.gravity.at(state_.clock.time), drive, state_.fluid.mass, state_.fluid.m_state,
+                      state_.fluid.theta, state_.fluid.acc,
+                      state_.two_way ? Span<const Real3>(state_.fluid.reaction) : Span<const Real3>(),
+                      state_.fluid.drag_kick});
     const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
     vec("force_walls_on_fluid", "N", wall_on_fluid);
     vec("force_grains_on_fluid", "N", {l.v[6], l.v[7], l.v[8]});
     // what pair sums leave over: round-off
     vec("fluid_force_residual", "N", total - body - wall_on_fluid);
-    out.push_back({"fluid_speed_max", "m/s", std::sqrt(fluid_extremes_.v2)});
+    out.push_back({"fluid_speed_max", "m/s", std::sqrt(stepper_.fluid_extremes().v2)});
     const auto largest = [&](auto body) {  // of nothing there is none
-      return fluid_.size() > 0 ? max_over(fluid_.owned(), body) : std::nan("");
+      return state_.fluid.size() > 0 ? max_over(state_.fluid.owned(), body) : std::nan("");
     };
-    out.push_back({"pressure_max", "Pa", largest(PressureBody{fluid_.m_state, 1})});
-    out.push_back({"pressure_min", "Pa", -largest(PressureBody{fluid_.m_state, -1})});
-    out.push_back({"density_max", "kg/m3", largest(DensityBody{fluid_.m_state, 1})});
-    out.push_back({"density_min", "kg/m3", -largest(DensityBody{fluid_.m_state, -1})});
-    out.push_back({"fluid_count", "-", double(fluid_.size())});
-    if (!shells_.surfaces().empty())
+    out.push_back({"pressure_max", "Pa", largest(PressureBody{state_.fluid.m_state, 1})});
+    out.push_back({"pressure_min", "Pa", -largest(PressureBody{state_.fluid.m_state, -1})});
+    out.push_back({"density_max", "kg/m3", largest(DensityBody{state_.fluid.m_state, 1})});
+    out.push_back({"density_min", "kg/m3", -largest(DensityBody{state_.fluid.m_state, -1})});
+    out.push_back({"fluid_count", "-", double(state_.fluid.size())});
+    if (!state_.shells.surfaces().empty())
       out.push_back({"fluid_pairs_through_walls", "-",
-                     fluid_solver_->pairs_through(fluid_, shells_.view(), poses_now())});
+                     stepper_.fluid().pairs_through(state_.fluid, state_.shells.view(), state_.poses_now())});
   }
-  if (has_grains()) {
-    const auto s = solid_solver_->totals(grains_);
+  if (state_.has_grains) {
+    const auto s = stepper_.solids().totals(state_.grains);
     out.push_back({"grain_mass", "kg", s.mass});
     vec("grain_momentum", "kg m/s", s.momentum);
     vec("grain_angular_momentum", "kg m2/s", s.angular);
@@ -256,25 +268,26 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"grain_rotational_energy", "J", s.rotational});
     out.push_back({"grain_potential_energy", "J", -s.mass * dot(config_.gravity, s.centre)});
     out.push_back({"grain_elastic_energy", "J", s.elastic});
-    out.push_back({"grain_speed_max", "m/s", grain_watch_.speed});
+    out.push_back({"grain_speed_max", "m/s", stepper_.grain_watch().speed});
     out.push_back({"overlap_max", "-", s.max_overlap});
     out.push_back({"coordination_number", "-", s.coordination});
-    const auto f =
-        sum_over<4>(grains_.owned(), GrainLoads{frame_, grains_.x, grains_.fluid_force, grains_.drag_force});
+    const auto f = sum_over<4>(
+        state_.grains.owned(),
+        GrainLoads{state_.frame, state_.grains.x, state_.grains.fluid_force, state_.grains.drag_force});
     vec("force_fluid_on_grains", "N", {f.v[0], f.v[1], f.v[2]});
-    out.push_back({"grain_count", "-", double(grains_.size())});
+    out.push_back({"grain_count", "-", double(state_.grains.size())});
     out.push_back({"grains_outside", "-", f.v[3]});
   }
-  if (coupled()) {
-    const auto c = coupling_->counters(fluid_, grains_);
-    const double least = -max_over(fluid_.owned(), PorosityBody{fluid_.eps});
-    out.push_back({"porosity_min", "-", fluid_.size() > 0 ? least : std::nan("")});
+  if (state_.coupled) {
+    const auto c = stepper_.coupling().counters(state_.fluid, state_.grains);
+    const double least = -max_over(state_.fluid.owned(), PorosityBody{state_.fluid.eps});
+    out.push_back({"porosity_min", "-", state_.fluid.size() > 0 ? least : std::nan("")});
     out.push_back({"porosity_floor_hits", "-", double(c.floor_hits)});
     out.push_back({"drag_limited_grains", "-", double(c.limited)});
     out.push_back({"wet_grains", "-", double(c.wet)});
   }
-  if (bodies_.any()) {
-    const BodyTotals t = bodies_.totals(clock_.time);
+  if (state_.bodies.any()) {
+    const BodyTotals t = state_.bodies.totals(state_.clock.time);
     out.push_back({"body_mass", "kg", t.mass});
     vec("body_momentum", "kg m/s", t.momentum);
     vec("body_angular_momentum", "kg m2/s", t.angular);
@@ -282,8 +295,8 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"body_rotational_energy", "J", t.rotational});
     out.push_back({"body_potential_energy", "J", t.potential});
   }
-  for (const Quantity& q : open_.report(clock_.time)) out.push_back(q);
-  out.push_back({"rebuilds", "-", double(rebuilds_)});
+  for (const Quantity& q : state_.open.report(state_.clock.time)) out.push_back(q);
+  out.push_back({"rebuilds", "-", double(stepper_.rebuilds())});
   return out;
 }
 

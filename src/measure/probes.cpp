@@ -123,25 +123,29 @@ std::vector<Quantity> CoupledSimulation::front(const ProbeConfig& p) {
   Vec3d direction;
   direction[p.axis] = p.sign;
   double front = std::nan("");
-  if (p.phase == "fluid" && fluid_.size() > 0)
-    front = p.sign * (max_over(fluid_.owned(), AlongBody<FluidPosition>{frame_, fluid_.x, direction}) +
+  if (p.phase == "fluid" && state_.fluid.size() > 0)
+    front = p.sign * (max_over(state_.fluid.owned(),
+                               AlongBody<FluidPosition>{state_.frame, state_.fluid.x, direction}) +
                       config_.fluid.dx / 2);
-  if (p.phase == "grains" && grains_.size() > 0)
-    front = p.sign * (max_over(grains_.owned(), AlongBody<Vec3d>{frame_, grains_.x, direction}) +
-                      config_.grain.d_max / 2);
+  if (p.phase == "grains" && state_.grains.size() > 0)
+    front = p.sign *
+            (max_over(state_.grains.owned(), AlongBody<Vec3d>{state_.frame, state_.grains.x, direction}) +
+             config_.grain.d_max / 2);
   return {{std::string("front_") + kAxis[p.axis], "m", front}};
 }
 
 std::vector<Quantity> CoupledSimulation::point(const ProbeConfig& p) {
-  const Vec3d at = p.body.empty() ? p.at : motion_.pose(wall_named(p.body), clock_.time).place(p.at);
+  const Vec3d at =
+      p.body.empty() ? p.at : state_.motion.pose(wall_named(p.body), state_.clock.time).place(p.at);
   double sum[5] = {};
-  if (has_fluid())
+  if (state_.has_fluid)
     with_fluid_kernel(config_, [&](const auto& w) {
-      const CellGridView grid = fluid_solver_->grid().view();
-      const auto cells = grid.block(at, fluid_solver_->range() + fluid_solver_->skin());
-      const auto s = sum_over<5>({0, Index(cells.size())},
-                                 PointBody<std::decay_t<decltype(w)>>{grid, cells, w, frame_, at, fluid_.x,
-                                                                      fluid_.v_rho, fluid_.m_state});
+      const CellGridView grid = stepper_.fluid().grid().view();
+      const auto cells = grid.block(at, stepper_.fluid().range() + stepper_.fluid().skin());
+      const auto s =
+          sum_over<5>({0, Index(cells.size())},
+                      PointBody<std::decay_t<decltype(w)>>{grid, cells, w, state_.frame, at, state_.fluid.x,
+                                                           state_.fluid.v_rho, state_.fluid.m_state});
       std::copy(s.v, s.v + 5, sum);
     });
   const double nan = std::nan("");
@@ -157,12 +161,13 @@ std::vector<Quantity> CoupledSimulation::column(const ProbeConfig& p) {
   const double dx = config_.fluid.dx, radius = 1.5 * dx;
   const double piece = 2 * dx;  // whatever lies in one is connected
   const Vec3d up = upwards(config_.gravity);
-  const LinePart part = line_in_box(p.at, up, frame_.origin, frame_.origin + frame_.length);
+  const LinePart part = line_in_box(p.at, up, state_.frame.origin, state_.frame.origin + state_.frame.length);
   const int first = int(std::floor((part.from - radius) / piece));
   const int last = int(std::floor((part.to + radius) / piece));
   Buffer<Extent> found(std::size_t(std::max(0, last - first + 1)));
-  for_each({0, Index(found.size())}, ColumnPass{fluid_solver_->grid().view(), frame_, p.at, up, radius, piece,
-                                                fluid_solver_->skin(), first, fluid_.x, found.span()});
+  for_each({0, Index(found.size())},
+           ColumnPass{stepper_.fluid().grid().view(), state_.frame, p.at, up, radius, piece,
+                      stepper_.fluid().skin(), first, state_.fluid.x, found.span()});
   double top = -1e300, connected = 0;
   int number = first;
   bool joins = true;
@@ -179,12 +184,14 @@ std::vector<Quantity> CoupledSimulation::column(const ProbeConfig& p) {
 std::vector<Quantity> CoupledSimulation::box(const ProbeConfig& p) {
   double s[7] = {};
   if (p.phase == "fluid") {
-    const auto r = sum_over<7>(
-        fluid_.owned(), FluidBox{frame_, p.min, p.max, fluid_.x, fluid_.v_rho, fluid_.m_state, fluid_.mass});
+    const auto r = sum_over<7>(state_.fluid.owned(),
+                               FluidBox{state_.frame, p.min, p.max, state_.fluid.x, state_.fluid.v_rho,
+                                        state_.fluid.m_state, state_.fluid.mass});
     std::copy(r.v, r.v + 7, s);
   } else {
-    const auto r = sum_over<7>(
-        grains_.owned(), GrainBox{p.min, p.max, matter_.of(grains_), grains_.x, grains_.v, grains_.radius});
+    const auto r =
+        sum_over<7>(state_.grains.owned(), GrainBox{p.min, p.max, state_.matter.of(state_.grains),
+                                                    state_.grains.x, state_.grains.v, state_.grains.radius});
     std::copy(r.v, r.v + 7, s);
   }
   const double m = s[1] > 0 ? s[1] : std::nan("");

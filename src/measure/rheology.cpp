@@ -53,38 +53,41 @@ HostArray moments(const char* name, const Buffer<PairMoment<>>& buffer) {
 
 HostStore CoupledSimulation::rheology(const std::string& name) {
   HostStore out{name, 0, {}};
-  const Real3 gravity{gravity_.at(clock_.time)};
-  if (name == "fluid" && has_fluid()) {
-    const Range all = fluid_.owned();
+  const Real3 gravity{state_.gravity.at(state_.clock.time)};
+  if (name == "fluid" && state_.has_fluid) {
+    const Range all = state_.fluid.owned();
     out.count = all.size();
-    const Span<const Real4> state = fluid_.m_state;
-    out.arrays.push_back(made<Real3, PointPass<FluidPosition>>("position", "m", all, frame_,
-                                                               Span<const FluidPosition>(fluid_.x)));
-    out.arrays.push_back(made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(fluid_.v_rho)));
-    out.arrays.push_back(fluid_.mass.to_host());
+    const Span<const Real4> state = state_.fluid.m_state;
+    out.arrays.push_back(made<Real3, PointPass<FluidPosition>>("position", "m", all, state_.frame,
+                                                               Span<const FluidPosition>(state_.fluid.x)));
+    out.arrays.push_back(
+        made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(state_.fluid.v_rho)));
+    out.arrays.push_back(state_.fluid.mass.to_host());
     out.arrays.push_back(made<Real, MixtureVolume>("volume", "m3", all, state));
-    out.arrays.push_back(made<Real3, DrivingForce>("drive", "N", all, gravity, fluid_solver_->drive(fluid_),
-                                                   Span<const Real>(fluid_.mass), state));
-    fluid_solver_->moments(fluid_, walls_, clock_.last_dt, fluid_moments_);
+    out.arrays.push_back(made<Real3, DrivingForce>("drive", "N", all, gravity,
+                                                   stepper_.fluid().drive(state_.fluid, stepper_.moment()),
+                                                   Span<const Real>(state_.fluid.mass), state));
+    stepper_.fluid().moments(state_.fluid, state_.walls, stepper_.moment(), state_.clock.last_dt,
+                             fluid_moments_);
     out.arrays.push_back(moments("stress_pressure", fluid_moments_.pressure));
     out.arrays.push_back(moments("stress_friction", fluid_moments_.friction));
     if (fluid_moments_.noise.size() > 0) out.arrays.push_back(moments("stress_noise", fluid_moments_.noise));
-  } else if (name == "grains" && has_grains()) {
-    const Range all = grains_.owned();
+  } else if (name == "grains" && state_.has_grains) {
+    const Range all = state_.grains.owned();
     out.count = all.size();
-    const MassPerR3 mass_per_r3 = matter_.of(grains_);
-    const Span<const Real> radius = grains_.radius;
-    out.arrays.push_back(
-        made<Real3, PointPass<Vec3d>>("position", "m", all, frame_, Span<const Vec3d>(grains_.x)));
-    out.arrays.push_back(renamed(grains_.v, "velocity"));
+    const MassPerR3 mass_per_r3 = state_.matter.of(state_.grains);
+    const Span<const Real> radius = state_.grains.radius;
+    out.arrays.push_back(made<Real3, PointPass<Vec3d>>("position", "m", all, state_.frame,
+                                                       Span<const Vec3d>(state_.grains.x)));
+    out.arrays.push_back(renamed(state_.grains.v, "velocity"));
     out.arrays.push_back(made<Real, GrainMass>("mass", "kg", all, mass_per_r3, radius));
     out.arrays.push_back(made<Real, GrainVolume>("volume", "m3", all, radius));
-    out.arrays.push_back(
-        made<Real3, GrainDrivingForce>("drive", "N", all, gravity, mass_per_r3, radius, drive_grains()));
-    solid_solver_->contact_moments(grains_, contact_moments_);
+    out.arrays.push_back(made<Real3, GrainDrivingForce>("drive", "N", all, gravity, mass_per_r3, radius,
+                                                        stepper_.drive_grains()));
+    stepper_.solids().contact_moments(state_.grains, contact_moments_);
     out.arrays.push_back(moments("stress_contact", contact_moments_));
-    if (solid_solver_->lubricates()) {
-      solid_solver_->film_moments(grains_, contact_moments_);
+    if (stepper_.solids().lubricates()) {
+      stepper_.solids().film_moments(state_.grains, contact_moments_);
       out.arrays.push_back(moments("stress_lubrication", contact_moments_));
     }
   }

@@ -109,31 +109,33 @@ std::vector<Quantity> CoupledSimulation::wall_pressure(const ProbeConfig& p) {
   const double spacing = config_.wall.spacing(config_.wall.bodies[body]);
   const bool disc = p.radius > 0, one = p.count.empty();
   const double square = p.radius * std::sqrt(M_PI);  // of the disc's area
-  PatchGrid patches{frame_, p.at, p.along, cross(p.normal, p.along), p.normal, {}, {}, 0};
+  PatchGrid patches{state_.frame, p.at, p.along, cross(p.normal, p.along), p.normal, {}, {}, 0};
   for (int k = 0; k < 2; ++k) {
     patches.count[k] = one ? 1 : int(p.count[k]);
     patches.side[k] = (disc ? square : p.size[k]) / patches.count[k];
   }
-  patches.depth = fluid_solver_->range() + spacing;
+  patches.depth = stepper_.fluid().range() + spacing;
   if (config_.domain.two_d) {
     patches.through = std::abs(p.along.y) > 0.5 ? 0 : 1;
     patches.side[patches.through] = config_.domain.thickness() / patches.count[patches.through];
   }
 
   const WallForces& forces = wall_forces();
-  const Span<const BodyPose> poses = poses_now();
-  const Vec3d inwards = -motion_.pose(body, clock_.time).rotation.rotate(p.normal);
-  const WallRepulsion repulsion = fluid_solver_->repulsion(poses, clock_.last_dt);
+  const Span<const BodyPose> poses = state_.poses_now();
+  const Vec3d inwards = -state_.motion.pose(body, state_.clock.time).rotation.rotate(p.normal);
+  const WallRepulsion repulsion = stepper_.fluid().repulsion(poses, state_.clock.last_dt);
   const int all = patches.count[0] * patches.count[1];
   std::vector<Quantity> out;
   for (int first = 0; first < all; first += kAtOnce) {
-    auto sum = sum_over<kAtOnce>(
-        walls_.owned(), PatchForces{patches, first, std::uint32_t(body), spacing, inwards, walls_.body,
-                                    walls_.x0, forces.pressure, forces.friction});
+    auto sum =
+        sum_over<kAtOnce>(state_.walls.owned(),
+                          PatchForces{patches, first, std::uint32_t(body), spacing, inwards,
+                                      state_.walls.body, state_.walls.x0, forces.pressure, forces.friction});
     if (repulsion.walls.surfaces.size > 0) {
       const auto more = sum_over<kAtOnce>(
-          fluid_.owned(), PatchRepulsion{patches, first, std::uint32_t(body), config_.fluid.dx, inwards,
-                                         repulsion, fluid_.x, fluid_.mass, fluid_.heading});
+          state_.fluid.owned(),
+          PatchRepulsion{patches, first, std::uint32_t(body), config_.fluid.dx, inwards, repulsion,
+                         state_.fluid.x, state_.fluid.mass, state_.fluid.heading});
       for (int k = 0; k < kAtOnce; ++k) sum.v[k] += more.v[k];
     }
     for (int k = 0; k < kAtOnce && first + k < all; ++k)

@@ -38,6 +38,10 @@ class RigidGroups {
   LoadSum by_contacts(int k, const GrainStore& grains) const;
   /// By the fluid; the torque on single grains is a mean over the last step dt (s).
   LoadSum by_fluid(int k, const GrainStore& grains, double dt) const;
+  std::vector<const Store*> stores() const {
+    if (!any()) return {};
+    return {&store_};
+  }
   void save(std::vector<HostStore>& stores) const;
   /// After `grains` has been loaded.
   void load(const HostStore& groups, const GrainStore& grains);

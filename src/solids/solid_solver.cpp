@@ -64,6 +64,13 @@ SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeo
   }
 }
 
+std::vector<const FieldBase*> SolidSolver::fields_of_contacts() const {
+  std::vector<const FieldBase*> out;
+  if (wall_contacts_) out.push_back(wall_contacts_.get());
+  for (const auto& memory : wall_memory_) out.push_back(memory.get());
+  return out;
+}
+
 void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal) {
   for_each(grains.owned(), WrapGrains{frame_, grains.x});
   grid.sort<Vec3d>(frame_, grains.x.span(), order_);

@@ -99,6 +99,9 @@ class SolidSolver {
                const std::vector<Vec3d>& gravity = {}, double wall_travel = WallList::kAnywhere,
                Span<const Real3> drive = {});
 
+  /// What grains remember of walls.
+  std::vector<const FieldBase*> fields_of_contacts() const;
+
   RigidGroups& groups() { return groups_; }
   const RigidGroups& groups() const { return groups_; }
 

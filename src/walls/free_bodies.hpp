@@ -90,6 +90,11 @@ class FreeBodies {
   double stable_dt(double wall_speed) const;
 
   BodyForces forces(int place) const;
+  /// Of the bodies and of what they touch.
+  std::vector<const Store*> stores() const {
+    if (!any()) return {};
+    return {&store_, &memory_};
+  }
   /// Force and torque by free bodies on any wall body, of the last substep in this run.
   LoadSum contact_load(int body) const;
   BodyTotals totals(double time) const;

@@ -95,20 +95,24 @@ bool WallMotion::moves() const {
          std::any_of(laws_.begin(), laws_.end(), [](const MotionLaw& law) { return law.moves(); });
 }
 
-Span<BodyPose> WallMotion::poses(double t, double dt, int n) {
+Span<BodyPose> WallMotion::rows(double t, double dt, int n, Buffer<BodyPose>& device) {
   host_.clear();
   for (int k = 0; k <= n; ++k)
     for (int b = 0; b < bodies(); ++b) host_.push_back(pose(b, t + dt * k / n));
-  if (device_.size() < host_.size()) device_.resize(host_.size() * 2);
-  copy_to_device(device_.data(), host_.data(), host_.size() * sizeof(BodyPose));
-  if (free_.any()) free_.write({device_.data(), Index(host_.size())}, bodies(), n + 1, t);
-  return {device_.data(), Index(host_.size())};
+  if (device.size() < host_.size()) device.resize(host_.size() * 2);
+  copy_to_device(device.data(), host_.data(), host_.size() * sizeof(BodyPose));
+  if (free_.any()) free_.write({device.data(), Index(host_.size())}, bodies(), n + 1, t);
+  return {device.data(), Index(host_.size())};
 }
 
+Span<BodyPose> WallMotion::poses(double t, double dt, int n) { return rows(t, dt, n, along_); }
+
+Span<const BodyPose> WallMotion::poses_at(double t) { return rows(t, 0, 1, at_); }
+
 Span<const BodyPose> WallMotion::poses_in_step(double t, double back, double dt) {
-  const Span<BodyPose> rows = poses(t - back, back, 1);
-  if (free_.any()) free_.write_middle(rows, dt);
-  return rows;
+  const Span<BodyPose> poses = rows(t - back, back, 1, in_step_);
+  if (free_.any()) free_.write_middle(poses, dt);
+  return poses;
 }
 
 double WallMotion::top_speed(double t, double dt) const {

@@ -21,8 +21,12 @@ class WallMotion {
   std::vector<InletFlow>& inlets() { return inlets_; }
   /// Whether wall particles ever change place.
   bool moves() const;
-  /// Poses at t + k dt / n for k = 0..n, [n + 1][bodies], on the device.
+  // Poses on the device, a row of all bodies for each time; each call has memory of its own, which its next
+  // call overwrites.
+  /// At t + k dt / n for k = 0..n, [n + 1][bodies].
   Span<BodyPose> poses(double t, double dt, int n);
+  /// At t; the same row twice, as place() wants it.
+  Span<const BodyPose> poses_at(double t);
   /// Two rows: at t - back, where free bodies are in the middle of the step dt that ends now, and at t.
   Span<const BodyPose> poses_in_step(double t, double back, double dt);
   /// Counts what has come through the inlets up to time t, s.
@@ -45,6 +49,8 @@ class WallMotion {
   double lowest(int body, double t, const Vec3d& up) const;
 
  private:
+  Span<BodyPose> rows(double t, double dt, int n, Buffer<BodyPose>& device);
+
   Config config_;
   const FreeBodies& free_;
   std::vector<BodyPose> still_;  ///< one a body: all but how it moves
@@ -52,7 +58,7 @@ class WallMotion {
   std::vector<InletFlow> inlets_;
   std::vector<bool> removed_;
   std::vector<BodyPose> host_;
-  Buffer<BodyPose> device_;
+  Buffer<BodyPose> along_, at_, in_step_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -51,7 +51,7 @@ TEST(SmallFluidPairs, ForcesOfAllTermsBalance) {  // T-2
   FluidBox box(all_terms(), 0.4, true);
   randomise(box);
   box.upload();
-  box.solver->forces(box.fluid, box.walls, {}, 0);
+  box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0);
   const auto b = balance(box, box.fluid.acc_next.values());
   ASSERT_GT(b.scale, 0);
   EXPECT_LT(norm(b.force) / b.scale, kInvariant);
@@ -64,7 +64,7 @@ TEST(FluidPairs, CentralForcesExertNoTorque) {  // T-2: pressure, artificial vis
   FluidBox box(c, 0.4, true);
   randomise(box);
   box.upload();
-  box.solver->forces(box.fluid, box.walls, {}, 0);
+  box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0);
   const auto a = box.fluid.acc_next.values();
   const auto m = box.fluid.mass.values();
   const auto x = box.coordinates_now();
@@ -86,7 +86,7 @@ TEST(FluidPairs, GalileanShiftLeavesForcesAlone) {  // T-3, shift of 100 c
     FluidBox box(c, 0.4, true);
     randomise(box, k * 100 * c.fluid.c);
     box.upload();
-    box.solver->forces(box.fluid, box.walls, {}, 0);
+    box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0);
     a[k] = box.fluid.acc_next.values();
   }
   double error = 0, scale = 0;
@@ -150,7 +150,7 @@ double viscosity_on_a_lattice(const char* model, const char* kernel, double mu) 
   for (std::size_t a = 0; a < box.position.size(); ++a)
     box.velocity[a].x = 1e-3 * c.fluid.c * std::cos(k * box.position[a].z);
   box.upload();
-  box.solver->forces(box.fluid, box.walls, {}, 0);
+  box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0);
   const auto v = box.fluid.v_rho.values();
   const auto theta = box.fluid.theta.values();
   double top = 0, bottom = 0;
@@ -189,7 +189,7 @@ TEST(FluidPairs, XsphMovesTheCentreOfMassWithTheMomentum) {  // T-12
   FluidBox box(all_terms(), 0.4, true);
   randomise(box);
   box.upload();
-  box.solver->forces(box.fluid, box.walls, {}, 0);
+  box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0);
   const auto b = balance(box, box.fluid.drift.values());
   EXPECT_LT(norm(b.force) / b.scale, kInvariant);
 }

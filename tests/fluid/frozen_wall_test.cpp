@@ -57,16 +57,15 @@ struct Channel : FluidBox {
     if (solver->spin()) solver->spin()->omega.assign(sorted);
     if (walled) {  // meets fluid for the first time, and begins in balance with it, but here as fluid does
       const auto own = walls.compression.values();
-      solver->walls(fluid, walls, poses, 0, true);
+      solver->walls(fluid, walls, poses, moment().gravity, 0, true);
       walls.compression.assign(own);
     }
-    solver->density(fluid, walls, poses, kStep);
-    found = fluid.s_next.values();
-    solver->accept_density(fluid);
+    solver->density(fluid, walls, poses, moment(), kStep);
+    found = fluid.s.values();
     if (!walled) hold_outer_layers();
     solver->state(fluid, 0, false);
-    if (walled) solver->walls(fluid, walls, poses, 0, true);
-    solver->forces(fluid, walls, poses, kStep);
+    if (walled) solver->walls(fluid, walls, poses, moment().gravity, 0, true);
+    solver->forces(fluid, walls, poses, moment(), kStep);
   }
   /// Values of a field in the order of ids.
   template <class T>
@@ -149,7 +148,8 @@ TEST(FrozenWalls, AreFluidThatMovesAndTurnsWithThem) {
       }
 
       Buffer<Vec3d> force;
-      walled.solver->wall_forces(walled.fluid, walled.walls, walled.poses, Channel::kStep, force);
+      walled.solver->wall_forces(walled.fluid, walled.walls, walled.poses, walled.moment(), 0, Channel::kStep,
+                                 force);
       Vec3d sum;
       double forces = 0;
       for (const Vec3d& f : force.to_host()) sum += f, forces += norm(f);

@@ -29,9 +29,9 @@ std::unique_ptr<FluidBox> drifting(const Velocity& velocity, TimeIntegrator inte
   for (std::size_t a = 0; a < box.position.size(); ++a) box.velocity[a] = velocity(box.position[a] - middle);
   box.upload();
   if (box.solver->one_pass())
-    box.solver->forces(box.fluid, box.walls, {}, 1e-4);
+    box.solver->forces(box.fluid, box.walls, {}, box.moment(), 1e-4);
   else
-    box.solver->density(box.fluid, box.walls, {}, 1e-4);
+    box.solver->density(box.fluid, box.walls, {}, box.moment(), 1e-4);
   return out;
 }
 

@@ -38,7 +38,7 @@ struct Halves : FluidBox {
 TEST(Species, PairsOfUnlikeFluidsKeepMomentum) {
   for (const std::string model : {"wcsph", "sdpd", "sdpd_a"}) {
     Halves box(two_fluids(model));
-    box.solver->forces(box.fluid, box.walls, {}, 0.01);
+    box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0.01);
     const auto acc = box.fluid.acc_next.values();
     const auto m = box.fluid.mass.values();
     Vec3d sum;
@@ -64,7 +64,7 @@ TEST(Species, FrictionTakesTheMeanOfBoth) {
       box.upload();
       box.fluid.viscosity.assign({Real(first), Real(second)});
       box.fluid.species.assign({0, 0});
-      box.solver->forces(box.fluid, box.walls, {}, 0.01);
+      box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0.01);
       return double(std::abs(box.fluid.acc_next.values()[0].x));
     };
     const double like = drag(1, 1), mean = model == "sdpd" ? 0.5 : 2.0 / 3;

@@ -36,8 +36,8 @@ struct Thrown : FluidBox {
     std::vector<Real3> spin(position.size());
     for (Real3& w : spin) w = {Real(u(rng)), Real(u(rng)), Real(u(rng))};
     if (solver->spin()) solver->spin()->omega.assign(spin);
-    solver->forces(fluid, walls, {}, kDt);
-    solver->moments(fluid, walls, kDt, moments);
+    solver->forces(fluid, walls, {}, moment(), kDt);
+    solver->moments(fluid, walls, moment(), kDt, moments);
   }
   /// Row i, column j: sum of F_i x_j, J; of what forces() has found.
   std::array<double, 9> of_particles() const {

@@ -109,9 +109,9 @@ TEST_P(VariableH, ContinuityIsTheRateOfTheSummation) {  // T-6
   }
   upload_at(box, summation(box.position));
   const auto s = box.fluid.s.values();  // as the box has them
-  box.solver->forces(box.fluid, box.walls, {}, 0);
-  box.solver->density(box.fluid, box.walls, {}, 1);
-  const auto next = box.fluid.s_next.values();
+  box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0);
+  box.solver->density(box.fluid, box.walls, {}, box.moment(), 1);
+  const auto next = box.fluid.s.values();
   const auto id = box.fluid.id.values();
   const auto h = box.solver->lengths()->h.values();
   const auto rho = summation(box.position), early = summation(before), late = summation(after);
@@ -139,7 +139,7 @@ TEST(SmallVariableH, ForcesOfAllTermsBalance) {  // T-2: each pair is in both ro
     randomise(box);
     for (std::size_t a = 0; a < box.s.size(); ++a) box.s[a] = 0.02 * box.velocity[a].x;
     box.upload();
-    box.solver->forces(box.fluid, box.walls, {}, 0);
+    box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0);
     const auto acc = box.fluid.acc_next.values();
     const auto m = box.fluid.mass.values();
     Vec3d force;
@@ -160,11 +160,11 @@ TEST(SmallVariableH, PressureIsNoSourceOfEnergy) {
   randomise(box);
   for (std::size_t a = 0; a < box.s.size(); ++a) box.s[a] = 0.05 * box.velocity[a].z;
   box.upload();
-  box.solver->forces(box.fluid, box.walls, {}, 0);
-  box.solver->density(box.fluid, box.walls, {}, 1);
+  box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0);
+  box.solver->density(box.fluid, box.walls, {}, box.moment(), 1);
   const auto acc = box.fluid.theta.values();
   const auto v = box.fluid.v_rho.values(), state = box.fluid.m_state.values();
-  const auto m = box.fluid.mass.values(), s = box.fluid.s.values(), next = box.fluid.s_next.values();
+  const auto m = box.fluid.mass.values(), s = box.fluid.s_next.values(), next = box.fluid.s.values();
   double motion = 0, compression = 0, scale = 0;
   for (std::size_t a = 0; a < acc.size(); ++a) {
     const double work = double(m[a]) * dot(Vec3d(v[a].xyz()), Vec3d(acc[a]));

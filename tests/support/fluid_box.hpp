@@ -79,6 +79,8 @@ struct FluidBox {
     solver->refresh(fluid, walls, true, {});
     solver->state(fluid, 0, false);
   }
+  /// With nothing that drives the fluid.
+  Moment moment(std::uint64_t step = 0) const { return {step, Real3(config.gravity), {}}; }
   std::vector<Vec3d> coordinates_now() const {
     std::vector<Vec3d> out;
     for (const auto& p : fluid.x.values()) out.push_back(coordinates(frame, p));

@@ -17,6 +17,7 @@ class Store {
 
   Index size() const { return size_; }
   Range owned() const { return {0, size_}; }
+  const std::vector<FieldBase*>& fields() const { return fields_; }
   /// All fields to n entries; contents are lost where they grow.
   void resize(Index n) {
     size_ = n;

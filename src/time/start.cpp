@@ -1,0 +1,206 @@
+// How a stepper begins, is saved and continues.
+
+#include <algorithm>
+#include <cmath>
+
+#include "bedload/geometry/depth.hpp"
+#include "src/time/stepper.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// Initial fluid fills what the grains leave, at hydrostatic pressure and the density that goes with
+/// it: in balance from the start, and heavier than at rho0 by its compression.
+struct LayPass {
+  EquationOfState eos;
+  Frame frame;
+  Span<const Real> eps, pressure;
+  Span<Real> mass, s;
+  BL_HD void operator()(Index a) const {
+    const Real x = eos.compression(pressure[a]);
+    mass[a] *= eps[a] * (1 + x);
+    s[a] = x;
+  }
+};
+
+/// Depth below the top of the block of fluid that holds x, along gravity, m.
+double depth_at(const Config& config, const Vec3d& gravity, const Vec3d& x) {
+  const double g = norm(gravity);
+  if (g == 0) return 0;
+  const Vec3d up = gravity * (-1 / g);
+  double depth = 0;
+  for (const auto& fill : config.fluid.fills) {
+    if (!fill.file.empty()) continue;
+    bool inside = true;
+    double top = 0;
+    for (int k = 0; k < 3; ++k) {
+      inside = inside && x[k] >= fill.min[k] && x[k] <= fill.max[k];
+      top += up[k] * (up[k] > 0 ? fill.max[k] : fill.min[k]);
+    }
+    if (inside) depth = std::max(depth, std::min(top, fill.level) - dot(up, x));
+  }
+  return depth;
+}
+
+/// Depth of each fluid particle of that mass (kg), m: in its block, or among the particles themselves where a
+/// file gave some.
+std::vector<double> depths_of(const Config& config, const Vec3d& gravity, const std::vector<Vec3d>& x,
+                              const std::vector<Real>& mass) {
+  std::vector<double> depth;
+  for (const Vec3d& at : x) depth.push_back(depth_at(config, gravity, at));
+  bool listed = false;
+  for (const auto& fill : config.fluid.fills) listed = listed || !fill.file.empty();
+  if (!listed || norm(gravity) == 0) return depth;
+  std::vector<double> size;  // edge of the cell for which a particle stands, m
+  const double thickness = config.domain.thickness();
+  for (const Real m : mass) {
+    const double volume = double(m) / config.fluid.rho0;
+    size.push_back(thickness > 0 ? std::sqrt(volume / thickness) : std::cbrt(volume));
+  }
+  const auto below = depth_in_columns(x, gravity * (-1 / norm(gravity)), config.fluid.dx, size);
+  for (std::size_t a = 0; a < x.size(); ++a)
+    if (depth[a] == 0) depth[a] = below[a];
+  return depth;
+}
+
+/// Gravity works against a wall or a free surface, not along a periodic axis.
+bool hydrostatic(const Config& config) {
+  for (int k = 0; k < 3; ++k)
+    if (config.domain.periodic[k] && config.gravity[k] != 0) return false;
+  return norm(config.gravity) > 0;
+}
+
+/// The part of the effective gravity along gravity. Fluid starts with a level surface, which cannot balance
+/// what acts across it.
+Vec3d level_gravity(const Config& config, const Vec3d& effective) {
+  return config.gravity * std::max(0.0, dot(effective, config.gravity) / norm2(config.gravity));
+}
+
+}  // namespace
+
+void Stepper::start() {
+  Step now;
+  now.held = held();
+  refresh(has_fluid(), has_grains());
+  now.poses = poses_now();
+  if (has_grains()) solid_solver_->evaluate(grains_, now.poses);
+  if (bodies_.any()) bodies_.evaluate(now.poses);
+  if (has_fluid()) {
+    initialise_fluid(now);
+    if (two_way()) porosity(now);
+    fluid_state(now);
+    wall_state(now);
+    forces(now);
+    repel(now);
+    if (bodies_.any()) load_bodies(now);
+    correct(now);
+    if (coupled()) push(now);
+  }
+  sweep();
+  if (coupled()) interpolate(now);  // for the first step's drag limit
+}
+
+void Stepper::initialise_fluid(Step& now) {
+  if (two_way()) porosity(now);
+  std::vector<Real> pressure(fluid_.size(), Real(config_.eos.background));
+  if (hydrostatic(config_)) {
+    const Vec3d g = level_gravity(config_, gravity_.at(0));
+    std::vector<Vec3d> x;
+    for (const auto& at : fluid_.x.values()) x.push_back(coordinates(frame_, at));
+    const std::vector<double> depth = depths_of(config_, g, x, fluid_.mass.values());
+    for (Index a = 0; a < fluid_.size(); ++a) pressure[a] += Real(config_.fluid.rho0 * norm(g) * depth[a]);
+  }
+  Buffer<Real> device;
+  device.assign(pressure);
+  for_each(fluid_.owned(), LayPass{fluid_solver_->eos(), frame_, fluid_.eps, device, fluid_.mass, fluid_.s});
+}
+
+void Stepper::settle(double longest, const std::function<void(double)>& progress) {
+  if (!has_grains()) return;
+  refresh(false, true);
+  bodies_.settle(true);
+  solid_solver_->evaluate(grains_, poses_now());
+  const double rest = 1e-3 * std::sqrt(norm(config_.gravity) * config_.grain.d_max);  // rms speed, m/s
+  double done = 0;
+  for (int k = 0; done < longest; ++k) {
+    grain_watch_ = solid_solver_->watch(grains_);
+    const double v = grain_watch_.speed, tau = solid_solver_->stable_dt(grain_watch_).seconds;
+    const double dt = std::min({20 * tau, v > 0 ? 0.05 * config_.grain.d_min / v : 20 * tau, longest - done});
+    if (2 * (grain_watch_.displacement + 1.5 * v * dt) > solid_solver_->skin())
+      solid_solver_->refresh(grains_, grain_grid_);
+    const int n = std::max(1, int(std::ceil(dt / tau)));
+    solid_solver_->advance(grains_, motion_.poses(clock_.time, 0, n), motion_.bodies(), dt, n, false, {}, 0);
+    done += dt;
+    if (k % 50 == 0) {
+      progress(done);
+      const auto totals = solid_solver_->totals(grains_);
+      if (k > 0 && std::sqrt(2 * totals.kinetic / totals.mass) < rest) break;
+    }
+  }
+  grains_.v.buffer().zero();
+  grains_.omega.buffer().zero();
+  solid_solver_->groups().stop();
+  bodies_.settle(false);
+}
+
+void Stepper::save_grains(SavedState& out) const {
+  if (!has_grains()) return;
+  out.stores.push_back(grains_.save());
+  out.stores.push_back(solid_solver_->save_contacts(grains_));
+  solid_solver_->groups().save(out.stores);
+}
+
+void Stepper::load_grains(const SavedState& saved) {
+  if (!has_grains()) return;
+  load_grain_store(saved);
+  solid_solver_->load_contacts(grains_, grain_grid_, store_of(saved, "contacts"));
+}
+
+void Stepper::load_grain_store(const SavedState& saved) {
+  grains_.load(store_of(saved, "grains"));
+  RigidGroups& groups = solid_solver_->groups();
+  if (groups.any()) groups.load(store_of(saved, "groups"), grains_);
+}
+
+void Stepper::save(SavedState& out) const {
+  out.scalars.push_back({"drag_limit", "s", drag_limit_});
+  out.scalars.push_back({"walls_moved", "m", walls_moved_});
+  out.scalars.push_back({"rebuilds", "-", double(rebuilds_)});
+  if (has_fluid()) fluid_solver_->save(out.scalars);
+}
+
+void Stepper::load(const SavedState& saved) {
+  const auto scalar = [&](const std::string& name) { return scalar_of(saved, name); };
+  drag_limit_ = scalar("drag_limit");
+  walls_moved_ = scalar("walls_moved");
+  rebuilds_ = std::int64_t(scalar("rebuilds"));
+  if (has_fluid()) {
+    fluid_solver_->load(scalar);
+    moment_ = moment(clock_.time, clock_.step);
+    corrected_ = 0;
+  }
+  if (has_grains()) load_grain_store(saved);
+  restore_lists(saved);
+  if (has_fluid()) fluid_solver_->survey(fluid_);
+  sweep();
+}
+
+/// The lists as they were when the checkpoint was written: built where x_list says.
+void Stepper::restore_lists(const SavedState& saved) {
+  if (has_grains()) solid_solver_->load_contacts(grains_, grain_grid_, store_of(saved, "contacts"));
+  const auto swap_positions = [&] {
+    fluid_.x.buffer().swap(fluid_.x_list.buffer());
+    walls_.x.buffer().swap(walls_.x_list.buffer());
+    walls_.mirrors.x.buffer().swap(walls_.mirrors.x_list.buffer());
+  };
+  if (has_fluid()) {
+    swap_positions();
+    fluid_solver_->relist(fluid_, walls_, true);
+    swap_positions();
+    fluid_solver_->pack(fluid_);
+    fluid_solver_->pack(walls_);
+  }
+  if (coupled()) relist_coupling();
+}
+
+}  // namespace bedload::inline BL_VARIANT

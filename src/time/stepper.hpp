@@ -1,0 +1,137 @@
+#pragma once
+// Takes a state from one step to the next: the solvers, and the order of work.
+
+#include <functional>
+#include <limits>
+#include <memory>
+
+#include "bedload/parallel/stopwatch.hpp"
+#include "bedload/simulation.hpp"
+#include "src/coupling/coupling.hpp"
+#include "src/fluid/drive_field.hpp"
+#include "src/fluid/fluid_solver.hpp"
+#include "src/solids/solid_solver.hpp"
+#include "src/time/stage.hpp"
+#include "src/time/state.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+class Stepper {
+ public:
+  /// Adds to the stores of `state` what solvers need: before it is filled or loaded. Both must outlive this.
+  Stepper(const Config& config, State& state);
+
+  /// Of each step, in their order; what a case does not need is not among them.
+  const std::vector<Stage>& stages() const { return stages_; }
+  /// All that hold fields of this state.
+  std::vector<const Store*> stores() const;
+  /// Told how many stages have been, before each and after the last.
+  using Observer = std::function<void(std::size_t done)>;
+  StepInfo step(const Observer& observer = {});
+
+  /// As Simulation has them.
+  void settle(double longest, const std::function<void(double)>& progress);
+  void start();
+  std::vector<StepLimit> limits();
+  std::vector<StepLimit> body_limits() const;
+  std::vector<Quantity> time_spent() const;
+
+  FluidSolver& fluid() { return *fluid_solver_; }
+  SolidSolver& solids() { return *solid_solver_; }
+  const SolidSolver& solids() const { return *solid_solver_; }
+  const Coupling& coupling() const { return *coupling_; }
+  const FluidExtremes& fluid_extremes() const { return fluid_extremes_; }  ///< after the last step
+  const GrainWatch& grain_watch() const { return grain_watch_; }           ///< after the last step
+  const Moment& moment() const { return moment_; }  ///< of the fluid's forces at the end of the last step
+  double corrected() const { return corrected_; }   ///< s, with what of it velocities were corrected since
+  std::int64_t rebuilds() const { return rebuilds_; }
+  Span<const Real3> drive_grains();  ///< force on each of them now, N; empty where nothing drives them
+
+  /// Grains, their contacts and groups.
+  void save_grains(SavedState& out) const;
+  void load_grains(const SavedState& saved);
+  /// What solvers and lists must know to go on, beside what the state has.
+  void save(SavedState& out) const;
+  /// Once the state is loaded: the grains, and all that save() and save_grains() wrote.
+  void load(const SavedState& saved);
+
+ private:
+  bool has_fluid() const { return state_.has_fluid; }
+  bool has_grains() const { return state_.has_grains; }
+  bool coupled() const { return state_.coupled; }
+  bool two_way() const { return state_.two_way; }
+  bool held() const { return config_.grain.fixed || clock_.time < config_.grain.release_time; }
+
+  void list_stages();
+  void list_solid_stages();
+  void list_fluid_stages();
+  void add(std::string_view name, Part part, void (Stepper::*run)(Step&), const Fields& reads,
+           const Fields& writes);
+  Step next_step();
+
+  // The stages, in this order.
+  void renew_lists(Step& now);
+  void interpolate(Step& now);
+  void move_solids(Step& now);
+  void react(Step& now);
+  void collide(Step& now);
+  void kick_drift(Step& now);
+  void advance(Step& now);
+  void move_walls(Step& now);
+  void porosity(Step& now);
+  void density(Step& now);
+  void fluid_state(Step& now);
+  void wall_state(Step& now);
+  void forces(Step& now);
+  void repel(Step& now);
+  void load_bodies(Step& now);
+  void correct(Step& now);
+  void push(Step& now);
+  void finish(Step& now);
+
+  void initialise_fluid(Step& now);            ///< mass for the porosity, hydrostatic pressure
+  Moment moment(double t, std::int64_t step);  ///< at t, s, where a step of that number ends
+  double wall_travel(double dt) const;         ///< m, that no wall goes beyond in the step to come
+  double longest_substep();                    ///< s, that grains and free bodies allow
+  void refresh_if_needed(double dt);
+  void refresh(bool fluid, bool grains, double dt = 0);  ///< dt: of the step to come, s
+  void load_grain_store(const SavedState& saved);        ///< and the rigid groups of the grains
+  void restore_lists(const SavedState& saved);
+  void relist_coupling();
+  void remove_cleared_bodies();
+  void sweep();  ///< extremes after a step; throws SimulationFault
+  Span<const BodyPose> poses_now() { return state_.poses_now(); }
+
+  const Config& config_;
+  State& state_;
+  const Frame& frame_;
+  Clock& clock_;
+  FluidStore& fluid_;
+  WallStore& walls_;
+  GrainStore& grains_;
+  FreeBodies& bodies_;
+  WallMotion& motion_;
+  OpenBoundaries& open_;
+  const EffectiveGravity& gravity_;
+
+  DriveFactor fluid_factor_, grain_factor_;  ///< what each refers to must last
+  Buffer<Real3> grain_drive_;                ///< N
+  CellGrid grain_grid_;
+  std::unique_ptr<FluidSolver> fluid_solver_;
+  std::unique_ptr<SolidSolver> solid_solver_;
+  std::unique_ptr<Coupling> coupling_;
+  std::vector<Stage> stages_;
+  Stopwatch watch_;
+
+  Moment moment_;         ///< of the last forces
+  double corrected_ = 0;  ///< s, kick of the last correction
+  FluidExtremes fluid_extremes_;
+  GrainWatch grain_watch_;
+  double drag_limit_ = std::numeric_limits<double>::infinity();  ///< s, of the last exchange
+  double walls_moved_ = 0;  ///< bound on wall travel since the lists were built, m
+  bool rebuilt_ = false;
+  std::int64_t rebuilds_ = 0;
+  Buffer<Vec3d> wall_force_;  ///< by which free bodies move
+};
+
+}  // namespace bedload::inline BL_VARIANT
