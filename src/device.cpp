@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <string>
 
@@ -107,6 +108,23 @@ std::unique_ptr<Simulation> make_simulation(const Config& config, [[maybe_unused
 #undef BL_USE
   throw KeyError("run.precision",
                  "run.precision = " + config.precision + ": this program was built without it");
+}
+
+HostArray host_copy(const FieldView& view, [[maybe_unused]] const Device& device) {
+  const std::size_t row = view.components * size_of(view.type);
+  HostArray out{view.name, view.unit, view.type, view.components, std::vector<std::byte>(view.count * row)};
+#if BL_HAS_CUDA
+  if (device.cuda()) {
+    const auto status =
+        cudaMemcpy2D(out.bytes.data(), row, view.data, view.stride, row, view.count, cudaMemcpyDeviceToHost);
+    if (status != cudaSuccess)
+      throw DeviceError(std::string("copy from the GPU: ") + cudaGetErrorString(status));
+    return out;
+  }
+#endif
+  for (std::size_t k = 0; k < view.count; ++k)
+    std::memcpy(out.bytes.data() + k * row, static_cast<const std::byte*>(view.data) + k * view.stride, row);
+  return out;
 }
 
 namespace {

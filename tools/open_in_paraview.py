@@ -3,7 +3,7 @@
     BEDLOAD_RESULTS=RESULTS paraview --script=tools/open_in_paraview.py
     pvpython tools/open_in_paraview.py RESULTS [picture.png]     draws the last frame without a window
 
-ParaView 5.12 or newer, which reads points over time from VTKHDF.
+ParaView before 5.12, which reads no points over time from VTKHDF, takes the XDMF files beside them.
 """
 
 import os
@@ -12,17 +12,20 @@ from pathlib import Path
 
 from paraview import simple
 
+VERSION = simple.GetParaViewVersion()
+ENDING = "vtkhdf" if (VERSION.major, VERSION.minor) >= (5, 12) else "xdmf"
 COLOURS = {"fluid": None, "grains": [0.85, 0.59, 0.31], "walls": [0.56, 0.64, 0.70]}
 
 
 def open_run(folder):
     """Shows what the folder holds; returns the view, at its last time."""
     view = simple.GetActiveViewOrCreate("RenderView")
-    found = {name: folder / f"{name}.vtkhdf" for name in COLOURS if (folder / f"{name}.vtkhdf").exists()}
+    fluid = None
+    found = {name: path for name in COLOURS if (path := folder / f"{name}.{ENDING}").exists()}
     if not found:
-        raise SystemExit(f"{folder}: holds no fluid.vtkhdf, grains.vtkhdf or walls.vtkhdf")
+        raise SystemExit(f"{folder}: holds no fluid.{ENDING}, grains.{ENDING} or walls.{ENDING}")
     for name, path in found.items():
-        source = simple.VTKHDFReader(registrationName=name, FileName=[str(path)])
+        source = opened(name, str(path))
         source.UpdatePipeline()
         shown = simple.Show(source, view)
         if name == "grains":
@@ -34,9 +37,9 @@ def open_run(folder):
         elif name == "fluid":
             shown.SetRepresentationType("Point Gaussian")
             shown.GaussianRadius = spacing(source) / 2
+            fluid = shown
+            shown.Opacity = 0.4 if "grains" in found else 1
             simple.ColorBy(shown, ("POINTS", "velocity", "Magnitude"))
-            shown.RescaleTransferFunctionToDataRange(True)
-            shown.SetScalarBarVisibility(view, True)
         else:
             shown.SetRepresentationType("Points")
             shown.Opacity = 0.15
@@ -46,10 +49,22 @@ def open_run(folder):
     scene = simple.GetAnimationScene()
     scene.UpdateAnimationUsingDataTimeSteps()
     scene.GoToLast()
+    if fluid:
+        fluid.RescaleTransferFunctionToDataRange()
+        bar = simple.GetScalarBar(simple.GetColorTransferFunction("velocity"), view)
+        bar.Title, bar.ComponentTitle, bar.TitleFontSize, bar.LabelFontSize = "speed (m/s)", "", 10, 10
+        fluid.SetScalarBarVisibility(view, True)
     view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = [1, -2.5, 1], [0, 0, 0], [0, 0, 1]
     simple.ResetCamera(view)
     simple.Render(view)
     return view
+
+
+def opened(name, path):
+    """All frames of a file."""
+    if ENDING == "xdmf":
+        return simple.XDMFReader(registrationName=name, FileNames=[path])
+    return simple.VTKHDFReader(registrationName=name, FileName=[path])
 
 
 def spacing(source):

@@ -107,6 +107,8 @@ Device find_device(const std::string& backend, int threads, const std::string& s
 
 /// Builds the solver for config.precision on `device`.
 std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& setup, const Device& device);
+/// What a field of a simulation on `device` holds now. Raises DeviceError.
+HostArray host_copy(const FieldView& view, const Device& device);
 
 /// Estimated bytes for `counts` particles of this case.
 std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda);

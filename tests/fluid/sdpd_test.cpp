@@ -225,7 +225,7 @@ TEST(SlowSdpdBath, HoldsItsTemperatureWithAnyMasses) {  // T-15: masses 0.5..2
   }
 }
 
-TEST(SdpdBath, HoldsItsTemperatureByTensorNoise) {  // T-15
+TEST(SlowSdpdBath, HoldsItsTemperatureByTensorNoise) {  // T-15
   const Temperatures t = frozen_bath("sdpd_a", "tensor", 0.95);
   EXPECT_NEAR(t.linear, 1 - 1.0 / 512, 1.5e-2 + 3 * t.linear_error);
   EXPECT_NEAR(t.spin, 1, 1.5e-2 + 3 * t.spin_error);

@@ -205,9 +205,9 @@ TEST_P(SlowFloat, RestsAtArchimedesDepth) {
   const double density = GetParam();
   const Config c = tank_with_slab(density);
   auto s = started(c, filled(c));
-  run_until(*s, 2);
+  run_until(*s, 1.2);
   double z = 0, n = 0;
-  while (s->time() < 2.5) {
+  while (s->time() < 1.5) {
     s->step();
     z += reading(s->body_state(1), "centre_z") - 0.02, n += 1;
   }

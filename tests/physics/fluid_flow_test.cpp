@@ -163,7 +163,7 @@ TEST(SlowHydrostatics, PressureGradientAmongFixedGrains) {  // T-9, porosity 0.6
         setup.grains.radius.push_back(c.grain.d / 2);
       }
   auto s = started(c, setup);
-  run_until(*s, 5);
+  run_until(*s, 2);
   EXPECT_NEAR(pressure_line(*s, 0.04, 0.16).slope(), -9810, 2e-2 * 9810);
 }
 

@@ -1,5 +1,5 @@
 # Tests. Suites named Slow... are labelled slow and left to mixed precision, the rest quick; on a GPU gpu-slow and
-# gpu-quick.
+# gpu-quick. Slow ones begin first, so that none of them ends alone.
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
@@ -19,7 +19,7 @@ function(bedload_register target)
     gtest_discover_tests(
       ${target} TEST_FILTER "Slow*:*/Slow*" TEST_PREFIX "${target}." TEST_LIST ${target}_slow
       DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-      PROPERTIES LABELS "${ARGN}slow" TIMEOUT 1800 ENVIRONMENT "${environment}")
+      PROPERTIES LABELS "${ARGN}slow" TIMEOUT 1800 COST 100 ENVIRONMENT "${environment}")
   endif()
 endfunction()
 
@@ -76,7 +76,7 @@ if(BEDLOAD_PYTHON AND "mixed" IN_LIST BEDLOAD_PRECISIONS)
              COMMAND bash -c "'$<TARGET_FILE:bedload>' run '${folder}/${CMAKE_MATCH_2}.toml' --out '${results}' \
 --overwrite --quiet && '${BEDLOAD_PYTHON}' '${CMAKE_SOURCE_DIR}/tools/compare.py' '${folder}/${CMAKE_MATCH_3}.toml' \
 '${results}'")
-    set_tests_properties(case.${CMAKE_MATCH_1}.${CMAKE_MATCH_2} PROPERTIES LABELS slow TIMEOUT 900)
+    set_tests_properties(case.${CMAKE_MATCH_1}.${CMAKE_MATCH_2} PROPERTIES LABELS slow TIMEOUT 900 COST 100)
   endforeach()
 endif()
 

@@ -15,21 +15,35 @@ from .errors import CaseError, SimulationFault
 class DeviceArray:
     """An array in the memory of a GPU, for CuPy, PyTorch, Numba: `cupy.asarray(a)`, `torch.from_dlpack(a)`.
 
-    Not to be written to. As arrays of the CPU it is right until the next step.
+    Not to be written to. As arrays of the CPU it is right until the next step. NumPy's functions and indices work on a
+    copy of it in host memory, each on one of its own.
     """
 
-    def __init__(self, window: tuple):
-        self._exporter, pointer, shape, strides, kind = window
-        self.shape: tuple[int, ...] = shape
-        self.dtype = np.dtype(kind)
-        self.__cuda_array_interface__ = {"shape": shape, "typestr": kind, "data": (pointer, True), "strides": strides,
-                                         "stream": None, "version": 3}  # the solver has been waited for
+    def __init__(self, field: Any):
+        self._field = field
+        self.shape: tuple[int, ...] = field.shape
+        self.dtype = np.dtype(field.kind)
+        self.__cuda_array_interface__ = {"shape": field.shape, "typestr": field.kind, "data": (field.pointer, True),
+                                         "strides": field.strides, "stream": None,  # the solver has been waited for
+                                         "version": 3}
+
+    def copy(self) -> np.ndarray:
+        """What it holds now, in host memory."""
+        return self._field.copy()
 
     def __dlpack__(self, **options: Any) -> Any:
-        return self._exporter.__dlpack__(**options)
+        return self._field.exporter().__dlpack__(**options)
 
     def __dlpack_device__(self) -> tuple[int, int]:
-        return self._exporter.__dlpack_device__()
+        return self._field.exporter().__dlpack_device__()
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
+        if copy is False:
+            raise ValueError("an array in the memory of a GPU is seen by NumPy as a copy alone")
+        return self.copy().astype(dtype or self.dtype, copy=False)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.copy()[index]
 
     def __len__(self) -> int:
         return self.shape[0]
@@ -66,15 +80,14 @@ class Particles:
         if name.startswith("_"):
             raise AttributeError(name)
         array = self._find(name)[0]
-        return DeviceArray(array) if isinstance(array, tuple) else array
+        return array if isinstance(array, np.ndarray) else DeviceArray(array)
 
     def __getitem__(self, name: str) -> Any:
         return getattr(self, name)
 
     def copy(self, name: str) -> np.ndarray:
         """An array in host memory that stays as it is now; from a GPU, too."""
-        copied = self._run.snapshot(self._store)
-        return copied[name][0] if name in copied else np.array(getattr(self, name))
+        return getattr(self, name).copy()
 
     def by_id(self, name: str) -> np.ndarray:
         """A copy of an array in the order of the particles' ids, which stays the same while none comes or goes."""

@@ -43,27 +43,71 @@ nb::object window_on(const FieldView& v) {
   return nb::cast(array);
 }
 
-nb::object device_window_on(const FieldView& v) {
-  const Layout l(v.count, v.components, v.stride, v.type);
-  const nb::ndarray<> array(const_cast<void*>(v.data), l.axes, l.shape, keep(v.memory), l.strides,
-                            type_of(v.type), nb::device::cuda::value);
-  nb::list shape, strides;
-  for (std::size_t k = 0; k < l.axes; ++k) {
-    shape.append(l.shape[k]);
-    strides.append(l.strides[k] * std::int64_t(size_of(v.type)));
-  }
-  const bool real = v.type == Scalar::f32 || v.type == Scalar::f64;
-  const std::string type = (real ? "<f" : "<u") + std::to_string(size_of(v.type));
-  return nb::make_tuple(array, reinterpret_cast<std::uintptr_t>(v.data), nb::tuple(shape), nb::tuple(strides),
-                        type);
-}
-
 nb::object array_of(HostArray a) {
   const Layout l(a.count(), a.components, a.components * size_of(a.type), a.type);
   const auto type = type_of(a.type);
   auto* bytes = new std::vector<std::byte>(std::move(a.bytes));
   const nb::capsule owner(bytes, [](void* p) noexcept { delete static_cast<std::vector<std::byte>*>(p); });
   return nb::cast(nb::ndarray<nb::numpy>(bytes->data(), l.axes, l.shape, owner, l.strides, type));
+}
+
+namespace {
+
+Layout layout_of(const FieldView& v) { return {v.count, v.components, v.stride, v.type}; }
+
+/// The axes of `l` in a tuple, each multiplied by `unit`.
+template <class T>
+nb::tuple axes(const Layout& l, const T (&values)[2], std::size_t unit = 1) {
+  nb::list out;
+  for (std::size_t k = 0; k < l.axes; ++k) out.append(values[k] * T(unit));
+  return nb::tuple(out);
+}
+
+}  // namespace
+
+void bind_arrays(nb::module_& m) {
+  nb::class_<DeviceField>(m, "DeviceField", "An array in the memory of a GPU.")
+      .def_prop_ro("pointer",
+                   [](const DeviceField& f) { return reinterpret_cast<std::uintptr_t>(f.view.data); })
+      .def_prop_ro("shape",
+                   [](const DeviceField& f) {
+                     const Layout l = layout_of(f.view);
+                     return axes(l, l.shape);
+                   })
+      .def_prop_ro(
+          "strides",
+          [](const DeviceField& f) {
+            const Layout l = layout_of(f.view);
+            return axes(l, l.strides, size_of(f.view.type));
+          },
+          "Bytes.")
+      .def_prop_ro(
+          "kind",
+          [](const DeviceField& f) {
+            const bool real = f.view.type == Scalar::f32 || f.view.type == Scalar::f64;
+            return (real ? "<f" : "<u") + std::to_string(size_of(f.view.type));
+          },
+          "Type, as NumPy writes it.")
+      .def(
+          "exporter",
+          [](const DeviceField& f) {
+            const Layout l = layout_of(f.view);
+            return nb::ndarray<nb::array_api, nb::ro>(f.view.data, l.axes, l.shape, keep(f.view.memory),
+                                                      l.strides, type_of(f.view.type),
+                                                      nb::device::cuda::value);
+          },
+          "What DLPack takes.")
+      .def(
+          "copy",
+          [](const DeviceField& f) {
+            HostArray copied;
+            {
+              const nb::gil_scoped_release release;
+              copied = host_copy(f.view, f.device);
+            }
+            return array_of(std::move(copied));
+          },
+          "A NumPy array of what it holds now.");
 }
 
 }  // namespace bedload

@@ -4,13 +4,19 @@
 #include <nanobind/nanobind.h>
 
 #include "bedload/host_data.hpp"
+#include "bedload/simulation.hpp"
 
 namespace bedload {
 
 /// A read-only NumPy array on the solver's own memory.
 nanobind::object window_on(const FieldView& view);
-/// The same of device memory: (DLPack exporter, address, shape, strides in bytes, type as NumPy writes it).
-nanobind::object device_window_on(const FieldView& view);
+/// A field in the memory of a GPU.
+struct DeviceField {
+  FieldView view;
+  Device device;
+};
+/// Adds DeviceField to the module.
+void bind_arrays(nanobind::module_& m);
 /// A NumPy array that takes over the bytes of `array`.
 nanobind::object array_of(HostArray array);
 

@@ -100,7 +100,8 @@ class Run {
     const auto views = computed([&] { return simulation().fields(store); });
     nb::dict out;
     for (const FieldView& v : views)
-      out[v.name.c_str()] = nb::make_tuple(cuda() ? device_window_on(v) : window_on(v), v.unit);
+      out[v.name.c_str()] = nb::make_tuple(
+          cuda() ? nb::cast(DeviceField{v, session_->prepared().device}) : window_on(v), v.unit);
     return out;
   }
   nb::dict snapshot(const std::string& store) {
@@ -241,6 +242,7 @@ void bind_runs(nb::module_& m) {
 
 NB_MODULE(_bedload, m) {
   nb::register_exception_translator(translate);
+  bind_arrays(m);
   bind_cases(m);
   bind_runs(m);
   m.def("version", [] { return version(); });
