@@ -104,16 +104,15 @@ foreach(test
   list(APPEND BEDLOAD_PRECISION_TESTS ${CMAKE_SOURCE_DIR}/tests/${test}_test.cpp)
 endforeach()
 
-# It compares the documents with what the solver does.
-set_source_files_properties(tests/time/stages_test.cpp PROPERTIES COMPILE_DEFINITIONS
-                                                                  BL_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
-
 # bedload_variant_tests(<variant> [label prefix]): the solver's tests, built for one variant.
 function(bedload_variant_tests variant)
   set(tests ${BEDLOAD_SOLVER_TESTS})
   if(NOT variant MATCHES "mixed")
     set(tests ${BEDLOAD_PRECISION_TESTS})
   endif()
+  # compares the documents with what the solver does
+  set_source_files_properties(${CMAKE_SOURCE_DIR}/tests/time/stages_test.cpp
+                              PROPERTIES COMPILE_DEFINITIONS BL_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   add_executable(bedload_tests_${variant} ${tests})
   target_link_libraries(bedload_tests_${variant} PRIVATE bedload_${variant} bedload_host GTest::gtest_main)
   bedload_register(bedload_tests_${variant} ${ARGN})
