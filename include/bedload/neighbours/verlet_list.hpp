@@ -101,7 +101,7 @@ struct SliceSearch {
       first = atomicAdd(reinterpret_cast<unsigned long long*>(slots), turns * VerletListView::kTurn);
       if (lane.row < rows) offset[thread / 32] = first;
     }
-    first = __shfl_sync(0xffffffffu, first, 0);  // all have written what they found
+    __syncwarp(), first = __shfl_sync(0xffffffffu, first, 0);  // all see what all have found
     if (lane.row >= rows) return;
     if (lane.index == 0) count[lane.row] = n;
     if (first + turns * VerletListView::kTurn > room) return;  // to be done again with more
