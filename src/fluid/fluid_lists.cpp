@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bedload/neighbours/tile_search.hpp"
 #include "kernels/walls/crossing.hpp"
 #include "src/fluid/fluid_solver.hpp"
 #include "src/measure/sweeps.hpp"

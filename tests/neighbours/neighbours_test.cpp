@@ -7,6 +7,7 @@
 #include <set>
 
 #include "bedload/neighbours/for_each_pair.hpp"
+#include "bedload/neighbours/tile_search.hpp"
 #include "kernels/smoothing/registry.hpp"
 #include "tests/support/tolerance.hpp"
 
