@@ -10,10 +10,13 @@ namespace bedload::inline BL_VARIANT {
 /// Ways out: none, through an open side of the domain, or outlet k.
 constexpr std::uint32_t kStays = 0, kLeftDomain = 1, kOutlet = 2;
 
-/// Outside the domain on an axis that is not periodic.
+/// Outside the domain on an axis that is not periodic, by more than packed positions are rounded.
 BL_HD bool outside(const Frame& f, const Vec3d& x) {
-  for (int k = 0; k < 3; ++k)
-    if (!f.periodic[k] && !(x[k] >= f.origin[k] && x[k] <= f.origin[k] + f.length[k])) return true;
+  for (int k = 0; k < 3; ++k) {
+    const double rounding = f.length[k] * kPackedRounding;
+    if (!f.periodic[k] && !(x[k] >= f.origin[k] - rounding && x[k] <= f.origin[k] + f.length[k] + rounding))
+      return true;
+  }
   return false;
 }
 

@@ -2,12 +2,13 @@
 #include "bedload/core/frame.hpp"
 #include "bedload/core/mean_shear.hpp"
 #include "bedload/core/span.hpp"
+#include "kernels/boundaries/edges.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// v += kick (acc + reaction); x += drift (v + beside), packed `back` before where it is; of sheared fluid
-/// also the peculiar velocity there.
+/// v += kick (acc + reaction); x += drift (v + beside), packed `back` before where it is, both put back at
+/// edges; of sheared fluid also the peculiar velocity there.
 struct KickDriftPass {
   Frame frame;
   Real kick, drift, back;                   ///< s
@@ -17,6 +18,7 @@ struct KickDriftPass {
   Span<PairPosition> xp;
   MeanShear shear;   ///< as it is after the drift
   Span<Real4> flux;  ///< empty without shear
+  Edges edges;
 
   BL_HD void operator()(Index a) const {
     const Real4 old = v_rho[a];
@@ -25,14 +27,19 @@ struct KickDriftPass {
     v_rho[a] = {v, old.w};
     if (drift == 0) return;
     const Real3 move = beside ? v + beside[a] : v;
-    Vec3d at = coordinates(frame, x[a]) + Vec3d(move) * double(drift);
+    const Vec3d from = coordinates(frame, x[a]);
+    Vec3d at = from + Vec3d(move) * double(drift);
+    if (edges.any()) {
+      edges.put_back(from, at, v);
+      v_rho[a] = {v, old.w};
+    }
     if (shear.acts()) {
       shear.wrap(at, v);
       at = frame.wrap(at);
       v_rho[a] = {v, old.w};
     }
     x[a] = as_position<FluidPosition>(frame, at);
-    const Vec3d packed = coordinates(frame, x[a]) - Vec3d(back * v);
+    const Vec3d packed = edges.inside(coordinates(frame, x[a]), Vec3d(back * v));
     const MeanShear then = shear.before(double(back));
     xp[a] = pair_position(frame, then.lattice(packed), xp[a].weight);
     if (flux) flux[a] = {then.peculiar(v, packed.z), old.w};

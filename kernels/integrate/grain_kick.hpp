@@ -2,6 +2,7 @@
 // Kicks of a grain under drag. The fluid velocity and the drag coefficient are frozen over a fluid step,
 // so drag is integrated exactly: terminal velocity holds for any stiffness [physics section 6].
 
+#include "kernels/boundaries/edges.hpp"
 #include "kernels/contact/grain_mass.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -39,9 +40,16 @@ struct GrainKick {
   Span<const Real3> fluid_force, U, omega_f;  ///< these and K are empty where there is no fluid
   Span<const Real> K, K_rot;
   Span<const Real3> drive = {};  ///< N; empty: none
+  Edges edges = {};
 
   BL_HD bool wet() const { return bool(K); }
   BL_HD double mass(Index i) const { return mass_per_r3(i) * radius[i] * radius[i] * radius[i]; }
+  /// Where a substep takes a grain from x; an edge that it crosses changes v, its spin never.
+  BL_HD Vec3d drift(const Vec3d& x, Vec3d& v) const {
+    Vec3d to = x + 2 * h * v;
+    edges.put_back(x, to, v);
+    return to;
+  }
 };
 
 /// Velocity and spin of one grain under forces that hold for the present kicks: `under` before them.

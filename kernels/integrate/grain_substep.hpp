@@ -32,9 +32,9 @@ struct FirstKickPass {
     KickedGrain g(kick, i, Vec3d(v[i]), Vec3d(omega[i]));
     g.under(Vec3d(force[i]), Vec3d(torque[i]));
     g.kick();
+    x[i] = kick.drift(x[i], g.v);
     split(g.v, v[i], v_rest[i]);
     split(g.omega, omega[i], omega_rest[i]);
-    x[i] += 2 * kick.h * g.v;
     if (!kick.wet()) return;
     impulse[i] = Real3(g.impulse);
     spin_impulse[i] = Real3(g.spin_impulse);
@@ -60,9 +60,9 @@ struct SubstepPass {
     g.under(sum.force, sum.torque);
     g.kick();
     g.kick();
+    next_x[i] = kick.drift(contacts.x[i], g.v);
     split(g.v, next_v[i], v_rest[i]);
     split(g.omega, next_omega[i], omega_rest[i]);
-    next_x[i] = contacts.x[i] + 2 * kick.h * g.v;
     if (!kick.wet()) return;
     impulse[i] += Real3(g.impulse);
     spin_impulse[i] += Real3(g.spin_impulse);

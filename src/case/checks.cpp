@@ -24,8 +24,23 @@ void Checks::domain() const {
     period(k, 2 * c.fluid.kappa() * c.couple.hc, "2 kappa h_c", coupled());
     period(k, 2 * c.grain.d_max, "4 R", c.grain.present);
   }
+  reflection();
   if (c.domain.two_d) check_plane(c, root_);
   if (c.domain.sheared()) shear();
+}
+
+void Checks::reflection() const {
+  const ReflectConfig& r = c.domain.reflect;
+  for (std::size_t face = 0; face < kFaces.size(); ++face) {
+    if (!r.slip[face] && !r.no_slip[face]) continue;
+    const std::string key = r.no_slip[face] ? "domain.reflect.no_slip" : "domain.reflect.slip",
+                      side = quoted(std::string(kFaces[face]));
+    if (r.slip[face] && r.no_slip[face]) fail(key, side, "must not be one of domain.reflect.slip as well");
+    if (c.domain.flat(int(face / 2))) fail(key, side, "must be a side along x or z with domain.two_d");
+    if (c.domain.periodic[face / 2])
+      fail(key, side, fmt::format("must be a side across which nothing is periodic; {} is", "xyz"[face / 2]));
+    if (!c.grain.rigid_fills().empty()) fail(key, side, "must not be given with [grain.fill.rigid]");
+  }
 }
 
 void Checks::shear() const {
@@ -35,6 +50,7 @@ void Checks::shear() const {
                                     {!c.wall.bodies.empty(), "[[wall.body]]"},
                                     {!c.inlets.empty() || !c.grain_inlets.empty(), "inlets"},
                                     {!c.outlets.empty(), "[[outlet]]"},
+                                    {c.domain.reflect.any(), "domain.reflect"},
                                     {c.frame.motion.moves(), "frame.motion"},
                                     {norm(c.gravity) > 0, "gravity"},
                                     {norm(c.drive.f) > 0 || c.drive.pulls(), "[drive]"},

@@ -35,6 +35,8 @@ class Checks {
   /// Density from former rates goes with what one visit of each pair can find, and bears shorter steps, by
   /// linear analysis: sound is damped up to a cfl of 0.6, density diffusion at its largest up to 0.39.
   void one_pass() const;
+  /// Sides put back particles that can cross them, one by one.
+  void reflection() const;
   /// Lees-Edwards boundaries carry fluid alone, by what its pairs do.
   void shear() const;
   void box(const std::string& path, const Vec3d& lo, const Vec3d& hi) const;

@@ -72,8 +72,11 @@ double Checks::given(const char* path, const char* unit) const {
 }
 
 bool Checks::unsupported() const {
-  for (int k = 0; k < 3; ++k)
-    if (c.gravity[k] != 0 && c.domain.periodic[k]) return false;
+  const ReflectConfig& r = c.domain.reflect;
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t below = 2 * std::size_t(k) + (c.gravity[k] > 0);
+    if (c.gravity[k] != 0 && (c.domain.periodic[k] || r.slip[below] || r.no_slip[below])) return false;
+  }
   return norm(c.gravity) > 0 && std::none_of(c.wall.bodies.begin(), c.wall.bodies.end(),
                                              [](const WallBody& body) { return body.stops_fluid(); });
 }

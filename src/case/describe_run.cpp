@@ -120,6 +120,17 @@ void describe_domain(Parameters& p, DomainConfig& d) {
      .meaning =
          "mean dv_x/dz that Lees-Edwards boundaries impose on fluid in a periodic domain: images across "
          "z move along x [lees72]; 0 none"});
+  p("domain.reflect.slip", &d.reflect.slip,
+    {.meaning =
+         "sides, of \"x-\" .. \"z+\", at which particles and grains that cross them are put back as by a "
+         "mirror: place and velocity along the normal are reversed; these sides have no particles and touch "
+         "no grain",
+     .fallback = "none",
+     .presence = optional});
+  p("domain.reflect.no_slip", &d.reflect.no_slip,
+    {.meaning = "sides that put back likewise, but reverse the whole velocity [tsuzuki]",
+     .fallback = "none",
+     .presence = optional});
 }
 
 void describe_coupling(Parameters& p, CouplingConfig& c) {

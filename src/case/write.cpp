@@ -65,6 +65,7 @@ bool is_absent(const Slot& value) {
     bool operator()(const double* x) const { return *x == 0 || std::isinf(*x); }
     bool operator()(const std::int64_t* i) const { return *i == 0; }
     bool operator()(const std::string* s) const { return s->empty(); }
+    bool operator()(const Faces* faces) const { return *faces == Faces{}; }
     bool operator()(const std::vector<Vec3d>* list) const { return list->empty(); }
     bool operator()(const std::vector<double>* list) const { return list->empty(); }
     bool operator()(const std::vector<std::string>* list) const { return list->empty(); }

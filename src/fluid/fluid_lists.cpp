@@ -41,8 +41,8 @@ struct LatticePass {
   BL_HD void operator()(Index a) const { out[a] = shear.lattice(coordinates(frame, x[a])); }
 };
 
-/// Copies of positions as pair loops read them, `back` (s) before where they are, with their weights; of
-/// sheared fluid also peculiar velocities.
+/// Copies of positions as pair loops read them, `back` (s) before where they are and inside edges, with their
+/// weights; of sheared fluid also peculiar velocities.
 template <class P>
 struct PackBackPass {
   Frame frame;
@@ -52,9 +52,10 @@ struct PackBackPass {
   Span<PairPosition> xp;
   MeanShear shear = {};   ///< as it was then
   Span<Real4> flux = {};  ///< empty without shear
+  Edges edges = {};       ///< of the fluid's domain
   BL_HD void operator()(Index i) const {
     const Real4 now = v[i];
-    const Vec3d at = coordinates(frame, x[i]) - Vec3d(back * now.xyz());
+    const Vec3d at = edges.inside(coordinates(frame, x[i]), Vec3d(back * now.xyz()));
     xp[i] = pair_position(frame, shear.lattice(at), m_state ? m_state[i].x : Real(0));
     if (flux) flux[i] = {shear.peculiar(now.xyz(), at.z), now.w};
   }
@@ -248,8 +249,9 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
 }
 
 void FluidSolver::pack(FluidStore& fluid, double back) {
-  for_each(fluid.owned(), PackBackPass<FluidPosition>{frame_, Real(back), fluid.x, fluid.v_rho, fluid.m_state,
-                                                      fluid.xp, shear_.before(back), peculiar(fluid)});
+  for_each(fluid.owned(),
+           PackBackPass<FluidPosition>{frame_, Real(back), fluid.x, fluid.v_rho, fluid.m_state, fluid.xp,
+                                       shear_.before(back), peculiar(fluid), edges_});
 }
 
 void FluidSolver::pack(WallStore& walls, double back) {

@@ -104,7 +104,8 @@ FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeo
       mixed_(config.grain.present && config.couple.mode == CouplingMode::two_way),
       lengths_(config.fluid.variable_h ? std::make_unique<SmoothingLengths>(fluid, config.fluid.h())
                                        : nullptr),
-      shear_{config.domain.shear_rate, 0, config.domain.min.z, config.domain.max.z - config.domain.min.z} {
+      shear_{config.domain.shear_rate, 0, config.domain.min.z, config.domain.max.z - config.domain.min.z},
+      edges_(config.domain.reflect, frame) {
   eos_ = EquationOfState::of(config);
   renew_skins({});
   const auto acts = [](const WallBody& body) { return body.repels() || body.no_penetration; };
@@ -206,7 +207,8 @@ KickDriftPass FluidSolver::kick_drift_pass(FluidStore& fluid, double kick, doubl
   return {frame_,          Real(kick),  Real(drift),
           Real(back),      fluid.acc,   coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
           drift_of(fluid), fluid.v_rho, fluid.x,
-          fluid.xp,        shear_,      peculiar(fluid)};
+          fluid.xp,        shear_,      peculiar(fluid),
+          edges_};
 }
 
 StatePass FluidSolver::state_pass(FluidStore& fluid, const DensityHistory& history, double kick,

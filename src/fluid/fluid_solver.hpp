@@ -312,6 +312,7 @@ class FluidSolver {
   EquationOfState eos_;
   MeanShear shear_;
   double listed_strain_ = 0;  ///< where the lists were built
+  Edges edges_;
   Buffer<Vec3d> lattice_;
   Buffer<Real> collisions_;  ///< of each particle
   Buffer<Real4> collided_;

@@ -207,7 +207,8 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                  {},
                  {},
                  {},
-                 drive};
+                 drive,
+                 Edges(config_.domain.reflect, frame_)};
   if (wet_)
     kick.fluid_force = g.fluid_force, kick.U = g.U, kick.omega_f = g.omega_f, kick.K = g.K,
     kick.K_rot = g.K_rot;

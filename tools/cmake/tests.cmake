@@ -90,6 +90,7 @@ file(GLOB_RECURSE BEDLOAD_SOLVER_TESTS CONFIGURE_DEPENDS
 file(GLOB_RECURSE BEDLOAD_PRECISION_TESTS CONFIGURE_DEPENDS
      tests/kernels/*_test.cpp tests/particles/*_test.cpp tests/neighbours/*_test.cpp)
 foreach(test
+        boundaries/edges         # places at the sides of the domain, packed too
         coupling/counted_grains  # density that counts grains
         coupling/exchange        # momenta of a two-way bed, sums against all pairs
         fluid/fluid_pairs        # forces that balance

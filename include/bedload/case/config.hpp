@@ -15,9 +15,17 @@
 
 namespace bedload {
 
+/// Sides of the domain at which what crosses them is put back, in the order of kFaces.
+struct ReflectConfig {
+  std::array<bool, 6> slip{}, no_slip{};
+  bool any() const { return *this != ReflectConfig{}; }
+  bool operator==(const ReflectConfig&) const = default;
+};
+
 struct DomainConfig {
   Vec3d min, max;                              ///< m
   std::array<bool, 3> periodic{false, false, false};
+  ReflectConfig reflect{};
   bool two_d = false;                          ///< flow in the plane of x and z, the same at every y
   double shear_rate = 0;                       ///< of Lees-Edwards boundaries, dv_x / dz, 1/s; 0: none
   double thickness() const { return two_d ? max.y - min.y : 0; }  ///< of the plane flow, m; 0 in 3-D

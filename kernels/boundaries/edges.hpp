@@ -1,0 +1,71 @@
+#pragma once
+// Sides of the domain that put back what crosses them.
+
+#include "bedload/case/config.hpp"
+#include "bedload/core/frame.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Sides that a particle crosses put it back where a mirror would show it, and turn its velocity round: the
+/// part along the normal where fluid slips, all of it where not [tsuzuki]. Its speed stays what it was. Sides
+/// have neither particles nor surfaces: what is beside them feels nothing of them until it crosses.
+class Edges {
+ public:
+  Edges() = default;
+  Edges(const ReflectConfig& sides, const Frame& frame) {
+    for (int face = 0; face < 6; ++face) {
+      at_[face] = face % 2 ? frame.origin[face / 2] + frame.length[face / 2] : frame.origin[face / 2];
+      rounding_[face / 2] = frame.length[face / 2] * kPackedRounding;
+      if (sides.slip[face] || sides.no_slip[face]) all_ |= 1u << face;
+      if (sides.no_slip[face]) no_slip_ |= 1u << face;
+    }
+  }
+  BL_HD bool any() const { return all_ != 0; }
+
+  /// Of a particle that was at `from` and has moved to x with v.
+  template <class T>
+  BL_HD void put_back(const Vec3d& from, Vec3d& x, Vec3<T>& v) const {
+    if (const unsigned crossed = mirror(from, x)) turn(crossed, v);
+  }
+  /// x - way, mirrored where that leaves the domain.
+  BL_HD Vec3d inside(const Vec3d& x, const Vec3d& way) const {
+    Vec3d at = x - way;
+    mirror(x, at);
+    return at;
+  }
+
+ private:
+  /// Mirrors x at sides between `from` and it; those, a bit each.
+  BL_HD unsigned mirror(const Vec3d& from, Vec3d& x) const {
+    unsigned crossed = 0;
+    if (!any()) return crossed;
+    for (int face = 0; face < 6; ++face) {
+      const int k = face / 2;
+      const double out = face % 2 ? 1 : -1, beyond = out * (x[k] - at_[face]);
+      if (!(all_ >> face & 1u) || !(beyond > 0) || out * (from[k] - at_[face]) > rounding_[k]) continue;
+      x[k] = 2 * at_[face] - x[k];
+      crossed |= 1u << face;
+    }
+    return crossed;
+  }
+  /// Particles drift beside their velocity, too: what moves inwards is let be.
+  template <class T>
+  BL_HD void turn(unsigned crossed, Vec3<T>& v) const {
+    for (int face = 0; face < 6; ++face)
+      if ((crossed & no_slip_) >> face & 1u && outwards(face, v)) {
+        v = -v;
+        break;
+      }
+    for (int face = 0; face < 6; ++face)
+      if (crossed >> face & 1u && outwards(face, v)) v[face / 2] = -v[face / 2];
+  }
+  template <class T>
+  BL_HD static bool outwards(int face, const Vec3<T>& v) {
+    return face % 2 ? v[face / 2] > 0 : v[face / 2] < 0;
+  }
+
+  double at_[6] = {0, 0, 0, 0, 0, 0}, rounding_[3] = {0, 0, 0};  ///< m
+  unsigned all_ = 0, no_slip_ = 0;                               ///< a bit a side, in the order of kFaces
+};
+
+}  // namespace bedload::inline BL_VARIANT
