@@ -6,33 +6,22 @@
 #include "bedload/case/choices.hpp"
 #include "bedload/case/read.hpp"
 #include "tests/boundaries/support.hpp"
+#include "tests/support/cases.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
 
 /// Grains that fall into each other and onto the floor of a tank of water.
-const std::string kBed = R"([domain]
-min = [-0.1, -0.1, -0.1]
-max = [0.2, 0.2, 0.2]
-[fluid]
+const std::string kBed = test::kTank + R"([fluid]
 dx = 0.01
 [[fluid.fill]]  # half a spacing from the walls, as single layers want it
 min = [0.005, 0.005, 0.005]
 max = [0.095, 0.095, 0.085]
-[[wall.body]]
-name = "tank"
-shape = "tank"
-min = [0, 0, 0]
-max = [0.1, 0.1, 0.12]
 [grain]
 d = 0.01
 [[grain.fill]]
 positions = [[0.05, 0.05, 0.0048], [0.058, 0.05, 0.011], [0.045, 0.05, 0.014]]
 velocity = [0.1, 0, -0.1]
-[time]
-end = 1
-[out]
-every = 1
 )";
 
 /// Runs kBed with key = each name of E, and `besides` where a name asks for more.

@@ -5,36 +5,12 @@
 #include "bedload/case/read.hpp"
 #include "cli/bench_rows.hpp"
 #include "run_program.hpp"
+#include "tests/support/cases.hpp"
 
 namespace bedload::test {
 namespace {
 
-/// 150 fluid particles and 40 grains.
-constexpr const char* kSmall = R"([domain]
-min = [0, 0, 0]
-max = [0.1, 0.06, 0.1]
-[fluid]
-dx = 0.01
-[[fluid.fill]]
-min = [0, 0, 0]
-max = [0.05, 0.06, 0.05]
-[[wall.body]]
-name = "tank"
-shape = "tank"
-min = [0, 0, 0]
-max = [0.1, 0.06, 0.1]
-faces = ["x-", "x+", "y-", "y+", "z-"]
-[grain]
-d = 0.005
-[[grain.fill]]
-min = [0, 0, 0]
-max = [0.05, 0.06, 0.03]
-count = 40
-[time]
-end = 1
-[out]
-every = 1
-)";
+const std::string kSmall = small_dam() + "[time]\nend = 1\n[out]\nevery = 1\n";
 
 using Bench = ProgramTest;
 

@@ -3,38 +3,14 @@
 #include <algorithm>
 
 #include "run_program.hpp"
+#include "tests/support/cases.hpp"
 
 namespace bedload::test {
 namespace {
 
 /// Writes a checkpoint every 0.004 s and frames more often.
-const std::string kCase = R"([domain]
-min = [0, 0, 0]
-max = [0.1, 0.06, 0.1]
-[fluid]
-dx = 0.01
-[[fluid.fill]]
-min = [0, 0, 0]
-max = [0.05, 0.06, 0.05]
-[[wall.body]]
-name = "tank"
-shape = "tank"
-min = [0, 0, 0]
-max = [0.1, 0.06, 0.1]
-faces = ["x-", "x+", "y-", "y+", "z-"]
-[grain]
-d = 0.005
-[[grain.fill]]
-min = [0, 0, 0]
-max = [0.05, 0.06, 0.05]
-count = 40
-[time]
-end = 0.1
-[out]
-every = 0.002
-[checkpoint]
-every = 0.004
-)";
+const std::string kCase =
+    small_dam() + "[time]\nend = 0.1\n[out]\nevery = 0.002\n[checkpoint]\nevery = 0.004\n";
 
 const std::string kRun =
     "timeout 100 " BL_PROGRAM " run case.toml --backend cpu --quiet --threads 1 --out out ";

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "run_program.hpp"
+#include "tests/support/cases.hpp"
 
 namespace bedload::test {
 namespace {
@@ -22,34 +23,13 @@ using namespace std::chrono_literals;
 using Json = nlohmann::json;
 
 /// Fluid, grains, a wall that moves and a probe; without end it runs until it is stopped.
-const std::string kCase = R"(title = "stirred"
-[domain]
-min = [0, 0, 0]
-max = [0.1, 0.06, 0.2]
-[fluid]
-dx = 0.01
-[[fluid.fill]]
-min = [0, 0, 0]
-max = [0.05, 0.06, 0.05]
-[[wall.body]]
-name = "tank"
-shape = "tank"
-min = [0, 0, 0]
-max = [0.1, 0.06, 0.2]
-faces = ["x-", "x+", "y-", "y+", "z-"]
-[[wall.body]]
+const std::string kCase = "title = \"stirred\"\n" + small_dam() + R"([[wall.body]]
 name = "plate"
 shape = "box"
 type = "grains_only"
 min = [0.07, 0.02, 0.04]
 max = [0.08, 0.04, 0.06]
 motion = { kind = "velocity", velocity = [0.001, 0, 0] }
-[grain]
-d = 0.005
-[[grain.fill]]
-min = [0, 0, 0]
-max = [0.05, 0.06, 0.03]
-count = 40
 [[probe]]
 name = "front"
 type = "front"

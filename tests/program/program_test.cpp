@@ -9,39 +9,13 @@
 
 #include "bedload/output/folder_lock.hpp"
 #include "run_program.hpp"
+#include "tests/support/cases.hpp"
 
 namespace bedload::test {
 namespace {
 
-/// 150 fluid particles and 40 grains; a step takes about 0.3 ms of simulated time.
-const std::string kSmall = R"(title = "small dam"
-[domain]
-min = [0, 0, 0]
-max = [0.1, 0.06, 0.1]
-[fluid]
-dx = 0.01
-[[fluid.fill]]
-min = [0, 0, 0]
-max = [0.05, 0.06, 0.05]
-[[wall.body]]
-name = "tank"
-shape = "tank"
-min = [0, 0, 0]
-max = [0.1, 0.06, 0.1]
-faces = ["x-", "x+", "y-", "y+", "z-"]
-[grain]
-d = 0.005
-settle = true
-settle_time = 0.05
-[[grain.fill]]
-min = [0, 0, 0]
-max = [0.05, 0.06, 0.03]
-count = 40
-[time]
-end = 0.02
-[out]
-every = 0.01
-)";
+const std::string kSmall = "title = \"small dam\"\n" + small_dam("settle = true\nsettle_time = 0.05\n") +
+                           "[time]\nend = 0.02\n[out]\nevery = 0.01\n";
 
 class Program : public ProgramTest {
  protected:

@@ -9,24 +9,13 @@
 
 #include "bedload/case/read.hpp"
 #include "src/time/coupled_simulation.hpp"
+#include "tests/support/cases.hpp"
 #include "tests/support/run.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
 
-const std::string kTank = R"([domain]
-min = [-0.1, -0.1, -0.1]
-max = [0.2, 0.2, 0.2]
-[[wall.body]]
-name = "tank"
-shape = "tank"
-min = [0, 0, 0]
-max = [0.1, 0.1, 0.12]
-[time]
-end = 1
-[out]
-every = 1
-)";
+using test::kTank;
 const std::string kFluid = R"([fluid]
 dx = 0.01
 [[fluid.fill]]
