@@ -16,7 +16,7 @@ struct alignas(16) PackedPosition {
 };
 
 /// Of a packed position, less than this part of the domain's length.
-constexpr double kPackedRounding = 0x1p-34;
+constexpr double kPackedRounding = 0x1p-33;
 
 /// In quanta of the frame from the middle of the domain. The difference of two wraps as its integers do: on a
 /// periodic axis, whose period is 2^32 quanta, it is that of the nearest images.
