@@ -8,6 +8,7 @@
 #include <fstream>
 #include <string>
 
+#include "bedload/case/config.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/simulation.hpp"
 

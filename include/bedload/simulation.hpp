@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/output.hpp"
 #include "bedload/host_data.hpp"
 
 namespace bedload {
+
+struct Config;
 
 /// What one step did.
 struct StepInfo {

@@ -1,7 +1,7 @@
 #pragma once
 // Sides of the domain that put back what crosses them.
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/domain.hpp"
 #include "bedload/core/frame.hpp"
 
 namespace bedload::inline BL_VARIANT {

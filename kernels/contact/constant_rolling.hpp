@@ -1,4 +1,5 @@
 #pragma once
+#include "bedload/case/parameters.hpp"
 #include "kernels/contact/rolling.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -11,6 +12,10 @@ struct ConstantRolling {
 
   static constexpr bool is(RollingLaw law) { return law == RollingLaw::cdt; }
   static ConstantRolling of(const ContactMaterials& m) { return {Real(m.mu_r), m.contact.cap_rolling}; }
+  static void describe(Parameters& p, ContactConfig& c) {
+    p("contact.cap_rolling", &c.cap_rolling,
+      {.meaning = "cdt: torque capped at rest; without it grains buzz"});
+  }
   BL_HD Real3 operator()(const RollingInput& in) const {
     const Real speed = norm(in.omega);
     if (speed == 0) return {};

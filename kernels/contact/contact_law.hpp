@@ -2,7 +2,6 @@
 // One contact between two grains, or a grain and a wall: force, torques, history.
 // Signs: n points from j to i, v = v_i - v_j, the force is that on i.
 
-#include "bedload/case/config.hpp"
 #include "kernels/contact/one_of.hpp"
 #include "kernels/contact/rolling.hpp"
 #include "kernels/contact/tangential.hpp"

@@ -1,4 +1,7 @@
 #pragma once
+#include <limits>
+
+#include "bedload/case/parameters.hpp"
 #include "kernels/contact/rolling.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -11,6 +14,14 @@ struct ElasticPlasticRolling {
 
   static constexpr bool is(RollingLaw law) { return law == RollingLaw::epsd; }
   static ElasticPlasticRolling of(const ContactMaterials& m) { return {Real(m.mu_r), Real(m.contact.eta_r)}; }
+  static void describe(Parameters& p, ContactConfig& c) {
+    p("contact.eta_r", &c.eta_r, {.meaning = "damping of epsd rolling", .range = within(0, 1)});
+  }
+  /// Infinite without friction; as rolling_limit.
+  static double longest_step(double normal_stiffness, double mu_r, double R_star, double inertia) {
+    const double k_r = 2.25 * normal_stiffness * mu_r * mu_r * R_star * R_star;
+    return k_r > 0 ? 0.2 * std::sqrt(inertia / k_r) : std::numeric_limits<double>::infinity();
+  }
   BL_HD Real stiffness(Real normal_stiffness, Real R_star) const {
     return Real(2.25) * normal_stiffness * square(mu_r * R_star);
   }

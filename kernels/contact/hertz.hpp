@@ -28,6 +28,16 @@ struct Hertz {
     if (m.contact.normal == NormalLaw::democritus) alpha = kDemocritus;
     return {Real(m.E_star()), Real(alpha)};
   }
+  static constexpr double kLeastRestitution = 0.05;  // of the fit
+  static constexpr bool kTakesModuli = true;
+  static Impact impact(const ContactConfig&, double m, double R, double E, double v, double) {
+    if (!(v > 0)) return {};
+    const double overlap = std::pow(15 * m * v * v / (16 * E * std::sqrt(R)), 0.4);
+    return {2.8683 * std::pow(m * m / (R * E * E * v), 0.2), 2 * E * std::sqrt(R * overlap)};
+  }
+  static double overlap_under(const ContactConfig&, double force, double R, double E) {
+    return std::pow(force / (4.0 / 3 * E * std::sqrt(R)), 2.0 / 3);
+  }
   /// R_star, m_star: reduced radius and mass (m, kg); overlap > 0 (m).
   BL_HD NormalState operator()(Real R_star, Real m_star, Real overlap) const {
     const Real stiffness = 2 * E_star * std::sqrt(R_star * overlap);

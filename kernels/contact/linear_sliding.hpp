@@ -1,4 +1,5 @@
 #pragma once
+#include "bedload/case/parameters.hpp"
 #include "kernels/contact/tangential.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -10,6 +11,10 @@ struct LinearSliding {
 
   static constexpr bool is(SlidingLaw law) { return law == SlidingLaw::linear; }
   static LinearSliding of(const ContactMaterials& m) { return {Real(m.contact.kt_ratio)}; }
+  static void describe(Parameters& p, ContactConfig& c) {
+    p("contact.kt_ratio", &c.kt_ratio,
+      {.meaning = "tangential / normal spring, linear", .range = above_to(0, 1)});
+  }
   BL_HD Vec3d stretch(const Vec3d& xi, const Vec3d& step, double, double) const { return xi + step; }
   BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {
     const Real stiffness = ratio * in.normal_stiffness;

@@ -1,4 +1,8 @@
 #pragma once
+#include <algorithm>
+#include <numbers>
+
+#include "bedload/case/parameters.hpp"
 #include "kernels/contact/normal.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -21,6 +25,24 @@ struct LinearSpring {
                                     ": must be at least 0.136 for a linear spring that never pulls; "
                                     "set contact.clip_tension = false");
     return {Real(c.k), Real(c.clip_tension ? damping_ratio_clipped(m.e) : damping_ratio(m.e))};
+  }
+  static void describe(Parameters& p, ContactConfig& c) {
+    p("contact.k", &c.k,
+      {.unit = "N/m",
+       .meaning = "linear spring",
+       .range = above(0),
+       .fallback = "required if linear",
+       .presence = Presence::optional});
+  }
+  static constexpr double kLeastRestitution = 0.136;  // exp(-2)
+  static constexpr bool kTakesModuli = false;
+  static Impact impact(const ContactConfig& c, double m, double, double, double, double e) {
+    using std::numbers::pi;
+    const double damping = std::log(e) / std::hypot(pi, std::log(e));
+    return {pi * std::sqrt(m / c.k) / std::sqrt(1 - damping * damping), c.k};
+  }
+  static double overlap_under(const ContactConfig& c, double force, double, double) {
+    return force / std::max(c.k, 1e-300);
   }
   BL_HD NormalState operator()(Real, Real m_star, Real overlap) const {
     return {k * overlap, k, 2 * beta * std::sqrt(m_star * k)};

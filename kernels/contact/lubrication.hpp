@@ -33,10 +33,10 @@ struct Lubrication {
   Real cut_off = 1, least_gap = 0.01;  ///< s_c, s_m over R*
   bool shears = false;
 
-  static Lubrication of(const Config& config) {
-    const LubricationConfig& l = config.lubrication;
+  /// mu: of the fluid, Pa s.
+  static Lubrication of(const LubricationConfig& l, double mu) {
     if (!l.acts()) return {};
-    return {Real(config.fluid.mu), Real(l.cut_off), Real(l.least_gap), l.forces == LubricationForces::all};
+    return {Real(mu), Real(l.cut_off), Real(l.least_gap), l.forces == LubricationForces::all};
   }
   BL_HD bool acts() const { return mu > 0; }
   /// Gap up to which there is a force, m.

@@ -1,6 +1,7 @@
 #pragma once
 // What the laws of a contact take their parameters from.
 
+#include "bedload/case/config/contact.hpp"
 #include "bedload/case/materials.hpp"
 
 namespace bedload::inline BL_VARIANT {

@@ -1,11 +1,14 @@
 #pragma once
 // Forces along the normal of a contact. A law, which has a header of its own, has the names that a case gives
 // it from `is`, its parameters from `of`, force, stiffness and damping from its operator, `dashpot`, the
-// fraction of a substep in which damping acts, and `kEnergy`.
+// fraction of a substep in which damping acts, and `kEnergy`. The host asks it what contact_laws.hpp says:
+// `kLeastRestitution`, where it never pulls, `kTakesModuli`, `impact`, `overlap_under`; and for keys of its
+// own, if it has any, by `describe`.
 
 #include <cmath>
 #include <string>
 
+#include "bedload/case/contact_laws.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/core/types.hpp"
 #include "kernels/contact/materials.hpp"

@@ -23,6 +23,16 @@ struct LawList {
   static constexpr bool holds(Name name) {
     return (Laws::is(name) || ...);
   }
+  /// f(std::type_identity<Law>) with each.
+  template <class F>
+  static void each(F&& f) {
+    (f(std::type_identity<Laws>{}), ...);
+  }
+  /// The same with that of the name, if there is one.
+  template <class Name, class F>
+  static void with(Name name, F&& f) {
+    (void)((Laws::is(name) && (f(std::type_identity<Laws>{}), true)) || ...);
+  }
   /// The law of that name between two materials; the first one, without parameters, where a name has none.
   template <class Name>
   static Any of(Name name, const ContactMaterials& between) {
@@ -84,12 +94,15 @@ BL_HD decltype(auto) composed(const ContactLaw& law) {
     return Law::of(law);
 }
 
-/// The laws of a case, between grains of the materials that grain.* gives. Throws CaseError where the
-/// restitution cannot be had.
-ContactLaw make_contact_law(const Config& config);
-/// Between grains of two materials, with the mean of their friction.
-ContactLaw make_contact_law(const Config& config, const GrainMaterial& a, const GrainMaterial& b);
-/// The same between grains and a wall body, with the friction and restitution of that.
-ContactLaw make_wall_law(const Config& config, const GrainMaterial& grain, const WallBody& body);
+/// The laws between two materials. Throws CaseError where the restitution cannot be had.
+inline ContactLaw make_contact_law(const ContactMaterials& m) {
+  const ContactConfig& c = m.contact;
+  return {.normal = NormalLaws::of(NormalLaw(c.normal), m),
+          .sliding = SlidingLaws::of(SlidingLaw(c.tangential), m),
+          .rolling = RollingLaws::of(m.mu_r == 0 ? RollingLaw::none : RollingLaw(c.rolling), m),
+          .clip_tension = c.clip_tension,
+          .mu = Real(m.mu),
+          .sliding_damping = Real(c.tangential_damping)};
+}
 
 }  // namespace bedload::inline BL_VARIANT

@@ -2,7 +2,8 @@
 // Sliding friction: a tangential spring xi, damped, never above mu F_n. A law, which has a header of its own,
 // has the names that a case gives it from `is`, its parameters from `of`, `stretch`, the spring after one
 // more `step` (m), force and damping from its operator, `stored`, J, and `kPartialSlip`: whether it slips by
-// itself, so that Coulomb's limit leaves xi as it is. `kActs`: false where there is none.
+// itself, so that Coulomb's limit leaves xi as it is. `kActs`: false where there is none. Keys of its own, if
+// it has any, by `describe`.
 
 #include "kernels/contact/history.hpp"
 #include "kernels/contact/normal.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/fluid.hpp"
 #include "bedload/core/types.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -13,10 +13,9 @@ struct EquationOfState {
   Real least =
       -1;  ///< x at which the fluid cavitates: thinner fluid keeps the pressure and the density of that
 
-  /// Of the fluid of a case that is resolved.
-  static EquationOfState of(const Config& config) {
-    const EosConfig& e = config.eos;
-    const double c = config.fluid.c, rho0 = config.fluid.rho0, least = -config.density.cavitation_limit;
+  /// Of a fluid that cavitates where it is thinner than rho0 by the fraction `cavitation_limit`.
+  static EquationOfState of(const EosConfig& e, const FluidProperties& fluid, double cavitation_limit) {
+    const double c = fluid.c, rho0 = fluid.rho0, least = -cavitation_limit;
     const auto law = [&](double B, double gamma, double P_ref) -> EquationOfState {
       return {Real(B), Real(gamma), Real(P_ref), Real(rho0), e.clip_negative, Real(least)};
     };

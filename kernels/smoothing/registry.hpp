@@ -1,7 +1,8 @@
 #pragma once
 // The kernel functions that a case may name.
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/domain.hpp"
+#include "bedload/case/config/fluid.hpp"
 #include "kernels/smoothing/cubic_spline.hpp"
 #include "kernels/smoothing/lucy.hpp"
 #include "kernels/smoothing/wendland_c2.hpp"
@@ -23,10 +24,10 @@ void with_kernel(Chosen<KernelFunction> name, double h, F&& f, double thickness 
   }
 }
 
-/// The same for the fluid of a case.
+/// The same for a fluid.
 template <class F>
-void with_fluid_kernel(const Config& config, F&& f) {
-  with_kernel(config.fluid.kernel, config.fluid.h(), f, config.domain.thickness());
+void with_fluid_kernel(const FluidProperties& fluid, const DomainConfig& domain, F&& f) {
+  with_kernel(fluid.kernel, fluid.h(), f, domain.thickness());
 }
 
 /// Support of the kernel called `name`, in smoothing lengths.

@@ -15,35 +15,32 @@ namespace {
 constexpr int kPlaces = 16;  // that a grain may go to, looked at together
 
 /// The outlets of a phase as solids, so that a device can ask whether a place lies in one.
-Config outlets_as_walls(Config c, const char* phase) {
-  c.wall.bodies.clear();
-  for (const OutletConfig& outlet : c.outlets) {
-    WallBody body;
+std::vector<WallBody> outlets_as_walls(const std::vector<OutletConfig>& outlets, const char* phase) {
+  std::vector<WallBody> walls;
+  for (const OutletConfig& outlet : outlets) {
+    WallBody& body = walls.emplace_back();
     body.shape = outlet.takes(phase) ? outlet.shape : "none";
     body.min = outlet.min, body.max = outlet.max;
     body.point = outlet.point, body.normal = -outlet.normal;
     if (outlet.takes(phase)) body.solid = outlet.solid;
-    c.wall.bodies.push_back(body);
   }
-  return c;
+  return walls;
 }
-
-double fluid_mass(const Config& c) { return c.fluid.rho0 * c.domain.cell_volume(c.fluid.dx); }
 
 }  // namespace
 
-OpenBoundaries::WaysOut::WaysOut(const Config& config, const char* phase)
-    : geometry(outlets_as_walls(config, phase)), tally(1 + config.outlets.size()) {}
+OpenBoundaries::WaysOut::WaysOut(const OpenBoundaryParameters& p, const char* phase)
+    : geometry(outlets_as_walls(p.outlets, phase), p.domain), tally(1 + p.outlets.size()) {}
 
-OpenBoundaries::OpenBoundaries(const Config& config, const Frame& frame, WallMotion& motion)
-    : config_(config),
+OpenBoundaries::OpenBoundaries(const OpenBoundaryParameters& parameters, const Frame& frame,
+                               WallMotion& motion)
+    : parameters_(parameters),
       frame_(frame),
       motion_(motion),
-      fluid_out_(config, "fluid"),
-      grains_out_(config, "grains"),
-      matter_(config.grain) {
-  for (std::size_t i = 0; i < config.grain_inlets.size(); ++i) sources_.emplace_back(config, i);
-}
+      fluid_out_(parameters, "fluid"),
+      grains_out_(parameters, "grains"),
+      matter_(parameters.materials),
+      sources_(parameters.sources) {}
 
 void OpenBoundaries::start(const FluidStore& fluid, const GrainStore& grains) {
   next_fluid_ = fluid.size();
@@ -98,11 +95,11 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
   Index first = walls.size();  // the particles of all inlets are the last of the wall particles
   for (std::size_t k = i; k < motion_.inlets().size(); ++k) {
     const InletFlow& inlet = motion_.inlets()[k];
-    first -= Index(buffer_layers(config_.fluid, inlet.thickness()) * inlet.points());
+    first -= Index(buffer_layers(parameters_.fluid, inlet.thickness()) * inlet.points());
   }
   const Index count = Index(motion_.inlets()[i].points()), before = fluid.size();
   if (next_fluid_ + count >= double(kNone))
-    throw SimulationFault("inlet \"" + config_.inlets[i].name +
+    throw SimulationFault("inlet \"" + motion_.inlets()[i].name() +
                           "\": more fluid particles than there are ids");
   fluid.grow(before + count);
   for_each(walls.owned(), AdmitPass{frame_,
@@ -111,7 +108,7 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
                                     count,
                                     before,
                                     Id(next_fluid_),
-                                    Real(fluid_mass(config_)),
+                                    Real(parameters_.fluid_mass()),
                                     Real3(motion_.inlets()[i].motion(t).a),
                                     Real3(gravity),
                                     walls.id,
@@ -193,10 +190,10 @@ bool OpenBoundaries::drop_one(GrainSource& source, const GrainStore& grains, dou
 /// Clear of every wall where that is at time t.
 bool OpenBoundaries::is_clear(const NewGrain& grain, double t) const {
   for (int b = 0; b < motion_.walls(); ++b) {
-    const WallBody& body = config_.wall.bodies[b];
+    const WallBody& body = parameters_.walls[b];
     if (!body.stops_grains() || motion_.removed(b)) continue;
     const Vec3d x = motion_.pose(b, t).undo(grain.x);
-    if (wall_clearance(body, x, 10 * config_.grain.d_max, config_.domain) < grain.radius) return false;
+    if (wall_clearance(body, x, 10 * parameters_.d_max, parameters_.domain) < grain.radius) return false;
   }
   return true;
 }
@@ -209,21 +206,21 @@ std::vector<Quantity> OpenBoundaries::report(double t) const {
     out.push_back({name + "_count", "-", gone.count});
     out.push_back({name + "_mass", "kg", gone.mass});
   };
-  if (config_.fluid.present) tally("lost_fluid", fluid_out_.tally[0]);
+  if (parameters_.has_fluid) tally("lost_fluid", fluid_out_.tally[0]);
   for (std::size_t i = 0; i < motion_.inlets().size(); ++i) {
     const InletFlow& inlet = motion_.inlets()[i];
-    const std::string name = "inlet_" + config_.inlets[i].name;
+    const std::string name = "inlet_" + inlet.name();
     out.push_back({name + "_volume", "m3", inlet.volume(t)});
-    out.push_back({name + "_mass", "kg", inlet.layers() * inlet.points() * fluid_mass(config_)});
+    out.push_back({name + "_mass", "kg", inlet.layers() * inlet.points() * parameters_.fluid_mass()});
   }
-  for (std::size_t k = 0; k < config_.outlets.size(); ++k) {
-    const OutletConfig& outlet = config_.outlets[k];
+  for (std::size_t k = 0; k < parameters_.outlets.size(); ++k) {
+    const OutletConfig& outlet = parameters_.outlets[k];
     const std::string name = "outlet_" + outlet.name;
-    if (config_.fluid.present && outlet.takes("fluid")) tally(name + "_fluid", fluid_out_.tally[1 + k]);
-    if (config_.grain.present && outlet.takes("grains")) tally(name + "_grain", grains_out_.tally[1 + k]);
+    if (parameters_.has_fluid && outlet.takes("fluid")) tally(name + "_fluid", fluid_out_.tally[1 + k]);
+    if (parameters_.has_grains && outlet.takes("grains")) tally(name + "_grain", grains_out_.tally[1 + k]);
   }
   for (std::size_t i = 0; i < sources_.size(); ++i) {
-    const std::string name = "grain_inlet_" + config_.grain_inlets[i].name;
+    const std::string name = "grain_inlet_" + sources_[i].name();
     tally(name, {sources_[i].state.count, sources_[i].state.mass});
     out.push_back({name + "_waiting", "-", sources_[i].waiting(t)});
   }
@@ -236,8 +233,8 @@ void OpenBoundaries::each_scalar(Self& self, const F& f) {
   f("next_grain_id", "-", self.next_grain_);
   f("lost_fluid", "-", self.fluid_out_.tally[0].count);
   f("lost_mass", "kg", self.fluid_out_.tally[0].mass);
-  for (std::size_t k = 0; k < self.config_.outlets.size(); ++k) {
-    const std::string name = "outlet_" + self.config_.outlets[k].name;
+  for (std::size_t k = 0; k < self.parameters_.outlets.size(); ++k) {
+    const std::string name = "outlet_" + self.parameters_.outlets[k].name;
     f(name + "_fluid_count", "-", self.fluid_out_.tally[1 + k].count);
     f(name + "_fluid_mass", "kg", self.fluid_out_.tally[1 + k].mass);
     f(name + "_grain_count", "-", self.grains_out_.tally[1 + k].count);
@@ -245,7 +242,7 @@ void OpenBoundaries::each_scalar(Self& self, const F& f) {
   }
   for (std::size_t i = 0; i < self.sources_.size(); ++i) {
     auto& state = self.sources_[i].state;
-    const std::string name = "grain_inlet_" + self.config_.grain_inlets[i].name;
+    const std::string name = "grain_inlet_" + self.sources_[i].name();
     f(name + "_count", "-", state.count);
     f(name + "_mass", "kg", state.mass);
     f(name + "_rounds", "-", state.rounds);
@@ -259,7 +256,7 @@ void OpenBoundaries::save(std::vector<Quantity>& scalars) const {
   });
   for (std::size_t i = 0; i < motion_.inlets().size(); ++i) {
     const InletFlow& inlet = motion_.inlets()[i];
-    const std::string name = "inlet_" + config_.inlets[i].name;
+    const std::string name = "inlet_" + inlet.name();
     scalars.push_back({name + "_volume", "m3", inlet.counted()});
     scalars.push_back({name + "_layers", "-", inlet.layers()});
   }
@@ -269,7 +266,7 @@ void OpenBoundaries::load(const std::function<double(const std::string&)>& scala
   each_scalar(*this, [&](const std::string& name, const char*, double& value) { value = scalar(name); });
   for (GrainSource& source : sources_) source.resume();
   for (std::size_t i = 0; i < motion_.inlets().size(); ++i) {
-    const std::string name = "inlet_" + config_.inlets[i].name;
+    const std::string name = "inlet_" + motion_.inlets()[i].name();
     motion_.inlets()[i].resume(t, scalar(name + "_volume"), scalar(name + "_layers"));
   }
 }

@@ -6,13 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "bedload/case/config.hpp"
-#include "bedload/geometry/grain_source.hpp"
 #include "bedload/parallel/compact.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/grains.hpp"
 #include "kernels/boundaries/drop.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
+#include "src/boundaries/parameters.hpp"
 #include "src/solids/grain_matter.hpp"
 #include "src/solids/solid_solver.hpp"
 #include "src/walls/wall_geometry.hpp"
@@ -23,7 +22,7 @@ namespace bedload::inline BL_VARIANT {
 class OpenBoundaries {
  public:
   /// `motion` must outlive it.
-  OpenBoundaries(const Config& config, const Frame& frame, WallMotion& motion);
+  OpenBoundaries(const OpenBoundaryParameters& parameters, const Frame& frame, WallMotion& motion);
 
   /// The ids of what comes in follow those of what a case starts with.
   void start(const FluidStore& fluid, const GrainStore& grains);
@@ -53,7 +52,7 @@ class OpenBoundaries {
   struct WaysOut {
     WallGeometry geometry;
     std::vector<Tally> tally;
-    WaysOut(const Config& config, const char* phase);
+    WaysOut(const OpenBoundaryParameters& parameters, const char* phase);
   };
   template <class P, class Mass>
   bool find_leaving(WaysOut& ways, Span<const P> x, bool domain, const Mass& mass);
@@ -66,7 +65,7 @@ class OpenBoundaries {
   template <class Self, class F>
   static void each_scalar(Self& self, const F& f);
 
-  Config config_;
+  OpenBoundaryParameters parameters_;
   Frame frame_;
   WallMotion& motion_;
   WaysOut fluid_out_, grains_out_;

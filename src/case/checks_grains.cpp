@@ -6,9 +6,9 @@
 #include <cmath>
 #include <set>
 
+#include "bedload/case/contact_laws.hpp"
 #include "bedload/case/grain_sizes.hpp"
 #include "bedload/case/materials.hpp"
-#include "bedload/case/normal_laws.hpp"
 #include "bedload/case/particle_file.hpp"
 #include "bedload/geometry/depth.hpp"
 #include "checks.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 // The chapters of describe().
 
+#include "bedload/case/config.hpp"
 #include "bedload/case/parameters.hpp"
 
 namespace bedload {

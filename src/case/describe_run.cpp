@@ -160,7 +160,7 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
   p("couple.slip", &c.slip, {.meaning = "what slip drag follows", .family = "models"});
   p("drag.law", &c.drag, {.meaning = "drag on a grain", .family = "laws"});
   if (c.drag == DragLaw::table || p.everything()) {
-    const auto p_table = [&](std::string_view key, std::vector<double>& list, Range range,
+    const auto p_table = [&](std::string_view key, std::vector<double>& list, Interval range,
                              std::string_view meaning) {
       p(key, &list,
         {.meaning = meaning, .range = range, .presence = c.drag == DragLaw::table ? required : optional});

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "bedload/case/normal_laws.hpp"
+#include "bedload/case/contact_laws.hpp"
 #include "describe.hpp"
 
 namespace bedload {
@@ -305,7 +305,7 @@ void describe_grain_size(Parameters& p, SizeClass& s) {
     p("d_min", &s.d_min,
       {.unit = "m",
        .meaning = "uniform, log_normal: smallest diameter",
-       .range = uniform || s.median == 0 ? above(0) : Range{.lo = 0, .hi = s.median},
+       .range = uniform || s.median == 0 ? above(0) : Interval{.lo = 0, .hi = s.median},
        .fallback = "median exp(-3 sigma)",
        .presence = uniform ? required : optional});
     p("d_max", &s.d_max,
@@ -373,29 +373,6 @@ void describe_walls(Parameters& p, WallConfig& w, const ContactConfig& contact) 
   prototype.repulsion = w.repulsion;
   p.list("wall.body", w.bodies, prototype,
          [&](Parameters& q, WallBody& body) { wall_body(q, body, contact); });
-}
-
-void describe_contact(Parameters& p, ContactConfig& c) {
-  p("contact.normal", &c.normal, {.meaning = "force along the line of centres", .family = "laws"});
-  p("contact.tangential", &c.tangential, {.meaning = "friction", .family = "laws"});
-  p("contact.rolling", &c.rolling, {.meaning = "resistance to rolling", .family = "laws"});
-  p("contact.k", &c.k,
-    {.unit = "N/m",
-     .meaning = "linear spring",
-     .range = above(0),
-     .fallback = "required if linear",
-     .presence = optional});
-  p("contact.kt_ratio", &c.kt_ratio,
-    {.meaning = "tangential / normal spring, linear", .range = above_to(0, 1)});
-  p("contact.tangential_damping", &c.tangential_damping,
-    {.meaning =
-         "fraction of the damping of friction's spring, c_n sqrt(S_t/S_n); 0: none, so that spheres that "
-         "stick recoil sideways whatever e",
-     .range = within(0, 1)});
-  p("contact.eta_r", &c.eta_r, {.meaning = "damping of epsd rolling", .range = within(0, 1)});
-  p("contact.clip_tension", &c.clip_tension,
-    {.meaning = "no pull while separating; damping set so that e holds"});
-  p("contact.cap_rolling", &c.cap_rolling, {.meaning = "cdt: torque capped at rest; without it grains buzz"});
 }
 
 void describe_grains(Parameters& p, Config& c) {

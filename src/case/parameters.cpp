@@ -8,7 +8,7 @@
 
 namespace bedload {
 
-std::string Range::text() const {
+std::string Interval::text() const {
   const bool below = std::isfinite(lo), beyond = std::isfinite(hi);
   if (below && beyond && !lo_open && !hi_open) return fmt::format("within {}..{}", lo, hi);
   std::string out;

@@ -211,7 +211,7 @@ struct FrameEffects {
   double acceleration = 0, gH = 0, speed = 0;  ///< m/s2, m2/s2, m/s
 
   explicit FrameEffects(const Config& c) {
-    const EffectiveGravity effective(c);
+    const EffectiveGravity effective(c.gravity, c.frame.motion, c.time.end);
     const MotionLaw law(c.frame.motion, c.time.end);
     const Vec3d start = law.at(0).v;
     for (const double t : survey_times(c.frame.motion, c.time.end)) {

@@ -185,7 +185,7 @@ class OtherRanges final : public Tour {
     std::visit(Change{about}, value);
   }
   bool everything() const override { return true; }
-  const std::map<std::string, Range>& ranges() const { return ranges_; }
+  const std::map<std::string, Interval>& ranges() const { return ranges_; }
 
  private:
   struct Change {
@@ -197,10 +197,10 @@ class OtherRanges final : public Tour {
     }
     void operator()(const void*) const {}
   };
-  std::map<std::string, Range> ranges_;
+  std::map<std::string, Interval> ranges_;
 };
 
-std::map<std::string, Range> other_ranges() {
+std::map<std::string, Interval> other_ranges() {
   Config config;
   config.fluid.present = config.grain.present = true;
   OtherRanges visitor;
@@ -260,7 +260,7 @@ class Lister final : public Tour {
  private:
   std::vector<ParameterRow> rows_;
   const std::set<std::string> required_ = keys_required(true);
-  const std::map<std::string, Range> others_ = other_ranges();
+  const std::map<std::string, Interval> others_ = other_ranges();
 };
 
 }  // namespace

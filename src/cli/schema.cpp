@@ -26,7 +26,7 @@ Json array_of(Json items, std::size_t least, std::size_t most = 0) {
 /// program.
 Json number(const ParameterRow& row, const char* type = "number") {
   Json bare{{"type", type}};
-  const Range& range = row.range;
+  const Interval& range = row.range;
   if (std::isfinite(range.lo)) bare[range.lo_open ? "exclusiveMinimum" : "minimum"] = range.lo;
   if (std::isfinite(range.hi)) bare[range.hi_open ? "exclusiveMaximum" : "maximum"] = range.hi;
   if (!takes_units(row.unit)) return bare;

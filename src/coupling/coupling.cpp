@@ -11,7 +11,6 @@
 #include "kernels/drag/registry.hpp"
 #include "kernels/smoothing/registry.hpp"
 #include "kernels/smoothing/top_hat.hpp"
-#include "src/boundaries/orifices.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
@@ -57,31 +56,31 @@ void Coupling::with_coupling_kernel(F&& f) const {
     with_kernel(kernel_, h_c_, f);
 }
 
-Coupling::Coupling(const Config& config, const Frame& frame, const WallGeometry& walls)
+Coupling::Coupling(const CouplingParameters& p, const Frame& frame, const WallGeometry& walls)
     : frame_(frame),
-      kernel_(config.fluid.kernel),
-      drag_law_(config.couple.drag),
-      drag_table_(config.couple.table),
-      dx_(config.fluid.dx),
-      h_(config.fluid.h()),
-      h_c_(config.couple.hc),
+      kernel_(p.fluid.kernel),
+      drag_law_(p.couple.drag),
+      drag_table_(p.couple.table),
+      dx_(p.fluid.dx),
+      h_(p.fluid.h()),
+      h_c_(p.couple.hc),
       range_(kernel_kappa(kernel_) * h_c_),
-      top_hat_(config.couple.kernel == CouplingKernel::top_hat),
-      mu_(config.fluid.mu),
-      drag_fraction_(config.time.drag),
-      eps_min_(Real(config.couple.eps_min)),
-      S_dry_(Real(config.couple.S_dry)),
-      S_wet_(Real(config.couple.S_wet)),
-      matter_(config.grain),
-      two_way_(config.couple.mode == CouplingMode::two_way),
-      counts_grains_(config.density.count_grains),
-      torque_(config.couple.torque),
-      angmom_(config.couple.angmom),
-      local_slip_(config.couple.slip == DragSlip::local),
+      top_hat_(p.couple.kernel == CouplingKernel::top_hat),
+      mu_(p.fluid.mu),
+      drag_fraction_(p.drag_fraction),
+      eps_min_(Real(p.couple.eps_min)),
+      S_dry_(Real(p.couple.S_dry)),
+      S_wet_(Real(p.couple.S_wet)),
+      matter_(p.materials),
+      two_way_(p.couple.mode == CouplingMode::two_way),
+      counts_grains_(p.counts_grains),
+      torque_(p.couple.torque),
+      angmom_(p.couple.angmom),
+      local_slip_(p.couple.slip == DragSlip::local),
       walls_(walls.view()),
-      wall_normalise_(config.couple.wall_normalise) {
+      wall_normalise_(p.couple.wall_normalise) {
   with_coupling_kernel([&](auto w) { half_space_ = HalfSpaceFraction::of(w); });
-  orifices_.assign(orifices_of(config));
+  orifices_.assign(p.orifices);
 }
 
 GrainSurroundings Coupling::surroundings() {

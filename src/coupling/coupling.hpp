@@ -16,7 +16,6 @@
 
 #include <string>
 
-#include "bedload/case/config.hpp"
 #include "bedload/neighbours/verlet_list.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/grains.hpp"
@@ -24,6 +23,7 @@
 #include "kernels/coupling/reaction_pass.hpp"
 #include "kernels/coupling/wall_free_fraction.hpp"
 #include "src/coupling/drag_table.hpp"
+#include "src/coupling/parameters.hpp"
 #include "src/solids/grain_matter.hpp"
 #include "src/walls/wall_geometry.hpp"
 
@@ -39,7 +39,7 @@ struct CouplingCounters {
 class Coupling {
  public:
   /// The walls that fluid meets must outlive this.
-  Coupling(const Config& config, const Frame& frame, const WallGeometry& walls);
+  Coupling(const CouplingParameters& parameters, const Frame& frame, const WallGeometry& walls);
 
   /// How far grains and fluid act on each other, m.
   double range() const { return range_; }

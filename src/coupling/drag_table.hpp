@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/coupling.hpp"
 #include "bedload/parallel/buffer.hpp"
 #include "kernels/drag/tabulated.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/drive.hpp"
 #include "bedload/case/formula.hpp"
 #include "bedload/parallel/loops.hpp"
 #include "kernels/fluid/drive.hpp"

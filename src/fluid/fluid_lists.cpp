@@ -109,11 +109,11 @@ struct CountBody {
 
 }  // namespace
 
-double FluidSolver::least_skin() const { return config_.skin_fluid * config_.fluid.dx / 2; }
+double FluidSolver::least_skin() const { return parameters_.skin / 2; }
 
 double FluidSolver::longest_step() const {
-  const TimeConfig& time = config_.time;
-  return time.dt > 0 ? time.dt : time.cfl * kappa_ * config_.fluid.h_most() / 2 / config_.fluid.c;
+  const TimeConfig& time = parameters_.time;
+  return time.dt > 0 ? time.dt : time.cfl * kappa_ * parameters_.fluid.h_most() / 2 / parameters_.fluid.c;
 }
 
 bool FluidSolver::renew_skins(const ListSpeeds& now) {
@@ -153,7 +153,7 @@ void FluidSolver::sort_cells(const FluidStore& fluid) {
 bool FluidSolver::renew_lengths(FluidStore& fluid) {
   for_each(fluid.owned(), length_pass(fluid, true));
   lengths_->begun = true;
-  const double h0 = config_.fluid.h(), longest = max_over(fluid.owned(), LengthBody{lengths_->h});
+  const double h0 = parameters_.fluid.h(), longest = max_over(fluid.owned(), LengthBody{lengths_->h});
   // in steps of a ninth, so that cells seldom change; never below h0, to which walls reach
   const double listed = h0 * std::exp2(std::ceil(8 * std::log2(std::max(1.0, longest / h0)) - 1e-6) / 8);
   if (listed == lengths_->listed) return false;
@@ -223,7 +223,7 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
 #endif
   if (lengths_) {
     const Span<const Real> h = lengths_->h_list, none;
-    const PairReach pairs{Real(kappa_ * double(kLengthGrowth)), Real(config_.fluid.h())};
+    const PairReach pairs{Real(kappa_ * double(kLengthGrowth)), Real(parameters_.fluid.h())};
 #if !BL_CUDA
     fluid_fluid_.build(fluid.size(), grid_.view(), LengthNear<FluidPosition>{fluid_near, pairs, h, h});
 #endif
@@ -234,7 +234,7 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
     fluid_wall_.build(fluid.size(), wall_grid_.view(), fluid_near_walls, fluid_fluid_.view().bits);
     wall_fluid_.build(walls.size(), grid_.view(), walls_near);
   }
-  if (frozen_ && config_.density.method == DensityMethod::summation)
+  if (parameters_.frozen && parameters_.density.method == DensityMethod::summation)
     wall_wall_.build(walls.size(), wall_grid_.view(),
                      BesideFrozen{{frame_, walls.x, walls.xp, walls.xp, range(), true, of_walls, of_walls},
                                   walls.compression});
@@ -266,7 +266,7 @@ double FluidSolver::pairs_through(const FluidStore& fluid, const SurfaceSet& sur
   const NearestPointPass nearest{frame_, surfaces, pose, range(), fluid.x, points};
   for_each(fluid.owned(), nearest);
   for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, range(),
-                CrossingPass{nearest, 0.25 * config_.fluid.dx, count});
+                CrossingPass{nearest, 0.25 * parameters_.fluid.dx, count});
   return sum_over<1>(fluid.owned(), CountBody{count}).v[0] / 2;  // a pair stands in two lists
 }
 

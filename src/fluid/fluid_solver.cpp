@@ -6,8 +6,6 @@
 
 #include "kernels/fluid/collision_pass.hpp"
 #include "kernels/integrate/fluid_kicks.hpp"
-#include "kernels/smoothing/registry.hpp"
-#include "src/boundaries/orifices.hpp"
 #include "src/fluid/registry.hpp"
 #include "src/measure/sweeps.hpp"
 
@@ -68,63 +66,31 @@ struct CorrectSweep {
   }
 };
 
-/// The force of a single layer, with the strength K = D / 5 of the softer one. Its particles weigh as much as
-/// the wall for which they stand.
-LayerLaw layer_law(const Config& config, const WallBody& body, double kappa) {
-  const double dx = config.fluid.dx, spacing = config.wall.spacing(body), D = config.wall.rep_D;
-  LayerLaw law;
-  switch (body.force) {
-    case LayerForce::monaghan:
-      law.steep = {Real(D), Real(config.wall.layer_r0 > 0 ? config.wall.layer_r0 : dx), Real(1e30)};
-      return law;
-    case LayerForce::kajtar:
-      break;
-  }
-  double volume = 0;
-  with_fluid_kernel(config, [&](const auto& w) {
-    volume = spacing * config.domain.spacing_along(1, spacing) * layer_depth(w);
-  });
-  const double fraction = 2 * volume / (config.domain.cell_volume(dx) + volume), beta = dx / spacing;
-  law.soft = {Real(D / 5 / beta * fraction), Real(kappa * config.fluid.h() / 2)};
-  return law;
-}
-
 }  // namespace
 
-std::unique_ptr<FluidSolver> FluidSolver::make(const Config& config, const Frame& frame,
+std::unique_ptr<FluidSolver> FluidSolver::make(const FluidParameters& parameters, const Frame& frame,
                                                const WallGeometry& walls, FluidStore& fluid) {
-  return FluidModels::make(config, frame, walls, fluid);
+  return FluidModels::make(parameters, frame, walls, fluid);
 }
 
-FluidSolver::FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls,
+FluidSolver::FluidSolver(const FluidParameters& p, const Frame& frame, const WallGeometry& walls,
                          FluidStore& fluid, double kappa)
-    : config_(config),
+    : parameters_(p),
       frame_(frame),
       kappa_(kappa),
-      mixed_(config.grain.present && config.couple.mode == CouplingMode::two_way),
-      lengths_(config.fluid.variable_h ? std::make_unique<SmoothingLengths>(fluid, config.fluid.h())
-                                       : nullptr),
-      shear_{config.domain.shear_rate, 0, config.domain.min.z, config.domain.max.z - config.domain.min.z},
-      edges_(config.domain.reflect, frame) {
-  eos_ = EquationOfState::of(config);
+      lengths_(p.fluid.variable_h ? std::make_unique<SmoothingLengths>(fluid, p.fluid.h()) : nullptr),
+      eos_(EquationOfState::of(p.eos, p.fluid, p.density.cavitation_limit)),
+      shear_{p.domain.shear_rate, 0, p.domain.min.z, p.domain.max.z - p.domain.min.z},
+      edges_(p.domain.reflect, frame) {
   renew_skins({});
-  const auto acts = [](const WallBody& body) { return body.repels() || body.no_penetration; };
-  if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), acts)) repelling_ = walls.view();
-  orifices_.assign(orifices_of(config));
-  std::vector<LayerLaw> layers(config.wall.bodies.size() + config.inlets.size());
-  bool layered = false;
-  for (std::size_t b = 0; b < config.wall.bodies.size(); ++b) {
-    const WallBody& body = config.wall.bodies[b];
-    frozen_ = frozen_ || body.type == WallType::frozen;
-    layered = layered || body.single_layer();
-    if (body.single_layer()) layers[b] = layer_law(config, body, kappa);
-  }
-  if (layered) layers_.assign(layers);
-  if (!(config.density.count_grains && mixed_)) fluid.grains_around.leave_out();
-  if (config.fluid.species.empty()) fluid.species.leave_out(), fluid.viscosity.leave_out();
+  if (p.repelled) repelling_ = walls.view();
+  orifices_.assign(p.orifices);
+  layers_.assign(p.layers);
+  if (!(p.density.count_grains && p.mixed)) fluid.grains_around.leave_out();
+  if (!p.several) fluid.species.leave_out(), fluid.viscosity.leave_out();
   fluid.drift.begin_at_zero();
   if (!drifts()) fluid.drift.leave_out();
-  if (config.time.integrator != TimeIntegrator::ab3) return;
+  if (p.time.integrator != TimeIntegrator::ab3) return;
   fluid.s_next.leave_out();
   for (const char* name : {"density_rate", "density_rate_before", "density_rate_long_before"}) {
     rates_.push_back(std::make_unique<Field<Real>>(fluid, name, "1/s", Lifetime::kept));
@@ -152,26 +118,27 @@ void FluidSolver::save(std::vector<Quantity>& scalars) const {
 }
 
 double FluidSolver::friction_limit(const FluidExtremes& now) const {
-  if (config_.visc.model == ViscosityModel::none || config_.fluid.mu == 0)
+  if (parameters_.visc.model == ViscosityModel::none || parameters_.fluid.mu == 0)
     return std::numeric_limits<double>::infinity();
-  return config_.time.visc * square(half_range(now)) * now.eps_min * config_.fluid.rho0 / config_.fluid.mu;
+  return parameters_.time.visc * square(half_range(now)) * now.eps_min * parameters_.fluid.rho0 /
+         parameters_.fluid.mu;
 }
 
 double FluidSolver::repulsion_cap(double dt) const {
-  return dt > 0 ? 0.1 * config_.fluid.dx / (dt * dt) : 1e30;
+  return dt > 0 ? 0.1 * parameters_.fluid.dx / (dt * dt) : 1e30;
 }
 
 Drive FluidSolver::drive(const FluidStore& fluid, const Moment& now) const {
-  const DriveConfig& d = config_.drive;
+  const DriveConfig& d = parameters_.drive;
   const Vec3d spring{d.rate.x * d.rate.x, d.rate.y * d.rate.y, d.rate.z * d.rate.z};
   const DriveField field = d.on_fluid() ? now.drive : DriveField{frame_, {}, {}, -1};
   return {field, fluid.x, d.mode, d.on == DrivenPhase::both, spring, d.centre, d.pulls()};
 }
 
 void FluidSolver::collide(FluidStore& fluid) {
-  const ViscosityConfig& c = config_.visc;
+  const ViscosityConfig& c = parameters_.visc;
   if (!c.collision) return;
-  const double range = c.collision_range * config_.fluid.dx;
+  const double range = c.collision_range * parameters_.fluid.dx;
   collisions_.resize(fluid.size());
   collided_.resize(fluid.size());
   const PairSeparation separation{frame_, fluid.xp, fluid.xp};
@@ -184,8 +151,9 @@ void FluidSolver::collide(FluidStore& fluid) {
 }
 
 WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const {
-  const double dx = config_.fluid.dx, rate = dt > 0 ? std::min(config_.fluid.c / dx, 0.5 / dt) : 0;
-  return {{Real(config_.wall.rep_D), Real(config_.wall.rep_r0), Real(repulsion_cap(dt))},
+  const double dx = parameters_.fluid.dx, rate = dt > 0 ? std::min(parameters_.fluid.c / dx, 0.5 / dt) : 0;
+  const Repulsion& law = parameters_.repulsion;
+  return {{law.D, law.r0, Real(repulsion_cap(dt))},
           {Real(0.25 * dx), Real(rate), Real(dt > 0 ? 1 / dt : 0)},
           frame_,
           repelling_,
@@ -196,7 +164,7 @@ void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double kic
   if (!repels()) return;
   const WallRepulsion walls = repulsion(pose, dt);
   const OrificeRepulsion orifices{
-      walls.law, Real(0.01 * config_.fluid.c), dt > 0 ? Real(1 / dt) : Real(0), frame_, orifices_, pose};
+      walls.law, Real(0.01 * parameters_.fluid.c), dt > 0 ? Real(1 / dt) : Real(0), frame_, orifices_, pose};
   for_each({0, Index(beside_walls_.size())},
            RepelPass{walls, orifices, Real(kick), Real(dt), beside_walls_, fluid.x, fluid.v_rho, fluid.acc,
                      fluid.acc_next, fluid.heading, drift_of(fluid)});
@@ -224,7 +192,7 @@ StatePass FluidSolver::state_pass(FluidStore& fluid, const DensityHistory& histo
           fluid.mass,
           fluid.eps,
           fluid.v_rho,
-          mixed_ ? Span<Real4>(fluid.flux) : peculiar(fluid),
+          parameters_.mixed ? Span<Real4>(fluid.flux) : peculiar(fluid),
           fluid.m_state,
           fluid.p_rho2,
           fluid.xp,
@@ -242,11 +210,11 @@ void FluidSolver::state(FluidStore& fluid, double kick, bool coupled) {
 }
 
 LengthPass FluidSolver::length_pass(FluidStore& fluid, bool renew) {
-  const FluidConfig& f = config_.fluid;
+  const FluidProperties& f = parameters_.fluid;
   return {.sigma = Real(f.sigma_h),
           .least = Real(f.h_least()),
           .most = Real(f.h_most()),
-          .thickness = Real(config_.domain.thickness()),
+          .thickness = Real(parameters_.domain.thickness()),
           .rho0 = Real(f.rho0),
           .first = !lengths_->begun,
           .renew = renew,
@@ -284,7 +252,7 @@ void FluidSolver::survey(FluidStore& fluid, double kick) {
                            .kick = Real(kick),
                            .acc_old = fluid.acc_next,
                            .acc = fluid.acc,
-                           .eps = mixed_ ? Span<const Real>(fluid.eps) : none,
+                           .eps = parameters_.mixed ? Span<const Real>(fluid.eps) : none,
                            .s = fluid.s,
                            .drift = drift_of(fluid),
                            .x = fluid.x,
@@ -302,7 +270,7 @@ void FluidSolver::survey(FluidStore& fluid, double kick) {
 
 FluidExtremes FluidSolver::extremes() const {
   FluidExtremes out = extremes_.to_host()[0];
-  if (!std::isfinite(out.h_min)) out.h_min = config_.fluid.h();  // one length, or no fluid
+  if (!std::isfinite(out.h_min)) out.h_min = parameters_.fluid.h();  // one length, or no fluid
   return out;
 }
 

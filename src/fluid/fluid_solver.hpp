@@ -4,14 +4,12 @@
 #include <limits>
 #include <memory>
 
-#include "bedload/case/config.hpp"
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "bedload/parallel/compact.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/walls.hpp"
 #include "kernels/fluid/drive.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
-#include "kernels/fluid/layer_force.hpp"
 #include "kernels/fluid/omega_pass.hpp"
 #include "kernels/fluid/pair_terms.hpp"
 #include "kernels/fluid/sheared_pass.hpp"
@@ -20,6 +18,7 @@
 #include "kernels/fluid/wall_repulsion.hpp"
 #include "kernels/integrate/fluid_kicks.hpp"
 #include "kernels/stress/fluid_stress.hpp"
+#include "src/fluid/parameters.hpp"
 #include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -86,13 +85,13 @@ class FluidSolver {
  public:
   /// Chooses model and kernel function once. `walls` and `fluid`, of which it may keep more, must outlive it;
   /// construct it before `fluid` is filled or loaded.
-  static std::unique_ptr<FluidSolver> make(const Config& config, const Frame& frame,
+  static std::unique_ptr<FluidSolver> make(const FluidParameters& parameters, const Frame& frame,
                                            const WallGeometry& walls, FluidStore& fluid);
   virtual ~FluidSolver() = default;
 
   /// Kernel support, m; where smoothing lengths vary, the most it may be until lists are renewed.
   double range() const {
-    return lengths_ ? kappa_ * lengths_->listed * double(kLengthGrowth) : kappa_ * config_.fluid.h();
+    return lengths_ ? kappa_ * lengths_->listed * double(kLengthGrowth) : kappa_ * parameters_.fluid.h();
   }
   double skin() const { return 2 * half_skin_; }  ///< by which lists reach beyond that, at most, m
   /// Half the smallest kernel support, m, to which time steps go.
@@ -115,13 +114,13 @@ class FluidSolver {
   Span<Real3> drift_of(FluidStore& fluid) const {
     return drifts() ? Span<Real3>(fluid.drift) : Span<Real3>();
   }
-  bool shifts() const { return config_.shift > 0 && !mixed_ && layers_.size() == 0; }
+  bool shifts() const { return parameters_.shift > 0 && !parameters_.mixed && layers_.size() == 0; }
   /// Whether anything but continuity changes the density.
   bool smooths() const {
-    return config_.density.delta > 0 || config_.density.void_relaxation > 0 ||
-           (mixed_ && config_.couple.spreading > 0);
+    return parameters_.density.delta > 0 || parameters_.density.void_relaxation > 0 ||
+           parameters_.spreading > 0;
   }
-  bool drifts() const { return shifts() || config_.xsph > 0; }
+  bool drifts() const { return shifts() || parameters_.xsph > 0; }
   /// Whether forces() finds how the density changes, too, by which advance() takes it on: then without
   /// density().
   bool one_pass() const { return !rates_.empty(); }
@@ -142,7 +141,7 @@ class FluidSolver {
   /// Whether repel() has anything to do.
   bool repels() const { return repelling_.surfaces.size > 0 || orifices_.size() > 0; }
   /// Whether some walls have a density of their own, which density() takes on.
-  bool freezes() const { return frozen_; }
+  bool freezes() const { return parameters_.frozen; }
 
   /// Sorts the fluid and renews all lists; sorts the walls too where they have moved. Where lists would last
   /// less than eight steps, what is fast gets up to four times the skin, so that it does not make all others
@@ -217,8 +216,8 @@ class FluidSolver {
   }
 
  protected:
-  FluidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, FluidStore& fluid,
-              double kappa);
+  FluidSolver(const FluidParameters& parameters, const Frame& frame, const WallGeometry& walls,
+              FluidStore& fluid, double kappa);
   /// density(), into s_next.
   virtual void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
                             const Moment& start, double dt) = 0;
@@ -237,7 +236,7 @@ class FluidSolver {
   /// Velocity and density as pair loops read them: of the mixture where grains share the space, peculiar
   /// where fluid is sheared.
   Span<const Real4> flux(const FluidStore& fluid) const {
-    return mixed_ || shear_.acts() ? fluid.flux : fluid.v_rho;
+    return parameters_.mixed || shear_.acts() ? fluid.flux : fluid.v_rho;
   }
   /// To be set along with positions that pair loops read; empty without shear.
   Span<Real4> peculiar(FluidStore& fluid) const {
@@ -265,7 +264,7 @@ class FluidSolver {
                   PairSeparation{frame_, fluid.xp, walls.xp}, cutoff, pass);
   }
   /// Of W over the fluid around, below which it is none, 1/m3.
-  Real least_sum() const { return Real(1e-3 / config_.domain.cell_volume(config_.fluid.h_most())); }
+  Real least_sum() const { return Real(1e-3 / parameters_.domain.cell_volume(parameters_.fluid.h_most())); }
   /// walls() by WallPass.
   template <class W, class Lengths = OneLength>
   void extrapolate(const W& w, const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
@@ -297,17 +296,16 @@ class FluidSolver {
   template <class W>
   void frozen_continuity(const W& w, const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
                          double dt, Real least) {
-    if (!frozen_) return;
+    if (!parameters_.frozen) return;
     for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(),
-                  FrozenPass<W>{w, Real(config_.fluid.rho0), Real(dt), least, flux(fluid), fluid.m_state,
+                  FrozenPass<W>{w, Real(parameters_.fluid.rho0), Real(dt), least, flux(fluid), fluid.m_state,
                                 walls.v_rho, walls.m_state, walls.body, pose, walls.compression});
   }
   double repulsion_cap(double dt) const;  ///< m/s2, in a step of dt, s
 
-  Config config_;
+  FluidParameters parameters_;
   Frame frame_;
   double kappa_;
-  bool mixed_;  ///< grains share the space
   std::unique_ptr<SmoothingLengths> lengths_;
   EquationOfState eos_;
   MeanShear shear_;
@@ -335,7 +333,6 @@ class FluidSolver {
   SurfaceSet repelling_;                             ///< empty where no wall repels
   Buffer<Orifice> orifices_;                         ///< empty where none repels
   Buffer<LayerLaw> layers_;                          ///< one a body; empty without single layers
-  bool frozen_ = false;                              ///< some walls are
   std::vector<std::unique_ptr<Field<Real>>> rates_;  ///< of s, one_pass(): at the last three ends of steps
   double last_dt_ = 0, dt_before_ = 0;               ///< s, of the steps between them; 0: there was none
 };

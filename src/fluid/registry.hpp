@@ -11,10 +11,11 @@ namespace bedload::inline BL_VARIANT {
 template <class... Models>
 struct FluidModelList {
   static constexpr bool holds(FluidModel model) { return ((model == Models::model) || ...); }
-  static std::unique_ptr<FluidSolver> make(const Config& config, const Frame& frame,
+  static std::unique_ptr<FluidSolver> make(const FluidParameters& parameters, const Frame& frame,
                                            const WallGeometry& walls, FluidStore& fluid) {
     std::unique_ptr<FluidSolver> solver;
-    (void)((config.fluid.model == Models::model && (solver = Models::make(config, frame, walls, fluid))) ||
+    (void)((parameters.fluid.model == Models::model &&
+            (solver = Models::make(parameters, frame, walls, fluid))) ||
            ...);
     return solver;
   }

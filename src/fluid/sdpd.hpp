@@ -11,7 +11,7 @@ struct Sdpd {
   static FrictionCoefficients coefficients(double eta, double zeta) {
     return {5.0 / 3 * eta - zeta, 10.0 / 3 * eta + 4 * zeta};
   }
-  static std::unique_ptr<FluidSolver> make(const Config& config, const Frame& frame,
+  static std::unique_ptr<FluidSolver> make(const FluidParameters& parameters, const Frame& frame,
                                            const WallGeometry& walls, FluidStore& fluid);
 };
 
@@ -23,7 +23,7 @@ struct SpinningSdpd {
   static FrictionCoefficients coefficients(double eta, double zeta) {
     return {20.0 / 3 * eta - 4 * zeta, 6 * zeta};
   }
-  static std::unique_ptr<FluidSolver> make(const Config& config, const Frame& frame,
+  static std::unique_ptr<FluidSolver> make(const FluidParameters& parameters, const Frame& frame,
                                            const WallGeometry& walls, FluidStore& fluid);
 };
 

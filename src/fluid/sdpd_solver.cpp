@@ -29,33 +29,33 @@ struct LatticeSums {
 };
 
 /// None of what keeps WCSPH smooth: noise would set it off.
-Config without_safety_terms(Config c) {
-  c.shift = c.xsph = c.tensile = 0;
-  c.density.delta = c.density.void_relaxation = 0;
-  c.density.cavitation_limit = 1;
-  c.time.integrator = TimeIntegrator::kdk;
-  return c;
+FluidParameters without_safety_terms(FluidParameters p) {
+  p.shift = p.xsph = p.tensile = 0;
+  p.density.delta = p.density.void_relaxation = 0;
+  p.density.cavitation_limit = 1;
+  p.time.integrator = TimeIntegrator::kdk;
+  return p;
 }
 
 template <class W, class Model>
 class SdpdSolver final : public FluidSolver {
  public:
-  SdpdSolver(const Config& config, const Frame& frame, const WallGeometry& walls, FluidStore& fluid,
-             const W& w)
-      : FluidSolver(without_safety_terms(config), frame, walls, fluid, W::kappa),
+  SdpdSolver(const FluidParameters& parameters, const Frame& frame, const WallGeometry& walls,
+             FluidStore& fluid, const W& w)
+      : FluidSolver(without_safety_terms(parameters), frame, walls, fluid, W::kappa),
         w_(w),
-        friction_(Model::coefficients(config.fluid.mu, bulk_viscosity(config.fluid))),
-        lattice_(w, config.fluid.dx, range()),
+        friction_(Model::coefficients(parameters.fluid.mu, bulk_viscosity(parameters.fluid))),
+        lattice_(w, parameters.fluid.dx, range()),
         label_(fluid, "spin_label", "rad/s, -", Lifetime::derived) {
-    if (Model::spins) spin_ = std::make_unique<Spin>(fluid, config.sdpd.kI * square(config.fluid.dx));
+    if (Model::spins) spin_ = std::make_unique<Spin>(fluid, parameters.sdpd.kI * square(parameters.fluid.dx));
   }
 
   /// The shortest time in which friction stops a particle or its spin, times time.friction.
   double friction_limit(const FluidExtremes&) const override {
-    const double rho = config_.fluid.rho0;
+    const double rho = parameters_.fluid.rho0;
     double rate = std::max(friction_.across, friction_.along) * lattice_.F / rho;
     if (Model::spins) rate = std::max(rate, friction_.across / (rho * spin_->inertia));
-    return rate > 0 ? config_.time.friction / rate : std::numeric_limits<double>::infinity();
+    return rate > 0 ? parameters_.time.friction / rate : std::numeric_limits<double>::infinity();
   }
   Spin* spin() override { return spin_.get(); }
   std::vector<const FieldBase*> fields_of_forces() const override {
@@ -70,12 +70,12 @@ class SdpdSolver final : public FluidSolver {
 
   void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment& now,
               double dt) override {
-    if (config_.eos.filter) filter_pressure(fluid);
+    if (parameters_.eos.filter) filter_pressure(fluid);
     for_each(fluid.owned(), PredictSpin{Real(dt), omega(), turning(), fluid.id, label_});
     wall_label_.resize(walls.size());
     for_each(walls.owned(), LabelWalls{Model::spins, walls.id, walls.body, pose, wall_label_});
-    const bool noisy = config_.sdpd.kT > 0 && dt > 0;
-    if (config_.fluid.species.empty())
+    const bool noisy = parameters_.sdpd.kT > 0 && dt > 0;
+    if (!parameters_.several)
       noisy ? momentum<true, false>(fluid, walls, now, dt) : momentum<false, false>(fluid, walls, now, dt);
     else
       noisy ? momentum<true, true>(fluid, walls, now, dt) : momentum<false, true>(fluid, walls, now, dt);
@@ -95,31 +95,31 @@ class SdpdSolver final : public FluidSolver {
 
   void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt,
                FluidMoments& out) override {
-    const bool noisy = config_.sdpd.kT > 0 && dt > 0;
+    const bool noisy = parameters_.sdpd.kT > 0 && dt > 0;
     noisy ? stress<true>(fluid, walls, now, dt, out) : stress<false>(fluid, walls, now, dt, out);
   }
 
  private:
   void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Moment& start,
                     double dt) override {
-    const DensityConfig& d = config_.density;
+    const DensityConfig& d = parameters_.density;
     if (d.method == DensityMethod::summation) {
       pack(fluid);
       pack(walls);
-      d.count_grains&& mixed_ ? sum_up<true>(fluid, walls) : sum_up<false>(fluid, walls);
-      if (frozen_) sum_up_frozen(fluid, walls, pose);
+      d.count_grains&& parameters_.mixed ? sum_up<true>(fluid, walls) : sum_up<false>(fluid, walls);
+      if (parameters_.frozen) sum_up_frozen(fluid, walls, pose);
       return;
     }
     frozen_continuity(w_, fluid, walls, pose, dt, Real(-0.5));
     run(fluid, walls, range(),
-        ContinuityPass<W>{w_, Real(config_.fluid.rho0), Real(dt), flux(fluid), fluid.m_state, walls.v_rho,
+        ContinuityPass<W>{w_, Real(parameters_.fluid.rho0), Real(dt), flux(fluid), fluid.m_state, walls.v_rho,
                           walls.m_state, fluid.s, fluid.s_next});
     if (d.reinit_every > 0 && (start.step + 1) % std::uint64_t(d.reinit_every) == 0) {
       pack(fluid);
       reinitialise(fluid);
     }
   }
-  static double bulk_viscosity(const FluidConfig& f) {
+  static double bulk_viscosity(const FluidProperties& f) {
     return std::isfinite(f.zeta) ? f.zeta : 20.0 / 21 * f.mu;
   }
   Span<Real3> omega() { return spin_ ? Span<Real3>(spin_->omega) : Span<Real3>(); }
@@ -127,7 +127,7 @@ class SdpdSolver final : public FluidSolver {
   template <bool kGrains>
   void sum_up(FluidStore& fluid, const WallStore& walls) {
     run(fluid, walls, range(),
-        SummationPass<W, kGrains>{w_, Real(config_.fluid.rho0), Real(1 / lattice_.W), fluid.m_state,
+        SummationPass<W, kGrains>{w_, Real(parameters_.fluid.rho0), Real(1 / lattice_.W), fluid.m_state,
                                   walls.m_state, fluid.eps, fluid.grains_around, fluid.s_next});
   }
   void sum_up_frozen(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose) {
@@ -135,18 +135,18 @@ class SdpdSolver final : public FluidSolver {
     for_each(walls.owned(), WallVolume{walls.body, pose, wall_volume_});
     for_each_pair(walls.owned(), wall_wall_, PairSeparation{frame_, walls.xp, walls.xp}, wall_fluid_,
                   PairSeparation{frame_, walls.xp, fluid.xp}, range(),
-                  FrozenSummationPass<W>{w_, Real(config_.fluid.rho0), Real(1 / lattice_.W), wall_volume_,
+                  FrozenSummationPass<W>{w_, Real(parameters_.fluid.rho0), Real(1 / lattice_.W), wall_volume_,
                                          fluid.m_state, walls.body, pose, walls.compression});
   }
   SdpdWallPair<W> pair(const Moment& now, double dt) const {
-    const SdpdConfig& s = config_.sdpd;
+    const SdpdConfig& s = parameters_.sdpd;
     PairLaw law;
     law.across = Real(friction_.across), law.along = Real(friction_.along);
     law.sliding = Real(s.force_scale[1]), law.spinning = Real(s.force_scale[2]);
     law.thermal = dt > 0 ? Real(2 * s.kT / dt * square(s.force_scale[3])) : Real(0);
     law.tensor = s.noise == NoiseForm::tensor;
-    law.key = {config_.seed, now.step};
-    law.guard = Real(1e-12 * square(config_.fluid.h()));
+    law.key = {parameters_.seed, now.step};
+    law.guard = Real(1e-12 * square(parameters_.fluid.h()));
     return {w_, law, Real(s.force_scale[0]), law.thermal > 0};
   }
   template <bool kNoise, bool kSpecies>
@@ -174,7 +174,7 @@ class SdpdSolver final : public FluidSolver {
   template <class Force>
   void forces_on_walls(const FluidStore& fluid, const WallStore& walls, const Moment& now, double corrected,
                        double dt, Span<Vec3d> force, Span<Vec3d> friction) {
-    const SdpdWallForcePass<W, Force> pass{pair(now, dt), Real(mixed_ ? 0 : corrected),
+    const SdpdWallForcePass<W, Force> pass{pair(now, dt), Real(parameters_.mixed ? 0 : corrected),
                                            fluid.acc,     fluid.acc_next,
                                            flux(fluid),   fluid.m_state,
                                            label_,        fluid.id,
@@ -186,7 +186,7 @@ class SdpdSolver final : public FluidSolver {
   }
   /// Shepard's mean of q over the fluid; densities are rho0 (1 + s).
   void average(const FluidStore& fluid, Span<const Real> s, Span<const Real> q, Span<Real> mean) {
-    run(fluid, range(), ShepardPass<W>{w_, Real(config_.fluid.rho0), fluid.m_state, s, q, mean});
+    run(fluid, range(), ShepardPass<W>{w_, Real(parameters_.fluid.rho0), fluid.m_state, s, q, mean});
   }
   /// Of a density, the mean is sum M W / sum V W.
   void reinitialise(FluidStore& fluid) {
@@ -211,24 +211,25 @@ class SdpdSolver final : public FluidSolver {
 };
 
 template <class Model>
-std::unique_ptr<FluidSolver> make_sdpd(const Config& config, const Frame& frame, const WallGeometry& walls,
-                                       FluidStore& fluid) {
+std::unique_ptr<FluidSolver> make_sdpd(const FluidParameters& parameters, const Frame& frame,
+                                       const WallGeometry& walls, FluidStore& fluid) {
   std::unique_ptr<FluidSolver> solver;
-  with_fluid_kernel(config, [&](const auto& w) {
-    solver = std::make_unique<SdpdSolver<std::decay_t<decltype(w)>, Model>>(config, frame, walls, fluid, w);
+  with_fluid_kernel(parameters.fluid, parameters.domain, [&](const auto& w) {
+    solver =
+        std::make_unique<SdpdSolver<std::decay_t<decltype(w)>, Model>>(parameters, frame, walls, fluid, w);
   });
   return solver;
 }
 
 }  // namespace
 
-std::unique_ptr<FluidSolver> Sdpd::make(const Config& config, const Frame& frame, const WallGeometry& walls,
-                                        FluidStore& fluid) {
-  return make_sdpd<Sdpd>(config, frame, walls, fluid);
+std::unique_ptr<FluidSolver> Sdpd::make(const FluidParameters& parameters, const Frame& frame,
+                                        const WallGeometry& walls, FluidStore& fluid) {
+  return make_sdpd<Sdpd>(parameters, frame, walls, fluid);
 }
-std::unique_ptr<FluidSolver> SpinningSdpd::make(const Config& config, const Frame& frame,
+std::unique_ptr<FluidSolver> SpinningSdpd::make(const FluidParameters& parameters, const Frame& frame,
                                                 const WallGeometry& walls, FluidStore& fluid) {
-  return make_sdpd<SpinningSdpd>(config, frame, walls, fluid);
+  return make_sdpd<SpinningSdpd>(parameters, frame, walls, fluid);
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -6,7 +6,7 @@ namespace bedload::inline BL_VARIANT {
 /// Locally averaged WCSPH, with the terms by which it stays smooth; no fields beside those of all fluids.
 struct Wcsph {
   static constexpr FluidModel model = FluidModel::wcsph;
-  static std::unique_ptr<FluidSolver> make(const Config& config, const Frame& frame,
+  static std::unique_ptr<FluidSolver> make(const FluidParameters& parameters, const Frame& frame,
                                            const WallGeometry& walls, FluidStore& fluid);
 };
 

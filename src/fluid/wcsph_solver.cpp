@@ -14,16 +14,16 @@ namespace {
 template <class W, class Lengths>
 class WcsphSolver final : public FluidSolver {
  public:
-  WcsphSolver(const Config& config, const Frame& frame, const WallGeometry& walls, FluidStore& fluid,
-              const W& w)
-      : FluidSolver(config, frame, walls, fluid, W::kappa), w_(w), cut_(CutFraction::of(w)) {}
+  WcsphSolver(const FluidParameters& parameters, const Frame& frame, const WallGeometry& walls,
+              FluidStore& fluid, const W& w)
+      : FluidSolver(parameters, frame, walls, fluid, W::kappa), w_(w), cut_(CutFraction::of(w)) {}
 
   void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Real3& gravity,
              double drag_dt, bool moving) override {
     if (walls.mirrors.size() > 0) {
       const MirrorPass<W> mirror{w_,
                                  frame_,
-                                 Real(config_.fluid.rho0),
+                                 Real(parameters_.fluid.rho0),
                                  least(),
                                  least_sum(),
                                  flux(fluid),
@@ -43,8 +43,8 @@ class WcsphSolver final : public FluidSolver {
               double dt) override {
     if constexpr (Lengths::vary) {
       run(fluid, walls, range(),
-          OmegaPass<W>{w_, lengths(), Real(config_.fluid.h_least()), Real(config_.fluid.h_most()),
-                       Real(config_.fluid.rho0), fluid.m_state, walls.m_state, lengths_->omega,
+          OmegaPass<W>{w_, lengths(), Real(parameters_.fluid.h_least()), Real(parameters_.fluid.h_most()),
+                       Real(parameters_.fluid.rho0), fluid.m_state, walls.m_state, lengths_->omega,
                        fluid.p_rho2});
       artificial().acts() ? momentum<true, false>(fluid, walls, now)
                           : momentum<false, false>(fluid, walls, now);
@@ -71,7 +71,7 @@ class WcsphSolver final : public FluidSolver {
   void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double,
                FluidMoments& out) override {
     if (shear_.acts()) pack(fluid);  // velocities as they are now
-    config_.tensile > 0 ? stress<true>(fluid, walls, now, out) : stress<false>(fluid, walls, now, out);
+    parameters_.tensile > 0 ? stress<true>(fluid, walls, now, out) : stress<false>(fluid, walls, now, out);
   }
 
  private:
@@ -80,7 +80,7 @@ class WcsphSolver final : public FluidSolver {
     const Real3& gravity = start.gravity;
     if (!smooths() && !shifts())
       continuity<false, false>(fluid, walls, gravity, dt, NoShifting{});
-    else if (mixed_)
+    else if (parameters_.mixed)
       continuity<true, true>(fluid, walls, gravity, dt, NoShifting{});
     else if (!shifts())
       continuity<true, false>(fluid, walls, gravity, dt, NoShifting{});
@@ -90,16 +90,16 @@ class WcsphSolver final : public FluidSolver {
   }
   Lengths lengths() const {
     if constexpr (Lengths::vary)
-      return {lengths_->h, lengths_->omega, Real(config_.fluid.h()), config_.domain.two_d};
+      return {lengths_->h, lengths_->omega, Real(parameters_.fluid.h()), parameters_.domain.two_d};
     else
       return {};
   }
   void constant_length_forces(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt) {
-    const bool added = config_.tensile > 0 || config_.xsph > 0;
+    const bool added = parameters_.tensile > 0 || parameters_.xsph > 0;
     if (one_pass())
       smooths() || shifts() ? momentum_and_continuity<true>(fluid, walls, now, dt, shifting(dt))
                             : momentum_and_continuity<false>(fluid, walls, now, dt, NoShifting{});
-    else if (!config_.fluid.species.empty())
+    else if (parameters_.several)
       momentum<true, true, true>(fluid, walls, now);
     else if (artificial().acts())
       added ? momentum<true, true>(fluid, walls, now) : momentum<true, false>(fluid, walls, now);
@@ -112,7 +112,7 @@ class WcsphSolver final : public FluidSolver {
     const WallForcePass<W, Force, Lengths> pass{w_,
                                                 WallPair{viscosity()},
                                                 layer(walls, pose, dt),
-                                                Real(mixed_ ? 0 : corrected),
+                                                Real(parameters_.mixed ? 0 : corrected),
                                                 fluid.acc,
                                                 fluid.acc_next,
                                                 flux(fluid),
@@ -126,36 +126,37 @@ class WcsphSolver final : public FluidSolver {
                                                 lengths()};
     for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
   }
-  Real least() const { return -Real(config_.density.cavitation_limit); }
+  Real least() const { return -Real(parameters_.density.cavitation_limit); }
   Viscosity viscosity() const {
-    return Viscosity::of(config_.visc.model, config_.fluid.mu, config_.fluid.rho0, config_.fluid.c, w_);
+    return Viscosity::of(parameters_.visc.model, parameters_.fluid.mu, parameters_.fluid.rho0,
+                         parameters_.fluid.c, w_);
   }
   ArtificialViscosity artificial() const {
-    return {Real(config_.visc.alpha), Real(config_.visc.beta), Real(config_.fluid.c),
-            Real(config_.fluid.h())};
+    return {Real(parameters_.visc.alpha), Real(parameters_.visc.beta), Real(parameters_.fluid.c),
+            Real(parameters_.fluid.h())};
   }
   /// Writes s_new.
   template <bool kSmooth, bool kPorous, class Shift>
   DensityPass<W, Shift, kSmooth, kPorous, Lengths> density_pass(FluidStore& fluid, const WallStore& walls,
                                                                 const Real3& gravity, double dt,
                                                                 const Shift& shift, Span<Real> s_new) {
-    const double c = config_.fluid.c;
+    const double c = parameters_.fluid.c;
     return {w_,
             flux(fluid),
             fluid.m_state,
             walls.v_rho,
             walls.m_state,
-            Real(2 * config_.density.delta * config_.fluid.h() * c),
-            gravity * Real(config_.fluid.rho0 / (c * c)),
+            Real(2 * parameters_.density.delta * parameters_.fluid.h() * c),
+            gravity * Real(parameters_.fluid.rho0 / (c * c)),
             eos_.gamma - 2,
-            Real(config_.fluid.rho0),
+            Real(parameters_.fluid.rho0),
             Real(dt),
             fluid.s,
             s_new,
             cut_,
             least(),
-            Real(config_.density.void_relaxation * c / config_.fluid.h()),
-            Real(mixed_ ? config_.couple.spreading * c / config_.fluid.h() : 0),
+            Real(parameters_.density.void_relaxation * c / parameters_.fluid.h()),
+            Real(parameters_.spreading * c / parameters_.fluid.h()),
             shift,
             drift_of(fluid),
             lengths()};
@@ -173,7 +174,7 @@ class WcsphSolver final : public FluidSolver {
             walls.v_visc,
             artificial(),
             tensile(),
-            Real(config_.xsph),
+            Real(parameters_.xsph),
             now.gravity,
             drive(fluid, now),
             fluid.theta,
@@ -215,15 +216,15 @@ class WcsphSolver final : public FluidSolver {
     accept_rates(dt);
   }
   Shifting shifting(double dt) const {
-    const double h = config_.fluid.h(), dx = config_.fluid.dx, rate = dt > 0 ? 1 / dt : 0;
-    const bool plane = config_.domain.two_d;
-    return {Real(config_.shift * h * h), Real(0.5 * h * h * rate), Real(0.1 * dx * rate),
+    const double h = parameters_.fluid.h(), dx = parameters_.fluid.dx, rate = dt > 0 ? 1 / dt : 0;
+    const bool plane = parameters_.domain.two_d;
+    return {Real(parameters_.shift * h * h), Real(0.5 * h * h * rate), Real(0.1 * dx * rate),
             Real(plane ? 1. / 2 : 1. / 3), Real(plane ? 0.93 : 0.97)};
   }
   TensileTerm tensile() const {
-    if (config_.tensile == 0) return {};
+    if (parameters_.tensile == 0) return {};
     const Real s = Real(0.01);
-    return {s, config_.tensile_one_sign ? s : Real(0.2), w_.W(Real(config_.fluid.dx))};
+    return {s, parameters_.tensile_one_sign ? s : Real(0.2), w_.W(Real(parameters_.fluid.dx))};
   }
   LayerForces<W> layer(const WallStore& walls, Span<const BodyPose> pose, double dt) const {
     return {w_, artificial(), layers_, Real(repulsion_cap(dt)), walls.body, pose, walls.v_rho};
@@ -235,15 +236,15 @@ class WcsphSolver final : public FluidSolver {
 
 }  // namespace
 
-std::unique_ptr<FluidSolver> Wcsph::make(const Config& config, const Frame& frame, const WallGeometry& walls,
-                                         FluidStore& fluid) {
+std::unique_ptr<FluidSolver> Wcsph::make(const FluidParameters& parameters, const Frame& frame,
+                                         const WallGeometry& walls, FluidStore& fluid) {
   std::unique_ptr<FluidSolver> solver;
-  with_fluid_kernel(config, [&](const auto& w) {
+  with_fluid_kernel(parameters.fluid, parameters.domain, [&](const auto& w) {
     using W = std::decay_t<decltype(w)>;
-    if (config.fluid.variable_h)
-      solver = std::make_unique<WcsphSolver<W, OwnLengths>>(config, frame, walls, fluid, w);
+    if (parameters.fluid.variable_h)
+      solver = std::make_unique<WcsphSolver<W, OwnLengths>>(parameters, frame, walls, fluid, w);
     else
-      solver = std::make_unique<WcsphSolver<W, OneLength>>(config, frame, walls, fluid, w);
+      solver = std::make_unique<WcsphSolver<W, OneLength>>(parameters, frame, walls, fluid, w);
   });
   return solver;
 }

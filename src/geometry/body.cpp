@@ -266,9 +266,9 @@ std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& do
   return balls;
 }
 
-double particles_beyond(const WallBody& body, const Config& config) {
+double particles_beyond(const WallBody& body, const FluidConfig& fluid) {
   const bool outside = body.shape == "tank" || body.type == WallType::mdbc;
-  return config.fluid.present && outside ? config.fluid.reach() : 0;
+  return fluid.present && outside ? fluid.reach() : 0;
 }
 
 std::vector<Vec3d> corners(const WallBody& body, const DomainConfig& domain, double beyond) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bedload/case/config.hpp"
 #include "bedload/case/grain_sizes.hpp"
 #include "bedload/core/random.hpp"
 

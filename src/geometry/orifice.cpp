@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bedload/case/config.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/sampling.hpp"
 
@@ -140,7 +141,7 @@ OrificeWidth orifice_width(const InletConfig& inlet, double dx, const DomainConf
   return {cells_along(narrow, dx), narrow / 2};
 }
 
-int buffer_layers(const FluidConfig& fluid, double thickness) {
+int buffer_layers(const FluidProperties& fluid, double thickness) {
   return int(std::ceil(fluid.reach() / thickness - 1e-6)) + 1;
 }
 

@@ -139,7 +139,7 @@ std::vector<Quantity> CoupledSimulation::point(const ProbeConfig& p) {
       p.body.empty() ? p.at : state_.motion.pose(wall_named(p.body), state_.clock.time).place(p.at);
   double sum[5] = {};
   if (state_.has_fluid)
-    with_fluid_kernel(config_, [&](const auto& w) {
+    with_fluid_kernel(config_.fluid, config_.domain, [&](const auto& w) {
       const CellGridView grid = stepper_.fluid().grid().view();
       const auto cells = grid.block(at, stepper_.fluid().range() + stepper_.fluid().skin());
       const auto s =

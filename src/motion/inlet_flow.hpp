@@ -1,7 +1,8 @@
 #pragma once
 // How much fluid comes through an orifice, and where that has taken the particles upstream of it.
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/domain.hpp"
+#include "bedload/case/config/openings.hpp"
 #include "bedload/case/formula.hpp"
 #include "bedload/core/rigid_motion.hpp"
 
@@ -14,6 +15,7 @@ class InletFlow {
   /// `dx`: spacing of the fluid, m.
   InletFlow(const InletConfig& inlet, double dx, const DomainConfig& domain);
 
+  const std::string& name() const { return inlet_.name; }
   int points() const { return points_; }           ///< of the orifice: particles a layer
   double thickness() const { return thickness_; }  ///< of a layer, m
   double rate(double t) const;                     ///< m3/s

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/motion.hpp"
 
 namespace bedload {
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/motion.hpp"
 
 namespace bedload {
 

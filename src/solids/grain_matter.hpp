@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/grains.hpp"
 #include "bedload/parallel/buffer.hpp"
 #include "bedload/particles/grains.hpp"
 #include "kernels/contact/grain_mass.hpp"
@@ -12,8 +12,8 @@ namespace bedload::inline BL_VARIANT {
 
 class GrainMatter {
  public:
-  explicit GrainMatter(const GrainConfig& grain) {
-    for (const GrainMaterial& m : grain.all_materials()) per_r3_.push_back(4.0 / 3.0 * M_PI * m.rho);
+  explicit GrainMatter(const std::vector<GrainMaterial>& materials) {
+    for (const GrainMaterial& m : materials) per_r3_.push_back(4.0 / 3.0 * M_PI * m.rho);
     each_.assign(per_r3_);
   }
   std::uint32_t materials() const { return std::uint32_t(per_r3_.size()); }

@@ -9,30 +9,29 @@
 
 namespace bedload::inline BL_VARIANT {
 
-RigidGroups::RigidGroups(const Config& config, const Frame& frame, GrainStore& grains)
-    : config_(config), frame_(frame), fills_(config.grain.rigid_fills()), matter_(config.grain) {
+RigidGroups::RigidGroups(const SolidParameters& parameters, const Frame& frame, GrainStore& grains)
+    : groups_(parameters.groups), plane_(parameters.plane), frame_(frame), matter_(parameters.materials) {
   if (!any()) return;
   group_ = std::make_unique<Field<std::uint32_t>>(grains, "group", "-", Lifetime::kept);
   arm_ = std::make_unique<Field<Vec3d>>(grains, "group_arm", "m", Lifetime::kept);
   group_->resize(grains.size());
   arm_->resize(grains.size());
-  store_.resize(Index(fills_.size()));
-  gained_.resize(fills_.size());
+  store_.resize(Index(groups_.size()));
+  gained_.resize(groups_.size());
 }
 
 void RigidGroups::bind(const GrainStore& grains, const std::vector<std::uint32_t>& fill) {
   if (!any()) return;
   const auto x = grains.x.values();
   const auto radius = grains.radius.values();
-  const std::size_t n = fills_.size();
+  const std::size_t n = groups_.size();
   std::vector<std::uint32_t> group(x.size());
   std::vector<double> mass(n);
   std::vector<Vec3d> centre(n), v(n), arm(x.size());
   for (std::size_t k = 0; k < n; ++k) {
-    const std::string& made_of = config_.grain.fills[fills_[k]].material;
     for (std::size_t i = 0; i < x.size(); ++i) {
-      if (int(fill[i]) != fills_[k]) continue;
-      const double R = radius[i], m = matter_.per_r3(config_.grain.material(made_of)) * R * R * R;
+      if (int(fill[i]) != groups_[k].fill) continue;
+      const double R = radius[i], m = matter_.per_r3(groups_[k].material) * R * R * R;
       group[i] = std::uint32_t(k + 1);
       mass[k] += m;
       centre[k] += m * x[i];
@@ -44,7 +43,7 @@ void RigidGroups::bind(const GrainStore& grains, const std::vector<std::uint32_t
   group_->assign(group);
   arm_->assign(arm);
   measure(grains);
-  for (std::size_t k = 0; k < n; ++k) v[k] = groups_[k].movable(config_.grain.fills[fills_[k]].velocity);
+  for (std::size_t k = 0; k < n; ++k) v[k] = bodies_[k].movable(groups_[k].velocity);
   store_.x.assign(centre);
   store_.v.assign(v);
   store_.spin.assign(std::vector<Vec3d>(n));
@@ -60,25 +59,23 @@ void RigidGroups::measure(const GrainStore& grains) {
   std::vector<std::size_t> order(id.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
-  const auto material_of = [&](std::uint32_t of) {
-    return config_.grain.material(config_.grain.fills[fills_[of - 1]].material);
-  };
-  std::vector<MassProperties> sums(fills_.size());
+  std::vector<MassProperties> sums(groups_.size());
   for (auto& s : sums) s.inertia.fill(0);
   for (const std::size_t i : order) {
     if (group[i] == 0) continue;
     MassProperties& s = sums[group[i] - 1];
-    const double R = radius[i], m = matter_.per_r3(material_of(group[i])) * R * R * R, own = 0.4 * m * R * R;
+    const double R = radius[i], m = matter_.per_r3(groups_[group[i] - 1].material) * R * R * R,
+                 own = 0.4 * m * R * R;
     s.mass += m;
     const auto grain = shifted_inertia({own, own, own, 0, 0, 0}, m, arm[i]);
     for (int k = 0; k < 6; ++k) s.inertia[k] += grain[k];
   }
-  groups_.clear();
-  for (std::size_t k = 0; k < fills_.size(); ++k) {
-    const RigidConfig& c = config_.grain.fills[fills_[k]].rigid;
-    groups_.push_back(rigid_body(sums[k], {}, c.move, c.turn, c.axis, config_.domain.two_d));
+  bodies_.clear();
+  for (std::size_t k = 0; k < groups_.size(); ++k) {
+    const RigidConfig& c = groups_[k].freedom;
+    bodies_.push_back(rigid_body(sums[k], {}, c.move, c.turn, c.axis, plane_));
   }
-  constants_.assign(groups_);
+  constants_.assign(bodies_);
 }
 
 GrainGroups RigidGroups::view() const {
@@ -106,7 +103,7 @@ RigidMotion RigidGroups::motion(int k) const {
   m.centre = store_.x.values()[k];
   m.rotation = to_quat(store_.rotation.values()[k]);
   m.v = store_.v.values()[k];
-  m.omega = groups_[k].omega(m.rotation, store_.spin.values()[k]);
+  m.omega = bodies_[k].omega(m.rotation, store_.spin.values()[k]);
   return m;
 }
 

@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
-#include "bedload/case/config.hpp"
 #include "bedload/parallel/loops.hpp"
 #include "bedload/particles/grains.hpp"
 #include "kernels/bodies/grain_groups.hpp"
 #include "src/solids/grain_matter.hpp"
+#include "src/solids/parameters.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -16,9 +16,9 @@ class RigidGroups {
  public:
   /// Registers what grains know of their groups with `grains`: construct before the store is filled or
   /// loaded.
-  RigidGroups(const Config& config, const Frame& frame, GrainStore& grains);
+  RigidGroups(const SolidParameters& parameters, const Frame& frame, GrainStore& grains);
 
-  bool any() const { return !fills_.empty(); }
+  bool any() const { return !groups_.empty(); }
   /// Of each grain: 1 + its group, 0 without one; empty where no fill is rigid.
   Span<const std::uint32_t> of_grains() const {
     return group_ ? group_->span() : Span<const std::uint32_t>();
@@ -58,10 +58,10 @@ class RigidGroups {
     Field<Vec4<double>> rotation{*this, "rotation", "-", Lifetime::kept};
   };
 
-  Config config_;
+  std::vector<RigidGroup> groups_;
+  bool plane_;  ///< they move in the plane of x and z
   Frame frame_;
-  std::vector<int> fills_;         ///< one a group
-  std::vector<RigidBody> groups_;  ///< about their centres of mass
+  std::vector<RigidBody> bodies_;  ///< one a group, about their centres of mass
   GrainMatter matter_;
   std::unique_ptr<Field<std::uint32_t>> group_;
   std::unique_ptr<Field<Vec3d>> arm_;

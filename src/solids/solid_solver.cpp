@@ -5,7 +5,6 @@
 #include <limits>
 #include <string>
 
-#include "bedload/case/limits.hpp"
 #include "kernels/integrate/grain_substep.hpp"
 #include "kernels/integrate/grain_sums.hpp"
 #include "kernels/stress/contact_stress.hpp"
@@ -28,31 +27,20 @@ struct ComeFromPass {
 
 }  // namespace
 
-SolidSolver::SolidSolver(const Config& config, const Frame& frame, const WallGeometry& walls,
+SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, const WallGeometry& walls,
                          GrainStore& grains, FreeBodies* bodies, bool wet)
-    : config_(config),
+    : parameters_(parameters),
       frame_(frame),
-      law_(make_contact_law(config)),
-      films_(Lubrication::of(config)),
-      matter_(config.grain),
-      d_min_(config.grain.d_min > 0 ? config.grain.d_min : config.grain.d),
-      d_max_(config.grain.d_max > 0 ? config.grain.d_max : config.grain.d),
-      skin_(config.skin_grain * d_min_),
+      matter_(parameters.materials),
       wet_(wet),
       walls_(walls),
       bodies_(bodies),
-      groups_(config, frame, grains),
-      histories_(law_),
-      old_histories_(law_),
-      wall_list_(frame, walls, skin_, double(films_.range(Real(d_max_ / 2)))) {
-  config_.grain.d_min = d_min_, config_.grain.d_max = d_max_;
-  const std::vector<GrainMaterial> materials = config.grain.all_materials();
-  for (const WallBody& body : config.wall.bodies)
-    for (const GrainMaterial& m : materials) all_wall_laws_.push_back(make_wall_law(config, m, body));
-  wall_laws_.assign(all_wall_laws_);
-  for (const GrainMaterial& a : materials)
-    for (const GrainMaterial& b : materials) all_pair_laws_.push_back(make_contact_law(config, a, b));
-  if (materials.size() > 1) pair_laws_.assign(all_pair_laws_);
+      groups_(parameters, frame, grains),
+      histories_(law()),
+      old_histories_(law()),
+      wall_list_(frame, walls, skin(), film_range(parameters.d_max / 2)) {
+  wall_laws_.assign(parameters.wall_laws);
+  if (parameters.materials.size() > 1) pair_laws_.assign(parameters.pair_laws);
   if (walls.contacts() == 0) return;
   wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
   wall_contacts_->resize(grains.size());
@@ -86,8 +74,9 @@ void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal
 }
 
 void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
-  GrainNear near{frame_, grains.x_list.span(),   grains.radius.span(), groups_.of_grains(), 0.5 * d_max_,
-                 skin_,  double(films_.range(1))};
+  GrainNear near{
+      frame_, grains.x_list.span(), grains.radius.span(), groups_.of_grains(), 0.5 * parameters_.d_max,
+      skin(), film_range(1)};
   // rows are short: of more lanes most would have nothing to do
   list_.build(grains.size(), grid.view(), near, std::min(lane_bits(grains.size()), 3u));
   near.film = 0;
@@ -106,9 +95,9 @@ GrainWatch SolidSolver::watch(const GrainStore& g) const {
 }
 
 std::vector<StepLimit> SolidSolver::limits(const GrainWatch& w) const {
-  std::vector<StepLimit> limits = substep_limits(config_, 2 * w.speed);
-  if (config_.couple.integrator == DragIntegrator::explicit_steps && w.drag_rate > 0)
-    limits.push_back({"grain drag", config_.time.drag / w.drag_rate, false});
+  std::vector<StepLimit> limits = parameters_.limits.at(2 * w.speed);
+  if (!parameters_.exponential && w.drag_rate > 0)
+    limits.push_back({"grain drag", parameters_.drag_fraction / w.drag_rate, false});
   return limits;
 }
 
@@ -130,7 +119,7 @@ StableStep SolidSolver::stable_dt(const GrainWatch& w) const {
 
 ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
   return {.frame = frame_,
-          .law = law_,
+          .law = law(),
           .mass_per_r3 = matter_.of(g),
           .dt = Real(dt),
           .x = g.x.span(),
@@ -142,25 +131,25 @@ ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
           .histories = histories_.view(),
           .laws = pair_laws_.size() > 0 ? pair_laws_.data() : nullptr,
           .materials = matter_.materials(),
-          .acts = config_.contact.normal != NormalLaw::none};
+          .acts = parameters_.touch};
 }
 
 LubricationPass SolidSolver::films(const GrainStore& g, ContactSum* sums) const {
-  return {frame_, films_, g.x, g.v, g.omega, g.radius, g.wetness, g.id, list_.view(), sums};
+  return {frame_, parameters_.films, g.x, g.v, g.omega, g.radius, g.wetness, g.id, list_.view(), sums};
 }
 
 ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses, double dt,
                                      const TouchLoads& loads) {
   ContactPass pass = contact_pass(g, dt);
-  if (films_.acts()) {
+  if (lubricates()) {
     by_films_.reserve_and_resize(g.size());
     for_each(threads(), films(g, by_films_.data()));
     pass.by_films = by_films_.data();
   }
-  if (wall_list_.size() == 0 || config_.contact.normal == NormalLaw::none) return pass;
+  if (wall_list_.size() == 0 || !parameters_.touch) return pass;
   by_walls_.reserve_and_resize(wall_list_.size());
   touch_walls(wall_contacts(g, poses, dt), loads);
-  if (films_.acts())
+  if (lubricates())
     for_each({0, wall_list_.size()},
              WallFilmPass{wall_contacts(g, poses, dt), wall_list_.rows(), by_walls_.data()});
   pass.wall_row = wall_list_.row_of();
@@ -186,7 +175,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   };
   wall_list_.cover(g, poses, wall_counts(), wall_travel);
   if (free) free->first_kick();
-  if (held || config_.grain.fixed) {
+  if (held || parameters_.fixed) {
     for_each(g.owned(), HeldPass{dt, g.U, g.omega_f, g.K, g.K_rot, g.impulse, g.spin_impulse, g.drag_force});
     for (int s = 1; free && s <= substeps; ++s) {
       evaluate(EvaluatePass{contacts_in(s), g.force, g.torque});
@@ -197,10 +186,10 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   }
   const Index n = g.size();
   next_x_.resize(n), next_v_.resize(n), next_omega_.resize(n), v_rest_.resize(n), omega_rest_.resize(n);
-  GrainKick kick{gravity.empty() ? config_.gravity : gravity[0],
+  GrainKick kick{gravity.empty() ? parameters_.gravity : gravity[0],
                  matter_.of(g),
                  0.5 * tau,
-                 config_.couple.integrator == DragIntegrator::exponential,
+                 parameters_.exponential,
                  g.radius,
                  {},
                  {},
@@ -208,7 +197,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                  {},
                  {},
                  drive,
-                 Edges(config_.domain.reflect, frame_)};
+                 Edges(parameters_.reflect, frame_)};
   if (wet_)
     kick.fluid_force = g.fluid_force, kick.U = g.U, kick.omega_f = g.omega_f, kick.K = g.K,
     kick.K_rot = g.K_rot;
@@ -218,7 +207,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   for (int s = 1; s <= substeps; ++s) {
     const ContactPass contacts = contacts_in(s);
     if (!gravity.empty()) kick.gravity = gravity[s];
-    with_contact_law(all_pair_laws_, [&]<class Law>(std::type_identity<Law>) {
+    with_contact_law(parameters_.pair_laws, [&]<class Law>(std::type_identity<Law>) {
       if (s < substeps)
         evaluate(SubstepPass<Law>{contacts, kick, next_x_, next_v_, next_omega_, v_rest_, omega_rest_,
                                   g.impulse, g.spin_impulse});
@@ -260,7 +249,7 @@ GrainTotals SolidSolver::totals(const GrainStore& g) const {
 
 void SolidSolver::contact_moments(const GrainStore& g, Buffer<PairMoment<>>& out) const {
   out.resize(g.size());
-  if (config_.contact.normal == NormalLaw::none) return out.zero();
+  if (!parameters_.touch) return out.zero();
   for_each(g.owned(), ContactStressPass{contact_pass(g, 0), out});
 }
 
@@ -271,7 +260,7 @@ void SolidSolver::film_moments(const GrainStore& g, Buffer<PairMoment<>>& out) c
 
 std::vector<LoadSum> SolidSolver::body_loads(const GrainStore& g, Span<const BodyPose> poses) const {
   std::vector<LoadSum> loads;
-  for (std::uint32_t b = 0; b < config_.wall.bodies.size(); ++b)
+  for (std::uint32_t b = 0; b < parameters_.bodies(); ++b)
     loads.push_back(reduce(g.owned(), BodyLoadReduction{wall_contacts(g, poses.data, 0), b}));
   return loads;
 }

@@ -4,7 +4,6 @@
 #include <memory>
 #include <vector>
 
-#include "bedload/case/config.hpp"
 #include "bedload/neighbours/verlet_list.hpp"
 #include "bedload/particles/grains.hpp"
 #include "bedload/particles/walls.hpp"
@@ -14,6 +13,7 @@
 #include "kernels/stress/pair_moment.hpp"
 #include "src/solids/grain_matter.hpp"
 #include "src/solids/pair_histories.hpp"
+#include "src/solids/parameters.hpp"
 #include "src/solids/rigid_groups.hpp"
 #include "src/solids/wall_list.hpp"
 #include "src/walls/free_bodies.hpp"
@@ -62,14 +62,14 @@ class SolidSolver {
  public:
   /// Registers what grains remember of walls with `grains`: construct before the store is filled or loaded.
   /// `walls` must outlive this, and so must `bodies`, the free ones among them. `wet`: a fluid may act on
-  /// grains. Throws CaseError where the damping asked for cannot be had.
-  SolidSolver(const Config& config, const Frame& frame, const WallGeometry& walls, GrainStore& grains,
-              FreeBodies* bodies = nullptr, bool wet = true);
+  /// grains.
+  SolidSolver(const SolidParameters& parameters, const Frame& frame, const WallGeometry& walls,
+              GrainStore& grains, FreeBodies* bodies = nullptr, bool wet = true);
 
-  double skin() const { return skin_; }  ///< m
+  double skin() const { return parameters_.skin; }  ///< m
   /// Largest centre distance in the lists, m.
-  double range() const { return d_max_ + skin_ + double(films_.range(Real(d_max_ / 4))); }
-  const ContactLaw& law() const { return law_; }
+  double range() const { return parameters_.d_max + skin() + film_range(parameters_.d_max / 4); }
+  const ContactLaw& law() const { return parameters_.pair_laws[0]; }
 
   /// Wraps, sorts and lists the grains anew; histories of surviving pairs carry over.
   /// order() then says where each grain was when they were listed last.
@@ -113,7 +113,7 @@ class SolidSolver {
   void contact_moments(const GrainStore& grains, Buffer<PairMoment<>>& out) const;
   /// The same of lubrication; whether there is any.
   void film_moments(const GrainStore& grains, Buffer<PairMoment<>>& out) const;
-  bool lubricates() const { return films_.acts(); }
+  bool lubricates() const { return parameters_.films.acts(); }
 
   /// Histories of touching pairs: arrays "lo", "hi" (ids) and "history".
   HostStore save_contacts(const GrainStore& grains) const;
@@ -128,6 +128,7 @@ class SolidSolver {
   WallMemory* const* wall_memories() const;
   ContactPass contact_pass(const GrainStore& grains, double dt) const;
   WallContacts wall_contacts(const GrainStore& grains, const BodyPose* poses, double dt) const;
+  double film_range(double R_star) const { return double(parameters_.films.range(Real(R_star))); }  ///< m
   LubricationPass films(const GrainStore& grains, ContactSum* sums) const;
   /// Into by_walls_.
   void touch_walls(const WallContacts& contacts, const TouchLoads& loads);
@@ -147,15 +148,11 @@ class SolidSolver {
   Range threads() const { return {0, list_.rows() << list_.view().bits}; }
   const Index* wall_counts() const { return wall_contacts_ ? wall_contacts_->buffer().data() : nullptr; }
 
-  Config config_;
+  SolidParameters parameters_;
   Frame frame_;
-  ContactLaw law_;
-  Lubrication films_;
   GrainMatter matter_;
-  std::vector<ContactLaw> all_pair_laws_, all_wall_laws_;
   Buffer<ContactLaw> pair_laws_;  ///< [materials][materials]; empty where all are of one
   Buffer<ContactLaw> wall_laws_;  ///< [bodies][materials]
-  double d_min_, d_max_, skin_;
   bool wet_;
   const WallGeometry& walls_;
   FreeBodies* bodies_;

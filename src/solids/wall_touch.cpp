@@ -32,7 +32,7 @@ WallContacts SolidSolver::wall_contacts(const GrainStore& g, const BodyPose* pos
           .materials = matter_.materials(),
           .poses = poses,
           .free_bodies = bodies_ ? bodies_->constants() : nullptr,
-          .lubrication = films_,
+          .lubrication = parameters_.films,
           .wetness = g.wetness.span()};
 }
 
@@ -46,7 +46,7 @@ void SolidSolver::touch_walls(const WallContacts& contacts, const TouchLoads& lo
   with_surface_kinds(walls_.surfaces(), [&]<class Kinds>(std::type_identity<Kinds>) {
     if constexpr (std::is_same_v<Kinds, FlatKinds>)
       if (!bodies_ || !bodies_->any())
-        return with_contact_law(all_wall_laws_, [&]<class Law>(std::type_identity<Law>) {
+        return with_contact_law(parameters_.wall_laws, [&]<class Law>(std::type_identity<Law>) {
           run(std::type_identity<WallScope<Law, Kinds, false>>{});
         });
     run(std::type_identity<WallScope<ContactLaw, Kinds, true>>{});

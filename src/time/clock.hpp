@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/time.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/simulation.hpp"
 
@@ -13,7 +13,7 @@ namespace bedload {
 /// Time, steps, and which limit binds the next one.
 class Clock {
  public:
-  explicit Clock(const TimeConfig& config) : config_(config) {}
+  explicit Clock(const TimeConfig& parameters) : parameters_(parameters) {}
 
   double time = 0;  ///< s
   std::int64_t step = 0;
@@ -22,15 +22,15 @@ class Clock {
   /// The least of the limits; adaptive steps grow by at most 5 %. A fixed step above a limit is
   /// a KeyError unless forced.
   double next_dt(const std::vector<StepLimit>& limits, std::string_view& binding) const {
-    if (config_.dt > 0) {
+    if (parameters_.dt > 0) {
       binding = "fixed";
       for (const auto& l : limits)
-        if (config_.dt > l.seconds * (1 + 1e-9) && !config_.force_dt)
-          throw KeyError("time.dt", "time.dt = " + std::to_string(config_.dt * 1e6) +
+        if (parameters_.dt > l.seconds * (1 + 1e-9) && !parameters_.force_dt)
+          throw KeyError("time.dt", "time.dt = " + std::to_string(parameters_.dt * 1e6) +
                                         " us: must be at most " + std::to_string(l.seconds * 1e6) +
                                         " us; limited by " + l.name + " at t = " + std::to_string(time) +
                                         " s");
-      return config_.dt;
+      return parameters_.dt;
     }
     double dt = last_dt > 0 ? 1.05 * last_dt : std::numeric_limits<double>::infinity();
     binding = "growth";
@@ -46,7 +46,7 @@ class Clock {
       if (known == name) return known;
     return "other";
   }
-  TimeConfig config_;
+  TimeConfig parameters_;
 };
 
 }  // namespace bedload

@@ -108,14 +108,15 @@ State::State(const Config& config)
             config.domain.periodic[1] && !config.domain.two_d, config.domain.periodic[2],
             farthest_pair(config)),
       clock(config.time),
-      geometry(config),
-      grain_geometry(config, [](const WallBody& body) { return body.stops_grains(); }),
-      shells(config, [](const WallBody& body) { return body.single_layer(); }),
-      bodies(config, frame, grain_geometry),
-      motion(config, bodies),
-      open(config, frame, motion),
-      gravity(config),
-      matter(config.grain) {
+      geometry(config.wall.bodies, config.domain),
+      grain_geometry(config.wall.bodies, config.domain,
+                     [](const WallBody& body) { return body.stops_grains(); }),
+      shells(config.wall.bodies, config.domain, [](const WallBody& body) { return body.single_layer(); }),
+      bodies(free_body_parameters(config), frame, grain_geometry),
+      motion(wall_motion_parameters(config), bodies),
+      open(open_boundary_parameters(config), frame, motion),
+      gravity(config.gravity, config.frame.motion, config.time.end),
+      matter(config.grain.all_materials()) {
   if (!coupled) fluid.solid_factor.leave_out();
   if (config.grain.materials.empty()) grains.material.leave_out();
   if (!two_way)

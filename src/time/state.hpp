@@ -1,6 +1,7 @@
 #pragma once
 // What a simulation is at a moment: particles, bodies, walls and the clock.
 
+#include "bedload/case/config.hpp"
 #include "bedload/motion/law.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/grains.hpp"

@@ -25,12 +25,13 @@ Stepper::Stepper(const Config& config, State& state)
       grain_factor_(config.drive) {
   if (has_grains()) {
     const bool wet = has_fluid() && config.couple.mode != CouplingMode::off;
-    solid_solver_ =
-        std::make_unique<SolidSolver>(config, frame_, state.grain_geometry, grains_, &bodies_, wet);
+    solid_solver_ = std::make_unique<SolidSolver>(solid_parameters(config), frame_, state.grain_geometry,
+                                                  grains_, &bodies_, wet);
     grain_grid_ = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, solid_solver_->range());
   }
-  if (has_fluid()) fluid_solver_ = FluidSolver::make(config, frame_, state.geometry, fluid_);
-  if (coupled()) coupling_ = std::make_unique<Coupling>(config, frame_, state.geometry);
+  if (has_fluid())
+    fluid_solver_ = FluidSolver::make(fluid_parameters(config), frame_, state.geometry, fluid_);
+  if (coupled()) coupling_ = std::make_unique<Coupling>(coupling_parameters(config), frame_, state.geometry);
   list_stages();
 }
 

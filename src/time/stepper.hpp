@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "bedload/case/config.hpp"
 #include "bedload/parallel/stopwatch.hpp"
 #include "bedload/simulation.hpp"
 #include "src/coupling/coupling.hpp"

@@ -12,17 +12,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The law of a body from its material: Hertz and Mindlin, and the grains' way to resist rolling.
-BodyLaw law_of(const Config& config, const FreeConfig& f) {
-  Config own = config;
-  own.grain.E = f.E, own.grain.nu = f.nu, own.grain.mu = f.mu, own.grain.mu_r = f.mu_r, own.grain.e = f.e;
-  own.contact.normal = "hertz";
-  own.contact.tangential = "mindlin";
-  if (f.mu_r == 0) own.contact.rolling = "none";
-  own.contact.he_damping = false;
-  return BodyLaw::of(make_contact_law(own));
-}
-
 /// Sum of two loads on each body, into its fields.
 struct AddLoads {
   Span<const LoadSum> a, b;
@@ -55,43 +44,33 @@ void confine(RigidBody& k) {
 
 }  // namespace
 
-FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeometry& walls)
-    : config_(config), frame_(frame), walls_(walls), places_(config.wall.bodies.size(), -1) {
-  if (config.wall.free_bodies() == 0) return;
+FreeBodies::FreeBodies(const FreeBodyParameters& parameters, const Frame& frame, const WallGeometry& walls)
+    : parameters_(parameters), frame_(frame), walls_(walls), places_(parameters.walls, -1) {
+  if (!any()) return;
   contact_radius_ = kInfinity;
+  std::vector<RigidBody> rigid;
   std::vector<BodyLaw> laws;
-  std::vector<ElasticCompliance> compliances;
-  for (const WallBody& body : config.wall.bodies)
-    compliances.push_back(body.free.present ? ElasticCompliance(body.free.E, body.free.nu)
-                                            : wall_compliance(config, body));
   std::vector<TouchBall> balls;
-  for (std::uint32_t b = 0; b < config.wall.bodies.size(); ++b) {
-    const WallBody& body = config.wall.bodies[b];
-    if (!body.free.present) continue;
-    places_[b] = size();
-    add(config, b);
-    laws.push_back(law_of(config, body.free));
-    if (!body.stops_grains()) continue;
-    for (const BodyBall& ball : contact_balls(body, config.domain)) {
-      const double R_star = body.free.contact_radius > 0 ? body.free.contact_radius : ball.radius;
-      contact_radius_ = std::min(contact_radius_, R_star);
-      largest_radius_ = std::max(largest_radius_, R_star);
-      balls.push_back({ball.centre, ball.radius, R_star, Index(places_[b])});
-    }
-  }
-  constants_.assign(bodies_);
-  laws_.assign(laws);
-  compliances_.assign(compliances);
-  balls_.assign(balls);
-
-  store_.resize(Index(size()));
   std::vector<Vec3d> x, v, spin;
-  for (const RigidBody& k : bodies_) {
-    const FreeConfig& f = config.wall.bodies[k.body].free;
+  for (const FreeBody& body : parameters.bodies) {
+    const RigidBody& k = body.rigid;
+    places_[k.body] = int(rigid.size());
+    rigid.push_back(k);
+    laws.push_back(body.law);
+    for (const TouchBall& ball : body.balls) {
+      contact_radius_ = std::min(contact_radius_, ball.R_star);
+      largest_radius_ = std::max(largest_radius_, ball.R_star);
+      balls.push_back(ball);
+    }
     x.push_back(k.centre);
-    v.push_back(k.movable(f.velocity));
-    spin.push_back(k.momentum({}, k.turnable(f.spin)));
+    v.push_back(k.movable(body.velocity));
+    spin.push_back(k.momentum({}, k.turnable(body.spin)));
   }
+  constants_.assign(rigid);
+  laws_.assign(laws);
+  compliances_.assign(parameters.compliances);
+  balls_.assign(balls);
+  store_.resize(Index(size()));
   store_.x.assign(x), store_.v.assign(v), store_.spin.assign(spin);
   store_.rotation.assign(std::vector<Vec4<double>>(size(), to_vec4({})));
 
@@ -99,7 +78,7 @@ FreeBodies::FreeBodies(const Config& config, const Frame& frame, const WallGeome
   capacity_ = walls.contacts();
   memory_.resize(Index(n * capacity_));
   point_at_memory();
-  const int bodies_met = std::min(int(config.wall.bodies.size()), kMostWallContacts + 1);
+  const int bodies_met = std::min(int(parameters.walls), kMostWallContacts + 1);
   ball_slots_.resize(std::size_t(n) * bodies_met);
   ball_counts_.resize(n);
   ball_loads_ = {ball_slots_.data(), ball_counts_.data(), n, bodies_met};
@@ -146,31 +125,6 @@ RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, const std::st
   k.axial = inertia[0] * n.x * n.x + inertia[1] * n.y * n.y + inertia[2] * n.z * n.z +
             2 * (inertia[3] * n.x * n.y + inertia[4] * n.x * n.z + inertia[5] * n.y * n.z);
   return k;
-}
-
-void FreeBodies::add(const Config& config, std::uint32_t b) {
-  const WallBody& body = config.wall.bodies[b];
-  const FreeConfig& f = body.free;
-  RigidBody k = rigid_body(f.solid, turning_centre(f), f.move, f.turn, f.axis, config.domain.two_d);
-  k.body = b;
-  k.fluid = f.fluid;
-  k.touches = f.contacts;
-  k.release = f.release_time;
-  bodies_.push_back(k);
-
-  const auto farthest = [&](double beyond) {
-    double r = 0;
-    for (const Vec3d& corner : corners(body, config.domain, beyond)) r = std::max(r, norm(corner - k.centre));
-    return r;
-  };
-  const double reach = farthest(0);
-  sizes_.push_back(reach);
-  reaches_.push_back(farthest(particles_beyond(body, config)));
-  double inverse_mass = 1 / f.solid.mass;
-  if (k.turn == BodyTurn::axis) inverse_mass += reach * reach / k.axial;
-  if (k.turn == BodyTurn::all)
-    inverse_mass += reach * reach / std::min({k.moments.x, k.moments.y, k.moments.z});
-  inverse_masses_.push_back(inverse_mass);
 }
 
 void FreeBodies::point_at_memory() {
@@ -288,7 +242,7 @@ void FreeBodies::touch(Span<const BodyPose> poses, double dt) {
   grain_sums_.zero();
   ball_sums_.zero();
   for (int k = 0; k < size(); ++k) {
-    const std::uint32_t body = bodies_[k].body;
+    const std::uint32_t body = rigid(k).body;
     if (grain_loads_.size > 0)
       reduce_into(grain_sums_.data() + k, {0, grain_loads_.size}, TouchReduction{grain_loads_, body});
     if (balls_.size() > 0)
@@ -302,7 +256,7 @@ void FreeBodies::feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force,
   wall_sums_.zero();
   repulsion_sums_.zero();
   for (int k = 0; k < size(); ++k) {
-    const std::uint32_t body = bodies_[k].body;
+    const std::uint32_t body = rigid(k).body;
     if (walls.size() > 0)
       reduce_into(wall_sums_.data() + k, walls.owned(),
                   WallLoadReduction{body, walls.body, walls.x0, force, poses.data});
@@ -315,8 +269,8 @@ void FreeBodies::feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force,
   BodyPass p = pass();
   p.fluid_kick = kick_time;
   kick(p);
-  const double reach = 8 * config_.fluid.h() / config_.fluid.c;  // s
-  for_each(store_.owned(), BodyAccelerationPass{constants_.data(), fields(), dt, -std::expm1(-dt / reach)});
+  const double followed = -std::expm1(-dt / parameters_.response);
+  for_each(store_.owned(), BodyAccelerationPass{constants_.data(), fields(), dt, followed});
 }
 
 }  // namespace bedload::inline BL_VARIANT

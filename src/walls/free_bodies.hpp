@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "bedload/case/config.hpp"
 #include "bedload/parallel/loops.hpp"
 #include "bedload/particles/bodies.hpp"
 #include "bedload/particles/fluid.hpp"
@@ -14,6 +13,7 @@
 #include "kernels/bodies/ball_contacts.hpp"
 #include "kernels/bodies/body_kicks.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
+#include "src/walls/parameters.hpp"
 #include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -37,14 +37,14 @@ RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, const std::st
 class FreeBodies {
  public:
   /// `walls`: surfaces that stop grains, which bodies meet too; must outlive this.
-  FreeBodies(const Config& config, const Frame& frame, const WallGeometry& walls);
+  FreeBodies(const FreeBodyParameters& parameters, const Frame& frame, const WallGeometry& walls);
 
-  int size() const { return int(bodies_.size()); }
-  bool any() const { return !bodies_.empty(); }
+  int size() const { return int(parameters_.bodies.size()); }
+  bool any() const { return size() > 0; }
   /// Place among the free bodies, -1 for a body that is none.
   int place_of(int body) const { return places_[body]; }
   /// Place among the wall bodies.
-  int body(int place) const { return int(bodies_[place].body); }
+  int body(int place) const { return int(rigid(place).body); }
   const RigidBody* constants() const { return constants_.data(); }
   /// While the grains settle the bodies are held.
   void settle(bool on) { settling_ = on; }
@@ -119,22 +119,18 @@ class FreeBodies {
   }
 
  private:
-  void add(const Config& config, std::uint32_t body);
+  const RigidBody& rigid(int place) const { return parameters_.bodies[place].rigid; }
   void point_at_memory();
   BodyFields fields() const;
   void touch(Span<const BodyPose> poses, double dt);
   BodyPass pass() const;
   void kick(const BodyPass& pass) { for_each(store_.owned(), pass); }
 
-  Config config_;
+  FreeBodyParameters parameters_;
   Frame frame_;
   const WallGeometry& walls_;
   bool settling_ = false;
   std::vector<int> places_;
-  std::vector<RigidBody> bodies_;
-  std::vector<double> sizes_;           ///< of the corners from the centre, m
-  std::vector<double> reaches_;         ///< the same of all particles and their images, m
-  std::vector<double> inverse_masses_;  ///< largest 1/effective mass, 1/kg
   std::vector<RigidMotion> now_;
   double contact_radius_ = 0, largest_radius_ = 0;  ///< smallest and largest R*, m
 

@@ -16,23 +16,22 @@ Vec3d unit(int k, double sign = 1) {
 }
 
 /// Half the extent of a body along axis k; without end where it spans a period.
-double half_extent(const Config& config, const WallBody& body, int k) {
-  const double length = body.max[k] - body.min[k], period = config.domain.max[k] - config.domain.min[k];
-  if (config.domain.periodic[k] && length > period * (1 - 1e-9))
-    return std::numeric_limits<double>::infinity();
+double half_extent(const DomainConfig& domain, const WallBody& body, int k) {
+  const double length = body.max[k] - body.min[k], period = domain.max[k] - domain.min[k];
+  if (domain.periodic[k] && length > period * (1 - 1e-9)) return std::numeric_limits<double>::infinity();
   return 0.5 * length;
 }
 
-Surface make_box(const Config& config, const WallBody& body, std::uint32_t index) {
+Surface make_box(const DomainConfig& domain, const WallBody& body, std::uint32_t index) {
   Surface s{SurfaceKind::box, index, 0.5 * (body.min + body.max), {}, {}};
   for (int k = 0; k < 3; ++k) {
     s.axis[k] = unit(k);
-    s.half[k] = half_extent(config, body, k);
+    s.half[k] = half_extent(domain, body, k);
   }
   return s;
 }
 
-Surface make_face(const Config& config, const WallBody& body, std::uint32_t index, int face) {
+Surface make_face(const DomainConfig& domain, const WallBody& body, std::uint32_t index, int face) {
   const int k = face / 2, u = (k + 1) % 3, w = (k + 2) % 3;
   Surface s{SurfaceKind::rectangle, index, 0.5 * (body.min + body.max), {}, {}};
   const bool upper = face % 2;
@@ -40,8 +39,8 @@ Surface make_face(const Config& config, const WallBody& body, std::uint32_t inde
   s.axis[2] = unit(k, upper ? -1 : 1);  // into the tank
   s.axis[0] = unit(upper ? w : u);
   s.axis[1] = unit(upper ? u : w);
-  s.half[0] = half_extent(config, body, upper ? w : u);
-  s.half[1] = half_extent(config, body, upper ? u : w);
+  s.half[0] = half_extent(domain, body, upper ? w : u);
+  s.half[1] = half_extent(domain, body, upper ? u : w);
   return s;
 }
 
@@ -61,9 +60,10 @@ int most_contacts(const Surface& s) {
 
 }  // namespace
 
-WallGeometry::WallGeometry(const Config& config, const std::function<bool(const WallBody&)>& wanted) {
-  for (std::uint32_t b = 0; b < config.wall.bodies.size(); ++b) {
-    const WallBody& body = config.wall.bodies[b];
+WallGeometry::WallGeometry(const std::vector<WallBody>& bodies, const DomainConfig& domain,
+                           const std::function<bool(const WallBody&)>& wanted) {
+  for (std::uint32_t b = 0; b < bodies.size(); ++b) {
+    const WallBody& body = bodies[b];
     if (!wanted(body)) continue;
     if (body.solid.shape) {
       std::vector<SurfacePart> parts;
@@ -74,10 +74,10 @@ WallGeometry::WallGeometry(const Config& config, const std::function<bool(const 
       s.axis[2] = body.normal * (1 / norm(body.normal));
       surfaces_.push_back(s);
     } else if (body.shape == "box") {
-      surfaces_.push_back(make_box(config, body, b));
+      surfaces_.push_back(make_box(domain, body, b));
     } else if (body.shape == "tank") {
       for (int face = 0; face < 6; ++face)
-        if (body.faces[face]) surfaces_.push_back(make_face(config, body, b, face));
+        if (body.faces[face]) surfaces_.push_back(make_face(domain, body, b, face));
     }
   }
   for (const Surface& s : surfaces_) contacts_ = std::min(contacts_ + most_contacts(s), kMostWallContacts);

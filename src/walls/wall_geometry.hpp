@@ -2,7 +2,8 @@
 #include <functional>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/domain.hpp"
+#include "bedload/case/config/walls.hpp"
 #include "bedload/parallel/buffer.hpp"
 #include "kernels/contact/wall_contacts.hpp"
 
@@ -16,10 +17,10 @@ namespace bedload::inline BL_VARIANT {
 /// a box or a plane, one for each part of a shape.
 class WallGeometry {
  public:
-  /// Of all bodies.
-  explicit WallGeometry(const Config& config) : WallGeometry(config, [](const WallBody&) { return true; }) {}
   /// Of those that `wanted` holds for.
-  WallGeometry(const Config& config, const std::function<bool(const WallBody&)>& wanted);
+  WallGeometry(
+      const std::vector<WallBody>& bodies, const DomainConfig& domain,
+      const std::function<bool(const WallBody&)>& wanted = [](const WallBody&) { return true; });
 
   const std::vector<Surface>& surfaces() const { return surfaces_; }
   /// Touches that one grain may have at once, at most kMostWallContacts.

@@ -3,11 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bedload/geometry/body.hpp"
-#include "bedload/geometry/sampling.hpp"
-#include "kernels/fluid/layer_force.hpp"
-#include "kernels/smoothing/registry.hpp"
-
 namespace bedload::inline BL_VARIANT {
 namespace {
 
@@ -34,65 +29,33 @@ struct PlaceImagesPass {
   BL_HD void operator()(Index i) const { x[i] = frame.wrap(placed[body[i]].place(x0[i])); }
 };
 
-WallKind kind_of(const WallBody& body) {
-  switch (body.type) {
-    case WallType::frozen:
-      return WallKind::frozen;
-    case WallType::mdbc:
-      return WallKind::mirrored;
-    case WallType::single_layer:
-      return WallKind::single_layer;
-    case WallType::adami:
-    case WallType::fluid_only:
-    case WallType::grains_only:
-      break;  // the last has no particles
-  }
-  return WallKind::extrapolated;
-}
-
 }  // namespace
 
-WallMotion::WallMotion(const Config& config, const FreeBodies& free)
-    : config_(config), free_(free), removed_(config.wall.bodies.size(), false) {
-  double depth = 0;  // of a single layer, m
-  if (config.fluid.present) with_fluid_kernel(config, [&](const auto& w) { depth = layer_depth(w); });
-  for (const WallBody& body : config.wall.bodies) {
-    laws_.emplace_back(body.motion, config.time.end);
-    BodyPose& p = still_.emplace_back();
-    p.free = std::uint32_t(free.place_of(int(still_.size()) - 1) + 1);
-    p.slip = body.slip == WallSlip::slip;
-    p.kind = kind_of(body);
-    p.repulsion = body.repels();
-    p.no_penetration = body.no_penetration && body.stops_fluid() && !body.single_layer();
-    p.slide = body.surface_velocity;
-    const double dx = config.wall.spacing(body);
-    if (config.fluid.present)
-      p.volume = body.single_layer() ? dx * config.domain.spacing_along(1, dx) * depth
-                                     : particle_volume(body, dx, config.domain);
-  }
-  for (const InletConfig& inlet : config.inlets) {
-    inlets_.emplace_back(inlet, config.fluid.dx, config.domain);
-    BodyPose& p = still_.emplace_back();
-    p.flows = 1;
-    p.volume = config.domain.cell_volume(config.fluid.dx);
-  }
+WallMotion::WallMotion(const WallMotionParameters& parameters, const FreeBodies& free)
+    : walls_(parameters.walls),
+      inlets_(parameters.inlets),
+      free_(free),
+      removed_(parameters.walls.size(), false) {
+  for (int b = 0; b < walls(); ++b) walls_[b].still.free = std::uint32_t(free.place_of(b) + 1);
+  coming_in_.flows = 1;
+  coming_in_.volume = parameters.inlet_volume;
 }
 
 BodyPose WallMotion::pose(int body, double t) const {
-  BodyPose p = still_[body];
+  BodyPose p = body < walls() ? walls_[body].still : coming_in_;
   RigidMotion& motion = p;
   if (body >= walls()) {
     motion = inlets_[body - walls()].motion(t);
     return p;
   }
-  motion = p.free ? free_.motion(int(p.free) - 1) : laws_[body].at(t);
+  motion = p.free ? free_.motion(int(p.free) - 1) : walls_[body].law.at(t);
   p.present = !removed_[body];
   return p;
 }
 
 bool WallMotion::moves() const {
   return !inlets_.empty() || free_.any() ||
-         std::any_of(laws_.begin(), laws_.end(), [](const MotionLaw& law) { return law.moves(); });
+         std::any_of(walls_.begin(), walls_.end(), [](const MovingWall& wall) { return wall.law.moves(); });
 }
 
 Span<BodyPose> WallMotion::rows(double t, double dt, int n, Buffer<BodyPose>& device) {
@@ -123,11 +86,9 @@ double WallMotion::prescribed_speed(double t) const {
   double top = 0;
   for (const InletFlow& inlet : inlets_) top = std::max(top, norm(inlet.motion(t).v));
   for (int b = 0; b < walls(); ++b) {
-    if (removed_[b] || !laws_[b].moves()) continue;
+    if (removed_[b] || !walls_[b].law.moves()) continue;
     const BodyPose p = pose(b, t);
-    const WallBody& body = config_.wall.bodies[b];
-    for (const auto& c : corners(body, config_.domain, particles_beyond(body, config_)))
-      top = std::max(top, norm(p.velocity(p.place(c))));
+    for (const Vec3d& c : walls_[b].reach) top = std::max(top, norm(p.velocity(p.place(c))));
   }
   return top;
 }
@@ -135,8 +96,7 @@ double WallMotion::prescribed_speed(double t) const {
 double WallMotion::lowest(int body, double t, const Vec3d& up) const {
   const BodyPose p = pose(body, t);
   double least = std::numeric_limits<double>::infinity();
-  for (const auto& c : corners(config_.wall.bodies[body], config_.domain))
-    least = std::min(least, dot(up, p.place(c)));
+  for (const Vec3d& c : walls_[body].corners) least = std::min(least, dot(up, p.place(c)));
   return least;
 }
 

@@ -1,10 +1,8 @@
 #pragma once
-#include "bedload/case/config.hpp"
-#include "bedload/motion/law.hpp"
 #include "bedload/parallel/loops.hpp"
 #include "bedload/particles/walls.hpp"
-#include "src/motion/inlet_flow.hpp"
 #include "src/walls/free_bodies.hpp"
+#include "src/walls/parameters.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -14,9 +12,9 @@ namespace bedload::inline BL_VARIANT {
 class WallMotion {
  public:
   /// `free` must outlive it.
-  WallMotion(const Config& config, const FreeBodies& free);
+  WallMotion(const WallMotionParameters& parameters, const FreeBodies& free);
 
-  int walls() const { return int(config_.wall.bodies.size()); }
+  int walls() const { return int(walls_.size()); }
   int bodies() const { return walls() + int(inlets_.size()); }
   std::vector<InletFlow>& inlets() { return inlets_; }
   /// Whether wall particles ever change place.
@@ -51,11 +49,10 @@ class WallMotion {
  private:
   Span<BodyPose> rows(double t, double dt, int n, Buffer<BodyPose>& device);
 
-  Config config_;
-  const FreeBodies& free_;
-  std::vector<BodyPose> still_;  ///< one a body: all but how it moves
-  std::vector<MotionLaw> laws_;  ///< one a wall
+  std::vector<MovingWall> walls_;
   std::vector<InletFlow> inlets_;
+  BodyPose coming_in_;  ///< of fluid on its way in, all but how it moves
+  const FreeBodies& free_;
   std::vector<bool> removed_;
   std::vector<BodyPose> host_;
   Buffer<BodyPose> along_, at_, in_step_;

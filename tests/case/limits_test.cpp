@@ -1,8 +1,11 @@
 #include "bedload/case/limits.hpp"
+#include "bedload/case/config.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "bedload/case/config.hpp"
 
 namespace bedload::test {
 namespace {

@@ -2,14 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 
+#include "bedload/case/contact_laws.hpp"
 #include "kernels/contact/registry.hpp"
 #include "kernels/drag/registry.hpp"
 #include "kernels/fluid/pair_terms.hpp"
 #include "kernels/smoothing/registry.hpp"
+#include "tests/support/contact_law.hpp"
 #include "tests/support/tolerance.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -95,7 +98,7 @@ void for_each_contact_law(F&& f) {
       for_each_name<RollingLaw>([&](RollingLaw rolling) {
         Config c = grains();
         c.contact.normal = normal, c.contact.tangential = sliding, c.contact.rolling = rolling;
-        f(make_contact_law(c));
+        f(contact_law_of(c));
       });
     });
   });
@@ -118,6 +121,34 @@ TEST(SmallContactLaws, GiveOppositeForcesThatKeepAngularMomentum) {
       const Vec3d total = cross(here.r, Vec3d(a.force)) + Vec3d(a.torque_i) + Vec3d(a.torque_j);
       EXPECT_LT(norm(total) / torque, tolerance(1e-12, 1e-6, 1e-6));
     }
+  });
+}
+
+/// What steps and softness follow from: two bodies that meet undamped, by the law's own force.
+TEST(SmallContactLaws, TellTheHostWhatTheirForcesDo) {
+  for_each_name<NormalLaw>([](NormalLaw normal) {
+    if (normal == NormalLaw::none) return;
+    Config c = grains();
+    c.contact.normal = normal;
+    const ContactLaw law = contact_law_of(c);
+    const double m = 1e-5, R = 5e-4, v = 0.1, E_star = 0.5 * c.grain.E / (1 - square(c.grain.nu));
+    const auto at = [&](double overlap) { return law.normal_state(Real(R), Real(m), Real(overlap)); };
+    const Impact hit = impact(c.contact, m, R, E_star, v);
+    const double dt = hit.duration / 5000;
+    double x = 0, u = v + 0.5 * dt * double(at(0).elastic) / m, t = 0, deepest = 0;
+    do {
+      x += dt * u, t += dt;
+      deepest = std::max(deepest, x);
+      if (x > 0) u -= dt * double(at(x).elastic) / m;
+    } while (x > 0 && t < 2 * hit.duration);
+    EXPECT_NEAR(t / hit.duration, 1, 2e-3);
+    EXPECT_NEAR(double(at(deepest).stiffness) / hit.stiffness, 1, 2e-3);
+    const double force = 1e-3, overlap = overlap_under(c.contact, force, R, E_star);
+    EXPECT_NEAR(double(at(overlap).elastic) / force, 1, 1e-5);
+    const bool softer_lasts = impact(c.contact, m, R, 0.5 * E_star, v).duration > hit.duration;
+    EXPECT_EQ(softer_lasts, takes_moduli(normal));
+    const Impact softer = impact(c.contact, m, R, 0.5 * E_star, v);
+    EXPECT_EQ(softer.duration > hit.duration, takes_moduli(normal));
   });
 }
 

@@ -1,10 +1,12 @@
 #include "bedload/motion/law.hpp"
+#include "bedload/case/config.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "bedload/case/config.hpp"
 #include "src/motion/formula_breaks.hpp"
 #include "src/motion/spline.hpp"
 #include "src/motion/survey.hpp"
@@ -140,7 +142,7 @@ TEST(MotionLaw, AgitatorPeaks) {  // T-43
     c.gravity = {};
     c.time.end = end;
     c.frame.motion = motion_of({part});
-    const EffectiveGravity effective(c);
+    const EffectiveGravity effective(c.gravity, c.frame.motion, c.time.end);
     const MotionLaw law(c.frame.motion, end);
     double v = 0, a = 0;
     for (int i = 200; i < 2800; ++i) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bedload/case/config.hpp"
 #include "bedload/simulation.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -162,7 +162,7 @@ TEST(PlaneFlow, HasTheViscosityOfTheFluid) {
     const double rate = std::log(before / after) / (2 * s->time());
     double along_centres =
         0;  // what a square lattice leaves of it there: sum V 4 F (x z / r)^2, 1 for a fluid
-    with_fluid_kernel(c, [&](const auto& w) {
+    with_fluid_kernel(c.fluid, c.domain, [&](const auto& w) {
       for (int i = -3; i <= 3; ++i)
         for (int j = -3; j <= 3; ++j)
           if (const double r = kDx * std::hypot(i, j); r > 0)

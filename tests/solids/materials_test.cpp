@@ -1,5 +1,6 @@
 // Grains of several materials among each other and on walls.
 #include "bedload/case/limits.hpp"
+#include "tests/support/contact_law.hpp"
 #include "tests/support/grain_bench.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -78,7 +79,7 @@ TEST(MaterialsSmall, FrictionIsTheMeanAndTheOwnOnWalls) {
 TEST(MaterialsSmall, StepsFollowTheStiffestAndLightest) {
   Config c = MixedBench().config;
   c.grain.d_min = c.grain.d_max = c.grain.d;
-  const auto rayleigh = [](const Config& config) { return substep_limits(config, 0.1)[0].seconds; };
+  const auto rayleigh = [](const Config& config) { return SubstepLimits(config).at(0.1)[0].seconds; };
   Config glass = c;
   glass.grain.materials.clear(), glass.grain.fills.resize(1);
   const double G0 = 1e8 / 2.6, G1 = 2e9 / 2.56;
@@ -95,7 +96,7 @@ TEST(DemocritusContact, DampsByRootTwoTimesCriticalAndSlidesBySofterSprings) {
   c.contact.normal = NormalLaw::democritus, c.contact.tangential = SlidingLaw::democritus;
   c.contact.rolling = RollingLaw::none, c.contact.clip_tension = false;
   c.grain.mu = 1e6;
-  const ContactLaw law = make_contact_law(c);
+  const ContactLaw law = contact_law_of(c);
   const Real R = Real(1.35e-3), m = Real(1e-5);
   const double overlap = 1e-6, distance = 2 * double(R) - overlap;
   const NormalState s = law.normal_state(R / 2, m / 2, Real(overlap));

@@ -19,7 +19,7 @@ TEST(Surfaces, NearestPointsOfABox) {
   Config c;
   c.domain.min = {-1, -1, -1}, c.domain.max = {1, 1, 1};
   c.wall.bodies = {box({0, 0, 0}, {0.2, 0.4, 0.6})};
-  const WallGeometry geometry(c);
+  const WallGeometry geometry(c.wall.bodies, c.domain);
   const auto& surfaces = geometry.surfaces();
   ASSERT_EQ(surfaces.size(), 1u);
   const Frame frame(c.domain.min, c.domain.max, false, false, false);
@@ -49,7 +49,7 @@ TEST(Surfaces, TankHasARectangleForEachListedFaceLookingInwards) {
   c.domain.min = {0, 0, 0}, c.domain.max = {1, 1, 1};
   c.wall.bodies = {box({0, 0, 0}, {1, 1, 1}, "tank")};
   c.wall.bodies[0].faces[5] = false;
-  const WallGeometry geometry(c);
+  const WallGeometry geometry(c.wall.bodies, c.domain);
   const auto& surfaces = geometry.surfaces();
   ASSERT_EQ(surfaces.size(), 5u);
   for (const Surface& s : surfaces) {
@@ -64,7 +64,7 @@ TEST(Surfaces, HaveNoEdgeAtAPeriodicBoundary) {
   b.config.domain.periodic = {true, false, false};
   b.config.wall.bodies = {box({-0.1, -0.1, -0.05}, {0.1, 0.1, 0}),
                           box({-0.1, -0.1, -0.05}, {0.1, 0.1, 0.05}, "tank")};
-  const WallGeometry geometry(b.config);
+  const WallGeometry geometry(b.config.wall.bodies, b.config.domain);
   for (const Surface& s : geometry.surfaces()) {
     bool endless = false;
     for (int k = 0; k < 3; ++k) endless = endless || (std::isinf(s.half[k]) && s.axis[k].x != 0);

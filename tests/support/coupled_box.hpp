@@ -4,6 +4,7 @@
 #include <random>
 #include <vector>
 
+#include "bedload/case/config.hpp"
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/smoothing/registry.hpp"
 #include "src/coupling/coupling.hpp"
@@ -97,8 +98,8 @@ struct CoupledBox {
   CoupledBox(const Config& c, const Cloud& cloud, const Pebbles& pebbles)
       : config(c),
         frame(c.domain.min, c.domain.max, c.domain.periodic[0], c.domain.periodic[1], c.domain.periodic[2]),
-        walls(c),
-        coupling(c, frame, walls) {
+        walls(c.wall.bodies, c.domain),
+        coupling(coupling_parameters(c), frame, walls) {
     fill(cloud);
     fill(pebbles);
     relist();

@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "bedload/case/config.hpp"
 #include "src/fluid/fluid_solver.hpp"
 #include "src/walls/wall_motion.hpp"
 
@@ -36,8 +37,8 @@ struct FluidBox {
   explicit FluidBox(const Config& config, double jitter = 0, bool random_mass = false)
       : config(config),
         frame(frame_of(config)),
-        geometry(config),
-        solver(FluidSolver::make(config, frame, geometry, fluid)) {
+        geometry(config.wall.bodies, config.domain),
+        solver(FluidSolver::make(fluid_parameters(config), frame, geometry, fluid)) {
     std::mt19937 rng(7);
     std::uniform_real_distribution<double> u(-1, 1);
     const double dx = config.fluid.dx;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 
+#include "bedload/case/config.hpp"
 #include "bedload/geometry/shape.hpp"
 #include "src/solids/solid_solver.hpp"
 #include "tests/support/tolerance.hpp"
@@ -72,8 +73,8 @@ class GrainBench {
     const auto& p = config.domain.periodic;
     frame_ = Frame(config.domain.min, config.domain.max, p[0], p[1], p[2]);
     grains = std::make_unique<GrainStore>();
-    walls = std::make_unique<WallGeometry>(config);
-    solver = std::make_unique<SolidSolver>(config, frame_, *walls, *grains);
+    walls = std::make_unique<WallGeometry>(config.wall.bodies, config.domain);
+    solver = std::make_unique<SolidSolver>(solid_parameters(config), frame_, *walls, *grains);
     grid = std::make_unique<CellGrid>(frame_, config.domain.min, config.domain.max, solver->range());
     grains->resize(Index(x.size()));
     std::vector<Id> id(x.size());

@@ -20,12 +20,7 @@ struct ClosestPoints {
   Frame frame{{-1, -1, -1}, {1, 1, 1}, false, false, false};
   BodyPose still;
 
-  static Config config_of(ShapePtr shape) {
-    Config c;
-    c.wall.bodies = {test::shaped("wall", shape)};
-    return c;
-  }
-  explicit ClosestPoints(ShapePtr shape) : walls(config_of(shape)) {}
+  explicit ClosestPoints(ShapePtr shape) : walls({test::shaped("wall", shape)}, {}) {}
 
   std::vector<ClosestPoint> operator()(const Vec3d& x, double reach) const {
     std::vector<ClosestPoint> points;

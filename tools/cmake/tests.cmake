@@ -42,8 +42,10 @@ if(host_tests)
 endif()
 
 if(BEDLOAD_PYTHON)
-  add_test(NAME tools COMMAND ${BEDLOAD_PYTHON} ${CMAKE_SOURCE_DIR}/tests/tools/tools_test.py)
-  set_tests_properties(tools PROPERTIES LABELS quick TIMEOUT 300)
+  foreach(test tools includes)
+    add_test(NAME ${test} COMMAND ${BEDLOAD_PYTHON} ${CMAKE_SOURCE_DIR}/tests/tools/${test}_test.py)
+    set_tests_properties(${test} PROPERTIES LABELS quick TIMEOUT 300)
+  endforeach()
   foreach(test schema docs)
     add_test(NAME ${test}
              COMMAND ${BEDLOAD_PYTHON} ${CMAKE_SOURCE_DIR}/tests/tools/${test}_test.py $<TARGET_FILE:bedload>)

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/coupling.hpp"
 
 namespace bedload {
 

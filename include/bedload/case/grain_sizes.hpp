@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/grains.hpp"
 
 namespace bedload {
 

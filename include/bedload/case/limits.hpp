@@ -3,19 +3,32 @@
 
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/contact.hpp"
 #include "bedload/simulation.hpp"
 
 namespace bedload {
 
-/// Longest stable step of a rolling spring [ai11] in a contact of the given stiffness (N/m), s; inertia:
-/// reduced, about the contact, kg m2. Infinite without rolling friction.
-double rolling_limit(double stiffness, double mu_r, double R_star, double inertia);
+/// What bounds a substep of the grains of a case: Rayleigh time, contact duration, rolling and films of the
+/// smallest of each material, each times its fraction (time.rayleigh, time.contact).
+class SubstepLimits {
+ public:
+  explicit SubstepLimits(const Config& config);
+  /// With impacts at `speed` (m/s), or at what gravity gives over a diameter if that is more.
+  std::vector<StepLimit> at(double speed) const;
 
-/// Rayleigh time, contact duration and rolling of the smallest grains, each times its fraction
-/// (time.rayleigh, time.contact), s; impacts at `speed` (m/s), or at what gravity gives over a diameter if
-/// that is more.
-std::vector<StepLimit> substep_limits(const Config& config, double speed);
+ private:
+  /// Two that may touch.
+  struct Pair {
+    double mass, R, E_star;  ///< reduced, kg; m; Pa
+    double e;                ///< restitution
+    double mu_r, inertia;    ///< of rolling; reduced, about the contact, kg m2
+  };
+  std::vector<Pair> pairs_;
+  ContactConfig contact_;
+  double fraction_;         ///< of a contact's duration
+  double least_speed_;      ///< m/s
+  double rayleigh_, film_;  ///< s
+};
 
 /// The same of grains at rest, known before anything moves; the least binds. Empty without grains or
 /// contacts.

@@ -3,7 +3,8 @@
 
 #include <cmath>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/grains.hpp"
+#include "bedload/case/config/walls.hpp"
 
 namespace bedload {
 
@@ -19,8 +20,8 @@ struct ElasticCompliance {
 };
 
 /// Of a wall body: its own material, or that of the grains where it names none.
-inline ElasticCompliance wall_compliance(const Config& config, const WallBody& body) {
-  return {body.E > 0 ? body.E : config.grain.E, std::isfinite(body.nu) ? body.nu : config.grain.nu};
+inline ElasticCompliance wall_compliance(const WallBody& body, const GrainConfig& grain) {
+  return {body.E > 0 ? body.E : grain.E, std::isfinite(body.nu) ? body.nu : grain.nu};
 }
 
 }  // namespace bedload

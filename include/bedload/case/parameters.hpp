@@ -11,12 +11,15 @@
 #include <variant>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/choices.hpp"
+#include "bedload/case/config/motion.hpp"
 
 namespace bedload {
 
+struct Config;
+
 /// Allowed numbers.
-struct Range {
+struct Interval {
   double lo = -std::numeric_limits<double>::infinity();
   double hi = std::numeric_limits<double>::infinity();
   bool lo_open = true, hi_open = true;
@@ -24,12 +27,12 @@ struct Range {
   bool holds(double x) const { return (lo_open ? x > lo : x >= lo) && (hi_open ? x < hi : x <= hi); }
   /// "within 0..1", "> 0", ">= 0", "> -1 and < 0.5"; empty if everything is allowed.
   std::string text() const;
-  bool operator==(const Range&) const = default;
+  bool operator==(const Interval&) const = default;
 };
-inline Range above(double lo) { return {.lo = lo}; }
-inline Range at_least(double lo) { return {.lo = lo, .lo_open = false}; }
-inline Range within(double lo, double hi) { return {lo, hi, false, false}; }
-inline Range above_to(double lo, double hi) { return {lo, hi, true, false}; }
+inline Interval above(double lo) { return {.lo = lo}; }
+inline Interval at_least(double lo) { return {.lo = lo, .lo_open = false}; }
+inline Interval within(double lo, double hi) { return {lo, hi, false, false}; }
+inline Interval above_to(double lo, double hi) { return {lo, hi, true, false}; }
 
 /// A named choice: a law, a model, a shape.
 struct Choice {
@@ -47,7 +50,7 @@ enum class Presence {
 struct About {
   std::string_view unit = "-";
   std::string_view meaning;
-  Range range = {};
+  Interval range = {};
   std::string_view hint = {};      ///< added to the error after a semicolon
   std::string_view fallback = {};  ///< default in words, where it is not a plain value
   Presence presence = Presence::defaulted;
@@ -77,7 +80,7 @@ class Parameters {
   template <class E>
   void operator()(std::string_view key, Chosen<E>* value, About about) {
     for (const auto& row : kNames<E>)
-      about.choices.push_back({std::string(row.name), std::string(row.meaning)});
+      about.choices.push_back(Choice{std::string(row.name), std::string(row.meaning)});
     std::string name = value->name();
     (*this)(key, Slot(&name), about);
     *value = name;
@@ -131,7 +134,7 @@ struct ParameterRow {
   std::string formerly = {};  ///< key in the version before, where it was another
   std::string path = {};      ///< the key with [] behind lists: "wall.body[].motion.add[].kind"
   ValueKind kind = ValueKind::text;
-  Range range = {};  ///< all numbers where it depends on other keys; `allowed` is that of a case of defaults
+  Interval range = {};  ///< all numbers where it depends on other keys; `allowed` is that of a case of defaults
   std::string or_else = {};
   bool fixed_default = false;  ///< `fallback` is a value, not words
   bool required = false;       ///< wherever its table is, whatever else that holds

@@ -7,7 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/domain.hpp"
+#include "bedload/case/config/grains.hpp"
 #include "bedload/core/vec.hpp"
 
 namespace bedload {

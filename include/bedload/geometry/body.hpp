@@ -4,7 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/domain.hpp"
+#include "bedload/case/config/fluid.hpp"
+#include "bedload/case/config/walls.hpp"
 
 namespace bedload {
 
@@ -47,7 +49,7 @@ std::array<double, 6> shifted_inertia(const std::array<double, 6>& inertia, doub
 std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& domain);
 
 /// How far beyond the box around a wall body its particles or their images may lie, m.
-double particles_beyond(const WallBody& body, const Config& config);
+double particles_beyond(const WallBody& body, const FluidConfig& fluid);
 
 /// The corners of the box around a wall body, or of the domain for a plane, each moved `beyond` (m) outwards;
 /// those of a plane flow in its middle.

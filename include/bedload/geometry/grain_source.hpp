@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/openings.hpp"
 
 namespace bedload {
+
+struct Config;
 
 /// One [[grain_inlet]]: when a grain is due, how large it is and where it may go. The n-th grain always has
 /// the same size; each round of places is drawn anew. Depends on grain.seed alone.
@@ -23,6 +25,7 @@ class GrainSource {
   };
   State state;
 
+  const std::string& name() const { return inlet_.name; }
   double radius() const { return radius_; }             ///< of the next grain, m
   std::uint32_t material() const { return material_; }  ///< place in GrainConfig::all_materials
   Vec3d velocity() const { return inlet_.velocity; }

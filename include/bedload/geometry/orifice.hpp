@@ -4,10 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/domain.hpp"
+#include "bedload/case/config/fluid.hpp"
+#include "bedload/case/config/openings.hpp"
 #include "bedload/host_data.hpp"
 
 namespace bedload {
+
+struct Config;
 
 /// m2
 double orifice_area(const InletConfig& inlet);
@@ -31,7 +35,7 @@ OrificeWidth orifice_width(const InletConfig& inlet, double dx, const DomainConf
 
 /// Layers of that thickness (m) that wait upstream of an orifice: they fill the reach of the kernel however
 /// far the foremost has come.
-int buffer_layers(const FluidConfig& fluid, double thickness);
+int buffer_layers(const FluidProperties& fluid, double thickness);
 
 /// Adds the buffers of all inlets behind the wall particles, layer after layer from the orifice back; the
 /// first lies half its thickness upstream of it. Their bodies follow those of the walls. Throws CaseError

@@ -4,10 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/domain.hpp"
+#include "bedload/case/config/walls.hpp"
 #include "bedload/host_data.hpp"
 
 namespace bedload {
+
+struct Config;
 
 /// Wall particles of `body` at t = 0, m: the part of its solid that lies within `depth`
 /// of its surface, on a lattice of about `spacing` that divides every side evenly, first

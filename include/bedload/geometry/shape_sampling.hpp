@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/domain.hpp"
 #include "bedload/geometry/shape.hpp"
 
 namespace bedload {

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/domain.hpp"
+#include "bedload/case/config/walls.hpp"
 #include "bedload/geometry/shape.hpp"
 
 namespace bedload {

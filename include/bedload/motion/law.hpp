@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/motion.hpp"
 #include "bedload/core/rigid_motion.hpp"
 
 namespace bedload {
@@ -36,8 +36,9 @@ class MotionLaw {
 /// Effective gravity in the frame of the case, g - a_frame(t).
 class EffectiveGravity {
  public:
-  explicit EffectiveGravity(const Config& config)
-      : gravity_(config.gravity), frame_(config.frame.motion, config.time.end) {}
+  /// Of a frame that moves like that; `until`: end of the time of interest, s.
+  EffectiveGravity(const Vec3d& gravity, const MotionConfig& frame, double until)
+      : gravity_(gravity), frame_(frame, until) {}
 
   Vec3d at(double t) const { return gravity_ - frame_.at(t).a; }  ///< m/s2
   /// At t + k dt / n for k = 0..n.

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "bedload/core/error.hpp"
+#include "tests/support/contact_law.hpp"
 #include "tests/support/tolerance.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -21,7 +22,7 @@ Config glass() {
 }
 
 TEST(ContactLaw, HertzForceAndStiffnessByHand) {
-  const ContactLaw law = make_contact_law(glass());
+  const ContactLaw law = contact_law_of(glass());
   const double overlap = 1e-6, R = 0.5 * kRadius, E = 1e8 / (2 * 0.91);
   const NormalState s = law.normal_state(Real(R), kGrain.m / 2, Real(overlap));
   const double force = 4.0 / 3 * E * std::sqrt(R) * std::pow(overlap, 1.5);
@@ -40,22 +41,22 @@ bool composed_as(const std::vector<ContactLaw>& laws) {
 TEST(ContactLaw, IsComposedOfWhatActs) {
   Config c = glass();
   c.contact.rolling = "cdt", c.grain.mu_r = 0.1;
-  const ContactLaw rolls = make_contact_law(c);
+  const ContactLaw rolls = contact_law_of(c);
   EXPECT_TRUE((composed_as<ContactLawOf<Hertz, Mindlin, ConstantRolling>>({rolls, rolls})));
   c.grain.mu_r = 0, c.contact.normal = "democritus", c.contact.tangential = "democritus";
-  const ContactLaw slides = make_contact_law(c);
+  const ContactLaw slides = contact_law_of(c);
   EXPECT_TRUE((composed_as<ContactLawOf<Hertz, Mindlin, NoRolling>>({slides})));
   EXPECT_TRUE((composed_as<ContactLaw>({rolls, slides}))) << "no composition is both";
   c.contact.normal = "linear", c.contact.tangential = "linear", c.contact.k = 1e4;
-  EXPECT_TRUE((composed_as<ContactLaw>({make_contact_law(c)})));
+  EXPECT_TRUE((composed_as<ContactLaw>({contact_law_of(c)})));
 }
 
 TEST(ContactLaw, PaperDampingIsRootSixTimesTheRatio) {
   Config c = glass();
   c.contact.clip_tension = false;
-  const Real exact = make_contact_law(c).normal.alpha;
+  const Real exact = contact_law_of(c).normal.alpha;
   c.contact.he_damping = true;
-  EXPECT_NEAR(make_contact_law(c).normal.alpha / exact, std::sqrt(6.0 / 5.0), 1e-6);
+  EXPECT_NEAR(contact_law_of(c).normal.alpha / exact, std::sqrt(6.0 / 5.0), 1e-6);
 }
 
 TEST(ContactLaw, RefusesALinearSpringThatCannotDampEnough) {
@@ -63,15 +64,15 @@ TEST(ContactLaw, RefusesALinearSpringThatCannotDampEnough) {
   c.contact.normal = "linear";
   c.contact.k = 1000;
   c.grain.e = 0.1;
-  EXPECT_THROW(make_contact_law(c), CaseError);
+  EXPECT_THROW(contact_law_of(c), CaseError);
   c.contact.clip_tension = false;
-  EXPECT_NO_THROW(make_contact_law(c));
+  EXPECT_NO_THROW(contact_law_of(c));
   c.contact.k = 0;
-  EXPECT_THROW(make_contact_law(c), CaseError);
+  EXPECT_THROW(contact_law_of(c), CaseError);
 }
 
 TEST(ContactLaw, ClippedForceNeverPulls) {
-  const ContactLaw law = make_contact_law(glass());
+  const ContactLaw law = contact_law_of(glass());
   ContactHistory h;
   const ContactGeometry at = touch(kGrain, kGrain, {2 * kRadius - 1e-7, 0, 0}, 2 * kRadius - 1e-7, 1e-7);
   EXPECT_EQ(law(at, {10, 0, 0}, {}, {}, 0, h).force.x, 0);
@@ -83,12 +84,11 @@ TEST(ContactLaw, MindlinDeresiewiczStartsAtMindlinStiffnessAndEndsAtCoulomb) {
   Config c = glass();
   c.contact.rolling = "none";
   c.contact.tangential = "mindlin_deresiewicz";
-  const ContactLaw md = make_contact_law(c);
+  const ContactLaw md = contact_law_of(c);
   const double overlap = 1e-6, gap = 2 * double(kRadius) - overlap;
   const ContactGeometry at = touch(kGrain, kGrain, {gap, 0, 0}, gap, overlap);
   c.contact.tangential = "mindlin";
-  const double stiffness =
-      8 * double(make_contact_law(c).sliding.G_star) * std::sqrt(0.5 * kRadius * overlap);
+  const double stiffness = 8 * double(contact_law_of(c).sliding.G_star) * std::sqrt(0.5 * kRadius * overlap);
 
   const double longest = md.sliding.longest(overlap), small = longest * 1e-7;
   ContactHistory h{{0, small, 0}, {}, overlap};
@@ -109,7 +109,7 @@ TEST(ContactLaw, SlidingIsLimitedAndTheSpringFollows) {
   c.contact.rolling = "none";
   for (const char* name : {"mindlin", "linear"}) {
     c.contact.tangential = name;
-    const ContactLaw law = make_contact_law(c);
+    const ContactLaw law = contact_law_of(c);
     const double overlap = 1e-6, gap = 2 * double(kRadius) - overlap;
     const ContactGeometry at = touch(kGrain, kGrain, {0, 0, gap}, gap, overlap);
     ContactHistory h{{1e-3, 0, 0}, {}, overlap};
@@ -126,7 +126,7 @@ TEST(ContactLaw, RigidRotationDoesNotSlide) {
   Config c = glass();
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
-  const ContactLaw law = make_contact_law(c);
+  const ContactLaw law = contact_law_of(c);
   for (int k = 0; k < 100; ++k) {
     const Vec3d direction{normal(random), normal(random), normal(random)},
         spin{normal(random), normal(random), normal(random)};
@@ -148,7 +148,7 @@ TEST(ContactLaw, SpringAndCoupleTurnWithTheContact) {
   c.grain.mu = 5;
   c.grain.mu_r = 1;
   c.contact.clip_tension = false;
-  const ContactLaw law = make_contact_law(c);
+  const ContactLaw law = contact_law_of(c);
   const double overlap = 1e-5, gap = 2 * double(kRadius) - overlap;
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
@@ -227,7 +227,7 @@ TEST(ContactLaw, ClosedCyclesNeverGainWork) {
     for (std::size_t k = 0; k < cycles.size(); ++k) {
       c.grain.mu = mu;
       double spent = 0;
-      const double work = work_of_cycle(make_contact_law(c), cycles[k], &spent);
+      const double work = work_of_cycle(contact_law_of(c), cycles[k], &spent);
       EXPECT_GT(work, -tolerance(1e-6, 1e-5, 1e-5) * spent)
           << "cycle " << k << ", mu " << mu << ": work came out";
       if (k + 1 == cycles.size()) {
@@ -252,7 +252,7 @@ TEST(ContactLaw, CapKeepsTheConstantCoupleFromTurningTheSpinRound) {
 
 TEST(ContactLaw, WallIsTheLimitOfAHugePartner) {
   Config c = glass();
-  const ContactLaw law = make_contact_law(c);
+  const ContactLaw law = contact_law_of(c);
   const Sphere huge{Real(1e6) * kRadius, Real(1e18) * kGrain.m};
   const double overlap = 1e-6, gap = double(kRadius) + double(huge.R) - overlap;
   ContactHistory h, w;

@@ -11,10 +11,7 @@ namespace {
 constexpr double kTight = tolerance(1e-12, 2e-6, 2e-6);
 
 Lubrication film(LubricationForces forces, double cut_off = 1, double least_gap = 0.01) {
-  Config c;
-  c.fluid.mu = 0.5;
-  c.lubrication = {forces, cut_off, least_gap};
-  return Lubrication::of(c);
+  return Lubrication::of({forces, cut_off, least_gap}, 0.5);
 }
 
 /// Two spheres along z, i above j.

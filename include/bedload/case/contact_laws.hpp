@@ -1,10 +1,10 @@
 #pragma once
-// What the host knows of the laws of contact.normal: bounds of e, impacts, softness. Their forces are in
-// kernels/contact/normal.hpp.
+// What the host asks of the contact laws that a case names: bounds of e, impacts, softness, steps. They
+// answer where they are written, in kernels/contact/.
 
 #include <limits>
 
-#include "bedload/case/config.hpp"
+#include "bedload/case/config/contact.hpp"
 
 namespace bedload {
 
@@ -23,10 +23,12 @@ struct Impact {
 /// the contact of linear springs.
 Impact impact(const ContactConfig& contact, double m, double R, double E, double v, double e = 1);
 
-/// By Hertz's law; v > 0.
-Impact hertz_impact(double m, double R, double E, double v);
-
 /// Overlap under a force at rest (N), m; 0 where there is no contact. R, E as above.
 double overlap_under(const ContactConfig& contact, double force, double R, double E);
+
+/// Longest stable step of rolling friction in a contact of the given stiffness (N/m), s; inertia: reduced,
+/// about the contact, kg m2. Infinite where rolling has no spring.
+double rolling_limit(const ContactConfig& contact, double stiffness, double mu_r, double R_star,
+                     double inertia);
 
 }  // namespace bedload

@@ -1,0 +1,31 @@
+#pragma once
+// Forces between grains, and between grains and walls.
+
+#include "bedload/case/choices.hpp"
+
+namespace bedload {
+
+struct ContactConfig {
+  Chosen<NormalLaw> normal = NormalLaw::hertz;
+  Chosen<SlidingLaw> tangential = SlidingLaw::mindlin;
+  Chosen<RollingLaw> rolling = RollingLaw::epsd;
+  double k = 0;                                ///< N/m, linear only
+  double kt_ratio = 2.0 / 7.0;
+  double tangential_damping = 1;               ///< fraction of c_n sqrt(S_t/S_n) that damps friction's spring
+  double eta_r = 0.3;
+  bool clip_tension = true;
+  bool he_damping = false;                     ///< paper.he_damping: sqrt(6) prefactor of He et al. (20b)
+  bool cap_rolling = true;                     ///< the stabilising cap on cdt; off only for tests
+  bool operator==(const ContactConfig&) const = default;
+};
+
+/// Forces of the fluid that grains squeeze out from between them.
+struct LubricationConfig {
+  Chosen<LubricationForces> forces = LubricationForces::none;
+  double cut_off = 1;                          ///< gap beyond which there is none / R*
+  double least_gap = 0.01;                     ///< gap below which it grows no further / R*
+  bool acts() const { return forces != LubricationForces::none; }
+  bool operator==(const LubricationConfig&) const = default;
+};
+
+}  // namespace bedload

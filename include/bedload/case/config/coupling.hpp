@@ -1,0 +1,34 @@
+#pragma once
+// What fluid and grains do to each other.
+
+#include <vector>
+
+#include "bedload/case/choices.hpp"
+
+namespace bedload {
+
+/// drag.law = table: drag on a grain over its Stokes drag, by porosity and superficial Reynolds number.
+struct DragTable {
+  std::vector<double> porosity, reynolds;      ///< rising; reynolds from 0
+  std::vector<double> factor;                  ///< K / (3 pi mu d), a row over reynolds for each porosity
+  bool operator==(const DragTable&) const = default;
+};
+
+struct CouplingConfig {
+  Chosen<CouplingMode> mode = CouplingMode::two_way;
+  double hc = 0;                               ///< m (default max(h, 2 d_max 2/kappa))
+  double eps_min = 0.25;
+  Chosen<CouplingKernel> kernel = CouplingKernel::fluid;  ///< by which grains and fluid weigh each other
+  bool wall_normalise = true;                  ///< a grain's volume lies in the kernel's fraction that walls leave free
+  double spreading = 0.01;                     ///< how fast fluid that overfills its volume grows denser, c/h
+  double S_dry = 0.05, S_wet = 0.95;
+  bool torque = true;
+  bool angmom = true;
+  Chosen<DragSlip> slip = DragSlip::mean;      ///< that drag follows
+  Chosen<DragLaw> drag = DragLaw::di_felice;
+  DragTable table;                             ///< of law = table
+  Chosen<DragIntegrator> integrator = DragIntegrator::exponential;
+  bool operator==(const CouplingConfig&) const = default;
+};
+
+}  // namespace bedload

@@ -1,0 +1,110 @@
+#pragma once
+// Grains: what they are made of, where they are at the start.
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bedload/case/config/shapes.hpp"
+
+namespace bedload {
+
+/// Grain sizes: one of several entries, each with a number fraction; one diameter or a distribution.
+struct SizeClass {
+  double d = 0;                                ///< class: diameter, m
+  double number_fraction = 1;                  ///< of the grains, relative to the other entries
+  std::string kind = "class";                  ///< class, uniform, log_normal, sieve
+  double d_min = 0, d_max = 0;                 ///< uniform, log_normal: ends, m
+  double median = 0;                           ///< log_normal: m
+  double sigma = 0;                            ///< log_normal: standard deviation of ln d
+  std::vector<double> openings{};              ///< sieve: of its meshes, m
+  std::vector<double> passing{};               ///< sieve: fraction of the mass that each lets through
+  bool operator==(const SizeClass&) const = default;
+};
+
+/// Grains that keep their places among each other and move as one body.
+struct RigidConfig {
+  bool present = false;
+  std::string move = "all";                    ///< all, plane (across axis), axis (along it), none
+  std::string turn = "all";                    ///< all, axis, none
+  Vec3d axis{0, 0, 1};                         ///< unit (resolved)
+  bool operator==(const RigidConfig&) const = default;
+};
+
+/// Where grains come from: thrown at random into a box or a shape, then settled; or given one by one.
+struct GrainFill {
+  Vec3d min, max;                              ///< m; of a shape or a file: around it (resolved)
+  std::string shape;                           ///< name of a shape to fill instead of a box
+  Solid solid;                                 ///< resolved
+  std::int64_t count = 0;                      ///< exactly one of count, mass, packing_fraction
+  double mass = 0;                             ///< kg
+  double packing_fraction = 0;
+  std::vector<SizeClass> sizes;                ///< default: one class, grain.d
+  std::vector<Vec3d> positions;                ///< explicit centres instead of random ones, m
+  Vec3d velocity;                              ///< m/s
+  Vec3d spin{};                                ///< rad/s
+  std::vector<Vec3d> velocities{}, spins{};    ///< of `positions`, one each: m/s, rad/s
+  std::vector<double> every{};                 ///< x, y, z: each so many sites of the fluid's lattice carry a grain; empty: not on the lattice
+  bool relative = false;                       ///< positions, also those of a file, are fractions of the domain
+  bool replaces_fluid = false;                 ///< each grain takes the place of the nearest fluid particle
+  std::string material{};                      ///< which of grain.material; empty: grain.*
+  std::string file{};                          ///< grains instead of a box; absolute (resolved)
+  std::int64_t step = -1;                      ///< frame of a .vtkhdf file; -1: the last
+  RigidConfig rigid{};
+  bool operator==(const GrainFill&) const = default;
+};
+
+/// What grains of a fill are made of; 0 and infinity: as grain.* (until resolved).
+struct GrainMaterial {
+  std::string name;
+  double rho = 0;                              ///< kg/m3
+  double E = 0;                                ///< Pa
+  double nu = std::numeric_limits<double>::infinity();
+  double mu = std::numeric_limits<double>::infinity();
+  bool operator==(const GrainMaterial&) const = default;
+};
+
+struct GrainConfig {
+  bool present = false;
+  double d = 0;                                ///< m
+  double rho = 2500;                           ///< kg/m3
+  double E = 1e8;                              ///< Pa
+  double nu = 0.3;
+  double mu = 0.3;                             ///< sliding friction
+  double mu_r = 0.01;                          ///< rolling friction
+  double e = 0.9;                              ///< restitution
+  std::uint64_t seed = 1;
+  bool settle = false;                         ///< settle before t = 0
+  double settle_time = 0;                      ///< longest settling, s (0: 20 sqrt(2 H / g))
+  double settle_mu = std::numeric_limits<double>::infinity();  ///< sliding friction meanwhile (default mu)
+  double release_time = 0;                     ///< grains are held until then, s
+  bool fixed = false;                          ///< grains never move
+  double d_max = 0, d_min = 0;                 ///< m (resolved)
+  std::vector<GrainFill> fills;
+  std::vector<GrainMaterial> materials;        ///< beside that of grain.*
+  double largest() const { return d_max > 0 ? d_max : d; }   ///< diameter, m
+  double smallest() const { return d_min > 0 ? d_min : d; }  ///< diameter, m
+  /// All of them as they are numbered: first that of grain.*.
+  std::vector<GrainMaterial> all_materials() const {
+    std::vector<GrainMaterial> all{{"", rho, E, nu, mu}};
+    all.insert(all.end(), materials.begin(), materials.end());
+    return all;
+  }
+  /// Its number; that of grain.* for a name that is none.
+  std::uint32_t material(const std::string& name) const {
+    for (std::size_t k = 0; k < materials.size(); ++k)
+      if (materials[k].name == name) return std::uint32_t(k + 1);
+    return 0;
+  }
+  /// Of the fills that move as one body each, their places.
+  std::vector<int> rigid_fills() const {
+    std::vector<int> all;
+    for (std::size_t k = 0; k < fills.size(); ++k)
+      if (fills[k].rigid.present) all.push_back(int(k));
+    return all;
+  }
+  bool operator==(const GrainConfig&) const = default;
+};
+
+}  // namespace bedload

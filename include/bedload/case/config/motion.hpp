@@ -1,0 +1,49 @@
+#pragma once
+// How walls and the domain move.
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bedload/core/vec.hpp"
+
+namespace bedload {
+
+/// A row of a motion table: t (s), x, y, z (m), rotation vector (deg).
+using MotionRow = std::array<double, 7>;
+
+/// One part of a motion. Its t counts from start.
+struct MotionPart {
+  std::string kind = "fixed";                  ///< fixed, velocity, oscillation, rotation, table, formula
+  Vec3d velocity;                              ///< velocity: m/s
+  Vec3d amplitude;                             ///< oscillation: displacement amplitude, m
+  double frequency = 0;                        ///< oscillation: Hz
+  Vec3d axis, centre;                          ///< rotation: unit axis; centre of any turning, m
+  double rate = 0;                             ///< rotation: rad/s
+  std::string file;                            ///< table: CSV file; its rows replace it when the case is read
+  std::vector<MotionRow> rows;                 ///< table
+  std::string spline = "smooth";               ///< table: smooth, monotone
+  std::array<std::string, 3> displacement{"0", "0", "0"};  ///< formula: in t, m
+  std::array<std::string, 3> rotation{"0", "0", "0"};      ///< formula: in t, rotation vector, deg
+  double start = 0;                            ///< s
+  double stop = std::numeric_limits<double>::infinity();  ///< s
+  bool operator==(const MotionPart&) const = default;
+};
+
+/// How a body moves: by its own part and those added. Evaluated on the host into one pose and velocity.
+struct MotionConfig : MotionPart {
+  bool remove_when_clear = false;              ///< deleted once above all fluid and grains
+  std::vector<MotionPart> add;                 ///< translations add, rotations follow in this order
+  bool moves() const { return kind != "fixed" || !add.empty(); }
+  bool operator==(const MotionConfig&) const = default;
+};
+
+/// How the domain itself moves: translation only. The effective gravity is then g - a_frame.
+struct FrameConfig {
+  MotionConfig motion;
+  double acceleration = 0;                     ///< largest, m/s2 (resolved)
+  bool operator==(const FrameConfig&) const = default;
+};
+
+}  // namespace bedload

@@ -1,0 +1,41 @@
+#pragma once
+// What a run measures and writes.
+
+#include <string>
+#include <vector>
+
+#include "bedload/core/vec.hpp"
+
+namespace bedload {
+
+/// What is measured along the way; one CSV file each under probes/.
+struct ProbeConfig {
+  std::string name;
+  std::string type;                            ///< front, point, height, box, force, wall_pressure
+  std::string phase = "fluid";                 ///< front, box: fluid, grains
+  int axis = 0;                                ///< front: 0, 1, 2
+  int sign = 1;                                ///< front: +1 largest coordinate, -1 smallest
+  Vec3d at;                                    ///< point, height, wall_pressure: at t = 0, m
+  Vec3d min, max;                              ///< box: m
+  std::string body;                            ///< force, wall_pressure: wall body; point: that carries it
+  double radius = 0;                           ///< wall_pressure: of a disc, m; 0: a rectangle
+  std::vector<double> size;                    ///< wall_pressure: sides of the rectangle, m
+  std::vector<double> count;                   ///< wall_pressure: patches along them; empty: one
+  Vec3d normal;                                ///< wall_pressure: unit, into the fluid (resolved)
+  Vec3d along;                                 ///< wall_pressure: unit, of the first side (resolved)
+  Vec3d about;                                 ///< force: torque about this point, m
+  double every = 0;                            ///< s; 0: out.every
+  bool operator==(const ProbeConfig&) const = default;
+};
+
+struct OutputConfig {
+  double every = 0;                            ///< s
+  double diagnostics_every = 0;                ///< s (default out.every)
+  double checkpoint_every = 0;                 ///< s; 0: only at the end
+  bool walls = true;                           ///< write walls.vtkhdf
+  std::string bodies = "moving";               ///< bodies/*.csv of moving, all, none
+  std::vector<ProbeConfig> probes;
+  bool operator==(const OutputConfig&) const = default;
+};
+
+}  // namespace bedload

@@ -1,0 +1,46 @@
+#pragma once
+// Solids with a name.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bedload/core/vec.hpp"
+
+namespace bedload {
+
+class Shape;
+
+/// The solid that a name stands for, built when a case is resolved. No part of what makes two cases equal.
+struct Solid {
+  std::shared_ptr<const Shape> shape;
+  bool operator==(const Solid&) const { return true; }
+};
+
+/// A solid with a name: walls are made of it, fluid and grains fill it.
+struct ShapeConfig {
+  std::string name;
+  std::string kind = "box";                    ///< see describe_shapes.cpp
+  Vec3d min, max;                              ///< box: m
+  Vec3d centre;                                ///< sphere: m
+  Vec3d a, b;                                  ///< ends of the axis of capsule, cylinder, cone, pipe: m
+  double radius = 0;                           ///< m; pipe: of the bore
+  double radius_a = 0, radius_b = 0;           ///< cone: m
+  double thickness = 0;                        ///< wall of pipe and hollow, m
+  std::string ends = "open";                   ///< pipe: open, closed_a, closed_b, closed
+  std::string file;                            ///< mesh: STL, OBJ or PLY
+  std::string digest;                          ///< of the file, hexadecimal; checked where it is given
+  bool repair = false;                         ///< mesh
+  std::vector<std::string> of;                 ///< hollow, union, difference: shapes listed before
+  double facet = 0;                            ///< difference: width of its triangles, m; 0: by its size
+  double scale = 1;
+  Vec3d turn_axis{0, 0, 1};
+  double turn_angle = 0;                       ///< deg
+  Vec3d translate;                             ///< m
+  std::int64_t pieces = 1;                     ///< primitives in it, each as often as it is named (resolved)
+  Solid solid;                                 ///< resolved
+  bool operator==(const ShapeConfig&) const = default;
+};
+
+}  // namespace bedload

@@ -1,0 +1,31 @@
+#pragma once
+// What open boundaries take from a case.
+
+#include <vector>
+
+#include "bedload/case/config/domain.hpp"
+#include "bedload/case/config/fluid.hpp"
+#include "bedload/case/config/grains.hpp"
+#include "bedload/case/config/openings.hpp"
+#include "bedload/case/config/walls.hpp"
+#include "bedload/geometry/grain_source.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+struct OpenBoundaryParameters {
+  bool has_fluid = false, has_grains = false;
+  DomainConfig domain;
+  FluidProperties fluid;
+  std::vector<OutletConfig> outlets;
+  std::vector<GrainSource> sources;
+  std::vector<GrainMaterial> materials;  ///< of grains, as they are numbered
+  std::vector<WallBody> walls;           ///< of which grains that are dropped must be clear
+  double d_max = 0;                      ///< of grains, m
+
+  double fluid_mass() const {
+    return fluid.rho0 * domain.cell_volume(fluid.dx);
+  }  ///< of a particle let in, kg
+};
+OpenBoundaryParameters open_boundary_parameters(const Config& config);
+
+}  // namespace bedload::inline BL_VARIANT

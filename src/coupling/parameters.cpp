@@ -1,0 +1,17 @@
+#include "src/coupling/parameters.hpp"
+
+#include "bedload/case/config.hpp"
+#include "src/boundaries/orifices.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+CouplingParameters coupling_parameters(const Config& config) {
+  return {.couple = config.couple,
+          .fluid = config.fluid,
+          .materials = config.grain.all_materials(),
+          .orifices = orifices_of(config.inlets, config.wall.bodies.size(), config.fluid.dx, config.domain),
+          .drag_fraction = config.time.drag,
+          .counts_grains = config.density.count_grains};
+}
+
+}  // namespace bedload::inline BL_VARIANT

@@ -1,0 +1,63 @@
+#include "src/solids/parameters.hpp"
+
+#include <cmath>
+
+#include "bedload/case/config.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// Between grains of two materials, with the mean of their friction.
+ContactLaw law_between(const GrainMaterial& a, const GrainMaterial& b, const Config& config) {
+  const ElasticCompliance i(a.E, a.nu), j(b.E, b.nu);
+  return make_contact_law({.normal = i.normal + j.normal,
+                           .tangential = i.tangential + j.tangential,
+                           .nu = 0.5 * (a.nu + b.nu),
+                           .mu = 0.5 * (a.mu + b.mu),
+                           .mu_r = config.grain.mu_r,
+                           .e = config.grain.e,
+                           .contact = config.contact});
+}
+
+/// The same between grains and a wall body, with the friction and restitution of that.
+ContactLaw law_between(const GrainMaterial& material, const WallBody& body, const Config& config) {
+  const GrainConfig& g = config.grain;
+  const ElasticCompliance grain(material.E, material.nu), wall = wall_compliance(body, g);
+  return make_contact_law({.normal = grain.normal + wall.normal,
+                           .tangential = grain.tangential + wall.tangential,
+                           .nu = 0.5 * (material.nu + (std::isfinite(body.nu) ? body.nu : g.nu)),
+                           .mu = std::isfinite(body.mu) ? body.mu : material.mu,
+                           .mu_r = std::isfinite(body.mu_r) ? body.mu_r : g.mu_r,
+                           .e = body.e > 0 ? body.e : g.e,
+                           .contact = config.contact});
+}
+
+}  // namespace
+
+SolidParameters solid_parameters(const Config& config) {
+  const GrainConfig& g = config.grain;
+  SolidParameters p{.materials = g.all_materials(),
+                    .d_min = g.smallest(),
+                    .d_max = g.largest(),
+                    .skin = config.skin_grain * g.smallest(),
+                    .touch = config.contact.normal != NormalLaw::none,
+                    .films = Lubrication::of(config.lubrication, config.fluid.mu),
+                    .gravity = config.gravity,
+                    .fixed = g.fixed,
+                    .exponential = config.couple.integrator == DragIntegrator::exponential,
+                    .drag_fraction = config.time.drag,
+                    .limits = SubstepLimits(config),
+                    .reflect = config.domain.reflect,
+                    .plane = config.domain.two_d};
+  for (const GrainMaterial& a : p.materials)
+    for (const GrainMaterial& b : p.materials) p.pair_laws.push_back(law_between(a, b, config));
+  for (const WallBody& body : config.wall.bodies)
+    for (const GrainMaterial& m : p.materials) p.wall_laws.push_back(law_between(m, body, config));
+  for (const int k : g.rigid_fills()) {
+    const GrainFill& fill = g.fills[k];
+    p.groups.push_back({k, g.material(fill.material), fill.velocity, fill.rigid});
+  }
+  return p;
+}
+
+}  // namespace bedload::inline BL_VARIANT
