@@ -1,4 +1,5 @@
 #pragma once
+#include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/contact/grain_mass.hpp"
 #include "kernels/coupling/fluid_records.hpp"
 
@@ -25,9 +26,10 @@ struct BuoyancyPass {
     Vec3<N> f;
   };
   BL_HD Sum<> start(Index) const { return {}; }
-  template <class N, class A>
-  BL_HD void pair(Sum<N>& sum, Index, A a, const Vec3<N>&, N r2) const {
-    sum.f += w.W(root(r2)) * Vec4<N>(push[a]).xyz();
+  BL_HD auto sources() const { return sources_of(push); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N, const Vec4<N>& of_fluid) const {
+    sum.f += w.W(root(r2)) * of_fluid.xyz();
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.f += other.f; }
   BL_HD void finish(Index j, const Sum<>& sum) const { force[j] = volume[j].w * sum.f; }

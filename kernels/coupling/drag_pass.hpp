@@ -31,16 +31,11 @@ BL_HD DragLine drag_line(const K& law, Real mean, Real fast) {
 }
 
 /// How much more of a force at its centre a grain hands to the fluid by the couple that turns it: particle a
-/// gets up to 1 + off_centre |r_a - r_j - arm| times its fraction, all of them `sum` times the force.
+/// gets up to 1 + off_centre |r_a - r_j - arm| <= at_centre + off_centre |r_a - r_j| times its fraction, all
+/// of them `sum` times the force.
 struct DragLevers {
-  Span<Real4> arm;  ///< m; w: off_centre, 1/m
+  Span<Real> at_centre, off_centre;  ///< -, 1/m
   Span<Real> sum;
-
-  template <class N, class J>
-  BL_HD N of(J j, const Vec3<N>& r_aj) const {
-    const Vec4<N> lever = arm[j];
-    return 1 + lever.w * root(norm2(r_aj - lever.xyz()));
-  }
 };
 
 /// phi_ja K_ja / K_j, the fraction of a grain's drag that falls to a fluid particle, per V_a W: `still`, and
@@ -48,14 +43,11 @@ struct DragLevers {
 struct DragWeights {
   Span<Real> still;
   Span<Real4> by_slip;  ///< the grain's velocity, m/s; w: s/m
-
-  template <bool Local, class N, class J>
-  BL_HD N of(J j, const Vec3<N>& v_a) const {
-    if constexpr (!Local) return still[j];
-    const Vec4<N> grain = by_slip[j];
-    return still[j] + grain.w * root(norm2(v_a - grain.xyz()));
-  }
 };
+template <class N>
+BL_HD N slip_weight(const Vec3<N>& v_a, const Vec4<N>& by_slip) {
+  return by_slip.w * root(norm2(v_a - by_slip.xyz()));
+}
 
 /// Drag and spin drag coefficients of each grain, times its wetness, and the fluid motion that they refer to:
 /// mean velocity and rotation of the fluid weighted with phi K_ja / K_j, K_j = sum phi K_ja, and with the
@@ -103,7 +95,8 @@ struct DragPass {
       const Real3 arm = carriers.arm[j];
       U[j] -= cross(omega_f[j], arm);
       const Real off_centre = norm(arm) * carriers.inv_M[j].norm();
-      levers.arm[j] = {arm, off_centre};
+      levers.at_centre[j] = 1 + off_centre * norm(arm);
+      levers.off_centre[j] = off_centre;
       levers.sum[j] = 1 + off_centre * spread;
     }
     if (torque && wet > 0 && carriers.inv_M[j].trace() > 0)

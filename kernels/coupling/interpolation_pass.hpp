@@ -1,4 +1,5 @@
 #pragma once
+#include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/coupling/carriers.hpp"
 #include "kernels/coupling/fluid_records.hpp"
 
@@ -45,9 +46,10 @@ struct InterpolationPass {
     sum.v_grain = v[j];
     return sum;
   }
-  template <class N, class A>
-  BL_HD void pair(Sum<N>& sum, Index, A a, const Vec3<N>& r_ja, N r2) const {
-    const Vec4<N> state = v_rho[a], push = fluid.push[a], solids = fluid.solids[a];
+  BL_HD auto sources() const { return sources_of(v_rho, fluid.push, fluid.solids); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_ja, N r2, N, const Vec4<N>& state, const Vec4<N>& push,
+                  const Vec4<N>& solids) const {
     const N W_ja = w.W(root(r2)), vw = push.w * W_ja;
     const Vec3<N> u = state.xyz() - sum.v_grain;
     sum.eps += vw * solids.x;

@@ -1,4 +1,5 @@
 #pragma once
+#include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/coupling/drag_pass.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -19,10 +20,24 @@ struct DragRatePass {
     N V, L;
   };
   BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(m_state[a]), 0}; }
-  template <class N, class J>
-  BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>& r_aj, N r2) const {
-    N L = K[j] * sum.V * w.W(root(r2)) * weights.template of<Local>(j, sum.v);
-    if constexpr (Couple) L *= levers.of(j, r_aj);
+  BL_HD auto sources() const {
+    if constexpr (Couple && Local)
+      return sources_of(K, weights.still, levers.at_centre, levers.off_centre, weights.by_slip);
+    else if constexpr (Couple)
+      return sources_of(K, weights.still, levers.at_centre, levers.off_centre);
+    else if constexpr (Local)
+      return sources_of(K, weights.still, weights.by_slip);
+    else
+      return sources_of(K, weights.still);
+  }
+  template <class N, class... More>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N, const N& K_j, const N& still,
+                  const More&... more) const {
+    N weight = still;
+    if constexpr (Local) weight += slip_weight(sum.v, last_of(more...));
+    const N r = root(r2);
+    N L = K_j * sum.V * w.W(r) * weight;
+    if constexpr (Couple) L *= first_of(more...) + second_of(more...) * r;
     sum.L += L;
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.L += other.L; }
@@ -45,7 +60,10 @@ struct LimitPass {
   Span<Real> stiffness;  ///< largest dt L_a / m_a around each grain
 
   BL_HD Real start(Index) const { return 0; }
-  BL_HD void pair(Real& most, Index, Index a, const Real3&, Real) const { most = max_of(most, rate[a]); }
+  BL_HD auto sources() const { return sources_of(rate); }
+  BL_HD void pair(Real& most, const Real3&, Real, Real, Real of_fluid) const {
+    most = max_of(most, of_fluid);
+  }
   BL_HD void merge(Real& most, Real other) const { most = max_of(most, other); }
   BL_HD void finish(Index j, Real most) const {
     if (lever_sum) most *= lever_sum[j];

@@ -1,5 +1,6 @@
 #pragma once
 #include "bedload/core/span.hpp"
+#include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/coupling/orifice_weight.hpp"
 #include "kernels/coupling/wall_free_fraction.hpp"
 
@@ -47,9 +48,9 @@ struct PorosityPass {
     Vec3<N> q;
   };
   BL_HD Sum<> start(Index) const { return {}; }
-  template <class N, class J>
-  BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>&, N r2) const {
-    const Vec4<N> grain = volume[j];
+  BL_HD auto sources() const { return sources_of(volume); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N, const Vec4<N>& grain) const {
     const N weight = grain.w * w.W(root(r2));
     sum.solid += weight;
     sum.q += weight * grain.xyz();
@@ -86,9 +87,10 @@ struct GrainsAroundPass {
     N volume;
   };
   BL_HD Sum<> start(Index) const { return {}; }
-  template <class N, class J>
-  BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>&, N r2) const {
-    sum.volume += 4 * kPi / 3 * cube(N(radius[j])) * w.W(root(r2));
+  BL_HD auto sources() const { return sources_of(radius); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N, const N& R) const {
+    sum.volume += 4 * kPi / 3 * cube(R) * w.W(root(r2));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.volume += other.volume; }
   BL_HD void finish(Index a, const Sum<>& sum) const { around[a] = sum.volume; }

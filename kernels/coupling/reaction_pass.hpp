@@ -1,4 +1,5 @@
 #pragma once
+#include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/coupling/drag_pass.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -14,9 +15,9 @@ namespace bedload::inline BL_VARIANT {
 /// impulse nor, with the couple, net moment; they do not act on the grain.
 struct Reactions {
   Span<Real4> impulse;  ///< N s, + A x arm - K dt (u - v_j), u at the grain's centre; w: K dt, kg
-  Span<Real4> force;    ///< N; w: 1/S_j
+  Span<Real4> force;    ///< over S_j, N; w: DragLevers::at_centre
   Span<Real4> spin;     ///< A, N s/m; w: DragWeights::still
-  Span<Real4> couple;   ///< B, N/m
+  Span<Real4> couple;   ///< B over S_j, N/m; w: DragLevers::off_centre
 };
 
 /// What becomes of differences of velocity around a grain.
@@ -32,12 +33,14 @@ struct ReactionTermsPass {
   Span<const Real3> impulse, spin_impulse;
   GrainSurroundings surroundings;
   DragWeights weights;
+  DragLevers levers;
   LocalSlip slip;
   Reactions reactions;
 
   BL_HD void operator()(Index j) const {
     Real3 J = impulse[j], F, A, u;
-    const Real Kdt = Local ? slip.dt * slip.K[j] : Real(0);
+    Real lever = 1;
+    const Real Kdt = slip.dt * slip.K[j];
     if constexpr (Local) u = slip.U[j] - weights.by_slip[j].xyz();
     if constexpr (Couple) {
       const Carriers &drag = surroundings.drag, &stress = surroundings.stress;
@@ -46,16 +49,17 @@ struct ReactionTermsPass {
       J += cross(A, drag.arm[j]);
       F = cross(B, stress.arm[j]);
       if constexpr (Local) A += Kdt * slip.omega_f[j];
-      reactions.couple[j] = {B, 0};
+      lever = levers.at_centre[j];
+      reactions.couple[j] = {surroundings.inv_S[j] * B, levers.off_centre[j]};
     }
     reactions.impulse[j] = {J - Kdt * u, Kdt};
-    reactions.force[j] = {F, surroundings.inv_S[j]};
+    reactions.force[j] = {surroundings.inv_S[j] * F, lever};
     reactions.spin[j] = {A, weights.still[j]};
   }
 };
 
 /// Fluid particle a takes the drag impulse into its velocity [harting14] Eq. 14 and keeps the couples of the
-/// stress as an acceleration.
+/// stress as an acceleration. It tells, as DragRatePass does, how fast drag stops it.
 template <class W, bool Couple, bool Local>
 struct ReactionPass {
   W w;
@@ -63,40 +67,58 @@ struct ReactionPass {
   Span<const Real4> m_state;
   Span<const Real4> by_slip;  ///< of DragWeights
   Reactions reactions;
+  Real per_dt;  ///< 1/s
   Span<Real4> v_rho;
   Span<Real3> reaction;   ///< m/s2
   Span<Real3> drag_kick;  ///< m/s
+  Span<Real> rate;        ///< 1/s
 
   template <class N = Real>
   struct Sum {
     Vec3<N> v;
     N V;
     Vec3<N> impulse, force;
+    N L;
   };
-  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(m_state[a]), {}, {}}; }
-  template <class N, class At>
-  BL_HD void pair(Sum<N>& sum, Index, At j, const Vec3<N>& r_aj, N r2) const {
-    const Vec4<N> impulse = reactions.impulse[j], force = reactions.force[j], spin = reactions.spin[j];
-    const N vw = sum.V * w.W(root(r2));
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(m_state[a]), {}, {}, 0}; }
+  BL_HD auto sources() const {
+    const auto& [impulse, force, spin, couple] = reactions;
+    if constexpr (Couple && Local)
+      return sources_of(impulse, force, spin, couple, by_slip);
+    else if constexpr (Couple)
+      return sources_of(impulse, force, spin, couple);
+    else if constexpr (Local)
+      return sources_of(impulse, force, spin, by_slip);
+    else
+      return sources_of(impulse, force, spin);
+  }
+  template <class N, class... More>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_aj, N r2, N, const Vec4<N>& impulse, const Vec4<N>& force,
+                  const Vec4<N>& spin, const More&... more) const {
+    const N r = root(r2), vw = sum.V * w.W(r);
     N weight = spin.w;
     Vec3<N> J = impulse.xyz(), F = force.xyz();
     if constexpr (Local) {
-      const Vec4<N> grain = by_slip[j];
-      const Vec3<N> slip = sum.v - grain.xyz();
-      weight += grain.w * root(norm2(slip));
-      J += impulse.w * slip;
+      const Vec4<N>& grain = last_of(more...);
+      weight += slip_weight(sum.v, grain);
+      J += impulse.w * (sum.v - grain.xyz());
     }
+    const N drag = vw * weight;
+    N L = impulse.w * drag;
     if constexpr (Couple) {
-      const Vec4<N> couple = reactions.couple[j];
       J -= cross(spin.xyz(), r_aj);
+      const Vec4<N>& couple = first_of(more...);
       F -= cross(couple.xyz(), r_aj);
+      L *= force.w + couple.w * r;
     }
-    sum.impulse += (vw * weight) * J;
-    sum.force += (vw * force.w) * F;
+    sum.L += L;
+    sum.impulse += drag * J;
+    sum.force += vw * F;
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.impulse += other.impulse;
     into.force += other.force;
+    into.L += other.L;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
     const Real inv_m = 1 / mass[a];
@@ -105,6 +127,7 @@ struct ReactionPass {
     v_rho[a] = {old.xyz() + kick, old.w};
     drag_kick[a] = kick;
     reaction[a] = -(inv_m * sum.force);
+    rate[a] = inv_m * per_dt * sum.L;
   }
 };
 

@@ -51,6 +51,7 @@ struct SubstepPass {
   Span<Vec3d> next_x;
   Span<Real3> next_v, next_omega, v_rest, omega_rest, impulse, spin_impulse;
   BL_HD void operator()(Index thread) const {
+    let_next_loop_begin();  // with the walls of the next substep, which waits for this one to end
     const Lane lane(thread, contacts.list.bits);
     const Index i = lane.row;
     ContactSum sum = contacts.pairs<Law>(lane);

@@ -77,7 +77,7 @@ bool OpenBoundaries::find_leaving(WaysOut& ways, Span<const P> x, bool domain, c
 void OpenBoundaries::renew(FluidStore& fluid, WallStore& walls, const EquationOfState& eos, double t,
                            const Vec3d& gravity) {
   if (find_leaving(fluid_out_, Span<const FluidPosition>(fluid.x), true, FluidMass{fluid.mass})) {
-    compaction_.find(fluid.size(), StaysTest{sink_}, kept_);
+    find_all(fluid.size(), StaysTest{sink_}, kept_);
     fluid.reorder(kept_);
   }
   for (std::size_t i = 0; i < motion_.inlets().size(); ++i)
@@ -136,7 +136,7 @@ GrainRenewal OpenBoundaries::renew(GrainStore& grains, double t) {
   const GrainMass mass{matter_.of(grains), grains.radius};
   const bool fewer = find_leaving(grains_out_, Span<const Vec3d>(grains.x), false, mass);
   if (fewer) {
-    compaction_.find(before, StaysTest{sink_}, came_from_);
+    find_all(before, StaysTest{sink_}, came_from_);
     grains.reorder(came_from_);
   }
   const std::vector<NewGrain> more = new_grains(grains, t);

@@ -76,7 +76,6 @@ class OpenBoundaries {
   Buffer<std::uint32_t> sink_;
   Buffer<Index> kept_, came_from_;
   Buffer<NewGrain> dropped_;
-  Compaction compaction_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -1,8 +1,8 @@
 #include "src/coupling/coupling.hpp"
 
 #include <limits>
+#include <utility>
 
-#include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/coupling/buoyancy_pass.hpp"
 #include "kernels/coupling/drag_pass.hpp"
 #include "kernels/coupling/limit_pass.hpp"
@@ -27,12 +27,17 @@ void with_flag(bool flag, F&& f) {
 /// log2 of the lanes that share a row: rows are long, and what four lanes read lies side by side.
 unsigned lanes_for(Index rows) { return min_of(max_of(lane_bits(rows), 2u), kSliceBits); }
 
-struct Largest {
-  using Value = Real;
-  Span<const Real> of;
-  BL_HD Value identity() const { return 0; }
-  BL_HD Value operator()(Index i) const { return of[i]; }
-  BL_HD void combine(Value& into, const Value& v) const { into = max_of(into, v); }
+/// The largest rate of drag, and sum of levers where there are any.
+struct LargestRate {
+  using Value = StiffestDrag;
+  Span<const Real> rate, lever_sum;
+  BL_HD Value identity() const { return {0, 1}; }
+  BL_HD Value operator()(Index i) const {
+    return {i < rate.size ? rate[i] : Real(0), i < lever_sum.size ? lever_sum[i] : Real(1)};
+  }
+  BL_HD void combine(Value& into, const Value& v) const {
+    into = {max_of(into.rate, v.rate), max_of(into.lever, v.lever)};
+  }
 };
 
 /// How many entries are above a bound, or at and below it.
@@ -96,36 +101,39 @@ GrainSurroundings Coupling::surroundings() {
 DragWeights Coupling::drag_weights() { return {still_, by_slip_}; }
 Reactions Coupling::reactions() { return {impulse_, force_, spin_, couple_}; }
 
-void Coupling::pack(const GrainStore& grains) {
-  grains_at_.resize(grains.size());
-  for_each(grains.owned(), PackPass<Vec3d>{frame_, grains.x, grains_at_});
+void Coupling::pack(GrainStore& grains) {
+  for_each(grains.owned(), PackPass<Vec3d>{frame_, grains.x, grains.xp});
 }
 
 void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid,
-                             const GrainStore& grains, const CellGridView& grain_grid, double skin) {
-  const double reach = range_ + skin;
-  fluid_of_grain_.build(grains.size(), fluid_grid,
-                        CrossNear<Vec3d, FluidPosition>{frame_, grains.x_list, fluid.x_list, reach},
-                        lanes_for(grains.size()));
-  grains_of_fluid_.build(fluid.size(), grain_grid,
-                         CrossNear<FluidPosition, Vec3d>{frame_, fluid.x_list, grains.x_list, reach},
-                         lanes_for(fluid.size()));
+                             const HalfSkins& of_fluid, GrainStore& grains, const CellGridView& grain_grid,
+                             const HalfSkins& of_grains) {
+  pack(grains);
+  const double reach = range_ + of_fluid.most + of_grains.most;
+  fluid_of_grain_.between(frame_, grains, fluid, range_)
+      .build(
+          grains.size(), fluid_grid.for_reach(reach),
+          CrossNear<Vec3d, FluidPosition>{frame_, grains.x_list, fluid.x_list, range_, of_grains, of_fluid},
+          lanes_for(grains.size()));
+  grains_of_fluid_.between(frame_, fluid, grains, range_)
+      .build(
+          fluid.size(), grain_grid.for_reach(reach),
+          CrossNear<FluidPosition, Vec3d>{frame_, fluid.x_list, grains.x_list, range_, of_fluid, of_grains},
+          lanes_for(fluid.size()));
 }
 
 void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt) {
   wall_free_.resize(grains.size());
   volume_.resize(grains.size());
   const WallFreeFraction free{half_space_, frame_, wall_normalise_ ? walls_ : SurfaceSet{}, pose};
-  for_each(grains.owned(), GrainVolumePass{free, frame_, dt > 0 ? 1 / dt : 0, grains.x, x_before_, grains.v,
-                                           grains.radius, wall_free_, volume_});
+  for_each(grains.owned(), GrainVolumePass{free, frame_, dt > 0 ? 1 / dt : 0, grains.x, grains.x_before,
+                                           grains.v, grains.radius, wall_free_, volume_});
 }
 
 void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt) {
   const Index n = grains.size();
-  pack(grains);
   volumes(grains, pose, 0);
-  x_before_.resize(n);
-  copy_on_device(x_before_.data(), grains.x.buffer().data(), n * sizeof(Vec3d));
+  grains.x_before.copy(grains.x);
   inv_S_.resize(n);
   rho_.resize(n);
   flow_.resize(n);
@@ -144,7 +152,8 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
     lost_moment_.resize(n);
   }
   if (angmom_) {
-    lever_.resize(n);
+    lever_at_centre_.resize(n);
+    lever_off_centre_.resize(n);
     lever_sum_.resize(n);
   }
   bed_eps_.resize(n);
@@ -154,7 +163,6 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   for_each(fluid.owned(), RecordPass{frame_, orifice_weight(), fluid.x, fluid.solid_factor, fluid.theta,
                                      fluid.m_state, records});
   const GrainSurroundings around = surroundings();
-  const PairSeparation to_fluid{frame_, grains_at_, fluid.xp};
   with_coupling_kernel([&](auto w) {
     with_flag(moments(), [&](auto with_moments) {
       with_flag(local_slip_, [&](auto local) {
@@ -171,7 +179,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
             .eps = grains.eps,
             .bed_eps = bed_eps_,
             .surroundings = around};
-        for_each_pair(grains.owned(), fluid_of_grain_, to_fluid, range_, pass);
+        fluid_of_grain_.run(pass);
       });
     });
   });
@@ -200,25 +208,47 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
         });
       },
       drag_table_.on_device());
-  if (!two_way_) return;
+  if (two_way_) limit(fluid, grains, dt);
+}
+
+void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {
+  // the last exchange tells whether this one can come near to what a step bears, which is 1
+  limits_ = false;
+  if (drag_ && dt * drag_->rate * drag_->lever < 0.5) return;
   rate_.resize(fluid.size());
   with_coupling_kernel([&](auto w) {
     with_flag(local_slip_, [&](auto local) {
       with_flag(angmom_, [&](auto couple) {
-        for_each_pair(
-            fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
-            DragRatePass<decltype(w), local, couple>{w, drag_weights(), levers(), grains.K, fluid.mass,
-                                                     fluid.v_rho, fluid.m_state, rate_});
+        grains_of_fluid_.run(DragRatePass<decltype(w), local, couple>{
+            w, drag_weights(), levers(), grains.K, fluid.mass, fluid.v_rho, fluid.m_state, rate_});
       });
     });
   });
-  fastest_ = reduce({0, Index(rate_.size())}, Largest{rate_});
-  const double lever = angmom_ ? reduce({0, n}, Largest{lever_sum_}) : 1;
-  limits_ = dt * fastest_ * lever > 1;
+  survey(fluid, grains);
+  read_survey();
+  limits_ = dt * drag_->rate * drag_->lever > 1;
   if (limits_)
-    for_each_pair(grains.owned(), fluid_of_grain_, to_fluid, range_,
-                  LimitPass{Real(dt), rate_, angmom_ ? Span<const Real>(lever_sum_) : Span<const Real>(),
-                            grains.K, grains.K_rot, stiffness_});
+    fluid_of_grain_.run(LimitPass{Real(dt), rate_, lever_sums(), grains.K, grains.K_rot, stiffness_});
+}
+
+Span<const Real> Coupling::lever_sums() const {
+  return angmom_ ? Span<const Real>(lever_sum_) : Span<const Real>();
+}
+
+void Coupling::survey(const FluidStore& fluid, const GrainStore& grains) {
+  const LargestRate largest{rate_, lever_sums()};
+  const Range all{0, max_of(fluid.size(), grains.size())};
+  surveyed_ = all.size() > 0;
+  if (!surveyed_) {
+    drag_ = largest.identity();
+    return;
+  }
+  stiffest_.resize(1);
+  reduce_into(stiffest_.data(), all, largest);
+}
+
+void Coupling::read_survey() {
+  if (std::exchange(surveyed_, false)) drag_ = stiffest_.to_host()[0];
 }
 
 void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
@@ -230,37 +260,36 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
   impulse_.resize(grains.size());
   force_.resize(grains.size());
   spin_.resize(grains.size());
+  rate_.resize(fluid.size());
   if (angmom_) couple_.resize(grains.size());
   const LocalSlip slip{Real(dt), grains.K, grains.U, grains.omega_f};
   with_flag(angmom_, [&](auto couple) {
     with_flag(local_slip_, [&](auto local) {
       for_each(grains.owned(),
                ReactionTermsPass<couple, local>{grains.impulse, grains.spin_impulse, surroundings(),
-                                                drag_weights(), slip, reactions()});
+                                                drag_weights(), levers(), slip, reactions()});
       with_coupling_kernel([&](auto w) {
-        for_each_pair(
-            fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
-            ReactionPass<decltype(w), couple, local>{w, fluid.mass, fluid.m_state, by_slip_, reactions(),
-                                                     fluid.v_rho, fluid.reaction, fluid.drag_kick});
+        grains_of_fluid_.run(ReactionPass<decltype(w), couple, local>{
+            w, fluid.mass, fluid.m_state, by_slip_, reactions(), Real(1 / dt), fluid.v_rho, fluid.reaction,
+            fluid.drag_kick, rate_});
       });
     });
   });
+  if (!limits_) survey(fluid, grains);  // else it has weakened what was surveyed
 }
 
-void Coupling::porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, double dt) {
+void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt) {
   pack(grains);
   volumes(grains, pose, dt);
   with_coupling_kernel([&](auto w) {
-    for_each_pair(
-        fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_}, range_,
-        PorosityPass<decltype(w)>{w, eps_min_, orifice_weight(), frame_, fluid.x, volume_, fluid.v_rho,
-                                  fluid.mass, fluid.eps, fluid.solid_factor, fluid.flux, fluid.m_state});
+    grains_of_fluid_.run(PorosityPass<decltype(w)>{w, eps_min_, orifice_weight(), frame_, fluid.x, volume_,
+                                                   fluid.v_rho, fluid.mass, fluid.eps, fluid.solid_factor,
+                                                   fluid.flux, fluid.m_state});
   });
   if (!counts_grains_) return;
   with_kernel(kernel_, h_, [&](auto w) {
-    for_each_pair(fluid.owned(), grains_of_fluid_, PairSeparation{frame_, fluid.xp, grains_at_},
-                  kernel_kappa(kernel_) * h_,
-                  GrainsAroundPass<decltype(w)>{w, grains.radius, fluid.grains_around});
+    grains_of_fluid_.run_within(kernel_kappa(kernel_) * h_,
+                                GrainsAroundPass<decltype(w)>{w, grains.radius, fluid.grains_around});
   });
 }
 
@@ -274,8 +303,7 @@ void Coupling::push(const FluidStore& fluid, GrainStore& grains, Span<const Body
   buoyancy_.resize(grains.size());
   for_each(fluid.owned(), PushPass{fluid.solid_factor, fluid.theta, fluid.m_state, push_});
   with_coupling_kernel([&](auto w) {
-    for_each_pair(grains.owned(), fluid_of_grain_, PairSeparation{frame_, grains_at_, fluid.xp}, range_,
-                  BuoyancyPass<decltype(w)>{w, push_, volume_, buoyancy_});
+    fluid_of_grain_.run(BuoyancyPass<decltype(w)>{w, push_, volume_, buoyancy_});
   });
   for_each(grains.owned(), BuoyancyKick{Real(kick), matter_.of(grains), !held && kick > 0, buoyancy_,
                                         grains.radius, grains.fluid_force, grains.v});
@@ -302,7 +330,17 @@ double Coupling::bed_viscosity(double porosity, double d) const {
 }
 
 double Coupling::stable_dt() const {
-  return fastest_ > 0 ? drag_fraction_ / fastest_ : std::numeric_limits<double>::infinity();
+  return drag_ && drag_->rate > 0 ? drag_fraction_ / drag_->rate : std::numeric_limits<double>::infinity();
+}
+
+void Coupling::save(std::vector<Quantity>& scalars) const {
+  if (!drag_) return;
+  scalars.push_back({"drag_rate", "1/s", drag_->rate});
+  scalars.push_back({"drag_lever", "-", drag_->lever});
+}
+
+void Coupling::load(const std::function<double(const std::string&)>& scalar) {
+  if (two_way_) drag_ = {Real(scalar("drag_rate")), Real(scalar("drag_lever"))};
 }
 
 CouplingCounters Coupling::counters(const FluidStore& fluid, const GrainStore& grains) const {

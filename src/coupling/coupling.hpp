@@ -14,9 +14,12 @@
 //   porosity  after both have moved: weights and volume flux;
 //   push      the grains' part of the stress, once the fluid has its forces.
 
+#include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "bedload/neighbours/verlet_list.hpp"
+#include "bedload/neighbours/pairing.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/grains.hpp"
 #include "kernels/coupling/orifice_weight.hpp"
@@ -36,6 +39,12 @@ struct CouplingCounters {
   std::uint64_t wet = 0;         ///< grains that fluid wets
 };
 
+/// How stiff drag is, at most.
+struct StiffestDrag {
+  Real rate;   ///< how fast it stops any fluid particle, 1/s
+  Real lever;  ///< how much more the couple of a grain hands over, -
+};
+
 class Coupling {
  public:
   /// The walls that fluid meets must outlive this.
@@ -44,13 +53,13 @@ class Coupling {
   /// How far grains and fluid act on each other, m.
   double range() const { return range_; }
 
-  /// Renews both lists: all pairs within range() + skin (m) where the phases' own lists were built.
-  void rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid, const GrainStore& grains,
-                     const CellGridView& grain_grid, double skin);
+  /// Renews both lists: all pairs within range() and half skins where the phases' own lists were built. Packs
+  /// the grains where they are.
+  void rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid, const HalfSkins& of_fluid,
+                     GrainStore& grains, const CellGridView& grain_grid, const HalfSkins& of_grains);
 
   /// Fills eps, wetness, U, omega_f, K and K_rot of the grains. pose: of every wall body, on the device; dt
-  /// (s): the fluid step for which they hold, which bounds K when the fluid is to take the reaction. Waits
-  /// for the device then.
+  /// (s): the fluid step for which they hold, which bounds K when the fluid is to take the reaction.
   void gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt);
   /// Gives grains.impulse and spin_impulse, those of a step dt (s), back to the velocities of the fluid, and
   /// sets fluid.drag_kick to what they changed by and fluid.reaction; the fluid must not have changed since
@@ -59,7 +68,7 @@ class Coupling {
   /// Sets eps, flux, the mass in m_state and, where it counts, grains_around of the fluid for the present
   /// positions; pose as in gather. dt
   /// (s): the step in which the grains came here since gather, 0 where they have not moved.
-  void porosity(FluidStore& fluid, const GrainStore& grains, Span<const BodyPose> pose, double dt);
+  void porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt);
   /// Sets fluid_force of the grains from the fluid's theta, and adds `kick` (s) of what it changed by to
   /// their velocities, unless they are held. After porosity, or for one-way coupling in its place.
   void push(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double kick, bool held);
@@ -68,8 +77,13 @@ class Coupling {
   /// grain diameter (m): half of the dissipation beta |s . grad u|^2 over the kernel of h_c. Zero with the
   /// mean slip.
   double bed_viscosity(double porosity, double d) const;
-  /// Largest fluid step that drag allows (s), after the last gather; infinite without a reaction.
+  /// Takes note of how stiff drag was in the last exchange. Waits for the device.
+  void read_survey();
+  /// Largest fluid step that drag allows (s), as last read; infinite without a reaction.
   double stable_dt() const;
+  /// What a restart needs of it.
+  void save(std::vector<Quantity>& scalars) const;
+  void load(const std::function<double(const std::string&)>& scalar);
   /// Counts what is to be reported. Waits for the device.
   CouplingCounters counters(const FluidStore& fluid, const GrainStore& grains) const;
 
@@ -78,10 +92,13 @@ class Coupling {
   template <class F>
   void with_coupling_kernel(F&& f) const;
   bool moments() const { return torque_ || angmom_; }
-  void pack(const GrainStore& grains);
+  void pack(GrainStore& grains);
   void volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt);
-  DragLevers levers() { return {lever_, lever_sum_}; }
+  DragLevers levers() { return {lever_at_centre_, lever_off_centre_, lever_sum_}; }
   OrificeWeight orifice_weight() const { return {frame_, orifices_, dx_, h_c_}; }
+  void limit(const FluidStore& fluid, GrainStore& grains, double dt);
+  void survey(const FluidStore& fluid, const GrainStore& grains);
+  Span<const Real> lever_sums() const;
   GrainSurroundings surroundings();
   DragWeights drag_weights();
   Reactions reactions();
@@ -96,22 +113,23 @@ class Coupling {
   Real eps_min_, S_dry_, S_wet_;
   GrainMatter matter_;
   bool two_way_, counts_grains_, torque_, angmom_, local_slip_;
-  double fastest_ = 0;   ///< how fast drag stops any fluid particle, 1/s
-  bool limits_ = false;  ///< whether that is faster than the step
+  std::optional<StiffestDrag> drag_;  ///< as last read
+  Buffer<StiffestDrag> stiffest_;
+  bool surveyed_ = false;  ///< and not yet read
+  bool limits_ = false;    ///< whether drag is faster than the step
 
   SurfaceSet walls_;  ///< that cut the grains' kernels off from fluid
   bool wall_normalise_;
   HalfSpaceFraction half_space_;
   Buffer<Orifice> orifices_;
 
-  VerletList fluid_of_grain_, grains_of_fluid_;
-  Buffer<PairPosition> grains_at_;  ///< as pair loops read them
-  Buffer<Vec3d> x_before_;          ///< of the grains, in gather
-  Buffer<Real> wall_free_, inv_S_, rho_, bed_eps_, fast_slip_, stiffness_, rate_, still_, lever_sum_;
+  Pairing<> fluid_of_grain_, grains_of_fluid_;
+  Buffer<Real> wall_free_, inv_S_, rho_, bed_eps_, fast_slip_, stiffness_, rate_, still_, lever_at_centre_,
+      lever_off_centre_, lever_sum_;
   Buffer<FlowSums<>> flow_, fast_;
   Buffer<Real3> stress_arm_, drag_arm_, lost_moment_, buoyancy_;
   Buffer<SymmetricMatrix<Real>> stress_inv_M_, drag_inv_M_;
-  Buffer<Real4> volume_, push_, solids_, by_slip_, lever_, impulse_, force_, spin_, couple_;
+  Buffer<Real4> volume_, push_, solids_, by_slip_, impulse_, force_, spin_, couple_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

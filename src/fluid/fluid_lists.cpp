@@ -199,52 +199,56 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   }
   pack(fluid);
   pack(walls);
-  const HalfSkins own(fluid.half_skin, half_skin_), of_walls(wall_skin_);
+  const HalfSkins own = half_skins(fluid), of_walls(wall_skin_);
+  auto& of_fluid = fluid_fluid_.between(frame_, fluid, fluid, range());
+  VerletList &of_walls_around = fluid_wall_.between(frame_, fluid, walls, range()),
+             &around_walls = wall_fluid_.between(frame_, walls, fluid, range());
   using Near = SphNear<FluidPosition>;
   const Near fluid_near{frame_, fluid.x, fluid.xp, fluid.xp, range(), true, own, own};
   const Near fluid_near_walls{frame_, fluid.x, fluid.xp, walls.xp, range(), false, own, of_walls};
   const SphNear<Vec3d> walls_near{frame_, walls.x, walls.xp, fluid.xp, range(), false, of_walls, own};
 #if BL_CUDA
   if (shear_.acts())  // by distances among positions that are sheared back
-    fluid_fluid_.build(grid_, frame_, lattice(fluid), Span<const PairPosition>(fluid.xp),
-                       (range() + skin()) * shear_.stretch(), {});
+    of_fluid.build(grid_, frame_, lattice(fluid), Span<const PairPosition>(fluid.xp),
+                   (range() + skin()) * shear_.stretch(), {});
   else
-    fluid_fluid_.build(grid_, frame_, Span<const FluidPosition>(fluid.x), Span<const PairPosition>(fluid.xp),
-                       range(), own);
+    of_fluid.build(grid_, frame_, Span<const FluidPosition>(fluid.x), Span<const PairPosition>(fluid.xp),
+                   range(), own);
 #else
   if (shear_.acts())
-    fluid_fluid_.build(
-        fluid.size(), grid_.view(),
-        ShearedNear<Vec3d>{{frame_, lattice(fluid), fluid.xp, fluid.xp, range() + skin(), true},
-                           Real(shear_.strain),
-                           (range() + skin()) * shear_.stretch()});
+    of_fluid.build(fluid.size(), grid_.view(),
+                   ShearedNear<Vec3d>{{frame_, lattice(fluid), fluid.xp, fluid.xp, range() + skin(), true},
+                                      Real(shear_.strain),
+                                      (range() + skin()) * shear_.stretch()});
   else if (!lengths_)
-    fluid_fluid_.build(fluid.size(), grid_.view(), fluid_near);
+    of_fluid.build(fluid.size(), grid_.view(), fluid_near);
 #endif
   if (lengths_) {
     const Span<const Real> h = lengths_->h_list, none;
     const PairReach pairs{Real(kappa_ * double(kLengthGrowth)), Real(parameters_.fluid.h())};
 #if !BL_CUDA
-    fluid_fluid_.build(fluid.size(), grid_.view(), LengthNear<FluidPosition>{fluid_near, pairs, h, h});
+    of_fluid.build(fluid.size(), grid_.view(), LengthNear<FluidPosition>{fluid_near, pairs, h, h});
 #endif
-    fluid_wall_.build(fluid.size(), wall_grid_.view(),
-                      LengthNear<FluidPosition>{fluid_near_walls, pairs, h, none}, fluid_fluid_.view().bits);
-    wall_fluid_.build(walls.size(), grid_.view(), LengthNear<Vec3d>{walls_near, pairs, none, h});
+    of_walls_around.build(fluid.size(), wall_grid_.view(),
+                          LengthNear<FluidPosition>{fluid_near_walls, pairs, h, none}, of_fluid.view().bits);
+    around_walls.build(walls.size(), grid_.view(), LengthNear<Vec3d>{walls_near, pairs, none, h});
   } else {
-    fluid_wall_.build(fluid.size(), wall_grid_.view(), fluid_near_walls, fluid_fluid_.view().bits);
-    wall_fluid_.build(walls.size(), grid_.view(), walls_near);
+    of_walls_around.build(fluid.size(), wall_grid_.view(), fluid_near_walls, of_fluid.view().bits);
+    around_walls.build(walls.size(), grid_.view(), walls_near);
   }
   if (parameters_.frozen && parameters_.density.method == DensityMethod::summation)
-    wall_wall_.build(walls.size(), wall_grid_.view(),
-                     BesideFrozen{{frame_, walls.x, walls.xp, walls.xp, range(), true, of_walls, of_walls},
-                                  walls.compression});
-  compaction_.find(fluid.size(), HasEntries{fluid_wall_.view()}, beside_walls_);
-  compaction_.find(walls.size(), HasEntries{wall_fluid_.view()}, wet_walls_);
+    wall_wall_.between(frame_, walls, walls, range())
+        .build(walls.size(), wall_grid_.view(),
+               BesideFrozen{{frame_, walls.x, walls.xp, walls.xp, range(), true, of_walls, of_walls},
+                            walls.compression});
+  find_all(fluid.size(), HasEntries{of_walls_around.view()}, beside_walls_);
+  find_all(walls.size(), HasEntries{around_walls.view()}, wet_walls_);
   relisted_ = true;
   const MirrorStore& images = walls.mirrors;
   if (images.size() > 0)
-    image_fluid_.build(images.size(), grid_.view(),
-                       SphNear<Vec3d>{frame_, images.x, images.xp, fluid.xp, range(), false, of_walls, own});
+    image_fluid_.between(frame_, images, fluid, range())
+        .build(images.size(), grid_.view(),
+               SphNear<Vec3d>{frame_, images.x, images.xp, fluid.xp, range(), false, of_walls, own});
   shear_.strain = strain;
 }
 
@@ -265,8 +269,7 @@ double FluidSolver::pairs_through(const FluidStore& fluid, const SurfaceSet& sur
   Buffer<std::uint32_t> count(fluid.size());
   const NearestPointPass nearest{frame_, surfaces, pose, range(), fluid.x, points};
   for_each(fluid.owned(), nearest);
-  for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, range(),
-                CrossingPass{nearest, 0.25 * parameters_.fluid.dx, count});
+  fluid_fluid_.run(CrossingPass{nearest, 0.25 * parameters_.fluid.dx, count});
   return sum_over<1>(fluid.owned(), CountBody{count}).v[0] / 2;  // a pair stands in two lists
 }
 

@@ -141,12 +141,10 @@ void FluidSolver::collide(FluidStore& fluid) {
   const double range = c.collision_range * parameters_.fluid.dx;
   collisions_.resize(fluid.size());
   collided_.resize(fluid.size());
-  const PairSeparation separation{frame_, fluid.xp, fluid.xp};
-  for_each_pair(fluid.owned(), fluid_fluid_, separation, range,
-                CollisionCountPass{Real(range * range), fluid.v_rho, collisions_});
-  for_each_pair(fluid.owned(), fluid_fluid_, separation, range,
-                CollisionPass{Real(range * range), Real(c.collision_restitution), Real(1e-12 * range * range),
-                              fluid.v_rho, fluid.mass, collisions_, collided_});
+  fluid_fluid_.run_within(range, CollisionCountPass{Real(range * range), fluid.v_rho, collisions_});
+  fluid_fluid_.run_within(
+      range, CollisionPass{Real(range * range), Real(c.collision_restitution), Real(1e-12 * range * range),
+                           fluid.v_rho, fluid.mass, collisions_, collided_});
   fluid.v_rho.buffer().swap(collided_);
 }
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <memory>
 
-#include "bedload/neighbours/for_each_pair.hpp"
+#include "bedload/neighbours/pairing.hpp"
 #include "bedload/parallel/compact.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/walls.hpp"
@@ -94,6 +94,7 @@ class FluidSolver {
     return lengths_ ? kappa_ * lengths_->listed * double(kLengthGrowth) : kappa_ * parameters_.fluid.h();
   }
   double skin() const { return 2 * half_skin_; }  ///< by which lists reach beyond that, at most, m
+  HalfSkins half_skins(const FluidStore& fluid) const { return {fluid.half_skin, half_skin_}; }
   /// Half the smallest kernel support, m, to which time steps go.
   double half_range(const FluidExtremes& now) const { return kappa_ * now.h_min / 2; }
   /// Null where all particles have the same smoothing length.
@@ -247,21 +248,19 @@ class FluidSolver {
   Span<const Vec3d> lattice(const FluidStore& fluid);
   /// Runs a pass over the pairs of fluid.
   template <class Pass>
-  void run(const FluidStore& fluid, double cutoff, const Pass& pass) {
-    const PairSeparation separation{frame_, fluid.xp, fluid.xp};
+  void run(const Pass& pass) {
     if constexpr (kBearsShear<Pass>)
       if (shear_.acts())
-        return for_each_pair(fluid.owned(), fluid_fluid_, separation, cutoff * shear_.stretch(),
-                             ShearedPass<Pass>{pass, Real(shear_.strain), Real(shear_.rate)});
-    for_each_pair(fluid.owned(), fluid_fluid_, separation, cutoff, pass);
+        return fluid_fluid_.run_within(range() * shear_.stretch(),
+                                       ShearedPass<Pass>{pass, Real(shear_.strain), Real(shear_.rate)});
+    fluid_fluid_.run(pass);
   }
   /// And of fluid and walls.
   template <class Pass>
-  void run(const FluidStore& fluid, const WallStore& walls, double cutoff, const Pass& pass) {
+  void run_with_walls(const Pass& pass) {
     if constexpr (kBearsShear<Pass>)
-      if (shear_.acts()) return run(fluid, cutoff, pass);
-    for_each_pair(fluid.owned(), fluid_fluid_, PairSeparation{frame_, fluid.xp, fluid.xp}, fluid_wall_,
-                  PairSeparation{frame_, fluid.xp, walls.xp}, cutoff, pass);
+      if (shear_.acts()) return run(pass);
+    fluid_fluid_.run_with(fluid_wall_, pass);
   }
   /// Of W over the fluid around, below which it is none, 1/m3.
   Real least_sum() const { return Real(1e-3 / parameters_.domain.cell_volume(parameters_.fluid.h_most())); }
@@ -285,11 +284,10 @@ class FluidSolver {
                                     walls.m_state,
                                     walls.compression,
                                     lengths};
-    const PairSeparation separation{frame_, walls.xp, fluid.xp};
     if (moving || relisted_)
-      for_each_pair(walls.owned(), wall_fluid_, separation, range(), pass);
+      wall_fluid_.run(pass);
     else
-      for_each_pair_of(wet_walls_, wall_fluid_, separation, range(), pass);
+      wall_fluid_.run_for(wet_walls_, pass);
     relisted_ = false;
   }
   /// Density of frozen walls over dt by continuity; no thinner than `least`.
@@ -297,9 +295,9 @@ class FluidSolver {
   void frozen_continuity(const W& w, const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
                          double dt, Real least) {
     if (!parameters_.frozen) return;
-    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(),
-                  FrozenPass<W>{w, Real(parameters_.fluid.rho0), Real(dt), least, flux(fluid), fluid.m_state,
-                                walls.v_rho, walls.m_state, walls.body, pose, walls.compression});
+    wall_fluid_.run(FrozenPass<W>{w, Real(parameters_.fluid.rho0), Real(dt), least, flux(fluid),
+                                  fluid.m_state, walls.v_rho, walls.m_state, walls.body, pose,
+                                  walls.compression});
   }
   double repulsion_cap(double dt) const;  ///< m/s2, in a step of dt, s
 
@@ -318,15 +316,14 @@ class FluidSolver {
   double horizon_ = 0;                    ///< time for which fast particles get a skin, s
   CellGrid grid_, wall_grid_;
 #if BL_CUDA
-  TileList fluid_fluid_;
+  Pairing<TileList> fluid_fluid_;
 #else
-  VerletList fluid_fluid_;
+  Pairing<> fluid_fluid_;
 #endif
-  VerletList fluid_wall_, wall_fluid_, image_fluid_;
-  VerletList wall_wall_;  ///< of frozen walls whose density is summed up
+  Pairing<> fluid_wall_, wall_fluid_, image_fluid_;
+  Pairing<> wall_wall_;  ///< of frozen walls whose density is summed up
   Buffer<FluidExtremes> extremes_;
   Buffer<Index> order_;
-  Compaction compaction_;
   Buffer<Index> beside_walls_;                       ///< fluid with wall particles around it
   Buffer<Index> wet_walls_;                          ///< wall particles with fluid around them
   bool relisted_ = true;                             ///< since walls() was last called

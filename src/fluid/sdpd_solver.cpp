@@ -111,9 +111,8 @@ class SdpdSolver final : public FluidSolver {
       return;
     }
     frozen_continuity(w_, fluid, walls, pose, dt, Real(-0.5));
-    run(fluid, walls, range(),
-        ContinuityPass<W>{w_, Real(parameters_.fluid.rho0), Real(dt), flux(fluid), fluid.m_state, walls.v_rho,
-                          walls.m_state, fluid.s, fluid.s_next});
+    run_with_walls(ContinuityPass<W>{w_, Real(parameters_.fluid.rho0), Real(dt), flux(fluid), fluid.m_state,
+                                     walls.v_rho, walls.m_state, fluid.s, fluid.s_next});
     if (d.reinit_every > 0 && (start.step + 1) % std::uint64_t(d.reinit_every) == 0) {
       pack(fluid);
       reinitialise(fluid);
@@ -126,17 +125,16 @@ class SdpdSolver final : public FluidSolver {
   Span<Real3> turning() { return spin_ ? Span<Real3>(spin_->acc) : Span<Real3>(); }
   template <bool kGrains>
   void sum_up(FluidStore& fluid, const WallStore& walls) {
-    run(fluid, walls, range(),
-        SummationPass<W, kGrains>{w_, Real(parameters_.fluid.rho0), Real(1 / lattice_.W), fluid.m_state,
-                                  walls.m_state, fluid.eps, fluid.grains_around, fluid.s_next});
+    run_with_walls(SummationPass<W, kGrains>{w_, Real(parameters_.fluid.rho0), Real(1 / lattice_.W),
+                                             fluid.m_state, walls.m_state, fluid.eps, fluid.grains_around,
+                                             fluid.s_next});
   }
   void sum_up_frozen(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose) {
     wall_volume_.resize(walls.size());
     for_each(walls.owned(), WallVolume{walls.body, pose, wall_volume_});
-    for_each_pair(walls.owned(), wall_wall_, PairSeparation{frame_, walls.xp, walls.xp}, wall_fluid_,
-                  PairSeparation{frame_, walls.xp, fluid.xp}, range(),
-                  FrozenSummationPass<W>{w_, Real(parameters_.fluid.rho0), Real(1 / lattice_.W), wall_volume_,
-                                         fluid.m_state, walls.body, pose, walls.compression});
+    wall_wall_.run_with(wall_fluid_, FrozenSummationPass<W>{w_, Real(parameters_.fluid.rho0),
+                                                            Real(1 / lattice_.W), wall_volume_, fluid.m_state,
+                                                            walls.body, pose, walls.compression});
   }
   SdpdWallPair<W> pair(const Moment& now, double dt) const {
     const SdpdConfig& s = parameters_.sdpd;
@@ -161,15 +159,14 @@ class SdpdSolver final : public FluidSolver {
   }
   template <bool kNoise, bool kSpecies>
   void momentum(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt) {
-    run(fluid, walls, range(), force_pass<kNoise, kSpecies>(fluid, walls, now, dt));
+    run_with_walls(force_pass<kNoise, kSpecies>(fluid, walls, now, dt));
   }
   /// Of one fluid: stress of several is not asked for.
   template <bool kNoise>
   void stress(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt, FluidMoments& out) {
     if (shear_.acts()) pack(fluid);  // velocities as they are now
-    run(fluid, walls, range(),
-        SdpdStressPass<Force<kNoise, false>, kNoise>{force_pass<kNoise, false>(fluid, walls, now, dt),
-                                                     out.parts(fluid.size(), kNoise)});
+    run_with_walls(SdpdStressPass<Force<kNoise, false>, kNoise>{
+        force_pass<kNoise, false>(fluid, walls, now, dt), out.parts(fluid.size(), kNoise)});
   }
   template <class Force>
   void forces_on_walls(const FluidStore& fluid, const WallStore& walls, const Moment& now, double corrected,
@@ -182,11 +179,11 @@ class SdpdSolver final : public FluidSolver {
                                            walls.m_state, walls.v_visc,
                                            wall_label_,   force,
                                            friction,      fluid.viscosity};
-    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
+    wall_fluid_.run(pass);
   }
   /// Shepard's mean of q over the fluid; densities are rho0 (1 + s).
   void average(const FluidStore& fluid, Span<const Real> s, Span<const Real> q, Span<Real> mean) {
-    run(fluid, range(), ShepardPass<W>{w_, Real(parameters_.fluid.rho0), fluid.m_state, s, q, mean});
+    run(ShepardPass<W>{w_, Real(parameters_.fluid.rho0), fluid.m_state, s, q, mean});
   }
   /// Of a density, the mean is sum M W / sum V W.
   void reinitialise(FluidStore& fluid) {

@@ -33,8 +33,7 @@ class WcsphSolver final : public FluidSolver {
                                  walls.body,
                                  pose,
                                  walls.compression};
-      for_each_pair(walls.owned(), image_fluid_, PairSeparation{frame_, walls.mirrors.xp, fluid.xp}, range(),
-                    mirror);
+      image_fluid_.run(mirror);
     }
     extrapolate(w_, fluid, walls, pose, gravity, drag_dt, moving, lengths());
   }
@@ -42,18 +41,16 @@ class WcsphSolver final : public FluidSolver {
   void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment& now,
               double dt) override {
     if constexpr (Lengths::vary) {
-      run(fluid, walls, range(),
-          OmegaPass<W>{w_, lengths(), Real(parameters_.fluid.h_least()), Real(parameters_.fluid.h_most()),
-                       Real(parameters_.fluid.rho0), fluid.m_state, walls.m_state, lengths_->omega,
-                       fluid.p_rho2});
+      run_with_walls(OmegaPass<W>{w_, lengths(), Real(parameters_.fluid.h_least()),
+                                  Real(parameters_.fluid.h_most()), Real(parameters_.fluid.rho0),
+                                  fluid.m_state, walls.m_state, lengths_->omega, fluid.p_rho2});
       artificial().acts() ? momentum<true, false>(fluid, walls, now)
                           : momentum<false, false>(fluid, walls, now);
     } else {
       constant_length_forces(fluid, walls, now, dt);
     }
     if (layers_.size() > 0)
-      for_each_pair(fluid.owned(), fluid_wall_, PairSeparation{frame_, fluid.xp, walls.xp}, range(),
-                    LayerPass<W>{layer(walls, pose, dt), flux(fluid), fluid.theta, fluid.acc_next});
+      fluid_wall_.run(LayerPass<W>{layer(walls, pose, dt), flux(fluid), fluid.theta, fluid.acc_next});
   }
 
   void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment&,
@@ -124,7 +121,7 @@ class WcsphSolver final : public FluidSolver {
                                                 friction,
                                                 fluid.viscosity,
                                                 lengths()};
-    for_each_pair(walls.owned(), wall_fluid_, PairSeparation{frame_, walls.xp, fluid.xp}, range(), pass);
+    wall_fluid_.run(pass);
   }
   Real least() const { return -Real(parameters_.density.cavitation_limit); }
   Viscosity viscosity() const {
@@ -186,12 +183,11 @@ class WcsphSolver final : public FluidSolver {
   template <bool kSmooth, bool kPorous, class Shift>
   void continuity(FluidStore& fluid, const WallStore& walls, const Real3& gravity, double dt,
                   const Shift& shift) {
-    run(fluid, walls, range(),
-        density_pass<kSmooth, kPorous>(fluid, walls, gravity, dt, shift, fluid.s_next));
+    run_with_walls(density_pass<kSmooth, kPorous>(fluid, walls, gravity, dt, shift, fluid.s_next));
   }
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
   void momentum(FluidStore& fluid, const WallStore& walls, const Moment& now) {
-    run(fluid, walls, range(), force_pass<kArtificial, kAdded, kSpecies>(fluid, walls, now));
+    run_with_walls(force_pass<kArtificial, kAdded, kSpecies>(fluid, walls, now));
   }
   template <bool kTensile>
   void stress(FluidStore& fluid, const WallStore& walls, const Moment& now, FluidMoments& out) {
@@ -200,16 +196,15 @@ class WcsphSolver final : public FluidSolver {
     Force inviscid = whole;
     inviscid.artificial = {};
     inviscid.wall.viscosity.mu = 0;
-    run(fluid, walls, range(), StressPass<Force>{whole, inviscid, out.parts(fluid.size(), false)});
+    run_with_walls(StressPass<Force>{whole, inviscid, out.parts(fluid.size(), false)});
   }
   template <bool kSmooth, class Shift>
   void momentum_and_continuity(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt,
                                const Shift& shift) {
     const auto both = [&](const auto& force) {
       const auto density = density_pass<kSmooth, false>(fluid, walls, now.gravity, dt, shift, fluid.s);
-      run(fluid, walls, range(),
-          OnePass<std::decay_t<decltype(force)>, std::decay_t<decltype(density)>>{force, density,
-                                                                                  *rates_.back()});
+      run_with_walls(OnePass<std::decay_t<decltype(force)>, std::decay_t<decltype(density)>>{force, density,
+                                                                                             *rates_.back()});
     };
     artificial().acts() ? both(force_pass<true, false>(fluid, walls, now))
                         : both(force_pass<false, false>(fluid, walls, now));

@@ -180,7 +180,7 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
 }
 
 std::vector<FieldView> CoupledSimulation::fields(const std::string& name) {
-  synchronize();
+  Context::current().wait();
   if (name == "fluid" && state_.has_fluid) {
     std::vector<FieldView> out{view_of("velocity", "m/s", state_.fluid.v_rho, 3),
                                view_of("density", "kg/m3", state_.fluid.m_state, 1, 2),

@@ -105,12 +105,13 @@ CellGrid::CellGrid(const Frame& frame, const Vec3d& min, const Vec3d& max, doubl
 
 template <class P>
 void CellGrid::sort(const Frame& frame, Span<const P> x, Buffer<Index>& order) {
-  keys_.resize(x.size);
-  for_each({0, x.size}, KeyPass<P>{view(), frame, x, keys_});
-  sorter_.sort(keys_, order, key_bits_);
-  for_each({0, cells_ + 1}, StartPass{keys_, start_});
+  Buffer<std::uint32_t>& keys = Context::current().scratch<std::uint32_t>();
+  keys.reserve_and_resize(x.size);
+  for_each({0, x.size}, KeyPass<P>{view(), frame, x, keys});
+  sort_keys(keys, order, key_bits_);
+  for_each({0, cells_ + 1}, StartPass{keys, start_});
   inhabited_.zero();
-  for_each({0, x.size}, InhabitPass<P>{view(), frame, x, keys_, order, inhabited_});
+  for_each({0, x.size}, InhabitPass<P>{view(), frame, x, keys, order, inhabited_});
 }
 template void CellGrid::sort(const Frame&, Span<const Vec3d>, Buffer<Index>&);
 template void CellGrid::sort(const Frame&, Span<const PackedPosition>, Buffer<Index>&);

@@ -18,9 +18,8 @@ struct GatherPass {
 
 template <class T>
 void Field<T>::gather(Span<const Index> order, FieldBase* by) {
-  static thread_local Buffer<T> spare;
   auto* const lender = dynamic_cast<Field<T>*>(by);
-  Buffer<T>& room = lender ? lender->data_ : spare;
+  Buffer<T>& room = lender ? lender->data_ : Context::current().scratch<T>();
   room.reserve_and_resize(order.size);
   for_each({0, order.size}, GatherPass<T>{data_, order, room});
   data_.swap(room);

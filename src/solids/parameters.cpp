@@ -37,7 +37,6 @@ ContactLaw law_between(const GrainMaterial& material, const WallBody& body, cons
 SolidParameters solid_parameters(const Config& config) {
   const GrainConfig& g = config.grain;
   SolidParameters p{.materials = g.all_materials(),
-                    .d_min = g.smallest(),
                     .d_max = g.largest(),
                     .skin = config.skin_grain * g.smallest(),
                     .touch = config.contact.normal != NormalLaw::none,

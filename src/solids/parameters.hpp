@@ -22,7 +22,7 @@ struct RigidGroup {
 
 struct SolidParameters {
   std::vector<GrainMaterial> materials;    ///< as they are numbered
-  double d_min = 0, d_max = 0;             ///< diameters, m
+  double d_max = 0;                        ///< of the largest, m
   double skin = 0;                         ///< of the lists, m
   std::vector<ContactLaw> pair_laws = {};  ///< [materials][materials]
   std::vector<ContactLaw> wall_laws = {};  ///< [bodies][materials]

@@ -27,10 +27,10 @@ void WallList::cover(const GrainStore& grains, Span<const BodyPose> poses, const
                       grains.radius.span(),
                       remembered,
                       0.5 * skin_ + covered_ + gap_};
-  compaction_.find(grains.size(), near, grain_);
+  find_all(grains.size(), near, grain_);
   count_.resize(size());
   for_each({0, size()}, CountWallsPass{near, grain_, count_});
-  surface_.reserve_and_resize(sorter_.exclusive_scan(count_, offset_));
+  surface_.reserve_and_resize(exclusive_scan(count_, offset_));
   row_of_.resize(grains.size());
   for_each(grains.owned(), NoRowPass{row_of_});
   for_each({0, size()}, FillWallsPass{near, rows(), surface_.data(), row_of_});

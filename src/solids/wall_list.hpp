@@ -36,8 +36,6 @@ class WallList {
   double skin_, gap_;
   bool stale_ = true;
   double covered_ = 0, moved_ = 0;  ///< how far walls may go and have gone since the list was made, m
-  Compaction compaction_;
-  Sorter sorter_;
   Buffer<Index> grain_, surface_, row_of_;
   Buffer<std::uint64_t> count_, offset_;
 };

@@ -56,6 +56,7 @@ void Stepper::list_stages() {
     sorted = all_of({&fluid_, &walls_, &walls_.mirrors}),
     packed = {&fluid_.xp, &walls_.xp, &walls_.mirrors.xp};
   if (has_grains()) sorted = sorted + all_of({&grains_});
+  if (coupled()) packed.push_back(&grains_.xp);
   add("renew_lists", Part::lists, &Stepper::renew_lists, lasting(sorted) + packed, sorted);
   if (has_grains() || bodies_.any()) list_solid_stages();
   if (has_fluid()) list_fluid_stages();
@@ -70,9 +71,9 @@ void Stepper::list_solid_stages() {
   const Fields drag{&g.U, &g.omega_f, &g.K, &g.K_rot}, impulses{&g.impulse, &g.spin_impulse};
   if (coupled())
     add("interpolate", Part::coupling, &Stepper::interpolate,
-        {&f.x, &f.xp, &f.v_rho, &f.m_state, &f.mass, &f.theta, &f.solid_factor, &g.x, &g.v, &g.omega,
+        {&f.x, &f.xp, &f.v_rho, &f.m_state, &f.mass, &f.theta, &f.solid_factor, &g.x, &g.xp, &g.v, &g.omega,
          &g.radius, &g.fluid_force},
-        drag + Fields{&g.eps, &g.wetness});
+        drag + Fields{&g.eps, &g.wetness, &g.x_before});
 
   Fields moved = all_of(bodies_.stores()), by = lasting(moved);
   if (has_grains()) {
@@ -84,7 +85,7 @@ void Stepper::list_solid_stages() {
 
   if (two_way())
     add("react", Part::coupling, &Stepper::react,
-        impulses + drag + Fields{&f.xp, &f.v_rho, &f.mass, &f.m_state},
+        impulses + drag + Fields{&f.xp, &f.v_rho, &f.mass, &f.m_state, &g.xp},
         {&f.v_rho, &f.drag_kick, &f.reaction});
 }
 
@@ -123,8 +124,8 @@ void Stepper::list_fluid_stages() {
       moving ? Fields{&w.x, &w.v_rho, &w.xp, &m.x, &m.xp} : none);
   if (two_way())
     add("porosity", Part::coupling, &Stepper::porosity,
-        {&f.x, &f.v_rho, &f.mass, &f.m_state, &g.x, &g.v, &g.radius},
-        {&f.xp, &f.eps, &f.solid_factor, &f.flux, &f.m_state, &f.grains_around});
+        {&f.x, &f.v_rho, &f.mass, &f.m_state, &g.x, &g.x_before, &g.v, &g.radius},
+        {&g.xp, &f.xp, &f.eps, &f.solid_factor, &f.flux, &f.m_state, &f.grains_around});
   if (!fluid.one_pass()) {
     const bool summed = config_.density.method == DensityMethod::summation,
                packed = summed || config_.density.reinit_every > 0;
@@ -162,9 +163,11 @@ void Stepper::list_fluid_stages() {
   if (coupled()) {
     const Fields groups = all_of(solid_solver_->groups().stores());
     add("push", Part::coupling, &Stepper::push,
-        groups + Fields{&f.xp, &f.theta, &f.m_state, &f.solid_factor, &g.x, &g.v, &g.omega, &g.radius,
-                        &g.material, &g.fluid_force},
-        Fields{&g.fluid_force, &g.v} + (groups.empty() ? none : Fields{&g.omega}) + groups);
+        groups + (two_way() ? Fields{&g.xp} : Fields{&g.x}) +
+            Fields{&f.xp, &f.theta, &f.m_state, &f.solid_factor, &g.v, &g.omega, &g.radius, &g.material,
+                   &g.fluid_force},
+        Fields{&g.fluid_force, &g.v} + (two_way() ? none : Fields{&g.xp}) +
+            (groups.empty() ? none : Fields{&g.omega}) + groups);
   }
 }
 

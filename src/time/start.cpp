@@ -163,15 +163,14 @@ void Stepper::load_grain_store(const SavedState& saved) {
 }
 
 void Stepper::save(SavedState& out) const {
-  out.scalars.push_back({"drag_limit", "s", drag_limit_});
   out.scalars.push_back({"walls_moved", "m", walls_moved_});
   out.scalars.push_back({"rebuilds", "-", double(rebuilds_)});
   if (has_fluid()) fluid_solver_->save(out.scalars);
+  if (coupled()) coupling_->save(out.scalars);
 }
 
 void Stepper::load(const SavedState& saved) {
   const auto scalar = [&](const std::string& name) { return scalar_of(saved, name); };
-  drag_limit_ = scalar("drag_limit");
   walls_moved_ = scalar("walls_moved");
   rebuilds_ = std::int64_t(scalar("rebuilds"));
   if (has_fluid()) {
@@ -179,6 +178,7 @@ void Stepper::load(const SavedState& saved) {
     moment_ = moment(clock_.time, clock_.step);
     corrected_ = 0;
   }
+  if (coupled()) coupling_->load(scalar);
   if (has_grains()) load_grain_store(saved);
   restore_lists(saved);
   if (has_fluid()) fluid_solver_->survey(fluid_);

@@ -117,7 +117,7 @@ State::State(const Config& config)
       open(open_boundary_parameters(config), frame, motion),
       gravity(config.gravity, config.frame.motion, config.time.end),
       matter(config.grain.all_materials()) {
-  if (!coupled) fluid.solid_factor.leave_out();
+  if (!coupled) fluid.solid_factor.leave_out(), grains.xp.leave_out(), grains.x_before.leave_out();
   if (config.grain.materials.empty()) grains.material.leave_out();
   if (!two_way)
     for (FieldBase* field : std::initializer_list<FieldBase*>{&fluid.reaction, &fluid.drag_kick})

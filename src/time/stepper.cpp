@@ -87,7 +87,6 @@ void Stepper::renew_lists(Step& now) { refresh_if_needed(now.dt); }
 
 void Stepper::interpolate(Step& now) {
   coupling_->gather(fluid_, grains_, poses_now(), now.dt);
-  drag_limit_ = coupling_->stable_dt();
 }
 
 /// Grains and bodies, in substeps.
@@ -182,6 +181,7 @@ void Stepper::finish(Step& now) {
   walls_moved_ += now.dt * std::max(speed_before, motion_.top_speed(clock_.time));
   remove_cleared_bodies();
   sweep();
+  if (coupled()) coupling_->read_survey();
 }
 
 // -- what stages go by ---------------------------------------------------------
@@ -227,7 +227,7 @@ std::vector<StepLimit> Stepper::limits() {
       out.push_back({"viscous", longest});
     if (fluid_extremes_.acc2 > 0)
       out.push_back({"body", t.body * std::sqrt(hs / std::sqrt(fluid_extremes_.acc2))});
-    if (coupled()) out.push_back({"drag", drag_limit_});
+    if (coupled()) out.push_back({"drag", coupling_->stable_dt()});
   }
   const double wall_speed = motion_.top_speed(clock_.time);
   double travel = std::numeric_limits<double>::infinity();
@@ -312,8 +312,8 @@ void Stepper::refresh(bool fluid, bool grains, double dt) {
 }
 
 void Stepper::relist_coupling() {
-  coupling_->rebuild_lists(fluid_, fluid_solver_->grid().view(), grains_, grain_grid_.view(),
-                           (fluid_solver_->skin() + solid_solver_->skin()) / 2);
+  coupling_->rebuild_lists(fluid_, fluid_solver_->grid().view(), fluid_solver_->half_skins(fluid_), grains_,
+                           grain_grid_.view(), solid_solver_->skin() / 2);
 }
 
 void Stepper::remove_cleared_bodies() {

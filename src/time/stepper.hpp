@@ -128,7 +128,6 @@ class Stepper {
   double corrected_ = 0;  ///< s, kick of the last correction
   FluidExtremes fluid_extremes_;
   GrainWatch grain_watch_;
-  double drag_limit_ = std::numeric_limits<double>::infinity();  ///< s, of the last exchange
   double walls_moved_ = 0;  ///< bound on wall travel since the lists were built, m
   bool rebuilt_ = false;
   std::int64_t rebuilds_ = 0;

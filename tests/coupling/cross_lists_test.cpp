@@ -21,12 +21,23 @@ Rows rows_of(const VerletList& list) {
   return rows;
 }
 
-Rows all_pairs(const Frame& frame, const std::vector<Vec3d>& a, const std::vector<Vec3d>& b, double range) {
+Rows all_pairs(const Frame& frame, const std::vector<Vec3d>& a, const std::vector<Real>& skin_a,
+               const std::vector<Vec3d>& b, const std::vector<Real>& skin_b, double range) {
   Rows rows(a.size());
   for (Index i = 0; i < a.size(); ++i)
-    for (Index j = 0; j < b.size(); ++j)
-      if (norm2(frame.separation(a[i], b[j])) < range * range) rows[i].push_back(j);
+    for (Index j = 0; j < b.size(); ++j) {
+      const double reach = range + double(skin_a[i]) + double(skin_b[j]);
+      if (norm2(frame.separation(a[i], b[j])) < reach * reach) rows[i].push_back(j);
+    }
   return rows;
+}
+
+/// Half skins between a quarter of the most and the most, m.
+std::vector<Real> half_skins(std::size_t n, double most, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> of(most / 4, most);
+  std::vector<Real> skins(n);
+  for (Real& skin : skins) skin = Real(of(random));
+  return skins;
 }
 
 struct Case {
@@ -63,16 +74,25 @@ TEST_P(CrossLists, HoldEveryPairInRangeOnce) {
   std::vector<Vec3d> fluid_at;
   for (const auto& x : fluid.to_host()) fluid_at.push_back(coordinates(frame, x));
   const auto grains_at = grains.to_host();
+  const double most = 0.2 * c.range;
+  const std::vector<Real> fluid_skins = half_skins(500, most, random), grain_skins(70, Real(most / 2));
+  Buffer<Real> skins;
+  skins.assign(fluid_skins);
+  const HalfSkins of_fluid(skins, most), of_grains(most / 2);
 
   VerletList list;
-  const CrossNear<FluidPosition, Vec3d> grains_of_fluid{frame, fluid, grains, c.range};
-  const CrossNear<Vec3d, FluidPosition> fluid_of_grains{frame, grains, fluid, c.range};
-  const Rows by_fluid = all_pairs(frame, fluid_at, grains_at, c.range);
-  const Rows by_grain = all_pairs(frame, grains_at, fluid_at, c.range);
+  const CrossNear<FluidPosition, Vec3d> grains_of_fluid{frame, fluid, grains, c.range, of_fluid, of_grains};
+  const CrossNear<Vec3d, FluidPosition> fluid_of_grains{frame, grains, fluid, c.range, of_grains, of_fluid};
+  const Rows by_fluid = all_pairs(frame, fluid_at, fluid_skins, grains_at, grain_skins, c.range);
+  const Rows by_grain = all_pairs(frame, grains_at, grain_skins, fluid_at, fluid_skins, c.range);
   for (unsigned bits = 0; bits <= kSliceBits; ++bits) {  // whatever number of lanes shares a row
     list.build(500, grain_grid.view(), grains_of_fluid, bits);
     EXPECT_EQ(rows_of(list), by_fluid) << bits;
+    list.build(500, grain_grid.view().for_reach(2 * c.range), grains_of_fluid, bits);
+    EXPECT_EQ(rows_of(list), by_fluid) << bits;
     list.build(70, fluid_grid.view(), fluid_of_grains, bits);
+    EXPECT_EQ(rows_of(list), by_grain) << bits;
+    list.build(70, fluid_grid.view().for_reach(2 * c.range), fluid_of_grains, bits);
     EXPECT_EQ(rows_of(list), by_grain) << bits;
   }
 }

@@ -45,11 +45,10 @@ TEST(Store, SpendsNothingOnFieldsLeftOut) {
   EXPECT_EQ(store.scratch.span().size, 5u);
   EXPECT_TRUE(store.save().arrays.empty());
   store.load(store.save());
-  Compaction compaction;
   Buffer<Index> kept;
   Buffer<Id> id;
   id.assign({1, 3, 2, 6, 5});
-  compaction.find(store.size(), NotThirds{id}, kept);
+  find_all(store.size(), NotThirds{id}, kept);
   store.reorder(kept);
   EXPECT_EQ(store.size(), 3u);
 }
@@ -89,9 +88,8 @@ TEST(Store, LosesWhatDoesNotStayAndGrowsAgain) {
     if (k % 3 != 0) left.push_back(k);
   store.grow(Index(all.size()));
   store.id.assign(all);
-  Compaction compaction;
   Buffer<Index> kept;
-  compaction.find(store.size(), NotThirds{store.id}, kept);
+  find_all(store.size(), NotThirds{store.id}, kept);
   store.reorder(kept);
   EXPECT_EQ(store.size(), left.size());
   EXPECT_EQ(store.id.values(), left);
@@ -101,13 +99,12 @@ TEST(Store, LosesWhatDoesNotStayAndGrowsAgain) {
 }
 
 TEST(Store, NothingMayBeLeft) {
-  Compaction compaction;
   Buffer<Index> kept;
   Buffer<Id> id;
   id.assign({0, 3, 6});
-  compaction.find(3, NotThirds{id.span()}, kept);
+  find_all(3, NotThirds{id.span()}, kept);
   EXPECT_EQ(kept.size(), 0u);
-  compaction.find(0, NotThirds{id.span()}, kept);
+  find_all(0, NotThirds{id.span()}, kept);
   EXPECT_EQ(kept.size(), 0u);
 }
 

@@ -116,7 +116,8 @@ struct CoupledBox {
     fluid.x_list.buffer().assign(fluid.x.values());
     grains.x_list.buffer().assign(grains.x.values());
     for_each(fluid.owned(), PackPass<FluidPosition>{frame, fluid.x, fluid.xp});
-    coupling.rebuild_lists(fluid, fluid_grid.view(), grains, grain_grid.view(), kSkin * coupling.range());
+    coupling.rebuild_lists(fluid, fluid_grid.view(), kSkin * coupling.range() / 2, grains, grain_grid.view(),
+                           kSkin * coupling.range() / 2);
   }
 
   std::vector<Vec3d> fluid_places() const {

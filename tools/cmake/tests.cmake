@@ -37,6 +37,7 @@ if(host_tests)
   if(BEDLOAD_PYTHON)
     target_compile_definitions(bedload_host_tests PRIVATE BEDLOAD_PYTHON="${BEDLOAD_PYTHON}")
   endif()
+  target_compile_options(bedload_host_tests PRIVATE $<$<CONFIG:Release>:-O1>)  # in half the time
   target_link_libraries(bedload_host_tests PRIVATE bedload_host bedload_device GTest::gtest_main)
   bedload_register(bedload_host_tests)
 endif()

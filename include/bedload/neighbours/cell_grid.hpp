@@ -16,6 +16,7 @@ struct CellGridView {
   const std::uint16_t* curve = nullptr;     ///< [512] place on the Hilbert curve of a cell in its brick
   const Index* start = nullptr;             ///< [cells + 1] first particle of each cell
   const std::uint8_t* inhabited = nullptr;  ///< [cells] whether it or a cell beside it holds any
+  unsigned level = 0;                       ///< log2 of the sorted cells along each edge of these
 
   /// Cell coordinate along axis k; outside positions go to the nearest cell, periodic ones wrap.
   BL_HD int coordinate(double x, int k) const {
@@ -27,8 +28,30 @@ struct CellGridView {
     return clamp(c, 0, n[k] - 1);
   }
   BL_HD std::uint32_t key(int ix, int iy, int iz) const {
+    ix <<= level, iy <<= level, iz <<= level;
     const std::uint32_t brick = (std::uint32_t(iz >> 3) * bricks[1] + (iy >> 3)) * bricks[0] + (ix >> 3);
-    return brick * 512u + curve[(iz & 7) * 64 + (iy & 7) * 8 + (ix & 7)];
+    return brick * 512u + (curve[(iz & 7) * 64 + (iy & 7) * 8 + (ix & 7)] & ~(cells() - 1));
+  }
+  /// The particles of the cell of a key lie from first(key) to last(key), that not included.
+  BL_HD Index first(std::uint32_t key) const { return start[key]; }
+  BL_HD Index last(std::uint32_t key) const { return start[key + cells()]; }
+  /// Sorted cells in one of these. In a brick, a cube of 2, 4 or 8 cells each way is one stretch of the
+  /// curve.
+  BL_HD std::uint32_t cells() const { return 1u << 3 * level; }
+  /// The same in larger cells, for searches that reach over many.
+  CellGridView for_reach(double reach) const {
+    CellGridView view = *this;
+    const auto fits = [&] {
+      for (int k = 0; k < 3; ++k)
+        if (2 > 0.75 * reach * view.inverse[k] || (periodic[k] && view.n[k] % 2 != 0)) return false;
+      return view.level < 3;
+    };
+    while (fits()) {
+      ++view.level;
+      for (int k = 0; k < 3; ++k) view.n[k] = (view.n[k] + 1) / 2, view.inverse[k] /= 2;
+      view.inhabited = nullptr;  // told of sorted cells alone
+    }
+    return view;
   }
   BL_HD std::uint32_t key(const Vec3d& x) const {
     return key(coordinate(x.x, 0), coordinate(x.y, 1), coordinate(x.z, 2));
@@ -94,7 +117,7 @@ struct CellGridView {
   /// Whether any particle may be within `range` of x.
   BL_HD bool any_near(const Vec3d& x, double range) const {
     const bool beyond = range * max_of(inverse.x, max_of(inverse.y, inverse.z)) > 1;
-    return beyond || inhabited[key(x)] != 0;
+    return beyond || !inhabited || inhabited[key(x)] != 0;
   }
   /// f(key) for the cell of x and those beside it; on a short periodic axis more than once.
   template <class F>
@@ -109,12 +132,10 @@ struct CellGridView {
       for (int iy = lo[1]; iy <= hi[1]; ++iy)
         for (int ix = lo[0]; ix <= hi[0]; ++ix) f(key(wrapped(ix, 0), wrapped(iy, 1), wrapped(iz, 2)));
   }
-  /// f(begin, end) for the particles of each of the cells that a sphere of radius `range` about x touches; of
-  /// a stride that is a power of two, every stride-th of the cells.
+  /// f(begin, end) for the particles of each of the cells that a sphere of radius `range` about x touches.
   template <class F>
-  BL_HD void each_run(const Vec3d& x, double range, F&& f, unsigned first = 0, unsigned stride = 1) const {
+  BL_HD void each_run(const Vec3d& x, double range, F&& f) const {
     const Block b = block(x, range);
-    unsigned q = 0;
     for (int k = 0; k < b.n[2]; ++k) {
       const double gap_z = b.gap2(2, k);
       const int iz = wrapped(b.lo[2] + k, 2);
@@ -122,20 +143,20 @@ struct CellGridView {
         const double gap_yz = gap_z + b.gap2(1, j);
         const int iy = wrapped(b.lo[1] + j, 1);
         for (int i = 0; i < b.n[0]; ++i) {
-          if ((q++ & (stride - 1)) != first || gap_yz + b.gap2(0, i) >= b.range2) continue;
+          if (gap_yz + b.gap2(0, i) >= b.range2) continue;
           const std::uint32_t c = key(wrapped(b.lo[0] + i, 0), iy, iz);
-          if (start[c] < start[c + 1]) f(start[c], start[c + 1]);
+          if (first(c) < last(c)) f(first(c), last(c));
         }
       }
     }
   }
   /// f(j) for each of these particles.
   template <class F>
-  BL_HD void each_near(const Vec3d& x, double range, F&& f, unsigned first = 0, unsigned stride = 1) const {
+  BL_HD void each_near(const Vec3d& x, double range, F&& f) const {
     const auto run = [&](Index begin, Index end) {
       for (Index j = begin; j < end; ++j) f(j);
     };
-    each_run(x, range, run, first, stride);
+    each_run(x, range, run);
   }
 
   /// Coordinate of a cell no more than a period beyond the ends of a periodic axis.
@@ -163,10 +184,8 @@ class CellGrid {
   std::uint32_t cells_ = 0;
   int key_bits_ = 32;
   Buffer<std::uint16_t> curve_;
-  Buffer<std::uint32_t> keys_;
   Buffer<Index> start_;
   Buffer<std::uint8_t> inhabited_;
-  Sorter sorter_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

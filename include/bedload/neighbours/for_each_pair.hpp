@@ -63,8 +63,26 @@ struct Sources<T, Rest...> {
 };
 BL_HD Sources<> sources_of() { return {}; }
 template <class T, class... Rest>
-BL_HD Sources<T, Rest...> sources_of(Span<const T> field, Span<const Rest>... rest) {
+BL_HD Sources<std::remove_const_t<T>, std::remove_const_t<Rest>...> sources_of(Span<T> field,
+                                                                               Span<Rest>... rest) {
   return {field, sources_of(rest...)};
+}
+
+/// Of what a pass reads in some cases alone.
+template <class First, class... Rest>
+BL_HD const First& first_of(const First& first, const Rest&...) {
+  return first;
+}
+template <class First, class... Rest>
+BL_HD const auto& second_of(const First&, const Rest&... rest) {
+  return first_of(rest...);
+}
+template <class First, class... Rest>
+BL_HD const auto& last_of(const First& first, const Rest&... rest) {
+  if constexpr (sizeof...(Rest) == 0)
+    return first;
+  else
+    return last_of(rest...);
 }
 
 template <class Pass>
@@ -452,7 +470,7 @@ void run_tiles(const TileList& list, const PairSeparation& separation, double cu
     check_cuda(cudaFuncSetAttribute(tile_kernel<Loop>, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                     int(tile_memory())),
                "shared memory of a pass");
-  tile_kernel<<<list.tiles(), kTileThreads, capacity * each>>>(
+  tile_kernel<<<list.tiles(), kTileThreads, capacity * each, Context::current().stream()>>>(
       Loop{list.view(), separation, Real(cutoff * cutoff), wall_row, pass, capacity});
   check_cuda(cudaGetLastError(), "pass over pairs");
 }

@@ -110,7 +110,6 @@ class TileList {
   Buffer<uint2> entry_, found_;
   Buffer<std::uint64_t> width_, offset_;
   Buffer<detail::TileCounts> counts_;
-  Sorter sorter_;
 };
 
 /// What each of so many blocks may take of a multiprocessor's shared memory, bytes.

@@ -382,7 +382,7 @@ void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, 
   const Span<const Index> start{grid.view().start, bricks * 512 + 1};
   width_.resize(bricks);
   for_each({0, bricks}, detail::TilesOfBrick{start, rows, width_});
-  tiles_ = Index(sorter_.exclusive_scan(width_, offset_));
+  tiles_ = Index(exclusive_scan(width_, offset_));
   tile_.reserve_and_resize(tiles_ + 1);
   for_each({0, bricks}, detail::CutBrick{start, offset_, tile_, rows});
   count_.reserve_and_resize(std::size_t(tiles_) * kTileThreads);
@@ -403,26 +403,26 @@ void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, 
     const Index places = Index(entry_.size() / kTileThreads);
     found_.reserve_and_resize(std::size_t(blocks) * words_ * kTileThreads);
     counts_.zero();
-    search<<<blocks, kTileThreads, memory>>>({grid.view(),
-                                              frame,
-                                              x,
-                                              xp,
-                                              range,
-                                              skins,
-                                              periods_,
-                                              bits_,
-                                              tiles_,
-                                              Index(memory),
-                                              Index(third),
-                                              words_,
-                                              Index(source_.size()),
-                                              places,
-                                              tile_.data(),
-                                              source_.data(),
-                                              count_.data(),
-                                              entry_.data(),
-                                              found_.data(),
-                                              counts_.data()});
+    search<<<blocks, kTileThreads, memory, Context::current().stream()>>>({grid.view(),
+                                                                           frame,
+                                                                           x,
+                                                                           xp,
+                                                                           range,
+                                                                           skins,
+                                                                           periods_,
+                                                                           bits_,
+                                                                           tiles_,
+                                                                           Index(memory),
+                                                                           Index(third),
+                                                                           words_,
+                                                                           Index(source_.size()),
+                                                                           places,
+                                                                           tile_.data(),
+                                                                           source_.data(),
+                                                                           count_.data(),
+                                                                           entry_.data(),
+                                                                           found_.data(),
+                                                                           counts_.data()});
     check_cuda(cudaGetLastError(), "search for neighbours");
     const detail::TileCounts counts = numbers_ = counts_.to_host()[0];
     if (counts.around > detail::kMostAround)
@@ -445,7 +445,8 @@ void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, 
   check_cuda(cudaFuncSetAttribute(detail::tile_order<uint2>, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                   int(sorted)),
              "shared memory of an order");
-  detail::tile_order<uint2><<<tiles_, kTileThreads, sorted>>>(view(), entry_.data());
+  detail::tile_order<uint2>
+      <<<tiles_, kTileThreads, sorted, Context::current().stream()>>>(view(), entry_.data());
   check_cuda(cudaGetLastError(), "order of neighbours");
 }
 

@@ -71,12 +71,14 @@ class VerletList {
 #if BL_CUDA
 namespace detail {
 
-/// A warp searches for a slice. What it finds stands in shared memory in the order of the slice until it is
-/// known how long that is; then the slice takes the next place in the list. A slice too long for that is
-/// searched for once more.
+/// A warp searches for a slice, row after row. What it finds stands in shared memory in the order of the
+/// slice until it is known how long that is; then the slice takes the next place in the list. A slice too
+/// long for that is searched for once more.
 template <class Near>
 struct SliceSearch {
-  static constexpr Index kThreads = 128, kTurns = 64;  ///< of a block; of a slice in shared memory
+  static constexpr Index kThreads = 128, kTurns = 64;          // of a block; of a slice in shared memory
+  static constexpr Index kStride = VerletListView::kTurn + 1;  // so that a row lies in many banks
+  static constexpr unsigned kAll = 0xffffffffu;
 
   CellGridView sources;
   Near near;
@@ -88,75 +90,78 @@ struct SliceSearch {
   Index* entry;
 
   __device__ void operator()() const {
-    __shared__ Index found[kThreads * kTurns];
-    const Index thread = blockIdx.x * kThreads + threadIdx.x, in_warp = threadIdx.x % 32;
-    const Lane lane(thread, list.bits);
-    Index* const own = found + (threadIdx.x - in_warp) * kTurns;
-    const std::uint32_t n = lane.row < rows ? search(lane, own, kTurns) : 0;
-    std::uint32_t turns = (n + lane.count - 1) >> list.bits;
-    for (unsigned step = 1; step < 32; step *= 2)
-      turns = max_of(turns, __shfl_xor_sync(0xffffffffu, turns, step));
+    __shared__ Index found[kThreads / 32][kTurns * kStride];
+    const Index slice = (blockIdx.x * kThreads + threadIdx.x) / 32, lane = threadIdx.x % 32;
+    const Index begin = slice << list.row_bits();
+    if (begin >= rows) return;
+    const Index row = begin + lane, end = min_of(rows, begin + (1u << list.row_bits()));
+    const bool some = row < end && sources.any_near(near.place(row), near.reach(row));
+    Index* const own = found[threadIdx.x / 32];
+    const auto fill = [&](Index* out, Index stride, std::uint32_t most) {
+      std::uint32_t n = 0;  // of the lane's row
+      for (unsigned left = __ballot_sync(kAll, some); left != 0; left &= left - 1) {
+        const Index r = Index(__ffs(int(left)) - 1), column = r << list.bits;
+        const std::uint32_t of_row = search(begin + r, lane, [&](std::uint32_t k, Index j) {
+          const std::uint32_t turn = k >> list.bits;
+          if (turn < most) out[std::size_t(turn) * stride + column + (k & ((1u << list.bits) - 1))] = j;
+        });
+        if (lane == r) n = of_row;
+      }
+      return n;
+    };
+    const std::uint32_t n = fill(own, kStride, kTurns);
+    std::uint32_t turns = (n + (1u << list.bits) - 1) >> list.bits;
+    for (unsigned step = 1; step < 32; step *= 2) turns = max_of(turns, __shfl_xor_sync(kAll, turns, step));
     unsigned long long first = 0;
-    if (in_warp == 0) {
+    if (lane == 0) {
       first = atomicAdd(reinterpret_cast<unsigned long long*>(slots), turns * VerletListView::kTurn);
-      if (lane.row < rows) offset[thread / 32] = first;
+      offset[slice] = first;
     }
-    __syncwarp(), first = __shfl_sync(0xffffffffu, first, 0);  // all see what all have found
-    if (lane.row >= rows) return;
-    if (lane.index == 0) count[lane.row] = n;
+    first = __shfl_sync(kAll, first, 0);
+    if (row < end) count[row] = n;
     if (first + turns * VerletListView::kTurn > room) return;  // to be done again with more
     if (turns > kTurns) {
-      search(lane, entry + first, turns);
+      fill(entry + first, VerletListView::kTurn, turns);
       return;
     }
-    for (std::uint32_t k = lane.index, turn = 0; k < n; k += lane.count, ++turn)
-      entry[first + turn * VerletListView::kTurn + in_warp] = own[turn * VerletListView::kTurn + in_warp];
+    __syncwarp();  // all see what all have found
+    const std::uint32_t of_column = __shfl_sync(kAll, n, int(lane >> list.bits));
+    const std::uint32_t k = lane & ((1u << list.bits) - 1);
+    for (std::uint32_t turn = 0; (turn << list.bits) + k < of_column; ++turn)
+      entry[first + turn * VerletListView::kTurn + lane] = own[turn * kStride + lane];
   }
 
  private:
-  /// Writes the first `turns` turns of a row to its lanes of a slice; how many entries there are.
-  __device__ std::uint32_t search(const Lane& lane, Index* slice, std::uint32_t turns) const {
-    const Index i = lane.row;
-    const Vec3d place = near.place(i);
-    const double reach = near.reach(i);
-    if (!sources.any_near(place, reach)) return 0;
-    slice += threadIdx.x % 32 - lane.index;
+  /// keep(k, j) for each j near i, in the order of their cells, k = 0, 1, ...; how many there are. Lanes look
+  /// up cells side by side and then test what is in these, one particle each.
+  template <class F>
+  __device__ std::uint32_t search(Index i, Index lane, const F& keep) const {
+    const auto block = sources.block(near.place(i), near.reach(i));
     std::uint32_t n = 0;
-    const auto keep = [&](std::uint32_t k, Index j) {
-      if (k >> list.bits < turns)
-        slice[(k >> list.bits) * VerletListView::kTurn + (k & (lane.count - 1))] = j;
-    };
-    if (lane.count == 1) {
-      sources.each_run(place, reach, [&](Index begin, Index end) {
-        for (; begin < end; begin += 32) {
-          unsigned hits = 0;
-          const Index some = min_of(32u, end - begin);
-          for (Index b = 0; b < some; ++b) hits |= unsigned(near(i, begin + b)) << b;
-          for (; hits != 0; hits &= hits - 1) keep(n++, begin + Index(__ffs(int(hits)) - 1));
-        }
-      });
-      return n;
-    }
-    // each lane takes every count-th cell; all test one candidate at a time
-    const auto block = sources.block(place, reach);
-    int q = int(lane.index);
-    Index j = 0, end = 0;
-    for (;;) {
-      while (j == end && q < block.size()) {
-        if (block.touches(q)) {
-          const std::uint32_t c = sources.key(block, q);
-          j = sources.start[c], end = sources.start[c + 1];
-        }
-        q += int(lane.count);
+    for (int q = 0; q < block.size(); q += 32) {
+      Index end = 0, upto = 0;  // of the lane's cell; particles in the cells up to that
+      if (const int cell = q + int(lane); cell < block.size() && block.touches(cell)) {
+        const std::uint32_t key = sources.key(block, cell);
+        end = sources.last(key);
+        upto = end - sources.first(key);
       }
-      const bool some = j < end;
-      if (lane.ballot(some) == 0) return n;
-      const bool hit = some && near(i, j);
-      const unsigned kept = lane.ballot(hit);
-      if (hit) keep(n + Lane::bits_in(kept & ((1u << lane.index) - 1)), j);
-      n += Lane::bits_in(kept);
-      j += some;
+      for (unsigned step = 1; step < 32; step *= 2) {
+        const Index before = __shfl_up_sync(kAll, upto, step);
+        if (lane >= step) upto += before;
+      }
+      const Index all = __shfl_sync(kAll, upto, 31), shift = end - upto;
+      for (Index c = lane; c - lane < all; c += 32) {
+        unsigned of = 0;  // whose cell candidate c is in
+        for (unsigned step = 16; step > 0; step /= 2)
+          if (__shfl_sync(kAll, upto, int(of + step - 1)) <= c) of += step;
+        const Index j = c + __shfl_sync(kAll, shift, int(of));
+        const bool hit = c < all && near(i, j);
+        const unsigned hits = __ballot_sync(kAll, hit);
+        if (hit) keep(n + std::uint32_t(__popc(hits & ((1u << lane) - 1))), j);
+        n += std::uint32_t(__popc(hits));
+      }
     }
+    return n;
   }
 };
 
@@ -225,7 +230,7 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
   for (;;) {
     const std::uint64_t room = entry_.size() > beyond ? entry_.size() - beyond : 0;
     taken_.zero();
-    detail::slice_search<<<blocks, Search::kThreads>>>(Search{
+    detail::slice_search<<<blocks, Search::kThreads, 0, Context::current().stream()>>>(Search{
         sources, near, view(), rows, room, count_.data(), offset_.data(), taken_.data(), entry_.data()});
     check_cuda(cudaGetLastError(), "search for neighbours");
     slots_ = taken_.to_host()[0];
@@ -360,17 +365,19 @@ struct ShearedNear {
   }
 };
 
-/// Pairs across the phases closer than `range`, in fp64.
+/// Pairs across the phases closer than `range` and their half skins, in fp64.
 template <class PA, class PB>
 struct CrossNear {
   Frame frame;
   Span<const PA> a;
   Span<const PB> b;
   double range;  ///< m
+  HalfSkins skin_a = {}, skin_b = {};
   BL_HD Vec3d place(Index i) const { return coordinates(frame, a[i]); }
-  BL_HD double reach(Index) const { return range; }
+  BL_HD double reach(Index i) const { return range + skin_a[i] + skin_b.most; }
   BL_HD bool operator()(Index i, Index j) const {
-    return norm2(frame.separation(coordinates(frame, a[i]), coordinates(frame, b[j]))) < range * range;
+    return norm2(frame.separation(coordinates(frame, a[i]), coordinates(frame, b[j]))) <
+           square(range + skin_a[i] + skin_b[j]);
   }
 };
 

@@ -9,18 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "bedload/core/error.hpp"
 #include "bedload/core/span.hpp"
+#include "bedload/parallel/context.hpp"
 
 namespace bedload::inline BL_VARIANT {
-
-#if BL_CUDA
-inline void check_cuda(cudaError_t status, const char* what) {
-  if (status == cudaSuccess) return;
-  (void)cudaGetLastError();
-  throw DeviceError(std::string(what) + ": " + cudaGetErrorString(status));
-}
-#endif
 
 /// Bytes now held by all buffers of this build.
 inline std::atomic<std::size_t>& bytes_held() {
@@ -55,10 +47,13 @@ inline void device_free(void* p, std::size_t bytes) {
 #endif
   bytes_held() -= bytes;
 }
+/// Copies between host and device have been made when they return.
 inline void copy_to_device(void* to, const void* from, std::size_t bytes) {
   if (bytes == 0) return;
 #if BL_CUDA
-  check_cuda(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice), "copy to the GPU");
+  const Context& context = Context::current();
+  check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, context.stream()), "copy to the GPU");
+  context.wait();
 #else
   std::memcpy(to, from, bytes);
 #endif
@@ -66,7 +61,9 @@ inline void copy_to_device(void* to, const void* from, std::size_t bytes) {
 inline void copy_to_host(void* to, const void* from, std::size_t bytes) {
   if (bytes == 0) return;
 #if BL_CUDA
-  check_cuda(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "copy from the GPU");
+  const Context& context = Context::current();
+  check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToHost, context.stream()), "copy from the GPU");
+  context.wait();
 #else
   std::memcpy(to, from, bytes);
 #endif
@@ -74,7 +71,8 @@ inline void copy_to_host(void* to, const void* from, std::size_t bytes) {
 inline void copy_on_device(void* to, const void* from, std::size_t bytes) {
   if (bytes == 0) return;
 #if BL_CUDA
-  check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice), "copy on the GPU");
+  check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice, Context::current().stream()),
+             "copy on the GPU");
 #else
   std::memcpy(to, from, bytes);
 #endif
@@ -82,14 +80,9 @@ inline void copy_on_device(void* to, const void* from, std::size_t bytes) {
 inline void fill_zero(void* p, std::size_t bytes) {
   if (bytes == 0) return;
 #if BL_CUDA
-  check_cuda(cudaMemsetAsync(p, 0, bytes), "clearing GPU memory");
+  check_cuda(cudaMemsetAsync(p, 0, bytes, Context::current().stream()), "clearing GPU memory");
 #else
   std::memset(p, 0, bytes);
-#endif
-}
-inline void synchronize() {
-#if BL_CUDA
-  check_cuda(cudaDeviceSynchronize(), "GPU computation");
 #endif
 }
 

@@ -22,21 +22,14 @@ struct KeptPlacePass {
 
 }  // namespace detail
 
-/// Finds what is to stay, where the particles are.
-class Compaction {
- public:
-  /// i of 0..n for which keep(i) holds, ascending. Waits for the device.
-  template <class Keep>
-  void find(Index n, const Keep& keep, Buffer<Index>& kept) {
-    flag_.resize(n);
-    for_each({0, n}, detail::KeepFlagPass<Keep>{keep, flag_});
-    kept.resize(sorter_.exclusive_scan(flag_, before_));
-    for_each({0, n}, detail::KeptPlacePass{flag_, before_, kept});
-  }
-
- private:
-  Buffer<Index> flag_, before_;
-  Sorter sorter_;
-};
+/// kept: i of 0..n for which keep(i) holds, ascending. Waits for the device.
+template <class Keep>
+void find_all(Index n, const Keep& keep, Buffer<Index>& kept) {
+  Buffer<Index>&flag = Context::current().scratch<Index>(1), &before = Context::current().scratch<Index>(2);
+  flag.reserve_and_resize(n), before.reserve_and_resize(n + 1);
+  for_each({0, n}, detail::KeepFlagPass<Keep>{keep, flag});
+  kept.resize(exclusive_scan(flag, before));
+  for_each({0, n}, detail::KeptPlacePass{flag, before, kept});
+}
 
 }  // namespace bedload::inline BL_VARIANT

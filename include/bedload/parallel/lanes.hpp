@@ -39,22 +39,6 @@ struct Lane {
     for (Index step = 1; step < count; step *= 2) merge(sum, from(sum, step));
   }
 
-  /// Which lanes of the team say yes: bit k for lane k.
-  BL_HD unsigned ballot(bool yes) const {
-#if defined(__CUDA_ARCH__)
-    return (__ballot_sync(mask(), yes) & mask()) >> first();
-#else
-    return yes ? 1 : 0;
-#endif
-  }
-  BL_HD static int bits_in(unsigned word) {
-#if defined(__CUDA_ARCH__)
-    return __popc(word);
-#else
-    return int(word != 0);
-#endif
-  }
-
  private:
 #if defined(__CUDA_ARCH__)
   BL_HD unsigned first() const { return (threadIdx.x & 31u) - index; }

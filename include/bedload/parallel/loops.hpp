@@ -46,7 +46,8 @@ void for_each(Range range, const F& f) {
   if (range.size() == 0) return;
 #if BL_CUDA
   const Index block = block_size(range);
-  for_each_kernel<<<(range.size() + block - 1) / block, block>>>(range.begin, range.end, f);
+  for_each_kernel<<<(range.size() + block - 1) / block, block, 0, Context::current().stream()>>>(
+      range.begin, range.end, f);
   check_cuda(cudaGetLastError(), "kernel launch");
 #else
 #pragma omp parallel for schedule(dynamic, 128) if (range.size() > 128)
@@ -72,23 +73,25 @@ namespace detail {
 template <class F>
 const typename F::Value* reduce_there(Range range, const F& f) {
   using Value = typename F::Value;
-  static thread_local Buffer<Value> partial[2];
+  Context& context = Context::current();
+  Buffer<Value>* const partial[2] = {&context.scratch<Value>(0), &context.scratch<Value>(1)};
   Index chunks = (range.size() + kReduceChunk - 1) / kReduceChunk;
-  partial[0].reserve_and_resize(chunks);
+  partial[0]->reserve_and_resize(chunks);
 #if BL_CUDA
-  reduce_kernel<<<chunks, 128>>>(range.begin, range.end, f, partial[0].data());
+  reduce_kernel<<<chunks, 128, 0, context.stream()>>>(range.begin, range.end, f, partial[0]->data());
   int from = 0;
   while (chunks > 1) {
     const Index n = chunks;
     chunks = (n + kReduceChunk - 1) / kReduceChunk;
-    partial[1 - from].reserve_and_resize(chunks);
-    reduce_kernel<<<chunks, 128>>>(0u, n, Again<F>{f, partial[from].data()}, partial[1 - from].data());
+    partial[1 - from]->reserve_and_resize(chunks);
+    reduce_kernel<<<chunks, 128, 0, context.stream()>>>(0u, n, Again<F>{f, partial[from]->data()},
+                                                        partial[1 - from]->data());
     from = 1 - from;
   }
   check_cuda(cudaGetLastError(), "reduction launch");
-  return partial[from].data();
+  return partial[from]->data();
 #else
-  Value* out = partial[0].data();
+  Value* out = partial[0]->data();
 #pragma omp parallel for schedule(dynamic, 4) if (chunks > 1)
   for (Index c = 0; c < chunks; ++c) {
     const Index first = range.begin + c * kReduceChunk;

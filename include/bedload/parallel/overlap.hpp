@@ -38,6 +38,7 @@ void for_each_early(Range range, const F& f) {
   const Index block = block_size(range);
   launch.gridDim = {(range.size() + block - 1) / block, 1, 1};
   launch.blockDim = {block, 1, 1};
+  launch.stream = Context::current().stream();
   launch.attrs = &early;
   launch.numAttrs = able ? 1 : 0;
   check_cuda(cudaLaunchKernelEx(&launch, for_each_kernel<F>, range.begin, range.end, f), "kernel launch");

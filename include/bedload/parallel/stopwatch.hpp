@@ -55,7 +55,7 @@ class Stopwatch {
 
  private:
 #if BL_CUDA
-  void mark() { check_cuda(cudaEventRecord(marks_[laps_]), "timing"); }
+  void mark() { check_cuda(cudaEventRecord(marks_[laps_], Context::current().stream()), "timing"); }
   double between(int k) const {
     float ms = 0;
     check_cuda(cudaEventElapsedTime(&ms, marks_[k], marks_[k + 1]), "timing");

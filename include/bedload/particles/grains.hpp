@@ -27,6 +27,9 @@ struct GrainStore : Store {
   Field<Real> K_rot{*this, "K_rot", "N m s", Lifetime::derived};  ///< fluid torque per relative spin
   Field<Real3> impulse{*this, "impulse", "N s", Lifetime::derived};    ///< drag impulse of this fluid step
   Field<Real3> spin_impulse{*this, "spin_impulse", "N m s", Lifetime::derived};
+  // for the exchange with fluid
+  Field<PairPosition> xp{*this, "xp", "-", Lifetime::derived};     ///< packed
+  Field<Vec3d> x_before{*this, "x_before", "m", Lifetime::derived};  ///< where the step began
 };
 
 }  // namespace bedload::inline BL_VARIANT
