@@ -77,6 +77,7 @@ void step(CoupledBox& box, int substeps) {
   g.v.assign(v);
   g.omega.assign(omega);
   box.coupling.react(box.fluid, box.grains, kStep);
+  box.coupling.read_survey();
 }
 
 /// In no step does energy rise; in all of them it falls, and momentum stays.
@@ -159,6 +160,33 @@ TEST(StiffDrag, IsBoundedByTheSoftestFluidAround) {
   EXPECT_EQ(counters.wet, 300u);
   const double dt = 0.5 / *std::max_element(rate.begin(), rate.end());
   EXPECT_NEAR(bound.coupling.stable_dt(), dt, 4 * kInvariant * dt);
+}
+
+/// The reaction tells how stiff drag was, so that the next exchange need not look, and looks where it must.
+TEST(StiffDrag, IsToldByTheReaction) {
+  for (const Way& way : {Way{"local", false}, Way{"local", true}, Way{"mean", false}, Way{"mean", true}}) {
+    SCOPED_TRACE(testing::Message() << way.slip << ", moments " << way.moments);
+    CoupledBox box = suspension(3, way), bound = suspension(3, way);
+    box.coupling.gather(box.fluid, box.grains, {}, 0);
+    const double looked_for = box.coupling.stable_dt();
+    const auto K = box.grains.K.values();
+    const double dt = 1e-3 * kStep;
+    box.coupling.react(box.fluid, box.grains, dt);
+    box.coupling.read_survey();
+    EXPECT_NEAR(box.coupling.stable_dt(), looked_for, 4 * kInvariant * looked_for);
+    const auto told = box.coupling.stable_dt();
+    box.coupling.gather(box.fluid, box.grains, {}, dt);  // far from stiff: as it was
+    EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).limited, 0u);
+    EXPECT_EQ(box.coupling.stable_dt(), told);
+    box.coupling.gather(box.fluid, box.grains, {}, kStep);
+    bound.coupling.gather(bound.fluid, bound.grains, {}, kStep);
+    EXPECT_GT(box.coupling.counters(box.fluid, box.grains).limited, 0u);
+    const auto K_now = box.grains.K.values(), K_bound = bound.grains.K.values();
+    for (std::size_t j = 0; j < K.size(); ++j) {
+      EXPECT_LE(K_now[j], K[j] * (1 + kInvariant));
+      EXPECT_NEAR(K_now[j], K_bound[j], 1e-2 * K[j]);
+    }
+  }
 }
 
 TEST(SpinDecay, OfAGrainInStillFluidIsKirchhoffs) {
