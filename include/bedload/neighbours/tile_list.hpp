@@ -12,7 +12,7 @@
 #if BL_CUDA
 namespace bedload::inline BL_VARIANT {
 
-constexpr Index kTileThreads = sizeof(Real) == 4 ? 256 : 128;
+constexpr Index kTileThreads = 256;
 
 struct Tile {
   Index row;      ///< first row; the next tile's ends it
