@@ -6,7 +6,7 @@
 #include <random>
 #include <set>
 
-#include "bedload/neighbours/for_each_pair.hpp"
+#include "bedload/neighbours/for_each_tile.hpp"
 #include "bedload/neighbours/tile_search.hpp"
 #include "kernels/smoothing/registry.hpp"
 #include "tests/support/tolerance.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Which particles act on which.
 
-#include "bedload/neighbours/for_each_pair.hpp"
+#include "bedload/neighbours/for_each_tile.hpp"
 
 namespace bedload::inline BL_VARIANT {
 

@@ -1,0 +1,189 @@
+#pragma once
+// Runs a pass over the pairs of a list of tiles: what it reads of a tile's sources is staged in shared
+// memory.
+
+#include "bedload/neighbours/for_each_pair.hpp"
+#include "bedload/neighbours/tile_list.hpp"
+
+#if BL_CUDA
+#include <cuda_pipeline.h>
+
+namespace bedload::inline BL_VARIANT {
+
+/// Whether tiles stage what a pass reads.
+template <class Pass>
+constexpr bool kStages = ReadsSources<Pass>&& kFades<Pass>;
+
+namespace detail {
+
+/// Shared memory of one source, bytes; and the fields of a tile's sources there, one after another.
+template <class... T>
+struct Staged;
+template <>
+struct Staged<> {
+  static constexpr std::size_t bytes = 0;
+  using All = Sources<>;
+  __device__ static All at(std::byte*, Index) { return {}; }
+  __device__ static void copy(const All&, const All&, Index, Index) {}
+  __device__ static void end(const All&, Index) {}
+};
+template <class T, class... Rest>
+struct Staged<T, Rest...> {
+  static constexpr std::size_t bytes = sizeof(T) + Staged<Rest...>::bytes;
+  using All = Sources<T, Rest...>;
+  __device__ static All at(std::byte* memory, Index capacity) {
+    return {{reinterpret_cast<T*>(memory), capacity},
+            Staged<Rest...>::at(memory + capacity * sizeof(T), capacity)};
+  }
+  __device__ static void copy(const All& to, const All& from, Index local, Index j) {
+    constexpr std::size_t piece = sizeof(T) % 16 == 0 ? 16 : sizeof(T) % 8 == 0 ? 8 : 4;
+    auto* const there = reinterpret_cast<std::byte*>(const_cast<T*>(to.field.data) + local);
+    const auto* const here = reinterpret_cast<const std::byte*>(from.field.data + j);
+    for (std::size_t k = 0; k < sizeof(T); k += piece) __pipeline_memcpy_async(there + k, here + k, piece);
+    Staged<Rest...>::copy(to.rest, from.rest, local, j);
+  }
+  /// Something for what has no weight.
+  __device__ static void end(const All& to, Index local) {
+    Real one[sizeof(T) / sizeof(Real)];
+    for (Real& n : one) n = 1;
+    memcpy(const_cast<T*>(to.field.data) + local, one, sizeof(T));
+    Staged<Rest...>::end(to.rest, local);
+  }
+};
+template <class... T>
+Staged<T...> staged_of(const Sources<T...>&);
+
+}  // namespace detail
+
+struct NoWalls {};
+
+template <class Pass, class WallRow>
+struct TileLoop {
+  TileListView list;
+  PairSeparation separation;
+  Real range2;
+  WallRow wall_row;
+  Pass pass;
+  Index capacity;  ///< sources that can be staged; 0 for none
+
+  __device__ void operator()() const {
+    const Tile tile = list.tile[blockIdx.x];
+    const Index end = list.tile[blockIdx.x + 1].row;
+    const Lane lane(threadIdx.x, list.bits);
+    const Index i = tile.row + lane.row;
+    const auto among_all = [&](auto& sum) {
+      each_entry(lane, [&](Index local) {
+        if (local == tile.sources) return;
+        const Index j = list.source[tile.source + local];
+        const auto b = separation.b[j];
+        const Real3 r = separation(i, b);
+        const Real r2 = norm2(r);
+        if (r2 < range2) add_pair(pass, sum, i, j, r, r2, Real(b.weight));
+      });
+    };
+    if constexpr (kStages<Pass>) {
+      if (tile.sources < capacity) return among_staged(tile, i, end, lane);
+    }
+    finish(i, end, lane, among_all);
+  }
+
+ private:
+  /// Places are staged as distances from the first row, with the weight.
+  __device__ void among_staged(const Tile& tile, Index i, Index end, const Lane& lane) const {
+    extern __shared__ uint4 memory[];
+    using Fields = decltype(detail::staged_of(pass.sources()));
+    auto* const place = reinterpret_cast<Real4*>(memory);
+    const auto fields = Fields::at(reinterpret_cast<std::byte*>(place + capacity), capacity);
+    const auto origin = separation.b[tile.row];
+#pragma unroll 4
+    for (Index local = threadIdx.x; local < tile.sources; local += kTileThreads) {
+      const Index j = list.source[tile.source + local];
+      Fields::copy(fields, pass.sources(), local, j);
+      const auto b = separation.b[j];
+      place[local] = {separation.frame.separation(b, origin), Real(b.weight)};
+    }
+    if (threadIdx.x == 0) {
+      Fields::end(fields, tile.sources);
+      place[tile.sources] = {};
+    }
+    __pipeline_commit();
+    __pipeline_wait_prior(0);
+    __syncthreads();
+    const Real3 a = separation.frame.separation(separation.a[min_of(i, end - 1)], origin);
+    finish(i, end, lane, [&](auto& sum) {
+      const auto pairs = [&](const auto& nearest_image) {
+        each_entry(lane, [&](Index local) {
+          const Real4 b = place[local];
+          const Real3 r = nearest_image(a - b.xyz());
+          fields.load(local, [&](const auto&... of_b) { pass.pair(sum, r, norm2(r), b.w, of_b...); });
+        });
+      };
+      list.periods.any ? pairs(list.periods) : pairs([](const Real3& r) { return r; });
+    });
+  }
+  /// f(local) for each entry of a row.
+  template <class F>
+  __device__ void each_entry(const Lane& lane, const F& f) const {
+    const Index threads = Mergeable<Pass> ? 1 : lane.count;  // whose entries this one takes
+    for (Index thread = threadIdx.x; thread < threadIdx.x + threads; ++thread) {
+      const uint2* entry = list.entry + list.first_word(blockIdx.x, thread);
+      for (int left = list.count[blockIdx.x * kTileThreads + thread]; left > 0; left -= 4) {
+        const uint2 word = *entry;
+        entry += kTileThreads;
+        f(word.x & 0xffff);
+        f(word.x >> 16);
+        f(word.y & 0xffff);
+        f(word.y >> 16);
+      }
+    }
+  }
+  /// A whole row, whose fluid `among` adds up.
+  template <class F>
+  __device__ void finish(Index i, Index end, const Lane& lane, const F& among) const {
+    if (i >= end || (!Mergeable<Pass> && lane.index > 0)) return;
+    auto sum = pass.start(i);
+    among(sum);
+    if constexpr (!std::is_same_v<WallRow, NoWalls>)
+      wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) { pass.wall_pair(sum, i, j, r, r2); });
+    finish_row(pass, i, lane, sum);
+  }
+};
+
+template <class Loop>
+__global__ void __launch_bounds__(kTileThreads) tile_kernel(Loop loop) {
+  loop();
+}
+
+template <class Pass, class WallRow>
+void run_tiles(const TileList& list, const PairSeparation& separation, double cutoff, const WallRow& wall_row,
+               const Pass& pass) {
+  if (list.tiles() == 0) return;
+  using Loop = TileLoop<Pass, WallRow>;
+  std::size_t each = 0;
+  if constexpr (kStages<Pass>) each = sizeof(Real4) + decltype(detail::staged_of(pass.sources()))::bytes;
+  static const Index blocks = blocks_at_a_time(tile_kernel<Loop>, kTileThreads, 0);
+  const Index capacity = list.capacity(each, blocks);
+  if (each > 0)
+    check_cuda(cudaFuncSetAttribute(tile_kernel<Loop>, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                    int(tile_memory())),
+               "shared memory of a pass");
+  tile_kernel<<<list.tiles(), kTileThreads, capacity * each, Context::current().stream()>>>(
+      Loop{list.view(), separation, Real(cutoff * cutoff), wall_row, pass, capacity});
+  check_cuda(cudaGetLastError(), "pass over pairs");
+}
+
+template <class Pass>
+void for_each_pair(Range, const TileList& list, const PairSeparation& separation, double cutoff,
+                   const Pass& pass) {
+  run_tiles(list, separation, cutoff, NoWalls{}, pass);
+}
+/// The walls' list has as many lanes a row.
+template <class Pass>
+void for_each_pair(Range, const TileList& list, const PairSeparation& separation, const VerletList& wall_list,
+                   const PairSeparation& wall_separation, double cutoff, const Pass& pass) {
+  run_tiles(list, separation, cutoff,
+            ListRow<PairSeparation, Pass>{wall_list.view(), wall_separation, Real(cutoff * cutoff)}, pass);
+}
+
+}  // namespace bedload::inline BL_VARIANT
+#endif
