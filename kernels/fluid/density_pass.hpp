@@ -157,9 +157,9 @@ struct DensityPass {
     const N spread = shared * (V * mean_factor(factor)) * pair_length(factor);  // D_a goes with h
     sum.diffused += spread * (rho - sum.rho + still * dot(Vec3<N>(hydrostatic), r));
   }
-  template <class N, class J>
-  BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
-    const Vec4<N> vb = wall_v_rho[b], mb = wall_m_state[b];
+  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_m_state); }
+  template <class N>
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb) const {
     const N distance = root(r2), F = own_factor(lengths.F(w, sum.own, distance)), V = quotient(mb.x, mb.z);
     sum.rate += continuity_mass(mb, rho0) * F * dot(sum.q - vb.xyz(), r);
     if constexpr (!kSmooth) return;

@@ -100,9 +100,10 @@ struct ForcePass {
     else
       sum.theta += friction;
   }
-  template <class N, class J>
-  BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
-    const Vec4<N> vb = wall_v_rho[b], mb = wall_m_state[b], visc = wall_v_visc[b];
+  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_m_state, wall_v_visc); }
+  template <class N>
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb,
+                       const Vec4<N>& visc) const {
     sum.theta += wall(sum.v, sum.m, vb, mb, visc, r, r2, lengths.F(w, sum.own, root(r2)),
                       kSpecies ? sum.viscosity : N(1));
   }

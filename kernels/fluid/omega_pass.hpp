@@ -57,9 +57,9 @@ struct OmegaPass {
     const N r = root(r2);
     sum.change += M * (r2 * own_factor(lengths.F(w, sum.own, r)) - dimensions() * lengths.W(w, sum.own, r));
   }
-  template <class N, class J>
-  BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
-    const Vec4<N> m = wall_m_state[b];
+  BL_HD auto wall_sources() const { return sources_of(wall_m_state); }
+  template <class N>
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& m) const {
     pair(sum, r, r2, rho0 * quotient(m.x, m.z));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.change += other.change; }

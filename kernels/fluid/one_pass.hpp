@@ -26,10 +26,12 @@ struct OnePass {
     force.pair(sum.force, r, r2, M, vb, p);
     seen().pair(sum.density, r, r2, M, vb);
   }
-  template <class N, class J>
-  BL_HD void wall_pair(Sum<N>& sum, Index a, J b, const Vec3<N>& r, N r2) const {
-    force.wall_pair(sum.force, a, b, r, r2);
-    seen().wall_pair(sum.density, a, b, r, r2);
+  BL_HD auto wall_sources() const { return force.wall_sources(); }
+  template <class N>
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb,
+                       const Vec4<N>& visc) const {
+    force.wall_pair(sum.force, r, r2, vb, mb, visc);
+    seen().wall_pair(sum.density, r, r2, vb, mb);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     force.merge(into.force, other.force);
@@ -49,7 +51,6 @@ struct OnePass {
     Density same = density;
     same.w = force.w;
     same.flux = force.flux, same.m_state = force.m_state;
-    same.wall_v_rho = force.wall_v_rho, same.wall_m_state = force.wall_m_state;
     return same;
   }
 };

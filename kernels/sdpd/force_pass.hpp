@@ -114,11 +114,12 @@ struct SdpdForcePass {
       if constexpr (kSpin) sum.couple -= Real(0.5) * cross(r, noise);
     }
   }
-  template <class N, class J>
-  BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
-    const auto f =
-        wall(sum.v, sum.V, sum.p, sum.spin, sum.id, kSpecies ? sum.viscosity : N(1), Vec4<N>(wall_v_rho[b]),
-             Vec4<N>(wall_m_state[b]), Vec4<N>(wall_v_visc[b]), Vec4<N>(wall_label[b]), r, r2);
+  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_m_state, wall_v_visc, wall_label); }
+  template <class N>
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb,
+                       const Vec4<N>& visc, const Vec4<N>& own) const {
+    const auto f = wall(sum.v, sum.V, sum.p, sum.spin, sum.id, kSpecies ? sum.viscosity : N(1), vb, mb, visc,
+                        own, r, r2);
     sum.push += f.push;
     sum.friction += f.friction;
     if constexpr (kNoise) sum.noise += f.noise;

@@ -26,9 +26,9 @@ struct ContinuityPass {
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb) const {
     sum.rate += M * w.F(root(r2)) * dot(sum.q - qb.xyz(), r);
   }
-  template <class N, class J>
-  BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
-    const Vec4<N> vb = wall_v_rho[b], mb = wall_m_state[b];
+  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_m_state); }
+  template <class N>
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb) const {
     sum.rate += continuity_mass(mb, rho0) * w.F(root(r2)) * dot(sum.q - vb.xyz(), r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rate += other.rate; }
@@ -69,9 +69,9 @@ struct SummationPass {
   BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N M, N eps_b) const {
     sum.rho += eps_b * M * w.W(root(r2));
   }
-  template <class N, class J>
-  BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>&, N r2) const {
-    const Vec4<N> m = wall_m_state[b];
+  BL_HD auto wall_sources() const { return sources_of(wall_m_state); }
+  template <class N>
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>&, N r2, const Vec4<N>& m) const {
     sum.rho += m.x * w.W(root(r2));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rho += other.rho; }
@@ -99,13 +99,15 @@ struct FrozenSummationPass {
     N s;
   };
   BL_HD Sum<> start(Index) const { return {}; }
-  template <class N, class J>
-  BL_HD void pair(Sum<N>& sum, Index, J j, const Vec3<N>&, N r2) const {
-    sum.s += N(volume[j]) * w.W(root(r2));
+  BL_HD auto sources() const { return sources_of(volume); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N, N V) const {
+    sum.s += V * w.W(root(r2));
   }
-  template <class N, class J>
-  BL_HD void wall_pair(Sum<N>& sum, Index, J a, const Vec3<N>&, N r2) const {
-    sum.s += quotient(Vec4<N>(fluid_m_state[a]).x, N(rho0)) * w.W(root(r2));
+  BL_HD auto wall_sources() const { return sources_of(fluid_m_state); }
+  template <class N>
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>&, N r2, const Vec4<N>& m) const {
+    sum.s += quotient(m.x, N(rho0)) * w.W(root(r2));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.s += other.s; }
   BL_HD void finish(Index b, const Sum<>& sum) const {

@@ -41,9 +41,10 @@ struct StressPass {
     sum.pressure.add(pressed.theta, r);
     sum.friction.add(rubbed.theta, r);
   }
-  template <class N, class J>
-  BL_HD void wall_pair(Sum<N>& sum, Index, J b, const Vec3<N>& r, N r2) const {
-    const Vec4<N> vw = whole.wall_v_rho[b], mw = whole.wall_m_state[b], visc = whole.wall_v_visc[b];
+  BL_HD auto wall_sources() const { return whole.wall_sources(); }
+  template <class N>
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vw, const Vec4<N>& mw,
+                       const Vec4<N>& visc) const {
     const auto F = whole.lengths.F(whole.w, sum.of.own, root(r2));
     sum.pressure.add(whole.wall.pressure(sum.of.m, mw, r, F), r);
     if (whole.wall.viscosity.acts()) sum.friction.add(whole.wall.friction(sum.of.v, vw, visc, r, r2, F), r);
@@ -83,10 +84,11 @@ struct SdpdStressPass {
     force.pair(one, r, r2, M, vb, p, own...);
     sum.add(one.push, one.friction, one.noise, r);
   }
-  template <class N, class J>
-  BL_HD void wall_pair(Sum<N>& sum, Index a, J b, const Vec3<N>& r, N r2) const {
+  BL_HD auto wall_sources() const { return force.wall_sources(); }
+  template <class N, class... Of>
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Of&... of_b) const {
     auto one = sum.of;
-    force.wall_pair(one, a, b, r, r2);
+    force.wall_pair(one, r, r2, of_b...);
     sum.add(one.push, one.friction, one.noise, r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {

@@ -3,7 +3,9 @@
 //   Sum start(i); auto sources(); void pair(Sum&, r_ij, r2, weight, ...); void finish(i, Sum);
 // and knows nothing of where its neighbours come from: `sources` says what it reads of each, in the order in
 // which `pair` takes it after the weight that comes with a position. A pass without `sources` is given
-// places instead, pair(Sum&, i, j, r_ij, r2). Where a pass can also
+// places instead, pair(Sum&, i, j, r_ij, r2). One that also runs over a second list has
+//   auto wall_sources(); void wall_pair(Sum&, r_ij, r2, ...);
+// for that. Where a pass can also
 //   void merge(Sum& into, const Sum& other);
 // two partial sums of one row, several GPU lanes share a row of a small system. Where its Sum is a template
 //   template <class N = Real> struct Sum;
@@ -92,6 +94,12 @@ BL_HD void add_pair(const Pass& pass, Sum& sum, Index i, const J& j, const R& r,
     pass.sources().load(j, [&](const auto&... of_j) { pass.pair(sum, r, r2, weight, of_j...); });
   else
     pass.pair(sum, i, j, r, r2);
+}
+
+/// Of the second of two lists.
+template <class Pass, class Sum, class J, class R, class N>
+BL_HD void add_wall_pair(const Pass& pass, Sum& sum, const J& j, const R& r, const N& r2) {
+  pass.wall_sources().load(j, [&](const auto&... of_j) { pass.wall_pair(sum, r, r2, of_j...); });
 }
 
 /// A pass of which several lanes can share a row.
@@ -288,7 +296,7 @@ struct TwoListLoop {
     auto sum = start_row(pass, i);
     row(i, lane,
         [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, i, j, r, r2, weight); });
-    wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) { pass.wall_pair(sum, i, j, r, r2); });
+    wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) { add_wall_pair(pass, sum, j, r, r2); });
     finish_row(pass, i, lane, sum);
   }
 };

@@ -144,7 +144,7 @@ struct TileLoop {
     auto sum = pass.start(i);
     among(sum);
     if constexpr (!std::is_same_v<WallRow, NoWalls>)
-      wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) { pass.wall_pair(sum, i, j, r, r2); });
+      wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) { add_wall_pair(pass, sum, j, r, r2); });
     finish_row(pass, i, lane, sum);
   }
 };
