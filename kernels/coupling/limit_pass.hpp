@@ -21,23 +21,18 @@ struct DragRatePass {
   };
   BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(m_state[a]), 0}; }
   BL_HD auto sources() const {
-    if constexpr (Couple && Local)
-      return sources_of(K, weights.still, levers.at_centre, levers.off_centre, weights.by_slip);
-    else if constexpr (Couple)
-      return sources_of(K, weights.still, levers.at_centre, levers.off_centre);
-    else if constexpr (Local)
-      return sources_of(K, weights.still, weights.by_slip);
-    else
-      return sources_of(K, weights.still);
+    return sources_of(K, weights.still, read_if<Couple>(levers.at_centre), read_if<Couple>(levers.off_centre),
+                      read_if<Local>(weights.by_slip));
   }
-  template <class N, class... More>
+  template <class N, class Lever, class Slip>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N, const N& K_j, const N& still,
-                  const More&... more) const {
+                  [[maybe_unused]] const Lever& at_centre, [[maybe_unused]] const Lever& off_centre,
+                  [[maybe_unused]] const Slip& by_slip) const {
     N weight = still;
-    if constexpr (Local) weight += slip_weight(sum.v, last_of(more...));
+    if constexpr (Local) weight += slip_weight(sum.v, by_slip);
     const N r = root(r2);
     N L = K_j * sum.V * w.W(r) * weight;
-    if constexpr (Couple) L *= first_of(more...) + second_of(more...) * r;
+    if constexpr (Couple) L *= at_centre + off_centre * r;
     sum.L += L;
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.L += other.L; }

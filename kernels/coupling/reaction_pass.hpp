@@ -83,23 +83,16 @@ struct ReactionPass {
   BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(m_state[a]), {}, {}, 0}; }
   BL_HD auto sources() const {
     const auto& [impulse, force, spin, couple] = reactions;
-    if constexpr (Couple && Local)
-      return sources_of(impulse, force, spin, couple, by_slip);
-    else if constexpr (Couple)
-      return sources_of(impulse, force, spin, couple);
-    else if constexpr (Local)
-      return sources_of(impulse, force, spin, by_slip);
-    else
-      return sources_of(impulse, force, spin);
+    return sources_of(impulse, force, spin, read_if<Couple>(couple), read_if<Local>(by_slip));
   }
-  template <class N, class... More>
+  template <class N, class C, class Slip>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_aj, N r2, N, const Vec4<N>& impulse, const Vec4<N>& force,
-                  const Vec4<N>& spin, const More&... more) const {
+                  const Vec4<N>& spin, [[maybe_unused]] const C& couple,
+                  [[maybe_unused]] const Slip& grain) const {
     const N r = root(r2), vw = sum.V * w.W(r);
     N weight = spin.w;
     Vec3<N> J = impulse.xyz(), F = force.xyz();
     if constexpr (Local) {
-      const Vec4<N>& grain = last_of(more...);
       weight += slip_weight(sum.v, grain);
       J += impulse.w * (sum.v - grain.xyz());
     }
@@ -107,7 +100,6 @@ struct ReactionPass {
     N L = impulse.w * drag;
     if constexpr (Couple) {
       J -= cross(spin.xyz(), r_aj);
-      const Vec4<N>& couple = first_of(more...);
       F -= cross(couple.xyz(), r_aj);
       L *= force.w + couple.w * r;
     }

@@ -123,24 +123,16 @@ struct DensityPass {
   }
 
   BL_HD auto sources() const {
-    if constexpr (kSmooth && kPorous)
-      return lengths.sources(flux, m_state);
-    else if constexpr (kSmooth)
-      return lengths.sources(flux);
+    const auto state = read_if < kSmooth && kPorous > (m_state);
+    if constexpr (kSmooth)
+      return lengths.sources(flux, state);
     else
-      return sources_of(flux);
+      return sources_of(flux, state);
   }
-  /// more: state of b, if porous; h_b, if lengths vary.
-  template <class N, class... More>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb, const More&... more) const {
-    if constexpr (kSmooth && kPorous)
-      add(sum, r, r2, M, qb, more...);
-    else
-      add(sum, r, r2, M, qb, Vec4<N>{}, more...);
-  }
-  template <class N, class... H>
-  BL_HD void add(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb,
-                 [[maybe_unused]] const Vec4<N>& state, const H&... h_b) const {
+  /// h_b: if lengths vary.
+  template <class N, class State, class... H>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb,
+                  [[maybe_unused]] const State& state, const H&... h_b) const {
     const N distance = root(r2);
     const auto factor = lengths.F(w, sum.own, distance, h_b...);
     const N F = own_factor(factor);

@@ -64,24 +64,11 @@ struct ForcePass {
     return {flux[a], m, {}, {}, kSpecies ? relative_viscosity[a] : Real(1), lengths.template own<Real>(a)};
   }
 
-  BL_HD auto sources() const {
-    if constexpr (kSpecies)
-      return sources_of(flux, p_rho2, relative_viscosity);
-    else
-      return lengths.sources(flux, p_rho2);
-  }
-  /// more: viscosity of b, with species; h_b, if lengths vary.
-  template <class N, class... More>
+  BL_HD auto sources() const { return lengths.sources(flux, p_rho2, read_if<kSpecies>(relative_viscosity)); }
+  /// h_b: if lengths vary.
+  template <class N, class Relative, class... H>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
-                  const More&... more) const {
-    if constexpr (kSpecies)
-      add(sum, r, r2, M, vb, p, more...);
-    else
-      add(sum, r, r2, M, vb, p, N(1), more...);
-  }
-  template <class N, class... H>
-  BL_HD void add(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
-                 [[maybe_unused]] N viscosity_b, const H&... h_b) const {
+                  [[maybe_unused]] const Relative& viscosity_b, const H&... h_b) const {
     const N distance = root(r2);
     const auto F = lengths.F(w, sum.own, distance, h_b...);
     const Vec3<N> v = sum.v.xyz() - vb.xyz();

@@ -22,9 +22,9 @@ struct OnePass {
 
   BL_HD auto sources() const { return force.sources(); }
   template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p) const {
-    force.pair(sum.force, r, r2, M, vb, p);
-    seen().pair(sum.density, r, r2, M, vb);
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, Unread) const {
+    force.pair(sum.force, r, r2, M, vb, p, Unread{});
+    seen().pair(sum.density, r, r2, M, vb, Unread{});
   }
   BL_HD auto wall_sources() const { return force.wall_sources(); }
   template <class N>

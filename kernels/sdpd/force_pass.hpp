@@ -74,31 +74,11 @@ struct SdpdForcePass {
     return sum;
   }
   BL_HD auto sources() const {
-    if constexpr ((kSpin || kNoise) && kSpecies)
-      return sources_of(flux, p_rho2, spin_label, viscosity);
-    else if constexpr (kSpin || kNoise)
-      return sources_of(flux, p_rho2, spin_label);
-    else if constexpr (kSpecies)
-      return sources_of(flux, p_rho2, viscosity);
-    else
-      return sources_of(flux, p_rho2);
+    return sources_of(flux, p_rho2, read_if < kSpin || kNoise > (spin_label), read_if<kSpecies>(viscosity));
   }
-  template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p) const {
-    pair(sum, r, r2, M, vb, p, Vec4<N>{}, N(1));
-  }
-  template <class N>
+  template <class N, class Own, class Relative>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
-                  const Vec4<N>& own) const {
-    pair(sum, r, r2, M, vb, p, own, N(1));
-  }
-  template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, N viscosity_b) const {
-    pair(sum, r, r2, M, vb, p, Vec4<N>{}, viscosity_b);
-  }
-  template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
-                  [[maybe_unused]] const Vec4<N>& own, [[maybe_unused]] N viscosity_b) const {
+                  [[maybe_unused]] const Own& own, [[maybe_unused]] const Relative& viscosity_b) const {
     const N F = wall.w.F(root(r2));
     N g = sum.V * quotient(M, vb.w) * F;
     if constexpr (kSpecies) g *= quotient(2 * sum.viscosity * viscosity_b, sum.viscosity + viscosity_b);

@@ -55,19 +55,11 @@ struct SummationPass {
     N rho;
   };
   BL_HD Sum<> start(Index) const { return {}; }
-  BL_HD auto sources() const {
-    if constexpr (kGrains)
-      return sources_of(eps);
-    else
-      return sources_of();
-  }
-  template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N M) const {
+  BL_HD auto sources() const { return sources_of(read_if<kGrains>(eps)); }
+  template <class N, class Porosity>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N M, [[maybe_unused]] const Porosity& eps_b) const {
+    if constexpr (kGrains) M = eps_b * M;
     sum.rho += M * w.W(root(r2));
-  }
-  template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N M, N eps_b) const {
-    sum.rho += eps_b * M * w.W(root(r2));
   }
   BL_HD auto wall_sources() const { return sources_of(wall_m_state); }
   template <class N>

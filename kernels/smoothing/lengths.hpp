@@ -54,8 +54,8 @@ struct OneLength {
   }
   BL_HD Real ratio(Index) const { return 1; }  ///< h_a over the kernel's own
   BL_HD Real corrected(Index, Real x) const { return x; }
-  template <class... T>
-  BL_HD auto sources(Span<const T>... fields) const {
+  template <class... Field>
+  BL_HD auto sources(Field... fields) const {
     return sources_of(fields...);
   }
   template <class Kernel, class N>
@@ -87,8 +87,8 @@ struct OwnLengths {
   }
   BL_HD Real ratio(Index a) const { return h[a] / h0; }
   BL_HD Real corrected(Index a, Real x) const { return x / omega[a]; }
-  template <class... T>
-  BL_HD auto sources(Span<const T>... fields) const {
+  template <class... Field>
+  BL_HD auto sources(Field... fields) const {
     return sources_of(fields..., h);
   }
   template <class Kernel, class N>

@@ -32,12 +32,12 @@ struct StressPass {
   };
   BL_HD Sum<> start(Index a) const { return {whole.start(a), {}, {}}; }
   BL_HD auto sources() const { return whole.sources(); }
-  template <class N, class... H>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, const H&... h_b) const {
+  template <class N, class... Of>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, const Of&... of_b) const {
     auto pressed = sum.of, rubbed = sum.of;
-    inviscid.pair(pressed, r, r2, M, vb, p, h_b...);
+    inviscid.pair(pressed, r, r2, M, vb, p, of_b...);
     rubbed.m.y = N(0);  // no pressure on either side
-    whole.pair(rubbed, r, r2, M, vb, N(0), h_b...);
+    whole.pair(rubbed, r, r2, M, vb, N(0), of_b...);
     sum.pressure.add(pressed.theta, r);
     sum.friction.add(rubbed.theta, r);
   }

@@ -2,8 +2,9 @@
 // Runs a pass over the pairs of a list or, list-free, over the cells. A pass has
 //   Sum start(i); auto sources(); void pair(Sum&, r_ij, r2, weight, ...); void finish(i, Sum);
 // and knows nothing of where its neighbours come from: `sources` says what it reads of each, in the order in
-// which `pair` takes it after the weight that comes with a position. A pass without `sources` is given
-// places instead, pair(Sum&, i, j, r_ij, r2). One that also runs over a second list has
+// which `pair` takes it after the weight that comes with a position; what it reads in some cases alone is
+// there in all of them, in the others as an Unread (`read_if`). A pass without `sources` is given places
+// instead, pair(Sum&, i, j, r_ij, r2). One that also runs over a second list has
 //   auto wall_sources(); void wall_pair(Sum&, r_ij, r2, ...);
 // for that. Where a pass can also
 //   void merge(Sum& into, const Sum& other);
@@ -40,6 +41,17 @@ struct PairSeparation {
   }
 };
 
+/// In place of a field that a pass does not read, and of its values.
+struct Unread {};
+/// A field that a pass reads in some cases alone.
+template <bool kReads, class T>
+BL_HD auto read_if(Span<T> field) {
+  if constexpr (kReads)
+    return field;
+  else
+    return Unread{};
+}
+
 /// What a pass reads of a neighbour: one of each field.
 template <class... T>
 struct Sources {
@@ -58,28 +70,24 @@ struct Sources<T, Rest...> {
     rest.load(j, [&](const auto&... more) { f(value, more...); });
   }
 };
-BL_HD Sources<> sources_of() { return {}; }
-template <class T, class... Rest>
-BL_HD Sources<std::remove_const_t<T>, std::remove_const_t<Rest>...> sources_of(Span<T> field,
-                                                                               Span<Rest>... rest) {
-  return {field, sources_of(rest...)};
-}
+template <class... Rest>
+struct Sources<Unread, Rest...> {
+  Unread field;
+  Sources<Rest...> rest;
+  template <class J, class F>
+  BL_HD void load(J j, F&& f) const {
+    rest.load(j, [&](const auto&... more) { f(Unread{}, more...); });
+  }
+};
+template <class T>
+std::remove_const_t<T> value_of(Span<T>);
+Unread value_of(Unread);
 
-/// Of what a pass reads in some cases alone.
-template <class First, class... Rest>
-BL_HD const First& first_of(const First& first, const Rest&...) {
-  return first;
-}
-template <class First, class... Rest>
-BL_HD const auto& second_of(const First&, const Rest&... rest) {
-  return first_of(rest...);
-}
-template <class First, class... Rest>
-BL_HD const auto& last_of(const First& first, const Rest&... rest) {
-  if constexpr (sizeof...(Rest) == 0)
-    return first;
-  else
-    return last_of(rest...);
+/// Fields: spans, or what read_if makes of them.
+BL_HD Sources<> sources_of() { return {}; }
+template <class Field, class... Rest>
+BL_HD auto sources_of(Field field, Rest... rest) {
+  return Sources<decltype(value_of(field)), decltype(value_of(rest))...>{field, sources_of(rest...)};
 }
 
 template <class Pass>

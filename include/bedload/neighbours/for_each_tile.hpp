@@ -50,6 +50,18 @@ struct Staged<T, Rest...> {
     Staged<Rest...>::end(to.rest, local);
   }
 };
+template <class... Rest>
+struct Staged<Unread, Rest...> {
+  static constexpr std::size_t bytes = Staged<Rest...>::bytes;
+  using All = Sources<Unread, Rest...>;
+  __device__ static All at(std::byte* memory, Index capacity) {
+    return {{}, Staged<Rest...>::at(memory, capacity)};
+  }
+  __device__ static void copy(const All& to, const All& from, Index local, Index j) {
+    Staged<Rest...>::copy(to.rest, from.rest, local, j);
+  }
+  __device__ static void end(const All& to, Index local) { Staged<Rest...>::end(to.rest, local); }
+};
 template <class... T>
 Staged<T...> staged_of(const Sources<T...>&);
 
