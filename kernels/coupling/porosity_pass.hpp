@@ -6,6 +6,15 @@
 
 namespace bedload::inline BL_VARIANT {
 
+/// Whether walls may cut the kernel of each grain while it keeps within `skin` (m) of where it was listed.
+struct BesideWallsPass {
+  WallFreeFraction free;
+  double skin;
+  Span<const Vec3d> x_list;
+  Span<std::uint8_t> beside;
+  BL_HD void operator()(Index j) const { beside[j] = free.may_cut(x_list[j], skin); }
+};
+
 /// Where grain j is, for its volume: V_j W(r; h_c) / s_j, s_j being the fraction of the kernel that walls
 /// leave free, so that none of it is lost to them.
 struct GrainVolumePass {
@@ -15,12 +24,13 @@ struct GrainVolumePass {
   Span<const Vec3d> x, x_before;
   Span<const Real3> v;
   Span<const Real> radius;
+  Span<const std::uint8_t> beside;  ///< that of BesideWallsPass; empty: all may be
   Span<Real> wall_free;
   Span<Real4> volume;  ///< mean velocity over the step, m/s; V_j / s_j, m3
 
   BL_HD void operator()(Index j) const {
     const Real3 u = per_dt > 0 ? Real3(per_dt * frame.nearest_image(x[j] - x_before[j])) : v[j];
-    const Real s = free(x[j]);
+    const Real s = !beside || beside[j] ? free(x[j]) : Real(1);
     wall_free[j] = s;
     volume[j] = {u, 4 * kPi / 3 * cube(radius[j]) / s};
   }

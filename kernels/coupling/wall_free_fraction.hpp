@@ -35,6 +35,18 @@ struct WallFreeFraction {
     }
     return max_of(fraction - boxes, kLeast);
   }
+  /// Whether walls, present or not, may take anything from the kernel around a place within `skin` (m) of x.
+  BL_HD bool may_cut(const Vec3d& x, double skin) const {
+    const double range = 1.001 * double(half_space.range);  // rounding within the fraction stays below that
+    for (Index k = 0; k < walls.surfaces.size; ++k) {
+      const Surface& s = walls.surfaces[k];
+      const Vec3d r = SurfaceView(s, pose[s.body], frame, x).local();
+      const bool patch = s.kind == SurfaceKind::rectangle;
+      if (patch && std::abs(dot(r, s.axis[2])) > range + skin) continue;
+      if (walls.within(s, r, (patch ? 2 : 1) * range + skin)) return true;  // a patch reaches past its edges
+    }
+    return false;
+  }
 
  private:
   static constexpr int kCompared = 6;  ///< that the next are compared with

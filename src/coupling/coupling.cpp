@@ -107,8 +107,12 @@ void Coupling::pack(GrainStore& grains) {
 
 void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid,
                              const HalfSkins& of_fluid, GrainStore& grains, const CellGridView& grain_grid,
-                             const HalfSkins& of_grains) {
+                             const HalfSkins& of_grains, Span<const BodyPose> still) {
   pack(grains);
+  beside_walls_.resize(still ? grains.size() : 0);
+  if (still)
+    for_each(grains.owned(),
+             BesideWallsPass{wall_free(still), double(of_grains.most), grains.x_list, beside_walls_});
   const double reach = range_ + of_fluid.most + of_grains.most;
   fluid_of_grain_.between(frame_, grains, fluid, range_)
       .build(
@@ -125,9 +129,16 @@ void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_
 void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt) {
   wall_free_.resize(grains.size());
   volume_.resize(grains.size());
-  const WallFreeFraction free{half_space_, frame_, wall_normalise_ ? walls_ : SurfaceSet{}, pose};
-  for_each(grains.owned(), GrainVolumePass{free, frame_, dt > 0 ? 1 / dt : 0, grains.x, grains.x_before,
-                                           grains.v, grains.radius, wall_free_, volume_});
+  const bool asked = beside_walls_.size() > 0;
+  for_each(grains.owned(),
+           GrainVolumePass{wall_free(pose), frame_, dt > 0 ? 1 / dt : 0, grains.x, grains.x_before, grains.v,
+                           grains.radius,
+                           asked ? Span<const std::uint8_t>(beside_walls_) : Span<const std::uint8_t>(),
+                           wall_free_, volume_});
+}
+
+WallFreeFraction Coupling::wall_free(Span<const BodyPose> pose) const {
+  return {half_space_, frame_, wall_normalise_ ? walls_ : SurfaceSet{}, pose};
 }
 
 void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt) {

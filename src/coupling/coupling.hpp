@@ -54,9 +54,10 @@ class Coupling {
   double range() const { return range_; }
 
   /// Renews both lists: all pairs within range() and half skins where the phases' own lists were built. Packs
-  /// the grains where they are.
+  /// the grains where they are. still: poses of all wall bodies, if none ever moves; else empty.
   void rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid, const HalfSkins& of_fluid,
-                     GrainStore& grains, const CellGridView& grain_grid, const HalfSkins& of_grains);
+                     GrainStore& grains, const CellGridView& grain_grid, const HalfSkins& of_grains,
+                     Span<const BodyPose> still = {});
 
   /// Fills eps, wetness, U, omega_f, K and K_rot of the grains. pose: of every wall body, on the device; dt
   /// (s): the fluid step for which they hold, which bounds K when the fluid is to take the reaction.
@@ -94,6 +95,7 @@ class Coupling {
   bool moments() const { return torque_ || angmom_; }
   void pack(GrainStore& grains);
   void volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt);
+  WallFreeFraction wall_free(Span<const BodyPose> pose) const;
   DragLevers levers() { return {lever_at_centre_, lever_off_centre_, lever_sum_}; }
   OrificeWeight orifice_weight() const { return {frame_, orifices_, dx_, h_c_}; }
   void limit(const FluidStore& fluid, GrainStore& grains, double dt);
@@ -121,6 +123,7 @@ class Coupling {
   SurfaceSet walls_;  ///< that cut the grains' kernels off from fluid
   bool wall_normalise_;
   HalfSpaceFraction half_space_;
+  Buffer<std::uint8_t> beside_walls_;  ///< of each grain; empty where walls may move
   Buffer<Orifice> orifices_;
 
   Pairing<> fluid_of_grain_, grains_of_fluid_;

@@ -85,9 +85,7 @@ std::vector<Quantity> Stepper::time_spent() const {
 
 void Stepper::renew_lists(Step& now) { refresh_if_needed(now.dt); }
 
-void Stepper::interpolate(Step& now) {
-  coupling_->gather(fluid_, grains_, poses_now(), now.dt);
-}
+void Stepper::interpolate(Step& now) { coupling_->gather(fluid_, grains_, poses_now(), now.dt); }
 
 /// Grains and bodies, in substeps.
 void Stepper::move_solids(Step& now) {
@@ -313,7 +311,8 @@ void Stepper::refresh(bool fluid, bool grains, double dt) {
 
 void Stepper::relist_coupling() {
   coupling_->rebuild_lists(fluid_, fluid_solver_->grid().view(), fluid_solver_->half_skins(fluid_), grains_,
-                           grain_grid_.view(), solid_solver_->skin() / 2);
+                           grain_grid_.view(), solid_solver_->skin() / 2,
+                           motion_.moves() ? Span<const BodyPose>() : poses_now());
 }
 
 void Stepper::remove_cleared_bodies() {

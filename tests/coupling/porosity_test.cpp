@@ -97,6 +97,37 @@ TEST(Porosity, KnowsWhatFractionOfTheKernelWallsLeave) {
   EXPECT_NEAR(fraction({0, 0, 0}), 0.25, 1e-6);
 }
 
+TEST(Porosity, AsksNoWallThatIsTooFarToCutTheKernel) {
+  const WendlandC2 w(0.1);  // reaches 0.2 m
+  std::vector<Surface> surfaces(3);
+  surfaces[0].axis[2] = {0, 0, 1};
+  surfaces[0].centre = {0, 0, -0.9};
+  surfaces[1].kind = SurfaceKind::rectangle;
+  surfaces[2].kind = SurfaceKind::box;
+  for (int k : {1, 2}) {
+    surfaces[k].axis[0] = {1, 0, 0}, surfaces[k].axis[1] = {0, 1, 0}, surfaces[k].axis[2] = {0, 0, 1};
+    surfaces[k].half[0] = surfaces[k].half[1] = 0.2;
+  }
+  surfaces[2].half[2] = 0.1;
+  surfaces[2].centre = {0.4, 0.6, 0.7};
+  std::vector<BodyPose> pose(1);
+  const Frame frame({-1, -1, -1}, {1, 1, 1}, false, false, false);
+  const WallFreeFraction free{HalfSpaceFraction::of(w), frame, {{{surfaces.data(), 3}}}, {pose.data(), 1}};
+  const double skin = 0.03;
+  std::mt19937_64 random(5);
+  int cut = 0, near = 0;
+  for (const Vec3d& x : random_points(20000, {-1, -1, -1}, {1, 1, 1}, random)) {
+    const Vec3d listed = x + skin / std::sqrt(3.0) * Vec3d{1, -1, 1};
+    const bool asked = free.may_cut(listed, skin);
+    near += asked;
+    if (free(x) == Real(1)) continue;
+    ++cut;
+    EXPECT_TRUE(asked) << x.x << ' ' << x.y << ' ' << x.z;
+  }
+  EXPECT_GT(cut, 2000);
+  EXPECT_LT(near, 2 * cut);
+}
+
 TEST(Porosity, IsOneInAnOrificeAndFallsToThatOfTheBed) {
   const auto lies_in = [](const std::vector<InletConfig>& inlets) {
     Config c = unit_box(0.2, 1e-3);
