@@ -7,11 +7,21 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Grains that walls may come to touch, with the surfaces that may, both ascending.
+/// A surface, with its body: neither is waited for to find the other.
+struct WallEntry {
+  Index surface;
+  std::uint32_t body;
+};
+
+/// Grains that walls may come to touch, with the surfaces that may, both ascending. Of all rows the first
+/// surfaces lie together, then the second ones.
 struct WallRows {
-  Span<const Index> grain;                ///< [rows]
-  const std::uint64_t* offset = nullptr;  ///< [rows + 1]
-  const Index* surface = nullptr;
+  Span<const Index> grain;               ///< [rows]
+  const std::uint32_t* count = nullptr;  ///< [rows], of their surfaces
+  const WallEntry* entry = nullptr;      ///< [largest count, or 1][rows]
+  BL_HD const WallEntry& operator()(Index row, Index k) const {
+    return entry[std::uint64_t(k) * grain.size + row];
+  }
 };
 
 /// What a pass over walls has code for.
@@ -55,7 +65,7 @@ struct WallContacts {
     return laws[body * materials + (mass_per_r3.material ? mass_per_r3.material[i] : 0)];
   }
 
-  /// f(body, contact) for those that grain i touches of the surfaces `surface(k)`, ascending, k < n, and that
+  /// f(body, contact) for those that grain i touches of the entries `surface(k)`, ascending, k < n, and that
   /// are the lane's: the lanes of a grain share them. `keep`: histories are advanced.
   template <class Scope = AnyWalls, class Surfaces, class F>
   BL_HD void each(const Lane& lane, Index i, Index n, Surfaces&& surface, bool keep, F&& f) const {
@@ -110,11 +120,12 @@ struct WallContacts {
   BL_HD void find(const Vec3d& at, Real R, Index n, Surfaces&& surface, double range,
                   WallTouches<Kinds>& touches) const {
     for (Index k = 0; k < n; ++k) {
-      const Index s = surface(k);
+      const WallEntry entry = surface(k);
+      const Index s = entry.surface;
       const Surface& of = walls.surfaces[s];
-      const BodyPose& pose = poses[of.body];
-      if (!pose.present) continue;
+      const BodyPose& pose = poses[entry.body];
       const SurfaceView view(of, pose, frame, at);
+      if (!pose.present) continue;
       const double reach = Kinds::reach(of, range);
       if (Kinds::kTracked && view.beyond(walls, reach))
         continue;  // of others the closest point costs as much
@@ -164,12 +175,11 @@ struct WallContactPass {
     let_next_loop_begin();
     const Lane lane(thread, lane_bits);
     const Index i = rows.grain[lane.row];
-    const std::uint64_t first = rows.offset[lane.row];
-    const Index* surface = rows.surface + first;
+    const WallEntry first = rows(lane.row, 0);
     if (Scope::kFree && loads) loads.clear(i);
     ContactSum sum;
     contacts.each<Scope>(
-        lane, i, Index(rows.offset[lane.row + 1] - first), [&](Index k) { return surface[k]; }, true,
+        lane, i, rows.count[lane.row], [&](Index k) { return k == 0 ? first : rows(lane.row, k); }, true,
         [&](std::uint32_t body, const WallContacts::Contact& c) {
           sum.add({Vec3d(c.on_grain.force), Vec3d(c.on_grain.torque_i)});
           if (Scope::kFree && loads && contacts.poses[body].free)
@@ -186,9 +196,8 @@ struct WallFilmPass {
   WallRows rows;
   ContactSum* sums;  ///< [rows]
   BL_HD void operator()(Index row) const {
-    const Index* surface = rows.surface + rows.offset[row];
     contacts.each_film(
-        rows.grain[row], Index(rows.offset[row + 1] - rows.offset[row]), [&](Index k) { return surface[k]; },
+        rows.grain[row], rows.count[row], [&](Index k) { return rows(row, k); },
         [&](std::uint32_t, const WallContacts::Contact& c) {
           sums[row].add({Vec3d(c.on_grain.force), Vec3d(c.on_grain.torque_i)});
         });
@@ -222,23 +231,32 @@ struct WallNear {
 struct CountWallsPass {
   WallNear near;
   Span<const Index> grain;
-  Span<std::uint64_t> count;
+  Span<std::uint32_t> count;
   BL_HD void operator()(Index row) const {
     count[row] = 0;
     for (Index s = 0; s < near.walls.surfaces.size; ++s) count[row] += near(grain[row], s);
   }
 };
 
+struct LargestCount {
+  using Value = std::uint32_t;
+  Span<const std::uint32_t> count;
+  BL_HD Value identity() const { return 0; }
+  BL_HD Value operator()(Index row) const { return count[row]; }
+  BL_HD void combine(Value& a, const Value& b) const { a = max_of(a, b); }
+};
+
 struct FillWallsPass {
   WallNear near;
   WallRows rows;
-  Index* surface;
+  WallEntry* entry;
   Span<Index> row_of;  ///< of each grain
   BL_HD void operator()(Index row) const {
     const Index i = rows.grain[row];
-    std::uint64_t slot = rows.offset[row];
+    std::uint64_t slot = row;
+    entry[slot] = {};  // read even where there is none
     for (Index s = 0; s < near.walls.surfaces.size; ++s)
-      if (near(i, s)) surface[slot++] = s;
+      if (near(i, s)) entry[slot] = {s, near.walls.surfaces[s].body}, slot += rows.grain.size;
     row_of[i] = row;
   }
 };

@@ -77,8 +77,9 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
   GrainNear near{
       frame_, grains.x_list.span(), grains.radius.span(), groups_.of_grains(), 0.5 * parameters_.d_max,
       skin(), film_range(1)};
-  // rows are short: of more lanes most would have nothing to do
-  list_.build(grains.size(), grid.view(), near, std::min(lane_bits(grains.size()), 3u));
+  // rows are short: of more lanes most would have nothing to do; contacts take so many registers that more
+  // threads would wait for each other
+  list_.build(grains.size(), grid.view(), near, std::min(lane_bits(grains.size(), 3u << 14), 3u));
   near.film = 0;
   for_each(grains.owned(), ContactsFirstPass{near, list_.view(), list_.entries()});
   histories_.reset(list_.slots());

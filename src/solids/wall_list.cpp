@@ -28,12 +28,13 @@ void WallList::cover(const GrainStore& grains, Span<const BodyPose> poses, const
                       remembered,
                       0.5 * skin_ + covered_ + gap_};
   find_all(grains.size(), near, grain_);
-  count_.resize(size());
+  count_.reserve_and_resize(size());
   for_each({0, size()}, CountWallsPass{near, grain_, count_});
-  surface_.reserve_and_resize(exclusive_scan(count_, offset_));
+  const std::uint32_t most = std::max(reduce({0, size()}, LargestCount{count_}), 1u);
+  entry_.reserve_and_resize(std::size_t(most) * size());
   row_of_.resize(grains.size());
   for_each(grains.owned(), NoRowPass{row_of_});
-  for_each({0, size()}, FillWallsPass{near, rows(), surface_.data(), row_of_});
+  for_each({0, size()}, FillWallsPass{near, rows(), entry_.data(), row_of_});
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -27,7 +27,7 @@ class WallList {
   void cover(const GrainStore& grains, Span<const BodyPose> poses, const Index* remembered, double travel);
 
   Index size() const { return Index(grain_.size()); }
-  WallRows rows() const { return {grain_.span(), offset_.data(), surface_.data()}; }
+  WallRows rows() const { return {grain_.span(), count_.data(), entry_.data()}; }
   Span<const Index> row_of() const { return row_of_.span(); }  ///< of each grain; kNone: it has none
 
  private:
@@ -36,8 +36,9 @@ class WallList {
   double skin_, gap_;
   bool stale_ = true;
   double covered_ = 0, moved_ = 0;  ///< how far walls may go and have gone since the list was made, m
-  Buffer<Index> grain_, surface_, row_of_;
-  Buffer<std::uint64_t> count_, offset_;
+  Buffer<Index> grain_, row_of_;
+  Buffer<std::uint32_t> count_;
+  Buffer<WallEntry> entry_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

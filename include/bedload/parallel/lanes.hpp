@@ -8,11 +8,10 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// log2 of the lanes for each of `rows` rows; 0 on the CPU.
-inline unsigned lane_bits(Index rows) {
+/// log2 of the lanes for each of `rows` rows; 0 on the CPU. threads: what keeps every multiprocessor busy.
+inline unsigned lane_bits(Index rows, [[maybe_unused]] std::uint64_t threads = 1u << 18) {
   unsigned bits = 0;
 #if BL_CUDA
-  constexpr std::uint64_t threads = 1u << 18;  // what keeps every multiprocessor busy
   while (bits < 5 && (std::uint64_t(rows) << (bits + 1)) <= threads) ++bits;
 #else
   (void)rows;
