@@ -42,13 +42,11 @@ struct ContactsFirstPass {
   Index* entry;
   BL_HD void operator()(Index i) const {
     std::uint32_t contacts = 0;
-    for (std::uint32_t k = 0; k < list.count[i]; ++k) {
-      Index &here = entry[list.slot(i, k)], &first = entry[list.slot(i, contacts)];
-      if (!near.closer(i, here, 0)) continue;
-      const Index j = here;
-      here = first, first = j;
-      ++contacts;
-    }
+    list.each(i, [&](std::uint64_t slot, Index j) {
+      if (!near.closer(i, j, 0)) return;
+      Index& first = entry[list.slot(i, contacts++)];
+      entry[slot] = first, first = j;
+    });
   }
 };
 
@@ -60,16 +58,14 @@ struct CarryHistoryPass {
   BL_HD void operator()(Index i) const {
     const Index was_i = order[i];
     if (was_i == kNone) return;
-    for (std::uint32_t l = 0; l < from.count[was_i]; ++l) {
-      const std::uint64_t old_slot = from.slot(was_i, l);
-      if (!old_histories.touching[old_slot]) continue;
-      for (std::uint32_t k = 0; k < to.count[i]; ++k) {
-        const std::uint64_t slot = to.slot(i, k);
-        if (order[to.entry[slot]] != from.entry[old_slot]) continue;
+    from.each(was_i, [&](std::uint64_t old_slot, Index was_j) {
+      if (!old_histories.touching[old_slot]) return;
+      to.each(i, [&](std::uint64_t slot, Index j) {
+        if (order[j] != was_j) return;
         histories.store(slot, old_histories[old_slot]);
         histories.touching[slot] = 1;
-      }
-    }
+      });
+    });
   }
 };
 
@@ -120,15 +116,7 @@ struct ContactPass {
     const Index i = lane.row;
     if (!acts) return sum;
     const Grain own{i, x[i], radius[i], v[i], omega[i], id[i]};
-    const std::uint32_t n = list.count[i];
-    std::uint64_t slot = list.slot(i, lane.index);
-    Index next = list.entry[slot];
-    for (std::uint32_t k = lane.index; k < n; k += lane.count) {
-      const Index j = next;
-      next = list.entry[slot + VerletListView::kTurn];  // while this pair is worked on
-      pair<Law>(own, j, slot, sum);
-      slot += VerletListView::kTurn;
-    }
+    list.each(lane, [&](std::uint64_t slot, Index j) { pair<Law>(own, j, slot, sum); });
     lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
     return sum;
   }

@@ -19,9 +19,7 @@ struct LubricationPass {
     const Lane lane(thread, list.bits);
     const Index i = lane.row;
     ContactSum sum;
-    if (wetness[i] > 0)
-      for (std::uint32_t k = lane.index; k < list.count[i]; k += lane.count)
-        pair(i, list.entry[list.slot(i, k)], sum);
+    if (wetness[i] > 0) list.each(lane, [&](std::uint64_t, Index j) { pair(i, j, sum); });
     lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
     if (lane.index == 0) sums[i] = sum;
   }

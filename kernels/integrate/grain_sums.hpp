@@ -65,18 +65,15 @@ struct TotalsReduction {
     t.sum[lx] = spin.x, t.sum[ly] = spin.y, t.sum[lz] = spin.z;
     t.sum[cx] = m * x.x, t.sum[cy] = m * x.y, t.sum[cz] = m * x.z;
     t.speed2 = norm2(v);
-    const VerletListView& list = contacts.list;
-    for (std::uint32_t k = 0; k < list.count[i]; ++k) {
-      const std::uint64_t slot = list.slot(i, k);
-      if (!contacts.histories.touching[slot]) continue;
+    contacts.list.each(i, [&](std::uint64_t slot, Index j) {
+      if (!contacts.histories.touching[slot]) return;
       const ContactHistory h = contacts.histories[slot];
-      const Index j = list.entry[slot];
       const Sphere o = contacts.sphere(j, contacts.radius[j]);
       t.sum[pairs] += 0.5;
       const ContactLaw& law = contacts.laws ? contacts.laws[contacts.pair_of(i, j)] : contacts.law;
       t.sum[elastic] += 0.5 * law.stored(s.R * o.R / (s.R + o.R), s.m * o.m / (s.m + o.m), h);
       t.overlap = max_of(t.overlap, h.overlap / (2 * double(s.R)));
-    }
+    });
     const WallMemories memory = walls.memories(i);
     for (Index k = 0; k < memory.count(); ++k) {
       const ContactHistory& h = memory[k].history;

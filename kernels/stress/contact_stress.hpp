@@ -12,17 +12,14 @@ struct ContactStressPass {
 
   BL_HD void operator()(Index i) const {
     PairMoment<> sum;
-    const VerletListView& list = contacts.list;
-    for (std::uint32_t k = 0; k < list.count[i]; ++k) {
-      const std::uint64_t slot = list.slot(i, k);
-      if (!contacts.histories.touching[slot]) continue;
-      const Index j = list.entry[slot];
+    contacts.list.each(i, [&](std::uint64_t slot, Index j) {
+      if (!contacts.histories.touching[slot]) return;
       const bool first = contacts.id[i] < contacts.id[j];
       const Index lo = first ? i : j, hi = first ? j : i;  // as ContactPass sees them
       const Real R_lo = contacts.radius[lo], R_hi = contacts.radius[hi];
       const Vec3d r = contacts.frame.separation(contacts.x[lo], contacts.x[hi]);
       const double distance = norm(r), overlap = double(R_lo) + double(R_hi) - distance;
-      if (!(overlap > 0)) continue;
+      if (!(overlap > 0)) return;
       const ContactGeometry at =
           touch(contacts.sphere(lo, R_lo), contacts.sphere(hi, R_hi), r, distance, overlap);
       ContactHistory h = contacts.histories[slot];
@@ -31,7 +28,7 @@ struct ContactStressPass {
                                   0, h)
                   .force,
               Real3(r));
-    }
+    });
     out[i] = sum.times(Real(0.5));
   }
 };
@@ -43,13 +40,11 @@ struct LubricationStressPass {
 
   BL_HD void operator()(Index i) const {
     PairMoment<> sum;
-    const VerletListView& list = films.list;
-    for (std::uint32_t k = 0; k < list.count[i]; ++k) {
-      const Index j = list.entry[list.slot(i, k)];
+    films.list.each(i, [&](std::uint64_t, Index j) {
       const bool first = films.id[i] < films.id[j];
       films.between(first ? i : j, first ? j : i,
                     [&](const ContactForce& f, const Vec3d& r) { sum.add(f.force, Real3(r)); });
-    }
+    });
     out[i] = sum.times(Real(0.5));
   }
 };

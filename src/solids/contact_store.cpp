@@ -37,13 +37,11 @@ HostStore SolidSolver::save_contacts(const GrainStore& grains) const {
   std::vector<Id> lo, hi;
   std::vector<ContactHistory> kept;
   for (Index i = 0; i < list_.rows(); ++i)
-    for (std::uint32_t k = 0; k < list.count[i]; ++k) {
-      const std::uint64_t slot = list.view().slot(i, k);
-      const Id other = id[list.entry[slot]];
-      if (history[slot].overlap == 0 || id[i] > other) continue;  // both partners hold the same
-      lo.push_back(id[i]), hi.push_back(other);
+    list.view().each(i, [&](std::uint64_t slot, Index j) {
+      if (history[slot].overlap == 0 || id[i] > id[j]) return;  // both partners hold the same
+      lo.push_back(id[i]), hi.push_back(id[j]);
       kept.push_back(history[slot]);
-    }
+    });
   return {"contacts",
           kept.size(),
           {to_array("lo", "-", lo), to_array("hi", "-", hi), to_array("history", "m, N m, m, m/s", kept)}};
@@ -67,14 +65,12 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
   std::vector<ContactHistory> history(list_.slots());
   std::size_t found = 0;
   for (Index i = 0; i < list_.rows(); ++i)
-    for (std::uint32_t k = 0; k < list.count[i]; ++k) {
-      const std::uint64_t slot = list.view().slot(i, k);
-      const Id other = id[list.entry[slot]];
-      const auto it = by_pair.find(pair_key(std::min(id[i], other), std::max(id[i], other)));
-      if (it == by_pair.end()) continue;
+    list.view().each(i, [&](std::uint64_t slot, Index j) {
+      const auto it = by_pair.find(pair_key(std::min(id[i], id[j]), std::max(id[i], id[j])));
+      if (it == by_pair.end()) return;
       history[slot] = *it->second;
       ++found;
-    }
+    });
   if (found != 2 * contacts.count)
     throw FileError("checkpoint: contacts between grains that are not near each other");
   histories_.assign(history);

@@ -36,6 +36,25 @@ struct VerletListView {
   }
   /// From an entry of a lane to its next. Loops read one turn ahead, so there are two more at the end.
   static constexpr std::uint64_t kTurn = 1u << kSliceBits;
+
+  /// f(slot, j) for each entry of row i.
+  template <class F>
+  BL_HD void each(Index i, F&& f) const {
+    for (std::uint32_t k = 0; k < count[i]; ++k) f(slot(i, k), entry[slot(i, k)]);
+  }
+  /// The same for those entries that are a lane's; the next one is read while f works on one.
+  template <class F>
+  BL_HD void each(const Lane& lane, F&& f) const {
+    const std::uint32_t n = count[lane.row];
+    std::uint64_t at = slot(lane.row, lane.index);
+    Index next = entry[at];
+    for (std::uint32_t k = lane.index; k < n; k += lane.count) {
+      const Index j = next;
+      next = entry[at + kTurn];
+      f(at, j);
+      at += kTurn;
+    }
+  }
 };
 
 class VerletList {
