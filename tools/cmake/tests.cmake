@@ -1,26 +1,38 @@
 # Tests. Suites named Slow... are labelled slow and left to mixed precision, the rest quick; on a GPU gpu-slow and
-# gpu-quick. Slow ones begin first, so that none of them ends alone.
+# gpu-quick. Slow ones begin first, so that none of them ends alone. On a CPU with AVX2 they run as compiled for it, as
+# users' runs do, in half the time.
 find_package(GTest REQUIRED)
+include(CheckCXXSourceRuns)
 include(GoogleTest)
 
-# bedload_register(<executable> [label prefix]): its tests, which ctest calls <executable>.<suite>.<test>.
-function(bedload_register target)
-  set(seconds 300)
+# Asked each time that CMake runs, as src/device.cpp asks each time that the program runs. A build that moves to a CPU
+# without AVX2 needs CMake again: ctest stops at the slow tests' program and says why.
+set(slow_in_avx2 OFF)
+if(BEDLOAD_CPU_DISPATCH AND "mixed" IN_LIST BEDLOAD_PRECISIONS)
+  unset(BEDLOAD_AVX2_HERE CACHE)
+  check_cxx_source_runs(
+    "int main() { return __builtin_cpu_supports(\"avx2\") && __builtin_cpu_supports(\"fma\") ? 0 : 1; }"
+    BEDLOAD_AVX2_HERE)
+  set(slow_in_avx2 ${BEDLOAD_AVX2_HERE})
+endif()
+
+# bedload_register(<executable> quick|slow [label prefix]): its quick or slow tests, which ctest calls
+# <executable>.<suite>.<test>.
+function(bedload_register target speed)
+  set(filter "-Slow*:*/Slow*")
+  set(properties TIMEOUT 300)
   if(BEDLOAD_SANITIZE OR BEDLOAD_COVERAGE)
-    set(seconds 1800)
+    set(properties TIMEOUT 1800)
+  endif()
+  if(speed STREQUAL "slow")
+    set(filter "Slow*:*/Slow*")
+    set(properties TIMEOUT 1800 COST 100)
   endif()
   # Two tests may run at once, and waiting threads that spin would starve each other.
-  set(environment OMP_WAIT_POLICY=passive)
   gtest_discover_tests(
-    ${target} TEST_FILTER "-Slow*:*/Slow*" TEST_PREFIX "${target}." TEST_LIST ${target}_quick
+    ${target} TEST_FILTER "${filter}" TEST_PREFIX "${target}." TEST_LIST ${target}_${speed}
     DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${ARGN}quick" TIMEOUT ${seconds} ENVIRONMENT "${environment}")
-  if(NOT target MATCHES "single|double")
-    gtest_discover_tests(
-      ${target} TEST_FILTER "Slow*:*/Slow*" TEST_PREFIX "${target}." TEST_LIST ${target}_slow
-      DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-      PROPERTIES LABELS "${ARGN}slow" TIMEOUT 1800 COST 100 ENVIRONMENT "${environment}")
-  endif()
+    PROPERTIES LABELS "${ARGN}${speed}" ${properties} ENVIRONMENT OMP_WAIT_POLICY=passive)
 endfunction()
 
 # With the modules for plots: made by tools/install_dependencies.
@@ -39,7 +51,8 @@ if(host_tests)
   endif()
   target_compile_options(bedload_host_tests PRIVATE $<$<CONFIG:Release>:-O1>)  # in half the time
   target_link_libraries(bedload_host_tests PRIVATE bedload_host bedload_device GTest::gtest_main)
-  bedload_register(bedload_host_tests)
+  bedload_register(bedload_host_tests quick)
+  bedload_register(bedload_host_tests slow)
 endif()
 
 if(BEDLOAD_PYTHON)
@@ -108,29 +121,56 @@ foreach(test
   list(APPEND BEDLOAD_PRECISION_TESTS ${CMAKE_SOURCE_DIR}/tests/${test}_test.cpp)
 endforeach()
 
+# Which of them hold Slow suites, and which hold nothing else. Their text decides: it is read again when it changes.
+set(slow_tests "")
+set(only_slow_tests "")
+set_property(DIRECTORY ${CMAKE_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${BEDLOAD_SOLVER_TESTS})
+foreach(test IN LISTS BEDLOAD_SOLVER_TESTS)
+  file(STRINGS ${test} slow REGEX "^(TYPED_)?TEST(_[FP])?\\(Slow" LIMIT_COUNT 1)
+  file(STRINGS ${test} quick REGEX "^(TYPED_)?TEST(_[FP])?\\(([^S]|S[^l]|Sl[^o]|Slo[^w])" LIMIT_COUNT 1)
+  if(slow)
+    list(APPEND slow_tests ${test})
+    if(NOT quick)
+      list(APPEND only_slow_tests ${test})
+    endif()
+  endif()
+endforeach()
+
 # bedload_variant_tests(<variant> [label prefix]): the solver's tests, built for one variant.
 function(bedload_variant_tests variant)
   set(tests ${BEDLOAD_SOLVER_TESTS})
   if(NOT variant MATCHES "mixed")
     set(tests ${BEDLOAD_PRECISION_TESTS})
   endif()
+  set(slow_elsewhere OFF)
+  if(slow_in_avx2 AND variant STREQUAL "mixed_cpu")
+    set(slow_elsewhere ON)
+    list(REMOVE_ITEM tests ${only_slow_tests})
+  endif()
   # compares the documents with what the solver does
   set_source_files_properties(${CMAKE_SOURCE_DIR}/tests/time/stages_test.cpp
                               PROPERTIES COMPILE_DEFINITIONS BL_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   add_executable(bedload_tests_${variant} ${tests})
   target_link_libraries(bedload_tests_${variant} PRIVATE bedload_${variant} bedload_host GTest::gtest_main)
-  bedload_register(bedload_tests_${variant} ${ARGN})
+  bedload_register(bedload_tests_${variant} quick ${ARGN})
+  if(variant MATCHES "mixed" AND NOT slow_elsewhere)
+    bedload_register(bedload_tests_${variant} slow ${ARGN})
+  endif()
 endfunction()
 
 foreach(precision IN LISTS BEDLOAD_PRECISIONS)
   bedload_variant_tests(${precision}_cpu)
 endforeach()
 
-# AVX2: the tests whose loops take packs, as one test, skipped where the CPU has none; and what would let its
-# instructions out.
+# AVX2: the slow tests; the quick ones beside them and those whose loops take packs, as one test, skipped where the CPU
+# has none; and what would let its instructions out.
 if(BEDLOAD_CPU_DISPATCH)
   set(avx2_tests ${BEDLOAD_PRECISION_TESTS})
   list(FILTER avx2_tests INCLUDE REGEX "/tests/(neighbours|coupling|fluid|physics/coupled)")
+  if(slow_in_avx2)
+    list(APPEND avx2_tests ${slow_tests})
+    list(REMOVE_DUPLICATES avx2_tests)
+  endif()
   foreach(precision IN LISTS BEDLOAD_PRECISIONS)
     add_test(NAME sealed.${precision}_cpu_avx2
              COMMAND sh -c "test $('${CMAKE_NM}' --defined-only --extern-only \"$1\" | wc -l) = 1 && \
@@ -144,6 +184,9 @@ if(BEDLOAD_CPU_DISPATCH)
     add_test(NAME bedload_tests_mixed_cpu_avx2 COMMAND bedload_tests_mixed_cpu_avx2 --gtest_filter=-Slow*:*/Slow*)
     set_tests_properties(bedload_tests_mixed_cpu_avx2 PROPERTIES LABELS quick TIMEOUT 300 SKIP_RETURN_CODE 77
                          ENVIRONMENT OMP_WAIT_POLICY=passive)
+    if(slow_in_avx2)
+      bedload_register(bedload_tests_mixed_cpu_avx2 slow)
+    endif()
   endif()
 endif()
 if(BEDLOAD_CUDA)
