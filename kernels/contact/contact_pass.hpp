@@ -106,7 +106,7 @@ struct ContactPass {
   /// Sums over all contacts of the lane's row, and advances the histories of its pairs by dt.
   BL_HD ContactSum operator()(const Lane& lane) const {
     ContactSum sum = pairs<ContactLaw>(lane);
-    add_others(lane.row, sum);
+    add_others(lane.row, wall_row_of(lane.row), sum);
     return sum;
   }
   /// Those between grains alone. The laws act as Law.
@@ -120,10 +120,11 @@ struct ContactPass {
     lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
     return sum;
   }
+  /// Of a grain among what walls do; kNone: it is far from them.
+  BL_HD Index wall_row_of(Index i) const { return wall_row ? wall_row[i] : kNone; }
   /// What walls and films do, when the loop over the walls has ended.
-  BL_HD void add_others(Index i, ContactSum& sum) const {
+  BL_HD void add_others(Index i, Index row, ContactSum& sum) const {
     if (!acts) return;
-    const Index row = wall_row ? wall_row[i] : kNone;
     wait_for_loop_before();
     if (row != kNone) sum.add(by_walls[row]);
     if (by_films) sum.add(by_films[i]);

@@ -2,6 +2,7 @@
 // Kicks of a grain under drag. The fluid velocity and the drag coefficient are frozen over a fluid step,
 // so drag is integrated exactly: terminal velocity holds for any stiffness [physics section 6].
 
+#include "bedload/parallel/overlap.hpp"
 #include "kernels/boundaries/edges.hpp"
 #include "kernels/contact/grain_mass.hpp"
 
@@ -43,6 +44,13 @@ struct GrainKick {
   Edges edges = {};
 
   BL_HD bool wet() const { return bool(K); }
+  /// Has what a KickedGrain of i reads brought near.
+  BL_HD void ahead(Index i) const {
+    if (drive) read_ahead(drive[i]);
+    if (!wet()) return;
+    read_ahead(fluid_force[i]), read_ahead(U[i]), read_ahead(omega_f[i]);
+    read_ahead(K[i]), read_ahead(K_rot[i]);
+  }
   BL_HD double mass(Index i) const { return mass_per_r3(i) * radius[i] * radius[i] * radius[i]; }
   /// Where a substep takes a grain from x; an edge that it crosses changes v, its spin never.
   BL_HD Vec3d drift(const Vec3d& x, Vec3d& v) const {

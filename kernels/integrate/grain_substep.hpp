@@ -41,6 +41,23 @@ struct FirstKickPass {
   }
 };
 
+/// What a grain brings to where it has arrived, read or asked for before its contacts are looked at.
+struct ArrivedGrain {
+  Real3 v_most, v_rest, omega_most, omega_rest;
+  Index wall_row;
+  BL_HD ArrivedGrain(const ContactPass& contacts, const GrainKick& kick, Index i, Span<const Real3> v_rests,
+                     Span<const Real3> omega_rests)
+      : v_most(contacts.v[i]),
+        v_rest(v_rests[i]),
+        omega_most(contacts.omega[i]),
+        omega_rest(omega_rests[i]),
+        wall_row(contacts.wall_row_of(i)) {
+    kick.ahead(i);
+  }
+  BL_HD Vec3d v() const { return join(v_most, v_rest); }
+  BL_HD Vec3d omega() const { return join(omega_most, omega_rest); }
+};
+
 /// Contacts where the grains have arrived, the second half kick, and the first half kick and drift of the
 /// next substep. Neighbours are read, so results go to other arrays. This pass and those below run over the
 /// threads that share the rows of the contacts' list. Laws act as Law.
@@ -54,9 +71,10 @@ struct SubstepPass {
     let_next_loop_begin();  // with the walls of the next substep, which waits for this one to end
     const Lane lane(thread, contacts.list.bits);
     const Index i = lane.row;
+    const ArrivedGrain now(contacts, kick, i, v_rest, omega_rest);
     ContactSum sum = contacts.pairs<Law>(lane);
-    KickedGrain g(kick, i, join(contacts.v[i], v_rest[i]), join(contacts.omega[i], omega_rest[i]));
-    contacts.add_others(i, sum);
+    KickedGrain g(kick, i, now.v(), now.omega());
+    contacts.add_others(i, now.wall_row, sum);
     if (lane.index != 0) return;
     g.under(sum.force, sum.torque);
     g.kick();
@@ -82,9 +100,10 @@ struct LastKickPass {
   BL_HD void operator()(Index thread) const {
     const Lane lane(thread, contacts.list.bits);
     const Index i = lane.row;
+    const ArrivedGrain now(contacts, kick, i, v_rest, omega_rest);
     ContactSum sum = contacts.pairs<Law>(lane);
-    KickedGrain g(kick, i, join(contacts.v[i], v_rest[i]), join(contacts.omega[i], omega_rest[i]));
-    contacts.add_others(i, sum);
+    KickedGrain g(kick, i, now.v(), now.omega());
+    contacts.add_others(i, now.wall_row, sum);
     if (lane.index != 0) return;
     g.under(sum.force, sum.torque);
     g.kick();

@@ -1,5 +1,5 @@
 #pragma once
-// Loops that begin while the one before them still runs.
+// What begins while something else is still waited for: loops, and what is read later.
 
 #include "bedload/parallel/loops.hpp"
 
@@ -16,6 +16,14 @@ BL_HD void wait_for_loop_before() {
 BL_HD void let_next_loop_begin() {
 #if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 900
   asm volatile("griddepcontrol.launch_dependents;" ::: "memory");
+#endif
+}
+
+/// Has something brought near that is read later, so that it need not be waited for then.
+template <class T>
+BL_HD void read_ahead([[maybe_unused]] const T& there) {
+#if defined(__CUDA_ARCH__)
+  asm volatile("prefetch.L1 [%0];" ::"l"(&there));
 #endif
 }
 
