@@ -125,7 +125,7 @@ struct ContactPass {
   /// What walls and films do, when the loop over the walls has ended.
   BL_HD void add_others(Index i, Index row, ContactSum& sum) const {
     if (!acts) return;
-    wait_for_loop_before();
+    wait_for_loops_before();
     if (row != kNone) sum.add(by_walls[row]);
     if (by_films) sum.add(by_films[i]);
   }

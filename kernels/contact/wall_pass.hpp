@@ -7,21 +7,13 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// A surface, with its body: neither is waited for to find the other.
-struct WallEntry {
-  Index surface;
-  std::uint32_t body;
-};
-
 /// Grains that walls may come to touch, with the surfaces that may, both ascending. Of all rows the first
 /// surfaces lie together, then the second ones.
 struct WallRows {
   Span<const Index> grain;               ///< [rows]
   const std::uint32_t* count = nullptr;  ///< [rows], of their surfaces
-  const WallEntry* entry = nullptr;      ///< [largest count, or 1][rows]
-  BL_HD const WallEntry& operator()(Index row, Index k) const {
-    return entry[std::uint64_t(k) * grain.size + row];
-  }
+  const Index* entry = nullptr;          ///< [largest count][rows]
+  BL_HD Index operator()(Index row, Index k) const { return entry[std::uint64_t(k) * grain.size + row]; }
 };
 
 /// What a pass over walls has code for.
@@ -120,12 +112,11 @@ struct WallContacts {
   BL_HD void find(const Vec3d& at, Real R, Index n, Surfaces&& surface, double range,
                   WallTouches<Kinds>& touches) const {
     for (Index k = 0; k < n; ++k) {
-      const WallEntry entry = surface(k);
-      const Index s = entry.surface;
+      const Index s = surface(k);
       const Surface& of = walls.surfaces[s];
-      const BodyPose& pose = poses[entry.body];
-      const SurfaceView view(of, pose, frame, at);
+      const BodyPose& pose = poses[of.body];
       if (!pose.present) continue;
+      const SurfaceView view(of, pose, frame, at);
       const double reach = Kinds::reach(of, range);
       if (Kinds::kTracked && view.beyond(walls, reach))
         continue;  // of others the closest point costs as much
@@ -171,15 +162,12 @@ struct WallContactPass {
   ContactSum* sums;       ///< [rows]
   TouchLoads loads = {};  ///< where to record what the grains do to free bodies; may be none
   BL_HD void operator()(Index thread) const {
-    wait_for_loop_before();
-    let_next_loop_begin();
     const Lane lane(thread, lane_bits);
     const Index i = rows.grain[lane.row];
-    const WallEntry first = rows(lane.row, 0);
     if (Scope::kFree && loads) loads.clear(i);
     ContactSum sum;
     contacts.each<Scope>(
-        lane, i, rows.count[lane.row], [&](Index k) { return k == 0 ? first : rows(lane.row, k); }, true,
+        lane, i, rows.count[lane.row], [&](Index k) { return rows(lane.row, k); }, true,
         [&](std::uint32_t body, const WallContacts::Contact& c) {
           sum.add({Vec3d(c.on_grain.force), Vec3d(c.on_grain.torque_i)});
           if (Scope::kFree && loads && contacts.poses[body].free)
@@ -249,14 +237,13 @@ struct LargestCount {
 struct FillWallsPass {
   WallNear near;
   WallRows rows;
-  WallEntry* entry;
+  Index* entry;
   Span<Index> row_of;  ///< of each grain
   BL_HD void operator()(Index row) const {
     const Index i = rows.grain[row];
     std::uint64_t slot = row;
-    entry[slot] = {};  // read even where there is none
     for (Index s = 0; s < near.walls.surfaces.size; ++s)
-      if (near(i, s)) entry[slot] = {s, near.walls.surfaces[s].body}, slot += rows.grain.size;
+      if (near(i, s)) entry[slot] = s, slot += rows.grain.size;
     row_of[i] = row;
   }
 };

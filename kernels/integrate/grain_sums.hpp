@@ -100,7 +100,7 @@ struct BodyLoadReduction {
   BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index i) const {
     Value sum = Value::zero();
-    const auto surface = [&](Index s) { return WallEntry{s, contacts.walls.surfaces[s].body}; };
+    const auto surface = [&](Index s) { return s; };
     const auto add = [&](std::uint32_t of, const WallContacts::Contact& c) {
       if (of == body) sum.add(c.on_wall(), contacts.torque_on(body, c));
     };

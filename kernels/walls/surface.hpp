@@ -27,7 +27,11 @@ template <class... Kinds>
 struct SurfaceKinds {
   static constexpr bool kOne = (Kinds::kOne && ...), kTracked = (Kinds::kTracked || ...),
                         kShell = (Kinds::kShell || ...);
-  static constexpr bool holds(SurfaceKind kind) { return ((kind == Kinds::kind) || ...); }
+  template <class Surfaces>
+  static bool hold(const Surfaces& surfaces) {
+    return std::all_of(surfaces.begin(), surfaces.end(),
+                       [](const Surface& s) { return ((s.kind == Kinds::kind) || ...); });
+  }
 
   /// f(model) of a surface's kind, which must be one of these.
   template <class F>
@@ -61,13 +65,8 @@ using AllKinds = SurfaceKinds<RectangleKind, PlaneKind, BoxKind, CapsuleKind, Re
 /// on the host.
 template <class Surfaces, class F>
 void with_surface_kinds(const Surfaces& surfaces, F&& f) {
-  const auto all_in = [&](const auto& kinds) {
-    using Kinds = typename std::decay_t<decltype(kinds)>::type;
-    return std::all_of(surfaces.begin(), surfaces.end(),
-                       [](const Surface& s) { return Kinds::holds(s.kind); });
-  };
-  if (all_in(std::type_identity<FlatKinds>{})) return f(std::type_identity<FlatKinds>{});
-  if (all_in(std::type_identity<SmoothKinds>{})) return f(std::type_identity<SmoothKinds>{});
+  if (FlatKinds::hold(surfaces)) return f(std::type_identity<FlatKinds>{});
+  if (SmoothKinds::hold(surfaces)) return f(std::type_identity<SmoothKinds>{});
   f(std::type_identity<AllKinds>{});
 }
 

@@ -223,6 +223,7 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   else if (!lengths_)
     of_fluid.build(fluid.size(), grid_.view(), fluid_near);
 #endif
+  const unsigned lanes = of_fluid.view().bits;  // as many for walls: few of them are wet
   if (lengths_) {
     const Span<const Real> h = lengths_->h_list, none;
     const PairReach pairs{Real(kappa_ * double(kLengthGrowth)), Real(parameters_.fluid.h())};
@@ -230,11 +231,11 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
     of_fluid.build(fluid.size(), grid_.view(), LengthNear<FluidPosition>{fluid_near, pairs, h, h});
 #endif
     of_walls_around.build(fluid.size(), wall_grid_.view(),
-                          LengthNear<FluidPosition>{fluid_near_walls, pairs, h, none}, of_fluid.view().bits);
-    around_walls.build(walls.size(), grid_.view(), LengthNear<Vec3d>{walls_near, pairs, none, h});
+                          LengthNear<FluidPosition>{fluid_near_walls, pairs, h, none}, lanes);
+    around_walls.build(walls.size(), grid_.view(), LengthNear<Vec3d>{walls_near, pairs, none, h}, lanes);
   } else {
-    of_walls_around.build(fluid.size(), wall_grid_.view(), fluid_near_walls, of_fluid.view().bits);
-    around_walls.build(walls.size(), grid_.view(), walls_near);
+    of_walls_around.build(fluid.size(), wall_grid_.view(), fluid_near_walls, lanes);
+    around_walls.build(walls.size(), grid_.view(), walls_near, lanes);
   }
   if (parameters_.frozen && parameters_.density.method == DensityMethod::summation)
     wall_wall_.between(frame_, walls, walls, range())

@@ -30,7 +30,7 @@ void WallList::cover(const GrainStore& grains, Span<const BodyPose> poses, const
   find_all(grains.size(), near, grain_);
   count_.reserve_and_resize(size());
   for_each({0, size()}, CountWallsPass{near, grain_, count_});
-  const std::uint32_t most = std::max(reduce({0, size()}, LargestCount{count_}), 1u);
+  const std::uint32_t most = reduce({0, size()}, LargestCount{count_});
   entry_.reserve_and_resize(std::size_t(most) * size());
   row_of_.resize(grains.size());
   for_each(grains.owned(), NoRowPass{row_of_});

@@ -38,7 +38,7 @@ class WallList {
   double covered_ = 0, moved_ = 0;  ///< how far walls may go and have gone since the list was made, m
   Buffer<Index> grain_, row_of_;
   Buffer<std::uint32_t> count_;
-  Buffer<WallEntry> entry_;
+  Buffer<Index> entry_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -41,10 +41,10 @@ void SolidSolver::touch_walls(const WallContacts& contacts, const TouchLoads& lo
   const unsigned bits = loads ? 0 : std::min(lane_bits(4 * wall_list_.size()), 2u);
   const Range lanes{0, wall_list_.size() << bits};
   const auto run = [&]<class Scope>(std::type_identity<Scope>) {
-    for_each_early(lanes, WallContactPass<Scope>{contacts, wall_list_.rows(), bits, by_walls_.data(), loads});
+    for_each(lanes, WallContactPass<Scope>{contacts, wall_list_.rows(), bits, by_walls_.data(), loads});
   };
   with_surface_kinds(walls_.surfaces(), [&]<class Kinds>(std::type_identity<Kinds>) {
-    if constexpr (std::is_same_v<Kinds, FlatKinds>)
+    if constexpr (!std::is_same_v<Kinds, AllKinds>)
       if (!bodies_ || !bodies_->any())
         return with_contact_law(parameters_.wall_laws, [&]<class Law>(std::type_identity<Law>) {
           run(std::type_identity<WallScope<Law, Kinds, false>>{});

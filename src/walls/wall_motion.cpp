@@ -54,8 +54,10 @@ BodyPose WallMotion::pose(int body, double t) const {
 }
 
 bool WallMotion::moves() const {
-  return !inlets_.empty() || free_.any() ||
-         std::any_of(walls_.begin(), walls_.end(), [](const MovingWall& wall) { return wall.law.moves(); });
+  if (!inlets_.empty() || free_.any()) return true;
+  for (int b = 0; b < walls(); ++b)
+    if (!removed_[b] && walls_[b].law.moves()) return true;
+  return false;
 }
 
 Span<BodyPose> WallMotion::rows(double t, double dt, int n, Buffer<BodyPose>& device) {

@@ -55,7 +55,7 @@ struct Config {
   std::uint64_t seed = 1;
   double max_lost = 1e-3;                      ///< fraction of fluid or grains that may leave the domain unasked
   double skin_fluid = 0.3;                     ///< neighbour skin / fluid.dx
-  double skin_grain = 0.2;                     ///< neighbour skin / grain.d_min
+  double skin_grain = 0.3;                     ///< neighbour skin / grain.d_min
   bool operator==(const Config&) const = default;
 };
 

@@ -163,6 +163,7 @@ struct TileLoop {
 
 template <class Loop>
 __global__ void __launch_bounds__(kTileThreads) tile_kernel(Loop loop) {
+  begin_loop();
   loop();
 }
 
@@ -179,9 +180,8 @@ void run_tiles(const TileList& list, const PairSeparation& separation, double cu
     check_cuda(cudaFuncSetAttribute(tile_kernel<Loop>, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                     int(tile_memory())),
                "shared memory of a pass");
-  tile_kernel<<<list.tiles(), kTileThreads, capacity * each, Context::current().stream()>>>(
-      Loop{list.view(), separation, Real(cutoff * cutoff), wall_row, pass, capacity});
-  check_cuda(cudaGetLastError(), "pass over pairs");
+  launch(tile_kernel<Loop>, list.tiles(), kTileThreads, capacity * each,
+         Loop{list.view(), separation, Real(cutoff * cutoff), wall_row, pass, capacity});
 }
 
 template <class Pass>

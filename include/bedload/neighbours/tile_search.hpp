@@ -321,6 +321,7 @@ __device__ void search_tile(const TileSearch<P>& s, const Index tile) {
 
 template <bool kAlone, class P>
 __global__ void __launch_bounds__(kTileThreads) tile_search(TileSearch<P> s) {
+  begin_loop();
   __shared__ Index tile;
   for (;;) {
     if (threadIdx.x == 0) tile = atomicAdd(&s.counts->next, 1);
@@ -335,6 +336,7 @@ __global__ void __launch_bounds__(kTileThreads) tile_search(TileSearch<P> s) {
 /// is.
 template <class Word>
 __global__ void __launch_bounds__(kTileThreads) tile_order(TileListView list, Word* entry) {
+  begin_loop();
   extern __shared__ std::uint16_t sorted[];  // by remainder, [entries x threads]
   const Index t = threadIdx.x;
   ThreadEntries in{entry + list.first_word(blockIdx.x, t), 64};
@@ -403,27 +405,27 @@ void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, 
     const Index places = Index(entry_.size() / kTileThreads);
     found_.reserve_and_resize(std::size_t(blocks) * words_ * kTileThreads);
     counts_.zero();
-    search<<<blocks, kTileThreads, memory, Context::current().stream()>>>({grid.view(),
-                                                                           frame,
-                                                                           x,
-                                                                           xp,
-                                                                           range,
-                                                                           skins,
-                                                                           periods_,
-                                                                           bits_,
-                                                                           tiles_,
-                                                                           Index(memory),
-                                                                           Index(third),
-                                                                           words_,
-                                                                           Index(source_.size()),
-                                                                           places,
-                                                                           tile_.data(),
-                                                                           source_.data(),
-                                                                           count_.data(),
-                                                                           entry_.data(),
-                                                                           found_.data(),
-                                                                           counts_.data()});
-    check_cuda(cudaGetLastError(), "search for neighbours");
+    launch(search, blocks, kTileThreads, memory,
+           detail::TileSearch<P>{.grid = grid.view(),
+                                 .frame = frame,
+                                 .x = x,
+                                 .xp = xp,
+                                 .range = range,
+                                 .skins = skins,
+                                 .periods = periods_,
+                                 .bits = bits_,
+                                 .tiles = tiles_,
+                                 .memory = Index(memory),
+                                 .third = Index(third),
+                                 .words = words_,
+                                 .sources = Index(source_.size()),
+                                 .places = places,
+                                 .tile = tile_.data(),
+                                 .source = source_.data(),
+                                 .count = count_.data(),
+                                 .entry = entry_.data(),
+                                 .found = found_.data(),
+                                 .counts = counts_.data()});
     const detail::TileCounts counts = numbers_ = counts_.to_host()[0];
     if (counts.around > detail::kMostAround)
       throw DeviceError("more than " + std::to_string(detail::kMostAround) + " particles around " +
@@ -445,9 +447,7 @@ void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, 
   check_cuda(cudaFuncSetAttribute(detail::tile_order<uint2>, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                   int(sorted)),
              "shared memory of an order");
-  detail::tile_order<uint2>
-      <<<tiles_, kTileThreads, sorted, Context::current().stream()>>>(view(), entry_.data());
-  check_cuda(cudaGetLastError(), "order of neighbours");
+  launch(detail::tile_order<uint2>, tiles_, kTileThreads, sorted, view(), entry_.data());
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -186,6 +186,7 @@ struct SliceSearch {
 
 template <class Search>
 __global__ void __launch_bounds__(Search::kThreads) slice_search(Search search) {
+  begin_loop();
   search();
 }
 
@@ -249,9 +250,9 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
   for (;;) {
     const std::uint64_t room = entry_.size() > beyond ? entry_.size() - beyond : 0;
     taken_.zero();
-    detail::slice_search<<<blocks, Search::kThreads, 0, Context::current().stream()>>>(Search{
-        sources, near, view(), rows, room, count_.data(), offset_.data(), taken_.data(), entry_.data()});
-    check_cuda(cudaGetLastError(), "search for neighbours");
+    launch(detail::slice_search<Search>, blocks, Search::kThreads, 0,
+           Search{sources, near, view(), rows, room, count_.data(), offset_.data(), taken_.data(),
+                  entry_.data()});
     slots_ = taken_.to_host()[0];
     if (slots_ <= room) return;
     entry_.resize(slots_ + slots_ / 32 + beyond);

@@ -3,24 +3,30 @@
 // each call writes only its own entries, so the result never depends on the order.
 
 #include "bedload/parallel/buffer.hpp"
+#include "bedload/parallel/launch.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-constexpr Index kReduceChunk = 1024;  // elements summed into one partial, the same on every backend
+/// Elements summed into one partial, the same on every backend: few where there are few, which then do not wait
+/// for one another.
+constexpr Index reduce_chunk(Index elements) { return elements < 1u << 17 ? 128 : 1024; }
 
 #if BL_CUDA
-template <class F>
+/// kEarly: f waits itself for the loops before.
+template <bool kEarly, class F>
 __global__ void __launch_bounds__(256) for_each_kernel(Index begin, Index end, F f) {
+  if constexpr (!kEarly) begin_loop();
   const Index i = begin + blockIdx.x * blockDim.x + threadIdx.x;
   if (i < end) f(i);
 }
 
 template <class F>
 __global__ void __launch_bounds__(128)
-    reduce_kernel(Index begin, Index end, F f, typename F::Value* partial) {
+    reduce_kernel(Index begin, Index end, Index chunk, F f, typename F::Value* partial) {
+  begin_loop();
   __shared__ typename F::Value shared[128];
-  const Index first = begin + blockIdx.x * kReduceChunk;
-  const Index last = min_of(end, first + kReduceChunk);
+  const Index first = begin + blockIdx.x * chunk;
+  const Index last = min_of(end, first + chunk);
   typename F::Value sum = f.identity();
   for (Index i = first + threadIdx.x; i < last; i += 128) f.combine(sum, f(i));
   shared[threadIdx.x] = sum;
@@ -46,9 +52,7 @@ void for_each(Range range, const F& f) {
   if (range.size() == 0) return;
 #if BL_CUDA
   const Index block = block_size(range);
-  for_each_kernel<<<(range.size() + block - 1) / block, block, 0, Context::current().stream()>>>(
-      range.begin, range.end, f);
-  check_cuda(cudaGetLastError(), "kernel launch");
+  launch(for_each_kernel<false, F>, (range.size() + block - 1) / block, block, 0, range.begin, range.end, f);
 #else
 #pragma omp parallel for schedule(dynamic, 128) if (range.size() > 128)
   for (Index i = range.begin; i < range.end; ++i) f(i);
@@ -75,27 +79,28 @@ const typename F::Value* reduce_there(Range range, const F& f) {
   using Value = typename F::Value;
   Context& context = Context::current();
   Buffer<Value>* const partial[2] = {&context.scratch<Value>(0), &context.scratch<Value>(1)};
-  Index chunks = (range.size() + kReduceChunk - 1) / kReduceChunk;
+  const Index chunk = reduce_chunk(range.size());
+  Index chunks = (range.size() + chunk - 1) / chunk;
   partial[0]->reserve_and_resize(chunks);
 #if BL_CUDA
-  reduce_kernel<<<chunks, 128, 0, context.stream()>>>(range.begin, range.end, f, partial[0]->data());
+  launch(reduce_kernel<F>, chunks, 128, 0, range.begin, range.end, chunk, f, partial[0]->data());
   int from = 0;
   while (chunks > 1) {
+    constexpr Index of_partials = 1024;
     const Index n = chunks;
-    chunks = (n + kReduceChunk - 1) / kReduceChunk;
+    chunks = (n + of_partials - 1) / of_partials;
     partial[1 - from]->reserve_and_resize(chunks);
-    reduce_kernel<<<chunks, 128, 0, context.stream()>>>(0u, n, Again<F>{f, partial[from]->data()},
-                                                        partial[1 - from]->data());
+    launch(reduce_kernel<Again<F>>, chunks, 128, 0, 0u, n, of_partials, Again<F>{f, partial[from]->data()},
+           partial[1 - from]->data());
     from = 1 - from;
   }
-  check_cuda(cudaGetLastError(), "reduction launch");
   return partial[from]->data();
 #else
   Value* out = partial[0]->data();
 #pragma omp parallel for schedule(dynamic, 4) if (chunks > 1)
   for (Index c = 0; c < chunks; ++c) {
-    const Index first = range.begin + c * kReduceChunk;
-    const Index last = min_of(range.end, first + kReduceChunk);
+    const Index first = range.begin + c * chunk;
+    const Index last = min_of(range.end, first + chunk);
     Value sum = f.identity();
     for (Index i = first; i < last; ++i) f.combine(sum, f(i));
     out[c] = sum;
