@@ -123,7 +123,7 @@ struct DensityPass {
   }
 
   BL_HD auto sources() const {
-    const auto state = read_if < kSmooth && kPorous > (m_state);
+    const auto state = read_if<(kSmooth && kPorous)>(m_state);
     if constexpr (kSmooth)
       return lengths.sources(flux, state);
     else

@@ -131,30 +131,43 @@ struct WallForcePass {
   Real kick;             ///< s
   Span<const Real3> acc, acc_before;
   Span<const Real4> flux, m_state, wall_v_rho, wall_m_state, wall_v_visc;
+  Span<const std::uint32_t> wall_body;
   Span<Vec3d> force, friction;
   Span<const Real> relative_viscosity;  ///< of fluid over that of wall.viscosity; empty: the same
   Lengths lengths = {};
 
-  BL_HD Force start(Index) const { return {}; }
-  BL_HD void pair(Force& sum, Index b, Index a, const Real3& r_ba, Real r2) const {
-    Real4 va = flux[a];
-    Real4 ma = m_state[a];
-    ma.y = lengths.corrected(a, ma.y);
-    if (kick != 0) va = {va.xyz() - kick * (acc[a] - acc_before[a]), va.w};
-    const auto F = lengths.F(w, lengths.template own<Real>(a), std::sqrt(r2));
-    Real3 push = wall.pressure(ma, wall_m_state[b], -r_ba, F), drag;
-    if (wall.viscosity.acts())
-      drag = (relative_viscosity ? relative_viscosity[a] : Real(1)) *
-             wall.friction(va, wall_v_rho[b], wall_v_visc[b], -r_ba, r2, F);
+  struct Sum {
+    Real4 v, m, visc;  ///< of the wall particle
+    std::uint32_t body;
+    Force force;
+  };
+  BL_HD Sum start(Index b) const {
+    return {wall_v_rho[b], wall_m_state[b], wall_v_visc[b], wall_body[b], {}};
+  }
+  BL_HD auto sources() const {
+    return lengths.sources(flux, m_state, lengths.corrections(), read_where(kick != 0, acc),
+                           read_where(kick != 0, acc_before),
+                           read_where(bool(relative_viscosity), relative_viscosity, Real(1)));
+  }
+  /// h_a: if lengths vary.
+  template <class Correction, class... H>
+  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const Real4& flux_a, const Real4& state,
+                  const Correction& correction, const Real3& acc_a, const Real3& acc_before_a, Real relative,
+                  const H&... h_a) const {
+    const Real4 va{flux_a.xyz() - kick * (acc_a - acc_before_a), flux_a.w};
+    const Real4 ma{state.x, lengths.corrected_by(correction, state.y), state.z, state.w};
+    const auto F = lengths.F(w, lengths.template own_of<Real>(h_a...), std::sqrt(r2));
+    Real3 push = wall.pressure(ma, sum.m, -r_ba, F), drag;
+    if (wall.viscosity.acts()) drag = relative * wall.friction(va, sum.v, sum.visc, -r_ba, r2, F);
     if (layer.law) {
-      const auto more = layer(va, b, -r_ba, r2);
+      const auto more = layer(va, sum.v, sum.body, -r_ba, r2);
       push += more.push;
       drag += more.damping;
     }
-    sum.add(-ma.x * push, -ma.x * drag);
+    sum.force.add(-ma.x * push, -ma.x * drag);
   }
-  BL_HD void merge(Force& into, const Force& other) const { into.add(other); }
-  BL_HD void finish(Index b, const Force& sum) const { sum.write(b, force, friction); }
+  BL_HD void merge(Sum& into, const Sum& other) const { into.force.add(other.force); }
+  BL_HD void finish(Index b, const Sum& sum) const { sum.force.write(b, force, friction); }
 };
 
 }  // namespace bedload::inline BL_VARIANT

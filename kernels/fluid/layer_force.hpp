@@ -51,21 +51,23 @@ struct LayerForces {
   ArtificialViscosity artificial;
   Span<const LayerLaw> law;  ///< one a body
   Real cap;                  ///< m/s2
-  Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
-  Span<const Real4> v_rho;  ///< of the wall
 
   struct Acceleration {
     Real3 push, damping;  ///< m/s2
+    BL_HD void add(const Acceleration& other) {
+      push += other.push;
+      damping += other.damping;
+    }
   };
-  /// Of fluid with {v, rho} at r from wall particle b.
-  BL_HD Acceleration operator()(const Real4& va, Index b, const Real3& r, Real r2) const {
-    const BodyPose& k = pose[body[b]];
+  /// Of fluid with {v, rho} at r from a wall particle of `body` with {v, rho} of its own.
+  BL_HD Acceleration operator()(const Real4& va, const Real4& vb, std::uint32_t body, const Real3& r,
+                                Real r2) const {
+    const BodyPose& k = pose[body];
     if (k.kind != WallKind::single_layer || !k.present || r2 == 0) return {};
     const Real distance = std::sqrt(r2);
-    Acceleration out{min_of(law[body[b]](distance), cap) / distance * r, {}};
+    Acceleration out{min_of(law[body](distance), cap) / distance * r, {}};
     if (artificial.acts()) {
-      const Real4 vb = v_rho[b];
       const Real rho_mean = Real(0.5) * (va.w + vb.w);
       out.damping =
           artificial.term(vb.w * Real(k.volume), dot(va.xyz() - vb.xyz(), r), rho_mean, r2, w.F(distance)) *
@@ -79,23 +81,23 @@ struct LayerForces {
 template <class W>
 struct LayerPass {
   LayerForces<W> layer;
-  Span<const Real4> flux;
+  Span<const Real4> flux, wall_v_rho;
+  Span<const std::uint32_t> wall_body;
   Span<Real3> theta, acc;
 
-  using Sum = typename LayerForces<W>::Acceleration;
-  BL_HD Sum start(Index) const { return {}; }
-  BL_HD void pair(Sum& sum, Index a, Index b, const Real3& r, Real r2) const {
-    const Sum more = layer(flux[a], b, r, r2);
-    sum.push += more.push;
-    sum.damping += more.damping;
+  struct Sum {
+    Real4 v;
+    typename LayerForces<W>::Acceleration given;
+  };
+  BL_HD Sum start(Index a) const { return {flux[a], {}}; }
+  BL_HD auto sources() const { return sources_of(wall_v_rho, wall_body); }
+  BL_HD void pair(Sum& sum, const Real3& r, Real r2, Real, const Real4& vb, std::uint32_t body) const {
+    sum.given.add(layer(sum.v, vb, body, r, r2));
   }
-  BL_HD void merge(Sum& into, const Sum& other) const {
-    into.push += other.push;
-    into.damping += other.damping;
-  }
+  BL_HD void merge(Sum& into, const Sum& other) const { into.given.add(other.given); }
   BL_HD void finish(Index a, const Sum& sum) const {
-    theta[a] += sum.push + sum.damping;
-    acc[a] += sum.push + sum.damping;
+    theta[a] += sum.given.push + sum.given.damping;
+    acc[a] += sum.given.push + sum.given.damping;
   }
 };
 

@@ -13,7 +13,7 @@ template <class W>
 struct FrozenPass {
   W w;
   Real rho0, dt, least;  ///< kg/m3, s, -
-  Span<const Real4> flux, m_state, wall_v_rho, wall_m_state;
+  Span<const Real4> flux, wall_v_rho, wall_m_state;
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
   Span<Real> compression;
@@ -24,9 +24,10 @@ struct FrozenPass {
     N rate;
   };
   BL_HD Sum<> start(Index b) const { return {wall_v_rho[b].xyz(), 0}; }
-  template <class N, class J>
-  BL_HD void pair(Sum<N>& sum, Index, J a, const Vec3<N>& r, N) const {
-    sum.rate += m_state[a].x * w.F(norm(r)) * dot(sum.v - Vec4<N>(flux[a]).xyz(), r);
+  BL_HD auto sources() const { return sources_of(flux); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qa) const {
+    sum.rate += M * w.F(root(r2)) * dot(sum.v - qa.xyz(), r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rate += other.rate; }
   BL_HD void finish(Index b, const Sum<>& sum) const {
@@ -62,10 +63,10 @@ struct MirrorPass {
     Vec3<N> Fs_rho;
   };
   BL_HD Sum<> start(Index) const { return {0, 0, {}, {}, {}, 0, {}}; }
-  template <class N, class J>
-  BL_HD void pair(Sum<N>& sum, Index, J a, const Vec3<N>& r, N r2) const {
-    const Vec4<N> va = flux[a], ma = m_state[a];
-    const N volume = ma.x / va.w, distance = root(r2), here = w.W(distance);
+  BL_HD auto sources() const { return sources_of(flux, m_state); }
+  template <class N>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& va, const Vec4<N>& ma) const {
+    const N volume = M / va.w, distance = root(r2), here = w.W(distance);
     const N W_a = volume * here, F_a = volume * w.F(distance), rho = ma.z / rho0 - 1;
     sum.number += here;
     sum.unity += W_a;

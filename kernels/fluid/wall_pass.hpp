@@ -20,10 +20,9 @@ struct WallPass {
   W w;
   EquationOfState eos;
   Span<const Real4> fluid_flux, fluid_m_state;
-  Span<const Real3>
-      drag_kick;  ///< velocity that the grains' drag gave the fluid this step, m/s; empty without grains
-  Real rate;      ///< 1 / step, 1/s
-  Span<const Vec3d> x0;  ///< at t = 0, m
+  Span<const Real3> drag_kick;  ///< velocity that the grains' drag gave the fluid this step, m/s
+  Real rate;                    ///< 1 / step, 1/s; 0 without grains
+  Span<const Vec3d> x0;         ///< at t = 0, m
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
   Real3 gravity;   ///< m/s2
@@ -38,14 +37,18 @@ struct WallPass {
     Vec3<N> v, rho_r;  ///< r from the fluid to the wall
   };
   BL_HD Sum<> start(Index) const { return {}; }
-  template <class N, class J>
-  BL_HD void pair(Sum<N>& sum, Index, J a, const Vec3<N>& r_wf, N r2) const {
-    const N wk = lengths.W(w, lengths.template own<N>(a), root(r2));
-    const Vec4<N> m = fluid_m_state[a], v = fluid_flux[a];
+  BL_HD auto sources() const {
+    return lengths.sources(fluid_flux, fluid_m_state, read_where(rate > 0, drag_kick));
+  }
+  /// h_a: if lengths vary.
+  template <class N, class... H>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_wf, N r2, N, const Vec4<N>& v, const Vec4<N>& m,
+                  const Vec3<N>& kick, const H&... h_a) const {
+    const N wk = lengths.W(w, lengths.template own_of<N>(h_a...), root(r2));
     const Vec3<N> rho_r = wk * m.z * r_wf;
     sum.weight += wk;
     sum.p += wk * m.y * square(m.z);
-    if (drag_kick) sum.p += rate * dot(Vec3<N>(drag_kick[a]), rho_r);
+    sum.p += rate * dot(kick, rho_r);
     sum.v += wk * v.xyz();
     sum.rho_r += rho_r;
   }

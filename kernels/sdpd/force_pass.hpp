@@ -74,7 +74,7 @@ struct SdpdForcePass {
     return sum;
   }
   BL_HD auto sources() const {
-    return sources_of(flux, p_rho2, read_if < kSpin || kNoise > (spin_label), read_if<kSpecies>(viscosity));
+    return sources_of(flux, p_rho2, read_if<(kSpin || kNoise)>(spin_label), read_if<kSpecies>(viscosity));
   }
   template <class N, class Own, class Relative>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
@@ -156,25 +156,31 @@ struct SdpdWallForcePass {
   Real kick;  ///< s
   Span<const Real3> acc, acc_before;
   Span<const Real4> flux, m_state, spin_label;
-  Span<const Id> id;
-  bool spins;
   Span<const Real4> wall_v_rho, wall_m_state, wall_v_visc;
   Span<const Real4> wall_label;
   Span<Vec3d> force, friction;
   Span<const Real> viscosity;  ///< over that of `wall.law`; empty: the same
 
-  BL_HD Force start(Index) const { return {}; }
-  BL_HD void pair(Force& sum, Index b, Index a, const Real3& r_ba, Real r2) const {
-    const Real4 va = flux[a], ma = m_state[a];
-    const Real relative = viscosity ? viscosity[a] : Real(1);
-    const Real3 v = kick != 0 ? va.xyz() - kick * (acc[a] - acc_before[a]) : va.xyz();
-    const Real3 spin = spins ? spin_label[a].xyz() : Real3();
-    const auto f = wall(Real4(v, va.w), quotient(ma.x, ma.z), ma.y, spin, row_id(id[a]), relative,
-                        wall_v_rho[b], wall_m_state[b], wall_v_visc[b], wall_label[b], -r_ba, r2);
-    sum.add(-ma.x * f.push, -(f.friction + f.noise));
+  struct Sum {
+    Real4 v, m, visc, label;  ///< of the wall particle
+    Force force;
+  };
+  BL_HD Sum start(Index b) const {
+    return {wall_v_rho[b], wall_m_state[b], wall_v_visc[b], wall_label[b], {}};
   }
-  BL_HD void merge(Force& into, const Force& other) const { into.add(other); }
-  BL_HD void finish(Index b, const Force& sum) const { sum.write(b, force, friction); }
+  BL_HD auto sources() const {
+    return sources_of(flux, m_state, spin_label, read_where(kick != 0, acc),
+                      read_where(kick != 0, acc_before), read_where(bool(viscosity), viscosity, Real(1)));
+  }
+  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const Real4& flux_a, const Real4& ma,
+                  const Real4& own, const Real3& acc_a, const Real3& acc_before_a, Real relative) const {
+    const Real4 va{flux_a.xyz() - kick * (acc_a - acc_before_a), flux_a.w};
+    const auto f = wall(va, quotient(ma.x, ma.z), ma.y, own.xyz(), row_id(as_id(own.w)), relative, sum.v,
+                        sum.m, sum.visc, sum.label, -r_ba, r2);
+    sum.force.add(-ma.x * f.push, -(f.friction + f.noise));
+  }
+  BL_HD void merge(Sum& into, const Sum& other) const { into.force.add(other.force); }
+  BL_HD void finish(Index b, const Sum& sum) const { sum.force.write(b, force, friction); }
 };
 
 }  // namespace bedload::inline BL_VARIANT

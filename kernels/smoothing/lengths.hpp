@@ -48,12 +48,18 @@ struct OneLength {
   template <class N = Real>
   struct Own {};
 
-  template <class N, class J>
-  BL_HD Own<N> own(J) const {
+  template <class N>
+  BL_HD Own<N> own(Index) const {
+    return {};
+  }
+  template <class N>
+  BL_HD Own<N> own_of() const {
     return {};
   }
   BL_HD Real ratio(Index) const { return 1; }  ///< h_a over the kernel's own
   BL_HD Real corrected(Index, Real x) const { return x; }
+  BL_HD Unread corrections() const { return {}; }
+  BL_HD Real corrected_by(Unread, Real x) const { return x; }
   template <class... Field>
   BL_HD auto sources(Field... fields) const {
     return sources_of(fields...);
@@ -81,12 +87,20 @@ struct OwnLengths {
     N shrink;  ///< h0 / h_a
   };
 
-  template <class N, class J>
-  BL_HD Own<N> own(J a) const {
-    return {quotient(N(h0), N(h[a]))};
+  template <class N>
+  BL_HD Own<N> own(Index a) const {
+    return own_of<N>(h[a]);
+  }
+  /// Of a neighbour, by what `sources` adds to its fields.
+  template <class N>
+  BL_HD Own<N> own_of(const N& h_b) const {
+    return {quotient(N(h0), h_b)};
   }
   BL_HD Real ratio(Index a) const { return h[a] / h0; }
-  BL_HD Real corrected(Index a, Real x) const { return x / omega[a]; }
+  BL_HD Real corrected(Index a, Real x) const { return corrected_by(omega[a], x); }
+  /// What a pass reads to correct something of a neighbour.
+  BL_HD Span<const Real> corrections() const { return omega; }
+  BL_HD Real corrected_by(Real omega_b, Real x) const { return x / omega_b; }
   template <class... Field>
   BL_HD auto sources(Field... fields) const {
     return sources_of(fields..., h);

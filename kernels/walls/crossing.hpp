@@ -48,18 +48,24 @@ struct CrossingPass {
   double tolerance;  ///< m
   Span<std::uint32_t> count;
 
-  BL_HD std::uint32_t start(Index) const { return 0; }
-  BL_HD void pair(std::uint32_t& sum, Index a, Index b, const Real3& r_ab, Real) const {
-    const NearestPoint &at = near.points[a], &other = near.points[b];
+  struct Sum {
+    Vec3d x;  ///< m
+    NearestPoint at;
+    std::uint32_t count;
+  };
+  BL_HD Sum start(Index a) const { return {coordinates(near.frame, near.x[a]), near.points[a], 0}; }
+  BL_HD auto sources() const { return sources_of(near.points); }
+  BL_HD void pair(Sum& sum, const Real3& r_ab, Real, Real, const NearestPoint& other) const {
+    const NearestPoint& at = sum.at;
     if (at.surface == kNone || other.surface == kNone) return;
     const Vec3d r(r_ab);
     const double towards = dot(r, at.normal);
     if (!(towards > at.distance && -dot(r, other.normal) > other.distance)) return;
     NearestPoint there;
-    near.look(at.surface, coordinates(near.frame, near.x[a]) - (at.distance / towards) * r, there);
-    if (there.surface != kNone && std::abs(there.distance) < tolerance) ++sum;
+    near.look(at.surface, sum.x - (at.distance / towards) * r, there);
+    if (there.surface != kNone && std::abs(there.distance) < tolerance) ++sum.count;
   }
-  BL_HD void finish(Index a, std::uint32_t sum) const { count[a] = sum; }
+  BL_HD void finish(Index a, const Sum& sum) const { count[a] = sum.count; }
 };
 
 }  // namespace bedload::inline BL_VARIANT

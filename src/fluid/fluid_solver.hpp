@@ -272,7 +272,7 @@ class FluidSolver {
                                     eos_,
                                     flux(fluid),
                                     fluid.m_state,
-                                    drag_dt > 0 ? Span<const Real3>(fluid.drag_kick) : Span<const Real3>(),
+                                    fluid.drag_kick,
                                     Real(drag_dt > 0 ? 1 / drag_dt : 0),
                                     walls.x0,
                                     walls.body,
@@ -295,9 +295,8 @@ class FluidSolver {
   void frozen_continuity(const W& w, const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
                          double dt, Real least) {
     if (!parameters_.frozen) return;
-    wall_fluid_.run(FrozenPass<W>{w, Real(parameters_.fluid.rho0), Real(dt), least, flux(fluid),
-                                  fluid.m_state, walls.v_rho, walls.m_state, walls.body, pose,
-                                  walls.compression});
+    wall_fluid_.run(FrozenPass<W>{w, Real(parameters_.fluid.rho0), Real(dt), least, flux(fluid), walls.v_rho,
+                                  walls.m_state, walls.body, pose, walls.compression});
   }
   double repulsion_cap(double dt) const;  ///< m/s2, in a step of dt, s
 

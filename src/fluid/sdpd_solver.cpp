@@ -174,8 +174,7 @@ class SdpdSolver final : public FluidSolver {
     const SdpdWallForcePass<W, Force> pass{pair(now, dt), Real(parameters_.mixed ? 0 : corrected),
                                            fluid.acc,     fluid.acc_next,
                                            flux(fluid),   fluid.m_state,
-                                           label_,        fluid.id,
-                                           Model::spins,  walls.v_rho,
+                                           label_,        walls.v_rho,
                                            walls.m_state, walls.v_visc,
                                            wall_label_,   force,
                                            friction,      fluid.viscosity};

@@ -50,7 +50,8 @@ class WcsphSolver final : public FluidSolver {
       constant_length_forces(fluid, walls, now, dt);
     }
     if (layers_.size() > 0)
-      fluid_wall_.run(LayerPass<W>{layer(walls, pose, dt), flux(fluid), fluid.theta, fluid.acc_next});
+      fluid_wall_.run(
+          LayerPass<W>{layer(pose, dt), flux(fluid), walls.v_rho, walls.body, fluid.theta, fluid.acc_next});
   }
 
   void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment&,
@@ -108,7 +109,7 @@ class WcsphSolver final : public FluidSolver {
                        double corrected, double dt, Span<Vec3d> force, Span<Vec3d> friction) {
     const WallForcePass<W, Force, Lengths> pass{w_,
                                                 WallPair{viscosity()},
-                                                layer(walls, pose, dt),
+                                                layer(pose, dt),
                                                 Real(parameters_.mixed ? 0 : corrected),
                                                 fluid.acc,
                                                 fluid.acc_next,
@@ -117,6 +118,7 @@ class WcsphSolver final : public FluidSolver {
                                                 walls.v_rho,
                                                 walls.m_state,
                                                 walls.v_visc,
+                                                walls.body,
                                                 force,
                                                 friction,
                                                 fluid.viscosity,
@@ -221,8 +223,8 @@ class WcsphSolver final : public FluidSolver {
     const Real s = Real(0.01);
     return {s, parameters_.tensile_one_sign ? s : Real(0.2), w_.W(Real(parameters_.fluid.dx))};
   }
-  LayerForces<W> layer(const WallStore& walls, Span<const BodyPose> pose, double dt) const {
-    return {w_, artificial(), layers_, Real(repulsion_cap(dt)), walls.body, pose, walls.v_rho};
+  LayerForces<W> layer(Span<const BodyPose> pose, double dt) const {
+    return {w_, artificial(), layers_, Real(repulsion_cap(dt)), pose};
   }
 
   W w_;

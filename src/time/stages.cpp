@@ -153,8 +153,7 @@ void Stepper::list_fluid_stages() {
   if (bodies_.any())
     add("load_bodies", Part::fluid, &Stepper::load_bodies,
         bodies + pairs + of_walls + of_model +
-            Fields{&f.x, &f.mass, &f.id, &f.acc, &f.acc_next, &f.heading, &f.viscosity, &w.v_visc, &w.x0,
-                   &w.body},
+            Fields{&f.x, &f.mass, &f.acc, &f.acc_next, &f.heading, &f.viscosity, &w.v_visc, &w.x0, &w.body},
         bodies);
   add("correct", Part::fluid, &Stepper::correct,
       drift + lengths + listed_lengths +

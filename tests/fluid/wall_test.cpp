@@ -67,7 +67,7 @@ double extrapolated(const Vec3d& gravity, const RigidMotion& wall, const Vec3d& 
   auto sum = pass.start(0);
   for (int a = 0; a < 60; ++a) {
     const Real3 r = Real3(-at[a]);
-    if (norm2(r) < Real(0.04)) pass.pair(sum, 0, Index(a), r, norm2(r));
+    if (norm2(r) < Real(0.04)) pass.pair(sum, r, norm2(r), m[a].x, v[a], m[a], Real3());
   }
   pass.finish(0, sum);
   return lone.m_state[0].y * square(lone.v_rho[0].w);
@@ -106,7 +106,7 @@ TEST(Walls, AreAsHeavyAsFluidThatFillsThem) {
   const auto mass = [&](bool near) {
     const auto pass = lone.pass(v, m, {});
     auto sum = pass.start(0);
-    if (near) pass.pair(sum, 0, Index(0), Real3(Real(0.05), 0, 0), Real(0.0025));
+    if (near) pass.pair(sum, Real3(Real(0.05), 0, 0), Real(0.0025), m[0].x, v[0], m[0], Real3());
     pass.finish(0, sum);
     return double(lone.m_state[0].x);
   };
@@ -144,7 +144,7 @@ double mirrored(const std::vector<Vec3d>& at, const Vec3d& x, const Vec3d& image
   auto sum = pass.start(0);
   for (std::size_t a = 0; a < at.size(); ++a) {
     const Real3 r = Real3(image - at[a]);
-    if (norm2(r) < Real(0.09)) pass.pair(sum, 0, Index(a), r, norm2(r));
+    if (norm2(r) < Real(0.09)) pass.pair(sum, r, norm2(r), m[a].x, v[a], m[a]);
   }
   pass.finish(0, sum);
   return compression[0];

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -50,20 +51,23 @@ std::vector<PairPosition> packed(const Frame& f, const std::vector<Vec3d>& x) {
 struct CountRow {
   Span<std::uint32_t> count;
   BL_HD std::uint32_t start(Index) const { return 0; }
-  BL_HD void pair(std::uint32_t& n, Index, Index, const Real3&, Real) const { ++n; }
+  BL_HD auto sources() const { return sources_of(); }
+  BL_HD void pair(std::uint32_t& n, const Real3&, Real, Real) const { ++n; }
   BL_HD void finish(Index i, std::uint32_t n) const { count[i] = n; }
 };
 
 /// Records the rows of a list, each ended by kNone.
 struct RowPass {
+  Span<const Index> place;
   Span<Index> out;
   Index width;
   struct Sum {
-    Index n;
+    Index next;
   };
-  BL_HD Sum start(Index) const { return {0}; }
-  BL_HD void pair(Sum& s, Index i, Index j, const Real3&, Real) const { out[i * width + s.n++] = j; }
-  BL_HD void finish(Index i, Sum s) const { out[i * width + s.n] = kNone; }
+  BL_HD Sum start(Index i) const { return {i * width}; }
+  BL_HD auto sources() const { return sources_of(place); }
+  BL_HD void pair(Sum& s, const Real3&, Real, Real, Index j) const { out[s.next++] = j; }
+  BL_HD void finish(Index, Sum s) const { out[s.next] = kNone; }
 };
 
 /// Rows of a list, through a pass that records them.
@@ -71,8 +75,11 @@ template <class List>
 std::vector<std::set<Index>> rows_of(const List& list, const PairSeparation& separation, double range) {
   const Index n = list.rows(), width = n + 1;
   std::vector<std::set<Index>> found(n);
-  Buffer<Index> rows(std::size_t(n) * width);
-  for_each_pair({0, n}, list, separation, range, RowPass{rows, width});
+  std::vector<Index> places(n);
+  std::iota(places.begin(), places.end(), Index(0));
+  Buffer<Index> place, rows(std::size_t(n) * width);
+  place.assign(places);
+  for_each_pair({0, n}, list, separation, range, RowPass{place, rows, width});
   const auto host = rows.to_host();
   for (Index i = 0; i < n; ++i)
     for (std::size_t k = std::size_t(i) * width; host[k] != kNone; ++k)

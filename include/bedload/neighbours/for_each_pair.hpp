@@ -2,9 +2,10 @@
 // Runs a pass over the pairs of a list or, list-free, over the cells. A pass has
 //   Sum start(i); auto sources(); void pair(Sum&, r_ij, r2, weight, ...); void finish(i, Sum);
 // and knows nothing of where its neighbours come from: `sources` says what it reads of each, in the order in
-// which `pair` takes it after the weight that comes with a position; what it reads in some cases alone is
-// there in all of them, in the others as an Unread (`read_if`). A pass without `sources` is given places
-// instead, pair(Sum&, i, j, r_ij, r2). One that also runs over a second list has
+// which `pair` takes it after the weight that comes with a position; what of its own row `pair` needs is in
+// the Sum. What it reads in some cases alone is there in all of them, in the others as an Unread (`read_if`)
+// or, where only the run of a case tells, as a value that stands for it (`read_where`). A pass that also runs
+// over a second list has
 //   auto wall_sources(); void wall_pair(Sum&, r_ij, r2, ...);
 // for that. Where a pass can also
 //   void merge(Sum& into, const Sum& other);
@@ -52,6 +53,19 @@ BL_HD auto read_if(Span<T> field) {
     return Unread{};
 }
 
+/// A field that a pass reads of neighbours in some runs alone, and what stands for its values in the others.
+/// Tiles stage none: it is for the rows of Verlet lists.
+template <class T>
+struct ReadWhere {
+  bool reads;
+  Span<const T> field;
+  T otherwise;
+};
+template <class T>
+BL_HD ReadWhere<T> read_where(bool reads, Span<const T> field, const T& otherwise = {}) {
+  return {reads, field, otherwise};
+}
+
 /// What a pass reads of a neighbour: one of each field.
 template <class... T>
 struct Sources {
@@ -79,29 +93,33 @@ struct Sources<Unread, Rest...> {
     rest.load(j, [&](const auto&... more) { f(Unread{}, more...); });
   }
 };
+template <class T, class... Rest>
+struct Sources<ReadWhere<T>, Rest...> {
+  ReadWhere<T> field;
+  Sources<Rest...> rest;
+  template <class J, class F>
+  BL_HD void load(J j, F&& f) const {
+    using Value = std::remove_cvref_t<decltype(field.field[j])>;
+    const Value value = field.reads ? field.field[j] : Value(field.otherwise);
+    rest.load(j, [&](const auto&... more) { f(value, more...); });
+  }
+};
 template <class T>
 std::remove_const_t<T> value_of(Span<T>);
+template <class T>
+ReadWhere<T> value_of(ReadWhere<T>);
 Unread value_of(Unread);
 
-/// Fields: spans, or what read_if makes of them.
+/// Fields: spans, or what read_if and read_where make of them.
 BL_HD Sources<> sources_of() { return {}; }
 template <class Field, class... Rest>
 BL_HD auto sources_of(Field field, Rest... rest) {
   return Sources<decltype(value_of(field)), decltype(value_of(rest))...>{field, sources_of(rest...)};
 }
 
-template <class Pass>
-concept ReadsSources = requires(const Pass& pass) {
-  pass.sources();
-};
-
 template <class Pass, class Sum, class J, class R, class N>
-BL_HD void add_pair(const Pass& pass, Sum& sum, Index i, const J& j, const R& r, const N& r2,
-                    [[maybe_unused]] const N& weight) {
-  if constexpr (ReadsSources<Pass>)
-    pass.sources().load(j, [&](const auto&... of_j) { pass.pair(sum, r, r2, weight, of_j...); });
-  else
-    pass.pair(sum, i, j, r, r2);
+BL_HD void add_pair(const Pass& pass, Sum& sum, const J& j, const R& r, const N& r2, const N& weight) {
+  pass.sources().load(j, [&](const auto&... of_j) { pass.pair(sum, r, r2, weight, of_j...); });
 }
 
 /// Of the second of two lists.
@@ -266,8 +284,7 @@ struct ListLoop {
     const Lane lane(thread, bits);
     const Index i = rows ? rows[lane.row] : begin + lane.row;
     auto sum = start_row(pass, i);
-    row(i, lane,
-        [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, i, j, r, r2, weight); });
+    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, j, r, r2, weight); });
     finish_row(pass, i, lane, sum);
   }
 };
@@ -302,8 +319,7 @@ struct TwoListLoop {
     const Lane lane(thread, bits);
     const Index i = begin + lane.row;
     auto sum = start_row(pass, i);
-    row(i, lane,
-        [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, i, j, r, r2, weight); });
+    row(i, lane, [&](auto j, const auto& r, auto r2, auto weight) { add_pair(pass, sum, j, r, r2, weight); });
     wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) { add_wall_pair(pass, sum, j, r, r2); });
     finish_row(pass, i, lane, sum);
   }
@@ -337,7 +353,7 @@ struct CellLoop {
       const auto source = separation.b[j];
       const Real3 r = separation(i, source);
       const Real r2 = norm2(r);
-      if (r2 < range2) add_pair(pass, sum, i, j, r, r2, Real(source.weight));
+      if (r2 < range2) add_pair(pass, sum, j, r, r2, Real(source.weight));
     });
     pass.finish(i, sum);
   }

@@ -1,6 +1,6 @@
 #pragma once
 // Runs a pass over the pairs of a list of tiles: what it reads of a tile's sources is staged in shared
-// memory.
+// memory, if the pass fades.
 
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "bedload/neighbours/tile_list.hpp"
@@ -9,10 +9,6 @@
 #include <cuda_pipeline.h>
 
 namespace bedload::inline BL_VARIANT {
-
-/// Whether tiles stage what a pass reads.
-template <class Pass>
-constexpr bool kStages = ReadsSources<Pass>&& kFades<Pass>;
 
 namespace detail {
 
@@ -90,10 +86,10 @@ struct TileLoop {
         const auto b = separation.b[j];
         const Real3 r = separation(i, b);
         const Real r2 = norm2(r);
-        if (r2 < range2) add_pair(pass, sum, i, j, r, r2, Real(b.weight));
+        if (r2 < range2) add_pair(pass, sum, j, r, r2, Real(b.weight));
       });
     };
-    if constexpr (kStages<Pass>) {
+    if constexpr (kFades<Pass>) {
       if (tile.sources < capacity) return among_staged(tile, i, end, lane);
     }
     finish(i, end, lane, among_all);
@@ -173,7 +169,7 @@ void run_tiles(const TileList& list, const PairSeparation& separation, double cu
   if (list.tiles() == 0) return;
   using Loop = TileLoop<Pass, WallRow>;
   std::size_t each = 0;
-  if constexpr (kStages<Pass>) each = sizeof(Real4) + decltype(detail::staged_of(pass.sources()))::bytes;
+  if constexpr (kFades<Pass>) each = sizeof(Real4) + decltype(detail::staged_of(pass.sources()))::bytes;
   static const Index blocks = blocks_at_a_time(tile_kernel<Loop>, kTileThreads, 0);
   const Index capacity = list.capacity(each, blocks);
   if (each > 0)
