@@ -64,6 +64,8 @@ class Simulation {
   virtual std::vector<Quantity> numerical_viscosity() const = 0;
   /// Bytes held on the device (or in host memory), now.
   virtual std::size_t bytes() const = 0;
+  /// By how much that grows, about, if the fluid comes to flow so fast that its lists reach farther.
+  virtual std::size_t growth() = 0;
   /// Wall time that the parts of all steps took, s: "lists", "fluid", "grains", "coupling", "checks"; those
   /// that the case has.
   virtual std::vector<Quantity> time_spent() const = 0;

@@ -11,6 +11,7 @@
 #include "commands.hpp"
 #include "prepare.hpp"
 #include "progress.hpp"
+#include "rehearsal.hpp"
 
 namespace bedload {
 namespace {
@@ -35,7 +36,7 @@ struct Trial {
   double substeps = 0;  ///< in a step
 };
 
-/// Takes steps for some two seconds; the first, which makes the lists, does not count.
+/// Takes steps for some two seconds.
 Trial timed_steps(Simulation& simulation) {
   constexpr double kLongest = 2;  // s
   constexpr int kMost = 200;
@@ -44,7 +45,6 @@ Trial timed_steps(Simulation& simulation) {
       if (part.name == "grains") return part.value;
     return 0.0;
   };
-  simulation.step();
   const double grains_before = grains(), begin = simulation.time();
   const auto from = std::chrono::steady_clock::now();
   double seconds = 0;
@@ -103,8 +103,8 @@ int check_case(const Options& options) {
   const Counts later = with_arrivals(p);
   const std::size_t estimate = estimate_bytes(c, n, p.device.cuda()),
                     more = estimate_bytes(c, later, p.device.cuda()) - estimate;
-  const auto print_memory = [&](const char* about, std::size_t bytes) {
-    fmt::print("memory     {}{}{}; {} free\n", about, bytes_text(bytes),
+  const auto print_memory = [&](const char* about, std::size_t bytes, const std::string& of_it = "") {
+    fmt::print("memory     {}{}{}{}; {} free\n", about, bytes_text(bytes), of_it,
                more > 0 ? fmt::format(", up to {} with what comes in", bytes_text(bytes + more)) : "",
                bytes_text(p.device.memory));
   };
@@ -113,17 +113,23 @@ int check_case(const Options& options) {
     p.warnings.push_back(
         "the case needs more memory than the device has free, so its step limits were not evaluated");
   } else {
-    const auto simulation = make_simulation(c, p.setup, p.device);
-    simulation->start();
-    const std::vector<StepLimit> steps = simulation->limits();
+    Rehearsal rehearsal(p);
+    Simulation& simulation = rehearsal.simulation();
+    const std::vector<StepLimit> steps = simulation.limits();
     std::vector<StepLimit> substeps = grain_limits(c);
-    for (const StepLimit& limit : simulation->body_limits()) substeps.push_back(limit);
-    fmt::print("{}", viscosity_text(c, simulation->numerical_viscosity()));
+    for (const StepLimit& limit : simulation.body_limits()) substeps.push_back(limit);
+    fmt::print("{}", viscosity_text(c, simulation.numerical_viscosity()));
     fmt::print("{}{}", limits_text("step", steps), limits_text("substep", substeps));
-    check_fixed_steps(p, *simulation);
+    check_fixed_steps(p, simulation);
 
-    const Trial trial = timed_steps(*simulation);
-    print_memory("", simulation->bytes());
+    simulation.step();  // makes what steps take
+    MemoryNeed memory = rehearsal.memory();
+    const Trial trial = timed_steps(simulation);
+    if (rehearsal.lies_as_a_run()) memory = rehearsal.memory();  // else grains have been falling
+    print_memory("", memory.all,
+                 100 * memory.by_speed > memory.all
+                     ? fmt::format(", {} of it only if fluid flows fast", bytes_text(memory.by_speed))
+                     : "");
     const double count = std::ceil((c.time.end - p.begin) / trial.dt);
     const Pace pace = pace_of(p.device, c.precision);  // of what comes in; the rest is measured
     const double fluid = 0.5 * double(later.fluid - n.fluid), grains = 0.5 * double(later.grains - n.grains);

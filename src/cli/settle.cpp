@@ -38,6 +38,24 @@ fs::path settled_file(const Config& config, const Setup& setup, const Device& de
   return folder / fmt::format("settled-{:016x}.h5", hash.value());
 }
 
+std::optional<SavedState> kept_bed(const Config& config, const Setup& setup, const Device& device) {
+  const fs::path file = settled_file(config, setup, device);
+  if (file.empty() || !fs::exists(file)) return std::nullopt;
+  try {
+    return read_checkpoint(file, settling_case(config));
+  } catch (const FileError&) {
+    return std::nullopt;  // a run will say so
+  }
+}
+
+SavedState bed_of(const Config& config, const Setup::Grains& grains, const Device& device) {
+  Setup setup;
+  setup.grains = grains;
+  const auto simulation = make_simulation(settling_case(config), setup, device);
+  simulation->settle(0, [](double) {});
+  return simulation->save_grains();
+}
+
 SettledGrains settled_grains(const Config& config, const Setup& setup, const Device& device,
                              Progress& progress, std::vector<std::string>& warnings) {
   const fs::path file = settled_file(config, setup, device);

@@ -2,6 +2,7 @@
 // Grains settle before t = 0; the result is kept for the next run of the same bed.
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,11 @@ class Progress;
 /// that settling depends on: grains, contacts, walls, initial places, precision,
 /// backend and version. Empty if there is no home.
 std::filesystem::path settled_file(const Config& config, const Setup& setup, const Device& device);
+
+/// The bed that is kept there, if it can be read.
+std::optional<SavedState> kept_bed(const Config& config, const Setup& setup, const Device& device);
+/// A bed of grains that lie where they are, for Simulation::load_grains.
+SavedState bed_of(const Config& config, const Setup::Grains& grains, const Device& device);
 
 struct SettledGrains {
   SavedState state;            ///< for Simulation::load_grains

@@ -116,11 +116,25 @@ double FluidSolver::longest_step() const {
   return time.dt > 0 ? time.dt : time.cfl * kappa_ * parameters_.fluid.h_most() / 2 / parameters_.fluid.c;
 }
 
-bool FluidSolver::renew_skins(const ListSpeeds& now) {
+double FluidSolver::wide_skin() const {
   // sheared, positions and velocities are peculiar and all reach as far
-  const double least = least_skin(), wide = shear_.acts() ? 1.5 : 4, former = half_skin_;
+  return (shear_.acts() ? 1.5 : 4) * least_skin();
+}
+
+std::size_t FluidSolver::growth() const {
+  if (half_skin_ > least_skin()) return 0;
+  const double mean = shear_.acts() ? wide_skin() : wide_skin() / 2;
+  const double factor =
+      std::pow((range() + 2 * mean) / (range() + 2 * least_skin()), parameters_.domain.two_d ? 2 : 3);
+  const std::size_t bytes =
+      fluid_fluid_.list().bytes() + fluid_wall_.list().bytes() + wall_fluid_.list().bytes();
+  return std::size_t((factor - 1) * double(bytes));
+}
+
+bool FluidSolver::renew_skins(const ListSpeeds& now) {
+  const double least = least_skin(), former = half_skin_;
   const double fastest = std::max(now.fluid, now.walls), eight_steps = 8 * now.dt * fastest;
-  if (eight_steps > least) half_skin_ = wide * least;
+  if (eight_steps > least) half_skin_ = wide_skin();
   if (2 * eight_steps < least || former == 0) half_skin_ = least;  // in between, as it was
   horizon_ = fastest > 0 ? half_skin_ / fastest : 0;
   wall_skin_ = now.walls_move ? std::clamp(horizon_ * now.walls, least, half_skin_) : 0;

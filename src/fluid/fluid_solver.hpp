@@ -150,6 +150,9 @@ class FluidSolver {
   void refresh(FluidStore& fluid, WallStore& walls, bool walls_moved, const ListSpeeds& speeds);
   /// Renews the lists for the positions as they are; `sort`: cells too (after a restart).
   void relist(FluidStore& fluid, WallStore& walls, bool sort);
+  /// What lists take more once fluid flows so fast that it gets more than the least skins, bytes, about: on
+  /// average particles then go half as fast as the fastest, and have half of its half skin. 0 if it does.
+  std::size_t growth() const;
   /// Copies of positions as pair loops read them, `back` (s) before where they are.
   void pack(FluidStore& fluid, double back = 0);
   void pack(WallStore& walls, double back = 0);
@@ -226,6 +229,7 @@ class FluidSolver {
   /// Gives everything its half skin; whether that takes other cells.
   bool renew_skins(const ListSpeeds& speeds);
   double least_skin() const;    ///< half the skin that a case asks for, m
+  double wide_skin() const;     ///< and of the fastest where lists would not last, m
   double longest_step() const;  ///< no step is longer, s
   /// Lengths from volumes, to be listed; whether that takes other cells.
   bool renew_lengths(FluidStore& fluid);

@@ -24,6 +24,7 @@ class CoupledSimulation final : public Simulation {
   std::vector<StepLimit> body_limits() const override { return stepper_.body_limits(); }
   std::vector<Quantity> numerical_viscosity() const override;
   std::size_t bytes() const override { return bytes_held(); }
+  std::size_t growth() override { return state_.has_fluid ? stepper_.fluid().growth() : 0; }
   std::vector<Quantity> time_spent() const override { return stepper_.time_spent(); }
 
   HostStore snapshot(const std::string& store) override;

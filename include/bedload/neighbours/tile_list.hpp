@@ -79,6 +79,7 @@ class TileList {
  public:
   Index rows() const { return rows_; }
   Index tiles() const { return tiles_; }
+  std::size_t bytes() const { return entry_.size() * sizeof(uint2); }  ///< that entries take
   TileListView view() const {
     return {tile_.data(), source_.data(), count_.data(), entry_.data(), bits_, most_, periods_};
   }

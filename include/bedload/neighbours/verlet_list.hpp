@@ -62,6 +62,7 @@ class VerletList {
   Index rows() const { return Index(count_.size()); }
   std::uint64_t slots() const { return slots_; }
   VerletListView view() const { return {offset_.data(), count_.data(), entry_.data(), bits_}; }
+  std::size_t bytes() const { return entry_.size() * sizeof(Index); }  ///< that entries take
   /// To put the entries of a row into another order.
   Index* entries() { return entry_.data(); }
 
@@ -77,6 +78,11 @@ class VerletList {
 
  private:
   friend struct HostVerletList;
+  /// Slots that there is memory for, without those that loops read at the end.
+  std::uint64_t room() const { return entry_.size() > kBeyond ? entry_.size() - kBeyond : 0; }
+  /// And for a few more, so that a list that grows slowly seldom moves.
+  void make_room(std::uint64_t slots) { entry_.resize(slots + slots / 32 + kBeyond); }
+  static constexpr std::uint64_t kBeyond = 2 * VerletListView::kTurn;
   std::size_t slices() const { return (rows() + (1u << view().row_bits()) - 1) >> view().row_bits(); }
 
   unsigned bits_ = 0;
@@ -246,16 +252,15 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
   taken_.resize(1);
   using Search = detail::SliceSearch<Near>;
   const Index blocks = Index((slices() * 32 + Search::kThreads - 1) / Search::kThreads);
-  constexpr std::uint64_t beyond = 2 * VerletListView::kTurn;
   for (;;) {
-    const std::uint64_t room = entry_.size() > beyond ? entry_.size() - beyond : 0;
+    const std::uint64_t room = this->room();
     taken_.zero();
     launch(detail::slice_search<Search>, blocks, Search::kThreads, 0,
            Search{sources, near, view(), rows, room, count_.data(), offset_.data(), taken_.data(),
                   entry_.data()});
     slots_ = taken_.to_host()[0];
     if (slots_ <= room) return;
-    entry_.resize(slots_ + slots_ / 32 + beyond);
+    make_room(slots_);
   }
 #else
   // one search instead of two: blocks of rows grow lists of their own, which are then joined
@@ -275,7 +280,7 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
     offset_.data()[i] = slots_;
     slots_ += count_.data()[i];
   }
-  entry_.reserve_and_resize(slots_ + 2 * VerletListView::kTurn);
+  if (entry_.size() < slots_ + kBeyond) make_room(slots_);
 #pragma omp parallel for schedule(dynamic, 1)
   for (Index b = 0; b < blocks; ++b) {
     std::copy(found[b].begin(), found[b].end(), entry_.data() + offset_.data()[b * block]);

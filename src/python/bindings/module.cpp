@@ -14,6 +14,7 @@
 #include "bedload/core/error.hpp"
 #include "bedload/output/folder_lock.hpp"
 #include "cli/commands.hpp"
+#include "cli/rehearsal.hpp"
 #include "cli/session.hpp"
 #include "tree.hpp"
 
@@ -150,14 +151,14 @@ nb::dict checked(const ReadCase& given, const std::string& backend, int threads)
   computed([&] {
     placed(given.tree, [&] {
       initialise(options, p);
-      const auto simulation = make_simulation(p.config, p.setup, p.device);
-      simulation->start();
-      check_fixed_steps(p, *simulation);
-      steps = simulation->limits();
+      Rehearsal rehearsal(p);
+      Simulation& simulation = rehearsal.simulation();
+      check_fixed_steps(p, simulation);
+      steps = simulation.limits();
       substeps = grain_limits(p.config);
-      for (const StepLimit& limit : simulation->body_limits()) substeps.push_back(limit);
-      numerical = simulation->numerical_viscosity();
-      bytes = simulation->bytes();
+      for (const StepLimit& limit : simulation.body_limits()) substeps.push_back(limit);
+      numerical = simulation.numerical_viscosity();
+      bytes = rehearsal.memory().all;
     });
   });
   nb::dict out;

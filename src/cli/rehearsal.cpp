@@ -1,0 +1,97 @@
+#include "rehearsal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "settle.hpp"
+
+namespace bedload {
+namespace {
+
+/// Lowers grains to where they will lie, about: columns along gravity are shortened to their lowest grain,
+/// all by the factor that makes the bed in a column as dense as one that has settled. Grains then overlap,
+/// but have as many others and as much fluid around them.
+void press(const Config& config, Setup::Grains& grains) {
+  constexpr double settled = 0.6;  // of the volume of a bed is grains, at rest
+  constexpr double column = 4;     // its width, in diameters, at least
+  struct Column {
+    double lowest = INFINITY, highest = -INFINITY, volume = 0;
+  };
+  const double g = norm(config.gravity);
+  if (g == 0 || grains.x.empty()) return;
+  const Vec3d up = config.gravity * (-1 / g);
+  Vec3d side{1, 0, 0};
+  if (std::abs(up.x) > 0.6) side = {0, 1, 0};
+  side -= up * dot(side, up);
+  side = side * (1 / norm(side));
+  const Vec3d across[2] = {side, cross(up, side)};
+
+  int n[2];
+  double from[2], width[2];
+  for (int k = 0; k < 2; ++k) {
+    double low = INFINITY, high = -INFINITY;
+    for (std::size_t i = 0; i < grains.x.size(); ++i) {
+      low = std::min(low, dot(grains.x[i], across[k]) - grains.radius[i]);
+      high = std::max(high, dot(grains.x[i], across[k]) + grains.radius[i]);
+    }
+    n[k] = std::clamp(int((high - low) / (column * config.grain.d_max)), 1, 1 << 12);
+    from[k] = low, width[k] = (high - low) / n[k];
+  }
+  std::vector<Column> columns(std::size_t(n[0]) * n[1]);
+  const auto column_of = [&](const Vec3d& x) -> Column& {
+    int at[2];
+    for (int k = 0; k < 2; ++k)
+      at[k] = std::clamp(int((dot(x, across[k]) - from[k]) / width[k]), 0, n[k] - 1);
+    return columns[std::size_t(at[0]) * n[1] + at[1]];
+  };
+  for (std::size_t i = 0; i < grains.x.size(); ++i) {
+    Column& c = column_of(grains.x[i]);
+    const double height = dot(grains.x[i], up), d = 2 * grains.radius[i];
+    c.lowest = std::min(c.lowest, height), c.highest = std::max(c.highest, height);
+    c.volume += M_PI / 6 * d * d * d;
+  }
+  std::vector<double> dense;  // of columns that hold any, how much is grains
+  for (const Column& c : columns)
+    if (c.volume > 0)
+      dense.push_back(c.volume / (width[0] * width[1] * (c.highest - c.lowest + config.grain.d_max)));
+  const auto middle = dense.begin() + dense.size() / 2;
+  std::nth_element(dense.begin(), middle, dense.end());  // those at the sides may be cut
+  const double factor = std::min(1.0, *middle / settled);
+  for (Vec3d& x : grains.x) x -= up * ((1 - factor) * (dot(x, up) - column_of(x).lowest));
+}
+
+/// A run of the case, begun with a bed.
+std::unique_ptr<Simulation> begun(const Prepared& p, const SavedState* bed) {
+  auto simulation = make_simulation(p.config, p.setup, p.device);
+  if (bed) simulation->load_grains(*bed);
+  simulation->start();
+  return simulation;
+}
+
+}  // namespace
+
+Rehearsal::Rehearsal(const Prepared& p) : config_(p.config) {
+  if (!config_.grain.present || !config_.grain.settle) {
+    simulation_ = begun(p, nullptr);
+  } else if (const auto kept = kept_bed(config_, p.setup, p.device)) {
+    simulation_ = begun(p, &*kept);
+  } else {
+    Setup::Grains pressed = p.setup.grains;
+    press(config_, pressed);
+    // what both hold for good is there when the second starts
+    const SavedState settled = bed_of(config_, pressed, p.device),
+                     placed = bed_of(config_, p.setup.grains, p.device);
+    settling_ = std::ptrdiff_t(begun(p, &settled)->bytes());
+    simulation_ = begun(p, &placed);
+    settling_ -= std::ptrdiff_t(simulation_->bytes());
+  }
+}
+
+MemoryNeed Rehearsal::memory() {
+  simulation_->diagnostics();
+  for (const ProbeConfig& probe : config_.out.probes) simulation_->measure(probe);
+  const std::size_t by_speed = simulation_->growth();
+  return {std::size_t(std::ptrdiff_t(simulation_->bytes() + by_speed) + settling_), by_speed};
+}
+
+}  // namespace bedload
