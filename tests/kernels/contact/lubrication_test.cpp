@@ -105,6 +105,7 @@ TEST(LubricationSmall, SlowsGrainsThatApproachByTheirGap) {
   const double R = b.R() / 2, m = b.mass() / 2, s0 = 0.9 * R, v0 = -0.02;
   b.add({-b.R() - s0 / 2, 0, 0}, {-v0 / 2, 0, 0});
   b.add({b.R() + s0 / 2, 0, 0}, {v0 / 2, 0, 0});
+  b.config.skin_grain = 0.2;
   b.begin({1, 1});
   ASSERT_GT(s0, b.solver->skin()) << "beyond what contacts alone would list";
   b.run(2e-5, 1200);
