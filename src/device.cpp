@@ -150,7 +150,8 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda
   const bool two_way = coupled && config.couple.mode == CouplingMode::two_way;
   const double optional = real * ((config.time.integrator == TimeIntegrator::ab3 ? 3 : 1) +
                                   (coupled ? 1 : 0) + (two_way ? 10 : 0) + (config.fluid.variable_h ? 3 : 0) +
-                                  (config.shift > 0 || config.xsph > 0 ? 3 : 0));
+                                  (config.shift > 0 || config.xsph > 0 ? 3 : 0) + (config.shift > 0 ? 2 : 0) +
+                                  (config.pressure.damper > 0 ? 1 : 0));
   const double walls = 8 + 3 * 24 + pair_position + real * 13 + 4 * 32;
   const double contacts = 12;
   const double touches = 60.0 * std::min(config.wall.free_bodies(), 8);  // of each grain with free bodies

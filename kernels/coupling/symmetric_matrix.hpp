@@ -36,6 +36,16 @@ struct SymmetricMatrix {
   }
   /// Root of the sum of all nine squares; at least the largest eigenvalue.
   BL_HD T norm() const { return std::sqrt(xx * xx + yy * yy + zz * zz + 2 * (yz * yz + xz * xz + xy * xy)); }
+  /// By the angle of its characteristic polynomial's roots (Smith 1961).
+  BL_HD T least_eigenvalue() const {
+    const T mean = trace() / 3, x = xx - mean, y = yy - mean, z = zz - mean;
+    const T size2 = (x * x + y * y + z * z + 2 * (yz * yz + xz * xz + xy * xy)) / 6;
+    const T size = std::sqrt(size2), volume = size2 * size;
+    if (!(volume > 0)) return mean;
+    const SymmetricMatrix rest{x, y, z, yz, xz, xy};
+    const T cosine = clamp(rest.determinant() / (2 * volume), T(-1), T(1));
+    return mean + 2 * size * std::cos((std::acos(cosine) + T(2 * kPi)) / 3);
+  }
   /// `scale` times this, in U.
   template <class U>
   BL_HD SymmetricMatrix<U> as(T scale) const {

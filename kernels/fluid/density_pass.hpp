@@ -1,77 +1,12 @@
 #pragma once
 #include "bedload/neighbours/for_each_pair.hpp"
+#include "kernels/fluid/linear_fit.hpp"
+#include "kernels/fluid/shifting.hpp"
 #include "kernels/fluid/wall_mass.hpp"
 #include "kernels/smoothing/half_space_fraction.hpp"
 #include "kernels/smoothing/lengths.hpp"
 
 namespace bedload::inline BL_VARIANT {
-
-/// Symmetric part of a gradient, 1/s.
-template <class N>
-struct Strain {
-  N xx, yy, zz, xy, yz, zx;
-  BL_HD void add(const N& w, const Vec3<N>& v, const Vec3<N>& r) {
-    xx += w * v.x * r.x, yy += w * v.y * r.y, zz += w * v.z * r.z;
-    xy += w * (v.x * r.y + v.y * r.x), yz += w * (v.y * r.z + v.z * r.y), zx += w * (v.z * r.x + v.x * r.z);
-  }
-  BL_HD void merge(const Strain& o) {
-    xx += o.xx, yy += o.yy, zz += o.zz, xy += o.xy, yz += o.yz, zx += o.zx;
-  }
-  BL_HD N magnitude() const {
-    return root(square(xx) + square(yy) + square(zz) + Real(0.5) * (square(xy) + square(yz) + square(zx)));
-  }
-};
-
-/// Particle shifting after Lind et al. 2012: where fluid strains, particles drift from where they crowd,
-///   u = -min(A h^2 |S|, h^2 / (2 dt)) grad C,    grad C = sum_b V_b grad W_ab,    |u| <= 0.1 dx / dt,
-/// S being the rate of strain, the symmetric part of sum_b V_b F_ab (q_a - q_b) r_ab, in which the noise of
-/// single particles averages out: what rests is left alone, what turns as a whole nearly. A lattice that
-/// lasts bears shear by its pressure, at any resolution. Nothing drifts beside a free surface, which grad C
-/// would let swell: where div r = sum_b V_b F_ab r_ab^2 is no more than that of the second layer of a
-/// lattice. The velocities of particles stay, so momentum holds; what that takes along is of the order of h^2
-/// |S|, of angular momentum too. Drift by nearest neighbours alone, which does not know the surface, has
-/// another equilibrium than the pressure and pumps energy into still water.
-struct Shifting {
-  Real area;      ///< A h^2 [m2]
-  Real stiffest;  ///< h^2 / (2 dt) [m2/s]; beyond it places would overshoot
-  Real fastest;   ///< 0.1 dx / dt [m/s]
-  Real per_axis;  ///< 1 / dimensions
-  Real surface;   ///< div r / dimensions up to which nothing drifts
-
-  template <class N>
-  struct Sum {
-    N divergence;
-    Strain<N> strain;
-    /// b: V_b F_ab; q = q_a - q_b.
-    BL_HD void add(const N& b, const Vec3<N>& q, const Vec3<N>& r, const N& r2) {
-      add_wall(b, r2);
-      strain.add(b, q, r);
-    }
-    BL_HD void add_wall(const N& b, const N& r2) { divergence += b * r2; }
-    BL_HD void merge(const Sum& o) {
-      divergence += o.divergence;
-      strain.merge(o.strain);
-    }
-  };
-  /// Drift velocity; gradient: -grad C.
-  BL_HD Real3 operator()(const Sum<Real>& sum, const Real3& gradient) const {
-    const Real inside = clamp(50 * (sum.divergence * per_axis - surface), Real(0), Real(1));
-    const Real3 u = inside * min_of(area * sum.strain.magnitude(), stiffest) * gradient;
-    const Real u2 = norm2(u);
-    return u2 > square(fastest) ? fastest / std::sqrt(u2) * u : u;
-  }
-};
-
-/// Particles move with their velocity.
-struct NoShifting {
-  template <class N>
-  struct Sum {
-    BL_HD void add(const N&, const Vec3<N>&, const Vec3<N>&, const N&) {}
-    BL_HD void add_wall(const N&, const N&) {}
-    BL_HD void merge(const Sum&) {}
-  };
-  BL_HD Real3 operator()(const Sum<Real>&, const Real3&) const { return {}; }
-};
 
 /// Continuity of the mixture with density diffusion (Fourtakas et al. 2019), over `dt`:
 ///   eps_a d rho_a / dt = - sum_b M_b (q_a - q_b) . r_ab F_ab,  M = m / eps,  q = eps v + sum_j w_j u_j,
@@ -87,9 +22,11 @@ struct NoShifting {
 /// particles: what the gradient of the porosity in its sum differs from how the porosity changes along the
 /// way adds up, and fluid that has entered a bed may stand more closely than its volume allows. So among
 /// grains density grows where particles overfill the kernel by more than `slack`.
+/// `compression` is what continuity alone makes of s, which the acoustic damper takes (StatePass).
 /// kSmooth: with density diffusion and all that follows the void; without, continuity alone. kPorous: there
-/// are grains. Where smoothing lengths vary, the sum of continuity is taken at h_a and divided by Omega_a.
-template <class W, class Shift, bool kSmooth, bool kPorous, class Lengths>
+/// are grains. Fit: LinearFit, with Shifting, or NoFit. Where smoothing lengths vary, the sum of continuity
+/// is taken at h_a and divided by Omega_a.
+template <class W, class Shift, class Fit, bool kSmooth, bool kPorous, class Lengths>
 struct DensityPass {
   W w;
   Span<const Real4> flux, m_state, wall_v_rho, wall_m_state;
@@ -103,8 +40,10 @@ struct DensityPass {
   Real least;      ///< s at which fluid cavitates
   Real fading;     ///< of pressure where there is a void, and pace at which fragmented fluid follows it [1/s]
   Real spreading;  ///< of density where particles overfill their volume [1/s]
+  Span<Real> compression;  ///< 1/s; empty where nothing asks for it
   Shift shift;
   Span<Real3> drift;  ///< empty where nothing drifts
+  Fit fit;
   Lengths lengths;
 
   static constexpr Real slack = Real(0.02);  ///< twice what the sum over particles at rest scatters
@@ -115,24 +54,36 @@ struct DensityPass {
     N rho, eps, rate, diffused, filled;
     Vec3<N> gradient;
     [[no_unique_address]] typename Shift::template Sum<N> shift;
-    typename Lengths::template Own<N> own;
+    [[no_unique_address]] typename Fit::template Sum<N> fit;
+    [[no_unique_address]] typename Lengths::template Own<N> own;
   };
   BL_HD Sum<> start(Index a) const {
     const Real4 m = m_state[a];
-    return {flux[a].xyz(), m.z, m.w, 0, 0, 0, {}, {}, lengths.template own<Real>(a)};
+    return {flux[a].xyz(),
+            m.z,
+            m.w,
+            0,
+            0,
+            0,
+            {},
+            shift.template start<Real>(a),
+            fit.start(m),
+            lengths.template own<Real>(a)};
   }
 
   BL_HD auto sources() const {
-    const auto state = read_if<(kSmooth && kPorous)>(m_state);
+    constexpr bool asked = (kSmooth && kPorous) || Fit::acts;
+    const auto state = read_if<asked>(m_state);
     if constexpr (kSmooth)
-      return lengths.sources(flux, state);
+      return lengths.sources(flux, state, shift.sources());
     else
-      return sources_of(flux, state);
+      return sources_of(flux, state, shift.sources());
   }
-  /// h_b: if lengths vary.
-  template <class N, class State, class... H>
+  /// exposure: if particles shift; h_b: if lengths vary.
+  template <class N, class State, class Exposure, class... H>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb,
-                  [[maybe_unused]] const State& state, const H&... h_b) const {
+                  [[maybe_unused]] const State& state, [[maybe_unused]] const Exposure& exposure,
+                  const H&... h_b) const {
     const N distance = root(r2);
     const auto factor = lengths.F(w, sum.own, distance, h_b...);
     const N F = own_factor(factor);
@@ -142,7 +93,8 @@ struct DensityPass {
     const N rho = qb.w, V = quotient(M, rho), VF = V * F;
     sum.filled += V * lengths.W(w, sum.own, distance);
     sum.gradient += VF * r;
-    sum.shift.add(VF, v, r, r2);
+    sum.shift.add(VF, v, r, exposure);
+    if constexpr (Fit::acts) sum.fit.add_fluid(VF, state.y * square(rho), r, exposure);
     const N still = 1 - stiffening * (Real(0.5) * (sum.rho + rho) / rho0 - 1);
     N shared = sum.eps;
     if constexpr (kPorous) shared = Real(0.5) * (sum.eps + state.w);  // what one gains the other loses
@@ -156,8 +108,10 @@ struct DensityPass {
     sum.rate += continuity_mass(mb, rho0) * F * dot(sum.q - vb.xyz(), r);
     if constexpr (!kSmooth) return;
     sum.filled += V * lengths.W(w, sum.own, distance);
-    sum.gradient += V * F * r;
-    sum.shift.add_wall(V * F, r2);
+    const N VF = V * F;
+    sum.gradient += VF * r;
+    sum.shift.add_wall(VF, r);
+    if constexpr (Fit::acts) sum.fit.add(VF, mb.y * square(mb.z), r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.rate += other.rate;
@@ -165,11 +119,25 @@ struct DensityPass {
     into.filled += other.filled;
     into.gradient += other.gradient;
     into.shift.merge(other.shift);
+    into.fit.merge(other.fit);
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
     const Change change = of(a, sum);
     s_new[a] = s[a] + dt * change.rate + change.settled;
-    if (drift) drift[a] = shift(sum.shift, sum.gradient);
+    order(a, sum);
+  }
+  /// What the arrangement of particles calls for: their drift, and what the pressure force is wrong by.
+  BL_HD void order(Index a, const Sum<>& sum) const {
+    if constexpr (Shift::acts) {
+      const SymmetricMatrix<Real> moment = shift.moment(sum.shift);
+      const Real least = moment.least_eigenvalue(), exposed = 1 - least;
+      shift.exposure_new[a] = exposed;
+      drift[a] = shift.drift(sum.shift, exposed, sum.gradient);
+      if constexpr (Fit::acts)
+        fit.finish(a, sum.fit, sum.rho, sum.gradient, moment, least, shift.inside(sum.shift.greatest));
+    } else if (drift) {
+      drift[a] = {};  // XSPH adds to it
+    }
   }
   /// How s changes.
   struct Change {
@@ -178,6 +146,7 @@ struct DensityPass {
   };
   BL_HD Change of(Index a, const Sum<>& sum) const {
     const Real rate = lengths.corrected(a, sum.rate);
+    if (compression) compression[a] = -rate / (sum.eps * rho0);
     if constexpr (!kSmooth) return {-rate / (sum.eps * rho0), 0};
     const Real filled = m_state[a].x / sum.rho * lengths.W(w, sum.own, Real(0)) + sum.filled;
     const Real void_fraction = max_of(Real(0), 1 - filled - cut(norm(sum.gradient) * lengths.ratio(a)));

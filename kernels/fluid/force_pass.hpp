@@ -49,6 +49,7 @@ struct ForcePass {
   Drive drive;
   Span<Real3> theta, acc, drift;
   Span<const Real> relative_viscosity = {};  ///< over that of wall.viscosity
+  Span<const Real3> correction = {};         ///< of LinearFit, m/s2; empty without
   Lengths lengths = {};
 
   template <class N = Real>
@@ -99,8 +100,10 @@ struct ForcePass {
     into.xsph += other.xsph;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    theta[a] = sum.theta;
-    acc[a] = sum.theta + gravity + drive(a, sum.m);
+    Real3 stress = sum.theta;
+    if (correction) stress += correction[a];
+    theta[a] = stress;
+    acc[a] = stress + gravity + drive(a, sum.m);
     if (kAdded && xsph_factor > 0) drift[a] += sum.xsph;
   }
 };

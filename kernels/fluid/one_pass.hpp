@@ -20,11 +20,14 @@ struct OnePass {
   };
   BL_HD Sum<> start(Index a) const { return {force.start(a), seen().start(a)}; }
 
-  BL_HD auto sources() const { return force.sources(); }
-  template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, Unread) const {
+  BL_HD auto sources() const {
+    return sources_of(force.flux, force.p_rho2, Unread{}, density.shift.sources());
+  }
+  template <class N, class Exposure>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, Unread,
+                  const Exposure& exposure) const {
     force.pair(sum.force, r, r2, M, vb, p, Unread{});
-    seen().pair(sum.density, r, r2, M, vb, Unread{});
+    seen().pair(sum.density, r, r2, M, vb, Vec4<N>{N(0), p, N(0), N(1)}, exposure);
   }
   BL_HD auto wall_sources() const { return force.wall_sources(); }
   template <class N>
@@ -38,11 +41,11 @@ struct OnePass {
     density.merge(into.density, other.density);
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
+    density.order(a, sum.density);
     force.finish(a, sum.force);
     const auto change = density.of(a, sum.density);
     rate[a] = change.rate;
     density.s_new[a] = max_of(density.s[a] + change.settled, kThinnest);
-    if (density.drift) density.drift[a] = density.shift(sum.density.shift, sum.density.gradient);
   }
 
  private:

@@ -42,8 +42,8 @@ struct ShearedPass {
 /// Which passes are built for sheared fluid, too: those of one fluid alone with one smoothing length.
 template <class Pass>
 constexpr bool kBearsShear = false;
-template <class W, class Shift, bool kSmooth>
-constexpr bool kBearsShear<DensityPass<W, Shift, kSmooth, false, OneLength>> = true;
+template <class W, class Shift, class Fit, bool kSmooth>
+constexpr bool kBearsShear<DensityPass<W, Shift, Fit, kSmooth, false, OneLength>> = true;
 template <class W, bool kArtificial>
 constexpr bool kBearsShear<ForcePass<W, kArtificial, false, false, OneLength>> = true;
 template <class Force>

@@ -1,6 +1,7 @@
 #pragma once
 #include "kernels/bodies/rigid_body.hpp"
 #include "kernels/boundaries/orifice.hpp"
+#include "kernels/fluid/shifting.hpp"
 #include "kernels/walls/surface.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -20,16 +21,20 @@ struct Repulsion {
 };
 
 /// Keeps fluid from passing a wall whose pressure does not stop it: lone particles, which have none, and fast
-/// ones. Within `reach` of the surface, at half of where fluid rests, it comes nearer no faster than
-/// rate (r - reach / 5), so that it stops short of the surface. What this takes is energy; where rounding has
-/// let fluid come nearer than that, it returns at a twentieth of the pace.
+/// ones. Within a quarter of a spacing of the surface, half of where fluid rests, it comes nearer no faster
+/// than rate (r - dx / 20), so that it stops short of the surface. A sheet one particle thick (`sheet` 1; 0
+/// where fluid covers a particle), which walls let come as near as that, stops at 0.4 dx, within half a
+/// spacing: about where the first layer of deeper fluid rests. What this takes is energy; what is nearer
+/// returns by dx / 400 in the time of `rate` at most.
 struct PenetrationLimit {
-  Real reach = 0, rate = 0, per_step = 0;  ///< m; 1/s, below one over the step; one over the step, 1/s
+  Real spacing = 0, rate = 0, per_step = 0;  ///< m; 1/s, below one over the step; one over the step, 1/s
+  BL_HD Real reach(Real sheet) const { return Real(0.25) * (1 + sheet) * spacing; }
   /// Acceleration away from the wall of fluid at r that would near it at `approach` (m/s), m/s2.
-  BL_HD Real operator()(Real r, Real approach) const {
-    if (r >= reach) return 0;
-    const Real ahead = r - Real(0.2) * reach;
-    return max_of(approach - rate * (ahead > 0 ? ahead : Real(0.05) * ahead), Real(0)) * per_step;
+  BL_HD Real operator()(Real r, Real approach, Real sheet) const {
+    if (r >= reach(sheet)) return 0;
+    const Real stop = (Real(0.05) + Real(0.35) * sheet) * spacing, ahead = r - stop;
+    const Real pace = ahead > 0 ? ahead : Real(0.0025) * spacing / stop * ahead;
+    return max_of(approach - rate * pace, Real(0)) * per_step;
   }
 };
 
@@ -40,14 +45,17 @@ struct WallRepulsion {
   Frame frame;
   SurfaceSet walls;
   Span<const BodyPose> pose;
+  Span<const Real> exposure = {};  ///< of fluid to free surfaces (Shifting); empty: not known
 
-  BL_HD double reach() const { return double(max_of(law.r0, limit.reach)); }
+  BL_HD double reach() const { return double(max_of(law.r0, limit.reach(exposure ? 1 : 0))); }
+  /// Of particle a, as PenetrationLimit takes it.
+  BL_HD Real sheet(Index a) const { return exposure ? 1 - Shifting::inside(exposure[a]) : Real(0); }
   /// f(body, acceleration, point) for each closest point (m) of a surface that acts on fluid at x, which
   /// would go on at `heading` (m/s) without; of one body alone or all. What one surface stops the next does
   /// not stop again. Takes from `drift` (m/s), which moves fluid beside its velocity, what would near it to
   /// the surface.
   template <class F>
-  BL_HD void each(const Vec3d& x, Real3 heading, F&& f, std::uint32_t only = kNone,
+  BL_HD void each(const Vec3d& x, Real3 heading, Real sheet, F&& f, std::uint32_t only = kNone,
                   Real3* drift = nullptr) const {
     for (Index k = 0; k < walls.surfaces.size; ++k) {
       const Surface& surface = walls.surfaces[k];
@@ -60,9 +68,9 @@ struct WallRepulsion {
         const Vec3d point = view.point(closest);
         Real push = 0;
         if (at.no_penetration && limit.per_step > 0) {
-          push = limit(Real(closest.distance), dot(Real3(at.velocity(point)) - heading, normal));
+          push = limit(Real(closest.distance), dot(Real3(at.velocity(point)) - heading, normal), sheet);
           heading += push / limit.per_step * normal;
-          if (drift && closest.distance < limit.reach)
+          if (drift && closest.distance < limit.reach(sheet))
             *drift -= min_of(dot(*drift, normal), Real(0)) * normal;
         }
         if (at.repulsion) push += law(Real(closest.distance));
@@ -113,7 +121,7 @@ struct RepelPass {
     const Real3 v = v_rho[a].xyz(), next = v + dt * acc[a] - kick * acc_before[a];
     heading[a] = next;
     const auto take = [&](std::uint32_t, const Real3& push, const Vec3d&) { acc[a] += push; };
-    walls.each(at, next, take, kNone, drift ? &drift[a] : nullptr);
+    walls.each(at, next, walls.sheet(a), take, kNone, drift ? &drift[a] : nullptr);
     acc[a] += orifices(at, v);
   }
 };
@@ -134,7 +142,7 @@ struct BodyRepulsion {
       const Vec3d force = -double(mass[a]) * Vec3d(push);
       sum.add(force, cross(walls.frame.nearest_image(at - walls.pose[body].origin()), force));
     };
-    walls.each(at, heading[a], take, body);
+    walls.each(at, heading[a], walls.sheet(a), take, body);
     return sum;
   }
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }

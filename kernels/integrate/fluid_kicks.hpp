@@ -81,11 +81,16 @@ struct DensityHistory {
 
 constexpr Real kThinnest = Real(-0.5);  // of s; thinner fluid is spray
 
-/// Pressure from s, which `history` may advance; velocity and, among grains, volume flux, of sheared fluid
-/// peculiar velocity, predicted by `kick` (0: Euler).
+/// Pressure from s, which `history` may advance, and from the acoustic damper (Sun et al. 2023), which adds
+///   a rho0 c h ds/dt,
+/// ds/dt being what continuity alone makes of s: a bulk viscosity, which takes energy from sound and none
+/// from shear. Velocity and, among grains, volume flux, of sheared fluid peculiar velocity, predicted by
+/// `kick` (0: Euler).
 struct StatePass {
   Frame frame;
   EquationOfState eos;
+  Real damping;                  ///< a rho0 c h [Pa s]
+  Span<const Real> compression;  ///< ds/dt [1/s]; empty without damper
   DensityHistory history;
   Real kick;  ///< s
   Span<const FluidPosition> x;
@@ -100,8 +105,8 @@ struct StatePass {
   BL_HD void operator()(Index a) const {
     Real3 gain = kick * acc[a];
     if (reaction) gain += kick * reaction[a];
-    const Real compression = max_of(s[a] + history(a), kThinnest), rho = eos.density(compression);
-    s[a] = compression;
+    const Real strain = max_of(s[a] + history(a), kThinnest), rho = eos.density(strain);
+    s[a] = strain;
     const Real3 v = v_rho[a].xyz() + gain;
     const Vec3d at = coordinates(frame, x[a]);
     v_rho[a] = {v, rho};
@@ -109,7 +114,9 @@ struct StatePass {
       flux[a] = {shear.peculiar(v, at.z), rho};
     else if (flux)
       flux[a] = {flux[a].xyz() + eps[a] * gain, rho};
-    const Real M = mass[a] / eps[a], p = eos.pressure(compression) / square(rho);
+    Real pressure = eos.pressure(strain);
+    if (compression) pressure += damping * compression[a];
+    const Real M = mass[a] / eps[a], p = pressure / square(rho);
     m_state[a] = {M, p, rho, eps[a]};
     p_rho2[a] = p;
     xp[a] = pair_position(frame, shear.lattice(at), M);

@@ -126,6 +126,7 @@ void Checks::variable_h() const {
     fail("time.integrator", "\"ab3\"", "must be \"kdk\" or \"euler\" " + with);
   for (const auto& [key, value] : {std::pair{"shift.A", c.shift}, {"xsph", c.xsph}, {"tensile", c.tensile}})
     if (value != 0) fail(key, value, "must be 0 " + with);
+  if (c.pressure.linear_exact) fail("pressure.linear_exact", "true", "must be false " + with);
   if (!c.fluid.species.empty())
     fail("fluid.species", fmt::format("{} fluids", c.fluid.species.size()), "must be none " + with);
   if (c.visc.collision) fail("visc.collision", "true", "must be false " + with);
@@ -143,11 +144,13 @@ void Checks::sdpd() const {
   for (const auto& [key, value] : {std::pair{"shift.A", c.shift},
                                    {"xsph", c.xsph},
                                    {"tensile", c.tensile},
+                                   {"pressure.damper", c.pressure.damper},
                                    {"density.delta", c.density.delta},
                                    {"density.void_relaxation", c.density.void_relaxation},
                                    {"visc.alpha", c.visc.alpha},
                                    {"visc.beta", c.visc.beta}})
     if (value != 0) fail(key, value, fmt::format("must be 0 {}, whose noise would set it off", with));
+  if (c.pressure.linear_exact) fail("pressure.linear_exact", "true", "must be false " + with);
   if (c.visc.model != ViscosityModel::none)
     fail("visc.model", quoted(c.visc.model.name()),
          fmt::format("must be \"none\" {}, which brings its own viscosity", with));

@@ -102,6 +102,14 @@ void describe_fluid_models(Parameters& p, Config& c) {
   p("eos.alpha", &c.eos.alpha, {.meaning = "democritus: exponent", .range = at_least(1)});
   p("eos.beta", &c.eos.beta, {.unit = "Pa", .meaning = "democritus: background; the sound speed is derived"});
   p("eos.clip_negative", &c.eos.clip_negative, {.meaning = "no pressure below zero"});
+  p("pressure.damper", &c.pressure.damper,
+    {.meaning =
+         "acoustic damper: bulk viscosity that takes energy from sound alone, in rho0 c h [sun23]; 0 off",
+     .range = within(0, 1)});
+  p("pressure.linear_exact", &c.pressure.linear_exact,
+    {.meaning =
+         "where viscosity rules the scale of a particle, its pressure force is made exact for a pressure "
+         "that is linear in space, at the cost of exact momentum; needs shift.A"});
   const bool sdpd = c.fluid.sdpd() || p.everything();
   if (sdpd) describe_sdpd(p, c);
   p("density.delta", &c.density.delta, {.meaning = "density diffusion; 0 off", .range = within(0, 0.2)});

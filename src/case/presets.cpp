@@ -11,6 +11,8 @@ void set_sdpd(Config& c) {
   c.shift = c.xsph = c.tensile = 0;
   c.tensile_one_sign = false;
   c.density.delta = c.density.void_relaxation = 0;
+  c.pressure.damper = 0;
+  c.pressure.linear_exact = false;
   c.density.cavitation_limit = 0.5;
   c.density.method = DensityMethod::summation;
   c.visc.model = ViscosityModel::none;
@@ -41,6 +43,8 @@ void set_he2018(Config& c) {
   c.fluid.h_over_dx = 1.3;
   c.density.delta = 0;
   c.density.void_relaxation = 0;
+  c.pressure.damper = 0;
+  c.pressure.linear_exact = false;
   c.wall.repulsion = true;
   c.wall.no_penetration = false;
   c.tensile = 1;
@@ -67,6 +71,7 @@ void set_robinson2014(Config& c) {
   c.fluid.kernel = KernelFunction::cubic;
   c.fluid.variable_h = true;
   c.visc.model = ViscosityModel::signal;
+  c.pressure.damper = 0;
   c.density.delta = 0;
   c.density.void_relaxation = 0;
   c.density.cavitation_limit = 0.5;
@@ -94,7 +99,7 @@ Config preset_defaults(const std::string& name, std::optional<FluidModel> fluid_
   if (name == "robinson2014") set_robinson2014(c);
   if (fluid_model) c.fluid.model = *fluid_model;
   if (variable_h) c.fluid.variable_h = *variable_h;
-  if (c.fluid.variable_h) c.shift = 0;  // whose steps go with one smoothing length
+  if (c.fluid.variable_h) c.shift = 0, c.pressure.linear_exact = false;  // they go with one smoothing length
   if (c.fluid.sdpd()) set_sdpd(c);
   return c;
 }

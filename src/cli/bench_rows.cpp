@@ -8,7 +8,7 @@ namespace bedload {
 namespace {
 
 const std::vector<std::string> kPeers = {"fluid.h_over_dx=1.3", "density.delta=0",
-                                         "density.void_relaxation=0", "shift.A=0"};
+                                         "density.void_relaxation=0", "shift.A=0", "pressure.damper=0"};
 
 /// A column of 146 x 292 mm in a tank 584 mm long and high; the width sets the size.
 constexpr const char* kDamBreak = R"([domain]

@@ -90,6 +90,40 @@ std::string viscosity_text(const Config& c, const std::vector<Quantity>& numeric
   return out + (any ? "\n" : ", none of it numerical\n");
 }
 
+/// The shear stress that particles not in order bear under pressure, and whether that is taken off.
+std::string arrangement_text(const Config& c) {
+  if (!c.fluid.present || c.fluid.mu == 0 || c.fluid.variable_h || c.fluid.sdpd()) return "";
+  const double pressure = c.fluid.rho0 * norm(c.gravity) * c.fluid.depth + c.eos.background;
+  if (pressure == 0) return "";
+  const double stress = 5e-3 * pressure;  // 2e-3 to 1e-2 on lattices, h = 1.5 dx
+  const double cell = c.fluid.dx * std::sqrt(pressure * c.fluid.rho0) / c.fluid.mu;
+  std::string out = fmt::format(
+      "lattice    under {:.3g} Pa an arrangement of particles resists shear by up to about {:.2g} Pa, as "
+      "viscosity "
+      "does at {:.2g} 1/s; ",
+      pressure, stress, stress / c.fluid.mu);
+  const bool layers = std::any_of(c.wall.bodies.begin(), c.wall.bodies.end(),
+                                  [](const WallBody& body) { return body.single_layer(); });
+  if (!c.pressure.linear_exact || c.shift == 0 || layers || c.visc.model == ViscosityModel::none)
+    return out + "that stays: pressure.linear_exact, shift.A, or walls of single layers leave it\n";
+  const char* what = cell < 100   ? "pressure.linear_exact removes that"
+                     : cell < 316 ? "pressure.linear_exact removes part of that"
+                                  : "that stays, flow slower than that is held by it";
+  return out + fmt::format("{} (cell Reynolds number {:.3g}, removed below 100)\n", what, cell);
+}
+
+/// Why particles do not shift, where a case asks for it.
+std::string shifting_text(const Config& c) {
+  if (!c.fluid.present || c.shift == 0) return "";
+  const bool mixed = c.grain.present && c.couple.mode == CouplingMode::two_way;
+  const double cell = c.fluid.vmax * c.fluid.dx * c.fluid.rho0 / c.fluid.mu;
+  if (!mixed || cell < 1000) return "";
+  return fmt::format(
+      "shifting   none: among grains only where the fastest flow has a cell Reynolds number below 1000, here "
+      "{:.2g}\n",
+      cell);
+}
+
 int check_case(const Options& options) {
   Prepared p = prepare(options);
   const Config& c = p.config;
@@ -119,6 +153,7 @@ int check_case(const Options& options) {
     std::vector<StepLimit> substeps = grain_limits(c);
     for (const StepLimit& limit : simulation.body_limits()) substeps.push_back(limit);
     fmt::print("{}", viscosity_text(c, simulation.numerical_viscosity()));
+    fmt::print("{}{}", arrangement_text(c), shifting_text(c));
     fmt::print("{}{}", limits_text("step", steps), limits_text("substep", substeps));
     check_fixed_steps(p, simulation);
 

@@ -90,6 +90,12 @@ FluidSolver::FluidSolver(const FluidParameters& p, const Frame& frame, const Wal
   if (!p.several) fluid.species.leave_out(), fluid.viscosity.leave_out();
   fluid.drift.begin_at_zero();
   if (!drifts()) fluid.drift.leave_out();
+  fluid.exposure.begin_at_zero();
+  if (!shifts()) fluid.exposure.leave_out(), fluid.exposure_next.leave_out();
+  fluid.correction.begin_at_zero();
+  if (!fits()) fluid.correction.leave_out();
+  fluid.compression_rate.begin_at_zero();
+  if (p.pressure.damper == 0) fluid.compression_rate.leave_out();
   if (p.time.integrator != TimeIntegrator::ab3) return;
   fluid.s_next.leave_out();
   for (const char* name : {"density_rate", "density_rate_before", "density_rate_long_before"}) {
@@ -124,6 +130,11 @@ double FluidSolver::friction_limit(const FluidExtremes& now) const {
          parameters_.fluid.mu;
 }
 
+bool FluidSolver::viscous() const {
+  return parameters_.visc.model != ViscosityModel::none &&
+         parameters_.fastest * parameters_.fluid.dx * parameters_.fluid.rho0 < 1000 * parameters_.fluid.mu;
+}
+
 double FluidSolver::repulsion_cap(double dt) const {
   return dt > 0 ? 0.1 * parameters_.fluid.dx / (dt * dt) : 1e30;
 }
@@ -148,19 +159,20 @@ void FluidSolver::collide(FluidStore& fluid) {
   fluid.v_rho.buffer().swap(collided_);
 }
 
-WallRepulsion FluidSolver::repulsion(Span<const BodyPose> pose, double dt) const {
+WallRepulsion FluidSolver::repulsion(const FluidStore& fluid, Span<const BodyPose> pose, double dt) const {
   const double dx = parameters_.fluid.dx, rate = dt > 0 ? std::min(parameters_.fluid.c / dx, 0.5 / dt) : 0;
   const Repulsion& law = parameters_.repulsion;
   return {{law.D, law.r0, Real(repulsion_cap(dt))},
-          {Real(0.25 * dx), Real(rate), Real(dt > 0 ? 1 / dt : 0)},
+          {Real(dx), Real(rate), Real(dt > 0 ? 1 / dt : 0)},
           frame_,
           repelling_,
-          pose};
+          pose,
+          shifts() ? Span<const Real>(fluid.exposure) : Span<const Real>()};
 }
 
 void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double kick, double dt) {
   if (!repels()) return;
-  const WallRepulsion walls = repulsion(pose, dt);
+  const WallRepulsion walls = repulsion(fluid, pose, dt);
   const OrificeRepulsion orifices{
       walls.law, Real(0.01 * parameters_.fluid.c), dt > 0 ? Real(1 / dt) : Real(0), frame_, orifices_, pose};
   for_each({0, Index(beside_walls_.size())},
@@ -181,6 +193,8 @@ StatePass FluidSolver::state_pass(FluidStore& fluid, const DensityHistory& histo
                                   bool coupled) {
   return {frame_,
           eos_,
+          Real(damping()),
+          fluid.compression_rate,
           history,
           Real(kick),
           fluid.x,

@@ -115,7 +115,20 @@ class FluidSolver {
   Span<Real3> drift_of(FluidStore& fluid) const {
     return drifts() ? Span<Real3>(fluid.drift) : Span<Real3>();
   }
-  bool shifts() const { return parameters_.shift > 0 && !parameters_.mixed && layers_.size() == 0; }
+  /// Among grains only where viscosity rules: elsewhere drift, which takes no volume of grains along, holds
+  /// fronts back.
+  bool shifts() const {
+    return parameters_.shift > 0 && layers_.size() == 0 && (!parameters_.mixed || viscous());
+  }
+  /// Whether pressure forces are made exact for linear pressures (LinearFit).
+  bool fits() const { return parameters_.pressure.linear_exact && shifts() && viscous(); }
+  /// Whether viscosity may rule the scale of a particle: the fastest flow has a cell Reynolds number below
+  /// 1000.
+  bool viscous() const;
+  /// Bulk viscosity of the acoustic damper, Pa s.
+  double damping() const {
+    return parameters_.pressure.damper * parameters_.fluid.rho0 * parameters_.fluid.c * parameters_.fluid.h();
+  }
   /// Whether anything but continuity changes the density.
   bool smooths() const {
     return parameters_.density.delta > 0 || parameters_.density.void_relaxation > 0 ||
@@ -166,6 +179,7 @@ class FluidSolver {
                double dt) {
     find_density(fluid, walls, pose, start, dt);
     fluid.s.buffer().swap(fluid.s_next.buffer());
+    if (shifts()) fluid.exposure.buffer().swap(fluid.exposure_next.buffer());
   }
   /// Pressure from the density, velocity predicted by `kick`; packs x.
   void state(FluidStore& fluid, double kick, bool coupled);
@@ -183,7 +197,7 @@ class FluidSolver {
   /// Adds what surfaces of walls and orifices do to acc_next. One pose a body; velocities are predicted by
   /// `kick` in a step of dt, s.
   void repel(FluidStore& fluid, Span<const BodyPose> pose, double kick, double dt);
-  WallRepulsion repulsion(Span<const BodyPose> pose, double dt) const;
+  WallRepulsion repulsion(const FluidStore& fluid, Span<const BodyPose> pose, double dt) const;
   /// v += kick (acc_next - acc); acc = acc_next; and a survey.
   void correct(FluidStore& fluid, double kick);
   /// Finds what bounds the next step, for extremes(); v += kick (acc - acc_next).

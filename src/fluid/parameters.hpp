@@ -22,6 +22,7 @@ struct FluidParameters {
   bool several = false;  ///< species, which differ in viscosity
   DomainConfig domain;
   EosConfig eos;
+  PressureConfig pressure;
   DensityConfig density;
   ViscosityConfig visc;
   SdpdConfig sdpd;
@@ -29,6 +30,7 @@ struct FluidParameters {
   TimeConfig time;
   double xsph = 0;
   double shift = 0;               ///< factor A of particle shifting
+  double fastest = 0;             ///< that the fluid is expected to become, m/s
   double tensile = 0;             ///< 0: no tensile term
   bool tensile_one_sign = false;  ///< it is the same for both signs of the pressure
   double skin = 0;                ///< of the lists, m

@@ -77,13 +77,12 @@ class WcsphSolver final : public FluidSolver {
                     double dt) override {
     const Real3& gravity = start.gravity;
     if (!smooths() && !shifts())
-      continuity<false, false>(fluid, walls, gravity, dt, NoShifting{});
-    else if (parameters_.mixed)
-      continuity<true, true>(fluid, walls, gravity, dt, NoShifting{});
-    else if (!shifts())
-      continuity<true, false>(fluid, walls, gravity, dt, NoShifting{});
-    else if constexpr (!Lengths::vary)
-      continuity<true, false>(fluid, walls, gravity, dt, shifting(dt));
+      continuity<false, false>(fluid, walls, gravity, dt, NoShifting{}, NoFit{});
+    else
+      with_order(fluid, dt, [&](const auto& shift, const auto& fit) {
+        parameters_.mixed ? continuity<true, true>(fluid, walls, gravity, dt, shift, fit)
+                          : continuity<true, false>(fluid, walls, gravity, dt, shift, fit);
+      });
     frozen_continuity(w_, fluid, walls, pose, dt, least());
   }
   Lengths lengths() const {
@@ -95,8 +94,11 @@ class WcsphSolver final : public FluidSolver {
   void constant_length_forces(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt) {
     const bool added = parameters_.tensile > 0 || parameters_.xsph > 0;
     if (one_pass())
-      smooths() || shifts() ? momentum_and_continuity<true>(fluid, walls, now, dt, shifting(dt))
-                            : momentum_and_continuity<false>(fluid, walls, now, dt, NoShifting{});
+      smooths() || shifts() ? with_order(fluid, dt,
+                                         [&](const auto& shift, const auto& fit) {
+                                           momentum_and_continuity<true>(fluid, walls, now, dt, shift, fit);
+                                         })
+                            : momentum_and_continuity<false>(fluid, walls, now, dt, NoShifting{}, NoFit{});
     else if (parameters_.several)
       momentum<true, true, true>(fluid, walls, now);
     else if (artificial().acts())
@@ -135,10 +137,12 @@ class WcsphSolver final : public FluidSolver {
             Real(parameters_.fluid.h())};
   }
   /// Writes s_new.
-  template <bool kSmooth, bool kPorous, class Shift>
-  DensityPass<W, Shift, kSmooth, kPorous, Lengths> density_pass(FluidStore& fluid, const WallStore& walls,
-                                                                const Real3& gravity, double dt,
-                                                                const Shift& shift, Span<Real> s_new) {
+  template <bool kSmooth, bool kPorous, class Shift, class Fit>
+  DensityPass<W, Shift, Fit, kSmooth, kPorous, Lengths> density_pass(FluidStore& fluid,
+                                                                     const WallStore& walls,
+                                                                     const Real3& gravity, double dt,
+                                                                     const Shift& shift, const Fit& fit,
+                                                                     Span<Real> s_new) {
     const double c = parameters_.fluid.c;
     return {w_,
             flux(fluid),
@@ -156,8 +160,10 @@ class WcsphSolver final : public FluidSolver {
             least(),
             Real(parameters_.density.void_relaxation * c / parameters_.fluid.h()),
             Real(parameters_.spreading * c / parameters_.fluid.h()),
+            fluid.compression_rate,
             shift,
             drift_of(fluid),
+            fit,
             lengths()};
   }
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
@@ -180,12 +186,13 @@ class WcsphSolver final : public FluidSolver {
             fluid.acc_next,
             fluid.drift,
             fluid.viscosity,
+            fluid.correction,
             lengths()};
   }
-  template <bool kSmooth, bool kPorous, class Shift>
+  template <bool kSmooth, bool kPorous, class Shift, class Fit>
   void continuity(FluidStore& fluid, const WallStore& walls, const Real3& gravity, double dt,
-                  const Shift& shift) {
-    run_with_walls(density_pass<kSmooth, kPorous>(fluid, walls, gravity, dt, shift, fluid.s_next));
+                  const Shift& shift, const Fit& fit) {
+    run_with_walls(density_pass<kSmooth, kPorous>(fluid, walls, gravity, dt, shift, fit, fluid.s_next));
   }
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
   void momentum(FluidStore& fluid, const WallStore& walls, const Moment& now) {
@@ -200,23 +207,39 @@ class WcsphSolver final : public FluidSolver {
     inviscid.wall.viscosity.mu = 0;
     run_with_walls(StressPass<Force>{whole, inviscid, out.parts(fluid.size(), false)});
   }
-  template <bool kSmooth, class Shift>
+  template <bool kSmooth, class Shift, class Fit>
   void momentum_and_continuity(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt,
-                               const Shift& shift) {
+                               const Shift& shift, const Fit& fit) {
     const auto both = [&](const auto& force) {
-      const auto density = density_pass<kSmooth, false>(fluid, walls, now.gravity, dt, shift, fluid.s);
+      const auto density = density_pass<kSmooth, false>(fluid, walls, now.gravity, dt, shift, fit, fluid.s);
       run_with_walls(OnePass<std::decay_t<decltype(force)>, std::decay_t<decltype(density)>>{force, density,
                                                                                              *rates_.back()});
     };
     artificial().acts() ? both(force_pass<true, false>(fluid, walls, now))
                         : both(force_pass<false, false>(fluid, walls, now));
     accept_rates(dt);
+    if constexpr (Shift::acts) fluid.exposure.buffer().swap(fluid.exposure_next.buffer());
   }
-  Shifting shifting(double dt) const {
+  /// Calls pass(shift, fit) with what keeps particles in order over a step dt (s), and what is done about the
+  /// force of the pressure where they are not.
+  template <class Pass>
+  void with_order(FluidStore& fluid, double dt, const Pass& pass) {
+    if constexpr (!Lengths::vary) {
+      if (fits()) return pass(shifting(fluid, dt), linear_fit(fluid));
+      if (shifts()) return pass(shifting(fluid, dt), NoFit{});
+    }
+    pass(NoShifting{}, NoFit{});
+  }
+  Shifting shifting(FluidStore& fluid, double dt) const {
     const double h = parameters_.fluid.h(), dx = parameters_.fluid.dx, rate = dt > 0 ? 1 / dt : 0;
-    const bool plane = parameters_.domain.two_d;
-    return {Real(parameters_.shift * h * h), Real(0.5 * h * h * rate), Real(0.1 * dx * rate),
-            Real(plane ? 1. / 2 : 1. / 3), Real(plane ? 0.93 : 0.97)};
+    return {Real(parameters_.shift * h * h),        Real(0.5 * h * h * rate), Real(0.1 * dx * rate),
+            Real(parameters_.domain.two_d ? 1 : 0), fluid.exposure,           fluid.exposure_next};
+  }
+  LinearFit linear_fit(FluidStore& fluid) const {
+    const FluidProperties& f = parameters_.fluid;
+    return {w_.F(Real(f.h())), Real(parameters_.domain.cell_volume(f.dx)),
+            w_.F(Real(0)),     Real(f.rho0 * square(f.dx / f.mu)),
+            fluid.viscosity,   fluid.correction};
   }
   TensileTerm tensile() const {
     if (parameters_.tensile == 0) return {};

@@ -47,7 +47,7 @@ const CoupledSimulation::FluidLoads& CoupledSimulation::fluid_loads() {
   if (!state_.has_fluid || state_.walls.size() == 0) return loads;
   const WallForces& forces = wall_forces();
   const Span<const BodyPose> poses = state_.poses_now();
-  const WallRepulsion repulsion = stepper_.fluid().repulsion(poses, state_.clock.last_dt);
+  const WallRepulsion repulsion = stepper_.fluid().repulsion(state_.fluid, poses, state_.clock.last_dt);
   for (std::uint32_t b = 0; b < loads.pressure.size(); ++b) {
     const auto sum = [&](const Buffer<Vec3d>& force) {
       return reduce(state_.walls.owned(),

@@ -108,6 +108,27 @@ struct GrainLoads {
   }
 };
 
+/// What LinearFit changes: force 3 (N) and its power on the fluid (W).
+struct CorrectionBody {
+  Span<const Real> mass;
+  Span<const Real4> m_state, v_rho;
+  Span<const Real3> correction;
+  BL_HD void operator()(Index a, double* out) const {
+    const Vec3d force = double(m_state[a].x) * Vec3d(correction[a]);
+    for (int k = 0; k < 3; ++k) out[k] = force[k];
+    out[3] = double(mass[a]) * dot(Vec3d(correction[a]), Vec3d(v_rho[a].xyz()));
+  }
+};
+/// Power of the acoustic damper's pressure in what continuity makes of the volume, W.
+struct DamperBody {
+  double damping, rho0;  ///< Pa s, kg/m3
+  Span<const Real4> m_state;
+  Span<const Real> mass, rate;
+  BL_HD void operator()(Index a, double* out) const {
+    out[0] = -double(mass[a]) * rho0 * damping * square(double(rate[a]) / double(m_state[a].z));
+  }
+};
+
 struct PressureBody {
   Span<const Real4> m_state;
   double sign;
@@ -242,10 +263,25 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
                       state_.two_way ? Span<const Real3>(state_.fluid.reaction) : Span<const Real3>(),
                       state_.fluid.drag_kick});
     const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
+    // columns are the same whatever a restart switches on
+    const bool corrected = state_.fluid.correction.used(), damped = state_.fluid.compression_rate.used();
+    SumSweep<4, CorrectionBody>::Value c{};
+    if (corrected)
+      c = sum_over<4>(state_.fluid.owned(), CorrectionBody{state_.fluid.mass, state_.fluid.m_state,
+                                                           state_.fluid.v_rho, state_.fluid.correction});
+    SumSweep<1, DamperBody>::Value d{};
+    if (damped)
+      d = sum_over<1>(state_.fluid.owned(),
+                      DamperBody{stepper_.fluid().damping(), config_.fluid.rho0, state_.fluid.m_state,
+                                 state_.fluid.mass, state_.fluid.compression_rate});
+    const Vec3d correction{c.v[0], c.v[1], c.v[2]};
+    vec("force_pressure_correction", "N", correction);
+    out.push_back({"power_pressure_correction", "W", c.v[3]});
+    out.push_back({"power_acoustic_damper", "W", d.v[0]});
     vec("force_walls_on_fluid", "N", wall_on_fluid);
     vec("force_grains_on_fluid", "N", {l.v[6], l.v[7], l.v[8]});
     // what pair sums leave over: round-off
-    vec("fluid_force_residual", "N", total - body - wall_on_fluid);
+    vec("fluid_force_residual", "N", total - body - wall_on_fluid - correction);
     out.push_back({"fluid_speed_max", "m/s", std::sqrt(stepper_.fluid_extremes().v2)});
     const auto largest = [&](auto body) {  // of nothing there is none
       return state_.fluid.size() > 0 ? max_over(state_.fluid.owned(), body) : std::nan("");

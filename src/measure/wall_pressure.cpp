@@ -98,7 +98,7 @@ struct PatchRepulsion {
     const auto take = [&](std::uint32_t, const Real3& push, const Vec3d& closest) {
       patches.spread(pose.undo(closest), dx, -double(mass[a]) * dot(Vec3d(push), inwards), first, out);
     };
-    walls.each(at, heading[a], take, body);
+    walls.each(at, heading[a], walls.sheet(a), take, body);
   }
 };
 
@@ -123,7 +123,7 @@ std::vector<Quantity> CoupledSimulation::wall_pressure(const ProbeConfig& p) {
   const WallForces& forces = wall_forces();
   const Span<const BodyPose> poses = state_.poses_now();
   const Vec3d inwards = -state_.motion.pose(body, state_.clock.time).rotation.rotate(p.normal);
-  const WallRepulsion repulsion = stepper_.fluid().repulsion(poses, state_.clock.last_dt);
+  const WallRepulsion repulsion = stepper_.fluid().repulsion(state_.fluid, poses, state_.clock.last_dt);
   const int all = patches.count[0] * patches.count[1];
   std::vector<Quantity> out;
   for (int first = 0; first < all; first += kAtOnce) {

@@ -105,6 +105,9 @@ void Stepper::list_fluid_stages() {
       !config_.inlets.empty() || std::any_of(config_.wall.bodies.begin(), config_.wall.bodies.end(),
                                              [](const WallBody& body) { return body.stops_fluid(); });
   const Fields drift = fluid.drifts() ? Fields{&f.drift} : none;
+  // what density, or forces in one pass with it, makes of the arrangement of particles
+  const Fields ordered = Fields{&f.exposure, &f.exposure_next, &f.correction, &f.compression_rate} +
+                         (fluid.shifts() ? drift : none);
   const Fields peculiar = sheared ? Fields{&f.flux} : none;
   // what pair loops read of fluid and of walls
   const Fields pairs = Fields{&f.xp, flux, &f.m_state} + lengths, of_walls{&w.xp, &w.v_rho, &w.m_state};
@@ -113,7 +116,7 @@ void Stepper::list_fluid_stages() {
     add("collide", Part::fluid, &Stepper::collide, {&f.xp, &f.v_rho, &f.mass}, {&f.v_rho});
   if (fluid.one_pass())
     add("advance", Part::fluid, &Stepper::advance,
-        of_model + drift + Fields{&f.x, &f.xp, &f.v_rho, &f.acc, &f.s, &f.mass, &f.eps},
+        of_model + drift + Fields{&f.x, &f.xp, &f.v_rho, &f.acc, &f.s, &f.mass, &f.eps, &f.compression_rate},
         peculiar + Fields{&f.x, &f.xp, &f.v_rho, &f.s, &f.m_state, &f.p_rho2});
   else
     add("kick_drift", Part::fluid, &Stepper::kick_drift,
@@ -131,11 +134,13 @@ void Stepper::list_fluid_stages() {
                packed = summed || config_.density.reinit_every > 0;
     add("density", Part::fluid, &Stepper::density,
         pairs + of_walls + drift +
-            Fields{&f.x, &f.v_rho, &f.s, &f.eps, &f.grains_around, &w.x, &w.compression, &w.body, &m.x},
-        Fields{&f.s, &f.s_next} + (fluid.shifts() ? drift : none) + (packed ? Fields{&f.xp} : none) +
+            Fields{&f.x, &f.v_rho, &f.s, &f.eps, &f.grains_around, &f.exposure, &f.viscosity, &w.x,
+                   &w.compression, &w.body, &m.x},
+        ordered + Fields{&f.s, &f.s_next} + (packed ? Fields{&f.xp} : none) +
             (moving ? Fields{&w.xp} : none) + (fluid.freezes() ? Fields{&w.compression} : none));
     add("fluid_state", Part::fluid, &Stepper::fluid_state,
-        listed_lengths + Fields{flux, &f.x, &f.v_rho, &f.acc, &f.reaction, &f.s, &f.mass, &f.eps},
+        listed_lengths +
+            Fields{flux, &f.x, &f.v_rho, &f.acc, &f.reaction, &f.s, &f.mass, &f.eps, &f.compression_rate},
         (own ? Fields{&own->h} : none) + Fields{flux, &f.v_rho, &f.s, &f.m_state, &f.p_rho2, &f.xp});
   }
   if (walled)
@@ -144,16 +149,19 @@ void Stepper::list_fluid_stages() {
         {&w.v_rho, &w.v_visc, &w.m_state, &w.compression});
   add("forces", Part::fluid, &Stepper::forces,
       pairs + of_walls + drift + lasting(of_model) +
-          Fields{&f.x, &f.s, &f.mass, &f.id, &f.viscosity, &f.p_rho2, &w.v_visc, &w.body, &w.id},
-      Fields{&f.theta, &f.acc_next} + drift + of_model + (fluid.one_pass() ? Fields{&f.s} : none) +
+          Fields{&f.x, &f.s, &f.mass, &f.id, &f.viscosity, &f.p_rho2, &w.v_visc, &w.body, &w.id} +
+          (fluid.one_pass() ? Fields{&f.exposure} : Fields{&f.correction}),
+      Fields{&f.theta, &f.acc_next} + drift + of_model + (fluid.one_pass() ? ordered + Fields{&f.s} : none) +
           (own ? Fields{&f.p_rho2} : none) + (config_.eos.filter ? Fields{&f.m_state, &f.p_rho2} : none));
   if (fluid.repels())
-    add("repel", Part::fluid, &Stepper::repel, drift + Fields{&f.x, &f.v_rho, &f.acc, &f.acc_next},
+    add("repel", Part::fluid, &Stepper::repel,
+        drift + Fields{&f.x, &f.v_rho, &f.acc, &f.acc_next, &f.exposure},
         drift + Fields{&f.acc_next, &f.heading});
   if (bodies_.any())
     add("load_bodies", Part::fluid, &Stepper::load_bodies,
         bodies + pairs + of_walls + of_model +
-            Fields{&f.x, &f.mass, &f.acc, &f.acc_next, &f.heading, &f.viscosity, &w.v_visc, &w.x0, &w.body},
+            Fields{&f.x, &f.mass, &f.acc, &f.acc_next, &f.heading, &f.exposure, &f.viscosity, &w.v_visc,
+                   &w.x0, &w.body},
         bodies);
   add("correct", Part::fluid, &Stepper::correct,
       drift + lengths + listed_lengths +

@@ -110,6 +110,9 @@ void Stepper::initialise_fluid(Step& now) {
     const std::vector<double> depth = depths_of(config_, g, x, fluid_.mass.values());
     for (Index a = 0; a < fluid_.size(); ++a) pressure[a] += Real(config_.fluid.rho0 * norm(g) * depth[a]);
   }
+  fluid_.correction.buffer().zero();
+  fluid_.compression_rate.buffer().zero();
+  fluid_.exposure.buffer().zero();
   Buffer<Real> device;
   device.assign(pressure);
   for_each(fluid_.owned(), LayPass{fluid_solver_->eos(), frame_, fluid_.eps, device, fluid_.mass, fluid_.s});

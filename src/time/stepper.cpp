@@ -153,7 +153,7 @@ void Stepper::repel(Step& now) { fluid_solver_->repel(fluid_, now.poses, now.las
 void Stepper::load_bodies(Step& now) {
   if (walls_.size() > 0)
     fluid_solver_->wall_forces(fluid_, walls_, now.poses, moment_, 0, now.dt, wall_force_);
-  const WallRepulsion repulsion = fluid_solver_->repulsion(now.poses, now.dt);
+  const WallRepulsion repulsion = fluid_solver_->repulsion(fluid_, now.poses, now.dt);
   bodies_.feel_fluid(walls_, wall_force_, repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_,
                      now.poses, now.last_kick, now.dt);
 }

@@ -196,18 +196,21 @@ TEST(FluidPairs, XsphMovesTheCentreOfMassWithTheMomentum) {  // T-12
 
 TEST(FluidPairs, PenetrationLimitStopsShortOfTheWall) {
   const double dx = 0.01, dt = 1e-4;
-  const PenetrationLimit limit{Real(0.25 * dx), Real(30 / dx), Real(1 / dt)};
-  double r = 0.5 * dx, v = -20, energy = v * v, nearest = r;
-  for (int k = 0; k < 4000; ++k) {
-    v -= 2000 * dt;  // pressed on
-    v += dt * double(limit(Real(r), Real(-v)));
-    r += v * dt;
-    nearest = std::min(nearest, r);
-    EXPECT_LE(v * v, energy + 2 * 2000 * 0.5 * dx);
+  const PenetrationLimit limit{Real(dx), Real(30 / dx), Real(1 / dt)};
+  for (const Real sheet : {0, 1}) {  // fluid that others cover; a sheet one particle thick
+    double r = 0.6 * dx, v = -20, energy = v * v, nearest = r;
+    for (int k = 0; k < 4000; ++k) {
+      v -= 2000 * dt;  // pressed on
+      v += dt * double(limit(Real(r), Real(-v), sheet));
+      r += v * dt;
+      nearest = std::min(nearest, r);
+      EXPECT_LE(v * v, energy + 2 * 2000 * 0.6 * dx);
+    }
+    EXPECT_GT(nearest, sheet > 0 ? 0.3 * dx : 0.01 * dx);
+    EXPECT_EQ(limit(Real(0.1 * dx), Real(-1), sheet), 0) << "what leaves is let go";
+    EXPECT_EQ(limit(Real(0.51 * dx), Real(100), sheet), 0);
+    EXPECT_EQ(limit(Real(0.3 * dx), Real(100), sheet) > 0, sheet > 0);
   }
-  EXPECT_GT(nearest, 0.01 * dx);
-  EXPECT_EQ(limit(Real(0.1 * dx), Real(-1)), 0) << "what leaves is let go";
-  EXPECT_EQ(limit(Real(0.3 * dx), Real(100)), 0);
 }
 
 TEST(FluidPairs, RepulsionVanishesAtItsRange) {  // T-17

@@ -93,6 +93,28 @@ TEST(Shifting, LeavesCrowdedPlacesWithinTheFluidAndNothingAtItsSurface) {
   }
 }
 
+/// Near a surface that is known from the step before, places change along it.
+TEST(Shifting, GoesAlongAFreeSurfaceBesideIt) {
+  Config c = periodic_box(12);
+  c.shift = kShift;
+  c.domain.periodic[2] = false;
+  FluidBox box(c, 0.2);
+  for (std::size_t a = 0; a < box.position.size(); ++a) box.velocity[a] = {box.position[a].z, 0, 0};
+  box.upload();
+  for (int k = 0; k < 2; ++k) box.solver->density(box.fluid, box.walls, {}, box.moment(), 1e-4);
+  const auto x = box.coordinates_now();
+  const auto u = box.fluid.drift.values();
+  double across = 0, along = 0, within = 0;
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    const double depth = std::min(x[a].z, c.domain.max.z - x[a].z) / c.fluid.dx;
+    if (depth > 1.2 && depth < 2.2) across += square(double(u[a].z)), along += square(double(u[a].x));
+    if (depth > 4.2) within += square(double(u[a].z)) / square(double(u[a].x) + 1e-30) > 0;
+  }
+  EXPECT_GT(along, 0);
+  EXPECT_LT(across, 0.15 * along) << "what the normals of single particles differ by";
+  EXPECT_GT(within, 100);
+}
+
 double left_of_vortices(double shift) {
   Config c = periodic_box(40, 0.025);
   c.domain.max.y = 0.025;
@@ -113,6 +135,38 @@ double left_of_vortices(double shift) {
 TEST(Shifting, LetsVorticesDecayByViscosityAlone) {
   EXPECT_NEAR(left_of_vortices(kShift), 1, 0.05);
   EXPECT_LT(left_of_vortices(0), 0.5);
+}
+
+/// The same vortices through a depth of eight spacings, 20 to a wavelength, also around one grain.
+double left_of_deep_vortices(double shift, bool grain) {
+  Config c = periodic_box(20, 0.05);
+  c.domain.max.y = 0.4;
+  c.fluid.mu = 10;
+  c.fluid.c = 10;
+  c.shift = shift;
+  c.fluid.fills = {
+      {c.domain.min, c.domain.max, {"sin(2*pi*x)*cos(2*pi*z)", "0", "-cos(2*pi*x)*sin(2*pi*z)"}}};
+  if (grain) {
+    c.grain.present = true;
+    c.grain.d = c.grain.d_min = c.grain.d_max = 0.02;
+    c.grain.rho = c.fluid.rho0;
+    c.grain.E = 1e6;
+    c.couple.hc = c.fluid.h();
+    GrainFill fill;
+    fill.positions = {{0.5, 0.2, 0.5}};
+    c.grain.fills = {fill};
+  }
+  auto s = started(c);
+  const double before = reading(s->diagnostics(), "fluid_kinetic_energy");
+  run_until(*s, 0.4);
+  const double exact = std::exp(-16 * M_PI * M_PI * 0.01 * s->time());
+  return reading(s->diagnostics(), "fluid_kinetic_energy") / before / exact;
+}
+
+TEST(SlowShifting, ActsInThreeDimensionsAndAmongGrains) {
+  EXPECT_NEAR(left_of_deep_vortices(kShift, false), 1, 0.07);
+  EXPECT_NEAR(left_of_deep_vortices(kShift, true), 1, 0.07);
+  EXPECT_LT(left_of_deep_vortices(0, false), 0.8);
 }
 
 }  // namespace

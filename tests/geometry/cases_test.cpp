@@ -43,6 +43,7 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"minimum_fluidisation/case.toml", {4200, 1800, {"grain.E"}}},
       {"oblique_impact/case.toml", {0, 36}},
       {"oscillating_drop/case.toml", {8848, 0}},
+      {"oil_under_head/case.toml", {10 * 16 * 16, 0}},
       {"poiseuille/case.toml", {8 * 8 * 50, 0}},
       {"rayleigh_taylor_grains/glycerol.toml", {2548, 1960, {"grain.E"}}},
       {"rayleigh_taylor_grains/lattice.toml", {2548, 0}},

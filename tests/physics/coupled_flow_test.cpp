@@ -131,7 +131,8 @@ void expect_energy_kept(bool smoothed) {
     c.visc.model = "none";
     c.fluid.mu = 1e-12;
     c.couple.drag = "stokes";
-    if (!smoothed) c.density.delta = c.density.void_relaxation = c.couple.spreading = 0;
+    if (!smoothed)
+      c.density.delta = c.density.void_relaxation = c.couple.spreading = c.pressure.damper = c.shift = 0;
     c.couple.eps_min = floor;
     c.grain.e = 1;
     c.grain.mu = c.grain.mu_r = 0;

@@ -70,14 +70,16 @@ TEST(FreeBodyInFluid, ClosedSystemKeepsMomenta) {
       const Vec3d p = total("momentum"), l = total("angular_momentum");
       const double scale = norm(p);
       double pushed = 0;
+      Vec3d corrected;  // impulse that pressure.linear_exact tells
       for (int k = 0; k < 200; ++k) {
-        s->step();
+        corrected += corrected_in_a_step(*s);
         pushed = std::max(pushed, norm(vector_of(s->body_state(0), "force_by_fluid")));
       }
       ASSERT_GT(pushed, 1);
       EXPECT_LT(norm(vector_of(s->diagnostics(), "body_momentum")), 0.95 * scale)
           << "the fluid has taken some";
-      EXPECT_LT(norm(total("momentum") - p), 10 * kInvariant * scale) << viscosity;
+      EXPECT_LT(norm(total("momentum") - p - corrected), 10 * kInvariant * scale + 0.02 * norm(corrected))
+          << viscosity;
       // Morris viscosity is not central: it keeps no angular momentum, with or without bodies; shifting takes
       // momentum from place to place
       if (c.visc.model != "morris") {
@@ -156,8 +158,9 @@ TEST(SmallFreeBody, BesideFluidAndGrainsKeepsMomenta) {
 /// acts is left out, as is how the couple of the stress changes in it. At these steps that is 1.2e-6 of the
 /// scale.
 TEST(SmallFreeBody, FluidGrainsAndBodyKeepMomentaTogether) {
-  expect_momenta_kept("two_way", 1.6e-6, false);
-  expect_momenta_kept("two_way", 0.8e-6, false, 0.125);
+  expect_momenta_kept("two_way", 1.6e-6, false, 0.25, true, 0);
+  expect_momenta_kept("two_way", 0.8e-6, false, 0.125, true, 0);
+  expect_momenta_kept("two_way", 3e-4, false);
 }
 
 /// The part of a grain's volume that the body has pushed aside is lifted beside the grain, and the moment of
@@ -165,8 +168,9 @@ TEST(SmallFreeBody, FluidGrainsAndBodyKeepMomentaTogether) {
 /// Clipping the density there instead of the pressure, with the repulsion of walls, leaves 5e-6 of the scale
 /// for 9e-6.
 TEST(SmallFreeBody, KeepsAngularMomentumButForVolumeThatItPushesAside) {
-  expect_momenta_kept("two_way", 9e-6, true, 0.25, false);
-  expect_momenta_kept("two_way", 1.2e-5);
+  expect_momenta_kept("two_way", 9e-6, true, 0.25, false, 0);
+  expect_momenta_kept("two_way", 1.2e-5, true, 0.25, true, 0);
+  expect_momenta_kept("two_way", 3e-4);
 }
 
 // -- floating -------------------------------------------------------------------

@@ -103,9 +103,10 @@ TEST_F(Program, RefusesWrongCommandLinesWithOneSentence) {
     EXPECT_EQ(o.err, message + "\n") << arguments;
   };
   refused("", "command line: A subcommand is required; see bedload --help");
-  refused("simulate dam.toml",
-          "command line: simulate is no command; it must be one of run, viscometer, check, list, info, bench, "
-          "schema, completion, man");
+  refused(
+      "simulate dam.toml",
+      "command line: simulate is no command; it must be one of run, viscometer, check, list, info, bench, "
+      "schema, completion, man");
   write("empty.toml", "\n");
   refused("check empty.toml", "empty.toml: is empty");
   refused("run", "command line: case is required; see bedload --help");
@@ -157,9 +158,8 @@ TEST_F(Program, ChecksACaseWithoutRunningIt) {
   write("dam.toml", kSmall);
   const Outcome o = bedload("check dam.toml --backend cpu");
   EXPECT_EQ(o.code, 0) << o.err;
-  for (const char* part :
-       {"fluid 150, walls ", "grains 40", "<- binds", "substep    rayleigh", "memory     ",
-        "run time   about ", "settling   before that, at most ", "the case is in order"})
+  for (const char* part : {"fluid 150, walls ", "grains 40", "<- binds", "substep    rayleigh", "memory     ",
+                           "run time   about ", "settling   before that, at most ", "the case is in order"})
     EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
   EXPECT_FALSE(std::filesystem::exists(dir_ / "results"));
 }
@@ -487,6 +487,20 @@ TEST_F(Program, GoesOnOnlyAsItBegan) {
       << told.err;
 }
 
+TEST_F(Program, CheckTellsTheShearThatAnArrangementOfParticlesBears) {
+  write("dam.toml", kSmall);
+  const std::string check = "check dam.toml --backend cpu ";
+  const auto told = [&](const std::string& more, const std::string& what) {
+    const Outcome out = bedload(check + more);
+    EXPECT_EQ(out.code, 0) << out.err;
+    EXPECT_NE(out.out.find(what), out.out.npos) << out.out;
+  };
+  told("--set fluid.mu=1", "pressure.linear_exact removes that (cell Reynolds number ");
+  told("--set fluid.mu=1e-3", "that stays, flow slower than that is held by it");
+  told("--set fluid.mu=1e-3", "shifting   none: among grains only where");
+  told("--set fluid.mu=1 --set pressure.linear_exact=false", "that stays: pressure.linear_exact, shift.A");
+}
+
 TEST_F(Program, TellsWhatHasLeftTheDomain) {
   write("dam.toml", kSmall);
   // no floor, an open side
@@ -530,7 +544,8 @@ TEST_F(Program, RefusesWhatIsTooFineForTheMemoryBeforeLayingIt) {
   EXPECT_NE(o.err.find(" free, enough for "), o.err.npos) << o.err;
 }
 
-/// Errors that come up as particles are placed and meshes are read name their place as those of the reader do.
+/// Errors that come up as particles are placed and meshes are read name their place as those of the reader
+/// do.
 TEST_F(Program, NamesThePlaceOfWhatCannotBeInitialised) {
   const auto refused = [&](const std::string& more, const std::string& message, const std::string& set = "") {
     write("dam.toml", kSmall + more);  // whose next line is the 28th
@@ -542,10 +557,9 @@ TEST_F(Program, NamesThePlaceOfWhatCannotBeInitialised) {
     }
   };
   const std::string fill = "[[fluid.fill]]\n", shape = "[[shape]]\nname = \"part\"\n";
-  refused(
-      "[[wall.body]]\nname = \"side\"\nshape = \"plane\"\npoint = [0.02, 0, 0]\nnormal = [1, 0, 0]\n",
-      "dam.toml:7: fluid.fill: 60 fluid particles, the first at (0.005, 0.005, 0.005) m, lie inside "
-      "wall.body \"side\"");
+  refused("[[wall.body]]\nname = \"side\"\nshape = \"plane\"\npoint = [0.02, 0, 0]\nnormal = [1, 0, 0]\n",
+          "dam.toml:7: fluid.fill: 60 fluid particles, the first at (0.005, 0.005, 0.005) m, lie inside "
+          "wall.body \"side\"");
   refused(fill + "min = [0.04, 0, 0]\nmax = [0.06, 0.06, 0.05]\n",
           "dam.toml:28: fluid.fill 2 overlaps fluid.fill 1\n");
   refused(fill + "min = [0.06, 0, 0]\nmax = [0.08, 0.06, 0.05]\nvelocity = [\"1/(x - 0.065)\", 0, 0]\n",

@@ -67,6 +67,8 @@ std::vector<Case> cases() {
       {"fluid", kTank + kFluid, {"visc.collision=true", "visc.collision_range=1", "xsph=0.3"}},
       {"fluid, euler", kTank + kFluid, {"time.integrator=euler"}},
       {"fluid, ab3", kTank + kFluid + kGate, {"time.integrator=ab3"}},
+      {"oil", kTank + kFluid + kGate, {"fluid.mu=1"}},
+      {"oil, ab3", kTank + kFluid, {"fluid.mu=1", "time.integrator=ab3"}},
       {"smoothing lengths", kTank + kFluid, {"fluid.variable_h=true"}},
       {"sdpd", kTank + kFluid + kGate, {"fluid.model=sdpd_a", "sdpd.kT=1e-9"}},
       {"sdpd by summation", kBed, {"fluid.model=sdpd", "density.method=summation", "pressure.filter=true"}},

@@ -84,7 +84,7 @@ endif()
 # Small cases as a user runs them, against what they should come to.
 if(BEDLOAD_PYTHON AND "mixed" IN_LIST BEDLOAD_PRECISIONS)
   foreach(case still_bed/case:expect hindered_settling/sand_080:expect_sand_080 sphere_settling/water:expect_water
-               sphere_settling/glycerol:expect_glycerol dam_break_impact/case:expect)
+               sphere_settling/glycerol:expect_glycerol dam_break_impact/case:expect oil_under_head/case:expect)
     string(REGEX MATCH "^(.*)/(.*):(.*)$" _ ${case})
     set(folder ${CMAKE_SOURCE_DIR}/cases/${CMAKE_MATCH_1})
     set(results ${CMAKE_BINARY_DIR}/cases/${CMAKE_MATCH_1}_${CMAKE_MATCH_2})

@@ -37,6 +37,7 @@ struct Config {
   FrameConfig frame;
   FluidConfig fluid;
   EosConfig eos;
+  PressureConfig pressure;
   DensityConfig density;
   ViscosityConfig visc;
   SdpdConfig sdpd;

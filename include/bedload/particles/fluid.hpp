@@ -23,12 +23,16 @@ struct FluidStore : Store {
   Field<Real3> theta{*this, "theta", "m/s2", Lifetime::kept};   ///< stress of the mixture: pressure, viscosity
   Field<Real3> acc{*this, "acceleration", "m/s2", Lifetime::kept};  ///< theta + gravity + drive + repulsion
   Field<Real3> drift{*this, "drift", "m/s", Lifetime::kept};    ///< with which particles move beside their velocity: shifting, XSPH
+  Field<Real> exposure{*this, "exposure", "-", Lifetime::kept};  ///< to free surfaces (Shifting): 0 within the fluid
+  Field<Real> compression_rate{*this, "compression_rate", "1/s", Lifetime::kept};  ///< what continuity alone makes of s; left out without acoustic damper
   Field<Real4> m_state{*this, "m_state", "kg, m5/(kg s2), kg/m3, -", Lifetime::kept};  ///< what pair loops read: mass / porosity, P/rho2, density, porosity
   Field<Real3> drag_kick{*this, "drag_kick", "m/s", Lifetime::derived};  ///< by the drag of the grains, this step
   Field<Real3> acc_next{*this, "acc_next", "m/s2", Lifetime::derived};
   Field<Real3> heading{*this, "heading", "m/s", Lifetime::derived};  ///< velocity in the middle of the next step but for the push of wall surfaces
   Field<Real> p_rho2{*this, "p_rho2", "m5/(kg s2)", Lifetime::derived};  ///< P / rho^2
   Field<Real> grains_around{*this, "grains_around", "-", Lifetime::derived};  ///< sum of V_j W(r_aj; h) over grains; left out where density does not count them
+  Field<Real> exposure_next{*this, "exposure_next", "-", Lifetime::derived};
+  Field<Real3> correction{*this, "pressure_correction", "m/s2", Lifetime::kept};  ///< of LinearFit
   Field<Real> s_next{*this, "s_next", "-", Lifetime::derived};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};  ///< x as pair loops read it
   Field<Real3> reaction{*this, "reaction", "m/s2", Lifetime::derived};  ///< couples that keep the angular momentum of the stress shared with grains

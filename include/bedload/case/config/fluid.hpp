@@ -81,6 +81,13 @@ struct EosConfig {
   bool operator==(const EosConfig&) const = default;
 };
 
+/// What acts on the pressure beside the equation of state.
+struct PressureConfig {
+  double damper = 0.5;                         ///< acoustic damper: bulk viscosity over rho0 c h
+  bool linear_exact = true;                    ///< forces are exact for a linear pressure where viscosity rules
+  bool operator==(const PressureConfig&) const = default;
+};
+
 struct DensityConfig {
   double delta = 0.1;                          ///< density diffusion
   double void_relaxation = 3;                  ///< how fast pressure fades in fluid with voids in it, c/h
