@@ -39,6 +39,8 @@ struct RigidBody {
   Vec3d hinge;                ///< of what constrains its turns, unit
   double axial = 0;           ///< moment of inertia about it, kg m2
   double release = 0;         ///< s
+  double volume = 0;          ///< m3; 0 where it encloses none
+  Vec3d middle;               ///< from the reference point to that of the volume at t = 0, m
 
   /// The part of a velocity or force that may move the body.
   BL_HD Vec3d movable(const Vec3d& v) const {

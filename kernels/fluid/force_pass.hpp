@@ -49,7 +49,7 @@ struct ForcePass {
   Drive drive;
   Span<Real3> theta, acc, drift;
   Span<const Real> relative_viscosity = {};  ///< over that of wall.viscosity
-  Span<const Real3> correction = {};         ///< of LinearFit, m/s2; empty without
+  Span<const Real4> correction = {};         ///< of LinearFit, m/s2; empty without
   Lengths lengths = {};
 
   template <class N = Real>
@@ -65,7 +65,8 @@ struct ForcePass {
     return {flux[a], m, {}, {}, kSpecies ? relative_viscosity[a] : Real(1), lengths.template own<Real>(a)};
   }
 
-  BL_HD auto sources() const { return lengths.sources(flux, p_rho2, read_if<kSpecies>(relative_viscosity)); }
+  BL_HD auto species() const { return read_if<kSpecies>(relative_viscosity); }
+  BL_HD auto sources() const { return lengths.sources(flux, p_rho2, species()); }
   /// h_b: if lengths vary.
   template <class N, class Relative, class... H>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
@@ -101,7 +102,7 @@ struct ForcePass {
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
     Real3 stress = sum.theta;
-    if (correction) stress += correction[a];
+    if (correction) stress += correction[a].xyz();
     theta[a] = stress;
     acc[a] = stress + gravity + drive(a, sum.m);
     if (kAdded && xsph_factor > 0) drift[a] += sum.xsph;

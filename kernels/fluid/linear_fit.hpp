@@ -19,11 +19,13 @@ namespace bedload::inline BL_VARIANT {
 /// the least eigenvalue of M does from 0.8 to 0.6, for the particle or any that is exposed within h of it.
 struct LinearFit {
   static constexpr bool acts = true;
-  Real at_h, volume;           ///< F at the distance h, 1/m5; dx^3, m3
-  Real at_zero;                ///< F of a particle with itself, 1/m5
-  Real cell;                   ///< rho0 dx^2 / mu^2, 1/Pa
+  Real at_h, volume;  ///< F at the distance h, 1/m5; dx^3, m3
+  Real at_zero;       ///< F of a particle with itself, 1/m5
+  Real cell;          ///< rho0 dx^2 / mu^2, 1/Pa
+  /// log10 of the squares of the cell Reynolds numbers up to which w is 1, and over what it falls
+  Real whole_within, whole_at_surface, fading;
   Span<const Real> viscosity;  ///< over mu; empty: 1
-  Span<Real3> correction;      ///< m/s2
+  Span<Real4> correction;      ///< m/s2; w
 
   template <class N>
   struct Sum {
@@ -64,14 +66,15 @@ struct LinearFit {
     const Real3 g = about.inverse() * ((sum.p / sum.unity) * E - sum.slope);
     const Real P = sum.pressure + (sum.p + dot(E, g)) / sum.unity;
     const Real w = weight(a, P, min_of(least, 1 - sum.exposed), inside);
-    correction[a] = w / rho * (M * g - g - (2 * P) * E);
+    correction[a] = {w / rho * (M * g - g - (2 * P) * E), w};
   }
 
  private:
   BL_HD Real weight(Index a, Real P, Real least, Real inside) const {
     const Real mu = viscosity ? viscosity[a] : Real(1);
     const Real cell_re2 = std::abs(P) * cell / square(mu);
-    const Real slow = clamp(2 + 3 * inside - std::log10(max_of(cell_re2, Real(1))), Real(0), Real(1));
+    const Real whole = whole_at_surface + inside * (whole_within - whole_at_surface);
+    const Real slow = clamp(1 + (whole - std::log10(max_of(cell_re2, Real(1)))) / fading, Real(0), Real(1));
     return smooth(slow) * smooth(clamp(5 * (least - Real(0.6)), Real(0), Real(1)));
   }
   BL_HD static Real smooth(Real t) { return t * t * (3 - 2 * t); }

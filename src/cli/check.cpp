@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "bedload/case/limits.hpp"
+#include "bedload/case/particle_order.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/output/preview.hpp"
 #include "commands.hpp"
@@ -96,32 +97,26 @@ std::string arrangement_text(const Config& c) {
   const double pressure = c.fluid.rho0 * norm(c.gravity) * c.fluid.depth + c.eos.background;
   if (pressure == 0) return "";
   const double stress = 5e-3 * pressure;  // 2e-3 to 1e-2 on lattices, h = 1.5 dx
-  const double cell = c.fluid.dx * std::sqrt(pressure * c.fluid.rho0) / c.fluid.mu;
-  std::string out = fmt::format(
+  const std::string out = fmt::format(
       "lattice    under {:.3g} Pa an arrangement of particles resists shear by up to about {:.2g} Pa, as "
-      "viscosity "
-      "does at {:.2g} 1/s; ",
+      "viscosity does at {:.2g} 1/s; ",
       pressure, stress, stress / c.fluid.mu);
-  const bool layers = std::any_of(c.wall.bodies.begin(), c.wall.bodies.end(),
-                                  [](const WallBody& body) { return body.single_layer(); });
-  if (!c.pressure.linear_exact || c.shift == 0 || layers || c.visc.model == ViscosityModel::none)
-    return out + "that stays: pressure.linear_exact, shift.A, or walls of single layers leave it\n";
-  const char* what = cell < 100   ? "pressure.linear_exact removes that"
-                     : cell < 316 ? "pressure.linear_exact removes part of that"
-                                  : "that stays, flow slower than that is held by it";
-  return out + fmt::format("{} (cell Reynolds number {:.3g}, removed below 100)\n", what, cell);
+  if (const ParticleOrder order = particle_order(c); !order.linear_exact)
+    return out + "that stays: " + order.not_exact + "\n";
+  const double cell = cell_reynolds_number(std::sqrt(pressure / c.fluid.rho0), c.fluid);
+  const char* what = cell < kExactPressure ? "pressure.linear_exact removes that"
+                     : cell < kExactPressure * kExactPressureEnds
+                         ? "pressure.linear_exact removes part of that"
+                         : "that stays, flow slower than that is held by it";
+  return out +
+         fmt::format("{} (cell Reynolds number {:.3g}, removed below {:g})\n", what, cell, kExactPressure);
 }
 
 /// Why particles do not shift, where a case asks for it.
 std::string shifting_text(const Config& c) {
-  if (!c.fluid.present || c.shift == 0) return "";
-  const bool mixed = c.grain.present && c.couple.mode == CouplingMode::two_way;
-  const double cell = c.fluid.vmax * c.fluid.dx * c.fluid.rho0 / c.fluid.mu;
-  if (!mixed || cell < 1000) return "";
-  return fmt::format(
-      "shifting   none: among grains only where the fastest flow has a cell Reynolds number below 1000, here "
-      "{:.2g}\n",
-      cell);
+  if (!c.fluid.present || c.shift == 0 || c.fluid.sdpd()) return "";
+  const ParticleOrder order = particle_order(c);
+  return order.shifts ? "" : "shifting   none: " + order.no_shifting + "\n";
 }
 
 int check_case(const Options& options) {

@@ -130,11 +130,6 @@ double FluidSolver::friction_limit(const FluidExtremes& now) const {
          parameters_.fluid.mu;
 }
 
-bool FluidSolver::viscous() const {
-  return parameters_.visc.model != ViscosityModel::none &&
-         parameters_.fastest * parameters_.fluid.dx * parameters_.fluid.rho0 < 1000 * parameters_.fluid.mu;
-}
-
 double FluidSolver::repulsion_cap(double dt) const {
   return dt > 0 ? 0.1 * parameters_.fluid.dx / (dt * dt) : 1e30;
 }

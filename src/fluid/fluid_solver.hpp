@@ -8,8 +8,10 @@
 #include "bedload/parallel/compact.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/walls.hpp"
+#include "kernels/fluid/body_pressure.hpp"
 #include "kernels/fluid/drive.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
+#include "kernels/fluid/fluid_powers.hpp"
 #include "kernels/fluid/omega_pass.hpp"
 #include "kernels/fluid/pair_terms.hpp"
 #include "kernels/fluid/sheared_pass.hpp"
@@ -115,16 +117,9 @@ class FluidSolver {
   Span<Real3> drift_of(FluidStore& fluid) const {
     return drifts() ? Span<Real3>(fluid.drift) : Span<Real3>();
   }
-  /// Among grains only where viscosity rules: elsewhere drift, which takes no volume of grains along, holds
-  /// fronts back.
-  bool shifts() const {
-    return parameters_.shift > 0 && layers_.size() == 0 && (!parameters_.mixed || viscous());
-  }
+  bool shifts() const { return parameters_.order.shifts; }
   /// Whether pressure forces are made exact for linear pressures (LinearFit).
-  bool fits() const { return parameters_.pressure.linear_exact && shifts() && viscous(); }
-  /// Whether viscosity may rule the scale of a particle: the fastest flow has a cell Reynolds number below
-  /// 1000.
-  bool viscous() const;
+  bool fits() const { return parameters_.order.linear_exact; }
   /// Bulk viscosity of the acoustic damper, Pa s.
   double damping() const {
     return parameters_.pressure.damper * parameters_.fluid.rho0 * parameters_.fluid.c * parameters_.fluid.h();
@@ -213,6 +208,13 @@ class FluidSolver {
   virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
                            const Moment& now, double corrected, double dt, Buffer<Vec3d>& pressure,
                            Buffer<Vec3d>& friction) = 0;
+  /// Force of the pairs of fluid and free bodies in linear pressures around these, as BodyPressurePass; where
+  /// fits().
+  virtual void body_pressures(const FluidStore&, const WallStore&, const BodyPressures&,
+                              Buffer<Vec4<double>>&) {}
+  /// Of the terms that work on each fluid particle, as they are now; after a step of dt (s), before the lists
+  /// are renewed. Empty where a model does not tell.
+  virtual Span<const FluidPowers> powers(FluidStore&, const WallStore&, const Moment&, double) { return {}; }
   /// Moments of the forces between pairs, by the laws of forces() for the velocities that the fluid has now.
   /// After a step of dt (s), before the lists are renewed.
   virtual void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt,

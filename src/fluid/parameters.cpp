@@ -59,7 +59,7 @@ FluidParameters fluid_parameters(const Config& config) {
                     .time = config.time,
                     .xsph = config.xsph,
                     .shift = config.shift,
-                    .fastest = config.fluid.vmax,
+                    .order = particle_order(config),
                     .tensile = config.tensile,
                     .tensile_one_sign = config.tensile_one_sign,
                     .skin = config.skin_fluid * config.fluid.dx,

@@ -8,6 +8,7 @@
 #include "bedload/case/config/drive.hpp"
 #include "bedload/case/config/fluid.hpp"
 #include "bedload/case/config/time.hpp"
+#include "bedload/case/particle_order.hpp"
 #include "kernels/boundaries/orifice.hpp"
 #include "kernels/fluid/layer_force.hpp"
 
@@ -29,8 +30,8 @@ struct FluidParameters {
   DriveConfig drive;
   TimeConfig time;
   double xsph = 0;
-  double shift = 0;               ///< factor A of particle shifting
-  double fastest = 0;             ///< that the fluid is expected to become, m/s
+  double shift = 0;  ///< factor A of particle shifting
+  ParticleOrder order;
   double tensile = 0;             ///< 0: no tensile term
   bool tensile_one_sign = false;  ///< it is the same for both signs of the pressure
   double skin = 0;                ///< of the lists, m

@@ -30,7 +30,7 @@ struct LatticeSums {
 
 /// None of what keeps WCSPH smooth: noise would set it off.
 FluidParameters without_safety_terms(FluidParameters p) {
-  p.shift = p.xsph = p.tensile = 0;
+  p.xsph = p.tensile = 0;
   p.density.delta = p.density.void_relaxation = 0;
   p.density.cavitation_limit = 1;
   p.time.integrator = TimeIntegrator::kdk;

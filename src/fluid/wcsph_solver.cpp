@@ -3,6 +3,7 @@
 #include "kernels/fluid/density_pass.hpp"
 #include "kernels/fluid/force_pass.hpp"
 #include "kernels/fluid/one_pass.hpp"
+#include "kernels/fluid/power_pass.hpp"
 #include "kernels/fluid/wall_density.hpp"
 #include "kernels/smoothing/registry.hpp"
 #include "src/fluid/wcsph.hpp"
@@ -64,6 +65,22 @@ class WcsphSolver final : public FluidSolver {
     pressure.resize(walls.size());
     friction.resize(walls.size());
     forces_on_walls<ForceParts>(fluid, walls, pose, corrected, dt, pressure, friction);
+  }
+
+  void body_pressures(const FluidStore& fluid, const WallStore& walls, const BodyPressures& pressures,
+                      Buffer<Vec4<double>>& force) override {
+    force.resize(walls.size());
+    wall_fluid_.run(BodyPressurePass<W>{w_, fluid.m_state, fluid.correction, walls.m_state, walls.x0,
+                                        walls.body, pressures, force});
+  }
+
+  Span<const FluidPowers> powers(FluidStore& fluid, const WallStore& walls, const Moment& now,
+                                 double dt) override {
+    if (shear_.acts()) return {};
+    powers_.resize(fluid.size());
+    if constexpr (!Lengths::vary)
+      if (parameters_.several) return spend<true>(fluid, walls, now, dt);
+    return spend<false>(fluid, walls, now, dt);
   }
 
   void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double,
@@ -207,6 +224,19 @@ class WcsphSolver final : public FluidSolver {
     inviscid.wall.viscosity.mu = 0;
     run_with_walls(StressPass<Force>{whole, inviscid, out.parts(fluid.size(), false)});
   }
+  template <bool kSpecies>
+  Span<const FluidPowers> spend(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt) {
+    using Force = ForcePass<W, true, false, kSpecies, Lengths>;
+    using Density = DensityPass<W, NoShifting, NoFit, true, true, Lengths>;
+    Force friction = force_pass<true, false, kSpecies>(fluid, walls, now), artificial = friction;
+    friction.artificial = {};
+    artificial.wall.viscosity.mu = 0;
+    Density density =
+        density_pass<true, true>(fluid, walls, now.gravity, dt, NoShifting{}, NoFit{}, fluid.s_next);
+    density.compression = {};
+    run_with_walls(PowerPass<Force, Density>{friction, artificial, density, eos_, fluid.theta, powers_});
+    return powers_;
+  }
   template <bool kSmooth, class Shift, class Fit>
   void momentum_and_continuity(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt,
                                const Shift& shift, const Fit& fit) {
@@ -237,9 +267,16 @@ class WcsphSolver final : public FluidSolver {
   }
   LinearFit linear_fit(FluidStore& fluid) const {
     const FluidProperties& f = parameters_.fluid;
-    return {w_.F(Real(f.h())), Real(parameters_.domain.cell_volume(f.dx)),
-            w_.F(Real(0)),     Real(f.rho0 * square(f.dx / f.mu)),
-            fluid.viscosity,   fluid.correction};
+    const auto log_of_square = [](double x) { return Real(2 * std::log10(x)); };
+    return {w_.F(Real(f.h())),
+            Real(parameters_.domain.cell_volume(f.dx)),
+            w_.F(Real(0)),
+            Real(f.rho0 * square(f.dx / f.mu)),
+            log_of_square(kExactPressure),
+            log_of_square(kExactPressureAtSurface),
+            log_of_square(kExactPressureEnds),
+            fluid.viscosity,
+            fluid.correction};
   }
   TensileTerm tensile() const {
     if (parameters_.tensile == 0) return {};
@@ -252,6 +289,7 @@ class WcsphSolver final : public FluidSolver {
 
   W w_;
   CutFraction cut_;
+  Buffer<FluidPowers> powers_;
 };
 
 }  // namespace

@@ -191,10 +191,11 @@ MassProperties mass_properties(const WallBody& body, const DomainConfig& domain)
     out.centre = {f.centre_of_mass[0], domain.two_d ? domain.middle() : f.centre_of_mass[1],
                   f.centre_of_mass[2]};
   if (f.inertia.size() == 6) std::copy(f.inertia.begin(), f.inertia.end(), out.inertia.begin());
-  if (f.mass > 0 && !f.centre_of_mass.empty() && !f.inertia.empty()) return out;
-  if (!closed(body))
+  if (!closed(body)) {
+    if (f.mass > 0 && !f.centre_of_mass.empty() && !f.inertia.empty()) return out;
     throw CaseError("needs mass, centre_of_mass and inertia; shape = \"" + body.shape +
                     "\" is not closed, so they do not follow from it");
+  }
   const SolidMoments m =
       body.solid.shape ? solid_moments(*body.solid.shape, domain) : box_moments(body.min, body.max);
   if (domain.two_d && m.volume == 0)
@@ -203,6 +204,7 @@ MassProperties mass_properties(const WallBody& body, const DomainConfig& domain)
   const double density = out.mass / m.volume;
   Vec3d middle = m.first / m.volume;
   if (domain.two_d) middle.y = domain.middle();  // whatever rounding says
+  if (m.volume > 0) out.volume = m.volume, out.middle = middle;
   if (f.centre_of_mass.empty()) out.centre = middle;
   if (!f.inertia.empty()) return out;
   std::array<double, 6> s{};  // second moments about the shape's own centre

@@ -87,9 +87,13 @@ std::vector<Quantity> CoupledSimulation::body_force(const ProbeConfig& p) {
     add(out, "torque_by_" + by, "N m", sum.torque() + cross(from, sum.force()));
   };
   const FluidLoads& loads = fluid_loads();
-  load("fluid", loads.all(body));
+  const int place = state_.bodies.place_of(body);
+  const LoadSum corrected = place >= 0 ? state_.bodies.correction(place) : LoadSum::zero();
+  LoadSum by_fluid = loads.all(body);
+  LoadSum::combine(by_fluid, corrected);
+  load("fluid", by_fluid);
   load("grains", grain_load(body));
-  add(out, "pressure_force", "N", loads.pressure[body].force());
+  add(out, "pressure_force", "N", loads.pressure[body].force() + corrected.force());
   add(out, "friction_force", "N", loads.friction[body].force());
   return out;
 }

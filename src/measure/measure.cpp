@@ -112,11 +112,11 @@ struct GrainLoads {
 struct CorrectionBody {
   Span<const Real> mass;
   Span<const Real4> m_state, v_rho;
-  Span<const Real3> correction;
+  Span<const Real4> correction;
   BL_HD void operator()(Index a, double* out) const {
-    const Vec3d force = double(m_state[a].x) * Vec3d(correction[a]);
+    const Vec3d acc(correction[a].xyz()), force = double(m_state[a].x) * acc;
     for (int k = 0; k < 3; ++k) out[k] = force[k];
-    out[3] = double(mass[a]) * dot(Vec3d(correction[a]), Vec3d(v_rho[a].xyz()));
+    out[3] = double(mass[a]) * dot(acc, Vec3d(v_rho[a].xyz()));
   }
 };
 /// Power of the acoustic damper's pressure in what continuity makes of the volume, W.
@@ -127,6 +127,50 @@ struct DamperBody {
   BL_HD void operator()(Index a, double* out) const {
     out[0] = -double(mass[a]) * rho0 * damping * square(double(rate[a]) / double(m_state[a].z));
   }
+};
+
+/// What particle shifting does to the potential energy, and what drives fluid, to all of it, W.
+struct DriftBody {
+  Vec3d gravity;
+  Drive drive;
+  Span<const Real> mass;
+  Span<const Real4> m_state, v_rho;
+  Span<const Real3> drift;  ///< empty: none
+  BL_HD void operator()(Index a, double* out) const {
+    if (drift) out[0] = -double(mass[a]) * dot(gravity, Vec3d(drift[a]));
+    out[1] = double(mass[a]) * dot(Vec3d(drive(a, m_state[a])), Vec3d(v_rho[a].xyz()));
+  }
+};
+/// Power of what keeps fluid off surfaces, W; and how many particles it acts on.
+struct StoppedBody {
+  WallRepulsion walls;
+  Span<const FluidPosition> x;
+  Span<const Real> mass;
+  Span<const Real4> v_rho;
+  Span<const Real3> heading;  ///< as RepelPass found it, m/s
+  BL_HD void operator()(Index a, double* out) const {
+    Vec3d force;
+    const auto take = [&](std::uint32_t, const Real3& push, const Vec3d&) {
+      force += double(mass[a]) * Vec3d(push);
+    };
+    walls.each(coordinates(walls.frame, x[a]), heading[a], walls.sheet(a), take);
+    out[0] = dot(force, Vec3d(v_rho[a].xyz()));
+    out[1] = norm2(force) > 0;
+  }
+};
+/// Sums of FluidPowers, W.
+struct PowersBody {
+  Span<const FluidPowers> powers;
+  BL_HD void operator()(Index a, double* out) const {
+    const FluidPowers& p = powers[a];
+    out[0] = p.viscosity, out[1] = p.artificial_viscosity, out[2] = p.density_diffusion, out[3] = p.voids;
+    out[4] = p.pressure;
+  }
+};
+struct CavitatingBody {
+  Span<const Real> s;
+  Real least;
+  BL_HD void operator()(Index a, double* out) const { out[0] = s[a] < least; }
 };
 
 struct PressureBody {
@@ -231,6 +275,43 @@ std::vector<FieldView> CoupledSimulation::fields(const std::string& name) {
   return {};
 }
 
+void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>& out) {
+  FluidSolver& solver = stepper_.fluid();
+  FluidStore& fluid = state_.fluid;
+  const double dt = state_.clock.last_dt;
+  const auto powers = solver.powers(fluid, state_.walls, stepper_.moment(), dt);
+  SumSweep<5, PowersBody>::Value p;
+  for (double& v : p.v) v = std::nan("");  // a model that does not tell
+  if (powers) p = sum_over<5>(fluid.owned(), PowersBody{powers});
+  double moving = 0;  // the pressure's work on the fluid
+  for (std::uint32_t b = 0; b < std::uint32_t(state_.motion.bodies()) && state_.walls.size() > 0; ++b) {
+    const RigidMotion motion = state_.motion.pose(int(b), state_.clock.time);
+    if (norm2(motion.v) + norm2(motion.omega) == 0) continue;
+    const LoadSum load =
+        reduce(state_.walls.owned(), WallLoadReduction{b, state_.walls.body, state_.walls.x0,
+                                                       wall_forces().pressure, state_.poses_now().data});
+    moving -= dot(load.force(), motion.v) + dot(load.torque(), motion.omega);
+  }
+  static const char* const terms[] = {"viscosity", "artificial_viscosity", "density_diffusion", "voids"};
+  for (int k = 0; k < 4; ++k) out.push_back({std::string("power_") + terms[k], "W", p.v[k]});
+  out.push_back({"power_wall_pressure", "W", p.v[4] - moving});
+  out.push_back({"power_moving_walls", "W", moving});
+  const auto d =
+      sum_over<2>(fluid.owned(),
+                  DriftBody{config_.gravity, drive, fluid.mass, fluid.m_state, fluid.v_rho,
+                            solver.shifts() ? solver.drift_of(std::as_const(fluid)) : Span<const Real3>()});
+  out.push_back({"power_shifting", "W", d.v[0]});
+  out.push_back({"power_drive", "W", d.v[1]});
+  SumSweep<2, StoppedBody>::Value r{};
+  if (const WallRepulsion walls = solver.repulsion(fluid, state_.poses_now(), dt);
+      walls.walls.surfaces.size > 0)
+    r = sum_over<2>(fluid.owned(), StoppedBody{walls, fluid.x, fluid.mass, fluid.v_rho, fluid.heading});
+  out.push_back({"power_penetration_limit", "W", r.v[0]});
+  out.push_back({"fluid_stopped_at_walls", "-", r.v[1]});
+  out.push_back({"fluid_cavitating", "-",
+                 sum_over<1>(fluid.owned(), CavitatingBody{fluid.s, solver.eos().least}).v[0]});
+}
+
 std::vector<Quantity> CoupledSimulation::diagnostics() {
   static const char* const axis[3] = {"x", "y", "z"};
   std::vector<Quantity> out;
@@ -275,9 +356,11 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
                       DamperBody{stepper_.fluid().damping(), config_.fluid.rho0, state_.fluid.m_state,
                                  state_.fluid.mass, state_.fluid.compression_rate});
     const Vec3d correction{c.v[0], c.v[1], c.v[2]};
-    vec("force_pressure_correction", "N", correction);
-    out.push_back({"power_pressure_correction", "W", c.v[3]});
+    const BodyCorrection of_bodies = state_.bodies.correction();
+    vec("force_pressure_correction", "N", correction + of_bodies.force);
+    out.push_back({"power_pressure_correction", "W", c.v[3] + of_bodies.power});
     out.push_back({"power_acoustic_damper", "W", d.v[0]});
+    report_powers(drive, out);
     vec("force_walls_on_fluid", "N", wall_on_fluid);
     vec("force_grains_on_fluid", "N", {l.v[6], l.v[7], l.v[8]});
     // what pair sums leave over: round-off

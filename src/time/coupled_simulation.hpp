@@ -64,6 +64,8 @@ class CoupledSimulation final : public Simulation {
   };
   const WallForces& wall_forces();  ///< of the fluid on wall particles, repulsion from surfaces apart
   const FluidLoads& fluid_loads();
+  /// Adds where the energy of the fluid goes, by terms, and how many particles are held by limits.
+  void report_powers(const Drive& drive, std::vector<Quantity>& out);
   LoadSum grain_load(int body);                   ///< of the grains on a body about its centre
   int wall_named(const std::string& name) const;  ///< place among the wall bodies
   std::vector<Quantity> front(const ProbeConfig& probe);

@@ -160,8 +160,8 @@ void Stepper::list_fluid_stages() {
   if (bodies_.any())
     add("load_bodies", Part::fluid, &Stepper::load_bodies,
         bodies + pairs + of_walls + of_model +
-            Fields{&f.x, &f.mass, &f.acc, &f.acc_next, &f.heading, &f.exposure, &f.viscosity, &w.v_visc,
-                   &w.x0, &w.body},
+            Fields{&f.x, &f.mass, &f.acc, &f.acc_next, &f.heading, &f.exposure, &f.correction, &f.viscosity,
+                   &w.v_visc, &w.x0, &w.body},
         bodies);
   add("correct", Part::fluid, &Stepper::correct,
       drift + lengths + listed_lengths +

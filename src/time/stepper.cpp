@@ -153,9 +153,13 @@ void Stepper::repel(Step& now) { fluid_solver_->repel(fluid_, now.poses, now.las
 void Stepper::load_bodies(Step& now) {
   if (walls_.size() > 0)
     fluid_solver_->wall_forces(fluid_, walls_, now.poses, moment_, 0, now.dt, wall_force_);
+  const bool corrected = fluid_solver_->fits() && walls_.size() > 0;
+  if (corrected)
+    fluid_solver_->body_pressures(fluid_, walls_, bodies_.fit_pressure(walls_, now.poses), wall_in_fit_);
   const WallRepulsion repulsion = fluid_solver_->repulsion(fluid_, now.poses, now.dt);
-  bodies_.feel_fluid(walls_, wall_force_, repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_,
-                     now.poses, now.last_kick, now.dt);
+  bodies_.feel_fluid(walls_, wall_force_, corrected ? &wall_in_fit_ : nullptr,
+                     repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_, now.poses,
+                     now.last_kick, now.dt);
 }
 
 void Stepper::correct(Step& now) {
@@ -234,7 +238,10 @@ std::vector<StepLimit> Stepper::limits() {
   if (has_grains()) {
     const double v = grain_watch_.speed;
     if (v > 0 && !held()) travel = 0.05 * config_.grain.d_min / v;
-    if (!has_fluid()) out.push_back({"contact", 20 * solid_solver_->stable_dt(grain_watch_).seconds});
+    if (!has_fluid()) {
+      const StableStep substep = solid_solver_->stable_dt(grain_watch_);
+      out.push_back({std::string(substep.limit), 20 * substep.seconds});
+    }
   }
   if (wall_speed > 0 && (has_fluid() || has_grains()))
     travel = std::min(travel, 0.1 * (has_fluid() ? config_.fluid.dx : config_.grain.d_min) / wall_speed);

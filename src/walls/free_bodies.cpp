@@ -84,6 +84,7 @@ FreeBodies::FreeBodies(const FreeBodyParameters& parameters, const Frame& frame,
   ball_loads_ = {ball_slots_.data(), ball_counts_.data(), n, bodies_met};
   for (Buffer<LoadSum>* sums : {&grain_sums_, &ball_sums_, &wall_sums_, &repulsion_sums_})
     sums->resize(size());
+  store_.corrected_force.begin_at_zero(), store_.corrected_torque.begin_at_zero();
   report_.resize(size());
   read_back(0);
 }
@@ -115,6 +116,7 @@ RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, const std::st
   k.mass = m.mass;
   k.centre = centre;
   k.arm = m.centre - centre;
+  k.volume = m.volume, k.middle = m.middle - centre;
   const auto inertia = shifted_inertia(m.inertia, m.mass, k.arm);
   const PrincipalInertia principal = principal_inertia(inertia);
   k.moments = principal.moments;
@@ -250,9 +252,20 @@ void FreeBodies::touch(Span<const BodyPose> poses, double dt) {
   }
 }
 
+BodyPressures FreeBodies::fit_pressure(const WallStore& walls, Span<const BodyPose> poses) {
+  fit_sums_.resize(size()), pressures_.resize(size());
+  fit_sums_.zero();
+  for (int k = 0; k < size(); ++k)
+    reduce_into(fit_sums_.data() + k, walls.owned(),
+                BodyPressureReduction{rigid(k).body, walls.body, walls.x0, walls.m_state, poses.data});
+  for_each(store_.owned(), FitBodyPressure{fit_sums_, pressures_});
+  return {pressures_, poses.data};
+}
+
 void FreeBodies::feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force,
-                            const WallRepulsion* repulsion, const FluidStore& fluid,
-                            Span<const BodyPose> poses, double kick_time, double dt) {
+                            const Buffer<Vec4<double>>* in_fit, const WallRepulsion* repulsion,
+                            const FluidStore& fluid, Span<const BodyPose> poses, double kick_time,
+                            double dt) {
   wall_sums_.zero();
   repulsion_sums_.zero();
   for (int k = 0; k < size(); ++k) {
@@ -265,12 +278,29 @@ void FreeBodies::feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force,
                   BodyRepulsion{*repulsion, body, fluid.x, fluid.mass, fluid.heading});
   }
   for_each(store_.owned(), AddLoads{wall_sums_, repulsion_sums_, store_.fluid_force, store_.fluid_torque});
+  if (in_fit)
+    correct_pressure(walls, *in_fit, poses);
+  else
+    store_.corrected_force.buffer().zero(), store_.corrected_torque.buffer().zero();
   if (dt == 0) return;
   BodyPass p = pass();
   p.fluid_kick = kick_time;
   kick(p);
   const double followed = -std::expm1(-dt / parameters_.response);
   for_each(store_.owned(), BodyAccelerationPass{constants_.data(), fields(), dt, followed});
+}
+
+void FreeBodies::correct_pressure(const WallStore& walls, const Buffer<Vec4<double>>& in_fit,
+                                  Span<const BodyPose> poses) {
+  in_pressure_.resize(size());
+  in_pressure_.zero();
+  for (int k = 0; k < size(); ++k)
+    reduce_into(in_pressure_.data() + k, walls.owned(),
+                PairsInPressureReduction{rigid(k).body, walls.body, walls.x0, walls.m_state, in_fit.span(),
+                                         poses.data});
+  BodyStore& s = store_;
+  for_each(s.owned(), CorrectBody{constants_.data(), pressures_.data(), in_pressure_.data(), s.rotation,
+                                  s.fluid_force, s.fluid_torque, s.corrected_force, s.corrected_torque});
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -12,6 +12,7 @@
 #include "bedload/simulation.hpp"
 #include "kernels/bodies/ball_contacts.hpp"
 #include "kernels/bodies/body_kicks.hpp"
+#include "kernels/fluid/body_pressure.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
 #include "src/walls/parameters.hpp"
 #include "src/walls/wall_geometry.hpp"
@@ -27,6 +28,11 @@ struct BodyForces {
 struct BodyTotals {
   double mass = 0, kinetic = 0, rotational = 0, potential = 0;  ///< kg, J; of the centres, about them
   Vec3d momentum, angular;                                      ///< kg m/s; about the origin, kg m2/s
+};
+
+struct BodyCorrection {
+  Vec3d force;       ///< N
+  double power = 0;  ///< W
 };
 
 /// A rigid body about `centre` (m) under the constraints `move` and `turn` (with `axis`) of a case, and those
@@ -71,10 +77,14 @@ class FreeBodies {
   /// Where `grains` grains record what they do to bodies, until the next evaluation.
   TouchLoads record(Index grains);
 
+  /// Fits a linear pressure to that of the wet wall particles of each body. poses: one row.
+  BodyPressures fit_pressure(const WallStore& walls, Span<const BodyPose> poses);
   /// Takes the fluid's force from the wall particles [walls] and repulsion at the end of a step and kicks
-  /// with it; dt: of the step, 0 at the start of a run. poses: one row.
-  void feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force, const WallRepulsion* repulsion,
-                  const FluidStore& fluid, Span<const BodyPose> poses, double kick, double dt);
+  /// with it; in_fit: that of the pairs in the fitted pressure, as BodyPressurePass leaves it, null where
+  /// bodies keep the pairs' force; dt: of the step, 0 at the start of a run. poses: one row.
+  void feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force, const Buffer<Vec4<double>>* in_fit,
+                  const WallRepulsion* repulsion, const FluidStore& fluid, Span<const BodyPose> poses,
+                  double kick, double dt);
 
   /// Copies places and velocities at `time` (s) to the host; bodies that are held have none.
   void read_back(double time);
@@ -98,6 +108,10 @@ class FreeBodies {
   /// Force and torque by free bodies on any wall body, of the last substep in this run.
   LoadSum contact_load(int body) const;
   BodyTotals totals(double time) const;
+  /// What pressure.linear_exact adds to the fluid's load on a body.
+  LoadSum correction(int place) const;
+  /// Sum over those that the fluid moves.
+  BodyCorrection correction() const;
 
   void save(std::vector<HostStore>& stores) const;
   /// `find(name)`: the store of that name, as it was at `time` (s).
@@ -123,6 +137,8 @@ class FreeBodies {
   void point_at_memory();
   BodyFields fields() const;
   void touch(Span<const BodyPose> poses, double dt);
+  void correct_pressure(const WallStore& walls, const Buffer<Vec4<double>>& in_fit,
+                        Span<const BodyPose> poses);
   BodyPass pass() const;
   void kick(const BodyPass& pass) { for_each(store_.owned(), pass); }
 
@@ -152,6 +168,9 @@ class FreeBodies {
   Buffer<Index> grain_counts_, ball_counts_;
   TouchLoads grain_loads_, ball_loads_;
   Buffer<LoadSum> grain_sums_, ball_sums_, wall_sums_, repulsion_sums_;
+  Buffer<BodyPressureSums> fit_sums_;
+  Buffer<BodyPressure> pressures_;
+  Buffer<PairsInPressure> in_pressure_;
   Buffer<RigidMotion> report_;
 
   struct Step {

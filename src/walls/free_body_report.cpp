@@ -12,6 +12,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+LoadSum load_of(int k, const Field<Vec3d>& force, const Field<Vec3d>& torque) {
+  LoadSum sum = LoadSum::zero();
+  sum.add(force.values()[k], torque.values()[k]);
+  return sum;
+}
+
 bool finite(const Vec3d& v) { return std::isfinite(v.x + v.y + v.z); }
 
 }  // namespace
@@ -71,14 +77,24 @@ double FreeBodies::stable_dt(double wall_speed) const {
   return least;
 }
 
+BodyCorrection FreeBodies::correction() const {
+  BodyCorrection all;
+  for (int k = 0; k < size(); ++k) {
+    if (!rigid(k).fluid) continue;
+    const LoadSum load = correction(k);
+    all.force += load.force();
+    all.power += dot(load.force(), now_[k].v) + dot(load.torque(), now_[k].omega);
+  }
+  return all;
+}
+LoadSum FreeBodies::correction(int k) const {
+  return load_of(k, store_.corrected_force, store_.corrected_torque);
+}
+
 BodyForces FreeBodies::forces(int k) const {
-  const auto load = [&](const Field<Vec3d>& force, const Field<Vec3d>& torque) {
-    LoadSum sum = LoadSum::zero();
-    sum.add(force.values()[k], torque.values()[k]);
-    return sum;
-  };
-  return {load(store_.fluid_force, store_.fluid_torque), load(store_.grain_force, store_.grain_torque),
-          load(store_.contact_force, store_.contact_torque)};
+  return {load_of(k, store_.fluid_force, store_.fluid_torque),
+          load_of(k, store_.grain_force, store_.grain_torque),
+          load_of(k, store_.contact_force, store_.contact_torque)};
 }
 
 LoadSum FreeBodies::contact_load(int body) const {

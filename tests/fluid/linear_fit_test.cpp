@@ -59,13 +59,13 @@ TEST(LinearFit, LeavesTheOutermostLayerAndFluidThatIsNotViscous) {
   const auto correction = slab.box->fluid.correction.values();
   for (std::size_t a = 0; a < x.size(); ++a)
     if (slab.depth(x[a]) < 0.8) {
-      EXPECT_LT(norm(correction[a]), 0.01) << "m/s2, of some 3 within";
+      EXPECT_LT(norm(correction[a].xyz()), 0.01) << "m/s2, of some 3 within";
     }
   // cell Reynolds number of 1000 Pa: dx (rho P)^(1/2) / mu
   const auto largest = [](double mu) {
     double out = 0;
     const Slab slab(mu);
-    for (const Real3& u : slab.box->fluid.correction.values()) out = std::max(out, double(norm(u)));
+    for (const Real4& u : slab.box->fluid.correction.values()) out = std::max(out, double(norm(u.xyz())));
     return out;
   };
   const double all = largest(10);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "bedload/geometry/sampling.hpp"
 #include "tests/support/free_body.hpp"
@@ -87,6 +88,68 @@ TEST(FreeBodyInFluid, ClosedSystemKeepsMomenta) {
       }
     }
   }
+}
+
+/// How fast a ball among viscous fluid under `background` Pa still is, of 0.1 m/s at first, when drag, a
+/// stress of some 3 Pa, has acted for 0.15 s.
+double slowed(double background, bool linear_exact = true) {
+  Config c = periodic_box(12);
+  c.time.end = 1;
+  c.fluid.mu = 1;
+  c.fluid.vmax = 0.8;
+  c.eos.background = background;
+  c.pressure.linear_exact = linear_exact;
+  WallBody ball = test::shaped("ball", make_sphere({0.06, 0.06, 0.06}, 0.03));
+  set_free(ball, 2000).free.velocity = {0.1, 0, 0};
+  c.wall.bodies = {ball};
+  auto s = started(c, initialised(c, [](const Vec3d&) { return true; }));
+  run_until(*s, 0.15);
+  return vector_of(s->body_state(0), "velocity").x;
+}
+
+TEST(SlowLinearFit, LetsABodyMoveUnderAnyPressure) {
+  const double without = slowed(0);
+  EXPECT_GT(without, 0.02);
+  EXPECT_LT(without, 0.08);
+  for (const double background : {30.0, 3000.0}) EXPECT_NEAR(slowed(background), without, 0.03 * without);
+  EXPECT_GT(std::abs(slowed(3000, false) - without), 0.3 * without) << "a lattice holds it";
+}
+
+/// Held at a point beside its middle, in disordered fluid whose pressure is that of its depth.
+TEST(FreeBodyInFluid, OfViscousFluidHasTheBuoyancyOfItsVolume) {
+  Config c = periodic_box(16);
+  c.domain.min.z = -0.04, c.domain.max.z = 0.18;
+  c.domain.periodic[2] = false;
+  c.time.end = 1;
+  c.gravity = {0, 0, -9.81};
+  c.fluid.mu = 10;
+  const Vec3d middle{0.08, 0.08, 0.07}, arm{0.02, -0.005, 0.01}, half{0.03, 0.02, 0.02};
+  WallBody block = test::body("box", middle - half, middle + half);
+  set_free(block, 1000).free.move = "none";
+  block.free.point = {middle.x - arm.x, middle.y - arm.y, middle.z - arm.z};
+  block.free.release_time = 1;
+  c.wall.bodies = {test::tank({0, 0, 0}, {0.16, 0.16, 0.17}, "z-"), block};
+  c.fluid.fills = {{{0, 0, 0}, {0.16, 0.16, 0.16}}};
+  bedload::Setup setup = initialised(c, [](const Vec3d& x) { return x.z > 0 && x.z < 0.16; });
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<double> by(-0.15 * c.fluid.dx, 0.15 * c.fluid.dx);
+  for (Vec3d& x : setup.fluid.x) x += Vec3d{by(rng), by(rng), by(rng)};
+  const Vec3d buoyancy{0, 0, 9810 * 8 * half.x * half.y * half.z};
+  const auto error = [&](bool linear_exact) {
+    c.pressure.linear_exact = linear_exact;
+    auto s = started(c, setup);
+    s->step();
+    const auto d = s->body_state(1);
+    return std::pair{
+        norm(vector_of(d, "force_by_fluid") - buoyancy) / norm(buoyancy),
+        norm(vector_of(d, "torque_by_fluid") - cross(arm, buoyancy)) / norm(cross(arm, buoyancy))};
+  };
+  const auto [force, torque] = error(true);
+  EXPECT_LT(force, 0.03) << "disorder is in the walls' pressure, too";
+  EXPECT_LT(torque, 0.03);
+  const auto [force_by_pairs, torque_by_pairs] = error(false);
+  EXPECT_GT(force_by_pairs, 3 * force);
+  EXPECT_GT(torque_by_pairs, 3 * torque);
 }
 
 TEST(FreeBodyInFluid, MayBeDeafToItWhileTheFluidFeelsTheBody) {

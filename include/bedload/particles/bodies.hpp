@@ -20,6 +20,9 @@ struct BodyStore : Store {
   Field<Vec3d> contact_torque{*this, "contact_torque", "N m", Lifetime::kept};
   Field<Vec3d> fluid_force{*this, "fluid_force", "N", Lifetime::kept};
   Field<Vec3d> fluid_torque{*this, "fluid_torque", "N m", Lifetime::kept};
+  // of that, what pressure.linear_exact makes of the pairs' force
+  Field<Vec3d> corrected_force{*this, "pressure_correction", "N", Lifetime::kept};
+  Field<Vec3d> corrected_torque{*this, "pressure_correction_torque", "N m", Lifetime::kept};
   // where the last step began
   Field<Vec3d> x_before{*this, "x_before", "m", Lifetime::derived};
   Field<Vec4<double>> rotation_before{*this, "rotation_before", "-", Lifetime::derived};

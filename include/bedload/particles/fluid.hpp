@@ -32,7 +32,7 @@ struct FluidStore : Store {
   Field<Real> p_rho2{*this, "p_rho2", "m5/(kg s2)", Lifetime::derived};  ///< P / rho^2
   Field<Real> grains_around{*this, "grains_around", "-", Lifetime::derived};  ///< sum of V_j W(r_aj; h) over grains; left out where density does not count them
   Field<Real> exposure_next{*this, "exposure_next", "-", Lifetime::derived};
-  Field<Real3> correction{*this, "pressure_correction", "m/s2", Lifetime::kept};  ///< of LinearFit
+  Field<Real4> correction{*this, "pressure_correction", "m/s2, -", Lifetime::kept};  ///< of LinearFit; its weight
   Field<Real> s_next{*this, "s_next", "-", Lifetime::derived};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};  ///< x as pair loops read it
   Field<Real3> reaction{*this, "reaction", "m/s2", Lifetime::derived};  ///< couples that keep the angular momentum of the stress shared with grains

@@ -12,11 +12,13 @@
 
 namespace bedload {
 
-/// Mass of a solid about its centre, in the axes of the case.
+/// Mass of a solid about its centre and the volume of its shape, in the axes of the case.
 struct MassProperties {
   double mass = 0;                             ///< kg
   Vec3d centre;                                ///< of mass, m
   std::array<double, 6> inertia{};             ///< Ixx, Iyy, Izz, Ixy, Ixz, Iyz (products with their minus), kg m2
+  double volume = 0;                           ///< m3; 0 where the shape is not closed
+  Vec3d middle;                                ///< of the volume, m
   bool operator==(const MassProperties&) const = default;
 };
 

@@ -1,0 +1,76 @@
+#pragma once
+// Where the energy of the fluid goes, by terms.
+
+#include "kernels/fluid/density_pass.hpp"
+#include "kernels/fluid/fluid_powers.hpp"
+#include "kernels/fluid/force_pass.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Sums FluidPowers over pairs, by the passes that move the fluid: what viscous forces do at its velocity,
+/// what diffusion and voids do to its elastic energy; and what pressure does, which is all the rest of the
+/// stress, less the elastic energy that continuity makes of it. Between fluid particles that is nothing.
+/// Beside walls it is the work of walls that move and what the walls' own pressure does, which has no energy.
+template <class Force, class Density>
+struct PowerPass {
+  Force friction, artificial;  ///< with physical viscosity alone; with artificial alone
+  Density density;             ///< without shifting and fit
+  EquationOfState eos;
+  Span<const Real3> theta;
+  Span<FluidPowers> out;
+
+  template <class N = Real>
+  struct Sum {
+    typename Force::template Sum<N> friction, artificial;  ///< without pressure
+    typename Density::template Sum<N> density;
+  };
+  BL_HD Sum<> start(Index a) const {
+    Sum<> sum{friction.start(a), artificial.start(a), density.start(a)};
+    sum.friction.m.y = sum.artificial.m.y = 0;
+    return sum;
+  }
+  BL_HD auto sources() const {
+    return friction.lengths.sources(friction.flux, friction.species(), density.m_state);
+  }
+  template <class N, class Relative, class... H>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, const Relative& viscosity_b,
+                  const Vec4<N>& state, const H&... h_b) const {
+    friction.pair(sum.friction, r, r2, M, vb, N(0), viscosity_b, h_b...);
+    artificial.pair(sum.artificial, r, r2, M, vb, N(0), viscosity_b, h_b...);
+    density.pair(sum.density, r, r2, M, vb, state, Unread{}, h_b...);
+  }
+  BL_HD auto wall_sources() const { return friction.wall_sources(); }
+  template <class N>
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb,
+                       const Vec4<N>& visc) const {
+    friction.wall_pair(sum.friction, r, r2, vb, Vec4<N>{mb.x, N(0), mb.z, mb.w}, visc);
+    density.wall_pair(sum.density, r, r2, vb, mb);
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
+    friction.merge(into.friction, other.friction);
+    artificial.merge(into.artificial, other.artificial);
+    density.merge(into.density, other.density);
+  }
+  BL_HD void finish(Index a, const Sum<>& sum) const {
+    const Real3 q = density.flux[a].xyz();
+    const Real4 m = density.m_state[a];
+    const Real3 rubbed = sum.friction.theta, damped = sum.artificial.theta;
+    Real3 pressed = theta[a] - rubbed - damped;
+    if (friction.correction) pressed -= friction.correction[a].xyz();
+    const auto change = density.of(a, sum.density);
+    const Real rate = density.lengths.corrected(a, sum.density.rate), share = 1 / (m.w * density.rho0);
+    const Real diffusion = density.diffusion * sum.density.diffused * share,
+               settled = density.dt > 0 ? change.settled / density.dt : 0;
+    // of the elastic energy with s, J
+    const Real stiffness = m.x * m.w * eos.pressure(density.s[a]) * density.rho0 / square(m.z);
+    FluidPowers p;
+    p.viscosity = m.x * dot(q, rubbed);
+    p.artificial_viscosity = m.x * dot(q, damped);
+    p.density_diffusion = stiffness * diffusion;
+    p.voids = stiffness * (change.rate + rate * share - diffusion + settled);
+    p.pressure = m.x * (dot(q, pressed) - density.lengths.corrected(a, m.y) * sum.density.rate);
+    out[a] = p;
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT
