@@ -207,7 +207,9 @@ class Picture:
                     continue
                 plotter.add_mesh(mesh, color=GLASS if vessel else MACHINE, opacity=0.16 if vessel else 1.0,
                                  smooth_shading=False, specular=0.3, show_scalar_bar=False)
-                plotter.add_mesh(mesh.extract_feature_edges(25), color="#5c6770", line_width=1.2)
+                edges = mesh.extract_feature_edges(25)
+                if edges.n_points:  # a ball has none
+                    plotter.add_mesh(edges, color="#5c6770", line_width=1.2)
         plotter.enable_depth_peeling(6)
         plotter.enable_anti_aliasing("ssaa")
         plotter.add_text(f"t = {time:.4g} s", position="upper_left", font_size=9, color="black")

@@ -22,7 +22,8 @@ struct StepInfo {
   double dt = 0;           ///< s
   int substeps = 0;        ///< DEM substeps in it
   std::string_view limit;  ///< what bound dt: "cfl", "viscous", "body", "drag", "growth", "travel",
-                           ///< "contact", "body contact", "body turn", "fixed"
+                           ///< "contact", "rayleigh", "rolling", "lubrication", "grain drag", "body contact",
+                           ///< "body turn", "fixed"
   double vmax = 0;         ///< m/s, fastest fluid particle
   bool rebuilt = false;    ///< neighbour lists were renewed
 };

@@ -35,7 +35,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 class ParticleTable {
  public:
   ParticleTable(const std::filesystem::path& file, std::string_view type)
-      : file_(file), text_(read_file(file)), type_(type) {}
+      : file_(file), text_(read_text(file)), type_(type) {}
 
   ParticleList read() {
     ParticleList list;
@@ -86,6 +86,9 @@ class ParticleTable {
   }
 
   void name_columns() {
+    for (const auto& [mark, name] : {std::pair{';', "semicolons"}, {'\t', "tabs"}})
+      if (line_.find(mark) != line_.npos)
+        fail(fmt::format("has {} between its columns; they must be separated by commas", name));
     for (const std::string_view cell : cells_of(line_)) {
       const auto bracket = cell.find('[');
       const std::string name(trimmed(cell.substr(0, bracket)));

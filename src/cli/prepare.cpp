@@ -7,10 +7,12 @@
 
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/body.hpp"
 #include "bedload/geometry/grain_source.hpp"
 #include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/setup.hpp"
 #include "bedload/geometry/shape.hpp"
+#include "bedload/motion/law.hpp"
 #include "bedload/output/output.hpp"
 #include "src/motion/inlet_flow.hpp"
 
@@ -64,10 +66,40 @@ void refuse_too_fine(const Prepared& p) {
                   dx * std::pow(need / memory, p.config.domain.two_d ? 1.0 / 2 : 1.0 / 3) * 1.001));
 }
 
+/// Motions count from t = 0: with another one a wall may be elsewhere at the time of the restart. How far
+/// each jumps, one clause a wall.
+std::vector<std::string> jumps_of_walls(const Config& then, const Config& now, double t) {
+  std::vector<std::string> jumps;
+  for (const WallBody& body : now.wall.bodies) {
+    const auto former = std::find_if(then.wall.bodies.begin(), then.wall.bodies.end(),
+                                     [&](const WallBody& b) { return b.name == body.name; });
+    if (former == then.wall.bodies.end() || body.free.present || former->free.present) continue;
+    const RigidMotion from = MotionLaw(former->motion, t).at(t), to = MotionLaw(body.motion, t).at(t);
+    double farthest = 0;
+    for (const Vec3d& x : corners(body, now.domain))
+      farthest = std::max(farthest, norm(to.place(x) - from.place(x)));
+    const double reach = norm(now.domain.max - now.domain.min);
+    if (farthest > 1e-9 * reach)
+      jumps.push_back(
+          fmt::format("wall.body \"{}\" jumps by {:.4g} m at t = {:.6g} s, since its motion counts "
+                      "from t = 0",
+                      body.name, farthest, t));
+  }
+  return jumps;
+}
+
 /// A run that goes on computes as it began, unless told otherwise.
 void refuse_changes(const Options& options, Prepared& p) {
-  const auto changes = changes_between(checkpoint_case(options.restart), resolved_toml(p.config));
+  const std::string before = checkpoint_case(options.restart);
+  auto changes = changes_between(before, resolved_toml(p.config));
   if (changes.empty()) return;
+  try {
+    std::vector<std::string> none;
+    const Config then = read_case_text(before, options.restart.string(), {}, none, options.restart);
+    for (std::string& jump : jumps_of_walls(then, p.config, p.begin)) changes.push_back(std::move(jump));
+  } catch (const CaseError&) {  // what it named, such as a mesh, is not there any more
+  } catch (const FileError&) {
+  }
   const std::string text = fmt::format("{}", fmt::join(changes, ", "));
   if (!options.allow_changes)
     throw CaseError(
@@ -93,10 +125,10 @@ void initialise(const Options& options, Prepared& p) {
     p.counts = counts_of(p.setup);
   } else {
     p.restart = read_checkpoint(options.restart, p.config);
-    refuse_changes(options, p);
-    p.counts = counts_of(p.restart);
     for (const Quantity& q : p.restart.scalars)
       if (q.name == "time") p.begin = q.value;
+    refuse_changes(options, p);
+    p.counts = counts_of(p.restart);
   }
 }
 

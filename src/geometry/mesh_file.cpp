@@ -106,23 +106,42 @@ TriangleSoup read_ascii_stl(const std::string& name, std::string_view bytes) {
   TriangleSoup soup;
   Text text(name, bytes);
   while (text.next_line()) {
-    const std::string word = lower(text.word());
-    if (word == "vertex") soup.vertices.push_back(text.place());
-    if (word == "endloop" && soup.vertices.size() % 3 != 0) text.fail("a facet must have three vertices");
+    std::string word = lower(text.word()), before;
+    if (word == "solid" || word == "endsolid") continue;  // and a name, whatever it holds
+    for (; !word.empty(); before = word, word = lower(text.word())) {
+      if (word == "vertex") soup.vertices.push_back(text.place());
+      const bool ends = word == "endloop" || (word == "loop" && before == "end");
+      if (ends && soup.vertices.size() % 3 != 0) text.fail("a facet must have three vertices");
+    }
   }
   if (soup.vertices.size() % 3 != 0) text.fail("the last facet is cut off");
   for (std::uint32_t v = 0; v < soup.vertices.size(); v += 3) soup.triangles.push_back({v, v + 1, v + 2});
   return soup;
 }
 
+/// Without the byte order mark that editors put first.
+std::string_view without_mark(std::string_view bytes) {
+  return bytes.starts_with("\xef\xbb\xbf") ? bytes.substr(3) : bytes;
+}
+
+/// Whether `word`, in small letters, stands in a text, in whatever letters.
+bool holds(std::string_view text, std::string_view word) {
+  return std::search(text.begin(), text.end(), word.begin(), word.end(),
+                     [](unsigned char a, char b) { return char(std::tolower(a)) == b; }) != text.end();
+}
+
+/// Text begins with "solid", in any letters, perhaps behind blanks; so do some binary files, which are as
+/// long as their count of triangles says.
 TriangleSoup read_stl(const std::string& name, std::string_view bytes) {
   constexpr std::size_t head = 84, triangle = 50, normal = 12;  // of a binary file, bytes
   std::uint32_t count = 0;
   if (bytes.size() >= head) std::memcpy(&count, bytes.data() + head - sizeof count, sizeof count);
   const std::size_t size = head + triangle * std::size_t(count);
-  if (bytes.starts_with("solid") && bytes.size() != size) {
-    if (bytes.find("endsolid") == bytes.npos) throw FileError(name + ": is cut off: it has no endsolid");
-    return read_ascii_stl(name, bytes);
+  const std::string_view text = without_mark(bytes),
+                         begin = text.substr(std::min(text.find_first_not_of(" \t\v\f\r\n"), text.size()));
+  if (lower(begin.substr(0, 5)) == "solid" && bytes.size() != size) {
+    if (!holds(text, "endsolid")) throw FileError(name + ": is cut off: it has no endsolid");
+    return read_ascii_stl(name, text);
   }
   if (bytes.size() < head) throw FileError(name + ": is cut off: it ends within its head");
   if (bytes.size() < size)  // some write more behind
@@ -322,8 +341,8 @@ TriangleSoup read_triangles(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
   if (bytes.empty()) throw FileError(name + ": is empty");
   TriangleSoup soup = kind == ".stl"   ? read_stl(name, bytes)
-                      : kind == ".obj" ? read_obj(name, bytes)
-                                       : read_ply(name, bytes);
+                      : kind == ".obj" ? read_obj(name, without_mark(bytes))
+                                       : read_ply(name, without_mark(bytes));
   for (std::size_t v = 0; v < soup.vertices.size(); ++v)
     if (const Vec3d& x = soup.vertices[v]; !std::isfinite(x.x + x.y + x.z))
       throw FileError(fmt::format("{}: vertex {} (from 0) is not at a finite place", name, v));

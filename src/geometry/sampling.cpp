@@ -225,7 +225,10 @@ void add_images(const Config& config, Setup::Walls& walls) {
   }
 }
 
-bool is_fixed(const WallBody& body) { return !body.moves(); }
+/// Whether two bodies stay as they are to each other.
+bool move_together(const WallBody& a, const WallBody& b) {
+  return !a.free.present && !b.free.present && a.motion == b.motion;
+}
 
 }  // namespace
 
@@ -277,32 +280,48 @@ std::vector<Vec3d> layers_of(const Config& config, std::size_t index) {
   }
 }
 
+/// Whether x lies beyond a periodic side of the domain, where the body has come round to what is there
+/// already.
+bool comes_round(const WallBody& body, const Vec3d& x, double reach, const DomainConfig& domain) {
+  Vec3d within = x;
+  for (int k = 0; k < 3; ++k)
+    if (domain.periodic[k]) {
+      const double period = domain.max[k] - domain.min[k];
+      within[k] -= period * std::floor((x[k] - domain.min[k]) / period);
+    }
+  return norm(within - x) > 0 && wall_distance(body, within, reach, domain) < 0;
+}
+
 }  // namespace
 
 void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::string>& warnings) {
   const double reach = config.fluid.reach();
   const auto& bodies = config.wall.bodies;
-  PointFinder earlier(0.3 * config.wall.dx);
+  std::vector<PointFinder> placed;  // by body
   for (std::size_t index = 0; index < bodies.size(); ++index) {
+    placed.emplace_back(0.3 * config.wall.dx);
     const WallBody& body = bodies[index];
     if (!body.stops_fluid()) continue;
     const double spacing = config.wall.spacing(body);
-    const std::size_t begin = walls.x.size();
     const std::vector<Vec3d> points = layers_of(config, index);
     check_thickness(config, body, points, warnings);
+    // What an earlier body holds already need not be there twice, unless one of the two may leave.
+    const auto taken = [&](const Vec3d& x) {
+      for (std::size_t other = 0; other < index; ++other) {
+        if (!bodies[other].stops_fluid() || !move_together(body, bodies[other])) continue;
+        if (placed[other].has_near(x)) return true;
+        if (wall_distance(bodies[other], x, reach, config.domain) < -1e-9 * spacing) return true;
+      }
+      return comes_round(body, x, reach, config.domain);
+    };
     for (const Vec3d& x : points) {
-      bool taken = earlier.has_near(x);
-      for (std::size_t other = 0; other < index && !taken; ++other)  // both stay where they are
-        taken = bodies[other].stops_fluid() && is_fixed(body) && is_fixed(bodies[other]) &&
-                wall_distance(bodies[other], x, reach, config.domain) < -1e-9 * spacing;
-      if (taken) continue;
+      if (taken(x)) continue;
+      placed[index].add(x);
       walls.x.push_back(x);
       walls.body.push_back(std::uint32_t(index));
       walls.outer.push_back(body.type == WallType::frozen &&
                             wall_distance(body, x, reach, config.domain) < -spacing);
     }
-    if (index + 1 < bodies.size())
-      for (std::size_t w = begin; w < walls.x.size(); ++w) earlier.add(walls.x[w]);
   }
   add_images(config, walls);
 }

@@ -80,6 +80,14 @@ std::string read_file(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
+std::string read_text(const std::filesystem::path& path) {
+  std::string text = read_file(path);
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw FileError(path.string() + ": is in UTF-16; save it as UTF-8");
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  return text;
+}
+
 std::filesystem::path part_of(const std::filesystem::path& path) { return path.string() + ".part"; }
 
 void commit_file(const std::filesystem::path& part, const std::filesystem::path& path) {

@@ -70,6 +70,14 @@ struct Frames {
   std::string store;
   FrameFile file;
   Schedule schedule;
+  std::size_t written = 0, in_xdmf = 0;  ///< frames
+
+  /// The side-car is written anew each time, so ever more rarely: its cost a frame stays the same.
+  void refresh_xdmf(bool last) {
+    if (in_xdmf == written || (!last && written - in_xdmf < std::max<std::size_t>(1, written / 16))) return;
+    file.write_xdmf();
+    in_xdmf = written;
+  }
 };
 
 struct Table {
@@ -182,8 +190,10 @@ struct RunOutput::Impl {
         dt > 0 ? time - 0.5 * dt : std::nextafter(time, std::numeric_limits<double>::infinity());
     checkpoint_schedule.written(time - dt);
     for (auto& f : frames) {
-      f.file.keep(f.schedule.resume(f.file.times(), cut));
+      f.written = f.schedule.resume(f.file.times(), cut);
+      f.file.keep(f.written);
       f.file.write_xdmf();
+      f.in_xdmf = f.written;
     }
     for (auto& t : tables) t.csv.keep(t.schedule.resume(t.csv.times(), cut));
   }
@@ -192,15 +202,18 @@ struct RunOutput::Impl {
   void emit(Simulation& simulation, double time, bool everything) {
     const auto wanted = [&](const Schedule& s) { return everything ? !s.written_at(time) : s.due(time); };
     for (auto& f : frames) {
-      if (!wanted(f.schedule)) continue;
-      const bool again = f.schedule.begun();
-      f.schedule.written(time);
-      writer.post([file = &f.file, store = simulation.snapshot(f.store), time, again] {
-        while_there(file->path(), again, [&] {
-          file->append(store, time, again);
-          file->write_xdmf();
+      if (wanted(f.schedule)) {
+        const bool again = f.schedule.begun();
+        f.schedule.written(time);
+        writer.post([&f, store = simulation.snapshot(f.store), time, again] {
+          while_there(f.file.path(), again, [&] {
+            f.file.append(store, time, again);
+            ++f.written;
+            f.refresh_xdmf(false);
+          });
         });
-      });
+      }
+      if (everything) writer.post([&f] { while_there(f.file.path(), true, [&] { f.refresh_xdmf(true); }); });
     }
     for (auto& t : tables) {
       if (!wanted(t.schedule)) continue;

@@ -51,7 +51,8 @@ void create_layout(const std::filesystem::path& path, const HostStore& store, co
   const auto integers = [](hid_t parent, const std::string& name, hsize_t columns, hsize_t chunk_rows) {
     return create_table(parent, name, H5T_STD_I64LE, columns, chunk_rows);
   };
-  const hsize_t chunk = std::clamp<std::size_t>(store.count, 1, kLargestChunk);
+  const hsize_t chunk =
+      std::clamp(store.count, kSmallChunk, kLargestChunk);  // more may come than it begins with
   const auto particles = [&](hid_t parent, const std::string& name, const HostArray& a) {
     const Handle table =
         create_table(parent, name, h5::file_type(a.type), hsize_t(a.components), chunk, deflate);
@@ -126,8 +127,16 @@ std::int64_t place(hid_t table, const HostArray& a, std::int64_t last, bool same
   return start;
 }
 
+/// First number of one row.
+std::int64_t integer_of(hid_t parent, const std::string& name, hsize_t row) {
+  const Handle table = open_dataset(parent, name);
+  const auto n = h5::extent(table);
+  std::vector<std::int64_t> values(n.size() > 1 ? n[1] : 1);
+  h5::read_rows(table, H5T_NATIVE_INT64, row, 1, values.data());
+  return values[0];
+}
 std::int64_t last_of(hid_t parent, const std::string& name, std::size_t frames) {
-  return frames == 0 ? 0 : read_integers(parent, name, frames).back();
+  return frames == 0 ? 0 : integer_of(parent, name, frames - 1);
 }
 
 /// Rows [first, first + count) of a stored array.
@@ -200,15 +209,16 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
       const Handle data = h5::open_group(root, "PointData");
       const Handle steps = h5::open_group(root, "Steps");
       const Handle offsets = h5::open_group(steps, "PointDataOffsets");
-      const FrameIndex index(root);
-      const std::size_t frames = index.frames();
-      const bool same_count = frames > 0 && index.count(frames - 1) == std::int64_t(store.count);
+      const auto frames = std::size_t(h5::read_integer(steps, "NSteps"));
+      const std::int64_t last_part = last_of(steps, "PartOffsets", frames),
+                         last_cell = last_of(steps, "CellOffsets", frames),
+                         last_count = frames > 0 ? integer_of(root, "NumberOfPoints", last_part) : -1;
+      const bool same_count = last_count == std::int64_t(store.count);
       if (h5::members(data).size() + 1 != store.arrays.size())
         throw h5::Error("the file was written with other arrays");
 
-      const std::int64_t part = same_count ? index.parts.back() : std::int64_t(index.counts.size());
-      const auto first_cell =
-          std::accumulate(index.counts.begin(), index.counts.begin() + part, std::int64_t{0});
+      const std::int64_t part = same_count || frames == 0 ? last_part : last_part + 1,
+                         first_cell = same_count || frames == 0 ? last_cell : last_cell + last_count;
       if (!same_count) append_part(root, std::int64_t(store.count));
       append_integer(steps, "PartOffsets", part);
       append_integer(steps, "NumberOfParts", 1);
@@ -216,7 +226,7 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
       append_integers(steps, "ConnectivityIdOffsets", {first_cell, 0, 0, 0}, 1);
       append_integer(
           steps, "PointOffsets",
-          place(open_dataset(root, "Points"), points, frames ? index.points.back() : 0, same_count));
+          place(open_dataset(root, "Points"), points, last_of(steps, "PointOffsets", frames), same_count));
       for (std::size_t k = 1; k < store.arrays.size(); ++k) {
         const auto& a = store.arrays[k];
         const auto last = last_of(offsets, a.name, frames);

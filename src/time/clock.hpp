@@ -42,7 +42,7 @@ class Clock {
  private:
   static std::string_view intern(const std::string& name) {
     for (std::string_view known : {"cfl", "viscous", "body", "drag", "travel", "contact", "rayleigh",
-                                   "rolling", "lubrication", "body contact", "body turn"})
+                                   "rolling", "lubrication", "grain drag", "body contact", "body turn"})
       if (known == name) return known;
     return "other";
   }

@@ -52,6 +52,20 @@ TEST_F(ParticleFile, FindsColumnsByName) {
   EXPECT_TRUE(list.place(1).ends_with("grains.csv:6"));
 }
 
+/// As spreadsheets save them.
+TEST_F(ParticleFile, ReadsAByteOrderMarkAndRefusesOtherSeparators) {
+  for (const char* text : {"\xef\xbb\xbfx,y,z\n1,2,3\n", "\xef\xbb\xbfx [m],y [m],z [m]\r\n1,2,3\r\n"}) {
+    const ParticleList list = read_particles(write(text), -1);
+    ASSERT_EQ(list.x.size(), 1u);
+    EXPECT_EQ(list.x[0], (Vec3d{1, 2, 3}));
+  }
+  EXPECT_EQ(error("x;y;z\n1;2;3\n"),
+            "grains.csv:1: has semicolons between its columns; they must be separated by commas");
+  EXPECT_EQ(error("x\ty\tz\n1\t2\t3\n"),
+            "grains.csv:1: has tabs between its columns; they must be separated by commas");
+  EXPECT_THROW(error(std::string("\xff\xfex\0,\0", 6)), FileError) << "UTF-16";
+}
+
 TEST_F(ParticleFile, TellsFluidFromGrainsAndHasSpins) {
   const auto file =
       write("type,x,y,z,wx [rad/s],wy,wz\nfluid,1,2,3,0,0,0\ngrain,4,5,6,7,8,9\nfluid,2,2,2,0,0,0\n");

@@ -32,6 +32,49 @@ TEST(MeshFile, EveryKindGivesTheSameSolid) {
   }
 }
 
+/// Text as it comes from other programs.
+TEST(MeshFile, ReadsTextInEveryDialect) {
+  const TemporaryFolder folder;
+  const TriangleSoup soup = l_prism();
+  const auto text_of = [&](const char* name) {
+    std::ifstream in(folder / name, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  write_ascii_stl(folder / "a.stl", soup);
+  write_obj(folder / "a.obj", soup);
+  write_ply(folder / "a.ply", soup);
+  const std::string stl = text_of("a.stl");
+  const auto replaced = [](std::string text, const std::string& what, const std::string& by) {
+    for (std::size_t at = 0; (at = text.find(what, at)) != text.npos; at += by.size())
+      text.replace(at, what.size(), by);
+    return text;
+  };
+  std::string capitals = stl, one_line = replaced(stl, "\n", " ");
+  for (char& c : capitals) c = char(std::toupper(c));
+  one_line = replaced(replaced(one_line, "endfacet", "endfacet\n"), "facet normal", "\nfacet normal");
+  const std::pair<const char*, std::string> texts[] = {
+      {"a.stl", stl},
+      {"a.stl", " " + stl},
+      {"a.stl", "\t\n" + stl},
+      {"a.stl", "\xef\xbb\xbf" + stl},
+      {"a.stl", replaced(stl, "\n", "\r\n")},
+      {"a.stl", capitals},
+      {"a.stl", replaced(replaced(stl, "endloop", "end loop"), "endfacet", "end facet")},
+      {"a.stl", one_line},
+      {"a.stl", "Solid vertex 1 2 3" + stl.substr(stl.find('\n'))},
+      {"a.obj", "\xef\xbb\xbf" + text_of("a.obj")},
+      {"a.ply", "\xef\xbb\xbf" + text_of("a.ply")},
+      {"a.ply", replaced(text_of("a.ply"), "\n", "\r\n")},
+  };
+  for (const auto& [name, text] : texts) {
+    SCOPED_TRACE(text.substr(0, 60));
+    std::ofstream(folder / name, std::ios::binary) << text;
+    EXPECT_NEAR(read_mesh(folder / name)->volume(), 3, kRound);
+  }
+  std::ofstream(folder / "a.stl", std::ios::binary) << replaced(stl, "endsolid", "");
+  EXPECT_THROW(read_mesh(folder / "a.stl"), FileError);
+}
+
 TEST(MeshFile, SplitsPolygons) {
   const TemporaryFolder folder;
   std::ofstream(folder / "cube.obj")

@@ -173,6 +173,57 @@ TEST(Walls, BodiesDoNotShareParticles) {
   EXPECT_EQ(count(2), 3 * 20 * 5);  // what the tank and the first box leave of 6 x 20 x 7
 }
 
+/// A tank may reach beyond a periodic side, as a box may that crosses it: none of it is there twice, nothing
+/// is missing.
+TEST(Walls, OfBodiesThatReachBeyondAPeriodAreThereOnce) {
+  Config config = empty_case({0.4, 0.2, 0.2});
+  config.domain.periodic[1] = true;
+  add_fill(config, {0, 0, 0}, {0.1, 0.2, 0.1});
+  const auto walls = [&](const WallBody& b) {
+    config.wall.bodies = {b};
+    return setup_of(config).walls.x;
+  };
+  const double lo = config.domain.min.y, hi = config.domain.max.y;
+  const auto flush = walls(tank({0, lo, 0}, {0.3, hi, 0.2}, "x-x+z-"));
+  const auto beyond = walls(tank({0, lo - 1, 0}, {0.3, hi + 1, 0.2}, "x-x+z-"));
+  EXPECT_EQ(beyond.size(), flush.size());
+  for (const Vec3d& x : beyond) EXPECT_TRUE(x.y > lo && x.y < hi) << x.y;
+  EXPECT_EQ(walls(body("box", {0.1, hi - 0.02, 0}, {0.2, hi + 0.03, 0.05})).size(), 10u * 5 * 5);
+}
+
+/// A gate that stands in the floor and will leave: the floor is whole without it, in either order.
+TEST(Walls, OfBodiesThatMoveApartAreBothWhole) {
+  Config config = empty_case({0.4, 0.2, 0.2});
+  add_fill(config, {0, 0, 0}, {0.1, 0.2, 0.1});
+  const WallBody floor = body("box", {0, 0, -0.03}, {0.4, 0.2, 0});
+  WallBody gate = body("box", {0.2, 0, -0.02}, {0.24, 0.2, 0.1});
+  const auto particles = [&](const std::vector<WallBody>& bodies, std::size_t of) {
+    config.wall.bodies = bodies;
+    const auto owners = setup_of(config).walls.body;
+    return std::count(owners.begin(), owners.end(), of);
+  };
+  const auto whole = particles({floor}, 0), alone = particles({gate}, 0);
+  EXPECT_LT(particles({floor, gate}, 1), alone) << "both stay";
+  const auto expect_whole = [&] {
+    EXPECT_EQ(particles({floor, gate}, 0), whole);
+    EXPECT_EQ(particles({floor, gate}, 1), alone);
+    EXPECT_EQ(particles({gate, floor}, 0), alone);
+    EXPECT_EQ(particles({gate, floor}, 1), whole);
+  };
+  gate.motion.kind = "velocity";
+  gate.motion.velocity = {0, 0, 1};
+  expect_whole();
+  gate.motion = {};
+  gate.free.present = true;
+  expect_whole();
+  gate.free = {};
+  gate.motion.kind = "velocity";
+  gate.motion.velocity = {1, 0, 0};
+  WallBody carried = floor;
+  carried.motion = gate.motion;
+  EXPECT_LT(particles({carried, gate}, 1), alone) << "both move as one";
+}
+
 TEST(Walls, OnlyFluidNeedsThem) {
   Config config = empty_case({0.4, 0.2, 0.2});
   config.wall.bodies = {body("tank", {0, 0, 0}, {0.4, 0.2, 0.2})};

@@ -1,5 +1,9 @@
+#include <gtest/gtest.h>
+
+#include <functional>
 #include <map>
 
+#include "tests/support/free_body.hpp"
 #include "tests/support/grain_bench.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -48,6 +52,31 @@ TEST(SolidLimits, LinearSpringAndRollingLimits) {
   for (const auto& [name, seconds] : limits(b)) least = std::min(least, seconds);
   EXPECT_EQ(s.seconds, least);
   EXPECT_EQ(limits(b)[std::string(s.limit)], least);
+}
+
+/// A run of grains alone names what binds its steps.
+TEST(SolidLimits, AreNamedByTheStepsThatTheyBind) {
+  const auto binding = [](const std::function<void(Config&)>& set, double speed = 0.01) {
+    Config c = void_case();
+    c.gravity = {0, 0, -9.81};
+    c.grain.present = true;
+    c.grain.d = c.grain.d_min = c.grain.d_max = 2.7e-3;
+    set(c);
+    bedload::Setup setup;
+    setup.grains.x = {{0, 0, 0}, {0.1, 0, 0}};
+    setup.grains.v = {{0, 0, speed}, {}};
+    setup.grains.radius = {1.35e-3, 1.35e-3};
+    auto s = started(c, setup);
+    return std::string(s->step().limit);
+  };
+  EXPECT_EQ(binding([](Config&) {}), "contact");
+  EXPECT_EQ(binding([](Config& c) { c.time.rayleigh = 1e-3; }), "rayleigh");
+  EXPECT_EQ(binding([](Config& c) {
+              c.contact.rolling = "epsd";
+              c.grain.mu_r = 1000;
+            }),
+            "rolling");
+  EXPECT_EQ(binding([](Config&) {}, 1000), "travel");
 }
 
 TEST(SolidLimits, TheSmallestGrainDecides) {

@@ -367,6 +367,12 @@ faces = ["x-", "x+", "y-", "y+", "z-"]
         mesh, _, _ = self.picture(clip=(1, 0.05)).surface(0)  # seen from -y
         self.assertGreater(mesh.bounds[2], 0.045)
 
+    def test_smooth_bodies_have_no_edges_to_draw(self):
+        ball = '[[shape]]\nname = "ball"\nkind = "sphere"\ncentre = [0.05, 0.05, 0.05]\nradius = 0.02\n'
+        body = '[[wall.body]]\nname = "ball"\nshape = "ball"\n[wall.body.free]\ndensity = 500\n'
+        (self.run_dir / "case.resolved.toml").write_text(self.CASE + ball + body)
+        self.assertGreater(np.asarray(self.picture().draw(0)).std(), 1)
+
     def test_pictures_show_fluid_and_grains(self):
         write_frames(self.run_dir / "grains.vtkhdf", [0, 0.1, 0.2], [self.block[:5] + [0, 0, 0.045]] * 3,
                      {"radius": [np.full(5, 0.01)] * 3})

@@ -10,6 +10,10 @@ namespace bedload {
 /// Text of a whole file. Throws FileError.
 std::string read_file(const std::filesystem::path& path);
 
+/// The same without the byte order mark that spreadsheets and editors put first. Throws FileError, also for
+/// UTF-16.
+std::string read_text(const std::filesystem::path& path);
+
 /// Replaces a file in one go: written beside its place, then renamed; survives a kill
 /// but is not synced, unlike commit_file. Throws FileError.
 void write_file(const std::filesystem::path& path, const std::string& text);
