@@ -39,10 +39,11 @@ struct SdpdWallPair {
   }
 };
 
-/// Momentum and spin of SDPD. theta: stress of the mixture over its density, as in WCSPH's ForcePass; noise
-/// acts on the fluid alone, acc = theta + gravity + drive + noise. Both partners of a pair feel the couple -r
-/// x F / 2, F being friction and noise, which with r x F adds up to none. kSpin: particles spin; kNoise:
-/// there is noise; kSpecies: fluids of several viscosities, the harmonic mean of which counts for a pair.
+/// Momentum and spin of SDPD. theta: stress of the mixture over its density, as in WCSPH's ForcePass, noise
+/// included: friction acts on the volume flux of fluid and grains, so its noise does. Both partners of a pair
+/// feel the couple -r x F / 2, F being friction and noise, which with r x F adds up to none. kSpin: particles
+/// spin; kNoise: there is noise; kSpecies: fluids of several viscosities, the harmonic mean of which counts
+/// for a pair.
 template <class W, bool kSpin, bool kNoise, bool kSpecies>
 struct SdpdForcePass {
   SdpdWallPair<W> wall;
@@ -113,9 +114,9 @@ struct SdpdForcePass {
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
     const Real4 m = m_state[a];
-    const Real3 stress = sum.push + (1 / m.x) * sum.friction;
+    const Real3 stress = sum.push + (1 / m.x) * (sum.friction + sum.noise);
     theta[a] = stress;
-    acc[a] = stress + gravity + drive(a, m) + (1 / mass[a]) * sum.noise;
+    acc[a] = stress + gravity + drive(a, m);
     if constexpr (kSpin) {  // from the value predicted with the last acceleration to the mean of both
       const Real3 turning = (1 / (mass[a] * inertia)) * sum.couple;
       spin[a] = sum.spin + (dt / 2) * (turning - spin_acc[a]);

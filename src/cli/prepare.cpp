@@ -80,10 +80,10 @@ std::vector<std::string> jumps_of_walls(const Config& then, const Config& now, d
       farthest = std::max(farthest, norm(to.place(x) - from.place(x)));
     const double reach = norm(now.domain.max - now.domain.min);
     if (farthest > 1e-9 * reach)
-      jumps.push_back(
-          fmt::format("wall.body \"{}\" jumps by {:.4g} m at t = {:.6g} s, since its motion counts "
-                      "from t = 0",
-                      body.name, farthest, t));
+      jumps.push_back(fmt::format(
+          "wall.body \"{}\" jumps {:.4g} m away from where it is at t = {:.6g} s, since its motion counts "
+          "from t = 0",
+          body.name, farthest, t));
   }
   return jumps;
 }

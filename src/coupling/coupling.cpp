@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kernels/coupling/buoyancy_pass.hpp"
+#include "kernels/coupling/drag_noise.hpp"
 #include "kernels/coupling/drag_pass.hpp"
 #include "kernels/coupling/limit_pass.hpp"
 #include "kernels/coupling/porosity_pass.hpp"
@@ -73,6 +74,8 @@ Coupling::Coupling(const CouplingParameters& p, const Frame& frame, const WallGe
       top_hat_(p.couple.kernel == CouplingKernel::top_hat),
       mu_(p.fluid.mu),
       drag_fraction_(p.drag_fraction),
+      kT_(p.kT),
+      seed_(p.seed),
       eps_min_(Real(p.couple.eps_min)),
       S_dry_(Real(p.couple.S_dry)),
       S_wet_(Real(p.couple.S_wet)),
@@ -141,7 +144,8 @@ WallFreeFraction Coupling::wall_free(Span<const BodyPose> pose) const {
   return {half_space_, frame_, wall_normalise_ ? walls_ : SurfaceSet{}, pose};
 }
 
-void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt) {
+void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt,
+                      std::uint64_t step) {
   const Index n = grains.size();
   volumes(grains, pose, 0);
   grains.x_before.copy(grains.x);
@@ -220,6 +224,17 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
       },
       drag_table_.on_device());
   if (two_way_) limit(fluid, grains, dt);
+  if (kT_ > 0 && dt > 0)
+    for_each(grains.owned(), DragNoisePass{{seed_, step},
+                                           kT_,
+                                           dt,
+                                           matter_.of(grains),
+                                           grains.id,
+                                           grains.radius,
+                                           grains.K,
+                                           grains.K_rot,
+                                           grains.U,
+                                           grains.omega_f});
 }
 
 void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {

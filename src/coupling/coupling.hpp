@@ -60,8 +60,10 @@ class Coupling {
                      Span<const BodyPose> still = {});
 
   /// Fills eps, wetness, U, omega_f, K and K_rot of the grains. pose: of every wall body, on the device; dt
-  /// (s): the fluid step for which they hold, which bounds K when the fluid is to take the reaction.
-  void gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt);
+  /// (s): the fluid step for which they hold, which bounds K when the fluid is to take the reaction; step:
+  /// which one, of noise.
+  void gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt,
+              std::uint64_t step = 0);
   /// Gives grains.impulse and spin_impulse, those of a step dt (s), back to the velocities of the fluid, and
   /// sets fluid.drag_kick to what they changed by and fluid.reaction; the fluid must not have changed since
   /// gather.
@@ -112,6 +114,8 @@ class Coupling {
   double dx_, h_, h_c_, range_;
   bool top_hat_;
   double mu_, drag_fraction_;
+  double kT_;           ///< J
+  std::uint64_t seed_;  ///< of noise
   Real eps_min_, S_dry_, S_wet_;
   GrainMatter matter_;
   bool two_way_, counts_grains_, torque_, angmom_, local_slip_;

@@ -11,7 +11,9 @@ CouplingParameters coupling_parameters(const Config& config) {
           .materials = config.grain.all_materials(),
           .orifices = orifices_of(config.inlets, config.wall.bodies.size(), config.fluid.dx, config.domain),
           .drag_fraction = config.time.drag,
-          .counts_grains = config.density.count_grains};
+          .counts_grains = config.density.count_grains,
+          .kT = config.fluid.sdpd() ? config.sdpd.kT * square(config.sdpd.force_scale[3]) : 0,
+          .seed = config.seed};
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -72,7 +72,7 @@ void Stepper::list_solid_stages() {
   if (coupled())
     add("interpolate", Part::coupling, &Stepper::interpolate,
         {&f.x, &f.xp, &f.v_rho, &f.m_state, &f.mass, &f.theta, &f.solid_factor, &g.x, &g.xp, &g.v, &g.omega,
-         &g.radius, &g.fluid_force},
+         &g.radius, &g.fluid_force, &g.id},
         drag + Fields{&g.eps, &g.wetness, &g.x_before});
 
   Fields moved = all_of(bodies_.stores()), by = lasting(moved);

@@ -85,7 +85,7 @@ std::vector<Quantity> Stepper::time_spent() const {
 
 void Stepper::renew_lists(Step& now) { refresh_if_needed(now.dt); }
 
-void Stepper::interpolate(Step& now) { coupling_->gather(fluid_, grains_, poses_now(), now.dt); }
+void Stepper::interpolate(Step& now) { coupling_->gather(fluid_, grains_, poses_now(), now.dt, clock_.step); }
 
 /// Grains and bodies, in substeps.
 void Stepper::move_solids(Step& now) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "tests/support/run.hpp"
 #include "tests/support/tolerance.hpp"
@@ -255,6 +256,65 @@ TEST(SlowSdpdFlow, CouetteFlowBetweenWalls) {
     EXPECT_NEAR(reading(s->measure(probe), "force_by_fluid_x"), expected, 0.05 * std::abs(expected))
         << plate.name;
   }
+}
+
+/// A slurry of 10 %: a grain in place of every fifth particle. Mean of m v^2 / 3 kT of fluid and grains.
+struct Temperatures {
+  double fluid = 0, grains = 0, spins = 0;
+};
+Temperatures slurry(const std::function<void(Config&)>& set) {
+  Config c = bath(7, "sdpd_a", 1);
+  c.density.count_grains = true;
+  c.grain.present = true;
+  c.grain.d = c.grain.d_min = c.grain.d_max = 1;
+  c.grain.rho = 2.7, c.grain.E = 1e4, c.grain.e = 1, c.grain.mu = 0;
+  c.couple.hc = 2.5;
+  c.couple.torque = true;
+  set(c);
+  std::vector<std::string> warnings;
+  const Setup full = build_setup(c, warnings);
+  Setup setup = full;
+  setup.fluid = {};
+  for (std::size_t a = 0; a < full.fluid.x.size(); ++a) {
+    if (a % 5 == 0) {
+      setup.grains.x.push_back(full.fluid.x[a]);
+      setup.grains.v.push_back({});
+      setup.grains.radius.push_back(0.5);
+    } else {
+      setup.fluid.x.push_back(full.fluid.x[a]);
+      setup.fluid.v.push_back({});
+      setup.fluid.mass.push_back(full.fluid.mass[a]);
+    }
+  }
+  auto s = started(c, setup);
+  for (int k = 0; k < 1000; ++k) s->step();
+  Temperatures mean;
+  const int samples = 400;
+  for (int k = 0; k < samples; ++k) {
+    for (int step = 0; step < 15; ++step) s->step();
+    const auto d = s->diagnostics();
+    const double fluid = reading(d, "fluid_count"), grains = reading(d, "grain_count");
+    mean.fluid += reading(d, "fluid_kinetic_energy") / fluid / samples / 1.5;
+    mean.grains += reading(d, "grain_kinetic_energy") / grains / samples / 1.5;
+    mean.spins += reading(d, "grain_rotational_energy") / grains / samples / 1.5;
+  }
+  return mean;
+}
+
+TEST(SlowSdpdSlurry, HasOneTemperature) {
+  const auto expect_warm = [](const std::function<void(Config&)>& set) {
+    const Temperatures t = slurry(set);
+    EXPECT_NEAR(t.fluid, 1, 0.03);
+    EXPECT_NEAR(t.grains, 1, 0.06);
+    EXPECT_NEAR(t.spins, 1, 0.06);
+  };
+  expect_warm([](Config&) {});
+  expect_warm([](Config& c) { c.sdpd.noise = NoiseForm::tensor; });
+  expect_warm([](Config& c) { c.density.count_grains = false; });
+  expect_warm([](Config& c) {
+    c.density.count_grains = false;
+    c.couple.mode = "one_way";
+  });
 }
 
 }  // namespace

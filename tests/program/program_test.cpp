@@ -516,7 +516,7 @@ max = [0.0, 0.05, 0.05]
   ASSERT_EQ(bedload("run piston.toml" + run).code, 0);
   const auto jumps = [&](const std::string& motion, const std::string& metres) {
     write("other.toml", piston + motion);
-    const std::string text = "wall.body \"piston\" jumps by " + metres;
+    const std::string text = "wall.body \"piston\" jumps " + metres;
     const Outcome refused = bedload("run other.toml" + again);
     EXPECT_EQ(refused.code, 2);
     EXPECT_NE(refused.err.find(text), refused.err.npos) << refused.err;
@@ -528,7 +528,7 @@ max = [0.0, 0.05, 0.05]
   write("other.toml", piston + "kind = \"velocity\"\nvelocity = [0.02, 0, 0]\n");
   const Outcome allowed = bedload("run other.toml" + again + "--allow-changes");
   EXPECT_EQ(allowed.code, 0) << allowed.err;
-  EXPECT_NE(allowed.err.find("jumps by 0.004"), allowed.err.npos) << allowed.err;
+  EXPECT_NE(allowed.err.find("jumps 0.004"), allowed.err.npos) << allowed.err;
 }
 
 TEST_F(Program, CheckTellsTheShearThatAnArrangementOfParticlesBears) {

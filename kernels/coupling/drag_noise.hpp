@@ -1,0 +1,38 @@
+#pragma once
+#include "kernels/contact/grain_mass.hpp"
+#include "kernels/sdpd/noise.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Noise that belongs to drag in a fluid at temperature: drag takes a grain's velocity to that of the fluid,
+/// U, at the rate k = K / m for a step dt, through which the noise moves U by three normal deviates times
+///   (kT / m coth(k dt / 2))^(1/2),
+/// so that m v^2 is kT on average along each axis whatever k dt is (Ornstein-Uhlenbeck over a step). The
+/// fluid gets the opposite of the drag impulse, noise included, by the weights of drag: the noise that
+/// belongs to its own friction. Likewise for the spin.
+struct DragNoisePass {
+  NoiseKey key;
+  double kT, dt;  ///< J, s
+  MassPerR3 mass_per_r3;
+  Span<const Id> id;
+  Span<const Real> radius, K, K_rot;
+  Span<Real3> U, omega_f;
+
+  BL_HD void operator()(Index j) const {
+    const double R = radius[j], m = mass_per_r3(j) * R * R * R;
+    if (K[j] > 0) U[j] += spread(m, K[j]) * deviates(id[j], 3);
+    if (K_rot[j] > 0) omega_f[j] += spread(0.4 * m * R * R, K_rot[j]) * deviates(id[j], 4);
+  }
+
+ private:
+  BL_HD Real spread(double inertia, Real friction) const {
+    return Real(std::sqrt(kT / inertia / std::tanh(0.5 * double(friction) * dt / inertia)));
+  }
+  BL_HD Real3 deviates(Id grain, std::uint32_t draw) const {
+    const Words w = key.words(grain, 0, draw);  // pairs of fluid use the draws 0 to 2
+    const Normals xy = normals(w.x, w.y), z = normals(w.z, w.w);
+    return {xy.a, xy.b, z.a};
+  }
+};
+
+}  // namespace bedload::inline BL_VARIANT
