@@ -1,5 +1,6 @@
 #pragma once
 #include "kernels/coupling/interpolation_pass.hpp"
+#include "kernels/coupling/own_wake.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -59,6 +60,8 @@ struct DragPass {
   Real mu;      ///< Pa s
   bool torque;  ///< whether the fluid turns grains
   bool couple;  ///< whether the reaction has a couple
+  bool shares;  ///< whether fluid gives way to grains: else its velocity is the flux
+  OwnWake own;
   Span<const Real> radius, eps, bed_eps, wetness;
   Span<const Real3> v, omega;
   GrainSurroundings surroundings;
@@ -114,9 +117,16 @@ struct DragPass {
   }
   /// Beside an orifice the law sees the bed as it is, at the flux that there is.
   BL_HD DragLine line_of(Index j, Real slip) const {
-    const Real bed = bed_eps[j], ratio = eps[j] / bed;
+    const Real d = 2 * radius[j], rho = surroundings.rho[j];
+    const Real bed = own.porosity(bed_eps[j], 4 * kPi / 3 * cube(radius[j]));
+    const Real ratio = (shares ? eps[j] : Real(1)) / bed;
+    const auto by_law = [&](Real w) { return ratio * law.K(bed, d, rho, mu, ratio * w); };
     const auto coefficient = [&](Real w) {
-      return ratio * law.K(bed, 2 * radius[j], surroundings.rho[j], mu, ratio * w);
+      Real K = by_law(w);
+      if (!(own.mobility > 0)) return K;
+      const Real undisturbed = w / (1 - own.fraction(K, w, bed, rho, mu));
+      K = by_law(undisturbed);
+      return K / (1 - own.fraction(K, undisturbed, bed, rho, mu));
     };
     if constexpr (Local)
       return drag_line(coefficient, slip, surroundings.fast_slip[j]);

@@ -28,12 +28,13 @@ struct RecordPass {
   Span<const Real> solid_factor;
   Span<const Real3> theta;
   Span<const Real4> m_state;
+  Span<const Real> eps;
   FluidRecords records;
 
   BL_HD void operator()(Index a) const {
     const Real4 m = m_state[a];
     records.push[a] = push_record(solid_factor[a], theta[a], m);
-    records.solids[a] = {m.w, m.z, counted(coordinates(frame, x[a])), 0};
+    records.solids[a] = {eps[a], m.z, counted(coordinates(frame, x[a])), 0};
   }
 };
 

@@ -43,6 +43,7 @@ struct GrainVolumePass {
 template <class W>
 struct PorosityPass {
   W w;
+  bool shares;  ///< whether fluid gives way to grains; else they are but counted
   Real floor;
   OrificeWeight away_from_orifices;
   Frame frame;
@@ -76,8 +77,9 @@ struct PorosityPass {
       porosity = floor;
       factor = (1 - floor) / sum.solid;
     }
-    const Real4 v = v_rho[a];
     eps[a] = porosity;
+    if (!shares) return;
+    const Real4 v = v_rho[a];
     solid_factor[a] = factor;
     flux[a] = {porosity * v.xyz() + factor * sum.q, v.w};
     m_state[a].x = mass[a] / porosity;

@@ -96,7 +96,7 @@ struct StatePass {
   Span<const FluidPosition> x;
   Span<const Real3> acc, reaction;
   Span<Real> s;
-  Span<const Real> mass, eps;
+  Span<const Real> mass, eps;        ///< eps empty unless fluid gives way to grains
   Span<Real4> v_rho, flux, m_state;  ///< flux empty without grains and shear
   Span<Real> p_rho2;
   Span<PairPosition> xp;
@@ -109,15 +109,16 @@ struct StatePass {
     s[a] = strain;
     const Real3 v = v_rho[a].xyz() + gain;
     const Vec3d at = coordinates(frame, x[a]);
+    const Real porosity = eps ? eps[a] : Real(1);
     v_rho[a] = {v, rho};
     if (shear.acts())
       flux[a] = {shear.peculiar(v, at.z), rho};
     else if (flux)
-      flux[a] = {flux[a].xyz() + eps[a] * gain, rho};
+      flux[a] = {flux[a].xyz() + porosity * gain, rho};
     Real pressure = eos.pressure(strain);
     if (compression) pressure += damping * compression[a];
-    const Real M = mass[a] / eps[a], p = pressure / square(rho);
-    m_state[a] = {M, p, rho, eps[a]};
+    const Real M = mass[a] / porosity, p = pressure / square(rho);
+    m_state[a] = {M, p, rho, porosity};
     p_rho2[a] = p;
     xp[a] = pair_position(frame, shear.lattice(at), M);
   }

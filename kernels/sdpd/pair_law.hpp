@@ -7,6 +7,7 @@ namespace bedload::inline BL_VARIANT {
 /// the velocity along it.
 struct FrictionCoefficients {
   double across = 0, along = 0;
+  FrictionCoefficients over(double sum) const { return {across / sum, along / sum}; }
 };
 
 /// Friction and noise between two volumes of fluid [espanol03], [mueller15], with any masses: the force that

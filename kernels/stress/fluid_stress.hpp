@@ -47,7 +47,8 @@ struct StressPass {
                        const Vec4<N>& visc) const {
     const auto F = whole.lengths.F(whole.w, sum.of.own, root(r2));
     sum.pressure.add(whole.wall.pressure(sum.of.m, mw, r, F), r);
-    if (whole.wall.viscosity.acts()) sum.friction.add(whole.wall.friction(sum.of.v, vw, visc, r, r2, F), r);
+    if (whole.wall.viscosity.acts())
+      sum.friction.add(sum.of.viscosity * whole.wall.friction(sum.of.v, vw, visc, r, r2, F), r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.pressure.add(other.pressure);

@@ -74,6 +74,8 @@ class Checks {
   /// Overlap at the foot of the bed by its own weight.
   void softness() const;
   void lubrication() const;
+  void suspension_viscosity() const;
+  void undisturbed() const;
   void drag_table() const;
 
   // checks_bodies.cpp

@@ -132,6 +132,8 @@ void Checks::coupling() const {
   if (c.couple.drag == DragLaw::table) drag_table();
   if (c.couple.S_wet <= c.couple.S_dry)
     fail("couple.S_wet", c.couple.S_wet, fmt::format("must be > couple.S_dry = {}", c.couple.S_dry));
+  if (c.couple.suspension != SuspensionLaw::none) suspension_viscosity();
+  if (c.couple.undisturbed) undisturbed();
   if (!coupled()) return;
   if (reach < 2 * d * (1 - 1e-9))
     fail("couple.hc", c.couple.hc,
@@ -142,6 +144,28 @@ void Checks::coupling() const {
         "couple.hc: the coupling reaches {:.3g} diameters of the largest grain, which feels its own wake "
         "below 4",
         reach / d);
+}
+
+void Checks::suspension_viscosity() const {
+  const bool thick =
+      c.fluid.sdpd() || c.visc.model == ViscosityModel::morris || c.visc.model == ViscosityModel::monaghan;
+  for (const auto& [there, what] :
+       {std::pair{!coupled() || c.couple.mode != CouplingMode::two_way, "without couple.mode = \"two_way\""},
+        {!thick, "with visc.model = \"signal\" or \"none\""},
+        {c.lubrication.acts(), "with lubrication.forces, of which it is the mean"},
+        {c.time.integrator == TimeIntegrator::ab3, "with time.integrator = \"ab3\""},
+        {c.fluid.variable_h, "with fluid.variable_h"}})
+    if (there)
+      fail("couple.suspension_viscosity", quoted(c.couple.suspension.name()),
+           fmt::format("must be \"none\" {}", what));
+}
+
+void Checks::undisturbed() const {
+  for (const auto& [there, what] :
+       {std::pair{coupled() && c.couple.mode == CouplingMode::two_way, "without couple.mode = \"two_way\""},
+        {!c.domain.two_d, "with domain.two_d"},
+        {c.fluid.mu > 0, "with fluid.mu = 0"}})
+    if (!there) fail("couple.undisturbed", "true", fmt::format("must be false {}", what));
 }
 
 void Checks::drag_table() const {

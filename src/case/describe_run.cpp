@@ -150,6 +150,10 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
     {.meaning =
          "how fast fluid among grains whose particles overfill their volume grows denser, in c/h; 0 off",
      .range = within(0, 1)});
+  p("couple.undisturbed", &c.undisturbed,
+    {.meaning =
+         "a grain's own wake and volume are taken off the flow and porosity that its drag goes by; off, "
+         "lone grains are too fast by up to 0.54 d / h_c"});
   p("couple.S_dry", &c.S_dry,
     {.meaning = "a grain is dry where fluid fills less than this of the kernel that walls leave free",
      .range = above_to(0, 0.9)});
@@ -158,6 +162,12 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
   p("couple.torque", &c.torque, {.meaning = "fluid torque on grains"});
   p("couple.angmom", &c.angmom, {.meaning = "reaction couple: what is exchanged keeps angular momentum"});
   p("couple.slip", &c.slip, {.meaning = "what slip drag follows", .family = "models"});
+  p("couple.suspension_viscosity", &c.suspension,
+    {.meaning = "by how much grains thicken the fluid around them, over fluid.mu", .family = "models"});
+  p("couple.phi_max", &c.phi_max,
+    {.meaning = "volume fraction of grains at which couple.suspension_viscosity is infinite; it counts up to "
+                "0.95 of that",
+     .range = within(0.4, 0.8)});
   p("drag.law", &c.drag, {.meaning = "drag on a grain", .family = "laws"});
   if (c.drag == DragLaw::table || p.everything()) {
     const auto p_table = [&](std::string_view key, std::vector<double>& list, Interval range,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bedload/case/contact_laws.hpp"
 #include "bedload/case/limits.hpp"
 #include "bedload/case/particle_order.hpp"
 #include "bedload/core/error.hpp"
@@ -119,6 +120,36 @@ std::string shifting_text(const Config& c) {
   return order.shifts ? "" : "shifting   none: " + order.no_shifting + "\n";
 }
 
+/// What defaults do that not every case may want.
+std::string defaults_text(const Config& c) {
+  std::string out;
+  const auto say = [&](const char* about, const std::string& what) {
+    out += fmt::format("{:<10} {}\n", about, what);
+  };
+  const bool grains = c.grain.present && c.fluid.present && c.couple.mode != CouplingMode::off;
+  if (c.fluid.present && !c.fluid.sdpd() && c.density.cavitation_limit < 1)
+    say("tension",
+        fmt::format("fluid cavitates below {:.3g} Pa (density.cavitation_limit; diagnostics.csv counts "
+                    "where); until then it hangs under lids and roofs",
+                    c.eos.background - c.density.cavitation_limit * c.fluid.rho0 * c.fluid.c * c.fluid.c));
+  if (c.fluid.present && !c.fluid.sdpd() && c.fluid.mu > 0 && c.visc.model == ViscosityModel::morris &&
+      norm(c.gravity) > 0)
+    say("waves",
+        "visc.model = \"morris\" damps waves at a free surface half as fast as fluid.mu should; "
+        "\"monaghan\" is right there");
+  if (grains && c.couple.mode == CouplingMode::two_way && !c.couple.undisturbed && !c.domain.two_d)
+    say("wake",
+        fmt::format("the fluid that a lone grain feels moves along with it by up to {:.2g} % of its speed; "
+                    "couple.undisturbed takes that off",
+                    100 * 0.537 * c.grain.d_max / c.couple.hc));
+  if (c.grain.present && takes_moduli(c.contact.normal) && c.grain.E < 1e9)
+    say("contacts",
+        fmt::format("grain.E = {:.3g} Pa is softer than stone, glass or steel: impacts last longer, and "
+                    "spins after oblique ones are some 8 % off",
+                    c.grain.E));
+  return out;
+}
+
 int check_case(const Options& options) {
   Prepared p = prepare(options);
   const Config& c = p.config;
@@ -148,7 +179,7 @@ int check_case(const Options& options) {
     std::vector<StepLimit> substeps = grain_limits(c);
     for (const StepLimit& limit : simulation.body_limits()) substeps.push_back(limit);
     fmt::print("{}", viscosity_text(c, simulation.numerical_viscosity()));
-    fmt::print("{}{}", arrangement_text(c), shifting_text(c));
+    fmt::print("{}{}{}", arrangement_text(c), shifting_text(c), defaults_text(c));
     fmt::print("{}{}", limits_text("step", steps), limits_text("substep", substeps));
     check_fixed_steps(p, simulation);
 

@@ -8,6 +8,7 @@
 #include "kernels/coupling/drag_pass.hpp"
 #include "kernels/coupling/limit_pass.hpp"
 #include "kernels/coupling/porosity_pass.hpp"
+#include "kernels/coupling/suspension_viscosity.hpp"
 #include "kernels/coupling/wetness_pass.hpp"
 #include "kernels/drag/registry.hpp"
 #include "kernels/smoothing/registry.hpp"
@@ -73,6 +74,8 @@ Coupling::Coupling(const CouplingParameters& p, const Frame& frame, const WallGe
       range_(kernel_kappa(kernel_) * h_c_),
       top_hat_(p.couple.kernel == CouplingKernel::top_hat),
       mu_(p.fluid.mu),
+      suspension_(p.couple.suspension),
+      phi_max_(p.couple.phi_max),
       drag_fraction_(p.drag_fraction),
       kT_(p.kT),
       seed_(p.seed),
@@ -87,7 +90,10 @@ Coupling::Coupling(const CouplingParameters& p, const Frame& frame, const WallGe
       local_slip_(p.couple.slip == DragSlip::local),
       walls_(walls.view()),
       wall_normalise_(p.couple.wall_normalise) {
-  with_coupling_kernel([&](auto w) { half_space_ = HalfSpaceFraction::of(w); });
+  with_coupling_kernel([&](auto w) {
+    half_space_ = HalfSpaceFraction::of(w);
+    if (!two_way_ || p.couple.undisturbed) own_ = OwnWake::of(w, h_c_, mu_, two_way_);
+  });
   orifices_.assign(p.orifices);
 }
 
@@ -176,7 +182,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   solids_.resize(fluid.size());
   const FluidRecords records{push_, solids_};
   for_each(fluid.owned(), RecordPass{frame_, orifice_weight(), fluid.x, fluid.solid_factor, fluid.theta,
-                                     fluid.m_state, records});
+                                     fluid.m_state, fluid.eps, records});
   const GrainSurroundings around = surroundings();
   with_coupling_kernel([&](auto w) {
     with_flag(moments(), [&](auto with_moments) {
@@ -207,6 +213,8 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
                                                                   .mu = Real(mu_),
                                                                   .torque = torque_,
                                                                   .couple = angmom_,
+                                                                  .shares = two_way_,
+                                                                  .own = own_,
                                                                   .radius = grains.radius,
                                                                   .eps = grains.eps,
                                                                   .bed_eps = bed_eps_,
@@ -308,10 +316,13 @@ void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPo
   pack(grains);
   volumes(grains, pose, dt);
   with_coupling_kernel([&](auto w) {
-    grains_of_fluid_.run(PorosityPass<decltype(w)>{w, eps_min_, orifice_weight(), frame_, fluid.x, volume_,
-                                                   fluid.v_rho, fluid.mass, fluid.eps, fluid.solid_factor,
-                                                   fluid.flux, fluid.m_state});
+    grains_of_fluid_.run(PorosityPass<decltype(w)>{w, two_way_, eps_min_, orifice_weight(), frame_, fluid.x,
+                                                   volume_, fluid.v_rho, fluid.mass, fluid.eps,
+                                                   fluid.solid_factor, fluid.flux, fluid.m_state});
   });
+  if (suspension_ != SuspensionLaw::none)
+    for_each(fluid.owned(),
+             ThickenPass{SuspensionViscosity::of(suspension_, phi_max_), fluid.eps, fluid.viscosity});
   if (!counts_grains_) return;
   with_kernel(kernel_, h_, [&](auto w) {
     grains_of_fluid_.run_within(kernel_kappa(kernel_) * h_,
@@ -319,12 +330,7 @@ void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPo
   });
 }
 
-void Coupling::push(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double kick,
-                    bool held) {
-  if (!two_way_) {
-    pack(grains);
-    volumes(grains, pose, 0);
-  }
+void Coupling::push(const FluidStore& fluid, GrainStore& grains, double kick, bool held) {
   push_.resize(fluid.size());
   buoyancy_.resize(grains.size());
   for_each(fluid.owned(), PushPass{fluid.solid_factor, fluid.theta, fluid.m_state, push_});

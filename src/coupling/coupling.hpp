@@ -68,13 +68,13 @@ class Coupling {
   /// sets fluid.drag_kick to what they changed by and fluid.reaction; the fluid must not have changed since
   /// gather.
   void react(FluidStore& fluid, const GrainStore& grains, double dt);
-  /// Sets eps, flux, the mass in m_state and, where it counts, grains_around of the fluid for the present
-  /// positions; pose as in gather. dt
-  /// (s): the step in which the grains came here since gather, 0 where they have not moved.
+  /// Sets eps, flux, the mass in m_state and, where they count, viscosity and grains_around of the fluid for
+  /// the present positions; pose as in gather. dt (s): the step in which the grains came here since gather, 0
+  /// where they have not moved.
   void porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt);
   /// Sets fluid_force of the grains from the fluid's theta, and adds `kick` (s) of what it changed by to
-  /// their velocities, unless they are held. After porosity, or for one-way coupling in its place.
-  void push(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double kick, bool held);
+  /// their velocities, unless they are held. After porosity.
+  void push(const FluidStore& fluid, GrainStore& grains, double kick, bool held);
 
   /// With what viscosity (Pa s) drag by each slip resists shear of slow fluid in a bed of that porosity and
   /// grain diameter (m): half of the dissipation beta |s . grad u|^2 over the kernel of h_c. Zero with the
@@ -113,7 +113,10 @@ class Coupling {
   TableOfDrag drag_table_;
   double dx_, h_, h_c_, range_;
   bool top_hat_;
-  double mu_, drag_fraction_;
+  double mu_;
+  Chosen<SuspensionLaw> suspension_;
+  double phi_max_;
+  double drag_fraction_;
   double kT_;           ///< J
   std::uint64_t seed_;  ///< of noise
   Real eps_min_, S_dry_, S_wet_;
@@ -127,6 +130,7 @@ class Coupling {
   SurfaceSet walls_;  ///< that cut the grains' kernels off from fluid
   bool wall_normalise_;
   HalfSpaceFraction half_space_;
+  OwnWake own_;
   Buffer<std::uint8_t> beside_walls_;  ///< of each grain; empty where walls may move
   Buffer<Orifice> orifices_;
 

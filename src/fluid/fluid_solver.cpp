@@ -19,7 +19,7 @@ struct CorrectSweep {
   Frame frame;
   Real kick;  ///< s
   Span<const Real3> acc_old, acc;
-  Span<const Real> eps, s;
+  Span<const Real> eps, viscosity, s;  ///< the first two empty where they are 1
   Span<const Real3> drift;
   Span<const FluidPosition> x, x_list;
   Span<const Real> half_skin;
@@ -50,6 +50,7 @@ struct CorrectSweep {
     const double left = half_skin[a] - norm(moved) - spread / 2;
     out.lasts = left < 0 ? 0 : left / max_of(speed * (1 + strained), 1e-30);
     if (eps) out.eps_min = eps[a];
+    if (viscosity) out.thickest = viscosity[a];
     if (h) out.h_min = h[a], out.growth = h[a] / h_list[a];
     const bool good = out.v2 < 1e30 && out.acc2 < 1e30 && s[a] >= Real(-0.5) && s[a] <= Real(1);
     out.bad = good ? kNone : a;
@@ -60,6 +61,7 @@ struct CorrectSweep {
     into.acc2 = max_of(into.acc2, v.acc2);
     into.lasts = min_of(into.lasts, v.lasts);
     into.eps_min = min_of(into.eps_min, v.eps_min);
+    into.thickest = max_of(into.thickest, v.thickest);
     into.h_min = min_of(into.h_min, v.h_min);
     into.growth = max_of(into.growth, v.growth);
     into.bad = min_of(into.bad, v.bad);
@@ -87,7 +89,8 @@ FluidSolver::FluidSolver(const FluidParameters& p, const Frame& frame, const Wal
   orifices_.assign(p.orifices);
   layers_.assign(p.layers);
   if (!(p.density.count_grains && p.mixed)) fluid.grains_around.leave_out();
-  if (!p.several) fluid.species.leave_out(), fluid.viscosity.leave_out();
+  if (!p.several) fluid.species.leave_out();
+  if (!p.viscosity_varies()) fluid.viscosity.leave_out();
   fluid.drift.begin_at_zero();
   if (!drifts()) fluid.drift.leave_out();
   fluid.exposure.begin_at_zero();
@@ -127,7 +130,7 @@ double FluidSolver::friction_limit(const FluidExtremes& now) const {
   if (parameters_.visc.model == ViscosityModel::none || parameters_.fluid.mu == 0)
     return std::numeric_limits<double>::infinity();
   return parameters_.time.visc * square(half_range(now)) * now.eps_min * parameters_.fluid.rho0 /
-         parameters_.fluid.mu;
+         (parameters_.fluid.mu * now.thickest);
 }
 
 double FluidSolver::repulsion_cap(double dt) const {
@@ -197,7 +200,7 @@ StatePass FluidSolver::state_pass(FluidStore& fluid, const DensityHistory& histo
           coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
           fluid.s,
           fluid.mass,
-          fluid.eps,
+          parameters_.mixed ? Span<const Real>(fluid.eps) : Span<const Real>(),
           fluid.v_rho,
           parameters_.mixed ? Span<Real4>(fluid.flux) : peculiar(fluid),
           fluid.m_state,
@@ -260,6 +263,7 @@ void FluidSolver::survey(FluidStore& fluid, double kick) {
                            .acc_old = fluid.acc_next,
                            .acc = fluid.acc,
                            .eps = parameters_.mixed ? Span<const Real>(fluid.eps) : none,
+                           .viscosity = parameters_.thickens ? Span<const Real>(fluid.viscosity) : none,
                            .s = fluid.s,
                            .drift = drift_of(fluid),
                            .x = fluid.x,

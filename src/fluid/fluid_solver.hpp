@@ -30,6 +30,7 @@ struct FluidExtremes {
   double v2 = 0, acc2 = 0;                                 ///< (m/s)2, (m/s2)2
   double lasts = std::numeric_limits<double>::infinity();  ///< for how long the lists hold, at least, s
   double eps_min = 1;
+  double thickest = 1;  ///< viscosity over fluid.mu that grains bring about, the largest
   double h_min = std::numeric_limits<double>::infinity();  ///< smallest smoothing length, m
   double growth = 1;  ///< largest factor by which one has grown since the lists were built
   Index bad = kNone;  ///< lowest place of a particle with NaN or a density out of range

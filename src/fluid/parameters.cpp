@@ -65,6 +65,7 @@ FluidParameters fluid_parameters(const Config& config) {
                     .skin = config.skin_fluid * config.fluid.dx,
                     .seed = config.seed,
                     .mixed = config.grain.present && config.couple.mode == CouplingMode::two_way};
+  p.thickens = p.mixed && config.couple.suspension != SuspensionLaw::none;
   if (p.mixed) p.spreading = config.couple.spreading;
   add_walls(config, p);
   return p;

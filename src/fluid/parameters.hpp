@@ -19,8 +19,12 @@ struct Config;
 namespace bedload::inline BL_VARIANT {
 
 struct FluidParameters {
+  /// Whether each particle has a viscosity of its own.
+  bool viscosity_varies() const { return several || thickens; }
+
   FluidProperties fluid;
-  bool several = false;  ///< species, which differ in viscosity
+  bool several = false;   ///< species, which differ in viscosity
+  bool thickens = false;  ///< grains raise the viscosity of the fluid around them
   DomainConfig domain;
   EosConfig eos;
   PressureConfig pressure;

@@ -12,9 +12,9 @@ namespace bedload::inline BL_VARIANT {
 namespace {
 
 /// Sums over a lattice of spacing dx around one of its points: volume times W, itself included; volume times
-/// F.
+/// F; a third of volume times F r2, which is 1 of fluid without grain.
 struct LatticeSums {
-  double W = 0, F = 0;  ///< -, 1/m2
+  double W = 0, F = 0, Fr2 = 0;  ///< -, 1/m2, -
   template <class Kernel>
   LatticeSums(const Kernel& w, double dx, double range) {
     const int n = int(range / dx) + 1;
@@ -23,7 +23,10 @@ struct LatticeSums {
         for (int k = -n; k <= n; ++k) {
           const double r = dx * std::sqrt(double(i * i + j * j + k * k));
           W += double(w.W(Real(r))) * dx * dx * dx;
-          if (r > 0) F += double(w.F(Real(r))) * dx * dx * dx;
+          if (r == 0) continue;
+          const double VF = double(w.F(Real(r))) * dx * dx * dx;
+          F += VF;
+          Fr2 += VF * r * r / 3;
         }
   }
 };
@@ -44,18 +47,20 @@ class SdpdSolver final : public FluidSolver {
              FluidStore& fluid, const W& w)
       : FluidSolver(without_safety_terms(parameters), frame, walls, fluid, W::kappa),
         w_(w),
-        friction_(Model::coefficients(parameters.fluid.mu, bulk_viscosity(parameters.fluid))),
         lattice_(w, parameters.fluid.dx, range()),
+        friction_(
+            Model::coefficients(parameters.fluid.mu, bulk_viscosity(parameters.fluid)).over(lattice_.Fr2)),
         label_(fluid, "spin_label", "rad/s, -", Lifetime::derived) {
     if (Model::spins) spin_ = std::make_unique<Spin>(fluid, parameters.sdpd.kI * square(parameters.fluid.dx));
   }
 
   /// The shortest time in which friction stops a particle or its spin, times time.friction.
-  double friction_limit(const FluidExtremes&) const override {
+  double friction_limit(const FluidExtremes& now) const override {
     const double rho = parameters_.fluid.rho0;
     double rate = std::max(friction_.across, friction_.along) * lattice_.F / rho;
     if (Model::spins) rate = std::max(rate, friction_.across / (rho * spin_->inertia));
-    return rate > 0 ? parameters_.time.friction / rate : std::numeric_limits<double>::infinity();
+    return rate > 0 ? parameters_.time.friction / (rate * now.thickest)
+                    : std::numeric_limits<double>::infinity();
   }
   Spin* spin() override { return spin_.get(); }
   std::vector<const FieldBase*> fields_of_forces() const override {
@@ -75,7 +80,7 @@ class SdpdSolver final : public FluidSolver {
     wall_label_.resize(walls.size());
     for_each(walls.owned(), LabelWalls{Model::spins, walls.id, walls.body, pose, wall_label_});
     const bool noisy = parameters_.sdpd.kT > 0 && dt > 0;
-    if (!parameters_.several)
+    if (!parameters_.viscosity_varies())
       noisy ? momentum<true, false>(fluid, walls, now, dt) : momentum<false, false>(fluid, walls, now, dt);
     else
       noisy ? momentum<true, true>(fluid, walls, now, dt) : momentum<false, true>(fluid, walls, now, dt);
@@ -96,7 +101,12 @@ class SdpdSolver final : public FluidSolver {
   void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt,
                FluidMoments& out) override {
     const bool noisy = parameters_.sdpd.kT > 0 && dt > 0;
-    noisy ? stress<true>(fluid, walls, now, dt, out) : stress<false>(fluid, walls, now, dt, out);
+    if (!parameters_.viscosity_varies())
+      noisy ? stress<true, false>(fluid, walls, now, dt, out)
+            : stress<false, false>(fluid, walls, now, dt, out);
+    else
+      noisy ? stress<true, true>(fluid, walls, now, dt, out)
+            : stress<false, true>(fluid, walls, now, dt, out);
   }
 
  private:
@@ -161,12 +171,11 @@ class SdpdSolver final : public FluidSolver {
   void momentum(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt) {
     run_with_walls(force_pass<kNoise, kSpecies>(fluid, walls, now, dt));
   }
-  /// Of one fluid: stress of several is not asked for.
-  template <bool kNoise>
+  template <bool kNoise, bool kSpecies>
   void stress(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt, FluidMoments& out) {
     if (shear_.acts()) pack(fluid);  // velocities as they are now
-    run_with_walls(SdpdStressPass<Force<kNoise, false>, kNoise>{
-        force_pass<kNoise, false>(fluid, walls, now, dt), out.parts(fluid.size(), kNoise)});
+    run_with_walls(SdpdStressPass<Force<kNoise, kSpecies>, kNoise>{
+        force_pass<kNoise, kSpecies>(fluid, walls, now, dt), out.parts(fluid.size(), kNoise)});
   }
   template <class Force>
   void forces_on_walls(const FluidStore& fluid, const WallStore& walls, const Moment& now, double corrected,
@@ -198,8 +207,8 @@ class SdpdSolver final : public FluidSolver {
   }
 
   W w_;
-  FrictionCoefficients friction_;
   LatticeSums lattice_;
+  FrictionCoefficients friction_;
   Field<Real4> label_;  ///< spin at the end of the step as predicted; id as pair loops carry it
   std::unique_ptr<Spin> spin_;
   Buffer<Real4> wall_label_;

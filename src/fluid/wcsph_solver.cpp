@@ -79,13 +79,15 @@ class WcsphSolver final : public FluidSolver {
     if (shear_.acts()) return {};
     powers_.resize(fluid.size());
     if constexpr (!Lengths::vary)
-      if (parameters_.several) return spend<true>(fluid, walls, now, dt);
+      if (parameters_.viscosity_varies()) return spend<true>(fluid, walls, now, dt);
     return spend<false>(fluid, walls, now, dt);
   }
 
   void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double,
                FluidMoments& out) override {
     if (shear_.acts()) pack(fluid);  // velocities as they are now
+    if constexpr (!Lengths::vary)
+      if (parameters_.viscosity_varies()) return stress<true, true>(fluid, walls, now, out);
     parameters_.tensile > 0 ? stress<true>(fluid, walls, now, out) : stress<false>(fluid, walls, now, out);
   }
 
@@ -116,7 +118,7 @@ class WcsphSolver final : public FluidSolver {
                                            momentum_and_continuity<true>(fluid, walls, now, dt, shift, fit);
                                          })
                             : momentum_and_continuity<false>(fluid, walls, now, dt, NoShifting{}, NoFit{});
-    else if (parameters_.several)
+    else if (parameters_.viscosity_varies())
       momentum<true, true, true>(fluid, walls, now);
     else if (artificial().acts())
       added ? momentum<true, true>(fluid, walls, now) : momentum<true, false>(fluid, walls, now);
@@ -215,10 +217,10 @@ class WcsphSolver final : public FluidSolver {
   void momentum(FluidStore& fluid, const WallStore& walls, const Moment& now) {
     run_with_walls(force_pass<kArtificial, kAdded, kSpecies>(fluid, walls, now));
   }
-  template <bool kTensile>
+  template <bool kTensile, bool kSpecies = false>
   void stress(FluidStore& fluid, const WallStore& walls, const Moment& now, FluidMoments& out) {
-    using Force = ForcePass<W, true, kTensile, false, Lengths>;
-    const Force whole = force_pass<true, kTensile>(fluid, walls, now);
+    using Force = ForcePass<W, true, kTensile, kSpecies, Lengths>;
+    const Force whole = force_pass<true, kTensile, kSpecies>(fluid, walls, now);
     Force inviscid = whole;
     inviscid.artificial = {};
     inviscid.wall.viscosity.mu = 0;

@@ -71,8 +71,8 @@ void Stepper::list_solid_stages() {
   const Fields drag{&g.U, &g.omega_f, &g.K, &g.K_rot}, impulses{&g.impulse, &g.spin_impulse};
   if (coupled())
     add("interpolate", Part::coupling, &Stepper::interpolate,
-        {&f.x, &f.xp, &f.v_rho, &f.m_state, &f.mass, &f.theta, &f.solid_factor, &g.x, &g.xp, &g.v, &g.omega,
-         &g.radius, &g.fluid_force, &g.id},
+        {&f.x, &f.xp, &f.v_rho, &f.m_state, &f.mass, &f.eps, &f.theta, &f.solid_factor, &g.x, &g.xp, &g.v,
+         &g.omega, &g.radius, &g.fluid_force, &g.id},
         drag + Fields{&g.eps, &g.wetness, &g.x_before});
 
   Fields moved = all_of(bodies_.stores()), by = lasting(moved);
@@ -125,10 +125,12 @@ void Stepper::list_fluid_stages() {
   add("move_walls", Part::fluid, &Stepper::move_walls,
       bodies + (moving ? Fields{&w.x0, &w.body, &w.v_rho, &m.x0} : none),
       moving ? Fields{&w.x, &w.v_rho, &w.xp, &m.x, &m.xp} : none);
-  if (two_way())
+  if (coupled())
     add("porosity", Part::coupling, &Stepper::porosity,
         {&f.x, &f.v_rho, &f.mass, &f.m_state, &g.x, &g.x_before, &g.v, &g.radius},
-        {&g.xp, &f.xp, &f.eps, &f.solid_factor, &f.flux, &f.m_state, &f.grains_around});
+        Fields{&g.xp, &f.xp, &f.eps} +
+            (two_way() ? Fields{&f.solid_factor, &f.flux, &f.m_state, &f.viscosity, &f.grains_around}
+                       : none));
   if (!fluid.one_pass()) {
     const bool summed = config_.density.method == DensityMethod::summation,
                packed = summed || config_.density.reinit_every > 0;
@@ -170,11 +172,9 @@ void Stepper::list_fluid_stages() {
   if (coupled()) {
     const Fields groups = all_of(solid_solver_->groups().stores());
     add("push", Part::coupling, &Stepper::push,
-        groups + (two_way() ? Fields{&g.xp} : Fields{&g.x}) +
-            Fields{&f.xp, &f.theta, &f.m_state, &f.solid_factor, &g.v, &g.omega, &g.radius, &g.material,
-                   &g.fluid_force},
-        Fields{&g.fluid_force, &g.v} + (two_way() ? none : Fields{&g.xp}) +
-            (groups.empty() ? none : Fields{&g.omega}) + groups);
+        groups + Fields{&g.xp, &f.xp, &f.theta, &f.m_state, &f.solid_factor, &g.v, &g.omega, &g.radius,
+                        &g.material, &g.fluid_force},
+        Fields{&g.fluid_force, &g.v} + (groups.empty() ? none : Fields{&g.omega}) + groups);
   }
 }
 

@@ -14,11 +14,11 @@ namespace {
 struct LayPass {
   EquationOfState eos;
   Frame frame;
-  Span<const Real> eps, pressure;
+  Span<const Real> eps, pressure;  ///< eps empty unless fluid gives way to grains
   Span<Real> mass, s;
   BL_HD void operator()(Index a) const {
     const Real x = eos.compression(pressure[a]);
-    mass[a] *= eps[a] * (1 + x);
+    mass[a] *= (eps ? eps[a] : Real(1)) * (1 + x);
     s[a] = x;
   }
 };
@@ -87,7 +87,7 @@ void Stepper::start() {
   if (bodies_.any()) bodies_.evaluate(now.poses);
   if (has_fluid()) {
     initialise_fluid(now);
-    if (two_way()) porosity(now);
+    if (coupled()) porosity(now);
     fluid_state(now);
     wall_state(now);
     forces(now);
@@ -115,7 +115,9 @@ void Stepper::initialise_fluid(Step& now) {
   fluid_.exposure.buffer().zero();
   Buffer<Real> device;
   device.assign(pressure);
-  for_each(fluid_.owned(), LayPass{fluid_solver_->eos(), frame_, fluid_.eps, device, fluid_.mass, fluid_.s});
+  for_each(fluid_.owned(), LayPass{fluid_solver_->eos(), frame_,
+                                   two_way() ? Span<const Real>(fluid_.eps) : Span<const Real>(), device,
+                                   fluid_.mass, fluid_.s});
 }
 
 void Stepper::settle(double longest, const std::function<void(double)>& progress) {

@@ -169,7 +169,7 @@ void Stepper::correct(Step& now) {
 
 /// What of the fluid's stress falls to the grains.
 void Stepper::push(Step& now) {
-  coupling_->push(fluid_, grains_, now.poses, now.last_kick, now.held);
+  coupling_->push(fluid_, grains_, now.last_kick, now.held);
   solid_solver_->groups().follow(grains_, {}, {}, 0);
 }
 

@@ -19,7 +19,7 @@ Exchange grain_at(double z) {
   for (auto& t : fluid.theta) t = {0, 0, 9.81};
   CoupledBox box(c, fluid, {{{0.5, 0.5, z}}, {{0, 0, -1}}, {{0, 2, 0}}, {0.03}});
   box.coupling.porosity(box.fluid, box.grains, {}, 0);
-  box.coupling.push(box.fluid, box.grains, {}, 0, true);
+  box.coupling.push(box.fluid, box.grains, 0, true);
   box.coupling.gather(box.fluid, box.grains, {}, 1e-4);
   const double K = box.grains.K.values()[0];
   const Real3 w = box.grains.U.values()[0] - box.grains.v.values()[0];
@@ -74,7 +74,8 @@ TEST(Drying, ABedThatStandsOutOfTheWaterIsLiftedByWhatIsUnderIt) {
   CoupledBox box(c, fluid, grains);
   Buffer<BodyPose> poses;
   poses.assign(std::vector<BodyPose>(1));
-  box.coupling.push(box.fluid, box.grains, poses, 0, true);
+  box.coupling.porosity(box.fluid, box.grains, poses, 0);
+  box.coupling.push(box.fluid, box.grains, 0, true);
   box.coupling.gather(box.fluid, box.grains, poses, 1e-4);
   const auto x = box.grains.x.values();
   const auto wet = box.grains.wetness.values();

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "bedload/geometry/shape.hpp"
+#include "kernels/coupling/suspension_viscosity.hpp"
+#include "kernels/drag/ergun.hpp"
 #include "tests/support/coupled_box.hpp"
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
@@ -11,9 +13,13 @@ namespace bedload::inline BL_VARIANT {
 namespace {
 
 /// A periodic cubic lattice of grains of diameter 0.1 and fluid anywhere in it.
-CoupledBox lattice_of_grains(double spacing, const char* kernel = "wendland_c2") {
+CoupledBox lattice_of_grains(double spacing, const char* kernel = "wendland_c2",
+                             const CouplingConfig& couple = {}) {
   const double d = 0.1, length = 9 * spacing;
   Config c = unit_box(kernel == std::string("lucy") ? 4 * d : 2 * d, 1e-3);
+  const double hc = c.couple.hc;
+  c.couple = couple;
+  c.couple.hc = hc;
   c.fluid.kernel = kernel;
   c.domain.max = {length, length, length};
   c.domain.periodic = {true, true, true};
@@ -35,6 +41,60 @@ TEST(Porosity, OfAUniformBedIsItsVoidFraction) {
       for (Real eps : box.fluid.eps.values()) EXPECT_NEAR(eps, expected, 1e-2) << kernel << " " << spacing;
       EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).floor_hits, 0u);
     }
+}
+
+/// One way fluid fills the space of the grains, too: its velocity is the flux, which the law is taken at.
+TEST(Porosity, OneWayGrainsHaveTheDragOfTheirBed) {
+  CouplingConfig couple;
+  couple.mode = CouplingMode::one_way;
+  couple.drag = DragLaw::ergun;
+  const double d = 0.1, U = 3e-3, eps = 0.45, spacing = d * std::cbrt(M_PI / 6 / (1 - eps));
+  CoupledBox box = lattice_of_grains(spacing, "wendland_c2", couple);
+  box.fluid.v_rho.assign(std::vector<Real4>(box.fluid.size(), {{Real(U), 0, 0}, 1000}));
+  const auto state = box.fluid.m_state.values();
+  box.coupling.porosity(box.fluid, box.grains, {}, 0);
+  box.coupling.gather(box.fluid, box.grains, {}, 0);
+  const double law = double(Ergun{}.K(Real(eps), Real(d), 1000, Real(1e-3), Real(U / eps))) * U / eps;
+  const auto seen = box.grains.eps.values(), K = box.grains.K.values();
+  const auto around = box.grains.U.values();
+  for (std::size_t j = 0; j < seen.size(); ++j) {
+    EXPECT_NEAR(seen[j], eps, 0.01);                   // as fluid among this lattice, which lies at random
+    EXPECT_NEAR(K[j] * around[j].x, law, 0.05 * law);  // Ergun's law falls with eps^-3: 7 % for one of 0.01
+  }
+  const auto after = box.fluid.m_state.values();
+  for (std::size_t a = 0; a < after.size(); ++a) EXPECT_EQ(after[a], state[a]) << "fluid gives way";
+}
+
+TEST(Porosity, OneWayALoneGrainDoesNotSeeItself) {
+  Config c = unit_box(0.2, 1e-3);
+  c.couple.mode = CouplingMode::one_way;
+  CoupledBox box(c, fluid_at(lattice({0, 0, 0}, {1, 1, 1}, 0.05), 0.05, 1000, 1),
+                 {{{0.51, 0.5, 0.52}}, {{}}, {{}}, {0.05}});
+  box.coupling.porosity(box.fluid, box.grains, {}, 0);
+  box.coupling.gather(box.fluid, box.grains, {}, 0);
+  EXPECT_LT(box.grains.eps.values()[0], 0.993) << "its own volume, 4 % of drag by Di Felice's law";
+  const double law = 4.8 * 4.8 / 24 * 3 * M_PI * 1e-3 * 0.1;  // Dalla Valle's, slow
+  EXPECT_NEAR(box.grains.K.values()[0], law, 2e-3 * law);
+}
+
+TEST(Porosity, GrainsThickenTheFluidByTheLaw) {
+  for (const auto& [law, expected] :
+       {std::pair{SuspensionLaw::krieger_dougherty, std::pow(1 - 0.3 / 0.6, -1.5)},
+        {SuspensionLaw::maron_pierce, 4.0}}) {
+    const auto viscosity = SuspensionViscosity::of(law, 0.6);
+    EXPECT_NEAR(viscosity(Real(0.3)), expected, 4 * kInvariant * expected);
+    EXPECT_EQ(viscosity(0), 1);
+    EXPECT_EQ(viscosity(Real(0.6)), viscosity(Real(0.58))) << "beyond 0.95 phi_max contacts carry";
+    EXPECT_TRUE(std::isfinite(viscosity(Real(0.75))));
+    CouplingConfig couple;
+    couple.suspension = law, couple.phi_max = 0.6;
+    CoupledBox box = lattice_of_grains(0.12, "wendland_c2", couple);
+    box.fluid.viscosity.assign(std::vector<Real>(box.fluid.size(), Real(1)));
+    box.coupling.porosity(box.fluid, box.grains, {}, 0);
+    const auto eps = box.fluid.eps.values(), mu = box.fluid.viscosity.values();
+    for (std::size_t a = 0; a < mu.size(); ++a) EXPECT_EQ(mu[a], viscosity(1 - eps[a]));
+    EXPECT_GT(mu[0], 1.5);
+  }
 }
 
 TEST(Porosity, ByATopHatCountsTheGrainsWithinReach) {  // [tsuzuki] Eq. 43

@@ -55,6 +55,7 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"reverse_poiseuille_slurry/phi_03.toml", {686 - 45, 45, {"couple.hc"}}},
       {"reverse_poiseuille_slurry/phi_05.toml", {686 - 68, 68, {"couple.hc"}}},
       {"reverse_poiseuille_slurry/phi_11.toml", {686 - 137, 137, {"couple.hc"}}},
+      {"reverse_poiseuille_slurry/thickened.toml", {10 * 10 * 20, 764}},
       {"rotating_drum/case.toml", {14553, 7755}},
       {"sloshing/case.toml", {2000, 0}},
       {"sphere_settling/air.toml", {20 * 20 * 30, 1}},

@@ -159,6 +159,7 @@ TEST_F(Program, ChecksACaseWithoutRunningIt) {
   const Outcome o = bedload("check dam.toml --backend cpu");
   EXPECT_EQ(o.code, 0) << o.err;
   for (const char* part : {"fluid 150, walls ", "grains 40", "<- binds", "substep    rayleigh", "memory     ",
+                           "tension    fluid cavitates below -", "wake       ", "contacts   grain.E = ",
                            "run time   about ", "settling   before that, at most ", "the case is in order"})
     EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
   EXPECT_FALSE(std::filesystem::exists(dir_ / "results"));

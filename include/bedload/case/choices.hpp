@@ -244,6 +244,15 @@ inline constexpr auto kNames<DragSlip> = std::to_array<Named<DragSlip>>({
      "the fluid over h_c, too"},
 });
 
+/// couple.suspension_viscosity
+enum class SuspensionLaw { none, krieger_dougherty, maron_pierce };
+template <>
+inline constexpr auto kNames<SuspensionLaw> = std::to_array<Named<SuspensionLaw>>({
+    {SuspensionLaw::none, "none", "that of the fluid alone"},
+    {SuspensionLaw::krieger_dougherty, "krieger_dougherty", "(1 - phi/phi_max)^(-2.5 phi_max) [krieger59]"},
+    {SuspensionLaw::maron_pierce, "maron_pierce", "(1 - phi/phi_max)^-2 [maron56]"},
+});
+
 /// drag.law
 enum class DragLaw { di_felice, gidaspow, gidaspow_blend, ergun, wen_yu, schiller_naumann, stokes, table };
 template <>
@@ -296,7 +305,7 @@ static_assert(all_named<NormalLaw, NormalLaw::none> && all_named<SlidingLaw, Sli
               all_named<ViscosityModel, ViscosityModel::none> && all_named<WallType, WallType::fluid_only> &&
               all_named<WallSlip, WallSlip::slip> && all_named<LayerForce, LayerForce::monaghan> &&
               all_named<CouplingMode, CouplingMode::off> && all_named<DragSlip, DragSlip::local> &&
-              all_named<DragLaw, DragLaw::table> &&
+              all_named<SuspensionLaw, SuspensionLaw::maron_pierce> && all_named<DragLaw, DragLaw::table> &&
               all_named<DragIntegrator, DragIntegrator::explicit_steps> &&
               all_named<TimeIntegrator, TimeIntegrator::euler>);
 

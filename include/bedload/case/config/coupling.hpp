@@ -21,10 +21,13 @@ struct CouplingConfig {
   Chosen<CouplingKernel> kernel = CouplingKernel::fluid;  ///< by which grains and fluid weigh each other
   bool wall_normalise = true;                  ///< a grain's volume lies in the kernel's fraction that walls leave free
   double spreading = 0.01;                     ///< how fast fluid that overfills its volume grows denser, c/h
+  bool undisturbed = false;                    ///< a grain reads the fluid without its own wake and volume
   double S_dry = 0.05, S_wet = 0.95;
   bool torque = true;
   bool angmom = true;
   Chosen<DragSlip> slip = DragSlip::mean;      ///< that drag follows
+  Chosen<SuspensionLaw> suspension = SuspensionLaw::none;  ///< viscosity of fluid with grains
+  double phi_max = 0.64;                       ///< volume fraction at which that is infinite
   Chosen<DragLaw> drag = DragLaw::di_felice;
   DragTable table;                             ///< of law = table
   Chosen<DragIntegrator> integrator = DragIntegrator::exponential;
