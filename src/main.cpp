@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "bedload/core/cores.hpp"
 #include "cli/commands.hpp"
 
 namespace {
@@ -18,6 +19,7 @@ void let_waiting_threads_sleep(char** argv) {
   const auto self = std::filesystem::read_symlink("/proc/self/exe", none);
   if (none || self.filename() != std::filesystem::path(argv[0]).filename()) return;  // run by a loader
   setenv("OMP_WAIT_POLICY", "passive", 1);
+  bedload::use_all_cores();
   execv(self.c_str(), argv);
 }
 

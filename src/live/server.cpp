@@ -12,6 +12,7 @@
 #include <csignal>
 #include <thread>
 
+#include "bedload/core/cores.hpp"
 #include "bedload/core/error.hpp"
 #include "live_page.hpp"
 
@@ -122,7 +123,10 @@ struct LiveServer::Impl {
           fmt::format("command line: --live: port {} of {} is taken; name another, or 0 for any that is free",
                       wanted, kHost));
     const SignalsBlocked blocked;
-    thread = std::thread([this] { server.listen_after_bind(); });
+    thread = std::thread([this] {
+      use_all_cores();
+      server.listen_after_bind();
+    });
     while (!server.is_running()) std::this_thread::sleep_for(1ms);  // stop() does nothing before
   }
 

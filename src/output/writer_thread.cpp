@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "bedload/core/cores.hpp"
+
 namespace bedload {
 
 WriterThread::~WriterThread() {
@@ -28,6 +30,7 @@ void WriterThread::drain() {
 }
 
 void WriterThread::work() {
+  use_all_cores();
   std::unique_lock lock(mutex_);
   while (true) {
     changed_.wait(lock, [this] { return ending_ || !jobs_.empty(); });

@@ -1,10 +1,12 @@
 // The program from outside: exit codes, messages, files.
 
+#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <vector>
 
 #include "bedload/output/folder_lock.hpp"
@@ -428,6 +430,54 @@ TEST_F(Program, AKeptBedGivesTheSameRunAsAFreshOne) {
     ASSERT_EQ(o.code, 0) << o.err;
   }
   expect_same_checkpoints("fresh", "kept");
+}
+
+/// Settings of batch systems bind threads to cores. The threads of a run are spread over all those that the
+/// process was given; what writes its files and serves its page takes any of them.
+TEST_F(Program, ThreadsAreSpreadOverTheCoresThatABatchSystemGives) {
+  cpu_set_t given;
+  ASSERT_EQ(sched_getaffinity(0, sizeof given, &given), 0);
+  std::vector<std::string> cores;
+  for (int core = 0; core < CPU_SETSIZE; ++core)
+    if (CPU_ISSET(core, &given)) cores.push_back(std::to_string(core));
+  if (cores.size() < 2) GTEST_SKIP() << "one core";
+  const std::string first = cores[0], second = cores[1], pair = first + "," + second,
+                    range = std::stoi(second) == std::stoi(first) + 1 ? first + "-" + second : pair;
+  write("dam.toml", kSmall);
+  int runs = 0;
+  /// On which cores each thread of a run may be, in a process that was given `cores`.
+  const auto threads = [&](const std::string& settings, const std::string& cores) {
+    const std::string out = "out_" + std::to_string(runs++);
+    const Outcome o =
+        shell("sh -c 'env -u OMP_WAIT_POLICY " + settings + " taskset -c " + cores +
+              " " BL_PROGRAM " run dam.toml --backend cpu --quiet --live 0 --until 1000 --out " + out +
+              " & run=$!; until [ -s " + out +
+              "/diagnostics.csv ]; do sleep 0.05; done; grep -h Cpus_allowed_list "
+              "/proc/$run/task/*/status >threads.txt; kill -TERM $run; wait $run'");
+    EXPECT_EQ(o.code, 130) << settings << ": " << o.err;
+    std::multiset<std::string> all;
+    std::ifstream in(dir_ / "threads.txt");
+    for (std::string key, list; in >> key >> list;) all.insert(list);
+    EXPECT_GT(all.size(), 3u) << settings;
+    return all;
+  };
+  for (const std::string settings :
+       {"OMP_PROC_BIND=true", "OMP_PROC_BIND=close", "OMP_PROC_BIND=spread", "OMP_PLACES=threads",
+        "OMP_PROC_BIND=spread OMP_PLACES=threads OMP_NUM_THREADS=2"}) {
+    const auto all = threads(settings, pair);
+    EXPECT_EQ(all.count(first), 1u) << settings;
+    EXPECT_EQ(all.count(second), 1u) << settings;
+    EXPECT_EQ(all.count(range), all.size() - 2) << settings;
+    EXPECT_EQ(threads(settings, second).count(second), all.size()) << settings << " on one core";
+  }
+  const std::string listed = "GOMP_CPU_AFFINITY=\"" + second + " " + first + "\"";
+  EXPECT_EQ(threads(listed, pair).count(range), threads("", pair).size() - 2) << listed;
+  for (const std::string settings : {"", "OMP_NUM_THREADS=2", "OMP_PROC_BIND=false OMP_PLACES=threads"}) {
+    const auto all = threads(settings, pair);
+    EXPECT_EQ(all.count(range), all.size()) << settings;
+  }
+  const auto all = threads("OMP_PLACES=cores", pair);  // one place, if both are threads of one core
+  EXPECT_TRUE(all.count(range) == all.size() || (all.count(first) == 1 && all.count(second) == 1));
 }
 
 TEST_F(Program, TheNumberOfThreadsChangesNothing) {
