@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bedload/case/formula.hpp"
 #include "bedload/case/limits.hpp"
@@ -24,9 +25,26 @@ void Checks::domain() const {
     period(k, 2 * c.fluid.kappa() * c.couple.hc, "2 kappa h_c", coupled());
     period(k, 2 * c.grain.d_max, "4 R", c.grain.present);
   }
+  written_positions();
   reflection();
   if (c.domain.two_d) check_plane(c, root_);
   if (c.domain.sheared()) shear();
+}
+
+void Checks::written_positions() const {
+  if (c.precision == "double") return;
+  double far = 0;
+  for (int k = 0; k < 3; ++k) far = std::max({far, std::abs(c.domain.min[k]), std::abs(c.domain.max[k])});
+  const double step = std::nextafter(float(far), std::numeric_limits<float>::infinity()) - float(far);
+  const double dx = c.fluid.present ? c.fluid.dx : INFINITY,
+               d = c.grain.present ? c.grain.smallest() : INFINITY;
+  const double size = std::min(dx, d);
+  if (step <= 1e-3 * size || !std::isfinite(size)) return;
+  warn(
+      "frames hold positions in steps of {:.2g} m at the far side of the domain, {:.4g} m from the origin, "
+      "{:.2g} times {} of {} m; bring the case nearer to the origin, or write doubles with run.precision = "
+      "\"double\"",
+      step, far, step / size, dx <= d ? "fluid.dx" : "the smallest grain", size);
 }
 
 void Checks::reflection() const {

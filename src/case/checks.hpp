@@ -39,6 +39,8 @@ class Checks {
   void reflection() const;
   /// Lees-Edwards boundaries carry fluid alone, by what its pairs do.
   void shear() const;
+  /// Frames hold floats, whose last digit grows with the distance from the origin.
+  void written_positions() const;
   void box(const std::string& path, const Vec3d& lo, const Vec3d& hi) const;
   void period(int axis, double least, const char* name, bool applies) const;
   /// Whether a box shares space with the domain.

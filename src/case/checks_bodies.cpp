@@ -8,6 +8,7 @@
 #include "bedload/geometry/body.hpp"
 #include "bedload/geometry/shape.hpp"
 #include "checks.hpp"
+#include "src/geometry/wall_faces.hpp"
 
 namespace bedload {
 
@@ -103,12 +104,16 @@ void Checks::met(const WallBody& body) const {
 }
 
 void Checks::within_period(const std::string& path, const WallBody& body) const {
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < 3; ++k) {
+    const double lo = c.domain.min[k], hi = c.domain.max[k];
+    const double rounding =
+        period_slack(c.domain, k) + 1.2e-7 * std::max(std::abs(lo), std::abs(hi));  // STL: floats
     if (c.domain.periodic[k] && !c.domain.flat(k) &&
-        (body.min[k] < c.domain.min[k] || body.max[k] > c.domain.max[k]))
+        (body.min[k] < lo - rounding || body.max[k] > hi + rounding))
       fail(path, quoted(body.shape),
            fmt::format("must lie within the period along {}, {}..{} m; only tank, box and plane run through",
-                       "xyz"[k], c.domain.min[k], c.domain.max[k]));
+                       "xyz"[k], lo, hi));
+  }
 }
 
 void Checks::motions() const {

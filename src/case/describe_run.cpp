@@ -223,7 +223,9 @@ void describe_time(Parameters& p, Config& c) {
                  {"avx2", "AVX2 and FMA"}}});
   p("run.seed", &c.seed, {.meaning = "of everything random", .range = within(0, kLargest)});
   p("run.max_lost", &c.max_lost,
-    {.meaning = "fraction of fluid or grains that may leave the domain where no outlet is; more: exit code 4",
+    {.meaning =
+         "fraction of fluid, grains or free bodies that may leave the domain where no outlet is; more: exit "
+         "code 4",
      .range = within(0, 1)});
   p("run.skin_fluid", &c.skin_fluid,
     {.unit = "fluid.dx",

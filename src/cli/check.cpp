@@ -9,6 +9,7 @@
 #include "bedload/case/limits.hpp"
 #include "bedload/case/particle_order.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/output/intervals.hpp"
 #include "bedload/output/preview.hpp"
 #include "commands.hpp"
 #include "prepare.hpp"
@@ -191,6 +192,8 @@ int check_case(const Options& options) {
                  100 * memory.by_speed > memory.all
                      ? fmt::format(", {} of it only if fluid flows fast", bytes_text(memory.by_speed))
                      : "");
+    for (std::string& warning : OutputIntervals(c.out).newly_below(trial.dt))
+      p.warnings.push_back(std::move(warning));
     const double count = std::ceil((c.time.end - p.begin) / trial.dt);
     const Pace pace = pace_of(p.device, c.precision);  // of what comes in; the rest is measured
     const double fluid = 0.5 * double(later.fluid - n.fluid), grains = 0.5 * double(later.grains - n.grains);

@@ -62,7 +62,7 @@ Bad input, or files that cannot be read or written; one sentence says which file
 The computation broke down; the message names particle, place and time, and the last good checkpoint.
 .TP
 .B 4
-More fluid or grains than run.max_lost have left the domain where there is no outlet.
+More fluid, grains or free bodies than run.max_lost have left the domain where there is no outlet.
 .TP
 .B 5
 A viscometer found no profile of a viscous fluid.

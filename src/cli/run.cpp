@@ -48,8 +48,7 @@ class Run {
   int go() {
     say(summary_text(p_));
     session_.emplace(options_, std::move(p_), [this](const std::string& text) { say(text); });
-    for (const std::string& warning : session_->prepared().warnings)
-      fmt::print(stderr, "warning: {}\n", warning);
+    tell_warnings();
     say(fmt::format("results    {}\n", options_.out.string()));
     return steps();
   }
@@ -58,6 +57,13 @@ class Run {
   void say(const std::string& text) const {
     if (!options_.quiet) fmt::print("{}", text);
     std::fflush(stdout);
+  }
+
+  /// Those not told before.
+  void tell_warnings(Progress* progress = nullptr) {
+    const std::vector<std::string>& all = session_->prepared().warnings;
+    if (progress && told_ < all.size()) progress->close();
+    for (; told_ < all.size(); ++told_) fmt::print(stderr, "warning: {}\n", all[told_]);
   }
 
   int steps() {
@@ -73,6 +79,7 @@ class Run {
       session_->begin();
       while (simulation.time() < end_ && !stop_requested()) {
         const StepInfo info = session_->step();
+        tell_warnings(&progress);
         if (watcher_) watcher_->after_step(simulation, info);
         progress.update(info, session_->effort().particle_steps);
         if (live_) live_->after_step(simulation, info, session_->effort().particle_steps);
@@ -150,6 +157,10 @@ class Run {
     const double fluid = read("lost_fluid_mass"), grains = read("grains_outside"), all = read("grain_count");
     tell(fmt::format("{:.4g} kg of fluid", fluid), fluid, read("fluid_mass"));
     tell(fmt::format("{:.0f} of {:.0f} grains", grains, all), grains, all - grains);
+    const auto& walls = session_->prepared().config.wall.bodies;
+    const auto bodies = double(std::ranges::count_if(walls, [](auto& body) { return body.free.present; }));
+    const double gone = read("bodies_outside");
+    tell(fmt::format("{:.0f} of {:.0f} free bodies", gone, bodies), gone, bodies - gone);
     return too_many;
   }
 
@@ -178,6 +189,7 @@ class Run {
   LiveView* live_;       ///< null: there is none
   double end_;
   std::optional<Session> session_;
+  std::size_t told_ = 0;  ///< warnings
 };
 
 }  // namespace

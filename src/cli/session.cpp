@@ -17,7 +17,7 @@ void refuse_other_run(const Options& o) {
 }
 
 Session::Session(const Options& options, Prepared prepared, const Say& say)
-    : p_(std::move(prepared)), continues_(!options.restart.empty()) {
+    : p_(std::move(prepared)), intervals_(p_.config.out), continues_(!options.restart.empty()) {
   build(options, say);
   check_fixed_steps(p_, *simulation_);
   if (options.out.empty()) return;
@@ -65,7 +65,12 @@ StepInfo Session::step() {
   effort_.particle_steps += n.fluid > 0 ? n.fluid : n.grains * info.substeps;
   effort_.substeps += info.substeps;
   effort_.rebuilds += info.rebuilt;
-  if (output_) output_->write(*simulation_, info);
+  if (!output_) return info;
+  output_->write(*simulation_, info);
+  for (const std::string& warning : intervals_.newly_below(info.dt)) {
+    p_.warnings.push_back(warning);
+    output_->warn(warning);
+  }
   return info;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "bedload/output/intervals.hpp"
 #include "bedload/output/output.hpp"
 #include "options.hpp"
 #include "prepare.hpp"
@@ -28,7 +29,7 @@ class Session {
 
   /// Writes the first frames, unless the run goes on from a checkpoint.
   void begin();
-  /// One step, and what of it is due to be written.
+  /// One step, and what of it is due to be written. May add to the warnings.
   StepInfo step();
   /// Ends the results; status as in RunOutput::finish.
   void finish(const std::string& status);
@@ -46,6 +47,7 @@ class Session {
   Prepared p_;
   std::unique_ptr<Simulation> simulation_;
   std::optional<RunOutput> output_;
+  OutputIntervals intervals_;
   bool continues_;
   Effort effort_;
   std::chrono::steady_clock::time_point from_ = std::chrono::steady_clock::now();

@@ -7,9 +7,14 @@
 
 namespace bedload {
 
+/// By how much, for rounding, what ends at the sides of a period may fall short of it or go beyond, m.
+inline double period_slack(const DomainConfig& domain, int k) {
+  return 1e-6 * (domain.max[k] - domain.min[k]);
+}
+
 /// Whether the body runs through the whole period of axis k, so that it has no end there.
 inline bool spans_period(const WallBody& body, const DomainConfig& domain, int k) {
-  const double slack = 1e-6 * (domain.max[k] - domain.min[k]);
+  const double slack = period_slack(domain, k);
   return domain.periodic[k] && body.min[k] <= domain.min[k] + slack && body.max[k] >= domain.max[k] - slack;
 }
 

@@ -414,6 +414,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"body_rotational_energy", "J", t.rotational});
     out.push_back({"body_potential_energy", "J", t.potential});
   }
+    out.push_back({"bodies_outside", "-", double(t.outside)});
   for (const Quantity& q : state_.open.report(state_.clock.time)) out.push_back(q);
   out.push_back({"rebuilds", "-", double(stepper_.rebuilds())});
   return out;

@@ -28,6 +28,7 @@ struct BodyForces {
 struct BodyTotals {
   double mass = 0, kinetic = 0, rotational = 0, potential = 0;  ///< kg, J; of the centres, about them
   Vec3d momentum, angular;                                      ///< kg m/s; about the origin, kg m2/s
+  int outside = 0;  ///< how many have their centre outside the domain
 };
 
 struct BodyCorrection {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bedload/case/contact_laws.hpp"
+#include "kernels/boundaries/sinks.hpp"
 #include "src/walls/free_bodies.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -115,6 +116,7 @@ BodyTotals FreeBodies::totals(double time) const {
     const Vec3d u = b.move == BodyMove::none ? cross(b.omega(turn, spin[k]), centre - x[k]) : v[k];
     const double moving = 0.5 * b.mass * norm2(u);
     t.mass += b.mass;
+    t.outside += outside(frame_, centre);
     t.potential -= b.mass * dot(parameters_.gravity, centre);
     if (time < b.release) continue;
     t.momentum += b.mass * u;

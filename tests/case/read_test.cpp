@@ -219,6 +219,28 @@ TEST(RenamedKeys, AreReadWithAWarning) {
   EXPECT_TRUE(changes_between(before, now).empty());
 }
 
+/// Frames are of floats, which are coarse far from the origin.
+TEST(Warnings, TellHowFinePositionsAreWrittenFarFromTheOrigin) {
+  const auto at = [](const std::string& x, const std::string& more = "") {
+    std::string text = kCase + more;
+    for (const std::string from : {"min = [0, 0, 0]", "max = [0.2,", "max = [0.05,"})
+      for (auto found = text.find(from); found != text.npos; found = text.find(from, found + 1)) {
+        const bool least = from[1] == 'i';
+        text.replace(found + 7, from.size() - 7,
+                     least ? x + ", 0, 0]" : x + (from.find("0.2") != from.npos ? ".2," : ".05,"));
+      }
+    return warnings_of(text);
+  };
+  EXPECT_EQ(at("20"), std::vector<std::string>{});
+  EXPECT_EQ(
+      at("4000"),
+      std::vector<std::string>{
+          "frames hold positions in steps of 0.00024 m at the far side of the domain, 4000 m from the "
+          "origin, 0.12 times the smallest grain of 0.002 m; bring the case nearer to the origin, or write "
+          "doubles with run.precision = \"double\""});
+  EXPECT_EQ(at("4000", "[run]\nprecision = \"double\"\n"), std::vector<std::string>{});
+}
+
 TEST(Warnings, NameWhatIsDoubtful) {
   EXPECT_TRUE(warnings_of(kCase).empty());
   EXPECT_EQ(warnings_of(changed("dx = 0.004", "dx = 0.004\nc_factor = 5")),

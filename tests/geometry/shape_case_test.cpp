@@ -155,6 +155,29 @@ shape = "block"
   EXPECT_NE(error_in([&] { read(changed, name); }).find("the file has changed"), std::string::npos);
 }
 
+/// A mesh of floats ends within their rounding of the sides that it is to reach.
+TEST(ShapeCase, AMeshMaySpanAPeriod) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](double lo, double hi, const std::string& sides) {
+    const double y = 0.5 * (hi - lo);
+    write_stl(folder / "block.stl",
+              moved(prism({{0, 0}, {0.02, 0}, {0.02, 2 * y}, {0, 2 * y}}, {{0, 1, 2}, {0, 2, 3}}, 0.02),
+                    {0, lo, -0.1}));
+    return error_in([&] {
+      read("[domain]\nmin = [-0.1, " + sides + ", 0.1]\nperiodic = [false, true, false]\n" +
+               "[[shape]]\nname = \"block\"\nkind = \"mesh\"\nfile = \"block.stl\"\n[[wall.body]]\nname = "
+               "\"block\"\nshape = \"block\"\n[grain]\nd = 0.005\n[[grain.fill]]\npositions = [[0.05, " +
+               std::to_string(lo + 0.05) + ", 0]]\n[time]\nend = 1\n[out]\nevery = 1\n",
+           (folder / "block.toml").string());
+    });
+  };
+  EXPECT_EQ(refusal(-0.1, 0.1, "-0.1, -0.1]\nmax = [0.1, 0.1"), "");
+  EXPECT_EQ(refusal(-1.0 / 3, 1.0 / 3, "-0.3333333333, -0.1]\nmax = [0.1, 0.3333333333"), "");
+  EXPECT_EQ(refusal(99.9, 100.1, "99.9, -0.1]\nmax = [0.1, 100.1"), "") << "far from the origin";
+  EXPECT_NE(refusal(-0.1, 0.10001, "-0.1, -0.1]\nmax = [0.1, 0.1").find("must lie within the period along y"),
+            std::string::npos);
+}
+
 TEST(ShapeCase, SaysWhatIsWrong) {
   EXPECT_EQ(
       refused("shape = \"drum\"", "shape = \"pot\""),

@@ -614,6 +614,54 @@ TEST_F(Program, TellsWhatHasLeftTheDomain) {
   EXPECT_NE(allowed.out.find("lost       "), allowed.out.npos) << allowed.out;
 }
 
+TEST_F(Program, TellsOfFreeBodiesThatHaveLeftTheDomain) {
+  const auto ball = [](const std::string& name, const std::string& place) {
+    return "[[shape]]\nname = \"" + name + "\"\nkind = \"sphere\"\ncentre = " + place +
+           "\nradius = 0.01\n[[wall.body]]\nname = \"" + name + "\"\nshape = \"" + name +
+           "\"\n[wall.body.free]\ndensity = 1000\n";
+  };
+  write("balls.toml", "[domain]\nmin = [0, 0, 0]\nmax = [0.2, 0.1, 0.3]\n" +
+                          ball("low", "[0.05, 0.05, 0.05]") + ball("high", "[0.15, 0.05, 0.25]") +
+                          "[time]\nend = 0.15\n[out]\nevery = 0.05\n");
+  const std::string run = "run balls.toml --backend cpu --out out --overwrite ";
+  EXPECT_EQ(bedload(run + "--until 0.09").code, 0) << "it has sunk by 4 cm of 5";
+  const Outcome lost = bedload(run);
+  EXPECT_EQ(lost.code, 4) << lost.err;
+  EXPECT_NE(lost.err.find(
+                "1 of 2 free bodies, 50 %, left the domain where there is no outlet; run.max_lost = 0.001"),
+            lost.err.npos)
+      << lost.err;
+  const Outcome allowed = bedload(run + "--set run.max_lost=1");
+  EXPECT_EQ(allowed.code, 0) << allowed.err;
+  EXPECT_NE(allowed.out.find("lost       1 of 2 free bodies"), allowed.out.npos) << allowed.out;
+}
+
+/// Each interval once, with how much is left out, by `check` and by the run.
+TEST_F(Program, TellsOfIntervalsBelowTheTimeStep) {
+  write("dam.toml", kSmall + "[[probe]]\nname = \"front\"\ntype = \"front\"\nevery = 1e-6\n");
+  const std::string frames = "out.every = 2e-06 s is below the time step, ";
+  const auto count = [](const std::string& text, const std::string& part) {
+    int n = 0;
+    for (auto at = text.find(part); at != text.npos; at = text.find(part, at + 1)) ++n;
+    return n;
+  };
+  const std::string options =
+      " dam.toml --backend cpu --set grain.settle=false --set out.diagnostics_every=0.01 ";
+  for (const bool both : {false, true}) {
+    const std::string set = both ? "--set out.every=2e-6 --set checkpoint.every=1e-6 " : "";
+    const Outcome check = bedload("check" + options + set);
+    EXPECT_EQ(check.code, 0) << check.err;
+    const Outcome run = bedload("run --quiet --overwrite --out out --until 0.002" + options + set);
+    EXPECT_EQ(run.code, 0) << run.err;
+    for (const std::string& text : {check.out, run.err, content_of(dir_ / "out/summary.json")}) {
+      EXPECT_EQ(count(text, "below the time step"), both ? 2 : 1) << text;
+      EXPECT_EQ(count(text, both ? "checkpoint.every = 1e-06 s" : "= 1e-06 s is below"), 1) << text;
+      EXPECT_EQ(count(text, frames), both) << text;
+      EXPECT_EQ(count(text, "times less often"), both ? 2 : 1) << text;
+    }
+  }
+}
+
 TEST_F(Program, WarnsOfWallsAndRefusesProbesOutsideTheDomain) {
   write("dam.toml", kSmall);
   const Outcome low = bedload("check dam.toml --set 'wall.body.0.min=[0, 0, -0.05]'");

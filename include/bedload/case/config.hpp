@@ -54,7 +54,7 @@ struct Config {
   std::string precision = "mixed";             ///< single, mixed, double
   std::string simd = "auto";                   ///< auto, baseline, avx2
   std::uint64_t seed = 1;
-  double max_lost = 1e-3;                      ///< fraction of fluid or grains that may leave the domain unasked
+  double max_lost = 1e-3;                      ///< fraction of fluid, grains, bodies that may leave the domain unasked
   double skin_fluid = 0.3;                     ///< neighbour skin / fluid.dx
   double skin_grain = 0.3;                     ///< neighbour skin / grain.d_min
   bool operator==(const Config&) const = default;
