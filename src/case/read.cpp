@@ -1,9 +1,9 @@
 #include "bedload/case/read.hpp"
 
-#include <fstream>
-#include <iterator>
+#include <filesystem>
 
 #include "bedload/core/error.hpp"
+#include "bedload/output/files.hpp"
 #include "reader.hpp"
 #include "resolve.hpp"
 
@@ -33,10 +33,7 @@ std::string text_of(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) throw FileError(path.string() + ": is a folder, not a case file");
   if (!std::filesystem::exists(path))
     throw FileError(path.string() + ": cannot read this case file: no such file");
-  std::ifstream file(path);
-  if (!file) throw FileError(path.string() + ": cannot read this case file");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (file.bad()) throw FileError(path.string() + ": cannot read this case file");
+  const std::string text = read_text(path);
   if (text.find_first_not_of(" \t\r\n") == text.npos) throw CaseError(path.string() + ": is empty");
   return text;
 }

@@ -119,11 +119,6 @@ TriangleSoup read_ascii_stl(const std::string& name, std::string_view bytes) {
   return soup;
 }
 
-/// Without the byte order mark that editors put first.
-std::string_view without_mark(std::string_view bytes) {
-  return bytes.starts_with("\xef\xbb\xbf") ? bytes.substr(3) : bytes;
-}
-
 /// Whether `word`, in small letters, stands in a text, in whatever letters.
 bool holds(std::string_view text, std::string_view word) {
   return std::search(text.begin(), text.end(), word.begin(), word.end(),
@@ -137,9 +132,9 @@ TriangleSoup read_stl(const std::string& name, std::string_view bytes) {
   std::uint32_t count = 0;
   if (bytes.size() >= head) std::memcpy(&count, bytes.data() + head - sizeof count, sizeof count);
   const std::size_t size = head + triangle * std::size_t(count);
-  const std::string_view text = without_mark(bytes),
+  const std::string_view text = bytes.size() == size ? "" : without_mark(bytes, name),
                          begin = text.substr(std::min(text.find_first_not_of(" \t\v\f\r\n"), text.size()));
-  if (lower(begin.substr(0, 5)) == "solid" && bytes.size() != size) {
+  if (lower(begin.substr(0, 5)) == "solid") {
     if (!holds(text, "endsolid")) throw FileError(name + ": is cut off: it has no endsolid");
     return read_ascii_stl(name, text);
   }
@@ -341,8 +336,8 @@ TriangleSoup read_triangles(const std::filesystem::path& file) {
   const std::string bytes = read_file(file);
   if (bytes.empty()) throw FileError(name + ": is empty");
   TriangleSoup soup = kind == ".stl"   ? read_stl(name, bytes)
-                      : kind == ".obj" ? read_obj(name, without_mark(bytes))
-                                       : read_ply(name, without_mark(bytes));
+                      : kind == ".obj" ? read_obj(name, without_mark(bytes, name))
+                                       : read_ply(name, without_mark(bytes, name));
   for (std::size_t v = 0; v < soup.vertices.size(); ++v)
     if (const Vec3d& x = soup.vertices[v]; !std::isfinite(x.x + x.y + x.z))
       throw FileError(fmt::format("{}: vertex {} (from 0) is not at a finite place", name, v));

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
+#include <filesystem>
+#include <sstream>
 #include <string_view>
 
 #include "bedload/core/error.hpp"
+#include "bedload/output/files.hpp"
 
 namespace bedload {
 namespace {
@@ -38,11 +40,11 @@ std::vector<std::string_view> cells_of(std::string_view line) {
 class TableReader {
  public:
   explicit TableReader(const std::filesystem::path& path) : path_(path.string()) {
-    std::ifstream in(path);
-    if (!in || std::filesystem::is_directory(path)) throw FileError(path_ + ": cannot read this table");
+    if (!std::filesystem::exists(path) || std::filesystem::is_directory(path))
+      throw FileError(path_ + ": cannot read this table");
+    std::istringstream in(read_text(path));
     for (std::string line; std::getline(in, line);) {
       ++line_;
-      if (line_ == 1 && line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
       const std::string_view text = trimmed(line);
       if (text.empty() || text[0] == '#') continue;
       if (column_.empty())

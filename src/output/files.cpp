@@ -80,12 +80,15 @@ std::string read_file(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::string read_text(const std::filesystem::path& path) {
-  std::string text = read_file(path);
+std::string_view without_mark(std::string_view text, const std::string& name) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-    throw FileError(path.string() + ": is in UTF-16; save it as UTF-8");
-  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
-  return text;
+    throw FileError(name + ": is in UTF-16; save it as UTF-8");
+  return text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0);
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  const std::string text = read_file(path);
+  return std::string(without_mark(text, path.string()));
 }
 
 std::filesystem::path part_of(const std::filesystem::path& path) { return path.string() + ".part"; }

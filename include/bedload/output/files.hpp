@@ -4,14 +4,18 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace bedload {
 
 /// Text of a whole file. Throws FileError.
 std::string read_file(const std::filesystem::path& path);
 
-/// The same without the byte order mark that spreadsheets and editors put first. Throws FileError, also for
-/// UTF-16.
+/// What lies behind the byte order mark that spreadsheets and editors put first in the text of the file
+/// `name`. Throws FileError for UTF-16.
+std::string_view without_mark(std::string_view text, const std::string& name);
+
+/// The text of a whole file without that mark. Throws FileError.
 std::string read_text(const std::filesystem::path& path);
 
 /// Replaces a file in one go: written beside its place, then renamed; survives a kill

@@ -267,7 +267,9 @@ class Case(Section):
                 text = path.read_text(encoding="utf-8")
             except FileNotFoundError:
                 raise FileError(f"{path}: cannot read this case file: no such file") from None
-            except (OSError, UnicodeDecodeError):
+            except UnicodeDecodeError:
+                raise FileError(f"{path}: is not in UTF-8; save it as UTF-8") from None
+            except OSError:
                 what = "is a folder, not a case file" if path.is_dir() else "cannot read this case file"
                 raise FileError(f"{path}: {what}") from None
             self._start(str(path))

@@ -161,6 +161,8 @@ def _case_file(case: Any, out: Path) -> tuple[Path, str]:
             return Path(case), Path(case).read_text(encoding="utf-8")
         except OSError:
             raise FileError(f"{case}: cannot read this case file") from None
+        except UnicodeDecodeError:
+            raise FileError(f"{case}: is not in UTF-8; save it as UTF-8") from None
     text = case.to_toml()
     own = Path(case._name)
     folder = own.parent if own.suffix == ".toml" else Path()
