@@ -131,19 +131,26 @@ struct BodyReportPass {
   BL_HD void operator()(Index b) const { out[b] = s.motion(bodies[b], b, time < bodies[b].release); }
 };
 
+/// The wall particles of one body, for sums over them.
+struct BodyParticles {
+  std::uint32_t body;
+  Span<const std::uint32_t> of;
+  Span<const Vec3d> x0;
+  const BodyPose* poses;
+  BL_HD bool has(Index w) const { return of[w] == body; }
+  /// From the body's reference point to one of them, m.
+  BL_HD Vec3d arm(Index w) const { return poses[body].place(x0[w]) - poses[body].origin(); }
+};
+
 /// Force of the fluid on the wall particles of one body.
 struct WallLoadReduction {
   using Value = LoadSum;
-  std::uint32_t body;
-  Span<const std::uint32_t> of;
-  Span<const Vec3d> x0, force;
-  const BodyPose* poses;
+  BodyParticles particles;
+  Span<const Vec3d> force;
   BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index w) const {
     Value sum = Value::zero();
-    if (of[w] != body) return sum;
-    const BodyPose& pose = poses[body];
-    sum.add(force[w], cross(pose.place(x0[w]) - pose.origin(), force[w]));
+    if (particles.has(w)) sum.add(force[w], cross(particles.arm(w), force[w]));
     return sum;
   }
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }

@@ -44,18 +44,13 @@ struct BodyPressureSums {
 
 struct BodyPressureReduction {
   using Value = BodyPressureSums;
-  std::uint32_t body;
-  Span<const std::uint32_t> of;
-  Span<const Vec3d> x0;
+  BodyParticles particles;
   Span<const Real4> m_state;
-  const BodyPose* poses;
   BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index w) const {
     Value sum = Value::zero();
     const Real4 m = m_state[w];
-    if (of[w] != body || m.x == 0) return sum;
-    const BodyPose& pose = poses[body];
-    sum.add(pose.place(x0[w]) - pose.origin(), double(m.y) * square(double(m.z)));
+    if (particles.has(w) && m.x != 0) sum.add(particles.arm(w), double(m.y) * square(double(m.z)));
     return sum;
   }
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
@@ -128,18 +123,14 @@ struct PairsInPressure {
 };
 struct PairsInPressureReduction {
   using Value = PairsInPressure;
-  std::uint32_t body;
-  Span<const std::uint32_t> of;
-  Span<const Vec3d> x0;
+  BodyParticles particles;
   Span<const Real4> m_state;
   Span<const Vec4<double>> force;
-  const BodyPose* poses;
   BL_HD Value identity() const { return {LoadSum::zero(), 0, 0}; }
   BL_HD Value operator()(Index w) const {
     Value sum = identity();
-    if (of[w] != body || m_state[w].x == 0) return sum;
-    const BodyPose& pose = poses[body];
-    sum.load.add(force[w].xyz(), cross(pose.place(x0[w]) - pose.origin(), force[w].xyz()));
+    if (!particles.has(w) || m_state[w].x == 0) return sum;
+    sum.load.add(force[w].xyz(), cross(particles.arm(w), force[w].xyz()));
     sum.wet = 1, sum.weight = force[w].w;
     return sum;
   }

@@ -9,8 +9,8 @@ namespace bedload::inline BL_VARIANT {
 /// The sum over pairs of a pressure that is linear around a, P_b = P + g . (x_b - x_a), is
 ///   sum_b V_b (P_a + P_b) F r_ab = 2 P E - M g,    E = sum_b V_b F r_ab,  M = sum_b V_b F r_ab r_ab,
 /// and ought to be -g: where particles are not in order, E and M - 1 are not zero, and a lattice under
-/// pressure P bears a shear stress of 2e-3 to 1e-2 P. Its own error on the linear fit of the pressure around
-/// it, by moving least squares with the weights V F, is taken off a particle's acceleration:
+/// pressure P resists shear by a stress of 2e-3 to 1e-2 P. Its own error on the linear fit of the pressure
+/// around it, by moving least squares with the weights V F, is taken off a particle's acceleration:
 ///   acc += w / rho (M g - g - 2 P E).
 /// Noise and sound stay in the pairs, since the fit is smooth. That gives up w times the sum of the errors of
 /// momentum. w is 1 where viscosity rules a particle's scale, the cell Reynolds number (P / rho)^(1/2) dx /

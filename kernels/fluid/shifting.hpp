@@ -26,8 +26,8 @@ struct Strain {
 ///   u = -min(A h^2 |S|, h^2 / (2 dt)) grad C,    grad C = sum_b V_b grad W_ab,    |u| <= 0.1 dx / dt,
 /// S being the rate of strain, the symmetric part of sum_b V_b F_ab (q_a - q_b) r_ab, in which the noise of
 /// single particles averages out: what rests is left alone, what turns as a whole nearly. A lattice that
-/// lasts bears shear by its pressure, at any resolution. The velocities of particles stay, so momentum holds;
-/// what that takes along is of the order of h^2 |S|, of angular momentum too.
+/// lasts resists shear by its pressure, at any resolution. The velocities of particles stay, so momentum
+/// holds; what that takes along is of the order of h^2 |S|, of angular momentum too.
 ///
 /// A free surface is where the least eigenvalue of the kernel's second moment, sum_b V_b F_ab r_ab r_ab,
 /// falls short of 1 (Marrone et al. 2010): 0.6 and less in the outermost layer, above 0.8 in disordered

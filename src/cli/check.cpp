@@ -93,7 +93,7 @@ std::string viscosity_text(const Config& c, const std::vector<Quantity>& numeric
   return out + (any ? "\n" : ", none of it numerical\n");
 }
 
-/// The shear stress that particles not in order bear under pressure, and whether that is taken off.
+/// The stress by which particles not in order resist shear under pressure, and whether that is taken off.
 std::string arrangement_text(const Config& c) {
   if (!c.fluid.present || c.fluid.mu == 0 || c.fluid.variable_h || c.fluid.sdpd()) return "";
   const double pressure = c.fluid.rho0 * norm(c.gravity) * c.fluid.depth + c.eos.background;

@@ -51,7 +51,7 @@ const CoupledSimulation::FluidLoads& CoupledSimulation::fluid_loads() {
   for (std::uint32_t b = 0; b < loads.pressure.size(); ++b) {
     const auto sum = [&](const Buffer<Vec3d>& force) {
       return reduce(state_.walls.owned(),
-                    WallLoadReduction{b, state_.walls.body, state_.walls.x0, force, poses.data});
+                    WallLoadReduction{{b, state_.walls.body, state_.walls.x0, poses.data}, force});
     };
     loads.pressure[b] = sum(forces.pressure);
     loads.friction[b] = sum(forces.friction);

@@ -288,8 +288,9 @@ void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>&
     const RigidMotion motion = state_.motion.pose(int(b), state_.clock.time);
     if (norm2(motion.v) + norm2(motion.omega) == 0) continue;
     const LoadSum load =
-        reduce(state_.walls.owned(), WallLoadReduction{b, state_.walls.body, state_.walls.x0,
-                                                       wall_forces().pressure, state_.poses_now().data});
+        reduce(state_.walls.owned(),
+               WallLoadReduction{{b, state_.walls.body, state_.walls.x0, state_.poses_now().data},
+                                 wall_forces().pressure});
     moving -= dot(load.force(), motion.v) + dot(load.torque(), motion.omega);
   }
   static const char* const terms[] = {"viscosity", "artificial_viscosity", "density_diffusion", "voids"};
@@ -413,8 +414,8 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"body_kinetic_energy", "J", t.kinetic});
     out.push_back({"body_rotational_energy", "J", t.rotational});
     out.push_back({"body_potential_energy", "J", t.potential});
-  }
     out.push_back({"bodies_outside", "-", double(t.outside)});
+  }
   for (const Quantity& q : state_.open.report(state_.clock.time)) out.push_back(q);
   out.push_back({"rebuilds", "-", double(stepper_.rebuilds())});
   return out;

@@ -257,7 +257,7 @@ BodyPressures FreeBodies::fit_pressure(const WallStore& walls, Span<const BodyPo
   fit_sums_.zero();
   for (int k = 0; k < size(); ++k)
     reduce_into(fit_sums_.data() + k, walls.owned(),
-                BodyPressureReduction{rigid(k).body, walls.body, walls.x0, walls.m_state, poses.data});
+                BodyPressureReduction{{rigid(k).body, walls.body, walls.x0, poses.data}, walls.m_state});
   for_each(store_.owned(), FitBodyPressure{fit_sums_, pressures_});
   return {pressures_, poses.data};
 }
@@ -272,7 +272,7 @@ void FreeBodies::feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force,
     const std::uint32_t body = rigid(k).body;
     if (walls.size() > 0)
       reduce_into(wall_sums_.data() + k, walls.owned(),
-                  WallLoadReduction{body, walls.body, walls.x0, force, poses.data});
+                  WallLoadReduction{{body, walls.body, walls.x0, poses.data}, force});
     if (repulsion && fluid.size() > 0)
       reduce_into(repulsion_sums_.data() + k, fluid.owned(),
                   BodyRepulsion{*repulsion, body, fluid.x, fluid.mass, fluid.heading});
@@ -296,8 +296,8 @@ void FreeBodies::correct_pressure(const WallStore& walls, const Buffer<Vec4<doub
   in_pressure_.zero();
   for (int k = 0; k < size(); ++k)
     reduce_into(in_pressure_.data() + k, walls.owned(),
-                PairsInPressureReduction{rigid(k).body, walls.body, walls.x0, walls.m_state, in_fit.span(),
-                                         poses.data});
+                PairsInPressureReduction{
+                    {rigid(k).body, walls.body, walls.x0, poses.data}, walls.m_state, in_fit.span()});
   BodyStore& s = store_;
   for_each(s.owned(), CorrectBody{constants_.data(), pressures_.data(), in_pressure_.data(), s.rotation,
                                   s.fluid_force, s.fluid_torque, s.corrected_force, s.corrected_torque});

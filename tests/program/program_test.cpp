@@ -582,7 +582,7 @@ max = [0.0, 0.05, 0.05]
   EXPECT_NE(allowed.err.find("jumps 0.004"), allowed.err.npos) << allowed.err;
 }
 
-TEST_F(Program, CheckTellsTheShearThatAnArrangementOfParticlesBears) {
+TEST_F(Program, CheckTellsTheShearThatAnArrangementOfParticlesResists) {
   write("dam.toml", kSmall);
   const std::string check = "check dam.toml --backend cpu ";
   const auto told = [&](const std::string& more, const std::string& what) {
