@@ -1,6 +1,9 @@
 #pragma once
 // Whole simulations of this build, from a Config made in code.
 
+#include <array>
+#include <bit>
+
 #include "bedload/geometry/setup.hpp"
 #include "bedload/simulation.hpp"
 #include "tests/support/fluid_box.hpp"
@@ -71,11 +74,16 @@ inline LineFit pressure_line(Simulation& s, double from, double to) {
   return line;
 }
 
-/// Every bit of the kept state.
+/// Every bit of the kept state, numbers included.
 inline std::vector<std::byte> bits(Simulation& s) {
   std::vector<std::byte> out;
-  for (const auto& store : s.save().stores)
+  const SavedState state = s.save();
+  for (const auto& store : state.stores)
     for (const auto& a : store.arrays) out.insert(out.end(), a.bytes.begin(), a.bytes.end());
+  for (const Quantity& q : state.scalars) {
+    const auto raw = std::bit_cast<std::array<std::byte, sizeof q.value>>(q.value);
+    out.insert(out.end(), raw.begin(), raw.end());
+  }
   return out;
 }
 
