@@ -251,19 +251,36 @@ TEST(ContactLaw, CapKeepsTheConstantCoupleFromTurningTheSpinRound) {
 }
 
 TEST(ContactLaw, WallIsTheLimitOfAHugePartner) {
+  const double size = 1e6, near = 2 / size;  // R* and 1/I fall short by 1/size, to which Real rounds
+  const Sphere huge{Real(size) * kRadius, Real(size * size * size) * kGrain.m};
+  const auto pair = [&](double overlap) {
+    const double gap = double(kRadius) + double(huge.R) - overlap;
+    return touch(kGrain, huge, {0, 0, gap}, gap, overlap);
+  };
+  const double deep = 1e-2 * kRadius;
+  ContactGeometry at = pair(deep), wall = touch_wall(kGrain, {0, 0, 1}, deep);
+  EXPECT_EQ(at.n, wall.n);
+  EXPECT_EQ(at.overlap, wall.overlap);
+  EXPECT_NEAR(at.R_star / wall.R_star, 1, near);
+  EXPECT_NEAR(at.m_star / wall.m_star, 1, near);
+  EXPECT_NEAR(at.inverse_spin / wall.inverse_spin, 1, near);
+  EXPECT_NEAR(at.inverse_rolling / wall.inverse_rolling, 1, near);
+  // a flat wall takes the whole overlap; the pair shares it
+  EXPECT_NEAR((kRadius - wall.arm_i) / deep, 1, 1e-4);
+  EXPECT_NEAR((kRadius - at.arm_i) / deep, 0.5, 1e-4);
+  // that is of no account where the overlap is as small against the grain as the grain is against its partner
   Config c = glass();
-  const ContactLaw law = contact_law_of(c);
-  const Sphere huge{Real(1e6) * kRadius, Real(1e18) * kGrain.m};
-  const double overlap = 1e-6, gap = double(kRadius) + double(huge.R) - overlap;
-  ContactHistory h, w;
-  ContactGeometry at = touch(kGrain, huge, {0, 0, gap}, gap, overlap);
-  at.arm_i = kRadius;  // a flat wall takes the whole overlap; the pair shares it
-  ContactGeometry wall = touch_wall(kGrain, {0, 0, 1}, overlap);
-  wall.arm_i = kRadius;
-  const Real3 v{Real(0.01), 0, Real(-0.02)}, spin{0, Real(3), 0};
-  const ContactForce a = law(at, v, spin, {}, Real(1e-6), h), b = law(wall, v, spin, {}, Real(1e-6), w);
-  EXPECT_LT(norm(a.force - b.force), 1e-5 * norm(b.force));
-  EXPECT_LT(norm(a.torque_i - b.torque_i), 1e-5 * norm(b.torque_i));
+  c.grain.mu_r = 0.1;
+  for (const char* rolling : {"none", "cdt", "epsd"}) {
+    c.contact.rolling = rolling;
+    const ContactLaw law = contact_law_of(c);
+    at = pair(kRadius / size), wall = touch_wall(kGrain, {0, 0, 1}, kRadius / size);
+    ContactHistory h, w;
+    const Real3 v{Real(0.01), 0, Real(-0.02)}, spin{0, Real(3), 0};
+    const ContactForce a = law(at, v, spin, {}, Real(1e-6), h), b = law(wall, v, spin, {}, Real(1e-6), w);
+    EXPECT_LT(norm(a.force - b.force), 2 * near * norm(b.force)) << rolling;
+    EXPECT_LT(norm(a.torque_i - b.torque_i), 2 * near * norm(b.torque_i)) << rolling;
+  }
 }
 
 }  // namespace
