@@ -172,6 +172,46 @@ INSTANTIATE_TEST_SUITE_P(Boxes, Neighbours,
                          testing::Combine(testing::Values(0, 1, 6, 7),
                                           testing::Values(0.03, 0.08, 0.131, 0.154)));
 
+/// A list that is built again holds what it should, however much more or less than before that is.
+TEST(SmallNeighbours, ListsGrowFromNothingAndShrink) {
+  const Cloud c = cloud(700, true, true, false, {0.5, 0.31, 0.42}, 6);
+  CellGrid grid(c.frame, c.frame.origin, c.frame.origin + c.frame.length, 0.15);
+  const auto x = sorted(c, grid);
+  const Index n = Index(x.size());
+  Buffer<Vec3d> device;
+  device.assign(x);
+  Buffer<PairPosition> p;
+  p.assign(packed(c.frame, x));
+  const PairSeparation separation{c.frame, p, p};
+  VerletList list;
+#if BL_CUDA
+  TileList tiles;
+#endif
+  std::size_t most = 0;
+  for (const double range : {1e-6, 0.03, 0.15, 0.05, 0.15}) {
+    list.build(n, grid.view(), SphNear<Vec3d>{c.frame, device, p, p, range, true});
+    std::vector<std::set<Index>> expected(n);
+    std::size_t pairs = 0;
+    for (Index i = 0; i < n; ++i)
+      for (Index j = 0; j < n; ++j)
+        if (i != j && norm(c.frame.separation(x[i], x[j])) < range) expected[i].insert(j), ++pairs;
+    EXPECT_EQ(rows_of(list, separation, range), expected) << range;
+    EXPECT_GE(list.slots(), pairs);
+    EXPECT_GE(list.bytes(), std::max(most, pairs) * sizeof(Index)) << "memory is kept";
+    most = std::max(most, pairs);
+#if BL_CUDA
+    tiles.build(grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p), range, {}, 2);
+    EXPECT_EQ(rows_of(tiles, separation, range), expected) << "tiles, " << range;
+#endif
+  }
+  EXPECT_GT(most, 60u * n) << "the test means it to grow";
+  const std::size_t held = list.bytes();
+  list.build(0, grid.view(), SphNear<Vec3d>{c.frame, device, p, p, 0.15, true});
+  EXPECT_EQ(list.rows(), 0u);
+  EXPECT_EQ(list.slots(), 0u);
+  EXPECT_EQ(list.bytes(), held);
+}
+
 /// A pass that the CPU takes in packs, with every kind of gather; `constant` must come through unchanged.
 template <class W>
 struct MomentPass {
