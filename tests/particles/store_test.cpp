@@ -80,6 +80,30 @@ TEST(Store, SortsWhatIsKeptAndSavesWhatIsRenewed) {
   EXPECT_EQ(store.renewed.values(), (std::vector<Real>{7, 5}));
 }
 
+/// Another precision has other numbers, which must not be read as if they were this one's.
+TEST(Store, RefusesArraysOfAnotherType) {
+  struct Places : Store {
+    Places() : Store("places") {}
+    Field<Real> radius{*this, "radius", "m", Lifetime::kept};
+    Field<Real3> v{*this, "v", "m/s", Lifetime::kept};
+  } store;
+  store.grow(2);
+  const HostStore saved = store.save();
+  const auto changed = [&](int k, Scalar type, int components) {
+    HostStore other = saved;
+    other.arrays[k].type = type, other.arrays[k].components = components;
+    return other;
+  };
+  const Scalar own = saved.arrays[0].type, other = own == Scalar::f32 ? Scalar::f64 : Scalar::f32;
+  EXPECT_NO_THROW(store.load(changed(0, own, 1)));
+  EXPECT_THROW(store.load(changed(0, other, 1)), FileError);
+  EXPECT_THROW(store.load(changed(1, other, 3)), FileError);
+  EXPECT_THROW(store.load(changed(1, own, 4)), FileError);
+  HostStore less = saved;
+  less.arrays.pop_back();
+  EXPECT_THROW(store.load(less), FileError);
+}
+
 TEST(Store, LosesWhatDoesNotStayAndGrowsAgain) {
   Pairs store;
   std::vector<Id> all(10000), left;
