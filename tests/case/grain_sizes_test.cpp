@@ -125,6 +125,16 @@ TEST(GrainSizes, ResolveTheDiametersOfTheCase) {
   EXPECT_TRUE(read(resolved_toml(s)) == s) << resolved_toml(s);
 }
 
+TEST(GrainSizes, MaySpanAFactorOfTwenty) {
+  const auto with = [](const std::string& largest) {
+    return changed("count = 500",
+                   "count = 5\n[[grain.fill.sizes]]\nkind = \"uniform\"\nd_min = 0.001\nd_max = " + largest);
+  };
+  EXPECT_EQ(read(with("0.02")).grain.d_max, 0.02);
+  EXPECT_NE(error_of(with("0.0201")).find("0.001..0.0201 m must span at most a factor of 20 in diameter"),
+            std::string::npos);
+}
+
 TEST(GrainSizes, ErrorsNameTheEntryAtFault) {
   const auto error = [](const std::string& size) {
     return error_of(changed("count = 500", "count = 500\n[[grain.fill.sizes]]\n" + size));
