@@ -38,6 +38,9 @@ TEST(Drying, IsContinuousAndEndsAtExactlyNothing) {
   const Exchange deep = grain_at(0.35), surface = grain_at(0.5);
   EXPECT_EQ(deep.wetness, 1);
   EXPECT_NEAR(surface.wetness, 0.5, 0.02);
+  // fluid that fills less than couple.S_dry of the kernel gives no drag, but the part of its weight that it
+  // is
+  const double dry = unit_box(0.1, 20).couple.S_dry, reach = 2 * 0.1, highest = 0.5 - 0.05 / 2;
   Exchange last = deep;
   bool dried = false;
   for (double z = 0.35; z < 0.8; z += 0.005) {
@@ -51,11 +54,14 @@ TEST(Drying, IsContinuousAndEndsAtExactlyNothing) {
       dried = true;
       EXPECT_EQ(now.K, 0);
       EXPECT_EQ(now.K_rot, 0);
-      EXPECT_LT(now.force, 0.06 * deep.force);
+      EXPECT_LE(now.force, dry * deep.force);
+      EXPECT_EQ(now.force > 0, z < highest + reach) << z;
+      EXPECT_EQ(now.reaction, 0);
     }
     last = now;
   }
   EXPECT_TRUE(dried);
+  EXPECT_EQ(last.force, 0);
 }
 
 /// Archimedes: also of grains at walls, beyond which there is no fluid, and in corners.

@@ -103,7 +103,15 @@ TEST(LocalDrag, BesideAnOrificeIsThatOfTheBed) {
   };
   for (const char* slip : {"local", "mean"}) {
     const auto bed = drag(slip, false), beside = drag(slip, true);
-    for (std::size_t j = 0; j < bed.size(); ++j) EXPECT_NEAR(beside[j] / bed[j], 1, 0.25) << slip << " " << j;
+    // the law of mean porosity and slip within the kernel is not the mean of the law, by which some grains
+    // feel more and some less
+    const double each = slip == std::string("local") ? 0.21 : 0.14;
+    double mean = 0;
+    for (std::size_t j = 0; j < bed.size(); ++j) {
+      EXPECT_NEAR(beside[j] / bed[j], 1, each) << slip << " " << j;
+      mean += beside[j] / bed[j] / double(bed.size());
+    }
+    EXPECT_NEAR(mean, 1, 0.015) << slip;
   }
 }
 
