@@ -278,9 +278,10 @@ TEST(CoupledFlow, AJetInABedIsStoppedByItsOwnSpeed) {
   EXPECT_NEAR(after / before, expected, 0.03 * expected);
 }
 
-/// Water over and in a bed of resting grains on a floor of that type: it stays still, and lifts each grain by
-/// its buoyancy, to that fraction.
-void expect_still_bed(const char* floor, double fraction = 0.03, double fastest_allowed = 3e-3) {
+/// Water over and in a bed of resting grains on a floor of that type, after `settled` s: for 0.12 s it is no
+/// faster than that (m/s), and lifts the grains by so much of their buoyancy.
+void expect_still_bed(const char* floor, double lifted = 1.0076, double fastest_allowed = 4e-4,
+                      double settled = 0) {
   Config c = periodic_box(8, 3e-3);
   c.gravity = {0, 0, -9.81};
   c.domain.periodic = {true, true, false};
@@ -320,23 +321,28 @@ void expect_still_bed(const char* floor, double fraction = 0.03, double fastest_
   }
   auto s = started(c, setup);
   double fastest = 0, lift = 0;
+  run_until(*s, settled);
   for (int k = 1; k <= 10; ++k) {
-    run_until(*s, 0.012 * k);
+    run_until(*s, settled + 0.012 * k);
     const auto d = s->diagnostics();
     fastest = std::max(fastest, reading(d, "fluid_speed_max"));
     if (k > 5) lift += reading(d, "force_fluid_on_grains_z") / 5;
   }
   EXPECT_LT(fastest, fastest_allowed);
   const double buoyancy = 9.81 * 1000 * 567 * pi / 6 * 2.7e-3 * 2.7e-3 * 2.7e-3;
-  EXPECT_NEAR(lift / buoyancy, 1, fraction);
+  EXPECT_NEAR(lift / buoyancy, lifted, 3e-3);
 }
 
 TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRest) { expect_still_bed("adami"); }
 TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRestOnAnMdbcFloor) { expect_still_bed("mdbc"); }
-// what these walls give the fluid beside them is not that of a wall among grains
-TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRestOnAFrozenFloor) { expect_still_bed("frozen", 0.15); }
-TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRestOnASingleLayer) {
-  expect_still_bed("single_layer", 0.15, 0.15);
+// what these walls give the fluid beside them is not that of a wall among grains: those of the lowest layer,
+// a seventh of all, have half of their lift and less
+TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRestOnAFrozenFloor) {
+  expect_still_bed("frozen", 0.868, 1.5e-3);
+}
+// its soft push lets the column bob, at 0.14 m/s at first
+TEST(SlowCoupledFlow, WaterInABedAtRestComesToRestOnASingleLayer) {
+  expect_still_bed("single_layer", 0.921, 0.02, 0.6);
 }
 
 /// One grain released in still water over a floor, drag on the grain alone.
