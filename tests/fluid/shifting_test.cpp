@@ -104,15 +104,15 @@ TEST(Shifting, GoesAlongAFreeSurfaceBesideIt) {
   for (int k = 0; k < 2; ++k) box.solver->density(box.fluid, box.walls, {}, box.moment(), 1e-4);
   const auto x = box.coordinates_now();
   const auto u = box.fluid.drift.values();
-  double across = 0, along = 0, within = 0;
+  double across = 0, along = 0, across_within = 0, along_within = 0;
   for (std::size_t a = 0; a < x.size(); ++a) {
     const double depth = std::min(x[a].z, c.domain.max.z - x[a].z) / c.fluid.dx;
     if (depth > 1.2 && depth < 2.2) across += square(double(u[a].z)), along += square(double(u[a].x));
-    if (depth > 4.2) within += square(double(u[a].z)) / square(double(u[a].x) + 1e-30) > 0;
+    if (depth > 4.2) across_within += square(double(u[a].z)), along_within += square(double(u[a].x));
   }
   EXPECT_GT(along, 0);
-  EXPECT_LT(across, 0.15 * along) << "what the normals of single particles differ by";
-  EXPECT_GT(within, 100);
+  EXPECT_LT(across, 0.02 * along) << "what the normals of single particles differ by";
+  EXPECT_NEAR(across_within / along_within, 1, 0.2) << "within, it knows no direction";
 }
 
 double left_of_vortices(double shift) {
