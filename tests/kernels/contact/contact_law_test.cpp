@@ -121,6 +121,41 @@ TEST(ContactLaw, SlidingIsLimitedAndTheSpringFollows) {
   }
 }
 
+/// What is left of the spring and the dashpot together have the limit of friction: at rest the spring alone
+/// acts.
+TEST(ContactLaw, TheSpringThatFrictionLeavesKnowsOfItsDamping) {
+  Config c = glass();
+  c.contact.rolling = "none";
+  for (const char* name : {"mindlin", "linear"}) {
+    c.contact.tangential = name;
+    const ContactLaw law = contact_law_of(c);
+    const double overlap = 1e-6, gap = 2 * double(kRadius) - overlap;
+    const ContactGeometry at = touch(kGrain, kGrain, {0, 0, gap}, gap, overlap);
+    const auto sliding = [&](Real v, ContactHistory& h) { return law(at, {v, 0, 0}, {}, {}, 0, h).force.x; };
+    ContactHistory still{{1e-9, 0, 0}, {}, overlap}, moves = still, slips{{1e-3, 0, 0}, {}, overlap};
+    const Real slow = Real(1e-4);
+    const double damping = (sliding(0, still) - sliding(slow, moves)) / slow;
+    const double limit = -sliding(slow, slips);
+    ASSERT_GT(damping * slow, 1e-3 * limit);
+    EXPECT_NEAR(-sliding(0, slips) / (limit - damping * slow), 1, tolerance(1e-12, 1e-5, 1e-5)) << name;
+  }
+}
+
+/// [ai11] type C: k_r = 2.25 k_n (mu_r R*)^2, damped by eta of twice its critical damping, and their energy.
+TEST(ContactLaw, ElasticPlasticCoupleByHand) {
+  const double mu_r = 0.1, eta = 0.3, k_n = 1e4, R = 5e-4, dt = 1e-6, inverse = 2e11;
+  const ElasticPlasticRolling law{Real(mu_r), Real(eta)};
+  const RollingInput in{{Real(0.5), 0, 0}, Real(1),       Real(k_n), Real(R),
+                        Real(inverse),     Real(inverse), Real(dt)};
+  const double k_r = 2.25 * k_n * mu_r * mu_r * R * R;
+  Vec3d couple;
+  const Real3 total = law(in, couple);
+  EXPECT_NEAR(couple.x / (-k_r * dt * 0.5), 1, 1e-6);
+  EXPECT_NEAR(total.x / (couple.x - 2 * eta * std::sqrt(k_r / inverse) * 0.5), 1, 1e-6);
+  EXPECT_LT(norm(total), mu_r * R);
+  EXPECT_NEAR(law.stored(Real(k_n), Real(R), couple) / (0.5 * k_r * square(dt * 0.5)), 1, 1e-6);
+}
+
 TEST(ContactLaw, RigidRotationDoesNotSlide) {
   // two touching grains that turn as one body: no force but the elastic one
   Config c = glass();
