@@ -32,6 +32,17 @@ TEST(GrainDrag, TerminalVelocityIsExactForAnyStiffness) {
   }
 }
 
+TEST(GrainDrag, RelaxesExactlyAtAnyRate) {
+  for (const double x : {1e-12, 1e-6, 0.99e-4, 1.01e-4, 1e-2, 1.0, 50.0}) {
+    const Relaxation slip(x / 0.1, 0.1, true);
+    EXPECT_NEAR(slip.fraction / -std::expm1(-x), 1, 1e-15) << x;
+    // psi(x) - 1, below 1 by its series; as a difference it is known to 1e-16 / x
+    const double lag =
+        x < 1 ? -x / 2 * (1 - x / 3 * (1 - x / 4 * (1 - x / 5 * (1 - x / 6)))) : -std::expm1(-x) / x - 1;
+    EXPECT_NEAR(slip.lag / lag, 1, 1e-8) << x;
+  }
+}
+
 TEST(GrainDrag, FollowsTheExponentialAndBooksItsImpulse) {
   InFluid b;
   b.config.gravity = {0, 0, -9.81};

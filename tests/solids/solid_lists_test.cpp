@@ -269,6 +269,7 @@ TEST(SolidLists, PeriodicImagesTouch) {
   EXPECT_EQ(b.solver->totals(*b.grains).contacts, 1);
   const double hertz = 4.0 / 3 * b.E_star() * std::sqrt(b.R() / 2) * std::pow(0.1 * b.R(), 1.5);
   EXPECT_NEAR(b.force(0).x / hertz, 1, tolerance(1e-9, 1e-5, 1e-5));
+  EXPECT_NEAR(b.solver->totals(*b.grains).max_overlap, 0.1 / 2, 1e-6) << "over the diameter";
   EXPECT_EQ(b.force(0).x, -b.force(1).x);
   b.run(1e-6, 200);
   b.refresh();

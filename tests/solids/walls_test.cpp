@@ -254,6 +254,52 @@ TEST(Walls, RotatingPlaneCarriesTheGrainRound) {
   EXPECT_NEAR(f.y / (b.config.grain.mu * f.z), 1, 1e-2);
 }
 
+TEST(Walls, BeltRunsTheWayThatItsBodyIsTurned) {
+  GrainBench b;
+  b.plane({0, 0, 0}, {0, 0, 1});
+  b.motion = [](int, double) {
+    BodyPose p;
+    p.rotation = Quat<double>::from_rotation({0, 0, M_PI / 2});
+    p.slide = {0.3, 0, 0};
+    return p;
+  };
+  b.add({0, 0, 0.999 * b.R()});
+  b.start();
+  b.run(1e-7, 10);
+  const Vec3d f = b.force();
+  EXPECT_GT(f.y, 0);
+  EXPECT_LT(std::abs(f.x), 1e-5 * f.y);
+}
+
+/// A body that has gone round a period, and grains beside it that have not, are where they were.
+TEST(Walls, AreMetByTheirNearestImage) {
+  const auto load = [](int periods) {
+    GrainBench b;
+    b.config.domain.periodic = {true, false, false};
+    b.config.wall.bodies = {box({-0.02, -0.02, -0.02}, {0.02, 0.02, 0})};
+    b.motion = [&](int, double) {
+      BodyPose p;
+      p.translation = {0.2 * periods, 0, 0};
+      p.omega = {0, 0, 5};
+      return p;
+    };
+    b.add({0.015, 0.005, 0.999 * b.R()});
+    b.start();
+    b.run(1e-7, 10);
+    b.set_poses(1, 0);
+    const LoadSum sum = b.solver->body_loads(*b.grains, b.poses())[0];
+    return std::pair{sum.force(), sum.torque()};
+  };
+  const auto [force, torque] = load(0);
+  EXPECT_LT(force.z, 0);
+  EXPECT_NEAR(torque.y / (-0.015 * force.z), 1, 0.02) << "but for friction at that depth";
+  for (const int periods : {-1, 3}) {
+    const auto [far, turning] = load(periods);
+    EXPECT_LT(norm(far - force), tolerance(1e-9, 1e-5, 1e-5) * norm(force)) << periods;
+    EXPECT_LT(norm(turning - torque), tolerance(1e-9, 1e-5, 1e-5) * norm(torque)) << periods;
+  }
+}
+
 TEST(Walls, HaveFrictionAndRestitutionOfTheirOwn) {
   GrainBench b;
   b.config.gravity = {0, 0, -9.81};
