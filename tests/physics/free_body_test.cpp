@@ -69,6 +69,16 @@ TEST(FreeBodySpin, ASymmetricTopPrecesses) {
       << "after " << rate * s->time() / (2 * M_PI) << " rounds";
 }
 
+TEST(FreeBodySpin, RotationVectorIsTheShortWay) {
+  const Vec3d axis = Vec3d{1, -2, 2} / 3;
+  for (const double angle : {1e-9, 0.5, 2.0, 3.1, 3.2, 6.0}) {
+    const Quat<double> q = Quat<double>::from_rotation(angle * axis), same{-q.w, -q.x, -q.y, -q.z};
+    const Vec3d way = (angle < M_PI ? angle : angle - 2 * M_PI) * axis;
+    EXPECT_LT(norm(rotation_vector(q) - way), 1e-14 * (1 + angle)) << angle;
+    EXPECT_LT(norm(rotation_vector(same) - way), 1e-14 * (1 + angle)) << angle << " as its negative";
+  }
+}
+
 TEST(FreeBodyConstraints, PendulumSwingsAtItsPeriod) {
   Config c = void_case();
   WallBody rod = test::shaped("rod", make_box({0, -0.01, -0.01}, {0.4, 0.01, 0.01}));
@@ -345,6 +355,31 @@ TEST(FreeBodyAmongGrains, ClosedSystemKeepsMomentaAndGainsNoEnergy) {
       EXPECT_LT(gain, 1e-3 * energy_of(before));
       EXPECT_LT(energy, 0.9 * energy_of(before));
     }
+  }
+}
+
+/// A grain meets a ball of its own size and matter, both free: the mass that swings between them is half of
+/// it.
+TEST(FreeBodyAmongGrains, ReboundsWithTheirRestitution) {
+  for (const double e : {1.0, 0.5}) {
+    Config c = void_case();
+    c.gravity = {};
+    c.grain.present = true;
+    c.grain.d = c.grain.d_min = c.grain.d_max = 0.02;
+    c.grain.e = e;
+    WallBody ball = test::shaped("ball", make_sphere({0, 0, 0}, 0.01));
+    set_free(ball, c.grain.rho).free.e = e;
+    c.wall.bodies = {ball};
+    bedload::Setup setup;
+    setup.grains.x = {{0.0201, 0, 0}};
+    setup.grains.v = {{-0.5, 0, 0}};
+    setup.grains.radius = {0.01};
+    auto s = started(c, setup);
+    run_until(*s, 2e-3);
+    const double v = vectors(s->snapshot("grains"), "velocity")[0].x,
+                 of_ball = reading(s->body_state(0), "velocity_x");
+    EXPECT_NEAR((v - of_ball) / 0.5, e, 5e-3);
+    EXPECT_NEAR(v + of_ball, -0.5, 1e-6) << "of equal masses";
   }
 }
 
