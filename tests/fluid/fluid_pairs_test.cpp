@@ -104,10 +104,23 @@ TEST(FluidPairs, TaitAndDemocritusPressures) {  // T-5
   EXPECT_NEAR(double(tait.pressure(Real(0.01))) / 1000, exact, exact * 2 * kInvariant);
   const EquationOfState democritus{Real(100), Real(7), Real(100 - 30), Real(3), false};
   EXPECT_NEAR(double(democritus.pressure(0)), 70, 70 * kInvariant);
-  for (double x : {-0.05, 1e-6, 1e-3, 0.3})
+  for (double x : {-0.2, -0.05, 1e-6, 1e-3, 0.3})
     EXPECT_NEAR(double(tait.compression(tait.pressure(Real(x)))), x,
                 std::abs(x) * tolerance(1e-9, 1e-5, 1e-5));
   EXPECT_EQ((EquationOfState{Real(1000), 7, 0, Real(1000), true}).pressure(Real(-0.1)), Real(0));
+}
+
+TEST(FluidPairs, ArtificialViscosityAndTensileTermByHand) {  // [monaghan92], Monaghan 2000
+  const ArtificialViscosity artificial{Real(0.1), Real(0.2), 20, Real(0.015)};
+  const double m = 2e-3, near = -3e-3, rho = 900, r2 = 1.2e-4, F = 5e9;
+  const double mu = 0.015 * near / (r2 + 0.01 * 0.015 * 0.015);
+  const double expected = m * F * (0.2 * mu * mu - 0.1 * 20 * mu) / rho;
+  EXPECT_NEAR(artificial.term(Real(m), Real(near), Real(rho), Real(r2), Real(F)) / expected, 1, kInvariant);
+  EXPECT_EQ(artificial.term(Real(m), Real(-near), Real(rho), Real(r2), Real(F)), 0) << "receding";
+  const TensileTerm tensile{Real(0.01), Real(0.2), 2};  // of pressure, of tension, W at the spacing
+  const double f = std::pow(3.0 / 2, 4);
+  EXPECT_NEAR(tensile.R(Real(3), Real(4), Real(-5)) / (f * (0.01 * 4 + 0.2 * 5)), 1, kInvariant);
+  EXPECT_NEAR(tensile.R(Real(3), Real(-4), Real(5)) / (f * (0.2 * 4 + 0.01 * 5)), 1, kInvariant);
 }
 
 TEST(FluidPairs, FragmentedFluidCavitates) {
