@@ -143,6 +143,11 @@ TEST(Edges, DoNotFetchWhatIsOutside) {
   EXPECT_EQ(x.x, 1.25);
   EXPECT_EQ(v.x, 1);
   EXPECT_EQ(edges.inside({0.125, 0.5, 0.5}, {0.25, 0, 0}).x, 0.125) << "a mirrored way";
+  // but what packing has rounded out
+  x = {1.25, 0.5, 0.5};
+  edges.put_back(Vec3d{1 + 0x1p-34, 0.5, 0.5}, x, v);
+  EXPECT_EQ(x.x, 0.75);
+  EXPECT_EQ(v.x, -1);
 }
 
 /// Fluid that flows about, in all of the box, and some grains.
