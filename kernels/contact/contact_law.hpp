@@ -101,15 +101,18 @@ struct ContactLawOf {
     if (clip_tension) f_n = max_of(f_n, Real(0));
     const Real pressing = max_of(f_n, Real(0));
 
+    const NormalState before =
+        h.overlap > 0 ? normal_state(at.R_star, at.m_star, Real(h.overlap)) : ns;  // of the springs
     const double twist = 0.5 * dt * double(dot(omega_i + omega_j, n));
     ContactForce out{f_n * n, {}, {}};
     if (slides()) {
       const Real3 v_t = v - v_n * n - cross(at.arm_i * omega_i + at.arm_j * omega_j, n);
       const Vec3d turned = turn_with_contact(h.xi, at.n, twist), step = double(dt) * Vec3d(v_t);
-      const SlidingInput in{pressing,  ns.stiffness, ns.damping, std::sqrt(at.R_star * Real(at.overlap)),
-                            at.m_star, at.overlap};
+      const SlidingInput in{
+          pressing,         ns,       before, std::sqrt(at.R_star * Real(at.overlap)), at.m_star,
+          Real(at.overlap), h.overlap};
       const Real3 f_t =
-          with_law(sliding, [&](const auto& law) { return slide(law, in, v_t, turned, step, h); });
+          with_law(sliding, [&](const auto& law) { return slide(law, in, v_t, turned, step, h.xi); });
       const Real3 couple = cross(f_t, n);  // - n x F_t
       out.force += f_t;
       out.torque_i = at.arm_i * couple;
@@ -118,7 +121,8 @@ struct ContactLawOf {
     if (rolls()) {
       Real3 w = omega_i - omega_j;
       w -= dot(w, n) * n;
-      const RollingInput in{w, pressing, ns.stiffness, at.R_star, at.inverse_spin, at.inverse_rolling, dt};
+      const RollingInput in{w,         pressing,        ns.stiffness,       before.stiffness,
+                            at.R_star, at.inverse_spin, at.inverse_rolling, dt};
       if (remembers_couple()) h.couple = turn_with_contact(h.couple, at.n, twist);
       const Real3 couple = with_law(rolling, [&](const auto& law) { return law(in, h.couple); });
       out.torque_i += couple;
@@ -133,31 +137,31 @@ struct ContactLawOf {
   BL_HD double stored(Real R_star, Real m_star, const ContactHistory& h) const {
     const double overlap = h.overlap < 0 ? -h.overlap : h.overlap;
     const NormalState ns = normal_state(R_star, m_star, Real(overlap));
-    double energy =
-        with_law(normal, [](const auto& law) { return law.kEnergy; }) * double(ns.elastic) * overlap;
-    const SlidingInput in{ns.elastic, ns.stiffness, ns.damping, std::sqrt(R_star * Real(overlap)),
-                          m_star,     overlap};
-    energy += with_law(sliding, [&](const auto& law) { return law.stored(in, h.xi); });
-    energy += with_law(rolling, [&](const auto& law) { return law.stored(ns.stiffness, R_star, h.couple); });
-    return energy;
+    return with_law(normal, [](const auto& law) { return law.kEnergy; }) * double(ns.elastic) * overlap +
+           stored_sideways(ns, R_star, m_star, overlap, h);
   }
 
  private:
-  /// Friction's force and the spring that is left, Coulomb's limit kept.
+  BL_HD double stored_sideways(const NormalState& ns, Real R_star, Real m_star, double overlap,
+                               const ContactHistory& h) const {
+    const SlidingInput in{ns.elastic, ns, ns, std::sqrt(R_star * Real(overlap)), m_star, overlap, overlap};
+    return with_law(sliding, [&](const auto& law) { return law.stored(in, h.xi); }) +
+           with_law(rolling, [&](const auto& law) { return law.stored(ns.stiffness, R_star, h.couple); });
+  }
+  /// Friction's force, Coulomb's limit kept. Where it slips the spring bears no more than the limit, and a
+  /// damper that would bear more stretches no spring: that would be energy from nowhere.
   template <class Law>
   BL_HD Real3 slide(const Law& law, const SlidingInput& in, const Real3& v_t, const Vec3d& turned,
-                    const Vec3d& step, ContactHistory& h) const {
-    Vec3d xi = law.stretch(turned, step, h.overlap, Real(in.overlap));
-    SlidingState s = law(in, xi);
-    s.damping *= sliding_damping;
-    Real3 f_t = s.elastic - s.damping * v_t;
+                    const Vec3d& step, Vec3d& xi) const {
+    xi = law.stretch(in, turned, step);
+    const SlidingState s = law(in, xi);
+    Real3 f_t = s.elastic - sliding_damping * s.damping * v_t;
     const Real size = norm(f_t), limit = mu * in.normal_force;
     if (size > limit) {
       f_t *= limit / size;
-      if (!law.kPartialSlip && s.stiffness > 0)
-        xi = (Vec3d(f_t) + double(s.damping) * Vec3d(v_t)) * (-1 / double(s.stiffness));
+      const double length = norm(xi), longest = law.longest(in, limit);
+      if (length > longest) xi *= longest / length;
     }
-    h.xi = xi;
     return f_t;
   }
 };

@@ -6,7 +6,7 @@ namespace bedload::inline BL_VARIANT {
 
 /// Spring of a constant fraction of the normal stiffness.
 struct LinearSliding {
-  static constexpr bool kActs = true, kPartialSlip = false;
+  static constexpr bool kActs = true;
   Real ratio = Real(2.0 / 7.0);
 
   static constexpr bool is(SlidingLaw law) { return law == SlidingLaw::linear; }
@@ -15,13 +15,16 @@ struct LinearSliding {
     p("contact.kt_ratio", &c.kt_ratio,
       {.meaning = "tangential / normal spring, linear", .range = above_to(0, 1)});
   }
-  BL_HD Vec3d stretch(const Vec3d& xi, const Vec3d& step, double, double) const { return xi + step; }
-  BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {
-    const Real stiffness = ratio * in.normal_stiffness;
-    return {-stiffness * Real3(xi), stiffness, in.normal_damping * std::sqrt(ratio)};
+  BL_HD Real stiffness(const SlidingInput& in) const { return ratio * in.normal.stiffness; }
+  BL_HD Vec3d stretch(const SlidingInput& in, const Vec3d& xi, const Vec3d& step) const {
+    return xi * min_of(1.0, double(in.before.stiffness) / double(in.normal.stiffness)) + step;
   }
+  BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {
+    return {-stiffness(in) * Real3(xi), in.normal.damping * std::sqrt(ratio)};
+  }
+  BL_HD double longest(const SlidingInput& in, Real limit) const { return double(limit / stiffness(in)); }
   BL_HD double stored(const SlidingInput& in, const Vec3d& xi) const {
-    return 0.5 * double(ratio * in.normal_stiffness) * norm2(xi);
+    return 0.5 * double(stiffness(in)) * norm2(xi);
   }
 };
 

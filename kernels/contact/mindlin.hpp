@@ -6,7 +6,7 @@ namespace bedload::inline BL_VARIANT {
 /// Incremental Mindlin: stiffness 8 G* sqrt(R* overlap); as `democritus` S_n / (2 + 2 nu) [tsuzuki] Eq. 31,
 /// with the mean nu of both sides.
 struct Mindlin {
-  static constexpr bool kActs = true, kPartialSlip = false;
+  static constexpr bool kActs = true;
   Real G_star = 0;  ///< Pa
 
   static constexpr bool is(SlidingLaw law) {
@@ -16,22 +16,20 @@ struct Mindlin {
     if (m.contact.tangential == SlidingLaw::democritus) return {Real(m.E_star() / (8 * (1 + m.nu)))};
     return {Real(m.G_star())};
   }
-  BL_HD Vec3d stretch(const Vec3d& xi, const Vec3d& step, double before, double now) const {
-    return rescale(xi, before, now) + step;
-  }
-  /// Keeps a closed cycle from gaining work: unloading shortens the spring with the contact radius,
-  /// and loading leaves the force as it is although the stiffness grows.
-  BL_HD static Vec3d rescale(const Vec3d& xi, double before, double now) {
-    if (before == 0 || before == now) return xi;
-    return xi * std::sqrt(min_of(now, before) / max_of(now, before));
+  BL_HD Real stiffness(const SlidingInput& in) const { return 8 * G_star * in.root; }
+  /// Unloading shortens the spring with the contact radius; loading leaves its force as it is.
+  BL_HD Vec3d stretch(const SlidingInput& in, const Vec3d& xi, const Vec3d& step) const {
+    const double before = in.overlap_before, now = in.overlap;
+    if (before == 0 || before == now) return xi + step;
+    return xi * std::sqrt(min_of(now, before) / max_of(now, before)) + step;
   }
   BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {
-    const Real stiffness = 8 * G_star * in.root;
-    return {-stiffness * Real3(xi), stiffness,
-            in.normal_damping * std::sqrt(stiffness / in.normal_stiffness)};
+    const Real k = stiffness(in);
+    return {-k * Real3(xi), in.normal.damping * std::sqrt(k / in.normal.stiffness)};
   }
+  BL_HD double longest(const SlidingInput& in, Real limit) const { return double(limit / stiffness(in)); }
   BL_HD double stored(const SlidingInput& in, const Vec3d& xi) const {
-    return 0.5 * double(8 * G_star * in.root) * norm2(xi);
+    return 0.5 * double(stiffness(in)) * norm2(xi);
   }
 };
 

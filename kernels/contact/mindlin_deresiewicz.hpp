@@ -4,9 +4,10 @@
 namespace bedload::inline BL_VARIANT {
 
 /// Mindlin-Deresiewicz curve of He et al. (19), (22): slip spreads from the rim until the stretch
-/// reaches `slip * overlap`.
+/// reaches `slip * overlap`. F_n is that of the normal spring: with damping in it the curve would be no
+/// function of where the bodies are, and give energy.
 struct MindlinDeresiewicz {
-  static constexpr bool kActs = true, kPartialSlip = true;
+  static constexpr bool kActs = true;
   Real mu = 0;
   Real slip = 0;  ///< mu E* / (4 G*), of one material mu (2 - nu) / (2 - 2 nu)
   Real beta = 0;  ///< damping ratio of the restitution asked for
@@ -15,26 +16,51 @@ struct MindlinDeresiewicz {
   static MindlinDeresiewicz of(const ContactMaterials& m) {
     return {Real(m.mu), Real(m.mu * m.tangential / (4 * m.normal)), Real(damping_ratio(m.e))};
   }
-  BL_HD double longest(double overlap) const { return double(slip) * overlap; }
-  BL_HD Vec3d stretch(const Vec3d& xi, const Vec3d& step, double, double now) const {
-    const Vec3d next = xi + step;
-    const double most = longest(now), length = norm(next);
+  /// At which all of the contact slips, m.
+  BL_HD double slipping(double overlap) const { return double(slip) * overlap; }
+  BL_HD Vec3d stretch(const SlidingInput& in, const Vec3d& xi, const Vec3d& step) const {
+    const double most = slipping(in.overlap);
+    Vec3d next = xi;
+    if (in.normal.elastic > in.before.elastic) {
+      const double length = norm(xi);
+      const Real force = force_at(fraction(length, slipping(in.overlap_before)));
+      const double now = double(stretch_at(force * in.before.elastic / in.normal.elastic)) * most;
+      if (now < length) next *= now / length;
+    }
+    next += step;
+    const double length = norm(next);
     return length > most ? next * (most / length) : next;
   }
   BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {
-    const Real length = Real(norm(xi)), limit = Real(longest(in.overlap));
-    if (length == 0 || limit == 0) return {{}, 0, 0};
-    const Real s = min_of(length / limit, Real(1));
-    const Real q = std::sqrt(1 - s);  // 1 - q^3 without cancellation at small s
-    const Real force = mu * in.normal_force * s / (1 + q) * (1 + q + q * q);
-    const Real damping = 2 * beta * std::sqrt(Real(1.5) * in.m_star * mu * in.normal_force * q / limit);
-    return {Real3(xi) * (-force / length), 0, damping};
+    const double length = norm(xi), most = slipping(in.overlap);
+    if (length == 0 || most == 0) return {{}, 0};
+    const Real s = fraction(length, most), full = mu * in.normal.elastic;
+    return {Real3(xi) * (-full * force_at(s) / Real(length)),
+            2 * beta * std::sqrt(Real(1.5) * in.m_star * full * std::sqrt(1 - s) / Real(most))};
+  }
+  BL_HD double longest(const SlidingInput& in, Real limit) const {
+    const Real full = mu * in.normal.elastic, most = Real(slipping(in.overlap));
+    return double(limit < full ? stretch_at(limit / full) * most : most);
   }
   BL_HD double stored(const SlidingInput& in, const Vec3d& xi) const {
-    const double most = longest(in.overlap);
+    const double most = slipping(in.overlap);
     if (!(most > 0)) return 0;
     const double s = min_of(norm(xi) / most, 1.0), q = std::sqrt(1 - s);
-    return double(mu) * in.normal_force * most * (s - 0.4 * (1 - q * q * q * q * q));
+    return double(mu) * in.normal.elastic * most * (s - 0.4 * (1 - q * q * q * q * q));
+  }
+
+ private:
+  BL_HD static Real fraction(double length, double most) {
+    return most > 0 ? min_of(Real(length / most), Real(1)) : Real(1);
+  }
+  /// Force over mu F_n at the stretch s over that of slip: 1 - q^3 without cancellation at small s.
+  BL_HD static Real force_at(Real s) {
+    const Real q = std::sqrt(1 - s);
+    return s / (1 + q) * (1 + q + q * q);
+  }
+  BL_HD static Real stretch_at(Real force) {
+    const Real q = std::cbrt(1 - force);
+    return force / (1 + q + q * q) * (1 + q);
   }
 };
 

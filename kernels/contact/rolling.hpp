@@ -15,6 +15,7 @@ struct RollingInput {
   Real3 omega;            ///< rad/s
   Real normal_force;      ///< >= 0, N
   Real normal_stiffness;  ///< N/m
+  Real stiffness_before;  ///< the same at the last evaluation, N/m
   Real R_star;            ///< m
   Real inverse_spin;      ///< sum of 1/I, 1/(kg m2)
   Real inverse_rolling;   ///< sum of 1/(I + m R2)

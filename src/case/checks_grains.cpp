@@ -23,9 +23,6 @@ void Checks::grains() const {
   for (std::size_t i = 0; i < g.fills.size(); ++i) grain_fill(fmt::format("grain.fill.{}", i), g.fills[i]);
   if (c.contact.k == 0 && c.contact.normal == NormalLaw::linear)
     missing("contact.k", "spring, N/m, with contact.normal = \"linear\"");
-  if (c.contact.normal == NormalLaw::democritus && c.contact.tangential == SlidingLaw::linear)
-    fail("contact.tangential", "\"linear\"",
-         "must be another with contact.normal = \"democritus\", whose damping would make energy with it");
   if (g.settle && norm(c.gravity) == 0) fail("grain.settle", "true", "must be false without gravity");
   if (g.settle && g.fixed) fail("grain.settle", "true", "must be false with grain.fixed");
   for (const auto& [key, given] :

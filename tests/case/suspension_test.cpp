@@ -89,9 +89,6 @@ TEST(SuspensionCase, SaysWhatDoesNotGoTogether) {
        "\"none\""},
       {{"lubrication.forces=normal", "lubrication.least_gap=1.5"},
        "--set lubrication.least_gap=1.5: lubrication.least_gap = 1.5 must be below lubrication.cut_off = 1"},
-      {{"contact.normal=democritus", "contact.tangential=linear"},
-       "--set contact.tangential=linear: contact.tangential = \"linear\" must be another with "
-       "contact.normal = \"democritus\", whose damping would make energy with it"},
       {{"drive.f=[1, 0, 0]", "drive.factor=1/x"},
        "--set drive.factor=1/x: drive.factor = \"1/x\" must be a finite number; it is none at [0, 0, 0] m, t "
        "= 0 s"},
