@@ -54,7 +54,8 @@ struct BallPass {
     if (touches.size() > 0) {
       touches.settle();
       WallMemory next[kMostWallContacts];
-      for (int k = 0; k < touches.size(); ++k) next[k] = touch_one(i, ball, x, touches[k], memories);
+      for (int k = 0; k < touches.size(); ++k)
+        next[k] = touch_one(i, ball, x, touches[k], taken_over(ball, touches, touches[k], memories));
       for (int k = 0; k < touches.size(); ++k) memories[k] = next[k];
     }
     contacts[i] = Index(touches.size());
@@ -77,13 +78,30 @@ struct BallPass {
     }
     return R_star;
   }
+  /// Between the body of a ball and another one.
+  BL_HD BodyLaw law(const TouchBall& ball, std::uint32_t other) const {
+    const ElasticCompliance &a = compliances[bodies[ball.owner].body], &b = compliances[other];
+    BodyLaw out = laws[ball.owner];
+    out.normal.E_star = Real(1 / (a.normal + b.normal));
+    out.sliding.G_star = Real(1 / (a.tangential + b.tangential));
+    return out;
+  }
+  /// What a touch remembers, perhaps of another body that the ball has left for this one.
+  BL_HD ContactHistory taken_over(const TouchBall& ball, const WallTouches<>& touches, const WallTouch& touch,
+                                  const WallMemories& memories) const {
+    if (touch.from == kNone) return {};
+    const WallMemory& memory = memories[touch.from];
+    const std::uint32_t left = touches.body_of(memory);
+    ContactHistory h = memory.history;
+    if (left != touch.body)
+      law(ball, touch.body).take_over(law(ball, left), Real(ball.R_star), Real(bodies[ball.owner].mass), h);
+    return h;
+  }
   BL_HD WallMemory touch_one(Index i, const TouchBall& ball, const Vec3d& x, const WallTouch& touch,
-                             const WallMemories& memories) const {
+                             ContactHistory h) const {
     const ClosestPoint& closest = touch.closest;
     const RigidBody& a = bodies[ball.owner];
     const BodyPose &mine = poses[a.body], &other = poses[touch.body];
-    ContactHistory h;
-    if (touch.from != kNone) h = memories[touch.from].history;
     h.overlap = std::abs(h.overlap);
 
     const Vec3d point = x - closest.distance * closest.normal;
@@ -91,10 +109,7 @@ struct BallPass {
     double inverse_mass = a.inverse_effective_mass(mine.rotation, r_mine, closest.normal);
     if (other.free)
       inverse_mass += bodies[other.free - 1].inverse_effective_mass(other.rotation, r_other, closest.normal);
-    const ElasticCompliance &compliance = compliances[a.body], &other_compliance = compliances[touch.body];
-    BodyLaw law = laws[ball.owner];
-    law.normal.E_star = Real(1 / (compliance.normal + other_compliance.normal));
-    law.sliding.G_star = Real(1 / (compliance.tangential + other_compliance.tangential));
+    const BodyLaw acting = law(ball, touch.body);
     const double opposite = other.free ? ball_opposite(ball, x, other) : 0;
     const double R_star = opposite > 0 ? 1 / (1 / ball.R_star + 1 / opposite) : ball.R_star;
     const double weight = opposite > 0 ? 0.5 : 1;
@@ -102,7 +117,7 @@ struct BallPass {
     const double m_star = 1 / max_of(inverse_mass, 1e-6 / a.mass);
     ContactGeometry at{
         closest.normal, ball.radius - closest.distance, Real(R_star), Real(m_star), 0, 0, 0, 0};
-    if (law.rolls()) {
+    if (acting.rolls()) {
       Vec3d about = mine.omega - other.omega;
       about -= dot(about, closest.normal) * closest.normal;
       const double spin = norm(about);
@@ -119,7 +134,7 @@ struct BallPass {
       at.inverse_rolling = max_of(Real(rolling), Real(1e-20));
     }
     const Vec3d v = mine.v + cross(mine.omega, r_mine) - other.v - cross(other.omega, r_other);
-    const ContactForce f = law(at, Real3(v), Real3(mine.omega), Real3(other.omega), Real(dt), h);
+    const ContactForce f = acting(at, Real3(v), Real3(mine.omega), Real3(other.omega), Real(dt), h);
     const Vec3d force = weight * Vec3d(f.force);
     const Vec3d couple = weight * Vec3d(f.torque_i);  // that of rolling friction
     loads.add(i, {force, cross(r_mine, force) + couple, a.body});

@@ -140,6 +140,15 @@ struct ContactLawOf {
     return with_law(normal, [](const auto& law) { return law.kEnergy; }) * double(ns.elastic) * overlap +
            stored_sideways(ns, R_star, m_star, overlap, h);
   }
+  /// Takes over the springs of a contact that had `other` laws, with no more energy than they had.
+  BL_HD void take_over(const ContactLawOf& other, Real R_star, Real m_star, ContactHistory& h) const {
+    const double overlap = h.overlap < 0 ? -h.overlap : h.overlap;
+    const auto energy = [&](const ContactLawOf& law) {
+      return law.stored_sideways(law.normal_state(R_star, m_star, Real(overlap)), R_star, m_star, overlap, h);
+    };
+    const double had = energy(other), has = energy(*this);
+    if (has > had) h.xi *= had / has, h.couple *= had / has;
+  }
 
  private:
   BL_HD double stored_sideways(const NormalState& ns, Real R_star, Real m_star, double overlap,

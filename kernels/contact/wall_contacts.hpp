@@ -1,6 +1,6 @@
 #pragma once
-// What a grain touches of the walls: the closest points of all surfaces, none of them twice, and what is
-// remembered of each from one substep to the next.
+// What a grain touches of the walls: the closest points of all surfaces of all bodies, but for those that a
+// nearer one hides, and what is remembered of each from one substep to the next.
 
 #include "bedload/core/raw_array.hpp"
 #include "kernels/contact/history.hpp"
@@ -70,18 +70,16 @@ class WallTouches {
     insert(touch);
   }
 
-  /// In ascending order of key, each with its memory or the one that it inherits from a neighbouring feature.
+  /// Those that none hides, in ascending order of key, each with its memory or the one that it inherits from
+  /// a neighbouring feature.
   BL_HD void settle() {
-    for (int k = 1; k < size_; ++k)
-      for (int l = k; l > 0 && touches_[l].key() < touches_[l - 1].key(); --l) {
-        const WallTouch other = touches_[l];
-        touches_[l] = touches_[l - 1];
-        touches_[l - 1] = other;
-      }
+    shed();
+    sort([](const WallTouch& a, const WallTouch& b) { return a.key() < b.key(); });
     for (int k = 0; k < size_; ++k)
       if (touches_[k].from == kNone) touches_[k].from = inherited(touches_[k], true);
   }
 
+  BL_HD std::uint32_t body_of(const WallMemory& memory) const { return surfaces_[memory.surface()].body; }
   BL_HD int size() const { return size_; }
   BL_HD Index remembered() const { return remembered_; }
   BL_HD const WallTouch& operator[](int k) const { return touches_[k]; }
@@ -95,14 +93,14 @@ class WallTouches {
       if (memories_[k].key == key) return k;
     return kNone;
   }
-  /// Memory of another feature of the same body that a touch inherits. `left`: only one that no other
-  /// touch holds.
+  /// Memory of another feature that a touch inherits. `left`: of any body, but only one that no other touch
+  /// holds; else of the same body.
   BL_HD Index inherited(const WallTouch& touch, bool left) const {
     Index best = kNone;
     double nearest = kNear;
     for (Index k = 0; k < remembered_; ++k) {
       const WallMemory& memory = memories_[k];
-      if (surfaces_[memory.surface()].body != touch.body) continue;
+      if (!left && body_of(memory) != touch.body) continue;
       bool held = false;
       for (int l = 0; left && l < size_; ++l) held = held || touches_[l].from == k;
       const double along = dot(memory.normal, touch.closest.normal);
@@ -111,20 +109,37 @@ class WallTouches {
     return best;
   }
   BL_HD void insert(const WallTouch& touch) {
-    for (int k = 0; k < size_; ++k) {
-      WallTouch& other = touches_[k];
-      if (other.body != touch.body || dot(other.closest.normal, touch.closest.normal) < kSame) continue;
-      if (deeper(touch, other)) other = touch;
-      return;
-    }
-    if (size_ < capacity_) {
+    if (size_ == capacity_) shed();
+    if (size_ < capacity_)
       touches_[size_++] = touch;
-      return;
+    else if (deeper(touch, touches_[size_ - 1]))
+      touches_[size_ - 1] = touch;
+  }
+  /// Leaves out what others hide, the rest with the deepest first.
+  BL_HD void shed() {
+    sort([](const WallTouch& a, const WallTouch& b) { return deeper(a, b); });
+    int shown = 0;
+    for (int k = 0; k < size_; ++k) {
+      bool hidden = false;
+      for (int l = 0; l < shown; ++l) hidden = hidden || hides(touches_[l], touches_[k]);
+      if (!hidden) touches_[shown++] = touches_[k];
     }
-    int shallowest = 0;
+    size_ = shown;
+  }
+  template <class Before>
+  BL_HD void sort(Before&& before) {
     for (int k = 1; k < size_; ++k)
-      if (deeper(touches_[shallowest], touches_[k])) shallowest = k;
-    if (deeper(touch, touches_[shallowest])) touches_[shallowest] = touch;
+      for (int l = k; l > 0 && before(touches_[l], touches_[l - 1]); --l) {
+        const WallTouch other = touches_[l];
+        touches_[l] = touches_[l - 1];
+        touches_[l - 1] = other;
+      }
+  }
+  /// Whether the point of b, which is no deeper, lies behind the plane through that of a, or hardly before
+  /// it: another face in one plane with a's, of the same body or one beside it, or an edge that a's covers.
+  static BL_HD bool hides(const WallTouch& a, const WallTouch& b) {
+    const double near = a.closest.distance, along = dot(a.closest.normal, b.closest.normal);
+    return near > 0 ? along * b.closest.distance >= kSame * near : along >= kSame;
   }
   static BL_HD bool deeper(const WallTouch& a, const WallTouch& b) {
     return a.closest.distance < b.closest.distance ||

@@ -68,7 +68,7 @@ struct WallContacts {
     touches.settle();
     RawArray<ContactHistory, kMostWallContacts> history;
     for (int k = int(lane.index); k < touches.size(); k += int(lane.count))
-      history[k] = touches[k].from != kNone ? remembered[touches[k].from].history : ContactHistory{};
+      history[k] = taken_over<Scope>(grain, i, touches, touches[k]);
     lane.wait();  // all have read what they remember
     for (int k = int(lane.index); k < touches.size(); k += int(lane.count)) {
       const WallTouch& touch = touches[k];
@@ -124,6 +124,20 @@ struct WallContacts {
           walls, reach, 1e-4 * double(R),
           [&](const ClosestPoint& closest) { touches.add(s, closest, range); });
     }
+  }
+  /// What a touch of grain i remembers, perhaps of another body that it has left for this one.
+  template <class Scope>
+  BL_HD ContactHistory taken_over(const Grain& grain, Index i,
+                                  const WallTouches<typename Scope::Kinds>& touches,
+                                  const WallTouch& touch) const {
+    using Law = typename Scope::Law;
+    if (touch.from == kNone) return {};
+    const WallMemory& memory = memories(i)[touch.from];
+    const std::uint32_t left = touches.body_of(memory);
+    ContactHistory h = memory.history;
+    if (left != touch.body)
+      composed<Law>(law(touch.body, i)).take_over(composed<Law>(law(left, i)), grain.R(), grain.sphere.m, h);
+    return h;
   }
   /// r: from the body's centre, m.
   BL_HD static Vec3d surface_velocity(const BodyPose& pose, const Vec3d& r) {

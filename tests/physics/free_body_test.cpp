@@ -186,6 +186,24 @@ TEST(FreeBodyContacts, BounceWithTheirRestitution) {
   }
 }
 
+TEST(FreeBodyContacts, BounceOnASeamAsBesideIt) {
+  for (const double beside : {0.0, 0.002}) {
+    Config c = void_case();
+    c.gravity = {};
+    c.time.contact = 0.01;
+    WallBody ball = test::shaped("ball", make_sphere({beside, 0, 0.0501}, 0.05));
+    set_free(ball, 2000).free.e = 0.5;
+    ball.free.velocity = {0, 0, -0.5};
+    c.wall.bodies = {ball};
+    for (const double x : {-0.1, 0.0})
+      for (const double y : {-0.1, 0.0})
+        c.wall.bodies.push_back(test::body("box", {x, y, -0.05}, {x + 0.1, y + 0.1, 0}));
+    auto s = started(c);
+    run_until(*s, 5e-3);
+    EXPECT_LT(norm(vector_of(s->body_state(0), "velocity") - Vec3d{0, 0, 0.25}), 2e-3) << beside;
+  }
+}
+
 TEST(FreeBodyContacts, TwoSpheresMakeOneContact) {
   for (const double e : {1.0, 0.5})
     for (const double radius : {0.05, 0.02}) {
