@@ -27,8 +27,8 @@ void add_leaves(Leaves& to, const Value& at, const std::string& key) {
 
 /// What is written, for how long and from where does not change what is computed.
 bool computes(const std::string& key) {
-  for (const char* beside : {"title", "out.", "probe.", "checkpoint.", "time.end", "run.max_lost", "run.simd",
-                             "run.skin", "grain.settle"})
+  for (const char* beside :
+       {"title", "out.", "probe.", "checkpoint.", "time.end", "run.max_lost", "run.simd", "grain.settle"})
     if (key.starts_with(beside)) return false;
   return !key.ends_with(".file") && !key.ends_with(".step");
 }

@@ -39,6 +39,10 @@ std::string repeatable(int argc, const char* const* argv) {
   return text;
 }
 
+/// An empty name, as of a variable of a shell that is not set, would count as no option.
+const CLI::Validator kNamed([](const std::string& name) { return name.empty() ? "is empty" : ""; }, "",
+                            "named");
+
 /// Those of all commands that compute.
 void add_common_options(CLI::App& app, Options& o) {
   app.add_option("--backend", o.backend, "Where to compute: auto takes a GPU if there is one")
@@ -53,7 +57,7 @@ void add_common_options(CLI::App& app, Options& o) {
 const CLI::IsMember kPrecisions({"single", "mixed", "double"});
 
 void add_case_options(CLI::App& app, Options& o, std::string& precision, bool& force_dt) {
-  app.add_option("case", o.file, "Case file")->required()->type_name("CASE.toml");
+  app.add_option("case", o.file, "Case file")->required()->type_name("CASE.toml")->check(kNamed);
   add_common_options(app, o);
   app.add_option("--precision", precision, "single, mixed or double; wins over the case")->check(kPrecisions);
   app.add_flag("--force-dt", force_dt, "A fixed step above its limit only warns");
@@ -85,12 +89,14 @@ void add_bench_options(CLI::App& app, Options& o) {
   app.add_flag(
       "--default-settings", b.default_settings,
       "Rows with fluid once more with Bedload's own h, density diffusion, void relaxation, shifting");
-  app.add_option("--json", b.json, "Write the numbers there, too")->type_name("FILE");
+  app.add_option("--json", b.json, "Write the numbers there, too")->type_name("FILE")->check(kNamed);
 }
 
 /// Those of commands that leave results.
 void add_results_options(CLI::App& app, Options& o) {
-  app.add_option("--out", o.out, "Results folder; results/<case> if not given")->type_name("DIR");
+  app.add_option("--out", o.out, "Results folder; results/<case> if not given")
+      ->type_name("DIR")
+      ->check(kNamed);
   app.add_option("--until", o.until, "Stop at this time in s, in place of time.end")
       ->check(CLI::Range(0.0, 1e12));
   app.add_flag("--overwrite", o.overwrite, "Replace the run that the results folder holds");
@@ -125,7 +131,8 @@ void add_run(CLI::App& app, Options& o, std::string& precision, bool& force_dt) 
   add_results_options(*run, o);
   run->add_option("--restart", o.restart,
                   "Go on from this checkpoint; latest: the newest in the results folder")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(kNamed);
   add_live(*run, o);
   run->add_flag("--allow-changes", o.allow_changes,
                 "Go on though the case computes otherwise than the checkpoint's");
@@ -145,7 +152,8 @@ void add_check(CLI::App& app, Options& o, std::string& precision, bool& force_dt
       "check", "Check a case: particles, step limits, memory, time; leaves nothing behind");
   add_case_options(*check, o, precision, force_dt);
   check->add_option("--preview", o.preview, "Write the initial particles and a picture of them there")
-      ->type_name("DIR");
+      ->type_name("DIR")
+      ->check(kNamed);
 }
 
 void add_list(CLI::App& app, Options& o) {
@@ -159,7 +167,10 @@ void add_list(CLI::App& app, Options& o) {
 
 void add_info(CLI::App& app, Options& o) {
   CLI::App* info = app.add_subcommand("info", "Show what a result file holds");
-  info->add_option("file", o.file, "Checkpoint, .vtkhdf or summary.json")->required()->type_name("FILE");
+  info->add_option("file", o.file, "Checkpoint, .vtkhdf or summary.json")
+      ->required()
+      ->type_name("FILE")
+      ->check(kNamed);
 }
 
 void refuse_unknown_command(const CLI::App& app, int argc, const char* const* argv) {

@@ -88,24 +88,33 @@ std::vector<std::string> jumps_of_walls(const Config& then, const Config& now, d
   return jumps;
 }
 
-/// A run that goes on computes as it began, unless told otherwise.
-void refuse_changes(const Options& options, Prepared& p) {
-  const std::string before = checkpoint_case(options.restart);
-  auto changes = changes_between(before, resolved_toml(p.config));
-  if (changes.empty()) return;
+/// The case of the checkpoint; none if what it names, such as a mesh, is not there any more.
+std::optional<Config> case_of(const std::filesystem::path& checkpoint, const std::string& text) {
   try {
     std::vector<std::string> none;
-    const Config then = read_case_text(before, options.restart.string(), {}, none, options.restart);
-    for (std::string& jump : jumps_of_walls(then, p.config, p.begin)) changes.push_back(std::move(jump));
-  } catch (const CaseError&) {  // what it named, such as a mesh, is not there any more
+    return read_case_text(text, checkpoint.string(), {}, none, checkpoint);
+  } catch (const CaseError&) {
   } catch (const FileError&) {
   }
+  return {};
+}
+
+/// A run that goes on computes as it began, unless told otherwise.
+void refuse_changes(const Options& options, Prepared& p) {
+  const std::string before = checkpoint_case(options.restart), now = resolved_toml(p.config);
+  std::optional<Config> then = before == now ? p.config : case_of(options.restart, before);
+  auto changes = changes_between(before, now);
+  if (then && !changes.empty())
+    for (std::string& jump : jumps_of_walls(*then, p.config, p.begin)) changes.push_back(std::move(jump));
   const std::string text = fmt::format("{}", fmt::join(changes, ", "));
-  if (!options.allow_changes)
+  if (!changes.empty() && !options.allow_changes)
     throw CaseError(
         fmt::format("{}: the case computes otherwise than this checkpoint's: {}; --allow-changes goes on",
                     options.restart.string(), text));
-  p.warnings.push_back("differs from the checkpoint's case: " + text);
+  if (!changes.empty()) p.warnings.push_back("differs from the checkpoint's case: " + text);
+  std::error_code none;
+  if (std::filesystem::equivalent(options.restart.parent_path(), options.out / "checkpoints", none))
+    p.former = std::move(then);
 }
 
 }  // namespace
@@ -126,7 +135,10 @@ void initialise(const Options& options, Prepared& p) {
   } else {
     p.restart = read_checkpoint(options.restart, p.config);
     for (const Quantity& q : p.restart.scalars)
-      if (q.name == "time") p.begin = q.value;
+      if (q.name == "time")
+        p.begin = q.value;
+      else if (q.name == "last_dt")
+        p.last_dt = q.value;
     refuse_changes(options, p);
     p.counts = counts_of(p.restart);
   }

@@ -1,6 +1,7 @@
 #pragma once
 // What run and check have in common.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,11 @@ namespace bedload {
 struct Prepared {
   Config config;
   Device device;
-  Setup setup;         ///< none with a checkpoint
-  SavedState restart;  ///< none without
-  double begin = 0;    ///< time that it goes on from, s
+  Setup setup;                   ///< none with a checkpoint
+  SavedState restart;            ///< none without
+  double begin = 0;              ///< time that it goes on from, s
+  double last_dt = 0;            ///< the step that ended there, s
+  std::optional<Config> former;  ///< of the checkpoint, if it is one of the results folder and can be read
   Counts counts;
   std::vector<std::string> warnings;
 };

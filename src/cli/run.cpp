@@ -38,7 +38,7 @@ class Run {
         watcher_(watcher),
         live_(live),
         end_(options.until.value_or(p_.config.time.end)) {
-    if (end_ < p_.begin)
+    if (end_ < p_.begin - (1 + 1e-9) * p_.last_dt)  // else it is the end of a run until then
       throw CaseError(fmt::format("{}: {} = {} s lies before the checkpoint's time, {} s",
                                   options.restart.string(), options.until ? "--until" : "time.end", end_,
                                   p_.begin));
@@ -110,7 +110,7 @@ class Run {
                  simulation.time());
     } else if (stopped) {
       fmt::print("stopped at t = {:.6g} s; continue with: {} --restart {}\n", simulation.time(),
-                 options_.repeat, session_->output()->last_checkpoint().string());
+                 options_.repeat, last_checkpoint().string());
     } else {
       const Effort effort = session_->effort();
       say(fmt::format("completed  t = {:.6g} s, {} steps in {}, {:.3g} particle-steps/s\n", simulation.time(),
@@ -162,6 +162,11 @@ class Run {
     const double gone = read("bodies_outside");
     tell(fmt::format("{:.0f} of {:.0f} free bodies", gone, bodies), gone, bodies - gone);
     return too_many;
+  }
+
+  fs::path last_checkpoint() {
+    const fs::path last = session_->output()->last_checkpoint();
+    return last.empty() ? options_.restart : last;
   }
 
   /// What there is to go on from after an error of writing, as the rest of its sentence.

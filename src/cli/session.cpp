@@ -21,8 +21,19 @@ Session::Session(const Options& options, Prepared prepared, const Say& say)
   build(options, say);
   check_fixed_steps(p_, *simulation_);
   if (options.out.empty()) return;
-  output_.emplace(options.out, p_.config, p_.device, version(), continues_);
+  output_.emplace(options.out, p_.config, p_.device, version(), continues_ ? &*simulation_ : nullptr);
+  if (p_.former) tell_gaps(options);
   for (const std::string& warning : p_.warnings) output_->warn(warning);
+}
+
+void Session::tell_gaps(const Options& options) {
+  for (const std::string& gap : output_->gaps(*p_.former)) {
+    const std::string text = fmt::format("{}, but its run went on until the checkpoint's time, t = {:.6g} s",
+                                         gap, simulation_->time());
+    if (!options.allow_changes)
+      throw FileError(text + "; put back what is missing, or go on without it by --allow-changes");
+    p_.warnings.push_back(text);
+  }
 }
 
 void Session::build(const Options& options, const Say& say) {

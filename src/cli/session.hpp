@@ -42,6 +42,7 @@ class Session {
 
  private:
   void build(const Options& options, const Say& say);
+  void tell_gaps(const Options& options);
   SavedState settled(const Options& options, const Say& say);
 
   Prepared p_;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -25,12 +26,35 @@ std::string header_of(const std::vector<Quantity>& row) {
 std::vector<std::string> lines_of(const std::filesystem::path& path) {
   std::vector<std::string> lines;
   const std::string text = read_file(path);
+  if (text.find('\r') != std::string::npos)
+    throw FileError(path.string() +
+                    ": has lines that end with CR LF, which some editors make of LF; turn them back");
   for (std::size_t start = 0, end; (end = text.find('\n', start)) != std::string::npos; start = end + 1)
     lines.push_back(text.substr(start, end - start));
   return lines;
 }
 
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  for (std::size_t start = 0, end; start <= line.size(); start = end + 1) {
+    end = std::min(line.find(',', start), line.size());
+    cells.push_back(line.substr(start, end - start));
+  }
+  return cells;
+}
+
+void compare(const std::filesystem::path& path, const std::string& found, const std::string& header) {
+  if (found != header)
+    throw FileError(
+        fmt::format("{}: has the columns '{}', this run writes '{}'", path.string(), found, header));
+}
+
 }  // namespace
+
+void CsvTable::expect(const std::vector<Quantity>& row) const {
+  if (!std::filesystem::exists(path_)) return;
+  if (const auto lines = lines_of(path_); !lines.empty()) compare(path_, lines[0], header_of(row));
+}
 
 void CsvTable::append(double time, const std::vector<Quantity>& row, bool begun) const {
   std::string text, found;
@@ -40,9 +64,7 @@ void CsvTable::append(double time, const std::vector<Quantity>& row, bool begun)
     std::getline(in, found);
   }
   if (!found.empty()) {
-    if (found != header)
-      throw FileError(
-          fmt::format("{}: has the columns '{}', this run writes '{}'", path_.string(), found, header));
+    compare(path_, found, header);
   } else {
     if (begun) must_be_there(path_);
     text = header + '\n';
@@ -66,16 +88,39 @@ void CsvTable::append(double time, const std::vector<Quantity>& row, bool begun)
 std::vector<double> CsvTable::times() const {
   if (!std::filesystem::exists(path_)) return {};
   const auto lines = lines_of(path_);
+  const auto columns = [](const std::string& line) { return cells_of(line).size(); };
   std::vector<double> times;
-  for (std::size_t k = 1; k < lines.size(); ++k) times.push_back(std::strtod(lines[k].c_str(), nullptr));
+  for (std::size_t k = 1; k < lines.size(); ++k) {
+    char* end = nullptr;
+    times.push_back(std::strtod(lines[k].c_str(), &end));
+    if (end == lines[k].c_str() || columns(lines[k]) != columns(lines[0]))
+      throw FileError(fmt::format("{}:{}: is no row of {} numbers that begins with a time: '{}'",
+                                  path_.string(), k + 1, columns(lines[0]), lines[k]));
+  }
   return times;
 }
 
+std::vector<Quantity> CsvTable::last_row() const {
+  const auto lines = lines_of(path_);
+  if (lines.size() < 2) return {};
+  const auto names = cells_of(lines.front()), values = cells_of(lines.back());
+  std::vector<Quantity> row;
+  for (std::size_t k = 1; k < std::min(names.size(), values.size()); ++k) {
+    const auto unit = names[k].rfind(" [");
+    if (unit == std::string::npos)
+      throw FileError(path_.string() + ": has a column without a unit: " + names[k]);
+    row.push_back({names[k].substr(0, unit), names[k].substr(unit + 2, names[k].size() - unit - 3),
+                   std::strtod(values[k].c_str(), nullptr)});
+  }
+  return row;
+}
+
 void CsvTable::keep(std::size_t count) const {
+  if (count == 0) return remove_file(path_);
   if (!std::filesystem::exists(path_)) return;
   const auto lines = lines_of(path_);
   std::string text;
-  for (std::size_t k = 0; k < lines.size() && k <= count && count > 0; ++k) text += lines[k] + '\n';
+  for (std::size_t k = 0; k < lines.size() && k <= count; ++k) text += lines[k] + '\n';
   write_file(path_, text);
 }
 

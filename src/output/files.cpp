@@ -131,6 +131,34 @@ void free_reserve(const std::filesystem::path& path) {
   if (!none) std::filesystem::resize_file(path, size, none);
 }
 
+void must_be_no_folder(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(std::filesystem::symlink_status(path)))
+    throw FileError(path.string() + ": cannot write: it is a folder");
+}
+
+void must_be_usable(const std::filesystem::path& path, std::filesystem::file_type type) {
+  std::error_code unknown;
+  const auto found = std::filesystem::status(path, unknown).type();
+  if (found == std::filesystem::file_type::not_found) {
+    if (!std::filesystem::is_symlink(path)) return;
+    throw FileError(path.string() + ": cannot write: it is a link that leads nowhere");
+  }
+  if (found != type) {
+    const bool folder = found == std::filesystem::file_type::directory;
+    throw FileError(path.string() + ": cannot write: it is " +
+                    (folder                                          ? "a folder"
+                     : type == std::filesystem::file_type::directory ? "no folder"
+                                                                     : "no file"));
+  }
+  if (::access(path.c_str(), R_OK | W_OK) != 0) throw cannot("write", path);
+}
+
+void remove_file(const std::filesystem::path& path) {
+  std::error_code error;
+  std::filesystem::remove(path, error);
+  if (error) throw FileError(fmt::format("{}: cannot remove: {}", path.string(), error.message()));
+}
+
 void must_be_there(const std::filesystem::path& path) {
   std::error_code unknown;
   if (std::filesystem::exists(path, unknown) || unknown) return;

@@ -2,19 +2,19 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+#include <charconv>
+#include <functional>
+#include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
-#include "bedload/output/csv.hpp"
 #include "bedload/output/files.hpp"
 #include "bedload/output/output.hpp"
-#include "bedload/output/vtkhdf.hpp"
 #include "bedload/output/writer_thread.hpp"
+#include "series.hpp"
 
 namespace bedload {
 namespace {
@@ -32,61 +32,6 @@ void while_there(const fs::path& path, bool begun, const F& write) {
   }
 }
 
-/// When something is written: at the first step end at or after every multiple of
-/// `every`. Everything follows from the times written so far, so a restarted run
-/// continues the series where the unbroken one would.
-class Schedule {
- public:
-  explicit Schedule(double every) : every_(every) {}
-
-  bool due(double time) const { return multiple(time) > last_multiple_; }
-  bool begun() const { return last_time_ >= 0; }
-  bool written_at(double time) const { return time == last_time_; }
-  void written(double time) {
-    last_time_ = time;
-    last_multiple_ = multiple(time);
-  }
-  /// Of an earlier run's times, how many stay when going on from a time just below
-  /// `cut`: none after it, and not an extra last one with which that run ended off schedule.
-  std::size_t resume(const std::vector<double>& times, double cut) {
-    std::size_t kept = 0;
-    while (kept < times.size() && times[kept] < cut) ++kept;
-    for (std::size_t k = 0; k + 1 < kept; ++k) written(times[k]);
-    if (kept > 1 && !due(times[kept - 1])) --kept;
-    if (kept > 0) written(times[kept - 1]);
-    return kept;
-  }
-
- private:
-  double multiple(double time) const {
-    if (every_ <= 0) return 0;
-    return std::floor(time / every_ + 1e-9);  // a hair below a multiple is rounding of the clock
-  }
-  double every_;
-  double last_time_ = -1, last_multiple_ = -1;
-};
-
-struct Frames {
-  std::string store;
-  FrameFile file;
-  Schedule schedule;
-  std::size_t written = 0, in_xdmf = 0;  ///< frames
-
-  /// The side-car is written anew each time, so ever more rarely: its cost a frame stays the same.
-  void refresh_xdmf(bool last) {
-    if (in_xdmf == written || (!last && written - in_xdmf < std::max<std::size_t>(1, written / 16))) return;
-    file.write_xdmf();
-    in_xdmf = written;
-  }
-};
-
-struct Table {
-  std::optional<ProbeConfig> probe;  ///< none: a body, or diagnostics
-  std::optional<int> body;           ///< a wall body or rigid group, as Simulation counts them
-  CsvTable csv;
-  Schedule schedule;
-};
-
 nlohmann::ordered_json to_json(const std::vector<Quantity>& quantities) {
   auto object = nlohmann::ordered_json::object();
   for (const auto& q : quantities) object[q.name] = {{"value", q.value}, {"unit", q.unit}};
@@ -99,14 +44,25 @@ double host_peak_bytes() {
   return 1024.0 * double(usage.ru_maxrss);
 }
 
-/// Oldest first.
-std::vector<fs::path> checkpoints_in(const fs::path& dir) {
-  std::vector<fs::path> found;
+/// The step that a checkpoint is named after, if it is one.
+std::optional<std::int64_t> step_of(const fs::path& path) {
+  const std::string name = path.filename().string(), before = "step_", after = ".h5";
+  std::int64_t step = 0;
+  if (!name.starts_with(before)) return {};
+  const char* const digits = name.data() + before.size();
+  const auto [end, error] = std::from_chars(digits, name.data() + name.size(), step);
+  if (error != std::errc() || end == digits || end != name.data() + name.size() - after.size() ||
+      !name.ends_with(after))
+    return {};
+  return step;
+}
+
+/// By their steps.
+std::map<std::int64_t, fs::path> checkpoints_in(const fs::path& dir) {
+  std::map<std::int64_t, fs::path> found;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(dir / "checkpoints", none))
-    if (entry.path().extension() == ".h5" && entry.path().stem().string().starts_with("step_"))
-      found.push_back(entry.path());
-  std::sort(found.begin(), found.end());
+    if (const auto step = step_of(entry.path())) found[*step] = entry.path();
   return found;
 }
 
@@ -119,89 +75,123 @@ std::string commented(const std::string& text) {
 }  // namespace
 
 struct RunOutput::Impl {
-  Impl(const fs::path& folder, const Config& c, const Device& d, std::string v, bool go_on)
+  Impl(const fs::path& folder, const Config& c, const Device& d, std::string v, Simulation* continued)
       : dir(folder),
         config(c),
         device(d),
         version(std::move(v)),
-        continuing(go_on),
+        series(series_of(c, folder)),
         checkpoint_schedule(c.out.checkpoint_every) {
-    const bool doubles = c.precision == "double";
-    const auto frames_of = [&](const char* store) {
-      frames.push_back(
-          {store, FrameFile(dir / (std::string(store) + ".vtkhdf"), doubles), Schedule(c.out.every)});
-    };
-    if (c.fluid.present) frames_of("fluid");
-    if (c.grain.present) frames_of("grains");
-    const bool wall_particles = c.fluid.present && !(c.wall.bodies.empty() && c.inlets.empty());
-    if (c.out.walls && wall_particles) frames_of("walls");
-    const auto every = [&](double own) { return Schedule(own > 0 ? own : c.out.every); };
-    tables.push_back({{}, {}, CsvTable(dir / "diagnostics.csv"), every(c.out.diagnostics_every)});
-    for (const auto& probe : c.out.probes)
-      tables.push_back({probe, {}, CsvTable(dir / "probes" / (probe.name + ".csv")), every(probe.every)});
-    for (int b = 0; b < int(c.wall.bodies.size()); ++b) {
-      const WallBody& body = c.wall.bodies[b];
-      if (c.out.bodies == "all" || (c.out.bodies == "moving" && body.moves()))
-        tables.push_back(
-            {{}, b, CsvTable(dir / "bodies" / (body.name + ".csv")), every(c.out.diagnostics_every)});
-    }
-    int group = int(c.wall.bodies.size());  // they come behind the bodies
-    for (const int fill : c.grain.rigid_fills()) {
-      if (c.out.bodies != "none")
-        tables.push_back({{},
-                          group,
-                          CsvTable(dir / "bodies" / fmt::format("grain_fill_{}.csv", fill + 1)),
-                          every(c.out.diagnostics_every)});
-      ++group;
+    if (continued) {
+      begin = Begin{continued->time(), continued->steps()};
+      examine(*continued);
+      for (const auto& [step, path] : checkpoints_in(dir))
+        if (step <= begin->step) newest = path;
+    } else {
+      for (const fs::path& path : files()) must_be_no_folder(path);
+      begin_anew();
     }
   }
 
-  void make_folder() {
+  /// Everything that this run writes but checkpoints.
+  std::vector<fs::path> files() const {
+    std::vector<fs::path> all{dir / "case.resolved.toml", dir / "summary.json"};
+    for (const auto& f : series.frames)
+      for (const auto& path : {f.file.path(), f.file.xdmf_path()}) all.push_back(path);
+    for (const auto& t : series.tables) all.push_back(t.csv.path());
+    return all;
+  }
+
+  void make_folders() const {
     try {
       fs::create_directories(dir / "probes");
       fs::create_directories(dir / "checkpoints");
-      if (std::any_of(tables.begin(), tables.end(), [](const Table& t) { return t.body.has_value(); }))
+      if (std::any_of(series.tables.begin(), series.tables.end(),
+                      [](const Table& t) { return t.body.has_value(); }))
         fs::create_directories(dir / "bodies");
-      if (!continuing) remove_former_run();
-      if (const auto all = checkpoints_in(dir); !all.empty()) newest = all.back();
     } catch (const fs::filesystem_error& e) {
       throw FileError(fmt::format("{}: cannot write results there: {}", dir.string(), e.code().message()));
     }
+  }
+
+  void write_case() const {
     write_file(dir / "case.resolved.toml",
                commented("Bedload " + version) +
                    commented(fmt::format("device: {}, {}", device.backend, device.name)) +
                    commented(fmt::format("seed: {}", config.seed)) + '\n' + resolved_toml(config));
   }
 
-  void remove_former_run() const {
-    for (const char* store : {"fluid", "grains", "walls"})
-      for (const char* ending : {".vtkhdf", ".xdmf"}) fs::remove(dir / (std::string(store) + ending));
-    for (const auto& table : tables) fs::remove(table.csv.path());
-    fs::remove(dir / "summary.json");
-    for (const auto& path : checkpoints_in(dir)) fs::remove(path);
+  void begin_anew() const {
+    make_folders();
+    const Leftovers others = leftovers(series, dir);
+    for (const auto& [step, path] : checkpoints_in(dir)) remove_file(path);
+    for (const fs::path& path : files()) remove_file(path);
+    for (const FrameFile& f : others.frames) f.keep(0);
+    for (const CsvTable& t : others.tables) t.keep(0);
+    for (const char* name : {"result.csv", "profile.csv", "profile.png", "stress.csv"})
+      remove_file(dir / "viscometer" / name);
+    write_case();
   }
 
-  /// Takes up the series of an earlier run before the step that ends at `time`, once.
-  void take_up(double time, double dt) {
-    if (taken_up) return;
+  /// Throws FileError where the run could not go on with what is there, while all of it is as it was.
+  void examine(Simulation& simulation) const {
+    for (const fs::path& path : {dir, dir / "probes", dir / "bodies", dir / "checkpoints"})
+      must_be_usable(path, fs::file_type::directory);
+    for (const fs::path& path : files()) must_be_usable(path, fs::file_type::regular);
+    const Leftovers others = leftovers(series, dir);
+    for (const auto& f : series.frames) {
+      must_increase(f.file.path(), f.file.times());
+      f.file.expect(simulation.snapshot(f.store));
+    }
+    for (const auto& t : series.tables) {
+      must_increase(t.csv.path(), t.csv.times());
+      t.csv.expect(row_of(simulation, t));
+    }
+    for (const FrameFile& f : others.frames) must_increase(f.path(), f.times());
+    for (const CsvTable& t : others.tables) must_increase(t.path(), t.times());
+  }
+
+  static void must_increase(const fs::path& path, const std::vector<double>& times) {
+    const auto at = std::adjacent_find(times.begin(), times.end(), std::greater_equal<>());
+    if (at != times.end())
+      throw FileError(fmt::format("{}: cannot go on with this: t = {} s stands before t = {} s",
+                                  path.string(), *at, *(at + 1)));
+  }
+
+  /// Takes up the series of an earlier run, once. What lies after the checkpoint is out of date from now on:
+  /// first the checkpoints, the last ones before others, so that whatever stops this leaves a folder from
+  /// whose newest checkpoint a run can go on.
+  void take_up(bool steps_follow) {
+    if (!begin || taken_up) return;
     taken_up = true;
-    if (!continuing) return;
-    const double cut =
-        dt > 0 ? time - 0.5 * dt : std::nextafter(time, std::numeric_limits<double>::infinity());
-    checkpoint_schedule.written(time - dt);
-    for (auto& f : frames) {
-      f.written = f.schedule.resume(f.file.times(), cut);
+    make_folders();
+    remove_file(dir / "summary.json");
+    const auto all = checkpoints_in(dir);
+    for (auto it = all.rbegin(); it != all.rend() && it->first > begin->step; ++it) remove_file(it->second);
+    const Leftovers others = leftovers(series, dir);
+    checkpoint_schedule.written(begin->time);
+    for (auto& f : series.frames) {
+      f.written = f.schedule.resume(f.file.times(), begin->time, steps_follow);
       f.file.keep(f.written);
       f.file.write_xdmf();
       f.in_xdmf = f.written;
     }
-    for (auto& t : tables) t.csv.keep(t.schedule.resume(t.csv.times(), cut));
+    for (auto& t : series.tables) t.csv.keep(t.schedule.resume(t.csv.times(), begin->time, steps_follow));
+    const auto kept = [&](const std::vector<double>& times) {
+      return Schedule(0).resume(times, begin->time, false);
+    };
+    for (const FrameFile& f : others.frames) {
+      f.keep(kept(f.times()));
+      f.write_xdmf();
+    }
+    for (const CsvTable& t : others.tables) t.keep(kept(t.times()));
+    write_case();
   }
 
   /// Hands over what is due at `time`, or all that is not yet written there.
   void emit(Simulation& simulation, double time, bool everything) {
     const auto wanted = [&](const Schedule& s) { return everything ? !s.written_at(time) : s.due(time); };
-    for (auto& f : frames) {
+    for (auto& f : series.frames) {
       if (wanted(f.schedule)) {
         const bool again = f.schedule.begun();
         f.schedule.written(time);
@@ -215,7 +205,7 @@ struct RunOutput::Impl {
       }
       if (everything) writer.post([&f] { while_there(f.file.path(), true, [&] { f.refresh_xdmf(true); }); });
     }
-    for (auto& t : tables) {
+    for (auto& t : series.tables) {
       if (!wanted(t.schedule)) continue;
       const bool again = t.schedule.begun();
       t.schedule.written(time);
@@ -250,12 +240,27 @@ struct RunOutput::Impl {
     return newest;
   }
 
+  /// Whether a run that goes on has nothing to add: it made no step, and was stopped, or what it goes on from
+  /// is the end of a run that told how it ended.
+  bool as_it_was(const Simulation& simulation, const std::string& status) const {
+    if (!begin || taken_up) return false;
+    if (status == "stopped") return true;
+    const fs::path path = dir / "summary.json";
+    if (status != "completed" || !fs::exists(path)) return false;
+    const auto former = nlohmann::json::parse(read_file(path), nullptr, false);
+    const auto told = [&](const char* key) {
+      return former.is_object() && former.contains(key) ? former[key] : nlohmann::json();
+    };
+    return told("status") == status && told("steps") == simulation.steps();
+  }
+
+  /// Metrics are the last rows: what a simulation that has been loaded tells of its last step may differ.
   void write_summary(Simulation& simulation, const std::string& status, const Effort& effort) const {
     const auto counts = simulation.counts();
     const double rate = effort.wall_seconds > 0 ? double(effort.particle_steps) / effort.wall_seconds : 0;
     auto probes = nlohmann::ordered_json::object();
-    for (const auto& t : tables)
-      if (t.probe) probes[t.probe->name] = to_json(simulation.measure(*t.probe));
+    for (const auto& t : series.tables)
+      if (t.probe) probes[t.probe->name] = to_json(t.csv.last_row());
     nlohmann::ordered_json summary{
         {"status", status},
         {"title", config.title},
@@ -278,7 +283,7 @@ struct RunOutput::Impl {
           {"host_peak", {{"value", host_peak_bytes()}, {"unit", "B"}}}}},
         {"last_checkpoint", last_checkpoint().lexically_relative(dir).generic_string()},
         {"warnings", warnings},
-        {"metrics", to_json(simulation.diagnostics())},
+        {"metrics", to_json(CsvTable(dir / "diagnostics.csv").last_row())},
         {"probes", probes}};
     for (const auto& [name, quantities] : added) summary[name] = to_json(quantities);
     write_file(dir / "summary.json",
@@ -289,10 +294,13 @@ struct RunOutput::Impl {
   Config config;
   Device device;
   std::string version;
-  bool continuing;
+  struct Begin {
+    double time = 0;
+    std::int64_t step = 0;
+  };
+  std::optional<Begin> begin;  ///< where an earlier run is gone on with
   bool taken_up = false;
-  std::vector<Frames> frames;
-  std::vector<Table> tables;
+  Series series;
   Schedule checkpoint_schedule;
   RowWatcher row_watcher;
   std::vector<std::string> warnings;
@@ -303,15 +311,13 @@ struct RunOutput::Impl {
 };
 
 RunOutput::RunOutput(const fs::path& dir, const Config& config, const Device& device, std::string version,
-                     bool continuing)
-    : impl_(std::make_unique<Impl>(dir, config, device, std::move(version), continuing)) {
-  impl_->make_folder();
-}
+                     Simulation* continued)
+    : impl_(std::make_unique<Impl>(dir, config, device, std::move(version), continued)) {}
 
 RunOutput::~RunOutput() = default;
 
 void RunOutput::write(Simulation& simulation, const StepInfo& info) {
-  impl_->take_up(info.time, info.dt);
+  impl_->take_up(true);
   impl_->emit(simulation, info.time, false);
   auto& schedule = impl_->checkpoint_schedule;
   if (impl_->config.out.checkpoint_every <= 0 || !schedule.due(info.time)) return;
@@ -325,6 +331,10 @@ fs::path RunOutput::checkpoint(Simulation& simulation) {
   return path;
 }
 
+std::vector<std::string> RunOutput::gaps(const Config& former) const {
+  return bedload::gaps(impl_->series, former, impl_->dir, impl_->begin->time);
+}
+
 void RunOutput::watch_rows(RowWatcher watcher) { impl_->row_watcher = std::move(watcher); }
 
 void RunOutput::warn(std::string message) { impl_->warnings.push_back(std::move(message)); }
@@ -334,7 +344,8 @@ void RunOutput::add(std::string name, std::vector<Quantity> quantities) {
 }
 
 void RunOutput::finish(Simulation& simulation, const std::string& status, const Effort& effort) {
-  impl_->take_up(simulation.time(), 0);
+  if (impl_->as_it_was(simulation, status)) return;
+  impl_->take_up(false);
   impl_->emit(simulation, simulation.time(), true);
   if (status != "failed") impl_->post_checkpoint(simulation);
   impl_->writer.drain();
@@ -346,7 +357,7 @@ fs::path RunOutput::last_checkpoint() const { return impl_->last_checkpoint(); }
 fs::path latest_checkpoint(const fs::path& dir) {
   const auto all = checkpoints_in(dir);
   if (all.empty()) throw FileError(dir.string() + ": has no checkpoint to go on from");
-  return all.back();
+  return all.rbegin()->second;
 }
 
 }  // namespace bedload

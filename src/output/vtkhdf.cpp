@@ -119,7 +119,6 @@ void append_part(hid_t root, std::int64_t n) {
 
 /// Row where this array starts in its table: appended, or where it already is.
 std::int64_t place(hid_t table, const HostArray& a, std::int64_t last, bool same_count) {
-  if (h5::scalar_of(table) != a.type) throw h5::Error("array '" + a.name + "' has changed its number type");
   const std::size_t n = a.count(), row_bytes = size_of(a.type) * a.components;
   if (same_count && h5::rows_equal(table, a.type, hsize_t(last), n, a.bytes.data(), row_bytes)) return last;
   const auto start = std::int64_t(h5::extent(table)[0]);
@@ -191,6 +190,25 @@ void truncate(hid_t root, std::size_t frames) {
   h5::write_integer(steps, "NSteps", frames);
 }
 
+void check_array(hid_t parent, const std::string& name, const HostArray& a) {
+  const Handle table = open_dataset(parent, name);
+  const auto n = h5::extent(table);
+  if (h5::scalar_of(table) != a.type || (n.size() > 1 ? n[1] : 1) != hsize_t(a.components))
+    throw h5::Error("array '" + name + "' has another number type or other components");
+}
+
+/// Throws unless frames of these arrays can follow those in the file.
+void check_arrays(hid_t root, const HostArray& points, const HostStore& store) {
+  check_array(root, "Points", points);
+  const Handle data = h5::open_group(root, "PointData");
+  const auto names = h5::members(data);
+  if (!std::equal(names.begin(), names.end(), store.arrays.begin() + 1, store.arrays.end(),
+                  [](const std::string& name, const HostArray& a) { return name == a.name; }))
+    throw h5::Error("the file was written with other arrays");
+  for (std::size_t k = 1; k < store.arrays.size(); ++k)
+    check_array(data, store.arrays[k].name, store.arrays[k]);
+}
+
 }  // namespace
 
 void FrameFile::append(const HostStore& store, double time, bool begun) const {
@@ -214,8 +232,7 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
                          last_cell = last_of(steps, "CellOffsets", frames),
                          last_count = frames > 0 ? integer_of(root, "NumberOfPoints", last_part) : -1;
       const bool same_count = last_count == std::int64_t(store.count);
-      if (h5::members(data).size() + 1 != store.arrays.size())
-        throw h5::Error("the file was written with other arrays");
+      check_arrays(root, points, store);
 
       const std::int64_t part = same_count || frames == 0 ? last_part : last_part + 1,
                          first_cell = same_count || frames == 0 ? last_cell : last_cell + last_count;
@@ -245,6 +262,16 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
     throw;
   }
   free_reserve(path_);
+}
+
+void FrameFile::expect(const HostStore& store) const {
+  if (!std::filesystem::exists(path_)) return;
+  h5::with_file_errors(path_, "write", [&] {
+    const Handle file = h5::open_file(path_, h5::Mode::read);
+    const Handle root = h5::open_group(file, "VTKHDF");
+    const FrameIndex index(root);
+    check_arrays(root, stored_points(store.arrays.at(0), double_points_), store);
+  });
 }
 
 std::vector<double> FrameFile::times() const {
@@ -278,8 +305,8 @@ HostStore FrameFile::read(std::size_t frame) const {
 
 void FrameFile::keep(std::size_t count) const {
   if (count == 0) {
-    std::error_code not_there;
-    std::filesystem::remove(path_, not_there);
+    remove_file(path_);
+    remove_file(xdmf_path());
     return;
   }
   h5::with_file_errors(path_, "write", [&] {

@@ -113,7 +113,7 @@ void FrameFile::write_xdmf() const {
     text += "    </Grid>\n";
   }
   text += "  </Grid>\n</Domain>\n</Xdmf>\n";
-  write_file(path_.parent_path() / (path_.stem().string() + ".xdmf"), text);
+  write_file(xdmf_path(), text);
 }
 
 }  // namespace bedload

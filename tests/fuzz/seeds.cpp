@@ -74,7 +74,7 @@ void write_checkpoints(const fs::path& folder) {
   testing::FakeSimulation simulation;
   write_state(folder / "state.h5", simulation.save(), testing::fake_config());
   const test::TemporaryFolder results;
-  RunOutput output(results / "run", testing::fake_config(), {}, "1.0", false);
+  RunOutput output(results / "run", testing::fake_config(), {}, "1.0");
   output.write(simulation, simulation.info());
   output.finish(simulation, "completed", {});
   fs::copy_file(results / "run/summary.json", folder / "summary.json", fs::copy_options::overwrite_existing);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -41,7 +42,7 @@ class RunFolder : public ::testing::Test {
   /// A run of 25 steps, never interrupted.
   void unbroken(const fs::path& dir) {
     FakeSimulation s;
-    RunOutput out(dir, config, kDevice, "0.1.0", false);
+    RunOutput out(dir, config, kDevice, "0.1.0");
     run_to(s, out, 25);
     out.finish(s, "completed", {2.0, 100});
   }
@@ -96,7 +97,7 @@ TEST_F(RunFolder, HasATableForEachBodyThatMoves) {
 
 TEST_F(RunFolder, ResolvedCaseNamesVersionDeviceAndSeed) {
   config.seed = 42;
-  RunOutput(folder.path(), config, kDevice, "0.1.0", false);
+  RunOutput(folder.path(), config, kDevice, "0.1.0");
   const std::string text = read_file(folder / "case.resolved.toml");
   EXPECT_EQ(text.find("# Bedload 0.1.0\n# device: cpu, two threads\n# seed: 42\n"), 0u) << text;
   EXPECT_GT(text.size(), 80u);
@@ -104,7 +105,7 @@ TEST_F(RunFolder, ResolvedCaseNamesVersionDeviceAndSeed) {
 
 TEST_F(RunFolder, SummaryTellsHowTheRunEnded) {
   FakeSimulation s;
-  RunOutput out(folder.path(), config, kDevice, "0.1.0", false);
+  RunOutput out(folder.path(), config, kDevice, "0.1.0");
   run_to(s, out, 12);
   out.warn("Ma = 0.2 is large");
   out.finish(s, "stopped", {2.0, 100, 36, 2});
@@ -140,7 +141,7 @@ TEST_F(RunFolder, CheckpointsComeOnTimeAndAtTheEnd) {
 
 TEST_F(RunFolder, FailedRunKeepsNoCheckpointOfItsState) {
   FakeSimulation s;
-  RunOutput out(folder.path(), config, kDevice, "0.1.0", false);
+  RunOutput out(folder.path(), config, kDevice, "0.1.0");
   run_to(s, out, 5);
   const auto good = out.checkpoint(s);
   EXPECT_TRUE(fs::exists(good));
@@ -158,7 +159,7 @@ TEST_F(RunFolder, StoppedAndRestartedEqualsUnbroken) {
     fs::path checkpoint;
     {
       FakeSimulation s;
-      RunOutput out(dir, config, kDevice, "0.1.0", false);
+      RunOutput out(dir, config, kDevice, "0.1.0");
       run_to(s, out, stop);
       out.finish(s, "stopped", {1, 1});
       checkpoint = out.last_checkpoint();
@@ -166,7 +167,7 @@ TEST_F(RunFolder, StoppedAndRestartedEqualsUnbroken) {
     FakeSimulation s;
     s.load(read_checkpoint(checkpoint, config));
     ASSERT_EQ(s.steps(), stop);
-    RunOutput out(dir, config, kDevice, "0.1.0", true);
+    RunOutput out(dir, config, kDevice, "0.1.0", &s);
     EXPECT_EQ(out.last_checkpoint(), checkpoint);
     run_to(s, out, 25);
     out.finish(s, "completed", {1, 1});
@@ -185,7 +186,7 @@ TEST_F(RunFolder, RestartDropsWhatLiesAfterItsTime) {
   }
   FakeSimulation s;
   s.load(read_checkpoint(folder / "b/checkpoints/step_000000010.h5", config));
-  RunOutput out(folder / "b", config, kDevice, "0.1.0", true);
+  RunOutput out(folder / "b", config, kDevice, "0.1.0", &s);
   out.write(s, s.step());
   EXPECT_EQ(out.checkpoint(s).filename(), "step_000000011.h5");
   EXPECT_EQ(FrameFile(folder / "b/fluid.vtkhdf").times().size(), 4u);
@@ -197,10 +198,69 @@ TEST_F(RunFolder, RestartDropsWhatLiesAfterItsTime) {
             read_file(folder / "b/checkpoints/step_000000020.h5"));
 }
 
+TEST_F(RunFolder, LatestIsTheMostSteps) {
+  fs::create_directories(folder / "checkpoints");
+  for (const char* name : {"step_999999999.h5", "step_1000000000.h5", "step_000000017.h5", "step_.h5",
+                           "step_5000000000x.h5", "step_6000000000.h5.part", "step_-7.h5", "other.h5"})
+    write_file(folder / "checkpoints" / name, "");
+  EXPECT_EQ(latest_checkpoint(folder.path()).filename(), "step_1000000000.h5");
+}
+
+/// Until a step is made it is not sure that the run goes on.
+TEST_F(RunFolder, ARestartChangesNothingBeforeItsFirstStep) {
+  config.out.checkpoint_every = 0.3;
+  unbroken(folder.path());
+  const auto contents = [&] {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::recursive_directory_iterator(folder.path()))
+      if (entry.is_regular_file()) all[entry.path()] = read_file(entry.path());
+    return all;
+  };
+  const auto before = contents();
+  const auto early = folder / "checkpoints/step_000000010.h5";
+  {
+    FakeSimulation s;
+    s.load(read_checkpoint(early, config));
+    RunOutput out(folder.path(), config, kDevice, "0.1.0", &s);
+    EXPECT_EQ(out.last_checkpoint(), early);
+    out.finish(s, "stopped", {1, 1});
+  }
+  EXPECT_TRUE(contents() == before);
+  FakeSimulation s;
+  s.load(read_checkpoint(early, config));
+  RunOutput out(folder.path(), config, kDevice, "0.1.0", &s);
+  EXPECT_TRUE(contents() == before);
+  out.write(s, s.step());
+  EXPECT_EQ(latest_checkpoint(folder.path()), early);
+  EXPECT_FALSE(fs::exists(folder / "summary.json"));
+}
+
+TEST_F(RunFolder, TellsWhatIsMissingBeforeARestart) {
+  unbroken(folder.path());
+  FakeSimulation s;
+  s.load(read_checkpoint(folder / "checkpoints/step_000000025.h5", config));
+  const auto gaps = [&](const Config& now) {
+    return RunOutput(folder.path(), now, kDevice, "0.1.0", &s).gaps(config);
+  };
+  Config other = config;
+  other.out.every = 0.01;
+  other.out.probes.push_back(config.out.probes[0]);
+  other.out.probes.back().name = "new";
+  EXPECT_TRUE(gaps(config).empty());
+  EXPECT_TRUE(gaps(other).empty()) << "what it is to write from now on is not missing";
+  CsvTable(folder / "probes/gauge.csv").keep(2);
+  FrameFile(folder / "grains.vtkhdf").keep(0);
+  const std::vector<std::string> expected{(folder / "grains.vtkhdf").string() + " is missing",
+                                          (folder / "probes/gauge.csv").string() + " ends at t = 0.21 s"};
+  EXPECT_EQ(gaps(config), expected);
+  other.out.probes.erase(other.out.probes.begin());
+  EXPECT_EQ(gaps(other).size(), 1u) << "nothing goes on with the gauge";
+}
+
 TEST_F(RunFolder, FreshRunRemovesTheFormerOne) {
   config.out.checkpoint_every = 0.3;
   unbroken(folder.path());
-  RunOutput out(folder.path(), config, kDevice, "0.1.0", false);
+  RunOutput out(folder.path(), config, kDevice, "0.1.0");
   EXPECT_TRUE(out.last_checkpoint().empty());
   EXPECT_TRUE(FrameFile(folder / "fluid.vtkhdf").times().empty());
   EXPECT_FALSE(fs::exists(folder / "summary.json"));
@@ -209,15 +269,14 @@ TEST_F(RunFolder, FreshRunRemovesTheFormerOne) {
 
 TEST_F(RunFolder, UnwritableFolderIsOneSentence) {
   write_file(folder / "file", "");
-  const std::string message =
-      error_of([&] { RunOutput(folder / "file" / "run", config, kDevice, "0.1.0", false); });
+  const std::string message = error_of([&] { RunOutput(folder / "file" / "run", config, kDevice, "0.1.0"); });
   EXPECT_NE(message.find("file/run: cannot write results there: Not a directory"), std::string::npos)
       << message;
 }
 
 TEST_F(RunFolder, FullDiskSurfaces) {
   FakeSimulation s;
-  RunOutput out(folder.path(), config, kDevice, "0.1.0", false);
+  RunOutput out(folder.path(), config, kDevice, "0.1.0");
   fs::create_symlink("/dev/full", folder / "probes" / "gauge.csv");
   out.write(s, s.info());
   const std::string message = error_of([&] { out.checkpoint(s); });
@@ -227,7 +286,7 @@ TEST_F(RunFolder, FullDiskSurfaces) {
 
 TEST_F(RunFolder, WriterErrorSurfacesInALaterStep) {
   FakeSimulation s;
-  RunOutput out(folder.path(), config, kDevice, "0.1.0", false);
+  RunOutput out(folder.path(), config, kDevice, "0.1.0");
   fs::create_directory(folder / "grains.vtkhdf");
   const std::string message = error_of([&] {
     run_to(s, out, 25);

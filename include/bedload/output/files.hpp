@@ -43,6 +43,16 @@ void need_space(const std::filesystem::path& path, std::size_t bytes);
 /// Gives back what need_space took and the file did not grow by.
 void free_reserve(const std::filesystem::path& path);
 
+/// Throws FileError if a folder lies where a file is to be written.
+void must_be_no_folder(const std::filesystem::path& path);
+
+/// Throws FileError unless there is nothing, or what can be read and written: a file or a folder, as `type`
+/// says, or a link to one.
+void must_be_usable(const std::filesystem::path& path, std::filesystem::file_type type);
+
+/// Removes a file that may not be there. Throws FileError.
+void remove_file(const std::filesystem::path& path);
+
 /// Throws FileError if a file has gone that was written before.
 void must_be_there(const std::filesystem::path& path);
 

@@ -32,14 +32,19 @@ struct Effort {
 /// surfaces in the next call.
 class RunOutput {
  public:
-  /// Makes the folder and writes case.resolved.toml. `continuing` appends to the
-  /// files already there, less what lies after the time of the first write();
-  /// otherwise those of a former run are removed. Throws FileError.
+  /// Makes the folder, removes what a former run left there and writes case.resolved.toml. With `continued`,
+  /// which has the state of a checkpoint, it goes on with the run in the folder instead, and here only
+  /// examines what is there; what lies after the checkpoint is removed when a first step has been made.
+  /// Throws FileError, with everything as it was.
   RunOutput(const std::filesystem::path& dir, const Config& config, const Device& device, std::string version,
-            bool continuing);
+            Simulation* continued = nullptr);
   ~RunOutput();
   RunOutput(const RunOutput&) = delete;
   RunOutput& operator=(const RunOutput&) = delete;
+
+  /// Of a run that goes on: what the folder lacks of that which the run of the case `former` has written
+  /// until the checkpoint, a clause each.
+  std::vector<std::string> gaps(const Config& former) const;
 
   /// Writes the frames, diagnostics, probes and checkpoint that fell due by
   /// info.time; call it after start() and after every step.
@@ -61,7 +66,8 @@ class RunOutput {
 
   /// Ends the output: last frame and rows, checkpoint, summary.json. `status` is
   /// "completed", "stopped" or "failed"; the state of a failed run is shown in a
-  /// frame but not kept as a checkpoint.
+  /// frame but not kept as a checkpoint. A run that goes on and was stopped before its
+  /// first step, or begins at the end of a completed one, leaves everything as it was.
   void finish(Simulation& simulation, const std::string& status, const Effort& effort);
 
   /// The newest checkpoint on disk, empty if there is none.
@@ -83,7 +89,7 @@ std::map<std::string, double> checkpoint_setup(const std::filesystem::path& path
 /// The resolved case that a checkpoint was made with. Throws FileError.
 std::string checkpoint_case(const std::filesystem::path& path);
 
-/// The newest checkpoint of a results folder. Throws FileError if there is none.
+/// The checkpoint of a results folder with the most steps. Throws FileError if there is none.
 std::filesystem::path latest_checkpoint(const std::filesystem::path& dir);
 
 /// Writes a checkpoint: first beside its place, then synced and renamed. The same

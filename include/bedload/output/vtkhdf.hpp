@@ -20,10 +20,12 @@ class FrameFile {
   explicit FrameFile(std::filesystem::path path, bool double_points = false, int deflate = 0)
       : path_(std::move(path)), double_points_(double_points), deflate_(deflate) {}
 
-  /// Adds one frame at `time` s; the first array of the store is the position. The first frame makes the file,
-  /// unless it is `begun`.
-  /// Throws FileError; on a full disk before the file is touched.
+  /// Adds one frame at `time` s; the first array of the store is the position. The first frame makes the
+  /// file, unless it is `begun`. Throws FileError; on a full disk before the file is touched.
   void append(const HostStore& store, double time, bool begun = false) const;
+
+  /// Throws FileError if there is a file with other arrays than frames of this store have.
+  void expect(const HostStore& store) const;
 
   /// Times of the frames, s; none if there is no file.
   std::vector<double> times() const;
@@ -31,13 +33,14 @@ class FrameFile {
   /// One frame, as stored; the first array is the position. Throws FileError.
   HostStore read(std::size_t frame) const;
 
-  /// Drops all frames but the first `count`.
+  /// Drops all frames but the first `count`; with none the file goes, and its side-car.
   void keep(std::size_t count) const;
 
   /// Writes the .xdmf side-car for older readers: hyperslabs of this file.
   void write_xdmf() const;
 
   const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path xdmf_path() const { return std::filesystem::path(path_).replace_extension(".xdmf"); }
 
  private:
   std::filesystem::path path_;
