@@ -95,6 +95,22 @@ TEST(Openings, LayersFillTheirOrifice) {
   }
 }
 
+TEST(Openings, LayersSpeedUpAsTheRampDoes) {
+  InletConfig inlet;
+  inlet.shape = "disc";
+  inlet.direction = {0, 1, 0};
+  inlet.radius = 0.02;
+  inlet.velocity = 2;
+  inlet.ramp = 0.1;
+  const InletFlow flow(inlet, 0.01, {});
+  for (const double q : {0.25, 0.5, 0.9}) {
+    const RigidMotion m = flow.motion(0.1 * q);
+    EXPECT_NEAR(m.v.y, 2 * q * q * (3 - 2 * q), 1e-12);
+    EXPECT_NEAR(m.a.y, 2 * 6 * q * (1 - q) / 0.1, 1e-4) << "by a difference over 1e-3 of the ramp";
+    EXPECT_NEAR(m.translation.y, 2 * 0.1 * (q * q * q - 0.5 * q * q * q * q), 1e-12);
+  }
+}
+
 TEST(Openings, TheFlowSetsTheSoundSpeed) {
   const Config c = read(with_inlet("rate = 1e-4", "velocity = 3\nfactor = \"2*exp(-t)\""));
   EXPECT_NEAR(c.fluid.vmax, 6 * std::exp(-c.inlets[0].ramp), 0.02);
