@@ -82,6 +82,12 @@ TEST(GrainSizes, ASieveCurveIsMetByMass) {
   EXPECT_TRUE(std::is_sorted(d.begin(), d.end()));
 }
 
+/// One grain has the median by number, which falls as d^-3 where mass is even over ln d.
+TEST(GrainSizes, OneGrainOfASieveHasItsMedian) {
+  const double median = 1 / std::cbrt(0.5 * (1 + 1.0 / 8));
+  EXPECT_NEAR(quantiles(sieve({1, 2}, {0, 1}), 1)[0], median, 1e-12);
+}
+
 TEST(GrainSizes, RangeLeavesOutEmptyMeshes) {
   EXPECT_EQ(size_range(sieve({1, 2, 4, 8}, {0, 0, 1, 1})), (std::pair{2.0, 4.0}));
   EXPECT_EQ(size_range(uniform(1, 3)), (std::pair{1.0, 3.0}));
