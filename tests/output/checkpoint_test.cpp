@@ -115,6 +115,15 @@ TEST_F(Checkpoint, RefusesAnyFlippedBit) {
   }
 }
 
+/// The highest bits of two words, which plain sums and products would let cancel.
+TEST_F(Checkpoint, RefusesFlippedBitsThatCouldCancel) {
+  const auto path = written();
+  std::string damaged = read_file(path);
+  for (const std::size_t word : {40, 90}) damaged[8 * word + 7] = char(damaged[8 * word + 7] ^ 0x80);
+  write_file(path, damaged);
+  expect_says(refusal(path, config), "checksum");
+}
+
 TEST_F(Checkpoint, RefusesAnotherCase) {
   const auto path = written();
   Config other = config;
