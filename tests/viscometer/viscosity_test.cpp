@@ -121,6 +121,33 @@ TEST(Viscosity, HasAnErrorThatFitsItsNoise) {
               0.11);  // so many draws tell a deviation to 3.5 %; three times that
 }
 
+/// Blocks that go faster and slower in turn by one percent: a mean of n with a deviation of 1 / sqrt(n - 1).
+TEST(Viscosity, HasTheErrorOfAMeanOfItsBlocks) {
+  Channel c = channel(PlaneFlowKind::reverse_poiseuille);
+  Config config;
+  config.fluid.rho0 = 2, config.fluid.mu = kEta, config.fluid.c = 10;
+  Layers layers(c.flow, kH, 40, 12);
+  const auto steady = c.velocity;
+  for (int block = 0; block < 12; ++block) {
+    c.velocity = [=](double z) { return (block % 2 ? 1.01 : 0.99) * steady(z); };
+    layers.add(block, c.sample(0), {}, 0);
+  }
+  const ViscosityResult r = evaluate(layers, config, kH);
+  EXPECT_NEAR(r.viscosity.mean, kEta, 1e-9);
+  EXPECT_NEAR(r.viscosity.error / (0.01 * kEta / std::sqrt(11)), 1, 1e-9);
+}
+
+/// Beside walls and where the drive turns round the fluid is another; its stress tells nothing there.
+TEST(Viscosity, StressIsComparedAwayFromThePlanes) {
+  Channel c = channel(PlaneFlowKind::reverse_poiseuille);
+  const auto right = c.stress;
+  c.stress = [=](double z) {
+    const double to_plane = std::abs(std::remainder(z + 1, 2));
+    return to_plane < 0.9 * kH ? 5.0 : right(z);
+  };
+  EXPECT_NEAR(c.measure().stress_ratio.mean, 1, 1e-9);
+}
+
 TEST(Viscosity, LeavesTheNoiseOutOfTheWholeStress) {
   Channel c = channel(PlaneFlowKind::reverse_poiseuille);
   c.kicks = 50;
@@ -156,6 +183,25 @@ TEST(Viscosity, OfCouetteFlowIsStressOverShear) {
   EXPECT_NEAR(r.slip_length, 0.1, 1e-9);
   EXPECT_NEAR(r.offset, 0, 1e-9);
   EXPECT_NEAR(r.stress_ratio.mean, 1, 1e-9);
+}
+
+TEST(Viscosity, OfCouetteFlowKnowsThatItsLowerWallMoves) {
+  Channel c = channel(PlaneFlowKind::couette);
+  c.flow.relative_speed = 0.6;
+  c.velocity = [](double z) { return 0.65 + 0.3 + 0.6 / 2.2 * z; };
+  c.stress = [](double) { return kEta * 0.6 / 2.2; };
+  c.drive = [](double) { return 0; };
+  Config config;
+  config.fluid.rho0 = 2, config.fluid.mu = kEta, config.fluid.c = 10;
+  config.wall.bodies.resize(2);
+  config.wall.bodies[0].motion.kind = "velocity";
+  config.wall.bodies[0].motion.velocity = {0, 0.5, 0};
+  config.wall.bodies[0].surface_velocity = {0, 0.15, 0};
+  Layers layers(c.flow, kH, 40, 12);
+  for (int block = 0; block < 12; ++block) layers.add(block, c.sample(0), {}, kEta * 0.6 / 2.2);
+  const ViscosityResult r = evaluate(layers, config, kH);
+  EXPECT_NEAR(r.slip_length, 0.1, 1e-9);
+  EXPECT_NEAR(r.offset, 0, 1e-9);
 }
 
 /// Particles of every second of the 40 layers: of the first, or of the second.
@@ -233,6 +279,15 @@ TEST(Viscosity, IsNotSteadyWhereItDrifts) {
   const ViscosityResult r = evaluate(layers, config, kH);
   EXPECT_NEAR(r.drift, -0.063, 0.005);
   EXPECT_FALSE(r.stationary());
+  // halves that differ by less than their blocks among themselves are steady
+  Layers uneven(c.flow, kH, 40, 12);
+  for (int block = 0; block < 12; ++block) {
+    c.velocity = [=](double z) { return (block % 2 && block != 7 ? 0.95 : 1.05) * steady(z); };
+    uneven.add(block, c.sample(0), {}, 0);
+  }
+  const ViscosityResult noisy = evaluate(uneven, config, kH);
+  EXPECT_NEAR(noisy.drift, -0.0164, 1e-3);
+  EXPECT_TRUE(noisy.stationary());
 }
 
 }  // namespace
