@@ -9,6 +9,7 @@ namespace bedload::inline BL_VARIANT {
 /// What a wall particle does to fluid particle a; the same terms with the opposite sign act on the wall.
 struct WallPair {
   Viscosity viscosity;
+  bool suction = true;  ///< whether walls hold fluid back by pressure below zero
 
   /// a: {v, rho}, {M, P/rho^2, ..}; b: the wall's, with its no-slip velocity `visc` (w: mass that drags).
   /// Both masses of an inactive wall particle are zero. relative: viscosity of a over that of `viscosity`.
@@ -21,7 +22,8 @@ struct WallPair {
   }
   template <class N, class Factor>
   BL_HD Vec3<N> pressure(const Vec4<N>& ma, const Vec4<N>& mw, const Vec3<N>& r, const Factor& F) const {
-    return pressure_term(mw.x, ma.y, mw.y, F) * r;
+    const N push = pressure_term(mw.x, ma.y, mw.y, F);
+    return (suction ? push : max_of(push, N(0))) * r;
   }
   template <class N, class Factor>
   BL_HD Vec3<N> friction(const Vec4<N>& va, const Vec4<N>& vw, const Vec4<N>& visc, const Vec3<N>& r, N r2,

@@ -17,6 +17,7 @@ void set_sdpd(Config& c) {
   c.density.method = DensityMethod::summation;
   c.visc.model = ViscosityModel::none;
   c.wall.no_penetration = c.wall.repulsion = false;
+  c.wall.suction = true;
   c.time.integrator = TimeIntegrator::kdk;
 }
 
@@ -45,7 +46,7 @@ void set_he2018(Config& c) {
   c.density.void_relaxation = 0;
   c.pressure.damper = 0;
   c.pressure.linear_exact = false;
-  c.wall.repulsion = true;
+  c.wall.repulsion = c.wall.suction = true;
   c.wall.no_penetration = false;
   c.tensile = 1;
   c.tensile_one_sign = true;
@@ -76,6 +77,7 @@ void set_robinson2014(Config& c) {
   c.density.void_relaxation = 0;
   c.density.cavitation_limit = 0.5;
   c.wall.type = WallType::single_layer;
+  c.wall.suction = true;
   c.wall.no_penetration = false;
   c.contact.normal = NormalLaw::linear;
   c.contact.tangential = SlidingLaw::none;

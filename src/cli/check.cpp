@@ -131,8 +131,9 @@ std::string defaults_text(const Config& c) {
   if (c.fluid.present && !c.fluid.sdpd() && c.density.cavitation_limit < 1)
     say("tension",
         fmt::format("fluid cavitates below {:.3g} Pa (density.cavitation_limit; diagnostics.csv counts "
-                    "where); until then it hangs under lids and roofs",
-                    c.eos.background - c.density.cavitation_limit * c.fluid.rho0 * c.fluid.c * c.fluid.c));
+                    "where){}",
+                    c.eos.background - c.density.cavitation_limit * c.fluid.rho0 * c.fluid.c * c.fluid.c,
+                    c.wall.suction ? "; until then it hangs from lids and roofs" : ""));
   if (c.fluid.present && !c.fluid.sdpd() && c.fluid.mu > 0 && c.visc.model == ViscosityModel::morris &&
       norm(c.gravity) > 0)
     say("waves",

@@ -37,6 +37,8 @@ struct CouplingCounters {
   std::uint64_t floor_hits = 0;  ///< fluid particles held at the least porosity
   std::uint64_t limited = 0;     ///< grains in fluid that drag would stop within one step
   std::uint64_t wet = 0;         ///< grains that fluid wets
+  std::uint64_t densest = 0;     ///< grains that read the least porosity
+  std::uint64_t cornered = 0;    ///< grains whose kernel walls leave less of than WallFreeFraction::kLeast
 };
 
 /// How stiff drag is, at most.

@@ -137,6 +137,8 @@ class FluidSolver {
   /// Changes velocities of fluid particles that have come too near to each other (visc.collision), which
   /// positions as packed and lists tell.
   void collide(FluidStore& fluid);
+  /// Of shifting, at most, over a step dt (s), m/s.
+  double fastest_shift(double dt) const { return dt > 0 ? 0.1 * parameters_.fluid.dx / dt : 0; }
   /// Longest step that viscosity allows, s.
   virtual double friction_limit(const FluidExtremes& now) const;
   /// Null where particles do not spin.

@@ -31,6 +31,7 @@ LayerLaw layer_law(const Config& config, const WallBody& body) {
 void add_walls(const Config& config, FluidParameters& p) {
   const std::vector<WallBody>& bodies = config.wall.bodies;
   p.repulsion = {Real(config.wall.rep_D), Real(config.wall.rep_r0), 0};
+  p.suction = config.wall.suction;
   bool layered = false;
   for (const WallBody& body : bodies) {
     p.repelled = p.repelled || body.repels() || body.no_penetration;

@@ -129,7 +129,7 @@ class WcsphSolver final : public FluidSolver {
   void forces_on_walls(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
                        double corrected, double dt, Span<Vec3d> force, Span<Vec3d> friction) {
     const WallForcePass<W, Force, Lengths> pass{w_,
-                                                WallPair{viscosity()},
+                                                WallPair{viscosity(), parameters_.suction},
                                                 layer(pose, dt),
                                                 Real(parameters_.mixed ? 0 : corrected),
                                                 fluid.acc,
@@ -189,7 +189,7 @@ class WcsphSolver final : public FluidSolver {
   ForcePass<W, kArtificial, kAdded, kSpecies, Lengths> force_pass(FluidStore& fluid, const WallStore& walls,
                                                                   const Moment& now) {
     return {w_,
-            WallPair{viscosity()},
+            WallPair{viscosity(), parameters_.suction},
             flux(fluid),
             fluid.m_state,
             fluid.p_rho2,
@@ -263,8 +263,8 @@ class WcsphSolver final : public FluidSolver {
     pass(NoShifting{}, NoFit{});
   }
   Shifting shifting(FluidStore& fluid, double dt) const {
-    const double h = parameters_.fluid.h(), dx = parameters_.fluid.dx, rate = dt > 0 ? 1 / dt : 0;
-    return {Real(parameters_.shift * h * h),        Real(0.5 * h * h * rate), Real(0.1 * dx * rate),
+    const double h = parameters_.fluid.h(), rate = dt > 0 ? 1 / dt : 0;
+    return {Real(parameters_.shift * h * h),        Real(0.5 * h * h * rate), Real(fastest_shift(dt)),
             Real(parameters_.domain.two_d ? 1 : 0), fluid.exposure,           fluid.exposure_next};
   }
   LinearFit linear_fit(FluidStore& fluid) const {

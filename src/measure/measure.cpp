@@ -136,8 +136,12 @@ struct DriftBody {
   Span<const Real> mass;
   Span<const Real4> m_state, v_rho;
   Span<const Real3> drift;  ///< empty: none
+  Real fastest;             ///< above which the limit on it acts, m/s
   BL_HD void operator()(Index a, double* out) const {
-    if (drift) out[0] = -double(mass[a]) * dot(gravity, Vec3d(drift[a]));
+    if (drift) {
+      out[0] = -double(mass[a]) * dot(gravity, Vec3d(drift[a]));
+      out[2] = norm(drift[a]) > fastest;
+    }
     out[1] = double(mass[a]) * dot(Vec3d(drive(a, m_state[a])), Vec3d(v_rho[a].xyz()));
   }
 };
@@ -170,7 +174,7 @@ struct PowersBody {
 struct CavitatingBody {
   Span<const Real> s;
   Real least;
-  BL_HD void operator()(Index a, double* out) const { out[0] = s[a] < least; }
+  BL_HD void operator()(Index a, double* out) const { out[0] = s[a] < least, out[1] = s[a] <= kThinnest; }
 };
 
 struct PressureBody {
@@ -297,10 +301,10 @@ void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>&
   for (int k = 0; k < 4; ++k) out.push_back({std::string("power_") + terms[k], "W", p.v[k]});
   out.push_back({"power_wall_pressure", "W", p.v[4] - moving});
   out.push_back({"power_moving_walls", "W", moving});
-  const auto d =
-      sum_over<2>(fluid.owned(),
-                  DriftBody{config_.gravity, drive, fluid.mass, fluid.m_state, fluid.v_rho,
-                            solver.shifts() ? solver.drift_of(std::as_const(fluid)) : Span<const Real3>()});
+  const auto d = sum_over<3>(
+      fluid.owned(), DriftBody{config_.gravity, drive, fluid.mass, fluid.m_state, fluid.v_rho,
+                               solver.shifts() ? solver.drift_of(std::as_const(fluid)) : Span<const Real3>(),
+                               Real(0.999 * solver.fastest_shift(dt))});
   out.push_back({"power_shifting", "W", d.v[0]});
   out.push_back({"power_drive", "W", d.v[1]});
   SumSweep<2, StoppedBody>::Value r{};
@@ -309,8 +313,10 @@ void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>&
     r = sum_over<2>(fluid.owned(), StoppedBody{walls, fluid.x, fluid.mass, fluid.v_rho, fluid.heading});
   out.push_back({"power_penetration_limit", "W", r.v[0]});
   out.push_back({"fluid_stopped_at_walls", "-", r.v[1]});
-  out.push_back({"fluid_cavitating", "-",
-                 sum_over<1>(fluid.owned(), CavitatingBody{fluid.s, solver.eos().least}).v[0]});
+  const auto thin = sum_over<2>(fluid.owned(), CavitatingBody{fluid.s, solver.eos().least});
+  out.push_back({"fluid_cavitating", "-", thin.v[0]});
+  out.push_back({"fluid_thinnest", "-", thin.v[1]});
+  out.push_back({"fluid_shift_limited", "-", d.v[2]});
 }
 
 std::vector<Quantity> CoupledSimulation::diagnostics() {
@@ -405,6 +411,8 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"porosity_floor_hits", "-", double(c.floor_hits)});
     out.push_back({"drag_limited_grains", "-", double(c.limited)});
     out.push_back({"wet_grains", "-", double(c.wet)});
+    out.push_back({"grains_at_porosity_floor", "-", double(c.densest)});
+    out.push_back({"grains_in_corners", "-", double(c.cornered)});
   }
   if (state_.bodies.any()) {
     const BodyTotals t = state_.bodies.totals(state_.clock.time);
