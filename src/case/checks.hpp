@@ -83,6 +83,8 @@ class Checks {
   // checks_bodies.cpp
   /// The largest side of a body alone must not have more wall particles than there can be.
   void countable(const std::string& path, const WallBody& body) const;
+  /// The balls by which a free body touches others are no more than can be looked at.
+  void touchable(const std::string& path, const WallBody& body) const;
   /// Particles leave a domain before they meet a wall beyond it.
   void met(const WallBody& body) const;
   /// Shapes do not repeat.

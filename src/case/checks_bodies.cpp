@@ -3,9 +3,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "bedload/geometry/body.hpp"
+#include "bedload/geometry/sampling.hpp"
 #include "bedload/geometry/shape.hpp"
 #include "checks.hpp"
 #include "src/geometry/wall_faces.hpp"
@@ -36,10 +38,15 @@ void Checks::walls() const {
     file_name(path + ".name", body.name);
     if (!names.insert(body.name).second)
       fail(path + ".name", quoted(body.name), "must differ from other bodies'");
+    for (const int fill : c.grain.rigid_fills())
+      if (body.name == fmt::format("grain_fill_{}", fill + 1))
+        fail(path + ".name", quoted(body.name),
+             fmt::format("must differ from that of the table of grain.fill {}, a rigid group", fill + 1));
     if (body.shape != "plane") box(path, body.min, body.max);
     if (body.solid.shape) within_period(path + ".shape", body);
     countable(path + ".shape", body);
     if (!body.moves()) met(body);
+    if (body.free.present) touchable(path, body);
   }
   if (!c.fluid.present) return;
   const double dx = c.fluid.dx;
@@ -74,6 +81,19 @@ void Checks::countable(const std::string& path, const WallBody& body) const {
         fmt::format("must be smaller; at {:.3g} x {:.3g} x {:.3g} m a layer of wall particles {} m apart has "
                     "{:.3g} of at most 2147483647",
                     side.x, side.y, side.z, spacing, layer));
+}
+
+void Checks::touchable(const std::string& path, const WallBody& body) const {
+  const double spacing = body.free.contact_spacing;
+  if (!(spacing > 0) || (body.shape != "box" && !body.solid.shape)) return;
+  constexpr double kMost = 1e6;
+  const double balls = expected_places(body, spacing, spacing, c.domain);
+  if (balls > kMost)
+    fail(path + ".free.contact_spacing", spacing,
+         fmt::format(
+             "must be at least about {:.2g} m: balls so far apart make {:.2g} on the surface of \"{}\", "
+             "more than 1000000",
+             spacing * std::pow(balls / kMost, c.domain.two_d ? 1.0 : 0.5), balls, body.name));
 }
 
 void Checks::met(const WallBody& body) const {

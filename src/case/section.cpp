@@ -6,6 +6,7 @@
 #include <charconv>
 
 #include "bedload/core/error.hpp"
+#include "shortened.hpp"
 
 namespace bedload {
 namespace {
@@ -54,12 +55,12 @@ std::vector<std::string_view> names_of(std::string_view name) {
     std::string_view word, key;
   };
   static constexpr Synonym synonyms[]{
-      {"diameter", "d"},     {"friction", "mu"},       {"rolling_friction", "mu_r"},
-      {"viscosity", "mu"},   {"density", "rho"},       {"density", "rho0"},
-      {"restitution", "e"},  {"young", "E"},           {"youngs_modulus", "E"},
-      {"poisson", "nu"}, {"nu", "mu"},     {"rpm", "rate"},          {"spacing", "dx"},
-      {"dp", "dx"},          {"vicosity", "mu"},       {"c0", "c_factor"},
-      {"sound", "c_factor"}, {"coefsound", "c_factor"}};
+      {"diameter", "d"},    {"friction", "mu"},    {"rolling_friction", "mu_r"},
+      {"viscosity", "mu"},  {"density", "rho"},    {"density", "rho0"},
+      {"restitution", "e"}, {"young", "E"},        {"youngs_modulus", "E"},
+      {"poisson", "nu"},    {"nu", "mu"},          {"rpm", "rate"},
+      {"spacing", "dx"},    {"dp", "dx"},          {"vicosity", "mu"},
+      {"c0", "c_factor"},   {"sound", "c_factor"}, {"coefsound", "c_factor"}};
   std::vector<std::string_view> names{name};
   for (const Synonym& s : synonyms)
     if (s.word == name) names.push_back(s.key);
@@ -103,6 +104,16 @@ std::string Value::text() const {
   return std::visit(Print{}, data);
 }
 
+std::string shortened(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  const auto whole = [&](std::size_t at) {  // no cut through a character
+    while (at > 0 && at < text.size() && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80) --at;
+    return at;
+  };
+  const std::size_t head = whole(most / 2), tail = whole(text.size() - most / 4);
+  return text.substr(0, head) + fmt::format(" ... ({} characters) ... ", text.size()) + text.substr(tail);
+}
+
 const Value& nearest_value(const Value& root, std::string_view path) {
   const Value* at = &root;
   for_parts(path, [&, lost = false](std::string_view part) mutable {
@@ -120,7 +131,7 @@ const Value& nearest_value(const Value& root, std::string_view path) {
 
 void reject(const Value& root, std::string_view path, const std::string& value, const std::string& rest) {
   throw CaseError(
-      fmt::format("{}: {} = {} {}", nearest_value(root, path).place(), key_of(path), value, rest));
+      fmt::format("{}: {} = {} {}", nearest_value(root, path).place(), key_of(path), shortened(value), rest));
 }
 
 std::string key_of(std::string_view path) {

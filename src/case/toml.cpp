@@ -6,6 +6,7 @@
 
 #include "bedload/case/section.hpp"
 #include "bedload/core/error.hpp"
+#include "shortened.hpp"
 
 namespace bedload {
 namespace {
@@ -71,6 +72,28 @@ bool is_quantity(std::string_view text) {
          });
 }
 
+constexpr int kMostParts = 1000;
+
+/// The line of a key of more parts, which make tables within tables deeper than any stack; 0: there is none.
+int line_of_deep_key(const std::string& text) {
+  int parts = 1, line = 1;
+  bool named = false;  // something since the last dot
+  for (const char c : text) {
+    line += c == '\n';
+    if (c == '.') {
+      parts = named ? parts + 1 : 1;
+      named = false;
+    } else if (std::isalnum(static_cast<unsigned char>(c)) ||
+               std::string_view("_-\"'").find(c) != std::string_view::npos) {
+      named = true;
+    } else if (c != ' ' && c != '\t') {
+      parts = 1, named = false;
+    }
+    if (parts > kMostParts) return line;
+  }
+  return 0;
+}
+
 /// The right side of an override: TOML, or a bare word or quantity taken as a string.
 Value override_value(const std::string& text, const std::string& source) {
   try {
@@ -85,6 +108,9 @@ Value override_value(const std::string& text, const std::string& source) {
 }  // namespace
 
 Value parse_toml(const std::string& text, const std::string& name) {
+  if (const int line = line_of_deep_key(text))
+    throw CaseError(name + ":" + std::to_string(line) + ": holds a key of more than " +
+                    std::to_string(kMostParts) + " parts");
   try {
     Value root = convert(toml::parse(text), name, true);
     root.line = 0;
@@ -95,7 +121,9 @@ Value parse_toml(const std::string& text, const std::string& name) {
 }
 
 void apply_override(Value& root, const std::string& assignment) {
-  const std::string source = "--set " + assignment;
+  const std::string source = "--set " + shortened(assignment);
+  if (line_of_deep_key(assignment))
+    throw CaseError(source + ": holds a key of more than " + std::to_string(kMostParts) + " parts");
   const auto equals = assignment.find('=');
   const std::string path = trimmed(std::string_view(assignment).substr(0, equals));
   if (equals == assignment.npos || path.empty()) throw CaseError(source + ": must have the form key=value");

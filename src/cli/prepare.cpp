@@ -4,16 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <numbers>
 
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
 #include "bedload/geometry/grain_source.hpp"
 #include "bedload/geometry/orifice.hpp"
+#include "bedload/geometry/sampling.hpp"
 #include "bedload/geometry/setup.hpp"
 #include "bedload/geometry/shape.hpp"
 #include "bedload/motion/law.hpp"
 #include "bedload/output/output.hpp"
+#include "src/geometry/rough_size.hpp"
 #include "src/motion/inlet_flow.hpp"
 
 namespace bedload {
@@ -47,23 +51,90 @@ double let_in(const InletConfig& inlet, const Config& c, double from, double to)
 
 namespace {
 
-/// Told from the volume of the blocks before any particle is placed: that takes time and memory itself.
-void refuse_too_fine(const Prepared& p) {
-  const double dx = p.config.fluid.dx;
+/// What a part of the case is expected to begin with, and where it says so.
+struct Expected {
+  std::string key, text;  ///< text goes on with a number
+  Counts counts;
+  const char* what;
+};
+
+std::string sides_text(const Vec3d& min, const Vec3d& max) {
+  return fmt::format("{:.4g} x {:.4g} x {:.4g} m", max.x - min.x, max.y - min.y, max.z - min.z);
+}
+
+std::int64_t whole(double count) { return std::int64_t(std::min(count, 1e15)); }
+
+Expected expected_fluid(const Config& c) {
   double volume = 0;
-  for (const FluidFill& fill : p.config.fluid.fills) {
+  for (const FluidFill& fill : c.fluid.fills) {
     const Vec3d side = fill.max - fill.min;
-    if (fill.file.empty() && !fill.solid.shape) volume += side.x * side.y * side.z;
+    if (fill.solid.shape)
+      volume += rough_size(*fill.solid.shape, c.domain).volume;
+    else if (fill.file.empty())
+      volume += side.x * side.y * side.z;
   }
-  const double count = volume / p.config.domain.cell_volume(dx), memory = double(p.device.memory);
-  const double need = double(estimate_bytes(p.config, {std::int64_t(count), 0, 0}, p.device.cuda()));
-  if (memory == 0 || need <= memory) return;
-  throw KeyError(
-      "fluid.dx",
-      fmt::format("fluid.dx = {} makes {:.3g} fluid particles, which need {}; {} has {} free, enough "
-                  "for {:.3g} m and more",
-                  dx, count, bytes_text(std::size_t(need)), p.device.name, bytes_text(p.device.memory),
-                  dx * std::pow(need / memory, p.config.domain.two_d ? 1.0 / 2 : 1.0 / 3) * 1.001));
+  return {"fluid.dx",
+          fmt::format("fluid.dx = {}", c.fluid.dx),
+          {.fluid = whole(volume / c.domain.cell_volume(c.fluid.dx))},
+          "fluid particles"};
+}
+
+Expected expected_wall(const Config& c, std::size_t index) {
+  const WallBody& body = c.wall.bodies[index];
+  const double spacing = c.wall.spacing(body), depth = body.single_layer() ? spacing : c.fluid.reach();
+  return {
+      fmt::format("wall.body.{}", index),
+      fmt::format("wall.body \"{}\"{} with particles {:g} m apart", body.name,
+                  body.shape == "plane" ? "" : ", " + sides_text(body.min, body.max) + " large,", spacing),
+      {.walls = whole(expected_places(body, spacing, depth, c.domain))},
+      "wall particles"};
+}
+
+Expected expected_grains(const Config& c, std::size_t index) {
+  const GrainFill& fill = c.grain.fills[index];
+  const Vec3d side = fill.max - fill.min;
+  const double d = c.grain.largest(), each = std::numbers::pi / 6 * d * d * d;
+  const double count = fill.count > 0  ? double(fill.count)
+                       : fill.mass > 0 ? fill.mass / (c.grain.rho * each)
+                       : fill.solid.shape || c.domain.two_d
+                           ? 0
+                           : fill.packing_fraction * side.x * side.y * side.z / each;
+  return {fmt::format("grain.fill.{}", index),
+          fmt::format("grain.fill {}", index + 1),
+          {.grains = whole(count)},
+          "grains"};
+}
+
+/// Told from areas and volumes before any particle is placed: that takes time and memory itself.
+void refuse_too_many(const Prepared& p) {
+  const Config& c = p.config;
+  std::vector<Expected> parts;
+  if (c.fluid.present) {
+    parts.push_back(expected_fluid(c));
+    for (std::size_t k = 0; k < c.wall.bodies.size(); ++k)
+      if (c.wall.bodies[k].stops_fluid()) parts.push_back(expected_wall(c, k));
+  }
+  for (std::size_t k = 0; c.grain.present && k < c.grain.fills.size(); ++k)
+    parts.push_back(expected_grains(c, k));
+
+  const auto bytes = [&](const Counts& n) { return double(estimate_bytes(c, n, p.device.cuda())); };
+  const auto less = [&](const Expected& a, const Expected& b) { return bytes(a.counts) < bytes(b.counts); };
+  Counts all;
+  for (const Expected& part : parts) {
+    all.fluid += part.counts.fluid, all.walls += part.counts.walls, all.grains += part.counts.grains;
+  }
+  const double memory = double(p.device.memory), need = bytes(all);
+  if (memory == 0 || need <= 1.2 * memory) return;  // what comes near it is placed, and then counted
+  const Expected& most = *std::max_element(parts.begin(), parts.end(), less);
+  const Counts& n = most.counts;
+  std::string text = fmt::format("{} makes {:.3g} {}, which need {}; {} has {} free", most.text,
+                                 double(n.fluid + n.walls + n.grains), most.what,
+                                 bytes_text(std::size_t(need)), p.device.name, bytes_text(p.device.memory));
+  if (n.fluid > 0)
+    text += fmt::format(", enough for {:.3g} m and more",
+                        c.fluid.dx * std::pow(need / memory, c.domain.two_d ? 1.0 / 2 : 1.0 / 3) * 1.001);
+  for (const std::string& warning : p.warnings) text += "; " + warning;
+  throw KeyError(most.key, text);
 }
 
 /// Motions count from t = 0: with another one a wall may be elsewhere at the time of the restart. How far
@@ -122,6 +193,9 @@ void refuse_changes(const Options& options, Prepared& p) {
 Prepared prepare(const Options& options) {
   Prepared p;
   p.config = read_case(options.file, options.overrides, p.warnings, options.restart);
+  p.device = find_device(options.backend, options.threads, p.config.simd);
+  if (!options.quiet) fmt::print("{}", heading_text(p));  // before time goes into placing particles
+  std::fflush(stdout);
   initialise(options, p);
   return p;
 }
@@ -129,7 +203,7 @@ Prepared prepare(const Options& options) {
 void initialise(const Options& options, Prepared& p) {
   p.device = find_device(options.backend, options.threads, p.config.simd);
   if (options.restart.empty()) {
-    if (p.config.fluid.present) refuse_too_fine(p);
+    refuse_too_many(p);
     p.setup = build_setup(p.config, p.warnings);
     p.counts = counts_of(p.setup);
   } else {
@@ -191,13 +265,23 @@ std::string bytes_text(std::size_t bytes) {
   return fmt::format("{:.3g} GB", double(bytes) / 1e9);
 }
 
+std::string heading_text(const Prepared& p) {
+  const Config& c = p.config;
+  std::string out = fmt::format("case       {}{}\n", c.file, c.title.empty() ? "" : " (" + c.title + ")");
+  out += fmt::format("device     {}, {}; precision {}\n", p.device.backend, p.device.name, c.precision);
+  for (const ShapeConfig& shape : c.shapes) {
+    if (shape.kind != "mesh") continue;
+    const Bounds bounds = shape.solid.shape->bounds();
+    out += fmt::format("mesh       {}: {}\n", shape.name, sides_text(bounds.min, bounds.max));
+  }
+  return out;
+}
+
 std::string summary_text(const Prepared& p) {
   const Config& c = p.config;
   const Counts& n = p.counts;
-  std::string out = fmt::format("case       {}{}\n", c.file, c.title.empty() ? "" : " (" + c.title + ")");
-  out += fmt::format("device     {}, {}; precision {}\n", p.device.backend, p.device.name, c.precision);
-  out += fmt::format("particles  fluid {}, walls {}, grains {}\n", grouped(n.fluid), grouped(n.walls),
-                     grouped(n.grains));
+  std::string out = fmt::format("particles  fluid {}, walls {}, grains {}\n", grouped(n.fluid),
+                                grouped(n.walls), grouped(n.grains));
   const Counts later = with_arrivals(p);
   if (later.fluid > n.fluid)
     out += fmt::format("           up to {} of fluid let in\n", grouped(later.fluid - n.fluid));
@@ -212,12 +296,6 @@ std::string summary_text(const Prepared& p) {
       out += fmt::format("           visc.alpha acts like a kinematic viscosity of {:.3g} m2/s{}\n", nu,
                          physical > 0 ? fmt::format(", {:.3g} times the physical one", nu / physical) : "");
     }
-  }
-  for (const ShapeConfig& shape : c.shapes) {
-    if (shape.kind != "mesh") continue;
-    const Bounds bounds = shape.solid.shape->bounds();
-    const Vec3d side = bounds.max - bounds.min;
-    out += fmt::format("mesh       {}: {:.4g} x {:.4g} x {:.4g} m\n", shape.name, side.x, side.y, side.z);
   }
   for (const InletConfig& inlet : c.inlets)
     out += fmt::format("inlet      {}: {} particles a layer, up to {:.4g} m/s\n", inlet.name,

@@ -25,7 +25,8 @@ struct Prepared {
   std::vector<std::string> warnings;
 };
 
-/// Reads the case, finds the device, places the particles or reads the checkpoint.
+/// Reads the case, finds the device and says so, places the particles or reads the checkpoint. Throws
+/// KeyError for more particles than the device has memory for before any is placed.
 Prepared prepare(const Options& options);
 /// The same without reading the case: `prepared` has its config.
 void initialise(const Options& options, Prepared& prepared);
@@ -42,7 +43,9 @@ std::string grouped(std::int64_t number);
 /// "1.2 GB".
 std::string bytes_text(std::size_t bytes);
 
-/// What the numbers mean: device, particles, sound speed, artificial viscosity; a line each.
+/// What is known before particles are placed: case, device, how large meshes are; a line each.
+std::string heading_text(const Prepared& prepared);
+/// What the numbers mean: particles, sound speed, artificial viscosity; a line each.
 std::string summary_text(const Prepared& prepared);
 
 }  // namespace bedload

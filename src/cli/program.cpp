@@ -10,6 +10,7 @@
 #include "bedload/core/error.hpp"
 #include "commands.hpp"
 #include "list.hpp"
+#include "src/case/shortened.hpp"
 #include "stop.hpp"
 
 namespace bedload {
@@ -33,7 +34,8 @@ int dispatch(const Options& options) {
 }
 
 int complain(const std::exception& error, int code) {
-  fmt::print(stderr, "{}\n", error.what());
+  constexpr std::size_t kMost = 4000;  // a value that is quoted may be as long as its file
+  fmt::print(stderr, "{}\n", shortened(error.what(), kMost));
   return code;
 }
 

@@ -12,6 +12,7 @@
 #include "bedload/geometry/lattice.hpp"
 #include "bedload/geometry/shape_sampling.hpp"
 #include "bedload/geometry/wall_surface.hpp"
+#include "geometry/rough_size.hpp"
 #include "geometry/wall_faces.hpp"
 
 namespace bedload {
@@ -240,6 +241,28 @@ std::vector<Vec3d> sample_body(const WallBody& body, double spacing, double dept
   if (body.shape == "plane") return sample_plane(body, spacing, depth, domain);
   throw CaseError(
       fmt::format("wall.body \"{}\": shape = \"{}\" must be tank, box or plane", body.name, body.shape));
+}
+
+double expected_places(const WallBody& body, double spacing, double depth, const DomainConfig& domain) {
+  const double cell = domain.cell_volume(spacing);
+  if (body.solid.shape) {
+    const RoughSize size = rough_size(*body.solid.shape, domain);
+    return std::min(size.area * depth, size.volume) / cell;
+  }
+  if (body.shape == "plane") {
+    const auto [a, b] = plane_lattice(body, spacing, depth, domain);
+    return double(a.cells.count + 2 * a.extra) * double(b.cells.count + 2 * b.extra) * depth / spacing;
+  }
+  const bool tank = body.shape == "tank";
+  const auto closed = closed_faces(body, domain);
+  double inner = 1, outer = 1;
+  for (int k = 0; k < 3; ++k) {
+    const double side = body.max[k] - body.min[k];
+    const bool ends = !domain.flat(k) && !spans_period(body, domain, k);
+    outer *= side + (tank && ends ? (closed[2 * k] + closed[2 * k + 1]) * depth : 0);
+    inner *= std::max(0.0, side - (!tank && ends ? 2 * depth : 0));
+  }
+  return (outer - inner) / cell;
 }
 
 double particle_volume(const WallBody& body, double spacing, const DomainConfig& domain) {

@@ -1,9 +1,11 @@
 // The program from outside: exit codes, messages, files.
 
 #include <sched.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -686,6 +688,68 @@ TEST_F(Program, RefusesWhatIsTooFineForTheMemoryBeforeLayingIt) {
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("fluid.dx = 5e-05 makes 1.2e+09 fluid particles, which need "), o.err.npos) << o.err;
   EXPECT_NE(o.err.find(" free, enough for "), o.err.npos) << o.err;
+}
+
+/// From areas, volumes and counts: what the case would hold, and how large its meshes are, in no time.
+TEST_F(Program, RefusesTooManyOfAnyKindBeforePlacingThem) {
+  std::string stl = "solid cube\n";  // of 60, in millimetres
+  const int corners[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                              {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+  for (const auto& triangle : corners) {
+    stl += "facet normal 0 0 0\nouter loop\n";
+    for (const int k : triangle)
+      stl += fmt::format("vertex {} {} {}\n", k & 1 ? 60 : 0, k & 2 ? 60 : 0, k & 4 ? 60 : 0);
+    stl += "endloop\nendfacet\n";
+  }
+  write("cube.stl", stl + "endsolid cube\n");
+  const auto body = [](const std::string& rest) { return "[[wall.body]]\nname = \"much\"\n" + rest; };
+  struct Much {
+    std::string more, message, set;
+  };
+  const Much cases[]{
+      {"[[shape]]\nname = \"cube\"\nkind = \"mesh\"\nfile = \"cube.stl\"\n" + body("shape = \"cube\"\n"),
+       "wall.body \"much\", 60 x 60 x 60 m large, with particles 0.002 m apart makes ", "fluid.dx=0.002"},
+      {body("shape = \"tank\"\nmin = [0, 0, 0]\nmax = [60, 60, 20]\n"),
+       "wall.body \"much\", 60 x 60 x 20 m large, with particles 0.002 m apart makes ", "fluid.dx=0.002"},
+      {body("shape = \"box\"\nmin = [0.06, 0.01, 0.01]\nmax = [0.09, 0.05, 0.05]\n[wall.body.free]\n"
+            "density = 500\ncontact_spacing = 1e-5\n"),
+       "contact_spacing = 1e-05 must be at least about 8.9e-05 m: balls so far apart make ", "grain.d=0.005"},
+      {"", "grain.fill 1 makes 1e+12 grains, which need ", "grain.fill.0.count=1000000000000"},
+  };
+  for (const Much& much : cases) {
+    write("dam.toml", kSmall + much.more);
+    const auto from = std::chrono::steady_clock::now();
+    const Outcome o = shell("bash -c 'ulimit -v 4000000; " BL_PROGRAM " check dam.toml --backend cpu --set " +
+                            much.set + "'");
+    EXPECT_LT(std::chrono::steady_clock::now() - from, std::chrono::seconds(20));
+    EXPECT_EQ(o.code, 2) << much.message;
+    EXPECT_NE(o.err.find(much.message), o.err.npos) << o.err;
+    EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+  }
+  write("dam.toml", kSmall + cases[0].more);
+  const Outcome o = bedload("check dam.toml --backend cpu --set fluid.dx=0.002");
+  EXPECT_NE(o.out.find("mesh       cube: 60 x 60 x 60 m\n"), o.out.npos) << o.out;
+  EXPECT_NE(o.err.find("does it need another scale?"), o.err.npos) << o.err;
+}
+
+/// Whatever is repeated in a message, and however many tables a key opens.
+TEST_F(Program, LongInputHasAShortMessage) {
+  std::string key = "a";
+  for (int n = 0; n < 30000; ++n) key += ".a";
+  for (const std::string& more :
+       {key + " = 1\n", "[" + key + "]\n", "x = { " + key + " = 1 }\n",
+        "title = \"" + std::string(50000, 'x') + "\"\ntitle = 1\n",
+        "[wall]\ntype = \"" + std::string(50000, 'x') + "\"\n", std::string(50000, 'x') + " = 1\n"}) {
+    write("dam.toml", more.starts_with("[wall]") ? kSmall + more : more + kSmall);
+    const Outcome o = bedload("check dam.toml --backend cpu");
+    EXPECT_EQ(o.code, 2) << more.substr(0, 20);
+    EXPECT_LT(o.err.size(), 5000u);
+    EXPECT_TRUE(o.err.starts_with("dam.toml:")) << o.err;
+  }
+  write("dam.toml", kSmall);
+  const Outcome o = bedload("check dam.toml --backend cpu --set " + key + "=1");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.err.find("holds a key of more than 1000 parts"), o.err.npos) << o.err;
 }
 
 /// Errors that come up as particles are placed and meshes are read name their place as those of the reader
