@@ -168,8 +168,8 @@ struct ContactLawOf {
     const Real size = norm(f_t), limit = mu * in.normal_force;
     if (size > limit) {
       f_t *= limit / size;
-      const double length = norm(xi), longest = law.longest(in, limit);
-      if (length > longest) xi *= longest / length;
+      const Real length = norm(Real3(xi)), longest = law.longest(in, limit);
+      if (length > longest) xi *= double(longest / length);
     }
     return f_t;
   }

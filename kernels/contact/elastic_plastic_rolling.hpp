@@ -30,7 +30,7 @@ struct ElasticPlasticRolling {
   BL_HD Real3 operator()(const RollingInput& in, Vec3d& couple) const {
     const Real limit = mu_r * in.R_star * in.normal_force;
     const Real k_r = stiffness(in.normal_stiffness, in.R_star);
-    couple *= min_of(1.0, double(in.normal_stiffness) / double(in.stiffness_before));
+    couple *= double(min_of(Real(1), in.normal_stiffness / in.stiffness_before));
     couple -= double(k_r * in.dt) * Vec3d(in.omega);
     const double size = norm(couple);
     if (size > limit) {

@@ -17,12 +17,12 @@ struct LinearSliding {
   }
   BL_HD Real stiffness(const SlidingInput& in) const { return ratio * in.normal.stiffness; }
   BL_HD Vec3d stretch(const SlidingInput& in, const Vec3d& xi, const Vec3d& step) const {
-    return xi * min_of(1.0, double(in.before.stiffness) / double(in.normal.stiffness)) + step;
+    return xi * double(min_of(Real(1), in.before.stiffness / in.normal.stiffness)) + step;
   }
   BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {
     return {-stiffness(in) * Real3(xi), in.normal.damping * std::sqrt(ratio)};
   }
-  BL_HD double longest(const SlidingInput& in, Real limit) const { return double(limit / stiffness(in)); }
+  BL_HD Real longest(const SlidingInput& in, Real limit) const { return limit / stiffness(in); }
   BL_HD double stored(const SlidingInput& in, const Vec3d& xi) const {
     return 0.5 * double(stiffness(in)) * norm2(xi);
   }

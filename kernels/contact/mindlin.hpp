@@ -27,7 +27,7 @@ struct Mindlin {
     const Real k = stiffness(in);
     return {-k * Real3(xi), in.normal.damping * std::sqrt(k / in.normal.stiffness)};
   }
-  BL_HD double longest(const SlidingInput& in, Real limit) const { return double(limit / stiffness(in)); }
+  BL_HD Real longest(const SlidingInput& in, Real limit) const { return limit / stiffness(in); }
   BL_HD double stored(const SlidingInput& in, const Vec3d& xi) const {
     return 0.5 * double(stiffness(in)) * norm2(xi);
   }

@@ -38,9 +38,9 @@ struct MindlinDeresiewicz {
     return {Real3(xi) * (-full * force_at(s) / Real(length)),
             2 * beta * std::sqrt(Real(1.5) * in.m_star * full * std::sqrt(1 - s) / Real(most))};
   }
-  BL_HD double longest(const SlidingInput& in, Real limit) const {
+  BL_HD Real longest(const SlidingInput& in, Real limit) const {
     const Real full = mu * in.normal.elastic, most = Real(slipping(in.overlap));
-    return double(limit < full ? stretch_at(limit / full) * most : most);
+    return limit < full ? stretch_at(limit / full) * most : most;
   }
   BL_HD double stored(const SlidingInput& in, const Vec3d& xi) const {
     const double most = slipping(in.overlap);

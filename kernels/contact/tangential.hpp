@@ -36,7 +36,7 @@ struct NoSliding {
   static NoSliding of(const ContactMaterials&) { return {}; }
   BL_HD Vec3d stretch(const SlidingInput&, const Vec3d&, const Vec3d&) const { return {}; }
   BL_HD SlidingState operator()(const SlidingInput&, const Vec3d&) const { return {{}, 0}; }
-  BL_HD double longest(const SlidingInput&, Real) const { return 0; }
+  BL_HD Real longest(const SlidingInput&, Real) const { return 0; }
   BL_HD double stored(const SlidingInput&, const Vec3d&) const { return 0; }
 };
 
