@@ -286,6 +286,45 @@ TEST(Porosity, IsTheSameBesideBoxesAsBesideTheTankThatTheyMakeUp) {
   EXPECT_GT(beside, 50u);
 }
 
+/// The volume flux of the mixture: of fluid, and of grains by how far they have come in the step, counted as
+/// the porosity counts them, also where that is held at its floor.
+TEST(Porosity, GoesWithTheFluxOfFluidAndGrains) {
+  Config c = unit_box(0.1, 1e-3);
+  c.couple.eps_min = 0.97;
+  std::mt19937_64 random(17);
+  Cloud fluid = fluid_at(random_points(300, {0, 0, 0}, {1, 1, 1}, random), 0.1, 1000, 1);
+  fluid.v = random_vectors(300, 1, random);
+  CoupledBox box(c, fluid, random_grains(400, {0, 0, 0}, {1, 1, 1}, 0.05, random));
+  const double dt = 1e-3;
+  const auto x = box.grains.x.values();
+  const auto u = random_vectors(x.size(), 1, random);
+  std::vector<Vec3d> before;
+  for (std::size_t j = 0; j < x.size(); ++j) before.push_back(x[j] - dt * u[j]);
+  box.grains.x_before.assign(before);
+  box.coupling.porosity(box.fluid, box.grains, {}, dt);
+  const auto at = box.fluid_places();
+  const auto eps = box.fluid.eps.values(), factor = box.fluid.solid_factor.values();
+  const auto v = box.fluid.v_rho.values(), flux = box.fluid.flux.values();
+  const WendlandC2 w(0.1);
+  int held = 0;
+  for (std::size_t a = 0; a < at.size(); ++a) {
+    double solid = 0;
+    Vec3d carried;
+    for (std::size_t j = 0; j < x.size(); ++j) {
+      const double weight = M_PI / 6 * std::pow(0.05, 3) * w.W(Real(norm(at[a] - x[j])));
+      solid += weight, carried += weight * u[j];
+    }
+    const double counted = std::min(solid, 0.03), part = solid > 0 ? counted / solid : 1;
+    held += part < 1;
+    EXPECT_NEAR(eps[a], 1 - counted, kInvariant);
+    EXPECT_NEAR(factor[a], part, 10 * kInvariant);
+    const Vec3d expected = (1 - counted) * Vec3d(v[a].xyz()) + part * carried;
+    EXPECT_LT(norm(Vec3d(flux[a].xyz()) - expected), 10 * kInvariant);
+  }
+  EXPECT_GT(held, 30);
+  EXPECT_LT(held, 270);
+}
+
 TEST(Porosity, FollowsGrainsThatMoveWithinTheSkin) {
   Config c = unit_box(0.1, 1e-3);
   std::mt19937_64 random(7);
