@@ -121,7 +121,7 @@ TEST_F(Checkpoint, RefusesFlippedBitsThatCouldCancel) {
   std::string damaged = read_file(path);
   for (const std::size_t word : {40, 90}) damaged[8 * word + 7] = char(damaged[8 * word + 7] ^ 0x80);
   write_file(path, damaged);
-  expect_says(refusal(path, config), "checksum");
+  expect_says(refusal(path, config), "it is damaged (wrong checksum)");
 }
 
 TEST_F(Checkpoint, RefusesAnotherCase) {

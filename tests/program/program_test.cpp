@@ -1,7 +1,7 @@
 // The program from outside: exit codes, messages, files.
 
-#include <sched.h>
 #include <fmt/format.h>
+#include <sched.h>
 #include <unistd.h>
 
 #include <algorithm>
