@@ -45,21 +45,27 @@ TEST(Porosity, OfAUniformBedIsItsVoidFraction) {
 
 /// One way fluid fills the space of the grains, too: its velocity is the flux, which the law is taken at.
 TEST(Porosity, OneWayGrainsHaveTheDragOfTheirBed) {
-  CouplingConfig couple;
-  couple.mode = CouplingMode::one_way;
-  couple.drag = DragLaw::ergun;
   const double d = 0.1, U = 3e-3, eps = 0.45, spacing = d * std::cbrt(M_PI / 6 / (1 - eps));
-  CoupledBox box = lattice_of_grains(spacing, "wendland_c2", couple);
-  box.fluid.v_rho.assign(std::vector<Real4>(box.fluid.size(), {{Real(U), 0, 0}, 1000}));
+  Config c = unit_box(2 * d, 1e-3);
+  c.domain.max = Vec3d(1, 1, 1) * (9 * spacing);
+  c.domain.periodic = {true, true, true};
+  c.couple.mode = CouplingMode::one_way;
+  c.couple.drag = DragLaw::ergun;
+  Pebbles grains{lattice(c.domain.min, c.domain.max, spacing), {}, {}, {}};
+  const std::size_t n = grains.x.size();
+  grains.v.resize(n), grains.omega.resize(n), grains.radius.assign(n, d / 2);
+  Cloud fluid = fluid_at(lattice(c.domain.min, c.domain.max, spacing / 2), spacing / 2, 1000, 1);
+  for (Vec3d& v : fluid.v) v = {U, 0, 0};
+  CoupledBox box(c, fluid, grains);
   const auto state = box.fluid.m_state.values();
   box.coupling.porosity(box.fluid, box.grains, {}, 0);
   box.coupling.gather(box.fluid, box.grains, {}, 0);
   const double law = double(Ergun{}.K(Real(eps), Real(d), 1000, Real(1e-3), Real(U / eps))) * U / eps;
   const auto seen = box.grains.eps.values(), K = box.grains.K.values();
   const auto around = box.grains.U.values();
-  for (std::size_t j = 0; j < seen.size(); ++j) {
-    EXPECT_NEAR(seen[j], eps, 0.01);                   // as fluid among this lattice, which lies at random
-    EXPECT_NEAR(K[j] * around[j].x, law, 0.05 * law);  // Ergun's law falls with eps^-3: 7 % for one of 0.01
+  for (std::size_t j = 0; j < n; ++j) {
+    EXPECT_NEAR(seen[j], eps, 3e-3);                   // sums over the lattice
+    EXPECT_NEAR(K[j] * around[j].x, law, 0.02 * law);  // falls with the cube of that
   }
   const auto after = box.fluid.m_state.values();
   for (std::size_t a = 0; a < after.size(); ++a) EXPECT_EQ(after[a].x, state[a].x) << "fluid gives way";
@@ -67,6 +73,7 @@ TEST(Porosity, OneWayGrainsHaveTheDragOfTheirBed) {
 
 TEST(Porosity, OneWayALoneGrainDoesNotSeeItself) {
   Config c = unit_box(0.2, 1e-3);
+  c.domain.periodic = {true, true, true};
   c.couple.mode = CouplingMode::one_way;
   CoupledBox box(c, fluid_at(lattice({0, 0, 0}, {1, 1, 1}, 0.05), 0.05, 1000, 1),
                  {{{0.51, 0.5, 0.52}}, {{}}, {{}}, {0.05}});
@@ -74,7 +81,7 @@ TEST(Porosity, OneWayALoneGrainDoesNotSeeItself) {
   box.coupling.gather(box.fluid, box.grains, {}, 0);
   EXPECT_LT(box.grains.eps.values()[0], 0.993) << "its own volume, 4 % of drag by Di Felice's law";
   const double law = 4.8 * 4.8 / 24 * 3 * M_PI * 1e-3 * 0.1;  // Dalla Valle's, slow
-  EXPECT_NEAR(box.grains.K.values()[0], law, 2e-3 * law);
+  EXPECT_NEAR(box.grains.K.values()[0], law, 4e-3 * law);  // a tenth of that: fluid h_c / 4 apart
 }
 
 TEST(Porosity, GrainsThickenTheFluidByTheLaw) {
