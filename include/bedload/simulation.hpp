@@ -10,6 +10,7 @@
 
 #include "bedload/case/config/output.hpp"
 #include "bedload/host_data.hpp"
+#include "bedload/step_limits.hpp"
 
 namespace bedload {
 
@@ -17,22 +18,14 @@ struct Config;
 
 /// What one step did.
 struct StepInfo {
-  std::int64_t step = 0;   ///< steps done
-  double time = 0;         ///< s, at the end of the step
-  double dt = 0;           ///< s
-  int substeps = 0;        ///< DEM substeps in it
-  std::string_view limit;  ///< what bound dt: "cfl", "viscous", "body", "drag", "growth", "travel",
-                           ///< "contact", "rayleigh", "rolling", "lubrication", "grain drag", "body contact",
-                           ///< "body turn", "fixed"
-  double vmax = 0;         ///< m/s, fastest fluid particle
-  bool rebuilt = false;    ///< neighbour lists were renewed
-};
-
-/// One time-step limit, for `bedload check`.
-struct StepLimit {
-  std::string name;
-  double seconds = 0;
-  bool binds = false;
+  std::int64_t step = 0;               ///< steps done
+  double time = 0;                     ///< s, at the end of the step
+  double dt = 0;                       ///< s
+  int substeps = 0;                    ///< DEM substeps in it
+  Limit limit = Limit::fixed;          ///< what bound dt
+  Limit substep_limit = Limit::fixed;  ///< what bounds substeps, if there are several
+  double vmax = 0;                     ///< m/s, fastest fluid particle
+  bool rebuilt = false;                ///< neighbour lists were renewed
 };
 
 struct Counts {
@@ -56,8 +49,8 @@ class Simulation {
   virtual std::int64_t steps() const = 0;
   virtual Counts counts() const = 0;
   virtual std::vector<StepLimit> limits() = 0;
-  /// Limits on a substep that free bodies set, beside those of grains.
-  virtual std::vector<StepLimit> body_limits() const = 0;
+  /// Limits on a substep of grains and free bodies.
+  virtual std::vector<StepLimit> substep_limits() const = 0;
   /// How much of the run's viscosity is numerical, each as a multiple of the fluid's own: "artificial_bulk"
   /// and "artificial_bed", of visc.alpha; "local_slip_bed", of drag that follows the slip of each particle,
   /// in a bed of porosity 0.4; "density_diffusion", which smooths density, not velocity. Zero where there is

@@ -96,8 +96,9 @@ void Checks::time() const {
     if (c.time.dt_dem <= limit.seconds * (1 + 1e-9)) continue;
     if (!c.time.force_dt)
       fail("time.dt_dem", c.time.dt_dem,
-           fmt::format("must be <= {:.4g}; limited by {}", limit.seconds, limit.name));
-    warn("time.dt_dem = {} is above its limit {:.4g} ({})", c.time.dt_dem, limit.seconds, limit.name);
+           fmt::format("must be <= {:.4g}; limited by {}", limit.seconds, with_key(limit.limit)));
+    warn("time.dt_dem = {} is above its limit {:.4g} by {}", c.time.dt_dem, limit.seconds,
+         with_key(limit.limit));
   }
   if (c.time.integrator == TimeIntegrator::ab3) one_pass();
   if (c.time.integrator == TimeIntegrator::euler) warn("time.integrator = \"euler\" is first order in time");

@@ -93,19 +93,16 @@ std::vector<StepLimit> SubstepLimits::at(double speed) const {
     contact = std::min(contact, hit.duration);
     rolling = std::min(rolling, rolling_limit(contact_, hit.stiffness, pair.mu_r, pair.R, pair.inertia));
   }
-  std::vector<StepLimit> limits{{"rayleigh", rayleigh_}};
-  if (std::isfinite(contact)) limits.push_back({"contact", fraction_ * contact});
-  if (std::isfinite(rolling)) limits.push_back({"rolling", rolling});
-  if (std::isfinite(film_)) limits.push_back({"lubrication", film_});
+  std::vector<StepLimit> limits{{Limit::rayleigh, rayleigh_}};
+  if (std::isfinite(contact)) limits.push_back({Limit::contact, fraction_ * contact});
+  if (std::isfinite(rolling)) limits.push_back({Limit::rolling, rolling});
+  if (std::isfinite(film_)) limits.push_back({Limit::lubrication, film_});
   return limits;
 }
 
 std::vector<StepLimit> grain_limits(const Config& c) {
   if (!c.grain.present || c.grain.fixed || c.contact.normal == NormalLaw::none) return {};
-  std::vector<StepLimit> limits = SubstepLimits(c).at(0);
-  const auto shorter = [](const StepLimit& a, const StepLimit& b) { return a.seconds < b.seconds; };
-  std::min_element(limits.begin(), limits.end(), shorter)->binds = true;
-  return limits;
+  return with_binding(SubstepLimits(c).at(0));
 }
 
 }  // namespace bedload

@@ -37,6 +37,7 @@ struct Trial {
   double substep = 0;   ///< of that, a substep of the grains, s
   double dt = 0;        ///< s
   double substeps = 0;  ///< in a step
+  Limit substeps_by = Limit::fixed;
 };
 
 /// Takes steps for some two seconds.
@@ -53,26 +54,27 @@ Trial timed_steps(Simulation& simulation) {
   double seconds = 0;
   int steps = 0;
   std::int64_t substeps = 0;
+  Limit by = Limit::fixed;
   while (steps < kMost && seconds < kLongest) {
-    substeps += simulation.step().substeps;
+    const StepInfo info = simulation.step();
+    substeps += info.substeps;
+    by = info.substep_limit;
     ++steps;
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
   }
   const double of_grains = substeps > 0 ? (grains() - grains_before) / double(substeps) : 0;
-  return {seconds / steps, of_grains, (simulation.time() - begin) / steps, double(substeps) / steps};
+  return {seconds / steps, of_grains, (simulation.time() - begin) / steps, double(substeps) / steps, by};
 }
 
-double least(const std::vector<StepLimit>& limits) {
-  double seconds = INFINITY;
-  for (const StepLimit& limit : limits) seconds = std::min(seconds, limit.seconds);
-  return seconds;
-}
-
+/// A line each; the one that binds has its key.
 std::string limits_text(const char* title, const std::vector<StepLimit>& limits) {
   std::string out;
-  for (const StepLimit& limit : limits)
-    out += fmt::format("{:<10} {:<9} {:.4g} s{}\n", out.empty() ? title : "", limit.name, limit.seconds,
-                       limit.binds ? "  <- binds" : "");
+  for (const StepLimit& limit : limits) {
+    const std::string_view key = key_of(limit.limit);
+    out += fmt::format("{:<10} {:<12} {:.4g} s{}{}\n", out.empty() ? title : "", name_of(limit.limit),
+                       limit.seconds, limit.binds ? "  <- binds" : "",
+                       limit.binds && !key.empty() ? fmt::format(", by {}", key) : "");
+  }
   return out;
 }
 
@@ -177,9 +179,7 @@ int check_case(const Options& options) {
   } else {
     Rehearsal rehearsal(p);
     Simulation& simulation = rehearsal.simulation();
-    const std::vector<StepLimit> steps = simulation.limits();
-    std::vector<StepLimit> substeps = grain_limits(c);
-    for (const StepLimit& limit : simulation.body_limits()) substeps.push_back(limit);
+    const std::vector<StepLimit> steps = simulation.limits(), substeps = simulation.substep_limits();
     fmt::print("{}", viscosity_text(c, simulation.numerical_viscosity()));
     fmt::print("{}{}{}", arrangement_text(c), shifting_text(c), defaults_text(c));
     fmt::print("{}{}", limits_text("step", steps), limits_text("substep", substeps));
@@ -201,10 +201,13 @@ int check_case(const Options& options) {
     const double seconds =
         count * (trial.step + fluid / pace.fluid + std::max(trial.substeps, 1.0) * grains / pace.grains);
     fmt::print("steps      about {} of {:.3g} s{}\n", grouped(std::llround(count)), trial.dt,
-               trial.substeps > 0 ? fmt::format(", each with {:.0f} substeps", trial.substeps) : "");
+               trial.substeps == 0  ? ""
+               : trial.substeps > 1 ? fmt::format(", each with {:.0f} substeps by {}", trial.substeps,
+                                                  with_key(trial.substeps_by))
+                                    : ", each with 1 substep");
     fmt::print("run time   about {} by the pace of the first steps, output apart\n", duration_text(seconds));
     if (c.grain.present && c.grain.settle) {
-      const double many = std::ceil(c.grain.settle_time / least(substeps));
+      const double many = std::ceil(c.grain.settle_time / least_of(grain_limits(c)).seconds);
       fmt::print("settling   before that, at most {} substeps, {}, unless the bed is kept from before\n",
                  grouped(std::llround(many)), duration_text(many * trial.substep));
     }

@@ -223,14 +223,18 @@ void check_fixed_steps(Prepared& p, Simulation& simulation) {
     for (const StepLimit& limit : limits) {
       if (dt <= limit.seconds * (1 + 1e-9)) continue;
       if (!p.config.time.force_dt)
-        throw KeyError(
-            key, fmt::format("{} = {} must be <= {:.4g}; limited by {}", key, dt, limit.seconds, limit.name));
-      p.warnings.push_back(
-          fmt::format("{} = {} is above its limit {:.4g} ({})", key, dt, limit.seconds, limit.name));
+        throw KeyError(key, fmt::format("{} = {} must be <= {:.4g}; limited by {}", key, dt, limit.seconds,
+                                        with_key(limit.limit)));
+      p.warnings.push_back(fmt::format("{} = {} is above its limit {:.4g} by {}", key, dt, limit.seconds,
+                                       with_key(limit.limit)));
     }
   };
   if (p.config.time.dt > 0) check("time.dt", p.config.time.dt, simulation.limits());
-  if (p.config.time.dt_dem > 0) check("time.dt_dem", p.config.time.dt_dem, simulation.body_limits());
+  if (p.config.time.dt_dem == 0) return;
+  std::vector<StepLimit> substeps = simulation.substep_limits();
+  // those of contacts and films between grains are held against it as the case is read
+  std::erase_if(substeps, [](const StepLimit& l) { return l.limit < Limit::grain_drag; });
+  check("time.dt_dem", p.config.time.dt_dem, substeps);
 }
 
 Counts with_arrivals(const Prepared& p) {

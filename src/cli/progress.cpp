@@ -44,7 +44,7 @@ double ProgressMeter::fraction(double time) const {
 ProgressLine ProgressMeter::read(const StepInfo& info, std::int64_t particle_steps) {
   const auto now = Clock::now();
   const double passed = std::chrono::duration<double>(now - read_at_).count();
-  ProgressLine line{.time = info.time, .end = end_, .dt = info.dt, .limit = info.limit};
+  ProgressLine line{.time = info.time, .end = end_, .dt = info.dt, .limit = name_of(info.limit)};
   line.fraction = fraction(info.time);
   if (passed > 0) {
     line.steps_per_second = double(info.step - steps_) / passed;

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <numeric>
 
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
@@ -28,6 +30,17 @@ std::string fractions_text(const std::vector<Quantity>& parts, double all) {
     rest -= part.value;
   }
   return text + fmt::format("output {:.0f} %", 100 * std::max(rest, 0.0) / all);
+}
+
+/// "cfl (time.cfl) 98 %, growth 2 %": what bound steps.
+std::string limits_text(const std::array<std::int64_t, kLimits.size()>& steps) {
+  const auto all = double(std::accumulate(steps.begin(), steps.end(), std::int64_t{0}));
+  std::string text;
+  for (const auto& row : kLimits)
+    if (const std::int64_t n = steps[std::size_t(row.limit)]; n > 0)
+      text +=
+          fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", with_key(row.limit), 100 * double(n) / all);
+  return text;
 }
 
 class Run {
@@ -116,6 +129,9 @@ class Run {
       say(fmt::format("completed  t = {:.6g} s, {} steps in {}, {:.3g} particle-steps/s\n", simulation.time(),
                       grouped(simulation.steps()), duration_text(effort.wall_seconds),
                       effort.wall_seconds > 0 ? double(effort.particle_steps) / effort.wall_seconds : 0));
+      if (const std::string by = limits_text(effort.steps_by); !by.empty()) say("steps by   " + by + "\n");
+      if (const std::string by = limits_text(effort.substeps_by); !by.empty())
+        say("substeps by " + by + "\n");
       say(fmt::format("of it      {}\n", fractions_text(simulation.time_spent(), effort.wall_seconds)));
     }
     const bool lost = losses();

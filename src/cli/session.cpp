@@ -75,6 +75,8 @@ StepInfo Session::step() {
   const Counts n = simulation_->counts();
   effort_.particle_steps += n.fluid > 0 ? n.fluid : n.grains * info.substeps;
   effort_.substeps += info.substeps;
+  ++effort_.steps_by[std::size_t(info.limit)];
+  if (info.substeps > 1) effort_.substeps_by[std::size_t(info.substep_limit)] += info.substeps;
   effort_.rebuilds += info.rebuilt;
   if (!output_) return info;
   output_->write(*simulation_, info);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "kernels/fluid/collision_pass.hpp"
 #include "kernels/integrate/fluid_kicks.hpp"
@@ -126,11 +125,10 @@ void FluidSolver::save(std::vector<Quantity>& scalars) const {
   scalars.push_back({"density_dt_before", "s", dt_before_});
 }
 
-double FluidSolver::friction_limit(const FluidExtremes& now) const {
-  if (parameters_.visc.model == ViscosityModel::none || parameters_.fluid.mu == 0)
-    return std::numeric_limits<double>::infinity();
-  return parameters_.time.visc * square(half_range(now)) * now.eps_min * parameters_.fluid.rho0 /
-         (parameters_.fluid.mu * now.thickest);
+StepLimit FluidSolver::friction_limit(const FluidExtremes& now) const {
+  if (parameters_.visc.model == ViscosityModel::none || parameters_.fluid.mu == 0) return {Limit::viscous};
+  return {Limit::viscous, parameters_.time.visc * square(half_range(now)) * now.eps_min *
+                              parameters_.fluid.rho0 / (parameters_.fluid.mu * now.thickest)};
 }
 
 double FluidSolver::repulsion_cap(double dt) const {

@@ -8,6 +8,7 @@
 #include "bedload/parallel/compact.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/walls.hpp"
+#include "bedload/step_limits.hpp"
 #include "kernels/fluid/body_pressure.hpp"
 #include "kernels/fluid/drive.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
@@ -139,8 +140,8 @@ class FluidSolver {
   void collide(FluidStore& fluid);
   /// Of shifting, at most, over a step dt (s), m/s.
   double fastest_shift(double dt) const { return dt > 0 ? 0.1 * parameters_.fluid.dx / dt : 0; }
-  /// Longest step that viscosity allows, s.
-  virtual double friction_limit(const FluidExtremes& now) const;
+  /// Longest step that viscosity allows.
+  virtual StepLimit friction_limit(const FluidExtremes& now) const;
   /// Null where particles do not spin.
   virtual Spin* spin() { return nullptr; }
   /// What it adds to the store that forces() sets.

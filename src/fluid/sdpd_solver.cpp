@@ -1,7 +1,6 @@
 // SDPD: density, forces and spin; what it shares with WCSPH is in FluidSolver.
 
 #include <cmath>
-#include <limits>
 
 #include "kernels/sdpd/force_pass.hpp"
 #include "kernels/sdpd/kernel_sums.hpp"
@@ -55,12 +54,11 @@ class SdpdSolver final : public FluidSolver {
   }
 
   /// The shortest time in which friction stops a particle or its spin, times time.friction.
-  double friction_limit(const FluidExtremes& now) const override {
+  StepLimit friction_limit(const FluidExtremes& now) const override {
     const double rho = parameters_.fluid.rho0;
     double rate = std::max(friction_.across, friction_.along) * lattice_.F / rho;
     if (Model::spins) rate = std::max(rate, friction_.across / (rho * spin_->inertia));
-    return rate > 0 ? parameters_.time.friction / (rate * now.thickest)
-                    : std::numeric_limits<double>::infinity();
+    return {Limit::friction, parameters_.time.friction / (rate * now.thickest)};  // without friction infinite
   }
   Spin* spin() override { return spin_.get(); }
   std::vector<const FieldBase*> fields_of_forces() const override {

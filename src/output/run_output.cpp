@@ -38,6 +38,14 @@ nlohmann::ordered_json to_json(const std::vector<Quantity>& quantities) {
   return object;
 }
 
+/// {"cfl": 120, "growth": 3}: steps by what bound them.
+nlohmann::ordered_json by_limit(const std::array<std::int64_t, kLimits.size()>& steps) {
+  auto object = nlohmann::ordered_json::object();
+  for (const auto& row : kLimits)
+    if (const std::int64_t n = steps[std::size_t(row.limit)]; n > 0) object[std::string(row.name)] = n;
+  return object;
+}
+
 double host_peak_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -271,6 +279,8 @@ struct RunOutput::Impl {
         {"counts", {{"fluid", counts.fluid}, {"walls", counts.walls}, {"grains", counts.grains}}},
         {"steps", simulation.steps()},
         {"substeps", effort.substeps},
+        {"steps_by_limit", by_limit(effort.steps_by)},
+        {"substeps_by_limit", by_limit(effort.substeps_by)},
         {"rebuilds", effort.rebuilds},
         {"time", {{"value", simulation.time()}, {"unit", "s"}}},
         {"wall_time", {{"value", effort.wall_seconds}, {"unit", "s"}}},

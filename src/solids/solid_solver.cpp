@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "kernels/integrate/grain_substep.hpp"
@@ -98,22 +97,8 @@ GrainWatch SolidSolver::watch(const GrainStore& g) const {
 std::vector<StepLimit> SolidSolver::limits(const GrainWatch& w) const {
   std::vector<StepLimit> limits = parameters_.limits.at(2 * w.speed);
   if (!parameters_.exponential && w.drag_rate > 0)
-    limits.push_back({"grain drag", parameters_.drag_fraction / w.drag_rate, false});
+    limits.push_back({Limit::grain_drag, parameters_.drag_fraction / w.drag_rate});
   return limits;
-}
-
-StableStep SolidSolver::stable_dt(const GrainWatch& w) const {
-  StableStep least{std::numeric_limits<double>::infinity(), "rayleigh"};
-  for (const StepLimit& l : limits(w)) {
-    if (!(l.seconds < least.seconds)) continue;
-    least.seconds = l.seconds;
-    least.limit = l.name == "rayleigh"      ? "rayleigh"
-                  : l.name == "contact"     ? "contact"
-                  : l.name == "rolling"     ? "rolling"
-                  : l.name == "lubrication" ? "lubrication"
-                                            : "grain drag";
-  }
-  return least;
 }
 
 // -- motion ------------------------------------------------------------------

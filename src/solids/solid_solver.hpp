@@ -29,12 +29,6 @@ struct GrainWatch {
   Id bad = kNone;           ///< smallest id of a grain whose position, velocity or spin is not finite
 };
 
-/// A step limit and its name: "rayleigh", "contact", "rolling", "grain drag".
-struct StableStep {
-  double seconds = 0;
-  std::string_view limit;
-};
-
 /// Sums over all grains, in fp64.
 struct GrainTotals {
   double mass = 0;         ///< kg
@@ -82,8 +76,8 @@ class SolidSolver {
   GrainWatch watch(const GrainStore& grains) const;
   /// All limits on a substep; none of them binds is marked (the caller takes the least).
   std::vector<StepLimit> limits(const GrainWatch& watch) const;
-  StableStep stable_dt(const GrainWatch& watch) const;
-  StableStep stable_dt(const GrainStore& grains) const { return stable_dt(watch(grains)); }
+  StepLimit stable_dt(const GrainWatch& watch) const { return least_of(limits(watch)); }
+  StepLimit stable_dt(const GrainStore& grains) const { return stable_dt(watch(grains)); }
 
   /// Contact forces where the grains are, with no time passing; poses: [bodies] on the device. For a fresh
   /// start only: a loaded state brings its forces along. Free bodies learn what the grains do to them.

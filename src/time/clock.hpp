@@ -6,7 +6,7 @@
 
 #include "bedload/case/config/time.hpp"
 #include "bedload/core/error.hpp"
-#include "bedload/simulation.hpp"
+#include "bedload/step_limits.hpp"
 
 namespace bedload {
 
@@ -21,31 +21,25 @@ class Clock {
 
   /// The least of the limits; adaptive steps grow by at most 5 %. A fixed step above a limit is
   /// a KeyError unless forced.
-  double next_dt(const std::vector<StepLimit>& limits, std::string_view& binding) const {
+  double next_dt(const std::vector<StepLimit>& limits, Limit& binding) const {
     if (parameters_.dt > 0) {
-      binding = "fixed";
+      binding = Limit::fixed;
       for (const auto& l : limits)
         if (parameters_.dt > l.seconds * (1 + 1e-9) && !parameters_.force_dt)
           throw KeyError("time.dt", "time.dt = " + std::to_string(parameters_.dt * 1e6) +
                                         " us: must be at most " + std::to_string(l.seconds * 1e6) +
-                                        " us; limited by " + l.name + " at t = " + std::to_string(time) +
-                                        " s");
+                                        " us; limited by " + with_key(l.limit) +
+                                        " at t = " + std::to_string(time) + " s");
       return parameters_.dt;
     }
     double dt = last_dt > 0 ? 1.05 * last_dt : std::numeric_limits<double>::infinity();
-    binding = "growth";
+    binding = Limit::growth;
     for (const auto& l : limits)
-      if (l.seconds < dt) dt = l.seconds, binding = intern(l.name);
+      if (l.seconds < dt) dt = l.seconds, binding = l.limit;
     return dt;
   }
 
  private:
-  static std::string_view intern(const std::string& name) {
-    for (std::string_view known : {"cfl", "viscous", "body", "drag", "travel", "contact", "rayleigh",
-                                   "rolling", "lubrication", "grain drag", "body contact", "body turn"})
-      if (known == name) return known;
-    return "other";
-  }
   TimeConfig parameters_;
 };
 

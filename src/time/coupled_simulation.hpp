@@ -21,7 +21,7 @@ class CoupledSimulation final : public Simulation {
   std::int64_t steps() const override { return state_.clock.step; }
   Counts counts() const override { return {state_.fluid.size(), state_.walls.size(), state_.grains.size()}; }
   std::vector<StepLimit> limits() override { return stepper_.limits(); }
-  std::vector<StepLimit> body_limits() const override { return stepper_.body_limits(); }
+  std::vector<StepLimit> substep_limits() const override { return stepper_.substep_limits(); }
   std::vector<Quantity> numerical_viscosity() const override;
   std::size_t bytes() const override { return bytes_held(); }
   std::size_t growth() override { return state_.has_fluid ? stepper_.fluid().growth() : 0; }

@@ -6,6 +6,7 @@
 
 #include "bedload/particles/store.hpp"
 #include "bedload/particles/walls.hpp"
+#include "bedload/step_limits.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -23,8 +24,9 @@ struct Step {
   double start = 0, dt = 0, end = 0;  ///< s
   double last_kick = 0;               ///< s, of the second half-kick, with the fluid's forces at the end
   int substeps = 0;
-  bool held = false;             ///< grains keep place and velocity
-  std::string_view limit;        ///< what bound dt
+  bool held = false;           ///< grains keep place and velocity
+  Limit limit = Limit::fixed;  ///< what bound dt
+  Limit substep_limit = Limit::fixed;
   Span<const BodyPose> poses{};  ///< of the walls at the end, once move_walls() has been
 };
 

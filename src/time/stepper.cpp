@@ -51,6 +51,7 @@ StepInfo Stepper::step(const Observer& observer) {
           now.dt,
           now.substeps,
           now.limit,
+          now.substep_limit,
           std::sqrt(fluid_extremes_.v2),
           std::exchange(rebuilt_, false)};
 }
@@ -64,8 +65,10 @@ Step Stepper::next_step() {
   now.held = held();
   if (!has_grains() && !bodies_.any()) return now;
   now.substeps = 1;
-  if (!now.held || bodies_.any())
-    now.substeps = std::max(1, int(std::ceil(now.dt / longest_substep() * (1 - 1e-9))));
+  if (now.held && !bodies_.any()) return now;
+  const StepLimit longest = longest_substep();
+  now.substep_limit = longest.limit;
+  now.substeps = std::max(1, int(std::ceil(now.dt / longest.seconds * (1 - 1e-9))));
   return now;
 }
 
@@ -194,12 +197,9 @@ double Stepper::wall_travel(double dt) const {
   return 1.5 * dt * std::max(before, after);
 }
 
-double Stepper::longest_substep() {
-  if (config_.time.dt_dem > 0) return config_.time.dt_dem;
-  double longest = std::numeric_limits<double>::infinity();
-  if (has_grains() && !held()) longest = solid_solver_->stable_dt(grain_watch_).seconds;
-  if (bodies_.any()) longest = std::min(longest, bodies_.stable_dt(motion_.prescribed_speed(clock_.time)));
-  return longest;
+StepLimit Stepper::longest_substep() const {
+  if (config_.time.dt_dem > 0) return {Limit::fixed, config_.time.dt_dem};
+  return least_of(substep_limits());
 }
 
 Moment Stepper::moment(double t, std::int64_t step) {
@@ -224,36 +224,42 @@ std::vector<StepLimit> Stepper::limits() {
   const auto& t = config_.time;
   if (has_fluid()) {
     const double hs = fluid_solver_->half_range(fluid_extremes_), c = config_.fluid.c;
-    out.push_back({"cfl", t.cfl * hs / (c + std::sqrt(fluid_extremes_.v2))});
-    if (const double longest = fluid_solver_->friction_limit(fluid_extremes_); std::isfinite(longest))
-      out.push_back({"viscous", longest});
+    out.push_back({Limit::cfl, t.cfl * hs / (c + std::sqrt(fluid_extremes_.v2))});
+    if (const StepLimit friction = fluid_solver_->friction_limit(fluid_extremes_);
+        std::isfinite(friction.seconds))
+      out.push_back(friction);
     if (fluid_extremes_.acc2 > 0)
-      out.push_back({"body", t.body * std::sqrt(hs / std::sqrt(fluid_extremes_.acc2))});
-    if (coupled()) out.push_back({"drag", coupling_->stable_dt()});
+      out.push_back({Limit::body, t.body * std::sqrt(hs / std::sqrt(fluid_extremes_.acc2))});
+    if (coupled()) out.push_back({Limit::drag, coupling_->stable_dt()});
   }
   const double wall_speed = motion_.top_speed(clock_.time);
   double travel = std::numeric_limits<double>::infinity();
   if (!has_fluid())  // without fluid there is no other clock: a step is a handful of substeps
-    for (const StepLimit& limit : body_limits()) out.push_back({limit.name, 20 * limit.seconds});
+    for (const StepLimit& substep : body_limits()) out.push_back({substep.limit, 20 * substep.seconds});
   if (has_grains()) {
     const double v = grain_watch_.speed;
     if (v > 0 && !held()) travel = 0.05 * config_.grain.d_min / v;
     if (!has_fluid()) {
-      const StableStep substep = solid_solver_->stable_dt(grain_watch_);
-      out.push_back({std::string(substep.limit), 20 * substep.seconds});
+      const StepLimit substep = solid_solver_->stable_dt(grain_watch_);
+      out.push_back({substep.limit, 20 * substep.seconds});
     }
   }
   if (wall_speed > 0 && (has_fluid() || has_grains()))
     travel = std::min(travel, 0.1 * (has_fluid() ? config_.fluid.dx : config_.grain.d_min) / wall_speed);
-  if (travel < t.end) out.push_back({"travel", travel});
-  auto least =
-      std::min_element(out.begin(), out.end(), [](auto& a, auto& b) { return a.seconds < b.seconds; });
-  if (least != out.end()) least->binds = true;
-  return out;
+  if (travel < t.end) out.push_back({Limit::travel, travel});
+  return with_binding(std::move(out));
 }
 
 std::vector<StepLimit> Stepper::body_limits() const {
   return bodies_.limits(motion_.prescribed_speed(clock_.time));
+}
+
+std::vector<StepLimit> Stepper::substep_limits() const {
+  std::vector<StepLimit> out = body_limits();
+  if (!has_grains() || held()) return with_binding(std::move(out));
+  const std::vector<StepLimit> grains = solid_solver_->limits(grain_watch_);
+  out.insert(out.begin(), grains.begin(), grains.end());
+  return with_binding(std::move(out));
 }
 
 void Stepper::sweep() {

@@ -34,7 +34,7 @@ class Stepper {
   void settle(double longest, const std::function<void(double)>& progress);
   void start();
   std::vector<StepLimit> limits();
-  std::vector<StepLimit> body_limits() const;
+  std::vector<StepLimit> substep_limits() const;
   std::vector<Quantity> time_spent() const;
 
   FluidSolver& fluid() { return *fluid_solver_; }
@@ -93,7 +93,8 @@ class Stepper {
   void initialise_fluid(Step& now);            ///< mass for the porosity, hydrostatic pressure
   Moment moment(double t, std::int64_t step);  ///< at t, s, where a step of that number ends
   double wall_travel(double dt) const;         ///< m, that no wall goes beyond in the step to come
-  double longest_substep();                    ///< s, that grains and free bodies allow
+  std::vector<StepLimit> body_limits() const;  ///< on a substep
+  StepLimit longest_substep() const;           ///< that grains and free bodies allow
   void refresh_if_needed(double dt);
   void refresh(bool fluid, bool grains, double dt = 0);  ///< dt: of the step to come, s
   void load_grain_store(const SavedState& saved);        ///< and the rigid groups of the grains

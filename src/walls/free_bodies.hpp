@@ -96,9 +96,8 @@ class FreeBodies {
   /// Largest speed of a point of a body, m/s, dt (s) after what was read back if nothing else pushes it.
   double top_speed(double dt = 0) const;
 
-  /// Limits on a substep: "body contact", "body turn". wall_speed: of prescribed walls, m/s.
+  /// Limits on a substep. wall_speed: of prescribed walls, m/s.
   std::vector<StepLimit> limits(double wall_speed) const;
-  double stable_dt(double wall_speed) const;
 
   BodyForces forces(int place) const;
   /// Of the bodies and of what they touch.

@@ -66,16 +66,10 @@ std::vector<StepLimit> FreeBodies::limits(double wall_speed) const {
     }
   }
   std::vector<StepLimit> all;
-  if (std::isfinite(contact)) all.push_back({"body contact", p.contact_fraction * contact});
-  if (std::isfinite(roll)) all.push_back({"body rolling", roll});
-  all.push_back({"body turn", turn});
+  if (std::isfinite(contact)) all.push_back({Limit::body_contact, p.contact_fraction * contact});
+  if (std::isfinite(roll)) all.push_back({Limit::body_rolling, roll});
+  all.push_back({Limit::body_turn, turn});
   return all;
-}
-
-double FreeBodies::stable_dt(double wall_speed) const {
-  double least = kInfinity;
-  for (const StepLimit& limit : limits(wall_speed)) least = std::min(least, limit.seconds);
-  return least;
 }
 
 BodyCorrection FreeBodies::correction() const {

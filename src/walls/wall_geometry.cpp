@@ -18,7 +18,7 @@ Vec3d unit(int k, double sign = 1) {
 /// Half the extent of a body along axis k; without end where it spans a period.
 double half_extent(const DomainConfig& domain, const WallBody& body, int k) {
   const double length = body.max[k] - body.min[k], period = domain.max[k] - domain.min[k];
-  if (domain.periodic[k] && length > period * (1 - 1e-9)) return std::numeric_limits<double>::infinity();
+  if (domain.periodic[k] && length > period * (1 - 2e-6)) return std::numeric_limits<double>::infinity();
   return 0.5 * length;
 }
 

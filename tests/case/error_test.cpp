@@ -217,7 +217,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[time]", "[couple]\nS_dry = 0.6\nS_wet = 0.5\n[time]",
               "dam.toml:23: couple.S_wet = 0.5 must be > couple.S_dry = 0.6"},
         Wrong{"end = 0.3", "end = 0.3\ndt_dem = 1e-4",
-              "dam.toml:23: time.dt_dem = 0.0001 must be <= 5.473e-06; limited by rayleigh"},
+              "dam.toml:23: time.dt_dem = 0.0001 must be <= 5.473e-06; limited by rayleigh (time.rayleigh)"},
         Wrong{"d = 0.002", "d = 0.02",
               "dam.toml:20: grain.fill.count = 500 must fit the space to fill; it takes 419 % where 64 % is "
               "the "

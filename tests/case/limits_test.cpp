@@ -1,11 +1,12 @@
 #include "bedload/case/limits.hpp"
-#include "bedload/case/config.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bedload/case/config.hpp"
+#include "bedload/case/parameters.hpp"
 
 namespace bedload::test {
 namespace {
@@ -19,15 +20,23 @@ Config bead() {
   return c;
 }
 
+TEST(Limits, NameKeysThatExist) {
+  const auto rows = parameter_table();
+  for (const NamedLimit& limit : kLimits)
+    EXPECT_TRUE(limit.key.empty() ||
+                std::ranges::any_of(rows, [&](const ParameterRow& row) { return row.key == limit.key; }))
+        << limit.key;
+}
+
 TEST(GrainLimits, ReproduceTheReferenceTimesOfABead) {
   const Config c = bead();
   const auto limits = grain_limits(c);
   ASSERT_EQ(limits.size(), 3u);
-  EXPECT_EQ(limits[0].name, "rayleigh");
+  EXPECT_EQ(limits[0].limit, Limit::rayleigh);
   EXPECT_NEAR(limits[0].seconds / c.time.rayleigh, 3.6945e-5, 4e-9);
-  EXPECT_EQ(limits[1].name, "contact");
+  EXPECT_EQ(limits[1].limit, Limit::contact);
   EXPECT_NEAR(limits[1].seconds / c.time.contact, 1.737e-4, 2e-7);
-  EXPECT_EQ(limits[2].name, "rolling");
+  EXPECT_EQ(limits[2].limit, Limit::rolling);
   EXPECT_FALSE(limits[0].binds);
   EXPECT_TRUE(limits[1].binds);
 }

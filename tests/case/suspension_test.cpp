@@ -13,10 +13,10 @@ TEST(SuspensionCase, LubricationBoundsTheSubstep) {
   const double R = 0.001, m = 4.0 / 3 * M_PI * R * R * R * 2500;
   double film = 0;
   for (const StepLimit& limit : grain_limits(c))
-    if (limit.name == "lubrication") film = limit.seconds;
+    if (limit.limit == Limit::lubrication) film = limit.seconds;
   // 0.2 m* s_m / (6 pi mu R*^2), s_m = 0.01 R*
   EXPECT_NEAR(film / (0.2 * (m / 2) * 0.01 / (6 * M_PI * 1 * R / 2)), 1, 1e-9);
-  for (const StepLimit& limit : grain_limits(read(kCase))) EXPECT_NE(limit.name, "lubrication");
+  for (const StepLimit& limit : grain_limits(read(kCase))) EXPECT_NE(limit.limit, Limit::lubrication);
 }
 
 TEST(SuspensionCase, MaterialsTakeWhatTheyLeaveOutFromAllGrains) {

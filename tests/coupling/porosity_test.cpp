@@ -81,7 +81,7 @@ TEST(Porosity, OneWayALoneGrainDoesNotSeeItself) {
   box.coupling.gather(box.fluid, box.grains, {}, 0);
   EXPECT_LT(box.grains.eps.values()[0], 0.993) << "its own volume, 4 % of drag by Di Felice's law";
   const double law = 4.8 * 4.8 / 24 * 3 * M_PI * 1e-3 * 0.1;  // Dalla Valle's, slow
-  EXPECT_NEAR(box.grains.K.values()[0], law, 4e-3 * law);  // a tenth of that: fluid h_c / 4 apart
+  EXPECT_NEAR(box.grains.K.values()[0], law, 4e-3 * law);     // a tenth of that: fluid h_c / 4 apart
 }
 
 TEST(Porosity, GrainsThickenTheFluidByTheLaw) {
@@ -99,7 +99,10 @@ TEST(Porosity, GrainsThickenTheFluidByTheLaw) {
     box.fluid.viscosity.assign(std::vector<Real>(box.fluid.size(), Real(1)));
     box.coupling.porosity(box.fluid, box.grains, {}, 0);
     const auto eps = box.fluid.eps.values(), mu = box.fluid.viscosity.values();
-    for (std::size_t a = 0; a < mu.size(); ++a) EXPECT_EQ(mu[a], viscosity(1 - eps[a]));
+    for (std::size_t a = 0; a < mu.size(); ++a) {
+      const double expected = double(viscosity(1 - eps[a]));  // by the host's pow
+      EXPECT_NEAR(mu[a], expected, 4 * kInvariant * expected);
+    }
     EXPECT_GT(mu[0], 1.5);
   }
 }

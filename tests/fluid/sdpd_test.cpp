@@ -178,7 +178,7 @@ Temperatures frozen_bath(const std::string& model, const std::string& noise, dou
   std::uniform_real_distribution<double> m(0.5, 2);
   for (double& mass : box.mass) mass = m(rng);
   box.upload();
-  const double dt = box.solver->friction_limit({});
+  const double dt = box.solver->friction_limit({}).seconds;
   const bool spins = box.solver->spin() != nullptr;
   const double inertia = spins ? box.solver->spin()->inertia : 0;
   const auto mass = box.fluid.mass.values();

@@ -30,7 +30,9 @@ class FakeSimulation : public Simulation {
     time_ += kDt;
     return info();
   }
-  StepInfo info() const { return {.step = steps_, .time = time_, .dt = steps_ ? kDt : 0, .limit = "fixed"}; }
+  StepInfo info() const {
+    return {.step = steps_, .time = time_, .dt = steps_ ? kDt : 0, .limit = Limit::fixed};
+  }
   void settle(double, const std::function<void(double)>&) override {}
   void start() override {}
   double time() const override { return time_; }
@@ -38,7 +40,7 @@ class FakeSimulation : public Simulation {
   /// One fluid particle leaves after 10 steps; the walls never move.
   Counts counts() const override { return {.fluid = steps_ < 10 ? 7 : 6, .walls = 4, .grains = 3}; }
   std::vector<StepLimit> limits() override { return {}; }
-  std::vector<StepLimit> body_limits() const override { return {}; }
+  std::vector<StepLimit> substep_limits() const override { return {}; }
   std::size_t bytes() const override { return 12345; }
   std::size_t growth() override { return 0; }
   std::vector<Quantity> numerical_viscosity() const override { return {{"artificial_bulk", "-", 12.5}}; }

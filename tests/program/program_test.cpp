@@ -162,9 +162,10 @@ TEST_F(Program, ChecksACaseWithoutRunningIt) {
   write("dam.toml", kSmall);
   const Outcome o = bedload("check dam.toml --backend cpu");
   EXPECT_EQ(o.code, 0) << o.err;
-  for (const char* part : {"fluid 150, walls ", "grains 40", "<- binds", "substep    rayleigh", "memory     ",
-                           "tension    fluid cavitates below -", "wake       ", "contacts   grain.E = ",
-                           "run time   about ", "settling   before that, at most ", "the case is in order"})
+  for (const char* part :
+       {"fluid 150, walls ", "grains 40", "<- binds, by time.", "substep    rayleigh", "memory     ",
+        "tension    fluid cavitates below -", "wake       ", "contacts   grain.E = ", "run time   about ",
+        "settling   before that, at most ", "the case is in order"})
     EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
   EXPECT_FALSE(std::filesystem::exists(dir_ / "results"));
 }
@@ -348,6 +349,26 @@ every = 0.1
   EXPECT_NE(o.err.find("; limited by body contact"), std::string::npos) << o.err;
   const Outcome check = bedload("check ball.toml --backend cpu --set time.dt_dem=1e-5");
   EXPECT_NE(check.out.find("body contact"), std::string::npos) << check.out;
+}
+
+/// With the key to turn: `check` before, the run at its end.
+TEST_F(Program, TellsWhatBindsStepsAndSubsteps) {
+  write("dam.toml", kSmall);
+  const std::string options =
+      " dam.toml --backend cpu --set grain.settle=false --set fluid.mu=1 --set lubrication.forces=all "
+      "--set lubrication.least_gap=1e-4 --set time.dt=1e-5 ";
+  const Outcome check = bedload("check" + options);
+  EXPECT_EQ(check.code, 0) << check.err;
+  EXPECT_NE(check.out.find(" s  <- binds, by lubrication.least_gap\n"), check.out.npos) << check.out;
+  EXPECT_NE(check.out.find(" substeps by lubrication (lubrication.least_gap)\n"), check.out.npos)
+      << check.out;
+  const Outcome run = bedload("run --out out --until 1e-4" + options);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("steps by   fixed (time.dt) 100 %\n"), run.out.npos) << run.out;
+  EXPECT_NE(run.out.find("substeps by lubrication (lubrication.least_gap) 100 %\n"), run.out.npos) << run.out;
+  const auto summary = nlohmann::json::parse(content_of(dir_ / "out/summary.json"));
+  EXPECT_EQ(summary["steps_by_limit"]["fixed"], summary["steps"]);
+  EXPECT_EQ(summary["substeps_by_limit"]["lubrication"], summary["substeps"]);
 }
 
 TEST_F(Program, RunsACaseAndLeavesItsFiles) {

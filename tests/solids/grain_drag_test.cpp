@@ -112,7 +112,7 @@ TEST(GrainDrag, ExplicitDragIsOfTheSameOrder) {
   b.immerse({}, b.mass() / 1e-2);
   bool listed = false;
   for (const auto& l : b.solver->limits(b.solver->watch(*b.grains)))
-    if (l.name == "grain drag") {
+    if (l.limit == Limit::grain_drag) {
       listed = true;
       EXPECT_NEAR(l.seconds, 5e-3, 1e-8);
     }

@@ -4,9 +4,11 @@
 #include <vector>
 
 #include "bedload/case/config/contact.hpp"
-#include "bedload/simulation.hpp"
+#include "bedload/step_limits.hpp"
 
 namespace bedload {
+
+struct Config;
 
 /// What bounds a substep of the grains of a case: Rayleigh time, contact duration, rolling and films of the
 /// smallest of each material, each times its fraction (time.rayleigh, time.contact).

@@ -7,6 +7,7 @@
 //   checkpoints/step_*.h5   the kept state
 //   summary.json            how the run ended
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -25,6 +26,7 @@ namespace bedload {
 struct Effort {
   double wall_seconds = 0;
   std::int64_t particle_steps = 0, substeps = 0, rebuilds = 0;
+  std::array<std::int64_t, kLimits.size()> steps_by{}, substeps_by{};  ///< how many each limit bound
 };
 
 /// The results folder of one run. Everything is copied to the host when asked

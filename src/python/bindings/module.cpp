@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "arrays.hpp"
-#include "bedload/case/limits.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/output/folder_lock.hpp"
 #include "cli/commands.hpp"
@@ -47,7 +46,8 @@ nb::dict to_dict(const std::vector<Quantity>& quantities) {
 /// name -> (seconds, whether it binds)
 nb::dict to_dict(const std::vector<StepLimit>& limits) {
   nb::dict out;
-  for (const StepLimit& limit : limits) out[limit.name.c_str()] = nb::make_tuple(limit.seconds, limit.binds);
+  for (const StepLimit& limit : limits)
+    out[std::string(name_of(limit.limit)).c_str()] = nb::make_tuple(limit.seconds, limit.binds);
   return out;
 }
 
@@ -155,8 +155,7 @@ nb::dict checked(const ReadCase& given, const std::string& backend, int threads)
       Simulation& simulation = rehearsal.simulation();
       check_fixed_steps(p, simulation);
       steps = simulation.limits();
-      substeps = grain_limits(p.config);
-      for (const StepLimit& limit : simulation.body_limits()) substeps.push_back(limit);
+      substeps = simulation.substep_limits();
       numerical = simulation.numerical_viscosity();
       bytes = rehearsal.memory().all;
     });
@@ -198,7 +197,8 @@ void bind_runs(nb::module_& m) {
       .def_ro("dt", &StepInfo::dt, "s.")
       .def_ro("substeps", &StepInfo::substeps, "DEM substeps in it.")
       .def_prop_ro(
-          "limit", [](const StepInfo& i) { return std::string(i.limit); }, "What bound dt: cfl, viscous, ...")
+          "limit", [](const StepInfo& i) { return std::string(name_of(i.limit)); },
+          "What bound dt: cfl, viscous, ...")
       .def_ro("vmax", &StepInfo::vmax, "Of the fastest fluid particle, m/s.")
       .def_ro("rebuilt", &StepInfo::rebuilt,
               "Neighbour lists were renewed: the order of particles has changed.")
