@@ -1,16 +1,18 @@
 #include "server.hpp"
 
 #include <fmt/format.h>
-#include <httplib.h>
 #include <pthread.h>
-#include <sys/socket.h>
 
 #include <algorithm>
 #include <atomic>
+#include <boost/asio.hpp>
+#include <boost/beast.hpp>
 #include <cctype>
 #include <chrono>
 #include <csignal>
+#include <list>
 #include <thread>
+#include <vector>
 
 #include "bedload/core/cores.hpp"
 #include "bedload/core/error.hpp"
@@ -19,13 +21,21 @@
 namespace bedload {
 namespace {
 
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using asio::ip::tcp;
+using http::status;
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
+using Request = http::request<http::empty_body>;
+using Response = http::response<http::string_body>;
 
 constexpr auto kLookedLately = 3s;  // pages ask for the status every second
 constexpr auto kToBeTold = 1000ms, kSilence = 500ms, kLongestEnd = 5000ms;
-constexpr const char* kHost = "127.0.0.1";
-// With a parameter, since the library compresses what has none, which takes the run's time.
+constexpr auto kToAsk = 2s, kToTake = 10s;  // for all of a request, all of an answer
+constexpr std::size_t kMostConnections = 64, kLongestRequest = 16384;
+constexpr const char *kHost = "127.0.0.1", *kPicture = "/picture.png", *kTable = "/tables/";
 constexpr const char* kJson = "application/json; charset=utf-8";
 constexpr const char* kPolicy =
     "default-src 'none'; connect-src 'self'; img-src 'self' blob:; style-src 'unsafe-inline'; "
@@ -57,77 +67,146 @@ class SignalsBlocked {
   sigset_t before_;
 };
 
+Response response_of(status s, const char* type, std::string body) {
+  Response r(s, 11);
+  r.set(http::field::content_type, type);
+  r.set(http::field::cache_control, "no-store");
+  r.set("X-Content-Type-Options", "nosniff");
+  r.set("Cross-Origin-Resource-Policy", "same-origin");
+  r.set("Referrer-Policy", "no-referrer");
+  r.keep_alive(false);
+  r.body() = std::move(body);
+  r.prepare_payload();
+  return r;
+}
+
+Response refusal(status s, const char* why) {
+  return response_of(s, "text/plain; charset=utf-8", std::string(why) + "\n");
+}
+
+struct Connection {
+  explicit Connection(tcp::socket socket) : stream(std::move(socket)) {
+    request.header_limit(kLongestRequest);
+  }
+
+  beast::tcp_stream stream;
+  beast::flat_buffer buffer{kLongestRequest};
+  http::request_parser<http::empty_body> request;
+  Response response;
+};
+
 }  // namespace
 
+/// One thread reads, answers and writes, another draws: only those who ask for pictures wait for them.
 struct LiveServer::Impl {
   explicit Impl(std::string name) : view(std::move(name)) {}
 
-  void answer(const httplib::Request& request, httplib::Response& response) {
-    if (!names_this_machine(request.get_header_value("Host")))
-      return refuse(response, 403, "Forbidden: another host");
-    if (request.method != "GET") {
-      response.set_header("Allow", "GET");
-      return refuse(response, 405, "Only GET");
+  Response answer(const Request& request) {
+    if (request.count(http::field::host) != 1 || !names_this_machine(std::string(request[http::field::host])))
+      return refusal(status::forbidden, "Forbidden: another host");
+    if (request.method() != http::verb::get) {
+      Response r = refusal(status::method_not_allowed, "Only GET");
+      r.set(http::field::allow, "GET");
+      if (request.method() == http::verb::head) r.body().clear();
+      return r;
     }
-    const std::string& path = request.path;
+    const std::string target(request.target());
+    const auto mark = std::min(target.find('?'), target.size());
+    const std::string path = target.substr(0, mark);
     if (!closing || path != "/status") asked = Clock::now();
-    const std::string of_table = "/tables/";
-    response.status = 200;
     if (path == "/") {
-      response.set_header("Content-Security-Policy", kPolicy);
-      response.set_content(kLivePage, "text/html; charset=utf-8");
-    } else if (path == "/status") {
-      response.set_content(view.status(), kJson);
-    } else if (path == "/tables") {
-      response.set_content(view.tables(), kJson);
-    } else if (path.starts_with(of_table)) {
-      if (auto table = view.table(path.substr(of_table.size()))) return response.set_content(*table, kJson);
-      refuse(response, 404, "There is no such table");
-    } else if (path == "/picture.png") {
-      const auto side = live_side(request.has_param("view") ? request.get_param_value("view") : "front");
-      if (!side) return refuse(response, 400, "view: front, above or perspective");
-      if (auto picture = view.picture(*side)) return response.set_content(*picture, "image/png");
-      refuse(response, 404, "There is no picture yet");
-    } else {
-      refuse(response, 404, "There is nothing here");
+      Response r = response_of(status::ok, "text/html; charset=utf-8", kLivePage);
+      r.set("Content-Security-Policy", kPolicy);
+      return r;
     }
+    if (path == "/status") return response_of(status::ok, kJson, view.status());
+    if (path == "/tables") return response_of(status::ok, kJson, view.tables());
+    if (path.starts_with(kTable)) {
+      auto table = view.table(path.substr(std::string_view(kTable).size()));
+      return table ? response_of(status::ok, kJson, std::move(*table))
+                   : refusal(status::not_found, "There is no such table");
+    }
+    if (path == kPicture) return picture("&" + target.substr(std::min(mark + 1, target.size())));
+    return refusal(status::not_found, "There is nothing here");
   }
 
-  static void refuse(httplib::Response& response, int status, const char* why) {
-    response.status = status;
-    response.set_content(std::string(why) + "\n", "text/plain; charset=utf-8");
+  /// query: each of its parameters after a "&".
+  Response picture(const std::string& query) {
+    const std::string name = "&view=";
+    const auto at = query.find(name), from = at + name.size();
+    const auto side =
+        live_side(at == query.npos ? "front" : query.substr(from, query.find('&', from) - from));
+    if (!side) return refusal(status::bad_request, "view: front, above or perspective");
+    auto png = view.picture(*side);
+    return png ? response_of(status::ok, "image/png", std::move(*png))
+               : refusal(status::not_found, "There is no picture yet");
   }
 
-  void open(int wanted) {
-    server.set_address_family(AF_INET);
-    server.set_socket_options([](int socket) {  // the library would share the port with other runs
-      const int yes = 1;
-      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  void accept() {
+    acceptor.async_accept([this](beast::error_code error, tcp::socket socket) {
+      connections.remove_if([](const auto& c) { return c.expired(); });
+      if (!connections.empty() && (error || connections.size() >= kMostConnections)) {
+        if (const auto oldest = connections.front().lock()) oldest->stream.close();
+        connections.pop_front();
+      }
+      if (error) {  // no file may be opened any more
+        pause.expires_after(50ms);
+        return pause.async_wait([this](beast::error_code) { accept(); });
+      }
+      const auto c = std::make_shared<Connection>(std::move(socket));
+      connections.push_back(c);
+      read(c);
+      accept();
     });
-    server.new_task_queue = [] { return new httplib::ThreadPool(4); };
-    server.set_keep_alive_max_count(1);  // else idle connections would hold the threads
-    server.set_read_timeout(2s);
-    server.set_write_timeout(2s);
-    server.set_payload_max_length(1024);
-    server.set_default_headers({{"Cache-Control", "no-store"},
-                                {"X-Content-Type-Options", "nosniff"},
-                                {"Cross-Origin-Resource-Policy", "same-origin"},
-                                {"Referrer-Policy", "no-referrer"}});
-    server.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
-      answer(request, response);
-      return httplib::Server::HandlerResponse::Handled;
+  }
+
+  void read(std::shared_ptr<Connection> c) {
+    c->stream.expires_after(kToAsk);
+    const auto then = [this, c](beast::error_code error, std::size_t) {
+      const auto& of_http = make_error_code(http::error::bad_method).category();
+      if (error && error.category() != of_http) return;
+      const bool draws = !error && c->request.get().target().starts_with(kPicture);
+      asio::post(draws ? drawing : serving, [this, c, error]() mutable {
+        try {
+          c->response = error ? refusal(status::bad_request, "No request") : answer(c->request.get());
+        } catch (const std::exception&) {
+          c->response = refusal(status::internal_server_error, "Failed");
+        }
+        asio::post(serving, [this, c = std::move(c)] { write(c); });
+      });
+    };
+    http::async_read_header(c->stream, c->buffer, c->request, then);
+  }
+
+  void write(std::shared_ptr<Connection> c) {
+    c->stream.expires_after(kToTake);
+    http::async_write(c->stream, c->response, [c](beast::error_code error, std::size_t) {
+      // The other side closes first: closed with something unread, an answer may be lost on its way.
+      if (!error) c->stream.socket().shutdown(tcp::socket::shutdown_send, error);
+      c->buffer.clear();
+      if (!error) asio::async_read(c->stream, c->buffer, [c](beast::error_code, std::size_t) {});
     });
-    port = wanted == 0 ? server.bind_to_any_port(kHost) : server.bind_to_port(kHost, wanted) ? wanted : -1;
-    if (port < 0)
-      throw CaseError(
-          fmt::format("command line: --live: port {} of {} is taken; name another, or 0 for any that is free",
-                      wanted, kHost));
+  }
+
+  void open(int port) {
+    try {
+      acceptor = tcp::acceptor(serving, {asio::ip::make_address(kHost), std::uint16_t(port)});
+    } catch (const boost::system::system_error& error) {
+      if (error.code() == asio::error::address_in_use)
+        throw CaseError(fmt::format(
+            "command line: --live: port {} of {} is taken; name another, or 0 for any that is free", port,
+            kHost));
+      throw CaseError(fmt::format("command line: --live: cannot listen at port {} of {}: {}", port, kHost,
+                                  error.code().message()));
+    }
+    accept();
     const SignalsBlocked blocked;
-    thread = std::thread([this] {
-      use_all_cores();
-      server.listen_after_bind();
-    });
-    while (!server.is_running()) std::this_thread::sleep_for(1ms);  // stop() does nothing before
+    for (asio::io_context* context : {&serving, &drawing})
+      threads.emplace_back([context] {
+        use_all_cores();
+        const auto work = asio::make_work_guard(*context);
+        context->run();
+      });
   }
 
   void close() {
@@ -136,16 +215,19 @@ struct LiveServer::Impl {
     closing = true;
     if (from - asked.load() < kLookedLately)
       while (!silent() && Clock::now() - from < kLongestEnd) std::this_thread::sleep_for(20ms);
-    server.stop();
-    thread.join();
+    serving.stop();
+    drawing.stop();
+    for (std::thread& thread : threads) thread.join();
   }
 
   LiveView view;
-  httplib::Server server;
-  int port = -1;
   std::atomic<Clock::time_point> asked{};
   std::atomic<bool> closing{false};
-  std::thread thread;
+  asio::io_context serving, drawing;  ///< what waits for `drawing` is of `serving`, so that goes last
+  tcp::acceptor acceptor{serving};
+  asio::steady_timer pause{serving};
+  std::list<std::weak_ptr<Connection>> connections;  ///< the oldest first
+  std::vector<std::thread> threads;
 };
 
 LiveServer::LiveServer(int port, std::string name) : impl_(std::make_unique<Impl>(std::move(name))) {
@@ -156,6 +238,8 @@ LiveServer::~LiveServer() { impl_->close(); }
 
 LiveView& LiveServer::view() { return impl_->view; }
 
-std::string LiveServer::address() const { return fmt::format("http://{}:{}", kHost, impl_->port); }
+std::string LiveServer::address() const {
+  return fmt::format("http://{}:{}", kHost, impl_->acceptor.local_endpoint().port());
+}
 
 }  // namespace bedload

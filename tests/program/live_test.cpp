@@ -258,6 +258,58 @@ TEST_F(Live, LeavesResultsAsTheyAre) {
   EXPECT_GE(files, 9) << "frames, tables, a checkpoint";
 }
 
+/// Connections that say nothing, or next to nothing, neither keep others waiting nor the run from its end.
+TEST_F(Live, IsNotHeldUpByThoseWhoSayNothing) {
+  begin("0 --out out");
+  status_when([](const Json& now) { return now["step"] > 5; });
+  std::vector<int> idle;
+  for (int n = 0; n < 200; ++n) idle.push_back(connected("127.0.0.1"));
+  const std::string slow = "GET /status HTTP/1.1\r\nHost: localhost\r\nX: ";
+  for (int n = 0; n < 8; ++n) {
+    idle.push_back(connected("127.0.0.1"));
+    EXPECT_GT(send(idle.back(), slow.data(), slow.size(), MSG_NOSIGNAL), 0);
+  }
+  const auto now = [] { return std::chrono::steady_clock::now(); };
+  auto from = now();
+  for (int n = 0; n < 20; ++n) json("/status");
+  char byte = 0;
+  EXPECT_EQ(recv(idle[0], &byte, 1, 0), 0) << "the oldest of too many";
+  EXPECT_LT(now() - from, 2s) << "as without them";
+  from = now();
+  for (int n = 0; n < 100; ++n) {  // each byte in time, the request not
+    if (send(idle.back(), "a", 1, MSG_NOSIGNAL) < 0) break;
+    std::this_thread::sleep_for(100ms);
+  }
+  EXPECT_LT(now() - from, 5s);
+  idle.push_back(connected("127.0.0.1"));
+  from = now();
+  EXPECT_EQ(end(SIGTERM), 130);
+  EXPECT_LT(now() - from, 10s);
+  for (const int s : idle) close(s);
+}
+
+TEST_F(Live, RefusesWhatIsNoRequest) {
+  begin("0 --out out");
+  const auto status = [&](const std::string& text) {
+    const int s = connected("127.0.0.1");
+    EXPECT_EQ(send(s, text.data(), text.size(), MSG_NOSIGNAL), ssize_t(text.size()));
+    char part[16] = "";
+    const ssize_t n = recv(s, part, 12, MSG_WAITALL);
+    close(s);
+    return n == 12 ? std::stoi(part + 9) : 0;
+  };
+  const std::string host = "Host: localhost\r\n";
+  for (const std::string first :
+       {"GET", "GET /", "GET / ", "GET /status FTP/1.1", "GET  HTTP/1.1", "\x16\x03\x01"})
+    EXPECT_EQ(status(first + "\r\n" + host + "\r\n"), 400) << first;
+  EXPECT_EQ(status("GET / HTTP/1.1\r\n" + host + "Host: evil\r\n\r\n"), 403);
+  EXPECT_EQ(status("GET http://evil/ HTTP/1.1\r\n" + host + "\r\n"), 404);
+  EXPECT_EQ(status("GET /status?a=%zz&&=& HTTP/1.0\r\nhOST:\tlocalhost \r\n\r\n"), 200);
+  EXPECT_EQ(status("GET /picture.png?a=b&view=c HTTP/1.1\r\n" + host + "\r\n"), 400);
+  EXPECT_EQ(status("GET /" + std::string(20000, 'a')), 400) << "too long";
+  EXPECT_EQ(status("POST / HTTP/1.1\r\n" + host + "Content-Length: 9\r\n\r\n123456789"), 405);
+}
+
 TEST_F(Live, TellsOfARunThatFails) {
   begin("0 --out out --set time.dt=0.0001");
   const Json s = status_when([](const Json& now) { return now["step"] > 5; });

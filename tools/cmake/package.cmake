@@ -62,7 +62,6 @@ set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libhdf5-dev, libcpp-httplib-dev, libfmt-dev, libpng-dev,
-    libtomlplusplus-dev, pkg-config")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "libhdf5-dev, libfmt-dev, libpng-dev, libtomlplusplus-dev")
 set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_SOURCE_DIR}/tools/cmake/cpack.cmake)
 include(CPack)
