@@ -381,7 +381,7 @@ CouplingCounters Coupling::counters(const FluidStore& fluid, const GrainStore& g
           limits_ ? reduce({0, n}, CountEntries{stiffness_, 1, true}) : 0,
           reduce(grains.owned(), CountEntries{grains.wetness, 0, true}),
           reduce(grains.owned(), CountEntries{grains.eps, eps_min_, false}),
-          reduce(grains.owned(), CountEntries{wall_free_, WallFreeFraction::kLeast, false})};
+          reduce({0, Index(wall_free_.size())}, CountEntries{wall_free_, WallFreeFraction::kLeast, false})};
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -106,9 +106,9 @@ TEST(GrainDrag, ExplicitDragIsOfTheSameOrder) {
   b.add({0, 0, 0}, {1, 0, 0});
   b.start();
   b.immerse({}, b.mass() / 1e-7);  // far stiffer than contacts
-  const StableStep stiff = b.solver->stable_dt(*b.grains);
+  const StepLimit stiff = b.solver->stable_dt(*b.grains);
   EXPECT_NEAR(stiff.seconds / 5e-8, 1, 1e-6) << "half of the time in which it relaxes";
-  EXPECT_EQ(stiff.limit, "grain drag");
+  EXPECT_EQ(stiff.limit, Limit::grain_drag);
   b.immerse({}, b.mass() / 1e-2);
   bool listed = false;
   for (const auto& l : b.solver->limits(b.solver->watch(*b.grains)))

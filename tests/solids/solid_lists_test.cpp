@@ -167,7 +167,8 @@ TEST(SolidLists, ForcesBetweenGrainsCancel) {
   for (const Real3& f : b.grains->force.values()) sum += Vec3d(f), scale += norm(Vec3d(f));
   const Vec3d on_floor = b.solver->body_loads(*b.grains, b.poses())[0].force();
   EXPECT_GT(norm(on_floor), 0.01 * scale);
-  EXPECT_LT(norm(sum + on_floor), kInvariant * scale);
+  // in double 1e-9: springs on both sides add up their own rounding over 500 steps
+  EXPECT_LT(norm(sum + on_floor), tolerance(1e-8, kInvariant, kInvariant) * scale);
 }
 
 TEST(SolidLists, ARunWithManyRebuildsIsTheRunWithFew) {

@@ -145,7 +145,7 @@ TEST(PassiveLaws, PressingAloneIsReversible) {
     if (c.contact.normal == NormalLaw::democritus) return;
     c.grain.e = 1;
     const Work work = work_along(contact_law_of(c), {{0}, {1e-5}, {0}});
-    EXPECT_LT(std::abs(work.done), tolerance(1e-6, 1e-5, 1e-5) * work.spent) << names;
+    EXPECT_LT(std::abs(work.done), 1e-5 * work.spent) << names;  // the last step of the sum
   });
 }
 
