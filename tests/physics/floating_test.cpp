@@ -167,8 +167,10 @@ TEST(FreeBodyInFluid, MayBeDeafToItWhileTheFluidFeelsTheBody) {
 /// Fluid, grains and a body, all pushing each other but for what `mode` of coupling leaves out; angular
 /// momentum is kept to `along_the_way` of its scale and round-off.
 void expect_momenta_kept(const char* mode, double along_the_way, bool wall_normalise = true,
-                         double cfl = 0.25, bool smoothed = true, double shift = Config{}.shift) {
+                         double cfl = 0.25, bool smoothed = true, double shift = Config{}.shift,
+                         bool suction = false) {
   Config c = drop("none");
+  c.wall.suction = suction;
   c.shift = shift;
   if (!smoothed) c.density.delta = c.density.void_relaxation = 0;
   c.couple.mode = mode;
@@ -211,10 +213,12 @@ void expect_momenta_kept(const char* mode, double along_the_way, bool wall_norma
   EXPECT_LT(norm(total("angular_momentum") - l), (10 * kInvariant + along_the_way) * norm(p) * 0.05);
 }
 
-/// Shifted particles take their momentum to where they drift: 2e-4 of the scale here.
+/// Shifted particles take their momentum to where they drift: 2e-4 of the scale here where the body holds the
+/// fluid, 6.7e-4 where fluid parts from it and has more surfaces to shift along.
 TEST(SmallFreeBody, BesideFluidAndGrainsKeepsMomenta) {
   expect_momenta_kept("off", 0, true, 0.25, true, 0);
-  expect_momenta_kept("off", 3e-4);
+  expect_momenta_kept("off", 3e-4, true, 0.25, true, Config{}.shift, true);
+  expect_momenta_kept("off", 8e-4);
 }
 
 /// An exchange keeps the angular momentum of places at the start of a step; how far grains move while drag
