@@ -38,7 +38,7 @@ install(DIRECTORY include/bedload/case include/bedload/geometry include/bedload/
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bedload COMPONENT development)
 install(FILES include/bedload/core/error.hpp include/bedload/core/vec.hpp include/bedload/core/fingerprint.hpp
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bedload/core COMPONENT development)
-install(FILES include/bedload/host_data.hpp include/bedload/simulation.hpp
+install(FILES include/bedload/host_data.hpp include/bedload/simulation.hpp include/bedload/step_limits.hpp
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bedload COMPONENT development)
 set(config ${CMAKE_INSTALL_LIBDIR}/cmake/bedload)
 install(EXPORT bedload NAMESPACE bedload:: DESTINATION ${config} FILE bedload-targets.cmake COMPONENT development)
