@@ -9,8 +9,8 @@ namespace bedload::inline BL_VARIANT {
 /// Viscosity of a suspension over that of its fluid, by the volume fraction phi of grains:
 /// (1 - phi/phi_max)^-n, n being 2.5 phi_max [krieger59] or 2 [maron56].
 struct SuspensionViscosity {
-  static constexpr Real kDensest =
-      Real(0.95);  ///< of phi_max, that counts: beyond, a bed carries by contacts
+  /// Of phi_max, that counts: beyond, a bed carries by contacts.
+  static constexpr Real kDensest = Real(0.95);
   Real phi_max, n;
 
   static SuspensionViscosity of(SuspensionLaw law, double phi_max) {

@@ -151,9 +151,8 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
          "how fast fluid among grains whose particles overfill their volume grows denser, in c/h; 0 off",
      .range = within(0, 1)});
   p("couple.undisturbed", &c.undisturbed,
-    {.meaning =
-         "a grain's own wake and volume are taken off the flow and porosity that its drag goes by; off, "
-         "lone grains are too fast by up to 0.54 d / h_c"});
+    {.meaning = "a grain's own wake and volume are taken off the flow and porosity that set its drag; off, "
+                "lone grains are too fast by up to 0.54 d / h_c"});
   p("couple.S_dry", &c.S_dry,
     {.meaning = "a grain is dry where fluid fills less than this of the kernel that walls leave free",
      .range = above_to(0, 0.9)});

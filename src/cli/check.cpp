@@ -133,7 +133,7 @@ std::string defaults_text(const Config& c) {
   if (c.fluid.present && !c.fluid.sdpd() && c.density.cavitation_limit < 1)
     say("tension",
         fmt::format("fluid cavitates below {:.3g} Pa (density.cavitation_limit; diagnostics.csv counts "
-                    "where){}",
+                    "the particles){}",
                     c.eos.background - c.density.cavitation_limit * c.fluid.rho0 * c.fluid.c * c.fluid.c,
                     c.wall.suction ? "; until then it hangs from lids and roofs" : ""));
   if (c.fluid.present && !c.fluid.sdpd() && c.fluid.mu > 0 && c.visc.model == ViscosityModel::morris &&
@@ -148,9 +148,10 @@ std::string defaults_text(const Config& c) {
                     100 * 0.537 * c.grain.d_max / c.couple.hc));
   if (c.grain.present && takes_moduli(c.contact.normal) && c.grain.E < 1e9)
     say("contacts",
-        fmt::format("grain.E = {:.3g} Pa is softer than stone, glass or steel: impacts last longer, and "
-                    "spins after oblique ones are some 8 % off",
-                    c.grain.E));
+        fmt::format(
+            "grain.E = {:.3g} Pa is softer than stone, glass or steel: impacts last longer and overlap "
+            "more, which also changes spins",
+            c.grain.E));
   return out;
 }
 

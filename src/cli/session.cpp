@@ -31,7 +31,7 @@ void Session::tell_gaps(const Options& options) {
     const std::string text = fmt::format("{}, but its run went on until the checkpoint's time, t = {:.6g} s",
                                          gap, simulation_->time());
     if (!options.allow_changes)
-      throw FileError(text + "; put back what is missing, or go on without it by --allow-changes");
+      throw FileError(text + "; restore what is missing, or continue without it by --allow-changes");
     p_.warnings.push_back(text);
   }
 }

@@ -214,6 +214,12 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[time]", "[couple]\nhc = 0.001\n[time]",
               "dam.toml:22: couple.hc = 0.001 must be >= 0.002; unresolved coupling needs kappa h_c >= 2 "
               "d_max"},
+        Wrong{"[time]", "[couple]\nmode = \"one_way\"\nundisturbed = true\n[time]",
+              "dam.toml:23: couple.undisturbed = true must be false without couple.mode = \"two_way\""},
+        Wrong{
+            "[time]", "[couple]\nsuspension_viscosity = \"maron_pierce\"\n[visc]\nmodel = \"none\"\n[time]",
+            "dam.toml:22: couple.suspension_viscosity = \"maron_pierce\" must be \"none\" with visc.model = "
+            "\"signal\" or \"none\""},
         Wrong{"[time]", "[couple]\nS_dry = 0.6\nS_wet = 0.5\n[time]",
               "dam.toml:23: couple.S_wet = 0.5 must be > couple.S_dry = 0.6"},
         Wrong{"end = 0.3", "end = 0.3\ndt_dem = 1e-4",

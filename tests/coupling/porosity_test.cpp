@@ -130,6 +130,23 @@ TEST(Porosity, HasAFloorAndCountsWhoIsHeldThere) {
   box.coupling.porosity(box.fluid, box.grains, {}, 0);
   for (Real eps : box.fluid.eps.values()) EXPECT_EQ(eps, Real(0.25));
   EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).floor_hits, 400u);
+  EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).cornered, 0u);
+  box.coupling.gather(box.fluid, box.grains, {}, 0);
+  EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).densest, 729u) << "grains";
+}
+
+/// A slit a tenth of the reach wide leaves more than an eighth of the kernel, where two more walls meet it
+/// less.
+TEST(Porosity, CountsGrainsInTheNarrowestCorners) {
+  Config c = unit_box(0.1, 1e-3);
+  c.wall.bodies = {test::tank({0.24, 0.2, 0.2}, {0.26, 1.5, 1.5}, "x-x+y-z-")};
+  Cloud fluid = fluid_at(lattice({0.24, 0.2, 0.2}, {0.26, 0.8, 0.8}, 0.02), 0.02, 1000, 1);
+  CoupledBox box(c, fluid, {{{0.25, 0.21, 0.21}, {0.25, 0.6, 0.6}}, {{}, {}}, {{}, {}}, {0.01, 0.01}});
+  Buffer<BodyPose> poses;
+  poses.assign(std::vector<BodyPose>(1));
+  EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).cornered, 0u) << "before any is looked at";
+  box.coupling.porosity(box.fluid, box.grains, poses, 0);
+  EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).cornered, 1u);
 }
 
 TEST(Porosity, IsOneWhereThereIsNoGrain) {

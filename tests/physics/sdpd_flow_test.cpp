@@ -202,8 +202,7 @@ double reverse_poiseuille(const std::string& model) {
   return line.slope() / (0.02 / (2 * c.fluid.mu));
 }
 
-/// With spin the specification's 3 % is missed by 0.1 %: friction is divided by the lattice's second moment,
-/// and couples go by its fourth.
+/// With spin the specification's 3 % is missed by 0.1 %.
 TEST(SlowSdpdFlow, ReversePoiseuilleFlowHasTheViscosity) {  // T-45
   EXPECT_NEAR(1 / reverse_poiseuille("sdpd"), 1, 3e-2);
   EXPECT_NEAR(1 / reverse_poiseuille("sdpd_a"), 1, 3.2e-2);
