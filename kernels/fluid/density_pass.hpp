@@ -14,18 +14,18 @@ namespace bedload::inline BL_VARIANT {
 /// no grains. Its adjoint is the pressure force of ForcePass, of which fluid and grains take the fractions
 /// with which they make up q: what pressure does to both is what the energy of compression loses.
 /// Kick-drift-kick passes positions and velocities of the middle of the step, which makes it reversible.
-/// Walls count by their continuity_mass. Continuity tells changes of density alone. Where fluid is
-/// fragmented, s follows the void, by which less of the kernel is filled than a plane surface would leave, so
-/// that there is pressure again no sooner than the void has closed. Surfaces that meet would hold each other
-/// off by a gap, since each counts as filled up to the other: under pressure that fades, as fast as it is
-/// high and the void wide, until the fluid fills its volume. Nor is continuity of the mixture that of the
-/// particles: what the gradient of the porosity in its sum differs from how the porosity changes along the
-/// way adds up, and fluid that has entered a bed may stand more closely than its volume allows. So among
-/// grains density grows where particles overfill the kernel by more than `slack`.
-/// `compression` is what continuity alone makes of s, which the acoustic damper takes (StatePass).
-/// kSmooth: with density diffusion and all that follows the void; without, continuity alone. kPorous: there
-/// are grains. Fit: LinearFit, with Shifting, or NoFit. Where smoothing lengths vary, the sum of continuity
-/// is taken at h_a and divided by Omega_a.
+/// Walls count by their continuity_mass, and give back the work of their own pressure (WallWorkPass).
+/// Continuity tells changes of density alone. Where fluid is fragmented, s follows the void, by which less of
+/// the kernel is filled than a plane surface would leave, so that there is pressure again no sooner than the
+/// void has closed. Surfaces that meet would hold each other off by a gap, since each counts as filled up to
+/// the other: under pressure that fades, as fast as it is high and the void wide, until the fluid fills its
+/// volume. Nor is continuity of the mixture that of the particles: what the gradient of the porosity in its
+/// sum differs from how the porosity changes along the way adds up, and fluid that has entered a bed may
+/// stand more closely than its volume allows. So among grains density grows where particles overfill the
+/// kernel by more than `slack`. `compression` is what continuity alone makes of s, which the acoustic damper
+/// takes (StatePass). kSmooth: with density diffusion and all that follows the void; without, continuity
+/// alone. kPorous: there are grains. Fit: LinearFit, with Shifting, or NoFit. Where smoothing lengths vary,
+/// the sum of continuity is taken at h_a and divided by Omega_a.
 template <class W, class Shift, class Fit, bool kSmooth, bool kPorous, class Lengths>
 struct DensityPass {
   W w;
@@ -45,13 +45,14 @@ struct DensityPass {
   Span<Real3> drift;  ///< empty where nothing drifts
   Fit fit;
   Lengths lengths;
+  Span<const Real> wall_work;  ///< of WallWorkPass; empty without
 
   static constexpr Real slack = Real(0.02);  ///< twice what the sum over particles at rest scatters
 
   template <class N = Real>
   struct Sum {
     Vec3<N> q;
-    N rho, eps, rate, diffused, filled;
+    N M, rho, eps, rate, diffused, filled;
     Vec3<N> gradient;
     [[no_unique_address]] typename Shift::template Sum<N> shift;
     [[no_unique_address]] typename Fit::template Sum<N> fit;
@@ -60,6 +61,7 @@ struct DensityPass {
   BL_HD Sum<> start(Index a) const {
     const Real4 m = m_state[a];
     return {flux[a].xyz(),
+            m.x,
             m.z,
             m.w,
             0,
@@ -101,11 +103,15 @@ struct DensityPass {
     const N spread = shared * (V * mean_factor(factor)) * pair_length(factor);  // D_a goes with h
     sum.diffused += spread * (rho - sum.rho + still * dot(Vec3<N>(hydrostatic), r));
   }
-  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_m_state); }
+  BL_HD auto wall_sources() const {
+    return sources_of(wall_v_rho, wall_m_state, read_where(bool(wall_work), wall_work));
+  }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb) const {
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb,
+                       N work) const {
     const N distance = root(r2), F = own_factor(lengths.F(w, sum.own, distance)), V = quotient(mb.x, mb.z);
     sum.rate += continuity_mass(mb, rho0) * F * dot(sum.q - vb.xyz(), r);
+    if (wall_work) sum.rate += quotient(square(sum.rho) * work, sum.M) * lengths.W(w, sum.own, distance);
     if constexpr (!kSmooth) return;
     sum.filled += V * lengths.W(w, sum.own, distance);
     const N VF = V * F;

@@ -34,7 +34,7 @@ struct OnePass {
   BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb,
                        const Vec4<N>& visc) const {
     force.wall_pair(sum.force, r, r2, vb, mb, visc);
-    seen().wall_pair(sum.density, r, r2, vb, mb);
+    seen().wall_pair(sum.density, r, r2, vb, mb, N(0));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     force.merge(into.force, other.force);

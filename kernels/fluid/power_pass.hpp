@@ -39,12 +39,15 @@ struct PowerPass {
     artificial.pair(sum.artificial, r, r2, M, vb, N(0), viscosity_b, h_b...);
     density.pair(sum.density, r, r2, M, vb, state, Unread{}, h_b...);
   }
-  BL_HD auto wall_sources() const { return friction.wall_sources(); }
+  BL_HD auto wall_sources() const {
+    return sources_of(friction.wall_v_rho, friction.wall_m_state, friction.wall_v_visc,
+                      read_where(bool(density.wall_work), density.wall_work));
+  }
   template <class N>
   BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb,
-                       const Vec4<N>& visc) const {
+                       const Vec4<N>& visc, N work) const {
     friction.wall_pair(sum.friction, r, r2, vb, Vec4<N>{mb.x, N(0), mb.z, mb.w}, visc);
-    density.wall_pair(sum.density, r, r2, vb, mb);
+    density.wall_pair(sum.density, r, r2, vb, mb, work);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     friction.merge(into.friction, other.friction);

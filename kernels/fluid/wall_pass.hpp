@@ -103,4 +103,46 @@ struct WallPass {
   }
 };
 
+/// Walls have no energy of their own, but their pressure does work. WallPass gives wall particle w the mean
+/// P_w = sum_a s_wa P_a, s_wa = W_wa / sum_b W_wb, which does the work P_w V_w D_w on the fluid around,
+///   D_w = sum_b V_b F_wb (v_w - q_b) . r_wb.
+/// That is paid where it came from: DensityPass adds rho_a^2 / M_a sum_w W_wa `work`_w to the rate at which
+/// the density of a falls (times eps), the adjoint of the mean, so that what pressure does to fluid between
+/// walls at rest is what its elastic energy loses, but for walls without suction. The work of what WallPass
+/// adds to the mean, for gravity, for walls that move faster and for drag, is not paid. Frozen walls have a
+/// density.
+template <class W, class Lengths = OneLength>
+struct WallWorkPass {
+  W w;
+  Real least_sum;  ///< walls are dry below this sum of W, 1/m3
+  Span<const Real4> flux, wall_v_rho, wall_m_state;
+  Span<Real> work;  ///< V_w D_w / sum W, m6/s
+  Lengths lengths = {};
+
+  template <class N = Real>
+  struct Sum {
+    Vec3<N> v;
+    N opening, weight;  ///< sums of V F v . r, 1/s, and W, 1/m3
+  };
+  BL_HD Sum<> start(Index b) const { return {wall_v_rho[b].xyz(), 0, 0}; }
+  BL_HD auto sources() const { return lengths.sources(flux); }
+  /// h_a: if lengths vary.
+  template <class N, class... H>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qa, const H&... h_a) const {
+    const N distance = root(r2);
+    const auto own = lengths.template own_of<N>(h_a...);
+    sum.opening += quotient(M, qa.w) * own_factor(lengths.F(w, own, distance)) * dot(sum.v - qa.xyz(), r);
+    sum.weight += lengths.W(w, own, distance);
+  }
+  BL_HD void merge(Sum<>& into, const Sum<>& other) const {
+    into.opening += other.opening;
+    into.weight += other.weight;
+  }
+  BL_HD void finish(Index b, const Sum<>& sum) const {
+    const Real4 m = wall_m_state[b];
+    const bool pays = sum.weight >= least_sum && m.w == 0;
+    work[b] = pays ? m.x / m.z * sum.opening / sum.weight : 0;
+  }
+};
+
 }  // namespace bedload::inline BL_VARIANT

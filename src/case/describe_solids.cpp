@@ -347,9 +347,14 @@ void describe_walls(Parameters& p, WallConfig& w, const ContactConfig& contact) 
   p("wall.no_penetration", &w.no_penetration,
     {.meaning = "default of the bodies: stops fluid within a quarter of fluid.dx"});
   p("wall.repulsion", &w.repulsion, {.meaning = "default of the bodies: Monaghan repulsion [monaghan94]"});
+  p("wall.energy_consistent", &w.energy_consistent,
+    {.meaning =
+         "the pressure of walls is no source of energy: fluid beside them pays for its work. For WCSPH with "
+         "\"kdk\" and \"adami\" or \"fluid_only\" walls, without fluid.variable_h"});
   p("wall.suction", &w.suction,
-    {.meaning = "walls hold fluid back by pressure below zero, as walls of a closed vessel do; without it fluid "
-                "parts from them freely"});
+    {.meaning =
+         "walls hold fluid back by pressure below zero, as walls of a closed vessel do; without it fluid "
+         "parts from them freely"});
   p("wall.rep_D", &w.rep_D,
     {.unit = "m2/s2",
      .meaning = "strength D of the repulsion and of single layers; K = D/5 with kajtar",

@@ -18,6 +18,7 @@ void set_sdpd(Config& c) {
   c.visc.model = ViscosityModel::none;
   c.wall.no_penetration = c.wall.repulsion = false;
   c.wall.suction = true;
+  c.wall.energy_consistent = false;
   c.time.integrator = TimeIntegrator::kdk;
 }
 
@@ -47,7 +48,7 @@ void set_he2018(Config& c) {
   c.pressure.damper = 0;
   c.pressure.linear_exact = false;
   c.wall.repulsion = c.wall.suction = true;
-  c.wall.no_penetration = false;
+  c.wall.no_penetration = c.wall.energy_consistent = false;
   c.tensile = 1;
   c.tensile_one_sign = true;
   c.xsph = 0.3;
@@ -78,7 +79,7 @@ void set_robinson2014(Config& c) {
   c.density.cavitation_limit = 0.5;
   c.wall.type = WallType::single_layer;
   c.wall.suction = true;
-  c.wall.no_penetration = false;
+  c.wall.no_penetration = c.wall.energy_consistent = false;
   c.contact.normal = NormalLaw::linear;
   c.contact.tangential = SlidingLaw::none;
   c.contact.rolling = RollingLaw::none;

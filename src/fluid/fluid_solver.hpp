@@ -308,11 +308,17 @@ class FluidSolver {
                                     walls.m_state,
                                     walls.compression,
                                     lengths};
-    if (moving || relisted_)
+    run_over_walls(pass, moving);
+    relisted_ = false;
+  }
+  /// Over the wall particles that have fluid around them; over all where dry ones ask for it, and since lists
+  /// are new.
+  template <class Pass>
+  void run_over_walls(const Pass& pass, bool all = false) {
+    if (all || relisted_)
       wall_fluid_.run(pass);
     else
       wall_fluid_.run_for(wet_walls_, pass);
-    relisted_ = false;
   }
   /// Density of frozen walls over dt by continuity; no thinner than `least`.
   template <class W>

@@ -44,6 +44,7 @@ struct FluidParameters {
   bool mixed = false;    ///< grains share the space
   double spreading = 0;  ///< how fast fluid that overfills its volume grows denser, c/h
 
+  bool energy_consistent = false;     ///< fluid pays for the work of the pressure of walls
   bool suction = false;               ///< walls hold fluid back by pressure below zero
   bool repelled = false;              ///< surfaces of walls push fluid or stop it
   Repulsion repulsion{};              ///< by which they do, without a cap

@@ -95,6 +95,7 @@ class WcsphSolver final : public FluidSolver {
   void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Moment& start,
                     double dt) override {
     const Real3& gravity = start.gravity;
+    find_wall_work(fluid, walls);
     if (!smooths() && !shifts())
       continuity<false, false>(fluid, walls, gravity, dt, NoShifting{}, NoFit{});
     else
@@ -146,6 +147,14 @@ class WcsphSolver final : public FluidSolver {
                                                 lengths()};
     wall_fluid_.run(pass);
   }
+  /// What the pressure of walls does by places and velocities as they are, for density_pass().
+  void find_wall_work(const FluidStore& fluid, const WallStore& walls) {
+    if (!parameters_.energy_consistent) return;
+    wall_work_.resize(walls.size());
+    const WallWorkPass<W, Lengths> pass{w_,         least_sum(), flux(fluid), walls.v_rho, walls.m_state,
+                                        wall_work_, lengths()};
+    run_over_walls(pass);
+  }
   Real least() const { return -Real(parameters_.density.cavitation_limit); }
   Viscosity viscosity() const {
     return Viscosity::of(parameters_.visc.model, parameters_.fluid.mu, parameters_.fluid.rho0,
@@ -183,7 +192,8 @@ class WcsphSolver final : public FluidSolver {
             shift,
             drift_of(fluid),
             fit,
-            lengths()};
+            lengths(),
+            parameters_.energy_consistent ? Span<const Real>(wall_work_) : Span<const Real>()};
   }
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
   ForcePass<W, kArtificial, kAdded, kSpecies, Lengths> force_pass(FluidStore& fluid, const WallStore& walls,
@@ -230,6 +240,7 @@ class WcsphSolver final : public FluidSolver {
   Span<const FluidPowers> spend(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt) {
     using Force = ForcePass<W, true, false, kSpecies, Lengths>;
     using Density = DensityPass<W, NoShifting, NoFit, true, true, Lengths>;
+    find_wall_work(fluid, walls);
     Force friction = force_pass<true, false, kSpecies>(fluid, walls, now), artificial = friction;
     friction.artificial = {};
     artificial.wall.viscosity.mu = 0;
@@ -292,6 +303,7 @@ class WcsphSolver final : public FluidSolver {
   W w_;
   CutFraction cut_;
   Buffer<FluidPowers> powers_;
+  Buffer<Real> wall_work_;  ///< of WallWorkPass, one a wall particle
 };
 
 }  // namespace

@@ -95,6 +95,44 @@ TEST_P(InviscidBox, DamperTakesEnergyFromSoundAlone) {
   EXPECT_NEAR(left("z", 0.5), left("z", 0), 2e-3);
 }
 
+/// Four vortices in a closed box with slip, under background pressure and without anything that dissipates:
+/// the greatest energy of them over what it was at the start, in a turn of theirs. `work`: of the walls'
+/// pressure over that time, of the same.
+double most_energy_in_a_closed_box(bool consistent, double& work) {
+  Config c = periodic_box(7, 1.0 / 16);
+  c.domain.min = {-0.3, -0.3, 0}, c.domain.max = {1.3, 1.3, 7.0 / 16};
+  c.domain.periodic = {false, false, true};
+  c.fluid.c = 10, c.fluid.vmax = 1, c.fluid.rho0 = 1;
+  c.eos.background = 1;
+  c.visc.model = "none";
+  c.density.delta = c.density.void_relaxation = c.pressure.damper = c.shift = 0;
+  c.density.cavitation_limit = 0.5;
+  c.wall.energy_consistent = consistent;
+  c.wall.suction = true;
+  c.fluid.fills = {{{0, 0, 0}, {1, 1, 7.0 / 16}, {"sin(pi*x)*cos(pi*y)", "-cos(pi*x)*sin(pi*y)", "0"}}};
+  c.wall.bodies = {tank({0, 0, 0}, {1, 1, 7.0 / 16}, "x-x+y-y+")};
+  c.wall.bodies[0].slip = "slip";
+  c.wall.bodies[0].no_penetration = false;
+  auto s = started(c);
+  const double start = energy(*s);
+  double most = start;
+  work = 0;
+  for (double t = 0; t < 1.5; t = s->time()) {
+    s->step();
+    work += reading(s->diagnostics(), "power_wall_pressure") * (s->time() - t) / start;
+    most = std::max(most, energy(*s));
+  }
+  return most / start;
+}
+
+TEST(InviscidClosedBox, WallsAreNoSourceOfEnergy) {
+  double work = 0;
+  EXPECT_LT(most_energy_in_a_closed_box(true, work), 1.02);
+  EXPECT_NEAR(work, 0, 0.03);
+  EXPECT_GT(most_energy_in_a_closed_box(false, work), 1.3);
+  EXPECT_GT(work, 0.3);
+}
+
 /// Velocity first, then density from the new velocity: forward Euler would blow the sound wave up within
 /// periods.
 TEST(InviscidBoxByEuler, StepsKeepASoundWaveInBounds) {

@@ -93,6 +93,7 @@ struct WallConfig {
   Chosen<LayerForce> force = LayerForce::kajtar;
   bool no_penetration = true;
   bool repulsion = false;
+  bool energy_consistent = true;               ///< of all bodies: fluid pays for the work of their pressure
   bool suction = false;                        ///< of all bodies: their pressure may fall below zero
   double dx = 0;                               ///< spacing of wall particles, m (default fluid.dx)
   double rep_D = 0;                            ///< m2/s2 (default 5 g H)
