@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "bedload/case/formula.hpp"
 #include "bedload/case/limits.hpp"
 #include "bedload/geometry/depth.hpp"
 #include "checks.hpp"
@@ -165,17 +164,6 @@ void Checks::body_exists(const std::string& path, const std::string& name) const
     all += (all.empty() ? "" : ", ") + body.name;
   }
   fail(path, quoted(name), "must name a wall.body; this case has " + (all.empty() ? "none" : all));
-}
-
-void Checks::finite_factor(const std::string& path, const std::string& text) const {
-  const Formula factor(text, "t");
-  constexpr int looks = 1000;
-  for (int n = 0; n <= looks; ++n) {
-    const double t = c.time.end * n / looks;
-    if (!std::isfinite(factor({t, 0, 0})))
-      fail(path, quoted(text),
-           fmt::format("must be a finite number at all times; it is none at t = {:.4g} s", t));
-  }
 }
 
 void cross_check(const Config& config, const Value& root, std::vector<std::string>& warnings) {

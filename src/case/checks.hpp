@@ -50,7 +50,6 @@ class Checks {
   void column_in_domain(const std::string& path, const Vec3d& x) const;
   void file_name(const std::string& path, const std::string& name) const;
   void body_exists(const std::string& path, const std::string& name) const;
-  void finite_factor(const std::string& path, const std::string& text) const;
 
   // checks_fluid.cpp
   /// A number as the case gives it, in `unit`; infinity where it gives none.

@@ -19,7 +19,6 @@ void Checks::openings() const {
     const std::string path = fmt::format("inlet.{}", i);
     named(path, c.inlets[i].name);
     inside_domain(path + ".centre", c.inlets[i].centre);
-    finite_factor(path + ".factor", c.inlets[i].factor);
   }
   for (std::size_t i = 0; i < c.outlets.size(); ++i) {
     const OutletConfig& outlet = c.outlets[i];

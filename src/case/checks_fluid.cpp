@@ -51,6 +51,9 @@ void Checks::fluid() const {
         "by more "
         "than 1 %",
         f.c / f.vmax, f.vmax / f.c);
+  if (const double stiffness = f.rho0 * f.c * f.c; !(stiffness < 1e30))
+    fail("fluid.vmax", f.vmax,
+         fmt::format("must be lower; with it rho0 c^2 is {:.3g} Pa, which must stay below 1e30", stiffness));
   if (coupled() && f.mu == 0) fail("fluid.mu", f.mu, "must be > 0 with grains; drag needs mu");
   if (f.sdpd()) sdpd();
   if (!f.species.empty()) species();
@@ -104,7 +107,14 @@ void Checks::species() const {
 }
 
 void Checks::drive() const {
-  const Formula factor(c.drive.factor, "xyzt");
+  const Formula factor = [&] {
+    try {
+      return Formula(c.drive.factor, "xyzt");
+    } catch (const CaseError& error) {
+      fail("drive.factor", quoted(c.drive.factor),
+           fmt::format("must be a formula in x, y, z, t: {}", error.what()));
+    }
+  }();
   const Vec3d side = c.domain.max - c.domain.min;
   for (int n = 0; n < 1000; ++n) {
     const double t = c.time.end * (n / 125) / 7.0;

@@ -31,6 +31,7 @@ void Checks::grains() const {
   if (!c.contact.cap_rolling && c.contact.rolling == RollingLaw::cdt)
     warn("contact.cap_rolling = false: resting grains will buzz and heaps creep");
   if (c.contact.he_damping) warn("paper.he_damping: the restitution reached is below grain.e");
+  if (!c.fluid.present && c.drive.factor != DriveConfig().factor) drive();
   softness();
   if (c.lubrication.acts()) lubrication();
   materials();

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "bedload/core/error.hpp"
+#include "shortened.hpp"
 
 namespace bedload {
 namespace {
@@ -179,9 +180,14 @@ class Parser {
     skip_space();
     if (at_ == text_.size()) throw CaseError("it ends too soon");
     if (text_[at_] == '=') throw CaseError("= assigns; == compares");
-    const std::string_view name = name_here();
-    throw CaseError("Unexpected token \"" + std::string(name.empty() ? text_.substr(at_, 1) : name) +
-                    "\" found at position " + std::to_string(at_));
+    std::string_view name = name_here();
+    if (name.empty()) {  // all bytes of a character
+      std::size_t end = at_ + 1;
+      while (end < text_.size() && (static_cast<unsigned char>(text_[end]) & 0xc0) == 0x80) ++end;
+      name = text_.substr(at_, end - at_);
+    }
+    throw CaseError("Unexpected token \"" + shortened(std::string(name), 60) + "\" found at position " +
+                    std::to_string(at_));
   }
   [[noreturn]] static void nested_too_deeply() { throw CaseError("it is nested too deeply"); }
 

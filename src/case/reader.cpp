@@ -4,10 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "bedload/case/formula.hpp"
 #include "bedload/core/error.hpp"
+#include "shortened.hpp"
 #include "units.hpp"
 
 namespace bedload {
@@ -47,6 +49,8 @@ class Conversion {
       if (!text || text->empty()) reject(fmt::format("must be {} or {}", names, about_.or_else));
     }
     if (!text || (text->empty() && about_.presence == Presence::required)) reject("must be a text in quotes");
+    const auto controls = [](unsigned char c) { return (c < 0x20 && !std::isspace(c)) || c == 0x7f; };
+    if (std::any_of(text->begin(), text->end(), controls)) reject("must hold no control characters");
     *out = *text;
   }
   void operator()(Vec3d* out) const { *out = vector(value_, "must be three numbers [x, y, z]"); }
@@ -117,7 +121,8 @@ class Conversion {
  private:
   [[noreturn]] void reject(const std::string& must) const {
     const std::string hint = about_.hint.empty() ? "" : fmt::format("; {}", about_.hint);
-    throw CaseError(fmt::format("{}: {} = {} {}{}", value_.place(), key_, value_.text(), must, hint));
+    throw CaseError(
+        fmt::format("{}: {} = {} {}{}", value_.place(), key_, shortened(value_.text()), must, hint));
   }
   std::int64_t whole() const {
     const auto* number = value_.get<std::int64_t>();
@@ -236,7 +241,7 @@ void Reader::reject_unread() const {
   for_leaves(*scopes_.front().table, "", [&](const Value& value, const std::string& key) {
     if (read_.count(&value) || value.get<Value::Table>()) return;
     throw CaseError(fmt::format("{}: {} = {} has no use here; leave it out or change what it belongs to",
-                                value.place(), key, value.text()));
+                                value.place(), key, shortened(value.text())));
   });
 }
 
@@ -256,14 +261,14 @@ void reject_unknown(const Value& root) {
   if (is_table(key)) {
     const bool list = first->get<Value::Array>() != nullptr;
     if (list && first->get<Value::Array>()->empty()) return;
-    throw CaseError(
-        fmt::format("{}: {} = {} must be a table; write [{}]", first->place(), key, first->text(), key));
+    throw CaseError(fmt::format("{}: {} = {} must be a table; write [{}]", first->place(), shortened(key),
+                                shortened(first->text()), shortened(key)));
   }
   // A key below a parameter ("fluid.dx.a") is that parameter's wrong value, which its reader reports.
   for (const std::string& k : known)
     if (key.starts_with(k + ".")) return;
-  throw CaseError(fmt::format("{}: {} is not a parameter; did you mean {}?", first->place(), key,
-                              nearest_key(key, known)));
+  throw CaseError(fmt::format("{}: {} is not a parameter; did you mean {}?", first->place(), shortened(key),
+                              nearest_key(shortened(key), known)));
 }
 
 }  // namespace bedload

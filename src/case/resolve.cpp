@@ -177,6 +177,29 @@ void resolve_table(MotionPart& m, const std::string& path, const std::string& ca
   });
 }
 
+/// A part of a motion without a finite place, velocity or acceleration at some time.
+void refuse_gaps(const MotionPart& m, const std::string& path, double until, const Value& root) {
+  const auto look = [&](MotionConfig alone, const std::string& key) {
+    const double t = alone.moves() ? first_gap(alone, until) : INFINITY;
+    if (std::isfinite(t))
+      reject(root, path + key, nearest_value(root, path + key).text(),
+             fmt::format("must be finite at all times, as must its rates; it is not at t = {:.4g} s", t));
+  };
+  MotionConfig alone;
+  static_cast<MotionPart&>(alone) = m;
+  if (m.kind == "formula") {
+    MotionConfig shift = alone, turn = alone;
+    shift.rotation = turn.displacement = MotionPart().rotation;
+    look(shift, ".displacement");
+    look(turn, ".rotation");
+  } else {
+    look(alone, m.kind == "velocity"      ? ".velocity"
+                : m.kind == "oscillation" ? ".amplitude"
+                : m.kind == "rotation"    ? ".rate"
+                                          : ".kind");
+  }
+}
+
 /// What jumps from place to place passes through what is between.
 void refuse_jumps(const MotionPart& m, const std::string& path, double until, const Value& root) {
   const double span = std::min(m.stop, until) - m.start;
@@ -196,9 +219,10 @@ void resolve_motions(Config& c, const Value& root) {
     for_parts(motion, path, [&](MotionPart& m, const std::string& at) {
       if (m.kind == "rotation") m.axis = direction(m.axis, root, at + ".axis");
       if (m.kind == "table") resolve_table(m, at, c.file, root);
+      refuse_gaps(m, at, c.time.end, root);
     });
     if (const double t = motion.moves() ? first_gap(motion, c.time.end) : INFINITY; std::isfinite(t))
-      throw CaseError(fmt::format("{}: {} must have a value at all times; it has none at t = {} s",
+      throw CaseError(fmt::format("{}: {} must be finite at all times; it is not at t = {:.4g} s",
                                   nearest_value(root, path).place(), key_of(path), t));
     for_parts(motion, path,
               [&](const MotionPart& m, const std::string& at) { refuse_jumps(m, at, c.time.end, root); });

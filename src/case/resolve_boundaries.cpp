@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "bedload/case/formula.hpp"
 #include "bedload/case/grain_sizes.hpp"
@@ -26,20 +27,27 @@ void check_right_angles(const InletConfig& inlet, const Value& root, const std::
     reject(root, path + "half_b", to_text(inlet.half_b), "must be at right angles to half_a");
 }
 
-void check_factor(const InletConfig& inlet, const Value& root, const std::string& path) {
+void check_factor(const InletConfig& inlet, double until, const Value& root, const std::string& path) {
+  const auto fail = [&](const std::string& must) {
+    reject(root, path + "factor", fmt::format("\"{}\"", inlet.factor), must);
+  };
+  std::optional<Formula> factor;
   try {
-    (void)Formula(inlet.factor, "t");
+    factor.emplace(inlet.factor, "t");
   } catch (const CaseError& error) {
-    reject(root, path + "factor", fmt::format("\"{}\"", inlet.factor),
-           fmt::format("must be a formula in t: {}", error.what()));
+    fail(fmt::format("must be a formula in t: {}", error.what()));
   }
+  constexpr int looks = 1000;
+  for (int n = 0; n <= looks; ++n)
+    if (const double t = until * n / looks; !std::isfinite((*factor)(t)))
+      fail(fmt::format("must be a finite number at all times; it is none at t = {:.4g} s", t));
 }
 
-void resolve_inlet(InletConfig& inlet, double dx, const DomainConfig& domain, const Value& root,
+void resolve_inlet(InletConfig& inlet, double dx, const DomainConfig& domain, double until, const Value& root,
                    const std::string& path) {
   inlet.direction = direction(inlet.direction, root, path + "direction");
   if (inlet.shape == "rectangle") check_right_angles(inlet, root, path);
-  check_factor(inlet, root, path);
+  check_factor(inlet, until, root, path);
   if ((inlet.rate > 0) == (inlet.velocity > 0))
     throw CaseError(fmt::format("{}: inlet \"{}\" must have exactly one of rate and velocity",
                                 nearest_value(root, path + "rate").place(), inlet.name));
@@ -70,7 +78,7 @@ void check_parts(const OutletConfig& outlet, const Value& root, const std::strin
 
 void resolve_openings(Config& c, const Value& root) {
   for (std::size_t i = 0; i < c.inlets.size(); ++i)
-    resolve_inlet(c.inlets[i], c.fluid.dx, c.domain, root, fmt::format("inlet.{}.", i));
+    resolve_inlet(c.inlets[i], c.fluid.dx, c.domain, c.time.end, root, fmt::format("inlet.{}.", i));
   for (std::size_t i = 0; i < c.outlets.size(); ++i) {
     OutletConfig& outlet = c.outlets[i];
     const std::string path = fmt::format("outlet.{}.", i);

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "bedload/core/error.hpp"
+#include "shortened.hpp"
 
 namespace bedload {
 namespace {
@@ -140,7 +141,8 @@ double quantity(std::string_view text, std::string_view unit) {
   const std::string_view name = trim(text.substr(digits.size()));
   if (name.empty()) throw CaseError("it has no unit; a bare number stands without quotes");
   const Unit from = parse(name, name), to = parse(unit, unit);
-  if (from.powers != to.powers) throw CaseError(fmt::format("{} is no unit of that kind", name));
+  if (from.powers != to.powers)
+    throw CaseError(fmt::format("{} is no unit of that kind", shortened(std::string(name), 60)));
   // The exponent goes into the digits, so that rounding happens once.
   const auto e = digits.find_first_of("eE");
   std::int64_t ten = from.ten - to.ten;

@@ -10,6 +10,7 @@
 #include "bedload/case/config.hpp"
 #include "bedload/case/formula.hpp"
 #include "bedload/core/error.hpp"
+#include "src/case/shortened.hpp"
 
 namespace bedload {
 
@@ -31,17 +32,16 @@ class FillVelocity {
     Vec3d v;
     for (int k = 0; k < 3; ++k) {
       v[k] = formulas_[k](x);
-      if (!std::isfinite(v[k]))
-        fail(k, fmt::format("is not a number at ({:g}, {:g}, {:g}) m", x.x, x.y, x.z));
+      if (!std::isfinite(v[k])) fail(k, fmt::format("it is none at ({:g}, {:g}, {:g}) m", x.x, x.y, x.z));
     }
     return v;
   }
 
  private:
   [[noreturn]] void fail(int k, const std::string& why) const {
-    throw KeyError(
-        fmt::format("fluid.fill.{}.velocity", index_),
-        fmt::format("fluid.fill {}: velocity {} = \"{}\": {}", index_ + 1, "xyz"[k], fill_.velocity[k], why));
+    throw KeyError(fmt::format("fluid.fill.{}.velocity", index_),
+                   fmt::format("fluid.fill.velocity = \"{}\" along {} must be a finite number; {}",
+                               shortened(fill_.velocity[k]), "xyz"[k], why));
   }
 
   const FluidFill& fill_;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "bedload/core/error.hpp"
 #include "bedload/geometry/orifice.hpp"
 
 namespace bedload {
@@ -53,6 +54,9 @@ double InletFlow::integral(double from, double to) const {
 double InletFlow::volume(double t) const { return volume_ + integral(time_, t); }
 
 void InletFlow::advance(double t) {
+  if (!std::isfinite(factor_(t)))
+    throw SimulationFault("inlet \"" + name() +
+                          "\": inlet.factor is no finite number at t = " + std::to_string(t) + " s");
   volume_ = volume(t);
   time_ = t;
 }

@@ -3,11 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 #include <utility>
 
 #include "src/measure/sweeps.hpp"
 
 namespace bedload::inline BL_VARIANT {
+namespace {
+
+/// What a formula makes of a time is known only then.
+void must_be_finite(const Vec3d& v, const char* what, double t) {
+  if (!std::isfinite(norm2(v)))
+    throw SimulationFault(std::string(what) + " is no finite number at t = " + std::to_string(t) + " s");
+}
+
+}  // namespace
 
 Stepper::Stepper(const Config& config, State& state)
     : config_(config),
@@ -204,8 +214,10 @@ StepLimit Stepper::longest_substep() const {
 
 Moment Stepper::moment(double t, std::int64_t step) {
   Moment m{std::uint64_t(step), Real3(gravity_.at(t)), {}};
+  must_be_finite(gravity_.at(t), "frame.motion: its acceleration", t);
   if (!config_.drive.on_fluid()) return m;
   m.drive = fluid_factor_.field<FluidPosition>(config_.drive, frame_, fluid_.x, t);
+  must_be_finite(m.drive.f, "drive.factor", t);
   return m;
 }
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+
+#include "bedload/core/error.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
@@ -49,6 +52,10 @@ BodyPose WallMotion::pose(int body, double t) const {
     return p;
   }
   motion = p.free ? free_.motion(int(p.free) - 1) : walls_[body].law.at(t);
+  if (!p.free &&
+      !std::isfinite(norm2(motion.translation) + norm2(motion.v) + norm2(motion.omega) + motion.rotation.w))
+    throw SimulationFault("wall.body " + std::to_string(body + 1) +
+                          ": its motion has no finite place or velocity at t = " + std::to_string(t) + " s");
   p.present = !removed_[body];
   return p;
 }

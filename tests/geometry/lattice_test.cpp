@@ -73,8 +73,10 @@ TEST(FluidLattice, RefusesFormulasThatAreNone) {
   EXPECT_NE(error_of(config).find("fluid.fill 1: velocity z = \"2*radius\": "), std::string::npos);
   EXPECT_NE(error_of(config).find("radius", 45), std::string::npos);
   config.fluid.fills[0].velocity[2] = "1/(x-0.005)";
-  EXPECT_EQ(error_of(config),
-            "fluid.fill 1: velocity z = \"1/(x-0.005)\": is not a number at (0.005, 0.005, 0.005) m");
+  EXPECT_EQ(
+      error_of(config),
+      "fluid.fill.velocity = \"1/(x-0.005)\" along z must be a finite number; it is none at (0.005, 0.005, "
+      "0.005) m");
 }
 
 TEST(FluidLattice, RefusesFluidOutsideTheDomain) {

@@ -167,7 +167,8 @@ TEST(MotionCase, FormulasAreInTAndHaveValues) {
             "dam.toml:17: wall.body.motion.displacement = [\"x\", 0, 0] must hold formulas in t: Unexpected "
             "token \"x\" found at position 0");
   EXPECT_EQ(error_of(moving("displacement = [\"1/(t-0.1)^0.5\", 0, 0]")),
-            "dam.toml:15: wall.body.motion must have a value at all times; it has none at t = 0 s");
+            "dam.toml:17: wall.body.motion.displacement = [\"1/(t-0.1)^0.5\", 0, 0] must be finite at all times, as "
+            "must its rates; it is not at t = 0 s");
 }
 
 TEST(MotionCase, SoundSpeedFollowsTheFastestWall) {
