@@ -91,6 +91,14 @@ class Packer {
       : config_(config), grains_(grains), placed_(config.domain, config.grain.d_max) {}
 
   void add_fill(std::size_t index) {
+    const std::size_t begin = grains_.x.size();
+    place_fill(index);
+    if (!fill_->rigid.present) return;
+    for (std::size_t n = begin; n < grains_.x.size(); ++n) placed_.add(grains_.x[n], grains_.radius[n]);
+  }
+
+ private:
+  void place_fill(std::size_t index) {
     index_ = index;
     fill_ = &config_.grain.fills[index];
     CounterRandom random(config_.grain.seed, index);
@@ -107,7 +115,6 @@ class Packer {
     for (std::size_t n = 0; n < count; ++n) add((*places)[n], radii[n]);
   }
 
- private:
   [[noreturn]] void fail(const std::string& why) const {
     throw KeyError(fmt::format("grain.fill.{}", index_), fmt::format("grain.fill {}: {}", index_ + 1, why));
   }
@@ -189,12 +196,14 @@ class Packer {
                          x.x, x.y, x.z));
     add(x, radius, fill_->velocity, fill_->spin);
   }
+  /// Those of a rigid group may overlap each other, since it has no contacts within: add_fill counts them as
+  /// placed for the fills after it.
   void add(const Vec3d& x, double radius, const Vec3d& v, const Vec3d& omega) {
     grains_.x.push_back(x);
     grains_.v.push_back(v);
     grains_.omega.push_back(omega);
     grains_.radius.push_back(radius);
-    placed_.add(x, radius);
+    if (!fill_->rigid.present) placed_.add(x, radius);
   }
 
   /// The radii of grains whose places are given: classes in their order, distributions mixed.

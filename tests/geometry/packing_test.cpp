@@ -202,5 +202,21 @@ TEST(GrainPacking, TakesGivenPlaces) {
   EXPECT_EQ(error_of(config), "grain.fill 1: grain 2 at (0.05, 0.05, 0.2) m lies outside the domain");
 }
 
+TEST(GrainPacking, GrainsOfARigidGroupMayOverlapEachOtherAlone) {
+  Config config = grain_case({0.1, 0.1, 0.1});
+  GrainFill& group = config.grain.fills[0];
+  group.positions = {{0.05, 0.05, 0.05}, {0.05, 0.05, 0.053}, {0.055, 0.05, 0.05}};
+  EXPECT_EQ(error_of(config), "grain.fill 1: grain 2 at (0.05, 0.05, 0.053) m lies inside another grain");
+  group.rigid.present = true;
+  EXPECT_EQ(setup_of(config).grains.x, group.positions);
+  for (const bool rigid : {false, true}) {  // a later fill overlaps none of the group's
+    config.grain.fills.resize(2);
+    config.grain.fills[1] = {};
+    config.grain.fills[1].positions = {{0.05, 0.05, 0.058}};
+    config.grain.fills[1].rigid.present = rigid;
+    EXPECT_EQ(error_of(config), "grain.fill 2: grain 1 at (0.05, 0.05, 0.058) m lies inside another grain");
+  }
+}
+
 }  // namespace
 }  // namespace bedload::test
