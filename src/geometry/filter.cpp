@@ -22,7 +22,7 @@ class Raster {
     std::array<double, 3> start;
     for (int k = 0; k < 3; ++k) {
       const double length = box.max[k] - box.min[k];
-      n_[k] = std::int64_t(std::ceil(length / step)) + 2;
+      n_[k] = std::int64_t(std::ceil(length / step - 1e-6)) + 2;
       start[k] = 0.5 * (box.min[k] + box.max[k]) - 0.5 * double(n_[k]) * step;
     }
     distance_.assign(std::size_t(n_[0] * n_[1] * n_[2]), float(INFINITY));

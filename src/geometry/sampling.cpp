@@ -62,7 +62,7 @@ std::vector<Vec3d> sample_box(const WallBody& box, double spacing, double depth,
     for (std::int64_t j = 0; j < cells[1].count; ++j) {
       const double yz = std::min(behind_face(1, j), behind_face(2, l));
       for (std::int64_t i = 0; i < cells[0].count; ++i)
-        if (std::min(yz, behind_face(0, i)) < depth)
+        if (std::min(yz, behind_face(0, i)) < depth - 1e-6 * spacing)
           points.push_back({cells[0].centre(i), cells[1].centre(j), cells[2].centre(l)});
     }
   return points;

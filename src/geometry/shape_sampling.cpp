@@ -29,6 +29,7 @@ constexpr double kMemory = 0.8;      // fraction of the last step kept in the ne
 constexpr double kLongestStep = 0.2;
 constexpr int kSteps = 60;
 constexpr double kStray = 0.05;  // way after which a particle is brought back to its layer
+constexpr double kTie = 1e-6;    // below it only rounding decides
 
 struct Particle {
   Vec3d x, step;
@@ -52,7 +53,7 @@ class LayerVolumes {
     const Bounds b = shape.bounds();
     Index3 count;
     for (int k = 0; k < 3; ++k) {
-      count[k] = std::int64_t(std::round((b.max[k] - b.min[k]) / spacing)) + 2;
+      count[k] = std::int64_t(std::floor((b.max[k] - b.min[k]) / spacing + 0.5 + kTie)) + 2;
       origin_[k] = 0.5 * (b.min[k] + b.max[k]) - 0.5 * double(count[k]) * spacing;
     }
     constexpr std::int64_t kBlock = 8;  // cubes along the sides of a piece of work
@@ -74,16 +75,24 @@ class LayerVolumes {
     for (const auto& block : parts_)
       for (const LayerPart& part : block) {
         owed[part.layer] += part.volume;
-        if (owed[part.layer] < 0.5) continue;
+        if (owed[part.layer] < 0.5 - kTie) continue;
         owed[part.layer] -= 1;
         Particle p;
-        p.x = part.centroid, p.layer = part.layer;
+        p.x = off_ridge(part.centroid), p.layer = part.layer;
         particles.push_back(p);
       }
     return particles;
   }
 
  private:
+  /// In the middle of a body, as near to one side as to another, rounding would say which way is out: the
+  /// same body elsewhere would have another layout. From a place like that a small step, always the same.
+  Vec3d off_ridge(const Vec3d& x) const {
+    const Vec3d aside = spacing_ * Vec3d{0.51, 0.59, 0.63};
+    const SurfacePoint one = shape_.nearest(x + kTie * aside), other = shape_.nearest(x - kTie * aside);
+    return dot(one.normal, other.normal) < 0.9 ? x + 1e-3 * aside : x;
+  }
+
   using Index3 = std::array<std::int64_t, 3>;
   struct Block {
     Index3 begin, end;

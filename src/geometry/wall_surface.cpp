@@ -103,7 +103,7 @@ Vec3d surface_point(const WallBody& body, const Vec3d& x, const DomainConfig& do
   for (int face = 0; face < 6; ++face) {
     const int k = face / 2;
     const double side = face % 2 ? body.max[k] : body.min[k];
-    if (!closed[face] || std::abs(x[k] - side) >= least) continue;
+    if (!closed[face] || std::abs(x[k] - side) >= least * (1 - 1e-9)) continue;  // the first of those alike
     least = std::abs(x[k] - side);
     on = x, on[k] = side;
   }
@@ -132,7 +132,7 @@ SurfacePoint nearest_surface(const WallBody& body, const Vec3d& x, const DomainC
     on[axis] = upper ? body.max[axis] : body.min[axis];
     normal[axis] = upper == (body.shape == "box") ? 1 : -1;
     const double away = norm(x - on), side = dot(x - on, normal) < 0 ? -1 : 1;
-    if (away < std::abs(best.distance)) best = {side * away, on, normal};
+    if (away < std::abs(best.distance) * (1 - 1e-9)) best = {side * away, on, normal};
   }
   return best;
 }

@@ -222,5 +222,37 @@ TEST(ShapeSampling, RefusesWhatCannotBeFilled) {
             "wall particles: spacing = 1e-07 m is too small for a body of 3.4641 m");
 }
 
+/// How far the layout of a shape, seen from the shape, differs between two places of it; infinite where the
+/// numbers of particles do.
+double layout_change(const ShapePtr& shape, const Vec3d& shift) {
+  const auto here = sample_shape(*shape, kSpacing, kDepth);
+  Placement placement;
+  placement.translation = shift;
+  const auto there = sample_shape(*make_placed(shape, placement), kSpacing, kDepth);
+  if (here.size() != there.size()) return INFINITY;
+  double most = 0;  // the order of particles may differ where they change cells
+  for (const Vec3d& x : here) {
+    double least = INFINITY;
+    for (const Vec3d& y : there) least = std::min(least, norm(x + shift - y));
+    most = std::max(most, least);
+  }
+  return most / kSpacing;
+}
+
+TEST(ShapeSampling, LayoutsDoNotFollowTheRoundingOfThePlace) {
+  for (int n = 100; n <= 320; n += 5) {  // across, in hundredths of a spacing
+    const double d = n * 0.01 * kSpacing, r = d / 2;
+    const std::pair<const char*, ShapePtr> shapes[] = {
+        {"sphere", make_sphere({0.05, 0.05, 0.05}, r)},
+        {"plate", make_box({0, 0, 0}, {0.05, 0.04, d})},
+        {"cube", make_box({0.01, 0.01, 0.01}, Vec3d{0.01, 0.01, 0.01} + Vec3d{d, d, d})},
+        {"rod", make_cylinder({0.01, 0.02, 0.01}, {0.06, 0.02, 0.01}, r)},
+        {"capsule", make_capsule({0.01, 0.02, 0.01}, {0.03, 0.02, 0.01}, r)}};
+    for (const auto& [name, shape] : shapes)
+      for (const Vec3d& shift : {Vec3d{0.1, 0.2, 0.3}, Vec3d{-0.7, 1.0 / 3, 0.013}, Vec3d{3.1, -1.7, 0.9}})
+        EXPECT_LT(layout_change(shape, shift), 1e-3) << name << " of " << d << " m, moved by " << shift.x;
+  }
+}
+
 }  // namespace
 }  // namespace bedload::test

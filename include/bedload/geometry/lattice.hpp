@@ -19,9 +19,10 @@ struct Cells {
   double centre(std::int64_t i) const { return start + (double(i) + 0.5) * step; }
 };
 
-/// The cells between `lo` and `hi` whose width comes nearest to `spacing`; at least one.
+/// The cells between `lo` and `hi` whose width comes nearest to `spacing`; at least one. Half a cell counts
+/// whole, also where rounding takes something off: moved elsewhere, the same box has the same cells.
 inline Cells fit_cells(double lo, double hi, double spacing) {
-  const double n = std::fmax(1, std::round((hi - lo) / spacing));
+  const double n = std::fmax(1, std::floor((hi - lo) / spacing + 0.5 + 1e-6));
   return {lo, (hi - lo) / n, std::int64_t(n)};
 }
 
