@@ -71,8 +71,9 @@ std::string limits_text(const char* title, const std::vector<StepLimit>& limits)
   std::string out;
   for (const StepLimit& limit : limits) {
     const std::string_view key = key_of(limit.limit);
-    out += fmt::format("{:<10} {:<12} {:.4g} s{}{}\n", out.empty() ? title : "", name_of(limit.limit),
-                       limit.seconds, limit.binds ? "  <- binds" : "",
+    out += fmt::format("{:<10} {:<12} {}{}{}\n", out.empty() ? title : "", name_of(limit.limit),
+                       std::isfinite(limit.seconds) ? fmt::format("{:.4g} s", limit.seconds) : "none",
+                       limit.binds ? "  <- binds" : "",
                        limit.binds && !key.empty() ? fmt::format(", by {}", key) : "");
   }
   return out;

@@ -25,15 +25,17 @@ class Contour {
     // planes of the solid hardly ever lie in those of the raster then
     start_ = box.min - size * Vec3d{1.37, 1.41, 1.43};
     double cells = 1;
+    Vec3d count;
     for (int k = 0; k < 3; ++k) {
-      n_[k] = std::int64_t(std::ceil((box.max[k] - start_[k]) / size)) + 2;
-      cells *= double(n_[k]);
+      count[k] = std::ceil((box.max[k] - start_[k]) / size) + 2;
+      cells *= count[k];
     }
-    if (cells > kMostCells)
+    if (!(cells <= kMostCells))
       throw CaseError(
           fmt::format("facets of {:g} m on a shape of {:g} x {:g} x {:g} m take too many cells; "
                       "give a larger facet or a mesh",
                       size, box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z));
+    for (int k = 0; k < 3; ++k) n_[k] = std::int64_t(count[k]);
   }
 
   TriangleSoup soup() {

@@ -65,6 +65,10 @@ if(BEDLOAD_PYTHON)
              COMMAND ${BEDLOAD_PYTHON} ${CMAKE_SOURCE_DIR}/tests/tools/${test}_test.py $<TARGET_FILE:bedload>)
     set_tests_properties(${test} PROPERTIES LABELS quick TIMEOUT 300)
   endforeach()
+  # a few of the values; without --every all of them, in some ten minutes
+  add_test(NAME hostile_values COMMAND ${BEDLOAD_PYTHON} ${CMAKE_SOURCE_DIR}/tests/attack/hostile_values.py
+                                       $<TARGET_FILE:bedload> --every 97)
+  set_tests_properties(hostile_values PROPERTIES LABELS quick TIMEOUT 300)
 endif()
 
 # The page of a live view; skipped where there is no Chromium.
