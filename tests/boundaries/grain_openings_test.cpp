@@ -149,6 +149,57 @@ TEST(GrainInlet, WaitsForSpaceAndSaysSo) {
   EXPECT_LT(reading(d, "overlap_max"), 0.05);
 }
 
+/// Grains that are dropped in about a plate, half of the inlet's height within it.
+std::string about_a_plate(const std::string& plate) {
+  return R"([domain]
+min = [0, 0, 0]
+max = [0.1, 0.1, 0.1]
+[grain]
+d = 0.004
+E = 1e6
+[[wall.body]]
+name = "plate"
+shape = "box"
+min = [0.02, 0.02, 0.03]
+max = [0.08, 0.08, 0.05]
+)" + plate +
+         R"([[grain_inlet]]
+name = "feed"
+min = [0.03, 0.03, 0.04]
+max = [0.07, 0.07, 0.06]
+rate = 1e6
+START
+[time]
+end = 1
+dt = 1e-5
+dt_dem = 1e-6
+force_dt = true
+[out]
+every = 1
+)";
+}
+
+TEST(GrainInlet, DropsNoGrainThatTouchesAWall) {
+  auto s = started(with(about_a_plate(""), "START", ""));
+  for (int k = 0; k < 10; ++k) s->step();
+  ASSERT_GT(reading(*s, "grain_inlet_feed_count"), 30);
+  for (const Vec3d& x : vectors(s->snapshot("grains"), "position")) EXPECT_GT(x.z, 0.052 - 1e-6);
+}
+
+TEST(GrainInlet, DropsGrainsWhereAWallHasBeenRemoved) {
+  const std::string plate = R"([wall.body.motion]
+kind = "velocity"
+velocity = [0, 0, 1e-3]
+remove_when_clear = true
+)";
+  auto s = started(with(about_a_plate(plate), "START", "start = 5e-4"));
+  for (int k = 0; k < 60; ++k) s->step();
+  ASSERT_GT(reading(*s, "grain_inlet_feed_count"), 30);
+  int within = 0;
+  for (const Vec3d& x : vectors(s->snapshot("grains"), "position")) within += x.z < 0.05;
+  EXPECT_GT(within, 10);
+}
+
 TEST(GrainInlet, MassRateWithSeveralSizes) {
   const Config config = config_of(with(kHopper, "rate = 400", R"(mass_rate = 0.02
 sizes = [{ d = 0.003, number_fraction = 3 }, { kind = "uniform", d_min = 0.004, d_max = 0.006, number_fraction = 1 }])"));

@@ -62,6 +62,26 @@ TEST(GrainLimits, AreShorterOnAHarderWall) {
   EXPECT_EQ(grain_limits(c)[1].seconds, among);
 }
 
+/// 0.2 (I / k_r)^(1/2), k_r = 2.25 S (mu_r R)^2 with the stiffness S of an impact.
+double rolling(double mass, double R, double E, double mu_r, double inertia, double speed) {
+  const double overlap = std::pow(15 * mass * speed * speed / (16 * E * std::sqrt(R)), 0.4);
+  return 0.2 * std::sqrt(inertia / (2.25 * 2 * E * std::sqrt(R * overlap) * mu_r * mu_r * R * R));
+}
+
+TEST(GrainLimits, RollingGoesByTheSofterPartnersInSeries) {
+  Config c = bead();
+  c.grain.mu_r = 0.2;
+  const double R = 0.00135, m = 2500 * 4 * 3.14159265358979 / 3 * R * R * R, I = 1.4 * m * R * R;
+  const double E = c.grain.E / (1 - c.grain.nu * c.grain.nu), speed = std::sqrt(norm(c.gravity) * 2 * R);
+  const double among = rolling(m / 2, R / 2, E / 2, 0.2, I / 2, speed);
+  EXPECT_NEAR(grain_limits(c)[2].seconds / among, 1, 1e-9);
+  WallBody& wall = c.wall.bodies.emplace_back();
+  wall.E = 2 * c.grain.E, wall.mu_r = 0.5;
+  EXPECT_NEAR(grain_limits(c)[2].seconds / rolling(m, R, E / 1.5, 0.5, I, speed), 1, 1e-9);
+  wall.mu_r = std::numeric_limits<double>::quiet_NaN();  // that of the grains
+  EXPECT_NEAR(grain_limits(c)[2].seconds / std::min(among, rolling(m, R, E / 1.5, 0.2, I, speed)), 1, 1e-9);
+}
+
 TEST(GrainLimits, AreNoneForGrainsThatNeverMove) {
   Config c = bead();
   c.grain.fixed = true;

@@ -155,6 +155,31 @@ TEST(ContactLaw, ElasticPlasticCoupleByHand) {
   EXPECT_NEAR(law.stored(Real(k_n), Real(R), couple) / (0.5 * k_r * square(dt * 0.5)), 1, 1e-6);
 }
 
+TEST(ContactLaw, ElasticPlasticCoupleIsNeverMoreThanItsLimit) {
+  const double mu_r = 0.1, R = 5e-4, force = 2, limit = mu_r * R * force, dt = 1e-6;
+  const ElasticPlasticRolling law{Real(mu_r), 1};
+  RollingInput in{{0, Real(1e5), 0}, Real(force), Real(1e4),  Real(1e4),
+                  Real(R),           Real(2e11),  Real(2e11), Real(dt)};
+  Vec3d couple{0, -0.99 * limit, 0};
+  EXPECT_NEAR(law(in, couple).y / -limit, 1, 1e-6) << "it slips";
+  EXPECT_NEAR(couple.y / -limit, 1, 1e-6) << "its spring keeps the limit";
+  in.dt = 0;
+  couple = {0, -0.5 * limit, 0};
+  EXPECT_NEAR(law(in, couple).y / -limit, 1, 1e-6) << "its damper bears no more than the limit";
+  EXPECT_NEAR(couple.y / (-0.5 * limit), 1, 1e-12);
+}
+
+/// A spring that softens keeps its angle, one that stiffens its couple.
+TEST(ContactLaw, ElasticPlasticSpringGainsNoEnergyFromItsStiffness) {
+  const ElasticPlasticRolling law{Real(0.1), 0};
+  for (const double before : {4e4, 2.5e3}) {
+    const RollingInput in{{}, Real(1), Real(1e4), Real(before), Real(5e-4), Real(2e11), Real(2e11), 0};
+    Vec3d couple{1e-6, 0, 0};
+    law(in, couple);
+    EXPECT_NEAR(couple.x / 1e-6, before > 1e4 ? 0.25 : 1, 1e-6) << before;
+  }
+}
+
 TEST(ContactLaw, RigidRotationDoesNotSlide) {
   // two touching grains that turn as one body: no force but the elastic one
   Config c = glass();

@@ -55,6 +55,116 @@ TEST(AllowedFraction, IsWholeUpToOneStepAndNeverMoreThanTheFluidHolds) {
   for (double x : {1.001, 50.0, 1e8}) EXPECT_NEAR(double(allowed_fraction(Real(x))) * x, 1, 2e-7);
 }
 
+/// A grain of which fluid to one side carries the force: three particles of equal weight.
+struct Sided {
+  std::vector<Real3> at{{1, 0, 0}, {0, 2, 0}, {1, 1, 3}};
+  std::vector<Real3> arm{{}}, u{{}}, omega{{}}, U{{}}, omega_f{{}};
+  std::vector<SymmetricMatrix<Real>> inv_M{{}};
+  std::vector<Real> one{1}, half{Real(0.5)}, radius{Real(0.1)}, K{0}, K_rot{0}, still{0};
+  std::vector<Real> inv_S{Real(1.0 / 3)}, rho{1000}, at_centre{0}, off_centre{0}, sum{0};
+  std::vector<FlowSums<>> flow{{}};
+
+  template <class T>
+  static Span<T> all(std::vector<T>& of) {
+    return {of.data(), Index(of.size())};
+  }
+  DragLevers levers() { return {all(at_centre), all(off_centre), all(sum)}; }
+  void run() {
+    for (const Real3& r : at) flow[0].add<true>(1, {}, r);
+    GrainSurroundings around{};
+    around.inv_S = all(inv_S), around.rho = all(rho), around.flow = all(flow);
+    around.drag = {all(arm), all(inv_M)};
+    struct Law {
+      BL_HD Real K(Real, Real, Real, Real, Real) const { return 1; }
+    };
+    const DragPass<Law, false> pass{.law = {},
+                                    .mu = 1,
+                                    .torque = false,
+                                    .couple = true,
+                                    .shares = false,
+                                    .own = {},
+                                    .radius = all(radius),
+                                    .eps = all(one),
+                                    .bed_eps = all(one),
+                                    .wetness = all(one),
+                                    .v = all(u),
+                                    .omega = all(omega),
+                                    .surroundings = around,
+                                    .weights = {all(still), {}},
+                                    .U = all(U),
+                                    .omega_f = all(omega_f),
+                                    .K = all(K),
+                                    .K_rot = all(K_rot),
+                                    .levers = levers()};
+    pass(0);
+  }
+};
+
+/// With s = r - arm, the mean of r: a particle gets the force -(F - A x s) / n with A = M^-1 (arm x F), at
+/// most (1 + |arm| |M^-1| n |s|) F / n.
+TEST(DragLevers, BoundWhatTheCoupleAddsToTheForce) {
+  Sided sided;
+  sided.run();
+  const Vec3d arm = Vec3d{2, 3, 3} / 3;
+  SymmetricMatrix<double> moment;
+  double second = 0;
+  for (const Real3& r : sided.at) {
+    moment.add_outer(1.0 / 3, Vec3d(r) - arm);
+    second += norm2(Vec3d(r) - arm) / 3;
+  }
+  const double off_centre = norm(arm) * moment.inertia().inverse().norm(), far = std::sqrt(second);
+  EXPECT_NEAR(sided.off_centre[0], off_centre, 1e-5 * off_centre);
+  EXPECT_NEAR(sided.at_centre[0], 1 + off_centre * norm(arm), 1e-5 * off_centre);
+  EXPECT_NEAR(sided.sum[0], 1 + off_centre * far, 1e-5 * off_centre);
+}
+
+TEST(DragLevers, WeakenTheDragOfAGrainByTheirSum) {
+  std::vector<Real> rate{200}, sum{3}, K{5}, K_rot{7}, stiffness{0};
+  const auto all = [](auto& of) { return Span(of.data(), Index(of.size())); };
+  const auto weakened = [&](double dt, bool couple) {
+    K = {5}, K_rot = {7};
+    const LimitPass pass{Real(dt), all(rate),  couple ? Span<const Real>(all(sum)) : Span<const Real>(),
+                         all(K),   all(K_rot), all(stiffness)};
+    Real most = pass.start(0);
+    pass.pair(most, {}, 0, 0, 150);
+    pass.pair(most, {}, 0, 0, 200);
+    pass.pair(most, {}, 0, 0, 10);
+    pass.finish(0, most);
+    EXPECT_NEAR(K_rot[0] / K[0], 7.0 / 5, 1e-6);
+    return double(K[0]) / 5;
+  };
+  EXPECT_NEAR(weakened(0.01, false), 0.5, 1e-6);  // dt L / m = 2
+  EXPECT_NEAR(stiffness[0], 2, 1e-5);
+  EXPECT_NEAR(weakened(0.01, true), 1.0 / 6, 1e-6);
+  EXPECT_NEAR(stiffness[0], 6, 1e-5);
+  EXPECT_EQ(weakened(0.001, true), 1);
+}
+
+/// How fast drag stops a fluid particle of 2 kg at r from a grain, with the levers of its couple or without.
+template <bool kCouple>
+double stopped(double r) {
+  std::vector<Real> K{4}, still{3}, at_centre{Real(1.5)}, off_centre{10}, mass{2}, rate{0};
+  std::vector<Real4> v_rho{{0, 0, 0, 1000}}, m_state{{5, 0, 1000, 1}};
+  const auto all = [](auto& of) { return Span(of.data(), Index(of.size())); };
+  const DragRatePass<WendlandC2, false, kCouple> pass{
+      WendlandC2(0.1), {all(still), {}}, {all(at_centre), all(off_centre), {}}, all(K), all(mass), all(v_rho),
+      all(m_state),    all(rate)};
+  auto sum = pass.start(0);
+  const Real3 apart{0, Real(r), 0};
+  if constexpr (kCouple)
+    pass.pair(sum, apart, norm2(apart), Real(0), K[0], still[0], at_centre[0], off_centre[0], Unread{});
+  else
+    pass.pair(sum, apart, norm2(apart), Real(0), K[0], still[0], Unread{}, Unread{}, Unread{});
+  pass.finish(0, sum);
+  return rate[0];
+}
+
+TEST(DragLevers, MakeAParticleStopTheFasterTheFartherFromTheGrain) {
+  const double W = WendlandC2(0.1).W(Real(0.08)), plain = 4 * 3 * (5.0 / 1000) * W / 2;
+  EXPECT_NEAR(stopped<false>(0.08) / plain, 1, 1e-5);
+  EXPECT_NEAR(stopped<true>(0.08) / plain, 1.5 + 10 * 0.08, 1e-5);
+}
+
 TEST(SymmetricMatrix, InverseUndoesTheProduct) {
   SymmetricMatrix<Real> m;
   m.add_outer(2, {1, 2, -1});

@@ -1,0 +1,131 @@
+// Kicks, drift and state of one fluid particle, by hand.
+
+#include <gtest/gtest.h>
+
+#include "kernels/integrate/fluid_kicks.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr double kKick = 0.02, kRounding = tolerance(1e-12, 1e-6, 1e-6);
+const Frame kFrame{{-4, -4, -4}, {4, 4, 4}, false, false, false};
+
+/// One particle that moves at v and is accelerated.
+struct Lone {
+  std::vector<Real3> acc{{1, -2, 3}}, reaction{{Real(0.5), 0, -1}}, beside{{0, Real(0.25), 0}};
+  std::vector<Real4> v_rho{{4, 5, -6, 1000}}, flux{{2, 1, -3, 1000}}, m_state{{}};
+  std::vector<FluidPosition> x{as_position<FluidPosition>(kFrame, {1, 0.5, -0.25})};
+  std::vector<PairPosition> xp{pair_position(kFrame, {}, 0)};
+  std::vector<Real> s{Real(0.01)}, mass{3}, eps{Real(0.6)}, p_rho2{0}, compression{-2}, rate{Real(0.5)};
+
+  template <class T>
+  static Span<T> all(std::vector<T>& of) {
+    return {of.data(), 1};
+  }
+  template <class T>
+  static Span<const T> read(const std::vector<T>& of) {
+    return {of.data(), 1};
+  }
+  StatePass state() {
+    return {.frame = kFrame,
+            .eos = {Real(1e6), 7, 0, 1000, false},
+            .damping = 250,
+            .compression = read(compression),
+            .history = {read(rate), {}, {}, 0.01, 0, 0},
+            .kick = Real(kKick),
+            .x = read(x),
+            .acc = read(acc),
+            .reaction = read(reaction),
+            .s = all(s),
+            .mass = read(mass),
+            .eps = read(eps),
+            .v_rho = all(v_rho),
+            .flux = all(flux),
+            .m_state = all(m_state),
+            .p_rho2 = all(p_rho2),
+            .xp = all(xp),
+            .shear = {}};
+  }
+  KickDriftPass kick_drift(double drift, double back) {
+    return {.frame = kFrame,
+            .kick = Real(kKick),
+            .drift = Real(drift),
+            .back = Real(back),
+            .acc = read(acc),
+            .reaction = read(reaction),
+            .beside = read(beside),
+            .v_rho = all(v_rho),
+            .x = all(x),
+            .xp = all(xp),
+            .shear = {},
+            .flux = {},
+            .edges = {}};
+  }
+};
+
+void expect_near(const Vec3d& a, const Vec3d& b, double tolerance) {
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(a[k], b[k], tolerance) << "xyz"[k];
+}
+
+const Vec3d kAcc{1.5, -2, 2};  // acc + reaction
+
+TEST(FluidState, FluxGainsWhatTheVelocityGainsTimesThePorosity) {
+  Lone p;
+  p.state()(0);
+  expect_near(Vec3d(p.v_rho[0].xyz()), Vec3d{4, 5, -6} + kKick * kAcc, 10 * kRounding);
+  expect_near(Vec3d(p.flux[0].xyz()), Vec3d{2, 1, -3} + 0.6 * kKick * kAcc, 10 * kRounding);
+  EXPECT_EQ(p.flux[0].w, p.v_rho[0].w);
+}
+
+TEST(FluidState, FollowsFromTheCompressionAndTheDamper) {
+  Lone p;
+  p.state()(0);
+  const double s = 0.01 + 0.01 * 0.5, rho = 1000 * (1 + s);
+  EXPECT_NEAR(p.s[0], s, kRounding);
+  EXPECT_NEAR(p.v_rho[0].w, rho, 1e3 * kRounding);
+  const double pressure = 1e6 * (std::pow(1 + s, 7) - 1) - 250 * 2;
+  EXPECT_NEAR(p.m_state[0].y * rho * rho, pressure, 3e6 * kRounding);
+  EXPECT_EQ(p.p_rho2[0], p.m_state[0].y);
+  EXPECT_NEAR(p.m_state[0].x, 3 / 0.6, 10 * kRounding);
+  EXPECT_NEAR(p.m_state[0].z, rho, 1e3 * kRounding);
+  EXPECT_NEAR(p.m_state[0].w, 0.6, kRounding);
+  EXPECT_EQ(p.xp[0].weight, p.m_state[0].x);
+}
+
+TEST(FluidState, NoFluidIsThinnerThanHalf) {
+  Lone p;
+  p.s[0] = Real(-0.499), p.rate[0] = -5;
+  p.state()(0);
+  EXPECT_EQ(p.s[0], Real(-0.5));
+}
+
+TEST(FluidKick, DriftsWithTheKickedVelocityAndWhatMovesItBeside) {
+  Lone p;
+  p.kick_drift(0.1, 0)(0);
+  const Vec3d v = Vec3d{4, 5, -6} + kKick * kAcc;
+  const double near = tolerance(1e-12, 1e-6, 8 * 2e-7);
+  expect_near(Vec3d(p.v_rho[0].xyz()), v, 10 * kRounding);
+  expect_near(coordinates(kFrame, p.x[0]), Vec3d{1, 0.5, -0.25} + 0.1 * (v + Vec3d{0, 0.25, 0}), near);
+}
+
+TEST(FluidKick, WithoutDriftNothingMoves) {
+  Lone p;
+  p.kick_drift(0, 0)(0);
+  expect_near(Vec3d(p.v_rho[0].xyz()), Vec3d{4, 5, -6} + kKick * kAcc, 10 * kRounding);
+  expect_near(coordinates(kFrame, p.x[0]), {1, 0.5, -0.25}, tolerance(0, 0, 1e-6));
+}
+
+/// Places of the middle of the step: where the particle was a time `back` before.
+TEST(FluidKick, PacksThePlaceBefore) {
+  Lone p, before;
+  p.kick_drift(0.1, 0.05)(0);
+  const Vec3d v(p.v_rho[0].xyz());
+  const PairPosition expected =
+      pair_position(kFrame, coordinates(kFrame, p.x[0]) - Vec3d(Real(0.05) * Real3(v)), 0);
+  const Real3 apart(kFrame.separation(p.xp[0], expected));
+  EXPECT_LT(norm(apart), tolerance(1e-12, 1e-5, 1e-5));
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
