@@ -7,80 +7,15 @@
 #include <map>
 #include <set>
 
-#include "bedload/case/read.hpp"
 #include "src/time/coupled_simulation.hpp"
-#include "tests/support/cases.hpp"
 #include "tests/support/run.hpp"
+#include "tests/support/stage_cases.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
 
-using test::kTank;
-const std::string kFluid = R"([fluid]
-dx = 0.01
-[[fluid.fill]]
-min = [0.005, 0.005, 0.005]
-max = [0.095, 0.095, 0.065]
-)";
-/// Some touch each other, some the floor, two are one body.
-const std::string kGrains = R"([grain]
-d = 0.01
-[[grain.fill]]
-positions = [[0.05, 0.05, 0.0048], [0.058, 0.05, 0.011], [0.02, 0.05, 0.014], [0.03, 0.02, 0.04]]
-velocity = [0.1, 0, -0.1]
-[[grain.fill]]
-positions = [[0.08, 0.08, 0.02], [0.08, 0.0901, 0.02]]
-rigid = {}
-)";
-const std::string kGate = R"([[wall.body]]
-name = "gate"
-shape = "box"
-min = [0.045, 0.0, 0.035]
-max = [0.055, 0.1, 0.13]
-[wall.body.motion]
-kind = "velocity"
-velocity = [0.0, 0.0, 0.68]
-)";
-const std::string kFloat = R"([[wall.body]]
-name = "float"
-shape = "box"
-min = [0.03, 0.03, 0.05]
-max = [0.07, 0.07, 0.09]
-[wall.body.free]
-density = 500
-)";
-
-struct Case {
-  const char* name;
-  std::string text;
-  std::vector<std::string> overrides;
-
-  Config config() const {
-    std::vector<std::string> warnings;
-    return read_case_text(text, "case.toml", overrides, warnings);
-  }
-};
-
-const std::string kBed = kTank + kFluid + kGrains;
-std::vector<Case> cases() {
-  return {
-      {"fluid", kTank + kFluid, {"visc.collision=true", "visc.collision_range=1", "xsph=0.3"}},
-      {"fluid, euler", kTank + kFluid, {"time.integrator=euler"}},
-      {"fluid, ab3", kTank + kFluid + kGate, {"time.integrator=ab3"}},
-      {"oil", kTank + kFluid + kGate, {"fluid.mu=1"}},
-      {"oil, ab3", kTank + kFluid, {"fluid.mu=1", "time.integrator=ab3"}},
-      {"smoothing lengths", kTank + kFluid, {"fluid.variable_h=true"}},
-      {"sdpd", kTank + kFluid + kGate, {"fluid.model=sdpd_a", "sdpd.kT=1e-9"}},
-      {"sdpd by summation", kBed, {"fluid.model=sdpd", "density.method=summation", "pressure.filter=true"}},
-      {"frozen walls", kTank + kFluid + kGate, {"wall.type=frozen"}},
-      {"mirrored walls", kTank + kFluid + kGate, {"wall.type=mdbc"}},
-      {"coupled", kBed + kGate, {"couple.slip=local"}},
-      {"coupled, bodies", kBed + kFloat, {}},
-      {"coupled one way", kBed + kFloat, {"couple.mode=one_way"}},
-      {"grains", kTank + kGrains + kFloat, {}},
-      {"held grains", kBed, {"grain.release_time=1"}},
-  };
-}
+using test::kFluid, test::kGate, test::kGrains, test::kTank;
+using Case = test::StageCase;
 
 constexpr int kSteps = 6;
 
@@ -161,7 +96,7 @@ std::vector<std::byte> outcome(const Case& of, const Which& which) {
 
 TEST(Stages, WriteWhatTheyNameAndNothingElse) {
   std::map<std::string, Names> named, changed;
-  for (const Case& c : cases()) {
+  for (const Case& c : test::stage_cases()) {
     SCOPED_TRACE(c.name);
     AuditedRun run(c);
     const auto seen = changes(run);
@@ -190,7 +125,7 @@ TEST(Stages, WriteWhatTheyNameAndNothingElse) {
 }
 
 TEST(Stages, ReadAllThatTheyTakeFromBefore) {
-  for (const Case& c : cases()) {
+  for (const Case& c : test::stage_cases()) {
     SCOPED_TRACE(c.name);
     const auto expected = outcome(c, [](const auto&...) { return false; });
     std::set<std::pair<std::string, std::string>> spoilt;
