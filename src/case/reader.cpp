@@ -245,7 +245,60 @@ void Reader::reject_unread() const {
   });
 }
 
+namespace {
+
+/// What cases of other programs have and this one has not: keys from `begins` on whose next part is `name`,
+/// and what to do instead.
+struct Missing {
+  std::string_view begins;
+  std::vector<std::string_view> names;
+  std::string_view instead;
+};
+const std::vector<Missing>& missing_keys() {
+  constexpr std::string_view stays =
+      "openings rest in the domain; where a tank moves with its inlets, write its motion as [frame.motion], "
+      "which takes the whole domain along";
+  constexpr std::string_view density =
+      "all fluid has the density fluid.rho0, kg/m3; [[fluid.species]] differ in viscosity alone, fluid.mu";
+  static const std::vector<std::string_view> moves{"body",   "follows",    "frame",
+                                                   "motion", "moves_with", "parent"},
+      densities{"density", "rho", "rho0"};
+  static const std::vector<Missing> all{{"inlet.", moves, stays},
+                                        {"grain_inlet.", moves, stays},
+                                        {"outlet.", moves, stays},
+                                        {"fluid.fill.", densities, density},
+                                        {"fluid.species.", densities, density},
+                                        {"inlet.", densities, density}};
+  return all;
+}
+
+/// Empty for a key that is not among them.
+std::string_view instead_of(std::string_view key) {
+  for (const Missing& missing : missing_keys()) {
+    if (!key.starts_with(missing.begins)) continue;
+    const std::string_view name = key.substr(missing.begins.size());
+    for (const std::string_view n : missing.names)
+      if (name.substr(0, name.find('.')) == n) return missing.instead;
+  }
+  // [fluid.2]
+  if (key.starts_with("fluid.") && key.size() > 6 && key[6] >= '0' && key[6] <= '9')
+    return instead_of("fluid.fill.rho0");
+  return {};
+}
+
+/// A second [[fluid]], as of programs in which each fluid has a table.
+void reject_fluids(const Value& root) {
+  const Value* const fluid = root.find("fluid");
+  const auto* const list = fluid ? fluid->get<Value::Array>() : nullptr;
+  if (list && !list->empty() && list->front().get<Value::Table>())
+    throw CaseError(fmt::format("{}: [[fluid]] must be one table, [fluid]: {}", list->front().place(),
+                                instead_of("fluid.fill.rho0")));
+}
+
+}  // namespace
+
 void reject_unknown(const Value& root) {
+  reject_fluids(root);
   std::vector<std::string> known;
   for (const ParameterRow& row : parameter_table()) known.push_back(row.key);
   const auto is_table = [&](const std::string& key) {
@@ -267,6 +320,8 @@ void reject_unknown(const Value& root) {
   // A key below a parameter ("fluid.dx.a") is that parameter's wrong value, which its reader reports.
   for (const std::string& k : known)
     if (key.starts_with(k + ".")) return;
+  if (const std::string_view instead = instead_of(key); !instead.empty())
+    throw CaseError(fmt::format("{}: {} is not a parameter: {}", first->place(), shortened(key), instead));
   throw CaseError(fmt::format("{}: {} is not a parameter; did you mean {}?", first->place(), shortened(key),
                               nearest_key(shortened(key), known)));
 }

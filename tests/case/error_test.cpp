@@ -40,6 +40,40 @@ INSTANTIATE_TEST_SUITE_P(
               "dam.toml:6: fluid.nu is not a parameter; did you mean fluid.mu?"},
         Wrong{"end = 0.3", "edn = 0.3", "dam.toml:22: time.edn is not a parameter; did you mean time.end?"}));
 
+constexpr const char* kOneDensity =
+    "all fluid has the density fluid.rho0, kg/m3; [[fluid.species]] differ in viscosity alone, fluid.mu";
+constexpr const char* kOpeningsRest =
+    "openings rest in the domain; where a tank moves with its inlets, write its motion as [frame.motion], "
+    "which "
+    "takes the whole domain along";
+
+TEST(MissingKeys, SayWhatToDoInstead) {
+  const auto error = [](const std::string& to) { return error_of(changed("[grain]\n", to + "[grain]\n")); };
+  const std::string inlet = R"([[inlet]]
+name = "feed"
+centre = [0.1, 0.05, 0.1]
+direction = [1, 0, 0]
+radius = 0.02
+rate = 1e-4
+)";
+  EXPECT_EQ(error(inlet + "body = \"tank\"\n"),
+            std::string("dam.toml:21: inlet.body is not a parameter: ") + kOpeningsRest);
+  EXPECT_EQ(error(inlet + "[inlet.motion]\nkind = \"velocity\"\n"),
+            std::string("dam.toml:22: inlet.motion.kind is not a parameter: ") + kOpeningsRest);
+  EXPECT_EQ(error("[[outlet]]\nmotion = \"tank\"\n"),
+            std::string("dam.toml:16: outlet.motion is not a parameter: ") + kOpeningsRest);
+  EXPECT_EQ(error(inlet + "rho0 = 800\n"),
+            std::string("dam.toml:21: inlet.rho0 is not a parameter: ") + kOneDensity);
+  EXPECT_EQ(error("[[fluid.species]]\nname = \"oil\"\nmu = 0.1\nrho0 = 800\n"),
+            std::string("dam.toml:18: fluid.species.rho0 is not a parameter: ") + kOneDensity);
+  EXPECT_EQ(error("[fluid.2]\nrho0 = 800\n"),
+            std::string("dam.toml:16: fluid.2.rho0 is not a parameter: ") + kOneDensity);
+  EXPECT_EQ(error_of(changed("max = [0.05, 0.1, 0.1]\n[[wall", "max = [0.05, 0.1, 0.1]\nrho0 = 800\n[[wall")),
+            std::string("dam.toml:10: fluid.fill.rho0 is not a parameter: ") + kOneDensity);
+  EXPECT_EQ(error_of("[[fluid]]\nrho0 = 1000\n[[fluid]]\nrho0 = 800\n"),
+            std::string("dam.toml:1: [[fluid]] must be one table, [fluid]: ") + kOneDensity);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Type, CaseErrors,
     testing::Values(
