@@ -180,6 +180,64 @@ TEST(ContactLaw, ElasticPlasticSpringGainsNoEnergyFromItsStiffness) {
   }
 }
 
+/// S_t = 8 G* (R* overlap)^1/2 [mindlin53]; damping of the normal spring times (S_t / S_n)^1/2.
+TEST(ContactLaw, MindlinSpringByHand) {
+  const double G = 3e7, R = 1e-3, overlap = 1e-6, S_t = 8 * G * std::sqrt(R * overlap), S_n = 2e4, c_n = 0.3;
+  const Mindlin law{Real(G)};
+  const NormalState n{Real(0.01), Real(S_n), Real(c_n)};
+  const SlidingInput in{Real(0.01), n, n, Real(std::sqrt(R * overlap)), Real(1e-6), overlap, overlap};
+  const SlidingState s = law(in, {2e-7, 0, 0});
+  EXPECT_NEAR(s.elastic.x / (-S_t * 2e-7), 1, 1e-5);
+  EXPECT_NEAR(s.damping / (c_n * std::sqrt(S_t / S_n)), 1, 1e-5);
+  EXPECT_NEAR(law.longest(in, Real(0.5)) / (0.5 / S_t), 1, 1e-5);
+  EXPECT_NEAR(law.stored(in, {2e-7, 0, 0}) / (0.5 * S_t * 4e-14), 1, 1e-5);
+}
+
+/// Damped by beta of twice the critical damping of its tangent stiffness, 3/2 mu F_n (1 - s)^1/2 / most.
+TEST(ContactLaw, MindlinDeresiewiczIsDampedByItsTangentStiffness) {
+  const double mu = 0.4, slip = 0.3, beta = 0.2, overlap = 1e-6, force = 0.05, m = 2e-6,
+               most = slip * overlap;
+  const MindlinDeresiewicz law{Real(mu), Real(slip), Real(beta)};
+  const NormalState n{Real(force), Real(1e4), 0};
+  const SlidingInput in{Real(force), n, n, 0, Real(m), overlap, overlap};
+  for (const double s : {0.1, 0.75}) {
+    const SlidingState state = law(in, {s * most, 0, 0});
+    EXPECT_NEAR(state.elastic.x / (-mu * force * (1 - std::pow(1 - s, 1.5))), 1, 1e-4) << s;
+    const double stiffness = 1.5 * mu * force * std::sqrt(1 - s) / most;
+    EXPECT_NEAR(state.damping / (2 * beta * std::sqrt(m * stiffness)), 1, 1e-4) << s;
+  }
+}
+
+/// A contact begins and ends within a substep: the dashpot of a linear spring acts while they touch, counted
+/// from the middle of one substep to that of the next.
+TEST(ContactLaw, DashpotActsWhileTheyTouch) {
+  const Real v = Real(0.5), dt = Real(0.01), way = v * dt;
+  EXPECT_EQ(dashpot_fraction(1e-3, Real(1e-3), -v, dt, false), 1);
+  EXPECT_NEAR(dashpot_fraction(0, Real(0.25) * way, -v, dt, false), 0.75, 1e-6);
+  EXPECT_NEAR(dashpot_fraction(0, way, -v, dt, false), 1.5, 1e-6);
+  EXPECT_EQ(dashpot_fraction(1e-3, Real(0.25) * way, v, dt, false), 1) << "it never pulls";
+  EXPECT_NEAR(dashpot_fraction(1e-3, Real(0.25) * way, v, dt, true), 0.75, 1e-6);
+  EXPECT_EQ(dashpot_fraction(0, Real(0.1), 0, dt, true), 1);
+}
+
+/// Damping acts at the speed at the end of the step, half a change beyond its middle.
+TEST(ContactLaw, DampingIsThatOfTheEndOfTheStep) {
+  Config c = glass();
+  c.contact.rolling = "none", c.contact.clip_tension = false;
+  const ContactLaw law = contact_law_of(c);
+  const double overlap = 1e-6;
+  const ContactGeometry at =
+      touch(kGrain, kGrain, {2 * double(kRadius) - overlap, 0, 0}, 2 * double(kRadius) - overlap, overlap);
+  const NormalState n = law.normal_state(at.R_star, at.m_star, Real(overlap));
+  const auto force = [&](double before, double dt) {
+    ContactHistory h;
+    h.overlap = Real(overlap), h.recede = before;
+    return double(law(at, {Real(-0.3), 0, 0}, {}, {}, Real(dt), h).force.x);
+  };
+  EXPECT_NEAR(force(-0.1, 1e-7) / (n.elastic + n.damping * (0.3 + 0.1)), 1, 1e-5);
+  EXPECT_NEAR(force(-0.1, 0) / (n.elastic + n.damping * 0.3), 1, 1e-5) << "no time passes";
+}
+
 TEST(ContactLaw, RigidRotationDoesNotSlide) {
   // two touching grains that turn as one body: no force but the elastic one
   Config c = glass();

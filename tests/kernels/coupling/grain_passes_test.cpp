@@ -1,0 +1,178 @@
+// What fluid and grains give each other, grain by grain or particle by particle, by hand.
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "kernels/boundaries/drop.hpp"
+#include "kernels/coupling/buoyancy_pass.hpp"
+#include "kernels/coupling/drag_noise.hpp"
+#include "kernels/coupling/drag_pass.hpp"
+#include "kernels/coupling/porosity_pass.hpp"
+#include "kernels/coupling/wetness_pass.hpp"
+#include "kernels/smoothing/wendland_c2.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr double kNear = tolerance(1e-12, 1e-5, 1e-5);
+
+template <class T>
+Span<T> all(std::vector<T>& of) {
+  return {of.data(), Index(of.size())};
+}
+
+/// Mean squares along one axis of what the noise of one step adds to U and omega_f, over 20000 grains of
+/// 1e-18 kg whose drag takes the fraction 1 - exp(-x) of their slip.
+std::pair<double, double> noise(double x) {
+  constexpr std::size_t n = 20000;
+  const double R = 1e-6, m = 1e-18, inertia = 0.4 * m * R * R, dt = 1e-3;
+  std::vector<Id> id(n);
+  std::iota(id.begin(), id.end(), Id(0));
+  std::vector<Real> radius(n, Real(R)), K(n, Real(x * m / dt)), K_rot(n, Real(x * inertia / dt));
+  std::vector<Real3> U(n), omega(n);
+  MassPerR3 per_r3{};
+  per_r3.one = m / (R * R * R);
+  const DragNoisePass pass{{7, 3},      4e-21,  dt,         per_r3, all(id),
+                           all(radius), all(K), all(K_rot), all(U), all(omega)};
+  double u2 = 0, w2 = 0;
+  for (Index j = 0; j < n; ++j) {
+    pass(j);
+    u2 += norm2(Vec3d(U[j])) / (3 * n);
+    w2 += norm2(Vec3d(omega[j])) / (3 * n);
+  }
+  return {u2 * m / 4e-21, w2 * inertia / 4e-21};
+}
+
+/// m U^2 = kT coth(x / 2), so that m v^2 stays kT whatever x = K dt / m. Means over 60000 numbers: to 0.6 %
+/// (1 sigma).
+TEST(DragNoise, BalancesWhatDragTakesInAStepOfAnyLength) {
+  for (const double x : {0.1, 1.0, 20.0}) {
+    const auto [u2, w2] = noise(x);
+    EXPECT_NEAR(u2 * std::tanh(x / 2), 1, 0.025) << x;
+    EXPECT_NEAR(w2 * std::tanh(x / 2), 1, 0.025) << x;
+  }
+}
+
+TEST(Buoyancy, EndsTheStepWithTheChangeOfTheForce) {
+  std::vector<Real3> now{{3, 0, -1}}, force{{1, 1, 1}}, v{{0, 0, 5}};
+  std::vector<Real> radius{2};
+  MassPerR3 per_r3{};
+  per_r3.one = 0.5;
+  for (const bool moves : {false, true}) {
+    force = {{1, 1, 1}}, v = {{0, 0, 5}};
+    BuoyancyKick{Real(0.1), per_r3, moves, all(now), all(radius), all(force), all(v)}(0);
+    const double k = moves ? 0.1 / 4 : 0;
+    EXPECT_NEAR(v[0].x, k * 2, kNear);
+    EXPECT_NEAR(v[0].y, -k, kNear);
+    EXPECT_NEAR(v[0].z, 5 - k * 2, kNear);
+    EXPECT_EQ(norm(force[0] - now[0]), 0);
+  }
+}
+
+TEST(Wetness, IsLinearInWhatFluidFillsOfWhatWallsLeave) {
+  const auto wet = [](double S, double free) {
+    std::vector<Real> wall_free{Real(free)}, inv_S{S > 0 ? Real(1 / S) : Real(0)}, wetness{-1};
+    WetnessPass{Real(0.2), Real(0.8), all(wall_free), all(inv_S), all(wetness)}(0);
+    EXPECT_EQ(inv_S[0] > 0, wetness[0] > 0);
+    return double(wetness[0]);
+  };
+  EXPECT_EQ(wet(0, 1), 0);
+  EXPECT_EQ(wet(0.15, 1), 0);
+  EXPECT_NEAR(wet(0.35, 1), 0.25, kNear);
+  EXPECT_NEAR(wet(0.35, 0.7), 0.5, kNear);  // beside a wall: 0.5 of what it leaves
+  EXPECT_NEAR(wet(0.9, 1), 1, kNear);
+}
+
+TEST(Orifice, SolidsAroundItCountMoreAndMore) {
+  Orifice disc{};
+  disc.centre = {0, 0, 0}, disc.direction = {0, 0, 1}, disc.half[0] = 0.5, disc.disc = true;
+  const OrificeWeight weight{{{-4, -4, -4}, {4, 4, 4}, false, false, false}, {&disc, 1}, 0.1, 0.4};
+  EXPECT_EQ(weight({0.2, 0.2, 0.05}), 0);
+  EXPECT_NEAR(weight({0.2, 0, 0.2}), 0.15625, kNear);  // a quarter of the way, 3 t^2 - 2 t^3
+  EXPECT_NEAR(weight({0.2, 0, 0.3}), 0.5, kNear);
+  EXPECT_NEAR(weight({0.8, 0, 0}), 0.5, kNear);  // beside its rim
+  EXPECT_NEAR(weight({0.2, 0, 0.6}), 1, kNear);
+}
+
+/// Porosity of a fluid particle beside one grain of volume V and velocity (0, 0, 2), and its flux.
+struct Beside {
+  std::vector<FluidPosition> x{FluidPosition{}};
+  std::vector<Real4> volume, v_rho{{1, 0, 0, 1000}}, flux{{}}, m_state{{}};
+  std::vector<Real> mass{Real(0.3)}, eps{0}, factor{0};
+  WendlandC2 w{0.1};
+  double solid = 0;
+  explicit Beside(double fraction) {
+    const Real3 r{0, Real(0.05), 0};
+    const double V = fraction / double(w.W(Real(0.05)));
+    volume = {{0, 0, 2, Real(V)}};
+    const PorosityPass<WendlandC2> pass{w,
+                                        true,
+                                        Real(0.3),
+                                        OrificeWeight{},
+                                        {{-4, -4, -4}, {4, 4, 4}, false, false, false},
+                                        all(x),
+                                        all(volume),
+                                        all(v_rho),
+                                        all(mass),
+                                        all(eps),
+                                        all(factor),
+                                        all(flux),
+                                        all(m_state)};
+    auto sum = pass.start(0);
+    pass.pair(sum, r, norm2(r), Real(0), volume[0]);
+    pass.finish(0, sum);
+  }
+};
+
+TEST(Porosity, IsWhatGrainsLeaveButNoLessThanItsFloor) {
+  const Beside loose(0.4), dense(0.875);
+  EXPECT_NEAR(loose.eps[0], 0.6, kNear);
+  EXPECT_EQ(loose.factor[0], 1);
+  EXPECT_NEAR(loose.flux[0].x, 0.6, kNear);
+  EXPECT_NEAR(loose.flux[0].z, 0.4 * 2, kNear);
+  EXPECT_NEAR(loose.m_state[0].x, 0.3 / 0.6, kNear);
+  EXPECT_NEAR(dense.eps[0], 0.3, kNear);
+  EXPECT_NEAR(dense.factor[0], 0.7 / 0.875, kNear);  // fluid and grains fill the space together
+  EXPECT_NEAR(dense.flux[0].z, 0.7 * 2, 2 * kNear);
+}
+
+TEST(DragLine, GoesThroughTheLawAtTheMeanAndTheFastSlip) {
+  const auto ergun = [](Real w) { return 3 + 2 * w; };
+  const DragLine line = drag_line(ergun, Real(1), Real(4));
+  EXPECT_NEAR(line.still, 3, 10 * kNear);
+  EXPECT_NEAR(line.slope, 2, 10 * kNear);
+  EXPECT_NEAR(line.at(Real(2.5)), 8, 20 * kNear);
+  const DragLine one = drag_line(ergun, Real(2), Real(2));  // all slips are one
+  EXPECT_EQ(one.slope, 0);
+  EXPECT_NEAR(one.still, 7, 10 * kNear);
+  const DragLine steep = drag_line([](Real w) { return w * w; }, Real(1), Real(4));  // not below zero at rest
+  EXPECT_NEAR(steep.still, 0, 100 * kNear);
+  EXPECT_NEAR(steep.slope, 4, 10 * kNear);
+  EXPECT_EQ(drag_line([](Real w) { return 9 - w; }, Real(1), Real(4)).slope, 0);  // it does not fall
+}
+
+TEST(Drop, GivesEachGrainTheNextIdAndPlace) {
+  std::vector<NewGrain> grain{{{1, 2, 3}, {0, 0, -1}, 0.5, 0}, {{4, 5, 6}, {0, 1, 0}, 0.25, 1}};
+  std::vector<Id> id(3);
+  std::vector<Vec3d> x(3);
+  std::vector<Real3> v(3);
+  std::vector<Real> radius(3), eps(3);
+  std::vector<std::uint32_t> material(3);
+  std::vector<Index> from(3);
+  const DropPass pass{all(grain), 1,           40,       all(id),       all(x),
+                      all(v),     all(radius), all(eps), all(material), all(from)};
+  pass(0), pass(1);
+  EXPECT_EQ(id[1], 40u);
+  EXPECT_EQ(id[2], 41u);
+  EXPECT_EQ(norm(x[2] - Vec3d{4, 5, 6}), 0);
+  EXPECT_EQ(v[1].z, -1);
+  EXPECT_EQ(radius[2], Real(0.25));
+  EXPECT_EQ(material[2], 1u);
+  EXPECT_EQ(from[1], kNone);
+  EXPECT_EQ(eps[1], 1);
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
