@@ -104,8 +104,8 @@ class Check:
             table = Table(self.run_dir / data)
             names = self.need(prefix + "column")
             names = [names] if isinstance(names, str) else names
-            self.across = table.names[0] if "time_factor" not in self.spec else "time, dimensionless"
-            t, y = table.column(table.names[0]), sum(table.column(name) for name in names)
+            self.across = table.header[0] if "time_factor" not in self.spec else "time, dimensionless"
+            t, y = table.column(table.header[0]), sum(table.column(name) for name in names)
         else:
             frames = Frames(self.run_dir / data)
             pick = self.reduction()
@@ -133,7 +133,7 @@ class Check:
         name = self.need("field")
         values = frames.position(k) if name == "position" else frames.get(k, name)
         if values is None:
-            raise SystemExit(f"{frames.path}: has no field '{self.spec['field']}', only {frames.fields()}")
+            raise SystemExit(f"{frames.path}: has no field '{self.spec['field']}', only {', '.join(frames.names())}")
         if values.ndim == 1:
             return values
         component = self.spec.get("component")

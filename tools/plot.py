@@ -51,7 +51,7 @@ class Run(Scene):
         k = frames.nearest(time)
         values = frames.get(k, FIELDS[field][0])
         if values is None:
-            raise SystemExit(f"{frames.path}: has no {FIELDS[field][0]}, only {', '.join(frames.fields())}")
+            raise SystemExit(f"{frames.path}: has no {FIELDS[field][0]}, only {', '.join(frames.names())}")
         if values.ndim > 1:
             values = np.linalg.norm(values, axis=1)
         x = frames.position(k)
@@ -171,7 +171,7 @@ def unit_of(name):
 
 def plot_probe(options):
     tables = {Path(path).stem: Table(path) for path in options.csv}
-    curves = [(stem, table, name) for stem, table in tables.items() for name in options.column or table.names[1:]]
+    curves = [(stem, table, name) for stem, table in tables.items() for name in options.column or table.header[1:]]
     units = list(dict.fromkeys(unit_of(name) for _, _, name in curves))  # what has another unit has its own panel
     columns = int(np.ceil(np.sqrt(len(units) / 2)))
     rows = int(np.ceil(len(units) / columns))
@@ -182,7 +182,7 @@ def plot_probe(options):
         names = sorted({name for _, _, name in mine})
         for stem, table, name in mine:
             label = stem if len(names) == 1 else name if len(tables) == 1 else f"{stem}: {name}"
-            axes.plot(table.column(table.names[0]), table.column(name), label=label, linewidth=1.5)
+            axes.plot(table.column(table.header[0]), table.column(name), label=label, linewidth=1.5)
         axes.set_ylabel(", ".join(names) if len(names) <= 2 else unit)
     for axes in list(panels.flat)[len(units):]:
         axes.set_axis_off()
@@ -194,7 +194,7 @@ def plot_probe(options):
             table = table.where(dict(pair.split("=", 1) for pair in options.where))
         numeric = table.numeric()
         x, y = options.reference_columns.split(",") if options.reference_columns else numeric[:2]
-        names = table.texts("series") if "series" in table.names else [Path(path).stem] * len(table.texts(x))
+        names = table.texts("series") if "series" in table.names() else [Path(path).stem] * len(table.texts(x))
         for series in dict.fromkeys(names):
             picked = np.array([name == series for name in names])
             axes.plot(table.column(x)[picked], table.column(y)[picked], next(markers, "."), label=series,

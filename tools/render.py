@@ -78,7 +78,7 @@ class Picture:
         frames, name = self.scene.frames["fluid"], FIELDS[self.colour][0]
         values = frames.get(frame, name)
         if values is None:
-            raise SystemExit(f"{frames.path}: has no {name}, only {', '.join(frames.fields())}")
+            raise SystemExit(f"{frames.path}: has no {name}, only {', '.join(frames.names())}")
         return np.linalg.norm(values, axis=1) if values.ndim > 1 else values
 
     def spread(self, frames):

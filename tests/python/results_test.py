@@ -45,7 +45,7 @@ class Results(unittest.TestCase):
             self.assertEqual(data.value.units, "m/s")
             gone, here = bedload.measures.residence_times(frames)
             self.assertEqual((gone.tolist(), here.tolist()), ([], [0.5]))
-            with self.assertRaisesRegex(bedload.FileError, "has no field 'speed', only id, value"):
+            with self.assertRaisesRegex(bedload.FileError, "has no array 'speed', only id, position, value"):
                 frames.read(0, "speed")
 
     def test_frames_are_read_when_they_are_needed(self):
@@ -66,6 +66,8 @@ class Results(unittest.TestCase):
             path.write_text("time [s],front [m],note\n0,0.1,a\n0.5,0.2,b\n")
             table = open_run(place).probes["front"]
             np.testing.assert_array_equal(table["front"], [0.1, 0.2])
+            self.assertEqual((table.names(), table.header[0]), (["time", "front", "note"], "time [s]"))
+            self.assertEqual([table.unit(name) for name in table.names()], ["s", "m", ""])
             frame = table.to_pandas()
             self.assertEqual((list(frame), frame.index.name), (["front"], "time"))
             self.assertEqual(frame.attrs["units"], {"time": "s", "front": "m"})

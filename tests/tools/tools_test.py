@@ -293,7 +293,7 @@ turn_angle = 5
     def test_field_that_is_not_there(self):
         status, _, err = tool("plot.py", "frames", self.run_dir, "--field", "porosity", "--out", "none.png")
         self.assertNotEqual(status, 0)
-        self.assertIn("has no porosity, only pressure, velocity", err)
+        self.assertIn("has no porosity, only position, pressure, velocity", err)
 
     def test_time_that_is_not_there(self):
         status, _, err = tool("plot.py", "frames", self.run_dir, "--times", "0.1,0.3", "--out", "none.png")

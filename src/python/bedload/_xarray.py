@@ -64,7 +64,7 @@ def dataset_of(frames):
     """See Frames.to_xarray."""
     particles = _Particles(frames)
     variables = {}
-    for name in ["position", *frames.fields()]:
+    for name in frames.names():
         if name == "id":
             continue
         data = _Field(frames, particles, name)

@@ -43,14 +43,14 @@ class Frames:
 
     def __repr__(self) -> str:
         last = f", 0 .. {self.times[-1]:.4g} s" if len(self) else ""
-        return f"<Frames {self.path}: {len(self)} frames{last}; position, {', '.join(self.fields())}>"
+        return f"<Frames {self.path}: {len(self)} frames{last}; {', '.join(self.names())}>"
 
-    def fields(self) -> list[str]:
-        """Names of the arrays of each frame, besides the position."""
-        return sorted(self._root["PointData"])
+    def names(self) -> list[str]:
+        """Of the arrays of each frame."""
+        return sorted(["position", *self._root["PointData"]])
 
     def unit(self, name: str) -> str:
-        """Of a field: "m/s"; "-" for a pure number; empty if the file does not tell."""
+        """Of an array: "m/s"; "-" for a pure number; empty if the file does not tell."""
         if name == "position":
             return "m"
         unit = self._data(name).attrs.get("unit", "")
@@ -99,12 +99,15 @@ class Frames:
     def _data(self, name: str):
         data = self._root["PointData"]
         if name not in data:
-            raise FileError(f"{self.path}: has no field '{name}', only {', '.join(self.fields())}")
+            raise FileError(f"{self.path}: has no array '{name}', only {', '.join(self.names())}")
         return data[name]
 
 
 class Table:
-    """A CSV file with one header row; columns by name, with or without their `[unit]`."""
+    """A CSV file with one header row; columns by name, with or without their `[unit]`.
+
+    header: as it stands in the file, `["time [s]", ...]`.
+    """
 
     def __init__(self, path: str | Path):
         self.path = Path(path)
@@ -115,8 +118,8 @@ class Table:
             raise FileError(f"{self.path}: {error.strerror}") from None
         if not rows:
             raise FileError(f"{self.path}: is empty")
-        self.names = [name.strip() for name in rows[0]]
-        self._rows = [row for row in rows[1:] if len(row) == len(self.names)]
+        self.header = [name.strip() for name in rows[0]]
+        self._rows = [row for row in rows[1:] if len(row) == len(self.header)]
 
     def __len__(self) -> int:
         return len(self._rows)
@@ -125,12 +128,16 @@ class Table:
         return self.column(name)
 
     def __repr__(self) -> str:
-        return f"<Table {self.path}: {len(self)} rows of {', '.join(self.names)}>"
+        return f"<Table {self.path}: {len(self)} rows of {', '.join(self.names())}>"
+
+    def names(self) -> list[str]:
+        """Of the columns, without their units."""
+        return [_bare(name) for name in self.header]
 
     def where(self, conditions: dict[str, Any]) -> Table:
         """The rows in which each column of `conditions` has the value given."""
         picked = object.__new__(Table)
-        picked.path, picked.names, picked._rows = self.path, self.names, self._rows
+        picked.path, picked.header, picked._rows = self.path, self.header, self._rows
         for name, value in conditions.items():
             k = self._index(name)
             picked._rows = [row for row in picked._rows if row[k] == str(value)]
@@ -151,13 +158,13 @@ class Table:
 
     def unit(self, name: str) -> str:
         """Of a column: "m/s"; empty if it has none."""
-        full = self.names[self._index(name)]
+        full = self.header[self._index(name)]
         return full[full.rindex("[") + 1 : -1] if full.endswith("]") else ""
 
     def numeric(self) -> list[str]:
         """Names of the columns that hold nothing but numbers."""
         number = re.compile(r"^[-+]?(\d|\.\d|inf|nan)", re.IGNORECASE)
-        return [n for k, n in enumerate(self.names) if all(number.match(row[k]) for row in self._rows)]
+        return [n for k, n in enumerate(self.header) if all(number.match(row[k]) for row in self._rows)]
 
     def to_pandas(self):
         """A pandas.DataFrame of the numbers over the first column; `attrs["units"]` has their units."""
@@ -169,10 +176,10 @@ class Table:
         return frame.set_index(_bare(names[0]))
 
     def _index(self, name: str) -> int:
-        for names in (self.names, [_bare(known) for known in self.names]):
+        for names in (self.header, self.names()):
             if name in names:
                 return names.index(name)
-        raise FileError(f"{self.path}: has no column '{name}', only {', '.join(self.names)}")
+        raise FileError(f"{self.path}: has no column '{name}', only {', '.join(self.header)}")
 
 
 class Run:
@@ -240,6 +247,7 @@ class Tables:
         self._known: dict[str, Table] = {}
 
     def names(self) -> list[str]:
+        """Of the tables."""
         return sorted(path.stem for path in self.folder.glob("*.csv"))
 
     def __iter__(self) -> Iterator[str]:
