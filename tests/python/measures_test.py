@@ -87,11 +87,16 @@ class Bodies(unittest.TestCase):
 
         class Body:
             path = "body.csv"
+            columns = {"time": [0, 1, 2, 4], "power_by_fluid": [9, 1, 3, 5], "power_by_grains": [0, -9, -9, -9]}
+
+            def names(self):
+                return list(self.columns)
 
             def column(self, name):
-                return np.array({"time": [0, 1, 2, 4], "power_by_fluid": [9, 1, 3, 5]}[name], float)
+                return np.array(self.columns[name], float)
 
-        self.assertAlmostEqual(mean_power(Body(), start=1), (2 + 8) / 3)
+        self.assertAlmostEqual(mean_power(Body(), start=1), (2 + 8) / 3 - 9)  # of all that acts on it
+        self.assertAlmostEqual(mean_power(Body(), "power_by_fluid", start=1), (2 + 8) / 3)
         self.assertAlmostEqual(power_number(2.0, 1000, 2, 0.1), 25)
 
 

@@ -225,9 +225,16 @@ def angular_velocity(x: np.ndarray, v: np.ndarray) -> np.ndarray:
     return np.linalg.lstsq(inertia, np.sum(np.cross(x, v), axis=0), rcond=None)[0]
 
 
-def mean_power(table: Any, column: str = "power_by_fluid", start: float = 0.0) -> float:
-    """Mean over time, from `start` (s) on, of a power in a table of a body, W, by trapezes."""
-    time, power = table.column("time"), table.column(column)
+def mean_power(table: Any, column: str | None = None, start: float = 0.0) -> float:
+    """Mean over time, from `start` (s) on, of a power in a table of a body, W, by trapezes.
+
+    Below zero where the body drives what it meets. Without a column that of fluid, grains and contacts together, of
+    what the table has; "power_by_fluid" is that of the fluid alone.
+    """
+    columns = [column] if column else [name for name in table.names() if name.startswith("power_by_")]
+    if not columns:
+        raise ValueError(f"{table.path}: has no power, only {', '.join(table.names())}")
+    time, power = table.column("time"), sum(table.column(name) for name in columns)
     used = time >= start
     if used.sum() < 2:
         raise ValueError(f"{table.path}: ends at {time[-1]:g} s; fewer than two rows from {start:g} s on")
