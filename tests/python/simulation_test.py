@@ -45,6 +45,9 @@ class Simulations(unittest.TestCase):
                 rest.run()
                 np.testing.assert_array_equal(rest.fluid.by_id("velocity"), whole.fluid.by_id("velocity"))
             self.assertEqual(tables(place / "whole"), tables(place / "halves"))
+            with self.assertRaisesRegex(bedload.CaseError, "restart is empty"):
+                bedload.Simulation(path, place / "halves", restart="", overwrite=True)
+            self.assertEqual(bedload.open_run(place / "halves").status, "completed")
             with self.assertRaisesRegex(bedload.CaseError, "computes otherwise"):
                 other = bedload.Case(path).with_values({"fluid.mu": 0.002})
                 bedload.Simulation(other, place / "halves", restart="latest")

@@ -123,6 +123,8 @@ class Simulation:
                  backend: str = "auto", threads: int = 0, overwrite: bool = False, allow_changes: bool = False):
         self.case = case if isinstance(case, Case) else Case(case)
         self.out = None if out is None else Path(out)
+        if restart == "":
+            raise CaseError("restart is empty; give it a checkpoint, \"latest\" or None, which begins anew")
         if restart == "latest":
             if self.out is None:
                 raise CaseError("restart = \"latest\" goes on from the newest checkpoint of `out`, which is not given")
