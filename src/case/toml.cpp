@@ -4,6 +4,7 @@
 #include <cctype>
 #include <utility>
 
+#include "bedload/case/parameters.hpp"
 #include "bedload/case/section.hpp"
 #include "bedload/core/error.hpp"
 #include "shortened.hpp"
@@ -94,6 +95,31 @@ int line_of_deep_key(const std::string& text) {
   return 0;
 }
 
+/// As the place of an entry in a list.
+bool is_number(const std::string& part) {
+  return part.size() < 9 && part.find_first_not_of("0123456789") == part.npos;
+}
+
+/// Whether `path` names a list of tables: "wall.body", "grain.fill.0.sizes".
+bool is_list(const std::string& path) {
+  const std::string key = key_of(path);
+  for (const ParameterRow& row : parameter_table()) {
+    std::string list;  // a list on the way to the row's key, without marks of lists
+    for (std::size_t from = 0, to; (to = row.path.find("[]", from)) != row.path.npos; from = to + 2)
+      if ((list += row.path.substr(from, to - from)) == key) return true;
+  }
+  return false;
+}
+
+/// What an override says that names an entry of a list which has only `count`.
+std::string no_such_item(const std::string& path, std::size_t count) {
+  if (count == 0)
+    return "this case has no " + key_of(path) + "; write a [[" + key_of(path) + "]] in its file first";
+  if (count == 1) return path + " is a list of 1, so name it by " + path + ".0";
+  return path + " is a list of " + std::to_string(count) + ", so name one of " + path + ".0 to " + path +
+         "." + std::to_string(count - 1);
+}
+
 /// The right side of an override: TOML, or a bare word or quantity taken as a string.
 Value override_value(const std::string& text, const std::string& source) {
   try {
@@ -136,13 +162,12 @@ void apply_override(Value& root, const std::string& assignment) {
     const std::string part = path.substr(from, dot == path.npos ? dot : dot - from);
     if (part.empty()) throw CaseError(source + ": must have the form key=value");
     if (auto* table = std::get_if<Value::Table>(&at->data)) {
+      if (from > 0 && table->empty() && is_number(part) && is_list(path.substr(0, from - 1)))
+        throw CaseError(source + ": " + no_such_item(path.substr(0, from - 1), 0));
       at = &table->try_emplace(part, Value{.data = Value::Table{}, .source = source}).first->second;
     } else if (auto* array = std::get_if<Value::Array>(&at->data)) {
-      const bool number = part.size() < 9 && part.find_first_not_of("0123456789") == part.npos;
-      if (!number || std::stoul(part) >= array->size())
-        throw CaseError(source + ": " + path.substr(0, from - 1) + " is a list of " +
-                        std::to_string(array->size()) + ", so name one of 0.." +
-                        std::to_string(array->size() - 1) + " after it");
+      if (!is_number(part) || std::stoul(part) >= array->size())
+        throw CaseError(source + ": " + no_such_item(path.substr(0, from - 1), array->size()));
       at = &(*array)[std::stoul(part)];
     } else {
       throw CaseError(source + ": " + path.substr(0, from - 1) + " holds no keys");

@@ -323,12 +323,33 @@ TEST(CaseError, NamesTheOverrideAtFault) {
             "--set grian.e=0.5: grian.e is not a parameter; did you mean grain.e?");
   EXPECT_EQ(error_of(kCase, {"grain.e"}), "--set grain.e: must have the form key=value");
   EXPECT_EQ(error_of(kCase, {"grain.fill.3.count=1"}),
-            "--set grain.fill.3.count=1: grain.fill is a list of 1, so name one of 0..0 after it");
+            "--set grain.fill.3.count=1: grain.fill is a list of 1, so name it by grain.fill.0");
   EXPECT_EQ(error_of(kCase, {"fluid.dx.a=1"}), "--set fluid.dx.a=1: fluid.dx holds no keys");
   EXPECT_EQ(error_of(kCase, {"couple.hc=1e-3"}),
             "--set couple.hc=1e-3: couple.hc = 0.001 must be >= 0.002; unresolved coupling needs kappa h_c "
             ">= 2 d_max");
   EXPECT_EQ(error_of(kCase, {"fluid=3"}), "--set fluid=3: fluid = 3 must be a table; write [fluid]");
+}
+
+TEST(CaseError, SaysHowManyEntriesAListHas) {
+  const auto answer = [](const std::string& assignment) { return error_of(kCase, {assignment}); };
+  EXPECT_EQ(answer("probe.0.every=1"),
+            "--set probe.0.every=1: this case has no probe; write a [[probe]] in its file first");
+  EXPECT_EQ(
+      answer("grain.fill.0.sizes.0.d=1"),
+      "--set grain.fill.0.sizes.0.d=1: this case has no grain.fill.sizes; write a [[grain.fill.sizes]] in "
+      "its file first");
+  EXPECT_EQ(answer("wall.body.0.motion.add.2.kind=fixed"),
+            "--set wall.body.0.motion.add.2.kind=fixed: this case has no wall.body.motion.add; write a "
+            "[[wall.body.motion.add]] in its file first");
+  EXPECT_EQ(answer("wall.body.1.mu=1"),
+            "--set wall.body.1.mu=1: wall.body is a list of 1, so name it by wall.body.0");
+  const std::string two =
+      kCase + "[[probe]]\nname = \"a\"\ntype = \"front\"\n[[probe]]\nname = \"b\"\ntype = \"front\"\n";
+  EXPECT_EQ(error_of(two, {"probe.7.every=1"}),
+            "--set probe.7.every=1: probe is a list of 2, so name one of probe.0 to probe.1");
+  EXPECT_EQ(error_of(two, {"probe=[]", "probe.0.every=1"}),
+            "--set probe.0.every=1: this case has no probe; write a [[probe]] in its file first");
 }
 
 TEST(CaseError, AsksForSomethingToCompute) {

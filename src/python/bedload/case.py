@@ -106,7 +106,7 @@ class Section:
     def __getitem__(self, key: str) -> Any:
         owner, name = self._owner(key)
         if isinstance(owner, Items):
-            return owner[int(name)]
+            return owner.item(name)
         if name not in owner._values:
             raise KeyError(key)
         return owner._values[name]
@@ -149,7 +149,7 @@ class Section:
         *parts, last = key.split(".")
         at: Any = self
         for part in parts:
-            at = at[int(part)] if isinstance(at, Items) else getattr(at, part)
+            at = at.item(part) if isinstance(at, Items) else getattr(at, part)
         return at, last
 
     def _put(self, name: str, value: Any, place: tuple[str, int]) -> None:
@@ -189,6 +189,13 @@ class Items(list):
 
     def __setitem__(self, at, values) -> None:
         super().__setitem__(at, _taken(values, self._path + "[]", _caller()))
+
+    def item(self, number: str) -> Section:
+        """The table of that number, from 0, as `case["wall.body.0.mu"]` names it."""
+        if not number.isdigit() or int(number) >= len(self):
+            what = self._path.replace("[]", "")
+            raise IndexError(f"{what}.{number}: this case has {len(self) or 'no'} {what}, named by its number from 0")
+        return self[int(number)]
 
     def named(self, name: str) -> Section:
         """The table whose `name` is that."""
