@@ -50,6 +50,20 @@ def keys_page():
     return "\n".join(out) + "\n"
 
 
+def words_page():
+    out = ["# Words of other programs", "",
+           "Made from what the program knows: `bedload list words`, or `bedload list TimeMax` for one. Case, `_` and `-` do",
+           "not count."]
+    program_of = None
+    for word in json.loads(program("list", "words", "--json")):
+        if word["program"] != program_of:
+            program_of = word["program"]
+            out += ["", f"## {program_of or 'Of the field'}", "", "| there | here | |", "|---|---|---|"]
+        keys = ", ".join(f"`{key}`" for key in word["keys"])
+        out.append(f"| `{word['name']}` | {keys or '-'} | {cell(word['note'])} |")
+    return "\n".join(out) + "\n"
+
+
 def commands_page():
     out = ["# Commands", "", "What `--help` of each prints; `bedload man | man -l -` shows all of it as a manual page.", ""]
     for command in COMMANDS:
@@ -67,6 +81,7 @@ def on_config(config):
 def on_files(files, config):
     files.append(File.generated(config, "keys.md", content=keys_page()))
     files.append(File.generated(config, "commands.md", content=commands_page()))
+    files.append(File.generated(config, "words.md", content=words_page()))
     for source, place in (PAGES | PICTURES).items():
         files.append(File.generated(config, place, abs_src_path=str(ROOT / source)))
     return files

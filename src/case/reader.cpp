@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "bedload/case/formula.hpp"
+#include "bedload/case/words.hpp"
 #include "bedload/core/error.hpp"
 #include "shortened.hpp"
 #include "units.hpp"
@@ -189,6 +190,19 @@ void for_leaves(const Value& at, const std::string& key, const F& f) {
   }
 }
 
+/// What to write in place of a key that is none, as the end of a sentence.
+std::string instead_of(const std::string& key, const std::vector<std::string>& known) {
+  if (const std::string meaning = meaning_of(key); !meaning.empty()) return meaning;
+  if (const std::string near = nearest_key(key, known); !near.empty())
+    return fmt::format("did you mean {}?", near);
+  for (std::string table = key; table.find('.') != table.npos;) {
+    table.resize(table.rfind('.'));
+    if (std::any_of(known.begin(), known.end(), [&](const auto& k) { return k.starts_with(table + "."); }))
+      return fmt::format("`bedload list {}` shows what there is", table);
+  }
+  return "`bedload list parameters` shows all there are";
+}
+
 }  // namespace
 
 void Reader::operator()(std::string_view key, Slot value, const About& about) {
@@ -273,7 +287,7 @@ const std::vector<Missing>& missing_keys() {
 }
 
 /// Empty for a key that is not among them.
-std::string_view instead_of(std::string_view key) {
+std::string_view missing_key(std::string_view key) {
   for (const Missing& missing : missing_keys()) {
     if (!key.starts_with(missing.begins)) continue;
     const std::string_view name = key.substr(missing.begins.size());
@@ -282,7 +296,7 @@ std::string_view instead_of(std::string_view key) {
   }
   // [fluid.2]
   if (key.starts_with("fluid.") && key.size() > 6 && key[6] >= '0' && key[6] <= '9')
-    return instead_of("fluid.fill.rho0");
+    return missing_key("fluid.fill.rho0");
   return {};
 }
 
@@ -292,7 +306,7 @@ void reject_fluids(const Value& root) {
   const auto* const list = fluid ? fluid->get<Value::Array>() : nullptr;
   if (list && !list->empty() && list->front().get<Value::Table>())
     throw CaseError(fmt::format("{}: [[fluid]] must be one table, [fluid]: {}", list->front().place(),
-                                instead_of("fluid.fill.rho0")));
+                                missing_key("fluid.fill.rho0")));
 }
 
 }  // namespace
@@ -320,10 +334,10 @@ void reject_unknown(const Value& root) {
   // A key below a parameter ("fluid.dx.a") is that parameter's wrong value, which its reader reports.
   for (const std::string& k : known)
     if (key.starts_with(k + ".")) return;
-  if (const std::string_view instead = instead_of(key); !instead.empty())
-    throw CaseError(fmt::format("{}: {} is not a parameter: {}", first->place(), shortened(key), instead));
-  throw CaseError(fmt::format("{}: {} is not a parameter; did you mean {}?", first->place(), shortened(key),
-                              nearest_key(shortened(key), known)));
+  const std::string_view missing = missing_key(key);
+  throw CaseError(fmt::format("{}: {} is not a parameter{} {}", first->place(), shortened(key),
+                              missing.empty() ? ";" : ":",
+                              missing.empty() ? instead_of(key, known) : std::string(missing)));
 }
 
 }  // namespace bedload

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 
 #include "bedload/core/error.hpp"
@@ -24,9 +25,8 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
-/// Edits (insert, delete, replace, swap of neighbours) that turn a into b, over the longer length.
-double difference(std::string_view a, std::string_view b) {
-  if (a.empty() && b.empty()) return 0;
+/// Edits (insert, delete, replace, swap of neighbours) that turn a into b.
+int edits(std::string_view a, std::string_view b) {
   std::vector<std::vector<int>> d(a.size() + 1, std::vector<int>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = int(i);
   for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = int(j);
@@ -36,7 +36,26 @@ double difference(std::string_view a, std::string_view b) {
       if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
         d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
     }
-  return double(d[a.size()][b.size()]) / double(std::max(a.size(), b.size()));
+  return d[a.size()][b.size()];
+}
+
+/// Over the longer length.
+double difference(std::string_view a, std::string_view b) {
+  return a.empty() && b.empty() ? 0 : double(edits(a, b)) / double(std::max(a.size(), b.size()));
+}
+
+/// One letter in three may be wrong, and one in two.
+bool alike(std::string_view a, std::string_view b) {
+  const std::size_t longer = std::max(a.size(), b.size());
+  return edits(a, b) <= std::max(int(longer) / 3, longer == 2 ? 1 : 0);
+}
+
+/// Letters and digits alone, in lower case: time_end is time.end.
+std::string run_together(std::string_view key) {
+  std::string out;
+  for (const unsigned char c : key)
+    if (std::isalnum(c)) out += char(std::tolower(c));
+  return out;
 }
 
 std::pair<std::string_view, std::string_view> split(std::string_view key) {
@@ -49,22 +68,23 @@ bool is_place(std::string_view part) {
   return !part.empty() && part.find_first_not_of("0123456789") == part.npos;
 }
 
-/// What a key may be called by who does not know it.
-std::vector<std::string_view> names_of(std::string_view name) {
-  struct Synonym {
-    std::string_view word, key;
-  };
-  static constexpr Synonym synonyms[]{
-      {"diameter", "d"},    {"friction", "mu"},    {"rolling_friction", "mu_r"},
-      {"viscosity", "mu"},  {"density", "rho"},    {"density", "rho0"},
-      {"restitution", "e"}, {"young", "E"},        {"youngs_modulus", "E"},
-      {"poisson", "nu"},    {"nu", "mu"},          {"rpm", "rate"},
-      {"spacing", "dx"},    {"dp", "dx"},          {"vicosity", "mu"},
-      {"c0", "c_factor"},   {"sound", "c_factor"}, {"coefsound", "c_factor"}};
-  std::vector<std::string_view> names{name};
-  for (const Synonym& s : synonyms)
-    if (s.word == name) names.push_back(s.key);
-  return names;
+/// A key that may have been meant: the same name in another table, a name alike in the same table or one
+/// alike, or a long name with few wrong letters wherever it is.
+bool is_near(std::string_view key, std::string_view known) {
+  if (run_together(key) == run_together(known)) return true;
+  const auto [table, name] = split(key);
+  const auto [t, n] = split(known);
+  const std::string mine = run_together(name), its = run_together(n);
+  if (mine == its) return true;
+  if (table == t) return alike(mine, its);
+  if (!table.empty() && mine.size() > 2 && alike(table, t)) return alike(mine, its);
+  return mine.size() > 5 && difference(mine, its) <= 0.2;
+}
+
+/// Whether so many tables have a key of that name that it tells nothing of the table: min, start, stop.
+bool is_common(std::string_view name, const std::vector<std::string>& known) {
+  return std::count_if(known.begin(), known.end(),
+                       [&](const std::string& k) { return split(k).second == name; }) > 3;
 }
 
 template <class F>
@@ -148,14 +168,15 @@ std::string nearest_key(const std::string& key, const std::vector<std::string>& 
   // A wrong name counts more than a wrong table: contact.e is rather grain.e than contact.k.
   constexpr double table_weight = 0.6;
   const auto [table, name] = split(key);
+  const bool common = is_common(name, known);
   std::string best;
   double least = 1e9;
   for (const std::string& k : known) {
+    if (!is_near(key, k)) continue;
     const auto [t, n] = split(k);
-    for (const std::string_view called : names_of(name)) {
-      const double d = difference(called, n) + table_weight * difference(table, t);
-      if (d < least) least = d, best = k;
-    }
+    if (common && !t.ends_with(table) && !alike(table, t)) continue;
+    const double d = difference(name, n) + table_weight * difference(table, t);
+    if (d < least) least = d, best = k;
   }
   return best;
 }

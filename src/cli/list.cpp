@@ -10,6 +10,7 @@
 
 #include "bedload/case/parameters.hpp"
 #include "bedload/case/section.hpp"
+#include "bedload/case/words.hpp"
 
 namespace bedload {
 namespace {
@@ -39,6 +40,22 @@ std::string choices_text(const std::string& family) {
   return out + '\n' + parameters_text(rows);
 }
 
+/// Words of other programs, each with what it is here.
+std::string words_text(std::span<const Word> words) {
+  std::size_t program = 1, name = 0;
+  for (const Word& word : words) {
+    program = std::max(program, word.program.size());
+    name = std::max(name, word.name.size());
+  }
+  std::string out;
+  for (const Word& word : words) {
+    const std::string note = word.keys.empty() ? std::string(word.note) : fmt::format("  ({})", word.note);
+    out += fmt::format("{:<{}}  {:<{}}  {}{}\n", word.program.empty() ? "-" : word.program, program,
+                       word.name, name, word.keys, word.note.empty() ? "" : note);
+  }
+  return out;
+}
+
 bool is_section(const std::string& name) {
   const auto known = families();
   return !name.empty() && std::find(known.begin(), known.end(), name) == known.end();
@@ -52,6 +69,17 @@ std::vector<ParameterRow> rows_of(const std::string& name) {
       return is_section(name) ? row.key != name && !row.key.starts_with(name + ".") : row.family != name;
     });
   return rows;
+}
+
+/// Words, then the parameters that they are here.
+std::string word_text(const std::vector<Word>& words) {
+  std::vector<ParameterRow> rows;
+  std::set<std::string> shown;
+  for (const Word& word : words)
+    for (const std::string& key : keys_of(word))
+      for (const ParameterRow& row : rows_of(key))
+        if (shown.insert(row.key).second) rows.push_back(row);
+  return words_text(words) + (rows.empty() ? "" : '\n' + parameters_text(rows));
 }
 
 std::string parameters_text(std::vector<ParameterRow> rows) {
@@ -82,19 +110,23 @@ std::vector<std::string> sections() {
 }
 
 std::vector<std::string> families() {
-  return {"laws", "models", "shapes", "outputs", "parameters", "presets"};
+  return {"laws", "models", "shapes", "outputs", "parameters", "presets", "words"};
 }
 
 std::string not_listed(const std::string& name) {
-  if (!is_section(name) || !rows_of(name).empty()) return "";
-  std::vector<std::string> known;
+  if (!is_section(name) || !rows_of(name).empty() || !words_named(name).empty()) return "";
+  std::vector<std::string> known = families();
   for (const ParameterRow& row : parameter_table()) known.push_back(row.key);
-  return fmt::format("{} is none of {}, no section of a case and no key; did you mean {}?", name,
-                     fmt::join(families(), ", "), nearest_key(name, known));
+  const std::string near = nearest_key(name, known);
+  return fmt::format(
+      "{} is none of {}, no section of a case, no key and no word that is known of other programs{}", name,
+      fmt::join(families(), ", "), near.empty() ? "" : fmt::format("; did you mean {}?", near));
 }
 
 std::string list_text(const std::string& name) {
   if (name == "parameters") return parameters_text(parameter_table());
+  if (name == "words") return words_text(words());
+  if (is_section(name) && rows_of(name).empty()) return word_text(words_named(name));
   if (is_section(name)) return parameters_text(rows_of(name));
   if (!name.empty()) return choices_text(name);
   std::string out;
@@ -107,6 +139,14 @@ std::string list_json(const std::string& name) {
   static constexpr std::array kinds{"boolean",  "integer", "number",  "text",    "vector", "formulas",
                                     "booleans", "faces",   "numbers", "vectors", "texts",  "rows"};
   auto out = nlohmann::ordered_json::array();
+  const auto add_words = [&](std::span<const Word> words) {
+    for (const Word& word : words)
+      out.push_back(
+          {{"program", word.program}, {"name", word.name}, {"keys", keys_of(word)}, {"note", word.note}});
+    return out.dump(1) + '\n';
+  };
+  if (name == "words") return add_words(words());
+  if (is_section(name) && rows_of(name).empty()) return add_words(words_named(name));
   for (const ParameterRow& row : rows_of(name)) {
     auto choices = nlohmann::ordered_json::array();
     for (const Choice& choice : row.choices)

@@ -160,7 +160,8 @@ void add_list(CLI::App& app, Options& o) {
   CLI::App* list = app.add_subcommand("list", "Show what a case may hold");
   std::vector<std::string> listed = families();
   for (const std::string& section : sections()) listed.push_back(section);
-  list->add_option("name", o.family, "One of them, a section of a case, or a key; all if not given")
+  list->add_option("name", o.family,
+                   "One of them, a section of a case, a key, or a word of another program; all if not given")
       ->check(CLI::Validator(not_listed, fmt::format("{{{}}}", fmt::join(listed, ","))));
   list->add_flag("--json", o.json, "For programs: key, kind, unit, default, bounds, choices");
 }

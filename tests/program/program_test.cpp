@@ -143,7 +143,8 @@ TEST_F(Program, ListsItsFamilies) {
       {"shapes", "tank"},
       {"outputs", "front"},
       {"parameters", "grain.fill.packing_fraction"},
-      {"presets", "he2018"}};
+      {"presets", "he2018"},
+      {"words", "DesignSPHysics  inter-particle distance"}};
   const Outcome all = bedload("list");
   for (const auto& [family, member] : expected) {
     const Outcome o = bedload("list " + family);
@@ -154,7 +155,17 @@ TEST_F(Program, ListsItsFamilies) {
   // the parameters of what can be chosen, with unit, default and bounds
   EXPECT_NE(bedload("list laws").out.find("contact.k "), std::string::npos);
   EXPECT_NE(bedload("list outputs").out.find("out.diagnostics_every "), std::string::npos);
-  EXPECT_EQ(bedload("list lawz").code, 2);
+  const Outcome wrong = bedload("list lawz");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_NE(wrong.err.find("did you mean laws?"), std::string::npos) << wrong.err;
+  EXPECT_EQ(bedload("list xyzzy").err.find("did you mean"), std::string::npos);
+  // a word of another program, and the parameters that it is here
+  const Outcome word = bedload("list time_max");
+  EXPECT_TRUE(word.out.starts_with("DualSPHysics  TimeMax  time.end\n\nkey ")) << word.out;
+  EXPECT_NE(word.out.find("end of the run"), std::string::npos) << word.out;
+  EXPECT_EQ(
+      bedload("list 'surface tension'").out.rfind("-  surface tension  there is no surface tension;", 0), 0u);
+  EXPECT_NE(bedload("list TimeMax --json").out.find("\"time.end\""), std::string::npos);
   EXPECT_NE(bedload("list fluid.dx").out.find("particle spacing"), std::string::npos);
 }
 

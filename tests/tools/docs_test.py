@@ -21,6 +21,15 @@ def output(*arguments):
     return subprocess.run([PROGRAM, *arguments], check=True, capture_output=True, text=True).stdout
 
 
+def plain(name):
+    """As the program compares words."""
+    return re.sub(r"[\W_]", "", name).lower()
+
+
+def below(key, table):
+    return key == table or key.startswith(table + ".")
+
+
 def without_required(schema):
     """A snippet may leave out what a case must have."""
     if isinstance(schema, dict):
@@ -82,6 +91,33 @@ class Documents(unittest.TestCase):
                         self.assertIn(key, keys | tables)
                     named += 1
         self.assertGreater(named, 200)
+
+    def test_words_of_other_programs_are_those_of_the_program(self):
+        words = {}
+        for word in json.loads(output("list", "words", "--json")):
+            words.setdefault(plain(word["name"]), []).append(word)
+        text = (ROOT / "docs/faq.md").read_text()
+        table = text[text.index("| there | here |"):].split("\n\n")[0]
+        named = 0
+        for row in table.splitlines()[2:]:
+            there, here = re.split(r"(?<!\\) \| ", row.strip("| "), maxsplit=1)
+            meant = [set(re.findall(r"\w+(?:\.\w+)*", span)) for span in re.findall(r"`([^`]+)`", here)]
+            shown = set().union(*meant)
+            for name in re.findall(r"`([^`]+)`", there):
+                with self.subTest(name=name):
+                    self.assertIn(plain(name), words)
+                    known = [key for word in words[plain(name)] for key in word["keys"]]
+                    notes = " ".join(word["note"] for word in words[plain(name)])
+                    self.assertTrue(any(below(key, other) for key in known for other in shown)
+                                    or any(key in notes for key in shown), (known, shown))
+                    named += 1
+            keys = {key for name in re.findall(r"`([^`]+)`", there) for word in words.get(plain(name), [])
+                    for key in [*word["keys"], *re.findall(r"\w+(?:\.\w+)+", word["note"])]}
+            for key in shown:
+                if "." in key:
+                    with self.subTest(key=key):
+                        self.assertTrue(any(below(key, other) or below(other, key) for other in keys), keys)
+        self.assertGreater(named, 40)
 
 
 if __name__ == "__main__":

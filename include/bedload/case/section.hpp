@@ -47,7 +47,8 @@ const Value& nearest_value(const Value& root, std::string_view path);
 /// `path` as the user knows it: without places in lists.
 std::string key_of(std::string_view path);
 
-/// Of `known`, the key most like `key`: few changed letters, preferably in the same table.
+/// Of `known`, the key most like `key`: few changed letters, preferably in the same table. Empty if none is
+/// near.
 std::string nearest_key(const std::string& key, const std::vector<std::string>& known);
 
 }  // namespace bedload
