@@ -53,8 +53,8 @@ class Simulation {
   virtual std::vector<StepLimit> substep_limits() const = 0;
   /// How much of the run's viscosity is numerical, each as a multiple of the fluid's own: "artificial_bulk"
   /// and "artificial_bed", of visc.alpha; "local_slip_bed", of drag that follows the slip of each particle,
-  /// in a bed of porosity 0.4; "density_diffusion", which smooths density, not velocity. Zero where there is
-  /// none; empty without viscous fluid.
+  /// in a bed of porosity 0.4. Zero where there is none; empty without viscous fluid. Density diffusion is
+  /// none of them: it smooths density, not velocity.
   virtual std::vector<Quantity> numerical_viscosity() const = 0;
   /// Bytes held on the device (or in host memory), now.
   virtual std::size_t bytes() const = 0;

@@ -74,6 +74,8 @@ class Checks {
   void materials() const;
   /// Overlap at the foot of the bed by its own weight.
   void softness() const;
+  /// Drag laws are of grains smaller than what the fluid is averaged over; fluid flows around large ones.
+  void resolution() const;
   void lubrication() const;
   void suspension_viscosity() const;
   void undisturbed() const;
@@ -86,6 +88,11 @@ class Checks {
   void touchable(const std::string& path, const WallBody& body) const;
   /// Particles leave a domain before they meet a wall beyond it.
   void met(const WallBody& body) const;
+  /// Splash over the rim of an open tank leaves a domain that ends there, unless fluid is at rest or the rim
+  /// out of its reach.
+  void rim(const WallBody& body) const;
+  /// Fluid that spans a tank and is set in motion by nothing.
+  bool still_in(const WallBody& tank, int up_axis) const;
   /// Shapes do not repeat.
   void within_period(const std::string& path, const WallBody& body) const;
   /// Moves as it does from the first: a jump at t = 0 is meant.

@@ -45,7 +45,7 @@ void Checks::walls() const {
     if (body.shape != "plane") box(path, body.min, body.max);
     if (body.solid.shape) within_period(path + ".shape", body);
     countable(path + ".shape", body);
-    if (!body.moves()) met(body);
+    if (!body.moves()) met(body), rim(body);
     if (body.free.present) touchable(path, body);
   }
   if (!c.fluid.present) return;
@@ -121,6 +121,45 @@ void Checks::met(const WallBody& body) const {
   } else if (!in_sight(body.min, body.max)) {
     warn("wall.body \"{}\" lies outside the domain, so particles leave before they meet it", body.name);
   }
+}
+
+void Checks::rim(const WallBody& body) const {
+  const double g = norm(c.gravity);
+  if (!c.fluid.present || body.shape != "tank" || g == 0 || c.fluid.fills.empty()) return;
+  for (const OutletConfig& outlet : c.outlets)
+    if (outlet.takes("fluid")) return;
+  for (int k = 0; k < 3; ++k) {
+    const bool up = c.gravity[k] < 0;
+    const std::size_t top = 2 * std::size_t(k) + up;
+    if (std::abs(c.gravity[k]) < 0.9 * g || body.faces[top] || c.domain.periodic[k]) continue;
+    if (c.domain.reflect.slip[top] || c.domain.reflect.no_slip[top]) continue;
+    const double edge = up ? c.domain.max[k] : -c.domain.min[k], rim = up ? body.max[k] : -body.min[k];
+    double floor = 1e300;
+    for (const FluidFill& fill : c.fluid.fills) floor = std::min(floor, up ? fill.min[k] : -fill.max[k]);
+    const double depths = (edge - floor) / c.fluid.depth;
+    if (edge > rim + 0.5 * c.fluid.dx || depths > 3 || still_in(body, k)) continue;  // jets climb to three
+    warn(
+        "the domain ends at {} = {:g} m, at the rim of wall.body \"{}\" and {:.2g} times the fluid's depth "
+        "above its floor: splash leaves over it and is lost, and the run ends with exit code 4 where that is "
+        "more "
+        "than run.max_lost; make both higher, or close it: face \"{}\" of the tank, or domain.reflect.slip",
+        "xyz"[k], up ? edge : -edge, body.name, depths, kFaces[top]);
+  }
+}
+
+bool Checks::still_in(const WallBody& tank, int up_axis) const {
+  if (c.frame.motion.moves() || !c.inlets.empty() || norm(c.drive.f) > 0 || c.drive.pulls()) return false;
+  for (const WallBody& body : c.wall.bodies)
+    if (body.moves() || norm(body.surface_velocity) > 0) return false;
+  for (const FluidFill& fill : c.fluid.fills)
+    if (!fill.file.empty() || fill.velocity != FluidFill().velocity) return false;
+  for (int k = 0; k < 3; ++k) {
+    if (k == up_axis || c.domain.periodic[k] || c.domain.flat(k)) continue;
+    // each fill spans the tank, as layers on each other do
+    for (const FluidFill& fill : c.fluid.fills)
+      if (fill.min[k] > tank.min[k] + c.fluid.dx || fill.max[k] < tank.max[k] - c.fluid.dx) return false;
+  }
+  return true;
 }
 
 void Checks::within_period(const std::string& path, const WallBody& body) const {

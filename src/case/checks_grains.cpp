@@ -8,6 +8,7 @@
 
 #include "bedload/case/contact_laws.hpp"
 #include "bedload/case/grain_sizes.hpp"
+#include "bedload/case/limits.hpp"
 #include "bedload/case/materials.hpp"
 #include "bedload/case/particle_file.hpp"
 #include "bedload/geometry/depth.hpp"
@@ -33,6 +34,7 @@ void Checks::grains() const {
   if (c.contact.he_damping) warn("paper.he_damping: the restitution reached is below grain.e");
   if (!c.fluid.present && c.drive.factor != DriveConfig().factor) drive();
   softness();
+  if (coupled()) resolution();
   if (c.lubrication.acts()) lubrication();
   materials();
   if (!c.fluid.present && c.drive.on_fluid())
@@ -48,6 +50,15 @@ void Checks::grain_fill(const std::string& path, const GrainFill& fill) const {
            fmt::format("must be as many as positions, {}", fill.positions.size()));
   if (fill.replaces_fluid && (!c.fluid.present || c.grain.settle))
     fail(path + ".replaces_fluid", "true", "must be false without [fluid], and with grain.settle");
+  if (fill.rigid.present && fill.rigid.turn != "none" && fill.positions.empty() && fill.file.empty())
+    for (int k = 0; k < 3; ++k)
+      if (c.domain.periodic[k] &&
+          fill.max[k] - fill.min[k] > c.domain.max[k] - c.domain.min[k] - c.grain.largest())
+        warn(
+            "grain.fill.rigid: the group fills the period along {}, across which it hangs together; turn = "
+            "\"none\" "
+            "keeps it from turning against its images",
+            "xyz"[k]);
   if (fill.rigid.present && (fill.spin != Vec3d{} || !fill.spins.empty() || !fill.velocities.empty()))
     fail(path + ".rigid", "[grain.fill.rigid]",
          "must be left out where grains have spins or velocities of their own");
@@ -101,15 +112,32 @@ void Checks::materials() const {
 }
 
 void Checks::softness() const {
-  const GrainConfig& g = c.grain;
-  const double R = g.d_max / 2, layers = std::max(1.0, height(g.fills, c.gravity) / g.d_max);
-  const double weight = 4.18879 * R * R * R * g.rho * norm(c.gravity) * layers;
-  const double overlap = overlap_under(c.contact, weight, R / 2, 0.5 / ElasticCompliance(g.E, g.nu).normal);
-  if (overlap > 0.01 * R)
+  if (const double overlap = bed_overlap(c); overlap > kSoftBed)
     warn(
         "{}: grains at the foot of the bed will overlap by about {:.2g} % of their radius; stiffer is more "
         "accurate",
-        takes_moduli(c.contact.normal) ? "grain.E" : "contact.k", 100 * overlap / R);
+        takes_moduli(c.contact.normal) ? "grain.E" : "contact.k", 100 * overlap);
+}
+
+void Checks::resolution() const {
+  constexpr double kAveraged = 2, kResolved = 8;
+  const double d = c.grain.d_max, dx = c.fluid.dx, times = d / dx;
+  if (times <= kAveraged * (1 + 1e-3)) return;
+  const std::string coarser = fmt::format("a fluid.dx of {:.3g} m or more", d / kAveraged);
+  if (times < kResolved)
+    warn(
+        "grains of {:.4g} m are {:.3g} times fluid.dx: too large for drag laws, which take what is up to "
+        "{:g} "
+        "times as large, and too small for the fluid to flow around them, as it does around free bodies of "
+        "{:g} "
+        "times or more; take {}, or free bodies and {:.3g} m or less",
+        d, times, kAveraged, kResolved, coarser, d / kResolved);
+  else
+    warn(
+        "grains of {:.4g} m are {:.3g} times fluid.dx: too large for drag laws, which take what is up to "
+        "{:g} "
+        "times as large; make them free bodies ([wall.body.free]), around which the fluid flows, or take {}",
+        d, times, kAveraged, coarser);
 }
 
 void Checks::lubrication() const {

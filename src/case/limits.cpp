@@ -8,6 +8,7 @@
 #include "bedload/case/config.hpp"
 #include "bedload/case/contact_laws.hpp"
 #include "bedload/case/materials.hpp"
+#include "resolve.hpp"
 
 namespace bedload {
 
@@ -103,6 +104,13 @@ std::vector<StepLimit> SubstepLimits::at(double speed) const {
 std::vector<StepLimit> grain_limits(const Config& c) {
   if (!c.grain.present || c.grain.fixed || c.contact.normal == NormalLaw::none) return {};
   return with_binding(SubstepLimits(c).at(0));
+}
+
+double bed_overlap(const Config& c) {
+  const GrainConfig& g = c.grain;
+  const double R = g.d_max / 2, layers = std::max(1.0, height(g.fills, c.gravity) / g.d_max);
+  const double weight = 4.18879 * R * R * R * g.rho * norm(c.gravity) * layers;
+  return overlap_under(c.contact, weight, R / 2, 0.5 / ElasticCompliance(g.E, g.nu).normal) / R;
 }
 
 }  // namespace bedload

@@ -280,7 +280,8 @@ void resolve_fluid(Config& c, const Value& root, const std::filesystem::path& ch
     vmax = std::max(vmax, frame.speed);
   }
   vmax = std::max(vmax, std::sqrt(2 * gH));
-  for (const WallBody& body : c.wall.bodies) vmax = std::max(vmax, wall_speed(body, c.domain, c.time.end));
+  for (const WallBody& body : c.wall.bodies)
+    vmax = std::max(vmax, wall_speed(body, c.domain, c.time.end) + norm(body.surface_velocity));
   for (const InletConfig& inlet : c.inlets)
     vmax = std::max(vmax, inlet_speed(inlet, f.dx, c.domain, c.time.end));
   if (vmax == 0) missing(root, "fluid.vmax", "m/s; neither gravity nor a wall or inlet sets a speed here");

@@ -7,14 +7,15 @@
 
 #include "bedload/case/contact_laws.hpp"
 #include "bedload/case/limits.hpp"
-#include "bedload/case/particle_order.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/geometry/setup.hpp"
 #include "bedload/output/intervals.hpp"
 #include "bedload/output/preview.hpp"
 #include "commands.hpp"
 #include "prepare.hpp"
 #include "progress.hpp"
 #include "rehearsal.hpp"
+#include "remarks.hpp"
 
 namespace bedload {
 namespace {
@@ -37,7 +38,7 @@ struct Trial {
   double substep = 0;   ///< of that, a substep of the grains, s
   double dt = 0;        ///< s
   double substeps = 0;  ///< in a step
-  Limit substeps_by = Limit::fixed;
+  Limit by = Limit::fixed, substeps_by = Limit::fixed;
 };
 
 /// Takes steps for some two seconds.
@@ -54,22 +55,25 @@ Trial timed_steps(Simulation& simulation) {
   double seconds = 0;
   int steps = 0;
   std::int64_t substeps = 0;
-  Limit by = Limit::fixed;
+  Limit by = Limit::fixed, substeps_by = Limit::fixed;
   while (steps < kMost && seconds < kLongest) {
     const StepInfo info = simulation.step();
     substeps += info.substeps;
-    by = info.substep_limit;
+    if (info.limit != Limit::growth) by = info.limit;
+    substeps_by = info.substep_limit;
     ++steps;
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
   }
   const double of_grains = substeps > 0 ? (grains() - grains_before) / double(substeps) : 0;
-  return {seconds / steps, of_grains, (simulation.time() - begin) / steps, double(substeps) / steps, by};
+  return {seconds / steps,          of_grains, (simulation.time() - begin) / steps,
+          double(substeps) / steps, by,        substeps_by};
 }
 
 /// A line each; the one that binds has its key.
 std::string limits_text(const char* title, const std::vector<StepLimit>& limits) {
   std::string out;
   for (const StepLimit& limit : limits) {
+    if (!std::isfinite(limit.seconds)) continue;  // drag before any grain is wet
     const std::string_view key = key_of(limit.limit);
     out += fmt::format("{:<10} {:<12} {}{}{}\n", out.empty() ? title : "", name_of(limit.limit),
                        std::isfinite(limit.seconds) ? fmt::format("{:.4g} s", limit.seconds) : "none",
@@ -79,88 +83,55 @@ std::string limits_text(const char* title, const std::vector<StepLimit>& limits)
   return out;
 }
 
-}  // namespace
+/// The other value of a key, and what it comes to; a line, empty where there is none to be had.
+std::string fewer_steps_text(const Config& c, const Trial& trial, double count) {
+  constexpr double least = 5;  // of fluid.c_factor
+  if (trial.by != Limit::cfl || c.eos.type != EosType::tait || c.fluid.c_factor < 1.2 * least) return "";
+  return fmt::format("           about {} with fluid.c_factor = {:g}, density then off by up to {:g} %\n",
+                     grouped(std::llround(count * least / c.fluid.c_factor)), least, 100 / (least * least));
+}
 
-/// What numerical viscosities there are, as multiples of the fluid's own.
-std::string viscosity_text(const Config& c, const std::vector<Quantity>& numerical) {
-  if (numerical.empty()) return "";
-  std::string out = fmt::format("viscosity  {:.3g} m2/s", c.fluid.mu / c.fluid.rho0);
-  bool any = false;
-  for (const Quantity& q : numerical) {
-    if (!(q.value > 0)) continue;
-    std::string name = q.name;
-    std::replace(name.begin(), name.end(), '_', ' ');
-    out += fmt::format("{} {} {:.3g} times that", any ? "," : "; numerical:", name, q.value);
-    any = true;
+/// The same of substeps: a larger least gap of films, or grains as soft as their bed allows.
+std::string fewer_substeps_text(const Config& c, const Trial& trial) {
+  if (trial.substeps < 2) return "";
+  Config other = c;
+  std::string turned;
+  if (trial.substeps_by == Limit::lubrication) {
+    other.lubrication.least_gap = std::min(10 * c.lubrication.least_gap, 0.5 * c.lubrication.cut_off);
+    turned = fmt::format("lubrication.least_gap = {:g}", other.lubrication.least_gap);
+  } else if ((trial.substeps_by == Limit::contact || trial.substeps_by == Limit::rayleigh) &&
+             takes_moduli(c.contact.normal)) {
+    const double softest = c.grain.E * std::pow(bed_overlap(c) / kSoftBed, 1.5);  // by Hertz' law
+    other.grain.E = std::max(c.grain.E / 10, 1.1 * softest);
+    for (GrainMaterial& m : other.grain.materials)
+      if (m.E == c.grain.E) m.E = other.grain.E;
+    turned = fmt::format("grain.E = {:.2g} Pa", other.grain.E);
   }
-  return out + (any ? "\n" : ", none of it numerical\n");
+  const double now = least_of(grain_limits(c)).seconds, then = least_of(grain_limits(other)).seconds;
+  if (turned.empty() || !(then > 1.3 * now)) return "";
+  return fmt::format("           each with {:.0f} with {}\n", std::ceil(trial.substeps * now / then), turned);
 }
 
-/// The stress by which particles not in order resist shear under pressure, and whether that is taken off.
-std::string arrangement_text(const Config& c) {
-  if (!c.fluid.present || c.fluid.mu == 0 || c.fluid.variable_h || c.fluid.sdpd()) return "";
-  const double pressure = c.fluid.rho0 * norm(c.gravity) * c.fluid.depth + c.eos.background;
-  if (pressure == 0) return "";
-  const double stress = 5e-3 * pressure;  // 2e-3 to 1e-2 on lattices, h = 1.5 dx
-  const std::string out = fmt::format(
-      "lattice    under {:.3g} Pa an arrangement of particles resists shear by up to about {:.2g} Pa, as "
-      "viscosity does at {:.2g} 1/s; ",
-      pressure, stress, stress / c.fluid.mu);
-  if (const ParticleOrder order = particle_order(c); !order.linear_exact)
-    return out + "that stays: " + order.not_exact + "\n";
-  const double cell = cell_reynolds_number(std::sqrt(pressure / c.fluid.rho0), c.fluid);
-  const char* what = cell < kExactPressure ? "pressure.linear_exact removes that"
-                     : cell < kExactPressure * kExactPressureEnds
-                         ? "pressure.linear_exact removes part of that"
-                         : "that stays, flow slower than that is held by it";
-  return out +
-         fmt::format("{} (cell Reynolds number {:.3g}, removed below {:g})\n", what, cell, kExactPressure);
+/// Water that splashes takes longer than water that stands: lists are renewed more often and reach farther,
+/// steps are shorter. Dam breaks took 1.3 to 2.3 times as long as by their first steps, on CPUs.
+constexpr double kSplash = 2.5;
+
+std::string run_time_text(double seconds, bool splashes) {
+  if (!splashes)
+    return fmt::format("run time   about {} by the pace of the first steps, output apart\n",
+                       duration_text(seconds));
+  return fmt::format(
+      "run time   about {} by the pace of the first steps, up to {} if fluid splashes, output apart\n",
+      duration_text(seconds), duration_text(kSplash * seconds));
 }
 
-/// Why particles do not shift, where a case asks for it.
-std::string shifting_text(const Config& c) {
-  if (!c.fluid.present || c.shift == 0 || c.fluid.sdpd()) return "";
-  const ParticleOrder order = particle_order(c);
-  return order.shifts ? "" : "shifting   none: " + order.no_shifting + "\n";
-}
-
-/// What defaults do that not every case may want.
-std::string defaults_text(const Config& c) {
-  std::string out;
-  const auto say = [&](const char* about, const std::string& what) {
-    out += fmt::format("{:<10} {}\n", about, what);
-  };
-  const bool grains = c.grain.present && c.fluid.present && c.couple.mode != CouplingMode::off;
-  if (c.fluid.present && !c.fluid.sdpd() && c.density.cavitation_limit < 1)
-    say("tension",
-        fmt::format("fluid cavitates below {:.3g} Pa (density.cavitation_limit; diagnostics.csv counts "
-                    "the particles){}",
-                    c.eos.background - c.density.cavitation_limit * c.fluid.rho0 * c.fluid.c * c.fluid.c,
-                    c.wall.suction ? "; until then it hangs from lids and roofs" : ""));
-  if (c.fluid.present && !c.fluid.sdpd() && c.fluid.mu > 0 && c.visc.model == ViscosityModel::morris &&
-      norm(c.gravity) > 0)
-    say("waves",
-        "visc.model = \"morris\" damps waves at a free surface half as fast as fluid.mu should; "
-        "\"monaghan\" is right there");
-  if (grains && c.couple.mode == CouplingMode::two_way && !c.couple.undisturbed && !c.domain.two_d)
-    say("wake",
-        fmt::format("the fluid that a lone grain feels moves along with it by up to {:.2g} % of its speed; "
-                    "couple.undisturbed takes that off",
-                    100 * 0.537 * c.grain.d_max / c.couple.hc));
-  if (c.grain.present && takes_moduli(c.contact.normal) && c.grain.E < 1e9)
-    say("contacts",
-        fmt::format(
-            "grain.E = {:.3g} Pa is softer than stone, glass or steel: impacts last longer and overlap "
-            "more, which also changes spins",
-            c.grain.E));
-  return out;
-}
+}  // namespace
 
 int check_case(const Options& options) {
   Prepared p = prepare(options);
   const Config& c = p.config;
   const Counts& n = p.counts;
-  fmt::print("{}", summary_text(p));
+  fmt::print("{}{}", summary_text(p), notes_text(p));
   if (!options.preview.empty()) {
     write_preview(options.preview, c, p.setup);
     fmt::print("preview    {}\n", (options.preview / "preview.png").string());
@@ -182,8 +153,8 @@ int check_case(const Options& options) {
     Rehearsal rehearsal(p);
     Simulation& simulation = rehearsal.simulation();
     const std::vector<StepLimit> steps = simulation.limits(), substeps = simulation.substep_limits();
-    fmt::print("{}", viscosity_text(c, simulation.numerical_viscosity()));
-    fmt::print("{}{}{}", arrangement_text(c), shifting_text(c), defaults_text(c));
+    const bool free_surface = c.fluid.present && (!options.restart.empty() || has_free_surface(c, p.setup));
+    fmt::print("{}", remarks_text(c, simulation.numerical_viscosity(), free_surface));
     fmt::print("{}{}", limits_text("step", steps), limits_text("substep", substeps));
     check_fixed_steps(p, simulation);
 
@@ -207,7 +178,8 @@ int check_case(const Options& options) {
                : trial.substeps > 1 ? fmt::format(", each with {:.0f} substeps by {}", trial.substeps,
                                                   with_key(trial.substeps_by))
                                     : ", each with 1 substep");
-    fmt::print("run time   about {} by the pace of the first steps, output apart\n", duration_text(seconds));
+    fmt::print("{}{}", fewer_steps_text(c, trial, count), fewer_substeps_text(c, trial));
+    fmt::print("{}", run_time_text(seconds, free_surface && norm(c.gravity) > 0));
     if (c.grain.present && c.grain.settle) {
       const double many = std::ceil(c.grain.settle_time / least_of(grain_limits(c)).seconds);
       fmt::print("settling   before that, at most {} substeps, {}, unless the bed is kept from before\n",

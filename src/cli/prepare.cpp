@@ -19,6 +19,7 @@
 #include "bedload/output/output.hpp"
 #include "src/geometry/rough_size.hpp"
 #include "src/motion/inlet_flow.hpp"
+#include "src/viscometer/plane_flow.hpp"
 
 namespace bedload {
 
@@ -188,6 +189,28 @@ void refuse_changes(const Options& options, Prepared& p) {
     p.former = std::move(then);
 }
 
+/// Where fluid has nowhere to go its pressure falls below zero somewhere as soon as anything moves, and it
+/// tears there. Flow between walls that slide along themselves has the same pressure all over.
+void warn_of_full_box(Prepared& p) {
+  const Config& c = p.config;
+  const auto walled = [](const WallBody& body) { return body.stops_fluid(); };
+  if (!c.fluid.present || c.fluid.sdpd() || c.eos.type != EosType::tait || c.eos.background > 0 ||
+      !c.inlets.empty() || !c.outlets.empty() ||
+      std::none_of(c.wall.bodies.begin(), c.wall.bodies.end(), walled))
+    return;
+  try {
+    (void)plane_flow_of(c);
+    return;
+  } catch (const KeyError&) {
+  }
+  if (has_free_surface(c, p.setup)) return;
+  p.warnings.push_back(fmt::format(
+      "the fluid fills its space up to the walls, without a free surface: it tears wherever its "
+      "pressure would fall below zero; give eos.background, its pressure at rest, some rho0 vmax^2 "
+      "= {:.2g} Pa",
+      c.fluid.rho0 * c.fluid.vmax * c.fluid.vmax));
+}
+
 }  // namespace
 
 Prepared prepare(const Options& options) {
@@ -204,7 +227,8 @@ void initialise(const Options& options, Prepared& p) {
   p.device = find_device(options.backend, options.threads, p.config.simd);
   if (options.restart.empty()) {
     refuse_too_many(p);
-    p.setup = build_setup(p.config, p.warnings);
+    p.setup = build_setup(p.config, p.warnings, &p.notes);
+    warn_of_full_box(p);
     p.counts = counts_of(p.setup);
   } else {
     p.restart = read_checkpoint(options.restart, p.config);
@@ -308,6 +332,12 @@ std::string summary_text(const Prepared& p) {
   if (c.fluid.present && c.grain.present && c.couple.mode != CouplingMode::off)
     out += fmt::format("coupling   {}, {}, h_c {:.4g} m = {:.3g} d_max\n", c.couple.mode.name(),
                        c.couple.drag.name(), c.couple.hc, c.couple.hc / c.grain.d_max);
+  return out;
+}
+
+std::string notes_text(const Prepared& p) {
+  std::string out;
+  for (const std::string& note : p.notes) out += fmt::format("note       {}\n", note);
   return out;
 }
 

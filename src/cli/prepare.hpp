@@ -23,6 +23,7 @@ struct Prepared {
   std::optional<Config> former;  ///< of the checkpoint, if it is one of the results folder and can be read
   Counts counts;
   std::vector<std::string> warnings;
+  std::vector<std::string> notes;  ///< what is as it should be, but may surprise
 };
 
 /// Reads the case, finds the device and says so, places the particles or reads the checkpoint. Throws
@@ -47,5 +48,7 @@ std::string bytes_text(std::size_t bytes);
 std::string heading_text(const Prepared& prepared);
 /// What the numbers mean: particles, sound speed, artificial viscosity; a line each.
 std::string summary_text(const Prepared& prepared);
+/// What was done as it should be, but may surprise; a line each.
+std::string notes_text(const Prepared& prepared);
 
 }  // namespace bedload

@@ -59,7 +59,7 @@ class Run {
   }
 
   int go() {
-    say(summary_text(p_));
+    say(summary_text(p_) + notes_text(p_));
     session_.emplace(options_, std::move(p_), [this](const std::string& text) { say(text); });
     tell_warnings();
     say(fmt::format("results    {}\n", options_.out.string()));

@@ -17,7 +17,10 @@ void refuse_other_run(const Options& o) {
 }
 
 Session::Session(const Options& options, Prepared prepared, const Say& say)
-    : p_(std::move(prepared)), intervals_(p_.config.out), continues_(!options.restart.empty()) {
+    : p_(std::move(prepared)),
+      intervals_(p_.config.out),
+      speed_watch_(p_.config),
+      continues_(!options.restart.empty()) {
   build(options, say);
   check_fixed_steps(p_, *simulation_);
   if (options.out.empty()) return;
@@ -78,13 +81,16 @@ StepInfo Session::step() {
   ++effort_.steps_by[std::size_t(info.limit)];
   if (info.substeps > 1) effort_.substeps_by[std::size_t(info.substep_limit)] += info.substeps;
   effort_.rebuilds += info.rebuilt;
+  if (const auto warning = speed_watch_.look(*simulation_, info)) warn(*warning);
   if (!output_) return info;
   output_->write(*simulation_, info);
-  for (const std::string& warning : intervals_.newly_below(info.dt)) {
-    p_.warnings.push_back(warning);
-    output_->warn(warning);
-  }
+  for (const std::string& warning : intervals_.newly_below(info.dt)) warn(warning);
   return info;
+}
+
+void Session::warn(const std::string& text) {
+  p_.warnings.push_back(text);
+  if (output_) output_->warn(text);
 }
 
 void Session::finish(const std::string& status) {

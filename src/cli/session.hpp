@@ -11,6 +11,7 @@
 #include "bedload/output/output.hpp"
 #include "options.hpp"
 #include "prepare.hpp"
+#include "speed_watch.hpp"
 
 namespace bedload {
 
@@ -42,6 +43,7 @@ class Session {
 
  private:
   void build(const Options& options, const Say& say);
+  void warn(const std::string& text);
   void tell_gaps(const Options& options);
   SavedState settled(const Options& options, const Say& say);
 
@@ -49,6 +51,7 @@ class Session {
   std::unique_ptr<Simulation> simulation_;
   std::optional<RunOutput> output_;
   OutputIntervals intervals_;
+  SpeedWatch speed_watch_;
   bool continues_;
   Effort effort_;
   std::chrono::steady_clock::time_point from_ = std::chrono::steady_clock::now();

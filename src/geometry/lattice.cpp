@@ -158,7 +158,7 @@ void add_box(const Config& config, const FluidFill& fill, std::size_t index, Set
 
 /// The fluid of one fill, around the bodies that stand in it.
 void add_fill(const Config& config, std::size_t index, Setup::Fluid& fluid,
-              std::vector<std::string>& warnings) {
+              std::vector<std::string>& warnings, std::vector<std::string>& notes) {
   FluidFill fill = config.fluid.fills[index];
   const std::size_t begin = fluid.x.size();
   if (fill.solid.shape)
@@ -173,20 +173,20 @@ void add_fill(const Config& config, std::size_t index, Setup::Fluid& fluid,
   for (auto* values : {&fluid.x, &fluid.v}) values->resize(begin);
   fluid.mass.resize(begin);
   add_shape(config, fill, index, fluid);
-  warnings.push_back(fmt::format("fluid.fill {}: leaves out wall.body {}, {} of {} particles", index + 1,
-                                 names, all - (fluid.x.size() - begin), all));
+  notes.push_back(fmt::format("fluid.fill {}: leaves out wall.body {}, {} of {} particles", index + 1, names,
+                              all - (fluid.x.size() - begin), all));
 }
 
 }  // namespace
 
 std::vector<std::size_t> add_fluid(const Config& config, Setup::Fluid& fluid,
-                                   std::vector<std::string>& warnings) {
+                                   std::vector<std::string>& warnings, std::vector<std::string>& notes) {
   std::vector<std::size_t> first;
   for (std::size_t index = 0; index < config.fluid.fills.size(); ++index) {
     first.push_back(fluid.x.size());
     if (!config.fluid.fills[index].file.empty()) continue;
     check_fill(config, index);
-    add_fill(config, index, fluid, warnings);
+    add_fill(config, index, fluid, warnings, notes);
     fluid.fill.resize(fluid.x.size(), std::uint32_t(index));
   }
   first.push_back(fluid.x.size());

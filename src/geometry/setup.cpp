@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
 
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/filter.hpp"
@@ -13,6 +10,7 @@
 #include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/packing.hpp"
 #include "bedload/geometry/sampling.hpp"
+#include "place_cells.hpp"
 
 namespace bedload {
 namespace {
@@ -82,58 +80,16 @@ void flatten(const Config& config, Setup& setup, const First& first) {
     for (Vec3d& x : *places) x.y = config.domain.middle();
 }
 
-/// The fluid in cells at least as wide as fluid.dx, to find what is within that of a place.
-class FluidCells {
- public:
-  FluidCells(const Config& config, const Setup::Fluid& fluid) : domain_(config.domain), fluid_(fluid) {
-    for (int k = 0; k < 3; ++k) {
-      const double length = domain_.max[k] - domain_.min[k];
-      count_[k] = std::max<std::int64_t>(1, std::int64_t(length / config.fluid.dx));
-      width_[k] = length / double(count_[k]);
-    }
-    for (std::size_t a = 0; a < fluid.x.size(); ++a) cells_[cell(fluid.x[a])].push_back(a);
-  }
-  /// The particle nearest to x of those within `reach` (m, at most fluid.dx) that are not `gone`; none: their
-  /// number.
-  std::size_t nearest(const Vec3d& x, double reach, const std::vector<bool>& gone) const {
-    double least = reach * reach;
-    std::size_t found = fluid_.x.size();
-    for (int n = 0; n < 27; ++n) {
-      const Vec3d side{(n % 3 - 1) * width_.x, (n / 3 % 3 - 1) * width_.y, (n / 9 - 1) * width_.z};
-      const auto here = cells_.find(cell(x + side));
-      if (here == cells_.end()) continue;
-      for (const std::size_t a : here->second) {
-        const double r2 = norm2(apart(fluid_.x[a], x));
-        if (gone[a] || r2 > least || (r2 == least && a > found)) continue;
-        least = r2, found = a;
-      }
-    }
-    return found;
-  }
-
- private:
-  Vec3d apart(const Vec3d& x, const Vec3d& y) const {
-    Vec3d r = x - y;
-    for (int k = 0; k < 3; ++k)
-      if (const double period = domain_.max[k] - domain_.min[k]; domain_.periodic[k])
-        r[k] -= period * std::round(r[k] / period);
-    return r;
-  }
-  std::array<std::int64_t, 3> cell(const Vec3d& x) const {
-    std::array<std::int64_t, 3> at;
-    for (int k = 0; k < 3; ++k) {
-      at[k] = std::int64_t(std::floor((x[k] - domain_.min[k]) / width_[k]));
-      if (domain_.periodic[k]) at[k] = (at[k] % count_[k] + count_[k]) % count_[k];
-    }
-    return at;
-  }
-
-  const DomainConfig& domain_;
-  const Setup::Fluid& fluid_;
-  std::array<std::int64_t, 3> count_;
-  Vec3d width_;
-  std::map<std::array<std::int64_t, 3>, std::vector<std::size_t>> cells_;
-};
+/// The particle nearest to x of those within `reach` (m) that are not `gone`; none: their number.
+std::size_t nearest(const PlaceCells& cells, const Vec3d& x, double reach, const std::vector<bool>& gone) {
+  double least = reach * reach;
+  std::size_t found = gone.size();
+  cells.any(x, reach, [&](std::size_t a, double r2) {
+    if (!gone[a] && (r2 < least || (r2 == least && a < found))) least = r2, found = a;
+    return false;
+  });
+  return found;
+}
 
 /// Takes out the fluid particle nearest to each grain of the fills that say so. Those that are left of its
 /// fluid.fill share its volume, so that fluid and grains still fill the space together.
@@ -141,13 +97,13 @@ void replace_fluid(const Config& config, const Setup::Grains& grains, Setup::Flu
   const auto& fills = config.grain.fills;
   if (std::none_of(fills.begin(), fills.end(), [](const GrainFill& fill) { return fill.replaces_fluid; }))
     return;
-  const FluidCells cells(config, fluid);
+  const PlaceCells cells(config.domain, config.fluid.dx, fluid.x);
   std::vector<bool> gone(fluid.x.size(), false);
   std::vector<double> was(config.fluid.fills.size()), left(config.fluid.fills.size());
   for (std::size_t i = 0; i < grains.x.size(); ++i) {
     if (!fills[grains.fill[i]].replaces_fluid) continue;
     const Vec3d& x = grains.x[i];
-    const std::size_t at = cells.nearest(x, config.fluid.dx, gone);
+    const std::size_t at = nearest(cells, x, config.fluid.dx, gone);
     if (at == fluid.x.size())
       throw KeyError(
           fmt::format("grain.fill.{}.replaces_fluid", grains.fill[i]),
@@ -171,10 +127,11 @@ void replace_fluid(const Config& config, const Setup::Grains& grains, Setup::Flu
 
 }  // namespace
 
-Setup build_setup(const Config& config, std::vector<std::string>& warnings) {
+Setup build_setup(const Config& config, std::vector<std::string>& warnings, std::vector<std::string>* notes) {
   Setup setup;
+  std::vector<std::string> unread;
   if (config.fluid.present) {
-    const First first = add_fluid(config, setup.fluid, warnings);
+    const First first = add_fluid(config, setup.fluid, warnings, notes ? *notes : unread);
     check_fluid_is_clear(config, setup.fluid, first);
     add_listed_fluid(config, setup.fluid, warnings);
     add_walls(config, setup.walls, warnings);

@@ -16,8 +16,7 @@ std::vector<Quantity> CoupledSimulation::numerical_viscosity() const {
   const auto by_slip = [&] { return stepper_.coupling().bed_viscosity(0.4, config_.grain.d_max) / f.mu; };
   return {{"artificial_bulk", "-", artificial},
           {"artificial_bed", "-", state_.two_way ? artificial : 0},
-          {"local_slip_bed", "-", state_.two_way ? by_slip() : 0},
-          {"density_diffusion", "-", config_.density.delta * sound / own}};
+          {"local_slip_bed", "-", state_.two_way ? by_slip() : 0}};
 }
 
 SavedState CoupledSimulation::save_grains() {

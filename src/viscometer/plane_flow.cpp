@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
-
-#include "bedload/core/error.hpp"
 
 namespace bedload {
 namespace {
@@ -18,7 +17,7 @@ constexpr const char* kFlows =
     "or sheared by their motion (Couette)";
 
 [[noreturn]] void refuse(const std::string& key, const std::string& why) {
-  throw KeyError(key, fmt::format("{}: {}; {}", key, why, kFlows));
+  throw NoPlaneFlow(key, fmt::format("{}: {}; {}", key, why, kFlows));
 }
 
 /// A plane surface that fluid meets; side +1: fluid lies above it.
@@ -118,7 +117,6 @@ void refuse_additions(const Config& c) {
   const auto refuse_key = [](const std::string& key, const std::string& why) {
     throw KeyError(key, fmt::format("{}: {}", key, why));
   };
-  if (!c.fluid.present) refuse_key("fluid.dx", "a viscometer needs a fluid");
   if (!(c.fluid.mu > 0)) refuse_key("fluid.mu", "a viscometer needs fluid with a viscosity above 0");
   if (c.visc.alpha > 0 || c.visc.beta > 0)
     refuse_key("visc.alpha",
@@ -174,6 +172,7 @@ PlaneFlow between_walls(const Config& c) {
   flow.kind = driven ? PlaneFlowKind::poiseuille : PlaneFlowKind::couette;
   flow.along = *along;
   flow.relative_speed = slip[*along];
+  flow.fastest = std::max(norm(velocity_of(c, low.body)), norm(velocity_of(c, high.body)));
   return flow;
 }
 
@@ -199,7 +198,7 @@ double PlaneFlow::relaxation(double nu) const {
 }
 
 PlaneFlow plane_flow_of(const Config& c) {
-  refuse_additions(c);
+  if (!c.fluid.present) throw NoPlaneFlow("fluid.dx", "fluid.dx: a viscometer needs a fluid");
   bool walls = false;
   for (const WallBody& body : c.wall.bodies) walls = walls || body.stops_fluid();
   PlaneFlow flow = c.domain.sheared() ? lees_edwards(c) : walls ? between_walls(c) : reverse_poiseuille(c);
@@ -208,6 +207,7 @@ PlaneFlow plane_flow_of(const Config& c) {
       refuse("domain.periodic", fmt::format("must be true along {}", "xyz"[k]));
   const Vec3d size = c.domain.max - c.domain.min;
   flow.area = size[flow.along] * size[flow.across()];
+  refuse_additions(c);
   const double h = c.fluid.h(), least = flow.kind == PlaneFlowKind::poiseuille ? 3.5 : 2.5;
   if (flow.kind != PlaneFlowKind::lees_edwards && flow.gap() < least * h)
     throw KeyError(
@@ -216,6 +216,19 @@ PlaneFlow plane_flow_of(const Config& c) {
                     "one is left out on each side; a viscometer needs {} in {} flow",
                     c.fluid.dx, flow.gap(), walls ? "wall to wall" : "flip to flip", h, least, flow.name()));
   return flow;
+}
+
+int blocks_until(const PlaneFlow& flow, double nu, double end) {
+  const double relaxation = flow.relaxation(nu), from = kStart * relaxation;
+  const int blocks = int(std::min((end - from) / relaxation * (1 + 1e-9), double(kMostBlocks)));
+  if (blocks < kLeastBlocks)
+    throw KeyError(
+        "time.end",
+        fmt::format("time.end = {:g} must be >= {:.4g} in a viscometer: the flow takes {:.3g} s to become "
+                    "steady, and {} blocks of {:.3g} s ({}) are to be measured",
+                    end, from + kLeastBlocks * relaxation, from, kLeastBlocks, relaxation,
+                    flow.kind == PlaneFlowKind::lees_edwards ? "L^2 / 4 pi^2 nu" : "D^2 / pi^2 nu"));
+  return blocks;
 }
 
 }  // namespace bedload

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bedload/case/config.hpp"
+#include "bedload/core/error.hpp"
 
 namespace bedload {
 
@@ -19,6 +20,7 @@ struct PlaneFlow {
   int lower = -1, upper = -1;   ///< wall bodies with those surfaces, by their index; -1: none
   double area = 0;              ///< of such a surface, m2
   double relative_speed = 0;    ///< of the walls, or what an image moves by: upper less lower, m/s
+  double fastest = 0;           ///< of the walls, m/s
 
   bool walled() const { return kind == PlaneFlowKind::poiseuille || kind == PlaneFlowKind::couette; }
   /// Driven one way below the middle, the other way above.
@@ -34,8 +36,22 @@ struct PlaneFlow {
   std::string name() const;
 };
 
-/// Throws KeyError where the case is none of them, or where something would be measured along with the
-/// viscosity.
+/// A case that is none of them.
+struct NoPlaneFlow : KeyError {
+  using KeyError::KeyError;
+};
+
+/// Throws NoPlaneFlow where the case is none of them, KeyError where something would be measured along with
+/// the viscosity, or the flow is too narrow.
 PlaneFlow plane_flow_of(const Config& config);
+
+/// What is left out at the start, in times in which the flow comes e times closer to being steady: over ten
+/// more of them what is missing then takes 0.2 % of the mean.
+inline constexpr int kStart = 4;
+inline constexpr int kLeastBlocks = 10, kMostBlocks = 50;  ///< of such a time or longer that are measured
+
+/// How many are measured until `end` (s) in fluid of viscosity nu (m2/s). Throws KeyError for fewer than
+/// kLeastBlocks.
+int blocks_until(const PlaneFlow& flow, double nu, double end);
 
 }  // namespace bedload

@@ -106,9 +106,12 @@ class Evaluation {
     }
     speed = sheared ? r.peak : speed / mass;
     r.reynolds = c_.fluid.rho0 * speed * gap / r.viscosity.mean;
-    // no fluid meets any that is faster than across the kernel's reach, however high the box
-    const bool images = flow_.kind == PlaneFlowKind::lees_edwards;
-    r.mach = (images ? r.peak * reach_ / gap : r.peak) / c_.fluid.c;
+    // no fluid meets any that is faster than across the kernel's reach, however high the box; between walls
+    // that both move it is as fast as the faster one, from which fluid.vmax follows
+    const double fastest = flow_.kind == PlaneFlowKind::lees_edwards ? r.peak * reach_ / gap
+                           : flow_.kind == PlaneFlowKind::couette    ? flow_.fastest
+                                                                     : r.peak;
+    r.mach = fastest / c_.fluid.c;
     if (flow_.walled()) walls(r);
     stresses(r);
     for (int l = 0; l < n_; ++l)

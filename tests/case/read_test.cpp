@@ -271,6 +271,71 @@ TEST(Warnings, NameWhatIsDoubtful) {
                                 "sound speed follows"}));
 }
 
+/// docs/howto/resolution.md: drag laws up to two spacings, free bodies from eight on.
+TEST(Warnings, TellOfGrainsThatAreNeitherAveragedNorResolved) {
+  const auto of = [](const char* dx) {
+    return warnings_of(changed("dx = 0.004", std::string("dx = ") + dx));
+  };
+  EXPECT_TRUE(of("0.001").empty());
+  ASSERT_EQ(of("0.0005").size(), 1u);
+  EXPECT_EQ(
+      of("0.0005")[0],
+      "grains of 0.002 m are 4 times fluid.dx: too large for drag laws, which take what is up to 2 times "
+      "as large, and too small for the fluid to flow around them, as it does around free bodies of 8 times "
+      "or more; take a fluid.dx of 0.001 m or more, or free bodies and 0.00025 m or less");
+  ASSERT_EQ(of("0.00022").size(), 1u);
+  EXPECT_TRUE(
+      of("0.00022")[0].starts_with("grains of 0.002 m are 9.09 times fluid.dx: too large for drag laws"));
+  EXPECT_NE(of("0.00022")[0].find("make them free bodies"), std::string::npos);
+  EXPECT_TRUE(warnings_of(changed("dx = 0.004", "dx = 0.0005") + "[couple]\nmode = \"off\"\n").empty());
+}
+
+/// docs/faq.md: splashes rise higher than the column that makes them.
+TEST(Warnings, TellOfADomainThatEndsAtARim) {
+  const std::string open = "max = [0.2, 0.1, 0.2]\nfaces = [\"x-\", \"x+\", \"y-\", \"y+\", \"z-\"]\n[grain]";
+  const auto warned = [&](std::string from = "", const std::string& to = "") {
+    std::string text = changed("max = [0.2, 0.1, 0.2]\n[grain]", open);
+    if (!from.empty()) text.replace(text.find(from), from.size(), to);
+    const auto warnings = warnings_of(text);
+    EXPECT_LE(warnings.size(), 1u);
+    return !warnings.empty() && warnings[0].starts_with(
+                                    "the domain ends at z = 0.2 m, at the rim of wall.body "
+                                    "\"tank\" and 2 times the fluid's depth above its floor");
+  };
+  EXPECT_TRUE(warned());
+  EXPECT_TRUE(warnings_of(kCase).empty()) << "it is closed";
+  EXPECT_FALSE(warned("max = [0.2, 0.1, 0.2]\n[fluid]", "max = [0.2, 0.1, 0.25]\n[fluid]"));
+  EXPECT_FALSE(
+      warned("max = [0.2, 0.1, 0.2]\n[fluid]", "max = [0.2, 0.1, 0.2]\nreflect.slip = [\"z+\"]\n[fluid]"));
+  EXPECT_FALSE(warned("max = [0.05, 0.1, 0.1]\n[[wall", "max = [0.05, 0.1, 0.06]\n[[wall")) << "out of reach";
+  EXPECT_FALSE(warned("max = [0.05, 0.1, 0.1]\n[[wall", "max = [0.2, 0.1, 0.1]\n[[wall"))
+      << "it stands still";
+  EXPECT_TRUE(warned("max = [0.05, 0.1, 0.1]\n[[wall",
+                     "max = [0.2, 0.1, 0.1]\nvelocity = [\"0.1\", \"0\", \"0\"]\n[[wall"));
+  EXPECT_FALSE(
+      warned("[time]", "[[outlet]]\nname = \"top\"\npoint = [0, 0, 0.2]\nnormal = [0, 0, 1]\n[time]"));
+}
+
+/// A block that hangs together across a period cannot turn.
+TEST(Warnings, TellOfABlockThatFillsThePeriodAndTurns) {
+  const auto warned = [](const std::string& turn) {
+    std::string text = changed("max = [0.2, 0.1, 0.2]\n[fluid]",
+                               "max = [0.2, 0.1, 0.2]\nperiodic = [false, true, false]\n[fluid]");
+    text.replace(text.find("count = 500\n"), 12, "count = 500\n[grain.fill.rigid]\n" + turn);
+    const auto warnings = warnings_of(text);
+    return !warnings.empty() &&
+           warnings[0].starts_with("grain.fill.rigid: the group fills the period along y");
+  };
+  EXPECT_TRUE(warned(""));
+  EXPECT_FALSE(warned("turn = \"none\"\n"));
+}
+
+/// The surface of a belt is a wall's.
+TEST(ReadCase, SoundSpeedFollowsSurfacesThatSlide) {
+  EXPECT_DOUBLE_EQ(
+      read(changed("name = \"tank\"", "name = \"tank\"\nsurface_velocity = [3, 0, 0]")).fluid.vmax, 3);
+}
+
 TEST(ParameterTable, HoldsEveryKeyOnceWithUnitAndMeaning) {
   const auto rows = parameter_table();
   EXPECT_GT(rows.size(), 100u);

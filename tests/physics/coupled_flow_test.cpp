@@ -217,7 +217,7 @@ TEST(CoupledFlow, TellsItsNumericalViscosity) {
     const auto told = make_coupled(c, slurry.setup)->numerical_viscosity();
     EXPECT_NEAR(reading(told, "artificial_bulk"), 0.02 * c.fluid.h() * c.fluid.c / 20 / 1e-6, 1e-6);
     EXPECT_EQ(reading(told, "artificial_bed"), reading(told, "artificial_bulk"));
-    EXPECT_NEAR(reading(told, "density_diffusion"), 0.1 * c.fluid.h() * c.fluid.c / 1e-6, 1e-6);
+    EXPECT_EQ(told.size(), 3u) << "density diffusion thickens nothing";
     // beta s^2 / 6 with beta = 18 phi mu / d2 and s^2 = 0.8 h_c2 of Wendland's kernel
     const double d = c.grain.d, expected = 18 * 0.6 / (d * d) * 0.8 * c.couple.hc * c.couple.hc / 6;
     EXPECT_NEAR(reading(told, "local_slip_bed"), slip == std::string("local") ? expected : 0,

@@ -382,6 +382,134 @@ TEST_F(Program, TellsWhatBindsStepsAndSubsteps) {
   EXPECT_EQ(summary["substeps_by_limit"]["lubrication"], summary["substeps"]);
 }
 
+/// And what another value of the key would come to.
+TEST_F(Program, TellsWhatTurningAKeyWouldGive) {
+  write("dam.toml", kSmall);
+  const std::string options = "check dam.toml --backend cpu --set grain.settle=false --set time.dt=1e-5 ";
+  const auto substeps = [](const std::string& text, const std::string& after) {
+    const auto at = text.find(after);
+    EXPECT_NE(at, text.npos) << after << " in " << text;
+    return at == text.npos ? 0 : std::stoi(text.substr(at + after.size()));
+  };
+  const std::string films = "--set fluid.mu=1 --set lubrication.forces=all --set lubrication.least_gap=";
+  const std::string told = bedload(options + films + "1e-4").out;
+  EXPECT_NE(told.find(" with lubrication.least_gap = 0.001\n"), told.npos) << told;
+  EXPECT_NEAR(substeps(told, "\n           each with "),
+              substeps(bedload(options + films + "1e-3").out, ", each with "), 1);
+  const std::string stiff = "--set time.dt=1e-4 --set grain.E=",
+                    by_stiffness = bedload(options + stiff + "1e9").out;
+  EXPECT_NE(by_stiffness.find(" with grain.E = 1e+08 Pa\n"), by_stiffness.npos) << by_stiffness;
+  EXPECT_NEAR(substeps(by_stiffness, "\n           each with "),
+              substeps(bedload(options + stiff + "1e8").out, ", each with "), 1);
+  const std::string soft = bedload(options + "--set time.dt=1e-4 --set grain.E=2e6").out;
+  EXPECT_EQ(soft.find(" with grain.E = "), soft.npos) << "its bed is as soft as it may be\n" << soft;
+
+  const std::string water = bedload("check dam.toml --backend cpu --set grain.settle=false").out;
+  const int steps = substeps(water, "steps      about ");
+  EXPECT_NEAR(substeps(water.substr(water.find("steps      ")), "\n           about "), steps / 2, 1)
+      << water;
+}
+
+/// docs/howto/walls.md: a box filled to its lid tears.
+TEST_F(Program, WarnsOfABoxFilledToItsLid) {
+  write("box.toml", R"([domain]
+min = [0, 0, 0]
+max = [0.06, 0.06, 0.06]
+[fluid]
+dx = 0.006
+[[fluid.fill]]
+min = [0, 0, 0]
+max = [0.06, 0.06, 0.06]
+[[wall.body]]
+name = "tank"
+shape = "tank"
+min = [0, 0, 0]
+max = [0.06, 0.06, 0.06]
+[time]
+end = 0.01
+[out]
+every = 0.01
+)");
+  const std::string tears = "without a free surface: it tears";
+  const std::string waves = "waves      ";
+  const auto check = [&](const std::string& settings) {
+    return bedload("check box.toml --backend cpu " + settings).out;
+  };
+  EXPECT_NE(check("").find(tears), std::string::npos);
+  EXPECT_EQ(check("").find(waves), std::string::npos);
+  EXPECT_EQ(check("--set eos.background=1000").find(tears), std::string::npos);
+  const std::string open = check("--set 'fluid.fill.0.max=[0.06,0.06,0.048]'");
+  EXPECT_EQ(open.find(tears), std::string::npos) << open;
+  EXPECT_NE(open.find(waves), std::string::npos) << open;
+  EXPECT_NE(open.find("if fluid splashes"), std::string::npos) << open;
+  const Outcome run = bedload("run box.toml --backend cpu --quiet --out out");
+  EXPECT_NE(run.err.find(tears), std::string::npos) << run.err;
+}
+
+/// What is as it should be is no warning.
+TEST_F(Program, NotesBodiesThatStandInAFill) {
+  write("dam.toml", kSmall +
+                        "[[wall.body]]\nname = \"pier\"\nshape = \"box\"\nmin = [0.02, 0.02, 0]\n"
+                        "max = [0.04, 0.04, 0.1]\n");
+  const std::string settings = " dam.toml --backend cpu --set grain.settle=false ";
+  const std::string note = "note       fluid.fill 1: leaves out wall.body \"pier\"";
+  for (const char* command : {"check", "run --out out --until 1e-3"}) {
+    const Outcome o = bedload(command + settings);
+    EXPECT_EQ(o.code, 0) << o.err;
+    EXPECT_NE(o.out.find(note), std::string::npos) << o.out;
+    EXPECT_EQ((o.out + o.err).find("warning: fluid.fill"), std::string::npos) << o.out << o.err;
+  }
+  EXPECT_EQ(content_of(dir_ / "out/summary.json").find("leaves out"), std::string::npos);
+}
+
+/// Density diffusion is no viscosity.
+TEST_F(Program, TellsDensityDiffusionFromViscosity) {
+  write("dam.toml", kSmall);
+  const std::string out = bedload("check dam.toml --backend cpu").out;
+  EXPECT_NE(out.find("m2/s, none of it numerical\ndensity    diffuses at "), out.npos) << out;
+  EXPECT_EQ(out.find("drag         inf s"), out.npos) << out;
+}
+
+/// What the how-to pages say of resolution, beds, mirrors: a line each, and none where they are kept.
+TEST_F(Program, RemarksOnWhatTheDocumentsAdvise) {
+  write("dam.toml", kSmall);
+  const auto said = [&](const std::string& about, const std::string& settings) {
+    const Outcome o = bedload("check dam.toml --backend cpu --set grain.settle=false " + settings);
+    EXPECT_EQ(o.code, 0) << o.err;
+    return o.out.find("\n" + about) != o.out.npos;
+  };
+  EXPECT_TRUE(said("resolution the fluid is 5 particles across along ", ""));
+  EXPECT_FALSE(said("resolution ", "--set fluid.dx=0.005"));
+  EXPECT_TRUE(said("kernel     it reaches 2.4 fluid.dx", "--set fluid.h_over_dx=1.2"));
+  EXPECT_FALSE(said("kernel     ", ""));
+  EXPECT_TRUE(
+      said("bed        water lifts the grains of a thin bed on frozen walls 13 %", "--set wall.type=frozen"));
+  EXPECT_FALSE(said("bed        ", ""));
+  EXPECT_TRUE(said("sizes      the largest grain is 6 times",
+                   "--set 'grain.fill.0.sizes=[{d=0.001},{d=0.006}]' --set grain.fill.0.count=20"));
+  EXPECT_FALSE(said("sizes      ", ""));
+  EXPECT_TRUE(
+      said("mirror     fluid that lies on side z- of the domain", "--set 'domain.reflect.slip=[\"z-\"]'"));
+  EXPECT_FALSE(said("mirror     ", "--set 'domain.reflect.slip=[\"z+\"]'"));
+  EXPECT_FALSE(said("viscometer ", "")) << "nobody would measure there";
+}
+
+/// Once, when it happens, with what to do; in the summary, too.
+TEST_F(Program, WarnsOfFluidFasterThanItsSoundAllows) {
+  write("dam.toml", kSmall);
+  const std::string run =
+      "run dam.toml --backend cpu --quiet --overwrite --out out --until 0.01 --set grain.settle=false ";
+  const std::string fast = "warning: fluid flows at up to ";
+  const Outcome pushed = bedload(run + "--set 'drive.f=[4e6, 0, 0]' --set run.max_lost=1");
+  const auto at = pushed.err.find(fast);
+  ASSERT_NE(at, std::string::npos) << pushed.err;
+  EXPECT_EQ(pushed.err.find(fast, at + 1), std::string::npos) << pushed.err;
+  EXPECT_NE(pushed.err.find("times fluid.vmax = 0.99 m/s (Mach "), std::string::npos) << pushed.err;
+  EXPECT_NE(pushed.err.find("; run it again with fluid.vmax = "), std::string::npos) << pushed.err;
+  EXPECT_NE(content_of(dir_ / "out/summary.json").find("fluid flows at up to "), std::string::npos);
+  EXPECT_EQ(bedload(run).err.find(fast), std::string::npos);
+}
+
 TEST_F(Program, RunsACaseAndLeavesItsFiles) {
   write("dam.toml", kSmall);
   const Outcome o = bedload("run dam.toml --backend cpu --until 0.005");

@@ -165,5 +165,22 @@ TEST_F(ViscometerTest, TellsNoViscosityOfFluidThatHasNone) {  // and so moves as
   EXPECT_LT(m["r_squared"]["value"], 0.95);
 }
 
+/// Before anything is run.
+TEST_F(ViscometerTest, CheckTellsWhatItTakesAndRefuses) {
+  const auto check = [&](const std::string& settings) {
+    write("flow.toml", kReverse);
+    return bedload("check flow.toml --backend cpu " + settings).out;
+  };
+  const std::string taken = check("");
+  EXPECT_NE(taken.find("viscometer reverse Poiseuille flow, whose viscosity"), taken.npos) << taken;
+  EXPECT_EQ(taken.find("tears"), taken.npos) << taken;
+  EXPECT_NE(
+      check("--set time.end=20").find("`bedload viscometer` refuses this flow: time.end = 20 must be >= "),
+      std::string::npos);
+  EXPECT_NE(
+      check("--set visc.alpha=0.1").find("refuses this flow: visc.alpha: artificial viscosity must be 0"),
+      std::string::npos);
+}
+
 }  // namespace
 }  // namespace bedload::test

@@ -133,5 +133,28 @@ TEST(ViscometerCase, RefusesWhatItCannotMeasure) {
   }
 }
 
+/// Which is not to be said of flows that nobody would measure.
+TEST(ViscometerCase, TellsNoPlaneFlowFromOneThatIsRefused) {
+  EXPECT_THROW(plane_flow_of(read(kCase)), NoPlaneFlow);
+  EXPECT_THROW(plane_flow_of(read(kCase, {"visc.alpha=0.02"})), NoPlaneFlow);
+  try {
+    flow_of(kWalled, {"visc.alpha=0.02"});
+    FAIL();
+  } catch (const NoPlaneFlow&) {
+    FAIL() << "it is one";
+  } catch (const KeyError& error) {
+    EXPECT_EQ(error.key, "visc.alpha");
+  }
+  EXPECT_EQ(blocks_until(flow_of(kWalled), 1e-3, 1e6), 50);
+  EXPECT_THROW(blocks_until(flow_of(kWalled), 1e-3, 14 * 0.16 / (M_PI * M_PI * 1e-3) * 0.99), KeyError);
+}
+
+/// fluid.vmax follows from the faster wall, and sound from that.
+TEST(ViscometerCase, WallsThatPassEachOtherAreAsFastAsTheFaster) {
+  const PlaneFlow flow = flow_of(kWalled, {"wall.body.0.surface_velocity=[-0.03, 0, 0]"});
+  EXPECT_DOUBLE_EQ(flow.relative_speed, 0.08);
+  EXPECT_DOUBLE_EQ(flow.fastest, 0.05);
+}
+
 }  // namespace
 }  // namespace bedload::test

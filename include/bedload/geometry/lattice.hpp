@@ -29,9 +29,10 @@ inline Cells fit_cells(double lo, double hi, double spacing) {
 /// Adds every fluid.fill that is a box or a shape; in a box a lattice that divides each side evenly, so that
 /// it meets walls and periodic images half a spacing off. The masses of a fill are
 /// equal and add up to rho0 times its volume. Fills must not overlap. Returns the first particle of each
-/// fill, and their number at the end. Throws KeyError.
+/// fill, and their number at the end. Bodies that stand in a fill are left out, which `notes` says. Throws
+/// KeyError.
 std::vector<std::size_t> add_fluid(const Config& config, Setup::Fluid& fluid,
-                                   std::vector<std::string>& warnings);
+                                   std::vector<std::string>& warnings, std::vector<std::string>& notes);
 
 /// Adds every fluid.fill that comes from a file; call it after add_fluid. Each particle weighs rho0 dx^3.
 /// Throws CaseError with file and line for particles outside the domain, inside walls or in other fluid.

@@ -1,0 +1,198 @@
+#include "remarks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bedload/case/contact_laws.hpp"
+#include "bedload/case/parameters.hpp"
+#include "bedload/case/particle_order.hpp"
+#include "src/viscometer/plane_flow.hpp"
+
+namespace bedload {
+namespace {
+
+std::string line(const char* about, const std::string& what) {
+  return fmt::format("{:<10} {}\n", about, what);
+}
+
+/// What numerical viscosities there are, as multiples of the fluid's own, and what thickens nothing.
+std::string viscosity_text(const Config& c, const std::vector<Quantity>& numerical) {
+  if (numerical.empty()) return "";
+  std::string out = fmt::format("viscosity  {:.3g} m2/s", c.fluid.mu / c.fluid.rho0);
+  bool any = false;
+  for (const Quantity& q : numerical) {
+    if (!(q.value > 0)) continue;
+    std::string name = q.name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    out += fmt::format("{} {} {:.3g} times that", any ? "," : "; numerical:", name, q.value);
+    any = true;
+  }
+  out += any ? "\n" : ", none of it numerical\n";
+  if (c.density.delta > 0)
+    out += fmt::format(
+        "density    diffuses at {:.3g} m2/s (density.delta) against noise of the pressure, which does not "
+        "thicken "
+        "the fluid\n",
+        c.density.delta * c.fluid.h() * c.fluid.c);
+  return out;
+}
+
+/// The stress by which particles not in order resist shear under pressure, and whether that is taken off.
+std::string arrangement_text(const Config& c) {
+  if (!c.fluid.present || c.fluid.mu == 0 || c.fluid.variable_h || c.fluid.sdpd()) return "";
+  const double pressure = c.fluid.rho0 * norm(c.gravity) * c.fluid.depth + c.eos.background;
+  if (pressure == 0) return "";
+  const double stress = 5e-3 * pressure;  // 2e-3 to 1e-2 on lattices, h = 1.5 dx
+  const std::string out = fmt::format(
+      "lattice    under {:.3g} Pa an arrangement of particles resists shear by up to about {:.2g} Pa, as "
+      "viscosity does at {:.2g} 1/s; ",
+      pressure, stress, stress / c.fluid.mu);
+  if (const ParticleOrder order = particle_order(c); !order.linear_exact)
+    return out + "that stays: " + order.not_exact + "\n";
+  const double cell = cell_reynolds_number(std::sqrt(pressure / c.fluid.rho0), c.fluid);
+  const char* what = cell < kExactPressure ? "pressure.linear_exact removes that"
+                     : cell < kExactPressure * kExactPressureEnds
+                         ? "pressure.linear_exact removes part of that"
+                         : "that stays, flow slower than that is held by it";
+  return out +
+         fmt::format("{} (cell Reynolds number {:.3g}, removed below {:g})\n", what, cell, kExactPressure);
+}
+
+/// Why particles do not shift, where a case asks for it.
+std::string shifting_text(const Config& c) {
+  if (!c.fluid.present || c.shift == 0 || c.fluid.sdpd()) return "";
+  const ParticleOrder order = particle_order(c);
+  return order.shifts ? "" : "shifting   none: " + order.no_shifting + "\n";
+}
+
+/// What defaults do that not every case may want.
+std::string defaults_text(const Config& c, bool free_surface) {
+  std::string out;
+  const auto say = [&](const char* about, const std::string& what) { out += line(about, what); };
+  const bool grains = c.grain.present && c.fluid.present && c.couple.mode != CouplingMode::off;
+  if (c.fluid.present && !c.fluid.sdpd() && c.density.cavitation_limit < 1)
+    say("tension",
+        fmt::format("fluid cavitates below {:.3g} Pa (density.cavitation_limit; diagnostics.csv counts "
+                    "the particles){}",
+                    c.eos.background - c.density.cavitation_limit * c.fluid.rho0 * c.fluid.c * c.fluid.c,
+                    c.wall.suction ? "; until then it hangs from lids and roofs" : ""));
+  if (free_surface && !c.fluid.sdpd() && c.fluid.mu > 0 && c.visc.model == ViscosityModel::morris &&
+      norm(c.gravity) > 0)
+    say("waves",
+        "visc.model = \"morris\" damps waves at a free surface half as fast as fluid.mu should; "
+        "\"monaghan\" is right there");
+  if (grains && c.couple.mode == CouplingMode::two_way && !c.couple.undisturbed && !c.domain.two_d)
+    say("wake",
+        fmt::format("the fluid that a lone grain feels moves along with it by up to {:.2g} % of its speed; "
+                    "couple.undisturbed takes that off",
+                    100 * 0.537 * c.grain.d_max / c.couple.hc));
+  if (c.grain.present && takes_moduli(c.contact.normal) && c.grain.E < 1e9)
+    say("contacts",
+        fmt::format(
+            "grain.E = {:.3g} Pa is softer than stone, glass or steel: impacts last longer and overlap "
+            "more, which also changes spins",
+            c.grain.E));
+  return out;
+}
+
+/// How finely the fluid is resolved, where that is coarse.
+std::string resolution_text(const Config& c) {
+  const FluidConfig& f = c.fluid;
+  std::string out;
+  if (!f.present) return out;
+  constexpr double few = 10;  // particles
+  Vec3d lo{1e300, 1e300, 1e300}, hi{-1e300, -1e300, -1e300};
+  for (const FluidFill& fill : f.fills)
+    for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], fill.min[k]), hi[k] = std::max(hi[k], fill.max[k]);
+  int thinnest = -1;
+  for (int k = 0; k < 3; ++k)
+    if (!f.fills.empty() && !c.domain.periodic[k] && !c.domain.flat(k) &&
+        (thinnest < 0 || hi[k] - lo[k] < hi[thinnest] - lo[thinnest]))
+      thinnest = k;
+  if (const double across = thinnest < 0 ? few : (hi[thinnest] - lo[thinnest]) / f.dx;
+      across < few * (1 - 1e-9))
+    out += line("resolution",
+                fmt::format("the fluid is {:.2g} particles across along {}; {:g} across what matters "
+                            "are the least for a flow to be trusted",
+                            across, "xyz"[thinnest], few));
+  if (const double neighbours = f.kappa() * f.h_over_dx / 2; !f.variable_h && neighbours < 1.3 * (1 - 1e-9))
+    out += line("kernel",
+                fmt::format("it reaches {:.3g} fluid.dx; below 2.6 the lattice of particles makes noise "
+                            "(fluid.h_over_dx)",
+                            2 * neighbours));
+  for (const WallBody& body : c.wall.bodies) {
+    if (!body.free.present || !body.free.fluid) continue;
+    const Vec3d side = body.max - body.min;
+    double thick = 1e300;
+    for (int k = 0; k < 3; ++k)
+      if (!c.domain.flat(k)) thick = std::min(thick, side[k]);
+    if (thick < 8 * f.dx * (1 - 1e-9))
+      out += line("resolution",
+                  fmt::format("wall.body \"{}\" is {:.2g} fluid.dx thick; the flow around a free body "
+                              "is resolved from 8 on, compare two resolutions",
+                              body.name, thick / f.dx));
+  }
+  return out;
+}
+
+/// What costs accuracy or time where there are grains.
+std::string grains_text(const Config& c) {
+  std::string out;
+  if (!c.grain.present) return out;
+  if (const double ratio = c.grain.d_max / c.grain.d_min; ratio > 5 * (1 + 1e-9))
+    out +=
+        line("sizes",
+             fmt::format("the largest grain is {:.3g} times the smallest: lists reach as far as the largest "
+                         "does, so the smallest cost most of the time",
+                         ratio));
+  if (!c.fluid.present || c.couple.mode != CouplingMode::two_way || norm(c.gravity) == 0) return out;
+  const auto say = [&](auto fits, const char* kind, const char* lift) {
+    if (std::any_of(c.wall.bodies.begin(), c.wall.bodies.end(), fits))
+      out +=
+          line("bed",
+               fmt::format("water lifts the grains of a thin bed on {} walls {} % too little; \"adami\" and "
+                           "\"mdbc\" are right to 1 %",
+                           kind, lift));
+  };
+  say([](const WallBody& body) { return body.type == WallType::frozen; }, "frozen", "13");
+  say([](const WallBody& body) { return body.single_layer(); }, "single_layer", "11");
+  return out;
+}
+
+/// Of sides that put back and carry fluid.
+std::string mirrors_text(const Config& c) {
+  if (!c.fluid.present) return "";
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t below = 2 * std::size_t(k) + (c.gravity[k] > 0);
+    if (c.gravity[k] != 0 && (c.domain.reflect.slip[below] || c.domain.reflect.no_slip[below]))
+      return line("mirror",
+                  fmt::format("fluid that lies on side {} of the domain (domain.reflect) has its lowest row "
+                              "fall onto it and pressures off by up to twice rho g; a wall carries it",
+                              kFaces[below]));
+  }
+  return "";
+}
+
+/// Whether a plane shear flow is one that `bedload viscometer` takes.
+std::string viscometer_text(const Config& c) {
+  try {
+    const PlaneFlow flow = plane_flow_of(c);
+    blocks_until(flow, c.fluid.mu / c.fluid.rho0, c.time.end);
+    return line("viscometer", flow.name() + " flow, whose viscosity `bedload viscometer` measures");
+  } catch (const NoPlaneFlow&) {
+    return "";
+  } catch (const KeyError& error) {
+    return line("viscometer", std::string("`bedload viscometer` refuses this flow: ") + error.what());
+  }
+}
+
+}  // namespace
+
+std::string remarks_text(const Config& c, const std::vector<Quantity>& numerical, bool free_surface) {
+  return viscosity_text(c, numerical) + resolution_text(c) + arrangement_text(c) + shifting_text(c) +
+         defaults_text(c, free_surface) + grains_text(c) + mirrors_text(c) + viscometer_text(c);
+}
+
+}  // namespace bedload
