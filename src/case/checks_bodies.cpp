@@ -152,7 +152,7 @@ bool Checks::still_in(const WallBody& tank, int up_axis) const {
   for (const WallBody& body : c.wall.bodies)
     if (body.moves() || norm(body.surface_velocity) > 0) return false;
   for (const FluidFill& fill : c.fluid.fills)
-    if (!fill.file.empty() || fill.velocity != FluidFill().velocity) return false;
+    if (fill.velocity != FluidFill().velocity) return false;
   for (int k = 0; k < 3; ++k) {
     if (k == up_axis || c.domain.periodic[k] || c.domain.flat(k)) continue;
     // each fill spans the tank, as layers on each other do

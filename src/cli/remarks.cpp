@@ -117,7 +117,8 @@ std::string resolution_text(const Config& c) {
                 fmt::format("the fluid is {:.2g} particles across along {}; {:g} across what matters "
                             "are the least for a flow to be trusted",
                             across, "xyz"[thinnest], few));
-  if (const double neighbours = f.kappa() * f.h_over_dx / 2; !f.variable_h && neighbours < 1.3 * (1 - 1e-9))
+  if (const double neighbours = f.kappa() * f.h_over_dx / 2;
+      !f.variable_h && !f.sdpd() && neighbours < 1.3 * (1 - 1e-9))
     out += line("kernel",
                 fmt::format("it reaches {:.3g} fluid.dx; below 2.6 the lattice of particles makes noise "
                             "(fluid.h_over_dx)",

@@ -312,8 +312,9 @@ TEST(Warnings, TellOfADomainThatEndsAtARim) {
       << "it stands still";
   EXPECT_TRUE(warned("max = [0.05, 0.1, 0.1]\n[[wall",
                      "max = [0.2, 0.1, 0.1]\nvelocity = [\"0.1\", \"0\", \"0\"]\n[[wall"));
-  EXPECT_FALSE(
-      warned("[time]", "[[outlet]]\nname = \"top\"\npoint = [0, 0, 0.2]\nnormal = [0, 0, 1]\n[time]"));
+  EXPECT_FALSE(warned(
+      "[time]",
+      "[[outlet]]\nname = \"top\"\nshape = \"plane\"\npoint = [0, 0, 0.2]\nnormal = [0, 0, 1]\n[time]"));
 }
 
 /// A block that hangs together across a period cannot turn.

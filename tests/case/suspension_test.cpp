@@ -89,6 +89,10 @@ TEST(SuspensionCase, SaysWhatDoesNotGoTogether) {
        "\"none\""},
       {{"lubrication.forces=normal", "lubrication.least_gap=1.5"},
        "--set lubrication.least_gap=1.5: lubrication.least_gap = 1.5 must be below lubrication.cut_off = 1"},
+      {{"couple.suspension_viscosity=maron_pierce", "lubrication.forces=normal"},
+       "--set couple.suspension_viscosity=maron_pierce: couple.suspension_viscosity = \"maron_pierce\" must "
+       "be "
+       "\"none\" with lubrication.forces, of which it is the mean"},
       {{"drive.f=[1, 0, 0]", "drive.factor=1/x"},
        "--set drive.factor=1/x: drive.factor = \"1/x\" must be a finite number; it is none at [0, 0, 0] m, t "
        "= 0 s"},

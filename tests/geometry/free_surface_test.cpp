@@ -63,8 +63,8 @@ bool free_surface(const std::string& text, const std::vector<std::string>& overr
 TEST(FreeSurface, IsNoneInABoxFilledToItsLid) {
   EXPECT_FALSE(free_surface(kBox));
   EXPECT_TRUE(free_surface(kBox, {"wall.body.0.faces=[\"x-\",\"x+\",\"y-\",\"y+\",\"z-\"]"}));
-  EXPECT_TRUE(free_surface(kBox, {"fluid.fill.0.max=[0.04,0.04,0.046]"})) << "a layer is missing";
-  EXPECT_TRUE(free_surface(kBox, {"fluid.fill.0.max=[0.036,0.04,0.05]"})) << "at its side";
+  EXPECT_TRUE(free_surface(kBox, {"fluid.fill.0.max=[0.04,0.04,0.044]"})) << "a layer is missing";
+  EXPECT_TRUE(free_surface(kBox, {"fluid.fill.0.max=[0.034,0.04,0.05]"})) << "at its side";
 }
 
 TEST(FreeSurface, IsNoneAcrossPeriodsNorBesideMirrors) {
@@ -72,7 +72,7 @@ TEST(FreeSurface, IsNoneAcrossPeriodsNorBesideMirrors) {
   EXPECT_FALSE(free_surface(
       kBox, {"wall.body.0.faces=[\"x-\",\"x+\",\"y-\",\"y+\",\"z-\"]", "domain.reflect.slip=[\"z+\"]"}));
   EXPECT_FALSE(free_surface(kBox, {"domain.two_d=true"}));
-  EXPECT_TRUE(free_surface(kBox, {"domain.two_d=true", "fluid.fill.0.max=[0.04,0.04,0.046]"}));
+  EXPECT_TRUE(free_surface(kBox, {"domain.two_d=true", "fluid.fill.0.max=[0.04,0.04,0.044]"}));
 }
 
 TEST(FreeSurface, IsNoneInADrumThatIsFull) {

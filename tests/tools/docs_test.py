@@ -5,6 +5,7 @@ import json
 import re
 import subprocess
 import sys
+import tempfile
 import tomllib
 import unittest
 from pathlib import Path
@@ -49,6 +50,34 @@ class Documents(unittest.TestCase):
                 ran = subprocess.run(check, capture_output=True, text=True)
                 self.assertEqual(ran.returncode, 0, ran.stderr)
                 self.assertNotIn("warning", ran.stdout)
+
+    def test_the_case_of_the_readme_is_in_order(self):
+        (case,) = [text for language, text in FENCE.findall((ROOT / "README.md").read_text())
+                   if language == "toml" and "[domain]" in text]
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, "dam.toml")
+            file.write_text(case)
+            check = [PROGRAM, "check", file, "--backend", "cpu", "--threads", "1", "--set", "fluid.dx=0.005"]
+            ran = subprocess.run(check, capture_output=True, text=True)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        self.assertNotIn("warning", ran.stdout)
+
+    def test_rules_stand_in_their_pages_and_are_held(self):
+        def words(text):
+            return " ".join(text.split())
+
+        tests = set()
+        for file in (ROOT / "tests").rglob("*.cpp"):
+            tests |= set(re.findall(r"^TEST(?:_F|_P)?\(\w+, (\w+)\)", file.read_text(), re.MULTILINE))
+        rows = re.findall(r"^\| ([\w/]+\.md) \| (.+) \| (.+?) \| (.*?) ?\|$", (ROOT / "tests/rules.md").read_text(),
+                          re.MULTILINE)
+        self.assertGreater(len(rows), 40)
+        for page, sentence, kind, held in rows:
+            with self.subTest(page=page, sentence=sentence):
+                self.assertIn(words(sentence), words((ROOT / "docs" / page).read_text()))
+                named = re.findall(r"`(\w+)`", held)
+                self.assertEqual(bool(named), not kind.startswith("none"))
+                self.assertLessEqual(set(named), tests)
 
     def test_what_pages_show_of_files_stands_there(self):
         for page, folder, languages, least in (("tutorial.md", "tutorial", {"toml"}, 9),
