@@ -187,7 +187,7 @@ TEST(Viscosity, OfCouetteFlowIsStressOverShear) {
 
 TEST(Viscosity, OfCouetteFlowKnowsThatItsLowerWallMoves) {
   Channel c = channel(PlaneFlowKind::couette);
-  c.flow.relative_speed = 0.6;
+  c.flow.relative_speed = 0.6, c.flow.fastest = 0.4;
   c.velocity = [](double z) { return 0.65 + 0.3 + 0.6 / 2.2 * z; };
   c.stress = [](double) { return kEta * 0.6 / 2.2; };
   c.drive = [](double) { return 0; };
@@ -200,6 +200,7 @@ TEST(Viscosity, OfCouetteFlowKnowsThatItsLowerWallMoves) {
   Layers layers(c.flow, kH, 40, 12);
   for (int block = 0; block < 12; ++block) layers.add(block, c.sample(0), {}, kEta * 0.6 / 2.2);
   const ViscosityResult r = evaluate(layers, config, kH);
+  EXPECT_NEAR(r.mach, 0.4 / 10, 1e-12) << "of the faster wall";
   EXPECT_NEAR(r.slip_length, 0.1, 1e-9);
   EXPECT_NEAR(r.offset, 0, 1e-9);
 }
