@@ -574,6 +574,20 @@ TEST_F(Program, KeepsARunFromBeingWrittenOver) {
   EXPECT_EQ(bedload(run + " --overwrite").code, 0);
 }
 
+/// A range, for what the first steps do not show.
+TEST_F(Program, TellsHowMuchLongerARunMayTake) {
+  write("dam.toml", kSmall);
+  const auto says = [&](const std::string& settings, const std::string& why) {
+    const std::string out = bedload("check dam.toml --backend cpu " + settings).out;
+    const std::string line = out.substr(out.find("run time   "), 200);
+    EXPECT_NE(line.find(why + ", output apart\n"), line.npos) << line;
+    EXPECT_EQ(line.find(", up to ") != line.npos, why != "steps") << line;
+  };
+  says("", " as fluid splashes and grains lie in their bed");  // which is not kept yet
+  says("--set grain.settle=false", " if fluid splashes");
+  says("--set grain.settle=false --set 'gravity=[0,0,0]' --set fluid.vmax=1", "steps");
+}
+
 TEST_F(Program, TakesASettledBedFromItsCache) {
   write("dam.toml", kSmall);
   const Outcome first = bedload("run dam.toml --backend cpu --until 0.002 --out a");
