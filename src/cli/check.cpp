@@ -112,10 +112,9 @@ std::string fewer_substeps_text(const Config& c, const Trial& trial) {
   return fmt::format("           each with {:.0f} with {}\n", std::ceil(trial.substeps * now / then), turned);
 }
 
-/// By how much more than the first steps later ones take. Water that splashes has its lists renewed more
-/// often, and they reach farther: dam breaks took 1.3 to 2.3 times as long as by their first steps (CPU).
-/// Grains that have just been placed touch no others: in their bed a heap and a drum took 3 to 5 times as
-/// long.
+/// By how much more than the first steps later ones take, at most. Water that splashes has its lists renewed
+/// more often, and they reach farther: dam breaks took 1.3 to 2.3 times as long (CPU, busy otherwise). Grains
+/// that have just been placed touch no others: a heap in its bed took 3.3 times as long.
 constexpr double kSplash = 2.5, kBed = 5;
 
 std::string run_time_text(double seconds, const Trial& trial, bool splashes, bool settles) {
