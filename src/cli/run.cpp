@@ -147,7 +147,7 @@ class Run {
       fmt::print(stderr, "warning: {}\n", warning);
       session_->output()->warn(warning);
     }
-    session_->output()->add(found.name, found.quantities);
+    session_->output()->add(found.name, found.quantities, found.note);
   }
 
   /// Tells what has left the domain unasked; true if it is more than the case allows.

@@ -14,6 +14,7 @@ struct RunFindings {
   std::string name;
   std::vector<Quantity> quantities;
   std::vector<std::string> warnings;
+  std::string note;  ///< what must be known of the quantities; empty: nothing
 };
 
 /// Looks on while a case runs.

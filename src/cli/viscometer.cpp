@@ -52,7 +52,7 @@ class Viscometer final : public RunWatcher {
       quantities_.push_back({"relative_viscosity", "-", ratio->mean});
       quantities_.push_back({"relative_viscosity_error", "-", ratio->error});
     }
-    RunFindings out{"viscometer", quantities_, {}};
+    RunFindings out{"viscometer", quantities_, {}, caveat()};
     if (!result_->stationary())
       out.warnings.push_back(
           fmt::format("the flow is not steady: its viscosity changes by {:.2g} % from the first "
@@ -63,6 +63,12 @@ class Viscometer final : public RunWatcher {
     return out;
   }
 
+  /// Of the relative viscosity; empty without one.
+  std::string caveat() const {
+    return relative()
+               ? relative_caveat(result_->concentration, config_.couple.suspension != SuspensionLaw::none)
+               : "";
+  }
   const std::optional<ViscosityResult>& result() const { return result_; }
   const std::vector<Quantity>& quantities() const { return quantities_; }
   const PlaneFlow& flow() const { return flow_; }
@@ -105,7 +111,8 @@ int measure(const Options& o, Prepared prepared, Viscometer& viscometer) {
                viscometer.config().title);
   fmt::print("{}", report_text(r, viscometer.flow(), viscometer.config().fluid.mu));
   if (const auto ratio = viscometer.relative())
-    fmt::print("relative   {:.4f} +- {:.4f} of the viscosity without grains\n", ratio->mean, ratio->error);
+    fmt::print("relative   {:.4f} +- {:.4f} of the viscosity without grains; {}\n", ratio->mean, ratio->error,
+               viscometer.caveat());
   if (r.accepted()) return code;
   fmt::print(
       stderr,

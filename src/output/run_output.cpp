@@ -295,7 +295,10 @@ struct RunOutput::Impl {
         {"warnings", warnings},
         {"metrics", to_json(CsvTable(dir / "diagnostics.csv").last_row())},
         {"probes", probes}};
-    for (const auto& [name, quantities] : added) summary[name] = to_json(quantities);
+    for (const auto& [name, quantities, note] : added) {
+      summary[name] = to_json(quantities);
+      if (!note.empty()) summary[name]["note"] = note;
+    }
     write_file(dir / "summary.json",
                summary.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + '\n');
   }
@@ -314,8 +317,13 @@ struct RunOutput::Impl {
   Schedule checkpoint_schedule;
   RowWatcher row_watcher;
   std::vector<std::string> warnings;
-  std::vector<std::pair<std::string, std::vector<Quantity>>> added;  ///< to the summary
-  mutable std::mutex mutex;                                          ///< guards `newest`
+  struct Section {
+    std::string name;
+    std::vector<Quantity> quantities;
+    std::string note;
+  };
+  std::vector<Section> added;  ///< to the summary
+  mutable std::mutex mutex;    ///< guards `newest`
   fs::path newest;
   WriterThread writer;  ///< last: its jobs use all of the above
 };
@@ -349,8 +357,8 @@ void RunOutput::watch_rows(RowWatcher watcher) { impl_->row_watcher = std::move(
 
 void RunOutput::warn(std::string message) { impl_->warnings.push_back(std::move(message)); }
 
-void RunOutput::add(std::string name, std::vector<Quantity> quantities) {
-  impl_->added.emplace_back(std::move(name), std::move(quantities));
+void RunOutput::add(std::string name, std::vector<Quantity> quantities, std::string note) {
+  impl_->added.push_back({std::move(name), std::move(quantities), std::move(note)});
 }
 
 void RunOutput::finish(Simulation& simulation, const std::string& status, const Effort& effort) {

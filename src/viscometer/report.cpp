@@ -17,11 +17,12 @@ std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.9
 
 std::string profile_table(const ViscosityResult& r, const PlaneFlow& flow) {
   std::string out = fmt::format(
-      "{} [m],velocity [m/s],fit [m/s],grain_velocity [m/s],shear_stress [Pa],imposed_stress [Pa]\n",
+      "{} [m],velocity [m/s],fit [m/s],grain_velocity [m/s],shear_stress [Pa],imposed_stress [Pa],filled "
+      "[-]\n",
       kAxes[flow.gradient]);
   for (const ProfileRow& row : r.profile)
-    out += fmt::format("{},{},{},{},{},{}\n", cell(row.z), cell(row.velocity), cell(row.fit),
-                       cell(row.grain_velocity), cell(row.shear_stress), cell(row.imposed));
+    out += fmt::format("{},{},{},{},{},{},{:.4g}\n", cell(row.z), cell(row.velocity), cell(row.fit),
+                       cell(row.grain_velocity), cell(row.shear_stress), cell(row.imposed), row.filled);
   return out;
 }
 

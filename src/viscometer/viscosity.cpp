@@ -1,8 +1,11 @@
 #include "src/viscometer/viscosity.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace bedload {
 namespace {
@@ -58,7 +61,7 @@ class Evaluation {
  public:
   Evaluation(const Layers& layers, const Config& config, double reach)
       : blocks_(layers.blocks()), c_(config), flow_(layers.flow()), reach_(reach), n_(layers.count()) {
-    gather_grains();
+    gather_sparse();
     all_.layers.resize(n_);
     for (const Block& block : blocks_) {
       for (int l = 0; l < n_; ++l) all_.layers[l].add(block.layers[l]);
@@ -123,14 +126,17 @@ class Evaluation {
   }
 
  private:
-  /// Fluid without noise keeps its lattice and leaves layers empty; the grains in them count in the nearest
-  /// layer with fluid, whose stress they are part of.
-  void gather_grains() {
+  /// Fluid without noise keeps its lattice and leaves layers empty, and hardly any comes close to a wall.
+  /// What is in layers with too little fluid counts in the nearest one with enough, whose stress it is part
+  /// of: over their own volume, which is next to none, the contacts of a grain would make any stress.
+  void gather_sparse() {
+    std::vector<double> volume(n_);
+    for (const Block& block : blocks_)
+      for (int l = 0; l < n_; ++l) volume[l] += block.layers[l].volume;
+    const double mean = std::accumulate(volume.begin(), volume.end(), 0.0) / n_;
     std::vector<int> wet;
     for (int l = 0; l < n_; ++l)
-      if (std::any_of(blocks_.begin(), blocks_.end(),
-                      [&](const Block& block) { return block.layers[l].fluid.mass > 0; }))
-        wet.push_back(l);
+      if (volume[l] > 0 && volume[l] >= ViscosityResult::kLeastFilled * mean) wet.push_back(l);
     if (wet.empty()) return;
     for (int l = 0; l < n_; ++l) {
       const auto nearer = [&](int a, int b) {
@@ -277,7 +283,8 @@ class Evaluation {
             sign(l) * fit_.at(s, s2),
             velocity(layer.grains),
             shear_in(all_.layers, l),
-            imposed_at(l, imposed)};
+            imposed_at(l, imposed),
+            stretch_ * layer.volume / all_.samples * n_ / (flow_.area * (flow_.high - flow_.low))};
   }
 
   std::vector<Block> blocks_;
@@ -295,6 +302,20 @@ class Evaluation {
 
 ViscosityResult evaluate(const Layers& layers, const Config& config, double reach) {
   return Evaluation(layers, config, reach).result();
+}
+
+std::string relative_caveat(double phi, bool by_law) {
+  constexpr double phi_m = 0.64;
+  const double einstein = 1 + 2.5 * phi, krieger = phi < phi_m ? std::pow(1 - phi / phi_m, -2.5 * phi_m)
+                                                               : std::numeric_limits<double>::infinity();
+  return fmt::format(
+      "no measurement of a suspension: grains are smaller than the kernel and do not strain the fluid "
+      "between "
+      "them, so that what exceeds 1 is the stress of contacts and lubrication{}; resolved spheres at {:.3g} "
+      "% "
+      "have {:.2f} (Einstein) to {:.2f} (Krieger-Dougherty, phi_m = {})",
+      by_law ? " on top of the law of couple.suspension_viscosity" : " alone", 100 * phi, einstein, krieger,
+      phi_m);
 }
 
 std::vector<Quantity> quantities_of(const ViscosityResult& r, const PlaneFlow& flow) {

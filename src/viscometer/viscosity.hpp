@@ -21,11 +21,12 @@ struct StressPart {
   Tensor mean{};
 };
 
-/// A layer that has fluid.
+/// A layer with enough fluid, and what of emptier ones beside it counts there.
 struct ProfileRow {
   double z = 0, velocity = 0, fit = 0;   ///< m, m/s; where the particles of the layer lie
   double grain_velocity = 0;             ///< m/s; NaN without grains in the layer
   double shear_stress = 0, imposed = 0;  ///< Pa
+  double filled = 0;                     ///< volume that its fluid stands for, over that of a layer
 };
 
 struct ViscosityResult {
@@ -49,12 +50,17 @@ struct ViscosityResult {
   int blocks = 0, samples = 0;
 
   static constexpr double kLeastR2 = 0.95;
+  static constexpr double kLeastFilled = 0.5;  ///< below it a layer has no row of its own
   bool accepted() const { return r_squared >= kLeastR2; }
   bool stationary() const { return drift <= drift_limit && drift >= -drift_limit; }
 };
 
 /// reach: of the kernel, m. The case gives fluid.mu, rho0, the speed of sound and the density of grains.
 ViscosityResult evaluate(const Layers& layers, const Config& config, double reach);
+
+/// What is to be known of a viscosity over that without grains: at `concentration`, of which a law of the
+/// case makes the fluid more viscous or not. A sentence.
+std::string relative_caveat(double concentration, bool by_law);
 
 /// For summary.json; without a viscosity where the profile is none of a viscous flow.
 std::vector<Quantity> quantities_of(const ViscosityResult& result, const PlaneFlow& flow);

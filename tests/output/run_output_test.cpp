@@ -108,6 +108,7 @@ TEST_F(RunFolder, SummaryTellsHowTheRunEnded) {
   RunOutput out(folder.path(), config, kDevice, "0.1.0");
   run_to(s, out, 12);
   out.warn("Ma = 0.2 is large");
+  out.add("viscometer", {{"viscosity", "Pa s", 7}}, "of the fluid alone");
   out.finish(s, "stopped", {2.0, 100, 36, 2});
   const auto summary = nlohmann::json::parse(read_file(folder / "summary.json"));
   EXPECT_EQ(summary["status"], "stopped");
@@ -126,7 +127,8 @@ TEST_F(RunFolder, SummaryTellsHowTheRunEnded) {
   EXPECT_EQ(summary["metrics"]["fluid mass"]["unit"], "kg");
   EXPECT_EQ(summary["probes"]["gauge"]["gauge"]["value"], s.time() / 3);
   EXPECT_EQ(summary["last_checkpoint"], "checkpoints/step_000000012.h5");
-  EXPECT_EQ(out.last_checkpoint(), folder / "checkpoints/step_000000012.h5");
+  EXPECT_EQ(summary["viscometer"]["viscosity"]["value"], 7);
+  EXPECT_EQ(summary["viscometer"]["note"], "of the fluid alone");
 }
 
 TEST_F(RunFolder, CheckpointsComeOnTimeAndAtTheEnd) {

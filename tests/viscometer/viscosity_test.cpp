@@ -238,6 +238,48 @@ TEST(Viscosity, CountsGrainsBetweenTheLayersOfALattice) {
   EXPECT_EQ(r.profile.size(), 20u);
 }
 
+/// Beside the lower wall a layer that a particle enters once in twelve blocks, and in it grains that press.
+TEST(Viscosity, TellsNoStressFromHardlyAParticle) {
+  Channel c = channel(PlaneFlowKind::couette);
+  c.flow.relative_speed = 0.6;
+  c.velocity = [](double z) { return 0.3 * z; };
+  c.stress = [](double) { return 0.3 * kEta; };
+  c.drive = [](double) { return 0; };
+  Config config;
+  config.fluid.rho0 = 2, config.fluid.mu = kEta, config.fluid.c = 10;
+  config.wall.bodies.resize(2);
+  const auto only = [](HostStore all, std::size_t from, std::size_t to) {
+    for (HostArray& a : all.arrays) {
+      const std::size_t size = std::size_t(a.components) * sizeof(double);
+      a.bytes = std::vector<std::byte>(a.bytes.begin() + std::ptrdiff_t(from * size),
+                                       a.bytes.begin() + std::ptrdiff_t(to * size));
+    }
+    all.count = to - from;
+    return all;
+  };
+  Layers layers(c.flow, kH, 40, 12);
+  for (int block = 0; block < 12; ++block)
+    layers.add(block, only(c.sample(0), block == 7 ? 4 : 5, 200), only(c.sample(0), 0, 5), 0.3 * kEta);
+  const ViscosityResult r = evaluate(layers, config, kH);
+  ASSERT_EQ(r.profile.size(), 39u) << "the layer with a particle is none of its own";
+  for (const ProfileRow& row : r.profile) {
+    EXPECT_LT(std::abs(row.shear_stress), 2.2 * 0.3 * kEta) << row.z;
+    EXPECT_GT(row.filled, 0.9) << row.z;
+  }
+  // what the grains there bear is not lost: it counts beside them
+  EXPECT_GT(r.profile[0].shear_stress, 1.9 * 0.3 * kEta);
+  EXPECT_NEAR(r.profile[1].shear_stress, 0.3 * kEta, 0.02 * kEta);
+}
+
+TEST(Viscosity, OverThatWithoutGrainsComesWithItsCaveat) {
+  const std::string bare = relative_caveat(0.2, false), law = relative_caveat(0.2, true);
+  EXPECT_NE(bare.find("the stress of contacts and lubrication alone; resolved spheres at 20 % have 1.50 "
+                      "(Einstein) to 1.82 (Krieger-Dougherty, phi_m = 0.64)"),
+            bare.npos)
+      << bare;
+  EXPECT_NE(law.find("on top of the law of couple.suspension_viscosity"), law.npos) << law;
+}
+
 TEST(Viscosity, OfImagesThatMoveIsStressOverTheirShear) {
   Channel c = channel(PlaneFlowKind::lees_edwards);
   c.flow.lower = c.flow.upper = -1;

@@ -63,8 +63,8 @@ class RunOutput {
   /// Notes a warning for summary.json.
   void warn(std::string message);
 
-  /// Quantities for summary.json, under that name.
-  void add(std::string name, std::vector<Quantity> quantities);
+  /// Quantities for summary.json, under that name, and what must be known of them, if anything.
+  void add(std::string name, std::vector<Quantity> quantities, std::string note = {});
 
   /// Ends the output: last frame and rows, checkpoint, summary.json. `status` is
   /// "completed", "stopped" or "failed"; the state of a failed run is shown in a
