@@ -32,6 +32,14 @@ struct Counts {
   std::int64_t fluid = 0, walls = 0, grains = 0;
 };
 
+/// What has left the domain through one of its sides.
+struct Loss {
+  std::string phase;           ///< fluid, grains
+  std::string side;            ///< "x-" .. "z+"
+  double count = 0, mass = 0;  ///< -, kg
+  double first = 0;            ///< s, when the first was found outside
+};
+
 class Simulation {
  public:
   virtual ~Simulation() = default;
@@ -77,6 +85,9 @@ class Simulation {
   virtual std::vector<Quantity> diagnostics() = 0;
   /// Current reading of one probe.
   virtual std::vector<Quantity> measure(const ProbeConfig& probe) = 0;
+  /// What has left the domain where there is no outlet, by the sides through which it went; only those
+  /// through which anything did.
+  virtual std::vector<Loss> losses() = 0;
   /// Place, velocity, forces and their power of one wall body, by its index in the case; behind them come the
   /// rigid groups of grains.
   virtual std::vector<Quantity> body_state(int body) = 0;

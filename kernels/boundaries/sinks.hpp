@@ -7,18 +7,26 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Ways out: none, through an open side of the domain, or outlet k.
-constexpr std::uint32_t kStays = 0, kLeftDomain = 1, kOutlet = 2;
+constexpr std::uint32_t kSides = 6;  ///< of the domain, in the order of kFaces
+/// Ways out: none, through side k of the domain, or outlet k.
+constexpr std::uint32_t kStays = 0, kLeftDomain = 1, kOutlet = kLeftDomain + kSides;
 
-/// Outside the domain on an axis that is not periodic, by more than packed positions are rounded.
-BL_HD bool outside(const Frame& f, const Vec3d& x) {
+/// 1 + the side of the domain beyond which x lies, on an axis that is not periodic and by more than packed
+/// positions are rounded; of several sides that from which it is farthest. 0 inside.
+BL_HD std::uint32_t beyond_side(const Frame& f, const Vec3d& x) {
+  std::uint32_t side = 0;
+  double farthest = 0;
   for (int k = 0; k < 3; ++k) {
+    if (f.periodic[k]) continue;
     const double rounding = f.length[k] * kPackedRounding;
-    if (!f.periodic[k] && !(x[k] >= f.origin[k] - rounding && x[k] <= f.origin[k] + f.length[k] + rounding))
-      return true;
+    const double below = f.origin[k] - rounding - x[k], above = x[k] - (f.origin[k] + f.length[k] + rounding);
+    const double beyond = below > 0 ? below : above;
+    if (beyond <= 0 || beyond <= farthest) continue;  // neither is true of NaN, which lies outside
+    side = 1 + 2 * k + (below > 0 ? 0 : 1), farthest = beyond;
   }
-  return false;
+  return side;
 }
+BL_HD bool outside(const Frame& f, const Vec3d& x) { return beyond_side(f, x) != 0; }
 
 /// Whether x lies in the solid behind a surface that stands where it was at t = 0.
 BL_HD bool inside(const SurfaceSet& set, const Surface& s, const Frame& frame, const Vec3d& x) {
@@ -47,7 +55,8 @@ struct SinkPass {
 
   BL_HD void operator()(Index i) const {
     const Vec3d at = coordinates(frame, x[i]);
-    sink[i] = domain && outside(frame, at) ? kLeftDomain : kStays;
+    const std::uint32_t side = domain ? beyond_side(frame, at) : 0;
+    sink[i] = side ? kLeftDomain + side - 1 : kStays;
     for (Index s = 0; s < outlets.surfaces.size; ++s)
       if (inside(outlets, outlets.surfaces[s], frame, at)) {
         sink[i] = kOutlet + outlets.surfaces[s].body;
@@ -77,6 +86,46 @@ struct SinkTally {
     if (sink[i] != way) return;
     out[0] = 1;
     out[1] = mass(i);
+  }
+};
+
+/// {count, mass} of what leaves through each side; Mass(i): kg.
+template <class Mass>
+struct SideTally {
+  Span<const std::uint32_t> sink;
+  Mass mass;
+  BL_HD void operator()(Index i, double* out) const {
+    if (sink[i] < kLeftDomain || sink[i] >= kOutlet) return;
+    out[2 * (sink[i] - kLeftDomain)] = 1;
+    out[2 * (sink[i] - kLeftDomain) + 1] = mass(i);
+  }
+};
+
+/// 1 + the side through which a grain that is outside now left, which it keeps however it goes on; 0 inside.
+struct LeftThrough {
+  Frame frame;
+  Span<const Vec3d> x;
+  Span<const std::uint32_t> known;
+  BL_HD std::uint32_t operator()(Index i) const {
+    const std::uint32_t side = beyond_side(frame, x[i]);
+    return side && known[i] ? known[i] : side;
+  }
+};
+struct NoteSidePass {
+  LeftThrough side;
+  Span<std::uint32_t> left_through;
+  BL_HD void operator()(Index i) const { left_through[i] = side(i); }
+};
+/// {count, mass} of grains that have left through each side; Mass(i): kg.
+template <class Mass>
+struct GrainSideTally {
+  LeftThrough side;
+  Mass mass;
+  BL_HD void operator()(Index i, double* out) const {
+    const std::uint32_t s = side(i);
+    if (s == 0) return;
+    out[2 * (s - 1)] = 1;
+    out[2 * (s - 1) + 1] = mass(i);
   }
 };
 

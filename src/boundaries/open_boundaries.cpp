@@ -30,17 +30,21 @@ std::vector<WallBody> outlets_as_walls(const std::vector<OutletConfig>& outlets,
 }  // namespace
 
 OpenBoundaries::WaysOut::WaysOut(const OpenBoundaryParameters& p, const char* phase)
-    : geometry(outlets_as_walls(p.outlets, phase), p.domain), tally(1 + p.outlets.size()) {}
+    : geometry(outlets_as_walls(p.outlets, phase), p.domain), tally(kSides + p.outlets.size()) {}
 
 OpenBoundaries::OpenBoundaries(const OpenBoundaryParameters& parameters, const Frame& frame,
-                               WallMotion& motion)
+                               WallMotion& motion, GrainStore& grains)
     : parameters_(parameters),
       frame_(frame),
       motion_(motion),
       fluid_out_(parameters, "fluid"),
       grains_out_(parameters, "grains"),
       matter_(parameters.materials),
-      sources_(parameters.sources) {}
+      left_through_(grains, "left_through", "-", Lifetime::kept),
+      grains_left_(kSides, -1.0),
+      sources_(parameters.sources) {
+  left_through_.begin_at_zero();
+}
 
 void OpenBoundaries::start(const FluidStore& fluid, const GrainStore& grains) {
   next_fluid_ = fluid.size();
@@ -60,23 +64,57 @@ bool OpenBoundaries::grains_due(double t) const {
 
 /// Marks what leaves in sink_ and tallies it; false if nothing does.
 template <class P, class Mass>
-bool OpenBoundaries::find_leaving(WaysOut& ways, Span<const P> x, bool domain, const Mass& mass) {
+bool OpenBoundaries::find_leaving(WaysOut& ways, Span<const P> x, bool domain, const Mass& mass, double t) {
   const Range all{0, x.size};
   if (!domain && ways.geometry.surfaces().empty()) return false;
   sink_.resize(x.size);
   for_each(all, SinkPass<P>{frame_, ways.geometry.view(), domain, x, sink_});
   if (sum_over<1>(all, LeavingBody{sink_}).v[0] == 0) return false;
-  for (std::uint32_t k = 0; k < ways.tally.size(); ++k) {
+  if (domain) {
+    const auto gone = sum_over<2 * kSides>(all, SideTally<Mass>{sink_, mass});
+    for (std::uint32_t k = 0; k < kSides; ++k) ways.tally[k].add(gone.v[2 * k], gone.v[2 * k + 1], t);
+  }
+  for (std::uint32_t k = kSides; k < ways.tally.size(); ++k) {
     const auto gone = sum_over<2>(all, SinkTally<Mass>{sink_, kLeftDomain + k, mass});
-    ways.tally[k].count += gone.v[0];
-    ways.tally[k].mass += gone.v[1];
+    ways.tally[k].add(gone.v[0], gone.v[1], t);
   }
   return true;
 }
 
+OpenBoundaries::Tally OpenBoundaries::lost_fluid() const {
+  Tally all;
+  for (std::uint32_t k = 0; k < kSides; ++k)
+    all.count += fluid_out_.tally[k].count, all.mass += fluid_out_.tally[k].mass;
+  return all;
+}
+
+std::vector<OpenBoundaries::Tally> OpenBoundaries::grains_outside(const GrainStore& grains, double t) const {
+  const auto out = sum_over<2 * kSides>(
+      grains.owned(),
+      GrainSideTally<GrainMass>{{frame_, grains.x, left_through_}, {matter_.of(grains), grains.radius}});
+  std::vector<Tally> sides(kSides);
+  for (std::uint32_t k = 0; k < kSides; ++k) {
+    sides[k].first = grains_left_[k];
+    sides[k].add(out.v[2 * k], out.v[2 * k + 1], t);
+  }
+  return sides;
+}
+
+std::vector<Loss> OpenBoundaries::losses(const GrainStore& grains, double t) const {
+  std::vector<Loss> out;
+  const auto add = [&](const char* phase, const std::vector<Tally>& sides) {
+    for (std::uint32_t k = 0; k < kSides; ++k)
+      if (sides[k].count > 0)
+        out.push_back({phase, {"xyz"[k / 2], "-+"[k % 2]}, sides[k].count, sides[k].mass, sides[k].first});
+  };
+  if (parameters_.has_fluid) add("fluid", fluid_out_.tally);
+  if (parameters_.has_grains) add("grains", grains_outside(grains, t));
+  return out;
+}
+
 void OpenBoundaries::renew(FluidStore& fluid, WallStore& walls, const EquationOfState& eos, double t,
                            const Vec3d& gravity) {
-  if (find_leaving(fluid_out_, Span<const FluidPosition>(fluid.x), true, FluidMass{fluid.mass})) {
+  if (find_leaving(fluid_out_, Span<const FluidPosition>(fluid.x), true, FluidMass{fluid.mass}, t)) {
     find_all(fluid.size(), StaysTest{sink_}, kept_);
     fluid.reorder(kept_);
   }
@@ -134,11 +172,14 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
 GrainRenewal OpenBoundaries::renew(GrainStore& grains, double t) {
   const Index before = grains.size();
   const GrainMass mass{matter_.of(grains), grains.radius};
-  const bool fewer = find_leaving(grains_out_, Span<const Vec3d>(grains.x), false, mass);
+  const bool fewer = find_leaving(grains_out_, Span<const Vec3d>(grains.x), false, mass, t);
   if (fewer) {
     find_all(before, StaysTest{sink_}, came_from_);
     grains.reorder(came_from_);
   }
+  for_each(grains.owned(), NoteSidePass{{frame_, grains.x, left_through_}, left_through_});
+  const std::vector<Tally> outside = grains_outside(grains, t);
+  for (std::uint32_t k = 0; k < kSides; ++k) grains_left_[k] = outside[k].first;
   const std::vector<NewGrain> more = new_grains(grains, t);
   if (!fewer && more.empty()) return {};
   const Index kept = grains.size();
@@ -206,7 +247,7 @@ std::vector<Quantity> OpenBoundaries::report(double t) const {
     out.push_back({name + "_count", "-", gone.count});
     out.push_back({name + "_mass", "kg", gone.mass});
   };
-  if (parameters_.has_fluid) tally("lost_fluid", fluid_out_.tally[0]);
+  if (parameters_.has_fluid) tally("lost_fluid", lost_fluid());
   for (std::size_t i = 0; i < motion_.inlets().size(); ++i) {
     const InletFlow& inlet = motion_.inlets()[i];
     const std::string name = "inlet_" + inlet.name();
@@ -216,8 +257,9 @@ std::vector<Quantity> OpenBoundaries::report(double t) const {
   for (std::size_t k = 0; k < parameters_.outlets.size(); ++k) {
     const OutletConfig& outlet = parameters_.outlets[k];
     const std::string name = "outlet_" + outlet.name;
-    if (parameters_.has_fluid && outlet.takes("fluid")) tally(name + "_fluid", fluid_out_.tally[1 + k]);
-    if (parameters_.has_grains && outlet.takes("grains")) tally(name + "_grain", grains_out_.tally[1 + k]);
+    if (parameters_.has_fluid && outlet.takes("fluid")) tally(name + "_fluid", fluid_out_.tally[kSides + k]);
+    if (parameters_.has_grains && outlet.takes("grains"))
+      tally(name + "_grain", grains_out_.tally[kSides + k]);
   }
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const std::string name = "grain_inlet_" + sources_[i].name();
@@ -231,14 +273,20 @@ template <class Self, class F>
 void OpenBoundaries::each_scalar(Self& self, const F& f) {
   f("next_fluid_id", "-", self.next_fluid_);
   f("next_grain_id", "-", self.next_grain_);
-  f("lost_fluid", "-", self.fluid_out_.tally[0].count);
-  f("lost_mass", "kg", self.fluid_out_.tally[0].mass);
+  for (std::uint32_t k = 0; k < kSides; ++k) {
+    auto& tally = self.fluid_out_.tally[k];
+    const std::string side = std::to_string(k);
+    f("lost_fluid_" + side, "-", tally.count);
+    f("lost_mass_" + side, "kg", tally.mass);
+    f("lost_fluid_since_" + side, "s", tally.first);
+    f("lost_grains_since_" + side, "s", self.grains_left_[k]);
+  }
   for (std::size_t k = 0; k < self.parameters_.outlets.size(); ++k) {
     const std::string name = "outlet_" + self.parameters_.outlets[k].name;
-    f(name + "_fluid_count", "-", self.fluid_out_.tally[1 + k].count);
-    f(name + "_fluid_mass", "kg", self.fluid_out_.tally[1 + k].mass);
-    f(name + "_grain_count", "-", self.grains_out_.tally[1 + k].count);
-    f(name + "_grain_mass", "kg", self.grains_out_.tally[1 + k].mass);
+    f(name + "_fluid_count", "-", self.fluid_out_.tally[kSides + k].count);
+    f(name + "_fluid_mass", "kg", self.fluid_out_.tally[kSides + k].mass);
+    f(name + "_grain_count", "-", self.grains_out_.tally[kSides + k].count);
+    f(name + "_grain_mass", "kg", self.grains_out_.tally[kSides + k].mass);
   }
   for (std::size_t i = 0; i < self.sources_.size(); ++i) {
     auto& state = self.sources_[i].state;

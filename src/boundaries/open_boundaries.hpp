@@ -9,6 +9,7 @@
 #include "bedload/parallel/compact.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/grains.hpp"
+#include "bedload/simulation.hpp"
 #include "kernels/boundaries/drop.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
 #include "src/boundaries/parameters.hpp"
@@ -21,8 +22,9 @@ namespace bedload::inline BL_VARIANT {
 
 class OpenBoundaries {
  public:
-  /// `motion` must outlive it.
-  OpenBoundaries(const OpenBoundaryParameters& parameters, const Frame& frame, WallMotion& motion);
+  /// Registers with `grains` the sides through which they leave. It and `motion` must outlive this.
+  OpenBoundaries(const OpenBoundaryParameters& parameters, const Frame& frame, WallMotion& motion,
+                 GrainStore& grains);
 
   /// The ids of what comes in follow those of what a case starts with.
   void start(const FluidStore& fluid, const GrainStore& grains);
@@ -38,6 +40,8 @@ class OpenBoundaries {
   /// Takes out and drops in grains; their lists must be renewed with what it returns.
   GrainRenewal renew(GrainStore& grains, double t);
 
+  /// What has left the domain where there is no outlet, by sides, up to time t.
+  std::vector<Loss> losses(const GrainStore& grains, double t) const;
   /// Counts and masses of what came and went, up to time t.
   std::vector<Quantity> report(double t) const;
   void save(std::vector<Quantity>& scalars) const;
@@ -47,15 +51,23 @@ class OpenBoundaries {
  private:
   struct Tally {
     double count = 0, mass = 0;  ///< kg
+    double first = -1;           ///< s, when it first did; below 0: never
+    void add(double n, double m, double t) {
+      if (n > 0 && first < 0) first = t;
+      count += n, mass += m;
+    }
   };
-  /// Of one phase: its outlets, and what left by which way, lost from the domain first.
+  /// Of one phase: its outlets, and what left by which way: through the sides of the domain, then outlets.
   struct WaysOut {
     WallGeometry geometry;
     std::vector<Tally> tally;
     WaysOut(const OpenBoundaryParameters& parameters, const char* phase);
   };
   template <class P, class Mass>
-  bool find_leaving(WaysOut& ways, Span<const P> x, bool domain, const Mass& mass);
+  bool find_leaving(WaysOut& ways, Span<const P> x, bool domain, const Mass& mass, double t);
+  Tally lost_fluid() const;  ///< through all sides
+  /// Of the grains outside now, by sides.
+  std::vector<Tally> grains_outside(const GrainStore& grains, double t) const;
   void admit(std::size_t inlet, FluidStore& fluid, const WallStore& walls, const EquationOfState& eos,
              double t, const Vec3d& gravity);
   bool is_clear(const NewGrain& grain, double t) const;
@@ -70,6 +82,8 @@ class OpenBoundaries {
   WallMotion& motion_;
   WaysOut fluid_out_, grains_out_;
   GrainMatter matter_;
+  Field<std::uint32_t> left_through_;  ///< 1 + side of the domain; 0: inside
+  std::vector<double> grains_left_;    ///< s, when the first grain was found beyond each side; below 0: never
   std::vector<GrainSource> sources_;
   double next_fluid_ = 0, next_grain_ = 0;  ///< ids never given before
 

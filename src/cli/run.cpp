@@ -153,26 +153,35 @@ class Run {
   /// Tells what has left the domain unasked; true if it is more than the case allows.
   bool losses() {
     const auto d = session_->simulation().diagnostics();
+    const std::vector<Loss> by_side = session_->simulation().losses();
+    const auto sides = [&](const char* phase) {
+      std::string text;
+      for (const Loss& loss : by_side)
+        if (loss.phase == phase)
+          text += fmt::format("{} {:.0f}{} through {} from t = {:.4g} s", text.empty() ? ":" : ",",
+                              loss.count, loss.phase == "fluid" ? " particles" : "", loss.side, loss.first);
+      return text;
+    };
     const auto read = [&](const char* name) {
       const auto q =
           std::find_if(d.begin(), d.end(), [&](const Quantity& each) { return each.name == name; });
       return q == d.end() ? 0 : q->value;
     };
     bool too_many = false;
-    const auto tell = [&](const std::string& what, double lost, double left) {
+    const auto tell = [&](const std::string& what, double lost, double left, const std::string& where = "") {
       if (!(lost > 0)) return;
       const double fraction = lost / (lost + left), allowed = session_->prepared().config.max_lost;
       too_many = too_many || fraction > allowed;
-      const std::string text =
-          fmt::format("{}, {:.3g} %, left the domain where there is no outlet", what, 100 * fraction);
+      const std::string text = fmt::format("{}, {:.3g} %, left the domain where there is no outlet{}", what,
+                                           100 * fraction, where);
       if (fraction > allowed)
         fmt::print(stderr, "{}; run.max_lost = {} allows {:.3g} %\n", text, allowed, 100 * allowed);
       else
         say("lost       " + text + "\n");
     };
     const double fluid = read("lost_fluid_mass"), grains = read("grains_outside"), all = read("grain_count");
-    tell(fmt::format("{:.4g} kg of fluid", fluid), fluid, read("fluid_mass"));
-    tell(fmt::format("{:.0f} of {:.0f} grains", grains, all), grains, all - grains);
+    tell(fmt::format("{:.4g} kg of fluid", fluid), fluid, read("fluid_mass"), sides("fluid"));
+    tell(fmt::format("{:.0f} of {:.0f} grains", grains, all), grains, all - grains, sides("grains"));
     const auto& walls = session_->prepared().config.wall.bodies;
     const auto bodies = double(std::ranges::count_if(walls, [](auto& body) { return body.free.present; }));
     const double gone = read("bodies_outside");

@@ -319,6 +319,8 @@ void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>&
   out.push_back({"fluid_shift_limited", "-", d.v[2]});
 }
 
+std::vector<Loss> CoupledSimulation::losses() { return state_.open.losses(state_.grains, state_.clock.time); }
+
 std::vector<Quantity> CoupledSimulation::diagnostics() {
   static const char* const axis[3] = {"x", "y", "z"};
   std::vector<Quantity> out;

@@ -38,6 +38,17 @@ nlohmann::ordered_json to_json(const std::vector<Quantity>& quantities) {
   return object;
 }
 
+/// {"fluid": {"z+": {...}}, "grains": {}}
+nlohmann::ordered_json to_json(const std::vector<Loss>& losses) {
+  auto object = nlohmann::ordered_json::object();
+  for (const char* phase : {"fluid", "grains"}) object[phase] = nlohmann::ordered_json::object();
+  for (const Loss& loss : losses)
+    object[loss.phase][loss.side] = {{"count", loss.count},
+                                     {"mass", {{"value", loss.mass}, {"unit", "kg"}}},
+                                     {"first", {{"value", loss.first}, {"unit", "s"}}}};
+  return object;
+}
+
 /// {"cfl": 120, "growth": 3}: steps by what bound them.
 nlohmann::ordered_json by_limit(const std::array<std::int64_t, kLimits.size()>& steps) {
   auto object = nlohmann::ordered_json::object();
@@ -291,6 +302,7 @@ struct RunOutput::Impl {
         {"memory",
          {{"solver", {{"value", simulation.bytes()}, {"unit", "B"}}},
           {"host_peak", {{"value", host_peak_bytes()}, {"unit", "B"}}}}},
+        {"lost", to_json(simulation.losses())},
         {"last_checkpoint", last_checkpoint().lexically_relative(dir).generic_string()},
         {"warnings", warnings},
         {"metrics", to_json(CsvTable(dir / "diagnostics.csv").last_row())},

@@ -32,6 +32,7 @@ class CoupledSimulation final : public Simulation {
   std::vector<FieldView> fields(const std::string& store) override;
   std::vector<Quantity> diagnostics() override;
   std::vector<Quantity> measure(const ProbeConfig& probe) override;
+  std::vector<Loss> losses() override;
   std::vector<Quantity> body_state(int body) override;
 
   SavedState save() override;

@@ -116,7 +116,7 @@ State::State(const Config& config)
       shells(config.wall.bodies, config.domain, [](const WallBody& body) { return body.single_layer(); }),
       bodies(free_body_parameters(config), frame, grain_geometry),
       motion(wall_motion_parameters(config), bodies),
-      open(open_boundary_parameters(config), frame, motion),
+      open(open_boundary_parameters(config), frame, motion, grains),
       gravity(config.gravity, config.frame.motion, config.time.end),
       matter(config.grain.all_materials()) {
   if (!coupled) fluid.solid_factor.leave_out(), grains.xp.leave_out(), grains.x_before.leave_out();

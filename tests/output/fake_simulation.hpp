@@ -71,6 +71,7 @@ class FakeSimulation : public Simulation {
     return {{"fluid mass", "kg", 0.1 * double(counts().fluid)}, {"kinetic energy", "J", time_ * time_}};
   }
   std::vector<Quantity> measure(const ProbeConfig& probe) override { return {{probe.name, "m", time_ / 3}}; }
+  std::vector<Loss> losses() override { return {{"fluid", "z+", 1, 0.125, 0.3}}; }
   std::vector<Quantity> body_state(int body) override { return {{"x", "m", time_ + body}}; }
 
   SavedState save() override {

@@ -129,6 +129,10 @@ TEST_F(RunFolder, SummaryTellsHowTheRunEnded) {
   EXPECT_EQ(summary["last_checkpoint"], "checkpoints/step_000000012.h5");
   EXPECT_EQ(summary["viscometer"]["viscosity"]["value"], 7);
   EXPECT_EQ(summary["viscometer"]["note"], "of the fluid alone");
+  EXPECT_EQ(summary["lost"]["fluid"]["z+"]["mass"]["value"], 0.125);
+  EXPECT_EQ(summary["lost"]["fluid"]["z+"]["first"]["unit"], "s");
+  EXPECT_EQ(summary["lost"]["grains"], nlohmann::json::object());
+  EXPECT_EQ(out.last_checkpoint(), folder / "checkpoints/step_000000012.h5");
 }
 
 TEST_F(RunFolder, CheckpointsComeOnTimeAndAtTheEnd) {

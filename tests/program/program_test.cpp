@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 #include <vector>
 
@@ -788,12 +789,29 @@ TEST_F(Program, TellsWhatHasLeftTheDomain) {
   const Outcome lost = bedload(run);
   EXPECT_EQ(lost.code, 4) << lost.err;
   EXPECT_NE(lost.err.find(" of 40 grains, "), lost.err.npos) << lost.err;
-  EXPECT_NE(lost.err.find("left the domain where there is no outlet; run.max_lost = 0.001 allows 0.1 %"),
-            lost.err.npos)
+  EXPECT_TRUE(std::regex_search(
+      lost.err,
+      std::regex("kg of fluid, [0-9.]+ %, left the domain where there is no outlet: [^;\n]*[0-9]+ "
+                 "particles through z- from t = 0\\.[01][0-9]* s[^;\n]*; run.max_lost = 0.001 allows "
+                 "0.1 %")))
       << lost.err;
+  EXPECT_TRUE(std::regex_search(lost.err, std::regex("of 40 grains, [^;\n]*[0-9]+ through z- from t = 0\\.")))
+      << lost.err;
+  const auto summary = nlohmann::json::parse(content_of(dir_ / "out/summary.json"));
+  double fluid = 0, grains = 0;
+  for (const auto& side : summary["lost"]["fluid"]) fluid += side["mass"]["value"].get<double>();
+  for (const auto& side : summary["lost"]["grains"]) grains += side["count"].get<double>();
+  const double expected = summary["metrics"]["lost_fluid_mass"]["value"];
+  EXPECT_GT(fluid, 0);
+  EXPECT_NEAR(fluid, expected, 1e-9 * expected);
+  EXPECT_EQ(grains, summary["metrics"]["grains_outside"]["value"].get<double>());
+  const double first = summary["lost"]["fluid"]["z-"]["first"]["value"];
+  EXPECT_GT(first, 0);
+  EXPECT_LT(first, 0.2);
   const Outcome allowed = bedload(run + " --set run.max_lost=1");
   EXPECT_EQ(allowed.code, 0) << allowed.err;
   EXPECT_NE(allowed.out.find("lost       "), allowed.out.npos) << allowed.out;
+  EXPECT_NE(allowed.out.find(" particles through z- from t = "), allowed.out.npos) << allowed.out;
 }
 
 TEST_F(Program, TellsOfFreeBodiesThatHaveLeftTheDomain) {
