@@ -83,8 +83,11 @@ class Simulation {
   virtual std::vector<FieldView> fields(const std::string& store) = 0;
   /// Masses, momenta, energies, extremes, counters; see output/diagnostics.
   virtual std::vector<Quantity> diagnostics() = 0;
-  /// Current reading of one probe.
+  /// Reading of one probe. With `sample = "mean"`, of a probe of the case: the mean since its interval began;
+  /// else what is there now.
   virtual std::vector<Quantity> measure(const ProbeConfig& probe) = 0;
+  /// Begins a new interval for the means of that probe: its row has been written.
+  virtual void begin_interval(const ProbeConfig& probe) = 0;
   /// What has left the domain where there is no outlet, by the sides through which it went; only those
   /// through which anything did.
   virtual std::vector<Loss> losses() = 0;

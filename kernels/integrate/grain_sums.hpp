@@ -99,15 +99,32 @@ struct BodyLoadReduction {
 
   BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index i) const {
+    return by_grain(i, contacts.walls.surfaces.size, [](Index s) { return s; });
+  }
+  BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
+
+  /// By grain i, among the surfaces surface(k), k < n.
+  template <class Surfaces>
+  BL_HD Value by_grain(Index i, Index n, Surfaces&& surface) const {
     Value sum = Value::zero();
-    const auto surface = [&](Index s) { return s; };
     const auto add = [&](std::uint32_t of, const WallContacts::Contact& c) {
       if (of == body) sum.add(c.on_wall(), contacts.torque_on(body, c));
     };
-    if (contacts.lubrication.acts()) contacts.each_film(i, contacts.walls.surfaces.size, surface, add);
-    if (contacts.memories(i).count() > 0)
-      contacts.each(Lane(i, 0), i, contacts.walls.surfaces.size, surface, false, add);
+    if (contacts.lubrication.acts()) contacts.each_film(i, n, surface, add);
+    if (contacts.memories(i).count() > 0) contacts.each(Lane(i, 0), i, n, surface, false, add);
     return sum;
+  }
+};
+
+/// The same, of the grains that may meet walls, with the surfaces listed for each.
+struct ListedLoadReduction {
+  using Value = LoadSum;
+  BodyLoadReduction load;
+  WallRows rows;
+
+  BL_HD Value identity() const { return Value::zero(); }
+  BL_HD Value operator()(Index row) const {
+    return load.by_grain(rows.grain[row], rows.count[row], [&](Index k) { return rows(row, k); });
   }
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
 };

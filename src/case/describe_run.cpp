@@ -74,7 +74,15 @@ void probe(Parameters& p, ProbeConfig& b) {
        .presence = required});
   else if (wanted("point"))
     p("body", &b.body, {.meaning = "name of a wall body that carries the point", .presence = optional});
-  if (wanted("force")) p("about", &b.about, {.unit = "m", .meaning = "force: torque about this point"});
+  if (wanted("force")) {
+    p("about", &b.about, {.unit = "m", .meaning = "force: torque about this point"});
+    p("sample", &b.sample,
+      {.meaning = "force: what a row holds",
+       .choices = {{"mean",
+                    "means since the row before, from every step and substep: times the interval they "
+                    "are impulse and work"},
+                   {"instant", "what acts at that moment"}}});
+  }
   if (wanted("wall_pressure")) patches(p, b);
   p("every", &b.every,
     {.unit = "s", .meaning = "interval", .range = above(0), .fallback = "out.every", .presence = optional});

@@ -77,25 +77,112 @@ int CoupledSimulation::wall_named(const std::string& name) const {
   return body;
 }
 
-std::vector<Quantity> CoupledSimulation::body_force(const ProbeConfig& p) {
-  std::vector<Quantity> out;
-  const int body = wall_named(p.body);
-  const Vec3d from =
-      state_.frame.nearest_image(state_.motion.pose(body, state_.clock.time).origin() - p.about);
-  const auto load = [&](const std::string& by, const LoadSum& sum) {
-    add(out, "force_by_" + by, "N", sum.force());
-    add(out, "torque_by_" + by, "N m", sum.torque() + cross(from, sum.force()));
-  };
+BodyActions CoupledSimulation::actions_on(int body, const Vec3d& about) {
+  const RigidMotion motion = state_.motion.pose(body, state_.clock.time);
+  const Vec3d from = state_.frame.nearest_image(motion.origin() - about);
   const FluidLoads& loads = fluid_loads();
   const int place = state_.bodies.place_of(body);
-  const LoadSum corrected = place >= 0 ? state_.bodies.correction(place) : LoadSum::zero();
-  LoadSum by_fluid = loads.all(body);
-  LoadSum::combine(by_fluid, corrected);
-  load("fluid", by_fluid);
-  load("grains", grain_load(body));
-  add(out, "pressure_force", "N", loads.pressure[body].force() + corrected.force());
-  add(out, "friction_force", "N", loads.friction[body].force());
+  LoadSum by[kActionParts] = {loads.pressure[body], loads.friction[body], grain_load(body),
+                              state_.bodies.any() ? body_load(body) : LoadSum::zero()};
+  if (place >= 0) LoadSum::combine(by[kByPressure], state_.bodies.correction(place));
+  BodyActions out;
+  for (int k = 0; k < kActionParts; ++k) out[k] = BodyAction::of(by[k], from, motion.v, motion.omega);
   return out;
+}
+
+LoadSum CoupledSimulation::body_load(int body) {
+  const int place = state_.bodies.place_of(body);
+  return place >= 0 ? state_.bodies.forces(place).bodies : state_.bodies.contact_load(body);
+}
+
+std::vector<Quantity> CoupledSimulation::body_force(const ProbeConfig& p) {
+  const int meter = p.sample == "mean" ? meters_.place_of(p.name) : -1;
+  const BodyActions by =
+      meter >= 0 ? meters_.mean(meter, state_.clock.time) : actions_on(wall_named(p.body), p.about);
+  BodyAction fluid = by[kByPressure];
+  fluid.add(1, by[kByFriction]);
+  std::vector<std::pair<const char*, BodyAction>> all{{"by_fluid", fluid}, {"by_grains", by[kByGrains]}};
+  if (state_.bodies.any()) all.emplace_back("by_bodies", by[kByBodies]);
+  BodyAction total{};
+  for (const auto& [name, action] : all) total.add(1, action);
+
+  std::vector<Quantity> out;
+  const auto load = [&](const std::string& name, const BodyAction& action) {
+    add(out, "force_" + name, "N", action.force());
+    add(out, "torque_" + name, "N m", action.torque());
+  };
+  load("by_fluid", fluid);
+  load("by_grains", by[kByGrains]);
+  add(out, "pressure_force", "N", by[kByPressure].force());
+  add(out, "friction_force", "N", by[kByFriction].force());
+  if (state_.bodies.any()) load("by_bodies", by[kByBodies]);
+  load("total", total);
+  all.emplace_back("total", total);
+  for (const auto& [name, action] : all) out.push_back({std::string("power_") + name, "W", action.power()});
+  return out;
+}
+
+void CoupledSimulation::add_meters() {
+  for (const ProbeConfig& p : config_.out.probes)
+    if (p.type == "force" && p.sample == "mean") {
+      const int body = wall_named(p.body);
+      meters_.add(p, body, state_.bodies.place_of(body));
+    }
+}
+
+void CoupledSimulation::begin_meters(const SavedState* saved) {
+  if (!meters_.any()) return;
+  if (state_.has_grains) stepper_.solids().substep_loads().record_on(meters_.bodies());
+  state_.bodies.substep_loads().record_on(meters_.bodies());
+  for (const ProbeConfig& p : config_.out.probes)
+    if (const int m = meters_.place_of(p.name); m >= 0 && !(saved && meters_.load(m, *saved)))
+      meters_.begin(m, state_.clock.time, actions_on(wall_named(p.body), p.about));
+}
+
+/// Without waiting for the device.
+void CoupledSimulation::advance_meters(double dt) {
+  const std::size_t n = meters_.bodies().size();
+  for (Buffer<LoadSum>* loads : {&meter_pressure_, &meter_friction_, &meter_repulsion_})
+    loads->resize(n), loads->zero();
+  const Span<const BodyPose> poses = state_.poses_now();
+  SumActionsPass pass{};
+  if (state_.has_fluid && state_.walls.size() > 0) {
+    const WallForces& forces = wall_forces();
+    const WallRepulsion repulsion = stepper_.fluid().repulsion(state_.fluid, poses, dt);
+    for (std::size_t m = 0; m < n; ++m) {
+      const std::uint32_t b = meters_.bodies()[m];
+      const auto sum = [&](LoadSum* out, const Buffer<Vec3d>& force) {
+        reduce_into(out, state_.walls.owned(),
+                    WallLoadReduction{{b, state_.walls.body, state_.walls.x0, poses.data}, force});
+      };
+      sum(meter_pressure_.data() + m, forces.pressure);
+      sum(meter_friction_.data() + m, forces.friction);
+      if (repulsion.walls.surfaces.size > 0 && state_.fluid.size() > 0)
+        reduce_into(meter_repulsion_.data() + m, state_.fluid.owned(),
+                    BodyRepulsion{repulsion, b, state_.fluid.x, state_.fluid.mass, state_.fluid.heading});
+    }
+    for_each({0, Index(n)}, AddLoadsPass{meter_repulsion_, meter_pressure_});
+    pass.last_kick = stepper_.corrected();
+    pass.first_kick = dt - pass.last_kick;
+    if (state_.bodies.any())
+      pass.free_force = state_.bodies.fluid_force(), pass.free_torque = state_.bodies.fluid_torque();
+  }
+  pass.frame = state_.frame;
+  pass.now = poses.data;
+  pass.by_pressure = meter_pressure_, pass.by_friction = meter_friction_;
+  if (const Span<const BodyPose> rows = stepper_.substep_poses(); rows) {
+    pass.rows = rows.data;
+    pass.row_size = state_.motion.bodies();
+    pass.substeps = int(rows.size) / pass.row_size - 1;
+    pass.substep = dt / pass.substeps;
+    if (state_.has_grains) pass.by_grains = stepper_.solids().substep_loads().loads();
+    if (state_.bodies.any()) pass.by_bodies = state_.bodies.substep_loads().loads();
+  }
+  meters_.advance(pass);
+}
+
+void CoupledSimulation::begin_interval(const ProbeConfig& probe) {
+  if (const int m = meters_.place_of(probe.name); m >= 0) meters_.begin_interval(m, state_.clock.time);
 }
 
 std::vector<Quantity> CoupledSimulation::body_state(int body) {
@@ -113,7 +200,7 @@ std::vector<Quantity> CoupledSimulation::body_state(int body) {
   } else {
     f.fluid = fluid_loads().all(body);
     f.grains = grain_load(body);
-    if (state_.bodies.any()) f.bodies = state_.bodies.contact_load(body);
+    if (state_.bodies.any()) f.bodies = body_load(body);
   }
   if (state_.has_fluid) loads.push_back({"fluid", f.fluid});
   if (state_.has_grains) loads.push_back({"grains", f.grains});

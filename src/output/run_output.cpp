@@ -226,9 +226,11 @@ struct RunOutput::Impl {
     }
     for (auto& t : series.tables) {
       if (!wanted(t.schedule)) continue;
-      const bool again = t.schedule.begun();
+      const bool again = t.schedule.begun(), due = t.schedule.due(time);
       t.schedule.written(time);
       std::vector<Quantity> row = row_of(simulation, t);
+      // an extra row at the end is taken back by a restart, whose next mean reaches over it
+      if (t.probe && due) simulation.begin_interval(*t.probe);
       if (row_watcher) {
         fs::path name = t.csv.path().lexically_relative(dir);
         row_watcher(name.replace_extension().generic_string(), time, row);

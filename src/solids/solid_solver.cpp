@@ -157,8 +157,12 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   const double tau = dt / substeps;
   const TouchLoads loads = free ? free->record(g.size()) : TouchLoads{};
   const auto contacts_in = [&](int s) {
-    return contacts_at(g, poses.data + std::size_t(s) * bodies, tau, loads);
+    const BodyPose* const row = poses.data + std::size_t(s) * bodies;
+    const ContactPass contacts = contacts_at(g, row, tau, loads);
+    record_loads(s, g, row);
+    return contacts;
   };
+  substep_loads_.begin(substeps);
   wall_list_.cover(g, poses, wall_counts(), wall_travel);
   if (free) free->first_kick();
   if (held || parameters_.fixed) {
@@ -167,7 +171,10 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
       evaluate(EvaluatePass{contacts_in(s), g.force, g.torque});
       free->substep(s);
     }
-    if (!free) evaluate(g, {poses.data + std::size_t(substeps) * bodies, Index(bodies)});
+    if (free) return;
+    const BodyPose* const last = poses.data + std::size_t(substeps) * bodies;
+    evaluate(g, {last, Index(bodies)});
+    for (int s = 1; s <= substeps; ++s) record_loads(s, g, last);
     return;
   }
   const Index n = g.size();
@@ -242,6 +249,14 @@ void SolidSolver::contact_moments(const GrainStore& g, Buffer<PairMoment<>>& out
 void SolidSolver::film_moments(const GrainStore& g, Buffer<PairMoment<>>& out) const {
   out.resize(g.size());
   for_each(g.owned(), LubricationStressPass{films(g, nullptr), out});
+}
+
+void SolidSolver::record_loads(int s, const GrainStore& g, const BodyPose* poses) {
+  if (!substep_loads_.wanted() || !parameters_.touch) return;
+  const WallContacts contacts = wall_contacts(g, poses, 0);
+  substep_loads_.record(s, {0, wall_list_.size()}, [&](std::uint32_t body) {
+    return ListedLoadReduction{{contacts, body}, wall_list_.rows()};
+  });
 }
 
 std::vector<LoadSum> SolidSolver::body_loads(const GrainStore& g, Span<const BodyPose> poses) const {

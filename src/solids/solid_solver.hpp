@@ -17,6 +17,7 @@
 #include "src/solids/rigid_groups.hpp"
 #include "src/solids/wall_list.hpp"
 #include "src/walls/free_bodies.hpp"
+#include "src/walls/substep_loads.hpp"
 #include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -103,6 +104,9 @@ class SolidSolver {
   /// Of the grains on each wall body, about its centre; poses: [bodies] on the device.
   std::vector<LoadSum> body_loads(const GrainStore& grains, Span<const BodyPose> poses) const;
 
+  /// The same in the substeps of the last step, for bodies on which they are recorded.
+  SubstepLoads& substep_loads() { return substep_loads_; }
+
   /// Moments of the contacts between grains, a grain each, J.
   void contact_moments(const GrainStore& grains, Buffer<PairMoment<>>& out) const;
   /// The same of lubrication; whether there is any.
@@ -138,6 +142,8 @@ class SolidSolver {
     else
       for_each(threads(), pass);
   }
+  /// What the grains do to walls with the contacts just evaluated, after substep s.
+  void record_loads(int s, const GrainStore& grains, const BodyPose* poses);
   /// Over the threads of the passes that evaluate pairs.
   Range threads() const { return {0, list_.rows() << list_.view().bits}; }
   const Index* wall_counts() const { return wall_contacts_ ? wall_contacts_->buffer().data() : nullptr; }
@@ -160,6 +166,7 @@ class SolidSolver {
   mutable PairHistoryBuffers histories_;  ///< sums read them through the pass that writes them
   PairHistoryBuffers old_histories_;
   WallList wall_list_;
+  SubstepLoads substep_loads_;
   Buffer<ContactSum> by_walls_;  ///< [rows of wall_list_]
   Buffer<ContactSum> by_films_;  ///< [grains]
   Buffer<Index> order_;

@@ -6,6 +6,7 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
     : config_(config), state_(config_), stepper_(config_, state_) {
   state_.fill(config_, setup);
   if (state_.has_grains) stepper_.solids().groups().bind(state_.grains, setup.grains.fill);
+  add_meters();
 }
 
 std::vector<Quantity> CoupledSimulation::numerical_viscosity() const {
@@ -32,6 +33,7 @@ SavedState CoupledSimulation::save() {
   stepper_.save_grains(out);
   state_.save(out);
   stepper_.save(out);
+  meters_.save(out);
   return out;
 }
 
@@ -39,6 +41,7 @@ void CoupledSimulation::load(const SavedState& saved) {
   state_.load(config_, saved);
   stepper_.load(saved);
   wall_forces_.step = fluid_loads_.step = grain_loads_.step = -1;
+  begin_meters(&saved);
 }
 
 std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup) {

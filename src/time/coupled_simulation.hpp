@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "src/measure/force_meters.hpp"
 #include "src/time/stepper.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -11,11 +12,18 @@ class CoupledSimulation final : public Simulation {
  public:
   CoupledSimulation(const Config& config, const Setup& setup);
 
-  StepInfo step() override { return stepper_.step(); }
+  StepInfo step() override {
+    const StepInfo info = stepper_.step();
+    if (meters_.any()) advance_meters(info.dt);
+    return info;
+  }
   void settle(double longest, const std::function<void(double)>& progress) override {
     stepper_.settle(longest, progress);
   }
-  void start() override { stepper_.start(); }
+  void start() override {
+    stepper_.start();
+    begin_meters(nullptr);
+  }
 
   double time() const override { return state_.clock.time; }
   std::int64_t steps() const override { return state_.clock.step; }
@@ -32,6 +40,7 @@ class CoupledSimulation final : public Simulation {
   std::vector<FieldView> fields(const std::string& store) override;
   std::vector<Quantity> diagnostics() override;
   std::vector<Quantity> measure(const ProbeConfig& probe) override;
+  void begin_interval(const ProbeConfig& probe) override;
   std::vector<Loss> losses() override;
   std::vector<Quantity> body_state(int body) override;
 
@@ -67,7 +76,12 @@ class CoupledSimulation final : public Simulation {
   const FluidLoads& fluid_loads();
   /// Adds where the energy of the fluid goes, by terms, and how many particles are held by limits.
   void report_powers(const Drive& drive, std::vector<Quantity>& out);
-  LoadSum grain_load(int body);                   ///< of the grains on a body about its centre
+  LoadSum grain_load(int body);  ///< of the grains on a body about its centre
+  LoadSum body_load(int body);   ///< of other bodies, likewise; where there are free ones
+  BodyActions actions_on(int body, const Vec3d& about);  ///< now; torque about a point (m)
+  void add_meters();
+  void begin_meters(const SavedState* saved);  ///< null: a fresh start
+  void advance_meters(double dt);
   int wall_named(const std::string& name) const;  ///< place among the wall bodies
   std::vector<Quantity> front(const ProbeConfig& probe);
   std::vector<Quantity> point(const ProbeConfig& probe);
@@ -85,6 +99,8 @@ class CoupledSimulation final : public Simulation {
   Kept<WallForces> wall_forces_;
   Kept<FluidLoads> fluid_loads_;
   Kept<std::vector<LoadSum>> grain_loads_;
+  ForceMeters meters_;
+  Buffer<LoadSum> meter_pressure_, meter_friction_, meter_repulsion_;  ///< scratch
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -104,6 +104,7 @@ void Stepper::interpolate(Step& now) { coupling_->gather(fluid_, grains_, poses_
 void Stepper::move_solids(Step& now) {
   const auto gravity = gravity_.along(now.start, now.dt, now.substeps);
   const Span<BodyPose> poses = motion_.poses(now.start, now.dt, now.substeps);
+  substep_poses_ = poses;
   if (bodies_.any())
     bodies_.begin(poses, motion_.bodies(), now.start, now.dt, now.substeps, now.dt - now.last_kick, gravity);
   if (has_grains())

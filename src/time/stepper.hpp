@@ -46,6 +46,9 @@ class Stepper {
   const Moment& moment() const { return moment_; }  ///< of the fluid's forces at the end of the last step
   double corrected() const { return corrected_; }   ///< s, with what of it velocities were corrected since
   std::int64_t rebuilds() const { return rebuilds_; }
+  /// Of all bodies in the last step, at its start and after each substep; without grains and free bodies
+  /// empty.
+  Span<const BodyPose> substep_poses() const { return substep_poses_; }
   Span<const Real3> drive_grains();  ///< force on each of them now, N; empty where nothing drives them
 
   /// Grains, their contacts and groups.
@@ -127,6 +130,7 @@ class Stepper {
 
   Moment moment_;         ///< of the last forces
   double corrected_ = 0;  ///< s, kick of the last correction
+  Span<const BodyPose> substep_poses_;
   FluidExtremes fluid_extremes_;
   GrainWatch grain_watch_;
   double walls_moved_ = 0;  ///< bound on wall travel since the lists were built, m

@@ -186,6 +186,7 @@ BodyPass FreeBodies::pass() const {
 void FreeBodies::begin(Span<BodyPose> poses, int row_size, double time, double dt, int substeps,
                        double fluid_kick, const std::vector<Vec3d>& gravity) {
   step_ = {poses, row_size, substeps, time, dt, fluid_kick, gravity};
+  substep_loads_.begin(substeps);
 }
 
 void FreeBodies::first_kick() {
@@ -202,6 +203,10 @@ void FreeBodies::substep(int s) {
   const double tau = step_.dt / step_.substeps;
   const bool last = s == step_.substeps;
   touch({step_.poses.data + std::size_t(s) * step_.row_size, Index(step_.row_size)}, tau);
+  if (substep_loads_.wanted())
+    substep_loads_.record(s, {0, ball_loads_.size}, [&](std::uint32_t body) {
+      return TouchReduction{ball_loads_, body};
+    });
   BodyPass p = pass();
   p.by_grains = grain_sums_.data();
   p.by_contacts = ball_sums_.data();

@@ -15,6 +15,7 @@
 #include "kernels/fluid/body_pressure.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
 #include "src/walls/parameters.hpp"
+#include "src/walls/substep_loads.hpp"
 #include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -100,6 +101,9 @@ class FreeBodies {
   std::vector<StepLimit> limits(double wall_speed) const;
 
   BodyForces forces(int place) const;
+  /// All that the fluid does to each, on the device; N, N m about their centres.
+  Span<const Vec3d> fluid_force() const { return store_.fluid_force; }
+  Span<const Vec3d> fluid_torque() const { return store_.fluid_torque; }
   /// Of the bodies and of what they touch.
   std::vector<const Store*> stores() const {
     if (!any()) return {};
@@ -107,6 +111,8 @@ class FreeBodies {
   }
   /// Force and torque by free bodies on any wall body, of the last substep in this run.
   LoadSum contact_load(int body) const;
+  /// The same in the substeps of the last step, for bodies on which they are recorded.
+  SubstepLoads& substep_loads() { return substep_loads_; }
   BodyTotals totals(double time) const;
   /// What pressure.linear_exact adds to the fluid's load on a body.
   LoadSum correction(int place) const;
@@ -167,6 +173,7 @@ class FreeBodies {
   Buffer<TouchLoad> grain_slots_, ball_slots_;
   Buffer<Index> grain_counts_, ball_counts_;
   TouchLoads grain_loads_, ball_loads_;
+  SubstepLoads substep_loads_;
   Buffer<LoadSum> grain_sums_, ball_sums_, wall_sums_, repulsion_sums_;
   Buffer<BodyPressureSums> fit_sums_;
   Buffer<BodyPressure> pressures_;

@@ -132,6 +132,17 @@ TEST(ProbeCase, RefusesPlacesThatSeeNothing) {
             "probe.body = \"tank\" has no use here; leave it out or change what it belongs to");
 }
 
+TEST(ProbeCase, OfForcesTellsMeansOrInstants) {
+  const std::string force = "type = \"force\"\nbody = \"tank\"\n";
+  const auto sample = [](const std::string& text) { return read(text).out.probes.at(0).sample; };
+  EXPECT_EQ(sample(with_probe(force)), "mean");
+  EXPECT_EQ(sample(with_probe(force + "sample = \"instant\"\n")), "instant");
+  EXPECT_EQ(refused(with_probe(force + "sample = \"average\"\n")),
+            "probe.sample = \"average\" must be one of mean, instant");
+  EXPECT_EQ(refused(with_probe("type = \"point\"\nat = [0.1, 0.05, 0.1]\nsample = \"mean\"\n")),
+            "probe.sample = \"mean\" has no use here; leave it out or change what it belongs to");
+}
+
 TEST(ProbeCase, FollowsTheColumnAlongGravity) {
   const std::string sideways = with_probe("type = \"height\"\nat = [0.3, 0.05, 0.1]\n");
   EXPECT_NE(error_of(sideways), "");

@@ -71,7 +71,9 @@ class FakeSimulation : public Simulation {
     return {{"fluid mass", "kg", 0.1 * double(counts().fluid)}, {"kinetic energy", "J", time_ * time_}};
   }
   std::vector<Quantity> measure(const ProbeConfig& probe) override { return {{probe.name, "m", time_ / 3}}; }
+  void begin_interval(const ProbeConfig& probe) override { intervals.push_back({probe.name, time_}); }
   std::vector<Loss> losses() override { return {{"fluid", "z+", 1, 0.125, 0.3}}; }
+  std::vector<std::pair<std::string, double>> intervals;  ///< begun, and when
   std::vector<Quantity> body_state(int body) override { return {{"x", "m", time_ + body}}; }
 
   SavedState save() override {

@@ -74,6 +74,21 @@ TEST_F(RunFolder, WritesAtTheFirstStepEndAtOrAfterItsTime) {
       << gauge;
 }
 
+/// The row with which a run ends before its time is taken back by a restart: the mean goes on over it.
+TEST_F(RunFolder, BeginsAnIntervalWithEachRowThatIsDue) {
+  FakeSimulation s;
+  RunOutput out(folder.path(), config, kDevice, "0.1.0");
+  run_to(s, out, 25);
+  out.finish(s, "completed", {2.0, 100});
+  const auto rows = CsvTable(folder / "probes" / "gauge.csv").times();
+  ASSERT_EQ(rows.size(), 5u);
+  ASSERT_EQ(s.intervals.size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(s.intervals[k].first, "gauge");
+    EXPECT_DOUBLE_EQ(s.intervals[k].second, rows[k]);
+  }
+}
+
 TEST_F(RunFolder, HasATableForEachBodyThatMoves) {
   config.wall.bodies.emplace_back().name = "raft";
   config.wall.bodies.back().free.present = true;

@@ -147,10 +147,10 @@ TEST_F(Restart, NewProbesAndFoldersLackNothing) {
 TEST_F(Restart, WhatLiesAfterItIsOutOfDate) {
   const auto all = checkpoints();
   write("case.toml", kCase.substr(0, kCase.find("[[probe]]")));
-  const Outcome o =
-      shell("sh -c '" BL_PROGRAM " " + kRun + "--set time.end=1000 --restart " + all.at(1).string() +
-            " & run=$!; n=0; until grep -q \"end = 1000\" out/case.resolved.toml && [ -e " + all.at(2).string() +
-            " ] || [ $((n += 1)) -gt 3000 ]; do sleep 0.01; done; kill -KILL $run; wait $run'");
+  const Outcome o = shell(
+      "sh -c '" BL_PROGRAM " " + kRun + "--set time.end=1000 --restart " + all.at(1).string() +
+      " & run=$!; n=0; until grep -q \"end = 1000\" out/case.resolved.toml && [ -e " + all.at(2).string() +
+      " ] || [ $((n += 1)) -gt 3000 ]; do sleep 0.01; done; kill -KILL $run; wait $run'");
   EXPECT_EQ(o.code, 137);
   EXPECT_FALSE(fs::exists(out_ / "summary.json"));
   const double gone_on = times("diagnostics.csv").back();
@@ -175,6 +175,26 @@ TEST_F(Restart, RemovesLaterCheckpointsOnceAStepIsMade) {
   EXPECT_EQ(o.code, 0) << o.err;
   EXPECT_EQ(content_of(all.back()), before.at("checkpoints/" + all.back().filename().string()));
   EXPECT_EQ(content_of(out_ / "diagnostics.csv"), before.at("diagnostics.csv"));
+}
+
+/// From a checkpoint, and from where a run ended between two rows.
+TEST_F(Restart, MeansGoOnInTheMiddleOfAnInterval) {
+  write("case.toml", kCase + kFront +
+                         "[[probe]]\nname = \"load\"\ntype = \"force\"\nbody = \"tank\"\n"
+                         "every = 0.007\n");
+  const std::string load = "probes/load.csv";
+  Outcome o = bedload(kRun + "--overwrite");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const std::string unbroken = content_of(out_ / load);
+  ASSERT_EQ(times(load).size(), 6u);
+  o = bedload(kRun + "--restart " + checkpoints().at(1).string());
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(content_of(out_ / load), unbroken);
+  o = bedload(kRun + "--overwrite --until 0.0093");
+  ASSERT_EQ(o.code, 0) << o.err;
+  o = bedload(kRun + "--restart latest");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(content_of(out_ / load), unbroken);
 }
 
 /// Killed after its last checkpoint, and asked once more by a chain of jobs.

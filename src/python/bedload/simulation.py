@@ -226,7 +226,7 @@ class Simulation:
         return _values(self._run.diagnostics())
 
     def probe(self, name: str) -> dict[str, float]:
-        """What a probe of the case reads now, in SI units."""
+        """What a probe of the case reads now, in SI units; a force with sample = "mean": the mean since its last row."""
         return _values(self._run.measure(name))
 
     def body(self, name: str) -> dict[str, float]:

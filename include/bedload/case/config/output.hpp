@@ -24,6 +24,7 @@ struct ProbeConfig {
   Vec3d normal;                                ///< wall_pressure: unit, into the fluid (resolved)
   Vec3d along;                                 ///< wall_pressure: unit, of the first side (resolved)
   Vec3d about;                                 ///< force: torque about this point, m
+  std::string sample = "mean";                 ///< force: mean over the interval, or instant
   double every = 0;                            ///< s; 0: out.every
   bool operator==(const ProbeConfig&) const = default;
 };

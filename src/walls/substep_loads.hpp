@@ -1,0 +1,37 @@
+#pragma once
+#include <vector>
+
+#include "bedload/parallel/loops.hpp"
+#include "kernels/bodies/rigid_body.hpp"
+
+namespace bedload::inline BL_VARIANT {
+
+/// Loads on some wall bodies after each substep of the last step, about their centres. Stays on the device.
+class SubstepLoads {
+ public:
+  void record_on(const std::vector<std::uint32_t>& bodies) { bodies_ = bodies; }
+  bool wanted() const { return !bodies_.empty(); }
+  /// A step begins; all its loads are 0 so far.
+  void begin(int substeps) {
+    substeps_ = wanted() ? substeps : 0;
+    loads_.resize(std::size_t(substeps_) * bodies_.size());
+    loads_.zero();
+  }
+  /// After substep s, from 1: reduction(body) over a range.
+  template <class F>
+  void record(int s, Range range, const F& reduction) {
+    if (range.size() == 0) return;
+    for (std::size_t k = 0; k < bodies_.size(); ++k)
+      reduce_into(loads_.data() + (s - 1) * bodies_.size() + k, range, reduction(bodies_[k]));
+  }
+  int substeps() const { return substeps_; }
+  /// [substeps][bodies]
+  Span<const LoadSum> loads() const { return loads_; }
+
+ private:
+  std::vector<std::uint32_t> bodies_;
+  int substeps_ = 0;
+  Buffer<LoadSum> loads_;
+};
+
+}  // namespace bedload::inline BL_VARIANT

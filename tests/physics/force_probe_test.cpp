@@ -1,0 +1,223 @@
+// Force probes: means over an interval against what fluid, grains and bodies gain in it, and instants.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/free_body.hpp"
+#include "tests/support/tolerance.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+constexpr double kG = 9.81;
+
+ProbeConfig force_on(const std::string& body, const std::string& sample = "mean", const Vec3d& about = {}) {
+  ProbeConfig p;
+  p.name = body + "_" + sample, p.type = "force";
+  p.body = body, p.sample = sample, p.about = about;
+  return p;
+}
+
+/// Water that falls on the floor of an open tank, which moves on along x.
+Config falling_water() {
+  Config c = periodic_box(10, 0.01);
+  c.gravity = {0, 0, -kG};
+  c.domain.periodic = {true, true, false};
+  c.fluid.fills = {{{0, 0, 0.005}, {0.1, 0.1, 0.055}}};
+  c.wall.bodies = {test::tank(c.domain.min, c.domain.max, "z-")};
+  c.wall.bodies[0].motion.kind = "velocity";
+  c.wall.bodies[0].motion.velocity = {0.3, 0, 0};
+  c.pressure.linear_exact = false;
+  c.out.probes = {force_on("tank"), force_on("tank", "instant")};
+  return c;
+}
+
+/// Grains that fall on a floor, among them one box that moves freely.
+struct Hail {
+  Hail() : config(void_case()) {
+    config.gravity = {0, 0, -kG};
+    config.grain.present = true;
+    config.grain.d = config.grain.d_min = config.grain.d_max = 0.02;
+    config.grain.E = 1e6;
+    WallBody box = test::shaped("box", make_box({-0.05, -0.03, 0.005}, {0.05, 0.03, 0.045}));
+    set_free(box, 600);
+    config.wall.bodies = {ground(), box};
+    for (int k = 0; k < 12; ++k) {
+      setup.grains.x.push_back({-0.06 + 0.031 * (k % 4), -0.03 + 0.027 * (k / 4), 0.07 + 0.012 * k});
+      setup.grains.v.push_back({0.3 - 0.04 * k, 0.1, -1});
+      setup.grains.radius.push_back(0.01);
+    }
+    config.out.probes = {force_on("plane"), force_on("box")};
+  }
+  Config config;
+  bedload::Setup setup;
+};
+
+/// Sums of means times their interval, as a reader of the table would take them.
+class Sum {
+ public:
+  Sum(Simulation& s, const ProbeConfig& probe) : s_(s), probe_(probe), since_(s.time()) {
+    s_.begin_interval(probe_);
+  }
+  void take() {
+    const double interval = s_.time() - since_;
+    rows_ = s_.measure(probe_);
+    s_.begin_interval(probe_);
+    since_ = s_.time();
+    const auto add = [&](Vec3d& to, const char* name) { to += interval * vector_of(rows_, name); };
+    add(force, "force_total"), add(torque, "torque_total");
+    work += interval * reading(rows_, "power_total");
+  }
+  Vec3d force, torque;  ///< N s, N m s
+  double work = 0;      ///< J
+
+ private:
+  Simulation& s_;
+  ProbeConfig probe_;
+  double since_;
+  std::vector<Quantity> rows_;
+};
+
+TEST(SmallForceMeans, AreTheMomentumThatTheFluidLoses) {
+  for (const TimeIntegrator scheme : {TimeIntegrator::kdk, TimeIntegrator::euler}) {
+    Config c = falling_water();
+    c.time.integrator = scheme;
+    auto s = started(c);
+    const auto before = s->diagnostics();
+    const double start = s->time();
+    Sum floor(*s, c.out.probes[0]);
+    for (int k = 1; k <= 120; ++k) {
+      s->step();
+      if (k % 7 == 0 || k == 120) floor.take();
+    }
+    const auto after = s->diagnostics();
+    const double falls = reading(before, "fluid_mass") * kG * (s->time() - start);
+    const Vec3d gained = vector_of(after, "fluid_momentum") - vector_of(before, "fluid_momentum");
+    ASSERT_GT(std::abs(floor.force.z), 0.2 * falls) << "it has not hit the floor";
+    EXPECT_LT(norm(gained + floor.force - Vec3d{0, 0, -falls}), tolerance(1e-12, 2e-5, 2e-5) * falls);
+    // the floor moves evenly: the work is that of the impulse
+    EXPECT_NEAR(floor.work, 0.3 * floor.force.x, 1e-12 * falls);
+    EXPECT_NE(floor.work, 0);
+  }
+}
+
+TEST(SmallForceMeans, AreTheMomentumOfGrainsAndOfABody) {
+  const Hail hail;
+  auto s = started(hail.config, hail.setup);
+  const auto before = s->diagnostics();
+  const Vec3d box_before = vector_of(before, "body_momentum");
+  Sum floor(*s, hail.config.out.probes[0]), box(*s, hail.config.out.probes[1]);
+  bool grains = false, bodies = false;
+  for (int k = 1; s->time() < 0.2; ++k) {
+    s->step();
+    if (k % 5 != 0) continue;
+    const auto now = s->measure(hail.config.out.probes[1]);
+    grains = grains || norm(vector_of(now, "force_by_grains")) > 0;
+    bodies = bodies || norm(vector_of(now, "force_by_bodies")) > 0;
+    floor.take(), box.take();
+  }
+  floor.take(), box.take();
+  ASSERT_TRUE(grains && bodies) << "the box met no grain, or did not reach the floor";
+  const auto after = s->diagnostics();
+  const double mass = reading(after, "body_mass"), grain_mass = reading(after, "grain_mass");
+  const Vec3d weight{0, 0, -kG * s->time()};
+  EXPECT_LT(norm(vector_of(after, "body_momentum") - box_before - box.force - mass * weight),
+            tolerance(1e-12, 1e-11, 1e-11) * mass * norm(weight));
+  const Vec3d all = vector_of(after, "body_momentum") + vector_of(after, "grain_momentum") - box_before -
+                    vector_of(before, "grain_momentum");
+  EXPECT_LT(norm(all + floor.force - (mass + grain_mass) * weight),
+            tolerance(1e-11, 2e-6, 2e-6) * (mass + grain_mass) * norm(weight));
+  // work on the box is what its energy gains beside that of its weight
+  const auto energy = [](const std::vector<Quantity>& d) {
+    return reading(d, "body_kinetic_energy") + reading(d, "body_rotational_energy") +
+           reading(d, "body_potential_energy");
+  };
+  EXPECT_NEAR(box.work, energy(after) - energy(before), 0.02 * std::abs(energy(after) - energy(before)));
+}
+
+/// Of a paddle in water, about its axle and about another point.
+TEST(SmallForceMeans, HaveTorqueAboutAPointAndItsPower) {
+  Config c = falling_water();
+  c.fluid.fills = {{{0, 0, 0.005}, {0.1, 0.1, 0.075}}};
+  c.wall.bodies.push_back(test::body("box", {0.03, 0.03, 0.03}, {0.05, 0.06, 0.04}));
+  MotionConfig& motion = c.wall.bodies[1].motion;
+  motion.kind = "rotation";
+  motion.axis = {0, 1, 0}, motion.centre = {0.06, 0.045, 0.04}, motion.rate = 12;
+  const Vec3d aside{0.02, 0, -0.01};
+  c.out.probes = {force_on("box", "mean", motion.centre), force_on("box", "mean", motion.centre + aside)};
+  c.out.probes[1].name = "aside";
+  auto s = started(c);
+  for (int k = 0; k < 40; ++k) s->step();
+  const auto p = s->measure(c.out.probes[0]), q = s->measure(c.out.probes[1]);
+  const double power = reading(p, "power_total");
+  ASSERT_NE(power, 0);
+  EXPECT_NEAR(power, 12 * reading(p, "torque_total_y"), 1e-9 * std::abs(power));
+  EXPECT_NEAR(reading(q, "power_total"), power, 1e-9 * std::abs(power));
+  const Vec3d force = vector_of(p, "force_total"), torque = vector_of(p, "torque_total");
+  EXPECT_LT(norm(vector_of(q, "torque_total") - torque + cross(aside, force)), 1e-9 * norm(torque));
+}
+
+TEST(SmallForceMeans, GoOnInTheMiddleOfAnInterval) {
+  const Hail hail;
+  auto whole = started(hail.config, hail.setup);
+  run_until(*whole, 0.03);
+  for (const ProbeConfig& p : hail.config.out.probes) whole->begin_interval(p);
+  run_until(*whole, 0.06);
+  auto second = make_coupled(hail.config, Setup{});
+  second->load(whole->save());
+  for (int k = 0; k < 30; ++k) whole->step(), second->step();
+  EXPECT_EQ(bits(*whole), bits(*second));
+  for (const ProbeConfig& p : hail.config.out.probes) {
+    const auto a = whole->measure(p), b = second->measure(p);
+    ASSERT_NE(reading(a, "force_total_z"), 0);
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_EQ(a[k].value, b[k].value) << a[k].name;
+  }
+}
+
+/// Where a probe is new in a restart, its interval begins there.
+TEST(SmallForceMeans, BeginWithTheirProbe) {
+  const Config c = falling_water();
+  Config without = c;
+  without.out.probes.clear();
+  auto whole = started(without);
+  for (int k = 0; k < 60; ++k) whole->step();
+  auto second = make_coupled(c, Setup{});
+  second->load(whole->save());
+  const auto mean = second->measure(c.out.probes[0]), now = second->measure(c.out.probes[1]);
+  ASSERT_NE(reading(now, "force_total_z"), 0);
+  for (std::size_t k = 0; k < now.size(); ++k) EXPECT_EQ(mean[k].value, now[k].value) << now[k].name;
+  const Vec3d before = vector_of(second->diagnostics(), "fluid_momentum");
+  const double start = second->time(), falls = reading(second->diagnostics(), "fluid_mass") * kG;
+  for (int k = 0; k < 30; ++k) second->step();
+  const double interval = second->time() - start;
+  const Vec3d impulse = interval * vector_of(second->measure(c.out.probes[0]), "force_total");
+  EXPECT_LT(norm(vector_of(second->diagnostics(), "fluid_momentum") - before + impulse -
+                 Vec3d{0, 0, -falls * interval}),
+            tolerance(1e-12, 2e-5, 2e-5) * falls * interval);
+}
+
+TEST(SmallForceProbe, InstantsAreWhatActsThen) {
+  const Config c = falling_water();
+  auto s = started(c);
+  for (int k = 0; k < 60; ++k) s->step();
+  const auto now = s->measure(c.out.probes[1]), body = s->body_state(0);
+  ASSERT_NE(reading(now, "force_by_fluid_z"), 0);
+  for (const char* name : {"force_by_fluid_x", "force_by_fluid_z"})
+    EXPECT_EQ(reading(now, name), reading(body, name)) << name;
+  EXPECT_NEAR(reading(now, "power_by_fluid"), reading(body, "power_by_fluid"),
+              1e-12 * std::abs(reading(now, "force_by_fluid_z")));
+  EXPECT_EQ(reading(now, "force_total_z"), reading(now, "force_by_fluid_z"));
+  // a mean over many steps is another number, and one over the last alone lies beside it
+  const double mean = reading(s->measure(c.out.probes[0]), "force_total_z");
+  EXPECT_GT(std::abs(mean - reading(now, "force_total_z")), 1e-3 * std::abs(mean));
+  s->begin_interval(c.out.probes[0]);
+  s->step();
+  const double next = reading(s->measure(c.out.probes[1]), "force_total_z");
+  EXPECT_NEAR(reading(s->measure(c.out.probes[0]), "force_total_z"),
+              0.5 * (reading(now, "force_total_z") + next), 1e-6 * std::abs(next))
+      << "half of a step by the force at either end";
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
