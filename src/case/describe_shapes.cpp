@@ -7,6 +7,24 @@ namespace {
 
 using enum Presence;
 
+void copies(Parameters& p, CopiesConfig& c) {
+  c.present = p.table("copies", c.present);
+  if (!c.present) return;
+  p("copies.count", &c.count,
+    {.meaning = "how many copies of the shape it stands for, the first among them; they may overlap",
+     .range = within(1, 10000),
+     .presence = required});
+  p("copies.about", &c.about, {.meaning = "about an axis: its direction; [0, 0, 0]: copies do not turn"});
+  p("copies.centre", &c.centre, {.unit = "m", .meaning = "a point on that axis"});
+  p("copies.angle", &c.angle,
+    {.unit = "deg",
+     .meaning = "from one copy to the next, right-handed about that axis",
+     .range = within(-360, 360),
+     .fallback = "360 / count",
+     .presence = optional});
+  p("copies.along", &c.along, {.unit = "m", .meaning = "in a row: from one copy to the next"});
+}
+
 void shape(Parameters& p, ShapeConfig& s) {
   p("name", &s.name, {.meaning = "by which walls, fills and other shapes know it", .presence = required});
   p("kind", &s.kind,
@@ -80,6 +98,7 @@ void shape(Parameters& p, ShapeConfig& s) {
   p("turn_axis", &s.turn_axis, {.meaning = "then turned about this axis through the origin"});
   p("turn_angle", &s.turn_angle, {.unit = "deg", .meaning = "by this angle, right-handed"});
   p("translate", &s.translate, {.unit = "m", .meaning = "then moved by this"});
+  copies(p, s.copies);
 }
 
 }  // namespace

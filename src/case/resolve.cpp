@@ -102,6 +102,19 @@ double vessel_thickness(const Config& c) {
   return d;
 }
 
+void resolve_copies(CopiesConfig& copies, const Value& root, const std::string& path) {
+  const bool turn = norm(copies.about) > 0;
+  if (!turn && norm(copies.along) == 0)
+    throw CaseError(
+        fmt::format("{}: shape.copies must have about, the direction of an axis, or along, the way to "
+                    "the next copy",
+                    nearest_value(root, path).place()));
+  if (!turn && copies.angle != 0)
+    reject(root, path + ".angle", fmt::format("{}", copies.angle),
+           "must stand with shape.copies.about, the direction of an axis");
+  if (turn && copies.angle == 0) copies.angle = 360 / double(copies.count);
+}
+
 void resolve_shapes(Config& c, const Value& root) {
   std::vector<ShapeConfig> done;
   for (std::size_t i = 0; i < c.shapes.size(); ++i) {
@@ -118,6 +131,7 @@ void resolve_shapes(Config& c, const Value& root) {
       const auto folder = std::filesystem::absolute(c.file).parent_path();
       shape.file = (folder / shape.file).lexically_normal().string();
     }
+    if (shape.copies.present) resolve_copies(shape.copies, root, path + ".copies");
     const auto fail = [&](const std::string& key, const std::exception& error) {
       throw CaseError(
           fmt::format("{}: shape \"{}\": {}", nearest_value(root, key).place(), shape.name, error.what()));

@@ -57,6 +57,28 @@ ShapePtr build_mesh(ShapeConfig& c) {
   return mesh;
 }
 
+void check_pieces(std::int64_t pieces) {
+  constexpr std::int64_t most = 10000;
+  if (pieces > most)
+    throw CaseError(fmt::format("is made of {} pieces, must be of at most {}", pieces, most));
+}
+
+/// A turn by an angle (deg) about an axis through the origin.
+Quat<double> turn_of(const Vec3d& axis, double angle) {
+  return Quat<double>::from_rotation(angle * std::numbers::pi / 180 / norm(axis) * axis);
+}
+
+ShapePtr copied(const ShapePtr& shape, const CopiesConfig& c) {
+  std::vector<ShapePtr> all{shape};
+  for (std::int64_t k = 1; k < c.count; ++k) {
+    Placement placement;
+    if (c.angle != 0) placement.rotation = turn_of(c.about, double(k) * c.angle);
+    placement.translation = c.centre - placement.rotation.rotate(c.centre) + double(k) * c.along;
+    all.push_back(make_placed(shape, placement));
+  }
+  return make_union(std::move(all));
+}
+
 ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier) {
   if (c.kind == "box") return make_box(c.min, c.max);
   if (c.kind == "sphere") return make_sphere(c.centre, c.radius);
@@ -73,9 +95,7 @@ ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier)
     of.push_back(part.solid.shape);
     c.pieces += part.pieces;
   }
-  constexpr std::int64_t most = 10000;
-  if (c.pieces > most)
-    throw CaseError(fmt::format("is made of {} pieces, must be of at most {}", c.pieces, most));
+  check_pieces(c.pieces);
   if (c.kind == "union") return make_union(of);
   if (c.kind == "hollow") {
     if (of.size() != 1) throw CaseError(fmt::format("of holds {} names, must hold one", of.size()));
@@ -94,13 +114,14 @@ ShapePtr build_shape(ShapeConfig& c, const std::vector<ShapeConfig>& earlier) {
   const ShapePtr shape = build_unplaced(c, earlier);
   Placement placement;
   placement.scale = c.scale;
-  const double length = norm(c.turn_axis);
-  if (length == 0) throw CaseError("turn_axis must not be zero");
-  placement.rotation =
-      Quat<double>::from_rotation(c.turn_angle * std::numbers::pi / 180 / length * c.turn_axis);
+  if (norm(c.turn_axis) == 0) throw CaseError("turn_axis must not be zero");
+  placement.rotation = turn_of(c.turn_axis, c.turn_angle);
   placement.translation = c.translate;
   const bool placed = c.scale != 1 || c.turn_angle != 0 || norm2(c.translate) > 0;
-  return placed ? make_placed(shape, placement) : shape;
+  const ShapePtr one = placed ? make_placed(shape, placement) : shape;
+  if (!c.copies.present) return one;
+  check_pieces(c.pieces *= c.copies.count);
+  return copied(one, c.copies);
 }
 
 namespace {

@@ -279,6 +279,7 @@ name = "ball"
 kind = "sphere"
 centre = [0.1, 0.05, 0.1]
 radius = 0.02
+copies = { count = 2, about = [0, 0, 1] }
 [[outlet]]
 name = "drain"
 shape = "box"

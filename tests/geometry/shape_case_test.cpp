@@ -127,6 +127,90 @@ of = ["inside", "ball"]
   EXPECT_GT(c.shapes[4].solid.shape->distance({0, 0.02, 0.04}), 0);
 }
 
+/// A drum of which lifters about its axis are written one by one, or as copies.
+std::string lifters(bool copies) {
+  const std::string box =
+      "kind = \"box\"\nmin = [0.04, -0.05, -0.005]\nmax = [0.052, 0.05, 0.005]\nturn_axis = [0, 1, 0]\n";
+  std::string text, of;
+  for (int n = 0; n < (copies ? 1 : 8); ++n) {
+    text += fmt::format("[[shape]]\nname = \"lifter{}\"\n{}turn_angle = {}\n", n, box, 45 * n);
+    of += fmt::format(", \"lifter{}\"", n);
+  }
+  if (copies) text += "[shape.copies]\ncount = 8\nabout = [0, 1, 0]\n";
+  text += "[[shape]]\nname = \"mill\"\nkind = \"union\"\nof = [\"drum\"" + of + "]\n[fluid]\n";
+  std::string all = with("[fluid]\n", text);
+  all.replace(all.find("shape = \"drum\""), 14, "shape = \"mill\"");
+  return all;
+}
+
+TEST(ShapeCase, CopiesEqualShapesWrittenOneByOne) {
+  const Config one = read(lifters(false)), other = read(lifters(true));
+  EXPECT_EQ(other.shapes[2].copies.angle, 45);
+  const Shape &a = *one.shapes.back().solid.shape, &b = *other.shapes.back().solid.shape;
+  for (int n = 0; n < 1000; ++n) {
+    const Vec3d x{0.06 * std::sin(n), 0.055 * std::sin(7.3 * n), 0.06 * std::cos(3.1 * n)};
+    EXPECT_EQ(a.distance(x), b.distance(x));
+  }
+  std::vector<SurfacePart> parts, copied;
+  a.add_parts(parts, {}), b.add_parts(copied, {});
+  ASSERT_EQ(copied.size(), parts.size());
+  for (std::size_t n = 0; n < parts.size(); ++n) EXPECT_EQ(copied[n].centre, parts[n].centre);
+  std::vector<std::string> warnings;
+  const auto written = build_setup(one, warnings), made = build_setup(other, warnings);
+  EXPECT_EQ(made.walls.x, written.walls.x);
+  EXPECT_EQ(made.fluid.x, written.fluid.x) << "the fluid leaves out the same";
+  EXPECT_EQ(made.grains.x, written.grains.x);
+  EXPECT_EQ(read(resolved_toml(other)), other);
+}
+
+TEST(ShapeCase, CopiesInARowWeighWhatTheyAre) {
+  const auto rods = [](const std::string& copies, const std::string& more = "") {
+    return with(
+        "[fluid]\n",
+        "[[shape]]\nname = \"rod\"\nkind = \"box\"\nmin = [0, 0, 0]\nmax = [0.01, 0.02, 0.01]\ntranslate = "
+        "[-0.03, 0, 0.06]\n[shape.copies]\n" +
+            copies + more +
+            "[[wall.body]]\nname = \"rods\"\nshape = \"rod\"\n[wall.body.free]\ndensity = 500\n"
+            "contacts = false\n[fluid]\n");
+  };
+  const Config c = read(rods("count = 3\nalong = [0.02, 0, 0]\n"));
+  const MassProperties& m = c.wall.bodies[0].free.solid;
+  const double one = 500 * 2e-6;
+  EXPECT_NEAR(m.mass, 3 * one, 0.005 * 3 * one);
+  EXPECT_NEAR(m.centre.x, -0.005, 5e-5);
+  // about z: three boxes of 1 x 2 cm, two of them 2 cm aside
+  const double about_z = one * (3 * 5e-4 / 12 + 2 * 4e-4);
+  EXPECT_NEAR(m.inertia[2], about_z, 0.01 * about_z);
+  EXPECT_NEAR(c.shapes.back().solid.shape->distance({0.015, 0.01, 0.065}), -0.005, 1e-15);
+
+  const Config helix = read(
+      rods("count = 2\nabout = [0, 0, 3]\ncentre = [-0.03, 0, 0]\nangle = 90\n", "along = [0, 0, 0.02]\n"));
+  EXPECT_NEAR(helix.shapes.back().solid.shape->distance({-0.04, 0.005, 0.085}), -0.005, 1e-12)
+      << "turned about the axis, then moved on";
+}
+
+TEST(ShapeCase, SaysWhatCopiesLack) {
+  const auto says = [](const std::string& copies) {
+    return refused("radius = 0.05\n", "radius = 0.05\n[shape.copies]\n" + copies);
+  };
+  EXPECT_EQ(
+      says("count = 2\n"),
+      "drum.toml:11: shape.copies must have about, the direction of an axis, or along, the way to the next "
+      "copy");
+  EXPECT_EQ(
+      says("count = 2\nalong = [0.1, 0, 0]\nangle = 30\n"),
+      "drum.toml:14: shape.copies.angle = 30 must stand with shape.copies.about, the direction of an axis");
+  EXPECT_EQ(says("count = 0\nalong = [0.1, 0, 0]\n"),
+            "drum.toml:12: shape.copies.count = 0 must be within 1..10000");
+  EXPECT_EQ(says("count = 2.5\nalong = [0.1, 0, 0]\n"),
+            "drum.toml:12: shape.copies.count = 2.5 must be a whole number");
+  EXPECT_EQ(says("count = 10001\nalong = [0.1, 0, 0]\n"),
+            "drum.toml:12: shape.copies.count = 10001 must be within 1..10000");
+  EXPECT_NE(
+      says("count = 2\nalong = [0, 0.2, 0]\n").find("hollow: grains can meet it only around a single box"),
+      std::string::npos);
+}
+
 TEST(ShapeCase, ReadsBackWhatWasResolvedMeshesIncluded) {
   const TemporaryFolder folder;
   std::ofstream(folder / "box.obj") << "v 0 0 0\nv 20 0 0\nv 20 20 0\nv 0 20 0\nv 0 0 20\nv 20 0 20\n"

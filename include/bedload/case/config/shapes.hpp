@@ -18,6 +18,17 @@ struct Solid {
   bool operator==(const Solid&) const { return true; }
 };
 
+/// Copies of a shape that is made and placed; each stands as the one before, turned and then moved on.
+struct CopiesConfig {
+  bool present = false;                        ///< a [shape.copies] is given
+  std::int64_t count = 1;                      ///< with the first
+  Vec3d about;                                 ///< direction of the axis; zero: they do not turn
+  Vec3d centre;                                ///< a point on the axis, m
+  double angle = 0;                            ///< from one to the next, deg (resolved)
+  Vec3d along;                                 ///< from one to the next, m
+  bool operator==(const CopiesConfig&) const = default;
+};
+
 /// A solid with a name: walls are made of it, fluid and grains fill it.
 struct ShapeConfig {
   std::string name;
@@ -38,6 +49,7 @@ struct ShapeConfig {
   Vec3d turn_axis{0, 0, 1};
   double turn_angle = 0;                       ///< deg
   Vec3d translate;                             ///< m
+  CopiesConfig copies;
   std::int64_t pieces = 1;                     ///< primitives in it, each as often as it is named (resolved)
   Solid solid;                                 ///< resolved
   bool operator==(const ShapeConfig&) const = default;
