@@ -70,6 +70,9 @@ void motion_part(Parameters& p, const std::string& at, MotionPart& m) {
        .presence = m.kind == "rotation" ? required : defaulted});
   if (wanted("rotation"))
     p(at + "rate", &m.rate, {.unit = "rad/s", .meaning = "rotation: right-handed", .presence = required});
+  if (wanted("velocity") || wanted("rotation"))
+    p(at + "factor", &m.factor,
+      {.meaning = "velocity, rotation: of velocity or rate, a formula in t (s); its integral is the way"});
   motion_law(p, at, m);
   if (m.kind == "fixed" && !p.everything()) return;
   p(at + "start", &m.start,

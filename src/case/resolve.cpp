@@ -88,6 +88,15 @@ void resolve_size(Config& c, SizeClass& s, const Value& root, const std::string&
   c.grain.d_max = std::max(c.grain.d_max, largest);
 }
 
+void check_factor(const std::string& factor, const Value& root, const std::string& path) {
+  try {
+    (void)Formula(factor, "t");
+  } catch (const CaseError& error) {
+    reject(root, path, fmt::format("\"{}\"", factor),
+           fmt::format("must be a formula in t: {}", error.what()));
+  }
+}
+
 namespace {
 
 /// Of a vessel that says none: layers of wall particles as deep as the kernel reaches; a grain without fluid.
@@ -214,6 +223,18 @@ void refuse_gaps(const MotionPart& m, const std::string& path, double until, con
   }
 }
 
+/// A factor that has a value throughout.
+void resolve_factor(const MotionPart& m, const std::string& path, double until, const Value& root) {
+  check_factor(m.factor, root, path);
+  const Formula factor(m.factor, "t");
+  constexpr int looks = 2000;
+  const double span = std::max(0.0, std::min(m.stop, until) - m.start);
+  for (int n = 0; n <= looks; ++n)
+    if (const double s = span * n / looks; !std::isfinite(factor(s)))
+      reject(root, path, fmt::format("\"{}\"", m.factor),
+             fmt::format("must be a finite number at all times; it is none at t = {:.4g} s", m.start + s));
+}
+
 /// What jumps from place to place passes through what is between.
 void refuse_jumps(const MotionPart& m, const std::string& path, double until, const Value& root) {
   const double span = std::min(m.stop, until) - m.start;
@@ -233,6 +254,7 @@ void resolve_motions(Config& c, const Value& root) {
     for_parts(motion, path, [&](MotionPart& m, const std::string& at) {
       if (m.kind == "rotation") m.axis = direction(m.axis, root, at + ".axis");
       if (m.kind == "table") resolve_table(m, at, c.file, root);
+      if (m.scaled()) resolve_factor(m, at + ".factor", c.time.end, root);
       refuse_gaps(m, at, c.time.end, root);
     });
     if (const double t = motion.moves() ? first_gap(motion, c.time.end) : INFINITY; std::isfinite(t))
@@ -363,7 +385,7 @@ double wall_speed(const WallBody& body, const DomainConfig& domain, double until
   if (body.free.present)
     return norm(body.free.velocity) + 0.5 * norm(body.free.spin) * norm(at.back() - at.front());
   if (m.add.empty()) {
-    if (m.kind == "velocity") return norm(m.velocity);
+    if (m.kind == "velocity" && !m.scaled()) return norm(m.velocity);
     if (m.kind == "oscillation") return 2 * std::numbers::pi * m.frequency * norm(m.amplitude);
   }
   return top_speed(m, at, until);

@@ -62,6 +62,9 @@ void default_sizes(const Config& config, std::vector<SizeClass>& sizes, const Va
 /// CaseError: `key` must be given.
 [[noreturn]] void missing(const Value& root, const std::string& key, const char* what);
 
+/// CaseError if a factor is no formula in t; `path`: of its key.
+void check_factor(const std::string& factor, const Value& root, const std::string& path);
+
 /// Checks parameters against each other. Throws CaseError; appends warnings.
 void cross_check(const Config& config, const Value& root, std::vector<std::string>& warnings);
 

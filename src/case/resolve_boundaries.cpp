@@ -27,27 +27,22 @@ void check_right_angles(const InletConfig& inlet, const Value& root, const std::
     reject(root, path + "half_b", to_text(inlet.half_b), "must be at right angles to half_a");
 }
 
-void check_factor(const InletConfig& inlet, double until, const Value& root, const std::string& path) {
-  const auto fail = [&](const std::string& must) {
-    reject(root, path + "factor", fmt::format("\"{}\"", inlet.factor), must);
-  };
-  std::optional<Formula> factor;
-  try {
-    factor.emplace(inlet.factor, "t");
-  } catch (const CaseError& error) {
-    fail(fmt::format("must be a formula in t: {}", error.what()));
-  }
+/// A factor that has a value throughout.
+void resolve_factor(const InletConfig& inlet, double until, const Value& root, const std::string& path) {
+  check_factor(inlet.factor, root, path + "factor");
+  const Formula factor(inlet.factor, "t");
   constexpr int looks = 1000;
   for (int n = 0; n <= looks; ++n)
-    if (const double t = until * n / looks; !std::isfinite((*factor)(t)))
-      fail(fmt::format("must be a finite number at all times; it is none at t = {:.4g} s", t));
+    if (const double t = until * n / looks; !std::isfinite(factor(t)))
+      reject(root, path + "factor", fmt::format("\"{}\"", inlet.factor),
+             fmt::format("must be a finite number at all times; it is none at t = {:.4g} s", t));
 }
 
 void resolve_inlet(InletConfig& inlet, double dx, const DomainConfig& domain, double until, const Value& root,
                    const std::string& path) {
   inlet.direction = direction(inlet.direction, root, path + "direction");
   if (inlet.shape == "rectangle") check_right_angles(inlet, root, path);
-  check_factor(inlet, until, root, path);
+  resolve_factor(inlet, until, root, path);
   if ((inlet.rate > 0) == (inlet.velocity > 0))
     throw CaseError(fmt::format("{}: inlet \"{}\" must have exactly one of rate and velocity",
                                 nearest_value(root, path + "rate").place(), inlet.name));

@@ -1,109 +1,41 @@
 #include "src/motion/formula_track.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace bedload {
 namespace {
 
-constexpr int kReach = 4, kNodes = 2 * kReach + 1;
-
-/// Weights of the values at -4..4 in the first and second derivative at p.
-struct Stencil {
-  std::array<double, kNodes> weight[3] = {};
-
-  explicit Stencil(double p) {  // [fornberg88]
-    weight[0][0] = 1;
-    double product = 1, distance = -kReach - p;
-    for (int i = 1; i < kNodes; ++i) {
-      const int top = std::min(i, 2);
-      const double before = distance;
-      double next = 1;
-      distance = i - kReach - p;
-      for (int j = 0; j < i; ++j) {
-        next *= i - j;
-        if (j == i - 1) {
-          for (int k = top; k > 0; --k)
-            weight[k][i] = product * (k * weight[k - 1][i - 1] - before * weight[k][i - 1]) / next;
-          weight[0][i] = -product * before * weight[0][i - 1] / next;
-        }
-        for (int k = top; k > 0; --k)
-          weight[k][j] = (distance * weight[k][j] - k * weight[k - 1][j]) / (i - j);
-        weight[0][j] *= distance / (i - j);
-      }
-      product = next;
-    }
-  }
-};
-
-}  // namespace
-
-FormulaTrack::Triple::Triple(const Texts& texts, double factor, double span) : factor_(factor) {
-  if (std::all_of(texts.begin(), texts.end(), [](const auto& text) { return text == "0"; })) return;
-  for (int k = 0; k < 3; ++k) {
-    formulas_.emplace_back(texts[k], "t");
-    step_[k] = step_for(formulas_[k], span);
-    breaks_[k] = breaks_of(formulas_[k], span);
-  }
+std::vector<SmoothFormula> triple(const FormulaTrack::Texts& texts, double factor, double span) {
+  std::vector<SmoothFormula> all;
+  if (std::all_of(texts.begin(), texts.end(), [](const auto& text) { return text == "0"; })) return all;
+  for (const std::string& text : texts) all.emplace_back(text, factor, span);
+  return all;
 }
 
-/// A step so long that rounding moves the second derivative by 4e-8 of the fastest rate over the span:
-/// 4e-16 F / h^2 = 4e-8 V / span. Sines are then resolved as long as there are fewer than 1e5 of them.
-double FormulaTrack::Triple::step_for(const Formula& formula, double span) {
-  constexpr int samples = 4096;
-  const double apart = 1e-3 * span / samples;
-  double largest = 0, fastest = 0;
-  for (int i = 0; i <= samples; ++i) {
-    const double s = span * i / samples, f = formula(s), next = formula(s + apart);
-    if (!std::isfinite(f)) continue;
-    largest = std::max(largest, std::abs(f));
-    if (std::isfinite(next)) fastest = std::max(fastest, std::abs(next - f) / apart);
-  }
-  const double longest = 1e-4 * span;
-  return fastest > 0 ? std::min(longest, 1e-4 * std::sqrt(span * largest / fastest)) : longest;
-}
-
-FormulaTrack::Triple::Piece FormulaTrack::Triple::piece_at(int k, double s) const {
-  const std::vector<Break>& all = breaks_[k];
-  const auto next = std::partition_point(all.begin(), all.end(), [&](const Break& b) { return b.time <= s; });
-  return {next == all.begin() ? 0 : (next - 1)->time + (next - 1)->within,  // no value before the start
-          next == all.end() ? std::numeric_limits<double>::infinity() : next->time - next->within};
-}
-
-void FormulaTrack::Triple::add_breaks(std::vector<double>& times) const {
-  for (const auto& breaks : breaks_)
-    for (const Break& b : breaks) times.push_back(b.time);
-}
-
-Jet FormulaTrack::Triple::at(double s) const {
+Jet jet(const std::vector<SmoothFormula>& formulas, double s) {
   Jet jet;
-  for (std::size_t k = 0; k < formulas_.size(); ++k) {
-    const Piece piece = piece_at(int(k), s);
-    const double h = std::min(step_[k], (piece.end - piece.begin) / (kNodes - 1));
-    const double middle = std::max(std::min(s, piece.end - kReach * h), piece.begin + kReach * h);
-    const Stencil stencil((s - middle) / h);
-    for (int i = 0; i < kNodes; ++i) {
-      const double f = factor_ * formulas_[k](middle + (i - kReach) * h);
-      jet.rate[int(k)] += stencil.weight[1][i] * f / h;
-      jet.rate2[int(k)] += stencil.weight[2][i] * f / (h * h);
-    }
-    jet.value[int(k)] = factor_ * formulas_[k](s);
+  for (std::size_t k = 0; k < formulas.size(); ++k) {
+    const SmoothFormula::Value v = formulas[k].at(s);
+    jet.value[int(k)] = v.y, jet.rate[int(k)] = v.rate, jet.rate2[int(k)] = v.rate2;
   }
   return jet;
 }
 
+}  // namespace
+
 FormulaTrack::FormulaTrack(const Texts& displacement, const Texts& rotation, double span)
-    : displacement_(displacement, 1, span), rotation_(rotation, std::numbers::pi / 180, span) {}
+    : displacement_(triple(displacement, 1, span)),
+      rotation_(triple(rotation, std::numbers::pi / 180, span)) {}
 
 std::vector<double> FormulaTrack::breaks() const {
   std::vector<double> times;
-  displacement_.add_breaks(times);
-  rotation_.add_breaks(times);
+  for (const auto* formulas : {&displacement_, &rotation_})
+    for (const SmoothFormula& formula : *formulas)
+      for (const Break& b : formula.breaks()) times.push_back(b.time);
   return times;
 }
 
-TrackPoint FormulaTrack::at(double s) const { return {displacement_.at(s), rotation_.at(s)}; }
+TrackPoint FormulaTrack::at(double s) const { return {jet(displacement_, s), jet(rotation_, s)}; }
 
 }  // namespace bedload

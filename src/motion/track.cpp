@@ -7,6 +7,7 @@
 
 #include "bedload/core/error.hpp"
 #include "src/motion/formula_track.hpp"
+#include "src/motion/scaled_track.hpp"
 #include "src/motion/spline.hpp"
 
 namespace bedload {
@@ -85,6 +86,10 @@ class TableTrack final : public Track {
 }  // namespace
 
 std::unique_ptr<Track> make_track(const MotionPart& m, double span) {
+  if (m.scaled() && m.kind == "velocity")
+    return std::make_unique<ScaledTrack>(m.velocity, Vec3d{}, m.factor, span);
+  if (m.scaled() && m.kind == "rotation")
+    return std::make_unique<ScaledTrack>(Vec3d{}, m.axis * m.rate, m.factor, span);
   if (m.kind == "velocity") return std::make_unique<Straight>(m.velocity);
   if (m.kind == "oscillation") return std::make_unique<Oscillation>(m.amplitude, m.frequency);
   if (m.kind == "rotation") return std::make_unique<SteadyTurn>(m.axis * m.rate);

@@ -96,7 +96,7 @@ Vec3d velocity_of(const Config& c, int b) {
   const MotionConfig& m = body.motion;
   Vec3d v = body.surface_velocity;
   if (!m.moves()) return v;
-  if (m.kind != "velocity" || !m.add.empty() || m.start > 0 || std::isfinite(m.stop))
+  if (m.kind != "velocity" || m.scaled() || !m.add.empty() || m.start > 0 || std::isfinite(m.stop))
     refuse(Walls::key(b) + ".motion", "the wall does not move evenly throughout");
   return v + m.velocity;
 }

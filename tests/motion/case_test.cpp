@@ -171,6 +171,29 @@ TEST(MotionCase, FormulasAreInTAndHaveValues) {
             "must its rates; it is not at t = 0 s");
 }
 
+TEST(MotionCase, RatesMayRampByAFactor) {
+  const auto turning = [](const std::string& factor) {
+    return changed("[grain]\n",
+                   "[wall.body.motion]\nkind = \"rotation\"\naxis = [0, 1, 0]\ncentre = [0, 0, 0]\n"
+                   "rate = \"60 rpm\"\nstart = 0.1\nfactor = \"" +
+                       factor + "\"\n[grain]\n");
+  };
+  const Config c = read(turning("min(1, t/0.05)"));
+  const auto& m = c.wall.bodies[0].motion;
+  EXPECT_EQ(m.factor, "min(1, t/0.05)");
+  EXPECT_NEAR(MotionLaw(m, 1).at(0.125).omega.y, M_PI, 1e-12) << "t counts from the start";
+  EXPECT_TRUE(read(resolved_toml(c)) == c);
+  EXPECT_TRUE(warnings_of(turning("min(1, t/0.05)")).empty()) << "it starts from rest";
+  EXPECT_EQ(warnings_of(turning("t < 0.05 ? t/0.05 : 0")).size(), 1u) << "and stops at once";
+  EXPECT_EQ(error_of(turning("x")),
+            "dam.toml:21: wall.body.motion.factor = \"x\" must be a formula in t: Unexpected token \"x\" "
+            "found at position 0");
+  EXPECT_EQ(
+      error_of(turning("sqrt(0.1-t)")),
+      "dam.toml:21: wall.body.motion.factor = \"sqrt(0.1-t)\" must be a finite number at all times; it is "
+      "none at t = 0.2001 s");
+}
+
 TEST(MotionCase, SoundSpeedFollowsTheFastestWall) {
   const std::string from = "[grain]\n";
   const auto vmax = [&](const std::string& text) {
@@ -178,6 +201,7 @@ TEST(MotionCase, SoundSpeedFollowsTheFastestWall) {
   };
   EXPECT_NEAR(vmax("kind = \"formula\"\ndisplacement = [\"0.1*sin(40*t)\", 0, 0]"), 4, 1e-6);
   EXPECT_NEAR(vmax("kind = \"table\"\nrows = [[0, 0, 0, 0], [0.1, 0.3, 0, 0]]"), 3, 1e-9);
+  EXPECT_NEAR(vmax("kind = \"velocity\"\nvelocity = [2, 0, 0]\nfactor = \"3*t/0.3\""), 6, 1e-9);
   EXPECT_NEAR(vmax("kind = \"velocity\"\nvelocity = [2, 0, 0]\n"
                    "[[wall.body.motion.add]]\nkind = \"velocity\"\nvelocity = [1, 0, 0]"),
               3, 1e-12);

@@ -177,6 +177,63 @@ TEST(FormulaMotion, AsksForNoValueBeforeItsStart) {
   EXPECT_NEAR(first_gap(motion_of({formula({"sqrt(1-t)", "0", "0"})}), 4), 1, 0.01);
 }
 
+MotionPart scaled(MotionPart part, const std::string& factor) {
+  part.factor = factor;
+  return part;
+}
+
+TEST(ScaledMotion, GoesAsFarAsTheIntegralOfItsFactor) {
+  const auto turn = rotation({0, 0, 1}, {}, 2);
+  const MotionLaw ramp(motion_of({scaled(turn, "min(1, t/0.5)")}), 3);
+  for (const double t : {0.0, 0.1, 0.25, 0.499, 0.51, 1.0, 1.5}) {
+    const double angle = t < 0.5 ? 2 * t * t : 0.5 + 2 * (t - 0.5);
+    const Vec3d x = ramp.at(t).place({1, 0, 0});
+    EXPECT_NEAR(std::atan2(x.y, x.x), angle, 1e-12) << t;
+    EXPECT_NEAR(ramp.at(t).omega.z, std::min(2.0, 4 * t), 1e-14) << t;
+    EXPECT_NEAR(ramp.at(t).alpha.z, t < 0.5 ? 4 : 0, 1e-6) << t;
+  }
+  MotionPart lift;
+  lift.kind = "velocity";
+  lift.velocity = {0, 0, 3};
+  for (const double w : {0.1, 3.0, 1e3, 1e4}) {  // rad/s, over ten seconds
+    const MotionLaw law(motion_of({scaled(lift, "cos(" + std::to_string(w) + "*t)")}), 10);
+    for (int i = 0; i <= 50; ++i) {
+      const double t = 9.7 * i / 50;
+      EXPECT_NEAR(law.at(t).translation.z, 3 * std::sin(w * t) / w, 3e-12) << w << ' ' << t;
+      EXPECT_NEAR(law.at(t).v.z, 3 * std::cos(w * t), 1e-14) << w << ' ' << t;
+      EXPECT_NEAR(law.at(t).a.z / (3 * w), -std::sin(w * t), 1e-6) << w << ' ' << t;
+    }
+  }
+}
+
+TEST(ScaledMotion, VelocitiesAreTheDifferencesOfThePose) {
+  const auto spin = scaled(rotation({1, 2, -1}, {0.05, 0.1, 0}, 7), "1-exp(-3*t)+0.2*sin(20*t)");
+  const auto carousel = rotation({1, 0, 1}, {-0.2, 0, 0.3}, 3);
+  for (const auto& parts : std::vector<std::vector<MotionPart>>{{spin}, {spin, carousel}})
+    expect_rates_of_the_pose(MotionLaw(motion_of(parts), 2), 0.1, 1.9, 2, 50);
+}
+
+TEST(ScaledMotion, MayStopAtOnceAndKnowsWhen) {
+  auto turn = scaled(rotation({0, 1, 0}, {}, 4), "t < 1 ? 1 : 0");
+  turn.start = 0.5;
+  const MotionLaw law(motion_of({turn}), 3);
+  ASSERT_EQ(law.events().size(), 2u);
+  EXPECT_NEAR(law.events()[1], 1.5, 1e-8);
+  EXPECT_EQ(law.at(2).omega, (Vec3d{}));
+  const Vec3d x = law.at(2).place({1, 0, 0});
+  EXPECT_NEAR(std::atan2(-x.z, x.x), 4 - 2 * pi, 1e-7) << "4 rad";
+  const auto jumps = velocity_jumps(motion_of({turn}), {{1, 0, 0}}, 3);
+  ASSERT_EQ(jumps.size(), 2u);
+  EXPECT_NEAR(jumps[1].size, 4, 1e-6);
+}
+
+TEST(ScaledMotion, FactorsWithoutEndOfDetailAreTakenAsTheyCome) {
+  const MotionLaw law(motion_of({scaled(rotation({0, 1, 0}, {}, 1), "sin(1e12*t*t)")}), 10);
+  EXPECT_TRUE(std::isfinite(law.at(7).omega.y));
+  const RigidMotion once = law.at(3.7), again = law.at(3.7);
+  EXPECT_EQ(once.rotation.w, again.rotation.w);
+}
+
 TEST(TableMotion, IsSmoothThroughRowsAndRestsOutsideThem) {
   const auto rows = table(21, 0.1, [](double t) {
     return MotionRow{t + 0.5, t * t * (3 - t), 0, 0.1 * t, 0, 0, 20 * std::sin(3 * t)};

@@ -21,6 +21,7 @@ struct MotionPart {
   double frequency = 0;                        ///< oscillation: Hz
   Vec3d axis, centre;                          ///< rotation: unit axis; centre of any turning, m
   double rate = 0;                             ///< rotation: rad/s
+  std::string factor = "1";                    ///< velocity, rotation: of velocity or rate, a formula in t
   std::string file;                            ///< table: CSV file; its rows replace it when the case is read
   std::vector<MotionRow> rows;                 ///< table
   std::string spline = "smooth";               ///< table: smooth, monotone
@@ -28,6 +29,7 @@ struct MotionPart {
   std::array<std::string, 3> rotation{"0", "0", "0"};      ///< formula: in t, rotation vector, deg
   double start = 0;                            ///< s
   double stop = std::numeric_limits<double>::infinity();  ///< s
+  bool scaled() const { return factor != "1"; }
   bool operator==(const MotionPart&) const = default;
 };
 
