@@ -47,6 +47,22 @@ struct HostStore {
       if (a.name == array) return &a;
     return nullptr;
   }
+
+  /// Keeps the entries k for which keep(k) holds.
+  template <class Keep>
+  void keep_where(Keep keep) {
+    std::vector<bool> kept(count);
+    for (std::size_t k = 0; k < count; ++k) kept[k] = keep(k);
+    const std::size_t before = count;
+    for (HostArray& a : arrays) {
+      const std::size_t size = before > 0 ? a.bytes.size() / before : 0;
+      std::size_t to = 0;
+      for (std::size_t k = 0; k < before; ++k)
+        if (kept[k]) std::memmove(a.bytes.data() + size * to++, a.bytes.data() + size * k, size);
+      a.bytes.resize(size * to);
+      count = to;
+    }
+  }
 };
 
 /// One named array where the solver keeps it, host or device memory: `components` scalars of each particle,

@@ -74,6 +74,12 @@ double top_speed(const LiveFrame& frame) {
   return rounded_up(*at);
 }
 
+double value_of(const std::vector<Quantity>& all, const std::string& name, double otherwise) {
+  const auto q =
+      std::find_if(all.begin(), all.end(), [&](const Quantity& each) { return each.name == name; });
+  return q == all.end() ? otherwise : q->value;
+}
+
 }  // namespace
 
 FrameTaker::FrameTaker(const Config& config) : config_(config) {
@@ -89,20 +95,22 @@ LiveFrame FrameTaker::take(Simulation& simulation) const {
   for (int b = 0; b < int(laws_.size()); ++b) {
     auto& motion = out.bodies.emplace_back();
     if (config_.wall.bodies[b].moves()) motion = motion_of(simulation, b);
+    out.removed.push_back(removed(simulation, b));
   }
   out.top_speed = top_speed(out);
   return out;
+}
+
+bool FrameTaker::removed(Simulation& simulation, int body) const {
+  return config_.wall.bodies[body].motion.remove_when_clear &&
+         value_of(simulation.body_state(body), "present", 1) == 0;
 }
 
 RigidMotion FrameTaker::motion_of(Simulation& simulation, int body) const {
   const FreeConfig& free = config_.wall.bodies[body].free;
   if (!free.present) return laws_[body].at(simulation.time());
   const std::vector<Quantity> state = simulation.body_state(body);
-  const auto read = [&](const std::string& name) {
-    const auto q =
-        std::find_if(state.begin(), state.end(), [&](const Quantity& each) { return each.name == name; });
-    return q == state.end() ? 0 : q->value;
-  };
+  const auto read = [&](const std::string& name) { return value_of(state, name, 0); };
   RigidMotion out;
   out.centre = turning_centre(free);
   out.translation = Vec3d{read("centre_x"), read("centre_y"), read("centre_z")} - out.centre;

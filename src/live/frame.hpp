@@ -24,6 +24,7 @@ struct LiveFrame {
   double time = 0;  ///< s
   LiveParticles fluid, grains;
   std::vector<std::optional<RigidMotion>> bodies;  ///< of wall bodies that move
+  std::vector<bool> removed;                       ///< of all wall bodies
   double top_speed = 0;  ///< m/s, rounded up, which 1 % of the particles at most exceed
 };
 
@@ -36,6 +37,7 @@ class FrameTaker {
 
  private:
   RigidMotion motion_of(Simulation& simulation, int body) const;
+  bool removed(Simulation& simulation, int body) const;
 
   const Config config_;
   std::vector<MotionLaw> laws_;  ///< one a wall body

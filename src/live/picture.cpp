@@ -75,6 +75,7 @@ Image LivePicture::draw(const LiveFrame& frame, LiveSide side) {
         {frame.grains.x[k], frame.grains.radius[k], colour_of(kGrainColours, speed * frame.grains.speed[k])});
   for (std::size_t k = 0; k < walls_.x.size(); ++k) {
     const std::uint32_t body = walls_.body[k];
+    if (body < frame.removed.size() && frame.removed[body]) continue;
     const bool moves = body < frame.bodies.size() && frame.bodies[body];
     const bool inlet = body >= config_.wall.bodies.size();
     add(scene.walls, {moves ? frame.bodies[body]->place(walls_.x[k]) : walls_.x[k], 0.5 * spacing_,

@@ -205,7 +205,11 @@ std::vector<Quantity> CoupledSimulation::body_state(int body) {
   if (state_.has_fluid) loads.push_back({"fluid", f.fluid});
   if (state_.has_grains) loads.push_back({"grains", f.grains});
   if (state_.bodies.any()) loads.push_back({"bodies", f.bodies});
-  return rows_of(state_.motion.pose(body, state_.clock.time), loads);
+  const BodyPose pose = state_.motion.pose(body, state_.clock.time);
+  std::vector<Quantity> out = rows_of(pose, loads);
+  if (config_.wall.bodies[body].motion.remove_when_clear)
+    out.push_back({"present", "-", pose.present ? 1.0 : 0.0});
+  return out;
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -244,6 +244,13 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
         made<Real, PressurePart>("pressure", "Pa", all, Span<const Real4>(state_.walls.m_state)));
     out.arrays.push_back(state_.walls.body.to_host());
     out.arrays.push_back(state_.walls.id.to_host());
+    if (state_.motion.any_removed()) {
+      const std::vector<std::byte> bytes = out.find("body")->bytes;
+      const auto* body = reinterpret_cast<const std::uint32_t*>(bytes.data());
+      out.keep_where([&](std::size_t k) {
+        return int(body[k]) >= state_.motion.walls() || !state_.motion.removed(int(body[k]));
+      });
+    }
   }
   return out;
 }

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "bedload/parallel/loops.hpp"
 #include "bedload/particles/walls.hpp"
 #include "src/walls/free_bodies.hpp"
@@ -43,6 +45,7 @@ class WallMotion {
   /// The wall is gone from now on.
   void remove(int body) { removed_[body] = true; }
   bool removed(int body) const { return removed_[body]; }
+  bool any_removed() const { return std::find(removed_.begin(), removed_.end(), true) != removed_.end(); }
   /// Lowest point of a wall along `up` at time t, m.
   double lowest(int body, double t, const Vec3d& up) const;
 

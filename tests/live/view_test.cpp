@@ -87,6 +87,22 @@ TEST(LiveFrame, TakesTheSameFewOfManyAndNoneThatIsNowhere) {
   EXPECT_TRUE(one.bodies.at(0));
 }
 
+TEST(LivePicture, LeavesOutBodiesThatHaveBeenRemoved) {
+  LivePicture picture(crowd_config());
+  LiveFrame frame;
+  frame.grains = {{{0.1, 0.1, 0.1}, {0.9, 0.9, 0.9}}, {0, 0}, {0.05, 0.05}, 1};
+  frame.bodies.emplace_back(RigidMotion());
+  frame.removed = {false};
+  const auto png = [&] { return picture.draw(frame, LiveSide::front).png(); };
+  const auto there = png();
+  frame.removed = {true};
+  const auto gone = png();
+  frame.removed = {false};
+  frame.bodies.front()->translation = {0, 0, 50};
+  EXPECT_NE(there, gone);
+  EXPECT_EQ(png(), gone) << "as if it were far away";
+}
+
 TEST(LivePicture, ShowsGrainsBySpeedAndWallsWhereTheyAre) {
   LivePicture picture(crowd_config());
   LiveFrame frame;

@@ -765,6 +765,31 @@ max = [0.0, 0.05, 0.05]
   EXPECT_NE(allowed.err.find("jumps 0.004"), allowed.err.npos) << allowed.err;
 }
 
+TEST_F(Program, BodiesThatHaveBeenRemovedLeaveTheFrames) {
+  const std::string gate =
+      small_dam() +
+      "[time]\nend = 0.02\n[out]\nevery = 0.01\n[[wall.body]]\nname = \"gate\"\nshape = \"box\"\n"
+      "min = [0.02, 0.02, 0.08]\nmax = [0.04, 0.04, 0.1]\n[wall.body.motion]\nkind = \"velocity\"\n"
+      "velocity = [0, 0, 1]\nremove_when_clear = ";
+  const auto points = [&](const std::string& removed) {
+    write("dam.toml", gate + removed);
+    const Outcome ran = bedload("run dam.toml --backend cpu --quiet --overwrite --out out");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    const std::string text = bedload("info out/walls.vtkhdf").out;
+    const auto at = text.find("float32", text.find("  Points ")) + 7;
+    std::string number = text.substr(at, text.find(" x 3", at) - at);
+    std::erase(number, ' ');
+    return std::stoi(number);
+  };
+  const int all = points("false");
+  EXPECT_EQ(content_of(dir_ / "out/bodies/gate.csv").find("present"), std::string::npos);
+  EXPECT_LT(points("true"), all);
+  const std::string table = content_of(dir_ / "out/bodies/gate.csv");
+  EXPECT_NE(table.find(",present [-]\n"), table.npos) << table;
+  EXPECT_NE(table.find(",1\n"), table.npos) << "at first";
+  EXPECT_TRUE(table.ends_with(",0\n")) << table;
+}
+
 TEST_F(Program, CheckTellsTheShearThatAnArrangementOfParticlesResists) {
   write("dam.toml", kSmall);
   const std::string check = "check dam.toml --backend cpu ";
