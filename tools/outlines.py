@@ -19,13 +19,32 @@ def surfaces(name, shapes, folder):
     else:
         mesh = primitive(shape, folder)
         found = [mesh] if mesh else []
-    scale, shift = shape.get("scale", 1.0), np.array(shape.get("translate", [0.0] * 3))
+    scale, turned, shift = placement(shape)
+    found = [Mesh(scale * mesh.vertices @ turned.T + shift, mesh.triangles) for mesh in found]
+    return [Mesh(mesh.vertices @ turned.T + shift, mesh.triangles) for turned, shift in copies(shape) for mesh in found]
+
+
+def placement(shape):
+    """Scale, turn and shift of a shape: x becomes scale turn x + shift."""
     turned = rotation(shape.get("turn_axis", [0, 0, 1]), np.radians(shape.get("turn_angle", 0.0)))
-    return [Mesh(scale * mesh.vertices @ turned.T + shift, mesh.triangles) for mesh in found]
+    return shape.get("scale", 1.0), turned, np.array(shape.get("translate", [0.0] * 3), float)
+
+
+def copies(shape):
+    """Turn and shift of each copy of a placed shape, the first among them."""
+    given = shape.get("copies", {})
+    count, about = given.get("count", 1), given.get("about", [0, 0, 0])
+    centre, along = (np.array(given.get(key, [0, 0, 0]), float) for key in ("centre", "along"))
+    angle = given.get("angle", 360 / count)
+    found = []
+    for k in range(count):
+        turned = rotation(about, np.radians(k * angle)) if np.any(about) else np.eye(3)
+        found.append((turned, centre - turned @ centre + k * along))
+    return found
 
 
 def primitive(shape, folder):
-    """Mesh of a shape that is made of no others, before it is placed; None for a file that is not STL."""
+    """Mesh of a shape that is made of no others, before it is placed and copied; None for a file that is not STL."""
     kind = shape["kind"]
     if kind == "mesh":
         path = folder / shape["file"]

@@ -9,6 +9,7 @@ time. `probe` draws columns of probe tables over time, with reference points as 
 """
 
 import argparse
+import re
 from pathlib import Path
 
 import matplotlib
@@ -169,6 +170,16 @@ def unit_of(name):
     return name[name.rindex("[") + 1 : -1] if name.endswith("]") else ""
 
 
+def axis_label(names):
+    """Of columns of one unit: their names without components, or the words that many of them have in common."""
+    unit = unit_of(names[0])
+    plain = list(dict.fromkeys(re.sub(r"(_[xyz])?( \[.*\])?$", "", name) for name in names))
+    if len(plain) > 3:
+        words = [name.split("_") for name in plain]
+        plain = [" ".join(word for word in words[0] if all(word in others for others in words)) or "values"]
+    return ", ".join(plain).replace("_", " ") + (f" ({unit})" if unit else "")
+
+
 def plot_probe(options):
     tables = {Path(path).stem: Table(path) for path in options.csv}
     curves = [(stem, table, name) for stem, table in tables.items() for name in options.column or table.header[1:]]
@@ -183,7 +194,7 @@ def plot_probe(options):
         for stem, table, name in mine:
             label = stem if len(names) == 1 else name if len(tables) == 1 else f"{stem}: {name}"
             axes.plot(table.column(table.header[0]), table.column(name), label=label, linewidth=1.5)
-        axes.set_ylabel(", ".join(names) if len(names) <= 2 else unit)
+        axes.set_ylabel(axis_label(list(dict.fromkeys(name for _, _, name in mine))))
     for axes in list(panels.flat)[len(units):]:
         axes.set_axis_off()
     axes = panels[0, 0]
@@ -200,9 +211,10 @@ def plot_probe(options):
             axes.plot(table.column(x)[picked], table.column(y)[picked], next(markers, "."), label=series,
                       markersize=5, markerfacecolor="none")
     for axes in panels.flat[: len(units)]:
-        axes.set_xlabel("time (s)")
+        axes.set_xlabel(axis_label([next(iter(tables.values())).names[0]]))
         axes.grid(alpha=0.3)
-        axes.legend(frameon=False, fontsize=9)
+        many = len(axes.lines) > 6
+        axes.legend(frameon=False, fontsize=7 if many else 9, **({"bbox_to_anchor": (1, 1)} if many else {}))
     save(figure, options.out)
 
 

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Pictures and films of a run in perspective: fluid as a surface or as points, grains as spheres, walls of glass.
+"""Pictures and films of a run in perspective: fluid as a surface or as points, grains as spheres, vessels of glass.
 
     render RESULTS [--out x.png]                     the last frame; --frame N or --time T another
     render RESULTS --film out.mp4 [--fps 25]         all frames; a name that ends in .gif makes a GIF
     render RESULTS --like cases/hopper/expect.toml   as the table [picture] of that file says
 
 RESULTS is a folder of `bedload run`. The camera takes in where fluid and grains are in any frame that is drawn, and the
-walls about them. [picture] may hold time (s), fluid, colour, range, camera, clip and walls, which mean what the options
-of these names do and give way to them.
+walls about them. [picture] may hold time (s), fluid, colour, range, grain_colour, grain_range, camera, clip and walls,
+which mean what the options of these names do and give way to them.
 """
 
 import argparse
@@ -21,8 +21,9 @@ import vtk
 from matplotlib.colors import LinearSegmentedColormap
 from PIL import Image
 
+import shapes
 from runs import finish
-from scene import Scene
+from scene import Scene, moves
 
 DEEP = LinearSegmentedColormap.from_list("deep", ["#0d3b73", "#1e74bf", "#55aee3", "#a5dcf3", "#d5f1f7"])
 FIELDS = {  # of fluid: array, words, colours
@@ -30,8 +31,17 @@ FIELDS = {  # of fluid: array, words, colours
     "pressure": ("pressure", "pressure (Pa)", "cividis"),
     "porosity": ("porosity", "porosity (-)", "Blues"),
 }
+GRAIN_FIELDS = {  # of grains, likewise, times a factor
+    "speed": ("velocity", "grain speed (m/s)", "plasma", 1),
+    "diameter": ("radius", "grain diameter (m)", "viridis", 2),
+    "spin": ("angular_velocity", "grain spin (rad/s)", "inferno", 1),
+    "contact_force": ("contact_force", "contact force (N)", "magma", 1),
+    "fluid_force": ("fluid_force", "force by fluid (N)", "magma", 1),
+    "porosity": ("porosity", "porosity at grains (-)", "Greens", 1),
+    "material": ("material", "grain material (-)", "cool", 1),
+}
 VIEWS = {"front": (0, 0), "above": (0, 90), "side": (90, 0), "corner": (25, 22)}  # azimuth, elevation, degrees
-GRAIN, GLASS, MACHINE, WATER = "#d9964f", "#8fa3b3", "#7d8790", "#4f93c8"
+GRAIN, GLASS, MACHINE, CUT, WATER = "#d9964f", "#8fa3b3", "#7d8790", "#59646e", "#4f93c8"
 FACES = ["x-", "x+", "y-", "y+", "z-", "z+"]
 SMOOTH = 0.6  # spacings: width of the Gaussian by which particles are spread
 LEVEL = 0.4  # of whole fluid: where its surface is drawn
@@ -44,17 +54,25 @@ class Picture:
     """Draws frames of a scene.
 
     fluid: "surface" or "points"; colour: one of FIELDS or "none"; limits: (low, high) of the colours or None;
-    clip: (axis, place), what lies nearer along it than `place` is left out, or None; walls: whether to draw them.
+    grain_colour, grain_limits: the same of grains, by GRAIN_FIELDS; clip: (axis, place), what lies nearer along it than
+    `place` is left out, or None; walls: whether to draw them.
     """
 
-    def __init__(self, scene, frames, size, fluid, colour, limits, camera, clip, walls):
+    def __init__(self, scene, frames, size, fluid, colour, limits, camera, clip, walls, grain_colour="none",
+                 grain_limits=None):
         self.scene, self.size, self.style, self.colour, self.clip, self.walls = scene, size, fluid, colour, clip, walls
+        self.grain_colour = grain_colour if "grains" in scene.frames else "none"
         domain = scene.case.get("domain", {})
-        self.bar = colour != "none" and "fluid" in scene.frames  # of colours
+        self.coloured = [colour != "none" and "fluid" in scene.frames, self.grain_colour != "none"]
+        self.bar = any(self.coloured)
+        self.solids_of = {}
         self.plane = domain.get("two_d", False)
         self.domain = np.array([domain[end] for end in ("min", "max")], float) if "min" in domain else None
         self.turn = camera if camera else VIEWS["front" if self.plane else "corner"]
-        self.limits = limits or (self.spread(frames) if self.bar else None)
+        fluid_bar, grain_bar = self.coloured
+        self.limits = limits or (self.spread(frames, self.values, colour) if fluid_bar else None)
+        self.grain_limits = grain_limits or (self.spread(frames, self.grain_values, grain_colour) if grain_bar
+                                             else None)
         self.bounds = self.extent(frames)
 
     def shown(self, x):
@@ -75,19 +93,31 @@ class Picture:
 
     def values(self, frame):
         """The field of the fluid, a number for each particle."""
-        frames, name = self.scene.frames["fluid"], FIELDS[self.colour][0]
+        return self.field("fluid", frame, FIELDS[self.colour][0])
+
+    def grain_values(self, frame):
+        """The field of the grains, a number for each."""
+        if self.grain_colour == "diameter":
+            return 2 * self.scene.radii(frame)
+        name, _, _, factor = GRAIN_FIELDS[self.grain_colour]
+        return factor * self.field("grains", frame, name)
+
+    def field(self, store, frame, name):
+        frames = self.scene.frames[store]
         values = frames.get(frame, name)
         if values is None:
             raise SystemExit(f"{frames.path}: has no {name}, only {', '.join(frames.names())}")
-        return np.linalg.norm(values, axis=1) if values.ndim > 1 else values
+        return np.linalg.norm(values, axis=1) if values.ndim > 1 else values.astype(float)
 
-    def spread(self, frames):
+    def spread(self, frames, values, colour):
         """Limits of the colours that fit all frames, but for the wildest particles."""
-        values = [v for k in frames if len(v := self.values(k))]
-        if not values:
+        found = [v for k in frames if len(v := values(k))]
+        if not found:
             return 0.0, 1.0
-        low, high = np.percentile(np.concatenate(values), [1, 99])
-        return (0.0 if self.colour == "speed" else low), max(high, low + 1e-12)
+        low, high = np.percentile(np.concatenate(found), [1, 99])
+        if colour in ("speed", "spin", "contact_force", "fluid_force"):
+            low = 0.0
+        return (low, high) if high - low > 1e-3 * abs(high) else (low, low + (0.1 * abs(low) or 1.0))
 
     def extent(self, frames):
         """Lower and upper corner of what the camera takes in, m: what fluid and grains reach in these frames, and of
@@ -112,33 +142,43 @@ class Picture:
     # ---- what there is to see, as meshes ----
 
     def solids(self, time):
-        """Walls as they stand at `time`: (surface, whether it holds the fluid and is to be seen through)."""
+        """Walls as they stand at `time`: (surface, how it is drawn: "vessel", which is seen through, "machine" or
+        "cut")."""
         for body, turn, shift in self.scene.bodies(time):
-            vessel, shape = True, body.get("shape")
-            if shape == "tank":
-                mesh = box(body["min"], body["max"], self.open_faces(body))
-            elif shape == "box":
-                mesh, vessel = box(body["min"], body["max"], FACES), False
-            elif shape == "plane":
-                mesh = self.sheet(body)
-            else:
-                parts = self.scene.surfaces.get(shape, [])
-                mesh = pyvista.merge([polydata(part.vertices, part.triangles) for part in parts]) if parts else None
-                vessel = not self.is_tool(body)
-            if mesh is None:
-                continue
-            mesh.points = mesh.points @ turn.T + shift
-            if self.clip is not None and vessel:
-                axis, place = self.clip
-                normal = self.ahead(axis) * np.eye(3)[axis]
-                mesh = mesh.clip(normal=normal, origin=place * np.eye(3)[axis])
-            yield mesh, vessel
+            pieces, solid = self.walls_of(body)
+            for mesh, vessel in pieces:
+                mesh = mesh.copy()
+                mesh.points = mesh.points @ turn.T + shift
+                if self.clip is not None:
+                    axis, place = self.clip
+                    normal = self.ahead(axis) * np.eye(3)[axis]
+                    mesh = mesh.clip(normal=normal, origin=place * np.eye(3)[axis])
+                if mesh.n_points:
+                    yield mesh, "vessel" if vessel else "machine"
+            if self.clip is not None and solid is not None:
+                if (cut := shapes.section(solid, *self.clip, turn, shift)) is not None:
+                    yield cut, "cut"
 
-    def is_tool(self, body):
-        """Whether a body moves in the fluid rather than holding it: solid shapes that have no inside."""
-        shape = next((s for s in self.scene.case.get("shape", []) if s["name"] == body.get("shape")), {})
-        moves = "free" in body or body.get("motion", {}).get("kind", "fixed") != "fixed"
-        return moves and shape.get("kind") not in ("hollow", "pipe", "difference")
+    def walls_of(self, body):
+        """A body as it stands at the start: [(surface, whether it holds the fluid)], and the solid it is, None for
+        sheets and tanks."""
+        name = body["name"]
+        if name not in self.solids_of:
+            self.solids_of[name] = self.make_walls(body)
+        return self.solids_of[name]
+
+    def make_walls(self, body):
+        shape = body.get("shape")
+        if shape in ("tank", "plane"):
+            mesh = self.sheet(body) if shape == "plane" else shapes.box(body["min"], body["max"], self.open_faces(body))
+            return ([(mesh, True)] if mesh is not None else []), None
+        if shape == "box":
+            solid = shapes.Solid(shapes.box(body["min"], body["max"], FACES).triangulate())
+            return solid.pieces(), solid
+        solid = shapes.solid(shape, self.scene.shapes, self.scene.folder) if shape in self.scene.shapes else None
+        if solid is None:
+            return [], None
+        return [(mesh, vessel or not moves(body)) for mesh, vessel in solid.pieces() if mesh.n_points], solid
 
     def open_faces(self, body):
         """Faces of a tank that are walls: in plane flows not those across, which are none."""
@@ -200,15 +240,20 @@ class Picture:
             self.draw_fluid(plotter, frame, opaque)
         if "grains" in self.scene.frames:
             x, r = self.scene.frames["grains"].position(frame), self.scene.radii(frame)
-            balls(plotter, x[self.shown(x)], r[self.shown(x)], color=GRAIN)
+            seen = self.shown(x)
+            if self.grain_colour == "none":
+                balls(plotter, x[seen], r[seen], color=GRAIN)
+            else:
+                _, words, colours, _ = GRAIN_FIELDS[self.grain_colour]
+                balls(plotter, x[seen], r[seen], self.grain_values(frame)[seen], cmap=colours, clim=self.grain_limits,
+                      scalar_bar_args=self.scale(words, last=True))
         if self.walls:
-            for mesh, vessel in self.solids(time):
-                if not mesh.n_points:
-                    continue
-                plotter.add_mesh(mesh, color=GLASS if vessel else MACHINE, opacity=0.16 if vessel else 1.0,
-                                 smooth_shading=False, specular=0.3, show_scalar_bar=False)
+            for mesh, how in self.solids(time):
+                look = {"vessel": {"color": GLASS, "opacity": 0.16}, "machine": {"color": MACHINE},
+                        "cut": {"color": CUT, "lighting": False}}[how]
+                plotter.add_mesh(mesh, smooth_shading=False, specular=0.3, show_scalar_bar=False, **look)
                 edges = mesh.extract_feature_edges(25)
-                if edges.n_points:  # a ball has none
+                if edges.n_points and how != "cut":  # a ball has none
                     plotter.add_mesh(edges, color="#5c6770", line_width=1.2)
         plotter.enable_depth_peeling(6)
         plotter.enable_anti_aliasing("ssaa")
@@ -218,13 +263,17 @@ class Picture:
         plotter.close()
         return np.ascontiguousarray(picture[:, :, :3])
 
+    def scale(self, words, last=False):
+        """Where a bar of colours stands: in the middle, or that of the fluid to the left of the grains'."""
+        x, width = (0.3, 0.4) if not all(self.coloured) else (0.55, 0.36) if last else (0.09, 0.36)
+        return {"title": words, "color": "black", "title_font_size": 15, "label_font_size": 13, "fmt": "%.3g",
+                "position_x": x, "position_y": 0.02, "width": width, "height": 0.07, "n_labels": 2}
+
     def draw_fluid(self, plotter, frame, opaque):
         look = {"color": WATER, "show_scalar_bar": False}
         if self.colour != "none":
             _, words, colours = FIELDS[self.colour]
-            bar = {"title": words, "color": "black", "title_font_size": 15, "label_font_size": 13, "fmt": "%.3g",
-                   "position_x": 0.3, "position_y": 0.02, "width": 0.4, "height": 0.07, "n_labels": 2}
-            look = {"cmap": colours, "clim": self.limits, "scalar_bar_args": bar}
+            look = {"cmap": colours, "clim": self.limits, "scalar_bar_args": self.scale(words)}
         if self.style == "surface":
             mesh, x, values = self.surface(frame)
             if mesh is not None:
@@ -302,26 +351,6 @@ def spread_on_grid(x, weights, origin, step, counts, plane):
     return grid
 
 
-def polydata(vertices, triangles):
-    faces = np.hstack([np.full((len(triangles), 1), 3), triangles])
-    return pyvista.PolyData(np.array(vertices, float), faces.ravel())
-
-
-def box(low, high, faces):
-    """The named faces of a box."""
-    low, high = np.array(low, float), np.array(high, float)
-    quads, points = [], []
-    for name in faces:
-        axis, end = "xyz".index(name[0]), (low, high)[name[1] == "+"]
-        a, b = (k for k in range(3) if k != axis)
-        for u, v in ((0, 0), (1, 0), (1, 1), (0, 1)):
-            corner = np.empty(3)
-            corner[axis], corner[a], corner[b] = end[axis], (low, high)[u][a], (low, high)[v][b]
-            points.append(corner)
-        quads.append([4, *range(len(points) - 4, len(points))])
-    return pyvista.PolyData(np.array(points), np.ravel(quads)) if quads else None
-
-
 def balls(plotter, places, radii, values=None, **look):
     """Lit spheres of given radii, coloured by `values` if there are any."""
     if not len(places):
@@ -361,9 +390,9 @@ def clip(text):
     return "xyz".index(axis), numbers(place, 1, 1)[0]
 
 
-READERS = {"fluid": str, "colour": str, "range": lambda t: numbers(t, 2, 2), "camera": camera, "clip": clip,
-           "time": float, "walls": bool}
-CHOICES = {"fluid": ("surface", "points"), "colour": (*FIELDS, "none")}
+READERS = {"fluid": str, "colour": str, "range": lambda t: numbers(t, 2, 2), "grain_colour": str,
+           "grain_range": lambda t: numbers(t, 2, 2), "camera": camera, "clip": clip, "time": float, "walls": bool}
+CHOICES = {"fluid": ("surface", "points"), "colour": (*FIELDS, "none"), "grain_colour": (*GRAIN_FIELDS, "none")}
 
 
 def settings(path):
@@ -439,10 +468,14 @@ def main(arguments=None):
     parser.add_argument("--colour", choices=CHOICES["colour"], help="of the fluid; default speed")
     parser.add_argument("--range", type=READERS["range"], metavar="LOW,HIGH",
                         help="of the colours, in the field's unit")
+    parser.add_argument("--grain-colour", choices=CHOICES["grain_colour"], help="of the grains; default none")
+    parser.add_argument("--grain-range", type=READERS["grain_range"], metavar="LOW,HIGH",
+                        help="of their colours, in the field's unit")
     parser.add_argument("--camera", type=camera, metavar="VIEW",
                         help=f"{', '.join(VIEWS)}, or azimuth,elevation[,zoom]: degrees to the right of the front (-y) "
                              "and above the level; default corner, of plane flows front")
-    parser.add_argument("--clip", type=clip, metavar="y=0.05", help="leave out what is nearer than this plane (m)")
+    parser.add_argument("--clip", type=clip, metavar="y=0.05",
+                        help="leave out what is nearer than this plane (m); walls show their section")
     parser.add_argument("--no-walls", dest="walls", action="store_false", default=None)
     parser.add_argument("--like", type=Path, metavar="FILE", help="a TOML file with a table [picture]")
     parser.add_argument("--size", type=lambda t: [int(n) for n in numbers(t, 2, 2)], default=[900, 600],
@@ -456,7 +489,8 @@ def main(arguments=None):
     if min(options.size) < 64 or max(options.size) > 8192:
         parser.error("--size: sides must be within 64..8192")
 
-    chosen = {"fluid": "surface", "colour": "speed", "walls": True} | (settings(options.like) if options.like else {})
+    chosen = {"fluid": "surface", "colour": "speed", "grain_colour": "none", "walls": True}
+    chosen |= settings(options.like) if options.like else {}
     chosen |= {key: value for key in READERS if (value := getattr(options, key)) is not None}
     render(Path(options.results), options.out, options.film, options.frame, chosen, options.size, options.fps)
 
@@ -471,7 +505,8 @@ def render(results, out, film, frame, chosen, size=(900, 600), fps=25):
                                                               chosen.get("time"))]
     size = [2 * (side // 2) for side in size]
     picture = Picture(scene, frames, size, chosen["fluid"], chosen["colour"], chosen.get("range"),
-                      chosen.get("camera"), chosen.get("clip"), chosen["walls"])
+                      chosen.get("camera"), chosen.get("clip"), chosen["walls"], chosen.get("grain_colour", "none"),
+                      chosen.get("grain_range"))
     if film:
         save_film((picture.draw(k) for k in frames), film, fps, size)
         print(film)

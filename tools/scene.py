@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 
 import outlines
-from frames import Frames, resolved_case
+from frames import Frames, Table, resolved_case
 
 
 class Scene:
@@ -19,8 +19,10 @@ class Scene:
             raise SystemExit(f"{folder}: holds neither fluid.vtkhdf nor grains.vtkhdf")
         walls = Path(folder) / "walls.vtkhdf"
         self.walls = Frames(walls) if walls.exists() else None
-        shapes = {shape["name"]: shape for shape in self.case.get("shape", [])}
-        self.surfaces = {name: outlines.surfaces(name, shapes, Path(folder)) for name in shapes}
+        self.folder = Path(folder)
+        self.shapes = {shape["name"]: shape for shape in self.case.get("shape", [])}
+        self.surfaces = {name: outlines.surfaces(name, self.shapes, self.folder) for name in self.shapes}
+        self.tables = {}
         self.dx = self.case.get("fluid", {}).get("dx") or self.estimated_spacing()
 
     def times(self):
@@ -51,17 +53,36 @@ class Scene:
     def bodies(self, time):
         """Wall bodies that are there at `time`, each with its turn and shift since the start: (body, R, s)."""
         for number, body in enumerate(self.case.get("wall", {}).get("body", [])):
-            motion = body.get("motion", {})
-            parts = [motion, *motion.get("add", [])]
-            turn, shift = np.eye(3), sum((displacement(part, time) for part in parts), np.zeros(3))
-            moves = "free" in body or any(part.get("kind", "fixed") != "fixed" for part in parts)
-            if self.walls and moves:
-                before, after = (self.particles_of(number, t) for t in (0, time))
-                if len(after) != len(before):
-                    continue
-                if len(before) > 2:
-                    turn, shift = outlines.motion_between(before, after)
-            yield body, turn, shift
+            pose = self.pose(number, body, time) if moves(body) else (np.eye(3), np.zeros(3))
+            if pose is not None:
+                yield body, *pose
+
+    def pose(self, number, body, time):
+        """Turn and shift of a body that moves: by its table, else by its particles or its motion; None when it has been
+        removed."""
+        if (table := self.table_of(body)) is not None:
+            row = int(np.argmin(np.abs(table[table.names[0]] - time)))
+            if "present [-]" in table.names and table["present"][row] == 0:
+                return None
+            turn = turn_of([table[f"rotation_{k}"][row] for k in "wxyz"])
+            centre, now = (np.array([table[f"centre_{k}"][n] for k in "xyz"]) for n in (0, row))
+            centre = centre if "free" in body else turning_centre(body["motion"])
+            return turn, now - turn @ centre
+        if self.walls:
+            before, after = (self.particles_of(number, t) for t in (0, time))
+            if len(after) != len(before):
+                return None
+            if len(before) > 2:
+                return outlines.motion_between(before, after)
+        return np.eye(3), sum((displacement(part, time) for part in parts_of(body)), np.zeros(3))
+
+    def table_of(self, body):
+        """What bodies/*.csv has of a body; None if it has nothing."""
+        name = body["name"]
+        if name not in self.tables:
+            path = self.folder / "bodies" / f"{name}.csv"
+            self.tables[name] = Table(path) if path.exists() else None
+        return self.tables[name] if self.tables[name] else None
 
     def particles_of(self, body, time):
         """Places of a body's particles near `time`, in the order of their numbers."""
@@ -84,11 +105,38 @@ class Scene:
                 yield outlines.Mesh(mesh.vertices @ turn.T + shift, mesh.triangles)
 
 
+def parts_of(body):
+    motion = body.get("motion", {})
+    return [motion, *motion.get("add", [])]
+
+
+def moves(body):
+    return "free" in body or any(part.get("kind", "fixed") != "fixed" for part in parts_of(body))
+
+
+def turn_of(quaternion):
+    """Matrix of a unit quaternion (w, x, y, z)."""
+    w, axis = quaternion[0], np.array(quaternion[1:])
+    sine = np.linalg.norm(axis)
+    return outlines.rotation(axis, 2 * np.arctan2(sine, w)) if sine > 0 else np.eye(3)
+
+
+def turning_centre(motion):
+    """The point of a body of which tables tell where it is, at rest: the centre of the first part that turns."""
+    def turns(part):
+        return part.get("kind") == "rotation" or any(text not in ("0", 0) for text in part.get("rotation", [])) or \
+            any(np.any(row[4:]) for row in part.get("rows", []))
+
+    first = next((part for part in [motion, *motion.get("add", [])] if turns(part)), motion)
+    return np.array(first.get("centre", [0, 0, 0]), float)
+
+
 def displacement(motion, time):
-    """How far a part of a motion has moved by `time`, m; turns and formulas show only where walls.vtkhdf does."""
+    """How far a part of a motion has moved by `time`, m; turns and formulas show only where tables or walls.vtkhdf
+    do."""
     begin = motion.get("start", 0.0)
     t = min(max(time, begin), motion.get("stop", np.inf)) - begin
-    if motion.get("kind") == "velocity":
+    if motion.get("kind") == "velocity" and motion.get("factor", "1") == "1":
         return np.array(motion["velocity"]) * t
     if motion.get("kind") == "oscillation":
         return np.array(motion["amplitude"]) * np.sin(2 * np.pi * motion["frequency"] * t)

@@ -308,6 +308,13 @@ turn_angle = 5
         self.assertLess(low[1], -0.2)
         self.assertGreater(high[0], 0.3)
 
+    def test_axes_name_quantity_and_unit(self):
+        self.assertEqual(plot.axis_label(["force_by_fluid_x [N]", "force_by_fluid_y [N]"]), "force by fluid (N)")
+        self.assertEqual(plot.axis_label(["height [m]", "column_depth [m]"]), "height, column depth (m)")
+        self.assertEqual(plot.axis_label([f"{k}_force_{a} [N]" for k in "pqrs" for a in "xyz"]), "force (N)")
+        self.assertEqual(plot.axis_label(["a [-]", "b [-]", "c [-]", "d [-]"]), "values (-)")
+        self.assertEqual(plot.axis_label(["t"]), "t")
+
     def test_each_unit_has_its_panel(self):
         table = self.run_dir / "diagnostics.csv"
         table.write_text("time [s],mass [kg],speed [m/s],fast [m/s]\n0,1,2,3\n1,2,3,4\n")
@@ -366,6 +373,132 @@ faces = ["x-", "x+", "y-", "y+", "z-"]
     def test_clip_leaves_out_what_is_nearer(self):
         mesh, _, _ = self.picture(clip=(1, 0.05)).surface(0)  # seen from -y
         self.assertGreater(mesh.bounds[2], 0.045)
+
+    MILL = """[[shape]]
+name = "inside"
+kind = "cylinder"
+a = [0.05, 0, 0.05]
+b = [0.05, 0.1, 0.05]
+radius = 0.04
+[[shape]]
+name = "shell"
+kind = "hollow"
+of = ["inside"]
+thickness = 0.01
+[[shape]]
+name = "lifter"
+kind = "box"
+min = [0.08, 0, 0.045]
+max = [0.095, 0.1, 0.055]
+[shape.copies]
+count = 4
+about = [0, 1, 0]
+centre = [0.05, 0, 0.05]
+[[shape]]
+name = "mill"
+kind = "union"
+of = ["shell", "lifter"]
+[[wall.body]]
+name = "mill"
+shape = "mill"
+[wall.body.motion]
+kind = "rotation"
+axis = [0, 1, 0]
+centre = [0.05, 0, 0.05]
+rate = 1
+"""
+
+    def add_to_case(self, text):
+        (self.run_dir / "case.resolved.toml").write_text(self.CASE + text)
+
+    def table(self, body, rows):
+        (self.run_dir / "bodies").mkdir(exist_ok=True)
+        names = ["time [s]", *(f"centre_{k} [m]" for k in "xyz"), *(f"rotation_{k} [-]" for k in "wxyz"), "present [-]"]
+        text = "\n".join(",".join(map(str, row)) for row in [names, *rows])
+        (self.run_dir / "bodies" / f"{body}.csv").write_text(text + "\n")
+
+    def test_a_vessel_with_lifters_is_glass_with_solid_lifters(self):
+        self.add_to_case(self.MILL)
+        drawn = [(mesh, how) for mesh, how in self.picture().solids(0)][1:]  # after the tank
+        self.assertEqual([how for _, how in drawn], ["vessel"] + ["machine"] * 4)
+        from_axis = [np.hypot(mesh.points[:, 0] - 0.05, mesh.points[:, 2] - 0.05) for mesh, _ in drawn]
+        self.assertLess(max(r.max() for r in from_axis[1:]), 0.0401)  # none reaches into the shell
+        self.assertLess(drawn[0][0].area, 2 * np.pi * 0.04 * (0.04 + 0.1) - 3.9 * 0.01 * 0.1)  # nor it into them
+        for mesh, _ in drawn[1:]:
+            self.assertAlmostEqual(mesh.area, 2 * 0.01 * 0.1 / 2 + 2 * 0.01 * 0.1, delta=5e-4)
+
+    def test_clip_cuts_every_wall_and_shows_sections(self):
+        self.add_to_case(self.MILL)
+        drawn = list(self.picture(clip=(1, 0.05)).solids(0))  # seen from -y
+        self.assertEqual([how for _, how in drawn].count("cut"), 1)
+        for mesh, how in drawn:
+            self.assertGreater(mesh.bounds[2], 0.0499, how)
+        ring = np.pi * (0.05**2 - 0.04**2)
+        lifters = 4 * 0.01 * 0.01
+        self.assertAlmostEqual(drawn[-1][0].area, ring + lifters, delta=0.03 * ring)
+
+    def test_a_difference_is_drawn_without_what_it_lacks(self):
+        self.add_to_case("""[[shape]]
+name = "block"
+kind = "box"
+min = [0, 0, 0]
+max = [0.1, 0.1, 0.1]
+[[shape]]
+name = "bore"
+kind = "cylinder"
+a = [0.05, -0.01, 0.05]
+b = [0.05, 0.11, 0.05]
+radius = 0.025
+[[shape]]
+name = "rest"
+kind = "difference"
+of = ["block", "bore"]
+[[wall.body]]
+name = "rest"
+shape = "rest"
+""")
+        drawn = [mesh for mesh, _ in self.picture().solids(0)][1:]
+        area = 6 * 0.1**2 - 2 * np.pi * 0.025**2 + 2 * np.pi * 0.025 * 0.1
+        self.assertAlmostEqual(sum(mesh.area for mesh in drawn) / area, 1, delta=0.01)
+
+    def test_bodies_stand_where_their_tables_say_while_they_are_there(self):
+        self.add_to_case(self.MILL)
+        half = np.sqrt(0.5)  # a quarter turn about y
+        self.table("mill", [[0, 0.05, 0, 0.05, 1, 0, 0, 0, 1], [0.1, 0.05, 0, 0.05, half, 0, half, 0, 1],
+                            [0.2, 0.05, 0, 0.05, half, 0, half, 0, 0]])
+        scene = Scene(self.run_dir)
+        names = [[body["name"] for body, _, _ in scene.bodies(t)] for t in (0, 0.1, 0.2)]
+        self.assertEqual(names, [["tank", "mill"], ["tank", "mill"], ["tank"]])
+        _, turn, shift = list(scene.bodies(0.1))[1]
+        np.testing.assert_allclose(turn @ [0.09, 0, 0.05] + shift, [0.05, 0, 0.01], atol=1e-12)
+        self.assertLess(len(list(self.picture().solids(0.2))), len(list(self.picture().solids(0.1))))
+
+    def test_copies_stand_about_their_axis_and_in_a_row(self):
+        rod = {"kind": "box", "min": [0.9, -1, -0.1], "max": [1, 1, 0.1]}
+        about = {"it": rod | {"copies": {"count": 4, "about": [0, 1, 0], "centre": [0, 0, 0], "angle": 90}}}
+        meshes = outlines.surfaces("it", about, Path())
+        self.assertEqual(len(meshes), 4)
+        np.testing.assert_allclose(meshes[1].vertices.mean(0), [0, 0, -0.95], atol=1e-12)
+        row = {"it": rod | {"copies": {"count": 3, "along": [0, 0, 0.5]}}}
+        np.testing.assert_allclose(outlines.surfaces("it", row, Path())[2].vertices.mean(0), [0.95, 0, 1], atol=1e-12)
+
+    def test_grains_take_colours_of_a_field(self):
+        speed = np.zeros((5, 3))
+        speed[:, 0] = np.arange(5)
+        write_frames(self.run_dir / "grains.vtkhdf", [0, 0.1, 0.2], [self.block[:5] + [0, 0, 0.045]] * 3,
+                     {"radius": [np.full(5, 0.01)] * 3, "velocity": [speed] * 3})
+        picture = self.picture(grain_colour="speed", colour="none", fluid="points")
+        np.testing.assert_allclose(picture.grain_values(0), np.arange(5))
+        self.assertEqual(picture.grain_limits[0], 0)
+        self.assertGreater(picture.grain_limits[1], 3.5)
+        equal = self.picture(grain_colour="diameter")
+        np.testing.assert_allclose(equal.grain_values(0), 0.02)
+        np.testing.assert_allclose(equal.grain_limits, [0.02, 0.022])  # a scale nevertheless
+        plain, coloured = (np.asarray(self.picture(grain_colour=c, colour="none").draw(0)) for c in ("none", "speed"))
+        self.assertGreater(np.abs(plain.astype(int) - coloured).max(), 80)
+        status, _, err = direct(render.main, self.run_dir, "--grain-colour", "spin", "--out", "none.png")
+        self.assertEqual(status, 2)
+        self.assertIn("has no angular_velocity, only radius, velocity", err)
 
     def test_smooth_bodies_have_no_edges_to_draw(self):
         ball = '[[shape]]\nname = "ball"\nkind = "sphere"\ncentre = [0.05, 0.05, 0.05]\nradius = 0.02\n'
