@@ -61,7 +61,7 @@ class Scene:
         """Turn and shift of a body that moves: by its table, else by its particles or its motion; None when it has been
         removed."""
         if (table := self.table_of(body)) is not None:
-            row = int(np.argmin(np.abs(table[table.names[0]] - time)))
+            row = int(np.argmin(np.abs(table[table.header[0]] - time)))
             if "present [-]" in table.names and table["present"][row] == 0:
                 return None
             turn = turn_of([table[f"rotation_{k}"][row] for k in "wxyz"])

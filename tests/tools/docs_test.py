@@ -79,9 +79,23 @@ class Documents(unittest.TestCase):
                 self.assertEqual(bool(named), not kind.startswith("none"))
                 self.assertLessEqual(set(named), tests)
 
+    def test_the_mixture_begins_as_one(self):
+        case = ROOT / "docs/examples/mixture/case.toml"
+        with tempfile.TemporaryDirectory() as folder:
+            run = [PROGRAM, "run", case, "--out", folder, "--set", "time.end=1e-4", "--set", "probe.0.min=[0, 0, 0]",
+                   "--set", "probe.0.max=[0.024, 0.024, 0.04]", "--backend", "cpu", "--quiet"]
+            ran = subprocess.run(run, capture_output=True, text=True)
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            names, first = (Path(folder) / "probes/mixture.csv").read_text().splitlines()[:2]
+            row = dict(zip(names.split(","), map(float, first.split(","))))
+        volume = 0.024 * 0.024 * 0.04
+        self.assertAlmostEqual(row["mass [kg]"] / (1000 * 0.75 * volume), 1, delta=0.02)
+        self.assertAlmostEqual(row["porosity [-]"], 0.75, delta=0.02)
+
     def test_what_pages_show_of_files_stands_there(self):
         for page, folder, languages, least in (("tutorial.md", "tutorial", {"toml"}, 9),
-                                               ("howto/build.md", "examples/drag_law", {"cmake", "cpp"}, 2)):
+                                               ("howto/build.md", "examples/drag_law", {"cmake", "cpp"}, 2),
+                                               ("howto/mixture.md", "examples/mixture", {"toml"}, 2)):
             files = [file.read_text() for file in (ROOT / "docs" / folder).iterdir()]
             shown = [text for language, text in FENCE.findall((ROOT / "docs" / page).read_text())
                      if language in languages]
