@@ -7,6 +7,7 @@
 
 #include "bedload/case/contact_laws.hpp"
 #include "bedload/case/limits.hpp"
+#include "bedload/case/particle_order.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/setup.hpp"
 #include "bedload/output/intervals.hpp"
@@ -117,6 +118,12 @@ std::string fewer_substeps_text(const Config& c, const Trial& trial) {
 /// that have just been placed touch no others: a heap in its bed took 3.3 times as long.
 constexpr double kSplash = 2.5, kBed = 5;
 
+/// Gravity can throw it about, and it is not so viscous that it only flows.
+bool may_splash(const Config& c) {
+  constexpr double viscous = 100;
+  return norm(c.gravity) > 0 && cell_reynolds_number(c.fluid.vmax, c.fluid) > viscous;
+}
+
 std::string run_time_text(double seconds, const Trial& trial, bool splashes, bool settles) {
   const double grains = std::min(trial.substep * trial.substeps, trial.step);
   const double longest = seconds / trial.step *
@@ -183,8 +190,8 @@ int check_case(const Options& options) {
                                                   with_key(trial.substeps_by))
                                     : ", each with 1 substep");
     fmt::print("{}{}", fewer_steps_text(c, trial, count), fewer_substeps_text(c, trial));
-    fmt::print(
-        "{}", run_time_text(seconds, trial, free_surface && norm(c.gravity) > 0, !rehearsal.lies_as_a_run()));
+    fmt::print("{}",
+               run_time_text(seconds, trial, free_surface && may_splash(c), !rehearsal.lies_as_a_run()));
     if (c.grain.present && c.grain.settle) {
       const double many = std::ceil(c.grain.settle_time / least_of(grain_limits(c)).seconds);
       fmt::print("settling   before that, at most {} substeps, {}, unless the bed is kept from before\n",

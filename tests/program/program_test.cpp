@@ -586,6 +586,7 @@ TEST_F(Program, TellsHowMuchLongerARunMayTake) {
   };
   says("", " as fluid splashes and grains lie in their bed");  // which is not kept yet
   says("--set grain.settle=false", " if fluid splashes");
+  says("--set grain.settle=false --set fluid.mu=1", "steps");  // oil
   says("--set grain.settle=false --set 'gravity=[0,0,0]' --set fluid.vmax=1", "steps");
 }
 
