@@ -164,7 +164,7 @@ TEST(SmallForceMeans, GoOnInTheMiddleOfAnInterval) {
   run_until(*whole, 0.03);
   for (const ProbeConfig& p : hail.config.out.probes) whole->begin_interval(p);
   run_until(*whole, 0.06);
-  auto second = make_coupled(hail.config, Setup{});
+  auto second = make_coupled(hail.config, bedload::Setup{});
   second->load(whole->save());
   for (int k = 0; k < 30; ++k) whole->step(), second->step();
   EXPECT_EQ(bits(*whole), bits(*second));
@@ -182,7 +182,7 @@ TEST(SmallForceMeans, BeginWithTheirProbe) {
   without.out.probes.clear();
   auto whole = started(without);
   for (int k = 0; k < 60; ++k) whole->step();
-  auto second = make_coupled(c, Setup{});
+  auto second = make_coupled(c, bedload::Setup{});
   second->load(whole->save());
   const auto mean = second->measure(c.out.probes[0]), now = second->measure(c.out.probes[1]);
   ASSERT_NE(reading(now, "force_total_z"), 0);
