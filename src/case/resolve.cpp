@@ -12,6 +12,7 @@
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
 #include "bedload/geometry/build_shape.hpp"
+#include "shortened.hpp"
 #include "src/motion/formula_breaks.hpp"
 #include "src/motion/inlet_flow.hpp"
 #include "src/motion/survey.hpp"
@@ -187,9 +188,9 @@ void resolve_table(MotionPart& m, const std::string& path, const std::string& ca
                                 nearest_value(root, path + ".kind").place(), key_of(path)));
   if (!m.file.empty()) {
     const auto file = std::filesystem::path(case_file).parent_path() / m.file;
-    if (!std::filesystem::is_regular_file(file))
+    if (std::error_code unknown; !std::filesystem::is_regular_file(file, unknown))
       reject(root, path + ".file", fmt::format("\"{}\"", m.file),
-             fmt::format("must name a table; there is no file {}", file.string()));
+             fmt::format("must name a table; there is no file {}", shortened(file.string())));
     m.rows = read_motion_table(file);
     m.file.clear();
     return;

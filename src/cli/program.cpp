@@ -34,7 +34,7 @@ int dispatch(const Options& options) {
 }
 
 int complain(const std::exception& error, int code) {
-  constexpr std::size_t kMost = 4000;  // a value that is quoted may be as long as its file
+  constexpr std::size_t kMost = 1200;  // a value that is quoted may be as long as its file
   fmt::print(stderr, "{}\n", shortened(error.what(), kMost));
   return code;
 }
@@ -60,7 +60,8 @@ int run_program(int argc, const char* const* argv) {
     return kExitBadInput;
   } catch (const std::filesystem::filesystem_error& error) {
     const std::string path = error.path1().string();
-    fmt::print(stderr, "{}: {}\n", path.empty() ? "working directory" : path, error.code().message());
+    fmt::print(stderr, "{}: {}\n", path.empty() ? "working directory" : shortened(path),
+               error.code().message());
     return kExitBadInput;
   } catch (const std::system_error& error) {  // such as a standard output that takes no more
     std::fputs((std::string(error.what()) + "\n").c_str(), stderr);

@@ -113,7 +113,7 @@ class Attack:
     def __init__(self, program, folder, keys):
         self.program, self.folder, self.keys = program, Path(folder), [k for k in keys if "." in k]
         names = {k.rsplit(".", 1)[0] for k in self.keys}
-        self.tables = "(" + "|".join(map(re.escape, names)) + r") (\d|\")"  # by number or name
+        self.tables = "(" + "|".join(map(re.escape, names)) + r") (\d|\"|must |= )"  # by number or name
         for name, text in FILES.items():
             (self.folder / name).write_text(text)
 
