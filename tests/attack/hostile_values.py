@@ -5,7 +5,8 @@
 
 Each value goes into a case that is otherwise in order. The program must accept the case (exit code 0) without a number
 that is none, or refuse it (exit code 2) in one sentence that names file, line and key, or its first steps break down (exit
-code 3) in one that names particle and place. A refusal takes at most 2 s of processor time; all take at most 1 GB. `--every n` tries each n-th value only. Exits with 1 if any value fails.
+code 3) in one that names particle and place. A refusal takes at most 2 s of
+processor time and 1 GB; what is accepted may be as large as `check` says. `--every n` tries each n-th value only. Exits with 1 if any value fails.
 """
 
 import argparse
@@ -148,12 +149,10 @@ class Attack:
             return None
         if code not in (0, 2):
             return f"exit code {code}: {err.strip()[-300:]}"
-        if size > BYTES:
-            return f"{size / BYTES:.2f} GB"
         if code == 0:
             return f"accepted with a number that is none: {out}" if re.search(r"(?<![\w/.\"])-?(nan|inf)\b", out) else None
-        if seconds > SECONDS:
-            return f"refused after {seconds:.1f} s"
+        if seconds > SECONDS or size > BYTES:
+            return f"refused after {seconds:.1f} s and {size / BYTES:.2f} GB"
         lines = [line for line in err.splitlines() if line.startswith(case)]
         message = lines[-1] if lines else err.strip()
         if len(err) > LONGEST_MESSAGE + 4000:
