@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/fluid/collision_pass.hpp"
+#include "kernels/fluid/drive.hpp"
 #include "kernels/fluid/pair_terms.hpp"
 #include "kernels/fluid/shifting.hpp"
 #include "kernels/smoothing/wendland_c2.hpp"
@@ -52,6 +53,27 @@ TEST(Shifting, StopsInTheOutermostLayer) {
   EXPECT_NEAR(Shifting::inside(Real(0.25)), 0.5, 1e-5);
   EXPECT_EQ(Shifting::inside(Real(0.31)), 0);
   EXPECT_EQ(Shifting::inside(Real(0.9)), 0);
+}
+
+/// A force per volume of 300 N/m3 on fluid of 1.5 kg and 1000 kg/m3 at a porosity of 0.4, m/s2.
+double driven(DriveMode mode, bool shared) {
+  const std::vector<FluidPosition> x(1);
+  const Drive drive{{{{-1, -1, -1}, {1, 1, 1}, false, false, false}, {0, 0, 300}, {}, -1},
+                    {x.data(), 1},
+                    mode,
+                    shared,
+                    {},
+                    {},
+                    false};
+  return drive(0, {Real(1.5 / 0.4), 0, 1000, Real(0.4)}).z;
+}
+
+/// On fluid alone all of a force per volume is the fluid's; with grains each takes that of its own volume.
+TEST(Drive, OfFluidByVolumeMassOrParticle) {
+  EXPECT_NEAR(driven(DriveMode::volume, false), 300 / (0.4 * 1000), 1e-5);
+  EXPECT_NEAR(driven(DriveMode::volume, true), 300 / 1000.0, 1e-5);
+  EXPECT_NEAR(driven(DriveMode::mass, false), 300, 1e-4);
+  EXPECT_NEAR(driven(DriveMode::particle, false), 300 / 1.5, 1e-4);
 }
 
 /// Change of velocity of 2 kg of fluid by 6 kg that it nears at 1 m/s.
