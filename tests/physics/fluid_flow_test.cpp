@@ -110,7 +110,7 @@ double most_energy_in_a_closed_box(bool consistent, double& work) {
   c.wall.energy_consistent = consistent;
   c.wall.suction = true;
   c.fluid.fills = {{{0, 0, 0}, {1, 1, 7.0 / 16}, {"sin(pi*x)*cos(pi*y)", "-cos(pi*x)*sin(pi*y)", "0"}}};
-  c.wall.bodies = {tank({0, 0, 0}, {1, 1, 7.0 / 16}, "x-x+y-y+")};
+  c.wall.bodies = {test::tank({0, 0, 0}, {1, 1, 7.0 / 16}, "x-x+y-y+")};
   c.wall.bodies[0].slip = "slip";
   c.wall.bodies[0].no_penetration = false;
   auto s = started(c);

@@ -19,7 +19,7 @@ struct Pair {
   double diffusion = 0, stiffening = 5, least = -0.02, fading = 0, spreading = 0;
   Vec3d hydrostatic;
   std::vector<Real4> flux, m_state, wall_v_rho, wall_m_state;
-  std::vector<Real> s{0}, s_new{0}, compression{0};
+  std::vector<Real> s{0}, s_new{0}, compression{0}, wall_work{0};
 
   /// Masses over porosity as fractions of what fills the kernel's cube of h / 2, densities over rho0.
   Pair(double fill_a, double fill_b, double rho_a = 1, double rho_b = 1, double eps_a = 1, double eps_b = 1) {
@@ -63,7 +63,8 @@ struct Pair {
         .shift = {},
         .drift = {},
         .fit = {},
-        .lengths = {}};
+        .lengths = {},
+        .wall_work = in(wall_work)};
   }
   /// By how much s of a changes over the step.
   template <bool kSmooth = true, bool kPorous = true>
@@ -71,7 +72,8 @@ struct Pair {
     const auto p = pass<kSmooth, kPorous>();
     auto sum = p.start(0);
     p.pair(sum, r, norm2(r), m_state[1].x, flux[1], m_state[1], Unread{});
-    if (!wall_m_state.empty()) p.wall_pair(sum, r_w, norm2(r_w), wall_v_rho[0], wall_m_state[0]);
+    if (!wall_m_state.empty())
+      p.wall_pair(sum, r_w, norm2(r_w), wall_v_rho[0], wall_m_state[0], wall_work[0]);
     p.finish(0, sum);
     return double(s_new[0]) - double(s[0]);
   }
@@ -108,6 +110,16 @@ TEST(DensityPass, WallsCountByTheirVolumeAtRestOrByTheirMass) {
   EXPECT_CHANGE((p.change<false, true>()), -kDt * M * F * apart / kRho0);
   p.wall_m_state[0].w = 1;  // frozen: as much as it has
   EXPECT_CHANGE((p.change<false, true>()), -kDt * 1.04 * M * F * apart / kRho0);
+}
+
+TEST(DensityPass, FluidPaysForTheWorkOfItsWalls) {
+  Pair p(1, 0, 1.02, 1, 0.6);
+  p.wall_v_rho = {{0, 0, 0, Real(kRho0)}};
+  p.wall_m_state = {{Real(kRho0 * cube(kH / 2)), 0, Real(kRho0), 0}};
+  p.wall_work = {Real(0.03 * cube(kH) * cube(kH))};
+  const double rate = square(1.02 * kRho0) / double(p.m_state[0].x) * double(p.wall_work[0]) *
+                      double(p.w.W(std::sqrt(norm2(p.r_w))));
+  EXPECT_CHANGE((p.change<false, true>()), -kDt * rate / (0.6 * kRho0));
 }
 
 TEST(DensityPass, DiffusionTakesTheMeanPorosityAndTheSlopeAtTheMeanDensity) {

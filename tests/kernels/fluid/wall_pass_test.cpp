@@ -55,6 +55,36 @@ struct Below {
   }
 };
 
+/// V_w D_w / W of one particle of fluid; nothing of frozen walls, of dry ones and where hardly any fluid is.
+TEST(WallWorkPass, IsWhatThePressureOfTheWallDoesAsTheFluidLeaves) {
+  Below b;
+  b.v_rho[0] = {Real(0.5), 0, 0, 1040};
+  b.wall_state[0] = {Real(1.04e-3), 0, 1040, 0};
+  std::vector<Real> work{7};
+  const auto found = [&](double least_sum) {
+    const WallWorkPass<WendlandC2> pass{b.w,
+                                        Real(least_sum),
+                                        Below::all(b.flux),
+                                        Below::all(b.v_rho),
+                                        Below::all(b.wall_state),
+                                        Below::all(work)};
+    auto sum = pass.start(0);
+    const Real3 r = Real3(-b.at);
+    pass.pair(sum, r, norm2(r), Real(2e-3), b.flux[0]);
+    pass.finish(0, sum);
+    return double(work[0]);
+  };
+  const Real distance = Real(std::sqrt(norm2(b.at)));
+  const double apart = dot(Vec3d{0.5 - 1, -2, -3}, -1.0 * b.at);
+  const double expected = 1e-6 * 2e-6 * double(b.w.F(distance)) * apart / double(b.w.W(distance));
+  EXPECT_NEAR(found(1e-3), expected, 10 * kRounding * std::abs(expected));
+  EXPECT_EQ(found(1e9), 0);
+  b.wall_state[0].w = 1;
+  EXPECT_EQ(found(1e-3), 0);
+  b.wall_state[0] = {0, 0, 1000, 0};
+  EXPECT_EQ(found(1e-3), 0);
+}
+
 /// What drag does to the fluid in a step acts on the wall as gravity does: grains that settle press it down.
 TEST(WallPass, DragOfTheStepActsAsGravity) {
   Below plain;
