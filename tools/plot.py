@@ -211,7 +211,7 @@ def plot_probe(options):
             axes.plot(table.column(x)[picked], table.column(y)[picked], next(markers, "."), label=series,
                       markersize=5, markerfacecolor="none")
     for axes in panels.flat[: len(units)]:
-        axes.set_xlabel(axis_label([next(iter(tables.values())).names[0]]))
+        axes.set_xlabel(axis_label([next(iter(tables.values())).header[0]]))
         axes.grid(alpha=0.3)
         many = len(axes.lines) > 6
         axes.legend(frameon=False, fontsize=7 if many else 9, **({"bbox_to_anchor": (1, 1)} if many else {}))

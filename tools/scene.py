@@ -62,7 +62,7 @@ class Scene:
         removed."""
         if (table := self.table_of(body)) is not None:
             row = int(np.argmin(np.abs(table[table.header[0]] - time)))
-            if "present [-]" in table.names and table["present"][row] == 0:
+            if "present [-]" in table.header and table["present"][row] == 0:
                 return None
             turn = turn_of([table[f"rotation_{k}"][row] for k in "wxyz"])
             centre, now = (np.array([table[f"centre_{k}"][n] for k in "xyz"]) for n in (0, row))

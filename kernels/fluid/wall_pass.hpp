@@ -116,6 +116,8 @@ struct WallWorkPass {
   W w;
   Real least_sum;  ///< walls are dry below this sum of W, 1/m3
   Span<const Real4> flux, wall_v_rho, wall_m_state;
+  Span<const std::uint32_t> body;
+  Span<const BodyPose> pose;
   Span<Real> work;  ///< V_w D_w / sum W, m6/s
   Lengths lengths = {};
 
@@ -140,7 +142,8 @@ struct WallWorkPass {
   }
   BL_HD void finish(Index b, const Sum<>& sum) const {
     const Real4 m = wall_m_state[b];
-    const bool pays = sum.weight >= least_sum && m.w == 0;
+    const BodyPose& k = pose[body[b]];
+    const bool pays = sum.weight >= least_sum && k.kind == WallKind::extrapolated && !k.flows;
     work[b] = pays ? m.x / m.z * sum.opening / sum.weight : 0;
   }
 };

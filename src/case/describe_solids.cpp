@@ -352,8 +352,8 @@ void describe_walls(Parameters& p, WallConfig& w, const ContactConfig& contact) 
   p("wall.repulsion", &w.repulsion, {.meaning = "default of the bodies: Monaghan repulsion [monaghan94]"});
   p("wall.energy_consistent", &w.energy_consistent,
     {.meaning =
-         "the pressure of walls is no source of energy: fluid beside them pays for its work. For WCSPH with "
-         "\"kdk\" and \"adami\" or \"fluid_only\" walls, without fluid.variable_h"});
+         "with wall.suction: the pressure of walls is no source of energy, fluid beside them pays for its "
+         "work. For WCSPH with \"kdk\", without mdbc walls, single layers and fluid.variable_h"});
   p("wall.suction", &w.suction,
     {.meaning =
          "walls hold fluid back by pressure below zero, as walls of a closed vessel do; without it fluid "

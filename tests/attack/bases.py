@@ -325,6 +325,7 @@ name = "rest"
 kind = "difference"
 of = ["ball", "pill"]
 facet = 0.005
+copies = { count = 2, about = [0, 0, 1], centre = [0.1, 0.1, 0.1], angle = 90, along = [0.01, 0, 0] }
 [[shape]]
 name = "shell"
 kind = "hollow"

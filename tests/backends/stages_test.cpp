@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <set>
 
 #include "bedload/core/error.hpp"
 #include "tests/support/stage_cases.hpp"
@@ -183,6 +184,14 @@ TEST(StagesOnTheCpu, ThatDifferAreNamed) {
 /// Sums go in another order, and products are rounded once or twice: pairs cancel in forces to about 1/100.
 double allowed(const std::string& precision) { return precision == "double" ? 1e-11 : 1e-4; }
 
+/// What moves. Other fields may hold rounding alone (the flow around grains at rest), which is as large as
+/// they are.
+std::vector<Difference> of_motion(std::vector<Difference> all) {
+  static const std::set<std::string> moves{"fluid/x", "fluid/v_rho", "grains/x", "grains/v"};
+  std::erase_if(all, [&](const Difference& d) { return !moves.contains(d.field); });
+  return all;
+}
+
 /// What one backend makes of each state, against the CPU without AVX2.
 void compare_with_the_cpu(const std::string& backend) {
   int compared = 0;
@@ -202,7 +211,7 @@ void compare_with_the_cpu(const std::string& backend) {
         GTEST_SKIP() << error.what();
       }
       const auto here = cpu->make(c.config());
-      const auto found = Record(*here, kSteps).against(*there);
+      const auto found = of_motion(Record(*here, kSteps).against(*there));
       EXPECT_EQ(first_beyond(found, allowed(other.precision)), "");
       const auto worst = std::max_element(
           found.begin(), found.end(), [](const auto& a, const auto& b) { return a.relative < b.relative; });

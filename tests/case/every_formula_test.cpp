@@ -19,6 +19,7 @@ struct Place {
 };
 
 const std::string kMotion = "kind = \"formula\"\n";
+const std::string kMoving = "kind = \"velocity\"\nvelocity = [0.01, 0, 0]\n";
 const std::map<std::string, Place> kPlaces{
     {"fluid.fill.velocity", {"", ", 0, 0]", "xyz"}},
     {"drive.factor", {"[drive]\nf = [1, 0, 0]\nfactor = ", "", "xyzt"}},
@@ -34,6 +35,11 @@ const std::map<std::string, Place> kPlaces{
      {"[wall.body.motion]\n[[wall.body.motion.add]]\n" + kMotion + "displacement = [", ", 0, 0]", "t"}},
     {"wall.body.motion.add.rotation",
      {"[wall.body.motion]\n[[wall.body.motion.add]]\n" + kMotion + "rotation = [", ", 0, 0]", "t"}},
+    {"wall.body.motion.factor", {"[wall.body.motion]\n" + kMoving + "factor = ", "", "t"}},
+    {"wall.body.motion.add.factor",
+     {"[wall.body.motion]\n[[wall.body.motion.add]]\n" + kMoving + "factor = ", "", "t"}},
+    {"frame.motion.factor", {"[frame.motion]\n" + kMoving + "factor = ", "", "t"}},
+    {"frame.motion.add.factor", {"[frame.motion]\n[[frame.motion.add]]\n" + kMoving + "factor = ", "", "t"}},
     {"frame.motion.displacement", {"[frame.motion]\n" + kMotion + "displacement = [", ", 0, 0]", "t"}},
     {"frame.motion.rotation", {"[frame.motion]\n" + kMotion + "rotation = [", ", 0, 0]", "t"}},
     {"frame.motion.add.displacement",
@@ -66,7 +72,8 @@ std::string refusal(const std::string& text) {
 TEST(EveryFormula, OfTheParametersIsLookedAtHere) {
   std::set<std::string> keys, here;
   for (const ParameterRow& row : parameter_table())
-    if (row.kind == ValueKind::formulas || row.meaning.find("a formula in") != std::string::npos) keys.insert(row.key);
+    if (row.kind == ValueKind::formulas || row.meaning.find("a formula in") != std::string::npos)
+      keys.insert(row.key);
   for (const auto& [key, place] : kPlaces) here.insert(key);
   EXPECT_EQ(keys, here);
 }

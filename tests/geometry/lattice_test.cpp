@@ -70,7 +70,8 @@ TEST(FluidLattice, RefusesFormulasThatAreNone) {
   Config config = empty_case({1, 1, 1});
   add_fill(config, {0, 0, 0}, {0.1, 0.1, 0.1});
   config.fluid.fills[0].velocity[2] = "2*radius";
-  EXPECT_NE(error_of(config).find("fluid.fill 1: velocity z = \"2*radius\": "), std::string::npos);
+  EXPECT_NE(error_of(config).find("fluid.fill.velocity = \"2*radius\" along z"), std::string::npos)
+      << error_of(config);
   EXPECT_NE(error_of(config).find("radius", 45), std::string::npos);
   config.fluid.fills[0].velocity[2] = "1/(x-0.005)";
   EXPECT_EQ(

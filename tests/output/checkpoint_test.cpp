@@ -168,7 +168,7 @@ TEST_F(Checkpoint, RefusesAnotherFormat) {
     file.close();
   }
   seal_file(path);
-  expect_says(refusal(path, config), "it has checkpoint format 7, this version reads 5");
+  expect_says(refusal(path, config), "it has checkpoint format 7, this version reads 6");
 }
 
 TEST_F(Checkpoint, FullDiskLeavesTheOldOne) {

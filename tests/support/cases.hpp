@@ -25,7 +25,7 @@ every = 1
 inline std::string small_dam(const std::string& grain = "") {
   return R"([domain]
 min = [0, 0, 0]
-max = [0.1, 0.06, 0.1]
+max = [0.1, 0.06, 0.12]
 [fluid]
 dx = 0.01
 [[fluid.fill]]

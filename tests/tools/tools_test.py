@@ -498,7 +498,7 @@ shape = "rest"
         self.assertGreater(np.abs(plain.astype(int) - coloured).max(), 80)
         status, _, err = direct(render.main, self.run_dir, "--grain-colour", "spin", "--out", "none.png")
         self.assertEqual(status, 2)
-        self.assertIn("has no angular_velocity, only radius, velocity", err)
+        self.assertIn("has no angular_velocity, only position, radius, velocity", err)
 
     def test_smooth_bodies_have_no_edges_to_draw(self):
         ball = '[[shape]]\nname = "ball"\nkind = "sphere"\ncentre = [0.05, 0.05, 0.05]\nradius = 0.02\n'

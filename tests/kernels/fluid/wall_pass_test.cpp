@@ -55,7 +55,8 @@ struct Below {
   }
 };
 
-/// V_w D_w / W of one particle of fluid; nothing of frozen walls, of dry ones and where hardly any fluid is.
+/// V_w D_w / W of one particle of fluid; nothing of frozen walls, of openings, of dry ones and where hardly
+/// any fluid is.
 TEST(WallWorkPass, IsWhatThePressureOfTheWallDoesAsTheFluidLeaves) {
   Below b;
   b.v_rho[0] = {Real(0.5), 0, 0, 1040};
@@ -67,6 +68,8 @@ TEST(WallWorkPass, IsWhatThePressureOfTheWallDoesAsTheFluidLeaves) {
                                         Below::all(b.flux),
                                         Below::all(b.v_rho),
                                         Below::all(b.wall_state),
+                                        Below::all(b.body),
+                                        Below::all(b.pose),
                                         Below::all(work)};
     auto sum = pass.start(0);
     const Real3 r = Real3(-b.at);
@@ -79,9 +82,11 @@ TEST(WallWorkPass, IsWhatThePressureOfTheWallDoesAsTheFluidLeaves) {
   const double expected = 1e-6 * 2e-6 * double(b.w.F(distance)) * apart / double(b.w.W(distance));
   EXPECT_NEAR(found(1e-3), expected, 10 * kRounding * std::abs(expected));
   EXPECT_EQ(found(1e9), 0);
-  b.wall_state[0].w = 1;
+  b.pose[0].kind = WallKind::frozen;
   EXPECT_EQ(found(1e-3), 0);
-  b.wall_state[0] = {0, 0, 1000, 0};
+  b.pose[0].kind = WallKind::extrapolated, b.pose[0].flows = 1;
+  EXPECT_EQ(found(1e-3), 0);
+  b.pose[0].flows = 0, b.wall_state[0] = {0, 0, 1000, 0};
   EXPECT_EQ(found(1e-3), 0);
 }
 
