@@ -95,7 +95,8 @@ class WcsphSolver final : public FluidSolver {
   void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Moment& start,
                     double dt) override {
     const Real3& gravity = start.gravity;
-    find_wall_work(fluid, walls, pose);
+    poses_ = pose;
+    find_wall_work(fluid, walls);
     if (!smooths() && !shifts())
       continuity<false, false>(fluid, walls, gravity, dt, NoShifting{}, NoFit{});
     else
@@ -148,11 +149,11 @@ class WcsphSolver final : public FluidSolver {
     wall_fluid_.run(pass);
   }
   /// What the pressure of walls does by places and velocities as they are, for density_pass().
-  void find_wall_work(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose) {
-    if (!parameters_.energy_consistent) return;
+  void find_wall_work(const FluidStore& fluid, const WallStore& walls) {
+    if (!parameters_.energy_consistent || !poses_) return;
     wall_work_.resize(walls.size());
     const WallWorkPass<W, Lengths> pass{w_,         least_sum(), flux(fluid), walls.v_rho, walls.m_state,
-                                        walls.body, pose,        wall_work_,  lengths()};
+                                        walls.body, poses_,      wall_work_,  lengths()};
     run_over_walls(pass);
   }
   Real least() const { return -Real(parameters_.density.cavitation_limit); }
@@ -240,6 +241,7 @@ class WcsphSolver final : public FluidSolver {
   Span<const FluidPowers> spend(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt) {
     using Force = ForcePass<W, true, false, kSpecies, Lengths>;
     using Density = DensityPass<W, NoShifting, NoFit, true, true, Lengths>;
+    find_wall_work(fluid, walls);
     Force friction = force_pass<true, false, kSpecies>(fluid, walls, now), artificial = friction;
     friction.artificial = {};
     artificial.wall.viscosity.mu = 0;
@@ -302,7 +304,8 @@ class WcsphSolver final : public FluidSolver {
   W w_;
   CutFraction cut_;
   Buffer<FluidPowers> powers_;
-  Buffer<Real> wall_work_;  ///< of WallWorkPass, one a wall particle
+  Span<const BodyPose> poses_;  ///< of wall bodies, as of the last step
+  Buffer<Real> wall_work_;      ///< of WallWorkPass, one a wall particle
 };
 
 }  // namespace

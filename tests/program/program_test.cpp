@@ -1022,7 +1022,7 @@ TEST_F(Program, TellsHowLargeMeshesAre) {
   const Outcome large = bedload("check dam.toml --backend cpu --set shape.0.scale=1000");
   EXPECT_EQ(large.code, 0);
   EXPECT_NE(large.out.find(
-                "shape \"hopper\": its mesh is 56 x 56 x 80 m large, the domain 0.1 x 0.06 x 0.1 m; does "
+                "shape \"hopper\": its mesh is 56 x 56 x 80 m large, the domain 0.1 x 0.06 x 0.12 m; does "
                 "it need another scale?"),
             large.out.npos)
       << large.out;
