@@ -52,6 +52,7 @@ struct PorosityPass {
   Span<const Real> mass;
   Span<Real> eps, solid_factor;
   Span<Real4> flux, m_state;
+  Span<PairPosition> xp, xp_mid;  ///< whose weights follow the porosity; xp_mid may be empty
 
   template <class N = Real>
   struct Sum {
@@ -82,8 +83,12 @@ struct PorosityPass {
     const Real4 v = v_rho[a];
     solid_factor[a] = factor;
     flux[a] = {porosity * v.xyz() + factor * sum.q, v.w};
-    m_state[a].x = mass[a] / porosity;
+    const Real weight = mass[a] / porosity;
+    m_state[a].x = weight;
     m_state[a].w = porosity;
+    using Weight = decltype(PairPosition::weight);
+    xp[a].weight = Weight(weight);
+    if (xp_mid) xp_mid[a].weight = Weight(weight);
   }
 };
 

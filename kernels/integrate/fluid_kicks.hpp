@@ -7,17 +7,18 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// v += kick (acc + reaction); x += drift (v + beside), packed `back` before where it is, both put back at
-/// edges; of sheared fluid also the peculiar velocity there.
+/// v += kick (acc + reaction); x += drift (v + beside), both put back at edges; pair loops read x from xp
+/// and, in the middle of the step, `back` earlier, from xp_mid. Of sheared fluid also the peculiar velocity
+/// at the earlier of the two.
 struct KickDriftPass {
   Frame frame;
   Real kick, drift, back;                   ///< s
   Span<const Real3> acc, reaction, beside;  ///< reaction empty without grains
   Span<Real4> v_rho;
   Span<FluidPosition> x;
-  Span<PairPosition> xp;
-  MeanShear shear;   ///< as it is after the drift
-  Span<Real4> flux;  ///< empty without shear
+  Span<PairPosition> xp, xp_mid;  ///< the latter empty where no loop runs in the middle of the step
+  MeanShear shear;                ///< as it is after the drift
+  Span<Real4> flux;               ///< empty without shear
   Edges edges;
 
   BL_HD void operator()(Index a) const {
@@ -39,10 +40,14 @@ struct KickDriftPass {
       v_rho[a] = {v, old.w};
     }
     x[a] = as_position<FluidPosition>(frame, at);
-    const Vec3d packed = edges.inside(coordinates(frame, x[a]), Vec3d(back * v));
+    const Vec3d now = coordinates(frame, x[a]);
+    const Real weight = xp[a].weight;
+    xp[a] = pair_position(frame, shear.lattice(now), weight);
+    if (!xp_mid && !flux) return;
+    const Vec3d mid = edges.inside(now, Vec3d(back * v));
     const MeanShear then = shear.before(double(back));
-    xp[a] = pair_position(frame, then.lattice(packed), xp[a].weight);
-    if (flux) flux[a] = {then.peculiar(v, packed.z), old.w};
+    if (xp_mid) xp_mid[a] = pair_position(frame, then.lattice(mid), weight);
+    if (flux) flux[a] = {then.peculiar(v, mid.z), old.w};
   }
 };
 
@@ -99,7 +104,6 @@ struct StatePass {
   Span<const Real> mass, eps;        ///< eps empty unless fluid gives way to grains
   Span<Real4> v_rho, flux, m_state;  ///< flux empty without grains and shear
   Span<Real> p_rho2;
-  Span<PairPosition> xp;
   MeanShear shear;
 
   BL_HD void operator()(Index a) const {
@@ -108,19 +112,17 @@ struct StatePass {
     const Real strain = max_of(s[a] + history(a), kThinnest), rho = eos.density(strain);
     s[a] = strain;
     const Real3 v = v_rho[a].xyz() + gain;
-    const Vec3d at = coordinates(frame, x[a]);
     const Real porosity = eps ? eps[a] : Real(1);
     v_rho[a] = {v, rho};
     if (shear.acts())
-      flux[a] = {shear.peculiar(v, at.z), rho};
+      flux[a] = {shear.peculiar(v, coordinates(frame, x[a]).z), rho};
     else if (flux)
       flux[a] = {flux[a].xyz() + porosity * gain, rho};
     Real pressure = eos.pressure(strain);
     if (compression) pressure += damping * compression[a];
-    const Real M = mass[a] / porosity, p = pressure / square(rho);
-    m_state[a] = {M, p, rho, porosity};
+    const Real p = pressure / square(rho);
+    m_state[a] = {mass[a] / porosity, p, rho, porosity};
     p_rho2[a] = p;
-    xp[a] = pair_position(frame, shear.lattice(at), M);
   }
 };
 

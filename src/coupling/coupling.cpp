@@ -316,9 +316,9 @@ void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPo
   pack(grains);
   volumes(grains, pose, dt);
   with_coupling_kernel([&](auto w) {
-    grains_of_fluid_.run(PorosityPass<decltype(w)>{w, two_way_, eps_min_, orifice_weight(), frame_, fluid.x,
-                                                   volume_, fluid.v_rho, fluid.mass, fluid.eps,
-                                                   fluid.solid_factor, fluid.flux, fluid.m_state});
+    grains_of_fluid_.run(PorosityPass<decltype(w)>{
+        w, two_way_, eps_min_, orifice_weight(), frame_, fluid.x, volume_, fluid.v_rho, fluid.mass, fluid.eps,
+        fluid.solid_factor, fluid.flux, fluid.m_state, fluid.xp, fluid.xp_mid});
   });
   if (suspension_ != SuspensionLaw::none)
     for_each(fluid.owned(),

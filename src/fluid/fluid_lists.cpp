@@ -41,23 +41,31 @@ struct LatticePass {
   BL_HD void operator()(Index a) const { out[a] = shear.lattice(coordinates(frame, x[a])); }
 };
 
-/// Copies of positions as pair loops read them, `back` (s) before where they are and inside edges, with their
-/// weights; of sheared fluid also peculiar velocities.
-template <class P>
-struct PackBackPass {
+/// Positions of fluid as pair loops read them, with their weights; of sheared fluid also peculiar velocities.
+struct PackFluidPass {
+  Frame frame;
+  MeanShear shear;
+  Span<const FluidPosition> x;
+  Span<const Real4> v_rho, m_state;
+  Span<PairPosition> xp;
+  Span<Real4> flux;  ///< empty without shear
+  BL_HD void operator()(Index a) const {
+    const Vec3d at = coordinates(frame, x[a]);
+    xp[a] = pair_position(frame, shear.lattice(at), m_state[a].x);
+    if (flux) flux[a] = {shear.peculiar(v_rho[a].xyz(), at.z), v_rho[a].w};
+  }
+};
+
+/// Positions of walls, now and `back` (s) ago.
+struct PackWallPass {
   Frame frame;
   Real back;
-  Span<const P> x;
-  Span<const Real4> v, m_state;  ///< m_state: empty without weights
-  Span<PairPosition> xp;
-  MeanShear shear = {};   ///< as it was then
-  Span<Real4> flux = {};  ///< empty without shear
-  Edges edges = {};       ///< of the fluid's domain
-  BL_HD void operator()(Index i) const {
-    const Real4 now = v[i];
-    const Vec3d at = edges.inside(coordinates(frame, x[i]), Vec3d(back * now.xyz()));
-    xp[i] = pair_position(frame, shear.lattice(at), m_state ? m_state[i].x : Real(0));
-    if (flux) flux[i] = {shear.peculiar(now.xyz(), at.z), now.w};
+  Span<const Vec3d> x;
+  Span<const Real4> v_rho;
+  Span<PairPosition> xp, xp_mid;  ///< xp_mid may be empty
+  BL_HD void operator()(Index w) const {
+    xp[w] = pair_position(frame, x[w]);
+    if (xp_mid) xp_mid[w] = pair_position(frame, x[w] - Vec3d(back * v_rho[w].xyz()));
   }
 };
 
@@ -267,14 +275,13 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   shear_.strain = strain;
 }
 
-void FluidSolver::pack(FluidStore& fluid, double back) {
+void FluidSolver::pack(FluidStore& fluid) {
   for_each(fluid.owned(),
-           PackBackPass<FluidPosition>{frame_, Real(back), fluid.x, fluid.v_rho, fluid.m_state, fluid.xp,
-                                       shear_.before(back), peculiar(fluid), edges_});
+           PackFluidPass{frame_, shear_, fluid.x, fluid.v_rho, fluid.m_state, fluid.xp, peculiar(fluid)});
 }
 
 void FluidSolver::pack(WallStore& walls, double back) {
-  for_each(walls.owned(), PackBackPass<Vec3d>{frame_, Real(back), walls.x, walls.v_rho, {}, walls.xp});
+  for_each(walls.owned(), PackWallPass{frame_, Real(back), walls.x, walls.v_rho, walls.xp, walls.xp_mid});
   for_each(walls.mirrors.owned(), PackPass<Vec3d>{frame_, walls.mirrors.x, walls.mirrors.xp});
 }
 

@@ -98,6 +98,8 @@ FluidSolver::FluidSolver(const FluidParameters& p, const Frame& frame, const Wal
   if (!fits()) fluid.correction.leave_out();
   fluid.compression_rate.begin_at_zero();
   if (p.pressure.damper == 0) fluid.compression_rate.leave_out();
+  const bool summed = p.density.method == DensityMethod::summation;
+  if (p.time.integrator != TimeIntegrator::kdk || summed) fluid.xp_mid.leave_out();
   if (p.time.integrator != TimeIntegrator::ab3) return;
   fluid.s_next.leave_out();
   for (const char* name : {"density_rate", "density_rate_before", "density_rate_long_before"}) {
@@ -178,11 +180,11 @@ void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double kic
 
 KickDriftPass FluidSolver::kick_drift_pass(FluidStore& fluid, double kick, double drift, double back,
                                            bool coupled) {
-  return {frame_,          Real(kick),  Real(drift),
-          Real(back),      fluid.acc,   coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
-          drift_of(fluid), fluid.v_rho, fluid.x,
-          fluid.xp,        shear_,      peculiar(fluid),
-          edges_};
+  return {frame_,          Real(kick),   Real(drift),
+          Real(back),      fluid.acc,    coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
+          drift_of(fluid), fluid.v_rho,  fluid.x,
+          fluid.xp,        fluid.xp_mid, shear_,
+          peculiar(fluid), edges_};
 }
 
 StatePass FluidSolver::state_pass(FluidStore& fluid, const DensityHistory& history, double kick,
@@ -203,7 +205,6 @@ StatePass FluidSolver::state_pass(FluidStore& fluid, const DensityHistory& histo
           parameters_.mixed ? Span<Real4>(fluid.flux) : peculiar(fluid),
           fluid.m_state,
           fluid.p_rho2,
-          fluid.xp,
           shear_};
 }
 

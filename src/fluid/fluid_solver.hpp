@@ -165,22 +165,22 @@ class FluidSolver {
   /// What lists take more once fluid flows so fast that it gets more than the least skins, bytes, about: on
   /// average particles then go half as fast as the fastest, and have half of its half skin. 0 if it does.
   std::size_t growth() const;
-  /// Copies of positions as pair loops read them, `back` (s) before where they are.
-  void pack(FluidStore& fluid, double back = 0);
+  /// Copies of positions as pair loops read them; of walls also where they were `back` (s) ago.
+  void pack(FluidStore& fluid);
   void pack(WallStore& walls, double back = 0);
 
-  /// v += kick (acc + reaction), x += drift (v + what they drift beside it), and packs x, `back` (s) before
-  /// where it is; `coupled`: there is a reaction.
+  /// v += kick (acc + reaction), x += drift (v + drift velocity); packs x and where it was `back` (s) ago;
+  /// `coupled`: there is a reaction.
   void kick_drift(FluidStore& fluid, double kick, double drift, double back, bool coupled);
   /// s, and the density of frozen walls, from continuity over dt since `start`, whose gravity is that of the
-  /// hydrostatic slope, with positions as packed. s_next has the former s.
+  /// hydrostatic slope, at mid-step positions; or summed up, at those of its end. s_next has the former s.
   void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Moment& start,
                double dt) {
     find_density(fluid, walls, pose, start, dt);
     fluid.s.buffer().swap(fluid.s_next.buffer());
     if (shifts()) fluid.exposure.buffer().swap(fluid.exposure_next.buffer());
   }
-  /// Pressure from the density, velocity predicted by `kick`; packs x.
+  /// Pressure from the density, velocity predicted by `kick`.
   void state(FluidStore& fluid, double kick, bool coupled);
   /// one_pass(): kick_drift() over dt, density a step dt (s) on, and state().
   void advance(FluidStore& fluid, double kick, double dt, double predict);
@@ -218,7 +218,10 @@ class FluidSolver {
                               Buffer<Vec4<double>>&) {}
   /// Of the terms that work on each fluid particle, as they are now; after a step of dt (s), before the lists
   /// are renewed. Empty where a model does not tell.
-  virtual Span<const FluidPowers> powers(FluidStore&, const WallStore&, const Moment&, double) { return {}; }
+  virtual Span<const FluidPowers> powers(FluidStore&, const WallStore&, Span<const BodyPose>, const Moment&,
+                                         double) {
+    return {};
+  }
   /// Moments of the forces between pairs, by the laws of forces() for the velocities that the fluid has now.
   /// After a step of dt (s), before the lists are renewed.
   virtual void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt,
@@ -240,6 +243,22 @@ class FluidSolver {
   }
 
  protected:
+  /// While it lives, pair loops find particles where they were in the middle of the step.
+  class AtMidStep {
+   public:
+    AtMidStep(FluidStore& fluid, WallStore& walls) : fluid_(fluid), walls_(walls) { swap(); }
+    ~AtMidStep() { swap(); }
+    AtMidStep(const AtMidStep&) = delete;
+
+   private:
+    void swap() {
+      if (fluid_.xp_mid.used()) fluid_.xp.buffer().swap(fluid_.xp_mid.buffer());
+      if (walls_.xp_mid.used()) walls_.xp.buffer().swap(walls_.xp_mid.buffer());
+    }
+    FluidStore& fluid_;
+    WallStore& walls_;
+  };
+
   FluidSolver(const FluidParameters& parameters, const Frame& frame, const WallGeometry& walls,
               FluidStore& fluid, double kappa);
   /// density(), into s_next.

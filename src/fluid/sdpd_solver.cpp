@@ -112,19 +112,18 @@ class SdpdSolver final : public FluidSolver {
                     double dt) override {
     const DensityConfig& d = parameters_.density;
     if (d.method == DensityMethod::summation) {
-      pack(fluid);
-      pack(walls);
       d.count_grains&& parameters_.mixed ? sum_up<true>(fluid, walls) : sum_up<false>(fluid, walls);
       if (parameters_.frozen) sum_up_frozen(fluid, walls, pose);
       return;
     }
+    continuity(fluid, walls, pose, dt);
+    if (d.reinit_every > 0 && (start.step + 1) % std::uint64_t(d.reinit_every) == 0) reinitialise(fluid);
+  }
+  void continuity(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) {
+    const AtMidStep places(fluid, walls);
     frozen_continuity(w_, fluid, walls, pose, dt, Real(-0.5));
     run_with_walls(ContinuityPass<W>{w_, Real(parameters_.fluid.rho0), Real(dt), flux(fluid), fluid.m_state,
                                      walls.v_rho, walls.m_state, fluid.s, fluid.s_next});
-    if (d.reinit_every > 0 && (start.step + 1) % std::uint64_t(d.reinit_every) == 0) {
-      pack(fluid);
-      reinitialise(fluid);
-    }
   }
   static double bulk_viscosity(const FluidProperties& f) {
     return std::isfinite(f.zeta) ? f.zeta : 20.0 / 21 * f.mu;

@@ -74,13 +74,13 @@ class WcsphSolver final : public FluidSolver {
                                         walls.body, pressures, force});
   }
 
-  Span<const FluidPowers> powers(FluidStore& fluid, const WallStore& walls, const Moment& now,
-                                 double dt) override {
+  Span<const FluidPowers> powers(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
+                                 const Moment& now, double dt) override {
     if (shear_.acts()) return {};
     powers_.resize(fluid.size());
     if constexpr (!Lengths::vary)
-      if (parameters_.viscosity_varies()) return spend<true>(fluid, walls, now, dt);
-    return spend<false>(fluid, walls, now, dt);
+      if (parameters_.viscosity_varies()) return spend<true>(fluid, walls, pose, now, dt);
+    return spend<false>(fluid, walls, pose, now, dt);
   }
 
   void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double,
@@ -94,9 +94,9 @@ class WcsphSolver final : public FluidSolver {
  private:
   void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Moment& start,
                     double dt) override {
+    const AtMidStep places(fluid, walls);
     const Real3& gravity = start.gravity;
-    poses_ = pose;
-    find_wall_work(fluid, walls);
+    find_wall_work(fluid, walls, pose);
     if (!smooths() && !shifts())
       continuity<false, false>(fluid, walls, gravity, dt, NoShifting{}, NoFit{});
     else
@@ -149,11 +149,11 @@ class WcsphSolver final : public FluidSolver {
     wall_fluid_.run(pass);
   }
   /// What the pressure of walls does by places and velocities as they are, for density_pass().
-  void find_wall_work(const FluidStore& fluid, const WallStore& walls) {
-    if (!parameters_.energy_consistent || !poses_) return;
+  void find_wall_work(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose) {
+    if (!parameters_.energy_consistent) return;
     wall_work_.resize(walls.size());
     const WallWorkPass<W, Lengths> pass{w_,         least_sum(), flux(fluid), walls.v_rho, walls.m_state,
-                                        walls.body, poses_,      wall_work_,  lengths()};
+                                        walls.body, pose,        wall_work_,  lengths()};
     run_over_walls(pass);
   }
   Real least() const { return -Real(parameters_.density.cavitation_limit); }
@@ -238,10 +238,11 @@ class WcsphSolver final : public FluidSolver {
     run_with_walls(StressPass<Force>{whole, inviscid, out.parts(fluid.size(), false)});
   }
   template <bool kSpecies>
-  Span<const FluidPowers> spend(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt) {
+  Span<const FluidPowers> spend(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
+                                const Moment& now, double dt) {
     using Force = ForcePass<W, true, false, kSpecies, Lengths>;
     using Density = DensityPass<W, NoShifting, NoFit, true, true, Lengths>;
-    find_wall_work(fluid, walls);
+    find_wall_work(fluid, walls, pose);
     Force friction = force_pass<true, false, kSpecies>(fluid, walls, now), artificial = friction;
     friction.artificial = {};
     artificial.wall.viscosity.mu = 0;
@@ -304,8 +305,7 @@ class WcsphSolver final : public FluidSolver {
   W w_;
   CutFraction cut_;
   Buffer<FluidPowers> powers_;
-  Span<const BodyPose> poses_;  ///< of wall bodies, as of the last step
-  Buffer<Real> wall_work_;      ///< of WallWorkPass, one a wall particle
+  Buffer<Real> wall_work_;  ///< of WallWorkPass, one a wall particle
 };
 
 }  // namespace

@@ -255,14 +255,17 @@ double expected_places(const WallBody& body, double spacing, double depth, const
   }
   const bool tank = body.shape == "tank";
   const auto closed = closed_faces(body, domain);
-  double inner = 1, outer = 1;
+  // outer less inner volume, side by side: a thin shell is lost in the rounding of their difference
+  double inner = 1, shell = 0;
   for (int k = 0; k < 3; ++k) {
     const double side = body.max[k] - body.min[k];
     const bool ends = !domain.flat(k) && !spans_period(body, domain, k);
-    outer *= side + (tank && ends ? (closed[2 * k] + closed[2 * k + 1]) * depth : 0);
-    inner *= std::max(0.0, side - (!tank && ends ? 2 * depth : 0));
+    const double added = tank && ends ? (closed[2 * k] + closed[2 * k + 1]) * depth : 0;
+    const double removed = !tank && ends ? std::min(side, 2 * depth) : 0;
+    shell = shell * (side + added) + inner * (added + removed);
+    inner *= side - removed;
   }
-  return (outer - inner) / cell;
+  return shell / cell;
 }
 
 double particle_volume(const WallBody& body, double spacing, const DomainConfig& domain) {

@@ -290,7 +290,7 @@ void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>&
   FluidSolver& solver = stepper_.fluid();
   FluidStore& fluid = state_.fluid;
   const double dt = state_.clock.last_dt;
-  const auto powers = solver.powers(fluid, state_.walls, stepper_.moment(), dt);
+  const auto powers = solver.powers(fluid, state_.walls, state_.poses_now(), stepper_.moment(), dt);
   SumSweep<5, PowersBody>::Value p;
   for (double& v : p.v) v = std::nan("");  // a model that does not tell
   if (powers) p = sum_over<5>(fluid.owned(), PowersBody{powers});

@@ -1,7 +1,8 @@
-// What a step is made up of: which stage reads and writes which fields. tests/time/stages_test.cpp holds it
-// against what they do, docs/architecture.md shows it.
+// The stages of a step in the order of Stepper::step(), each with the fields that it uses.
+// tests/time/stages_test.cpp checks these against what the stages do, docs/architecture.md lists them.
 
 #include <algorithm>
+#include <utility>
 
 #include "src/time/stepper.hpp"
 
@@ -12,12 +13,13 @@ Fields operator+(Fields a, const Fields& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }
+Fields& operator+=(Fields& a, const Fields& b) { return a = std::move(a) + b; }
 
 Fields all_of(const Store& store) { return {store.fields().begin(), store.fields().end()}; }
 
 Fields all_of(const std::vector<const Store*>& stores) {
   Fields out;
-  for (const Store* store : stores) out = out + all_of(*store);
+  for (const Store* store : stores) out += all_of(*store);
   return out;
 }
 
@@ -27,155 +29,368 @@ Fields lasting(Fields fields) {
   return fields;
 }
 
-/// What the case has of them, each once.
-Fields present(const Fields& fields) {
+Fields only_if(bool condition, Fields fields) { return condition ? std::move(fields) : Fields{}; }
+
+/// What the case has of them, each once, without those in `other`.
+Fields present(const Fields& fields, const Fields& other = {}) {
+  const auto in = [](const Fields& all, const FieldBase* f) {
+    return std::find(all.begin(), all.end(), f) != all.end();
+  };
   Fields out;
   for (const FieldBase* f : fields)
-    if (f->used() && std::find(out.begin(), out.end(), f) == out.end()) out.push_back(f);
+    if (f->used() && !in(out, f) && !in(other, f)) out.push_back(f);
   return out;
+}
+
+template <class Particles>
+const FieldBase* at_end(const Particles& p) {
+  return &p.xp;
+}
+template <class Particles>
+const FieldBase* at_mid(const Particles& p) {
+  return &p.xp_mid;
 }
 
 }  // namespace
 
+/// Where a stage begins: the clock of its part runs, and an observer is told what it uses. `fields` makes
+/// that list, which nobody else needs.
+template <class MakeAccess>
+void Stepper::begin(Step& now, std::string_view name, Part part, const MakeAccess& fields) const {
+  if (now.watch && part != now.timed) now.watch->lap(int(now.timed));
+  now.timed = part;
+  if (!now.observer || !*now.observer) return;
+  const Access all = fields();
+  const Fields near = present(all.near);
+  const Stage stage{name, part, {near, present(all.reads, near), present(all.writes)}};
+  (*now.observer)(&stage);
+}
+
 std::vector<const Store*> Stepper::stores() const {
   std::vector<const Store*> out{&fluid_, &walls_, &walls_.mirrors, &grains_};
   for (const Store* store : bodies_.stores()) out.push_back(store);
-  if (has_grains())
-    for (const Store* store : solid_solver_->groups().stores()) out.push_back(store);
+  for (const Store* store : group_stores()) out.push_back(store);
   return out;
 }
 
-void Stepper::add(std::string_view name, Part part, void (Stepper::*run)(Step&), const Fields& reads,
-                  const Fields& writes) {
-  stages_.push_back({name, part, present(reads), present(writes), run});
+std::vector<const Store*> Stepper::group_stores() const {
+  if (!has_grains()) return {};
+  return std::as_const(*solid_solver_).groups().stores();
 }
 
-void Stepper::list_stages() {
-  Fields sorted, packed;  // with the lists
-  if (has_fluid())
-    sorted = all_of({&fluid_, &walls_, &walls_.mirrors}),
-    packed = {&fluid_.xp, &walls_.xp, &walls_.mirrors.xp};
-  if (has_grains()) sorted = sorted + all_of({&grains_});
-  if (coupled()) packed.push_back(&grains_.xp);
-  add("renew_lists", Part::lists, &Stepper::renew_lists, lasting(sorted) + packed, sorted);
-  if (has_grains() || bodies_.any()) list_solid_stages();
-  if (has_fluid()) list_fluid_stages();
-  Fields watched = all_of(bodies_.stores());
-  if (has_grains()) watched = watched + Fields{&grains_.x, &grains_.v, &grains_.omega, &grains_.K};
-  add("finish", Part::checks, &Stepper::finish, watched, {});
+// -- fields that several stages use ------------------------------------------------
+
+/// What pair loops read of fluid.
+Fields Stepper::fluid_in_pairs() const {
+  const SmoothingLengths* const own = fluid_solver_->lengths();
+  return Fields{&fluid_.xp, flux(), &fluid_.m_state} + (own ? Fields{&own->h, &own->omega} : Fields{});
 }
 
-void Stepper::list_solid_stages() {
+/// And of walls.
+Fields Stepper::walls_in_pairs() const { return {&walls_.xp, &walls_.v_rho, &walls_.m_state}; }
+
+/// What density, or forces in one pass with it, makes of the arrangement of particles.
+Fields Stepper::fields_of_order() const {
+  return Fields{&fluid_.exposure, &fluid_.exposure_next, &fluid_.correction, &fluid_.compression_rate} +
+         only_if(fluid_solver_->shifts(), drift());
+}
+
+/// Velocities with which particles move beside their own.
+Fields Stepper::drift() const { return only_if(fluid_solver_->drifts(), {&fluid_.drift}); }
+
+/// Velocity and density that pair loops read.
+const FieldBase* Stepper::flux() const {
+  return fluid_.flux.used() ? static_cast<const FieldBase*>(&fluid_.flux) : &fluid_.v_rho;
+}
+
+// -- stages --------------------------------------------------------------------------
+
+void Stepper::renew_lists(Step& now) {
+  begin(now, "renew_lists", Part::lists, [&] {
+    Access a;
+    if (has_fluid()) {
+      a.near += {&fluid_.x, &walls_.x, &walls_.mirrors.x};
+      a.writes += all_of({&fluid_, &walls_, &walls_.mirrors});
+      a.reads += {&fluid_.xp, &walls_.xp, &walls_.mirrors.xp};
+    }
+    if (has_grains()) {
+      a.near += {&grains_.x};
+      a.writes += all_of(grains_);
+    }
+    if (coupled()) a.reads += {&grains_.xp};
+    a.reads += lasting(a.writes);
+    return a;
+  });
+  refresh_if_needed(now.dt);
+}
+
+/// Fluid velocity, drag coefficient and porosity at grains [H] Eqs. 21-25.
+void Stepper::interpolate(Step& now) {
   const FluidStore& f = fluid_;
   const GrainStore& g = grains_;
-  const Fields drag{&g.U, &g.omega_f, &g.K, &g.K_rot}, impulses{&g.impulse, &g.spin_impulse};
-  if (coupled())
-    add("interpolate", Part::coupling, &Stepper::interpolate,
-        {&f.x, &f.xp, &f.v_rho, &f.m_state, &f.mass, &f.eps, &f.theta, &f.solid_factor, &g.x, &g.xp, &g.v,
-         &g.omega, &g.radius, &g.fluid_force, &g.id},
-        drag + Fields{&g.eps, &g.wetness, &g.x_before});
-
-  Fields moved = all_of(bodies_.stores()), by = lasting(moved);
-  if (has_grains()) {
-    moved = moved + impulses + Fields{&g.x, &g.v, &g.omega, &g.force, &g.torque, &g.drag_force} +
-            solid_solver_->fields_of_contacts() + all_of(solid_solver_->groups().stores());
-    by = lasting(moved) + drag + Fields{&g.id, &g.radius, &g.material, &g.fluid_force, &g.wetness};
-  }
-  add("move_solids", Part::grains, &Stepper::move_solids, by, moved);
-
-  if (two_way())
-    add("react", Part::coupling, &Stepper::react,
-        impulses + drag + Fields{&f.xp, &f.v_rho, &f.mass, &f.m_state, &g.xp},
-        {&f.v_rho, &f.drag_kick, &f.reaction});
+  begin(now, "interpolate", Part::coupling, [&] {
+    return Access{.near = {&f.xp, &f.v_rho, &f.m_state, &f.eps, &f.theta, &f.solid_factor, &f.x, &g.xp},
+                  .reads = {&f.mass, &g.x, &g.v, &g.omega, &g.radius, &g.fluid_force, &g.id},
+                  .writes = {&g.U, &g.omega_f, &g.K, &g.K_rot, &g.eps, &g.wetness, &g.x_before}};
+  });
+  coupling_->gather(fluid_, grains_, poses_now(), now.dt, clock_.step);
 }
 
-void Stepper::list_fluid_stages() {
+/// Grains and free bodies, in substeps.
+void Stepper::move_solids(Step& now) {
+  const GrainStore& g = grains_;
+  begin(now, "move_solids", Part::grains, [&] {
+    Access a{.near = lasting(all_of(bodies_.stores())), .reads = {}, .writes = all_of(bodies_.stores())};
+    if (!has_grains()) return a;
+    const Fields own = std::as_const(*solid_solver_).fields_of_contacts() +
+                       Fields{&g.force, &g.torque, &g.drag_force, &g.impulse, &g.spin_impulse};
+    a.writes += own + Fields{&g.x, &g.v, &g.omega} + all_of(group_stores());
+    a.near += lasting(Fields{&g.x, &g.v, &g.omega, &g.radius, &g.material, &g.id} + all_of(group_stores()));
+    a.reads += lasting(own) + Fields{&g.U, &g.omega_f, &g.K, &g.K_rot, &g.fluid_force, &g.wetness};
+    if (!group_stores().empty()) a.near += std::exchange(a.reads, {});  // a group moves by all its grains
+    return a;
+  });
+  const auto gravity = gravity_.along(now.start, now.dt, now.substeps);
+  const Span<BodyPose> poses = motion_.poses(now.start, now.dt, now.substeps);
+  substep_poses_ = poses;
+  if (bodies_.any())
+    bodies_.begin(poses, motion_.bodies(), now.start, now.dt, now.substeps, now.dt - now.last_kick, gravity);
+  if (has_grains())
+    solid_solver_->advance(grains_, poses, motion_.bodies(), now.dt, now.substeps, now.held, gravity,
+                           wall_travel(now.dt), drive_grains());
+  else
+    bodies_.advance();
+}
+
+/// Drag of the grains on the fluid.
+void Stepper::react(Step& now) {
   const FluidStore& f = fluid_;
+  const GrainStore& g = grains_;
+  begin(now, "react", Part::coupling, [&] {
+    return Access{
+        .near = {&f.xp, &g.xp, &f.m_state, &g.impulse, &g.spin_impulse, &g.U, &g.omega_f, &g.K, &g.K_rot},
+        .reads = {&f.v_rho, &f.mass},
+        .writes = {&f.v_rho, &f.drag_kick, &f.reaction}};
+  });
+  coupling_->react(fluid_, grains_, now.dt);
+}
+
+/// Fluid particles that are too close rebound (visc.collision).
+void Stepper::collide(Step& now) {
+  begin(now, "collide", Part::fluid, [&] {
+    return Access{.near = {&fluid_.xp, &fluid_.v_rho, &fluid_.mass}, .reads = {}, .writes = {&fluid_.v_rho}};
+  });
+  fluid_solver_->collide(fluid_);
+}
+
+void Stepper::kick_drift(Step& now) {
+  const FluidStore& f = fluid_;
+  begin(now, "kick_drift", Part::fluid, [&] {
+    return Access{.near = {},
+                  .reads = drift() + Fields{&f.x, &f.xp, &f.v_rho, &f.acc, &f.reaction},
+                  .writes = Fields{&f.x, &f.xp, &f.xp_mid, &f.v_rho} +
+                            only_if(fluid_solver_->shear().acts(), {&f.flux})};
+  });
+  fluid_solver_->kick_drift(fluid_, now.dt - now.last_kick, now.dt, now.last_kick, two_way());
+}
+
+/// Kick, drift, density from former rates, and state (time.integrator = "ab3").
+void Stepper::advance(Step& now) {
+  const FluidStore& f = fluid_;
+  begin(now, "advance", Part::fluid, [&] {
+    return Access{.near = {},
+                  .reads = fluid_solver_->fields_of_forces() + drift() +
+                           Fields{&f.x, &f.xp, &f.v_rho, &f.acc, &f.s, &f.mass, &f.eps, &f.compression_rate},
+                  .writes = Fields{&f.x, &f.xp, &f.v_rho, &f.s, &f.m_state, &f.p_rho2} +
+                            only_if(fluid_solver_->shear().acts(), {&f.flux})};
+  });
+  fluid_solver_->advance(fluid_, now.dt - now.last_kick, now.dt, now.last_kick);
+}
+
+/// Wall particles, and where they are in the middle of the step.
+void Stepper::move_walls(Step& now) {
   const WallStore& w = walls_;
   const MirrorStore& m = w.mirrors;
-  const GrainStore& g = grains_;
-  const FluidSolver& fluid = *fluid_solver_;
-  const bool sheared = fluid.shear().acts();
-  const SmoothingLengths* const own = fluid.lengths();
-  const Fields none, lengths = own ? Fields{&own->h, &own->omega} : none,
-                     listed_lengths = own ? Fields{&own->h_list} : none;
-  const Fields of_model = fluid.fields_of_forces(), bodies = all_of(bodies_.stores());
-  const FieldBase* const flux = f.flux.used() ? &f.flux : &f.v_rho;
-  const bool walled =
-      !config_.inlets.empty() || std::any_of(config_.wall.bodies.begin(), config_.wall.bodies.end(),
-                                             [](const WallBody& body) { return body.stops_fluid(); });
-  const Fields drift = fluid.drifts() ? Fields{&f.drift} : none;
-  // what density, or forces in one pass with it, makes of the arrangement of particles
-  const Fields ordered = Fields{&f.exposure, &f.exposure_next, &f.correction, &f.compression_rate} +
-                         (fluid.shifts() ? drift : none);
-  const Fields peculiar = sheared ? Fields{&f.flux} : none;
-  // what pair loops read of fluid and of walls
-  const Fields pairs = Fields{&f.xp, flux, &f.m_state} + lengths, of_walls{&w.xp, &w.v_rho, &w.m_state};
+  begin(now, "move_walls", Part::fluid, [&] {
+    Access a{.near = all_of(bodies_.stores()), .reads = {}, .writes = {}};
+    if (w.size() == 0 || !motion_.moves()) return a;
+    a.reads = {&w.x0, &w.body, &w.v_rho, &m.x0};
+    a.writes = {&w.x, &w.v_rho, &w.xp, &w.xp_mid, &m.x, &m.xp};
+    return a;
+  });
+  now.poses = motion_.poses_at(now.end);
+  if (w.size() == 0 || !(motion_.moves() || w.xp_mid.used())) return;
+  const double back = fluid_solver_->one_pass() ? 0 : now.last_kick;
+  if (motion_.moves()) WallMotion::place(frame_, walls_, motion_.poses_in_step(now.end, back, now.dt));
+  fluid_solver_->pack(walls_, back);
+}
 
-  if (config_.visc.collision)
-    add("collide", Part::fluid, &Stepper::collide, {&f.xp, &f.v_rho, &f.mass}, {&f.v_rho});
-  if (fluid.one_pass())
-    add("advance", Part::fluid, &Stepper::advance,
-        of_model + drift + Fields{&f.x, &f.xp, &f.v_rho, &f.acc, &f.s, &f.mass, &f.eps, &f.compression_rate},
-        peculiar + Fields{&f.x, &f.xp, &f.v_rho, &f.s, &f.m_state, &f.p_rho2});
-  else
-    add("kick_drift", Part::fluid, &Stepper::kick_drift,
-        drift + Fields{&f.x, &f.xp, &f.v_rho, &f.acc, &f.reaction}, peculiar + Fields{&f.x, &f.xp, &f.v_rho});
-  const bool moving = walled && motion_.moves();
-  add("move_walls", Part::fluid, &Stepper::move_walls,
-      bodies + (moving ? Fields{&w.x0, &w.body, &w.v_rho, &m.x0} : none),
-      moving ? Fields{&w.x, &w.v_rho, &w.xp, &m.x, &m.xp} : none);
-  if (coupled())
-    add("porosity", Part::coupling, &Stepper::porosity,
-        {&f.x, &f.v_rho, &f.mass, &f.m_state, &g.x, &g.x_before, &g.v, &g.radius},
-        Fields{&g.xp, &f.xp, &f.eps} +
-            (two_way() ? Fields{&f.solid_factor, &f.flux, &f.m_state, &f.viscosity, &f.grains_around}
-                       : none));
-  if (!fluid.one_pass()) {
-    const bool summed = config_.density.method == DensityMethod::summation,
-               packed = summed || config_.density.reinit_every > 0;
-    add("density", Part::fluid, &Stepper::density,
-        pairs + of_walls + drift +
-            Fields{&f.x, &f.v_rho, &f.s, &f.eps, &f.grains_around, &f.exposure, &f.viscosity, &w.x,
-                   &w.compression, &w.body, &m.x},
-        ordered + Fields{&f.s, &f.s_next} + (packed ? Fields{&f.xp} : none) +
-            (moving ? Fields{&w.xp} : none) + (fluid.freezes() ? Fields{&w.compression} : none));
-    add("fluid_state", Part::fluid, &Stepper::fluid_state,
-        listed_lengths +
-            Fields{flux, &f.x, &f.v_rho, &f.acc, &f.reaction, &f.s, &f.mass, &f.eps, &f.compression_rate},
-        (own ? Fields{&own->h} : none) + Fields{flux, &f.v_rho, &f.s, &f.m_state, &f.p_rho2, &f.xp});
-  }
-  if (walled)
-    add("wall_state", Part::fluid, &Stepper::wall_state,
-        pairs + of_walls + Fields{&w.v_visc, &w.compression, &w.x0, &w.x, &w.body, &m.x, &m.xp, &f.drag_kick},
-        {&w.v_rho, &w.v_visc, &w.m_state, &w.compression});
-  add("forces", Part::fluid, &Stepper::forces,
-      pairs + of_walls + drift + lasting(of_model) +
-          Fields{&f.x, &f.s, &f.mass, &f.id, &f.viscosity, &f.p_rho2, &w.v_visc, &w.body, &w.id} +
-          (fluid.one_pass() ? Fields{&f.exposure} : Fields{&f.correction}),
-      Fields{&f.theta, &f.acc_next} + drift + of_model + (fluid.one_pass() ? ordered + Fields{&f.s} : none) +
-          (own ? Fields{&f.p_rho2} : none) + (config_.eos.filter ? Fields{&f.m_state, &f.p_rho2} : none));
-  if (fluid.repels())
-    add("repel", Part::fluid, &Stepper::repel,
-        drift + Fields{&f.x, &f.v_rho, &f.acc, &f.acc_next, &f.exposure},
-        drift + Fields{&f.acc_next, &f.heading});
-  if (bodies_.any())
-    add("load_bodies", Part::fluid, &Stepper::load_bodies,
-        bodies + pairs + of_walls + of_model +
-            Fields{&f.x, &f.mass, &f.acc, &f.acc_next, &f.heading, &f.exposure, &f.correction, &f.viscosity,
-                   &w.v_visc, &w.x0, &w.body},
-        bodies);
-  add("correct", Part::fluid, &Stepper::correct,
-      drift + lengths + listed_lengths +
-          Fields{&f.x, &f.x_list, &f.half_skin, &f.v_rho, &f.acc, &f.acc_next, &f.s, &f.eps},
-      {&f.v_rho, &f.acc, &f.acc_next});
-  if (coupled()) {
-    const Fields groups = all_of(solid_solver_->groups().stores());
-    add("push", Part::coupling, &Stepper::push,
-        groups + Fields{&g.xp, &f.xp, &f.theta, &f.m_state, &f.solid_factor, &g.v, &g.omega, &g.radius,
-                        &g.material, &g.fluid_force},
-        Fields{&g.fluid_force, &g.v} + (groups.empty() ? none : Fields{&g.omega}) + groups);
-  }
+/// [H] Eq. 6, between fluid and grains that have both moved.
+void Stepper::porosity(Step& now) {
+  const FluidStore& f = fluid_;
+  const GrainStore& g = grains_;
+  begin(now, "porosity", Part::coupling, [&] {
+    Access a{.near = {&f.xp, &g.x, &g.x_before, &g.v, &g.radius},
+             .reads = {&f.x, &f.v_rho, &f.mass, &f.m_state, &f.xp_mid},
+             .writes = {&g.xp, &f.eps}};
+    if (two_way())
+      a.writes += {&f.solid_factor, &f.flux, &f.m_state, &f.xp, &f.xp_mid, &f.viscosity, &f.grains_around};
+    return a;
+  });
+  coupling_->porosity(fluid_, grains_, now.poses, now.dt);
+}
+
+/// By continuity, from positions and velocities in the middle of the step; or summed up.
+void Stepper::density(Step& now) {
+  const FluidStore& f = fluid_;
+  const WallStore& w = walls_;
+  begin(now, "density", Part::fluid, [&] {
+    Fields near = fluid_in_pairs() + walls_in_pairs() + Fields{&f.exposure, &w.body};
+    if (f.xp_mid.used()) std::replace(near.begin(), near.end(), at_end(f), at_mid(f));
+    if (w.xp_mid.used()) std::replace(near.begin(), near.end(), at_end(w), at_mid(w));
+    return Access{.near = near,
+                  .reads = drift() + Fields{&f.s, &f.viscosity, &f.eps, &f.grains_around, &w.compression},
+                  .writes = fields_of_order() + Fields{&f.s, &f.s_next} +
+                            only_if(fluid_solver_->freezes(), {&w.compression})};
+  });
+  fluid_solver_->density(fluid_, walls_, now.poses, moment_, now.dt);
+}
+
+/// Pressure; velocity predicted for the end of the step.
+void Stepper::fluid_state(Step& now) {
+  const FluidStore& f = fluid_;
+  begin(now, "fluid_state", Part::fluid, [&] {
+    Access a{
+        .near = {},
+        .reads = {flux(), &f.x, &f.v_rho, &f.acc, &f.reaction, &f.s, &f.mass, &f.eps, &f.compression_rate},
+        .writes = {flux(), &f.v_rho, &f.s, &f.m_state, &f.p_rho2}};
+    if (const SmoothingLengths* own = fluid_solver_->lengths()) {
+      a.reads += {&own->h_list};
+      a.writes += {&own->h};
+    }
+    return a;
+  });
+  fluid_solver_->state(fluid_, now.last_kick, two_way());
+}
+
+/// Pressure and velocity of wall particles, from the fluid around them.
+void Stepper::wall_state(Step& now) {
+  const WallStore& w = walls_;
+  begin(now, "wall_state", Part::fluid, [&] {
+    return Access{
+        .near = fluid_in_pairs() + Fields{&fluid_.drag_kick, &w.xp, &w.mirrors.xp},
+        .reads = {&w.v_rho, &w.m_state, &w.v_visc, &w.compression, &w.x0, &w.x, &w.body, &w.mirrors.x},
+        .writes = {&w.v_rho, &w.v_visc, &w.m_state, &w.compression}};
+  });
+  if (walls_.size() == 0) return;
+  fluid_solver_->walls(fluid_, walls_, now.poses, Real3(gravity_.at(now.end)), two_way() ? now.dt : 0,
+                       motion_.moves());
+}
+
+/// Pressure and viscosity between pairs of fluid and with walls, gravity and drive.
+void Stepper::forces(Step& now) {
+  const FluidStore& f = fluid_;
+  const WallStore& w = walls_;
+  begin(now, "forces", Part::fluid, [&] {
+    const bool one_pass = fluid_solver_->one_pass();
+    const Fields of_model = fluid_solver_->fields_of_forces();
+    return Access{.near = fluid_in_pairs() + walls_in_pairs() + lasting(of_model) +
+                          Fields{&f.p_rho2, &f.id, &f.viscosity, &w.v_visc, &w.body, &w.id} +
+                          (one_pass ? Fields{&f.exposure} : Fields{&f.correction}) +
+                          only_if(config_.eos.filter, {&f.s}),
+                  .reads = drift() + Fields{&f.x, &f.s, &f.mass},
+                  .writes = Fields{&f.theta, &f.acc_next} + drift() + of_model +
+                            only_if(one_pass, fields_of_order() + Fields{&f.s}) +
+                            only_if(fluid_solver_->lengths() || config_.eos.filter, {&f.p_rho2}) +
+                            only_if(config_.eos.filter, {&f.m_state})};
+  });
+  moment_ = moment(now.end, clock_.step + 1);
+  fluid_solver_->forces(fluid_, walls_, now.poses, moment_, now.dt);
+}
+
+/// Push of wall surfaces and orifices on fluid that is too close.
+void Stepper::repel(Step& now) {
+  const FluidStore& f = fluid_;
+  begin(now, "repel", Part::fluid, [&] {
+    return Access{.near = {},
+                  .reads = drift() + Fields{&f.x, &f.v_rho, &f.acc, &f.acc_next, &f.exposure},
+                  .writes = drift() + Fields{&f.acc_next, &f.heading}};
+  });
+  fluid_solver_->repel(fluid_, now.poses, now.last_kick, now.dt);
+}
+
+/// Force of the fluid on free bodies.
+void Stepper::load_bodies(Step& now) {
+  const FluidStore& f = fluid_;
+  const WallStore& w = walls_;
+  begin(now, "load_bodies", Part::fluid, [&] {
+    return Access{.near = all_of(bodies_.stores()) + fluid_in_pairs() + walls_in_pairs() +
+                          fluid_solver_->fields_of_forces() +
+                          Fields{&f.x, &f.mass, &f.acc, &f.acc_next, &f.heading, &f.exposure, &f.correction,
+                                 &f.viscosity, &w.v_visc, &w.x0, &w.body},
+                  .reads = {},
+                  .writes = all_of(bodies_.stores())};
+  });
+  if (walls_.size() > 0)
+    fluid_solver_->wall_forces(fluid_, walls_, now.poses, moment_, 0, now.dt, wall_force_);
+  const bool corrected = fluid_solver_->fits() && walls_.size() > 0;
+  if (corrected)
+    fluid_solver_->body_pressures(fluid_, walls_, bodies_.fit_pressure(walls_, now.poses), wall_in_fit_);
+  const WallRepulsion repulsion = fluid_solver_->repulsion(fluid_, now.poses, now.dt);
+  bodies_.feel_fluid(walls_, wall_force_, corrected ? &wall_in_fit_ : nullptr,
+                     repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_, now.poses,
+                     now.last_kick, now.dt);
+}
+
+/// Velocity by the change of the acceleration over the step.
+void Stepper::correct(Step& now) {
+  const FluidStore& f = fluid_;
+  begin(now, "correct", Part::fluid, [&] {
+    Access a{.near = {},
+             .reads = drift() + Fields{&f.x, &f.x_list, &f.half_skin, &f.v_rho, &f.acc, &f.acc_next, &f.s,
+                                       &f.eps, &f.viscosity},
+             .writes = {&f.v_rho, &f.acc, &f.acc_next}};
+    if (const SmoothingLengths* own = fluid_solver_->lengths())
+      a.reads += {&own->h, &own->omega, &own->h_list};
+    return a;
+  });
+  fluid_solver_->correct(fluid_, now.last_kick);
+  corrected_ = now.last_kick;
+}
+
+/// The grains' part of the stress of the mixture: buoyancy.
+void Stepper::push(Step& now) {
+  const FluidStore& f = fluid_;
+  const GrainStore& g = grains_;
+  begin(now, "push", Part::coupling, [&] {
+    const Fields groups = all_of(group_stores());
+    return Access{.near = groups + Fields{&f.xp, &g.xp, &f.theta, &f.m_state, &f.solid_factor} +
+                          only_if(!groups.empty(), {&g.v, &g.omega, &g.radius, &g.material, &g.fluid_force}),
+                  .reads = {&g.v, &g.omega, &g.radius, &g.material, &g.fluid_force},
+                  .writes = Fields{&g.fluid_force, &g.v} + only_if(!groups.empty(), {&g.omega}) + groups};
+  });
+  coupling_->push(fluid_, grains_, now.last_kick, now.held);
+  solid_solver_->groups().follow(grains_, {}, {}, 0);
+}
+
+/// The clock, and a look for what broke down.
+void Stepper::finish(Step& now) {
+  const GrainStore& g = grains_;
+  begin(now, "finish", Part::checks, [&] {
+    return Access{.near = {},
+                  .reads = all_of(bodies_.stores()) + only_if(has_grains(), {&g.x, &g.v, &g.omega, &g.K}),
+                  .writes = {}};
+  });
+  const double speed_before = motion_.top_speed(now.start);
+  clock_.time = now.end;
+  motion_.advance(clock_.time);
+  clock_.last_dt = now.dt;
+  ++clock_.step;
+  bodies_.read_back(clock_.time);
+  walls_moved_ += now.dt * std::max(speed_before, motion_.top_speed(clock_.time));
+  remove_cleared_bodies();
+  sweep();
+  if (coupled()) coupling_->read_survey();
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -78,28 +78,6 @@ Vec3d level_gravity(const Config& config, const Vec3d& effective) {
 
 }  // namespace
 
-void Stepper::start() {
-  Step now;
-  now.held = held();
-  refresh(has_fluid(), has_grains());
-  now.poses = poses_now();
-  if (has_grains()) solid_solver_->evaluate(grains_, now.poses);
-  if (bodies_.any()) bodies_.evaluate(now.poses);
-  if (has_fluid()) {
-    initialise_fluid(now);
-    if (coupled()) porosity(now);
-    fluid_state(now);
-    wall_state(now);
-    forces(now);
-    repel(now);
-    if (bodies_.any()) load_bodies(now);
-    correct(now);
-    if (coupled()) push(now);
-  }
-  sweep();
-  if (coupled()) interpolate(now);  // for the first step's drag limit
-}
-
 void Stepper::initialise_fluid(Step& now) {
   if (two_way()) porosity(now);
   std::vector<Real> pressure(fluid_.size(), Real(config_.eos.background));

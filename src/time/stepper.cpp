@@ -1,3 +1,7 @@
+// One step, by kick-drift-kick with density from a pass in the middle of the step, or from former rates; or
+// by symplectic Euler: velocity, then position and density from the new velocity, which is the cycle of [H]
+// Fig. 3 (density, velocity, position) begun at its second station.
+
 #include "src/time/stepper.hpp"
 
 #include <algorithm>
@@ -15,6 +19,20 @@ namespace {
 void must_be_finite(const Vec3d& v, const char* what, double t) {
   if (!std::isfinite(norm2(v)))
     throw SimulationFault(std::string(what) + " is no finite number at t = " + std::to_string(t) + " s");
+}
+
+constexpr double kMostSubsteps = 1e6;  ///< of a step
+
+/// A run with so many would never end, and the poses of walls at each would fill the memory.
+[[noreturn]] void refuse_substeps(double dt, const StepLimit& longest, double substeps) {
+  const NamedLimit& bound = kLimits[std::size_t(longest.limit)];
+  char text[300];
+  std::snprintf(
+      text, sizeof text,
+      "a step of %.3g s would take %.3g substeps of %.3g s, more than %.0f, by the limit \"%s\"%s%s", dt,
+      substeps, longest.seconds, kMostSubsteps, std::string(bound.name).c_str(),
+      bound.key.empty() ? "" : "; see ", std::string(bound.key).c_str());
+  throw SimulationFault(text);
 }
 
 }  // namespace
@@ -42,28 +60,63 @@ Stepper::Stepper(const Config& config, State& state)
   if (has_fluid())
     fluid_solver_ = FluidSolver::make(fluid_parameters(config), frame_, state.geometry, fluid_);
   if (coupled()) coupling_ = std::make_unique<Coupling>(coupling_parameters(config), frame_, state.geometry);
-  list_stages();
+  if (!fluid_.xp_mid.used() || !motion_.moves()) walls_.xp_mid.leave_out();
 }
 
 StepInfo Stepper::step(const Observer& observer) {
   Step now = next_step();
+  now.observer = &observer;
+  now.watch = &watch_;
   watch_.start();
-  for (std::size_t k = 0; k < stages_.size(); ++k) {
-    const Stage& stage = stages_[k];
-    if (observer) observer(k);
-    (this->*stage.run)(now);
-    if (k + 1 == stages_.size() || stages_[k + 1].part != stage.part) watch_.lap(int(stage.part));
+
+  renew_lists(now);
+  if (coupled()) interpolate(now);
+  if (has_grains() || bodies_.any()) move_solids(now);
+  if (two_way()) react(now);
+  if (has_fluid()) {
+    if (config_.visc.collision) collide(now);
+    fluid_solver_->one_pass() ? advance(now) : kick_drift(now);
+    move_walls(now);
+    if (coupled()) porosity(now);
+    if (!fluid_solver_->one_pass()) {
+      density(now);
+      fluid_state(now);
+    }
+    evaluate(now);
   }
+  finish(now);
+
+  watch_.lap(int(now.timed));
   watch_.stop();
-  if (observer) observer(stages_.size());
-  return {clock_.step,
-          clock_.time,
-          now.dt,
-          now.substeps,
-          now.limit,
-          now.substep_limit,
-          std::sqrt(fluid_extremes_.v2),
-          std::exchange(rebuilt_, false)};
+  if (observer) observer(nullptr);
+  return info_of(now);
+}
+
+void Stepper::evaluate(Step& now) {
+  wall_state(now);
+  forces(now);
+  if (fluid_solver_->repels()) repel(now);
+  if (bodies_.any()) load_bodies(now);
+  correct(now);
+  if (coupled()) push(now);
+}
+
+void Stepper::start() {
+  Step now;
+  now.held = held();
+  refresh(has_fluid(), has_grains());
+  now.poses = poses_now();
+  if (has_grains()) solid_solver_->evaluate(grains_, now.poses);
+  if (bodies_.any()) bodies_.evaluate(now.poses);
+  if (has_fluid()) {
+    initialise_fluid(now);
+    if (coupled()) porosity(now);
+    fluid_state(now);
+    fluid_solver_->pack(fluid_);
+    evaluate(now);
+  }
+  sweep();
+  if (coupled()) interpolate(now);  // for the first step's drag limit
 }
 
 Step Stepper::next_step() {
@@ -77,130 +130,38 @@ Step Stepper::next_step() {
   now.substeps = 1;
   if (now.held && !bodies_.any()) return now;
   const StepLimit longest = longest_substep();
+  const double substeps = std::ceil(now.dt / longest.seconds * (1 - 1e-9));
+  if (!(substeps <= kMostSubsteps)) refuse_substeps(now.dt, longest, substeps);
   now.substep_limit = longest.limit;
-  now.substeps = std::max(1, int(std::ceil(now.dt / longest.seconds * (1 - 1e-9))));
+  now.substeps = std::max(1, int(substeps));
   return now;
+}
+
+StepInfo Stepper::info_of(const Step& now) {
+  return {clock_.step,
+          clock_.time,
+          now.dt,
+          now.substeps,
+          now.limit,
+          now.substep_limit,
+          std::sqrt(fluid_extremes_.v2),
+          std::exchange(rebuilt_, false)};
 }
 
 std::vector<Quantity> Stepper::time_spent() const {
   std::vector<Quantity> out;
-  for (const Part part : {Part::lists, Part::fluid, Part::grains, Part::coupling, Part::checks})
-    if (std::any_of(stages_.begin(), stages_.end(), [&](const Stage& stage) { return stage.part == part; }))
-      out.push_back({std::string(name_of(part)), "s", watch_.seconds(int(part))});
+  const auto add = [&](Part part) {
+    out.push_back({std::string(name_of(part)), "s", watch_.seconds(int(part))});
+  };
+  add(Part::lists);
+  if (has_fluid()) add(Part::fluid);
+  if (has_grains() || bodies_.any()) add(Part::grains);
+  if (coupled()) add(Part::coupling);
+  add(Part::checks);
   return out;
 }
 
-// -- stages ------------------------------------------------------------------
-//
-// Kick-drift-kick, with density from a pass of its own in the middle of the step or from former rates; or
-// symplectic Euler: velocity, then position and density from the new velocity, which is the cycle of [H]
-// Fig. 3 (density, velocity, position) begun at its second station.
-
-void Stepper::renew_lists(Step& now) { refresh_if_needed(now.dt); }
-
-void Stepper::interpolate(Step& now) { coupling_->gather(fluid_, grains_, poses_now(), now.dt, clock_.step); }
-
-/// Grains and bodies, in substeps.
-void Stepper::move_solids(Step& now) {
-  const auto gravity = gravity_.along(now.start, now.dt, now.substeps);
-  const Span<BodyPose> poses = motion_.poses(now.start, now.dt, now.substeps);
-  substep_poses_ = poses;
-  if (bodies_.any())
-    bodies_.begin(poses, motion_.bodies(), now.start, now.dt, now.substeps, now.dt - now.last_kick, gravity);
-  if (has_grains())
-    solid_solver_->advance(grains_, poses, motion_.bodies(), now.dt, now.substeps, now.held, gravity,
-                           wall_travel(now.dt), drive_grains());
-  else
-    bodies_.advance();
-}
-
-void Stepper::react(Step& now) { coupling_->react(fluid_, grains_, now.dt); }
-
-void Stepper::collide(Step&) { fluid_solver_->collide(fluid_); }
-
-void Stepper::kick_drift(Step& now) {
-  fluid_solver_->kick_drift(fluid_, now.dt - now.last_kick, now.dt, now.last_kick, two_way());
-}
-
-void Stepper::advance(Step& now) {
-  fluid_solver_->advance(fluid_, now.dt - now.last_kick, now.dt, now.last_kick);
-}
-
-/// Density follows from places and velocities in the middle of a kick-drift-kick step, the fluid's and the
-/// walls'.
-void Stepper::move_walls(Step& now) {
-  now.poses = motion_.poses_at(now.end);
-  if (walls_.size() == 0 || !motion_.moves()) return;
-  const double back = fluid_solver_->one_pass() ? 0 : now.last_kick;
-  WallMotion::place(frame_, walls_, motion_.poses_in_step(now.end, back, now.dt));
-  fluid_solver_->pack(walls_, back);
-}
-
-/// Between fluid and grains that have both moved.
-void Stepper::porosity(Step& now) {
-  fluid_solver_->pack(fluid_);
-  coupling_->porosity(fluid_, grains_, now.poses, now.dt);
-  fluid_solver_->pack(fluid_, now.last_kick);
-}
-
-void Stepper::density(Step& now) {
-  fluid_solver_->density(fluid_, walls_, now.poses, moment_, now.dt);
-  if (motion_.moves()) fluid_solver_->pack(walls_);
-}
-
-void Stepper::fluid_state(Step& now) { fluid_solver_->state(fluid_, now.last_kick, two_way()); }
-
-void Stepper::wall_state(Step& now) {
-  if (walls_.size() == 0) return;
-  fluid_solver_->walls(fluid_, walls_, now.poses, Real3(gravity_.at(now.end)), two_way() ? now.dt : 0,
-                       motion_.moves());
-}
-
-void Stepper::forces(Step& now) {
-  moment_ = moment(now.end, clock_.step + 1);
-  fluid_solver_->forces(fluid_, walls_, now.poses, moment_, now.dt);
-}
-
-void Stepper::repel(Step& now) { fluid_solver_->repel(fluid_, now.poses, now.last_kick, now.dt); }
-
-/// The fluid's force on free bodies.
-void Stepper::load_bodies(Step& now) {
-  if (walls_.size() > 0)
-    fluid_solver_->wall_forces(fluid_, walls_, now.poses, moment_, 0, now.dt, wall_force_);
-  const bool corrected = fluid_solver_->fits() && walls_.size() > 0;
-  if (corrected)
-    fluid_solver_->body_pressures(fluid_, walls_, bodies_.fit_pressure(walls_, now.poses), wall_in_fit_);
-  const WallRepulsion repulsion = fluid_solver_->repulsion(fluid_, now.poses, now.dt);
-  bodies_.feel_fluid(walls_, wall_force_, corrected ? &wall_in_fit_ : nullptr,
-                     repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_, now.poses,
-                     now.last_kick, now.dt);
-}
-
-void Stepper::correct(Step& now) {
-  fluid_solver_->correct(fluid_, now.last_kick);
-  corrected_ = now.last_kick;
-}
-
-/// What of the fluid's stress falls to the grains.
-void Stepper::push(Step& now) {
-  coupling_->push(fluid_, grains_, now.last_kick, now.held);
-  solid_solver_->groups().follow(grains_, {}, {}, 0);
-}
-
-void Stepper::finish(Step& now) {
-  const double speed_before = motion_.top_speed(now.start);
-  clock_.time = now.end;
-  motion_.advance(clock_.time);
-  clock_.last_dt = now.dt;
-  ++clock_.step;
-  bodies_.read_back(clock_.time);
-  walls_moved_ += now.dt * std::max(speed_before, motion_.top_speed(clock_.time));
-  remove_cleared_bodies();
-  sweep();
-  if (coupled()) coupling_->read_survey();
-}
-
-// -- what stages go by ---------------------------------------------------------
+// -- limits of a step, lists, checks -----------------------------------------------
 
 double Stepper::wall_travel(double dt) const {
   const double before = motion_.top_speed(clock_.time, dt),

@@ -22,12 +22,8 @@ class Stepper {
   /// Adds to the stores of `state` what solvers need: before it is filled or loaded. Both must outlive this.
   Stepper(const Config& config, State& state);
 
-  /// Of each step, in their order; what a case does not need is not among them.
-  const std::vector<Stage>& stages() const { return stages_; }
   /// All that hold fields of this state.
   std::vector<const Store*> stores() const;
-  /// Told how many stages have been, before each and after the last.
-  using Observer = std::function<void(std::size_t done)>;
   StepInfo step(const Observer& observer = {});
 
   /// As Simulation has them.
@@ -66,14 +62,22 @@ class Stepper {
   bool two_way() const { return state_.two_way; }
   bool held() const { return config_.grain.fixed || clock_.time < config_.grain.release_time; }
 
-  void list_stages();
-  void list_solid_stages();
-  void list_fluid_stages();
-  void add(std::string_view name, Part part, void (Stepper::*run)(Step&), const Fields& reads,
-           const Fields& writes);
-  Step next_step();
+  template <class MakeAccess>
+  void begin(Step& now, std::string_view name, Part part, const MakeAccess& fields) const;
+  std::vector<const Store*> group_stores() const;
+  Fields fluid_in_pairs() const;
+  Fields walls_in_pairs() const;
+  Fields fields_of_order() const;
+  Fields drift() const;
+  const FieldBase* flux() const;
 
-  // The stages, in this order.
+  Step next_step();
+  StepInfo info_of(const Step& now);
+  /// The stages from wall_state() on: forces on fluid, bodies and grains at the end of a step or at the start
+  /// of a run.
+  void evaluate(Step& now);
+
+  // The stages, in their order.
   void renew_lists(Step& now);
   void interpolate(Step& now);
   void move_solids(Step& now);
@@ -125,7 +129,6 @@ class Stepper {
   std::unique_ptr<FluidSolver> fluid_solver_;
   std::unique_ptr<SolidSolver> solid_solver_;
   std::unique_ptr<Coupling> coupling_;
-  std::vector<Stage> stages_;
   Stopwatch watch_;
 
   Moment moment_;         ///< of the last forces

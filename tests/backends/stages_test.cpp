@@ -79,29 +79,34 @@ double difference(const StageField& a, const StageField& b) {
 /// Fields of a run before its first stage and after each, over some steps.
 class Record {
  public:
-  Record(StagedRun& run, int steps) : stages_(run.stages()) {
-    for (int n = 0; n < steps; ++n) run.step([&](std::size_t) { fields_.push_back(run.fields()); });
+  Record(StagedRun& run, int steps) {
+    for (int n = 0; n < steps; ++n)
+      run.step([&](const std::string& ended) { moments_.push_back({ended, run.fields()}); });
   }
   /// All differences of another run that takes each stage from the state of this one, in their order.
   std::vector<Difference> against(StagedRun& other) const {
     std::vector<Difference> found;
-    if (other.stages() != stages_) return {{0, "none", "the stages", INFINITY}};
     std::size_t at = 0;
-    for (int n = 0; at < fields_.size(); ++n)
-      other.step([&](std::size_t done) {
-        const StageFields &mine = fields_[at++], theirs = other.fields();
+    for (int n = 0; at < moments_.size(); ++n)
+      other.step([&](const std::string& ended) {
+        if (at == moments_.size() || moments_[at].ended != ended)
+          return found.push_back({n + 1, ended, "the order of stages", INFINITY});
+        const StageFields &mine = moments_[at++].fields, theirs = other.fields();
         // before the first stage, only what outlives a step has a value
-        for (std::size_t k = 0; done > 0 && k < mine.size(); ++k)
+        for (std::size_t k = 0; !ended.empty() && k < mine.size(); ++k)
           if (const double apart = difference(mine[k], theirs[k]); apart > 0)
-            found.push_back({n + 1, stages_[done - 1], mine[k].name, apart});
+            found.push_back({n + 1, ended, mine[k].name, apart});
         other.take(mine);
       });
     return found;
   }
 
  private:
-  std::vector<std::string> stages_;
-  std::vector<StageFields> fields_;
+  struct Moment {
+    std::string ended;
+    StageFields fields;
+  };
+  std::vector<Moment> moments_;
 };
 
 /// The first that is larger than allowed, or nothing.
@@ -145,19 +150,17 @@ TEST(StagesOnTheCpu, AreTheSameOnAnyNumberOfThreads) {
 class Spoilt final : public StagedRun {
  public:
   explicit Spoilt(std::unique_ptr<StagedRun> run) : run_(std::move(run)) {}
-  std::vector<std::string> stages() const override { return run_->stages(); }
   void take(const StageFields& fields) override { run_->take(fields); }
   StageFields fields() const override { return run_->fields(); }
-  void step(const std::function<void(std::size_t)>& f) override {
-    const auto names = stages();
-    run_->step([&](std::size_t done) {
-      if (done > 0 && names[done - 1] == "fluid_state") {
+  void step(const Observer& f) override {
+    run_->step([&](const std::string& ended) {
+      if (ended == "fluid_state") {
         StageFields all = run_->fields();
         for (StageField& field : all)
           if (field.name == "fluid/m_state") field.raw.as<float>()[4 * 17 + 2] *= 1.0001f;  // density
         run_->take(all);
       }
-      f(done);
+      f(ended);
     });
   }
 

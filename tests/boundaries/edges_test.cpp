@@ -211,10 +211,11 @@ TEST(Edges, HoldFluidAsPairLoopsSeeIt) {
   double most = 0;  // of the half skin
   int out = 0;
   for (int n = 0; n < 80; ++n)
-    simulation.stepper().step([&](std::size_t done) {
-      if (done == 0) return;
+    simulation.stepper().step([&](const Stage* next) {
+      if (next && next->name == "renew_lists") return;
       const auto x = fluid.x.values(), listed = fluid.x_list.values();
-      const auto xp = fluid.xp.values();
+      const bool mid = next && (next->name == "move_walls" || next->name == "density");
+      const auto xp = mid ? fluid.xp_mid.values() : fluid.xp.values();
       const auto half_skin = fluid.half_skin.values();
       for (std::size_t a = 0; a < x.size(); ++a) {
         const Vec3d at = coordinates(frame, x[a]), from = coordinates(frame, listed[a]);

@@ -44,12 +44,13 @@ class VariantRun final : public test::StagedRun {
   explicit VariantRun(const Config& config) : config_(config), simulation_(config_, setup_of(config_)) {
     simulation_.start();
   }
-  std::vector<std::string> stages() const override {
-    std::vector<std::string> names;
-    for (const Stage& stage : stepper().stages()) names.emplace_back(stage.name);
-    return names;
+  void step(const Observer& f) override {
+    std::string ended;
+    stepper().step([&](const Stage* next) {
+      f(ended);
+      if (next) ended = next->name;
+    });
   }
-  void step(const std::function<void(std::size_t)>& f) override { stepper().step(f); }
   StageFields fields() const override {
     StageFields all;
     each([&](const Store& store, FieldBase& field, const std::vector<Index>& order) {

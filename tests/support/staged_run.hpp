@@ -25,10 +25,10 @@ using StageFields = std::vector<StageField>;
 class StagedRun {
  public:
   virtual ~StagedRun() = default;
-  /// Names, in their order.
-  virtual std::vector<std::string> stages() const = 0;
-  /// One step; f(done) before each stage and after the last.
-  virtual void step(const std::function<void(std::size_t done)>& f) = 0;
+  /// Called with the stage that has ended: with nothing before the first.
+  using Observer = std::function<void(const std::string& ended)>;
+  /// One step; calls f before the first stage and after each.
+  virtual void step(const Observer& f) = 0;
   virtual StageFields fields() const = 0;
   /// Goes on with the values of a run of the same case and precision.
   virtual void take(const StageFields& fields) = 0;

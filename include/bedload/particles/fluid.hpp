@@ -35,6 +35,7 @@ struct FluidStore : Store {
   Field<Real4> correction{*this, "pressure_correction", "m/s2, -", Lifetime::kept};  ///< of LinearFit; its weight
   Field<Real> s_next{*this, "s_next", "-", Lifetime::derived};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};  ///< x as pair loops read it
+  Field<PairPosition> xp_mid{*this, "xp_mid", "m", Lifetime::derived};  ///< where it is in the middle of the step, likewise; left out where no loop runs there
   Field<Real3> reaction{*this, "reaction", "m/s2", Lifetime::derived};  ///< couples that keep the angular momentum of the stress shared with grains
 };
 

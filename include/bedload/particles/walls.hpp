@@ -49,6 +49,7 @@ struct WallStore : Store {
   Field<Vec3d> x{*this, "x", "m", Lifetime::kept};
   Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::renewed};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};
+  Field<PairPosition> xp_mid{*this, "xp_mid", "m", Lifetime::derived};  ///< as the fluid's; left out where no wall moves
   Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept};  ///< true velocity, density
   Field<Real4> v_visc{*this, "v_visc", "m/s, kg",
                       Lifetime::kept};  ///< no-slip velocity; w: mass with which it drags, 0 with slip

@@ -100,6 +100,7 @@ TEST(Orifice, SolidsAroundItCountMoreAndMore) {
 struct Beside {
   std::vector<FluidPosition> x{FluidPosition{}};
   std::vector<Real4> volume, v_rho{{1, 0, 0, 1000}}, flux{{}}, m_state{{}};
+  std::vector<PairPosition> xp{{}}, xp_mid{{}};
   std::vector<Real> mass{Real(0.3)}, eps{0}, factor{0};
   WendlandC2 w{0.1};
   double solid = 0;
@@ -119,7 +120,9 @@ struct Beside {
                                         all(eps),
                                         all(factor),
                                         all(flux),
-                                        all(m_state)};
+                                        all(m_state),
+                                        all(xp),
+                                        all(xp_mid)};
     auto sum = pass.start(0);
     pass.pair(sum, r, norm2(r), Real(0), volume[0]);
     pass.finish(0, sum);
@@ -133,6 +136,8 @@ TEST(Porosity, IsWhatGrainsLeaveButNoLessThanItsFloor) {
   EXPECT_NEAR(loose.flux[0].x, 0.6, kNear);
   EXPECT_NEAR(loose.flux[0].z, 0.4 * 2, kNear);
   EXPECT_NEAR(loose.m_state[0].x, 0.3 / 0.6, kNear);
+  EXPECT_EQ(loose.xp[0].weight, loose.m_state[0].x);
+  EXPECT_EQ(loose.xp_mid[0].weight, loose.m_state[0].x);
   EXPECT_NEAR(dense.eps[0], 0.3, kNear);
   EXPECT_NEAR(dense.factor[0], 0.7 / 0.875, kNear);  // fluid and grains fill the space together
   EXPECT_NEAR(dense.flux[0].z, 0.7 * 2, 2 * kNear);

@@ -16,7 +16,7 @@ struct Lone {
   std::vector<Real3> acc{{1, -2, 3}}, reaction{{Real(0.5), 0, -1}}, beside{{0, Real(0.25), 0}};
   std::vector<Real4> v_rho{{4, 5, -6, 1000}}, flux{{2, 1, -3, 1000}}, m_state{{}};
   std::vector<FluidPosition> x{as_position<FluidPosition>(kFrame, {1, 0.5, -0.25})};
-  std::vector<PairPosition> xp{pair_position(kFrame, {}, 0)};
+  std::vector<PairPosition> xp{pair_position(kFrame, {}, 7)}, xp_mid = xp;
   std::vector<Real> s{Real(0.01)}, mass{3}, eps{Real(0.6)}, p_rho2{0}, compression{-2}, rate{Real(0.5)};
 
   template <class T>
@@ -44,7 +44,6 @@ struct Lone {
             .flux = all(flux),
             .m_state = all(m_state),
             .p_rho2 = all(p_rho2),
-            .xp = all(xp),
             .shear = {}};
   }
   KickDriftPass kick_drift(double drift, double back) {
@@ -58,6 +57,7 @@ struct Lone {
             .v_rho = all(v_rho),
             .x = all(x),
             .xp = all(xp),
+            .xp_mid = all(xp_mid),
             .shear = {},
             .flux = {},
             .edges = {}};
@@ -90,7 +90,6 @@ TEST(FluidState, FollowsFromTheCompressionAndTheDamper) {
   EXPECT_NEAR(p.m_state[0].x, 3 / 0.6, 10 * kRounding);
   EXPECT_NEAR(p.m_state[0].z, rho, 1e3 * kRounding);
   EXPECT_NEAR(p.m_state[0].w, 0.6, kRounding);
-  EXPECT_EQ(p.xp[0].weight, p.m_state[0].x);
 }
 
 TEST(FluidState, NoFluidIsThinnerThanHalf) {
@@ -116,15 +115,18 @@ TEST(FluidKick, WithoutDriftNothingMoves) {
   expect_near(coordinates(kFrame, p.x[0]), {1, 0.5, -0.25}, tolerance(0, 0, 1e-6));
 }
 
-/// Places of the middle of the step: where the particle was a time `back` before.
-TEST(FluidKick, PacksThePlaceBefore) {
-  Lone p, before;
+/// For pair loops: where the particle is, and where it was in the middle of the step, a time `back` before.
+TEST(FluidKick, PacksPositionsOfTheEndAndOfTheMiddleOfTheStep) {
+  Lone p;
   p.kick_drift(0.1, 0.05)(0);
-  const Vec3d v(p.v_rho[0].xyz());
-  const PairPosition expected =
-      pair_position(kFrame, coordinates(kFrame, p.x[0]) - Vec3d(Real(0.05) * Real3(v)), 0);
-  const Real3 apart(kFrame.separation(p.xp[0], expected));
-  EXPECT_LT(norm(apart), tolerance(1e-12, 1e-5, 1e-5));
+  const Vec3d v(p.v_rho[0].xyz()), end = coordinates(kFrame, p.x[0]);
+  const auto apart = [&](const PairPosition& packed, const Vec3d& at) {
+    return norm(Real3(kFrame.separation(packed, pair_position(kFrame, at, 0))));
+  };
+  EXPECT_LT(apart(p.xp[0], end), tolerance(1e-12, 1e-5, 1e-5));
+  EXPECT_LT(apart(p.xp_mid[0], end - 0.05 * v), tolerance(1e-12, 1e-5, 1e-5));
+  EXPECT_EQ(p.xp[0].weight, 7);
+  EXPECT_EQ(p.xp_mid[0].weight, 7);
 }
 
 }  // namespace
