@@ -108,7 +108,8 @@ std::unique_ptr<Simulation> make_simulation(const Config& config, [[maybe_unused
   BL_VARIANTS
 #undef BL_USE
   throw KeyError("run.precision",
-                 "run.precision = " + config.precision + ": this program was built without it");
+                 "run.precision = \"" + config.precision +
+                     "\": this program was built without it (-DBEDLOAD_PRECISIONS=... of CMake adds it)");
 }
 
 HostArray host_copy(const FieldView& view, [[maybe_unused]] const Device& device) {
