@@ -7,7 +7,7 @@ namespace bedload::inline BL_VARIANT {
 
 /// The fields of BodyStore as kernels see them.
 struct BodyFields {
-  Span<Vec3d> x, v, spin, a, alpha;
+  Span<Vec3d> x, v, angular_momentum, a, alpha;
   Span<Vec4<double>> rotation;
   Span<Vec3d> grain_force, grain_torque, contact_force, contact_torque, fluid_force, fluid_torque;
   Span<Vec3d> x_before, v_before, omega_before;
@@ -20,7 +20,7 @@ struct BodyFields {
     m.rotation = to_quat(rotation[b]);
     if (held) return m;
     m.v = v[b];
-    m.omega = k.omega(m.rotation, spin[b]);
+    m.omega = k.omega(m.rotation, angular_momentum[b]);
     m.a = a[b];
     m.alpha = alpha[b];
     return m;
@@ -44,7 +44,7 @@ struct BodyPass {
     const RigidBody& k = bodies[b];
     if (begins) {
       s.x_before[b] = s.x[b], s.rotation_before[b] = s.rotation[b], s.v_before[b] = s.v[b];
-      s.omega_before[b] = k.omega(to_quat(s.rotation[b]), s.spin[b]);
+      s.omega_before[b] = k.omega(to_quat(s.rotation[b]), s.angular_momentum[b]);
     }
     if (by_grains) s.grain_force[b] = by_grains[b].force(), s.grain_torque[b] = by_grains[b].torque();
     if (by_contacts)
@@ -62,11 +62,11 @@ struct BodyPass {
     const Vec3d touch = s.grain_force[b] + s.contact_force[b];
     s.v[b] += k.movable((kick / k.mass) * touch + kick * gravity + (fluid / k.mass) * s.fluid_force[b]);
     const Vec3d weight = cross(to_quat(s.rotation[b]).rotate(k.arm), k.mass * gravity);
-    s.spin[b] +=
+    s.angular_momentum[b] +=
         k.turnable(kick * (s.grain_torque[b] + s.contact_torque[b] + weight) + fluid * s.fluid_torque[b]);
     if (drift == 0) return;
     s.x[b] += drift * s.v[b];
-    s.rotation[b] = to_vec4(k.turned(to_quat(s.rotation[b]), s.spin[b], drift));
+    s.rotation[b] = to_vec4(k.turned(to_quat(s.rotation[b]), s.angular_momentum[b], drift));
   }
 };
 
@@ -116,7 +116,7 @@ struct BodyAccelerationPass {
   BodyFields s;
   double dt, weight;  ///< s; of the new value
   BL_HD void operator()(Index b) const {
-    const Vec3d omega = bodies[b].omega(to_quat(s.rotation[b]), s.spin[b]);
+    const Vec3d omega = bodies[b].omega(to_quat(s.rotation[b]), s.angular_momentum[b]);
     s.a[b] += weight * ((s.v[b] - s.v_before[b]) * (1 / dt) - s.a[b]);
     s.alpha[b] += weight * ((omega - s.omega_before[b]) * (1 / dt) - s.alpha[b]);
   }

@@ -9,13 +9,13 @@ namespace bedload::inline BL_VARIANT {
 
 /// Where the groups are, and which grains are theirs.
 struct GrainGroups {
-  const RigidBody* groups;  ///< about their centres of mass
-  Span<Vec3d> x, v, spin;   ///< of those centres: m, m/s; angular momentum, kg m2/s
+  const RigidBody* groups;             ///< about their centres of mass
+  Span<Vec3d> x, v, angular_momentum;  ///< of and about those centres: m, m/s, kg m2/s
   Span<Vec4<double>> rotation;
   Span<const std::uint32_t> group;  ///< of each grain: 1 + its group, 0 without one
   Span<const Vec3d> arm;            ///< of each grain from the centre of its group, unturned, m
 
-  BL_HD Vec3d omega(Index g) const { return groups[g].omega(to_quat(rotation[g]), spin[g]); }
+  BL_HD Vec3d omega(Index g) const { return groups[g].omega(to_quat(rotation[g]), angular_momentum[g]); }
   BL_HD Vec3d lever(Index i) const { return to_quat(rotation[group[i] - 1]).rotate(arm[i]); }
   BL_HD Vec3d velocity(Index i) const {
     const Index g = group[i] - 1;
@@ -55,10 +55,10 @@ struct GroupPass {
   BL_HD void operator()(Index g) const {
     const RigidBody& k = all.groups[g];
     all.v[g] += k.movable((1 / k.mass) * gained[g].force());
-    all.spin[g] += k.turnable(gained[g].torque());
+    all.angular_momentum[g] += k.turnable(gained[g].torque());
     if (drift == 0) return;
     all.x[g] += drift * all.v[g];
-    all.rotation[g] = to_vec4(k.turned(to_quat(all.rotation[g]), all.spin[g], drift));
+    all.rotation[g] = to_vec4(k.turned(to_quat(all.rotation[g]), all.angular_momentum[g], drift));
   }
 };
 

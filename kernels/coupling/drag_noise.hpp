@@ -4,8 +4,9 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Noise that belongs to drag in a fluid at temperature: drag takes a grain's velocity to that of the fluid,
-/// U, at the rate k = K / m for a step dt, through which the noise moves U by three normal deviates times
+/// Noise that belongs to drag in a fluid at temperature. Drag relaxes a grain's velocity to that of the fluid
+/// at the rate k = drag_coefficient / m over a step dt; the noise adds to fluid_velocity three normal
+/// deviates times
 ///   (kT / m coth(k dt / 2))^(1/2),
 /// so that m v^2 is kT on average along each axis whatever k dt is (Ornstein-Uhlenbeck over a step). The
 /// fluid gets the opposite of the drag impulse, noise included, by the weights of drag: the noise that
@@ -15,13 +16,14 @@ struct DragNoisePass {
   double kT, dt;  ///< J, s
   MassPerR3 mass_per_r3;
   Span<const Id> id;
-  Span<const Real> radius, K, K_rot;
-  Span<Real3> U, omega_f;
+  Span<const Real> radius, drag_coefficient, rot_drag_coefficient;
+  Span<Real3> fluid_velocity, fluid_angular_velocity;
 
   BL_HD void operator()(Index j) const {
     const double R = radius[j], m = mass_per_r3(j) * R * R * R;
-    if (K[j] > 0) U[j] += spread(m, K[j]) * deviates(id[j], 3);
-    if (K_rot[j] > 0) omega_f[j] += spread(0.4 * m * R * R, K_rot[j]) * deviates(id[j], 4);
+    if (drag_coefficient[j] > 0) fluid_velocity[j] += spread(m, drag_coefficient[j]) * deviates(id[j], 3);
+    if (rot_drag_coefficient[j] > 0)
+      fluid_angular_velocity[j] += spread(0.4 * m * R * R, rot_drag_coefficient[j]) * deviates(id[j], 4);
   }
 
  private:

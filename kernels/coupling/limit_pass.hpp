@@ -10,7 +10,7 @@ struct DragRatePass {
   W w;
   DragWeights weights;
   DragLevers levers;
-  Span<const Real> K, mass;
+  Span<const Real> drag_coefficient, mass;
   Span<const Real4> v_rho, m_state;
   Span<Real> rate;
 
@@ -21,8 +21,8 @@ struct DragRatePass {
   };
   BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(m_state[a]), 0}; }
   BL_HD auto sources() const {
-    return sources_of(K, weights.still, read_if<Couple>(levers.at_centre), read_if<Couple>(levers.off_centre),
-                      read_if<Local>(weights.by_slip));
+    return sources_of(drag_coefficient, weights.still, read_if<Couple>(levers.at_centre),
+                      read_if<Couple>(levers.off_centre), read_if<Local>(weights.by_slip));
   }
   template <class N, class Lever, class Slip>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N, const N& K_j, const N& still,
@@ -51,7 +51,7 @@ struct LimitPass {
   Real dt;  ///< s
   Span<const Real> rate;
   Span<const Real> lever_sum;  ///< of DragLevers; empty without a couple
-  Span<Real> K, K_rot;
+  Span<Real> drag_coefficient, rot_drag_coefficient;
   Span<Real> stiffness;  ///< largest dt L_a / m_a around each grain
 
   BL_HD Real start(Index) const { return 0; }
@@ -63,9 +63,9 @@ struct LimitPass {
   BL_HD void finish(Index j, Real most) const {
     if (lever_sum) most *= lever_sum[j];
     const Real fraction = allowed_fraction(dt * most);
-    K[j] *= fraction;
-    K_rot[j] *= fraction;
-    stiffness[j] = K[j] > 0 ? dt * most : Real(0);
+    drag_coefficient[j] *= fraction;
+    rot_drag_coefficient[j] *= fraction;
+    stiffness[j] = drag_coefficient[j] > 0 ? dt * most : Real(0);
   }
 };
 

@@ -23,8 +23,8 @@ struct Reactions {
 /// What becomes of differences of velocity around a grain.
 struct LocalSlip {
   Real dt;  ///< s
-  Span<const Real> K;
-  Span<const Real3> U, omega_f;
+  Span<const Real> drag_coefficient;
+  Span<const Real3> fluid_velocity, fluid_angular_velocity;
 };
 
 /// Grain j makes up what it gives back.
@@ -40,15 +40,15 @@ struct ReactionTermsPass {
   BL_HD void operator()(Index j) const {
     Real3 J = impulse[j], F, A, u;
     Real lever = 1;
-    const Real Kdt = slip.dt * slip.K[j];
-    if constexpr (Local) u = slip.U[j] - weights.by_slip[j].xyz();
+    const Real Kdt = slip.dt * slip.drag_coefficient[j];
+    if constexpr (Local) u = slip.fluid_velocity[j] - weights.by_slip[j].xyz();
     if constexpr (Couple) {
       const Carriers &drag = surroundings.drag, &stress = surroundings.stress;
       const Real3 B = stress.inv_M[j] * surroundings.lost_moment[j];
       A = drag.couple(j, J, spin_impulse[j]);
       J += cross(A, drag.arm[j]);
       F = cross(B, stress.arm[j]);
-      if constexpr (Local) A += Kdt * slip.omega_f[j];
+      if constexpr (Local) A += Kdt * slip.fluid_angular_velocity[j];
       lever = levers.at_centre[j];
       reactions.couple[j] = {surroundings.inv_S[j] * B, levers.off_centre[j]};
     }

@@ -38,18 +38,19 @@ struct GrainKick {
   double h;  ///< half a substep, s
   bool exponential;
   Span<const Real> radius;
-  Span<const Real3> fluid_force, U, omega_f;  ///< these and K are empty where there is no fluid
-  Span<const Real> K, K_rot;
+  // empty where there is no fluid
+  Span<const Real3> fluid_force, fluid_velocity, fluid_angular_velocity;
+  Span<const Real> drag_coefficient, rot_drag_coefficient;
   Span<const Real3> drive = {};  ///< N; empty: none
   Edges edges = {};
 
-  BL_HD bool wet() const { return bool(K); }
+  BL_HD bool wet() const { return bool(drag_coefficient); }
   /// Has what a KickedGrain of i reads brought near.
   BL_HD void ahead(Index i) const {
     if (drive) read_ahead(drive[i]);
     if (!wet()) return;
-    read_ahead(fluid_force[i]), read_ahead(U[i]), read_ahead(omega_f[i]);
-    read_ahead(K[i]), read_ahead(K_rot[i]);
+    read_ahead(fluid_force[i]), read_ahead(fluid_velocity[i]), read_ahead(fluid_angular_velocity[i]);
+    read_ahead(drag_coefficient[i]), read_ahead(rot_drag_coefficient[i]);
   }
   BL_HD double mass(Index i) const { return mass_per_r3(i) * radius[i] * radius[i] * radius[i]; }
   /// Where a substep takes a grain from x; an edge that it crosses changes v, its spin never.
@@ -76,10 +77,10 @@ struct KickedGrain {
         fluid_force_(wet_ ? Vec3d(k.fluid_force[i]) : Vec3d{}),
         drive_(driven_ ? Vec3d(k.drive[i]) : Vec3d{}),
         gravity_(k.gravity),
-        slide_(wet_ ? k.K[i] / m_ : 0, k.h, k.exponential),
-        spin_(wet_ ? k.K_rot[i] / inertia_ : 0, k.h, k.exponential),
-        U_(slide_.fraction > 0 ? Vec3d(k.U[i]) : Vec3d{}),
-        omega_f_(spin_.fraction > 0 ? Vec3d(k.omega_f[i]) : Vec3d{}) {}
+        slide_(wet_ ? k.drag_coefficient[i] / m_ : 0, k.h, k.exponential),
+        spin_(wet_ ? k.rot_drag_coefficient[i] / inertia_ : 0, k.h, k.exponential),
+        fluid_velocity_(slide_.fraction > 0 ? Vec3d(k.fluid_velocity[i]) : Vec3d{}),
+        fluid_angular_velocity_(spin_.fraction > 0 ? Vec3d(k.fluid_angular_velocity[i]) : Vec3d{}) {}
 
   /// By contacts: force (N) and torque (N m).
   BL_HD void under(Vec3d force, const Vec3d& torque) {
@@ -90,8 +91,8 @@ struct KickedGrain {
   }
   /// Half a substep.
   BL_HD void kick() {
-    const Vec3d dv = slide_.drag(v, U_, a_, h_);
-    const Vec3d dw = spin_.drag(omega, omega_f_, alpha_, h_);
+    const Vec3d dv = slide_.drag(v, fluid_velocity_, a_, h_);
+    const Vec3d dw = spin_.drag(omega, fluid_angular_velocity_, alpha_, h_);
     v += dv + h_ * a_;
     omega += dw + h_ * alpha_;
     impulse += m_ * dv;
@@ -103,7 +104,7 @@ struct KickedGrain {
   double m_, inertia_, h_;
   Vec3d fluid_force_, drive_, gravity_, a_, alpha_;
   Relaxation slide_, spin_;
-  Vec3d U_, omega_f_;
+  Vec3d fluid_velocity_, fluid_angular_velocity_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -136,13 +136,15 @@ struct EvaluatePass {
 /// Grains that stay where they are: the fluid flows past resting spheres.
 struct HeldPass {
   double duration;  ///< s
-  Span<const Real3> U, omega_f;
-  Span<const Real> K, K_rot;
+  Span<const Real3> fluid_velocity, fluid_angular_velocity;
+  Span<const Real> drag_coefficient, rot_drag_coefficient;
   Span<Real3> impulse, spin_impulse, drag_force;
   BL_HD void operator()(Index i) const {
-    drag_force[i] = K[i] > 0 ? K[i] * U[i] : Real3{};
+    drag_force[i] = drag_coefficient[i] > 0 ? drag_coefficient[i] * fluid_velocity[i] : Real3{};
     impulse[i] = Real(duration) * drag_force[i];
-    spin_impulse[i] = K_rot[i] > 0 ? Real(duration) * K_rot[i] * omega_f[i] : Real3{};
+    spin_impulse[i] = rot_drag_coefficient[i] > 0
+                          ? Real(duration) * rot_drag_coefficient[i] * fluid_angular_velocity[i]
+                          : Real3{};
   }
 };
 

@@ -10,7 +10,7 @@ BL_HD bool finite(const Vec3d& a) {
   return s == 0;
 }
 
-/// Largest speed2, displacement2, K/m, and the smallest id of a grain gone wrong.
+/// Largest speed2, displacement2, drag_coefficient / mass, and the smallest id of a grain gone wrong.
 struct WatchReduction {
   struct Value {
     double speed2, displacement2, drag_rate, bad;
@@ -19,7 +19,7 @@ struct WatchReduction {
   MassPerR3 mass_per_r3;
   Span<const Vec3d> x, x_list;
   Span<const Real3> v, omega;
-  Span<const Real> radius, K;
+  Span<const Real> radius, drag_coefficient;
   Span<const Id> id;
 
   BL_HD Value identity() const { return {0, 0, 0, double(kNone)}; }
@@ -28,7 +28,8 @@ struct WatchReduction {
     const bool good = finite(x[i]) && finite(u) && finite(Vec3d(omega[i]));
     if (!good) return {0, 0, 0, double(id[i])};
     return {norm2(u), norm2(frame.nearest_image(x[i] - x_list[i])),
-            double(K[i]) / (mass_per_r3(i) * radius[i] * radius[i] * radius[i]), double(kNone)};
+            double(drag_coefficient[i]) / (mass_per_r3(i) * radius[i] * radius[i] * radius[i]),
+            double(kNone)};
   }
   BL_HD void combine(Value& a, const Value& b) const {
     a.speed2 = max_of(a.speed2, b.speed2);
@@ -57,12 +58,12 @@ struct TotalsReduction {
     const Sphere s = contacts.sphere(i, contacts.radius[i]);
     const double m = s.m, inertia = 0.4 * m * s.R * s.R;
     const Vec3d v = Vec3d(contacts.v[i]), w = Vec3d(contacts.omega[i]), x = contacts.x[i];
-    const Vec3d spin = cross(x, m * v) + inertia * w;
+    const Vec3d angular = cross(x, m * v) + inertia * w;
     t.sum[mass] = m;
     t.sum[kinetic] = 0.5 * m * norm2(v);
     t.sum[rotational] = 0.5 * inertia * norm2(w);
     t.sum[px] = m * v.x, t.sum[py] = m * v.y, t.sum[pz] = m * v.z;
-    t.sum[lx] = spin.x, t.sum[ly] = spin.y, t.sum[lz] = spin.z;
+    t.sum[lx] = angular.x, t.sum[ly] = angular.y, t.sum[lz] = angular.z;
     t.sum[cx] = m * x.x, t.sum[cy] = m * x.y, t.sum[cz] = m * x.z;
     t.speed2 = norm2(v);
     contacts.list.each(i, [&](std::uint64_t slot, Index j) {

@@ -209,25 +209,26 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
       drag_law_,
       [&](auto law) {
         with_flag(local_slip_, [&](auto local) {
-          for_each(grains.owned(), DragPass<decltype(law), local>{.law = law,
-                                                                  .mu = Real(mu_),
-                                                                  .torque = torque_,
-                                                                  .couple = angmom_,
-                                                                  .shares = two_way_,
-                                                                  .own = own_,
-                                                                  .radius = grains.radius,
-                                                                  .eps = grains.eps,
-                                                                  .bed_eps = bed_eps_,
-                                                                  .wetness = grains.wetness,
-                                                                  .v = grains.v,
-                                                                  .omega = grains.omega,
-                                                                  .surroundings = around,
-                                                                  .weights = drag_weights(),
-                                                                  .U = grains.U,
-                                                                  .omega_f = grains.omega_f,
-                                                                  .K = grains.K,
-                                                                  .K_rot = grains.K_rot,
-                                                                  .levers = levers()});
+          for_each(grains.owned(),
+                   DragPass<decltype(law), local>{.law = law,
+                                                  .mu = Real(mu_),
+                                                  .torque = torque_,
+                                                  .couple = angmom_,
+                                                  .shares = two_way_,
+                                                  .own = own_,
+                                                  .radius = grains.radius,
+                                                  .eps = grains.eps,
+                                                  .bed_eps = bed_eps_,
+                                                  .wetness = grains.wetness,
+                                                  .v = grains.v,
+                                                  .omega = grains.omega,
+                                                  .surroundings = around,
+                                                  .weights = drag_weights(),
+                                                  .fluid_velocity = grains.fluid_velocity,
+                                                  .fluid_angular_velocity = grains.fluid_angular_velocity,
+                                                  .drag_coefficient = grains.drag_coefficient,
+                                                  .rot_drag_coefficient = grains.rot_drag_coefficient,
+                                                  .levers = levers()});
         });
       },
       drag_table_.on_device());
@@ -239,10 +240,10 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
                                            matter_.of(grains),
                                            grains.id,
                                            grains.radius,
-                                           grains.K,
-                                           grains.K_rot,
-                                           grains.U,
-                                           grains.omega_f});
+                                           grains.drag_coefficient,
+                                           grains.rot_drag_coefficient,
+                                           grains.fluid_velocity,
+                                           grains.fluid_angular_velocity});
 }
 
 void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {
@@ -253,8 +254,9 @@ void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {
   with_coupling_kernel([&](auto w) {
     with_flag(local_slip_, [&](auto local) {
       with_flag(angmom_, [&](auto couple) {
-        grains_of_fluid_.run(DragRatePass<decltype(w), local, couple>{
-            w, drag_weights(), levers(), grains.K, fluid.mass, fluid.v_rho, fluid.m_state, rate_});
+        grains_of_fluid_.run(DragRatePass<decltype(w), local, couple>{w, drag_weights(), levers(),
+                                                                      grains.drag_coefficient, fluid.mass,
+                                                                      fluid.v_rho, fluid.m_state, rate_});
       });
     });
   });
@@ -262,7 +264,8 @@ void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {
   read_survey();
   limits_ = dt * drag_->rate * drag_->lever > 1;
   if (limits_)
-    fluid_of_grain_.run(LimitPass{Real(dt), rate_, lever_sums(), grains.K, grains.K_rot, stiffness_});
+    fluid_of_grain_.run(LimitPass{Real(dt), rate_, lever_sums(), grains.drag_coefficient,
+                                  grains.rot_drag_coefficient, stiffness_});
 }
 
 Span<const Real> Coupling::lever_sums() const {
@@ -296,7 +299,8 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
   spin_.resize(grains.size());
   rate_.resize(fluid.size());
   if (angmom_) couple_.resize(grains.size());
-  const LocalSlip slip{Real(dt), grains.K, grains.U, grains.omega_f};
+  const LocalSlip slip{Real(dt), grains.drag_coefficient, grains.fluid_velocity,
+                       grains.fluid_angular_velocity};
   with_flag(angmom_, [&](auto couple) {
     with_flag(local_slip_, [&](auto local) {
       for_each(grains.owned(),

@@ -61,9 +61,9 @@ class Coupling {
                      GrainStore& grains, const CellGridView& grain_grid, const HalfSkins& of_grains,
                      Span<const BodyPose> still = {});
 
-  /// Fills eps, wetness, U, omega_f, K and K_rot of the grains. pose: of every wall body, on the device; dt
-  /// (s): the fluid step for which they hold, which bounds K when the fluid is to take the reaction; step:
-  /// which one, of noise.
+  /// Fills eps, wetness and the drag coefficients and fluid velocities of the grains. pose: of every wall
+  /// body, on the device; dt (s): the fluid step for which they hold, which bounds drag when the fluid is to
+  /// take the reaction; step: which one, of noise.
   void gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt,
               std::uint64_t step = 0);
   /// Gives grains.impulse and spin_impulse, those of a step dt (s), back to the velocities of the fluid, and

@@ -46,7 +46,7 @@ void RigidGroups::bind(const GrainStore& grains, const std::vector<std::uint32_t
   for (std::size_t k = 0; k < n; ++k) v[k] = bodies_[k].movable(groups_[k].velocity);
   store_.x.assign(centre);
   store_.v.assign(v);
-  store_.spin.assign(std::vector<Vec3d>(n));
+  store_.angular_momentum.assign(std::vector<Vec3d>(n));
   store_.rotation.assign(std::vector<Vec4<double>>(n, to_vec4({})));
 }
 
@@ -79,7 +79,8 @@ void RigidGroups::measure(const GrainStore& grains) {
 }
 
 GrainGroups RigidGroups::view() const {
-  return {constants_.data(), store_.x, store_.v, store_.spin, store_.rotation, group_->span(), arm_->span()};
+  return {constants_.data(), store_.x,       store_.v,    store_.angular_momentum,
+          store_.rotation,   group_->span(), arm_->span()};
 }
 
 void RigidGroups::follow(GrainStore& g, Span<Real3> v_rest, Span<Real3> omega_rest, double drift) {
@@ -95,7 +96,7 @@ void RigidGroups::follow(GrainStore& g, Span<Real3> v_rest, Span<Real3> omega_re
 void RigidGroups::stop() {
   if (!any()) return;
   store_.v.buffer().zero();
-  store_.spin.buffer().zero();
+  store_.angular_momentum.buffer().zero();
 }
 
 RigidMotion RigidGroups::motion(int k) const {
@@ -103,7 +104,7 @@ RigidMotion RigidGroups::motion(int k) const {
   m.centre = store_.x.values()[k];
   m.rotation = to_quat(store_.rotation.values()[k]);
   m.v = store_.v.values()[k];
-  m.omega = bodies_[k].omega(m.rotation, store_.spin.values()[k]);
+  m.omega = bodies_[k].omega(m.rotation, store_.angular_momentum.values()[k]);
   return m;
 }
 

@@ -54,7 +54,7 @@ class RigidGroups {
     GroupStore() : Store("groups") {}
     Field<Vec3d> x{*this, "x", "m", Lifetime::kept};
     Field<Vec3d> v{*this, "v", "m/s", Lifetime::kept};
-    Field<Vec3d> spin{*this, "angular_momentum", "kg m2/s", Lifetime::kept};
+    Field<Vec3d> angular_momentum{*this, "angular_momentum", "kg m2/s", Lifetime::kept};
     Field<Vec4<double>> rotation{*this, "rotation", "-", Lifetime::kept};
   };
 

@@ -88,9 +88,9 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
 // -- limits ------------------------------------------------------------------
 
 GrainWatch SolidSolver::watch(const GrainStore& g) const {
-  const auto v =
-      reduce(g.owned(), WatchReduction{frame_, matter_.of(g), g.x.span(), g.x_list.span(), g.v.span(),
-                                       g.omega.span(), g.radius.span(), g.K.span(), g.id.span()});
+  const auto v = reduce(
+      g.owned(), WatchReduction{frame_, matter_.of(g), g.x.span(), g.x_list.span(), g.v.span(),
+                                g.omega.span(), g.radius.span(), g.drag_coefficient.span(), g.id.span()});
   return {std::sqrt(v.speed2), std::sqrt(v.displacement2), v.drag_rate, Id(v.bad)};
 }
 
@@ -166,7 +166,8 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   wall_list_.cover(g, poses, wall_counts(), wall_travel);
   if (free) free->first_kick();
   if (held || parameters_.fixed) {
-    for_each(g.owned(), HeldPass{dt, g.U, g.omega_f, g.K, g.K_rot, g.impulse, g.spin_impulse, g.drag_force});
+    for_each(g.owned(), HeldPass{dt, g.fluid_velocity, g.fluid_angular_velocity, g.drag_coefficient,
+                                 g.rot_drag_coefficient, g.impulse, g.spin_impulse, g.drag_force});
     for (int s = 1; free && s <= substeps; ++s) {
       evaluate(EvaluatePass{contacts_in(s), g.force, g.torque});
       free->substep(s);
@@ -192,8 +193,9 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                  drive,
                  Edges(parameters_.reflect, frame_)};
   if (wet_)
-    kick.fluid_force = g.fluid_force, kick.U = g.U, kick.omega_f = g.omega_f, kick.K = g.K,
-    kick.K_rot = g.K_rot;
+    kick.fluid_force = g.fluid_force, kick.fluid_velocity = g.fluid_velocity,
+    kick.fluid_angular_velocity = g.fluid_angular_velocity, kick.drag_coefficient = g.drag_coefficient,
+    kick.rot_drag_coefficient = g.rot_drag_coefficient;
   for_each(g.owned(), FirstKickPass{kick, g.force, g.torque, g.x, g.v, g.omega, v_rest_, omega_rest_,
                                     g.impulse, g.spin_impulse});
   groups_.follow(g, v_rest_, omega_rest_, tau);

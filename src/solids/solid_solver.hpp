@@ -26,7 +26,7 @@ namespace bedload::inline BL_VARIANT {
 struct GrainWatch {
   double speed = 0;         ///< largest, m/s
   double displacement = 0;  ///< largest since the lists were built, m
-  double drag_rate = 0;     ///< largest K/m, 1/s
+  double drag_rate = 0;     ///< largest drag_coefficient / mass, 1/s
   Id bad = kNone;           ///< smallest id of a grain whose position, velocity or spin is not finite
 };
 
@@ -84,8 +84,8 @@ class SolidSolver {
   /// start only: a loaded state brings its forces along. Free bodies learn what the grains do to them.
   void evaluate(GrainStore& grains, Span<const BodyPose> poses);
   /// `substeps` velocity-Verlet substeps over dt (s). poses: device array [substeps + 1][bodies], at the
-  /// start and after each substep. Reads fluid_force, U, omega_f, K, K_rot; leaves the drag impulses of this
-  /// call in impulse and spin_impulse, their mean in drag_force. Held (or fixed) grains keep place and
+  /// start and after each substep. Reads fluid_force and what drag refers to; leaves the drag impulses of
+  /// this call in impulse and spin_impulse, their mean in drag_force. Held (or fixed) grains keep place and
   /// velocity; the fluid sees them at rest. gravity: at the start and after each substep, m/s2; the
   /// case's own if empty. Free bodies, whose step has begun, move along in the substeps and fill their places
   /// in poses; while they settle they stay. wall_travel: the farthest that any wall goes in dt, m. drive: a

@@ -131,7 +131,8 @@ void Stepper::interpolate(Step& now) {
   begin(now, "interpolate", Part::coupling, [&] {
     return Access{.near = {&f.xp, &f.v_rho, &f.m_state, &f.eps, &f.theta, &f.solid_factor, &f.x, &g.xp},
                   .reads = {&f.mass, &g.x, &g.v, &g.omega, &g.radius, &g.fluid_force, &g.id},
-                  .writes = {&g.U, &g.omega_f, &g.K, &g.K_rot, &g.eps, &g.wetness, &g.x_before}};
+                  .writes = {&g.fluid_velocity, &g.fluid_angular_velocity, &g.drag_coefficient,
+                             &g.rot_drag_coefficient, &g.eps, &g.wetness, &g.x_before}};
   });
   coupling_->gather(fluid_, grains_, poses_now(), now.dt, clock_.step);
 }
@@ -146,7 +147,9 @@ void Stepper::move_solids(Step& now) {
                        Fields{&g.force, &g.torque, &g.drag_force, &g.impulse, &g.spin_impulse};
     a.writes += own + Fields{&g.x, &g.v, &g.omega} + all_of(group_stores());
     a.near += lasting(Fields{&g.x, &g.v, &g.omega, &g.radius, &g.material, &g.id} + all_of(group_stores()));
-    a.reads += lasting(own) + Fields{&g.U, &g.omega_f, &g.K, &g.K_rot, &g.fluid_force, &g.wetness};
+    a.reads += lasting(own) + Fields{&g.fluid_velocity,   &g.fluid_angular_velocity,
+                                     &g.drag_coefficient, &g.rot_drag_coefficient,
+                                     &g.fluid_force,      &g.wetness};
     if (!group_stores().empty()) a.near += std::exchange(a.reads, {});  // a group moves by all its grains
     return a;
   });
@@ -167,10 +170,10 @@ void Stepper::react(Step& now) {
   const FluidStore& f = fluid_;
   const GrainStore& g = grains_;
   begin(now, "react", Part::coupling, [&] {
-    return Access{
-        .near = {&f.xp, &g.xp, &f.m_state, &g.impulse, &g.spin_impulse, &g.U, &g.omega_f, &g.K, &g.K_rot},
-        .reads = {&f.v_rho, &f.mass},
-        .writes = {&f.v_rho, &f.drag_kick, &f.reaction}};
+    return Access{.near = {&f.xp, &g.xp, &f.m_state, &g.impulse, &g.spin_impulse, &g.fluid_velocity,
+                           &g.fluid_angular_velocity, &g.drag_coefficient, &g.rot_drag_coefficient},
+                  .reads = {&f.v_rho, &f.mass},
+                  .writes = {&f.v_rho, &f.drag_kick, &f.reaction}};
   });
   coupling_->react(fluid_, grains_, now.dt);
 }
@@ -378,7 +381,8 @@ void Stepper::finish(Step& now) {
   const GrainStore& g = grains_;
   begin(now, "finish", Part::checks, [&] {
     return Access{.near = {},
-                  .reads = all_of(bodies_.stores()) + only_if(has_grains(), {&g.x, &g.v, &g.omega, &g.K}),
+                  .reads = all_of(bodies_.stores()) +
+                           only_if(has_grains(), {&g.x, &g.v, &g.omega, &g.drag_coefficient}),
                   .writes = {}};
   });
   const double speed_before = motion_.top_speed(now.start);

@@ -51,7 +51,7 @@ FreeBodies::FreeBodies(const FreeBodyParameters& parameters, const Frame& frame,
   std::vector<RigidBody> rigid;
   std::vector<BodyLaw> laws;
   std::vector<TouchBall> balls;
-  std::vector<Vec3d> x, v, spin;
+  std::vector<Vec3d> x, v, angular_momentum;
   for (const FreeBody& body : parameters.bodies) {
     const RigidBody& k = body.rigid;
     places_[k.body] = int(rigid.size());
@@ -64,14 +64,14 @@ FreeBodies::FreeBodies(const FreeBodyParameters& parameters, const Frame& frame,
     }
     x.push_back(k.centre);
     v.push_back(k.movable(body.velocity));
-    spin.push_back(k.momentum({}, k.turnable(body.spin)));
+    angular_momentum.push_back(k.momentum({}, k.turnable(body.spin)));
   }
   constants_.assign(rigid);
   laws_.assign(laws);
   compliances_.assign(parameters.compliances);
   balls_.assign(balls);
   store_.resize(Index(size()));
-  store_.x.assign(x), store_.v.assign(v), store_.spin.assign(spin);
+  store_.x.assign(x), store_.v.assign(v), store_.angular_momentum.assign(angular_momentum);
   store_.rotation.assign(std::vector<Vec4<double>>(size(), to_vec4({})));
 
   const Index n = Index(balls.size());
@@ -140,7 +140,7 @@ BodyFields FreeBodies::fields() const {
   BodyStore& s = store_;
   return {s.x,
           s.v,
-          s.spin,
+          s.angular_momentum,
           s.a,
           s.alpha,
           s.rotation,

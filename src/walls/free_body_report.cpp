@@ -100,23 +100,25 @@ LoadSum FreeBodies::contact_load(int body) const {
 BodyTotals FreeBodies::totals(double time) const {
   BodyTotals t;
   if (!any()) return t;
-  const auto x = store_.x.values(), v = store_.v.values(), spin = store_.spin.values();
+  const auto x = store_.x.values(), v = store_.v.values(),
+             angular_momentum = store_.angular_momentum.values();
   const auto q = store_.rotation.values();
   for (int k = 0; k < size(); ++k) {
     const RigidBody& b = rigid(k);
     const Quat<double> turn = to_quat(q[k]);
     const Vec3d centre = x[k] + turn.rotate(b.arm);
-    // of a body that only turns, `spin` is all there is, about its pivot
-    const Vec3d u = b.move == BodyMove::none ? cross(b.omega(turn, spin[k]), centre - x[k]) : v[k];
+    // of a body that only turns, `angular_momentum` is all there is, about its pivot
+    const Vec3d u =
+        b.move == BodyMove::none ? cross(b.omega(turn, angular_momentum[k]), centre - x[k]) : v[k];
     const double moving = 0.5 * b.mass * norm2(u);
     t.mass += b.mass;
     t.outside += outside(frame_, centre);
     t.potential -= b.mass * dot(parameters_.gravity, centre);
     if (time < b.release) continue;
     t.momentum += b.mass * u;
-    t.angular += cross(x[k], b.mass * u) + spin[k];
+    t.angular += cross(x[k], b.mass * u) + angular_momentum[k];
     t.kinetic += moving;
-    t.rotational += b.turning_energy(turn, spin[k]) - (b.move == BodyMove::none ? moving : 0);
+    t.rotational += b.turning_energy(turn, angular_momentum[k]) - (b.move == BodyMove::none ? moving : 0);
   }
   return t;
 }

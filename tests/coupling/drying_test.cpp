@@ -21,8 +21,8 @@ Exchange grain_at(double z) {
   box.coupling.porosity(box.fluid, box.grains, {}, 0);
   box.coupling.push(box.fluid, box.grains, 0, true);
   box.coupling.gather(box.fluid, box.grains, {}, 1e-4);
-  const double K = box.grains.K.values()[0];
-  const Real3 w = box.grains.U.values()[0] - box.grains.v.values()[0];
+  const double K = box.grains.drag_coefficient.values()[0];
+  const Real3 w = box.grains.fluid_velocity.values()[0] - box.grains.v.values()[0];
   box.grains.impulse.assign({Real(1e-4 * K) * w});
   box.grains.spin_impulse.buffer().zero();
   box.coupling.react(box.fluid, box.grains, 1e-4);
@@ -30,7 +30,7 @@ Exchange grain_at(double z) {
   for (const Real3& r : box.fluid.reaction.values()) reaction += norm(r);
   for (const Real4& v : box.fluid.v_rho.values()) reaction += norm(v.xyz());
   EXPECT_TRUE(std::isfinite(norm(w)));
-  return {K, box.grains.K_rot.values()[0], norm(box.grains.fluid_force.values()[0]),
+  return {K, box.grains.rot_drag_coefficient.values()[0], norm(box.grains.fluid_force.values()[0]),
           box.grains.wetness.values()[0], reaction};
 }
 
@@ -116,7 +116,7 @@ TEST(Drying, ACoupleNeedsASpreadOfFluid) {
     CoupledBox box(unit_box(0.1, 20), fluid, {{{0.5, 0.5, 0.5}}, {{0, 0, -1}}, {{0, 2, 0}}, {0.03}});
     box.coupling.gather(box.fluid, box.grains, {}, 1e-4);
     EXPECT_GT(box.grains.wetness.values()[0], 0);
-    EXPECT_EQ(box.grains.K_rot.values()[0] > 0, x.size() == 3);
+    EXPECT_EQ(box.grains.rot_drag_coefficient.values()[0] > 0, x.size() == 3);
     box.grains.impulse.assign({Real3(1, 2, 3)});
     box.grains.spin_impulse.buffer().zero();
     const auto before = box.fluid.v_rho.values();

@@ -25,9 +25,9 @@ CoupledBox irregular(Config c, double shift = 0) {
 
 /// What the grain solver would hand back after a step dt of drag alone, made larger by `factor`.
 void drag_grains(CoupledBox& box, double dt) {
-  const auto v = box.grains.v.values(), U = box.grains.U.values();
-  const auto omega = box.grains.omega.values(), omega_f = box.grains.omega_f.values();
-  const auto K = box.grains.K.values(), K_rot = box.grains.K_rot.values();
+  const auto v = box.grains.v.values(), U = box.grains.fluid_velocity.values();
+  const auto omega = box.grains.omega.values(), omega_f = box.grains.fluid_angular_velocity.values();
+  const auto K = box.grains.drag_coefficient.values(), K_rot = box.grains.rot_drag_coefficient.values();
   std::vector<Real3> J, T;
   for (std::size_t j = 0; j < v.size(); ++j) {
     J.push_back(Real(dt) * K[j] * (U[j] - v[j]));
@@ -180,8 +180,8 @@ TEST(Exchange, FluidTakesWhatASumOverAllPairsGives) {
     CoupledBox box = irregular(c);
     const auto before = box.fluid.v_rho.values();
     exchange(box, dt);
-    const auto mass = box.fluid.mass.values(), K = box.grains.K.values();
-    const auto U = box.grains.U.values(), J = box.grains.impulse.values();
+    const auto mass = box.fluid.mass.values(), K = box.grains.drag_coefficient.values();
+    const auto U = box.grains.fluid_velocity.values(), J = box.grains.impulse.values();
     const auto kick = box.fluid.drag_kick.values();
     std::vector<Vec3d> expected(mass.size());
     for (std::size_t j = 0; j < K.size(); ++j) {
@@ -207,7 +207,7 @@ TEST(Exchange, WaterThatTurnsAsAWholeIsNotSlowedByItsSlip) {
   box.coupling.gather(box.fluid, box.grains, {}, 0.05);
   box.grains.impulse.buffer().zero();
   box.grains.spin_impulse.buffer().zero();
-  EXPECT_GT(box.grains.K.values()[0], 0);
+  EXPECT_GT(box.grains.drag_coefficient.values()[0], 0);
   box.coupling.react(box.fluid, box.grains, 0.05);
   for (const Real3& kick : box.fluid.drag_kick.values()) EXPECT_LT(norm(kick), 30 * kInvariant);
 }
@@ -224,9 +224,10 @@ TEST(Exchange, LosesAngularMomentumWithoutTheCouple) {
 TEST(Exchange, IsTheSameForAMovingObserver) {
   CoupledBox still = irregular(unit_box(0.12, 20)), moving = irregular(unit_box(0.12, 20), 4);
   for (CoupledBox* box : {&still, &moving}) box->coupling.gather(box->fluid, box->grains, {}, 0.05);
-  const auto K = still.grains.K.values(), K_moving = moving.grains.K.values();
-  const auto omega = still.grains.omega_f.values(), omega_moving = moving.grains.omega_f.values();
-  const auto U = still.grains.U.values(), U_moving = moving.grains.U.values();
+  const auto K = still.grains.drag_coefficient.values(), K_moving = moving.grains.drag_coefficient.values();
+  const auto omega = still.grains.fluid_angular_velocity.values(),
+             omega_moving = moving.grains.fluid_angular_velocity.values();
+  const auto U = still.grains.fluid_velocity.values(), U_moving = moving.grains.fluid_velocity.values();
   for (std::size_t j = 0; j < K.size(); ++j) {
     EXPECT_NEAR(K_moving[j], K[j], kInvariant * K[j]);
     EXPECT_LE(norm(omega_moving[j] - omega[j]), kInvariant * norm(omega[j]));
@@ -243,9 +244,10 @@ TEST(Exchange, GrainsReadWhatASumOverAllPairsGives) {
     box.coupling.porosity(box.fluid, box.grains, {}, 0);
     box.coupling.push(box.fluid, box.grains, 0, true);
     box.coupling.gather(box.fluid, box.grains, {}, 0);  // of no step, which could not bear the drag
-    const auto eps = box.grains.eps.values(), wet = box.grains.wetness.values(), K = box.grains.K.values();
-    const auto U = box.grains.U.values(), F = box.grains.fluid_force.values(),
-               omega_f = box.grains.omega_f.values();
+    const auto eps = box.grains.eps.values(), wet = box.grains.wetness.values(),
+               K = box.grains.drag_coefficient.values();
+    const auto U = box.grains.fluid_velocity.values(), F = box.grains.fluid_force.values(),
+               omega_f = box.grains.fluid_angular_velocity.values();
     const double volume = M_PI / 6 * std::pow(0.06, 3), near = 4 * kInvariant;
     for (std::size_t j = 0; j < K.size(); ++j) {
       const ByAllPairs expected = by_all_pairs(box, box.fluid.v_rho.values(), j, local);
@@ -267,7 +269,7 @@ TEST(Exchange, GrainsFeelTheRotationOfTheFluid) {
   for (std::size_t a = 0; a < fluid.x.size(); ++a) fluid.v[a] = drift + cross(spin, fluid.x[a]);
   CoupledBox box(c, fluid, random_grains(20, {0.3, 0.3, 0.3}, {0.7, 0.7, 0.7}, 0.06, random));
   box.coupling.gather(box.fluid, box.grains, {}, 0.01);
-  for (const Real3& omega : box.grains.omega_f.values())
+  for (const Real3& omega : box.grains.fluid_angular_velocity.values())
     EXPECT_LT(norm(Vec3d(omega) - spin), 30 * kInvariant * norm(spin));
 }
 
@@ -327,7 +329,7 @@ TEST(Exchange, OneWayLeavesTheFluidAlone) {
   const auto after = box.fluid.v_rho.values();
   for (std::size_t a = 0; a < before.size(); ++a) EXPECT_EQ(before[a].xyz(), after[a].xyz());
   for (const Real3& reaction : box.fluid.reaction.values()) EXPECT_EQ(reaction, Real3{});
-  const auto K = box.grains.K.values(), wet = box.grains.wetness.values();
+  const auto K = box.grains.drag_coefficient.values(), wet = box.grains.wetness.values();
   const auto eps = box.grains.eps.values();  // in which is their own volume
   for (std::size_t j = 0; j < K.size(); ++j)
     EXPECT_NEAR(K[j] * eps[j], wet[j] * 3 * M_PI * 1e6 * 0.06, 0.02 * K[j]) << "at the flux";

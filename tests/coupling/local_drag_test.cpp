@@ -58,7 +58,7 @@ TEST(LocalDrag, AJetPushesByItsOwnSpeed) {
     const auto law = [&](double slip) {
       return DiFelice{}.K(Real(0.5), Real(d), 1000, Real(mu), Real(slip));
     };
-    const double drag = box.grains.K.values()[0] * box.grains.U.values()[0].z;
+    const double drag = box.grains.drag_coefficient.values()[0] * box.grains.fluid_velocity.values()[0].z;
     const double expected = f * speed.z * law(local ? speed.z : f * speed.z);
     EXPECT_NEAR(drag, expected, 10 * kInvariant * expected) << local;
     if (local) continue;
@@ -96,8 +96,8 @@ TEST(LocalDrag, BesideAnOrificeIsThatOfTheBed) {
     box.fluid.v_rho.assign(v_rho);
     box.coupling.gather(box.fluid, box.grains, {}, 1e-6);
     std::vector<double> all;
-    const auto K = box.grains.K.values();
-    const auto U = box.grains.U.values();
+    const auto K = box.grains.drag_coefficient.values();
+    const auto U = box.grains.fluid_velocity.values();
     for (std::size_t j = 0; j < n; ++j) all.push_back(K[j] * U[j].z);
     return all;
   };

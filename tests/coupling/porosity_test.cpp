@@ -61,8 +61,8 @@ TEST(Porosity, OneWayGrainsHaveTheDragOfTheirBed) {
   box.coupling.porosity(box.fluid, box.grains, {}, 0);
   box.coupling.gather(box.fluid, box.grains, {}, 0);
   const double law = double(Ergun{}.K(Real(eps), Real(d), 1000, Real(1e-3), Real(U / eps))) * U / eps;
-  const auto seen = box.grains.eps.values(), K = box.grains.K.values();
-  const auto around = box.grains.U.values();
+  const auto seen = box.grains.eps.values(), K = box.grains.drag_coefficient.values();
+  const auto around = box.grains.fluid_velocity.values();
   for (std::size_t j = 0; j < n; ++j) {
     EXPECT_NEAR(seen[j], eps, 3e-3);                   // sums over the lattice
     EXPECT_NEAR(K[j] * around[j].x, law, 0.02 * law);  // falls with the cube of that
@@ -81,7 +81,8 @@ TEST(Porosity, OneWayALoneGrainDoesNotSeeItself) {
   box.coupling.gather(box.fluid, box.grains, {}, 0);
   EXPECT_LT(box.grains.eps.values()[0], 0.993) << "its own volume, 4 % of drag by Di Felice's law";
   const double law = 4.8 * 4.8 / 24 * 3 * M_PI * 1e-3 * 0.1;  // Dalla Valle's, slow
-  EXPECT_NEAR(box.grains.K.values()[0], law, 4e-3 * law);     // a tenth of that: fluid h_c / 4 apart
+  EXPECT_NEAR(box.grains.drag_coefficient.values()[0], law,
+              4e-3 * law);  // a tenth of that: fluid h_c / 4 apart
 }
 
 TEST(Porosity, GrainsThickenTheFluidByTheLaw) {

@@ -72,8 +72,9 @@ void step(CoupledBox& box, int substeps) {
   box.coupling.gather(box.fluid, box.grains, {}, kStep);
   GrainStore& g = box.grains;
   auto v = g.v.values(), omega = g.omega.values();
-  g.impulse.assign(relax(v, g.U.values(), g.K.values(), kGrainMass, substeps));
-  g.spin_impulse.assign(relax(omega, g.omega_f.values(), g.K_rot.values(), kInertia, substeps));
+  g.impulse.assign(relax(v, g.fluid_velocity.values(), g.drag_coefficient.values(), kGrainMass, substeps));
+  g.spin_impulse.assign(
+      relax(omega, g.fluid_angular_velocity.values(), g.rot_drag_coefficient.values(), kInertia, substeps));
   g.v.assign(v);
   g.omega.assign(omega);
   box.coupling.react(box.fluid, box.grains, kStep);
@@ -134,7 +135,7 @@ TEST(StiffDrag, IsBoundedByTheSoftestFluidAround) {
   const WendlandC2 w(0.15);
   const auto at = free.fluid_places();
   const auto x = free.grains.x.values();
-  const auto K = free.grains.K.values(), K_bound = bound.grains.K.values();
+  const auto K = free.grains.drag_coefficient.values(), K_bound = bound.grains.drag_coefficient.values();
   const auto mass = free.fluid.mass.values();
   const auto state = free.fluid.m_state.values();
   const auto weight = [&](std::size_t a, std::size_t j) {
@@ -169,7 +170,7 @@ TEST(StiffDrag, IsToldByTheReaction) {
     CoupledBox box = suspension(3, way), bound = suspension(3, way);
     box.coupling.gather(box.fluid, box.grains, {}, 0);
     const double looked_for = box.coupling.stable_dt();
-    const auto K = box.grains.K.values();
+    const auto K = box.grains.drag_coefficient.values();
     const double dt = 1e-3 * kStep;
     box.coupling.react(box.fluid, box.grains, dt);
     box.coupling.read_survey();
@@ -181,7 +182,7 @@ TEST(StiffDrag, IsToldByTheReaction) {
     box.coupling.gather(box.fluid, box.grains, {}, kStep);
     bound.coupling.gather(bound.fluid, bound.grains, {}, kStep);
     EXPECT_GT(box.coupling.counters(box.fluid, box.grains).limited, 0u);
-    const auto K_now = box.grains.K.values(), K_bound = bound.grains.K.values();
+    const auto K_now = box.grains.drag_coefficient.values(), K_bound = bound.grains.drag_coefficient.values();
     for (std::size_t j = 0; j < K.size(); ++j) {
       EXPECT_LE(K_now[j], K[j] * (1 + kInvariant));
       EXPECT_NEAR(K_now[j], K_bound[j], 1e-2 * K[j]);
@@ -200,11 +201,11 @@ TEST(SpinDecay, OfAGrainInStillFluidIsKirchhoffs) {
   const double rate = M_PI * mu * d * d * d / inertia;
   const double dt = 1e-3 / rate;
   box.coupling.gather(box.fluid, box.grains, {}, dt);
-  EXPECT_NEAR(box.grains.K_rot.values()[0] / inertia, rate, 1e-3 * rate);
+  EXPECT_NEAR(box.grains.rot_drag_coefficient.values()[0] / inertia, rate, 1e-3 * rate);
 
   // the angular momentum that the grain loses turns the fluid
-  const Real3 torque_impulse = Real(dt) * box.grains.K_rot.values()[0] *
-                               (box.grains.omega_f.values()[0] - box.grains.omega.values()[0]);
+  const Real3 torque_impulse = Real(dt) * box.grains.rot_drag_coefficient.values()[0] *
+                               (box.grains.fluid_angular_velocity.values()[0] - box.grains.omega.values()[0]);
   box.grains.impulse.buffer().zero();
   box.grains.spin_impulse.assign({torque_impulse});
   box.coupling.react(box.fluid, box.grains, kStep);

@@ -8,10 +8,10 @@ namespace {
 struct InFluid : GrainBench {
   void immerse(const Vec3d& U, double K, const Vec3d& omega_f = {}, double K_rot = 0) {
     const std::size_t n = x.size();
-    grains->U.assign(std::vector<Real3>(n, Real3(U)));
-    grains->omega_f.assign(std::vector<Real3>(n, Real3(omega_f)));
-    grains->K.assign(std::vector<Real>(n, Real(K)));
-    grains->K_rot.assign(std::vector<Real>(n, Real(K_rot)));
+    grains->fluid_velocity.assign(std::vector<Real3>(n, Real3(U)));
+    grains->fluid_angular_velocity.assign(std::vector<Real3>(n, Real3(omega_f)));
+    grains->drag_coefficient.assign(std::vector<Real>(n, Real(K)));
+    grains->rot_drag_coefficient.assign(std::vector<Real>(n, Real(K_rot)));
   }
 };
 

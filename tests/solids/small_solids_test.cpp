@@ -23,8 +23,8 @@ TEST(SmallSolids, EveryKernelRuns) {
       for (int i = 0; i < 40; ++i)
         b.add({-0.0981 + 2.69e-3 * (i % 20), 0, 1.34e-3 + 2.69e-3 * (i / 20)}, {0.1, 0, -0.1});
       b.start();
-      b.grains->K.assign(std::vector<Real>(40, Real(1e-3)));
-      b.grains->K_rot.assign(std::vector<Real>(40, Real(1e-9)));
+      b.grains->drag_coefficient.assign(std::vector<Real>(40, Real(1e-3)));
+      b.grains->rot_drag_coefficient.assign(std::vector<Real>(40, Real(1e-9)));
       b.run(2e-6, 25);
       b.refresh();
       b.run(5e-6, 5, true);

@@ -8,11 +8,12 @@ namespace bedload::inline BL_VARIANT {
 struct BodyStore : Store {
   BodyStore() : Store("bodies") {}
 
-  Field<Vec3d> x{*this, "x", "m", Lifetime::kept};                          ///< of the reference point
-  Field<Vec4<double>> rotation{*this, "rotation", "-", Lifetime::kept};     ///< since t = 0: x, y, z, w
-  Field<Vec3d> v{*this, "v", "m/s", Lifetime::kept};                        ///< of the reference point
-  Field<Vec3d> spin{*this, "angular_momentum", "kg m2/s", Lifetime::kept};  ///< about the reference point
-  Field<Vec3d> a{*this, "acceleration", "m/s2", Lifetime::kept};            ///< that the fluid beside it sees
+  Field<Vec3d> x{*this, "x", "m", Lifetime::kept};                       ///< of the reference point
+  Field<Vec4<double>> rotation{*this, "rotation", "-", Lifetime::kept};  ///< since t = 0: x, y, z, w
+  Field<Vec3d> v{*this, "v", "m/s", Lifetime::kept};                     ///< of the reference point
+  /// About the reference point.
+  Field<Vec3d> angular_momentum{*this, "angular_momentum", "kg m2/s", Lifetime::kept};
+  Field<Vec3d> a{*this, "acceleration", "m/s2", Lifetime::kept};  ///< that the fluid beside it sees
   Field<Vec3d> alpha{*this, "angular_acceleration", "rad/s2", Lifetime::kept};
   Field<Vec3d> grain_force{*this, "grain_force", "N", Lifetime::kept};
   Field<Vec3d> grain_torque{*this, "grain_torque", "N m", Lifetime::kept};

@@ -21,10 +21,10 @@ struct GrainStore : Store {
   Field<Real3> drag_force{*this, "drag_force", "N", Lifetime::kept};        ///< mean over the last step
   Field<Real> eps{*this, "porosity", "-", Lifetime::kept};
   Field<Real> wetness{*this, "wetness", "-", Lifetime::kept};
-  Field<Real3> U{*this, "U", "m/s", Lifetime::derived};       ///< of the fluid, as drag weighs it
-  Field<Real3> omega_f{*this, "omega_f", "rad/s", Lifetime::derived};  ///< of the fluid, likewise
-  Field<Real> K{*this, "K", "kg/s", Lifetime::kept};          ///< limited drag coefficient K'
-  Field<Real> K_rot{*this, "K_rot", "N m s", Lifetime::derived};  ///< fluid torque per relative spin
+  Field<Real3> fluid_velocity{*this, "fluid_velocity", "m/s", Lifetime::derived};  ///< mean, by the weights of drag
+  Field<Real3> fluid_angular_velocity{*this, "fluid_angular_velocity", "rad/s", Lifetime::derived};  ///< likewise
+  Field<Real> drag_coefficient{*this, "drag_coefficient", "kg/s", Lifetime::kept};  ///< force per slip velocity, limited
+  Field<Real> rot_drag_coefficient{*this, "rot_drag_coefficient", "N m s", Lifetime::derived};  ///< torque per relative spin
   Field<Real3> impulse{*this, "impulse", "N s", Lifetime::derived};    ///< drag impulse of this fluid step
   Field<Real3> spin_impulse{*this, "spin_impulse", "N m s", Lifetime::derived};
   // for the exchange with fluid

@@ -91,10 +91,10 @@ struct Sided {
                                     .omega = all(omega),
                                     .surroundings = around,
                                     .weights = {all(still), {}},
-                                    .U = all(U),
-                                    .omega_f = all(omega_f),
-                                    .K = all(K),
-                                    .K_rot = all(K_rot),
+                                    .fluid_velocity = all(U),
+                                    .fluid_angular_velocity = all(omega_f),
+                                    .drag_coefficient = all(K),
+                                    .rot_drag_coefficient = all(K_rot),
                                     .levers = levers()};
     pass(0);
   }
