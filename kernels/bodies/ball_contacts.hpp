@@ -1,7 +1,7 @@
 #pragma once
-// Free bodies against other bodies: balls fixed to one meet the surfaces of the others, with the contact laws
-// of the grains. Both bodies are pushed at the same point. Where two balls overlap each of them meets the
-// surface of the other's body, so that one contact is found twice; either then pushes with half its force.
+// Contacts of free bodies with other bodies: balls fixed to one collide with the surfaces of the others, by
+// the contact laws of the grains. The force acts on both bodies at the same point. Where two balls overlap,
+// each collides with the surface of the other's body: one contact is found twice, and each counts half.
 
 #include "bedload/case/materials.hpp"
 #include "kernels/bodies/rigid_body.hpp"
@@ -10,14 +10,14 @@
 
 namespace bedload::inline BL_VARIANT {
 
-struct TouchBall {
+struct ContactBall {
   Vec3d x0;       ///< centre at t = 0, m
   double radius;  ///< m
   double R_star;  ///< m
   Index owner;    ///< among the free bodies
 };
 
-/// Of free bodies: the grains' way to resist rolling beside Hertz and Mindlin.
+/// Contact law of free bodies: Hertz and Mindlin, with the rolling law of the grains.
 using BodyLaw = ContactLawOf<Hertz, Mindlin, RollingLaws::Any>;
 
 struct BallPass {
@@ -27,20 +27,20 @@ struct BallPass {
   const RigidBody* bodies;
   const BodyLaw* laws;                   ///< of the free bodies
   const ElasticCompliance* compliances;  ///< of all wall bodies
-  Span<const TouchBall> balls;
+  Span<const ContactBall> balls;
   WallMemory* const* memory;  ///< [capacity][balls]
   Index* contacts;            ///< [balls]
   int capacity;
   double dt;  ///< s
-  TouchLoads loads;
+  ContactLoads loads;
 
   BL_HD void operator()(Index i) const {
     loads.clear(i);
-    const TouchBall& ball = balls[i];
+    const ContactBall& ball = balls[i];
     const std::uint32_t own = bodies[ball.owner].body;
     const Vec3d x = poses[own].place(ball.x0);
     const WallMemories memories{memory, contacts, i};
-    WallTouches<> touches(memories, walls.surfaces.data, capacity);
+    SurfaceContacts<> found(memories, walls.surfaces.data, capacity);
     for (Index s = 0; s < walls.surfaces.size; ++s) {
       const Surface& surface = walls.surfaces[s];
       const BodyPose& pose = poses[surface.body];
@@ -49,29 +49,29 @@ struct BallPass {
       const SurfaceView view(surface, pose, frame, x);
       if (view.beyond(walls, reach)) continue;
       view.each_closest_point(walls, reach, 1e-4 * ball.radius,
-                              [&](const ClosestPoint& closest) { touches.add(s, closest, ball.radius); });
+                              [&](const ClosestPoint& closest) { found.add(s, closest, ball.radius); });
     }
-    if (touches.size() > 0) {
-      touches.settle();
+    if (found.size() > 0) {
+      found.resolve();
       WallMemory next[kMostWallContacts];
-      for (int k = 0; k < touches.size(); ++k)
-        next[k] = touch_one(i, ball, x, touches[k], taken_over(ball, touches, touches[k], memories));
-      for (int k = 0; k < touches.size(); ++k) memories[k] = next[k];
+      for (int k = 0; k < found.size(); ++k)
+        next[k] = evaluate(i, ball, x, found[k], taken_over(ball, found, found[k], memories));
+      for (int k = 0; k < found.size(); ++k) memories[k] = next[k];
     }
-    contacts[i] = Index(touches.size());
+    contacts[i] = Index(found.size());
   }
 
  private:
-  /// Bodies that touch nobody.
-  BL_HD bool passes(const BodyPose& pose) const { return pose.free && !bodies[pose.free - 1].touches; }
+  /// Bodies without contacts.
+  BL_HD bool passes(const BodyPose& pose) const { return pose.free && !bodies[pose.free - 1].contacts; }
   BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
     return frame.nearest_image(point - pose.origin());
   }
   /// R* of the ball of `other` that overlaps most with this one at x, m; 0 if none does.
-  BL_HD double ball_opposite(const TouchBall& ball, const Vec3d& x, const BodyPose& other) const {
+  BL_HD double ball_opposite(const ContactBall& ball, const Vec3d& x, const BodyPose& other) const {
     double most = 0, R_star = 0;
     for (Index j = 0; j < balls.size; ++j) {
-      const TouchBall& b = balls[j];
+      const ContactBall& b = balls[j];
       if (b.owner != other.free - 1) continue;
       const double overlap = ball.radius + b.radius - norm(frame.nearest_image(other.place(b.x0) - x));
       if (overlap > most) most = overlap, R_star = b.R_star;
@@ -79,29 +79,29 @@ struct BallPass {
     return R_star;
   }
   /// Between the body of a ball and another one.
-  BL_HD BodyLaw law(const TouchBall& ball, std::uint32_t other) const {
+  BL_HD BodyLaw law(const ContactBall& ball, std::uint32_t other) const {
     const ElasticCompliance &a = compliances[bodies[ball.owner].body], &b = compliances[other];
     BodyLaw out = laws[ball.owner];
     out.normal.E_star = Real(1 / (a.normal + b.normal));
     out.sliding.G_star = Real(1 / (a.tangential + b.tangential));
     return out;
   }
-  /// What a touch remembers, perhaps of another body that the ball has left for this one.
-  BL_HD ContactHistory taken_over(const TouchBall& ball, const WallTouches<>& touches, const WallTouch& touch,
-                                  const WallMemories& memories) const {
-    if (touch.from == kNone) return {};
-    const WallMemory& memory = memories[touch.from];
-    const std::uint32_t left = touches.body_of(memory);
+  /// History of a contact, perhaps inherited from another body that the ball has left for this one.
+  BL_HD ContactHistory taken_over(const ContactBall& ball, const SurfaceContacts<>& found,
+                                  const SurfaceContact& contact, const WallMemories& memories) const {
+    if (contact.from == kNone) return {};
+    const WallMemory& memory = memories[contact.from];
+    const std::uint32_t left = found.body_of(memory);
     ContactHistory h = memory.history;
-    if (left != touch.body)
-      law(ball, touch.body).take_over(law(ball, left), Real(ball.R_star), Real(bodies[ball.owner].mass), h);
+    if (left != contact.body)
+      law(ball, contact.body).take_over(law(ball, left), Real(ball.R_star), Real(bodies[ball.owner].mass), h);
     return h;
   }
-  BL_HD WallMemory touch_one(Index i, const TouchBall& ball, const Vec3d& x, const WallTouch& touch,
-                             ContactHistory h) const {
-    const ClosestPoint& closest = touch.closest;
+  BL_HD WallMemory evaluate(Index i, const ContactBall& ball, const Vec3d& x, const SurfaceContact& contact,
+                            ContactHistory h) const {
+    const ClosestPoint& closest = contact.closest;
     const RigidBody& a = bodies[ball.owner];
-    const BodyPose &mine = poses[a.body], &other = poses[touch.body];
+    const BodyPose &mine = poses[a.body], &other = poses[contact.body];
     h.overlap = std::abs(h.overlap);
 
     const Vec3d point = x - closest.distance * closest.normal;
@@ -109,11 +109,11 @@ struct BallPass {
     double inverse_mass = a.inverse_effective_mass(mine.rotation, r_mine, closest.normal);
     if (other.free)
       inverse_mass += bodies[other.free - 1].inverse_effective_mass(other.rotation, r_other, closest.normal);
-    const BodyLaw acting = law(ball, touch.body);
+    const BodyLaw acting = law(ball, contact.body);
     const double opposite = other.free ? ball_opposite(ball, x, other) : 0;
     const double R_star = opposite > 0 ? 1 / (1 / ball.R_star + 1 / opposite) : ball.R_star;
     const double weight = opposite > 0 ? 0.5 : 1;
-    // a push that no constraint lets through meets a mass without end, for which no damping is left
+    // a constraint may block the motion along the normal: bound the mass, else damping would be infinite
     const double m_star = 1 / max_of(inverse_mass, 1e-6 / a.mass);
     ContactGeometry at{
         closest.normal, ball.radius - closest.distance, Real(R_star), Real(m_star), 0, 0, 0, 0};
@@ -122,14 +122,14 @@ struct BallPass {
       about -= dot(about, closest.normal) * closest.normal;
       const double spin = norm(about);
       if (spin > 0) about *= 1 / spin;
-      double turning = a.turning_ease(mine.rotation, about),
-             rolling = a.rolling_ease(mine.rotation, r_mine, about);
+      double turning = a.inverse_turning_inertia(mine.rotation, about),
+             rolling = a.inverse_rolling_inertia(mine.rotation, r_mine, about);
       if (other.free) {
         const RigidBody& b = bodies[other.free - 1];
-        turning += b.turning_ease(other.rotation, about);
-        rolling += b.rolling_ease(other.rotation, r_other, about);
+        turning += b.inverse_turning_inertia(other.rotation, about);
+        rolling += b.inverse_rolling_inertia(other.rotation, r_other, about);
       }
-      // neither matters where nothing turns, but must not be 0
+      // irrelevant where nothing rotates, but must not be 0
       at.inverse_spin = max_of(Real(turning), Real(1e-20));
       at.inverse_rolling = max_of(Real(rolling), Real(1e-20));
     }
@@ -138,9 +138,9 @@ struct BallPass {
     const Vec3d force = weight * Vec3d(f.force);
     const Vec3d couple = weight * Vec3d(f.torque_i);  // that of rolling friction
     loads.add(i, {force, cross(r_mine, force) + couple, a.body});
-    loads.add(i, {-force, -cross(r_other, force) - couple, touch.body});
+    loads.add(i, {-force, -cross(r_other, force) - couple, contact.body});
     h.overlap *= closest.side;
-    return {touch.key(), closest.normal, h};
+    return {contact.key(), closest.normal, h};
   }
 };
 

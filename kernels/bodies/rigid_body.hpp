@@ -23,24 +23,24 @@ BL_HD Vec3d rotation_vector(const Quat<double>& q) {
   return u * (2 * std::atan2(q.w < 0 ? -s : s, q.w < 0 ? -q.w : q.w) / s);
 }
 
-/// What stays the same of a body.
+/// Constants of a body.
 struct RigidBody {
   std::uint32_t body = 0;  ///< among the wall bodies
   BodyMove move = BodyMove::all;
   BodyTurn turn = BodyTurn::all;
-  std::uint32_t fluid = 1;    ///< 1: moved by the fluid
-  std::uint32_t touches = 1;  ///< 1: meets other bodies
-  double mass = 0;            ///< kg
-  Vec3d centre;               ///< reference point at t = 0, m
-  Vec3d arm;                  ///< from there to the centre of mass at t = 0, m; 0 unless it only turns
-  Vec3d moments;              ///< principal, about the reference point, kg m2
-  Quat<double> principal;     ///< turns the coordinate axes to the principal ones at t = 0
-  Vec3d axis;                 ///< of what constrains its moves, unit
-  Vec3d hinge;                ///< of what constrains its turns, unit
-  double axial = 0;           ///< moment of inertia about it, kg m2
-  double release = 0;         ///< s
-  double volume = 0;          ///< m3; 0 where it encloses none
-  Vec3d middle;               ///< from the reference point to that of the volume at t = 0, m
+  std::uint32_t fluid = 1;     ///< 1: moved by the fluid
+  std::uint32_t contacts = 1;  ///< 1: collides with other bodies
+  double mass = 0;             ///< kg
+  Vec3d centre;                ///< reference point at t = 0, m
+  Vec3d arm;                   ///< from there to the centre of mass at t = 0, m; 0 unless it only turns
+  Vec3d moments;               ///< principal, about the reference point, kg m2
+  Quat<double> principal;      ///< turns the coordinate axes to the principal ones at t = 0
+  Vec3d axis;                  ///< of what constrains its moves, unit
+  Vec3d hinge;                 ///< of what constrains its turns, unit
+  double axial = 0;            ///< moment of inertia about it, kg m2
+  double release = 0;          ///< s
+  double volume = 0;           ///< m3; 0 where it encloses none
+  Vec3d middle;                ///< from the reference point to that of the volume at t = 0, m
 
   /// The part of a velocity or force that may move the body.
   BL_HD Vec3d movable(const Vec3d& v) const {
@@ -93,41 +93,41 @@ struct RigidBody {
     return normalised(frame * principal.conjugate());
   }
 
-  /// How easily a push along n at r from the reference point moves that place: 1 / effective mass, 1/kg.
+  /// 1 / effective mass (1/kg) against a force along n at r from the reference point.
   BL_HD double inverse_effective_mass(const Quat<double>& rotation, const Vec3d& r, const Vec3d& n) const {
-    return dot(n, movable(n)) / mass + turning_ease(rotation, cross(r, n));
+    return dot(n, movable(n)) / mass + inverse_turning_inertia(rotation, cross(r, n));
   }
-  /// How easily a couple along a turns it: 1 / moment of inertia, 1/(kg m2), times |a|^2.
-  BL_HD double turning_ease(const Quat<double>& rotation, const Vec3d& a) const {
+  /// 1 / moment of inertia about a, 1/(kg m2), times |a|^2.
+  BL_HD double inverse_turning_inertia(const Quat<double>& rotation, const Vec3d& a) const {
     return dot(a, omega(rotation, a));
   }
-  /// The same where it rolls about a point at r: its mass counts too.
-  BL_HD double rolling_ease(const Quat<double>& rotation, const Vec3d& r, const Vec3d& a) const {
-    const double e = turning_ease(rotation, a);
+  /// The same for rolling about a point at r: the mass adds to the inertia.
+  BL_HD double inverse_rolling_inertia(const Quat<double>& rotation, const Vec3d& r, const Vec3d& a) const {
+    const double e = inverse_turning_inertia(rotation, a);
     return e / (1 + e * mass * norm2(r));
   }
 };
 
-/// Effect of touch on one body.
-struct TouchLoad {
+/// Force and torque of contacts on one body.
+struct ContactLoad {
   Vec3d force;   ///< N
   Vec3d torque;  ///< about the body's reference point, N m
   std::uint32_t body;
 };
 
-/// What each grain, or each ball of a body, does to the bodies that it touches: an entry a body.
-struct TouchLoads {
-  TouchLoad* slots = nullptr;  ///< [capacity][size]
-  Index* counts = nullptr;     ///< [size]
+/// Loads of each grain, or each ball of a body, on the bodies in contact with it: one entry per body.
+struct ContactLoads {
+  ContactLoad* slots = nullptr;  ///< [capacity][size]
+  Index* counts = nullptr;       ///< [size]
   Index size = 0;
-  int capacity = 0;  ///< bodies that one may touch at once
+  int capacity = 0;  ///< bodies in contact with one of them at once
 
   BL_HD explicit operator bool() const { return slots != nullptr; }
   BL_HD void clear(Index i) const { counts[i] = 0; }
-  BL_HD void add(Index i, const TouchLoad& load) const {
+  BL_HD void add(Index i, const ContactLoad& load) const {
     const Index n = counts[i];
     for (Index k = 0; k < n; ++k) {
-      TouchLoad& slot = slots[std::size_t(k) * size + i];
+      ContactLoad& slot = slots[std::size_t(k) * size + i];
       if (slot.body != load.body) continue;
       slot.force += load.force;
       slot.torque += load.torque;
@@ -154,15 +154,15 @@ struct LoadSum {
 };
 
 /// Sum of what was recorded for one body.
-struct TouchReduction {
+struct ContactLoadReduction {
   using Value = LoadSum;
-  TouchLoads loads;
+  ContactLoads loads;
   std::uint32_t body;
   BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index i) const {
     Value sum = Value::zero();
     for (Index k = 0; k < loads.counts[i]; ++k) {
-      const TouchLoad& load = loads.slots[std::size_t(k) * loads.size + i];
+      const ContactLoad& load = loads.slots[std::size_t(k) * loads.size + i];
       if (load.body == body) sum.add(load.force, load.torque);
     }
     return sum;

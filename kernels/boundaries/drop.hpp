@@ -37,7 +37,7 @@ struct DropPass {
   Span<Real3> v;
   Span<Real> radius, eps;
   Span<std::uint32_t> material;  ///< may be empty
-  Span<Index> came_from;
+  Span<Index> source_index;
   BL_HD void operator()(Index k) const {
     const Index i = place + k;
     id[i] = first + k;
@@ -46,7 +46,7 @@ struct DropPass {
     radius[i] = Real(grain[k].radius);
     eps[i] = 1;
     if (material) material[i] = grain[k].material;
-    came_from[i] = kNone;
+    source_index[i] = kNone;
   }
 };
 

@@ -23,8 +23,8 @@ struct Sphere {
   Real R, m;
   BL_HD Real inertia() const { return Real(0.4) * m * R * R; }
 };
-BL_HD ContactGeometry touch(const Sphere& i, const Sphere& j, const Vec3d& r, double distance,
-                            double overlap) {
+BL_HD ContactGeometry sphere_contact(const Sphere& i, const Sphere& j, const Vec3d& r, double distance,
+                                     double overlap) {
   const Real half = Real(0.5 * overlap);
   return {r * (1 / distance),
           overlap,
@@ -35,7 +35,7 @@ BL_HD ContactGeometry touch(const Sphere& i, const Sphere& j, const Vec3d& r, do
           1 / i.inertia() + 1 / j.inertia(),
           (1 / i.inertia() + 1 / j.inertia()) * Real(0.4 / 1.4)};
 }
-BL_HD ContactGeometry touch_wall(const Sphere& i, const Vec3d& n, double overlap) {
+BL_HD ContactGeometry wall_contact(const Sphere& i, const Vec3d& n, double overlap) {
   return {n, overlap, i.R, i.m, i.R - Real(overlap), 0, 1 / i.inertia(), 1 / i.inertia() * Real(0.4 / 1.4)};
 }
 

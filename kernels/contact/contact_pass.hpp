@@ -169,7 +169,7 @@ struct ContactPass {
     const Index lo = first ? own.i : j, hi = first ? j : own.i;
     const Real R_lo = first ? own.R : R, R_hi = first ? R : own.R;
     const ContactGeometry at =
-        touch(sphere(lo, R_lo), sphere(hi, R_hi), first ? r : -r, distance, reach - distance);
+        sphere_contact(sphere(lo, R_lo), sphere(hi, R_hi), first ? r : -r, distance, reach - distance);
     const Real3 v_rel = first ? own.v - v_j : v_j - own.v, omega_lo = either(first, own.omega, omega_j),
                 omega_hi = either(first, omega_j, own.omega);
     // the one law of most cases is a parameter of the kernel, which a reference would put in memory

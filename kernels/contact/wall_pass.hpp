@@ -7,8 +7,8 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Grains that walls may come to touch, with the surfaces that may, both ascending. Of all rows the first
-/// surfaces lie together, then the second ones.
+/// Grains that may get into contact with walls, and with which surfaces, both ascending. The first surfaces
+/// of all rows are contiguous, then the second ones.
 struct WallRows {
   Span<const Index> grain;               ///< [rows]
   const std::uint32_t* count = nullptr;  ///< [rows], of their surfaces
@@ -35,7 +35,7 @@ struct WallContacts {
   SurfaceSet walls;
   WallMemory* const* memory;  ///< [capacity][grains]
   Index* count;               ///< [grains], of them in use
-  int capacity;               ///< walls that a grain may touch at once
+  int capacity;               ///< contacts of a grain with walls at once
   const ContactLaw* laws;     ///< [bodies][materials]
   std::uint32_t materials;
   const BodyPose* poses;  ///< [bodies]
@@ -57,37 +57,36 @@ struct WallContacts {
     return laws[body * materials + (mass_per_r3.material ? mass_per_r3.material[i] : 0)];
   }
 
-  /// f(body, contact) for those that grain i touches of the entries `surface(k)`, ascending, k < n, and that
-  /// are the lane's: the lanes of a grain share them. `keep`: histories are advanced.
+  /// f(body, contact) for the lane's contacts of grain i with the surfaces `surface(k)`, ascending, k < n;
+  /// the lanes of a grain share them. `keep`: histories are advanced.
   template <class Scope = AnyWalls, class Surfaces, class F>
   BL_HD void each(const Lane& lane, Index i, Index n, Surfaces&& surface, bool keep, F&& f) const {
     const Grain grain{x[i], v[i], omega[i], {radius[i], Real(mass_per_r3(i)) * cube(radius[i])}};
     const WallMemories remembered = memories(i);
-    WallTouches<typename Scope::Kinds> touches(remembered, walls.surfaces.data, capacity);
-    find(grain.x, grain.R(), n, surface, double(grain.R()), touches);
-    touches.settle();
+    SurfaceContacts<typename Scope::Kinds> found(remembered, walls.surfaces.data, capacity);
+    find(grain.x, grain.R(), n, surface, double(grain.R()), found);
+    found.resolve();
     RawArray<ContactHistory, kMostWallContacts> history;
-    for (int k = int(lane.index); k < touches.size(); k += int(lane.count))
-      history[k] = taken_over<Scope>(grain, i, touches, touches[k]);
+    for (int k = int(lane.index); k < found.size(); k += int(lane.count))
+      history[k] = taken_over<Scope>(grain, i, found, found[k]);
     lane.wait();  // all have read what they remember
-    for (int k = int(lane.index); k < touches.size(); k += int(lane.count)) {
-      const WallTouch& touch = touches[k];
-      touch_one<Scope>(grain, touch, law(touch.body, i), history[k], f);
-      if (keep) remembered[k] = {touch.key(), touch.closest.normal, history[k]};
+    for (int k = int(lane.index); k < found.size(); k += int(lane.count)) {
+      const SurfaceContact& contact = found[k];
+      evaluate<Scope>(grain, contact, law(contact.body, i), history[k], f);
+      if (keep) remembered[k] = {contact.key(), contact.closest.normal, history[k]};
     }
-    if (keep && lane.index == 0 && touches.remembered() != Index(touches.size()))
-      count[i] = Index(touches.size());
+    if (keep && lane.index == 0 && found.remembered() != Index(found.size())) count[i] = Index(found.size());
   }
-  /// The same for all walls from which fluid parts a wet grain, touched or not; not to be called without
+  /// The same for the lubrication films between a wet grain and all walls, in contact or not. Only with
   /// lubrication.
   template <class Surfaces, class F>
   BL_HD void each_film(Index i, Index n, Surfaces&& surface, F&& f) const {
     if (!(wetness[i] > 0)) return;
     const Real R = radius[i];
-    WallTouches<> near(WallMemories{nullptr, nullptr, i}, walls.surfaces.data, kMostWallContacts);
+    SurfaceContacts<> near(WallMemories{nullptr, nullptr, i}, walls.surfaces.data, kMostWallContacts);
     find(x[i], R, n, surface, double(R) + double(lubrication.range(R)), near);
     if (near.size() == 0) return;
-    near.settle();
+    near.resolve();
     for (int k = 0; k < near.size(); ++k) {
       const ClosestPoint& closest = near[k].closest;
       const BodyPose& pose = poses[near[k].body];
@@ -110,7 +109,7 @@ struct WallContacts {
   /// Collects what is within `range` (m) of the centre of a grain at x.
   template <class Kinds, class Surfaces>
   BL_HD void find(const Vec3d& at, Real R, Index n, Surfaces&& surface, double range,
-                  WallTouches<Kinds>& touches) const {
+                  SurfaceContacts<Kinds>& found) const {
     for (Index k = 0; k < n; ++k) {
       const Index s = surface(k);
       const Surface& of = walls.surfaces[s];
@@ -121,22 +120,22 @@ struct WallContacts {
       if (Kinds::kTracked && view.beyond(walls, reach))
         continue;  // of others the closest point costs as much
       view.template each_closest_point<Kinds>(
-          walls, reach, 1e-4 * double(R),
-          [&](const ClosestPoint& closest) { touches.add(s, closest, range); });
+          walls, reach, 1e-4 * double(R), [&](const ClosestPoint& closest) { found.add(s, closest, range); });
     }
   }
-  /// What a touch of grain i remembers, perhaps of another body that it has left for this one.
+  /// History of a contact of grain i, perhaps inherited from another body that it has left for this one.
   template <class Scope>
   BL_HD ContactHistory taken_over(const Grain& grain, Index i,
-                                  const WallTouches<typename Scope::Kinds>& touches,
-                                  const WallTouch& touch) const {
+                                  const SurfaceContacts<typename Scope::Kinds>& found,
+                                  const SurfaceContact& contact) const {
     using Law = typename Scope::Law;
-    if (touch.from == kNone) return {};
-    const WallMemory& memory = memories(i)[touch.from];
-    const std::uint32_t left = touches.body_of(memory);
+    if (contact.from == kNone) return {};
+    const WallMemory& memory = memories(i)[contact.from];
+    const std::uint32_t left = found.body_of(memory);
     ContactHistory h = memory.history;
-    if (left != touch.body)
-      composed<Law>(law(touch.body, i)).take_over(composed<Law>(law(left, i)), grain.R(), grain.sphere.m, h);
+    if (left != contact.body)
+      composed<Law>(law(contact.body, i))
+          .take_over(composed<Law>(law(left, i)), grain.R(), grain.sphere.m, h);
     return h;
   }
   /// r: from the body's centre, m.
@@ -148,20 +147,20 @@ struct WallContacts {
     return frame.nearest_image(point - pose.origin());
   }
   template <class Scope, class F>
-  BL_HD void touch_one(const Grain& grain, const WallTouch& touch, const ContactLaw& law, ContactHistory& h,
-                       F& f) const {
-    const ClosestPoint& closest = touch.closest;
-    const BodyPose& pose = poses[touch.body];
+  BL_HD void evaluate(const Grain& grain, const SurfaceContact& contact, const ContactLaw& law,
+                      ContactHistory& h, F& f) const {
+    const ClosestPoint& closest = contact.closest;
+    const BodyPose& pose = poses[contact.body];
     h.overlap = std::abs(h.overlap);
     const Vec3d point = grain.x - closest.distance * closest.normal;
-    ContactGeometry at = touch_wall(grain.sphere, closest.normal, double(grain.R()) - closest.distance);
+    ContactGeometry at = wall_contact(grain.sphere, closest.normal, double(grain.R()) - closest.distance);
     const Vec3d r = arm(pose, point), v_wall = surface_velocity(pose, r);
     if (Scope::kFree && pose.free)
       at.m_star /= 1 + at.m_star * Real(free_bodies[pose.free - 1].inverse_effective_mass(pose.rotation, r,
                                                                                           closest.normal));
     const ContactForce on_grain = composed<typename Scope::Law>(law)(at, grain.v - Real3(v_wall), grain.omega,
                                                                      Real3(pose.omega), dt, h);
-    f(touch.body, Contact{on_grain, point});
+    f(contact.body, Contact{on_grain, point});
     h.overlap *= closest.side;
   }
 };
@@ -172,9 +171,9 @@ template <class Scope>
 struct WallContactPass {
   WallContacts contacts;
   WallRows rows;
-  unsigned lane_bits;     ///< 0 with loads
-  ContactSum* sums;       ///< [rows]
-  TouchLoads loads = {};  ///< where to record what the grains do to free bodies; may be none
+  unsigned lane_bits;       ///< 0 with loads
+  ContactSum* sums;         ///< [rows]
+  ContactLoads loads = {};  ///< where to record what the grains do to free bodies; may be none
   BL_HD void operator()(Index thread) const {
     const Lane lane(thread, lane_bits);
     const Index i = rows.grain[lane.row];

@@ -41,22 +41,22 @@ struct ShearedPass {
 
 /// Which passes are built for sheared fluid, too: those of one fluid alone with one smoothing length.
 template <class Pass>
-constexpr bool kBearsShear = false;
+constexpr bool supports_shear = false;
 template <class W, class Shift, class Fit, bool kSmooth>
-constexpr bool kBearsShear<DensityPass<W, Shift, Fit, kSmooth, false, OneLength>> = true;
+constexpr bool supports_shear<DensityPass<W, Shift, Fit, kSmooth, false, OneLength>> = true;
 template <class W, bool kArtificial>
-constexpr bool kBearsShear<ForcePass<W, kArtificial, false, false, OneLength>> = true;
+constexpr bool supports_shear<ForcePass<W, kArtificial, false, false, OneLength>> = true;
 template <class Force>
-constexpr bool kBearsShear<StressPass<Force>> = kBearsShear<Force>;
+constexpr bool supports_shear<StressPass<Force>> = supports_shear<Force>;
 template <class W>
-constexpr bool kBearsShear<ContinuityPass<W>> = true;
+constexpr bool supports_shear<ContinuityPass<W>> = true;
 template <class W>
-constexpr bool kBearsShear<SummationPass<W, false>> = true;
+constexpr bool supports_shear<SummationPass<W, false>> = true;
 template <class W>
-constexpr bool kBearsShear<ShepardPass<W>> = true;
+constexpr bool supports_shear<ShepardPass<W>> = true;
 template <class W, bool kSpin, bool kNoise>
-constexpr bool kBearsShear<SdpdForcePass<W, kSpin, kNoise, false>> = true;
+constexpr bool supports_shear<SdpdForcePass<W, kSpin, kNoise, false>> = true;
 template <class Force, bool kNoise>
-constexpr bool kBearsShear<SdpdStressPass<Force, kNoise>> = kBearsShear<Force>;
+constexpr bool supports_shear<SdpdStressPass<Force, kNoise>> = supports_shear<Force>;
 
 }  // namespace bedload::inline BL_VARIANT

@@ -46,7 +46,7 @@ struct GrainKick {
 
   BL_HD bool wet() const { return bool(drag_coefficient); }
   /// Has what a KickedGrain of i reads brought near.
-  BL_HD void ahead(Index i) const {
+  BL_HD void prefetch(Index i) const {
     if (drive) read_ahead(drive[i]);
     if (!wet()) return;
     read_ahead(fluid_force[i]), read_ahead(fluid_velocity[i]), read_ahead(fluid_angular_velocity[i]);
@@ -61,7 +61,7 @@ struct GrainKick {
   }
 };
 
-/// Velocity and spin of one grain under forces that hold for the present kicks: `under` before them.
+/// Velocity and spin of one grain under forces that hold for the present kicks: `load` before them.
 struct KickedGrain {
   Vec3d v, omega;
   Vec3d impulse, spin_impulse;  ///< from drag, so far: N s, N m s
@@ -83,7 +83,7 @@ struct KickedGrain {
         fluid_angular_velocity_(spin_.fraction > 0 ? Vec3d(k.fluid_angular_velocity[i]) : Vec3d{}) {}
 
   /// By contacts: force (N) and torque (N m).
-  BL_HD void under(Vec3d force, const Vec3d& torque) {
+  BL_HD void load(Vec3d force, const Vec3d& torque) {
     if (wet_) force += fluid_force_;
     if (driven_) force += drive_;
     a_ = force * (1 / m_) + gravity_;

@@ -30,7 +30,7 @@ struct FirstKickPass {
   Span<Real3> v, omega, v_rest, omega_rest, impulse, spin_impulse;
   BL_HD void operator()(Index i) const {
     KickedGrain g(kick, i, Vec3d(v[i]), Vec3d(omega[i]));
-    g.under(Vec3d(force[i]), Vec3d(torque[i]));
+    g.load(Vec3d(force[i]), Vec3d(torque[i]));
     g.kick();
     x[i] = kick.drift(x[i], g.v);
     split(g.v, v[i], v_rest[i]);
@@ -41,7 +41,7 @@ struct FirstKickPass {
   }
 };
 
-/// What a grain brings to where it has arrived, read or asked for before its contacts are looked at.
+/// State of a grain at the end of its drift, prefetched before the loop over its contacts.
 struct ArrivedGrain {
   Real3 v_most, v_rest, omega_most, omega_rest;
   Index wall_row;
@@ -52,23 +52,24 @@ struct ArrivedGrain {
         omega_most(contacts.omega[i]),
         omega_rest(omega_rests[i]),
         wall_row(contacts.wall_row_of(i)) {
-    kick.ahead(i);
+    kick.prefetch(i);
   }
   BL_HD Vec3d v() const { return join(v_most, v_rest); }
   BL_HD Vec3d omega() const { return join(omega_most, omega_rest); }
 };
 
-/// Contacts where the grains have arrived, the second half kick, and the first half kick and drift of the
-/// next substep. Neighbours are read, so results go to other arrays. This pass and those below run over the
-/// threads that share the rows of the contacts' list. Laws act as Law.
-template <class Law>
+/// Contacts of the grains where they have drifted to, then Finish: the kicks that follow. Neighbours are
+/// read, so results go to other arrays. This pass and the next run over the threads that share the rows of
+/// the contacts' list. Laws act as Law.
+template <class Law, class Finish>
 struct SubstepPass {
   ContactPass contacts;
   GrainKick kick;
-  Span<Vec3d> next_x;
-  Span<Real3> next_v, next_omega, v_rest, omega_rest, impulse, spin_impulse;
+  Span<const Real3> v_rest, omega_rest;
+  Finish finish;
   BL_HD void operator()(Index thread) const {
-    let_next_loop_begin();  // with the walls of the next substep, which waits for this one to end
+    // with the walls of the next substep, which waits for this one to end
+    if constexpr (!Finish::kLast) let_next_loop_begin();
     const Lane lane(thread, contacts.list.bits);
     const Index i = lane.row;
     const ArrivedGrain now(contacts, kick, i, v_rest, omega_rest);
@@ -76,10 +77,21 @@ struct SubstepPass {
     KickedGrain g(kick, i, now.v(), now.omega());
     contacts.add_others(i, now.wall_row, sum);
     if (lane.index != 0) return;
-    g.under(sum.force, sum.torque);
+    g.load(sum.force, sum.torque);
+    finish(i, g, sum, kick, contacts.x);
+  }
+};
+
+/// The second half kick of a substep, then the first half kick and the drift of the next one.
+struct NextDrift {
+  static constexpr bool kLast = false;
+  Span<Vec3d> next_x;
+  Span<Real3> next_v, next_omega, v_rest, omega_rest, impulse, spin_impulse;
+  BL_HD void operator()(Index i, KickedGrain& g, const ContactSum&, const GrainKick& kick,
+                        Span<const Vec3d> x) const {
     g.kick();
     g.kick();
-    next_x[i] = kick.drift(contacts.x[i], g.v);
+    next_x[i] = kick.drift(x[i], g.v);
     split(g.v, next_v[i], v_rest[i]);
     split(g.omega, next_omega[i], omega_rest[i]);
     if (!kick.wet()) return;
@@ -88,24 +100,13 @@ struct SubstepPass {
   }
 };
 
-/// Contacts and half kick that end an advance; leaves forces and mean drag.
-template <class Law>
-struct LastKickPass {
-  ContactPass contacts;
-  GrainKick kick;
+/// The second half kick of the last substep; leaves the forces, and the mean drag.
+struct LastKick {
+  static constexpr bool kLast = true;
   double duration;  ///< of the advance, s
-  Span<Real3> next_v, next_omega;
-  Span<const Real3> v_rest, omega_rest;
-  Span<Real3> impulse, spin_impulse, force, torque, drag_force;
-  BL_HD void operator()(Index thread) const {
-    const Lane lane(thread, contacts.list.bits);
-    const Index i = lane.row;
-    const ArrivedGrain now(contacts, kick, i, v_rest, omega_rest);
-    ContactSum sum = contacts.pairs<Law>(lane);
-    KickedGrain g(kick, i, now.v(), now.omega());
-    contacts.add_others(i, now.wall_row, sum);
-    if (lane.index != 0) return;
-    g.under(sum.force, sum.torque);
+  Span<Real3> next_v, next_omega, impulse, spin_impulse, force, torque, drag_force;
+  BL_HD void operator()(Index i, KickedGrain& g, const ContactSum& sum, const GrainKick& kick,
+                        Span<const Vec3d>) const {
     g.kick();
     next_v[i] = Real3(g.v);
     next_omega[i] = Real3(g.omega);

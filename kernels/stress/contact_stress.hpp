@@ -21,7 +21,7 @@ struct ContactStressPass {
       const double distance = norm(r), overlap = double(R_lo) + double(R_hi) - distance;
       if (!(overlap > 0)) return;
       const ContactGeometry at =
-          touch(contacts.sphere(lo, R_lo), contacts.sphere(hi, R_hi), r, distance, overlap);
+          sphere_contact(contacts.sphere(lo, R_lo), contacts.sphere(hi, R_hi), r, distance, overlap);
       ContactHistory h = contacts.histories[slot];
       sum.add(contacts
                   .law_of(lo, hi)(at, contacts.v[lo] - contacts.v[hi], contacts.omega[lo], contacts.omega[hi],

@@ -5,7 +5,7 @@
 
 #include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/sampling.hpp"
-#include "kernels/boundaries/admit.hpp"
+#include "kernels/boundaries/insert.hpp"
 #include "kernels/boundaries/sinks.hpp"
 #include "src/measure/sweeps.hpp"
 
@@ -29,7 +29,7 @@ std::vector<WallBody> outlets_as_walls(const std::vector<OutletConfig>& outlets,
 
 }  // namespace
 
-OpenBoundaries::WaysOut::WaysOut(const OpenBoundaryParameters& p, const char* phase)
+OpenBoundaries::OutletRegions::OutletRegions(const OpenBoundaryParameters& p, const char* phase)
     : geometry(outlets_as_walls(p.outlets, phase), p.domain), tally(kSides + p.outlets.size()) {}
 
 OpenBoundaries::OpenBoundaries(const OpenBoundaryParameters& parameters, const Frame& frame,
@@ -64,19 +64,20 @@ bool OpenBoundaries::grains_due(double t) const {
 
 /// Marks what leaves in sink_ and tallies it; false if nothing does.
 template <class P, class Mass>
-bool OpenBoundaries::find_leaving(WaysOut& ways, Span<const P> x, bool domain, const Mass& mass, double t) {
+bool OpenBoundaries::find_leaving(OutletRegions& regions, Span<const P> x, bool domain, const Mass& mass,
+                                  double t) {
   const Range all{0, x.size};
-  if (!domain && ways.geometry.surfaces().empty()) return false;
+  if (!domain && regions.geometry.surfaces().empty()) return false;
   sink_.resize(x.size);
-  for_each(all, SinkPass<P>{frame_, ways.geometry.view(), domain, x, sink_});
+  for_each(all, SinkPass<P>{frame_, regions.geometry.view(), domain, x, sink_});
   if (sum_over<1>(all, LeavingBody{sink_}).v[0] == 0) return false;
   if (domain) {
     const auto gone = sum_over<2 * kSides>(all, SideTally<Mass>{sink_, mass});
-    for (std::uint32_t k = 0; k < kSides; ++k) ways.tally[k].add(gone.v[2 * k], gone.v[2 * k + 1], t);
+    for (std::uint32_t k = 0; k < kSides; ++k) regions.tally[k].add(gone.v[2 * k], gone.v[2 * k + 1], t);
   }
-  for (std::uint32_t k = kSides; k < ways.tally.size(); ++k) {
+  for (std::uint32_t k = kSides; k < regions.tally.size(); ++k) {
     const auto gone = sum_over<2>(all, SinkTally<Mass>{sink_, kLeftDomain + k, mass});
-    ways.tally[k].add(gone.v[0], gone.v[1], t);
+    regions.tally[k].add(gone.v[0], gone.v[1], t);
   }
   return true;
 }
@@ -140,30 +141,30 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
     throw SimulationFault("inlet \"" + motion_.inlets()[i].name() +
                           "\": more fluid particles than there are ids");
   fluid.grow(before + count);
-  for_each(walls.owned(), AdmitPass{frame_,
-                                    eos,
-                                    first,
-                                    count,
-                                    before,
-                                    Id(next_fluid_),
-                                    Real(parameters_.fluid_mass()),
-                                    Real3(motion_.inlets()[i].motion(t).a),
-                                    Real3(gravity),
-                                    walls.id,
-                                    walls.x,
-                                    walls.v_rho,
-                                    walls.m_state,
-                                    fluid.id,
-                                    fluid.x,
-                                    fluid.v_rho,
-                                    fluid.flux,
-                                    fluid.m_state,
-                                    fluid.s,
-                                    fluid.mass,
-                                    fluid.eps,
-                                    fluid.solid_factor,
-                                    fluid.theta,
-                                    fluid.acc});
+  for_each(walls.owned(), InsertPass{frame_,
+                                     eos,
+                                     first,
+                                     count,
+                                     before,
+                                     Id(next_fluid_),
+                                     Real(parameters_.fluid_mass()),
+                                     Real3(motion_.inlets()[i].motion(t).a),
+                                     Real3(gravity),
+                                     walls.id,
+                                     walls.x,
+                                     walls.v_rho,
+                                     walls.m_state,
+                                     fluid.id,
+                                     fluid.x,
+                                     fluid.v_rho,
+                                     fluid.flux,
+                                     fluid.m_state,
+                                     fluid.s,
+                                     fluid.mass,
+                                     fluid.eps,
+                                     fluid.solid_factor,
+                                     fluid.theta,
+                                     fluid.acc});
   next_fluid_ += count;
 }
 
@@ -174,8 +175,8 @@ GrainRenewal OpenBoundaries::renew(GrainStore& grains, double t) {
   const GrainMass mass{matter_.of(grains), grains.radius};
   const bool fewer = find_leaving(grains_out_, Span<const Vec3d>(grains.x), false, mass, t);
   if (fewer) {
-    find_all(before, StaysTest{sink_}, came_from_);
-    grains.reorder(came_from_);
+    find_all(before, StaysTest{sink_}, source_index_);
+    grains.reorder(source_index_);
   }
   for_each(grains.owned(), NoteSidePass{{frame_, grains.x, left_through_}, left_through_});
   const std::vector<Tally> outside = grains_outside(grains, t);
@@ -184,27 +185,27 @@ GrainRenewal OpenBoundaries::renew(GrainStore& grains, double t) {
   if (!fewer && more.empty()) return {};
   const Index kept = grains.size();
   if (!fewer) {
-    came_from_.resize(kept);
-    for_each({0, kept}, FillIndex{came_from_});
+    source_index_.resize(kept);
+    for_each({0, kept}, FillIndex{source_index_});
   }
   if (!more.empty()) {
     if (next_grain_ + double(more.size()) >= double(kNone))
       throw SimulationFault("grain_inlet: more grains than there are ids");
     grains.grow(kept + Index(more.size()));
-    came_from_.grow(grains.size());
+    source_index_.grow(grains.size());
     dropped_.assign(more);
     for_each({0, Index(more.size())}, DropPass{dropped_, kept, Id(next_grain_), grains.id, grains.x, grains.v,
-                                               grains.radius, grains.eps, grains.material, came_from_});
+                                               grains.radius, grains.eps, grains.material, source_index_});
     next_grain_ += double(more.size());
   }
-  return {came_from_, before, true};
+  return {source_index_, before, true};
 }
 
 std::vector<NewGrain> OpenBoundaries::new_grains(const GrainStore& grains, double t) {
   std::vector<NewGrain> all;
   for (GrainSource& source : sources_) {
     while (source.due(t) && drop_one(source, grains, t, all)) source.dropped();
-    source.state.asked = source.state.count + source.waiting(t);
+    source.state.asked = source.state.count + source.pending(t);
   }
   return all;
 }
@@ -264,7 +265,7 @@ std::vector<Quantity> OpenBoundaries::report(double t) const {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     const std::string name = "grain_inlet_" + sources_[i].name();
     tally(name, {sources_[i].state.count, sources_[i].state.mass});
-    out.push_back({name + "_waiting", "-", sources_[i].waiting(t)});
+    out.push_back({name + "_waiting", "-", sources_[i].pending(t)});
   }
   return out;
 }

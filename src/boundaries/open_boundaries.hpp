@@ -58,13 +58,13 @@ class OpenBoundaries {
     }
   };
   /// Of one phase: its outlets, and what left by which way: through the sides of the domain, then outlets.
-  struct WaysOut {
+  struct OutletRegions {
     WallGeometry geometry;
     std::vector<Tally> tally;
-    WaysOut(const OpenBoundaryParameters& parameters, const char* phase);
+    OutletRegions(const OpenBoundaryParameters& parameters, const char* phase);
   };
   template <class P, class Mass>
-  bool find_leaving(WaysOut& ways, Span<const P> x, bool domain, const Mass& mass, double t);
+  bool find_leaving(OutletRegions& regions, Span<const P> x, bool domain, const Mass& mass, double t);
   Tally lost_fluid() const;  ///< through all sides
   /// Of the grains outside now, by sides.
   std::vector<Tally> grains_outside(const GrainStore& grains, double t) const;
@@ -80,7 +80,7 @@ class OpenBoundaries {
   OpenBoundaryParameters parameters_;
   Frame frame_;
   WallMotion& motion_;
-  WaysOut fluid_out_, grains_out_;
+  OutletRegions fluid_out_, grains_out_;
   GrainMatter matter_;
   Field<std::uint32_t> left_through_;  ///< 1 + side of the domain; 0: inside
   std::vector<double> grains_left_;    ///< s, when the first grain was found beyond each side; below 0: never
@@ -88,7 +88,7 @@ class OpenBoundaries {
   double next_fluid_ = 0, next_grain_ = 0;  ///< ids never given before
 
   Buffer<std::uint32_t> sink_;
-  Buffer<Index> kept_, came_from_;
+  Buffer<Index> kept_, source_index_;
   Buffer<NewGrain> dropped_;
 };
 

@@ -72,7 +72,7 @@ class Checks {
   // checks_grains.cpp
   void grain_fill(const std::string& path, const GrainFill& fill) const;
   void materials() const;
-  /// Overlap at the foot of the bed by its own weight.
+  /// Overlap at the bottom of the bed by its own weight.
   void softness() const;
   /// Drag laws are of grains smaller than what the fluid is averaged over; fluid flows around large ones.
   void resolution() const;

@@ -159,7 +159,7 @@ void Checks::sdpd() const {
                                    {"density.void_relaxation", c.density.void_relaxation},
                                    {"visc.alpha", c.visc.alpha},
                                    {"visc.beta", c.visc.beta}})
-    if (value != 0) fail(key, value, fmt::format("must be 0 {}, whose noise would set it off", with));
+    if (value != 0) fail(key, value, fmt::format("must be 0 {}, since thermal noise would trigger it", with));
   if (c.pressure.linear_exact) fail("pressure.linear_exact", "true", "must be false " + with);
   if (c.visc.model != ViscosityModel::none)
     fail("visc.model", quoted(c.visc.model.name()),

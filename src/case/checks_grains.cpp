@@ -114,8 +114,8 @@ void Checks::materials() const {
 void Checks::softness() const {
   if (const double overlap = bed_overlap(c); overlap > kSoftBed)
     warn(
-        "{}: grains at the foot of the bed will overlap by about {:.2g} % of their radius; stiffer is more "
-        "accurate",
+        "{0}: expected overlap at the bottom of the bed is {1:.2g} % of the radius; increase {0} for "
+        "accuracy",
         takes_moduli(c.contact.normal) ? "grain.E" : "contact.k", 100 * overlap);
 }
 
@@ -167,8 +167,9 @@ void Checks::coupling() const {
                      2 * d / c.fluid.kappa()));
   if (reach < 4 * d * (1 - 1e-9))
     warn(
-        "couple.hc: the coupling reaches {:.3g} diameters of the largest grain, which feels its own wake "
-        "below 4",
+        "couple.hc: the coupling reaches {:.3g} diameters of the largest grain; below 4 the flow that it "
+        "reads "
+        "is disturbed by its own drag; increase couple.hc",
         reach / d);
 }
 

@@ -6,7 +6,7 @@ namespace bedload {
 
 namespace {
 
-/// None of what keeps WCSPH smooth: noise would set it off.
+/// None of what keeps WCSPH smooth: thermal noise would trigger it.
 void set_sdpd(Config& c) {
   c.shift = c.xsph = c.tensile = 0;
   c.tensile_one_sign = false;

@@ -287,7 +287,7 @@ Counts with_arrivals(const Prepared& p) {
   for (const InletConfig& inlet : c.inlets) fluid += let_in(inlet, c, from, to);
   for (std::size_t k = 0; k < c.grain_inlets.size(); ++k) {
     const GrainSource source(c, k);
-    grains += source.waiting(to) - source.waiting(from);
+    grains += source.pending(to) - source.pending(from);
   }
   Counts counts = p.counts;
   add(counts.fluid, fluid, c.fluid.dx);

@@ -292,7 +292,7 @@ class FluidSolver {
   /// Runs a pass over the pairs of fluid.
   template <class Pass>
   void run(const Pass& pass) {
-    if constexpr (kBearsShear<Pass>)
+    if constexpr (supports_shear<Pass>)
       if (shear_.acts())
         return fluid_fluid_.run_within(range() * shear_.stretch(),
                                        ShearedPass<Pass>{pass, Real(shear_.strain), Real(shear_.rate)});
@@ -301,7 +301,7 @@ class FluidSolver {
   /// And of fluid and walls.
   template <class Pass>
   void run_with_walls(const Pass& pass) {
-    if constexpr (kBearsShear<Pass>)
+    if constexpr (supports_shear<Pass>)
       if (shear_.acts()) return run(pass);
     fluid_fluid_.run_with(fluid_wall_, pass);
   }

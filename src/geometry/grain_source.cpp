@@ -43,7 +43,7 @@ double GrainSource::next_radius() const {
   return 0.5 * sizes_[k][random.below(sizes_[k].size())];
 }
 
-double GrainSource::waiting(double t) const {
+double GrainSource::pending(double t) const {
   const double elapsed = (std::min(t, inlet_.stop) - inlet_.start) * (1 + 1e-12);
   if (elapsed <= 0) return 0;
   if (inlet_.rate > 0) return std::max(0.0, std::floor(inlet_.rate * elapsed) - state.count);

@@ -39,7 +39,7 @@ SolidParameters solid_parameters(const Config& config) {
   SolidParameters p{.materials = g.all_materials(),
                     .d_max = g.largest(),
                     .skin = config.skin_grain * g.smallest(),
-                    .touch = config.contact.normal != NormalLaw::none,
+                    .contacts = config.contact.normal != NormalLaw::none,
                     .films = Lubrication::of(config.lubrication, config.fluid.mu),
                     .gravity = config.gravity,
                     .fixed = g.fixed,

@@ -26,7 +26,7 @@ struct SolidParameters {
   double skin = 0;                         ///< of the lists, m
   std::vector<ContactLaw> pair_laws = {};  ///< [materials][materials]
   std::vector<ContactLaw> wall_laws = {};  ///< [bodies][materials]
-  bool touch = true;                       ///< whether there are contacts
+  bool contacts = true;                    ///< whether grains touch each other and walls
   Lubrication films = {};
   Vec3d gravity = {};        ///< m/s2
   bool fixed = false;        ///< grains never move

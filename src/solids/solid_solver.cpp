@@ -18,10 +18,10 @@ struct WrapGrains {
 };
 
 /// Places among the grains as listed last, from places among those that are left.
-struct ComeFromPass {
-  Span<const Index> came_from;
+struct SourceIndexPass {
+  Span<const Index> source_index;
   Span<Index> order;
-  BL_HD void operator()(Index i) const { order[i] = came_from[order[i]]; }
+  BL_HD void operator()(Index i) const { order[i] = source_index[order[i]]; }
 };
 
 }  // namespace
@@ -40,6 +40,10 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
       wall_list_(frame, walls, skin(), film_range(parameters.d_max / 2)) {
   wall_laws_.assign(parameters.wall_laws);
   if (parameters.materials.size() > 1) pair_laws_.assign(parameters.pair_laws);
+  with_contact_law(parameters.pair_laws, [&]<class Law>(std::type_identity<Law>) {
+    end_substep_ = &SolidSolver::end_substep<Law>;
+  });
+  choose_wall_law();
   if (walls.contacts() == 0) return;
   wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
   wall_contacts_->resize(grains.size());
@@ -63,7 +67,7 @@ void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal
   grid.sort<Vec3d>(frame_, grains.x.span(), order_);
   grains.reorder(order_);
   grains.x_list.copy(grains.x);
-  if (renewal.any) for_each(grains.owned(), ComeFromPass{renewal.came_from, order_});
+  if (renewal.any) for_each(grains.owned(), SourceIndexPass{renewal.source_index, order_});
   std::swap(list_, old_list_);
   histories_.swap(old_histories_);
   build_list(grains, grid);
@@ -117,7 +121,7 @@ ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
           .histories = histories_.view(),
           .laws = pair_laws_.size() > 0 ? pair_laws_.data() : nullptr,
           .materials = matter_.materials(),
-          .acts = parameters_.touch};
+          .acts = parameters_.contacts};
 }
 
 LubricationPass SolidSolver::films(const GrainStore& g, ContactSum* sums) const {
@@ -125,16 +129,16 @@ LubricationPass SolidSolver::films(const GrainStore& g, ContactSum* sums) const 
 }
 
 ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses, double dt,
-                                     const TouchLoads& loads) {
+                                     const ContactLoads& loads) {
   ContactPass pass = contact_pass(g, dt);
   if (lubricates()) {
     by_films_.reserve_and_resize(g.size());
     for_each(threads(), films(g, by_films_.data()));
     pass.by_films = by_films_.data();
   }
-  if (wall_list_.size() == 0 || !parameters_.touch) return pass;
+  if (wall_list_.size() == 0 || !parameters_.contacts) return pass;
   by_walls_.reserve_and_resize(wall_list_.size());
-  touch_walls(wall_contacts(g, poses, dt), loads);
+  (this->*evaluate_walls_)(wall_contacts(g, poses, dt), loads);
   if (lubricates())
     for_each({0, wall_list_.size()},
              WallFilmPass{wall_contacts(g, poses, dt), wall_list_.rows(), by_walls_.data()});
@@ -146,7 +150,7 @@ ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses,
 void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
   FreeBodies* const free = moving();
   wall_list_.cover(g, poses, wall_counts(), 0);
-  const ContactPass contacts = contacts_at(g, poses.data, 0, free ? free->record(g.size()) : TouchLoads{});
+  const ContactPass contacts = contacts_at(g, poses.data, 0, free ? free->record(g.size()) : ContactLoads{});
   evaluate(EvaluatePass{contacts, g.force, g.torque});
 }
 
@@ -155,7 +159,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                           Span<const Real3> drive) {
   FreeBodies* const free = moving();
   const double tau = dt / substeps;
-  const TouchLoads loads = free ? free->record(g.size()) : TouchLoads{};
+  const ContactLoads loads = free ? free->record(g.size()) : ContactLoads{};
   const auto contacts_in = [&](int s) {
     const BodyPose* const row = poses.data + std::size_t(s) * bodies;
     const ContactPass contacts = contacts_at(g, row, tau, loads);
@@ -202,14 +206,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   for (int s = 1; s <= substeps; ++s) {
     const ContactPass contacts = contacts_in(s);
     if (!gravity.empty()) kick.gravity = gravity[s];
-    with_contact_law(parameters_.pair_laws, [&]<class Law>(std::type_identity<Law>) {
-      if (s < substeps)
-        evaluate(SubstepPass<Law>{contacts, kick, next_x_, next_v_, next_omega_, v_rest_, omega_rest_,
-                                  g.impulse, g.spin_impulse});
-      else
-        evaluate(LastKickPass<Law>{contacts, kick, dt, next_v_, next_omega_, v_rest_, omega_rest_, g.impulse,
-                                   g.spin_impulse, g.force, g.torque, g.drag_force});
-    });
+    (this->*end_substep_)(g, contacts, kick, dt, s == substeps);
     if (s < substeps) g.x.buffer().swap(next_x_);
     g.v.buffer().swap(next_v_);
     g.omega.buffer().swap(next_omega_);
@@ -219,6 +216,36 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
       groups_.follow(g, {}, {}, 0);
     if (free) free->substep(s);
   }
+}
+
+template <class Law>
+void SolidSolver::end_substep(GrainStore& g, const ContactPass& contacts, const GrainKick& kick, double dt,
+                              bool last) {
+  if (last)
+    evaluate(SubstepPass<Law, LastKick>{.contacts = contacts,
+                                        .kick = kick,
+                                        .v_rest = v_rest_,
+                                        .omega_rest = omega_rest_,
+                                        .finish = {.duration = dt,
+                                                   .next_v = next_v_,
+                                                   .next_omega = next_omega_,
+                                                   .impulse = g.impulse,
+                                                   .spin_impulse = g.spin_impulse,
+                                                   .force = g.force,
+                                                   .torque = g.torque,
+                                                   .drag_force = g.drag_force}});
+  else
+    evaluate(SubstepPass<Law, NextDrift>{.contacts = contacts,
+                                         .kick = kick,
+                                         .v_rest = v_rest_,
+                                         .omega_rest = omega_rest_,
+                                         .finish = {.next_x = next_x_,
+                                                    .next_v = next_v_,
+                                                    .next_omega = next_omega_,
+                                                    .v_rest = v_rest_,
+                                                    .omega_rest = omega_rest_,
+                                                    .impulse = g.impulse,
+                                                    .spin_impulse = g.spin_impulse}});
 }
 
 // -- sums --------------------------------------------------------------------
@@ -244,7 +271,7 @@ GrainTotals SolidSolver::totals(const GrainStore& g) const {
 
 void SolidSolver::contact_moments(const GrainStore& g, Buffer<PairMoment<>>& out) const {
   out.resize(g.size());
-  if (!parameters_.touch) return out.zero();
+  if (!parameters_.contacts) return out.zero();
   for_each(g.owned(), ContactStressPass{contact_pass(g, 0), out});
 }
 
@@ -254,7 +281,7 @@ void SolidSolver::film_moments(const GrainStore& g, Buffer<PairMoment<>>& out) c
 }
 
 void SolidSolver::record_loads(int s, const GrainStore& g, const BodyPose* poses) {
-  if (!substep_loads_.wanted() || !parameters_.touch) return;
+  if (!substep_loads_.wanted() || !parameters_.contacts) return;
   const WallContacts contacts = wall_contacts(g, poses, 0);
   substep_loads_.record(s, {0, wall_list_.size()}, [&](std::uint32_t body) {
     return ListedLoadReduction{{contacts, body}, wall_list_.rows()};

@@ -22,6 +22,8 @@
 
 namespace bedload::inline BL_VARIANT {
 
+struct GrainKick;
+
 /// Extremes over all grains that steps and lists depend on; one reduction.
 struct GrainWatch {
   double speed = 0;         ///< largest, m/s
@@ -48,8 +50,8 @@ struct GrainTotals {
 
 /// Grains that were taken out or put in since the last lists.
 struct GrainRenewal {
-  Span<const Index> came_from;  ///< former place of each grain; kNone if it is new
-  Index before = 0;             ///< how many there were
+  Span<const Index> source_index;  ///< former place of each grain; kNone if it is new
+  Index before = 0;                ///< how many there were
   bool any = false;
 };
 
@@ -128,12 +130,20 @@ class SolidSolver {
   WallContacts wall_contacts(const GrainStore& grains, const BodyPose* poses, double dt) const;
   double film_range(double R_star) const { return double(parameters_.films.range(Real(R_star))); }  ///< m
   LubricationPass films(const GrainStore& grains, ContactSum* sums) const;
-  /// Into by_walls_.
-  void touch_walls(const WallContacts& contacts, const TouchLoads& loads);
+  /// Into by_walls_: the wall contacts of the grains, and what they do to free bodies.
+  template <class Scope>
+  void evaluate_walls(const WallContacts& contacts, const ContactLoads& loads);
+  /// Ends a substep of an advance of dt (s): contacts between grains, kicks, and a drift unless it is the
+  /// last.
+  template <class Law>
+  void end_substep(GrainStore& grains, const ContactPass& contacts, const GrainKick& kick, double dt,
+                   bool last);
+  /// Sets evaluate_walls_.
+  void choose_wall_law();
   /// Evaluates the contacts with walls, and lubrication, and returns the pass over the contacts between
   /// grains, which adds them.
   ContactPass contacts_at(const GrainStore& grains, const BodyPose* poses, double dt,
-                          const TouchLoads& loads);
+                          const ContactLoads& loads);
   /// Runs a pass with `contacts` of contacts_at, from then on beside the walls'.
   template <class Pass>
   void evaluate(const Pass& pass) {
@@ -161,6 +171,11 @@ class SolidSolver {
   std::unique_ptr<Field<Index>> wall_contacts_;                  ///< of them in use
   mutable std::vector<WallMemory*> memory_pointers_;             ///< to wall_memory_, which sorting moves
   mutable Buffer<WallMemory*> device_memory_pointers_;
+
+  // compiled for the contact laws and surface kinds of the case
+  void (SolidSolver::*end_substep_)(GrainStore&, const ContactPass&, const GrainKick&, double,
+                                    bool) = nullptr;
+  void (SolidSolver::*evaluate_walls_)(const WallContacts&, const ContactLoads&) = nullptr;
 
   VerletList list_, old_list_;
   mutable PairHistoryBuffers histories_;  ///< sums read them through the pass that writes them

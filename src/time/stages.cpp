@@ -340,9 +340,9 @@ void Stepper::load_bodies(Step& now) {
   if (corrected)
     fluid_solver_->body_pressures(fluid_, walls_, bodies_.fit_pressure(walls_, now.poses), wall_in_fit_);
   const WallRepulsion repulsion = fluid_solver_->repulsion(fluid_, now.poses, now.dt);
-  bodies_.feel_fluid(walls_, wall_force_, corrected ? &wall_in_fit_ : nullptr,
-                     repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_, now.poses,
-                     now.last_kick, now.dt);
+  bodies_.add_fluid_loads(walls_, wall_force_, corrected ? &wall_in_fit_ : nullptr,
+                          repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_, now.poses,
+                          now.last_kick, now.dt);
 }
 
 /// Velocity by the change of the acceleration over the step.

@@ -50,14 +50,14 @@ FreeBodies::FreeBodies(const FreeBodyParameters& parameters, const Frame& frame,
   contact_radius_ = kInfinity;
   std::vector<RigidBody> rigid;
   std::vector<BodyLaw> laws;
-  std::vector<TouchBall> balls;
+  std::vector<ContactBall> balls;
   std::vector<Vec3d> x, v, angular_momentum;
   for (const FreeBody& body : parameters.bodies) {
     const RigidBody& k = body.rigid;
     places_[k.body] = int(rigid.size());
     rigid.push_back(k);
     laws.push_back(body.law);
-    for (const TouchBall& ball : body.balls) {
+    for (const ContactBall& ball : body.balls) {
       contact_radius_ = std::min(contact_radius_, ball.R_star);
       largest_radius_ = std::max(largest_radius_, ball.R_star);
       balls.push_back(ball);
@@ -202,10 +202,10 @@ void FreeBodies::first_kick() {
 void FreeBodies::substep(int s) {
   const double tau = step_.dt / step_.substeps;
   const bool last = s == step_.substeps;
-  touch({step_.poses.data + std::size_t(s) * step_.row_size, Index(step_.row_size)}, tau);
+  evaluate_contacts({step_.poses.data + std::size_t(s) * step_.row_size, Index(step_.row_size)}, tau);
   if (substep_loads_.wanted())
     substep_loads_.record(s, {0, ball_loads_.size}, [&](std::uint32_t body) {
-      return TouchReduction{ball_loads_, body};
+      return ContactLoadReduction{ball_loads_, body};
     });
   BodyPass p = pass();
   p.by_grains = grain_sums_.data();
@@ -223,14 +223,14 @@ void FreeBodies::advance() {
 }
 
 void FreeBodies::evaluate(Span<const BodyPose> poses) {
-  touch(poses, 0);
+  evaluate_contacts(poses, 0);
   BodyPass p = pass();
   p.by_grains = grain_sums_.data();
   p.by_contacts = ball_sums_.data();
   kick(p);
 }
 
-TouchLoads FreeBodies::record(Index grains) {
+ContactLoads FreeBodies::record(Index grains) {
   const int capacity = std::min(size(), kMostWallContacts);
   grain_slots_.resize(std::size_t(grains) * capacity);
   grain_counts_.resize(grains);
@@ -240,7 +240,7 @@ TouchLoads FreeBodies::record(Index grains) {
 }
 
 /// Balls against surfaces, then the sums over what they and the grains have recorded.
-void FreeBodies::touch(Span<const BodyPose> poses, double dt) {
+void FreeBodies::evaluate_contacts(Span<const BodyPose> poses, double dt) {
   if (balls_.size() > 0)
     for_each(
         {0, Index(balls_.size())},
@@ -251,9 +251,9 @@ void FreeBodies::touch(Span<const BodyPose> poses, double dt) {
   for (int k = 0; k < size(); ++k) {
     const std::uint32_t body = rigid(k).body;
     if (grain_loads_.size > 0)
-      reduce_into(grain_sums_.data() + k, {0, grain_loads_.size}, TouchReduction{grain_loads_, body});
+      reduce_into(grain_sums_.data() + k, {0, grain_loads_.size}, ContactLoadReduction{grain_loads_, body});
     if (balls_.size() > 0)
-      reduce_into(ball_sums_.data() + k, {0, ball_loads_.size}, TouchReduction{ball_loads_, body});
+      reduce_into(ball_sums_.data() + k, {0, ball_loads_.size}, ContactLoadReduction{ball_loads_, body});
   }
 }
 
@@ -267,10 +267,10 @@ BodyPressures FreeBodies::fit_pressure(const WallStore& walls, Span<const BodyPo
   return {pressures_, poses.data};
 }
 
-void FreeBodies::feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force,
-                            const Buffer<Vec4<double>>* in_fit, const WallRepulsion* repulsion,
-                            const FluidStore& fluid, Span<const BodyPose> poses, double kick_time,
-                            double dt) {
+void FreeBodies::add_fluid_loads(const WallStore& walls, const Buffer<Vec3d>& force,
+                                 const Buffer<Vec4<double>>* in_fit, const WallRepulsion* repulsion,
+                                 const FluidStore& fluid, Span<const BodyPose> poses, double kick_time,
+                                 double dt) {
   wall_sums_.zero();
   repulsion_sums_.zero();
   for (int k = 0; k < size(); ++k) {

@@ -77,16 +77,16 @@ class FreeBodies {
   void evaluate(Span<const BodyPose> poses);
 
   /// Where `grains` grains record what they do to bodies, until the next evaluation.
-  TouchLoads record(Index grains);
+  ContactLoads record(Index grains);
 
   /// Fits a linear pressure to that of the wet wall particles of each body. poses: one row.
   BodyPressures fit_pressure(const WallStore& walls, Span<const BodyPose> poses);
   /// Takes the fluid's force from the wall particles [walls] and repulsion at the end of a step and kicks
   /// with it; in_fit: that of the pairs in the fitted pressure, as BodyPressurePass leaves it, null where
   /// bodies keep the pairs' force; dt: of the step, 0 at the start of a run. poses: one row.
-  void feel_fluid(const WallStore& walls, const Buffer<Vec3d>& force, const Buffer<Vec4<double>>* in_fit,
-                  const WallRepulsion* repulsion, const FluidStore& fluid, Span<const BodyPose> poses,
-                  double kick, double dt);
+  void add_fluid_loads(const WallStore& walls, const Buffer<Vec3d>& force, const Buffer<Vec4<double>>* in_fit,
+                       const WallRepulsion* repulsion, const FluidStore& fluid, Span<const BodyPose> poses,
+                       double kick, double dt);
 
   /// Copies places and velocities at `time` (s) to the host; bodies that are held have none.
   void read_back(double time);
@@ -142,7 +142,7 @@ class FreeBodies {
   const RigidBody& rigid(int place) const { return parameters_.bodies[place].rigid; }
   void point_at_memory();
   BodyFields fields() const;
-  void touch(Span<const BodyPose> poses, double dt);
+  void evaluate_contacts(Span<const BodyPose> poses, double dt);
   void correct_pressure(const WallStore& walls, const Buffer<Vec4<double>>& in_fit,
                         Span<const BodyPose> poses);
   BodyPass pass() const;
@@ -160,7 +160,7 @@ class FreeBodies {
   Buffer<RigidBody> constants_;
   Buffer<BodyLaw> laws_;                   ///< of the free bodies
   Buffer<ElasticCompliance> compliances_;  ///< of all wall bodies
-  Buffer<TouchBall> balls_;
+  Buffer<ContactBall> balls_;
   /// [capacity][balls], as one list
   struct Memory : Store {
     Memory() : Store("body_contacts") {}
@@ -170,9 +170,9 @@ class FreeBodies {
   int capacity_ = 0;
   Buffer<WallMemory*> memory_pointers_;
 
-  Buffer<TouchLoad> grain_slots_, ball_slots_;
+  Buffer<ContactLoad> grain_slots_, ball_slots_;
   Buffer<Index> grain_counts_, ball_counts_;
-  TouchLoads grain_loads_, ball_loads_;
+  ContactLoads grain_loads_, ball_loads_;
   SubstepLoads substep_loads_;
   Buffer<LoadSum> grain_sums_, ball_sums_, wall_sums_, repulsion_sums_;
   Buffer<BodyPressureSums> fit_sums_;

@@ -94,7 +94,7 @@ BodyForces FreeBodies::forces(int k) const {
 
 LoadSum FreeBodies::contact_load(int body) const {
   if (ball_loads_.size == 0) return LoadSum::zero();
-  return reduce({0, ball_loads_.size}, TouchReduction{ball_loads_, std::uint32_t(body)});
+  return reduce({0, ball_loads_.size}, ContactLoadReduction{ball_loads_, std::uint32_t(body)});
 }
 
 BodyTotals FreeBodies::totals(double time) const {

@@ -67,7 +67,7 @@ FreeBody free_body(const Config& config, std::uint32_t b, Index place) {
   k = rigid_body(f.solid, turning_centre(f), f.move, f.turn, f.axis, config.domain.two_d);
   k.body = b;
   k.fluid = f.fluid;
-  k.touches = f.contacts;
+  k.contacts = f.contacts;
   k.release = f.release_time;
   out.velocity = f.velocity, out.spin = f.spin;
 

@@ -34,13 +34,13 @@ WallMotionParameters wall_motion_parameters(const Config& config);
 /// A body that moves by the forces on it.
 struct FreeBody {
   RigidBody rigid;
-  Vec3d velocity, spin;          ///< at the start; m/s, rad/s
-  double size = 0, reach = 0;    ///< of the corners from the centre; of all particles and their images, m
-  double inverse_mass = 0;       ///< largest 1/effective mass, 1/kg
-  BodyLaw law;                   ///< by which it touches other bodies
-  std::vector<TouchBall> balls;  ///< by which it touches them
-  double mu_r = 0;               ///< rolling friction
-  double grain_compliance = 0;   ///< 1/E* where grains touch it, 1/Pa
+  Vec3d velocity, spin;            ///< at the start; m/s, rad/s
+  double size = 0, reach = 0;      ///< of the corners from the centre; of all particles and their images, m
+  double inverse_mass = 0;         ///< largest 1/effective mass, 1/kg
+  BodyLaw law;                     ///< by which it touches other bodies
+  std::vector<ContactBall> balls;  ///< by which it touches them
+  double mu_r = 0;                 ///< rolling friction
+  double grain_compliance = 0;     ///< 1/E* where grains touch it, 1/Pa
 };
 
 struct FreeBodyParameters {

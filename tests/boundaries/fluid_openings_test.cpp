@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "kernels/boundaries/admit.hpp"
+#include "kernels/boundaries/insert.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
 #include "tests/boundaries/support.hpp"
 #include "tests/support/tolerance.hpp"
@@ -78,30 +78,30 @@ TEST(Admit, TakesOverThePressureOfTheBuffer) {
   std::vector<Real> s(1), mass(1), eps(1), solid_factor(1);
   std::vector<Real3> theta(1), acc(1);
   const auto span = [](auto& host) { return Span(host.data(), Index(host.size())); };
-  const AdmitPass pass{frame,
-                       eos,
-                       7,
-                       1,
-                       0,
-                       3,
-                       Real(0.5),
-                       Real3(),
-                       Real3(0, 0, Real(-9.81)),
-                       span(wall_id),
-                       span(wall_x),
-                       span(wall_v),
-                       span(wall_state),
-                       span(id),
-                       span(x),
-                       span(v_rho),
-                       span(flux),
-                       span(state),
-                       span(s),
-                       span(mass),
-                       span(eps),
-                       span(solid_factor),
-                       span(theta),
-                       span(acc)};
+  const InsertPass pass{frame,
+                        eos,
+                        7,
+                        1,
+                        0,
+                        3,
+                        Real(0.5),
+                        Real3(),
+                        Real3(0, 0, Real(-9.81)),
+                        span(wall_id),
+                        span(wall_x),
+                        span(wall_v),
+                        span(wall_state),
+                        span(id),
+                        span(x),
+                        span(v_rho),
+                        span(flux),
+                        span(state),
+                        span(s),
+                        span(mass),
+                        span(eps),
+                        span(solid_factor),
+                        span(theta),
+                        span(acc)};
   pass(0);
   EXPECT_EQ(id[0], 3u);
   EXPECT_NEAR(eos.pressure(s[0]), p, tolerance(1e-12, 1e-5, 1e-5) * p);

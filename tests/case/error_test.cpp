@@ -135,7 +135,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"[fluid]", "[sdpd]\nkT = 1\n[fluid]",
               "dam.toml:6: sdpd.kT = 1 has no use here; leave it out or change what it belongs to"},
         Wrong{"[fluid]", "[shift]\nA = 5\n[fluid]\nmodel = \"sdpd\"",
-              "dam.toml:6: shift.A = 5 must be 0 with fluid.model = \"sdpd\", whose noise would set it off"},
+              "dam.toml:6: shift.A = 5 must be 0 with fluid.model = \"sdpd\", since thermal noise would "
+              "trigger it"},
         Wrong{"[fluid]", "[visc]\nmodel = \"morris\"\n[fluid]\nmodel = \"sdpd\"",
               "dam.toml:6: visc.model = \"morris\" must be \"none\" with fluid.model = \"sdpd\", which "
               "brings its "

@@ -249,8 +249,8 @@ TEST(Warnings, NameWhatIsDoubtful) {
                 "will vary by more than 1 %"}));
   EXPECT_EQ(
       warnings_of(changed("[time]", "[couple]\nhc = 0.0025\n[time]")),
-      (std::vector<std::string>{"couple.hc: the coupling reaches 2.5 diameters of the largest grain, which "
-                                "feels its own wake below 4"}));
+      (std::vector<std::string>{"couple.hc: the coupling reaches 2.5 diameters of the largest grain; below 4 "
+                                "the flow that it reads is disturbed by its own drag; increase couple.hc"}));
   EXPECT_EQ(
       warnings_of(changed("dx = 0.004", "dx = 0.004\nvmax = \"50 cm/s\"")),
       std::vector<std::string>{"fluid.vmax = 0.5 m/s: not used, since a fall through the fluid's height, a "

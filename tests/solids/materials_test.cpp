@@ -26,8 +26,8 @@ struct MixedBench : GrainBench {
   /// Of two of them that touch.
   double E_star(int i, int j) const {
     const auto all = config.grain.all_materials();
-    const auto give = [&](int k) { return (1 - all[k].nu * all[k].nu) / all[k].E; };
-    return 1 / (give(i) + give(j));
+    const auto compliance = [&](int k) { return (1 - all[k].nu * all[k].nu) / all[k].E; };
+    return 1 / (compliance(i) + compliance(j));
   }
 };
 
@@ -101,7 +101,7 @@ TEST(DemocritusContact, DampsByRootTwoTimesCriticalAndSlidesBySofterSprings) {
   const double overlap = 1e-6, distance = 2 * double(R) - overlap;
   const NormalState s = law.normal_state(R / 2, m / 2, Real(overlap));
   EXPECT_NEAR(s.damping / (2 * std::sqrt(2 * 0.5 * double(m) * double(s.stiffness))), 1, 1e-6);
-  const ContactGeometry at = touch({R, m}, {R, m}, {0, 0, distance}, distance, overlap);
+  const ContactGeometry at = sphere_contact({R, m}, {R, m}, {0, 0, distance}, distance, overlap);
   ContactHistory h{{1e-8, 0, 0}, {}, overlap};
   const Real3 still = law(at, {}, {}, {}, 0, h).force;
   const double k_t = double(s.stiffness) / 2.5;

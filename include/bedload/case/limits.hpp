@@ -36,8 +36,7 @@ class SubstepLimits {
 /// contacts.
 std::vector<StepLimit> grain_limits(const Config& config);
 
-/// Overlap at the foot of the bed by its own weight, over the radius; a bed is as soft as accuracy allows at
-/// kSoftBed.
+/// Overlap at the bottom of the bed by its own weight, over the radius; beyond kSoftBed results suffer.
 double bed_overlap(const Config& config);
 inline constexpr double kSoftBed = 0.01;
 

@@ -30,11 +30,11 @@ class GrainSource {
   std::uint32_t material() const { return material_; }  ///< place in GrainConfig::all_materials
   Vec3d velocity() const { return inlet_.velocity; }
   /// The next grain is due.
-  bool due(double t) const { return waiting(t) > 0; }
+  bool due(double t) const { return pending(t) > 0; }
   /// Another has come due since space was last looked for.
-  bool news(double t) const { return state.count + waiting(t) > state.asked; }
+  bool news(double t) const { return state.count + pending(t) > state.asked; }
   /// Grains due but not yet dropped.
-  double waiting(double t) const;
+  double pending(double t) const;
 
   /// A new round of random places for the next grain, m.
   std::vector<Vec3d> places();

@@ -33,7 +33,7 @@ class Store {
   /// Reorders everything that outlives a step; may drop particles (order shorter than size).
   void reorder(Span<const Index> order) {
     for (auto* f : fields_)
-      if (f->used() && f->sorted()) f->gather(order, lender_for(*f));
+      if (f->used() && f->sorted()) f->gather(order, scratch_for(*f));
     for (auto* f : fields_)
       if (f->used() && !f->sorted()) f->resize(order.size);
     size_ = order.size;
@@ -60,7 +60,7 @@ class Store {
  private:
   friend class FieldBase;
   /// A field of the same type whose values need not last while particles are sorted.
-  FieldBase* lender_for(const FieldBase& field) const {
+  FieldBase* scratch_for(const FieldBase& field) const {
     for (auto* f : fields_)
       if (f->used() && !f->sorted() && typeid(*f) == typeid(field)) return f;
     return nullptr;

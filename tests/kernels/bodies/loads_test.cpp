@@ -39,16 +39,16 @@ TEST(BodyLoads, TurnABodyAboutWhereItIs) {
 }
 
 TEST(BodyLoads, TouchesOfABodyAddUpAndOthersDoNot) {
-  std::vector<TouchLoad> slots(4);
+  std::vector<ContactLoad> slots(4);
   std::vector<Index> counts(2);
-  const TouchLoads loads{slots.data(), counts.data(), 2, 2};
+  const ContactLoads loads{slots.data(), counts.data(), 2, 2};
   loads.add(0, {{1, 0, 0}, {0, 0, 1}, 3});
   loads.add(0, {{0, 5, 0}, {0, 5, 0}, 2});
   loads.add(0, {{2, 0, 0}, {1, 0, 0}, 3});
   loads.add(0, {{7, 7, 7}, {7, 7, 7}, 1});  // more bodies than there is space for
   loads.add(1, {{0, 0, 4}, {}, 3});
   EXPECT_EQ(counts[0], 2u);
-  const TouchReduction of{loads, 3};
+  const ContactLoadReduction of{loads, 3};
   LoadSum sum = of.identity();
   for (Index i = 0; i < 2; ++i) of.combine(sum, of(i));
   expect_near(sum.force(), {3, 0, 4}, 0);

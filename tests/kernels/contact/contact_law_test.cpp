@@ -73,7 +73,8 @@ TEST(ContactLaw, RefusesALinearSpringThatCannotDampEnough) {
 TEST(ContactLaw, ClippedForceNeverPulls) {
   const ContactLaw law = contact_law_of(glass());
   ContactHistory h;
-  const ContactGeometry at = touch(kGrain, kGrain, {2 * kRadius - 1e-7, 0, 0}, 2 * kRadius - 1e-7, 1e-7);
+  const ContactGeometry at =
+      sphere_contact(kGrain, kGrain, {2 * kRadius - 1e-7, 0, 0}, 2 * kRadius - 1e-7, 1e-7);
   EXPECT_EQ(law(at, {10, 0, 0}, {}, {}, 0, h).force.x, 0);
   EXPECT_GT(law(at, {-10, 0, 0}, {}, {}, 0, h).force.x, 0);
 }
@@ -85,7 +86,7 @@ TEST(ContactLaw, MindlinDeresiewiczStartsAtMindlinStiffnessAndEndsAtCoulomb) {
   c.contact.tangential = "mindlin_deresiewicz";
   const ContactLaw md = contact_law_of(c);
   const double overlap = 1e-6, gap = 2 * double(kRadius) - overlap;
-  const ContactGeometry at = touch(kGrain, kGrain, {gap, 0, 0}, gap, overlap);
+  const ContactGeometry at = sphere_contact(kGrain, kGrain, {gap, 0, 0}, gap, overlap);
   c.contact.tangential = "mindlin";
   const double stiffness = 8 * double(contact_law_of(c).sliding.G_star) * std::sqrt(0.5 * kRadius * overlap);
 
@@ -110,7 +111,7 @@ TEST(ContactLaw, SlidingIsLimitedAndTheSpringFollows) {
     c.contact.tangential = name;
     const ContactLaw law = contact_law_of(c);
     const double overlap = 1e-6, gap = 2 * double(kRadius) - overlap;
-    const ContactGeometry at = touch(kGrain, kGrain, {0, 0, gap}, gap, overlap);
+    const ContactGeometry at = sphere_contact(kGrain, kGrain, {0, 0, gap}, gap, overlap);
     ContactHistory h{{1e-3, 0, 0}, {}, overlap};
     const ContactForce slip = law(at, {}, {}, {}, 0, h);
     EXPECT_NEAR(-slip.force.x / (0.3 * slip.force.z), 1, tolerance(1e-12, 1e-6, 1e-6)) << name;
@@ -129,7 +130,7 @@ TEST(ContactLaw, FrictionLeavesTheSpringItsLimit) {
     c.contact.tangential = name;
     const ContactLaw law = contact_law_of(c);
     const double overlap = 1e-6, gap = 2 * double(kRadius) - overlap;
-    const ContactGeometry at = touch(kGrain, kGrain, {0, 0, gap}, gap, overlap);
+    const ContactGeometry at = sphere_contact(kGrain, kGrain, {0, 0, gap}, gap, overlap);
     const auto sliding = [&](Real v, ContactHistory& h) { return law(at, {v, 0, 0}, {}, {}, 0, h).force.x; };
     ContactHistory still{{1e-9, 0, 0}, {}, overlap}, moves = still, slips{{1e-3, 0, 0}, {}, overlap};
     const Real slow = Real(1e-4);
@@ -226,8 +227,8 @@ TEST(ContactLaw, DampingIsThatOfTheEndOfTheStep) {
   c.contact.rolling = "none", c.contact.clip_tension = false;
   const ContactLaw law = contact_law_of(c);
   const double overlap = 1e-6;
-  const ContactGeometry at =
-      touch(kGrain, kGrain, {2 * double(kRadius) - overlap, 0, 0}, 2 * double(kRadius) - overlap, overlap);
+  const ContactGeometry at = sphere_contact(kGrain, kGrain, {2 * double(kRadius) - overlap, 0, 0},
+                                            2 * double(kRadius) - overlap, overlap);
   const NormalState n = law.normal_state(at.R_star, at.m_star, Real(overlap));
   const auto force = [&](double before, double dt) {
     ContactHistory h;
@@ -250,7 +251,7 @@ TEST(ContactLaw, RigidRotationDoesNotSlide) {
     const Sphere big{Real(1.7) * kRadius, Real(5) * kGrain.m};
     const double overlap = 1e-6, gap = double(kGrain.R) + double(big.R) - overlap;
     const Vec3d r = direction * (gap / norm(direction));
-    const ContactGeometry at = touch(kGrain, big, r, gap, overlap);
+    const ContactGeometry at = sphere_contact(kGrain, big, r, gap, overlap);
     ContactHistory h;
     // the contact divides the line of centres in arm_i : arm_j
     const ContactForce f = law(at, Real3(cross(spin, r)), Real3(spin), Real3(spin), Real(1e-6), h);
@@ -283,7 +284,7 @@ TEST(ContactLaw, SpringAndCoupleTurnWithTheContact) {
     Vec3d n = n0;
     for (int s = 1; s <= steps; ++s) {
       n = Quat<double>::from_rotation(axis * (rate * s * dt)).rotate(n0);
-      const ContactGeometry at = touch(kGrain, kGrain, n * gap, gap, overlap);
+      const ContactGeometry at = sphere_contact(kGrain, kGrain, n * gap, gap, overlap);
       const Vec3d v = cross(axis * rate, n * gap);
       law(at, Real3(v), Real3(axis * rate), Real3(axis * rate), Real(dt), h);
     }
@@ -311,10 +312,10 @@ TEST(ContactLaw, WallIsTheLimitOfAHugePartner) {
   const Sphere huge{Real(size) * kRadius, Real(size * size * size) * kGrain.m};
   const auto pair = [&](double overlap) {
     const double gap = double(kRadius) + double(huge.R) - overlap;
-    return touch(kGrain, huge, {0, 0, gap}, gap, overlap);
+    return sphere_contact(kGrain, huge, {0, 0, gap}, gap, overlap);
   };
   const double deep = 1e-2 * kRadius;
-  ContactGeometry at = pair(deep), wall = touch_wall(kGrain, {0, 0, 1}, deep);
+  ContactGeometry at = pair(deep), wall = wall_contact(kGrain, {0, 0, 1}, deep);
   EXPECT_EQ(at.n, wall.n);
   EXPECT_EQ(at.overlap, wall.overlap);
   EXPECT_NEAR(at.R_star / wall.R_star, 1, near);
@@ -330,7 +331,7 @@ TEST(ContactLaw, WallIsTheLimitOfAHugePartner) {
   for (const char* rolling : {"none", "cdt", "epsd"}) {
     c.contact.rolling = rolling;
     const ContactLaw law = contact_law_of(c);
-    at = pair(kRadius / size), wall = touch_wall(kGrain, {0, 0, 1}, kRadius / size);
+    at = pair(kRadius / size), wall = wall_contact(kGrain, {0, 0, 1}, kRadius / size);
     ContactHistory h, w;
     const Real3 v{Real(0.01), 0, Real(-0.02)}, spin{0, Real(3), 0};
     const ContactForce a = law(at, v, spin, {}, Real(1e-6), h), b = law(wall, v, spin, {}, Real(1e-6), w);

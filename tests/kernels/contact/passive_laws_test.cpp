@@ -61,7 +61,7 @@ Work work_along(const ContactLaw& law, const std::vector<Place>& way) {
         continue;
       }
       const double gap = 2 * kRadius - overlap;
-      const ContactGeometry at = touch(kGrain, kGrain, {gap, 0, 0}, gap, overlap);
+      const ContactGeometry at = sphere_contact(kGrain, kGrain, {gap, 0, 0}, gap, overlap);
       const Vec3d moved = shift - Vec3d{closer, 0, 0};
       const ContactForce now = law(at, Real3(moved * (1 / dt)), Real3(turn * (1 / dt)), {}, Real(dt), h);
       const double parts[] = {0.5 * closer * double(before.force.x + now.force.x),
@@ -180,7 +180,7 @@ class BetweenPlates {
       h = {};
       return;
     }
-    const ContactForce f = law_(touch_wall(kGrain, n, overlap), Real3(v_), Real3(omega_), {}, Real(dt), h);
+    const ContactForce f = law_(wall_contact(kGrain, n, overlap), Real3(v_), Real3(omega_), {}, Real(dt), h);
     force += Vec3d(f.force), torque += Vec3d(f.torque_i);
   }
 

@@ -36,20 +36,28 @@ WallContacts SolidSolver::wall_contacts(const GrainStore& g, const BodyPose* pos
           .wetness = g.wetness.span()};
 }
 
-void SolidSolver::touch_walls(const WallContacts& contacts, const TouchLoads& loads) {
+template <class Scope>
+void SolidSolver::evaluate_walls(const WallContacts& contacts, const ContactLoads& loads) {
   // few grains would wait for the one that touches several walls; what moves bodies is recorded by one thread
   const unsigned bits = loads ? 0 : std::min(lane_bits(4 * wall_list_.size()), 2u);
-  const Range lanes{0, wall_list_.size() << bits};
-  const auto run = [&]<class Scope>(std::type_identity<Scope>) {
-    for_each(lanes, WallContactPass<Scope>{contacts, wall_list_.rows(), bits, by_walls_.data(), loads});
+  for_each({0, wall_list_.size() << bits}, WallContactPass<Scope>{.contacts = contacts,
+                                                                  .rows = wall_list_.rows(),
+                                                                  .lane_bits = bits,
+                                                                  .sums = by_walls_.data(),
+                                                                  .loads = loads});
+}
+
+void SolidSolver::choose_wall_law() {
+  const auto choose = [&]<class Scope>(std::type_identity<Scope>) {
+    evaluate_walls_ = &SolidSolver::evaluate_walls<Scope>;
   };
   with_surface_kinds(walls_.surfaces(), [&]<class Kinds>(std::type_identity<Kinds>) {
     if constexpr (!std::is_same_v<Kinds, AllKinds>)
       if (!bodies_ || !bodies_->any())
         return with_contact_law(parameters_.wall_laws, [&]<class Law>(std::type_identity<Law>) {
-          run(std::type_identity<WallScope<Law, Kinds, false>>{});
+          choose(std::type_identity<WallScope<Law, Kinds, false>>{});
         });
-    run(std::type_identity<WallScope<ContactLaw, Kinds, true>>{});
+    choose(std::type_identity<WallScope<ContactLaw, Kinds, true>>{});
   });
 }
 

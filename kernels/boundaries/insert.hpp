@@ -10,7 +10,7 @@ namespace bedload::inline BL_VARIANT {
 
 /// For every particle of the wall store: those whose ids follow `first` become fluid where they are, at their
 /// velocity and the pressure that they took from the fluid ahead. An orifice is free of grains.
-struct AdmitPass {
+struct InsertPass {
   Frame frame;
   EquationOfState eos;
   Id first;       ///< of the foremost layer
