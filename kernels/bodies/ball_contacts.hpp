@@ -115,8 +115,14 @@ struct BallPass {
     const double weight = opposite > 0 ? 0.5 : 1;
     // a constraint may block the motion along the normal: bound the mass, else damping would be infinite
     const double m_star = 1 / max_of(inverse_mass, 1e-6 / a.mass);
-    ContactGeometry at{
-        closest.normal, ball.radius - closest.distance, Real(R_star), Real(m_star), 0, 0, 0, 0};
+    ContactGeometry at{.n = closest.normal,
+                       .overlap = ball.radius - closest.distance,
+                       .R_star = Real(R_star),
+                       .m_star = Real(m_star),
+                       .arm_i = 0,
+                       .arm_j = 0,
+                       .inverse_spin = 0,
+                       .inverse_rolling = 0};
     if (acting.rolls()) {
       Vec3d about = mine.omega - other.omega;
       about -= dot(about, closest.normal) * closest.normal;

@@ -26,17 +26,24 @@ struct Sphere {
 BL_HD ContactGeometry sphere_contact(const Sphere& i, const Sphere& j, const Vec3d& r, double distance,
                                      double overlap) {
   const Real half = Real(0.5 * overlap);
-  return {r * (1 / distance),
-          overlap,
-          i.R * j.R / (i.R + j.R),
-          i.m * j.m / (i.m + j.m),
-          i.R - half,
-          j.R - half,
-          1 / i.inertia() + 1 / j.inertia(),
-          (1 / i.inertia() + 1 / j.inertia()) * Real(0.4 / 1.4)};
+  return {.n = r * (1 / distance),
+          .overlap = overlap,
+          .R_star = i.R * j.R / (i.R + j.R),
+          .m_star = i.m * j.m / (i.m + j.m),
+          .arm_i = i.R - half,
+          .arm_j = j.R - half,
+          .inverse_spin = 1 / i.inertia() + 1 / j.inertia(),
+          .inverse_rolling = (1 / i.inertia() + 1 / j.inertia()) * Real(0.4 / 1.4)};
 }
 BL_HD ContactGeometry wall_contact(const Sphere& i, const Vec3d& n, double overlap) {
-  return {n, overlap, i.R, i.m, i.R - Real(overlap), 0, 1 / i.inertia(), 1 / i.inertia() * Real(0.4 / 1.4)};
+  return {.n = n,
+          .overlap = overlap,
+          .R_star = i.R,
+          .m_star = i.m,
+          .arm_i = i.R - Real(overlap),
+          .arm_j = 0,
+          .inverse_spin = 1 / i.inertia(),
+          .inverse_rolling = 1 / i.inertia() * Real(0.4 / 1.4)};
 }
 
 struct ContactForce {
@@ -108,9 +115,13 @@ struct ContactLawOf {
     if (slides()) {
       const Real3 v_t = v - v_n * n - cross(at.arm_i * omega_i + at.arm_j * omega_j, n);
       const Vec3d turned = turn_with_contact(h.xi, at.n, twist), step = double(dt) * Vec3d(v_t);
-      const SlidingInput in{
-          pressing,         ns,       before, std::sqrt(at.R_star * Real(at.overlap)), at.m_star,
-          Real(at.overlap), h.overlap};
+      const SlidingInput in{.normal_force = pressing,
+                            .normal = ns,
+                            .before = before,
+                            .root = std::sqrt(at.R_star * Real(at.overlap)),
+                            .m_star = at.m_star,
+                            .overlap = Real(at.overlap),
+                            .overlap_before = h.overlap};
       const Real3 f_t =
           with_law(sliding, [&](const auto& law) { return slide(law, in, v_t, turned, step, h.xi); });
       const Real3 couple = cross(f_t, n);  // - n x F_t
@@ -121,8 +132,14 @@ struct ContactLawOf {
     if (rolls()) {
       Real3 w = omega_i - omega_j;
       w -= dot(w, n) * n;
-      const RollingInput in{w,         pressing,        ns.stiffness,       before.stiffness,
-                            at.R_star, at.inverse_spin, at.inverse_rolling, dt};
+      const RollingInput in{.omega = w,
+                            .normal_force = pressing,
+                            .normal_stiffness = ns.stiffness,
+                            .stiffness_before = before.stiffness,
+                            .R_star = at.R_star,
+                            .inverse_spin = at.inverse_spin,
+                            .inverse_rolling = at.inverse_rolling,
+                            .dt = dt};
       if (remembers_couple()) h.couple = turn_with_contact(h.couple, at.n, twist);
       const Real3 couple = with_law(rolling, [&](const auto& law) { return law(in, h.couple); });
       out.torque_i += couple;
@@ -153,7 +170,13 @@ struct ContactLawOf {
  private:
   BL_HD double stored_sideways(const NormalState& ns, Real R_star, Real m_star, double overlap,
                                const ContactHistory& h) const {
-    const SlidingInput in{ns.elastic, ns, ns, std::sqrt(R_star * Real(overlap)), m_star, overlap, overlap};
+    const SlidingInput in{.normal_force = ns.elastic,
+                          .normal = ns,
+                          .before = ns,
+                          .root = std::sqrt(R_star * Real(overlap)),
+                          .m_star = m_star,
+                          .overlap = overlap,
+                          .overlap_before = overlap};
     return with_law(sliding, [&](const auto& law) { return law.stored(in, h.xi); }) +
            with_law(rolling, [&](const auto& law) { return law.stored(ns.stiffness, R_star, h.couple); });
   }

@@ -15,8 +15,12 @@ struct NearSurfaces {
   BL_HD static NearSurfaces spheres(Real R_i, Real R_j, const Vec3d& r, double distance) {
     const double gap = distance - double(R_i) - double(R_j);
     const Real half = Real(0.5 * gap);
-    return {r * (1 / distance),        gap,        R_i * R_j / (R_i + R_j),
-            (R_j - R_i) / (R_j + R_i), R_i + half, R_j + half};
+    return {.n = r * (1 / distance),
+            .gap = gap,
+            .R_star = R_i * R_j / (R_i + R_j),
+            .skew = (R_j - R_i) / (R_j + R_i),
+            .arm_i = R_i + half,
+            .arm_j = R_j + half};
   }
 };
 

@@ -91,7 +91,12 @@ struct WallContacts {
       const ClosestPoint& closest = near[k].closest;
       const BodyPose& pose = poses[near[k].body];
       const Vec3d point = x[i] - closest.distance * closest.normal;
-      const NearSurfaces at{closest.normal, closest.distance - double(R), R, 1, Real(closest.distance), 0};
+      const NearSurfaces at{.n = closest.normal,
+                            .gap = closest.distance - double(R),
+                            .R_star = R,
+                            .skew = 1,
+                            .arm_i = Real(closest.distance),
+                            .arm_j = 0};
       ContactForce on_grain = lubrication(at, v[i] - Real3(surface_velocity(pose, arm(pose, point))),
                                           omega[i], Real3(pose.omega));
       on_grain.force *= wetness[i], on_grain.torque_i *= wetness[i], on_grain.torque_j *= wetness[i];

@@ -39,8 +39,8 @@ struct GrainKick {
   bool exponential;
   Span<const Real> radius;
   // empty where there is no fluid
-  Span<const Real3> fluid_force, fluid_velocity, fluid_angular_velocity;
-  Span<const Real> drag_coefficient, rot_drag_coefficient;
+  Span<const Real3> fluid_force = {}, fluid_velocity = {}, fluid_angular_velocity = {};
+  Span<const Real> drag_coefficient = {}, rot_drag_coefficient = {};
   Span<const Real3> drive = {};  ///< N; empty: none
   Edges edges = {};
 

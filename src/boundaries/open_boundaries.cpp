@@ -141,30 +141,30 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
     throw SimulationFault("inlet \"" + motion_.inlets()[i].name() +
                           "\": more fluid particles than there are ids");
   fluid.grow(before + count);
-  for_each(walls.owned(), InsertPass{frame_,
-                                     eos,
-                                     first,
-                                     count,
-                                     before,
-                                     Id(next_fluid_),
-                                     Real(parameters_.fluid_mass()),
-                                     Real3(motion_.inlets()[i].motion(t).a),
-                                     Real3(gravity),
-                                     walls.id,
-                                     walls.x,
-                                     walls.v_rho,
-                                     walls.m_state,
-                                     fluid.id,
-                                     fluid.x,
-                                     fluid.v_rho,
-                                     fluid.flux,
-                                     fluid.m_state,
-                                     fluid.s,
-                                     fluid.mass,
-                                     fluid.eps,
-                                     fluid.solid_factor,
-                                     fluid.theta,
-                                     fluid.acc});
+  for_each(walls.owned(), InsertPass{.frame = frame_,
+                                     .eos = eos,
+                                     .first = first,
+                                     .count = count,
+                                     .place = before,
+                                     .id = Id(next_fluid_),
+                                     .mass = Real(parameters_.fluid_mass()),
+                                     .acc = Real3(motion_.inlets()[i].motion(t).a),
+                                     .gravity = Real3(gravity),
+                                     .wall_id = walls.id,
+                                     .wall_x = walls.x,
+                                     .wall_v_rho = walls.v_rho,
+                                     .wall_m_state = walls.m_state,
+                                     .fluid_id = fluid.id,
+                                     .x = fluid.x,
+                                     .v_rho = fluid.v_rho,
+                                     .flux = fluid.flux,
+                                     .m_state = fluid.m_state,
+                                     .s = fluid.s,
+                                     .fluid_mass = fluid.mass,
+                                     .eps = fluid.eps,
+                                     .solid_factor = fluid.solid_factor,
+                                     .theta = fluid.theta,
+                                     .fluid_acc = fluid.acc});
   next_fluid_ += count;
 }
 
@@ -194,8 +194,16 @@ GrainRenewal OpenBoundaries::renew(GrainStore& grains, double t) {
     grains.grow(kept + Index(more.size()));
     source_index_.grow(grains.size());
     dropped_.assign(more);
-    for_each({0, Index(more.size())}, DropPass{dropped_, kept, Id(next_grain_), grains.id, grains.x, grains.v,
-                                               grains.radius, grains.eps, grains.material, source_index_});
+    for_each({0, Index(more.size())}, DropPass{.grain = dropped_,
+                                               .place = kept,
+                                               .first = Id(next_grain_),
+                                               .id = grains.id,
+                                               .x = grains.x,
+                                               .v = grains.v,
+                                               .radius = grains.radius,
+                                               .eps = grains.eps,
+                                               .material = grains.material,
+                                               .source_index = source_index_});
     next_grain_ += double(more.size());
   }
   return {source_index_, before, true};

@@ -124,26 +124,40 @@ void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_
              BesideWallsPass{wall_free(still), double(of_grains.most), grains.x_list, beside_walls_});
   const double reach = range_ + of_fluid.most + of_grains.most;
   fluid_of_grain_.between(frame_, grains, fluid, range_)
-      .build(
-          grains.size(), fluid_grid.for_reach(reach),
-          CrossNear<Vec3d, FluidPosition>{frame_, grains.x_list, fluid.x_list, range_, of_grains, of_fluid},
-          lanes_for(grains.size()));
+      .build(grains.size(), fluid_grid.for_reach(reach),
+             CrossNear<Vec3d, FluidPosition>{.frame = frame_,
+                                             .a = grains.x_list,
+                                             .b = fluid.x_list,
+                                             .range = range_,
+                                             .skin_a = of_grains,
+                                             .skin_b = of_fluid},
+             lanes_for(grains.size()));
   grains_of_fluid_.between(frame_, fluid, grains, range_)
-      .build(
-          fluid.size(), grain_grid.for_reach(reach),
-          CrossNear<FluidPosition, Vec3d>{frame_, fluid.x_list, grains.x_list, range_, of_fluid, of_grains},
-          lanes_for(fluid.size()));
+      .build(fluid.size(), grain_grid.for_reach(reach),
+             CrossNear<FluidPosition, Vec3d>{.frame = frame_,
+                                             .a = fluid.x_list,
+                                             .b = grains.x_list,
+                                             .range = range_,
+                                             .skin_a = of_fluid,
+                                             .skin_b = of_grains},
+             lanes_for(fluid.size()));
 }
 
 void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt) {
   wall_free_.resize(grains.size());
   volume_.resize(grains.size());
   const bool asked = beside_walls_.size() > 0;
-  for_each(grains.owned(),
-           GrainVolumePass{wall_free(pose), frame_, dt > 0 ? 1 / dt : 0, grains.x, grains.x_before, grains.v,
-                           grains.radius,
-                           asked ? Span<const std::uint8_t>(beside_walls_) : Span<const std::uint8_t>(),
-                           wall_free_, volume_});
+  for_each(grains.owned(), GrainVolumePass{.free = wall_free(pose),
+                                           .frame = frame_,
+                                           .per_dt = dt > 0 ? 1 / dt : 0,
+                                           .x = grains.x,
+                                           .x_before = grains.x_before,
+                                           .v = grains.v,
+                                           .radius = grains.radius,
+                                           .beside = asked ? Span<const std::uint8_t>(beside_walls_)
+                                                           : Span<const std::uint8_t>(),
+                                           .wall_free = wall_free_,
+                                           .volume = volume_});
 }
 
 WallFreeFraction Coupling::wall_free(Span<const BodyPose> pose) const {
@@ -181,8 +195,14 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   push_.resize(fluid.size());
   solids_.resize(fluid.size());
   const FluidRecords records{push_, solids_};
-  for_each(fluid.owned(), RecordPass{frame_, orifice_weight(), fluid.x, fluid.solid_factor, fluid.theta,
-                                     fluid.m_state, fluid.eps, records});
+  for_each(fluid.owned(), RecordPass{.frame = frame_,
+                                     .counted = orifice_weight(),
+                                     .x = fluid.x,
+                                     .solid_factor = fluid.solid_factor,
+                                     .theta = fluid.theta,
+                                     .m_state = fluid.m_state,
+                                     .eps = fluid.eps,
+                                     .records = records});
   const GrainSurroundings around = surroundings();
   with_coupling_kernel([&](auto w) {
     with_flag(moments(), [&](auto with_moments) {
@@ -234,16 +254,16 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
       drag_table_.on_device());
   if (two_way_) limit(fluid, grains, dt);
   if (kT_ > 0 && dt > 0)
-    for_each(grains.owned(), DragNoisePass{{seed_, step},
-                                           kT_,
-                                           dt,
-                                           matter_.of(grains),
-                                           grains.id,
-                                           grains.radius,
-                                           grains.drag_coefficient,
-                                           grains.rot_drag_coefficient,
-                                           grains.fluid_velocity,
-                                           grains.fluid_angular_velocity});
+    for_each(grains.owned(), DragNoisePass{.key = {seed_, step},
+                                           .kT = kT_,
+                                           .dt = dt,
+                                           .mass_per_r3 = matter_.of(grains),
+                                           .id = grains.id,
+                                           .radius = grains.radius,
+                                           .drag_coefficient = grains.drag_coefficient,
+                                           .rot_drag_coefficient = grains.rot_drag_coefficient,
+                                           .fluid_velocity = grains.fluid_velocity,
+                                           .fluid_angular_velocity = grains.fluid_angular_velocity});
 }
 
 void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {
@@ -254,9 +274,15 @@ void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {
   with_coupling_kernel([&](auto w) {
     with_flag(local_slip_, [&](auto local) {
       with_flag(angmom_, [&](auto couple) {
-        grains_of_fluid_.run(DragRatePass<decltype(w), local, couple>{w, drag_weights(), levers(),
-                                                                      grains.drag_coefficient, fluid.mass,
-                                                                      fluid.v_rho, fluid.m_state, rate_});
+        grains_of_fluid_.run(
+            DragRatePass<decltype(w), local, couple>{.w = w,
+                                                     .weights = drag_weights(),
+                                                     .levers = levers(),
+                                                     .drag_coefficient = grains.drag_coefficient,
+                                                     .mass = fluid.mass,
+                                                     .v_rho = fluid.v_rho,
+                                                     .m_state = fluid.m_state,
+                                                     .rate = rate_});
       });
     });
   });
@@ -264,8 +290,12 @@ void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {
   read_survey();
   limits_ = dt * drag_->rate * drag_->lever > 1;
   if (limits_)
-    fluid_of_grain_.run(LimitPass{Real(dt), rate_, lever_sums(), grains.drag_coefficient,
-                                  grains.rot_drag_coefficient, stiffness_});
+    fluid_of_grain_.run(LimitPass{.dt = Real(dt),
+                                  .rate = rate_,
+                                  .lever_sum = lever_sums(),
+                                  .drag_coefficient = grains.drag_coefficient,
+                                  .rot_drag_coefficient = grains.rot_drag_coefficient,
+                                  .stiffness = stiffness_});
 }
 
 Span<const Real> Coupling::lever_sums() const {
@@ -299,17 +329,30 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
   spin_.resize(grains.size());
   rate_.resize(fluid.size());
   if (angmom_) couple_.resize(grains.size());
-  const LocalSlip slip{Real(dt), grains.drag_coefficient, grains.fluid_velocity,
-                       grains.fluid_angular_velocity};
+  const LocalSlip slip{.dt = Real(dt),
+                       .drag_coefficient = grains.drag_coefficient,
+                       .fluid_velocity = grains.fluid_velocity,
+                       .fluid_angular_velocity = grains.fluid_angular_velocity};
   with_flag(angmom_, [&](auto couple) {
     with_flag(local_slip_, [&](auto local) {
-      for_each(grains.owned(),
-               ReactionTermsPass<couple, local>{grains.impulse, grains.spin_impulse, surroundings(),
-                                                drag_weights(), levers(), slip, reactions()});
+      for_each(grains.owned(), ReactionTermsPass<couple, local>{.impulse = grains.impulse,
+                                                                .spin_impulse = grains.spin_impulse,
+                                                                .surroundings = surroundings(),
+                                                                .weights = drag_weights(),
+                                                                .levers = levers(),
+                                                                .slip = slip,
+                                                                .reactions = reactions()});
       with_coupling_kernel([&](auto w) {
-        grains_of_fluid_.run(ReactionPass<decltype(w), couple, local>{
-            w, fluid.mass, fluid.m_state, by_slip_, reactions(), Real(1 / dt), fluid.v_rho, fluid.reaction,
-            fluid.drag_kick, rate_});
+        grains_of_fluid_.run(ReactionPass<decltype(w), couple, local>{.w = w,
+                                                                      .mass = fluid.mass,
+                                                                      .m_state = fluid.m_state,
+                                                                      .by_slip = by_slip_,
+                                                                      .reactions = reactions(),
+                                                                      .per_dt = Real(1 / dt),
+                                                                      .v_rho = fluid.v_rho,
+                                                                      .reaction = fluid.reaction,
+                                                                      .drag_kick = fluid.drag_kick,
+                                                                      .rate = rate_});
       });
     });
   });
@@ -320,9 +363,21 @@ void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPo
   pack(grains);
   volumes(grains, pose, dt);
   with_coupling_kernel([&](auto w) {
-    grains_of_fluid_.run(PorosityPass<decltype(w)>{
-        w, two_way_, eps_min_, orifice_weight(), frame_, fluid.x, volume_, fluid.v_rho, fluid.mass, fluid.eps,
-        fluid.solid_factor, fluid.flux, fluid.m_state, fluid.xp, fluid.xp_mid});
+    grains_of_fluid_.run(PorosityPass<decltype(w)>{.w = w,
+                                                   .shares = two_way_,
+                                                   .floor = eps_min_,
+                                                   .away_from_orifices = orifice_weight(),
+                                                   .frame = frame_,
+                                                   .x = fluid.x,
+                                                   .volume = volume_,
+                                                   .v_rho = fluid.v_rho,
+                                                   .mass = fluid.mass,
+                                                   .eps = fluid.eps,
+                                                   .solid_factor = fluid.solid_factor,
+                                                   .flux = fluid.flux,
+                                                   .m_state = fluid.m_state,
+                                                   .xp = fluid.xp,
+                                                   .xp_mid = fluid.xp_mid});
   });
   if (suspension_ != SuspensionLaw::none)
     for_each(fluid.owned(),
@@ -341,8 +396,13 @@ void Coupling::push(const FluidStore& fluid, GrainStore& grains, double kick, bo
   with_coupling_kernel([&](auto w) {
     fluid_of_grain_.run(BuoyancyPass<decltype(w)>{w, push_, volume_, buoyancy_});
   });
-  for_each(grains.owned(), BuoyancyKick{Real(kick), matter_.of(grains), !held && kick > 0, buoyancy_,
-                                        grains.radius, grains.fluid_force, grains.v});
+  for_each(grains.owned(), BuoyancyKick{.kick = Real(kick),
+                                        .mass_per_r3 = matter_.of(grains),
+                                        .moves = !held && kick > 0,
+                                        .now = buoyancy_,
+                                        .radius = grains.radius,
+                                        .force = grains.fluid_force,
+                                        .v = grains.v});
 }
 
 double Coupling::bed_viscosity(double porosity, double d) const {
@@ -381,11 +441,12 @@ void Coupling::load(const std::function<double(const std::string&)>& scalar) {
 
 CouplingCounters Coupling::counters(const FluidStore& fluid, const GrainStore& grains) const {
   const Index n = Index(stiffness_.size());
-  return {reduce(fluid.owned(), CountEntries{fluid.eps, eps_min_, false}),
-          limits_ ? reduce({0, n}, CountEntries{stiffness_, 1, true}) : 0,
-          reduce(grains.owned(), CountEntries{grains.wetness, 0, true}),
-          reduce(grains.owned(), CountEntries{grains.eps, eps_min_, false}),
-          reduce({0, Index(wall_free_.size())}, CountEntries{wall_free_, WallFreeFraction::kLeast, false})};
+  return {.floor_hits = reduce(fluid.owned(), CountEntries{fluid.eps, eps_min_, false}),
+          .limited = limits_ ? reduce({0, n}, CountEntries{stiffness_, 1, true}) : 0,
+          .wet = reduce(grains.owned(), CountEntries{grains.wetness, 0, true}),
+          .densest = reduce(grains.owned(), CountEntries{grains.eps, eps_min_, false}),
+          .cornered = reduce({0, Index(wall_free_.size())},
+                             CountEntries{wall_free_, WallFreeFraction::kLeast, false})};
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -35,14 +35,14 @@ FieldView view_of(const char* name, const char* unit, const Field<T>& field,
                   int components = FileType<T>::components, int first = 0) {
   const auto* data = reinterpret_cast<const std::byte*>(field.buffer().data());
   if (data) data += first * size_of(FileType<T>::scalar);
-  return {name,
-          unit,
-          FileType<T>::scalar,
-          components,
-          data,
-          field.buffer().size(),
-          sizeof(T),
-          field.buffer().memory()};
+  return {.name = name,
+          .unit = unit,
+          .type = FileType<T>::scalar,
+          .components = components,
+          .data = data,
+          .count = field.buffer().size(),
+          .stride = sizeof(T),
+          .memory = field.buffer().memory()};
 }
 template <class T>
 FieldView view_of(const Field<T>& field) {
@@ -309,9 +309,14 @@ void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>&
   out.push_back({"power_wall_pressure", "W", p.v[4] - moving});
   out.push_back({"power_moving_walls", "W", moving});
   const auto d = sum_over<3>(
-      fluid.owned(), DriftBody{config_.gravity, drive, fluid.mass, fluid.m_state, fluid.v_rho,
-                               solver.shifts() ? solver.drift_of(std::as_const(fluid)) : Span<const Real3>(),
-                               Real(0.999 * solver.fastest_shift(dt))});
+      fluid.owned(),
+      DriftBody{.gravity = config_.gravity,
+                .drive = drive,
+                .mass = fluid.mass,
+                .m_state = fluid.m_state,
+                .v_rho = fluid.v_rho,
+                .drift = solver.shifts() ? solver.drift_of(std::as_const(fluid)) : Span<const Real3>(),
+                .fastest = Real(0.999 * solver.fastest_shift(dt))});
   out.push_back({"power_shifting", "W", d.v[0]});
   out.push_back({"power_drive", "W", d.v[1]});
   SumSweep<2, StoppedBody>::Value r{};
@@ -338,11 +343,18 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
   if (state_.has_fluid) {
     const Drive drive = stepper_.fluid().drive(state_.fluid, stepper_.moment());
     const Spin* spin = stepper_.fluid().spin();
-    const auto t = sum_over<11>(
-        state_.fluid.owned(),
-        FluidTotals{state_.frame, stepper_.fluid().eos(), config_.gravity, drive, state_.fluid.x,
-                    state_.fluid.v_rho, state_.fluid.mass, state_.fluid.s, spin ? spin->inertia : 0,
-                    spin ? Span<const Real3>(spin->omega) : Span<const Real3>()});
+    const auto t =
+        sum_over<11>(state_.fluid.owned(),
+                     FluidTotals{.frame = state_.frame,
+                                 .eos = stepper_.fluid().eos(),
+                                 .gravity = config_.gravity,
+                                 .drive = drive,
+                                 .x = state_.fluid.x,
+                                 .v_rho = state_.fluid.v_rho,
+                                 .mass = state_.fluid.mass,
+                                 .s = state_.fluid.s,
+                                 .inertia = spin ? spin->inertia : 0,
+                                 .spin = spin ? Span<const Real3>(spin->omega) : Span<const Real3>()});
     out.push_back({"fluid_mass", "kg", t.v[0]});
     vec("fluid_momentum", "kg m/s", {t.v[1], t.v[2], t.v[3]});
     vec("fluid_angular_momentum", "kg m2/s", {t.v[4], t.v[5], t.v[6]});
@@ -352,13 +364,18 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     if (spin) out.push_back({"fluid_spin_energy", "J", t.v[10]});
     const FluidLoads& loads = fluid_loads();
     for (int b = 0; b < state_.motion.bodies(); ++b) wall_on_fluid -= loads.all(b).force();
-    const auto l = sum_over<9>(
-        state_.fluid.owned(),
-        MomentumRates{state_.clock.last_dt > 0 ? 1 / state_.clock.last_dt : 0,
-                      state_.gravity.at(state_.clock.time), drive, state_.fluid.mass, state_.fluid.m_state,
-                      state_.fluid.theta, state_.fluid.acc,
-                      state_.two_way ? Span<const Real3>(state_.fluid.reaction) : Span<const Real3>(),
-                      state_.fluid.drag_kick});
+    const auto l =
+        sum_over<9>(state_.fluid.owned(),
+                    MomentumRates{.rate = state_.clock.last_dt > 0 ? 1 / state_.clock.last_dt : 0,
+                                  .gravity = state_.gravity.at(state_.clock.time),
+                                  .drive = drive,
+                                  .mass = state_.fluid.mass,
+                                  .m_state = state_.fluid.m_state,
+                                  .theta = state_.fluid.theta,
+                                  .acc = state_.fluid.acc,
+                                  .reaction = state_.two_way ? Span<const Real3>(state_.fluid.reaction)
+                                                             : Span<const Real3>(),
+                                  .drag_kick = state_.fluid.drag_kick});
     const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
     // columns are the same whatever a restart switches on
     const bool corrected = state_.fluid.correction.used(), damped = state_.fluid.compression_rate.used();

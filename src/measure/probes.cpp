@@ -142,10 +142,15 @@ std::vector<Quantity> CoupledSimulation::point(const ProbeConfig& p) {
     with_fluid_kernel(config_.fluid, config_.domain, [&](const auto& w) {
       const CellGridView grid = stepper_.fluid().grid().view();
       const auto cells = grid.block(at, stepper_.fluid().range() + stepper_.fluid().skin());
-      const auto s =
-          sum_over<5>({0, Index(cells.size())},
-                      PointBody<std::decay_t<decltype(w)>>{grid, cells, w, state_.frame, at, state_.fluid.x,
-                                                           state_.fluid.v_rho, state_.fluid.m_state});
+      const auto s = sum_over<5>({0, Index(cells.size())},
+                                 PointBody<std::decay_t<decltype(w)>>{.grid = grid,
+                                                                      .cells = cells,
+                                                                      .w = w,
+                                                                      .frame = state_.frame,
+                                                                      .at = at,
+                                                                      .x = state_.fluid.x,
+                                                                      .v_rho = state_.fluid.v_rho,
+                                                                      .m_state = state_.fluid.m_state});
       std::copy(s.v, s.v + 5, sum);
     });
   const double nan = std::nan("");
@@ -165,9 +170,16 @@ std::vector<Quantity> CoupledSimulation::column(const ProbeConfig& p) {
   const int first = int(std::floor((part.from - radius) / piece));
   const int last = int(std::floor((part.to + radius) / piece));
   Buffer<Extent> found(std::size_t(std::max(0, last - first + 1)));
-  for_each({0, Index(found.size())},
-           ColumnPass{stepper_.fluid().grid().view(), state_.frame, p.at, up, radius, piece,
-                      stepper_.fluid().skin(), first, state_.fluid.x, found.span()});
+  for_each({0, Index(found.size())}, ColumnPass{.grid = stepper_.fluid().grid().view(),
+                                                .frame = state_.frame,
+                                                .at = p.at,
+                                                .up = up,
+                                                .radius = radius,
+                                                .length = piece,
+                                                .skin = stepper_.fluid().skin(),
+                                                .first = first,
+                                                .x = state_.fluid.x,
+                                                .out = found.span()});
   double top = -1e300, connected = 0;
   int number = first;
   bool joins = true;
@@ -184,14 +196,21 @@ std::vector<Quantity> CoupledSimulation::column(const ProbeConfig& p) {
 std::vector<Quantity> CoupledSimulation::box(const ProbeConfig& p) {
   double s[7] = {};
   if (p.phase == "fluid") {
-    const auto r = sum_over<7>(state_.fluid.owned(),
-                               FluidBox{state_.frame, p.min, p.max, state_.fluid.x, state_.fluid.v_rho,
-                                        state_.fluid.m_state, state_.fluid.mass});
+    const auto r = sum_over<7>(state_.fluid.owned(), FluidBox{.frame = state_.frame,
+                                                              .lo = p.min,
+                                                              .hi = p.max,
+                                                              .x = state_.fluid.x,
+                                                              .v_rho = state_.fluid.v_rho,
+                                                              .m_state = state_.fluid.m_state,
+                                                              .mass = state_.fluid.mass});
     std::copy(r.v, r.v + 7, s);
   } else {
-    const auto r =
-        sum_over<7>(state_.grains.owned(), GrainBox{p.min, p.max, state_.matter.of(state_.grains),
-                                                    state_.grains.x, state_.grains.v, state_.grains.radius});
+    const auto r = sum_over<7>(state_.grains.owned(), GrainBox{.lo = p.min,
+                                                               .hi = p.max,
+                                                               .per_r3 = state_.matter.of(state_.grains),
+                                                               .x = state_.grains.x,
+                                                               .v = state_.grains.v,
+                                                               .radius = state_.grains.radius});
     std::copy(r.v, r.v + 7, s);
   }
   const double m = s[1] > 0 ? s[1] : std::nan("");

@@ -109,7 +109,14 @@ std::vector<Quantity> CoupledSimulation::wall_pressure(const ProbeConfig& p) {
   const double spacing = config_.wall.spacing(config_.wall.bodies[body]);
   const bool disc = p.radius > 0, one = p.count.empty();
   const double square = p.radius * std::sqrt(M_PI);  // of the disc's area
-  PatchGrid patches{state_.frame, p.at, p.along, cross(p.normal, p.along), p.normal, {}, {}, 0};
+  PatchGrid patches{.frame = state_.frame,
+                    .at = p.at,
+                    .along = p.along,
+                    .across = cross(p.normal, p.along),
+                    .normal = p.normal,
+                    .side = {},
+                    .count = {},
+                    .depth = 0};
   for (int k = 0; k < 2; ++k) {
     patches.count[k] = one ? 1 : int(p.count[k]);
     patches.side[k] = (disc ? square : p.size[k]) / patches.count[k];
@@ -127,15 +134,26 @@ std::vector<Quantity> CoupledSimulation::wall_pressure(const ProbeConfig& p) {
   const int all = patches.count[0] * patches.count[1];
   std::vector<Quantity> out;
   for (int first = 0; first < all; first += kAtOnce) {
-    auto sum =
-        sum_over<kAtOnce>(state_.walls.owned(),
-                          PatchForces{patches, first, std::uint32_t(body), spacing, inwards,
-                                      state_.walls.body, state_.walls.x0, forces.pressure, forces.friction});
+    auto sum = sum_over<kAtOnce>(state_.walls.owned(), PatchForces{.patches = patches,
+                                                                   .first = first,
+                                                                   .body = std::uint32_t(body),
+                                                                   .spacing = spacing,
+                                                                   .inwards = inwards,
+                                                                   .of = state_.walls.body,
+                                                                   .x0 = state_.walls.x0,
+                                                                   .pressure = forces.pressure,
+                                                                   .friction = forces.friction});
     if (repulsion.walls.surfaces.size > 0) {
-      const auto more = sum_over<kAtOnce>(
-          state_.fluid.owned(),
-          PatchRepulsion{patches, first, std::uint32_t(body), config_.fluid.dx, inwards, repulsion,
-                         state_.fluid.x, state_.fluid.mass, state_.fluid.heading});
+      const auto more =
+          sum_over<kAtOnce>(state_.fluid.owned(), PatchRepulsion{.patches = patches,
+                                                                 .first = first,
+                                                                 .body = std::uint32_t(body),
+                                                                 .dx = config_.fluid.dx,
+                                                                 .inwards = inwards,
+                                                                 .walls = repulsion,
+                                                                 .x = state_.fluid.x,
+                                                                 .mass = state_.fluid.mass,
+                                                                 .heading = state_.fluid.heading});
       for (int k = 0; k < kAtOnce; ++k) sum.v[k] += more.v[k];
     }
     for (int k = 0; k < kAtOnce && first + k < all; ++k)

@@ -79,8 +79,13 @@ void RigidGroups::measure(const GrainStore& grains) {
 }
 
 GrainGroups RigidGroups::view() const {
-  return {constants_.data(), store_.x,       store_.v,    store_.angular_momentum,
-          store_.rotation,   group_->span(), arm_->span()};
+  return {.groups = constants_.data(),
+          .x = store_.x,
+          .v = store_.v,
+          .angular_momentum = store_.angular_momentum,
+          .rotation = store_.rotation,
+          .group = group_->span(),
+          .arm = arm_->span()};
 }
 
 void RigidGroups::follow(GrainStore& g, Span<Real3> v_rest, Span<Real3> omega_rest, double drift) {
@@ -88,9 +93,22 @@ void RigidGroups::follow(GrainStore& g, Span<Real3> v_rest, Span<Real3> omega_re
   const GrainGroups all = view();
   for (Index k = 0; k < store_.size(); ++k)
     reduce_into(gained_.data() + k, g.owned(),
-                GainReduction{all, k, matter_.of(g), g.radius, g.v, g.omega, v_rest, omega_rest});
+                GainReduction{.all = all,
+                              .of = k,
+                              .mass_per_r3 = matter_.of(g),
+                              .radius = g.radius,
+                              .v = g.v,
+                              .omega = g.omega,
+                              .v_rest = v_rest,
+                              .omega_rest = omega_rest});
   for_each(store_.owned(), GroupPass{all, gained_.data(), drift});
-  for_each(g.owned(), FollowPass{all, frame_, g.x, g.v, g.omega, v_rest, omega_rest});
+  for_each(g.owned(), FollowPass{.all = all,
+                                 .frame = frame_,
+                                 .x = g.x,
+                                 .v = g.v,
+                                 .omega = g.omega,
+                                 .v_rest = v_rest,
+                                 .omega_rest = omega_rest});
 }
 
 void RigidGroups::stop() {
@@ -109,12 +127,19 @@ RigidMotion RigidGroups::motion(int k) const {
 }
 
 LoadSum RigidGroups::by_contacts(int k, const GrainStore& g) const {
-  return reduce(g.owned(), GroupLoadReduction{view(), Index(k), g.force, g.torque, {}, 1});
+  return reduce(
+      g.owned(),
+      GroupLoadReduction{
+          .all = view(), .of = Index(k), .force = g.force, .torque = g.torque, .more = {}, .per_torque = 1});
 }
 
 LoadSum RigidGroups::by_fluid(int k, const GrainStore& g, double dt) const {
-  return reduce(g.owned(), GroupLoadReduction{view(), Index(k), g.fluid_force, g.spin_impulse, g.drag_force,
-                                              dt > 0 ? 1 / dt : 0});
+  return reduce(g.owned(), GroupLoadReduction{.all = view(),
+                                              .of = Index(k),
+                                              .force = g.fluid_force,
+                                              .torque = g.spin_impulse,
+                                              .more = g.drag_force,
+                                              .per_torque = dt > 0 ? 1 / dt : 0});
 }
 
 void RigidGroups::save(std::vector<HostStore>& stores) const {

@@ -72,14 +72,21 @@ void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal
   histories_.swap(old_histories_);
   build_list(grains, grid);
   if (old_list_.rows() == (renewal.any ? renewal.before : grains.size()))
-    for_each(grains.owned(), CarryHistoryPass{old_list_.view(), list_.view(), order_, old_histories_.view(),
-                                              histories_.view()});
+    for_each(grains.owned(), CarryHistoryPass{.from = old_list_.view(),
+                                              .to = list_.view(),
+                                              .order = order_,
+                                              .old_histories = old_histories_.view(),
+                                              .histories = histories_.view()});
 }
 
 void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
-  GrainNear near{
-      frame_, grains.x_list.span(), grains.radius.span(), groups_.of_grains(), 0.5 * parameters_.d_max,
-      skin(), film_range(1)};
+  GrainNear near{.frame = frame_,
+                 .x = grains.x_list.span(),
+                 .radius = grains.radius.span(),
+                 .group = groups_.of_grains(),
+                 .largest = 0.5 * parameters_.d_max,
+                 .skin = skin(),
+                 .film = film_range(1)};
   // rows are short: of more lanes most would have nothing to do; contacts take so many registers that more
   // threads would wait for each other
   list_.build(grains.size(), grid.view(), near, std::min(lane_bits(grains.size(), 3u << 14), 3u));
@@ -92,9 +99,15 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
 // -- limits ------------------------------------------------------------------
 
 GrainWatch SolidSolver::watch(const GrainStore& g) const {
-  const auto v = reduce(
-      g.owned(), WatchReduction{frame_, matter_.of(g), g.x.span(), g.x_list.span(), g.v.span(),
-                                g.omega.span(), g.radius.span(), g.drag_coefficient.span(), g.id.span()});
+  const auto v = reduce(g.owned(), WatchReduction{.frame = frame_,
+                                                  .mass_per_r3 = matter_.of(g),
+                                                  .x = g.x.span(),
+                                                  .x_list = g.x_list.span(),
+                                                  .v = g.v.span(),
+                                                  .omega = g.omega.span(),
+                                                  .radius = g.radius.span(),
+                                                  .drag_coefficient = g.drag_coefficient.span(),
+                                                  .id = g.id.span()});
   return {std::sqrt(v.speed2), std::sqrt(v.displacement2), v.drag_rate, Id(v.bad)};
 }
 
@@ -125,7 +138,16 @@ ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
 }
 
 LubricationPass SolidSolver::films(const GrainStore& g, ContactSum* sums) const {
-  return {frame_, parameters_.films, g.x, g.v, g.omega, g.radius, g.wetness, g.id, list_.view(), sums};
+  return {.frame = frame_,
+          .law = parameters_.films,
+          .x = g.x,
+          .v = g.v,
+          .omega = g.omega,
+          .radius = g.radius,
+          .wetness = g.wetness,
+          .id = g.id,
+          .list = list_.view(),
+          .sums = sums};
 }
 
 ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses, double dt,
@@ -170,8 +192,14 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   wall_list_.cover(g, poses, wall_counts(), wall_travel);
   if (free) free->first_kick();
   if (held || parameters_.fixed) {
-    for_each(g.owned(), HeldPass{dt, g.fluid_velocity, g.fluid_angular_velocity, g.drag_coefficient,
-                                 g.rot_drag_coefficient, g.impulse, g.spin_impulse, g.drag_force});
+    for_each(g.owned(), HeldPass{.duration = dt,
+                                 .fluid_velocity = g.fluid_velocity,
+                                 .fluid_angular_velocity = g.fluid_angular_velocity,
+                                 .drag_coefficient = g.drag_coefficient,
+                                 .rot_drag_coefficient = g.rot_drag_coefficient,
+                                 .impulse = g.impulse,
+                                 .spin_impulse = g.spin_impulse,
+                                 .drag_force = g.drag_force});
     for (int s = 1; free && s <= substeps; ++s) {
       evaluate(EvaluatePass{contacts_in(s), g.force, g.torque});
       free->substep(s);
@@ -184,24 +212,30 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   }
   const Index n = g.size();
   next_x_.resize(n), next_v_.resize(n), next_omega_.resize(n), v_rest_.resize(n), omega_rest_.resize(n);
-  GrainKick kick{gravity.empty() ? parameters_.gravity : gravity[0],
-                 matter_.of(g),
-                 0.5 * tau,
-                 parameters_.exponential,
-                 g.radius,
-                 {},
-                 {},
-                 {},
-                 {},
-                 {},
-                 drive,
-                 Edges(parameters_.reflect, frame_)};
-  if (wet_)
-    kick.fluid_force = g.fluid_force, kick.fluid_velocity = g.fluid_velocity,
-    kick.fluid_angular_velocity = g.fluid_angular_velocity, kick.drag_coefficient = g.drag_coefficient,
+  GrainKick kick{.gravity = gravity.empty() ? parameters_.gravity : gravity[0],
+                 .mass_per_r3 = matter_.of(g),
+                 .h = 0.5 * tau,
+                 .exponential = parameters_.exponential,
+                 .radius = g.radius,
+                 .drive = drive,
+                 .edges = Edges(parameters_.reflect, frame_)};
+  if (wet_) {
+    kick.fluid_force = g.fluid_force;
+    kick.fluid_velocity = g.fluid_velocity;
+    kick.fluid_angular_velocity = g.fluid_angular_velocity;
+    kick.drag_coefficient = g.drag_coefficient;
     kick.rot_drag_coefficient = g.rot_drag_coefficient;
-  for_each(g.owned(), FirstKickPass{kick, g.force, g.torque, g.x, g.v, g.omega, v_rest_, omega_rest_,
-                                    g.impulse, g.spin_impulse});
+  }
+  for_each(g.owned(), FirstKickPass{.kick = kick,
+                                    .force = g.force,
+                                    .torque = g.torque,
+                                    .x = g.x,
+                                    .v = g.v,
+                                    .omega = g.omega,
+                                    .v_rest = v_rest_,
+                                    .omega_rest = omega_rest_,
+                                    .impulse = g.impulse,
+                                    .spin_impulse = g.spin_impulse});
   groups_.follow(g, v_rest_, omega_rest_, tau);
   for (int s = 1; s <= substeps; ++s) {
     const ContactPass contacts = contacts_in(s);

@@ -20,13 +20,13 @@ void WallList::cover(const GrainStore& grains, Span<const BodyPose> poses, const
   stale_ = false;
   moved_ = travel;
   covered_ = std::max(travel, 0.5 * skin_);
-  const WallNear near{frame_,
-                      walls_.view(),
-                      poses.data,
-                      grains.x_list.span(),
-                      grains.radius.span(),
-                      remembered,
-                      0.5 * skin_ + covered_ + gap_};
+  const WallNear near{.frame = frame_,
+                      .walls = walls_.view(),
+                      .poses = poses.data,
+                      .x = grains.x_list.span(),
+                      .radius = grains.radius.span(),
+                      .remembered = remembered,
+                      .beyond = 0.5 * skin_ + covered_ + gap_};
   find_all(grains.size(), near, grain_);
   count_.reserve_and_resize(size());
   for_each({0, size()}, CountWallsPass{near, grain_, count_});

@@ -138,29 +138,34 @@ void FreeBodies::point_at_memory() {
 
 BodyFields FreeBodies::fields() const {
   BodyStore& s = store_;
-  return {s.x,
-          s.v,
-          s.angular_momentum,
-          s.a,
-          s.alpha,
-          s.rotation,
-          s.grain_force,
-          s.grain_torque,
-          s.contact_force,
-          s.contact_torque,
-          s.fluid_force,
-          s.fluid_torque,
-          s.x_before,
-          s.v_before,
-          s.omega_before,
-          s.rotation_before};
+  return {.x = s.x,
+          .v = s.v,
+          .angular_momentum = s.angular_momentum,
+          .a = s.a,
+          .alpha = s.alpha,
+          .rotation = s.rotation,
+          .grain_force = s.grain_force,
+          .grain_torque = s.grain_torque,
+          .contact_force = s.contact_force,
+          .contact_torque = s.contact_torque,
+          .fluid_force = s.fluid_force,
+          .fluid_torque = s.fluid_torque,
+          .x_before = s.x_before,
+          .v_before = s.v_before,
+          .omega_before = s.omega_before,
+          .rotation_before = s.rotation_before};
 }
 
 // -- poses -------------------------------------------------------------------
 
 void FreeBodies::write(Span<BodyPose> poses, int row_size, int rows, double time) const {
-  for_each(store_.owned(),
-           BodyPosePass{constants_.data(), fields(), time, settling_ ? 1u : 0u, rows, row_size, poses.data});
+  for_each(store_.owned(), BodyPosePass{.bodies = constants_.data(),
+                                        .s = fields(),
+                                        .time = time,
+                                        .settling = settling_ ? 1u : 0u,
+                                        .rows = rows,
+                                        .row_size = row_size,
+                                        .poses = poses.data});
 }
 
 void FreeBodies::write_middle(Span<BodyPose> row, double dt) const {
@@ -185,7 +190,13 @@ BodyPass FreeBodies::pass() const {
 
 void FreeBodies::begin(Span<BodyPose> poses, int row_size, double time, double dt, int substeps,
                        double fluid_kick, const std::vector<Vec3d>& gravity) {
-  step_ = {poses, row_size, substeps, time, dt, fluid_kick, gravity};
+  step_ = {.poses = poses,
+           .row_size = row_size,
+           .substeps = substeps,
+           .time = time,
+           .dt = dt,
+           .fluid_kick = fluid_kick,
+           .gravity = gravity};
   substep_loads_.begin(substeps);
 }
 
@@ -242,10 +253,18 @@ ContactLoads FreeBodies::record(Index grains) {
 /// Balls against surfaces, then the sums over what they and the grains have recorded.
 void FreeBodies::evaluate_contacts(Span<const BodyPose> poses, double dt) {
   if (balls_.size() > 0)
-    for_each(
-        {0, Index(balls_.size())},
-        BallPass{frame_, walls_.view(), poses.data, constants_.data(), laws_.data(), compliances_.data(),
-                 balls_, memory_pointers_.data(), memory_.count.buffer().data(), capacity_, dt, ball_loads_});
+    for_each({0, Index(balls_.size())}, BallPass{.frame = frame_,
+                                                 .walls = walls_.view(),
+                                                 .poses = poses.data,
+                                                 .bodies = constants_.data(),
+                                                 .laws = laws_.data(),
+                                                 .compliances = compliances_.data(),
+                                                 .balls = balls_,
+                                                 .memory = memory_pointers_.data(),
+                                                 .contacts = memory_.count.buffer().data(),
+                                                 .capacity = capacity_,
+                                                 .dt = dt,
+                                                 .loads = ball_loads_});
   grain_sums_.zero();
   ball_sums_.zero();
   for (int k = 0; k < size(); ++k) {
@@ -304,8 +323,14 @@ void FreeBodies::correct_pressure(const WallStore& walls, const Buffer<Vec4<doub
                 PairsInPressureReduction{
                     {rigid(k).body, walls.body, walls.x0, poses.data}, walls.m_state, in_fit.span()});
   BodyStore& s = store_;
-  for_each(s.owned(), CorrectBody{constants_.data(), pressures_.data(), in_pressure_.data(), s.rotation,
-                                  s.fluid_force, s.fluid_torque, s.corrected_force, s.corrected_torque});
+  for_each(s.owned(), CorrectBody{.bodies = constants_.data(),
+                                  .fitted = pressures_.data(),
+                                  .pairs = in_pressure_.data(),
+                                  .rotation = s.rotation,
+                                  .force = s.fluid_force,
+                                  .torque = s.fluid_torque,
+                                  .added_force = s.corrected_force,
+                                  .added_torque = s.corrected_torque});
 }
 
 }  // namespace bedload::inline BL_VARIANT

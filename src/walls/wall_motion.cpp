@@ -112,7 +112,13 @@ double WallMotion::lowest(int body, double t, const Vec3d& up) const {
 void WallMotion::place(const Frame& frame, WallStore& walls, Span<const BodyPose> pose) {
   const Index n = pose.size / 2;
   const Span<const BodyPose> moving{pose.data, n}, placed{pose.data + n, n};
-  for_each(walls.owned(), PlacePass{frame, moving, placed, walls.x0, walls.body, walls.x, walls.v_rho});
+  for_each(walls.owned(), PlacePass{.frame = frame,
+                                    .moving = moving,
+                                    .placed = placed,
+                                    .x0 = walls.x0,
+                                    .body = walls.body,
+                                    .x = walls.x,
+                                    .v_rho = walls.v_rho});
   for_each(walls.mirrors.owned(),
            PlaceImagesPass{frame, placed, walls.mirrors.x0, walls.body, walls.mirrors.x});
 }

@@ -81,8 +81,10 @@ TEST_P(CrossLists, HoldEveryPairInRangeOnce) {
   const HalfSkins of_fluid(skins, most), of_grains(most / 2);
 
   VerletList list;
-  const CrossNear<FluidPosition, Vec3d> grains_of_fluid{frame, fluid, grains, c.range, of_fluid, of_grains};
-  const CrossNear<Vec3d, FluidPosition> fluid_of_grains{frame, grains, fluid, c.range, of_grains, of_fluid};
+  const CrossNear<FluidPosition, Vec3d> grains_of_fluid{
+      .frame = frame, .a = fluid, .b = grains, .range = c.range, .skin_a = of_fluid, .skin_b = of_grains};
+  const CrossNear<Vec3d, FluidPosition> fluid_of_grains{
+      .frame = frame, .a = grains, .b = fluid, .range = c.range, .skin_a = of_grains, .skin_b = of_fluid};
   const Rows by_fluid = all_pairs(frame, fluid_at, fluid_skins, grains_at, grain_skins, c.range);
   const Rows by_grain = all_pairs(frame, grains_at, grain_skins, fluid_at, fluid_skins, c.range);
   for (unsigned bits = 0; bits <= kSliceBits; ++bits) {  // whatever number of lanes shares a row

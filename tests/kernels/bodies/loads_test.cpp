@@ -63,13 +63,18 @@ TEST(BodyLoads, AGroupTakesTheLeversOfItsGrains) {
   std::vector<Real3> force{{1, 0, 0}, {0, 0, 2}, {9, 9, 9}}, torque{{0, 0, 3}, {}, {9, 9, 9}},
       more{{1, 0, 0}, {}, {9, 9, 9}};
   const auto all = [](auto& of) { return Span(of.data(), Index(of.size())); };
-  const GroupLoadReduction loads{
-      {groups.data(), all(x), all(v), all(spin), all(rotation), all(group), all(arm)},
-      0,
-      all(force),
-      all(torque),
-      all(more),
-      0.5};
+  const GroupLoadReduction loads{.all = {.groups = groups.data(),
+                                         .x = all(x),
+                                         .v = all(v),
+                                         .angular_momentum = all(spin),
+                                         .rotation = all(rotation),
+                                         .group = all(group),
+                                         .arm = all(arm)},
+                                 .of = 0,
+                                 .force = all(force),
+                                 .torque = all(torque),
+                                 .more = all(more),
+                                 .per_torque = 0.5};
   LoadSum sum = loads.identity();
   for (Index i = 0; i < 3; ++i) loads.combine(sum, loads(i));
   expect_near(sum.force(), {2, 0, 2}, 1e-12);

@@ -145,8 +145,14 @@ TEST(ContactLaw, FrictionLeavesTheSpringItsLimit) {
 TEST(ContactLaw, ElasticPlasticCoupleByHand) {
   const double mu_r = 0.1, eta = 0.3, k_n = 1e4, R = 5e-4, dt = 1e-6, inverse = 2e11;
   const ElasticPlasticRolling law{Real(mu_r), Real(eta)};
-  const RollingInput in{{Real(0.5), 0, 0}, Real(1),       Real(k_n),     Real(k_n),
-                        Real(R),           Real(inverse), Real(inverse), Real(dt)};
+  const RollingInput in{.omega = {Real(0.5), 0, 0},
+                        .normal_force = Real(1),
+                        .normal_stiffness = Real(k_n),
+                        .stiffness_before = Real(k_n),
+                        .R_star = Real(R),
+                        .inverse_spin = Real(inverse),
+                        .inverse_rolling = Real(inverse),
+                        .dt = Real(dt)};
   const double k_r = 2.25 * k_n * mu_r * mu_r * R * R;
   Vec3d couple;
   const Real3 total = law(in, couple);
@@ -159,8 +165,14 @@ TEST(ContactLaw, ElasticPlasticCoupleByHand) {
 TEST(ContactLaw, ElasticPlasticCoupleIsNeverMoreThanItsLimit) {
   const double mu_r = 0.1, R = 5e-4, force = 2, limit = mu_r * R * force, dt = 1e-6;
   const ElasticPlasticRolling law{Real(mu_r), 1};
-  RollingInput in{{0, Real(1e5), 0}, Real(force), Real(1e4),  Real(1e4),
-                  Real(R),           Real(2e11),  Real(2e11), Real(dt)};
+  RollingInput in{.omega = {0, Real(1e5), 0},
+                  .normal_force = Real(force),
+                  .normal_stiffness = Real(1e4),
+                  .stiffness_before = Real(1e4),
+                  .R_star = Real(R),
+                  .inverse_spin = Real(2e11),
+                  .inverse_rolling = Real(2e11),
+                  .dt = Real(dt)};
   Vec3d couple{0, -0.99 * limit, 0};
   EXPECT_NEAR(law(in, couple).y / -limit, 1, 1e-6) << "it slips";
   EXPECT_NEAR(couple.y / -limit, 1, 1e-6) << "its spring keeps the limit";
@@ -174,7 +186,14 @@ TEST(ContactLaw, ElasticPlasticCoupleIsNeverMoreThanItsLimit) {
 TEST(ContactLaw, ElasticPlasticSpringGainsNoEnergyFromItsStiffness) {
   const ElasticPlasticRolling law{Real(0.1), 0};
   for (const double before : {4e4, 2.5e3}) {
-    const RollingInput in{{}, Real(1), Real(1e4), Real(before), Real(5e-4), Real(2e11), Real(2e11), 0};
+    const RollingInput in{.omega = {},
+                          .normal_force = Real(1),
+                          .normal_stiffness = Real(1e4),
+                          .stiffness_before = Real(before),
+                          .R_star = Real(5e-4),
+                          .inverse_spin = Real(2e11),
+                          .inverse_rolling = Real(2e11),
+                          .dt = 0};
     Vec3d couple{1e-6, 0, 0};
     law(in, couple);
     EXPECT_NEAR(couple.x / 1e-6, before > 1e4 ? 0.25 : 1, 1e-6) << before;
@@ -186,7 +205,13 @@ TEST(ContactLaw, MindlinSpringByHand) {
   const double G = 3e7, R = 1e-3, overlap = 1e-6, S_t = 8 * G * std::sqrt(R * overlap), S_n = 2e4, c_n = 0.3;
   const Mindlin law{Real(G)};
   const NormalState n{Real(0.01), Real(S_n), Real(c_n)};
-  const SlidingInput in{Real(0.01), n, n, Real(std::sqrt(R * overlap)), Real(1e-6), overlap, overlap};
+  const SlidingInput in{.normal_force = Real(0.01),
+                        .normal = n,
+                        .before = n,
+                        .root = Real(std::sqrt(R * overlap)),
+                        .m_star = Real(1e-6),
+                        .overlap = overlap,
+                        .overlap_before = overlap};
   const SlidingState s = law(in, {2e-7, 0, 0});
   EXPECT_NEAR(s.elastic.x / (-S_t * 2e-7), 1, 1e-5);
   EXPECT_NEAR(s.damping / (c_n * std::sqrt(S_t / S_n)), 1, 1e-5);
@@ -200,7 +225,13 @@ TEST(ContactLaw, MindlinDeresiewiczIsDampedByItsTangentStiffness) {
                most = slip * overlap;
   const MindlinDeresiewicz law{Real(mu), Real(slip), Real(beta)};
   const NormalState n{Real(force), Real(1e4), 0};
-  const SlidingInput in{Real(force), n, n, 0, Real(m), overlap, overlap};
+  const SlidingInput in{.normal_force = Real(force),
+                        .normal = n,
+                        .before = n,
+                        .root = 0,
+                        .m_star = Real(m),
+                        .overlap = overlap,
+                        .overlap_before = overlap};
   for (const double s : {0.1, 0.75}) {
     const SlidingState state = law(in, {s * most, 0, 0});
     EXPECT_NEAR(state.elastic.x / (-mu * force * (1 - std::pow(1 - s, 1.5))), 1, 1e-4) << s;
@@ -297,8 +328,14 @@ TEST(ContactLaw, SpringAndCoupleTurnWithTheContact) {
 TEST(ContactLaw, CapKeepsTheConstantCoupleFromTurningTheSpinRound) {
   ConstantRolling law{Real(0.05), true};
   const double dt = 1e-5, inverse = 1 / double(kGrain.inertia());
-  RollingInput in{{Real(1e-6), 0, 0}, Real(1),       Real(1e4), Real(1e4), kRadius,
-                  Real(inverse),      Real(inverse), Real(dt)};
+  RollingInput in{.omega = {Real(1e-6), 0, 0},
+                  .normal_force = Real(1),
+                  .normal_stiffness = Real(1e4),
+                  .stiffness_before = Real(1e4),
+                  .R_star = kRadius,
+                  .inverse_spin = Real(inverse),
+                  .inverse_rolling = Real(inverse),
+                  .dt = Real(dt)};
   const double change = double(law(in).x) * inverse * dt;
   EXPECT_NEAR(change / 1e-6, -1, 1e-5) << "just stopped";
   in.omega.x = 1e6;

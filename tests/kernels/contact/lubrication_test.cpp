@@ -50,7 +50,8 @@ TEST(Lubrication, ShearsAsSpheresAndWallsDo) {
       << "arms grow by half the gap";
   EXPECT_NEAR(spin.torque_j.y / (-8 * M_PI * mu * R * R * R * 0.05 * log), 1, 4e-2);
 
-  const NearSurfaces wall{{0, 0, 1}, s, Real(R), 1, Real(R), 0};
+  const NearSurfaces wall{
+      .n = {0, 0, 1}, .gap = s, .R_star = Real(R), .skew = 1, .arm_i = Real(R), .arm_j = 0};
   const ContactForce along = law(wall, {1, 0, 0}, {}, {}), turning = law(wall, {}, {0, 1, 0}, {});
   EXPECT_NEAR(along.force.x / (-8.0 / 15 * 6 * M_PI * mu * R * wall_log), 1, 1e-5);
   EXPECT_NEAR(along.torque_i.y / (0.1 * 8 * M_PI * mu * R * R * wall_log), 1, 1e-5);

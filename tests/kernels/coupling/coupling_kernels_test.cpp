@@ -123,8 +123,12 @@ TEST(DragLevers, WeakenTheDragOfAGrainByTheirSum) {
   const auto all = [](auto& of) { return Span(of.data(), Index(of.size())); };
   const auto weakened = [&](double dt, bool couple) {
     K = {5}, K_rot = {7};
-    const LimitPass pass{Real(dt), all(rate),  couple ? Span<const Real>(all(sum)) : Span<const Real>(),
-                         all(K),   all(K_rot), all(stiffness)};
+    const LimitPass pass{.dt = Real(dt),
+                         .rate = all(rate),
+                         .lever_sum = couple ? Span<const Real>(all(sum)) : Span<const Real>(),
+                         .drag_coefficient = all(K),
+                         .rot_drag_coefficient = all(K_rot),
+                         .stiffness = all(stiffness)};
     Real most = pass.start(0);
     pass.pair(most, {}, 0, 0, 150);
     pass.pair(most, {}, 0, 0, 200);
@@ -146,9 +150,14 @@ double stopped(double r) {
   std::vector<Real> K{4}, still{3}, at_centre{Real(1.5)}, off_centre{10}, mass{2}, rate{0};
   std::vector<Real4> v_rho{{0, 0, 0, 1000}}, m_state{{5, 0, 1000, 1}};
   const auto all = [](auto& of) { return Span(of.data(), Index(of.size())); };
-  const DragRatePass<WendlandC2, false, kCouple> pass{
-      WendlandC2(0.1), {all(still), {}}, {all(at_centre), all(off_centre), {}}, all(K), all(mass), all(v_rho),
-      all(m_state),    all(rate)};
+  const DragRatePass<WendlandC2, false, kCouple> pass{.w = WendlandC2(0.1),
+                                                      .weights = {all(still), {}},
+                                                      .levers = {all(at_centre), all(off_centre), {}},
+                                                      .drag_coefficient = all(K),
+                                                      .mass = all(mass),
+                                                      .v_rho = all(v_rho),
+                                                      .m_state = all(m_state),
+                                                      .rate = all(rate)};
   auto sum = pass.start(0);
   const Real3 apart{0, Real(r), 0};
   if constexpr (kCouple)

@@ -34,8 +34,16 @@ std::pair<double, double> noise(double x) {
   std::vector<Real3> U(n), omega(n);
   MassPerR3 per_r3{};
   per_r3.one = m / (R * R * R);
-  const DragNoisePass pass{{7, 3},      4e-21,  dt,         per_r3, all(id),
-                           all(radius), all(K), all(K_rot), all(U), all(omega)};
+  const DragNoisePass pass{.key = {7, 3},
+                           .kT = 4e-21,
+                           .dt = dt,
+                           .mass_per_r3 = per_r3,
+                           .id = all(id),
+                           .radius = all(radius),
+                           .drag_coefficient = all(K),
+                           .rot_drag_coefficient = all(K_rot),
+                           .fluid_velocity = all(U),
+                           .fluid_angular_velocity = all(omega)};
   double u2 = 0, w2 = 0;
   for (Index j = 0; j < n; ++j) {
     pass(j);
@@ -62,7 +70,13 @@ TEST(Buoyancy, EndsTheStepWithTheChangeOfTheForce) {
   per_r3.one = 0.5;
   for (const bool moves : {false, true}) {
     force = {{1, 1, 1}}, v = {{0, 0, 5}};
-    BuoyancyKick{Real(0.1), per_r3, moves, all(now), all(radius), all(force), all(v)}(0);
+    BuoyancyKick{.kick = Real(0.1),
+                 .mass_per_r3 = per_r3,
+                 .moves = moves,
+                 .now = all(now),
+                 .radius = all(radius),
+                 .force = all(force),
+                 .v = all(v)}(0);
     const double k = moves ? 0.1 / 4 : 0;
     EXPECT_NEAR(v[0].x, k * 2, kNear);
     EXPECT_NEAR(v[0].y, -k, kNear);
@@ -166,8 +180,16 @@ TEST(Drop, GivesEachGrainTheNextIdAndPlace) {
   std::vector<Real> radius(3), eps(3);
   std::vector<std::uint32_t> material(3);
   std::vector<Index> from(3);
-  const DropPass pass{all(grain), 1,           40,       all(id),       all(x),
-                      all(v),     all(radius), all(eps), all(material), all(from)};
+  const DropPass pass{.grain = all(grain),
+                      .place = 1,
+                      .first = 40,
+                      .id = all(id),
+                      .x = all(x),
+                      .v = all(v),
+                      .radius = all(radius),
+                      .eps = all(eps),
+                      .material = all(material),
+                      .source_index = all(from)};
   pass(0), pass(1);
   EXPECT_EQ(id[1], 40u);
   EXPECT_EQ(id[2], 41u);
