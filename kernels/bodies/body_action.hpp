@@ -1,5 +1,5 @@
 #pragma once
-// What acts on a wall body, and its sums over time as time integration applies it.
+// Load on a wall body, and its time integral with the weights of the time integration.
 
 #include "kernels/bodies/rigid_body.hpp"
 
@@ -25,10 +25,10 @@ struct BodyAction {
   }
 };
 
-/// By what a body is pushed.
+/// Sources of the load on a body.
 enum ActionPart { kByPressure, kByFriction, kByGrains, kByBodies, kActionParts };
 
-/// A body on which the action is summed, about a point.
+/// A body whose load is summed, with the point of its torque.
 struct MeteredBody {
   std::uint32_t body;
   std::uint32_t free;  ///< 1 + place among the free bodies; 0: motion prescribed
@@ -41,20 +41,20 @@ struct AddLoadsPass {
   BL_HD void operator()(Index m) const { LoadSum::combine(sum[m], more[m]); }
 };
 
-/// Adds one step to the sums: the fluid acts for the kicks at both ends of the step, contacts for half a
-/// substep at both ends of each.
+/// Adds one step to the sums: the fluid acts in the kicks at both ends of the step, contacts for half a
+/// substep at both ends of each substep.
 struct SumActionsPass {
   Frame frame;
   Span<const MeteredBody> bodies;
   const BodyPose* now;           ///< [row_size], at the end of the step
   const BodyPose* rows;          ///< [substeps + 1][row_size], at the start and after each substep
-  int row_size, substeps;        ///< substeps: 0 where nothing moves in them
+  int row_size, substeps;        ///< substeps: 0 without substeps
   double substep;                ///< s
   double first_kick, last_kick;  ///< of the fluid's force, s
   Span<const LoadSum> by_pressure, by_friction;  ///< [bodies], now; about the centres
   Span<const LoadSum> by_grains, by_bodies;      ///< [substeps][bodies]; empty where there are none
-  Span<const Vec3d> free_force, free_torque;     ///< of all fluid, by which free bodies move
-  Span<BodyAction> action;  ///< [bodies][kActionParts], at the end of the step before; of this one after
+  Span<const Vec3d> free_force, free_torque;     ///< total fluid load by which free bodies move
+  Span<BodyAction> action;  ///< [bodies][kActionParts], at the end of the previous step; then of this one
   Span<BodyAction> sum;     ///< [bodies][kActionParts]
 
   BL_HD void operator()(Index m) const {

@@ -1,5 +1,5 @@
 #pragma once
-// Velocity Verlet for free bodies, beside the grains' substeps.
+// Velocity Verlet for free bodies, in step with the grains' substeps.
 
 #include "kernels/bodies/rigid_body.hpp"
 
@@ -27,18 +27,18 @@ struct BodyFields {
   }
 };
 
-/// Loads on a body, kicks, and a drift to the next row of poses. Contacts act through the whole substeps,
-/// the fluid at both ends of its step.
+/// Loads on a body, kicks, and a drift to the next row of poses. Contacts act in every substep, the fluid at
+/// both ends of its step.
 struct BodyPass {
   const RigidBody* bodies;
   BodyFields s;
-  const LoadSum* by_grains;        ///< new ones; null: as before
-  const LoadSum* by_contacts;      ///< new ones; null: as before
+  const LoadSum* by_grains;        ///< new loads; null: unchanged
+  const LoadSum* by_contacts;      ///< new loads; null: unchanged
   Vec3d gravity;                   ///< m/s2
   double kick, fluid_kick, drift;  ///< s
-  double time;                     ///< s; bodies released later are held
-  std::uint32_t begins;            ///< 1: a step begins
-  BodyPose* row;                   ///< [bodies] to place the bodies in; may be null
+  double time;                     ///< s; bodies with a later release time are held
+  std::uint32_t begins;            ///< 1: first kick of a step
+  BodyPose* row;                   ///< [bodies] where the new poses are written; may be null
 
   BL_HD void operator()(Index b) const {
     const RigidBody& k = bodies[b];
@@ -106,15 +106,15 @@ struct MidPosePass {
   }
 };
 
-/// The acceleration that the fluid beside a body sees: that of its last steps, averaged over a few times that
-/// sound takes across the kernel. Wall pressure answers it like a mass of fluid that moves along; taken as it
-/// was a step ago, it would throw a body lighter than that mass to and fro, further each step, however short.
-/// With a new weight of s the answer stays bounded while the mass of fluid is below 2/s - 1 times the body's,
-/// about 60.
+/// Acceleration of a body as the fluid next to it reads it, averaged over a few sound travel times across the
+/// kernel. Wall pressure responds to it as an added mass. With the value of the last step alone, a body
+/// lighter than its added mass would oscillate with growing amplitude at any step size. With the weight s of
+/// the new value the response is stable while the added mass is below 2/s - 1 times the body's mass, about
+/// 60.
 struct BodyAccelerationPass {
   const RigidBody* bodies;
   BodyFields s;
-  double dt, weight;  ///< s; of the new value
+  double dt, weight;  ///< step, s; weight of the new value
   BL_HD void operator()(Index b) const {
     const Vec3d omega = bodies[b].omega(to_quat(s.rotation[b]), s.angular_momentum[b]);
     s.a[b] += weight * ((s.v[b] - s.v_before[b]) * (1 / dt) - s.a[b]);

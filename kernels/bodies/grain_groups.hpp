@@ -1,13 +1,13 @@
 #pragma once
-// Grains that move as one rigid body. Each of them is kicked on its own; what they have gained together moves
-// the group, and they follow it.
+// Grains that move as one rigid body. Each grain is kicked on its own; the sum of the gained momenta moves
+// the group, and the grains then follow it.
 
 #include "kernels/bodies/body_kicks.hpp"
 #include "kernels/integrate/grain_substep.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Where the groups are, and which grains are theirs.
+/// State of the groups, and which grains belong to them.
 struct GrainGroups {
   const RigidBody* groups;             ///< about their centres of mass
   Span<Vec3d> x, v, angular_momentum;  ///< of and about those centres: m, m/s, kg m2/s
@@ -23,8 +23,8 @@ struct GrainGroups {
   }
 };
 
-/// Momentum and angular momentum about its centre that a group has gained since its grains followed it last,
-/// as impulses in the places of force and torque, N s and N m s.
+/// Momentum and angular momentum about its centre that a group has gained since its grains last followed it,
+/// stored as force and torque; N s and N m s.
 struct GainReduction {
   using Value = LoadSum;
   GrainGroups all;
@@ -47,7 +47,7 @@ struct GainReduction {
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
 };
 
-/// A group takes up what its grains have gained, as far as its constraints let it, and drifts.
+/// Applies the momenta gained by the grains to a group, within its constraints, then drifts it.
 struct GroupPass {
   GrainGroups all;
   const LoadSum* gained;
@@ -62,7 +62,7 @@ struct GroupPass {
   }
 };
 
-/// Grains take place and motion from their group.
+/// Sets position and motion of grains from their group.
 struct FollowPass {
   GrainGroups all;
   Frame frame;
@@ -84,7 +84,7 @@ struct GroupLoadReduction {
   GrainGroups all;
   Index of;
   Span<const Real3> force, torque, more;  ///< N, any unit, N; `more`: another force, may be empty
-  double per_torque;                      ///< makes N m of the torque
+  double per_torque;                      ///< converts the torque to N m
   BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index i) const {
     Value sum = Value::zero();

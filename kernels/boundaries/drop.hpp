@@ -1,19 +1,19 @@
 #pragma once
-// Grains dropped in one by one.
+// Insertion of single grains.
 
 #include "bedload/core/frame.hpp"
 #include "bedload/core/span.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// A sphere that is to be placed.
+/// A grain to insert.
 struct NewGrain {
   Vec3d x, v;         ///< m, m/s
   double radius = 0;  ///< m
   std::uint32_t material = 0;
 };
 
-/// Up to N places for a grain; which of them are taken by grains that are there.
+/// Up to N candidate positions for a grain: which of them overlap existing grains.
 template <int N>
 struct ClearanceBody {
   Frame frame;
@@ -27,10 +27,10 @@ struct ClearanceBody {
   }
 };
 
-/// Writes new grains behind those that were there.
+/// Appends new grains.
 struct DropPass {
   Span<const NewGrain> grain;
-  Index place;  ///< of the first
+  Index place;  ///< index of the first
   Id first;     ///< its id
   Span<Id> id;
   Span<Vec3d> x;

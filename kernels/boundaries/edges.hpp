@@ -1,14 +1,14 @@
 #pragma once
-// Sides of the domain that put back what crosses them.
+// Reflecting sides of the domain.
 
 #include "bedload/case/config/domain.hpp"
 #include "bedload/core/frame.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Sides that a particle crosses put it back where a mirror would show it, and turn its velocity round: the
-/// part along the normal where fluid slips, all of it where not [tsuzuki]. Its speed stays what it was. Sides
-/// have neither particles nor surfaces: what is beside them feels nothing of them until it crosses.
+/// A particle that crosses a reflecting side is mirrored back, and its velocity is reversed: the normal
+/// component with slip, all components without [tsuzuki]. Its speed is unchanged. Sides have neither
+/// particles nor surfaces: they have no effect on particles that do not cross them.
 class Edges {
  public:
   Edges() = default;
@@ -22,12 +22,12 @@ class Edges {
   }
   BL_HD bool any() const { return all_ != 0; }
 
-  /// Of a particle that was at `from` and has moved to x with v.
+  /// Reflects a particle that has moved from `from` to x with velocity v.
   template <class T>
   BL_HD void put_back(const Vec3d& from, Vec3d& x, Vec3<T>& v) const {
     if (const unsigned crossed = mirror(from, x)) turn(crossed, v);
   }
-  /// x - way, mirrored where that leaves the domain.
+  /// x - way, mirrored if that is outside.
   BL_HD Vec3d inside(const Vec3d& x, const Vec3d& way) const {
     Vec3d at = x - way;
     mirror(x, at);
@@ -35,7 +35,7 @@ class Edges {
   }
 
  private:
-  /// Mirrors x at sides between `from` and it; those, a bit each.
+  /// Mirrors x at the sides that it crossed; returns them, one bit per side.
   BL_HD unsigned mirror(const Vec3d& from, Vec3d& x) const {
     unsigned crossed = 0;
     if (!any()) return crossed;
@@ -48,7 +48,7 @@ class Edges {
     }
     return crossed;
   }
-  /// Particles drift beside their velocity, too: what moves inwards is let be.
+  /// Drift may differ from velocity: a velocity that points inwards is kept.
   template <class T>
   BL_HD void turn(unsigned crossed, Vec3<T>& v) const {
     for (int face = 0; face < 6; ++face)
@@ -65,7 +65,7 @@ class Edges {
   }
 
   double at_[6] = {0, 0, 0, 0, 0, 0}, rounding_[3] = {0, 0, 0};  ///< m
-  unsigned all_ = 0, no_slip_ = 0;                               ///< a bit a side, in the order of kFaces
+  unsigned all_ = 0, no_slip_ = 0;                               ///< one bit per side, in the order of kFaces
 };
 
 }  // namespace bedload::inline BL_VARIANT

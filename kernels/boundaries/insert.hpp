@@ -1,5 +1,5 @@
 #pragma once
-// Fluid that comes in: the foremost particles upstream of an orifice become fluid.
+// Inflow: the buffer layer next to an orifice becomes fluid.
 
 #include "bedload/core/frame.hpp"
 #include "bedload/particles/fluid.hpp"
@@ -8,15 +8,15 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// For every particle of the wall store: those whose ids follow `first` become fluid where they are, at their
-/// velocity and the pressure that they took from the fluid ahead. An orifice is free of grains.
+/// Runs over the wall store: the `count` particles with ids from `first` become fluid at their position, with
+/// their velocity and the pressure extrapolated from the fluid in front. There are no grains in an orifice.
 struct InsertPass {
   Frame frame;
   EquationOfState eos;
-  Id first;       ///< of the foremost layer
-  Index count;    ///< of its particles
-  Index place;    ///< of the first new fluid particle
-  Id id;          ///< of that particle
+  Id first;       ///< id of the first particle of the layer
+  Index count;    ///< particles of the layer
+  Index place;    ///< index of the first new fluid particle
+  Id id;          ///< its id
   Real mass;      ///< of each, kg
   Real3 acc;      ///< of the layer, m/s2
   Real3 gravity;  ///< effective, m/s2
@@ -46,7 +46,7 @@ struct InsertPass {
     fluid_mass[a] = mass;
     eps[a] = 1;
     if (solid_factor) solid_factor[a] = 0;
-    theta[a] = acc - gravity;  // what moves it as prescribed
+    theta[a] = acc - gravity;  // gives the prescribed acceleration
     fluid_acc[a] = acc;
   }
 };

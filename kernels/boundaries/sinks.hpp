@@ -1,5 +1,5 @@
 #pragma once
-// Which particles leave a simulation, and by which way.
+// Which particles leave a simulation, and through which side or outlet.
 
 #include "bedload/core/frame.hpp"
 #include "kernels/contact/grain_mass.hpp"
@@ -8,11 +8,11 @@
 namespace bedload::inline BL_VARIANT {
 
 constexpr std::uint32_t kSides = 6;  ///< of the domain, in the order of kFaces
-/// Ways out: none, through side k of the domain, or outlet k.
+/// A particle stays, leaves through side k of the domain, or through outlet k.
 constexpr std::uint32_t kStays = 0, kLeftDomain = 1, kOutlet = kLeftDomain + kSides;
 
-/// 1 + the side of the domain beyond which x lies, on an axis that is not periodic and by more than packed
-/// positions are rounded; of several sides that from which it is farthest. 0 inside.
+/// 1 + the side of the domain beyond which x lies, on a non-periodic axis and by more than the rounding of
+/// packed positions; of several sides the one with the largest distance. 0 inside.
 BL_HD std::uint32_t beyond_side(const Frame& f, const Vec3d& x) {
   std::uint32_t side = 0;
   double farthest = 0;
@@ -28,12 +28,12 @@ BL_HD std::uint32_t beyond_side(const Frame& f, const Vec3d& x) {
 }
 BL_HD bool outside(const Frame& f, const Vec3d& x) { return beyond_side(f, x) != 0; }
 
-/// Whether x lies in the solid behind a surface that stands where it was at t = 0.
+/// Whether x lies in the solid behind a surface in its pose of t = 0.
 BL_HD bool inside(const SurfaceSet& set, const Surface& s, const Frame& frame, const Vec3d& x) {
   const BodyPose still;
   const SurfaceView view(s, still, frame, x);
   if (view.beyond(set, 0)) return false;
-  // of a mesh, whose edges would belong to none of their triangles by round-off; others have no need of it
+  // tolerance for a mesh, where round-off could assign an edge to neither of its triangles
   const double size = s.kind == SurfaceKind::mesh ? 2 * (s.half[0] + s.half[1] + s.half[2]) : 0;
   double nearest = 1e300, distance = 1e300;
   view.each_closest_point(set, size > 0 ? size : nearest, 1e-9 * size, [&](const ClosestPoint& closest) {
@@ -44,7 +44,7 @@ BL_HD bool inside(const SurfaceSet& set, const Surface& s, const Frame& frame, c
   return distance < 0;
 }
 
-/// Marks each particle with its way out; `domain`: leaving that is one.
+/// Marks each particle with the side or outlet through which it leaves; `domain`: sides count.
 template <class P>
 struct SinkPass {
   Frame frame;
@@ -70,13 +70,13 @@ struct StaysTest {
   BL_HD bool operator()(Index i) const { return sink[i] == kStays; }
 };
 
-/// How many leave.
+/// Counts particles that leave.
 struct LeavingBody {
   Span<const std::uint32_t> sink;
   BL_HD void operator()(Index i, double* out) const { out[0] = sink[i] == kStays ? 0 : 1; }
 };
 
-/// {count, mass} of what leaves by one way; Mass(i): kg.
+/// {count, mass} of particles that leave through one side or outlet; Mass(i): kg.
 template <class Mass>
 struct SinkTally {
   Span<const std::uint32_t> sink;
@@ -89,7 +89,7 @@ struct SinkTally {
   }
 };
 
-/// {count, mass} of what leaves through each side; Mass(i): kg.
+/// {count, mass} of particles that leave through each side; Mass(i): kg.
 template <class Mass>
 struct SideTally {
   Span<const std::uint32_t> sink;
@@ -101,7 +101,7 @@ struct SideTally {
   }
 };
 
-/// 1 + the side through which a grain that is outside now left, which it keeps however it goes on; 0 inside.
+/// 1 + the side through which a grain outside the domain has left; constant while it is outside. 0 inside.
 struct LeftThrough {
   Frame frame;
   Span<const Vec3d> x;

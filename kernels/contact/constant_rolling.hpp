@@ -4,7 +4,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Constant couple against the relative spin, He et al. (25); capped where it would turn the spin round.
+/// Constant couple against the relative spin, He et al. (25); capped where it would reverse the spin.
 struct ConstantRolling {
   static constexpr bool kActs = true, kRemembers = false;
   Real mu_r = 0;

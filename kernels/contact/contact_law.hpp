@@ -8,7 +8,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Where two bodies touch. Walls: R_star = R, m_star = m, arm_i = R - overlap, arm_j = 0.
+/// Geometry of a contact. Walls: R_star = R, m_star = m, arm_i = R - overlap, arm_j = 0.
 struct ContactGeometry {
   Vec3d n;
   double overlap;        ///< > 0, m
@@ -61,12 +61,12 @@ struct ContactLawOf {
   Real mu = 0;
   Real sliding_damping = 1;  ///< fraction of the damping of friction's spring
 
-  /// Whether `law` acts as these do.
+  /// Whether `law` is composed of these laws.
   template <class Law>
   static bool is(const Law& law) {
     return acts_as<Normal>(law.normal) && acts_as<Sliding>(law.sliding) && acts_as<Rolling>(law.rolling);
   }
-  /// These, of a law that acts as they do.
+  /// The same law, composed of these types.
   template <class Law>
   BL_HD static ContactLawOf of(const Law& law) {
     return {.normal = law.normal,
@@ -157,7 +157,7 @@ struct ContactLawOf {
     return with_law(normal, [](const auto& law) { return law.kEnergy; }) * double(ns.elastic) * overlap +
            stored_sideways(ns, R_star, m_star, overlap, h);
   }
-  /// Takes over the springs of a contact that had `other` laws, with no more energy than they had.
+  /// Inherits the springs of a contact with `other` laws; the stored energy does not grow.
   BL_HD void take_over(const ContactLawOf& other, Real R_star, Real m_star, ContactHistory& h) const {
     const double overlap = h.overlap < 0 ? -h.overlap : h.overlap;
     const auto energy = [&](const ContactLawOf& law) {
@@ -180,8 +180,8 @@ struct ContactLawOf {
     return with_law(sliding, [&](const auto& law) { return law.stored(in, h.xi); }) +
            with_law(rolling, [&](const auto& law) { return law.stored(ns.stiffness, R_star, h.couple); });
   }
-  /// Friction's force, Coulomb's limit kept. Where it slips the spring bears no more than the limit, and a
-  /// damper that would bear more stretches no spring: that would be energy from nowhere.
+  /// Friction force, limited by Coulomb's law. In slip the spring force is at most the limit, and the damper
+  /// does not stretch the spring: that would create energy.
   template <class Law>
   BL_HD Real3 slide(const Law& law, const SlidingInput& in, const Real3& v_t, const Vec3d& turned,
                     const Vec3d& step, Vec3d& xi) const {

@@ -11,8 +11,8 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Pairs of grains closer than the sum of their radii, a skin and, where there is any, the gap up to which
-/// lubrication acts, but for those of one rigid group.
+/// Pairs of grains whose distance is below the sum of their radii, a skin and the range of lubrication; pairs
+/// within one rigid group are left out.
 struct GrainNear {
   Frame frame;
   Span<const Vec3d> x;
@@ -20,7 +20,7 @@ struct GrainNear {
   Span<const std::uint32_t> group;  ///< 0: none; empty without groups
   double largest;                   ///< radius, m
   double skin;                      ///< m
-  double film = 0;                  ///< that gap / R*
+  double film = 0;                  ///< range of lubrication / R*
   BL_HD Vec3d place(Index i) const { return x[i]; }
   BL_HD double reach(Index i) const { return radius[i] + largest + skin + film_between(radius[i], largest); }
   BL_HD bool operator()(Index i, Index j) const {
@@ -34,8 +34,8 @@ struct GrainNear {
   }
 };
 
-/// Puts what touches where the list was built before what does not, so that the threads of a warp meet their
-/// contacts at the same time.
+/// Sorts each row: pairs in contact when the list was built come first, so that the threads of a warp
+/// evaluate contacts at the same time.
 struct ContactsFirstPass {
   GrainNear near;
   VerletListView list;
@@ -50,10 +50,10 @@ struct ContactsFirstPass {
   }
 };
 
-/// Takes histories over into a new list; entries are places in the sorted store.
+/// Copies histories into a new list; entries are indices in the sorted store.
 struct CarryHistoryPass {
   VerletListView from, to;
-  Span<const Index> order;  ///< former place of each grain; kNone if it is new
+  Span<const Index> order;  ///< former index of each grain; kNone if it is new
   PairHistories old_histories, histories;
   BL_HD void operator()(Index i) const {
     const Index was_i = order[i];
@@ -69,7 +69,7 @@ struct CarryHistoryPass {
   }
 };
 
-/// Everything that acts on a grain by touch.
+/// Contact force and torque on a grain.
 struct ContactSum {
   Vec3d force;   ///< N
   Vec3d torque;  ///< N m
@@ -96,7 +96,7 @@ struct ContactPass {
   bool acts = true;  ///< false: grains pass through each other
 
   BL_HD Sphere sphere(Index i, Real R) const { return {R, Real(mass_per_r3(i)) * cube(R)}; }
-  /// Place in `laws` of that between two grains.
+  /// Index in `laws` of the law between two grains.
   BL_HD std::uint32_t pair_of(Index i, Index j) const {
     return mass_per_r3.material[i] * materials + mass_per_r3.material[j];
   }
@@ -109,7 +109,7 @@ struct ContactPass {
     add_others(lane.row, wall_row_of(lane.row), sum);
     return sum;
   }
-  /// Those between grains alone. The laws act as Law.
+  /// The contacts between grains alone, by the laws of type Law.
   template <class Law>
   BL_HD ContactSum pairs(const Lane& lane) const {
     ContactSum sum;
@@ -120,9 +120,9 @@ struct ContactPass {
     lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
     return sum;
   }
-  /// Of a grain among what walls do; kNone: it is far from them.
+  /// Row of a grain in by_walls; kNone: it is far from walls.
   BL_HD Index wall_row_of(Index i) const { return wall_row ? wall_row[i] : kNone; }
-  /// What walls and films do, when the loop over the walls has ended.
+  /// Adds forces of walls and lubrication films; waits for the loop over the walls.
   BL_HD void add_others(Index i, Index row, ContactSum& sum) const {
     if (!acts) return;
     wait_for_loops_before();
@@ -142,13 +142,13 @@ struct ContactPass {
     Real3 v, omega;
     Id id = 0;
   };
-  /// By value: one of two places would have to lie in memory.
+  /// By value: a reference would force both into memory.
   BL_HD static Real3 either(bool first, const Real3& a, const Real3& b) {
     return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
   }
   template <class Law>
   BL_HD void pair(const Grain& own, Index j, std::uint64_t slot, ContactSum& sum) const {
-    // what is read is asked for as early as it is sure to be needed: one pair waits for memory all in all
+    // load as early as a value is known to be needed: a pair then waits for memory only once
     const bool touched = histories.touching[slot];
     const Real R = radius[j];
     const Vec3d x_j = x[j];
@@ -172,7 +172,7 @@ struct ContactPass {
         sphere_contact(sphere(lo, R_lo), sphere(hi, R_hi), first ? r : -r, distance, reach - distance);
     const Real3 v_rel = first ? own.v - v_j : v_j - own.v, omega_lo = either(first, own.omega, omega_j),
                 omega_hi = either(first, omega_j, own.omega);
-    // the one law of most cases is a parameter of the kernel, which a reference would put in memory
+    // most cases have one law, a kernel parameter in registers; a reference would force it into memory
     const Law acting = laws ? Law::of(laws[pair_of(lo, hi)]) : Law::of(law);
     const ContactForce f = acting(at, v_rel, omega_lo, omega_hi, dt, h);
     sum.force += Vec3d(first ? f.force : -f.force);

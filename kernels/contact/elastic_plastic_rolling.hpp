@@ -25,8 +25,8 @@ struct ElasticPlasticRolling {
   BL_HD Real stiffness(Real normal_stiffness, Real R_star) const {
     return Real(2.25) * normal_stiffness * square(mu_r * R_star);
   }
-  /// `couple` is the elastic part, already turned with the contact. As its spring softens it keeps its angle,
-  /// as it grows stiffer its couple: neither stores energy.
+  /// `couple` is the elastic part, already rotated with the contact. A softening spring keeps its angle, a
+  /// stiffening one its couple, so neither gains energy.
   BL_HD Real3 operator()(const RollingInput& in, Vec3d& couple) const {
     const Real limit = mu_r * in.R_star * in.normal_force;
     const Real k_r = stiffness(in.normal_stiffness, in.R_star);

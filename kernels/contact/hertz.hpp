@@ -44,7 +44,7 @@ struct Hertz {
     return {stiffness * overlap * Real(2.0 / 3.0), stiffness,
             alpha * std::sqrt(m_star * stiffness * Real(2.0 / 3.0))};
   }
-  /// Of a substep, in which the dashpot acts: it grows from nothing at touch.
+  /// The dashpot acts in the whole substep: its strength grows from zero with the overlap.
   BL_HD Real dashpot(double, Real, Real, Real, bool) const { return 1; }
 };
 

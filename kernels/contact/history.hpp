@@ -1,6 +1,6 @@
 #pragma once
-// What a contact remembers from one substep to the next. Springs are fp64 in every precision: increments are
-// tiny beside the sums.
+// History of a contact, kept from one substep to the next. Springs are fp64 in every precision, because
+// increments are tiny compared with their sums.
 
 #include "bedload/particles/field.hpp"
 
@@ -21,8 +21,8 @@ struct FileType<ContactHistory> {
 };
 static_assert(sizeof(ContactHistory) == 8 * sizeof(double));
 
-/// The tangential vector `a` of a contact that has turned by `twist` (rad) about its normal n and whose
-/// normal has become n: same length, in the new tangent plane.
+/// Rotates the tangential vector `a` with a contact that has turned by `twist` (rad) about its normal, which
+/// is now n. The length is kept; the result lies in the new tangent plane.
 BL_HD Vec3d turn_with_contact(const Vec3d& a, const Vec3d& n, double twist) {
   const double before = norm2(a);
   if (before == 0) return a;

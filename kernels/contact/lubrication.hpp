@@ -1,11 +1,11 @@
 #pragma once
-// Forces of the viscous fluid between two surfaces that are near each other. Signs as in contact_law.hpp.
+// Lubrication forces of the viscous fluid between two close surfaces. Signs as in contact_law.hpp.
 
 #include "kernels/contact/contact_law.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Two surfaces before they touch, or touching. Walls: R_star = R, skew = 1, arm_j = 0.
+/// Two close surfaces, in contact or not. Walls: R_star = R, skew = 1, arm_j = 0.
 struct NearSurfaces {
   Vec3d n;
   double gap;         ///< m; negative: overlap
@@ -24,14 +24,13 @@ struct NearSurfaces {
   }
 };
 
-/// The parts of the force between two spheres that grow without bound as they come near [jeffrey84], cut off
-/// where the gap s is s_c, and below s_m as at s_m. Squeezing: -6 pi mu R*^2 (1/s - 1/s_c) v_n n. Shearing,
-/// with the slip u of the surfaces, what they roll on each other w = (omega_i - omega_j) x n, and q = (R_j -
-/// R_i) / (R_j + R_i):
+/// The singular parts of the force between two close spheres [jeffrey84], zero beyond the gap s_c and
+/// constant below s_m. Squeezing, with the gap s: -6 pi mu R*^2 (1/s - 1/s_c) v_n n. Shearing, with the slip
+/// u of the surfaces, the rolling w = (omega_i - omega_j) x n and q = (R_j - R_i) / (R_j + R_i):
 ///   f = 2/5 pi mu R* ln(s_c / s) ((5 + 3 q^2) u + 6 q R* w),   g = 2/5 pi mu R*^2 ln(s_c / s) (6 q u + 12 R*
 ///   w);
-/// force -f and torque n x (l_i f - g) on i, f and n x (l_j f + g) on j, l being the arms. No rigid motion of
-/// the pair makes any of them; they take f u + g w out of the motion, never a negative power.
+/// force -f and torque n x (l_i f - g) on i, f and n x (l_j f + g) on j, l being the arms. A rigid motion of
+/// the pair causes none; the dissipated power f u + g w is never negative.
 struct Lubrication {
   Real mu = 0;                         ///< Pa s; 0: no lubrication
   Real cut_off = 1, least_gap = 0.01;  ///< s_c, s_m over R*

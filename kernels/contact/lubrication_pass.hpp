@@ -3,8 +3,8 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Lubrication between grains, in fluid as far as the drier of them is. Both partners of a pair evaluate it,
-/// each seen from the lower to the higher id. Runs over the threads that share the rows of the list.
+/// Lubrication between grains, scaled by the wetness of the drier one. Both partners evaluate a pair, ordered
+/// from the lower to the higher id. Runs over the threads that share the rows of the list.
 struct LubricationPass {
   Frame frame;
   Lubrication law;

@@ -1,12 +1,12 @@
 #pragma once
-// What the laws of a contact take their parameters from.
+// Input from which contact laws compute their parameters.
 
 #include "bedload/case/config/contact.hpp"
 #include "bedload/case/materials.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Two materials that touch, and [contact].
+/// The materials of both sides, and the table [contact].
 struct ContactMaterials {
   double normal, tangential;  ///< sums of the compliances of both sides, 1/Pa
   double nu;                  ///< Poisson's ratio, mean of both sides

@@ -17,7 +17,7 @@ struct Mindlin {
     return {Real(m.G_star())};
   }
   BL_HD Real stiffness(const SlidingInput& in) const { return 8 * G_star * in.root; }
-  /// Unloading shortens the spring with the contact radius; loading leaves its force as it is.
+  /// Unloading shortens the spring with the contact radius; loading keeps its force.
   BL_HD Vec3d stretch(const SlidingInput& in, const Vec3d& xi, const Vec3d& step) const {
     const double before = in.overlap_before, now = in.overlap;
     if (before == 0 || before == now) return xi + step;

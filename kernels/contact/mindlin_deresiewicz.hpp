@@ -4,19 +4,19 @@
 namespace bedload::inline BL_VARIANT {
 
 /// Mindlin-Deresiewicz curve of He et al. (19), (22): slip spreads from the rim until the stretch
-/// reaches `slip * overlap`. F_n is that of the normal spring: with damping in it the curve would be no
-/// function of where the bodies are, and give energy.
+/// reaches `slip * overlap`. F_n is that of the normal spring: with damping the curve would not depend on
+/// positions alone, and would create energy.
 struct MindlinDeresiewicz {
   static constexpr bool kActs = true;
   Real mu = 0;
   Real slip = 0;  ///< mu E* / (4 G*), of one material mu (2 - nu) / (2 - 2 nu)
-  Real beta = 0;  ///< damping ratio of the restitution asked for
+  Real beta = 0;  ///< damping ratio for the given restitution
 
   static constexpr bool is(SlidingLaw law) { return law == SlidingLaw::mindlin_deresiewicz; }
   static MindlinDeresiewicz of(const ContactMaterials& m) {
     return {Real(m.mu), Real(m.mu * m.tangential / (4 * m.normal)), Real(damping_ratio(m.e))};
   }
-  /// At which all of the contact slips, m.
+  /// Stretch at which the whole contact slips, m.
   BL_HD double slipping(double overlap) const { return double(slip) * overlap; }
   BL_HD Vec3d stretch(const SlidingInput& in, const Vec3d& xi, const Vec3d& step) const {
     const double most = slipping(in.overlap);

@@ -1,9 +1,12 @@
 #pragma once
-// Forces along the normal of a contact. A law, which has a header of its own, has the names that a case gives
-// it from `is`, its parameters from `of`, force, stiffness and damping from its operator, `dashpot`, the
-// fraction of a substep in which damping acts, and `kEnergy`. The host asks it what contact_laws.hpp says:
-// `kLeastRestitution`, where it never pulls, `kTakesModuli`, `impact`, `overlap_under`; and for keys of its
-// own, if it has any, by `describe`.
+// Forces along the normal of a contact. Each law has its own header with
+//   is           the name in a case file,
+//   of           parameters from the materials,
+//   operator()   force, stiffness and damping,
+//   dashpot      the fraction of a substep in which damping acts,
+//   kEnergy      stored energy over force times overlap,
+// for the host (contact_laws.hpp) `kLeastRestitution` without tension, `kTakesModuli`, `impact` and
+// `overlap_under`, and optionally `describe` (its own keys).
 
 #include <cmath>
 #include <string>
@@ -22,9 +25,9 @@ struct NormalState {
   Real damping;    ///< c_n, N s/m
 };
 
-/// Fraction of a substep in which a dashpot of constant strength acts: its force jumps at touch and at leave,
-/// and a kick, which stands for the half steps before and after it, is cut or drawn out to the time of
-/// contact. before, now: overlaps (m), 0: apart; v_n > 0 when receding (m/s).
+/// Fraction of a substep in which a dashpot of constant strength acts. Its force jumps when a contact begins
+/// and ends; a kick covers the half steps before and after it and is scaled to the time in contact. before,
+/// now: overlaps (m), 0: apart; v_n > 0 when receding (m/s).
 BL_HD Real dashpot_fraction(double before, Real now, Real v_n, Real dt, bool may_pull) {
   const Real way = std::abs(v_n) * dt;
   if (way == 0) return 1;

@@ -1,5 +1,5 @@
 #pragma once
-// A law that is chosen while a program runs, among a list of types.
+// A law chosen at run time from a list of types.
 
 #include <cstdint>
 #include <type_traits>
@@ -8,10 +8,10 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// One of several laws, with room for the parameters of each.
+/// One of several laws; holds the parameters of each.
 template <class... Laws>
 struct OneOf : Laws... {
-  std::uint32_t place = 0;  ///< of the law that acts, in the list
+  std::uint32_t place = 0;  ///< index of the active law in the list
 
   template <class Law>
   static constexpr std::uint32_t place_of() {
@@ -23,7 +23,7 @@ struct OneOf : Laws... {
   BL_HD bool is() const {
     return place == place_of<Law>();
   }
-  /// Makes this law the one that acts.
+  /// Makes this law the active one.
   template <class Law>
   void take(const Law& law) {
     static_cast<Law&>(*this) = law;
@@ -41,7 +41,7 @@ BL_HD auto with_acting(const Any& any, F& f) {
 }
 }  // namespace detail
 
-/// f(law), of several the one that acts.
+/// f(law), with the active one of several.
 template <class Law, class F>
 BL_HD auto with_law(const Law& law, F&& f) {
   return f(law);
@@ -51,7 +51,7 @@ BL_HD auto with_law(const OneOf<Laws...>& any, F&& f) {
   return detail::with_acting<Laws...>(any, f);
 }
 
-/// Whether `any` acts as a Law.
+/// Whether the active law of `any` is a Law.
 template <class Law, class Any>
 bool acts_as(const Any& any) {
   if constexpr (std::is_same_v<Law, Any>)

@@ -1,16 +1,17 @@
 #pragma once
-// Histories of the pairs of a list, by slot. In parts, so that a case moves only what its laws remember.
+// Histories of the pairs of a list, by slot, as separate arrays: only those that the laws of a case need
+// exist.
 
 #include "kernels/contact/history.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
 struct PairHistories {
-  /// Along the normal; nothing is added up in them, so that they need no more digits than Real has.
+  /// Along the normal. They are not accumulated, so Real is precise enough.
   struct Normal {
     Real overlap, recede;
   };
-  std::uint8_t* touching = nullptr;  ///< 1: the pair touched at the last evaluation, else it has no history
+  std::uint8_t* touching = nullptr;  ///< 1: in contact at the last evaluation; else there is no history
   Normal* normal = nullptr;
   Vec3d* xi = nullptr;      ///< null: no law has a tangential spring
   Vec3d* couple = nullptr;  ///< null: no law has an elastic couple

@@ -1,5 +1,5 @@
 #pragma once
-// The contact laws that a case may name, and compositions of them. A new law is an include and its place in a
+// Contact laws that a case may name, and compositions of them. A new law needs an include and an entry in a
 // list.
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct LawList {
   static void each(F&& f) {
     (f(std::type_identity<Laws>{}), ...);
   }
-  /// The same with that of the name, if there is one.
+  /// The same with the law of that name, if there is one.
   template <class Name, class F>
   static void with(Name name, F&& f) {
     (void)((Laws::is(name) && (f(std::type_identity<Laws>{}), true)) || ...);
@@ -58,11 +58,11 @@ static_assert(std::all_of(kNames<RollingLaw>.begin(), kNames<RollingLaw>.end(),
                           [](const auto& row) { return RollingLaws::holds(row.value); }),
               "a rolling law that a case may name is missing in RollingLaws");
 
-/// Any laws that a case may name: which of them act is decided pair by pair.
+/// Any laws that a case may name; the active ones are chosen pair by pair.
 using ContactLaw = ContactLawOf<NormalLaws::Any, SlidingLaws::Any, RollingLaws::Any>;
 
-/// Compositions of which the passes of each substep have code of their own; all others run with ContactLaw,
-/// to the same results.
+/// Compositions for which the substep passes are compiled separately; all others run with ContactLaw and give
+/// the same results.
 template <class... Laws>
 struct LawCompositions {
   template <class F>
@@ -79,13 +79,12 @@ using ContactLaws = LawCompositions<ContactLawOf<Hertz, Mindlin, NoRolling>,    
                                     ContactLawOf<Hertz, Mindlin, ConstantRolling>,        //
                                     ContactLawOf<Hertz, MindlinDeresiewicz, ConstantRolling>, ContactLaw>;
 
-/// f(std::type_identity<Law>) with the first composition as which all of `laws` act: the choice is made here,
-/// on the host.
+/// f(std::type_identity<Law>) with the first composition that all of `laws` have; chosen on the host.
 template <class F>
 void with_contact_law(const std::vector<ContactLaw>& laws, F&& f) {
   ContactLaws::with(laws, f);
 }
-/// The composed law of a general one that acts as it.
+/// The law of type Law that is equal to a general one.
 template <class Law>
 BL_HD decltype(auto) composed(const ContactLaw& law) {
   if constexpr (std::is_same_v<Law, ContactLaw>)
@@ -94,7 +93,7 @@ BL_HD decltype(auto) composed(const ContactLaw& law) {
     return Law::of(law);
 }
 
-/// The laws between two materials. Throws CaseError where the restitution cannot be had.
+/// The laws between two materials. Throws CaseError if the restitution cannot be reached.
 inline ContactLaw make_contact_law(const ContactMaterials& m) {
   const ContactConfig& c = m.contact;
   return {.normal = NormalLaws::of(NormalLaw(c.normal), m),

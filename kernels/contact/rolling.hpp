@@ -1,9 +1,11 @@
 #pragma once
-// Rolling friction: a couple M on the first partner, -M on the second. A law, which has a header of its own,
-// has the names that a case gives it from `is`, its parameters from `of`, M from its operator, which may keep
-// `couple` for the next substep if it says so by `kRemembers`, and `stored`, J. `kActs`: false where there is
-// none. The host asks it for its `longest_step`, if it has a spring, and for keys of its own, if it has any,
-// by `describe`.
+// Rolling friction: a couple M on the first partner, -M on the second. Each law has its own header with
+//   is           the name in a case file,
+//   of           parameters from the materials,
+//   operator()   M; may keep `couple` for the next substep if kRemembers,
+//   stored       energy, J,
+//   kActs        false: no rolling friction,
+// and optionally `longest_step` (of a spring) and `describe` (its own keys), for the host.
 
 #include "kernels/contact/history.hpp"
 #include "kernels/contact/materials.hpp"

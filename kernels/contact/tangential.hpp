@@ -1,11 +1,15 @@
 #pragma once
-// Sliding friction: a tangential spring xi, damped, never above mu F_n. A law, which has a header of its own,
-// has the names that a case gives it from `is`, its parameters from `of`, `stretch`, the spring after one
-// more `step` (m), force and damping from its operator, `longest`, the stretch (m) whose force is the limit
-// (N), and `stored`, J. `kActs`: false where there is none. Keys of its own, if it has any, by `describe`.
-// No law gives energy: before the step, `stretch` leaves a spring whose stiffness has changed with the
-// overlap no more energy than it had. Where it has become stiffer it keeps its force, not its length
-// [thornton13].
+// Sliding friction: a damped tangential spring xi, limited by mu F_n. Each law has its own header with
+//   is           the name in a case file,
+//   of           parameters from the materials,
+//   stretch      the spring after one more `step` (m),
+//   operator()   force and damping,
+//   longest      the stretch (m) at which the force reaches the limit (N),
+//   stored       energy, J,
+//   kActs        false: frictionless,
+// and optionally `describe` (its own keys). No law creates energy: when the stiffness has changed with the
+// overlap, `stretch` first adjusts the spring so that its energy does not grow. A spring that has become
+// stiffer keeps its force, not its length [thornton13].
 
 #include "kernels/contact/history.hpp"
 #include "kernels/contact/normal.hpp"
@@ -15,11 +19,11 @@ namespace bedload::inline BL_VARIANT {
 /// What the tangential laws need to know of the normal direction.
 struct SlidingInput {
   Real normal_force;           ///< total, >= 0, N
-  NormalState normal, before;  ///< now and at the last evaluation, now at touch
+  NormalState normal, before;  ///< now and at the last evaluation; equal in a new contact
   Real root;                   ///< sqrt(R* overlap), m
   Real m_star;                 ///< kg
   double overlap;              ///< m, to Real's digits
-  double overlap_before;       ///< m, 0 at touch
+  double overlap_before;       ///< m, 0 in a new contact
 };
 
 /// Spring force and damping coefficient for one stretch.

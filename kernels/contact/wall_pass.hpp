@@ -16,12 +16,12 @@ struct WallRows {
   BL_HD Index operator()(Index row, Index k) const { return entry[std::uint64_t(k) * grain.size + row]; }
 };
 
-/// What a pass over walls has code for.
+/// What a pass over walls is compiled for.
 template <class ContactLaws, class SurfaceKinds, bool free>
 struct WallScope {
   using Law = ContactLaws;
   using Kinds = SurfaceKinds;
-  static constexpr bool kFree = free;  ///< bodies that grains move
+  static constexpr bool kFree = free;  ///< bodies that grains may move
 };
 using AnyWalls = WallScope<ContactLaw, AllKinds, true>;
 
@@ -69,7 +69,7 @@ struct WallContacts {
     RawArray<ContactHistory, kMostWallContacts> history;
     for (int k = int(lane.index); k < found.size(); k += int(lane.count))
       history[k] = taken_over<Scope>(grain, i, found, found[k]);
-    lane.wait();  // all have read what they remember
+    lane.wait();  // until all have read their histories
     for (int k = int(lane.index); k < found.size(); k += int(lane.count)) {
       const SurfaceContact& contact = found[k];
       evaluate<Scope>(grain, contact, law(contact.body, i), history[k], f);
@@ -123,7 +123,7 @@ struct WallContacts {
       const SurfaceView view(of, pose, frame, at);
       const double reach = Kinds::reach(of, range);
       if (Kinds::kTracked && view.beyond(walls, reach))
-        continue;  // of others the closest point costs as much
+        continue;  // for other kinds the closest point costs no more than this test
       view.template each_closest_point<Kinds>(
           walls, reach, 1e-4 * double(R), [&](const ClosestPoint& closest) { found.add(s, closest, range); });
     }
@@ -147,7 +147,7 @@ struct WallContacts {
   BL_HD static Vec3d surface_velocity(const BodyPose& pose, const Vec3d& r) {
     return pose.v + cross(pose.omega, r) + (pose.turned() ? pose.rotation.rotate(pose.slide) : pose.slide);
   }
-  /// Of a place from the centre of a body, by the nearest image, m.
+  /// From the centre of a body to a point, by the nearest image, m.
   BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
     return frame.nearest_image(point - pose.origin());
   }
@@ -178,7 +178,7 @@ struct WallContactPass {
   WallRows rows;
   unsigned lane_bits;       ///< 0 with loads
   ContactSum* sums;         ///< [rows]
-  ContactLoads loads = {};  ///< where to record what the grains do to free bodies; may be none
+  ContactLoads loads = {};  ///< loads of the grains on free bodies; may be empty
   BL_HD void operator()(Index thread) const {
     const Lane lane(thread, lane_bits);
     const Index i = rows.grain[lane.row];
@@ -196,7 +196,7 @@ struct WallContactPass {
   }
 };
 
-/// Adds what fluid between grains and walls does to the sums of each row.
+/// Adds lubrication between grains and walls to the sums of each row.
 struct WallFilmPass {
   WallContacts contacts;
   WallRows rows;
@@ -210,7 +210,7 @@ struct WallFilmPass {
   }
 };
 
-/// Surfaces that come within `beyond` of where a grain looks for them.
+/// Surfaces within `beyond` of a grain's reach.
 struct WallNear {
   Frame frame;
   SurfaceSet walls;

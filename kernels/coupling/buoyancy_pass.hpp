@@ -13,8 +13,8 @@ struct PushPass {
   BL_HD void operator()(Index a) const { push[a] = push_record(solid_factor[a], theta[a], m_state[a]); }
 };
 
-/// Force of the fluid's stress on a grain, its buoyancy: sum_a w_ja M_a theta_a, the part that the fluid,
-/// which takes eps_a of M_a theta_a, leaves to it. In place of V_j sum phi rho~ theta [he18] Eqs. 27-29.
+/// Force of the fluid's stress on a grain, its buoyancy: sum_a w_ja M_a theta_a. The fluid takes the fraction
+/// eps_a of M_a theta_a, the grains the rest. Replaces V_j sum phi rho~ theta of [he18] Eqs. 27-29.
 template <class W>
 struct BuoyancyPass {
   W w;
@@ -35,7 +35,8 @@ struct BuoyancyPass {
   BL_HD void finish(Index j, const Sum<>& sum) const { force[j] = volume[j].w * sum.f; }
 };
 
-/// Ends the step of the grains as kick-drift-kick: they went through it under the force at its start.
+/// Completes kick-drift-kick for the grains: adds half of the change of the force, which was held at its
+/// value at the start of the step.
 struct BuoyancyKick {
   Real kick;  ///< s
   MassPerR3 mass_per_r3;

@@ -5,7 +5,7 @@
 namespace bedload::inline BL_VARIANT {
 
 #if BL_CUDA
-/// A sum that all else is divided by, in fp64 where one thread adds up a long row.
+/// Type of the sum of weights, by which the others are divided: fp64 where one thread sums a long row.
 template <class N>
 using Divisor = double;
 #else
@@ -13,8 +13,7 @@ template <class N>
 using Divisor = N;
 #endif
 
-/// Sums over the fluid around a grain of a weight times what is named; u: velocity relative to the grain,
-/// m/s; arm: r_a - r_j, m.
+/// Weighted sums over the fluid around a grain; u: velocity relative to the grain, m/s; arm: r_a - r_j, m.
 template <class N = Real>
 struct FlowSums {
   Divisor<N> weight{};
@@ -54,7 +53,7 @@ struct FlowSums {
   }
 };
 
-/// The fluid that takes a grain's force, as a rigid body by weights w_a: what a couple on it turns.
+/// The fluid around a grain as a rigid body with weights w_a, on which the couple acts.
 struct Carriers {
   Span<Real3> arm;                    ///< mean of r_a - r_j, m
   Span<SymmetricMatrix<Real>> inv_M;  ///< 1/m2, M = sum w (s2 1 - s s) about that mean; zero where undefined
@@ -65,13 +64,14 @@ struct Carriers {
     auto moment = flow.moment.template as<double>(1);
     const double second = moment.trace();
     moment.add_outer(-double(flow.weight), Vec3d(arm[j]));
-    // Against the moment about the grain, never smaller than M: rounding cannot pass for a spread.
+    // Relative to the moment about the grain, which is never smaller than M: round-off is not taken for
+    // spread.
     const auto inverse = moment.inertia().inverse();
     const bool usable = scale > 0 && inverse.norm() * second < 1e6;  // false for NaN
     inv_M[j] = usable ? inverse.template as<Real>(flow.weight) : SymmetricMatrix<Real>{};
     return Real(std::sqrt(max_of(moment.trace() * scale, 0.0)));
   }
-  /// By how the fluid turns, rad/s.
+  /// Angular velocity of the fluid, rad/s.
   BL_HD Real3 rotation(Index j, const FlowSums<>& flow, Real scale) const {
     return scale * (inv_M[j] * (flow.spin - cross(arm[j], flow.u)));
   }

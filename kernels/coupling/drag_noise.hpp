@@ -8,9 +8,9 @@ namespace bedload::inline BL_VARIANT {
 /// at the rate k = drag_coefficient / m over a step dt; the noise adds to fluid_velocity three normal
 /// deviates times
 ///   (kT / m coth(k dt / 2))^(1/2),
-/// so that m v^2 is kT on average along each axis whatever k dt is (Ornstein-Uhlenbeck over a step). The
-/// fluid gets the opposite of the drag impulse, noise included, by the weights of drag: the noise that
-/// belongs to its own friction. Likewise for the spin.
+/// so that m v^2 is kT on average along each axis for any k dt (Ornstein-Uhlenbeck over a step). The fluid
+/// receives the opposite of the drag impulse, noise included, by the weights of drag: the noise that balances
+/// its own friction. The same holds for the spin.
 struct DragNoisePass {
   NoiseKey key;
   double kT, dt;  ///< J, s

@@ -19,28 +19,27 @@ struct DragLine {
   BL_HD Real at(Real slip) const { return still + slope * slip; }
 };
 
-/// The line through a law at the mean of |u| and at sum phi u2 / sum phi |u|. Exact for Ergun's law, where
-/// all slips are one, and for a jet in fluid that rests. It neither falls with the slip nor starts below
-/// zero.
+/// The line through a law at the mean of |u| and at sum phi u2 / sum phi |u|. Exact for Ergun's law, for
+/// equal slips, and for a jet in fluid at rest. Neither its slope nor its start is negative.
 template <class K>
 BL_HD DragLine drag_line(const K& law, Real mean, Real fast) {
   const Real top = law(fast);
-  // less apart than this is rounding
+  // closer than this the difference is round-off
   if (!(fast - mean > Real(1e-3) * fast)) return {top, 0};
   const Real slope = clamp((top - law(mean)) / (fast - mean), Real(0), top / fast);
   return {top - slope * fast, slope};
 }
 
-/// How much more of a force at its centre a grain hands to the fluid by the couple that turns it: particle a
-/// gets up to 1 + off_centre |r_a - r_j - arm| <= at_centre + off_centre |r_a - r_j| times its fraction, all
-/// of them `sum` times the force.
+/// By how much the couple of a grain can raise the reaction to a force at its centre: particle a gets up to
+/// 1 + off_centre |r_a - r_j - arm| <= at_centre + off_centre |r_a - r_j| times its fraction, all particles
+/// together `sum` times the force.
 struct DragLevers {
   Span<Real> at_centre, off_centre;  ///< -, 1/m
   Span<Real> sum;
 };
 
-/// phi_ja K_ja / K_j, the fraction of a grain's drag that falls to a fluid particle, per V_a W: `still`, and
-/// where drag follows the slip of each particle |v_a - v_j| `by_slip` besides.
+/// phi_ja K_ja / K_j, the fraction of a grain's drag that acts on a fluid particle, per V_a W: `still`, plus
+/// `by_slip` where drag follows the slip of each particle |v_a - v_j|.
 struct DragWeights {
   Span<Real> still;
   Span<Real4> by_slip;  ///< the grain's velocity, m/s; w: s/m
@@ -50,17 +49,18 @@ BL_HD N slip_weight(const Vec3<N>& v_a, const Vec4<N>& by_slip) {
   return by_slip.w * root(norm2(v_a - by_slip.xyz()));
 }
 
-/// Drag and spin drag coefficients of each grain, times its wetness, and the fluid motion that they refer to:
-/// mean velocity and rotation of the fluid weighted with phi K_ja / K_j, K_j = sum phi K_ja, and with the
-/// couple the velocity of that motion at the grain's centre, where the force acts. Local: the law is taken at
-/// the slip of each particle, so that a jet pushes by its own speed; else at the mean slip.
+/// Translational and rotational drag coefficients of each grain, times its wetness, and the fluid motion that
+/// they refer to: mean velocity and rotation of the fluid weighted with phi K_ja / K_j, K_j = sum phi K_ja.
+/// With the couple the velocity is that of this motion at the grain's centre, where the force acts. Local:
+/// the law is evaluated at the slip of each particle, so that a jet acts with its own speed; else at the mean
+/// slip.
 template <class Law, bool Local>
 struct DragPass {
   Law law;
   Real mu;      ///< Pa s
-  bool torque;  ///< whether the fluid turns grains
+  bool torque;  ///< whether the fluid exerts torque on grains
   bool couple;  ///< whether the reaction has a couple
-  bool shares;  ///< whether fluid gives way to grains: else its velocity is the flux
+  bool shares;  ///< whether grains displace fluid; else its velocity is the flux
   OwnWake own;
   Span<const Real> radius, eps, bed_eps, wetness;
   Span<const Real3> v, omega;
@@ -116,7 +116,7 @@ struct DragPass {
     else
       return inv_S * norm(surroundings.flow[j].u);
   }
-  /// Beside an orifice the law sees the bed as it is, at the flux that there is.
+  /// Near an orifice the law is evaluated with the porosity of the bed, at the actual flux.
   BL_HD DragLine line_of(Index j, Real slip) const {
     const Real d = 2 * radius[j], rho = surroundings.rho[j];
     const Real bed = own.porosity(bed_eps[j], 4 * kPi / 3 * cube(radius[j]));

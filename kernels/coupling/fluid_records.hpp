@@ -1,13 +1,13 @@
 #pragma once
-// How much of a grain's exchange falls to a fluid particle: V_a W(|r_a - r_j|; h_c), divided by its sum S_j
-// over a grain's fluid the weight phi_ja. Interpolation to the grain and spreading back use the same weights,
-// which makes momentum exact and drag dissipative.
+// Weights of the exchange between a grain and the fluid particles around it: phi_ja = V_a W(|r_a - r_j|; h_c)
+// / S_j, S_j being the sum over the grain's fluid. Interpolation to the grain and spreading of the reaction
+// use the same weights, so momentum is conserved exactly and drag is dissipative.
 
 #include "kernels/coupling/orifice_weight.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Volume of fluid and grains that a fluid particle stands for, m3.
+/// Volume of the mixture that a fluid particle represents, m3.
 BL_HD Real mixture_volume(const Real4& m_state) { return m_state.x / m_state.z; }
 
 /// Stress on the mixture around a fluid particle as far as it counts grains, f_a M_a theta_a, N; w: V_a, m3.
@@ -15,7 +15,7 @@ BL_HD Real4 push_record(Real solid_factor, const Real3& theta, const Real4& m_st
   return {solid_factor * m_state.x * theta, mixture_volume(m_state)};
 }
 
-/// What grains read of a fluid particle, besides its velocity, in few loads.
+/// Data of a fluid particle that grains read in addition to its velocity, packed for few loads.
 struct FluidRecords {
   Span<Real4> push;    ///< push_record
   Span<Real4> solids;  ///< porosity; density, kg/m3; weight of the solids around that count beside orifices

@@ -5,7 +5,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// What a grain found in the fluid around it, kept until the reaction is spread.
+/// Interpolated fluid around a grain, kept until the reaction is applied.
 struct GrainSurroundings {
   Span<Real> inv_S;       ///< 0: dry
   Span<Real> rho;         ///< intrinsic fluid density, kg/m3
@@ -13,24 +13,24 @@ struct GrainSurroundings {
   Span<FlowSums<>> fast;  ///< by V_a W |u|
   Span<Real> fast_slip;   ///< mean of |u| by that weight, m/s
   Carriers stress, drag;  ///< weighted with phi_ja and with phi_ja K_ja
-  Span<Real3>
-      lost_moment;  ///< of the stress that the grain takes at its centre instead of where the fluid is, N m
+  /// Of the stress that the grain takes at its centre instead of where the fluid is, N m.
+  Span<Real3> lost_moment;
 };
 
-/// Grain j reads the fluid: porosity, what DragPass needs, and the moment that is lost as it takes its part
-/// of the stress at its own place; but not that of the part of its volume that walls cut off, which they
-/// bear. Moments: whether rotation and couple are wanted; Local: whether drag follows the slip of each
+/// Interpolates the fluid to grain j: porosity, input of DragPass, and the moment lost because the grain
+/// takes its part of the stress at its own centre; the part of its volume that walls cut off is left out,
+/// since walls support it. Moments: rotation and couple are needed; Local: drag follows the slip of each
 /// particle.
 template <class W, bool Moments, bool Local>
 struct InterpolationPass {
   W w;
-  Real S_least, eps_min;  ///< of S, below which there is no mean to be had
+  Real S_least, eps_min;  ///< S_least: value of S below which no mean is defined
   Span<const Real4> v_rho;
   FluidRecords fluid;
   Span<const Real3> v, fluid_force;
   Span<const Real4> volume;  ///< w: of GrainVolumePass
   Span<const Real> wall_free;
-  Span<Real> eps, bed_eps;  ///< bed_eps: beside orifices, too, that of the bed
+  Span<Real> eps, bed_eps;  ///< bed_eps: porosity of the bed, also near orifices
   GrainSurroundings surroundings;
 
   /// Sums over the fluid of V_a W times what is named; velocities relative to the grain.

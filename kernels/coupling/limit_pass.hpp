@@ -4,7 +4,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// L_a / m_a = sum_j phi_ja K_ja / m_a: how fast drag, with its couple, stops a fluid particle, 1/s.
+/// Rate of drag on a fluid particle, with the couple: L_a / m_a = sum_j phi_ja K_ja / m_a, 1/s.
 template <class W, bool Local, bool Couple>
 struct DragRatePass {
   W w;
@@ -39,14 +39,14 @@ struct DragRatePass {
   BL_HD void finish(Index a, const Sum<>& sum) const { rate[a] = sum.L / mass[a]; }
 };
 
-/// The largest fraction of drag that a fluid particle can take in one step, x = dt L_a / m_a. Row sums of
-/// the exchange stay at or below one, which is all that the energy argument needs, and drag is exact up to
-/// x = 1; (1 - exp(-x)) / x would already be 21 % weak at the step that time.drag allows.
+/// The largest fraction of drag for which a step is stable on the fluid side, x = dt L_a / m_a. Row sums of
+/// the exchange then stay at or below one, which is sufficient for energy not to grow, and drag is exact up
+/// to x = 1; (1 - exp(-x)) / x would already be 21 % low at the step that time.drag allows.
 BL_HD Real allowed_fraction(Real x) { return x > 1 ? 1 / x : Real(1); }
 
-/// Weakens the drag of each grain to what the fluid around it can take in a step, so that kinetic
-/// energy cannot grow however stiff the drag. Spin drag reaches the fluid more weakly, by about
-/// d2 / 3 M < 1, so the same fraction is enough for it.
+/// Limits the drag of each grain to what is stable for the fluid around it, so that kinetic energy cannot
+/// grow however stiff the drag is. Rotational drag acts on the fluid more weakly, by about d2 / 3 M < 1, so
+/// the same fraction is sufficient.
 struct LimitPass {
   Real dt;  ///< s
   Span<const Real> rate;

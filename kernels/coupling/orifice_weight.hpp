@@ -5,9 +5,9 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Weight of the solids around a point that count for its porosity. An orifice is free of grains, and what
-/// comes in is as dense as without them: the porosity falls from one there to that of the bed over `reach`,
-/// so that fluid has the way to give way.
+/// Weight with which grains near a point count in its porosity. At an orifice it is 0, since the inflow has
+/// the density of fluid without grains; it rises to 1 over `reach`, a distance in which fluid can be
+/// displaced.
 struct OrificeWeight {
   Frame frame;
   Span<const Orifice> orifices;

@@ -6,16 +6,16 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// What a lone grain does to the fluid that it reads, which laws of drag do not know: the flow that its own
-/// drag makes, and its own volume. Among others it is part of the mean and fades as (1 - phi)^8, 8 being the
-/// second virial coefficient of spheres. All zero: it is left in.
+/// Disturbance of the fluid that a single grain reads by that grain itself: the flow caused by its own drag,
+/// and its own volume. Drag laws refer to undisturbed flow. Among other grains the disturbance is part of the
+/// mean and decays as (1 - phi)^8, 8 being the second virial coefficient of spheres. All zero: not corrected.
 struct OwnWake {
   Real mobility = 0;    ///< m/(N s), of the fluid's mean velocity around a grain by its drag, in Stokes flow
   Real h_c = 0;         ///< m
   Real per_volume = 0;  ///< 1/m3, by how much a grain's volume lowers the porosity that it reads
 
-  /// Of the kernel by which drag is spread and read: <1/|r - r'|> / (6 pi mu), the mean of Oseen's tensor,
-  /// and the integral of W^2.
+  /// For the kernel that spreads drag and reads the fluid: <1/|r - r'|> / (6 pi mu), the mean of Oseen's
+  /// tensor, and the integral of W^2.
   template <class W>
   static OwnWake of(const W& w, double h_c, double mu, bool flow) {
     constexpr int shells = 2000;
@@ -25,7 +25,7 @@ struct OwnWake {
       const double r = (k + 0.5) * dr, W_r = double(w.W(Real(r)));
       const double round = double(w.thickness) > 0 ? 2 * kPi * r * double(w.thickness) : 4 * kPi * r * r;
       const double shell = round * dr * W_r;
-      // a pair of shells is as far apart as the outer one's radius, on average
+      // the mean of 1/distance between two shells is one over the radius of the outer one
       inverse += shell * (2 * within + shell) / r;
       within += shell;
       squares += shell * W_r;
@@ -37,8 +37,8 @@ struct OwnWake {
   BL_HD Real porosity(Real eps, Real volume) const {
     return min_of(eps + per_volume * volume * alone(eps), Real(1));
   }
-  /// The part of the undisturbed slip w (m/s) that a grain with drag K (kg/s) does not read. With inertia by
-  /// a fit, to 0.2 %, of Oseen's flow to Wendland's kernel.
+  /// Fraction of the undisturbed slip w (m/s) that is missing in the slip read by a grain with drag K (kg/s).
+  /// Inertia: a fit, within 0.2 %, to Oseen's flow averaged with Wendland's kernel.
   BL_HD Real fraction(Real K, Real w, Real eps, Real rho, Real mu) const {
     const Real inertia = 1 + Real(0.36) * std::pow(rho * w * h_c / mu, Real(1.03));
     return min_of(K * mobility * alone(eps) / inertia, Real(0.5));

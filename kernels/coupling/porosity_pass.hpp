@@ -6,7 +6,8 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Whether walls may cut the kernel of each grain while it keeps within `skin` (m) of where it was listed.
+/// Whether walls may cut the kernel of each grain while it stays within `skin` (m) of its position in the
+/// list.
 struct BesideWallsPass {
   WallFreeFraction free;
   double skin;
@@ -15,16 +16,16 @@ struct BesideWallsPass {
   BL_HD void operator()(Index j) const { beside[j] = free.may_cut(x_list[j], skin); }
 };
 
-/// Where grain j is, for its volume: V_j W(r; h_c) / s_j, s_j being the fraction of the kernel that walls
-/// leave free, so that none of it is lost to them.
+/// Volume of grain j for V_j W(r; h_c) / s_j, s_j being the fraction of the kernel not cut off by walls, so
+/// that the whole volume is distributed.
 struct GrainVolumePass {
   WallFreeFraction free;
   Frame frame;
-  double per_dt;  ///< 1 / step (s), or 0 where no step has been made
+  double per_dt;  ///< 1 / step, 1/s; 0 before the first step
   Span<const Vec3d> x, x_before;
   Span<const Real3> v;
   Span<const Real> radius;
-  Span<const std::uint8_t> beside;  ///< that of BesideWallsPass; empty: all may be
+  Span<const std::uint8_t> beside;  ///< result of BesideWallsPass; empty: any grain may be near walls
   Span<Real> wall_free;
   Span<Real4> volume;  ///< mean velocity over the step, m/s; V_j / s_j, m3
 
@@ -37,13 +38,13 @@ struct GrainVolumePass {
 };
 
 /// eps_a = 1 - sum_j w_ja with w_ja = f_a V_j W(|r_a - r_j|; h_c) / s_j [harting14] Eq. 6, and the volume
-/// flux of the mixture, eps_a v_a + sum_j w_ja u_j. f_a is one but for fluid beside orifices and where the
+/// flux of the mixture, eps_a v_a + sum_j w_ja u_j. f_a is one except near orifices and where the
 /// porosity would fall below its floor. With the same weights grains take their part of the stress
 /// (BuoyancyPass).
 template <class W>
 struct PorosityPass {
   W w;
-  bool shares;  ///< whether fluid gives way to grains; else they are but counted
+  bool shares;  ///< whether grains displace fluid; else only the porosity is computed
   Real floor;
   OrificeWeight away_from_orifices;
   Frame frame;
@@ -92,7 +93,7 @@ struct PorosityPass {
   }
 };
 
-/// Volume of grains around fluid as its density counts it, sum_j V_j W(|r_a - r_j|; h).
+/// Volume of grains around fluid that is added to its density sum, sum_j V_j W(|r_a - r_j|; h).
 template <class W>
 struct GrainsAroundPass {
   W w;

@@ -4,15 +4,15 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// What each grain gives back: fluid particle a at r from it receives -w (impulse - A x r), w being its
-/// weight of the drag (DragWeights), and -phi (force - B x r). A couple has no net force: with M A = arm x
-/// impulse - torque it takes the torque on the grain out of the fluid and cancels the moment of spreading off
-/// its centre, and with M B = lost_moment, force = B x arm, it returns what moment the stress shared with the
-/// grain has lost.
+/// Reaction of each grain on the fluid: particle a at r from it receives -w (impulse - A x r), with the drag
+/// weight w (DragWeights), and -phi (force - B x r). A couple has no net force. With M A = arm x impulse -
+/// torque it applies the reaction to the grain's torque and cancels the moment of spreading off the centre;
+/// with M B = lost_moment and force = B x arm it returns the moment that was lost when the grain took its
+/// part of the stress.
 ///
-/// With local slip the drag of a particle follows its own velocity: it receives -w K dt (v_a - u) besides,
-/// u being the mean motion around the grain, with the couple a rigid one. These parts have neither net
-/// impulse nor, with the couple, net moment; they do not act on the grain.
+/// With local slip the drag on a particle follows its own velocity: it also receives -w K dt (v_a - u), u
+/// being the mean motion around the grain, a rigid one with the couple. These parts have no net impulse and,
+/// with the couple, no net moment; they do not act on the grain.
 struct Reactions {
   Span<Real4> impulse;  ///< N s, + A x arm - K dt (u - v_j), u at the grain's centre; w: K dt, kg
   Span<Real4> force;    ///< over S_j, N; w: DragLevers::at_centre
@@ -20,14 +20,14 @@ struct Reactions {
   Span<Real4> couple;   ///< B over S_j, N/m; w: DragLevers::off_centre
 };
 
-/// What becomes of differences of velocity around a grain.
+/// Input of the drag by local slip.
 struct LocalSlip {
   Real dt;  ///< s
   Span<const Real> drag_coefficient;
   Span<const Real3> fluid_velocity, fluid_angular_velocity;
 };
 
-/// Grain j makes up what it gives back.
+/// Computes the reaction of grain j.
 template <bool Couple, bool Local>
 struct ReactionTermsPass {
   Span<const Real3> impulse, spin_impulse;
@@ -58,8 +58,8 @@ struct ReactionTermsPass {
   }
 };
 
-/// Fluid particle a takes the drag impulse into its velocity [harting14] Eq. 14 and keeps the couples of the
-/// stress as an acceleration. It tells, as DragRatePass does, how fast drag stops it.
+/// Applies the drag impulse to the velocity of fluid particle a [harting14] Eq. 14; the couples of the stress
+/// become an acceleration. Also finds the rate of drag, as DragRatePass does.
 template <class W, bool Couple, bool Local>
 struct ReactionPass {
   W w;

@@ -9,7 +9,7 @@ namespace bedload::inline BL_VARIANT {
 /// Viscosity of a suspension over that of its fluid, by the volume fraction phi of grains:
 /// (1 - phi/phi_max)^-n, n being 2.5 phi_max [krieger59] or 2 [maron56].
 struct SuspensionViscosity {
-  /// Of phi_max, that counts: beyond, a bed carries by contacts.
+  /// Limit on phi / phi_max: in a denser bed contacts carry the load.
   static constexpr Real kDensest = Real(0.95);
   Real phi_max, n;
 

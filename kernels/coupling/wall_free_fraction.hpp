@@ -6,11 +6,11 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Fraction of the kernel around a point that walls leave free. Each extent is taken for itself: exact for
-/// planes and for tanks up to the kernel's deviation from a product of three. Boxes end where they end, so
-/// what several of them hide adds up, side by side as they are and not one within another. A curved surface
-/// counts as the plane through its closest point; closest points that look the same way hide the same, and
-/// those on the far side of a wall, which are seen from behind, hide nothing more.
+/// Fraction of the kernel around a point that is not cut off by walls. Directions are treated separately:
+/// exact for planes, and for tanks up to the kernel's deviation from a product of three factors. Boxes are
+/// finite and do not overlap, so the parts that they cut off are added. A curved surface counts as the plane
+/// through its closest point; closest points with similar normals cut off the same part, and those seen from
+/// behind none.
 struct WallFreeFraction {
   static constexpr Real kLeast = Real(0.125);  ///< in a corner
 
@@ -35,7 +35,7 @@ struct WallFreeFraction {
     }
     return max_of(fraction - boxes, kLeast);
   }
-  /// Whether walls, present or not, may take anything from the kernel around a place within `skin` (m) of x.
+  /// Whether walls, present or not, may cut the kernel around any point within `skin` (m) of x.
   BL_HD bool may_cut(const Vec3d& x, double skin) const {
     const double range = 1.001 * double(half_space.range);  // rounding within the fraction stays below that
     for (Index k = 0; k < walls.surfaces.size; ++k) {
@@ -49,7 +49,7 @@ struct WallFreeFraction {
   }
 
  private:
-  static constexpr int kCompared = 6;  ///< that the next are compared with
+  static constexpr int kCompared = 6;  ///< closest points that the next ones are compared with
 
   BL_HD Real beside(const SurfaceView& view) const {
     const double reach = double(half_space.range);
@@ -76,7 +76,7 @@ struct WallFreeFraction {
     const double p[3] = {dot(r, s.axis[0]), dot(r, s.axis[1]), dot(r, s.axis[2])};
     if (s.kind == SurfaceKind::plane) return 1 - half_space(max_of(p[2], 0.0));
     if (s.kind == SurfaceKind::box) return inside(s, p, 0) * inside(s, p, 1) * inside(s, p, 2);
-    // a patch hides what lies beyond it, also where another patch joins it
+    // a patch cuts off what lies behind it, also where it joins another patch
     const double reach = half_space.range;
     return (1 - half_space(std::abs(p[2]))) * half_space(s.half[0] + reach - std::abs(p[0])) *
            half_space(s.half[1] + reach - std::abs(p[1]));

@@ -3,14 +3,14 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// The wetted fraction of each grain, from 0 to 1, and so how much of its drag acts on it. Linear in the
-/// fraction S / S_free of the kernel that fluid fills where walls leave it free. With S_dry + S_wet = 1 a
-/// flat surface makes half a grain wet; and as wetness is nearly S itself, the drag of all grains around it
-/// acts on fluid in a bed, however little fluid there is besides.
+/// Wetness of each grain, from 0 to 1, by which its drag is scaled. Linear in S / S_free, the fraction of the
+/// part of the kernel not cut off by walls that fluid fills. With S_dry + S_wet = 1 a grain at a flat surface
+/// is half wet. As wetness is close to S, the drag of all grains around it acts on fluid in a bed, however
+/// little fluid there is.
 struct WetnessPass {
   Real S_dry, S_wet;
   Span<const Real> wall_free;
-  Span<Real> inv_S;  ///< set to 0 where dry
+  Span<Real> inv_S;  ///< set to 0 for dry grains
   Span<Real> wetness;
 
   BL_HD void operator()(Index j) const {

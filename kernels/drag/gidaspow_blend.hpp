@@ -4,7 +4,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// As gidaspow, with a smooth passage around porosity 0.8 [huilin03].
+/// As gidaspow, with a smooth transition around porosity 0.8 [huilin03].
 struct GidaspowBlend {
   static constexpr DragLaw law = DragLaw::gidaspow_blend;
   BL_HD Real K(Real eps, Real d, Real rho, Real mu, Real w) const {

@@ -1,5 +1,5 @@
 #pragma once
-// The drag laws that a case may name. A new law is an include and its place in the list.
+// The drag laws that a case may name. A new law needs an include and an entry in the list.
 
 #include <algorithm>
 
@@ -40,8 +40,8 @@ static_assert(std::all_of(kNames<DragLaw>.begin(), kNames<DragLaw>.end(),
                           [](const auto& row) { return DragLaws::holds(row.value); }),
               "a drag law that a case may name is missing in DragLaws");
 
-/// f(law) with the drag law of that name, `table` if that is what it is called: the choice is made here,
-/// once, on the host. Throws CaseError where a text is no name.
+/// f(law) with the drag law of that name, or `table`; chosen once, on the host. Throws CaseError for an
+/// unknown name.
 template <class F>
 void with_drag_law(Chosen<DragLaw> name, F&& f, const Tabulated& table = {}) {
   DragLaws::with(name, table, f);

@@ -3,7 +3,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// A lone sphere at any Reynolds number [schiller33].
+/// A single sphere at any Reynolds number [schiller33].
 struct SchillerNaumann {
   static constexpr DragLaw law = DragLaw::schiller_naumann;
   BL_HD Real K(Real eps, Real d, Real rho, Real mu, Real w) const {

@@ -3,7 +3,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Creeping flow around a lone sphere [stokes51].
+/// Creeping flow around a single sphere [stokes51].
 struct Stokes {
   static constexpr DragLaw law = DragLaw::stokes;
   BL_HD Real K(Real, Real d, Real, Real mu, Real) const { return stokes_drag(d, mu); }

@@ -5,8 +5,8 @@
 namespace bedload::inline BL_VARIANT {
 
 /// A law from a table of K / (3 pi mu d). ln of it is linear between porosities, and between Reynolds numbers
-/// over ln(1 + Re): constant in creeping flow, a power of Re far from it. The first and last porosity stand
-/// for all beyond them; beyond the last Reynolds number the power between the last two goes on.
+/// over ln(1 + Re): constant in creeping flow, a power of Re far from it. Beyond the first and last porosity
+/// the table is constant; beyond the last Reynolds number the last power is extrapolated.
 struct Tabulated {
   static constexpr DragLaw law = DragLaw::table;
   Span<const Real> porosity, log_re,

@@ -3,7 +3,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Dilute suspensions: a lone sphere times a power of the porosity [wen66].
+/// Dilute suspensions: a single sphere times a power of the porosity [wen66].
 struct WenYu {
   static constexpr DragLaw law = DragLaw::wen_yu;
   BL_HD Real K(Real eps, Real d, Real rho, Real mu, Real w) const {

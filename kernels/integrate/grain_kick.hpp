@@ -1,6 +1,6 @@
 #pragma once
-// Kicks of a grain under drag. The fluid velocity and the drag coefficient are frozen over a fluid step,
-// so drag is integrated exactly: terminal velocity holds for any stiffness [physics section 6].
+// Kicks of a grain with drag. The fluid velocity and the drag coefficient are constant over a fluid step, so
+// drag is integrated exactly: the terminal velocity is correct for any stiffness.
 
 #include "bedload/parallel/overlap.hpp"
 #include "kernels/boundaries/edges.hpp"
@@ -10,8 +10,8 @@ namespace bedload::inline BL_VARIANT {
 
 /// Relaxation towards the fluid in a time h at the rate k (1/s).
 struct Relaxation {
-  double fraction = 0;  ///< of the slip that goes: 1 - exp(-k h)
-  double lag = 0;       ///< fraction of a h that drag takes back: psi(k h) - 1, psi(x) = (1 - exp(-x))/x
+  double fraction = 0;  ///< by which the slip decays: 1 - exp(-k h)
+  double lag = 0;       ///< effect of drag on the kick a h: psi(k h) - 1, psi(x) = (1 - exp(-x))/x
   BL_HD Relaxation(double rate, double h, bool exponential) {
     const double x = rate * h;
     if (!(x > 0)) return;
@@ -25,13 +25,13 @@ struct Relaxation {
       lag = fraction / x - 1;
     }
   }
-  /// What drag adds to v in time h while all else accelerates by a.
+  /// Change of v by drag in time h, with the acceleration a by all other forces.
   BL_HD Vec3d drag(const Vec3d& v, const Vec3d& fluid, const Vec3d& a, double h) const {
     return fraction * (fluid - v) + (lag * h) * a;
   }
 };
 
-/// What a grain does between two evaluations of its contacts, except contacts.
+/// Forces on a grain other than contacts, for the kicks between two evaluations of its contacts.
 struct GrainKick {
   Vec3d gravity;  ///< m/s2
   MassPerR3 mass_per_r3;
@@ -45,7 +45,7 @@ struct GrainKick {
   Edges edges = {};
 
   BL_HD bool wet() const { return bool(drag_coefficient); }
-  /// Has what a KickedGrain of i reads brought near.
+  /// Prefetches the input of KickedGrain for grain i.
   BL_HD void prefetch(Index i) const {
     if (drive) read_ahead(drive[i]);
     if (!wet()) return;
@@ -53,7 +53,7 @@ struct GrainKick {
     read_ahead(drag_coefficient[i]), read_ahead(rot_drag_coefficient[i]);
   }
   BL_HD double mass(Index i) const { return mass_per_r3(i) * radius[i] * radius[i] * radius[i]; }
-  /// Where a substep takes a grain from x; an edge that it crosses changes v, its spin never.
+  /// Position after a substep from x; a reflecting side changes v, never the spin.
   BL_HD Vec3d drift(const Vec3d& x, Vec3d& v) const {
     Vec3d to = x + 2 * h * v;
     edges.put_back(x, to, v);
@@ -61,7 +61,7 @@ struct GrainKick {
   }
 };
 
-/// Velocity and spin of one grain under forces that hold for the present kicks: `load` before them.
+/// Velocity and spin of one grain during its kicks. Call `load` before `kick`.
 struct KickedGrain {
   Vec3d v, omega;
   Vec3d impulse, spin_impulse;  ///< from drag, so far: N s, N m s
@@ -82,14 +82,14 @@ struct KickedGrain {
         fluid_velocity_(slide_.fraction > 0 ? Vec3d(k.fluid_velocity[i]) : Vec3d{}),
         fluid_angular_velocity_(spin_.fraction > 0 ? Vec3d(k.fluid_angular_velocity[i]) : Vec3d{}) {}
 
-  /// By contacts: force (N) and torque (N m).
+  /// Sets the load of contacts: force (N) and torque (N m).
   BL_HD void load(Vec3d force, const Vec3d& torque) {
     if (wet_) force += fluid_force_;
     if (driven_) force += drive_;
     a_ = force * (1 / m_) + gravity_;
     alpha_ = torque * (1 / inertia_);
   }
-  /// Half a substep.
+  /// Kick of half a substep.
   BL_HD void kick() {
     const Vec3d dv = slide_.drag(v, fluid_velocity_, a_, h_);
     const Vec3d dw = spin_.drag(omega, fluid_angular_velocity_, alpha_, h_);

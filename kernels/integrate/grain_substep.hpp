@@ -1,6 +1,6 @@
 #pragma once
-// Velocity Verlet for grains. Between substeps the velocities stand in the middle of the step; in fp32
-// builds each is a sum of two floats there, else small kicks would be lost to rounding.
+// Velocity Verlet for grains. Between substeps velocities are at mid-step. In fp32 builds each is then the
+// sum of two floats, else small kicks would be lost to round-off.
 
 #include <bit>
 
@@ -10,7 +10,8 @@
 namespace bedload::inline BL_VARIANT {
 
 BL_HD Vec3d join(const Real3& most, const Real3& rest) { return Vec3d(most) + Vec3d(rest); }
-/// v to the 24 bits of a float, by its bits: GCC 12 drops double(float(v)) from vectorised code.
+/// v rounded to the 24 bits of a float, by bit operations: GCC 12 drops double(float(v)) from vectorised
+/// code.
 BL_HD double to_float_bits(double v) {
   if constexpr (sizeof(Real) == 8) return v;
   const auto bits = std::bit_cast<std::uint64_t>(v) + (1ull << 28);
@@ -134,7 +135,7 @@ struct EvaluatePass {
   }
 };
 
-/// Grains that stay where they are: the fluid flows past resting spheres.
+/// Grains that are held: the fluid flows past fixed spheres.
 struct HeldPass {
   double duration;  ///< s
   Span<const Real3> fluid_velocity, fluid_angular_velocity;

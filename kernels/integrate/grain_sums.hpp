@@ -10,7 +10,8 @@ BL_HD bool finite(const Vec3d& a) {
   return s == 0;
 }
 
-/// Largest speed2, displacement2, drag_coefficient / mass, and the smallest id of a grain gone wrong.
+/// Largest speed2, displacement2, drag_coefficient / mass, and the smallest id of a grain whose state is not
+/// finite.
 struct WatchReduction {
   struct Value {
     double speed2, displacement2, drag_rate, bad;
@@ -92,7 +93,7 @@ struct TotalsReduction {
   }
 };
 
-/// What the grains do to one wall body; histories stay as they are.
+/// Load of the grains on one wall body; histories are not changed.
 struct BodyLoadReduction {
   using Value = LoadSum;
   WallContacts contacts;  ///< with dt = 0
@@ -117,7 +118,7 @@ struct BodyLoadReduction {
   }
 };
 
-/// The same, of the grains that may meet walls, with the surfaces listed for each.
+/// The same over the grains near walls, with the surfaces listed for each.
 struct ListedLoadReduction {
   using Value = LoadSum;
   BodyLoadReduction load;

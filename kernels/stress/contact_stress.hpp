@@ -4,8 +4,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Stress by the contacts of grains with each other, for the velocities that they have now; histories stay as
-/// they are.
+/// Stress of the contacts between grains at their present velocities; histories are not changed.
 struct ContactStressPass {
   ContactPass contacts;  ///< with dt = 0
   Span<PairMoment<>> out;
@@ -15,7 +14,7 @@ struct ContactStressPass {
     contacts.list.each(i, [&](std::uint64_t slot, Index j) {
       if (!contacts.histories.touching[slot]) return;
       const bool first = contacts.id[i] < contacts.id[j];
-      const Index lo = first ? i : j, hi = first ? j : i;  // as ContactPass sees them
+      const Index lo = first ? i : j, hi = first ? j : i;  // as in ContactPass
       const Real R_lo = contacts.radius[lo], R_hi = contacts.radius[hi];
       const Vec3d r = contacts.frame.separation(contacts.x[lo], contacts.x[hi]);
       const double distance = norm(r), overlap = double(R_lo) + double(R_hi) - distance;
@@ -33,9 +32,9 @@ struct ContactStressPass {
   }
 };
 
-/// Stress by lubrication between grains.
+/// Stress of lubrication between grains.
 struct LubricationStressPass {
-  LubricationPass films;  ///< its sums are left alone
+  LubricationPass films;  ///< its sums are not used
   Span<PairMoment<>> out;
 
   BL_HD void operator()(Index i) const {

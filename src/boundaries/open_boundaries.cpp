@@ -12,9 +12,9 @@
 namespace bedload::inline BL_VARIANT {
 namespace {
 
-constexpr int kPlaces = 16;  // that a grain may go to, looked at together
+constexpr int kPlaces = 16;  // candidate positions of a grain, tested together
 
-/// The outlets of a phase as solids, so that a device can ask whether a place lies in one.
+/// The outlets of a phase as solids, for inside tests on the device.
 std::vector<WallBody> outlets_as_walls(const std::vector<OutletConfig>& outlets, const char* phase) {
   std::vector<WallBody> walls;
   for (const OutletConfig& outlet : outlets) {
@@ -62,7 +62,7 @@ bool OpenBoundaries::grains_due(double t) const {
 
 // -- out -----------------------------------------------------------------------------------------
 
-/// Marks what leaves in sink_ and tallies it; false if nothing does.
+/// Marks leaving particles in sink_ and tallies them; false if there are none.
 template <class P, class Mass>
 bool OpenBoundaries::find_leaving(OutletRegions& regions, Span<const P> x, bool domain, const Mass& mass,
                                   double t) {
@@ -131,7 +131,7 @@ void OpenBoundaries::renew(FluidStore& fluid, WallStore& walls, const EquationOf
 
 void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& walls,
                            const EquationOfState& eos, double t, const Vec3d& gravity) {
-  Index first = walls.size();  // the particles of all inlets are the last of the wall particles
+  Index first = walls.size();  // inlet particles are at the end of the wall store
   for (std::size_t k = i; k < motion_.inlets().size(); ++k) {
     const InletFlow& inlet = motion_.inlets()[k];
     first -= Index(buffer_layers(parameters_.fluid, inlet.thickness()) * inlet.points());
@@ -218,7 +218,8 @@ std::vector<NewGrain> OpenBoundaries::new_grains(const GrainStore& grains, doubl
   return all;
 }
 
-/// Adds the next grain of a source at the first of its places that is free of grains and walls, if any is.
+/// Adds the next grain of a source at the first candidate position clear of grains and walls, if there is
+/// one.
 bool OpenBoundaries::drop_one(GrainSource& source, const GrainStore& grains, double t,
                               std::vector<NewGrain>& all) const {
   const std::vector<Vec3d> places = source.places();
@@ -237,7 +238,7 @@ bool OpenBoundaries::drop_one(GrainSource& source, const GrainStore& grains, dou
   return false;
 }
 
-/// Clear of every wall where that is at time t.
+/// Whether a grain is clear of all walls at time t.
 bool OpenBoundaries::is_clear(const NewGrain& grain, double t) const {
   for (int b = 0; b < motion_.walls(); ++b) {
     const WallBody& body = parameters_.walls[b];

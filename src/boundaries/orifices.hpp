@@ -7,7 +7,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Those of all inlets of fluid. walls: how many bodies stand before them; dx: spacing of the fluid, m.
+/// Orifices of all fluid inlets. walls: number of bodies listed before them; dx: spacing of the fluid, m.
 std::vector<Orifice> orifices_of(const std::vector<InletConfig>& inlets, std::size_t walls, double dx,
                                  const DomainConfig& domain);
 

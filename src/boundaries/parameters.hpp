@@ -1,5 +1,5 @@
 #pragma once
-// What open boundaries take from a case.
+// Parameters of open boundaries.
 
 #include <vector>
 
@@ -18,13 +18,12 @@ struct OpenBoundaryParameters {
   FluidProperties fluid;
   std::vector<OutletConfig> outlets;
   std::vector<GrainSource> sources;
-  std::vector<GrainMaterial> materials;  ///< of grains, as they are numbered
-  std::vector<WallBody> walls;           ///< of which grains that are dropped must be clear
+  std::vector<GrainMaterial> materials;  ///< of grains, in the order of their numbers
+  std::vector<WallBody> walls;           ///< inserted grains must be clear of them
   double d_max = 0;                      ///< of grains, m
 
-  double fluid_mass() const {
-    return fluid.rho0 * domain.cell_volume(fluid.dx);
-  }  ///< of a particle let in, kg
+  /// Of an inserted particle, kg.
+  double fluid_mass() const { return fluid.rho0 * domain.cell_volume(fluid.dx); }
 };
 OpenBoundaryParameters open_boundary_parameters(const Config& config);
 

@@ -26,10 +26,10 @@ void with_flag(bool flag, F&& f) {
     f(std::false_type{});
 }
 
-/// log2 of the lanes that share a row: rows are long, and what four lanes read lies side by side.
+/// log2 of the lanes that share a row: rows are long, and four lanes read contiguous memory.
 unsigned lanes_for(Index rows) { return min_of(max_of(lane_bits(rows), 2u), kSliceBits); }
 
-/// The largest rate of drag, and sum of levers where there are any.
+/// The largest rate of drag, and the largest sum of levers if there are any.
 struct LargestRate {
   using Value = StiffestDrag;
   Span<const Real> rate, lever_sum;
@@ -42,7 +42,7 @@ struct LargestRate {
   }
 };
 
-/// How many entries are above a bound, or at and below it.
+/// Counts the entries above a bound, or at and below it.
 struct CountEntries {
   using Value = std::uint64_t;
   Span<const Real> entry;
@@ -267,7 +267,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
 }
 
 void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {
-  // the last exchange tells whether this one can come near to what a step bears, which is 1
+  // skip the survey if the last drag number was well below the stability limit, 1
   limits_ = false;
   if (drag_ && dt * drag_->rate * drag_->lever < 0.5) return;
   rate_.resize(fluid.size());
@@ -356,7 +356,7 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
       });
     });
   });
-  if (!limits_) survey(fluid, grains);  // else it has weakened what was surveyed
+  if (!limits_) survey(fluid, grains);  // else keep the survey made before limiting
 }
 
 void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt) {

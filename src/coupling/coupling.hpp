@@ -1,16 +1,16 @@
 #pragma once
 // Exchange of volume, force and momentum between grains and fluid (unresolved, locally averaged).
 //
-// Fluid and grains make up a mixture: a fluid particle stands for the volume V_a = m_a / (eps_a rho_a), of
-// which grain j holds w_ja, and the fluid solver moves that volume as if all of it were fluid. The stress on
-// it then falls to fluid and grains by eps_a and w_ja, the weights with which their velocities make up the
-// volume flux that its density balances: momentum is kept pair by pair, and what one does to the other is no
-// source of energy.
+// Fluid and grains form a mixture: a fluid particle represents the volume V_a = m_a / (eps_a rho_a), of which
+// grain j occupies the fraction w_ja. The fluid solver moves that volume as if all of it were fluid. The
+// stress on it is then split between fluid and grains by eps_a and w_ja, the same weights with which their
+// velocities enter the volume flux in the density equation: momentum is conserved pair by pair, and the
+// exchange creates no energy.
 //
 // Order in a step, everything at time n until the fluid drifts:
-//   gather    grains read the fluid and get velocity and drag coefficients, held for the step;
-//   (substeps of the grains, which add up the drag impulse and the spin impulse)
-//   react     the fluid takes the impulses back, with the weights of gather;
+//   gather    interpolates the fluid to the grains: velocities and drag coefficients, constant over the step;
+//   (substeps of the grains, which sum the drag impulse and the spin impulse)
+//   react     applies the opposite impulses to the fluid, with the weights of gather;
 //   porosity  after both have moved: weights and volume flux;
 //   push      the grains' part of the stress, once the fluid has its forces.
 
@@ -32,31 +32,32 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// What a run must be told about, from the last gather and porosity.
+/// Counters reported per step: limiter and floor activations in the last gather and porosity.
 struct CouplingCounters {
-  std::uint64_t floor_hits = 0;  ///< fluid particles held at the least porosity
-  std::uint64_t limited = 0;     ///< grains in fluid that drag would stop within one step
-  std::uint64_t wet = 0;         ///< grains that fluid wets
-  std::uint64_t densest = 0;     ///< grains that read the least porosity
-  std::uint64_t cornered = 0;    ///< grains whose kernel walls leave less of than WallFreeFraction::kLeast
+  std::uint64_t floor_hits = 0;  ///< fluid particles at the porosity floor
+  std::uint64_t limited = 0;     ///< grains whose drag the limiter weakened
+  std::uint64_t wet = 0;         ///< grains in fluid
+  std::uint64_t densest = 0;     ///< grains at the porosity floor
+  std::uint64_t cornered = 0;    ///< grains whose kernel is cut by walls to below WallFreeFraction::kLeast
 };
 
-/// How stiff drag is, at most.
+/// Upper bounds on the stiffness of drag.
 struct StiffestDrag {
-  Real rate;   ///< how fast it stops any fluid particle, 1/s
-  Real lever;  ///< how much more the couple of a grain hands over, -
+  Real rate;   ///< largest rate of drag on a fluid particle, 1/s
+  Real lever;  ///< largest sum of DragLevers, -
 };
 
 class Coupling {
  public:
-  /// The walls that fluid meets must outlive this.
+  /// The walls of the fluid must outlive this.
   Coupling(const CouplingParameters& parameters, const Frame& frame, const WallGeometry& walls);
 
-  /// How far grains and fluid act on each other, m.
+  /// Range of the interaction between grains and fluid, m.
   double range() const { return range_; }
 
-  /// Renews both lists: all pairs within range() and half skins where the phases' own lists were built. Packs
-  /// the grains where they are. still: poses of all wall bodies, if none ever moves; else empty.
+  /// Rebuilds both lists: all pairs within range() and half skins at the positions where the lists of the
+  /// phases were built. Also packs the positions of the grains. still: poses of all wall bodies if none ever
+  /// moves; else empty.
   void rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid, const HalfSkins& of_fluid,
                      GrainStore& grains, const CellGridView& grain_grid, const HalfSkins& of_grains,
                      Span<const BodyPose> still = {});
@@ -66,34 +67,34 @@ class Coupling {
   /// take the reaction; step: which one, of noise.
   void gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt,
               std::uint64_t step = 0);
-  /// Gives grains.impulse and spin_impulse, those of a step dt (s), back to the velocities of the fluid, and
-  /// sets fluid.drag_kick to what they changed by and fluid.reaction; the fluid must not have changed since
+  /// Applies the opposite of grains.impulse and spin_impulse, those of a step dt (s), to the velocities of
+  /// the fluid; sets fluid.drag_kick, their change, and fluid.reaction. The fluid must not have changed since
   /// gather.
   void react(FluidStore& fluid, const GrainStore& grains, double dt);
-  /// Sets eps, flux, the mass in m_state and, where they count, viscosity and grains_around of the fluid for
-  /// the present positions; pose as in gather. dt (s): the step in which the grains came here since gather, 0
-  /// where they have not moved.
+  /// Sets eps, flux, the mass in m_state and, where needed, viscosity and grains_around of the fluid for the
+  /// present positions; pose as in gather. dt (s): the step of the grains since gather, 0 if they have not
+  /// moved.
   void porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt);
-  /// Sets fluid_force of the grains from the fluid's theta, and adds `kick` (s) of what it changed by to
-  /// their velocities, unless they are held. After porosity.
+  /// Sets fluid_force of the grains from the stress of the fluid, and adds its change times `kick` (s) to
+  /// their velocities unless they are held. After porosity.
   void push(const FluidStore& fluid, GrainStore& grains, double kick, bool held);
 
-  /// With what viscosity (Pa s) drag by each slip resists shear of slow fluid in a bed of that porosity and
-  /// grain diameter (m): half of the dissipation beta |s . grad u|^2 over the kernel of h_c. Zero with the
-  /// mean slip.
+  /// Effective viscosity (Pa s) by which drag with local slip resists shear of slow fluid in a bed of that
+  /// porosity and grain diameter (m): half of the dissipation beta |s . grad u|^2 over the kernel of h_c.
+  /// Zero with the mean slip.
   double bed_viscosity(double porosity, double d) const;
-  /// Takes note of how stiff drag was in the last exchange. Waits for the device.
+  /// Reads the stiffness of drag in the last exchange. Waits for the device.
   void read_survey();
   /// Largest fluid step that drag allows (s), as last read; infinite without a reaction.
   double stable_dt() const;
-  /// What a restart needs of it.
+  /// State for a restart.
   void save(std::vector<Quantity>& scalars) const;
   void load(const std::function<double(const std::string&)>& scalar);
-  /// Counts what is to be reported. Waits for the device.
+  /// Waits for the device.
   CouplingCounters counters(const FluidStore& fluid, const GrainStore& grains) const;
 
  private:
-  /// f(kernel) with that by which grains and fluid weigh each other.
+  /// f(kernel) with the kernel of the coupling.
   template <class F>
   void with_coupling_kernel(F&& f) const;
   bool moments() const { return torque_ || angmom_; }
@@ -126,10 +127,10 @@ class Coupling {
   bool two_way_, counts_grains_, torque_, angmom_, local_slip_;
   std::optional<StiffestDrag> drag_;  ///< as last read
   Buffer<StiffestDrag> stiffest_;
-  bool surveyed_ = false;  ///< and not yet read
+  bool surveyed_ = false;  ///< a survey has not been read yet
   bool limits_ = false;    ///< whether drag is faster than the step
 
-  SurfaceSet walls_;  ///< that cut the grains' kernels off from fluid
+  SurfaceSet walls_;  ///< that cut the kernels of the grains
   bool wall_normalise_;
   HalfSpaceFraction half_space_;
   OwnWake own_;

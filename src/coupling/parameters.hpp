@@ -1,5 +1,5 @@
 #pragma once
-// What the exchange between grains and fluid takes from a case.
+// Parameters of the exchange between grains and fluid.
 
 #include <cstdint>
 #include <vector>
@@ -18,10 +18,10 @@ namespace bedload::inline BL_VARIANT {
 struct CouplingParameters {
   CouplingConfig couple;
   FluidProperties fluid;
-  std::vector<GrainMaterial> materials;  ///< of grains, as they are numbered
+  std::vector<GrainMaterial> materials;  ///< of grains, in the order of their numbers
   std::vector<Orifice> orifices;
-  double drag_fraction = 0;    ///< of the time in which drag acts, that a step may take
-  bool counts_grains = false;  ///< the fluid's density takes in grains
+  double drag_fraction = 0;    ///< limit of a step over the relaxation time of drag
+  bool counts_grains = false;  ///< the density sum of the fluid includes grains
   double kT = 0;               ///< temperature of the fluid, J
   std::uint64_t seed = 1;      ///< of noise
 };

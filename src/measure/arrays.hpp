@@ -1,5 +1,5 @@
 #pragma once
-// Arrays of a store on their way to the host.
+// Copies of particle arrays on the host.
 
 #include "bedload/parallel/loops.hpp"
 #include "bedload/particles/field.hpp"

@@ -1,4 +1,4 @@
-// What a simulation tells of its wall bodies, prescribed and free, and of rigid groups of grains.
+// Output of wall bodies, prescribed and free, and of rigid groups of grains.
 
 #include <utility>
 
@@ -7,7 +7,7 @@
 namespace bedload::inline BL_VARIANT {
 namespace {
 
-/// Who pushes a body, and how.
+/// Loads on a body by their source.
 using NamedLoads = std::vector<std::pair<const char*, LoadSum>>;
 
 void add(std::vector<Quantity>& out, const std::string& name, const char* unit, const Vec3d& v) {

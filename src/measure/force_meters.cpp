@@ -53,7 +53,7 @@ BodyActions ForceMeters::mean(int m, double t) const {
   return out;
 }
 
-/// By which a checkpoint knows what was summed: the body and the point of its torque.
+/// Identifies the sum in a checkpoint: the body and the point of its torque.
 std::array<double, kActionParts> ForceMeters::key(int m) const {
   const Vec3d& about = meters_[m].about;
   return {double(bodies_[m]), about.x, about.y, about.z};

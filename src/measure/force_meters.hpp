@@ -1,6 +1,5 @@
 #pragma once
-// Means of what acts on wall bodies, for force probes: summed on the device after each step, copied when a
-// row is due.
+// Mean loads on wall bodies for force probes: summed on the device after each step, copied when a row is due.
 
 #include <array>
 #include <string>
@@ -12,7 +11,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// On one body, by parts.
+/// Load on one body, by source.
 using BodyActions = std::array<BodyAction, kActionParts>;
 
 class ForceMeters {
@@ -21,21 +20,21 @@ class ForceMeters {
 
   bool any() const { return !meters_.empty(); }
   int size() const { return int(meters_.size()); }
-  /// Of the probe of that name; -1: it has none.
+  /// Index of the meter of that probe; -1: it has none.
   int place_of(const std::string& probe) const;
   const std::vector<std::uint32_t>& bodies() const { return bodies_; }
 
-  /// From time t (s) on, with what acts then.
+  /// Starts at time t (s) with the present load.
   void begin(int meter, double t, const BodyActions& now);
-  /// The sums start again, at time t (s).
+  /// Resets the sums at time t (s).
   void begin_interval(int meter, double t);
-  /// `pass` with all but bodies and sums, which are filled in.
+  /// Runs `pass`; its bodies and sums are set here.
   void advance(SumActionsPass pass);
-  /// Since the interval began until t (s); what acts now if that is no time.
+  /// Mean over the interval until t (s); the present load if the interval is empty.
   BodyActions mean(int meter, double t) const;
 
   void save(SavedState& out) const;
-  /// False where the state has none of that meter: it is yet to begin.
+  /// False if the state has no such meter, which then has to begin.
   bool load(int meter, const SavedState& saved);
 
  private:

@@ -1,4 +1,4 @@
-// What a simulation tells: snapshots and diagnostics.
+// Snapshots and diagnostics.
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ struct PressurePart {
   BL_HD void operator()(Index i) const { out[i] = pressure_of(m_state[i]); }
 };
 
-/// `field`, or of each particle the `components` scalars from number `first` on.
+/// `field`, or `components` scalars of each particle starting at number `first`.
 template <class T>
 FieldView view_of(const char* name, const char* unit, const Field<T>& field,
                   int components = FileType<T>::components, int first = 0) {
@@ -55,8 +55,8 @@ FieldView view_of(const Field<T>& field) {
 struct FluidTotals {
   Frame frame;
   EquationOfState eos;
-  Vec3d gravity;  ///< true gravity: a frame's acceleration has no potential energy here
-  Drive drive;    ///< its constant part has none either
+  Vec3d gravity;  ///< true gravity: the acceleration of a frame has no potential energy here
+  Drive drive;    ///< nor has its constant part
   Span<const FluidPosition> x;
   Span<const Real4> v_rho;
   Span<const Real> mass, s;
@@ -75,8 +75,8 @@ struct FluidTotals {
   }
 };
 
-/// Rates of change of fluid momentum, N: by gravity and drive, by all but grains, by grains, which take their
-/// part of the stress.
+/// Rates of change of fluid momentum, N: by gravity and drive, by everything except grains, by grains
+/// including their part of the stress.
 struct MomentumRates {
   double rate;  ///< 1 / step, 1/s
   Vec3d gravity;
@@ -97,7 +97,7 @@ struct MomentumRates {
   }
 };
 
-/// Force by the fluid on grains 3, how many are outside the domain.
+/// Force of the fluid on grains 3, number of grains outside the domain.
 struct GrainLoads {
   Frame frame;
   Span<const Vec3d> x;
@@ -108,7 +108,7 @@ struct GrainLoads {
   }
 };
 
-/// What LinearFit changes: force 3 (N) and its power on the fluid (W).
+/// Correction by LinearFit: force 3 (N) and its power on the fluid (W).
 struct CorrectionBody {
   Span<const Real> mass;
   Span<const Real4> m_state, v_rho;
@@ -119,7 +119,7 @@ struct CorrectionBody {
     out[3] = double(mass[a]) * dot(acc, Vec3d(v_rho[a].xyz()));
   }
 };
-/// Power of the acoustic damper's pressure in what continuity makes of the volume, W.
+/// Power of the pressure of the acoustic damper, with the rate of volume from continuity, W.
 struct DamperBody {
   double damping, rho0;  ///< Pa s, kg/m3
   Span<const Real4> m_state;
@@ -129,14 +129,15 @@ struct DamperBody {
   }
 };
 
-/// What particle shifting does to the potential energy, and what drives fluid, to all of it, W.
+/// Power of particle shifting on the potential energy, and of the drive, W; number of particles at the limit
+/// of shifting.
 struct DriftBody {
   Vec3d gravity;
   Drive drive;
   Span<const Real> mass;
   Span<const Real4> m_state, v_rho;
   Span<const Real3> drift;  ///< empty: none
-  Real fastest;             ///< above which the limit on it acts, m/s
+  Real fastest;             ///< drift speed at which its limit acts, m/s
   BL_HD void operator()(Index a, double* out) const {
     if (drift) {
       out[0] = -double(mass[a]) * dot(gravity, Vec3d(drift[a]));
@@ -145,13 +146,13 @@ struct DriftBody {
     out[1] = double(mass[a]) * dot(Vec3d(drive(a, m_state[a])), Vec3d(v_rho[a].xyz()));
   }
 };
-/// Power of what keeps fluid off surfaces, W; and how many particles it acts on.
+/// Power of the repulsion of fluid by surfaces, W; number of particles on which it acts.
 struct StoppedBody {
   WallRepulsion walls;
   Span<const FluidPosition> x;
   Span<const Real> mass;
   Span<const Real4> v_rho;
-  Span<const Real3> heading;  ///< as RepelPass found it, m/s
+  Span<const Real3> heading;  ///< from RepelPass, m/s
   BL_HD void operator()(Index a, double* out) const {
     Vec3d force;
     const auto take = [&](std::uint32_t, const Real3& push, const Vec3d&) {
@@ -292,7 +293,7 @@ void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>&
   const double dt = state_.clock.last_dt;
   const auto powers = solver.powers(fluid, state_.walls, state_.poses_now(), stepper_.moment(), dt);
   SumSweep<5, PowersBody>::Value p;
-  for (double& v : p.v) v = std::nan("");  // a model that does not tell
+  for (double& v : p.v) v = std::nan("");  // models that do not compute them
   if (powers) p = sum_over<5>(fluid.owned(), PowersBody{powers});
   double moving = 0;  // the pressure's work on the fluid
   for (std::uint32_t b = 0; b < std::uint32_t(state_.motion.bodies()) && state_.walls.size() > 0; ++b) {
@@ -377,7 +378,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
                                                              : Span<const Real3>(),
                                   .drag_kick = state_.fluid.drag_kick});
     const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
-    // columns are the same whatever a restart switches on
+    // columns do not depend on options, which may change at a restart
     const bool corrected = state_.fluid.correction.used(), damped = state_.fluid.compression_rate.used();
     SumSweep<4, CorrectionBody>::Value c{};
     if (corrected)
@@ -396,10 +397,10 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     report_powers(drive, out);
     vec("force_walls_on_fluid", "N", wall_on_fluid);
     vec("force_grains_on_fluid", "N", {l.v[6], l.v[7], l.v[8]});
-    // what pair sums leave over: round-off
+    // pair sums balance: the rest is round-off
     vec("fluid_force_residual", "N", total - body - wall_on_fluid - correction);
     out.push_back({"fluid_speed_max", "m/s", std::sqrt(stepper_.fluid_extremes().v2)});
-    const auto largest = [&](auto body) {  // of nothing there is none
+    const auto largest = [&](auto body) {  // NaN without fluid
       return state_.fluid.size() > 0 ? max_over(state_.fluid.owned(), body) : std::nan("");
     };
     out.push_back({"pressure_max", "Pa", largest(PressureBody{state_.fluid.m_state, 1})});

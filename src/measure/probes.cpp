@@ -1,4 +1,4 @@
-// What probes tell of fluid and grains: fronts, points, columns, boxes.
+// Probes of fluid and grains: fronts, points, columns, boxes.
 
 #include <algorithm>
 #include <cmath>
@@ -44,19 +44,19 @@ struct PointBody {
   }
 };
 
-/// Heights above `at` between which fluid lies in one piece of a column, m.
+/// Lowest and highest fluid particle in one piece of a column, relative to `at`, m.
 struct Extent {
   double lowest, highest;
 };
 
-/// Cuts the column of `radius` around the line through `at` into pieces and finds the extent of the fluid in
-/// each; what lies on a border belongs to both.
+/// Extent of the fluid in each piece of the column of `radius` around the line through `at`; particles on a
+/// border count in both pieces.
 struct ColumnPass {
   CellGridView grid;
   Frame frame;
   Vec3d at, up;
   double radius, length, skin;  ///< m; length: of a piece
-  int first;                    ///< piece; that of number 0 begins at `at`
+  int first;                    ///< number of the first piece; piece 0 begins at `at`
   Span<const FluidPosition> x;
   Span<Extent> out;
   BL_HD void operator()(Index n) const {
@@ -154,7 +154,7 @@ std::vector<Quantity> CoupledSimulation::point(const ProbeConfig& p) {
       std::copy(s.v, s.v + 5, sum);
     });
   const double nan = std::nan("");
-  const bool wet = sum[0] > 0.05;  // fewer neighbours say nothing
+  const bool wet = sum[0] > 0.05;  // too few neighbours for a mean
   return {{"pressure", "Pa", wet ? sum[1] / sum[0] : nan},
           {"velocity_x", "m/s", wet ? sum[2] / sum[0] : nan},
           {"velocity_y", "m/s", wet ? sum[3] / sum[0] : nan},
@@ -164,7 +164,7 @@ std::vector<Quantity> CoupledSimulation::point(const ProbeConfig& p) {
 
 std::vector<Quantity> CoupledSimulation::column(const ProbeConfig& p) {
   const double dx = config_.fluid.dx, radius = 1.5 * dx;
-  const double piece = 2 * dx;  // whatever lies in one is connected
+  const double piece = 2 * dx;  // fluid within a piece counts as connected
   const Vec3d up = upwards(config_.gravity);
   const LinePart part = line_in_box(p.at, up, state_.frame.origin, state_.frame.origin + state_.frame.length);
   const int first = int(std::floor((part.from - radius) / piece));

@@ -1,4 +1,4 @@
-// What a viscometer reads: masses, velocities, what drives them, stress by parts.
+// Input of a viscometer: masses, velocities, driving forces, parts of the stress.
 
 #include "src/measure/arrays.hpp"
 #include "src/time/coupled_simulation.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Reductions over stores that diagnostics and probes share. All sums in fp64.
+// Reductions over stores for diagnostics and probes. All sums in fp64.
 
 #include "bedload/parallel/loops.hpp"
 #include "bedload/particles/fluid.hpp"

@@ -1,4 +1,4 @@
-// Force per area on patches of a wall, as transducers read it.
+// Force per area on patches of a wall, as a pressure transducer measures it.
 
 #include <cmath>
 
@@ -10,23 +10,23 @@ namespace {
 
 constexpr int kAtOnce = 8;  // patches in one sweep
 
-/// Patches side by side on a body, as it was at t = 0. What acts at a place acts evenly on a square about it
-/// with sides along theirs.
+/// A grid of patches on a body, in its pose of t = 0. A force at a point is spread evenly over a square
+/// around it, aligned with the patches.
 struct PatchGrid {
   Frame frame;
   Vec3d at, along, across, normal;  ///< centre of all, m; unit vectors
   double side[2];                   ///< of one patch, m
   int count[2];
-  double depth;      ///< how far off their plane a place may lie, m
-  int through = -1;  ///< side along which a plane flow is everywhere the same
+  double depth;      ///< largest distance of a point from their plane, m
+  int through = -1;  ///< side along which a plane flow does not vary
 
-  /// Whether x lies within `margin` (m) of where it would count.
+  /// Whether x is within `margin` (m) of the region that counts.
   BL_HD bool near(const Vec3d& x, double margin) const {
     bool any = false;
     each_image(x, margin, depth + margin, [&](double, double) { any = true; });
     return any;
   }
-  /// Adds to out what patches `first` and on get of `value` by a square about x.
+  /// Adds to out the parts of `value`, spread over a square around x, on the patches from `first` on.
   BL_HD void spread(const Vec3d& x, double square, double value, int first, double* out) const {
     each_image(x, 0.5 * square, depth, [&](double u, double v) {
       for (int k = 0; k < kAtOnce && first + k < count[0] * count[1]; ++k)
@@ -63,13 +63,13 @@ struct PatchGrid {
   }
 };
 
-/// What patches get from the wall particles of one body, N against their normal.
+/// Force on patches from the wall particles of one body, N against their normal.
 struct PatchForces {
   PatchGrid patches;
   int first;
   std::uint32_t body;
   double spacing;  ///< m
-  Vec3d inwards;   ///< against the normal, as the body is turned now
+  Vec3d inwards;   ///< against the normal, in the present rotation of the body
   Span<const std::uint32_t> of;
   Span<const Vec3d> x0, pressure, friction;
   BL_HD void operator()(Index w, double* out) const {
@@ -79,7 +79,7 @@ struct PatchForces {
   }
 };
 
-/// The same from the repulsion of its surfaces, taken at the points closest to the fluid.
+/// The same from the repulsion of its surfaces, at the points closest to the fluid.
 struct PatchRepulsion {
   PatchGrid patches;
   int first;

@@ -1,5 +1,5 @@
 #pragma once
-// What grains are made of, as passes read it.
+// Materials of the grains, as passes read them.
 
 #include <cmath>
 
@@ -17,7 +17,7 @@ class GrainMatter {
     each_.assign(per_r3_);
   }
   std::uint32_t materials() const { return std::uint32_t(per_r3_.size()); }
-  /// The store's grains; it must outlive what is returned.
+  /// For the grains of a store, which must outlive the result.
   MassPerR3 of(const GrainStore& grains) const {
     if (materials() == 1) return {per_r3_[0]};
     return {per_r3_[0], grains.material, each_};

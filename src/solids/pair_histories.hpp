@@ -5,13 +5,13 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Histories beside the entries of a list, as far as a law remembers.
+/// Contact histories for the entries of a list; only the arrays that the law needs.
 class PairHistoryBuffers {
  public:
   explicit PairHistoryBuffers(const ContactLaw& law)
       : slides_(law.slides()), rolls_(law.remembers_couple()) {}
 
-  /// Of as many slots, none of which touches.
+  /// Resizes to `slots` pairs, none of them in contact.
   void reset(std::size_t slots) {
     touching_.reserve_and_resize(slots);
     touching_.zero();
@@ -27,7 +27,7 @@ class PairHistoryBuffers {
     touching_.swap(o.touching_), normal_.swap(o.normal_), xi_.swap(o.xi_), couple_.swap(o.couple_);
   }
 
-  /// By slot, to the host and back; apart: overlap 0.
+  /// By slot, to the host and back; not in contact: overlap 0.
   std::vector<ContactHistory> to_host() const {
     const auto touching = touching_.to_host();
     const auto normal = normal_.to_host();

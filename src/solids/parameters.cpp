@@ -19,7 +19,7 @@ ContactLaw law_between(const GrainMaterial& a, const GrainMaterial& b, const Con
                            .contact = config.contact});
 }
 
-/// The same between grains and a wall body, with the friction and restitution of that.
+/// The same between grains and a wall body, with the friction and restitution of the body.
 ContactLaw law_between(const GrainMaterial& material, const WallBody& body, const Config& config) {
   const GrainConfig& g = config.grain;
   const ElasticCompliance grain(material.E, material.nu), wall = wall_compliance(body, g);

@@ -1,5 +1,5 @@
 #pragma once
-// What the solver of the grains takes from a case.
+// Parameters of the grain solver.
 
 #include <cstdint>
 #include <vector>
@@ -14,14 +14,14 @@ namespace bedload::inline BL_VARIANT {
 
 /// Grains that move as one body.
 struct RigidGroup {
-  int fill = 0;                ///< that they come from, its place in the case
+  int fill = 0;                ///< index of their fill in the case
   std::uint32_t material = 0;  ///< of them
   Vec3d velocity;              ///< at the start, m/s
   RigidConfig freedom;
 };
 
 struct SolidParameters {
-  std::vector<GrainMaterial> materials;    ///< as they are numbered
+  std::vector<GrainMaterial> materials;    ///< in the order of their numbers
   double d_max = 0;                        ///< of the largest, m
   double skin = 0;                         ///< of the lists, m
   std::vector<ContactLaw> pair_laws = {};  ///< [materials][materials]
@@ -30,17 +30,17 @@ struct SolidParameters {
   Lubrication films = {};
   Vec3d gravity = {};        ///< m/s2
   bool fixed = false;        ///< grains never move
-  bool exponential = true;   ///< drag acts exactly within a substep; else it bounds the substep
-  double drag_fraction = 0;  ///< of the time in which drag acts, that a substep may take
+  bool exponential = true;   ///< drag is integrated exactly; else it limits the substep
+  double drag_fraction = 0;  ///< limit of a substep over the relaxation time of drag
   SubstepLimits limits;
   ReflectConfig reflect;
   std::vector<RigidGroup> groups = {};
-  bool plane = false;  ///< groups move in the plane of x and z
+  bool plane = false;  ///< groups move in the xz plane
 
   std::uint32_t bodies() const { return std::uint32_t(wall_laws.size() / materials.size()); }  ///< of walls
 };
 
-/// Throws CaseError where the restitution cannot be had.
+/// Throws CaseError if the restitution cannot be reached.
 SolidParameters solid_parameters(const Config& config);
 
 }  // namespace bedload::inline BL_VARIANT

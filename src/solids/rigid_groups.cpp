@@ -50,7 +50,7 @@ void RigidGroups::bind(const GrainStore& grains, const std::vector<std::uint32_t
   store_.rotation.assign(std::vector<Vec4<double>>(n, to_vec4({})));
 }
 
-/// Mass and inertia, summed in the order of ids, which no sorting changes.
+/// Mass and inertia, summed in the order of ids so that the result does not depend on sorting.
 void RigidGroups::measure(const GrainStore& grains) {
   const auto id = grains.id.values();
   const auto radius = grains.radius.values();

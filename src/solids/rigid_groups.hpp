@@ -1,5 +1,5 @@
 #pragma once
-// Rigid groups of grains: their state, what follows from their grains, how they move.
+// Rigid groups of grains: state, mass properties, motion.
 
 #include <memory>
 #include <vector>
@@ -14,29 +14,28 @@ namespace bedload::inline BL_VARIANT {
 
 class RigidGroups {
  public:
-  /// Registers what grains know of their groups with `grains`: construct before the store is filled or
-  /// loaded.
+  /// Adds the fields of group membership to `grains`: construct before the store is filled or loaded.
   RigidGroups(const SolidParameters& parameters, const Frame& frame, GrainStore& grains);
 
   bool any() const { return !groups_.empty(); }
-  /// Of each grain: 1 + its group, 0 without one; empty where no fill is rigid.
+  /// For each grain 1 + its group, 0 without one; empty if no fill is rigid.
   Span<const std::uint32_t> of_grains() const {
     return group_ ? group_->span() : Span<const std::uint32_t>();
   }
-  /// Binds grains as they are initialised; `fill`: of each, by id.
+  /// Assigns grains to groups at initialisation; `fill`: fill of each grain, by id.
   void bind(const GrainStore& grains, const std::vector<std::uint32_t>& fill);
 
-  /// After a kick and perhaps a drift (s) of every grain on its own. Rests: what rounding left of velocities,
-  /// may be empty.
+  /// Moves the groups after every grain was kicked, and drifted by `drift` (s), on its own; the grains
+  /// follow. Rests: low parts of the velocities, may be empty.
   void follow(GrainStore& grains, Span<Real3> v_rest, Span<Real3> omega_rest, double drift);
-  /// Groups lie still, as their grains do.
+  /// Sets the velocities of the groups to zero, as those of their grains are.
   void stop();
 
-  /// Of one of them, now; its centre is where it is.
+  /// Present motion of group k, with its centre as the reference point.
   RigidMotion motion(int k) const;
-  /// Force and torque about its centre by what its grains touch.
+  /// Force and torque about its centre from the contacts of its grains.
   LoadSum by_contacts(int k, const GrainStore& grains) const;
-  /// By the fluid; the torque on single grains is a mean over the last step dt (s).
+  /// From the fluid; the torque on single grains is a mean over the last step dt (s).
   LoadSum by_fluid(int k, const GrainStore& grains, double dt) const;
   std::vector<const Store*> stores() const {
     if (!any()) return {};
@@ -59,9 +58,9 @@ class RigidGroups {
   };
 
   std::vector<RigidGroup> groups_;
-  bool plane_;  ///< they move in the plane of x and z
+  bool plane_;  ///< they move in the xz plane
   Frame frame_;
-  std::vector<RigidBody> bodies_;  ///< one a group, about their centres of mass
+  std::vector<RigidBody> bodies_;  ///< one per group, about their centres of mass
   GrainMatter matter_;
   std::unique_ptr<Field<std::uint32_t>> group_;
   std::unique_ptr<Field<Vec3d>> arm_;

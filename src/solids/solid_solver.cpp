@@ -17,7 +17,7 @@ struct WrapGrains {
   BL_HD void operator()(Index i) const { x[i] = frame.wrap(x[i]); }
 };
 
-/// Places among the grains as listed last, from places among those that are left.
+/// Composes the order of a sort with the removal before it: former indices as of the last lists.
 struct SourceIndexPass {
   Span<const Index> source_index;
   Span<Index> order;
@@ -87,8 +87,7 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
                  .largest = 0.5 * parameters_.d_max,
                  .skin = skin(),
                  .film = film_range(1)};
-  // rows are short: of more lanes most would have nothing to do; contacts take so many registers that more
-  // threads would wait for each other
+  // few lanes: rows are short, and contacts use so many registers that more threads would not run at once
   list_.build(grains.size(), grid.view(), near, std::min(lane_bits(grains.size(), 3u << 14), 3u));
   near.film = 0;
   for_each(grains.owned(), ContactsFirstPass{near, list_.view(), list_.entries()});

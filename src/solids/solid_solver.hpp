@@ -24,7 +24,7 @@ namespace bedload::inline BL_VARIANT {
 
 struct GrainKick;
 
-/// Extremes over all grains that steps and lists depend on; one reduction.
+/// Extremes over all grains that limit steps and lists; from one reduction.
 struct GrainWatch {
   double speed = 0;         ///< largest, m/s
   double displacement = 0;  ///< largest since the lists were built, m
@@ -43,23 +43,22 @@ struct GrainTotals {
   Vec3d centre;            ///< of mass, m
   double max_speed = 0;    ///< m/s
   double max_overlap = 0;  ///< overlap / diameter, walls included
-  double contacts = 0;     ///< pairs of touching grains
+  double contacts = 0;     ///< pairs of grains in contact
   double wall_contacts = 0;
-  double coordination = 0;  ///< touching grains per grain, mean
+  double coordination = 0;  ///< mean number of contacts per grain
 };
 
-/// Grains that were taken out or put in since the last lists.
+/// Grains removed or inserted since the lists were last built.
 struct GrainRenewal {
-  Span<const Index> source_index;  ///< former place of each grain; kNone if it is new
+  Span<const Index> source_index;  ///< former index of each grain; kNone if it is new
   Index before = 0;                ///< how many there were
   bool any = false;
 };
 
 class SolidSolver {
  public:
-  /// Registers what grains remember of walls with `grains`: construct before the store is filled or loaded.
-  /// `walls` must outlive this, and so must `bodies`, the free ones among them. `wet`: a fluid may act on
-  /// grains.
+  /// Adds the histories of wall contacts to `grains`: construct before the store is filled or loaded. `walls`
+  /// and `bodies`, the free ones among them, must outlive this. `wet`: a fluid may act on grains.
   SolidSolver(const SolidParameters& parameters, const Frame& frame, const WallGeometry& walls,
               GrainStore& grains, FreeBodies* bodies = nullptr, bool wet = true);
 
@@ -68,54 +67,54 @@ class SolidSolver {
   double range() const { return parameters_.d_max + skin() + film_range(parameters_.d_max / 4); }
   const ContactLaw& law() const { return parameters_.pair_laws[0]; }
 
-  /// Wraps, sorts and lists the grains anew; histories of surviving pairs carry over.
-  /// order() then says where each grain was when they were listed last.
+  /// Wraps and sorts the grains and rebuilds the lists; histories of surviving pairs are kept. order() is
+  /// then the index of each grain at the previous build.
   void refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal = {});
   const Buffer<Index>& order() const { return order_; }
   const VerletList& list() const { return list_; }
-  /// Grains that have a row of walls that they may meet.
+  /// Number of grains near walls.
   Index near_walls() const { return wall_list_.size(); }
 
   GrainWatch watch(const GrainStore& grains) const;
-  /// All limits on a substep; none of them binds is marked (the caller takes the least).
+  /// All limits on a substep, of which the caller takes the least.
   std::vector<StepLimit> limits(const GrainWatch& watch) const;
   StepLimit stable_dt(const GrainWatch& watch) const { return least_of(limits(watch)); }
   StepLimit stable_dt(const GrainStore& grains) const { return stable_dt(watch(grains)); }
 
-  /// Contact forces where the grains are, with no time passing; poses: [bodies] on the device. For a fresh
-  /// start only: a loaded state brings its forces along. Free bodies learn what the grains do to them.
+  /// Contact forces at the present positions with dt = 0; also the loads on free
+  /// bodies. poses: [bodies] on the device. For a new run only: a loaded state contains its forces.
   void evaluate(GrainStore& grains, Span<const BodyPose> poses);
   /// `substeps` velocity-Verlet substeps over dt (s). poses: device array [substeps + 1][bodies], at the
   /// start and after each substep. Reads fluid_force and what drag refers to; leaves the drag impulses of
-  /// this call in impulse and spin_impulse, their mean in drag_force. Held (or fixed) grains keep place and
-  /// velocity; the fluid sees them at rest. gravity: at the start and after each substep, m/s2; the
-  /// case's own if empty. Free bodies, whose step has begun, move along in the substeps and fill their places
-  /// in poses; while they settle they stay. wall_travel: the farthest that any wall goes in dt, m. drive: a
-  /// force on each grain that holds for dt, N; may be empty.
+  /// this call in impulse and spin_impulse, their mean in drag_force. Held (or fixed) grains keep position
+  /// and velocity, and are at rest for the fluid. gravity: at the start and after each substep, m/s2; that of
+  /// the case if empty. Free bodies, after their begin(), move in the same substeps and write their poses;
+  /// they are held while grains settle. wall_travel: upper bound on the displacement of any wall in dt, m.
+  /// drive: constant force on each grain during dt, N; may be empty.
   void advance(GrainStore& grains, Span<const BodyPose> poses, int bodies, double dt, int substeps, bool held,
                const std::vector<Vec3d>& gravity = {}, double wall_travel = WallList::kAnywhere,
                Span<const Real3> drive = {});
 
-  /// What grains remember of walls.
+  /// Histories of wall contacts.
   std::vector<const FieldBase*> fields_of_contacts() const;
 
   RigidGroups& groups() { return groups_; }
   const RigidGroups& groups() const { return groups_; }
 
   GrainTotals totals(const GrainStore& grains) const;
-  /// Of the grains on each wall body, about its centre; poses: [bodies] on the device.
+  /// Load of the grains on each wall body, about its centre; poses: [bodies] on the device.
   std::vector<LoadSum> body_loads(const GrainStore& grains, Span<const BodyPose> poses) const;
 
   /// The same in the substeps of the last step, for bodies on which they are recorded.
   SubstepLoads& substep_loads() { return substep_loads_; }
 
-  /// Moments of the contacts between grains, a grain each, J.
+  /// Force moments of the contacts between grains, per grain, J.
   void contact_moments(const GrainStore& grains, Buffer<PairMoment<>>& out) const;
-  /// The same of lubrication; whether there is any.
+  /// The same of lubrication, if lubricates().
   void film_moments(const GrainStore& grains, Buffer<PairMoment<>>& out) const;
   bool lubricates() const { return parameters_.films.acts(); }
 
-  /// Histories of touching pairs: arrays "lo", "hi" (ids) and "history".
+  /// Histories of pairs in contact: arrays "lo", "hi" (ids) and "history".
   HostStore save_contacts(const GrainStore& grains) const;
   /// After `grains` has been loaded: rebuilds the lists as they were at the last refresh and restores the
   /// histories, to the last bit. Throws FileError.
@@ -123,7 +122,7 @@ class SolidSolver {
 
  private:
   void build_list(const GrainStore& grains, const CellGrid& grid);
-  /// The bodies that move along, if any do.
+  /// The free bodies, if they move in the substeps; else null.
   FreeBodies* moving() const { return bodies_ && bodies_->any() && !bodies_->settling() ? bodies_ : nullptr; }
   WallMemory* const* wall_memories() const;
   ContactPass contact_pass(const GrainStore& grains, double dt) const;
@@ -140,11 +139,11 @@ class SolidSolver {
                    bool last);
   /// Sets evaluate_walls_.
   void choose_wall_law();
-  /// Evaluates the contacts with walls, and lubrication, and returns the pass over the contacts between
-  /// grains, which adds them.
+  /// Evaluates wall contacts and lubrication; returns the pass over the contacts between grains, which adds
+  /// them.
   ContactPass contacts_at(const GrainStore& grains, const BodyPose* poses, double dt,
                           const ContactLoads& loads);
-  /// Runs a pass with `contacts` of contacts_at, from then on beside the walls'.
+  /// Runs a pass with `contacts` of contacts_at; on the GPU it overlaps with the loop over the walls.
   template <class Pass>
   void evaluate(const Pass& pass) {
     if (pass.contacts.by_walls)
@@ -168,8 +167,8 @@ class SolidSolver {
   FreeBodies* bodies_;
   RigidGroups groups_;
   std::vector<std::unique_ptr<Field<WallMemory>>> wall_memory_;  ///< [walls_.contacts()]
-  std::unique_ptr<Field<Index>> wall_contacts_;                  ///< of them in use
-  mutable std::vector<WallMemory*> memory_pointers_;             ///< to wall_memory_, which sorting moves
+  std::unique_ptr<Field<Index>> wall_contacts_;                  ///< number in use
+  mutable std::vector<WallMemory*> memory_pointers_;  ///< to wall_memory_, whose buffers change in a sort
   mutable Buffer<WallMemory*> device_memory_pointers_;
 
   // compiled for the contact laws and surface kinds of the case
@@ -178,7 +177,7 @@ class SolidSolver {
   void (SolidSolver::*evaluate_walls_)(const WallContacts&, const ContactLoads&) = nullptr;
 
   VerletList list_, old_list_;
-  mutable PairHistoryBuffers histories_;  ///< sums read them through the pass that writes them
+  mutable PairHistoryBuffers histories_;  ///< mutable: sums read them through ContactPass
   PairHistoryBuffers old_histories_;
   WallList wall_list_;
   SubstepLoads substep_loads_;

@@ -1,4 +1,4 @@
-// Contacts of grains with walls: which code evaluates them.
+// Contacts of grains with walls, compiled for the laws and surface kinds of a case.
 #include <algorithm>
 #include <type_traits>
 
@@ -38,7 +38,7 @@ WallContacts SolidSolver::wall_contacts(const GrainStore& g, const BodyPose* pos
 
 template <class Scope>
 void SolidSolver::evaluate_walls(const WallContacts& contacts, const ContactLoads& loads) {
-  // few grains would wait for the one that touches several walls; what moves bodies is recorded by one thread
+  // lanes share a grain with several contacts; loads on free bodies are recorded by one thread per grain
   const unsigned bits = loads ? 0 : std::min(lane_bits(4 * wall_list_.size()), 2u);
   for_each({0, wall_list_.size() << bits}, WallContactPass<Scope>{.contacts = contacts,
                                                                   .rows = wall_list_.rows(),

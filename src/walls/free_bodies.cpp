@@ -24,7 +24,7 @@ struct AddLoads {
   }
 };
 
-/// A plane flow leaves of a body's freedom what moves it in x and z and turns it about y.
+/// Restricts a body to a plane flow: motion in x and z, rotation about y.
 void confine(RigidBody& k) {
   const Vec3d y{0, 1, 0};
   const bool in_plane = k.axis.y == 0;
@@ -245,12 +245,12 @@ ContactLoads FreeBodies::record(Index grains) {
   const int capacity = std::min(size(), kMostWallContacts);
   grain_slots_.resize(std::size_t(grains) * capacity);
   grain_counts_.resize(grains);
-  grain_counts_.zero();  // grains that no wall is near are not asked
+  grain_counts_.zero();  // grains far from walls write nothing
   grain_loads_ = {grain_slots_.data(), grain_counts_.data(), grains, capacity};
   return grain_loads_;
 }
 
-/// Balls against surfaces, then the sums over what they and the grains have recorded.
+/// Contacts of balls with surfaces, then the sums of the recorded loads of balls and grains.
 void FreeBodies::evaluate_contacts(Span<const BodyPose> poses, double dt) {
   if (balls_.size() > 0)
     for_each({0, Index(balls_.size())}, BallPass{.frame = frame_,

@@ -1,6 +1,6 @@
 #pragma once
-// Bodies that move by the forces on them: their state, their contacts with other bodies, their substeps.
-// Grains and fluid meet them as walls, by their poses.
+// Free rigid bodies: state, contacts with other bodies, substeps. For grains and fluid they are walls with
+// poses.
 
 #include <memory>
 #include <vector>
@@ -20,7 +20,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// What acts on a body, about its centre.
+/// Loads on a body, about its centre.
 struct BodyForces {
   LoadSum fluid = LoadSum::zero(), grains = LoadSum::zero(), bodies = LoadSum::zero();
 };
@@ -29,7 +29,7 @@ struct BodyForces {
 struct BodyTotals {
   double mass = 0, kinetic = 0, rotational = 0, potential = 0;  ///< kg, J; of the centres, about them
   Vec3d momentum, angular;                                      ///< kg m/s; about the origin, kg m2/s
-  int outside = 0;  ///< how many have their centre outside the domain
+  int outside = 0;  ///< number of bodies with their centre outside the domain
 };
 
 struct BodyCorrection {
@@ -37,86 +37,87 @@ struct BodyCorrection {
   double power = 0;  ///< W
 };
 
-/// A rigid body about `centre` (m) under the constraints `move` and `turn` (with `axis`) of a case, and those
-/// of a plane flow if it is one.
+/// A rigid body with reference point `centre` (m) and the constraints `move` and `turn` (with `axis`) of a
+/// case; plane: and those of a plane flow.
 RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, const std::string& move,
                      const std::string& turn, const Vec3d& axis, bool plane);
 
 class FreeBodies {
  public:
-  /// `walls`: surfaces that stop grains, which bodies meet too; must outlive this.
+  /// `walls`: surfaces that stop grains and bodies; must outlive this.
   FreeBodies(const FreeBodyParameters& parameters, const Frame& frame, const WallGeometry& walls);
 
   int size() const { return int(parameters_.bodies.size()); }
   bool any() const { return size() > 0; }
-  /// Place among the free bodies, -1 for a body that is none.
+  /// Index among the free bodies, -1 for other bodies.
   int place_of(int body) const { return places_[body]; }
-  /// Place among the wall bodies.
+  /// Index among the wall bodies.
   int body(int place) const { return int(rigid(place).body); }
   const RigidBody* constants() const { return constants_.data(); }
-  /// While the grains settle the bodies are held.
+  /// Bodies are held while the grains settle.
   void settle(bool on) { settling_ = on; }
   bool settling() const { return settling_; }
 
-  /// Puts the bodies as they are into rows of poses, on the device.
+  /// Writes the present poses into rows of poses on the device.
   void write(Span<BodyPose> poses, int row_size, int rows, double time) const;
-  /// Their mean motion over the last step into one row.
+  /// Writes the mid-step poses with the mean velocities over the last step into one row.
   void write_middle(Span<BodyPose> row, double dt) const;
 
-  // One step: begin, then first_kick, a substep for each row of poses but the first, and the fluid's kick.
-  /// poses: [substeps + 1][row_size], as the bodies are now; what grains did at the last evaluation and the
-  /// fluid at the last step end is known. fluid_kick (s): of the fluid's force at the start of the step.
+  // A step: begin, first_kick, a substep for each row of poses except the first, and add_fluid_loads.
+  /// poses: [substeps + 1][row_size], initially the present ones. Uses the loads of grains from the last
+  /// evaluation and of the fluid from the end of the last step. fluid_kick (s): kick by the fluid at the
+  /// start of the step.
   void begin(Span<BodyPose> poses, int row_size, double time, double dt, int substeps, double fluid_kick,
              const std::vector<Vec3d>& gravity);
   void first_kick();
-  /// Contacts where the bodies are in row s, with what the grains have recorded there, then kicks and drift.
+  /// Contacts of the bodies in row s, with the loads recorded by grains, then kicks and drift.
   void substep(int s);
-  /// All substeps, where there are no grains.
+  /// All substeps, for a case without grains.
   void advance();
-  /// Contacts as the bodies are, with no time passing; poses: one row.
+  /// Contacts at the present poses, without advancing time; poses: one row.
   void evaluate(Span<const BodyPose> poses);
 
-  /// Where `grains` grains record what they do to bodies, until the next evaluation.
+  /// Buffer in which `grains` grains record their loads on bodies, until the next evaluation.
   ContactLoads record(Index grains);
 
-  /// Fits a linear pressure to that of the wet wall particles of each body. poses: one row.
+  /// Fits a linear pressure to the wet wall particles of each body. poses: one row.
   BodyPressures fit_pressure(const WallStore& walls, Span<const BodyPose> poses);
-  /// Takes the fluid's force from the wall particles [walls] and repulsion at the end of a step and kicks
-  /// with it; in_fit: that of the pairs in the fitted pressure, as BodyPressurePass leaves it, null where
-  /// bodies keep the pairs' force; dt: of the step, 0 at the start of a run. poses: one row.
+  /// Sums the fluid force on the wall particles [walls] and the repulsion at the end of a step, and kicks the
+  /// bodies with it. in_fit: force of the pairs in the fitted pressure from BodyPressurePass, null without
+  /// that correction; dt: the step, 0 at the start of a run. poses: one row.
   void add_fluid_loads(const WallStore& walls, const Buffer<Vec3d>& force, const Buffer<Vec4<double>>* in_fit,
                        const WallRepulsion* repulsion, const FluidStore& fluid, Span<const BodyPose> poses,
                        double kick, double dt);
 
-  /// Copies places and velocities at `time` (s) to the host; bodies that are held have none.
+  /// Copies positions and velocities at `time` (s) to the host; the velocity of a held body is zero.
   void read_back(double time);
-  /// As read back last.
+  /// As last read back.
   const RigidMotion& motion(int place) const { return now_[place]; }
-  /// The first body whose state is not finite, -1 if all are well.
+  /// The first body whose state is not finite, -1 if there is none.
   int broken() const;
-  /// Largest speed of a point of a body, m/s, dt (s) after what was read back if nothing else pushes it.
+  /// Largest speed of a point of a body, m/s, extrapolated by dt (s) from the last read back.
   double top_speed(double dt = 0) const;
 
   /// Limits on a substep. wall_speed: of prescribed walls, m/s.
   std::vector<StepLimit> limits(double wall_speed) const;
 
   BodyForces forces(int place) const;
-  /// All that the fluid does to each, on the device; N, N m about their centres.
+  /// Total load of the fluid on each, on the device; N, N m about their centres.
   Span<const Vec3d> fluid_force() const { return store_.fluid_force; }
   Span<const Vec3d> fluid_torque() const { return store_.fluid_torque; }
-  /// Of the bodies and of what they touch.
+  /// State of the bodies, and of their contacts.
   std::vector<const Store*> stores() const {
     if (!any()) return {};
     return {&store_, &memory_};
   }
-  /// Force and torque by free bodies on any wall body, of the last substep in this run.
+  /// Force and torque of free bodies on any wall body, in the last substep of this run.
   LoadSum contact_load(int body) const;
   /// The same in the substeps of the last step, for bodies on which they are recorded.
   SubstepLoads& substep_loads() { return substep_loads_; }
   BodyTotals totals(double time) const;
-  /// What pressure.linear_exact adds to the fluid's load on a body.
+  /// Correction of the fluid load on a body by pressure.linear_exact.
   LoadSum correction(int place) const;
-  /// Sum over those that the fluid moves.
+  /// Sum over the bodies that the fluid moves.
   BodyCorrection correction() const;
 
   void save(std::vector<HostStore>& stores) const;
@@ -156,7 +157,7 @@ class FreeBodies {
   std::vector<RigidMotion> now_;
   double contact_radius_ = 0, largest_radius_ = 0;  ///< smallest and largest R*, m
 
-  mutable BodyStore store_;  ///< kernels take its spans from const members too
+  mutable BodyStore store_;  ///< mutable: const members pass its spans to kernels
   Buffer<RigidBody> constants_;
   Buffer<BodyLaw> laws_;                   ///< of the free bodies
   Buffer<ElasticCompliance> compliances_;  ///< of all wall bodies
@@ -165,7 +166,7 @@ class FreeBodies {
   struct Memory : Store {
     Memory() : Store("body_contacts") {}
     Field<WallMemory> memory{*this, "memory", "-, -, m, N m, m, m/s", Lifetime::kept};
-    Field<Index> count{*this, "count", "-", Lifetime::kept};  ///< of a ball; the rest unused
+    Field<Index> count{*this, "count", "-", Lifetime::kept};  ///< of each ball; further entries are unused
   } memory_;
   int capacity_ = 0;
   Buffer<WallMemory*> memory_pointers_;

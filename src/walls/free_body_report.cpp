@@ -1,4 +1,4 @@
-// What the host asks of free bodies: speeds, step limits, forces, sums, what is kept.
+// Free bodies as seen by the host: speeds, step limits, forces, sums, saved state.
 
 #include <algorithm>
 #include <cmath>
@@ -107,7 +107,7 @@ BodyTotals FreeBodies::totals(double time) const {
     const RigidBody& b = rigid(k);
     const Quat<double> turn = to_quat(q[k]);
     const Vec3d centre = x[k] + turn.rotate(b.arm);
-    // of a body that only turns, `angular_momentum` is all there is, about its pivot
+    // a body that only rotates has `angular_momentum` about its pivot, and no v
     const Vec3d u =
         b.move == BodyMove::none ? cross(b.omega(turn, angular_momentum[k]), centre - x[k]) : v[k];
     const double moving = 0.5 * b.mass * norm2(u);

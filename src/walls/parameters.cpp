@@ -43,7 +43,7 @@ BodyPose still_pose(const WallBody& body) {
 
 // -- free bodies -------------------------------------------------------------
 
-/// From the material of a body: Hertz and Mindlin, and the grains' way to resist rolling.
+/// From the material of a body: Hertz and Mindlin, with the rolling law of the grains.
 BodyLaw law_of(const FreeConfig& f, ContactConfig contact) {
   contact.normal = NormalLaw::hertz;
   contact.tangential = SlidingLaw::mindlin;
@@ -58,7 +58,7 @@ BodyLaw law_of(const FreeConfig& f, ContactConfig contact) {
                                        .contact = contact}));
 }
 
-/// `b`, `place`: its places among the wall bodies and among the free ones.
+/// b, place: indices among the wall bodies and among the free ones.
 FreeBody free_body(const Config& config, std::uint32_t b, Index place) {
   const WallBody& body = config.wall.bodies[b];
   const FreeConfig& f = body.free;

@@ -11,7 +11,7 @@ class SubstepLoads {
  public:
   void record_on(const std::vector<std::uint32_t>& bodies) { bodies_ = bodies; }
   bool wanted() const { return !bodies_.empty(); }
-  /// A step begins; all its loads are 0 so far.
+  /// Starts a step with all loads zero.
   void begin(int substeps) {
     substeps_ = wanted() ? substeps : 0;
     loads_.resize(std::size_t(substeps_) * bodies_.size());

@@ -44,7 +44,7 @@ Surface make_face(const DomainConfig& domain, const WallBody& body, std::uint32_
   return s;
 }
 
-/// Touches that a grain may have with one surface at once.
+/// Largest number of contacts of a grain with one surface at once.
 int most_contacts(const Surface& s) {
   switch (s.kind) {
     case SurfaceKind::mesh:

@@ -13,19 +13,19 @@ struct SurfacePart;
 
 namespace bedload::inline BL_VARIANT {
 
-/// The surfaces of wall bodies, where kernels find them: a rectangle for each face of a tank, one surface for
-/// a box or a plane, one for each part of a shape.
+/// The surfaces of wall bodies, on the device: a rectangle for each face of a tank, one surface for a box or
+/// a plane, one for each part of a shape.
 class WallGeometry {
  public:
-  /// Of those that `wanted` holds for.
+  /// The surfaces of the bodies selected by `wanted`.
   WallGeometry(
       const std::vector<WallBody>& bodies, const DomainConfig& domain,
       const std::function<bool(const WallBody&)>& wanted = [](const WallBody&) { return true; });
 
   const std::vector<Surface>& surfaces() const { return surfaces_; }
-  /// Touches that one grain may have at once, at most kMostWallContacts.
+  /// Largest number of contacts of one grain at once, at most kMostWallContacts.
   int contacts() const { return contacts_; }
-  /// Valid as long as this lives and stays where it is.
+  /// Valid as long as this object exists and is not moved.
   SurfaceSet view() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Grains dropped in while a case runs.
+// Insertion of grains during a run.
 
 #include <cstdint>
 #include <vector>
@@ -16,7 +16,7 @@ class GrainSource {
  public:
   GrainSource(const Config& config, std::size_t index);
 
-  /// What a restart must know.
+  /// State for a restart.
   struct State {
     double count = 0;   ///< grains dropped so far
     double mass = 0;    ///< of them, kg
@@ -31,7 +31,7 @@ class GrainSource {
   Vec3d velocity() const { return inlet_.velocity; }
   /// The next grain is due.
   bool due(double t) const { return pending(t) > 0; }
-  /// Another has come due since space was last looked for.
+  /// Another grain has become due since space was last looked for.
   bool news(double t) const { return state.count + pending(t) > state.asked; }
   /// Grains due but not yet dropped.
   double pending(double t) const;
@@ -39,7 +39,7 @@ class GrainSource {
   /// A new round of random places for the next grain, m.
   std::vector<Vec3d> places();
   void dropped();
-  /// Goes on from a state that has been set.
+  /// Continues from a restored state.
   void resume() { radius_ = next_radius(); }
 
  private:

@@ -69,17 +69,17 @@ class FieldBase {
   bool used() const { return used_; }
   bool sorted() const { return lifetime == Lifetime::kept || lifetime == Lifetime::carried; }
   bool saved() const { return lifetime == Lifetime::kept || lifetime == Lifetime::renewed; }
-  /// For good: a case that does not need the field spends no memory on it. Its span is empty.
+  /// For a case that does not need the field: it takes no memory, and its span is empty.
   void leave_out() { used_ = false; }
-  /// Checkpoints of cases that left it out can be gone on with: it begins at zero.
+  /// May be missing from a checkpoint; then it is initialised to zero.
   void begin_at_zero() { needed_ = false; }
   bool needed() const { return needed_; }
 
   virtual void resize(Index n) = 0;
   /// To n entries, the new ones zero.
   virtual void grow(Index n) = 0;
-  /// x[i] = old x[order[i]]; shrinks to order.size. Takes the memory of `by` for it, whose values are lost,
-  /// if that is of the same type.
+  /// x[i] = old x[order[i]]; shrinks to order.size. If `by` has the same type its memory is used, and its
+  /// values are lost.
   virtual void gather(Span<const Index> order, FieldBase* by) = 0;
   virtual HostArray to_host() const = 0;
   virtual void from_host(const HostArray& array) = 0;

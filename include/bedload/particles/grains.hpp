@@ -16,7 +16,7 @@ struct GrainStore : Store {
   Field<Real3> omega{*this, "omega", "rad/s", Lifetime::kept};
   Field<Real3> force{*this, "contact_force", "N", Lifetime::kept};    ///< contacts, walls
   Field<Real3> torque{*this, "contact_torque", "N m", Lifetime::kept};
-  // from the fluid, held during a fluid step
+  // from the fluid, constant over a fluid step
   Field<Real3> fluid_force{*this, "fluid_force", "N", Lifetime::kept};      ///< stress of the mixture on its volume: buoyancy
   Field<Real3> drag_force{*this, "drag_force", "N", Lifetime::kept};        ///< mean over the last step
   Field<Real> eps{*this, "porosity", "-", Lifetime::kept};
@@ -29,7 +29,7 @@ struct GrainStore : Store {
   Field<Real3> spin_impulse{*this, "spin_impulse", "N m s", Lifetime::derived};
   // for the exchange with fluid
   Field<PairPosition> xp{*this, "xp", "-", Lifetime::derived};     ///< packed
-  Field<Vec3d> x_before{*this, "x_before", "m", Lifetime::derived};  ///< where the step began
+  Field<Vec3d> x_before{*this, "x_before", "m", Lifetime::derived};  ///< at the start of the step
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -18,13 +18,13 @@ class Store {
   Index size() const { return size_; }
   Range owned() const { return {0, size_}; }
   const std::vector<FieldBase*>& fields() const { return fields_; }
-  /// All fields to n entries; contents are lost where they grow.
+  /// Resizes all fields to n entries; the contents of a field that grows are lost.
   void resize(Index n) {
     size_ = n;
     for (auto* f : fields_)
       if (f->used()) f->resize(n);
   }
-  /// Adds particles up to n, all of whose fields are zero.
+  /// Adds particles up to n, with all fields zero.
   void grow(Index n) {
     size_ = n;
     for (auto* f : fields_)
@@ -59,7 +59,7 @@ class Store {
 
  private:
   friend class FieldBase;
-  /// A field of the same type whose values need not last while particles are sorted.
+  /// A field of the same type that may be overwritten while particles are sorted; null if there is none.
   FieldBase* scratch_for(const FieldBase& field) const {
     for (auto* f : fields_)
       if (f->used() && !f->sorted() && typeid(*f) == typeid(field)) return f;
