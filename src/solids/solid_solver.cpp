@@ -40,9 +40,7 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
       wall_list_(frame, walls, skin(), film_range(parameters.d_max / 2)) {
   wall_laws_.assign(parameters.wall_laws);
   if (parameters.materials.size() > 1) pair_laws_.assign(parameters.pair_laws);
-  with_contact_law(parameters.pair_laws, [&]<class Law>(std::type_identity<Law>) {
-    end_substep_ = &SolidSolver::end_substep<Law>;
-  });
+  with_contact_law(parameters.pair_laws, [&]<class Law>(std::type_identity<Law>) { use_pair_law<Law>(); });
   choose_wall_law();
   if (walls.contacts() == 0) return;
   wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);

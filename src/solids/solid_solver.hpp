@@ -137,7 +137,15 @@ class SolidSolver {
   template <class Law>
   void end_substep(GrainStore& grains, const ContactPass& contacts, const GrainKick& kick, double dt,
                    bool last);
-  /// Sets evaluate_walls_.
+  // not within lambdas, which nvcc would compile for the device
+  template <class Law>
+  void use_pair_law() {
+    end_substep_ = &SolidSolver::end_substep<Law>;
+  }
+  template <class Scope>
+  void use_wall_law() {
+    evaluate_walls_ = &SolidSolver::evaluate_walls<Scope>;
+  }
   void choose_wall_law();
   /// Evaluates wall contacts and lubrication; returns the pass over the contacts between grains, which adds
   /// them.

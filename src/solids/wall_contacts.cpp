@@ -48,16 +48,13 @@ void SolidSolver::evaluate_walls(const WallContacts& contacts, const ContactLoad
 }
 
 void SolidSolver::choose_wall_law() {
-  const auto choose = [&]<class Scope>(std::type_identity<Scope>) {
-    evaluate_walls_ = &SolidSolver::evaluate_walls<Scope>;
-  };
   with_surface_kinds(walls_.surfaces(), [&]<class Kinds>(std::type_identity<Kinds>) {
     if constexpr (!std::is_same_v<Kinds, AllKinds>)
       if (!bodies_ || !bodies_->any())
         return with_contact_law(parameters_.wall_laws, [&]<class Law>(std::type_identity<Law>) {
-          choose(std::type_identity<WallScope<Law, Kinds, false>>{});
+          use_wall_law<WallScope<Law, Kinds, false>>();
         });
-    choose(std::type_identity<WallScope<ContactLaw, Kinds, true>>{});
+    use_wall_law<WallScope<ContactLaw, Kinds, true>>();
   });
 }
 
