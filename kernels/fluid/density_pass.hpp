@@ -10,22 +10,24 @@ namespace bedload::inline BL_VARIANT {
 
 /// Continuity of the mixture with density diffusion (Fourtakas et al. 2019), over `dt`:
 ///   eps_a d rho_a / dt = - sum_b M_b (q_a - q_b) . r_ab F_ab,  M = m / eps,  q = eps v + sum_j w_j u_j,
-/// q being the volume flux of fluid and grains, which the density balances; [H (6)], [R (7)] where there are
-/// no grains. Its adjoint is the pressure force of ForcePass, of which fluid and grains take the fractions
-/// with which they make up q: what pressure does to both is what the energy of compression loses.
-/// Kick-drift-kick passes positions and velocities of the middle of the step, which makes it reversible.
-/// Walls count by their continuity_mass, and give back the work of their own pressure (WallWorkPass).
-/// Continuity tells changes of density alone. Where fluid is fragmented, s follows the void, by which less of
-/// the kernel is filled than a plane surface would leave, so that there is pressure again no sooner than the
-/// void has closed. Surfaces that meet would hold each other off by a gap, since each counts as filled up to
-/// the other: under pressure that fades, as fast as it is high and the void wide, until the fluid fills its
-/// volume. Nor is continuity of the mixture that of the particles: what the gradient of the porosity in its
-/// sum differs from how the porosity changes along the way adds up, and fluid that has entered a bed may
-/// stand more closely than its volume allows. So among grains density grows where particles overfill the
-/// kernel by more than `slack`. `compression` is what continuity alone makes of s, which the acoustic damper
-/// takes (StatePass). kSmooth: with density diffusion and all that follows the void; without, continuity
-/// alone. kPorous: there are grains. Fit: LinearFit, with Shifting, or NoFit. Where smoothing lengths vary,
-/// the sum of continuity is taken at h_a and divided by Omega_a.
+/// q being the volume flux of fluid and grains; [H (6)], [R (7)] without grains. Its adjoint is the pressure
+/// force of ForcePass, which fluid and grains share by their weights in q: the power of pressure on both is
+/// the loss of compression energy. Kick-drift-kick passes positions and velocities at mid-step, which makes
+/// it reversible. Walls enter by their continuity_mass and return the work of their own pressure
+/// (WallWorkPass).
+///
+/// Continuity gives changes of density only. Three terms correct s = rho / rho0 - 1 by the particles, with
+/// f = sum V W over fluid and walls and the void v = max(0, 1 - f - cut), cut: left empty by a plane surface:
+///   s < least:  ds/dt = fading (min(least, slack - v) - s)
+///               fragmented fluid has no pressure before its void has closed;
+///   s >= least: ds/dt = -fading v max(s, 0)
+///               void relaxation: surfaces that meet would keep a gap, each counting as full up to the other;
+///   always:     ds/dt = spreading max(0, f - 1 - slack)
+///               among grains errors of the porosity gradient add up, so particles may overfill the kernel.
+/// The rate of s by continuity alone is the input of the acoustic damper (StatePass). kSmooth: with density
+/// diffusion and these terms; else continuity alone. kPorous: there are grains. Fit: LinearFit, with
+/// Shifting, or NoFit. With variable smoothing lengths the sum of continuity is taken at h_a and divided by
+/// Omega_a.
 template <class W, class Shift, class Fit, bool kSmooth, bool kPorous, class Lengths>
 struct DensityPass {
   W w;

@@ -6,8 +6,8 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// A pass over pairs of fluid that is sheared as a whole (MeanShear): of positions that are sheared back and
-/// peculiar velocities, which loops bring, it makes true separations and velocities relative to the row's.
+/// Adapter of a pass to Lees-Edwards shear (MeanShear): converts unsheared coordinates and peculiar
+/// velocities, which loops pass, to true separations and velocities relative to the row's particle.
 template <class Pass>
 struct ShearedPass {
   Pass pass;
@@ -39,7 +39,7 @@ struct ShearedPass {
   }
 };
 
-/// Which passes are built for sheared fluid, too: those of one fluid alone with one smoothing length.
+/// Passes that support shear: those of a single fluid with one smoothing length.
 template <class Pass>
 constexpr bool supports_shear = false;
 template <class W, class Shift, class Fit, bool kSmooth>

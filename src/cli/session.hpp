@@ -15,7 +15,7 @@
 
 namespace bedload {
 
-/// Throws FileError if options.out holds a run that is neither gone on from nor to be replaced.
+/// Throws FileError if options.out holds a run, unless it is restarted from or overwritten.
 void refuse_other_run(const Options& options);
 
 /// A simulation with its results folder, if it has one, from before its first step to its end.

@@ -64,16 +64,16 @@ struct StartPass {
 
 /// The first particle of each cell marks it and those beside it.
 template <class P>
-struct InhabitPass {
+struct OccupyPass {
   CellGridView grid;
   Frame frame;
   Span<const P> x;
   Span<const std::uint32_t> key;
   Span<const Index> order;
-  Span<std::uint8_t> inhabited;
+  Span<std::uint8_t> occupied_nearby;
   BL_HD void operator()(Index i) const {
     if (i > 0 && key[i - 1] == key[i]) return;
-    grid.each_beside(coordinates(frame, x[order[i]]), [&](std::uint32_t c) { inhabited[c] = 1; });
+    grid.each_beside(coordinates(frame, x[order[i]]), [&](std::uint32_t c) { occupied_nearby[c] = 1; });
   }
 };
 
@@ -100,7 +100,7 @@ CellGrid::CellGrid(const Frame& frame, const Vec3d& min, const Vec3d& max, doubl
   const auto curve = hilbert_curve();
   curve_.assign({curve.begin(), curve.end()});
   start_.resize(cells_ + 1);
-  inhabited_.resize(cells_);
+  occupied_nearby_.resize(cells_);
 }
 
 template <class P>
@@ -110,8 +110,8 @@ void CellGrid::sort(const Frame& frame, Span<const P> x, Buffer<Index>& order) {
   for_each({0, x.size}, KeyPass<P>{view(), frame, x, keys});
   sort_keys(keys, order, key_bits_);
   for_each({0, cells_ + 1}, StartPass{keys, start_});
-  inhabited_.zero();
-  for_each({0, x.size}, InhabitPass<P>{view(), frame, x, keys, order, inhabited_});
+  occupied_nearby_.zero();
+  for_each({0, x.size}, OccupyPass<P>{view(), frame, x, keys, order, occupied_nearby_});
 }
 template void CellGrid::sort(const Frame&, Span<const Vec3d>, Buffer<Index>&);
 template void CellGrid::sort(const Frame&, Span<const PackedPosition>, Buffer<Index>&);
@@ -120,7 +120,7 @@ CellGridView CellGrid::view() const {
   CellGridView v = shape_;
   v.curve = curve_.data();
   v.start = start_.data();
-  v.inhabited = inhabited_.data();
+  v.occupied_nearby = occupied_nearby_.data();
   return v;
 }
 

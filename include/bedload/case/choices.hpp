@@ -63,7 +63,7 @@ template <>
 inline constexpr auto kNames<NormalLaw> = std::to_array<Named<NormalLaw>>({
     {NormalLaw::hertz, "hertz", "Hertz spring, damping exact in e"},
     {NormalLaw::linear, "linear", "linear spring and dashpot"},
-    {NormalLaw::democritus, "democritus", "Hertz spring, damped beyond rebound whatever grain.e [tsuzuki]"},
+    {NormalLaw::democritus, "democritus", "Hertz spring, overdamped, ignores grain.e [tsuzuki]"},
     {NormalLaw::none, "none", "grains pass through each other"},
 });
 

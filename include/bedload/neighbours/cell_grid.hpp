@@ -13,10 +13,10 @@ struct CellGridView {
   int n[3] = {1, 1, 1};   ///< cells that can hold particles
   int bricks[3] = {1, 1, 1};
   bool periodic[3] = {false, false, false};
-  const std::uint16_t* curve = nullptr;     ///< [512] place on the Hilbert curve of a cell in its brick
-  const Index* start = nullptr;             ///< [cells + 1] first particle of each cell
-  const std::uint8_t* inhabited = nullptr;  ///< [cells] whether it or a cell beside it holds any
-  unsigned level = 0;                       ///< log2 of the sorted cells along each edge of these
+  const std::uint16_t* curve = nullptr;           ///< [512] place on the Hilbert curve of a cell in its brick
+  const Index* start = nullptr;                   ///< [cells + 1] first particle of each cell
+  const std::uint8_t* occupied_nearby = nullptr;  ///< [cells] whether it or a cell beside it holds any
+  unsigned level = 0;                             ///< log2 of the sorted cells along each edge of these
 
   /// Cell coordinate along axis k; outside positions go to the nearest cell, periodic ones wrap.
   BL_HD int coordinate(double x, int k) const {
@@ -49,7 +49,7 @@ struct CellGridView {
     while (fits()) {
       ++view.level;
       for (int k = 0; k < 3; ++k) view.n[k] = (view.n[k] + 1) / 2, view.inverse[k] /= 2;
-      view.inhabited = nullptr;  // told of sorted cells alone
+      view.occupied_nearby = nullptr;  // valid only for sorted cells
     }
     return view;
   }
@@ -117,7 +117,7 @@ struct CellGridView {
   /// Whether any particle may be within `range` of x.
   BL_HD bool any_near(const Vec3d& x, double range) const {
     const bool beyond = range * max_of(inverse.x, max_of(inverse.y, inverse.z)) > 1;
-    return beyond || !inhabited || inhabited[key(x)] != 0;
+    return beyond || !occupied_nearby || occupied_nearby[key(x)] != 0;
   }
   /// f(key) for the cell of x and those beside it; on a short periodic axis more than once.
   template <class F>
@@ -185,7 +185,7 @@ class CellGrid {
   int key_bits_ = 32;
   Buffer<std::uint16_t> curve_;
   Buffer<Index> start_;
-  Buffer<std::uint8_t> inhabited_;
+  Buffer<std::uint8_t> occupied_nearby_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -34,8 +34,8 @@ class Stopwatch {
     laps_ = 0;
     mark();
   }
-  /// What has been queued since the last mark belonged to `part`; after kMostLaps - 1 of them nothing is
-  /// told.
+  /// What has been queued since the last mark belonged to `part`; after kMostLaps - 1 of them no time
+  /// is recorded.
   void lap(int part) {
     if (laps_ + 1 >= kMostLaps) return;
     part_[laps_++] = part;
