@@ -5,9 +5,9 @@
 
 #include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/sampling.hpp"
+#include "bedload/parallel/reductions.hpp"
 #include "kernels/boundaries/insert.hpp"
 #include "kernels/boundaries/sinks.hpp"
-#include "src/measure/sweeps.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {

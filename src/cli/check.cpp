@@ -11,7 +11,7 @@
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/setup.hpp"
 #include "bedload/output/intervals.hpp"
-#include "bedload/output/preview.hpp"
+#include "src/viewer/preview.hpp"
 #include "commands.hpp"
 #include "prepare.hpp"
 #include "progress.hpp"

@@ -12,7 +12,7 @@
 #include "commit.hpp"
 #include "list.hpp"
 #include "shell.hpp"
-#include "src/live/server.hpp"
+#include "src/viewer/live/server.hpp"
 
 namespace bedload {
 namespace {

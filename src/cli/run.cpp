@@ -13,7 +13,7 @@
 #include "progress.hpp"
 #include "run.hpp"
 #include "session.hpp"
-#include "src/live/server.hpp"
+#include "src/viewer/live/server.hpp"
 #include "stop.hpp"
 
 namespace bedload {

@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "bedload/neighbours/tile_search.hpp"
+#include "bedload/parallel/reductions.hpp"
 #include "kernels/walls/crossing.hpp"
 #include "src/fluid/fluid_solver.hpp"
-#include "src/measure/sweeps.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bedload/parallel/reductions.hpp"
 #include "kernels/fluid/collision_pass.hpp"
 #include "kernels/integrate/fluid_kicks.hpp"
 #include "src/fluid/registry.hpp"
-#include "src/measure/sweeps.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "kernels/boundaries/sinks.hpp"
 #include "src/measure/arrays.hpp"
-#include "src/measure/sweeps.hpp"
+#include "src/measure/readings.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -292,7 +292,7 @@ void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>&
   FluidStore& fluid = state_.fluid;
   const double dt = state_.clock.last_dt;
   const auto powers = solver.powers(fluid, state_.walls, state_.poses_now(), stepper_.moment(), dt);
-  SumSweep<5, PowersBody>::Value p;
+  SumReduction<5, PowersBody>::Value p;
   for (double& v : p.v) v = std::nan("");  // models that do not compute them
   if (powers) p = sum_over<5>(fluid.owned(), PowersBody{powers});
   double moving = 0;  // the pressure's work on the fluid
@@ -320,7 +320,7 @@ void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>&
                 .fastest = Real(0.999 * solver.fastest_shift(dt))});
   out.push_back({"power_shifting", "W", d.v[0]});
   out.push_back({"power_drive", "W", d.v[1]});
-  SumSweep<2, StoppedBody>::Value r{};
+  SumReduction<2, StoppedBody>::Value r{};
   if (const WallRepulsion walls = solver.repulsion(fluid, state_.poses_now(), dt);
       walls.walls.surfaces.size > 0)
     r = sum_over<2>(fluid.owned(), StoppedBody{walls, fluid.x, fluid.mass, fluid.v_rho, fluid.heading});
@@ -380,11 +380,11 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
     // columns do not depend on options, which may change at a restart
     const bool corrected = state_.fluid.correction.used(), damped = state_.fluid.compression_rate.used();
-    SumSweep<4, CorrectionBody>::Value c{};
+    SumReduction<4, CorrectionBody>::Value c{};
     if (corrected)
       c = sum_over<4>(state_.fluid.owned(), CorrectionBody{state_.fluid.mass, state_.fluid.m_state,
                                                            state_.fluid.v_rho, state_.fluid.correction});
-    SumSweep<1, DamperBody>::Value d{};
+    SumReduction<1, DamperBody>::Value d{};
     if (damped)
       d = sum_over<1>(state_.fluid.owned(),
                       DamperBody{stepper_.fluid().damping(), config_.fluid.rho0, state_.fluid.m_state,

@@ -6,7 +6,7 @@
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/depth.hpp"
 #include "kernels/smoothing/registry.hpp"
-#include "src/measure/sweeps.hpp"
+#include "src/measure/readings.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace bedload::inline BL_VARIANT {

@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "src/measure/sweeps.hpp"
+#include "src/measure/readings.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "bedload/output/files.hpp"
-#include "src/output/plot.hpp"
+#include "src/viewer/plot.hpp"
 
 namespace bedload {
 namespace {

@@ -19,10 +19,13 @@ LAYERS = {
     "include/bedload/particles": (CORE, PARALLEL, "bedload/particles/", "bedload/host_data.hpp"),
     "include/bedload/neighbours": (CORE, PARALLEL, "bedload/neighbours/"),
     "kernels": (CORE, PARALLEL, *DATA, *CASE, "kernels/"),
-    **{row.rstrip("/"): ("bedload/", "kernels/", *SOLVERS, "src/motion/", "src/measure/sweeps.hpp")
+    **{row.rstrip("/"): ("bedload/", "kernels/", *SOLVERS, "src/motion/")
        for row in SOLVERS},
 }
 WHOLE = "bedload/case/config.hpp"
+#: what the rest of the code must not need, and the folders that may include it
+TOOLS = {"src/viewer/": ("src/viewer", "src/viscometer", "src/cli", "src/python"),
+         "src/cli/": ("src/cli", "src/python"), "cli/": ("src/cli", "src/python", "src/main.cpp")}
 
 
 def sources(folder):
@@ -60,6 +63,17 @@ class Includes(unittest.TestCase):
             for path in sources(folder):
                 wrong = [name for name in includes(path) if not name.startswith(allowed)]
                 self.assertEqual(wrong, [], path.relative_to(TOP))
+
+    def test_viewer_and_command_line_stand_on_top(self):
+        found = dict.fromkeys(TOOLS, 0)
+        for folder in ("include", "kernels", "src"):
+            for path in sources(folder):
+                for tool, users in TOOLS.items():
+                    if any(name.startswith(tool) for name in includes(path)):
+                        found[tool] += 1
+                        self.assertTrue(str(path.relative_to(TOP)).startswith(users), f"{path.relative_to(TOP)}: {tool}")
+        self.assertGreater(found["src/viewer/"], 5)
+        self.assertGreater(found["cli/"], 1)
 
     def test_solvers_see_their_parameters_alone(self):
         """Of the rows of the solver, `parameters.cpp` makes them of a Config; `src/time`, the top, has one."""

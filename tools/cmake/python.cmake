@@ -9,7 +9,7 @@ set(package ${CMAKE_BINARY_DIR}/python/bedload)
 file(GLOB module_sources CONFIGURE_DEPENDS src/python/bindings/*.cpp)
 nanobind_add_module(bedload_python NB_STATIC EXCLUDE_FROM_ALL ${module_sources})
 set_target_properties(bedload_python PROPERTIES OUTPUT_NAME _bedload LIBRARY_OUTPUT_DIRECTORY ${package})
-target_link_libraries(bedload_python PRIVATE bedload_host bedload_device)
+target_link_libraries(bedload_python PRIVATE bedload_program bedload_device)
 nanobind_add_stub(bedload_python_stub MODULE _bedload OUTPUT ${package}/_bedload.pyi PYTHON_PATH ${package}
                   DEPENDS bedload_python)
 file(GLOB package_sources CONFIGURE_DEPENDS src/python/bedload/*)

@@ -39,8 +39,8 @@ endfunction()
 find_program(BEDLOAD_PYTHON python PATHS ${CMAKE_SOURCE_DIR}/build/venv/bin NO_DEFAULT_PATH)
 
 file(GLOB host_tests CONFIGURE_DEPENDS tests/case/*_test.cpp tests/geometry/*_test.cpp
-                                       tests/live/*_test.cpp tests/motion/*_test.cpp tests/output/*_test.cpp
-                                       tests/program/*_test.cpp tests/viscometer/*_test.cpp)
+                                       tests/motion/*_test.cpp tests/output/*_test.cpp tests/program/*_test.cpp
+                                       tests/viewer/*_test.cpp tests/viscometer/*_test.cpp)
 if(host_tests)
   add_executable(bedload_host_tests ${host_tests})
   add_dependencies(bedload_host_tests bedload)
@@ -50,7 +50,7 @@ if(host_tests)
     target_compile_definitions(bedload_host_tests PRIVATE BEDLOAD_PYTHON="${BEDLOAD_PYTHON}")
   endif()
   target_compile_options(bedload_host_tests PRIVATE $<$<CONFIG:Release>:-O1>)  # in half the time
-  target_link_libraries(bedload_host_tests PRIVATE bedload_host bedload_device GTest::gtest_main)
+  target_link_libraries(bedload_host_tests PRIVATE bedload_program bedload_device PNG::PNG GTest::gtest_main)
   bedload_register(bedload_host_tests quick)
   bedload_register(bedload_host_tests slow)
 endif()

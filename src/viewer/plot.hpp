@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bedload/output/image.hpp"
+#include "src/viewer/image.hpp"
 
 namespace bedload {
 

@@ -1,4 +1,4 @@
-#include "bedload/output/preview.hpp"
+#include "src/viewer/preview.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "src/output/plot.hpp"
+#include "src/viewer/plot.hpp"
 
 #include <gtest/gtest.h>
 

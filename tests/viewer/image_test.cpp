@@ -1,4 +1,4 @@
-#include "bedload/output/image.hpp"
+#include "src/viewer/image.hpp"
 
 #include <gtest/gtest.h>
 #include <png.h>
@@ -8,9 +8,9 @@
 #include <cstring>
 
 #include "bedload/core/error.hpp"
-#include "fake_simulation.hpp"
-#include "output/font.hpp"
-#include "output/render.hpp"
+#include "tests/output/fake_simulation.hpp"
+#include "src/viewer/font.hpp"
+#include "src/viewer/render.hpp"
 
 namespace bedload::testing {
 namespace {

@@ -1,18 +1,13 @@
 #pragma once
-// Reductions over stores for diagnostics and probes. All sums in fp64.
+// Sums and maxima over a range. All sums in fp64.
 
 #include "bedload/parallel/loops.hpp"
-#include "bedload/particles/fluid.hpp"
-#include "bedload/particles/grains.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Pressure from the pair-loop record of fluid or walls, Pa.
-BL_HD Real pressure_of(const Real4& m_state) { return m_state.y * square(m_state.z); }
-
 /// Sum of N doubles: Body(i, double out[N]) fills one particle's part.
 template <int N, class Body>
-struct SumSweep {
+struct SumReduction {
   struct Value {
     double v[N];
   };
@@ -34,12 +29,12 @@ struct SumSweep {
 
 template <int N, class Body>
 auto sum_over(Range range, const Body& body) {
-  return reduce(range, SumSweep<N, Body>{body});
+  return reduce(range, SumReduction<N, Body>{body});
 }
 
 /// Largest Body(i).
 template <class Body>
-struct MaxSweep {
+struct MaxReduction {
   using Value = double;
   Body body;
   BL_HD double identity() const { return -1e300; }
@@ -49,16 +44,7 @@ struct MaxSweep {
 
 template <class Body>
 double max_over(Range range, const Body& body) {
-  return reduce(range, MaxSweep<Body>{body});
+  return reduce(range, MaxReduction<Body>{body});
 }
-
-/// Coordinate along a direction, m.
-template <class P>
-struct AlongBody {
-  Frame frame;
-  Span<const P> x;
-  Vec3d direction;
-  BL_HD double operator()(Index i) const { return dot(direction, coordinates(frame, x[i])); }
-};
 
 }  // namespace bedload::inline BL_VARIANT

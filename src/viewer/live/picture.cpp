@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/output/picture.hpp"
-#include "src/output/render.hpp"
+#include "src/viewer/picture.hpp"
+#include "src/viewer/render.hpp"
 
 namespace bedload {
 namespace {

@@ -1,4 +1,4 @@
-#include "bedload/output/image.hpp"
+#include "src/viewer/image.hpp"
 
 #include <fmt/format.h>
 #include <png.h>

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bedload/core/vec.hpp"
-#include "bedload/output/image.hpp"
+#include "src/viewer/image.hpp"
 
 namespace bedload {
 

@@ -1,6 +1,6 @@
 // What a live view keeps of a run: rows, frames and pictures.
 
-#include "src/live/view.hpp"
+#include "src/viewer/live/view.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 
 #include "frame.hpp"
 #include "picture.hpp"
-#include "src/cli/progress.hpp"
+#include "src/viewer/progress_meter.hpp"
 
 namespace bedload {
 

@@ -3,7 +3,7 @@
 
 #include "bedload/case/config.hpp"
 #include "bedload/host_data.hpp"
-#include "bedload/output/image.hpp"
+#include "src/viewer/image.hpp"
 
 namespace bedload {
 

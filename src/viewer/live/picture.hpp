@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bedload/case/config.hpp"
-#include "bedload/output/image.hpp"
+#include "src/viewer/image.hpp"
 #include "frame.hpp"
 
 namespace bedload {
