@@ -10,10 +10,10 @@
 
 namespace {
 
-/// OpenMP's waiting threads spin for longer than most loops here take: beside another busy program that makes
-/// a run several times slower than threads that sleep, and alone it gains nothing. The runtime reads its
-/// settings as it is loaded, so the program starts anew with them.
-void let_waiting_threads_sleep(char** argv) {
+/// Makes idle OpenMP threads sleep. By default they spin for longer than most loops here take, which makes a
+/// run several times slower beside another busy program and gains nothing otherwise. The runtime reads the
+/// setting when it is loaded, so the program restarts itself with it.
+void set_passive_omp_wait(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
   std::error_code none;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", none);
@@ -26,6 +26,6 @@ void let_waiting_threads_sleep(char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  let_waiting_threads_sleep(argv);
+  set_passive_omp_wait(argv);
   return bedload::run_program(argc, argv);
 }

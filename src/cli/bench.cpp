@@ -8,7 +8,7 @@
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/output/files.hpp"
-#include "bench_rows.hpp"
+#include "benchmarks.hpp"
 #include "commands.hpp"
 #include "prepare.hpp"
 #include "progress.hpp"
@@ -26,10 +26,10 @@ struct Job {
   std::string name;
   fs::path file;  ///< empty: built in
   std::vector<std::string> overrides;
-  Prepared p;  ///< its config so far
+  Prepared p;  ///< only its config before measure()
 };
 
-/// A number for the table and for the file, where it is null if the case has no such thing.
+/// A value of the table and of the JSON file, null where it does not apply.
 struct Cell {
   std::string head, text, key;
   Json value;
@@ -37,20 +37,20 @@ struct Cell {
 
 struct Result {
   std::string name, precision;
-  double ms = 0;  ///< of a step
+  double ms = 0;  ///< per step
   std::vector<Cell> cells;
-  std::vector<Quantity> stages;  ///< of a step, ms; the last is what lies between the others
+  std::vector<Quantity> stages;  ///< per step, ms; the last is the rest
 };
 
-/// Some steps in a row.
-struct Span {
+/// One repeat: some steps in a row.
+struct Repeat {
   double seconds = 0;
   std::int64_t substeps = 0, rebuilds = 0;
   std::vector<Quantity> stages;  ///< s
 };
 
 std::vector<Job> jobs_of(const Options& o) {
-  const std::vector<BenchRow> built_in = bench_rows();
+  const std::vector<Benchmark> built_in = benchmarks();
   std::vector<Job> jobs;
   const auto add = [&](const std::string& name, const fs::path& file, const std::string& text,
                        std::vector<std::string> overrides) {
@@ -63,10 +63,9 @@ std::vector<Job> jobs_of(const Options& o) {
       jobs.push_back(std::move(job));
     }
   };
-  const auto add_row = [&](const BenchRow& row) {
-    add(row.name, {}, row.text, row.settings);
-    if (o.bench.default_settings && !row.settings.empty())
-      add(row.name + ", default settings", {}, row.text, {});
+  const auto add_benchmark = [&](const Benchmark& b) {
+    add(b.name, {}, b.text, b.settings);
+    if (o.bench.default_settings && !b.settings.empty()) add(b.name + ", default settings", {}, b.text, {});
   };
 
   std::vector<std::string> wanted = o.bench.cases;
@@ -75,81 +74,83 @@ std::vector<Job> jobs_of(const Options& o) {
     if (find_device(o.backend, o.threads).backend == "cuda") wanted = {"1M", "5M", "8M", "14M"};
   }
   for (const std::string& name : wanted) {
-    const auto row = std::find_if(built_in.begin(), built_in.end(),
-                                  [&](const BenchRow& each) { return each.name == name; });
-    if (row != built_in.end()) {
-      add_row(*row);
+    const auto found =
+        std::find_if(built_in.begin(), built_in.end(), [&](const Benchmark& b) { return b.name == name; });
+    if (found != built_in.end()) {
+      add_benchmark(*found);
     } else if (name.ends_with(".toml") || fs::exists(name)) {
       add(case_name(name), name, "", {});
     } else {
       std::string names;
-      for (const BenchRow& each : built_in) names += each.name + ", ";
+      for (const Benchmark& b : built_in) names += b.name + ", ";
       throw CaseError(
-          fmt::format("command line: {} is no row; it must be one of {}or a case file", name, names));
+          fmt::format("command line: unknown benchmark {}; it must be one of {}or a case file", name, names));
     }
   }
   for (const double width : o.bench.widths)
-    add_row(widened_dam_break(fmt::format("{} m wide", width), width));
+    add_benchmark(widened_dam_break(fmt::format("{} m wide", width), width));
   return jobs;
 }
 
-Span time_steps(Simulation& simulation, int steps) {
-  Span span;
+Repeat time_steps(Simulation& simulation, int steps) {
+  Repeat repeat;
   const std::vector<Quantity> before = simulation.time_spent();
   const auto from = std::chrono::steady_clock::now();
   for (int k = 0; k < steps; ++k) {
     const StepInfo info = simulation.step();
-    span.substeps += info.substeps;
-    span.rebuilds += info.rebuilt;
+    repeat.substeps += info.substeps;
+    repeat.rebuilds += info.rebuilt;
   }
-  span.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
-  span.stages = simulation.time_spent();
-  for (std::size_t k = 0; k < before.size(); ++k) span.stages[k].value -= before[k].value;
-  return span;
+  repeat.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+  repeat.stages = simulation.time_spent();
+  for (std::size_t k = 0; k < before.size(); ++k) repeat.stages[k].value -= before[k].value;
+  return repeat;
 }
 
-/// A number that only some cases have.
-Cell if_any(bool any, const std::string& head, const std::string& format, const std::string& key,
-            double value) {
-  return any ? Cell{head, fmt::format(fmt::runtime(format), value), key, value}
-             : Cell{head, "-", key, nullptr};
+/// A value that applies to some cases only.
+Cell optional_cell(bool applies, const std::string& head, const std::string& format, const std::string& key,
+                   double value) {
+  return applies ? Cell{head, fmt::format(fmt::runtime(format), value), key, value}
+                 : Cell{head, "-", key, nullptr};
 }
 
-/// Of the median span, but for spread and rebuilds.
-Result result_of(const Job& job, const Simulation& simulation, int steps, std::vector<Span> spans) {
-  std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) { return a.seconds < b.seconds; });
-  const Span& median = spans[spans.size() / 2];
+/// Values of the median repeat; spread and rebuilds over all.
+Result result_of(const Job& job, const Simulation& simulation, int steps, std::vector<Repeat> repeats) {
+  std::sort(repeats.begin(), repeats.end(),
+            [](const Repeat& a, const Repeat& b) { return a.seconds < b.seconds; });
+  const Repeat& median = repeats[repeats.size() / 2];
   std::int64_t rebuilds = 0;
-  for (const Span& span : spans) rebuilds += span.rebuilds;
-  const std::int64_t all = std::int64_t(steps) * std::int64_t(spans.size());
+  for (const Repeat& repeat : repeats) rebuilds += repeat.rebuilds;
+  const std::int64_t all = std::int64_t(steps) * std::int64_t(repeats.size());
   const Counts n = simulation.counts();
   const double ms = 1e3 * median.seconds / steps, substeps = double(median.substeps);
-  const double spread = 100 * (spans.back().seconds - spans.front().seconds) / median.seconds;
+  const double spread = 100 * (repeats.back().seconds - repeats.front().seconds) / median.seconds;
   const double bytes = double(simulation.bytes()) / double(n.fluid + n.walls + n.grains);
   const bool fluid = n.fluid > 0, grains = n.grains > 0 && substeps > 0;
 
-  Cell rebuilt = if_any(rebuilds > 0, "steps per rebuild", "{:.1f}", "steps_per_rebuild",
-                        double(all) / double(rebuilds));
+  Cell rebuilt = optional_cell(rebuilds > 0, "steps per rebuild", "{:.1f}", "steps_per_rebuild",
+                               double(all) / double(rebuilds));
   if (rebuilds == 0) rebuilt.text = fmt::format("> {}", all);
-  Result result{job.name,
-                job.p.config.precision,
-                ms,
-                {{"row", job.name, "row", job.name},
-                 {"N fluid", grouped(n.fluid), "fluid_particles", n.fluid},
-                 {"N wall", grouped(n.walls), "wall_particles", n.walls},
-                 {"N grains", grouped(n.grains), "grains", n.grains},
-                 {"precision", job.p.config.precision, "precision", job.p.config.precision},
-                 if_any(fluid, "h/dx", "{:g}", "h_over_dx", job.p.config.fluid.h_over_dx),
-                 rebuilt,
-                 {"ms/step", fmt::format("{:.3f}", ms), "step_ms", ms},
-                 {"spread", fmt::format("{:.1f} %", spread), "spread_percent", spread},
-                 if_any(fluid, "fluid particle-steps/s", "{:.3g}", "fluid_particle_steps_per_s",
-                        1e3 * double(n.fluid) / ms),
-                 if_any(substeps > 0, "us/substep", "{:.2f}", "substep_us", 1e6 * median.seconds / substeps),
-                 if_any(grains, "sphere-substeps/s", "{:.3g}", "sphere_substeps_per_s",
-                        double(n.grains) * substeps / median.seconds),
-                 {"bytes/particle", fmt::format("{:.0f}", bytes), "bytes_per_particle", bytes}},
-                median.stages};
+  Result result{
+      job.name,
+      job.p.config.precision,
+      ms,
+      {{"benchmark", job.name, "row", job.name},
+       {"N fluid", grouped(n.fluid), "fluid_particles", n.fluid},
+       {"N wall", grouped(n.walls), "wall_particles", n.walls},
+       {"N grains", grouped(n.grains), "grains", n.grains},
+       {"precision", job.p.config.precision, "precision", job.p.config.precision},
+       optional_cell(fluid, "h/dx", "{:g}", "h_over_dx", job.p.config.fluid.h_over_dx),
+       rebuilt,
+       {"ms/step", fmt::format("{:.3f}", ms), "step_ms", ms},
+       {"spread", fmt::format("{:.1f} %", spread), "spread_percent", spread},
+       optional_cell(fluid, "fluid particle-steps/s", "{:.3g}", "fluid_particle_steps_per_s",
+                     1e3 * double(n.fluid) / ms),
+       optional_cell(substeps > 0, "us/substep", "{:.2f}", "substep_us", 1e6 * median.seconds / substeps),
+       optional_cell(grains, "sphere-substeps/s", "{:.3g}", "sphere_substeps_per_s",
+                     double(n.grains) * substeps / median.seconds),
+       {"bytes/particle", fmt::format("{:.0f}", bytes), "bytes_per_particle", bytes}},
+      median.stages};
   double rest = ms;
   for (Quantity& stage : result.stages) rest -= stage.value *= 1e3 / steps;
   result.stages.push_back({"rest", "ms", std::max(0.0, rest)});
@@ -172,14 +173,14 @@ Result measure(Job& job, const Options& o) {
   if (settle) simulation->load_grains(bed);
   simulation->start();
   while (simulation->time() < o.bench.at) simulation->step();
-  time_steps(*simulation, o.bench.warm);
-  std::vector<Span> spans;
-  for (int k = 0; k < o.bench.spans; ++k) spans.push_back(time_steps(*simulation, o.bench.steps));
-  return result_of(job, *simulation, o.bench.steps, std::move(spans));
+  time_steps(*simulation, o.bench.warm_up);
+  std::vector<Repeat> repeats;
+  for (int k = 0; k < o.bench.repeats; ++k) repeats.push_back(time_steps(*simulation, o.bench.steps));
+  return result_of(job, *simulation, o.bench.steps, std::move(repeats));
 }
 
-/// The place of what is wrong goes before it.
-Result measure_or_tell(Job& job, const Options& o) {
+/// measure() whose errors begin with file and line, or the name of the benchmark.
+Result measure_with_place(Job& job, const Options& o) {
   try {
     return measure(job, o);
   } catch (const KeyError& error) {
@@ -198,13 +199,13 @@ Table numbers_table(const std::vector<Result>& results) {
   return table;
 }
 
-/// Milliseconds and percent of a step.
+/// Milliseconds and percent per step.
 Table stages_table(const std::vector<Result>& results) {
   std::vector<std::string> stages;
   for (const Result& result : results)
     for (const Quantity& stage : result.stages)
       if (std::find(stages.begin(), stages.end(), stage.name) == stages.end()) stages.push_back(stage.name);
-  Table table{{"row", "precision"}};
+  Table table{{"benchmark", "precision"}};
   table[0].insert(table[0].end(), stages.begin(), stages.end());
   for (const Result& result : results) {
     std::vector<std::string> line{result.name, result.precision};
@@ -220,7 +221,7 @@ Table stages_table(const std::vector<Result>& results) {
   return table;
 }
 
-/// As Markdown; the first line is the head.
+/// As Markdown; the first line is the header.
 void print_table(const Table& table) {
   std::vector<std::size_t> widths(table.front().size());
   for (const auto& line : table)
@@ -243,9 +244,9 @@ Json json_of(const Options& o, const Device& device, const std::vector<Result>& 
     row["stages_ms"] = stages;
     rows.push_back(row);
   }
-  return {{"version", version()},        {"commit", commit()},     {"backend", device.backend},
-          {"device", device.name},       {"from_s", o.bench.at},   {"warm_steps", o.bench.warm},
-          {"span_steps", o.bench.steps}, {"spans", o.bench.spans}, {"rows", rows}};
+  return {{"version", version()},        {"commit", commit()},       {"backend", device.backend},
+          {"device", device.name},       {"from_s", o.bench.at},     {"warm_steps", o.bench.warm_up},
+          {"span_steps", o.bench.steps}, {"spans", o.bench.repeats}, {"rows", rows}};
 }
 
 }  // namespace
@@ -259,11 +260,11 @@ int bench(const Options& o) {
     write_file(o.bench.json,
                json_of(o, device, results).dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
   };
-  save();  // a wrong place is told before minutes have gone
+  save();  // a path that cannot be written fails now, not after minutes
   std::exception_ptr failure;
   for (std::size_t k = 0; k < jobs.size() && !failure; ++k) {
     try {
-      results.push_back(measure_or_tell(jobs[k], o));
+      results.push_back(measure_with_place(jobs[k], o));
       const Result& last = results.back();
       fmt::print(stderr, "{} {}: {:.3f} ms/step\n", last.name, last.precision, last.ms);
       save();
@@ -272,10 +273,10 @@ int bench(const Options& o) {
     }
   }
   if (!results.empty()) {
-    fmt::print("bedload {}, commit {}, {}: {}. From t = {:g} s, median of {} x {} steps.\n\n", version(),
-               commit(), device.backend, device.name, o.bench.at, o.bench.spans, o.bench.steps);
+    fmt::print("bedload {}, commit {}, {}: {}. From t = {:g} s, median of {} repeats of {} steps.\n\n",
+               version(), commit(), device.backend, device.name, o.bench.at, o.bench.repeats, o.bench.steps);
     print_table(numbers_table(results));
-    fmt::print("\nOf a step, ms:\n\n");
+    fmt::print("\nTime per step by stage, ms:\n\n");
     print_table(stages_table(results));
   }
   if (failure) std::rethrow_exception(failure);

@@ -10,18 +10,18 @@ inline constexpr int kExitBadInput = 2, kExitFault = 3, kExitLost = 4, kExitNoVi
 /// exit code.
 int run_program(int argc, const char* const* argv);
 
-/// Runs a case to its end; returns the exit code: 0, 4 if more than run.max_lost has left the domain, 130 if
-/// stopped by a signal.
+/// Runs a case; returns the exit code: 0, 4 if more than run.max_lost has left the domain, 130 if stopped by
+/// a signal.
 int run_case(const Options& options);
-/// Prints what a run of the case would be: particles, step limits, memory, run time, warnings.
+/// Prints particles, step limits, memory, run time and warnings of a case.
 int check_case(const Options& options);
-/// Runs a plane shear flow and tells its viscosity; returns the exit code of the run, or 5 if the profile is
-/// not that of a viscous fluid. Throws KeyError where the case is no such flow.
+/// Runs a plane shear flow and reports its viscosity; returns the exit code of the run, or 5 if the fit of
+/// the profile is rejected. Throws KeyError if the case is no plane shear flow.
 int viscometer(const Options& options);
-/// Prints what a checkpoint, a .vtkhdf file or a summary.json holds. Throws FileError.
+/// Prints the contents of a checkpoint, a .vtkhdf file or a summary.json. Throws FileError.
 int show_file(const std::filesystem::path& file);
-/// Times whole steps of cases, built in or from files, and prints a table. Bad input is told before anything
-/// is timed; after an error later on, what was timed before is printed.
+/// Times steps of built-in or user cases and prints a table. Bad input is reported before anything is timed;
+/// after a later error the results so far are printed.
 int bench(const Options& options);
 
 }  // namespace bedload

@@ -10,7 +10,7 @@
 namespace bedload {
 namespace {
 
-/// "auto cpu cuda" of an option whose values are "{auto,cpu,cuda}"; empty if they are not listed.
+/// "auto cpu cuda" for an option with the values "{auto,cpu,cuda}"; empty if they are not listed.
 std::string values_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const auto from = type.find('{'), to = type.find('}');
@@ -20,7 +20,7 @@ std::string values_of(const CLI::Option& option) {
   return values;
 }
 
-/// How the value of an option is completed, as a command of the script.
+/// The command of the script that completes the value of an option.
 std::string completed(const CLI::Option& option) {
   const std::string type = option.get_type_name(), values = values_of(option);
   if (!values.empty()) return fmt::format("_bedload_words '{}'", values);
@@ -41,7 +41,7 @@ std::string names_of(const CLI::Option& option, char separator) {
   return names;
 }
 
-/// The first of each list, as --set names it: wall.body.0.mu.
+/// All keys in the form of --set, with index 0 in lists: wall.body.0.mu.
 std::string keys() {
   std::string out;
   for (const ParameterRow& row : parameter_table()) {
@@ -66,7 +66,7 @@ _bedload_files() {
 
 constexpr const char* kTail = R"(
 _bedload() {
-  # The shell splits words at "=" too, which --set has within its value.
+  # The shell also splits words at "=", which the value of --set contains.
   local line=${COMP_LINE:0:COMP_POINT} word before command
   local -a words
   read -ra words <<< "$line"

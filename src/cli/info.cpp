@@ -1,4 +1,4 @@
-// Shows what a result file holds.
+// Shows the contents of a result file.
 
 #include <fmt/format.h>
 
@@ -89,7 +89,7 @@ void show_group(hid_t group, int depth) {
   }
 }
 
-/// {"value": .., "unit": ..} is one number to the reader.
+/// {"value": .., "unit": ..} is printed as one number.
 void show_json(const nlohmann::ordered_json& value, const std::string& name, int depth) {
   const auto line = [&](const std::string& text) {
     fmt::print("{:{}}{:<24} {}\n", "", 2 * depth, name, text);
@@ -114,7 +114,7 @@ void show_json(const nlohmann::ordered_json& value, const std::string& name, int
 
 int show_file(const fs::path& file) {
   if (fs::is_directory(file))
-    throw FileError(file.string() + ": cannot read: is a folder; name a file in it");
+    throw FileError(file.string() + ": cannot read: it is a folder; name a file in it");
   if (!fs::is_regular_file(file)) throw FileError(file.string() + ": cannot read: no such file");
   if (h5::is_hdf5(file)) {
     try {
@@ -132,7 +132,7 @@ int show_file(const fs::path& file) {
   };
   const auto summary = nlohmann::ordered_json::parse(in, shallow, false);
   if (summary.is_discarded() || !summary.is_object())
-    throw FileError(file.string() + ": is neither a checkpoint, a .vtkhdf file nor a summary.json");
+    throw FileError(file.string() + ": not a checkpoint, .vtkhdf file or summary.json");
   show_json(summary, "", 0);
   return 0;
 }

@@ -19,7 +19,7 @@ std::string table_of(const std::string& key) { return key.substr(0, key.rfind('.
 
 std::string parameters_text(std::vector<ParameterRow> rows);
 
-/// The choices of a family, then the parameters of the tables that hold them.
+/// The choices of a family, then the parameters of their tables.
 std::string choices_text(const std::string& family) {
   std::string out;
   std::set<std::string> tables;
@@ -32,7 +32,7 @@ std::string choices_text(const std::string& family) {
       out += fmt::format("  {:<20} {}{}\n", choice.name, choice.meaning,
                          choice.name == row.fallback.substr(1, row.fallback.size() - 2) ? " (default)" : "");
   }
-  tables.erase("");  // what stands outside all tables belongs to no family
+  tables.erase("");  // keys outside all tables belong to no family
   if (tables.empty()) return out;
   std::vector<ParameterRow> rows;
   for (const ParameterRow& row : parameter_table())
@@ -40,7 +40,7 @@ std::string choices_text(const std::string& family) {
   return out + '\n' + parameters_text(rows);
 }
 
-/// Words of other programs, each with what it is here.
+/// Terms of other programs and their equivalents here.
 std::string words_text(std::span<const Word> words) {
   std::size_t program = 1, name = 0;
   for (const Word& word : words) {
@@ -61,7 +61,7 @@ bool is_section(const std::string& name) {
   return !name.empty() && std::find(known.begin(), known.end(), name) == known.end();
 }
 
-/// Those of a section, a key or a family; all for "parameters" and an empty name.
+/// Parameters of a section, a key or a family; all for "parameters" and an empty name.
 std::vector<ParameterRow> rows_of(const std::string& name) {
   std::vector<ParameterRow> rows = parameter_table();
   if (!name.empty() && name != "parameters")
@@ -71,7 +71,7 @@ std::vector<ParameterRow> rows_of(const std::string& name) {
   return rows;
 }
 
-/// Words, then the parameters that they are here.
+/// Terms, then their equivalent parameters.
 std::string word_text(const std::vector<Word>& words) {
   std::vector<ParameterRow> rows;
   std::set<std::string> shown;
@@ -118,9 +118,9 @@ std::string not_listed(const std::string& name) {
   std::vector<std::string> known = families();
   for (const ParameterRow& row : parameter_table()) known.push_back(row.key);
   const std::string near = nearest_key(name, known);
-  return fmt::format(
-      "{} is none of {}, no section of a case, no key and no word that is known of other programs{}", name,
-      fmt::join(families(), ", "), near.empty() ? "" : fmt::format("; did you mean {}?", near));
+  return fmt::format("{} is not one of {}, nor a section, a key or a known term of another program{}", name,
+                     fmt::join(families(), ", "),
+                     near.empty() ? "" : fmt::format("; did you mean {}?", near));
 }
 
 std::string list_text(const std::string& name) {

@@ -8,7 +8,7 @@
 namespace bedload {
 namespace {
 
-/// Text with what roff would take for its own.
+/// Text with roff control characters escaped.
 std::string plain(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -24,14 +24,14 @@ std::string plain(const std::string& text) {
   return out;
 }
 
-/// What an option takes: {single,mixed,double}, DIR, INT.
+/// The value of an option: {single,mixed,double}, DIR, INT.
 std::string value_of(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const auto brace = type.find('{'), colon = type.find(':');
   return brace != type.npos ? type.substr(brace) : type.substr(0, colon);
 }
 
-/// An option as an entry of a list.
+/// An option as a list entry.
 std::string entry(const CLI::Option& option) {
   const bool place = option.get_positional();
   std::string out = fmt::format(".TP\n\\fB{}\\fR", plain(option.get_name(place, !place)));
@@ -53,30 +53,30 @@ std::string synopsis(const CLI::App& command) {
 constexpr const char* kRest = R"(.SH EXIT STATUS
 .TP
 .B 0
-Done.
+Success.
 .TP
 .B 2
-Bad input, or files that cannot be read or written; one sentence says which file, line and key.
+Bad input, or a file that cannot be read or written; the message names file, line and key.
 .TP
 .B 3
-The computation broke down; the message names particle, place and time, and the last good checkpoint.
+The simulation failed; the message names particle, position, time and the last good checkpoint.
 .TP
 .B 4
-More fluid, grains or free bodies than run.max_lost have left the domain where there is no outlet.
+More fluid, grains or free bodies than run.max_lost left the domain where there is no outlet.
 .TP
 .B 5
-A viscometer found no profile of a viscous fluid.
+The fit of a viscometer was rejected.
 .TP
 .B 130
 Stopped by a signal, with a checkpoint.
 .SH SIGNALS
-SIGINT, SIGTERM and SIGHUP end a run at the end of its step, with a checkpoint from which
+SIGINT, SIGTERM and SIGHUP end a run after the current step with a checkpoint;
 .B \-\-restart latest
-goes on bit for bit.
+continues it bit for bit.
 .SH FILES
 A results folder holds fluid.vtkhdf, grains.vtkhdf and walls.vtkhdf (for ParaView), probes/*.csv, bodies/*.csv,
 diagnostics.csv, checkpoints/, case.resolved.toml and summary.json.
-Settled beds are kept in $XDG_CACHE_HOME/bedload, by default ~/.cache/bedload.
+Settled beds are cached in $XDG_CACHE_HOME/bedload, by default ~/.cache/bedload.
 .SH EXAMPLES
 .nf
 bedload check dam.toml \-\-preview look
@@ -95,7 +95,7 @@ std::string man_page(const CLI::App& app) {
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
   for (const CLI::App* command : commands) out += synopsis(*command) + ".br\n";
   out += ".SH DESCRIPTION\n" + plain(app.get_description()) +
-         "\nA case is one TOML file; \\fBbedload list\\fR shows what it may hold.\n.SH OPTIONS\n";
+         "\nA case is one TOML file; \\fBbedload list\\fR shows its keys.\n.SH OPTIONS\n";
   for (const CLI::Option* option : app.get_options()) out += entry(*option);
   for (const CLI::App* command : commands) {
     out += fmt::format(".SH \"bedload {}\"\n{}.\n", plain(command->get_name()),

@@ -39,8 +39,8 @@ Counts counts_of(const SavedState& state) {
   return {count("fluid"), count("walls"), count("grains")};
 }
 
-/// Particles that come in between two times, s.
-double let_in(const InletConfig& inlet, const Config& c, double from, double to) {
+/// Particles that an inlet adds between two times, s.
+double inflow(const InletConfig& inlet, const Config& c, double from, double to) {
   InletFlow flow(inlet, c.fluid.dx, c.domain);
   flow.resume(from, 0, 0);
   constexpr int pieces = 1000;
@@ -48,13 +48,9 @@ double let_in(const InletConfig& inlet, const Config& c, double from, double to)
   return flow.counted() / c.domain.cell_volume(c.fluid.dx);
 }
 
-}  // namespace
-
-namespace {
-
-/// What a part of the case is expected to begin with, and where it says so.
+/// Rough particle count of a part of the case.
 struct Expected {
-  std::string key, text;  ///< text goes on with a number
+  std::string key, text;  ///< key in the case; beginning of a message
   Counts counts;
   const char* what;
 };
@@ -106,7 +102,7 @@ Expected expected_grains(const Config& c, std::size_t index) {
           "grains"};
 }
 
-/// Told from areas and volumes before any particle is placed: that takes time and memory itself.
+/// Estimated from areas and volumes before particles are placed, which itself takes time and memory.
 void refuse_too_many(const Prepared& p) {
   const Config& c = p.config;
   std::vector<Expected> parts;
@@ -125,21 +121,21 @@ void refuse_too_many(const Prepared& p) {
     all.fluid += part.counts.fluid, all.walls += part.counts.walls, all.grains += part.counts.grains;
   }
   const double memory = double(p.device.memory), need = bytes(all);
-  if (memory == 0 || need <= 1.2 * memory) return;  // what comes near it is placed, and then counted
+  if (memory == 0 || need <= 1.2 * memory) return;  // a close estimate is settled by placing and counting
   const Expected& most = *std::max_element(parts.begin(), parts.end(), less);
   const Counts& n = most.counts;
-  std::string text = fmt::format("{} makes {:.3g} {}, which need {}; {} has {} free", most.text,
+  std::string text = fmt::format("{} gives {:.3g} {}, which need {}; {} has {} free", most.text,
                                  double(n.fluid + n.walls + n.grains), most.what,
                                  bytes_text(std::size_t(need)), p.device.name, bytes_text(p.device.memory));
   if (n.fluid > 0)
-    text += fmt::format(", enough for {:.3g} m and more",
+    text += fmt::format("; use at least {:.3g} m",
                         c.fluid.dx * std::pow(need / memory, c.domain.two_d ? 1.0 / 2 : 1.0 / 3) * 1.001);
   for (const std::string& warning : p.warnings) text += "; " + warning;
   throw KeyError(most.key, text);
 }
 
-/// Motions count from t = 0: with another one a wall may be elsewhere at the time of the restart. How far
-/// each jumps, one clause a wall.
+/// Motions are functions of the time since t = 0, so a wall with a modified motion may jump at the restart.
+/// One clause per such wall.
 std::vector<std::string> jumps_of_walls(const Config& then, const Config& now, double t) {
   std::vector<std::string> jumps;
   for (const WallBody& body : now.wall.bodies) {
@@ -152,15 +148,15 @@ std::vector<std::string> jumps_of_walls(const Config& then, const Config& now, d
       farthest = std::max(farthest, norm(to.place(x) - from.place(x)));
     const double reach = norm(now.domain.max - now.domain.min);
     if (farthest > 1e-9 * reach)
-      jumps.push_back(fmt::format(
-          "wall.body \"{}\" jumps {:.4g} m away from where it is at t = {:.6g} s, since its motion counts "
-          "from t = 0",
-          body.name, farthest, t));
+      jumps.push_back(
+          fmt::format("wall.body \"{}\" jumps {:.4g} m at t = {:.6g} s (its motion is a function of the time "
+                      "since t = 0)",
+                      body.name, farthest, t));
   }
   return jumps;
 }
 
-/// The case of the checkpoint; none if what it names, such as a mesh, is not there any more.
+/// The case of the checkpoint; none if a file that it needs, such as a mesh, is missing now.
 std::optional<Config> case_of(const std::filesystem::path& checkpoint, const std::string& text) {
   try {
     std::vector<std::string> none;
@@ -171,7 +167,7 @@ std::optional<Config> case_of(const std::filesystem::path& checkpoint, const std
   return {};
 }
 
-/// A run that goes on computes as it began, unless told otherwise.
+/// A restart must be of the same case, except with --allow-changes.
 void refuse_changes(const Options& options, Prepared& p) {
   const std::string before = checkpoint_case(options.restart), now = resolved_toml(p.config);
   std::optional<Config> then = before == now ? p.config : case_of(options.restart, before);
@@ -181,16 +177,17 @@ void refuse_changes(const Options& options, Prepared& p) {
   const std::string text = fmt::format("{}", fmt::join(changes, ", "));
   if (!changes.empty() && !options.allow_changes)
     throw CaseError(
-        fmt::format("{}: the case computes otherwise than this checkpoint's: {}; --allow-changes goes on",
+        fmt::format("{}: the case differs from that of the checkpoint: {}; restart with a modified case by "
+                    "--allow-changes",
                     options.restart.string(), text));
-  if (!changes.empty()) p.warnings.push_back("differs from the checkpoint's case: " + text);
+  if (!changes.empty()) p.warnings.push_back("modified since the checkpoint: " + text);
   std::error_code none;
   if (std::filesystem::equivalent(options.restart.parent_path(), options.out / "checkpoints", none))
     p.former = std::move(then);
 }
 
-/// Whether anything sets the fluid in motion; grains that sink do so too slowly to count.
-bool stirred(const Config& c) {
+/// Whether anything sets the fluid in motion; sinking grains are too slow to matter.
+bool is_driven(const Config& c) {
   const auto moves = [](const WallBody& body) { return body.moves() || norm(body.surface_velocity) > 0; };
   const auto flows = [](const FluidFill& fill) { return fill.velocity != FluidFill().velocity; };
   return c.frame.motion.moves() || norm(c.drive.f) > 0 || c.drive.pulls() ||
@@ -198,8 +195,8 @@ bool stirred(const Config& c) {
          std::any_of(c.fluid.fills.begin(), c.fluid.fills.end(), flows);
 }
 
-/// Where fluid has nowhere to go its pressure falls below zero somewhere as soon as it moves, and it tears
-/// there. Flow between walls that slide along themselves has the same pressure all over.
+/// In a box filled to its lid the pressure becomes negative somewhere as soon as the fluid moves, and it
+/// cavitates there. Plane shear flow is exempt: its pressure is uniform.
 void warn_of_full_box(Prepared& p) {
   const Config& c = p.config;
   const auto walled = [](const WallBody& body) { return body.stops_fluid(); };
@@ -213,32 +210,18 @@ void warn_of_full_box(Prepared& p) {
   } catch (const KeyError&) {
   }
   if (has_free_surface(c, p.setup)) return;
-  const std::string full = "the fluid fills its space up to the walls, without a free surface: ";
-  if (stirred(c))
+  const std::string full = "the fluid fills the space between the walls, without a free surface: ";
+  if (is_driven(c))
     p.warnings.push_back(
-        full + fmt::format("it tears wherever its pressure would fall below zero; give eos.background, its "
-                           "pressure at rest, some rho0 vmax^2 = {:.2g} Pa",
+        full + fmt::format("it cavitates at negative pressure; set eos.background, the pressure at rest, to "
+                           "about rho0 vmax^2 = {:.2g} Pa",
                            c.fluid.rho0 * c.fluid.vmax * c.fluid.vmax));
   else
-    p.notes.push_back(full +
-                      "were it stirred, it would tear where its pressure falls below zero "
-                      "(eos.background)");
+    p.notes.push_back(full + "if it moves, it cavitates at negative pressure (see eos.background)");
 }
 
-}  // namespace
-
-Prepared prepare(const Options& options) {
-  Prepared p;
-  p.config = read_case(options.file, options.overrides, p.warnings, options.restart);
-  p.device = find_device(options.backend, options.threads, p.config.simd);
-  if (!options.quiet) fmt::print("{}", heading_text(p));  // before time goes into placing particles
-  std::fflush(stdout);
-  initialise(options, p);
-  return p;
-}
-
-void initialise(const Options& options, Prepared& p) {
-  p.device = find_device(options.backend, options.threads, p.config.simd);
+/// Places the particles of the case or reads the checkpoint; p.device is known.
+void place_particles(const Options& options, Prepared& p) {
   if (options.restart.empty()) {
     refuse_too_many(p);
     p.setup = build_setup(p.config, p.warnings, &p.notes);
@@ -256,26 +239,43 @@ void initialise(const Options& options, Prepared& p) {
   }
 }
 
+}  // namespace
+
+Prepared prepare(const Options& options) {
+  Prepared p;
+  p.config = read_case(options.file, options.overrides, p.warnings, options.restart);
+  p.device = find_device(options.backend, options.threads, p.config.simd);
+  if (!options.quiet) fmt::print("{}", heading_text(p));  // before particles are placed, which takes time
+  std::fflush(stdout);
+  place_particles(options, p);
+  return p;
+}
+
+void initialise(const Options& options, Prepared& p) {
+  p.device = find_device(options.backend, options.threads, p.config.simd);
+  place_particles(options, p);
+}
+
 void check_fixed_steps(Prepared& p, Simulation& simulation) {
   const auto check = [&](const char* key, double dt, const std::vector<StepLimit>& limits) {
     for (const StepLimit& limit : limits) {
       if (dt <= limit.seconds * (1 + 1e-9)) continue;
       if (!p.config.time.force_dt)
-        throw KeyError(key, fmt::format("{} = {} must be <= {:.4g}; limited by {}", key, dt, limit.seconds,
+        throw KeyError(key, fmt::format("{} = {} must be <= {:.4g} s; limited by {}", key, dt, limit.seconds,
                                         with_key(limit.limit)));
-      p.warnings.push_back(fmt::format("{} = {} is above its limit {:.4g} by {}", key, dt, limit.seconds,
+      p.warnings.push_back(fmt::format("{} = {} s exceeds its limit of {:.4g} s, {}", key, dt, limit.seconds,
                                        with_key(limit.limit)));
     }
   };
   if (p.config.time.dt > 0) check("time.dt", p.config.time.dt, simulation.limits());
   if (p.config.time.dt_dem == 0) return;
   std::vector<StepLimit> substeps = simulation.substep_limits();
-  // those of contacts and films between grains are held against it as the case is read
+  // limits of contacts and films between grains were checked when the case was read
   std::erase_if(substeps, [](const StepLimit& l) { return l.limit < Limit::grain_drag; });
   check("time.dt_dem", p.config.time.dt_dem, substeps);
 }
 
-Counts with_arrivals(const Prepared& p) {
+Counts with_inflow(const Prepared& p) {
   const Config& c = p.config;
   const double from = p.begin, to = c.time.end;
   const Vec3d size = c.domain.max - c.domain.min;
@@ -284,7 +284,7 @@ Counts with_arrivals(const Prepared& p) {
     if (more > 0) count = std::max<std::int64_t>(count, std::llround(std::min(double(count) + more, fits)));
   };
   double fluid = 0, grains = 0;
-  for (const InletConfig& inlet : c.inlets) fluid += let_in(inlet, c, from, to);
+  for (const InletConfig& inlet : c.inlets) fluid += inflow(inlet, c, from, to);
   for (std::size_t k = 0; k < c.grain_inlets.size(); ++k) {
     const GrainSource source(c, k);
     grains += source.pending(to) - source.pending(from);
@@ -324,23 +324,24 @@ std::string summary_text(const Prepared& p) {
   const Counts& n = p.counts;
   std::string out = fmt::format("particles  fluid {}, walls {}, grains {}\n", grouped(n.fluid),
                                 grouped(n.walls), grouped(n.grains));
-  const Counts later = with_arrivals(p);
+  const Counts later = with_inflow(p);
   if (later.fluid > n.fluid)
-    out += fmt::format("           up to {} of fluid let in\n", grouped(later.fluid - n.fluid));
+    out += fmt::format("           up to {} fluid particles with inflow\n", grouped(later.fluid - n.fluid));
   if (later.grains > n.grains)
-    out += fmt::format("           up to {} grains dropped in\n", grouped(later.grains - n.grains));
+    out += fmt::format("           up to {} grains with inflow\n", grouped(later.grains - n.grains));
   if (c.fluid.present) {
     out += fmt::format("fluid      dx {} m, h {:.4g} m, vmax {:.4g} m/s, sound {:.4g} m/s\n", c.fluid.dx,
                        c.fluid.h(), c.fluid.vmax, c.fluid.c);
     if (c.visc.alpha > 0) {
       const double nu = c.visc.alpha * c.fluid.h() * c.fluid.c / 20;  // [monaghan92], approaching pairs only
       const double physical = c.visc.model == ViscosityModel::none ? 0 : c.fluid.mu / c.fluid.rho0;
-      out += fmt::format("           visc.alpha acts like a kinematic viscosity of {:.3g} m2/s{}\n", nu,
-                         physical > 0 ? fmt::format(", {:.3g} times the physical one", nu / physical) : "");
+      out +=
+          fmt::format("           visc.alpha is equivalent to a kinematic viscosity of {:.3g} m2/s{}\n", nu,
+                      physical > 0 ? fmt::format(", {:.3g} times the physical one", nu / physical) : "");
     }
   }
   for (const InletConfig& inlet : c.inlets)
-    out += fmt::format("inlet      {}: {} particles a layer, up to {:.4g} m/s\n", inlet.name,
+    out += fmt::format("inlet      {}: {} particles per layer, up to {:.4g} m/s\n", inlet.name,
                        orifice_layer(inlet, c.fluid.dx, c.domain).points.size(),
                        inlet_speed(inlet, c.fluid.dx, c.domain, c.time.end));
   if (c.fluid.present && c.grain.present && c.couple.mode != CouplingMode::off)

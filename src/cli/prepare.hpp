@@ -1,5 +1,5 @@
 #pragma once
-// What run and check have in common.
+// The part that all commands with a case share: read it, find the device, place the particles.
 
 #include <optional>
 #include <string>
@@ -12,43 +12,43 @@
 
 namespace bedload {
 
-/// A case about to be computed, from its beginning or from a checkpoint.
+/// A case ready to start, from the beginning or from a checkpoint.
 struct Prepared {
   Config config;
   Device device;
-  Setup setup;                   ///< none with a checkpoint
-  SavedState restart;            ///< none without
-  double begin = 0;              ///< time that it goes on from, s
-  double last_dt = 0;            ///< the step that ended there, s
-  std::optional<Config> former;  ///< of the checkpoint, if it is one of the results folder and can be read
+  Setup setup;                   ///< empty for a restart
+  SavedState restart;            ///< empty without a restart
+  double begin = 0;              ///< start time, s
+  double last_dt = 0;            ///< last step before a restart, s
+  std::optional<Config> former;  ///< case of the checkpoint, if that lies in the results folder
   Counts counts;
   std::vector<std::string> warnings;
-  std::vector<std::string> notes;  ///< what is as it should be, but may surprise
+  std::vector<std::string> notes;  ///< valid, but may surprise
 };
 
-/// Reads the case, finds the device and says so, places the particles or reads the checkpoint. Throws
-/// KeyError for more particles than the device has memory for before any is placed.
+/// Reads the case, finds the device, prints both, then places the particles or reads the checkpoint. Throws
+/// KeyError, before any particle is placed, if they would not fit the memory of the device.
 Prepared prepare(const Options& options);
-/// The same without reading the case: `prepared` has its config.
+/// The same for a case that has been read: `prepared` has its config. Prints nothing.
 void initialise(const Options& options, Prepared& prepared);
 
-/// Throws KeyError if time.dt is above a limit, or time.dt_dem above one of free bodies; with time.force_dt
-/// it warns. Call after start().
+/// Throws KeyError if time.dt exceeds a step limit, or time.dt_dem one of free bodies; with time.force_dt it
+/// warns instead. Call after start().
 void check_fixed_steps(Prepared& prepared, Simulation& simulation);
 
-/// Counts with all particles that come in until the end, as far as the domain has space for them.
-Counts with_arrivals(const Prepared& prepared);
+/// Counts at the end of the run including inflow, at most as many as fit into the domain.
+Counts with_inflow(const Prepared& prepared);
 
 /// "12 345 678".
 std::string grouped(std::int64_t number);
 /// "1.2 GB".
 std::string bytes_text(std::size_t bytes);
 
-/// What is known before particles are placed: case, device, how large meshes are; a line each.
+/// Case, device and size of meshes, known before particles are placed; a line each.
 std::string heading_text(const Prepared& prepared);
-/// What the numbers mean: particles, sound speed, artificial viscosity; a line each.
+/// Particle counts, sound speed, artificial viscosity, inlets, coupling; a line each.
 std::string summary_text(const Prepared& prepared);
-/// What was done as it should be, but may surprise; a line each.
+/// The notes, a line each.
 std::string notes_text(const Prepared& prepared);
 
 }  // namespace bedload

@@ -1,4 +1,4 @@
-// Dispatches commands. Errors become one sentence and an exit code.
+// Runs the command of the command line. Errors become one sentence and an exit code.
 
 #include <fmt/format.h>
 
@@ -33,8 +33,8 @@ int dispatch(const Options& options) {
   return 0;
 }
 
-int complain(const std::exception& error, int code) {
-  constexpr std::size_t kMost = 1200;  // a value that is quoted may be as long as its file
+int report(const std::exception& error, int code) {
+  constexpr std::size_t kMost = 1200;  // a quoted value may be as long as its file
   fmt::print(stderr, "{}\n", shortened(error.what(), kMost));
   return code;
 }
@@ -45,25 +45,25 @@ int run_program(int argc, const char* const* argv) {
   try {
     return dispatch(parse_options(argc, argv));
   } catch (const SimulationFault& error) {
-    return complain(error, kExitFault);
+    return report(error, kExitFault);
   } catch (const CaseError& error) {
-    return complain(error, kExitBadInput);
+    return report(error, kExitBadInput);
   } catch (const FileError& error) {
-    return complain(error, kExitBadInput);
+    return report(error, kExitBadInput);
   } catch (const DeviceError& error) {
-    return complain(error, kExitBadInput);
+    return report(error, kExitBadInput);
   } catch (const Stopped&) {
-    fmt::print("stopped before t = 0; there is nothing to continue from\n");
+    fmt::print("stopped before t = 0; no checkpoint was written\n");
     return kExitStopped;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "out of memory; `bedload check` tells how much a case needs\n");
+    fmt::print(stderr, "out of memory; run `bedload check` for the memory estimate\n");
     return kExitBadInput;
   } catch (const std::filesystem::filesystem_error& error) {
     const std::string path = error.path1().string();
     fmt::print(stderr, "{}: {}\n", path.empty() ? "working directory" : shortened(path),
                error.code().message());
     return kExitBadInput;
-  } catch (const std::system_error& error) {  // such as a standard output that takes no more
+  } catch (const std::system_error& error) {  // such as a closed standard output
     std::fputs((std::string(error.what()) + "\n").c_str(), stderr);
     return kExitBadInput;
   }

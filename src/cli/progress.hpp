@@ -15,9 +15,9 @@ class Progress {
   Progress(bool quiet, double begin, double end, std::int64_t steps = 0);
   /// After every step; `particle_steps` so far.
   void update(const StepInfo& info, std::int64_t particle_steps);
-  /// A line of its own, e.g. while grains settle.
+  /// Another line, e.g. while grains settle.
   void note(const std::string& text);
-  /// Leaves the live line as it stands.
+  /// Ends the line.
   void close();
 
  private:

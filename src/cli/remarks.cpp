@@ -17,7 +17,7 @@ std::string line(const char* about, const std::string& what) {
   return fmt::format("{:<10} {}\n", about, what);
 }
 
-/// What numerical viscosities there are, as multiples of the fluid's own, and what thickens nothing.
+/// Numerical viscosities as multiples of that of the fluid; density diffusion, which is none.
 std::string viscosity_text(const Config& c, const std::vector<Quantity>& numerical) {
   if (numerical.empty()) return "";
   std::string out = fmt::format("viscosity  {:.3g} m2/s", c.fluid.mu / c.fluid.rho0);
@@ -26,78 +26,76 @@ std::string viscosity_text(const Config& c, const std::vector<Quantity>& numeric
     if (!(q.value > 0)) continue;
     std::string name = q.name;
     std::replace(name.begin(), name.end(), '_', ' ');
-    out += fmt::format("{} {} {:.3g} times that", any ? "," : "; numerical:", name, q.value);
+    out += fmt::format("{} {} {:.3g} times the physical", any ? "," : "; numerical:", name, q.value);
     any = true;
   }
   out += any ? "\n" : ", none of it numerical\n";
   if (c.density.delta > 0)
     out += fmt::format(
-        "density    diffuses at {:.3g} m2/s (density.delta) against noise of the pressure, which does not "
-        "thicken "
-        "the fluid\n",
+        "density    diffusion of {:.3g} m2/s (density.delta) smooths the pressure; it adds no "
+        "viscosity\n",
         c.density.delta * c.fluid.h() * c.fluid.c);
   return out;
 }
 
-/// The stress by which particles not in order resist shear under pressure, and whether that is taken off.
+/// The spurious shear stress of a particle lattice under pressure, and whether pressure.linear_exact removes
+/// it.
 std::string arrangement_text(const Config& c) {
   if (!c.fluid.present || c.fluid.mu == 0 || c.fluid.variable_h || c.fluid.sdpd()) return "";
   const double pressure = c.fluid.rho0 * norm(c.gravity) * c.fluid.depth + c.eos.background;
   if (pressure == 0) return "";
   const double stress = 5e-3 * pressure;  // 2e-3 to 1e-2 on lattices, h = 1.5 dx
   const std::string out = fmt::format(
-      "lattice    under {:.3g} Pa an arrangement of particles resists shear by up to about {:.2g} Pa, as "
-      "viscosity does at {:.2g} 1/s; ",
+      "lattice    at {:.3g} Pa the particle lattice resists shear with up to about {:.2g} Pa, as much as "
+      "viscosity at {:.2g} 1/s; ",
       pressure, stress, stress / c.fluid.mu);
   if (const ParticleOrder order = particle_order(c); !order.linear_exact)
-    return out + "that stays: " + order.not_exact + "\n";
+    return out + "not removed: " + order.not_exact + "\n";
   const double cell = cell_reynolds_number(std::sqrt(pressure / c.fluid.rho0), c.fluid);
-  const char* what = cell < kExactPressure ? "pressure.linear_exact removes that"
-                     : cell < kExactPressure * kExactPressureEnds
-                         ? "pressure.linear_exact removes part of that"
-                         : "that stays, flow slower than that is held by it";
+  const char* what = cell < kExactPressure                        ? "pressure.linear_exact removes it"
+                     : cell < kExactPressure * kExactPressureEnds ? "pressure.linear_exact removes part of it"
+                                                                  : "not removed, slower flow is held by it";
   return out +
          fmt::format("{} (cell Reynolds number {:.3g}, removed below {:g})\n", what, cell, kExactPressure);
 }
 
-/// Why particles do not shift, where a case asks for it.
+/// Why particles do not shift although the case has shift.A.
 std::string shifting_text(const Config& c) {
   if (!c.fluid.present || c.shift == 0 || c.fluid.sdpd()) return "";
   const ParticleOrder order = particle_order(c);
   return order.shifts ? "" : "shifting   none: " + order.no_shifting + "\n";
 }
 
-/// What defaults do that not every case may want.
+/// Effects of defaults that do not suit every case.
 std::string defaults_text(const Config& c, bool free_surface) {
   std::string out;
-  const auto say = [&](const char* about, const std::string& what) { out += line(about, what); };
+  const auto add = [&](const char* about, const std::string& what) { out += line(about, what); };
   const bool grains = c.grain.present && c.fluid.present && c.couple.mode != CouplingMode::off;
   if (c.fluid.present && !c.fluid.sdpd() && c.density.cavitation_limit < 1)
-    say("tension",
+    add("tension",
         fmt::format("fluid cavitates below {:.3g} Pa (density.cavitation_limit; diagnostics.csv counts "
                     "the particles){}",
                     c.eos.background - c.density.cavitation_limit * c.fluid.rho0 * c.fluid.c * c.fluid.c,
-                    c.wall.suction ? "; until then it hangs from lids and roofs" : ""));
+                    c.wall.suction ? "; above that it sticks to lids and roofs" : ""));
   if (free_surface && !c.fluid.sdpd() && c.fluid.mu > 0 && c.visc.model == ViscosityModel::morris &&
       norm(c.gravity) > 0)
-    say("waves",
-        "visc.model = \"morris\" damps waves at a free surface half as fast as fluid.mu should; "
-        "\"monaghan\" is right there");
+    add("waves",
+        "visc.model = \"morris\" damps waves at a free surface half as fast as fluid.mu should; use "
+        "\"monaghan\" for waves");
   if (grains && c.couple.mode == CouplingMode::two_way && !c.couple.undisturbed && !c.domain.two_d)
-    say("wake",
-        fmt::format("the fluid that a lone grain feels moves along with it by up to {:.2g} % of its speed; "
-                    "couple.undisturbed takes that off",
-                    100 * 0.537 * c.grain.d_max / c.couple.hc));
+    add("wake", fmt::format("a single grain drags the fluid around it along at up to {:.2g} % of its speed; "
+                            "couple.undisturbed corrects its drag for that",
+                            100 * 0.537 * c.grain.d_max / c.couple.hc));
   if (c.grain.present && takes_moduli(c.contact.normal) && c.grain.E < 1e9)
-    say("contacts",
+    add("contacts",
         fmt::format(
-            "grain.E = {:.3g} Pa is softer than stone, glass or steel: impacts last longer and overlap "
-            "more, which also changes spins",
+            "grain.E = {:.3g} Pa is softer than stone, glass or steel: impacts last longer with larger "
+            "overlap, which also changes rotation",
             c.grain.E));
   return out;
 }
 
-/// How finely the fluid is resolved, where that is coarse.
+/// Remarks on coarse resolution.
 std::string resolution_text(const Config& c) {
   const FluidConfig& f = c.fluid;
   std::string out;
@@ -114,13 +112,13 @@ std::string resolution_text(const Config& c) {
   if (const double across = thinnest < 0 ? few : (hi[thinnest] - lo[thinnest]) / f.dx;
       across < few * (1 - 1e-9))
     out += line("resolution",
-                fmt::format("the fluid is {:.2g} particles across along {}; {:g} across what matters "
-                            "are the least for a flow to be trusted",
+                fmt::format("the fluid is {:.2g} particles across along {}; use at least {:g} across any "
+                            "flow of interest",
                             across, "xyz"[thinnest], few));
   if (const double neighbours = f.kappa() * f.h_over_dx / 2;
       !f.variable_h && !f.sdpd() && neighbours < 1.3 * (1 - 1e-9))
     out += line("kernel",
-                fmt::format("it reaches {:.3g} fluid.dx; below 2.6 the lattice of particles makes noise "
+                fmt::format("kernel radius {:.3g} fluid.dx; below 2.6 the particle lattice causes noise "
                             "(fluid.h_over_dx)",
                             2 * neighbours));
   for (const WallBody& body : c.wall.bodies) {
@@ -132,60 +130,61 @@ std::string resolution_text(const Config& c) {
     if (thick < 8 * f.dx * (1 - 1e-9))
       out += line("resolution",
                   fmt::format("wall.body \"{}\" is {:.2g} fluid.dx thick; the flow around a free body "
-                              "is resolved from 8 on, compare two resolutions",
+                              "is resolved from 8, compare two resolutions",
                               body.name, thick / f.dx));
   }
   return out;
 }
 
-/// What costs accuracy or time where there are grains.
+/// What costs accuracy or time with grains.
 std::string grains_text(const Config& c) {
   std::string out;
   if (!c.grain.present) return out;
   if (const double ratio = c.grain.d_max / c.grain.d_min; ratio > 5 * (1 + 1e-9))
-    out +=
-        line("sizes",
-             fmt::format("the largest grain is {:.3g} times the smallest: lists reach as far as the largest "
-                         "does, so the smallest cost most of the time",
-                         ratio));
+    out += line(
+        "sizes",
+        fmt::format("the largest grain is {:.3g} times the smallest: neighbour lists use the radius of the "
+                    "largest, so the smallest cost most of the time",
+                    ratio));
   if (!c.fluid.present || c.couple.mode != CouplingMode::two_way || norm(c.gravity) == 0) return out;
-  const auto say = [&](auto fits, const char* kind, const char* lift) {
+  const auto add = [&](auto fits, const char* kind, const char* error) {
     if (std::any_of(c.wall.bodies.begin(), c.wall.bodies.end(), fits))
-      out +=
-          line("bed",
-               fmt::format("water lifts the grains of a thin bed on {} walls {} % too little; \"adami\" and "
-                           "\"mdbc\" are right to 1 %",
-                           kind, lift));
+      out += line(
+          "bed",
+          fmt::format("on {} walls the buoyancy of a thin bed is {} % too low; with \"adami\" or \"mdbc\" "
+                      "it is right within 1 %",
+                      kind, error));
   };
-  say([](const WallBody& body) { return body.type == WallType::frozen; }, "frozen", "13");
-  say([](const WallBody& body) { return body.single_layer(); }, "single_layer", "11");
+  add([](const WallBody& body) { return body.type == WallType::frozen; }, "frozen", "13");
+  add([](const WallBody& body) { return body.single_layer(); }, "single_layer", "11");
   return out;
 }
 
-/// Of sides that put back and carry fluid.
+/// Fluid that rests on a reflecting side of the domain.
 std::string mirrors_text(const Config& c) {
   if (!c.fluid.present) return "";
   for (int k = 0; k < 3; ++k) {
     const std::size_t below = 2 * std::size_t(k) + (c.gravity[k] > 0);
     if (c.gravity[k] != 0 && (c.domain.reflect.slip[below] || c.domain.reflect.no_slip[below]))
-      return line("mirror",
-                  fmt::format("fluid that lies on side {} of the domain (domain.reflect) has its lowest row "
-                              "fall onto it and pressures off by up to twice rho g; a wall carries it",
-                              kFaces[below]));
+      return line(
+          "mirror",
+          fmt::format("fluid rests on the reflecting side {} of the domain: its lowest layer collapses and "
+                      "the pressure gradient is off by up to 2 rho g; use a wall",
+                      kFaces[below]));
   }
   return "";
 }
 
-/// Whether a plane shear flow is one that `bedload viscometer` takes.
+/// Whether a plane shear flow is suitable for `bedload viscometer`.
 std::string viscometer_text(const Config& c) {
   try {
     const PlaneFlow flow = plane_flow_of(c);
     blocks_until(flow, c.fluid.mu / c.fluid.rho0, c.time.end);
-    return line("viscometer", flow.name() + " flow, whose viscosity `bedload viscometer` measures");
+    return line("viscometer", flow.name() + " flow; run `bedload viscometer` to measure its viscosity");
   } catch (const NoPlaneFlow&) {
     return "";
   } catch (const KeyError& error) {
-    return line("viscometer", std::string("`bedload viscometer` refuses this flow: ") + error.what());
+    return line("viscometer", std::string("not suitable for `bedload viscometer`: ") + error.what());
   }
 }
 

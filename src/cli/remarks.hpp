@@ -1,5 +1,5 @@
 #pragma once
-// What a case comes to that its user may not expect: notes, no warnings.
+// Remarks of `bedload check`: properties of a case that may surprise, but are no reason for a warning.
 
 #include <string>
 #include <vector>
@@ -9,8 +9,8 @@
 
 namespace bedload {
 
-/// Numerical viscosity (as Simulation::numerical_viscosity tells it), resolution, what defaults do, whether
-/// it is a flow for the viscometer; a line each. free_surface: whether fluid begins with one.
+/// Numerical viscosity (from Simulation::numerical_viscosity), resolution, effects of defaults, whether the
+/// viscometer takes the flow; a line each. free_surface: whether the fluid starts with one.
 std::string remarks_text(const Config& config, const std::vector<Quantity>& numerical, bool free_surface);
 
 }  // namespace bedload

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "fluid 61 %, grains 20 %, ..., output 3 %"; of a time above 0.
+/// "fluid 61 %, grains 20 %, ..., output 3 %" of `all`, a wall time above 0 s.
 std::string fractions_text(const std::vector<Quantity>& parts, double all) {
   std::string text;
   double rest = all;
@@ -32,7 +32,7 @@ std::string fractions_text(const std::vector<Quantity>& parts, double all) {
   return text + fmt::format("output {:.0f} %", 100 * std::max(rest, 0.0) / all);
 }
 
-/// "cfl (time.cfl) 98 %, growth 2 %": what bound steps.
+/// "cfl (time.cfl) 98 %, growth 2 %": the limits that set the steps.
 std::string limits_text(const std::array<std::int64_t, kLimits.size()>& steps) {
   const auto all = double(std::accumulate(steps.begin(), steps.end(), std::int64_t{0}));
   std::string text;
@@ -51,32 +51,33 @@ class Run {
         watcher_(watcher),
         live_(live),
         end_(options.until.value_or(p_.config.time.end)) {
-    if (end_ < p_.begin - (1 + 1e-9) * p_.last_dt)  // else it is the end of a run until then
-      throw CaseError(fmt::format("{}: {} = {} s lies before the checkpoint's time, {} s",
+    if (end_ < p_.begin - (1 + 1e-9) * p_.last_dt)  // within it the run has reached its end
+      throw CaseError(fmt::format("{}: {} = {} s is before the time of the checkpoint, {} s",
                                   options.restart.string(), options.until ? "--until" : "time.end", end_,
                                   p_.begin));
     if (watcher_) watcher_->begin(p_.config, end_);
   }
 
   int go() {
-    say(summary_text(p_) + notes_text(p_));
-    session_.emplace(options_, std::move(p_), [this](const std::string& text) { say(text); });
-    tell_warnings();
-    say(fmt::format("results    {}\n", options_.out.string()));
+    print(summary_text(p_) + notes_text(p_));
+    session_.emplace(options_, std::move(p_), [this](const std::string& text) { print(text); });
+    print_warnings();
+    print(fmt::format("results    {}\n", options_.out.string()));
     return steps();
   }
 
  private:
-  void say(const std::string& text) const {
+  void print(const std::string& text) const {
     if (!options_.quiet) fmt::print("{}", text);
     std::fflush(stdout);
   }
 
-  /// Those not told before.
-  void tell_warnings(Progress* progress = nullptr) {
+  /// New warnings only.
+  void print_warnings(Progress* progress = nullptr) {
     const std::vector<std::string>& all = session_->prepared().warnings;
-    if (progress && told_ < all.size()) progress->close();
-    for (; told_ < all.size(); ++told_) fmt::print(stderr, "warning: {}\n", all[told_]);
+    if (progress && warnings_printed_ < all.size()) progress->close();
+    for (; warnings_printed_ < all.size(); ++warnings_printed_)
+      fmt::print(stderr, "warning: {}\n", all[warnings_printed_]);
   }
 
   int steps() {
@@ -92,53 +93,54 @@ class Run {
       session_->begin();
       while (simulation.time() < end_ && !stop_requested()) {
         const StepInfo info = session_->step();
-        tell_warnings(&progress);
+        print_warnings(&progress);
         if (watcher_) watcher_->after_step(simulation, info);
-        progress.update(info, session_->effort().particle_steps);
-        if (live_) live_->after_step(simulation, info, session_->effort().particle_steps);
+        progress.update(info, session_->totals().particle_steps);
+        if (live_) live_->after_step(simulation, info, session_->totals().particle_steps);
       }
       progress.close();
       if (watcher_ && simulation.time() >= end_) take(watcher_->findings());
       session_->finish(simulation.time() < end_ ? "stopped" : "completed");
     } catch (const FileError& error) {
       progress.close();
-      throw FileError(error.what() + kept());
-    } catch (const DeviceError& error) {  // lost while it computed, or out of its memory
+      throw FileError(error.what() + checkpoint_hint());
+    } catch (const DeviceError& error) {  // device lost or out of memory
       progress.close();
-      throw DeviceError(error.what() + kept());
+      throw DeviceError(error.what() + checkpoint_hint());
     } catch (const fs::filesystem_error& error) {
       progress.close();
-      throw FileError(
-          fmt::format("{}: cannot write: {}{}", error.path1().string(), error.code().message(), kept()));
+      throw FileError(fmt::format("{}: cannot write: {}{}", error.path1().string(), error.code().message(),
+                                  checkpoint_hint()));
     } catch (const SimulationFault& fault) {
       progress.close();
       throw SimulationFault(fault.what() + after_fault());
-    } catch (const KeyError& error) {  // a fixed step has come to exceed its limit
+    } catch (const KeyError& error) {  // a fixed step now exceeds its limit
       progress.close();
       throw KeyError(error.key, error.what() + after_fault());
     }
     const bool stopped = simulation.time() < end_;
     if (stopped && watcher_) {
-      fmt::print("stopped at t = {:.6g} s; what was measured is lost, begin again with --overwrite\n",
+      fmt::print("stopped at t = {:.6g} s; a viscometer cannot restart: run it again with --overwrite\n",
                  simulation.time());
     } else if (stopped) {
-      fmt::print("stopped at t = {:.6g} s; continue with: {} --restart {}\n", simulation.time(),
+      fmt::print("stopped at t = {:.6g} s; restart with: {} --restart {}\n", simulation.time(),
                  options_.repeat, last_checkpoint().string());
     } else {
-      const Effort effort = session_->effort();
-      say(fmt::format("completed  t = {:.6g} s, {} steps in {}, {:.3g} particle-steps/s\n", simulation.time(),
-                      grouped(simulation.steps()), duration_text(effort.wall_seconds),
-                      effort.wall_seconds > 0 ? double(effort.particle_steps) / effort.wall_seconds : 0));
-      if (const std::string by = limits_text(effort.steps_by); !by.empty()) say("steps by   " + by + "\n");
-      if (const std::string by = limits_text(effort.substeps_by); !by.empty())
-        say("substeps by " + by + "\n");
-      say(fmt::format("of it      {}\n", fractions_text(simulation.time_spent(), effort.wall_seconds)));
+      const RunTotals totals = session_->totals();
+      print(fmt::format("completed  t = {:.6g} s, {} steps in {}, {:.3g} particle-steps/s\n",
+                        simulation.time(), grouped(simulation.steps()), duration_text(totals.wall_seconds),
+                        totals.wall_seconds > 0 ? double(totals.particle_steps) / totals.wall_seconds : 0));
+      if (const std::string text = limits_text(totals.steps_by); !text.empty())
+        print("step       limited by " + text + "\n");
+      if (const std::string text = limits_text(totals.substeps_by); !text.empty())
+        print("substep    limited by " + text + "\n");
+      print(fmt::format("time       by part: {}\n",
+                        fractions_text(simulation.time_spent(), totals.wall_seconds)));
     }
     const bool lost = losses();
     if (live_)
       live_->end(stopped ? "stopped" : "completed",
-                 lost ? "More than run.max_lost has left the domain where there is no outlet." : "",
-                 &simulation);
+                 lost ? "Losses through the sides of the domain exceed run.max_lost." : "", &simulation);
     return stopped ? kExitStopped : lost ? kExitLost : 0;
   }
 
@@ -150,7 +152,7 @@ class Run {
     session_->output()->add(found.name, found.quantities, found.note);
   }
 
-  /// Tells what has left the domain unasked; true if it is more than the case allows.
+  /// Reports losses through sides of the domain that are no outlets; whether they exceed run.max_lost.
   bool losses() {
     const auto d = session_->simulation().diagnostics();
     const std::vector<Loss> by_side = session_->simulation().losses();
@@ -168,7 +170,8 @@ class Run {
       return q == d.end() ? 0 : q->value;
     };
     bool too_many = false;
-    const auto tell = [&](const std::string& what, double lost, double left, const std::string& where = "") {
+    const auto report = [&](const std::string& what, double lost, double left,
+                            const std::string& where = "") {
       if (!(lost > 0)) return;
       const double fraction = lost / (lost + left), allowed = session_->prepared().config.max_lost;
       too_many = too_many || fraction > allowed;
@@ -177,15 +180,15 @@ class Run {
       if (fraction > allowed)
         fmt::print(stderr, "{}; run.max_lost = {} allows {:.3g} %\n", text, allowed, 100 * allowed);
       else
-        say("lost       " + text + "\n");
+        print("lost       " + text + "\n");
     };
     const double fluid = read("lost_fluid_mass"), grains = read("grains_outside"), all = read("grain_count");
-    tell(fmt::format("{:.4g} kg of fluid", fluid), fluid, read("fluid_mass"), sides("fluid"));
-    tell(fmt::format("{:.0f} of {:.0f} grains", grains, all), grains, all - grains, sides("grains"));
+    report(fmt::format("{:.4g} kg of fluid", fluid), fluid, read("fluid_mass"), sides("fluid"));
+    report(fmt::format("{:.0f} of {:.0f} grains", grains, all), grains, all - grains, sides("grains"));
     const auto& walls = session_->prepared().config.wall.bodies;
     const auto bodies = double(std::ranges::count_if(walls, [](auto& body) { return body.free.present; }));
     const double gone = read("bodies_outside");
-    tell(fmt::format("{:.0f} of {:.0f} free bodies", gone, bodies), gone, bodies - gone);
+    report(fmt::format("{:.0f} of {:.0f} free bodies", gone, bodies), gone, bodies - gone);
     return too_many;
   }
 
@@ -194,40 +197,40 @@ class Run {
     return last.empty() ? options_.restart : last;
   }
 
-  /// What there is to go on from after an error of writing, as the rest of its sentence.
-  std::string kept() {
+  /// After a write error: names the checkpoint to restart from, as the rest of the sentence.
+  std::string checkpoint_hint() {
     const fs::path last = session_->output()->last_checkpoint();
     std::error_code unknown;
     return fs::exists(last, unknown) ? "; the last good checkpoint is " + last.string() : "";
   }
 
-  /// Shows the broken state in a last frame; returns the rest of the fault's sentence.
+  /// Writes the broken state as a last frame; returns the rest of the error's sentence.
   std::string after_fault() {
     const fs::path good = session_->output()->last_checkpoint();
     try {
       session_->finish("failed");
     } catch (const std::runtime_error& error) {
-      fmt::print(stderr, "warning: the last frame is missing: {}\n", error.what());
+      fmt::print(stderr, "warning: the last frame was not written: {}\n", error.what());
     }
-    return good.empty() ? "; there is no checkpoint, set checkpoint.every to have some"
+    return good.empty() ? "; there is no checkpoint (set checkpoint.every)"
                         : "; the last good checkpoint is " + good.string();
   }
 
   const Options& options_;
   Prepared p_;
-  RunWatcher* watcher_;  ///< null: nobody looks on
-  LiveView* live_;       ///< null: there is none
+  RunWatcher* watcher_;  ///< or null
+  LiveView* live_;       ///< or null
   double end_;
   std::optional<Session> session_;
-  std::size_t told_ = 0;  ///< warnings
+  std::size_t warnings_printed_ = 0;
 };
 
 }  // namespace
 
 int run_prepared(const Options& options, Prepared prepared, RunWatcher* watcher, LiveView* live) {
   Run run(options, std::move(prepared), watcher, live);
-  const FolderLock lock(options.out);  // before hours go into settling
-  refuse_other_run(options);           // that has come and gone meanwhile
+  const FolderLock lock(options.out);  // before grains settle, which may take hours
+  refuse_other_run(options);           // again: one may have finished since
   return run.go();
 }
 
@@ -235,7 +238,7 @@ int run_case(const Options& given) {
   watch_signals();
   Options options = given;
   if (options.restart == "latest") options.restart = latest_checkpoint(options.out);
-  refuse_other_run(options);  // before time goes into placing particles
+  refuse_other_run(options);  // before particles are placed, which takes time
   if (!options.live) return run_prepared(options, prepare(options));
 
   LiveServer server(*options.live, case_name(options.file));

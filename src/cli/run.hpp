@@ -1,5 +1,5 @@
 #pragma once
-// One run from its beginning to its end, for the commands that make one.
+// One run from start to end, for the commands `run` and `viscometer`.
 
 #include <string>
 #include <vector>
@@ -9,19 +9,19 @@
 
 namespace bedload {
 
-/// What a watcher has to say in summary.json.
+/// Results of a watcher, for summary.json.
 struct RunFindings {
   std::string name;
   std::vector<Quantity> quantities;
   std::vector<std::string> warnings;
-  std::string note;  ///< what must be known of the quantities; empty: nothing
+  std::string note;  ///< caveat about the quantities; may be empty
 };
 
-/// Looks on while a case runs.
+/// Observes a run.
 class RunWatcher {
  public:
   virtual ~RunWatcher() = default;
-  /// Once, before anything is written; end: of the run, s. Throws KeyError where it cannot use the case.
+  /// Once, before anything is written; end: of the run, s. Throws KeyError if the case is unsuitable.
   virtual void begin(const Config& config, double end) = 0;
   virtual void after_step(Simulation& simulation, const StepInfo& info) = 0;
   /// At the end of a run that was not stopped.
@@ -30,7 +30,7 @@ class RunWatcher {
 
 class LiveView;
 
-/// Runs a case that is read and whose particles are placed; returns the exit code, as run_case.
+/// Runs a case whose particles are placed; returns the exit code, as run_case.
 int run_prepared(const Options& options, Prepared prepared, RunWatcher* watcher = nullptr,
                  LiveView* live = nullptr);
 

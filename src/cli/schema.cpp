@@ -22,8 +22,8 @@ Json array_of(Json items, std::size_t least, std::size_t most = 0) {
   return schema;
 }
 
-/// A number within the bounds of a parameter, or one in quotes with a unit, whose size is left to the
-/// program.
+/// A number within the bounds of a parameter, or a quoted one with a unit, whose bounds only the program
+/// checks.
 Json number(const ParameterRow& row, const char* type = "number") {
   Json bare{{"type", type}};
   const Interval& range = row.range;
@@ -85,7 +85,7 @@ std::string description(const ParameterRow& row) {
 
 Json table() { return {{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}}; }
 
-/// The table that holds the last part of `path`, made on the way; `path` is left with that part.
+/// The table of the last part of `path`, created if needed; `path` is cut to that part.
 Json& table_of(Json& root, std::string& path) {
   Json* at = &root;
   for (auto dot = path.find('.'); dot != path.npos; dot = path.find('.')) {
@@ -115,7 +115,7 @@ std::string schema_text() {
     Json& at = table_of(root, name);
     Json schema = value(row);
     schema["description"] = description(row);
-    // Words such as "none" and inf are no JSON.
+    // Defaults such as "none" and inf are not JSON.
     const Json fallback = row.fixed_default ? Json::parse(row.fallback, nullptr, false) : Json();
     if (!fallback.is_null() && !fallback.is_discarded()) schema["default"] = fallback;
     at["properties"][name] = std::move(schema);

@@ -1,5 +1,5 @@
 #pragma once
-// A run under way, for the program and for Python.
+// A run, for the program and for Python.
 
 #include <chrono>
 #include <functional>
@@ -15,46 +15,45 @@
 
 namespace bedload {
 
-/// Throws FileError if options.out holds a run, unless it is restarted from or overwritten.
+/// Throws FileError if options.out holds a run, unless it is restarted or overwritten.
 void refuse_other_run(const Options& options);
 
-/// A simulation with its results folder, if it has one, from before its first step to its end.
+/// A simulation and its results folder, if it has one, from start to end.
 class Session {
  public:
-  using Say = std::function<void(const std::string&)>;
+  using Print = std::function<void(const std::string&)>;
 
-  /// The simulation at its first step: from a checkpoint, over settled grains, or as initialised. Results go
-  /// to options.out, if it is not empty. `say` is told what is going on, a line each. Throws as what it
-  /// calls.
-  Session(const Options& options, Prepared prepared, const Say& say);
+  /// Starts the simulation: from a checkpoint, from settled grains, or as initialised. Results go to
+  /// options.out, if it is not empty. `print` gets one line per stage of the start.
+  Session(const Options& options, Prepared prepared, const Print& print);
 
-  /// Writes the first frames, unless the run goes on from a checkpoint.
+  /// Writes the first frames, unless the run is a restart.
   void begin();
-  /// One step, and what of it is due to be written. May add to the warnings.
+  /// One step and the output that is due. May add warnings.
   StepInfo step();
-  /// Ends the results; status as in RunOutput::finish.
+  /// Writes the last results; status as in RunOutput::finish.
   void finish(const std::string& status);
 
   Simulation& simulation() { return *simulation_; }
   RunOutput* output() { return output_ ? &*output_ : nullptr; }
   const Prepared& prepared() const { return p_; }
-  /// What has been done so far, up to now.
-  Effort effort() const;
+  /// Steps and wall time so far.
+  RunTotals totals() const;
 
  private:
-  void build(const Options& options, const Say& say);
+  void build(const Options& options, const Print& print);
   void warn(const std::string& text);
-  void tell_gaps(const Options& options);
-  SavedState settled(const Options& options, const Say& say);
+  void report_gaps(const Options& options);
+  SavedState settled(const Options& options, const Print& print);
 
   Prepared p_;
   std::unique_ptr<Simulation> simulation_;
   std::optional<RunOutput> output_;
   OutputIntervals intervals_;
   SpeedWatch speed_watch_;
-  bool continues_;
-  Effort effort_;
-  std::chrono::steady_clock::time_point from_ = std::chrono::steady_clock::now();
+  bool restarted_;
+  RunTotals totals_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace bedload

@@ -38,13 +38,13 @@ fs::path settled_file(const Config& config, const Setup& setup, const Device& de
   return folder / fmt::format("settled-{:016x}.h5", hash.value());
 }
 
-std::optional<SavedState> kept_bed(const Config& config, const Setup& setup, const Device& device) {
+std::optional<SavedState> cached_bed(const Config& config, const Setup& setup, const Device& device) {
   const fs::path file = settled_file(config, setup, device);
   if (file.empty() || !fs::exists(file)) return std::nullopt;
   try {
     return read_checkpoint(file, settling_case(config));
   } catch (const FileError&) {
-    return std::nullopt;  // a run will say so
+    return std::nullopt;  // settled_grains() warns
   }
 }
 
@@ -64,7 +64,7 @@ SettledGrains settled_grains(const Config& config, const Setup& setup, const Dev
     try {
       return {read_checkpoint(file, dry), file};
     } catch (const FileError& error) {
-      warnings.push_back(fmt::format("the settled bed is computed anew; {}", error.what()));
+      warnings.push_back(fmt::format("cannot use the cached bed, settling again; {}", error.what()));
     }
   }
   Setup grains;
@@ -82,9 +82,9 @@ SettledGrains settled_grains(const Config& config, const Setup& setup, const Dev
     write_state(file, state, dry);
   } catch (const fs::filesystem_error& error) {
     warnings.push_back(
-        fmt::format("{}: cannot keep the settled bed: {}", file.string(), error.code().message()));
+        fmt::format("{}: cannot cache the settled bed: {}", file.string(), error.code().message()));
   } catch (const FileError& error) {
-    warnings.push_back(fmt::format("cannot keep the settled bed; {}", error.what()));
+    warnings.push_back(fmt::format("cannot cache the settled bed; {}", error.what()));
   }
   return {state, {}};
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What a shell and its users are told of the command line, from the command line itself.
+// Shell completion and manual page, generated from the command line.
 
 #include <CLI/CLI.hpp>
 #include <string>

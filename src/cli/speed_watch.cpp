@@ -9,9 +9,9 @@ namespace bedload {
 namespace {
 
 constexpr double kFast = 1.5, kVeryFast = 2;     // of vmax
-constexpr double kMany = 0.01, kEnough = 0.001;  // of the particles
-constexpr std::int64_t kLongest = 1000;          // steps from one look to the next
-constexpr std::size_t kLeast = 4;                // particles, in small cases
+constexpr double kMany = 0.01, kEnough = 0.001;  // fractions of the particles
+constexpr std::int64_t kLongest = 1000;          // steps between checks
+constexpr std::size_t kLeast = 4;                // particles; matters in small cases
 
 double component(const HostArray& array, std::size_t i) {
   return array.type == Scalar::f64 ? array.as<double>()[i] : double(array.as<float>()[i]);
@@ -23,17 +23,17 @@ Vec3d vector_at(const HostArray& array, std::size_t a) {
 
 }  // namespace
 
-/// Heat moves particles of SDPD at any speed, and sheared fluid is as fast as its box is high.
+/// Not with thermal noise or Lees-Edwards shear: there the speed of single particles means nothing.
 SpeedWatch::SpeedWatch(const Config& c)
     : vmax_(c.fluid.vmax),
       sound_(c.fluid.c),
       factor_(c.fluid.c / c.fluid.vmax),
-      watching_(c.fluid.present && !c.domain.sheared() && !(c.fluid.sdpd() && c.sdpd.kT > 0)) {}
+      active_(c.fluid.present && !c.domain.sheared() && !(c.fluid.sdpd() && c.sdpd.kT > 0)) {}
 
-std::optional<std::string> SpeedWatch::look(Simulation& simulation, const StepInfo& info) {
-  if (!watching_ || info.vmax <= kFast * vmax_ || info.step < next_) return {};
+std::optional<std::string> SpeedWatch::check(Simulation& simulation, const StepInfo& info) {
+  if (!active_ || info.vmax <= kFast * vmax_ || info.step < next_) return {};
   next_ = info.step + gap_;
-  gap_ = std::min(2 * gap_, kLongest);  // to look costs as much as a frame
+  gap_ = std::min(2 * gap_, kLongest);  // a check costs as much as a frame
 
   const HostStore fluid = simulation.snapshot("fluid");
   const HostArray &x = *fluid.find("position"), &v = *fluid.find("velocity");
@@ -48,14 +48,14 @@ std::optional<std::string> SpeedWatch::look(Simulation& simulation, const StepIn
   const bool many = fast >= kLeast && double(fast) >= kMany * all,
              enough = very_fast >= kLeast && double(very_fast) >= kEnough * all;
   if (!many && !enough) return {};
-  watching_ = false;
+  active_ = false;
   const Vec3d at = vector_at(x, fastest);
   return fmt::format(
       "fluid flows at up to {:.3g} m/s at ({:.4g}, {:.4g}, {:.4g}) m, t = {:.4g} s, {:.2g} times fluid.vmax "
       "= "
-      "{:.3g} m/s (Mach {:.2g}, {:.2g} % of the particles above {:g} vmax), so its density varies by some "
+      "{:.3g} m/s (Mach {:.2g}, {:.2g} % of the particles above {:g} vmax); its density varies by about "
       "{:.2g} "
-      "% there instead of {:.2g} %; run it again with fluid.vmax = {:.2g}",
+      "% instead of {:.2g} %; increase fluid.vmax to {:.2g} m/s and run again",
       most, at.x, at.y, at.z, info.time, most / vmax_, vmax_, most / sound_, 100 * double(fast) / all, kFast,
       100 * most * most / (sound_ * sound_), 100 / (factor_ * factor_), most);
 }

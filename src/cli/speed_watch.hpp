@@ -1,5 +1,5 @@
 #pragma once
-// Fluid that comes to flow faster than its sound speed was chosen for.
+// Warns of fluid faster than its sound speed was chosen for.
 
 #include <cstdint>
 #include <optional>
@@ -10,19 +10,19 @@
 
 namespace bedload {
 
-/// Sound is as fast as fluid.vmax asks for; what flows faster is compressed by more than that allows. The
-/// front of a column that collapses reaches 1.6 vmax, lone particles of spray more: so much is left.
+/// The sound speed follows from fluid.vmax; faster fluid is compressed more than intended. The front of a dam
+/// break reaches 1.6 vmax and single particles of spray more, so the thresholds are above that.
 class SpeedWatch {
  public:
   explicit SpeedWatch(const Config& config);
-  /// After a step: one sentence, once, when a hundredth of the fluid is faster than 1.5 vmax or a thousandth
-  /// faster than 2 vmax.
-  std::optional<std::string> look(Simulation& simulation, const StepInfo& info);
+  /// After a step: one sentence, once, when 1 % of the fluid is faster than 1.5 vmax or 0.1 % faster than
+  /// 2 vmax.
+  std::optional<std::string> check(Simulation& simulation, const StepInfo& info);
 
  private:
   double vmax_, sound_, factor_;  ///< m/s, m/s, fluid.c_factor
-  bool watching_;
-  std::int64_t next_ = 0, gap_ = 20;  ///< steps: when to look next, and after it
+  bool active_;
+  std::int64_t next_ = 0, gap_ = 20;  ///< steps: of the next check, and until the one after
 };
 
 }  // namespace bedload

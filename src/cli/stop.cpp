@@ -7,7 +7,7 @@ namespace {
 
 volatile std::sig_atomic_t stop = 0;
 
-/// A second Ctrl-C is impatience; batch systems send SIGTERM twice without meaning it.
+/// Only a second Ctrl-C ends the program at once: batch systems may send SIGTERM twice.
 void on_signal(int signal) {
   if (stop && signal == SIGINT) {
     std::signal(SIGINT, SIG_DFL);
@@ -25,7 +25,7 @@ void watch_signals() {
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGHUP, &action, nullptr);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file larger than allowed is then an error of whoever writes it
+  std::signal(SIGXFSZ, SIG_IGN);  // exceeding the file size limit becomes a write error
 }
 
 bool stop_requested() { return stop != 0; }

@@ -1,12 +1,12 @@
 #pragma once
-// Ctrl-C and SIGTERM end a run after the step at hand. A second Ctrl-C ends it at once.
+// Ctrl-C and SIGTERM end a run after the current step. A second Ctrl-C ends it at once.
 
 namespace bedload {
 
-/// The user stopped the program where nothing is worth saving.
+/// The user stopped the program before there was anything to save.
 struct Stopped {};
 
-/// Catches both signals from now on.
+/// Installs the signal handlers.
 void watch_signals();
 bool stop_requested();
 

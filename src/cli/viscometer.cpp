@@ -13,9 +13,9 @@
 namespace bedload {
 namespace {
 
-constexpr int kLayers = 40, kSamples = 50;  // samples a block
+constexpr int kLayers = 40, kSamples = 50;  // per block
 
-double reading(const std::vector<Quantity>& all, const std::string& name) {
+double value_of(const std::vector<Quantity>& all, const std::string& name) {
   for (const Quantity& q : all)
     if (q.name == name) return q.value;
   return 0;
@@ -24,7 +24,7 @@ double reading(const std::vector<Quantity>& all, const std::string& name) {
 /// Samples the flow once it is steady.
 class Viscometer final : public RunWatcher {
  public:
-  /// without: what the same case comes to without grains, if it is to be compared.
+  /// without: viscosity of the case without grains, for the relative viscosity.
   explicit Viscometer(std::optional<Measured> without = {}) : without_(without) {}
 
   void begin(const Config& config, double end) override {
@@ -54,16 +54,17 @@ class Viscometer final : public RunWatcher {
     }
     RunFindings out{"viscometer", quantities_, {}, caveat()};
     if (!result_->stationary())
-      out.warnings.push_back(
-          fmt::format("the flow is not steady: its viscosity changes by {:.2g} % from the first "
-                      "half of the blocks to the second",
-                      100 * result_->drift));
+      out.warnings.push_back(fmt::format(
+          "the flow is not steady: the viscosity of the second half of the blocks differs by {:.2g} % "
+          "from that of the first",
+          100 * result_->drift));
     if (result_->mach > 0.1 * (1 + 1e-6))
-      out.warnings.push_back(fmt::format("Mach number {:.3g} is above 0.1: raise fluid.vmax", result_->mach));
+      out.warnings.push_back(
+          fmt::format("Mach number {:.3g} is above 0.1: increase fluid.vmax", result_->mach));
     return out;
   }
 
-  /// Of the relative viscosity; empty without one.
+  /// Caveat about the relative viscosity; empty without one.
   std::string caveat() const {
     return relative()
                ? relative_caveat(result_->concentration, config_.couple.suspension != SuspensionLaw::none)
@@ -82,13 +83,13 @@ class Viscometer final : public RunWatcher {
   }
 
  private:
-  /// Mean shear stress that the walls bear, Pa.
+  /// Mean shear stress on the walls, Pa.
   double wall_stress(Simulation& simulation) const {
     if (flow_.kind != PlaneFlowKind::couette) return 0;
     const std::string axis(1, "xyz"[flow_.along]);
     const auto force = [&](int body) {
       const auto state = simulation.body_state(body);
-      return reading(state, "force_by_fluid_" + axis) + reading(state, "force_by_grains_" + axis);
+      return value_of(state, "force_by_fluid_" + axis) + value_of(state, "force_by_grains_" + axis);
     };
     return (force(flow_.lower) - force(flow_.upper)) / (2 * flow_.area);
   }
@@ -114,11 +115,9 @@ int measure(const Options& o, Prepared prepared, Viscometer& viscometer) {
     fmt::print("relative   {:.4f} +- {:.4f} of the viscosity without grains; {}\n", ratio->mean, ratio->error,
                viscometer.caveat());
   if (r.accepted()) return code;
-  fmt::print(
-      stderr,
-      "{}: R^2 = {:.3f} of the profile is below {}: it is not that of {} flow, and no viscosity is told\n",
-      (o.out / "viscometer" / "profile.csv").string(), r.r_squared, ViscosityResult::kLeastR2,
-      viscometer.flow().name());
+  fmt::print(stderr, "{}: fit rejected, viscosity not reported: R^2 = {:.3f} of the {} profile is below {}\n",
+             (o.out / "viscometer" / "profile.csv").string(), r.r_squared, viscometer.flow().name(),
+             ViscosityResult::kLeastR2);
   return code ? code : kExitNoViscosity;
 }
 
@@ -133,8 +132,9 @@ Config without_grains(Config c) {
 int viscometer(const Options& o) {
   watch_signals();
   Prepared prepared = prepare(o);
-  Viscometer().begin(prepared.config,
-                     o.until.value_or(prepared.config.time.end));  // refused before it is run
+  Viscometer().begin(
+      prepared.config,
+      o.until.value_or(prepared.config.time.end));  // fails before the run if the flow is unsuitable
   std::optional<Measured> without;
   if (o.relative) {
     if (!prepared.config.grain.present)

@@ -1,12 +1,12 @@
-// Checkpoints: the kept state in HDF5, and what tells whether it fits a case.
+// Checkpoints: the state for a restart in HDF5, and the numbers that show whether it fits a case.
 //
 //   /           attributes "format", "precision"; dataset "case": the resolved case
-//   /setup      attributes: the numbers that fix how many particles there are
+//   /setup      attributes: the numbers that define the particles
 //   /scalars    attributes: clock and totals, "<name>" and "<name>:unit"
 //   /stores/..  attribute "count"; one dataset per array with "unit"
 //
-// Behind what HDF5 reads lies the seal of files.hpp. It is tried before HDF5, which a flipped bit can lead
-// astray, sees the file.
+// The seal of files.hpp follows the HDF5 data. It is checked before HDF5 opens the file, since a flipped bit
+// can make HDF5 misbehave.
 
 #include <fmt/format.h>
 
@@ -27,7 +27,7 @@ using h5::Handle;
 
 constexpr std::int64_t kFormat = 7;
 
-/// What the number of particles follows from; a state fits a case only if these agree.
+/// The numbers that define the particles; a state fits a case only if these agree.
 std::vector<Quantity> particle_setup(const Config& c) {
   std::vector<Quantity> all;
   const auto add = [&](const std::string& name, double value) { all.push_back({name, "", value}); };
@@ -44,7 +44,7 @@ std::vector<Quantity> particle_setup(const Config& c) {
     for (std::size_t k = 0; k < c.fluid.fills.size(); ++k)
       add_box(fmt::format("fluid.fill.{}", k), c.fluid.fills[k].min, c.fluid.fills[k].max);
   }
-  // what particles hold depends on these and on the walls' types
+  // the fields of the particles depend on these and on the wall types
   if (c.fluid.sdpd()) add(fmt::format("fluid.model = \"{}\"", c.fluid.model.name()), 1);
   if (c.fluid.present && c.grain.present && c.couple.mode != CouplingMode::off)
     add(fmt::format("couple.mode = \"{}\"", c.couple.mode.name()), 1);
@@ -79,7 +79,7 @@ std::vector<Quantity> particle_setup(const Config& c) {
   return all;
 }
 
-/// A dataset of fixed size, laid out in one piece.
+/// A contiguous dataset of fixed size.
 Handle create_array(hid_t parent, const std::string& name, hid_t type, int rank, const hsize_t* n) {
   const Handle space(H5Screate_simple(rank, n, nullptr));
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE));
@@ -116,26 +116,26 @@ void write_case_text(hid_t file, const std::string& text) {
 
 void check_fits(hid_t file, const Config& config) {
   if (!h5::has_attribute(file, "format") || !h5::has_attribute(file, "precision"))
-    throw h5::Error("it is no Bedload checkpoint");
+    throw h5::Error("it is not a Bedload checkpoint");
   if (const auto format = h5::read_integer(file, "format"); format != kFormat)
     throw h5::Error(fmt::format("it has checkpoint format {}, this version reads {}", format, kFormat));
   if (const auto precision = h5::read_text(file, "precision"); precision != config.precision)
     throw h5::Error(
-        fmt::format("it was made with run.precision = {}, this case has {}", precision, config.precision));
+        fmt::format("it has run.precision = {}, but this case has {}", precision, config.precision));
   const Handle setup = h5::open_group(file, "setup");
   const auto expected = particle_setup(config);
   for (const auto& q : expected) {
     if (!h5::has_attribute(setup, q.name.c_str()))
-      throw h5::Error(fmt::format("it holds other particles: it was made without {}", q.name));
+      throw h5::Error(fmt::format("its particles differ: it was written without {}", q.name));
     if (const double found = h5::read_number(setup, q.name.c_str()); found != q.value)
-      throw h5::Error(fmt::format("it holds other particles: it was made with {} = {}, this case has {}",
+      throw h5::Error(fmt::format("its particles differ: it was written with {} = {}, but this case has {}",
                                   q.name, found, q.value));
   }
   if (const auto stored = h5::attributes(setup); stored.size() != expected.size())
     for (const auto& name : stored)
       if (std::none_of(expected.begin(), expected.end(), [&](const auto& q) { return q.name == name; }))
         throw h5::Error(
-            fmt::format("it holds other particles: it was made with {}, this case has none", name));
+            fmt::format("its particles differ: it was written with {}, which this case has not", name));
 }
 
 void write_all(hid_t file, const SavedState& state, const Config& config) {
@@ -183,19 +183,19 @@ void write_state(const std::filesystem::path& path, const SavedState& state, con
 
 namespace {
 
-/// f(file) on a checkpoint that is whole.
+/// f(file) on an intact checkpoint.
 template <class F>
 auto on_checkpoint(const std::filesystem::path& path, F f) {
   if (!std::filesystem::is_regular_file(path)) throw FileError(path.string() + ": cannot read: no such file");
   return h5::with_file_errors(path, "restart from this", [&] {
-    if (!h5::is_hdf5(path)) throw h5::Error("it is no HDF5 file");
+    if (!h5::is_hdf5(path)) throw h5::Error("it is not an HDF5 file");
     const Seal seal = seal_of(path);
     if (seal == Seal::missing)
       throw h5::Error(
-          "it is no Bedload checkpoint, or cut off, or of an older version (no checksum at its end)");
+          "no checksum at its end: it is truncated, of an older version or not a Bedload checkpoint");
     if (seal == Seal::broken) throw h5::Error("it is damaged (wrong checksum)");
     const Handle file = h5::open_file(path, h5::Mode::read);
-    if (!h5::has_attribute(file, "format")) throw h5::Error("it is no Bedload checkpoint");
+    if (!h5::has_attribute(file, "format")) throw h5::Error("it is not a Bedload checkpoint");
     return f(hid_t(file));
   });
 }
@@ -215,7 +215,7 @@ std::string checkpoint_case(const std::filesystem::path& path) {
   return on_checkpoint(path, [](hid_t file) {
     const Handle table = h5::open_dataset(file, "case");
     const auto length = h5::stored_extent(table);
-    if (length.size() != 1) throw h5::Error("its case is no text");
+    if (length.size() != 1) throw h5::Error("its case is not text");
     std::string text(length[0], ' ');
     check(H5Dread(table, H5T_NATIVE_UINT8, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()));
     return text;

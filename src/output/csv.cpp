@@ -22,13 +22,12 @@ std::string header_of(const std::vector<Quantity>& row) {
   return header;
 }
 
-/// Whole lines of a table; what has no end of line was never finished.
+/// Complete lines of a table; an unterminated last line is ignored.
 std::vector<std::string> lines_of(const std::filesystem::path& path) {
   std::vector<std::string> lines;
   const std::string text = read_file(path);
   if (text.find('\r') != std::string::npos)
-    throw FileError(path.string() +
-                    ": has lines that end with CR LF, which some editors make of LF; turn them back");
+    throw FileError(path.string() + ": has CR LF line ends; convert them to LF");
   for (std::size_t start = 0, end; (end = text.find('\n', start)) != std::string::npos; start = end + 1)
     lines.push_back(text.substr(start, end - start));
   return lines;
@@ -46,7 +45,7 @@ std::vector<std::string> cells_of(const std::string& line) {
 void compare(const std::filesystem::path& path, const std::string& found, const std::string& header) {
   if (found != header)
     throw FileError(
-        fmt::format("{}: has the columns '{}', this run writes '{}'", path.string(), found, header));
+        fmt::format("{}: has the columns '{}', but this run writes '{}'", path.string(), found, header));
 }
 
 }  // namespace
@@ -75,13 +74,13 @@ void CsvTable::append(double time, const std::vector<Quantity>& row, bool begun)
 
   std::error_code none;
   const auto before = std::filesystem::file_size(path_, none);
-  std::FILE* file = std::fopen(path_.c_str(), begun ? "r+b" : "ab");  // r+ makes no file
+  std::FILE* file = std::fopen(path_.c_str(), begun ? "r+b" : "ab");  // r+ creates no file
   if (file && begun) std::fseek(file, 0, SEEK_END);
   bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
   if (file) written = (std::fclose(file) == 0) && written;
   if (written) return;
   const FileError error(fmt::format("{}: cannot write: {}", path_.string(), std::strerror(errno)));
-  if (!none) std::filesystem::resize_file(path_, before, none);  // no half a row
+  if (!none) std::filesystem::resize_file(path_, before, none);  // no partial row
   throw error;
 }
 
@@ -94,7 +93,7 @@ std::vector<double> CsvTable::times() const {
     char* end = nullptr;
     times.push_back(std::strtod(lines[k].c_str(), &end));
     if (end == lines[k].c_str() || columns(lines[k]) != columns(lines[0]))
-      throw FileError(fmt::format("{}:{}: is no row of {} numbers that begins with a time: '{}'",
+      throw FileError(fmt::format("{}:{}: must be a row of {} numbers starting with the time: '{}'",
                                   path_.string(), k + 1, columns(lines[0]), lines[k]));
   }
   return times;

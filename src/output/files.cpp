@@ -36,8 +36,7 @@ void move(const std::filesystem::path& part, const std::filesystem::path& path) 
   if (std::rename(part.c_str(), path.c_str()) != 0) throw cannot("write", path);
 }
 
-/// Takes space behind the end of a file, so that nobody else does; false where there is no file or its file
-/// system knows no such thing.
+/// Reserves disk space beyond the end of a file; false if there is no file or the file system cannot.
 bool reserved(const std::filesystem::path& path, std::size_t bytes) {
   const int file = ::open(path.c_str(), O_WRONLY);
   if (file < 0) return false;
@@ -121,7 +120,7 @@ void need_space(const std::filesystem::path& path, std::size_t bytes) {
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   const auto space = std::filesystem::space(folder, unknown);
   if (unknown || space.available >= bytes) return;
-  throw FileError(fmt::format("{}: cannot write: the disk has {:.1f} MB left and {:.1f} MB are needed",
+  throw FileError(fmt::format("{}: cannot write: {:.1f} MB of disk space left, {:.1f} MB needed",
                               path.string(), space.available * 1e-6, bytes * 1e-6));
 }
 
@@ -141,14 +140,14 @@ void must_be_usable(const std::filesystem::path& path, std::filesystem::file_typ
   const auto found = std::filesystem::status(path, unknown).type();
   if (found == std::filesystem::file_type::not_found) {
     if (!std::filesystem::is_symlink(path)) return;
-    throw FileError(path.string() + ": cannot write: it is a link that leads nowhere");
+    throw FileError(path.string() + ": cannot write: it is a broken link");
   }
   if (found != type) {
     const bool folder = found == std::filesystem::file_type::directory;
     throw FileError(path.string() + ": cannot write: it is " +
                     (folder                                          ? "a folder"
-                     : type == std::filesystem::file_type::directory ? "no folder"
-                                                                     : "no file"));
+                     : type == std::filesystem::file_type::directory ? "not a folder"
+                                                                     : "not a file"));
   }
   if (::access(path.c_str(), R_OK | W_OK) != 0) throw cannot("write", path);
 }
@@ -162,7 +161,7 @@ void remove_file(const std::filesystem::path& path) {
 void must_be_there(const std::filesystem::path& path) {
   std::error_code unknown;
   if (std::filesystem::exists(path, unknown) || unknown) return;
-  throw FileError(path.string() + ": cannot write: it was removed while the run went on");
+  throw FileError(path.string() + ": cannot write: it was removed during the run");
 }
 
 void seal_file(const std::filesystem::path& path) {

@@ -39,9 +39,9 @@ FolderLock::FolderLock(const fs::path& folder) : folder_(folder) {
   if (::flock(handle_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     const std::string holder = read_file(file);
     ::close(handle_);
-    throw FileError(fmt::format("{}: {} writes there; wait for it, stop it or give another --out",
+    throw FileError(fmt::format("{}: in use by {}; wait for it, stop it or choose another --out",
                                 folder.string(), holder.empty() ? "another run" : holder));
-  }  // where a file system knows no locks, there is none
+  }  // without a lock on file systems that have none
   const std::string text = this_process();
   const bool written = ::ftruncate(handle_, 0) == 0 && ::pwrite(handle_, text.data(), text.size(), 0) > 0;
   if (written) return;
@@ -51,7 +51,7 @@ FolderLock::FolderLock(const fs::path& folder) : folder_(folder) {
 }
 
 FolderLock::~FolderLock() {
-  (void)!::ftruncate(handle_, 0);  // the file stays: a new one in its place would be another lock
+  (void)!::ftruncate(handle_, 0);  // the file stays: a new file would be a different lock
   std::error_code none;
   if (made_ && std::distance(fs::directory_iterator(folder_, none), {}) == 1) fs::remove_all(folder_, none);
   ::close(handle_);

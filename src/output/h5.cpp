@@ -8,13 +8,12 @@ herr_t keep_last(unsigned, const H5E_error2_t* entry, void* text) {
   return 0;
 }
 
-/// Errors are thrown, not printed (the library asks every thread anew), and nothing
-/// is cleaned up at exit: that crashes on what a failed write left open, and all
-/// that is well is closed by then.
+/// Errors are thrown, not printed (a setting per thread). The cleanup at exit is off: it crashes on files
+/// that a failed write left open, and all others are closed by then.
 void set_up_library() {
   static const bool first = H5dont_atexit() >= 0;
   if (!first || H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr) < 0)
-    throw Error("the HDF5 library does not start");
+    throw Error("cannot initialise the HDF5 library");
 }
 
 Handle property_list(hid_t kind) { return Handle(H5Pcreate(kind)); }
@@ -27,11 +26,11 @@ void put(hid_t object, const char* attribute, hid_t stored, hid_t in_memory, con
   check(H5Awrite(a, in_memory, value));
 }
 
-/// An attribute of one value, as all are here.
+/// An attribute with a single value.
 Handle get(hid_t object, const char* attribute) {
   Handle a(H5Aopen(object, attribute, H5P_DEFAULT));
   if (H5Sget_simple_extent_npoints(Handle(H5Aget_space(a))) != 1)
-    throw Error("attribute '" + std::string(attribute) + "' does not hold one value");
+    throw Error("attribute '" + std::string(attribute) + "' must hold one value");
   return a;
 }
 
@@ -136,7 +135,7 @@ std::vector<hsize_t> stored_extent(hid_t dataset) {
   double bytes = double(H5Tget_size(Handle(H5Dget_type(dataset))));
   for (const hsize_t length : n) bytes *= double(length);
   if (bytes > kMostDeflated * double(H5Dget_storage_size(dataset)))
-    throw Error("an array in it says that it is larger than what is stored of it");
+    throw Error("an array is larger than its stored data");
   return n;
 }
 
@@ -150,7 +149,7 @@ void write_text(hid_t object, const char* attribute, const std::string& text) {
 std::string read_text(hid_t object, const char* attribute) {
   const Handle a = get(object, attribute);
   const Handle type(H5Aget_type(a));
-  if (H5Tget_class(type) != H5T_STRING) throw Error("attribute '" + std::string(attribute) + "' is no text");
+  if (H5Tget_class(type) != H5T_STRING) throw Error("attribute '" + std::string(attribute) + "' is not text");
   if (check(H5Tis_variable_str(type)) > 0) {
     char* value = nullptr;
     check(H5Aread(a, type, &value));

@@ -18,16 +18,15 @@ OutputIntervals::OutputIntervals(const OutputConfig& out) {
 }
 
 std::vector<std::string> OutputIntervals::newly_below(double dt) {
-  std::vector<std::string> told;
+  std::vector<std::string> warnings;
   while (!keys_.empty() && keys_.begin()->first < dt * (1 - 1e-9)) {
     const auto& [every, keys] = *keys_.begin();
-    told.push_back(
-        fmt::format("{} = {} s is below the time step, {:.3g} s: what is due is written once a step, {:.3g} "
-                    "times less often",
-                    keys, every, dt, dt / every));
+    warnings.push_back(fmt::format(
+        "{} = {} s is below the time step, {:.3g} s: written once per step, {:.3g} times less often", keys,
+        every, dt, dt / every));
     keys_.erase(keys_.begin());
   }
-  return told;
+  return warnings;
 }
 
 }  // namespace bedload

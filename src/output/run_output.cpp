@@ -21,9 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes to a file; if that fails since a file that was `begun` has gone, says so.
+/// Calls write(); if it fails because a file that was `begun` is gone, the error says so.
 template <class F>
-void while_there(const fs::path& path, bool begun, const F& write) {
+void write_existing(const fs::path& path, bool begun, const F& write) {
   try {
     write();
   } catch (const FileError&) {
@@ -49,7 +49,7 @@ nlohmann::ordered_json to_json(const std::vector<Loss>& losses) {
   return object;
 }
 
-/// {"cfl": 120, "growth": 3}: steps by what bound them.
+/// {"cfl": 120, "growth": 3}: steps by active limit.
 nlohmann::ordered_json by_limit(const std::array<std::int64_t, kLimits.size()>& steps) {
   auto object = nlohmann::ordered_json::object();
   for (const auto& row : kLimits)
@@ -63,7 +63,7 @@ double host_peak_bytes() {
   return 1024.0 * double(usage.ru_maxrss);
 }
 
-/// The step that a checkpoint is named after, if it is one.
+/// The step number in the name of a checkpoint; none for other files.
 std::optional<std::int64_t> step_of(const fs::path& path) {
   const std::string name = path.filename().string(), before = "step_", after = ".h5";
   std::int64_t step = 0;
@@ -76,7 +76,7 @@ std::optional<std::int64_t> step_of(const fs::path& path) {
   return step;
 }
 
-/// By their steps.
+/// Checkpoints by step.
 std::map<std::int64_t, fs::path> checkpoints_in(const fs::path& dir) {
   std::map<std::int64_t, fs::path> found;
   std::error_code none;
@@ -94,25 +94,25 @@ std::string commented(const std::string& text) {
 }  // namespace
 
 struct RunOutput::Impl {
-  Impl(const fs::path& folder, const Config& c, const Device& d, std::string v, Simulation* continued)
+  Impl(const fs::path& folder, const Config& c, const Device& d, std::string v, Simulation* restarted)
       : dir(folder),
         config(c),
         device(d),
         version(std::move(v)),
         series(series_of(c, folder)),
         checkpoint_schedule(c.out.checkpoint_every) {
-    if (continued) {
-      begin = Begin{continued->time(), continued->steps()};
-      examine(*continued);
+    if (restarted) {
+      begin = Begin{restarted->time(), restarted->steps()};
+      examine(*restarted);
       for (const auto& [step, path] : checkpoints_in(dir))
         if (step <= begin->step) newest = path;
     } else {
       for (const fs::path& path : files()) must_be_no_folder(path);
-      begin_anew();
+      start_new();
     }
   }
 
-  /// Everything that this run writes but checkpoints.
+  /// All files of this run except checkpoints.
   std::vector<fs::path> files() const {
     std::vector<fs::path> all{dir / "case.resolved.toml", dir / "summary.json"};
     for (const auto& f : series.frames)
@@ -140,7 +140,7 @@ struct RunOutput::Impl {
                    commented(fmt::format("seed: {}", config.seed)) + '\n' + resolved_toml(config));
   }
 
-  void begin_anew() const {
+  void start_new() const {
     make_folders();
     const Leftovers others = leftovers(series, dir);
     for (const auto& [step, path] : checkpoints_in(dir)) remove_file(path);
@@ -152,7 +152,7 @@ struct RunOutput::Impl {
     write_case();
   }
 
-  /// Throws FileError where the run could not go on with what is there, while all of it is as it was.
+  /// Throws FileError, before anything is changed, if the run cannot continue the files in the folder.
   void examine(Simulation& simulation) const {
     for (const fs::path& path : {dir, dir / "probes", dir / "bodies", dir / "checkpoints"})
       must_be_usable(path, fs::file_type::directory);
@@ -173,16 +173,15 @@ struct RunOutput::Impl {
   static void must_increase(const fs::path& path, const std::vector<double>& times) {
     const auto at = std::adjacent_find(times.begin(), times.end(), std::greater_equal<>());
     if (at != times.end())
-      throw FileError(fmt::format("{}: cannot go on with this: t = {} s stands before t = {} s",
-                                  path.string(), *at, *(at + 1)));
+      throw FileError(fmt::format("{}: cannot be continued: t = {} s comes before t = {} s", path.string(),
+                                  *at, *(at + 1)));
   }
 
-  /// Takes up the series of an earlier run, once. What lies after the checkpoint is out of date from now on:
-  /// first the checkpoints, the last ones before others, so that whatever stops this leaves a folder from
-  /// whose newest checkpoint a run can go on.
-  void take_up(bool steps_follow) {
-    if (!begin || taken_up) return;
-    taken_up = true;
+  /// Truncates the series of an earlier run to the checkpoint, once. Later checkpoints go first, the newest
+  /// before others, so that an interruption leaves a folder whose newest checkpoint is valid.
+  void truncate(bool steps_follow) {
+    if (!begin || truncated) return;
+    truncated = true;
     make_folders();
     remove_file(dir / "summary.json");
     const auto all = checkpoints_in(dir);
@@ -207,7 +206,7 @@ struct RunOutput::Impl {
     write_case();
   }
 
-  /// Hands over what is due at `time`, or all that is not yet written there.
+  /// Posts the output that is due at `time`, or everything not yet written at that time.
   void emit(Simulation& simulation, double time, bool everything) {
     const auto wanted = [&](const Schedule& s) { return everything ? !s.written_at(time) : s.due(time); };
     for (auto& f : series.frames) {
@@ -215,28 +214,29 @@ struct RunOutput::Impl {
         const bool again = f.schedule.begun();
         f.schedule.written(time);
         writer.post([&f, store = simulation.snapshot(f.store), time, again] {
-          while_there(f.file.path(), again, [&] {
+          write_existing(f.file.path(), again, [&] {
             f.file.append(store, time, again);
             ++f.written;
             f.refresh_xdmf(false);
           });
         });
       }
-      if (everything) writer.post([&f] { while_there(f.file.path(), true, [&] { f.refresh_xdmf(true); }); });
+      if (everything)
+        writer.post([&f] { write_existing(f.file.path(), true, [&] { f.refresh_xdmf(true); }); });
     }
     for (auto& t : series.tables) {
       if (!wanted(t.schedule)) continue;
       const bool again = t.schedule.begun(), due = t.schedule.due(time);
       t.schedule.written(time);
       std::vector<Quantity> row = row_of(simulation, t);
-      // an extra row at the end is taken back by a restart, whose next mean reaches over it
+      // an extra last row is removed by a restart, whose next mean includes its interval
       if (t.probe && due) simulation.begin_interval(*t.probe);
       if (row_watcher) {
         fs::path name = t.csv.path().lexically_relative(dir);
         row_watcher(name.replace_extension().generic_string(), time, row);
       }
       writer.post([csv = &t.csv, row = std::move(row), time, again] {
-        while_there(csv->path(), again, [&] { csv->append(time, row, again); });
+        write_existing(csv->path(), again, [&] { csv->append(time, row, again); });
       });
     }
   }
@@ -261,24 +261,24 @@ struct RunOutput::Impl {
     return newest;
   }
 
-  /// Whether a run that goes on has nothing to add: it made no step, and was stopped, or what it goes on from
-  /// is the end of a run that told how it ended.
-  bool as_it_was(const Simulation& simulation, const std::string& status) const {
-    if (!begin || taken_up) return false;
+  /// Whether a restart has nothing to add: it was stopped before its first step, or it starts at the end of a
+  /// completed run.
+  bool nothing_to_add(const Simulation& simulation, const std::string& status) const {
+    if (!begin || truncated) return false;
     if (status == "stopped") return true;
     const fs::path path = dir / "summary.json";
     if (status != "completed" || !fs::exists(path)) return false;
     const auto former = nlohmann::json::parse(read_file(path), nullptr, false);
-    const auto told = [&](const char* key) {
+    const auto value = [&](const char* key) {
       return former.is_object() && former.contains(key) ? former[key] : nlohmann::json();
     };
-    return told("status") == status && told("steps") == simulation.steps();
+    return value("status") == status && value("steps") == simulation.steps();
   }
 
-  /// Metrics are the last rows: what a simulation that has been loaded tells of its last step may differ.
-  void write_summary(Simulation& simulation, const std::string& status, const Effort& effort) const {
+  /// Metrics are the last rows in the tables: a restarted simulation may report its last step differently.
+  void write_summary(Simulation& simulation, const std::string& status, const RunTotals& totals) const {
     const auto counts = simulation.counts();
-    const double rate = effort.wall_seconds > 0 ? double(effort.particle_steps) / effort.wall_seconds : 0;
+    const double rate = totals.wall_seconds > 0 ? double(totals.particle_steps) / totals.wall_seconds : 0;
     auto probes = nlohmann::ordered_json::object();
     for (const auto& t : series.tables)
       if (t.probe) probes[t.probe->name] = to_json(t.csv.last_row());
@@ -291,15 +291,15 @@ struct RunOutput::Impl {
         {"seed", config.seed},
         {"counts", {{"fluid", counts.fluid}, {"walls", counts.walls}, {"grains", counts.grains}}},
         {"steps", simulation.steps()},
-        {"substeps", effort.substeps},
-        {"steps_by_limit", by_limit(effort.steps_by)},
-        {"substeps_by_limit", by_limit(effort.substeps_by)},
-        {"rebuilds", effort.rebuilds},
+        {"substeps", totals.substeps},
+        {"steps_by_limit", by_limit(totals.steps_by)},
+        {"substeps_by_limit", by_limit(totals.substeps_by)},
+        {"rebuilds", totals.rebuilds},
         {"time", {{"value", simulation.time()}, {"unit", "s"}}},
-        {"wall_time", {{"value", effort.wall_seconds}, {"unit", "s"}}},
+        {"wall_time", {{"value", totals.wall_seconds}, {"unit", "s"}}},
         {"wall_time_of", to_json(simulation.time_spent())},
         {"numerical_viscosity", to_json(simulation.numerical_viscosity())},
-        {"particle_steps", effort.particle_steps},
+        {"particle_steps", totals.particle_steps},
         {"particle_steps_rate", {{"value", rate}, {"unit", "1/s"}}},
         {"memory",
          {{"solver", {{"value", simulation.bytes()}, {"unit", "B"}}},
@@ -325,8 +325,8 @@ struct RunOutput::Impl {
     double time = 0;
     std::int64_t step = 0;
   };
-  std::optional<Begin> begin;  ///< where an earlier run is gone on with
-  bool taken_up = false;
+  std::optional<Begin> begin;  ///< where a restart continues an earlier run
+  bool truncated = false;
   Series series;
   Schedule checkpoint_schedule;
   RowWatcher row_watcher;
@@ -343,13 +343,13 @@ struct RunOutput::Impl {
 };
 
 RunOutput::RunOutput(const fs::path& dir, const Config& config, const Device& device, std::string version,
-                     Simulation* continued)
-    : impl_(std::make_unique<Impl>(dir, config, device, std::move(version), continued)) {}
+                     Simulation* restarted)
+    : impl_(std::make_unique<Impl>(dir, config, device, std::move(version), restarted)) {}
 
 RunOutput::~RunOutput() = default;
 
 void RunOutput::write(Simulation& simulation, const StepInfo& info) {
-  impl_->take_up(true);
+  impl_->truncate(true);
   impl_->emit(simulation, info.time, false);
   auto& schedule = impl_->checkpoint_schedule;
   if (impl_->config.out.checkpoint_every <= 0 || !schedule.due(info.time)) return;
@@ -375,20 +375,20 @@ void RunOutput::add(std::string name, std::vector<Quantity> quantities, std::str
   impl_->added.push_back({std::move(name), std::move(quantities), std::move(note)});
 }
 
-void RunOutput::finish(Simulation& simulation, const std::string& status, const Effort& effort) {
-  if (impl_->as_it_was(simulation, status)) return;
-  impl_->take_up(false);
+void RunOutput::finish(Simulation& simulation, const std::string& status, const RunTotals& totals) {
+  if (impl_->nothing_to_add(simulation, status)) return;
+  impl_->truncate(false);
   impl_->emit(simulation, simulation.time(), true);
   if (status != "failed") impl_->post_checkpoint(simulation);
   impl_->writer.drain();
-  impl_->write_summary(simulation, status, effort);
+  impl_->write_summary(simulation, status, totals);
 }
 
 fs::path RunOutput::last_checkpoint() const { return impl_->last_checkpoint(); }
 
 fs::path latest_checkpoint(const fs::path& dir) {
   const auto all = checkpoints_in(dir);
-  if (all.empty()) throw FileError(dir.string() + ": has no checkpoint to go on from");
+  if (all.empty()) throw FileError(dir.string() + ": has no checkpoint to restart from");
   return all.rbegin()->second;
 }
 

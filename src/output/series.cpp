@@ -43,7 +43,7 @@ std::size_t Schedule::resume(const std::vector<double>& times, double now, bool 
 
 double Schedule::multiple(double time) const {
   if (every_ <= 0) return 0;
-  return std::floor(time / every_ + 1e-9);  // a hair below a multiple is rounding of the clock
+  return std::floor(time / every_ + 1e-9);  // tolerance for rounding of the clock
 }
 
 void Frames::refresh_xdmf(bool last) {
@@ -74,7 +74,7 @@ Series series_of(const Config& c, const fs::path& folder) {
     const WallBody& body = c.wall.bodies[b];
     if (c.out.bodies == "all" || (c.out.bodies == "moving" && body.moves())) add_body(b, body.name);
   }
-  int group = int(c.wall.bodies.size());  // they come behind the bodies
+  int group = int(c.wall.bodies.size());  // rigid groups follow the bodies
   for (const int fill : c.grain.rigid_fills()) {
     if (c.out.bodies != "none") add_body(group, fmt::format("grain_fill_{}", fill + 1));
     ++group;
@@ -106,7 +106,7 @@ std::vector<std::string> gaps(const Series& series, const Config& former, const 
     const std::size_t kept = schedule.resume(times, now, true);
     if (!schedule.due(now)) return;
     clauses.push_back(!fs::exists(path) ? path.string() + " is missing"
-                      : kept == 0       ? path.string() + " holds nothing until then"
+                      : kept == 0       ? path.string() + " is empty"
                                         : fmt::format("{} ends at t = {} s", path.string(), times[kept - 1]));
   };
   Series then = series_of(former, folder);

@@ -1,5 +1,5 @@
 #pragma once
-// The files of a run that grow with its time: frames and tables, and when each is written.
+// The time series of a run, frames and tables, and when each is written.
 
 #include <cstddef>
 #include <filesystem>
@@ -13,9 +13,8 @@
 
 namespace bedload {
 
-/// When something is written: at the first step end at or after every multiple of
-/// `every`. Everything follows from the times written so far, so a restarted run
-/// continues the series where the unbroken one would.
+/// When a series is written: at the first step at or after every multiple of `every`. This depends only on
+/// the times written so far, so a restart continues the series like an uninterrupted run.
 class Schedule {
  public:
   explicit Schedule(double every) : every_(every) {}
@@ -24,8 +23,8 @@ class Schedule {
   bool begun() const { return last_time_ >= 0; }
   bool written_at(double time) const { return time == last_time_; }
   void written(double time);
-  /// Of an earlier run's times, how many stay when going on from `now`: none after it, and if `steps_follow`
-  /// not an extra last one with which that run ended off schedule.
+  /// How many of the times of an earlier run stay when restarting at `now`: none after it and, if
+  /// `steps_follow`, not an extra last one written off schedule at the end of that run.
   std::size_t resume(const std::vector<double>& times, double now, bool steps_follow);
 
  private:
@@ -40,13 +39,13 @@ struct Frames {
   Schedule schedule;
   std::size_t written = 0, in_xdmf = 0;  ///< frames
 
-  /// The side-car is written anew each time, so ever more rarely: its cost a frame stays the same.
+  /// Rewrites the whole .xdmf file, so ever more rarely: the cost per frame stays constant.
   void refresh_xdmf(bool last);
 };
 
 struct Table {
   std::optional<ProbeConfig> probe;  ///< none: a body, or diagnostics
-  std::optional<int> body;           ///< a wall body or rigid group, as Simulation counts them
+  std::optional<int> body;           ///< index of a wall body or rigid group in Simulation
   CsvTable csv;
   Schedule schedule;
 };
@@ -56,19 +55,19 @@ struct Series {
   std::vector<Table> tables;
 };
 
-/// What the run of a case writes in its folder.
+/// The series of a case.
 Series series_of(const Config& config, const std::filesystem::path& folder);
 
-/// What lies in a folder where runs have their frames and tables, beside the series of this run: a former run
-/// had other stores, probes or bodies.
+/// Frames and tables in the folder that do not belong to this run: an earlier run had other stores, probes or
+/// bodies.
 struct Leftovers {
   std::vector<FrameFile> frames;
   std::vector<CsvTable> tables;
 };
 Leftovers leftovers(const Series& series, const std::filesystem::path& folder);
 
-/// What the folder lacks of the rows and frames that a run of the case `former` has written when it comes to
-/// `now`, as far as `series` goes on with them; a clause each.
+/// Rows and frames missing from the folder that a run of the case `former` has written up to `now` and that
+/// `series` continues; a clause each.
 std::vector<std::string> gaps(const Series& series, const Config& former, const std::filesystem::path& folder,
                               double now);
 

@@ -51,8 +51,7 @@ void create_layout(const std::filesystem::path& path, const HostStore& store, co
   const auto integers = [](hid_t parent, const std::string& name, hsize_t columns, hsize_t chunk_rows) {
     return create_table(parent, name, H5T_STD_I64LE, columns, chunk_rows);
   };
-  const hsize_t chunk =
-      std::clamp(store.count, kSmallChunk, kLargestChunk);  // more may come than it begins with
+  const hsize_t chunk = std::clamp(store.count, kSmallChunk, kLargestChunk);  // the store may grow
   const auto particles = [&](hid_t parent, const std::string& name, const HostArray& a) {
     const Handle table =
         create_table(parent, name, h5::file_type(a.type), hsize_t(a.components), chunk, deflate);
@@ -194,7 +193,7 @@ void check_array(hid_t parent, const std::string& name, const HostArray& a) {
   const Handle table = open_dataset(parent, name);
   const auto n = h5::extent(table);
   if (h5::scalar_of(table) != a.type || (n.size() > 1 ? n[1] : 1) != hsize_t(a.components))
-    throw h5::Error("array '" + name + "' has another number type or other components");
+    throw h5::Error("array '" + name + "' has a different number type or number of components");
 }
 
 /// Throws unless frames of these arrays can follow those in the file.
@@ -204,7 +203,7 @@ void check_arrays(hid_t root, const HostArray& points, const HostStore& store) {
   const auto names = h5::members(data);
   if (!std::equal(names.begin(), names.end(), store.arrays.begin() + 1, store.arrays.end(),
                   [](const std::string& name, const HostArray& a) { return name == a.name; }))
-    throw h5::Error("the file was written with other arrays");
+    throw h5::Error("the file has different arrays");
   for (std::size_t k = 1; k < store.arrays.size(); ++k)
     check_array(data, store.arrays[k].name, store.arrays[k]);
 }
@@ -258,7 +257,7 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
     h5::with_file_errors(path_, "write", write);
   } catch (const FileError&) {
     std::error_code not_there;
-    if (first) std::filesystem::remove(path_, not_there);  // it holds no frame
+    if (first) std::filesystem::remove(path_, not_there);  // it has no frame
     throw;
   }
   free_reserve(path_);
@@ -290,7 +289,7 @@ HostStore FrameFile::read(std::size_t frame) const {
     const Handle file = h5::open_file(path_, h5::Mode::read);
     const Handle root = h5::open_group(file, "VTKHDF");
     const FrameIndex index(root);
-    if (frame >= index.frames()) throw h5::Error("it has no such frame");
+    if (frame >= index.frames()) throw h5::Error("no such frame");
     const std::int64_t count = index.count(frame);
     HostStore store{path_.stem().string(), std::size_t(count), {}};
     store.arrays.push_back(read_array(root, "Points", index.points[frame], count));

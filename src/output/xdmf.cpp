@@ -1,4 +1,4 @@
-// The XDMF side-car of a frame file, for readers that do not know VTKHDF.
+// The .xdmf file beside a frame file, for programs without VTKHDF.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Letters made of dots, so that pictures need no fonts on the machine.
+// A bitmap font, so that pictures need no fonts of the system.
 
 namespace bedload {
 

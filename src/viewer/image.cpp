@@ -38,7 +38,7 @@ void Image::text(int x, int y, std::string_view text, const Colour& colour, int 
 
 namespace {
 
-/// What libpng needs to know of an image, and its bytes.
+/// An image in the form of libpng.
 struct PngImage {
   png_image head;
   std::vector<png_byte> bytes;
@@ -76,12 +76,15 @@ void Image::write_png(const std::filesystem::path& path) const {
     throw FileError(fmt::format("{}: cannot write: {}", path.string(), image.head.message));
 }
 
-double mark_distance(double length) {
-  const double rough = length / 5, power = std::pow(10, std::floor(std::log10(rough)));
+double rounded_up(double value) {
+  if (!(value > 0)) return 0;
+  const double power = std::pow(10, std::floor(std::log10(value)));
   for (const double round : {1.0, 2.0, 5.0})
-    if (rough <= round * power) return round * power;
+    if (value <= round * power) return round * power;
   return 10 * power;
 }
+
+double mark_distance(double length) { return rounded_up(length / 5); }
 
 int text_width(std::string_view text, int scale) { return int(text.size()) * (kGlyphWidth + 1) * scale; }
 int text_height(int scale) { return kGlyphHeight * scale; }

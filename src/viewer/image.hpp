@@ -1,5 +1,5 @@
 #pragma once
-// A picture in memory, with lines and text, and its way to a PNG file.
+// An image in memory with lines and text, written as PNG.
 
 #include <filesystem>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace bedload {
 
-/// Shares of red, green and blue, 0 to 1, as a screen takes them.
+/// Red, green and blue in sRGB, 0 to 1.
 struct Colour {
   float r = 0, g = 0, b = 0;
 };
@@ -18,7 +18,7 @@ inline Colour mix(const Colour& a, const Colour& b, float weight) {
   return {a.r + weight * (b.r - a.r), a.g + weight * (b.g - a.g), a.b + weight * (b.b - a.b)};
 }
 
-/// Pixels in rows from the top; places outside are passed over.
+/// Pixels in rows from the top; drawing outside is ignored.
 class Image {
  public:
   Image(int width, int height, Colour background)
@@ -34,8 +34,7 @@ class Image {
   void line(double x0, double y0, double x1, double y1, const Colour& colour);
   /// A filled circle.
   void dot(double x, double y, double radius, const Colour& colour);
-  /// Text with its upper left corner at (x, y); each dot of a letter is `scale` pixels
-  /// wide.
+  /// Text with its upper left corner at (x, y); each dot of a glyph is `scale` pixels wide.
   void text(int x, int y, std::string_view text, const Colour& colour, int scale = 2);
 
   /// The bytes of a PNG file, compressed quickly.
@@ -48,7 +47,10 @@ class Image {
   std::vector<Colour> pixels_;
 };
 
-/// A round distance of marks, about a fifth of `length`.
+/// 1, 2 or 5 times a power of ten, at or above `value`; 0 for what is not above 0.
+double rounded_up(double value);
+
+/// A round distance between tick marks, about a fifth of `length`.
 double mark_distance(double length);
 
 /// Size of a text in pixels.

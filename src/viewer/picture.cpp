@@ -16,7 +16,7 @@ namespace {
 constexpr Colour kInk{0.15f, 0.17f, 0.2f}, kFrame{0.72f, 0.74f, 0.77f}, kFluid{0.2f, 0.55f, 0.95f};
 constexpr Colour kGrain{0.9f, 0.68f, 0.36f}, kSmall{1.0f, 0.85f, 0.5f}, kLarge{0.5f, 0.22f, 0.1f};
 
-void stretch(Scene& scene, const std::vector<Sphere>& spheres) {
+void extend_bounds(Scene& scene, const std::vector<Sphere>& spheres) {
   for (const Sphere& s : spheres)
     for (int k = 0; k < 3; ++k) {
       scene.min[k] = std::min(scene.min[k], s.x[k] - s.radius);
@@ -40,7 +40,7 @@ Scene scene_of(const Config& config, const Setup& setup, const Setup::Walls& wal
     scene.walls.push_back({walls.x[w], 0.5 * spacing, moves ? kMoving : kWall});
   }
   scene.min = Vec3d{1e300, 1e300, 1e300}, scene.max = -1.0 * scene.min;
-  for (const auto* spheres : {&scene.fluid, &scene.grains, &scene.walls}) stretch(scene, *spheres);
+  for (const auto* spheres : {&scene.fluid, &scene.grains, &scene.walls}) extend_bounds(scene, *spheres);
   return scene;
 }
 
@@ -66,7 +66,7 @@ class Picture {
   Image draw(const Counts& n) {
     title(n);
     const double wide = size_[axes_.along], high = size_[axes_.up] + size_[axes_.into];
-    const bool strip = wide > 2.5 * high;  // then the flat views take the whole width
+    const bool strip = wide > 2.5 * high;  // then the flat views use the full width
     const int left = kMargin + 80, top = 140, gap = 100, bottom = 60;
     const double space_x = strip ? kWidth - left - kMargin : 0.44 * kWidth - left;
     const double space_y = (strip ? 0.5 * kHeight : kHeight) - top - bottom - gap;
@@ -109,7 +109,7 @@ class Picture {
     bool fixed = false, moving = false;
     for (const WallBody& body : config_.wall.bodies) (body.motion.kind == "fixed" ? fixed : moving) = true;
     if (fixed) entry(kWall, "Walls");
-    if (moving) entry(kMoving, "Walls that move");
+    if (moving) entry(kMoving, "Moving walls");
   }
 
   void put(const Image& part, int x0, int y0) {
@@ -160,7 +160,7 @@ class Picture {
   }
 
   void perspective(int x0, int y0, int width, int height) {
-    const Sides sides = axes_.aslant();
+    const Sides sides = axes_.oblique();
     View view{sides.right, sides.up, sides.toward, 0.5 * (scene_.min + scene_.max), 2.2 * norm(size_)};
     fit(view, scene_, width, height);
     put(render(scene_, view, width, height, kPaper), x0, y0);
@@ -199,7 +199,7 @@ Sides Axes::above() const {
   return {f.right, cross(f.up, f.right), f.up};
 }
 
-Sides Axes::aslant() const {
+Sides Axes::oblique() const {
   const Sides f = front();
   Vec3d toward = 0.55 * f.right + 0.8 * f.toward + 0.5 * f.up;
   toward = toward / norm(toward);

@@ -15,11 +15,11 @@ struct Axis {
   double low = 1e300, high = -1e300;
   double from = 0, to = 0;  ///< pixels
 
-  void take(double value) { low = std::min(low, value), high = std::max(high, value); }
+  void include(double value) { low = std::min(low, value), high = std::max(high, value); }
   void widen() {
     if (!(low <= high)) low = 0, high = 1;
-    const double room = high > low ? 0.05 * (high - low) : std::max(std::abs(low), 1e-300);
-    low -= room, high += room;
+    const double margin = high > low ? 0.05 * (high - low) : std::max(std::abs(low), 1e-300);
+    low -= margin, high += margin;
   }
   double at(double value) const { return from + (value - low) / (high - low) * (to - from); }
 };
@@ -30,7 +30,7 @@ void draw_one(Image& image, int left, const Plot& plot) {
     for (std::size_t k = 0; k < curve.x.size(); ++k)
       if (std::isfinite(curve.x[k]) && std::isfinite(curve.y[k])) f(curve.x[k], curve.y[k]);
   };
-  for (const Curve& curve : plot.curves) each(curve, [&](double u, double v) { x.take(u), y.take(v); });
+  for (const Curve& curve : plot.curves) each(curve, [&](double u, double v) { x.include(u), y.include(v); });
   x.widen(), y.widen();
   x.from = left + kLeft, x.to = left + kWide - kRight;
   y.from = kHigh - kBottom, y.to = kTop;

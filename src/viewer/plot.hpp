@@ -1,5 +1,5 @@
 #pragma once
-// Curves and points over axes, as a picture.
+// Plots of curves and points.
 
 #include <string>
 #include <vector>
@@ -11,7 +11,7 @@ namespace bedload {
 /// One set of points, or the line through them.
 struct Curve {
   std::string name;
-  std::vector<double> x, y;  ///< places that are not finite are passed over
+  std::vector<double> x, y;  ///< points that are not finite are skipped
   Colour colour;
   bool line = false;
 };

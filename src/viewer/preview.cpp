@@ -32,23 +32,38 @@ HostArray ids(std::size_t count) {
   return array_of("id", "-", Scalar::u32, 1, id);
 }
 
-void write_store(const fs::path& folder, const HostStore& store, bool doubles) {
-  const FrameFile file(folder / (store.name + ".vtkhdf"), doubles);
-  file.keep(0);
-  std::error_code not_there;
-  fs::remove(folder / (store.name + ".xdmf"), not_there);
-  if (store.count == 0) return;
-  file.append(store, 0);
-  file.write_xdmf();
-}
+struct Writer {
+  const fs::path& folder;
+  bool doubles;
+
+  void operator()(const HostStore& store) const {
+    const FrameFile file(folder / (store.name + ".vtkhdf"), doubles);
+    file.keep(0);
+    std::error_code not_there;
+    fs::remove(folder / (store.name + ".xdmf"), not_there);
+    if (store.count == 0) return;
+    file.append(store, 0);
+    file.write_xdmf();
+  }
+
+  /// Particles with velocities and one scalar field more.
+  template <class Particles>
+  void operator()(const char* store, const Particles& p, const char* field, const char* unit,
+                  const std::vector<double>& values) const {
+    (*this)({store,
+             p.x.size(),
+             {vectors("position", "m", p.x), vectors("velocity", "m/s", p.v),
+              array_of(field, unit, Scalar::f64, 1, values), ids(p.x.size())}});
+  }
+};
 
 void make_folder(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / "case.resolved.toml", error))
-    throw FileError(folder.string() + ": holds a run; give --preview another folder");
+    throw FileError(folder.string() + ": holds a run; choose another folder for --preview");
   fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder))
-    throw FileError(fmt::format("{}: cannot write a preview there: {}", folder.string(),
+    throw FileError(fmt::format("{}: cannot write the preview: {}", folder.string(),
                                 error ? error.message() : "Not a directory"));
 }
 
@@ -57,27 +72,13 @@ void make_folder(const fs::path& folder) {
 void write_preview(const fs::path& folder, const Config& config, const Setup& setup) {
   make_folder(folder);
   const Setup::Walls walls = config.fluid.present ? setup.walls : wall_surfaces(config, config.grain.d_min);
-  const bool doubles = config.precision == "double";
-  const auto& fluid = setup.fluid;
-  const auto& grains = setup.grains;
-  write_store(folder,
-              {"fluid",
-               fluid.x.size(),
-               {vectors("position", "m", fluid.x), vectors("velocity", "m/s", fluid.v),
-                array_of("mass", "kg", Scalar::f64, 1, fluid.mass), ids(fluid.x.size())}},
-              doubles);
-  write_store(folder,
-              {"grains",
-               grains.x.size(),
-               {vectors("position", "m", grains.x), vectors("velocity", "m/s", grains.v),
-                array_of("radius", "m", Scalar::f64, 1, grains.radius), ids(grains.x.size())}},
-              doubles);
-  write_store(folder,
-              {"walls",
-               walls.x.size(),
-               {vectors("position", "m", walls.x), array_of("body", "-", Scalar::u32, 1, walls.body),
-                ids(walls.x.size())}},
-              doubles);
+  const Writer write{folder, config.precision == "double"};
+  write("fluid", setup.fluid, "mass", "kg", setup.fluid.mass);
+  write("grains", setup.grains, "radius", "m", setup.grains.radius);
+  write({"walls",
+         walls.x.size(),
+         {vectors("position", "m", walls.x), array_of("body", "-", Scalar::u32, 1, walls.body),
+          ids(walls.x.size())}});
   picture_of(config, setup).write_png(folder / "preview.png");
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a case starts with, to be looked at before it runs.
+// The initial state of a case, written before it runs.
 
 #include <filesystem>
 
@@ -8,10 +8,9 @@
 
 namespace bedload {
 
-/// Writes fluid.vtkhdf, grains.vtkhdf and walls.vtkhdf with the particles of `setup` as initialised (grains
-/// unsettled; walls sampled on their surfaces where the case has no fluid to meet them), and preview.png:
-/// views from the front, from above and in perspective. Makes the folder. Throws FileError, also if a run
-/// lies there.
+/// Writes fluid.vtkhdf, grains.vtkhdf and walls.vtkhdf with the initial particles of `setup` (grains
+/// unsettled; walls sampled on their surfaces in a case without fluid) and preview.png: views from the front,
+/// from above and in perspective. Creates the folder. Throws FileError, also if the folder holds a run.
 void write_preview(const std::filesystem::path& folder, const Config& config, const Setup& setup);
 
 }  // namespace bedload

@@ -25,17 +25,17 @@ struct ProgressLine {
   std::string text() const;
 };
 
-/// How fast a run goes on, from one reading to the next.
+/// Rates of a run between two readings.
 class ProgressMeter {
  public:
-  /// Times of its beginning and its end, s; steps done before.
+  /// Start and end time of the run, s; steps done before.
   ProgressMeter(double begin, double end, std::int64_t steps);
   /// Wall time since the last reading, s.
   double waited() const;
   /// After a step; `particle_steps` so far.
   ProgressLine read(const StepInfo& info, std::int64_t particle_steps);
   double end() const { return end_; }
-  /// How much of the run is done at that time, 0..1.
+  /// Fraction of the run done at that time, 0..1.
   double fraction(double time) const;
 
  private:

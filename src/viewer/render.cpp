@@ -7,14 +7,14 @@
 namespace bedload {
 namespace {
 
-constexpr float kThinFluid = 0.25f, kThickFluid = 0.7f;  // how much of a grain the fluid in front of it hides
+constexpr float kThinFluid = 0.25f, kThickFluid = 0.7f;  // opacity of the fluid in front of a grain
 constexpr double kThick = 5;                             // diameters of fluid in between
 constexpr float kFluidOverWalls = 0.85f;
 constexpr double kHazeOfAWall = 0.13;  // optical depth through one wall
 constexpr float kMostHaze = 0.35f;     // in front of particles
 constexpr float kMostFog = 0.45f;      // on the farthest particles
 
-/// One kind of particles: what is nearest at each pixel.
+/// The nearest particle of one kind at each pixel.
 struct Layer {
   std::vector<float> depth;
   std::vector<Colour> colour;
@@ -115,13 +115,13 @@ class Renderer {
     });
   }
 
-  /// Spread over twice its spacing, so that neighbours merge; the whole weighs as much as one cell of haze.
+  /// Spread over twice its spacing, so that neighbours merge, with the total weight of one cell.
   void add_haze(const Sphere& s) {
     const Spot at = view_.place(s.x);
-    const double own = std::max(1.0, 2 * s.radius * at.scale),
+    const double spread = std::max(1.0, 2 * s.radius * at.scale),
                  area = 4 * s.radius * s.radius * at.scale * at.scale;
-    const double peak = kHazeOfAWall * area / (0.33333 * 3.14159265 * own * own);
-    for_disc(at, own, [&](std::size_t pixel, double u, double v) {
+    const double peak = kHazeOfAWall * area / (0.33333 * 3.14159265 * spread * spread);
+    for_disc(at, spread, [&](std::size_t pixel, double u, double v) {
       const double q = 1 - u * u - v * v;
       Haze& haze = at.depth < std::min(grains_.depth[pixel], fluid_.depth[pixel]) ? front_ : behind_;
       haze.add(pixel, float(peak * q * q), s.colour);

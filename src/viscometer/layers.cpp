@@ -13,7 +13,7 @@ Vec3d vector(const HostArray& a, std::size_t i) {
   return {value(a, 3 * i), value(a, 3 * i + 1), value(a, 3 * i + 2)};
 }
 
-/// The arrays of a store that a sample is made of.
+/// The arrays of a store used for a sample.
 struct Particles {
   explicit Particles(const HostStore& store)
       : count(store.count),
@@ -30,7 +30,7 @@ struct Particles {
   std::vector<std::pair<std::string, const HostArray*>> parts;
 };
 
-/// Mean velocity of all there is, m/s.
+/// Mean velocity of all fluid and grains, m/s.
 Vec3d mean_velocity(const Particles& fluid, const Particles& grains) {
   Vec3d momentum;
   double mass = 0;

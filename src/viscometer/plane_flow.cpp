@@ -11,16 +11,15 @@ namespace bedload {
 namespace {
 
 constexpr const char* kFlows =
-    "a viscometer takes reverse Poiseuille flow (drive.opposed in a periodic box), shear by Lees-Edwards "
-    "boundaries (domain.shear_rate), or flow between two parallel walls that is driven along them "
-    "(Poiseuille) "
-    "or sheared by their motion (Couette)";
+    "a viscometer needs reverse Poiseuille flow (drive.opposed in a periodic box), Lees-Edwards shear "
+    "(domain.shear_rate), or flow between two parallel walls, driven along them (Poiseuille) or sheared by "
+    "their motion (Couette)";
 
 [[noreturn]] void refuse(const std::string& key, const std::string& why) {
   throw NoPlaneFlow(key, fmt::format("{}: {}; {}", key, why, kFlows));
 }
 
-/// A plane surface that fluid meets; side +1: fluid lies above it.
+/// A plane wall surface in contact with fluid; side +1: fluid is above it.
 struct Surface {
   int body, axis;
   double at;  ///< m
@@ -34,7 +33,7 @@ class Walls {
       if (c_.wall.bodies[b].stops_fluid()) add(b);
   }
 
-  /// The two between which the fluid lies.
+  /// The lower and upper surface around the fluid.
   std::pair<Surface, Surface> pair() const {
     std::optional<Surface> low, high;
     for (const Surface& s : surfaces_) {
@@ -44,7 +43,7 @@ class Walls {
       if (place) refuse(key(s.body), "there are more than two walls around the fluid");
       place = s;
     }
-    if (!low || !high) refuse("wall.body", "there is a wall on one side of the fluid alone");
+    if (!low || !high) refuse("wall.body", "there is a wall on one side of the fluid only");
     if (low->axis != high->axis) refuse(key(high->body), "the walls are not parallel");
     return {*low, *high};
   }
@@ -63,7 +62,7 @@ class Walls {
   }
   void add(int b) {
     const WallBody& body = c_.wall.bodies[b];
-    if (body.free.present) refuse(key(b) + ".free", "a free body moves in the flow");
+    if (body.free.present) refuse(key(b) + ".free", "must not be a free body in a viscometer");
     const std::size_t before = surfaces_.size();
     if (body.shape == "plane") {
       for (int k = 0; k < 3; ++k)
@@ -83,7 +82,8 @@ class Walls {
         }
     }
     if (surfaces_.size() == before)
-      refuse(key(b) + ".shape", fmt::format("\"{}\" is no plane wall across the whole domain", body.shape));
+      refuse(key(b) + ".shape",
+             fmt::format("\"{}\" is not a plane wall across the whole domain", body.shape));
   }
 
   const Config& c_;
@@ -97,11 +97,11 @@ Vec3d velocity_of(const Config& c, int b) {
   Vec3d v = body.surface_velocity;
   if (!m.moves()) return v;
   if (m.kind != "velocity" || m.scaled() || !m.add.empty() || m.start > 0 || std::isfinite(m.stop))
-    refuse(Walls::key(b) + ".motion", "the wall does not move evenly throughout");
+    refuse(Walls::key(b) + ".motion", "the velocity of the wall must be constant");
   return v + m.velocity;
 }
 
-/// The one axis along which a vector points; none if it points along none or several.
+/// The axis that a vector is parallel to; none if there is none.
 std::optional<int> axis_of(const Vec3d& v) {
   std::optional<int> axis;
   for (int k = 0; k < 3; ++k) {
@@ -112,23 +112,23 @@ std::optional<int> axis_of(const Vec3d& v) {
   return axis;
 }
 
-/// What would be measured along with the viscosity, or has no steady state.
+/// Refuses what would add to the measured viscosity or prevents a steady state.
 void refuse_additions(const Config& c) {
   const auto refuse_key = [](const std::string& key, const std::string& why) {
     throw KeyError(key, fmt::format("{}: {}", key, why));
   };
-  if (!(c.fluid.mu > 0)) refuse_key("fluid.mu", "a viscometer needs fluid with a viscosity above 0");
+  if (!(c.fluid.mu > 0)) refuse_key("fluid.mu", "a viscometer needs a viscosity above 0");
   if (c.visc.alpha > 0 || c.visc.beta > 0)
     refuse_key("visc.alpha",
-               "artificial viscosity must be 0 in a viscometer: it would be measured as the fluid's");
+               "artificial viscosity must be 0 in a viscometer: it would add to the measured viscosity");
   if (c.frame.motion.moves()) refuse_key("frame.motion", "must be fixed in a viscometer");
-  if (!c.inlets.empty()) refuse_key("inlet.0", "a viscometer's flow has no inlets");
-  if (!c.outlets.empty()) refuse_key("outlet.0", "a viscometer's flow has no outlets");
-  if (!c.grain_inlets.empty()) refuse_key("grain_inlet.0", "a viscometer's flow has no inlets");
+  if (!c.inlets.empty()) refuse_key("inlet.0", "inlets are not allowed in a viscometer");
+  if (!c.outlets.empty()) refuse_key("outlet.0", "outlets are not allowed in a viscometer");
+  if (!c.grain_inlets.empty()) refuse_key("grain_inlet.0", "inlets are not allowed in a viscometer");
   if (c.drive.pulls()) refuse_key("drive.rate", "must be 0 in a viscometer");
-  if (c.drive.factor != "1") refuse_key("drive.factor", "must be 1 in a viscometer: its flow is steady");
+  if (c.drive.factor != "1") refuse_key("drive.factor", "must be 1 in a viscometer, which needs steady flow");
   if (!c.fluid.species.empty())
-    refuse_key("fluid.species.0", "a viscometer measures one fluid; leave the species out");
+    refuse_key("fluid.species.0", "a viscometer measures one fluid; remove the species");
 }
 
 PlaneFlow reverse_poiseuille(const Config& c) {
@@ -138,14 +138,14 @@ PlaneFlow reverse_poiseuille(const Config& c) {
   flow.gradient = int(DriveReversal(c.drive.opposed)) - int(DriveReversal::x);
   const auto along = axis_of(c.drive.f);
   if (!along || *along == flow.gradient)
-    refuse("drive.f", "must point along one axis, another than that along which it is reversed");
+    refuse("drive.f", "must be along one axis, and not the axis of reversal");
   if (norm(c.gravity) > 0) refuse("gravity", "must be 0 in reverse Poiseuille flow");
   flow.along = *along;
   flow.low = c.domain.min[flow.gradient], flow.high = c.domain.max[flow.gradient];
   return flow;
 }
 
-/// What a case with such boundaries must have besides is checked when it is read.
+/// Other requirements of Lees-Edwards boundaries are checked when the case is read.
 PlaneFlow lees_edwards(const Config& c) {
   PlaneFlow flow{PlaneFlowKind::lees_edwards, 0, 2};
   flow.low = c.domain.min.z, flow.high = c.domain.max.z;
@@ -168,7 +168,7 @@ PlaneFlow between_walls(const Config& c) {
   const auto along = axis_of(driven ? push : slip);
   if (!along || *along == flow.gradient)
     refuse(driven ? (norm(c.drive.f) > 0 ? "drive.f" : "gravity") : Walls::key(high.body),
-           "the flow must be driven along one axis, within the walls' planes");
+           "the flow must be driven along one axis, parallel to the walls");
   flow.kind = driven ? PlaneFlowKind::poiseuille : PlaneFlowKind::couette;
   flow.along = *along;
   flow.relative_speed = slip[*along];
@@ -193,7 +193,7 @@ std::string PlaneFlow::name() const {
 }
 
 double PlaneFlow::relaxation(double nu) const {
-  const double width = kind == PlaneFlowKind::lees_edwards ? gap() / 2 : gap();  // half of a wave
+  const double width = kind == PlaneFlowKind::lees_edwards ? gap() / 2 : gap();  // half a wavelength
   return width * width / (M_PI * M_PI * nu);
 }
 
@@ -212,9 +212,10 @@ PlaneFlow plane_flow_of(const Config& c) {
   if (flow.kind != PlaneFlowKind::lees_edwards && flow.gap() < least * h)
     throw KeyError(
         "fluid.dx",
-        fmt::format("fluid.dx = {}: {:g} m from {} are too narrow for h = {:.4g} m, of which "
-                    "one is left out on each side; a viscometer needs {} in {} flow",
-                    c.fluid.dx, flow.gap(), walls ? "wall to wall" : "flip to flip", h, least, flow.name()));
+        fmt::format("fluid.dx = {}: {:g} m from {} is too narrow for h = {:.4g} m, one of which is "
+                    "excluded on each side; a viscometer needs {} in {} flow",
+                    c.fluid.dx, flow.gap(), walls ? "wall to wall" : "reversal to reversal", h, least,
+                    flow.name()));
   return flow;
 }
 
@@ -224,8 +225,8 @@ int blocks_until(const PlaneFlow& flow, double nu, double end) {
   if (blocks < kLeastBlocks)
     throw KeyError(
         "time.end",
-        fmt::format("time.end = {:g} must be >= {:.4g} in a viscometer: the flow takes {:.3g} s to become "
-                    "steady, and {} blocks of {:.3g} s ({}) are to be measured",
+        fmt::format("time.end = {:g} must be >= {:.4g} in a viscometer: the flow needs {:.3g} s to become "
+                    "steady and {} blocks of {:.3g} s ({}) for the average",
                     end, from + kLeastBlocks * relaxation, from, kLeastBlocks, relaxation,
                     flow.kind == PlaneFlowKind::lees_edwards ? "L^2 / 4 pi^2 nu" : "D^2 / pi^2 nu"));
   return blocks;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kAxes = "xyz";
 
-/// Empty where there is no number.
+/// Empty for NaN.
 std::string cell(double value) { return std::isfinite(value) ? fmt::format("{:.9g}", value) : ""; }
 
 std::string profile_table(const ViscosityResult& r, const PlaneFlow& flow) {
@@ -26,7 +26,7 @@ std::string profile_table(const ViscosityResult& r, const PlaneFlow& flow) {
   return out;
 }
 
-/// One row; what summary.json has, too.
+/// The quantities of summary.json as a table of one row.
 std::string result_table(const std::vector<Quantity>& quantities) {
   std::string head, row;
   for (const Quantity& q : quantities) {
@@ -82,18 +82,19 @@ std::string report_text(const ViscosityResult& r, const PlaneFlow& flow, double 
       fmt::format("measured   {} samples in {} blocks; peak {:.4g} m/s, Re {:.3g}, Ma {:.3g}, R^2 {:.4f}\n",
                   r.samples, r.blocks, r.peak, r.reynolds, r.mach, r.r_squared);
   if (flow.walled())
-    out += fmt::format("walls      slip length {:.3g} m, middle off by {:.3g} m\n", r.slip_length, r.offset);
+    out += fmt::format("walls      slip length {:.3g} m, profile off centre by {:.3g} m\n", r.slip_length,
+                       r.offset);
   if (r.concentration > 0) out += fmt::format("grains     {:.3g} % of the volume\n", 100 * r.concentration);
   out += fmt::format(
-      "steady     {}: viscosity of the second half {:+.2g} % against the first, {:.2g} % allowed\n",
+      "steady     {}: viscosity of the second half differs by {:+.2g} % from the first, {:.2g} % allowed\n",
       r.stationary() ? "yes" : "NO", 100 * r.drift, 100 * r.drift_limit);
   out += "stress     ";
   if (!images)
-    out += fmt::format("shear {:.4g} +- {:.2g} of that imposed; ", r.stress_ratio.mean, r.stress_ratio.error);
+    out += fmt::format("shear {:.4g} +- {:.2g} of the imposed; ", r.stress_ratio.mean, r.stress_ratio.error);
   out += fmt::format("N1 {:.3g} +- {:.2g} Pa, N2 {:.3g} +- {:.2g} Pa; pressure {:.4g} Pa\n", r.normal_1.mean,
                      r.normal_1.error, r.normal_2.mean, r.normal_2.error, r.pressure);
   if (r.accepted())
-    out += fmt::format("viscosity  {:.6g} +- {:.2g} Pa s, {:.4f} of fluid.mu\n", r.viscosity.mean,
+    out += fmt::format("viscosity  {:.6g} +- {:.2g} Pa s, {:.4f} times fluid.mu\n", r.viscosity.mean,
                        r.viscosity.error, r.viscosity.mean / mu);
   return out;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// What a viscometer tells: lines for the terminal, tables and a picture.
+// Report of a viscometer: lines for the terminal, tables and a picture.
 
 #include <filesystem>
 #include <string>
@@ -8,10 +8,10 @@
 
 namespace bedload {
 
-/// A few lines; mu: of the case, Pa s.
+/// Lines for the terminal; mu: of the case, Pa s.
 std::string report_text(const ViscosityResult& result, const PlaneFlow& flow, double mu);
 
-/// Writes result.csv, with `quantities`, profile.csv, stress.csv and profile.png to a folder, which it makes.
+/// Creates the folder and writes result.csv with `quantities`, profile.csv, stress.csv and profile.png.
 /// Throws FileError.
 void write_report(const std::filesystem::path& folder, const ViscosityResult& result, const PlaneFlow& flow,
                   const std::vector<Quantity>& quantities, const std::string& title);

@@ -22,7 +22,7 @@ Measured mean_of(const std::vector<double>& values) {
 struct Fit {
   double a = 0, b = 0, c = 0;
   double at(double s, double s2) const { return a + b * s + c * s2; }
-  /// By which the imposed force or stress is divided, m/s. The shear of images is imposed, too.
+  /// The viscosity is the imposed force or stress over this, in m/s. With images the shear is imposed, too.
   double strength(const PlaneFlow& flow) const {
     if (flow.kind == PlaneFlowKind::lees_edwards) return flow.relative_speed;
     return flow.sheared() ? b : -2 * c;
@@ -100,17 +100,17 @@ class Evaluation {
 
     r.r_squared = r_squared();
     if (sheared) r.peak = std::abs(flow_.relative_speed);
-    double speed = 0, mass = 0;  // mean of the flow one way
+    double speed = 0, mass = 0;  // mean over the flow in one direction
     for (const LayerSums& layer : all_.layers) {
-      if (layer.fluid.mass == 0) continue;  // fluid on a lattice is in some layers alone
+      if (layer.fluid.mass == 0) continue;  // fluid on a lattice leaves layers empty
       const double v = std::abs(velocity(layer.fluid));
       if (!sheared) r.peak = std::max(r.peak, v);
       speed += v * layer.fluid.mass, mass += layer.fluid.mass;
     }
     speed = sheared ? r.peak : speed / mass;
     r.reynolds = c_.fluid.rho0 * speed * gap / r.viscosity.mean;
-    // no fluid meets any that is faster than across the kernel's reach, however high the box; between walls
-    // that both move it is as fast as the faster one, from which fluid.vmax follows
+    // with images, neighbours differ by the shear over a kernel radius at most, however high the box; between
+    // two moving walls the faster one counts, as for fluid.vmax
     const double fastest = flow_.kind == PlaneFlowKind::lees_edwards ? r.peak * reach_ / gap
                            : flow_.kind == PlaneFlowKind::couette    ? flow_.fastest
                                                                      : r.peak;
@@ -126,9 +126,9 @@ class Evaluation {
   }
 
  private:
-  /// Fluid without noise keeps its lattice and leaves layers empty, and hardly any comes close to a wall.
-  /// What is in layers with too little fluid counts in the nearest one with enough, whose stress it is part
-  /// of: over their own volume, which is next to none, the contacts of a grain would make any stress.
+  /// Fluid without noise keeps its lattice, which leaves layers empty, and hardly any comes close to a wall.
+  /// Layers with too little fluid are merged with the nearest one with enough: divided by their own tiny
+  /// volume, the contacts of a single grain would give any stress.
   void gather_sparse() {
     std::vector<double> volume(n_);
     for (const Block& block : blocks_)
@@ -154,7 +154,7 @@ class Evaluation {
   double velocity(const MotionSums& m) const {
     return m.mass > 0 ? m.momentum[flow_.along] / m.mass : std::nan("");
   }
-  /// Whether what is in a layer flows against the direction of the drive's force below.
+  /// Whether a layer flows against the force of the lower half.
   bool turned(int l) const { return flow_.reversed() && 2 * l >= n_; }
   double sign(int l) const { return turned(l) ? -1 : 1; }
 
@@ -190,7 +190,7 @@ class Evaluation {
     return 1 - rest / all;
   }
 
-  /// Where the fit has the walls' velocities.
+  /// Positions at which the fit has the wall velocities.
   void walls(ViscosityResult& r) const {
     const double gap = flow_.gap();
     if (flow_.kind == PlaneFlowKind::couette) {
@@ -209,9 +209,8 @@ class Evaluation {
     return body.surface_velocity[flow_.along] + (body.motion.moves() ? body.motion.velocity[flow_.along] : 0);
   }
 
-  /// Parts of the stress in some layers, Pa, with the whole last. Noise is no part of the whole: that of a
-  /// step is drawn once places are known, so that its moments are nothing on average, and what they come to
-  /// in samples far apart hides all else.
+  /// Parts of the stress in some layers, Pa, the total last. The total excludes the noise: it is drawn after
+  /// the positions are known, so its virial is zero on average, but its scatter would hide everything else.
   std::vector<StressPart> stress_in(const std::vector<LayerSums>& layers,
                                     const std::vector<int>& which) const {
     LayerSums sum;
@@ -237,7 +236,7 @@ class Evaluation {
   }
   double component(const Tensor& t, int i, int j) const { return t[3 * i + j]; }
 
-  /// Shear stress that a layer with fluid must carry, Pa.
+  /// Imposed shear stress in a layer, Pa.
   double imposed_at(int l, double imposed) const {
     if (flow_.sheared()) return imposed;
     const LayerSums& layer = all_.layers[l];
@@ -290,10 +289,10 @@ class Evaluation {
   std::vector<Block> blocks_;
   const Config& c_;
   const PlaneFlow& flow_;
-  double reach_;  ///< of the kernel, m
+  double reach_;  ///< kernel radius, m
   int n_;
   Block all_;
-  double stretch_ = 1;  ///< volume between walls, or of the domain, over that by the particles' densities
+  double stretch_ = 1;  ///< volume between the walls or of the domain over that of the particles
   std::vector<int> averaged_, inner_;
   Fit fit_;
 };
@@ -309,11 +308,9 @@ std::string relative_caveat(double phi, bool by_law) {
   const double einstein = 1 + 2.5 * phi, krieger = phi < phi_m ? std::pow(1 - phi / phi_m, -2.5 * phi_m)
                                                                : std::numeric_limits<double>::infinity();
   return fmt::format(
-      "no measurement of a suspension: grains are smaller than the kernel and do not strain the fluid "
-      "between "
-      "them, so that what exceeds 1 is the stress of contacts and lubrication{}; resolved spheres at {:.3g} "
-      "% "
-      "have {:.2f} (Einstein) to {:.2f} (Krieger-Dougherty, phi_m = {})",
+      "not the viscosity of a suspension: grains are smaller than the kernel and do not strain the fluid "
+      "between them, so the excess over 1 is the stress of contacts and lubrication{}; resolved spheres at "
+      "{:.3g} % have {:.2f} (Einstein) to {:.2f} (Krieger-Dougherty, phi_m = {})",
       by_law ? " on top of the law of couple.suspension_viscosity" : " alone", 100 * phi, einstein, krieger,
       phi_m);
 }

@@ -83,12 +83,13 @@ TEST_F(Checkpoint, RefusesWhatIsNotOne) {
   expect_says(refusal(folder / "none.h5", config), "none.h5: cannot read: no such file");
   expect_says(refusal(folder.path(), config), "no such file");
   write_file(folder / "text.h5", "position = 1\n");
-  expect_says(refusal(folder / "text.h5", config), "text.h5: cannot restart from this: it is no HDF5 file");
+  expect_says(refusal(folder / "text.h5", config),
+              "text.h5: cannot restart from this: it is not an HDF5 file");
   {
     h5::Handle other = h5::open_file(folder / "other.h5", h5::Mode::create);
     other.close();
   }
-  expect_says(refusal(folder / "other.h5", config), "it is no Bedload checkpoint");
+  expect_says(refusal(folder / "other.h5", config), "not a Bedload checkpoint");
 }
 
 TEST_F(Checkpoint, RefusesTruncatedFile) {
@@ -96,7 +97,7 @@ TEST_F(Checkpoint, RefusesTruncatedFile) {
   const auto size = std::filesystem::file_size(path);
   for (const double part : {0.99, 0.5, 0.1}) {
     std::filesystem::resize_file(path, std::uintmax_t(double(size) * part));
-    expect_says(refusal(path, config), "or cut off, or of an older version (no checksum at its end)");
+    expect_says(refusal(path, config), "no checksum at its end: it is truncated, of an older version");
   }
 }
 
@@ -110,7 +111,7 @@ TEST_F(Checkpoint, RefusesAnyFlippedBit) {
     damaged[at] = char(damaged[at] ^ (1 << (rng() % 8)));
     write_file(path, damaged);
     const std::string why = refusal(path, config);
-    EXPECT_TRUE(why.find("checksum") != why.npos || why.find("it is no HDF5 file") != why.npos)
+    EXPECT_TRUE(why.find("checksum") != why.npos || why.find("it is not an HDF5 file") != why.npos)
         << at << ": " << why;
   }
 }
@@ -128,19 +129,19 @@ TEST_F(Checkpoint, RefusesAnotherCase) {
   const auto path = written();
   Config other = config;
   other.fluid.dx = 0.02;
-  expect_says(refusal(path, other), "fluid.dx = 0.01, this case has 0.02");
+  expect_says(refusal(path, other), "fluid.dx = 0.01, but this case has 0.02");
   other = config;
   other.wall.bodies.at(0).type = "frozen";
-  expect_says(refusal(path, other), "other particles: it was made without wall.");
+  expect_says(refusal(path, other), "its particles differ: it was written without wall.");
   other = config;
   other.fluid.model = FluidModel::sdpd;
-  expect_says(refusal(path, other), "other particles: it was made without fluid.model = \"sdpd\"");
+  expect_says(refusal(path, other), "its particles differ: it was written without fluid.model = \"sdpd\"");
   other = config;
   other.grain.fills.emplace_back();
-  expect_says(refusal(path, other), "other particles: it was made without grain.fill.0");
+  expect_says(refusal(path, other), "its particles differ: it was written without grain.fill.0");
   other = config;
   other.fluid.fills.clear();
-  expect_says(refusal(path, other), "other particles: it was made with fluid.fill.0");
+  expect_says(refusal(path, other), "its particles differ: it was written with fluid.fill.0");
   other = config;
   other.time.end = 99;
   other.fluid.mu = 2e-3;
@@ -155,7 +156,7 @@ TEST_F(Checkpoint, RefusesAnotherPrecision) {
     for (const std::string& reads : all) {
       config.precision = reads;
       expect_says(refusal(path, config),
-                  reads == wrote ? "accepted" : "run.precision = " + wrote + ", this case has " + reads);
+                  reads == wrote ? "accepted" : "run.precision = " + wrote + ", but this case has " + reads);
     }
   }
 }

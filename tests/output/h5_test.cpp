@@ -33,7 +33,7 @@ TEST_F(Attributes, HoldOneValue) {
       read(file);
       FAIL();
     } catch (const h5::Error& error) {
-      EXPECT_STREQ(error.what(), "attribute 'time' does not hold one value");
+      EXPECT_STREQ(error.what(), "attribute 'time' must hold one value");
     }
   }
   EXPECT_THROW(h5::read_text(file, "one"), h5::Error);

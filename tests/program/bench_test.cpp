@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bedload/case/read.hpp"
-#include "cli/bench_rows.hpp"
+#include "cli/benchmarks.hpp"
 #include "run_program.hpp"
 #include "tests/support/cases.hpp"
 
@@ -61,7 +61,8 @@ TEST_F(Bench, RefusesWhatItDoesNotKnowWithOneSentence) {
     EXPECT_EQ(o.out, "") << arguments;
   };
   refused("dam.toml 2M",
-          "command line: 2M is no row; it must be one of 0.1M, 1M, 5M, 8M, 14M, spheres-8.8k, spheres-1M, "
+          "command line: unknown benchmark 2M; it must be one of 0.1M, 1M, 5M, 8M, 14M, spheres-8.8k, "
+          "spheres-1M, "
           "coupled, "
           "coupled-10M, or a case file");
   refused("no.toml", "no.toml: cannot read this case file: no such file");
@@ -70,10 +71,10 @@ TEST_F(Bench, RefusesWhatItDoesNotKnowWithOneSentence) {
   refused("0.1M --set fluid.d=1", "--set fluid.d=1: fluid.d is not a parameter; did you mean grain.d?");
 }
 
-TEST_F(Bench, ReadsEveryRow) {
-  std::vector<BenchRow> rows = bench_rows();
+TEST_F(Bench, ReadsEveryBuiltInCase) {
+  std::vector<Benchmark> rows = benchmarks();
   rows.push_back(widened_dam_break("0.2 m wide", 0.2));
-  for (const BenchRow& row : rows) {
+  for (const Benchmark& row : rows) {
     std::vector<std::string> warnings;
     EXPECT_NO_THROW(read_case_text(row.text, row.name, {}, warnings)) << row.name;
     const Config config = read_case_text(row.text, row.name, row.settings, warnings);

@@ -172,7 +172,7 @@ class LiveView(unittest.TestCase):
         shown = float(re.search(r"Time([0-9.e-]+) of 1000 s", numbers)[1])
         self.assertLessEqual(0.999 * before["time"]["value"], shown)
         self.assertLessEqual(shown, 1.001 * after["time"]["value"])
-        for what in (r"Remaining\d+ (s|min|h)", r"Speed[\d.]+ steps/s", r"Time step[\d.e-]+ s",
+        for what in (r"Remaining\d+ (s|min|h)", r"Step rate[\d.]+ steps/s", r"Time step[\d.e-]+ s",
                      r"\d fluid, [\d\u202f]+ walls"):
             self.assertRegex(numbers, what)
         self.assertEqual(float(page.attributes["bar"]["aria-valuenow"]), round(0.1 * shown, 1))
@@ -193,7 +193,7 @@ class LiveView(unittest.TestCase):
         self.assertEqual(self.run_.process.wait(timeout=60), 130)
         page = Page(dom)
         self.assertEqual(page.texts["state"], "stopped")
-        note = r"The run was stopped at t = ([\d.e-]+) s, after \d+ s\. +This page keeps"
+        note = r"The run was stopped at t = ([\d.e-]+) s, after \d+ s\. +This page shows"
         self.assertRegex(page.texts["note"], note)
         told = float(re.search(r"stopped at t = (\S+) s", self.run_.process.stdout.read())[1])
         self.assertAlmostEqual(float(re.match(note, page.texts["note"])[1]), told, delta=1e-4 * told)

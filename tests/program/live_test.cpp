@@ -328,11 +328,11 @@ TEST_F(Live, APortThatIsTakenEndsTheRunBeforeItBegins) {
   EXPECT_EQ(taken.code, 2);
   EXPECT_EQ(taken.out, "");
   EXPECT_EQ(taken.err, "command line: --live: port " + port +
-                           " of 127.0.0.1 is taken; name another, or 0 for any that is free\n");
+                           " of 127.0.0.1 is in use; choose another, or 0 for any free one\n");
   for (const std::string wrong : {"80", "65536", "-1", "1e4", "stirred.toml", "99999999999", "8020x"}) {
     const Outcome o = bedload("run stirred.toml --backend cpu --out other --live=" + wrong);
     EXPECT_EQ(o.code, 2) << wrong;
-    EXPECT_EQ(o.err.find("command line: --live: " + wrong + " is no port within 1024..65535, nor 0"), 0u)
+    EXPECT_EQ(o.err.find("command line: --live: " + wrong + " must be a port within 1024..65535, or 0"), 0u)
         << o.err;
     EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
   }

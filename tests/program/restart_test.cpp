@@ -82,13 +82,13 @@ TEST_F(Restart, ThatIsRefusedLeavesEveryByte) {
       {gauge, "has the columns ", [&] { write("case.toml", kCase + kBox); }},
       {rows, "has the columns ", [&] { rewrite(rows, [](std::string& s) { s.replace(11, 1, "F"); }); }},
       {rows, "CR LF", [&] { rewrite(rows, [](std::string& s) { s.insert(s.find('\n'), "\r"); }); }},
-      {rows, ":3: is no row of",
+      {rows, ":3: must be a row of",
        [&] { rewrite(rows, [](std::string& s) { s.insert(s.find("\n0.00") + 1, "x\n"); }); }},
-      {rows, "stands before",
+      {rows, "comes before",
        [&] { rewrite(rows, [](std::string& s) { s += s.substr(s.find("\n0,") + 1); }); }},
       {fluid, "cannot read", replace(fluid, [](const fs::path& p) { std::ofstream(p) << "text"; })},
       // what a run had written until the checkpoint
-      {gauge, "holds nothing until then", replace(gauge, [](const fs::path& p) { std::ofstream out(p); })},
+      {gauge, "is empty", replace(gauge, [](const fs::path& p) { std::ofstream out(p); })},
       {gauge, "ends at t = 0 s",
        [&] { rewrite(gauge, [](std::string& s) { s.resize(s.find("\n0.00") + 1); }); }},
       {gauge, "is missing", [&] { remove(gauge); }},
@@ -98,11 +98,11 @@ TEST_F(Restart, ThatIsRefusedLeavesEveryByte) {
        {gauge, rows, fluid, std::string("fluid.xdmf"), std::string("bodies/tank.csv"),
         std::string("summary.json"), std::string("case.resolved.toml")}) {
     harms.push_back({file, "it is a folder", replace(file, folder)});
-    harms.push_back({file, "a link that leads nowhere", replace(file, lost_link)});
+    harms.push_back({file, "a broken link", replace(file, lost_link)});
   }
   for (const std::string name : {"bodies", "probes"})
     harms.push_back(
-        {name, "it is no folder", replace(name, [](const fs::path& p) { std::ofstream out(p); })});
+        {name, "it is not a folder", replace(name, [](const fs::path& p) { std::ofstream out(p); })});
 
   fs::copy(out_, dir_ / "kept", fs::copy_options::recursive);
   for (const Harm& harm : harms) {

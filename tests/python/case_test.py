@@ -52,7 +52,7 @@ class Cases(unittest.TestCase):
         self.assertEqual(bedload.Case.from_toml(case.to_toml()), case)
         report = case.check(threads=1)
         self.assertEqual((report.fluid, report.grains), (5 * 10 * 8, 3))
-        self.assertEqual(report.step_limits[report.binds], min(report.step_limits.values()))
+        self.assertEqual(report.step_limits[report.active_limit], min(report.step_limits.values()))
 
     def test_shipped_cases_survive_being_written(self):
         for path in sorted(ROOT.glob("cases/*/case.toml"))[::4]:

@@ -74,8 +74,8 @@ TEST(LiveFrame, TakesTheSameFewOfManyAndNoneThatIsNowhere) {
   const LiveParticles& grains = one.grains;
   EXPECT_TRUE(one.fluid.x.empty());
   EXPECT_NEAR(double(grains.x.size()), 0.9 * 30000, 500);
-  EXPECT_NEAR(grains.widened, std::cbrt(100000.0 / 30000), 1e-12);
-  EXPECT_NEAR(grains.radius.front(), 0.01 * grains.widened, 1e-8);
+  EXPECT_NEAR(grains.enlarged, std::cbrt(100000.0 / 30000), 1e-12);
+  EXPECT_NEAR(grains.radius.front(), 0.01 * grains.enlarged, 1e-8);
   for (const Vec3d& x : grains.x) ASSERT_TRUE(std::isfinite(norm(x)));
   ASSERT_EQ(other.grains.x.size(), grains.x.size());
   for (std::size_t k = 0; k < grains.x.size(); ++k) ASSERT_EQ(other.grains.x[k].x, grains.x[k].x);

@@ -117,12 +117,12 @@ TEST(ViscometerCase, RefusesWhatItCannotMeasure) {
            {kWalled, {"drive.f=[0,3,0]"}, "drive.f", "driven and sheared at the same time"},
            {kWalled, {"wall.body.1.surface_velocity=[0,0,0]"}, "drive.f", "nothing drives"},
            {kWalled, {"wall.body.1.normal=[0,0,1]"}, "wall.body", "one side"},
-           {kWalled, {"wall.body.0.max=[0.1,0.3,0]"}, "wall.body.0.shape", "no plane wall"},
+           {kWalled, {"wall.body.0.max=[0.1,0.3,0]"}, "wall.body.0.shape", "not a plane wall"},
            {kWalled,
             {"wall.body.0.motion.kind=oscillation", "wall.body.0.motion.frequency=1",
              "wall.body.0.motion.amplitude=[0.01,0,0]"},
             "wall.body.0.motion",
-            "does not move evenly"}}) {
+            "must be constant"}}) {
     try {
       flow_of(r.text, r.overrides);
       ADD_FAILURE() << r.why << " was not refused";

@@ -1,5 +1,5 @@
 #pragma once
-// Tables of numbers over time.
+// Tables of numbers over time in CSV files.
 
 #include <cstddef>
 #include <filesystem>
@@ -15,21 +15,21 @@ class CsvTable {
  public:
   explicit CsvTable(std::filesystem::path path) : path_(std::move(path)) {}
 
-  /// Adds one row at `time` s; the first one makes the file and its header, unless it is `begun`.
+  /// Appends a row at `time` s; the first row creates the file and its header, unless it is `begun`.
   /// Throws FileError, also if the columns differ from those in the file.
   void append(double time, const std::vector<Quantity>& row, bool begun = false) const;
 
   /// Throws FileError if there is a file with other columns.
   void expect(const std::vector<Quantity>& row) const;
 
-  /// Times of the rows, s; none if there is no file. A row cut short by a kill counts as absent. Throws
-  /// FileError, also for rows of other columns than the header has.
+  /// Times of the rows, s; empty without a file. A truncated last row is ignored. Throws FileError, also for
+  /// rows whose columns do not match the header.
   std::vector<double> times() const;
 
-  /// The last row, less its time; nothing if there is none. Throws FileError.
+  /// The last row without its time; empty if there is none. Throws FileError.
   std::vector<Quantity> last_row() const;
 
-  /// Drops all rows but the first `count`; with none the file goes.
+  /// Keeps the first `count` rows; removes the file if that is none.
   void keep(std::size_t count) const;
 
   const std::filesystem::path& path() const { return path_; }

@@ -1,5 +1,5 @@
 #pragma once
-// Files that are either whole or not there.
+// Files that are either complete or absent.
 
 #include <cstddef>
 #include <filesystem>
@@ -11,49 +11,48 @@ namespace bedload {
 /// Text of a whole file. Throws FileError.
 std::string read_file(const std::filesystem::path& path);
 
-/// What lies behind the byte order mark that spreadsheets and editors put first in the text of the file
-/// `name`. Throws FileError for UTF-16.
+/// The text of the file `name` without a leading byte order mark, as some spreadsheets and editors write.
+/// Throws FileError for UTF-16.
 std::string_view without_mark(std::string_view text, const std::string& name);
 
-/// The text of a whole file without that mark. Throws FileError.
+/// Text of a whole file without that mark. Throws FileError.
 std::string read_text(const std::filesystem::path& path);
 
-/// Replaces a file in one go: written beside its place, then renamed; survives a kill
-/// but is not synced, unlike commit_file. Throws FileError.
+/// Replaces a file atomically: writes a temporary file and renames it. Not synced, unlike commit_file. Throws
+/// FileError.
 void write_file(const std::filesystem::path& path, const std::string& text);
 
-/// Puts the finished file `part` in the place of `path`, surely on disk. Throws FileError.
+/// Syncs the finished file `part` and renames it to `path`. Throws FileError.
 void commit_file(const std::filesystem::path& part, const std::filesystem::path& path);
 
-/// Puts a seal behind the content of a file: "BEDLOAD", a new line and a checksum of all before. Throws
-/// FileError.
+/// Appends a seal: "BEDLOAD", a new line and a checksum of the content. Throws FileError.
 void seal_file(const std::filesystem::path& path);
 
 enum class Seal { whole, missing, broken };
-/// Whether a file ends with a seal that fits what lies before.
+/// Whether a file ends with a seal that matches its content.
 Seal seal_of(const std::filesystem::path& path);
 
-/// Name of the unfinished file beside `path`.
+/// Name of the temporary file for `path`.
 std::filesystem::path part_of(const std::filesystem::path& path);
 
-/// Throws FileError unless the disk that holds `path` has space for `bytes` more. A file that is there keeps
-/// the space, even against others that write, until free_reserve.
+/// Throws FileError unless the disk of `path` has space for `bytes` more. An existing file reserves the space
+/// until free_reserve.
 void need_space(const std::filesystem::path& path, std::size_t bytes);
 
-/// Gives back what need_space took and the file did not grow by.
+/// Releases the space reserved by need_space that the file did not use.
 void free_reserve(const std::filesystem::path& path);
 
-/// Throws FileError if a folder lies where a file is to be written.
+/// Throws FileError if `path` is a folder where a file is to be written.
 void must_be_no_folder(const std::filesystem::path& path);
 
-/// Throws FileError unless there is nothing, or what can be read and written: a file or a folder, as `type`
-/// says, or a link to one.
+/// Throws FileError unless `path` does not exist or is a readable and writable file or folder, as given by
+/// `type`, or a link to one.
 void must_be_usable(const std::filesystem::path& path, std::filesystem::file_type type);
 
-/// Removes a file that may not be there. Throws FileError.
+/// Removes a file if it exists. Throws FileError.
 void remove_file(const std::filesystem::path& path);
 
-/// Throws FileError if a file has gone that was written before.
+/// Throws FileError if a file written before is gone.
 void must_be_there(const std::filesystem::path& path);
 
 }  // namespace bedload

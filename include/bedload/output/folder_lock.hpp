@@ -1,11 +1,11 @@
 #pragma once
-// One run at a time in a results folder.
+// A lock on a results folder: one run at a time.
 
 #include <filesystem>
 
 namespace bedload {
 
-/// Holds a folder for this process until destroyed. The lock dies with the process, however that ends.
+/// Locks a folder until destroyed or until the process ends.
 class FolderLock {
  public:
   /// Makes the folder and sees that it can be written to. Throws FileError, with who holds it if another

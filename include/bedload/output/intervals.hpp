@@ -8,16 +8,15 @@
 
 namespace bedload {
 
-/// The intervals at which a case writes. What is due more often than once a step is written once a step,
-/// which is to be told.
+/// The output intervals of a case. Intervals below the time step are written once per step, with a warning.
 class OutputIntervals {
  public:
   explicit OutputIntervals(const OutputConfig& out);
-  /// One sentence for each interval below a step of dt (s) that was not told before.
+  /// One sentence for each interval below the time step dt (s), once.
   std::vector<std::string> newly_below(double dt);
 
  private:
-  std::map<double, std::string> keys_;  ///< by interval, s; those not told
+  std::map<double, std::string> keys_;  ///< by interval, s; not yet reported
 };
 
 }  // namespace bedload

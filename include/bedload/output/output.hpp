@@ -1,11 +1,11 @@
 #pragma once
-// What a run leaves in its folder:
+// The results folder of a run:
 //   case.resolved.toml      every parameter with its default; version, device, seed
 //   fluid|grains|walls.vtkhdf  frames as temporal PolyData, an .xdmf side-car beside each
 //   probes/<name>.csv       one table per probe
 //   diagnostics.csv         masses, momenta, energies, extremes, counters
-//   checkpoints/step_*.h5   the kept state
-//   summary.json            how the run ended
+//   checkpoints/step_*.h5   state for a restart
+//   summary.json            status, counts, timing, last values
 
 #include <array>
 #include <cstdint>
@@ -22,55 +22,53 @@
 
 namespace bedload {
 
-/// What a run has done so far, beside its steps.
-struct Effort {
+/// Totals of a run so far.
+struct RunTotals {
   double wall_seconds = 0;
   std::int64_t particle_steps = 0, substeps = 0, rebuilds = 0;
-  std::array<std::int64_t, kLimits.size()> steps_by{}, substeps_by{};  ///< how many each limit bound
+  std::array<std::int64_t, kLimits.size()> steps_by{}, substeps_by{};  ///< counts by the active limit
 };
 
-/// The results folder of one run. Everything is copied to the host when asked
-/// for and written by one thread of its own; an error in there (FileError)
-/// surfaces in the next call.
+/// The results folder of one run. Data are copied to the host at once and written by a separate thread; its
+/// errors (FileError) surface in the next call.
 class RunOutput {
  public:
-  /// Makes the folder, removes what a former run left there and writes case.resolved.toml. With `continued`,
-  /// which has the state of a checkpoint, it goes on with the run in the folder instead, and here only
-  /// examines what is there; what lies after the checkpoint is removed when a first step has been made.
-  /// Throws FileError, with everything as it was.
+  /// Creates the folder, removes the files of an earlier run and writes case.resolved.toml. With `restarted`,
+  /// a simulation loaded from a checkpoint, it continues the run in the folder instead: here it only examines
+  /// the files; data after the checkpoint are removed after the first step. Throws FileError without changing
+  /// anything.
   RunOutput(const std::filesystem::path& dir, const Config& config, const Device& device, std::string version,
-            Simulation* continued = nullptr);
+            Simulation* restarted = nullptr);
   ~RunOutput();
   RunOutput(const RunOutput&) = delete;
   RunOutput& operator=(const RunOutput&) = delete;
 
-  /// Of a run that goes on: what the folder lacks of that which the run of the case `former` has written
-  /// until the checkpoint, a clause each.
+  /// For a restart: data missing from the folder that the run of the case `former` has written up to the
+  /// checkpoint, a clause each.
   std::vector<std::string> gaps(const Config& former) const;
 
-  /// Writes the frames, diagnostics, probes and checkpoint that fell due by
-  /// info.time; call it after start() and after every step.
+  /// Writes the frames, diagnostics, probes and checkpoint that are due at info.time; call after start() and
+  /// after every step.
   void write(Simulation& simulation, const StepInfo& info);
 
   /// Saves the state as checkpoints/step_<step>.h5 and returns once it is safely on disk.
   std::filesystem::path checkpoint(Simulation& simulation);
 
-  /// Is told of every row that is written from now on: table ("diagnostics", "probes/gauge"), time (s),
+  /// Called with every row that is written from now on: table ("diagnostics", "probes/gauge"), time (s),
   /// values.
   using RowWatcher = std::function<void(const std::string&, double, const std::vector<Quantity>&)>;
   void watch_rows(RowWatcher watcher);
 
-  /// Notes a warning for summary.json.
+  /// Adds a warning to summary.json.
   void warn(std::string message);
 
-  /// Quantities for summary.json, under that name, and what must be known of them, if anything.
+  /// Adds quantities under that name to summary.json, with a caveat if there is one.
   void add(std::string name, std::vector<Quantity> quantities, std::string note = {});
 
-  /// Ends the output: last frame and rows, checkpoint, summary.json. `status` is
-  /// "completed", "stopped" or "failed"; the state of a failed run is shown in a
-  /// frame but not kept as a checkpoint. A run that goes on and was stopped before its
-  /// first step, or begins at the end of a completed one, leaves everything as it was.
-  void finish(Simulation& simulation, const std::string& status, const Effort& effort);
+  /// Ends the output: last frame and rows, checkpoint, summary.json. `status` is "completed", "stopped" or
+  /// "failed"; a failed run gets a last frame but no checkpoint. A restart that was stopped before its first
+  /// step, or starts at the end of a completed run, changes nothing.
+  void finish(Simulation& simulation, const std::string& status, const RunTotals& totals);
 
   /// The newest checkpoint on disk, empty if there is none.
   std::filesystem::path last_checkpoint() const;
@@ -80,22 +78,22 @@ class RunOutput {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The state in a checkpoint made for this case: same precision, same particles.
+/// The state in a checkpoint of this case: same precision, same particles.
 /// Throws FileError with file and reason.
 SavedState read_checkpoint(const std::filesystem::path& path, const Config& config);
 
-/// The numbers by which a checkpoint knows the particles of its case, e.g. "grain.fill.0.count". Throws
+/// The numbers that define the particles of the case of a checkpoint, e.g. "grain.fill.0.count". Throws
 /// FileError.
 std::map<std::string, double> checkpoint_setup(const std::filesystem::path& path);
 
-/// The resolved case that a checkpoint was made with. Throws FileError.
+/// The resolved case of a checkpoint. Throws FileError.
 std::string checkpoint_case(const std::filesystem::path& path);
 
-/// The checkpoint of a results folder with the most steps. Throws FileError if there is none.
+/// The newest checkpoint of a results folder. Throws FileError if there is none.
 std::filesystem::path latest_checkpoint(const std::filesystem::path& dir);
 
-/// Writes a checkpoint: first beside its place, then synced and renamed. The same
-/// state gives the same bytes. Throws FileError.
+/// Writes a checkpoint to a temporary file, syncs and renames it. The same state gives the same bytes. Throws
+/// FileError.
 void write_state(const std::filesystem::path& path, const SavedState& state, const Config& config);
 
 }  // namespace bedload

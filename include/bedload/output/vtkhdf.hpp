@@ -10,21 +10,20 @@
 
 namespace bedload {
 
-/// The file is opened for each call and closed after it, so a run that is killed
-/// leaves every frame so far readable, and viewers may look on. What did not
-/// change since the last frame (walls at rest, vertex cells) is not stored again.
+/// The file is opened and closed by each call, so all frames so far are readable during a run and after a
+/// kill. Arrays that did not change since the last frame (walls at rest, vertex cells) are not stored again.
 class FrameFile {
  public:
-  /// Points are stored in fp32, or as they come with `double_points`. `deflate`:
+  /// Points are stored in fp32, or unchanged with `double_points`. `deflate`:
   /// 0 (none) to 9.
   explicit FrameFile(std::filesystem::path path, bool double_points = false, int deflate = 0)
       : path_(std::move(path)), double_points_(double_points), deflate_(deflate) {}
 
-  /// Adds one frame at `time` s; the first array of the store is the position. The first frame makes the
-  /// file, unless it is `begun`. Throws FileError; on a full disk before the file is touched.
+  /// Appends a frame at `time` s; the first array of the store is the position. The first frame creates the
+  /// file, unless it is `begun`. Throws FileError; on a full disk before the file is changed.
   void append(const HostStore& store, double time, bool begun = false) const;
 
-  /// Throws FileError if there is a file with other arrays than frames of this store have.
+  /// Throws FileError if there is a file with different arrays than this store.
   void expect(const HostStore& store) const;
 
   /// Times of the frames, s; none if there is no file.
@@ -33,10 +32,10 @@ class FrameFile {
   /// One frame, as stored; the first array is the position. Throws FileError.
   HostStore read(std::size_t frame) const;
 
-  /// Drops all frames but the first `count`; with none the file goes, and its side-car.
+  /// Keeps the first `count` frames; removes the file and its .xdmf file if that is none.
   void keep(std::size_t count) const;
 
-  /// Writes the .xdmf side-car for older readers: hyperslabs of this file.
+  /// Writes the .xdmf file for older programs: hyperslabs of this file.
   void write_xdmf() const;
 
   const std::filesystem::path& path() const { return path_; }

@@ -1,5 +1,5 @@
 #pragma once
-// Work off the critical path, in order, by one thread.
+// A background thread that runs jobs in order.
 
 #include <condition_variable>
 #include <cstddef>
@@ -11,15 +11,15 @@
 
 namespace bedload {
 
-/// Runs the jobs posted to it one after another. The first job that throws ends
-/// the work: later jobs are dropped and the error is rethrown to every later caller.
+/// Runs posted jobs in order. After a job throws, later jobs are dropped and every later call rethrows the
+/// error.
 class WriterThread {
  public:
   using Job = std::function<void()>;
 
-  /// At most `depth` jobs wait; more make post() wait, which bounds the memory they hold.
+  /// post() blocks while `depth` jobs wait, which bounds their memory.
   explicit WriterThread(std::size_t depth = 4) : depth_(depth), thread_([this] { work(); }) {}
-  /// Does what is still waiting, then ends; errors are lost, so drain() first.
+  /// Finishes the waiting jobs; their errors are lost, so call drain() first.
   ~WriterThread();
   WriterThread(const WriterThread&) = delete;
   WriterThread& operator=(const WriterThread&) = delete;
@@ -34,10 +34,10 @@ class WriterThread {
   std::size_t depth_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Job> jobs_;  ///< the first one stays here while it runs
+  std::deque<Job> jobs_;  ///< the first one is running
   std::exception_ptr error_;
   bool ending_ = false;
-  std::thread thread_;  ///< last: starts when all of the above is ready
+  std::thread thread_;  ///< last: uses all of the above
 };
 
 }  // namespace bedload

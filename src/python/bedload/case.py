@@ -236,28 +236,28 @@ def _taken(value: Any, path: str, place: tuple[str, int]) -> Any:
 
 @dataclass
 class Report:
-    """What `Case.check` finds."""
+    """Result of `Case.check`."""
 
     fluid: int  #: particles
     walls: int
     grains: int
     device: str
-    memory: int  #: bytes that the solver holds
+    memory: int  #: of the solver at the end of a run, bytes
     step_limits: dict[str, float]  #: s, by what limits the step
     substep_limits: dict[str, float]  #: s, of DEM substeps
-    numerical_viscosity: dict[str, float]  #: as multiples of the fluid's own
+    numerical_viscosity: dict[str, float]  #: as multiples of the physical viscosity
     warnings: list[str]
 
     @property
-    def binds(self) -> str:
-        """What limits the step."""
+    def active_limit(self) -> str:
+        """The limit that sets the time step."""
         return min(self.step_limits, key=self.step_limits.get)
 
 
 class Case(Section):
     """A case: from a file, from dicts, or empty.
 
-    Errors tell where a value was given, in the file or in the Python code that set it. Names of other files in a case
+    Errors name the place of a value, in the file or in the Python code that set it. Names of other files in a case
     (meshes, tables) are relative to its file, those of a case without one to the working directory.
     """
 
@@ -284,7 +284,7 @@ class Case(Section):
 
     @classmethod
     def from_toml(cls, text: str, name: str = "case") -> Case:
-        """A case from the text of a file; `name` stands for it in messages."""
+        """A case from the text of a file; `name` is used in messages."""
         case = cls()
         case._start(name)
         case._parse(text)
@@ -317,7 +317,7 @@ class Case(Section):
         return Case.from_toml(self._read().toml(), self._name)
 
     def warnings(self) -> list[str]:
-        """What the program warns of when it reads the case. Raises CaseError if it cannot be computed."""
+        """Warnings of the program for this case. Raises CaseError if it cannot be computed."""
         return self._read().warnings
 
     def check(self, backend: str = "auto", threads: int = 0) -> Report:
@@ -344,7 +344,7 @@ class Case(Section):
 
 
 def _place(value: Any, path: str, places: dict[str, tuple[str, int]]) -> None:
-    """Tells a section and all below it where its values stood."""
+    """Records the places of the values of a section and everything below it."""
     if isinstance(value, Items):
         for k, item in enumerate(value):
             _place(item, f"{path}.{k}", places)

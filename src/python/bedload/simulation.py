@@ -15,8 +15,8 @@ from .errors import CaseError, SimulationFault
 class DeviceArray:
     """An array in the memory of a GPU, for CuPy, PyTorch, Numba: `cupy.asarray(a)`, `torch.from_dlpack(a)`.
 
-    Not to be written to. As arrays of the CPU it is right until the next step. NumPy's functions and indices work on a
-    copy of it in host memory, each on one of its own.
+    Read-only, and like arrays of the CPU valid until the next step. NumPy functions and indexing each make a copy in
+    host memory.
     """
 
     def __init__(self, field: Any):
@@ -39,7 +39,7 @@ class DeviceArray:
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
         if copy is False:
-            raise ValueError("an array in the memory of a GPU is seen by NumPy as a copy alone")
+            raise ValueError("NumPy needs a copy of an array in the memory of a GPU")
         return self.copy().astype(dtype or self.dtype, copy=False)
 
     def __getitem__(self, index: Any) -> Any:
@@ -55,10 +55,10 @@ class DeviceArray:
 class Particles:
     """Fluid, grains or walls of a simulation, in the solver's own order: `simulation.fluid.velocity`.
 
-    Arrays are read-only windows on the solver's memory, without a copy, and right until the next step: ask anew after
-    it, or `.copy()` what is to be kept. (An older array stays valid memory, but holds what the solver left there.)
-    `fluid.pressure` is computed, so a copy, and in single precision so is `fluid.position`. Where neighbour lists were
-    renewed (`Step.rebuilt`) particles have another order, and may be more or fewer; `id` tells who is who.
+    Arrays are read-only zero-copy views of the solver's memory, valid until the next step: get them again after it, or
+    keep a `.copy()`. (An older array stays valid memory with outdated values.) `fluid.pressure` is computed, so a copy,
+    and in single precision so is `fluid.position`. When neighbour lists were rebuilt (`Step.rebuilt`) the order and
+    number of particles may change; `id` identifies them.
     """
 
     def __init__(self, run: Any, store: str):
@@ -69,11 +69,11 @@ class Particles:
         return {"fluid": fluid, "walls": walls, "grains": grains}[self._store]
 
     def names(self) -> list[str]:
-        """Of all arrays."""
+        """Names of all arrays."""
         return sorted(self._run.fields(self._store).keys() | self._run.snapshot(self._store).keys())
 
     def unit(self, name: str) -> str:
-        """Of an array: "m/s"; "-" for a pure number."""
+        """Unit of an array: "m/s"; "-" for a pure number."""
         return self._find(name)[1]
 
     def __getattr__(self, name: str) -> Any:
@@ -86,11 +86,11 @@ class Particles:
         return getattr(self, name)
 
     def copy(self, name: str) -> np.ndarray:
-        """An array in host memory that stays as it is now; from a GPU, too."""
+        """A copy in host memory, also of an array on a GPU."""
         return getattr(self, name).copy()
 
     def by_id(self, name: str) -> np.ndarray:
-        """A copy of an array in the order of the particles' ids, which stays the same while none comes or goes."""
+        """A copy of an array sorted by particle id, an order that is stable while the particles stay the same."""
         return self.copy(name)[np.argsort(self.copy("id"))]
 
     def __dir__(self):
@@ -111,12 +111,12 @@ class Simulation:
     """A run in this process.
 
     case: a Case or the name of a file. out: folder of results, as `bedload run --out`; without one nothing is written.
-    restart: a checkpoint to go on from, or "latest" of `out`. backend: "cpu", "cuda" or "auto". threads: 0 for all.
-    overwrite: replaces a run that `out` holds. allow_changes: goes on from a checkpoint of a case that computes
-    otherwise. Grains that are to settle do so here. Raises CaseError, FileError, DeviceError, SimulationFault.
+    restart: a checkpoint, or "latest" of `out`. backend: "cpu", "cuda" or "auto". threads: 0 for all.
+    overwrite: replaces an existing run in `out`. allow_changes: restarts with a modified case. Grains settle here,
+    if the case says so. Raises CaseError, FileError, DeviceError, SimulationFault.
 
-    Use it in a `with` block, or call `close()`: that writes the last frame, checkpoint and summary.json. Several
-    simulations may be there at once; one at a time computes.
+    Use it in a `with` block, or call `close()`, which writes the last frame, checkpoint and summary.json. Several
+    simulations may exist at once; one at a time computes.
     """
 
     def __init__(self, case: Case | str | Path, out: str | Path | None = None, *, restart: str | Path | None = None,
@@ -124,10 +124,10 @@ class Simulation:
         self.case = case if isinstance(case, Case) else Case(case)
         self.out = None if out is None else Path(out)
         if restart == "":
-            raise CaseError("restart is empty; give it a checkpoint, \"latest\" or None, which begins anew")
+            raise CaseError("restart is empty; it must be a checkpoint, \"latest\" or None for a new run")
         if restart == "latest":
             if self.out is None:
-                raise CaseError("restart = \"latest\" goes on from the newest checkpoint of `out`, which is not given")
+                raise CaseError("restart = \"latest\" needs `out`, whose newest checkpoint it takes")
             restart = module().latest_checkpoint(self.out)
         read = self.case._read(restart or "")
         self._run = module().Run(read, self.out or "", restart or "", backend, threads, overwrite, allow_changes)
@@ -136,10 +136,10 @@ class Simulation:
         self.grains = Particles(self._run, "grains")
         self.walls = Particles(self._run, "walls")
 
-    # -- going on --------------------------------------------------------------------------------
+    # -- running --------------------------------------------------------------------------------
 
     def step(self):
-        """One step; returns what it did. Results that fall due are written."""
+        """Makes one step and writes the results that are due; returns a `Step`."""
         if self._ended:
             raise CaseError("this simulation is closed")
         try:
@@ -168,12 +168,12 @@ class Simulation:
 
         if every is not None and not every > 0:
             raise CaseError(f"every = {every} must be > 0")
-        told = multiple()
+        called = multiple()
         if call and every is not None and call(self) is False:
             return
         for _ in self.steps(until):
-            if call and multiple() > told:
-                told = multiple()
+            if call and multiple() > called:
+                called = multiple()
                 if call(self) is False:
                     return
 
@@ -183,7 +183,7 @@ class Simulation:
         return self._run.checkpoint()
 
     def close(self) -> None:
-        """Ends the results: last frame, checkpoint, summary.json. Arrays can still be looked at."""
+        """Writes the last frame, checkpoint and summary.json. Arrays can still be read."""
         if not self._ended:
             self._begin()
             self._finish("completed" if self.time >= self.end else "stopped")
@@ -194,7 +194,7 @@ class Simulation:
     def __exit__(self, *_: Any) -> None:
         self.close()
 
-    # -- looking at it ---------------------------------------------------------------------------
+    # -- state ---------------------------------------------------------------------------
 
     @property
     def time(self) -> float:
@@ -218,7 +218,7 @@ class Simulation:
 
     @property
     def memory(self) -> int:
-        """Bytes that the solver holds."""
+        """Memory of the solver, bytes."""
         return self._run.bytes
 
     def diagnostics(self) -> dict[str, float]:
@@ -226,23 +226,23 @@ class Simulation:
         return _values(self._run.diagnostics())
 
     def probe(self, name: str) -> dict[str, float]:
-        """What a probe of the case reads now, in SI units; a force with sample = "mean": the mean since its last row."""
+        """Current values of a probe in SI units; for a force with sample = "mean" the mean since its last row."""
         return _values(self._run.measure(name))
 
     def body(self, name: str) -> dict[str, float]:
-        """Place, velocity, forces and their power of a wall body, in SI units."""
+        """Position, velocity, forces and their power of a wall body, in SI units."""
         return _values(self._run.body(name))
 
     def units(self) -> dict[str, str]:
-        """Of the diagnostics."""
+        """Units of the diagnostics."""
         return {name: unit for name, (_, unit) in self._run.diagnostics().items()}
 
     def step_limits(self) -> dict[str, float]:
-        """What limits the next step, s."""
+        """Limits of the next time step, s."""
         return _values(self._run.limits())
 
     def time_spent(self) -> dict[str, float]:
-        """Wall time of the parts of all steps, s."""
+        """Wall time by part, over all steps, s."""
         return _values(self._run.time_spent())
 
     def __repr__(self) -> str:

@@ -1,4 +1,4 @@
-// The module that the package for Python is built on: cases, runs in this process, the program itself.
+// The extension module of the Python package: cases, runs in this process, the command line.
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/filesystem.h>
@@ -13,8 +13,8 @@
 #include "bedload/core/error.hpp"
 #include "bedload/output/folder_lock.hpp"
 #include "cli/commands.hpp"
-#include "cli/rehearsal.hpp"
 #include "cli/session.hpp"
+#include "cli/trial_simulation.hpp"
 #include "tree.hpp"
 
 namespace nb = nanobind;
@@ -22,13 +22,13 @@ namespace nb = nanobind;
 namespace bedload {
 namespace {
 
-/// The solver keeps scratch memory for all simulations of a build, so one thread at a time computes.
+/// All simulations of a build share scratch memory, so only one thread computes at a time.
 std::mutex& computing() {
   static std::mutex one;
   return one;
 }
 
-/// f() by this thread alone, while Python goes on.
+/// f() without the lock of the interpreter, one call at a time.
 template <class F>
 auto computed(F&& f) {
   const nb::gil_scoped_release release;
@@ -43,7 +43,7 @@ nb::dict to_dict(const std::vector<Quantity>& quantities) {
   return out;
 }
 
-/// name -> (seconds, whether it binds)
+/// name -> (seconds, whether it is the active limit)
 nb::dict to_dict(const std::vector<StepLimit>& limits) {
   nb::dict out;
   for (const StepLimit& limit : limits)
@@ -51,7 +51,7 @@ nb::dict to_dict(const std::vector<StepLimit>& limits) {
   return out;
 }
 
-/// A session and what of it Python asks for.
+/// A session for Python.
 class Run {
  public:
   Run(const ReadCase& given, const std::filesystem::path& out, const std::filesystem::path& restart,
@@ -126,8 +126,7 @@ class Run {
     throw CaseError("there is no wall body \"" + name + "\" in this case");
   }
   std::filesystem::path checkpoint() {
-    if (!session_->output())
-      throw FileError("a run without a results folder keeps no checkpoint; give it one");
+    if (!session_->output()) throw FileError("a run without a results folder has no checkpoints; set out");
     return computed([&] { return session_->output()->checkpoint(simulation()); });
   }
 
@@ -137,7 +136,7 @@ class Run {
   std::optional<Session> session_;
 };
 
-/// What `bedload check` tells, as numbers.
+/// The results of `bedload check`, as numbers.
 nb::dict checked(const ReadCase& given, const std::string& backend, int threads) {
   Prepared p;
   p.config = given.config;
@@ -151,13 +150,13 @@ nb::dict checked(const ReadCase& given, const std::string& backend, int threads)
   computed([&] {
     placed(given.tree, [&] {
       initialise(options, p);
-      Rehearsal rehearsal(p);
-      Simulation& simulation = rehearsal.simulation();
+      TrialSimulation trial(p);
+      Simulation& simulation = trial.simulation();
       check_fixed_steps(p, simulation);
       steps = simulation.limits();
       substeps = simulation.substep_limits();
       numerical = simulation.numerical_viscosity();
-      bytes = rehearsal.memory().all;
+      bytes = trial.memory().all;
     });
   });
   nb::dict out;
@@ -198,10 +197,10 @@ void bind_runs(nb::module_& m) {
       .def_ro("substeps", &StepInfo::substeps, "DEM substeps in it.")
       .def_prop_ro(
           "limit", [](const StepInfo& i) { return std::string(name_of(i.limit)); },
-          "What bound dt: cfl, viscous, ...")
+          "Active limit of dt: cfl, viscous, ...")
       .def_ro("vmax", &StepInfo::vmax, "Of the fastest fluid particle, m/s.")
       .def_ro("rebuilt", &StepInfo::rebuilt,
-              "Neighbour lists were renewed: the order of particles has changed.")
+              "Neighbour lists were rebuilt: the order of particles has changed.")
       .def("__repr__", [](const StepInfo& i) {
         return "Step(step=" + std::to_string(i.step) + ", time=" + std::to_string(i.time) + ")";
       });
@@ -211,8 +210,8 @@ void bind_runs(nb::module_& m) {
            nb::arg("case"), nb::arg("out"), nb::arg("restart"), nb::arg("backend"), nb::arg("threads"),
            nb::arg("overwrite"), nb::arg("allow_changes"))
       .def("begin", &Run::begin, "Writes the first frames.")
-      .def("step", &Run::step, "One step, and what of it is due to be written.")
-      .def("finish", &Run::finish, nb::arg("status"), "Ends the results.")
+      .def("step", &Run::step, "One step and the output that is due.")
+      .def("finish", &Run::finish, nb::arg("status"), "Writes the last results.")
       .def_prop_ro("time", [](Run& r) { return r.simulation().time(); })
       .def_prop_ro("end", [](Run& r) { return r.config().time.end; })
       .def_prop_ro("steps", [](Run& r) { return r.simulation().steps(); })

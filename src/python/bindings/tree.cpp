@@ -38,7 +38,7 @@ nb::object to_python(const Value& value, const std::string& path, nb::dict& plac
   throw CaseError(value.place() + ": " + path + " is a date, which no key takes");
 }
 
-/// Python to Value. What `places` does not have stands where what holds it does.
+/// Python to Value. A value without an entry in `places` gets the place of its table or list.
 class ToValue {
  public:
   ToValue(const nb::dict& places, std::string source) : places_(places), outside_{std::move(source), 0} {}

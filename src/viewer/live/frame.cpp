@@ -6,11 +6,12 @@
 #include <string>
 
 #include "bedload/geometry/body.hpp"
+#include "src/viewer/image.hpp"
 
 namespace bedload {
 namespace {
 
-constexpr std::size_t kMost = 30000;  // of a kind in a frame
+constexpr std::size_t kMost = 30000;  // particles of a kind in a frame
 
 double number(const HostArray& array, std::size_t k) {
   switch (array.type) {
@@ -30,8 +31,8 @@ Vec3d vector(const HostArray& array, std::size_t k) {
   return {number(array, 3 * k), number(array, 3 * k + 1), number(array, 3 * k + 2)};
 }
 
-/// Evenly spread over 0..1, and the same of the same particle in every frame.
-double lot(std::uint64_t id) {
+/// A uniform number in 0..1 that is the same for a particle in every frame.
+double hash_fraction(std::uint64_t id) {
   id = (id + 1) * 0x9e3779b97f4a7c15u;
   id = (id ^ (id >> 29)) * 0xbf58476d1ce4e5b9u;
   return double((id ^ (id >> 32)) & 0xffffffffu) / 4294967296.0;
@@ -43,26 +44,17 @@ LiveParticles particles_of(const HostStore& store, int dimensions) {
                   *radius = store.find("radius");
   if (store.count == 0 || !x) return out;
   const double fraction = std::min(1.0, double(kMost) / double(store.count));
-  out.widened = std::pow(fraction, -1.0 / dimensions);
+  out.enlarged = std::pow(fraction, -1.0 / dimensions);
   for (std::size_t k = 0; k < store.count; ++k) {
-    if (fraction < 1 && lot(id ? std::uint64_t(number(*id, k)) : k) >= fraction) continue;
+    if (fraction < 1 && hash_fraction(id ? std::uint64_t(number(*id, k)) : k) >= fraction) continue;
     const Vec3d at = vector(*x, k);
     const double speed = v ? norm(vector(*v, k)) : 0;
-    if (!std::isfinite(norm(at)) || !std::isfinite(speed)) continue;  // of a run that broke down
+    if (!std::isfinite(norm(at)) || !std::isfinite(speed)) continue;  // the run has failed
     out.x.push_back(at);
     out.speed.push_back(speed);
-    if (radius) out.radius.push_back(out.widened * number(*radius, k));
+    if (radius) out.radius.push_back(out.enlarged * number(*radius, k));
   }
   return out;
-}
-
-/// 1, 2 or 5 times a power of ten, at or above `value`.
-double rounded_up(double value) {
-  if (!(value > 0)) return 0;
-  const double power = std::pow(10, std::floor(std::log10(value)));
-  for (const double round : {1.0, 2.0, 5.0})
-    if (value <= round * power) return round * power;
-  return 10 * power;
 }
 
 double top_speed(const LiveFrame& frame) {

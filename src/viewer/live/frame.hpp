@@ -1,5 +1,5 @@
 #pragma once
-// Copies of a simulation, as coarse as a picture of it needs.
+// Snapshots of a simulation for pictures: a subset of its particles.
 
 #include <optional>
 #include <vector>
@@ -11,21 +11,21 @@
 
 namespace bedload {
 
-/// Particles that stand for all of their kind.
+/// A subset of the particles of a kind.
 struct LiveParticles {
   std::vector<Vec3d> x;        ///< m
   std::vector<double> speed;   ///< m/s
-  std::vector<double> radius;  ///< m, of grains; larger where one stands for several
-  double widened = 1;          ///< that factor
+  std::vector<double> radius;  ///< m, of grains; enlarged if one represents several
+  double enlarged = 1;         ///< by this factor
 };
 
-/// One moment of a run.
+/// The state of a run at one time.
 struct LiveFrame {
   double time = 0;  ///< s
   LiveParticles fluid, grains;
   std::vector<std::optional<RigidMotion>> bodies;  ///< of wall bodies that move
   std::vector<bool> removed;                       ///< of all wall bodies
-  double top_speed = 0;  ///< m/s, rounded up, which 1 % of the particles at most exceed
+  double top_speed = 0;                            ///< m/s, 99th percentile, rounded up
 };
 
 /// Takes frames of one run.

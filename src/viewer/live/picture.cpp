@@ -23,7 +23,7 @@ class Bounds {
     const Vec3d beyond = 0.03 * (domain.max - domain.min);
     min_ = domain.min - beyond, max_ = domain.max + beyond;
   }
-  bool hold(const Vec3d& x) const {
+  bool contain(const Vec3d& x) const {
     for (int k = 0; k < 3; ++k)
       if (x[k] < min_[k] || x[k] > max_[k]) return false;
     return true;
@@ -38,7 +38,7 @@ class Bounds {
 std::optional<LiveSide> live_side(const std::string& name) {
   if (name == "front") return LiveSide::front;
   if (name == "above") return LiveSide::above;
-  if (name == "perspective") return LiveSide::aslant;
+  if (name == "perspective") return LiveSide::oblique;
   return {};
 }
 
@@ -57,7 +57,7 @@ Image LivePicture::draw(const LiveFrame& frame, LiveSide side) {
   const Bounds bounds(config_.domain);
   Scene scene;
   const auto add = [&](std::vector<Sphere>& to, const Sphere& s) {
-    if (!bounds.hold(s.x)) return;
+    if (!bounds.contain(s.x)) return;
     to.push_back(s);
     if (!min_) min_ = max_ = s.x;
     for (int k = 0; k < 3; ++k) {
@@ -66,7 +66,7 @@ Image LivePicture::draw(const LiveFrame& frame, LiveSide side) {
     }
   };
   const double speed = frame.top_speed > 0 ? 1 / frame.top_speed : 0;
-  const double fluid_radius = kFluidRadius * config_.fluid.dx * frame.fluid.widened;
+  const double fluid_radius = kFluidRadius * config_.fluid.dx * frame.fluid.enlarged;
   for (std::size_t k = 0; k < frame.fluid.x.size(); ++k)
     add(scene.fluid,
         {frame.fluid.x[k], fluid_radius, colour_of(kFluidColours, speed * frame.fluid.speed[k])});
@@ -87,13 +87,13 @@ Image LivePicture::draw(const LiveFrame& frame, LiveSide side) {
   const Axes axes(config_.gravity);
   const Sides sides = side == LiveSide::front   ? axes.front()
                       : side == LiveSide::above ? axes.above()
-                                                : axes.aslant();
+                                                : axes.oblique();
   const Vec3d size = scene.max - scene.min;
   View view{sides.right, sides.up, sides.toward, 0.5 * (scene.min + scene.max),
-            side == LiveSide::aslant ? 2.2 * norm(size) : 0};
+            side == LiveSide::oblique ? 2.2 * norm(size) : 0};
   fit(view, scene, kWidth - 2 * kMargin, kHeight - 2 * kMargin);
   int width = kWidth, height = kHeight;
-  if (side != LiveSide::aslant) {  // no larger than what there is to see
+  if (side != LiveSide::oblique) {  // no larger than the scene
     const auto pixels = [&](const Vec3d& along, int most) {
       double extent = 0;
       for (int k = 0; k < 3; ++k) extent += std::abs(along[k]) * size[k];

@@ -1,5 +1,5 @@
 #pragma once
-// Frames of a run, drawn.
+// Pictures of frames.
 
 #include <array>
 #include <optional>
@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "bedload/case/config.hpp"
-#include "src/viewer/image.hpp"
 #include "frame.hpp"
+#include "src/viewer/image.hpp"
 
 namespace bedload {
 
-enum class LiveSide { front, above, aslant };
+enum class LiveSide { front, above, oblique };
 
 /// "front", "above" or "perspective".
 std::optional<LiveSide> live_side(const std::string& name);
@@ -24,7 +24,7 @@ inline constexpr SpeedColours kFluidColours{
 inline constexpr SpeedColours kGrainColours{
     {{0.98f, 0.83f, 0.52f}, {0.93f, 0.50f, 0.20f}, {0.62f, 0.08f, 0.10f}}};
 
-/// Draws the frames of one run. What they show stays at its place: the view widens and never narrows.
+/// Draws the frames of one run. The view only ever widens, so that things stay in place.
 class LivePicture {
  public:
   explicit LivePicture(Config config) : config_(std::move(config)) {}
@@ -37,7 +37,7 @@ class LivePicture {
   bool sampled_ = false;
   Setup::Walls walls_;              ///< at t = 0
   double spacing_ = 0;              ///< of them, m
-  std::optional<Vec3d> min_, max_;  ///< around all that was seen, m
+  std::optional<Vec3d> min_, max_;  ///< bounds of everything shown so far, m
 };
 
 }  // namespace bedload

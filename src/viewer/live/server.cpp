@@ -31,9 +31,9 @@ using Clock = std::chrono::steady_clock;
 using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
 
-constexpr auto kLookedLately = 3s;  // pages ask for the status every second
-constexpr auto kToBeTold = 1000ms, kSilence = 500ms, kLongestEnd = 5000ms;
-constexpr auto kToAsk = 2s, kToTake = 10s;  // for all of a request, all of an answer
+constexpr auto kViewedLately = 3s;  // pages ask for the status every second
+constexpr auto kLastFetch = 1000ms, kIdle = 500ms, kLongestClose = 5000ms;
+constexpr auto kRequestTimeout = 2s, kResponseTimeout = 10s;
 constexpr std::size_t kMostConnections = 64, kLongestRequest = 16384;
 constexpr const char *kHost = "127.0.0.1", *kPicture = "/picture.png", *kTable = "/tables/";
 constexpr const char* kJson = "application/json; charset=utf-8";
@@ -41,7 +41,7 @@ constexpr const char* kPolicy =
     "default-src 'none'; connect-src 'self'; img-src 'self' blob:; style-src 'unsafe-inline'; "
     "script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 
-/// Whether a Host header names this machine to itself, at any port: a tunnel may have another one.
+/// Whether a Host header is localhost or 127.0.0.1 at any port: a tunnel may use another port.
 bool names_this_machine(const std::string& host) {
   for (const std::string name : {"localhost", kHost}) {
     if (!host.starts_with(name)) continue;
@@ -53,7 +53,7 @@ bool names_this_machine(const std::string& host) {
   return false;
 }
 
-/// The threads made while it lives take no signal: those are the run's.
+/// Threads created while it lives block all signals, which the run handles.
 class SignalsBlocked {
  public:
   SignalsBlocked() {
@@ -97,15 +97,15 @@ struct Connection {
 
 }  // namespace
 
-/// One thread reads, answers and writes, another draws: only those who ask for pictures wait for them.
+/// One thread serves requests, another draws pictures, so that only requests for pictures wait for them.
 struct LiveServer::Impl {
   explicit Impl(std::string name) : view(std::move(name)) {}
 
   Response answer(const Request& request) {
     if (request.count(http::field::host) != 1 || !names_this_machine(std::string(request[http::field::host])))
-      return refusal(status::forbidden, "Forbidden: another host");
+      return refusal(status::forbidden, "Forbidden: unknown host");
     if (request.method() != http::verb::get) {
-      Response r = refusal(status::method_not_allowed, "Only GET");
+      Response r = refusal(status::method_not_allowed, "GET only");
       r.set(http::field::allow, "GET");
       if (request.method() == http::verb::head) r.body().clear();
       return r;
@@ -124,13 +124,13 @@ struct LiveServer::Impl {
     if (path.starts_with(kTable)) {
       auto table = view.table(path.substr(std::string_view(kTable).size()));
       return table ? response_of(status::ok, kJson, std::move(*table))
-                   : refusal(status::not_found, "There is no such table");
+                   : refusal(status::not_found, "No such table");
     }
     if (path == kPicture) return picture("&" + target.substr(std::min(mark + 1, target.size())));
-    return refusal(status::not_found, "There is nothing here");
+    return refusal(status::not_found, "Not found");
   }
 
-  /// query: each of its parameters after a "&".
+  /// query: parameters, each after a "&".
   Response picture(const std::string& query) {
     const std::string name = "&view=";
     const auto at = query.find(name), from = at + name.size();
@@ -139,7 +139,7 @@ struct LiveServer::Impl {
     if (!side) return refusal(status::bad_request, "view: front, above or perspective");
     auto png = view.picture(*side);
     return png ? response_of(status::ok, "image/png", std::move(*png))
-               : refusal(status::not_found, "There is no picture yet");
+               : refusal(status::not_found, "No picture yet");
   }
 
   void accept() {
@@ -149,7 +149,7 @@ struct LiveServer::Impl {
         if (const auto oldest = connections.front().lock()) oldest->stream.close();
         connections.pop_front();
       }
-      if (error) {  // no file may be opened any more
+      if (error) {  // too many open files
         pause.expires_after(50ms);
         return pause.async_wait([this](beast::error_code) { accept(); });
       }
@@ -161,16 +161,16 @@ struct LiveServer::Impl {
   }
 
   void read(std::shared_ptr<Connection> c) {
-    c->stream.expires_after(kToAsk);
+    c->stream.expires_after(kRequestTimeout);
     const auto then = [this, c](beast::error_code error, std::size_t) {
       const auto& of_http = make_error_code(http::error::bad_method).category();
       if (error && error.category() != of_http) return;
       const bool draws = !error && c->request.get().target().starts_with(kPicture);
       asio::post(draws ? drawing : serving, [this, c, error]() mutable {
         try {
-          c->response = error ? refusal(status::bad_request, "No request") : answer(c->request.get());
+          c->response = error ? refusal(status::bad_request, "Bad request") : answer(c->request.get());
         } catch (const std::exception&) {
-          c->response = refusal(status::internal_server_error, "Failed");
+          c->response = refusal(status::internal_server_error, "Internal error");
         }
         asio::post(serving, [this, c = std::move(c)] { write(c); });
       });
@@ -179,9 +179,9 @@ struct LiveServer::Impl {
   }
 
   void write(std::shared_ptr<Connection> c) {
-    c->stream.expires_after(kToTake);
+    c->stream.expires_after(kResponseTimeout);
     http::async_write(c->stream, c->response, [c](beast::error_code error, std::size_t) {
-      // The other side closes first: closed with something unread, an answer may be lost on its way.
+      // The client closes first: closing with unread data may lose the response.
       if (!error) c->stream.socket().shutdown(tcp::socket::shutdown_send, error);
       c->buffer.clear();
       if (!error) asio::async_read(c->stream, c->buffer, [c](beast::error_code, std::size_t) {});
@@ -194,9 +194,9 @@ struct LiveServer::Impl {
     } catch (const boost::system::system_error& error) {
       if (error.code() == asio::error::address_in_use)
         throw CaseError(fmt::format(
-            "command line: --live: port {} of {} is taken; name another, or 0 for any that is free", port,
+            "command line: --live: port {} of {} is in use; choose another, or 0 for any free one", port,
             kHost));
-      throw CaseError(fmt::format("command line: --live: cannot listen at port {} of {}: {}", port, kHost,
+      throw CaseError(fmt::format("command line: --live: cannot listen on port {} of {}: {}", port, kHost,
                                   error.code().message()));
     }
     accept();
@@ -211,10 +211,10 @@ struct LiveServer::Impl {
 
   void close() {
     const auto from = Clock::now();
-    const auto silent = [&] { return Clock::now() - std::max(asked.load(), from + kToBeTold) > kSilence; };
+    const auto idle = [&] { return Clock::now() - std::max(asked.load(), from + kLastFetch) > kIdle; };
     closing = true;
-    if (from - asked.load() < kLookedLately)
-      while (!silent() && Clock::now() - from < kLongestEnd) std::this_thread::sleep_for(20ms);
+    if (from - asked.load() < kViewedLately)
+      while (!idle() && Clock::now() - from < kLongestClose) std::this_thread::sleep_for(20ms);
     serving.stop();
     drawing.stop();
     for (std::thread& thread : threads) thread.join();
@@ -223,10 +223,11 @@ struct LiveServer::Impl {
   LiveView view;
   std::atomic<Clock::time_point> asked{};
   std::atomic<bool> closing{false};
-  asio::io_context serving, drawing;  ///< what waits for `drawing` is of `serving`, so that goes last
+  asio::io_context serving,
+      drawing;  ///< handlers of `drawing` use sockets of `serving`, which is destroyed last
   tcp::acceptor acceptor{serving};
   asio::steady_timer pause{serving};
-  std::list<std::weak_ptr<Connection>> connections;  ///< the oldest first
+  std::list<std::weak_ptr<Connection>> connections;  ///< oldest first
   std::vector<std::thread> threads;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// A live view of a run for browsers on this machine.
+// Serves the live view of a run to browsers on this machine.
 
 #include <memory>
 #include <string>
@@ -8,14 +8,14 @@
 
 namespace bedload {
 
-/// Serves a view on 127.0.0.1 and no other address, until it is destroyed: then pages that look on are given
-/// a moment to take the last state. Answers GET from the machine's own names alone, so that no site that a
-/// browser shows may read it by another name, and serves no file.
+/// Serves a view on 127.0.0.1 only, until destroyed; then open pages get a moment to fetch the last state.
+/// Answers only GET with a Host header of this machine, so that no web site can read it by another name (DNS
+/// rebinding), and serves no files.
 class LiveServer {
  public:
   static constexpr int kDefaultPort = 8020, kLeastPort = 1024, kMostPort = 65535;
 
-  /// port: 0 for any that is free. `name`: of the case. Throws CaseError where the port is taken.
+  /// port: 0 for any free one. `name`: of the case. Throws CaseError if the port is in use.
   LiveServer(int port, std::string name);
   ~LiveServer();
   LiveServer(const LiveServer&) = delete;

@@ -14,9 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kNote = 0.25, kLeastBetweenFrames = 1;       // s
-constexpr double kCopyFraction = 0.01, kDrawFraction = 0.02;  // of the time
-constexpr double kLooking = 5;                                // s after somebody asked last
+constexpr double kProgressInterval = 0.25, kLeastBetweenFrames = 1;  // s
+constexpr double kCopyFraction = 0.01, kDrawFraction = 0.02;         // of the wall time
+constexpr double kViewerTimeout = 5;                                 // s since the last request
 
 Json quantity(double value, const char* unit) { return {{"value", value}, {"unit", unit}}; }
 
@@ -47,7 +47,7 @@ void LiveView::Table::add(double time, const std::vector<Quantity>& row) {
   std::vector<double> values;
   for (const Quantity& q : row) values.push_back(q.value);
   if (!times.empty() && (written - 1) % every != 0)
-    times.pop_back(), rows.pop_back();  // was there as the last
+    times.pop_back(), rows.pop_back();  // it was kept only as the last
   times.push_back(time);
   rows.push_back(std::move(values));
   ++written;
@@ -88,12 +88,12 @@ void LiveView::add_row(const std::string& table, double time, const std::vector<
 }
 
 void LiveView::after_step(Simulation& simulation, const StepInfo& info, std::int64_t particle_steps) {
-  if (meter_->waited() < kNote && info.time < meter_->end()) return;
-  note(meter_->read(info, particle_steps), simulation);
-  if (somebody_looks() && Clock::now() >= next_frame_) take_frame(simulation);
+  if (meter_->waited() < kProgressInterval && info.time < meter_->end()) return;
+  update_progress(meter_->read(info, particle_steps), simulation);
+  if (has_viewers() && Clock::now() >= next_frame_) take_frame(simulation);
 }
 
-void LiveView::note(const ProgressLine& line, Simulation& simulation) {
+void LiveView::update_progress(const ProgressLine& line, Simulation& simulation) {
   const Counts counts = simulation.counts();
   const std::int64_t step = simulation.steps();
   const std::lock_guard lock(mutex_);
@@ -117,7 +117,7 @@ void LiveView::take_frame(Simulation& simulation) {
 }
 
 void LiveView::end(const std::string& state, const std::string& message, Simulation* simulation) {
-  if (simulation && somebody_looks()) take_frame(*simulation);
+  if (simulation && has_viewers()) take_frame(*simulation);
   const std::lock_guard lock(mutex_);
   wall_seconds_ = elapsed();
   if (simulation) {
@@ -130,14 +130,14 @@ void LiveView::end(const std::string& state, const std::string& message, Simulat
   message_ = message;
 }
 
-bool LiveView::somebody_looks() const {
-  return std::chrono::duration<double>(Clock::now() - looked_.load()).count() < kLooking;
+bool LiveView::has_viewers() const {
+  return std::chrono::duration<double>(Clock::now() - last_request_.load()).count() < kViewerTimeout;
 }
 
 double LiveView::elapsed() const { return std::chrono::duration<double>(Clock::now() - begun_).count(); }
 
 std::string LiveView::status() {
-  looked_ = Clock::now();
+  last_request_ = Clock::now();
   const std::lock_guard lock(mutex_);
   const ProgressLine& p = progress_;
   Json out{{"run", id_},
@@ -209,7 +209,7 @@ std::optional<std::string> LiveView::picture(LiveSide side) {
   if (!frame) return {};
   Drawn& drawn = drawn_[side];
   if (drawn.serial != serial) {
-    setpriority(PRIO_PROCESS, 0, 10);  // of this thread alone: the run comes first
+    setpriority(PRIO_PROCESS, 0, 10);  // of this thread only: the run has priority
     const double from = thread_seconds();
     drawn = {serial, picture_->draw(*frame, side).png()};
     draw_seconds_ = thread_seconds() - from;

@@ -1,5 +1,5 @@
 #pragma once
-// What a live view tells of a run. The run's thread hands over copies; those of the server read them.
+// The state of a run for its live view. The thread of the run writes copies; server threads read them.
 
 #include <atomic>
 #include <chrono>
@@ -21,28 +21,28 @@ class LiveView {
   /// `name`: of the case.
   explicit LiveView(std::string name);
 
-  // --- called by the run ---
+  // --- for the run ---
 
-  /// The first step comes next; `end` of the run, s.
+  /// Before the first step; `end` of the run, s.
   void begin(const Config& config, const Device& device, const Simulation& simulation, double end);
-  /// One row of a table that is written.
+  /// Adds a row of a table.
   void add_row(const std::string& table, double time, const std::vector<Quantity>& row);
-  /// Notes progress now and then, and takes a frame where somebody looks: so rarely that the copies take 1 %
-  /// of the run and pictures 2 % of one core.
+  /// Updates the progress and, while there are viewers, takes frames: so rarely that copying takes 1 % of the
+  /// wall time and drawing 2 % of one core.
   void after_step(Simulation& simulation, const StepInfo& info, std::int64_t particle_steps);
-  /// The last state; nothing is handed over after it. `state`: "completed", "stopped", "failed". Without a
-  /// simulation there is no last frame.
+  /// The last state. `state`: "completed", "stopped" or "failed". Without a simulation there is no last
+  /// frame.
   void end(const std::string& state, const std::string& message, Simulation* simulation = nullptr);
 
-  // --- called by the server, from any thread ---
+  // --- for the server, from any thread ---
 
-  /// State, progress, the picture's time and colours, as JSON. Whoever asks is somebody who looks.
+  /// State, progress, time and colours of the picture, as JSON. Counts as a viewer.
   std::string status();
   /// Names, columns and lengths of all tables, as JSON.
   std::string tables() const;
-  /// One table, at most kMostRows of its rows, as JSON; none of that name: nothing.
+  /// One table, with at most kMostRows rows, as JSON; none for an unknown name.
   std::optional<std::string> table(const std::string& name) const;
-  /// The last frame as a PNG file; nothing while there is none.
+  /// The last frame as PNG; none before the first frame.
   std::optional<std::string> picture(LiveSide side);
 
   static constexpr std::size_t kMostRows = 600;
@@ -50,7 +50,7 @@ class LiveView {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// Rows of a table: all of them, or each second, fourth, ..., and the last.
+  /// Rows of a table: all, or every second, fourth, ..., and the last.
   struct Table {
     std::vector<Quantity> columns;  ///< their names and units
     std::vector<double> times;
@@ -66,13 +66,13 @@ class LiveView {
   };
 
   void take_frame(Simulation& simulation);
-  void note(const ProgressLine& line, Simulation& simulation);
-  bool somebody_looks() const;
+  void update_progress(const ProgressLine& line, Simulation& simulation);
+  bool has_viewers() const;
   double elapsed() const;
 
   const std::string name_, id_;
   const Clock::time_point begun_ = Clock::now();
-  std::optional<FrameTaker> taker_;  ///< of the run's thread, as the next three
+  std::optional<FrameTaker> taker_;  ///< used by the thread of the run, as the next three
   std::optional<ProgressMeter> meter_;
   Clock::time_point next_frame_ = begun_;
   std::int64_t frames_ = 0;
@@ -82,7 +82,7 @@ class LiveView {
   ProgressLine progress_;
   std::int64_t step_ = 0;
   Counts counts_;
-  std::optional<double> wall_seconds_;  ///< of a run that has ended
+  std::optional<double> wall_seconds_;  ///< after the end
   std::map<std::string, Table> tables_;
   std::shared_ptr<const LiveFrame> frame_;
   std::int64_t serial_ = 0;  ///< of the frame
@@ -92,7 +92,7 @@ class LiveView {
   std::map<LiveSide, Drawn> drawn_;
 
   std::atomic<double> draw_seconds_{0};
-  std::atomic<Clock::time_point> looked_{};
+  std::atomic<Clock::time_point> last_request_{};
 };
 
 }  // namespace bedload

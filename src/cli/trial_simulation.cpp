@@ -1,4 +1,4 @@
-#include "rehearsal.hpp"
+#include "trial_simulation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 namespace bedload {
 namespace {
 
-/// Lowers grains to where they will lie, about: columns along gravity are shortened to their lowest grain,
-/// all by the factor that makes the bed in a column as dense as one that has settled. Grains then overlap,
-/// but have as many others and as much fluid around them.
-void press(const Config& config, Setup::Grains& grains) {
-  constexpr double settled = 0.6;  // of the volume of a bed is grains, at rest
-  constexpr double column = 4;     // its width, in diameters, at least
+/// Approximates a settled bed, for its memory: columns along gravity are shortened towards their lowest
+/// grain, all by the factor that gives the solid fraction of a settled bed. Grains then overlap, but have
+/// about as many neighbours and as much fluid around them.
+void compact(const Config& config, Setup::Grains& grains) {
+  constexpr double settled = 0.6;  // solid fraction of a settled bed
+  constexpr double column = 4;     // least width of a column, in diameters
   struct Column {
     double lowest = INFINITY, highest = -INFINITY, volume = 0;
   };
@@ -50,18 +50,18 @@ void press(const Config& config, Setup::Grains& grains) {
     c.lowest = std::min(c.lowest, height), c.highest = std::max(c.highest, height);
     c.volume += M_PI / 6 * d * d * d;
   }
-  std::vector<double> dense;  // of columns that hold any, how much is grains
+  std::vector<double> fractions;  // solid fraction of each column with grains
   for (const Column& c : columns)
     if (c.volume > 0)
-      dense.push_back(c.volume / (width[0] * width[1] * (c.highest - c.lowest + config.grain.d_max)));
-  const auto middle = dense.begin() + dense.size() / 2;
-  std::nth_element(dense.begin(), middle, dense.end());  // those at the sides may be cut
-  const double factor = std::min(1.0, *middle / settled);
+      fractions.push_back(c.volume / (width[0] * width[1] * (c.highest - c.lowest + config.grain.d_max)));
+  const auto median = fractions.begin() + fractions.size() / 2;
+  std::nth_element(fractions.begin(), median, fractions.end());  // columns at the sides may be cut
+  const double factor = std::min(1.0, *median / settled);
   for (Vec3d& x : grains.x) x -= up * ((1 - factor) * (dot(x, up) - column_of(x).lowest));
 }
 
-/// A run of the case, begun with a bed.
-std::unique_ptr<Simulation> begun(const Prepared& p, const SavedState* bed) {
+/// Starts the case, with a settled bed if there is one.
+std::unique_ptr<Simulation> start(const Prepared& p, const SavedState* bed) {
   auto simulation = make_simulation(p.config, p.setup, p.device);
   if (bed) simulation->load_grains(*bed);
   simulation->start();
@@ -70,28 +70,29 @@ std::unique_ptr<Simulation> begun(const Prepared& p, const SavedState* bed) {
 
 }  // namespace
 
-Rehearsal::Rehearsal(const Prepared& p) : config_(p.config) {
+TrialSimulation::TrialSimulation(const Prepared& p) : config_(p.config) {
   if (!config_.grain.present || !config_.grain.settle) {
-    simulation_ = begun(p, nullptr);
-  } else if (const auto kept = kept_bed(config_, p.setup, p.device)) {
-    simulation_ = begun(p, &*kept);
+    simulation_ = start(p, nullptr);
+  } else if (const auto bed = cached_bed(config_, p.setup, p.device)) {
+    simulation_ = start(p, &*bed);
   } else {
-    Setup::Grains pressed = p.setup.grains;
-    press(config_, pressed);
-    // what both hold for good is there when the second starts
-    const SavedState settled = bed_of(config_, pressed, p.device),
+    Setup::Grains settled_grains = p.setup.grains;
+    compact(config_, settled_grains);
+    // the second simulation reuses the shared scratch of the first, so the difference is that of the lists
+    const SavedState settled = bed_of(config_, settled_grains, p.device),
                      placed = bed_of(config_, p.setup.grains, p.device);
-    settling_ = std::ptrdiff_t(begun(p, &settled)->bytes());
-    simulation_ = begun(p, &placed);
-    settling_ -= std::ptrdiff_t(simulation_->bytes());
+    settling_bytes_ = std::ptrdiff_t(start(p, &settled)->bytes());
+    simulation_ = start(p, &placed);
+    settling_bytes_ -= std::ptrdiff_t(simulation_->bytes());
   }
 }
 
-MemoryNeed Rehearsal::memory() {
+MemoryNeed TrialSimulation::memory() {
   simulation_->diagnostics();
   for (const ProbeConfig& probe : config_.out.probes) simulation_->measure(probe);
-  const std::size_t by_speed = simulation_->growth();
-  return {std::size_t(std::ptrdiff_t(simulation_->bytes() + by_speed) + settling_), by_speed};
+  const std::size_t fast_flow = simulation_->growth();
+  return {.all = std::size_t(std::ptrdiff_t(simulation_->bytes() + fast_flow) + settling_bytes_),
+          .fast_flow_bytes = fast_flow};
 }
 
 }  // namespace bedload

@@ -1,0 +1,22 @@
+#pragma once
+// The built-in cases of `bedload bench`.
+
+#include <string>
+#include <vector>
+
+namespace bedload {
+
+struct Benchmark {
+  std::string name;
+  std::string text;  ///< TOML
+  /// Settings of other programs, as for --set: h = 1.3 dx, density by the continuity equation alone, no
+  /// shifting; forces once per step in single-phase cases. Empty without fluid.
+  std::vector<std::string> settings;
+};
+
+std::vector<Benchmark> benchmarks();
+
+/// The single-phase dam break of He et al. 2018 with a column of that width, m.
+Benchmark widened_dam_break(const std::string& name, double width);
+
+}  // namespace bedload
