@@ -1,4 +1,4 @@
-// Finds the device and hands a case to the build of the solver that fits it.
+// Finds the device and selects the build of the solver for it and the precision.
 
 #include <omp.h>
 
@@ -16,7 +16,7 @@
 #include <cuda_runtime_api.h>
 #endif
 
-// One factory a variant; CMake lists those of this build: BL_USE(single, cpu) BL_USE(single, cuda) and so on.
+// One factory per variant; CMake lists those of this build: BL_USE(single, cpu) BL_USE(single, cuda) and so on.
 #define BL_USE(which, where)                                                            \
   namespace bedload::which##_##where {                                                  \
     std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup); \
@@ -43,14 +43,14 @@ std::size_t free_memory() {
   return 0;
 }
 
-/// Whether to run what was compiled for AVX2.
+/// Whether to use the AVX2 build of the solver.
 bool wants_avx2(const std::string& simd) {
 #if BL_HAS_AVX2
   const bool can = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   const std::string why = "this processor has no AVX2";
 #else
   const bool can = false;
-  const std::string why = "this program was built without a choice";
+  const std::string why = "this program was built without AVX2 code";
 #endif
   if (simd == "avx2" && !can) throw KeyError("run.simd", "run.simd = avx2: " + why);
   return can && simd != "baseline";
@@ -77,7 +77,7 @@ std::string find_gpu(Device& device) {
   cudaGetDeviceProperties(&properties, 0);
   std::size_t free = 0, total = 0;
   if (const auto status = cudaMemGetInfo(&free, &total); status != cudaSuccess)
-    return std::string("the GPU does not answer: ") + cudaGetErrorString(status);
+    return std::string("the GPU does not respond: ") + cudaGetErrorString(status);
   device = {"cuda", properties.name, free};
   return "";
 #else
@@ -131,7 +131,7 @@ HostArray host_copy(const FieldView& view, [[maybe_unused]] const Device& device
 
 namespace {
 
-/// Places of a lattice within `reach` spacings.
+/// Number of lattice points within `reach` spacings.
 double around(double reach, bool two_d) { return two_d ? 3.14 * reach * reach : 4.19 * std::pow(reach, 3); }
 
 }  // namespace
@@ -155,7 +155,7 @@ std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda
                                   (config.pressure.damper > 0 ? 1 : 0));
   const double walls = 8 + 3 * 24 + pair_position + real * 13 + 4 * 32;
   const double contacts = 12;
-  const double touches = 60.0 * std::min(config.wall.free_bodies(), 8);  // of each grain with free bodies
+  const double touches = 60.0 * std::min(config.wall.free_bodies(), 8);  // contacts of a grain with free bodies
   const double grains = 4 + 3 * 24 + real * 36 + contacts * (4 + 56) * 2 + touches;
   const double skin = 0.5 * (config.skin_fluid * config.fluid.dx + config.skin_grain * config.grain.d_min);
   const double records = coupled ? real * 9 : 0;

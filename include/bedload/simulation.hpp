@@ -1,6 +1,6 @@
 #pragma once
-// The solver behind one door: the program and the writers see this class and
-// nothing of precision or device.
+// The interface of the solver, independent of precision and device, for the
+// command line, the writers and Python.
 
 #include <cstdint>
 #include <functional>
@@ -22,22 +22,22 @@ struct StepInfo {
   double time = 0;                     ///< s, at the end of the step
   double dt = 0;                       ///< s
   int substeps = 0;                    ///< DEM substeps in it
-  Limit limit = Limit::fixed;          ///< what bound dt
-  Limit substep_limit = Limit::fixed;  ///< what bounds substeps, if there are several
+  Limit limit = Limit::fixed;          ///< active limit of dt
+  Limit substep_limit = Limit::fixed;  ///< active limit of substeps, if there are several
   double vmax = 0;                     ///< m/s, fastest fluid particle
-  bool rebuilt = false;                ///< neighbour lists were renewed
+  bool rebuilt = false;                ///< neighbour lists were rebuilt
 };
 
 struct Counts {
   std::int64_t fluid = 0, walls = 0, grains = 0;
 };
 
-/// What has left the domain through one of its sides.
+/// Losses through one side of the domain.
 struct Loss {
   std::string phase;           ///< fluid, grains
   std::string side;            ///< "x-" .. "z+"
   double count = 0, mass = 0;  ///< -, kg
-  double first = 0;            ///< s, when the first was found outside
+  double first = 0;            ///< time of the first loss, s
 };
 
 class Simulation {
@@ -46,11 +46,11 @@ class Simulation {
 
   /// Advances fluid and grains by one step. Throws SimulationFault.
   virtual StepInfo step() = 0;
-  /// Grains alone, without fluid, until they rest or `longest` s are over; the
-  /// clock stays. Calls `progress` with the time settled so far (s) now and then.
+  /// Settles the grains without fluid until they rest or for at most `longest` s; the
+  /// clock does not advance. Calls `progress` with the settling time so far (s) now and then.
   virtual void settle(double longest, const std::function<void(double)>& progress) = 0;
-  /// Initialises the fluid over the settled grains (its mass by the porosity) and
-  /// evaluates everything once. Called once, before the first step, not after load().
+  /// Initialises the fluid around the grains (its mass by the porosity) and evaluates
+  /// everything once. Called once, before the first step, not after load().
   virtual void start() = 0;
 
   virtual double time() const = 0;  ///< s
@@ -59,43 +59,43 @@ class Simulation {
   virtual std::vector<StepLimit> limits() = 0;
   /// Limits on a substep of grains and free bodies.
   virtual std::vector<StepLimit> substep_limits() const = 0;
-  /// How much of the run's viscosity is numerical, each as a multiple of the fluid's own: "artificial_bulk"
-  /// and "artificial_bed", of visc.alpha; "local_slip_bed", of drag that follows the slip of each particle,
-  /// in a bed of porosity 0.4. Zero where there is none; empty without viscous fluid. Density diffusion is
-  /// none of them: it smooths density, not velocity.
+  /// Numerical viscosities as multiples of the physical one: "artificial_bulk" and "artificial_bed", of
+  /// visc.alpha; "local_slip_bed", of drag that follows the slip of each particle, in a bed of porosity 0.4.
+  /// Zero where there is none; empty without viscous fluid. Density diffusion is not included: it smooths
+  /// density, not velocity.
   virtual std::vector<Quantity> numerical_viscosity() const = 0;
-  /// Bytes held on the device (or in host memory), now.
+  /// Current memory on the device (or of the host), bytes.
   virtual std::size_t bytes() const = 0;
-  /// By how much that grows, about, if the fluid comes to flow so fast that its lists reach farther.
+  /// Estimated growth of it in fast flow, where neighbour lists reach farther, bytes.
   virtual std::size_t growth() = 0;
-  /// Wall time that the parts of all steps took, s: "lists", "fluid", "grains", "coupling", "checks"; those
-  /// that the case has.
+  /// Wall time by part over all steps, s: "lists", "fluid", "grains", "coupling", "checks", as far as the
+  /// case has them.
   virtual std::vector<Quantity> time_spent() const = 0;
 
-  /// Fields for pictures: store is "fluid", "grains" or "walls". First array: "position".
+  /// Output fields of a store: "fluid", "grains" or "walls". First array: "position".
   virtual HostStore snapshot(const std::string& store) = 0;
-  /// What the rheology of "fluid" or "grains" is measured by, after a step: arrays position (m), velocity
-  /// (m/s), mass (kg), volume (m3, of a grain, or of the mixture that a fluid particle stands for), drive (N,
-  /// by gravity and drive) and stress_... (J), one each part of the pair forces: [3 i + j] is the sum of half
-  /// of F_i r_j, so that minus its sum over a volume, divided by it, is a stress.
+  /// Data for the rheology of "fluid" or "grains", after a step: arrays position (m), velocity (m/s), mass
+  /// (kg), volume (m3, of a grain, or the mixture volume of fluid), drive (N, by gravity and drive)
+  /// and stress_... (J), one per part of the pair forces: [3 i + j] is half the sum of F_i r_j, so that minus
+  /// its sum over a volume, divided by that volume, is a stress.
   virtual HostStore rheology(const std::string& store) = 0;
-  /// What of a snapshot is kept as it is, and the mass of fluid, in the solver's memory and order.
+  /// Views of the fields of a snapshot that the solver stores, and of the fluid mass, in its own order.
   virtual std::vector<FieldView> fields(const std::string& store) = 0;
   /// Masses, momenta, energies, extremes, counters; see output/diagnostics.
   virtual std::vector<Quantity> diagnostics() = 0;
-  /// Reading of one probe. With `sample = "mean"`, of a probe of the case: the mean since its interval began;
-  /// else what is there now.
+  /// Values of a probe: with `sample = "mean"`, for a probe of the case, the mean over its interval so far;
+  /// else the current values.
   virtual std::vector<Quantity> measure(const ProbeConfig& probe) = 0;
-  /// Begins a new interval for the means of that probe: its row has been written.
+  /// Begins a new interval for the means of a probe, after its row was written.
   virtual void begin_interval(const ProbeConfig& probe) = 0;
-  /// What has left the domain where there is no outlet, by the sides through which it went; only those
-  /// through which anything did.
+  /// Losses through sides of the domain that are no outlets, by side; only of sides with
+  /// losses.
   virtual std::vector<Loss> losses() = 0;
-  /// Place, velocity, forces and their power of one wall body, by its index in the case; behind them come the
-  /// rigid groups of grains.
+  /// Position, velocity, forces and their power of a wall body, by its index in the case; rigid groups of
+  /// grains follow the wall bodies.
   virtual std::vector<Quantity> body_state(int body) = 0;
 
-  /// The kept state, and back again; load() continues bit for bit.
+  /// Saves and restores the state; a restart continues bit for bit.
   virtual SavedState save() = 0;
   virtual void load(const SavedState& state) = 0;
 
@@ -104,22 +104,22 @@ class Simulation {
   virtual void load_grains(const SavedState& state) = 0;
 };
 
-/// Where a case runs.
+/// The device that a case runs on.
 struct Device {
   std::string backend;     ///< cpu, cuda
   std::string name;        ///< "NVIDIA H100 80GB HBM3", "AMD EPYC ..., AVX2, 2 threads"
-  std::size_t memory = 0;  ///< bytes free
-  bool avx2 = false;       ///< a CPU that runs what was compiled for AVX2
+  std::size_t memory = 0;  ///< free memory, bytes
+  bool avx2 = false;       ///< CPU with the AVX2 build of the solver
   bool cuda() const { return backend == "cuda"; }
 };
 
-/// backend: auto, cpu, cuda. `auto` takes a usable GPU if this build has CUDA. simd is run.simd. Throws
+/// backend: auto, cpu, cuda. `auto` uses a GPU if this build has CUDA. simd is run.simd. Throws
 /// DeviceError if there is no such device, KeyError if the CPU has no such instructions.
 Device find_device(const std::string& backend, int threads, const std::string& simd = "auto");
 
 /// Builds the solver for config.precision on `device`.
 std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& setup, const Device& device);
-/// What a field of a simulation on `device` holds now. Raises DeviceError.
+/// A copy of a field of a simulation on `device`. Throws DeviceError.
 HostArray host_copy(const FieldView& view, const Device& device);
 
 /// Estimated bytes for `counts` particles of this case.

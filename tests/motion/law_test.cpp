@@ -1,5 +1,4 @@
 #include "bedload/motion/law.hpp"
-#include "bedload/case/config.hpp"
 
 #include <gtest/gtest.h>
 

@@ -72,7 +72,7 @@ class Results(unittest.TestCase):
             self.assertEqual((list(frame), frame.index.name), (["front"], "time"))
             self.assertEqual(frame.attrs["units"], {"time": "s", "front": "m"})
             self.assertEqual(open_run(place).status, "unfinished")
-            with self.assertRaisesRegex(bedload.FileError, "holds more than numbers"):
+            with self.assertRaisesRegex(bedload.FileError, "is not numeric"):
                 Table(path).column("note")
             with self.assertRaisesRegex(bedload.FileError, "holds no case.resolved.toml"):
                 open_run(place).case

@@ -14,7 +14,7 @@ class Sweeps(unittest.TestCase):
         keys = {"fluid.mu": [1e-3, 0.1], "grain.rho": [2500, -1]}
         with folder() as place:
             told = []
-            first = bedload.sweep(case, keys, place, workers=2, threads=1, tell=lambda point: told.append(point.status))
+            first = bedload.sweep(case, keys, place, workers=2, threads=1, report=lambda point: told.append(point.status))
             self.assertEqual([point.status for point in first], ["completed", "failed"] * 2)
             self.assertEqual(sorted(told), ["completed"] * 2 + ["failed"] * 2)
             self.assertEqual(first.failed[0].message, "--set grain.rho=-1: grain.rho = -1 must be > 0")
@@ -43,7 +43,7 @@ class Sweeps(unittest.TestCase):
             path = write_case(place, TANK.replace("end = 0.02", "end = 0.001"))
             done = bedload.sweep(path, {"domain.max": [[0.2, 0.2, 0.2]]}, Path(place) / "out", threads=1)
             self.assertEqual((len(done), done.failed), (1, []))
-            with self.assertRaisesRegex(bedload.FileError, "there is no such program"):
+            with self.assertRaisesRegex(bedload.FileError, "no such program"):
                 bedload.sweep(path, {"fluid.mu": [1]}, Path(place) / "out", program="/nowhere/bedload")
             with self.assertRaisesRegex(bedload.CaseError, "same values"):
                 bedload.sweep(path, {"fluid.mu": [1, 1]}, Path(place) / "out")

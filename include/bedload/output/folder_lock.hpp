@@ -8,8 +8,8 @@ namespace bedload {
 /// Locks a folder until destroyed or until the process ends.
 class FolderLock {
  public:
-  /// Makes the folder and sees that it can be written to. Throws FileError, with who holds it if another
-  /// does. A folder that was made and stays empty is removed again.
+  /// Creates the folder and checks that it is writable. Throws FileError; if the folder is in use, it names the
+  /// process. A folder that was created here and stays empty is removed again.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

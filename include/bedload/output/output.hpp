@@ -1,7 +1,7 @@
 #pragma once
 // The results folder of a run:
 //   case.resolved.toml      every parameter with its default; version, device, seed
-//   fluid|grains|walls.vtkhdf  frames as temporal PolyData, an .xdmf side-car beside each
+//   fluid|grains|walls.vtkhdf  frames as temporal PolyData, each with an .xdmf file
 //   probes/<name>.csv       one table per probe
 //   diagnostics.csv         masses, momenta, energies, extremes, counters
 //   checkpoints/step_*.h5   state for a restart

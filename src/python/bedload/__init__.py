@@ -1,4 +1,4 @@
-"""Bedload from Python: write and check cases, run them in this process, read what runs leave, sweep over keys.
+"""Bedload from Python: write and check cases, run them in this process, read results, sweep over keys.
 
     import bedload
 
@@ -8,7 +8,7 @@
         dam.run(every=0.1, call=lambda s: print(s.time, s.fluid.velocity[:, 0].max()))
     print(bedload.open_run("results/dam").diagnostics.to_pandas())
 
-Numbers are in SI units. Reading results needs NumPy and h5py alone, not the compiled module: `bedload.results` and
+Numbers are in SI units. Reading results needs only NumPy and h5py, not the compiled module: `bedload.results` and
 `bedload.measures` can be used from a source tree.
 """
 
@@ -16,7 +16,7 @@ import importlib
 
 from .errors import CaseError, DeviceError, FileError, SimulationFault
 
-# Loaded when they are asked for, so that what reads results does without the compiled module.
+# Loaded on demand, so that results can be read without the compiled module.
 _HOMES = {
     "Case": "case", "Section": "case", "Items": "case", "Report": "case", "drag_table": "case", "keys": "case",
     "Simulation": "simulation", "Particles": "simulation", "DeviceArray": "simulation",

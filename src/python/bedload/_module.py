@@ -6,7 +6,7 @@ import os
 
 @functools.cache
 def module():
-    """bedload._bedload. OpenMP reads its settings as it is loaded: waiting threads are to sleep, as in the program."""
+    """bedload._bedload. OpenMP reads its settings when it is loaded: idle threads sleep, as in the program."""
     if "GOMP_SPINCOUNT" not in os.environ:
         os.environ.setdefault("OMP_WAIT_POLICY", "passive")
     from . import _bedload

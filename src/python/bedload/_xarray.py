@@ -1,4 +1,4 @@
-"""Frames as an xarray.Dataset whose values are read when they are needed."""
+"""Frames as an xarray.Dataset whose values are read on demand."""
 
 import functools
 
@@ -9,7 +9,7 @@ from xarray.core import indexing
 
 
 class _Particles:
-    """Where each particle of each frame goes: places of ids among all that ever are."""
+    """Positions of the particles of each frame in the list of all ids."""
 
     def __init__(self, frames):
         self.frames = frames
@@ -54,7 +54,7 @@ class _Field(BackendArray):
 
 
 def _outer(key, shape):
-    """Indices of each axis on its own, as one index of NumPy; whole numbers drop their axis."""
+    """Independent indices of each axis as one index of NumPy; integers drop their axis."""
     if sum(isinstance(k, np.ndarray) for k in key) < 2:
         return key
     return np.ix_(*(np.arange(n)[k] for k, n in zip(key, shape)))

@@ -1,4 +1,4 @@
-"""Cases as objects: `case.fluid.dx = "2 mm"`, with the program's checks and its sentences."""
+"""Cases as objects: `case.fluid.dx = "2 mm"`, with the checks and messages of the program."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .errors import FileError
 
 @functools.cache
 def keys() -> dict[str, dict]:
-    """What is known of each key, by its path ("wall.body[].min"): unit, default, allowed, meaning, choices."""
+    """Description of each key by its path ("wall.body[].min"): unit, default, allowed, meaning, choices."""
     return {row["path"]: row for row in json.loads(module().parameters())}
 
 
@@ -49,7 +49,7 @@ def _caller() -> tuple[str, int]:
 
 
 def _plain(value: Any) -> Any:
-    """What a case may hold: numbers of Python for those of NumPy, lists for sequences."""
+    """Plain Python values: numbers for those of NumPy, lists for sequences."""
     if isinstance(value, np.generic):
         return value.item()
     if isinstance(value, np.ndarray):
@@ -62,13 +62,13 @@ def _plain(value: Any) -> Any:
 class Section:
     """A table of a case. Its keys are attributes, or items: `section["frame.motion.frequency"]`.
 
-    A table that is not there yet appears as soon as something is put into it. An attribute that is not given raises
-    AttributeError that tells the default.
+    A table is created by the first value put into it. A key that is not given raises AttributeError, which names the
+    default.
     """
 
     def __init__(self, path: str = "", given: bool = False):
         object.__setattr__(self, "_path", path)
-        object.__setattr__(self, "_given", given)  # there even if it is empty
+        object.__setattr__(self, "_given", given)  # given even if empty
         object.__setattr__(self, "_values", {})
         object.__setattr__(self, "_places", {})
 
@@ -91,7 +91,7 @@ class Section:
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name.startswith("_"):
-            raise AttributeError(f"no key begins with an underscore: {name}")
+            raise AttributeError(f"keys do not begin with an underscore: {name}")
         self._put(name, value, _caller())
 
     def __delattr__(self, name: str) -> None:
@@ -153,7 +153,7 @@ class Section:
         return at, last
 
     def _put(self, name: str, value: Any, place: tuple[str, int]) -> None:
-        self._values[name] = _taken(value, self._below(name), place)
+        self._values[name] = _converted(value, self._below(name), place)
         self._places[name] = place
 
     def _holds(self) -> bool:
@@ -162,21 +162,21 @@ class Section:
     def _tree(self) -> dict:
         return {name: _tree(value) for name, value in self._values.items() if not _absent(value)}
 
-    def _told(self, path: str = "") -> Iterator[tuple[str, tuple[str, int]]]:
-        """Where each value was given, by its path in the file."""
+    def _located(self, path: str = "") -> Iterator[tuple[str, tuple[str, int]]]:
+        """The place of each value by its path in the file."""
         for name, value in self._values.items():
             below = f"{path}.{name}" if path else name
             if name in self._places:
                 yield below, self._places[name]
             if isinstance(value, (Section, Items)):
-                yield from value._told(below)
+                yield from value._located(below)
 
 
 class Items(list):
     """A list of tables of a case: `case.wall.body`."""
 
     def __init__(self, path: str, items: Sequence[Any] = (), place: tuple[str, int] | None = None):
-        super().__init__(_taken(item, path + "[]", place or _caller()) for item in items)
+        super().__init__(_converted(item, path + "[]", place or _caller()) for item in items)
         self._path = path
 
     def add(self, **values: Any) -> Section:
@@ -185,28 +185,28 @@ class Items(list):
         return self[-1]
 
     def append(self, values: Any) -> None:
-        super().append(_taken(values, self._path + "[]", _caller()))
+        super().append(_converted(values, self._path + "[]", _caller()))
 
     def __setitem__(self, at, values) -> None:
-        super().__setitem__(at, _taken(values, self._path + "[]", _caller()))
+        super().__setitem__(at, _converted(values, self._path + "[]", _caller()))
 
     def item(self, number: str) -> Section:
-        """The table of that number, from 0, as `case["wall.body.0.mu"]` names it."""
+        """The table with that index, from 0, as in `case["wall.body.0.mu"]`."""
         if not number.isdigit() or int(number) >= len(self):
             what = self._path.replace("[]", "")
-            raise IndexError(f"{what}.{number}: this case has {len(self) or 'no'} {what}, named by its number from 0")
+            raise IndexError(f"{what}.{number}: this case has {len(self) or 'no'} {what}, indexed from 0")
         return self[int(number)]
 
     def named(self, name: str) -> Section:
-        """The table whose `name` is that."""
+        """The table with that `name`."""
         for item in self:
             if item._values.get("name") == name:
                 return item
-        raise KeyError(f"{self._path} has none called '{name}'")
+        raise KeyError(f"{self._path} has no item named '{name}'")
 
-    def _told(self, path: str) -> Iterator[tuple[str, tuple[str, int]]]:
+    def _located(self, path: str) -> Iterator[tuple[str, tuple[str, int]]]:
         for k, item in enumerate(self):
-            yield from item._told(f"{path}.{k}")
+            yield from item._located(f"{path}.{k}")
 
 
 def _absent(value: Any) -> bool:
@@ -219,8 +219,8 @@ def _tree(value: Any) -> Any:
     return [item._tree() for item in value] if isinstance(value, Items) else value
 
 
-def _taken(value: Any, path: str, place: tuple[str, int]) -> Any:
-    """A value as a case keeps it: tables become sections."""
+def _converted(value: Any, path: str, place: tuple[str, int]) -> Any:
+    """A value as stored in a case: tables become sections."""
     if isinstance(value, Section):
         value = value._tree()
     if isinstance(value, dict):
@@ -291,21 +291,21 @@ class Case(Section):
         return case
 
     def copy(self) -> Case:
-        """Another case of the same values."""
+        """A copy of the case."""
         twin = Case()
         twin._start(self._name)
-        twin._build(self._tree(), dict(self._told()))
+        twin._build(self._tree(), dict(self._located()))
         return twin
 
     def with_values(self, values: dict[str, Any]) -> Case:
-        """A copy in which keys ("fluid.dx", "wall.body.0.min") have other values."""
+        """A copy with other values of keys ("fluid.dx", "wall.body.0.min")."""
         twin = self.copy()
         for key, value in values.items():
             twin[key] = value
         return twin
 
     def to_toml(self) -> str:
-        """The case as a file: what was given, without defaults."""
+        """The case as TOML: the given values, without defaults."""
         return _toml.document(self._tree())
 
     def write(self, path: str | Path) -> None:
@@ -313,11 +313,11 @@ class Case(Section):
         Path(path).write_text(self.to_toml(), encoding="utf-8")
 
     def resolved(self) -> Case:
-        """The case with every default filled in. Raises CaseError if it cannot be computed."""
+        """The case with all defaults filled in. Raises CaseError for an invalid case."""
         return Case.from_toml(self._read().toml(), self._name)
 
     def warnings(self) -> list[str]:
-        """Warnings of the program for this case. Raises CaseError if it cannot be computed."""
+        """Warnings of the program for this case. Raises CaseError for an invalid case."""
         return self._read().warnings
 
     def check(self, backend: str = "auto", threads: int = 0) -> Report:
@@ -340,7 +340,7 @@ class Case(Section):
         _place(self, "", places)
 
     def _read(self, checkpoint: str | Path = ""):
-        return module().read(self._tree(), dict(self._told()), self._name, checkpoint)
+        return module().read(self._tree(), dict(self._located()), self._name, checkpoint)
 
 
 def _place(value: Any, path: str, places: dict[str, tuple[str, int]]) -> None:

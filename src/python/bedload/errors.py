@@ -1,8 +1,8 @@
-"""The four ways in which Bedload stops; each carries the sentence that the program prints."""
+"""The four kinds of errors; each has the message that the program prints."""
 
 
 class CaseError(ValueError):
-    """A case, or what it is asked for, that cannot be computed: names file, line, key, value and allowed range."""
+    """An invalid case or argument: names file, line, key, value and allowed range."""
 
 
 class FileError(OSError):
@@ -10,8 +10,8 @@ class FileError(OSError):
 
 
 class DeviceError(RuntimeError):
-    """No such device, or too little of its memory."""
+    """No such device, or it is out of memory."""
 
 
 class SimulationFault(ArithmeticError):
-    """The computation broke down; names particle, place and time."""
+    """The simulation failed; names particle, position and time."""

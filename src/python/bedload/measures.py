@@ -1,5 +1,5 @@
-"""Quantities that follow from places, velocities and sizes of particles: maps, mixing, outline of a bed, power, time of
-residence, contacts. Arrays come from frames (`run.grains.position(k)`) or from a simulation (`s.grains.position`).
+"""Derived quantities of particles: maps, mixing, bed outline, power, residence time, contacts. Arrays come from frames
+(`run.grains.position(k)`) or from a simulation (`s.grains.position`).
 
 SI units; positions [n, 3].
 """
@@ -11,7 +11,7 @@ from typing import Any, Sequence
 
 import numpy as np
 
-_SAMPLES = 8  # points along the diameter by which a sphere is spread over cells
+_SAMPLES = 8  # points along the diameter for spreading a sphere over cells
 
 
 @dataclass
@@ -33,26 +33,26 @@ class Grid:
 
     @property
     def volume(self) -> float:
-        """Of a cell, m3."""
+        """Volume of a cell, m3."""
         return float(np.prod(self.cell))
 
     def centres(self, axis: int) -> np.ndarray:
-        """Of the cells along an axis, m."""
+        """Centres of the cells along an axis, m."""
         return self.low[axis] + (np.arange(self.shape[axis]) + 0.5) * self.cell[axis]
 
     def edges(self, axis: int) -> np.ndarray:
-        """Between the cells along an axis, m."""
+        """Edges of the cells along an axis, m."""
         return self.low[axis] + np.arange(self.shape[axis] + 1) * self.cell[axis]
 
     def index(self, x: np.ndarray) -> np.ndarray:
-        """Number of the cell of each place, in C order; -1 outside."""
+        """Index of the cell of each position, in C order; -1 outside."""
         at = np.floor((np.asarray(x, float) - self.low) / self.cell).astype(int)
         inside = np.all((at >= 0) & (at < self.shape), axis=-1)
         at = np.moveaxis(np.where(inside[..., None], at, 0), -1, 0)
         return np.where(inside, np.ravel_multi_index(at, self.shape), -1)
 
     def sum(self, x: np.ndarray, weight: np.ndarray) -> np.ndarray:
-        """Sums of `weight` over the cells, [nx, ny, nz]; what is outside does not count."""
+        """Sums of `weight` over the cells, [nx, ny, nz]; points outside are ignored."""
         at = self.index(x).ravel()
         inside = at >= 0
         weight = np.broadcast_to(weight, np.shape(x)[:-1]).ravel()
@@ -60,7 +60,7 @@ class Grid:
 
 
 def solid_fraction_map(grid: Grid, x: np.ndarray, radius: np.ndarray) -> np.ndarray:
-    """Fraction of each cell that grains fill, [nx, ny, nz]: spheres are spread over cells, which keeps their volume."""
+    """Solid fraction of each cell, [nx, ny, nz]: spheres are spread over cells, which conserves their volume."""
     x, radius = np.asarray(x, float), np.broadcast_to(np.asarray(radius, float), len(x))
     line = (np.arange(_SAMPLES) + 0.5) / _SAMPLES * 2 - 1
     points = np.stack(np.meshgrid(line, line, line, indexing="ij"), axis=-1).reshape(-1, 3)
@@ -73,12 +73,12 @@ def solid_fraction_map(grid: Grid, x: np.ndarray, radius: np.ndarray) -> np.ndar
 
 
 def porosity_map(grid: Grid, x: np.ndarray, radius: np.ndarray) -> np.ndarray:
-    """1 less `solid_fraction_map`."""
+    """1 - `solid_fraction_map`."""
     return 1 - solid_fraction_map(grid, x, radius)
 
 
 def mean_map(grid: Grid, x: np.ndarray, value: np.ndarray, weight: np.ndarray | float = 1.0) -> np.ndarray:
-    """Weighted mean of a value [n] or [n, 3] of the particles in each cell; NaN where there are none.
+    """Weighted mean of a value [n] or [n, 3] of the particles in each cell; NaN for empty cells.
 
     With velocities, and masses as weights, it is the velocity map.
     """
@@ -139,7 +139,7 @@ def bed_surface(grid: Grid, fraction: np.ndarray, up: int = 2, filled: float = 0
 
 
 def bed_outline(x: np.ndarray, radius: np.ndarray, along: int, up: int, cell: float) -> np.ndarray:
-    """Outline of the bed as seen from the side: [m, 2] of place along an axis and highest point of grains there, m."""
+    """Outline of the bed seen from the side: [m, 2] of position along an axis and height of the grains there, m."""
     x, radius = np.asarray(x, float), np.broadcast_to(np.asarray(radius, float), len(x))
     low, high = (x[:, along] - radius).min(), (x[:, along] + radius).max()
     place = np.arange(low + cell / 2, high, cell)
@@ -197,13 +197,13 @@ def contact_pairs(x: np.ndarray, radius: np.ndarray, gap: float = 0.0,
 
 def coordination(x: np.ndarray, radius: np.ndarray, gap: float = 0.0,
                  period: Sequence[float] | None = None) -> np.ndarray:
-    """Grains that each grain touches, [n]; as `contact_pairs`."""
+    """Coordination number of each grain, [n]; as `contact_pairs`."""
     return np.bincount(contact_pairs(x, radius, gap, period).ravel(), minlength=len(x))
 
 
 def residence_times(frames: Any) -> tuple[np.ndarray, np.ndarray]:
-    """How long particles were there, s: those that came after the first frame and left before the last, and of those
-    that are there still, so far. To within the time between frames."""
+    """Residence times of particles, s: of those that entered after the first frame and left before the last, and so far
+    of those still present. Accurate to the interval of frames."""
     first: dict[int, float] = {}
     last: dict[int, float] = {}
     for k, time in enumerate(frames.times):
@@ -218,7 +218,7 @@ def residence_times(frames: Any) -> tuple[np.ndarray, np.ndarray]:
 
 
 def angular_velocity(x: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """Of a rigid body whose particles are at x and move with v, by least squares, rad/s, [3]."""
+    """Angular velocity of a rigid body with particles at x and velocities v, by least squares, rad/s, [3]."""
     x, v = np.asarray(x, float), np.asarray(v, float)
     x, v = x - x.mean(axis=0), v - v.mean(axis=0)
     inertia = np.sum(x**2) * np.eye(3) - x.T @ x
@@ -226,7 +226,7 @@ def angular_velocity(x: np.ndarray, v: np.ndarray) -> np.ndarray:
 
 
 def mean_power(table: Any, column: str | None = None, start: float = 0.0) -> float:
-    """Mean over time, from `start` (s) on, of a power in a table of a body, W, by trapezes.
+    """Mean over time, from `start` (s) on, of a power in a table of a body, W, by the trapezoidal rule.
 
     Below zero where the body drives what it meets. Without a column that of fluid, grains and contacts together, of
     what the table has; "power_by_fluid" is that of the fluid alone.
@@ -243,5 +243,5 @@ def mean_power(table: Any, column: str | None = None, start: float = 0.0) -> flo
 
 
 def power_number(power: float, density: float, turns: float, diameter: float) -> float:
-    """P / (rho N^3 D^5) of an impeller: W, kg/m3, 1/s, m."""
+    """Power number P / (rho N^3 D^5) of an impeller: W, kg/m3, 1/s, m."""
     return power / (density * turns**3 * diameter**5)

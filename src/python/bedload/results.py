@@ -1,6 +1,6 @@
-"""What runs leave behind, read when it is asked for: frames (VTKHDF), tables (CSV), the resolved case, the summary.
+"""Results of runs, read on demand: frames (VTKHDF), tables (CSV), the resolved case, the summary.
 
-Needs NumPy and h5py; xarray and pandas where something is turned into theirs.
+Needs NumPy and h5py; xarray and pandas only for conversions to them.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from .errors import FileError
 
 
 class Frames:
-    """Frames of one store, e.g. RUN_DIR/fluid.vtkhdf: temporal PolyData of points. Arrays are read when asked for.
+    """Frames of one store, e.g. RUN_DIR/fluid.vtkhdf: temporal PolyData of points. Arrays are read on demand.
 
     times: of the frames, s.
     """
@@ -46,11 +46,11 @@ class Frames:
         return f"<Frames {self.path}: {len(self)} frames{last}; {', '.join(self.names())}>"
 
     def names(self) -> list[str]:
-        """Of the arrays of each frame."""
+        """Names of the arrays of each frame."""
         return sorted(["position", *self._root["PointData"]])
 
     def unit(self, name: str) -> str:
-        """Of an array: "m/s"; "-" for a pure number; empty if the file does not tell."""
+        """Unit of an array: "m/s"; "-" for a pure number; empty if the file has none."""
         if name == "position":
             return "m"
         unit = self._data(name).attrs.get("unit", "")
@@ -61,7 +61,7 @@ class Frames:
         return int(np.argmin(np.abs(self.times - time)))
 
     def count(self, frame: int) -> int:
-        """Particles in a frame."""
+        """Number of particles in a frame."""
         return int(np.ravel(self._root["NumberOfPoints"])[self._parts[frame]])
 
     def position(self, frame: int) -> np.ndarray:
@@ -69,11 +69,11 @@ class Frames:
         return self.read(frame, "position").astype(float)
 
     def get(self, frame: int, name: str, default: Any = None) -> Any:
-        """Array `name` of a frame, or `default` if the store has none of that name."""
+        """Array `name` of a frame, or `default` if there is none."""
         return self.read(frame, name).astype(float) if name in self._root["PointData"] else default
 
     def read(self, frame: int, name: str) -> np.ndarray:
-        """Array `name` of a frame, or its "position", in the type and the order of the file."""
+        """Array `name` of a frame, or its "position", in the type and order of the file."""
         frame = range(len(self))[frame]  # from the end if negative
         if name == "position":
             data, begin = self._root["Points"], int(self._points[frame])
@@ -84,13 +84,13 @@ class Frames:
         return data[begin : begin + self.count(frame)]
 
     def by_id(self, frame: int, name: str) -> np.ndarray:
-        """As `read`, in the order of the particles' ids, which stays the same while none comes or goes."""
+        """As `read`, sorted by particle id, an order that is stable while the particles stay the same."""
         return self.read(frame, name)[np.argsort(self.read(frame, "id"))]
 
     def to_xarray(self):
-        """An xarray.Dataset over (time, particle, axis): `particle` is the id, values are NaN where one is not there.
+        """An xarray.Dataset over (time, particle, axis): `particle` is the id, values are NaN where it is absent.
 
-        Frames are read as they are needed. Arrays of whole numbers become floating where particles come or go.
+        Frames are read on demand. Integer arrays become floating if particles come or go.
         """
         from ._xarray import dataset_of
 
@@ -106,7 +106,7 @@ class Frames:
 class Table:
     """A CSV file with one header row; columns by name, with or without their `[unit]`.
 
-    header: as it stands in the file, `["time [s]", ...]`.
+    header: as in the file, `["time [s]", ...]`.
     """
 
     def __init__(self, path: str | Path):
@@ -131,11 +131,11 @@ class Table:
         return f"<Table {self.path}: {len(self)} rows of {', '.join(self.names())}>"
 
     def names(self) -> list[str]:
-        """Of the columns, without their units."""
+        """Names of the columns without units."""
         return [_bare(name) for name in self.header]
 
     def where(self, conditions: dict[str, Any]) -> Table:
-        """The rows in which each column of `conditions` has the value given."""
+        """The rows whose columns have the values of `conditions`."""
         picked = object.__new__(Table)
         picked.path, picked.header, picked._rows = self.path, self.header, self._rows
         for name, value in conditions.items():
@@ -154,15 +154,15 @@ class Table:
         try:
             return np.array([float(text) for text in self.texts(name)])
         except ValueError:
-            raise FileError(f"{self.path}: column '{name}' holds more than numbers") from None
+            raise FileError(f"{self.path}: column '{name}' is not numeric") from None
 
     def unit(self, name: str) -> str:
-        """Of a column: "m/s"; empty if it has none."""
+        """Unit of a column: "m/s"; empty if it has none."""
         full = self.header[self._index(name)]
         return full[full.rindex("[") + 1 : -1] if full.endswith("]") else ""
 
     def numeric(self) -> list[str]:
-        """Names of the columns that hold nothing but numbers."""
+        """Names of the numeric columns."""
         number = re.compile(r"^[-+]?(\d|\.\d|inf|nan)", re.IGNORECASE)
         return [n for k, n in enumerate(self.header) if all(number.match(row[k]) for row in self._rows)]
 
@@ -183,12 +183,12 @@ class Table:
 
 
 class Run:
-    """A folder of results."""
+    """A results folder."""
 
     def __init__(self, folder: str | Path):
         self.folder = Path(folder)
         if not self.folder.is_dir():
-            raise FileError(f"{self.folder}: there is no such folder of results")
+            raise FileError(f"{self.folder}: no such results folder")
 
     def __repr__(self) -> str:
         return f"<Run {self.folder}: {self.status}>"
@@ -200,7 +200,7 @@ class Run:
 
     @property
     def summary(self) -> dict:
-        """summary.json: how the run ended; empty if it has not."""
+        """summary.json; empty before the end of the run."""
         return summary_of(self.folder)
 
     @property
@@ -220,7 +220,7 @@ class Run:
 
     @functools.cached_property
     def walls(self) -> Frames:
-        """Frames of the walls' particles."""
+        """Frames of the wall particles."""
         return Frames(self.folder / "walls.vtkhdf")
 
     @functools.cached_property
@@ -230,24 +230,24 @@ class Run:
 
     @functools.cached_property
     def probes(self) -> Tables:
-        """Tables of probes by their names."""
+        """Tables of probes by name."""
         return Tables(self.folder / "probes")
 
     @functools.cached_property
     def bodies(self) -> Tables:
-        """Tables of wall bodies and rigid groups by their names."""
+        """Tables of wall bodies and rigid groups by name."""
         return Tables(self.folder / "bodies")
 
 
 class Tables:
-    """Tables of a folder by their names."""
+    """Tables of a folder by name."""
 
     def __init__(self, folder: Path):
         self.folder = folder
         self._known: dict[str, Table] = {}
 
     def names(self) -> list[str]:
-        """Of the tables."""
+        """Names of the tables."""
         return sorted(path.stem for path in self.folder.glob("*.csv"))
 
     def __iter__(self) -> Iterator[str]:
@@ -266,7 +266,7 @@ class Tables:
 
 
 def open_run(folder: str | Path) -> Run:
-    """A folder of results, read as it is asked for."""
+    """Opens a results folder; files are read on demand."""
     return Run(folder)
 
 
@@ -283,7 +283,7 @@ def case_of(run_dir: str | Path) -> dict:
     """case.resolved.toml of a run that must have one."""
     case = resolved_case(run_dir)
     if not case:
-        raise FileError(f"{run_dir}: holds no case.resolved.toml")
+        raise FileError(f"{run_dir}: has no case.resolved.toml")
     return case
 
 
@@ -294,7 +294,7 @@ def summary_of(run_dir: str | Path) -> dict:
 
 
 def write_table(path: str | Path, names: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
-    """A CSV file of one header row, `names`, and `rows`."""
+    """Writes a CSV file with the header `names` and `rows`."""
     with open(path, "w", newline="") as file:
         out = csv.writer(file, lineterminator="\n")
         out.writerow(names)
@@ -302,5 +302,5 @@ def write_table(path: str | Path, names: Sequence[str], rows: Sequence[Sequence[
 
 
 def _bare(name: str) -> str:
-    """A column's name without its unit."""
+    """Name of a column without its unit."""
     return re.sub(r"\s*\[.*\]$", "", name)

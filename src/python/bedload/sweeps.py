@@ -1,5 +1,5 @@
-"""Many runs of one case, with other values of its keys: each in a process of its own, some at a time, gone on with
-after an interruption."""
+"""Parameter sweeps: many runs of one case with different values of its keys, in parallel processes, continued after an
+interruption."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ from . import _toml
 from .errors import CaseError, FileError
 from .results import Run, summary_of
 
-SETTINGS = "sweep.json"  # in the folder of each run: what it was run with
+SETTINGS = "sweep.json"  # in the folder of each run: its case, values and options
 
 
 @dataclass
 class Point:
     """One run of a sweep."""
 
-    values: dict[str, Any]  #: of the keys that are swept
+    values: dict[str, Any]  #: of the swept keys
     folder: Path
     status: str = "waiting"  #: "completed"; "failed" with `message`; "stopped"
-    message: str = ""  #: the program's last words, if it failed or has lost more than run.max_lost
-    reused: bool = False  #: was there, completed, before
+    message: str = ""  #: last message of the program if it failed or lost more than run.max_lost
+    reused: bool = False  #: was completed before
 
     @property
     def run(self) -> Run:
-        """Its results."""
+        """The results."""
         return Run(self.folder)
 
 
@@ -60,7 +60,7 @@ class Sweep:
         return [point for point in self.points if point.status != "completed"]
 
     def rows(self, measure: Callable[[Run], dict[str, Any]]) -> list[dict[str, Any]]:
-        """For each completed run its values and what `measure(run)` tells."""
+        """Values and results of `measure(run)` of each completed run."""
         return [{**point.values, **measure(point.run)} for point in self.points if point.status == "completed"]
 
     def to_pandas(self, measure: Callable[[Run], dict[str, Any]]):
@@ -75,15 +75,15 @@ class Sweep:
 
 def sweep(case: Any, keys: dict[str, Sequence[Any]] | Iterable[dict[str, Any]], out: str | Path, *, workers: int = 1,
           threads: int = 0, program: str | Path | Sequence[str] | None = None, options: Sequence[str] = (),
-          name: Callable[[dict[str, Any]], str] | None = None, tell: Callable[[Point], Any] | None = None) -> Sweep:
+          name: Callable[[dict[str, Any]], str] | None = None, report: Callable[[Point], Any] | None = None) -> Sweep:
     """Runs a case with all combinations of `keys` ({"fluid.dx": [0.002, 0.001], ...}), or with each of a list of dicts.
 
-    case: a Case or the name of a file. out: the folder below which each run has one, named after its values. workers:
-    runs at a time; threads: of each, by default the machine's shared out among them. program: in place of this
-    package's. options: more of `bedload run`. name(values): of a run's folder. tell(point) is called as each run ends.
+    case: a Case or a file name. out: folder of the sweep; each run has a subfolder named after its values. workers:
+    runs at a time; threads: per run, by default all divided by the workers. program: instead of that of this package.
+    options: further options of `bedload run`. name(values): name of the subfolder. report(point): called after a run.
 
-    A run that is there, completed, with the same case and values is not repeated; one that was interrupted goes on from
-    its newest checkpoint, or begins anew. A run that fails does not keep the others from going on.
+    A completed run of the same case and values is not repeated; an interrupted one restarts from its newest checkpoint,
+    if there is one. A failed run does not stop the others.
     """
     out = Path(out)
     points = [Point(values, out / (name or _name)(values)) for values in _combinations(keys)]
@@ -97,7 +97,7 @@ def sweep(case: Any, keys: dict[str, Sequence[Any]] | Iterable[dict[str, Any]], 
     command = _command(program)
     each = threads or max(1, (os.cpu_count() or 1) // workers)
     with ThreadPoolExecutor(workers) as pool:
-        jobs = [pool.submit(_run, point, command, file, text, each, options, tell) for point in points]
+        jobs = [pool.submit(_run, point, command, file, text, each, options, report) for point in points]
         try:
             for job in jobs:
                 job.result()
@@ -109,7 +109,7 @@ def sweep(case: Any, keys: dict[str, Sequence[Any]] | Iterable[dict[str, Any]], 
 
 
 def _run(point: Point, command: list[str], file: Path, text: str, threads: int, options: Sequence[str],
-         tell: Callable[[Point], Any] | None) -> None:
+         report: Callable[[Point], Any] | None) -> None:
     marks = {"case": hashlib.sha256(text.encode()).hexdigest(), "values": point.values, "options": list(options)}
     kept = point.folder / SETTINGS
     same = kept.exists() and json.loads(kept.read_text()) == json.loads(json.dumps(marks))
@@ -126,12 +126,12 @@ def _run(point: Point, command: list[str], file: Path, text: str, threads: int, 
         try:
             done = subprocess.run([*words, *options], capture_output=True, text=True)
         except OSError as error:
-            raise FileError(f"{command[0]}: cannot be run: {error.strerror}") from None
+            raise FileError(f"{command[0]}: cannot run: {error.strerror}") from None
         point.status = {0: "completed", 4: "completed", 130: "stopped"}.get(done.returncode, "failed")
         if done.returncode not in (0, 130):  # 4: more was lost than run.max_lost
             point.message = (done.stderr.strip().splitlines() or [f"the program ended with {done.returncode}"])[-1]
-    if tell:
-        tell(point)
+    if report:
+        report(point)
 
 
 def _combinations(keys: Any) -> list[dict[str, Any]]:
@@ -146,7 +146,7 @@ def _plain(value: Any) -> Any:
 
 
 def _name(values: dict[str, Any]) -> str:
-    """A folder's name that tells the values: "dx=0.002,mu=0.3"; long ones are cut and told apart by a number."""
+    """Name of the folder for these values: "dx=0.002,mu=0.3"; long names are cut and end with a hash."""
     text = ",".join(f"{key.rsplit('.', 1)[-1]}={_toml.value(value)}" for key, value in values.items())
     name = re.sub(r"[^\w.,=+-]", "_", text.replace('"', ""))
     whole = re.sub(r"\s", "", json.dumps(values))
@@ -155,7 +155,7 @@ def _name(values: dict[str, Any]) -> str:
 
 
 def _case_file(case: Any, out: Path) -> tuple[Path, str]:
-    """The file to run, and its text. A Case is written to `out`, with the files that it names found from there."""
+    """The file to run and its text. A Case is written to `out` with absolute names of its files."""
     if isinstance(case, (str, Path)):
         try:
             return Path(case), Path(case).read_text(encoding="utf-8")
@@ -172,7 +172,7 @@ def _case_file(case: Any, out: Path) -> tuple[Path, str]:
 
 
 def _with_absolute_files(case: Any, folder: Path) -> Any:
-    """A copy whose files are found from anywhere."""
+    """A copy with absolute names of its files."""
     twin = case.copy()
 
     def visit(table: Any) -> None:
@@ -194,5 +194,5 @@ def _command(program: Any) -> list[str]:
         return [sys.executable, "-m", "bedload"]
     words = [str(program)] if isinstance(program, (str, Path)) else list(map(str, program))
     if not shutil.which(words[0]):
-        raise FileError(f"{words[0]}: there is no such program")
+        raise FileError(f"{words[0]}: no such program")
     return words

@@ -36,7 +36,7 @@ nb::capsule keep(T what) {
 
 }  // namespace
 
-nb::object window_on(const FieldView& v) {
+nb::object view_of(const FieldView& v) {
   const Layout l(v.count, v.components, v.stride, v.type);
   const nb::ndarray<nb::numpy, nb::ro> array(v.data, l.axes, l.shape, keep(v.memory), l.strides,
                                              type_of(v.type));
@@ -96,7 +96,7 @@ void bind_arrays(nb::module_& m) {
                                                       l.strides, type_of(f.view.type),
                                                       nb::device::cuda::value);
           },
-          "What DLPack takes.")
+          "DLPack capsule.")
       .def(
           "copy",
           [](const DeviceField& f) {
@@ -107,7 +107,7 @@ void bind_arrays(nb::module_& m) {
             }
             return array_of(std::move(copied));
           },
-          "A NumPy array of what it holds now.");
+          "A NumPy copy of the current values.");
 }
 
 }  // namespace bedload

@@ -1,5 +1,5 @@
 #pragma once
-// Arrays of the solver as NumPy and DLPack see them.
+// Arrays of the solver for NumPy and DLPack.
 
 #include <nanobind/nanobind.h>
 
@@ -8,8 +8,8 @@
 
 namespace bedload {
 
-/// A read-only NumPy array on the solver's own memory.
-nanobind::object window_on(const FieldView& view);
+/// A read-only zero-copy NumPy view of the solver's memory.
+nanobind::object view_of(const FieldView& view);
 /// A field in the memory of a GPU.
 struct DeviceField {
   FieldView view;

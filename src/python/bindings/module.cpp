@@ -102,7 +102,7 @@ class Run {
     nb::dict out;
     for (const FieldView& v : views)
       out[v.name.c_str()] = nb::make_tuple(
-          cuda() ? nb::cast(DeviceField{v, session_->prepared().device}) : window_on(v), v.unit);
+          cuda() ? nb::cast(DeviceField{v, session_->prepared().device}) : view_of(v), v.unit);
     return out;
   }
   nb::dict snapshot(const std::string& store) {

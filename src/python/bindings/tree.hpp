@@ -1,5 +1,5 @@
 #pragma once
-// Case files as Python sees them: dicts, and where each value was given.
+// Case files for Python: dicts, and the place of each value.
 
 #include <nanobind/nanobind.h>
 
@@ -11,14 +11,14 @@
 
 namespace bedload {
 
-/// A case that was read: all its values, and the tree that tells where they stood.
+/// A case that was read: its configuration, and the tree with the places of its values.
 struct ReadCase {
   Config config;
   Value tree;
   std::vector<std::string> warnings;
 };
 
-/// f(); to errors that name a key it adds where the case says so.
+/// f() whose errors about a key get its place in the case.
 template <class F>
 auto placed(const Value& tree, F&& f) {
   try {
@@ -28,7 +28,7 @@ auto placed(const Value& tree, F&& f) {
   }
 }
 
-/// Adds what a module needs to read and write cases.
+/// Adds functions that read and write cases to the module.
 void bind_cases(nanobind::module_& m);
 
 }  // namespace bedload
