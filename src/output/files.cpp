@@ -120,8 +120,8 @@ void need_space(const std::filesystem::path& path, std::size_t bytes) {
   const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
   const auto space = std::filesystem::space(folder, unknown);
   if (unknown || space.available >= bytes) return;
-  throw FileError(fmt::format("{}: cannot write: {:.1f} MB of disk space left, {:.1f} MB needed",
-                              path.string(), space.available * 1e-6, bytes * 1e-6));
+  throw FileError(fmt::format("{}: cannot write: disk full: {:.1f} MB left, {:.1f} MB needed", path.string(),
+                              space.available * 1e-6, bytes * 1e-6));
 }
 
 void free_reserve(const std::filesystem::path& path) {

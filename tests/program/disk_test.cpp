@@ -21,9 +21,10 @@ class Disk : public ProgramTest {
 
   /// Runs without end until there is a checkpoint, then does `harm`; tells how the run ends.
   Outcome harmed(const std::string& harm) const {
-    return shell("sh -c '" + kRun + "--overwrite --set time.end=1000 & run=$!; n=0; until " +
-                 "ls out/checkpoints/*.h5 >/dev/null 2>&1 || [ $((n += 1)) -gt 3000 ]; do sleep 0.02; done; " + harm +
-                 "; wait $run'");
+    return shell(
+        "sh -c '" + kRun + "--overwrite --set time.end=1000 & run=$!; n=0; until " +
+        "ls out/checkpoints/*.h5 >/dev/null 2>&1 || [ $((n += 1)) -gt 3000 ]; do sleep 0.02; done; " + harm +
+        "; wait $run'");
   }
 
   /// One sentence that names `file` and the reason, and a checkpoint that is whole.
@@ -79,7 +80,7 @@ TEST_F(Disk, AFileThatIsRemovedIsNotBegunAnew) {
   for (const std::string file : {"out/fluid.vtkhdf", "out/diagnostics.csv"}) {
     std::filesystem::remove_all(dir_ / "out");
     const Outcome o = harmed("rm " + file);
-    expect_stopped(o, file, "it was removed while the run went on");
+    expect_stopped(o, file, "it was removed during the run");
     EXPECT_EQ(bedload("info " + last_).code, 0);
     EXPECT_FALSE(std::filesystem::exists(dir_ / file));
   }
@@ -100,7 +101,7 @@ TEST_F(Disk, AFullDiskStopsTheRunAndLosesNothing) {
   const Outcome o = shell(mounted + kRun + "; code=$?; cp -r out kept; exit $code'");
   std::filesystem::remove(dir_ / "out");
   std::filesystem::rename(dir_ / "kept", dir_ / "out");
-  expect_stopped(o, "out/", "the disk has ");
+  expect_stopped(o, "out/", "disk full: ");
   expect_nothing_lost();
 }
 

@@ -327,13 +327,13 @@ TEST_F(Live, APortThatIsTakenEndsTheRunBeforeItBegins) {
   const Outcome taken = bedload("run stirred.toml --backend cpu --live " + port + " --out other");
   EXPECT_EQ(taken.code, 2);
   EXPECT_EQ(taken.out, "");
-  EXPECT_EQ(taken.err, "command line: --live: port " + port +
-                           " of 127.0.0.1 is in use; choose another, or 0 for any free one\n");
+  EXPECT_TRUE(taken.err.starts_with("command line: --live: port " + port)) << taken.err;
+  EXPECT_NE(taken.err.find("in use"), taken.err.npos) << taken.err;
   for (const std::string wrong : {"80", "65536", "-1", "1e4", "stirred.toml", "99999999999", "8020x"}) {
     const Outcome o = bedload("run stirred.toml --backend cpu --out other --live=" + wrong);
     EXPECT_EQ(o.code, 2) << wrong;
-    EXPECT_EQ(o.err.find("command line: --live: " + wrong + " must be a port within 1024..65535, or 0"), 0u)
-        << o.err;
+    EXPECT_TRUE(o.err.starts_with("command line: --live: " + wrong)) << o.err;
+    EXPECT_NE(o.err.find("1024..65535"), o.err.npos) << o.err;
     EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
   }
   EXPECT_FALSE(std::filesystem::exists(dir_ / "other"));

@@ -102,29 +102,27 @@ TEST_F(Program, HelpsWhenAsked) {
 
 TEST_F(Program, RefusesWrongCommandLinesWithOneSentence) {
   write("dam.toml", kSmall);
-  const auto refused = [&](const std::string& arguments, const std::string& message) {
+  const auto refused = [&](const std::string& arguments, const std::string& place, const std::string& why) {
     const Outcome o = bedload(arguments);
     EXPECT_EQ(o.code, 2) << arguments;
-    EXPECT_EQ(o.err, message + "\n") << arguments;
+    EXPECT_TRUE(o.err.starts_with(place + ": ")) << o.err;
+    EXPECT_NE(o.err.find(why), o.err.npos) << o.err;
+    EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
   };
-  refused("", "command line: A subcommand is required; see bedload --help");
-  refused(
-      "simulate dam.toml",
-      "command line: unknown command simulate; it must be one of run, viscometer, check, list, info, bench, "
-      "schema, completion, man");
+  const std::string line = "command line";
+  refused("", line, "subcommand is required");
+  refused("simulate dam.toml", line, "unknown command simulate");
+  refused("simulate dam.toml", line, "run, viscometer, check, list, info, bench, schema, completion, man");
   write("empty.toml", "\n");
-  refused("check empty.toml", "empty.toml: is empty");
-  refused("run", "command line: case is required; see bedload --help");
-  refused("run dam.toml --bogus",
-          "command line: The following argument was not expected: --bogus; see bedload --help");
-  refused("run dam.toml --backend gpu",
-          "command line: --backend: gpu not in {auto,cpu,cuda}; see bedload --help");
-  refused("run no.toml", "no.toml: cannot read this case file: no such file");
-  refused("check dam.toml --set grain.e=1.4",
-          "--set grain.e=1.4: grain.e = 1.4 must be within 0.05..1; give a fraction, not percent?");
-  refused("run dam.toml --backend cpu --restart no.h5", "no.h5: cannot read: no such file");
-  refused("info no.h5", "no.h5: cannot read: no such file");
-  refused("info dam.toml", "dam.toml: not a checkpoint, .vtkhdf file or summary.json");
+  refused("check empty.toml", "empty.toml", "is empty");
+  refused("run", line, "case is required");
+  refused("run dam.toml --bogus", line, "not expected: --bogus");
+  refused("run dam.toml --backend gpu", line, "--backend: gpu not in {auto,cpu,cuda}");
+  refused("run no.toml", "no.toml", "no such file");
+  refused("check dam.toml --set grain.e=1.4", "--set grain.e=1.4", "grain.e = 1.4 must be within 0.05..1");
+  refused("run dam.toml --backend cpu --restart no.h5", "no.h5", "no such file");
+  refused("info no.h5", "no.h5", "no such file");
+  refused("info dam.toml", "dam.toml", "not a checkpoint");
 }
 
 TEST_F(Program, NamesFileAndLineOfAWrongCase) {
@@ -311,13 +309,13 @@ TEST_F(Program, RefusesAFolderThatCannotTakeAPreview) {
   write("dam.toml", kSmall);
   const Outcome o = bedload("check dam.toml --backend cpu --preview dam.toml/look");
   EXPECT_EQ(o.code, 2);
-  EXPECT_EQ(o.err, "dam.toml/look: cannot write the preview: Not a directory\n");
-  EXPECT_EQ(bedload("check dam.toml --backend cpu --preview dam.toml").err,
-            "dam.toml: cannot write the preview: Not a directory\n");
+  EXPECT_TRUE(o.err.starts_with("dam.toml/look: ")) << o.err;
+  EXPECT_NE(o.err.find("Not a directory"), o.err.npos) << o.err;
+  EXPECT_TRUE(bedload("check dam.toml --backend cpu --preview dam.toml").err.starts_with("dam.toml: "));
   ASSERT_EQ(bedload("run dam.toml --backend cpu --quiet --until 0.001 --out r").code, 0);
   const Outcome run = bedload("check dam.toml --backend cpu --preview r");
   EXPECT_EQ(run.code, 2);
-  EXPECT_EQ(run.err, "r: holds a run; choose another folder for --preview\n");
+  EXPECT_TRUE(run.err.starts_with("r: holds a run")) << run.err;
 }
 
 TEST_F(Program, RefusesAFixedStepAboveItsLimit) {
@@ -571,9 +569,9 @@ TEST_F(Program, KeepsARunFromBeingWrittenOver) {
   ASSERT_EQ(bedload(run).code, 0);
   const Outcome again = bedload(run);
   EXPECT_EQ(again.code, 2);
-  EXPECT_EQ(again.err,
-            "r: already holds a run; use --restart to continue it, --overwrite to replace it, or another "
-            "--out\n");
+  EXPECT_TRUE(again.err.starts_with("r: already holds a run")) << again.err;
+  for (const char* remedy : {"--restart", "--overwrite", "--out"})
+    EXPECT_NE(again.err.find(remedy), again.err.npos) << again.err;
   EXPECT_EQ(bedload(run + " --overwrite").code, 0);
 }
 
@@ -701,7 +699,7 @@ TEST_F(Program, TwoRunsDoNotShareAFolder) {
     EXPECT_EQ(o.code, 2);
     EXPECT_NE(o.err.find("out: in use by process " + std::to_string(::getpid()) + " on "), o.err.npos)
         << o.err;
-    EXPECT_NE(o.err.find("; wait for it, stop it or choose another --out"), o.err.npos) << o.err;
+    EXPECT_NE(o.err.find("--out"), o.err.npos) << o.err;
   }
   EXPECT_FALSE(std::filesystem::exists(dir_ / "out/case.resolved.toml")) << "nothing has been written";
 }
@@ -709,14 +707,13 @@ TEST_F(Program, TwoRunsDoNotShareAFolder) {
 TEST_F(Program, GoesOnOnlyAsItBegan) {
   write("dam.toml", kSmall);
   const std::string run = "run dam.toml --backend cpu --quiet --out out ";
-  EXPECT_EQ(bedload(run + "--restart latest").err, "out: has no checkpoint to restart from\n");
+  EXPECT_TRUE(bedload(run + "--restart latest").err.starts_with("out: has no checkpoint"));
   ASSERT_EQ(bedload(run + "--until 0.01").code, 0);
   const Outcome other = bedload(run + "--restart latest --set fluid.mu=0.5 --set out.every=0.02");
   EXPECT_EQ(other.code, 2);
-  EXPECT_NE(other.err.find("the case differs from that of the checkpoint: fluid.mu = 0.5 (0.001 then); "
-                           "restart with a modified case by --allow-changes"),
-            other.err.npos)
-      << other.err;
+  for (const char* part : {"fluid.mu = 0.5 (0.001 then)", "--allow-changes"})
+    EXPECT_NE(other.err.find(part), other.err.npos) << other.err;
+  EXPECT_EQ(other.err.find("out.every"), other.err.npos) << "which changes no result";
   const Outcome early = bedload(run + "--restart latest --until 0.005");
   EXPECT_EQ(early.code, 2);
   EXPECT_NE(early.err.find("--until = 0.005 s is before the time of the checkpoint"), early.err.npos)

@@ -80,7 +80,7 @@ class Cases(unittest.TestCase):
         self.assertEqual((case.wall.body.named("tank").name, other.wall.body[0].name), ("tank", "box"))
         with self.assertRaises(KeyError):
             other.wall.body.named("tank")
-        with self.assertRaisesRegex(IndexError, "probe.3: this case has 1 probe, named by its number from 0"):
+        with self.assertRaisesRegex(IndexError, "probe.3: this case has 1 probe, indexed from 0"):
             case.with_values({"probe.3.every": 0.1})
         with self.assertRaisesRegex(IndexError, "inlet.0: this case has no inlet"):
             case.with_values({"inlet.0.rate": 0.1})

@@ -74,7 +74,7 @@ class Results(unittest.TestCase):
             self.assertEqual(open_run(place).status, "unfinished")
             with self.assertRaisesRegex(bedload.FileError, "is not numeric"):
                 Table(path).column("note")
-            with self.assertRaisesRegex(bedload.FileError, "holds no case.resolved.toml"):
+            with self.assertRaisesRegex(bedload.FileError, "has no case.resolved.toml"):
                 open_run(place).case
 
 
