@@ -6,7 +6,7 @@
 CASE is a case folder with an expect.toml, or such a file itself. Prints one line per check and
 exits with 1 if one failed, with 2 if it cannot be evaluated. A [[check]] has a `name`, a `kind`
 and, if it is only a plausibility check, `advice = true`: missing it is shown but does not fail.
-What else such a file holds, for tools/validate, is told in docs/report.md.
+docs/report.md describes the other tables of such a file, for tools/validate.
 
 A series over time is `data = "probes/front.csv"` with `column`, one name or several whose values are added, or
 `data = "fluid.vtkhdf"` with `field` (or "position"), `component` (omit for the magnitude) and `reduce` = "mean"
@@ -46,7 +46,7 @@ class Drawing:
     """What a check looked at, as (x, y) curves; those of a profile as points.
 
     expected: what it was compared with; band: x, lowest and highest y that pass, infinite where there is no bound;
-    spans: (first, last) along x that the value has to lie in; log: whether y is told by its logarithm.
+    spans: (first, last) along x that the value has to lie in; log: whether y has a logarithmic axis.
     """
 
     found: tuple
@@ -112,7 +112,7 @@ class Check:
             t = np.array(frames.times)
             y = np.array([pick(self.field(frames, k)) for k in range(len(t))])
         if len(t) == 0:
-            raise SystemExit(f"{self.name}: {data} holds no values")
+            raise SystemExit(f"{self.name}: {data} has no values")
         if self.spec.get("from_start", False):
             y = y - y[0]
         return t * self.spec.get("time_factor", 1.0), y * self.spec.get("factor", 1.0)
@@ -303,11 +303,11 @@ def expectations(path):
         raise SystemExit(f"{path}: {error}") from None
     for key, value in found.items():
         if key != "check" and key not in HEADER:
-            raise SystemExit(f"{path}: unknown key '{key}'; there are check, {', '.join(HEADER)}")
+            raise SystemExit(f"{path}: unknown key '{key}'; it must be one of check, {', '.join(HEADER)}")
         if key != "check" and not isinstance(value, HEADER[key]):
             raise SystemExit(f"{path}: {key} must be a {HEADER[key].__name__}")
     if not found.get("check"):
-        raise SystemExit(f"{path}: holds no [[check]]")
+        raise SystemExit(f"{path}: has no [[check]]")
     return found
 
 

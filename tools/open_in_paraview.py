@@ -23,7 +23,7 @@ def open_run(folder):
     fluid = None
     found = {name: path for name in COLOURS if (path := folder / f"{name}.{ENDING}").exists()}
     if not found:
-        raise SystemExit(f"{folder}: holds no fluid.{ENDING}, grains.{ENDING} or walls.{ENDING}")
+        raise SystemExit(f"{folder}: has no fluid.{ENDING}, grains.{ENDING} or walls.{ENDING}")
     for name, path in found.items():
         source = opened(name, str(path))
         source.UpdatePipeline()

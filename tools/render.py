@@ -420,7 +420,7 @@ def frame_of(scene, number, time):
     """The frame asked for: by number (negative from the end), nearest to a time, or the last."""
     times = scene.times()
     if not len(times):
-        raise SystemExit("the run holds no frames")
+        raise SystemExit("the run has no frames")
     if time is not None:
         slack = (times[-1] - times[0]) / max(len(times) - 1, 1)
         if not times[0] - slack <= time <= times[-1] + slack:
@@ -475,12 +475,12 @@ def main(arguments=None):
                         help=f"{', '.join(VIEWS)}, or azimuth,elevation[,zoom]: degrees to the right of the front (-y) "
                              "and above the level; default corner, of plane flows front")
     parser.add_argument("--clip", type=clip, metavar="y=0.05",
-                        help="leave out what is nearer than this plane (m); walls show their section")
+                        help="cut at this plane (m); walls show their section")
     parser.add_argument("--no-walls", dest="walls", action="store_false", default=None)
     parser.add_argument("--like", type=Path, metavar="FILE", help="a TOML file with a table [picture]")
     parser.add_argument("--size", type=lambda t: [int(n) for n in numbers(t, 2, 2)], default=[900, 600],
                         metavar="WIDTH,HEIGHT", help="pixels, default 900,600")
-    parser.add_argument("--fps", type=float, default=25, help="frames a second of a film, default 25")
+    parser.add_argument("--fps", type=float, default=25, help="frames per second of a film, default 25")
     options = parser.parse_args(arguments)
     if options.film and options.film.suffix.lower() not in (".mp4", ".gif"):
         parser.error(f"--film: '{options.film}' must end in .mp4 or .gif")
@@ -497,7 +497,7 @@ def main(arguments=None):
 
 def render(results, out, film, frame, chosen, size=(900, 600), fps=25):
     """Draws a picture or a film of a run; `chosen` has the settings of [picture]. Prints what it has written."""
-    vtk.vtkLogger.SetStderrVerbosity(vtk.vtkLogger.VERBOSITY_ERROR)  # that there is no display needs no warning
+    vtk.vtkLogger.SetStderrVerbosity(vtk.vtkLogger.VERBOSITY_ERROR)  # no warning about a missing display
     scene = Scene(results)
     if chosen.get("colour") == "porosity" and "grains" not in scene.frames:
         raise SystemExit(f"{results}: has no grains and so no porosity")

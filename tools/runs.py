@@ -16,7 +16,7 @@ def start_case(program, case, out, settings, *options, command="run", log=None):
     try:
         return subprocess.run([str(word) for word in [*words, *options]], stdout=log, stderr=log).returncode
     except OSError as error:
-        raise SystemExit(f"{program}: cannot be run: {error.strerror}") from None
+        raise SystemExit(f"{program}: cannot run: {error.strerror}") from None
 
 
 def run_case(program, case, out, settings, *options):

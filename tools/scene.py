@@ -16,7 +16,7 @@ class Scene:
         stores = {name: Path(folder) / f"{name}.vtkhdf" for name in ("fluid", "grains")}
         self.frames = {name: Frames(path) for name, path in stores.items() if path.exists()}
         if not self.frames:
-            raise SystemExit(f"{folder}: holds neither fluid.vtkhdf nor grains.vtkhdf")
+            raise SystemExit(f"{folder}: has neither fluid.vtkhdf nor grains.vtkhdf")
         walls = Path(folder) / "walls.vtkhdf"
         self.walls = Frames(walls) if walls.exists() else None
         self.folder = Path(folder)
@@ -122,7 +122,7 @@ def turn_of(quaternion):
 
 
 def turning_centre(motion):
-    """The point of a body of which tables tell where it is, at rest: the centre of the first part that turns."""
+    """The reference point of a body in its tables, at rest: the centre of the first part that rotates."""
     def turns(part):
         return part.get("kind") == "rotation" or any(text not in ("0", 0) for text in part.get("rotation", [])) or \
             any(np.any(row[4:]) for row in part.get("rows", []))

@@ -7,7 +7,7 @@ Every expect*.toml of a case folder is an entry: it names the case file, what it
 those that a CPU gets through, --full all of them. NAME is a folder, or one entry of it: taylor_green/re100. Writes
 DIR/report.html, one page with everything in it, and DIR/report.md; results lie in DIR/runs. A case that DIR holds
 with the same program, files and settings is not run again. Exits with 1 if a case could not be run, with 0 else,
-whether references were met or not: the report tells.
+whether references were met or not: the report says so.
 """
 
 import argparse
@@ -35,7 +35,7 @@ from runs import finish, start_case, summary_of  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
 DONE = (0, 3, 4)  # exit codes of the program that the same case will have again
-BROKEN = {3: "the computation broke down", 4: "more was lost than run.max_lost allows"}
+BROKEN = {3: "the simulation failed", 4: "more was lost than run.max_lost allows"}
 COLUMNS = ("case", "proves", "picture", "closest to or furthest beyond its tolerance", "held", "verdict", "run time",
            "particles", "device", "precision", "commit")
 BLUE, BAND, MARK = "#1e6fb8", "#cfe6cf", "#c2410c"
@@ -61,9 +61,9 @@ class Entry:
                 if key not in KEYS:
                     raise SystemExit(f"{self.path}: [convergence] has no '{key}', only {', '.join(sorted(KEYS))}")
             if plan.get("check") not in [spec.get("name") for spec in self.header["check"]]:
-                raise SystemExit(f"{self.path}: convergence.check: there is no check '{plan.get('check')}'")
+                raise SystemExit(f"{self.path}: convergence.check: unknown check '{plan.get('check')}'")
             if not plan.get("quick"):
-                raise SystemExit(f"{self.path}: convergence.quick is missing: the values to run with")
+                raise SystemExit(f"{self.path}: convergence.quick is missing: the values of the key")
 
     def run_name(self):
         """Of the run; entries that look at the same run have the same."""
@@ -123,8 +123,8 @@ class Row:
 
     def order(self):
         """Observed order of convergence over all levels by least squares; None with fewer than two errors."""
-        told = [(value, error) for value, error, _ in self.levels if error]
-        return float(np.polyfit(*np.log(np.transpose(told)), 1)[0]) if len(told) > 1 else None
+        known = [(value, error) for value, error, _ in self.levels if error]
+        return float(np.polyfit(*np.log(np.transpose(known)), 1)[0]) if len(known) > 1 else None
 
 
 # ---- running ----
@@ -140,7 +140,7 @@ def digest(*parts):
 
 
 def inputs(folder, *texts):
-    """Files of a folder that are named in the texts by which a run is told what to do."""
+    """Files of a folder that the case or the expectations of a run name."""
     return sorted(p for p in folder.iterdir() if p.is_file() and any(p.name in text for text in texts))
 
 
@@ -421,10 +421,10 @@ def used(result):
 
 def summary_line(rows):
     verdicts = [row.verdict() for row in rows]
-    told = ", ".join(f"{verdicts.count(v)} {v}" for v in ("pass", "calibrated", "miss", "not run") if v in verdicts)
+    counts = ", ".join(f"{verdicts.count(v)} {v}" for v in ("pass", "calibrated", "miss", "not run") if v in verdicts)
     runs = {run.folder: run for row in rows for run in [row.run, *(level[2] for level in row.levels)] if run}
     total = sum(run.seconds() or 0 for run in runs.values())
-    return f"{len(rows)} entries: {told}. Computed for {span(total)}; written {time.strftime('%Y-%m-%d %H:%M')}."
+    return f"{len(rows)} entries: {counts}. Computed for {span(total)}; written {time.strftime('%Y-%m-%d %H:%M')}."
 
 
 STYLE = """body{font:15px/1.45 system-ui,sans-serif;max-width:1180px;margin:24px auto;padding:0 16px;color:#1c2733}
@@ -500,10 +500,10 @@ def main(arguments=None):
     parser = argparse.ArgumentParser(prog="validate", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     which = parser.add_mutually_exclusive_group()
-    which.add_argument("--quick", action="store_true", help="the default: what a CPU does in some twenty minutes")
+    which.add_argument("--quick", action="store_true", help="the default: about twenty minutes on a CPU")
     which.add_argument("--full", action="store_true", help="all, with finer resolutions: for a GPU")
     parser.add_argument("--only", nargs="+", metavar="NAME", default=[])
-    parser.add_argument("--no-convergence", action="store_true", help="each case at its own resolution alone")
+    parser.add_argument("--no-convergence", action="store_true", help="each case only at its own resolution")
     parser.add_argument("--backend", choices=["auto", "cpu", "cuda"], default="auto")
     parser.add_argument("--out", type=Path, default=ROOT / "results" / "report", metavar="DIR",
                         help="default results/report")
@@ -512,22 +512,22 @@ def main(arguments=None):
     options = parser.parse_args(arguments)
     options.program = options.program or built_program()
     if options.program is None or not options.program.is_file():
-        raise SystemExit(f"--program {options.program}: there is no such program; build it, or name it")
+        raise SystemExit(f"--program {options.program}: no such program; build it or pass --program PATH")
     options.program, options.out = options.program.resolve(), options.out.resolve()
 
     entries = [Entry(path, options.cases) for path in sorted(options.cases.glob("*/expect*.toml"))]
     known = {name for entry in entries for name in (entry.name, str(entry.folder.relative_to(options.cases)))}
     for name in options.only:
         if name not in known:
-            raise SystemExit(f"--only {name}: there is no such case; there are {', '.join(sorted(known))}")
+            raise SystemExit(f"--only {name}: no such case; it must be one of {', '.join(sorted(known))}")
     runner, rows = Runner(options), []
     title = f"Validation of Bedload, {'full' if options.full else 'quick'} set"
     for entry in (e for e in entries if e.chosen(options)):
         rows.append(runner.row(entry))
         print(f"{entry.name}: {rows[-1].verdict()}; {rows[-1].merit()}", flush=True)
-        write(options.out, rows, title)  # after each, so that a stopped report tells what it has
+        write(options.out, rows, title)  # after each, so that a stopped report has the results so far
     if not rows:
-        raise SystemExit(f"{options.cases}: no entry is in this set")
+        raise SystemExit(f"{options.cases}: no case is in this set")
     print(f"{summary_line(rows)}\n{options.out / 'report.html'}")
     return 1 if any(row.verdict() == "not run" for row in rows) else 0
 

@@ -1,5 +1,5 @@
 #pragma once
-// Copies of particle arrays on the host.
+// Copies arrays of a store to the host.
 
 #include "bedload/parallel/loops.hpp"
 #include "bedload/particles/field.hpp"

@@ -1,4 +1,4 @@
-// Snapshots and diagnostics.
+// Snapshots and diagnostics of a simulation.
 
 #include <algorithm>
 #include <cmath>

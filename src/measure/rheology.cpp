@@ -1,4 +1,4 @@
-// Input of a viscometer: masses, velocities, driving forces, parts of the stress.
+// Data for the viscometer: masses, velocities, driving forces, stress by part.
 
 #include "src/measure/arrays.hpp"
 #include "src/time/coupled_simulation.hpp"

@@ -1,4 +1,4 @@
-// Force per area on patches of a wall, as a pressure transducer measures it.
+// Pressure on patches of a wall, as transducers measure it.
 
 #include <cmath>
 
