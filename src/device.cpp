@@ -136,35 +136,28 @@ double around(double reach, bool two_d) { return two_d ? 3.14 * reach * reach : 
 
 }  // namespace
 
-std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda) {
-  const bool coupled =
-      config.couple.mode != CouplingMode::off && config.fluid.present && config.grain.present;
-  const double real = config.precision == "double" ? 8 : 4;
-  const double position = config.precision == "single" ? 16 : 24,
-               pair_position = config.precision == "double" ? 32 : 16;
-  const double h = config.fluid.h(), reach = 2 * h + config.skin_fluid * config.fluid.dx;
+MemoryEstimate estimate_memory(const Config& config, const Device& device) {
+  const ParticleBytes fields = make_simulation(config, {}, device)->field_bytes();
+  const bool cuda = device.cuda(), coupled = config.couple.mode != CouplingMode::off &&
+                                             config.fluid.present && config.grain.present;
+  const double real = config.precision == "double" ? 8 : 4, index = 4, vec3d = 24;
+  MemoryEstimate out{double(fields.fluid), double(fields.walls), double(fields.grains)};
+
+  const double reach = config.fluid.kappa() * config.fluid.h() + config.skin_fluid * config.fluid.dx;
   const double neighbours = config.fluid.present ? around(reach / config.fluid.dx, config.domain.two_d) : 0;
-  const double lists = cuda ? 2.25 * neighbours + 26 : 4.8 * neighbours;
-  const double sorting = real * 4 + (cuda ? 34 : 20);
-  const double fluid =
-      4 + 2 * position + pair_position + real * 24 + lists + sorting + (config.fluid.sdpd() ? real * 12 : 0);
-  const bool two_way = coupled && config.couple.mode == CouplingMode::two_way;
-  const double optional = real * ((config.time.integrator == TimeIntegrator::ab3 ? 3 : 1) +
-                                  (coupled ? 1 : 0) + (two_way ? 10 : 0) + (config.fluid.variable_h ? 3 : 0) +
-                                  (config.shift > 0 || config.xsph > 0 ? 3 : 0) + (config.shift > 0 ? 2 : 0) +
-                                  (config.pressure.damper > 0 ? 1 : 0));
-  const double walls = 8 + 3 * 24 + pair_position + real * 13 + 4 * 32;
-  const double contacts = 12;
-  const double touches = 60.0 * std::min(config.wall.free_bodies(), 8);  // contacts of a grain with free bodies
-  const double grains = 4 + 3 * 24 + real * 36 + contacts * (4 + 56) * 2 + touches;
+  const double sorting = 4 * real + (cuda ? 34 : 20);
+  out.fluid += (cuda ? 2.25 * neighbours + 26 : 4.8 * neighbours) + sorting;
+  out.walls += 128;  // their lists, and forces on them
+  const double contacts = 12, history = 56;
+  const double loads = 60.0 * std::min(config.wall.free_bodies(), 8);  // of each grain on free bodies
+  out.grains += vec3d + 12 * real + 2 * contacts * (index + history) + loads;
+  if (!coupled) return out;
+
   const double skin = 0.5 * (config.skin_fluid * config.fluid.dx + config.skin_grain * config.grain.d_min);
-  const double records = coupled ? real * 9 : 0;
-  const double cross = coupled ? pair_position + real * 78 +
-                                     2 * 4 * around((2 * config.couple.hc + skin) / config.fluid.dx, false)
-                               : 0;
-  return std::size_t(counts.fluid * (fluid + optional + records) + counts.walls * walls +
-                     counts.grains * (grains + cross)) +
-         (32u << 20);
+  const double near_grain = around((2 * config.couple.hc + skin) / config.fluid.dx, false);
+  out.fluid += 9 * real;                             // what pair loops read of it
+  out.grains += 78 * real + 2 * index * near_grain;  // sums over the fluid; lists of both phases
+  return out;
 }
 
 }  // namespace bedload

@@ -32,6 +32,11 @@ struct Counts {
   std::int64_t fluid = 0, walls = 0, grains = 0;
 };
 
+/// Bytes of one particle of each kind.
+struct ParticleBytes {
+  std::size_t fluid = 0, walls = 0, grains = 0;
+};
+
 /// Losses through one side of the domain.
 struct Loss {
   std::string phase;           ///< fluid, grains
@@ -66,7 +71,9 @@ class Simulation {
   virtual std::vector<Quantity> numerical_viscosity() const = 0;
   /// Current memory on the device (or of the host), bytes.
   virtual std::size_t bytes() const = 0;
-  /// Estimated growth of it in fast flow, where neighbour lists reach farther, bytes.
+  /// Memory of the fields, by particle; known before there are particles.
+  virtual ParticleBytes field_bytes() const = 0;
+  /// Estimated growth of bytes() in fast flow, where neighbour lists reach farther, bytes.
   virtual std::size_t growth() = 0;
   /// Wall time by part over all steps, s: "lists", "fluid", "grains", "coupling", "checks", as far as the
   /// case has them.
@@ -122,7 +129,17 @@ std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& s
 /// A copy of a field of a simulation on `device`. Throws DeviceError.
 HostArray host_copy(const FieldView& view, const Device& device);
 
-/// Estimated bytes for `counts` particles of this case.
-std::size_t estimate_bytes(const Config& config, const Counts& counts, bool cuda);
+/// What a case takes of the device's memory, about: bytes of each particle, and of what does not depend on
+/// them.
+struct MemoryEstimate {
+  double fluid = 0, walls = 0, grains = 0;
+  double rest = 32 << 20;
+  std::size_t of(const Counts& n) const {
+    return std::size_t(double(n.fluid) * fluid + double(n.walls) * walls + double(n.grains) * grains + rest);
+  }
+};
+/// From the fields of its stores, which are made without particles for it, and lists of usual length. Throws
+/// as make_simulation does.
+MemoryEstimate estimate_memory(const Config& config, const Device& device);
 
 }  // namespace bedload

@@ -152,8 +152,7 @@ int check_case(const Options& options) {
   }
 
   const Counts later = with_inflow(p);
-  const std::size_t estimate = estimate_bytes(c, n, p.device.cuda()),
-                    more = estimate_bytes(c, later, p.device.cuda()) - estimate;
+  const std::size_t estimate = p.memory.of(n), more = p.memory.of(later) - estimate;
   const auto print_memory = [&](const char* about, std::size_t bytes, const std::string& part = "") {
     fmt::print("memory     {}{}{}{}; {} free\n", about, bytes_text(bytes), part,
                more > 0 ? fmt::format(", up to {} incl. inflow", bytes_text(bytes + more)) : "",

@@ -114,7 +114,7 @@ void refuse_too_many(const Prepared& p) {
   for (std::size_t k = 0; c.grain.present && k < c.grain.fills.size(); ++k)
     parts.push_back(expected_grains(c, k));
 
-  const auto bytes = [&](const Counts& n) { return double(estimate_bytes(c, n, p.device.cuda())); };
+  const auto bytes = [&](const Counts& n) { return double(p.memory.of(n)); };
   const auto less = [&](const Expected& a, const Expected& b) { return bytes(a.counts) < bytes(b.counts); };
   Counts all;
   for (const Expected& part : parts) {
@@ -222,6 +222,7 @@ void warn_of_full_box(Prepared& p) {
 
 /// Places the particles of the case or reads the checkpoint; p.device is known.
 void place_particles(const Options& options, Prepared& p) {
+  p.memory = estimate_memory(p.config, p.device);
   if (options.restart.empty()) {
     refuse_too_many(p);
     p.setup = build_setup(p.config, p.warnings, &p.notes);

@@ -22,6 +22,7 @@ struct Prepared {
   double last_dt = 0;            ///< last step before a restart, s
   std::optional<Config> former;  ///< case of the checkpoint, if that lies in the results folder
   Counts counts;
+  MemoryEstimate memory;
   std::vector<std::string> warnings;
   std::vector<std::string> notes;  ///< valid, but may surprise
 };

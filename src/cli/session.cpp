@@ -43,7 +43,7 @@ void Session::build(const Options& options, const Print& print) {
   const bool settle = !restarted_ && p_.config.grain.present && p_.config.grain.settle;
   SavedState state;
   if (settle) state = settled(options, print);
-  if (estimate_bytes(p_.config, p_.counts, p_.device.cuda()) > p_.device.memory)
+  if (p_.memory.of(p_.counts) > p_.device.memory)
     p_.warnings.push_back("the case may need more memory than is free on the device");
   simulation_ = make_simulation(p_.config, p_.setup, p_.device);
   p_.setup = {};  // frees as much memory as the simulation takes

@@ -61,7 +61,7 @@ struct Spin {
 
   Spin(FluidStore& fluid, double inertia)
       : inertia(inertia),
-        omega(fluid, "angular_velocity", "rad/s", Lifetime::kept),
+        omega(fluid, "angular_velocity", "rad/s", Lifetime::kept, Output{.order = 12}),
         acc(fluid, "angular_acceleration", "rad/s2", Lifetime::kept) {}
 };
 
@@ -72,7 +72,7 @@ struct SmoothingLengths {
   bool begun = false;            ///< particles have a state
 
   SmoothingLengths(FluidStore& fluid, double h0)
-      : h(fluid, "smoothing_length", "m", Lifetime::kept),
+      : h(fluid, "smoothing_length", "m", Lifetime::kept, Output{.order = 6}),
         h_list(fluid, "smoothing_length_list", "m", Lifetime::renewed),
         omega(fluid, "omega", "-", Lifetime::kept),
         listed(h0) {}

@@ -1,55 +1,14 @@
-// Snapshots and diagnostics of a simulation.
+// Diagnostics: masses, momenta, energies and extremes.
 
 #include <algorithm>
 #include <cmath>
 
 #include "kernels/boundaries/sinks.hpp"
-#include "src/measure/arrays.hpp"
 #include "src/measure/readings.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
-
-// --- snapshots -------------------------------------------------------------------------------
-
-struct DensityPart {
-  Span<const Real4> m_state;
-  Span<Real> out;
-  BL_HD void operator()(Index i) const { out[i] = m_state[i].z; }
-};
-struct VolumePart {
-  Span<const Real4> m_state;
-  Span<Real> out;
-  BL_HD void operator()(Index i) const { out[i] = m_state[i].x / m_state[i].z; }
-};
-struct PressurePart {
-  Span<const Real4> m_state;
-  Span<Real> out;
-  BL_HD void operator()(Index i) const { out[i] = pressure_of(m_state[i]); }
-};
-
-/// `field`, or `components` scalars of each particle starting at number `first`.
-template <class T>
-FieldView view_of(const char* name, const char* unit, const Field<T>& field,
-                  int components = FileType<T>::components, int first = 0) {
-  const auto* data = reinterpret_cast<const std::byte*>(field.buffer().data());
-  if (data) data += first * size_of(FileType<T>::scalar);
-  return {.name = name,
-          .unit = unit,
-          .type = FileType<T>::scalar,
-          .components = components,
-          .data = data,
-          .count = field.buffer().size(),
-          .stride = sizeof(T),
-          .memory = field.buffer().memory()};
-}
-template <class T>
-FieldView view_of(const Field<T>& field) {
-  return view_of(field.name.c_str(), field.unit.c_str(), field);
-}
-
-// --- diagnostics -----------------------------------------------------------------------------
 
 /// mass, momentum 3, angular momentum 3, kinetic, potential, elastic, spin energy.
 struct FluidTotals {
@@ -194,98 +153,6 @@ struct PorosityBody {
 };
 
 }  // namespace
-
-HostStore CoupledSimulation::snapshot(const std::string& name) {
-  HostStore out{name, 0, {}};
-  if (name == "fluid" && state_.has_fluid) {
-    const Range all = state_.fluid.owned();
-    out.count = all.size();
-    out.arrays.push_back(made<Real3, PointPass<FluidPosition>>("position", "m", all, state_.frame,
-                                                               Span<const FluidPosition>(state_.fluid.x)));
-    out.arrays.push_back(
-        made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(state_.fluid.v_rho)));
-    out.arrays.push_back(
-        made<Real, PressurePart>("pressure", "Pa", all, Span<const Real4>(state_.fluid.m_state)));
-    out.arrays.push_back(
-        made<Real, DensityPart>("density", "kg/m3", all, Span<const Real4>(state_.fluid.m_state)));
-    if (state_.coupled) out.arrays.push_back(state_.fluid.eps.to_host());
-    if (const SmoothingLengths* own = stepper_.fluid().lengths()) {
-      out.arrays.push_back(own->h.to_host());
-      out.arrays.push_back(
-          made<Real, VolumePart>("volume", "m3", all, Span<const Real4>(state_.fluid.m_state)));
-    }
-    if (const Spin* spin = stepper_.fluid().spin()) out.arrays.push_back(spin->omega.to_host());
-    if (state_.fluid.species.used()) out.arrays.push_back(state_.fluid.species.to_host());
-    out.arrays.push_back(state_.fluid.id.to_host());
-  } else if (name == "grains" && state_.has_grains) {
-    out.count = state_.grains.size();
-    out.arrays.push_back(made<Real3, PointPass<Vec3d>>("position", "m", state_.grains.owned(), state_.frame,
-                                                       Span<const Vec3d>(state_.grains.x)));
-    out.arrays.push_back(renamed(state_.grains.v, "velocity"));
-    out.arrays.push_back(renamed(state_.grains.omega, "angular_velocity"));
-    for (FieldBase* f :
-         {static_cast<FieldBase*>(&state_.grains.radius), static_cast<FieldBase*>(&state_.grains.force)})
-      out.arrays.push_back(f->to_host());
-    if (state_.grains.material.used()) out.arrays.push_back(state_.grains.material.to_host());
-    if (state_.coupled)
-      for (FieldBase* f :
-           {static_cast<FieldBase*>(&state_.grains.drag_force),
-            static_cast<FieldBase*>(&state_.grains.fluid_force), static_cast<FieldBase*>(&state_.grains.eps),
-            static_cast<FieldBase*>(&state_.grains.wetness)})
-        out.arrays.push_back(f->to_host());
-    out.arrays.push_back(state_.grains.id.to_host());
-  } else if (name == "walls" && state_.walls.size() > 0) {
-    const Range all = state_.walls.owned();
-    out.count = all.size();
-    out.arrays.push_back(
-        made<Real3, PointPass<Vec3d>>("position", "m", all, state_.frame, Span<const Vec3d>(state_.walls.x)));
-    out.arrays.push_back(
-        made<Real3, VelocityPass>("velocity", "m/s", all, Span<const Real4>(state_.walls.v_rho)));
-    out.arrays.push_back(
-        made<Real, PressurePart>("pressure", "Pa", all, Span<const Real4>(state_.walls.m_state)));
-    out.arrays.push_back(state_.walls.body.to_host());
-    out.arrays.push_back(state_.walls.id.to_host());
-    if (state_.motion.any_removed()) {
-      const std::vector<std::byte> bytes = out.find("body")->bytes;
-      const auto* body = reinterpret_cast<const std::uint32_t*>(bytes.data());
-      out.keep_where([&](std::size_t k) {
-        return int(body[k]) >= state_.motion.walls() || !state_.motion.removed(int(body[k]));
-      });
-    }
-  }
-  return out;
-}
-
-std::vector<FieldView> CoupledSimulation::fields(const std::string& name) {
-  Context::current().wait();
-  if (name == "fluid" && state_.has_fluid) {
-    std::vector<FieldView> out{view_of("velocity", "m/s", state_.fluid.v_rho, 3),
-                               view_of("density", "kg/m3", state_.fluid.m_state, 1, 2),
-                               view_of(state_.fluid.mass), view_of(state_.fluid.id)};
-    if constexpr (std::is_same_v<FluidPosition, Vec3d>)
-      out.push_back(view_of("position", "m", state_.fluid.x));
-    if (state_.coupled) out.push_back(view_of(state_.fluid.eps));
-    if (const Spin* spin = stepper_.fluid().spin()) out.push_back(view_of(spin->omega));
-    return out;
-  }
-  if (name == "grains" && state_.has_grains) {
-    std::vector<FieldView> out{view_of("position", "m", state_.grains.x),
-                               view_of("velocity", "m/s", state_.grains.v),
-                               view_of("angular_velocity", "rad/s", state_.grains.omega),
-                               view_of(state_.grains.radius),
-                               view_of(state_.grains.force),
-                               view_of(state_.grains.id)};
-    if (state_.coupled)
-      for (const FieldView& view : {view_of(state_.grains.drag_force), view_of(state_.grains.fluid_force),
-                                    view_of(state_.grains.eps), view_of(state_.grains.wetness)})
-        out.push_back(view);
-    return out;
-  }
-  if (name == "walls" && state_.walls.size() > 0)
-    return {view_of("position", "m", state_.walls.x), view_of("velocity", "m/s", state_.walls.v_rho, 3),
-            view_of(state_.walls.body), view_of(state_.walls.id)};
-  return {};
-}
 
 void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>& out) {
   FluidSolver& solver = stepper_.fluid();

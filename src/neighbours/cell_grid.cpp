@@ -99,8 +99,6 @@ CellGrid::CellGrid(const Frame& frame, const Vec3d& min, const Vec3d& max, doubl
   while (key_bits_ < 32 && (1u << key_bits_) < cells_) ++key_bits_;
   const auto curve = hilbert_curve();
   curve_.assign({curve.begin(), curve.end()});
-  start_.resize(cells_ + 1);
-  occupied_nearby_.resize(cells_);
 }
 
 template <class P>
@@ -117,6 +115,8 @@ template void CellGrid::sort(const Frame&, Span<const Vec3d>, Buffer<Index>&);
 template void CellGrid::sort(const Frame&, Span<const PackedPosition>, Buffer<Index>&);
 
 CellGridView CellGrid::view() const {
+  start_.resize(cells_ + 1);
+  occupied_nearby_.resize(cells_);
   CellGridView v = shape_;
   v.curve = curve_.data();
   v.start = start_.data();

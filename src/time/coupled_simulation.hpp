@@ -32,6 +32,7 @@ class CoupledSimulation final : public Simulation {
   std::vector<StepLimit> substep_limits() const override { return stepper_.substep_limits(); }
   std::vector<Quantity> numerical_viscosity() const override;
   std::size_t bytes() const override { return bytes_held(); }
+  ParticleBytes field_bytes() const override;
   std::size_t growth() override { return state_.has_fluid ? stepper_.fluid().growth() : 0; }
   std::vector<Quantity> time_spent() const override { return stepper_.time_spent(); }
 
@@ -60,6 +61,11 @@ class CoupledSimulation final : public Simulation {
     std::int64_t step = -1;
     bool due(std::int64_t now) { return std::exchange(step, now) != now; }
   };
+  const Store* store_named(const std::string& name) const;  ///< null if the case has none
+  /// Fields of a store that are outputs for some use.
+  std::vector<const FieldBase*> written(const Store& store, Use by) const;
+  /// These and what is computed, in their order.
+  HostStore outputs(const std::string& store, Use by);
   struct WallForces {
     Buffer<Vec3d> pressure, friction;
   };
@@ -94,7 +100,7 @@ class CoupledSimulation final : public Simulation {
   State state_;
   Stepper stepper_;
 
-  FluidMoments fluid_moments_;  ///< scratch of rheology
+  FluidMoments fluid_moments_;  ///< scratch of outputs
   Buffer<PairMoment<>> contact_moments_;
   Kept<WallForces> wall_forces_;
   Kept<FluidLoads> fluid_loads_;

@@ -184,8 +184,9 @@ class CellGrid {
   std::uint32_t cells_ = 0;
   int key_bits_ = 32;
   Buffer<std::uint16_t> curve_;
-  Buffer<Index> start_;
-  Buffer<std::uint8_t> occupied_nearby_;
+  // of a vast domain as much as of many particles: made when first looked at
+  mutable Buffer<Index> start_;
+  mutable Buffer<std::uint8_t> occupied_nearby_;
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -2,6 +2,7 @@
 // One named array of a store: unit and lifetime declared once; allocation,
 // sorting, output and checkpoints follow from that.
 
+#include <optional>
 #include <string>
 
 #include "bedload/core/frame.hpp"
@@ -15,6 +16,25 @@ enum class Lifetime {
   carried,  ///< like kept but recomputed before use after a restart: sorted, not saved
   renewed,  ///< like kept but set anew whenever particles are sorted: saved, not sorted
   derived,  ///< recomputed from state every step: neither sorted nor saved
+};
+
+/// Who gets an output, bits of Output::uses.
+enum Use : unsigned {
+  kNobody = 0,
+  kFrames = 1,    ///< frames, pictures, the live view
+  kViews = 2,     ///< Python, without a copy
+  kRheology = 4,  ///< the viscometer
+};
+
+/// That a field is written, and how.
+struct Output {
+  int order = 50;  ///< outputs of a store are in this order
+  unsigned uses = kFrames | kViews;
+  bool coupled = false;        ///< only where fluid acts on grains
+  const char* name = nullptr;  ///< if not that of the field
+  const char* unit = nullptr;  ///< likewise
+  int components = 0;          ///< of a field of several quantities, how many scalars; 0: all
+  int first = 0;               ///< of these
 };
 
 /// How a C++ type looks in a file.
@@ -59,12 +79,14 @@ class Store;
 
 class FieldBase {
  public:
-  FieldBase(Store& store, const char* name, const char* unit, Lifetime lifetime);
+  FieldBase(Store& store, const char* name, const char* unit, Lifetime lifetime,
+            const std::optional<Output>& output = {});
   virtual ~FieldBase() = default;
   FieldBase(const FieldBase&) = delete;
 
   const std::string name, unit;
   const Lifetime lifetime;
+  const std::optional<Output> output;  ///< none: it is not written
 
   bool used() const { return used_; }
   bool sorted() const { return lifetime == Lifetime::kept || lifetime == Lifetime::carried; }
@@ -82,6 +104,8 @@ class FieldBase {
   /// values are lost.
   virtual void gather(Span<const Index> order, FieldBase* by) = 0;
   virtual HostArray to_host() const = 0;
+  virtual FieldView view() const = 0;
+  virtual std::size_t entry_bytes() const = 0;
   virtual void from_host(const HostArray& array) = 0;
 
  private:
@@ -102,6 +126,11 @@ class Field final : public FieldBase {
     copy_to_host(a.bytes.data(), data_.data(), a.bytes.size());
     return a;
   }
+  FieldView view() const override {
+    return {name,         unit,         FileType<T>::scalar, FileType<T>::components,
+            data_.data(), data_.size(), sizeof(T),           data_.memory()};
+  }
+  std::size_t entry_bytes() const override { return sizeof(T); }
   void from_host(const HostArray& a) override {
     if (a.type != FileType<T>::scalar || a.components != FileType<T>::components)
       throw FileError("array " + name + " has another type than this build keeps");

@@ -3,29 +3,32 @@
 
 namespace bedload::inline BL_VARIANT {
 
+/// Packed positions are no array that a reader could use.
+constexpr bool kPackedFluid = std::is_same_v<FluidPosition, PackedPosition>;
+
 /// Fluid particles. Densities are intrinsic: mass per volume of fluid, whatever grains share the space. Pair
 /// loops see the mixture: particle a stands for the volume m_a / (eps_a rho_a) of fluid and grains.
 struct FluidStore : Store {
   FluidStore() : Store("fluid") {}
 
-  Field<Id> id{*this, "id", "-", Lifetime::kept};
-  Field<FluidPosition> x{*this, "x", "m", Lifetime::kept};
+  Field<Id> id{*this, "id", "-", Lifetime::kept, Output{.order = 99}};
+  Field<FluidPosition> x{*this, "x", "m", Lifetime::kept, Output{.order = 0, .uses = kPackedFluid ? kNobody : kViews, .name = "position"}};
   Field<FluidPosition> x_list{*this, "x_list", "m", Lifetime::renewed};  ///< where the neighbour lists were built
   Field<Real> half_skin{*this, "half_skin", "m", Lifetime::renewed};     ///< how far it may go from there until they are built anew
-  Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept};   ///< velocity, density
+  Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept, Output{.order = 1, .uses = kFrames | kViews | kRheology, .name = "velocity", .unit = "m/s", .components = 3}};  ///< velocity, density
   Field<Real4> flux{*this, "flux", "m/s, kg/m3", Lifetime::kept};     ///< volume flux of fluid and grains, eps v + sum w u, or, of sheared fluid, peculiar velocity; density
   Field<Real> s{*this, "s", "-", Lifetime::kept};                     ///< density / rho0 - 1
-  Field<Real> mass{*this, "mass", "kg", Lifetime::kept};
-  Field<Real> eps{*this, "porosity", "-", Lifetime::kept};
+  Field<Real> mass{*this, "mass", "kg", Lifetime::kept, Output{.order = 2, .uses = kViews | kRheology}};
+  Field<Real> eps{*this, "porosity", "-", Lifetime::kept, Output{.order = 5, .coupled = true}};
   Field<Real> solid_factor{*this, "solid_factor", "-", Lifetime::kept};  ///< of the grains around it as it counts them: below 1 beside orifices and at the least porosity
-  Field<std::uint32_t> species{*this, "species", "-", Lifetime::kept};  ///< place in fluid.species; left out where there are none, as the next
+  Field<std::uint32_t> species{*this, "species", "-", Lifetime::kept, Output{.order = 13}};  ///< place in fluid.species; left out where there are none, as the next
   Field<Real> viscosity{*this, "relative_viscosity", "-", Lifetime::kept};  ///< over that of fluid.mu
   Field<Real3> theta{*this, "theta", "m/s2", Lifetime::kept};   ///< stress of the mixture: pressure, viscosity
   Field<Real3> acc{*this, "acceleration", "m/s2", Lifetime::kept};  ///< theta + gravity + drive + repulsion
   Field<Real3> drift{*this, "drift", "m/s", Lifetime::kept};    ///< with which particles move beside their velocity: shifting, XSPH
   Field<Real> exposure{*this, "exposure", "-", Lifetime::kept};  ///< to free surfaces (Shifting): 0 within the fluid
   Field<Real> compression_rate{*this, "compression_rate", "1/s", Lifetime::kept};  ///< what continuity alone makes of s; left out without acoustic damper
-  Field<Real4> m_state{*this, "m_state", "kg, m5/(kg s2), kg/m3, -", Lifetime::kept};  ///< what pair loops read: mass / porosity, P/rho2, density, porosity
+  Field<Real4> m_state{*this, "m_state", "kg, m5/(kg s2), kg/m3, -", Lifetime::kept, Output{.order = 4, .name = "density", .unit = "kg/m3", .components = 1, .first = 2}};  ///< what pair loops read: mass / porosity, P/rho2, density, porosity
   Field<Real3> drag_kick{*this, "drag_kick", "m/s", Lifetime::derived};  ///< by the drag of the grains, this step
   Field<Real3> acc_next{*this, "acc_next", "m/s2", Lifetime::derived};
   Field<Real3> heading{*this, "heading", "m/s", Lifetime::derived};  ///< velocity in the middle of the next step but for the push of wall surfaces

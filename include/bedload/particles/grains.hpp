@@ -7,20 +7,21 @@ namespace bedload::inline BL_VARIANT {
 struct GrainStore : Store {
   GrainStore() : Store("grains") {}
 
-  Field<Id> id{*this, "id", "-", Lifetime::kept};
-  Field<Vec3d> x{*this, "x", "m", Lifetime::kept};
+  Field<Id> id{*this, "id", "-", Lifetime::kept, Output{.order = 99}};
+  Field<Vec3d> x{*this, "x", "m", Lifetime::kept, Output{.order = 0, .uses = kViews, .name = "position"}};
   Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::renewed};  ///< where the neighbour lists were built
-  Field<Real> radius{*this, "radius", "m", Lifetime::kept};
-  Field<std::uint32_t> material{*this, "material", "-", Lifetime::kept};  ///< place in GrainConfig::all_materials; left out where there is one
-  Field<Real3> v{*this, "v", "m/s", Lifetime::kept};
-  Field<Real3> omega{*this, "omega", "rad/s", Lifetime::kept};
-  Field<Real3> force{*this, "contact_force", "N", Lifetime::kept};    ///< contacts, walls
+  Field<Real> radius{*this, "radius", "m", Lifetime::kept, Output{.order = 3}};
+  Field<std::uint32_t> material{*this, "material", "-", Lifetime::kept, Output{.order = 9}};  ///< place in GrainConfig::all_materials; left out where there is one
+  Field<Real3> v{*this, "v", "m/s", Lifetime::kept,
+                 Output{.order = 1, .uses = kFrames | kViews | kRheology, .name = "velocity"}};
+  Field<Real3> omega{*this, "omega", "rad/s", Lifetime::kept, Output{.order = 2, .name = "angular_velocity"}};
+  Field<Real3> force{*this, "contact_force", "N", Lifetime::kept, Output{.order = 4}};  ///< contacts, walls
   Field<Real3> torque{*this, "contact_torque", "N m", Lifetime::kept};
   // from the fluid, constant over a fluid step
-  Field<Real3> fluid_force{*this, "fluid_force", "N", Lifetime::kept};      ///< stress of the mixture on its volume: buoyancy
-  Field<Real3> drag_force{*this, "drag_force", "N", Lifetime::kept};        ///< mean over the last step
-  Field<Real> eps{*this, "porosity", "-", Lifetime::kept};
-  Field<Real> wetness{*this, "wetness", "-", Lifetime::kept};
+  Field<Real3> fluid_force{*this, "fluid_force", "N", Lifetime::kept, Output{.order = 11, .coupled = true}};  ///< stress of the mixture on its volume: buoyancy
+  Field<Real3> drag_force{*this, "drag_force", "N", Lifetime::kept, Output{.order = 10, .coupled = true}};  ///< mean over the last step
+  Field<Real> eps{*this, "porosity", "-", Lifetime::kept, Output{.order = 12, .coupled = true}};
+  Field<Real> wetness{*this, "wetness", "-", Lifetime::kept, Output{.order = 13, .coupled = true}};
   Field<Real3> fluid_velocity{*this, "fluid_velocity", "m/s", Lifetime::derived};  ///< mean, by the weights of drag
   Field<Real3> fluid_angular_velocity{*this, "fluid_angular_velocity", "rad/s", Lifetime::derived};  ///< likewise
   Field<Real> drag_coefficient{*this, "drag_coefficient", "kg/s", Lifetime::kept};  ///< force per slip velocity, limited

@@ -18,6 +18,13 @@ class Store {
   Index size() const { return size_; }
   Range owned() const { return {0, size_}; }
   const std::vector<FieldBase*>& fields() const { return fields_; }
+  /// Of one particle in all fields that are used.
+  std::size_t entry_bytes() const {
+    std::size_t sum = 0;
+    for (const auto* f : fields_)
+      if (f->used()) sum += f->entry_bytes();
+    return sum;
+  }
   /// Resizes all fields to n entries; the contents of a field that grows are lost.
   void resize(Index n) {
     size_ = n;
@@ -69,8 +76,9 @@ class Store {
   Index size_ = 0;
 };
 
-inline FieldBase::FieldBase(Store& store, const char* name, const char* unit, Lifetime lifetime)
-    : name(name), unit(unit), lifetime(lifetime) {
+inline FieldBase::FieldBase(Store& store, const char* name, const char* unit, Lifetime lifetime,
+                            const std::optional<Output>& output)
+    : name(name), unit(unit), lifetime(lifetime), output(output) {
   store.fields_.push_back(this);
 }
 

@@ -43,14 +43,15 @@ constexpr Real kNoCompression = -1;  // no fluid is as thin as that
 struct WallStore : Store {
   WallStore() : Store("walls") {}
 
-  Field<Id> id{*this, "id", "-", Lifetime::kept};
+  Field<Id> id{*this, "id", "-", Lifetime::kept, Output{.order = 99}};
   Field<Vec3d> x0{*this, "x0", "m", Lifetime::kept};  ///< place at t = 0
-  Field<std::uint32_t> body{*this, "body", "-", Lifetime::kept};
-  Field<Vec3d> x{*this, "x", "m", Lifetime::kept};
+  Field<std::uint32_t> body{*this, "body", "-", Lifetime::kept, Output{.order = 3}};
+  Field<Vec3d> x{*this, "x", "m", Lifetime::kept, Output{.order = 0, .uses = kViews, .name = "position"}};
   Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::renewed};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};
   Field<PairPosition> xp_mid{*this, "xp_mid", "m", Lifetime::derived};  ///< as the fluid's; left out where no wall moves
-  Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept};  ///< true velocity, density
+  Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept,
+                     Output{.order = 1, .name = "velocity", .unit = "m/s", .components = 3}};  ///< true velocity, density
   Field<Real4> v_visc{*this, "v_visc", "m/s, kg",
                       Lifetime::kept};  ///< no-slip velocity; w: mass with which it drags, 0 with slip
   /// mass (kg; 0: inactive), P / rho^2, density; 1 where a particle has the spin of its body, as frozen fluid,

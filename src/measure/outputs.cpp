@@ -1,0 +1,289 @@
+// Outputs of the stores: what frames, Python and the viscometer get. Fields declare theirs; what is computed
+// is listed here.
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+#include "bedload/parallel/loops.hpp"
+#include "src/measure/readings.hpp"
+#include "src/time/coupled_simulation.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+template <class P>
+struct PointPass {
+  Frame frame;
+  Span<const P> x;
+  Span<Real3> out;
+  BL_HD void operator()(Index i) const { out[i] = Real3(coordinates(frame, x[i])); }
+};
+struct PressurePass {
+  Span<const Real4> m_state;
+  Span<Real> out;
+  BL_HD void operator()(Index i) const { out[i] = pressure_of(m_state[i]); }
+};
+/// Of the mixture that a fluid particle stands for.
+struct VolumePass {
+  Span<const Real4> m_state;
+  Span<Real> out;
+  BL_HD void operator()(Index a) const { out[a] = m_state[a].x / m_state[a].z; }
+};
+struct DrivingForce {
+  Real3 gravity;  ///< m/s2
+  Drive drive;
+  Span<const Real> mass;
+  Span<const Real4> m_state;
+  Span<Real3> out;
+  BL_HD void operator()(Index a) const { out[a] = mass[a] * (gravity + drive(a, m_state[a])); }
+};
+struct GrainMass {
+  MassPerR3 mass_per_r3;
+  Span<const Real> radius;
+  Span<Real> out;
+  BL_HD void operator()(Index i) const { out[i] = Real(mass_per_r3(i)) * cube(radius[i]); }
+};
+struct GrainVolume {
+  Span<const Real> radius;
+  Span<Real> out;
+  BL_HD void operator()(Index i) const { out[i] = Real(4.0 / 3) * kPi * cube(radius[i]); }
+};
+struct GrainDrivingForce {
+  Real3 gravity;  ///< m/s2
+  MassPerR3 mass_per_r3;
+  Span<const Real> radius;
+  Span<const Real3> drive;  ///< N; empty: none
+  Span<Real3> out;
+  BL_HD void operator()(Index i) const {
+    out[i] = Real(mass_per_r3(i)) * cube(radius[i]) * gravity;
+    if (drive) out[i] += drive[i];
+  }
+};
+
+/// Some scalars of each entry, closely packed.
+template <class T>
+struct PartPass {
+  const T* from;
+  Index stride, components;
+  Span<T> out;
+  BL_HD void operator()(Index k) const {
+    out[k] = from[std::size_t(k / components) * stride + k % components];
+  }
+};
+
+template <class T>
+HostArray array_of(const char* name, const char* unit, const Buffer<T>& buffer, int components) {
+  HostArray a{name, unit, FileType<T>::scalar, components, {}};
+  a.bytes.resize(buffer.size() * sizeof(T));
+  copy_to_host(a.bytes.data(), buffer.data(), a.bytes.size());
+  return a;
+}
+
+HostArray moments(const char* name, const Buffer<PairMoment<>>& buffer) {
+  HostArray a{name, "J", FileType<Real>::scalar, 9, {}};
+  a.bytes.resize(buffer.size() * sizeof(PairMoment<>));
+  copy_to_host(a.bytes.data(), buffer.data(), a.bytes.size());
+  return a;
+}
+
+// --- outputs of fields -----------------------------------------------------------------------
+
+/// What of a field is written, of the entries that its store owns.
+FieldView view_of(const FieldBase& field, const Store& store) {
+  const Output& output = *field.output;
+  FieldView view = field.view();
+  if (output.name) view.name = output.name;
+  if (output.unit) view.unit = output.unit;
+  view.count = store.owned().size();
+  if (output.components == 0) return view;
+  view.components = output.components;
+  if (view.data) view.data = static_cast<const std::byte*>(view.data) + output.first * size_of(view.type);
+  return view;
+}
+
+template <class T>
+HostArray part_of(const FieldView& view) {
+  Buffer<T> out(view.count * view.components);
+  for_each({0, Index(out.size())}, PartPass<T>{static_cast<const T*>(view.data),
+                                               Index(view.stride / sizeof(T)), Index(view.components), out});
+  return array_of(view.name.c_str(), view.unit.c_str(), out, view.components);
+}
+
+HostArray copy_of(const FieldView& view) {
+  if (view.stride > view.components * size_of(view.type))
+    return view.type == Scalar::f64 ? part_of<double>(view) : part_of<float>(view);
+  HostArray whole{view.name, view.unit, view.type, view.components, {}};
+  whole.bytes.resize(view.count * view.stride);
+  copy_to_host(whole.bytes.data(), view.data, whole.bytes.size());
+  return whole;
+}
+
+// --- computed outputs ------------------------------------------------------------------------
+
+using Arrays = std::vector<HostArray>;
+
+/// One or several outputs of a store that are made when they are asked for, or copied from a field.
+struct Made {
+  int order;      ///< as in Output
+  unsigned uses;  ///< likewise
+  std::function<void(Arrays&)> make;
+};
+
+/// By Pass{args..., out}.
+template <class T, class Pass, class... Args>
+HostArray made(const char* name, const char* unit, const Store& store, Args... args) {
+  Buffer<T> out(store.owned().size());
+  for_each(store.owned(), Pass{args..., out.span()});
+  return array_of(name, unit, out, FileType<T>::components);
+}
+
+std::vector<Made> computed_of_fluid(State& state, Stepper& stepper, FluidMoments& scratch) {
+  FluidStore& f = state.fluid;
+  const unsigned where_it_varies = stepper.fluid().lengths() ? kFrames : kNobody;
+  return {
+      {0, kFrames | kRheology,
+       [&](Arrays& out) {
+         out.push_back(made<Real3, PointPass<FluidPosition>>("position", "m", f, state.frame,
+                                                             std::as_const(f.x).span()));
+       }},
+      {3, kFrames,
+       [&](Arrays& out) {
+         out.push_back(made<Real, PressurePass>("pressure", "Pa", f, std::as_const(f.m_state).span()));
+       }},
+      {7, kRheology | where_it_varies,
+       [&](Arrays& out) {
+         out.push_back(made<Real, VolumePass>("volume", "m3", f, std::as_const(f.m_state).span()));
+       }},
+      {8, kRheology,
+       [&](Arrays& out) {
+         out.push_back(made<Real3, DrivingForce>("drive", "N", f, Real3{state.gravity.at(state.clock.time)},
+                                                 stepper.fluid().drive(f, stepper.moment()),
+                                                 std::as_const(f.mass).span(),
+                                                 std::as_const(f.m_state).span()));
+       }},
+      {9, kRheology,
+       [&](Arrays& out) {
+         stepper.fluid().moments(f, state.walls, stepper.moment(), state.clock.last_dt, scratch);
+         out.push_back(moments("stress_pressure", scratch.pressure));
+         out.push_back(moments("stress_friction", scratch.friction));
+         if (scratch.noise.size() > 0) out.push_back(moments("stress_noise", scratch.noise));
+       }},
+  };
+}
+
+std::vector<Made> computed_of_grains(State& state, Stepper& stepper, Buffer<PairMoment<>>& scratch) {
+  GrainStore& g = state.grains;
+  return {
+      {0, kFrames | kRheology,
+       [&](Arrays& out) {
+         out.push_back(
+             made<Real3, PointPass<Vec3d>>("position", "m", g, state.frame, std::as_const(g.x).span()));
+       }},
+      {5, kRheology,
+       [&](Arrays& out) {
+         out.push_back(
+             made<Real, GrainMass>("mass", "kg", g, state.matter.of(g), std::as_const(g.radius).span()));
+       }},
+      {6, kRheology,
+       [&](Arrays& out) {
+         out.push_back(made<Real, GrainVolume>("volume", "m3", g, std::as_const(g.radius).span()));
+       }},
+      {7, kRheology,
+       [&](Arrays& out) {
+         out.push_back(made<Real3, GrainDrivingForce>(
+             "drive", "N", g, Real3{state.gravity.at(state.clock.time)}, state.matter.of(g),
+             std::as_const(g.radius).span(), stepper.drive_grains()));
+       }},
+      {8, kRheology,
+       [&](Arrays& out) {
+         stepper.solids().contact_moments(g, scratch);
+         out.push_back(moments("stress_contact", scratch));
+         if (!stepper.solids().lubricates()) return;
+         stepper.solids().film_moments(g, scratch);
+         out.push_back(moments("stress_lubrication", scratch));
+       }},
+  };
+}
+
+std::vector<Made> computed_of_walls(State& state) {
+  WallStore& w = state.walls;
+  return {
+      {0, kFrames,
+       [&](Arrays& out) {
+         out.push_back(
+             made<Real3, PointPass<Vec3d>>("position", "m", w, state.frame, std::as_const(w.x).span()));
+       }},
+      {2, kFrames,
+       [&](Arrays& out) {
+         out.push_back(made<Real, PressurePass>("pressure", "Pa", w, std::as_const(w.m_state).span()));
+       }},
+  };
+}
+
+}  // namespace
+
+const Store* CoupledSimulation::store_named(const std::string& name) const {
+  if (name == "fluid" && state_.has_fluid) return &state_.fluid;
+  if (name == "grains" && state_.has_grains) return &state_.grains;
+  if (name == "walls" && state_.walls.size() > 0) return &state_.walls;
+  return nullptr;
+}
+
+std::vector<const FieldBase*> CoupledSimulation::written(const Store& store, Use by) const {
+  std::vector<const FieldBase*> out;
+  for (const FieldBase* f : store.fields())
+    if (f->used() && f->output && (f->output->uses & by) && (state_.coupled || !f->output->coupled))
+      out.push_back(f);
+  return out;
+}
+
+HostStore CoupledSimulation::outputs(const std::string& name, Use by) {
+  HostStore out{name, 0, {}};
+  const Store* const store = store_named(name);
+  if (!store) return out;
+  out.count = store->owned().size();
+  std::vector<Made> all = store == &state_.fluid    ? computed_of_fluid(state_, stepper_, fluid_moments_)
+                          : store == &state_.grains ? computed_of_grains(state_, stepper_, contact_moments_)
+                                                    : computed_of_walls(state_);
+  for (const FieldBase* f : written(*store, by))
+    all.push_back(
+        {f->output->order, by, [=](Arrays& arrays) { arrays.push_back(copy_of(view_of(*f, *store))); }});
+  std::stable_sort(all.begin(), all.end(), [](const Made& a, const Made& b) { return a.order < b.order; });
+  for (const Made& each : all)
+    if (each.uses & by) each.make(out.arrays);
+  return out;
+}
+
+HostStore CoupledSimulation::snapshot(const std::string& name) {
+  HostStore out = outputs(name, kFrames);
+  if (name != "walls" || out.count == 0 || !state_.motion.any_removed()) return out;
+  const std::vector<std::byte> bytes = out.find("body")->bytes;
+  const auto* body = reinterpret_cast<const std::uint32_t*>(bytes.data());
+  out.keep_where([&](std::size_t k) {
+    return int(body[k]) >= state_.motion.walls() || !state_.motion.removed(int(body[k]));
+  });
+  return out;
+}
+
+HostStore CoupledSimulation::rheology(const std::string& name) { return outputs(name, kRheology); }
+
+std::vector<FieldView> CoupledSimulation::fields(const std::string& name) {
+  Context::current().wait();
+  std::vector<FieldView> out;
+  const Store* const store = store_named(name);
+  if (!store) return out;
+  for (const FieldBase* f : written(*store, kViews)) out.push_back(view_of(*f, *store));
+  return out;
+}
+
+ParticleBytes CoupledSimulation::field_bytes() const {
+  const std::vector<WallBody>& walls = config_.wall.bodies;
+  const bool mirrored = std::any_of(walls.begin(), walls.end(),
+                                    [](const WallBody& body) { return body.type == WallType::mdbc; });
+  return {state_.fluid.entry_bytes(),
+          state_.walls.entry_bytes() + (mirrored ? state_.walls.mirrors.entry_bytes() : 0),
+          state_.grains.entry_bytes()};
+}
+
+}  // namespace bedload::inline BL_VARIANT

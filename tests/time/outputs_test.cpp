@@ -1,0 +1,159 @@
+// What frames, Python and the viscometer get of a simulation, and what memory its particles take.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "bedload/geometry/setup.hpp"
+#include "src/time/coupled_simulation.hpp"
+#include "tests/support/stage_cases.hpp"
+
+namespace bedload::inline BL_VARIANT {
+namespace {
+
+using test::kBed, test::kFluid, test::kTank;
+using Names = std::vector<std::string>;
+
+struct Started {
+  Config config;
+  CoupledSimulation simulation;
+  explicit Started(const test::StageCase& of) : config(of.config()), simulation(config, setup_of(config)) {
+    simulation.start();
+  }
+  static Setup setup_of(const Config& c) {
+    std::vector<std::string> warnings;
+    return build_setup(c, warnings);
+  }
+};
+
+/// "name [unit] components", in their order.
+template <class Arrays>
+Names names_of(const Arrays& arrays) {
+  Names out;
+  for (const auto& a : arrays) out.push_back(a.name + " [" + a.unit + "] " + std::to_string(a.components));
+  return out;
+}
+
+TEST(Outputs, OfFramesHaveTheirOrder) {
+  Started coupled({"coupled", kBed, {}});
+  EXPECT_EQ(names_of(coupled.simulation.snapshot("fluid").arrays),
+            (Names{"position [m] 3", "velocity [m/s] 3", "pressure [Pa] 1", "density [kg/m3] 1",
+                   "porosity [-] 1", "id [-] 1"}));
+  EXPECT_EQ(names_of(coupled.simulation.snapshot("grains").arrays),
+            (Names{"position [m] 3", "velocity [m/s] 3", "angular_velocity [rad/s] 3", "radius [m] 1",
+                   "contact_force [N] 3", "drag_force [N] 3", "fluid_force [N] 3", "porosity [-] 1",
+                   "wetness [-] 1", "id [-] 1"}));
+  EXPECT_EQ(names_of(coupled.simulation.snapshot("walls").arrays),
+            (Names{"position [m] 3", "velocity [m/s] 3", "pressure [Pa] 1", "body [-] 1", "id [-] 1"}));
+  EXPECT_TRUE(coupled.simulation.snapshot("gas").arrays.empty());
+
+  Started lengths({"lengths", kTank + kFluid, {"fluid.variable_h=true"}});
+  EXPECT_EQ(names_of(lengths.simulation.snapshot("fluid").arrays),
+            (Names{"position [m] 3", "velocity [m/s] 3", "pressure [Pa] 1", "density [kg/m3] 1",
+                   "smoothing_length [m] 1", "volume [m3] 1", "id [-] 1"}));
+  EXPECT_TRUE(lengths.simulation.snapshot("grains").arrays.empty());
+
+  Started spinning({"sdpd_a", kTank + kFluid, {"fluid.model=sdpd_a"}});
+  EXPECT_EQ(names_of(spinning.simulation.snapshot("fluid").arrays),
+            (Names{"position [m] 3", "velocity [m/s] 3", "pressure [Pa] 1", "density [kg/m3] 1",
+                   "angular_velocity [rad/s] 3", "id [-] 1"}));
+}
+
+TEST(Outputs, OfTheViscometerHaveTheirOrder) {
+  Started s({"coupled", kBed, {}});
+  s.simulation.step();
+  EXPECT_EQ(names_of(s.simulation.rheology("fluid").arrays),
+            (Names{"position [m] 3", "velocity [m/s] 3", "mass [kg] 1", "volume [m3] 1", "drive [N] 3",
+                   "stress_pressure [J] 9", "stress_friction [J] 9"}));
+  EXPECT_EQ(names_of(s.simulation.rheology("grains").arrays),
+            (Names{"position [m] 3", "velocity [m/s] 3", "mass [kg] 1", "volume [m3] 1", "drive [N] 3",
+                   "stress_contact [J] 9"}));
+}
+
+/// What is a part of a field is that part, and what is seen without a copy is what frames have.
+TEST(Outputs, HoldWhatTheFieldsHold) {
+  Started s({"coupled", kBed, {}});
+  for (int k = 0; k < 3; ++k) s.simulation.step();
+  const auto v_rho = s.simulation.state().fluid.v_rho.values(),
+             m_state = s.simulation.state().fluid.m_state.values();
+  const HostStore frame = s.simulation.snapshot("fluid");
+  ASSERT_EQ(frame.count, v_rho.size());
+  double fastest = 0;
+  for (std::size_t a = 0; a < frame.count; ++a) {
+    const Real* const v = frame.find("velocity")->as<Real>() + 3 * a;
+    EXPECT_EQ(norm(Real3{v[0], v[1], v[2]} - v_rho[a].xyz()), 0);
+    EXPECT_EQ(frame.find("density")->as<Real>()[a], m_state[a].z);
+    fastest = std::max(fastest, double(norm(v_rho[a].xyz())));
+  }
+  EXPECT_GT(fastest, 0);
+#if !BL_CUDA
+  int seen = 0;
+  for (const char* store : {"fluid", "grains", "walls"}) {
+    const HostStore all = s.simulation.snapshot(store);
+    for (const FieldView& view : s.simulation.fields(store)) {
+      const HostArray* const copy = all.find(view.name);
+      if (!copy || view.name == "position") continue;  // of which frames have fewer digits
+      ASSERT_EQ(view.components, copy->components) << view.name;
+      ASSERT_EQ(view.count, copy->count()) << view.name;
+      const std::size_t row = view.components * size_of(view.type);
+      for (std::size_t k = 0; k < view.count; ++k)
+        ASSERT_EQ(std::memcmp(static_cast<const std::byte*>(view.data) + k * view.stride,
+                              copy->bytes.data() + k * row, row),
+                  0)
+            << view.name << ' ' << k;
+      ++seen;
+    }
+  }
+  EXPECT_EQ(seen, 4 + 9 + 3);
+#endif
+}
+
+/// One line of a store, and it is written wherever others are.
+TEST(Outputs, AreDeclaredAtTheField) {
+  Started s({"fluid", kTank + kFluid, {}});
+  FluidStore& fluid = s.simulation.state().fluid;
+  const ParticleBytes before = s.simulation.field_bytes();
+  Field<Real3> extra{fluid, "extra", "N s", Lifetime::kept, Output{}};
+  Field<Real> silent{fluid, "silent", "-", Lifetime::derived};
+  extra.resize(fluid.size()), silent.resize(fluid.size());
+  const HostStore frame = s.simulation.snapshot("fluid");
+  ASSERT_TRUE(frame.find("extra"));
+  EXPECT_EQ(frame.find("extra")->unit, "N s");
+  EXPECT_EQ(frame.arrays.back().name, "id");
+  EXPECT_FALSE(frame.find("silent"));
+  const std::vector<FieldView> views = s.simulation.fields("fluid");
+  const auto named = [&](const char* name) {
+    return std::any_of(views.begin(), views.end(), [&](const FieldView& v) { return v.name == name; });
+  };
+  EXPECT_TRUE(named("extra"));
+  EXPECT_FALSE(named("silent"));
+  EXPECT_FALSE(s.simulation.rheology("fluid").find("extra"));
+  EXPECT_EQ(s.simulation.field_bytes().fluid, before.fluid + sizeof(Real3) + sizeof(Real));
+}
+
+/// Known before there are particles, they are what fields then take.
+TEST(FieldBytes, AreThoseOfTheParticlesThatCome) {
+  for (const test::StageCase& c : test::stage_cases()) {
+    Started s(c);
+    CoupledSimulation empty(s.config, {});
+    const ParticleBytes each = s.simulation.field_bytes(), known = empty.field_bytes();
+    EXPECT_EQ(known.fluid, each.fluid) << c.name;
+    EXPECT_EQ(known.walls, each.walls) << c.name;
+    EXPECT_EQ(known.grains, each.grains) << c.name;
+    const auto held = [](const Store& store) {
+      std::size_t sum = 0;
+      for (const FieldBase* f : store.fields()) sum += f->view().count * f->view().stride;
+      return sum;
+    };
+    State& state = s.simulation.state();
+    EXPECT_EQ(held(state.fluid), each.fluid * state.fluid.size()) << c.name;
+    EXPECT_EQ(held(state.walls) + held(state.walls.mirrors), each.walls * state.walls.size()) << c.name;
+    EXPECT_EQ(held(state.grains), each.grains * state.grains.size()) << c.name;
+  }
+}
+
+}  // namespace
+}  // namespace bedload::inline BL_VARIANT
