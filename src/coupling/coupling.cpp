@@ -111,7 +111,7 @@ DragWeights Coupling::drag_weights() { return {still_, by_slip_}; }
 Reactions Coupling::reactions() { return {impulse_, force_, spin_, couple_}; }
 
 void Coupling::pack(GrainStore& grains) {
-  for_each(grains.owned(), PackPass<Vec3d>{frame_, grains.x, grains.xp});
+  for_each(grains.all(), PackPass<Vec3d>{frame_, grains.x, grains.xp});
 }
 
 void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid,
@@ -120,7 +120,7 @@ void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_
   pack(grains);
   beside_walls_.resize(still ? grains.size() : 0);
   if (still)
-    for_each(grains.owned(),
+    for_each(grains.all(),
              BesideWallsPass{wall_free(still), double(of_grains.most), grains.x_list, beside_walls_});
   const double reach = range_ + of_fluid.most + of_grains.most;
   fluid_of_grain_.between(frame_, grains, fluid, range_)
@@ -147,7 +147,7 @@ void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, doub
   wall_free_.resize(grains.size());
   volume_.resize(grains.size());
   const bool asked = beside_walls_.size() > 0;
-  for_each(grains.owned(), GrainVolumePass{.free = wall_free(pose),
+  for_each(grains.all(), GrainVolumePass{.free = wall_free(pose),
                                            .frame = frame_,
                                            .per_dt = dt > 0 ? 1 / dt : 0,
                                            .x = grains.x,
@@ -195,7 +195,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   push_.resize(fluid.size());
   solids_.resize(fluid.size());
   const FluidRecords records{push_, solids_};
-  for_each(fluid.owned(), RecordPass{.frame = frame_,
+  for_each(fluid.all(), RecordPass{.frame = frame_,
                                      .counted = orifice_weight(),
                                      .x = fluid.x,
                                      .solid_factor = fluid.solid_factor,
@@ -335,7 +335,7 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
                        .fluid_angular_velocity = grains.fluid_angular_velocity};
   with_flag(angmom_, [&](auto couple) {
     with_flag(local_slip_, [&](auto local) {
-      for_each(grains.owned(), ReactionTermsPass<couple, local>{.impulse = grains.impulse,
+      for_each(grains.all(), ReactionTermsPass<couple, local>{.impulse = grains.impulse,
                                                                 .spin_impulse = grains.spin_impulse,
                                                                 .surroundings = surroundings(),
                                                                 .weights = drag_weights(),
@@ -392,7 +392,7 @@ void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPo
 void Coupling::push(const FluidStore& fluid, GrainStore& grains, double kick, bool held) {
   push_.resize(fluid.size());
   buoyancy_.resize(grains.size());
-  for_each(fluid.owned(), PushPass{fluid.solid_factor, fluid.theta, fluid.m_state, push_});
+  for_each(fluid.all(), PushPass{fluid.solid_factor, fluid.theta, fluid.m_state, push_});
   with_coupling_kernel([&](auto w) {
     fluid_of_grain_.run(BuoyancyPass<decltype(w)>{w, push_, volume_, buoyancy_});
   });

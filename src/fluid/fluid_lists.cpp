@@ -161,7 +161,7 @@ void FluidSolver::make_cells() {
 
 Span<const Vec3d> FluidSolver::lattice(const FluidStore& fluid) {
   lattice_.resize(fluid.size());
-  for_each(fluid.owned(), LatticePass{frame_, shear_, fluid.x, lattice_});
+  for_each(fluid.all(), LatticePass{frame_, shear_, fluid.x, lattice_});
   return lattice_;
 }
 
@@ -276,13 +276,13 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
 }
 
 void FluidSolver::pack(FluidStore& fluid) {
-  for_each(fluid.owned(),
+  for_each(fluid.all(),
            PackFluidPass{frame_, shear_, fluid.x, fluid.v_rho, fluid.m_state, fluid.xp, peculiar(fluid)});
 }
 
 void FluidSolver::pack(WallStore& walls, double back) {
-  for_each(walls.owned(), PackWallPass{frame_, Real(back), walls.x, walls.v_rho, walls.xp, walls.xp_mid});
-  for_each(walls.mirrors.owned(), PackPass<Vec3d>{frame_, walls.mirrors.x, walls.mirrors.xp});
+  for_each(walls.all(), PackWallPass{frame_, Real(back), walls.x, walls.v_rho, walls.xp, walls.xp_mid});
+  for_each(walls.mirrors.all(), PackPass<Vec3d>{frame_, walls.mirrors.x, walls.mirrors.xp});
 }
 
 double FluidSolver::pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces,
@@ -290,7 +290,7 @@ double FluidSolver::pairs_through(const FluidStore& fluid, const SurfaceSet& sur
   Buffer<NearestPoint> points(fluid.size());
   Buffer<std::uint32_t> count(fluid.size());
   const NearestPointPass nearest{frame_, surfaces, pose, range(), fluid.x, points};
-  for_each(fluid.owned(), nearest);
+  for_each(fluid.all(), nearest);
   fluid_fluid_.run(CrossingPass{nearest, 0.25 * parameters_.fluid.dx, count});
   return sum_over<1>(fluid.owned(), CountBody{count}).v[0] / 2;  // a pair stands in two lists
 }

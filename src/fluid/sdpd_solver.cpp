@@ -74,9 +74,9 @@ class SdpdSolver final : public FluidSolver {
   void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment& now,
               double dt) override {
     if (parameters_.eos.filter) filter_pressure(fluid);
-    for_each(fluid.owned(), PredictSpin{Real(dt), omega(), turning(), fluid.id, label_});
+    for_each(fluid.all(), PredictSpin{Real(dt), omega(), turning(), fluid.id, label_});
     wall_label_.resize(walls.size());
-    for_each(walls.owned(), LabelWalls{Model::spins, walls.id, walls.body, pose, wall_label_});
+    for_each(walls.all(), LabelWalls{Model::spins, walls.id, walls.body, pose, wall_label_});
     const bool noisy = parameters_.sdpd.kT > 0 && dt > 0;
     if (!parameters_.viscosity_varies())
       noisy ? momentum<true, false>(fluid, walls, now, dt) : momentum<false, false>(fluid, walls, now, dt);
@@ -138,7 +138,7 @@ class SdpdSolver final : public FluidSolver {
   }
   void sum_up_frozen(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose) {
     wall_volume_.resize(walls.size());
-    for_each(walls.owned(), WallVolume{walls.body, pose, wall_volume_});
+    for_each(walls.all(), WallVolume{walls.body, pose, wall_volume_});
     wall_wall_.run_with(wall_fluid_, FrozenSummationPass<W>{w_, Real(parameters_.fluid.rho0),
                                                             Real(1 / lattice_.W), wall_volume_, fluid.m_state,
                                                             walls.body, pose, walls.compression});
@@ -198,7 +198,7 @@ class SdpdSolver final : public FluidSolver {
   void filter_pressure(FluidStore& fluid) {
     pressure_.resize(fluid.size());
     filtered_.resize(fluid.size());
-    for_each(fluid.owned(), PressureOf{fluid.m_state, pressure_});
+    for_each(fluid.all(), PressureOf{fluid.m_state, pressure_});
     average(fluid, fluid.s, pressure_, filtered_);
     for_each(fluid.owned(), SetPressure{filtered_, fluid.m_state, fluid.p_rho2});
   }

@@ -115,7 +115,7 @@ struct CoupledBox {
     grains.reorder(order);
     fluid.x_list.buffer().assign(fluid.x.values());
     grains.x_list.buffer().assign(grains.x.values());
-    for_each(fluid.owned(), PackPass<FluidPosition>{frame, fluid.x, fluid.xp});
+    for_each(fluid.all(), PackPass<FluidPosition>{frame, fluid.x, fluid.xp});
     coupling.rebuild_lists(fluid, fluid_grid.view(), kSkin * coupling.range() / 2, grains, grain_grid.view(),
                            kSkin * coupling.range() / 2);
   }

@@ -15,8 +15,13 @@ class Store {
 
   const std::string name;
 
-  Index size() const { return size_; }
-  Range owned() const { return {0, size_}; }
+  // Loops that change a particle's state, and sums and outputs, run over owned(): each particle is then
+  // moved, counted and written once, wherever its copies are. Loops that prepare what others read of a
+  // particle (packed positions, records for pair loops), and sorting, run over all(), since pair loops read
+  // copies of particles that others own, too. There are no such copies yet, so that both are the same.
+  Range owned() const { return {0, size_}; }  ///< first in every field
+  Range all() const { return {0, size_}; }    ///< all that it holds
+  Index size() const { return size_; }        ///< of all()
   const std::vector<FieldBase*>& fields() const { return fields_; }
   /// Of one particle in all fields that are used.
   std::size_t entry_bytes() const {
