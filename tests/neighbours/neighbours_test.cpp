@@ -371,5 +371,16 @@ TEST(CellGrid, CurveVisitsEachCellOnceAndStepsToNeighbours) {
   for (std::size_t k = 1; k < path.size(); ++k) EXPECT_NEAR(norm(path[k] - path[k - 1]), 1, 1e-12);
 }
 
+/// The memory of a case is estimated by a simulation without particles, whose cells nobody looks at.
+TEST(CellGrid, TakesMemoryWhenFirstLookedAt) {
+  const std::size_t before = bytes_held();
+  const Frame f({0, 0, 0}, {100, 100, 100}, false, false, false);
+  const CellGrid grid(f, {0, 0, 0}, {100, 100, 100}, 1.0);
+  EXPECT_LT(bytes_held() - before, 1u << 14);
+  const CellGridView view = grid.view();
+  EXPECT_GT(bytes_held() - before, 1u << 20);
+  EXPECT_EQ(view.first(view.key(Vec3d{50, 50, 50})), view.last(view.key(Vec3d{50, 50, 50})));
+}
+
 }  // namespace
 }  // namespace bedload::inline BL_VARIANT
