@@ -93,10 +93,10 @@ struct TotalsReduction {
   }
 };
 
-/// Load of the grains on one wall body; histories are not changed.
+/// Load of the grains on one wall body in a substep of contacts.dt; histories are not changed.
 struct BodyLoadReduction {
   using Value = LoadSum;
-  WallContacts contacts;  ///< with dt = 0
+  WallContacts contacts;
   std::uint32_t body;
 
   BL_HD Value identity() const { return Value::zero(); }
@@ -113,7 +113,9 @@ struct BodyLoadReduction {
       if (of == body) sum.add(c.on_wall(), contacts.torque_on(body, c));
     };
     if (contacts.lubrication.acts()) contacts.each_film(i, n, surface, add);
-    if (contacts.memories(i).count() > 0) contacts.each(Lane(i, 0), i, n, surface, false, add);
+    // a contact that begins in the substep is not remembered yet
+    if (contacts.dt > 0 || contacts.memories(i).count() > 0)
+      contacts.each(Lane(i, 0), i, n, surface, false, add);
     return sum;
   }
 };

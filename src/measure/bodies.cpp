@@ -82,7 +82,8 @@ BodyActions CoupledSimulation::actions_on(int body, const Vec3d& about) {
   const Vec3d from = state_.frame.nearest_image(motion.origin() - about);
   const FluidLoads& loads = fluid_loads();
   const int place = state_.bodies.place_of(body);
-  LoadSum by[kActionParts] = {loads.pressure[body], loads.friction[body], grain_load(body),
+  LoadSum by[kActionParts] = {loads.pressure[body], loads.friction[body],
+                              place >= 0 ? state_.bodies.forces(place).grains : grain_load(body),
                               state_.bodies.any() ? body_load(body) : LoadSum::zero()};
   if (place >= 0) LoadSum::combine(by[kByPressure], state_.bodies.correction(place));
   BodyActions out;

@@ -181,9 +181,8 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   const ContactLoads loads = free ? free->record(g.size()) : ContactLoads{};
   const auto contacts_in = [&](int s) {
     const BodyPose* const row = poses.data + std::size_t(s) * bodies;
-    const ContactPass contacts = contacts_at(g, row, tau, loads);
-    record_loads(s, g, row);
-    return contacts;
+    record_loads(s, g, row, tau);
+    return contacts_at(g, row, tau, loads);
   };
   substep_loads_.begin(substeps);
   wall_list_.cover(g, poses, wall_counts(), wall_travel);
@@ -200,11 +199,12 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     for (int s = 1; free && s <= substeps; ++s) {
       evaluate(EvaluatePass{contacts_in(s), g.force, g.torque});
       free->substep(s);
+      record_loads(s, *free);
     }
     if (free) return;
     const BodyPose* const last = poses.data + std::size_t(substeps) * bodies;
     evaluate(g, {last, Index(bodies)});
-    for (int s = 1; s <= substeps; ++s) record_loads(s, g, last);
+    for (int s = 1; s <= substeps; ++s) record_loads(s, g, last, 0);
     return;
   }
   const Index n = g.size();
@@ -245,7 +245,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
       groups_.follow(g, v_rest_, omega_rest_, tau);
     else
       groups_.follow(g, {}, {}, 0);
-    if (free) free->substep(s);
+    if (free) free->substep(s), record_loads(s, *free);
   }
 }
 
@@ -311,11 +311,19 @@ void SolidSolver::film_moments(const GrainStore& g, Buffer<PairMoment<>>& out) c
   for_each(g.owned(), LubricationStressPass{films(g, nullptr), out});
 }
 
-void SolidSolver::record_loads(int s, const GrainStore& g, const BodyPose* poses) {
-  if (!substep_loads_.wanted() || !parameters_.contacts) return;
-  const WallContacts contacts = wall_contacts(g, poses, 0);
-  substep_loads_.record(s, {0, wall_list_.size()}, [&](std::uint32_t body) {
-    return ListedLoadReduction{{contacts, body}, wall_list_.rows()};
+void SolidSolver::record_loads(int s, const GrainStore& g, const BodyPose* poses, double dt) {
+  if (!substep_loads_.wanted() || !parameters_.contacts || wall_list_.size() == 0) return;
+  const WallContacts contacts = wall_contacts(g, poses, dt);
+  substep_loads_.record(s, [&](std::uint32_t body, LoadSum* load) {
+    if (moving() && moving()->place_of(int(body)) >= 0) return;
+    reduce_into(load, {0, wall_list_.size()}, ListedLoadReduction{{contacts, body}, wall_list_.rows()});
+  });
+}
+
+void SolidSolver::record_loads(int s, const FreeBodies& bodies) {
+  substep_loads_.record(s, [&](std::uint32_t body, LoadSum* load) {
+    if (const int k = bodies.place_of(int(body)); k >= 0)
+      copy_on_device(load, bodies.by_grains() + k, sizeof *load);
   });
 }
 

@@ -105,7 +105,8 @@ class SolidSolver {
   /// Load of the grains on each wall body, about its centre; poses: [bodies] on the device.
   std::vector<LoadSum> body_loads(const GrainStore& grains, Span<const BodyPose> poses) const;
 
-  /// The same in the substeps of the last step, for bodies on which they are recorded.
+  /// By which grains and bodies moved in the substeps of the last step, for bodies on which they are
+  /// recorded.
   SubstepLoads& substep_loads() { return substep_loads_; }
 
   /// Force moments of the contacts between grains, per grain, J.
@@ -159,8 +160,11 @@ class SolidSolver {
     else
       for_each(threads(), pass);
   }
-  /// What the grains do to walls with the contacts just evaluated, after substep s.
-  void record_loads(int s, const GrainStore& grains, const BodyPose* poses);
+  /// What the grains do in substep s to bodies with prescribed motion. dt: of the substep, s: before contacts
+  /// are evaluated, which moves their springs; 0: after.
+  void record_loads(int s, const GrainStore& grains, const BodyPose* poses, double dt);
+  /// What they did to those that move freely: after the bodies' substep.
+  void record_loads(int s, const FreeBodies& bodies);
   /// Over the threads of the passes that evaluate pairs.
   Range threads() const { return {0, list_.rows() << list_.view().bits}; }
   const Index* wall_counts() const { return wall_contacts_ ? wall_contacts_->buffer().data() : nullptr; }

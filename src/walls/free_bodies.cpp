@@ -214,10 +214,12 @@ void FreeBodies::substep(int s) {
   const double tau = step_.dt / step_.substeps;
   const bool last = s == step_.substeps;
   evaluate_contacts({step_.poses.data + std::size_t(s) * step_.row_size, Index(step_.row_size)}, tau);
-  if (substep_loads_.wanted())
-    substep_loads_.record(s, {0, ball_loads_.size}, [&](std::uint32_t body) {
-      return ContactLoadReduction{ball_loads_, body};
-    });
+  substep_loads_.record(s, [&](std::uint32_t body, LoadSum* load) {
+    if (const int k = place_of(int(body)); k >= 0)
+      copy_on_device(load, ball_sums_.data() + k, sizeof *load);
+    else if (ball_loads_.size > 0)
+      reduce_into(load, {0, ball_loads_.size}, ContactLoadReduction{ball_loads_, body});
+  });
   BodyPass p = pass();
   p.by_grains = grain_sums_.data();
   p.by_contacts = ball_sums_.data();

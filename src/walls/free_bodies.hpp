@@ -102,6 +102,8 @@ class FreeBodies {
   std::vector<StepLimit> limits(double wall_speed) const;
 
   BodyForces forces(int place) const;
+  /// Loads of the grains by which each moved in the last substep, on the device, about their centres.
+  const LoadSum* by_grains() const { return grain_sums_.data(); }
   /// Total load of the fluid on each, on the device; N, N m about their centres.
   Span<const Vec3d> fluid_force() const { return store_.fluid_force; }
   Span<const Vec3d> fluid_torque() const { return store_.fluid_torque; }
@@ -112,7 +114,7 @@ class FreeBodies {
   }
   /// Force and torque of free bodies on any wall body, in the last substep of this run.
   LoadSum contact_load(int body) const;
-  /// The same in the substeps of the last step, for bodies on which they are recorded.
+  /// Of other bodies in the substeps of the last step, for bodies on which it is recorded.
   SubstepLoads& substep_loads() { return substep_loads_; }
   BodyTotals totals(double time) const;
   /// Correction of the fluid load on a body by pressure.linear_exact.

@@ -6,7 +6,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Loads on some wall bodies after each substep of the last step, about their centres. Stays on the device.
+/// Loads on some wall bodies in each substep of the last step, about their centres. Stays on the device.
 class SubstepLoads {
  public:
   void record_on(const std::vector<std::uint32_t>& bodies) { bodies_ = bodies; }
@@ -17,12 +17,11 @@ class SubstepLoads {
     loads_.resize(std::size_t(substeps_) * bodies_.size());
     loads_.zero();
   }
-  /// After substep s, from 1: reduction(body) over a range.
+  /// Of substep s, from 1: put(body, load) leaves that on each body where `load` points to.
   template <class F>
-  void record(int s, Range range, const F& reduction) {
-    if (range.size() == 0) return;
+  void record(int s, const F& put) {
     for (std::size_t k = 0; k < bodies_.size(); ++k)
-      reduce_into(loads_.data() + (s - 1) * bodies_.size() + k, range, reduction(bodies_[k]));
+      put(bodies_[k], loads_.data() + (s - 1) * bodies_.size() + k);
   }
   int substeps() const { return substeps_; }
   /// [substeps][bodies]
