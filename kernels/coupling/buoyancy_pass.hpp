@@ -7,10 +7,12 @@ namespace bedload::inline BL_VARIANT {
 
 struct PushPass {
   Span<const Real> solid_factor;
-  Span<const Real3> theta;
-  Span<const Real4> m_state;
+  Span<const Real3> stress_acceleration;
+  Span<const EosState<>> eos_state;
   Span<Real4> push;
-  BL_HD void operator()(Index a) const { push[a] = push_record(solid_factor[a], theta[a], m_state[a]); }
+  BL_HD void operator()(Index a) const {
+    push[a] = push_record(solid_factor[a], stress_acceleration[a], eos_state[a]);
+  }
 };
 
 /// Force of the fluid's stress on a grain, its buoyancy: sum_a w_ja M_a theta_a. The fluid takes the fraction

@@ -8,11 +8,12 @@
 namespace bedload::inline BL_VARIANT {
 
 /// Volume of the mixture that a fluid particle represents, m3.
-BL_HD Real mixture_volume(const Real4& m_state) { return m_state.x / m_state.z; }
+BL_HD Real mixture_volume(const EosState<>& state) { return state.mass_over_eps / state.rho; }
 
-/// Stress on the mixture around a fluid particle as far as it counts grains, f_a M_a theta_a, N; w: V_a, m3.
-BL_HD Real4 push_record(Real solid_factor, const Real3& theta, const Real4& m_state) {
-  return {solid_factor * m_state.x * theta, mixture_volume(m_state)};
+/// Stress on the mixture around a fluid particle as far as it counts grains, f_a M_a theta_a, N, theta being
+/// the acceleration by stress; w: V_a, m3.
+BL_HD Real4 push_record(Real solid_factor, const Real3& theta, const EosState<>& state) {
+  return {solid_factor * state.mass_over_eps * theta, mixture_volume(state)};
 }
 
 /// Data of a fluid particle that grains read in addition to its velocity, packed for few loads.
@@ -26,15 +27,15 @@ struct RecordPass {
   OrificeWeight counted;
   Span<const FluidPosition> x;
   Span<const Real> solid_factor;
-  Span<const Real3> theta;
-  Span<const Real4> m_state;
+  Span<const Real3> stress_acceleration;
+  Span<const EosState<>> eos_state;
   Span<const Real> eps;
   FluidRecords records;
 
   BL_HD void operator()(Index a) const {
-    const Real4 m = m_state[a];
-    records.push[a] = push_record(solid_factor[a], theta[a], m);
-    records.solids[a] = {eps[a], m.z, counted(coordinates(frame, x[a])), 0};
+    const EosState<> m = eos_state[a];
+    records.push[a] = push_record(solid_factor[a], stress_acceleration[a], m);
+    records.solids[a] = {eps[a], m.rho, counted(coordinates(frame, x[a])), 0};
   }
 };
 

@@ -52,7 +52,8 @@ struct PorosityPass {
   Span<const Real4> volume, v_rho;
   Span<const Real> mass;
   Span<Real> eps, solid_factor;
-  Span<Real4> flux, m_state;
+  Span<Real4> flux;
+  Span<EosState<>> eos_state;
   Span<PairPosition> xp, xp_mid;  ///< whose weights follow the porosity; xp_mid may be empty
 
   template <class N = Real>
@@ -85,8 +86,8 @@ struct PorosityPass {
     solid_factor[a] = factor;
     flux[a] = {porosity * v.xyz() + factor * sum.q, v.w};
     const Real weight = mass[a] / porosity;
-    m_state[a].x = weight;
-    m_state[a].w = porosity;
+    eos_state[a].mass_over_eps = weight;
+    eos_state[a].eps = porosity;
     using Weight = decltype(PairPosition::weight);
     xp[a].weight = Weight(weight);
     if (xp_mid) xp_mid[a].weight = Weight(weight);

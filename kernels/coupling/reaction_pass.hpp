@@ -64,7 +64,7 @@ template <class W, bool Couple, bool Local>
 struct ReactionPass {
   W w;
   Span<const Real> mass;
-  Span<const Real4> m_state;
+  Span<const EosState<>> eos_state;
   Span<const Real4> by_slip;  ///< of DragWeights
   Reactions reactions;
   Real per_dt;  ///< 1/s
@@ -80,7 +80,7 @@ struct ReactionPass {
     Vec3<N> impulse, force;
     N L;
   };
-  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(m_state[a]), {}, {}, 0}; }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(eos_state[a]), {}, {}, 0}; }
   BL_HD auto sources() const {
     const auto& [impulse, force, spin, couple] = reactions;
     return sources_of(impulse, force, spin, read_if<Couple>(couple), read_if<Local>(by_slip));

@@ -45,12 +45,13 @@ struct BodyPressureSums {
 struct BodyPressureReduction {
   using Value = BodyPressureSums;
   BodyParticles particles;
-  Span<const Real4> m_state;
+  Span<const WallState<>> state;
   BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index w) const {
     Value sum = Value::zero();
-    const Real4 m = m_state[w];
-    if (particles.has(w) && m.x != 0) sum.add(particles.arm(w), double(m.y) * square(double(m.z)));
+    const WallState<> m = state[w];
+    if (particles.has(w) && m.mass != 0)
+      sum.add(particles.arm(w), double(m.p_over_rho2) * square(double(m.rho)));
     return sum;
   }
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
@@ -76,8 +77,9 @@ struct BodyPressures {
 template <class W>
 struct BodyPressurePass {
   W w;
-  Span<const Real4> m_state, correction;  ///< of fluid; w: weight of LinearFit
-  Span<const Real4> wall_m_state;
+  Span<const EosState<>> eos_state;
+  Span<const Real4> correction;  ///< of fluid; w: weight of LinearFit
+  Span<const WallState<>> wall_state;
   Span<const Vec3d> x0;
   Span<const std::uint32_t> body;
   BodyPressures pressures;
@@ -94,9 +96,9 @@ struct BodyPressurePass {
     p.P += dot(p.g, pose.place(x0[b]) - pose.origin());
     return {p, {}, 0, 0};
   }
-  BL_HD auto sources() const { return sources_of(m_state, correction); }
-  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const Real4& ma, const Real4& fit) const {
-    const Real VF = ma.x / ma.z * w.F(std::sqrt(r2)), surface = VF * r2;
+  BL_HD auto sources() const { return sources_of(eos_state, correction); }
+  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const EosState<>& ma, const Real4& fit) const {
+    const Real VF = ma.mass_over_eps / ma.rho * w.F(std::sqrt(r2)), surface = VF * r2;
     const double P = 2 * sum.pressure.P - dot(sum.pressure.g, Vec3d(r_ba));
     sum.force += double(VF) * P * Vec3d(r_ba);
     sum.near += surface;
@@ -108,9 +110,9 @@ struct BodyPressurePass {
     into.weighted += other.weighted;
   }
   BL_HD void finish(Index b, const Sum& sum) const {
-    const Real4 m = wall_m_state[b];
-    const bool wet = sum.near > 0 && m.x > 0;
-    const Vec3d f = wet ? double(m.x / m.z) * sum.force : Vec3d{};
+    const WallState<> m = wall_state[b];
+    const bool wet = sum.near > 0 && m.mass > 0;
+    const Vec3d f = wet ? double(m.mass / m.rho) * sum.force : Vec3d{};
     force[b] = {f.x, f.y, f.z, wet ? double(sum.weighted / sum.near) : 0};
   }
 };
@@ -124,12 +126,12 @@ struct PairsInPressure {
 struct PairsInPressureReduction {
   using Value = PairsInPressure;
   BodyParticles particles;
-  Span<const Real4> m_state;
+  Span<const WallState<>> state;
   Span<const Vec4<double>> force;
   BL_HD Value identity() const { return {LoadSum::zero(), 0, 0}; }
   BL_HD Value operator()(Index w) const {
     Value sum = identity();
-    if (!particles.has(w) || m_state[w].x == 0) return sum;
+    if (!particles.has(w) || state[w].mass == 0) return sum;
     sum.load.add(force[w].xyz(), cross(particles.arm(w), force[w].xyz()));
     sum.wet = 1, sum.weight = force[w].w;
     return sum;

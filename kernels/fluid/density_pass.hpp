@@ -31,18 +31,21 @@ namespace bedload::inline BL_VARIANT {
 template <class W, class Shift, class Fit, bool kSmooth, bool kPorous, class Lengths>
 struct DensityPass {
   W w;
-  Span<const Real4> flux, m_state, wall_v_rho, wall_m_state;
+  Span<const Real4> flux;
+  Span<const EosState<>> eos_state;
+  Span<const Real4> wall_v_rho;
+  Span<const WallState<>> wall_state;
   Real diffusion;     ///< 2 delta h c [m2/s]
   Real3 hydrostatic;  ///< rho0 g / c^2 [kg/m4]: how density grows downwards at rho0
   Real stiffening;    ///< and by which power of rho0 / rho elsewhere: gamma - 2
   Real rho0, dt;      ///< kg/m3, s
-  Span<const Real> s;
-  Span<Real> s_new;
+  Span<const Real> compression;
+  Span<Real> compression_new;
   CutFraction cut;
   Real least;      ///< s at which fluid cavitates
   Real fading;     ///< of pressure where there is a void, and pace at which fragmented fluid follows it [1/s]
   Real spreading;  ///< of density where particles overfill their volume [1/s]
-  Span<Real> compression;  ///< 1/s; empty where nothing asks for it
+  Span<Real> compression_rate;  ///< 1/s; empty where nothing asks for it
   Shift shift;
   Span<Real3> drift;  ///< empty where nothing drifts
   Fit fit;
@@ -61,11 +64,11 @@ struct DensityPass {
     [[no_unique_address]] typename Lengths::template Own<N> own;
   };
   BL_HD Sum<> start(Index a) const {
-    const Real4 m = m_state[a];
+    const EosState<> m = eos_state[a];
     return {flux[a].xyz(),
-            m.x,
-            m.z,
-            m.w,
+            m.mass_over_eps,
+            m.rho,
+            m.eps,
             0,
             0,
             0,
@@ -77,7 +80,7 @@ struct DensityPass {
 
   BL_HD auto sources() const {
     constexpr bool asked = (kSmooth && kPorous) || Fit::acts;
-    const auto state = read_if<asked>(m_state);
+    const auto state = read_if<asked>(eos_state);
     if constexpr (kSmooth)
       return lengths.sources(flux, state, shift.sources());
     else
@@ -98,20 +101,21 @@ struct DensityPass {
     sum.filled += V * lengths.W(w, sum.own, distance);
     sum.gradient += VF * r;
     sum.shift.add(VF, v, r, exposure);
-    if constexpr (Fit::acts) sum.fit.add_fluid(VF, state.y * square(rho), r, exposure);
+    if constexpr (Fit::acts) sum.fit.add_fluid(VF, state.p_over_rho2 * square(rho), r, exposure);
     const N still = 1 - stiffening * (Real(0.5) * (sum.rho + rho) / rho0 - 1);
     N shared = sum.eps;
-    if constexpr (kPorous) shared = Real(0.5) * (sum.eps + state.w);  // what one gains the other loses
+    if constexpr (kPorous) shared = Real(0.5) * (sum.eps + state.eps);  // what one gains the other loses
     const N spread = shared * (V * mean_factor(factor)) * pair_length(factor);  // D_a goes with h
     sum.diffused += spread * (rho - sum.rho + still * dot(Vec3<N>(hydrostatic), r));
   }
   BL_HD auto wall_sources() const {
-    return sources_of(wall_v_rho, wall_m_state, read_where(bool(wall_work), wall_work));
+    return sources_of(wall_v_rho, wall_state, read_where(bool(wall_work), wall_work));
   }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb,
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
                        N work) const {
-    const N distance = root(r2), F = own_factor(lengths.F(w, sum.own, distance)), V = quotient(mb.x, mb.z);
+    const N distance = root(r2), F = own_factor(lengths.F(w, sum.own, distance)),
+            V = quotient(mb.mass, mb.rho);
     sum.rate += continuity_mass(mb, rho0) * F * dot(sum.q - vb.xyz(), r);
     if (wall_work) sum.rate += quotient(square(sum.rho) * work, sum.M) * lengths.W(w, sum.own, distance);
     if constexpr (!kSmooth) return;
@@ -119,7 +123,7 @@ struct DensityPass {
     const N VF = V * F;
     sum.gradient += VF * r;
     sum.shift.add_wall(VF, r);
-    if constexpr (Fit::acts) sum.fit.add(VF, mb.y * square(mb.z), r);
+    if constexpr (Fit::acts) sum.fit.add(VF, mb.pressure(), r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.rate += other.rate;
@@ -131,7 +135,7 @@ struct DensityPass {
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
     const Change change = of(a, sum);
-    s_new[a] = s[a] + dt * change.rate + change.settled;
+    compression_new[a] = compression[a] + dt * change.rate + change.settled;
     order(a, sum);
   }
   /// What the arrangement of particles calls for: their drift, and what the pressure force is wrong by.
@@ -154,14 +158,15 @@ struct DensityPass {
   };
   BL_HD Change of(Index a, const Sum<>& sum) const {
     const Real rate = lengths.corrected(a, sum.rate);
-    if (compression) compression[a] = -rate / (sum.eps * rho0);
+    if (compression_rate) compression_rate[a] = -rate / (sum.eps * rho0);
     if constexpr (!kSmooth) return {-rate / (sum.eps * rho0), 0};
-    const Real filled = m_state[a].x / sum.rho * lengths.W(w, sum.own, Real(0)) + sum.filled;
+    const Real s = compression[a],
+               filled = eos_state[a].mass_over_eps / sum.rho * lengths.W(w, sum.own, Real(0)) + sum.filled;
     const Real void_fraction = max_of(Real(0), 1 - filled - cut(norm(sum.gradient) * lengths.ratio(a)));
-    const Real excess = max_of(Real(0), filled - 1 - slack), pressed = max_of(Real(0), s[a]);
+    const Real excess = max_of(Real(0), filled - 1 - slack), pressed = max_of(Real(0), s);
     return {(diffusion * sum.diffused - rate) / (sum.eps * rho0) + spreading * excess,
-            s[a] < least ? min_of(dt * fading, Real(1)) * (min_of(least, slack - void_fraction) - s[a])
-                         : -min_of(dt * fading * void_fraction, Real(1)) * pressed};
+            s < least ? min_of(dt * fading, Real(1)) * (min_of(least, slack - void_fraction) - s)
+                      : -min_of(dt * fading * void_fraction, Real(1)) * pressed};
   }
 };
 

@@ -47,18 +47,18 @@ struct Drive {
   Vec3d spring, centre;  ///< acceleration -spring (x - centre) per axis, 1/s2, m
   bool pulls;
 
-  BL_HD Real3 operator()(Index a, const Real4& m_state) const {
+  BL_HD Real3 operator()(Index a, const EosState<>& state) const {
     const Real3 f = Real3(field.at(a, coordinates(field.frame, x[a])));
     Real3 acc;
     switch (mode) {
       case DriveMode::volume:
-        acc = f / (shared ? m_state.z : m_state.w * m_state.z);
+        acc = f / (shared ? state.rho : state.eps * state.rho);
         break;
       case DriveMode::mass:
         acc = f;
         break;
       case DriveMode::particle:
-        acc = f / (m_state.x * m_state.w);
+        acc = f / (state.mass_over_eps * state.eps);
         break;
     }
     if (pulls) acc -= Real3(pull(a));

@@ -11,59 +11,65 @@ struct WallPair {
   Viscosity viscosity;
   bool suction = true;  ///< whether walls hold fluid back by pressure below zero
 
-  /// a: {v, rho}, {M, P/rho^2, ..}; b: the wall's, with its no-slip velocity `visc` (w: mass that drags).
-  /// Both masses of an inactive wall particle are zero. relative: viscosity of a over that of `viscosity`.
+  /// va, vw: velocity and density. Both masses of a dry wall particle are zero. relative: viscosity of a over
+  /// that of `viscosity`.
   template <class N, class Factor>
-  BL_HD Vec3<N> operator()(const Vec4<N>& va, const Vec4<N>& ma, const Vec4<N>& vw, const Vec4<N>& mw,
-                           const Vec4<N>& visc, const Vec3<N>& r, N r2, const Factor& F, N relative) const {
-    Vec3<N> theta = pressure(ma, mw, r, F);
-    if (viscosity.acts()) theta += relative * friction(va, vw, visc, r, r2, F);
-    return theta;
+  BL_HD Vec3<N> operator()(const Vec4<N>& va, const EosState<N>& ma, const Vec4<N>& vw,
+                           const WallState<N>& mw, const NoSlip<N>& no_slip, const Vec3<N>& r, N r2,
+                           const Factor& F, N relative) const {
+    Vec3<N> stress = pressure(ma, mw, r, F);
+    if (viscosity.acts()) stress += relative * friction(va, vw, no_slip, r, r2, F);
+    return stress;
   }
   template <class N, class Factor>
-  BL_HD Vec3<N> pressure(const Vec4<N>& ma, const Vec4<N>& mw, const Vec3<N>& r, const Factor& F) const {
-    const N push = pressure_term(mw.x, ma.y, mw.y, F);
+  BL_HD Vec3<N> pressure(const EosState<N>& ma, const WallState<N>& mw, const Vec3<N>& r,
+                         const Factor& F) const {
+    const N push = pressure_term(mw.mass, ma.p_over_rho2, mw.p_over_rho2, F);
     return (suction ? push : max_of(push, N(0))) * r;
   }
   template <class N, class Factor>
-  BL_HD Vec3<N> friction(const Vec4<N>& va, const Vec4<N>& vw, const Vec4<N>& visc, const Vec3<N>& r, N r2,
-                         const Factor& F) const {
-    return viscosity(visc.w, va.w, vw.w, va.xyz() - visc.xyz(), r, r2, F);
+  BL_HD Vec3<N> friction(const Vec4<N>& va, const Vec4<N>& vw, const NoSlip<N>& no_slip, const Vec3<N>& r,
+                         N r2, const Factor& F) const {
+    return viscosity(no_slip.mass, va.w, vw.w, va.xyz() - no_slip.v, r, r2, F);
   }
 };
 
-/// Momentum of locally averaged WCSPH [H (9)-(12)]. theta: stress of the mixture over its density, which
-/// accelerates the fluid by as much (theta M eps / m = theta) and pushes the grains by the rest of it;
-/// acc = theta + gravity + drive. kArtificial: with artificial viscosity; kAdded: with the tensile term and
-/// the drift of XSPH; kSpecies: fluids of several viscosities, the mean of which counts for a pair; Lengths:
-/// OneLength or, without species, OwnLengths.
+/// Momentum of locally averaged WCSPH [H (9)-(12)]. stress_acceleration: divergence of the
+/// stress of the mixture over its density, by which it accelerates the fluid; the rest of the stress pushes
+/// the grains. acc = stress_acceleration + gravity + drive. kArtificial: with artificial viscosity; kAdded:
+/// with the tensile term and the drift of XSPH; kSpecies: fluids of several viscosities, the mean of which
+/// counts for a pair; Lengths: OneLength or, without species, OwnLengths.
 template <class W, bool kArtificial, bool kAdded, bool kSpecies = false, class Lengths = OneLength>
 struct ForcePass {
   W w;
   WallPair wall;
-  Span<const Real4> flux, m_state;
+  Span<const Real4> flux;
+  Span<const EosState<>> eos_state;
   Span<const Real> p_rho2;  ///< P / rho^2, where lengths vary over Omega, m5/(kg s2)
-  Span<const Real4> wall_v_rho, wall_m_state, wall_v_visc;
+  Span<const Real4> wall_v_rho;
+  Span<const WallState<>> wall_state;
+  Span<const NoSlip<>> wall_no_slip;
   ArtificialViscosity artificial;
   TensileTerm tensile;
   Real xsph_factor;
   Real3 gravity;  ///< minus the frame's acceleration, m/s2
   Drive drive;
-  Span<Real3> theta, acc, drift;
+  Span<Real3> stress_acceleration, acc, drift;
   Span<const Real> relative_viscosity = {};  ///< over that of wall.viscosity
   Span<const Real4> correction = {};         ///< of LinearFit, m/s2; empty without
   Lengths lengths = {};
 
   template <class N = Real>
   struct Sum {
-    Vec4<N> v, m;
-    Vec3<N> theta, xsph;
+    Vec4<N> v;
+    EosState<N> m;
+    Vec3<N> stress, xsph;
     N viscosity;
     typename Lengths::template Own<N> own;
   };
   BL_HD Sum<> start(Index a) const {
-    Real4 m = m_state[a];
-    m.y = lengths.corrected(a, m.y);
+    EosState<> m = eos_state[a];
+    m.p_over_rho2 = lengths.corrected(a, m.p_over_rho2);
     return {flux[a], m, {}, {}, kSpecies ? relative_viscosity[a] : Real(1), lengths.template own<Real>(a)};
   }
 
@@ -77,35 +83,35 @@ struct ForcePass {
     const auto F = lengths.F(w, sum.own, distance, h_b...);
     const Vec3<N> v = sum.v.xyz() - vb.xyz();
     [[maybe_unused]] const N rho_mean = Real(0.5) * (sum.v.w + vb.w);
-    N along = pressure_term(M, sum.m.y, p, F);
+    N along = pressure_term(M, sum.m.p_over_rho2, p, F);
     if constexpr (kArtificial) along += artificial.term(M, dot(v, r), rho_mean, r2, F);
     if constexpr (kAdded) {
-      along += M * tensile.R(w.W(distance), sum.m.y, p) * mean_factor(F);
+      along += M * tensile.R(w.W(distance), sum.m.p_over_rho2, p) * mean_factor(F);
       sum.xsph -= quotient(xsph_factor * M * w.W(distance), rho_mean) * v;
     }
-    sum.theta += along * r;
+    sum.stress += along * r;
     if (!wall.viscosity.acts()) return;
     const Vec3<N> friction = wall.viscosity(M, sum.v.w, vb.w, v, r, r2, F);
     if constexpr (kSpecies)
-      sum.theta += Real(0.5) * (sum.viscosity + viscosity_b) * friction;
+      sum.stress += Real(0.5) * (sum.viscosity + viscosity_b) * friction;
     else
-      sum.theta += friction;
+      sum.stress += friction;
   }
-  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_m_state, wall_v_visc); }
+  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_state, wall_no_slip); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb,
-                       const Vec4<N>& visc) const {
-    sum.theta += wall(sum.v, sum.m, vb, mb, visc, r, r2, lengths.F(w, sum.own, root(r2)),
-                      kSpecies ? sum.viscosity : N(1));
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
+                       const NoSlip<N>& no_slip) const {
+    sum.stress += wall(sum.v, sum.m, vb, mb, no_slip, r, r2, lengths.F(w, sum.own, root(r2)),
+                       kSpecies ? sum.viscosity : N(1));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
-    into.theta += other.theta;
+    into.stress += other.stress;
     into.xsph += other.xsph;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    Real3 stress = sum.theta;
+    Real3 stress = sum.stress;
     if (correction) stress += correction[a].xyz();
-    theta[a] = stress;
+    stress_acceleration[a] = stress;
     acc[a] = stress + gravity + drive(a, sum.m);
     if (kAdded && xsph_factor > 0) drift[a] += sum.xsph;
   }
@@ -136,41 +142,46 @@ struct WallForcePass {
   LayerForces<W> layer;  ///< empty without single layers
   Real kick;             ///< s
   Span<const Real3> acc, acc_before;
-  Span<const Real4> flux, m_state, wall_v_rho, wall_m_state, wall_v_visc;
+  Span<const Real4> flux;
+  Span<const EosState<>> eos_state;
+  Span<const Real4> wall_v_rho;
+  Span<const WallState<>> wall_state;
+  Span<const NoSlip<>> wall_no_slip;
   Span<const std::uint32_t> wall_body;
   Span<Vec3d> force, friction;
   Span<const Real> relative_viscosity;  ///< of fluid over that of wall.viscosity; empty: the same
   Lengths lengths = {};
 
   struct Sum {
-    Real4 v, m, visc;  ///< of the wall particle
+    Real4 v;  ///< of the wall particle, as the next
+    WallState<> m;
+    NoSlip<> no_slip;
     std::uint32_t body;
     Force force;
   };
-  BL_HD Sum start(Index b) const {
-    return {wall_v_rho[b], wall_m_state[b], wall_v_visc[b], wall_body[b], {}};
-  }
+  BL_HD Sum start(Index b) const { return {wall_v_rho[b], wall_state[b], wall_no_slip[b], wall_body[b], {}}; }
   BL_HD auto sources() const {
-    return lengths.sources(flux, m_state, lengths.corrections(), read_where(kick != 0, acc),
+    return lengths.sources(flux, eos_state, lengths.corrections(), read_where(kick != 0, acc),
                            read_where(kick != 0, acc_before),
                            read_where(bool(relative_viscosity), relative_viscosity, Real(1)));
   }
   /// h_a: if lengths vary.
   template <class Correction, class... H>
-  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const Real4& flux_a, const Real4& state,
+  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const Real4& flux_a, const EosState<>& state,
                   const Correction& correction, const Real3& acc_a, const Real3& acc_before_a, Real relative,
                   const H&... h_a) const {
     const Real4 va{flux_a.xyz() - kick * (acc_a - acc_before_a), flux_a.w};
-    const Real4 ma{state.x, lengths.corrected_by(correction, state.y), state.z, state.w};
+    EosState<> ma = state;
+    ma.p_over_rho2 = lengths.corrected_by(correction, ma.p_over_rho2);
     const auto F = lengths.F(w, lengths.template own_of<Real>(h_a...), std::sqrt(r2));
     Real3 push = wall.pressure(ma, sum.m, -r_ba, F), drag;
-    if (wall.viscosity.acts()) drag = relative * wall.friction(va, sum.v, sum.visc, -r_ba, r2, F);
+    if (wall.viscosity.acts()) drag = relative * wall.friction(va, sum.v, sum.no_slip, -r_ba, r2, F);
     if (layer.law) {
       const auto more = layer(va, sum.v, sum.body, -r_ba, r2);
       push += more.push;
       drag += more.damping;
     }
-    sum.force.add(-ma.x * push, -ma.x * drag);
+    sum.force.add(-ma.mass_over_eps * push, -ma.mass_over_eps * drag);
   }
   BL_HD void merge(Sum& into, const Sum& other) const { into.force.add(other.force); }
   BL_HD void finish(Index b, const Sum& sum) const { sum.force.write(b, force, friction); }

@@ -83,7 +83,7 @@ struct LayerPass {
   LayerForces<W> layer;
   Span<const Real4> flux, wall_v_rho;
   Span<const std::uint32_t> wall_body;
-  Span<Real3> theta, acc;
+  Span<Real3> stress_acceleration, acc;
 
   struct Sum {
     Real4 v;
@@ -96,7 +96,7 @@ struct LayerPass {
   }
   BL_HD void merge(Sum& into, const Sum& other) const { into.given.add(other.given); }
   BL_HD void finish(Index a, const Sum& sum) const {
-    theta[a] += sum.given.push + sum.given.damping;
+    stress_acceleration[a] += sum.given.push + sum.given.damping;
     acc[a] += sum.given.push + sum.given.damping;
   }
 };

@@ -1,7 +1,7 @@
 #pragma once
 // What the pressure force of a particle is wrong by, where pressure is linear in space.
 
-#include "bedload/core/pack.hpp"
+#include "bedload/core/records.hpp"
 #include "kernels/coupling/symmetric_matrix.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -50,9 +50,9 @@ struct LinearFit {
       unity += o.unity, p += o.p, slope += o.slope;
     }
   };
-  /// State: {M, P/rho^2, rho, ..} of a.
-  BL_HD Sum<Real> start(const Real4& state) const {
-    return {state.y * square(state.z), volume * at_h, 0, state.x / state.z * at_zero, 0, {}};
+  /// State of a.
+  BL_HD Sum<Real> start(const EosState<>& state) const {
+    return {state.pressure(), volume * at_h, 0, state.mass_over_eps / state.rho * at_zero, 0, {}};
   }
   /// rho: of a; E, M: as above; least: the least eigenvalue of M; inside: 0 within a kernel's reach of a free
   /// surface, else 1.
@@ -87,7 +87,7 @@ struct NoFit {
   struct Sum {
     BL_HD void merge(const Sum&) {}
   };
-  BL_HD Sum<Real> start(const Real4&) const { return {}; }
+  BL_HD Sum<Real> start(const EosState<>&) const { return {}; }
 };
 
 }  // namespace bedload::inline BL_VARIANT

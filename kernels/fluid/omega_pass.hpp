@@ -14,13 +14,13 @@ struct LengthPass {
   bool first;               ///< particles have a mass alone
   bool renew;               ///< lists are to be made; else they bound how far lengths may grow
   Span<const Real> mass;
-  Span<const Real4> m_state;
+  Span<const EosState<>> eos_state;
   Span<const Real> listed;
   Span<Real> h, omega;
 
   BL_HD void operator()(Index a) const {
-    const Real4 m = m_state[a];
-    const Real volume = first ? mass[a] / rho0 : m.x / m.z;
+    const EosState<> m = eos_state[a];
+    const Real volume = first ? mass[a] / rho0 : m.mass_over_eps / m.rho;
     const Real root = thickness > 0 ? std::sqrt(volume / thickness) : std::cbrt(volume);
     const Real length = clamp(sigma * root, least, most);
     if (!renew) {
@@ -42,7 +42,8 @@ struct OmegaPass {
   OwnLengths lengths;
   Real least, most;  ///< of h, m
   Real rho0;
-  Span<const Real4> m_state, wall_m_state;
+  Span<const EosState<>> eos_state;
+  Span<const WallState<>> wall_state;
   Span<Real> omega, p_rho2;
 
   template <class N = Real>
@@ -57,18 +58,18 @@ struct OmegaPass {
     const N r = root(r2);
     sum.change += M * (r2 * own_factor(lengths.F(w, sum.own, r)) - dimensions() * lengths.W(w, sum.own, r));
   }
-  BL_HD auto wall_sources() const { return sources_of(wall_m_state); }
+  BL_HD auto wall_sources() const { return sources_of(wall_state); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& m) const {
-    pair(sum, r, r2, rho0 * quotient(m.x, m.z));
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const WallState<N>& m) const {
+    pair(sum, r, r2, rho0 * quotient(m.mass, m.rho));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.change += other.change; }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    const Real4 m = m_state[a];
-    const Real h = lengths.h[a], self = dimensions() * m.x * lengths.W(w, sum.own, Real(0));
+    const EosState<> m = eos_state[a];
+    const Real h = lengths.h[a], self = dimensions() * m.mass_over_eps * lengths.W(w, sum.own, Real(0));
     const bool follows = h > least && h < most;
-    omega[a] = follows ? 1 + (sum.change - self) / (dimensions() * m.z) : Real(1);
-    p_rho2[a] = m.y / omega[a];
+    omega[a] = follows ? 1 + (sum.change - self) / (dimensions() * m.rho) : Real(1);
+    p_rho2[a] = m.p_over_rho2 / omega[a];
   }
 
  private:

@@ -27,13 +27,13 @@ struct OnePass {
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, Unread,
                   const Exposure& exposure) const {
     force.pair(sum.force, r, r2, M, vb, p, Unread{});
-    seen().pair(sum.density, r, r2, M, vb, Vec4<N>{N(0), p, N(0), N(1)}, exposure);
+    seen().pair(sum.density, r, r2, M, vb, EosState<N>{.p_over_rho2 = p, .eps = N(1)}, exposure);
   }
   BL_HD auto wall_sources() const { return force.wall_sources(); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb,
-                       const Vec4<N>& visc) const {
-    force.wall_pair(sum.force, r, r2, vb, mb, visc);
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
+                       const NoSlip<N>& no_slip) const {
+    force.wall_pair(sum.force, r, r2, vb, mb, no_slip);
     seen().wall_pair(sum.density, r, r2, vb, mb, N(0));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
@@ -45,7 +45,7 @@ struct OnePass {
     force.finish(a, sum.force);
     const auto change = density.of(a, sum.density);
     rate[a] = change.rate;
-    density.s_new[a] = max_of(density.s[a] + change.settled, kThinnest);
+    density.compression_new[a] = max_of(density.compression[a] + change.settled, kThinnest);
   }
 
  private:
@@ -53,7 +53,7 @@ struct OnePass {
   BL_HD Density seen() const {
     Density same = density;
     same.w = force.w;
-    same.flux = force.flux, same.m_state = force.m_state;
+    same.flux = force.flux, same.eos_state = force.eos_state;
     return same;
   }
 };

@@ -16,7 +16,7 @@ struct PowerPass {
   Force friction, artificial;  ///< with physical viscosity alone; with artificial alone
   Density density;             ///< without shifting and fit
   EquationOfState eos;
-  Span<const Real3> theta;
+  Span<const Real3> stress_acceleration;
   Span<FluidPowers> out;
 
   template <class N = Real>
@@ -26,27 +26,29 @@ struct PowerPass {
   };
   BL_HD Sum<> start(Index a) const {
     Sum<> sum{friction.start(a), artificial.start(a), density.start(a)};
-    sum.friction.m.y = sum.artificial.m.y = 0;
+    sum.friction.m.p_over_rho2 = sum.artificial.m.p_over_rho2 = 0;
     return sum;
   }
   BL_HD auto sources() const {
-    return friction.lengths.sources(friction.flux, friction.species(), density.m_state);
+    return friction.lengths.sources(friction.flux, friction.species(), density.eos_state);
   }
   template <class N, class Relative, class... H>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, const Relative& viscosity_b,
-                  const Vec4<N>& state, const H&... h_b) const {
+                  const EosState<N>& state, const H&... h_b) const {
     friction.pair(sum.friction, r, r2, M, vb, N(0), viscosity_b, h_b...);
     artificial.pair(sum.artificial, r, r2, M, vb, N(0), viscosity_b, h_b...);
     density.pair(sum.density, r, r2, M, vb, state, Unread{}, h_b...);
   }
   BL_HD auto wall_sources() const {
-    return sources_of(friction.wall_v_rho, friction.wall_m_state, friction.wall_v_visc,
+    return sources_of(friction.wall_v_rho, friction.wall_state, friction.wall_no_slip,
                       read_where(bool(density.wall_work), density.wall_work));
   }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb,
-                       const Vec4<N>& visc, N work) const {
-    friction.wall_pair(sum.friction, r, r2, vb, Vec4<N>{mb.x, N(0), mb.z, mb.w}, visc);
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
+                       const NoSlip<N>& no_slip, N work) const {
+    WallState<N> without_pressure = mb;
+    without_pressure.p_over_rho2 = N(0);
+    friction.wall_pair(sum.friction, r, r2, vb, without_pressure, no_slip);
     density.wall_pair(sum.density, r, r2, vb, mb, work);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
@@ -56,22 +58,24 @@ struct PowerPass {
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
     const Real3 q = density.flux[a].xyz();
-    const Real4 m = density.m_state[a];
-    const Real3 rubbed = sum.friction.theta, damped = sum.artificial.theta;
-    Real3 pressed = theta[a] - rubbed - damped;
+    const EosState<> m = density.eos_state[a];
+    const Real3 rubbed = sum.friction.stress, damped = sum.artificial.stress;
+    Real3 pressed = stress_acceleration[a] - rubbed - damped;
     if (friction.correction) pressed -= friction.correction[a].xyz();
     const auto change = density.of(a, sum.density);
-    const Real rate = density.lengths.corrected(a, sum.density.rate), share = 1 / (m.w * density.rho0);
+    const Real rate = density.lengths.corrected(a, sum.density.rate), share = 1 / (m.eps * density.rho0);
     const Real diffusion = density.diffusion * sum.density.diffused * share,
                settled = density.dt > 0 ? change.settled / density.dt : 0;
     // of the elastic energy with s, J
-    const Real stiffness = m.x * m.w * eos.pressure(density.s[a]) * density.rho0 / square(m.z);
+    const Real stiffness =
+        m.mass_over_eps * m.eps * eos.pressure(density.compression[a]) * density.rho0 / square(m.rho);
     FluidPowers p;
-    p.viscosity = m.x * dot(q, rubbed);
-    p.artificial_viscosity = m.x * dot(q, damped);
+    p.viscosity = m.mass_over_eps * dot(q, rubbed);
+    p.artificial_viscosity = m.mass_over_eps * dot(q, damped);
     p.density_diffusion = stiffness * diffusion;
     p.voids = stiffness * (change.rate + rate * share - diffusion + settled);
-    p.pressure = m.x * (dot(q, pressed) - density.lengths.corrected(a, m.y) * sum.density.rate);
+    p.pressure =
+        m.mass_over_eps * (dot(q, pressed) - density.lengths.corrected(a, m.p_over_rho2) * sum.density.rate);
     out[a] = p;
   }
 };

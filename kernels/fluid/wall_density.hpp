@@ -13,7 +13,8 @@ template <class W>
 struct FrozenPass {
   W w;
   Real rho0, dt, least;  ///< kg/m3, s, -
-  Span<const Real4> flux, wall_v_rho, wall_m_state;
+  Span<const Real4> flux, wall_v_rho;
+  Span<const WallState<>> wall_state;
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
   Span<Real> compression;
@@ -31,7 +32,7 @@ struct FrozenPass {
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rate += other.rate; }
   BL_HD void finish(Index b, const Sum<>& sum) const {
-    const bool dry = wall_m_state[b].x == 0;
+    const bool dry = wall_state[b].mass == 0;
     if (dry || pose[body[b]].kind != WallKind::frozen || compression[b] == kNoCompression) return;
     compression[b] = max_of(least, compression[b] - dt * sum.rate / rho0);
   }
@@ -45,7 +46,8 @@ struct MirrorPass {
   W w;
   Frame frame;
   Real rho0, least, least_sum;  ///< kg/m3; lower bound on the result; no fluid below this sum of W, 1/m3
-  Span<const Real4> flux, m_state;
+  Span<const Real4> flux;
+  Span<const EosState<>> eos_state;
   Span<const Vec3d> x, image;
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
@@ -63,11 +65,11 @@ struct MirrorPass {
     Vec3<N> Fs_rho;
   };
   BL_HD Sum<> start(Index) const { return {0, 0, {}, {}, {}, 0, {}}; }
-  BL_HD auto sources() const { return sources_of(flux, m_state); }
+  BL_HD auto sources() const { return sources_of(flux, eos_state); }
   template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& va, const Vec4<N>& ma) const {
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& va, const EosState<N>& ma) const {
     const N volume = M / va.w, distance = root(r2), here = w.W(distance);
-    const N W_a = volume * here, F_a = volume * w.F(distance), rho = ma.z / rho0 - 1;
+    const N W_a = volume * here, F_a = volume * w.F(distance), rho = ma.rho / rho0 - 1;
     sum.number += here;
     sum.unity += W_a;
     sum.Ws -= W_a * r;

@@ -19,7 +19,8 @@ template <class W, class Lengths = OneLength>
 struct WallPass {
   W w;
   EquationOfState eos;
-  Span<const Real4> fluid_flux, fluid_m_state;
+  Span<const Real4> flux;  ///< of fluid, as the next
+  Span<const EosState<>> eos_state;
   Span<const Real3> drag_kick;  ///< velocity that the grains' drag gave the fluid this step, m/s
   Real rate;                    ///< 1 / step, 1/s; 0 without grains
   Span<const Vec3d> x0;         ///< at t = 0, m
@@ -27,7 +28,9 @@ struct WallPass {
   Span<const BodyPose> pose;
   Real3 gravity;   ///< m/s2
   Real least_sum;  ///< inactive below this sum of W, 1/m3
-  Span<Real4> v_rho, v_visc, m_state;
+  Span<Real4> v_rho;
+  Span<NoSlip<>> no_slip;
+  Span<WallState<>> state;
   Span<Real> compression;
   Lengths lengths = {};
 
@@ -37,17 +40,15 @@ struct WallPass {
     Vec3<N> v, rho_r;  ///< r from the fluid to the wall
   };
   BL_HD Sum<> start(Index) const { return {}; }
-  BL_HD auto sources() const {
-    return lengths.sources(fluid_flux, fluid_m_state, read_where(rate > 0, drag_kick));
-  }
+  BL_HD auto sources() const { return lengths.sources(flux, eos_state, read_where(rate > 0, drag_kick)); }
   /// h_a: if lengths vary.
   template <class N, class... H>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_wf, N r2, N, const Vec4<N>& v, const Vec4<N>& m,
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_wf, N r2, N, const Vec4<N>& v, const EosState<N>& m,
                   const Vec3<N>& kick, const H&... h_a) const {
     const N wk = lengths.W(w, lengths.template own_of<N>(h_a...), root(r2));
-    const Vec3<N> rho_r = wk * m.z * r_wf;
+    const Vec3<N> rho_r = wk * m.rho * r_wf;
     sum.weight += wk;
-    sum.p += wk * m.y * square(m.z);
+    sum.p += wk * m.p_over_rho2 * square(m.rho);
     sum.p += rate * dot(kick, rho_r);
     sum.v += wk * v.xyz();
     sum.rho_r += rho_r;
@@ -64,11 +65,11 @@ struct WallPass {
     const Real3 v_wall = Real3(k.velocity(at)), v_surface = v_wall + Real3(k.rotation.rotate(k.slide));
     if (sum.weight < least_sum || !k.present) {
       v_rho[b] = {v_wall, eos.rho0};
-      v_visc[b] = {v_wall, Real(0)};
-      m_state[b] = {0, 0, eos.rho0, 0};
+      no_slip[b] = {v_wall, 0};
+      state[b] = {.rho = eos.rho0};
       return;
     }
-    const bool was_dry = m_state[b].x == 0;
+    const bool was_dry = state[b].mass == 0;
     const Real3 v_fluid = sum.v / sum.weight;
     const Real3 push = gravity - Real3(k.speeding_up(at)) -
                        square(turning_along(k, v_wall, v_fluid)) * Real3(k.centripetal(at));
@@ -90,8 +91,9 @@ struct WallPass {
     v_rho[b] = {v_wall, rho};
     const Real3 away = sum.rho_r / (sum.weight * eos.rho0);  // of the wall from the middle of the fluid, m
     const Real3 inward = Real3(k.velocity(at - Vec3d(away))) - v_wall;
-    v_visc[b] = {prescribed ? v_surface : 2 * v_surface + inward - v_fluid, k.slip ? Real(0) : mass};
-    m_state[b] = {mass, p / square(rho), rho, Real(frozen ? 1 : 0)};
+    no_slip[b] = {.v = prescribed ? v_surface : 2 * v_surface + inward - v_fluid,
+                  .mass = k.slip ? Real(0) : mass};
+    state[b] = {.mass = mass, .p_over_rho2 = p / square(rho), .rho = rho, .frozen = Real(frozen ? 1 : 0)};
   }
 
  private:
@@ -115,7 +117,8 @@ template <class W, class Lengths = OneLength>
 struct WallWorkPass {
   W w;
   Real least_sum;  ///< walls are dry below this sum of W, 1/m3
-  Span<const Real4> flux, wall_v_rho, wall_m_state;
+  Span<const Real4> flux, wall_v_rho;
+  Span<const WallState<>> wall_state;
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
   Span<Real> work;  ///< V_w D_w / sum W, m6/s
@@ -141,10 +144,10 @@ struct WallWorkPass {
     into.weight += other.weight;
   }
   BL_HD void finish(Index b, const Sum<>& sum) const {
-    const Real4 m = wall_m_state[b];
+    const WallState<> m = wall_state[b];
     const BodyPose& k = pose[body[b]];
     const bool pays = sum.weight >= least_sum && k.kind == WallKind::extrapolated && !k.flows;
-    work[b] = pays ? m.x / m.z * sum.opening / sum.weight : 0;
+    work[b] = pays ? m.mass / m.rho * sum.opening / sum.weight : 0;
   }
 };
 

@@ -94,23 +94,24 @@ constexpr Real kThinnest = Real(-0.5);  // of s; thinner fluid is spray
 struct StatePass {
   Frame frame;
   EquationOfState eos;
-  Real damping;                  ///< a rho0 c h [Pa s]
-  Span<const Real> compression;  ///< ds/dt [1/s]; empty without damper
+  Real damping;                       ///< a rho0 c h [Pa s]
+  Span<const Real> compression_rate;  ///< ds/dt [1/s]; empty without damper
   DensityHistory history;
   Real kick;  ///< s
   Span<const FluidPosition> x;
   Span<const Real3> acc, reaction;
-  Span<Real> s;
-  Span<const Real> mass, eps;        ///< eps empty unless fluid gives way to grains
-  Span<Real4> v_rho, flux, m_state;  ///< flux empty without grains and shear
+  Span<Real> compression;
+  Span<const Real> mass, eps;  ///< eps empty unless fluid gives way to grains
+  Span<Real4> v_rho, flux;     ///< flux empty without grains and shear
+  Span<EosState<>> eos_state;
   Span<Real> p_rho2;
   MeanShear shear;
 
   BL_HD void operator()(Index a) const {
     Real3 gain = kick * acc[a];
     if (reaction) gain += kick * reaction[a];
-    const Real strain = max_of(s[a] + history(a), kThinnest), rho = eos.density(strain);
-    s[a] = strain;
+    const Real strain = max_of(compression[a] + history(a), kThinnest), rho = eos.density(strain);
+    compression[a] = strain;
     const Real3 v = v_rho[a].xyz() + gain;
     const Real porosity = eps ? eps[a] : Real(1);
     v_rho[a] = {v, rho};
@@ -119,9 +120,9 @@ struct StatePass {
     else if (flux)
       flux[a] = {flux[a].xyz() + porosity * gain, rho};
     Real pressure = eos.pressure(strain);
-    if (compression) pressure += damping * compression[a];
+    if (compression_rate) pressure += damping * compression_rate[a];
     const Real p = pressure / square(rho);
-    m_state[a] = {mass[a] / porosity, p, rho, porosity};
+    eos_state[a] = {.mass_over_eps = mass[a] / porosity, .p_over_rho2 = p, .rho = rho, .eps = porosity};
     p_rho2[a] = p;
   }
 };

@@ -26,20 +26,20 @@ struct SdpdWallPair {
   /// spin and label.
   template <class N>
   BL_HD Force<N> operator()(const Vec4<N>& va, N V, N pa, const Vec3<N>& spin, const RowId<N>& id, N relative,
-                            const Vec4<N>& vw, const Vec4<N>& mw, const Vec4<N>& visc, const Vec4<N>& own,
-                            const Vec3<N>& r, N r2) const {
-    const N F = w.F(root(r2)), g = relative * V * quotient(visc.w, vw.w) * F;
+                            const Vec4<N>& vw, const WallState<N>& mw, const NoSlip<N>& no_slip,
+                            const Vec4<N>& own, const Vec3<N>& r, N r2) const {
+    const N F = w.F(root(r2)), g = relative * V * quotient(no_slip.mass, vw.w) * F;
     Force<N> out;
-    out.arm = 1 - Real(0.5) * mw.w;
-    out.push = (pressing * pressure_term(mw.x, pa, mw.y, F)) * r;
+    out.arm = 1 - Real(0.5) * mw.frozen;
+    out.push = (pressing * pressure_term(mw.mass, pa, mw.p_over_rho2, F)) * r;
     const Vec3<N> turn = cross(r, out.arm * spin + (1 - out.arm) * own.xyz());
-    out.friction = law.friction(g, va.xyz() - visc.xyz(), turn, r, r2);
+    out.friction = law.friction(g, va.xyz() - no_slip.v, turn, r, r2);
     if (noisy) out.noise = law.noise(g, id, own.w, r, r2);
     return out;
   }
 };
 
-/// Momentum and spin of SDPD. theta: stress of the mixture over its density, as in WCSPH's ForcePass, noise
+/// Momentum and spin of SDPD. stress_acceleration: as in ForcePass of WCSPH, noise
 /// included: friction acts on the volume flux of fluid and grains, so its noise does. Both partners of a pair
 /// feel the couple -r x F / 2, F being friction and noise, which with r x F adds up to none. kSpin: particles
 /// spin; kNoise: there is noise; kSpecies: fluids of several viscosities, the harmonic mean of which counts
@@ -47,15 +47,19 @@ struct SdpdWallPair {
 template <class W, bool kSpin, bool kNoise, bool kSpecies>
 struct SdpdForcePass {
   SdpdWallPair<W> wall;
-  Span<const Real4> flux, m_state, spin_label;
+  Span<const Real4> flux;
+  Span<const EosState<>> eos_state;
+  Span<const Real4> spin_label;
   Span<const Real> p_rho2, mass;
   Span<const Id> id;
-  Span<const Real4> wall_v_rho, wall_m_state, wall_v_visc;
+  Span<const Real4> wall_v_rho;
+  Span<const WallState<>> wall_state;
+  Span<const NoSlip<>> wall_no_slip;
   Span<const Real4> wall_label;  ///< spin, id
   Real3 gravity;                 ///< minus the frame's acceleration, m/s2
   Drive drive;
   Real dt, inertia;  ///< s; k_I dx^2, m2
-  Span<Real3> theta, acc, spin, spin_acc;
+  Span<Real3> stress_acceleration, acc, spin, spin_acc;
   Span<const Real> viscosity;  ///< over that of `wall.law`
 
   template <class N = Real>
@@ -68,8 +72,8 @@ struct SdpdForcePass {
     N viscosity;
   };
   BL_HD Sum<> start(Index a) const {
-    const Real4 m = m_state[a], v = flux[a];
-    Sum<> sum{v, quotient(m.x, m.z), m.y, {}, row_id(id[a]), {}, {}, {}, {}, 1};
+    const EosState<> m = eos_state[a];
+    Sum<> sum{flux[a], quotient(m.mass_over_eps, m.rho), m.p_over_rho2, {}, row_id(id[a]), {}, {}, {}, {}, 1};
     if (kSpecies) sum.viscosity = viscosity[a];
     if (kSpin) sum.spin = spin_label[a].xyz();
     return sum;
@@ -95,12 +99,12 @@ struct SdpdForcePass {
       if constexpr (kSpin) sum.couple -= Real(0.5) * cross(r, noise);
     }
   }
-  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_m_state, wall_v_visc, wall_label); }
+  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_state, wall_no_slip, wall_label); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb,
-                       const Vec4<N>& visc, const Vec4<N>& own) const {
-    const auto f = wall(sum.v, sum.V, sum.p, sum.spin, sum.id, kSpecies ? sum.viscosity : N(1), vb, mb, visc,
-                        own, r, r2);
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
+                       const NoSlip<N>& no_slip, const Vec4<N>& own) const {
+    const auto f = wall(sum.v, sum.V, sum.p, sum.spin, sum.id, kSpecies ? sum.viscosity : N(1), vb, mb,
+                        no_slip, own, r, r2);
     sum.push += f.push;
     sum.friction += f.friction;
     if constexpr (kNoise) sum.noise += f.noise;
@@ -113,9 +117,9 @@ struct SdpdForcePass {
     into.couple += other.couple;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    const Real4 m = m_state[a];
-    const Real3 stress = sum.push + (1 / m.x) * (sum.friction + sum.noise);
-    theta[a] = stress;
+    const EosState<> m = eos_state[a];
+    const Real3 stress = sum.push + (1 / m.mass_over_eps) * (sum.friction + sum.noise);
+    stress_acceleration[a] = stress;
     acc[a] = stress + gravity + drive(a, m);
     if constexpr (kSpin) {  // from the value predicted with the last acceleration to the mean of both
       const Real3 turning = (1 / (mass[a] * inertia)) * sum.couple;
@@ -156,29 +160,35 @@ struct SdpdWallForcePass {
   SdpdWallPair<W> wall;
   Real kick;  ///< s
   Span<const Real3> acc, acc_before;
-  Span<const Real4> flux, m_state, spin_label;
-  Span<const Real4> wall_v_rho, wall_m_state, wall_v_visc;
+  Span<const Real4> flux;
+  Span<const EosState<>> eos_state;
+  Span<const Real4> spin_label, wall_v_rho;
+  Span<const WallState<>> wall_state;
+  Span<const NoSlip<>> wall_no_slip;
   Span<const Real4> wall_label;
   Span<Vec3d> force, friction;
   Span<const Real> viscosity;  ///< over that of `wall.law`; empty: the same
 
   struct Sum {
-    Real4 v, m, visc, label;  ///< of the wall particle
+    Real4 v;  ///< of the wall particle, as the next
+    WallState<> m;
+    NoSlip<> no_slip;
+    Real4 label;
     Force force;
   };
   BL_HD Sum start(Index b) const {
-    return {wall_v_rho[b], wall_m_state[b], wall_v_visc[b], wall_label[b], {}};
+    return {wall_v_rho[b], wall_state[b], wall_no_slip[b], wall_label[b], {}};
   }
   BL_HD auto sources() const {
-    return sources_of(flux, m_state, spin_label, read_where(kick != 0, acc),
+    return sources_of(flux, eos_state, spin_label, read_where(kick != 0, acc),
                       read_where(kick != 0, acc_before), read_where(bool(viscosity), viscosity, Real(1)));
   }
-  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const Real4& flux_a, const Real4& ma,
+  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const Real4& flux_a, const EosState<>& ma,
                   const Real4& own, const Real3& acc_a, const Real3& acc_before_a, Real relative) const {
     const Real4 va{flux_a.xyz() - kick * (acc_a - acc_before_a), flux_a.w};
-    const auto f = wall(va, quotient(ma.x, ma.z), ma.y, own.xyz(), row_id(as_id(own.w)), relative, sum.v,
-                        sum.m, sum.visc, sum.label, -r_ba, r2);
-    sum.force.add(-ma.x * f.push, -(f.friction + f.noise));
+    const auto f = wall(va, quotient(ma.mass_over_eps, ma.rho), ma.p_over_rho2, own.xyz(),
+                        row_id(as_id(own.w)), relative, sum.v, sum.m, sum.no_slip, sum.label, -r_ba, r2);
+    sum.force.add(-ma.mass_over_eps * f.push, -(f.friction + f.noise));
   }
   BL_HD void merge(Sum& into, const Sum& other) const { into.force.add(other.force); }
   BL_HD void finish(Index b, const Sum& sum) const { sum.force.write(b, force, friction); }

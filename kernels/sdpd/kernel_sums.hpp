@@ -11,9 +11,12 @@ template <class W>
 struct ContinuityPass {
   W w;
   Real rho0, dt;  ///< kg/m3, s
-  Span<const Real4> flux, m_state, wall_v_rho, wall_m_state;
-  Span<const Real> s;
-  Span<Real> s_next;
+  Span<const Real4> flux;
+  Span<const EosState<>> eos_state;
+  Span<const Real4> wall_v_rho;
+  Span<const WallState<>> wall_state;
+  Span<const Real> compression;
+  Span<Real> compression_next;
 
   template <class N = Real>
   struct Sum {
@@ -26,14 +29,14 @@ struct ContinuityPass {
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb) const {
     sum.rate += M * w.F(root(r2)) * dot(sum.q - qb.xyz(), r);
   }
-  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_m_state); }
+  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_state); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const Vec4<N>& mb) const {
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb) const {
     sum.rate += continuity_mass(mb, rho0) * w.F(root(r2)) * dot(sum.q - vb.xyz(), r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rate += other.rate; }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    s_next[a] = s[a] - dt * sum.rate / (m_state[a].w * rho0);
+    compression_next[a] = compression[a] - dt * sum.rate / (eos_state[a].eps * rho0);
   }
 };
 
@@ -46,9 +49,10 @@ template <class W, bool kGrains>
 struct SummationPass {
   W w;
   Real rho0, n;  ///< kg/m3, -
-  Span<const Real4> m_state, wall_m_state;
+  Span<const EosState<>> eos_state;
+  Span<const WallState<>> wall_state;
   Span<const Real> eps, grains;  ///< grains: sum_j V_j W_aj; both of kGrains
-  Span<Real> s;
+  Span<Real> compression;
 
   template <class N = Real>
   struct Sum {
@@ -61,16 +65,16 @@ struct SummationPass {
     if constexpr (kGrains) M = eps_b * M;
     sum.rho += M * w.W(root(r2));
   }
-  BL_HD auto wall_sources() const { return sources_of(wall_m_state); }
+  BL_HD auto wall_sources() const { return sources_of(wall_state); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>&, N r2, const Vec4<N>& m) const {
-    sum.rho += m.x * w.W(root(r2));
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>&, N r2, const WallState<N>& m) const {
+    sum.rho += m.mass * w.W(root(r2));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rho += other.rho; }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    Real rho = m_state[a].x * w.W(Real(0));
+    Real rho = eos_state[a].mass_over_eps * w.W(Real(0));
     if constexpr (kGrains) rho = eps[a] * rho + rho0 * grains[a];
-    s[a] = n * (rho + sum.rho) / rho0 - 1;
+    compression[a] = n * (rho + sum.rho) / rho0 - 1;
   }
 };
 
@@ -81,7 +85,7 @@ struct FrozenSummationPass {
   W w;
   Real rho0, n;  ///< kg/m3, -
   Span<const Real> volume;
-  Span<const Real4> fluid_m_state;
+  Span<const EosState<>> eos_state;
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
   Span<Real> compression;
@@ -96,10 +100,10 @@ struct FrozenSummationPass {
   BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N, N V) const {
     sum.s += V * w.W(root(r2));
   }
-  BL_HD auto wall_sources() const { return sources_of(fluid_m_state); }
+  BL_HD auto wall_sources() const { return sources_of(eos_state); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>&, N r2, const Vec4<N>& m) const {
-    sum.s += quotient(m.x, N(rho0)) * w.W(root(r2));
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>&, N r2, const EosState<N>& m) const {
+    sum.s += quotient(m.mass_over_eps, N(rho0)) * w.W(root(r2));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.s += other.s; }
   BL_HD void finish(Index b, const Sum<>& sum) const {
@@ -126,8 +130,8 @@ template <class W>
 struct ShepardPass {
   W w;
   Real rho0;
-  Span<const Real4> m_state;
-  Span<const Real> s, q;
+  Span<const EosState<>> eos_state;
+  Span<const Real> compression, q;
   Span<Real> mean;
 
   template <class N = Real>
@@ -135,7 +139,7 @@ struct ShepardPass {
     N weight, q;
   };
   BL_HD Sum<> start(Index) const { return {}; }
-  BL_HD auto sources() const { return sources_of(s, q); }
+  BL_HD auto sources() const { return sources_of(compression, q); }
   template <class N>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N M, N s_b, N q_b) const {
     const N V = quotient(M, rho0 * (1 + s_b)) * w.W(root(r2));
@@ -147,25 +151,25 @@ struct ShepardPass {
     into.q += other.q;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    const Real V = m_state[a].x / (rho0 * (1 + s[a])) * w.W(Real(0));
+    const Real V = eos_state[a].mass_over_eps / (rho0 * (1 + compression[a])) * w.W(Real(0));
     mean[a] = (sum.q + V * q[a]) / (sum.weight + V);
   }
 };
 
 /// P from P / rho^2, and back.
 struct PressureOf {
-  Span<const Real4> m_state;
+  Span<const EosState<>> eos_state;
   Span<Real> p;
-  BL_HD void operator()(Index a) const { p[a] = m_state[a].y * square(m_state[a].z); }
+  BL_HD void operator()(Index a) const { p[a] = eos_state[a].pressure(); }
 };
 struct SetPressure {
   Span<const Real> p;
-  Span<Real4> m_state;
+  Span<EosState<>> eos_state;
   Span<Real> p_rho2;
   BL_HD void operator()(Index a) const {
-    const Real4 m = m_state[a];
-    p_rho2[a] = p[a] / square(m.z);
-    m_state[a] = {m.x, p_rho2[a], m.z, m.w};
+    EosState<>& state = eos_state[a];
+    p_rho2[a] = p[a] / square(state.rho);
+    state.p_over_rho2 = p_rho2[a];
   }
 };
 

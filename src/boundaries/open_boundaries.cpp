@@ -153,17 +153,17 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
                                      .wall_id = walls.id,
                                      .wall_x = walls.x,
                                      .wall_v_rho = walls.v_rho,
-                                     .wall_m_state = walls.m_state,
+                                     .wall_state = walls.state,
                                      .fluid_id = fluid.id,
                                      .x = fluid.x,
                                      .v_rho = fluid.v_rho,
                                      .flux = fluid.flux,
-                                     .m_state = fluid.m_state,
-                                     .s = fluid.s,
+                                     .eos_state = fluid.eos_state,
+                                     .compression = fluid.compression,
                                      .fluid_mass = fluid.mass,
                                      .eps = fluid.eps,
                                      .solid_factor = fluid.solid_factor,
-                                     .theta = fluid.theta,
+                                     .stress_acceleration = fluid.stress_acceleration,
                                      .fluid_acc = fluid.acc});
   next_fluid_ += count;
 }

@@ -199,8 +199,8 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
                                      .counted = orifice_weight(),
                                      .x = fluid.x,
                                      .solid_factor = fluid.solid_factor,
-                                     .theta = fluid.theta,
-                                     .m_state = fluid.m_state,
+                                     .stress_acceleration = fluid.stress_acceleration,
+                                     .eos_state = fluid.eos_state,
                                      .eps = fluid.eps,
                                      .records = records});
   const GrainSurroundings around = surroundings();
@@ -281,7 +281,7 @@ void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {
                                                      .drag_coefficient = grains.drag_coefficient,
                                                      .mass = fluid.mass,
                                                      .v_rho = fluid.v_rho,
-                                                     .m_state = fluid.m_state,
+                                                     .eos_state = fluid.eos_state,
                                                      .rate = rate_});
       });
     });
@@ -345,7 +345,7 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
       with_coupling_kernel([&](auto w) {
         grains_of_fluid_.run(ReactionPass<decltype(w), couple, local>{.w = w,
                                                                       .mass = fluid.mass,
-                                                                      .m_state = fluid.m_state,
+                                                                      .eos_state = fluid.eos_state,
                                                                       .by_slip = by_slip_,
                                                                       .reactions = reactions(),
                                                                       .per_dt = Real(1 / dt),
@@ -375,7 +375,7 @@ void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPo
                                                    .eps = fluid.eps,
                                                    .solid_factor = fluid.solid_factor,
                                                    .flux = fluid.flux,
-                                                   .m_state = fluid.m_state,
+                                                   .eos_state = fluid.eos_state,
                                                    .xp = fluid.xp,
                                                    .xp_mid = fluid.xp_mid});
   });
@@ -392,7 +392,7 @@ void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPo
 void Coupling::push(const FluidStore& fluid, GrainStore& grains, double kick, bool held) {
   push_.resize(fluid.size());
   buoyancy_.resize(grains.size());
-  for_each(fluid.all(), PushPass{fluid.solid_factor, fluid.theta, fluid.m_state, push_});
+  for_each(fluid.all(), PushPass{fluid.solid_factor, fluid.stress_acceleration, fluid.eos_state, push_});
   with_coupling_kernel([&](auto w) {
     fluid_of_grain_.run(BuoyancyPass<decltype(w)>{w, push_, volume_, buoyancy_});
   });

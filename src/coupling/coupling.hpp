@@ -71,7 +71,7 @@ class Coupling {
   /// the fluid; sets fluid.drag_kick, their change, and fluid.reaction. The fluid must not have changed since
   /// gather.
   void react(FluidStore& fluid, const GrainStore& grains, double dt);
-  /// Sets eps, flux, the mass in m_state and, where needed, viscosity and grains_around of the fluid for the
+  /// Sets eps, flux, the mass in eos_state and, where needed, viscosity and grains_around of the fluid for the
   /// present positions; pose as in gather. dt (s): the step of the grains since gather, 0 if they have not
   /// moved.
   void porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt);

@@ -46,12 +46,13 @@ struct PackFluidPass {
   Frame frame;
   MeanShear shear;
   Span<const FluidPosition> x;
-  Span<const Real4> v_rho, m_state;
+  Span<const Real4> v_rho;
+  Span<const EosState<>> eos_state;
   Span<PairPosition> xp;
   Span<Real4> flux;  ///< empty without shear
   BL_HD void operator()(Index a) const {
     const Vec3d at = coordinates(frame, x[a]);
-    xp[a] = pair_position(frame, shear.lattice(at), m_state[a].x);
+    xp[a] = pair_position(frame, shear.lattice(at), eos_state[a].mass_over_eps);
     if (flux) flux[a] = {shear.peculiar(v_rho[a].xyz(), at.z), v_rho[a].w};
   }
 };
@@ -197,9 +198,16 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved,
   sort_cells(fluid);
   fluid.reorder(order_);
   fluid.x_list.copy(fluid.x);
-  for_each(fluid.owned(),
-           HalfSkinPass{frame_, shear_, Real(horizon_), Real(shear_.acts() ? half_skin_ : least_skin()),
-                        Real(half_skin_), fluid.x, fluid.v_rho, drift_of(fluid), fluid.acc, fluid.half_skin});
+  for_each(fluid.owned(), HalfSkinPass{.frame = frame_,
+                                       .shear = shear_,
+                                       .horizon = Real(horizon_),
+                                       .least = Real(shear_.acts() ? half_skin_ : least_skin()),
+                                       .most = Real(half_skin_),
+                                       .x = fluid.x,
+                                       .v_rho = fluid.v_rho,
+                                       .drift = drift_of(fluid),
+                                       .acc = fluid.acc,
+                                       .half_skin = fluid.half_skin});
   if (lengths_) lengths_->h_list.copy(lengths_->h);
   if (walls_moved && walls.size() > 0) {
     MirrorStore& images = walls.mirrors;
@@ -277,7 +285,7 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
 
 void FluidSolver::pack(FluidStore& fluid) {
   for_each(fluid.all(),
-           PackFluidPass{frame_, shear_, fluid.x, fluid.v_rho, fluid.m_state, fluid.xp, peculiar(fluid)});
+           PackFluidPass{frame_, shear_, fluid.x, fluid.v_rho, fluid.eos_state, fluid.xp, peculiar(fluid)});
 }
 
 void FluidSolver::pack(WallStore& walls, double back) {

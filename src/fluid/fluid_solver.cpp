@@ -18,7 +18,7 @@ struct CorrectSweep {
   Frame frame;
   Real kick;  ///< s
   Span<const Real3> acc_old, acc;
-  Span<const Real> eps, viscosity, s;  ///< the first two empty where they are 1
+  Span<const Real> eps, viscosity, compression;  ///< the first two empty where they are 1
   Span<const Real3> drift;
   Span<const FluidPosition> x, x_list;
   Span<const Real> half_skin;
@@ -51,7 +51,8 @@ struct CorrectSweep {
     if (eps) out.eps_min = eps[a];
     if (viscosity) out.thickest = viscosity[a];
     if (h) out.h_min = h[a], out.growth = h[a] / h_list[a];
-    const bool good = out.v2 < 1e30 && out.acc2 < 1e30 && s[a] >= Real(-0.5) && s[a] <= Real(1);
+    const bool good =
+        out.v2 < 1e30 && out.acc2 < 1e30 && compression[a] >= Real(-0.5) && compression[a] <= Real(1);
     out.bad = good ? kNone : a;
     return out;
   }
@@ -101,7 +102,7 @@ FluidSolver::FluidSolver(const FluidParameters& p, const Frame& frame, const Wal
   const bool summed = p.density.method == DensityMethod::summation;
   if (p.time.integrator != TimeIntegrator::kdk || summed) fluid.xp_mid.leave_out();
   if (p.time.integrator != TimeIntegrator::ab3) return;
-  fluid.s_next.leave_out();
+  fluid.compression_next.leave_out();
   for (const char* name : {"density_rate", "density_rate_before", "density_rate_long_before"}) {
     rates_.push_back(std::make_unique<Field<Real>>(fluid, name, "1/s", Lifetime::kept));
     rates_.back()->begin_at_zero();
@@ -137,11 +138,17 @@ double FluidSolver::repulsion_cap(double dt) const {
   return dt > 0 ? 0.1 * parameters_.fluid.dx / (dt * dt) : 1e30;
 }
 
-Drive FluidSolver::drive(const FluidStore& fluid, const Moment& now) const {
+Drive FluidSolver::drive(const FluidStore& fluid, const StepTime& now) const {
   const DriveConfig& d = parameters_.drive;
   const Vec3d spring{d.rate.x * d.rate.x, d.rate.y * d.rate.y, d.rate.z * d.rate.z};
   const DriveField field = d.on_fluid() ? now.drive : DriveField{frame_, {}, {}, -1};
-  return {field, fluid.x, d.mode, d.on == DrivenPhase::both, spring, d.centre, d.pulls()};
+  return {.field = field,
+          .x = fluid.x,
+          .mode = d.mode,
+          .shared = d.on == DrivenPhase::both,
+          .spring = spring,
+          .centre = d.centre,
+          .pulls = d.pulls()};
 }
 
 void FluidSolver::collide(FluidStore& fluid) {
@@ -151,61 +158,86 @@ void FluidSolver::collide(FluidStore& fluid) {
   collisions_.resize(fluid.size());
   collided_.resize(fluid.size());
   fluid_fluid_.run_within(range, CollisionCountPass{Real(range * range), fluid.v_rho, collisions_});
-  fluid_fluid_.run_within(
-      range, CollisionPass{Real(range * range), Real(c.collision_restitution), Real(1e-12 * range * range),
-                           fluid.v_rho, fluid.mass, collisions_, collided_});
+  fluid_fluid_.run_within(range, CollisionPass{.range2 = Real(range * range),
+                                               .restitution = Real(c.collision_restitution),
+                                               .guard = Real(1e-12 * range * range),
+                                               .v_rho = fluid.v_rho,
+                                               .mass = fluid.mass,
+                                               .count = collisions_,
+                                               .v_next = collided_});
   fluid.v_rho.buffer().swap(collided_);
 }
 
 WallRepulsion FluidSolver::repulsion(const FluidStore& fluid, Span<const BodyPose> pose, double dt) const {
   const double dx = parameters_.fluid.dx, rate = dt > 0 ? std::min(parameters_.fluid.c / dx, 0.5 / dt) : 0;
   const Repulsion& law = parameters_.repulsion;
-  return {{law.D, law.r0, Real(repulsion_cap(dt))},
-          {Real(dx), Real(rate), Real(dt > 0 ? 1 / dt : 0)},
-          frame_,
-          repelling_,
-          pose,
-          shifts() ? Span<const Real>(fluid.exposure) : Span<const Real>()};
+  return {.law = {law.D, law.r0, Real(repulsion_cap(dt))},
+          .limit = {Real(dx), Real(rate), Real(dt > 0 ? 1 / dt : 0)},
+          .frame = frame_,
+          .walls = repelling_,
+          .pose = pose,
+          .exposure = shifts() ? Span<const Real>(fluid.exposure) : Span<const Real>()};
 }
 
 void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double kick, double dt) {
   if (!repels()) return;
   const WallRepulsion walls = repulsion(fluid, pose, dt);
-  const OrificeRepulsion orifices{
-      walls.law, Real(0.01 * parameters_.fluid.c), dt > 0 ? Real(1 / dt) : Real(0), frame_, orifices_, pose};
-  for_each({0, Index(beside_walls_.size())},
-           RepelPass{walls, orifices, Real(kick), Real(dt), beside_walls_, fluid.x, fluid.v_rho, fluid.acc,
-                     fluid.acc_next, fluid.heading, drift_of(fluid)});
+  const OrificeRepulsion orifices{.law = walls.law,
+                                  .gentle = Real(0.01 * parameters_.fluid.c),
+                                  .rate = dt > 0 ? Real(1 / dt) : Real(0),
+                                  .frame = frame_,
+                                  .orifices = orifices_,
+                                  .pose = pose};
+  for_each({0, Index(beside_walls_.size())}, RepelPass{.walls = walls,
+                                                       .orifices = orifices,
+                                                       .kick = Real(kick),
+                                                       .dt = Real(dt),
+                                                       .beside_walls = beside_walls_,
+                                                       .x = fluid.x,
+                                                       .v_rho = fluid.v_rho,
+                                                       .acc_before = fluid.acc,
+                                                       .acc = fluid.acc_next,
+                                                       .heading = fluid.heading,
+                                                       .drift = drift_of(fluid)});
 }
 
 KickDriftPass FluidSolver::kick_drift_pass(FluidStore& fluid, double kick, double drift, double back,
                                            bool coupled) {
-  return {frame_,          Real(kick),   Real(drift),
-          Real(back),      fluid.acc,    coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
-          drift_of(fluid), fluid.v_rho,  fluid.x,
-          fluid.xp,        fluid.xp_mid, shear_,
-          peculiar(fluid), edges_};
+  return {.frame = frame_,
+          .kick = Real(kick),
+          .drift = Real(drift),
+          .back = Real(back),
+          .acc = fluid.acc,
+          .reaction = coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
+          .beside = drift_of(fluid),
+          .v_rho = fluid.v_rho,
+          .x = fluid.x,
+          .xp = fluid.xp,
+          .xp_mid = fluid.xp_mid,
+          .shear = shear_,
+          .flux = peculiar(fluid),
+          .edges = edges_};
 }
 
 StatePass FluidSolver::state_pass(FluidStore& fluid, const DensityHistory& history, double kick,
                                   bool coupled) {
-  return {frame_,
-          eos_,
-          Real(damping()),
-          fluid.compression_rate,
-          history,
-          Real(kick),
-          fluid.x,
-          fluid.acc,
-          coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
-          fluid.s,
-          fluid.mass,
-          parameters_.mixed ? Span<const Real>(fluid.eps) : Span<const Real>(),
-          fluid.v_rho,
-          parameters_.mixed ? Span<Real4>(fluid.flux) : peculiar(fluid),
-          fluid.m_state,
-          fluid.p_rho2,
-          shear_};
+  return {.frame = frame_,
+          .eos = eos_,
+          .damping = Real(damping()),
+          .compression_rate = fluid.compression_rate,
+          .history = history,
+          .kick = Real(kick),
+          .x = fluid.x,
+          .acc = fluid.acc,
+          .reaction = coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
+          .compression = fluid.compression,
+          .mass = fluid.mass,
+          .eps = parameters_.mixed ? Span<const Real>(fluid.eps) : Span<const Real>(),
+          .v_rho = fluid.v_rho,
+          .flux = parameters_.mixed ? Span<Real4>(fluid.flux) : peculiar(fluid),
+          .eos_state = fluid.eos_state,
+          .p_rho2 = fluid.p_rho2,
+          .shear = shear_};
 }
 
 void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, double back, bool coupled) {
@@ -228,7 +260,7 @@ LengthPass FluidSolver::length_pass(FluidStore& fluid, bool renew) {
           .first = !lengths_->begun,
           .renew = renew,
           .mass = fluid.mass,
-          .m_state = fluid.m_state,
+          .eos_state = fluid.eos_state,
           .listed = lengths_->h_list,
           .h = lengths_->h,
           .omega = lengths_->omega};
@@ -263,7 +295,7 @@ void FluidSolver::survey(FluidStore& fluid, double kick) {
                            .acc = fluid.acc,
                            .eps = parameters_.mixed ? Span<const Real>(fluid.eps) : none,
                            .viscosity = parameters_.thickens ? Span<const Real>(fluid.viscosity) : none,
-                           .s = fluid.s,
+                           .compression = fluid.compression,
                            .drift = drift_of(fluid),
                            .x = fluid.x,
                            .x_list = fluid.x_list,

@@ -78,9 +78,10 @@ struct SmoothingLengths {
         listed(h0) {}
 };
 
-/// Under what the fluid's forces act: at the end of a step, or where a run begins.
-struct Moment {
-  std::uint64_t step = 0;  ///< which one ends then; of noise
+/// When the fluid's forces act: at the end of a step, or at the start of a run; and what depends on time
+/// alone.
+struct StepTime {
+  std::uint64_t step = 0;  ///< number of the step, which keys the noise
   Real3 gravity;           ///< minus the frame's acceleration, m/s2
   DriveField drive{};      ///< where the case drives fluid
 };
@@ -111,7 +112,7 @@ class FluidSolver {
     return dt > now.lasts || dt > longest_step() || walls_moved > wall_skin_ || outgrown;
   }
   const EquationOfState& eos() const { return eos_; }
-  Drive drive(const FluidStore& fluid, const Moment& now) const;
+  Drive drive(const FluidStore& fluid, const StepTime& now) const;
   /// With which particles move beside their velocity; empty where nothing gives one.
   Span<const Real3> drift_of(const FluidStore& fluid) const {
     return drifts() ? Span<const Real3>(fluid.drift) : Span<const Real3>();
@@ -172,12 +173,13 @@ class FluidSolver {
   /// v += kick (acc + reaction), x += drift (v + drift velocity); packs x and where it was `back` (s) ago;
   /// `coupled`: there is a reaction.
   void kick_drift(FluidStore& fluid, double kick, double drift, double back, bool coupled);
-  /// s, and the density of frozen walls, from continuity over dt since `start`, whose gravity is that of the
-  /// hydrostatic slope, at mid-step positions; or summed up, at those of its end. s_next has the former s.
-  void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Moment& start,
+  /// Compression, and the density of frozen walls, from continuity over dt since `start`, whose gravity is
+  /// that of the hydrostatic slope, at mid-step positions; or summed up, at those of its end.
+  /// compression_next has the former compression.
+  void density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const StepTime& start,
                double dt) {
     find_density(fluid, walls, pose, start, dt);
-    fluid.s.buffer().swap(fluid.s_next.buffer());
+    fluid.compression.buffer().swap(fluid.compression_next.buffer());
     if (shifts()) fluid.exposure.buffer().swap(fluid.exposure_next.buffer());
   }
   /// Pressure from the density, velocity predicted by `kick`.
@@ -185,14 +187,14 @@ class FluidSolver {
   /// one_pass(): kick_drift() over dt, density a step dt (s) on, and state().
   void advance(FluidStore& fluid, double kick, double dt, double predict);
   /// Wall particles' state from the fluid; of dry ones only where `moving` walls may change it. Poses on the
-  /// device, one a body; gravity as of Moment; drag_dt: the step in which drag_kick arose (s), 0 where there
-  /// is none.
+  /// device, one a body; gravity as of StepTime; drag_dt: the step in which drag_kick arose (s), 0 where
+  /// there is none.
   virtual void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
                      const Real3& gravity, double drag_dt, bool moving) = 0;
-  /// theta, acc_next, XSPH's part of the drift. One pose a body; the step (s) that ends now caps the push of
-  /// single layers.
-  virtual void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment& now,
-                      double dt) = 0;
+  /// stress_acceleration, acc_next, XSPH's part of the drift. One pose a body; the step (s) that ends now
+  /// caps the push of single layers.
+  virtual void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
+                      const StepTime& now, double dt) = 0;
   /// Adds what surfaces of walls and orifices do to acc_next. One pose a body; velocities are predicted by
   /// `kick` in a step of dt, s.
   void repel(FluidStore& fluid, Span<const BodyPose> pose, double kick, double dt);
@@ -207,10 +209,10 @@ class FluidSolver {
   /// gave the fluid `now`. After a step of dt (s), before the lists are renewed; corrected: the kick by which
   /// correct() has changed velocities since then, s.
   virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
-                           const Moment& now, double corrected, double dt, Buffer<Vec3d>& force) = 0;
+                           const StepTime& now, double corrected, double dt, Buffer<Vec3d>& force) = 0;
   /// The same by parts: pressure with the push of single layers; friction.
   virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
-                           const Moment& now, double corrected, double dt, Buffer<Vec3d>& pressure,
+                           const StepTime& now, double corrected, double dt, Buffer<Vec3d>& pressure,
                            Buffer<Vec3d>& friction) = 0;
   /// Force of the pairs of fluid and free bodies in linear pressures around these, as BodyPressurePass; where
   /// fits().
@@ -218,13 +220,13 @@ class FluidSolver {
                               Buffer<Vec4<double>>&) {}
   /// Of the terms that work on each fluid particle, as they are now; after a step of dt (s), before the lists
   /// are renewed. Empty where a model does not tell.
-  virtual Span<const FluidPowers> powers(FluidStore&, const WallStore&, Span<const BodyPose>, const Moment&,
+  virtual Span<const FluidPowers> powers(FluidStore&, const WallStore&, Span<const BodyPose>, const StepTime&,
                                          double) {
     return {};
   }
   /// Moments of the forces between pairs, by the laws of forces() for the velocities that the fluid has now.
   /// After a step of dt (s), before the lists are renewed.
-  virtual void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt,
+  virtual void moments(FluidStore& fluid, const WallStore& walls, const StepTime& now, double dt,
                        FluidMoments& out) = 0;
   /// Pairs of fluid particles within the kernel's reach that see each other through one of the surfaces.
   double pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces, Span<const BodyPose> pose) const;
@@ -261,9 +263,9 @@ class FluidSolver {
 
   FluidSolver(const FluidParameters& parameters, const Frame& frame, const WallGeometry& walls,
               FluidStore& fluid, double kappa);
-  /// density(), into s_next.
+  /// density(), into compression_next.
   virtual void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
-                            const Moment& start, double dt) = 0;
+                            const StepTime& start, double dt) = 0;
   void make_cells();
   /// Gives everything its half skin; whether that takes other cells.
   bool renew_skins(const ListSpeeds& speeds);
@@ -311,22 +313,22 @@ class FluidSolver {
   template <class W, class Lengths = OneLength>
   void extrapolate(const W& w, const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
                    const Real3& gravity, double drag_dt, bool moving, const Lengths& lengths = {}) {
-    const WallPass<W, Lengths> pass{w,
-                                    eos_,
-                                    flux(fluid),
-                                    fluid.m_state,
-                                    fluid.drag_kick,
-                                    Real(drag_dt > 0 ? 1 / drag_dt : 0),
-                                    walls.x0,
-                                    walls.body,
-                                    pose,
-                                    gravity,
-                                    least_sum(),
-                                    walls.v_rho,
-                                    walls.v_visc,
-                                    walls.m_state,
-                                    walls.compression,
-                                    lengths};
+    const WallPass<W, Lengths> pass{.w = w,
+                                    .eos = eos_,
+                                    .flux = flux(fluid),
+                                    .eos_state = fluid.eos_state,
+                                    .drag_kick = fluid.drag_kick,
+                                    .rate = Real(drag_dt > 0 ? 1 / drag_dt : 0),
+                                    .x0 = walls.x0,
+                                    .body = walls.body,
+                                    .pose = pose,
+                                    .gravity = gravity,
+                                    .least_sum = least_sum(),
+                                    .v_rho = walls.v_rho,
+                                    .no_slip = walls.no_slip,
+                                    .state = walls.state,
+                                    .compression = walls.compression,
+                                    .lengths = lengths};
     run_over_walls(pass, moving);
     relisted_ = false;
   }
@@ -344,8 +346,16 @@ class FluidSolver {
   void frozen_continuity(const W& w, const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
                          double dt, Real least) {
     if (!parameters_.frozen) return;
-    wall_fluid_.run(FrozenPass<W>{w, Real(parameters_.fluid.rho0), Real(dt), least, flux(fluid), walls.v_rho,
-                                  walls.m_state, walls.body, pose, walls.compression});
+    wall_fluid_.run(FrozenPass<W>{.w = w,
+                                  .rho0 = Real(parameters_.fluid.rho0),
+                                  .dt = Real(dt),
+                                  .least = least,
+                                  .flux = flux(fluid),
+                                  .wall_v_rho = walls.v_rho,
+                                  .wall_state = walls.state,
+                                  .body = walls.body,
+                                  .pose = pose,
+                                  .compression = walls.compression});
   }
   double repulsion_cap(double dt) const;  ///< m/s2, in a step of dt, s
 

@@ -71,7 +71,7 @@ class SdpdSolver final : public FluidSolver {
     extrapolate(w_, fluid, walls, pose, gravity, drag_dt, moving);
   }
 
-  void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment& now,
+  void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const StepTime& now,
               double dt) override {
     if (parameters_.eos.filter) filter_pressure(fluid);
     for_each(fluid.all(), PredictSpin{Real(dt), omega(), turning(), fluid.id, label_});
@@ -84,19 +84,19 @@ class SdpdSolver final : public FluidSolver {
       noisy ? momentum<true, true>(fluid, walls, now, dt) : momentum<false, true>(fluid, walls, now, dt);
   }
 
-  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose>, const Moment& now,
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose>, const StepTime& now,
                    double corrected, double dt, Buffer<Vec3d>& force) override {
     force.resize(walls.size());
     forces_on_walls<WholeForce>(fluid, walls, now, corrected, dt, force, {});
   }
-  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose>, const Moment& now,
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose>, const StepTime& now,
                    double corrected, double dt, Buffer<Vec3d>& pressure, Buffer<Vec3d>& friction) override {
     pressure.resize(walls.size());
     friction.resize(walls.size());
     forces_on_walls<ForceParts>(fluid, walls, now, corrected, dt, pressure, friction);
   }
 
-  void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt,
+  void moments(FluidStore& fluid, const WallStore& walls, const StepTime& now, double dt,
                FluidMoments& out) override {
     const bool noisy = parameters_.sdpd.kT > 0 && dt > 0;
     if (!parameters_.viscosity_varies())
@@ -108,7 +108,7 @@ class SdpdSolver final : public FluidSolver {
   }
 
  private:
-  void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Moment& start,
+  void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const StepTime& start,
                     double dt) override {
     const DensityConfig& d = parameters_.density;
     if (d.method == DensityMethod::summation) {
@@ -122,8 +122,15 @@ class SdpdSolver final : public FluidSolver {
   void continuity(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, double dt) {
     const AtMidStep places(fluid, walls);
     frozen_continuity(w_, fluid, walls, pose, dt, Real(-0.5));
-    run_with_walls(ContinuityPass<W>{w_, Real(parameters_.fluid.rho0), Real(dt), flux(fluid), fluid.m_state,
-                                     walls.v_rho, walls.m_state, fluid.s, fluid.s_next});
+    run_with_walls(ContinuityPass<W>{.w = w_,
+                                     .rho0 = Real(parameters_.fluid.rho0),
+                                     .dt = Real(dt),
+                                     .flux = flux(fluid),
+                                     .eos_state = fluid.eos_state,
+                                     .wall_v_rho = walls.v_rho,
+                                     .wall_state = walls.state,
+                                     .compression = fluid.compression,
+                                     .compression_next = fluid.compression_next});
   }
   static double bulk_viscosity(const FluidProperties& f) {
     return std::isfinite(f.zeta) ? f.zeta : 20.0 / 21 * f.mu;
@@ -132,18 +139,28 @@ class SdpdSolver final : public FluidSolver {
   Span<Real3> turning() { return spin_ ? Span<Real3>(spin_->acc) : Span<Real3>(); }
   template <bool kGrains>
   void sum_up(FluidStore& fluid, const WallStore& walls) {
-    run_with_walls(SummationPass<W, kGrains>{w_, Real(parameters_.fluid.rho0), Real(1 / lattice_.W),
-                                             fluid.m_state, walls.m_state, fluid.eps, fluid.grains_around,
-                                             fluid.s_next});
+    run_with_walls(SummationPass<W, kGrains>{.w = w_,
+                                             .rho0 = Real(parameters_.fluid.rho0),
+                                             .n = Real(1 / lattice_.W),
+                                             .eos_state = fluid.eos_state,
+                                             .wall_state = walls.state,
+                                             .eps = fluid.eps,
+                                             .grains = fluid.grains_around,
+                                             .compression = fluid.compression_next});
   }
   void sum_up_frozen(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose) {
     wall_volume_.resize(walls.size());
     for_each(walls.all(), WallVolume{walls.body, pose, wall_volume_});
-    wall_wall_.run_with(wall_fluid_, FrozenSummationPass<W>{w_, Real(parameters_.fluid.rho0),
-                                                            Real(1 / lattice_.W), wall_volume_, fluid.m_state,
-                                                            walls.body, pose, walls.compression});
+    wall_wall_.run_with(wall_fluid_, FrozenSummationPass<W>{.w = w_,
+                                                            .rho0 = Real(parameters_.fluid.rho0),
+                                                            .n = Real(1 / lattice_.W),
+                                                            .volume = wall_volume_,
+                                                            .eos_state = fluid.eos_state,
+                                                            .body = walls.body,
+                                                            .pose = pose,
+                                                            .compression = walls.compression});
   }
-  SdpdWallPair<W> pair(const Moment& now, double dt) const {
+  SdpdWallPair<W> pair(const StepTime& now, double dt) const {
     const SdpdConfig& s = parameters_.sdpd;
     PairLaw law;
     law.across = Real(friction_.across), law.along = Real(friction_.along);
@@ -157,50 +174,78 @@ class SdpdSolver final : public FluidSolver {
   template <bool kNoise, bool kSpecies>
   using Force = SdpdForcePass<W, Model::spins, kNoise, kSpecies>;
   template <bool kNoise, bool kSpecies>
-  Force<kNoise, kSpecies> force_pass(FluidStore& fluid, const WallStore& walls, const Moment& now,
+  Force<kNoise, kSpecies> force_pass(FluidStore& fluid, const WallStore& walls, const StepTime& now,
                                      double dt) {
-    return {pair(now, dt), flux(fluid),    fluid.m_state,     label_,        fluid.p_rho2,
-            fluid.mass,    fluid.id,       walls.v_rho,       walls.m_state, walls.v_visc,
-            wall_label_,   now.gravity,    drive(fluid, now), Real(dt),      Real(spin_ ? spin_->inertia : 0),
-            fluid.theta,   fluid.acc_next, omega(),           turning(),     fluid.viscosity};
+    return {.wall = pair(now, dt),
+            .flux = flux(fluid),
+            .eos_state = fluid.eos_state,
+            .spin_label = label_,
+            .p_rho2 = fluid.p_rho2,
+            .mass = fluid.mass,
+            .id = fluid.id,
+            .wall_v_rho = walls.v_rho,
+            .wall_state = walls.state,
+            .wall_no_slip = walls.no_slip,
+            .wall_label = wall_label_,
+            .gravity = now.gravity,
+            .drive = drive(fluid, now),
+            .dt = Real(dt),
+            .inertia = Real(spin_ ? spin_->inertia : 0),
+            .stress_acceleration = fluid.stress_acceleration,
+            .acc = fluid.acc_next,
+            .spin = omega(),
+            .spin_acc = turning(),
+            .viscosity = fluid.viscosity};
   }
   template <bool kNoise, bool kSpecies>
-  void momentum(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt) {
+  void momentum(FluidStore& fluid, const WallStore& walls, const StepTime& now, double dt) {
     run_with_walls(force_pass<kNoise, kSpecies>(fluid, walls, now, dt));
   }
   template <bool kNoise, bool kSpecies>
-  void stress(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt, FluidMoments& out) {
+  void stress(FluidStore& fluid, const WallStore& walls, const StepTime& now, double dt, FluidMoments& out) {
     if (shear_.acts()) pack(fluid);  // velocities as they are now
     run_with_walls(SdpdStressPass<Force<kNoise, kSpecies>, kNoise>{
         force_pass<kNoise, kSpecies>(fluid, walls, now, dt), out.parts(fluid.size(), kNoise)});
   }
   template <class Force>
-  void forces_on_walls(const FluidStore& fluid, const WallStore& walls, const Moment& now, double corrected,
+  void forces_on_walls(const FluidStore& fluid, const WallStore& walls, const StepTime& now, double corrected,
                        double dt, Span<Vec3d> force, Span<Vec3d> friction) {
-    const SdpdWallForcePass<W, Force> pass{pair(now, dt), Real(parameters_.mixed ? 0 : corrected),
-                                           fluid.acc,     fluid.acc_next,
-                                           flux(fluid),   fluid.m_state,
-                                           label_,        walls.v_rho,
-                                           walls.m_state, walls.v_visc,
-                                           wall_label_,   force,
-                                           friction,      fluid.viscosity};
+    const SdpdWallForcePass<W, Force> pass{.wall = pair(now, dt),
+                                           .kick = Real(parameters_.mixed ? 0 : corrected),
+                                           .acc = fluid.acc,
+                                           .acc_before = fluid.acc_next,
+                                           .flux = flux(fluid),
+                                           .eos_state = fluid.eos_state,
+                                           .spin_label = label_,
+                                           .wall_v_rho = walls.v_rho,
+                                           .wall_state = walls.state,
+                                           .wall_no_slip = walls.no_slip,
+                                           .wall_label = wall_label_,
+                                           .force = force,
+                                           .friction = friction,
+                                           .viscosity = fluid.viscosity};
     wall_fluid_.run(pass);
   }
   /// Shepard's mean of q over the fluid; densities are rho0 (1 + s).
   void average(const FluidStore& fluid, Span<const Real> s, Span<const Real> q, Span<Real> mean) {
-    run(ShepardPass<W>{w_, Real(parameters_.fluid.rho0), fluid.m_state, s, q, mean});
+    run(ShepardPass<W>{.w = w_,
+                       .rho0 = Real(parameters_.fluid.rho0),
+                       .eos_state = fluid.eos_state,
+                       .compression = s,
+                       .q = q,
+                       .mean = mean});
   }
   /// Of a density, the mean is sum M W / sum V W.
   void reinitialise(FluidStore& fluid) {
-    average(fluid, fluid.s_next, fluid.s_next, fluid.s);
-    fluid.s.buffer().swap(fluid.s_next.buffer());
+    average(fluid, fluid.compression_next, fluid.compression_next, fluid.compression);
+    fluid.compression.buffer().swap(fluid.compression_next.buffer());
   }
   void filter_pressure(FluidStore& fluid) {
     pressure_.resize(fluid.size());
     filtered_.resize(fluid.size());
-    for_each(fluid.all(), PressureOf{fluid.m_state, pressure_});
-    average(fluid, fluid.s, pressure_, filtered_);
-    for_each(fluid.owned(), SetPressure{filtered_, fluid.m_state, fluid.p_rho2});
+    for_each(fluid.all(), PressureOf{fluid.eos_state, pressure_});
+    average(fluid, fluid.compression, pressure_, filtered_);
+    for_each(fluid.owned(), SetPressure{filtered_, fluid.eos_state, fluid.p_rho2});
   }
 
   W w_;

@@ -22,46 +22,57 @@ class WcsphSolver final : public FluidSolver {
   void walls(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Real3& gravity,
              double drag_dt, bool moving) override {
     if (walls.mirrors.size() > 0) {
-      const MirrorPass<W> mirror{w_,
-                                 frame_,
-                                 Real(parameters_.fluid.rho0),
-                                 least(),
-                                 least_sum(),
-                                 flux(fluid),
-                                 fluid.m_state,
-                                 walls.x,
-                                 walls.mirrors.x,
-                                 walls.body,
-                                 pose,
-                                 walls.compression};
+      const MirrorPass<W> mirror{.w = w_,
+                                 .frame = frame_,
+                                 .rho0 = Real(parameters_.fluid.rho0),
+                                 .least = least(),
+                                 .least_sum = least_sum(),
+                                 .flux = flux(fluid),
+                                 .eos_state = fluid.eos_state,
+                                 .x = walls.x,
+                                 .image = walls.mirrors.x,
+                                 .body = walls.body,
+                                 .pose = pose,
+                                 .compression = walls.compression};
       image_fluid_.run(mirror);
     }
     extrapolate(w_, fluid, walls, pose, gravity, drag_dt, moving, lengths());
   }
 
-  void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment& now,
+  void forces(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const StepTime& now,
               double dt) override {
     if constexpr (Lengths::vary) {
-      run_with_walls(OmegaPass<W>{w_, lengths(), Real(parameters_.fluid.h_least()),
-                                  Real(parameters_.fluid.h_most()), Real(parameters_.fluid.rho0),
-                                  fluid.m_state, walls.m_state, lengths_->omega, fluid.p_rho2});
+      run_with_walls(OmegaPass<W>{.w = w_,
+                                  .lengths = lengths(),
+                                  .least = Real(parameters_.fluid.h_least()),
+                                  .most = Real(parameters_.fluid.h_most()),
+                                  .rho0 = Real(parameters_.fluid.rho0),
+                                  .eos_state = fluid.eos_state,
+                                  .wall_state = walls.state,
+                                  .omega = lengths_->omega,
+                                  .p_rho2 = fluid.p_rho2});
       artificial().acts() ? momentum<true, false>(fluid, walls, now)
                           : momentum<false, false>(fluid, walls, now);
     } else {
       constant_length_forces(fluid, walls, now, dt);
     }
     if (layers_.size() > 0)
-      fluid_wall_.run(
-          LayerPass<W>{layer(pose, dt), flux(fluid), walls.v_rho, walls.body, fluid.theta, fluid.acc_next});
+      fluid_wall_.run(LayerPass<W>{.layer = layer(pose, dt),
+                                   .flux = flux(fluid),
+                                   .wall_v_rho = walls.v_rho,
+                                   .wall_body = walls.body,
+                                   .stress_acceleration = fluid.stress_acceleration,
+                                   .acc = fluid.acc_next});
   }
 
-  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment&,
-                   double corrected, double dt, Buffer<Vec3d>& force) override {
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
+                   const StepTime&, double corrected, double dt, Buffer<Vec3d>& force) override {
     force.resize(walls.size());
     forces_on_walls<WholeForce>(fluid, walls, pose, corrected, dt, force, {});
   }
-  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose, const Moment&,
-                   double corrected, double dt, Buffer<Vec3d>& pressure, Buffer<Vec3d>& friction) override {
+  void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
+                   const StepTime&, double corrected, double dt, Buffer<Vec3d>& pressure,
+                   Buffer<Vec3d>& friction) override {
     pressure.resize(walls.size());
     friction.resize(walls.size());
     forces_on_walls<ForceParts>(fluid, walls, pose, corrected, dt, pressure, friction);
@@ -70,12 +81,18 @@ class WcsphSolver final : public FluidSolver {
   void body_pressures(const FluidStore& fluid, const WallStore& walls, const BodyPressures& pressures,
                       Buffer<Vec4<double>>& force) override {
     force.resize(walls.size());
-    wall_fluid_.run(BodyPressurePass<W>{w_, fluid.m_state, fluid.correction, walls.m_state, walls.x0,
-                                        walls.body, pressures, force});
+    wall_fluid_.run(BodyPressurePass<W>{.w = w_,
+                                        .eos_state = fluid.eos_state,
+                                        .correction = fluid.correction,
+                                        .wall_state = walls.state,
+                                        .x0 = walls.x0,
+                                        .body = walls.body,
+                                        .pressures = pressures,
+                                        .force = force});
   }
 
   Span<const FluidPowers> powers(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
-                                 const Moment& now, double dt) override {
+                                 const StepTime& now, double dt) override {
     if (shear_.acts()) return {};
     powers_.resize(fluid.size());
     if constexpr (!Lengths::vary)
@@ -83,7 +100,7 @@ class WcsphSolver final : public FluidSolver {
     return spend<false>(fluid, walls, pose, now, dt);
   }
 
-  void moments(FluidStore& fluid, const WallStore& walls, const Moment& now, double,
+  void moments(FluidStore& fluid, const WallStore& walls, const StepTime& now, double,
                FluidMoments& out) override {
     if (shear_.acts()) pack(fluid);  // velocities as they are now
     if constexpr (!Lengths::vary)
@@ -92,7 +109,7 @@ class WcsphSolver final : public FluidSolver {
   }
 
  private:
-  void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const Moment& start,
+  void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const StepTime& start,
                     double dt) override {
     const AtMidStep places(fluid, walls);
     const Real3& gravity = start.gravity;
@@ -112,7 +129,7 @@ class WcsphSolver final : public FluidSolver {
     else
       return {};
   }
-  void constant_length_forces(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt) {
+  void constant_length_forces(FluidStore& fluid, const WallStore& walls, const StepTime& now, double dt) {
     const bool added = parameters_.tensile > 0 || parameters_.xsph > 0;
     if (one_pass())
       smooths() || shifts() ? with_order(fluid, dt,
@@ -130,30 +147,37 @@ class WcsphSolver final : public FluidSolver {
   template <class Force>
   void forces_on_walls(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
                        double corrected, double dt, Span<Vec3d> force, Span<Vec3d> friction) {
-    const WallForcePass<W, Force, Lengths> pass{w_,
-                                                WallPair{viscosity(), parameters_.suction},
-                                                layer(pose, dt),
-                                                Real(parameters_.mixed ? 0 : corrected),
-                                                fluid.acc,
-                                                fluid.acc_next,
-                                                flux(fluid),
-                                                fluid.m_state,
-                                                walls.v_rho,
-                                                walls.m_state,
-                                                walls.v_visc,
-                                                walls.body,
-                                                force,
-                                                friction,
-                                                fluid.viscosity,
-                                                lengths()};
+    const WallForcePass<W, Force, Lengths> pass{.w = w_,
+                                                .wall = wall_pair(),
+                                                .layer = layer(pose, dt),
+                                                .kick = Real(parameters_.mixed ? 0 : corrected),
+                                                .acc = fluid.acc,
+                                                .acc_before = fluid.acc_next,
+                                                .flux = flux(fluid),
+                                                .eos_state = fluid.eos_state,
+                                                .wall_v_rho = walls.v_rho,
+                                                .wall_state = walls.state,
+                                                .wall_no_slip = walls.no_slip,
+                                                .wall_body = walls.body,
+                                                .force = force,
+                                                .friction = friction,
+                                                .relative_viscosity = fluid.viscosity,
+                                                .lengths = lengths()};
     wall_fluid_.run(pass);
   }
   /// What the pressure of walls does by places and velocities as they are, for density_pass().
   void find_wall_work(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose) {
     if (!parameters_.energy_consistent) return;
     wall_work_.resize(walls.size());
-    const WallWorkPass<W, Lengths> pass{w_,         least_sum(), flux(fluid), walls.v_rho, walls.m_state,
-                                        walls.body, pose,        wall_work_,  lengths()};
+    const WallWorkPass<W, Lengths> pass{.w = w_,
+                                        .least_sum = least_sum(),
+                                        .flux = flux(fluid),
+                                        .wall_v_rho = walls.v_rho,
+                                        .wall_state = walls.state,
+                                        .body = walls.body,
+                                        .pose = pose,
+                                        .work = wall_work_,
+                                        .lengths = lengths()};
     run_over_walls(pass);
   }
   Real least() const { return -Real(parameters_.density.cavitation_limit); }
@@ -161,75 +185,77 @@ class WcsphSolver final : public FluidSolver {
     return Viscosity::of(parameters_.visc.model, parameters_.fluid.mu, parameters_.fluid.rho0,
                          parameters_.fluid.c, w_);
   }
+  WallPair wall_pair() const { return {viscosity(), parameters_.suction}; }
   ArtificialViscosity artificial() const {
     return {Real(parameters_.visc.alpha), Real(parameters_.visc.beta), Real(parameters_.fluid.c),
             Real(parameters_.fluid.h())};
   }
-  /// Writes s_new.
+  /// Writes compression_new.
   template <bool kSmooth, bool kPorous, class Shift, class Fit>
   DensityPass<W, Shift, Fit, kSmooth, kPorous, Lengths> density_pass(FluidStore& fluid,
                                                                      const WallStore& walls,
                                                                      const Real3& gravity, double dt,
                                                                      const Shift& shift, const Fit& fit,
-                                                                     Span<Real> s_new) {
+                                                                     Span<Real> compression_new) {
     const double c = parameters_.fluid.c;
-    return {w_,
-            flux(fluid),
-            fluid.m_state,
-            walls.v_rho,
-            walls.m_state,
-            Real(2 * parameters_.density.delta * parameters_.fluid.h() * c),
-            gravity * Real(parameters_.fluid.rho0 / (c * c)),
-            eos_.gamma - 2,
-            Real(parameters_.fluid.rho0),
-            Real(dt),
-            fluid.s,
-            s_new,
-            cut_,
-            least(),
-            Real(parameters_.density.void_relaxation * c / parameters_.fluid.h()),
-            Real(parameters_.spreading * c / parameters_.fluid.h()),
-            fluid.compression_rate,
-            shift,
-            drift_of(fluid),
-            fit,
-            lengths(),
-            parameters_.energy_consistent ? Span<const Real>(wall_work_) : Span<const Real>()};
+    return {.w = w_,
+            .flux = flux(fluid),
+            .eos_state = fluid.eos_state,
+            .wall_v_rho = walls.v_rho,
+            .wall_state = walls.state,
+            .diffusion = Real(2 * parameters_.density.delta * parameters_.fluid.h() * c),
+            .hydrostatic = gravity * Real(parameters_.fluid.rho0 / (c * c)),
+            .stiffening = eos_.gamma - 2,
+            .rho0 = Real(parameters_.fluid.rho0),
+            .dt = Real(dt),
+            .compression = fluid.compression,
+            .compression_new = compression_new,
+            .cut = cut_,
+            .least = least(),
+            .fading = Real(parameters_.density.void_relaxation * c / parameters_.fluid.h()),
+            .spreading = Real(parameters_.spreading * c / parameters_.fluid.h()),
+            .compression_rate = fluid.compression_rate,
+            .shift = shift,
+            .drift = drift_of(fluid),
+            .fit = fit,
+            .lengths = lengths(),
+            .wall_work = parameters_.energy_consistent ? Span<const Real>(wall_work_) : Span<const Real>()};
   }
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
   ForcePass<W, kArtificial, kAdded, kSpecies, Lengths> force_pass(FluidStore& fluid, const WallStore& walls,
-                                                                  const Moment& now) {
-    return {w_,
-            WallPair{viscosity(), parameters_.suction},
-            flux(fluid),
-            fluid.m_state,
-            fluid.p_rho2,
-            walls.v_rho,
-            walls.m_state,
-            walls.v_visc,
-            artificial(),
-            tensile(),
-            Real(parameters_.xsph),
-            now.gravity,
-            drive(fluid, now),
-            fluid.theta,
-            fluid.acc_next,
-            fluid.drift,
-            fluid.viscosity,
-            fluid.correction,
-            lengths()};
+                                                                  const StepTime& now) {
+    return {.w = w_,
+            .wall = wall_pair(),
+            .flux = flux(fluid),
+            .eos_state = fluid.eos_state,
+            .p_rho2 = fluid.p_rho2,
+            .wall_v_rho = walls.v_rho,
+            .wall_state = walls.state,
+            .wall_no_slip = walls.no_slip,
+            .artificial = artificial(),
+            .tensile = tensile(),
+            .xsph_factor = Real(parameters_.xsph),
+            .gravity = now.gravity,
+            .drive = drive(fluid, now),
+            .stress_acceleration = fluid.stress_acceleration,
+            .acc = fluid.acc_next,
+            .drift = fluid.drift,
+            .relative_viscosity = fluid.viscosity,
+            .correction = fluid.correction,
+            .lengths = lengths()};
   }
   template <bool kSmooth, bool kPorous, class Shift, class Fit>
   void continuity(FluidStore& fluid, const WallStore& walls, const Real3& gravity, double dt,
                   const Shift& shift, const Fit& fit) {
-    run_with_walls(density_pass<kSmooth, kPorous>(fluid, walls, gravity, dt, shift, fit, fluid.s_next));
+    run_with_walls(
+        density_pass<kSmooth, kPorous>(fluid, walls, gravity, dt, shift, fit, fluid.compression_next));
   }
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
-  void momentum(FluidStore& fluid, const WallStore& walls, const Moment& now) {
+  void momentum(FluidStore& fluid, const WallStore& walls, const StepTime& now) {
     run_with_walls(force_pass<kArtificial, kAdded, kSpecies>(fluid, walls, now));
   }
   template <bool kTensile, bool kSpecies = false>
-  void stress(FluidStore& fluid, const WallStore& walls, const Moment& now, FluidMoments& out) {
+  void stress(FluidStore& fluid, const WallStore& walls, const StepTime& now, FluidMoments& out) {
     using Force = ForcePass<W, true, kTensile, kSpecies, Lengths>;
     const Force whole = force_pass<true, kTensile, kSpecies>(fluid, walls, now);
     Force inviscid = whole;
@@ -239,24 +265,30 @@ class WcsphSolver final : public FluidSolver {
   }
   template <bool kSpecies>
   Span<const FluidPowers> spend(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
-                                const Moment& now, double dt) {
+                                const StepTime& now, double dt) {
     using Force = ForcePass<W, true, false, kSpecies, Lengths>;
     using Density = DensityPass<W, NoShifting, NoFit, true, true, Lengths>;
     find_wall_work(fluid, walls, pose);
     Force friction = force_pass<true, false, kSpecies>(fluid, walls, now), artificial = friction;
     friction.artificial = {};
     artificial.wall.viscosity.mu = 0;
-    Density density =
-        density_pass<true, true>(fluid, walls, now.gravity, dt, NoShifting{}, NoFit{}, fluid.s_next);
-    density.compression = {};
-    run_with_walls(PowerPass<Force, Density>{friction, artificial, density, eos_, fluid.theta, powers_});
+    Density density = density_pass<true, true>(fluid, walls, now.gravity, dt, NoShifting{}, NoFit{},
+                                               fluid.compression_next);
+    density.compression_rate = {};
+    run_with_walls(PowerPass<Force, Density>{.friction = friction,
+                                             .artificial = artificial,
+                                             .density = density,
+                                             .eos = eos_,
+                                             .stress_acceleration = fluid.stress_acceleration,
+                                             .out = powers_});
     return powers_;
   }
   template <bool kSmooth, class Shift, class Fit>
-  void momentum_and_continuity(FluidStore& fluid, const WallStore& walls, const Moment& now, double dt,
+  void momentum_and_continuity(FluidStore& fluid, const WallStore& walls, const StepTime& now, double dt,
                                const Shift& shift, const Fit& fit) {
     const auto both = [&](const auto& force) {
-      const auto density = density_pass<kSmooth, false>(fluid, walls, now.gravity, dt, shift, fit, fluid.s);
+      const auto density =
+          density_pass<kSmooth, false>(fluid, walls, now.gravity, dt, shift, fit, fluid.compression);
       run_with_walls(OnePass<std::decay_t<decltype(force)>, std::decay_t<decltype(density)>>{force, density,
                                                                                              *rates_.back()});
     };
@@ -277,21 +309,25 @@ class WcsphSolver final : public FluidSolver {
   }
   Shifting shifting(FluidStore& fluid, double dt) const {
     const double h = parameters_.fluid.h(), rate = dt > 0 ? 1 / dt : 0;
-    return {Real(parameters_.shift * h * h),        Real(0.5 * h * h * rate), Real(fastest_shift(dt)),
-            Real(parameters_.domain.two_d ? 1 : 0), fluid.exposure,           fluid.exposure_next};
+    return {.area = Real(parameters_.shift * h * h),
+            .stiffest = Real(0.5 * h * h * rate),
+            .fastest = Real(fastest_shift(dt)),
+            .plane = Real(parameters_.domain.two_d ? 1 : 0),
+            .exposure = fluid.exposure,
+            .exposure_new = fluid.exposure_next};
   }
   LinearFit linear_fit(FluidStore& fluid) const {
     const FluidProperties& f = parameters_.fluid;
     const auto log_of_square = [](double x) { return Real(2 * std::log10(x)); };
-    return {w_.F(Real(f.h())),
-            Real(parameters_.domain.cell_volume(f.dx)),
-            w_.F(Real(0)),
-            Real(f.rho0 * square(f.dx / f.mu)),
-            log_of_square(kExactPressure),
-            log_of_square(kExactPressureAtSurface),
-            log_of_square(kExactPressureEnds),
-            fluid.viscosity,
-            fluid.correction};
+    return {.at_h = w_.F(Real(f.h())),
+            .volume = Real(parameters_.domain.cell_volume(f.dx)),
+            .at_zero = w_.F(Real(0)),
+            .cell = Real(f.rho0 * square(f.dx / f.mu)),
+            .whole_within = log_of_square(kExactPressure),
+            .whole_at_surface = log_of_square(kExactPressureAtSurface),
+            .fading = log_of_square(kExactPressureEnds),
+            .viscosity = fluid.viscosity,
+            .correction = fluid.correction};
   }
   TensileTerm tensile() const {
     if (parameters_.tensile == 0) return {};

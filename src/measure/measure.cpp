@@ -18,7 +18,7 @@ struct FluidTotals {
   Drive drive;    ///< nor has its constant part
   Span<const FluidPosition> x;
   Span<const Real4> v_rho;
-  Span<const Real> mass, s;
+  Span<const Real> mass, compression;
   double inertia;  ///< of a particle over its mass, m2
   Span<const Real3> spin;
   BL_HD void operator()(Index a, double* out) const {
@@ -29,7 +29,7 @@ struct FluidTotals {
     for (int k = 0; k < 3; ++k) out[1 + k] = m * v[k], out[4 + k] = m * l[k];
     out[7] = 0.5 * m * norm2(v);
     out[8] = m * (drive.energy(a) - dot(gravity, at));
-    out[9] = m * eos.energy(s[a]);
+    out[9] = m * eos.energy(compression[a]);
     out[10] = 0.5 * m * inertia * norm2(w);
   }
 };
@@ -41,14 +41,14 @@ struct MomentumRates {
   Vec3d gravity;
   Drive drive;
   Span<const Real> mass;
-  Span<const Real4> m_state;
-  Span<const Real3> theta, acc, reaction, drag_kick;
+  Span<const EosState<>> eos_state;
+  Span<const Real3> stress_acceleration, acc, reaction, drag_kick;
   BL_HD void operator()(Index a, double* out) const {
     const double m = mass[a];
-    const Real4 state = m_state[a];
+    const EosState<> state = eos_state[a];
     const Real3 driven = drive(a, state);
     for (int k = 0; k < 3; ++k) {
-      const double grains = (double(state.x) - m) * theta[a][k];
+      const double grains = (double(state.mass_over_eps) - m) * stress_acceleration[a][k];
       out[k] = m * (gravity[k] + driven[k]);
       out[3 + k] = m * double(acc[a][k]) + grains;
       if (reaction) out[6 + k] = m * (double(reaction[a][k]) + rate * drag_kick[a][k]) - grains;
@@ -70,10 +70,11 @@ struct GrainLoads {
 /// Correction by LinearFit: force 3 (N) and its power on the fluid (W).
 struct CorrectionBody {
   Span<const Real> mass;
-  Span<const Real4> m_state, v_rho;
+  Span<const EosState<>> eos_state;
+  Span<const Real4> v_rho;
   Span<const Real4> correction;
   BL_HD void operator()(Index a, double* out) const {
-    const Vec3d acc(correction[a].xyz()), force = double(m_state[a].x) * acc;
+    const Vec3d acc(correction[a].xyz()), force = double(eos_state[a].mass_over_eps) * acc;
     for (int k = 0; k < 3; ++k) out[k] = force[k];
     out[3] = double(mass[a]) * dot(acc, Vec3d(v_rho[a].xyz()));
   }
@@ -81,10 +82,10 @@ struct CorrectionBody {
 /// Power of the pressure of the acoustic damper, with the rate of volume from continuity, W.
 struct DamperBody {
   double damping, rho0;  ///< Pa s, kg/m3
-  Span<const Real4> m_state;
+  Span<const EosState<>> eos_state;
   Span<const Real> mass, rate;
   BL_HD void operator()(Index a, double* out) const {
-    out[0] = -double(mass[a]) * rho0 * damping * square(double(rate[a]) / double(m_state[a].z));
+    out[0] = -double(mass[a]) * rho0 * damping * square(double(rate[a]) / double(eos_state[a].rho));
   }
 };
 
@@ -94,7 +95,8 @@ struct DriftBody {
   Vec3d gravity;
   Drive drive;
   Span<const Real> mass;
-  Span<const Real4> m_state, v_rho;
+  Span<const EosState<>> eos_state;
+  Span<const Real4> v_rho;
   Span<const Real3> drift;  ///< empty: none
   Real fastest;             ///< drift speed at which its limit acts, m/s
   BL_HD void operator()(Index a, double* out) const {
@@ -102,7 +104,7 @@ struct DriftBody {
       out[0] = -double(mass[a]) * dot(gravity, Vec3d(drift[a]));
       out[2] = norm(drift[a]) > fastest;
     }
-    out[1] = double(mass[a]) * dot(Vec3d(drive(a, m_state[a])), Vec3d(v_rho[a].xyz()));
+    out[1] = double(mass[a]) * dot(Vec3d(drive(a, eos_state[a])), Vec3d(v_rho[a].xyz()));
   }
 };
 /// Power of the repulsion of fluid by surfaces, W; number of particles on which it acts.
@@ -132,20 +134,22 @@ struct PowersBody {
   }
 };
 struct CavitatingBody {
-  Span<const Real> s;
+  Span<const Real> compression;
   Real least;
-  BL_HD void operator()(Index a, double* out) const { out[0] = s[a] < least, out[1] = s[a] <= kThinnest; }
+  BL_HD void operator()(Index a, double* out) const {
+    out[0] = compression[a] < least, out[1] = compression[a] <= kThinnest;
+  }
 };
 
 struct PressureBody {
-  Span<const Real4> m_state;
+  Span<const EosState<>> eos_state;
   double sign;
-  BL_HD double operator()(Index a) const { return sign * pressure_of(m_state[a]); }
+  BL_HD double operator()(Index a) const { return sign * eos_state[a].pressure(); }
 };
 struct DensityBody {
-  Span<const Real4> m_state;
+  Span<const EosState<>> eos_state;
   double sign;
-  BL_HD double operator()(Index a) const { return sign * m_state[a].z; }
+  BL_HD double operator()(Index a) const { return sign * eos_state[a].rho; }
 };
 struct PorosityBody {
   Span<const Real> eps;
@@ -181,7 +185,7 @@ void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>&
       DriftBody{.gravity = config_.gravity,
                 .drive = drive,
                 .mass = fluid.mass,
-                .m_state = fluid.m_state,
+                .eos_state = fluid.eos_state,
                 .v_rho = fluid.v_rho,
                 .drift = solver.shifts() ? solver.drift_of(std::as_const(fluid)) : Span<const Real3>(),
                 .fastest = Real(0.999 * solver.fastest_shift(dt))});
@@ -193,7 +197,7 @@ void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>&
     r = sum_over<2>(fluid.owned(), StoppedBody{walls, fluid.x, fluid.mass, fluid.v_rho, fluid.heading});
   out.push_back({"power_penetration_limit", "W", r.v[0]});
   out.push_back({"fluid_stopped_at_walls", "-", r.v[1]});
-  const auto thin = sum_over<2>(fluid.owned(), CavitatingBody{fluid.s, solver.eos().least});
+  const auto thin = sum_over<2>(fluid.owned(), CavitatingBody{fluid.compression, solver.eos().least});
   out.push_back({"fluid_cavitating", "-", thin.v[0]});
   out.push_back({"fluid_thinnest", "-", thin.v[1]});
   out.push_back({"fluid_shift_limited", "-", d.v[2]});
@@ -220,7 +224,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
                                  .x = state_.fluid.x,
                                  .v_rho = state_.fluid.v_rho,
                                  .mass = state_.fluid.mass,
-                                 .s = state_.fluid.s,
+                                 .compression = state_.fluid.compression,
                                  .inertia = spin ? spin->inertia : 0,
                                  .spin = spin ? Span<const Real3>(spin->omega) : Span<const Real3>()});
     out.push_back({"fluid_mass", "kg", t.v[0]});
@@ -238,8 +242,8 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
                                   .gravity = state_.gravity.at(state_.clock.time),
                                   .drive = drive,
                                   .mass = state_.fluid.mass,
-                                  .m_state = state_.fluid.m_state,
-                                  .theta = state_.fluid.theta,
+                                  .eos_state = state_.fluid.eos_state,
+                                  .stress_acceleration = state_.fluid.stress_acceleration,
                                   .acc = state_.fluid.acc,
                                   .reaction = state_.two_way ? Span<const Real3>(state_.fluid.reaction)
                                                              : Span<const Real3>(),
@@ -249,12 +253,12 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     const bool corrected = state_.fluid.correction.used(), damped = state_.fluid.compression_rate.used();
     SumReduction<4, CorrectionBody>::Value c{};
     if (corrected)
-      c = sum_over<4>(state_.fluid.owned(), CorrectionBody{state_.fluid.mass, state_.fluid.m_state,
+      c = sum_over<4>(state_.fluid.owned(), CorrectionBody{state_.fluid.mass, state_.fluid.eos_state,
                                                            state_.fluid.v_rho, state_.fluid.correction});
     SumReduction<1, DamperBody>::Value d{};
     if (damped)
       d = sum_over<1>(state_.fluid.owned(),
-                      DamperBody{stepper_.fluid().damping(), config_.fluid.rho0, state_.fluid.m_state,
+                      DamperBody{stepper_.fluid().damping(), config_.fluid.rho0, state_.fluid.eos_state,
                                  state_.fluid.mass, state_.fluid.compression_rate});
     const Vec3d correction{c.v[0], c.v[1], c.v[2]};
     const BodyCorrection of_bodies = state_.bodies.correction();
@@ -270,10 +274,10 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     const auto largest = [&](auto body) {  // NaN without fluid
       return state_.fluid.size() > 0 ? max_over(state_.fluid.owned(), body) : std::nan("");
     };
-    out.push_back({"pressure_max", "Pa", largest(PressureBody{state_.fluid.m_state, 1})});
-    out.push_back({"pressure_min", "Pa", -largest(PressureBody{state_.fluid.m_state, -1})});
-    out.push_back({"density_max", "kg/m3", largest(DensityBody{state_.fluid.m_state, 1})});
-    out.push_back({"density_min", "kg/m3", -largest(DensityBody{state_.fluid.m_state, -1})});
+    out.push_back({"pressure_max", "Pa", largest(PressureBody{state_.fluid.eos_state, 1})});
+    out.push_back({"pressure_min", "Pa", -largest(PressureBody{state_.fluid.eos_state, -1})});
+    out.push_back({"density_max", "kg/m3", largest(DensityBody{state_.fluid.eos_state, 1})});
+    out.push_back({"density_min", "kg/m3", -largest(DensityBody{state_.fluid.eos_state, -1})});
     out.push_back({"fluid_count", "-", double(state_.fluid.size())});
     if (!state_.shells.surfaces().empty())
       out.push_back({"fluid_pairs_through_walls", "-",

@@ -19,24 +19,24 @@ struct PointPass {
   Span<Real3> out;
   BL_HD void operator()(Index i) const { out[i] = Real3(coordinates(frame, x[i])); }
 };
+template <class State>
 struct PressurePass {
-  Span<const Real4> m_state;
+  Span<const State> state;
   Span<Real> out;
-  BL_HD void operator()(Index i) const { out[i] = pressure_of(m_state[i]); }
+  BL_HD void operator()(Index i) const { out[i] = state[i].pressure(); }
 };
-/// Of the mixture that a fluid particle stands for.
 struct VolumePass {
-  Span<const Real4> m_state;
+  Span<const EosState<>> eos_state;
   Span<Real> out;
-  BL_HD void operator()(Index a) const { out[a] = m_state[a].x / m_state[a].z; }
+  BL_HD void operator()(Index a) const { out[a] = mixture_volume(eos_state[a]); }
 };
 struct DrivingForce {
   Real3 gravity;  ///< m/s2
   Drive drive;
   Span<const Real> mass;
-  Span<const Real4> m_state;
+  Span<const EosState<>> eos_state;
   Span<Real3> out;
-  BL_HD void operator()(Index a) const { out[a] = mass[a] * (gravity + drive(a, m_state[a])); }
+  BL_HD void operator()(Index a) const { out[a] = mass[a] * (gravity + drive(a, eos_state[a])); }
 };
 struct GrainMass {
   MassPerR3 mass_per_r3;
@@ -149,18 +149,19 @@ std::vector<Made> computed_of_fluid(State& state, Stepper& stepper, FluidMoments
        }},
       {3, kFrames,
        [&](Arrays& out) {
-         out.push_back(made<Real, PressurePass>("pressure", "Pa", f, std::as_const(f.m_state).span()));
+         out.push_back(
+             made<Real, PressurePass<EosState<>>>("pressure", "Pa", f, std::as_const(f.eos_state).span()));
        }},
       {7, kRheology | where_it_varies,
        [&](Arrays& out) {
-         out.push_back(made<Real, VolumePass>("volume", "m3", f, std::as_const(f.m_state).span()));
+         out.push_back(made<Real, VolumePass>("volume", "m3", f, std::as_const(f.eos_state).span()));
        }},
       {8, kRheology,
        [&](Arrays& out) {
          out.push_back(made<Real3, DrivingForce>("drive", "N", f, Real3{state.gravity.at(state.clock.time)},
                                                  stepper.fluid().drive(f, stepper.moment()),
                                                  std::as_const(f.mass).span(),
-                                                 std::as_const(f.m_state).span()));
+                                                 std::as_const(f.eos_state).span()));
        }},
       {9, kRheology,
        [&](Arrays& out) {
@@ -216,7 +217,8 @@ std::vector<Made> computed_of_walls(State& state) {
        }},
       {2, kFrames,
        [&](Arrays& out) {
-         out.push_back(made<Real, PressurePass>("pressure", "Pa", w, std::as_const(w.m_state).span()));
+         out.push_back(
+             made<Real, PressurePass<WallState<>>>("pressure", "Pa", w, std::as_const(w.state).span()));
        }},
   };
 }

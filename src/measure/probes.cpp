@@ -23,7 +23,8 @@ struct PointBody {
   Frame frame;
   Vec3d at;
   Span<const FluidPosition> x;
-  Span<const Real4> v_rho, m_state;
+  Span<const Real4> v_rho;
+  Span<const EosState<>> eos_state;
   BL_HD void operator()(Index q, double* out) const {
     if (!cells.touches(int(q))) return;
     const std::uint32_t c = grid.key(cells, int(q));
@@ -35,9 +36,9 @@ struct PointBody {
     const Vec3d r = frame.nearest_image(coordinates(frame, x[a]) - at);
     const double r2 = norm2(r), support = w.kappa * double(w.h);
     if (r2 >= support * support) return;
-    const double weight = double(m_state[a].x) / m_state[a].z * w.W(Real(std::sqrt(r2)));
+    const double weight = double(eos_state[a].mass_over_eps) / eos_state[a].rho * w.W(Real(std::sqrt(r2)));
     out[0] += weight;
-    out[1] += weight * pressure_of(m_state[a]);
+    out[1] += weight * eos_state[a].pressure();
     out[2] += weight * v_rho[a].x;
     out[3] += weight * v_rho[a].y;
     out[4] += weight * v_rho[a].z;
@@ -83,14 +84,15 @@ struct FluidBox {
   Frame frame;
   Vec3d lo, hi;
   Span<const FluidPosition> x;
-  Span<const Real4> v_rho, m_state;
+  Span<const Real4> v_rho;
+  Span<const EosState<>> eos_state;
   Span<const Real> mass;
   BL_HD void operator()(Index a, double* out) const {
     if (!within(coordinates(frame, x[a]), lo, hi)) return;
     const double m = mass[a];
-    out[0] = 1, out[1] = m, out[2] = m * pressure_of(m_state[a]);
+    out[0] = 1, out[1] = m, out[2] = m * eos_state[a].pressure();
     out[3] = m * v_rho[a].x, out[4] = m * v_rho[a].y, out[5] = m * v_rho[a].z;
-    out[6] = m * m_state[a].w;
+    out[6] = m * eos_state[a].eps;
   }
 };
 struct GrainBox {
@@ -150,7 +152,7 @@ std::vector<Quantity> CoupledSimulation::point(const ProbeConfig& p) {
                                                                       .at = at,
                                                                       .x = state_.fluid.x,
                                                                       .v_rho = state_.fluid.v_rho,
-                                                                      .m_state = state_.fluid.m_state});
+                                                                      .eos_state = state_.fluid.eos_state});
       std::copy(s.v, s.v + 5, sum);
     });
   const double nan = std::nan("");
@@ -201,7 +203,7 @@ std::vector<Quantity> CoupledSimulation::box(const ProbeConfig& p) {
                                                               .hi = p.max,
                                                               .x = state_.fluid.x,
                                                               .v_rho = state_.fluid.v_rho,
-                                                              .m_state = state_.fluid.m_state,
+                                                              .eos_state = state_.fluid.eos_state,
                                                               .mass = state_.fluid.mass});
     std::copy(r.v, r.v + 7, s);
   } else {

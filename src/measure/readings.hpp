@@ -7,9 +7,6 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Pressure from the pair-loop record of fluid or walls, Pa.
-BL_HD Real pressure_of(const Real4& m_state) { return m_state.y * square(m_state.z); }
-
 /// Coordinate along a direction, m.
 template <class P>
 struct AlongBody {

@@ -83,11 +83,11 @@ std::vector<const Store*> Stepper::group_stores() const {
 /// What pair loops read of fluid.
 Fields Stepper::fluid_in_pairs() const {
   const SmoothingLengths* const own = fluid_solver_->lengths();
-  return Fields{&fluid_.xp, flux(), &fluid_.m_state} + (own ? Fields{&own->h, &own->omega} : Fields{});
+  return Fields{&fluid_.xp, flux(), &fluid_.eos_state} + (own ? Fields{&own->h, &own->omega} : Fields{});
 }
 
 /// And of walls.
-Fields Stepper::walls_in_pairs() const { return {&walls_.xp, &walls_.v_rho, &walls_.m_state}; }
+Fields Stepper::walls_in_pairs() const { return {&walls_.xp, &walls_.v_rho, &walls_.eos_state}; }
 
 /// What density, or forces in one pass with it, makes of the arrangement of particles.
 Fields Stepper::fields_of_order() const {
@@ -129,7 +129,7 @@ void Stepper::interpolate(Step& now) {
   const FluidStore& f = fluid_;
   const GrainStore& g = grains_;
   begin(now, "interpolate", Part::coupling, [&] {
-    return Access{.near = {&f.xp, &f.v_rho, &f.m_state, &f.eps, &f.theta, &f.solid_factor, &f.x, &g.xp},
+    return Access{.near = {&f.xp, &f.v_rho, &f.eos_state, &f.eps, &f.stress_acceleration, &f.solid_factor, &f.x, &g.xp},
                   .reads = {&f.mass, &g.x, &g.v, &g.omega, &g.radius, &g.fluid_force, &g.id},
                   .writes = {&g.fluid_velocity, &g.fluid_angular_velocity, &g.drag_coefficient,
                              &g.rot_drag_coefficient, &g.eps, &g.wetness, &g.x_before}};
@@ -170,7 +170,7 @@ void Stepper::react(Step& now) {
   const FluidStore& f = fluid_;
   const GrainStore& g = grains_;
   begin(now, "react", Part::coupling, [&] {
-    return Access{.near = {&f.xp, &g.xp, &f.m_state, &g.impulse, &g.spin_impulse, &g.fluid_velocity,
+    return Access{.near = {&f.xp, &g.xp, &f.eos_state, &g.impulse, &g.spin_impulse, &g.fluid_velocity,
                            &g.fluid_angular_velocity, &g.drag_coefficient, &g.rot_drag_coefficient},
                   .reads = {&f.v_rho, &f.mass},
                   .writes = {&f.v_rho, &f.drag_kick, &f.reaction}};
@@ -203,8 +203,8 @@ void Stepper::advance(Step& now) {
   begin(now, "advance", Part::fluid, [&] {
     return Access{.near = {},
                   .reads = fluid_solver_->fields_of_forces() + drift() +
-                           Fields{&f.x, &f.xp, &f.v_rho, &f.acc, &f.s, &f.mass, &f.eps, &f.compression_rate},
-                  .writes = Fields{&f.x, &f.xp, &f.v_rho, &f.s, &f.m_state, &f.p_rho2} +
+                           Fields{&f.x, &f.xp, &f.v_rho, &f.acc, &f.compression, &f.mass, &f.eps, &f.compression_rate},
+                  .writes = Fields{&f.x, &f.xp, &f.v_rho, &f.compression, &f.eos_state, &f.p_rho2} +
                             only_if(fluid_solver_->shear().acts(), {&f.flux})};
   });
   fluid_solver_->advance(fluid_, now.dt - now.last_kick, now.dt, now.last_kick);
@@ -234,10 +234,10 @@ void Stepper::porosity(Step& now) {
   const GrainStore& g = grains_;
   begin(now, "porosity", Part::coupling, [&] {
     Access a{.near = {&f.xp, &g.x, &g.x_before, &g.v, &g.radius},
-             .reads = {&f.x, &f.v_rho, &f.mass, &f.m_state, &f.xp_mid},
+             .reads = {&f.x, &f.v_rho, &f.mass, &f.eos_state, &f.xp_mid},
              .writes = {&g.xp, &f.eps}};
     if (two_way())
-      a.writes += {&f.solid_factor, &f.flux, &f.m_state, &f.xp, &f.xp_mid, &f.viscosity, &f.grains_around};
+      a.writes += {&f.solid_factor, &f.flux, &f.eos_state, &f.xp, &f.xp_mid, &f.viscosity, &f.grains_around};
     return a;
   });
   coupling_->porosity(fluid_, grains_, now.poses, now.dt);
@@ -252,8 +252,8 @@ void Stepper::density(Step& now) {
     if (f.xp_mid.used()) std::replace(near.begin(), near.end(), at_end(f), at_mid(f));
     if (w.xp_mid.used()) std::replace(near.begin(), near.end(), at_end(w), at_mid(w));
     return Access{.near = near,
-                  .reads = drift() + Fields{&f.s, &f.viscosity, &f.eps, &f.grains_around, &w.compression},
-                  .writes = fields_of_order() + Fields{&f.s, &f.s_next} +
+                  .reads = drift() + Fields{&f.compression, &f.viscosity, &f.eps, &f.grains_around, &w.compression},
+                  .writes = fields_of_order() + Fields{&f.compression, &f.compression_next} +
                             only_if(fluid_solver_->freezes(), {&w.compression})};
   });
   fluid_solver_->density(fluid_, walls_, now.poses, moment_, now.dt);
@@ -265,8 +265,8 @@ void Stepper::fluid_state(Step& now) {
   begin(now, "fluid_state", Part::fluid, [&] {
     Access a{
         .near = {},
-        .reads = {flux(), &f.x, &f.v_rho, &f.acc, &f.reaction, &f.s, &f.mass, &f.eps, &f.compression_rate},
-        .writes = {flux(), &f.v_rho, &f.s, &f.m_state, &f.p_rho2}};
+        .reads = {flux(), &f.x, &f.v_rho, &f.acc, &f.reaction, &f.compression, &f.mass, &f.eps, &f.compression_rate},
+        .writes = {flux(), &f.v_rho, &f.compression, &f.eos_state, &f.p_rho2}};
     if (const SmoothingLengths* own = fluid_solver_->lengths()) {
       a.reads += {&own->h_list};
       a.writes += {&own->h};
@@ -282,8 +282,8 @@ void Stepper::wall_state(Step& now) {
   begin(now, "wall_state", Part::fluid, [&] {
     return Access{
         .near = fluid_in_pairs() + Fields{&fluid_.drag_kick, &w.xp, &w.mirrors.xp},
-        .reads = {&w.v_rho, &w.m_state, &w.v_visc, &w.compression, &w.x0, &w.x, &w.body, &w.mirrors.x},
-        .writes = {&w.v_rho, &w.v_visc, &w.m_state, &w.compression}};
+        .reads = {&w.v_rho, &w.state, &w.no_slip, &w.compression, &w.x0, &w.x, &w.body, &w.mirrors.x},
+        .writes = {&w.v_rho, &w.no_slip, &w.state, &w.compression}};
   });
   if (walls_.size() == 0) return;
   fluid_solver_->walls(fluid_, walls_, now.poses, Real3(gravity_.at(now.end)), two_way() ? now.dt : 0,
@@ -298,14 +298,14 @@ void Stepper::forces(Step& now) {
     const bool one_pass = fluid_solver_->one_pass();
     const Fields of_model = fluid_solver_->fields_of_forces();
     return Access{.near = fluid_in_pairs() + walls_in_pairs() + lasting(of_model) +
-                          Fields{&f.p_rho2, &f.id, &f.viscosity, &w.v_visc, &w.body, &w.id} +
+                          Fields{&f.p_rho2, &f.id, &f.viscosity, &w.no_slip, &w.body, &w.id} +
                           (one_pass ? Fields{&f.exposure} : Fields{&f.correction}) +
-                          only_if(config_.eos.filter, {&f.s}),
-                  .reads = drift() + Fields{&f.x, &f.s, &f.mass},
-                  .writes = Fields{&f.theta, &f.acc_next} + drift() + of_model +
-                            only_if(one_pass, fields_of_order() + Fields{&f.s}) +
+                          only_if(config_.eos.filter, {&f.compression}),
+                  .reads = drift() + Fields{&f.x, &f.compression, &f.mass},
+                  .writes = Fields{&f.stress_acceleration, &f.acc_next} + drift() + of_model +
+                            only_if(one_pass, fields_of_order() + Fields{&f.compression}) +
                             only_if(fluid_solver_->lengths() || config_.eos.filter, {&f.p_rho2}) +
-                            only_if(config_.eos.filter, {&f.m_state})};
+                            only_if(config_.eos.filter, {&f.eos_state})};
   });
   moment_ = moment(now.end, clock_.step + 1);
   fluid_solver_->forces(fluid_, walls_, now.poses, moment_, now.dt);
@@ -330,7 +330,7 @@ void Stepper::load_bodies(Step& now) {
     return Access{.near = all_of(bodies_.stores()) + fluid_in_pairs() + walls_in_pairs() +
                           fluid_solver_->fields_of_forces() +
                           Fields{&f.x, &f.mass, &f.acc, &f.acc_next, &f.heading, &f.exposure, &f.correction,
-                                 &f.viscosity, &w.v_visc, &w.x0, &w.body},
+                                 &f.viscosity, &w.no_slip, &w.x0, &w.body},
                   .reads = {},
                   .writes = all_of(bodies_.stores())};
   });
@@ -350,7 +350,7 @@ void Stepper::correct(Step& now) {
   const FluidStore& f = fluid_;
   begin(now, "correct", Part::fluid, [&] {
     Access a{.near = {},
-             .reads = drift() + Fields{&f.x, &f.x_list, &f.half_skin, &f.v_rho, &f.acc, &f.acc_next, &f.s,
+             .reads = drift() + Fields{&f.x, &f.x_list, &f.half_skin, &f.v_rho, &f.acc, &f.acc_next, &f.compression,
                                        &f.eps, &f.viscosity},
              .writes = {&f.v_rho, &f.acc, &f.acc_next}};
     if (const SmoothingLengths* own = fluid_solver_->lengths())
@@ -367,7 +367,7 @@ void Stepper::push(Step& now) {
   const GrainStore& g = grains_;
   begin(now, "push", Part::coupling, [&] {
     const Fields groups = all_of(group_stores());
-    return Access{.near = groups + Fields{&f.xp, &g.xp, &f.theta, &f.m_state, &f.solid_factor} +
+    return Access{.near = groups + Fields{&f.xp, &g.xp, &f.stress_acceleration, &f.eos_state, &f.solid_factor} +
                           only_if(!groups.empty(), {&g.v, &g.omega, &g.radius, &g.material, &g.fluid_force}),
                   .reads = {&g.v, &g.omega, &g.radius, &g.material, &g.fluid_force},
                   .writes = Fields{&g.fluid_force, &g.v} + only_if(!groups.empty(), {&g.omega}) + groups};

@@ -11,15 +11,15 @@ namespace {
 
 /// Initial fluid fills what the grains leave, at hydrostatic pressure and the density that goes with
 /// it: in balance from the start, and heavier than at rho0 by its compression.
-struct LayPass {
+struct InitialDensityPass {
   EquationOfState eos;
   Frame frame;
   Span<const Real> eps, pressure;  ///< eps empty unless fluid gives way to grains
-  Span<Real> mass, s;
+  Span<Real> mass, compression;
   BL_HD void operator()(Index a) const {
     const Real x = eos.compression(pressure[a]);
     mass[a] *= (eps ? eps[a] : Real(1)) * (1 + x);
-    s[a] = x;
+    compression[a] = x;
   }
 };
 
@@ -93,9 +93,9 @@ void Stepper::initialise_fluid(Step& now) {
   fluid_.exposure.buffer().zero();
   Buffer<Real> device;
   device.assign(pressure);
-  for_each(fluid_.owned(), LayPass{fluid_solver_->eos(), frame_,
-                                   two_way() ? Span<const Real>(fluid_.eps) : Span<const Real>(), device,
-                                   fluid_.mass, fluid_.s});
+  for_each(fluid_.owned(), InitialDensityPass{fluid_solver_->eos(), frame_,
+                                              two_way() ? Span<const Real>(fluid_.eps) : Span<const Real>(),
+                                              device, fluid_.mass, fluid_.compression});
 }
 
 void Stepper::settle(double longest, const std::function<void(double)>& progress) {

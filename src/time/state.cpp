@@ -40,7 +40,7 @@ void fill_fluid(const Config& config, const Frame& frame, const Setup& setup, Fl
   fluid.mass.assign(converted<Real>(f.mass));
   fluid.eps.assign(std::vector<Real>(f.x.size(), Real(1)));
   fluid.solid_factor.assign(std::vector<Real>(f.x.size(), Real(1)));
-  fluid.m_state.assign(std::vector<Real4>(f.x.size()));
+  fluid.eos_state.assign(std::vector<EosState<>>(f.x.size()));
   if (config.couple.suspension != SuspensionLaw::none)
     fluid.viscosity.assign(std::vector<Real>(f.x.size(), Real(1)));
   if (config.fluid.species.empty()) return;

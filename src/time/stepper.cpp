@@ -174,8 +174,8 @@ StepLimit Stepper::longest_substep() const {
   return least_of(substep_limits());
 }
 
-Moment Stepper::moment(double t, std::int64_t step) {
-  Moment m{std::uint64_t(step), Real3(gravity_.at(t)), {}};
+StepTime Stepper::moment(double t, std::int64_t step) {
+  StepTime m{std::uint64_t(step), Real3(gravity_.at(t)), {}};
   must_be_finite(gravity_.at(t), "frame.motion: its acceleration", t);
   if (!config_.drive.on_fluid()) return m;
   m.drive = fluid_factor_.field<FluidPosition>(config_.drive, frame_, fluid_.x, t);

@@ -39,8 +39,8 @@ class Stepper {
   const Coupling& coupling() const { return *coupling_; }
   const FluidExtremes& fluid_extremes() const { return fluid_extremes_; }  ///< after the last step
   const GrainWatch& grain_watch() const { return grain_watch_; }           ///< after the last step
-  const Moment& moment() const { return moment_; }  ///< of the fluid's forces at the end of the last step
-  double corrected() const { return corrected_; }   ///< s, with what of it velocities were corrected since
+  const StepTime& moment() const { return moment_; }  ///< of the fluid's forces at the end of the last step
+  double corrected() const { return corrected_; }     ///< s, with what of it velocities were corrected since
   std::int64_t rebuilds() const { return rebuilds_; }
   /// Of all bodies in the last step, at its start and after each substep; without grains and free bodies
   /// empty.
@@ -97,11 +97,11 @@ class Stepper {
   void push(Step& now);
   void finish(Step& now);
 
-  void initialise_fluid(Step& now);            ///< mass for the porosity, hydrostatic pressure
-  Moment moment(double t, std::int64_t step);  ///< at t, s, where a step of that number ends
-  double wall_travel(double dt) const;         ///< m, that no wall goes beyond in the step to come
-  std::vector<StepLimit> body_limits() const;  ///< on a substep
-  StepLimit longest_substep() const;           ///< that grains and free bodies allow
+  void initialise_fluid(Step& now);              ///< mass for the porosity, hydrostatic pressure
+  StepTime moment(double t, std::int64_t step);  ///< at t, s, where a step of that number ends
+  double wall_travel(double dt) const;           ///< m, that no wall goes beyond in the step to come
+  std::vector<StepLimit> body_limits() const;    ///< on a substep
+  StepLimit longest_substep() const;             ///< that grains and free bodies allow
   void refresh_if_needed(double dt);
   void refresh(bool fluid, bool grains, double dt = 0);  ///< dt: of the step to come, s
   void load_grain_store(const SavedState& saved);        ///< and the rigid groups of the grains
@@ -131,7 +131,7 @@ class Stepper {
   std::unique_ptr<Coupling> coupling_;
   Stopwatch watch_;
 
-  Moment moment_;         ///< of the last forces
+  StepTime moment_;       ///< of the last forces
   double corrected_ = 0;  ///< s, kick of the last correction
   Span<const BodyPose> substep_poses_;
   FluidExtremes fluid_extremes_;

@@ -283,7 +283,7 @@ BodyPressures FreeBodies::fit_pressure(const WallStore& walls, Span<const BodyPo
   fit_sums_.zero();
   for (int k = 0; k < size(); ++k)
     reduce_into(fit_sums_.data() + k, walls.owned(),
-                BodyPressureReduction{{rigid(k).body, walls.body, walls.x0, poses.data}, walls.m_state});
+                BodyPressureReduction{{rigid(k).body, walls.body, walls.x0, poses.data}, walls.state});
   for_each(store_.owned(), FitBodyPressure{fit_sums_, pressures_});
   return {pressures_, poses.data};
 }
@@ -323,7 +323,7 @@ void FreeBodies::correct_pressure(const WallStore& walls, const Buffer<Vec4<doub
   for (int k = 0; k < size(); ++k)
     reduce_into(in_pressure_.data() + k, walls.owned(),
                 PairsInPressureReduction{
-                    {rigid(k).body, walls.body, walls.x0, poses.data}, walls.m_state, in_fit.span()});
+                    {rigid(k).body, walls.body, walls.x0, poses.data}, walls.state, in_fit.span()});
   BodyStore& s = store_;
   for_each(s.owned(), CorrectBody{.bodies = constants_.data(),
                                   .fitted = pressures_.data(),

@@ -157,7 +157,7 @@ class Spoilt final : public StagedRun {
       if (ended == "fluid_state") {
         StageFields all = run_->fields();
         for (StageField& field : all)
-          if (field.name == "fluid/m_state") field.raw.as<float>()[4 * 17 + 2] *= 1.0001f;  // density
+          if (field.name == "fluid/eos_state") field.raw.as<float>()[4 * 17 + 2] *= 1.0001f;  // density
         run_->take(all);
       }
       f(ended);
@@ -177,7 +177,7 @@ TEST(StagesOnTheCpu, ThatDifferAreNamed) {
     const auto found = Record(*right, 1).against(wrong);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].stage, "fluid_state");
-    EXPECT_EQ(found[0].field, "fluid/m_state");
+    EXPECT_EQ(found[0].field, "fluid/eos_state");
     EXPECT_NEAR(found[0].relative, 1e-4, 1e-6);
     EXPECT_NE(first_beyond(found, 5e-5), "");
     EXPECT_EQ(first_beyond(found, 2e-4), "");

@@ -16,7 +16,7 @@ struct Exchange {
 Exchange grain_at(double z) {
   Config c = unit_box(0.1, 20);
   Cloud fluid = fluid_at(lattice({0.25, 0.25, 0.2}, {0.75, 0.75, 0.5}, 0.05), 0.05, 1000, 1);
-  for (auto& t : fluid.theta) t = {0, 0, 9.81};
+  for (auto& t : fluid.stress_acceleration) t = {0, 0, 9.81};
   CoupledBox box(c, fluid, {{{0.5, 0.5, z}}, {{0, 0, -1}}, {{0, 2, 0}}, {0.03}});
   box.coupling.porosity(box.fluid, box.grains, {}, 0);
   box.coupling.push(box.fluid, box.grains, 0, true);
@@ -71,7 +71,7 @@ TEST(Drying, ABedThatStandsOutOfTheWaterIsLiftedByWhatIsUnderIt) {
   c.couple.mode = "one_way";
   c.wall.bodies = {test::tank({lo, lo, lo}, {hi, hi, hi})};
   Cloud fluid = fluid_at(lattice({lo, lo, lo}, {hi, hi, level}, 0.025), 0.025, 1000, 1);
-  for (auto& t : fluid.theta) t = {0, 0, 9.81};
+  for (auto& t : fluid.stress_acceleration) t = {0, 0, 9.81};
   Pebbles grains{lattice({lo, lo, lo}, {hi, hi, hi}, 0.04), {}, {}, {}};
   const std::size_t n = grains.x.size();
   grains.v.resize(n);

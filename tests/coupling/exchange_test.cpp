@@ -64,16 +64,16 @@ Balances exchange(CoupledBox& box, double dt) {
   box.coupling.react(box.fluid, box.grains, dt);
   const auto after = box.fluid.v_rho.values();
   const auto mass = box.fluid.mass.values();
-  const auto state = box.fluid.m_state.values();
+  const auto state = box.fluid.eos_state.values();
   const auto reaction = box.fluid.reaction.values(), kick = box.fluid.drag_kick.values(),
-             theta = box.fluid.theta.values();
+             theta = box.fluid.stress_acceleration.values();
   const auto at = box.fluid_places();
   Balances b;
   for (std::size_t a = 0; a < at.size(); ++a) {
     const Vec3d change = Vec3d(after[a].xyz()) - Vec3d(before[a].xyz()), p = change * double(mass[a]);
     EXPECT_LT(norm(change - Vec3d(kick[a])), kInvariant * (1 + norm(change)));
-    const Vec3d f =
-        Vec3d(reaction[a]) * double(mass[a]) + Vec3d(theta[a]) * (double(mass[a]) - double(state[a].x));
+    const Vec3d f = Vec3d(reaction[a]) * double(mass[a]) +
+                    Vec3d(theta[a]) * (double(mass[a]) - double(state[a].mass_over_eps));
     b.momentum.add(p);
     b.spin.add(cross(at[a], p));
     b.force.add(f);
@@ -132,7 +132,7 @@ ByAllPairs by_all_pairs(const CoupledBox& box, const std::vector<Real4>& v_rho, 
   const auto at = box.fluid_places();
   const Vec3d x = box.grains.x.values()[j], v(box.grains.v.values()[j]);
   const auto mass = box.fluid.mass.values(), eps = box.fluid.eps.values();
-  const auto theta = box.fluid.theta.values();
+  const auto theta = box.fluid.stress_acceleration.values();
   const double d = 2 * box.grains.radius.values()[j];
   ByAllPairs out;
   Vec3d mean_slip;
@@ -279,7 +279,7 @@ TEST(Exchange, UniformStressPushesAGrainAsItsVolume) {
   std::mt19937_64 random(9);
   Cloud fluid = fluid_at(random_points(2500, {0, 0, 0}, {1, 1, 1}, random), 1 / 13.57, 1000, 0.6);
   const Vec3d theta{0.5, -3, 9.81};  // still water: - g
-  for (auto& t : fluid.theta) t = theta;
+  for (auto& t : fluid.stress_acceleration) t = theta;
   CoupledBox box(c, fluid, random_grains(30, {0.3, 0.3, 0.3}, {0.7, 0.7, 0.7}, 0.06, random));
   box.coupling.porosity(box.fluid, box.grains, {}, 0);
   box.coupling.push(box.fluid, box.grains, 0, true);
@@ -310,7 +310,7 @@ TEST(Exchange, StillWaterInAUniformBedStaysStill) {
   grains.radius.assign(grains.x.size(), d / 2);
   const double eps = 1 - M_PI / 6 * std::pow(d / spacing, 3);
   Cloud fluid = fluid_at(lattice(c.domain.min, c.domain.max, dx), dx, 1000, eps);
-  for (auto& t : fluid.theta) t = {0, 0, 9.81};
+  for (auto& t : fluid.stress_acceleration) t = {0, 0, 9.81};
   CoupledBox box(c, fluid, grains);
   exchange(box, 1e-4);
   for (const Real3& reaction : box.fluid.reaction.values()) EXPECT_LT(norm(reaction), 1e-3 * 9.81);

@@ -30,7 +30,7 @@ CoupledBox suspension(double stiffness, const Way& way = {}) {
   c.couple.slip = way.slip;
   std::mt19937_64 random(21);
   Cloud fluid = random_fluid(200, {0, 0, 0}, {1, 1, 1}, 1000, random);
-  fluid.theta.assign(200, {});
+  fluid.stress_acceleration.assign(200, {});
   for (auto& v : fluid.v) v = v * way.speed;
   return CoupledBox(c, fluid, random_grains(300, {0, 0, 0}, {1, 1, 1}, kDiameter, random));
 }
@@ -119,7 +119,7 @@ TEST(StiffDrag, NeverGainsEnergyBesideASurface) {
         c.couple.slip = slip;
         std::mt19937_64 random(8);
         Cloud fluid = random_fluid(400, {0.2, 0.2, 0.2}, {0.8, 0.8, 0.5}, 1000, random);
-        fluid.theta.assign(400, {});
+        fluid.stress_acceleration.assign(400, {});
         for (std::size_t a = 0; a < 400; ++a)
           fluid.v[a] = cross(Vec3d{5, 0, 0}, fluid.x[a] - Vec3d{0.5, 0.5, height});
         CoupledBox box(c, fluid, {{{0.5, 0.5, height}}, {{}}, {{}}, {kDiameter / 2}});
@@ -137,9 +137,10 @@ TEST(StiffDrag, IsBoundedByTheSoftestFluidAround) {
   const auto x = free.grains.x.values();
   const auto K = free.grains.drag_coefficient.values(), K_bound = bound.grains.drag_coefficient.values();
   const auto mass = free.fluid.mass.values();
-  const auto state = free.fluid.m_state.values();
+  const auto state = free.fluid.eos_state.values();
   const auto weight = [&](std::size_t a, std::size_t j) {
-    return state[a].x / state[a].z * double(w.W(Real(norm(free.frame.separation(at[a], x[j])))));
+    return state[a].mass_over_eps / state[a].rho *
+           double(w.W(Real(norm(free.frame.separation(at[a], x[j])))));
   };
   std::vector<double> rate(at.size());
   for (std::size_t j = 0; j < x.size(); ++j) {

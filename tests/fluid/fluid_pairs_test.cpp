@@ -130,13 +130,13 @@ TEST(FluidPairs, FragmentedFluidCavitates) {
   for (std::size_t a = 0; a < box.s.size(); ++a) box.s[a] = a % 2 ? -0.1 : -0.01;  // fragmented, stretched
   box.upload();
   const auto id = box.fluid.id.values();
-  const auto m = box.fluid.m_state.values();
-  const auto s = box.fluid.s.values();
+  const auto m = box.fluid.eos_state.values();
+  const auto s = box.fluid.compression.values();
   for (std::size_t k = 0; k < id.size(); ++k) {
     const double density = id[k] % 2 ? -0.02 : -0.01;
-    EXPECT_NEAR(m[k].z, 1000 * (1 + density), 1e-3);
+    EXPECT_NEAR(m[k].rho, 1000 * (1 + density), 1e-3);
     EXPECT_NEAR(s[k], id[k] % 2 ? -0.1 : -0.01, 1e-7) << "it forgets how far it is fragmented";
-    EXPECT_LT(m[k].y, 0) << "it pulls";
+    EXPECT_LT(m[k].p_over_rho2, 0) << "it pulls";
   }
 }
 
@@ -165,7 +165,7 @@ double viscosity_on_a_lattice(const char* model, const char* kernel, double mu) 
   box.upload();
   box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0);
   const auto v = box.fluid.v_rho.values();
-  const auto theta = box.fluid.theta.values();
+  const auto theta = box.fluid.stress_acceleration.values();
   double top = 0, bottom = 0;
   for (std::size_t a = 0; a < v.size(); ++a) {
     top -= double(theta[a].x) * v[a].x * 1000;

@@ -61,7 +61,7 @@ struct Channel : FluidBox {
       walls.compression.assign(own);
     }
     solver->density(fluid, walls, poses, moment(), kStep);
-    found = fluid.s.values();
+    found = fluid.compression.values();
     if (!walled) hold_outer_layers();
     solver->state(fluid, 0, false);
     if (walled) solver->walls(fluid, walls, poses, moment().gravity, 0, true);
@@ -98,16 +98,16 @@ struct Channel : FluidBox {
     walls.x0.assign(x), walls.x.assign(x);
     walls.body.assign(std::vector<std::uint32_t>(x.size(), 0));
     walls.v_rho.assign(std::vector<Real4>(x.size(), Real4{0, 0, 0, 1}));
-    walls.v_visc.assign(std::vector<Real4>(x.size()));
-    walls.m_state.assign(std::vector<Real4>(x.size()));
+    walls.no_slip.assign(std::vector<NoSlip<>>(x.size()));
+    walls.state.assign(std::vector<WallState<>>(x.size()));
     walls.compression.assign(own);
   }
   void hold_outer_layers() {
-    auto s = fluid.s.values();
+    auto s = fluid.compression.values();
     const auto id = fluid.id.values();
     for (std::size_t a = 0; a < s.size(); ++a)
       if (inside[id[a]] == kOuter) s[a] = 0;
-    fluid.s.assign(s);
+    fluid.compression.assign(s);
   }
 };
 

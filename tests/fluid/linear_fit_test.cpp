@@ -32,16 +32,14 @@ struct Slab {
   /// Largest error of the acceleration at least four spacings from the surfaces, m/s2.
   double error() const {
     const auto x = box->coordinates_now();
-    const auto theta = box->fluid.theta.values();
+    const auto theta = box->fluid.stress_acceleration.values();
     const Vec3d right{-kSlope / config.fluid.rho0, 0, 0};
     double out = 0;
     for (std::size_t a = 0; a < x.size(); ++a)
       if (depth(x[a]) > 4) out = std::max(out, norm(Vec3d(theta[a]) - right));
     return out;
   }
-  double depth(const Vec3d& x) const {
-    return std::min(x.x, config.domain.max.x - x.x) / config.fluid.dx;
-  }
+  double depth(const Vec3d& x) const { return std::min(x.x, config.domain.max.x - x.x) / config.fluid.dx; }
 
   Config config;
   std::unique_ptr<FluidBox> box;
@@ -74,8 +72,8 @@ TEST(LinearFit, LeavesTheOutermostLayerAndFluidThatIsNotViscous) {
   EXPECT_EQ(largest(0.02), 0) << "500";
 }
 
-/// Mean speed of fluid driven to and fro, over that of Poiseuille's flow, under `background` Pa; the stress at
-/// the planes in between is 0.375 Pa.
+/// Mean speed of fluid driven to and fro, over that of Poiseuille's flow, under `background` Pa; the stress
+/// at the planes in between is 0.375 Pa.
 double flow(double background, bool linear_exact = true) {
   Config c = periodic_box(12, 1e-3);
   c.fluid.mu = 0.1;
@@ -113,7 +111,8 @@ TEST(SmallLinearFit, TellsTheMomentumThatItAdds) {
   for (int k = 0; k < 60; ++k) {
     s->step();
     const auto d = s->diagnostics();
-    const Vec3d added = vector_of(d, "force_pressure_correction"), left = vector_of(d, "fluid_force_residual");
+    const Vec3d added = vector_of(d, "force_pressure_correction"),
+                left = vector_of(d, "fluid_force_residual");
     most = std::max(most, norm(added));
     EXPECT_LT(norm(left), 1e-4 * 1000 * 5.12e-4) << "of the drive";
   }

@@ -42,7 +42,7 @@ struct Sheared : FluidBox {
     solver->forces(fluid, walls, {}, moment(), 0.01);
     solver->moments(fluid, walls, moment(), 0.01, moments);
     const auto id = fluid.id.values();
-    const auto s_next = fluid.s.values();
+    const auto s_next = fluid.compression.values();
     const auto acc = fluid.acc_next.values();
     const auto stress = moments.friction.to_host();
     density.resize(id.size()), acceleration.resize(id.size()), shear_stress.resize(id.size());

@@ -137,7 +137,7 @@ double viscosity_of_wave(const std::string& model, int direction, double bulk, d
     box.solver->spin()->omega.assign(spin);
   }
   box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0);
-  const auto theta = box.fluid.theta.values();
+  const auto theta = box.fluid.stress_acceleration.values();
   double top = 0, bottom = 0;
   for (std::size_t a = 0; a < x.size(); ++a) {
     const double wave = std::cos(k * x[a].z);
@@ -240,7 +240,7 @@ TEST(Sdpd, SummationGivesTheLatticeItsDensity) {
     for (double& m : box.mass) m *= 1.1;
     box.upload();
     box.solver->density(box.fluid, box.walls, {}, box.moment(), 0.01);
-    for (Real s : box.fluid.s.values()) ASSERT_NEAR(s, 0.1, tolerance(1e-6, 1e-5, 1e-4)) << kernel;
+    for (Real s : box.fluid.compression.values()) ASSERT_NEAR(s, 0.1, tolerance(1e-6, 1e-5, 1e-4)) << kernel;
   }
 }
 
@@ -254,7 +254,7 @@ TEST(Sdpd, AveragesLeaveAConstantAlone) {  // T-12: reinitialisation and pressur
   box.upload();
   const double p = box.fluid.p_rho2.values()[0];
   box.solver->density(box.fluid, box.walls, {}, box.moment(2), 0);  // the next step is the third
-  for (Real s : box.fluid.s.values()) ASSERT_NEAR(s, 0.03, 10 * kInvariant);
+  for (Real s : box.fluid.compression.values()) ASSERT_NEAR(s, 0.03, 10 * kInvariant);
   box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0);
   for (Real found : box.fluid.p_rho2.values()) ASSERT_NEAR(found / p, 1, 20 * kInvariant);
 }
@@ -268,7 +268,7 @@ TEST(Sdpd, AveragesSmoothWhatDiffers) {
     randomise(box);
     box.solver->density(box.fluid, box.walls, {}, box.moment(step), 0);
     double sum = 0;
-    for (Real s : box.fluid.s.values()) sum += double(s) * s;
+    for (Real s : box.fluid.compression.values()) sum += double(s) * s;
     return sum;
   };
   EXPECT_LT(spread(3, 2), 0.2 * spread(0, 2));

@@ -108,10 +108,10 @@ TEST_P(VariableH, ContinuityIsTheRateOfTheSummation) {  // T-6
     after.push_back(box.position[a] + dt * box.velocity[a]);
   }
   upload_at(box, summation(box.position));
-  const auto s = box.fluid.s.values();  // as the box has them
+  const auto s = box.fluid.compression.values();  // as the box has them
   box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0);
   box.solver->density(box.fluid, box.walls, {}, box.moment(), 1);
-  const auto next = box.fluid.s.values();
+  const auto next = box.fluid.compression.values();
   const auto id = box.fluid.id.values();
   const auto h = box.solver->lengths()->h.values();
   const auto rho = summation(box.position), early = summation(before), late = summation(after);
@@ -162,15 +162,17 @@ TEST(SmallVariableH, PressureIsNoSourceOfEnergy) {
   box.upload();
   box.solver->forces(box.fluid, box.walls, {}, box.moment(), 0);
   box.solver->density(box.fluid, box.walls, {}, box.moment(), 1);
-  const auto acc = box.fluid.theta.values();
-  const auto v = box.fluid.v_rho.values(), state = box.fluid.m_state.values();
-  const auto m = box.fluid.mass.values(), s = box.fluid.s_next.values(), next = box.fluid.s.values();
+  const auto acc = box.fluid.stress_acceleration.values();
+  const auto v = box.fluid.v_rho.values();
+  const auto state = box.fluid.eos_state.values();
+  const auto m = box.fluid.mass.values(), s = box.fluid.compression_next.values(),
+             next = box.fluid.compression.values();
   double motion = 0, compression = 0, scale = 0;
   for (std::size_t a = 0; a < acc.size(); ++a) {
     const double work = double(m[a]) * dot(Vec3d(v[a].xyz()), Vec3d(acc[a]));
     motion += work;
     scale += std::abs(work);
-    compression += double(m[a]) * state[a].y * box.config.fluid.rho0 * (double(next[a]) - s[a]);
+    compression += double(m[a]) * state[a].p_over_rho2 * box.config.fluid.rho0 * (double(next[a]) - s[a]);
   }
   EXPECT_LT(std::abs(motion + compression) / scale, tolerance(1e-12, 3e-6, 3e-5));
 }
@@ -186,7 +188,7 @@ TEST(SmallVariableH, ListsBoundHowFarLengthsGrow) {
   const double most = double(kLengthGrowth) * 0.015;
   EXPECT_FALSE(box.solver->due(extremes(), 0, 0));
   EXPECT_NEAR(length(), 0.015, 1e-7);
-  box.fluid.s.assign(std::vector<Real>(box.s.size(), Real(-0.2)));  // volumes grow by a quarter
+  box.fluid.compression.assign(std::vector<Real>(box.s.size(), Real(-0.2)));  // volumes grow by a quarter
   box.solver->state(box.fluid, 0, false);
   EXPECT_NEAR(length(), most, 1e-6);
   EXPECT_TRUE(box.solver->due(extremes(), 0, 0));

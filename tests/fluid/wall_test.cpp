@@ -20,30 +20,33 @@ struct LoneWall {
   std::vector<Vec3d> x = std::vector<Vec3d>(1);
   std::vector<std::uint32_t> body = {0};
   std::vector<BodyPose> pose = std::vector<BodyPose>(1);
-  std::vector<Real4> v_rho = std::vector<Real4>(1), v_visc = v_rho, m_state = v_rho;
+  std::vector<Real4> v_rho = std::vector<Real4>(1);
+  std::vector<NoSlip<>> no_slip = std::vector<NoSlip<>>(1);
+  std::vector<WallState<>> state = std::vector<WallState<>>(1);
   std::vector<Real> compression = std::vector<Real>(1);
 
   LoneWall() { pose[0].volume = 1e-3; }
 
   /// Beside fluid of this velocity and density, and state.
-  WallPass<WendlandC2> pass(const std::vector<Real4>& v, const std::vector<Real4>& m, const Vec3d& gravity) {
+  WallPass<WendlandC2> pass(const std::vector<Real4>& v, const std::vector<EosState<>>& m,
+                            const Vec3d& gravity) {
     const auto in = [](const auto& host) { return Span(host.data(), Index(host.size())); };
     const auto out = [](auto& host) { return Span(host.data(), Index(host.size())); };
-    return {WendlandC2(0.1),
-            EquationOfState{Real(1e7), 7, 0, 1000, false},
-            in(v),
-            in(m),
-            {},
-            0,
-            in(x),
-            in(body),
-            in(pose),
-            Real3(gravity),
-            Real(1e-3),
-            out(v_rho),
-            out(v_visc),
-            out(m_state),
-            out(compression)};
+    return {.w = WendlandC2(0.1),
+            .eos = {Real(1e7), 7, 0, 1000, false},
+            .flux = in(v),
+            .eos_state = in(m),
+            .drag_kick = {},
+            .rate = 0,
+            .x0 = in(x),
+            .body = in(body),
+            .pose = in(pose),
+            .gravity = Real3(gravity),
+            .least_sum = Real(1e-3),
+            .v_rho = out(v_rho),
+            .no_slip = out(no_slip),
+            .state = out(state),
+            .compression = out(compression)};
   }
 };
 
@@ -53,7 +56,8 @@ double extrapolated(const Vec3d& gravity, const RigidMotion& wall, const Vec3d& 
                     const Vec3d& v_fluid = {}) {
   std::mt19937 rng(3);
   std::uniform_real_distribution<double> u(-0.1, 0.1);
-  std::vector<Real4> v, m;
+  std::vector<Real4> v;
+  std::vector<EosState<>> m;
   std::vector<Vec3d> at;
   for (int a = 0; a < 60; ++a) {
     at.push_back({u(rng), u(rng), 0.1 + u(rng)});
@@ -67,10 +71,10 @@ double extrapolated(const Vec3d& gravity, const RigidMotion& wall, const Vec3d& 
   auto sum = pass.start(0);
   for (int a = 0; a < 60; ++a) {
     const Real3 r = Real3(-at[a]);
-    if (norm2(r) < Real(0.04)) pass.pair(sum, r, norm2(r), m[a].x, v[a], m[a], Real3());
+    if (norm2(r) < Real(0.04)) pass.pair(sum, r, norm2(r), m[a].mass_over_eps, v[a], m[a], Real3());
   }
   pass.finish(0, sum);
-  return lone.m_state[0].y * square(lone.v_rho[0].w);
+  return lone.state[0].p_over_rho2 * square(lone.v_rho[0].w);
 }
 
 TEST(Walls, TakeALinearPressureExactly) {  // T-11
@@ -101,14 +105,15 @@ TEST(Walls, FallingFreelyTakeTheMeanPressure) {  // T-11: a_w = g
 }
 
 TEST(Walls, AreAsHeavyAsFluidThatFillsThem) {
-  const std::vector<Real4> v{{Real3(), Real(1000)}}, m{{Real(1e-3), Real(2e4 / 1e6), Real(1000), Real(0.4)}};
+  const std::vector<Real4> v{{Real3(), Real(1000)}};
+  const std::vector<EosState<>> m{{Real(1e-3), Real(2e4 / 1e6), Real(1000), Real(0.4)}};
   LoneWall lone;
   const auto mass = [&](bool near) {
     const auto pass = lone.pass(v, m, {});
     auto sum = pass.start(0);
-    if (near) pass.pair(sum, Real3(Real(0.05), 0, 0), Real(0.0025), m[0].x, v[0], m[0], Real3());
+    if (near) pass.pair(sum, Real3(Real(0.05), 0, 0), Real(0.0025), m[0].mass_over_eps, v[0], m[0], Real3());
     pass.finish(0, sum);
-    return double(lone.m_state[0].x);
+    return double(lone.state[0].mass);
   };
   const double rho = 1000 * std::pow(1 + 2e4 / 1e7, 1.0 / 7);  // at 20 kPa
   EXPECT_NEAR(mass(true), 1e-3 * rho, 1e-5) << "whatever the porosity beside it";
@@ -118,7 +123,8 @@ TEST(Walls, AreAsHeavyAsFluidThatFillsThem) {
 /// What a mirrored particle finds about its image in fluid of density rho0 (1 + field).
 template <class Field>
 double mirrored(const std::vector<Vec3d>& at, const Vec3d& x, const Vec3d& image, const Field& field) {
-  std::vector<Real4> v, m;
+  std::vector<Real4> v;
+  std::vector<EosState<>> m;
   for (const Vec3d& place : at) {
     v.push_back({Real3(), Real(1000)});
     m.push_back({Real(0.42), 0, Real(1000 * (1 + field(place))), 0});  // 150 fill what holds them
@@ -129,22 +135,22 @@ double mirrored(const std::vector<Vec3d>& at, const Vec3d& x, const Vec3d& image
   std::vector<BodyPose> pose(1);
   pose[0].kind = WallKind::mirrored;
   std::vector<Real> compression(1);
-  const MirrorPass<WendlandC2> pass{WendlandC2(0.15),
-                                    {{-9, -9, -9}, {9, 9, 9}, false, false, false},
-                                    1000,
-                                    Real(-0.5),
-                                    Real(1e-3),
-                                    in(v),
-                                    in(m),
-                                    in(place),
-                                    in(images),
-                                    in(body),
-                                    in(pose),
-                                    Span(compression.data(), 1)};
+  const MirrorPass<WendlandC2> pass{.w = WendlandC2(0.15),
+                                    .frame = {{-9, -9, -9}, {9, 9, 9}, false, false, false},
+                                    .rho0 = 1000,
+                                    .least = Real(-0.5),
+                                    .least_sum = Real(1e-3),
+                                    .flux = in(v),
+                                    .eos_state = in(m),
+                                    .x = in(place),
+                                    .image = in(images),
+                                    .body = in(body),
+                                    .pose = in(pose),
+                                    .compression = Span(compression.data(), 1)};
   auto sum = pass.start(0);
   for (std::size_t a = 0; a < at.size(); ++a) {
     const Real3 r = Real3(image - at[a]);
-    if (norm2(r) < Real(0.09)) pass.pair(sum, r, norm2(r), m[a].x, v[a], m[a]);
+    if (norm2(r) < Real(0.09)) pass.pair(sum, r, norm2(r), m[a].mass_over_eps, v[a], m[a]);
   }
   pass.finish(0, sum);
   return compression[0];

@@ -12,9 +12,9 @@
 namespace bedload::inline BL_VARIANT {
 
 struct Cloud {
-  std::vector<Vec3d> x, v;             ///< m, m/s
-  std::vector<double> mass, rho, eps;  ///< kg, kg/m3, -
-  std::vector<Vec3d> theta;            ///< m/s2
+  std::vector<Vec3d> x, v;                 ///< m, m/s
+  std::vector<double> mass, rho, eps;      ///< kg, kg/m3, -
+  std::vector<Vec3d> stress_acceleration;  ///< m/s2
 };
 struct Pebbles {
   std::vector<Vec3d> x, v, omega;  ///< m, m/s, rad/s
@@ -130,19 +130,21 @@ struct CoupledBox {
   void fill(const Cloud& c) {
     fluid.resize(Index(c.x.size()));
     std::vector<FluidPosition> x;
-    std::vector<Real4> v_rho, m_state;
+    std::vector<Real4> v_rho;
+    std::vector<EosState<>> eos_state;
     for (std::size_t a = 0; a < c.x.size(); ++a) {
       x.push_back(as_position<FluidPosition>(frame, c.x[a]));
       v_rho.push_back({Real3(c.v[a]), Real(c.rho[a])});
-      m_state.push_back({Real(c.mass[a] / c.eps[a]), 0, Real(c.rho[a]), Real(c.eps[a])});
+      eos_state.push_back(
+          {.mass_over_eps = Real(c.mass[a] / c.eps[a]), .rho = Real(c.rho[a]), .eps = Real(c.eps[a])});
     }
     fluid.x.assign(x);
     fluid.v_rho.assign(v_rho);
-    fluid.m_state.assign(m_state);
+    fluid.eos_state.assign(eos_state);
     fluid.solid_factor.assign(std::vector<Real>(c.x.size(), Real(1)));
     fluid.mass.assign(converted<Real>(c.mass));
     fluid.eps.assign(converted<Real>(c.eps));
-    fluid.theta.assign(converted<Real3>(c.theta));
+    fluid.stress_acceleration.assign(converted<Real3>(c.stress_acceleration));
   }
   void fill(const Pebbles& p) {
     grains.resize(Index(p.x.size()));

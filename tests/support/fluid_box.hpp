@@ -75,13 +75,13 @@ struct FluidBox {
     fluid.x.assign(x);
     fluid.v_rho.assign(v);
     fluid.mass.assign(m);
-    fluid.s.assign(c);
+    fluid.compression.assign(c);
     fluid.eps.assign(std::vector<Real>(n, Real(1)));
     solver->refresh(fluid, walls, true, {});
     solver->state(fluid, 0, false);
   }
   /// With nothing that drives the fluid.
-  Moment moment(std::uint64_t step = 0) const { return {step, Real3(config.gravity), {}}; }
+  StepTime moment(std::uint64_t step = 0) const { return {step, Real3(config.gravity), {}}; }
   std::vector<Vec3d> coordinates_now() const {
     std::vector<Vec3d> out;
     for (const auto& p : fluid.x.values()) out.push_back(coordinates(frame, p));

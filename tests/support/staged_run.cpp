@@ -34,7 +34,7 @@ std::vector<int> groups_of(const std::string& name, int components) {
   std::vector<int> group(components);
   std::iota(group.begin(), group.end(), 0);
   const auto one = [&](int first) { group[first + 1] = group[first + 2] = group[first]; };
-  if (components == 3 || (components == 4 && name != "m_state")) one(0);
+  if (components == 3 || (components == 4 && name != "eos_state" && name != "state")) one(0);
   if (components == 12) one(1), one(4), one(7);  // what a grain remembers of a wall: normal, spring, couple
   return group;
 }

@@ -77,15 +77,15 @@ TEST(Outputs, OfTheViscometerHaveTheirOrder) {
 TEST(Outputs, HoldWhatTheFieldsHold) {
   Started s({"coupled", kBed, {}});
   for (int k = 0; k < 3; ++k) s.simulation.step();
-  const auto v_rho = s.simulation.state().fluid.v_rho.values(),
-             m_state = s.simulation.state().fluid.m_state.values();
+  const auto v_rho = s.simulation.state().fluid.v_rho.values();
+  const auto eos_state = s.simulation.state().fluid.eos_state.values();
   const HostStore frame = s.simulation.snapshot("fluid");
   ASSERT_EQ(frame.count, v_rho.size());
   double fastest = 0;
   for (std::size_t a = 0; a < frame.count; ++a) {
     const Real* const v = frame.find("velocity")->as<Real>() + 3 * a;
     EXPECT_EQ(norm(Real3{v[0], v[1], v[2]} - v_rho[a].xyz()), 0);
-    EXPECT_EQ(frame.find("density")->as<Real>()[a], m_state[a].z);
+    EXPECT_EQ(frame.find("density")->as<Real>()[a], eos_state[a].rho);
     fastest = std::max(fastest, double(norm(v_rho[a].xyz())));
   }
   EXPECT_GT(fastest, 0);

@@ -3,7 +3,7 @@
 
 #include <type_traits>
 
-#include "bedload/core/pack.hpp"
+#include "bedload/core/records.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -15,8 +15,7 @@ struct Span {
   Span() = default;
   BL_HD Span(T* d, Index n) : data(d), size(n) {}
   template <class U>
-    requires(std::is_same_v<const U, T>)
-  BL_HD Span(const Span<U>& o) : data(o.data), size(o.size) {}
+  requires(std::is_same_v<const U, T>) BL_HD Span(const Span<U>& o) : data(o.data), size(o.size) {}
 
   BL_HD T& operator[](Index i) const { return data[i]; }
 #if !BL_CUDA

@@ -65,6 +65,12 @@ struct FileType<Vec4<T>> {
   static constexpr Scalar scalar = FileType<T>::scalar;
   static constexpr int components = 4;
 };
+template <class T>
+struct FileType<EosState<T>> : FileType<Vec4<T>> {};
+template <class T>
+struct FileType<WallState<T>> : FileType<Vec4<T>> {};
+template <class T>
+struct FileType<NoSlip<T>> : FileType<Vec4<T>> {};
 template <>
 struct FileType<PackedPosition> {
   static constexpr Scalar scalar = Scalar::u32;

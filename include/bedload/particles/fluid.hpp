@@ -17,18 +17,18 @@ struct FluidStore : Store {
   Field<Real> half_skin{*this, "half_skin", "m", Lifetime::renewed};     ///< how far it may go from there until they are built anew
   Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept, Output{.order = 1, .uses = kFrames | kViews | kRheology, .name = "velocity", .unit = "m/s", .components = 3}};  ///< velocity, density
   Field<Real4> flux{*this, "flux", "m/s, kg/m3", Lifetime::kept};     ///< volume flux of fluid and grains, eps v + sum w u, or, of sheared fluid, peculiar velocity; density
-  Field<Real> s{*this, "s", "-", Lifetime::kept};                     ///< density / rho0 - 1
+  Field<Real> compression{*this, "compression", "-", Lifetime::kept};  ///< s = density / rho0 - 1; lower than eos_state says where fluid cavitates
   Field<Real> mass{*this, "mass", "kg", Lifetime::kept, Output{.order = 2, .uses = kViews | kRheology}};
   Field<Real> eps{*this, "porosity", "-", Lifetime::kept, Output{.order = 5, .coupled = true}};
   Field<Real> solid_factor{*this, "solid_factor", "-", Lifetime::kept};  ///< of the grains around it as it counts them: below 1 beside orifices and at the least porosity
   Field<std::uint32_t> species{*this, "species", "-", Lifetime::kept, Output{.order = 13}};  ///< place in fluid.species; left out where there are none, as the next
   Field<Real> viscosity{*this, "relative_viscosity", "-", Lifetime::kept};  ///< over that of fluid.mu
-  Field<Real3> theta{*this, "theta", "m/s2", Lifetime::kept};   ///< stress of the mixture: pressure, viscosity
-  Field<Real3> acc{*this, "acceleration", "m/s2", Lifetime::kept};  ///< theta + gravity + drive + repulsion
+  Field<Real3> stress_acceleration{*this, "stress_acceleration", "m/s2", Lifetime::kept};  ///< by the stress of the mixture: pressure, viscosity
+  Field<Real3> acc{*this, "acceleration", "m/s2", Lifetime::kept};  ///< stress_acceleration + gravity + drive + repulsion
   Field<Real3> drift{*this, "drift", "m/s", Lifetime::kept};    ///< with which particles move beside their velocity: shifting, XSPH
   Field<Real> exposure{*this, "exposure", "-", Lifetime::kept};  ///< to free surfaces (Shifting): 0 within the fluid
-  Field<Real> compression_rate{*this, "compression_rate", "1/s", Lifetime::kept};  ///< what continuity alone makes of s; left out without acoustic damper
-  Field<Real4> m_state{*this, "m_state", "kg, m5/(kg s2), kg/m3, -", Lifetime::kept, Output{.order = 4, .name = "density", .unit = "kg/m3", .components = 1, .first = 2}};  ///< what pair loops read: mass / porosity, P/rho2, density, porosity
+  Field<Real> compression_rate{*this, "compression_rate", "1/s", Lifetime::kept};  ///< of compression by continuity alone; left out without acoustic damper
+  Field<EosState<>> eos_state{*this, "eos_state", "kg, m5/(kg s2), kg/m3, -", Lifetime::kept, Output{.order = 4, .name = "density", .unit = "kg/m3", .components = 1, .first = 2}};
   Field<Real3> drag_kick{*this, "drag_kick", "m/s", Lifetime::derived};  ///< by the drag of the grains, this step
   Field<Real3> acc_next{*this, "acc_next", "m/s2", Lifetime::derived};
   Field<Real3> heading{*this, "heading", "m/s", Lifetime::derived};  ///< velocity in the middle of the next step but for the push of wall surfaces
@@ -36,7 +36,7 @@ struct FluidStore : Store {
   Field<Real> grains_around{*this, "grains_around", "-", Lifetime::derived};  ///< sum of V_j W(r_aj; h) over grains; left out where density does not count them
   Field<Real> exposure_next{*this, "exposure_next", "-", Lifetime::derived};
   Field<Real4> correction{*this, "pressure_correction", "m/s2, -", Lifetime::kept};  ///< of LinearFit; its weight
-  Field<Real> s_next{*this, "s_next", "-", Lifetime::derived};
+  Field<Real> compression_next{*this, "compression_next", "-", Lifetime::derived};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};  ///< x as pair loops read it
   Field<PairPosition> xp_mid{*this, "xp_mid", "m", Lifetime::derived};  ///< where it is in the middle of the step, likewise; left out where no loop runs there
   Field<Real3> reaction{*this, "reaction", "m/s2", Lifetime::derived};  ///< couples that keep the angular momentum of the stress shared with grains

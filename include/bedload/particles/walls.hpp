@@ -14,12 +14,12 @@ enum class WallKind : std::uint32_t {
 
 /// Where a wall body is, how it moves and how it meets fluid and grains.
 struct BodyPose : RigidMotion {
-  std::uint32_t slip = 0;       ///< 1: slip
-  std::uint32_t repulsion = 0;  ///< 1: Monaghan repulsion
+  std::uint32_t slip = 0;            ///< 1: slip
+  std::uint32_t repulsion = 0;       ///< 1: Monaghan repulsion
   std::uint32_t no_penetration = 0;  ///< 1: stops fluid that comes too near
-  std::uint32_t present = 1;    ///< 0: removed
-  std::uint32_t flows = 0;      ///< 1: fluid on its way in
-  std::uint32_t free = 0;       ///< 1 + place among the free bodies; 0: motion prescribed
+  std::uint32_t present = 1;         ///< 0: removed
+  std::uint32_t flows = 0;           ///< 1: fluid on its way in
+  std::uint32_t free = 0;            ///< 1 + place among the free bodies; 0: motion prescribed
   WallKind kind = WallKind::extrapolated;
   double volume = 0;  ///< that one of its particles stands for, m3
   Vec3d slide;        ///< velocity of its surface in place, in the body's axes, m/s
@@ -52,11 +52,8 @@ struct WallStore : Store {
   Field<PairPosition> xp_mid{*this, "xp_mid", "m", Lifetime::derived};  ///< as the fluid's; left out where no wall moves
   Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept,
                      Output{.order = 1, .name = "velocity", .unit = "m/s", .components = 3}};  ///< true velocity, density
-  Field<Real4> v_visc{*this, "v_visc", "m/s, kg",
-                      Lifetime::kept};  ///< no-slip velocity; w: mass with which it drags, 0 with slip
-  /// mass (kg; 0: inactive), P / rho^2, density; 1 where a particle has the spin of its body, as frozen fluid,
-  /// and not that of the fluid which it meets
-  Field<Real4> m_state{*this, "m_state", "-", Lifetime::kept};
+  Field<NoSlip<>> no_slip{*this, "no_slip", "m/s, kg", Lifetime::kept};
+  Field<WallState<>> state{*this, "state", "kg, m5/(kg s2), kg/m3, -", Lifetime::kept};
   /// rho / rho0 - 1 of frozen and mirrored walls; kNoCompression: outer layers of a frozen one, or no fluid
   /// about the image
   Field<Real> compression{*this, "compression", "-", Lifetime::kept};

@@ -113,7 +113,8 @@ TEST(Orifice, SolidsAroundItCountMoreAndMore) {
 /// Porosity of a fluid particle beside one grain of volume V and velocity (0, 0, 2), and its flux.
 struct Beside {
   std::vector<FluidPosition> x{FluidPosition{}};
-  std::vector<Real4> volume, v_rho{{1, 0, 0, 1000}}, flux{{}}, m_state{{}};
+  std::vector<Real4> volume, v_rho{{1, 0, 0, 1000}}, flux{{}};
+  std::vector<EosState<>> eos_state{{}};
   std::vector<PairPosition> xp{{}}, xp_mid{{}};
   std::vector<Real> mass{Real(0.3)}, eps{0}, factor{0};
   WendlandC2 w{0.1};
@@ -122,21 +123,20 @@ struct Beside {
     const Real3 r{0, Real(0.05), 0};
     const double V = fraction / double(w.W(Real(0.05)));
     volume = {{0, 0, 2, Real(V)}};
-    const PorosityPass<WendlandC2> pass{w,
-                                        true,
-                                        Real(0.3),
-                                        OrificeWeight{},
-                                        {{-4, -4, -4}, {4, 4, 4}, false, false, false},
-                                        all(x),
-                                        all(volume),
-                                        all(v_rho),
-                                        all(mass),
-                                        all(eps),
-                                        all(factor),
-                                        all(flux),
-                                        all(m_state),
-                                        all(xp),
-                                        all(xp_mid)};
+    const PorosityPass<WendlandC2> pass{.w = w,
+                                        .shares = true,
+                                        .floor = Real(0.3),
+                                        .away_from_orifices = {},
+                                        .frame = {{-4, -4, -4}, {4, 4, 4}, false, false, false},
+                                        .x = all(x),
+                                        .volume = all(volume),
+                                        .v_rho = all(v_rho),
+                                        .mass = all(mass),
+                                        .eps = all(eps),
+                                        .solid_factor = all(factor),
+                                        .flux = all(flux),
+                                        .eos_state = all(eos_state),
+.xp = all(xp), .xp_mid = all(xp_mid)};
     auto sum = pass.start(0);
     pass.pair(sum, r, norm2(r), Real(0), volume[0]);
     pass.finish(0, sum);
@@ -149,9 +149,9 @@ TEST(Porosity, IsWhatGrainsLeaveButNoLessThanItsFloor) {
   EXPECT_EQ(loose.factor[0], 1);
   EXPECT_NEAR(loose.flux[0].x, 0.6, kNear);
   EXPECT_NEAR(loose.flux[0].z, 0.4 * 2, kNear);
-  EXPECT_NEAR(loose.m_state[0].x, 0.3 / 0.6, kNear);
-  EXPECT_EQ(loose.xp[0].weight, loose.m_state[0].x);
-  EXPECT_EQ(loose.xp_mid[0].weight, loose.m_state[0].x);
+  EXPECT_NEAR(loose.eos_state[0].mass_over_eps, 0.3 / 0.6, kNear);
+  EXPECT_EQ(loose.xp[0].weight, loose.eos_state[0].mass_over_eps);
+  EXPECT_EQ(loose.xp_mid[0].weight, loose.eos_state[0].mass_over_eps);
   EXPECT_NEAR(dense.eps[0], 0.3, kNear);
   EXPECT_NEAR(dense.factor[0], 0.7 / 0.875, kNear);  // fluid and grains fill the space together
   EXPECT_NEAR(dense.flux[0].z, 0.7 * 2, 2 * kNear);

@@ -18,17 +18,19 @@ struct Pair {
   Real3 r{Real(0.05), Real(-0.02), Real(0.04)}, r_w{Real(-0.03), Real(0.06), Real(-0.05)};
   double diffusion = 0, stiffening = 5, least = -0.02, fading = 0, spreading = 0;
   Vec3d hydrostatic;
-  std::vector<Real4> flux, m_state, wall_v_rho, wall_m_state;
-  std::vector<Real> s{0}, s_new{0}, compression{0}, wall_work{0};
+  std::vector<Real4> flux, wall_v_rho;
+  std::vector<EosState<>> eos_state;
+  std::vector<WallState<>> wall_state;
+  std::vector<Real> s{0}, s_new{0}, rate{0}, wall_work{0};
 
   /// Masses over porosity as fractions of what fills the kernel's cube of h / 2, densities over rho0.
   Pair(double fill_a, double fill_b, double rho_a = 1, double rho_b = 1, double eps_a = 1, double eps_b = 1) {
     const double M = kRho0 * cube(kH / 2);
     flux = {{0, 0, 0, Real(kRho0 * rho_a)}, {0, 0, 0, Real(kRho0 * rho_b)}};
-    m_state = {{Real(fill_a * M), 0, Real(kRho0 * rho_a), Real(eps_a)},
-               {Real(fill_b * M), 0, Real(kRho0 * rho_b), Real(eps_b)}};
+    eos_state = {{Real(fill_a * M), 0, Real(kRho0 * rho_a), Real(eps_a)},
+                 {Real(fill_b * M), 0, Real(kRho0 * rho_b), Real(eps_b)}};
   }
-  double volume(int k) const { return m_state[k].x / m_state[k].z; }
+  double volume(int k) const { return eos_state[k].mass_over_eps / eos_state[k].rho; }
   double F() const { return w.F(std::sqrt(norm2(r))); }
   double W() const { return w.W(std::sqrt(norm2(r))); }
   /// What the two fill of the kernel.
@@ -45,21 +47,21 @@ struct Pair {
     return DensityPass<WendlandC2, NoShifting, NoFit, kSmooth, kPorous, OneLength>{
         .w = w,
         .flux = in(flux),
-        .m_state = in(m_state),
+        .eos_state = in(eos_state),
         .wall_v_rho = in(wall_v_rho),
-        .wall_m_state = in(wall_m_state),
+        .wall_state = in(wall_state),
         .diffusion = Real(diffusion),
         .hydrostatic = Real3(hydrostatic),
         .stiffening = Real(stiffening),
         .rho0 = Real(kRho0),
         .dt = Real(kDt),
-        .s = in(s),
-        .s_new = out(s_new),
+        .compression = in(s),
+        .compression_new = out(s_new),
         .cut = CutFraction::of(w),
         .least = Real(least),
         .fading = Real(fading),
         .spreading = Real(spreading),
-        .compression = out(compression),
+        .compression_rate = out(rate),
         .shift = {},
         .drift = {},
         .fit = {},
@@ -71,9 +73,8 @@ struct Pair {
   double change() {
     const auto p = pass<kSmooth, kPorous>();
     auto sum = p.start(0);
-    p.pair(sum, r, norm2(r), m_state[1].x, flux[1], m_state[1], Unread{});
-    if (!wall_m_state.empty())
-      p.wall_pair(sum, r_w, norm2(r_w), wall_v_rho[0], wall_m_state[0], wall_work[0]);
+    p.pair(sum, r, norm2(r), eos_state[1].mass_over_eps, flux[1], eos_state[1], Unread{});
+    if (!wall_state.empty()) p.wall_pair(sum, r_w, norm2(r_w), wall_v_rho[0], wall_state[0], wall_work[0]);
     p.finish(0, sum);
     return double(s_new[0]) - double(s[0]);
   }
@@ -81,7 +82,7 @@ struct Pair {
   double change_of_other() {
     Pair other = *this;
     std::swap(other.flux[0], other.flux[1]);
-    std::swap(other.m_state[0], other.m_state[1]);
+    std::swap(other.eos_state[0], other.eos_state[1]);
     other.r = -r;
     return other.change();
   }
@@ -93,10 +94,10 @@ TEST(DensityPass, ContinuityIsThatOfTheFluxOverThePorosity) {
   Pair p(1, 0.8, 1, 1.01, 0.6, 0.9);
   p.flux[0] = {Real(0.3), Real(-0.2), Real(0.5), p.flux[0].w};
   p.flux[1] = {Real(-0.1), Real(0.4), Real(0.2), p.flux[1].w};
-  const double rate = double(p.m_state[1].x) * p.F() * dot(Vec3d{0.4, -0.6, 0.3}, Vec3d(p.r));
+  const double rate = double(p.eos_state[1].mass_over_eps) * p.F() * dot(Vec3d{0.4, -0.6, 0.3}, Vec3d(p.r));
   const double expected = -kDt * rate / (0.6 * kRho0);
   EXPECT_CHANGE((p.change<false, true>()), expected);
-  EXPECT_CHANGE(kDt * p.compression[0], expected);
+  EXPECT_CHANGE(kDt * p.rate[0], expected);
   EXPECT_CHANGE((p.change<true, true>()), expected);
 }
 
@@ -106,18 +107,18 @@ TEST(DensityPass, WallsCountByTheirVolumeAtRestOrByTheirMass) {
   p.wall_v_rho = {{Real(0.1), Real(0.1), Real(-0.1), Real(1040)}};
   const double F = p.w.F(std::sqrt(norm2(p.r_w))), M = kRho0 * cube(kH / 2);
   const double apart = dot(Vec3d{0.2, -0.3, 0.6}, Vec3d(p.r_w));
-  p.wall_m_state = {{Real(1.04 * M), 0, Real(1040), 0}};  // extrapolated: as much as at rho0
+  p.wall_state = {{.mass = Real(1.04 * M), .rho = 1040}};  // extrapolated: as much as at rho0
   EXPECT_CHANGE((p.change<false, true>()), -kDt * M * F * apart / kRho0);
-  p.wall_m_state[0].w = 1;  // frozen: as much as it has
+  p.wall_state[0].frozen = 1;  // frozen: as much as it has
   EXPECT_CHANGE((p.change<false, true>()), -kDt * 1.04 * M * F * apart / kRho0);
 }
 
 TEST(DensityPass, FluidPaysForTheWorkOfItsWalls) {
   Pair p(1, 0, 1.02, 1, 0.6);
   p.wall_v_rho = {{0, 0, 0, Real(kRho0)}};
-  p.wall_m_state = {{Real(kRho0 * cube(kH / 2)), 0, Real(kRho0), 0}};
+  p.wall_state = {{.mass = Real(kRho0 * cube(kH / 2)), .rho = Real(kRho0)}};
   p.wall_work = {Real(0.03 * cube(kH) * cube(kH))};
-  const double rate = square(1.02 * kRho0) / double(p.m_state[0].x) * double(p.wall_work[0]) *
+  const double rate = square(1.02 * kRho0) / double(p.eos_state[0].mass_over_eps) * double(p.wall_work[0]) *
                       double(p.w.W(std::sqrt(norm2(p.r_w))));
   EXPECT_CHANGE((p.change<false, true>()), -kDt * rate / (0.6 * kRho0));
 }
@@ -148,7 +149,7 @@ TEST(DensityPass, DensityGrowsByWhatOverfillsTheKernelBeyondTwoPercent) {
     Pair p(1, 0);
     p.spreading = 40;
     const double both = 1.02 + beyond, W = cube(kH / 2) * p.W();
-    p.m_state[1].x = Real((both - alone) / W * kRho0 * cube(kH / 2));
+    p.eos_state[1].mass_over_eps = Real((both - alone) / W * kRho0 * cube(kH / 2));
     ASSERT_NEAR(p.filled(), both, 1e-5);
     EXPECT_NEAR(p.change(), beyond > 0 ? kDt * 40 * beyond : 0, kDt * 40 * 3e-6) << beyond;
   }

@@ -81,8 +81,13 @@ double struck(double restitution, double pairs) {
   std::vector<Real4> v{{0, 0, -1, 1000}, {0, 0, 0, 1000}}, next(2);
   std::vector<Real> mass{2, 6}, count{1, Real(pairs)};
   const auto all = [](auto& of) { return Span(of.data(), Index(of.size())); };
-  const CollisionPass pass{Real(0.01), Real(restitution), Real(1e-14), all(v),
-                           all(mass),  all(count),        all(next)};
+  const CollisionPass pass{.range2 = Real(0.01),
+                           .restitution = Real(restitution),
+                           .guard = Real(1e-14),
+                           .v_rho = all(v),
+                           .mass = all(mass),
+                           .count = all(count),
+                           .v_next = all(next)};
   auto sum = pass.start(0);
   const Real3 r{0, 0, Real(0.05)};
   pass.pair(sum, r, norm2(r), Real(1), v[1], mass[1], count[1]);

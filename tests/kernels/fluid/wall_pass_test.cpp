@@ -16,12 +16,15 @@ constexpr double kRounding = tolerance(1e-12, 1e-6, 1e-6);
 struct Below {
   WendlandC2 w{0.05};
   Vec3d at{0.02, 0, 0.05};
-  std::vector<Real4> flux{{1, 2, 3, 1000}}, m_state{{1, Real(2e3 / 1e6), 1000, 1}};
+  std::vector<Real4> flux{{1, 2, 3, 1000}};
+  std::vector<EosState<>> eos_state{{1, Real(2e3 / 1e6), 1000, 1}};
   std::vector<Real3> kick{{}};
   std::vector<Vec3d> x0{{}};
   std::vector<std::uint32_t> body{0};
   std::vector<BodyPose> pose{{}};
-  std::vector<Real4> v_rho{{}}, v_visc{{}}, wall_state{{}};
+  std::vector<Real4> v_rho{{}};
+  std::vector<NoSlip<>> no_slip{{}};
+  std::vector<WallState<>> state{{}};
   std::vector<Real> compression{0};
   Vec3d gravity;
 
@@ -34,8 +37,8 @@ struct Below {
   double pressure(double rate) {
     const WallPass<WendlandC2> pass{.w = w,
                                     .eos = {Real(1e7), 7, 0, 1000, false},
-                                    .fluid_flux = all(flux),
-                                    .fluid_m_state = all(m_state),
+                                    .flux = all(flux),
+                                    .eos_state = all(eos_state),
                                     .drag_kick = all(kick),
                                     .rate = Real(rate),
                                     .x0 = all(x0),
@@ -44,14 +47,14 @@ struct Below {
                                     .gravity = Real3(gravity),
                                     .least_sum = Real(1e-3),
                                     .v_rho = all(v_rho),
-                                    .v_visc = all(v_visc),
-                                    .m_state = all(wall_state),
+                                    .no_slip = all(no_slip),
+                                    .state = all(state),
                                     .compression = all(compression)};
     auto sum = pass.start(0);
     const Real3 r = Real3(-at);
-    pass.pair(sum, r, norm2(r), Real(0), flux[0], m_state[0], kick[0]);
+    pass.pair(sum, r, norm2(r), Real(0), flux[0], eos_state[0], kick[0]);
     pass.finish(0, sum);
-    return double(wall_state[0].y) * square(double(v_rho[0].w));
+    return double(state[0].p_over_rho2) * square(double(v_rho[0].w));
   }
 };
 
@@ -60,17 +63,17 @@ struct Below {
 TEST(WallWorkPass, IsWhatThePressureOfTheWallDoesAsTheFluidLeaves) {
   Below b;
   b.v_rho[0] = {Real(0.5), 0, 0, 1040};
-  b.wall_state[0] = {Real(1.04e-3), 0, 1040, 0};
+  b.state[0] = {.mass = Real(1.04e-3), .rho = 1040};
   std::vector<Real> work{7};
   const auto found = [&](double least_sum) {
-    const WallWorkPass<WendlandC2> pass{b.w,
-                                        Real(least_sum),
-                                        Below::all(b.flux),
-                                        Below::all(b.v_rho),
-                                        Below::all(b.wall_state),
-                                        Below::all(b.body),
-                                        Below::all(b.pose),
-                                        Below::all(work)};
+    const WallWorkPass<WendlandC2> pass{.w = b.w,
+                                        .least_sum = Real(least_sum),
+                                        .flux = Below::all(b.flux),
+                                        .wall_v_rho = Below::all(b.v_rho),
+                                        .wall_state = Below::all(b.state),
+                                        .body = Below::all(b.body),
+                                        .pose = Below::all(b.pose),
+                                        .work = Below::all(work)};
     auto sum = pass.start(0);
     const Real3 r = Real3(-b.at);
     pass.pair(sum, r, norm2(r), Real(2e-3), b.flux[0]);
@@ -86,7 +89,7 @@ TEST(WallWorkPass, IsWhatThePressureOfTheWallDoesAsTheFluidLeaves) {
   EXPECT_EQ(found(1e-3), 0);
   b.pose[0].kind = WallKind::extrapolated, b.pose[0].flows = 1;
   EXPECT_EQ(found(1e-3), 0);
-  b.pose[0].flows = 0, b.wall_state[0] = {0, 0, 1000, 0};
+  b.pose[0].flows = 0, b.state[0] = {.rho = 1000};
   EXPECT_EQ(found(1e-3), 0);
 }
 
@@ -107,12 +110,12 @@ TEST(WallPass, WallsMirrorTheVelocityUnlessFluidSlips) {
   Below b;
   b.pose[0].v = {Real(0.5), 0, 0};
   b.pressure(0);
-  EXPECT_NEAR(b.v_visc[0].x, 2 * 0.5 - 1, 10 * kRounding);
-  EXPECT_NEAR(b.v_visc[0].y, -2, 10 * kRounding);
-  EXPECT_EQ(b.v_visc[0].w, b.wall_state[0].x);
+  EXPECT_NEAR(b.no_slip[0].v.x, 2 * 0.5 - 1, 10 * kRounding);
+  EXPECT_NEAR(b.no_slip[0].v.y, -2, 10 * kRounding);
+  EXPECT_EQ(b.no_slip[0].mass, b.state[0].mass);
   b.pose[0].slip = 1;
   b.pressure(0);
-  EXPECT_EQ(b.v_visc[0].w, 0);
+  EXPECT_EQ(b.no_slip[0].mass, 0);
 }
 
 /// Push and damping of a single layer on fluid at (0.03, 0, 0.04) m that nears it at 1 m/s.

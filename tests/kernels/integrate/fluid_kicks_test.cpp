@@ -14,10 +14,11 @@ const Frame kFrame{{-4, -4, -4}, {4, 4, 4}, false, false, false};
 /// One particle that moves at v and is accelerated.
 struct Lone {
   std::vector<Real3> acc{{1, -2, 3}}, reaction{{Real(0.5), 0, -1}}, beside{{0, Real(0.25), 0}};
-  std::vector<Real4> v_rho{{4, 5, -6, 1000}}, flux{{2, 1, -3, 1000}}, m_state{{}};
+  std::vector<Real4> v_rho{{4, 5, -6, 1000}}, flux{{2, 1, -3, 1000}};
+  std::vector<EosState<>> eos_state{{}};
   std::vector<FluidPosition> x{as_position<FluidPosition>(kFrame, {1, 0.5, -0.25})};
   std::vector<PairPosition> xp{pair_position(kFrame, {}, 7)}, xp_mid = xp;
-  std::vector<Real> s{Real(0.01)}, mass{3}, eps{Real(0.6)}, p_rho2{0}, compression{-2}, rate{Real(0.5)};
+  std::vector<Real> s{Real(0.01)}, mass{3}, eps{Real(0.6)}, p_rho2{0}, continuity{-2}, rate{Real(0.5)};
 
   template <class T>
   static Span<T> all(std::vector<T>& of) {
@@ -31,18 +32,18 @@ struct Lone {
     return {.frame = kFrame,
             .eos = {Real(1e6), 7, 0, 1000, false},
             .damping = 250,
-            .compression = read(compression),
+            .compression_rate = read(continuity),
             .history = {read(rate), {}, {}, 0.01, 0, 0},
             .kick = Real(kKick),
             .x = read(x),
             .acc = read(acc),
             .reaction = read(reaction),
-            .s = all(s),
+            .compression = all(s),
             .mass = read(mass),
             .eps = read(eps),
             .v_rho = all(v_rho),
             .flux = all(flux),
-            .m_state = all(m_state),
+            .eos_state = all(eos_state),
             .p_rho2 = all(p_rho2),
             .shear = {}};
   }
@@ -85,11 +86,11 @@ TEST(FluidState, FollowsFromTheCompressionAndTheDamper) {
   EXPECT_NEAR(p.s[0], s, kRounding);
   EXPECT_NEAR(p.v_rho[0].w, rho, 1e3 * kRounding);
   const double pressure = 1e6 * (std::pow(1 + s, 7) - 1) - 250 * 2;
-  EXPECT_NEAR(p.m_state[0].y * rho * rho, pressure, 3e6 * kRounding);
-  EXPECT_EQ(p.p_rho2[0], p.m_state[0].y);
-  EXPECT_NEAR(p.m_state[0].x, 3 / 0.6, 10 * kRounding);
-  EXPECT_NEAR(p.m_state[0].z, rho, 1e3 * kRounding);
-  EXPECT_NEAR(p.m_state[0].w, 0.6, kRounding);
+  EXPECT_NEAR(p.eos_state[0].p_over_rho2 * rho * rho, pressure, 3e6 * kRounding);
+  EXPECT_EQ(p.p_rho2[0], p.eos_state[0].p_over_rho2);
+  EXPECT_NEAR(p.eos_state[0].mass_over_eps, 3 / 0.6, 10 * kRounding);
+  EXPECT_NEAR(p.eos_state[0].rho, rho, 1e3 * kRounding);
+  EXPECT_NEAR(p.eos_state[0].eps, 0.6, kRounding);
 }
 
 TEST(FluidState, NoFluidIsThinnerThanHalf) {
