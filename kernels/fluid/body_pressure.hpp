@@ -1,5 +1,5 @@
 #pragma once
-// What the pressure force on a free body is wrong by, where pressure is linear in space.
+// Error of the pressure force on free bodies in a linear pressure, and its correction.
 
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/bodies/body_kicks.hpp"
@@ -142,10 +142,11 @@ struct PairsInPressureReduction {
   }
 };
 
-/// Gives a body -g V, at the middle of its volume, in the place of what its pairs make of the linear pressure
-/// P + g . d around it, as far as the fluid around loses its own error: in uniform pressure the force of the
-/// pairs on a body is minus the sum of the errors of the fluid there. Only of bodies within fluid: by the
-/// mean weight of the fluid around the wet particles, from 0 at 3/4 to 1 at 1.
+/// Buoyancy correction of free bodies: replaces what pairs make of the linear pressure P + g . d around a
+/// body by -g V at the centre of its volume, times a weight. Needed with LinearFit: in uniform pressure the
+/// force of the pairs on a body is minus the sum of the errors of the fluid around, which LinearFit removes
+/// from the fluid. Weight: smoothstep from 0 to 1 of the mean weight of LinearFit around wet particles, from
+/// 3/4 to 1, so for bodies within the fluid only.
 struct CorrectBody {
   const RigidBody* bodies;
   const BodyPressure* fitted;

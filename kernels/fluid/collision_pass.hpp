@@ -26,9 +26,9 @@ struct CollisionCountPass {
   BL_HD void finish(Index a, const Sum<>& sum) const { count[a] = sum.count; }
 };
 
-/// Fluid particles that come too near collide like balls [shakibaeinia12]: along the line of centres e a pair
-/// exchanges the impulse (1 + restitution) m_a m_b / (m_a + m_b) |v . e|, divided by the larger of both
-/// numbers of such pairs, so that many at once turn no approach round.
+/// Inelastic collisions of fluid particles within `range` that approach [shakibaeinia12]: along the line of
+/// centres e a pair exchanges the impulse (1 + restitution) m_a m_b / (m_a + m_b) |v_ab . e| / n, n being the
+/// larger of the numbers of such pairs of a and b, so that simultaneous collisions do not overshoot.
 struct CollisionPass {
   Real range2, restitution;  ///< m2, -
   Real guard;                ///< m2, far below the square of any distance

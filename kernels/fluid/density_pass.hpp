@@ -8,26 +8,33 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Continuity of the mixture with density diffusion (Fourtakas et al. 2019), over `dt`:
-///   eps_a d rho_a / dt = - sum_b M_b (q_a - q_b) . r_ab F_ab,  M = m / eps,  q = eps v + sum_j w_j u_j,
-/// q being the volume flux of fluid and grains; [H (6)], [R (7)] without grains. Its adjoint is the pressure
-/// force of ForcePass, which fluid and grains share by their weights in q: the power of pressure on both is
-/// the loss of compression energy. Kick-drift-kick passes positions and velocities at mid-step, which makes
-/// it reversible. Walls enter by their continuity_mass and return the work of their own pressure
-/// (WallWorkPass).
+/// Continuity of the mixture with density diffusion. Advances s = rho / rho0 - 1 over the step dt by
+///   ds_a/dt = (D_a - C_a / Omega_a) / (eps_a rho0) + S_a,
+///   C_a = sum_b M_b F_ab (q_a - q_b) . r_ab + sum_w m_w F_aw (q_a - v_w) . r_aw
+///         + rho_a^2 / M_a sum_w `wall_work`_w W_aw,
+///   D_a = `diffusion` sum_b eps_ab V_b F_ab (rho_b - rho_a + k_ab `hydrostatic` . r_ab),
+///   S_a = `spreading` max(0, n_a - 1 - `slack`).
+/// First sum of C: [he18] Eq. 6, without grains [robinson14] Eq. 7; D: [fourtakas19].
 ///
-/// Continuity gives changes of density only. Three terms correct s = rho / rho0 - 1 by the particles, with
-/// f = sum V W over fluid and walls and the void v = max(0, 1 - f - cut), cut: left empty by a plane surface:
-///   s < least:  ds/dt = fading (min(least, slack - v) - s)
-///               fragmented fluid has no pressure before its void has closed;
-///   s >= least: ds/dt = -fading v max(s, 0)
-///               void relaxation: surfaces that meet would keep a gap, each counting as full up to the other;
-///   always:     ds/dt = spreading max(0, f - 1 - slack)
-///               among grains errors of the porosity gradient add up, so particles may overfill the kernel.
-/// The rate of s by continuity alone is the input of the acoustic damper (StatePass). kSmooth: with density
-/// diffusion and these terms; else continuity alone. kPorous: there are grains. Fit: LinearFit, with
-/// Shifting, or NoFit. With variable smoothing lengths the sum of continuity is taken at h_a and divided by
-/// Omega_a.
+/// Symbols: b fluid, w wall particles; M = m / eps and V = M / rho, mass and volume of the mixture that a
+/// particle represents; q = eps v + sum_j w_j u_j, volume flux of fluid and grains j; r_ab = x_a - x_b;
+/// F = -W' / r; W and F at h_a, and D_a times h_ab / h, where smoothing lengths vary, else Omega = 1; m_w:
+/// continuity_mass; `wall_work`: of WallWorkPass; eps_ab: mean porosity of the pair;
+/// k_ab = 1 - (gamma - 2) ((rho_a + rho_b) / (2 rho0) - 1), hydrostatic density gradient at the mean density
+/// over that at rho0; n_a = V_a W(0) + sum_b V_b W_ab + sum_w V_w W_aw, kernel completeness. S corrects an
+/// error of C that accumulates where particles cross a porosity gradient and ends in n_a > 1.
+///
+/// Void limiter, added after the rates: with the void z_a = max(0, 1 - n_a - cut(|sum V F r|)), where `cut`
+/// is the part of the kernel outside a plane free surface (CutFraction),
+///   cavitated, s < `least`:  s += min(dt `fading`, 1) (min(`least`, `slack` - z_a) - s),
+///   otherwise:               s -= min(dt `fading` z_a, 1) max(0, s).
+/// Fragmented fluid has no pressure until its voids have closed, and no gap stays between surfaces that meet.
+///
+/// The pressure term of ForcePass is the adjoint of C: the power of pressure on fluid and grains is minus the
+/// rate of elastic energy. Evaluated at mid-step in kick-drift-kick, C is time-reversible.
+///
+/// kSmooth: with D, S and the limiter, else C alone. kPorous: there are grains. Shift, Fit: Shifting and
+/// LinearFit, or NoShifting and NoFit.
 template <class W, class Shift, class Fit, bool kSmooth, bool kPorous, class Lengths>
 struct DensityPass {
   W w;
@@ -45,7 +52,7 @@ struct DensityPass {
   Real least;      ///< s at which fluid cavitates
   Real fading;     ///< of pressure where there is a void, and pace at which fragmented fluid follows it [1/s]
   Real spreading;  ///< of density where particles overfill their volume [1/s]
-  Span<Real> compression_rate;  ///< 1/s; empty where nothing asks for it
+  Span<Real> compression_rate;  ///< ds/dt by C alone, for the acoustic damper (StatePass), 1/s; or empty
   Shift shift;
   Span<Real3> drift;  ///< empty where nothing drifts
   Fit fit;

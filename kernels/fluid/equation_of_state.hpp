@@ -4,14 +4,13 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// P = B [(rho/rho0)^gamma - 1] + P_ref on the intrinsic density [H (7),(8)].
-/// The `democritus` law p0 (rho/rho0)^alpha - beta [D (17)] is the same with
-/// B = p0, gamma = alpha, P_ref = p0 - beta. Works on x = rho/rho0 - 1, which fp32 holds well.
+/// Tait's equation P = B [(rho/rho0)^gamma - 1] + P_ref, rho being the density of the fluid alone
+/// [he18] Eqs. 7, 8. eos.type = "democritus", p0 (rho/rho0)^alpha - beta [tsuzuki] Eq. 17, is the same with
+/// B = p0, gamma = alpha, P_ref = p0 - beta. In terms of x = rho/rho0 - 1, which keeps its digits in fp32.
 struct EquationOfState {
   Real B = 1, gamma = 7, P_ref = 0, rho0 = 1000;
   bool clip_negative = false;
-  Real least =
-      -1;  ///< x at which the fluid cavitates: thinner fluid keeps the pressure and the density of that
+  Real least = -1;  ///< x at which the fluid cavitates: pressure and density are constant below
 
   /// Of a fluid that cavitates where it is thinner than rho0 by the fraction `cavitation_limit`.
   static EquationOfState of(const EosConfig& e, const FluidProperties& fluid, double cavitation_limit) {

@@ -34,11 +34,13 @@ struct WallPair {
   }
 };
 
-/// Momentum of locally averaged WCSPH [H (9)-(12)]. stress_acceleration: divergence of the
-/// stress of the mixture over its density, by which it accelerates the fluid; the rest of the stress pushes
-/// the grains. acc = stress_acceleration + gravity + drive. kArtificial: with artificial viscosity; kAdded:
-/// with the tensile term and the drift of XSPH; kSpecies: fluids of several viscosities, the mean of which
-/// counts for a pair; Lengths: OneLength or, without species, OwnLengths.
+/// Momentum equation of locally averaged WCSPH [he18] Eqs. 9-12:
+///   stress_acceleration_a = sum_b [M_b (P_a / rho_a^2 + P_b / rho_b^2) F_ab r_ab + viscous terms] + walls,
+///   acc = stress_acceleration + gravity + drive.
+/// M_a times stress_acceleration is the force on the volume of fluid and grains; the fluid takes the fraction
+/// eps_a of it, grains the rest (BuoyancyPass). kArtificial: with artificial viscosity; kAdded: with the
+/// tensile term and the drift of XSPH; kSpecies: fluids of several viscosities, a pair taking their mean;
+/// Lengths: OneLength or, without species, OwnLengths.
 template <class W, bool kArtificial, bool kAdded, bool kSpecies = false, class Lengths = OneLength>
 struct ForcePass {
   W w;
@@ -132,9 +134,9 @@ struct ForceParts {
   BL_HD void write(Index b, Span<Vec3d> p, Span<Vec3d> f) const { p[b] = pressure, f[b] = friction; }
 };
 
-/// Force of the mixture on each wall particle [N]: minus what ForcePass and LayerPass gave it, by velocities
-/// that have been corrected by `kick` since. `Force`: WholeForce, which leaves `friction` alone, or
-/// ForceParts.
+/// Force of the mixture on each wall particle [N], the reaction to ForcePass and LayerPass. Velocities have
+/// been corrected by `kick` (acc - acc_before) since those ran; this is undone. `Force`: WholeForce, which
+/// leaves `friction` alone, or ForceParts.
 template <class W, class Force, class Lengths>
 struct WallForcePass {
   W w;

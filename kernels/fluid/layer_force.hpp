@@ -43,8 +43,8 @@ struct LayerLaw {
   BL_HD Real operator()(Real r) const { return steep(r) + soft(r); }
 };
 
-/// What a single layer gives the fluid: its push, and artificial viscosity as among the fluid, without which
-/// the fluid would bounce on it for ever.
+/// Force of single-layer walls on the fluid: repulsion, and artificial viscosity as within the fluid, without
+/// which particles would bounce undamped.
 template <class W>
 struct LayerForces {
   W w;
@@ -77,7 +77,7 @@ struct LayerForces {
   }
 };
 
-/// Adds what single layers give the mixture. Their push stands for the pressure of the wall.
+/// Adds LayerForces to the stress of the mixture: the repulsion replaces the pressure of the wall.
 template <class W>
 struct LayerPass {
   LayerForces<W> layer;

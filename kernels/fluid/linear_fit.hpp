@@ -1,22 +1,23 @@
 #pragma once
-// What the pressure force of a particle is wrong by, where pressure is linear in space.
+// Error of the pressure force on fluid particles in a linear pressure, and its correction.
 
 #include "bedload/core/records.hpp"
 #include "kernels/coupling/symmetric_matrix.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// The sum over pairs of a pressure that is linear around a, P_b = P + g . (x_b - x_a), is
+/// Correction that makes the pressure force exact for linear pressures. For P_b = P + g . (x_b - x_a) pairs
+/// sum to
 ///   sum_b V_b (P_a + P_b) F r_ab = 2 P E - M g,    E = sum_b V_b F r_ab,  M = sum_b V_b F r_ab r_ab,
-/// and ought to be -g: where particles are not in order, E and M - 1 are not zero, and a lattice under
-/// pressure P resists shear by a stress of 2e-3 to 1e-2 P. Its own error on the linear fit of the pressure
-/// around it, by moving least squares with the weights V F, is taken off a particle's acceleration:
+/// instead of -g. On disordered particles E != 0 and M != 1; on a lattice this error resists shear by a
+/// stress of 2e-3 to 1e-2 P. P and g are fitted to the fluid around by moving least squares with weights V F,
+/// and
 ///   acc += w / rho (M g - g - 2 P E).
-/// Noise and sound stay in the pairs, since the fit is smooth. That gives up w times the sum of the errors of
-/// momentum. w is 1 where viscosity rules a particle's scale, the cell Reynolds number (P / rho)^(1/2) dx /
-/// nu being below 100, and 0 where it is above 316: there pairs keep momentum and energy as they are. Energy
-/// enters at free surfaces: within a kernel's reach of one these numbers are 3 and 10, and w falls to 0 as
-/// the least eigenvalue of M does from 0.8 to 0.6, for the particle or any that is exposed within h of it.
+/// The fit is smooth, so noise and sound are left to the pairs. Momentum is violated by w times the error.
+/// Weight w: 1 where viscosity dominates, the cell Reynolds number (P / rho)^(1/2) dx / nu being below 100, 0
+/// above 316, where pairs conserve momentum and energy. Within a kernel's reach of a free surface, where the
+/// correction could add energy, the bounds are 3 and 10, and w decreases to 0 as the least eigenvalue of M,
+/// or one minus the largest exposure within h, goes from 0.8 to 0.6.
 struct LinearFit {
   static constexpr bool acts = true;
   Real at_h, volume;  ///< F at the distance h, 1/m5; dx^3, m3

@@ -5,8 +5,9 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Momentum and continuity at one time, each pair visited once: what ForcePass writes, and the rate of s, by
-/// which DensityHistory advances the next step. What DensityPass does where there is a void, it does at once.
+/// ForcePass and DensityPass in one loop over pairs, for Adams-Bashforth steps: writes what ForcePass does
+/// and ds/dt, by which DensityHistory advances the next step. The void limiter acts on `compression_new` at
+/// once.
 template <class Force, class Density>
 struct OnePass {
   Force force;
@@ -18,7 +19,7 @@ struct OnePass {
     typename Force::template Sum<N> force;
     typename Density::template Sum<N> density;
   };
-  BL_HD Sum<> start(Index a) const { return {force.start(a), seen().start(a)}; }
+  BL_HD Sum<> start(Index a) const { return {force.start(a), with_shared_fields().start(a)}; }
 
   BL_HD auto sources() const {
     return sources_of(force.flux, force.p_rho2, Unread{}, density.shift.sources());
@@ -27,14 +28,15 @@ struct OnePass {
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, Unread,
                   const Exposure& exposure) const {
     force.pair(sum.force, r, r2, M, vb, p, Unread{});
-    seen().pair(sum.density, r, r2, M, vb, EosState<N>{.p_over_rho2 = p, .eps = N(1)}, exposure);
+    with_shared_fields().pair(sum.density, r, r2, M, vb, EosState<N>{.p_over_rho2 = p, .eps = N(1)},
+                              exposure);
   }
   BL_HD auto wall_sources() const { return force.wall_sources(); }
   template <class N>
   BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
                        const NoSlip<N>& no_slip) const {
     force.wall_pair(sum.force, r, r2, vb, mb, no_slip);
-    seen().wall_pair(sum.density, r, r2, vb, mb, N(0));
+    with_shared_fields().wall_pair(sum.density, r, r2, vb, mb, N(0));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     force.merge(into.force, other.force);
@@ -49,8 +51,9 @@ struct OnePass {
   }
 
  private:
-  /// The density's pass through the eyes of the force's: a compiler knows what both read and work out.
-  BL_HD Density seen() const {
+  /// The density's pass with the kernel function and spans of the force's, so that the compiler sees that
+  /// both read the same and computes it once.
+  BL_HD Density with_shared_fields() const {
     Density same = density;
     same.w = force.w;
     same.flux = force.flux, same.eos_state = force.eos_state;

@@ -9,7 +9,8 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Pressure [H (9)], [R (8)]. pa, pb: P / rho^2, where lengths vary over Omega; F: kernel factor.
+/// Pressure [he18] Eq. 9, [robinson14] Eq. 8. pa, pb: P / rho^2, divided by Omega where smoothing lengths
+/// vary; F: kernel factor.
 template <class N>
 BL_HD N pressure_term(N m_b, N pa, N pb, N F) {
   return m_b * (pa + pb) * F;
@@ -20,13 +21,13 @@ BL_HD N pressure_term(N m_b, N pa, N pb, const PairFactors<N>& F) {
 }
 
 /// Physical viscosity, as the acceleration that b gives a:
-///   Morris et al. 1997 [H (10)]   -M_b 2 mu / (rho_a rho_b) F v, the Laplacian of the velocity;
-///   Monaghan 2005                 -M_b 2 (d + 2) mu / (rho_a rho_b) F (v . r / r^2) r, the divergence of the
+///   [morris97], [he18] Eq. 10     -M_b 2 mu / (rho_a rho_b) F v, the Laplacian of the velocity;
+///   [monaghan05]                  -M_b 2 (d + 2) mu / (rho_a rho_b) F (v . r / r^2) r, the divergence of the
 ///                                 whole stress, in d dimensions;
-///   signal velocity [R (9)]       -M_b alpha (c + |u|) u / rho F r, u = v . r / |r|, the same with the mean
+///   [robinson14] Eq. 9, signal    -M_b alpha (c + |u|) u / rho F r, u = v . r / |r|, the same with the mean
 ///                                 distance of the kernel for |r|, alpha c = 2 (d + 2) mu / rho0 times the
 ///                                 integrals of F r^2 over F r^3, whether particles approach or recede.
-/// [H] divides by r^2 + 0.01 h^2 instead of r^2, which would take 1 to 2 % of the viscosity at any
+/// [he18] divides by r^2 + 0.01 h^2 instead of r^2, which underestimates the viscosity by 1 to 2 % at any
 /// resolution.
 struct Viscosity {
   Real mu = 0;       ///< Pa s
@@ -85,7 +86,7 @@ struct Viscosity {
   }
 };
 
-/// Artificial viscosity (Monaghan 1992): times r gives the acceleration; zero for receding pairs.
+/// Artificial viscosity [monaghan92]; zero for receding pairs. term() times r_ab is the acceleration.
 struct ArtificialViscosity {
   Real alpha = 0, beta = 0, c = 0, h = 0;
   BL_HD bool acts() const { return alpha > 0 || beta > 0; }
@@ -98,7 +99,7 @@ struct ArtificialViscosity {
   }
 };
 
-/// Tensile term (Monaghan 2000, [H (11)] with the sign split): R_ab.
+/// Tensile correction R_ab [monaghan00], [he18] Eq. 11, with a factor each for pressure and tension.
 struct TensileTerm {
   Real s_positive = 0, s_negative = 0, W_dx = 1;
   template <class N>

@@ -1,5 +1,5 @@
 #pragma once
-// Where the energy of the fluid goes, by terms.
+// Energy budget of the fluid by terms.
 
 #include "kernels/fluid/density_pass.hpp"
 #include "kernels/fluid/fluid_powers.hpp"
@@ -7,10 +7,10 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Sums FluidPowers over pairs, by the passes that move the fluid: what viscous forces do at its velocity,
-/// what diffusion and voids do to its elastic energy; and what pressure does, which is all the rest of the
-/// stress, less the elastic energy that continuity makes of it. Between fluid particles that is nothing.
-/// Beside walls it is the work of walls that move and what the walls' own pressure does, which has no energy.
+/// FluidPowers of each particle, by the passes that move the fluid: power of the viscous forces; rate of
+/// elastic energy by diffusion and voids; power of the rest of the stress, which is pressure, less the rate
+/// of elastic energy by continuity. Among fluid particles the last is zero; at walls it is the work of moving
+/// walls and of the walls' own pressure.
 template <class Force, class Density>
 struct PowerPass {
   Force friction, artificial;  ///< with physical viscosity alone; with artificial alone

@@ -6,8 +6,8 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Adapter of a pass to Lees-Edwards shear (MeanShear): converts unsheared coordinates and peculiar
-/// velocities, which loops pass, to true separations and velocities relative to the row's particle.
+/// Lees-Edwards adapter of a pass [lees72]: the loop brings unsheared positions and peculiar velocities
+/// (MeanShear); the pass gets true separations and velocities relative to that of its own row.
 template <class Pass>
 struct ShearedPass {
   Pass pass;
@@ -39,24 +39,25 @@ struct ShearedPass {
   }
 };
 
-/// Passes that support shear: those of a single fluid with one smoothing length.
+/// Passes that are also compiled with Lees-Edwards boundaries: without grains and species, one smoothing
+/// length.
 template <class Pass>
-constexpr bool supports_shear = false;
+constexpr bool kSupportsShear = false;
 template <class W, class Shift, class Fit, bool kSmooth>
-constexpr bool supports_shear<DensityPass<W, Shift, Fit, kSmooth, false, OneLength>> = true;
+constexpr bool kSupportsShear<DensityPass<W, Shift, Fit, kSmooth, false, OneLength>> = true;
 template <class W, bool kArtificial>
-constexpr bool supports_shear<ForcePass<W, kArtificial, false, false, OneLength>> = true;
+constexpr bool kSupportsShear<ForcePass<W, kArtificial, false, false, OneLength>> = true;
 template <class Force>
-constexpr bool supports_shear<StressPass<Force>> = supports_shear<Force>;
+constexpr bool kSupportsShear<StressPass<Force>> = kSupportsShear<Force>;
 template <class W>
-constexpr bool supports_shear<ContinuityPass<W>> = true;
+constexpr bool kSupportsShear<ContinuityPass<W>> = true;
 template <class W>
-constexpr bool supports_shear<SummationPass<W, false>> = true;
+constexpr bool kSupportsShear<SummationPass<W, false>> = true;
 template <class W>
-constexpr bool supports_shear<ShepardPass<W>> = true;
+constexpr bool kSupportsShear<ShepardPass<W>> = true;
 template <class W, bool kSpin, bool kNoise>
-constexpr bool supports_shear<SdpdForcePass<W, kSpin, kNoise, false>> = true;
+constexpr bool kSupportsShear<SdpdForcePass<W, kSpin, kNoise, false>> = true;
 template <class Force, bool kNoise>
-constexpr bool supports_shear<SdpdStressPass<Force, kNoise>> = supports_shear<Force>;
+constexpr bool kSupportsShear<SdpdStressPass<Force, kNoise>> = kSupportsShear<Force>;
 
 }  // namespace bedload::inline BL_VARIANT

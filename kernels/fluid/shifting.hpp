@@ -22,18 +22,17 @@ struct Strain {
   }
 };
 
-/// Particle shifting after Lind et al. 2012: where fluid strains, particles drift from where they crowd,
+/// Particle shifting [lind12], proportional to the strain rate:
 ///   u = -min(A h^2 |S|, h^2 / (2 dt)) grad C,    grad C = sum_b V_b grad W_ab,    |u| <= 0.1 dx / dt,
-/// S being the rate of strain, the symmetric part of sum_b V_b F_ab (q_a - q_b) r_ab, in which the noise of
-/// single particles averages out: what rests is left alone, what turns as a whole nearly. A lattice that
-/// lasts resists shear by its pressure, at any resolution. The velocities of particles stay, so momentum
-/// holds; what that takes along is of the order of h^2 |S|, of angular momentum too.
+///   S = symmetric part of sum_b V_b F_ab (q_a - q_b) r_ab.
+/// Fluid at rest or in rigid rotation is not shifted (noise averages out in S). Without shifting a lattice
+/// persists and resists shear by its pressure, at any resolution. Velocities stay, so momentum is conserved;
+/// the transport error is of order h^2 |S|, that of angular momentum too.
 ///
-/// A free surface is where the least eigenvalue of the kernel's second moment, sum_b V_b F_ab r_ab r_ab,
-/// falls short of 1 (Marrone et al. 2010): 0.6 and less in the outermost layer, above 0.8 in disordered
-/// fluid. What it falls short by is the particle's exposure. Nothing drifts in the outermost layer; within a
-/// kernel's reach of it particles drift along the surface alone, whose normal is the gradient of the exposure
-/// of the step before: grad C has a mean along that normal, which would let the fluid swell.
+/// Free surface [marrone10]: exposure = 1 - least eigenvalue of the second moment sum_b V_b F_ab r_ab r_ab,
+/// 0.4 and more in the outermost layer, below 0.2 in disordered fluid. The outermost layer is not shifted;
+/// within a kernel's reach of it u is projected on the surface, since grad C along the normal is not zero
+/// there and would make fluid swell. Normal: gradient of the exposure of the former step.
 struct Shifting {
   static constexpr bool acts = true;
   Real area;                  ///< A h^2 [m2]

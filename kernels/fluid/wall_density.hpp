@@ -7,8 +7,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Continuity of the inner layer of frozen walls: as DensityPass, from the side of the wall. No thinner than
-/// fragmented fluid.
+/// Continuity of the inner layer of frozen walls, the sum C of DensityPass over fluid; s >= `least`.
 template <class W>
 struct FrozenPass {
   W w;
@@ -38,9 +37,9 @@ struct FrozenPass {
   }
 };
 
-/// Density of mirrored walls (English et al. 2022): the fluid's about the image of each particle and its
-/// slope there, by sums that are exact for linear fields, carried back to the particle. Where the fluid about
-/// the image does not determine a slope, its weighted mean.
+/// Density of mirrored walls (mDBC) [english22]: density and its gradient at the image of each particle in
+/// the fluid, by a corrected SPH sum that is exact for linear fields, extrapolated to the particle. Where the
+/// matrix is singular, the Shepard mean.
 template <class W>
 struct MirrorPass {
   W w;

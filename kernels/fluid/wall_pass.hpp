@@ -6,15 +6,17 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// State of wall particles from the fluid beside them (Adami et al. 2012, [H (13)-(15)] with
-/// physics errata 5-7): pressure with the hydrostatic correction, no-slip velocity. The mean velocity of the
-/// fluid around is that of its middle, x_f, so the wall's counterpart of it is 2 v_w - v_f plus what a
-/// turning body's own velocity differs by from there to the wall, v(x_f) - v_w: fluid that turns with its
-/// vessel has no friction. Fluid beside a turning wall is on a circle only as far as it turns along: where
-/// the layer that it drags is thinner than a particle, nothing holds water at rest off a drum that spins
-/// around it. Frozen and mirrored walls bring their own density, where they have one; frozen particles keep
-/// their mass, as fluid does. Single layers keep
-/// rho0: fluid that comes near them grows denser by their mass and is pushed off by its own pressure alone.
+/// State of wall particles extrapolated from the fluid around [adami12], [he18] Eqs. 13-15. With <> the mean
+/// over fluid particles a weighted by W_wa, r from a to w, and x_f the mean position of that fluid:
+///   P_w = <P + rho r . (g - a_w + `rate` drag_kick)>,     rho_w by the equation of state,
+///   v_noslip = 2 v_w - <v> + v_body(x_f) - v_body(x_w).
+/// a_w: acceleration of the wall; its centripetal part counts by the square of the fraction of the rotation
+/// that the fluid has (turning_along): fluid that does not rotate with a drum is not held on a circle. The
+/// last two terms of v_noslip leave fluid in rigid rotation with its vessel without friction. Inlets, single
+/// layers and frozen walls: v_noslip = v_w.
+/// Other kinds (WallKind): frozen and mirrored particles take P from their own `compression`, if they have
+/// one; frozen ones have a fixed mass. Single layers keep rho0 and its pressure: fluid near them becomes
+/// denser by their mass and is repelled by its own pressure.
 template <class W, class Lengths = OneLength>
 struct WallPass {
   W w;
@@ -105,14 +107,14 @@ struct WallPass {
   }
 };
 
-/// Walls have no energy of their own, but their pressure does work. WallPass gives wall particle w the mean
-/// P_w = sum_a s_wa P_a, s_wa = W_wa / sum_b W_wb, which does the work P_w V_w D_w on the fluid around,
+/// Work of the pressure that WallPass extrapolates, P_w = sum_a s_wa P_a, s_wa = W_wa / sum_b W_wb, on the
+/// fluid around a wall particle: its power is P_w V_w D_w with
 ///   D_w = sum_b V_b F_wb (v_w - q_b) . r_wb.
-/// That is paid where it came from: DensityPass adds rho_a^2 / M_a sum_w W_wa `work`_w to the rate at which
-/// the density of a falls (times eps), the adjoint of the mean, so that what pressure does to fluid between
-/// walls at rest is what its elastic energy loses, but for walls without suction. The work of what WallPass
-/// adds to the mean, for gravity, for walls that move faster and for drag, is not paid. Frozen walls have a
-/// density.
+/// Wall particles have no elastic energy, so the fluid pays: DensityPass adds rho_a^2 / M_a sum_w W_wa
+/// work_w, work_w = V_w D_w / sum_b W_wb, the adjoint of the mean, to its continuity sum. Between walls at
+/// rest pressure then conserves energy, unless walls have no suction. The hydrostatic, inertial and drag
+/// parts of the extrapolation are not compensated. Frozen walls have a density, hence an energy, and need
+/// none.
 template <class W, class Lengths = OneLength>
 struct WallWorkPass {
   W w;

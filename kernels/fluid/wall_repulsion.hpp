@@ -6,9 +6,9 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Repulsion between fluid and a wall (Monaghan 1994), r: distance from the surface. Extrapolated pressure
-/// alone leaves it to the history of the density where a particle comes to rest beside a wall; this says
-/// where.
+/// Lennard-Jones-like wall repulsion [monaghan94]: D ((r0/r)^4 - (r0/r)^2) / r for r < r0, at most `cap`; r:
+/// distance from the surface. It sets the distance at which particles rest, which extrapolated pressure
+/// leaves to the history of their density.
 struct Repulsion {
   Real D = 0, r0 = 0, cap = 0;  ///< m2/s2, m, m/s2
   /// Acceleration away from the wall, m/s2.
@@ -20,12 +20,13 @@ struct Repulsion {
   }
 };
 
-/// Keeps fluid from passing a wall whose pressure does not stop it: lone particles, which have none, and fast
-/// ones. Within a quarter of a spacing of the surface, half of where fluid rests, it comes nearer no faster
-/// than rate (r - dx / 20), so that it stops short of the surface. A sheet one particle thick (`sheet` 1; 0
-/// where fluid covers a particle), which walls let come as near as that, stops at 0.4 dx, within half a
-/// spacing: about where the first layer of deeper fluid rests. What this takes is energy; what is nearer
-/// returns by dx / 400 in the time of `rate` at most.
+/// Limits the velocity u towards a wall of particles that its pressure may not stop: isolated or fast ones.
+/// Within `reach` of the surface, at distance r, the acceleration away from it is
+///   max(0, u - `rate` (r - r_stop)) / step,
+/// which dissipates. r_stop = dx / 20 and reach = dx / 4, half of where fluid rests; for a sheet one particle
+/// thick (`sheet` 1; 0 where fluid covers the particle), r_stop = 0.4 dx, about the rest distance of the
+/// first layer of deeper fluid, and reach = dx / 2. Nearer than r_stop, particles return by dx / 400 per
+/// 1 / `rate` at most.
 struct PenetrationLimit {
   Real spacing = 0, rate = 0, per_step = 0;  ///< m; 1/s, below one over the step; one over the step, 1/s
   BL_HD Real reach(Real sheet) const { return Real(0.25) * (1 + sheet) * spacing; }
@@ -38,7 +39,7 @@ struct PenetrationLimit {
   }
 };
 
-/// What the surfaces of all bodies do to fluid beside the pressure of their particles.
+/// Repulsion and penetration limit of the surfaces of all bodies.
 struct WallRepulsion {
   Repulsion law;
   PenetrationLimit limit;
@@ -50,10 +51,9 @@ struct WallRepulsion {
   BL_HD double reach() const { return double(max_of(law.r0, limit.reach(exposure ? 1 : 0))); }
   /// Of particle a, as PenetrationLimit takes it.
   BL_HD Real sheet(Index a) const { return exposure ? 1 - Shifting::inside(exposure[a]) : Real(0); }
-  /// f(body, acceleration, point) for each closest point (m) of a surface that acts on fluid at x, which
-  /// would go on at `heading` (m/s) without; of one body alone or all. What one surface stops the next does
-  /// not stop again. Takes from `drift` (m/s), which moves fluid beside its velocity, what would near it to
-  /// the surface.
+  /// Calls f(body, acceleration, point) for each closest point (m) of a surface that acts on fluid at x, of
+  /// all bodies or one. `heading`: velocity without these forces, m/s; each surface acts on what the former
+  /// ones left of it. Removes from `drift` (m/s, shifting and XSPH) the component towards a surface.
   template <class F>
   BL_HD void each(const Vec3d& x, Real3 heading, Real sheet, F&& f, std::uint32_t only = kNone,
                   Real3* drift = nullptr) const {
@@ -80,9 +80,9 @@ struct WallRepulsion {
   }
 };
 
-/// Keeps fluid from slipping back between the particles that wait in an orifice: the same from the plane of
-/// their foremost layer. What has come in, a spacing ahead of that, is not pushed. What falls among them from
-/// the side is let go no faster than `gentle` against them.
+/// Keeps fluid from flowing back between the buffer particles of an inlet: the same repulsion from the plane
+/// of their foremost layer. Fluid that has just entered, a spacing ahead, is not pushed. Fluid that falls in
+/// from the side moves against the layers at `gentle` at most.
 struct OrificeRepulsion {
   Repulsion law;
   Real gentle, rate;  ///< m/s; 1 / step, 1/s

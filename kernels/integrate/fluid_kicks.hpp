@@ -86,11 +86,10 @@ struct DensityHistory {
 
 constexpr Real kThinnest = Real(-0.5);  // of s; thinner fluid is spray
 
-/// Pressure from s, which `history` may advance, and from the acoustic damper (Sun et al. 2023), which adds
-///   a rho0 c h ds/dt,
-/// ds/dt being what continuity alone makes of s: a bulk viscosity, which takes energy from sound and none
-/// from shear. Velocity and, among grains, volume flux, of sheared fluid peculiar velocity, predicted by
-/// `kick` (0: Euler).
+/// Pressure from s, after `history` has advanced it, plus that of the acoustic damper [sun23],
+///   damping ds/dt,    damping = a rho0 c h,
+/// ds/dt being the rate by continuity alone: a bulk viscosity, which dissipates sound and not shear. Also
+/// predicts, by `kick` (0: Euler), velocity and volume flux or, of sheared fluid, peculiar velocity.
 struct StatePass {
   Frame frame;
   EquationOfState eos;

@@ -5,11 +5,10 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// What a wall particle does to fluid particle a. A frozen one does what a fluid particle does that moves and
-/// turns with the wall [tsuzuki]. Any other turns with the particle that it meets, u = v_a - v_w + r x w_a,
-/// so that fluid in simple shear beside a no-slip wall slips as little as in the bulk; that particle then
-/// bears the whole couple -r x F. Friction with what does not move by itself takes heat out, so walls make
-/// noise, too: they are at the fluid's temperature.
+/// Force of a wall particle w on fluid particle a. A frozen one acts as a fluid particle with the velocity
+/// and spin of the wall [tsuzuki]. Any other takes the spin of a, u = v_a - v_w + r x w_a, so that simple
+/// shear at a no-slip wall has no more slip than in the bulk; a then takes the whole couple -r x F. Friction
+/// with walls removes heat, so walls also make noise, at the temperature of the fluid.
 template <class W>
 struct SdpdWallPair {
   W w;

@@ -113,7 +113,7 @@ class FluidSolver {
   }
   const EquationOfState& eos() const { return eos_; }
   Drive drive(const FluidStore& fluid, const StepTime& now) const;
-  /// With which particles move beside their velocity; empty where nothing gives one.
+  /// Velocity of particles in addition to that of the fluid (shifting, XSPH); empty without.
   Span<const Real3> drift_of(const FluidStore& fluid) const {
     return drifts() ? Span<const Real3>(fluid.drift) : Span<const Real3>();
   }
@@ -136,8 +136,7 @@ class FluidSolver {
   /// Whether forces() finds how the density changes, too, by which advance() takes it on: then without
   /// density().
   bool one_pass() const { return !rates_.empty(); }
-  /// Changes velocities of fluid particles that have come too near to each other (visc.collision), which
-  /// positions as packed and lists tell.
+  /// CollisionPass over the lists and packed positions (visc.collision).
   void collide(FluidStore& fluid);
   /// Of shifting, at most, over a step dt (s), m/s.
   double fastest_shift(double dt) const { return dt > 0 ? 0.1 * parameters_.fluid.dx / dt : 0; }
@@ -157,14 +156,14 @@ class FluidSolver {
   /// Whether some walls have a density of their own, which density() takes on.
   bool freezes() const { return parameters_.frozen; }
 
-  /// Sorts the fluid and renews all lists; sorts the walls too where they have moved. Where lists would last
-  /// less than eight steps, what is fast gets up to four times the skin, so that it does not make all others
-  /// pay.
+  /// Sorts the fluid and rebuilds all lists; sorts the walls too if they have moved. If lists would last less
+  /// than eight steps, fast particles get up to four times the skin, so that they do not force rebuilds for
+  /// all.
   void refresh(FluidStore& fluid, WallStore& walls, bool walls_moved, const ListSpeeds& speeds);
   /// Renews the lists for the positions as they are; `sort`: cells too (after a restart).
   void relist(FluidStore& fluid, WallStore& walls, bool sort);
-  /// What lists take more once fluid flows so fast that it gets more than the least skins, bytes, about: on
-  /// average particles then go half as fast as the fastest, and have half of its half skin. 0 if it does.
+  /// Additional memory of the lists, bytes, once fast flow widens the skins; 0 if they are wide already. An
+  /// estimate: the mean speed is half the largest, and so is the mean half skin.
   std::size_t growth() const;
   /// Copies of positions as pair loops read them; of walls also where they were `back` (s) ago.
   void pack(FluidStore& fluid);
@@ -218,8 +217,8 @@ class FluidSolver {
   /// fits().
   virtual void body_pressures(const FluidStore&, const WallStore&, const BodyPressures&,
                               Buffer<Vec4<double>>&) {}
-  /// Of the terms that work on each fluid particle, as they are now; after a step of dt (s), before the lists
-  /// are renewed. Empty where a model does not tell.
+  /// FluidPowers of each particle, as they are now; after a step of dt (s), before the lists are renewed.
+  /// Empty if a model does not report them.
   virtual Span<const FluidPowers> powers(FluidStore&, const WallStore&, Span<const BodyPose>, const StepTime&,
                                          double) {
     return {};
@@ -233,7 +232,7 @@ class FluidSolver {
 
   const CellGrid& grid() const { return grid_; }
 
-  /// What it keeps beside the store.
+  /// Its state outside the store.
   void save(std::vector<Quantity>& scalars) const;
   template <class Scalar>
   void load(const Scalar& scalar) {
@@ -294,7 +293,7 @@ class FluidSolver {
   /// Runs a pass over the pairs of fluid.
   template <class Pass>
   void run(const Pass& pass) {
-    if constexpr (supports_shear<Pass>)
+    if constexpr (kSupportsShear<Pass>)
       if (shear_.acts())
         return fluid_fluid_.run_within(range() * shear_.stretch(),
                                        ShearedPass<Pass>{pass, Real(shear_.strain), Real(shear_.rate)});
@@ -303,7 +302,7 @@ class FluidSolver {
   /// And of fluid and walls.
   template <class Pass>
   void run_with_walls(const Pass& pass) {
-    if constexpr (supports_shear<Pass>)
+    if constexpr (kSupportsShear<Pass>)
       if (shear_.acts()) return run(pass);
     fluid_fluid_.run_with(fluid_wall_, pass);
   }

@@ -30,7 +30,7 @@ struct LatticeSums {
   }
 };
 
-/// None of what keeps WCSPH smooth: noise would set it off.
+/// Without the terms that smooth WCSPH: thermal noise would trigger them.
 FluidParameters without_safety_terms(FluidParameters p) {
   p.xsph = p.tensile = 0;
   p.density.delta = p.density.void_relaxation = 0;

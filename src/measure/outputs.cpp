@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "bedload/parallel/loops.hpp"
+#include "kernels/coupling/fluid_records.hpp"
 #include "src/measure/readings.hpp"
 #include "src/time/coupled_simulation.hpp"
 

@@ -163,7 +163,7 @@ TEST(Stages, WriteWhatTheyNameAndNothingElse) {
   named.erase("renew_lists");
   // rare: least density and porosity, walls that turn drift away; stores of bodies and groups are named as a
   // whole
-  const Names rare{"fluid_state fluid/s", "porosity fluid/solid_factor", "repel fluid/drift"};
+  const Names rare{"fluid_state fluid/compression", "porosity fluid/solid_factor", "repel fluid/drift"};
   for (const auto& [stage, fields] : named)
     for (const std::string& field : fields)
       if (field.find("bod") != 0 && field.find("groups/") != 0 && field.find("grains/wall_memory") != 0 &&
