@@ -16,7 +16,12 @@ struct EquationOfState {
   static EquationOfState of(const EosConfig& e, const FluidProperties& fluid, double cavitation_limit) {
     const double c = fluid.c, rho0 = fluid.rho0, least = -cavitation_limit;
     const auto law = [&](double B, double gamma, double P_ref) -> EquationOfState {
-      return {Real(B), Real(gamma), Real(P_ref), Real(rho0), e.clip_negative, Real(least)};
+      return {.B = Real(B),
+              .gamma = Real(gamma),
+              .P_ref = Real(P_ref),
+              .rho0 = Real(rho0),
+              .clip_negative = e.clip_negative,
+              .least = Real(least)};
     };
     switch (e.type) {
       case EosType::tait:
