@@ -87,7 +87,7 @@ Fields Stepper::fluid_in_pairs() const {
 }
 
 /// And of walls.
-Fields Stepper::walls_in_pairs() const { return {&walls_.xp, &walls_.v_rho, &walls_.eos_state}; }
+Fields Stepper::walls_in_pairs() const { return {&walls_.xp, &walls_.v_rho, &walls_.state}; }
 
 /// What density, or forces in one pass with it, makes of the arrangement of particles.
 Fields Stepper::fields_of_order() const {
@@ -129,10 +129,11 @@ void Stepper::interpolate(Step& now) {
   const FluidStore& f = fluid_;
   const GrainStore& g = grains_;
   begin(now, "interpolate", Part::coupling, [&] {
-    return Access{.near = {&f.xp, &f.v_rho, &f.eos_state, &f.eps, &f.stress_acceleration, &f.solid_factor, &f.x, &g.xp},
-                  .reads = {&f.mass, &g.x, &g.v, &g.omega, &g.radius, &g.fluid_force, &g.id},
-                  .writes = {&g.fluid_velocity, &g.fluid_angular_velocity, &g.drag_coefficient,
-                             &g.rot_drag_coefficient, &g.eps, &g.wetness, &g.x_before}};
+    return Access{
+        .near = {&f.xp, &f.v_rho, &f.eos_state, &f.eps, &f.stress_acceleration, &f.solid_factor, &f.x, &g.xp},
+        .reads = {&f.mass, &g.x, &g.v, &g.omega, &g.radius, &g.fluid_force, &g.id},
+        .writes = {&g.fluid_velocity, &g.fluid_angular_velocity, &g.drag_coefficient, &g.rot_drag_coefficient,
+                   &g.eps, &g.wetness, &g.x_before}};
   });
   coupling_->gather(fluid_, grains_, poses_now(), now.dt, clock_.step);
 }
@@ -201,11 +202,12 @@ void Stepper::kick_drift(Step& now) {
 void Stepper::advance(Step& now) {
   const FluidStore& f = fluid_;
   begin(now, "advance", Part::fluid, [&] {
-    return Access{.near = {},
-                  .reads = fluid_solver_->fields_of_forces() + drift() +
-                           Fields{&f.x, &f.xp, &f.v_rho, &f.acc, &f.compression, &f.mass, &f.eps, &f.compression_rate},
-                  .writes = Fields{&f.x, &f.xp, &f.v_rho, &f.compression, &f.eos_state, &f.p_rho2} +
-                            only_if(fluid_solver_->shear().acts(), {&f.flux})};
+    return Access{
+        .near = {},
+        .reads = fluid_solver_->fields_of_forces() + drift() +
+                 Fields{&f.x, &f.xp, &f.v_rho, &f.acc, &f.compression, &f.mass, &f.eps, &f.compression_rate},
+        .writes = Fields{&f.x, &f.xp, &f.v_rho, &f.compression, &f.eos_state, &f.p_rho2} +
+                  only_if(fluid_solver_->shear().acts(), {&f.flux})};
   });
   fluid_solver_->advance(fluid_, now.dt - now.last_kick, now.dt, now.last_kick);
 }
@@ -251,10 +253,11 @@ void Stepper::density(Step& now) {
     Fields near = fluid_in_pairs() + walls_in_pairs() + Fields{&f.exposure, &w.body};
     if (f.xp_mid.used()) std::replace(near.begin(), near.end(), at_end(f), at_mid(f));
     if (w.xp_mid.used()) std::replace(near.begin(), near.end(), at_end(w), at_mid(w));
-    return Access{.near = near,
-                  .reads = drift() + Fields{&f.compression, &f.viscosity, &f.eps, &f.grains_around, &w.compression},
-                  .writes = fields_of_order() + Fields{&f.compression, &f.compression_next} +
-                            only_if(fluid_solver_->freezes(), {&w.compression})};
+    return Access{
+        .near = near,
+        .reads = drift() + Fields{&f.compression, &f.viscosity, &f.eps, &f.grains_around, &w.compression},
+        .writes = fields_of_order() + Fields{&f.compression, &f.compression_next} +
+                  only_if(fluid_solver_->freezes(), {&w.compression})};
   });
   fluid_solver_->density(fluid_, walls_, now.poses, moment_, now.dt);
 }
@@ -263,10 +266,10 @@ void Stepper::density(Step& now) {
 void Stepper::fluid_state(Step& now) {
   const FluidStore& f = fluid_;
   begin(now, "fluid_state", Part::fluid, [&] {
-    Access a{
-        .near = {},
-        .reads = {flux(), &f.x, &f.v_rho, &f.acc, &f.reaction, &f.compression, &f.mass, &f.eps, &f.compression_rate},
-        .writes = {flux(), &f.v_rho, &f.compression, &f.eos_state, &f.p_rho2}};
+    Access a{.near = {},
+             .reads = {flux(), &f.x, &f.v_rho, &f.acc, &f.reaction, &f.compression, &f.mass, &f.eps,
+                       &f.compression_rate},
+             .writes = {flux(), &f.v_rho, &f.compression, &f.eos_state, &f.p_rho2}};
     if (const SmoothingLengths* own = fluid_solver_->lengths()) {
       a.reads += {&own->h_list};
       a.writes += {&own->h};
@@ -350,8 +353,8 @@ void Stepper::correct(Step& now) {
   const FluidStore& f = fluid_;
   begin(now, "correct", Part::fluid, [&] {
     Access a{.near = {},
-             .reads = drift() + Fields{&f.x, &f.x_list, &f.half_skin, &f.v_rho, &f.acc, &f.acc_next, &f.compression,
-                                       &f.eps, &f.viscosity},
+             .reads = drift() + Fields{&f.x, &f.x_list, &f.half_skin, &f.v_rho, &f.acc, &f.acc_next,
+                                       &f.compression, &f.eps, &f.viscosity},
              .writes = {&f.v_rho, &f.acc, &f.acc_next}};
     if (const SmoothingLengths* own = fluid_solver_->lengths())
       a.reads += {&own->h, &own->omega, &own->h_list};
@@ -367,7 +370,8 @@ void Stepper::push(Step& now) {
   const GrainStore& g = grains_;
   begin(now, "push", Part::coupling, [&] {
     const Fields groups = all_of(group_stores());
-    return Access{.near = groups + Fields{&f.xp, &g.xp, &f.stress_acceleration, &f.eos_state, &f.solid_factor} +
+    return Access{.near = groups +
+                          Fields{&f.xp, &g.xp, &f.stress_acceleration, &f.eos_state, &f.solid_factor} +
                           only_if(!groups.empty(), {&g.v, &g.omega, &g.radius, &g.material, &g.fluid_force}),
                   .reads = {&g.v, &g.omega, &g.radius, &g.material, &g.fluid_force},
                   .writes = Fields{&g.fluid_force, &g.v} + only_if(!groups.empty(), {&g.omega}) + groups};
