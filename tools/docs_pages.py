@@ -60,7 +60,9 @@ def words_page():
             program_of = word["program"]
             out += ["", f"## {program_of or 'Of the field'}", "", "| there | here | |", "|---|---|---|"]
         keys = ", ".join(f"`{key}`" for key in word["keys"])
-        out.append(f"| `{word['name']}` | {keys or '-'} | {cell(word['note'])} |")
+        within = ", ".join(f"`{table}`" for table in word["within"])
+        there = f"`{word['name']}`" + (f" in {within}" if within else "")
+        out.append(f"| {there} | {keys or '-'} | {cell(word['note'])} |")
     return "\n".join(out) + "\n"
 
 

@@ -123,7 +123,7 @@ void Checks::drive() const {
                   c.domain.min.z + s.z * side.z};
     if (!std::isfinite(factor(x, t)))
       fail("drive.factor", quoted(c.drive.factor),
-           fmt::format("must be a finite number; it is none at {} m, t = {:.4g} s", to_text(x), t));
+           fmt::format("must be finite; it is not at {} m, t = {:.4g} s", to_text(x), t));
   }
 }
 
@@ -159,7 +159,7 @@ void Checks::sdpd() const {
                                    {"density.void_relaxation", c.density.void_relaxation},
                                    {"visc.alpha", c.visc.alpha},
                                    {"visc.beta", c.visc.beta}})
-    if (value != 0) fail(key, value, fmt::format("must be 0 {}, since thermal noise would trigger it", with));
+    if (value != 0) fail(key, value, fmt::format("must be 0 {}; thermal noise would trigger it", with));
   if (c.pressure.linear_exact) fail("pressure.linear_exact", "true", "must be false " + with);
   if (c.visc.model != ViscosityModel::none)
     fail("visc.model", quoted(c.visc.model.name()),
@@ -200,7 +200,7 @@ void Checks::sdpd_wall(const std::string& path, const WallBody& body, const std:
     fail(path + ".type", quoted(body.type.name()), "must be \"adami\" or \"frozen\" " + with);
   if (frozen && body.free.present && c.fluid.model == FluidModel::sdpd_a)
     fail(path + ".type", quoted(body.type.name()),
-         "must be \"adami\" for a free body " + with + ", whose frozen particles bear couples");
+         "must be \"adami\" for a free body " + with + ", since frozen particles take up couples");
 }
 
 void Checks::falling_grains() const {

@@ -190,7 +190,7 @@ void for_leaves(const Value& at, const std::string& key, const F& f) {
   }
 }
 
-/// What to write in place of a key that is none, as the end of a sentence.
+/// What to write instead of an unknown key, as the end of a sentence.
 std::string instead_of(const std::string& key, const std::vector<std::string>& known) {
   if (const std::string meaning = meaning_of(key); !meaning.empty()) return meaning;
   if (const std::string near = nearest_key(key, known); !near.empty())
@@ -254,59 +254,28 @@ void Reader::open_item(std::string_view key, std::size_t i) {
 void Reader::reject_unread() const {
   for_leaves(*scopes_.front().table, "", [&](const Value& value, const std::string& key) {
     if (read_.count(&value) || value.get<Value::Table>()) return;
-    throw CaseError(fmt::format("{}: {} = {} has no use here; leave it out or change what it belongs to",
-                                value.place(), key, shortened(value.text())));
+    throw CaseError(fmt::format("{}: {} = {} is not used by the chosen options; remove it", value.place(),
+                                key, shortened(value.text())));
   });
 }
 
 namespace {
 
-/// What cases of other programs have and this one has not: keys from `begins` on whose next part is `name`,
-/// and what to do instead.
-struct Missing {
-  std::string_view begins;
-  std::vector<std::string_view> names;
-  std::string_view instead;
-};
-const std::vector<Missing>& missing_keys() {
-  constexpr std::string_view stays =
-      "openings rest in the domain; where a tank moves with its inlets, write its motion as [frame.motion], "
-      "which takes the whole domain along";
-  constexpr std::string_view density =
-      "all fluid has the density fluid.rho0, kg/m3; [[fluid.species]] differ in viscosity alone, fluid.mu";
-  static const std::vector<std::string_view> moves{"body",   "follows",    "frame",
-                                                   "motion", "moves_with", "parent"},
-      densities{"density", "rho", "rho0"};
-  static const std::vector<Missing> all{{"inlet.", moves, stays},
-                                        {"grain_inlet.", moves, stays},
-                                        {"outlet.", moves, stays},
-                                        {"fluid.fill.", densities, density},
-                                        {"fluid.species.", densities, density},
-                                        {"inlet.", densities, density}};
-  return all;
-}
-
-/// Empty for a key that is not among them.
-std::string_view missing_key(std::string_view key) {
-  for (const Missing& missing : missing_keys()) {
-    if (!key.starts_with(missing.begins)) continue;
-    const std::string_view name = key.substr(missing.begins.size());
-    for (const std::string_view n : missing.names)
-      if (name.substr(0, name.find('.')) == n) return missing.instead;
-  }
-  // [fluid.2]
-  if (key.starts_with("fluid.") && key.size() > 6 && key[6] >= '0' && key[6] <= '9')
-    return missing_key("fluid.fill.rho0");
-  return {};
-}
-
-/// A second [[fluid]], as of programs in which each fluid has a table.
+/// A second [[fluid]] or [fluid.2], as of programs in which each fluid has a table.
 void reject_fluids(const Value& root) {
   const Value* const fluid = root.find("fluid");
-  const auto* const list = fluid ? fluid->get<Value::Array>() : nullptr;
-  if (list && !list->empty() && list->front().get<Value::Table>())
-    throw CaseError(fmt::format("{}: [[fluid]] must be one table, [fluid]: {}", list->front().place(),
-                                missing_key("fluid.fill.rho0")));
+  if (!fluid) return;
+  const auto reject = [](const Value& value, std::string_view what) {
+    throw CaseError(fmt::format("{}: {} must be one table, [fluid]; {}", value.place(), what,
+                                meaning_of("fluid.fill.rho0")));
+  };
+  if (const auto* list = fluid->get<Value::Array>();
+      list && !list->empty() && list->front().get<Value::Table>())
+    reject(list->front(), "[[fluid]]");
+  if (const auto* table = fluid->get<Value::Table>())
+    for (const auto& [name, member] : *table)
+      if (member.get<Value::Table>() && name.find_first_not_of("0123456789") == name.npos)
+        reject(member, fmt::format("[fluid.{}]", name));
 }
 
 }  // namespace
@@ -334,10 +303,8 @@ void reject_unknown(const Value& root) {
   // A key below a parameter ("fluid.dx.a") is that parameter's wrong value, which its reader reports.
   for (const std::string& k : known)
     if (key.starts_with(k + ".")) return;
-  const std::string_view missing = missing_key(key);
-  throw CaseError(fmt::format("{}: {} is not a parameter{} {}", first->place(), shortened(key),
-                              missing.empty() ? ";" : ":",
-                              missing.empty() ? instead_of(key, known) : std::string(missing)));
+  throw CaseError(
+      fmt::format("{}: {} is not a parameter; {}", first->place(), shortened(key), instead_of(key, known)));
 }
 
 }  // namespace bedload

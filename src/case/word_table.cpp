@@ -41,9 +41,25 @@ constexpr std::string_view kNotNeeded = "nothing needs it";
 constexpr std::string_view kSound = "sound speed / fluid.vmax; `bedload check` prints the sound speed";
 constexpr std::string_view kKinematic = "rho0 times the kinematic viscosity";
 constexpr std::string_view kEntries = "an entry each";
+constexpr std::string_view kOneDensity =
+    "all fluid has the density fluid.rho0, kg/m3; [[fluid.species]] differ in viscosity alone, fluid.mu";
+constexpr std::string_view kOpenings = "inlet, grain_inlet, outlet",
+                           kFluids = "fluid.fill, fluid.species, inlet";
+constexpr std::string_view kOpeningsRest =
+    "openings rest in the domain; where a tank moves with its inlets, write its motion as [frame.motion], "
+    "which takes the whole domain along";
 
 constexpr Word kWords[]{
     // words of the field
+    {kField, "body", "", kOpeningsRest, kOpenings},
+    {kField, "follows", "", kOpeningsRest, kOpenings},
+    {kField, "frame", "", kOpeningsRest, kOpenings},
+    {kField, "motion", "", kOpeningsRest, kOpenings},
+    {kField, "moves_with", "", kOpeningsRest, kOpenings},
+    {kField, "parent", "", kOpeningsRest, kOpenings},
+    {kField, "density", "", kOneDensity, kFluids},
+    {kField, "rho", "", kOneDensity, kFluids},
+    {kField, "rho0", "", kOneDensity, kFluids},
     {kField, "diameter", "grain.d", ""},
     {kField, "radius", "grain.d", "the diameter"},
     {kField, "density", "fluid.rho0, grain.rho", ""},

@@ -53,6 +53,27 @@ std::string meaning(const Word& word, std::string_view table) {
   return fmt::format("what {} calls {} is {} here{}", word.program, word.name, key, note);
 }
 
+/// "inlet, outlet"
+std::vector<std::string> listed(std::string_view rest) {
+  std::vector<std::string> all;
+  while (!rest.empty()) {
+    const auto comma = rest.find(", ");
+    all.emplace_back(rest.substr(0, comma));
+    rest = comma == rest.npos ? std::string_view() : rest.substr(comma + 2);
+  }
+  return all;
+}
+
+/// The words of that name which mean something in `table`, "wall.body.".
+std::vector<Word> words_in(std::string_view table, std::string_view name) {
+  std::vector<Word> found = words_named(name);
+  std::erase_if(found, [&](const Word& word) {
+    const auto tables = tables_of(word);
+    return !tables.empty() && !std::count(tables.begin(), tables.end(), table.substr(0, table.rfind('.')));
+  });
+  return found;
+}
+
 }  // namespace
 
 std::vector<Word> words_named(std::string_view name) {
@@ -63,15 +84,8 @@ std::vector<Word> words_named(std::string_view name) {
   return found;
 }
 
-std::vector<std::string> keys_of(const Word& word) {
-  std::vector<std::string> keys;
-  for (std::string_view rest = word.keys; !rest.empty();) {
-    const auto comma = rest.find(", ");
-    keys.emplace_back(rest.substr(0, comma));
-    rest = comma == rest.npos ? std::string_view() : rest.substr(comma + 2);
-  }
-  return keys;
-}
+std::vector<std::string> keys_of(const Word& word) { return listed(word.keys); }
+std::vector<std::string> tables_of(const Word& word) { return listed(word.within); }
 
 std::string meaning_of(std::string_view key) {
   struct Part {
@@ -84,12 +98,12 @@ std::string meaning_of(std::string_view key) {
       parts.push_back({key.substr(from, dot - from), key.substr(0, from)});
     from = dot + 1;
   }
-  for (const Part& part : parts)  // what there is none of explains all that belongs to it
-    for (const Word& word : words_named(part.name))
+  for (const Part& part : parts)  // a word without a key here explains all that is below it
+    for (const Word& word : words_in(part.table, part.name))
       if (word.keys.empty()) return meaning(word, part.table);
   std::reverse(parts.begin(), parts.end());
   for (const Part& part : parts) {
-    const std::vector<Word> found = words_named(part.name);
+    const std::vector<Word> found = words_in(part.table, part.name);
     for (const Word& word : found)
       if (!key_within(word, part.table).empty()) return meaning(word, part.table);
     for (const Word& word : found)

@@ -49,7 +49,9 @@ std::string words_text(std::span<const Word> words) {
   }
   std::string out;
   for (const Word& word : words) {
-    const std::string note = word.keys.empty() ? std::string(word.note) : fmt::format("  ({})", word.note);
+    const std::string where = word.within.empty() ? "" : fmt::format("in {}: ", word.within);
+    const std::string note =
+        word.keys.empty() ? where + std::string(word.note) : fmt::format("  ({}{})", where, word.note);
     out += fmt::format("{:<{}}  {:<{}}  {}{}\n", word.program.empty() ? "-" : word.program, program,
                        word.name, name, word.keys, word.note.empty() ? "" : note);
   }
@@ -141,8 +143,11 @@ std::string list_json(const std::string& name) {
   auto out = nlohmann::ordered_json::array();
   const auto add_words = [&](std::span<const Word> words) {
     for (const Word& word : words)
-      out.push_back(
-          {{"program", word.program}, {"name", word.name}, {"keys", keys_of(word)}, {"note", word.note}});
+      out.push_back({{"program", word.program},
+                     {"name", word.name},
+                     {"within", tables_of(word)},
+                     {"keys", keys_of(word)},
+                     {"note", word.note}});
     return out.dump(1) + '\n';
   };
   if (name == "words") return add_words(words());

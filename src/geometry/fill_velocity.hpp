@@ -32,7 +32,7 @@ class FillVelocity {
     Vec3d v;
     for (int k = 0; k < 3; ++k) {
       v[k] = formulas_[k](x);
-      if (!std::isfinite(v[k])) fail(k, fmt::format("it is none at ({:g}, {:g}, {:g}) m", x.x, x.y, x.z));
+      if (!std::isfinite(v[k])) fail(k, fmt::format("it is not at ({:g}, {:g}, {:g}) m", x.x, x.y, x.z));
     }
     return v;
   }
@@ -40,7 +40,7 @@ class FillVelocity {
  private:
   [[noreturn]] void fail(int k, const std::string& why) const {
     throw KeyError(fmt::format("fluid.fill.{}.velocity", index_),
-                   fmt::format("fluid.fill.velocity = \"{}\" along {} must be a finite number; {}",
+                   fmt::format("fluid.fill.velocity = \"{}\" along {} must be finite; {}",
                                shortened(fill_.velocity[k]), "xyz"[k], why));
   }
 

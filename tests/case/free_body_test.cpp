@@ -73,9 +73,8 @@ TEST(FreeBodyCase, ErrorsAreOneSentence) {
            {"density = 3\nturn = \"axis\"\naxis = [0, 0, 0]\n",
             "dam.toml:23: wall.body.free.axis = [0, 0, 0] must not be zero"},
            {"density = 3\npoint = [0, 0, 0]\n",
-            "dam.toml:22: wall.body.free.point = [0, 0, 0] has no use here; leave it out or change what it "
-            "belongs "
-            "to"},
+            "dam.toml:22: wall.body.free.point = [0, 0, 0] is not used by the chosen options; "
+            "remove it"},
            {"density = 3\nmove = \"up\"\n",
             "dam.toml:22: wall.body.free.move = \"up\" must be one of all, plane, axis, none"},
            {"density = 3\n[wall.body.motion]\nkind = \"velocity\"\nvelocity = [1, 0, 0]\n",

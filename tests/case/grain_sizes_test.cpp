@@ -152,10 +152,8 @@ TEST(GrainSizes, ErrorsNameTheEntryAtFault) {
             "dam.toml:21: grain.fill.sizes.d_max must be given (uniform, log_normal: largest diameter, m)");
   EXPECT_EQ(error("kind = \"uniform\"\nd_min = 0.002\nd_max = 0.001"),
             "dam.toml:24: grain.fill.sizes.d_max = 0.001 must be > 0.002");
-  EXPECT_EQ(
-      error("kind = \"uniform\"\nd_min = 0.002\nd_max = 0.003\nmedian = 0.002"),
-      "dam.toml:25: grain.fill.sizes.median = 0.002 has no use here; leave it out or change what it belongs "
-      "to");
+  EXPECT_EQ(error("kind = \"uniform\"\nd_min = 0.002\nd_max = 0.003\nmedian = 0.002"),
+            "dam.toml:25: grain.fill.sizes.median = 0.002 is not used by the chosen options; remove it");
   EXPECT_EQ(error("kind = \"log_normal\"\nmedian = 0.002\nsigma = 0.2\nd_min = 0.003"),
             "dam.toml:25: grain.fill.sizes.d_min = 0.003 must be > 0 and < 0.002");
   EXPECT_EQ(

@@ -200,9 +200,9 @@ TEST_F(ParticleFile, WrongFillsNameTheCase) {
   EXPECT_EQ(error(case_with("grains.csv", "\nsizes = [{d = 0.001}]")),
             "dam.toml:19: grain.fill.sizes = [{...}] must be left out; grains.csv holds its own");
   EXPECT_EQ(error(case_with("grains.csv", "\ncount = 5")),
-            "dam.toml:19: grain.fill.count = 5 has no use here; leave it out or change what it belongs to");
+            "dam.toml:19: grain.fill.count = 5 is not used by the chosen options; remove it");
   EXPECT_EQ(error(case_with("grains.csv", "\nstep = 5")),
-            "dam.toml:19: grain.fill.step = 5 has no use here; leave it out or change what it belongs to");
+            "dam.toml:19: grain.fill.step = 5 is not used by the chosen options; remove it");
 }
 
 }  // namespace

@@ -75,9 +75,9 @@ TEST(PatchCase, SaysWhatItsKeysMayBe) {
   const std::string at = "[0.1, 0.05, 0]";
   EXPECT_EQ(refused(patch(at, "")), "probe \"p\" must have exactly one of radius and size");
   EXPECT_EQ(refused(patch(at, "radius = 0.01\nsize = [0.01, 0.01]\n")),
-            "probe.size = [0.01, 0.01] has no use here; leave it out or change what it belongs to");
+            "probe.size = [0.01, 0.01] is not used by the chosen options; remove it");
   EXPECT_EQ(refused(patch(at, "radius = 0.01\ncount = [1, 2]\n")),
-            "probe.count = [1, 2] has no use here; leave it out or change what it belongs to");
+            "probe.count = [1, 2] is not used by the chosen options; remove it");
   EXPECT_EQ(refused(patch(at, "radius = 0\n")), "probe.radius = 0 must be > 0");
   EXPECT_EQ(refused(patch(at, "size = [0.01, 0]\n")), "probe.size = [0.01, 0] must hold numbers > 0");
   EXPECT_EQ(refused(patch(at, "size = [0.01]\n")), "probe.size = [0.01] must hold two lengths");
@@ -129,7 +129,7 @@ TEST(ProbeCase, RefusesPlacesThatSeeNothing) {
   EXPECT_EQ(refused(with_probe("type = \"point\"\nat = [0.1, 0.05, 0]\nbody = \"gate\"\n")),
             "probe.body = \"gate\" must name a wall.body; this case has tank");
   EXPECT_EQ(refused(with_probe("type = \"height\"\nat = [0.1, 0.05, 0]\nbody = \"tank\"\n")),
-            "probe.body = \"tank\" has no use here; leave it out or change what it belongs to");
+            "probe.body = \"tank\" is not used by the chosen options; remove it");
 }
 
 TEST(ProbeCase, OfForcesTellsMeansOrInstants) {
@@ -140,7 +140,7 @@ TEST(ProbeCase, OfForcesTellsMeansOrInstants) {
   EXPECT_EQ(refused(with_probe(force + "sample = \"average\"\n")),
             "probe.sample = \"average\" must be one of mean, instant");
   EXPECT_EQ(refused(with_probe("type = \"point\"\nat = [0.1, 0.05, 0.1]\nsample = \"mean\"\n")),
-            "probe.sample = \"mean\" has no use here; leave it out or change what it belongs to");
+            "probe.sample = \"mean\" is not used by the chosen options; remove it");
 }
 
 TEST(ProbeCase, FollowsTheColumnAlongGravity) {

@@ -94,7 +94,7 @@ TEST(SuspensionCase, SaysWhatDoesNotGoTogether) {
        "be "
        "\"none\" with lubrication.forces, of which it is the mean"},
       {{"drive.f=[1, 0, 0]", "drive.factor=1/x"},
-       "--set drive.factor=1/x: drive.factor = \"1/x\" must be a finite number; it is none at [0, 0, 0] m, t "
+       "--set drive.factor=1/x: drive.factor = \"1/x\" must be finite; it is not at [0, 0, 0] m, t "
        "= 0 s"},
       {{"visc.collision=true", "fluid.model=sdpd", "sdpd.kT=1e-9"},
        "--set visc.collision=true: visc.collision = true must be false with sdpd.kT > 0, since "

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include "bedload/case/parameters.hpp"
 #include "support.hpp"
@@ -19,11 +20,12 @@ std::string answer(const std::string& assignment) { return error_of(kCase, {assi
 TEST(Words, AreOfSixProgramsAndNameWhatThereIs) {
   const std::vector<ParameterRow> rows = parameter_table();
   std::set<std::string_view> programs;
-  std::set<std::pair<std::string_view, std::string_view>> names;
+  std::set<std::tuple<std::string_view, std::string_view, std::string_view>> names;
   int of_programs = 0, named = 0;
   for (const Word& word : words()) {
     if (!word.program.empty()) programs.insert(word.program), ++of_programs;
-    EXPECT_TRUE(names.insert({word.program, word.name}).second) << word.name << " is there twice";
+    EXPECT_TRUE(names.insert({word.program, word.name, word.within}).second)
+        << word.name << " is there twice";
     EXPECT_FALSE(words_named(word.name).empty()) << word.name;
     EXPECT_TRUE(!word.keys.empty() || !word.note.empty()) << word.name;
     for (const std::string& key : keys_of(word)) {
@@ -33,6 +35,10 @@ TEST(Words, AreOfSixProgramsAndNameWhatThereIs) {
       EXPECT_TRUE(there) << word.name << ": " << key;
       ++named;
     }
+    for (const std::string& table : tables_of(word))
+      EXPECT_TRUE(std::any_of(rows.begin(), rows.end(),
+                              [&](const ParameterRow& row) { return row.key.starts_with(table + "."); }))
+          << word.name << ": " << table;
   }
   EXPECT_EQ(programs, (std::set<std::string_view>{"DualSPHysics", "DesignSPHysics", "LIGGGHTS", "LAMMPS",
                                                   "PySPH", "SPHinXsys"}));
@@ -89,6 +95,14 @@ TEST(Words, OfWhatThereIsNoneAreAnsweredWithASentence) {
   EXPECT_NE(answer("fluid.yield_stress=1").find("; fluids are Newtonian"), std::string::npos);
   EXPECT_NE(answer("species.tau_yield=1").find("; fluids are Newtonian"), std::string::npos);
   EXPECT_NE(answer("contact.cohesionEnergyDensity=1").find("; grains do not cohere"), std::string::npos);
+}
+
+TEST(Words, OfSomeTablesMeanNothingInOthers) {
+  EXPECT_EQ(
+      answer("grain.motion=1"),
+      "--set grain.motion=1: grain.motion is not a parameter; `bedload list grain` shows what there is");
+  EXPECT_EQ(answer("fluid.density=800"),
+            "--set fluid.density=800: fluid.density is not a parameter; density is fluid.rho0 here");
 }
 
 TEST(Words, AreNotThoseOfTablesOfACase) {

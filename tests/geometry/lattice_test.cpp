@@ -74,10 +74,9 @@ TEST(FluidLattice, RefusesFormulasThatAreNone) {
       << error_of(config);
   EXPECT_NE(error_of(config).find("radius", 45), std::string::npos);
   config.fluid.fills[0].velocity[2] = "1/(x-0.005)";
-  EXPECT_EQ(
-      error_of(config),
-      "fluid.fill.velocity = \"1/(x-0.005)\" along z must be a finite number; it is none at (0.005, 0.005, "
-      "0.005) m");
+  EXPECT_EQ(error_of(config),
+            "fluid.fill.velocity = \"1/(x-0.005)\" along z must be finite; it is not at (0.005, 0.005, "
+            "0.005) m");
 }
 
 TEST(FluidLattice, RefusesFluidOutsideTheDomain) {

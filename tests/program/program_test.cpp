@@ -995,9 +995,9 @@ TEST_F(Program, NamesThePlaceOfWhatCannotBeInitialised) {
           "wall.body \"side\"");
   refused(fill + "min = [0.04, 0, 0]\nmax = [0.06, 0.06, 0.05]\n",
           "dam.toml:28: fluid.fill 2 overlaps fluid.fill 1\n");
-  refused(fill + "min = [0.06, 0, 0]\nmax = [0.08, 0.06, 0.05]\nvelocity = [\"1/(x - 0.065)\", 0, 0]\n",
-          "dam.toml:31: fluid.fill.velocity = \"1/(x - 0.065)\" along x must be a finite number; it is none "
-          "at (0.065, ");
+  refused(
+      fill + "min = [0.06, 0, 0]\nmax = [0.08, 0.06, 0.05]\nvelocity = [\"1/(x - 0.065)\", 0, 0]\n",
+      "dam.toml:31: fluid.fill.velocity = \"1/(x - 0.065)\" along x must be finite; it is not at (0.065, ");
   refused(fill + "shape = \"part\"\n" + shape + "kind = \"difference\"\nof = [\"all\", \"all\"]\n",
           "dam.toml:30: shape \"part\": of = \"all\" must name a shape listed before it");
   refused(shape +
