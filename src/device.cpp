@@ -44,7 +44,7 @@ std::size_t free_memory() {
 }
 
 /// Whether to use the AVX2 build of the solver.
-bool wants_avx2(const std::string& simd) {
+bool wants_avx2(Simd simd) {
 #if BL_HAS_AVX2
   const bool can = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
   const std::string why = "this processor has no AVX2";
@@ -52,11 +52,11 @@ bool wants_avx2(const std::string& simd) {
   const bool can = false;
   const std::string why = "this program was built without AVX2 code";
 #endif
-  if (simd == "avx2" && !can) throw KeyError("run.simd", "run.simd = avx2: " + why);
-  return can && simd != "baseline";
+  if (simd == Simd::avx2 && !can) throw KeyError("run.simd", "run.simd = avx2: " + why);
+  return can && simd != Simd::baseline;
 }
 
-Device cpu(int threads, const std::string& simd) {
+Device cpu(int threads, Simd simd) {
   if (threads > 0) omp_set_num_threads(threads);
   const bool avx2 = wants_avx2(simd);
   return {"cpu",
@@ -88,12 +88,12 @@ std::string find_gpu(Device& device) {
 
 }  // namespace
 
-Device find_device(const std::string& backend, int threads, const std::string& simd) {
+Device find_device(const std::string& backend, int threads, Simd simd) {
   if (backend == "cpu") return cpu(threads, simd);
   Device device;
   const std::string why = find_gpu(device);
   if (why.empty()) {
-    cpu(threads, "auto");
+    cpu(threads, Simd::automatic);
     return device;
   }
   if (backend == "cuda") throw DeviceError("--backend = cuda: " + why);
@@ -102,13 +102,14 @@ Device find_device(const std::string& backend, int threads, const std::string& s
 
 std::unique_ptr<Simulation> make_simulation(const Config& config, [[maybe_unused]] const Setup& setup,
                                             [[maybe_unused]] const Device& device) {
-#define BL_USE(which, where)                                                                 \
-  if (config.precision == #which && device.backend + (device.avx2 ? "_avx2" : "") == #where) \
+  const std::string precision = config.precision.name();
+#define BL_USE(which, where)                                                          \
+  if (precision == #which && device.backend + (device.avx2 ? "_avx2" : "") == #where) \
     return which##_##where::make_coupled(config, setup);
   BL_VARIANTS
 #undef BL_USE
   throw KeyError("run.precision",
-                 "run.precision = \"" + config.precision +
+                 "run.precision = \"" + precision +
                      "\": this program was built without it (-DBEDLOAD_PRECISIONS=... of CMake adds it)");
 }
 
@@ -140,7 +141,7 @@ MemoryEstimate estimate_memory(const Config& config, const Device& device) {
   const ParticleBytes fields = make_simulation(config, {}, device)->field_bytes();
   const bool cuda = device.cuda(), coupled = config.couple.mode != CouplingMode::off &&
                                              config.fluid.present && config.grain.present;
-  const double real = config.precision == "double" ? 8 : 4, index = 4, vec3d = 24;
+  const double real = config.precision == Precision::fp64 ? 8 : 4, index = 4, vec3d = 24;
   MemoryEstimate out{double(fields.fluid), double(fields.walls), double(fields.grains)};
 
   const double reach = config.fluid.kappa() * config.fluid.h() + config.skin_fluid * config.fluid.dx;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bedload/case/choices.hpp"
 #include "bedload/case/config/output.hpp"
 #include "bedload/host_data.hpp"
 #include "bedload/step_limits.hpp"
@@ -122,7 +123,7 @@ struct Device {
 
 /// backend: auto, cpu, cuda. `auto` uses a GPU if this build has CUDA. simd is run.simd. Throws
 /// DeviceError if there is no such device, KeyError if the CPU has no such instructions.
-Device find_device(const std::string& backend, int threads, const std::string& simd = "auto");
+Device find_device(const std::string& backend, int threads, Simd simd = Simd::automatic);
 
 /// Builds the solver for config.precision on `device`.
 std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& setup, const Device& device);

@@ -2,12 +2,10 @@
 // Free rigid bodies: Newton and Euler with constraints. The state is place, rotation, velocity and angular
 // momentum of a reference point, which is the centre of mass, or the pivot of a body that only turns.
 
+#include "bedload/case/setup_choices.hpp"
 #include "bedload/particles/walls.hpp"
 
 namespace bedload::inline BL_VARIANT {
-
-enum class BodyMove : std::uint32_t { all, plane, axis, none };
-enum class BodyTurn : std::uint32_t { all, axis, none };
 
 BL_HD Quat<double> normalised(const Quat<double>& q) {
   const double s = 1 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);

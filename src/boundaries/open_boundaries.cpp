@@ -15,21 +15,25 @@ namespace {
 constexpr int kPlaces = 16;  // candidate positions of a grain, tested together
 
 /// The outlets of a phase as solids, for inside tests on the device.
-std::vector<WallBody> outlets_as_walls(const std::vector<OutletConfig>& outlets, const char* phase) {
+std::vector<WallBody> outlets_as_walls(const std::vector<OutletConfig>& outlets, Phase phase) {
   std::vector<WallBody> walls;
   for (const OutletConfig& outlet : outlets) {
     WallBody& body = walls.emplace_back();
-    body.shape = outlet.takes(phase) ? outlet.shape : "none";
+    if (!outlet.takes(phase)) {
+      body.shape = WallShape::tank, body.faces = {};  // keeps its number, but takes nothing
+      continue;
+    }
+    body.shape = outlet.shape == OutletShape::plane ? WallShape::plane : WallShape::box;
     body.min = outlet.min, body.max = outlet.max;
     body.point = outlet.point, body.normal = -outlet.normal;
-    if (outlet.takes(phase)) body.solid = outlet.solid;
+    body.solid = outlet.solid;
   }
   return walls;
 }
 
 }  // namespace
 
-OpenBoundaries::OutletRegions::OutletRegions(const OpenBoundaryParameters& p, const char* phase)
+OpenBoundaries::OutletRegions::OutletRegions(const OpenBoundaryParameters& p, Phase phase)
     : geometry(outlets_as_walls(p.outlets, phase), p.domain), tally(kSides + p.outlets.size()) {}
 
 OpenBoundaries::OpenBoundaries(const OpenBoundaryParameters& parameters, const Frame& frame,
@@ -37,8 +41,8 @@ OpenBoundaries::OpenBoundaries(const OpenBoundaryParameters& parameters, const F
     : parameters_(parameters),
       frame_(frame),
       motion_(motion),
-      fluid_out_(parameters, "fluid"),
-      grains_out_(parameters, "grains"),
+      fluid_out_(parameters, Phase::fluid),
+      grains_out_(parameters, Phase::grains),
       matter_(parameters.materials),
       left_through_(grains, "left_through", "-", Lifetime::kept),
       grains_left_(kSides, -1.0),
@@ -267,8 +271,9 @@ std::vector<Quantity> OpenBoundaries::report(double t) const {
   for (std::size_t k = 0; k < parameters_.outlets.size(); ++k) {
     const OutletConfig& outlet = parameters_.outlets[k];
     const std::string name = "outlet_" + outlet.name;
-    if (parameters_.has_fluid && outlet.takes("fluid")) tally(name + "_fluid", fluid_out_.tally[kSides + k]);
-    if (parameters_.has_grains && outlet.takes("grains"))
+    if (parameters_.has_fluid && outlet.takes(Phase::fluid))
+      tally(name + "_fluid", fluid_out_.tally[kSides + k]);
+    if (parameters_.has_grains && outlet.takes(Phase::grains))
       tally(name + "_grain", grains_out_.tally[kSides + k]);
   }
   for (std::size_t i = 0; i < sources_.size(); ++i) {

@@ -61,7 +61,7 @@ class OpenBoundaries {
   struct OutletRegions {
     WallGeometry geometry;
     std::vector<Tally> tally;
-    OutletRegions(const OpenBoundaryParameters& parameters, const char* phase);
+    OutletRegions(const OpenBoundaryParameters& parameters, Phase phase);
   };
   template <class P, class Mass>
   bool find_leaving(OutletRegions& regions, Span<const P> x, bool domain, const Mass& mass, double t);

@@ -11,7 +11,7 @@ std::vector<Orifice> orifices_of(const std::vector<InletConfig>& inlets, std::si
     Orifice& o = all.emplace_back();
     o.centre = inlet.centre;
     o.direction = inlet.direction;
-    o.disc = inlet.shape == "disc";
+    o.disc = inlet.shape == OrificeShape::disc;
     o.body = std::uint32_t(walls + all.size() - 1);
     o.behind = 0.5 * orifice_layer(inlet, dx, domain).thickness;
     const Vec3d side[2] = {inlet.half_a, inlet.half_b};

@@ -31,7 +31,7 @@ void Checks::domain() const {
 }
 
 void Checks::written_positions() const {
-  if (c.precision == "double") return;
+  if (c.precision == Precision::fp64) return;
   double far = 0;
   for (int k = 0; k < 3; ++k) far = std::max({far, std::abs(c.domain.min[k]), std::abs(c.domain.max[k])});
   const double step = std::nextafter(float(far), std::numeric_limits<float>::infinity()) - float(far);
@@ -79,8 +79,8 @@ void Checks::shear() const {
                                     {c.time.integrator == TimeIntegrator::ab3, "time.integrator = \"ab3\""}})
     if (there) fail("domain.shear_rate", c.domain.shear_rate, fmt::format("must be 0 with {}", what));
   for (std::size_t i = 0; i < c.out.probes.size(); ++i)
-    if (const std::string& type = c.out.probes[i].type; type == "point" || type == "height")
-      fail(fmt::format("probe.{}.type", i), quoted(type), "must be another with domain.shear_rate");
+    if (const auto& type = c.out.probes[i].type; type == ProbeType::point || type == ProbeType::height)
+      fail(fmt::format("probe.{}.type", i), quoted(type.name()), "must be another with domain.shear_rate");
   for (const int k : {0, 2})
     if (!c.domain.periodic[k])
       fail("domain.periodic", fmt::format("false along {}", "xyz"[k]), "must be true with domain.shear_rate");

@@ -32,7 +32,7 @@ class Checks {
 
  private:
   // of all sections, and time: checks.cpp
-  /// Density from former rates goes with what one visit of each pair can find, and bears shorter steps, by
+  /// Density from former rates needs what one visit of each pair can find, and allows shorter steps only, by
   /// linear analysis: sound is damped up to a cfl of 0.6, density diffusion at its largest up to 0.39.
   void one_pass() const;
   /// Sides put back particles that can cross them, one by one.

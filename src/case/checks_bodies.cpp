@@ -18,7 +18,7 @@ void Checks::meshes() const {
   const auto largest = [](const Vec3d& side) { return std::max({side.x, side.y, side.z}); };
   const Vec3d extent = c.domain.max - c.domain.min;
   for (const ShapeConfig& shape : c.shapes) {
-    if (shape.kind != "mesh") continue;
+    if (shape.kind != ShapeKind::mesh) continue;
     const Bounds bounds = shape.solid.shape->bounds();
     const Vec3d side = bounds.max - bounds.min;
     const double times = largest(side) / largest(extent);
@@ -42,7 +42,7 @@ void Checks::walls() const {
       if (body.name == fmt::format("grain_fill_{}", fill + 1))
         fail(path + ".name", quoted(body.name),
              fmt::format("must differ from that of the table of grain.fill {}, a rigid group", fill + 1));
-    if (body.shape != "plane") box(path, body.min, body.max);
+    if (body.shape != WallShape::plane) box(path, body.min, body.max);
     if (body.solid.shape) within_period(path + ".shape", body);
     countable(path + ".shape", body);
     if (!body.moves()) met(body), rim(body);
@@ -71,13 +71,13 @@ void Checks::walls() const {
 }
 
 void Checks::countable(const std::string& path, const WallBody& body) const {
-  if (!c.fluid.present || body.shape == "plane" || !body.stops_fluid()) return;
+  if (!c.fluid.present || body.shape == WallShape::plane || !body.stops_fluid()) return;
   const Vec3d side = body.max - body.min;
   const double spacing = c.wall.spacing(body);
   const double layer = std::max({side.x * side.y, side.y * side.z, side.z * side.x}) / (spacing * spacing);
   if (layer >= 2147483648.0)
     fail(
-        path, quoted(body.shape),
+        path, quoted(body.shape.name()),
         fmt::format("must be smaller; at {:.3g} x {:.3g} x {:.3g} m a layer of wall particles {} m apart has "
                     "{:.3g} of at most 2147483647",
                     side.x, side.y, side.z, spacing, layer));
@@ -85,7 +85,7 @@ void Checks::countable(const std::string& path, const WallBody& body) const {
 
 void Checks::touchable(const std::string& path, const WallBody& body) const {
   const double spacing = body.free.contact_spacing;
-  if (!(spacing > 0) || (body.shape != "box" && !body.solid.shape)) return;
+  if (!(spacing > 0) || (body.shape != WallShape::box && !body.solid.shape)) return;
   constexpr double kMost = 1e6;
   const double balls = expected_places(body, spacing, spacing, c.domain);
   if (balls > kMost)
@@ -99,7 +99,7 @@ void Checks::touchable(const std::string& path, const WallBody& body) const {
 void Checks::met(const WallBody& body) const {
   const Vec3d &lo = c.domain.min, &hi = c.domain.max;
   const double rounding = 1e-9 * norm(hi - lo);
-  if (body.shape == "plane") {
+  if (body.shape == WallShape::plane) {
     double nearest = 1e300;  // of the domain's corners, before the plane
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3d at{corner & 1 ? hi.x : lo.x, corner & 2 ? hi.y : lo.y, corner & 4 ? hi.z : lo.z};
@@ -108,7 +108,7 @@ void Checks::met(const WallBody& body) const {
     if (nearest > rounding)
       warn("wall.body \"{}\" lies {:.3g} m outside the domain, so particles leave before they meet it",
            body.name, nearest);
-  } else if (body.shape == "tank") {
+  } else if (body.shape == WallShape::tank) {
     for (int face = 0; face < 6; ++face) {
       const int k = face / 2;
       const double beyond = face % 2 ? body.max[k] - hi[k] : lo[k] - body.min[k];
@@ -125,9 +125,9 @@ void Checks::met(const WallBody& body) const {
 
 void Checks::rim(const WallBody& body) const {
   const double g = norm(c.gravity);
-  if (!c.fluid.present || body.shape != "tank" || g == 0 || c.fluid.fills.empty()) return;
+  if (!c.fluid.present || body.shape != WallShape::tank || g == 0 || c.fluid.fills.empty()) return;
   for (const OutletConfig& outlet : c.outlets)
-    if (outlet.takes("fluid")) return;
+    if (outlet.takes(Phase::fluid)) return;
   for (int k = 0; k < 3; ++k) {
     const bool up = c.gravity[k] < 0;
     const std::size_t top = 2 * std::size_t(k) + up;
@@ -169,7 +169,7 @@ void Checks::within_period(const std::string& path, const WallBody& body) const 
         period_slack(c.domain, k) + 1.2e-7 * std::max(std::abs(lo), std::abs(hi));  // STL: floats
     if (c.domain.periodic[k] && !c.domain.flat(k) &&
         (body.min[k] < lo - rounding || body.max[k] > hi + rounding))
-      fail(path, quoted(body.shape),
+      fail(path, quoted(body.shape.name()),
            fmt::format("must lie within the period along {}, {}..{} m; only tank, box and plane run through",
                        "xyz"[k], lo, hi));
   }
@@ -195,7 +195,7 @@ void Checks::motions() const {
 }
 
 bool Checks::steady(const MotionConfig& m) {
-  return m.add.empty() && (m.kind == "velocity" || m.kind == "rotation");
+  return m.add.empty() && (m.kind == MotionKind::velocity || m.kind == MotionKind::rotation);
 }
 
 void Checks::warn_of(const std::vector<VelocityJump>& jumps, const std::string& of, const char* note) const {
@@ -209,7 +209,7 @@ void Checks::warn_of(const std::vector<VelocityJump>& jumps, const std::string& 
 
 void Checks::translates(const MotionPart& m, const std::string& path) const {
   const char* must = "must not turn; a frame can only be translated";
-  if (m.kind == "rotation") fail(path + ".kind", quoted(m.kind), must);
+  if (m.kind == MotionKind::rotation) fail(path + ".kind", quoted(m.kind.name()), must);
   if (m.rotation != MotionPart().rotation)
     fail(path + ".rotation", fmt::format("[{}]", fmt::join(m.rotation, ", ")), must);
   for (const MotionRow& row : m.rows)

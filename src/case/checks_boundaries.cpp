@@ -23,15 +23,16 @@ void Checks::openings() const {
   for (std::size_t i = 0; i < c.outlets.size(); ++i) {
     const OutletConfig& outlet = c.outlets[i];
     const std::string path = fmt::format("outlet.{}", i);
-    if (c.grain.present && outlet.takes("grains") && !c.grain.rigid_fills().empty())
-      fail(path + ".phase", quoted(outlet.phase), "must be \"fluid\" where grains form rigid groups");
+    if (c.grain.present && outlet.takes(Phase::grains) && !c.grain.rigid_fills().empty())
+      fail(path + ".phase", quoted(outlet.phase.name()), "must be \"fluid\" where grains form rigid groups");
     named(path, outlet.name);
-    if (outlet.shape == "box") box(path, outlet.min, outlet.max);
-    if (outlet.shape != "plane" && !in_sight(outlet.min, outlet.max))
-      fail(path + ".shape", quoted(outlet.shape), "must reach into the domain");
-    if (outlet.phase != "both" && !(outlet.phase == "fluid" ? c.fluid.present : c.grain.present))
-      fail(path + ".phase", quoted(outlet.phase),
-           fmt::format("must name something in this case; it has no {}", outlet.phase));
+    if (outlet.shape == OutletShape::box) box(path, outlet.min, outlet.max);
+    if (outlet.shape != OutletShape::plane && !in_sight(outlet.min, outlet.max))
+      fail(path + ".shape", quoted(outlet.shape.name()), "must reach into the domain");
+    if (outlet.phase != OutletPhase::both &&
+        !(outlet.phase == OutletPhase::fluid ? c.fluid.present : c.grain.present))
+      fail(path + ".phase", quoted(outlet.phase.name()),
+           fmt::format("must name something in this case; it has no {}", outlet.phase.name()));
   }
   for (std::size_t i = 0; i < c.grain_inlets.size(); ++i) {
     named(fmt::format("grain_inlet.{}", i), c.grain_inlets[i].name);
@@ -43,7 +44,7 @@ void Checks::grain_inlet(const std::string& path, const GrainInletConfig& inlet)
   double d = 0;
   for (const SizeClass& size : inlet.sizes) d = std::max(d, size_range(size).second);
   if (c.grain.fixed) fail("grain.fixed", "true", "must be false with grain_inlet");
-  if (inlet.shape == "disc") {
+  if (inlet.shape == GrainInletShape::disc) {
     inside_domain(path + ".centre", inlet.centre);
     if (2 * inlet.radius < d)
       fail(path + ".radius", inlet.radius, fmt::format("must be at least {}, for the largest grain", d / 2));
@@ -66,19 +67,20 @@ void Checks::probes() const {
     file_name(path + ".name", probe.name);
     if (!names.insert(probe.name).second)
       fail(path + ".name", quoted(probe.name), "must differ from other probes'");
-    if (probe.type == "box") {
+    if (probe.type == ProbeType::box) {
       box(path, probe.min, probe.max);
       if (!in_sight(probe.min, probe.max))
         fail(path + ".min", to_text(probe.min), "must have a part of the domain in its box");
     }
-    if (probe.type == "point" || probe.type == "wall_pressure") inside_domain(path + ".at", probe.at);
-    if (probe.type == "height") column_in_domain(path + ".at", probe.at);
-    const bool has_phase = probe.type == "front" || probe.type == "box";
-    const std::string phase = has_phase ? probe.phase : "fluid";
-    if (probe.type != "force" && !(phase == "fluid" ? c.fluid.present : c.grain.present))
-      fail(path + (has_phase ? ".phase" : ".type"), quoted(has_phase ? phase : probe.type),
-           fmt::format("must name something in this case; it has no {}", phase));
-    if (probe.type == "force" || !probe.body.empty()) body_exists(path + ".body", probe.body);
+    if (probe.type == ProbeType::point || probe.type == ProbeType::wall_pressure)
+      inside_domain(path + ".at", probe.at);
+    if (probe.type == ProbeType::height) column_in_domain(path + ".at", probe.at);
+    const bool has_phase = probe.type == ProbeType::front || probe.type == ProbeType::box;
+    const Chosen<Phase> phase = has_phase ? probe.phase : Chosen(Phase::fluid);
+    if (probe.type != ProbeType::force && !(phase == Phase::fluid ? c.fluid.present : c.grain.present))
+      fail(path + (has_phase ? ".phase" : ".type"), quoted(has_phase ? phase.name() : probe.type.name()),
+           fmt::format("must name something in this case; it has no {}", phase.name()));
+    if (probe.type == ProbeType::force || !probe.body.empty()) body_exists(path + ".body", probe.body);
   }
 }
 }  // namespace bedload

@@ -50,7 +50,7 @@ void Checks::grain_fill(const std::string& path, const GrainFill& fill) const {
            fmt::format("must be as many as positions, {}", fill.positions.size()));
   if (fill.replaces_fluid && (!c.fluid.present || c.grain.settle))
     fail(path + ".replaces_fluid", "true", "must be false without [fluid], and with grain.settle");
-  if (fill.rigid.present && fill.rigid.turn != "none" && fill.positions.empty() && fill.file.empty())
+  if (fill.rigid.present && fill.rigid.turn != BodyTurn::none && fill.positions.empty() && fill.file.empty())
     for (int k = 0; k < 3; ++k)
       if (c.domain.periodic[k] &&
           fill.max[k] - fill.min[k] > c.domain.max[k] - c.domain.min[k] - c.grain.largest())
@@ -167,9 +167,8 @@ void Checks::coupling() const {
                      2 * d / c.fluid.kappa()));
   if (reach < 4 * d * (1 - 1e-9))
     warn(
-        "couple.hc: the coupling reaches {:.3g} diameters of the largest grain; below 4 the flow that it "
-        "reads "
-        "is disturbed by its own drag; increase couple.hc",
+        "couple.hc: kappa h_c is {:.3g} diameters of the largest grain; below 4 a grain's own wake reduces "
+        "its drag",
         reach / d);
 }
 

@@ -6,25 +6,18 @@ namespace bedload {
 
 using enum Presence;
 
-/// The constraints of a rigid body, whose keys begin with `at`; `none`: what move = "none" means.
+/// The constraints of a rigid body, whose keys begin with `at`.
 template <class C>
-void describe_constraints(Parameters& p, const std::string& at, C& c, const char* none) {
-  p(at + ".move", &c.move,
-    {.meaning = "where its centre of mass may go",
-     .family = "models",
-     .choices = {
-         {"all", "anywhere"}, {"plane", "across the axis"}, {"axis", "along the axis"}, {"none", none}}});
-  p(at + ".turn", &c.turn,
-    {.meaning = "how it may turn",
-     .family = "models",
-     .choices = {{"all", "any way"}, {"axis", "about the axis"}, {"none", "not at all"}}});
-  if (c.move == "plane" || c.move == "axis" || c.turn == "axis" || p.everything())
+void describe_constraints(Parameters& p, const std::string& at, C& c) {
+  p(at + ".move", &c.move, {.meaning = "where its centre of mass may go", .family = "models"});
+  p(at + ".turn", &c.turn, {.meaning = "how it may turn", .family = "models"});
+  if (c.move == BodyMove::plane || c.move == BodyMove::axis || c.turn == BodyTurn::axis || p.everything())
     p(at + ".axis", &c.axis, {.meaning = "direction for move and turn", .presence = required});
 }
 
 void describe_rigid_group(Parameters& p, RigidConfig& r) {
   r.present = p.table("rigid", r.present);
-  if (r.present) describe_constraints(p, "rigid", r, "nowhere");
+  if (r.present) describe_constraints(p, "rigid", r);
 }
 
 void describe_free_body(Parameters& p, FreeConfig& f) {
@@ -53,11 +46,11 @@ void describe_free_body(Parameters& p, FreeConfig& f) {
   p("free.spin", &f.spin, {.unit = "rad/s", .meaning = "angular velocity at the start"});
   p("free.release_time", &f.release_time,
     {.unit = "s", .meaning = "held in place until then", .range = at_least(0)});
-  describe_constraints(p, "free", f, "nowhere; free.point of the body stays in place");
-  if (f.move == "none" || p.everything())
+  describe_constraints(p, "free", f);
+  if (f.move == BodyMove::none || p.everything())
     p("free.point", &f.point,
       {.unit = "m",
-       .meaning = "move = \"none\": pivot [x, y, z]",
+       .meaning = "move = \"none\": pivot [x, y, z], which stays in place",
        .fallback = "centre of mass",
        .presence = optional});
   p("free.fluid", &f.fluid, {.meaning = "the fluid acts on it; if not, it still acts on the fluid"});

@@ -16,15 +16,12 @@ void start_and_stop(Parameters& p, double& start, double& stop, std::string_view
 
 void inlet(Parameters& p, InletConfig& i) {
   p("name", &i.name, {.meaning = "by which diagnostics and messages know it", .presence = required});
-  p("shape", &i.shape,
-    {.meaning = "of the orifice",
-     .family = "shapes",
-     .choices = {{"disc", "round"}, {"rectangle", "with four right angles"}}});
+  p("shape", &i.shape, {.meaning = "of the orifice", .family = "shapes"});
   p("centre", &i.centre, {.unit = "m", .meaning = "of the orifice", .presence = required});
   p("direction", &i.direction, {.meaning = "of the flow, across the orifice", .presence = required});
-  if (i.shape == "disc" || p.everything())
+  if (i.shape == OrificeShape::disc || p.everything())
     p("radius", &i.radius, {.unit = "m", .meaning = "disc", .range = above(0), .presence = required});
-  if (i.shape == "rectangle" || p.everything()) {
+  if (i.shape == OrificeShape::rectangle || p.everything()) {
     p("half_a", &i.half_a,
       {.unit = "m", .meaning = "rectangle: from its centre to the middle of a side", .presence = required});
     p("half_b", &i.half_b,
@@ -54,19 +51,14 @@ void inlet(Parameters& p, InletConfig& i) {
 
 void outlet(Parameters& p, OutletConfig& o) {
   p("name", &o.name, {.meaning = "by which diagnostics and messages know it", .presence = required});
-  p("phase", &o.phase,
-    {.meaning = "what it takes",
-     .choices = {{"both", "fluid and grains"}, {"fluid", "the fluid"}, {"grains", "the grains"}}});
+  p("phase", &o.phase, {.meaning = "what it takes"});
   p("shape", &o.shape,
-    {.meaning = "where particles are taken out",
-     .family = "shapes",
-     .choices = {{"box", "in a box"}, {"plane", "beyond a plane"}},
-     .or_else = "the name of a [[shape]]"});
-  if (o.shape == "box" || p.everything()) {
+    {.meaning = "where particles are taken out", .family = "shapes", .or_else = "the name of a [[shape]]"});
+  if (o.shape == OutletShape::box || p.everything()) {
     p("min", &o.min, {.unit = "m", .meaning = "box: lower corner", .presence = required});
     p("max", &o.max, {.unit = "m", .meaning = "box: upper corner", .presence = required});
   }
-  if (o.shape == "plane" || p.everything()) {
+  if (o.shape == OutletShape::plane || p.everything()) {
     p("point", &o.point, {.unit = "m", .meaning = "plane: a point on it", .presence = required});
     p("normal", &o.normal, {.meaning = "plane: direction out of the flow", .presence = required});
   }
@@ -74,15 +66,12 @@ void outlet(Parameters& p, OutletConfig& o) {
 
 void grain_inlet(Parameters& p, GrainInletConfig& i) {
   p("name", &i.name, {.meaning = "by which diagnostics and messages know it", .presence = required});
-  p("shape", &i.shape,
-    {.meaning = "where grains are dropped in, at random",
-     .family = "shapes",
-     .choices = {{"box", "inside a box"}, {"disc", "on a disc"}}});
-  if (i.shape == "box" || p.everything()) {
+  p("shape", &i.shape, {.meaning = "where grains are dropped in, at random", .family = "shapes"});
+  if (i.shape == GrainInletShape::box || p.everything()) {
     p("min", &i.min, {.unit = "m", .meaning = "box: lower corner", .presence = required});
     p("max", &i.max, {.unit = "m", .meaning = "box: upper corner", .presence = required});
   }
-  if (i.shape == "disc" || p.everything()) {
+  if (i.shape == GrainInletShape::disc || p.everything()) {
     p("centre", &i.centre, {.unit = "m", .meaning = "disc: its centre", .presence = required});
     p("direction", &i.direction, {.meaning = "disc: its axis", .presence = required});
     p("radius", &i.radius, {.unit = "m", .meaning = "disc", .range = above(0), .presence = required});

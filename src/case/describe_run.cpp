@@ -8,8 +8,6 @@ namespace {
 using enum Presence;
 constexpr double kLargest = 9.2e18;  // of TOML's integers
 
-const std::vector<Choice> kPhases{{"fluid", "the fluid"}, {"grains", "the grains"}};
-
 void patches(Parameters& p, ProbeConfig& b) {
   p("radius", &b.radius,
     {.unit = "m",
@@ -38,20 +36,11 @@ void patches(Parameters& p, ProbeConfig& b) {
 
 void probe(Parameters& p, ProbeConfig& b) {
   p("name", &b.name, {.meaning = "file under probes/", .presence = required});
-  p("type", &b.type,
-    {.meaning = "what is measured",
-     .presence = required,
-     .family = "outputs",
-     .choices = {{"front", "furthest place of a phase along a direction"},
-                 {"point", "fluid velocity and pressure at a place"},
-                 {"height", "fluid surface over a place, and depth of connected water there"},
-                 {"box", "mass and momentum in a box"},
-                 {"force", "force and torque on a wall body"},
-                 {"wall_pressure", "force per area on patches of a wall body, as transducers read it"}}});
-  const auto wanted = [&](const char* type) { return b.type == type || p.everything(); };
-  if (wanted("front") || wanted("box"))
-    p("phase", &b.phase, {.meaning = "front, box: of which", .choices = kPhases});
-  if (wanted("front")) {
+  p("type", &b.type, {.meaning = "what is measured", .presence = required, .family = "outputs"});
+  using enum ProbeType;
+  const auto wanted = [&](ProbeType type) { return b.type == type || p.everything(); };
+  if (wanted(front) || wanted(box)) p("phase", &b.phase, {.meaning = "front, box: of which"});
+  if (wanted(front)) {
     std::string direction(kFaces[2 * b.axis + (b.sign > 0)]);
     std::vector<Choice> directions;
     for (const auto& face : kFaces) directions.push_back({std::string(face), ""});
@@ -59,31 +48,26 @@ void probe(Parameters& p, ProbeConfig& b) {
     b.axis = direction[0] - 'x';
     b.sign = direction[1] == '+' ? 1 : -1;
   }
-  if (wanted("point") || wanted("height") || wanted("wall_pressure"))
+  if (wanted(point) || wanted(height) || wanted(wall_pressure))
     p("at", &b.at,
       {.unit = "m",
        .meaning = "point, height: place; wall_pressure: centre, on the surface; at t = 0",
        .presence = required});
-  if (wanted("box")) {
+  if (wanted(box)) {
     p("min", &b.min, {.unit = "m", .meaning = "box: lower corner", .presence = required});
     p("max", &b.max, {.unit = "m", .meaning = "box: upper corner", .presence = required});
   }
-  if (wanted("force") || wanted("wall_pressure"))
+  if (wanted(force) || wanted(wall_pressure))
     p("body", &b.body,
       {.meaning = "force, wall_pressure: name of the wall body; point: of one that carries it (optional)",
        .presence = required});
-  else if (wanted("point"))
+  else if (wanted(point))
     p("body", &b.body, {.meaning = "name of a wall body that carries the point", .presence = optional});
-  if (wanted("force")) {
+  if (wanted(force)) {
     p("about", &b.about, {.unit = "m", .meaning = "force: torque about this point"});
-    p("sample", &b.sample,
-      {.meaning = "force: what a row holds",
-       .choices = {{"mean",
-                    "means since the row before, from every step and substep: times the interval they "
-                    "are impulse and work"},
-                   {"instant", "what acts at that moment"}}});
+    p("sample", &b.sample, {.meaning = "force: what a row holds"});
   }
-  if (wanted("wall_pressure")) patches(p, b);
+  if (wanted(wall_pressure)) patches(p, b);
   p("every", &b.every,
     {.unit = "s", .meaning = "interval", .range = above(0), .fallback = "out.every", .presence = optional});
 }
@@ -92,18 +76,7 @@ void probe(Parameters& p, ProbeConfig& b) {
 
 void describe_top(Parameters& p, Config& c) {
   p("title", &c.title, {.meaning = "name of the case in outputs", .fallback = "none"});
-  p("preset", &c.preset,
-    {.meaning = "set of defaults under the case's own keys",
-     .family = "presets",
-     .choices = {
-         {"default", "Wendland C2, h/dx 1.5, density diffusion, EPSD rolling, Di Felice, kick-drift-kick"},
-         {"he2018", "He et al. 2018: h/dx 1.3, XSPH, Mindlin-Deresiewicz, CDT, Gidaspow, Euler"},
-         {"democritus",
-          "Tsuzuki's DEMocritus: SDPD with spin, Lucy, pressure filter and clip, Gidaspow, top-hat "
-          "porosity"},
-         {"robinson2014",
-          "Robinson et al. 2014: cubic spline, variable h, signal viscosity, linear frictionless contacts, "
-          "single layers"}}});
+  p("preset", &c.preset, {.meaning = "set of defaults under the case's own keys", .family = "presets"});
   p("gravity", &c.gravity, {.unit = "m/s2", .meaning = "acceleration of gravity"});
   p("tensile", &c.tensile,
     {.meaning = "1: pressure term against clumping [monaghan00]", .range = within(0, 1)});
@@ -216,18 +189,9 @@ void describe_time(Parameters& p, Config& c) {
   p("time.rayleigh", &t.rayleigh, fraction("by Rayleigh waves in a grain"));
   p("time.contact", &t.contact, fraction("of a contact's duration"));
   p("time.integrator", &t.integrator, {.meaning = "scheme", .family = "models"});
-  p("run.precision", &c.precision,
-    {.meaning = "number types",
-     .family = "models",
-     .choices = {{"mixed", "fp64 positions, fp32 velocities and pairs"},
-                 {"single", "fp32, cell-relative positions"},
-                 {"double", "fp64 throughout"}}});
+  p("run.precision", &c.precision, {.meaning = "number types", .family = "models"});
   p("run.simd", &c.simd,
-    {.meaning = "instructions of the CPU; results differ by rounding",
-     .family = "models",
-     .choices = {{"auto", "avx2 if the CPU has it"},
-                 {"baseline", "those that every x86-64 has"},
-                 {"avx2", "AVX2 and FMA"}}});
+    {.meaning = "instructions of the CPU; results differ by rounding", .family = "models"});
   p("run.seed", &c.seed, {.meaning = "of everything random", .range = within(0, kLargest)});
   p("run.max_lost", &c.max_lost,
     {.meaning =
@@ -254,9 +218,7 @@ void describe_output(Parameters& p, OutputConfig& o) {
      .presence = optional});
   p("out.walls", &o.walls, {.meaning = "frames of the walls too"});
   p("out.bodies", &o.bodies,
-    {.meaning = "wall bodies with a table bodies/<name>.csv: motion, forces, power",
-     .family = "outputs",
-     .choices = {{"moving", "those that move"}, {"all", "every one"}, {"none", "no tables"}}});
+    {.meaning = "wall bodies with a table bodies/<name>.csv: motion, forces, power", .family = "outputs"});
   p("checkpoint.every", &o.checkpoint_every,
     {.unit = "s", .meaning = "interval; 0: only at the end", .range = at_least(0)});
   p.list("probe", o.probes, ProbeConfig{}, probe);

@@ -27,56 +27,40 @@ void copies(Parameters& p, CopiesConfig& c) {
 
 void shape(Parameters& p, ShapeConfig& s) {
   p("name", &s.name, {.meaning = "by which walls, fills and other shapes know it", .presence = required});
-  p("kind", &s.kind,
-    {.meaning = "what it is",
-     .presence = required,
-     .family = "shapes",
-     .choices = {{"box", "between two corners"},
-                 {"sphere", "about a centre"},
-                 {"capsule", "within a radius of the line from a to b"},
-                 {"cylinder", "flat ends at a and b"},
-                 {"cone", "flat ends at a and b, each with its radius"},
-                 {"pipe", "hollow cylinder whose bore runs from a to b"},
-                 {"mesh", "inside of a closed surface of triangles"},
-                 {"hollow", "vessel around another shape"},
-                 {"union", "several shapes together"},
-                 {"difference", "the first shape without the others"}}});
-  const auto is = [&](std::initializer_list<const char*> kinds) {
-    for (const char* kind : kinds)
+  p("kind", &s.kind, {.meaning = "what it is", .presence = required, .family = "shapes"});
+  using enum ShapeKind;
+  const auto is = [&](std::initializer_list<ShapeKind> kinds) {
+    for (const ShapeKind kind : kinds)
       if (s.kind == kind) return true;
     return p.everything();
   };
-  if (is({"box"})) {
+  if (is({box})) {
     p("min", &s.min, {.unit = "m", .meaning = "box: lower corner", .presence = required});
     p("max", &s.max, {.unit = "m", .meaning = "box: upper corner", .presence = required});
   }
-  if (is({"sphere"}))
-    p("centre", &s.centre, {.unit = "m", .meaning = "sphere: centre", .presence = required});
-  if (is({"capsule", "cylinder", "cone", "pipe"})) {
+  if (is({sphere})) p("centre", &s.centre, {.unit = "m", .meaning = "sphere: centre", .presence = required});
+  if (is({capsule, cylinder, cone, pipe})) {
     p("a", &s.a, {.unit = "m", .meaning = "one end of the axis", .presence = required});
     p("b", &s.b, {.unit = "m", .meaning = "the other end", .presence = required});
   }
-  if (is({"sphere", "capsule", "cylinder", "pipe"}))
+  if (is({sphere, capsule, cylinder, pipe}))
     p("radius", &s.radius,
       {.unit = "m", .meaning = "radius; pipe: of the bore", .range = above(0), .presence = required});
-  if (is({"cone"})) {
+  if (is({cone})) {
     p("radius_a", &s.radius_a,
       {.unit = "m", .meaning = "cone: radius at a", .range = at_least(0), .presence = required});
     p("radius_b", &s.radius_b,
       {.unit = "m", .meaning = "cone: radius at b", .range = at_least(0), .presence = required});
   }
-  if (is({"pipe", "hollow"}))
+  if (is({pipe, hollow}))
     p("thickness", &s.thickness,
       {.unit = "m",
        .meaning = "pipe, hollow: thickness of the wall",
        .range = above(0),
        .fallback = "the kernel's reach, in whole wall.dx",
        .presence = optional});
-  if (is({"pipe"}))
-    p("ends", &s.ends,
-      {.meaning = "pipe: which ends have a plate, as thick as the wall",
-       .choices = {{"open", "none"}, {"closed_a", "a"}, {"closed_b", "b"}, {"closed", "both"}}});
-  if (is({"mesh"})) {
+  if (is({pipe})) p("ends", &s.ends, {.meaning = "pipe: which ends have a plate, as thick as the wall"});
+  if (is({mesh})) {
     p("file", &s.file,
       {.meaning = "mesh: STL, OBJ or PLY file, numbers in m before scale; relative to the case",
        .presence = required});
@@ -85,9 +69,9 @@ void shape(Parameters& p, ShapeConfig& s) {
     p("repair", &s.repair,
       {.meaning = "mesh: weld near vertices, drop triangles without area, turn the rest outwards"});
   }
-  if (is({"hollow", "union", "difference"}))
+  if (is({hollow, union_, difference}))
     p("of", &s.of, {.meaning = "names of shapes listed before", .presence = required});
-  if (is({"difference"}))
+  if (is({difference}))
     p("facet", &s.facet,
       {.unit = "m",
        .meaning = "difference: width of the triangles by which grains meet it",

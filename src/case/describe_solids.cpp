@@ -12,8 +12,8 @@ using enum Presence;
 
 /// Keys of tables and formulas.
 void motion_law(Parameters& p, const std::string& at, MotionPart& m) {
-  const auto wanted = [&](const char* kind) { return m.kind == kind || p.everything(); };
-  if (wanted("table")) {
+  const auto wanted = [&](MotionKind kind) { return m.kind == kind || p.everything(); };
+  if (wanted(MotionKind::table)) {
     p(at + "file", &m.file,
       {.meaning =
            "table: CSV beside the case; header t [s], x, y, z [m], rx, ry, rz [deg], all but t optional",
@@ -26,11 +26,9 @@ void motion_law(Parameters& p, const std::string& at, MotionPart& m) {
        .presence = optional});
     p(at + "spline", &m.spline,
       {.meaning = "table: cubic through the rows; at rest before the first and after the last",
-       .family = at == "motion." ? "shapes" : "",
-       .choices = {{"smooth", "acceleration continuous; may swing beyond the rows"},
-                   {"monotone", "velocity continuous; never beyond the rows"}}});
+       .family = at == "motion." ? "shapes" : ""});
   }
-  if (wanted("formula")) {
+  if (wanted(MotionKind::formula)) {
     p(at + "displacement", &m.displacement,
       {.unit = "m", .meaning = "formula: three numbers or formulas in t", .variables = "t"});
     p(at + "rotation", &m.rotation,
@@ -42,39 +40,31 @@ void motion_law(Parameters& p, const std::string& at, MotionPart& m) {
 
 /// One part of a motion; `at` stands before its keys. `bedload list shapes` shows it once, for a body.
 void motion_part(Parameters& p, const std::string& at, MotionPart& m) {
-  p(at + "kind", &m.kind,
-    {.meaning = "how it moves",
-     .family = at == "motion." ? "shapes" : "",
-     .choices = {{"fixed", "at rest"},
-                 {"velocity", "straight, at constant velocity"},
-                 {"oscillation", "displacement amplitude sin(2 pi f t)"},
-                 {"rotation", "about an axis"},
-                 {"table", "through places and rotations given over time"},
-                 {"formula", "displacement and rotation as formulas in t"}}});
-  const auto wanted = [&](const char* kind) { return m.kind == kind || p.everything(); };
-  if (wanted("velocity"))
+  p(at + "kind", &m.kind, {.meaning = "how it moves", .family = at == "motion." ? "shapes" : ""});
+  const auto wanted = [&](MotionKind kind) { return m.kind == kind || p.everything(); };
+  if (wanted(MotionKind::velocity))
     p(at + "velocity", &m.velocity, {.unit = "m/s", .meaning = "velocity", .presence = required});
-  if (wanted("oscillation")) {
+  if (wanted(MotionKind::oscillation)) {
     p(at + "amplitude", &m.amplitude,
       {.unit = "m", .meaning = "oscillation: displacement", .presence = required});
     p(at + "frequency", &m.frequency,
       {.unit = "Hz", .meaning = "oscillation: f", .range = above(0), .presence = required});
   }
-  if (wanted("rotation"))
+  if (wanted(MotionKind::rotation))
     p(at + "axis", &m.axis, {.meaning = "rotation: direction of the axis", .presence = required});
-  if (wanted("rotation") || wanted("table") || wanted("formula"))
+  if (wanted(MotionKind::rotation) || wanted(MotionKind::table) || wanted(MotionKind::formula))
     p(at + "centre", &m.centre,
       {.unit = "m",
        .meaning = "rotation: a point on the axis; table, formula: the point that rotations leave alone",
        .fallback = "required for rotation, else [0, 0, 0]",
-       .presence = m.kind == "rotation" ? required : defaulted});
-  if (wanted("rotation"))
+       .presence = m.kind == MotionKind::rotation ? required : defaulted});
+  if (wanted(MotionKind::rotation))
     p(at + "rate", &m.rate, {.unit = "rad/s", .meaning = "rotation: right-handed", .presence = required});
-  if (wanted("velocity") || wanted("rotation"))
+  if (wanted(MotionKind::velocity) || wanted(MotionKind::rotation))
     p(at + "factor", &m.factor,
       {.meaning = "velocity, rotation: of velocity or rate, a formula in t (s); its integral is the way"});
   motion_law(p, at, m);
-  if (m.kind == "fixed" && !p.everything()) return;
+  if (m.kind == MotionKind::fixed && !p.everything()) return;
   p(at + "start", &m.start,
     {.unit = "s", .meaning = "moves from then on; its t counts from then", .range = at_least(0)});
   p(at + "stop", &m.stop,
@@ -91,7 +81,7 @@ void motion_parts(Parameters& p, const std::string& at, MotionConfig& m) {
 
 void body_motion(Parameters& p, MotionConfig& m) {
   motion_part(p, "motion.", m);
-  if (m.kind != "fixed" || p.everything())
+  if (m.kind != MotionKind::fixed || p.everything())
     p("motion.remove_when_clear", &m.remove_when_clear,
       {.meaning = "removed once above all fluid and grains"});
   motion_parts(p, "motion.", m);
@@ -103,16 +93,13 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
     {.meaning = "shape of the body",
      .presence = required,
      .family = "shapes",
-     .choices = {{"tank", "box seen from inside, sides as given by faces"},
-                 {"box", "solid box"},
-                 {"plane", "half-space behind a plane"}},
      .or_else = "the name of a [[shape]]"});
-  const bool plane = b.shape == "plane";
-  if (b.shape == "tank" || b.shape == "box" || p.everything()) {
+  const bool plane = b.shape == WallShape::plane;
+  if (b.shape == WallShape::tank || b.shape == WallShape::box || p.everything()) {
     p("min", &b.min, {.unit = "m", .meaning = "tank, box: lower corner", .presence = required});
     p("max", &b.max, {.unit = "m", .meaning = "tank, box: upper corner", .presence = required});
   }
-  if (b.shape == "tank" || p.everything())
+  if (b.shape == WallShape::tank || p.everything())
     p("faces", &b.faces, {.meaning = "tank: sides that exist, of \"x-\" .. \"z+\"", .fallback = "all"});
   if (plane || p.everything()) {
     p("point", &b.point, {.unit = "m", .meaning = "plane: a point on it", .presence = required});
@@ -283,28 +270,22 @@ void describe_lubrication(Parameters& p, LubricationConfig& l) {
 }
 
 void describe_grain_size(Parameters& p, SizeClass& s) {
-  p("kind", &s.kind,
-    {.meaning = "one diameter or a distribution",
-     .family = "shapes",
-     .choices = {{"class", "all grains of diameter d"},
-                 {"uniform", "as many grains of any diameter between d_min and d_max"},
-                 {"log_normal", "by count about the median, cut at d_min and d_max"},
-                 {"sieve", "mass by mesh opening, log-linear in between"}}});
+  p("kind", &s.kind, {.meaning = "one diameter or a distribution", .family = "shapes"});
   p("number_fraction", &s.number_fraction,
     {.meaning = "number of its grains, relative to the other entries",
      .range = above(0),
      .formerly = "share"});
-  const auto wanted = [&](const char* kind) { return s.kind == kind || p.everything(); };
-  if (wanted("class"))
+  const auto wanted = [&](SizeKind kind) { return s.kind == kind || p.everything(); };
+  if (wanted(SizeKind::one_size))
     p("d", &s.d, {.unit = "m", .meaning = "class: diameter", .range = above(0), .presence = required});
-  if (wanted("log_normal")) {
+  if (wanted(SizeKind::log_normal)) {
     p("median", &s.median,
       {.unit = "m", .meaning = "log_normal: median diameter", .range = above(0), .presence = required});
     p("sigma", &s.sigma,
       {.meaning = "log_normal: standard deviation of ln d", .range = above_to(0, 2), .presence = required});
   }
-  if (wanted("log_normal") || wanted("uniform")) {
-    const bool uniform = s.kind == "uniform";
+  if (wanted(SizeKind::log_normal) || wanted(SizeKind::uniform)) {
+    const bool uniform = s.kind == SizeKind::uniform;
     p("d_min", &s.d_min,
       {.unit = "m",
        .meaning = "uniform, log_normal: smallest diameter",
@@ -318,7 +299,7 @@ void describe_grain_size(Parameters& p, SizeClass& s) {
        .fallback = "median exp(3 sigma)",
        .presence = uniform ? required : optional});
   }
-  if (wanted("sieve")) {
+  if (wanted(SizeKind::sieve)) {
     p("openings", &s.openings,
       {.unit = "m",
        .meaning = "sieve: of the meshes, finest first",

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "bedload/core/error.hpp"
-
 namespace bedload {
 namespace {
 
@@ -84,18 +82,24 @@ std::vector<double> sieve(const SizeClass& s, std::size_t count) {
 }  // namespace
 
 std::pair<double, double> size_range(const SizeClass& size) {
-  if (size.kind == "class") return {size.d, size.d};
-  if (size.kind != "sieve") return {size.d_min, size.d_max};
+  if (size.kind == SizeKind::one_size) return {size.d, size.d};
+  if (size.kind != SizeKind::sieve) return {size.d_min, size.d_max};
   const auto all = fractions(size);
   return {all.front().lo, all.back().hi};
 }
 
 std::vector<double> quantiles(const SizeClass& size, std::size_t count) {
-  if (size.kind == "class") return std::vector<double>(count, size.d);
-  if (size.kind == "log_normal") return log_normal(size, count);
-  if (size.kind == "sieve") return sieve(size, count);
-  if (size.kind != "uniform") throw CaseError("sizes.kind = \"" + size.kind + "\" is not built in");
   std::vector<double> d;
+  switch (size.kind) {
+    case SizeKind::one_size:
+      return std::vector<double>(count, size.d);
+    case SizeKind::log_normal:
+      return log_normal(size, count);
+    case SizeKind::sieve:
+      return sieve(size, count);
+    case SizeKind::uniform:
+      break;
+  }
   for (std::size_t k = 0; k < count; ++k)
     d.push_back(size.d_min + (size.d_max - size.d_min) * (double(k) + 0.5) / double(count));
   return d;
@@ -122,7 +126,7 @@ double mean_volume(const std::vector<SizeClass>& sizes, std::size_t count) {
     double volume = 0;
     const auto part =
         std::size_t(std::clamp(std::round(size.number_fraction / total * double(count)), 1.0, kSample));
-    if (size.kind == "class") {
+    if (size.kind == SizeKind::one_size) {
       volume = sphere(size.d);
     } else {
       for (const double d : quantiles(size, part)) volume += sphere(d) / double(part);

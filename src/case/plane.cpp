@@ -33,8 +33,8 @@ void must_be_flat(const Value& root, const std::string& path, const Vec3d& v) {
 
 /// Half the orifice in the plane, the other half along y through the whole slab.
 void run_through(InletConfig& inlet, double thickness, const Value& root, const std::string& path) {
-  if (inlet.shape != "rectangle")
-    reject(root, path + "shape", fmt::format("\"{}\"", inlet.shape),
+  if (inlet.shape != OrificeShape::rectangle)
+    reject(root, path + "shape", fmt::format("\"{}\"", inlet.shape.name()),
            "must be \"rectangle\" with domain.two_d");
   must_be_flat(root, path + "direction", inlet.direction);
   if (inlet.half_a.y != 0) std::swap(inlet.half_a, inlet.half_b);
@@ -82,7 +82,7 @@ void resolve_plane(Config& c, const Value& root) {
     run_through(c.inlets[i], hi - lo, root, fmt::format("inlet.{}.", i));
   }
   for (OutletConfig& outlet : c.outlets)
-    if (outlet.shape == "box") outlet.min.y = lo, outlet.max.y = hi;
+    if (outlet.shape == OutletShape::box) outlet.min.y = lo, outlet.max.y = hi;
   for (ProbeConfig& probe : c.out.probes) {
     probe.at.y = c.domain.middle();
     probe.min.y = lo, probe.max.y = hi;
@@ -95,7 +95,7 @@ void check_plane(const Config& c, const Value& root) {
   must_be_flat(root, "drive.f", c.drive.f);
   const auto moves = [&](const std::string& path, const MotionConfig& motion) {
     if (motion.moves() && !stays_in_plane(motion, c.time.end))
-      reject(root, path + ".kind", fmt::format("\"{}\"", motion.kind),
+      reject(root, path + ".kind", fmt::format("\"{}\"", motion.kind.name()),
              "must stay in the plane of x and z with domain.two_d: nothing along y, turning about y alone");
   };
   moves("frame.motion", c.frame.motion);
@@ -104,7 +104,7 @@ void check_plane(const Config& c, const Value& root) {
     moves(fmt::format("wall.body.{}.motion", i), body.motion);
     // a free body meets surfaces as they are in space
     if (c.wall.free_bodies() > 0 && body.solid.shape && !stands_upright(*body.solid.shape, c.domain))
-      reject(root, fmt::format("wall.body.{}.shape", i), fmt::format("\"{}\"", body.shape),
+      reject(root, fmt::format("wall.body.{}.shape", i), fmt::format("\"{}\"", body.shape.name()),
              "must stand at right angles to the plane of x and z, and reach well beyond it, with free bodies "
              "and domain.two_d");
   }

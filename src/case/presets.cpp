@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "bedload/case/read.hpp"
+#include "reader.hpp"
 
 namespace bedload {
 
@@ -93,15 +94,26 @@ void set_robinson2014(Config& c) {
 
 }  // namespace
 
-Config preset_defaults(const std::string& name, std::optional<FluidModel> fluid_model,
-                       std::optional<bool> variable_h) {
+Config defaults_of(const Value& root) {
   Config c;
-  c.preset = name;
-  if (name == "he2018") set_he2018(c);
-  if (name == "democritus") set_democritus(c);
-  if (name == "robinson2014") set_robinson2014(c);
-  if (fluid_model) c.fluid.model = *fluid_model;
-  if (variable_h) c.fluid.variable_h = *variable_h;
+  Reader reader(root);
+  Parameters& read = reader;
+  read("preset", &c.preset, {});
+  switch (c.preset) {
+    case Preset::standard:
+      break;
+    case Preset::he2018:
+      set_he2018(c);
+      break;
+    case Preset::democritus:
+      set_democritus(c);
+      break;
+    case Preset::robinson2014:
+      set_robinson2014(c);
+      break;
+  }
+  read("fluid.model", &c.fluid.model, {});
+  read("fluid.variable_h", &c.fluid.variable_h, {});
   if (c.fluid.variable_h) c.shift = 0, c.pressure.linear_exact = false;  // they go with one smoothing length
   if (c.fluid.sdpd()) set_sdpd(c);
   return c;

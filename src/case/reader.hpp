@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bedload/case/config.hpp"
 #include "bedload/case/parameters.hpp"
 #include "bedload/case/section.hpp"
 
@@ -28,16 +29,19 @@ class Reader final : public Parameters {
   void open_item(std::string_view key, std::size_t i) override;
   void close_item() override { scopes_.pop_back(); }
   const Value* find(std::string_view key) const;
-  void reject_unread(const Value& table, const std::string& prefix) const;
 
   std::vector<Scope> scopes_;
   std::set<const Value*> read_;
 };
 
-/// Gives keys of the version before their present names, with a warning each. A value from another source, as
-/// that of --set, takes the place of one that has the present name. Throws CaseError where one source has
-/// both.
+/// Gives keys of the version before their present names, with a warning each. Where a case has both, the
+/// value of --set replaces that of the file, whichever name it has. Throws CaseError where both are in the
+/// file, or both from --set.
 void rename_keys(Value& root, std::vector<std::string>& warnings);
+
+/// What stands where a case gives no key: the defaults of its preset, and those that its fluid.model and
+/// fluid.variable_h bring.
+Config defaults_of(const Value& root);
 
 /// Throws CaseError for the first key of the file that is no parameter.
 void reject_unknown(const Value& root);

@@ -31,12 +31,13 @@ void rename_below(Value& at, std::string_view path, const ParameterRow& row,
   if (dot != path.npos) return rename_below(former->second, path.substr(dot + 1), row, warnings);
 
   const auto [present, free] = table->try_emplace(row.key.substr(row.key.rfind('.') + 1));
-  if (!free && present->second.source == former->second.source)
+  const bool set = former->second.line == 0;  // not by the file
+  if (!free && set == (present->second.line == 0))
     throw CaseError(fmt::format("{}: {} is the former name of {}, which is given too; leave it out",
                                 former->second.place(), row.formerly, row.key));
   warnings.push_back(fmt::format("{}: {} is now called {}; the next version will not read the former name",
                                  former->second.place(), row.formerly, row.key));
-  present->second = std::move(former->second);
+  if (free || set) present->second = std::move(former->second);
   table->erase(former);
 }
 

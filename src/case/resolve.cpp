@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <numbers>
+#include <optional>
 
 #include "bedload/case/grain_sizes.hpp"
 #include "bedload/core/error.hpp"
@@ -41,7 +42,7 @@ void check_sieve(const SizeClass& s, const Value& root, const std::string& path)
 /// What a wall body may be.
 constexpr const char* kWallShapes = "must be tank, box, plane or the name of a [[shape]]";
 
-bool built_in(const std::string& shape) { return shape == "tank" || shape == "box" || shape == "plane"; }
+bool built_in(const std::string& shape) { return ChosenOrNamed<WallShape>(shape).choice().has_value(); }
 
 }  // namespace
 
@@ -68,8 +69,8 @@ Solid shape_named(const Config& c, const std::string& name, const Value& root, c
 
 void check_shape_names(const Config& c, const Value& root) {
   for (std::size_t i = 0; i < c.wall.bodies.size(); ++i)
-    if (const std::string& shape = c.wall.bodies[i].shape; !built_in(shape))
-      (void)shape_named(c, shape, root, fmt::format("wall.body.{}.shape", i), kWallShapes);
+    if (const auto& shape = c.wall.bodies[i].shape; !shape.choice())
+      (void)shape_named(c, shape.name(), root, fmt::format("wall.body.{}.shape", i), kWallShapes);
 }
 
 void default_sizes(const Config& c, std::vector<SizeClass>& sizes, const Value& root) {
@@ -79,8 +80,8 @@ void default_sizes(const Config& c, std::vector<SizeClass>& sizes, const Value& 
 }
 
 void resolve_size(Config& c, SizeClass& s, const Value& root, const std::string& path) {
-  if (s.kind == "sieve") check_sieve(s, root, path);
-  if (s.kind == "log_normal") {  // its ends lie 3 sigma from the median
+  if (s.kind == SizeKind::sieve) check_sieve(s, root, path);
+  if (s.kind == SizeKind::log_normal) {  // its ends lie 3 sigma from the median
     if (s.d_min == 0) s.d_min = s.median * std::exp(-3 * s.sigma);
     if (s.d_max == 0) s.d_max = s.median * std::exp(3 * s.sigma);
   }
@@ -89,18 +90,26 @@ void resolve_size(Config& c, SizeClass& s, const Value& root, const std::string&
   c.grain.d_max = std::max(c.grain.d_max, largest);
 }
 
-void check_factor(const std::string& factor, const Value& root, const std::string& path) {
+void check_factor(const std::string& factor, double start, double end, const Value& root,
+                  const std::string& path) {
+  const auto fail = [&](const std::string& must) { reject(root, path, fmt::format("\"{}\"", factor), must); };
+  std::optional<Formula> of_t;
   try {
-    (void)Formula(factor, "t");
+    of_t.emplace(factor, "t");
   } catch (const CaseError& error) {
-    reject(root, path, fmt::format("\"{}\"", factor),
-           fmt::format("must be a formula in t: {}", error.what()));
+    fail(fmt::format("must be a formula in t: {}", error.what()));
   }
+  constexpr int looks = 2000;
+  const double span = std::max(0.0, end - start);
+  for (int n = 0; n <= looks; ++n)
+    if (const double s = span * n / looks; !std::isfinite((*of_t)(s)))
+      fail(fmt::format("must be finite at all times; it is not at t = {:.4g} s", start + s));
 }
 
 namespace {
 
-/// Of a vessel that says none: layers of wall particles as deep as the kernel reaches; a grain without fluid.
+/// The default of a vessel: layers of wall particles as deep as the kernel reaches; without fluid the largest
+/// grain.
 double vessel_thickness(const Config& c) {
   if (c.fluid.present) {
     const double step = c.wall.dx > 0 ? c.wall.dx : c.fluid.dx;
@@ -135,9 +144,9 @@ void resolve_shapes(Config& c, const Value& root) {
     for (const ShapeConfig& other : done)
       if (other.name == shape.name)
         reject(root, name, fmt::format("\"{}\"", shape.name), "must differ from other shapes'");
-    if (shape.thickness == 0 && (shape.kind == "hollow" || shape.kind == "pipe"))
+    if (shape.thickness == 0 && (shape.kind == ShapeKind::hollow || shape.kind == ShapeKind::pipe))
       shape.thickness = vessel_thickness(c);
-    if (shape.kind == "mesh") {
+    if (shape.kind == ShapeKind::mesh) {
       const auto folder = std::filesystem::absolute(c.file).parent_path();
       shape.file = (folder / shape.file).lexically_normal().string();
     }
@@ -163,7 +172,8 @@ void check_surface(const WallBody& body, const Value& root, const std::string& p
     std::vector<SurfacePart> parts;
     body.solid.shape->add_parts(parts, {});
   } catch (const CaseError& error) {
-    reject(root, path, fmt::format("\"{}\"", body.shape), fmt::format("makes no wall: {}", error.what()));
+    reject(root, path, fmt::format("\"{}\"", body.shape.name()),
+           fmt::format("makes no wall: {}", error.what()));
   }
 }
 
@@ -171,13 +181,13 @@ void resolve_walls(Config& c, const Value& root) {
   for (std::size_t i = 0; i < c.wall.bodies.size(); ++i) {
     WallBody& body = c.wall.bodies[i];
     const std::string path = fmt::format("wall.body.{}.", i);
-    if (!built_in(body.shape)) {
-      body.solid = shape_named(c, body.shape, root, path + "shape", kWallShapes);
+    if (!body.shape.choice()) {
+      body.solid = shape_named(c, body.shape.name(), root, path + "shape", kWallShapes);
       const Bounds bounds = body.solid.shape->bounds();
       body.min = bounds.min, body.max = bounds.max;
       check_surface(body, root, path + "shape");
     }
-    if (body.shape == "plane") body.normal = direction(body.normal, root, path + "normal");
+    if (body.shape == WallShape::plane) body.normal = direction(body.normal, root, path + "normal");
   }
 }
 
@@ -211,35 +221,23 @@ void refuse_gaps(const MotionPart& m, const std::string& path, double until, con
   };
   MotionConfig alone;
   static_cast<MotionPart&>(alone) = m;
-  if (m.kind == "formula") {
+  if (m.kind == MotionKind::formula) {
     MotionConfig shift = alone, turn = alone;
     shift.rotation = turn.displacement = MotionPart().rotation;
     look(shift, ".displacement");
     look(turn, ".rotation");
   } else {
-    look(alone, m.kind == "velocity"      ? ".velocity"
-                : m.kind == "oscillation" ? ".amplitude"
-                : m.kind == "rotation"    ? ".rate"
-                                          : ".kind");
+    look(alone, m.kind == MotionKind::velocity      ? ".velocity"
+                : m.kind == MotionKind::oscillation ? ".amplitude"
+                : m.kind == MotionKind::rotation    ? ".rate"
+                                                    : ".kind");
   }
-}
-
-/// A factor that has a value throughout.
-void resolve_factor(const MotionPart& m, const std::string& path, double until, const Value& root) {
-  check_factor(m.factor, root, path);
-  const Formula factor(m.factor, "t");
-  constexpr int looks = 2000;
-  const double span = std::max(0.0, std::min(m.stop, until) - m.start);
-  for (int n = 0; n <= looks; ++n)
-    if (const double s = span * n / looks; !std::isfinite(factor(s)))
-      reject(root, path, fmt::format("\"{}\"", m.factor),
-             fmt::format("must be a finite number at all times; it is none at t = {:.4g} s", m.start + s));
 }
 
 /// What jumps from place to place passes through what is between.
 void refuse_jumps(const MotionPart& m, const std::string& path, double until, const Value& root) {
   const double span = std::min(m.stop, until) - m.start;
-  if (m.kind != "formula" || !(span > 0)) return;
+  if (m.kind != MotionKind::formula || !(span > 0)) return;
   for (const auto& [key, texts, unit] :
        {std::tuple{".displacement", &m.displacement, "m"}, {".rotation", &m.rotation, "deg"}})
     for (const std::string& text : *texts)
@@ -253,9 +251,9 @@ void refuse_jumps(const MotionPart& m, const std::string& path, double until, co
 void resolve_motions(Config& c, const Value& root) {
   for_motions(c, [&](MotionConfig& motion, const std::string& path) {
     for_parts(motion, path, [&](MotionPart& m, const std::string& at) {
-      if (m.kind == "rotation") m.axis = direction(m.axis, root, at + ".axis");
-      if (m.kind == "table") resolve_table(m, at, c.file, root);
-      if (m.scaled()) resolve_factor(m, at + ".factor", c.time.end, root);
+      if (m.kind == MotionKind::rotation) m.axis = direction(m.axis, root, at + ".axis");
+      if (m.kind == MotionKind::table) resolve_table(m, at, c.file, root);
+      if (m.scaled()) check_factor(m.factor, m.start, std::min(m.stop, c.time.end), root, at + ".factor");
       refuse_gaps(m, at, c.time.end, root);
     });
     if (const double t = motion.moves() ? first_gap(motion, c.time.end) : INFINITY; std::isfinite(t))
@@ -386,8 +384,8 @@ double wall_speed(const WallBody& body, const DomainConfig& domain, double until
   if (body.free.present)
     return norm(body.free.velocity) + 0.5 * norm(body.free.spin) * norm(at.back() - at.front());
   if (m.add.empty()) {
-    if (m.kind == "velocity" && !m.scaled()) return norm(m.velocity);
-    if (m.kind == "oscillation") return 2 * std::numbers::pi * m.frequency * norm(m.amplitude);
+    if (m.kind == MotionKind::velocity && !m.scaled()) return norm(m.velocity);
+    if (m.kind == MotionKind::oscillation) return 2 * std::numbers::pi * m.frequency * norm(m.amplitude);
   }
   return top_speed(m, at, until);
 }

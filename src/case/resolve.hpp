@@ -46,14 +46,14 @@ void resolve_probes(Config& config, const Value& root);
 /// back unchanged. CaseError for zero.
 Vec3d direction(const Vec3d& v, const Value& root, const std::string& path);
 
-/// The [[shape]] of that name; CaseError with `must` if there is none.
+/// The [[shape]] of that name; CaseError with `must` if there is no such shape.
 Solid shape_named(const Config& config, const std::string& name, const Value& root, const std::string& path,
                   const char* must);
 
 /// Completes one of the sizes of grains at `path` and widens grain.d_min, d_max to it.
 void resolve_size(Config& config, SizeClass& size, const Value& root, const std::string& path);
 
-/// CaseError for a wall body of a shape that there is not.
+/// CaseError for a wall body whose shape is not defined.
 void check_shape_names(const Config& config, const Value& root);
 
 /// Sizes where none are given: grain.d.
@@ -62,8 +62,10 @@ void default_sizes(const Config& config, std::vector<SizeClass>& sizes, const Va
 /// CaseError: `key` must be given.
 [[noreturn]] void missing(const Value& root, const std::string& key, const char* what);
 
-/// CaseError if a factor is no formula in t; `path`: of its key.
-void check_factor(const std::string& factor, const Value& root, const std::string& path);
+/// CaseError if a factor, at `path`, is not a formula in t or not finite between the times `start` and `end`
+/// (s). Its t counts from `start`.
+void check_factor(const std::string& factor, double start, double end, const Value& root,
+                  const std::string& path);
 
 /// Checks parameters against each other. Throws CaseError; appends warnings.
 void cross_check(const Config& config, const Value& root, std::vector<std::string>& warnings);

@@ -26,7 +26,7 @@ void resolve_free_bodies(Config& c, const Value& root) {
     sized(".centre_of_mass", f.centre_of_mass, 3);
     sized(".inertia", f.inertia, 6);
     sized(".point", f.point, 3);
-    if (body.shape == "plane")
+    if (body.shape == WallShape::plane)
       reject(root, fmt::format("wall.body.{}.shape", i), "\"plane\"", "must not move freely; it has no end");
     if ((f.density > 0) + (f.mass > 0) != 1)
       throw CaseError(fmt::format("{}: wall.body.free must have exactly one of density and mass", place));

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "bedload/case/formula.hpp"
 #include "bedload/case/grain_sizes.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/orifice.hpp"
@@ -27,22 +25,11 @@ void check_right_angles(const InletConfig& inlet, const Value& root, const std::
     reject(root, path + "half_b", to_text(inlet.half_b), "must be at right angles to half_a");
 }
 
-/// A factor that has a value throughout.
-void resolve_factor(const InletConfig& inlet, double until, const Value& root, const std::string& path) {
-  check_factor(inlet.factor, root, path + "factor");
-  const Formula factor(inlet.factor, "t");
-  constexpr int looks = 1000;
-  for (int n = 0; n <= looks; ++n)
-    if (const double t = until * n / looks; !std::isfinite(factor(t)))
-      reject(root, path + "factor", fmt::format("\"{}\"", inlet.factor),
-             fmt::format("must be a finite number at all times; it is none at t = {:.4g} s", t));
-}
-
 void resolve_inlet(InletConfig& inlet, double dx, const DomainConfig& domain, double until, const Value& root,
                    const std::string& path) {
   inlet.direction = direction(inlet.direction, root, path + "direction");
-  if (inlet.shape == "rectangle") check_right_angles(inlet, root, path);
-  resolve_factor(inlet, until, root, path);
+  if (inlet.shape == OrificeShape::rectangle) check_right_angles(inlet, root, path);
+  check_factor(inlet.factor, 0, until, root, path + "factor");
   if ((inlet.rate > 0) == (inlet.velocity > 0))
     throw CaseError(fmt::format("{}: inlet \"{}\" must have exactly one of rate and velocity",
                                 nearest_value(root, path + "rate").place(), inlet.name));
@@ -64,7 +51,7 @@ void check_parts(const OutletConfig& outlet, const Value& root, const std::strin
     std::vector<SurfacePart> parts;
     outlet.solid.shape->add_parts(parts, {});
   } catch (const CaseError& error) {
-    reject(root, path + "shape", fmt::format("\"{}\"", outlet.shape),
+    reject(root, path + "shape", fmt::format("\"{}\"", outlet.shape.name()),
            std::string("cannot be used: ") + error.what());
   }
 }
@@ -77,11 +64,11 @@ void resolve_openings(Config& c, const Value& root) {
   for (std::size_t i = 0; i < c.outlets.size(); ++i) {
     OutletConfig& outlet = c.outlets[i];
     const std::string path = fmt::format("outlet.{}.", i);
-    if (outlet.shape == "plane") {
+    if (outlet.shape == OutletShape::plane) {
       outlet.normal = direction(outlet.normal, root, path + "normal");
-    } else if (outlet.shape != "box") {
-      outlet.solid =
-          shape_named(c, outlet.shape, root, path + "shape", "must be box, plane or the name of a [[shape]]");
+    } else if (outlet.shape != OutletShape::box) {
+      outlet.solid = shape_named(c, outlet.shape.name(), root, path + "shape",
+                                 "must be box, plane or the name of a [[shape]]");
       const Bounds bounds = outlet.solid.shape->bounds();
       outlet.min = bounds.min, outlet.max = bounds.max;
       check_parts(outlet, root, path);
@@ -93,7 +80,8 @@ void resolve_grain_inlets(Config& c, const Value& root) {
   for (std::size_t i = 0; i < c.grain_inlets.size(); ++i) {
     GrainInletConfig& inlet = c.grain_inlets[i];
     const std::string path = fmt::format("grain_inlet.{}.", i);
-    if (inlet.shape == "disc") inlet.direction = direction(inlet.direction, root, path + "direction");
+    if (inlet.shape == GrainInletShape::disc)
+      inlet.direction = direction(inlet.direction, root, path + "direction");
     default_sizes(c, inlet.sizes, root);
     for (std::size_t k = 0; k < inlet.sizes.size(); ++k)
       resolve_size(c, inlet.sizes[k], root, fmt::format("{}sizes.{}", path, k));

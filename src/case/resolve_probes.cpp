@@ -84,7 +84,7 @@ void resolve_probes(Config& c, const Value& root) {
   for (std::size_t i = 0; i < c.out.probes.size(); ++i) {
     ProbeConfig& p = c.out.probes[i];
     if (p.every == 0) p.every = c.out.every;
-    if (p.type == "wall_pressure" && c.fluid.present)
+    if (p.type == ProbeType::wall_pressure && c.fluid.present)
       resolve_patches(c, p, root, fmt::format("probe.{}.", i));
   }
 }

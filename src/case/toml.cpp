@@ -75,7 +75,7 @@ bool is_quantity(std::string_view text) {
 
 constexpr int kMostParts = 1000;
 
-/// The line of a key of more parts, which make tables within tables deeper than any stack; 0: there is none.
+/// The line of a key of more parts than that, whose tables would nest too deep for the stack; 0: no such key.
 int line_of_deep_key(const std::string& text) {
   int parts = 1, line = 1;
   bool named = false;  // something since the last dot

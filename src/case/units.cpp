@@ -80,7 +80,7 @@ bool is_letter(char c) {
   return std::isalpha(byte) || byte >= 0x80;  // of a micro sign
 }
 
-/// Reads "kg/m3" and its like; `whole` stands in messages.
+/// Reads units such as "kg/m3"; `whole` is what messages quote.
 Unit parse(std::string_view text, std::string_view whole) {
   const auto fail = [&] { throw CaseError(fmt::format("\"{}\" is no unit", whole)); };
   Unit out;

@@ -24,8 +24,6 @@ using Table = std::vector<std::vector<std::string>>;
 /// One case in one precision.
 struct Job {
   std::string name;
-  fs::path file;  ///< empty: built in
-  std::vector<std::string> overrides;
   Prepared p;  ///< only its config before measure()
 };
 
@@ -56,10 +54,11 @@ std::vector<Job> jobs_of(const Options& o) {
                        std::vector<std::string> overrides) {
     overrides.insert(overrides.end(), o.overrides.begin(), o.overrides.end());
     for (std::size_t k = 0; k < std::max<std::size_t>(1, o.bench.precisions.size()); ++k) {
-      Job job{name, file, overrides, {}};
-      if (!o.bench.precisions.empty()) job.overrides.push_back("run.precision=" + o.bench.precisions[k]);
-      job.p.config = file.empty() ? read_case_text(text, name, job.overrides, job.p.warnings)
-                                  : read_case(file, job.overrides, job.p.warnings);
+      Job job{name, {}};
+      std::vector<std::string> settings = overrides;
+      if (!o.bench.precisions.empty()) settings.push_back("run.precision=" + o.bench.precisions[k]);
+      job.p.config = file.empty() ? read_case_text(text, name, settings, job.p.warnings)
+                                  : read_case(file, settings, job.p.warnings);
       jobs.push_back(std::move(job));
     }
   };
@@ -133,13 +132,13 @@ Result result_of(const Job& job, const Simulation& simulation, int steps, std::v
   if (rebuilds == 0) rebuilt.text = fmt::format("> {}", all);
   Result result{
       job.name,
-      job.p.config.precision,
+      job.p.config.precision.name(),
       ms,
       {{"benchmark", job.name, "row", job.name},
        {"N fluid", grouped(n.fluid), "fluid_particles", n.fluid},
        {"N wall", grouped(n.walls), "wall_particles", n.walls},
        {"N grains", grouped(n.grains), "grains", n.grains},
-       {"precision", job.p.config.precision, "precision", job.p.config.precision},
+       {"precision", job.p.config.precision.name(), "precision", job.p.config.precision.name()},
        optional_cell(fluid, "h/dx", "{:g}", "h_over_dx", job.p.config.fluid.h_over_dx),
        rebuilt,
        {"ms/step", fmt::format("{:.3f}", ms), "step_ms", ms},
@@ -177,16 +176,6 @@ Result measure(Job& job, const Options& o) {
   std::vector<Repeat> repeats;
   for (int k = 0; k < o.bench.repeats; ++k) repeats.push_back(time_steps(*simulation, o.bench.steps));
   return result_of(job, *simulation, o.bench.steps, std::move(repeats));
-}
-
-/// measure() whose errors begin with file and line, or the name of the benchmark.
-Result measure_with_place(Job& job, const Options& o) {
-  try {
-    return measure(job, o);
-  } catch (const KeyError& error) {
-    throw CaseError((job.file.empty() ? job.name : place_in_case(job.file, job.overrides, error.key)) + ": " +
-                    error.what());
-  }
 }
 
 Table numbers_table(const std::vector<Result>& results) {
@@ -253,7 +242,8 @@ Json json_of(const Options& o, const Device& device, const std::vector<Result>& 
 
 int bench(const Options& o) {
   std::vector<Job> jobs = jobs_of(o);
-  const Device device = find_device(o.backend, o.threads, jobs.front().p.config.simd);
+  const Config& first = jobs.front().p.config;
+  const Device device = placed(first.places, [&] { return find_device(o.backend, o.threads, first.simd); });
   std::vector<Result> results;
   const auto save = [&] {
     if (o.bench.json.empty()) return;
@@ -264,7 +254,7 @@ int bench(const Options& o) {
   std::exception_ptr failure;
   for (std::size_t k = 0; k < jobs.size() && !failure; ++k) {
     try {
-      results.push_back(measure_with_place(jobs[k], o));
+      results.push_back(placed(jobs[k].p.config.places, [&] { return measure(jobs[k], o); }));
       const Result& last = results.back();
       fmt::print(stderr, "{} {}: {:.3f} ms/step\n", last.name, last.precision, last.ms);
       save();

@@ -27,8 +27,8 @@ struct Throughput {
   double grains;  ///< grain-substeps/s
 };
 
-Throughput throughput_of(const Device& device, const std::string& precision) {
-  const double slower = precision == "double" ? 2 : 1;
+Throughput throughput_of(const Device& device, Precision precision) {
+  const double slower = precision == Precision::fp64 ? 2 : 1;
   if (device.backend == "cuda") return {3e8 / slower, 1e9 / slower};
   return {3e5, 3e6};
 }
@@ -139,10 +139,7 @@ std::string run_time_text(double seconds, const StepTiming& timing, bool splashe
       splashes || settles ? fmt::format(", up to {} with {}", duration_text(longest), cause) : "");
 }
 
-}  // namespace
-
-int check_case(const Options& options) {
-  Prepared p = prepare(options);
+void check(const Options& options, Prepared& p) {
   const Config& c = p.config;
   const Counts& n = p.counts;
   fmt::print("{}{}", summary_text(p), notes_text(p));
@@ -202,6 +199,13 @@ int check_case(const Options& options) {
   }
   for (const std::string& warning : p.warnings) fmt::print("warning: {}\n", warning);
   fmt::print("case OK\n");
+}
+
+}  // namespace
+
+int check_case(const Options& options) {
+  Prepared p = prepare(options);
+  placed(p.config.places, [&] { check(options, p); });
   return 0;
 }
 

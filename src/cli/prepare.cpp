@@ -79,12 +79,12 @@ Expected expected_fluid(const Config& c) {
 Expected expected_wall(const Config& c, std::size_t index) {
   const WallBody& body = c.wall.bodies[index];
   const double spacing = c.wall.spacing(body), depth = body.single_layer() ? spacing : c.fluid.reach();
-  return {
-      fmt::format("wall.body.{}", index),
-      fmt::format("wall.body \"{}\"{} with particles {:g} m apart", body.name,
-                  body.shape == "plane" ? "" : ", " + sides_text(body.min, body.max) + " large,", spacing),
-      {.walls = whole(expected_places(body, spacing, depth, c.domain))},
-      "wall particles"};
+  return {fmt::format("wall.body.{}", index),
+          fmt::format("wall.body \"{}\"{} with particles {:g} m apart", body.name,
+                      body.shape == WallShape::plane ? "" : ", " + sides_text(body.min, body.max) + " large,",
+                      spacing),
+          {.walls = whole(expected_places(body, spacing, depth, c.domain))},
+          "wall particles"};
 }
 
 Expected expected_grains(const Config& c, std::size_t index) {
@@ -245,16 +245,19 @@ void place_particles(const Options& options, Prepared& p) {
 Prepared prepare(const Options& options) {
   Prepared p;
   p.config = read_case(options.file, options.overrides, p.warnings, options.restart);
-  p.device = find_device(options.backend, options.threads, p.config.simd);
+  p.device =
+      placed(p.config.places, [&] { return find_device(options.backend, options.threads, p.config.simd); });
   if (!options.quiet) fmt::print("{}", heading_text(p));  // before particles are placed, which takes time
   std::fflush(stdout);
-  place_particles(options, p);
+  placed(p.config.places, [&] { place_particles(options, p); });
   return p;
 }
 
 void initialise(const Options& options, Prepared& p) {
-  p.device = find_device(options.backend, options.threads, p.config.simd);
-  place_particles(options, p);
+  placed(p.config.places, [&] {
+    p.device = find_device(options.backend, options.threads, p.config.simd);
+    place_particles(options, p);
+  });
 }
 
 void check_fixed_steps(Prepared& p, Simulation& simulation) {
@@ -311,9 +314,10 @@ std::string bytes_text(std::size_t bytes) {
 std::string heading_text(const Prepared& p) {
   const Config& c = p.config;
   std::string out = fmt::format("case       {}{}\n", c.file, c.title.empty() ? "" : " (" + c.title + ")");
-  out += fmt::format("device     {}, {}; precision {}\n", p.device.backend, p.device.name, c.precision);
+  out +=
+      fmt::format("device     {}, {}; precision {}\n", p.device.backend, p.device.name, c.precision.name());
   for (const ShapeConfig& shape : c.shapes) {
-    if (shape.kind != "mesh") continue;
+    if (shape.kind != ShapeKind::mesh) continue;
     const Bounds bounds = shape.solid.shape->bounds();
     out += fmt::format("mesh       {}: {}\n", shape.name, sides_text(bounds.min, bounds.max));
   }

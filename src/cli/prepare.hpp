@@ -28,7 +28,7 @@ struct Prepared {
 };
 
 /// Reads the case, finds the device, prints both, then places the particles or reads the checkpoint. Throws
-/// KeyError, before any particle is placed, if they would not fit the memory of the device.
+/// CaseError, before any particle is placed, if they would not fit the memory of the device.
 Prepared prepare(const Options& options);
 /// The same for a case that has been read: `prepared` has its config. Prints nothing.
 void initialise(const Options& options, Prepared& prepared);

@@ -6,7 +6,6 @@
 #include <exception>
 #include <filesystem>
 
-#include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
 #include "commands.hpp"
 #include "list.hpp"
@@ -17,14 +16,10 @@ namespace bedload {
 namespace {
 
 int dispatch(const Options& options) {
-  try {
-    if (options.command == "run") return run_case(options);
-    if (options.command == "viscometer") return viscometer(options);
-    if (options.command == "check") return check_case(options);
-    if (options.command == "bench") return bench(options);
-  } catch (const KeyError& error) {
-    throw CaseError(place_in_case(options.file, options.overrides, error.key) + ": " + error.what());
-  }
+  if (options.command == "run") return run_case(options);
+  if (options.command == "viscometer") return viscometer(options);
+  if (options.command == "check") return check_case(options);
+  if (options.command == "bench") return bench(options);
   if (options.command == "info") return show_file(options.file);
   if (options.command == "list")
     fmt::print("{}", options.json ? list_json(options.family) : list_text(options.family));

@@ -228,10 +228,13 @@ class Run {
 }  // namespace
 
 int run_prepared(const Options& options, Prepared prepared, RunWatcher* watcher, LiveView* live) {
-  Run run(options, std::move(prepared), watcher, live);
-  const FolderLock lock(options.out);  // before grains settle, which may take hours
-  refuse_other_run(options);           // again: one may have finished since
-  return run.go();
+  const Places places = prepared.config.places;
+  return placed(places, [&] {
+    Run run(options, std::move(prepared), watcher, live);
+    const FolderLock lock(options.out);  // before grains settle, which may take hours
+    refuse_other_run(options);           // again: one may have finished since
+    return run.go();
+  });
 }
 
 int run_case(const Options& given) {

@@ -132,17 +132,18 @@ Config without_grains(Config c) {
 int viscometer(const Options& o) {
   watch_signals();
   Prepared prepared = prepare(o);
-  Viscometer().begin(
-      prepared.config,
-      o.until.value_or(prepared.config.time.end));  // fails before the run if the flow is unsuitable
+  const Config& config = prepared.config;
+  placed(config.places, [&] {
+    Viscometer().begin(config, o.until.value_or(config.time.end));  // fails before the run if the flow is unsuitable
+  });
   std::optional<Measured> without;
   if (o.relative) {
-    if (!prepared.config.grain.present)
+    if (!config.grain.present)
       throw CaseError(fmt::format("command line: --relative: {} has no grains", o.file.string()));
     Options bare = o;
     bare.out = o.out / "without_grains";
     Prepared again;
-    again.config = without_grains(prepared.config);
+    again.config = without_grains(config);
     initialise(bare, again);
     Viscometer first;
     const int code = measure(bare, std::move(again), first);

@@ -147,7 +147,7 @@ std::vector<SurfacePart> parts_of(const Shape& shape) {
   return parts;
 }
 
-bool closed(const WallBody& body) { return body.solid.shape || body.shape == "box"; }
+bool closed(const WallBody& body) { return body.solid.shape || body.shape == WallShape::box; }
 
 }  // namespace
 
@@ -193,7 +193,7 @@ MassProperties mass_properties(const WallBody& body, const DomainConfig& domain)
   if (f.inertia.size() == 6) std::copy(f.inertia.begin(), f.inertia.end(), out.inertia.begin());
   if (!closed(body)) {
     if (f.mass > 0 && !f.centre_of_mass.empty() && !f.inertia.empty()) return out;
-    throw CaseError("needs mass, centre_of_mass and inertia; shape = \"" + body.shape +
+    throw CaseError("needs mass, centre_of_mass and inertia; shape = \"" + body.shape.name() +
                     "\" is not closed, so they do not follow from it");
   }
   const SolidMoments m =
@@ -215,7 +215,7 @@ MassProperties mass_properties(const WallBody& body, const DomainConfig& domain)
 }
 
 Vec3d turning_centre(const FreeConfig& free) {
-  const bool held = free.move == "none" && free.point.size() == 3;
+  const bool held = free.move == BodyMove::none && free.point.size() == 3;
   return held ? Vec3d{free.point[0], free.point[1], free.point[2]} : free.solid.centre;
 }
 
@@ -269,12 +269,12 @@ std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& do
 }
 
 double particles_beyond(const WallBody& body, const FluidConfig& fluid) {
-  const bool outside = body.shape == "tank" || body.type == WallType::mdbc;
+  const bool outside = body.shape == WallShape::tank || body.type == WallType::mdbc;
   return fluid.present && outside ? fluid.reach() : 0;
 }
 
 std::vector<Vec3d> corners(const WallBody& body, const DomainConfig& domain, double beyond) {
-  const bool bounded = body.shape != "plane";
+  const bool bounded = body.shape != WallShape::plane;
   const Vec3d out{beyond, beyond, beyond};
   Vec3d lo = (bounded ? body.min : domain.min) - out, hi = (bounded ? body.max : domain.max) + out;
   if (domain.two_d) lo.y = hi.y = domain.middle();

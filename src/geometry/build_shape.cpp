@@ -28,14 +28,6 @@ const ShapeConfig& find(const std::string& name, const std::vector<ShapeConfig>&
                               names.empty() ? "; there is none" : ": " + names));
 }
 
-PipeEnds ends_of(const std::string& name) {
-  if (name == "closed") return PipeEnds::closed;
-  if (name == "closed_a") return PipeEnds::closed_a;
-  if (name == "closed_b") return PipeEnds::closed_b;
-  if (name == "open") return PipeEnds::open;
-  throw CaseError("ends = \"" + name + "\" must be one of open, closed_a, closed_b, closed");
-}
-
 std::string digest_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -79,15 +71,8 @@ ShapePtr copied(const ShapePtr& shape, const CopiesConfig& c) {
   return make_union(std::move(all));
 }
 
-ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier) {
-  if (c.kind == "box") return make_box(c.min, c.max);
-  if (c.kind == "sphere") return make_sphere(c.centre, c.radius);
-  if (c.kind == "capsule") return make_capsule(c.a, c.b, c.radius);
-  if (c.kind == "cylinder") return make_cylinder(c.a, c.b, c.radius);
-  if (c.kind == "cone") return make_cone(c.a, c.b, c.radius_a, c.radius_b);
-  if (c.kind == "pipe") return make_pipe(c.a, c.b, c.radius, c.radius + c.thickness, ends_of(c.ends));
-  if (c.kind == "mesh") return build_mesh(c);
-
+/// The shapes that another is made of; counts their pieces.
+std::vector<ShapePtr> parts_of(ShapeConfig& c, const std::vector<ShapeConfig>& earlier) {
   std::vector<ShapePtr> of;
   c.pieces = 0;
   for (const std::string& name : c.of) {
@@ -96,16 +81,45 @@ ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier)
     c.pieces += part.pieces;
   }
   check_pieces(c.pieces);
-  if (c.kind == "union") return make_union(of);
-  if (c.kind == "hollow") {
-    if (of.size() != 1) throw CaseError(fmt::format("of holds {} names, must hold one", of.size()));
-    return make_hollow(of[0], c.thickness);
-  }
-  if (c.kind != "difference") throw CaseError("kind = \"" + c.kind + "\" is not built in");
+  return of;
+}
+
+ShapePtr hollowed(const std::vector<ShapePtr>& of, double thickness) {
+  if (of.size() != 1) throw CaseError(fmt::format("of holds {} names, must hold one", of.size()));
+  return make_hollow(of[0], thickness);
+}
+
+ShapePtr without_others(const std::vector<ShapePtr>& of, double facet) {
   if (of.size() < 2) throw CaseError("of holds one name, must hold at least two");
   ShapePtr shape = of[0];
-  for (std::size_t n = 1; n < of.size(); ++n) shape = make_difference(shape, of[n], c.facet);
+  for (std::size_t n = 1; n < of.size(); ++n) shape = make_difference(shape, of[n], facet);
   return shape;
+}
+
+ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier) {
+  switch (c.kind) {
+    case ShapeKind::box:
+      return make_box(c.min, c.max);
+    case ShapeKind::sphere:
+      return make_sphere(c.centre, c.radius);
+    case ShapeKind::capsule:
+      return make_capsule(c.a, c.b, c.radius);
+    case ShapeKind::cylinder:
+      return make_cylinder(c.a, c.b, c.radius);
+    case ShapeKind::cone:
+      return make_cone(c.a, c.b, c.radius_a, c.radius_b);
+    case ShapeKind::pipe:
+      return make_pipe(c.a, c.b, c.radius, c.radius + c.thickness, c.ends);
+    case ShapeKind::mesh:
+      return build_mesh(c);
+    case ShapeKind::union_:
+      return make_union(parts_of(c, earlier));
+    case ShapeKind::hollow:
+      return hollowed(parts_of(c, earlier), c.thickness);
+    case ShapeKind::difference:
+      return without_others(parts_of(c, earlier), c.facet);
+  }
+  return nullptr;
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ GrainSource::GrainSource(const Config& config, std::size_t index)
       seed_(config.grain.seed),
       stream_((std::uint64_t(index) + 1) << 40) {
   for (const SizeClass& size : inlet_.sizes)
-    sizes_.push_back(quantiles(size, size.kind == "class" ? 1 : kQuantiles));
+    sizes_.push_back(quantiles(size, size.kind == SizeKind::one_size ? 1 : kQuantiles));
   radius_ = next_radius();
 }
 
@@ -54,7 +54,7 @@ std::vector<Vec3d> GrainSource::places() {
   CounterRandom random(seed_, kPlaceStream + stream_ + std::uint64_t(state.rounds));
   ++state.rounds;
   Vec3d a, b;  // in the plane of the disc
-  if (inlet_.shape == "disc") {
+  if (inlet_.shape == GrainInletShape::disc) {
     const Vec3d& n = inlet_.direction;
     a = std::abs(n.x) < 0.6 ? Vec3d{1, 0, 0} : Vec3d{0, 1, 0};
     a -= dot(a, n) * n;
@@ -64,7 +64,7 @@ std::vector<Vec3d> GrainSource::places() {
   std::vector<Vec3d> all;
   for (int k = 0; k < kPlaces; ++k) {
     const double u = random.uniform(), v = random.uniform(), w = random.uniform();
-    if (inlet_.shape == "disc") {
+    if (inlet_.shape == GrainInletShape::disc) {
       const double r = (inlet_.radius - radius_) * std::sqrt(u), angle = 2 * std::numbers::pi * v;
       all.push_back(inlet_.centre + r * std::cos(angle) * a + r * std::sin(angle) * b);
     } else {

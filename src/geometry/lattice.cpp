@@ -48,7 +48,7 @@ void check_fill(const Config& config, std::size_t index) {
 /// it was meant the case has to say.
 ShapePtr solid_in_fluid(const Config& config, const WallBody& body) {
   if (!body.stops_fluid() || body.single_layer()) return nullptr;
-  if (body.shape == "box") {
+  if (body.shape == WallShape::box) {
     Vec3d min = body.min, max = body.max;
     for (int k = 0; k < 3; ++k) {  // goes on beyond the faces of a period
       if (!config.domain.periodic[k]) continue;
@@ -58,7 +58,8 @@ ShapePtr solid_in_fluid(const Config& config, const WallBody& body) {
     return make_box(min, max);
   }
   for (const ShapeConfig& shape : config.shapes)
-    if (shape.name == body.shape && (shape.kind == "hollow" || shape.kind == "pipe")) return nullptr;
+    if (shape.name == body.shape.name() && (shape.kind == ShapeKind::hollow || shape.kind == ShapeKind::pipe))
+      return nullptr;
   return body.solid.shape;
 }
 

@@ -17,7 +17,7 @@ namespace {
 struct PlaneAxes {
   Vec3d a, b;
   explicit PlaneAxes(const InletConfig& inlet) {
-    if (inlet.shape == "rectangle") {
+    if (inlet.shape == OrificeShape::rectangle) {
       a = inlet.half_a / norm(inlet.half_a);
     } else {
       int least = 0;
@@ -35,8 +35,8 @@ struct PlaneAxes {
 struct HalfSides {
   double a, b;  // m
   explicit HalfSides(const InletConfig& inlet)
-      : a(inlet.shape == "disc" ? inlet.radius : norm(inlet.half_a)),
-        b(inlet.shape == "disc" ? inlet.radius : norm(inlet.half_b)) {}
+      : a(inlet.shape == OrificeShape::disc ? inlet.radius : norm(inlet.half_a)),
+        b(inlet.shape == OrificeShape::disc ? inlet.radius : norm(inlet.half_b)) {}
 };
 
 int cells_along(double half_side, double dx) { return int(std::floor(2 * half_side / dx + 1e-6)); }
@@ -105,7 +105,7 @@ void check_walls_reach_upstream(const Config& config, const InletConfig& inlet,
 
 double orifice_area(const InletConfig& inlet) {
   const HalfSides half(inlet);
-  return inlet.shape == "disc" ? std::numbers::pi * half.a * half.a : 4 * half.a * half.b;
+  return inlet.shape == OrificeShape::disc ? std::numbers::pi * half.a * half.a : 4 * half.a * half.b;
 }
 
 OrificeLayer orifice_layer(const InletConfig& inlet, double dx, const DomainConfig& domain) {
@@ -117,7 +117,7 @@ OrificeLayer orifice_layer(const InletConfig& inlet, double dx, const DomainConf
   };
   const int na = nearest_cells(half.a, dx), nb = domain.two_d ? 1 : nearest_cells(half.b, dx);
   const double sa = 2 * half.a / na, sb = 2 * half.b / nb;
-  if (inlet.shape == "disc") {
+  if (inlet.shape == OrificeShape::disc) {
     const double turn = std::numbers::pi * (3 - std::sqrt(5.0));  // no ring lines up with another
     for (int ring = 0; ring < (na + 1) / 2; ++ring) {
       const double radius = (ring + (na % 2 ? 0 : 0.5)) * sa;

@@ -213,7 +213,7 @@ class Packer {
     if (!radii.empty()) return radii;
     radii = radii_of(list.x.size());
     for (const SizeClass& size : sizes())
-      if (size.kind != "class") {
+      if (size.kind != SizeKind::one_size) {
         shuffle(radii, random);
         break;
       }

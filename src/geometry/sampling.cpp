@@ -207,7 +207,7 @@ void check_thickness(const Config& config, const WallBody& body, const std::vect
   const std::string what = fmt::format(
       "wall.body \"{}\": its shape \"{}\" is {:.3g} m thick, less than the "
       "kernel's reach of {:.3g} m, so fluid on its two sides ",
-      body.name, body.shape, thick, reach);
+      body.name, body.shape.name(), thick, reach);
   warnings.push_back(what + (body.single_layer()
                                  ? "interacts through it; fluid_pairs_through_walls counts the pairs"
                                  : "would share wall particles; type = \"single_layer\" is meant for "
@@ -236,11 +236,15 @@ bool move_together(const WallBody& a, const WallBody& b) {
 std::vector<Vec3d> sample_body(const WallBody& body, double spacing, double depth,
                                const DomainConfig& domain) {
   if (body.solid.shape) return sample_solid(*body.solid.shape, spacing, depth, domain);
-  if (body.shape == "tank") return sample_tank(body, spacing, depth, domain);
-  if (body.shape == "box") return sample_box(body, spacing, depth, domain);
-  if (body.shape == "plane") return sample_plane(body, spacing, depth, domain);
-  throw CaseError(
-      fmt::format("wall.body \"{}\": shape = \"{}\" must be tank, box or plane", body.name, body.shape));
+  switch (body.shape.value()) {
+    case WallShape::tank:
+      return sample_tank(body, spacing, depth, domain);
+    case WallShape::box:
+      return sample_box(body, spacing, depth, domain);
+    case WallShape::plane:
+      return sample_plane(body, spacing, depth, domain);
+  }
+  return {};
 }
 
 double expected_places(const WallBody& body, double spacing, double depth, const DomainConfig& domain) {
@@ -249,11 +253,11 @@ double expected_places(const WallBody& body, double spacing, double depth, const
     const RoughSize size = rough_size(*body.solid.shape, domain);
     return std::min(size.area * depth, size.volume) / cell;
   }
-  if (body.shape == "plane") {
+  if (body.shape == WallShape::plane) {
     const auto [a, b] = plane_lattice(body, spacing, depth, domain);
     return double(a.cells.count + 2 * a.extra) * double(b.cells.count + 2 * b.extra) * depth / spacing;
   }
-  const bool tank = body.shape == "tank";
+  const bool tank = body.shape == WallShape::tank;
   const auto closed = closed_faces(body, domain);
   // outer less inner volume, side by side: a thin shell is lost in the rounding of their difference
   double inner = 1, shell = 0;
@@ -270,7 +274,7 @@ double expected_places(const WallBody& body, double spacing, double depth, const
 
 double particle_volume(const WallBody& body, double spacing, const DomainConfig& domain) {
   if (body.solid.shape) return domain.cell_volume(spacing);
-  if (body.shape == "plane") {
+  if (body.shape == WallShape::plane) {
     const auto [a, b] = plane_lattice(body, spacing, 0, domain);
     return a.cells.step * b.cells.step * spacing;
   }
@@ -282,8 +286,8 @@ double particle_volume(const WallBody& body, double spacing, const DomainConfig&
 
 double wall_distance(const WallBody& body, const Vec3d& x, double thickness, const DomainConfig& domain) {
   if (body.solid.shape) return body.solid.shape->distance(x);
-  if (body.shape == "tank") return tank_distance(body, x, thickness, domain);
-  if (body.shape == "plane") return dot(x - body.point, body.normal) / norm(body.normal);
+  if (body.shape == WallShape::tank) return tank_distance(body, x, thickness, domain);
+  if (body.shape == WallShape::plane) return dot(x - body.point, body.normal) / norm(body.normal);
   return box_distance(body, x, domain);
 }
 

@@ -62,7 +62,7 @@ void check_fluid_is_clear(const Config& config, const Setup::Fluid& fluid, const
                    fmt::format("fluid.fill: {} fluid particles, the first at ({:g}, {:g}, {:g}) m, lie "
                                "inside wall.body \"{}\"{}",
                                count, x.x, x.y, x.z, body.name,
-                               body.shape == "tank" || body.shape == "plane"
+                               body.shape == WallShape::tank || body.shape == WallShape::plane
                                    ? ""
                                    : "; fill a shape of kind \"difference\" that leaves it out"));
   }

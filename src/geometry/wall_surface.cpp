@@ -38,7 +38,7 @@ class Skin final : public Shape {
 /// Sides of tanks and boxes, x- x+ y- y+ z- z+.
 std::array<bool, 6> sides(const WallBody& body, const DomainConfig& domain) {
   WallBody all = body;
-  if (body.shape == "box") all.faces.fill(true);
+  if (body.shape == WallShape::box) all.faces.fill(true);
   return closed_faces(all, domain);
 }
 
@@ -83,16 +83,17 @@ double chord(const Shape& shape, const SurfacePoint& from, double reach) {
 
 std::vector<Vec3d> sample_surface(const WallBody& body, double spacing, const DomainConfig& domain) {
   if (body.solid.shape) return sample_solid(Skin(*body.solid.shape, spacing), spacing, spacing, domain);
-  if (body.shape == "plane") return sample_plane_surface(body, spacing, domain);
+  if (body.shape == WallShape::plane) return sample_plane_surface(body, spacing, domain);
   return sample_sides(body, spacing, domain);
 }
 
 Vec3d surface_point(const WallBody& body, const Vec3d& x, const DomainConfig& domain) {
   if (body.solid.shape) return body.solid.shape->nearest(x).point;
-  if (body.shape == "plane") return x - dot(x - body.point, body.normal) / norm2(body.normal) * body.normal;
+  if (body.shape == WallShape::plane)
+    return x - dot(x - body.point, body.normal) / norm2(body.normal) * body.normal;
   const auto closed = sides(body, domain);
   Vec3d on = x;
-  if (body.shape == "tank") {
+  if (body.shape == WallShape::tank) {
     for (int k = 0; k < 3; ++k) {
       if (closed[2 * k]) on[k] = std::max(on[k], body.min[k]);
       if (closed[2 * k + 1]) on[k] = std::min(on[k], body.max[k]);
@@ -115,7 +116,7 @@ SurfacePoint nearest_surface(const WallBody& body, const Vec3d& x, const DomainC
     const SurfacePoint from = body.solid.shape->nearest(x);
     return {from.distance, from.point, body.solid.shape->nearest(from.point).normal};
   }
-  if (body.shape == "plane") {
+  if (body.shape == WallShape::plane) {
     const Vec3d n = body.normal / norm(body.normal);
     const double height = dot(x - body.point, n);
     return {height, x - height * n, n};
@@ -130,7 +131,7 @@ SurfacePoint nearest_surface(const WallBody& body, const Vec3d& x, const DomainC
     for (int k = 0; k < 3; ++k)
       if (!spans_period(body, domain, k)) on[k] = std::clamp(x[k], body.min[k], body.max[k]);
     on[axis] = upper ? body.max[axis] : body.min[axis];
-    normal[axis] = upper == (body.shape == "box") ? 1 : -1;
+    normal[axis] = upper == (body.shape == WallShape::box) ? 1 : -1;
     const double away = norm(x - on), side = dot(x - on, normal) < 0 ? -1 : 1;
     if (away < std::abs(best.distance) * (1 - 1e-9)) best = {side * away, on, normal};
   }
@@ -139,7 +140,7 @@ SurfacePoint nearest_surface(const WallBody& body, const Vec3d& x, const DomainC
 
 double thickness(const WallBody& body, const std::vector<Vec3d>& points, double reach,
                  const DomainConfig& domain) {
-  if (body.shape == "box") {
+  if (body.shape == WallShape::box) {
     double least = kInfinity;
     for (int k = 0; k < 3; ++k)
       if (!spans_period(body, domain, k)) least = std::min(least, body.max[k] - body.min[k]);

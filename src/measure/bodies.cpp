@@ -97,7 +97,7 @@ LoadSum CoupledSimulation::body_load(int body) {
 }
 
 std::vector<Quantity> CoupledSimulation::body_force(const ProbeConfig& p) {
-  const int meter = p.sample == "mean" ? meters_.place_of(p.name) : -1;
+  const int meter = p.sample == ForceSample::mean ? meters_.place_of(p.name) : -1;
   const BodyActions by =
       meter >= 0 ? meters_.mean(meter, state_.clock.time) : actions_on(wall_named(p.body), p.about);
   BodyAction fluid = by[kByPressure];
@@ -125,7 +125,7 @@ std::vector<Quantity> CoupledSimulation::body_force(const ProbeConfig& p) {
 
 void CoupledSimulation::add_meters() {
   for (const ProbeConfig& p : config_.out.probes)
-    if (p.type == "force" && p.sample == "mean") {
+    if (p.type == ProbeType::force && p.sample == ForceSample::mean) {
       const int body = wall_named(p.body);
       meters_.add(p, body, state_.bodies.place_of(body));
     }

@@ -112,24 +112,32 @@ struct GrainBox {
 }  // namespace
 
 std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
-  if (p.type == "front") return front(p);
-  if (p.type == "point") return point(p);
-  if (p.type == "height") return column(p);
-  if (p.type == "box") return box(p);
-  if (p.type == "force") return body_force(p);
-  if (p.type == "wall_pressure") return wall_pressure(p);
-  throw CaseError("probe.type = \"" + p.type + "\" is not built in");
+  switch (p.type) {
+    case ProbeType::front:
+      return front(p);
+    case ProbeType::point:
+      return point(p);
+    case ProbeType::height:
+      return column(p);
+    case ProbeType::box:
+      return box(p);
+    case ProbeType::force:
+      return body_force(p);
+    case ProbeType::wall_pressure:
+      return wall_pressure(p);
+  }
+  return {};
 }
 
 std::vector<Quantity> CoupledSimulation::front(const ProbeConfig& p) {
   Vec3d direction;
   direction[p.axis] = p.sign;
   double front = std::nan("");
-  if (p.phase == "fluid" && state_.fluid.size() > 0)
+  if (p.phase == Phase::fluid && state_.fluid.size() > 0)
     front = p.sign * (max_over(state_.fluid.owned(),
                                AlongBody<FluidPosition>{state_.frame, state_.fluid.x, direction}) +
                       config_.fluid.dx / 2);
-  if (p.phase == "grains" && state_.grains.size() > 0)
+  if (p.phase == Phase::grains && state_.grains.size() > 0)
     front = p.sign *
             (max_over(state_.grains.owned(), AlongBody<Vec3d>{state_.frame, state_.grains.x, direction}) +
              config_.grain.d_max / 2);
@@ -197,7 +205,7 @@ std::vector<Quantity> CoupledSimulation::column(const ProbeConfig& p) {
 
 std::vector<Quantity> CoupledSimulation::box(const ProbeConfig& p) {
   double s[7] = {};
-  if (p.phase == "fluid") {
+  if (p.phase == Phase::fluid) {
     const auto r = sum_over<7>(state_.fluid.owned(), FluidBox{.frame = state_.frame,
                                                               .lo = p.min,
                                                               .hi = p.max,
@@ -218,7 +226,7 @@ std::vector<Quantity> CoupledSimulation::box(const ProbeConfig& p) {
   const double m = s[1] > 0 ? s[1] : std::nan("");
   std::vector<Quantity> out = {{"count", "-", s[0]}, {"mass", "kg", s[1]}};
   for (int k = 0; k < 3; ++k) out.push_back({std::string("velocity_") + kAxis[k], "m/s", s[3 + k] / m});
-  if (p.phase == "fluid") {
+  if (p.phase == Phase::fluid) {
     out.push_back({"pressure", "Pa", s[2] / m});
     out.push_back({"porosity", "-", s[6] / m});
   }

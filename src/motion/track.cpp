@@ -86,17 +86,23 @@ class TableTrack final : public Track {
 }  // namespace
 
 std::unique_ptr<Track> make_track(const MotionPart& m, double span) {
-  if (m.scaled() && m.kind == "velocity")
-    return std::make_unique<ScaledTrack>(m.velocity, Vec3d{}, m.factor, span);
-  if (m.scaled() && m.kind == "rotation")
-    return std::make_unique<ScaledTrack>(Vec3d{}, m.axis * m.rate, m.factor, span);
-  if (m.kind == "velocity") return std::make_unique<Straight>(m.velocity);
-  if (m.kind == "oscillation") return std::make_unique<Oscillation>(m.amplitude, m.frequency);
-  if (m.kind == "rotation") return std::make_unique<SteadyTurn>(m.axis * m.rate);
-  if (m.kind == "table") return std::make_unique<TableTrack>(m.rows, m.spline == "monotone");
-  if (m.kind == "formula") return std::make_unique<FormulaTrack>(m.displacement, m.rotation, span);
-  if (m.kind == "fixed") return nullptr;
-  throw CaseError("motion.kind = \"" + m.kind + "\" is not built in");
+  switch (m.kind) {
+    case MotionKind::fixed:
+      break;
+    case MotionKind::velocity:
+      if (m.scaled()) return std::make_unique<ScaledTrack>(m.velocity, Vec3d{}, m.factor, span);
+      return std::make_unique<Straight>(m.velocity);
+    case MotionKind::oscillation:
+      return std::make_unique<Oscillation>(m.amplitude, m.frequency);
+    case MotionKind::rotation:
+      if (m.scaled()) return std::make_unique<ScaledTrack>(Vec3d{}, m.axis * m.rate, m.factor, span);
+      return std::make_unique<SteadyTurn>(m.axis * m.rate);
+    case MotionKind::table:
+      return std::make_unique<TableTrack>(m.rows, m.spline == TableSpline::monotone);
+    case MotionKind::formula:
+      return std::make_unique<FormulaTrack>(m.displacement, m.rotation, span);
+  }
+  return nullptr;
 }
 
 }  // namespace bedload

@@ -119,9 +119,9 @@ void check_fits(hid_t file, const Config& config) {
     throw h5::Error("it is not a Bedload checkpoint");
   if (const auto format = h5::read_integer(file, "format"); format != kFormat)
     throw h5::Error(fmt::format("it has checkpoint format {}, this version reads {}", format, kFormat));
-  if (const auto precision = h5::read_text(file, "precision"); precision != config.precision)
+  if (const auto precision = h5::read_text(file, "precision"); precision != config.precision.name())
     throw h5::Error(
-        fmt::format("it has run.precision = {}, but this case has {}", precision, config.precision));
+        fmt::format("it has run.precision = {}, but this case has {}", precision, config.precision.name()));
   const Handle setup = h5::open_group(file, "setup");
   const auto expected = particle_setup(config);
   for (const auto& q : expected) {
@@ -140,7 +140,7 @@ void check_fits(hid_t file, const Config& config) {
 
 void write_all(hid_t file, const SavedState& state, const Config& config) {
   h5::write_integer(file, "format", kFormat);
-  h5::write_text(file, "precision", config.precision);
+  h5::write_text(file, "precision", config.precision.name());
   write_case_text(file, resolved_toml(config));
   const Handle setup = h5::create_group(file, "setup");
   for (const auto& q : particle_setup(config)) h5::write_number(setup, q.name.c_str(), q.value);

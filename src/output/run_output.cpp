@@ -287,7 +287,7 @@ struct RunOutput::Impl {
         {"title", config.title},
         {"version", version},
         {"device", {{"backend", device.backend}, {"name", device.name}}},
-        {"precision", config.precision},
+        {"precision", config.precision.name()},
         {"seed", config.seed},
         {"counts", {{"fluid", counts.fluid}, {"walls", counts.walls}, {"grains", counts.grains}}},
         {"steps", simulation.steps()},

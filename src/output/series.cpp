@@ -55,7 +55,8 @@ void Frames::refresh_xdmf(bool last) {
 Series series_of(const Config& c, const fs::path& folder) {
   Series s;
   const auto frames_of = [&](const char* store) {
-    s.frames.push_back({store, frame_file(folder, store, c.precision == "double"), Schedule(c.out.every)});
+    s.frames.push_back(
+        {store, frame_file(folder, store, c.precision == Precision::fp64), Schedule(c.out.every)});
   };
   if (c.fluid.present) frames_of("fluid");
   if (c.grain.present) frames_of("grains");
@@ -72,11 +73,12 @@ Series series_of(const Config& c, const fs::path& folder) {
   };
   for (int b = 0; b < int(c.wall.bodies.size()); ++b) {
     const WallBody& body = c.wall.bodies[b];
-    if (c.out.bodies == "all" || (c.out.bodies == "moving" && body.moves())) add_body(b, body.name);
+    if (c.out.bodies == BodyTables::all || (c.out.bodies == BodyTables::moving && body.moves()))
+      add_body(b, body.name);
   }
   int group = int(c.wall.bodies.size());  // rigid groups follow the bodies
   for (const int fill : c.grain.rigid_fills()) {
-    if (c.out.bodies != "none") add_body(group, fmt::format("grain_fill_{}", fill + 1));
+    if (c.out.bodies != BodyTables::none) add_body(group, fmt::format("grain_fill_{}", fill + 1));
     ++group;
   }
   return s;

@@ -36,7 +36,7 @@ Scene scene_of(const Config& config, const Setup& setup, const Setup::Walls& wal
   }
   for (std::size_t w = 0; w < walls.x.size(); ++w) {
     const bool inlet = walls.body[w] >= config.wall.bodies.size();
-    const bool moves = inlet || config.wall.bodies[walls.body[w]].motion.kind != "fixed";
+    const bool moves = inlet || config.wall.bodies[walls.body[w]].motion.kind != MotionKind::fixed;
     scene.walls.push_back({walls.x[w], 0.5 * spacing, moves ? kMoving : kWall});
   }
   scene.min = Vec3d{1e300, 1e300, 1e300}, scene.max = -1.0 * scene.min;
@@ -107,7 +107,8 @@ class Picture {
       entry(kGrain, fmt::format("{} grain{} of {}", n.grains, n.grains > 1 ? "s" : "", diameter(largest)));
     }
     bool fixed = false, moving = false;
-    for (const WallBody& body : config_.wall.bodies) (body.motion.kind == "fixed" ? fixed : moving) = true;
+    for (const WallBody& body : config_.wall.bodies)
+      (body.motion.kind == MotionKind::fixed ? fixed : moving) = true;
     if (fixed) entry(kWall, "Walls");
     if (moving) entry(kMoving, "Moving walls");
   }
@@ -211,7 +212,7 @@ Sides Axes::oblique() const {
 double surface_spacing(const Config& config, double at_least) {
   double largest = norm(config.domain.max - config.domain.min);
   for (const WallBody& body : config.wall.bodies)
-    if (body.shape != "plane") largest = std::max(largest, norm(body.max - body.min));
+    if (body.shape != WallShape::plane) largest = std::max(largest, norm(body.max - body.min));
   return std::max(at_least, largest / 400);
 }
 

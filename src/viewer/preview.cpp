@@ -72,7 +72,7 @@ void make_folder(const fs::path& folder) {
 void write_preview(const fs::path& folder, const Config& config, const Setup& setup) {
   make_folder(folder);
   const Setup::Walls walls = config.fluid.present ? setup.walls : wall_surfaces(config, config.grain.d_min);
-  const Writer write{folder, config.precision == "double"};
+  const Writer write{folder, config.precision == Precision::fp64};
   write("fluid", setup.fluid, "mass", "kg", setup.fluid.mass);
   write("grains", setup.grains, "radius", "m", setup.grains.radius);
   write({"walls",

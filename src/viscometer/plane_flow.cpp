@@ -64,17 +64,17 @@ class Walls {
     const WallBody& body = c_.wall.bodies[b];
     if (body.free.present) refuse(key(b) + ".free", "must not be a free body in a viscometer");
     const std::size_t before = surfaces_.size();
-    if (body.shape == "plane") {
+    if (body.shape == WallShape::plane) {
       for (int k = 0; k < 3; ++k)
         if (std::abs(body.normal[k]) > 1 - 1e-9)
           surfaces_.push_back({b, k, body.point[k], body.normal[k] > 0 ? 1 : -1});
-    } else if (body.shape == "tank") {
+    } else if (body.shape == WallShape::tank) {
       for (int face = 0; face < 6; ++face) {
         if (!body.faces[face]) continue;
         const int k = face / 2;
         surfaces_.push_back({b, k, face % 2 ? body.max[k] : body.min[k], face % 2 ? -1 : 1});
       }
-    } else if (body.shape == "box") {
+    } else if (body.shape == WallShape::box) {
       for (int k = 0; k < 3; ++k)
         if (spans(body, (k + 1) % 3) && spans(body, (k + 2) % 3)) {
           surfaces_.push_back({b, k, body.max[k], 1});
@@ -83,7 +83,7 @@ class Walls {
     }
     if (surfaces_.size() == before)
       refuse(key(b) + ".shape",
-             fmt::format("\"{}\" is not a plane wall across the whole domain", body.shape));
+             fmt::format("\"{}\" is not a plane wall across the whole domain", body.shape.name()));
   }
 
   const Config& c_;
@@ -96,7 +96,7 @@ Vec3d velocity_of(const Config& c, int b) {
   const MotionConfig& m = body.motion;
   Vec3d v = body.surface_velocity;
   if (!m.moves()) return v;
-  if (m.kind != "velocity" || m.scaled() || !m.add.empty() || m.start > 0 || std::isfinite(m.stop))
+  if (m.kind != MotionKind::velocity || m.scaled() || !m.add.empty() || m.start > 0 || std::isfinite(m.stop))
     refuse(Walls::key(b) + ".motion", "the velocity of the wall must be constant");
   return v + m.velocity;
 }

@@ -89,30 +89,11 @@ FreeBodies::FreeBodies(const FreeBodyParameters& parameters, const Frame& frame,
   read_back(0);
 }
 
-namespace {
-
-BodyMove move_of(const std::string& name) {
-  if (name == "all") return BodyMove::all;
-  if (name == "plane") return BodyMove::plane;
-  if (name == "axis") return BodyMove::axis;
-  if (name == "none") return BodyMove::none;
-  throw CaseError("move = \"" + name + "\" must be one of all, plane, axis, none");
-}
-
-BodyTurn turn_of(const std::string& name) {
-  if (name == "all") return BodyTurn::all;
-  if (name == "axis") return BodyTurn::axis;
-  if (name == "none") return BodyTurn::none;
-  throw CaseError("turn = \"" + name + "\" must be one of all, axis, none");
-}
-
-}  // namespace
-
-RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, const std::string& move,
-                     const std::string& turn, const Vec3d& axis, bool plane) {
+RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, BodyMove move, BodyTurn turn,
+                     const Vec3d& axis, bool plane) {
   RigidBody k;
-  k.move = move_of(move);
-  k.turn = turn_of(turn);
+  k.move = move;
+  k.turn = turn;
   k.mass = m.mass;
   k.centre = centre;
   k.arm = m.centre - centre;

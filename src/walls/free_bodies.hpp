@@ -39,8 +39,8 @@ struct BodyCorrection {
 
 /// A rigid body with reference point `centre` (m) and the constraints `move` and `turn` (with `axis`) of a
 /// case; plane: and those of a plane flow.
-RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, const std::string& move,
-                     const std::string& turn, const Vec3d& axis, bool plane);
+RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, BodyMove move,
+                     BodyTurn turn, const Vec3d& axis, bool plane);
 
 class FreeBodies {
  public:

@@ -69,15 +69,22 @@ WallGeometry::WallGeometry(const std::vector<WallBody>& bodies, const DomainConf
       std::vector<SurfacePart> parts;
       body.solid.shape->add_parts(parts, {});
       for (const SurfacePart& part : parts) add(part, b);
-    } else if (body.shape == "plane") {
-      Surface s{SurfaceKind::plane, b, body.point, {}, {}};
-      s.axis[2] = body.normal * (1 / norm(body.normal));
-      surfaces_.push_back(s);
-    } else if (body.shape == "box") {
-      surfaces_.push_back(make_box(domain, body, b));
-    } else if (body.shape == "tank") {
-      for (int face = 0; face < 6; ++face)
-        if (body.faces[face]) surfaces_.push_back(make_face(domain, body, b, face));
+      continue;
+    }
+    switch (body.shape.value()) {
+      case WallShape::plane: {
+        Surface s{SurfaceKind::plane, b, body.point, {}, {}};
+        s.axis[2] = body.normal * (1 / norm(body.normal));
+        surfaces_.push_back(s);
+        break;
+      }
+      case WallShape::box:
+        surfaces_.push_back(make_box(domain, body, b));
+        break;
+      case WallShape::tank:
+        for (int face = 0; face < 6; ++face)
+          if (body.faces[face]) surfaces_.push_back(make_face(domain, body, b, face));
+        break;
     }
   }
   for (const Surface& s : surfaces_) contacts_ = std::min(contacts_ + most_contacts(s), kMostWallContacts);

@@ -55,5 +55,20 @@ TEST(LawNames, GoThroughACaseFile) {
   expect_round_trips<TimeIntegrator>("time.integrator", {{"ab3", {"couple.mode=one_way"}}});
 }
 
+TEST(SetupNames, GoThroughACaseFile) {
+  expect_round_trips<Preset>(
+      "preset", {{"robinson2014", {"contact.k=1000"}}, {"democritus", {"eos.p0=4000", "couple.hc=0.02"}}});
+  expect_round_trips<Precision>("run.precision");
+  expect_round_trips<Simd>("run.simd");
+  expect_round_trips<BodyTables>("out.bodies");
+  const std::string motion = "wall.body.0.motion.";
+  expect_round_trips<MotionKind>(
+      motion + "kind",
+      {{"velocity", {motion + "velocity=[0, 0, 0.1]"}},
+       {"oscillation", {motion + "amplitude=[0, 0, 0.01]", motion + "frequency=1"}},
+       {"rotation", {motion + "axis=[0, 0, 1]", motion + "centre=[0, 0, 0]", motion + "rate=1"}},
+       {"table", {motion + "rows=[[0, 0, 0, 0], [1, 0, 0, 0.1]]"}}});
+}
+
 }  // namespace
 }  // namespace bedload::test

@@ -197,9 +197,9 @@ TEST(RenamedKeys, AreReadWithAWarning) {
   EXPECT_EQ(
       warnings,
       (std::vector<std::string>{
-          "dam.toml:21: grain.fill.sizes.share is now called grain.fill.sizes.number_fraction; the next "
-          "version will not read the former name",
           "--set density.tension=0.02: density.tension is now called density.cavitation_limit; the next "
+          "version will not read the former name",
+          "dam.toml:21: grain.fill.sizes.share is now called grain.fill.sizes.number_fraction; the next "
           "version will not read the former name"}));
   EXPECT_EQ(resolved_toml(c).find("share"), std::string::npos);
 
@@ -213,10 +213,60 @@ TEST(RenamedKeys, AreReadWithAWarning) {
       error_of(changed("[grain]", "[density]\ntension = 0.03\ncavitation_limit = 0.03\n[grain]")),
       "dam.toml:16: density.tension is the former name of density.cavitation_limit, which is given too; "
       "leave it out");
+  EXPECT_EQ(
+      error_of(kCase, {"density.tension=0.03", "density.cavitation_limit=0.04"}),
+      "--set density.tension=0.03: density.tension is the former name of density.cavitation_limit, which "
+      "is given too; leave it out");
   EXPECT_EQ(error_of(changed("[grain]", "[density]\ntension = 2\n[grain]")),
             "dam.toml:16: density.cavitation_limit = 2 must be within 0.0001..0.5");
   // nor is a run that goes on one of another case
   EXPECT_TRUE(changes_between(before, now).empty());
+}
+
+/// Errors that come up later than reading still tell where the case gives a key.
+TEST(Places, AreThoseOfTheDeepestPartThatTheCaseGives) {
+  const Places places = read(kCase, {"grain.fill.0.count=400", "couple.hc=0.01"}).places;
+  EXPECT_EQ(places.of("fluid.dx"), "dam.toml:6");
+  EXPECT_EQ(places.of("wall.body.0.min"), "dam.toml:13");
+  EXPECT_EQ(places.of("fluid.fill.0.velocity"), "dam.toml:7") << "not given: its table";
+  EXPECT_EQ(places.of("fluid.fill.0.max.2"), "dam.toml:9") << "a number of a list";
+  EXPECT_EQ(places.of("grain.fill.0.count"), "--set grain.fill.0.count=400");
+  EXPECT_EQ(places.of("couple.hc"), "--set couple.hc=0.01");
+  EXPECT_EQ(places.of("drag.law"), "dam.toml") << "no table of it either";
+  EXPECT_EQ(places.of("inlet.3"), "dam.toml");
+}
+
+TEST(Places, BeginWhatAKeyErrorSays) {
+  const Config c = read(kCase);
+  const auto message = [&](const auto& f) -> std::string {
+    try {
+      placed(c.places, f);
+    } catch (const KeyError&) {
+      return "still a KeyError";
+    } catch (const CaseError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message([] { throw KeyError("fluid.dx", "fluid.dx is wrong"); }),
+            "dam.toml:6: fluid.dx is wrong");
+  EXPECT_EQ(message([] { throw CaseError("a table is wrong"); }), "a table is wrong");
+  EXPECT_EQ(message([] {}), "");
+}
+
+/// What of the case sets defaults of others, however it is written.
+TEST(Defaults, FollowTheModelAndVariableH) {
+  for (const char* yes : {"true", "1"}) {
+    const Config c = read(changed("dx = 0.004", std::string("dx = 0.004\nvariable_h = ") + yes));
+    EXPECT_TRUE(c.fluid.variable_h) << yes;
+    EXPECT_EQ(c.shift, 0) << yes;
+    EXPECT_FALSE(c.pressure.linear_exact) << yes;
+  }
+  EXPECT_EQ(read(kCase, {"preset=he2018"}).time.integrator, TimeIntegrator::euler);
+  EXPECT_EQ(read(kCase, {"preset=he2018", "fluid.model=sdpd"}).time.integrator, TimeIntegrator::kdk);
+  EXPECT_EQ(error_of(kCase, {"preset=he2019"}),
+            "--set preset=he2019: preset = \"he2019\" must be one of default, he2018, democritus, "
+            "robinson2014");
 }
 
 /// Frames are of floats, which are coarse far from the origin.
@@ -247,10 +297,10 @@ TEST(Warnings, NameWhatIsDoubtful) {
             (std::vector<std::string>{
                 "fluid.c_factor: sound is only 5 times as fast as the flow (Mach 0.2); density "
                 "will vary by more than 1 %"}));
-  EXPECT_EQ(
-      warnings_of(changed("[time]", "[couple]\nhc = 0.0025\n[time]")),
-      (std::vector<std::string>{"couple.hc: the coupling reaches 2.5 diameters of the largest grain; below 4 "
-                                "the flow that it reads is disturbed by its own drag; increase couple.hc"}));
+  EXPECT_EQ(warnings_of(changed("[time]", "[couple]\nhc = 0.0025\n[time]")),
+            (std::vector<std::string>{
+                "couple.hc: kappa h_c is 2.5 diameters of the largest grain; below 4 a grain's "
+                "own wake reduces its drag"}));
   EXPECT_EQ(
       warnings_of(changed("dx = 0.004", "dx = 0.004\nvmax = \"50 cm/s\"")),
       std::vector<std::string>{"fluid.vmax = 0.5 m/s: not used, since a fall through the fluid's height, a "
@@ -354,14 +404,14 @@ TEST(ParameterTable, HoldsEveryKeyOnceWithUnitAndMeaning) {
     EXPECT_EQ(keys.count(key), 1u) << key;
 }
 
-/// What `bedload list` shows of a key is what its type can be.
+/// What `bedload list` shows of a key is what its type can be, `or_else` besides.
 template <class E>
-void expect_choices(const std::string& key) {
+void expect_choices(const std::string& key, const std::string& or_else = "") {
   int seen = 0;
   for (const ParameterRow& row : parameter_table()) {
     if (row.key != key) continue;
     ++seen;
-    EXPECT_EQ(row.allowed, names_of<E>()) << key;
+    EXPECT_EQ(row.allowed, names_of<E>() + or_else) << key;
     ASSERT_EQ(row.choices.size(), kNames<E>.size()) << key;
     for (std::size_t k = 0; k < row.choices.size(); ++k)
       EXPECT_EQ(row.choices[k].meaning, kNames<E>[k].meaning) << key;
@@ -385,6 +435,42 @@ TEST(ParameterTable, TakesChoicesFromTheirRegistry) {
   expect_choices<DragLaw>("drag.law");
   expect_choices<DragIntegrator>("drag.integrator");
   expect_choices<TimeIntegrator>("time.integrator");
+  expect_choices<Preset>("preset");
+  expect_choices<Precision>("run.precision");
+  expect_choices<Simd>("run.simd");
+  expect_choices<ShapeKind>("shape.kind");
+  expect_choices<PipeEnds>("shape.ends");
+  expect_choices<WallShape>("wall.body.shape", " or the name of a [[shape]]");
+  for (const char* at :
+       {"frame.motion.", "frame.motion.add.", "wall.body.motion.", "wall.body.motion.add."}) {
+    expect_choices<MotionKind>(std::string(at) + "kind");
+    expect_choices<TableSpline>(std::string(at) + "spline");
+  }
+  for (const char* at : {"wall.body.free.", "grain.fill.rigid."}) {
+    expect_choices<BodyMove>(std::string(at) + "move");
+    expect_choices<BodyTurn>(std::string(at) + "turn");
+  }
+  expect_choices<OrificeShape>("inlet.shape");
+  expect_choices<OutletShape>("outlet.shape", " or the name of a [[shape]]");
+  expect_choices<OutletPhase>("outlet.phase");
+  expect_choices<GrainInletShape>("grain_inlet.shape");
+  expect_choices<SizeKind>("grain.fill.sizes.kind");
+  expect_choices<SizeKind>("grain_inlet.sizes.kind");
+  expect_choices<ProbeType>("probe.type");
+  expect_choices<Phase>("probe.phase");
+  expect_choices<ForceSample>("probe.sample");
+  expect_choices<BodyTables>("out.bodies");
+}
+
+TEST(Choices, OrTheNameOfSomethingElse) {
+  const ChosenOrNamed<WallShape> box("box"), drum("drum");
+  EXPECT_EQ(box, WallShape::box);
+  EXPECT_EQ(box.value(), WallShape::box);
+  EXPECT_EQ(box, ChosenOrNamed<WallShape>(WallShape::box));
+  EXPECT_FALSE(drum.choice().has_value());
+  EXPECT_EQ(drum.name(), "drum");
+  EXPECT_NE(drum, WallShape::box);
+  EXPECT_THROW((void)drum.value(), CaseError);
 }
 
 /// A name that nobody listed is an error wherever it comes from, never a default.

@@ -275,7 +275,7 @@ TEST(SingleLayers, ThinShellsHaveOneForBothSides) {
 TEST(Images, LieAcrossTheSurface) {
   const DomainConfig domain = unit_domain();
   const auto expect = [&](const WallBody& b, const Vec3d& x, const Vec3d& on) {
-    EXPECT_LT(norm(surface_point(b, x, domain) - on), 1e-12) << b.shape;
+    EXPECT_LT(norm(surface_point(b, x, domain) - on), 1e-12) << b.shape.name();
   };
   expect(body("tank", {0, 0, 0}, {1, 1, 1}), {-0.01, 0.5, -0.02}, {0, 0.5, 0});  // of an edge
   expect(body("box", {0, 0, 0}, {1, 1, 1}), {0.3, 0.98, 0.5}, {0.3, 1, 0.5});

@@ -167,7 +167,8 @@ TEST(MotionCase, FormulasAreInTAndHaveValues) {
             "dam.toml:17: wall.body.motion.displacement = [\"x\", 0, 0] must hold formulas in t: Unexpected "
             "token \"x\" found at position 0");
   EXPECT_EQ(error_of(moving("displacement = [\"1/(t-0.1)^0.5\", 0, 0]")),
-            "dam.toml:17: wall.body.motion.displacement = [\"1/(t-0.1)^0.5\", 0, 0] must be finite at all times, as "
+            "dam.toml:17: wall.body.motion.displacement = [\"1/(t-0.1)^0.5\", 0, 0] must be finite at all "
+            "times, as "
             "must its rates; it is not at t = 0 s");
 }
 
@@ -188,10 +189,9 @@ TEST(MotionCase, RatesMayRampByAFactor) {
   EXPECT_EQ(error_of(turning("x")),
             "dam.toml:21: wall.body.motion.factor = \"x\" must be a formula in t: Unexpected token \"x\" "
             "found at position 0");
-  EXPECT_EQ(
-      error_of(turning("sqrt(0.1-t)")),
-      "dam.toml:21: wall.body.motion.factor = \"sqrt(0.1-t)\" must be a finite number at all times; it is "
-      "none at t = 0.2001 s");
+  EXPECT_EQ(error_of(turning("sqrt(0.1-t)")),
+            "dam.toml:21: wall.body.motion.factor = \"sqrt(0.1-t)\" must be finite at all times; it is not "
+            "at t = 0.2001 s");
 }
 
 TEST(MotionCase, SoundSpeedFollowsTheFastestWall) {

@@ -148,10 +148,10 @@ TEST(MotionLaw, AgitatorPeaks) {  // T-43
       v = std::max(v, norm(law.at(end * i / 3000).v));
       a = std::max(a, norm(effective.at(end * i / 3000)));
     }
-    EXPECT_NEAR(v, 0.1811, exact) << part.kind;
-    EXPECT_NEAR(a, 4.6203, exact * (part.kind == "table" ? 4.62 : 1)) << part.kind;
+    EXPECT_NEAR(v, 0.1811, exact) << part.kind.name();
+    EXPECT_NEAR(a, 4.6203, exact * (part.kind == "table" ? 4.62 : 1)) << part.kind.name();
     const double t = 0.3;  // minus the frame's acceleration
-    EXPECT_NEAR(effective.at(t).x, 4.6203 * std::sin(2 * pi * f * t), 4.62 * exact) << part.kind;
+    EXPECT_NEAR(effective.at(t).x, 4.6203 * std::sin(2 * pi * f * t), 4.62 * exact) << part.kind.name();
   }
 }
 

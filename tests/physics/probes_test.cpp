@@ -17,7 +17,7 @@ constexpr double kDx = 0.01;
 
 ProbeConfig at(const std::string& type, const Vec3d& x, const std::string& body = "") {
   ProbeConfig p;
-  p.name = p.type = type;
+  p.name = type, p.type = type;
   p.at = x, p.body = body;
   return p;
 }

@@ -22,7 +22,7 @@ std::map<std::string, std::vector<WallBody>> floors() {
   const auto min = [](int k, double lap = 0) { return Vec3d{k * kSeam - lap, -kWidth, -kDepth}; };
   const auto max = [](int k, double top = 0) { return Vec3d{(k + 1) * kSeam, kWidth, top}; };
   WallBody plane;
-  plane.name = plane.shape = "plane";
+  plane.name = "plane", plane.shape = WallShape::plane;
   plane.normal = {0, 0, 1};
   std::map<std::string, std::vector<WallBody>> all;
   std::vector<ShapePtr> flush;

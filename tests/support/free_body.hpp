@@ -32,7 +32,7 @@ inline WallBody& set_free(WallBody& b, double density) {
 
 inline WallBody ground() {
   WallBody b;
-  b.name = b.shape = "plane";
+  b.name = "plane", b.shape = WallShape::plane;
   b.normal = {0, 0, 1};
   return b;
 }

@@ -12,7 +12,7 @@ namespace bedload::test {
 /// Of one of the shapes that are told by two corners.
 inline WallBody body(const std::string& shape, const Vec3d& min, const Vec3d& max) {
   WallBody b;
-  b.name = b.shape = shape;
+  b.name = shape, b.shape = shape;
   b.min = min, b.max = max;
   return b;
 }

@@ -2,58 +2,11 @@
 // The laws and models that a case may name. Each is written here once: enumerator, name, meaning. Reader,
 // `bedload list` and messages take them from here, and code asks for enumerators: a name that nobody listed
 // does not compile, or is a CaseError where it comes as text. `switch` over an enumeration must know all of
-// it.
+// it. Shapes, motions, probes and the like are in setup_choices.hpp.
 
-#include <array>
-#include <concepts>
-#include <cstdint>
-#include <string>
-#include <string_view>
-
-#include "bedload/core/error.hpp"
+#include "bedload/case/chosen.hpp"
 
 namespace bedload {
-
-template <class E>
-struct Named {
-  E value;
-  std::string_view name, meaning;
-};
-
-/// All that a key of type E may be, in the order of the enumerators; the first is the default.
-template <class E>
-inline constexpr std::array<Named<E>, 0> kNames{};
-
-/// "hertz, linear, none".
-template <class E>
-std::string names_of() {
-  std::string all;
-  for (const auto& row : kNames<E>) all += (all.empty() ? "" : ", ") + std::string(row.name);
-  return all;
-}
-
-/// One of the names of E. Throws CaseError for a text that is none of them.
-template <class E>
-class Chosen {
- public:
-  constexpr Chosen(E value) : value_(value) {}
-  template <std::convertible_to<std::string_view> Text>
-  Chosen(const Text& name) : value_(value_of(name)) {}
-
-  constexpr operator E() const { return value_; }
-  std::string name() const { return std::string(kNames<E>[std::size_t(value_)].name); }
-  constexpr bool operator==(const Chosen&) const = default;
-  constexpr bool operator==(E value) const { return value_ == value; }
-
- private:
-  static E value_of(std::string_view name) {
-    for (const auto& row : kNames<E>)
-      if (row.name == name) return row.value;
-    throw CaseError("\"" + std::string(name) + "\" must be one of " + names_of<E>());
-  }
-
-  E value_;
-};
 
 // -- contact -------------------------------------------------------------------------------------
 
@@ -286,13 +239,39 @@ inline constexpr auto kNames<TimeIntegrator> = std::to_array<Named<TimeIntegrato
     {TimeIntegrator::euler, "euler", "forward Euler"},
 });
 
-/// Every enumerator has its row, at its place.
-template <class E, E last>
-inline constexpr bool all_named = [] {
-  for (std::size_t k = 0; k < kNames<E>.size(); ++k)
-    if (std::size_t(kNames<E>[k].value) != k) return false;
-  return kNames<E>.size() == std::size_t(last) + 1;
-}();
+// -- the whole case ------------------------------------------------------------------------------
+
+/// preset
+enum class Preset { standard, he2018, democritus, robinson2014 };
+template <>
+inline constexpr auto kNames<Preset> = std::to_array<Named<Preset>>({
+    {Preset::standard, "default",
+     "Wendland C2, h/dx 1.5, density diffusion, EPSD rolling, Di Felice, kick-drift-kick"},
+    {Preset::he2018, "he2018", "He et al. 2018: h/dx 1.3, XSPH, Mindlin-Deresiewicz, CDT, Gidaspow, Euler"},
+    {Preset::democritus, "democritus",
+     "Tsuzuki's DEMocritus: SDPD with spin, Lucy, pressure filter and clip, Gidaspow, top-hat porosity"},
+    {Preset::robinson2014, "robinson2014",
+     "Robinson et al. 2014: cubic spline, variable h, signal viscosity, linear frictionless contacts, single "
+     "layers"},
+});
+
+/// run.precision
+enum class Precision { mixed, fp32, fp64 };
+template <>
+inline constexpr auto kNames<Precision> = std::to_array<Named<Precision>>({
+    {Precision::mixed, "mixed", "fp64 positions, fp32 velocities and pairs"},
+    {Precision::fp32, "single", "fp32, cell-relative positions"},
+    {Precision::fp64, "double", "fp64 throughout"},
+});
+
+/// run.simd
+enum class Simd { automatic, baseline, avx2 };
+template <>
+inline constexpr auto kNames<Simd> = std::to_array<Named<Simd>>({
+    {Simd::automatic, "auto", "avx2 if the CPU has it"},
+    {Simd::baseline, "baseline", "those that every x86-64 has"},
+    {Simd::avx2, "avx2", "AVX2 and FMA"},
+});
 
 static_assert(all_named<NormalLaw, NormalLaw::none> && all_named<SlidingLaw, SlidingLaw::none> &&
               all_named<RollingLaw, RollingLaw::none> && all_named<FluidModel, FluidModel::sdpd_a> &&
@@ -307,6 +286,7 @@ static_assert(all_named<NormalLaw, NormalLaw::none> && all_named<SlidingLaw, Sli
               all_named<CouplingMode, CouplingMode::off> && all_named<DragSlip, DragSlip::local> &&
               all_named<SuspensionLaw, SuspensionLaw::maron_pierce> && all_named<DragLaw, DragLaw::table> &&
               all_named<DragIntegrator, DragIntegrator::explicit_steps> &&
-              all_named<TimeIntegrator, TimeIntegrator::euler>);
+              all_named<TimeIntegrator, TimeIntegrator::euler> && all_named<Preset, Preset::robinson2014> &&
+              all_named<Precision, Precision::fp64> && all_named<Simd, Simd::avx2>);
 
 }  // namespace bedload

@@ -19,13 +19,15 @@
 #include "bedload/case/config/shapes.hpp"
 #include "bedload/case/config/time.hpp"
 #include "bedload/case/config/walls.hpp"
+#include "bedload/case/places.hpp"
 
 namespace bedload {
 
 struct Config {
   std::string title;
-  std::string preset = "default";              ///< default, he2018, democritus, robinson2014
+  Chosen<Preset> preset = Preset::standard;
   std::string file;                            ///< where it came from
+  Places places;                               ///< where it gives its keys
   Vec3d gravity{0, 0, -9.81};                  ///< m/s2
   DriveConfig drive;
   double xsph = 0;
@@ -51,8 +53,8 @@ struct Config {
   CouplingConfig couple;
   TimeConfig time;
   OutputConfig out;
-  std::string precision = "mixed";             ///< single, mixed, double
-  std::string simd = "auto";                   ///< auto, baseline, avx2
+  Chosen<Precision> precision = Precision::mixed;
+  Chosen<Simd> simd = Simd::automatic;
   std::uint64_t seed = 1;
   double max_lost = 1e-3;                      ///< fraction of fluid, grains, bodies that may leave the domain unasked
   double skin_fluid = 0.3;                     ///< neighbour skin / fluid.dx

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "bedload/case/choices.hpp"
+#include "bedload/case/chosen.hpp"
 #include "bedload/case/config/motion.hpp"
 
 namespace bedload {
@@ -79,8 +79,15 @@ class Parameters {
   /// A key that takes one of the names of E, with kNames<E> as its choices.
   template <class E>
   void operator()(std::string_view key, Chosen<E>* value, About about) {
-    for (const auto& row : kNames<E>)
-      about.choices.push_back(Choice{std::string(row.name), std::string(row.meaning)});
+    add_choices<E>(about);
+    std::string name = value->name();
+    (*this)(key, Slot(&name), about);
+    *value = name;
+  }
+  /// The same, or a name of the case's own: about.or_else says of what.
+  template <class E>
+  void operator()(std::string_view key, ChosenOrNamed<E>* value, About about) {
+    add_choices<E>(about);
     std::string name = value->name();
     (*this)(key, Slot(&name), about);
     *value = name;
@@ -106,6 +113,13 @@ class Parameters {
   virtual std::size_t open_list(std::string_view key, std::size_t have) = 0;
   virtual void open_item(std::string_view key, std::size_t i) = 0;
   virtual void close_item() = 0;
+
+ private:
+  template <class E>
+  static void add_choices(About& about) {
+    for (const auto& row : kNames<E>)
+      about.choices.push_back(Choice{std::string(row.name), std::string(row.meaning)});
+  }
 };
 
 /// Walks all parameters of a case, in the order in which they are written.
@@ -134,7 +148,8 @@ struct ParameterRow {
   std::string formerly = {};  ///< key in the version before, where it was another
   std::string path = {};      ///< the key with [] behind lists: "wall.body[].motion.add[].kind"
   ValueKind kind = ValueKind::text;
-  Interval range = {};  ///< all numbers where it depends on other keys; `allowed` is that of a case of defaults
+  Interval range =
+      {};  ///< all numbers where it depends on other keys; `allowed` is that of a case of defaults
   std::string or_else = {};
   bool fixed_default = false;  ///< `fallback` is a value, not words
   bool required = false;       ///< wherever its table is, whatever else that holds

@@ -2,9 +2,7 @@
 // From a case file to a Config and back.
 
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "bedload/case/config.hpp"
@@ -28,21 +26,11 @@ Config read_case_text(const std::string& text, const std::string& name,
 Config read_case_tree(Value root, const std::string& name, std::vector<std::string>& warnings,
                       const std::filesystem::path& checkpoint = {});
 
-/// Where a case says `key`: "dam.toml:14" or "--set key=value"; the file alone if it does not. For errors
-/// that come up after reading.
-std::string place_in_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
-                          std::string_view key);
-
 /// The case with every default filled in, as TOML that read_case takes back to an equal Config.
 std::string resolved_toml(const Config& config);
 
 /// Where the resolved case `now` would compute otherwise than `then`: "fluid.mu = 0.002 (0.001 then)".
 std::vector<std::string> changes_between(const std::string& then, const std::string& now);
-
-/// The defaults of a preset; `name` is one of those of the key. What the case says of the fluid model and of
-/// variable h comes before the preset's own.
-Config preset_defaults(const std::string& name, std::optional<FluidModel> fluid_model = {},
-                       std::optional<bool> variable_h = {});
 
 /// What the settling of the grains before t = 0 depends on, and nothing else: a
 /// dry case of grains and walls.

@@ -16,13 +16,13 @@ struct Value {
   using Table = std::map<std::string, Value, std::less<>>;
   std::variant<std::monostate, bool, std::int64_t, double, std::string, Array, Table> data = {};
   std::string source = {};  ///< file, or "--set key=value"
-  int line = 0;             ///< 0 if it has none
+  int line = 0;             ///< 0: from --set, which has no lines
 
   template <class T>
   const T* get() const {
     return std::get_if<T>(&data);
   }
-  /// Member `key` of a table; null if it has none.
+  /// Member `key` of a table; null if there is no such member.
   const Value* find(std::string_view key) const;
   /// "dam.toml:14" or "--set grain.e=2".
   std::string place() const;

@@ -12,8 +12,8 @@ struct CaseError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The same of a case that was read already, by the path of a key ("fluid.fill.0.max"): whoever knows the
-/// file adds where it says so.
+/// The same of a case that was read already, by the path of a key ("fluid.fill.0.max"); `placed` adds where
+/// the case gives it.
 struct KeyError : CaseError {
   KeyError(std::string of, const std::string& what) : CaseError(what), key(std::move(of)) {}
   std::string key;

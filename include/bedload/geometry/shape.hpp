@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "bedload/case/setup_choices.hpp"
 #include "bedload/core/vec.hpp"
 
 namespace bedload {
@@ -105,8 +106,6 @@ ShapePtr make_cylinder(const Vec3d& a, const Vec3d& b, double radius);
 
 /// Flat ends at a and b; one of the two radii may be 0.
 ShapePtr make_cone(const Vec3d& a, const Vec3d& b, double radius_a, double radius_b);
-
-enum class PipeEnds { open, closed_a, closed_b, closed };
 
 /// Hollow cylinder whose bore runs from a to b. A closed end is a plate beyond it, as thick as the wall.
 ShapePtr make_pipe(const Vec3d& a, const Vec3d& b, double inner_radius, double outer_radius, PipeEnds ends);

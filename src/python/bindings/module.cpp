@@ -55,8 +55,7 @@ nb::dict to_dict(const std::vector<StepLimit>& limits) {
 class Run {
  public:
   Run(const ReadCase& given, const std::filesystem::path& out, const std::filesystem::path& restart,
-      const std::string& backend, int threads, bool overwrite, bool allow_changes)
-      : tree_(given.tree) {
+      const std::string& backend, int threads, bool overwrite, bool allow_changes) {
     Options options;
     options.command = "run";
     options.out = out;
@@ -71,7 +70,7 @@ class Run {
         lock_.emplace(out);
         refuse_other_run(options);
       }
-      placed(tree_, [&] {
+      placed(given.config.places, [&] {
         Prepared prepared;
         prepared.config = given.config;
         prepared.warnings = given.warnings;
@@ -87,7 +86,7 @@ class Run {
   bool cuda() const { return session_->prepared().device.cuda(); }
 
   StepInfo step() {
-    return computed([&] { return placed(tree_, [&] { return session_->step(); }); });
+    return computed([&] { return placed(config().places, [&] { return session_->step(); }); });
   }
   void begin() {
     computed([&] { session_->begin(); });
@@ -101,8 +100,8 @@ class Run {
     const auto views = computed([&] { return simulation().fields(store); });
     nb::dict out;
     for (const FieldView& v : views)
-      out[v.name.c_str()] = nb::make_tuple(
-          cuda() ? nb::cast(DeviceField{v, session_->prepared().device}) : view_of(v), v.unit);
+      out[v.name.c_str()] =
+          nb::make_tuple(cuda() ? nb::cast(DeviceField{v, session_->prepared().device}) : view_of(v), v.unit);
     return out;
   }
   nb::dict snapshot(const std::string& store) {
@@ -131,7 +130,6 @@ class Run {
   }
 
  private:
-  Value tree_;
   std::optional<FolderLock> lock_;
   std::optional<Session> session_;
 };
@@ -148,7 +146,7 @@ nb::dict checked(const ReadCase& given, const std::string& backend, int threads)
   std::vector<Quantity> numerical;
   std::size_t bytes = 0;
   computed([&] {
-    placed(given.tree, [&] {
+    placed(given.config.places, [&] {
       initialise(options, p);
       TrialSimulation trial(p);
       Simulation& simulation = trial.simulation();

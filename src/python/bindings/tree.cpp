@@ -8,6 +8,7 @@
 
 #include "bedload/case/drag_table.hpp"
 #include "bedload/case/read.hpp"
+#include "bedload/case/section.hpp"
 #include "bedload/core/error.hpp"
 #include "cli/list.hpp"
 
@@ -122,8 +123,7 @@ void bind_cases(nb::module_& m) {
       [](const nb::dict& tree, const nb::dict& places, const std::string& name,
          const std::filesystem::path& checkpoint) {
         ReadCase out;
-        out.tree = ToValue(places, name)(tree);
-        out.config = read_case_tree(out.tree, name, out.warnings, checkpoint);
+        out.config = read_case_tree(ToValue(places, name)(tree), name, out.warnings, checkpoint);
         return out;
       },
       nb::arg("tree"), nb::arg("places"), nb::arg("name"), nb::arg("checkpoint") = std::filesystem::path(),

@@ -45,8 +45,8 @@ std::optional<LiveSide> live_side(const std::string& name) {
 void LivePicture::sample_walls() {
   double largest = 0;
   for (const WallBody& body : config_.wall.bodies)
-    largest = std::max(
-        largest, norm(body.shape == "plane" ? config_.domain.max - config_.domain.min : body.max - body.min));
+    largest = std::max(largest, norm(body.shape == WallShape::plane ? config_.domain.max - config_.domain.min
+                                                                    : body.max - body.min));
   spacing_ = surface_spacing(config_, largest / kAcross);
   walls_ = wall_surfaces(config_, spacing_);
   sampled_ = true;

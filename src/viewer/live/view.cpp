@@ -73,7 +73,7 @@ void LiveView::begin(const Config& config, const Device& device, const Simulatio
   const std::lock_guard lock(mutex_);
   title_ = config.title;
   device_ = device.backend + ", " + device.name;
-  precision_ = config.precision;
+  precision_ = config.precision.name();
   state_ = "running";
   progress_ = ProgressLine();
   progress_.time = simulation.time();

@@ -22,7 +22,7 @@ struct ContactConfig {
 /// Forces of the fluid that grains squeeze out from between them.
 struct LubricationConfig {
   Chosen<LubricationForces> forces = LubricationForces::none;
-  double cut_off = 1;                          ///< gap beyond which there is none / R*
+  double cut_off = 1;                          ///< gap beyond which they do not act / R*
   double least_gap = 0.01;                     ///< gap below which it grows no further / R*
   bool acts() const { return forces != LubricationForces::none; }
   bool operator==(const LubricationConfig&) const = default;

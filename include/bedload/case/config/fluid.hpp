@@ -62,7 +62,7 @@ struct FluidConfig : FluidProperties {
   double depth = 0;                            ///< H: height of the initial fluid along gravity, m (resolved)
   std::vector<FluidFill> fills;
   std::vector<FluidSpecies> species;           ///< none: the fluid is one
-  /// Place in `species`; the first for a name that is none.
+  /// Place in `species`; the first for an unknown name.
   std::uint32_t species_of(const FluidFill& fill) const {
     for (std::size_t k = 0; k < species.size(); ++k)
       if (species[k].name == fill.species) return std::uint32_t(k);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bedload/case/config/shapes.hpp"
+#include "bedload/case/setup_choices.hpp"
 
 namespace bedload {
 
@@ -14,7 +15,7 @@ namespace bedload {
 struct SizeClass {
   double d = 0;                                ///< class: diameter, m
   double number_fraction = 1;                  ///< of the grains, relative to the other entries
-  std::string kind = "class";                  ///< class, uniform, log_normal, sieve
+  Chosen<SizeKind> kind = SizeKind::one_size;
   double d_min = 0, d_max = 0;                 ///< uniform, log_normal: ends, m
   double median = 0;                           ///< log_normal: m
   double sigma = 0;                            ///< log_normal: standard deviation of ln d
@@ -26,8 +27,8 @@ struct SizeClass {
 /// Grains that keep their places among each other and move as one body.
 struct RigidConfig {
   bool present = false;
-  std::string move = "all";                    ///< all, plane (across axis), axis (along it), none
-  std::string turn = "all";                    ///< all, axis, none
+  Chosen<BodyMove> move = BodyMove::all;
+  Chosen<BodyTurn> turn = BodyTurn::all;
   Vec3d axis{0, 0, 1};                         ///< unit (resolved)
   bool operator==(const RigidConfig&) const = default;
 };
@@ -91,7 +92,7 @@ struct GrainConfig {
     all.insert(all.end(), materials.begin(), materials.end());
     return all;
   }
-  /// Its number; that of grain.* for a name that is none.
+  /// Its number; that of grain.* for an unknown name.
   std::uint32_t material(const std::string& name) const {
     for (std::size_t k = 0; k < materials.size(); ++k)
       if (materials[k].name == name) return std::uint32_t(k + 1);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bedload/case/setup_choices.hpp"
 #include "bedload/core/vec.hpp"
 
 namespace bedload {
@@ -15,7 +16,7 @@ using MotionRow = std::array<double, 7>;
 
 /// One part of a motion. Its t counts from start.
 struct MotionPart {
-  std::string kind = "fixed";                  ///< fixed, velocity, oscillation, rotation, table, formula
+  Chosen<MotionKind> kind = MotionKind::fixed;
   Vec3d velocity;                              ///< velocity: m/s
   Vec3d amplitude;                             ///< oscillation: displacement amplitude, m
   double frequency = 0;                        ///< oscillation: Hz
@@ -24,7 +25,7 @@ struct MotionPart {
   std::string factor = "1";                    ///< velocity, rotation: of velocity or rate, a formula in t
   std::string file;                            ///< table: CSV file; its rows replace it when the case is read
   std::vector<MotionRow> rows;                 ///< table
-  std::string spline = "smooth";               ///< table: smooth, monotone
+  Chosen<TableSpline> spline = TableSpline::smooth;  ///< table
   std::array<std::string, 3> displacement{"0", "0", "0"};  ///< formula: in t, m
   std::array<std::string, 3> rotation{"0", "0", "0"};      ///< formula: in t, rotation vector, deg
   double start = 0;                            ///< s
@@ -37,7 +38,7 @@ struct MotionPart {
 struct MotionConfig : MotionPart {
   bool remove_when_clear = false;              ///< deleted once above all fluid and grains
   std::vector<MotionPart> add;                 ///< translations add, rotations follow in this order
-  bool moves() const { return kind != "fixed" || !add.empty(); }
+  bool moves() const { return kind != MotionKind::fixed || !add.empty(); }
   bool operator==(const MotionConfig&) const = default;
 };
 

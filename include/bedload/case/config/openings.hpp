@@ -12,7 +12,7 @@ namespace bedload {
 /// A plane orifice through which fluid comes in.
 struct InletConfig {
   std::string name;
-  std::string shape = "disc";                  ///< disc, rectangle
+  Chosen<OrificeShape> shape = OrificeShape::disc;
   Vec3d centre, direction;                     ///< m; unit, into the flow
   double radius = 0;                           ///< disc: m
   Vec3d half_a, half_b;                        ///< rectangle: from its centre to the middles of two sides, m
@@ -28,19 +28,21 @@ struct InletConfig {
 /// Where fluid or grains are taken out.
 struct OutletConfig {
   std::string name;
-  std::string phase = "both";                  ///< fluid, grains, both
-  std::string shape = "box";                   ///< box, plane (half-space beyond it), or a name
+  Chosen<OutletPhase> phase = OutletPhase::both;
+  ChosenOrNamed<OutletShape> shape = OutletShape::box;  ///< or the name of a shape
   Vec3d min, max;                              ///< box: m; of a shape: around it (resolved)
   Vec3d point, normal;                         ///< plane: normal points out of the flow
   Solid solid;                                 ///< of a named shape (resolved)
-  bool takes(const char* what) const { return phase == "both" || phase == what; }
+  bool takes(Phase what) const {
+    return phase != (what == Phase::fluid ? OutletPhase::grains : OutletPhase::fluid);
+  }
   bool operator==(const OutletConfig&) const = default;
 };
 
 /// Where grains are dropped in one by one.
 struct GrainInletConfig {
   std::string name;
-  std::string shape = "box";                   ///< box, disc
+  Chosen<GrainInletShape> shape = GrainInletShape::box;
   Vec3d min, max;                              ///< box: m, grains lie inside
   Vec3d centre, direction;                     ///< disc: m, normal; centres of grains lie on it
   double radius = 0;                           ///< disc: m, grains lie inside

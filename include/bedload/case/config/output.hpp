@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bedload/case/setup_choices.hpp"
 #include "bedload/core/vec.hpp"
 
 namespace bedload {
@@ -11,8 +12,8 @@ namespace bedload {
 /// What is measured along the way; one CSV file each under probes/.
 struct ProbeConfig {
   std::string name;
-  std::string type;                            ///< front, point, height, box, force, wall_pressure
-  std::string phase = "fluid";                 ///< front, box: fluid, grains
+  Chosen<ProbeType> type = ProbeType::front;
+  Chosen<Phase> phase = Phase::fluid;          ///< front, box
   int axis = 0;                                ///< front: 0, 1, 2
   int sign = 1;                                ///< front: +1 largest coordinate, -1 smallest
   Vec3d at;                                    ///< point, height, wall_pressure: at t = 0, m
@@ -24,7 +25,7 @@ struct ProbeConfig {
   Vec3d normal;                                ///< wall_pressure: unit, into the fluid (resolved)
   Vec3d along;                                 ///< wall_pressure: unit, of the first side (resolved)
   Vec3d about;                                 ///< force: torque about this point, m
-  std::string sample = "mean";                 ///< force: mean over the interval, or instant
+  Chosen<ForceSample> sample = ForceSample::mean;  ///< force
   double every = 0;                            ///< s; 0: out.every
   bool operator==(const ProbeConfig&) const = default;
 };
@@ -34,7 +35,7 @@ struct OutputConfig {
   double diagnostics_every = 0;                ///< s (default out.every)
   double checkpoint_every = 0;                 ///< s; 0: only at the end
   bool walls = true;                           ///< write walls.vtkhdf
-  std::string bodies = "moving";               ///< bodies/*.csv of moving, all, none
+  Chosen<BodyTables> bodies = BodyTables::moving;  ///< which have a bodies/*.csv
   std::vector<ProbeConfig> probes;
   bool operator==(const OutputConfig&) const = default;
 };

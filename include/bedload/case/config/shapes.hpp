@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bedload/case/setup_choices.hpp"
 #include "bedload/core/vec.hpp"
 
 namespace bedload {
@@ -32,14 +33,14 @@ struct CopiesConfig {
 /// A solid with a name: walls are made of it, fluid and grains fill it.
 struct ShapeConfig {
   std::string name;
-  std::string kind = "box";                    ///< see describe_shapes.cpp
+  Chosen<ShapeKind> kind = ShapeKind::box;
   Vec3d min, max;                              ///< box: m
   Vec3d centre;                                ///< sphere: m
   Vec3d a, b;                                  ///< ends of the axis of capsule, cylinder, cone, pipe: m
   double radius = 0;                           ///< m; pipe: of the bore
   double radius_a = 0, radius_b = 0;           ///< cone: m
   double thickness = 0;                        ///< wall of pipe and hollow, m
-  std::string ends = "open";                   ///< pipe: open, closed_a, closed_b, closed
+  Chosen<PipeEnds> ends = PipeEnds::open;      ///< pipe: those with a plate
   std::string file;                            ///< mesh: STL, OBJ or PLY
   std::string digest;                          ///< of the file, hexadecimal; checked where it is given
   bool repair = false;                         ///< mesh

@@ -39,8 +39,8 @@ struct FreeConfig {
   Vec3d velocity;                              ///< of the centre of mass at the start, m/s
   Vec3d spin;                                  ///< rad/s
   double release_time = 0;                     ///< held until then, s
-  std::string move = "all";                    ///< all, plane (across axis), axis (along it), none
-  std::string turn = "all";                    ///< all, axis, none
+  Chosen<BodyMove> move = BodyMove::all;
+  Chosen<BodyTurn> turn = BodyTurn::all;
   Vec3d axis{0, 0, 1};                         ///< unit (resolved)
   std::vector<double> point;                   ///< move = none: stays where it is, m; empty: centre of mass
   bool fluid = true;                           ///< the fluid acts on it
@@ -59,7 +59,7 @@ struct FreeConfig {
 /// One wall body: a shape, how fluid meets it, how it moves.
 struct WallBody {
   std::string name;
-  std::string shape = "box";                   ///< box (solid), tank (seen from inside), plane, or a name
+  ChosenOrNamed<WallShape> shape = WallShape::box;  ///< or the name of a shape
   Vec3d min, max;                              ///< box, tank: m; of a shape: around it (resolved)
   std::array<bool, 6> faces{true, true, true, true, true, true};  ///< tank: x-, x+, y-, y+, z-, z+
   Vec3d point, normal;                         ///< plane: normal points into the flow

@@ -1,0 +1,184 @@
+#pragma once
+// What a case may be set up of: shapes, motions, openings, grain sizes, probes. As in choices.hpp each is
+// written once: enumerator, name, meaning.
+
+#include "bedload/case/chosen.hpp"
+
+namespace bedload {
+
+// -- shapes --------------------------------------------------------------------------------------
+
+/// shape.kind
+enum class ShapeKind { box, sphere, capsule, cylinder, cone, pipe, mesh, hollow, union_, difference };
+template <>
+inline constexpr auto kNames<ShapeKind> = std::to_array<Named<ShapeKind>>({
+    {ShapeKind::box, "box", "between two corners"},
+    {ShapeKind::sphere, "sphere", "about a centre"},
+    {ShapeKind::capsule, "capsule", "within a radius of the line from a to b"},
+    {ShapeKind::cylinder, "cylinder", "flat ends at a and b"},
+    {ShapeKind::cone, "cone", "flat ends at a and b, each with its radius"},
+    {ShapeKind::pipe, "pipe", "hollow cylinder whose bore runs from a to b"},
+    {ShapeKind::mesh, "mesh", "inside of a closed surface of triangles"},
+    {ShapeKind::hollow, "hollow", "vessel around another shape"},
+    {ShapeKind::union_, "union", "several shapes together"},
+    {ShapeKind::difference, "difference", "the first shape without the others"},
+});
+
+/// shape.ends, of pipes
+enum class PipeEnds { open, closed_a, closed_b, closed };
+template <>
+inline constexpr auto kNames<PipeEnds> = std::to_array<Named<PipeEnds>>({
+    {PipeEnds::open, "open", "none"},
+    {PipeEnds::closed_a, "closed_a", "a"},
+    {PipeEnds::closed_b, "closed_b", "b"},
+    {PipeEnds::closed, "closed", "both"},
+});
+
+/// wall.body.shape
+enum class WallShape { tank, box, plane };
+template <>
+inline constexpr auto kNames<WallShape> = std::to_array<Named<WallShape>>({
+    {WallShape::tank, "tank", "box seen from inside, sides as given by faces"},
+    {WallShape::box, "box", "solid box"},
+    {WallShape::plane, "plane", "half-space behind a plane"},
+});
+
+// -- motions -------------------------------------------------------------------------------------
+
+/// wall.body.motion.kind, frame.motion.kind and those of what is added to them
+enum class MotionKind { fixed, velocity, oscillation, rotation, table, formula };
+template <>
+inline constexpr auto kNames<MotionKind> = std::to_array<Named<MotionKind>>({
+    {MotionKind::fixed, "fixed", "at rest"},
+    {MotionKind::velocity, "velocity", "straight, at constant velocity"},
+    {MotionKind::oscillation, "oscillation", "displacement amplitude sin(2 pi f t)"},
+    {MotionKind::rotation, "rotation", "about an axis"},
+    {MotionKind::table, "table", "through places and rotations given over time"},
+    {MotionKind::formula, "formula", "displacement and rotation as formulas in t"},
+});
+
+/// wall.body.motion.spline
+enum class TableSpline { smooth, monotone };
+template <>
+inline constexpr auto kNames<TableSpline> = std::to_array<Named<TableSpline>>({
+    {TableSpline::smooth, "smooth", "acceleration continuous; may swing beyond the rows"},
+    {TableSpline::monotone, "monotone", "velocity continuous; never beyond the rows"},
+});
+
+/// wall.body.free.move, grain.fill.rigid.move
+enum class BodyMove : std::uint32_t { all, plane, axis, none };
+template <>
+inline constexpr auto kNames<BodyMove> = std::to_array<Named<BodyMove>>({
+    {BodyMove::all, "all", "anywhere"},
+    {BodyMove::plane, "plane", "across the axis"},
+    {BodyMove::axis, "axis", "along the axis"},
+    {BodyMove::none, "none", "nowhere"},
+});
+
+/// wall.body.free.turn, grain.fill.rigid.turn
+enum class BodyTurn : std::uint32_t { all, axis, none };
+template <>
+inline constexpr auto kNames<BodyTurn> = std::to_array<Named<BodyTurn>>({
+    {BodyTurn::all, "all", "any way"},
+    {BodyTurn::axis, "axis", "about the axis"},
+    {BodyTurn::none, "none", "not at all"},
+});
+
+// -- openings ------------------------------------------------------------------------------------
+
+/// inlet.shape
+enum class OrificeShape { disc, rectangle };
+template <>
+inline constexpr auto kNames<OrificeShape> = std::to_array<Named<OrificeShape>>({
+    {OrificeShape::disc, "disc", "round"},
+    {OrificeShape::rectangle, "rectangle", "with four right angles"},
+});
+
+/// outlet.phase
+enum class OutletPhase { both, fluid, grains };
+template <>
+inline constexpr auto kNames<OutletPhase> = std::to_array<Named<OutletPhase>>({
+    {OutletPhase::both, "both", "fluid and grains"},
+    {OutletPhase::fluid, "fluid", "the fluid"},
+    {OutletPhase::grains, "grains", "the grains"},
+});
+
+/// outlet.shape
+enum class OutletShape { box, plane };
+template <>
+inline constexpr auto kNames<OutletShape> = std::to_array<Named<OutletShape>>({
+    {OutletShape::box, "box", "in a box"},
+    {OutletShape::plane, "plane", "beyond a plane"},
+});
+
+/// grain_inlet.shape
+enum class GrainInletShape { box, disc };
+template <>
+inline constexpr auto kNames<GrainInletShape> = std::to_array<Named<GrainInletShape>>({
+    {GrainInletShape::box, "box", "inside a box"},
+    {GrainInletShape::disc, "disc", "on a disc"},
+});
+
+// -- grains --------------------------------------------------------------------------------------
+
+/// grain.fill.sizes.kind, grain_inlet.sizes.kind
+enum class SizeKind { one_size, uniform, log_normal, sieve };
+template <>
+inline constexpr auto kNames<SizeKind> = std::to_array<Named<SizeKind>>({
+    {SizeKind::one_size, "class", "all grains of diameter d"},
+    {SizeKind::uniform, "uniform", "as many grains of any diameter between d_min and d_max"},
+    {SizeKind::log_normal, "log_normal", "by count about the median, cut at d_min and d_max"},
+    {SizeKind::sieve, "sieve", "mass by mesh opening, log-linear in between"},
+});
+
+// -- output --------------------------------------------------------------------------------------
+
+/// probe.type
+enum class ProbeType { front, point, height, box, force, wall_pressure };
+template <>
+inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
+    {ProbeType::front, "front", "furthest place of a phase along a direction"},
+    {ProbeType::point, "point", "fluid velocity and pressure at a place"},
+    {ProbeType::height, "height", "fluid surface over a place, and depth of connected water there"},
+    {ProbeType::box, "box", "mass and momentum in a box"},
+    {ProbeType::force, "force", "force and torque on a wall body"},
+    {ProbeType::wall_pressure, "wall_pressure",
+     "force per area on patches of a wall body, as transducers read it"},
+});
+
+/// probe.phase
+enum class Phase { fluid, grains };
+template <>
+inline constexpr auto kNames<Phase> = std::to_array<Named<Phase>>({
+    {Phase::fluid, "fluid", "the fluid"},
+    {Phase::grains, "grains", "the grains"},
+});
+
+/// probe.sample, of forces
+enum class ForceSample { mean, instant };
+template <>
+inline constexpr auto kNames<ForceSample> = std::to_array<Named<ForceSample>>({
+    {ForceSample::mean, "mean",
+     "means since the row before, from every step and substep: times the interval they are impulse and work"},
+    {ForceSample::instant, "instant", "what acts at that moment"},
+});
+
+/// out.bodies
+enum class BodyTables { moving, all, none };
+template <>
+inline constexpr auto kNames<BodyTables> = std::to_array<Named<BodyTables>>({
+    {BodyTables::moving, "moving", "those that move"},
+    {BodyTables::all, "all", "every one"},
+    {BodyTables::none, "none", "no tables"},
+});
+
+static_assert(all_named<ShapeKind, ShapeKind::difference> && all_named<PipeEnds, PipeEnds::closed> &&
+              all_named<WallShape, WallShape::plane> && all_named<MotionKind, MotionKind::formula> &&
+              all_named<TableSpline, TableSpline::monotone> && all_named<BodyMove, BodyMove::none> &&
+              all_named<BodyTurn, BodyTurn::none> && all_named<OrificeShape, OrificeShape::rectangle> &&
+              all_named<OutletPhase, OutletPhase::grains> && all_named<OutletShape, OutletShape::plane> &&
+              all_named<GrainInletShape, GrainInletShape::disc> && all_named<SizeKind, SizeKind::sieve> &&
+              all_named<ProbeType, ProbeType::wall_pressure> && all_named<Phase, Phase::grains> &&
+              all_named<ForceSample, ForceSample::instant> && all_named<BodyTables, BodyTables::none>);
+
+}  // namespace bedload
