@@ -95,6 +95,8 @@ class Checks {
   bool still_in(const WallBody& tank, int up_axis) const;
   /// Shapes do not repeat.
   void within_period(const std::string& path, const WallBody& body) const;
+  /// Particles of a plane repeat with the domain only along periods within it.
+  void repeats(const std::string& path, const WallBody& plane) const;
   /// Moves as it does from the first: a jump at t = 0 is meant.
   static bool steady(const MotionConfig& m);
   /// The first jumps of a motion, and how many more there are.

@@ -44,11 +44,16 @@ void Checks::walls() const {
              fmt::format("must differ from that of the table of grain.fill {}, a rigid group", fill + 1));
     if (body.shape != WallShape::plane) box(path, body.min, body.max);
     if (body.solid.shape) within_period(path + ".shape", body);
+    if (body.shape == WallShape::plane) repeats(path + ".normal", body);
     countable(path + ".shape", body);
     if (!body.moves()) met(body), rim(body);
     if (body.free.present) touchable(path, body);
   }
   if (!c.fluid.present) return;
+  const Value* given = root_.find("wall");  // a resolved case gives both keys
+  if (c.wall.energy_consistent && !c.wall.suction && given && given->find("energy_consistent") &&
+      !given->find("suction"))
+    warn("wall.energy_consistent = true: not used, since wall.suction = false");
   const double dx = c.fluid.dx;
   if (c.wall.dx < 0.25 * dx * (1 - 1e-9) || c.wall.dx > dx * (1 + 1e-9))
     fail("wall.dx", c.wall.dx,
@@ -173,6 +178,15 @@ void Checks::within_period(const std::string& path, const WallBody& body) const 
            fmt::format("must lie within the period along {}, {}..{} m; only tank, box and plane run through",
                        "xyz"[k], lo, hi));
   }
+}
+
+void Checks::repeats(const std::string& path, const WallBody& plane) const {
+  if (!c.fluid.present || !plane.stops_fluid()) return;
+  for (int k = 0; k < 3; ++k)
+    if (c.domain.periodic[k] && std::abs(plane.normal[k]) > 1e-12)
+      fail(path, to_text(plane.normal),
+           fmt::format("must be 0 along {}, in which the domain is periodic; the plane would not repeat",
+                       "xyz"[k]));
 }
 
 void Checks::motions() const {

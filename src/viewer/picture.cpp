@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bedload/core/error.hpp"
 #include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/sampling.hpp"
 #include "bedload/simulation.hpp"
@@ -219,8 +220,15 @@ double surface_spacing(const Config& config, double at_least) {
 Setup::Walls wall_surfaces(const Config& config, double at_least) {
   const double spacing = surface_spacing(config, at_least);
   Setup::Walls walls;
+  const auto places = [&](std::size_t index) {
+    try {
+      return sample_body(config.wall.bodies[index], spacing, spacing, config.domain);
+    } catch (const CaseError& error) {
+      throw KeyError(fmt::format("wall.body.{}", index), error.what());
+    }
+  };
   for (std::size_t index = 0; index < config.wall.bodies.size(); ++index)
-    for (const Vec3d& x : sample_body(config.wall.bodies[index], spacing, spacing, config.domain)) {
+    for (const Vec3d& x : places(index)) {
       walls.x.push_back(x);
       walls.body.push_back(std::uint32_t(index));
     }

@@ -269,6 +269,31 @@ TEST(Defaults, FollowTheModelAndVariableH) {
             "robinson2014");
 }
 
+TEST(Warnings, TellThatEnergyConsistentWallsNeedSuction) {
+  const auto with = [](const std::string& keys) {
+    return warnings_of(changed("[[wall.body]]", "[wall]\n" + keys + "[[wall.body]]"));
+  };
+  EXPECT_EQ(
+      with("energy_consistent = true\n"),
+      (std::vector<std::string>{"wall.energy_consistent = true: not used, since wall.suction = false"}));
+  EXPECT_TRUE(with("energy_consistent = true\nsuction = true\n").empty());
+  EXPECT_TRUE(with("energy_consistent = false\n").empty());
+  EXPECT_TRUE(warnings_of(resolved_toml(read(kCase))).empty()) << "which gives both";
+}
+
+TEST(Walls, PlanesMustRepeatWithTheDomain) {
+  const std::string plane =
+      "[[wall.body]]\nname = \"slope\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0.6, 0, "
+      "0.8]\n[grain]\n";
+  const std::string text = changed("[grain]\n", plane);
+  EXPECT_EQ(error_of(text), "");
+  EXPECT_EQ(
+      error_of(text, {"domain.periodic=[true, false, false]"}),
+      "dam.toml:19: wall.body.normal = [0.6, 0, 0.8] must be 0 along x, in which the domain is periodic; "
+      "the plane would not repeat");
+  EXPECT_EQ(error_of(text, {"domain.periodic=[false, true, false]"}), "");
+}
+
 /// Frames are of floats, which are coarse far from the origin.
 TEST(Warnings, TellHowFinePositionsAreWrittenFarFromTheOrigin) {
   const auto at = [](const std::string& x, const std::string& more = "") {
