@@ -236,7 +236,8 @@ template <>
 inline constexpr auto kNames<TimeIntegrator> = std::to_array<Named<TimeIntegrator>>({
     {TimeIntegrator::kdk, "kdk", "kick-drift-kick, second order; two passes over pairs a step"},
     {TimeIntegrator::ab3, "ab3", "the same with density by Adams-Bashforth: one pass over pairs a step"},
-    {TimeIntegrator::euler, "euler", "forward Euler"},
+    {TimeIntegrator::euler, "euler",
+     "symplectic Euler: velocity first, then position and density; first order"},
 });
 
 // -- the whole case ------------------------------------------------------------------------------
