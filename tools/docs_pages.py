@@ -31,16 +31,16 @@ def cell(text):
 
 def keys_page():
     out = ["# Keys of a case", "",
-           "Made from the program's own descriptions; `bedload list` prints the same, `bedload list --json` for programs.",
-           "Numbers are in the unit given; one in quotes may have another of the same kind: `\"2.7 mm\"`. **Bold** keys",
-           "must be given wherever their table is, others that say *required* where their kind asks for them. `[]` stands",
-           "behind lists of tables, written `[[...]]`; in `--set`, the number of one, from 0, stands in its place."]
+           "Generated from the program; `bedload list` prints the same, `bedload list --json` for programs.",
+           "Numbers are in the given unit; a value in quotes may have another unit of the same kind: `\"2.7 mm\"`. **Bold**",
+           "keys are required wherever their table is used, others marked *required* if the chosen kind needs them. `[]`",
+           "marks lists of tables, written `[[...]]`; in `--set` replace it by the index of the entry, from 0."]
     section = None
     for row in json.loads(program("list", "--json")):
         table, _, name = row["path"].rpartition(".")
         if table != section:
             section = table
-            title = f"`{table}`" if table else "Of the whole case"
+            title = f"`{table}`" if table else "Top level"
             out += ["", f"## {title}", "", "| key | unit | default | allowed | meaning |", "|---|---|---|---|---|"]
         key = f"**`{name}`**" if row["required"] else f"`{name}`"
         choices = [f"<br>`{c['name']}`: {cell(c['meaning'])}" for c in row["choices"] if c["meaning"]]
@@ -52,13 +52,13 @@ def keys_page():
 
 def words_page():
     out = ["# Words of other programs", "",
-           "Made from what the program knows: `bedload list words`, or `bedload list TimeMax` for one. Case, `_` and `-` do",
-           "not count."]
+           "Generated from the program: `bedload list words`, or `bedload list TimeMax` for one. Case, `_` and `-` are",
+           "ignored."]
     program_of = None
     for word in json.loads(program("list", "words", "--json")):
         if word["program"] != program_of:
             program_of = word["program"]
-            out += ["", f"## {program_of or 'Of the field'}", "", "| there | here | |", "|---|---|---|"]
+            out += ["", f"## {program_of or 'General terms'}", "", "| there | here | |", "|---|---|---|"]
         keys = ", ".join(f"`{key}`" for key in word["keys"])
         within = ", ".join(f"`{table}`" for table in word["within"])
         there = f"`{word['name']}`" + (f" in {within}" if within else "")
