@@ -411,7 +411,7 @@ TEST_F(Program, ReportsTheEffectOfChangingAKey) {
   EXPECT_NEAR(std::stoi(counts[2]), std::stoi(counts[1]) / 2, 1) << water;
 }
 
-/// docs/howto/walls.md: a box filled to its lid tears.
+/// docs/howto/walls.md: a box filled to its lid cavitates.
 TEST_F(Program, WarnsOfABoxFilledToItsLid) {
   write("box.toml", R"([domain]
 min = [0, 0, 0]
