@@ -79,44 +79,29 @@ struct TileLoop {
     const Index end = list.tile[blockIdx.x + 1].row;
     const Lane lane(threadIdx.x, list.bits);
     const Index i = tile.row + lane.row;
-    bool staged = false;
+    const auto among_all = [&](auto& sum) {
+      each_entry(lane, [&](Index local) {
+        if (local == tile.sources) return;
+        const Index j = list.source[tile.source + local];
+        const auto b = separation.b[j];
+        const Real3 r = separation(i, b);
+        const Real r2 = norm2(r);
+        if (r2 < range2) add_pair(pass, sum, j, r, r2, Real(b.weight));
+      });
+    };
     if constexpr (kFades<Pass>) {
-      staged = tile.sources < capacity;
-      if (staged) stage(tile);
+      if (tile.sources < capacity) return among_staged(tile, i, end, lane);
     }
-    if (i >= end || (!Mergeable<Pass> && lane.index > 0)) return;
-    auto sum = pass.start(i);
-    if constexpr (kFades<Pass>) {
-      if (staged) {
-        const Real3 at = separation.frame.separation(separation.a[i], separation.b[tile.row]);
-        if (list.periods.any)
-          each_entry(lane, [&](Index local) { add_staged(sum, local, at, list.periods); });
-        else
-          each_entry(lane,
-                     [&](Index local) { add_staged(sum, local, at, [](const Real3& r) { return r; }); });
-      }
-    }
-    if (!staged) each_entry(lane, [&](Index local) { add_listed(sum, tile, local, i); });
-    if constexpr (!std::is_same_v<WallRow, NoWalls>)
-      wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) { add_wall_pair(pass, sum, j, r, r2); });
-    finish_row(pass, i, lane, sum);
+    finish(i, end, lane, among_all);
   }
 
  private:
-  using Fields = decltype(detail::staged_of(pass.sources()));
-
-  /// Positions of the tile's sources, as distances from the first row, with their weights.
-  __device__ static Real4* staged_places() {
+  /// Places are staged as distances from the first row, with the weight.
+  __device__ void among_staged(const Tile& tile, Index i, Index end, const Lane& lane) const {
     extern __shared__ uint4 memory[];
-    return reinterpret_cast<Real4*>(memory);
-  }
-  __device__ auto staged_fields() const {
-    return Fields::at(reinterpret_cast<std::byte*>(staged_places() + capacity), capacity);
-  }
-  /// Copies what pairs read of the tile's sources to shared memory.
-  __device__ void stage(const Tile& tile) const {
-    Real4* const place = staged_places();
-    const auto fields = staged_fields();
+    using Fields = decltype(detail::staged_of(pass.sources()));
+    auto* const place = reinterpret_cast<Real4*>(memory);
+    const auto fields = Fields::at(reinterpret_cast<std::byte*>(place + capacity), capacity);
     const auto origin = separation.b[tile.row];
 #pragma unroll 4
     for (Index local = threadIdx.x; local < tile.sources; local += kTileThreads) {
@@ -132,25 +117,17 @@ struct TileLoop {
     __pipeline_commit();
     __pipeline_wait_prior(0);
     __syncthreads();
-  }
-  /// The pair of a row at `at`, as staged places are, and a staged source; entries at the end of a row have
-  /// no weight.
-  template <class Sum, class NearestImage>
-  __device__ void add_staged(Sum& sum, Index local, const Real3& at,
-                             const NearestImage& nearest_image) const {
-    const Real4 b = staged_places()[local];
-    const Real3 r = nearest_image(at - b.xyz());
-    staged_fields().load(local, [&](const auto&... of_b) { pass.pair(sum, r, norm2(r), b.w, of_b...); });
-  }
-  /// The pair of row i and a source that is not staged.
-  template <class Sum>
-  __device__ void add_listed(Sum& sum, const Tile& tile, Index local, Index i) const {
-    if (local == tile.sources) return;
-    const Index j = list.source[tile.source + local];
-    const auto b = separation.b[j];
-    const Real3 r = separation(i, b);
-    const Real r2 = norm2(r);
-    if (r2 < range2) add_pair(pass, sum, j, r, r2, Real(b.weight));
+    const Real3 a = separation.frame.separation(separation.a[min_of(i, end - 1)], origin);
+    finish(i, end, lane, [&](auto& sum) {
+      const auto pairs = [&](const auto& nearest_image) {
+        each_entry(lane, [&](Index local) {
+          const Real4 b = place[local];
+          const Real3 r = nearest_image(a - b.xyz());
+          fields.load(local, [&](const auto&... of_b) { pass.pair(sum, r, norm2(r), b.w, of_b...); });
+        });
+      };
+      list.periods.any ? pairs(list.periods) : pairs([](const Real3& r) { return r; });
+    });
   }
   /// f(local) for each entry of a row.
   template <class F>
@@ -167,6 +144,16 @@ struct TileLoop {
         f(word.y >> 16);
       }
     }
+  }
+  /// A whole row, whose fluid `among` adds up.
+  template <class F>
+  __device__ void finish(Index i, Index end, const Lane& lane, const F& among) const {
+    if (i >= end || (!Mergeable<Pass> && lane.index > 0)) return;
+    auto sum = pass.start(i);
+    among(sum);
+    if constexpr (!std::is_same_v<WallRow, NoWalls>)
+      wall_row(i, lane, [&](auto j, const auto& r, auto r2, auto) { add_wall_pair(pass, sum, j, r, r2); });
+    finish_row(pass, i, lane, sum);
   }
 };
 
