@@ -48,11 +48,12 @@ struct PackFluidPass {
   Span<const FluidPosition> x;
   Span<const Real4> v_rho;
   Span<const EosState<>> eos_state;
-  Span<PairPosition> xp;
-  Span<Real4> flux;  ///< empty without shear
+  Span<PairPosition> xp, xp_mid;  ///< xp_mid: likewise until particles move; may be empty
+  Span<Real4> flux;               ///< empty without shear
   BL_HD void operator()(Index a) const {
     const Vec3d at = coordinates(frame, x[a]);
     xp[a] = pair_position(frame, shear.lattice(at), eos_state[a].mass_over_eps);
+    if (xp_mid) xp_mid[a] = xp[a];
     if (flux) flux[a] = {shear.peculiar(v_rho[a].xyz(), at.z), v_rho[a].w};
   }
 };
@@ -284,8 +285,14 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
 }
 
 void FluidSolver::pack(FluidStore& fluid) {
-  for_each(fluid.all(),
-           PackFluidPass{frame_, shear_, fluid.x, fluid.v_rho, fluid.eos_state, fluid.xp, peculiar(fluid)});
+  for_each(fluid.all(), PackFluidPass{.frame = frame_,
+                                      .shear = shear_,
+                                      .x = fluid.x,
+                                      .v_rho = fluid.v_rho,
+                                      .eos_state = fluid.eos_state,
+                                      .xp = fluid.xp,
+                                      .xp_mid = fluid.xp_mid,
+                                      .flux = peculiar(fluid)});
 }
 
 void FluidSolver::pack(WallStore& walls, double back) {

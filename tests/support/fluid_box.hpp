@@ -79,6 +79,7 @@ struct FluidBox {
     fluid.eps.assign(std::vector<Real>(n, Real(1)));
     solver->refresh(fluid, walls, true, {});
     solver->state(fluid, 0, false);
+    solver->pack(fluid);  // with the weights that follow from the state
   }
   /// With nothing that drives the fluid.
   StepTime moment(std::uint64_t step = 0) const { return {step, Real3(config.gravity), {}}; }
