@@ -53,8 +53,8 @@ const FieldBase* at_mid(const Particles& p) {
 
 }  // namespace
 
-/// Where a stage begins: the clock of its part runs, and an observer is told what it uses. `fields` makes
-/// that list, which nobody else needs.
+/// Begins a stage: starts the clock of its part and passes its fields to an observer, if there is one.
+/// `fields` makes the list of fields, which only an observer needs.
 template <class MakeAccess>
 void Stepper::begin(Step& now, std::string_view name, Part part, const MakeAccess& fields) const {
   if (now.watch && part != now.timed) now.watch->lap(int(now.timed));
@@ -380,7 +380,7 @@ void Stepper::push(Step& now) {
   solid_solver_->groups().follow(grains_, {}, {}, 0);
 }
 
-/// The clock, and a look for what broke down.
+/// Advances the clock and looks for particles that broke down.
 void Stepper::finish(Step& now) {
   const GrainStore& g = grains_;
   begin(now, "finish", Part::checks, [&] {
