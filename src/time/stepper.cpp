@@ -23,16 +23,19 @@ void must_be_finite(const Vec3d& v, const char* what, double t) {
 
 constexpr double kMostSubsteps = 1e6;  ///< of a step
 
-/// A run with so many would never end, and the poses of walls at each would fill the memory.
-[[noreturn]] void refuse_substeps(double dt, const StepLimit& longest, double substeps) {
+/// A run with so many would never end, and the poses of walls at each would fill the memory. At the first
+/// step the case is wrong.
+[[noreturn]] void refuse_substeps(double dt, const StepLimit& longest, double substeps, bool first) {
   const NamedLimit& bound = kLimits[std::size_t(longest.limit)];
   char text[300];
   std::snprintf(
       text, sizeof text,
-      "a step of %.3g s would take %.3g substeps of %.3g s, more than %.0f, by the limit \"%s\"%s%s", dt,
-      substeps, longest.seconds, kMostSubsteps, std::string(bound.name).c_str(),
-      bound.key.empty() ? "" : "; see ", std::string(bound.key).c_str());
-  throw SimulationFault(text);
+      "a step of %.3g s would take %.3g substeps of %.3g s, by the limit \"%s\"; at most %.0f are allowed",
+      dt, substeps, longest.seconds, std::string(bound.name).c_str(), kMostSubsteps);
+  if (!first) throw SimulationFault(text);
+  const bool named = !bound.key.empty() && longest.limit != Limit::fixed;
+  const std::string key(named ? bound.key : "time.dt_dem");
+  throw KeyError(key, key + ": " + text);
 }
 
 }  // namespace
@@ -131,7 +134,7 @@ Step Stepper::next_step() {
   if (now.held && !bodies_.any()) return now;
   const StepLimit longest = longest_substep();
   const double substeps = std::ceil(now.dt / longest.seconds * (1 - 1e-9));
-  if (!(substeps <= kMostSubsteps)) refuse_substeps(now.dt, longest, substeps);
+  if (!(substeps <= kMostSubsteps)) refuse_substeps(now.dt, longest, substeps, clock_.step == 0);
   now.substep_limit = longest.limit;
   now.substeps = std::max(1, int(substeps));
   return now;

@@ -1,4 +1,4 @@
-// What bounds steps and substeps is told by name.
+// Limits of steps and substeps are reported by name.
 
 #include <gtest/gtest.h>
 
@@ -137,6 +137,18 @@ TEST(StepLimits, EachBindsStepsAndIsNamed) {
     if (of_substeps.contains(row.limit)) {
       EXPECT_EQ(name_of(of_substeps.at(row.limit)().substep_limit), row.name);
     }
+  }
+}
+
+/// Such a run would never end, and memory for the poses of walls at each substep runs out before.
+TEST(StepLimits, MoreThanAMillionSubstepsAreRefused) {
+  try {
+    wet({"time.dt_dem=1e-12"});
+    ADD_FAILURE() << "nothing was refused";
+  } catch (const KeyError& error) {
+    EXPECT_EQ(error.key, "time.dt_dem");
+    EXPECT_NE(std::string(error.what()).find("at most 1000000 are allowed"), std::string::npos)
+        << error.what();
   }
 }
 
