@@ -56,7 +56,7 @@ double InletFlow::volume(double t) const { return volume_ + integral(time_, t); 
 void InletFlow::advance(double t) {
   if (!std::isfinite(factor_(t)))
     throw SimulationFault("inlet \"" + name() +
-                          "\": inlet.factor is no finite number at t = " + std::to_string(t) + " s");
+                          "\": inlet.factor is not finite at t = " + std::to_string(t) + " s");
   volume_ = volume(t);
   time_ = t;
 }

@@ -18,7 +18,7 @@ namespace {
 /// What a formula makes of a time is known only then.
 void must_be_finite(const Vec3d& v, const char* what, double t) {
   if (!std::isfinite(norm2(v)))
-    throw SimulationFault(std::string(what) + " is no finite number at t = " + std::to_string(t) + " s");
+    throw SimulationFault(std::string(what) + " is not finite at t = " + std::to_string(t) + " s");
 }
 
 constexpr double kMostSubsteps = 1e6;  ///< of a step
