@@ -125,7 +125,7 @@ double most_energy_in_a_closed_box(bool consistent, double& work) {
   return most / start;
 }
 
-TEST(InviscidClosedBox, WallsAreNoSourceOfEnergy) {
+TEST(SlowInviscidClosedBox, WallsAreNoSourceOfEnergy) {
   double work = 0;
   EXPECT_LT(most_energy_in_a_closed_box(true, work), 1.02);
   EXPECT_NEAR(work, 0, 0.03);
