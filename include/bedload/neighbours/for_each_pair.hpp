@@ -66,55 +66,44 @@ BL_HD ReadWhere<T> read_where(bool reads, Span<const T> field, const T& otherwis
   return {reads, field, otherwise};
 }
 
+/// Of the neighbour j.
+template <class T, class J>
+BL_HD auto value_of(const Span<T>& field, J j) {
+  return field[j];
+}
+template <class J>
+BL_HD Unread value_of(Unread, J) {
+  return {};
+}
+template <class T, class J>
+BL_HD auto value_of(const ReadWhere<T>& field, J j) {
+  using Value = decltype(value_of(field.field, j));
+  return field.reads ? field.field[j] : Value(field.otherwise);
+}
+
+/// The k-th of the fields that a pass reads of a neighbour.
+template <std::size_t k, class Field>
+struct SourceField {
+  Field field;
+};
+template <class Places, class... Field>
+struct SourceFields;
+template <std::size_t... k, class... Field>
+struct SourceFields<std::index_sequence<k...>, Field...> : SourceField<k, Field>... {
+  /// f(value of each field)
+  template <class J, class F>
+  BL_HD void load([[maybe_unused]] J j, F&& f) const {
+    f(value_of(SourceField<k, Field>::field, j)...);
+  }
+};
 /// What a pass reads of a neighbour: one of each field.
-template <class... T>
-struct Sources {
-  template <class J, class F>
-  BL_HD void load(J, F&& f) const {
-    f();
-  }
-};
-template <class T, class... Rest>
-struct Sources<T, Rest...> {
-  Span<const T> field;
-  Sources<Rest...> rest;
-  template <class J, class F>
-  BL_HD void load(J j, F&& f) const {
-    const auto value = field[j];
-    rest.load(j, [&](const auto&... more) { f(value, more...); });
-  }
-};
-template <class... Rest>
-struct Sources<Unread, Rest...> {
-  Unread field;
-  Sources<Rest...> rest;
-  template <class J, class F>
-  BL_HD void load(J j, F&& f) const {
-    rest.load(j, [&](const auto&... more) { f(Unread{}, more...); });
-  }
-};
-template <class T, class... Rest>
-struct Sources<ReadWhere<T>, Rest...> {
-  ReadWhere<T> field;
-  Sources<Rest...> rest;
-  template <class J, class F>
-  BL_HD void load(J j, F&& f) const {
-    using Value = std::remove_cvref_t<decltype(field.field[j])>;
-    const Value value = field.reads ? field.field[j] : Value(field.otherwise);
-    rest.load(j, [&](const auto&... more) { f(value, more...); });
-  }
-};
-template <class T>
-std::remove_const_t<T> value_of(Span<T>);
-template <class T>
-ReadWhere<T> value_of(ReadWhere<T>);
-Unread value_of(Unread);
+template <class... Field>
+using Sources = SourceFields<std::index_sequence_for<Field...>, Field...>;
 
 /// Fields: spans, or what read_if and read_where make of them.
-BL_HD Sources<> sources_of() { return {}; }
-template <class Field, class... Rest>
-BL_HD auto sources_of(Field field, Rest... rest) {
-  return Sources<decltype(value_of(field)), decltype(value_of(rest))...>{field, sources_of(rest...)};
+template <class... Field>
+BL_HD Sources<Field...> sources_of(const Field&... field) {
+  return {{field}...};
 }
 
 template <class Pass, class Sum, class J, class R, class N>
@@ -326,17 +315,12 @@ struct TwoListLoop {
 };
 
 template <class Separation, class Pass>
-void for_each_pair(Range range, const VerletList& list, const Separation& separation,
-                   const VerletList& wall_list, const Separation& wall_separation, double cutoff,
-                   const Pass& pass) {
+void for_each_pair(Range range, const VerletList& list, const Separation& separation, double cutoff,
+                   const Pass& pass, const ListRow<Separation, Pass>& wall_row) {
   const unsigned bits = pass_lane_bits(pass, list);
-  const Real range2 = Real(cutoff * cutoff);
   for_each({0, range.size() << bits},
-           TwoListLoop<Separation, Pass>{{list.view(), separation, range2},
-                                         {wall_list.view(), wall_separation, range2},
-                                         pass,
-                                         range.begin,
-                                         bits});
+           TwoListLoop<Separation, Pass>{
+               {list.view(), separation, Real(cutoff * cutoff)}, wall_row, pass, range.begin, bits});
 }
 
 template <class Near, class Separation, class Pass>

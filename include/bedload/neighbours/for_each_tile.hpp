@@ -12,54 +12,62 @@ namespace bedload::inline BL_VARIANT {
 
 namespace detail {
 
-/// Shared memory of one source, bytes; and the fields of a tile's sources there, one after another.
-template <class... T>
+/// Of one source in shared memory, bytes.
+template <class Field>
+constexpr std::size_t kStagedBytes = 0;
+template <class T>
+constexpr std::size_t kStagedBytes<Span<T>> = sizeof(T);
+
+/// Copies a source's value there, asynchronously.
+template <class T>
+__device__ void stage(const Span<T>& to, const Span<T>& from, Index local, Index j) {
+  constexpr std::size_t piece = sizeof(T) % 16 == 0 ? 16 : sizeof(T) % 8 == 0 ? 8 : 4;
+  auto* const there = reinterpret_cast<std::byte*>(const_cast<std::remove_const_t<T>*>(to.data) + local);
+  const auto* const here = reinterpret_cast<const std::byte*>(from.data + j);
+  for (std::size_t k = 0; k < sizeof(T); k += piece) __pipeline_memcpy_async(there + k, here + k, piece);
+}
+__device__ inline void stage(Unread, Unread, Index, Index) {}
+
+/// Something for what has no weight.
+template <class T>
+__device__ void stage_one(const Span<T>& to, Index local) {
+  Real one[sizeof(T) / sizeof(Real)];
+  for (Real& n : one) n = 1;
+  memcpy(const_cast<std::remove_const_t<T>*>(to.data) + local, one, sizeof(T));
+}
+__device__ inline void stage_one(Unread, Index) {}
+
+/// The fields of a tile's sources in shared memory, one after another.
+template <class All>
 struct Staged;
-template <>
-struct Staged<> {
-  static constexpr std::size_t bytes = 0;
-  using All = Sources<>;
-  __device__ static All at(std::byte*, Index) { return {}; }
-  __device__ static void copy(const All&, const All&, Index, Index) {}
-  __device__ static void end(const All&, Index) {}
-};
-template <class T, class... Rest>
-struct Staged<T, Rest...> {
-  static constexpr std::size_t bytes = sizeof(T) + Staged<Rest...>::bytes;
-  using All = Sources<T, Rest...>;
+template <std::size_t... k, class... Field>
+struct Staged<SourceFields<std::index_sequence<k...>, Field...>> {
+  using All = Sources<Field...>;
+  static constexpr std::size_t bytes = (kStagedBytes<Field> + ... + 0);
+
   __device__ static All at(std::byte* memory, Index capacity) {
-    return {{reinterpret_cast<T*>(memory), capacity},
-            Staged<Rest...>::at(memory + capacity * sizeof(T), capacity)};
+    All all;
+    (place<k>(all, memory, capacity), ...);
+    return all;
   }
   __device__ static void copy(const All& to, const All& from, Index local, Index j) {
-    constexpr std::size_t piece = sizeof(T) % 16 == 0 ? 16 : sizeof(T) % 8 == 0 ? 8 : 4;
-    auto* const there = reinterpret_cast<std::byte*>(const_cast<T*>(to.field.data) + local);
-    const auto* const here = reinterpret_cast<const std::byte*>(from.field.data + j);
-    for (std::size_t k = 0; k < sizeof(T); k += piece) __pipeline_memcpy_async(there + k, here + k, piece);
-    Staged<Rest...>::copy(to.rest, from.rest, local, j);
+    (stage(to.SourceField<k, Field>::field, from.SourceField<k, Field>::field, local, j), ...);
   }
-  /// Something for what has no weight.
   __device__ static void end(const All& to, Index local) {
-    Real one[sizeof(T) / sizeof(Real)];
-    for (Real& n : one) n = 1;
-    memcpy(const_cast<T*>(to.field.data) + local, one, sizeof(T));
-    Staged<Rest...>::end(to.rest, local);
+    (stage_one(to.SourceField<k, Field>::field, local), ...);
   }
+
+ private:
+  template <std::size_t n, class T>
+  __device__ static void place(SourceField<n, Span<T>>& source, std::byte* memory, Index capacity) {
+    constexpr std::size_t before = ((k < n ? kStagedBytes<Field> : 0) + ... + 0);
+    source.field = {reinterpret_cast<T*>(memory + capacity * before), capacity};
+  }
+  template <std::size_t n>
+  __device__ static void place(SourceField<n, Unread>&, std::byte*, Index) {}
 };
-template <class... Rest>
-struct Staged<Unread, Rest...> {
-  static constexpr std::size_t bytes = Staged<Rest...>::bytes;
-  using All = Sources<Unread, Rest...>;
-  __device__ static All at(std::byte* memory, Index capacity) {
-    return {{}, Staged<Rest...>::at(memory, capacity)};
-  }
-  __device__ static void copy(const All& to, const All& from, Index local, Index j) {
-    Staged<Rest...>::copy(to.rest, from.rest, local, j);
-  }
-  __device__ static void end(const All& to, Index local) { Staged<Rest...>::end(to.rest, local); }
-};
-template <class... T>
-Staged<T...> staged_of(const Sources<T...>&);
+template <class Pass>
+using StagedOf = Staged<decltype(std::declval<const Pass&>().sources())>;
 
 }  // namespace detail
 
@@ -99,7 +107,7 @@ struct TileLoop {
   /// Places are staged as distances from the first row, with the weight.
   __device__ void among_staged(const Tile& tile, Index i, Index end, const Lane& lane) const {
     extern __shared__ uint4 memory[];
-    using Fields = decltype(detail::staged_of(pass.sources()));
+    using Fields = detail::StagedOf<Pass>;
     auto* const place = reinterpret_cast<Real4*>(memory);
     const auto fields = Fields::at(reinterpret_cast<std::byte*>(place + capacity), capacity);
     const auto origin = separation.b[tile.row];
@@ -163,13 +171,14 @@ __global__ void __launch_bounds__(kTileThreads) tile_kernel(Loop loop) {
   loop();
 }
 
-template <class Pass, class WallRow>
-void run_tiles(const TileList& list, const PairSeparation& separation, double cutoff, const WallRow& wall_row,
-               const Pass& pass) {
+/// wall_row: of a second list, with as many lanes a row.
+template <class Pass, class WallRow = NoWalls>
+void for_each_pair(Range, const TileList& list, const PairSeparation& separation, double cutoff,
+                   const Pass& pass, const WallRow& wall_row = {}) {
   if (list.tiles() == 0) return;
   using Loop = TileLoop<Pass, WallRow>;
   std::size_t each = 0;
-  if constexpr (kFades<Pass>) each = sizeof(Real4) + decltype(detail::staged_of(pass.sources()))::bytes;
+  if constexpr (kFades<Pass>) each = sizeof(Real4) + detail::StagedOf<Pass>::bytes;
   static const Index blocks = blocks_at_a_time(tile_kernel<Loop>, kTileThreads, 0);
   const Index capacity = list.capacity(each, blocks);
   if (each > 0)
@@ -178,19 +187,6 @@ void run_tiles(const TileList& list, const PairSeparation& separation, double cu
                "shared memory of a pass");
   launch(tile_kernel<Loop>, list.tiles(), kTileThreads, capacity * each,
          Loop{list.view(), separation, Real(cutoff * cutoff), wall_row, pass, capacity});
-}
-
-template <class Pass>
-void for_each_pair(Range, const TileList& list, const PairSeparation& separation, double cutoff,
-                   const Pass& pass) {
-  run_tiles(list, separation, cutoff, NoWalls{}, pass);
-}
-/// The walls' list has as many lanes a row.
-template <class Pass>
-void for_each_pair(Range, const TileList& list, const PairSeparation& separation, const VerletList& wall_list,
-                   const PairSeparation& wall_separation, double cutoff, const Pass& pass) {
-  run_tiles(list, separation, cutoff,
-            ListRow<PairSeparation, Pass>{wall_list.view(), wall_separation, Real(cutoff * cutoff)}, pass);
 }
 
 }  // namespace bedload::inline BL_VARIANT

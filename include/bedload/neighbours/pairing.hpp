@@ -40,7 +40,9 @@ class Pairing {
   /// Over these pairs and then those of the same targets with others.
   template <class Pass>
   void run_with(const Pairing<VerletList>& others, const Pass& pass) const {
-    for_each_pair(targets_, list_, separation(), others.list(), others.separation(), reach_, pass);
+    const ListRow<PairSeparation, Pass> other{others.list().view(), others.separation(),
+                                              Real(reach_ * reach_)};
+    for_each_pair(targets_, list_, separation(), reach_, pass, other);
   }
 
   PairSeparation separation() const { return {frame_, at_->span(), from_->span()}; }
