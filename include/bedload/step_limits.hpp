@@ -75,6 +75,7 @@ struct StepLimit {
   Limit limit = Limit::fixed;
   double seconds = std::numeric_limits<double>::infinity();
   bool binds = false;  ///< the least of those that are listed together
+  int body = -1;       ///< place in wall.body of the free body that sets it; -1: none
 };
 
 /// The least; without limits one that is infinite.

@@ -24,18 +24,20 @@ void must_be_finite(const Vec3d& v, const char* what, double t) {
 constexpr double kMostSubsteps = 1e6;  ///< of a step
 
 /// A run with so many would never end, and the poses of walls at each would fill the memory. At the first
-/// step the case is wrong.
-[[noreturn]] void refuse_substeps(double dt, const StepLimit& longest, double substeps, bool first) {
+/// step the case is wrong. `body`: name of the free body that sets the limit, empty for other limits.
+[[noreturn]] void refuse_substeps(const Clock& clock, double dt, double substeps, const StepLimit& longest,
+                                  const std::string& body) {
   const NamedLimit& bound = kLimits[std::size_t(longest.limit)];
-  char text[300];
-  std::snprintf(
-      text, sizeof text,
-      "a step of %.3g s would take %.3g substeps of %.3g s, by the limit \"%s\"; at most %.0f are allowed",
-      dt, substeps, longest.seconds, std::string(bound.name).c_str(), kMostSubsteps);
-  if (!first) throw SimulationFault(text);
+  const std::string limit =
+      '"' + std::string(bound.name) + '"' + (body.empty() ? "" : " of wall.body \"" + body + '"');
+  char start[160], end[80];
+  std::snprintf(start, sizeof start, "a step of %.3g s would take %.3g substeps of %.3g s, by the limit ", dt,
+                substeps, longest.seconds);
+  std::snprintf(end, sizeof end, ", at t = %.6g s; at most %.0f are allowed", clock.time, kMostSubsteps);
+  if (clock.step > 0) throw SimulationFault(start + limit + end);
   const bool named = !bound.key.empty() && longest.limit != Limit::fixed;
   const std::string key(named ? bound.key : "time.dt_dem");
-  throw KeyError(key, key + ": " + text);
+  throw KeyError(key, key + ": " + start + limit + end);
 }
 
 }  // namespace
@@ -134,7 +136,9 @@ Step Stepper::next_step() {
   if (now.held && !bodies_.any()) return now;
   const StepLimit longest = longest_substep();
   const double substeps = std::ceil(now.dt / longest.seconds * (1 - 1e-9));
-  if (!(substeps <= kMostSubsteps)) refuse_substeps(now.dt, longest, substeps, clock_.step == 0);
+  if (!(substeps <= kMostSubsteps))
+    refuse_substeps(clock_, now.dt, substeps, longest,
+                    longest.body < 0 ? "" : config_.wall.bodies[longest.body].name);
   now.substep_limit = longest.limit;
   now.substeps = std::max(1, int(substeps));
   return now;

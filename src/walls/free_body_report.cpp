@@ -42,33 +42,35 @@ double FreeBodies::top_speed(double dt) const {
 std::vector<StepLimit> FreeBodies::limits(double wall_speed) const {
   if (!any()) return {};
   const FreeBodyParameters& p = parameters_;
-  double contact = kInfinity, roll = kInfinity, turn = kInfinity, hardest = kInfinity;
+  StepLimit contact{Limit::body_contact}, roll{Limit::body_rolling}, turn{Limit::body_turn};
+  double hardest = kInfinity;
   for (const ElasticCompliance& compliance : p.compliances) hardest = std::min(hardest, compliance.normal);
   for (int k = 0; k < size(); ++k) {
     const FreeBody& body = p.bodies[k];
+    const auto lower = [&](StepLimit& limit, double seconds) {
+      if (seconds < limit.seconds) limit.seconds = seconds, limit.body = int(body.rigid.body);
+    };
     const double size = 2 * body.size;
     const double speed = std::max(norm(now_[k].v) + body.size * norm(now_[k].omega) + wall_speed,
                                   std::sqrt(p.acceleration * size));
-    turn = std::min(turn, 0.02 * size / std::max(speed, 1e-300));
+    lower(turn, 0.02 * size / std::max(speed, 1e-300));
     if (speed == 0) continue;
     if (balls_.size() > 0) {
       const double E_star = 1 / (p.compliances[body.rigid.body].normal + hardest);
       const Impact hit = Hertz::impact({}, 1 / (2 * body.inverse_mass), contact_radius_, E_star, speed, 1);
-      contact = std::min(contact, hit.duration);
+      lower(contact, p.contact_fraction * hit.duration);
       const Vec3d& I = body.rigid.moments;
-      roll = std::min(roll, rolling_limit(p.contact, hit.stiffness, body.mu_r, largest_radius_,
-                                          0.5 * std::min({I.x, I.y, I.z})));
+      lower(roll, rolling_limit(p.contact, hit.stiffness, body.mu_r, largest_radius_,
+                                0.5 * std::min({I.x, I.y, I.z})));
     }
     if (p.grain_mass > 0) {
       const double m = 1 / (1 / p.grain_mass + body.inverse_mass);
-      contact =
-          std::min(contact, impact(p.contact, m, p.grain_radius, 1 / body.grain_compliance, speed).duration);
+      lower(contact, p.contact_fraction *
+                         impact(p.contact, m, p.grain_radius, 1 / body.grain_compliance, speed).duration);
     }
   }
-  std::vector<StepLimit> all;
-  if (std::isfinite(contact)) all.push_back({Limit::body_contact, p.contact_fraction * contact});
-  if (std::isfinite(roll)) all.push_back({Limit::body_rolling, roll});
-  all.push_back({Limit::body_turn, turn});
+  std::vector<StepLimit> all{contact, roll, turn};
+  std::erase_if(all, [](const StepLimit& limit) { return !std::isfinite(limit.seconds); });
   return all;
 }
 

@@ -1145,5 +1145,39 @@ TEST_F(Program, ABlowUpEndsWithCode3AndNamesTheWayBack) {
   EXPECT_NE(content_of(dir_ / "r/summary.json").find("\"status\": \"failed\""), std::string::npos);
 }
 
+TEST_F(Program, TooManySubstepsOfALaterStepNameTheBody) {
+  write("ball.toml", R"([domain]
+min = [-1, -1, -1]
+max = [1, 1, 1]
+periodic = [true, false, false]
+[[shape]]
+name = "sphere"
+kind = "sphere"
+centre = [0, 0, 0]
+radius = 0.1
+[[wall.body]]
+name = "ball"
+shape = "sphere"
+[wall.body.free]
+density = 1000
+velocity = [2e6, 0, 0]  # from 0.015 s on
+release_time = 0.015
+contacts = false
+[time]
+end = 1
+dt = 0.01
+force_dt = true
+[out]
+every = 1
+)");
+  const Outcome o = bedload("run ball.toml --backend cpu --quiet --out r");
+  EXPECT_EQ(o.code, 3) << o.err;
+  EXPECT_NE(
+      o.err.find(" s, by the limit \"body turn\" of wall.body \"ball\", at t = 0.02 s; at most 1000000 are "
+                 "allowed; "),
+      std::string::npos)
+      << o.err;
+}
+
 }  // namespace
 }  // namespace bedload::test

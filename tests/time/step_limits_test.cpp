@@ -140,16 +140,25 @@ TEST(StepLimits, EachBindsStepsAndIsNamed) {
   }
 }
 
-/// Such a run would never end, and memory for the poses of walls at each substep runs out before.
-TEST(StepLimits, MoreThanAMillionSubstepsAreRefused) {
+void expect_refused(const std::function<StepInfo()>& steps, const std::string& key, const std::string& by) {
   try {
-    wet({"time.dt_dem=1e-12"});
+    steps();
     ADD_FAILURE() << "nothing was refused";
   } catch (const KeyError& error) {
-    EXPECT_EQ(error.key, "time.dt_dem");
-    EXPECT_NE(std::string(error.what()).find("at most 1000000 are allowed"), std::string::npos)
+    EXPECT_EQ(error.key, key);
+    EXPECT_NE(
+        std::string(error.what()).find(", by the limit " + by + ", at t = 0 s; at most 1000000 are allowed"),
+        std::string::npos)
         << error.what();
   }
+}
+
+/// Such a run would never end, and memory for the poses of walls at each substep runs out before.
+TEST(StepLimits, MoreThanAMillionSubstepsAreRefused) {
+  expect_refused([] { return wet({"time.dt_dem=1e-12"}); }, "time.dt_dem", "\"fixed\"");
+  const Overrides light{"time.dt=1", "time.force_dt=true", "wall.body.0.free.E=1e12",
+                        "wall.body.0.free.density=1e-6"};
+  expect_refused([&] { return ball(light); }, "time.contact", "\"body contact\" of wall.body \"ball\"");
 }
 
 }  // namespace
