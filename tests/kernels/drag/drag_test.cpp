@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -78,7 +79,12 @@ double terminal_speed(const std::string& law, double d, double rho_s, double rho
 
 TEST(SmallDragLaws, MatchAnIndependentTable) {
   const auto rows = drag_table();
-  ASSERT_EQ(rows.size(), 7u * 3 * 2 * 11);
+  std::map<std::string, int> rows_of;
+  for (const Row& row : rows) ++rows_of[row.law];
+  for (const auto& law : kNames<DragLaw>)  // "table" has no formula
+    if (law.value != DragLaw::table) {
+      EXPECT_EQ(rows_of[std::string(law.name)], 3 * 2 * 11) << law.name << ": see make_drag_table.py";
+    }
   const double tolerance_of_K = tolerance(1e-12, 1e-6, 1e-5);
   for (std::size_t first = 0, last; first < rows.size(); first = last) {
     std::vector<Flow> flows;
