@@ -14,7 +14,8 @@ struct ConstantRolling {
   static ConstantRolling of(const ContactMaterials& m) { return {Real(m.mu_r), m.contact.cap_rolling}; }
   static void describe(Parameters& p, ContactConfig& c) {
     p("contact.cap_rolling", &c.cap_rolling,
-      {.meaning = "cdt: torque capped at rest; without it grains buzz"});
+      {.meaning = "cdt: the torque does not reverse the rotation within a substep; without it grains at rest "
+                  "vibrate"});
   }
   BL_HD Real3 operator()(const RollingInput& in) const {
     const Real speed = norm(in.omega);

@@ -15,7 +15,8 @@ struct ElasticPlasticRolling {
   static constexpr bool is(RollingLaw law) { return law == RollingLaw::epsd; }
   static ElasticPlasticRolling of(const ContactMaterials& m) { return {Real(m.mu_r), Real(m.contact.eta_r)}; }
   static void describe(Parameters& p, ContactConfig& c) {
-    p("contact.eta_r", &c.eta_r, {.meaning = "damping of epsd rolling", .range = within(0, 1)});
+    p("contact.eta_r", &c.eta_r,
+      {.meaning = "epsd: damping ratio of the rolling spring", .range = within(0, 1)});
   }
   /// Infinite without friction; as rolling_limit.
   static double longest_step(double normal_stiffness, double mu_r, double R_star, double inertia) {

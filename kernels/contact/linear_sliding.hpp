@@ -13,7 +13,7 @@ struct LinearSliding {
   static LinearSliding of(const ContactMaterials& m) { return {Real(m.contact.kt_ratio)}; }
   static void describe(Parameters& p, ContactConfig& c) {
     p("contact.kt_ratio", &c.kt_ratio,
-      {.meaning = "tangential / normal spring, linear", .range = above_to(0, 1)});
+      {.meaning = "linear: tangential over normal stiffness", .range = above_to(0, 1)});
   }
   BL_HD Real stiffness(const SlidingInput& in) const { return ratio * in.normal.stiffness; }
   BL_HD Vec3d stretch(const SlidingInput& in, const Vec3d& xi, const Vec3d& step) const {

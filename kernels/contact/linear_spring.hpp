@@ -29,7 +29,7 @@ struct LinearSpring {
   static void describe(Parameters& p, ContactConfig& c) {
     p("contact.k", &c.k,
       {.unit = "N/m",
-       .meaning = "linear spring",
+       .meaning = "linear: normal stiffness",
        .range = above(0),
        .fallback = "required if linear",
        .presence = Presence::optional});

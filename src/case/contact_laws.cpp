@@ -1,4 +1,4 @@
-// The one host file that includes kernels: compiled as a build of its own, in double, it passes on to the
+// The one host file that includes kernels: compiled as a separate build, in double, it passes on to the
 // contact laws what the host asks of them.
 
 #include "bedload/case/contact_laws.hpp"
@@ -20,19 +20,19 @@ void describe_laws(Parameters& p, ContactConfig& c) {
 }  // namespace
 
 void describe_contact(Parameters& p, ContactConfig& c) {
-  p("contact.normal", &c.normal, {.meaning = "force along the line of centres", .family = "laws"});
-  p("contact.tangential", &c.tangential, {.meaning = "friction", .family = "laws"});
-  p("contact.rolling", &c.rolling, {.meaning = "resistance to rolling", .family = "laws"});
+  p("contact.normal", &c.normal, {.meaning = "normal contact law", .family = "laws"});
+  p("contact.tangential", &c.tangential, {.meaning = "tangential contact law (friction)", .family = "laws"});
+  p("contact.rolling", &c.rolling, {.meaning = "law of rolling resistance", .family = "laws"});
   describe_laws<NormalLaws>(p, c);
   describe_laws<SlidingLaws>(p, c);
   p("contact.tangential_damping", &c.tangential_damping,
-    {.meaning =
-         "fraction of the damping of friction's spring, c_n sqrt(S_t/S_n); 0: none, so that spheres that "
-         "stick recoil sideways whatever e",
+    {.meaning = "damping of the tangential spring, as a fraction of c_n sqrt(S_t/S_n); 0: none, so that "
+                "sticking spheres rebound sideways whatever e",
      .range = within(0, 1)});
   describe_laws<RollingLaws>(p, c);
   p("contact.clip_tension", &c.clip_tension,
-    {.meaning = "no pull while separating; damping set so that e holds"});
+    {.meaning =
+         "no attractive force while grains separate; the damping is adjusted so that the restitution is e"});
 }
 
 double least_restitution(const ContactConfig& contact) {

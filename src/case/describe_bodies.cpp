@@ -9,10 +9,10 @@ using enum Presence;
 /// The constraints of a rigid body, whose keys begin with `at`.
 template <class C>
 void describe_constraints(Parameters& p, const std::string& at, C& c) {
-  p(at + ".move", &c.move, {.meaning = "where its centre of mass may go", .family = "models"});
-  p(at + ".turn", &c.turn, {.meaning = "how it may turn", .family = "models"});
+  p(at + ".move", &c.move, {.meaning = "allowed translation of the centre of mass", .family = "models"});
+  p(at + ".turn", &c.turn, {.meaning = "allowed rotation", .family = "models"});
   if (c.move == BodyMove::plane || c.move == BodyMove::axis || c.turn == BodyTurn::axis || p.everything())
-    p(at + ".axis", &c.axis, {.meaning = "direction for move and turn", .presence = required});
+    p(at + ".axis", &c.axis, {.meaning = "direction of the axis of move and turn", .presence = required});
 }
 
 void describe_rigid_group(Parameters& p, RigidConfig& r) {
@@ -25,27 +25,31 @@ void describe_free_body(Parameters& p, FreeConfig& f) {
   if (!f.present) return;
   p("free.density", &f.density,
     {.unit = "kg/m3",
-     .meaning = "of the body's closed shape",
+     .meaning = "mean density of the body, whose shape must be closed; alternative to free.mass",
      .range = above(0),
      .fallback = "density or mass",
      .presence = optional});
   p("free.mass", &f.mass,
     {.unit = "kg",
-     .meaning = "instead of a density",
+     .meaning = "mass; alternative to free.density",
      .range = above(0),
      .fallback = "density or mass",
      .presence = optional});
   p("free.centre_of_mass", &f.centre_of_mass,
-    {.unit = "m", .meaning = "[x, y, z] at t = 0", .fallback = "of the shape", .presence = optional});
+    {.unit = "m",
+     .meaning = "centre of mass [x, y, z] at t = 0",
+     .fallback = "that of the shape",
+     .presence = optional});
   p("free.inertia", &f.inertia,
     {.unit = "kg m2",
-     .meaning = "[Ixx, Iyy, Izz, Ixy, Ixz, Iyz] about the centre of mass at t = 0, Ixy = -integral of x y dm",
-     .fallback = "of the shape",
+     .meaning = "moments of inertia [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] about the centre of mass at t = 0, with "
+                "Ixy = -integral of x y dm",
+     .fallback = "that of the shape",
      .presence = optional});
-  p("free.velocity", &f.velocity, {.unit = "m/s", .meaning = "of the centre of mass at the start"});
-  p("free.spin", &f.spin, {.unit = "rad/s", .meaning = "angular velocity at the start"});
+  p("free.velocity", &f.velocity, {.unit = "m/s", .meaning = "initial velocity of the centre of mass"});
+  p("free.spin", &f.spin, {.unit = "rad/s", .meaning = "initial angular velocity"});
   p("free.release_time", &f.release_time,
-    {.unit = "s", .meaning = "held in place until then", .range = at_least(0)});
+    {.unit = "s", .meaning = "time until which the body is held in place", .range = at_least(0)});
   describe_constraints(p, "free", f);
   if (f.move == BodyMove::none || p.everything())
     p("free.point", &f.point,
@@ -53,46 +57,56 @@ void describe_free_body(Parameters& p, FreeConfig& f) {
        .meaning = "move = \"none\": pivot [x, y, z], which stays in place",
        .fallback = "centre of mass",
        .presence = optional});
-  p("free.fluid", &f.fluid, {.meaning = "the fluid acts on it; if not, it still acts on the fluid"});
-  p("free.contacts", &f.contacts, {.meaning = "touches other wall bodies"});
+  p("free.fluid", &f.fluid,
+    {.meaning = "the fluid exerts forces on the body; if false, the body still acts on the fluid"});
+  p("free.contacts", &f.contacts, {.meaning = "the body collides with other wall bodies"});
   if (f.contacts || p.everything()) {
     p("free.E", &f.E,
       {.unit = "Pa",
-       .meaning = "against other bodies: Young's modulus",
+       .meaning = "Young's modulus in contacts with other wall bodies",
        .range = within(1e4, 1e12),
        .fallback = "grain.E",
        .presence = optional});
     p("free.nu", &f.nu,
-      {.meaning = "Poisson's ratio",
+      {.meaning = "Poisson's ratio in contacts with other wall bodies",
        .range = {.lo = -1, .hi = 0.5},
        .fallback = "grain.nu",
        .presence = unbounded});
     p("free.mu", &f.mu,
-      {.meaning = "sliding friction", .range = within(0, 5), .fallback = "grain.mu", .presence = unbounded});
-    p("free.mu_r", &f.mu_r, {.meaning = "rolling friction, by contact.rolling", .range = within(0, 1)});
+      {.meaning = "coefficient of sliding friction against other wall bodies",
+       .range = within(0, 5),
+       .fallback = "grain.mu",
+       .presence = unbounded});
+    p("free.mu_r", &f.mu_r,
+      {.meaning =
+           "coefficient of rolling friction against other wall bodies, with the law of contact.rolling",
+       .range = within(0, 1)});
     p("free.e", &f.e,
-      {.meaning = "restitution of a lone contact",
+      {.meaning = "coefficient of restitution against other wall bodies, for a single contact",
        .range = within(0.05, 1),
        .hint = "give a fraction, not percent?",
        .fallback = "grain.e",
        .presence = optional});
     p("free.contact_radius", &f.contact_radius,
       {.unit = "m",
-       .meaning = "reduced radius R* of its contacts",
+       .meaning = "effective radius R* of contacts with other wall bodies",
        .range = above(0),
-       .fallback = "of each ball",
+       .fallback = "radius of each ball",
        .presence = optional});
     p("free.contact_spacing", &f.contact_spacing,
       {.unit = "m",
-       .meaning = "of the balls within its surface by which it touches, twice their radius",
+       .meaning =
+           "spacing and diameter of the balls inside its surface that detect contacts with other wall bodies",
        .range = above(0),
-       .fallback = "a quarter of the least extent",
+       .fallback = "smallest extent / 4",
        .presence = optional});
     p.list("free.contact", f.balls, BodyBall{}, [](Parameters& q, BodyBall& ball) {
       q("centre", &ball.centre,
-        {.unit = "m", .meaning = "instead of sampled balls: where, at t = 0", .presence = required});
+        {.unit = "m",
+         .meaning = "centre of a contact ball at t = 0; listed balls replace the sampled ones",
+         .presence = required});
       q("radius", &ball.radius,
-        {.unit = "m", .meaning = "of the ball", .range = above(0), .presence = required});
+        {.unit = "m", .meaning = "radius of the ball", .range = above(0), .presence = required});
     });
   }
 }

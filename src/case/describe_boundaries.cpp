@@ -15,82 +15,94 @@ void start_and_stop(Parameters& p, double& start, double& stop, std::string_view
 }
 
 void inlet(Parameters& p, InletConfig& i) {
-  p("name", &i.name, {.meaning = "by which diagnostics and messages know it", .presence = required});
-  p("shape", &i.shape, {.meaning = "of the orifice", .family = "shapes"});
-  p("centre", &i.centre, {.unit = "m", .meaning = "of the orifice", .presence = required});
-  p("direction", &i.direction, {.meaning = "of the flow, across the orifice", .presence = required});
+  p("name", &i.name, {.meaning = "name of the inlet in diagnostics and messages", .presence = required});
+  p("shape", &i.shape, {.meaning = "shape of the orifice", .family = "shapes"});
+  p("centre", &i.centre, {.unit = "m", .meaning = "centre of the orifice", .presence = required});
+  p("direction", &i.direction,
+    {.meaning = "direction of the inflow, normal to the orifice", .presence = required});
   if (i.shape == OrificeShape::disc || p.everything())
-    p("radius", &i.radius, {.unit = "m", .meaning = "disc", .range = above(0), .presence = required});
+    p("radius", &i.radius, {.unit = "m", .meaning = "disc: radius", .range = above(0), .presence = required});
   if (i.shape == OrificeShape::rectangle || p.everything()) {
     p("half_a", &i.half_a,
-      {.unit = "m", .meaning = "rectangle: from its centre to the middle of a side", .presence = required});
+      {.unit = "m",
+       .meaning = "rectangle: vector from the centre to the midpoint of a side",
+       .presence = required});
     p("half_b", &i.half_b,
-      {.unit = "m", .meaning = "rectangle: to the middle of the next side", .presence = required});
+      {.unit = "m",
+       .meaning = "rectangle: vector from the centre to the midpoint of the adjacent side",
+       .presence = required});
   }
   p("rate", &i.rate,
     {.unit = "m3/s",
-     .meaning = "volume of fluid at rho0 let in; or velocity",
+     .meaning = "volume flow rate of the inflow at density rho0; alternative to velocity",
      .range = above(0),
-     .fallback = "one of two",
+     .fallback = "one of two required",
      .presence = optional});
   p("velocity", &i.velocity,
     {.unit = "m/s",
-     .meaning = "of the fluid in the orifice",
+     .meaning = "velocity of the fluid in the orifice; alternative to rate",
      .range = above(0),
-     .fallback = "one of two",
+     .fallback = "one of two required",
      .presence = optional});
-  p("factor", &i.factor, {.meaning = "of rate or velocity, a formula in t (s); below zero counts as zero"});
+  p("factor", &i.factor,
+    {.meaning = "factor on rate or velocity, a formula in t (s); negative values count as 0"});
   p("ramp", &i.ramp,
     {.unit = "s",
-     .meaning = "opening and closing take this long",
+     .meaning = "time that opening and closing take",
      .range = above(0),
      .fallback = "10 h/c",
      .presence = optional});
-  start_and_stop(p, i.start, i.stop, "begins to open", "begins to close");
+  start_and_stop(p, i.start, i.stop, "time at which the inlet begins to open",
+                 "time at which the inlet begins to close");
 }
 
 void outlet(Parameters& p, OutletConfig& o) {
-  p("name", &o.name, {.meaning = "by which diagnostics and messages know it", .presence = required});
-  p("phase", &o.phase, {.meaning = "what it takes"});
+  p("name", &o.name, {.meaning = "name of the outlet in diagnostics and messages", .presence = required});
+  p("phase", &o.phase, {.meaning = "phase that is removed"});
   p("shape", &o.shape,
-    {.meaning = "where particles are taken out", .family = "shapes", .or_else = "the name of a [[shape]]"});
+    {.meaning = "region in which particles are removed",
+     .family = "shapes",
+     .or_else = "the name of a [[shape]]"});
   if (o.shape == OutletShape::box || p.everything()) {
     p("min", &o.min, {.unit = "m", .meaning = "box: lower corner", .presence = required});
     p("max", &o.max, {.unit = "m", .meaning = "box: upper corner", .presence = required});
   }
   if (o.shape == OutletShape::plane || p.everything()) {
-    p("point", &o.point, {.unit = "m", .meaning = "plane: a point on it", .presence = required});
-    p("normal", &o.normal, {.meaning = "plane: direction out of the flow", .presence = required});
+    p("point", &o.point, {.unit = "m", .meaning = "plane: a point on the plane", .presence = required});
+    p("normal", &o.normal, {.meaning = "plane: normal, pointing out of the flow", .presence = required});
   }
 }
 
 void grain_inlet(Parameters& p, GrainInletConfig& i) {
-  p("name", &i.name, {.meaning = "by which diagnostics and messages know it", .presence = required});
-  p("shape", &i.shape, {.meaning = "where grains are dropped in, at random", .family = "shapes"});
+  p("name", &i.name,
+    {.meaning = "name of the grain inlet in diagnostics and messages", .presence = required});
+  p("shape", &i.shape,
+    {.meaning = "region in which grains are inserted at random positions", .family = "shapes"});
   if (i.shape == GrainInletShape::box || p.everything()) {
     p("min", &i.min, {.unit = "m", .meaning = "box: lower corner", .presence = required});
     p("max", &i.max, {.unit = "m", .meaning = "box: upper corner", .presence = required});
   }
   if (i.shape == GrainInletShape::disc || p.everything()) {
-    p("centre", &i.centre, {.unit = "m", .meaning = "disc: its centre", .presence = required});
-    p("direction", &i.direction, {.meaning = "disc: its axis", .presence = required});
-    p("radius", &i.radius, {.unit = "m", .meaning = "disc", .range = above(0), .presence = required});
+    p("centre", &i.centre, {.unit = "m", .meaning = "disc: centre", .presence = required});
+    p("direction", &i.direction, {.meaning = "disc: direction of the axis", .presence = required});
+    p("radius", &i.radius, {.unit = "m", .meaning = "disc: radius", .range = above(0), .presence = required});
   }
   p("rate", &i.rate,
     {.unit = "1/s",
-     .meaning = "grains dropped; or mass_rate",
+     .meaning = "number of grains inserted per second; alternative to mass_rate",
      .range = above(0),
-     .fallback = "one of two",
+     .fallback = "one of two required",
      .presence = optional});
   p("mass_rate", &i.mass_rate,
     {.unit = "kg/s",
-     .meaning = "mass of the grains dropped",
+     .meaning = "mass of grains inserted per second; alternative to rate",
      .range = above(0),
-     .fallback = "one of two",
+     .fallback = "one of two required",
      .presence = optional});
-  p("velocity", &i.velocity, {.unit = "m/s", .meaning = "of a grain as it comes in"});
+  p("velocity", &i.velocity, {.unit = "m/s", .meaning = "velocity of inserted grains"});
   describe_grain_material(p, i.material);
-  start_and_stop(p, i.start, i.stop, "from then on, after grain.release_time", "and until then");
+  start_and_stop(p, i.start, i.stop, "start of insertion, at grain.release_time or later",
+                 "end of insertion");
   p.list("sizes", i.sizes, SizeClass{}, describe_grain_size);
 }
 

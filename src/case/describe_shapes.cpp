@@ -11,23 +11,25 @@ void copies(Parameters& p, CopiesConfig& c) {
   c.present = p.table("copies", c.present);
   if (!c.present) return;
   p("copies.count", &c.count,
-    {.meaning = "how many copies of the shape it stands for, the first among them; they may overlap",
+    {.meaning = "number of copies of the shape, including the first; they may overlap",
      .range = within(1, 10000),
      .presence = required});
-  p("copies.about", &c.about, {.meaning = "about an axis: its direction; [0, 0, 0]: copies do not turn"});
-  p("copies.centre", &c.centre, {.unit = "m", .meaning = "a point on that axis"});
+  p("copies.about", &c.about,
+    {.meaning = "direction of the axis about which copies are rotated; [0, 0, 0]: no rotation"});
+  p("copies.centre", &c.centre, {.unit = "m", .meaning = "a point on the axis of rotation"});
   p("copies.angle", &c.angle,
     {.unit = "deg",
-     .meaning = "from one copy to the next, right-handed about that axis",
+     .meaning = "rotation from one copy to the next, right-handed about the axis",
      .range = within(-360, 360),
      .fallback = "360 / count",
      .presence = optional});
-  p("copies.along", &c.along, {.unit = "m", .meaning = "in a row: from one copy to the next"});
+  p("copies.along", &c.along, {.unit = "m", .meaning = "translation from one copy to the next"});
 }
 
 void shape(Parameters& p, ShapeConfig& s) {
-  p("name", &s.name, {.meaning = "by which walls, fills and other shapes know it", .presence = required});
-  p("kind", &s.kind, {.meaning = "what it is", .presence = required, .family = "shapes"});
+  p("name", &s.name,
+    {.meaning = "name by which walls, fills and other shapes refer to it", .presence = required});
+  p("kind", &s.kind, {.meaning = "kind of shape", .presence = required, .family = "shapes"});
   using enum ShapeKind;
   const auto is = [&](std::initializer_list<ShapeKind> kinds) {
     for (const ShapeKind kind : kinds)
@@ -41,11 +43,11 @@ void shape(Parameters& p, ShapeConfig& s) {
   if (is({sphere})) p("centre", &s.centre, {.unit = "m", .meaning = "sphere: centre", .presence = required});
   if (is({capsule, cylinder, cone, pipe})) {
     p("a", &s.a, {.unit = "m", .meaning = "one end of the axis", .presence = required});
-    p("b", &s.b, {.unit = "m", .meaning = "the other end", .presence = required});
+    p("b", &s.b, {.unit = "m", .meaning = "other end of the axis", .presence = required});
   }
   if (is({sphere, capsule, cylinder, pipe}))
     p("radius", &s.radius,
-      {.unit = "m", .meaning = "radius; pipe: of the bore", .range = above(0), .presence = required});
+      {.unit = "m", .meaning = "radius; pipe: inner radius", .range = above(0), .presence = required});
   if (is({cone})) {
     p("radius_a", &s.radius_a,
       {.unit = "m", .meaning = "cone: radius at a", .range = at_least(0), .presence = required});
@@ -55,33 +57,38 @@ void shape(Parameters& p, ShapeConfig& s) {
   if (is({pipe, hollow}))
     p("thickness", &s.thickness,
       {.unit = "m",
-       .meaning = "pipe, hollow: thickness of the wall",
+       .meaning = "pipe, hollow: wall thickness",
        .range = above(0),
-       .fallback = "the kernel's reach, in whole wall.dx",
+       .fallback = "kernel support, in whole wall.dx",
        .presence = optional});
-  if (is({pipe})) p("ends", &s.ends, {.meaning = "pipe: which ends have a plate, as thick as the wall"});
+  if (is({pipe})) p("ends", &s.ends, {.meaning = "pipe: ends closed by a plate as thick as the wall"});
   if (is({mesh})) {
     p("file", &s.file,
-      {.meaning = "mesh: STL, OBJ or PLY file, numbers in m before scale; relative to the case",
+      {.meaning =
+           "mesh: STL, OBJ or PLY file with coordinates in m before scale; path relative to the case file",
        .presence = required});
     p("digest", &s.digest,
-      {.meaning = "mesh: fingerprint that the file must have", .fallback = "any", .presence = optional});
+      {.meaning = "mesh: checksum of the file; another one is an error",
+       .fallback = "any",
+       .presence = optional});
     p("repair", &s.repair,
-      {.meaning = "mesh: weld near vertices, drop triangles without area, turn the rest outwards"});
+      {.meaning = "mesh: merge close vertices, remove triangles without area, orient the others outwards"});
   }
   if (is({hollow, union_, difference}))
-    p("of", &s.of, {.meaning = "names of shapes listed before", .presence = required});
+    p("of", &s.of,
+      {.meaning = "hollow, union, difference: names of shapes listed before", .presence = required});
   if (is({difference}))
     p("facet", &s.facet,
       {.unit = "m",
-       .meaning = "difference: width of the triangles by which grains meet it",
+       .meaning = "difference: edge length of the triangles of its surface for contacts with grains",
        .range = above(0),
        .fallback = "extent / 4, at most diagonal / 100",
        .presence = optional});
-  p("scale", &s.scale, {.meaning = "size / size as given", .range = above(0)});
-  p("turn_axis", &s.turn_axis, {.meaning = "then turned about this axis through the origin"});
-  p("turn_angle", &s.turn_angle, {.unit = "deg", .meaning = "by this angle, right-handed"});
-  p("translate", &s.translate, {.unit = "m", .meaning = "then moved by this"});
+  p("scale", &s.scale, {.meaning = "scale factor, applied first", .range = above(0)});
+  p("turn_axis", &s.turn_axis,
+    {.meaning = "direction of an axis through the origin; the shape is rotated about it after scaling"});
+  p("turn_angle", &s.turn_angle, {.unit = "deg", .meaning = "angle of this rotation, right-handed"});
+  p("translate", &s.translate, {.unit = "m", .meaning = "translation, applied after scaling and rotation"});
   copies(p, s.copies);
 }
 

@@ -15,61 +15,66 @@ void motion_law(Parameters& p, const std::string& at, MotionPart& m) {
   const auto wanted = [&](MotionKind kind) { return m.kind == kind || p.everything(); };
   if (wanted(MotionKind::table)) {
     p(at + "file", &m.file,
-      {.meaning =
-           "table: CSV beside the case; header t [s], x, y, z [m], rx, ry, rz [deg], all but t optional",
+      {.meaning = "table: CSV file, path relative to the case file; header t [s], x, y, z [m], rx, ry, rz "
+                  "[deg], all but t optional",
        .fallback = "file or rows",
        .presence = optional});
     p(at + "rows", &m.rows,
       {.unit = "s, m, deg",
-       .meaning = "table: instead of a file, [[t, x, y, z], ...] or [[t, x, y, z, rx, ry, rz], ...]",
+       .meaning = "table: rows [[t, x, y, z], ...] or [[t, x, y, z, rx, ry, rz], ...], instead of a file",
        .fallback = "file or rows",
        .presence = optional});
     p(at + "spline", &m.spline,
-      {.meaning = "table: cubic through the rows; at rest before the first and after the last",
+      {.meaning = "table: cubic interpolation of the rows; at rest before the first and after the last",
        .family = at == "motion." ? "shapes" : ""});
   }
   if (wanted(MotionKind::formula)) {
     p(at + "displacement", &m.displacement,
-      {.unit = "m", .meaning = "formula: three numbers or formulas in t", .variables = "t"});
+      {.unit = "m", .meaning = "formula: displacement, three numbers or formulas in t", .variables = "t"});
     p(at + "rotation", &m.rotation,
       {.unit = "deg",
-       .meaning = "formula: rotation vector about motion.centre, three formulas in t",
+       .meaning = "formula: rotation vector about motion.centre, three numbers or formulas in t",
        .variables = "t"});
   }
 }
 
 /// One part of a motion; `at` stands before its keys. `bedload list shapes` shows it once, for a body.
 void motion_part(Parameters& p, const std::string& at, MotionPart& m) {
-  p(at + "kind", &m.kind, {.meaning = "how it moves", .family = at == "motion." ? "shapes" : ""});
+  p(at + "kind", &m.kind, {.meaning = "kind of motion", .family = at == "motion." ? "shapes" : ""});
   const auto wanted = [&](MotionKind kind) { return m.kind == kind || p.everything(); };
   if (wanted(MotionKind::velocity))
-    p(at + "velocity", &m.velocity, {.unit = "m/s", .meaning = "velocity", .presence = required});
+    p(at + "velocity", &m.velocity,
+      {.unit = "m/s", .meaning = "velocity: constant velocity", .presence = required});
   if (wanted(MotionKind::oscillation)) {
     p(at + "amplitude", &m.amplitude,
-      {.unit = "m", .meaning = "oscillation: displacement", .presence = required});
+      {.unit = "m", .meaning = "oscillation: amplitude of the displacement, a vector", .presence = required});
     p(at + "frequency", &m.frequency,
-      {.unit = "Hz", .meaning = "oscillation: f", .range = above(0), .presence = required});
+      {.unit = "Hz", .meaning = "oscillation: frequency", .range = above(0), .presence = required});
   }
   if (wanted(MotionKind::rotation))
     p(at + "axis", &m.axis, {.meaning = "rotation: direction of the axis", .presence = required});
   if (wanted(MotionKind::rotation) || wanted(MotionKind::table) || wanted(MotionKind::formula))
     p(at + "centre", &m.centre,
       {.unit = "m",
-       .meaning = "rotation: a point on the axis; table, formula: the point that rotations leave alone",
+       .meaning = "rotation: a point on the axis; table, formula: centre of rotation",
        .fallback = "required for rotation, else [0, 0, 0]",
        .presence = m.kind == MotionKind::rotation ? required : defaulted});
   if (wanted(MotionKind::rotation))
-    p(at + "rate", &m.rate, {.unit = "rad/s", .meaning = "rotation: right-handed", .presence = required});
+    p(at + "rate", &m.rate,
+      {.unit = "rad/s", .meaning = "rotation: angular velocity, right-handed", .presence = required});
   if (wanted(MotionKind::velocity) || wanted(MotionKind::rotation))
     p(at + "factor", &m.factor,
-      {.meaning = "velocity, rotation: of velocity or rate, a formula in t (s); its integral is the way"});
+      {.meaning = "velocity, rotation: factor on velocity or rate, a formula in t (s); the displacement is "
+                  "the integral"});
   motion_law(p, at, m);
   if (m.kind == MotionKind::fixed && !p.everything()) return;
   p(at + "start", &m.start,
-    {.unit = "s", .meaning = "moves from then on; its t counts from then", .range = at_least(0)});
+    {.unit = "s",
+     .meaning = "start of the motion; t in its formulas and tables counts from here",
+     .range = at_least(0)});
   p(at + "stop", &m.stop,
     {.unit = "s",
-     .meaning = "and until then",
+     .meaning = "end of the motion",
      .range = above(m.start),
      .fallback = "never",
      .presence = optional});
@@ -83,12 +88,12 @@ void body_motion(Parameters& p, MotionConfig& m) {
   motion_part(p, "motion.", m);
   if (m.kind != MotionKind::fixed || p.everything())
     p("motion.remove_when_clear", &m.remove_when_clear,
-      {.meaning = "removed once above all fluid and grains"});
+      {.meaning = "the body is removed once it is above all fluid and grains"});
   motion_parts(p, "motion.", m);
 }
 
 void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
-  p("name", &b.name, {.meaning = "by which probes and messages know it", .presence = required});
+  p("name", &b.name, {.meaning = "name of the body in probes, outputs and messages", .presence = required});
   p("shape", &b.shape,
     {.meaning = "shape of the body",
      .presence = required,
@@ -102,40 +107,43 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
   if (b.shape == WallShape::tank || p.everything())
     p("faces", &b.faces, {.meaning = "tank: sides that exist, of \"x-\" .. \"z+\"", .fallback = "all"});
   if (plane || p.everything()) {
-    p("point", &b.point, {.unit = "m", .meaning = "plane: a point on it", .presence = required});
-    p("normal", &b.normal, {.meaning = "plane: direction into the flow", .presence = required});
+    p("point", &b.point, {.unit = "m", .meaning = "plane: a point on the plane", .presence = required});
+    p("normal", &b.normal, {.meaning = "plane: normal, pointing into the flow", .presence = required});
   }
-  p("type", &b.type, {.meaning = "how the fluid meets it", .fallback = "wall.type"});
-  p("slip", &b.slip, {.meaning = "friction with the fluid", .fallback = "wall.slip"});
+  p("type", &b.type, {.meaning = "boundary condition for the fluid", .fallback = "wall.type"});
+  p("slip", &b.slip, {.meaning = "slip or no slip of the fluid", .fallback = "wall.slip"});
   if (b.single_layer() || p.everything())
-    p("force", &b.force, {.meaning = "single_layer: what keeps fluid off", .fallback = "wall.force"});
+    p("force", &b.force, {.meaning = "single_layer: repulsive force on the fluid", .fallback = "wall.force"});
   if (!b.single_layer() || p.everything()) {
     p("no_penetration", &b.no_penetration,
-      {.meaning = "stops fluid within a quarter of fluid.dx", .fallback = "wall.no_penetration"});
+      {.meaning = "penetration limit: stops fluid within fluid.dx / 4 of the surface",
+       .fallback = "wall.no_penetration"});
     p("repulsion", &b.repulsion,
-      {.meaning = "Monaghan repulsion beside it; frozen walls always have it", .fallback = "wall.repulsion"});
+      {.meaning = "Monaghan repulsion near the surface; frozen walls always have it",
+       .fallback = "wall.repulsion"});
   }
   p("surface_velocity", &b.surface_velocity,
-    {.unit = "m/s", .meaning = "of a surface that slides in its place (lid, belt), in the body's axes"});
+    {.unit = "m/s",
+     .meaning = "velocity of a surface that slides in its own plane (lid, belt), in the body's axes"});
   p("dx", &b.dx,
     {.unit = "m",
-     .meaning = "spacing of its particles, fluid.dx/4..fluid.dx, of a single layer at most fluid.dx/2",
+     .meaning = "spacing of its particles, fluid.dx/4..fluid.dx; single_layer: at most fluid.dx/2",
      .range = above(0),
-     .fallback = "wall.dx, of a single layer at most fluid.dx/2",
+     .fallback = "wall.dx; single_layer: at most fluid.dx/2",
      .presence = optional});
   if (b.stops_grains() || p.everything()) {
     p("mu", &b.mu,
-      {.meaning = "sliding friction of grains on it",
+      {.meaning = "coefficient of sliding friction of grains on the wall",
        .range = within(0, 5),
        .fallback = "grain.mu",
        .presence = unbounded});
     p("mu_r", &b.mu_r,
-      {.meaning = "rolling friction of grains on it",
+      {.meaning = "coefficient of rolling friction of grains on the wall",
        .range = within(0, 1),
        .fallback = "grain.mu_r",
        .presence = unbounded});
     p("e", &b.e,
-      {.meaning = "restitution of grains from it",
+      {.meaning = "coefficient of restitution of grains on the wall",
        .range = within(least_restitution(contact), 1),
        .hint = "give a fraction, not percent?",
        .fallback = "grain.e",
@@ -157,7 +165,8 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
 }
 
 void grain_material(Parameters& p, GrainMaterial& m) {
-  p("name", &m.name, {.meaning = "by which fills and inlets name it", .presence = required});
+  p("name", &m.name,
+    {.meaning = "name by which fills and inlets refer to the material", .presence = required});
   p("rho", &m.rho,
     {.unit = "kg/m3",
      .meaning = "density",
@@ -176,39 +185,42 @@ void grain_material(Parameters& p, GrainMaterial& m) {
      .fallback = "grain.nu",
      .presence = unbounded});
   p("mu", &m.mu,
-    {.meaning = "sliding friction; between two materials the mean of both",
+    {.meaning = "coefficient of sliding friction; between two materials the mean of both",
      .range = within(0, 5),
      .fallback = "grain.mu",
      .presence = unbounded});
 }
 
 void grain_fill(Parameters& p, GrainFill& f) {
-  describe_fill_file(p, f.file, f.step, "grains from a .csv or .vtkhdf file, instead of a box");
+  describe_fill_file(p, f.file, f.step, ".csv or .vtkhdf file with the grains, instead of a box");
   if (f.file.empty() || p.everything())
     p("positions", &f.positions,
-      {.unit = "m", .meaning = "centres, instead of a box", .fallback = "none", .presence = optional});
+      {.unit = "m",
+       .meaning = "positions of the grains, instead of a box",
+       .fallback = "none",
+       .presence = optional});
   const bool listed = !f.file.empty() || !f.positions.empty();
   if (listed || p.everything())
     p("relative", &f.relative,
-      {.meaning =
-           "positions, also those of a file, are fractions of the domain's sides from its lower corner"});
+      {.meaning = "positions, also those of a file, are fractions of the domain's side lengths, from its "
+                  "lower corner"});
   if (!f.positions.empty() || p.everything()) {
     p("velocities", &f.velocities,
       {.unit = "m/s",
-       .meaning = "of the grains at `positions`, one each",
+       .meaning = "initial velocities of the grains in `positions`, one each",
        .fallback = "velocity",
        .presence = optional});
     p("spins", &f.spins,
       {.unit = "rad/s",
-       .meaning = "of the grains at `positions`, one each",
+       .meaning = "initial angular velocities of the grains in `positions`, one each",
        .fallback = "spin",
        .presence = optional});
   }
   if (!listed || p.everything())
     p("every", &f.every,
-      {.meaning = "[i, j, k]: instead of random places, each i-th, j-th and k-th site along x, y and z of "
-                  "the lattice of spacing fluid.dx in the box or shape; [n]: each n-th of its sites, counted "
-                  "along x, then y, then z",
+      {.meaning =
+           "sites of a lattice of spacing fluid.dx in the box or shape, instead of random positions; [i, j, "
+           "k]: every i-th, j-th and k-th along x, y and z; [n]: every n-th, counted along x, then y, then z",
        .range = within(1, 1e6),
        .fallback = "none",
        .presence = optional});
@@ -217,33 +229,33 @@ void grain_fill(Parameters& p, GrainFill& f) {
       {.meaning = "name of a shape to fill, instead of a box", .fallback = "none", .presence = optional});
     if (f.shape.empty() || p.everything()) {
       p("min", &f.min, {.unit = "m", .meaning = "lower corner of the box to fill", .presence = required});
-      p("max", &f.max, {.unit = "m", .meaning = "upper corner", .presence = required});
+      p("max", &f.max, {.unit = "m", .meaning = "upper corner of the box to fill", .presence = required});
     }
   }
   if ((!listed && f.every.empty()) || p.everything()) {
     p("count", &f.count,
-      {.meaning = "number of grains; or mass, or packing_fraction",
+      {.meaning = "number of grains; alternative to mass and packing_fraction",
        .range = within(1, 2147483647),
-       .fallback = "one of three",
+       .fallback = "one of three required",
        .presence = optional});
     p("mass", &f.mass,
       {.unit = "kg",
-       .meaning = "of all grains together",
+       .meaning = "total mass of the grains; alternative to count and packing_fraction",
        .range = above(0),
-       .fallback = "one of three",
+       .fallback = "one of three required",
        .presence = optional});
     p("packing_fraction", &f.packing_fraction,
-      {.meaning = "solid volume / box volume",
+      {.meaning = "volume fraction of grains in the box or shape; alternative to count and mass",
        .range = above_to(0, 0.64),
        .hint = "0.64 is random close packing",
-       .fallback = "one of three",
+       .fallback = "one of three required",
        .presence = optional});
   }
   p("velocity", &f.velocity, {.unit = "m/s", .meaning = "initial velocity"});
   p("spin", &f.spin, {.unit = "rad/s", .meaning = "initial angular velocity"});
   p("replaces_fluid", &f.replaces_fluid,
-    {.meaning =
-         "each grain takes the place of the fluid particle nearest to it, whose volume the others share"});
+    {.meaning = "each grain replaces the fluid particle nearest to it, whose mass is distributed over the "
+                "others of its fluid.fill"});
   describe_grain_material(p, f.material);
   describe_rigid_group(p, f.rigid);
   p.list("sizes", f.sizes, SizeClass{}, describe_grain_size);
@@ -253,26 +265,27 @@ void grain_fill(Parameters& p, GrainFill& f) {
 
 void describe_grain_material(Parameters& p, std::string& material) {
   p("material", &material,
-    {.meaning = "name of the grain.material that they are made of",
-     .fallback = "that of grain.*",
+    {.meaning = "name of the grain.material of the grains",
+     .fallback = "material of grain.*",
      .presence = optional});
 }
 
 void describe_lubrication(Parameters& p, LubricationConfig& l) {
   p("lubrication.forces", &l.forces,
-    {.meaning = "what fluid between near grains, and grains and walls, resists", .family = "laws"});
+    {.meaning = "lubrication forces of the fluid film between near grains, and between grains and walls",
+     .family = "laws"});
   p("lubrication.cut_off", &l.cut_off,
-    {.unit = "R*", .meaning = "gap beyond which there is no lubrication", .range = above_to(0, 2)});
+    {.unit = "R*", .meaning = "gap above which lubrication is zero", .range = above_to(0, 2)});
   p("lubrication.least_gap", &l.least_gap,
     {.unit = "R*",
-     .meaning = "gap below which it grows no further, up to the cut-off",
+     .meaning = "gap below which lubrication no longer increases; below cut_off",
      .range = within(1e-4, 2)});
 }
 
 void describe_grain_size(Parameters& p, SizeClass& s) {
   p("kind", &s.kind, {.meaning = "one diameter or a distribution", .family = "shapes"});
   p("number_fraction", &s.number_fraction,
-    {.meaning = "number of its grains, relative to the other entries",
+    {.meaning = "number of grains in this entry, relative to the other entries",
      .range = above(0),
      .formerly = "share"});
   const auto wanted = [&](SizeKind kind) { return s.kind == kind || p.everything(); };
@@ -280,7 +293,10 @@ void describe_grain_size(Parameters& p, SizeClass& s) {
     p("d", &s.d, {.unit = "m", .meaning = "class: diameter", .range = above(0), .presence = required});
   if (wanted(SizeKind::log_normal)) {
     p("median", &s.median,
-      {.unit = "m", .meaning = "log_normal: median diameter", .range = above(0), .presence = required});
+      {.unit = "m",
+       .meaning = "log_normal: median diameter (by number)",
+       .range = above(0),
+       .presence = required});
     p("sigma", &s.sigma,
       {.meaning = "log_normal: standard deviation of ln d", .range = above_to(0, 2), .presence = required});
   }
@@ -302,11 +318,11 @@ void describe_grain_size(Parameters& p, SizeClass& s) {
   if (wanted(SizeKind::sieve)) {
     p("openings", &s.openings,
       {.unit = "m",
-       .meaning = "sieve: of the meshes, finest first",
+       .meaning = "sieve: mesh openings, in increasing order",
        .range = above(0),
        .presence = required});
     p("passing", &s.passing,
-      {.meaning = "sieve: fraction of the mass that passes each mesh, from 0 to 1",
+      {.meaning = "sieve: mass fraction that passes each mesh, from 0 to 1",
        .range = within(0, 1),
        .hint = "give fractions, not percent?",
        .presence = required});
@@ -325,35 +341,39 @@ void describe_walls(Parameters& p, WallConfig& w, const ContactConfig& contact) 
      .range = above(0),
      .fallback = "fluid.dx",
      .presence = optional});
-  p("wall.type", &w.type, {.meaning = "default of the bodies", .family = "models"});
-  p("wall.slip", &w.slip, {.meaning = "default of the bodies", .family = "models"});
-  p("wall.force", &w.force, {.meaning = "default of the bodies: force of single layers", .family = "models"});
+  p("wall.type", &w.type,
+    {.meaning = "boundary condition for the fluid, default of wall.body.type", .family = "models"});
+  p("wall.slip", &w.slip,
+    {.meaning = "slip or no slip of the fluid, default of wall.body.slip", .family = "models"});
+  p("wall.force", &w.force,
+    {.meaning = "repulsive force of single layers, default of wall.body.force", .family = "models"});
   p("wall.no_penetration", &w.no_penetration,
-    {.meaning = "default of the bodies: stops fluid within a quarter of fluid.dx"});
-  p("wall.repulsion", &w.repulsion, {.meaning = "default of the bodies: Monaghan repulsion [monaghan94]"});
+    {.meaning = "penetration limit, default of wall.body.no_penetration: stops fluid within fluid.dx / 4 of "
+                "a surface"});
+  p("wall.repulsion", &w.repulsion,
+    {.meaning = "Monaghan repulsion [monaghan94], default of wall.body.repulsion"});
   p("wall.energy_consistent", &w.energy_consistent,
-    {.meaning =
-         "with wall.suction: the pressure of walls is no source of energy, fluid beside them pays for its "
-         "work. For WCSPH with \"kdk\", without mdbc walls, single layers and fluid.variable_h"});
+    {.meaning = "with wall.suction: the work of wall pressure is taken from the fluid next to the walls, so "
+                "that walls at rest add no energy; for WCSPH with \"kdk\", not with mdbc walls, single "
+                "layers or fluid.variable_h"});
   p("wall.suction", &w.suction,
-    {.meaning =
-         "walls hold fluid back by pressure below zero, as walls of a closed vessel do; without it fluid "
-         "parts from them freely"});
+    {.meaning = "suction: walls may pull on fluid by negative pressure, as in a closed vessel; without it "
+                "fluid separates freely from walls"});
   p("wall.rep_D", &w.rep_D,
     {.unit = "m2/s2",
-     .meaning = "strength D of the repulsion and of single layers; K = D/5 with kajtar",
+     .meaning = "strength D of the repulsion and of single layers; kajtar: K = D/5",
      .range = above(0),
      .fallback = "5 g H",
      .presence = optional});
   p("wall.rep_r0", &w.rep_r0,
     {.unit = "m",
-     .meaning = "reach of the repulsion, up to fluid.dx",
+     .meaning = "range of the repulsion, at most fluid.dx",
      .range = above(0),
      .fallback = "0.5 fluid.dx",
      .presence = optional});
   p("wall.layer_r0", &w.layer_r0,
     {.unit = "m",
-     .meaning = "reach of the monaghan force of single layers, from their spacing to fluid.dx",
+     .meaning = "range of the monaghan force of single layers, from their spacing to fluid.dx",
      .range = above(0),
      .fallback = "fluid.dx",
      .presence = optional});
@@ -371,34 +391,36 @@ void describe_grains(Parameters& p, Config& c) {
   GrainConfig& g = c.grain;
   p("grain.d", &g.d,
     {.unit = "m",
-     .meaning = "diameter, where a fill gives no sizes",
+     .meaning = "diameter of grains in fills and inlets without sizes",
      .range = above(0),
      .fallback = "required without sizes",
      .presence = optional});
-  p("grain.rho", &g.rho, {.unit = "kg/m3", .meaning = "density", .range = above(0)});
-  p("grain.E", &g.E, {.unit = "Pa", .meaning = "Young's modulus", .range = within(1e4, 1e12)});
-  p("grain.nu", &g.nu, {.meaning = "Poisson's ratio", .range = {.lo = -1, .hi = 0.5}});
-  p("grain.mu", &g.mu, {.meaning = "sliding friction", .range = within(0, 5)});
-  p("grain.mu_r", &g.mu_r, {.meaning = "rolling friction", .range = within(0, 1)});
+  p("grain.rho", &g.rho, {.unit = "kg/m3", .meaning = "density of the grains", .range = above(0)});
+  p("grain.E", &g.E, {.unit = "Pa", .meaning = "Young's modulus of the grains", .range = within(1e4, 1e12)});
+  p("grain.nu", &g.nu, {.meaning = "Poisson's ratio of the grains", .range = {.lo = -1, .hi = 0.5}});
+  p("grain.mu", &g.mu, {.meaning = "coefficient of sliding friction", .range = within(0, 5)});
+  p("grain.mu_r", &g.mu_r, {.meaning = "coefficient of rolling friction", .range = within(0, 1)});
   p("grain.e", &g.e,
-    {.meaning = "restitution (linear 0.136..1, without clip_tension 0.01..1)",
+    {.meaning = "coefficient of restitution (linear: 0.136..1; without clip_tension: 0.01..1)",
      .range = within(least_restitution(c.contact), 1),
      .hint = "give a fraction, not percent?"});
-  p("grain.settle", &g.settle, {.meaning = "settle dry before t = 0; kept for later runs"});
+  p("grain.settle", &g.settle,
+    {.meaning =
+         "settling: a DEM run without fluid before t = 0 makes the bed, which is cached for later runs"});
   p("grain.settle_time", &g.settle_time,
     {.unit = "s",
-     .meaning = "longest settling",
+     .meaning = "longest settling time",
      .range = above(0),
      .fallback = "20 sqrt(2 H/g)",
      .presence = optional});
   p("grain.settle_mu", &g.settle_mu,
-    {.meaning = "sliding friction while settling; the lower, the denser the bed",
+    {.meaning = "coefficient of sliding friction while settling; lower values give denser beds",
      .range = within(0, 5),
      .fallback = "grain.mu",
      .presence = unbounded});
   p("grain.release_time", &g.release_time,
-    {.unit = "s", .meaning = "held in place until then", .range = at_least(0)});
-  p("grain.fixed", &g.fixed, {.meaning = "grains never move"});
+    {.unit = "s", .meaning = "time until which all grains are held in place", .range = at_least(0)});
+  p("grain.fixed", &g.fixed, {.meaning = "grains are held in place for the whole run"});
   p.list("grain.material", g.materials, GrainMaterial{}, grain_material);
   p.list("grain.fill", g.fills, GrainFill{}, grain_fill);
 }

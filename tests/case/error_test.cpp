@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bedload/case/choices.hpp"
 #include "bedload/case/parameters.hpp"
 #include "bedload/case/section.hpp"
 #include "support.hpp"
@@ -14,7 +15,7 @@ namespace {
 struct Wrong {
   const char* from;
   const char* to;
-  const char* message;
+  std::string message;
 };
 
 void PrintTo(const Wrong& w, std::ostream* out) { *out << w.to; }
@@ -108,8 +109,8 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Missing, CaseErrors,
     testing::Values(
-        Wrong{"dx = 0.004\n", "", "dam.toml:5: fluid.dx must be given (particle spacing, m)"},
-        Wrong{"[time]\nend = 0.3\n", "", "dam.toml: time.end must be given (end of the run, s)"},
+        Wrong{"dx = 0.004\n", "", "dam.toml:5: fluid.dx must be given (initial particle spacing, m)"},
+        Wrong{"[time]\nend = 0.3\n", "", "dam.toml: time.end must be given (end time of the run, s)"},
         Wrong{"shape = \"tank\"", "shape = \"tnk\"",
               "dam.toml:12: wall.body.shape = \"tnk\" must be tank, box, plane or the name of a [[shape]]; "
               "this case has none"},
@@ -202,9 +203,7 @@ INSTANTIATE_TEST_SUITE_P(
               "dam.toml:20: grain.fill.packing_fraction = 0.7 must be > 0 and <= 0.64; 0.64 is random close "
               "packing"},
         Wrong{"[time]", "[drag]\nlaw = \"gidspow\"\n[time]",
-              "dam.toml:22: drag.law = \"gidspow\" must be one of di_felice, gidaspow, gidaspow_blend, "
-              "ergun, wen_yu, "
-              "schiller_naumann, stokes, table"},
+              "dam.toml:22: drag.law = \"gidspow\" must be one of " + names_of<DragLaw>()},
         Wrong{"title = \"dam\"", "preset = \"hee\"",
               "dam.toml:1: preset = \"hee\" must be one of default, he2018, democritus, robinson2014"}));
 

@@ -69,7 +69,7 @@ TEST(FreeBodyCase, ErrorsAreOneSentence) {
             "above "
             "0, none above the sum of the other two"},
            {"density = 3\nturn = \"axis\"\n",
-            "dam.toml:20: wall.body.free.axis must be given (direction for move and turn)"},
+            "dam.toml:20: wall.body.free.axis must be given (direction of the axis of move and turn)"},
            {"density = 3\nturn = \"axis\"\naxis = [0, 0, 0]\n",
             "dam.toml:23: wall.body.free.axis = [0, 0, 0] must not be zero"},
            {"density = 3\npoint = [0, 0, 0]\n",

@@ -14,10 +14,10 @@ namespace bedload {
 enum class NormalLaw : std::uint32_t { hertz, linear, democritus, none };
 template <>
 inline constexpr auto kNames<NormalLaw> = std::to_array<Named<NormalLaw>>({
-    {NormalLaw::hertz, "hertz", "Hertz spring, damping exact in e"},
+    {NormalLaw::hertz, "hertz", "Hertz spring, damping that gives exactly e"},
     {NormalLaw::linear, "linear", "linear spring and dashpot"},
     {NormalLaw::democritus, "democritus", "Hertz spring, overdamped, ignores grain.e [tsuzuki]"},
-    {NormalLaw::none, "none", "grains pass through each other"},
+    {NormalLaw::none, "none", "no contacts: grains pass through each other"},
 });
 
 /// contact.tangential
@@ -25,10 +25,10 @@ enum class SlidingLaw : std::uint32_t { mindlin, mindlin_deresiewicz, linear, de
 template <>
 inline constexpr auto kNames<SlidingLaw> = std::to_array<Named<SlidingLaw>>({
     {SlidingLaw::mindlin, "mindlin", "Mindlin spring, rescaled on unloading"},
-    {SlidingLaw::mindlin_deresiewicz, "mindlin_deresiewicz", "Mindlin-Deresiewicz, full micro-slip"},
-    {SlidingLaw::linear, "linear", "linear spring kt_ratio k"},
+    {SlidingLaw::mindlin_deresiewicz, "mindlin_deresiewicz", "Mindlin-Deresiewicz spring with micro-slip"},
+    {SlidingLaw::linear, "linear", "linear spring of stiffness kt_ratio k"},
     {SlidingLaw::democritus, "democritus",
-     "Mindlin's, but 1/(2 + 2 nu) as stiff as the normal spring [tsuzuki]"},
+     "Mindlin spring with 1/(2 + 2 nu) of the normal stiffness [tsuzuki]"},
     {SlidingLaw::none, "none", "frictionless"},
 });
 
@@ -36,18 +36,18 @@ inline constexpr auto kNames<SlidingLaw> = std::to_array<Named<SlidingLaw>>({
 enum class RollingLaw : std::uint32_t { epsd, cdt, none };
 template <>
 inline constexpr auto kNames<RollingLaw> = std::to_array<Named<RollingLaw>>({
-    {RollingLaw::epsd, "epsd", "elastic-plastic spring-dashpot, holds slopes [ai11]"},
+    {RollingLaw::epsd, "epsd", "elastic-plastic spring-dashpot, so that grains rest on slopes [ai11]"},
     {RollingLaw::cdt, "cdt", "constant directional torque"},
-    {RollingLaw::none, "none", "free rolling"},
+    {RollingLaw::none, "none", "no rolling resistance"},
 });
 
 /// lubrication.forces
 enum class LubricationForces : std::uint32_t { none, normal, all };
 template <>
 inline constexpr auto kNames<LubricationForces> = std::to_array<Named<LubricationForces>>({
-    {LubricationForces::none, "none", "fluid between near surfaces is not accounted for"},
-    {LubricationForces::normal, "normal", "against approach and recession"},
-    {LubricationForces::all, "all", "against sliding and rolling, too [jeffrey84]"},
+    {LubricationForces::none, "none", "no lubrication"},
+    {LubricationForces::normal, "normal", "against approach and separation"},
+    {LubricationForces::all, "all", "also against sliding and rolling [jeffrey84]"},
 });
 
 // -- fluid ---------------------------------------------------------------------------------------
@@ -56,34 +56,36 @@ inline constexpr auto kNames<LubricationForces> = std::to_array<Named<Lubricatio
 enum class FluidModel { wcsph, sdpd, sdpd_a };
 template <>
 inline constexpr auto kNames<FluidModel> = std::to_array<Named<FluidModel>>({
-    {FluidModel::wcsph, "wcsph", "weakly compressible SPH, with terms that keep it smooth"},
-    {FluidModel::sdpd, "sdpd", "smoothed dissipative particle dynamics: friction and noise [espanol03]"},
-    {FluidModel::sdpd_a, "sdpd_a", "the same with spin, which keeps angular momentum [mueller15]"},
+    {FluidModel::wcsph, "wcsph", "weakly compressible SPH, with stabilising terms"},
+    {FluidModel::sdpd, "sdpd",
+     "smoothed dissipative particle dynamics: viscous friction and thermal noise [espanol03]"},
+    {FluidModel::sdpd_a, "sdpd_a", "SDPD with spin of the particles, conserves angular momentum [mueller15]"},
 });
 
 /// density.method, of SDPD
 enum class DensityMethod { continuity, summation };
 template <>
 inline constexpr auto kNames<DensityMethod> = std::to_array<Named<DensityMethod>>({
-    {DensityMethod::continuity, "continuity", "the divergence of the flow; drifts with noise"},
-    {DensityMethod::summation, "summation", "the particles around"},
+    {DensityMethod::continuity, "continuity",
+     "integrated in time from the velocity divergence; drifts with noise"},
+    {DensityMethod::summation, "summation", "summed over the neighbours"},
 });
 
 /// sdpd.noise
 enum class NoiseForm { vector, tensor };
 template <>
 inline constexpr auto kNames<NoiseForm> = std::to_array<Named<NoiseForm>>({
-    {NoiseForm::vector, "vector", "three random numbers a pair"},
-    {NoiseForm::tensor, "tensor", "nine, of the same covariance [tsuzuki]"},
+    {NoiseForm::vector, "vector", "three random numbers per pair"},
+    {NoiseForm::tensor, "tensor", "nine random numbers per pair, with the same covariance [tsuzuki]"},
 });
 
 /// drive.mode
 enum class DriveMode { volume, mass, particle };
 template <>
 inline constexpr auto kNames<DriveMode> = std::to_array<Named<DriveMode>>({
-    {DriveMode::volume, "volume", "N/m3"},
-    {DriveMode::mass, "mass", "m/s2, given without a unit"},
-    {DriveMode::particle, "particle", "N on each fluid particle and grain, given without a unit"},
+    {DriveMode::volume, "volume", "per volume of space, N/m3"},
+    {DriveMode::mass, "mass", "per mass, m/s2; numbers without a unit"},
+    {DriveMode::particle, "particle", "on each fluid particle and grain, N; numbers without a unit"},
 });
 
 /// drive.on
@@ -92,17 +94,17 @@ template <>
 inline constexpr auto kNames<DrivenPhase> = std::to_array<Named<DrivenPhase>>({
     {DrivenPhase::fluid, "fluid", "the fluid"},
     {DrivenPhase::grains, "grains", "the grains"},
-    {DrivenPhase::both, "both", "both of them"},
+    {DrivenPhase::both, "both", "fluid and grains"},
 });
 
 /// drive.opposed
 enum class DriveReversal { none, x, y, z };
 template <>
 inline constexpr auto kNames<DriveReversal> = std::to_array<Named<DriveReversal>>({
-    {DriveReversal::none, "none", "drive.f is the same everywhere"},
-    {DriveReversal::x, "x", "it is reversed in the upper half of the domain along x"},
-    {DriveReversal::y, "y", "along y"},
-    {DriveReversal::z, "z", "along z"},
+    {DriveReversal::none, "none", "no reversal"},
+    {DriveReversal::x, "x", "reversed in the upper half along x"},
+    {DriveReversal::y, "y", "reversed in the upper half along y"},
+    {DriveReversal::z, "z", "reversed in the upper half along z"},
 });
 
 /// fluid.kernel
@@ -128,9 +130,10 @@ template <>
 inline constexpr auto kNames<ViscosityModel> = std::to_array<Named<ViscosityModel>>({
     {ViscosityModel::morris, "morris", "Laplacian of the velocity, conserves linear momentum [morris97]"},
     {ViscosityModel::monaghan, "monaghan",
-     "divergence of the stress, right at free surfaces, conserves both [monaghan05]"},
+     "divergence of the stress, correct at free surfaces, conserves linear and angular momentum "
+     "[monaghan05]"},
     {ViscosityModel::signal, "signal",
-     "along the line of centres by the speed of signals, conserves both [harting14]"},
+     "along the line of centres, with the signal speed, conserves linear and angular momentum [harting14]"},
     {ViscosityModel::none, "none", "inviscid"},
 });
 
@@ -143,28 +146,29 @@ inline constexpr auto kNames<WallType> = std::to_array<Named<WallType>>({
     {WallType::adami, "adami",
      "layers of wall particles with pressure extrapolated from the fluid [adami12]"},
     {WallType::mdbc, "mdbc",
-     "layers of wall particles with the density about their images in the fluid [english22]"},
-    {WallType::frozen, "frozen", "layers of wall particles, the first with a density of its own"},
+     "layers of wall particles with the density at their mirror points in the fluid [english22]"},
+    {WallType::frozen, "frozen",
+     "wall particles treated as fluid at rest relative to the wall; the first layer has its own density"},
     {WallType::single_layer, "single_layer",
-     "one layer of particles on the surface that push the fluid away; for thin shells"},
-    {WallType::grains_only, "grains_only", "stops grains, lets the fluid pass"},
-    {WallType::fluid_only, "fluid_only", "as adami, but lets grains pass"},
+     "one layer of particles on the surface that repel the fluid; for thin shells"},
+    {WallType::grains_only, "grains_only", "stops grains; fluid passes through"},
+    {WallType::fluid_only, "fluid_only", "as adami for the fluid; grains pass through"},
 });
 
 /// wall.slip
 enum class WallSlip { noslip, slip };
 template <>
 inline constexpr auto kNames<WallSlip> = std::to_array<Named<WallSlip>>({
-    {WallSlip::noslip, "noslip", "the fluid sticks to the wall"},
-    {WallSlip::slip, "slip", "no viscous wall pairs"},
+    {WallSlip::noslip, "noslip", "the fluid has the velocity of the wall at its surface"},
+    {WallSlip::slip, "slip", "no viscous force between fluid and wall"},
 });
 
 /// wall.force, of single layers
 enum class LayerForce { kajtar, monaghan };
 template <>
 inline constexpr auto kNames<LayerForce> = std::to_array<Named<LayerForce>>({
-    {LayerForce::kajtar, "kajtar", "soft, as far as the kernel reaches [monaghan09]"},
-    {LayerForce::monaghan, "monaghan", "steep, up to wall.layer_r0 [monaghan94]"},
+    {LayerForce::kajtar, "kajtar", "soft, within the kernel's support [monaghan09]"},
+    {LayerForce::monaghan, "monaghan", "steep, within wall.layer_r0 [monaghan94]"},
 });
 
 // -- coupling ------------------------------------------------------------------------------------
@@ -173,35 +177,34 @@ inline constexpr auto kNames<LayerForce> = std::to_array<Named<LayerForce>>({
 enum class CouplingMode { two_way, one_way, off };
 template <>
 inline constexpr auto kNames<CouplingMode> = std::to_array<Named<CouplingMode>>({
-    {CouplingMode::two_way, "two_way", "grains and fluid act on each other"},
-    {CouplingMode::one_way, "one_way", "the fluid acts on the grains, not the reverse"},
-    {CouplingMode::off, "off", "nothing"},
+    {CouplingMode::two_way, "two_way", "fluid and grains act on each other"},
+    {CouplingMode::one_way, "one_way", "the fluid acts on the grains only"},
+    {CouplingMode::off, "off", "no coupling"},
 });
 
 /// couple.kernel
 enum class CouplingKernel { fluid, top_hat };
 template <>
 inline constexpr auto kNames<CouplingKernel> = std::to_array<Named<CouplingKernel>>({
-    {CouplingKernel::fluid, "fluid", "fluid.kernel"},
-    {CouplingKernel::top_hat, "top_hat", "the same everywhere within kappa h_c: noisy [tsuzuki]"},
+    {CouplingKernel::fluid, "fluid", "as fluid.kernel"},
+    {CouplingKernel::top_hat, "top_hat", "constant within kappa h_c; noisy [tsuzuki]"},
 });
 
 /// couple.slip
 enum class DragSlip { mean, local };
 template <>
 inline constexpr auto kNames<DragSlip> = std::to_array<Named<DragSlip>>({
-    {DragSlip::mean, "mean", "the mean around the grain"},
+    {DragSlip::mean, "mean", "relative to the mean velocity of the fluid around the grain"},
     {DragSlip::local, "local",
-     "that of each fluid particle: a jet pushes, and is stopped, by its own speed; but grains resist shear "
-     "of "
-     "the fluid over h_c, too"},
+     "relative to each fluid particle: a jet drives grains, and is slowed, by its own speed; but grains also "
+     "resist shear of the fluid over h_c"},
 });
 
 /// couple.suspension_viscosity
 enum class SuspensionLaw { none, krieger_dougherty, maron_pierce };
 template <>
 inline constexpr auto kNames<SuspensionLaw> = std::to_array<Named<SuspensionLaw>>({
-    {SuspensionLaw::none, "none", "that of the fluid alone"},
+    {SuspensionLaw::none, "none", "viscosity of the fluid alone"},
     {SuspensionLaw::krieger_dougherty, "krieger_dougherty", "(1 - phi/phi_max)^(-2.5 phi_max) [krieger59]"},
     {SuspensionLaw::maron_pierce, "maron_pierce", "(1 - phi/phi_max)^-2 [maron56]"},
 });
@@ -210,22 +213,23 @@ inline constexpr auto kNames<SuspensionLaw> = std::to_array<Named<SuspensionLaw>
 enum class DragLaw { di_felice, gidaspow, gidaspow_blend, ergun, wen_yu, schiller_naumann, stokes, table };
 template <>
 inline constexpr auto kNames<DragLaw> = std::to_array<Named<DragLaw>>({
-    {DragLaw::di_felice, "di_felice", "one smooth law from lone grain to packed bed [difelice94]"},
-    {DragLaw::gidaspow, "gidaspow", "Ergun up to porosity 0.8, then Wen-Yu; jumps there [gidaspow94]"},
-    {DragLaw::gidaspow_blend, "gidaspow_blend", "the same, blended [huilin03]"},
+    {DragLaw::di_felice, "di_felice", "one smooth law from single grain to packed bed [difelice94]"},
+    {DragLaw::gidaspow, "gidaspow",
+     "Ergun up to porosity 0.8, Wen-Yu above; discontinuous there [gidaspow94]"},
+    {DragLaw::gidaspow_blend, "gidaspow_blend", "Ergun and Wen-Yu, blended around porosity 0.8 [huilin03]"},
     {DragLaw::ergun, "ergun", "packed beds [ergun52]"},
     {DragLaw::wen_yu, "wen_yu", "suspensions [wen66]"},
-    {DragLaw::schiller_naumann, "schiller_naumann", "a lone sphere"},
-    {DragLaw::stokes, "stokes", "a lone sphere, creeping flow"},
-    {DragLaw::table, "table", "a law of your own: drag.factor over drag.porosity and drag.reynolds"},
+    {DragLaw::schiller_naumann, "schiller_naumann", "single sphere"},
+    {DragLaw::stokes, "stokes", "single sphere in creeping flow"},
+    {DragLaw::table, "table", "user-defined: drag.factor as a function of drag.porosity and drag.reynolds"},
 });
 
 /// drag.integrator
 enum class DragIntegrator { exponential, explicit_steps };
 template <>
 inline constexpr auto kNames<DragIntegrator> = std::to_array<Named<DragIntegrator>>({
-    {DragIntegrator::exponential, "exponential", "exact for constant slip, stable for any drag"},
-    {DragIntegrator::explicit_steps, "explicit", "limits the step"},
+    {DragIntegrator::exponential, "exponential", "exact for constant slip velocity, stable for any drag"},
+    {DragIntegrator::explicit_steps, "explicit", "explicit steps, which limit the substep"},
 });
 
 // -- time ----------------------------------------------------------------------------------------
@@ -234,8 +238,8 @@ inline constexpr auto kNames<DragIntegrator> = std::to_array<Named<DragIntegrato
 enum class TimeIntegrator { kdk, ab3, euler };
 template <>
 inline constexpr auto kNames<TimeIntegrator> = std::to_array<Named<TimeIntegrator>>({
-    {TimeIntegrator::kdk, "kdk", "kick-drift-kick, second order; two passes over pairs a step"},
-    {TimeIntegrator::ab3, "ab3", "the same with density by Adams-Bashforth: one pass over pairs a step"},
+    {TimeIntegrator::kdk, "kdk", "kick-drift-kick, second order; two pair loops per step"},
+    {TimeIntegrator::ab3, "ab3", "kick-drift-kick with density by Adams-Bashforth; one pair loop per step"},
     {TimeIntegrator::euler, "euler",
      "symplectic Euler: velocity first, then position and density; first order"},
 });
@@ -260,7 +264,7 @@ inline constexpr auto kNames<Preset> = std::to_array<Named<Preset>>({
 enum class Precision { mixed, fp32, fp64 };
 template <>
 inline constexpr auto kNames<Precision> = std::to_array<Named<Precision>>({
-    {Precision::mixed, "mixed", "fp64 positions, fp32 velocities and pairs"},
+    {Precision::mixed, "mixed", "fp64 positions, fp32 velocities and pair forces"},
     {Precision::fp32, "single", "fp32, cell-relative positions"},
     {Precision::fp64, "double", "fp64 throughout"},
 });
@@ -269,8 +273,8 @@ inline constexpr auto kNames<Precision> = std::to_array<Named<Precision>>({
 enum class Simd { automatic, baseline, avx2 };
 template <>
 inline constexpr auto kNames<Simd> = std::to_array<Named<Simd>>({
-    {Simd::automatic, "auto", "avx2 if the CPU has it"},
-    {Simd::baseline, "baseline", "those that every x86-64 has"},
+    {Simd::automatic, "auto", "avx2 if the CPU supports it"},
+    {Simd::baseline, "baseline", "instructions of every x86-64 CPU"},
     {Simd::avx2, "avx2", "AVX2 and FMA"},
 });
 

@@ -12,15 +12,15 @@ namespace bedload {
 enum class ShapeKind { box, sphere, capsule, cylinder, cone, pipe, mesh, hollow, union_, difference };
 template <>
 inline constexpr auto kNames<ShapeKind> = std::to_array<Named<ShapeKind>>({
-    {ShapeKind::box, "box", "between two corners"},
-    {ShapeKind::sphere, "sphere", "about a centre"},
-    {ShapeKind::capsule, "capsule", "within a radius of the line from a to b"},
-    {ShapeKind::cylinder, "cylinder", "flat ends at a and b"},
-    {ShapeKind::cone, "cone", "flat ends at a and b, each with its radius"},
-    {ShapeKind::pipe, "pipe", "hollow cylinder whose bore runs from a to b"},
-    {ShapeKind::mesh, "mesh", "inside of a closed surface of triangles"},
-    {ShapeKind::hollow, "hollow", "vessel around another shape"},
-    {ShapeKind::union_, "union", "several shapes together"},
+    {ShapeKind::box, "box", "box between two corners"},
+    {ShapeKind::sphere, "sphere", "sphere about a centre"},
+    {ShapeKind::capsule, "capsule", "all points within a radius of the line from a to b"},
+    {ShapeKind::cylinder, "cylinder", "cylinder with flat ends at a and b"},
+    {ShapeKind::cone, "cone", "truncated cone with flat ends at a and b, each with its radius"},
+    {ShapeKind::pipe, "pipe", "hollow cylinder, open inside from a to b"},
+    {ShapeKind::mesh, "mesh", "interior of a closed triangle mesh"},
+    {ShapeKind::hollow, "hollow", "shell around another shape (vessel)"},
+    {ShapeKind::union_, "union", "union of several shapes"},
     {ShapeKind::difference, "difference", "the first shape without the others"},
 });
 
@@ -28,17 +28,17 @@ inline constexpr auto kNames<ShapeKind> = std::to_array<Named<ShapeKind>>({
 enum class PipeEnds { open, closed_a, closed_b, closed };
 template <>
 inline constexpr auto kNames<PipeEnds> = std::to_array<Named<PipeEnds>>({
-    {PipeEnds::open, "open", "none"},
-    {PipeEnds::closed_a, "closed_a", "a"},
-    {PipeEnds::closed_b, "closed_b", "b"},
-    {PipeEnds::closed, "closed", "both"},
+    {PipeEnds::open, "open", "both ends open"},
+    {PipeEnds::closed_a, "closed_a", "closed at a"},
+    {PipeEnds::closed_b, "closed_b", "closed at b"},
+    {PipeEnds::closed, "closed", "both ends closed"},
 });
 
 /// wall.body.shape
 enum class WallShape { tank, box, plane };
 template <>
 inline constexpr auto kNames<WallShape> = std::to_array<Named<WallShape>>({
-    {WallShape::tank, "tank", "box seen from inside, sides as given by faces"},
+    {WallShape::tank, "tank", "box with the fluid inside; faces sets which sides exist"},
     {WallShape::box, "box", "solid box"},
     {WallShape::plane, "plane", "half-space behind a plane"},
 });
@@ -50,10 +50,10 @@ enum class MotionKind { fixed, velocity, oscillation, rotation, table, formula }
 template <>
 inline constexpr auto kNames<MotionKind> = std::to_array<Named<MotionKind>>({
     {MotionKind::fixed, "fixed", "at rest"},
-    {MotionKind::velocity, "velocity", "straight, at constant velocity"},
+    {MotionKind::velocity, "velocity", "translation at constant velocity"},
     {MotionKind::oscillation, "oscillation", "displacement amplitude sin(2 pi f t)"},
-    {MotionKind::rotation, "rotation", "about an axis"},
-    {MotionKind::table, "table", "through places and rotations given over time"},
+    {MotionKind::rotation, "rotation", "rotation about an axis"},
+    {MotionKind::table, "table", "positions and rotations tabulated over time"},
     {MotionKind::formula, "formula", "displacement and rotation as formulas in t"},
 });
 
@@ -61,27 +61,27 @@ inline constexpr auto kNames<MotionKind> = std::to_array<Named<MotionKind>>({
 enum class TableSpline { smooth, monotone };
 template <>
 inline constexpr auto kNames<TableSpline> = std::to_array<Named<TableSpline>>({
-    {TableSpline::smooth, "smooth", "acceleration continuous; may swing beyond the rows"},
-    {TableSpline::monotone, "monotone", "velocity continuous; never beyond the rows"},
+    {TableSpline::smooth, "smooth", "continuous acceleration; may overshoot the rows"},
+    {TableSpline::monotone, "monotone", "continuous velocity; no overshoot"},
 });
 
 /// wall.body.free.move, grain.fill.rigid.move
 enum class BodyMove : std::uint32_t { all, plane, axis, none };
 template <>
 inline constexpr auto kNames<BodyMove> = std::to_array<Named<BodyMove>>({
-    {BodyMove::all, "all", "anywhere"},
-    {BodyMove::plane, "plane", "across the axis"},
+    {BodyMove::all, "all", "in all directions"},
+    {BodyMove::plane, "plane", "normal to the axis"},
     {BodyMove::axis, "axis", "along the axis"},
-    {BodyMove::none, "none", "nowhere"},
+    {BodyMove::none, "none", "no translation"},
 });
 
 /// wall.body.free.turn, grain.fill.rigid.turn
 enum class BodyTurn : std::uint32_t { all, axis, none };
 template <>
 inline constexpr auto kNames<BodyTurn> = std::to_array<Named<BodyTurn>>({
-    {BodyTurn::all, "all", "any way"},
+    {BodyTurn::all, "all", "about all axes"},
     {BodyTurn::axis, "axis", "about the axis"},
-    {BodyTurn::none, "none", "not at all"},
+    {BodyTurn::none, "none", "no rotation"},
 });
 
 // -- openings ------------------------------------------------------------------------------------
@@ -90,8 +90,8 @@ inline constexpr auto kNames<BodyTurn> = std::to_array<Named<BodyTurn>>({
 enum class OrificeShape { disc, rectangle };
 template <>
 inline constexpr auto kNames<OrificeShape> = std::to_array<Named<OrificeShape>>({
-    {OrificeShape::disc, "disc", "round"},
-    {OrificeShape::rectangle, "rectangle", "with four right angles"},
+    {OrificeShape::disc, "disc", "circular disc"},
+    {OrificeShape::rectangle, "rectangle", "rectangle"},
 });
 
 /// outlet.phase
@@ -107,8 +107,8 @@ inline constexpr auto kNames<OutletPhase> = std::to_array<Named<OutletPhase>>({
 enum class OutletShape { box, plane };
 template <>
 inline constexpr auto kNames<OutletShape> = std::to_array<Named<OutletShape>>({
-    {OutletShape::box, "box", "in a box"},
-    {OutletShape::plane, "plane", "beyond a plane"},
+    {OutletShape::box, "box", "inside a box"},
+    {OutletShape::plane, "plane", "half-space beyond a plane"},
 });
 
 /// grain_inlet.shape
@@ -126,9 +126,9 @@ enum class SizeKind { one_size, uniform, log_normal, sieve };
 template <>
 inline constexpr auto kNames<SizeKind> = std::to_array<Named<SizeKind>>({
     {SizeKind::one_size, "class", "all grains of diameter d"},
-    {SizeKind::uniform, "uniform", "as many grains of any diameter between d_min and d_max"},
-    {SizeKind::log_normal, "log_normal", "by count about the median, cut at d_min and d_max"},
-    {SizeKind::sieve, "sieve", "mass by mesh opening, log-linear in between"},
+    {SizeKind::uniform, "uniform", "diameters distributed uniformly by number from d_min to d_max"},
+    {SizeKind::log_normal, "log_normal", "log-normal by number, truncated at d_min and d_max"},
+    {SizeKind::sieve, "sieve", "sieve curve: mass fraction over mesh opening, log-linear in between"},
 });
 
 // -- output --------------------------------------------------------------------------------------
@@ -137,13 +137,14 @@ inline constexpr auto kNames<SizeKind> = std::to_array<Named<SizeKind>>({
 enum class ProbeType { front, point, height, box, force, wall_pressure };
 template <>
 inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
-    {ProbeType::front, "front", "furthest place of a phase along a direction"},
-    {ProbeType::point, "point", "fluid velocity and pressure at a place"},
-    {ProbeType::height, "height", "fluid surface over a place, and depth of connected water there"},
+    {ProbeType::front, "front", "farthest position of a phase in a direction"},
+    {ProbeType::point, "point", "fluid velocity and pressure at a point"},
+    {ProbeType::height, "height",
+     "height of the fluid surface at a point, and depth of connected fluid there"},
     {ProbeType::box, "box", "mass and momentum in a box"},
     {ProbeType::force, "force", "force and torque on a wall body"},
     {ProbeType::wall_pressure, "wall_pressure",
-     "force per area on patches of a wall body, as transducers read it"},
+     "force per area on patches of a wall body, as of pressure transducers"},
 });
 
 /// probe.phase
@@ -159,16 +160,16 @@ enum class ForceSample { mean, instant };
 template <>
 inline constexpr auto kNames<ForceSample> = std::to_array<Named<ForceSample>>({
     {ForceSample::mean, "mean",
-     "means since the row before, from every step and substep: times the interval they are impulse and work"},
-    {ForceSample::instant, "instant", "what acts at that moment"},
+     "mean since the row before over all steps and substeps; times the interval it gives impulse and work"},
+    {ForceSample::instant, "instant", "instantaneous value"},
 });
 
 /// out.bodies
 enum class BodyTables { moving, all, none };
 template <>
 inline constexpr auto kNames<BodyTables> = std::to_array<Named<BodyTables>>({
-    {BodyTables::moving, "moving", "those that move"},
-    {BodyTables::all, "all", "every one"},
+    {BodyTables::moving, "moving", "moving bodies"},
+    {BodyTables::all, "all", "all bodies"},
     {BodyTables::none, "none", "no tables"},
 });
 
