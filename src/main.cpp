@@ -11,7 +11,7 @@
 namespace {
 
 /// Makes idle OpenMP threads sleep. By default they spin for longer than most loops here take, which makes a
-/// run several times slower beside another busy program and gains nothing otherwise. The runtime reads the
+/// run several times slower next to another busy program and gains nothing otherwise. The runtime reads the
 /// setting when it is loaded, so the program restarts itself with it.
 void set_passive_omp_wait(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;

@@ -45,7 +45,7 @@ struct Lubrication {
   /// Gap up to which there is a force, m.
   BL_HD Real range(Real R_star) const { return acts() ? cut_off * R_star : Real(0); }
 
-  /// v: relative velocity of the centres, for a wall of the grain's centre and the wall beside it, m/s.
+  /// v: relative velocity of the centres, for a wall of the grain's centre and the wall next to it, m/s.
   BL_HD ContactForce operator()(const NearSurfaces& at, const Real3& v, const Real3& omega_i,
                                 const Real3& omega_j) const {
     const Real R = at.R_star, s_c = cut_off * R, s = max_of(Real(at.gap), least_gap * R);

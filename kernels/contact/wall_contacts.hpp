@@ -137,7 +137,7 @@ class SurfaceContacts {
       }
   }
   /// Whether the point of b, which is no deeper, lies behind the plane through that of a, or hardly before
-  /// it: another face in one plane with a's, of the same body or one beside it, or an edge that a's covers.
+  /// it: another face in one plane with a's, of the same body or an adjacent one, or an edge that a's covers.
   static BL_HD bool hides(const SurfaceContact& a, const SurfaceContact& b) {
     const double near = a.closest.distance, along = dot(a.closest.normal, b.closest.normal);
     return near > 0 ? along * b.closest.distance >= kSame * near : along >= kSame;

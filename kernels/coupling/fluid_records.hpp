@@ -19,7 +19,7 @@ BL_HD Real4 push_record(Real solid_factor, const Real3& theta, const EosState<>&
 /// Data of a fluid particle that grains read in addition to its velocity, packed for few loads.
 struct FluidRecords {
   Span<Real4> push;    ///< push_record
-  Span<Real4> solids;  ///< porosity; density, kg/m3; weight of the solids around that count beside orifices
+  Span<Real4> solids;  ///< porosity; density, kg/m3; weight of the solids around that count next to orifices
 };
 
 struct RecordPass {

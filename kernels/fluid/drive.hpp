@@ -43,7 +43,7 @@ struct Drive {
   DriveField field;
   Span<const FluidPosition> x;
   DriveMode mode;
-  bool shared;           ///< grains are driven, too: fluid takes the force per volume of its own
+  bool shared;           ///< grains are driven, too: fluid takes the force on its own volume
   Vec3d spring, centre;  ///< acceleration -spring (x - centre) per axis, 1/s2, m
   bool pulls;
 

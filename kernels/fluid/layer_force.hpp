@@ -7,7 +7,7 @@
 namespace bedload::inline BL_VARIANT {
 
 /// Depth of wall (m) for which one layer of particles stands: with the mass of that depth, Morris pairs
-/// between the layer and a linear shear flow beside it carry the shear stress of that flow. One over the
+/// between the layer and a linear shear flow next to it carry the shear stress of that flow. One over the
 /// integral of F |z|, which by symmetry is half that of F r.
 template <class W>
 double layer_depth(const W& w) {
@@ -60,7 +60,7 @@ struct LayerForces {
       damping += other.damping;
     }
   };
-  /// Of fluid with {v, rho} at r from a wall particle of `body` with {v, rho} of its own.
+  /// Of fluid with {v, rho} at r from a wall particle of `body` with its own {v, rho}.
   BL_HD Acceleration operator()(const Real4& va, const Real4& vb, std::uint32_t body, const Real3& r,
                                 Real r2) const {
     const BodyPose& k = pose[body];

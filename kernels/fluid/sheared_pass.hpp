@@ -7,7 +7,7 @@
 namespace bedload::inline BL_VARIANT {
 
 /// Lees-Edwards adapter of a pass [lees72]: the loop brings unsheared positions and peculiar velocities
-/// (MeanShear); the pass gets true separations and velocities relative to that of its own row.
+/// (MeanShear); the pass gets true separations and velocities relative to that of the row.
 template <class Pass>
 struct ShearedPass {
   Pass pass;

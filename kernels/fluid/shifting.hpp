@@ -1,5 +1,5 @@
 #pragma once
-// Particles that drift beside their velocity, so that they stay evenly spaced.
+// Particles that drift in addition to their velocity, so that they stay evenly spaced.
 
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/coupling/symmetric_matrix.hpp"

@@ -99,7 +99,7 @@ struct WallPass {
   }
 
  private:
-  /// Fraction of the wall's velocity of rotation that fluid beside it has, 0..1.
+  /// Fraction of the wall's velocity of rotation that fluid next to it has, 0..1.
   BL_HD static Real turning_along(const BodyPose& k, const Real3& v_wall, const Real3& v_fluid) {
     const Real3 turn = v_wall - Real3(k.v);
     const Real speed2 = norm2(turn);

@@ -41,7 +41,7 @@ struct ContinuityPass {
 };
 
 /// Density by summation [tsuzuki (16)], as s = density / rho0 - 1:
-///   rho_a = n sum_b M_b W_ab, with b = a and walls, n making it rho0 on the lattice on which fluid is laid.
+///   rho_a = n sum_b M_b W_ab, with b = a and walls, n making it rho0 on the initial lattice of fluid.
 /// kGrains: grains are counted as fluid of their volume [tsuzuki 2.4], and fluid by its own mass instead of
 /// that of the mixture:
 ///   rho_a = n (sum_b m_b W_ab + rho0 sum_j V_j W_aj).
@@ -78,7 +78,7 @@ struct SummationPass {
   }
 };
 
-/// The same for frozen wall particles that have a density of their own: over the walls around, all of which
+/// The same for frozen wall particles that have their own density: over the walls around, all of which
 /// count at rho0, and the fluid.
 template <class W>
 struct FrozenSummationPass {

@@ -6,7 +6,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// F of a pair of particles with smoothing lengths of their own.
+/// F of a pair of particles with variable smoothing lengths.
 template <class N>
 struct PairFactors {
   N a, b;    ///< at h_a and at h_b, 1/m5

@@ -18,7 +18,7 @@ struct StressParts {
   }
 };
 
-/// What the pairs of WCSPH come to. `whole` is its pass; `inviscid` the same without physical and artificial
+/// Forces of the pairs of WCSPH. `whole` is its pass; `inviscid` the same without physical and artificial
 /// viscosity.
 template <class Force>
 struct StressPass {

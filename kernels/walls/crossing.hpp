@@ -42,7 +42,7 @@ struct NearestPointPass {
 
 /// Counts for each particle a the partners b that its nearest surface keeps out of sight: each lies behind
 /// the plane through the other's closest point, and the line between them meets the surface where it meets
-/// a's plane, which tells a shell from its rim.
+/// a's plane, which distinguishes a shell from its rim.
 struct CrossingPass {
   NearestPointPass near;
   double tolerance;  ///< m

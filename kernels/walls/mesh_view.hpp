@@ -114,7 +114,7 @@ struct MeshView {
     const Vec3d away = x - at.point;
     const double distance = norm(away), front = dot(away, outward) >= 0 ? 1.0 : -1.0;
     if (distance > 1e-9 * reach) return f(away * (front / distance), front * distance, key);
-    f(outward * (1 / norm(outward)), 0.0, key);  // too close for a direction of its own
+    f(outward * (1 / norm(outward)), 0.0, key);  // too close to have a direction
   }
   /// Whether a neighbour, too, is nearest to x at `point`.
   BL_HD bool shares(std::uint32_t t, const Vec3d& x, const Vec3d& point, double merge) const {

@@ -5,7 +5,7 @@
 // neighbourhood. A face has one, a convex edge or corner one, a groove one on each side, so that a sphere
 // touches each feature once, however finely the surface is cut.
 //
-// Each kind is a model in a header of its own: `closest_point`, if it has one alone (`kOne`), or
+// Each kind is a model in its own header: `closest_point`, if it has one alone (`kOne`), or
 // `closest_points`, `beyond`, whether a place is surely farther away, and `within`, whether it is near what
 // is not hollow; `kTracked`, whether a place behind it may belong to it only if it came through it, and
 // `kShell`, whether it may be a wall around the shape. A pass names the kinds that it meets, so that it has

@@ -35,7 +35,7 @@ class Checks {
   /// Density from former rates needs what one visit of each pair can find, and allows shorter steps only, by
   /// linear analysis: sound is damped up to a cfl of 0.6, density diffusion at its largest up to 0.39.
   void one_pass() const;
-  /// Sides put back particles that can cross them, one by one.
+  /// Reflecting sides act on particles one by one, so not on rigid groups.
   void reflection() const;
   /// Lees-Edwards boundaries carry fluid alone, by what its pairs do.
   void shear() const;

@@ -61,7 +61,7 @@ void Checks::grain_fill(const std::string& path, const GrainFill& fill) const {
             "xyz"[k]);
   if (fill.rigid.present && (fill.spin != Vec3d{} || !fill.spins.empty() || !fill.velocities.empty()))
     fail(path + ".rigid", "[grain.fill.rigid]",
-         "must be left out where grains have spins or velocities of their own");
+         "must be left out where grains have their own spins or velocities");
   if (!fill.every.empty()) {
     const bool whole =
         std::all_of(fill.every.begin(), fill.every.end(), [](double n) { return n == std::round(n); });

@@ -109,9 +109,9 @@ class ParticleTable {
     }
     for (const char* name : {"x", "y", "z"}) need(name, "");
     if (has("vx") || has("vy") || has("vz"))
-      for (const char* name : {"vx", "vy", "vz"}) need(name, " beside the other velocities");
+      for (const char* name : {"vx", "vy", "vz"}) need(name, " next to the other velocities");
     if (has("wx") || has("wy") || has("wz"))
-      for (const char* name : {"wx", "wy", "wz"}) need(name, " beside the other spins");
+      for (const char* name : {"wx", "wy", "wz"}) need(name, " next to the other spins");
     if (has("d") && has("radius")) fail("has both columns d and radius; one of them is enough");
   }
   void need(const char* name, const char* why) const {

@@ -44,7 +44,7 @@ void run_through(InletConfig& inlet, double thickness, const Value& root, const 
   inlet.half_b.y = thickness / 2;
 }
 
-/// What a case says of a body that moves in x and z and turns about y.
+/// The keys of a body that moves in x and z and turns about y.
 void keep_in_plane(FreeConfig& f, double middle, const Value& root, const std::string& path) {
   must_be_flat(root, path + "velocity", f.velocity);
   if (f.spin.x != 0 || f.spin.z != 0)

@@ -16,7 +16,7 @@
 namespace bedload {
 namespace {
 
-/// What is asked of one value; turns it into a member of Config or says why not.
+/// What is asked of one value; turns it into a member of Config or throws the reason.
 class Conversion {
  public:
   Conversion(const Value& value, std::string key, const About& about)

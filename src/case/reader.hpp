@@ -39,7 +39,7 @@ class Reader final : public Parameters {
 /// file, or both from --set.
 void rename_keys(Value& root, std::vector<std::string>& warnings);
 
-/// What stands where a case gives no key: the defaults of its preset, and those that its fluid.model and
+/// Values where a case gives no key: the defaults of its preset, and those that its fluid.model and
 /// fluid.variable_h bring.
 Config defaults_of(const Value& root);
 

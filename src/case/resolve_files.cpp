@@ -1,4 +1,4 @@
-// What a case needs to know of the particles that it takes from files.
+// Properties of particles from files that a case needs.
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 namespace bedload {
 namespace {
 
-/// The particles in a file, as the rest of a case sees them.
+/// The particles in a file, as used by the rest of a case.
 struct Extent {
   Vec3d min{}, max{};           // around the centres, m
   double d_min = 0, d_max = 0;  // m; 0: the file has no diameters

@@ -81,7 +81,7 @@ bool is_near(std::string_view key, std::string_view known) {
   return mine.size() > 5 && difference(mine, its) <= 0.2;
 }
 
-/// Whether so many tables have a key of that name that it tells nothing of the table: min, start, stop.
+/// Whether so many tables have a key of that name that it does not identify the table: min, start, stop.
 bool is_common(std::string_view name, const std::vector<std::string>& known) {
   return std::count_if(known.begin(), known.end(),
                        [&](const std::string& k) { return split(k).second == name; }) > 3;

@@ -111,7 +111,7 @@ bool is_list(const std::string& path) {
   return false;
 }
 
-/// What an override says that names an entry of a list which has only `count`.
+/// Message for an override that names an entry of a list which has only `count`.
 std::string no_such_item(const std::string& path, std::size_t count) {
   if (count == 0)
     return "this case has no " + key_of(path) + "; write a [[" + key_of(path) + "]] in its file first";

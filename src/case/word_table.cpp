@@ -22,7 +22,7 @@ constexpr std::string_view kNoCohesion =
 constexpr std::string_view kNoBonds = "grains are not bonded; grain.fill.rigid holds them together for good";
 constexpr std::string_view kNoGas = "there is no gas; the surface of the fluid is free";
 constexpr std::string_view kNoTurbulence =
-    "there is no turbulence model; `bedload check` tells how viscous the numerics are";
+    "there is no turbulence model; `bedload check` prints the numerical viscosity";
 constexpr std::string_view kNoChrono =
     "there is no coupling to Chrono; free bodies touch each other, and wall.body.free.move and turn "
     "constrain them";
@@ -148,7 +148,8 @@ constexpr Word kWords[]{
     {kDual, "VerletSteps", "", kNotNeeded},
     {kDual, "Kernel", "fluid.kernel", ""},
     {kDual, "ViscoTreatment", "visc.alpha, fluid.mu, visc.model",
-     "artificial: visc.alpha, beside the true viscosity fluid.mu, which visc.model = \"none\" leaves out; "
+     "artificial: visc.alpha, in addition to the true viscosity fluid.mu, which visc.model = \"none\" leaves "
+     "out; "
      "laminar: "
      "fluid.mu; SPS: none"},
     {kDual, "Visco", "visc.alpha, fluid.mu", "artificial; rho0 times a laminar one"},
@@ -372,7 +373,7 @@ constexpr Word kWords[]{
     {kLammps, "dump", "out.every", ""},
     {kLammps, "thermo", "out.diagnostics_every", "a time, not steps"},
     {kLammps, "restart", "checkpoint.every", "a time, not steps; `bedload run --restart` reads them"},
-    {kLammps, "read_restart", "", "`bedload run --restart latest` goes on from the newest checkpoint"},
+    {kLammps, "read_restart", "", "`bedload run --restart latest` restarts from the newest checkpoint"},
     {kLammps, "bond_coeff", "", kNoBonds},
 
     {kPysph, "hdx", "fluid.h_over_dx", ""},

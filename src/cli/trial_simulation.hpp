@@ -1,5 +1,5 @@
 #pragma once
-// A case started only to look at it: step limits, timing, memory.
+// A case started for inspection: step limits, timing, memory.
 
 #include <memory>
 

@@ -84,7 +84,7 @@ struct HalfSkinPass {
   Real least, most;
   Span<const FluidPosition> x;
   Span<const Real4> v_rho;
-  Span<const Real3> drift, acc;  ///< drift: empty where nothing moves beside its velocity
+  Span<const Real3> drift, acc;  ///< drift: empty where particles move with their velocity alone
   Span<Real> half_skin;
   BL_HD void operator()(Index a) const {
     Real3 v = v_rho[a].xyz();
@@ -99,7 +99,7 @@ struct LengthBody {
   BL_HD double operator()(Index a) const { return h[a]; }
 };
 
-/// Walls around those that have a density of their own.
+/// Walls around those that have their own density.
 struct BesideFrozen : SphNear<Vec3d> {
   Span<const Real> compression;
   BL_HD bool operator()(Index b, Index j) const {

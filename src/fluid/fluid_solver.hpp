@@ -153,7 +153,7 @@ class FluidSolver {
   }
   /// Whether repel() has anything to do.
   bool repels() const { return repelling_.surfaces.size > 0 || orifices_.size() > 0; }
-  /// Whether some walls have a density of their own, which density() takes on.
+  /// Whether some walls have their own density, which density() takes on.
   bool freezes() const { return parameters_.frozen; }
 
   /// Sorts the fluid and rebuilds all lists; sorts the walls too if they have moved. If lists would last less

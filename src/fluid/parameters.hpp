@@ -19,7 +19,7 @@ struct Config;
 namespace bedload::inline BL_VARIANT {
 
 struct FluidParameters {
-  /// Whether each particle has a viscosity of its own.
+  /// Whether viscosity differs between particles.
   bool viscosity_varies() const { return several || thickens; }
 
   FluidProperties fluid;
@@ -48,7 +48,7 @@ struct FluidParameters {
   bool suction = false;               ///< walls hold fluid back by pressure below zero
   bool repelled = false;              ///< surfaces of walls push fluid or stop it
   Repulsion repulsion{};              ///< by which they do, without a cap
-  bool frozen = false;                ///< some walls have a density of their own
+  bool frozen = false;                ///< some walls have their own density
   std::vector<LayerLaw> layers = {};  ///< one a body, those of inlets too; empty without single layers
   std::vector<Orifice> orifices = {};
 };

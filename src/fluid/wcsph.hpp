@@ -3,7 +3,7 @@
 
 namespace bedload::inline BL_VARIANT {
 
-/// Locally averaged WCSPH, with the terms by which it stays smooth; no fields beside those of all fluids.
+/// Locally averaged WCSPH, with its stabilising terms; no fields besides those of all fluids.
 struct Wcsph {
   static constexpr FluidModel model = FluidModel::wcsph;
   static std::unique_ptr<FluidSolver> make(const FluidParameters& parameters, const Frame& frame,

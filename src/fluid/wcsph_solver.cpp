@@ -11,7 +11,7 @@
 namespace bedload::inline BL_VARIANT {
 namespace {
 
-/// The passes that know the kernel function, and whether particles have smoothing lengths of their own.
+/// The passes that know the kernel function, and whether smoothing lengths are variable.
 template <class W, class Lengths>
 class WcsphSolver final : public FluidSolver {
  public:

@@ -203,7 +203,7 @@ MassProperties mass_properties(const WallBody& body, const DomainConfig& domain)
   if (out.mass == 0) out.mass = f.density * m.volume;
   const double density = out.mass / m.volume;
   Vec3d middle = m.first / m.volume;
-  if (domain.two_d) middle.y = domain.middle();  // whatever rounding says
+  if (domain.two_d) middle.y = domain.middle();  // whatever the round-off
   if (m.volume > 0) out.volume = m.volume, out.middle = middle;
   if (f.centre_of_mass.empty()) out.centre = middle;
   if (!f.inertia.empty()) return out;

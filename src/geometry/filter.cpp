@@ -156,7 +156,7 @@ void check_filters(const Config& config, std::vector<std::string>& warnings) {
                       filter.name, d));
     if (ways.count > 0)
       warnings.push_back(
-          fmt::format("wall.body \"{}\": grains of {:g} m pass through it or beside it, by {} opening{} up "
+          fmt::format("wall.body \"{}\": grains of {:g} m pass through it or past it, by {} opening{} up "
                       "to {:.2g} m wide",
                       filter.name, d, ways.count, ways.count > 1 ? "s" : "", ways.width));
   }

@@ -6,7 +6,7 @@
 namespace bedload {
 namespace {
 
-/// Beyond a side of the domain that puts back what crosses it, where fluid stands against nothing else.
+/// Beyond a reflecting side of the domain, where no wall supports the fluid.
 bool behind_mirror(const DomainConfig& domain, const Vec3d& x) {
   const ReflectConfig& r = domain.reflect;
   for (int k = 0; k < 3; ++k)
@@ -31,7 +31,7 @@ bool has_free_surface(const Config& config, const Setup& setup) {
   std::vector<Vec3d> all = fluid.x;
   all.insert(all.end(), setup.walls.x.begin(), setup.walls.x.end());
   const PlaceCells cells(domain, widest, all);
-  // a spacing and a quarter away, no farther from something than beside a curved wall
+  // a spacing and a quarter away, no farther from something than next to a curved wall
   for (std::size_t a = fluid.x.size(); a-- > 0;)  // lattices end at their top
     for (int side = 5; side >= 0; --side) {
       const int k = side / 2;

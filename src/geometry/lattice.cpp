@@ -45,12 +45,12 @@ void check_fill(const Config& config, std::size_t index) {
 }
 
 /// The solid that `body` takes from a fill in which it stands; none of what may hold fluid, for which side of
-/// it was meant the case has to say.
+/// it was meant the case has to state.
 ShapePtr solid_in_fluid(const Config& config, const WallBody& body) {
   if (!body.stops_fluid() || body.single_layer()) return nullptr;
   if (body.shape == WallShape::box) {
     Vec3d min = body.min, max = body.max;
-    for (int k = 0; k < 3; ++k) {  // goes on beyond the faces of a period
+    for (int k = 0; k < 3; ++k) {  // continues beyond the faces of a period
       if (!config.domain.periodic[k]) continue;
       if (min[k] <= config.domain.min[k]) min[k] -= config.domain.max[k] - config.domain.min[k];
       if (max[k] >= config.domain.max[k]) max[k] += config.domain.max[k] - config.domain.min[k];

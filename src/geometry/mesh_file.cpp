@@ -1,5 +1,5 @@
 // Triangles from STL, OBJ and PLY files. Files come damaged and cut off: every count and index is checked
-// before it is used, and what is wrong is told with its line.
+// before it is used, and errors are reported with their line.
 
 #include <fmt/format.h>
 
@@ -34,7 +34,7 @@ class Text {
   [[noreturn]] void fail(const std::string& what) const {
     throw FileError(fmt::format("{}: line {}: {}", name_, line_, what));
   }
-  /// Goes to the next line; false if there is none. A backslash at its end goes on with the next one.
+  /// Goes to the next line; false if there is none. A backslash at its end joins the next one.
   bool next_line() {
     if (rest_.empty()) return false;
     line_ = next_;
@@ -126,7 +126,7 @@ bool holds(std::string_view text, std::string_view word) {
 }
 
 /// Text begins with "solid", in any letters, perhaps behind blanks; so do some binary files, which are as
-/// long as their count of triangles says.
+/// long as their count of triangles requires.
 TriangleSoup read_stl(const std::string& name, std::string_view bytes) {
   constexpr std::size_t head = 84, triangle = 50, normal = 12;  // of a binary file, bytes
   std::uint32_t count = 0;

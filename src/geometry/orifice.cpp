@@ -80,7 +80,7 @@ void check_clear_of_fluid(const Config& config, const InletConfig& inlet, const 
   }
 }
 
-/// Beside fluid that comes in along a wall that begins at the orifice, half the kernel is empty upstream.
+/// Next to fluid that comes in along a wall that begins at the orifice, half the kernel is empty upstream.
 void check_walls_reach_upstream(const Config& config, const InletConfig& inlet,
                                 const std::vector<Vec3d>& points, double depth,
                                 std::vector<std::string>& warnings) {
@@ -95,7 +95,7 @@ void check_walls_reach_upstream(const Config& config, const InletConfig& inlet,
     };
     if (std::any_of(points.begin(), points.end(), ends_here))
       warnings.push_back(
-          fmt::format("inlet \"{}\": wall.body \"{}\" beside it ends at its plane, so that fluid leaks "
+          fmt::format("inlet \"{}\": wall.body \"{}\" next to it ends at its plane, so that fluid leaks "
                       "out along its edge; let it reach {:g} m upstream",
                       inlet.name, body.name, depth));
   }

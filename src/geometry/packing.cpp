@@ -238,7 +238,7 @@ class Packer {
     }
   }
 
-  /// Of the lattice on which fluid is laid in a box, each so many along every axis, or of all, that lie in
+  /// Of the lattice on which fluid starts in a box, each so many along every axis, or of all, that lie in
   /// the space to fill.
   ParticleList lattice_sites() const {
     std::array<Cells, 3> cells;

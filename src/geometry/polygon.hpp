@@ -12,7 +12,7 @@ constexpr std::size_t kMostCorners = 4096;  ///< of one polygon
 
 /// Adds the triangles of a polygon, convex or not, by cutting off ears [meisters75]. `corners`: places of its
 /// vertices in `soup`, in order; fewer than three are no polygon. One that lies on a line or crosses itself
-/// is cut as a fan, for the mesh's own checks to tell.
+/// is cut as a fan, for the checks of the mesh to report.
 inline void add_polygon(TriangleSoup& soup, std::vector<std::uint32_t> corners) {
   if (corners.size() < 3) return;
   const auto at = [&](std::size_t k) { return soup.vertices[corners[k % corners.size()]]; };

@@ -112,7 +112,7 @@ std::array<Direction, 2> plane_lattice(const WallBody& plane, double spacing, do
     u = cross(n, Vec3d{0, 0, 1}) / norm(cross(n, Vec3d{0, 0, 1}));
   Vec3d v = cross(n, u);
   for (int k = 0; k < 3; ++k)
-    if (std::abs(v[k]) > 1 - 1e-12) {  // a coordinate axis: say so exactly, and count upwards
+    if (std::abs(v[k]) > 1 - 1e-12) {  // a coordinate axis: exactly so, counted upwards
       v = {};
       v[k] = 1;
     }

@@ -91,8 +91,8 @@ std::size_t nearest(const PlaceCells& cells, const Vec3d& x, double reach, const
   return found;
 }
 
-/// Takes out the fluid particle nearest to each grain of the fills that say so. Those that are left of its
-/// fluid.fill share its volume, so that fluid and grains still fill the space together.
+/// Takes out the fluid particle nearest to each grain of fills with replaces_fluid. Those that are left of
+/// its fluid.fill share its volume, so that fluid and grains still fill the space together.
 void replace_fluid(const Config& config, const Setup::Grains& grains, Setup::Fluid& fluid) {
   const auto& fills = config.grain.fills;
   if (std::none_of(fills.begin(), fills.end(), [](const GrainFill& fill) { return fill.replaces_fluid; }))

@@ -1,5 +1,5 @@
 // Each layer of a body is the set of places equally deep below its surface. The volume between two such sets
-// says how many particles the layer holds; those are placed where lattice cells lie in it and then pushed
+// gives the number of particles in the layer; those are placed where lattice cells lie in it and then pushed
 // apart along it until they lie evenly. Number and depth are thus exact by construction, and what relaxation
 // leaves to chance is only the pattern within a layer. Free packings (all particles pushed in all directions)
 // were tried: their first layer keeps no depth and their density sags behind the surface by some per cent.
@@ -85,7 +85,7 @@ class LayerVolumes {
   }
 
  private:
-  /// In the middle of a body, as near to one side as to another, rounding would say which way is out: the
+  /// In the middle of a body, as near to one side as to another, round-off would decide which way is out: the
   /// same body elsewhere would have another layout. From a place like that a small step, always the same.
   Vec3d off_ridge(const Vec3d& x) const {
     const Vec3d aside = spacing_ * Vec3d{0.51, 0.59, 0.63};
@@ -259,7 +259,7 @@ class Relaxation {
     return spacing_ * spacing_ * sum;
   }
 
-  /// All particles to the depth of their layers; beside edges one projection may not suffice.
+  /// All particles to the depth of their layers; near edges one projection may not suffice.
   void settle() {
     constexpr int kMost = 8;
     host_for_each(particles_.size(), [&](std::size_t i) {

@@ -1,5 +1,5 @@
 #pragma once
-// What the shapes share to answer for their nearest point.
+// Nearest points, common to all shapes.
 
 #include <algorithm>
 #include <cmath>

@@ -41,7 +41,8 @@ class Search {
       for (int k = 1; k < 4; ++k)
         if (const double bend = std::abs(f[k - 1] - 2 * f[k] + f[k + 1]); bend > most)
           most = bend, there = at + (k - 2) * h;
-      // a kink bends by at least half of its own times h, as it lies in the middle half of x - h .. x + h
+      // a kink bends by at least half of its jump in slope times h, as it lies in the middle half of x - h ..
+      // x + h
       if (!(most >= 0.5 * 0.01 * fastest_ * h) || !std::isfinite(most)) return {};
       at = there;
     }

@@ -5,7 +5,7 @@
 
 namespace bedload {
 
-/// Where a formula in t does not go on smoothly.
+/// Where a formula in t is not smooth.
 struct Break {
   double time;       ///< s
   double within;     ///< s; it lies in time - within .. time + within

@@ -32,7 +32,7 @@ class InletFlow {
 
   /// Counts the volume up to t from now on.
   void advance(double t);
-  /// Goes on at t where another left off, after `volume` m3 and `layers`.
+  /// Continues at t from another that ended after `volume` m3 and `layers`.
   void resume(double t, double volume, double layers) { time_ = t, volume_ = volume, layers_ = layers; }
 
  private:

@@ -58,7 +58,7 @@ std::vector<double> smooth_slopes(const Chords& c) {
   return b;
 }
 
-/// Slope at the outer end of the interval h0, s0 with h1, s1 beside it, kept monotone.
+/// Slope at the outer end of the interval h0, s0 with h1, s1 next to it, kept monotone.
 double end_slope(double h0, double h1, double s0, double s1) {
   const double slope = ((2 * h0 + h1) * s0 - h0 * s1) / (h0 + h1);
   if (slope * s0 <= 0) return 0;

@@ -25,7 +25,7 @@ class Track {
   virtual ~Track() = default;
   virtual TrackPoint at(double s) const = 0;
   virtual bool turns() const { return false; }
-  /// Times between which it goes on smoothly, in any order.
+  /// Times between which it is smooth, in any order.
   virtual std::vector<double> breaks() const { return {}; }
   /// Moves from `begin` to `end`; rests where it is before and after.
   virtual double begin() const { return 0; }

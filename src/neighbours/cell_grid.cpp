@@ -62,7 +62,7 @@ struct StartPass {
   }
 };
 
-/// The first particle of each cell marks it and those beside it.
+/// The first particle of each cell marks it and the adjacent ones.
 template <class P>
 struct OccupyPass {
   CellGridView grid;

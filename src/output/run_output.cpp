@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Calls write(); if it fails because a file that was `begun` is gone, the error says so.
+/// Calls write(); if it fails because a file that was `begun` is gone, the error states so.
 template <class F>
 void write_existing(const fs::path& path, bool begun, const F& write) {
   try {

@@ -1,4 +1,4 @@
-// The .xdmf file beside a frame file, for programs without VTKHDF.
+// The .xdmf file next to a frame file, for programs without VTKHDF.
 
 #include <fmt/format.h>
 

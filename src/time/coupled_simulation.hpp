@@ -1,5 +1,5 @@
 #pragma once
-// One simulation: its state, what steps it, and what it tells.
+// One simulation: its state, what steps it, and its readings.
 
 #include <utility>
 

@@ -95,7 +95,7 @@ Fields Stepper::fields_of_order() const {
          only_if(fluid_solver_->shifts(), drift());
 }
 
-/// Velocities with which particles move beside their own.
+/// Velocities with which particles move in addition to their own.
 Fields Stepper::drift() const { return only_if(fluid_solver_->drifts(), {&fluid_.drift}); }
 
 /// Velocity and density that pair loops read.

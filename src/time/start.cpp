@@ -168,7 +168,7 @@ void Stepper::load(const SavedState& saved) {
   sweep();
 }
 
-/// The lists as they were when the checkpoint was written: built where x_list says.
+/// The lists as they were when the checkpoint was written: built at the positions x_list.
 void Stepper::restore_lists(const SavedState& saved) {
   if (has_grains()) solid_solver_->load_contacts(grains_, grain_grid_, store_of(saved, "contacts"));
   const auto swap_positions = [&] {

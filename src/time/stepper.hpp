@@ -50,7 +50,7 @@ class Stepper {
   /// Grains, their contacts and groups.
   void save_grains(SavedState& out) const;
   void load_grains(const SavedState& saved);
-  /// What solvers and lists must know to go on, beside what the state has.
+  /// What solvers and lists must know to restart, besides the state.
   void save(SavedState& out) const;
   /// Once the state is loaded: the grains, and all that save() and save_grains() wrote.
   void load(const SavedState& saved);

@@ -21,7 +21,7 @@ struct StressPart {
   Tensor mean{};
 };
 
-/// A layer with enough fluid, merged with emptier ones beside it.
+/// A layer with enough fluid, merged with emptier adjacent ones.
 struct ProfileRow {
   double z = 0, velocity = 0, fit = 0;   ///< mean position of its particles, m; m/s
   double grain_velocity = 0;             ///< m/s; NaN without grains in the layer

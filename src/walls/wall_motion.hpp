@@ -9,8 +9,8 @@
 namespace bedload::inline BL_VARIANT {
 
 /// Moves all bodies, SPH particles and DEM surfaces by one law; poses live on the device. Free bodies are
-/// where their state says, whatever the time. The fluid on its way through each inlet is a body too, listed
-/// after the walls.
+/// where their state puts them, whatever the time. The fluid on its way through each inlet is a body too,
+/// listed after the walls.
 class WallMotion {
  public:
   /// `free` must outlive it.
@@ -21,7 +21,7 @@ class WallMotion {
   std::vector<InletFlow>& inlets() { return inlets_; }
   /// Whether wall particles ever change place.
   bool moves() const;
-  // Poses on the device, a row of all bodies for each time; each call has memory of its own, which its next
+  // Poses on the device, a row of all bodies for each time; each call has separate memory, which its next
   // call overwrites.
   /// At t + k dt / n for k = 0..n, [n + 1][bodies].
   Span<BodyPose> poses(double t, double dt, int n);

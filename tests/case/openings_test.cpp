@@ -210,7 +210,7 @@ every = 1
   };
   EXPECT_EQ(from_below("0", "0.05"),
             std::vector<std::string>{
-                "inlet \"feed\": wall.body \"column\" beside it ends at its plane, so that fluid leaks out "
+                "inlet \"feed\": wall.body \"column\" next to it ends at its plane, so that fluid leaks out "
                 "along its edge; let it reach 0.04 m upstream"});
   EXPECT_TRUE(from_below("-0.04", "0.05").empty());
   EXPECT_TRUE(from_below("0", "0.03").empty()) << "in mid-air";

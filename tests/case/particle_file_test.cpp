@@ -90,7 +90,7 @@ TEST_F(ParticleFile, ErrorsNameFileLineColumnAndValue) {
   EXPECT_EQ(error("x,y,z\n"), "grains.csv:1: holds no particles");
   EXPECT_EQ(error("x,y,d\n"), "grains.csv:1: has no column z; it names x, y, d");
   EXPECT_EQ(error("x,y,z,vx\n"),
-            "grains.csv:1: has no column vy beside the other velocities; it names x, y, z, vx");
+            "grains.csv:1: has no column vy next to the other velocities; it names x, y, z, vx");
   EXPECT_EQ(error("x,y,z,d,radius\n"), "grains.csv:1: has both columns d and radius; one of them is enough");
   EXPECT_EQ(error("x,y,z,diameter\n1,2,3,4\n"),
             "grains.csv:1: has a column diameter, which means nothing here; known are x, y, z, d, radius, "

@@ -107,8 +107,8 @@ TEST(SuspensionCase, SaysWhatDoesNotGoTogether) {
   EXPECT_EQ(error_of(changed("[[fluid.fill]]", "[[fluid.species]]\nname = \"oil\"\nmu = 1\n[[fluid.fill]]")),
             "dam.toml:7: fluid.species = 1 fluids must be none with grains that the fluid acts on");
   EXPECT_EQ(error_of(changed("count = 500", "count = 500\nspin = [0, 0, 1]\n[grain.fill.rigid]")),
-            "dam.toml:22: grain.fill.rigid = [grain.fill.rigid] must be left out where grains have spins or "
-            "velocities of their own");
+            "dam.toml:22: grain.fill.rigid = [grain.fill.rigid] must be left out where grains have their "
+            "own spins or velocities");
   EXPECT_EQ(error_of(changed("count = 500", "every = [5, 1]")),
             "dam.toml:20: grain.fill.every = [5, 1] must be one whole number, or three");
   EXPECT_EQ(error_of(changed("min = [0, 0, 0]\nmax = [0.05, 0.1, 0.1]\ncount = 500",

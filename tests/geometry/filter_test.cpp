@@ -55,7 +55,7 @@ TEST(Filters, AreComparedWithTheSmallestGrain) {
   const auto holes = warnings_of(sieve(0.04), 0.02, true);
   ASSERT_EQ(holes.size(), 1u);
   EXPECT_TRUE(
-      holes[0].starts_with("wall.body \"filter\": grains of 0.02 m pass through it or beside it, by 4 "
+      holes[0].starts_with("wall.body \"filter\": grains of 0.02 m pass through it or past it, by 4 "
                            "openings up to 0.0"))
       << holes[0];
   EXPECT_EQ(warnings_of(sieve(0.015), 0.02, true).size(), 0u);

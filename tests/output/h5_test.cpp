@@ -66,7 +66,7 @@ TEST(FileErrors, TellOfArraysThatCannotBe) {
                          [] { return std::string(std::string().max_size() + 1, 'x').size(); });
     FAIL();
   } catch (const FileError& error) {
-    EXPECT_STREQ(error.what(), "a.h5: cannot read: it says that an array is larger than memory");
+    EXPECT_STREQ(error.what(), "a.h5: cannot read: it claims an array larger than memory");
   }
 }
 

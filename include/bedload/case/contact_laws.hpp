@@ -14,7 +14,7 @@ double least_restitution(const ContactConfig& contact);
 /// Whether Young's moduli enter; else contact.k does.
 bool takes_moduli(NormalLaw law);
 
-/// Two bodies that meet and part.
+/// Impact of two bodies.
 struct Impact {
   double duration = std::numeric_limits<double>::infinity();  ///< s
   double stiffness = 0;                                       ///< where it is deepest, dF/d(overlap), N/m

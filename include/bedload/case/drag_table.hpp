@@ -8,7 +8,7 @@
 
 namespace bedload {
 
-/// Porosities and Reynolds numbers at which a law is evaluated unless told otherwise: 0.3 to 1 in steps of
+/// Porosities and Reynolds numbers at which a law is evaluated by default: 0.3 to 1 in steps of
 /// 0.05; 0, and 8 a decade from 0.001 to 1e5.
 DragTable drag_nodes();
 

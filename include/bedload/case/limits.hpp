@@ -1,5 +1,5 @@
 #pragma once
-// Step limits of grains and of contacts, from what a case says.
+// Step limits of grains and of contacts, from the keys of a case.
 
 #include <vector>
 

@@ -42,7 +42,7 @@ struct Choice {
 enum class Presence {
   defaulted,  ///< the Config's own value stands if the key is absent
   required,
-  optional,   ///< absent means something of its own, held as 0, infinity or nothing
+  optional,   ///< absent has a meaning, held as 0, infinity or nothing
   unbounded,  ///< absent means no bound, held as infinity
 };
 
@@ -56,7 +56,7 @@ struct About {
   Presence presence = Presence::defaulted;
   std::string_view family = {};  ///< under which `bedload list` shows the choices
   std::vector<Choice> choices = {};
-  std::string_view or_else = {};       ///< what may stand beside the choices: "the name of a shape"
+  std::string_view or_else = {};       ///< what else is allowed besides the choices: "the name of a shape"
   std::string_view variables = "xyz";  ///< of formulas, a letter each
   std::string_view formerly = {};  ///< last part of the key in the version before; still read, with a warning
 };
@@ -84,7 +84,7 @@ class Parameters {
     (*this)(key, Slot(&name), about);
     *value = name;
   }
-  /// The same, or a name of the case's own: about.or_else says of what.
+  /// The same, or a name that the case defines: about.or_else states of what.
   template <class E>
   void operator()(std::string_view key, ChosenOrNamed<E>* value, About about) {
     add_choices<E>(about);
@@ -103,7 +103,7 @@ class Parameters {
       close_item();
     }
   }
-  /// Whether the table `key` is there, which alone says something; the writer and `bedload list` know by
+  /// Whether the table `key` is there, which alone has a meaning; the writer and `bedload list` know by
   /// `present` and always.
   virtual bool table(std::string_view key, bool present) = 0;
   /// True if all that could be given is wanted, whatever the other values.

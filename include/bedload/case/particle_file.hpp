@@ -22,7 +22,7 @@ struct ParticleList {
   std::vector<double> volume;      ///< of fluid particles, m3; empty if the file has none
   std::vector<std::int64_t> line;  ///< of a text file
 
-  /// Where particle n stands: "grains.csv:12", "grains.vtkhdf".
+  /// Place of particle n: "grains.csv:12", "grains.vtkhdf".
   std::string place(std::size_t n) const;
 };
 

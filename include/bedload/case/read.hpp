@@ -13,11 +13,11 @@ namespace bedload {
 /// Reads, checks and resolves a case. `overrides` are "key=value" texts that win
 /// over the file; an item of a list is reached by its place, "grain.fill.0.count=5".
 /// Warnings are appended, a sentence each. Throws CaseError (one sentence with file
-/// and line) and FileError. A case that goes on from `checkpoint` needs no files of initial particles.
+/// and line) and FileError. A case that restarts from `checkpoint` needs no files of initial particles.
 Config read_case(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                  std::vector<std::string>& warnings, const std::filesystem::path& checkpoint = {});
 
-/// The same from text; `name` stands for the file in messages.
+/// The same from text; `name` replaces the file in messages.
 Config read_case_text(const std::string& text, const std::string& name,
                       const std::vector<std::string>& overrides, std::vector<std::string>& warnings,
                       const std::filesystem::path& checkpoint = {});

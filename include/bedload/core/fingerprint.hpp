@@ -6,7 +6,7 @@
 
 namespace bedload {
 
-/// FNV-1a, 64 bits: tells contents apart, keeps no secrets.
+/// FNV-1a, 64 bits: distinguishes contents, keeps no secrets.
 class Fingerprint {
  public:
   void add(const void* data, std::size_t bytes) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a formula of a case file comes to: steps for a machine with a stack, the same on host and device.
+// A formula of a case file, compiled: steps for a machine with a stack, the same on host and device.
 
 #include <cmath>
 #include <cstdint>

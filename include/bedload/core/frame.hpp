@@ -22,7 +22,7 @@ constexpr double kPackedRounding = 0x1p-33;
 /// periodic axis, whose period is 2^32 quanta, it is that of the nearest images.
 struct alignas(16) FixedPosition {
   std::int32_t x = 0, y = 0, z = 0;
-  float weight = 0;  ///< what most pair loops read beside it; of fluid M = mass / porosity, kg
+  float weight = 0;  ///< what most pair loops read with it; of fluid M = mass / porosity, kg
 };
 struct alignas(16) PlainPosition {
   double x = 0, y = 0, z = 0, weight = 0;
@@ -60,7 +60,7 @@ struct Frame {
   bool periodic[3] = {false, false, false};
 
   Frame() = default;
-  /// Places are told apart up to `beyond` (m; 0: the longest side) outside sides that are not periodic, in
+  /// Places are distinguished up to `beyond` (m; 0: the longest side) outside sides that are not periodic, in
   /// pair loops of fp32: any farther ones count as there. The closer, the finer is the quantum, 2^-31 of the
   /// length with what is beyond at either end.
   Frame(const Vec3d& min, const Vec3d& max, bool px, bool py, bool pz, double beyond = 0)

@@ -27,7 +27,7 @@ struct SolidMoments {
 SolidMoments solid_moments(const Shape& shape, const DomainConfig& domain = {});
 
 /// Mass, centre and inertia of a free body: as the case gives them, the rest from its shape at uniform
-/// density. Throws CaseError, a sentence that goes on after "wall.body.free", where there is no closed shape.
+/// density. Throws CaseError, a sentence that continues "wall.body.free", where there is no closed shape.
 MassProperties mass_properties(const WallBody& body, const DomainConfig& domain = {});
 
 /// What a free body turns about and is placed by, m: the point that is held, else its centre of mass

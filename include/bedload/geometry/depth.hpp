@@ -1,5 +1,5 @@
 #pragma once
-// What lies above what: columns along the vertical, and how deep particles lie below the surface they make
+// Columns along the vertical, and how deep particles lie below the surface they make
 // up.
 
 #include <vector>

@@ -29,7 +29,7 @@ inline Cells fit_cells(double lo, double hi, double spacing) {
 /// Adds every fluid.fill that is a box or a shape; in a box a lattice that divides each side evenly, so that
 /// it meets walls and periodic images half a spacing off. The masses of a fill are
 /// equal and add up to rho0 times its volume. Fills must not overlap. Returns the first particle of each
-/// fill, and their number at the end. Bodies that stand in a fill are left out, which `notes` says. Throws
+/// fill, and their number at the end. Bodies that stand in a fill are left out, which `notes` reports. Throws
 /// KeyError.
 std::vector<std::size_t> add_fluid(const Config& config, Setup::Fluid& fluid,
                                    std::vector<std::string>& warnings, std::vector<std::string>& notes);

@@ -22,7 +22,7 @@ struct TriangleSoup {
 };
 
 struct MeshOptions {
-  Placement placement;  ///< of the vertices as given; says how long their unit is
+  Placement placement;  ///< of the vertices as given; includes the length of their unit
   bool repair = false;  ///< welds, drops degenerate triangles and turns the rest outward
   double weld = 0;      ///< repair makes vertices nearer than this one, m; 0: 1e-6 of the mesh's diagonal
 };

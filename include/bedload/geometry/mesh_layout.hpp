@@ -1,5 +1,5 @@
 #pragma once
-// How a mesh lies in memory where surfaces are searched: the same on host and device.
+// Memory layout of a mesh for searches of its surface: the same on host and device.
 
 #include <array>
 #include <cstdint>

@@ -16,8 +16,8 @@ struct Config;
 /// m2
 double orifice_area(const InletConfig& inlet);
 
-/// Particles that come through side by side. It is as thick as each asks for that stands for a cell of the
-/// lattice, so that what comes in is as fast as its rate over the area.
+/// One layer of particles in an orifice. With this thickness each particle represents a cell of the lattice,
+/// so that the inflow has the velocity rate over area.
 struct OrificeLayer {
   std::vector<Vec3d> points;  ///< m, in the plane of the orifice
   double thickness = 0;       ///< m
@@ -39,7 +39,7 @@ int buffer_layers(const FluidProperties& fluid, double thickness);
 
 /// Adds the buffers of all inlets behind the wall particles, layer after layer from the orifice back; the
 /// first lies half its thickness upstream of it. Their bodies follow those of the walls. Throws CaseError
-/// where a buffer lies in a wall or in the initial fluid; warns of walls beside an orifice that end at its
+/// where a buffer lies in a wall or in the initial fluid; warns of walls next to an orifice that end at its
 /// plane.
 void add_inlets(const Config& config, const Setup::Fluid& fluid, Setup::Walls& walls,
                 std::vector<std::string>& warnings);

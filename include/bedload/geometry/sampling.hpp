@@ -23,8 +23,8 @@ std::vector<Vec3d> sample_body(const WallBody& body, double spacing, double dept
 /// About how many places sample_body finds, from lengths, areas and volumes alone: in no time, however many.
 double expected_places(const WallBody& body, double spacing, double depth, const DomainConfig& domain);
 
-/// What one of those particles stands for, m3: a cell of the lattice; spacing^3 for shapes, whose layers are
-/// only about that far apart.
+/// Volume that one of those particles represents, m3: a cell of the lattice; spacing^3 for shapes, whose
+/// layers are only about that far apart.
 double particle_volume(const WallBody& body, double spacing, const DomainConfig& domain);
 
 /// Distance of `x` from the surface of `body`, m; negative inside its solid, +infinity

@@ -16,8 +16,8 @@ namespace bedload {
 Setup build_setup(const Config& config, std::vector<std::string>& warnings,
                   std::vector<std::string>* notes = nullptr);
 
-/// Whether fluid begins beside space that nothing fills: no fluid, no wall particle, no side of the domain
-/// that puts back what crosses it.
+/// Whether fluid begins next to space that nothing fills: no fluid, no wall particle, no side of the domain
+/// that reflects what crosses it.
 bool has_free_surface(const Config& config, const Setup& setup);
 
 }  // namespace bedload

@@ -53,7 +53,7 @@ struct SurfacePoint {
 
 struct MeshLayout;
 
-/// A surface in elementary terms, for those who meet it on a device. Lab frame at t = 0.
+/// A surface in elementary terms, for contacts on a device. Lab frame at t = 0.
 struct SurfacePart {
   enum class Kind { box, capsule, revolution, mesh };
   struct Corner {
@@ -121,7 +121,7 @@ ShapePtr make_hollow(ShapePtr shape, double thickness);
 ShapePtr make_union(std::vector<ShapePtr> shapes);
 
 /// `shape` without `cut`. The distance is max(d, -d_cut): exact on the surface, elsewhere never greater in
-/// magnitude than the true one: beside what is cut away it may be that from the surface which is gone, a lid
+/// magnitude than the true one: near what is cut away it may be that from the surface which is gone, a lid
 /// on a hole. `nearest` names a point of that then; `clearance` is that from the triangles, up to half a
 /// facet less. Its parts are triangles about `facet` (m) wide; 0: a quarter of the least extent, at most
 /// 1/100 of the diagonal.

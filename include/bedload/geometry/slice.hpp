@@ -1,5 +1,5 @@
 #pragma once
-// What a plane flow sees of a solid.
+// Cross-section of a solid in a plane flow.
 
 #include "bedload/geometry/shape.hpp"
 
@@ -14,7 +14,7 @@ class Slice final : public Shape {
   SurfacePoint nearest(const Vec3d& x) const override {
     SurfacePoint p = shape_.nearest({x.x, middle_, x.z});
     const double beyond = std::abs(x.y - middle_) - half_;
-    if (beyond > std::fmax(p.distance, -1e-6 * half_)) {  // on its faces too, whatever rounding says
+    if (beyond > std::fmax(p.distance, -1e-6 * half_)) {  // on its faces too, whatever the round-off
       const double side = x.y < middle_ ? -1 : 1;
       return {beyond, {x.x, middle_ + side * half_, x.z}, {0, side, 0}};
     }

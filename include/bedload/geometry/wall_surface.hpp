@@ -21,7 +21,7 @@ Vec3d surface_point(const WallBody& body, const Vec3d& x, const DomainConfig& do
 /// flow.
 SurfacePoint nearest_surface(const WallBody& body, const Vec3d& x, const DomainConfig& domain);
 
-/// How thick the solid is behind the surface beside `points`, m: by its sides for a box, for a shape such
+/// How thick the solid is behind the surface at `points`, m: by its sides for a box, for a shape such
 /// that a twentieth of it is thinner; 0 and more, +infinity from `reach` on and where nothing lies behind.
 double thickness(const WallBody& body, const std::vector<Vec3d>& points, double reach,
                  const DomainConfig& domain);

@@ -15,7 +15,7 @@ struct CellGridView {
   bool periodic[3] = {false, false, false};
   const std::uint16_t* curve = nullptr;           ///< [512] place on the Hilbert curve of a cell in its brick
   const Index* start = nullptr;                   ///< [cells + 1] first particle of each cell
-  const std::uint8_t* occupied_nearby = nullptr;  ///< [cells] whether it or a cell beside it holds any
+  const std::uint8_t* occupied_nearby = nullptr;  ///< [cells] whether it or an adjacent cell holds any
   unsigned level = 0;                             ///< log2 of the sorted cells along each edge of these
 
   /// Cell coordinate along axis k; outside positions go to the nearest cell, periodic ones wrap.
@@ -119,7 +119,7 @@ struct CellGridView {
     const bool beyond = range * max_of(inverse.x, max_of(inverse.y, inverse.z)) > 1;
     return beyond || !occupied_nearby || occupied_nearby[key(x)] != 0;
   }
-  /// f(key) for the cell of x and those beside it; on a short periodic axis more than once.
+  /// f(key) for the cell of x and its neighbours; on a short periodic axis more than once.
   template <class F>
   BL_HD void each_beside(const Vec3d& x, F&& f) const {
     int lo[3], hi[3];
@@ -172,7 +172,7 @@ class CellGrid {
   CellGrid() = default;
   CellGrid(const Frame& frame, const Vec3d& min, const Vec3d& max, double cell);
 
-  /// Cell keys of all x -> order; `order` says where each sorted particle was.
+  /// Cell keys of all x -> order; `order` holds where each sorted particle was.
   template <class P>
   void sort(const Frame& frame, Span<const P> x, Buffer<Index>& order);
 

@@ -1,10 +1,10 @@
 #pragma once
 // Runs a pass over the pairs of a list or, list-free, over the cells. A pass has
 //   Sum start(i); auto sources(); void pair(Sum&, r_ij, r2, weight, ...); void finish(i, Sum);
-// and knows nothing of where its neighbours come from: `sources` says what it reads of each, in the order in
+// and knows nothing of where its neighbours come from: `sources` lists what it reads of each, in the order in
 // which `pair` takes it after the weight that comes with a position; what of its own row `pair` needs is in
 // the Sum. What it reads in some cases alone is there in all of them, in the others as an Unread (`read_if`)
-// or, where only the run of a case tells, as a value that stands for it (`read_where`). A pass that also runs
+// or, where only the case decides, as a value in its place (`read_where`). A pass that also runs
 // over a second list has
 //   auto wall_sources(); void wall_pair(Sum&, r_ij, r2, ...);
 // for that. Where a pass can also
@@ -53,7 +53,7 @@ BL_HD auto read_if(Span<T> field) {
     return Unread{};
 }
 
-/// A field that a pass reads of neighbours in some runs alone, and what stands for its values in the others.
+/// A field that a pass reads of neighbours in some runs alone, and the value used in the others.
 /// Tiles stage none: it is for the rows of Verlet lists.
 template <class T>
 struct ReadWhere {

@@ -6,7 +6,7 @@
 namespace bedload::inline BL_VARIANT {
 
 /// Targets, the sources that act on them, how far, and the list of those that are near: what passes run over.
-/// Sources may be more than the particles that have rows of their own.
+/// Sources may be more than the particles that have rows.
 template <class List = VerletList>
 class Pairing {
  public:

@@ -58,10 +58,10 @@ struct TileListView {
 };
 
 namespace detail {
-/// Of a block beside what it stages, in a search, at most, bytes.
+/// Shared memory of a block in a search besides what it stages, at most, bytes.
 constexpr std::size_t kSearchMemory = 9 << 10;
 
-/// What a search has come to.
+/// Result of a search.
 struct TileCounts {
   Index next;             ///< tile that no block has taken yet
   Index sources, words;   ///< of all tiles

@@ -43,7 +43,7 @@ struct CutBrick {
 struct BrickCells {
   static constexpr int kSide = 10, kCells = kSide * kSide * kSide;
   int base[3];
-  /// Place of coordinate c along axis k, wrapped, beside or in the brick.
+  /// Place of coordinate c along axis k, wrapped, next to or in the brick.
   BL_HD int place(const CellGridView& grid, int k, int c) const {
     const int d = c - base[k];
     const bool below = d == -1 || (base[k] == 0 && c == grid.n[k] - 1);
@@ -440,7 +440,7 @@ void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, 
     if (counts.words > places)
       entry_.resize(std::size_t(counts.words + counts.words / 32 + 1) * kTileThreads);
   }
-  // by what there is now, not by the capacity that there has been: a run that goes on from here orders the
+  // by what there is now, not by the capacity that there has been: a run restarted from here orders the
   // same
   const std::size_t sorted = std::size_t(longest + 3) / 4 * 4 * kTileThreads * sizeof(std::uint16_t);
   if (sorted > tile_memory()) return;

@@ -67,8 +67,8 @@ class VerletList {
   Index* entries() { return entry_.data(); }
 
   /// Rows: all of `targets`; entries: sources near them, in the order of the sources' cells.
-  /// Near(i, j) says whether to keep a pair; `reach(i)` is how far to look (m). As many lanes are to share a
-  /// row as keep the device busy, or 2^bits.
+  /// Near(i, j) decides whether to keep a pair; `reach(i)` is how far to look (m). As many lanes are to share
+  /// a row as keep the device busy, or 2^bits.
   template <class Near>
   void build(Index rows, const CellGridView& sources, const Near& near) {
     build(rows, sources, near, lane_bits(rows));
@@ -263,7 +263,7 @@ void VerletList::build(Index rows, const CellGridView& sources, const Near& near
     make_room(slots_);
   }
 #else
-  // one search instead of two: blocks of rows grow lists of their own, which are then joined
+  // one search instead of two: blocks of rows grow separate lists, which are then joined
   static_assert(kSliceBits == 0);
   constexpr Index block = 256;
   const Index blocks = (rows + block - 1) / block;
@@ -330,7 +330,7 @@ struct SphNear {
 #endif
 };
 
-/// The range of pairs of particles with smoothing lengths of their own: `times` the larger length.
+/// The range of pairs of particles with variable smoothing lengths: `times` the larger length.
 struct PairReach {
   Real times, other;  ///< -; length of what has none, m
 };

@@ -33,11 +33,11 @@ auto with_file_errors(const std::filesystem::path& path, const std::string& verb
   } catch (const Error& e) {
     throw FileError(path.string() + ": cannot " + verb + ": " + e.what());
   } catch (const std::length_error&) {
-    throw FileError(path.string() + ": cannot " + verb + ": it says that an array is larger than memory");
+    throw FileError(path.string() + ": cannot " + verb + ": it claims an array larger than memory");
   }
 }
 
-/// Passes a result on unless it says that the call failed.
+/// Passes a result on unless it means that the call failed.
 template <class T>
 T check(T result) {
   if (result < 0) throw Error(reason());
@@ -68,7 +68,7 @@ class Handle {
 bool is_hdf5(const std::filesystem::path& path);
 
 enum class Mode { create, read, append };
-/// Opens a file without locks (viewers may look on during a run) and without times.
+/// Opens a file without locks (viewers may read during a run) and without times.
 Handle open_file(const std::filesystem::path& path, Mode mode);
 
 /// Group `name`; a new one remembers the order in which its members came.

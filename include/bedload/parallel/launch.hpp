@@ -1,6 +1,6 @@
 #pragma once
-// How loops follow one another on a GPU: the blocks of one may come to the multiprocessors while those before it
-// still work there, and wait for these themselves.
+// How loops follow one another on a GPU: the blocks of one may start on the multiprocessors while those
+// before it still work there, and wait for these themselves.
 
 #include <type_traits>
 
@@ -14,8 +14,8 @@ BL_HD void wait_for_loops_before() {
   asm volatile("griddepcontrol.wait;" ::: "memory");
 #endif
 }
-/// The loop queued next may begin once all threads have come here. What begins so must wait before that, so that
-/// who waits for one loop waits for all before it.
+/// The loop queued next may begin once all threads have come here. What begins so must wait before that, so
+/// that who waits for one loop waits for all before it.
 BL_HD void let_next_loop_begin() {
 #if defined(__CUDA_ARCH__) && __CUDA_ARCH__ >= 900
   asm volatile("griddepcontrol.launch_dependents;" ::: "memory");

@@ -21,7 +21,7 @@ struct FillIndex {
 
 #if BL_CUDA
 namespace detail {
-/// f(scratch, bytes, stream) of CUB, which says without scratch how many bytes it needs.
+/// f(scratch, bytes, stream) of CUB, which without scratch returns how many bytes it needs.
 template <class F>
 void with_scratch(const char* what, const F& f) {
   Context& context = Context::current();
@@ -34,7 +34,7 @@ void with_scratch(const char* what, const F& f) {
 }  // namespace detail
 #endif
 
-/// Sorts 32-bit keys and says where each came from: after the call keys ascend and order[i] is the former
+/// Sorts 32-bit keys and returns where each came from: after the call keys ascend and order[i] is the former
 /// place of the i-th. bits: how many low bits of the keys are in use.
 inline void sort_keys(Buffer<std::uint32_t>& keys, Buffer<Index>& order, [[maybe_unused]] int bits) {
   const Index n = Index(keys.size());

@@ -7,7 +7,7 @@ namespace bedload::inline BL_VARIANT {
 constexpr bool kPackedFluid = std::is_same_v<FluidPosition, PackedPosition>;
 
 /// Fluid particles. Densities are intrinsic: mass per volume of fluid, whatever grains share the space. Pair
-/// loops see the mixture: particle a stands for the volume m_a / (eps_a rho_a) of fluid and grains.
+/// loops see the mixture: particle a represents the volume m_a / (eps_a rho_a) of fluid and grains.
 struct FluidStore : Store {
   FluidStore() : Store("fluid") {}
 
@@ -17,15 +17,15 @@ struct FluidStore : Store {
   Field<Real> half_skin{*this, "half_skin", "m", Lifetime::renewed};     ///< how far it may go from there until they are built anew
   Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept, Output{.order = 1, .uses = kFrames | kViews | kRheology, .name = "velocity", .unit = "m/s", .components = 3}};  ///< velocity, density
   Field<Real4> flux{*this, "flux", "m/s, kg/m3", Lifetime::kept};     ///< volume flux of fluid and grains, eps v + sum w u, or, of sheared fluid, peculiar velocity; density
-  Field<Real> compression{*this, "compression", "-", Lifetime::kept};  ///< s = density / rho0 - 1; lower than eos_state says where fluid cavitates
+  Field<Real> compression{*this, "compression", "-", Lifetime::kept};  ///< s = density / rho0 - 1; lower than in eos_state where fluid cavitates
   Field<Real> mass{*this, "mass", "kg", Lifetime::kept, Output{.order = 2, .uses = kViews | kRheology}};
   Field<Real> eps{*this, "porosity", "-", Lifetime::kept, Output{.order = 5, .coupled = true}};
-  Field<Real> solid_factor{*this, "solid_factor", "-", Lifetime::kept};  ///< of the grains around it as it counts them: below 1 beside orifices and at the least porosity
+  Field<Real> solid_factor{*this, "solid_factor", "-", Lifetime::kept};  ///< of the grains around it as it counts them: below 1 next to orifices and at the least porosity
   Field<std::uint32_t> species{*this, "species", "-", Lifetime::kept, Output{.order = 13}};  ///< place in fluid.species; left out where there are none, as the next
   Field<Real> viscosity{*this, "relative_viscosity", "-", Lifetime::kept};  ///< over that of fluid.mu
   Field<Real3> stress_acceleration{*this, "stress_acceleration", "m/s2", Lifetime::kept};  ///< by the stress of the mixture: pressure, viscosity
   Field<Real3> acc{*this, "acceleration", "m/s2", Lifetime::kept};  ///< stress_acceleration + gravity + drive + repulsion
-  Field<Real3> drift{*this, "drift", "m/s", Lifetime::kept};    ///< with which particles move beside their velocity: shifting, XSPH
+  Field<Real3> drift{*this, "drift", "m/s", Lifetime::kept};    ///< with which particles move in addition to their velocity: shifting, XSPH
   Field<Real> exposure{*this, "exposure", "-", Lifetime::kept};  ///< to free surfaces (Shifting): 0 within the fluid
   Field<Real> compression_rate{*this, "compression_rate", "1/s", Lifetime::kept};  ///< of compression by continuity alone; left out without acoustic damper
   Field<EosState<>> eos_state{*this, "eos_state", "kg, m5/(kg s2), kg/m3, -", Lifetime::kept, Output{.order = 4, .name = "density", .unit = "kg/m3", .components = 1, .first = 2}};

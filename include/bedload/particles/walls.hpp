@@ -6,7 +6,7 @@ namespace bedload::inline BL_VARIANT {
 
 /// From where the particles of a wall have the pressure with which they meet the fluid.
 enum class WallKind : std::uint32_t {
-  extrapolated,  ///< from the fluid beside them
+  extrapolated,  ///< from the fluid next to them
   frozen,        ///< from their own density, which follows continuity
   mirrored,      ///< from the density about their images in the fluid
   single_layer,  ///< none: they push fluid away one by one
@@ -21,7 +21,7 @@ struct BodyPose : RigidMotion {
   std::uint32_t flows = 0;           ///< 1: fluid on its way in
   std::uint32_t free = 0;            ///< 1 + place among the free bodies; 0: motion prescribed
   WallKind kind = WallKind::extrapolated;
-  double volume = 0;  ///< that one of its particles stands for, m3
+  double volume = 0;  ///< that one of its particles represents, m3
   Vec3d slide;        ///< velocity of its surface in place, in the body's axes, m/s
 };
 

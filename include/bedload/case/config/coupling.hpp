@@ -18,10 +18,10 @@ struct CouplingConfig {
   Chosen<CouplingMode> mode = CouplingMode::two_way;
   double hc = 0;                               ///< m (default max(h, 2 d_max 2/kappa))
   double eps_min = 0.25;
-  Chosen<CouplingKernel> kernel = CouplingKernel::fluid;  ///< by which grains and fluid weigh each other
-  bool wall_normalise = true;                  ///< a grain's volume lies in the kernel's fraction that walls leave free
-  double spreading = 0.01;                     ///< how fast fluid that overfills its volume grows denser, c/h
-  bool undisturbed = false;                    ///< a grain reads the fluid without its own wake and volume
+  Chosen<CouplingKernel> kernel = CouplingKernel::fluid;  ///< of averages over fluid and grains
+  bool wall_normalise = true;                  ///< a grain's volume is normalised by the kernel's fraction outside walls
+  double spreading = 0.01;                     ///< rate at which fluid that overfills its volume becomes denser, c/h
+  bool undisturbed = false;                    ///< drag follows the flow without the grain's own wake and volume
   double S_dry = 0.05, S_wet = 0.95;
   bool torque = true;
   bool angmom = true;

@@ -1,5 +1,5 @@
 #pragma once
-// Where a case lies, and whether it is plane, periodic or sheared.
+// Extent of a case, and whether it is plane, periodic or sheared.
 
 #include <array>
 
@@ -7,7 +7,7 @@
 
 namespace bedload {
 
-/// Sides of the domain at which what crosses them is put back, in the order of kFaces.
+/// Sides of the domain that reflect what crosses them, in the order of kFaces.
 struct ReflectConfig {
   std::array<bool, 6> slip{}, no_slip{};
   bool any() const { return *this != ReflectConfig{}; }
@@ -26,7 +26,7 @@ struct DomainConfig {
   bool sheared() const { return shear_rate != 0; }
   /// Spacing of a lattice along axis k: a plane flow has one layer.
   double spacing_along(int k, double spacing) const { return flat(k) ? thickness() : spacing; }
-  /// What a particle of a lattice of that spacing stands for, m3.
+  /// Volume that a particle of a lattice of that spacing represents, m3.
   double cell_volume(double spacing) const { return spacing * spacing * spacing_along(1, spacing); }
   bool operator==(const DomainConfig&) const = default;
 };

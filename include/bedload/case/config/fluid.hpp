@@ -81,7 +81,7 @@ struct EosConfig {
   bool operator==(const EosConfig&) const = default;
 };
 
-/// What acts on the pressure beside the equation of state.
+/// What acts on the pressure besides the equation of state.
 struct PressureConfig {
   double damper = 0.5;                         ///< acoustic damper: bulk viscosity over rho0 c h
   bool linear_exact = true;                    ///< forces are exact for a linear pressure where viscosity rules
@@ -90,18 +90,18 @@ struct PressureConfig {
 
 struct DensityConfig {
   double delta = 0.1;                          ///< density diffusion
-  double void_relaxation = 3;                  ///< how fast pressure fades in fluid with voids in it, c/h
+  double void_relaxation = 3;                  ///< rate at which pressure fades in fluid with voids, c/h
   double cavitation_limit = 0.001;             ///< the fluid cavitates below rho/rho0 - 1 = minus this
   Chosen<DensityMethod> method = DensityMethod::continuity;
   std::int64_t reinit_every = 0;               ///< steps; 0: never
-  bool count_grains = false;                   ///< summation takes in grains as fluid of their volume
+  bool count_grains = false;                   ///< summation counts grains as fluid of their volume
   bool operator==(const DensityConfig&) const = default;
 };
 
 struct ViscosityConfig {
   Chosen<ViscosityModel> model = ViscosityModel::morris;
   double alpha = 0, beta = 0;                  ///< artificial viscosity
-  bool collision = false;                      ///< fluid particles that come too near collide
+  bool collision = false;                      ///< fluid particles closer than collision_range collide
   double collision_range = 0.5;                ///< / fluid.dx
   double collision_restitution = 0.2;
   bool operator==(const ViscosityConfig&) const = default;

@@ -83,7 +83,7 @@ struct GrainConfig {
   bool fixed = false;                          ///< grains never move
   double d_max = 0, d_min = 0;                 ///< m (resolved)
   std::vector<GrainFill> fills;
-  std::vector<GrainMaterial> materials;        ///< beside that of grain.*
+  std::vector<GrainMaterial> materials;        ///< besides that of grain.*
   double largest() const { return d_max > 0 ? d_max : d; }   ///< diameter, m
   double smallest() const { return d_min > 0 ? d_min : d; }  ///< diameter, m
   /// All of them as they are numbered: first that of grain.*.

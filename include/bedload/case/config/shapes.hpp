@@ -13,13 +13,13 @@ namespace bedload {
 
 class Shape;
 
-/// The solid that a name stands for, built when a case is resolved. No part of what makes two cases equal.
+/// The solid of a name, built when a case is resolved. No part of what makes two cases equal.
 struct Solid {
   std::shared_ptr<const Shape> shape;
   bool operator==(const Solid&) const { return true; }
 };
 
-/// Copies of a shape that is made and placed; each stands as the one before, turned and then moved on.
+/// Copies of a shape that is made and placed; each is the one before, rotated and then translated.
 struct CopiesConfig {
   bool present = false;                        ///< a [shape.copies] is given
   std::int64_t count = 1;                      ///< with the first

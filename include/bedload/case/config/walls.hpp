@@ -56,7 +56,7 @@ struct FreeConfig {
   bool operator==(const FreeConfig&) const = default;
 };
 
-/// One wall body: a shape, how fluid meets it, how it moves.
+/// One wall body: shape, boundary condition for fluid, motion.
 struct WallBody {
   std::string name;
   ChosenOrNamed<WallShape> shape = WallShape::box;  ///< or the name of a shape
@@ -66,7 +66,7 @@ struct WallBody {
   Chosen<WallType> type = WallType::adami;
   Chosen<WallSlip> slip = WallSlip::noslip;
   bool no_penetration = true;                  ///< what comes too near is stopped
-  bool repulsion = false;                      ///< Monaghan repulsion beside the wall's pressure
+  bool repulsion = false;                      ///< Monaghan repulsion in addition to the wall's pressure
   Vec3d surface_velocity;                      ///< of the surface in its own plane, as of a belt, in the body's axes, m/s
   Chosen<LayerForce> force = LayerForce::kajtar;  ///< of a single layer
   double dx = 0;                               ///< spacing of its particles, m; 0: wall.dx
@@ -93,7 +93,7 @@ struct WallConfig {
   Chosen<LayerForce> force = LayerForce::kajtar;
   bool no_penetration = true;
   bool repulsion = false;
-  bool energy_consistent = true;               ///< of all bodies: fluid pays for the work of their pressure
+  bool energy_consistent = true;               ///< of all bodies: the fluid provides the work of their pressure
   bool suction = false;                        ///< of all bodies: their pressure may fall below zero
   double dx = 0;                               ///< spacing of wall particles, m (default fluid.dx)
   double rep_D = 0;                            ///< m2/s2 (default 5 g H)
