@@ -42,12 +42,17 @@ void shape(Parameters& p, ShapeConfig& s) {
   }
   if (is({sphere})) p("centre", &s.centre, {.unit = "m", .meaning = "sphere: centre", .presence = required});
   if (is({capsule, cylinder, cone, pipe})) {
-    p("a", &s.a, {.unit = "m", .meaning = "one end of the axis", .presence = required});
-    p("b", &s.b, {.unit = "m", .meaning = "other end of the axis", .presence = required});
+    p("a", &s.a,
+      {.unit = "m", .meaning = "capsule, cylinder, cone, pipe: one end of the axis", .presence = required});
+    p("b", &s.b,
+      {.unit = "m", .meaning = "capsule, cylinder, cone, pipe: other end of the axis", .presence = required});
   }
   if (is({sphere, capsule, cylinder, pipe}))
     p("radius", &s.radius,
-      {.unit = "m", .meaning = "radius; pipe: inner radius", .range = above(0), .presence = required});
+      {.unit = "m",
+       .meaning = "sphere, capsule, cylinder: radius; pipe: inner radius",
+       .range = above(0),
+       .presence = required});
   if (is({cone})) {
     p("radius_a", &s.radius_a,
       {.unit = "m", .meaning = "cone: radius at a", .range = at_least(0), .presence = required});

@@ -12,7 +12,7 @@ namespace bedload {
 enum class ShapeKind { box, sphere, capsule, cylinder, cone, pipe, mesh, hollow, union_, difference };
 template <>
 inline constexpr auto kNames<ShapeKind> = std::to_array<Named<ShapeKind>>({
-    {ShapeKind::box, "box", "box between two corners"},
+    {ShapeKind::box, "box", "cuboid between two corners"},
     {ShapeKind::sphere, "sphere", "sphere about a centre"},
     {ShapeKind::capsule, "capsule", "all points within a radius of the line from a to b"},
     {ShapeKind::cylinder, "cylinder", "cylinder with flat ends at a and b"},
@@ -90,8 +90,8 @@ inline constexpr auto kNames<BodyTurn> = std::to_array<Named<BodyTurn>>({
 enum class OrificeShape { disc, rectangle };
 template <>
 inline constexpr auto kNames<OrificeShape> = std::to_array<Named<OrificeShape>>({
-    {OrificeShape::disc, "disc", "circular disc"},
-    {OrificeShape::rectangle, "rectangle", "rectangle"},
+    {OrificeShape::disc, "disc", "disc of a radius"},
+    {OrificeShape::rectangle, "rectangle", "rectangle of sides 2 half_a and 2 half_b"},
 });
 
 /// outlet.phase
