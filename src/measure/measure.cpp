@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bedload/parallel/reductions.hpp"
 #include "kernels/boundaries/sinks.hpp"
-#include "src/measure/readings.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace bedload::inline BL_VARIANT {

@@ -7,7 +7,6 @@
 
 #include "bedload/parallel/loops.hpp"
 #include "kernels/coupling/fluid_records.hpp"
-#include "src/measure/readings.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace bedload::inline BL_VARIANT {

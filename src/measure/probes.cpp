@@ -5,8 +5,9 @@
 
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/depth.hpp"
+#include "bedload/parallel/reductions.hpp"
+#include "bedload/particles/along.hpp"
 #include "kernels/smoothing/registry.hpp"
-#include "src/measure/readings.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace bedload::inline BL_VARIANT {

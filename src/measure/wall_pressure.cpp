@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "src/measure/readings.hpp"
+#include "bedload/parallel/reductions.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace bedload::inline BL_VARIANT {

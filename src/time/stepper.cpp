@@ -10,7 +10,8 @@
 #include <string>
 #include <utility>
 
-#include "src/measure/readings.hpp"
+#include "bedload/parallel/reductions.hpp"
+#include "bedload/particles/along.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {

@@ -75,6 +75,13 @@ class Includes(unittest.TestCase):
         self.assertGreater(found["src/viewer/"], 5)
         self.assertGreater(found["cli/"], 1)
 
+    def test_steps_do_not_measure(self):
+        """`coupled_simulation` joins both; what it steps knows nothing of measuring."""
+        for path in sources("src/time"):
+            if path.stem != "coupled_simulation":
+                wrong = [name for name in includes(path) if name.startswith("src/measure/")]
+                self.assertEqual(wrong, [], path.relative_to(TOP))
+
     def test_solvers_see_their_parameters_alone(self):
         """Of the rows of the solver, `parameters.cpp` makes them of a Config; `src/time`, the top, has one."""
         looked = 0

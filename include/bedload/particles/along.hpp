@@ -1,13 +1,10 @@
 #pragma once
-// What diagnostics and probes read of one particle.
-
-#include "bedload/parallel/reductions.hpp"
-#include "bedload/particles/fluid.hpp"
-#include "bedload/particles/grains.hpp"
+#include "bedload/core/frame.hpp"
+#include "bedload/core/span.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Coordinate along a direction, m.
+/// Coordinate of fluid particles or grains along a direction, m.
 template <class P>
 struct AlongBody {
   Frame frame;
