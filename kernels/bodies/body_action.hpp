@@ -54,6 +54,7 @@ struct SumActionsPass {
   Span<const LoadSum> by_pressure, by_friction;  ///< [bodies], now; about the centres
   Span<const LoadSum> by_grains, by_bodies;      ///< [substeps][bodies]; empty where there are none
   Span<const Vec3d> free_force, free_torque;     ///< total fluid load by which free bodies move
+  Span<const LoadSum> corrections;               ///< of the pressure on others, by wall body; may be empty
   Span<BodyAction> action;  ///< [bodies][kActionParts], at the end of the previous step; then of this one
   Span<BodyAction> sum;     ///< [bodies][kActionParts]
 
@@ -66,6 +67,8 @@ struct SumActionsPass {
       pressure = LoadSum::zero();
       pressure.add(free_force[body.free - 1] - friction.force(),
                    free_torque[body.free - 1] - friction.torque());
+    } else if (corrections) {
+      LoadSum::combine(pressure, corrections[body.body]);
     }
     advance(m, kByPressure, first_kick, last_kick, at(body, pose, pressure));
     advance(m, kByFriction, first_kick, last_kick, at(body, pose, friction));

@@ -131,6 +131,13 @@ struct BodyReportPass {
   BL_HD void operator()(Index b) const { out[b] = s.motion(bodies[b], b, time < bodies[b].release); }
 };
 
+/// The solid that a wall body encloses.
+struct EnclosedSolid {
+  std::uint32_t body;  ///< among the wall bodies
+  double volume;       ///< m3; 0 where its shape is not closed
+  Vec3d middle;        ///< from the body's reference point to that of the volume at t = 0, m
+};
+
 /// The wall particles of one body, for sums over them.
 struct BodyParticles {
   std::uint32_t body;
@@ -141,6 +148,9 @@ struct BodyParticles {
   /// From the body's reference point to one of them, m.
   BL_HD Vec3d arm(Index w) const { return poses[body].place(x0[w]) - poses[body].origin(); }
 };
+inline BodyParticles particles_of(std::uint32_t body, const WallStore& walls, Span<const BodyPose> poses) {
+  return {body, walls.body, walls.x0, poses.data};
+}
 
 /// Force of the fluid on the wall particles of one body.
 struct WallLoadReduction {

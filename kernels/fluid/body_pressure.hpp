@@ -1,5 +1,5 @@
 #pragma once
-// Error of the pressure force on free bodies in a linear pressure, and its correction.
+// Error of the pressure force on bodies in a linear pressure, and its correction.
 
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/bodies/body_kicks.hpp"
@@ -58,22 +58,28 @@ struct BodyPressureReduction {
 };
 
 struct FitBodyPressure {
-  Span<const BodyPressureSums> sums;
-  Span<BodyPressure> fitted;
-  BL_HD void operator()(Index k) const { fitted[k] = sums[k].fit(); }
+  Span<const EnclosedSolid> solids;
+  Span<const BodyPressureSums> sums;  ///< [solids]
+  Span<BodyPressure> fitted;          ///< [bodies]
+  BL_HD void operator()(Index k) const { fitted[solids[k].body] = sums[k].fit(); }
 };
 
-/// Of free bodies by their place, and that of wall bodies among them.
+/// Of the pairs of fluid and one wall particle.
+struct PairsOfWall {
+  Vec3d force;    ///< in the linear pressure fitted around its body, N
+  double weight;  ///< by how much the fluid there loses its own error (LinearFit), 0 to 1
+  Vec3d area;     ///< into the fluid, by what they make of a uniform pressure, m2
+  double swept;   ///< area . d about the body's reference point, m3
+};
+
+/// Linear pressures around bodies, 0 where none is fitted, and where to write what pairs make of them.
 struct BodyPressures {
-  Span<const BodyPressure> fitted;
+  Span<const BodyPressure> fitted;  ///< [bodies]
   const BodyPose* poses;
-  BL_HD BodyPressure about(const BodyPose& pose) const {
-    return pose.free ? fitted[pose.free - 1] : BodyPressure{};
-  }
+  Span<PairsOfWall> pairs;  ///< [walls]
 };
 
-/// Force of the pairs of fluid and each wall particle of a free body (N) in the linear pressure fitted around
-/// it, and by how much the fluid there loses its own error (LinearFit), 0 to 1, as one vector.
+/// What the pairs of fluid and wall particles make of linear pressures around bodies.
 template <class W>
 struct BodyPressurePass {
   W w;
@@ -83,88 +89,115 @@ struct BodyPressurePass {
   Span<const Vec3d> x0;
   Span<const std::uint32_t> body;
   BodyPressures pressures;
-  Span<Vec4<double>> force;
 
   struct Sum {
     BodyPressure pressure;  ///< about the wall particle
-    Vec3d force;            ///< over its volume
+    Vec3d arm;              ///< from the body's reference point to it, m
+    Vec3d force, area;      ///< over its volume; area: half of it and turned about
     Real near, weighted;
   };
   BL_HD Sum start(Index b) const {
     const BodyPose& pose = pressures.poses[body[b]];
-    BodyPressure p = pressures.about(pose);
-    p.P += dot(p.g, pose.place(x0[b]) - pose.origin());
-    return {p, {}, 0, 0};
+    const Vec3d arm = pose.place(x0[b]) - pose.origin();
+    BodyPressure p = pressures.fitted[body[b]];
+    p.P += dot(p.g, arm);
+    return {p, arm, {}, {}, 0, 0};
   }
   BL_HD auto sources() const { return sources_of(eos_state, correction); }
   BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const EosState<>& ma, const Real4& fit) const {
     const Real VF = ma.mass_over_eps / ma.rho * w.F(std::sqrt(r2)), surface = VF * r2;
     const double P = 2 * sum.pressure.P - dot(sum.pressure.g, Vec3d(r_ba));
     sum.force += double(VF) * P * Vec3d(r_ba);
+    sum.area += double(VF) * Vec3d(r_ba);
     sum.near += surface;
     sum.weighted += surface * fit.w;
   }
   BL_HD void merge(Sum& into, const Sum& other) const {
     into.force += other.force;
+    into.area += other.area;
     into.near += other.near;
     into.weighted += other.weighted;
   }
   BL_HD void finish(Index b, const Sum& sum) const {
     const WallState<> m = wall_state[b];
     const bool wet = sum.near > 0 && m.mass > 0;
-    const Vec3d f = wet ? double(m.mass / m.rho) * sum.force : Vec3d{};
-    force[b] = {f.x, f.y, f.z, wet ? double(sum.weighted / sum.near) : 0};
+    if (!wet) {
+      pressures.pairs[b] = {};
+      return;
+    }
+    const double V = double(m.mass / m.rho);
+    const Vec3d area = -2 * V * sum.area;
+    pressures.pairs[b] = {V * sum.force, double(sum.weighted / sum.near), area,
+                          dot(area, sum.arm) + V * double(sum.near)};  // half way to the fluid
   }
 };
 
-/// What BodyPressurePass has found for the wall particles of one body, summed: the force and torque of the
-/// pairs in the linear pressure, how many particles are wet, and their weights.
-struct PairsInPressure {
+/// PairsOfWall of one body, summed, and how many particles are wet.
+struct PairsOfBody {
   LoadSum load;
   double wet, weight;
+  Vec3d area;
+  double swept;
 };
-struct PairsInPressureReduction {
-  using Value = PairsInPressure;
+struct PairsOfBodyReduction {
+  using Value = PairsOfBody;
   BodyParticles particles;
   Span<const WallState<>> state;
-  Span<const Vec4<double>> force;
-  BL_HD Value identity() const { return {LoadSum::zero(), 0, 0}; }
+  Span<const PairsOfWall> pairs;
+  BL_HD Value identity() const { return {LoadSum::zero(), 0, 0, {}, 0}; }
   BL_HD Value operator()(Index w) const {
     Value sum = identity();
     if (!particles.has(w) || state[w].mass == 0) return sum;
-    sum.load.add(force[w].xyz(), cross(particles.arm(w), force[w].xyz()));
-    sum.wet = 1, sum.weight = force[w].w;
+    const PairsOfWall& p = pairs[w];
+    sum.load.add(p.force, cross(particles.arm(w), p.force));
+    sum.wet = 1, sum.weight = p.weight;
+    sum.area = p.area, sum.swept = p.swept;
     return sum;
   }
   BL_HD void combine(Value& into, const Value& from) const {
     LoadSum::combine(into.load, from.load);
     into.wet += from.wet, into.weight += from.weight;
+    into.area += from.area, into.swept += from.swept;
   }
 };
 
-/// Buoyancy correction of free bodies: replaces what pairs make of the linear pressure P + g . d around a
-/// body by -g V at the centre of its volume, times a weight. Needed with LinearFit: in uniform pressure the
-/// force of the pairs on a body is minus the sum of the errors of the fluid around, which LinearFit removes
-/// from the fluid. Weight: smoothstep from 0 to 1 of the mean weight of LinearFit around wet particles, from
-/// 3/4 to 1, so for bodies within the fluid only.
+/// Buoyancy correction of bodies: replaces what pairs make of the linear pressure P + g . d around a body by
+/// -g V at the centre of its volume, times a weight. Needed with LinearFit: in uniform pressure the force of
+/// the pairs on a body is minus the sum of the errors of the fluid around, which LinearFit removes from the
+/// fluid. Weight: smoothstep from 0 to 1 of the mean weight of LinearFit around wet particles, from 3/4 to 1,
+/// so for bodies within the fluid only. Of others, on a floor or with fluid within, the volume that pairs see
+/// tells: (1/n) sum of area . d.
 struct CorrectBody {
-  const RigidBody* bodies;
-  const BodyPressure* fitted;
-  const PairsInPressure* pairs;
-  Span<const Vec4<double>> rotation;
-  Span<Vec3d> force, torque;  ///< of the fluid; N, N m
-  Span<Vec3d> added_force, added_torque;
+  /// Of the volume that pairs see over that of the body, by how much it may differ from 1: with the whole
+  /// weight, and with any. A box without fluid at one of its six faces has 5/6.
+  static constexpr double kWhole = 0.08, kAny = 0.16;
+
+  Span<const EnclosedSolid> solids;
+  const BodyPose* poses;
+  Span<const BodyPressure> fitted;  ///< [bodies]
+  Span<const PairsOfBody> pairs;    ///< [solids]
+  int dimensions;                   ///< of the flow, where bodies must have fluid all around; else 0
+  Span<LoadSum> added;              ///< [bodies]; about their reference points, N, N m
   BL_HD void operator()(Index k) const {
-    const RigidBody& body = bodies[k];
-    const PairsInPressure& p = pairs[k];
-    added_force[k] = added_torque[k] = {};
-    if (p.wet == 0 || body.volume == 0) return;
-    const double t = clamp(4 * p.weight / p.wet - 3, 0.0, 1.0), w = t * t * (3 - 2 * t);
-    const Vec3d buoyancy = -body.volume * fitted[k].g, at = to_quat(rotation[k]).rotate(body.middle);
-    added_force[k] = w * (buoyancy - p.load.force());
-    added_torque[k] = w * (cross(at, buoyancy) - p.load.torque());
-    force[k] += added_force[k];
-    torque[k] += added_torque[k];
+    const EnclosedSolid& solid = solids[k];
+    const PairsOfBody& p = pairs[k];
+    LoadSum& out = added[solid.body];
+    out = LoadSum::zero();
+    if (p.wet == 0 || solid.volume == 0) return;
+    const Vec3d g = fitted[solid.body].g, buoyancy = -solid.volume * g,
+                at = poses[solid.body].rotation.rotate(solid.middle);
+    double w = smooth(4 * p.weight / p.wet - 3);
+    if (dimensions > 0) {
+      const double seen = (p.swept - dot(at, p.area)) / (dimensions * solid.volume);
+      w *= smooth((kAny - std::abs(seen - 1)) / (kAny - kWhole));
+    }
+    out.add(w * (buoyancy - p.load.force()), w * (cross(at, buoyancy) - p.load.torque()));
+  }
+
+ private:
+  BL_HD static double smooth(double x) {
+    const double t = clamp(x, 0.0, 1.0);
+    return t * t * (3 - 2 * t);
   }
 };
 

@@ -9,7 +9,6 @@
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/walls.hpp"
 #include "bedload/step_limits.hpp"
-#include "kernels/fluid/body_pressure.hpp"
 #include "kernels/fluid/drive.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
 #include "kernels/fluid/fluid_powers.hpp"
@@ -22,6 +21,7 @@
 #include "kernels/integrate/fluid_kicks.hpp"
 #include "kernels/stress/fluid_stress.hpp"
 #include "src/fluid/parameters.hpp"
+#include "src/walls/pressure_correction.hpp"
 #include "src/walls/wall_geometry.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -213,10 +213,12 @@ class FluidSolver {
   virtual void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
                            const StepTime& now, double corrected, double dt, Buffer<Vec3d>& pressure,
                            Buffer<Vec3d>& friction) = 0;
-  /// Force of the pairs of fluid and free bodies in linear pressures around these, as BodyPressurePass; where
-  /// fits().
-  virtual void body_pressures(const FluidStore&, const WallStore&, const BodyPressures&,
-                              Buffer<Vec4<double>>&) {}
+  /// Finds what is added to the pressure loads on bodies, where fits(). One pose a body.
+  void correct_pressure(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
+                        PressureCorrection& correction) {
+    body_pressures(fluid, walls, correction.fit(walls, pose));
+    correction.find(walls, pose);
+  }
   /// FluidPowers of each particle, as they are now; after a step of dt (s), before the lists are renewed.
   /// Empty if a model does not report them.
   virtual Span<const FluidPowers> powers(FluidStore&, const WallStore&, Span<const BodyPose>, const StepTime&,
@@ -262,6 +264,8 @@ class FluidSolver {
 
   FluidSolver(const FluidParameters& parameters, const Frame& frame, const WallGeometry& walls,
               FluidStore& fluid, double kappa);
+  /// BodyPressurePass, where fits().
+  virtual void body_pressures(const FluidStore&, const WallStore&, const BodyPressures&) {}
   /// density(), into compression_next.
   virtual void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
                             const StepTime& start, double dt) = 0;

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "kernels/fluid/body_pressure.hpp"
 #include "kernels/fluid/density_pass.hpp"
 #include "kernels/fluid/force_pass.hpp"
 #include "kernels/fluid/one_pass.hpp"
@@ -78,19 +79,6 @@ class WcsphSolver final : public FluidSolver {
     forces_on_walls<ForceParts>(fluid, walls, pose, corrected, dt, pressure, friction);
   }
 
-  void body_pressures(const FluidStore& fluid, const WallStore& walls, const BodyPressures& pressures,
-                      Buffer<Vec4<double>>& force) override {
-    force.resize(walls.size());
-    wall_fluid_.run(BodyPressurePass<W>{.w = w_,
-                                        .eos_state = fluid.eos_state,
-                                        .correction = fluid.correction,
-                                        .wall_state = walls.state,
-                                        .x0 = walls.x0,
-                                        .body = walls.body,
-                                        .pressures = pressures,
-                                        .force = force});
-  }
-
   Span<const FluidPowers> powers(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
                                  const StepTime& now, double dt) override {
     if (shear_.acts()) return {};
@@ -109,6 +97,16 @@ class WcsphSolver final : public FluidSolver {
   }
 
  private:
+  void body_pressures(const FluidStore& fluid, const WallStore& walls,
+                      const BodyPressures& pressures) override {
+    wall_fluid_.run(BodyPressurePass<W>{.w = w_,
+                                        .eos_state = fluid.eos_state,
+                                        .correction = fluid.correction,
+                                        .wall_state = walls.state,
+                                        .x0 = walls.x0,
+                                        .body = walls.body,
+                                        .pressures = pressures});
+  }
   void find_density(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose, const StepTime& start,
                     double dt) override {
     const AtMidStep places(fluid, walls);

@@ -147,14 +147,18 @@ std::vector<SurfacePart> parts_of(const Shape& shape) {
   return parts;
 }
 
-bool closed(const WallBody& body) { return body.solid.shape || body.shape == WallShape::box; }
-
 }  // namespace
 
 void SolidMoments::add(double piece, const Vec3d& at) {
   volume += piece;
   first += piece * at;
   add_second(*this, piece, at, at);
+}
+
+bool is_closed(const WallBody& body) { return body.solid.shape || body.shape == WallShape::box; }
+
+SolidMoments solid_moments(const WallBody& body, const DomainConfig& domain) {
+  return body.solid.shape ? solid_moments(*body.solid.shape, domain) : box_moments(body.min, body.max);
 }
 
 SolidMoments solid_moments(const Shape& shape, const DomainConfig& domain) {
@@ -191,18 +195,17 @@ MassProperties mass_properties(const WallBody& body, const DomainConfig& domain)
     out.centre = {f.centre_of_mass[0], domain.two_d ? domain.middle() : f.centre_of_mass[1],
                   f.centre_of_mass[2]};
   if (f.inertia.size() == 6) std::copy(f.inertia.begin(), f.inertia.end(), out.inertia.begin());
-  if (!closed(body)) {
+  if (!is_closed(body)) {
     if (f.mass > 0 && !f.centre_of_mass.empty() && !f.inertia.empty()) return out;
     throw CaseError("needs mass, centre_of_mass and inertia; shape = \"" + body.shape.name() +
                     "\" is not closed, so they do not follow from it");
   }
-  const SolidMoments m =
-      body.solid.shape ? solid_moments(*body.solid.shape, domain) : box_moments(body.min, body.max);
+  const SolidMoments m = solid_moments(body, domain);
   if (domain.two_d && m.volume == 0)
     throw CaseError(fmt::format("needs a shape that the plane y = {:g} m cuts", domain.middle()));
   if (out.mass == 0) out.mass = f.density * m.volume;
   const double density = out.mass / m.volume;
-  Vec3d middle = m.first / m.volume;
+  Vec3d middle = m.middle();
   if (domain.two_d) middle.y = domain.middle();  // whatever the round-off
   if (m.volume > 0) out.volume = m.volume, out.middle = middle;
   if (f.centre_of_mass.empty()) out.centre = middle;
@@ -259,7 +262,7 @@ std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& do
     }
     return balls;
   }
-  if (!closed(body)) return {};
+  if (!is_closed(body)) return {};
   for (Vec3d x : sample_body(body, spacing, 0.9 * spacing, domain)) {
     if (domain.two_d) x.y = domain.middle();
     const double depth = -wall_distance(body, x, spacing, domain);

@@ -50,8 +50,7 @@ const CoupledSimulation::FluidLoads& CoupledSimulation::fluid_loads() {
   const WallRepulsion repulsion = stepper_.fluid().repulsion(state_.fluid, poses, state_.clock.last_dt);
   for (std::uint32_t b = 0; b < loads.pressure.size(); ++b) {
     const auto sum = [&](const Buffer<Vec3d>& force) {
-      return reduce(state_.walls.owned(),
-                    WallLoadReduction{{b, state_.walls.body, state_.walls.x0, poses.data}, force});
+      return reduce(state_.walls.owned(), WallLoadReduction{particles_of(b, state_.walls, poses), force});
     };
     loads.pressure[b] = sum(forces.pressure);
     loads.friction[b] = sum(forces.friction);
@@ -61,6 +60,23 @@ const CoupledSimulation::FluidLoads& CoupledSimulation::fluid_loads() {
                                                                   state_.fluid.mass, state_.fluid.heading}));
   }
   return loads;
+}
+
+Span<const LoadSum> CoupledSimulation::held_corrections() {
+  if (!state_.has_fluid || state_.walls.size() == 0 || !stepper_.fluid().fits()) return {};
+  std::unique_ptr<PressureCorrection>& held = held_.value;
+  if (!held) held = std::make_unique<PressureCorrection>(held_solids(config_), config_.domain.two_d ? 2 : 3);
+  if (!held->any()) return {};
+  if (held_.due(state_.clock.step))
+    stepper_.fluid().correct_pressure(state_.fluid, state_.walls, state_.poses_now(), *held);
+  return held->added();
+}
+
+LoadSum CoupledSimulation::correction(int body) {
+  if (const int place = state_.bodies.place_of(body); place >= 0) return state_.bodies.correction(place);
+  LoadSum load = LoadSum::zero();
+  if (const Span<const LoadSum> all = held_corrections()) copy_to_host(&load, &all[body], sizeof load);
+  return load;
 }
 
 LoadSum CoupledSimulation::grain_load(int body) {
@@ -85,7 +101,7 @@ BodyActions CoupledSimulation::actions_on(int body, const Vec3d& about) {
   LoadSum by[kActionParts] = {loads.pressure[body], loads.friction[body],
                               place >= 0 ? state_.bodies.forces(place).grains : grain_load(body),
                               state_.bodies.any() ? body_load(body) : LoadSum::zero()};
-  if (place >= 0) LoadSum::combine(by[kByPressure], state_.bodies.correction(place));
+  LoadSum::combine(by[kByPressure], correction(body));
   BodyActions out;
   for (int k = 0; k < kActionParts; ++k) out[k] = BodyAction::of(by[k], from, motion.v, motion.omega);
   return out;
@@ -154,7 +170,7 @@ void CoupledSimulation::advance_meters(double dt) {
       const std::uint32_t b = meters_.bodies()[m];
       const auto sum = [&](LoadSum* out, const Buffer<Vec3d>& force) {
         reduce_into(out, state_.walls.owned(),
-                    WallLoadReduction{{b, state_.walls.body, state_.walls.x0, poses.data}, force});
+                    WallLoadReduction{particles_of(b, state_.walls, poses), force});
       };
       sum(meter_pressure_.data() + m, forces.pressure);
       sum(meter_friction_.data() + m, forces.friction);
@@ -163,6 +179,7 @@ void CoupledSimulation::advance_meters(double dt) {
                     BodyRepulsion{repulsion, b, state_.fluid.x, state_.fluid.mass, state_.fluid.heading});
     }
     for_each({0, Index(n)}, AddLoadsPass{meter_repulsion_, meter_pressure_});
+    pass.corrections = held_corrections();
     pass.last_kick = stepper_.corrected();
     pass.first_kick = dt - pass.last_kick;
     if (state_.bodies.any())
@@ -200,6 +217,7 @@ std::vector<Quantity> CoupledSimulation::body_state(int body) {
     f = state_.bodies.forces(k);
   } else {
     f.fluid = fluid_loads().all(body);
+    LoadSum::combine(f.fluid, correction(body));
     f.grains = grain_load(body);
     if (state_.bodies.any()) f.bodies = body_load(body);
   }

@@ -158,7 +158,7 @@ struct PorosityBody {
 
 }  // namespace
 
-void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>& out) {
+void CoupledSimulation::report_powers(const Drive& drive, double corrections, std::vector<Quantity>& out) {
   FluidSolver& solver = stepper_.fluid();
   FluidStore& fluid = state_.fluid;
   const double dt = state_.clock.last_dt;
@@ -166,20 +166,19 @@ void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>&
   SumReduction<5, PowersBody>::Value p;
   for (double& v : p.v) v = std::nan("");  // models that do not compute them
   if (powers) p = sum_over<5>(fluid.owned(), PowersBody{powers});
-  double moving = 0;  // the pressure's work on the fluid
+  double moving = 0;  // power of the pairs of moving walls on the fluid
   for (std::uint32_t b = 0; b < std::uint32_t(state_.motion.bodies()) && state_.walls.size() > 0; ++b) {
     const RigidMotion motion = state_.motion.pose(int(b), state_.clock.time);
     if (norm2(motion.v) + norm2(motion.omega) == 0) continue;
     const LoadSum load =
         reduce(state_.walls.owned(),
-               WallLoadReduction{{b, state_.walls.body, state_.walls.x0, state_.poses_now().data},
-                                 wall_forces().pressure});
+               WallLoadReduction{particles_of(b, state_.walls, state_.poses_now()), wall_forces().pressure});
     moving -= dot(load.force(), motion.v) + dot(load.torque(), motion.omega);
   }
   static const char* const terms[] = {"viscosity", "artificial_viscosity", "density_diffusion", "voids"};
   for (int k = 0; k < 4; ++k) out.push_back({std::string("power_") + terms[k], "W", p.v[k]});
   out.push_back({"power_wall_pressure", "W", p.v[4] - moving});
-  out.push_back({"power_moving_walls", "W", moving});
+  out.push_back({"power_moving_walls", "W", moving - corrections});
   const auto d = sum_over<3>(
       fluid.owned(),
       DriftBody{.gravity = config_.gravity,
@@ -260,16 +259,26 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
       d = sum_over<1>(state_.fluid.owned(),
                       DamperBody{stepper_.fluid().damping(), config_.fluid.rho0, state_.fluid.eos_state,
                                  state_.fluid.mass, state_.fluid.compression_rate});
-    const Vec3d correction{c.v[0], c.v[1], c.v[2]};
-    const BodyCorrection of_bodies = state_.bodies.correction();
-    vec("force_pressure_correction", "N", correction + of_bodies.force);
-    out.push_back({"power_pressure_correction", "W", c.v[3] + of_bodies.power});
+    const Vec3d of_fluid{c.v[0], c.v[1], c.v[2]};
+    // in the loads on bodies, which are told as the opposite of the forces of walls on the fluid
+    LoadSum of_bodies = LoadSum::zero();
+    double power_of_bodies = 0;
+    for (int b = 0; b < state_.motion.walls(); ++b) {
+      const LoadSum load = correction(b);
+      const RigidMotion motion = state_.motion.pose(b, state_.clock.time);
+      LoadSum::combine(of_bodies, load);
+      power_of_bodies += dot(load.force(), motion.v) + dot(load.torque(), motion.omega);
+    }
+    wall_on_fluid -= of_bodies.force();
+    const Vec3d corrections = of_fluid + of_bodies.force();
+    vec("force_pressure_correction", "N", corrections);
+    out.push_back({"power_pressure_correction", "W", c.v[3] + power_of_bodies});
     out.push_back({"power_acoustic_damper", "W", d.v[0]});
-    report_powers(drive, out);
+    report_powers(drive, power_of_bodies, out);
     vec("force_walls_on_fluid", "N", wall_on_fluid);
     vec("force_grains_on_fluid", "N", {l.v[6], l.v[7], l.v[8]});
     // pair sums balance: the rest is round-off
-    vec("fluid_force_residual", "N", total - body - wall_on_fluid - correction);
+    vec("fluid_force_residual", "N", total - body - wall_on_fluid - corrections);
     out.push_back({"fluid_speed_max", "m/s", std::sqrt(stepper_.fluid_extremes().v2)});
     const auto largest = [&](auto body) {  // NaN without fluid
       return state_.fluid.size() > 0 ? max_over(state_.fluid.owned(), body) : std::nan("");

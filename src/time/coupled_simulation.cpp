@@ -40,7 +40,7 @@ SavedState CoupledSimulation::save() {
 void CoupledSimulation::load(const SavedState& saved) {
   state_.load(config_, saved);
   stepper_.load(saved);
-  wall_forces_.step = fluid_loads_.step = grain_loads_.step = -1;
+  wall_forces_.step = fluid_loads_.step = held_.step = grain_loads_.step = -1;
   begin_meters(&saved);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // One simulation: its state, what steps it, and its readings.
 
+#include <memory>
 #include <utility>
 
 #include "src/measure/force_meters.hpp"
@@ -79,9 +80,14 @@ class CoupledSimulation final : public Simulation {
     }
   };
   const WallForces& wall_forces();  ///< of the fluid on wall particles, repulsion from surfaces apart
-  const FluidLoads& fluid_loads();
+  const FluidLoads& fluid_loads();  ///< of pairs and repulsion
+  /// What pressure.linear_exact adds to the pressure loads on closed bodies that are held or moved: by wall
+  /// body, about their centres, on the device. Empty without.
+  Span<const LoadSum> held_corrections();
+  LoadSum correction(int body);  ///< the same of one, or of a free body
   /// Adds where the energy of the fluid goes, by terms, and how many particles are held by limits.
-  void report_powers(const Drive& drive, std::vector<Quantity>& out);
+  /// corrections: power on bodies of what correction() adds to the loads on them, W.
+  void report_powers(const Drive& drive, double corrections, std::vector<Quantity>& out);
   LoadSum grain_load(int body);  ///< of the grains on a body about its centre
   LoadSum body_load(int body);   ///< of other bodies, likewise; where there are free ones
   BodyActions actions_on(int body, const Vec3d& about);  ///< now; torque about a point (m)
@@ -104,6 +110,7 @@ class CoupledSimulation final : public Simulation {
   Buffer<PairMoment<>> contact_moments_;
   Kept<WallForces> wall_forces_;
   Kept<FluidLoads> fluid_loads_;
+  Kept<std::unique_ptr<PressureCorrection>> held_;  ///< null until needed
   Kept<std::vector<LoadSum>> grain_loads_;
   ForceMeters meters_;
   Buffer<LoadSum> meter_pressure_, meter_friction_, meter_repulsion_;  ///< scratch

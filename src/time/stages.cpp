@@ -340,10 +340,9 @@ void Stepper::load_bodies(Step& now) {
   if (walls_.size() > 0)
     fluid_solver_->wall_forces(fluid_, walls_, now.poses, moment_, 0, now.dt, wall_force_);
   const bool corrected = fluid_solver_->fits() && walls_.size() > 0;
-  if (corrected)
-    fluid_solver_->body_pressures(fluid_, walls_, bodies_.fit_pressure(walls_, now.poses), wall_in_fit_);
+  if (corrected) fluid_solver_->correct_pressure(fluid_, walls_, now.poses, bodies_.pressure_correction());
   const WallRepulsion repulsion = fluid_solver_->repulsion(fluid_, now.poses, now.dt);
-  bodies_.add_fluid_loads(walls_, wall_force_, corrected ? &wall_in_fit_ : nullptr,
+  bodies_.add_fluid_loads(walls_, wall_force_, corrected,
                           repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_, now.poses,
                           now.last_kick, now.dt);
 }

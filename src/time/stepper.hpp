@@ -139,8 +139,7 @@ class Stepper {
   double walls_moved_ = 0;  ///< bound on wall travel since the lists were built, m
   bool rebuilt_ = false;
   std::int64_t rebuilds_ = 0;
-  Buffer<Vec3d> wall_force_;          ///< by which free bodies move
-  Buffer<Vec4<double>> wall_in_fit_;  ///< BodyPressurePass
+  Buffer<Vec3d> wall_force_;  ///< by which free bodies move
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -24,6 +24,25 @@ struct AddLoads {
   }
 };
 
+/// Adds what the pressure correction has found for each.
+struct AddCorrection {
+  const RigidBody* bodies;
+  Span<const LoadSum> found;  ///< [wall bodies]
+  Span<Vec3d> force, torque, added_force, added_torque;
+  BL_HD void operator()(Index k) const {
+    const LoadSum& more = found[bodies[k].body];
+    added_force[k] = more.force(), added_torque[k] = more.torque();
+    force[k] += added_force[k], torque[k] += added_torque[k];
+  }
+};
+
+std::vector<EnclosedSolid> solids_of(const FreeBodyParameters& parameters) {
+  std::vector<EnclosedSolid> solids;
+  for (const FreeBody& body : parameters.bodies)
+    solids.push_back({body.rigid.body, body.rigid.volume, body.rigid.middle});
+  return solids;
+}
+
 /// Restricts a body to a plane flow: motion in x and z, rotation about y.
 void confine(RigidBody& k) {
   const Vec3d y{0, 1, 0};
@@ -45,7 +64,11 @@ void confine(RigidBody& k) {
 }  // namespace
 
 FreeBodies::FreeBodies(const FreeBodyParameters& parameters, const Frame& frame, const WallGeometry& walls)
-    : parameters_(parameters), frame_(frame), walls_(walls), places_(parameters.walls, -1) {
+    : parameters_(parameters),
+      frame_(frame),
+      walls_(walls),
+      places_(parameters.walls, -1),
+      pressure_correction_(solids_of(parameters)) {
   if (!any()) return;
   contact_radius_ = kInfinity;
   std::vector<RigidBody> rigid;
@@ -259,61 +282,33 @@ void FreeBodies::evaluate_contacts(Span<const BodyPose> poses, double dt) {
   }
 }
 
-BodyPressures FreeBodies::fit_pressure(const WallStore& walls, Span<const BodyPose> poses) {
-  fit_sums_.resize(size()), pressures_.resize(size());
-  fit_sums_.zero();
-  for (int k = 0; k < size(); ++k)
-    reduce_into(fit_sums_.data() + k, walls.owned(),
-                BodyPressureReduction{{rigid(k).body, walls.body, walls.x0, poses.data}, walls.state});
-  for_each(store_.owned(), FitBodyPressure{fit_sums_, pressures_});
-  return {pressures_, poses.data};
-}
-
-void FreeBodies::add_fluid_loads(const WallStore& walls, const Buffer<Vec3d>& force,
-                                 const Buffer<Vec4<double>>* in_fit, const WallRepulsion* repulsion,
-                                 const FluidStore& fluid, Span<const BodyPose> poses, double kick_time,
-                                 double dt) {
+void FreeBodies::add_fluid_loads(const WallStore& walls, const Buffer<Vec3d>& force, bool corrected,
+                                 const WallRepulsion* repulsion, const FluidStore& fluid,
+                                 Span<const BodyPose> poses, double kick_time, double dt) {
   wall_sums_.zero();
   repulsion_sums_.zero();
   for (int k = 0; k < size(); ++k) {
     const std::uint32_t body = rigid(k).body;
     if (walls.size() > 0)
       reduce_into(wall_sums_.data() + k, walls.owned(),
-                  WallLoadReduction{{body, walls.body, walls.x0, poses.data}, force});
+                  WallLoadReduction{particles_of(body, walls, poses), force});
     if (repulsion && fluid.size() > 0)
       reduce_into(repulsion_sums_.data() + k, fluid.owned(),
                   BodyRepulsion{*repulsion, body, fluid.x, fluid.mass, fluid.heading});
   }
-  for_each(store_.owned(), AddLoads{wall_sums_, repulsion_sums_, store_.fluid_force, store_.fluid_torque});
-  if (in_fit)
-    correct_pressure(walls, *in_fit, poses);
+  BodyStore& s = store_;
+  for_each(s.owned(), AddLoads{wall_sums_, repulsion_sums_, s.fluid_force, s.fluid_torque});
+  if (corrected)
+    for_each(s.owned(), AddCorrection{constants_.data(), pressure_correction_.added(), s.fluid_force,
+                                      s.fluid_torque, s.corrected_force, s.corrected_torque});
   else
-    store_.corrected_force.buffer().zero(), store_.corrected_torque.buffer().zero();
+    s.corrected_force.buffer().zero(), s.corrected_torque.buffer().zero();
   if (dt == 0) return;
   BodyPass p = pass();
   p.fluid_kick = kick_time;
   kick(p);
   const double followed = -std::expm1(-dt / parameters_.response);
   for_each(store_.owned(), BodyAccelerationPass{constants_.data(), fields(), dt, followed});
-}
-
-void FreeBodies::correct_pressure(const WallStore& walls, const Buffer<Vec4<double>>& in_fit,
-                                  Span<const BodyPose> poses) {
-  in_pressure_.resize(size());
-  in_pressure_.zero();
-  for (int k = 0; k < size(); ++k)
-    reduce_into(in_pressure_.data() + k, walls.owned(),
-                PairsInPressureReduction{
-                    {rigid(k).body, walls.body, walls.x0, poses.data}, walls.state, in_fit.span()});
-  BodyStore& s = store_;
-  for_each(s.owned(), CorrectBody{.bodies = constants_.data(),
-                                  .fitted = pressures_.data(),
-                                  .pairs = in_pressure_.data(),
-                                  .rotation = s.rotation,
-                                  .force = s.fluid_force,
-                                  .torque = s.fluid_torque,
-                                  .added_force = s.corrected_force,
-                                  .added_torque = s.corrected_torque});
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -12,9 +12,9 @@
 #include "bedload/simulation.hpp"
 #include "kernels/bodies/ball_contacts.hpp"
 #include "kernels/bodies/body_kicks.hpp"
-#include "kernels/fluid/body_pressure.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
 #include "src/walls/parameters.hpp"
+#include "src/walls/pressure_correction.hpp"
 #include "src/walls/substep_loads.hpp"
 #include "src/walls/wall_geometry.hpp"
 
@@ -32,15 +32,10 @@ struct BodyTotals {
   int outside = 0;  ///< number of bodies with their centre outside the domain
 };
 
-struct BodyCorrection {
-  Vec3d force;       ///< N
-  double power = 0;  ///< W
-};
-
 /// A rigid body with reference point `centre` (m) and the constraints `move` and `turn` (with `axis`) of a
 /// case; plane: and those of a plane flow.
-RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, BodyMove move,
-                     BodyTurn turn, const Vec3d& axis, bool plane);
+RigidBody rigid_body(const MassProperties& m, const Vec3d& centre, BodyMove move, BodyTurn turn,
+                     const Vec3d& axis, bool plane);
 
 class FreeBodies {
  public:
@@ -80,12 +75,11 @@ class FreeBodies {
   /// Buffer in which `grains` grains record their loads on bodies, until the next evaluation.
   ContactLoads record(Index grains);
 
-  /// Fits a linear pressure to the wet wall particles of each body. poses: one row.
-  BodyPressures fit_pressure(const WallStore& walls, Span<const BodyPose> poses);
+  PressureCorrection& pressure_correction() { return pressure_correction_; }
   /// Sums the fluid force on the wall particles [walls] and the repulsion at the end of a step, and kicks the
-  /// bodies with it. in_fit: force of the pairs in the fitted pressure from BodyPressurePass, null without
-  /// that correction; dt: the step, 0 at the start of a run. poses: one row.
-  void add_fluid_loads(const WallStore& walls, const Buffer<Vec3d>& force, const Buffer<Vec4<double>>* in_fit,
+  /// bodies with it. corrected: with what pressure_correction() has found; dt: the step, 0 at the start of a
+  /// run. poses: one row.
+  void add_fluid_loads(const WallStore& walls, const Buffer<Vec3d>& force, bool corrected,
                        const WallRepulsion* repulsion, const FluidStore& fluid, Span<const BodyPose> poses,
                        double kick, double dt);
 
@@ -119,8 +113,6 @@ class FreeBodies {
   BodyTotals totals(double time) const;
   /// Correction of the fluid load on a body by pressure.linear_exact.
   LoadSum correction(int place) const;
-  /// Sum over the bodies that the fluid moves.
-  BodyCorrection correction() const;
 
   void save(std::vector<HostStore>& stores) const;
   /// `find(name)`: the store of that name, as it was at `time` (s).
@@ -146,8 +138,6 @@ class FreeBodies {
   void point_at_memory();
   BodyFields fields() const;
   void evaluate_contacts(Span<const BodyPose> poses, double dt);
-  void correct_pressure(const WallStore& walls, const Buffer<Vec4<double>>& in_fit,
-                        Span<const BodyPose> poses);
   BodyPass pass() const;
   void kick(const BodyPass& pass) { for_each(store_.owned(), pass); }
 
@@ -178,9 +168,7 @@ class FreeBodies {
   ContactLoads grain_loads_, ball_loads_;
   SubstepLoads substep_loads_;
   Buffer<LoadSum> grain_sums_, ball_sums_, wall_sums_, repulsion_sums_;
-  Buffer<BodyPressureSums> fit_sums_;
-  Buffer<BodyPressure> pressures_;
-  Buffer<PairsInPressure> in_pressure_;
+  PressureCorrection pressure_correction_;
   Buffer<RigidMotion> report_;
 
   struct Step {

@@ -74,16 +74,6 @@ std::vector<StepLimit> FreeBodies::limits(double wall_speed) const {
   return all;
 }
 
-BodyCorrection FreeBodies::correction() const {
-  BodyCorrection all;
-  for (int k = 0; k < size(); ++k) {
-    if (!rigid(k).fluid) continue;
-    const LoadSum load = correction(k);
-    all.force += load.force();
-    all.power += dot(load.force(), now_[k].v) + dot(load.torque(), now_[k].omega);
-  }
-  return all;
-}
 LoadSum FreeBodies::correction(int k) const {
   return load_of(k, store_.corrected_force, store_.corrected_torque);
 }

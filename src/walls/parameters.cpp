@@ -138,4 +138,16 @@ FreeBodyParameters free_body_parameters(const Config& config) {
   return p;
 }
 
+std::vector<EnclosedSolid> held_solids(const Config& config) {
+  std::vector<EnclosedSolid> solids;
+  for (std::uint32_t b = 0; b < config.wall.bodies.size(); ++b) {
+    const WallBody& body = config.wall.bodies[b];
+    if (body.free.present || !body.stops_fluid() || !is_closed(body)) continue;
+    const SolidMoments m = solid_moments(body, config.domain);
+    if (m.volume > 0)
+      solids.push_back({b, m.volume, m.middle() - MotionLaw(body.motion, config.time.end).at(0).centre});
+  }
+  return solids;
+}
+
 }  // namespace bedload::inline BL_VARIANT

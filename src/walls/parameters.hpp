@@ -8,6 +8,7 @@
 #include "bedload/case/materials.hpp"
 #include "bedload/motion/law.hpp"
 #include "kernels/bodies/ball_contacts.hpp"
+#include "kernels/bodies/body_kicks.hpp"
 #include "src/motion/inlet_flow.hpp"
 
 namespace bedload {
@@ -55,5 +56,8 @@ struct FreeBodyParameters {
   double grain_radius = 0, grain_mass = 0;     ///< of the smallest; m, kg; 0 without grains
 };
 FreeBodyParameters free_body_parameters(const Config& config);
+
+/// Closed bodies in the fluid that are held or moved.
+std::vector<EnclosedSolid> held_solids(const Config& config);
 
 }  // namespace bedload::inline BL_VARIANT

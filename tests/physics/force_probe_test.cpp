@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <random>
 
 #include "tests/support/free_body.hpp"
 #include "tests/support/tolerance.hpp"
@@ -257,6 +259,160 @@ TEST(SmallForceProbe, InstantsAreWhatActsThen) {
   EXPECT_NEAR(reading(s->measure(c.out.probes[0]), "force_total_z"),
               0.5 * (reading(now, "force_total_z") + next), 1e-6 * std::abs(next))
       << "half of a step by the force at either end";
+}
+
+// -- forces exact for a linear pressure ------------------------------------------------
+
+constexpr double kRho = 1000;  // kg/m3
+
+/// Oil, as viscous as pressure.linear_exact asks for, over the floor of a periodic tank.
+Config deep_oil(int side = 16) {
+  Config c = periodic_box(side);
+  c.domain.min.z = -0.04, c.domain.max.z = 0.01 * side + 0.02;
+  c.domain.periodic[2] = false;
+  c.time.end = 1;
+  c.gravity = {0, 0, -kG};
+  c.fluid.mu = 10;
+  c.fluid.fills = {{{0, 0, 0}, {0.01 * side, 0.01 * side, 0.01 * side}}};
+  c.wall.bodies = {test::tank({0, 0, 0}, {0.01 * side, 0.01 * side, 0.01 * side + 0.01}, "z-")};
+  return c;
+}
+
+/// Its particles moved by up to 0.15 spacings off their lattice.
+bedload::Setup disordered(const Config& c) {
+  std::vector<std::string> warnings;
+  bedload::Setup setup = build_setup(c, warnings);
+  std::mt19937 rng(3);
+  std::uniform_real_distribution<double> by(-0.15 * c.fluid.dx, 0.15 * c.fluid.dx);
+  for (Vec3d& x : setup.fluid.x) x += Vec3d{by(rng), by(rng), by(rng)};
+  return setup;
+}
+
+/// Load of the fluid on the last body after a step: force, torque about `about`.
+std::pair<Vec3d, Vec3d> load_on_last(Config c, bool linear_exact, const Vec3d& about = {}) {
+  c.pressure.linear_exact = linear_exact;
+  auto s = started(c, disordered(c));
+  s->step();
+  const auto now = s->measure(force_on(c.wall.bodies.back().name, "instant", about));
+  return {vector_of(now, "force_by_fluid"), vector_of(now, "torque_by_fluid")};
+}
+
+/// The walls' pressure is disordered, too: some 2 % of the buoyancy.
+TEST(ForceProbeInOil, HasTheBuoyancyOfAHeldBall) {
+  Config c = deep_oil();
+  const Vec3d middle{0.08, 0.08, 0.07}, aside{0.02, -0.01, 0.005};
+  WallBody ball = test::shaped("ball", make_sphere(middle, 0.04));
+  ball.motion.centre = middle;
+  c.wall.bodies.push_back(ball);
+  const Vec3d buoyancy{0, 0, kRho * kG * 4 / 3 * std::numbers::pi * cube(0.04)};
+  const auto error = [&](bool linear_exact) {
+    const auto [force, torque] = load_on_last(c, linear_exact, middle - aside);
+    return std::pair{norm(force - buoyancy) / norm(buoyancy),
+                     norm(torque - cross(aside, buoyancy)) / norm(cross(aside, buoyancy))};
+  };
+  const auto [force, torque] = error(true);
+  EXPECT_LT(force, 0.03);
+  EXPECT_LT(torque, 0.03);
+  const auto [force_by_pairs, torque_by_pairs] = error(false);
+  EXPECT_GT(force_by_pairs, 2 * force);
+  EXPECT_GT(torque_by_pairs, 2 * torque);
+}
+
+/// The mean is over what instants are, and tables of bodies have the same.
+TEST(ForceProbeInOil, MeansAndTablesHaveTheSame) {
+  Config c = deep_oil();
+  c.wall.bodies.push_back(test::shaped("ball", make_sphere({0.08, 0.08, 0.07}, 0.04)));
+  c.out.probes = {force_on("ball"), force_on("ball", "instant")};
+  auto s = started(c, disordered(c));
+  Vec3d impulse;
+  double start = 0;
+  for (int k = 0; k < 10; ++k) {
+    const Vec3d before = vector_of(s->measure(c.out.probes[1]), "force_by_fluid");
+    s->step();
+    const auto now = s->measure(c.out.probes[1]);
+    impulse += 0.5 * (s->time() - start) * (before + vector_of(now, "force_by_fluid"));
+    start = s->time();
+    EXPECT_EQ(norm(vector_of(now, "force_by_fluid") - vector_of(s->body_state(1), "force_by_fluid")), 0);
+  }
+  const Vec3d mean = vector_of(s->measure(c.out.probes[0]), "force_by_fluid");
+  EXPECT_LT(norm(start * mean - impulse), 1e-9 * norm(impulse));
+}
+
+/// Fluid loses the impulse that bodies report, but for what the diagnostics have of the correction.
+TEST(ForceProbeInOil, ImpulsesAreTheMomentumThatTheFluidLoses) {
+  Config c = deep_oil();
+  WallBody ball = test::shaped("ball", make_sphere({0.08, 0.08, 0.07}, 0.03));
+  ball.motion.kind = "velocity";
+  ball.motion.velocity = {0.3, 0, 0.1};
+  c.wall.bodies.push_back(ball);
+  for (WallBody& body : c.wall.bodies) body.no_penetration = false;  // its push is booked elsewhere
+  c.out.probes = {force_on("tank"), force_on("ball")};
+  auto s = started(c, disordered(c));
+  const auto before = s->diagnostics();
+  Vec3d corrected;
+  for (int k = 0; k < 20; ++k) corrected += corrected_in_a_step(*s);
+  const auto after = s->diagnostics();
+  const Vec3d gained = vector_of(after, "fluid_momentum") - vector_of(before, "fluid_momentum"),
+              falls = Vec3d{0, 0, -kG * reading(after, "fluid_mass") * s->time()};
+  Vec3d impulse;
+  for (const ProbeConfig& p : c.out.probes) impulse += s->time() * vector_of(s->measure(p), "force_by_fluid");
+  EXPECT_LT(norm(gained + impulse - falls - corrected), 1e-4 * norm(falls) + 0.02 * norm(corrected));
+  Vec3d on_bodies;
+  double power = 0;
+  for (int b = 0; b < 2; ++b) {
+    const auto body = s->body_state(b);
+    on_bodies += vector_of(body, "force_by_fluid");
+    power += dot(vector_of(s->measure(force_on(c.wall.bodies[b].name, "instant")), "pressure_force"),
+                 vector_of(body, "velocity"));
+  }
+  EXPECT_LT(norm(on_bodies + vector_of(after, "force_walls_on_fluid")), 1e-9 * norm(on_bodies));
+  EXPECT_NEAR(reading(after, "power_moving_walls"), -power, 1e-9 * std::abs(power));
+}
+
+/// Mean drag on a ball taken through oil under `background` Pa, N; drag is a stress of some 5 Pa.
+double drag(double background, bool linear_exact = true) {
+  Config c = periodic_box(12);
+  c.time.end = 1;
+  c.fluid.mu = 1;
+  c.fluid.vmax = 0.8;
+  c.eos.background = background;
+  c.pressure.linear_exact = linear_exact;
+  c.fluid.fills = {{c.domain.min, c.domain.max}};
+  WallBody ball = test::shaped("ball", make_sphere({0.06, 0.06, 0.06}, 0.03));
+  ball.motion.kind = "velocity";
+  ball.motion.velocity = {0.1, 0, 0};
+  c.wall.bodies = {ball};
+  c.out.probes = {force_on("ball")};
+  auto s = started(c);
+  run_until(*s, 0.05);
+  s->begin_interval(c.out.probes[0]);
+  run_until(*s, 0.15);
+  return reading(s->measure(c.out.probes[0]), "force_by_fluid_x");
+}
+
+TEST(SlowForceProbeInOil, HasTheDragOfAMovingBallUnderAnyPressure) {
+  const double without = drag(0);
+  EXPECT_LT(without, -0.02);
+  for (const double background : {30.0, 3000.0})
+    EXPECT_NEAR(drag(background), without, 0.03 * std::abs(without));
+}
+
+/// A floor, wet above alone, bears the oil and not its own buoyancy; so does a vessel that is full of it.
+TEST(ForceProbeInOil, LeavesBodiesOutThatAreNotSurrounded) {
+  Config c = deep_oil(10);
+  c.domain.min.z = -0.05;
+  const double weight = kRho * kG * cube(0.1);
+  c.wall.bodies = {test::body("box", {0, 0, -0.04}, {0.1, 0.1, 0})};
+  EXPECT_NEAR(load_on_last(c, true).first.z, -weight, 0.05 * weight);
+
+  Config full = deep_oil(16);
+  full.domain.periodic = {false, false, false};
+  full.domain.min = {-0.02, -0.02, -0.02};
+  full.fluid.fills = {{{0.04, 0.04, 0.03}, {0.12, 0.12, 0.13}}};
+  full.wall.bodies = {
+      test::shaped("vessel", make_hollow(make_box({0.04, 0.04, 0.03}, {0.12, 0.12, 0.13}), 0.03))};
+  const double within = kRho * kG * 0.08 * 0.08 * 0.1;
+  EXPECT_NEAR(load_on_last(full, true).first.z, -within, 0.05 * within);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ struct SolidMoments {
   Vec3d first;                     ///< m4
   std::array<double, 6> second{};  ///< of xx, yy, zz, xy, xz, yz, m5
 
+  Vec3d middle() const { return first / volume; }
   /// A piece small enough to count as a point.
   void add(double volume, const Vec3d& at);
 };
@@ -25,6 +26,9 @@ struct SolidMoments {
 /// Of a closed solid: in closed form for one box, sphere, capsule, cylinder, cone, pipe or mesh, else, and of
 /// the slab that its slice makes of a plane flow, on a raster of about a million cells.
 SolidMoments solid_moments(const Shape& shape, const DomainConfig& domain = {});
+/// Of a body that is closed: a box or a named shape, not a tank or a plane.
+SolidMoments solid_moments(const WallBody& body, const DomainConfig& domain = {});
+bool is_closed(const WallBody& body);
 
 /// Mass, centre and inertia of a free body: as the case gives them, the rest from its shape at uniform
 /// density. Throws CaseError, a sentence that continues "wall.body.free", where there is no closed shape.

@@ -98,5 +98,35 @@ TEST(BodyLoads, FitFindsALinearPressure) {
   EXPECT_EQ(norm(line.fit().g), 0);
 }
 
+/// By the volume that pairs see from where the body is wet.
+TEST(BodyLoads, PressureIsCorrectedWhereFluidIsAllAround) {
+  const EnclosedSolid solid{1, 0.002, {0.1, 0, 0}};
+  std::vector<BodyPose> poses(2);
+  const std::vector<BodyPressure> fitted{{}, {5000, {0, 0, -9810}}};
+  const Vec3d by_pairs{3, 0, 15};
+  const auto added = [&](double seen, double weight, int dimensions) {
+    PairsOfBody pairs{LoadSum::zero(), 10, 10 * weight, {0.5, 0, 0}, 0.05 + dimensions * 0.002 * seen};
+    pairs.load.add(by_pairs, {});
+    std::vector<LoadSum> out(2, LoadSum::zero());
+    CorrectBody{.solids = {&solid, 1},
+                .poses = poses.data(),
+                .fitted = {fitted.data(), 2},
+                .pairs = {&pairs, 1},
+                .dimensions = dimensions,
+                .added = {out.data(), 2}}(0);
+    return out[1];
+  };
+  const Vec3d whole{-3, 0, 0.002 * 9810 - 15};
+  for (const int dimensions : {2, 3}) {
+    expect_near(added(1.07, 1, dimensions).force(), whole, 1e-9);
+    expect_near(added(0.88, 1, dimensions).force(), 0.5 * whole, 1e-9);
+    expect_near(added(5.0 / 6, 1, dimensions).force(), {}, 1e-9);
+    expect_near(added(-1, 1, dimensions).force(), {}, 1e-9);
+    expect_near(added(1, 0.75, dimensions).force(), {}, 1e-9);
+  }
+  expect_near(added(-1, 1, 0).force(), whole, 1e-9);
+  expect_near(added(1, 1, 3).torque(), {0, -0.1 * 0.002 * 9810, 0}, 1e-9);
+}
+
 }  // namespace
 }  // namespace bedload::inline BL_VARIANT
