@@ -96,8 +96,10 @@ void describe_top(Parameters& p, Config& c) {
     {.meaning = "XSPH: weight of the neighbours' velocity in the motion of particles; 0: off",
      .range = within(0, 1)});
   p("shift.A", &c.shift,
-    {.meaning = "particle shifting: how fast particles of straining fluid leave where they crowd, after "
-                "[lind12]; 0 off; no effect with grains coupled both ways and with single layers",
+    {.meaning =
+         "particle shifting: how fast particles of straining fluid leave where they crowd, after "
+         "[lind12]; 0 off; no effect with single layers and, among grains coupled both ways, where the "
+         "cell Reynolds number of fluid.vmax is 1000 or more",
      .range = within(0, 1000)});
 }
 
