@@ -37,10 +37,31 @@ struct BallPass {
   BL_HD void operator()(Index i) const {
     loads.clear(i);
     const ContactBall& ball = balls[i];
-    const std::uint32_t own = bodies[ball.owner].body;
-    const Vec3d x = poses[own].place(ball.x0);
+    const Vec3d x = centre(ball);
     const WallMemories memories{memory, contacts, i};
     SurfaceContacts<> found(memories, walls.surfaces.data, capacity);
+    find(ball, x, found);
+    if (found.size() > 0) {
+      found.resolve();
+      WallMemory next[kMostWallContacts];
+      for (int k = 0; k < found.size(); ++k)
+        next[k] = evaluate(i, ball, x, found[k], taken_over(ball, found, found[k], memories));
+      for (int k = 0; k < found.size(); ++k) memories[k] = next[k];
+    }
+    contacts[i] = Index(found.size());
+  }
+  /// Number of contacts of a ball that are left out, since the deepest `capacity` alone count.
+  BL_HD Index dropped(Index i) const {
+    return left_out({memory, contacts, i}, walls.surfaces.data, capacity,
+                    [&](auto& found) { find(balls[i], centre(balls[i]), found); });
+  }
+
+ private:
+  BL_HD Vec3d centre(const ContactBall& ball) const { return poses[bodies[ball.owner].body].place(ball.x0); }
+  /// Collects what a ball at x touches.
+  template <int kMost>
+  BL_HD void find(const ContactBall& ball, const Vec3d& x, SurfaceContacts<AllKinds, kMost>& found) const {
+    const std::uint32_t own = bodies[ball.owner].body;
     for (Index s = 0; s < walls.surfaces.size; ++s) {
       const Surface& surface = walls.surfaces[s];
       const BodyPose& pose = poses[surface.body];
@@ -51,17 +72,7 @@ struct BallPass {
       view.each_closest_point(walls, reach, 1e-4 * ball.radius,
                               [&](const ClosestPoint& closest) { found.add(s, closest, ball.radius); });
     }
-    if (found.size() > 0) {
-      found.resolve();
-      WallMemory next[kMostWallContacts];
-      for (int k = 0; k < found.size(); ++k)
-        next[k] = evaluate(i, ball, x, found[k], taken_over(ball, found, found[k], memories));
-      for (int k = 0; k < found.size(); ++k) memories[k] = next[k];
-    }
-    contacts[i] = Index(found.size());
   }
-
- private:
   /// Bodies without contacts.
   BL_HD bool passes(const BodyPose& pose) const { return pose.free && !bodies[pose.free - 1].contacts; }
   BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {

@@ -8,7 +8,8 @@
 
 namespace bedload::inline BL_VARIANT {
 
-constexpr int kMostWallContacts = 8;  ///< of one grain at once; the deepest count
+constexpr int kMostWallContacts = 8;      ///< of one grain at once; the deepest count
+constexpr int kCountedWallContacts = 64;  ///< up to which those left out are counted
 
 /// A contact kept from the last evaluation. Checkpoints hold it bit by bit as 12 columns of 8 bytes, of which
 /// the first is the key, an integer.
@@ -50,7 +51,7 @@ struct SurfaceContact {
 };
 
 /// Collects the contacts of one grain with surfaces of these kinds.
-template <class Kinds = AllKinds>
+template <class Kinds = AllKinds, int kMost = kMostWallContacts>
 class SurfaceContacts {
  public:
   BL_HD SurfaceContacts(const WallMemories& memories, const Surface* surfaces, int capacity)
@@ -151,7 +152,18 @@ class SurfaceContacts {
   const Surface* surfaces_;
   Index remembered_;
   int capacity_, size_ = 0;
-  RawArray<SurfaceContact, kMostWallContacts> contacts_;
+  RawArray<SurfaceContact, kMost> contacts_;
 };
+
+/// Number of contacts of one grain that its `capacity` leaves out; find: calls add() of a SurfaceContacts for
+/// each closest point. None unless the last evaluation has used all memories.
+template <class Find>
+BL_HD Index left_out(const WallMemories& memories, const Surface* surfaces, int capacity, Find&& find) {
+  if (capacity < kMostWallContacts || memories.count() < Index(capacity)) return 0;
+  SurfaceContacts<AllKinds, kCountedWallContacts> found(memories, surfaces, kCountedWallContacts);
+  find(found);
+  found.resolve();
+  return Index(max_of(found.size() - capacity, 0));
+}
 
 }  // namespace bedload::inline BL_VARIANT

@@ -103,6 +103,13 @@ struct WallContacts {
       f(near[k].body, Contact{on_grain, point});
     }
   }
+  /// Number of contacts of grain i that are left out, since the deepest `capacity` alone count.
+  BL_HD Index dropped(Index i) const {
+    const auto any = [](Index s) { return s; };
+    return left_out(memories(i), walls.surfaces.data, capacity, [&](auto& found) {
+      find(x[i], radius[i], walls.surfaces.size, any, double(radius[i]), found);
+    });
+  }
 
  private:
   struct Grain {
@@ -112,9 +119,9 @@ struct WallContacts {
     BL_HD Real R() const { return sphere.R; }
   };
   /// Collects what is within `range` (m) of the centre of a grain at x.
-  template <class Kinds, class Surfaces>
+  template <class Kinds, int kMost, class Surfaces>
   BL_HD void find(const Vec3d& at, Real R, Index n, Surfaces&& surface, double range,
-                  SurfaceContacts<Kinds>& found) const {
+                  SurfaceContacts<Kinds, kMost>& found) const {
     for (Index k = 0; k < n; ++k) {
       const Index s = surface(k);
       const Surface& of = walls.surfaces[s];

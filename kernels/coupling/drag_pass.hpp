@@ -16,6 +16,7 @@ BL_HD Real spin_drag(Real d, Real rho, Real mu, Real spin) {
 /// A drag coefficient that grows by `slope` with the slip, kg/s and kg/m.
 struct DragLine {
   Real still, slope;
+  bool limited = false;  ///< the law falls with the slip, or grows faster than in proportion to it
   BL_HD Real at(Real slip) const { return still + slope * slip; }
 };
 
@@ -26,8 +27,8 @@ BL_HD DragLine drag_line(const K& law, Real mean, Real fast) {
   const Real top = law(fast);
   // closer than this the difference is round-off
   if (!(fast - mean > Real(1e-3) * fast)) return {top, 0};
-  const Real slope = clamp((top - law(mean)) / (fast - mean), Real(0), top / fast);
-  return {top - slope * fast, slope};
+  const Real steep = (top - law(mean)) / (fast - mean), slope = clamp(steep, Real(0), top / fast);
+  return {top - slope * fast, slope, std::abs(steep - slope) > Real(1e-3) * top / fast};
 }
 
 /// By how much the couple of a grain can raise the reaction to a force at its centre: particle a gets up to
@@ -49,6 +50,44 @@ BL_HD N slip_weight(const Vec3<N>& v_a, const Vec4<N>& by_slip) {
   return by_slip.w * root(norm2(v_a - by_slip.xyz()));
 }
 
+/// How drag follows the slip of the fluid around each grain.
+template <class Law, bool Local>
+struct DragLines {
+  Law law;
+  Real mu;      ///< Pa s
+  bool shares;  ///< whether grains displace fluid; else its velocity is the flux
+  OwnWake own;
+  Span<const Real> radius, eps, bed_eps;
+  GrainSurroundings surroundings;
+
+  /// The mean of |u|, or the norm of the mean of u, m/s.
+  BL_HD Real mean_slip(Index j) const {
+    const Real inv_S = surroundings.inv_S[j];
+    if constexpr (Local)
+      return inv_S * Real(surroundings.fast[j].weight);
+    else
+      return inv_S * norm(surroundings.flow[j].u);
+  }
+  /// Near an orifice the law is evaluated with the porosity of the bed, at the actual flux.
+  BL_HD DragLine of(Index j, Real slip) const {
+    const Real d = 2 * radius[j], rho = surroundings.rho[j];
+    const Real bed = own.porosity(bed_eps[j], 4 * kPi / 3 * cube(radius[j]));
+    const Real ratio = (shares ? eps[j] : Real(1)) / bed;
+    const auto by_law = [&](Real w) { return ratio * law.K(bed, d, rho, mu, ratio * w); };
+    const auto coefficient = [&](Real w) {
+      Real K = by_law(w);
+      if (!(own.mobility > 0)) return K;
+      const Real undisturbed = w / (1 - own.fraction(K, w, bed, rho, mu));
+      K = by_law(undisturbed);
+      return K / (1 - own.fraction(K, undisturbed, bed, rho, mu));
+    };
+    if constexpr (Local)
+      return drag_line(coefficient, slip, surroundings.fast_slip[j]);
+    else
+      return {coefficient(slip), 0};
+  }
+};
+
 /// Translational and rotational drag coefficients of each grain, times its wetness, and the fluid motion that
 /// they refer to: mean velocity and rotation of the fluid weighted with phi K_ja / K_j, K_j = sum phi K_ja.
 /// With the couple the velocity is that of this motion at the grain's centre, where the force acts. Local:
@@ -56,28 +95,25 @@ BL_HD N slip_weight(const Vec3<N>& v_a, const Vec4<N>& by_slip) {
 /// slip.
 template <class Law, bool Local>
 struct DragPass {
-  Law law;
-  Real mu;      ///< Pa s
+  DragLines<Law, Local> lines;
   bool torque;  ///< whether the fluid exerts torque on grains
   bool couple;  ///< whether the reaction has a couple
-  bool shares;  ///< whether grains displace fluid; else its velocity is the flux
-  OwnWake own;
-  Span<const Real> radius, eps, bed_eps, wetness;
+  Span<const Real> wetness;
   Span<const Real3> v, omega;
-  GrainSurroundings surroundings;
   DragWeights weights;
   Span<Real3> fluid_velocity, fluid_angular_velocity;
   Span<Real> drag_coefficient, rot_drag_coefficient;
   DragLevers levers;
 
   BL_HD void operator()(Index j) const {
+    const GrainSurroundings& surroundings = lines.surroundings;
     const Real wet = wetness[j], inv_S = surroundings.inv_S[j];
     FlowSums<> flow = surroundings.flow[j];
     Real k = 0;
     DragLine line{1, 0};
     if (wet > 0) {
-      const Real slip = mean_slip(j);
-      const DragLine law_line = line_of(j, slip);
+      const Real slip = lines.mean_slip(j);
+      const DragLine law_line = lines.of(j, slip);
       k = law_line.at(slip);
       if (k > 0) line = {law_line.still / k, law_line.slope / k};
     }
@@ -103,36 +139,8 @@ struct DragPass {
       levers.sum[j] = 1 + off_centre * spread;
     }
     if (torque && wet > 0 && carriers.inv_M[j].trace() > 0)
-      rot_drag_coefficient[j] =
-          wet * spin_drag(2 * radius[j], surroundings.rho[j], mu, norm(fluid_angular_velocity[j] - omega[j]));
-  }
-
- private:
-  /// The mean of |u|, or the norm of the mean of u, m/s.
-  BL_HD Real mean_slip(Index j) const {
-    const Real inv_S = surroundings.inv_S[j];
-    if constexpr (Local)
-      return inv_S * Real(surroundings.fast[j].weight);
-    else
-      return inv_S * norm(surroundings.flow[j].u);
-  }
-  /// Near an orifice the law is evaluated with the porosity of the bed, at the actual flux.
-  BL_HD DragLine line_of(Index j, Real slip) const {
-    const Real d = 2 * radius[j], rho = surroundings.rho[j];
-    const Real bed = own.porosity(bed_eps[j], 4 * kPi / 3 * cube(radius[j]));
-    const Real ratio = (shares ? eps[j] : Real(1)) / bed;
-    const auto by_law = [&](Real w) { return ratio * law.K(bed, d, rho, mu, ratio * w); };
-    const auto coefficient = [&](Real w) {
-      Real K = by_law(w);
-      if (!(own.mobility > 0)) return K;
-      const Real undisturbed = w / (1 - own.fraction(K, w, bed, rho, mu));
-      K = by_law(undisturbed);
-      return K / (1 - own.fraction(K, undisturbed, bed, rho, mu));
-    };
-    if constexpr (Local)
-      return drag_line(coefficient, slip, surroundings.fast_slip[j]);
-    else
-      return {coefficient(slip), 0};
+      rot_drag_coefficient[j] = wet * spin_drag(2 * lines.radius[j], surroundings.rho[j], lines.mu,
+                                                norm(fluid_angular_velocity[j] - omega[j]));
   }
 };
 

@@ -59,6 +59,7 @@ struct DensityPass {
   Lengths lengths;
   Span<const Real> wall_work;  ///< of WallWorkPass; empty without
 
+  static constexpr bool kShifts = Shift::acts;
   static constexpr Real slack = Real(0.02);  ///< twice what the sum over particles at rest scatters
 
   template <class N = Real>
@@ -151,7 +152,7 @@ struct DensityPass {
       const SymmetricMatrix<Real> moment = shift.moment(sum.shift);
       const Real least = moment.least_eigenvalue(), exposed = 1 - least;
       shift.exposure_new[a] = exposed;
-      drift[a] = shift.drift(sum.shift, exposed, sum.gradient);
+      drift[a] = shift.drift(sum.shift, exposed, sum.gradient).velocity;
       if constexpr (Fit::acts)
         fit.finish(a, sum.fit, sum.rho, sum.gradient, moment, least, shift.inside(sum.shift.greatest));
     } else if (drift) {
@@ -160,8 +161,10 @@ struct DensityPass {
   }
   /// How s changes.
   struct Change {
-    Real rate;     ///< 1/s
-    Real settled;  ///< over dt, where there is a void
+    Real rate;               ///< 1/s
+    Real settled;            ///< over dt, where there is a void
+    Real void_fraction = 0;  ///< z_a
+    Real excess = 0;         ///< of n_a over 1 + `slack`
   };
   BL_HD Change of(Index a, const Sum<>& sum) const {
     const Real rate = lengths.corrected(a, sum.rate);
@@ -173,7 +176,8 @@ struct DensityPass {
     const Real excess = max_of(Real(0), filled - 1 - slack), pressed = max_of(Real(0), s);
     return {(diffusion * sum.diffused - rate) / (sum.eps * rho0) + spreading * excess,
             s < least ? min_of(dt * fading, Real(1)) * (min_of(least, slack - void_fraction) - s)
-                      : -min_of(dt * fading * void_fraction, Real(1)) * pressed};
+                      : -min_of(dt * fading * void_fraction, Real(1)) * pressed,
+            void_fraction, excess};
   }
 };
 

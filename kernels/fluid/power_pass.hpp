@@ -14,7 +14,7 @@ namespace bedload::inline BL_VARIANT {
 template <class Force, class Density>
 struct PowerPass {
   Force friction, artificial;  ///< with physical viscosity alone; with artificial alone
-  Density density;             ///< without shifting and fit
+  Density density;             ///< without fit
   EquationOfState eos;
   Span<const Real3> stress_acceleration;
   Span<FluidPowers> out;
@@ -30,14 +30,15 @@ struct PowerPass {
     return sum;
   }
   BL_HD auto sources() const {
-    return friction.lengths.sources(friction.flux, friction.species(), density.eos_state);
+    return friction.lengths.sources(friction.flux, friction.species(), density.eos_state,
+                                    density.shift.sources());
   }
-  template <class N, class Relative, class... H>
+  template <class N, class Relative, class Exposure, class... H>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, const Relative& viscosity_b,
-                  const EosState<N>& state, const H&... h_b) const {
+                  const EosState<N>& state, const Exposure& exposure, const H&... h_b) const {
     friction.pair(sum.friction, r, r2, M, vb, N(0), viscosity_b, h_b...);
     artificial.pair(sum.artificial, r, r2, M, vb, N(0), viscosity_b, h_b...);
-    density.pair(sum.density, r, r2, M, vb, state, Unread{}, h_b...);
+    density.pair(sum.density, r, r2, M, vb, state, exposure, h_b...);
   }
   BL_HD auto wall_sources() const {
     return sources_of(friction.wall_v_rho, friction.wall_state, friction.wall_no_slip,
@@ -76,6 +77,15 @@ struct PowerPass {
     p.voids = stiffness * (change.rate + rate * share - diffusion + settled);
     p.pressure =
         m.mass_over_eps * (dot(q, pressed) - density.lengths.corrected(a, m.p_over_rho2) * sum.density.rate);
+    const Real s = density.compression[a];
+    p.fades = density.fading > 0 && s > 0 && change.void_fraction > Density::slack;
+    p.spreads = density.spreading > 0 && change.excess > 0;
+    if constexpr (Density::kShifts) {
+      const Real exposed = 1 - density.shift.moment(sum.density.shift).least_eigenvalue();
+      const auto drift = density.shift.drift(sum.density.shift, exposed, sum.density.gradient);
+      p.shift = drift.velocity;
+      p.shift_limited = density.dt > 0 && drift.limited;
+    }
     out[a] = p;
   }
 };

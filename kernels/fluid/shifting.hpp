@@ -76,14 +76,20 @@ struct Shifting {
   }
   /// 1 within fluid, 0 in the outermost layer.
   BL_HD static Real inside(Real exposure) { return clamp(10 * (Real(0.3) - exposure), Real(0), Real(1)); }
-  /// Drift velocity; gradient: -grad C.
-  BL_HD Real3 drift(const Sum<Real>& sum, Real exposed, const Real3& gradient) const {
+  struct Drift {
+    Real3 velocity;  ///< m/s
+    bool limited;    ///< by `stiffest` or `fastest`
+  };
+  /// gradient: -grad C.
+  BL_HD Drift drift(const Sum<Real>& sum, Real exposed, const Real3& gradient) const {
     Real3 along = gradient;
     const Real normal2 = norm2(sum.outward), beside = 1 - inside(sum.greatest);
     if (beside > 0 && normal2 > 0) along -= (beside * dot(gradient, sum.outward) / normal2) * sum.outward;
-    const Real3 u = inside(exposed) * min_of(area * sum.strain.magnitude(), stiffest) * along;
+    const Real part = inside(exposed), pace = area * sum.strain.magnitude();
+    const Real3 u = part * min_of(pace, stiffest) * along;
     const Real u2 = norm2(u);
-    return u2 > square(fastest) ? fastest / std::sqrt(u2) * u : u;
+    const bool far = u2 > square(fastest);
+    return {far ? fastest / std::sqrt(u2) * u : u, far || (part > 0 && pace > stiffest)};
   }
 };
 

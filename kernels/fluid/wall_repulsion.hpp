@@ -39,6 +39,14 @@ struct PenetrationLimit {
   }
 };
 
+/// What a surface does to fluid near it.
+struct SurfacePush {
+  std::uint32_t body;
+  Real3 acceleration;    ///< m/s2
+  Vec3d point;           ///< of the surface, closest to the fluid, m
+  bool stopped, capped;  ///< by the penetration limit; its repulsion is the largest allowed
+};
+
 /// Repulsion and penetration limit of the surfaces of all bodies.
 struct WallRepulsion {
   Repulsion law;
@@ -51,8 +59,8 @@ struct WallRepulsion {
   BL_HD double reach() const { return double(max_of(law.r0, limit.reach(exposure ? 1 : 0))); }
   /// Of particle a, as PenetrationLimit takes it.
   BL_HD Real sheet(Index a) const { return exposure ? 1 - Shifting::inside(exposure[a]) : Real(0); }
-  /// Calls f(body, acceleration, point) for each closest point (m) of a surface that acts on fluid at x, of
-  /// all bodies or one. `heading`: velocity without these forces, m/s; each surface acts on what the former
+  /// Calls f(SurfacePush) for each closest point of a surface that acts on fluid at x (m), of all bodies or
+  /// one. `heading`: velocity without these forces, m/s; each surface acts on what the former
   /// ones left of it. Removes from `drift` (m/s, shifting and XSPH) the component towards a surface.
   template <class F>
   BL_HD void each(const Vec3d& x, Real3 heading, Real sheet, F&& f, std::uint32_t only = kNone,
@@ -66,15 +74,17 @@ struct WallRepulsion {
       view.each_closest_point(walls, reach(), 1e-4 * reach(), [&](const ClosestPoint& closest) {
         const Real3 normal(closest.normal);
         const Vec3d point = view.point(closest);
-        Real push = 0;
+        Real push = 0, repelled = 0;
         if (at.no_penetration && limit.per_step > 0) {
           push = limit(Real(closest.distance), dot(Real3(at.velocity(point)) - heading, normal), sheet);
           heading += push / limit.per_step * normal;
           if (drift && closest.distance < limit.reach(sheet))
             *drift -= min_of(dot(*drift, normal), Real(0)) * normal;
         }
-        if (at.repulsion) push += law(Real(closest.distance));
-        if (push > 0 && (only == kNone || surface.body == only)) f(surface.body, push * normal, point);
+        const bool stopped = push > 0;
+        if (at.repulsion) push += repelled = law(Real(closest.distance));
+        if (push > 0 && (only == kNone || surface.body == only))
+          f(SurfacePush{surface.body, push * normal, point, stopped, repelled > 0 && repelled >= law.cap});
       });
     }
   }
@@ -120,7 +130,7 @@ struct RepelPass {
     const Vec3d at = coordinates(walls.frame, x[a]);
     const Real3 v = v_rho[a].xyz(), next = v + dt * acc[a] - kick * acc_before[a];
     heading[a] = next;
-    const auto take = [&](std::uint32_t, const Real3& push, const Vec3d&) { acc[a] += push; };
+    const auto take = [&](const SurfacePush& push) { acc[a] += push.acceleration; };
     walls.each(at, next, walls.sheet(a), take, kNone, drift ? &drift[a] : nullptr);
     acc[a] += orifices(at, v);
   }
@@ -138,8 +148,8 @@ struct BodyRepulsion {
   BL_HD Value operator()(Index a) const {
     Value sum = Value::zero();
     const Vec3d at = coordinates(walls.frame, x[a]);
-    const auto take = [&](std::uint32_t, const Real3& push, const Vec3d&) {
-      const Vec3d force = -double(mass[a]) * Vec3d(push);
+    const auto take = [&](const SurfacePush& push) {
+      const Vec3d force = -double(mass[a]) * Vec3d(push.acceleration);
       sum.add(force, cross(walls.frame.nearest_image(at - walls.pose[body].origin()), force));
     };
     walls.each(at, heading[a], walls.sheet(a), take, body);

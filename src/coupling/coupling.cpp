@@ -53,6 +53,44 @@ struct CountEntries {
   BL_HD void combine(Value& into, const Value& v) const { into += v; }
 };
 
+/// Counts grains at the porosity floor.
+struct CountDense {
+  using Value = std::uint64_t;
+  Span<const Real> eps, bed_eps;  ///< the latter empty before the first gather
+  Real floor;
+  BL_HD Value identity() const { return 0; }
+  BL_HD Value operator()(Index j) const {
+    return eps[j] <= floor || (j < bed_eps.size && bed_eps[j] <= floor) ? 1 : 0;
+  }
+  BL_HD void combine(Value& into, const Value& v) const { into += v; }
+};
+
+/// Counts wet grains around which the fluid lies on a line, or in one place.
+struct CountUncoupled {
+  using Value = std::uint64_t;
+  Span<const Real> inv_S;
+  Carriers stress, drag;
+  BL_HD Value identity() const { return 0; }
+  BL_HD Value operator()(Index j) const {
+    const bool couples = stress.inv_M[j].trace() > 0 && drag.inv_M[j].trace() > 0;
+    return inv_S[j] > 0 && !couples ? 1 : 0;
+  }
+  BL_HD void combine(Value& into, const Value& v) const { into += v; }
+};
+
+/// Counts wet grains whose DragLine is limited.
+template <class Lines>
+struct CountBent {
+  using Value = std::uint64_t;
+  Lines lines;
+  Span<const Real> wetness;
+  BL_HD Value identity() const { return 0; }
+  BL_HD Value operator()(Index j) const {
+    return wetness[j] > 0 && lines.of(j, lines.mean_slip(j)).limited ? 1 : 0;
+  }
+  BL_HD void combine(Value& into, const Value& v) const { into += v; }
+};
+
 }  // namespace
 
 template <class F>
@@ -110,6 +148,18 @@ GrainSurroundings Coupling::surroundings() {
 DragWeights Coupling::drag_weights() { return {still_, by_slip_}; }
 Reactions Coupling::reactions() { return {impulse_, force_, spin_, couple_}; }
 
+template <bool Local, class Law>
+DragLines<Law, Local> Coupling::drag_lines(const Law& law, const GrainStore& grains) {
+  return {.law = law,
+          .mu = Real(mu_),
+          .shares = two_way_,
+          .own = own_,
+          .radius = grains.radius,
+          .eps = grains.eps,
+          .bed_eps = bed_eps_,
+          .surroundings = surroundings()};
+}
+
 void Coupling::pack(GrainStore& grains) {
   for_each(grains.all(), PackPass<Vec3d>{frame_, grains.x, grains.xp});
 }
@@ -148,16 +198,16 @@ void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, doub
   volume_.resize(grains.size());
   const bool asked = beside_walls_.size() > 0;
   for_each(grains.all(), GrainVolumePass{.free = wall_free(pose),
-                                           .frame = frame_,
-                                           .per_dt = dt > 0 ? 1 / dt : 0,
-                                           .x = grains.x,
-                                           .x_before = grains.x_before,
-                                           .v = grains.v,
-                                           .radius = grains.radius,
-                                           .beside = asked ? Span<const std::uint8_t>(beside_walls_)
-                                                           : Span<const std::uint8_t>(),
-                                           .wall_free = wall_free_,
-                                           .volume = volume_});
+                                         .frame = frame_,
+                                         .per_dt = dt > 0 ? 1 / dt : 0,
+                                         .x = grains.x,
+                                         .x_before = grains.x_before,
+                                         .v = grains.v,
+                                         .radius = grains.radius,
+                                         .beside = asked ? Span<const std::uint8_t>(beside_walls_)
+                                                         : Span<const std::uint8_t>(),
+                                         .wall_free = wall_free_,
+                                         .volume = volume_});
 }
 
 WallFreeFraction Coupling::wall_free(Span<const BodyPose> pose) const {
@@ -196,13 +246,13 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   solids_.resize(fluid.size());
   const FluidRecords records{push_, solids_};
   for_each(fluid.all(), RecordPass{.frame = frame_,
-                                     .counted = orifice_weight(),
-                                     .x = fluid.x,
-                                     .solid_factor = fluid.solid_factor,
-                                     .stress_acceleration = fluid.stress_acceleration,
-                                     .eos_state = fluid.eos_state,
-                                     .eps = fluid.eps,
-                                     .records = records});
+                                   .counted = orifice_weight(),
+                                   .x = fluid.x,
+                                   .solid_factor = fluid.solid_factor,
+                                   .stress_acceleration = fluid.stress_acceleration,
+                                   .eos_state = fluid.eos_state,
+                                   .eps = fluid.eps,
+                                   .records = records});
   const GrainSurroundings around = surroundings();
   with_coupling_kernel([&](auto w) {
     with_flag(moments(), [&](auto with_moments) {
@@ -230,19 +280,12 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
       [&](auto law) {
         with_flag(local_slip_, [&](auto local) {
           for_each(grains.owned(),
-                   DragPass<decltype(law), local>{.law = law,
-                                                  .mu = Real(mu_),
+                   DragPass<decltype(law), local>{.lines = drag_lines<local>(law, grains),
                                                   .torque = torque_,
                                                   .couple = angmom_,
-                                                  .shares = two_way_,
-                                                  .own = own_,
-                                                  .radius = grains.radius,
-                                                  .eps = grains.eps,
-                                                  .bed_eps = bed_eps_,
                                                   .wetness = grains.wetness,
                                                   .v = grains.v,
                                                   .omega = grains.omega,
-                                                  .surroundings = around,
                                                   .weights = drag_weights(),
                                                   .fluid_velocity = grains.fluid_velocity,
                                                   .fluid_angular_velocity = grains.fluid_angular_velocity,
@@ -336,12 +379,12 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
   with_flag(angmom_, [&](auto couple) {
     with_flag(local_slip_, [&](auto local) {
       for_each(grains.all(), ReactionTermsPass<couple, local>{.impulse = grains.impulse,
-                                                                .spin_impulse = grains.spin_impulse,
-                                                                .surroundings = surroundings(),
-                                                                .weights = drag_weights(),
-                                                                .levers = levers(),
-                                                                .slip = slip,
-                                                                .reactions = reactions()});
+                                                              .spin_impulse = grains.spin_impulse,
+                                                              .surroundings = surroundings(),
+                                                              .weights = drag_weights(),
+                                                              .levers = levers(),
+                                                              .slip = slip,
+                                                              .reactions = reactions()});
       with_coupling_kernel([&](auto w) {
         grains_of_fluid_.run(ReactionPass<decltype(w), couple, local>{.w = w,
                                                                       .mass = fluid.mass,
@@ -439,14 +482,31 @@ void Coupling::load(const std::function<double(const std::string&)>& scalar) {
   if (two_way_) drag_ = {Real(scalar("drag_rate")), Real(scalar("drag_lever"))};
 }
 
-CouplingCounters Coupling::counters(const FluidStore& fluid, const GrainStore& grains) const {
+std::uint64_t Coupling::bent_lines(const GrainStore& grains) {
+  std::uint64_t bent = 0;
+  with_drag_law(
+      drag_law_,
+      [&](auto law) {
+        const auto lines = drag_lines<true>(law, grains);
+        bent = reduce({0, Index(fast_slip_.size())},
+                      CountBent<std::decay_t<decltype(lines)>>{lines, grains.wetness});
+      },
+      drag_table_.on_device());
+  return bent;
+}
+
+CouplingCounters Coupling::counters(const FluidStore& fluid, const GrainStore& grains) {
+  const GrainSurroundings around = surroundings();
   const Index n = Index(stiffness_.size());
-  return {.floor_hits = reduce(fluid.owned(), CountEntries{fluid.eps, eps_min_, false}),
-          .limited = limits_ ? reduce({0, n}, CountEntries{stiffness_, 1, true}) : 0,
-          .wet = reduce(grains.owned(), CountEntries{grains.wetness, 0, true}),
-          .densest = reduce(grains.owned(), CountEntries{grains.eps, eps_min_, false}),
-          .cornered = reduce({0, Index(wall_free_.size())},
-                             CountEntries{wall_free_, WallFreeFraction::kLeast, false})};
+  return {
+      .floor_hits = reduce(fluid.owned(), CountEntries{fluid.eps, eps_min_, false}),
+      .limited = limits_ ? reduce({0, n}, CountEntries{stiffness_, 1, true}) : 0,
+      .wet = reduce(grains.owned(), CountEntries{grains.wetness, 0, true}),
+      .densest = reduce(grains.owned(), CountDense{grains.eps, bed_eps_, eps_min_}),
+      .cornered =
+          reduce({0, Index(wall_free_.size())}, CountEntries{wall_free_, WallFreeFraction::kLeast, false}),
+      .uncoupled = reduce({0, Index(drag_inv_M_.size())}, CountUncoupled{inv_S_, around.stress, around.drag}),
+      .bent = local_slip_ ? bent_lines(grains) : 0};
 }
 
 }  // namespace bedload::inline BL_VARIANT

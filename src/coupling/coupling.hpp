@@ -37,8 +37,10 @@ struct CouplingCounters {
   std::uint64_t floor_hits = 0;  ///< fluid particles at the porosity floor
   std::uint64_t limited = 0;     ///< grains whose drag the limiter weakened
   std::uint64_t wet = 0;         ///< grains in fluid
-  std::uint64_t densest = 0;     ///< grains at the porosity floor
+  std::uint64_t densest = 0;     ///< grains at the porosity floor, with or without an orifice's clear water
   std::uint64_t cornered = 0;    ///< grains whose kernel is cut by walls to below WallFreeFraction::kLeast
+  std::uint64_t uncoupled = 0;   ///< wet grains whose fluid takes no couple
+  std::uint64_t bent = 0;        ///< grains whose DragLine is limited
 };
 
 /// Upper bounds on the stiffness of drag.
@@ -71,9 +73,9 @@ class Coupling {
   /// the fluid; sets fluid.drag_kick, their change, and fluid.reaction. The fluid must not have changed since
   /// gather.
   void react(FluidStore& fluid, const GrainStore& grains, double dt);
-  /// Sets eps, flux, the mass in eos_state and, where needed, viscosity and grains_around of the fluid for the
-  /// present positions; pose as in gather. dt (s): the step of the grains since gather, 0 if they have not
-  /// moved.
+  /// Sets eps, flux, the mass in eos_state and, where needed, viscosity and grains_around of the fluid for
+  /// the present positions; pose as in gather. dt (s): the step of the grains since gather, 0 if they have
+  /// not moved.
   void porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt);
   /// Sets fluid_force of the grains from the stress of the fluid, and adds its change times `kick` (s) to
   /// their velocities unless they are held. After porosity.
@@ -91,7 +93,7 @@ class Coupling {
   void save(std::vector<Quantity>& scalars) const;
   void load(const std::function<double(const std::string&)>& scalar);
   /// Waits for the device.
-  CouplingCounters counters(const FluidStore& fluid, const GrainStore& grains) const;
+  CouplingCounters counters(const FluidStore& fluid, const GrainStore& grains);
 
  private:
   /// f(kernel) with the kernel of the coupling.
@@ -103,6 +105,10 @@ class Coupling {
   WallFreeFraction wall_free(Span<const BodyPose> pose) const;
   DragLevers levers() { return {lever_at_centre_, lever_off_centre_, lever_sum_}; }
   OrificeWeight orifice_weight() const { return {frame_, orifices_, dx_, h_c_}; }
+  /// How drag follows slip, by the last gather.
+  template <bool Local, class Law>
+  DragLines<Law, Local> drag_lines(const Law& law, const GrainStore& grains);
+  std::uint64_t bent_lines(const GrainStore& grains);
   void limit(const FluidStore& fluid, GrainStore& grains, double dt);
   void survey(const FluidStore& fluid, const GrainStore& grains);
   Span<const Real> lever_sums() const;

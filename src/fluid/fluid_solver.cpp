@@ -179,17 +179,20 @@ WallRepulsion FluidSolver::repulsion(const FluidStore& fluid, Span<const BodyPos
           .exposure = shifts() ? Span<const Real>(fluid.exposure) : Span<const Real>()};
 }
 
+OrificeRepulsion FluidSolver::orifice_repulsion(Span<const BodyPose> pose, double dt) const {
+  const Repulsion& law = parameters_.repulsion;
+  return {.law = {law.D, law.r0, Real(repulsion_cap(dt))},
+          .gentle = Real(0.01 * parameters_.fluid.c),
+          .rate = dt > 0 ? Real(1 / dt) : Real(0),
+          .frame = frame_,
+          .orifices = orifices_,
+          .pose = pose};
+}
+
 void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double kick, double dt) {
   if (!repels()) return;
-  const WallRepulsion walls = repulsion(fluid, pose, dt);
-  const OrificeRepulsion orifices{.law = walls.law,
-                                  .gentle = Real(0.01 * parameters_.fluid.c),
-                                  .rate = dt > 0 ? Real(1 / dt) : Real(0),
-                                  .frame = frame_,
-                                  .orifices = orifices_,
-                                  .pose = pose};
-  for_each({0, Index(beside_walls_.size())}, RepelPass{.walls = walls,
-                                                       .orifices = orifices,
+  for_each({0, Index(beside_walls_.size())}, RepelPass{.walls = repulsion(fluid, pose, dt),
+                                                       .orifices = orifice_repulsion(pose, dt),
                                                        .kick = Real(kick),
                                                        .dt = Real(dt),
                                                        .beside_walls = beside_walls_,

@@ -198,6 +198,7 @@ class FluidSolver {
   /// `kick` in a step of dt, s.
   void repel(FluidStore& fluid, Span<const BodyPose> pose, double kick, double dt);
   WallRepulsion repulsion(const FluidStore& fluid, Span<const BodyPose> pose, double dt) const;
+  OrificeRepulsion orifice_repulsion(Span<const BodyPose> pose, double dt) const;
   /// v += kick (acc_next - acc); acc = acc_next; and a survey.
   void correct(FluidStore& fluid, double kick);
   /// Finds what bounds the next step, for extremes(); v += kick (acc - acc_next).

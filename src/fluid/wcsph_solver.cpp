@@ -83,9 +83,13 @@ class WcsphSolver final : public FluidSolver {
                                  const StepTime& now, double dt) override {
     if (shear_.acts()) return {};
     powers_.resize(fluid.size());
-    if constexpr (!Lengths::vary)
-      if (parameters_.viscosity_varies()) return spend<true>(fluid, walls, pose, now, dt);
-    return spend<false>(fluid, walls, pose, now, dt);
+    if constexpr (!Lengths::vary) {
+      const bool varies = parameters_.viscosity_varies();
+      if (shifts() && varies) return spend<true>(fluid, walls, pose, now, dt, shifting(fluid, dt));
+      if (shifts()) return spend<false>(fluid, walls, pose, now, dt, shifting(fluid, dt));
+      if (varies) return spend<true>(fluid, walls, pose, now, dt, NoShifting{});
+    }
+    return spend<false>(fluid, walls, pose, now, dt, NoShifting{});
   }
 
   void moments(FluidStore& fluid, const WallStore& walls, const StepTime& now, double,
@@ -261,17 +265,17 @@ class WcsphSolver final : public FluidSolver {
     inviscid.wall.viscosity.mu = 0;
     run_with_walls(StressPass<Force>{whole, inviscid, out.parts(fluid.size(), false)});
   }
-  template <bool kSpecies>
+  template <bool kSpecies, class Shift>
   Span<const FluidPowers> spend(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
-                                const StepTime& now, double dt) {
+                                const StepTime& now, double dt, const Shift& shift) {
     using Force = ForcePass<W, true, false, kSpecies, Lengths>;
-    using Density = DensityPass<W, NoShifting, NoFit, true, true, Lengths>;
+    using Density = DensityPass<W, Shift, NoFit, true, true, Lengths>;
     find_wall_work(fluid, walls, pose);
     Force friction = force_pass<true, false, kSpecies>(fluid, walls, now), artificial = friction;
     friction.artificial = {};
     artificial.wall.viscosity.mu = 0;
-    Density density = density_pass<true, true>(fluid, walls, now.gravity, dt, NoShifting{}, NoFit{},
-                                               fluid.compression_next);
+    Density density =
+        density_pass<true, true>(fluid, walls, now.gravity, dt, shift, NoFit{}, fluid.compression_next);
     density.compression_rate = {};
     run_with_walls(PowerPass<Force, Density>{.friction = friction,
                                              .artificial = artificial,

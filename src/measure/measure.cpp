@@ -89,8 +89,7 @@ struct DamperBody {
   }
 };
 
-/// Power of particle shifting on the potential energy, and of the drive, W; number of particles at the limit
-/// of shifting.
+/// Power of particle shifting on the potential energy, and of the drive, W.
 struct DriftBody {
   Vec3d gravity;
   Drive drive;
@@ -98,39 +97,62 @@ struct DriftBody {
   Span<const EosState<>> eos_state;
   Span<const Real4> v_rho;
   Span<const Real3> drift;  ///< empty: none
-  Real fastest;             ///< drift speed at which its limit acts, m/s
   BL_HD void operator()(Index a, double* out) const {
-    if (drift) {
-      out[0] = -double(mass[a]) * dot(gravity, Vec3d(drift[a]));
-      out[2] = norm(drift[a]) > fastest;
-    }
+    if (drift) out[0] = -double(mass[a]) * dot(gravity, Vec3d(drift[a]));
     out[1] = double(mass[a]) * dot(Vec3d(drive(a, eos_state[a])), Vec3d(v_rho[a].xyz()));
   }
 };
-/// Power of the repulsion of fluid by surfaces, W; number of particles on which it acts.
+/// Power of the repulsion of fluid by surfaces, W; numbers of particles that the penetration limit stops,
+/// whose repulsion is the largest allowed, whose drift by shifting ends at a surface, and that inlets repel.
 struct StoppedBody {
   WallRepulsion walls;
+  OrificeRepulsion inlets;
   Span<const FluidPosition> x;
   Span<const Real> mass;
   Span<const Real4> v_rho;
-  Span<const Real3> heading;  ///< from RepelPass, m/s
+  Span<const Real3> heading;      ///< from RepelPass, m/s
+  Span<const FluidPowers> terms;  ///< may be empty
   BL_HD void operator()(Index a, double* out) const {
+    const Vec3d at = coordinates(walls.frame, x[a]);
+    const Real3 v = v_rho[a].xyz(), shift = terms ? terms[a].shift : Real3{};
+    Real3 left = shift;
     Vec3d force;
-    const auto take = [&](std::uint32_t, const Real3& push, const Vec3d&) {
-      force += double(mass[a]) * Vec3d(push);
+    const auto take = [&](const SurfacePush& push) {
+      force += double(mass[a]) * Vec3d(push.acceleration);
+      if (push.stopped) out[1] = 1;
+      if (push.capped) out[2] = 1;
     };
-    walls.each(coordinates(walls.frame, x[a]), heading[a], walls.sheet(a), take);
-    out[0] = dot(force, Vec3d(v_rho[a].xyz()));
-    out[1] = norm2(force) > 0;
+    walls.each(at, heading[a], walls.sheet(a), take, kNone, &left);
+    out[0] = dot(force, Vec3d(v));
+    out[3] = norm2(left - shift) > 0;
+    out[4] = norm2(inlets(at, v)) > 0;
   }
 };
-/// Sums of FluidPowers, W.
+/// Sums of FluidPowers, W, and numbers of particles.
 struct PowersBody {
   Span<const FluidPowers> powers;
   BL_HD void operator()(Index a, double* out) const {
     const FluidPowers& p = powers[a];
     out[0] = p.viscosity, out[1] = p.artificial_viscosity, out[2] = p.density_diffusion, out[3] = p.voids;
-    out[4] = p.pressure;
+    out[4] = p.pressure, out[5] = p.fades, out[6] = p.spreads, out[7] = p.shift_limited;
+  }
+};
+/// Number of wet wall particles at the lowest pressure that they may have.
+struct ThinWallBody {
+  EquationOfState eos;
+  Real least;  ///< compression of walls with a density of their own
+  Span<const WallState<>> state;
+  Span<const Real> compression;
+  Span<const std::uint32_t> body;
+  Span<const BodyPose> pose;
+  BL_HD void operator()(Index b, double* out) const {
+    if (state[b].mass == 0) return;
+    const WallKind kind = pose[body[b]].kind;
+    const bool own = kind == WallKind::frozen || kind == WallKind::mirrored;
+    if (own && compression[b] != kNoCompression)
+      out[0] = compression[b] <= least;
+    else
+      out[0] = state[b].rho <= Real(1 + 1e-6) * eos.rho0 * (1 + eos.compression(Real(-1e30)));
   }
 };
 struct CavitatingBody {
@@ -163,9 +185,10 @@ void CoupledSimulation::report_powers(const Drive& drive, double corrections, st
   FluidStore& fluid = state_.fluid;
   const double dt = state_.clock.last_dt;
   const auto powers = solver.powers(fluid, state_.walls, state_.poses_now(), stepper_.moment(), dt);
-  SumReduction<5, PowersBody>::Value p;
-  for (double& v : p.v) v = std::nan("");  // models that do not compute them
-  if (powers) p = sum_over<5>(fluid.owned(), PowersBody{powers});
+  SumReduction<8, PowersBody>::Value p;
+  for (int k = 0; k < 8; ++k)  // not computed; SDPD has none of the limits
+    p.v[k] = k >= 5 && config_.fluid.sdpd() ? 0 : std::nan("");
+  if (powers) p = sum_over<8>(fluid.owned(), PowersBody{powers});
   double moving = 0;  // power of the pairs of moving walls on the fluid
   for (std::uint32_t b = 0; b < std::uint32_t(state_.motion.bodies()) && state_.walls.size() > 0; ++b) {
     const RigidMotion motion = state_.motion.pose(int(b), state_.clock.time);
@@ -179,27 +202,44 @@ void CoupledSimulation::report_powers(const Drive& drive, double corrections, st
   for (int k = 0; k < 4; ++k) out.push_back({std::string("power_") + terms[k], "W", p.v[k]});
   out.push_back({"power_wall_pressure", "W", p.v[4] - moving});
   out.push_back({"power_moving_walls", "W", moving - corrections});
-  const auto d = sum_over<3>(
+  const auto d = sum_over<2>(
       fluid.owned(),
       DriftBody{.gravity = config_.gravity,
                 .drive = drive,
                 .mass = fluid.mass,
                 .eos_state = fluid.eos_state,
                 .v_rho = fluid.v_rho,
-                .drift = solver.shifts() ? solver.drift_of(std::as_const(fluid)) : Span<const Real3>(),
-                .fastest = Real(0.999 * solver.fastest_shift(dt))});
+                .drift = solver.shifts() ? solver.drift_of(std::as_const(fluid)) : Span<const Real3>()});
   out.push_back({"power_shifting", "W", d.v[0]});
   out.push_back({"power_drive", "W", d.v[1]});
-  SumReduction<2, StoppedBody>::Value r{};
-  if (const WallRepulsion walls = solver.repulsion(fluid, state_.poses_now(), dt);
-      walls.walls.surfaces.size > 0)
-    r = sum_over<2>(fluid.owned(), StoppedBody{walls, fluid.x, fluid.mass, fluid.v_rho, fluid.heading});
+  SumReduction<5, StoppedBody>::Value r{};
+  if (solver.repels())
+    r = sum_over<5>(fluid.owned(), StoppedBody{.walls = solver.repulsion(fluid, state_.poses_now(), dt),
+                                               .inlets = solver.orifice_repulsion(state_.poses_now(), dt),
+                                               .x = fluid.x,
+                                               .mass = fluid.mass,
+                                               .v_rho = fluid.v_rho,
+                                               .heading = fluid.heading,
+                                               .terms = powers});
+  const auto w =
+      sum_over<1>(state_.walls.owned(), ThinWallBody{.eos = solver.eos(),
+                                                     .least = max_of(solver.eos().least, kThinnest),
+                                                     .state = state_.walls.state,
+                                                     .compression = state_.walls.compression,
+                                                     .body = state_.walls.body,
+                                                     .pose = state_.poses_now()});
   out.push_back({"power_penetration_limit", "W", r.v[0]});
   out.push_back({"fluid_stopped_at_walls", "-", r.v[1]});
+  out.push_back({"fluid_repulsion_limited", "-", r.v[2]});
+  if (!config_.inlets.empty()) out.push_back({"fluid_repelled_by_inlets", "-", r.v[4]});
   const auto thin = sum_over<2>(fluid.owned(), CavitatingBody{fluid.compression, solver.eos().least});
   out.push_back({"fluid_cavitating", "-", thin.v[0]});
   out.push_back({"fluid_thinnest", "-", thin.v[1]});
-  out.push_back({"fluid_shift_limited", "-", d.v[2]});
+  out.push_back({"walls_thinnest", "-", w.v[0]});
+  out.push_back({"fluid_beside_voids", "-", p.v[5]});
+  out.push_back({"fluid_spreading", "-", p.v[6]});
+  out.push_back({"fluid_shift_limited", "-", p.v[7]});
+  out.push_back({"fluid_shift_stopped", "-", powers ? r.v[3] : p.v[7]});
 }
 
 std::vector<Loss> CoupledSimulation::losses() { return state_.open.losses(state_.grains, state_.clock.time); }
@@ -320,6 +360,13 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"wet_grains", "-", double(c.wet)});
     out.push_back({"grains_at_porosity_floor", "-", double(c.densest)});
     out.push_back({"grains_in_corners", "-", double(c.cornered)});
+    out.push_back({"grains_without_couple", "-", double(c.uncoupled)});
+    out.push_back({"drag_line_limited_grains", "-", double(c.bent)});
+  }
+  if (state_.has_grains || state_.bodies.any()) {
+    double dropped = state_.bodies.dropped_contacts(state_.poses_now());
+    if (state_.has_grains) dropped += stepper_.solids().dropped_contacts(state_.grains, state_.poses_now());
+    out.push_back({"wall_contacts_dropped", "-", dropped});
   }
   if (state_.bodies.any()) {
     const BodyTotals t = state_.bodies.totals(state_.clock.time);

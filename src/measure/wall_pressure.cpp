@@ -95,8 +95,9 @@ struct PatchRepulsion {
     const Vec3d at = coordinates(walls.frame, x[a]);
     const Vec3d beside = pose.origin() + walls.frame.nearest_image(at - pose.origin());
     if (!patches.near(pose.undo(beside), 0.5 * dx + walls.reach())) return;
-    const auto take = [&](std::uint32_t, const Real3& push, const Vec3d& closest) {
-      patches.spread(pose.undo(closest), dx, -double(mass[a]) * dot(Vec3d(push), inwards), first, out);
+    const auto take = [&](const SurfacePush& push) {
+      const double force = -double(mass[a]) * dot(Vec3d(push.acceleration), inwards);
+      patches.spread(pose.undo(push.point), dx, force, first, out);
     };
     walls.each(at, heading[a], walls.sheet(a), take, body);
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "bedload/parallel/reductions.hpp"
 #include "kernels/integrate/grain_substep.hpp"
 #include "kernels/integrate/grain_sums.hpp"
 #include "kernels/stress/contact_stress.hpp"
@@ -22,6 +23,11 @@ struct SourceIndexPass {
   Span<const Index> source_index;
   Span<Index> order;
   BL_HD void operator()(Index i) const { order[i] = source_index[order[i]]; }
+};
+
+struct DroppedContacts {
+  WallContacts contacts;
+  BL_HD void operator()(Index i, double* out) const { out[0] = contacts.dropped(i); }
 };
 
 }  // namespace
@@ -298,6 +304,11 @@ GrainTotals SolidSolver::totals(const GrainStore& g) const {
   t.wall_contacts = v.sum[T::on_walls];
   if (g.size() > 0) t.coordination = 2 * t.contacts / g.size();
   return t;
+}
+
+double SolidSolver::dropped_contacts(const GrainStore& g, Span<const BodyPose> poses) const {
+  if (!wall_contacts_ || !parameters_.contacts) return 0;
+  return sum_over<1>(g.owned(), DroppedContacts{wall_contacts(g, poses.data, 0)}).v[0];
 }
 
 void SolidSolver::contact_moments(const GrainStore& g, Buffer<PairMoment<>>& out) const {

@@ -102,6 +102,8 @@ class SolidSolver {
   const RigidGroups& groups() const { return groups_; }
 
   GrainTotals totals(const GrainStore& grains) const;
+  /// Number of contacts of grains with walls that are left out (kMostWallContacts). poses: as in body_loads.
+  double dropped_contacts(const GrainStore& grains, Span<const BodyPose> poses) const;
   /// Load of the grains on each wall body, about its centre; poses: [bodies] on the device.
   std::vector<LoadSum> body_loads(const GrainStore& grains, Span<const BodyPose> poses) const;
 

@@ -36,6 +36,7 @@ class Stepper {
   FluidSolver& fluid() { return *fluid_solver_; }
   SolidSolver& solids() { return *solid_solver_; }
   const SolidSolver& solids() const { return *solid_solver_; }
+  Coupling& coupling() { return *coupling_; }
   const Coupling& coupling() const { return *coupling_; }
   const FluidExtremes& fluid_extremes() const { return fluid_extremes_; }  ///< after the last step
   const GrainWatch& grain_watch() const { return grain_watch_; }           ///< after the last step

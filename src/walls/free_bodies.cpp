@@ -6,6 +6,7 @@
 
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
+#include "bedload/parallel/reductions.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
@@ -42,6 +43,11 @@ std::vector<EnclosedSolid> solids_of(const FreeBodyParameters& parameters) {
     solids.push_back({body.rigid.body, body.rigid.volume, body.rigid.middle});
   return solids;
 }
+
+struct DroppedContacts {
+  BallPass balls;
+  BL_HD void operator()(Index i, double* out) const { out[0] = balls.dropped(i); }
+};
 
 /// Restricts a body to a plane flow: motion in x and z, rotation about y.
 void confine(RigidBody& k) {
@@ -256,21 +262,29 @@ ContactLoads FreeBodies::record(Index grains) {
   return grain_loads_;
 }
 
+BallPass FreeBodies::ball_pass(Span<const BodyPose> poses, double dt) {
+  return {.frame = frame_,
+          .walls = walls_.view(),
+          .poses = poses.data,
+          .bodies = constants_.data(),
+          .laws = laws_.data(),
+          .compliances = compliances_.data(),
+          .balls = balls_,
+          .memory = memory_pointers_.data(),
+          .contacts = memory_.count.buffer().data(),
+          .capacity = capacity_,
+          .dt = dt,
+          .loads = ball_loads_};
+}
+
+double FreeBodies::dropped_contacts(Span<const BodyPose> poses) {
+  if (balls_.size() == 0) return 0;
+  return sum_over<1>({0, Index(balls_.size())}, DroppedContacts{ball_pass(poses, 0)}).v[0];
+}
+
 /// Contacts of balls with surfaces, then the sums of the recorded loads of balls and grains.
 void FreeBodies::evaluate_contacts(Span<const BodyPose> poses, double dt) {
-  if (balls_.size() > 0)
-    for_each({0, Index(balls_.size())}, BallPass{.frame = frame_,
-                                                 .walls = walls_.view(),
-                                                 .poses = poses.data,
-                                                 .bodies = constants_.data(),
-                                                 .laws = laws_.data(),
-                                                 .compliances = compliances_.data(),
-                                                 .balls = balls_,
-                                                 .memory = memory_pointers_.data(),
-                                                 .contacts = memory_.count.buffer().data(),
-                                                 .capacity = capacity_,
-                                                 .dt = dt,
-                                                 .loads = ball_loads_});
+  if (balls_.size() > 0) for_each({0, Index(balls_.size())}, ball_pass(poses, dt));
   grain_sums_.zero();
   ball_sums_.zero();
   for (int k = 0; k < size(); ++k) {

@@ -111,6 +111,8 @@ class FreeBodies {
   /// Of other bodies in the substeps of the last step, for bodies on which it is recorded.
   SubstepLoads& substep_loads() { return substep_loads_; }
   BodyTotals totals(double time) const;
+  /// Number of contacts of balls with surfaces that are left out (kMostWallContacts). poses: one row.
+  double dropped_contacts(Span<const BodyPose> poses);
   /// Correction of the fluid load on a body by pressure.linear_exact.
   LoadSum correction(int place) const;
 
@@ -137,6 +139,7 @@ class FreeBodies {
   const RigidBody& rigid(int place) const { return parameters_.bodies[place].rigid; }
   void point_at_memory();
   BodyFields fields() const;
+  BallPass ball_pass(Span<const BodyPose> poses, double dt);
   void evaluate_contacts(Span<const BodyPose> poses, double dt);
   BodyPass pass() const;
   void kick(const BodyPass& pass) { for_each(store_.owned(), pass); }

@@ -1,6 +1,8 @@
 // Drag where the slip or the bed differs within the reach of the coupling: jets, and beds beside orifices.
 #include <gtest/gtest.h>
 
+#include <tuple>
+
 #include "kernels/coupling/drag_pass.hpp"
 #include "kernels/drag/di_felice.hpp"
 #include "kernels/drag/ergun.hpp"
@@ -14,19 +16,47 @@ TEST(DragLine, MeetsTheLawAtBothSlipsAndStaysPositive) {
   const auto di_felice = [](Real w) { return DiFelice{}.K(Real(0.45), Real(1e-3), 1000, Real(1e-3), w); };
   const DragLine line = drag_line(di_felice, Real(0.1), Real(1.5));
   EXPECT_GT(line.slope, 0);
+  EXPECT_FALSE(line.limited);
   EXPECT_NEAR(line.at(Real(0.1)) / di_felice(Real(0.1)), 1, kInvariant);
   EXPECT_NEAR(line.at(Real(1.5)) / di_felice(Real(1.5)), 1, kInvariant);
   // what falls with the slip, and what rises faster than it
   const DragLine flat = drag_line([](Real w) { return 2 - w; }, Real(0.1), Real(0.5));
   EXPECT_EQ(flat.slope, 0);
+  EXPECT_TRUE(flat.limited);
   EXPECT_NEAR(flat.still, 1.5, kInvariant);
   const DragLine steep = drag_line([](Real w) { return w * w; }, Real(0.1), Real(0.5));
   EXPECT_NEAR(steep.still, 0, kInvariant);
   EXPECT_NEAR(steep.slope, 0.5, kInvariant);
+  EXPECT_TRUE(steep.limited);
+  // in proportion, and not at all, to rounding
+  EXPECT_FALSE(drag_line([](Real w) { return Real(0.3) * w; }, Real(0.1), Real(0.5)).limited);
+  EXPECT_FALSE(drag_line([](Real) { return Real(0.3); }, Real(0.1), Real(0.5)).limited);
   // one slip, known to rounding
   const DragLine one = drag_line(di_felice, Real(0.1), Real(0.1 * (1 + 4 * kInvariant)));
   EXPECT_EQ(one.slope, 0);
+  EXPECT_FALSE(one.limited);
   EXPECT_NEAR(one.still / di_felice(Real(0.1)), 1, 4 * kInvariant);
+}
+
+/// Creeping flow through a dense bed, half of it twice as fast: Di Felice's drag falls with the slip, as its
+/// power of the porosity does. Faster fluid has more drag; so has fluid without a bed.
+TEST(LocalDrag, CountsGrainsWhoseDragFallsWithTheSlip) {
+  const double d = 0.06, dx = 0.02;
+  for (const auto& [slip, eps, speed, expected] : {std::tuple{"local", 0.3, 0.5, 2},
+                                                   {"local", 0.3, 500.0, 0},
+                                                   {"local", 0.9, 0.5, 0},
+                                                   {"mean", 0.3, 0.5, 0}}) {
+    Config c = unit_box(0.12, 1e-3);
+    c.couple.slip = slip;
+    Cloud fluid = fluid_at(lattice({0, 0, 0}, {1, 1, 1}, dx), dx, 1000, eps);
+    for (std::size_t a = 0; a < fluid.x.size(); ++a)
+      fluid.v[a] = {0, 0, (fluid.x[a].x < 0.5 ? 1 : 2) * speed * 1e-3 / (1000 * d)};
+    CoupledBox box(c, fluid, {{{0.5, 0.5, 0.5}, {0.5, 0.6, 0.4}}, {{}, {}}, {{}, {}}, {d / 2, d / 2}});
+    EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).bent, 0u) << "before any is looked at";
+    box.coupling.gather(box.fluid, box.grains, {}, 1e-6);
+    EXPECT_EQ(int(box.coupling.counters(box.fluid, box.grains).bent), expected)
+        << slip << " " << eps << " " << speed;
+  }
 }
 
 /// A grain in fluid that rests but for a jet along z, with the fraction of its weights that the jet has.

@@ -138,6 +138,59 @@ TEST(Porosity, HasAFloorAndCountsWhoIsHeldThere) {
   EXPECT_GT(box.coupling.counters(box.fluid, box.grains).densest, 400u) << "of 729 grains";
 }
 
+/// Beside an orifice the fluid is clear: the drag of a dense bed there is that at the floor all the same.
+TEST(Porosity, CountsGrainsAtTheFloorWithoutTheInflowToo) {
+  const double spacing = 0.085, length = 9 * spacing;  // overlapping spheres
+  for (const bool open : {false, true}) {
+    Config c = unit_box(0.2, 1e-3);
+    c.domain.max = {length, length, length};
+    c.domain.periodic = {true, true, true};
+    c.couple.eps_min = 0.3;
+    c.fluid.dx = 0.02;
+    if (open) {
+      InletConfig inlet;
+      inlet.shape = "disc";
+      inlet.centre = {length / 2, length / 2, length / 2};
+      inlet.direction = {0, 0, 1};
+      inlet.radius = 0.05;
+      c.inlets = {inlet};
+    }
+    Pebbles grains{lattice(c.domain.min, c.domain.max, spacing), {}, {}, {}};
+    const std::size_t n = grains.x.size();
+    grains.v.resize(n), grains.omega.resize(n), grains.radius.assign(n, 0.05);
+    CoupledBox box(c, fluid_at(lattice(c.domain.min, c.domain.max, length / 24), length / 24, 1000, 1),
+                   grains);
+    box.coupling.porosity(box.fluid, box.grains, {}, 0);
+    box.coupling.gather(box.fluid, box.grains, {}, 0);
+    const auto eps = box.grains.eps.values();
+    const auto clear = std::count_if(eps.begin(), eps.end(), [](Real e) { return e > Real(0.35); });
+    EXPECT_EQ(clear > 0, open);
+    const auto counted = box.coupling.counters(box.fluid, box.grains).densest;
+    EXPECT_GE(counted, open ? std::uint64_t(clear) : 300u) << "of " << n;
+  }
+}
+
+/// A grain beside a single fluid particle, which takes no couple, and one within fluid, which does.
+TEST(Porosity, CountsWetGrainsWhoseFluidTakesNoCouple) {
+  for (const bool couple : {true, false}) {
+    Config c = unit_box(0.1, 1e-3);
+    c.couple.angmom = c.couple.torque = couple;
+    Cloud fluid = fluid_at(lattice({0.2, 0.2, 0.2}, {0.5, 0.5, 0.5}, 0.05), 0.05, 1000, 1);
+    const Cloud one = fluid_at({{0.8, 0.8, 0.82}}, 0.1, 1000, 1);
+    fluid.x.push_back(one.x[0]), fluid.v.push_back({}), fluid.mass.push_back(one.mass[0]);
+    fluid.rho.push_back(1000), fluid.eps.push_back(1), fluid.stress_acceleration.push_back({});
+    CoupledBox box(c, fluid,
+                   {{{0.35, 0.35, 0.35}, {0.8, 0.8, 0.8}, {0.7, 0.2, 0.2}},
+                    {{}, {}, {}},
+                    {{}, {}, {}},
+                    {0.02, 0.02, 0.02}});
+    EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).uncoupled, 0u) << "before any is looked at";
+    box.coupling.gather(box.fluid, box.grains, {}, 1e-6);
+    EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).wet, 2u) << "the third is dry";
+    EXPECT_EQ(box.coupling.counters(box.fluid, box.grains).uncoupled, couple ? 1u : 0u);
+  }
+}
+
 /// A slit a tenth of the reach wide leaves more than an eighth of the kernel, where two more walls meet it
 /// less.
 TEST(Porosity, CountsGrainsInTheNarrowestCorners) {

@@ -173,6 +173,24 @@ TEST(Seams, LeaveSurfacesThatDiffer) {
   }
 }
 
+/// In a bowl of planes each of which it touches, a grain has eight contacts; the others are counted.
+TEST(Seams, CountsTheContactsThatAreLeftOut) {
+  for (const int planes : {7, 8, 9, 12, 40}) {
+    GrainBench b;
+    const double R = b.R();
+    for (int k = 0; k < planes; ++k) {
+      const double angle = 2 * M_PI * k / planes, lean = 0.5 + 0.2 * (k % 2);
+      const Vec3d normal{std::sin(lean) * std::cos(angle), std::sin(lean) * std::sin(angle), std::cos(lean)};
+      b.plane(-(0.999 - 1e-5 * k) * R * normal, normal);
+    }
+    b.add({0, 0, 0});
+    b.add({0, 0, 5 * R});
+    b.start();
+    EXPECT_EQ(b.solver->dropped_contacts(*b.grains, b.poses()), std::max(0, planes - 8)) << planes;
+    EXPECT_EQ(b.solver->totals(*b.grains).wall_contacts, std::min(planes, 8));
+  }
+}
+
 TEST(Seams, OfBodiesThatMoveApartAreTrue) {
   const WallBody left = test::body("box", {-0.05, -0.05, -0.02}, {0, 0.05, 0}),
                  right = test::body("box", {0, -0.05, -0.02}, {0.05, 0.05, 0});

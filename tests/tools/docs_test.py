@@ -135,6 +135,16 @@ class Documents(unittest.TestCase):
                     named += 1
         self.assertGreater(named, 200)
 
+    def test_counts_of_limiters_are_those_of_the_program(self):
+        written = set(re.findall(r'\{"(\w+)", "-",', (ROOT / "src/measure/measure.cpp").read_text()))
+        others = {"fluid_count", "fluid_pairs_through_walls", "overlap_max", "coordination_number", "grain_count",
+                  "grains_outside", "porosity_min", "wet_grains", "bodies_outside", "rebuilds"}
+        self.assertLess(others, written)
+        shown = set(re.findall(r"`(\w+)` \[-\]", (ROOT / "docs/results.md").read_text()))
+        self.assertEqual(shown, written - others)
+        limiters = (ROOT / "docs/model.md").read_text().split("## Clamps and limiters")[1].split("\n## ")[0]
+        self.assertLessEqual(shown, set(re.findall(r"`(\w+)`", limiters)))
+
     def test_words_of_other_programs_are_those_of_the_program(self):
         words = {}
         for word in json.loads(output("list", "words", "--json")):

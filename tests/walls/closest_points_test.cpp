@@ -205,7 +205,7 @@ void expect_wall_pushes(const ShapePtr& shape, RandomShapes& random, const std::
 #if !BL_CUDA
     const WallRepulsion fluid{{1, Real(R), 1e6}, {}, frame, b.walls->view(), {&still, 1}};
     Vec3d off;
-    fluid.each(balls.x[i], {}, 0, [&](std::uint32_t, const Real3& acc, const Vec3d&) { off += Vec3d(acc); });
+    fluid.each(balls.x[i], {}, 0, [&](const SurfacePush& push) { off += Vec3d(push.acceleration); });
     EXPECT_EQ(norm(off) > 0, near) << "fluid, " << balls.distance[i] / R << " R away";
     if (near && directed) {
       EXPECT_GT(dot(off, at.normal), 0.3 * norm(off));
