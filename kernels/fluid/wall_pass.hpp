@@ -77,18 +77,27 @@ struct WallPass {
                        square(turning_along(k, v_wall, v_fluid)) * Real3(k.centripetal(at));
     Real p = (sum.p + dot(push, sum.rho_r)) / sum.weight, x = eos.compression(p);
     const Real own = compression[b];
-    const bool layer = k.kind == WallKind::single_layer;
-    if (layer) p = eos.pressure(x = 0);
-    if (k.kind == WallKind::mirrored && own != kNoCompression) p = eos.pressure(x = own);
-    if (k.kind == WallKind::frozen) {
-      if (own == kNoCompression)
+    bool frozen = false, prescribed = k.flows;  // mass; velocity for friction
+    switch (k.kind) {
+      case WallKind::extrapolated:
+        break;
+      case WallKind::frozen:
+        frozen = prescribed = true;
+        if (own == kNoCompression)
+          p = eos.pressure(x = 0);
+        else if (was_dry)
+          compression[b] = x;  // begins in balance with the fluid that has come
+        else
+          p = eos.pressure(x = own);
+        break;
+      case WallKind::mirrored:
+        if (own != kNoCompression) p = eos.pressure(x = own);
+        break;
+      case WallKind::single_layer:
+        prescribed = true;
         p = eos.pressure(x = 0);
-      else if (was_dry)
-        compression[b] = x;  // begins in balance with the fluid that has come
-      else
-        p = eos.pressure(x = own);
+        break;
     }
-    const bool frozen = k.kind == WallKind::frozen, prescribed = k.flows || layer || frozen;
     const Real rho = eos.rho0 * (1 + x), mass = (frozen ? eos.rho0 : rho) * Real(k.volume);
     v_rho[b] = {v_wall, rho};
     const Real3 away = sum.rho_r / (sum.weight * eos.rho0);  // of the wall from the middle of the fluid, m

@@ -105,7 +105,7 @@ void Checks::time() const {
 
 void Checks::one_pass() const {
   if (c.time.cfl > 0.3) fail("time.cfl", c.time.cfl, "must be <= 0.3 with time.integrator = \"ab3\"");
-  const auto frozen = [](const WallBody& body) { return body.type == WallType::frozen; };
+  const auto frozen = [](const WallBody& body) { return !body.type->one_pass; };
   for (const auto& [there, what] :
        {std::pair{coupled() && c.couple.mode == CouplingMode::two_way, "grains that the fluid feels"},
         {std::any_of(c.wall.bodies.begin(), c.wall.bodies.end(), frozen), "frozen walls"},

@@ -61,9 +61,12 @@ class Checks {
   void drive() const;
   /// What needs one smoothing length for all.
   void variable_h() const;
-  /// What SDPD needs, and what of WCSPH's it leaves out.
-  void sdpd() const;
-  void sdpd_wall(const std::string& path, const WallBody& body, const std::string& with) const;
+  /// What the fluid model needs and cannot do, by its traits; parts of it:
+  void model() const;
+  void smoothing(const std::string& with) const;
+  void thermal(const std::string& with) const;
+  void bulk_viscosity() const;
+  void summation() const;
   /// Grains in air fall into the fluid faster than it flows by itself.
   void falling_grains() const;
   /// The formulas of a fill on a 5 x 5 x 5 raster.

@@ -55,7 +55,7 @@ void Checks::fluid() const {
     fail("fluid.vmax", f.vmax,
          fmt::format("must be lower; with it rho0 c^2 is {:.3g} Pa, which must stay below 1e30", stiffness));
   if (coupled() && f.mu == 0) fail("fluid.mu", f.mu, "must be > 0 with grains; drag needs mu");
-  if (f.sdpd()) sdpd();
+  model();
   if (!f.species.empty()) species();
   if (c.visc.collision && c.sdpd.kT > 0)
     fail("visc.collision", "true",
@@ -129,7 +129,9 @@ void Checks::drive() const {
 
 void Checks::variable_h() const {
   const std::string with = "with fluid.variable_h";
-  if (c.fluid.sdpd()) fail("fluid.model", quoted(c.fluid.model.name()), "must be \"wcsph\" " + with);
+  if (!c.fluid.model->variable_h)
+    fail("fluid.model", quoted(c.fluid.model.name()),
+         "must be \"" + names_with(&Named<FluidModel>::variable_h) + "\" " + with);
   if (c.fluid.kernel == KernelFunction::lucy)
     fail("fluid.kernel", "\"lucy\"", "must be wendland_c2 or cubic " + with);
   if (c.time.integrator == TimeIntegrator::ab3)
@@ -141,16 +143,27 @@ void Checks::variable_h() const {
     fail("fluid.species", fmt::format("{} fluids", c.fluid.species.size()), "must be none " + with);
   if (c.visc.collision) fail("visc.collision", "true", "must be false " + with);
   for (std::size_t i = 0; i < c.wall.bodies.size(); ++i)
-    if (const WallBody& body = c.wall.bodies[i]; body.type == WallType::frozen || body.type == WallType::mdbc)
+    if (const WallBody& body = c.wall.bodies[i]; !body.type->variable_h)
       fail(fmt::format("wall.body.{}.type", i), quoted(body.type.name()),
-           "must be adami, single_layer, grains_only or fluid_only " + with);
+           "must be " + names_with(&Named<WallType>::variable_h) + " " + with);
 }
 
-void Checks::sdpd() const {
-  const FluidConfig& f = c.fluid;
-  const SdpdConfig& s = c.sdpd;
-  const std::string with = fmt::format("with fluid.model = \"{}\"", f.model.name());
-  if (c.domain.two_d) fail("domain.two_d", "true", "must be false " + with);
+void Checks::model() const {
+  const Chosen<FluidModel> model = c.fluid.model;
+  const std::string with = fmt::format("with fluid.model = \"{}\"", model.name());
+  if (c.domain.two_d && !model->plane) fail("domain.two_d", "true", "must be false " + with);
+  if (!model->smoothed) smoothing(with);
+  if (c.visc.model != ViscosityModel::none && model->own_viscosity)
+    fail("visc.model", quoted(c.visc.model.name()),
+         fmt::format("must be \"none\" {}, which brings its own viscosity", with));
+  if (c.time.integrator != TimeIntegrator::kdk && !model->integrators)
+    fail("time.integrator", quoted(c.time.integrator.name()), "must be \"kdk\" " + with);
+  if (model->thermal) thermal(with);
+  if (model->own_viscosity) bulk_viscosity();
+  if (model->summation) summation();
+}
+
+void Checks::smoothing(const std::string& with) const {
   for (const auto& [key, value] : {std::pair{"shift.A", c.shift},
                                    {"xsph", c.xsph},
                                    {"tensile", c.tensile},
@@ -159,21 +172,24 @@ void Checks::sdpd() const {
                                    {"density.void_relaxation", c.density.void_relaxation},
                                    {"visc.alpha", c.visc.alpha},
                                    {"visc.beta", c.visc.beta}})
-    if (value != 0) fail(key, value, fmt::format("must be 0 {}; thermal noise would trigger it", with));
+    if (value != 0)
+      fail(key, value,
+           "must be 0 " + with + (c.fluid.model->thermal ? "; thermal noise would trigger it" : ""));
   if (c.pressure.linear_exact) fail("pressure.linear_exact", "true", "must be false " + with);
-  if (c.visc.model != ViscosityModel::none)
-    fail("visc.model", quoted(c.visc.model.name()),
-         fmt::format("must be \"none\" {}, which brings its own viscosity", with));
-  if (c.time.integrator != TimeIntegrator::kdk)
-    fail("time.integrator", quoted(c.time.integrator.name()), "must be \"kdk\" " + with);
-  for (std::size_t i = 0; i < c.wall.bodies.size(); ++i)
-    sdpd_wall(fmt::format("wall.body.{}", i), c.wall.bodies[i], with);
-  const bool tensor = s.noise == NoiseForm::tensor && f.model == FluidModel::sdpd_a && s.kT > 0;
-  const double most = 5.0 / 3 * f.mu, least = tensor ? 40.0 / 51 * f.mu : 0;
-  if (f.zeta > most * (1 + 1e-9) || f.zeta < least * (1 - 1e-9))
-    fail("fluid.zeta", f.zeta,
-         fmt::format("must be within {:.6g}..{:.6g}, {}..5/3 of fluid.mu{}", least, most,
-                     tensor ? "40/51" : "0", tensor ? " with sdpd.noise = \"tensor\"" : ""));
+}
+
+void Checks::thermal(const std::string& with) const {
+  const FluidConfig& f = c.fluid;
+  const SdpdConfig& s = c.sdpd;
+  for (std::size_t i = 0; i < c.wall.bodies.size(); ++i) {
+    const WallBody& body = c.wall.bodies[i];
+    const std::string key = fmt::format("wall.body.{}.type", i);
+    if (!body.type->thermal)
+      fail(key, quoted(body.type.name()), "must be " + names_with(&Named<WallType>::thermal) + " " + with);
+    if (body.type->kind == WallKind::frozen && body.free.present && f.model->spins)
+      fail(key, quoted(body.type.name()),
+           "must be \"adami\" for a free body " + with + ", since frozen particles take up couples");
+  }
   if (s.force_scale.size() != 4)
     fail("sdpd.force_scale", fmt::format("[{}]", fmt::join(s.force_scale, ", ")),
          "must be four numbers: pressure, friction, friction of spins, noise");
@@ -181,6 +197,19 @@ void Checks::sdpd() const {
   if (thermal > 0.3 * f.c)
     warn("sdpd.kT: particles move at {:.3g} m/s by heat alone, sound at {:.3g}; density will vary widely",
          thermal, f.c);
+}
+
+void Checks::bulk_viscosity() const {
+  const FluidConfig& f = c.fluid;
+  const bool tensor = c.sdpd.noise == NoiseForm::tensor && f.model->spins && c.sdpd.kT > 0;
+  const double most = 5.0 / 3 * f.mu, least = tensor ? 40.0 / 51 * f.mu : 0;
+  if (f.zeta > most * (1 + 1e-9) || f.zeta < least * (1 - 1e-9))
+    fail("fluid.zeta", f.zeta,
+         fmt::format("must be within {:.6g}..{:.6g}, {}..5/3 of fluid.mu{}", least, most,
+                     tensor ? "40/51" : "0", tensor ? " with sdpd.noise = \"tensor\"" : ""));
+}
+
+void Checks::summation() const {
   if (c.density.reinit_every > 0 && c.density.method != DensityMethod::continuity)
     fail("density.reinit_every", c.density.reinit_every, "must be 0 unless density.method = \"continuity\"");
   if (!c.density.count_grains || !c.grain.present) return;
@@ -189,18 +218,8 @@ void Checks::sdpd() const {
   };
   counting(c.density.method == DensityMethod::summation, "density.method = \"summation\"");
   counting(c.couple.mode == CouplingMode::two_way, "couple.mode = \"two_way\"");
-  counting(c.couple.hc >= f.h() * (1 - 1e-9),
-           fmt::format("couple.hc is at least the smoothing length, {:.6g} m", f.h()));
-}
-
-void Checks::sdpd_wall(const std::string& path, const WallBody& body, const std::string& with) const {
-  if (!body.stops_fluid()) return;
-  const bool frozen = body.type == WallType::frozen;
-  if (!frozen && body.type != WallType::adami)
-    fail(path + ".type", quoted(body.type.name()), "must be \"adami\" or \"frozen\" " + with);
-  if (frozen && body.free.present && c.fluid.model == FluidModel::sdpd_a)
-    fail(path + ".type", quoted(body.type.name()),
-         "must be \"adami\" for a free body " + with + ", since frozen particles take up couples");
+  counting(c.couple.hc >= c.fluid.h() * (1 - 1e-9),
+           fmt::format("couple.hc is at least the smoothing length, {:.6g} m", c.fluid.h()));
 }
 
 void Checks::falling_grains() const {

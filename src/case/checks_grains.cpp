@@ -173,8 +173,8 @@ void Checks::coupling() const {
 }
 
 void Checks::suspension_viscosity() const {
-  const bool thick =
-      c.fluid.sdpd() || c.visc.model == ViscosityModel::morris || c.visc.model == ViscosityModel::monaghan;
+  const bool thick = c.fluid.model->own_viscosity || c.visc.model == ViscosityModel::morris ||
+                     c.visc.model == ViscosityModel::monaghan;
   for (const auto& [there, what] :
        {std::pair{!coupled() || c.couple.mode != CouplingMode::two_way, "without couple.mode = \"two_way\""},
         {!thick, "with visc.model = \"signal\" or \"none\""},

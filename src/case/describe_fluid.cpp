@@ -81,7 +81,7 @@ void describe_fluid(Parameters& p, FluidConfig& f) {
   p("fluid.rho0", &f.rho0, {.unit = "kg/m3", .meaning = "reference density", .range = above(0)});
   p("fluid.mu", &f.mu,
     {.unit = "Pa s", .meaning = "dynamic (shear) viscosity; must be > 0 with grains", .range = at_least(0)});
-  if (f.sdpd() || p.everything())
+  if (f.model->own_viscosity || p.everything())
     p("fluid.zeta", &f.zeta,
       {.unit = "Pa s",
        .meaning = "SDPD: bulk viscosity, at most 5 mu / 3",
@@ -120,8 +120,7 @@ void describe_fluid_models(Parameters& p, Config& c) {
   p("pressure.linear_exact", &c.pressure.linear_exact,
     {.meaning = "where viscosity dominates at the scale of a particle, its pressure force is exact for a "
                 "linear pressure field, but momentum is not conserved exactly; needs shift.A > 0"});
-  const bool sdpd = c.fluid.sdpd() || p.everything();
-  if (sdpd) describe_sdpd(p, c);
+  if (c.fluid.model->thermal || p.everything()) describe_sdpd(p, c);
   p("density.delta", &c.density.delta,
     {.meaning = "density diffusion (delta-SPH): coefficient; 0: off", .range = within(0, 0.2)});
   p("density.void_relaxation", &c.density.void_relaxation,
@@ -132,7 +131,7 @@ void describe_fluid_models(Parameters& p, Config& c) {
     {.meaning = "cavitation limit: the fluid separates where rho/rho0 - 1 falls below minus this value",
      .range = within(1e-4, 0.5),
      .formerly = "tension"});
-  if (sdpd) {
+  if (c.fluid.model->summation || p.everything()) {
     p("density.method", &c.density.method,
       {.meaning = "SDPD: method that gives the density", .family = "models"});
     p("density.reinit_every", &c.density.reinit_every,

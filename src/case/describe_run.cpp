@@ -210,7 +210,7 @@ void describe_time(Parameters& p, Config& c) {
     {.meaning = "a fixed step above its stability limit gives a warning instead of an error"});
   p("time.cfl", &t.cfl, fraction("safety factor of the CFL limit (sound)"));
   p("time.visc", &t.visc, fraction("safety factor of the viscous limit"));
-  if (c.fluid.sdpd() || p.everything())
+  if (c.fluid.model->own_viscosity || p.everything())
     p("time.friction", &t.friction,
       fraction("SDPD: safety factor of the friction limit, the time in which friction stops a particle"));
   p("time.body", &t.body, fraction("safety factor of the acceleration limit"));

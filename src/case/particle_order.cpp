@@ -24,8 +24,8 @@ ParticleOrder particle_order(const Config& c) {
   const bool mixed = c.grain.present && c.couple.mode == CouplingMode::two_way;
 
   ParticleOrder order;
-  if (c.fluid.sdpd())
-    order.no_shifting = "SDPD has none";
+  if (!c.fluid.model->smoothed)
+    order.no_shifting = fmt::format("fluid.model = \"{}\" has none", c.fluid.model.name());
   else if (c.shift == 0)
     order.no_shifting = "shift.A is 0";
   else if (layers)

@@ -115,7 +115,14 @@ Config defaults_of(const Value& root) {
   read("fluid.model", &c.fluid.model, {});
   read("fluid.variable_h", &c.fluid.variable_h, {});
   if (c.fluid.variable_h) c.shift = 0, c.pressure.linear_exact = false;  // they go with one smoothing length
-  if (c.fluid.sdpd()) set_sdpd(c);
+  switch (c.fluid.model) {
+    case FluidModel::wcsph:
+      break;
+    case FluidModel::sdpd:
+    case FluidModel::sdpd_a:
+      set_sdpd(c);
+      break;
+  }
   return c;
 }
 

@@ -323,7 +323,7 @@ void resolve_fluid(Config& c, const Value& root, const std::filesystem::path& ch
   f.vmax = vmax;
   for (std::size_t k = 0; k < f.species.size(); ++k)
     f.mu = k > 0 ? std::max(f.mu, f.species[k].mu) : f.species[k].mu;
-  if (f.sdpd() && std::isinf(f.zeta)) f.zeta = 20.0 / 21 * f.mu;
+  if (f.model->own_viscosity && std::isinf(f.zeta)) f.zeta = 20.0 / 21 * f.mu;
   switch (c.eos.type) {
     case EosType::tait:
       f.c = f.c_factor * vmax;

@@ -200,7 +200,7 @@ bool is_driven(const Config& c) {
 void warn_of_full_box(Prepared& p) {
   const Config& c = p.config;
   const auto walled = [](const WallBody& body) { return body.stops_fluid(); };
-  if (!c.fluid.present || c.fluid.sdpd() || c.eos.type != EosType::tait || c.eos.background > 0 ||
+  if (!c.fluid.present || !c.fluid.model->smoothed || c.eos.type != EosType::tait || c.eos.background > 0 ||
       !c.inlets.empty() || !c.outlets.empty() ||
       std::none_of(c.wall.bodies.begin(), c.wall.bodies.end(), walled))
     return;

@@ -41,7 +41,7 @@ std::string viscosity_text(const Config& c, const std::vector<Quantity>& numeric
 /// The spurious shear stress of a particle lattice under pressure, and whether pressure.linear_exact removes
 /// it.
 std::string arrangement_text(const Config& c) {
-  if (!c.fluid.present || c.fluid.mu == 0 || c.fluid.variable_h || c.fluid.sdpd()) return "";
+  if (!c.fluid.present || c.fluid.mu == 0 || c.fluid.variable_h || !c.fluid.model->smoothed) return "";
   const double pressure = c.fluid.rho0 * norm(c.gravity) * c.fluid.depth + c.eos.background;
   if (pressure == 0) return "";
   const double stress = 5e-3 * pressure;  // 2e-3 to 1e-2 on lattices, h = 1.5 dx
@@ -61,7 +61,7 @@ std::string arrangement_text(const Config& c) {
 
 /// Why particles do not shift although the case has shift.A.
 std::string shifting_text(const Config& c) {
-  if (!c.fluid.present || c.shift == 0 || c.fluid.sdpd()) return "";
+  if (!c.fluid.present || c.shift == 0 || !c.fluid.model->smoothed) return "";
   const ParticleOrder order = particle_order(c);
   return order.shifts ? "" : "shifting   none: " + order.no_shifting + "\n";
 }
@@ -71,14 +71,13 @@ std::string defaults_text(const Config& c, bool free_surface) {
   std::string out;
   const auto add = [&](const char* about, const std::string& what) { out += line(about, what); };
   const bool grains = c.grain.present && c.fluid.present && c.couple.mode != CouplingMode::off;
-  if (c.fluid.present && !c.fluid.sdpd() && c.density.cavitation_limit < 1)
+  if (c.fluid.present && c.fluid.model->smoothed && c.density.cavitation_limit < 1)
     add("tension",
         fmt::format("fluid cavitates below {:.3g} Pa (density.cavitation_limit; diagnostics.csv counts "
                     "the particles){}",
                     c.eos.background - c.density.cavitation_limit * c.fluid.rho0 * c.fluid.c * c.fluid.c,
                     c.wall.suction ? "; above that it sticks to lids and roofs" : ""));
-  if (free_surface && !c.fluid.sdpd() && c.fluid.mu > 0 && c.visc.model == ViscosityModel::morris &&
-      norm(c.gravity) > 0)
+  if (free_surface && c.fluid.mu > 0 && c.visc.model == ViscosityModel::morris && norm(c.gravity) > 0)
     add("waves",
         "visc.model = \"morris\" damps waves at a free surface half as fast as fluid.mu should; use "
         "\"monaghan\" for waves");
@@ -116,7 +115,7 @@ std::string resolution_text(const Config& c) {
                             "flow of interest",
                             across, "xyz"[thinnest], few));
   if (const double neighbours = f.kappa() * f.h_over_dx / 2;
-      !f.variable_h && !f.sdpd() && neighbours < 1.3 * (1 - 1e-9))
+      !f.variable_h && f.model->smoothed && neighbours < 1.3 * (1 - 1e-9))
     out += line("kernel",
                 fmt::format("kernel radius {:.3g} fluid.dx; below 2.6 the particle lattice causes noise "
                             "(fluid.h_over_dx)",
@@ -147,16 +146,14 @@ std::string grains_text(const Config& c) {
                     "largest, so the smallest cost most of the time",
                     ratio));
   if (!c.fluid.present || c.couple.mode != CouplingMode::two_way || norm(c.gravity) == 0) return out;
-  const auto add = [&](auto fits, const char* kind, const char* error) {
-    if (std::any_of(c.wall.bodies.begin(), c.wall.bodies.end(), fits))
+  for (const auto& kind : kNames<WallType>)
+    if (kind.bed_error > 0 && std::any_of(c.wall.bodies.begin(), c.wall.bodies.end(),
+                                          [&](const WallBody& body) { return body.type == kind.value; }))
       out += line(
           "bed",
           fmt::format("on {} walls the buoyancy of a thin bed is {} % too low; with \"adami\" or \"mdbc\" "
                       "it is right within 1 %",
-                      kind, error));
-  };
-  add([](const WallBody& body) { return body.type == WallType::frozen; }, "frozen", "13");
-  add([](const WallBody& body) { return body.single_layer(); }, "single_layer", "11");
+                      kind.name, int(kind.bed_error)));
   return out;
 }
 

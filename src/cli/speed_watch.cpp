@@ -28,7 +28,7 @@ SpeedWatch::SpeedWatch(const Config& c)
     : vmax_(c.fluid.vmax),
       sound_(c.fluid.c),
       factor_(c.fluid.c / c.fluid.vmax),
-      active_(c.fluid.present && !c.domain.sheared() && !(c.fluid.sdpd() && c.sdpd.kT > 0)) {}
+      active_(c.fluid.present && !c.domain.sheared() && !(c.fluid.model->thermal && c.sdpd.kT > 0)) {}
 
 std::optional<std::string> SpeedWatch::check(Simulation& simulation, const StepInfo& info) {
   if (!active_ || info.vmax <= kFast * vmax_ || info.step < next_) return {};

@@ -12,7 +12,7 @@ CouplingParameters coupling_parameters(const Config& config) {
           .orifices = orifices_of(config.inlets, config.wall.bodies.size(), config.fluid.dx, config.domain),
           .drag_fraction = config.time.drag,
           .counts_grains = config.density.count_grains,
-          .kT = config.fluid.sdpd() ? config.sdpd.kT * square(config.sdpd.force_scale[3]) : 0,
+          .kT = config.fluid.model->thermal ? config.sdpd.kT * square(config.sdpd.force_scale[3]) : 0,
           .seed = config.seed};
 }
 

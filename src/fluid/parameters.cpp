@@ -34,15 +34,15 @@ void add_walls(const Config& config, FluidParameters& p) {
   const std::vector<WallBody>& bodies = config.wall.bodies;
   p.repulsion = {Real(config.wall.rep_D), Real(config.wall.rep_r0), 0};
   p.suction = config.wall.suction;
-  p.energy_consistent =
-      config.wall.energy_consistent && config.wall.suction && config.time.integrator == TimeIntegrator::kdk &&
-      !config.fluid.sdpd() && !config.fluid.variable_h && !bodies.empty() &&
-      std::none_of(bodies.begin(), bodies.end(),
-                   [](const WallBody& body) { return body.type == WallType::mdbc || body.single_layer(); });
+  p.energy_consistent = config.wall.energy_consistent && config.wall.suction &&
+                        config.time.integrator == TimeIntegrator::kdk && config.fluid.model->wall_work &&
+                        !config.fluid.variable_h && !bodies.empty() &&
+                        std::all_of(bodies.begin(), bodies.end(),
+                                    [](const WallBody& body) -> bool { return body.type->wall_work; });
   bool layered = false;
   for (const WallBody& body : bodies) {
     p.repelled = p.repelled || body.repels() || body.no_penetration;
-    p.frozen = p.frozen || body.type == WallType::frozen;
+    p.frozen = p.frozen || body.type->kind == WallKind::frozen;
     layered = layered || body.single_layer();
   }
   p.orifices = orifices_of(config.inlets, bodies.size(), config.fluid.dx, config.domain);

@@ -272,7 +272,7 @@ std::vector<BodyBall> contact_balls(const WallBody& body, const DomainConfig& do
 }
 
 double particles_beyond(const WallBody& body, const FluidConfig& fluid) {
-  const bool outside = body.shape == WallShape::tank || body.type == WallType::mdbc;
+  const bool outside = body.shape == WallShape::tank || body.type->kind == WallKind::mirrored;
   return fluid.present && outside ? fluid.reach() : 0;
 }
 

@@ -140,7 +140,7 @@ Passages find_passages(const std::function<double(const Vec3d&)>& distance, cons
 void check_filters(const Config& config, std::vector<std::string>& warnings) {
   const double d = config.grain.d_min;
   for (const WallBody& filter : config.wall.bodies) {
-    if (filter.type != WallType::grains_only || !filter.solid.shape) continue;
+    if (filter.stops_fluid() || !filter.solid.shape) continue;
     const Bounds box = filter.solid.shape->bounds().grown(2 * d);
     const auto distance = [&](const Vec3d& x) {
       double least = INFINITY;

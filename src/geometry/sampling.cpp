@@ -216,7 +216,7 @@ void check_thickness(const Config& config, const WallBody& body, const std::vect
 
 /// Images of the particles of mdbc walls in the fluid.
 void add_images(const Config& config, Setup::Walls& walls) {
-  const auto mirrored = [](const WallBody& body) { return body.type == WallType::mdbc; };
+  const auto mirrored = [](const WallBody& body) { return body.type->kind == WallKind::mirrored; };
   const auto& bodies = config.wall.bodies;
   if (std::none_of(bodies.begin(), bodies.end(), mirrored)) return;
   for (std::size_t w = 0; w < walls.x.size(); ++w) {
@@ -349,7 +349,7 @@ void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::strin
       placed[index].add(x);
       walls.x.push_back(x);
       walls.body.push_back(std::uint32_t(index));
-      walls.outer.push_back(body.type == WallType::frozen &&
+      walls.outer.push_back(body.type->kind == WallKind::frozen &&
                             wall_distance(body, x, reach, config.domain) < -spacing);
     }
   }

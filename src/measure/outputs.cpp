@@ -281,8 +281,8 @@ std::vector<FieldView> CoupledSimulation::fields(const std::string& name) {
 
 ParticleBytes CoupledSimulation::field_bytes() const {
   const std::vector<WallBody>& walls = config_.wall.bodies;
-  const bool mirrored = std::any_of(walls.begin(), walls.end(),
-                                    [](const WallBody& body) { return body.type == WallType::mdbc; });
+  const bool mirrored = std::any_of(
+      walls.begin(), walls.end(), [](const WallBody& body) { return body.type->kind == WallKind::mirrored; });
   return {state_.fluid.entry_bytes(),
           state_.walls.entry_bytes() + (mirrored ? state_.walls.mirrors.entry_bytes() : 0),
           state_.grains.entry_bytes()};

@@ -44,8 +44,8 @@ std::vector<Quantity> particle_setup(const Config& c) {
     for (std::size_t k = 0; k < c.fluid.fills.size(); ++k)
       add_box(fmt::format("fluid.fill.{}", k), c.fluid.fills[k].min, c.fluid.fills[k].max);
   }
-  // the fields of the particles depend on these and on the wall types
-  if (c.fluid.sdpd()) add(fmt::format("fluid.model = \"{}\"", c.fluid.model.name()), 1);
+  // the fields of the particles depend on these and on the wall types; the default model goes without saying
+  if (c.fluid.model != FluidConfig().model) add(fmt::format("fluid.model = \"{}\"", c.fluid.model.name()), 1);
   if (c.fluid.present && c.grain.present && c.couple.mode != CouplingMode::off)
     add(fmt::format("couple.mode = \"{}\"", c.couple.mode.name()), 1);
   for (const WallBody& body : c.wall.bodies) {

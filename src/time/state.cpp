@@ -161,7 +161,7 @@ void State::load(const Config& config, const SavedState& saved) {
   if (has_fluid) {
     fluid.load(store_of(saved, "fluid"));
     walls.load(store_of(saved, "walls"));
-    const auto mirrored = [](const WallBody& body) { return body.type == WallType::mdbc; };
+    const auto mirrored = [](const WallBody& body) { return body.type->kind == WallKind::mirrored; };
     if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), mirrored))
       walls.mirrors.load(store_of(saved, "mirrors"));
   }

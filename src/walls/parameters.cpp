@@ -15,26 +15,10 @@ namespace {
 
 // -- how walls move ----------------------------------------------------------
 
-WallKind kind_of(const WallBody& body) {
-  switch (body.type) {
-    case WallType::frozen:
-      return WallKind::frozen;
-    case WallType::mdbc:
-      return WallKind::mirrored;
-    case WallType::single_layer:
-      return WallKind::single_layer;
-    case WallType::adami:
-    case WallType::fluid_only:
-    case WallType::grains_only:
-      break;  // the last has no particles
-  }
-  return WallKind::extrapolated;
-}
-
 BodyPose still_pose(const WallBody& body) {
   BodyPose p;
   p.slip = body.slip == WallSlip::slip;
-  p.kind = kind_of(body);
+  p.kind = body.type->kind;
   p.repulsion = body.repels();
   p.no_penetration = body.no_penetration && body.stops_fluid() && !body.single_layer();
   p.slide = body.surface_velocity;

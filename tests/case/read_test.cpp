@@ -498,6 +498,16 @@ TEST(Choices, OrTheNameOfSomethingElse) {
   EXPECT_THROW((void)drum.value(), CaseError);
 }
 
+TEST(Choices, NameThoseWithATrait) {
+  EXPECT_EQ(names_with(&Named<FluidModel>::variable_h), "wcsph");
+  EXPECT_EQ(names_with(&Named<FluidModel>::thermal), "sdpd or sdpd_a");
+  EXPECT_EQ(names_with(&Named<WallType>::variable_h), "adami, single_layer, grains_only or fluid_only");
+  EXPECT_EQ(names_with(&Named<WallType>::thermal), "adami, frozen or grains_only");
+  const Chosen<FluidModel> model("sdpd");
+  EXPECT_TRUE(model->own_viscosity);
+  EXPECT_FALSE(model->spins);
+}
+
 /// A name that nobody listed is an error wherever it comes from, never a default.
 TEST(Choices, RefuseWhatIsNotListed) {
   Config c;

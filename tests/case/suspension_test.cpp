@@ -60,9 +60,9 @@ TEST(SuspensionCase, SaysWhatSdpdDoesNotTake) {
   EXPECT_EQ(refused({"couple.hc=0.001"}),
             "dam.toml: density.count_grains = true must be false unless couple.hc is at least the smoothing "
             "length, 0.012 m");
-  EXPECT_EQ(
-      refused({"wall.type=mdbc"}),
-      "dam.toml:11: wall.body.type = \"mdbc\" must be \"adami\" or \"frozen\" with fluid.model = \"sdpd_a\"");
+  EXPECT_EQ(refused({"wall.type=mdbc"}),
+            "dam.toml:11: wall.body.type = \"mdbc\" must be adami, frozen or grains_only with fluid.model = "
+            "\"sdpd_a\"");
   const std::string raft =
       "preset = \"democritus\"\n" +
       changed("[grain]\n",

@@ -13,7 +13,7 @@ Config two_fluids(const std::string& model) {
   c.fluid.rho0 = 1, c.fluid.c = 10;
   c.fluid.species = {{"thin", 1}, {"thick", 3}};
   c.fluid.mu = 3;
-  if (c.fluid.sdpd()) {
+  if (c.fluid.model->own_viscosity) {
     c.fluid.zeta = 20.0 / 21 * 3;
     c.density.method = DensityMethod::summation;
     c.sdpd.kT = 0.5;

@@ -1,10 +1,12 @@
 #pragma once
-// The laws and models that a case may name. Each is written here once: enumerator, name, meaning. Reader,
-// `bedload list` and messages take them from here, and code asks for enumerators: a name that nobody listed
-// does not compile, or is a CaseError where it comes as text. `switch` over an enumeration must know all of
-// it. Shapes, motions, probes and the like are in setup_choices.hpp.
+// The laws and models that a case may name. Each is written here once: enumerator, name, meaning, traits.
+// Reader, `bedload list` and messages take them from here, and code asks for enumerators: a name that nobody
+// listed does not compile, or is a CaseError where it comes as text. Where code asks for what several have in
+// common it asks for a trait, `model->spins`, so that a new one answers by its row. `switch` over an
+// enumeration must know all of it. Shapes, motions, probes and the like are in setup_choices.hpp.
 
 #include "bedload/case/chosen.hpp"
+#include "bedload/core/wall_kind.hpp"
 
 namespace bedload {
 
@@ -55,11 +57,57 @@ inline constexpr auto kNames<LubricationForces> = std::to_array<Named<Lubricatio
 /// fluid.model
 enum class FluidModel { wcsph, sdpd, sdpd_a };
 template <>
+struct Named<FluidModel> {
+  FluidModel value;
+  std::string_view name, meaning;
+  Trait smoothed;  ///< has what keeps particles in order: shifting, density diffusion, damper, cavitation
+  Trait own_viscosity;  ///< its pairs make up fluid.mu and fluid.zeta: no visc.model
+  Trait thermal;        ///< may have thermal noise, sdpd.kT
+  Trait spins;          ///< particles have an angular velocity
+  Trait summation;      ///< density may be summed up, density.method
+  Trait wall_work;      ///< the work of wall pressure is accounted for, wall.energy_consistent
+  Trait integrators;    ///< any time.integrator, not kdk alone
+  Trait plane;          ///< domain.two_d
+  Trait variable_h;     ///< fluid.variable_h
+};
+template <>
 inline constexpr auto kNames<FluidModel> = std::to_array<Named<FluidModel>>({
-    {FluidModel::wcsph, "wcsph", "weakly compressible SPH, with stabilising terms"},
-    {FluidModel::sdpd, "sdpd",
-     "smoothed dissipative particle dynamics: viscous friction and thermal noise [espanol03]"},
-    {FluidModel::sdpd_a, "sdpd_a", "SDPD with spin of the particles, conserves angular momentum [mueller15]"},
+    {.value = FluidModel::wcsph,
+     .name = "wcsph",
+     .meaning = "weakly compressible SPH, with stabilising terms",
+     .smoothed = true,
+     .own_viscosity = false,
+     .thermal = false,
+     .spins = false,
+     .summation = false,
+     .wall_work = true,
+     .integrators = true,
+     .plane = true,
+     .variable_h = true},
+    {.value = FluidModel::sdpd,
+     .name = "sdpd",
+     .meaning = "smoothed dissipative particle dynamics: viscous friction and thermal noise [espanol03]",
+     .smoothed = false,
+     .own_viscosity = true,
+     .thermal = true,
+     .spins = false,
+     .summation = true,
+     .wall_work = false,
+     .integrators = false,
+     .plane = false,
+     .variable_h = false},
+    {.value = FluidModel::sdpd_a,
+     .name = "sdpd_a",
+     .meaning = "SDPD with spin of the particles, conserves angular momentum [mueller15]",
+     .smoothed = false,
+     .own_viscosity = true,
+     .thermal = true,
+     .spins = true,
+     .summation = true,
+     .wall_work = false,
+     .integrators = false,
+     .plane = false,
+     .variable_h = false},
 });
 
 /// density.method, of SDPD
@@ -142,17 +190,99 @@ inline constexpr auto kNames<ViscosityModel> = std::to_array<Named<ViscosityMode
 /// wall.type
 enum class WallType { adami, mdbc, frozen, single_layer, grains_only, fluid_only };
 template <>
+struct Named<WallType> {
+  WallType value;
+  std::string_view name, meaning;
+  Stated<WallKind> kind;
+  Trait stops_fluid, stops_grains;
+  Trait single_layer;     ///< one layer of particles on its surface, not as many as the kernel reaches
+  Trait repels;           ///< with Monaghan repulsion always: its pressure does not follow the fluid's
+  Trait wall_work;        ///< the work of its pressure can be accounted for, wall.energy_consistent
+  Trait thermal;          ///< meets fluid with thermal noise
+  Trait variable_h;       ///< and with fluid.variable_h
+  Trait one_pass;         ///< and with time.integrator = "ab3"
+  Stated<int> bed_error;  ///< by which the buoyancy of a thin bed on it is too low, %; 0: below 1
+};
+template <>
 inline constexpr auto kNames<WallType> = std::to_array<Named<WallType>>({
-    {WallType::adami, "adami",
-     "layers of wall particles with pressure extrapolated from the fluid [adami12]"},
-    {WallType::mdbc, "mdbc",
-     "layers of wall particles with the density at their mirror points in the fluid [english22]"},
-    {WallType::frozen, "frozen",
-     "wall particles treated as fluid at rest relative to the wall; the first layer has its own density"},
-    {WallType::single_layer, "single_layer",
-     "one layer of particles on the surface that repel the fluid; for thin shells"},
-    {WallType::grains_only, "grains_only", "stops grains; fluid passes through"},
-    {WallType::fluid_only, "fluid_only", "as adami for the fluid; grains pass through"},
+    {.value = WallType::adami,
+     .name = "adami",
+     .meaning = "layers of wall particles with pressure extrapolated from the fluid [adami12]",
+     .kind = WallKind::extrapolated,
+     .stops_fluid = true,
+     .stops_grains = true,
+     .single_layer = false,
+     .repels = false,
+     .wall_work = true,
+     .thermal = true,
+     .variable_h = true,
+     .one_pass = true,
+     .bed_error = 0},
+    {.value = WallType::mdbc,
+     .name = "mdbc",
+     .meaning = "layers of wall particles with the density at their mirror points in the fluid [english22]",
+     .kind = WallKind::mirrored,
+     .stops_fluid = true,
+     .stops_grains = true,
+     .single_layer = false,
+     .repels = false,
+     .wall_work = false,
+     .thermal = false,
+     .variable_h = false,
+     .one_pass = true,
+     .bed_error = 0},
+    {.value = WallType::frozen,
+     .name = "frozen",
+     .meaning = "wall particles treated as fluid at rest relative to the wall; the first layer has its own density",
+     .kind = WallKind::frozen,
+     .stops_fluid = true,
+     .stops_grains = true,
+     .single_layer = false,
+     .repels = true,
+     .wall_work = true,
+     .thermal = true,
+     .variable_h = false,
+     .one_pass = false,
+     .bed_error = 13},
+    {.value = WallType::single_layer,
+     .name = "single_layer",
+     .meaning = "one layer of particles on the surface that repel the fluid; for thin shells",
+     .kind = WallKind::single_layer,
+     .stops_fluid = true,
+     .stops_grains = true,
+     .single_layer = true,
+     .repels = false,
+     .wall_work = false,
+     .thermal = false,
+     .variable_h = true,
+     .one_pass = true,
+     .bed_error = 11},
+    {.value = WallType::grains_only,
+     .name = "grains_only",
+     .meaning = "stops grains; fluid passes through",
+     .kind = WallKind::extrapolated,
+     .stops_fluid = false,
+     .stops_grains = true,
+     .single_layer = false,
+     .repels = false,
+     .wall_work = true,
+     .thermal = true,
+     .variable_h = true,
+     .one_pass = true,
+     .bed_error = 0},
+    {.value = WallType::fluid_only,
+     .name = "fluid_only",
+     .meaning = "as adami for the fluid; grains pass through",
+     .kind = WallKind::extrapolated,
+     .stops_fluid = true,
+     .stops_grains = false,
+     .single_layer = false,
+     .repels = false,
+     .wall_work = true,
+     .thermal = false,
+     .variable_h = true,
+     .one_pass = true,
+     .bed_error = 0},
 });
 
 /// wall.slip
@@ -277,21 +407,5 @@ inline constexpr auto kNames<Simd> = std::to_array<Named<Simd>>({
     {Simd::baseline, "baseline", "instructions of every x86-64 CPU"},
     {Simd::avx2, "avx2", "AVX2 and FMA"},
 });
-
-static_assert(all_named<NormalLaw, NormalLaw::none> && all_named<SlidingLaw, SlidingLaw::none> &&
-              all_named<RollingLaw, RollingLaw::none> && all_named<FluidModel, FluidModel::sdpd_a> &&
-              all_named<DensityMethod, DensityMethod::summation> && all_named<NoiseForm, NoiseForm::tensor> &&
-              all_named<LubricationForces, LubricationForces::all> &&
-              all_named<DriveMode, DriveMode::particle> && all_named<DrivenPhase, DrivenPhase::both> &&
-              all_named<DriveReversal, DriveReversal::z> &&
-              all_named<CouplingKernel, CouplingKernel::top_hat> &&
-              all_named<KernelFunction, KernelFunction::lucy> && all_named<EosType, EosType::democritus> &&
-              all_named<ViscosityModel, ViscosityModel::none> && all_named<WallType, WallType::fluid_only> &&
-              all_named<WallSlip, WallSlip::slip> && all_named<LayerForce, LayerForce::monaghan> &&
-              all_named<CouplingMode, CouplingMode::off> && all_named<DragSlip, DragSlip::local> &&
-              all_named<SuspensionLaw, SuspensionLaw::maron_pierce> && all_named<DragLaw, DragLaw::table> &&
-              all_named<DragIntegrator, DragIntegrator::explicit_steps> &&
-              all_named<TimeIntegrator, TimeIntegrator::euler> && all_named<Preset, Preset::robinson2014> &&
-              all_named<Precision, Precision::fp64> && all_named<Simd, Simd::avx2>);
 
 }  // namespace bedload

@@ -1,5 +1,6 @@
 #pragma once
-// Keys of a case that take one of several names, each an enumerator with its row in kNames: name and meaning.
+// Keys of a case that take one of several names, each an enumerator with its row in kNames: name, meaning,
+// and what code asks about it (traits).
 
 #include <array>
 #include <concepts>
@@ -12,11 +13,24 @@
 
 namespace bedload {
 
+/// A row of kNames. An enumeration with traits has its own, in which they follow.
 template <class E>
 struct Named {
   E value;
   std::string_view name, meaning;
 };
+
+/// A value in a row. It has no default: a row that leaves one out does not compile.
+template <class T>
+class Stated {
+ public:
+  constexpr Stated(T value) : value_(value) {}
+  constexpr operator T() const { return value_; }
+
+ private:
+  T value_;
+};
+using Trait = Stated<bool>;
 
 /// All that a key of type E may be, in the order of the enumerators.
 template <class E>
@@ -30,6 +44,18 @@ std::string names_of() {
   return all;
 }
 
+/// "hertz, linear or none": those of which the trait holds.
+template <class E>
+std::string names_with(Trait Named<E>::*trait) {
+  std::string all;
+  for (auto row = kNames<E>.rbegin(); row != kNames<E>.rend(); ++row)
+    if ((*row).*trait) {
+      const bool second = !all.empty() && all.find(' ') == all.npos;
+      all = std::string(row->name) + (all.empty() ? "" : second ? " or " : ", ") + all;
+    }
+  return all;
+}
+
 /// One of the names of E. Throws CaseError for any other text.
 template <class E>
 class Chosen {
@@ -39,7 +65,9 @@ class Chosen {
   Chosen(const Text& name) : value_(value_of(name)) {}
 
   constexpr operator E() const { return value_; }
-  std::string name() const { return std::string(kNames<E>[std::size_t(value_)].name); }
+  std::string name() const { return std::string((*this)->name); }
+  /// Its row: `model->spins`.
+  constexpr const Named<E>* operator->() const { return &kNames<E>[std::size_t(value_)]; }
   constexpr bool operator==(const Chosen&) const = default;
   constexpr bool operator==(E value) const { return value_ == value; }
 
@@ -76,13 +104,5 @@ class ChosenOrNamed {
   std::optional<E> choice_;
   std::string name_;
 };
-
-/// Every enumerator has its row, at its place.
-template <class E, E last>
-inline constexpr bool all_named = [] {
-  for (std::size_t k = 0; k < kNames<E>.size(); ++k)
-    if (std::size_t(kNames<E>[k].value) != k) return false;
-  return kNames<E>.size() == std::size_t(last) + 1;
-}();
 
 }  // namespace bedload

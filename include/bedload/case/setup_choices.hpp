@@ -173,13 +173,4 @@ inline constexpr auto kNames<BodyTables> = std::to_array<Named<BodyTables>>({
     {BodyTables::none, "none", "no tables"},
 });
 
-static_assert(all_named<ShapeKind, ShapeKind::difference> && all_named<PipeEnds, PipeEnds::closed> &&
-              all_named<WallShape, WallShape::plane> && all_named<MotionKind, MotionKind::formula> &&
-              all_named<TableSpline, TableSpline::monotone> && all_named<BodyMove, BodyMove::none> &&
-              all_named<BodyTurn, BodyTurn::none> && all_named<OrificeShape, OrificeShape::rectangle> &&
-              all_named<OutletPhase, OutletPhase::grains> && all_named<OutletShape, OutletShape::plane> &&
-              all_named<GrainInletShape, GrainInletShape::disc> && all_named<SizeKind, SizeKind::sieve> &&
-              all_named<ProbeType, ProbeType::wall_pressure> && all_named<Phase, Phase::grains> &&
-              all_named<ForceSample, ForceSample::instant> && all_named<BodyTables, BodyTables::none>);
-
 }  // namespace bedload

@@ -1,16 +1,9 @@
 #pragma once
 #include "bedload/core/rigid_motion.hpp"
+#include "bedload/core/wall_kind.hpp"
 #include "bedload/particles/store.hpp"
 
 namespace bedload::inline BL_VARIANT {
-
-/// From where the particles of a wall have the pressure with which they meet the fluid.
-enum class WallKind : std::uint32_t {
-  extrapolated,  ///< from the fluid next to them
-  frozen,        ///< from their own density, which follows continuity
-  mirrored,      ///< from the density about their images in the fluid
-  single_layer,  ///< none: they push fluid away one by one
-};
 
 /// Where a wall body is, how it moves and how it meets fluid and grains.
 struct BodyPose : RigidMotion {

@@ -50,7 +50,6 @@ struct FluidProperties {
   double h_most() const { return variable_h ? 2 * h() : h(); }     ///< m
   double reach() const { return kappa() * h_most(); }              ///< farthest that particles act, m
   double kappa() const { return kernel == KernelFunction::lucy ? 1 : 2; }  ///< support / h
-  bool sdpd() const { return model != FluidModel::wcsph; }
   bool operator==(const FluidProperties&) const = default;
 };
 

@@ -78,11 +78,10 @@ struct WallBody {
   MotionConfig motion;
   FreeConfig free;                             ///< instead of a motion
   Solid solid;                                 ///< of a named shape (resolved)
-  bool stops_fluid() const { return type != WallType::grains_only; }
-  /// Frozen walls, whose pressure does not follow the fluid's, need it.
-  bool repels() const { return stops_fluid() && !single_layer() && (repulsion || type == WallType::frozen); }
-  bool single_layer() const { return type == WallType::single_layer; }
-  bool stops_grains() const { return type != WallType::fluid_only; }
+  bool stops_fluid() const { return type->stops_fluid; }
+  bool repels() const { return stops_fluid() && !single_layer() && (repulsion || type->repels); }
+  bool single_layer() const { return type->single_layer; }
+  bool stops_grains() const { return type->stops_grains; }
   bool moves() const { return motion.moves() || free.present; }
   bool operator==(const WallBody&) const = default;
 };
