@@ -1,6 +1,12 @@
 #pragma once
 // History of a contact, kept from one substep to the next. Springs are fp64 in every precision, because
 // increments are tiny compared with their sums.
+//
+// A quantity to be remembered is a member of ContactHistory and a place in HistoryParts, with its unit.
+// Arrays of pairs, checkpoints and the memory estimate follow from that.
+
+#include <string>
+#include <utility>
 
 #include "bedload/particles/field.hpp"
 
@@ -14,12 +20,62 @@ struct ContactHistory {
   double recede = 0;   ///< normal speed at the last evaluation, m/s, to Real's digits
 };
 
+/// Members of a history that an array of pairs holds side by side, as numbers of type T.
+template <class T, auto... members>
+struct HistoryPart {
+  static constexpr std::size_t kBytes = (sizeof(std::declval<ContactHistory>().*members) + ...);
+  T value[sizeof...(members)];
+
+  BL_HD void from(const ContactHistory& h) {
+    T* to = value;
+    ((*to++ = T(h.*members)), ...);
+  }
+  BL_HD void to(ContactHistory& h) const {
+    const T* from = value;
+    ((h.*members = *from++), ...);
+  }
+};
+
+// Each part has its units, and whether a law needs it: kOptional and keeps(law).
+struct SlidingSpring : HistoryPart<Vec3d, &ContactHistory::xi> {
+  static constexpr const char* units = "m";
+  static constexpr bool kOptional = true;
+  static bool keeps(const auto& law) { return law.slides(); }
+};
+struct RollingCouple : HistoryPart<Vec3d, &ContactHistory::couple> {
+  static constexpr const char* units = "N m";
+  static constexpr bool kOptional = true;
+  static bool keeps(const auto& law) { return law.remembers_couple(); }
+};
+/// Not accumulated, so that Real is precise enough.
+struct LastApproach : HistoryPart<Real, &ContactHistory::overlap, &ContactHistory::recede> {
+  static constexpr const char* units = "m, m/s";
+  static constexpr bool kOptional = false;
+  static bool keeps(const auto&) { return true; }
+};
+
+/// All of them, in the order of the members.
+template <class... Parts>
+struct HistoryPartList {
+  static constexpr std::size_t kBytes = (Parts::kBytes + ...);
+  /// "m, N m, m, m/s"
+  static std::string units() {
+    std::string all;
+    ((all += (all.empty() ? "" : ", ") + std::string(Parts::units)), ...);
+    return all;
+  }
+  template <template <class...> class Of>
+  using Apply = Of<Parts...>;
+};
+using HistoryParts = HistoryPartList<SlidingSpring, RollingCouple, LastApproach>;
+static_assert(HistoryParts::kBytes == sizeof(ContactHistory), "a member of ContactHistory is in no part");
+
+/// Files hold a history as columns of doubles.
 template <>
 struct FileType<ContactHistory> {
   static constexpr Scalar scalar = Scalar::f64;
-  static constexpr int components = 8;
+  static constexpr int components = sizeof(ContactHistory) / sizeof(double);
 };
-static_assert(sizeof(ContactHistory) == 8 * sizeof(double));
 
 /// Rotates the tangential vector `a` with a contact that has turned by `twist` (rad) about its normal, which
 /// is now n. The length is kept; the result lies in the new tangent plane.

@@ -11,7 +11,7 @@ namespace bedload::inline BL_VARIANT {
 constexpr int kMostWallContacts = 8;      ///< of one grain at once; the deepest count
 constexpr int kCountedWallContacts = 64;  ///< up to which those left out are counted
 
-/// A contact kept from the last evaluation. Checkpoints hold it bit by bit as 12 columns of 8 bytes, of which
+/// A contact kept from the last evaluation. Checkpoints hold it bit by bit as columns of 8 bytes, of which
 /// the first is the key, an integer.
 struct WallMemory {
   std::uint64_t key = 0;  ///< surface, then feature
@@ -22,14 +22,14 @@ struct WallMemory {
     return std::uint64_t(surface) << 32 | feature;
   }
   BL_HD Index surface() const { return Index(key >> 32); }
+  static std::string units() { return "-, -, " + HistoryParts::units(); }
 };
 
 template <>
 struct FileType<WallMemory> {
   static constexpr Scalar scalar = Scalar::f64;
-  static constexpr int components = 12;
+  static constexpr int components = sizeof(WallMemory) / sizeof(double);
 };
-static_assert(sizeof(WallMemory) == 12 * sizeof(double));
 
 /// The memories of one grain, [count] of them in ascending order of key.
 struct WallMemories {

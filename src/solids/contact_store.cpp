@@ -10,7 +10,7 @@ namespace bedload::inline BL_VARIANT {
 namespace {
 
 template <class T>
-HostArray to_array(const char* name, const char* unit, const std::vector<T>& values) {
+HostArray to_array(const char* name, const std::string& unit, const std::vector<T>& values) {
   HostArray a{name, unit, FileType<T>::scalar, FileType<T>::components, {}};
   a.bytes.resize(values.size() * sizeof(T));
   if (!values.empty()) std::memcpy(a.bytes.data(), values.data(), a.bytes.size());
@@ -18,9 +18,9 @@ HostArray to_array(const char* name, const char* unit, const std::vector<T>& val
 }
 
 template <class T>
-const T* from_array(const HostStore& store, const char* name) {
+const T* from_array(const HostStore& store, const char* name, const std::string& unit) {
   const HostArray* a = store.find(name);
-  if (!a || a->type != FileType<T>::scalar || a->components != FileType<T>::components ||
+  if (!a || a->type != FileType<T>::scalar || a->components != FileType<T>::components || a->unit != unit ||
       a->count() != store.count)
     throw FileError("checkpoint has no usable array " + store.name + "/" + name);
   return a->as<T>();
@@ -42,9 +42,10 @@ HostStore SolidSolver::save_contacts(const GrainStore& grains) const {
       lo.push_back(id[i]), hi.push_back(id[j]);
       kept.push_back(history[slot]);
     });
-  return {"contacts",
-          kept.size(),
-          {to_array("lo", "-", lo), to_array("hi", "-", hi), to_array("history", "m, N m, m, m/s", kept)}};
+  return {
+      "contacts",
+      kept.size(),
+      {to_array("lo", "-", lo), to_array("hi", "-", hi), to_array("history", HistoryParts::units(), kept)}};
 }
 
 void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostStore& contacts) {
@@ -54,9 +55,9 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
     throw FileError("checkpoint: grains are not in the order in which this build keeps them");
   build_list(grains, grid);
 
-  const Id* lo = from_array<Id>(contacts, "lo");
-  const Id* hi = from_array<Id>(contacts, "hi");
-  const ContactHistory* kept = from_array<ContactHistory>(contacts, "history");
+  const Id* lo = from_array<Id>(contacts, "lo", "-");
+  const Id* hi = from_array<Id>(contacts, "hi", "-");
+  const ContactHistory* kept = from_array<ContactHistory>(contacts, "history", HistoryParts::units());
   std::map<std::uint64_t, const ContactHistory*> by_pair;
   for (std::size_t c = 0; c < contacts.count; ++c) by_pair[pair_key(lo[c], hi[c])] = &kept[c];
 

@@ -1,64 +1,90 @@
 #pragma once
+#include <tuple>
+
 #include "bedload/parallel/buffer.hpp"
 #include "kernels/contact/pair_histories.hpp"
 #include "kernels/contact/registry.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
-/// Contact histories for the entries of a list; only the arrays that the law needs.
-class PairHistoryBuffers {
+/// Contact histories for the entries of a list; only the parts that the law needs.
+template <class... Parts>
+class PairHistoryBuffersOf {
  public:
-  explicit PairHistoryBuffers(const ContactLaw& law)
-      : slides_(law.slides()), rolls_(law.remembers_couple()) {}
+  explicit PairHistoryBuffersOf(const ContactLaw& law) : parts_(Kept<Parts>{Parts::keeps(law), {}}...) {}
 
+  /// Of one entry.
+  std::size_t entry_bytes() const {
+    return sizeof(std::uint8_t) + ((part<Parts>().used ? sizeof(Parts) : 0) + ...);
+  }
   /// Resizes to `slots` pairs, none of them in contact.
   void reset(std::size_t slots) {
     touching_.reserve_and_resize(slots);
     touching_.zero();
-    normal_.reserve_and_resize(slots);
-    if (slides_) xi_.reserve_and_resize(slots);
-    if (rolls_) couple_.reserve_and_resize(slots);
+    each([&](auto& part) { part.values.reserve_and_resize(slots); });
   }
   PairHistories view() {
-    return {touching_.data(), normal_.data(), slides_ ? xi_.data() : nullptr,
-            rolls_ ? couple_.data() : nullptr};
+    PairHistories all;
+    all.touching = touching_.data();
+    each([&]<class Part>(Kept<Part>& part) {
+      static_cast<PartArray<Part>&>(all).values = part.values.data();
+    });
+    return all;
   }
-  void swap(PairHistoryBuffers& o) {
-    touching_.swap(o.touching_), normal_.swap(o.normal_), xi_.swap(o.xi_), couple_.swap(o.couple_);
+  void swap(PairHistoryBuffersOf& o) {
+    touching_.swap(o.touching_);
+    each([&]<class Part>(Kept<Part>& part) { part.values.swap(o.template part<Part>().values); });
   }
 
   /// By slot, to the host and back; not in contact: overlap 0.
   std::vector<ContactHistory> to_host() const {
     const auto touching = touching_.to_host();
-    const auto normal = normal_.to_host();
-    const auto xi = xi_.to_host(), couple = couple_.to_host();
     std::vector<ContactHistory> all(touching.size());
-    for (std::size_t s = 0; s < all.size(); ++s) {
-      if (!touching[s]) continue;
-      all[s].overlap = normal[s].overlap, all[s].recede = normal[s].recede;
-      if (slides_) all[s].xi = xi[s];
-      if (rolls_) all[s].couple = couple[s];
-    }
+    each([&](const auto& part) {
+      const auto values = part.values.to_host();
+      for (std::size_t s = 0; s < all.size(); ++s)
+        if (touching[s]) values[s].to(all[s]);
+    });
     return all;
   }
   void assign(const std::vector<ContactHistory>& all) {
     std::vector<std::uint8_t> touching(all.size());
-    std::vector<PairHistories::Normal> normal(all.size());
-    std::vector<Vec3d> xi(slides_ ? all.size() : 0), couple(rolls_ ? all.size() : 0);
-    for (std::size_t s = 0; s < all.size(); ++s) {
-      touching[s] = all[s].overlap != 0;
-      normal[s] = {Real(all[s].overlap), Real(all[s].recede)};
-      if (slides_) xi[s] = all[s].xi;
-      if (rolls_) couple[s] = all[s].couple;
-    }
-    touching_.assign(touching), normal_.assign(normal), xi_.assign(xi), couple_.assign(couple);
+    for (std::size_t s = 0; s < all.size(); ++s) touching[s] = all[s].overlap != 0;
+    touching_.assign(touching);
+    each([&]<class Part>(Kept<Part>& part) {
+      std::vector<Part> values(all.size());
+      for (std::size_t s = 0; s < all.size(); ++s) values[s].from(all[s]);
+      part.values.assign(values);
+    });
   }
 
  private:
-  bool slides_, rolls_;
+  template <class Part>
+  struct Kept {
+    bool used;
+    Buffer<Part> values;
+  };
+  template <class Part>
+  Kept<Part>& part() {
+    return std::get<Kept<Part>>(parts_);
+  }
+  template <class Part>
+  const Kept<Part>& part() const {
+    return std::get<Kept<Part>>(parts_);
+  }
+  /// f(part) with each that is used.
+  template <class F>
+  void each(F&& f) {
+    ((part<Parts>().used ? f(part<Parts>()) : void()), ...);
+  }
+  template <class F>
+  void each(F&& f) const {
+    ((part<Parts>().used ? f(part<Parts>()) : void()), ...);
+  }
+
   Buffer<std::uint8_t> touching_;
-  Buffer<PairHistories::Normal> normal_;
-  Buffer<Vec3d> xi_, couple_;
+  std::tuple<Kept<Parts>...> parts_;
 };
+using PairHistoryBuffers = HistoryParts::Apply<PairHistoryBuffersOf>;
 
 }  // namespace bedload::inline BL_VARIANT

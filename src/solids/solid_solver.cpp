@@ -54,7 +54,7 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
   for (int k = 0; k < walls.contacts(); ++k) {
     const std::string name = "wall_memory_" + std::to_string(k);
     wall_memory_.push_back(
-        std::make_unique<Field<WallMemory>>(grains, name.c_str(), "-, -, m, N m, m, m/s", Lifetime::kept));
+        std::make_unique<Field<WallMemory>>(grains, name.c_str(), WallMemory::units(), Lifetime::kept));
     wall_memory_.back()->resize(grains.size());
   }
 }

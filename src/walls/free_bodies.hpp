@@ -160,7 +160,7 @@ class FreeBodies {
   /// [capacity][balls], as one list
   struct Memory : Store {
     Memory() : Store("body_contacts") {}
-    Field<WallMemory> memory{*this, "memory", "-, -, m, N m, m, m/s", Lifetime::kept};
+    Field<WallMemory> memory{*this, "memory", WallMemory::units(), Lifetime::kept};
     Field<Index> count{*this, "count", "-", Lifetime::kept};  ///< of each ball; further entries are unused
   } memory_;
   int capacity_ = 0;

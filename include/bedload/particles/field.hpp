@@ -85,7 +85,7 @@ class Store;
 
 class FieldBase {
  public:
-  FieldBase(Store& store, const char* name, const char* unit, Lifetime lifetime,
+  FieldBase(Store& store, const char* name, const std::string& unit, Lifetime lifetime,
             const std::optional<Output>& output = {});
   virtual ~FieldBase() = default;
   FieldBase(const FieldBase&) = delete;

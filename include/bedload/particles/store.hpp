@@ -81,7 +81,7 @@ class Store {
   Index size_ = 0;
 };
 
-inline FieldBase::FieldBase(Store& store, const char* name, const char* unit, Lifetime lifetime,
+inline FieldBase::FieldBase(Store& store, const char* name, const std::string& unit, Lifetime lifetime,
                             const std::optional<Output>& output)
     : name(name), unit(unit), lifetime(lifetime), output(output) {
   store.fields_.push_back(this);
