@@ -138,26 +138,26 @@ double around(double reach, bool two_d) { return two_d ? 3.14 * reach * reach : 
 }  // namespace
 
 MemoryEstimate estimate_memory(const Config& config, const Device& device) {
-  const ParticleBytes fields = make_simulation(config, {}, device)->field_bytes();
+  const auto empty = make_simulation(config, {}, device);
+  ParticleBytes each = empty->field_bytes();
+  each += empty->scratch_bytes();
   const bool cuda = device.cuda(), coupled = config.couple.mode != CouplingMode::off &&
                                              config.fluid.present && config.grain.present;
-  const double real = config.precision == Precision::fp64 ? 8 : 4, index = 4, vec3d = 24;
-  MemoryEstimate out{double(fields.fluid), double(fields.walls), double(fields.grains)};
+  const double real = config.precision == Precision::fp64 ? 8 : 4, index = sizeof(std::uint32_t);
+  MemoryEstimate out{double(each.fluid), double(each.walls), double(each.grains)};
 
   const double reach = config.fluid.kappa() * config.fluid.h() + config.skin_fluid * config.fluid.dx;
   const double neighbours = config.fluid.present ? around(reach / config.fluid.dx, config.domain.two_d) : 0;
   const double sorting = 4 * real + (cuda ? 34 : 20);
   out.fluid += (cuda ? 2.25 * neighbours + 26 : 4.8 * neighbours) + sorting;
-  out.walls += 128;  // their lists, and forces on them
-  const double contacts = 12, history = 56;
-  const double loads = 60.0 * std::min(config.wall.free_bodies(), 8);  // of each grain on free bodies
-  out.grains += vec3d + 12 * real + 2 * contacts * (index + history) + loads;
+  out.walls += 128;  // their lists
+  constexpr double near_grains = 12;
+  out.grains += 2 * near_grains * double(each.near_grains);  // the lists, and those before
   if (!coupled) return out;
 
   const double skin = 0.5 * (config.skin_fluid * config.fluid.dx + config.skin_grain * config.grain.d_min);
   const double near_grain = around((2 * config.couple.hc + skin) / config.fluid.dx, false);
-  out.fluid += 9 * real;                             // what pair loops read of it
-  out.grains += 78 * real + 2 * index * near_grain;  // sums over the fluid; lists of both phases
+  out.grains += 2 * index * near_grain;  // lists of both phases
   return out;
 }
 

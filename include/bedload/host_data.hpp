@@ -77,6 +77,17 @@ struct FieldView {
   std::shared_ptr<const void> memory;
 };
 
+/// Bytes of one particle of each kind.
+struct ParticleBytes {
+  std::size_t fluid = 0, walls = 0, grains = 0;
+  std::size_t near_grains = 0;  ///< of a pair in the list of near grains, as each of the two has it
+
+  ParticleBytes& operator+=(const ParticleBytes& o) {
+    fluid += o.fluid, walls += o.walls, grains += o.grains, near_grains += o.near_grains;
+    return *this;
+  }
+};
+
 /// A number that reaches the user, with its unit.
 struct Quantity {
   std::string name;

@@ -33,11 +33,6 @@ struct Counts {
   std::int64_t fluid = 0, walls = 0, grains = 0;
 };
 
-/// Bytes of one particle of each kind.
-struct ParticleBytes {
-  std::size_t fluid = 0, walls = 0, grains = 0;
-};
-
 /// Losses through one side of the domain.
 struct Loss {
   std::string phase;           ///< fluid, grains
@@ -74,6 +69,8 @@ class Simulation {
   virtual std::size_t bytes() const = 0;
   /// Memory of the fields, by particle; known before there are particles.
   virtual ParticleBytes field_bytes() const = 0;
+  /// And of what solvers have beside them: for each particle, and each entry in the lists of near grains.
+  virtual ParticleBytes scratch_bytes() const = 0;
   /// Estimated growth of bytes() in fast flow, where neighbour lists reach farther, bytes.
   virtual std::size_t growth() = 0;
   /// Wall time by part over all steps, s: "lists", "fluid", "grains", "coupling", "checks", as far as the
@@ -139,8 +136,8 @@ struct MemoryEstimate {
     return std::size_t(double(n.fluid) * fluid + double(n.walls) * walls + double(n.grains) * grains + rest);
   }
 };
-/// From the fields of its stores, which are made without particles for it, and lists of usual length. Throws
-/// as make_simulation does.
+/// From the fields of its stores and the scratch of its solvers, which are made without particles for it, and
+/// lists of usual length. Throws as make_simulation does.
 MemoryEstimate estimate_memory(const Config& config, const Device& device);
 
 }  // namespace bedload

@@ -194,8 +194,7 @@ void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_
 }
 
 void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt) {
-  wall_free_.resize(grains.size());
-  volume_.resize(grains.size());
+  of_grains_.resize(grains.size());
   const bool asked = beside_walls_.size() > 0;
   for_each(grains.all(), GrainVolumePass{.free = wall_free(pose),
                                          .frame = frame_,
@@ -216,34 +215,9 @@ WallFreeFraction Coupling::wall_free(Span<const BodyPose> pose) const {
 
 void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt,
                       std::uint64_t step) {
-  const Index n = grains.size();
   volumes(grains, pose, 0);
   grains.x_before.copy(grains.x);
-  inv_S_.resize(n);
-  rho_.resize(n);
-  flow_.resize(n);
-  still_.resize(n);
-  stiffness_.resize(n);
-  if (local_slip_) {
-    fast_.resize(n);
-    fast_slip_.resize(n);
-    by_slip_.resize(n);
-  }
-  if (moments()) {
-    stress_arm_.resize(n);
-    stress_inv_M_.resize(n);
-    drag_arm_.resize(n);
-    drag_inv_M_.resize(n);
-    lost_moment_.resize(n);
-  }
-  if (angmom_) {
-    lever_at_centre_.resize(n);
-    lever_off_centre_.resize(n);
-    lever_sum_.resize(n);
-  }
-  bed_eps_.resize(n);
-  push_.resize(fluid.size());
-  solids_.resize(fluid.size());
+  of_fluid_.resize(fluid.size());
   const FluidRecords records{push_, solids_};
   for_each(fluid.all(), RecordPass{.frame = frame_,
                                    .counted = orifice_weight(),
@@ -313,7 +287,6 @@ void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {
   // skip the survey if the last drag number was well below the stability limit, 1
   limits_ = false;
   if (drag_ && dt * drag_->rate * drag_->lever < 0.5) return;
-  rate_.resize(fluid.size());
   with_coupling_kernel([&](auto w) {
     with_flag(local_slip_, [&](auto local) {
       with_flag(angmom_, [&](auto couple) {
@@ -367,11 +340,6 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
     fluid.drag_kick.buffer().zero();
     return;
   }
-  impulse_.resize(grains.size());
-  force_.resize(grains.size());
-  spin_.resize(grains.size());
-  rate_.resize(fluid.size());
-  if (angmom_) couple_.resize(grains.size());
   const LocalSlip slip{.dt = Real(dt),
                        .drag_coefficient = grains.drag_coefficient,
                        .fluid_velocity = grains.fluid_velocity,
@@ -433,8 +401,7 @@ void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPo
 }
 
 void Coupling::push(const FluidStore& fluid, GrainStore& grains, double kick, bool held) {
-  push_.resize(fluid.size());
-  buoyancy_.resize(grains.size());
+  of_fluid_.resize(fluid.size());
   for_each(fluid.all(), PushPass{fluid.solid_factor, fluid.stress_acceleration, fluid.eos_state, push_});
   with_coupling_kernel([&](auto w) {
     fluid_of_grain_.run(BuoyancyPass<decltype(w)>{w, push_, volume_, buoyancy_});

@@ -22,6 +22,7 @@
 #include "bedload/neighbours/pairing.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/grains.hpp"
+#include "bedload/particles/scratch.hpp"
 #include "kernels/coupling/orifice_weight.hpp"
 #include "kernels/coupling/reaction_pass.hpp"
 #include "kernels/coupling/wall_free_fraction.hpp"
@@ -94,6 +95,9 @@ class Coupling {
   void load(const std::function<double(const std::string&)>& scalar);
   /// Waits for the device.
   CouplingCounters counters(const FluidStore& fluid, const GrainStore& grains);
+  ParticleBytes scratch_bytes() const {
+    return {.fluid = of_fluid_.entry_bytes(), .grains = of_grains_.entry_bytes()};
+  }
 
  private:
   /// f(kernel) with the kernel of the coupling.
@@ -144,12 +148,25 @@ class Coupling {
   Buffer<Orifice> orifices_;
 
   Pairing<> fluid_of_grain_, grains_of_fluid_;
-  Buffer<Real> wall_free_, inv_S_, rho_, bed_eps_, fast_slip_, stiffness_, rate_, still_, lever_at_centre_,
-      lever_off_centre_, lever_sum_;
-  Buffer<FlowSums<>> flow_, fast_;
-  Buffer<Real3> stress_arm_, drag_arm_, lost_moment_, buoyancy_;
-  Buffer<SymmetricMatrix<Real>> stress_inv_M_, drag_inv_M_;
-  Buffer<Real4> volume_, push_, solids_, by_slip_, impulse_, force_, spin_, couple_;
+  // what passes of a step leave for others
+  Scratch of_grains_, of_fluid_;
+  ScratchArray<Real> wall_free_{of_grains_}, inv_S_{of_grains_}, rho_{of_grains_}, bed_eps_{of_grains_},
+      stiffness_{of_grains_}, still_{of_grains_};
+  ScratchArray<FlowSums<>> flow_{of_grains_};
+  ScratchArray<Real4> volume_{of_grains_};
+  ScratchArray<Real3> buoyancy_{of_grains_};
+  ScratchArray<Real> fast_slip_{of_grains_, local_slip_};
+  ScratchArray<FlowSums<>> fast_{of_grains_, local_slip_};
+  ScratchArray<Real4> by_slip_{of_grains_, local_slip_};
+  ScratchArray<Real3> stress_arm_{of_grains_, moments()}, drag_arm_{of_grains_, moments()},
+      lost_moment_{of_grains_, moments()};
+  ScratchArray<SymmetricMatrix<Real>> stress_inv_M_{of_grains_, moments()}, drag_inv_M_{of_grains_, moments()};
+  ScratchArray<Real> lever_at_centre_{of_grains_, angmom_}, lever_off_centre_{of_grains_, angmom_},
+      lever_sum_{of_grains_, angmom_};
+  ScratchArray<Real4> impulse_{of_grains_, two_way_}, force_{of_grains_, two_way_},
+      spin_{of_grains_, two_way_}, couple_{of_grains_, two_way_ && angmom_};
+  ScratchArray<Real4> push_{of_fluid_}, solids_{of_fluid_};
+  ScratchArray<Real> rate_{of_fluid_, two_way_};
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -2,6 +2,7 @@
 #include "bedload/case/config/drive.hpp"
 #include "bedload/case/formula.hpp"
 #include "bedload/parallel/loops.hpp"
+#include "bedload/particles/scratch.hpp"
 #include "kernels/fluid/drive.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -20,17 +21,19 @@ class DriveFactor {
   DriveField field(const DriveConfig& drive, const Frame& frame, Span<const Position> x, double t) {
     const int opposed = int(DriveReversal(drive.opposed)) - int(DriveReversal::x);
     if (!varies_) return {frame, formula_({}, t) * drive.f, {}, opposed};
-    at_.resize(x.size);
+    of_each_.resize(x.size);
     const FormulaCode code{steps_.data(), int(steps_.size())};
     for_each({0, x.size}, DriveFactorPass<Position>{frame, code, t, x, at_});
     return {frame, drive.f, at_, opposed};
   }
+  std::size_t scratch_bytes() const { return of_each_.entry_bytes(); }  ///< of one particle
 
  private:
   Formula formula_;
   bool varies_;  ///< from place to place
   Buffer<FormulaStep> steps_;
-  Buffer<Real> at_;  ///< of each particle
+  Scratch of_each_;
+  ScratchArray<Real> at_{of_each_, varies_};
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -162,7 +162,7 @@ void FluidSolver::make_cells() {
 }
 
 Span<const Vec3d> FluidSolver::lattice(const FluidStore& fluid) {
-  lattice_.resize(fluid.size());
+  of_fluid_.resize(fluid.size());
   for_each(fluid.all(), LatticePass{frame_, shear_, fluid.x, lattice_});
   return lattice_;
 }

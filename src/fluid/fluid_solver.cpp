@@ -155,8 +155,7 @@ void FluidSolver::collide(FluidStore& fluid) {
   const ViscosityConfig& c = parameters_.visc;
   if (!c.collision) return;
   const double range = c.collision_range * parameters_.fluid.dx;
-  collisions_.resize(fluid.size());
-  collided_.resize(fluid.size());
+  of_fluid_.resize(fluid.size());
   fluid_fluid_.run_within(range, CollisionCountPass{Real(range * range), fluid.v_rho, collisions_});
   fluid_fluid_.run_within(range, CollisionPass{.range2 = Real(range * range),
                                                .restitution = Real(c.collision_restitution),

@@ -7,6 +7,7 @@
 #include "bedload/neighbours/pairing.hpp"
 #include "bedload/parallel/compact.hpp"
 #include "bedload/particles/fluid.hpp"
+#include "bedload/particles/scratch.hpp"
 #include "bedload/particles/walls.hpp"
 #include "bedload/step_limits.hpp"
 #include "kernels/fluid/drive.hpp"
@@ -234,6 +235,9 @@ class FluidSolver {
   double pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces, Span<const BodyPose> pose) const;
 
   const CellGrid& grid() const { return grid_; }
+  ParticleBytes scratch_bytes() const {
+    return {.fluid = of_fluid_.entry_bytes(), .walls = of_walls_.entry_bytes()};
+  }
 
   /// Its state outside the store.
   void save(std::vector<Quantity>& scalars) const;
@@ -371,9 +375,10 @@ class FluidSolver {
   MeanShear shear_;
   double listed_strain_ = 0;  ///< where the lists were built
   Edges edges_;
-  Buffer<Vec3d> lattice_;
-  Buffer<Real> collisions_;  ///< of each particle
-  Buffer<Real4> collided_;
+  Scratch of_fluid_, of_walls_;  ///< what passes leave for others within a call
+  ScratchArray<Vec3d> lattice_{of_fluid_, shear_.acts()};
+  ScratchArray<Real> collisions_{of_fluid_, parameters_.visc.collision};  ///< number of each particle
+  ScratchArray<Real4> collided_{of_fluid_, parameters_.visc.collision};
   double half_skin_ = 0, wall_skin_ = 0;  ///< the largest of fluid, that of walls, m
   double horizon_ = 0;                    ///< time for which fast particles get a skin, s
   CellGrid grid_, wall_grid_;

@@ -75,7 +75,7 @@ class SdpdSolver final : public FluidSolver {
               double dt) override {
     if (parameters_.eos.filter) filter_pressure(fluid);
     for_each(fluid.all(), PredictSpin{Real(dt), omega(), turning(), fluid.id, label_});
-    wall_label_.resize(walls.size());
+    of_walls_.resize(walls.size());
     for_each(walls.all(), LabelWalls{Model::spins, walls.id, walls.body, pose, wall_label_});
     const bool noisy = parameters_.sdpd.kT > 0 && dt > 0;
     if (!parameters_.viscosity_varies())
@@ -113,7 +113,7 @@ class SdpdSolver final : public FluidSolver {
     const DensityConfig& d = parameters_.density;
     if (d.method == DensityMethod::summation) {
       d.count_grains&& parameters_.mixed ? sum_up<true>(fluid, walls) : sum_up<false>(fluid, walls);
-      if (parameters_.frozen) sum_up_frozen(fluid, walls, pose);
+      if (sums_up_frozen()) sum_up_frozen(fluid, walls, pose);
       return;
     }
     continuity(fluid, walls, pose, dt);
@@ -148,8 +148,11 @@ class SdpdSolver final : public FluidSolver {
                                              .grains = fluid.grains_around,
                                              .compression = fluid.compression_next});
   }
+  bool sums_up_frozen() const {
+    return parameters_.frozen && parameters_.density.method == DensityMethod::summation;
+  }
   void sum_up_frozen(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose) {
-    wall_volume_.resize(walls.size());
+    of_walls_.resize(walls.size());
     for_each(walls.all(), WallVolume{walls.body, pose, wall_volume_});
     wall_wall_.run_with(wall_fluid_, FrozenSummationPass<W>{.w = w_,
                                                             .rho0 = Real(parameters_.fluid.rho0),
@@ -241,8 +244,7 @@ class SdpdSolver final : public FluidSolver {
     fluid.compression.buffer().swap(fluid.compression_next.buffer());
   }
   void filter_pressure(FluidStore& fluid) {
-    pressure_.resize(fluid.size());
-    filtered_.resize(fluid.size());
+    of_fluid_.resize(fluid.size());
     for_each(fluid.all(), PressureOf{fluid.eos_state, pressure_});
     average(fluid, fluid.compression, pressure_, filtered_);
     for_each(fluid.owned(), SetPressure{filtered_, fluid.eos_state, fluid.p_rho2});
@@ -253,8 +255,10 @@ class SdpdSolver final : public FluidSolver {
   FrictionCoefficients friction_;
   Field<Real4> label_;  ///< spin at the end of the step as predicted; id as pair loops carry it
   std::unique_ptr<Spin> spin_;
-  Buffer<Real4> wall_label_;
-  Buffer<Real> wall_volume_, pressure_, filtered_;
+  ScratchArray<Real4> wall_label_{of_walls_};
+  ScratchArray<Real> wall_volume_{of_walls_, sums_up_frozen()};
+  ScratchArray<Real> pressure_{of_fluid_, parameters_.eos.filter},
+      filtered_{of_fluid_, parameters_.eos.filter};
 };
 
 template <class Model>

@@ -170,7 +170,7 @@ class WcsphSolver final : public FluidSolver {
   /// What the pressure of walls does by places and velocities as they are, for density_pass().
   void find_wall_work(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose) {
     if (!parameters_.energy_consistent) return;
-    wall_work_.resize(walls.size());
+    of_walls_.resize(walls.size());
     const WallWorkPass<W, Lengths> pass{.w = w_,
                                         .least_sum = least_sum(),
                                         .flux = flux(fluid),
@@ -343,7 +343,7 @@ class WcsphSolver final : public FluidSolver {
   W w_;
   CutFraction cut_;
   Buffer<FluidPowers> powers_;
-  Buffer<Real> wall_work_;  ///< of WallWorkPass, one a wall particle
+  ScratchArray<Real> wall_work_{of_walls_, parameters_.energy_consistent};  ///< of WallWorkPass
 };
 
 }  // namespace

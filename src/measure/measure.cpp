@@ -187,7 +187,7 @@ void CoupledSimulation::report_powers(const Drive& drive, double corrections, st
   const auto powers = solver.powers(fluid, state_.walls, state_.poses_now(), stepper_.moment(), dt);
   SumReduction<8, PowersBody>::Value p;
   for (int k = 0; k < 8; ++k)  // not computed; SDPD has none of the limits
-    p.v[k] = k >= 5 && config_.fluid.sdpd() ? 0 : std::nan("");
+    p.v[k] = k >= 5 && !config_.fluid.model->smoothed ? 0 : std::nan("");
   if (powers) p = sum_over<8>(fluid.owned(), PowersBody{powers});
   double moving = 0;  // power of the pairs of moving walls on the fluid
   for (std::uint32_t b = 0; b < std::uint32_t(state_.motion.bodies()) && state_.walls.size() > 0; ++b) {

@@ -157,7 +157,7 @@ ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses,
                                      const ContactLoads& loads) {
   ContactPass pass = contact_pass(g, dt);
   if (lubricates()) {
-    by_films_.reserve_and_resize(g.size());
+    of_grains_.resize(g.size());
     for_each(threads(), films(g, by_films_.data()));
     pass.by_films = by_films_.data();
   }
@@ -213,8 +213,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     for (int s = 1; s <= substeps; ++s) record_loads(s, g, last, 0);
     return;
   }
-  const Index n = g.size();
-  next_x_.resize(n), next_v_.resize(n), next_omega_.resize(n), v_rest_.resize(n), omega_rest_.resize(n);
+  of_grains_.resize(g.size());
   GrainKick kick{.gravity = gravity.empty() ? parameters_.gravity : gravity[0],
                  .mass_per_r3 = matter_.of(g),
                  .h = 0.5 * tau,

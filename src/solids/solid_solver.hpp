@@ -6,6 +6,7 @@
 
 #include "bedload/neighbours/verlet_list.hpp"
 #include "bedload/particles/grains.hpp"
+#include "bedload/particles/scratch.hpp"
 #include "bedload/particles/walls.hpp"
 #include "bedload/simulation.hpp"
 #include "kernels/contact/lubrication_pass.hpp"
@@ -94,6 +95,10 @@ class SolidSolver {
   void advance(GrainStore& grains, Span<const BodyPose> poses, int bodies, double dt, int substeps, bool held,
                const std::vector<Vec3d>& gravity = {}, double wall_travel = WallList::kAnywhere,
                Span<const Real3> drive = {});
+
+  ParticleBytes scratch_bytes() const {
+    return {.grains = of_grains_.entry_bytes(), .near_grains = sizeof(Index) + histories_.entry_bytes()};
+  }
 
   /// Histories of wall contacts.
   std::vector<const FieldBase*> fields_of_contacts() const;
@@ -196,11 +201,12 @@ class SolidSolver {
   WallList wall_list_;
   SubstepLoads substep_loads_;
   Buffer<ContactSum> by_walls_;  ///< [rows of wall_list_]
-  Buffer<ContactSum> by_films_;  ///< [grains]
   Buffer<Index> order_;
-  // scratch of advance
-  Buffer<Vec3d> next_x_;
-  Buffer<Real3> next_v_, next_omega_, v_rest_, omega_rest_;
+  Scratch of_grains_;
+  ScratchArray<ContactSum> by_films_{of_grains_, lubricates()};
+  ScratchArray<Vec3d> next_x_{of_grains_};  ///< of advance, as what follows
+  ScratchArray<Real3> next_v_{of_grains_}, next_omega_{of_grains_}, v_rest_{of_grains_},
+      omega_rest_{of_grains_};
 };
 
 }  // namespace bedload::inline BL_VARIANT

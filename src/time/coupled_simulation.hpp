@@ -34,6 +34,7 @@ class CoupledSimulation final : public Simulation {
   std::vector<Quantity> numerical_viscosity() const override;
   std::size_t bytes() const override { return bytes_held(); }
   ParticleBytes field_bytes() const override;
+  ParticleBytes scratch_bytes() const override { return stepper_.scratch_bytes(); }
   std::size_t growth() override { return state_.has_fluid ? stepper_.fluid().growth() : 0; }
   std::vector<Quantity> time_spent() const override { return stepper_.time_spent(); }
 

@@ -337,6 +337,7 @@ void Stepper::load_bodies(Step& now) {
                   .reads = {},
                   .writes = all_of(bodies_.stores())};
   });
+  of_walls_.resize(walls_.size());
   if (walls_.size() > 0)
     fluid_solver_->wall_forces(fluid_, walls_, now.poses, moment_, 0, now.dt, wall_force_);
   const bool corrected = fluid_solver_->fits() && walls_.size() > 0;

@@ -69,6 +69,17 @@ Stepper::Stepper(const Config& config, State& state)
   if (!fluid_.xp_mid.used() || !motion_.moves()) walls_.xp_mid.leave_out();
 }
 
+ParticleBytes Stepper::scratch_bytes() const {
+  ParticleBytes all{.walls = of_walls_.entry_bytes(),
+                    .grains = of_grains_.entry_bytes() + bodies_.record_bytes()};
+  if (config_.drive.on_fluid()) all.fluid += fluid_factor_.scratch_bytes();
+  if (config_.drive.on_grains()) all.grains += grain_factor_.scratch_bytes();
+  if (has_fluid()) all += fluid_solver_->scratch_bytes();
+  if (has_grains()) all += solid_solver_->scratch_bytes();
+  if (coupled()) all += coupling_->scratch_bytes();
+  return all;
+}
+
 StepInfo Stepper::step(const Observer& observer) {
   Step now = next_step();
   now.observer = &observer;
@@ -193,7 +204,7 @@ StepTime Stepper::moment(double t, std::int64_t step) {
 
 Span<const Real3> Stepper::drive_grains() {
   if (!config_.drive.on_grains()) return {};
-  grain_drive_.resize(grains_.size());
+  of_grains_.resize(grains_.size());
   for_each(
       grains_.owned(),
       GrainDrivePass{grain_factor_.field<Vec3d>(config_.drive, frame_, grains_.x, clock_.time),

@@ -43,6 +43,7 @@ class Stepper {
   const StepTime& moment() const { return moment_; }  ///< of the fluid's forces at the end of the last step
   double corrected() const { return corrected_; }     ///< s, with what of it velocities were corrected since
   std::int64_t rebuilds() const { return rebuilds_; }
+  ParticleBytes scratch_bytes() const;  ///< as Simulation has it
   /// Of all bodies in the last step, at its start and after each substep; without grains and free bodies
   /// empty.
   Span<const BodyPose> substep_poses() const { return substep_poses_; }
@@ -61,6 +62,7 @@ class Stepper {
   bool has_grains() const { return state_.has_grains; }
   bool coupled() const { return state_.coupled; }
   bool two_way() const { return state_.two_way; }
+  bool loads_bodies() const { return has_fluid() && bodies_.any(); }
   bool held() const { return config_.grain.fixed || clock_.time < config_.grain.release_time; }
 
   template <class MakeAccess>
@@ -125,7 +127,8 @@ class Stepper {
   const EffectiveGravity& gravity_;
 
   DriveFactor fluid_factor_, grain_factor_;  ///< what each refers to must last
-  Buffer<Real3> grain_drive_;                ///< N
+  Scratch of_walls_, of_grains_;
+  ScratchArray<Real3> grain_drive_{of_grains_, config_.drive.on_grains()};  ///< N
   CellGrid grain_grid_;
   std::unique_ptr<FluidSolver> fluid_solver_;
   std::unique_ptr<SolidSolver> solid_solver_;
@@ -140,7 +143,7 @@ class Stepper {
   double walls_moved_ = 0;  ///< bound on wall travel since the lists were built, m
   bool rebuilt_ = false;
   std::int64_t rebuilds_ = 0;
-  Buffer<Vec3d> wall_force_;  ///< by which free bodies move
+  ScratchArray<Vec3d> wall_force_{of_walls_, loads_bodies()};  ///< by which free bodies move
 };
 
 }  // namespace bedload::inline BL_VARIANT

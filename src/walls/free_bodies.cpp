@@ -254,7 +254,7 @@ void FreeBodies::evaluate(Span<const BodyPose> poses) {
 }
 
 ContactLoads FreeBodies::record(Index grains) {
-  const int capacity = std::min(size(), kMostWallContacts);
+  const int capacity = met_by_grain();
   grain_slots_.resize(std::size_t(grains) * capacity);
   grain_counts_.resize(grains);
   grain_counts_.zero();  // grains far from walls write nothing

@@ -74,6 +74,10 @@ class FreeBodies {
 
   /// Buffer in which `grains` grains record their loads on bodies, until the next evaluation.
   ContactLoads record(Index grains);
+  /// What that takes, bytes of one grain.
+  std::size_t record_bytes() const {
+    return any() ? sizeof(Index) + std::size_t(met_by_grain()) * sizeof(ContactLoad) : 0;
+  }
 
   PressureCorrection& pressure_correction() { return pressure_correction_; }
   /// Sums the fluid force on the wall particles [walls] and the repulsion at the end of a step, and kicks the
@@ -137,6 +141,7 @@ class FreeBodies {
 
  private:
   const RigidBody& rigid(int place) const { return parameters_.bodies[place].rigid; }
+  int met_by_grain() const { return std::min(size(), kMostWallContacts); }  ///< at once
   void point_at_memory();
   BodyFields fields() const;
   BallPass ball_pass(Span<const BodyPose> poses, double dt);

@@ -43,6 +43,7 @@ class FakeSimulation : public Simulation {
   std::vector<StepLimit> substep_limits() const override { return {}; }
   std::size_t bytes() const override { return 12345; }
   ParticleBytes field_bytes() const override { return {}; }
+  ParticleBytes scratch_bytes() const override { return {}; }
   std::size_t growth() override { return 0; }
   std::vector<Quantity> numerical_viscosity() const override { return {{"artificial_bulk", "-", 12.5}}; }
   std::vector<Quantity> time_spent() const override { return {{"fluid", "s", 0.25 * double(steps_)}}; }

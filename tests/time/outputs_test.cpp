@@ -155,5 +155,32 @@ TEST(FieldBytes, AreThoseOfTheParticlesThatCome) {
   }
 }
 
+/// Known before there are particles, and by the case.
+TEST(ScratchBytes, AreThoseOfTheCase) {
+  const auto known = [](const std::string& text, const std::vector<std::string>& overrides) {
+    const test::StageCase c{"scratch", text, overrides};
+    CoupledSimulation empty(c.config(), {});
+    const ParticleBytes bytes = empty.scratch_bytes();
+    Started s(c);
+    const ParticleBytes later = s.simulation.scratch_bytes();
+    EXPECT_EQ(later.fluid, bytes.fluid);
+    EXPECT_EQ(later.walls, bytes.walls);
+    EXPECT_EQ(later.grains, bytes.grains);
+    EXPECT_EQ(later.near_grains, bytes.near_grains);
+    return bytes;
+  };
+  const ParticleBytes water = known(kTank + kFluid, {}), bed = known(kBed, {}),
+                      one_way = known(kBed, {"couple.mode=one_way"}),
+                      free_rolling = known(kBed, {"contact.rolling=none"}),
+                      collisions = known(kTank + kFluid, {"visc.collision=true"});
+  EXPECT_EQ(water.grains, 0u);
+  EXPECT_EQ(water.near_grains, 0u);
+  EXPECT_EQ(collisions.fluid - water.fluid, sizeof(Real) + sizeof(Real4));
+  EXPECT_EQ(bed.fluid - one_way.fluid, sizeof(Real));
+  EXPECT_EQ(bed.grains - one_way.grains, 4 * sizeof(Real4));
+  EXPECT_EQ(bed.near_grains - free_rolling.near_grains, sizeof(Vec3d));
+  EXPECT_EQ(free_rolling.near_grains, sizeof(Index) + 1 + 2 * sizeof(Real) + sizeof(Vec3d));
+}
+
 }  // namespace
 }  // namespace bedload::inline BL_VARIANT
