@@ -7,7 +7,7 @@
 #if defined(__CUDACC__)
 #define BL_HD __host__ __device__ __forceinline__
 #else
-#define BL_HD inline
+#define BL_HD inline __attribute__((always_inline))
 #endif
 
 namespace bedload {

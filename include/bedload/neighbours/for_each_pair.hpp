@@ -14,8 +14,6 @@
 // of nothing but N, `pair` must add nothing at and beyond the cut-off, nor for what has no weight: all listed
 // pairs are taken, on the CPU in packs.
 
-#include <cstring>
-#include <iterator>
 #include <utility>
 
 #include "bedload/neighbours/verlet_list.hpp"
@@ -141,33 +139,38 @@ constexpr bool kInPacks = false;
 template <class Pass>
 constexpr bool kInPacks = kFades<Pass>;
 
-/// Partial sums of one row, one for each lane of a pack.
+/// Partial sums of one row, one for each lane of a pack. Fields are taken one by one, so that they can stay
+/// in registers.
 template <class Pass>
-struct LaneSums {
+class LaneSums {
+ public:
   using One = typename Pass::template Sum<Real>;
   using All = typename Pass::template Sum<Pack>;
   static_assert(sizeof(All) == kLanes * sizeof(One), "the sums of a pass in packs hold nothing but N");
 
-  static All spread(const One& sum) {
-    Real field[sizeof(One) / sizeof(Real)];
-    Pack fields[sizeof(One) / sizeof(Real)];
-    std::memcpy(field, &sum, sizeof(One));
-    for (std::size_t k = 0; k < std::size(field); ++k) fields[k] = Pack(field[k]);
+  [[gnu::always_inline]] static All spread(const One& sum) { return spread(sum, Fields()); }
+  [[gnu::always_inline]] static One total(const Pass& pass, const All& all) {
+    One sum = lane(all, 0, Fields());
+    for (int l = 1; l < kLanes; ++l) pass.merge(sum, lane(all, l, Fields()));
+    return sum;
+  }
+
+ private:
+  using Fields = std::make_index_sequence<sizeof(One) / sizeof(Real)>;
+  using Field [[gnu::may_alias]] = Real;
+  using PackedField [[gnu::may_alias]] = Pack::Native;
+
+  template <std::size_t... k>
+  [[gnu::always_inline]] static All spread(const One& sum, std::index_sequence<k...>) {
     All all;
-    std::memcpy(&all, fields, sizeof(All));
+    ((reinterpret_cast<PackedField*>(&all)[k] = Pack(reinterpret_cast<const Field*>(&sum)[k]).v), ...);
     return all;
   }
-  static One total(const Pass& pass, const All& all) {
-    Real fields[sizeof(One) / sizeof(Real)][kLanes];
-    std::memcpy(fields, &all, sizeof(All));
-    One sum[kLanes];
-    for (int l = 0; l < kLanes; ++l) {
-      Real field[std::size(fields)];
-      for (std::size_t k = 0; k < std::size(fields); ++k) field[k] = fields[k][l];
-      std::memcpy(&sum[l], field, sizeof(One));
-    }
-    for (int l = 1; l < kLanes; ++l) pass.merge(sum[0], sum[l]);
-    return sum[0];
+  template <std::size_t... k>
+  [[gnu::always_inline]] static One lane(const All& all, int l, std::index_sequence<k...>) {
+    One sum;
+    ((reinterpret_cast<Field*>(&sum)[k] = reinterpret_cast<const PackedField*>(&all)[k][l]), ...);
+    return sum;
   }
 };
 #endif
