@@ -14,8 +14,20 @@ template <class N>
 BL_HD N select(bool yes, N a, N b) {
   return yes ? a : b;
 }
+/// The square root, to 2 ulp; in double on a GPU 0 below 1e-146.
 template <class N>
 BL_HD N root(N x) {
+#if defined(__CUDA_ARCH__)
+  if constexpr (std::is_same_v<N, double>) {  // without the branches for what is tiny or vast
+    double y;
+    asm("rsqrt.approx.ftz.f64 %0, %1;" : "=d"(y) : "d"(x));  // to 2^-20; each turn doubles the digits
+    y = fma(0.5 * y, fma(-x * y, y, 1.0), y);
+    y = fma(0.5 * y, fma(-x * y, y, 1.0), y);
+    const double guess = x * y;
+    const double found = fma(0.5 * y, fma(-guess, guess, x), guess);
+    return fabs(x) < 1e-292 ? 0 : found;
+  }
+#endif
   using std::sqrt;
   return sqrt(x);
 }
@@ -24,6 +36,14 @@ template <class N>
 BL_HD N quotient(N a, N b) {
 #if defined(__CUDA_ARCH__)
   if constexpr (std::is_same_v<N, float>) return __fdividef(a, b);
+  if constexpr (std::is_same_v<N, double>) {
+    double y;
+    asm("rcp.approx.ftz.f64 %0, %1;" : "=d"(y) : "d"(b));  // to 2^-20
+    y = fma(y, fma(-b, y, 1.0), y);
+    y = fma(y, fma(-b, y, 1.0), y);
+    const double guess = a * y;
+    return fma(y, fma(-b, guess, a), guess);
+  }
 #endif
   return a / b;
 }
