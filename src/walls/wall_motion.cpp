@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 #include "bedload/core/error.hpp"
@@ -67,14 +68,23 @@ bool WallMotion::moves() const {
   return false;
 }
 
-Span<BodyPose> WallMotion::rows(double t, double dt, int n, Buffer<BodyPose>& device) {
-  host_.clear();
+Span<BodyPose> WallMotion::rows(double t, double dt, int n, Rows& out) {
+  std::vector<BodyPose>& rows = next_;
+  rows.clear();
   for (int k = 0; k <= n; ++k)
-    for (int b = 0; b < bodies(); ++b) host_.push_back(pose(b, t + dt * k / n));
-  if (device.size() < host_.size()) device.resize(host_.size() * 2);
-  copy_to_device(device.data(), host_.data(), host_.size() * sizeof(BodyPose));
-  if (free_.any()) free_.write({device.data(), Index(host_.size())}, bodies(), n + 1, t);
-  return {device.data(), Index(host_.size())};
+    for (int b = 0; b < bodies(); ++b) rows.push_back(pose(b, t + dt * k / n));
+  const std::size_t bytes = rows.size() * sizeof(BodyPose);
+  if (out.device.size() < rows.size()) out.device.resize(rows.size() * 2);
+  const Span<BodyPose> device{out.device.data(), Index(rows.size())};
+  // walls at rest are where they were, and a copy would wait for the device
+  const bool there = !free_.any() && rows.size() <= out.host.size() &&
+                     std::memcmp(static_cast<const void*>(rows.data()), out.host.data(), bytes) == 0;
+  if (!there) {
+    copy_to_device(device.data, rows.data(), bytes);
+    out.host.swap(rows);
+  }
+  if (free_.any()) free_.write(device, bodies(), n + 1, t);
+  return device;
 }
 
 Span<BodyPose> WallMotion::poses(double t, double dt, int n) { return rows(t, dt, n, along_); }

@@ -50,15 +50,20 @@ class WallMotion {
   double lowest(int body, double t, const Vec3d& up) const;
 
  private:
-  Span<BodyPose> rows(double t, double dt, int n, Buffer<BodyPose>& device);
+  /// Rows of poses, and what the device holds of them.
+  struct Rows {
+    std::vector<BodyPose> host;
+    Buffer<BodyPose> device;
+  };
+  Span<BodyPose> rows(double t, double dt, int n, Rows& out);
 
   std::vector<MovingWall> walls_;
   std::vector<InletFlow> inlets_;
   BodyPose coming_in_;  ///< of fluid on its way in, all but how it moves
   const FreeBodies& free_;
   std::vector<bool> removed_;
-  std::vector<BodyPose> host_;
-  Buffer<BodyPose> along_, at_, in_step_;
+  std::vector<BodyPose> next_;
+  Rows along_, at_, in_step_;
 };
 
 }  // namespace bedload::inline BL_VARIANT
