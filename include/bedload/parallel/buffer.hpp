@@ -1,7 +1,9 @@
 #pragma once
 // Memory where the solver computes: on the GPU in a CUDA build, else on the host.
 
+#include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -82,7 +84,11 @@ inline void fill_zero(void* p, std::size_t bytes) {
 #if BL_CUDA
   check_cuda(cudaMemsetAsync(p, 0, bytes, Context::current().stream()), "clearing GPU memory");
 #else
-  std::memset(p, 0, bytes);
+  // by all threads: the first to write to a page decides where it lies
+  constexpr std::size_t page = std::size_t(1) << 20;
+  auto* const first = static_cast<std::byte*>(p);
+#pragma omp parallel for schedule(static) if (bytes > 8 * page)
+  for (std::size_t at = 0; at < bytes; at += page) std::memset(first + at, 0, std::min(page, bytes - at));
 #endif
 }
 

@@ -4,6 +4,9 @@
 
 #include "bedload/parallel/buffer.hpp"
 #include "bedload/parallel/launch.hpp"
+#if !BL_CUDA
+#include <omp.h>
+#endif
 
 namespace bedload::inline BL_VARIANT {
 
@@ -54,7 +57,8 @@ void for_each(Range range, const F& f) {
   const Index block = block_size(range);
   launch(for_each_kernel<false, F>, (range.size() + block - 1) / block, block, 0, range.begin, range.end, f);
 #else
-#pragma omp parallel for schedule(dynamic, 128) if (range.size() > 128)
+  const Index share = max_of(Index(128), range.size() / Index(64 * omp_get_max_threads()));
+#pragma omp parallel for schedule(dynamic, share) if (range.size() > 128)
   for (Index i = range.begin; i < range.end; ++i) f(i);
 #endif
 }
