@@ -1,13 +1,16 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/output/files.hpp"
+#include "bedload/output/output.hpp"
 #include "benchmarks.hpp"
 #include "commands.hpp"
 #include "prepare.hpp"
@@ -91,7 +94,31 @@ std::vector<Job> jobs_of(const Options& o) {
   return jobs;
 }
 
-Repeat time_steps(Simulation& simulation, int steps) {
+/// Frames and a row of diagnostics, in a folder that is removed in the end.
+class Frames {
+ public:
+  Frames(Config config, const Device& device)
+      : folder_(fs::temp_directory_path() / fmt::format("bedload_bench_{}", getpid())),
+        output_(std::make_unique<RunOutput>(folder_, each_time(std::move(config)), device, version())) {}
+  ~Frames() {
+    output_.reset();
+    std::error_code none;
+    fs::remove_all(folder_, none);
+  }
+  void write(Simulation& simulation, const StepInfo& info) { output_->write(simulation, info); }
+
+ private:
+  static Config each_time(Config config) {
+    config.out.every = config.out.diagnostics_every = 1e-12;
+    config.out.checkpoint_every = 0;
+    return config;
+  }
+  fs::path folder_;
+  std::unique_ptr<RunOutput> output_;
+};
+
+/// frames: null, or written to every so many steps.
+Repeat time_steps(Simulation& simulation, int steps, Frames* frames = nullptr, int every = 1) {
   Repeat repeat;
   const std::vector<Quantity> before = simulation.time_spent();
   const auto from = std::chrono::steady_clock::now();
@@ -99,6 +126,7 @@ Repeat time_steps(Simulation& simulation, int steps) {
     const StepInfo info = simulation.step();
     repeat.substeps += info.substeps;
     repeat.rebuilds += info.rebuilt;
+    if (frames && (k + 1) % every == 0) frames->write(simulation, info);
   }
   repeat.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
   repeat.stages = simulation.time_spent();
@@ -113,11 +141,15 @@ Cell optional_cell(bool applies, const std::string& head, const std::string& for
                  : Cell{head, "-", key, nullptr};
 }
 
-/// Values of the median repeat; spread and rebuilds over all.
-Result result_of(const Job& job, const Simulation& simulation, int steps, std::vector<Repeat> repeats) {
+const Repeat& median_of(std::vector<Repeat>& repeats) {
   std::sort(repeats.begin(), repeats.end(),
             [](const Repeat& a, const Repeat& b) { return a.seconds < b.seconds; });
-  const Repeat& median = repeats[repeats.size() / 2];
+  return repeats[repeats.size() / 2];
+}
+
+/// Values of the median repeat; spread and rebuilds over all.
+Result result_of(const Job& job, const Simulation& simulation, int steps, std::vector<Repeat> repeats) {
+  const Repeat& median = median_of(repeats);
   std::int64_t rebuilds = 0;
   for (const Repeat& repeat : repeats) rebuilds += repeat.rebuilds;
   const std::int64_t all = std::int64_t(steps) * std::int64_t(repeats.size());
@@ -175,7 +207,17 @@ Result measure(Job& job, const Options& o) {
   time_steps(*simulation, o.bench.warm_up);
   std::vector<Repeat> repeats;
   for (int k = 0; k < o.bench.repeats; ++k) repeats.push_back(time_steps(*simulation, o.bench.steps));
-  return result_of(job, *simulation, o.bench.steps, std::move(repeats));
+  Result result = result_of(job, *simulation, o.bench.steps, std::move(repeats));
+  if (o.bench.frame_every > 0) {
+    std::vector<Repeat> with;
+    Frames frames(p.config, p.device);
+    for (int k = 0; k < o.bench.repeats; ++k)
+      with.push_back(time_steps(*simulation, o.bench.steps, &frames, o.bench.frame_every));
+    const double ms = 1e3 * median_of(with).seconds / o.bench.steps, part = 100 * (1 - result.ms / ms);
+    result.cells.push_back({"ms/step with frames", fmt::format("{:.3f}", ms), "step_with_frames_ms", ms});
+    result.cells.push_back({"frames", fmt::format("{:.1f} %", part), "frames_percent", part});
+  }
+  return result;
 }
 
 Table numbers_table(const std::vector<Result>& results) {
@@ -233,9 +275,16 @@ Json json_of(const Options& o, const Device& device, const std::vector<Result>& 
     row["stages_ms"] = stages;
     rows.push_back(row);
   }
-  return {{"version", version()},        {"commit", commit()},       {"backend", device.backend},
-          {"device", device.name},       {"from_s", o.bench.at},     {"warm_steps", o.bench.warm_up},
-          {"span_steps", o.bench.steps}, {"spans", o.bench.repeats}, {"rows", rows}};
+  return {{"version", version()},
+          {"commit", commit()},
+          {"backend", device.backend},
+          {"device", device.name},
+          {"from_s", o.bench.at},
+          {"warm_steps", o.bench.warm_up},
+          {"span_steps", o.bench.steps},
+          {"spans", o.bench.repeats},
+          {"frame_every", o.bench.frame_every},
+          {"rows", rows}};
 }
 
 }  // namespace

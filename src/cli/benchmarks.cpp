@@ -80,8 +80,13 @@ std::string case_text(const Beads& b) {
                      arg("count", b.count), arg("wall", b.wall), arg("rim", wet ? top : bed));
 }
 
-Benchmark spheres(const std::string& name, int count, double side) {
-  return {name, case_text({.count = count, .side = side, .wall = "type = \"grains_only\"\n"}), {}};
+Benchmark spheres(const std::string& name, int count, double side, bool settle) {
+  return {name,
+          case_text({.count = count,
+                     .side = side,
+                     .grain = settle ? "settle = true\nsettle_time = 0.35\n" : "",
+                     .wall = "type = \"grains_only\"\n"}),
+          {}};
 }
 
 Benchmark coupled(const std::string& name, double side, double depth, int count, bool settle) {
@@ -108,8 +113,10 @@ std::vector<Benchmark> benchmarks() {
           widened_dam_break("5M", 8.1),
           widened_dam_break("8M", 12.8),
           widened_dam_break("14M", 22.6),
-          spheres("spheres-8.8k", 8800, 0.08),
-          spheres("spheres-1M", 1000000, 0.3),
+          spheres("spheres-8.8k", 8800, 0.08, false),
+          spheres("spheres-1M", 1000000, 0.3, false),
+          spheres("settled-8.8k", 8800, 0.08, true),
+          spheres("settled-1M", 1000000, 0.3, true),
           coupled("coupled", 0.12, 0.189, 10000, true),
           coupled("coupled-10M", 0.6, 0.75, 2000000, false)};
 }

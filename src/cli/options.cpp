@@ -90,6 +90,12 @@ void add_bench_options(CLI::App& app, Options& o) {
   app.add_flag(
       "--default-settings", b.default_settings,
       "Also run benchmarks with fluid at the default h, density diffusion, void relaxation and shifting");
+  app.add_option(
+         "--frames", b.frame_every,
+         "Then time as many steps again with a frame every this many steps, into the folder for temporary "
+         "files (TMPDIR), which is removed")
+      ->check(CLI::Range(1, 1000000000))
+      ->type_name("STEPS");
   app.add_option("--json", b.json, "Also write the numbers to a JSON file")->type_name("FILE")->check(kNamed);
 }
 

@@ -16,6 +16,7 @@ struct BenchOptions {
   double at = 0;                        ///< simulated time at which timing starts, s
   int warm_up = 20, steps = 200, repeats = 3;
   bool default_settings = false;
+  int frame_every = 0;  ///< steps; 0: no frames
   std::filesystem::path json;
 };
 

@@ -53,6 +53,28 @@ TEST_F(Bench, TimesTheStepsOfACaseByStage) {
   EXPECT_LE(stages, ms);
 }
 
+TEST_F(Bench, TimesFramesAndRemovesThem) {
+  write("dam.toml", kSmall);
+  const auto folders = [] {
+    std::ptrdiff_t n = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::temp_directory_path()))
+      n += entry.path().filename().string().starts_with("bedload_bench_");
+    return n;
+  };
+  const std::ptrdiff_t before = folders();
+  const Outcome o = bedload(
+      "bench dam.toml --backend cpu --precision mixed --warm 1 --steps 4 --spans 1 --frames 2 --json "
+      "speed.json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(folders(), before);
+  const auto json = nlohmann::json::parse(content_of(dir_ / "speed.json"));
+  EXPECT_EQ(json.at("frame_every"), 2);
+  const auto& row = json.at("rows").at(0);
+  const double ms = row.at("step_ms"), with = row.at("step_with_frames_ms");
+  EXPECT_GT(with, 0);
+  EXPECT_NEAR(row.at("frames_percent"), 100 * (1 - ms / with), 1e-9 * (100 + 100 * ms / with));
+}
+
 TEST_F(Bench, RefusesWhatItDoesNotKnowWithOneSentence) {
   write("dam.toml", kSmall);
   const auto refused = [&](const std::string& arguments, const std::string& place, const std::string& why) {
@@ -64,7 +86,7 @@ TEST_F(Bench, RefusesWhatItDoesNotKnowWithOneSentence) {
     EXPECT_EQ(o.out, "") << arguments;
   };
   refused("dam.toml 2M", "command line", "unknown benchmark 2M");
-  refused("dam.toml 2M", "command line", "spheres-1M, coupled, coupled-10M, or a case file");
+  refused("dam.toml 2M", "command line", "settled-1M, coupled, coupled-10M, or a case file");
   refused("no.toml", "no.toml", "no such file");
   refused("dam.toml --set grain.e=1.4", "--set grain.e=1.4", "must be within 0.05..1");
   refused("0.1M --set fluid.d=1", "--set fluid.d=1", "did you mean grain.d?");
