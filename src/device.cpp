@@ -16,7 +16,8 @@
 #include <cuda_runtime_api.h>
 #endif
 
-// One factory per variant; CMake lists those of this build: BL_USE(single, cpu) BL_USE(single, cuda) and so on.
+// One factory per variant; CMake lists those of this build: BL_USE(single, cpu) BL_USE(single, cuda) and so
+// on.
 #define BL_USE(which, where)                                                            \
   namespace bedload::which##_##where {                                                  \
     std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup); \
@@ -102,6 +103,17 @@ Device find_device(const std::string& backend, int threads, Simd simd) {
 
 std::unique_ptr<Simulation> make_simulation(const Config& config, [[maybe_unused]] const Setup& setup,
                                             [[maybe_unused]] const Device& device) {
+#if BL_HAS_CUDA
+  if (device.cuda())
+    HostMemory::use(
+        [](std::size_t bytes) {
+          void* block = nullptr;
+          if (cudaMallocHost(&block, bytes) == cudaSuccess) return block;
+          (void)cudaGetLastError();
+          return static_cast<void*>(nullptr);
+        },
+        [](void* block) { cudaFreeHost(block); });
+#endif
   const std::string precision = config.precision.name();
 #define BL_USE(which, where)                                                          \
   if (precision == #which && device.backend + (device.avx2 ? "_avx2" : "") == #where) \
@@ -115,7 +127,7 @@ std::unique_ptr<Simulation> make_simulation(const Config& config, [[maybe_unused
 
 HostArray host_copy(const FieldView& view, [[maybe_unused]] const Device& device) {
   const std::size_t row = view.components * size_of(view.type);
-  HostArray out{view.name, view.unit, view.type, view.components, std::vector<std::byte>(view.count * row)};
+  HostArray out{view.name, view.unit, view.type, view.components, HostBytes(view.count * row)};
 #if BL_HAS_CUDA
   if (device.cuda()) {
     const auto status =

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bedload/core/host_memory.hpp"
 #include "bedload/core/vec.hpp"
 
 namespace bedload {
@@ -23,7 +24,7 @@ struct HostArray {
   std::string unit;  ///< "m/s"; "-" for a pure number
   Scalar type = Scalar::f64;
   int components = 1;
-  std::vector<std::byte> bytes;
+  HostBytes bytes;
 
   std::size_t count() const { return bytes.size() / (size_of(type) * components); }
   template <class T>

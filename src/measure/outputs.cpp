@@ -72,11 +72,30 @@ struct PartPass {
   }
 };
 
-template <class T>
-HostArray array_of(const char* name, const char* unit, const Buffer<T>& buffer, int components) {
+/// n entries of T, by compute(entries, out), which writes out[i] for those entries. On a GPU piece by piece,
+/// so that it takes little of its memory.
+template <class T, class Compute>
+HostArray array_of(const std::string& name, const std::string& unit, std::size_t n, int components,
+                   const Compute& compute) {
   HostArray a{name, unit, FileType<T>::scalar, components, {}};
-  a.bytes.resize(buffer.size() * sizeof(T));
-  copy_to_host(a.bytes.data(), buffer.data(), a.bytes.size());
+  a.bytes.resize(n * sizeof(T));
+  T* const out = a.as<T>();
+#if BL_CUDA
+  constexpr std::size_t most = 1 << 20;
+  const Context& context = Context::current();
+  Buffer<T>& piece = Context::current().scratch<T>();
+  for (std::size_t begin = 0; begin < n; begin += most) {
+    const std::size_t end = std::min(n, begin + most);
+    piece.reserve_and_resize(end - begin);
+    compute(Range{Index(begin), Index(end)}, Span<T>{piece.data() - begin, Index(end)});
+    check_cuda(cudaMemcpyAsync(out + begin, piece.data(), (end - begin) * sizeof(T), cudaMemcpyDeviceToHost,
+                               context.stream()),
+               "copy from the GPU");
+  }
+  context.wait();
+#else
+  compute(Range{0, Index(n)}, Span<T>{out, Index(n)});
+#endif
   return a;
 }
 
@@ -104,10 +123,11 @@ FieldView view_of(const FieldBase& field, const Store& store) {
 
 template <class T>
 HostArray part_of(const FieldView& view) {
-  Buffer<T> out(view.count * view.components);
-  for_each({0, Index(out.size())}, PartPass<T>{static_cast<const T*>(view.data),
-                                               Index(view.stride / sizeof(T)), Index(view.components), out});
-  return array_of(view.name.c_str(), view.unit.c_str(), out, view.components);
+  return array_of<T>(
+      view.name, view.unit, view.count * view.components, view.components, [&](Range scalars, Span<T> out) {
+        for_each(scalars, PartPass<T>{static_cast<const T*>(view.data), Index(view.stride / sizeof(T)),
+                                      Index(view.components), out});
+      });
 }
 
 HostArray copy_of(const FieldView& view) {
@@ -133,9 +153,10 @@ struct Made {
 /// By Pass{args..., out}.
 template <class T, class Pass, class... Args>
 HostArray made(const char* name, const char* unit, const Store& store, Args... args) {
-  Buffer<T> out(store.owned().size());
-  for_each(store.owned(), Pass{args..., out.span()});
-  return array_of(name, unit, out, FileType<T>::components);
+  return array_of<T>(name, unit, store.owned().size(), FileType<T>::components,
+                     [&](Range entries, Span<T> out) {
+                       for_each(entries, Pass{args..., out});
+                     });
 }
 
 std::vector<Made> computed_of_fluid(State& state, Stepper& stepper, FluidMoments& scratch) {
@@ -260,7 +281,7 @@ HostStore CoupledSimulation::outputs(const std::string& name, Use by) {
 HostStore CoupledSimulation::snapshot(const std::string& name) {
   HostStore out = outputs(name, kFrames);
   if (name != "walls" || out.count == 0 || !state_.motion.any_removed()) return out;
-  const std::vector<std::byte> bytes = out.find("body")->bytes;
+  const HostBytes bytes = out.find("body")->bytes;
   const auto* body = reinterpret_cast<const std::uint32_t*>(bytes.data());
   out.keep_where([&](std::size_t k) {
     return int(body[k]) >= state_.motion.walls() || !state_.motion.removed(int(body[k]));

@@ -208,7 +208,7 @@ TEST(Viscosity, OfCouetteFlowKnowsThatItsLowerWallMoves) {
 /// Particles of every second of the 40 layers: of the first, or of the second.
 HostStore every_second(HostStore all, bool second) {
   for (HostArray& a : all.arrays) {
-    std::vector<std::byte> kept;
+    HostBytes kept;
     const std::size_t size = std::size_t(a.components) * sizeof(double);
     for (std::size_t n = 0; n < all.count; ++n)
       if ((n / 5 % 2 == 1) == second)
@@ -251,7 +251,7 @@ TEST(Viscosity, TellsNoStressFromHardlyAParticle) {
   const auto only = [](HostStore all, std::size_t from, std::size_t to) {
     for (HostArray& a : all.arrays) {
       const std::size_t size = std::size_t(a.components) * sizeof(double);
-      a.bytes = std::vector<std::byte>(a.bytes.begin() + std::ptrdiff_t(from * size),
+      a.bytes = HostBytes(a.bytes.begin() + std::ptrdiff_t(from * size),
                                        a.bytes.begin() + std::ptrdiff_t(to * size));
     }
     all.count = to - from;

@@ -46,8 +46,8 @@ nb::object view_of(const FieldView& v) {
 nb::object array_of(HostArray a) {
   const Layout l(a.count(), a.components, a.components * size_of(a.type), a.type);
   const auto type = type_of(a.type);
-  auto* bytes = new std::vector<std::byte>(std::move(a.bytes));
-  const nb::capsule owner(bytes, [](void* p) noexcept { delete static_cast<std::vector<std::byte>*>(p); });
+  auto* bytes = new HostBytes(std::move(a.bytes));
+  const nb::capsule owner(bytes, [](void* p) noexcept { delete static_cast<HostBytes*>(p); });
   return nb::cast(nb::ndarray<nb::numpy>(bytes->data(), l.axes, l.shape, owner, l.strides, type));
 }
 
