@@ -11,7 +11,7 @@ struct DragRatePass {
   DragWeights weights;
   DragLevers levers;
   Span<const Real> drag_coefficient, mass;
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   Span<const EosState<>> eos_state;
   Span<Real> rate;
 
@@ -20,7 +20,7 @@ struct DragRatePass {
     Vec3<N> v;
     N V, L;
   };
-  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(eos_state[a]), 0}; }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].v, mixture_volume(eos_state[a]), 0}; }
   BL_HD auto sources() const {
     return sources_of(drag_coefficient, weights.still, read_if<Couple>(levers.at_centre),
                       read_if<Couple>(levers.off_centre), read_if<Local>(weights.by_slip));

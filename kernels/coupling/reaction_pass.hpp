@@ -68,7 +68,7 @@ struct ReactionPass {
   Span<const Real4> by_slip;  ///< of DragWeights
   Reactions reactions;
   Real per_dt;  ///< 1/s
-  Span<Real4> v_rho;
+  Span<VelocityDensity<>> v_rho;
   Span<Real3> reaction;   ///< m/s2
   Span<Real3> drag_kick;  ///< m/s
   Span<Real> rate;        ///< 1/s
@@ -80,7 +80,7 @@ struct ReactionPass {
     Vec3<N> impulse, force;
     N L;
   };
-  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(eos_state[a]), {}, {}, 0}; }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].v, mixture_volume(eos_state[a]), {}, {}, 0}; }
   BL_HD auto sources() const {
     const auto& [impulse, force, spin, couple] = reactions;
     return sources_of(impulse, force, spin, read_if<Couple>(couple), read_if<Local>(by_slip));
@@ -114,9 +114,9 @@ struct ReactionPass {
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
     const Real inv_m = 1 / mass[a];
-    const Real4 old = v_rho[a];
+    const VelocityDensity<> old = v_rho[a];
     const Real3 kick = -(inv_m * sum.impulse);
-    v_rho[a] = {old.xyz() + kick, old.w};
+    v_rho[a] = {old.v + kick, old.rho};
     drag_kick[a] = kick;
     reaction[a] = -(inv_m * sum.force);
     rate[a] = inv_m * per_dt * sum.L;

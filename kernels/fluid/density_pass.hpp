@@ -38,9 +38,9 @@ namespace bedload::inline BL_VARIANT {
 template <class W, class Shift, class Fit, bool kSmooth, bool kPorous, class Lengths>
 struct DensityPass {
   W w;
-  Span<const Real4> flux;
+  Span<const VelocityDensity<>> flux;
   Span<const EosState<>> eos_state;
-  Span<const Real4> wall_v_rho;
+  Span<const VelocityDensity<>> wall_v_rho;
   Span<const WallState<>> wall_state;
   Real diffusion;     ///< 2 delta h c [m2/s]
   Real3 hydrostatic;  ///< rho0 g / c^2 [kg/m4]: how density grows downwards at rho0
@@ -72,7 +72,7 @@ struct DensityPass {
   };
   BL_HD Sum<> start(Index a) const {
     const EosState<> m = eos_state[a];
-    return {flux[a].xyz(),
+    return {flux[a].v,
             m.mass_over_eps,
             m.rho,
             m.eps,
@@ -95,16 +95,16 @@ struct DensityPass {
   }
   /// exposure: if particles shift; h_b: if lengths vary.
   template <class N, class State, class Exposure, class... H>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb,
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& qb,
                   [[maybe_unused]] const State& state, [[maybe_unused]] const Exposure& exposure,
                   const H&... h_b) const {
     const N distance = root(r2);
     const auto factor = lengths.F(w, sum.own, distance, h_b...);
     const N F = own_factor(factor);
-    const Vec3<N> v = sum.q - qb.xyz();
+    const Vec3<N> v = sum.q - qb.v;
     sum.rate += M * F * dot(v, r);
     if constexpr (!kSmooth) return;
-    const N rho = qb.w, V = quotient(M, rho), VF = V * F;
+    const N rho = qb.rho, V = quotient(M, rho), VF = V * F;
     sum.filled += V * lengths.W(w, sum.own, distance);
     sum.gradient += VF * r;
     sum.shift.add(VF, v, r, exposure);
@@ -119,11 +119,11 @@ struct DensityPass {
     return sources_of(wall_v_rho, wall_state, read_where(bool(wall_work), wall_work));
   }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
-                       N work) const {
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const VelocityDensity<N>& vb,
+                       const WallState<N>& mb, N work) const {
     const N distance = root(r2), F = own_factor(lengths.F(w, sum.own, distance)),
             V = quotient(mb.mass, mb.rho);
-    sum.rate += continuity_mass(mb, rho0) * F * dot(sum.q - vb.xyz(), r);
+    sum.rate += continuity_mass(mb, rho0) * F * dot(sum.q - vb.v, r);
     if (wall_work) sum.rate += quotient(square(sum.rho) * work, sum.M) * lengths.W(w, sum.own, distance);
     if constexpr (!kSmooth) return;
     sum.filled += V * lengths.W(w, sum.own, distance);

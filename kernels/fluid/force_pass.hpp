@@ -14,7 +14,7 @@ struct WallPair {
   /// va, vw: velocity and density. Both masses of a dry wall particle are zero. relative: viscosity of a over
   /// that of `viscosity`.
   template <class N, class Factor>
-  BL_HD Vec3<N> operator()(const Vec4<N>& va, const EosState<N>& ma, const Vec4<N>& vw,
+  BL_HD Vec3<N> operator()(const VelocityDensity<N>& va, const EosState<N>& ma, const VelocityDensity<N>& vw,
                            const WallState<N>& mw, const NoSlip<N>& no_slip, const Vec3<N>& r, N r2,
                            const Factor& F, N relative) const {
     Vec3<N> stress = pressure(ma, mw, r, F);
@@ -28,9 +28,9 @@ struct WallPair {
     return (suction ? push : max_of(push, N(0))) * r;
   }
   template <class N, class Factor>
-  BL_HD Vec3<N> friction(const Vec4<N>& va, const Vec4<N>& vw, const NoSlip<N>& no_slip, const Vec3<N>& r,
-                         N r2, const Factor& F) const {
-    return viscosity(no_slip.mass, va.w, vw.w, va.xyz() - no_slip.v, r, r2, F);
+  BL_HD Vec3<N> friction(const VelocityDensity<N>& va, const VelocityDensity<N>& vw, const NoSlip<N>& no_slip,
+                         const Vec3<N>& r, N r2, const Factor& F) const {
+    return viscosity(no_slip.mass, va.rho, vw.rho, va.v - no_slip.v, r, r2, F);
   }
 };
 
@@ -45,10 +45,10 @@ template <class W, bool kArtificial, bool kAdded, bool kSpecies = false, class L
 struct ForcePass {
   W w;
   WallPair wall;
-  Span<const Real4> flux;
+  Span<const VelocityDensity<>> flux;
   Span<const EosState<>> eos_state;
   Span<const Real> p_rho2;  ///< P / rho^2, where lengths vary over Omega, m5/(kg s2)
-  Span<const Real4> wall_v_rho;
+  Span<const VelocityDensity<>> wall_v_rho;
   Span<const WallState<>> wall_state;
   Span<const NoSlip<>> wall_no_slip;
   ArtificialViscosity artificial;
@@ -63,7 +63,7 @@ struct ForcePass {
 
   template <class N = Real>
   struct Sum {
-    Vec4<N> v;
+    VelocityDensity<N> a;
     EosState<N> m;
     Vec3<N> stress, xsph;
     N viscosity;
@@ -79,12 +79,12 @@ struct ForcePass {
   BL_HD auto sources() const { return lengths.sources(flux, p_rho2, species()); }
   /// h_b: if lengths vary.
   template <class N, class Relative, class... H>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& vb, N p,
                   [[maybe_unused]] const Relative& viscosity_b, const H&... h_b) const {
     const N distance = root(r2);
     const auto F = lengths.F(w, sum.own, distance, h_b...);
-    const Vec3<N> v = sum.v.xyz() - vb.xyz();
-    [[maybe_unused]] const N rho_mean = Real(0.5) * (sum.v.w + vb.w);
+    const Vec3<N> v = sum.a.v - vb.v;
+    [[maybe_unused]] const N rho_mean = Real(0.5) * (sum.a.rho + vb.rho);
     N along = pressure_term(M, sum.m.p_over_rho2, p, F);
     if constexpr (kArtificial) along += artificial.term(M, dot(v, r), rho_mean, r2, F);
     if constexpr (kAdded) {
@@ -93,7 +93,7 @@ struct ForcePass {
     }
     sum.stress += along * r;
     if (!wall.viscosity.acts()) return;
-    const Vec3<N> friction = wall.viscosity(M, sum.v.w, vb.w, v, r, r2, F);
+    const Vec3<N> friction = wall.viscosity(M, sum.a.rho, vb.rho, v, r, r2, F);
     if constexpr (kSpecies)
       sum.stress += Real(0.5) * (sum.viscosity + viscosity_b) * friction;
     else
@@ -101,9 +101,9 @@ struct ForcePass {
   }
   BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_state, wall_no_slip); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
-                       const NoSlip<N>& no_slip) const {
-    sum.stress += wall(sum.v, sum.m, vb, mb, no_slip, r, r2, lengths.F(w, sum.own, root(r2)),
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const VelocityDensity<N>& vb,
+                       const WallState<N>& mb, const NoSlip<N>& no_slip) const {
+    sum.stress += wall(sum.a, sum.m, vb, mb, no_slip, r, r2, lengths.F(w, sum.own, root(r2)),
                        kSpecies ? sum.viscosity : N(1));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
@@ -144,9 +144,9 @@ struct WallForcePass {
   LayerForces<W> layer;  ///< empty without single layers
   Real kick;             ///< s
   Span<const Real3> acc, acc_before;
-  Span<const Real4> flux;
+  Span<const VelocityDensity<>> flux;
   Span<const EosState<>> eos_state;
-  Span<const Real4> wall_v_rho;
+  Span<const VelocityDensity<>> wall_v_rho;
   Span<const WallState<>> wall_state;
   Span<const NoSlip<>> wall_no_slip;
   Span<const std::uint32_t> wall_body;
@@ -155,7 +155,7 @@ struct WallForcePass {
   Lengths lengths = {};
 
   struct Sum {
-    Real4 v;  ///< of the wall particle, as the next
+    VelocityDensity<> v;  ///< of the wall particle, as the next
     WallState<> m;
     NoSlip<> no_slip;
     std::uint32_t body;
@@ -169,10 +169,10 @@ struct WallForcePass {
   }
   /// h_a: if lengths vary.
   template <class Correction, class... H>
-  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const Real4& flux_a, const EosState<>& state,
-                  const Correction& correction, const Real3& acc_a, const Real3& acc_before_a, Real relative,
-                  const H&... h_a) const {
-    const Real4 va{flux_a.xyz() - kick * (acc_a - acc_before_a), flux_a.w};
+  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const VelocityDensity<>& flux_a,
+                  const EosState<>& state, const Correction& correction, const Real3& acc_a,
+                  const Real3& acc_before_a, Real relative, const H&... h_a) const {
+    const VelocityDensity<> va{flux_a.v - kick * (acc_a - acc_before_a), flux_a.rho};
     EosState<> ma = state;
     ma.p_over_rho2 = lengths.corrected_by(correction, ma.p_over_rho2);
     const auto F = lengths.F(w, lengths.template own_of<Real>(h_a...), std::sqrt(r2));

@@ -12,7 +12,7 @@ template <class W>
 struct FrozenPass {
   W w;
   Real rho0, dt, least;  ///< kg/m3, s, -
-  Span<const Real4> flux, wall_v_rho;
+  Span<const VelocityDensity<>> flux, wall_v_rho;
   Span<const WallState<>> wall_state;
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
@@ -23,11 +23,11 @@ struct FrozenPass {
     Vec3<N> v;
     N rate;
   };
-  BL_HD Sum<> start(Index b) const { return {wall_v_rho[b].xyz(), 0}; }
+  BL_HD Sum<> start(Index b) const { return {wall_v_rho[b].v, 0}; }
   BL_HD auto sources() const { return sources_of(flux); }
   template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qa) const {
-    sum.rate += M * w.F(root(r2)) * dot(sum.v - qa.xyz(), r);
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& qa) const {
+    sum.rate += M * w.F(root(r2)) * dot(sum.v - qa.v, r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rate += other.rate; }
   BL_HD void finish(Index b, const Sum<>& sum) const {
@@ -45,7 +45,7 @@ struct MirrorPass {
   W w;
   Frame frame;
   Real rho0, least, least_sum;  ///< kg/m3; lower bound on the result; no fluid below this sum of W, 1/m3
-  Span<const Real4> flux;
+  Span<const VelocityDensity<>> flux;
   Span<const EosState<>> eos_state;
   Span<const Vec3d> x, image;
   Span<const std::uint32_t> body;
@@ -66,8 +66,9 @@ struct MirrorPass {
   BL_HD Sum<> start(Index) const { return {0, 0, {}, {}, {}, 0, {}}; }
   BL_HD auto sources() const { return sources_of(flux, eos_state); }
   template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& va, const EosState<N>& ma) const {
-    const N volume = M / va.w, distance = root(r2), here = w.W(distance);
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& va,
+                  const EosState<N>& ma) const {
+    const N volume = M / va.rho, distance = root(r2), here = w.W(distance);
     const N W_a = volume * here, F_a = volume * w.F(distance), rho = ma.rho / rho0 - 1;
     sum.number += here;
     sum.unity += W_a;

@@ -21,7 +21,7 @@ template <class W, class Lengths = OneLength>
 struct WallPass {
   W w;
   EquationOfState eos;
-  Span<const Real4> flux;  ///< of fluid, as the next
+  Span<const VelocityDensity<>> flux;  ///< of fluid, as the next
   Span<const EosState<>> eos_state;
   Span<const Real3> drag_kick;  ///< velocity that the grains' drag gave the fluid this step, m/s
   Real rate;                    ///< 1 / step, 1/s; 0 without grains
@@ -30,7 +30,7 @@ struct WallPass {
   Span<const BodyPose> pose;
   Real3 gravity;   ///< m/s2
   Real least_sum;  ///< inactive below this sum of W, 1/m3
-  Span<Real4> v_rho;
+  Span<VelocityDensity<>> v_rho;
   Span<NoSlip<>> no_slip;
   Span<WallState<>> state;
   Span<Real> compression;
@@ -45,14 +45,14 @@ struct WallPass {
   BL_HD auto sources() const { return lengths.sources(flux, eos_state, read_where(rate > 0, drag_kick)); }
   /// h_a: if lengths vary.
   template <class N, class... H>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_wf, N r2, N, const Vec4<N>& v, const EosState<N>& m,
-                  const Vec3<N>& kick, const H&... h_a) const {
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_wf, N r2, N, const VelocityDensity<N>& a,
+                  const EosState<N>& m, const Vec3<N>& kick, const H&... h_a) const {
     const N wk = lengths.W(w, lengths.template own_of<N>(h_a...), root(r2));
     const Vec3<N> rho_r = wk * m.rho * r_wf;
     sum.weight += wk;
     sum.p += wk * m.p_over_rho2 * square(m.rho);
     sum.p += rate * dot(kick, rho_r);
-    sum.v += wk * v.xyz();
+    sum.v += wk * a.v;
     sum.rho_r += rho_r;
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
@@ -119,7 +119,7 @@ template <class W, class Lengths = OneLength>
 struct WallWorkPass {
   W w;
   Real least_sum;  ///< walls are dry below this sum of W, 1/m3
-  Span<const Real4> flux, wall_v_rho;
+  Span<const VelocityDensity<>> flux, wall_v_rho;
   Span<const WallState<>> wall_state;
   Span<const std::uint32_t> body;
   Span<const BodyPose> pose;
@@ -131,14 +131,15 @@ struct WallWorkPass {
     Vec3<N> v;
     N opening, weight;  ///< sums of V F v . r, 1/s, and W, 1/m3
   };
-  BL_HD Sum<> start(Index b) const { return {wall_v_rho[b].xyz(), 0, 0}; }
+  BL_HD Sum<> start(Index b) const { return {wall_v_rho[b].v, 0, 0}; }
   BL_HD auto sources() const { return lengths.sources(flux); }
   /// h_a: if lengths vary.
   template <class N, class... H>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qa, const H&... h_a) const {
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& qa,
+                  const H&... h_a) const {
     const N distance = root(r2);
     const auto own = lengths.template own_of<N>(h_a...);
-    sum.opening += quotient(M, qa.w) * own_factor(lengths.F(w, own, distance)) * dot(sum.v - qa.xyz(), r);
+    sum.opening += quotient(M, qa.rho) * own_factor(lengths.F(w, own, distance)) * dot(sum.v - qa.v, r);
     sum.weight += lengths.W(w, own, distance);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {

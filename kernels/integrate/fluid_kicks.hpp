@@ -14,30 +14,30 @@ struct KickDriftPass {
   Frame frame;
   Real kick, drift, back;                   ///< s
   Span<const Real3> acc, reaction, beside;  ///< reaction empty without grains
-  Span<Real4> v_rho;
+  Span<VelocityDensity<>> v_rho;
   Span<FluidPosition> x;
   Span<PairPosition> xp, xp_mid;  ///< the latter empty where no loop runs in the middle of the step
   MeanShear shear;                ///< as it is after the drift
-  Span<Real4> flux;               ///< empty without shear
+  Span<VelocityDensity<>> flux;   ///< empty without shear
   Edges edges;
 
   BL_HD void operator()(Index a) const {
-    const Real4 old = v_rho[a];
-    Real3 v = old.xyz() + kick * acc[a];
+    const VelocityDensity<> old = v_rho[a];
+    Real3 v = old.v + kick * acc[a];
     if (reaction) v += kick * reaction[a];
-    v_rho[a] = {v, old.w};
+    v_rho[a] = {v, old.rho};
     if (drift == 0) return;
     const Real3 move = beside ? v + beside[a] : v;
     const Vec3d from = coordinates(frame, x[a]);
     Vec3d at = from + Vec3d(move) * double(drift);
     if (edges.any()) {
       edges.put_back(from, at, v);
-      v_rho[a] = {v, old.w};
+      v_rho[a] = {v, old.rho};
     }
     if (shear.acts()) {
       shear.wrap(at, v);
       at = frame.wrap(at);
-      v_rho[a] = {v, old.w};
+      v_rho[a] = {v, old.rho};
     }
     x[a] = as_position<FluidPosition>(frame, at);
     const Vec3d now = coordinates(frame, x[a]);
@@ -47,7 +47,7 @@ struct KickDriftPass {
     const Vec3d mid = edges.inside(now, Vec3d(back * v));
     const MeanShear then = shear.before(double(back));
     if (xp_mid) xp_mid[a] = pair_position(frame, then.lattice(mid), weight);
-    if (flux) flux[a] = {then.peculiar(v, mid.z), old.w};
+    if (flux) flux[a] = {then.peculiar(v, mid.z), old.rho};
   }
 };
 
@@ -100,8 +100,8 @@ struct StatePass {
   Span<const FluidPosition> x;
   Span<const Real3> acc, reaction;
   Span<Real> compression;
-  Span<const Real> mass, eps;  ///< eps empty unless fluid gives way to grains
-  Span<Real4> v_rho, flux;     ///< flux empty without grains and shear
+  Span<const Real> mass, eps;           ///< eps empty unless fluid gives way to grains
+  Span<VelocityDensity<>> v_rho, flux;  ///< flux empty without grains and shear
   Span<EosState<>> eos_state;
   Span<Real> p_rho2;
   MeanShear shear;
@@ -111,13 +111,13 @@ struct StatePass {
     if (reaction) gain += kick * reaction[a];
     const Real strain = max_of(compression[a] + history(a), kThinnest), rho = eos.density(strain);
     compression[a] = strain;
-    const Real3 v = v_rho[a].xyz() + gain;
+    const Real3 v = v_rho[a].v + gain;
     const Real porosity = eps ? eps[a] : Real(1);
     v_rho[a] = {v, rho};
     if (shear.acts())
       flux[a] = {shear.peculiar(v, coordinates(frame, x[a]).z), rho};
     else if (flux)
-      flux[a] = {flux[a].xyz() + porosity * gain, rho};
+      flux[a] = {flux[a].v + porosity * gain, rho};
     Real pressure = eos.pressure(strain);
     if (compression_rate) pressure += damping * compression_rate[a];
     const Real p = pressure / square(rho);

@@ -24,15 +24,15 @@ struct SdpdWallPair {
   /// a: {v, rho}, V, P / rho^2, spin, id, viscosity over that of `law`; b: wall's as in WallPair, and its
   /// spin and label.
   template <class N>
-  BL_HD Force<N> operator()(const Vec4<N>& va, N V, N pa, const Vec3<N>& spin, const RowId<N>& id, N relative,
-                            const Vec4<N>& vw, const WallState<N>& mw, const NoSlip<N>& no_slip,
-                            const Vec4<N>& own, const Vec3<N>& r, N r2) const {
-    const N F = w.F(root(r2)), g = relative * V * quotient(no_slip.mass, vw.w) * F;
+  BL_HD Force<N> operator()(const VelocityDensity<N>& va, N V, N pa, const Vec3<N>& spin, const RowId<N>& id,
+                            N relative, const VelocityDensity<N>& vw, const WallState<N>& mw,
+                            const NoSlip<N>& no_slip, const Vec4<N>& own, const Vec3<N>& r, N r2) const {
+    const N F = w.F(root(r2)), g = relative * V * quotient(no_slip.mass, vw.rho) * F;
     Force<N> out;
     out.arm = 1 - Real(0.5) * mw.frozen;
     out.push = (pressing * pressure_term(mw.mass, pa, mw.p_over_rho2, F)) * r;
     const Vec3<N> turn = cross(r, out.arm * spin + (1 - out.arm) * own.xyz());
-    out.friction = law.friction(g, va.xyz() - no_slip.v, turn, r, r2);
+    out.friction = law.friction(g, va.v - no_slip.v, turn, r, r2);
     if (noisy) out.noise = law.noise(g, id, own.w, r, r2);
     return out;
   }
@@ -46,12 +46,12 @@ struct SdpdWallPair {
 template <class W, bool kSpin, bool kNoise, bool kSpecies>
 struct SdpdForcePass {
   SdpdWallPair<W> wall;
-  Span<const Real4> flux;
+  Span<const VelocityDensity<>> flux;
   Span<const EosState<>> eos_state;
   Span<const Real4> spin_label;
   Span<const Real> p_rho2, mass;
   Span<const Id> id;
-  Span<const Real4> wall_v_rho;
+  Span<const VelocityDensity<>> wall_v_rho;
   Span<const WallState<>> wall_state;
   Span<const NoSlip<>> wall_no_slip;
   Span<const Real4> wall_label;  ///< spin, id
@@ -63,7 +63,7 @@ struct SdpdForcePass {
 
   template <class N = Real>
   struct Sum {
-    Vec4<N> v;
+    VelocityDensity<N> a;
     N V, p;
     Vec3<N> spin;
     RowId<N> id;
@@ -81,15 +81,15 @@ struct SdpdForcePass {
     return sources_of(flux, p_rho2, read_if<(kSpin || kNoise)>(spin_label), read_if<kSpecies>(viscosity));
   }
   template <class N, class Own, class Relative>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& vb, N p,
                   [[maybe_unused]] const Own& own, [[maybe_unused]] const Relative& viscosity_b) const {
     const N F = wall.w.F(root(r2));
-    N g = sum.V * quotient(M, vb.w) * F;
+    N g = sum.V * quotient(M, vb.rho) * F;
     if constexpr (kSpecies) g *= quotient(2 * sum.viscosity * viscosity_b, sum.viscosity + viscosity_b);
     sum.push += (wall.pressing * pressure_term(M, sum.p, p, F)) * r;
     Vec3<N> turn;
     if constexpr (kSpin) turn = Real(0.5) * cross(r, sum.spin + own.xyz());
-    const Vec3<N> friction = wall.law.friction(g, sum.v.xyz() - vb.xyz(), turn, r, r2);
+    const Vec3<N> friction = wall.law.friction(g, sum.a.v - vb.v, turn, r, r2);
     sum.friction += friction;
     if constexpr (kSpin) sum.couple -= Real(0.5) * cross(r, friction);
     if constexpr (kNoise) {
@@ -100,9 +100,9 @@ struct SdpdForcePass {
   }
   BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_state, wall_no_slip, wall_label); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
-                       const NoSlip<N>& no_slip, const Vec4<N>& own) const {
-    const auto f = wall(sum.v, sum.V, sum.p, sum.spin, sum.id, kSpecies ? sum.viscosity : N(1), vb, mb,
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const VelocityDensity<N>& vb,
+                       const WallState<N>& mb, const NoSlip<N>& no_slip, const Vec4<N>& own) const {
+    const auto f = wall(sum.a, sum.V, sum.p, sum.spin, sum.id, kSpecies ? sum.viscosity : N(1), vb, mb,
                         no_slip, own, r, r2);
     sum.push += f.push;
     sum.friction += f.friction;
@@ -159,9 +159,10 @@ struct SdpdWallForcePass {
   SdpdWallPair<W> wall;
   Real kick;  ///< s
   Span<const Real3> acc, acc_before;
-  Span<const Real4> flux;
+  Span<const VelocityDensity<>> flux;
   Span<const EosState<>> eos_state;
-  Span<const Real4> spin_label, wall_v_rho;
+  Span<const Real4> spin_label;
+  Span<const VelocityDensity<>> wall_v_rho;
   Span<const WallState<>> wall_state;
   Span<const NoSlip<>> wall_no_slip;
   Span<const Real4> wall_label;
@@ -169,7 +170,7 @@ struct SdpdWallForcePass {
   Span<const Real> viscosity;  ///< over that of `wall.law`; empty: the same
 
   struct Sum {
-    Real4 v;  ///< of the wall particle, as the next
+    VelocityDensity<> v;  ///< of the wall particle, as the next
     WallState<> m;
     NoSlip<> no_slip;
     Real4 label;
@@ -182,9 +183,10 @@ struct SdpdWallForcePass {
     return sources_of(flux, eos_state, spin_label, read_where(kick != 0, acc),
                       read_where(kick != 0, acc_before), read_where(bool(viscosity), viscosity, Real(1)));
   }
-  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const Real4& flux_a, const EosState<>& ma,
-                  const Real4& own, const Real3& acc_a, const Real3& acc_before_a, Real relative) const {
-    const Real4 va{flux_a.xyz() - kick * (acc_a - acc_before_a), flux_a.w};
+  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const VelocityDensity<>& flux_a,
+                  const EosState<>& ma, const Real4& own, const Real3& acc_a, const Real3& acc_before_a,
+                  Real relative) const {
+    const VelocityDensity<> va{flux_a.v - kick * (acc_a - acc_before_a), flux_a.rho};
     const auto f = wall(va, quotient(ma.mass_over_eps, ma.rho), ma.p_over_rho2, own.xyz(),
                         row_id(as_id(own.w)), relative, sum.v, sum.m, sum.no_slip, sum.label, -r_ba, r2);
     sum.force.add(-ma.mass_over_eps * f.push, -(f.friction + f.noise));

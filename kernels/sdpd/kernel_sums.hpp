@@ -11,9 +11,9 @@ template <class W>
 struct ContinuityPass {
   W w;
   Real rho0, dt;  ///< kg/m3, s
-  Span<const Real4> flux;
+  Span<const VelocityDensity<>> flux;
   Span<const EosState<>> eos_state;
-  Span<const Real4> wall_v_rho;
+  Span<const VelocityDensity<>> wall_v_rho;
   Span<const WallState<>> wall_state;
   Span<const Real> compression;
   Span<Real> compression_next;
@@ -23,16 +23,17 @@ struct ContinuityPass {
     Vec3<N> q;
     N rate;
   };
-  BL_HD Sum<> start(Index a) const { return {flux[a].xyz(), 0}; }
+  BL_HD Sum<> start(Index a) const { return {flux[a].v, 0}; }
   BL_HD auto sources() const { return sources_of(flux); }
   template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb) const {
-    sum.rate += M * w.F(root(r2)) * dot(sum.q - qb.xyz(), r);
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& qb) const {
+    sum.rate += M * w.F(root(r2)) * dot(sum.q - qb.v, r);
   }
   BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_state); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb) const {
-    sum.rate += continuity_mass(mb, rho0) * w.F(root(r2)) * dot(sum.q - vb.xyz(), r);
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const VelocityDensity<N>& vb,
+                       const WallState<N>& mb) const {
+    sum.rate += continuity_mass(mb, rho0) * w.F(root(r2)) * dot(sum.q - vb.v, r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rate += other.rate; }
   BL_HD void finish(Index a, const Sum<>& sum) const {

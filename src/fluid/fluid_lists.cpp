@@ -23,13 +23,13 @@ struct ShearedWrapPass {
   Frame frame;
   MeanShear shear;
   Span<FluidPosition> x;
-  Span<Real4> v_rho;
+  Span<VelocityDensity<>> v_rho;
   BL_HD void operator()(Index a) const {
     Vec3d at = coordinates(frame, x[a]);
-    Real3 v = v_rho[a].xyz();
+    Real3 v = v_rho[a].v;
     shear.wrap(at, v);
     x[a] = as_position<FluidPosition>(frame, frame.wrap(at));
-    v_rho[a] = {v, v_rho[a].w};
+    v_rho[a] = {v, v_rho[a].rho};
   }
 };
 
@@ -46,15 +46,15 @@ struct PackFluidPass {
   Frame frame;
   MeanShear shear;
   Span<const FluidPosition> x;
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   Span<const EosState<>> eos_state;
   Span<PairPosition> xp, xp_mid;  ///< xp_mid: likewise until particles move; may be empty
-  Span<Real4> flux;               ///< empty without shear
+  Span<VelocityDensity<>> flux;   ///< empty without shear
   BL_HD void operator()(Index a) const {
     const Vec3d at = coordinates(frame, x[a]);
     xp[a] = pair_position(frame, shear.lattice(at), eos_state[a].mass_over_eps);
     if (xp_mid) xp_mid[a] = xp[a];
-    if (flux) flux[a] = {shear.peculiar(v_rho[a].xyz(), at.z), v_rho[a].w};
+    if (flux) flux[a] = {shear.peculiar(v_rho[a].v, at.z), v_rho[a].rho};
   }
 };
 
@@ -63,11 +63,11 @@ struct PackWallPass {
   Frame frame;
   Real back;
   Span<const Vec3d> x;
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   Span<PairPosition> xp, xp_mid;  ///< xp_mid may be empty
   BL_HD void operator()(Index w) const {
     xp[w] = pair_position(frame, x[w]);
-    if (xp_mid) xp_mid[w] = pair_position(frame, x[w] - Vec3d(back * v_rho[w].xyz()));
+    if (xp_mid) xp_mid[w] = pair_position(frame, x[w] - Vec3d(back * v_rho[w].v));
   }
 };
 
@@ -83,11 +83,11 @@ struct HalfSkinPass {
   Real horizon;  ///< s
   Real least, most;
   Span<const FluidPosition> x;
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   Span<const Real3> drift, acc;  ///< drift: empty where nothing moves beside its velocity
   Span<Real> half_skin;
   BL_HD void operator()(Index a) const {
-    Real3 v = v_rho[a].xyz();
+    Real3 v = v_rho[a].v;
     if (drift) v += drift[a];
     const Real speed = norm(shear.peculiar(v, coordinates(frame, x[a]).z));
     half_skin[a] = clamp(horizon * (speed + horizon / 2 * norm(acc[a])), least, most);

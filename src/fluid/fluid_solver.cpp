@@ -27,16 +27,16 @@ struct CorrectSweep {
   /// and the strain: among positions sheared back, what moves along z moves along x, too.
   double spread, strained;
   Span<const Real> h, h_list;  ///< empty where all have one length
-  Span<Real4> v_rho;
+  Span<VelocityDensity<>> v_rho;
   MeanShear shear, listed;  ///< now, and where the lists were built
 
   BL_HD Value identity() const { return {}; }
   BL_HD Value operator()(Index a) const {
     const Real3 acceleration = acc[a];
-    Real3 v = v_rho[a].xyz();
+    Real3 v = v_rho[a].v;
     if (kick != 0) {
       v += kick * (acceleration - acc_old[a]);
-      v_rho[a] = {v, v_rho[a].w};
+      v_rho[a] = {v, v_rho[a].rho};
     }
     if (drift) v += drift[a];
     const Vec3d now = coordinates(frame, x[a]);
@@ -234,7 +234,7 @@ StatePass FluidSolver::state_pass(FluidStore& fluid, const DensityHistory& histo
           .mass = fluid.mass,
           .eps = parameters_.mixed ? Span<const Real>(fluid.eps) : Span<const Real>(),
           .v_rho = fluid.v_rho,
-          .flux = parameters_.mixed ? Span<Real4>(fluid.flux) : peculiar(fluid),
+          .flux = parameters_.mixed ? Span<VelocityDensity<>>(fluid.flux) : peculiar(fluid),
           .eos_state = fluid.eos_state,
           .p_rho2 = fluid.p_rho2,
           .shear = shear_};

@@ -280,12 +280,12 @@ class FluidSolver {
   void accept_rates(double dt);
   /// Velocity and density as pair loops read them: of the mixture where grains share the space, peculiar
   /// where fluid is sheared.
-  Span<const Real4> flux(const FluidStore& fluid) const {
+  Span<const VelocityDensity<>> flux(const FluidStore& fluid) const {
     return parameters_.mixed || shear_.acts() ? fluid.flux : fluid.v_rho;
   }
   /// To be set along with positions that pair loops read; empty without shear.
-  Span<Real4> peculiar(FluidStore& fluid) const {
-    return shear_.acts() ? Span<Real4>(fluid.flux) : Span<Real4>();
+  Span<VelocityDensity<>> peculiar(FluidStore& fluid) const {
+    return shear_.acts() ? Span<VelocityDensity<>>(fluid.flux) : Span<VelocityDensity<>>();
   }
   void sort_cells(const FluidStore& fluid);
   /// Positions sheared back.
@@ -368,7 +368,7 @@ class FluidSolver {
   Edges edges_;
   Buffer<Vec3d> lattice_;
   Buffer<Real> collisions_;  ///< of each particle
-  Buffer<Real4> collided_;
+  Buffer<VelocityDensity<>> collided_;
   double half_skin_ = 0, wall_skin_ = 0;  ///< the largest of fluid, that of walls, m
   double horizon_ = 0;                    ///< time for which fast particles get a skin, s
   CellGrid grid_, wall_grid_;

@@ -17,14 +17,14 @@ struct FluidTotals {
   Vec3d gravity;  ///< true gravity: the acceleration of a frame has no potential energy here
   Drive drive;    ///< nor has its constant part
   Span<const FluidPosition> x;
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   Span<const Real> mass, compression;
   double inertia;  ///< of a particle over its mass, m2
   Span<const Real3> spin;
   BL_HD void operator()(Index a, double* out) const {
     const double m = mass[a];
     const Vec3d w = inertia > 0 ? Vec3d(spin[a]) : Vec3d{};
-    const Vec3d at = coordinates(frame, x[a]), v = Vec3d(v_rho[a].xyz()), l = cross(at, v) + inertia * w;
+    const Vec3d at = coordinates(frame, x[a]), v = Vec3d(v_rho[a].v), l = cross(at, v) + inertia * w;
     out[0] = m;
     for (int k = 0; k < 3; ++k) out[1 + k] = m * v[k], out[4 + k] = m * l[k];
     out[7] = 0.5 * m * norm2(v);
@@ -71,12 +71,12 @@ struct GrainLoads {
 struct CorrectionBody {
   Span<const Real> mass;
   Span<const EosState<>> eos_state;
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   Span<const Real4> correction;
   BL_HD void operator()(Index a, double* out) const {
     const Vec3d acc(correction[a].xyz()), force = double(eos_state[a].mass_over_eps) * acc;
     for (int k = 0; k < 3; ++k) out[k] = force[k];
-    out[3] = double(mass[a]) * dot(acc, Vec3d(v_rho[a].xyz()));
+    out[3] = double(mass[a]) * dot(acc, Vec3d(v_rho[a].v));
   }
 };
 /// Power of the pressure of the acoustic damper, with the rate of volume from continuity, W.
@@ -96,7 +96,7 @@ struct DriftBody {
   Drive drive;
   Span<const Real> mass;
   Span<const EosState<>> eos_state;
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   Span<const Real3> drift;  ///< empty: none
   Real fastest;             ///< drift speed at which its limit acts, m/s
   BL_HD void operator()(Index a, double* out) const {
@@ -104,7 +104,7 @@ struct DriftBody {
       out[0] = -double(mass[a]) * dot(gravity, Vec3d(drift[a]));
       out[2] = norm(drift[a]) > fastest;
     }
-    out[1] = double(mass[a]) * dot(Vec3d(drive(a, eos_state[a])), Vec3d(v_rho[a].xyz()));
+    out[1] = double(mass[a]) * dot(Vec3d(drive(a, eos_state[a])), Vec3d(v_rho[a].v));
   }
 };
 /// Power of the repulsion of fluid by surfaces, W; number of particles on which it acts.
@@ -112,7 +112,7 @@ struct StoppedBody {
   WallRepulsion walls;
   Span<const FluidPosition> x;
   Span<const Real> mass;
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   Span<const Real3> heading;  ///< from RepelPass, m/s
   BL_HD void operator()(Index a, double* out) const {
     Vec3d force;
@@ -120,7 +120,7 @@ struct StoppedBody {
       force += double(mass[a]) * Vec3d(push);
     };
     walls.each(coordinates(walls.frame, x[a]), heading[a], walls.sheet(a), take);
-    out[0] = dot(force, Vec3d(v_rho[a].xyz()));
+    out[0] = dot(force, Vec3d(v_rho[a].v));
     out[1] = norm2(force) > 0;
   }
 };

@@ -23,7 +23,7 @@ struct PointBody {
   Frame frame;
   Vec3d at;
   Span<const FluidPosition> x;
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   Span<const EosState<>> eos_state;
   BL_HD void operator()(Index q, double* out) const {
     if (!cells.touches(int(q))) return;
@@ -39,9 +39,9 @@ struct PointBody {
     const double weight = double(eos_state[a].mass_over_eps) / eos_state[a].rho * w.W(Real(std::sqrt(r2)));
     out[0] += weight;
     out[1] += weight * eos_state[a].pressure();
-    out[2] += weight * v_rho[a].x;
-    out[3] += weight * v_rho[a].y;
-    out[4] += weight * v_rho[a].z;
+    out[2] += weight * v_rho[a].v.x;
+    out[3] += weight * v_rho[a].v.y;
+    out[4] += weight * v_rho[a].v.z;
   }
 };
 
@@ -84,14 +84,14 @@ struct FluidBox {
   Frame frame;
   Vec3d lo, hi;
   Span<const FluidPosition> x;
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   Span<const EosState<>> eos_state;
   Span<const Real> mass;
   BL_HD void operator()(Index a, double* out) const {
     if (!within(coordinates(frame, x[a]), lo, hi)) return;
     const double m = mass[a];
     out[0] = 1, out[1] = m, out[2] = m * eos_state[a].pressure();
-    out[3] = m * v_rho[a].x, out[4] = m * v_rho[a].y, out[5] = m * v_rho[a].z;
+    out[3] = m * v_rho[a].v.x, out[4] = m * v_rho[a].v.y, out[5] = m * v_rho[a].v.z;
     out[6] = m * eos_state[a].eps;
   }
 };

@@ -15,11 +15,11 @@ struct PlacePass {
   Span<const Vec3d> x0;
   Span<const std::uint32_t> body;
   Span<Vec3d> x;
-  Span<Real4> v_rho;
+  Span<VelocityDensity<>> v_rho;
   BL_HD void operator()(Index i) const {
     const BodyPose& k = moving[body[i]];
     x[i] = frame.wrap(placed[body[i]].place(x0[i]));
-    v_rho[i] = {Real3(k.velocity(k.place(x0[i]))), v_rho[i].w};
+    v_rho[i] = {Real3(k.velocity(k.place(x0[i]))), v_rho[i].rho};
   }
 };
 

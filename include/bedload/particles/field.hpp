@@ -66,6 +66,8 @@ struct FileType<Vec4<T>> {
   static constexpr int components = 4;
 };
 template <class T>
+struct FileType<VelocityDensity<T>> : FileType<Vec4<T>> {};
+template <class T>
 struct FileType<EosState<T>> : FileType<Vec4<T>> {};
 template <class T>
 struct FileType<WallState<T>> : FileType<Vec4<T>> {};

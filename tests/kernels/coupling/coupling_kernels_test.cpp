@@ -148,7 +148,7 @@ TEST(DragLevers, WeakenTheDragOfAGrainByTheirSum) {
 template <bool kCouple>
 double stopped(double r) {
   std::vector<Real> K{4}, still{3}, at_centre{Real(1.5)}, off_centre{10}, mass{2}, rate{0};
-  std::vector<Real4> v_rho{{0, 0, 0, 1000}};
+  std::vector<VelocityDensity<>> v_rho{{{}, 1000}};
   std::vector<EosState<>> eos_state{{.mass_over_eps = 5, .rho = 1000, .eps = 1}};
   const auto all = [](auto& of) { return Span(of.data(), Index(of.size())); };
   const DragRatePass<WendlandC2, false, kCouple> pass{.w = WendlandC2(0.1),
