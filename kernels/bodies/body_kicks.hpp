@@ -137,6 +137,10 @@ struct BodyParticles {
   Span<const std::uint32_t> of;
   Span<const Vec3d> x0;
   const BodyPose* poses;
+
+  static BodyParticles in(const WallStore& walls, std::uint32_t body, Span<const BodyPose> poses) {
+    return {body, walls.body, walls.x0, poses.data};
+  }
   BL_HD bool has(Index w) const { return of[w] == body; }
   /// From the body's reference point to one of them, m.
   BL_HD Vec3d arm(Index w) const { return poses[body].place(x0[w]) - poses[body].origin(); }

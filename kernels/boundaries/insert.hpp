@@ -3,8 +3,8 @@
 
 #include "bedload/core/frame.hpp"
 #include "bedload/particles/fluid.hpp"
-#include "bedload/particles/walls.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
+#include "kernels/fluid/views.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -29,7 +29,7 @@ struct InsertPass {
   Span<VelocityDensity<>> v_rho, flux;  ///< flux, solid_factor: empty without grains
   Span<EosState<>> eos_state;
   Span<Real> compression, fluid_mass, eps, solid_factor;
-  Span<Real3> stress_acceleration, fluid_acc;
+  FluidAccelerations out;
 
   BL_HD void operator()(Index w) const {
     const Id k = wall_id[w] - first;
@@ -48,8 +48,7 @@ struct InsertPass {
     fluid_mass[a] = mass;
     eps[a] = 1;
     if (solid_factor) solid_factor[a] = 0;
-    stress_acceleration[a] = acc - gravity;  // gives the prescribed acceleration
-    fluid_acc[a] = acc;
+    out.set(a, acc - gravity, acc);  // by the stress what gives the prescribed acceleration
   }
 };
 

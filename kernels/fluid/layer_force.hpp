@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/neighbours/for_each_pair.hpp"
-#include "bedload/particles/walls.hpp"
 #include "kernels/fluid/pair_terms.hpp"
+#include "kernels/fluid/views.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -82,7 +82,7 @@ struct LayerPass {
   LayerForces<W> layer;
   Span<const VelocityDensity<>> flux, wall_v_rho;
   Span<const std::uint32_t> wall_body;
-  Span<Real3> stress_acceleration, acc;
+  FluidAccelerations out;
 
   struct Sum {
     VelocityDensity<> v;
@@ -95,10 +95,7 @@ struct LayerPass {
     sum.given.add(layer(sum.v, vb, body, r, r2));
   }
   BL_HD void merge(Sum& into, const Sum& other) const { into.given.add(other.given); }
-  BL_HD void finish(Index a, const Sum& sum) const {
-    stress_acceleration[a] += sum.given.push + sum.given.damping;
-    acc[a] += sum.given.push + sum.given.damping;
-  }
+  BL_HD void finish(Index a, const Sum& sum) const { out.add(a, sum.given.push + sum.given.damping); }
 };
 
 }  // namespace bedload::inline BL_VARIANT

@@ -22,7 +22,7 @@ struct OnePass {
   BL_HD Sum<> start(Index a) const { return {force.start(a), with_shared_fields().start(a)}; }
 
   BL_HD auto sources() const {
-    return sources_of(force.flux, force.p_rho2, Unread{}, density.shift.sources());
+    return sources_of(force.fluid.flux, force.p_rho2, Unread{}, density.shift.sources());
   }
   template <class N, class Exposure>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& vb, N p, Unread,
@@ -56,7 +56,7 @@ struct OnePass {
   BL_HD Density with_shared_fields() const {
     Density same = density;
     same.w = force.w;
-    same.flux = force.flux, same.eos_state = force.eos_state;
+    same.fluid = force.fluid;
     return same;
   }
 };

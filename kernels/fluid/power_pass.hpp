@@ -30,7 +30,7 @@ struct PowerPass {
     return sum;
   }
   BL_HD auto sources() const {
-    return friction.lengths.sources(friction.flux, friction.species(), density.eos_state);
+    return friction.lengths.sources(friction.fluid.flux, friction.species(), density.fluid.state);
   }
   template <class N, class Relative, class... H>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& vb,
@@ -40,7 +40,7 @@ struct PowerPass {
     density.pair(sum.density, r, r2, M, vb, state, Unread{}, h_b...);
   }
   BL_HD auto wall_sources() const {
-    return sources_of(friction.wall_v_rho, friction.wall_state, friction.wall_no_slip,
+    return sources_of(friction.walls.v_rho, friction.walls.state, friction.walls.no_slip,
                       read_where(bool(density.wall_work), density.wall_work));
   }
   template <class N>
@@ -57,8 +57,8 @@ struct PowerPass {
     density.merge(into.density, other.density);
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    const Real3 q = density.flux[a].v;
-    const EosState<> m = density.eos_state[a];
+    const Real3 q = density.fluid.flux[a].v;
+    const EosState<> m = density.fluid.state[a];
     const Real3 rubbed = sum.friction.stress, damped = sum.artificial.stress;
     Real3 pressed = stress_acceleration[a] - rubbed - damped;
     if (friction.correction) pressed -= friction.correction[a].xyz();

@@ -1,5 +1,4 @@
 #pragma once
-#include "bedload/particles/walls.hpp"
 #include "kernels/fluid/force_pass.hpp"
 #include "kernels/sdpd/pair_law.hpp"
 
@@ -46,19 +45,17 @@ struct SdpdWallPair {
 template <class W, bool kSpin, bool kNoise, bool kSpecies>
 struct SdpdForcePass {
   SdpdWallPair<W> wall;
-  Span<const VelocityDensity<>> flux;
-  Span<const EosState<>> eos_state;
+  FluidView fluid;
   Span<const Real4> spin_label;
   Span<const Real> p_rho2, mass;
   Span<const Id> id;
-  Span<const VelocityDensity<>> wall_v_rho;
-  Span<const WallState<>> wall_state;
-  Span<const NoSlip<>> wall_no_slip;
+  WallView walls;
   Span<const Real4> wall_label;  ///< spin, id
   Real3 gravity;                 ///< minus the frame's acceleration, m/s2
   Drive drive;
   Real dt, inertia;  ///< s; k_I dx^2, m2
-  Span<Real3> stress_acceleration, acc, spin, spin_acc;
+  FluidAccelerations out;
+  Span<Real3> spin, spin_acc;
   Span<const Real> viscosity;  ///< over that of `wall.law`
 
   template <class N = Real>
@@ -71,14 +68,16 @@ struct SdpdForcePass {
     N viscosity;
   };
   BL_HD Sum<> start(Index a) const {
-    const EosState<> m = eos_state[a];
-    Sum<> sum{flux[a], quotient(m.mass_over_eps, m.rho), m.p_over_rho2, {}, row_id(id[a]), {}, {}, {}, {}, 1};
+    const EosState<> m = fluid.state[a];
+    Sum<> sum{
+        fluid.flux[a], quotient(m.mass_over_eps, m.rho), m.p_over_rho2, {}, row_id(id[a]), {}, {}, {}, {}, 1};
     if (kSpecies) sum.viscosity = viscosity[a];
     if (kSpin) sum.spin = spin_label[a].xyz();
     return sum;
   }
   BL_HD auto sources() const {
-    return sources_of(flux, p_rho2, read_if<(kSpin || kNoise)>(spin_label), read_if<kSpecies>(viscosity));
+    return sources_of(fluid.flux, p_rho2, read_if<(kSpin || kNoise)>(spin_label),
+                      read_if<kSpecies>(viscosity));
   }
   template <class N, class Own, class Relative>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& vb, N p,
@@ -98,7 +97,7 @@ struct SdpdForcePass {
       if constexpr (kSpin) sum.couple -= Real(0.5) * cross(r, noise);
     }
   }
-  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_state, wall_no_slip, wall_label); }
+  BL_HD auto wall_sources() const { return sources_of(walls.v_rho, walls.state, walls.no_slip, wall_label); }
   template <class N>
   BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const VelocityDensity<N>& vb,
                        const WallState<N>& mb, const NoSlip<N>& no_slip, const Vec4<N>& own) const {
@@ -116,10 +115,9 @@ struct SdpdForcePass {
     into.couple += other.couple;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    const EosState<> m = eos_state[a];
+    const EosState<> m = fluid.state[a];
     const Real3 stress = sum.push + (1 / m.mass_over_eps) * (sum.friction + sum.noise);
-    stress_acceleration[a] = stress;
-    acc[a] = stress + gravity + drive(a, m);
+    out.set(a, stress, stress + gravity + drive(a, m));
     if constexpr (kSpin) {  // from the value predicted with the last acceleration to the mean of both
       const Real3 turning = (1 / (mass[a] * inertia)) * sum.couple;
       spin[a] = sum.spin + (dt / 2) * (turning - spin_acc[a]);
@@ -144,27 +142,21 @@ struct PredictSpin {
 struct LabelWalls {
   bool spins;
   Span<const Id> id;
-  Span<const std::uint32_t> body;
-  Span<const BodyPose> pose;
+  WallBodies bodies;
   Span<Real4> label;
   BL_HD void operator()(Index b) const {
-    label[b] = {spins ? Real3(pose[body[b]].omega) : Real3(), as_label(id[b] | 0x80000000u)};
+    label[b] = {spins ? Real3(bodies[b].omega) : Real3(), as_label(id[b] | 0x80000000u)};
   }
 };
 
-/// Force on each wall particle [N]: minus what SdpdForcePass gave the fluid, by velocities that have been
-/// corrected by `kick` since. The noise counts as friction.
+/// Force on each wall particle [N]: minus what SdpdForcePass gave the fluid. The noise counts as friction.
 template <class W, class Force>
 struct SdpdWallForcePass {
   SdpdWallPair<W> wall;
-  Real kick;  ///< s
-  Span<const Real3> acc, acc_before;
-  Span<const VelocityDensity<>> flux;
-  Span<const EosState<>> eos_state;
+  BeforeCorrection before;
+  FluidView fluid;
   Span<const Real4> spin_label;
-  Span<const VelocityDensity<>> wall_v_rho;
-  Span<const WallState<>> wall_state;
-  Span<const NoSlip<>> wall_no_slip;
+  WallView walls;
   Span<const Real4> wall_label;
   Span<Vec3d> force, friction;
   Span<const Real> viscosity;  ///< over that of `wall.law`; empty: the same
@@ -177,16 +169,16 @@ struct SdpdWallForcePass {
     Force force;
   };
   BL_HD Sum start(Index b) const {
-    return {wall_v_rho[b], wall_state[b], wall_no_slip[b], wall_label[b], {}};
+    return {walls.v_rho[b], walls.state[b], walls.no_slip[b], wall_label[b], {}};
   }
   BL_HD auto sources() const {
-    return sources_of(flux, eos_state, spin_label, read_where(kick != 0, acc),
-                      read_where(kick != 0, acc_before), read_where(bool(viscosity), viscosity, Real(1)));
+    return sources_of(fluid.flux, fluid.state, spin_label, before.source(before.acc),
+                      before.source(before.acc_before), read_where(bool(viscosity), viscosity, Real(1)));
   }
   BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const VelocityDensity<>& flux_a,
                   const EosState<>& ma, const Real4& own, const Real3& acc_a, const Real3& acc_before_a,
                   Real relative) const {
-    const VelocityDensity<> va{flux_a.v - kick * (acc_a - acc_before_a), flux_a.rho};
+    const VelocityDensity<> va = before(flux_a, acc_a, acc_before_a);
     const auto f = wall(va, quotient(ma.mass_over_eps, ma.rho), ma.p_over_rho2, own.xyz(),
                         row_id(as_id(own.w)), relative, sum.v, sum.m, sum.no_slip, sum.label, -r_ba, r2);
     sum.force.add(-ma.mass_over_eps * f.push, -(f.friction + f.noise));

@@ -56,7 +56,7 @@ struct StressPass {
     into.friction.add(other.friction);
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    const Real M = whole.eos_state[a].mass_over_eps;
+    const Real M = whole.fluid.state[a].mass_over_eps;
     out.write(a, sum.pressure.times(M), sum.friction.times(M), {});
   }
 };
@@ -100,7 +100,7 @@ struct SdpdStressPass {
     if constexpr (kNoise) into.noise.add(other.noise);
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    out.write(a, sum.pressure.times(force.eos_state[a].mass_over_eps), sum.friction, sum.noise);
+    out.write(a, sum.pressure.times(force.fluid.state[a].mass_over_eps), sum.friction, sum.noise);
   }
 };
 

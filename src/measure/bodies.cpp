@@ -51,7 +51,7 @@ const CoupledSimulation::FluidLoads& CoupledSimulation::fluid_loads() {
   for (std::uint32_t b = 0; b < loads.pressure.size(); ++b) {
     const auto sum = [&](const Buffer<Vec3d>& force) {
       return reduce(state_.walls.owned(),
-                    WallLoadReduction{{b, state_.walls.body, state_.walls.x0, poses.data}, force});
+                    WallLoadReduction{BodyParticles::in(state_.walls, b, poses), force});
     };
     loads.pressure[b] = sum(forces.pressure);
     loads.friction[b] = sum(forces.friction);
@@ -154,7 +154,7 @@ void CoupledSimulation::advance_meters(double dt) {
       const std::uint32_t b = meters_.bodies()[m];
       const auto sum = [&](LoadSum* out, const Buffer<Vec3d>& force) {
         reduce_into(out, state_.walls.owned(),
-                    WallLoadReduction{{b, state_.walls.body, state_.walls.x0, poses.data}, force});
+                    WallLoadReduction{BodyParticles::in(state_.walls, b, poses), force});
       };
       sum(meter_pressure_.data() + m, forces.pressure);
       sum(meter_friction_.data() + m, forces.friction);

@@ -170,10 +170,9 @@ void CoupledSimulation::report_powers(const Drive& drive, std::vector<Quantity>&
   for (std::uint32_t b = 0; b < std::uint32_t(state_.motion.bodies()) && state_.walls.size() > 0; ++b) {
     const RigidMotion motion = state_.motion.pose(int(b), state_.clock.time);
     if (norm2(motion.v) + norm2(motion.omega) == 0) continue;
-    const LoadSum load =
-        reduce(state_.walls.owned(),
-               WallLoadReduction{{b, state_.walls.body, state_.walls.x0, state_.poses_now().data},
-                                 wall_forces().pressure});
+    const LoadSum load = reduce(
+        state_.walls.owned(),
+        WallLoadReduction{BodyParticles::in(state_.walls, b, state_.poses_now()), wall_forces().pressure});
     moving -= dot(load.force(), motion.v) + dot(load.torque(), motion.omega);
   }
   static const char* const terms[] = {"viscosity", "artificial_viscosity", "density_diffusion", "voids"};

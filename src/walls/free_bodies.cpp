@@ -264,7 +264,7 @@ BodyPressures FreeBodies::fit_pressure(const WallStore& walls, Span<const BodyPo
   fit_sums_.zero();
   for (int k = 0; k < size(); ++k)
     reduce_into(fit_sums_.data() + k, walls.owned(),
-                BodyPressureReduction{{rigid(k).body, walls.body, walls.x0, poses.data}, walls.state});
+                BodyPressureReduction{BodyParticles::in(walls, rigid(k).body, poses), walls.state});
   for_each(store_.owned(), FitBodyPressure{fit_sums_, pressures_});
   return {pressures_, poses.data};
 }
@@ -279,7 +279,7 @@ void FreeBodies::add_fluid_loads(const WallStore& walls, const Buffer<Vec3d>& fo
     const std::uint32_t body = rigid(k).body;
     if (walls.size() > 0)
       reduce_into(wall_sums_.data() + k, walls.owned(),
-                  WallLoadReduction{{body, walls.body, walls.x0, poses.data}, force});
+                  WallLoadReduction{BodyParticles::in(walls, body, poses), force});
     if (repulsion && fluid.size() > 0)
       reduce_into(repulsion_sums_.data() + k, fluid.owned(),
                   BodyRepulsion{*repulsion, body, fluid.x, fluid.mass, fluid.heading});
@@ -302,9 +302,9 @@ void FreeBodies::correct_pressure(const WallStore& walls, const Buffer<Vec4<doub
   in_pressure_.resize(size());
   in_pressure_.zero();
   for (int k = 0; k < size(); ++k)
-    reduce_into(in_pressure_.data() + k, walls.owned(),
-                PairsInPressureReduction{
-                    {rigid(k).body, walls.body, walls.x0, poses.data}, walls.state, in_fit.span()});
+    reduce_into(
+        in_pressure_.data() + k, walls.owned(),
+        PairsInPressureReduction{BodyParticles::in(walls, rigid(k).body, poses), walls.state, in_fit.span()});
   BodyStore& s = store_;
   for_each(s.owned(), CorrectBody{.bodies = constants_.data(),
                                   .fitted = pressures_.data(),

@@ -102,8 +102,7 @@ TEST(Admit, TakesOverThePressureOfTheBuffer) {
                         .fluid_mass = span(mass),
                         .eps = span(eps),
                         .solid_factor = span(solid_factor),
-                        .stress_acceleration = span(stress),
-                        .fluid_acc = span(acc)};
+                        .out = {span(stress), span(acc)}};
   pass(0);
   EXPECT_EQ(id[0], 3u);
   EXPECT_NEAR(eos.pressure(s[0]), p, tolerance(1e-12, 1e-5, 1e-5) * p);

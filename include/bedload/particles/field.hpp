@@ -163,4 +163,10 @@ class Field final : public FieldBase {
   Buffer<T> data_;
 };
 
+/// A field or buffer for a pass that reads it in some cases alone: empty in the others.
+template <class Of>
+auto span_if(bool used, Of& of) {
+  return used ? of.span() : decltype(of.span()){};
+}
+
 }  // namespace bedload::inline BL_VARIANT

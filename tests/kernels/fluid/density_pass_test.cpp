@@ -46,10 +46,8 @@ struct Pair {
     const auto out = [](auto& host) { return Span(host.data(), Index(host.size())); };
     return DensityPass<WendlandC2, NoShifting, NoFit, kSmooth, kPorous, OneLength>{
         .w = w,
-        .flux = in(flux),
-        .eos_state = in(eos_state),
-        .wall_v_rho = in(wall_v_rho),
-        .wall_state = in(wall_state),
+        .fluid = {in(flux), in(eos_state)},
+        .walls = {in(wall_v_rho), in(wall_state), {}},
         .diffusion = Real(diffusion),
         .hydrostatic = Real3(hydrostatic),
         .stiffening = Real(stiffening),

@@ -37,13 +37,11 @@ struct Below {
   double pressure(double rate) {
     const WallPass<WendlandC2> pass{.w = w,
                                     .eos = {Real(1e7), 7, 0, 1000, false},
-                                    .flux = all(flux),
-                                    .eos_state = all(eos_state),
+                                    .fluid = {all(flux), all(eos_state)},
                                     .drag_kick = all(kick),
                                     .rate = Real(rate),
                                     .x0 = all(x0),
-                                    .body = all(body),
-                                    .pose = all(pose),
+                                    .bodies = {all(body), all(pose)},
                                     .gravity = Real3(gravity),
                                     .least_sum = Real(1e-3),
                                     .v_rho = all(v_rho),
@@ -68,11 +66,9 @@ TEST(WallWorkPass, IsWhatThePressureOfTheWallDoesAsTheFluidLeaves) {
   const auto found = [&](double least_sum) {
     const WallWorkPass<WendlandC2> pass{.w = b.w,
                                         .least_sum = Real(least_sum),
-                                        .flux = Below::all(b.flux),
-                                        .wall_v_rho = Below::all(b.v_rho),
-                                        .wall_state = Below::all(b.state),
-                                        .body = Below::all(b.body),
-                                        .pose = Below::all(b.pose),
+                                        .fluid = {Below::all(b.flux), {}},
+                                        .walls = {Below::all(b.v_rho), Below::all(b.state), {}},
+                                        .bodies = {Below::all(b.body), Below::all(b.pose)},
                                         .work = Below::all(work)};
     auto sum = pass.start(0);
     const Real3 r = Real3(-b.at);

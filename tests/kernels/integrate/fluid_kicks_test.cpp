@@ -28,39 +28,32 @@ struct Lone {
   static Span<const T> read(const std::vector<T>& of) {
     return {of.data(), 1};
   }
+  FluidMotion motion() { return {kFrame, {}, all(x), all(v_rho)}; }
   StatePass state() {
-    return {.frame = kFrame,
+    return {.fluid = motion(),
             .eos = {Real(1e6), 7, 0, 1000, false},
             .damping = 250,
             .compression_rate = read(continuity),
             .history = {read(rate), {}, {}, 0.01, 0, 0},
             .kick = Real(kKick),
-            .x = read(x),
             .acc = read(acc),
             .reaction = read(reaction),
             .compression = all(s),
             .mass = read(mass),
             .eps = read(eps),
-            .v_rho = all(v_rho),
             .flux = all(flux),
             .eos_state = all(eos_state),
-            .p_rho2 = all(p_rho2),
-            .shear = {}};
+            .p_rho2 = all(p_rho2)};
   }
   KickDriftPass kick_drift(double drift, double back) {
-    return {.frame = kFrame,
+    return {.fluid = motion(),
+            .copies = {all(xp), all(xp_mid), {}},
             .kick = Real(kKick),
             .drift = Real(drift),
             .back = Real(back),
             .acc = read(acc),
             .reaction = read(reaction),
             .beside = read(beside),
-            .v_rho = all(v_rho),
-            .x = all(x),
-            .xp = all(xp),
-            .xp_mid = all(xp_mid),
-            .shear = {},
-            .flux = {},
             .edges = {}};
   }
 };
