@@ -52,7 +52,7 @@ struct LimitPass {
   Real dt;  ///< s
   Span<const Real> rate;
   Span<const Real> lever_sum;  ///< of DragLevers; empty without a couple
-  Span<Real> drag_coefficient, rot_drag_coefficient;
+  DragFields drag;
   Span<Real> stiffness;  ///< largest dt L_a / m_a around each grain
 
   BL_HD Real start(Index) const { return 0; }
@@ -64,9 +64,9 @@ struct LimitPass {
   BL_HD void finish(Index j, Real most) const {
     if (lever_sum) most *= lever_sum[j];
     const Real fraction = allowed_fraction(dt * most);
-    drag_coefficient[j] *= fraction;
-    rot_drag_coefficient[j] *= fraction;
-    stiffness[j] = drag_coefficient[j] > 0 ? dt * most : Real(0);
+    drag.coefficient[j] *= fraction;
+    drag.rot_coefficient[j] *= fraction;
+    stiffness[j] = drag.coefficient[j] > 0 ? dt * most : Real(0);
   }
 };
 

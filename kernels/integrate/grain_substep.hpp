@@ -48,9 +48,9 @@ struct ArrivedGrain {
   Index wall_row;
   BL_HD ArrivedGrain(const ContactPass& contacts, const GrainKick& kick, Index i, Span<const Real3> v_rests,
                      Span<const Real3> omega_rests)
-      : v_most(contacts.v[i]),
+      : v_most(contacts.grains.v[i]),
         v_rest(v_rests[i]),
-        omega_most(contacts.omega[i]),
+        omega_most(contacts.grains.omega[i]),
         omega_rest(omega_rests[i]),
         wall_row(contacts.wall_row_of(i)) {
     kick.prefetch(i);
@@ -79,7 +79,7 @@ struct SubstepPass {
     contacts.add_others(i, now.wall_row, sum);
     if (lane.index != 0) return;
     g.load(sum.force, sum.torque);
-    finish(i, g, sum, kick, contacts.x);
+    finish(i, g, sum, kick, contacts.grains.x);
   }
 };
 
@@ -138,15 +138,13 @@ struct EvaluatePass {
 /// Grains that are held: the fluid flows past fixed spheres.
 struct HeldPass {
   double duration;  ///< s
-  Span<const Real3> fluid_velocity, fluid_angular_velocity;
-  Span<const Real> drag_coefficient, rot_drag_coefficient;
+  DragView drag;
   Span<Real3> impulse, spin_impulse, drag_force;
   BL_HD void operator()(Index i) const {
-    drag_force[i] = drag_coefficient[i] > 0 ? drag_coefficient[i] * fluid_velocity[i] : Real3{};
+    drag_force[i] = drag.coefficient[i] > 0 ? drag.coefficient[i] * drag.velocity[i] : Real3{};
     impulse[i] = Real(duration) * drag_force[i];
-    spin_impulse[i] = rot_drag_coefficient[i] > 0
-                          ? Real(duration) * rot_drag_coefficient[i] * fluid_angular_velocity[i]
-                          : Real3{};
+    spin_impulse[i] =
+        drag.rot_coefficient[i] > 0 ? Real(duration) * drag.rot_coefficient[i] * drag.rotation[i] : Real3{};
   }
 };
 

@@ -71,9 +71,9 @@ class Coupling {
   /// the fluid; sets fluid.drag_kick, their change, and fluid.reaction. The fluid must not have changed since
   /// gather.
   void react(FluidStore& fluid, const GrainStore& grains, double dt);
-  /// Sets eps, flux, the mass in eos_state and, where needed, viscosity and grains_around of the fluid for the
-  /// present positions; pose as in gather. dt (s): the step of the grains since gather, 0 if they have not
-  /// moved.
+  /// Sets eps, flux, the mass in eos_state and, where needed, viscosity and grains_around of the fluid for
+  /// the present positions; pose as in gather. dt (s): the step of the grains since gather, 0 if they have
+  /// not moved.
   void porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt);
   /// Sets fluid_force of the grains from the stress of the fluid, and adds its change times `kick` (s) to
   /// their velocities unless they are held. After porosity.
@@ -99,6 +99,10 @@ class Coupling {
   void with_coupling_kernel(F&& f) const;
   bool moments() const { return torque_ || angmom_; }
   void pack(GrainStore& grains);
+  /// List of the sources near each target, where both were when the lists of the phases were built.
+  template <class Targets, class Sources>
+  void build(Pairing<>& pairs, const Targets& targets, const HalfSkins& of_targets, const Sources& sources,
+             const HalfSkins& of_sources, const CellGridView& grid);
   void volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt);
   WallFreeFraction wall_free(Span<const BodyPose> pose) const;
   DragLevers levers() { return {lever_at_centre_, lever_off_centre_, lever_sum_}; }
@@ -107,6 +111,7 @@ class Coupling {
   void survey(const FluidStore& fluid, const GrainStore& grains);
   Span<const Real> lever_sums() const;
   GrainSurroundings surroundings();
+  PushPass push_pass(const FluidStore& fluid);
   DragWeights drag_weights();
   Reactions reactions();
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "kernels/integrate/grain_substep.hpp"
 #include "kernels/integrate/grain_sums.hpp"
@@ -96,15 +97,7 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
 // -- limits ------------------------------------------------------------------
 
 GrainWatch SolidSolver::watch(const GrainStore& g) const {
-  const auto v = reduce(g.owned(), WatchReduction{.frame = frame_,
-                                                  .mass_per_r3 = matter_.of(g),
-                                                  .x = g.x.span(),
-                                                  .x_list = g.x_list.span(),
-                                                  .v = g.v.span(),
-                                                  .omega = g.omega.span(),
-                                                  .radius = g.radius.span(),
-                                                  .drag_coefficient = g.drag_coefficient.span(),
-                                                  .id = g.id.span()});
+  const auto v = reduce(g.owned(), WatchReduction{view(g), g.x_list, g.drag_coefficient});
   return {std::sqrt(v.speed2), std::sqrt(v.displacement2), v.drag_rate, Id(v.bad)};
 }
 
@@ -117,16 +110,20 @@ std::vector<StepLimit> SolidSolver::limits(const GrainWatch& w) const {
 
 // -- motion ------------------------------------------------------------------
 
-ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
+GrainView SolidSolver::view(const GrainStore& g) const {
   return {.frame = frame_,
-          .law = law(),
           .mass_per_r3 = matter_.of(g),
+          .x = g.x,
+          .v = g.v,
+          .omega = g.omega,
+          .radius = g.radius,
+          .id = g.id};
+}
+
+ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
+  return {.grains = view(g),
+          .law = law(),
           .dt = Real(dt),
-          .x = g.x.span(),
-          .v = g.v.span(),
-          .omega = g.omega.span(),
-          .radius = g.radius.span(),
-          .id = g.id.span(),
           .list = list_.view(),
           .histories = histories_.view(),
           .laws = pair_laws_.size() > 0 ? pair_laws_.data() : nullptr,
@@ -135,16 +132,7 @@ ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
 }
 
 LubricationPass SolidSolver::films(const GrainStore& g, ContactSum* sums) const {
-  return {.frame = frame_,
-          .law = parameters_.films,
-          .x = g.x,
-          .v = g.v,
-          .omega = g.omega,
-          .radius = g.radius,
-          .wetness = g.wetness,
-          .id = g.id,
-          .list = list_.view(),
-          .sums = sums};
+  return {view(g), parameters_.films, g.wetness, list_.view(), sums};
 }
 
 ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses, double dt,
@@ -189,10 +177,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   if (free) free->first_kick();
   if (held || parameters_.fixed) {
     for_each(g.owned(), HeldPass{.duration = dt,
-                                 .fluid_velocity = g.fluid_velocity,
-                                 .fluid_angular_velocity = g.fluid_angular_velocity,
-                                 .drag_coefficient = g.drag_coefficient,
-                                 .rot_drag_coefficient = g.rot_drag_coefficient,
+                                 .drag = drag_of(std::as_const(g)),
                                  .impulse = g.impulse,
                                  .spin_impulse = g.spin_impulse,
                                  .drag_force = g.drag_force});
@@ -218,10 +203,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                  .edges = Edges(parameters_.reflect, frame_)};
   if (wet_) {
     kick.fluid_force = g.fluid_force;
-    kick.fluid_velocity = g.fluid_velocity;
-    kick.fluid_angular_velocity = g.fluid_angular_velocity;
-    kick.drag_coefficient = g.drag_coefficient;
-    kick.rot_drag_coefficient = g.rot_drag_coefficient;
+    kick.drag = drag_of(std::as_const(g));
   }
   for_each(g.owned(), FirstKickPass{.kick = kick,
                                     .force = g.force,

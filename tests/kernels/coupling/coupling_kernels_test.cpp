@@ -91,10 +91,7 @@ struct Sided {
                                     .omega = all(omega),
                                     .surroundings = around,
                                     .weights = {all(still), {}},
-                                    .fluid_velocity = all(U),
-                                    .fluid_angular_velocity = all(omega_f),
-                                    .drag_coefficient = all(K),
-                                    .rot_drag_coefficient = all(K_rot),
+                                    .drag = {all(U), all(omega_f), all(K), all(K_rot)},
                                     .levers = levers()};
     pass(0);
   }
@@ -126,8 +123,7 @@ TEST(DragLevers, WeakenTheDragOfAGrainByTheirSum) {
     const LimitPass pass{.dt = Real(dt),
                          .rate = all(rate),
                          .lever_sum = couple ? Span<const Real>(all(sum)) : Span<const Real>(),
-                         .drag_coefficient = all(K),
-                         .rot_drag_coefficient = all(K_rot),
+                         .drag = {{}, {}, all(K), all(K_rot)},
                          .stiffness = all(stiffness)};
     Real most = pass.start(0);
     pass.pair(most, {}, 0, 0, 150);

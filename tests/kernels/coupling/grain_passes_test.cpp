@@ -40,10 +40,7 @@ std::pair<double, double> noise(double x) {
                            .mass_per_r3 = per_r3,
                            .id = all(id),
                            .radius = all(radius),
-                           .drag_coefficient = all(K),
-                           .rot_drag_coefficient = all(K_rot),
-                           .fluid_velocity = all(U),
-                           .fluid_angular_velocity = all(omega)};
+                           .drag = {all(U), all(omega), all(K), all(K_rot)}};
   double u2 = 0, w2 = 0;
   for (Index j = 0; j < n; ++j) {
     pass(j);
