@@ -1,6 +1,6 @@
 #pragma once
 #include "kernels/contact/grain_mass.hpp"
-#include "kernels/integrate/drag_fields.hpp"
+#include "kernels/integrate/grain_fields.hpp"
 #include "kernels/sdpd/noise.hpp"
 
 namespace bedload::inline BL_VARIANT {

@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/coupling/interpolation_pass.hpp"
 #include "kernels/coupling/own_wake.hpp"
-#include "kernels/integrate/drag_fields.hpp"
+#include "kernels/integrate/grain_fields.hpp"
 
 namespace bedload::inline BL_VARIANT {
 

@@ -5,7 +5,7 @@
 #include "bedload/parallel/overlap.hpp"
 #include "kernels/boundaries/edges.hpp"
 #include "kernels/contact/grain_mass.hpp"
-#include "kernels/integrate/drag_fields.hpp"
+#include "kernels/integrate/grain_fields.hpp"
 
 namespace bedload::inline BL_VARIANT {
 

@@ -178,8 +178,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   if (held || parameters_.fixed) {
     for_each(g.owned(), HeldPass{.duration = dt,
                                  .drag = drag_of(std::as_const(g)),
-                                 .impulse = g.impulse,
-                                 .spin_impulse = g.spin_impulse,
+                                 .impulses = {g.impulse, g.spin_impulse},
                                  .drag_force = g.drag_force});
     for (int s = 1; free && s <= substeps; ++s) {
       evaluate(EvaluatePass{contacts_in(s), g.force, g.torque});
@@ -205,17 +204,15 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     kick.fluid_force = g.fluid_force;
     kick.drag = drag_of(std::as_const(g));
   }
+  const Velocities<Real3> rest{v_rest_, omega_rest_};
   for_each(g.owned(), FirstKickPass{.kick = kick,
                                     .force = g.force,
                                     .torque = g.torque,
                                     .x = g.x,
-                                    .v = g.v,
-                                    .omega = g.omega,
-                                    .v_rest = v_rest_,
-                                    .omega_rest = omega_rest_,
-                                    .impulse = g.impulse,
-                                    .spin_impulse = g.spin_impulse});
-  groups_.follow(g, v_rest_, omega_rest_, tau);
+                                    .now = {g.v, g.omega},
+                                    .rest = rest,
+                                    .impulses = {g.impulse, g.spin_impulse}});
+  groups_.follow(g, rest, tau);
   for (int s = 1; s <= substeps; ++s) {
     const ContactPass contacts = contacts_in(s);
     if (!gravity.empty()) kick.gravity = gravity[s];
@@ -224,9 +221,9 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     g.v.buffer().swap(next_v_);
     g.omega.buffer().swap(next_omega_);
     if (s < substeps)
-      groups_.follow(g, v_rest_, omega_rest_, tau);
+      groups_.follow(g, rest, tau);
     else
-      groups_.follow(g, {}, {}, 0);
+      groups_.follow(g, {}, 0);
     if (free) free->substep(s), record_loads(s, *free);
   }
 }
@@ -237,28 +234,21 @@ void SolidSolver::end_substep(GrainStore& g, const ContactPass& contacts, const 
   if (last)
     evaluate(SubstepPass<Law, LastKick>{.contacts = contacts,
                                         .kick = kick,
-                                        .v_rest = v_rest_,
-                                        .omega_rest = omega_rest_,
+                                        .rest = {v_rest_, omega_rest_},
                                         .finish = {.duration = dt,
-                                                   .next_v = next_v_,
-                                                   .next_omega = next_omega_,
-                                                   .impulse = g.impulse,
-                                                   .spin_impulse = g.spin_impulse,
+                                                   .next = {next_v_, next_omega_},
+                                                   .impulses = {g.impulse, g.spin_impulse},
                                                    .force = g.force,
                                                    .torque = g.torque,
                                                    .drag_force = g.drag_force}});
   else
     evaluate(SubstepPass<Law, NextDrift>{.contacts = contacts,
                                          .kick = kick,
-                                         .v_rest = v_rest_,
-                                         .omega_rest = omega_rest_,
+                                         .rest = {v_rest_, omega_rest_},
                                          .finish = {.next_x = next_x_,
-                                                    .next_v = next_v_,
-                                                    .next_omega = next_omega_,
-                                                    .v_rest = v_rest_,
-                                                    .omega_rest = omega_rest_,
-                                                    .impulse = g.impulse,
-                                                    .spin_impulse = g.spin_impulse}});
+                                                    .next = {next_v_, next_omega_},
+                                                    .rest = {v_rest_, omega_rest_},
+                                                    .impulses = {g.impulse, g.spin_impulse}}});
 }
 
 // -- sums --------------------------------------------------------------------

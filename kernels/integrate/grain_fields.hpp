@@ -3,6 +3,17 @@
 
 namespace bedload::inline BL_VARIANT {
 
+/// Of grains, m/s and rad/s.
+template <class Vector>
+struct Velocities {
+  Span<Vector> v, omega;
+};
+
+/// What drag gives grains in a step, N s and N m s.
+struct DragImpulses {
+  Span<Real3> linear, angular;
+};
+
 /// Drag on grains, which is constant over a step of the fluid.
 template <class Vector, class Number>
 struct DragOf {
