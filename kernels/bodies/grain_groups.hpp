@@ -31,16 +31,16 @@ struct GainReduction {
   Index of;
   MassPerR3 mass_per_r3;
   Span<const Real> radius;
-  Span<const Real3> v, omega, v_rest, omega_rest;  ///< rests may be empty
+  Velocities<const Real3> now, rest;  ///< rest may be empty
   BL_HD Value identity() const { return Value::zero(); }
   BL_HD Value operator()(Index i) const {
     Value sum = Value::zero();
     if (all.group[i] != of + 1) return sum;
     const double R = radius[i], m = mass_per_r3(i) * R * R * R;
-    const Vec3d rest = v_rest ? Vec3d(v_rest[i]) : Vec3d{},
-                spin_rest = v_rest ? Vec3d(omega_rest[i]) : Vec3d{};
-    const Vec3d gained = m * (Vec3d(v[i]) - Vec3d(Real3(all.velocity(i))) + rest);
-    const Vec3d turned = 0.4 * m * R * R * (Vec3d(omega[i]) - Vec3d(Real3(all.omega(of))) + spin_rest);
+    const Vec3d v_rest = rest.v ? Vec3d(rest.v[i]) : Vec3d{},
+                omega_rest = rest.v ? Vec3d(rest.omega[i]) : Vec3d{};
+    const Vec3d gained = m * (Vec3d(now.v[i]) - Vec3d(Real3(all.velocity(i))) + v_rest);
+    const Vec3d turned = 0.4 * m * R * R * (Vec3d(now.omega[i]) - Vec3d(Real3(all.omega(of))) + omega_rest);
     sum.add(gained, cross(all.lever(i), gained) + turned);
     return sum;
   }
@@ -67,14 +67,14 @@ struct FollowPass {
   GrainGroups all;
   Frame frame;
   Span<Vec3d> x;
-  Span<Real3> v, omega, v_rest, omega_rest;  ///< rests may be empty
+  Velocities<Real3> now, rest;  ///< rest may be empty
   BL_HD void operator()(Index i) const {
     if (all.group[i] == 0) return;
     const Index g = all.group[i] - 1;
     x[i] = frame.wrap(all.x[g] + all.lever(i));
-    v[i] = Real3(all.velocity(i));
-    omega[i] = Real3(all.omega(g));
-    if (v_rest) v_rest[i] = {}, omega_rest[i] = {};
+    now.v[i] = Real3(all.velocity(i));
+    now.omega[i] = Real3(all.omega(g));
+    if (rest.v) rest.v[i] = {}, rest.omega[i] = {};
   }
 };
 

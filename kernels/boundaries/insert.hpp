@@ -3,8 +3,8 @@
 
 #include "bedload/core/frame.hpp"
 #include "bedload/particles/fluid.hpp"
-#include "bedload/particles/walls.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
+#include "kernels/fluid/views.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -22,34 +22,33 @@ struct InsertPass {
   Real3 gravity;  ///< effective, m/s2
   Span<const Id> wall_id;
   Span<const Vec3d> wall_x;
-  Span<const Real4> wall_v_rho;
+  Span<const VelocityDensity<>> wall_v_rho;
   Span<const WallState<>> wall_state;
   Span<Id> fluid_id;
   Span<FluidPosition> x;
-  Span<Real4> v_rho, flux;  ///< flux, solid_factor: empty without grains
+  Span<VelocityDensity<>> v_rho, flux;  ///< flux, solid_factor: empty without grains
   Span<EosState<>> eos_state;
   Span<Real> compression, fluid_mass, eps, solid_factor;
-  Span<Real3> stress_acceleration, fluid_acc;
+  FluidAccelerations out;
 
   BL_HD void operator()(Index w) const {
     const Id k = wall_id[w] - first;
     if (k >= count) return;
     const Index a = place + k;
     const bool touches_fluid = wall_state[w].mass > 0;
-    const Real pressure = wall_state[w].p_over_rho2 * square(wall_v_rho[w].w);
+    const Real pressure = wall_state[w].p_over_rho2 * square(wall_v_rho[w].rho);
     const Real s = touches_fluid ? eos.compression(pressure) : Real(0);
     fluid_id[a] = id + k;
     x[a] = as_position<FluidPosition>(frame, wall_x[w]);
     const Real rho = eos.rho0 * (1 + s), p = eos.pressure(s);
-    v_rho[a] = {wall_v_rho[w].xyz(), rho};
+    v_rho[a] = {wall_v_rho[w].v, rho};
     if (flux) flux[a] = v_rho[a];
     eos_state[a] = {.mass_over_eps = mass, .p_over_rho2 = p / square(rho), .rho = rho, .eps = 1};
     compression[a] = s;
     fluid_mass[a] = mass;
     eps[a] = 1;
     if (solid_factor) solid_factor[a] = 0;
-    stress_acceleration[a] = acc - gravity;  // gives the prescribed acceleration
-    fluid_acc[a] = acc;
+    out.set(a, acc - gravity, acc);  // by the stress what gives the prescribed acceleration
   }
 };
 

@@ -77,15 +77,24 @@ struct ContactSum {
   BL_HD void add(const ContactSum& other) { force += other.force, torque += other.torque; }
 };
 
-struct ContactPass {
+/// Grains as contacts see them.
+struct GrainView {
   Frame frame;
-  ContactLaw law;
   MassPerR3 mass_per_r3;
-  Real dt;  ///< s
   Span<const Vec3d> x;
   Span<const Real3> v, omega;
   Span<const Real> radius;
   Span<const Id> id;
+
+  BL_HD double mass(Index i) const { return mass_per_r3(i) * radius[i] * radius[i] * radius[i]; }
+  BL_HD Sphere sphere(Index i, Real R) const { return {R, Real(mass_per_r3(i)) * cube(R)}; }
+  BL_HD Sphere sphere(Index i) const { return sphere(i, radius[i]); }
+};
+
+struct ContactPass {
+  GrainView grains;
+  ContactLaw law;
+  Real dt;  ///< s
   VerletListView list;
   PairHistories histories;
   Span<const Index> wall_row = {};  ///< of each grain in by_walls, kNone: far from walls; empty: all are
@@ -95,10 +104,9 @@ struct ContactPass {
   std::uint32_t materials = 1;
   bool acts = true;  ///< false: grains pass through each other
 
-  BL_HD Sphere sphere(Index i, Real R) const { return {R, Real(mass_per_r3(i)) * cube(R)}; }
   /// Index in `laws` of the law between two grains.
   BL_HD std::uint32_t pair_of(Index i, Index j) const {
-    return mass_per_r3.material[i] * materials + mass_per_r3.material[j];
+    return grains.mass_per_r3.material[i] * materials + grains.mass_per_r3.material[j];
   }
 
   BL_HD const ContactLaw& law_of(Index i, Index j) const { return laws ? laws[pair_of(i, j)] : law; }
@@ -115,7 +123,7 @@ struct ContactPass {
     ContactSum sum;
     const Index i = lane.row;
     if (!acts) return sum;
-    const Grain own{i, x[i], radius[i], v[i], omega[i], id[i]};
+    const Grain own{i, grains.x[i], grains.radius[i], grains.v[i], grains.omega[i], grains.id[i]};
     list.each(lane, [&](std::uint64_t slot, Index j) { pair<Law>(own, j, slot, sum); });
     lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
     return sum;
@@ -142,6 +150,7 @@ struct ContactPass {
     Real3 v, omega;
     Id id = 0;
   };
+  BL_HD Other load(Index j) const { return {grains.v[j], grains.omega[j], grains.id[j]}; }
   /// By value: a reference would force both into memory.
   BL_HD static Real3 either(bool first, const Real3& a, const Real3& b) {
     return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
@@ -150,12 +159,12 @@ struct ContactPass {
   BL_HD void pair(const Grain& own, Index j, std::uint64_t slot, ContactSum& sum) const {
     // load as early as a value is known to be needed: a pair then waits for memory only once
     const bool touched = histories.touching[slot];
-    const Real R = radius[j];
-    const Vec3d x_j = x[j];
+    const Real R = grains.radius[j];
+    const Vec3d x_j = grains.x[j];
     Other other;
     ContactHistory h;
-    if (touched) h = histories[slot], other = {v[j], omega[j], id[j]};
-    const Vec3d r = frame.separation(own.x, x_j);
+    if (touched) h = histories[slot], other = load(j);
+    const Vec3d r = grains.frame.separation(own.x, x_j);
     const double reach = double(own.R) + double(R), r2 = norm2(r);
     const bool near = r2 < reach * reach;
     const double distance = near ? std::sqrt(r2) : reach;
@@ -163,13 +172,13 @@ struct ContactPass {
       if (touched) histories.touching[slot] = 0;
       return;
     }
-    if (!touched) other = {v[j], omega[j], id[j]};
+    if (!touched) other = load(j);
     const bool first = own.id < other.id;
     const Real3 v_j = other.v, omega_j = other.omega;
     const Index lo = first ? own.i : j, hi = first ? j : own.i;
     const Real R_lo = first ? own.R : R, R_hi = first ? R : own.R;
-    const ContactGeometry at =
-        sphere_contact(sphere(lo, R_lo), sphere(hi, R_hi), first ? r : -r, distance, reach - distance);
+    const ContactGeometry at = sphere_contact(grains.sphere(lo, R_lo), grains.sphere(hi, R_hi),
+                                              first ? r : -r, distance, reach - distance);
     const Real3 v_rel = first ? own.v - v_j : v_j - own.v, omega_lo = either(first, own.omega, omega_j),
                 omega_hi = either(first, omega_j, own.omega);
     // most cases have one law, a kernel parameter in registers; a reference would force it into memory

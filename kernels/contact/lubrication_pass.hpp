@@ -6,12 +6,9 @@ namespace bedload::inline BL_VARIANT {
 /// Lubrication between grains, scaled by the wetness of the drier one. Both partners evaluate a pair, ordered
 /// from the lower to the higher id. Runs over the threads that share the rows of the list.
 struct LubricationPass {
-  Frame frame;
+  GrainView grains;
   Lubrication law;
-  Span<const Vec3d> x;
-  Span<const Real3> v, omega;
-  Span<const Real> radius, wetness;
-  Span<const Id> id;
+  Span<const Real> wetness;
   VerletListView list;
   ContactSum* sums;  ///< [grains]
 
@@ -27,6 +24,7 @@ struct LubricationPass {
   /// f(force on lo, x_lo - x_hi) of the two grains, ordered by id, if there is a film between them.
   template <class F>
   BL_HD void between(Index lo, Index hi, F&& f) const {
+    const auto& [frame, mass, x, v, omega, radius, id] = grains;
     const Real R_lo = radius[lo], R_hi = radius[hi], wet = min_of(wetness[lo], wetness[hi]);
     const Vec3d r = frame.separation(x[lo], x[hi]);
     const double range = double(R_lo) + double(R_hi) + double(law.range(R_lo * R_hi / (R_lo + R_hi)));
@@ -40,7 +38,7 @@ struct LubricationPass {
 
  private:
   BL_HD void pair(Index i, Index j, ContactSum& sum) const {
-    const bool first = id[i] < id[j];
+    const bool first = grains.id[i] < grains.id[j];
     between(first ? i : j, first ? j : i, [&](const ContactForce& f, const Vec3d&) {
       sum.force += Vec3d(first ? f.force : -f.force);
       sum.torque += Vec3d(first ? f.torque_i : f.torque_j);

@@ -26,12 +26,8 @@ struct WallScope {
 using AnyWalls = WallScope<ContactLaw, AllKinds, true>;
 
 struct WallContacts {
-  Frame frame;
-  MassPerR3 mass_per_r3;
+  GrainView grains;
   Real dt;  ///< s
-  Span<const Vec3d> x;
-  Span<const Real3> v, omega;
-  Span<const Real> radius;
   SurfaceSet walls;
   WallMemory* const* memory;  ///< [capacity][grains]
   Index* count;               ///< [grains], of them in use
@@ -54,14 +50,14 @@ struct WallContacts {
   }
   BL_HD WallMemories memories(Index i) const { return {memory, count, i}; }
   BL_HD const ContactLaw& law(std::uint32_t body, Index i) const {
-    return laws[body * materials + (mass_per_r3.material ? mass_per_r3.material[i] : 0)];
+    return laws[body * materials + (grains.mass_per_r3.material ? grains.mass_per_r3.material[i] : 0)];
   }
 
   /// f(body, contact) for the lane's contacts of grain i with the surfaces `surface(k)`, ascending, k < n;
   /// the lanes of a grain share them. `keep`: histories are advanced.
   template <class Scope = AnyWalls, class Surfaces, class F>
   BL_HD void each(const Lane& lane, Index i, Index n, Surfaces&& surface, bool keep, F&& f) const {
-    const Grain grain{x[i], v[i], omega[i], {radius[i], Real(mass_per_r3(i)) * cube(radius[i])}};
+    const Grain grain{grains.x[i], grains.v[i], grains.omega[i], grains.sphere(i)};
     const WallMemories remembered = memories(i);
     SurfaceContacts<typename Scope::Kinds> found(remembered, walls.surfaces.data, capacity);
     find(grain.x, grain.R(), n, surface, double(grain.R()), found);
@@ -82,23 +78,24 @@ struct WallContacts {
   template <class Surfaces, class F>
   BL_HD void each_film(Index i, Index n, Surfaces&& surface, F&& f) const {
     if (!(wetness[i] > 0)) return;
-    const Real R = radius[i];
+    const Real R = grains.radius[i];
+    const Vec3d x = grains.x[i];
     SurfaceContacts<> near(WallMemories{nullptr, nullptr, i}, walls.surfaces.data, kMostWallContacts);
-    find(x[i], R, n, surface, double(R) + double(lubrication.range(R)), near);
+    find(x, R, n, surface, double(R) + double(lubrication.range(R)), near);
     if (near.size() == 0) return;
     near.resolve();
     for (int k = 0; k < near.size(); ++k) {
       const ClosestPoint& closest = near[k].closest;
       const BodyPose& pose = poses[near[k].body];
-      const Vec3d point = x[i] - closest.distance * closest.normal;
+      const Vec3d point = x - closest.distance * closest.normal;
       const NearSurfaces at{.n = closest.normal,
                             .gap = closest.distance - double(R),
                             .R_star = R,
                             .skew = 1,
                             .arm_i = Real(closest.distance),
                             .arm_j = 0};
-      ContactForce on_grain = lubrication(at, v[i] - Real3(surface_velocity(pose, arm(pose, point))),
-                                          omega[i], Real3(pose.omega));
+      ContactForce on_grain = lubrication(at, grains.v[i] - Real3(surface_velocity(pose, arm(pose, point))),
+                                          grains.omega[i], Real3(pose.omega));
       on_grain.force *= wetness[i], on_grain.torque_i *= wetness[i], on_grain.torque_j *= wetness[i];
       f(near[k].body, Contact{on_grain, point});
     }
@@ -106,9 +103,9 @@ struct WallContacts {
   /// Number of contacts of grain i that are left out, since the deepest `capacity` alone count.
   BL_HD Index dropped(Index i) const {
     const auto any = [](Index s) { return s; };
-    return left_out(memories(i), walls.surfaces.data, capacity, [&](auto& found) {
-      find(x[i], radius[i], walls.surfaces.size, any, double(radius[i]), found);
-    });
+    const Real R = grains.radius[i];
+    return left_out(memories(i), walls.surfaces.data, capacity,
+                    [&](auto& found) { find(grains.x[i], R, walls.surfaces.size, any, double(R), found); });
   }
 
  private:
@@ -127,7 +124,7 @@ struct WallContacts {
       const Surface& of = walls.surfaces[s];
       const BodyPose& pose = poses[of.body];
       if (!pose.present) continue;
-      const SurfaceView view(of, pose, frame, at);
+      const SurfaceView view(of, pose, grains.frame, at);
       const double reach = Kinds::reach(of, range);
       if (Kinds::kTracked && view.beyond(walls, reach))
         continue;  // for other kinds the closest point costs no more than this test
@@ -156,7 +153,7 @@ struct WallContacts {
   }
   /// From the centre of a body to a point, by the nearest image, m.
   BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
-    return frame.nearest_image(point - pose.origin());
+    return grains.frame.nearest_image(point - pose.origin());
   }
   template <class Scope, class F>
   BL_HD void evaluate(const Grain& grain, const SurfaceContact& contact, const ContactLaw& law,

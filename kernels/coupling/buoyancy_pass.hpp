@@ -5,16 +5,6 @@
 
 namespace bedload::inline BL_VARIANT {
 
-struct PushPass {
-  Span<const Real> solid_factor;
-  Span<const Real3> stress_acceleration;
-  Span<const EosState<>> eos_state;
-  Span<Real4> push;
-  BL_HD void operator()(Index a) const {
-    push[a] = push_record(solid_factor[a], stress_acceleration[a], eos_state[a]);
-  }
-};
-
 /// Force of the fluid's stress on a grain, its buoyancy: sum_a w_ja M_a theta_a. The fluid takes the fraction
 /// eps_a of M_a theta_a, the grains the rest. Replaces V_j sum phi rho~ theta of [he18] Eqs. 27-29.
 template <class W>

@@ -1,5 +1,6 @@
 #pragma once
 #include "kernels/contact/grain_mass.hpp"
+#include "kernels/integrate/grain_fields.hpp"
 #include "kernels/sdpd/noise.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -16,14 +17,14 @@ struct DragNoisePass {
   double kT, dt;  ///< J, s
   MassPerR3 mass_per_r3;
   Span<const Id> id;
-  Span<const Real> radius, drag_coefficient, rot_drag_coefficient;
-  Span<Real3> fluid_velocity, fluid_angular_velocity;
+  Span<const Real> radius;
+  DragFields drag;
 
   BL_HD void operator()(Index j) const {
     const double R = radius[j], m = mass_per_r3(j) * R * R * R;
-    if (drag_coefficient[j] > 0) fluid_velocity[j] += spread(m, drag_coefficient[j]) * deviates(id[j], 3);
-    if (rot_drag_coefficient[j] > 0)
-      fluid_angular_velocity[j] += spread(0.4 * m * R * R, rot_drag_coefficient[j]) * deviates(id[j], 4);
+    if (drag.coefficient[j] > 0) drag.velocity[j] += spread(m, drag.coefficient[j]) * deviates(id[j], 3);
+    if (drag.rot_coefficient[j] > 0)
+      drag.rotation[j] += spread(0.4 * m * R * R, drag.rot_coefficient[j]) * deviates(id[j], 4);
   }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 #include "kernels/coupling/interpolation_pass.hpp"
 #include "kernels/coupling/own_wake.hpp"
+#include "kernels/integrate/grain_fields.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -101,8 +102,7 @@ struct DragPass {
   Span<const Real> wetness;
   Span<const Real3> v, omega;
   DragWeights weights;
-  Span<Real3> fluid_velocity, fluid_angular_velocity;
-  Span<Real> drag_coefficient, rot_drag_coefficient;
+  DragFields drag;
   DragLevers levers;
 
   BL_HD void operator()(Index j) const {
@@ -117,30 +117,30 @@ struct DragPass {
       k = law_line.at(slip);
       if (k > 0) line = {law_line.still / k, law_line.slope / k};
     }
-    drag_coefficient[j] = wet * k;
+    drag.coefficient[j] = wet * k;
     weights.still[j] = inv_S * line.still;
     if constexpr (Local) {
       weights.by_slip[j] = {v[j], inv_S * line.slope};
       flow = flow.blend(line.still, surroundings.fast[j], line.slope);
     }
-    fluid_velocity[j] = v[j] + inv_S * flow.u;
-    fluid_angular_velocity[j] = {};
-    rot_drag_coefficient[j] = 0;
+    drag.velocity[j] = v[j] + inv_S * flow.u;
+    drag.rotation[j] = {};
+    drag.rot_coefficient[j] = 0;
     const Carriers& carriers = surroundings.drag;
     if (!carriers.inv_M) return;
     const Real spread = carriers.set(j, flow, inv_S);
-    fluid_angular_velocity[j] = carriers.rotation(j, flow, inv_S);
+    drag.rotation[j] = carriers.rotation(j, flow, inv_S);
     if (couple) {
       const Real3 arm = carriers.arm[j];
-      fluid_velocity[j] -= cross(fluid_angular_velocity[j], arm);
+      drag.velocity[j] -= cross(drag.rotation[j], arm);
       const Real off_centre = norm(arm) * carriers.inv_M[j].norm();
       levers.at_centre[j] = 1 + off_centre * norm(arm);
       levers.off_centre[j] = off_centre;
       levers.sum[j] = 1 + off_centre * spread;
     }
     if (torque && wet > 0 && carriers.inv_M[j].trace() > 0)
-      rot_drag_coefficient[j] = wet * spin_drag(2 * lines.radius[j], surroundings.rho[j], lines.mu,
-                                                norm(fluid_angular_velocity[j] - omega[j]));
+      drag.rot_coefficient[j] = wet * spin_drag(2 * lines.radius[j], surroundings.rho[j], lines.mu,
+                                                norm(drag.rotation[j] - omega[j]));
   }
 };
 

@@ -25,7 +25,7 @@ template <class W, bool Moments, bool Local>
 struct InterpolationPass {
   W w;
   Real S_least, eps_min;  ///< S_least: value of S below which no mean is defined
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   FluidRecords fluid;
   Span<const Real3> v, fluid_force;
   Span<const Real4> volume;  ///< w: of GrainVolumePass
@@ -48,10 +48,10 @@ struct InterpolationPass {
   }
   BL_HD auto sources() const { return sources_of(v_rho, fluid.push, fluid.solids); }
   template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_ja, N r2, N, const Vec4<N>& state, const Vec4<N>& push,
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_ja, N r2, N, const VelocityDensity<N>& a, const Vec4<N>& push,
                   const Vec4<N>& solids) const {
     const N W_ja = w.W(root(r2)), vw = push.w * W_ja;
-    const Vec3<N> u = state.xyz() - sum.v_grain;
+    const Vec3<N> u = a.v - sum.v_grain;
     sum.eps += vw * solids.x;
     sum.rho += vw * solids.y;
     sum.counted += vw * solids.z;

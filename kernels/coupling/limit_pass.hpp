@@ -11,7 +11,7 @@ struct DragRatePass {
   DragWeights weights;
   DragLevers levers;
   Span<const Real> drag_coefficient, mass;
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   Span<const EosState<>> eos_state;
   Span<Real> rate;
 
@@ -20,7 +20,7 @@ struct DragRatePass {
     Vec3<N> v;
     N V, L;
   };
-  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(eos_state[a]), 0}; }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].v, mixture_volume(eos_state[a]), 0}; }
   BL_HD auto sources() const {
     return sources_of(drag_coefficient, weights.still, read_if<Couple>(levers.at_centre),
                       read_if<Couple>(levers.off_centre), read_if<Local>(weights.by_slip));
@@ -52,7 +52,7 @@ struct LimitPass {
   Real dt;  ///< s
   Span<const Real> rate;
   Span<const Real> lever_sum;  ///< of DragLevers; empty without a couple
-  Span<Real> drag_coefficient, rot_drag_coefficient;
+  DragFields drag;
   Span<Real> stiffness;  ///< largest dt L_a / m_a around each grain
 
   BL_HD Real start(Index) const { return 0; }
@@ -64,9 +64,9 @@ struct LimitPass {
   BL_HD void finish(Index j, Real most) const {
     if (lever_sum) most *= lever_sum[j];
     const Real fraction = allowed_fraction(dt * most);
-    drag_coefficient[j] *= fraction;
-    rot_drag_coefficient[j] *= fraction;
-    stiffness[j] = drag_coefficient[j] > 0 ? dt * most : Real(0);
+    drag.coefficient[j] *= fraction;
+    drag.rot_coefficient[j] *= fraction;
+    stiffness[j] = drag.coefficient[j] > 0 ? dt * most : Real(0);
   }
 };
 

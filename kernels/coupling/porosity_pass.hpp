@@ -49,10 +49,11 @@ struct PorosityPass {
   OrificeWeight away_from_orifices;
   Frame frame;
   Span<const FluidPosition> x;
-  Span<const Real4> volume, v_rho;
+  Span<const Real4> volume;
+  Span<const VelocityDensity<>> v_rho;
   Span<const Real> mass;
   Span<Real> eps, solid_factor;
-  Span<Real4> flux;
+  Span<VelocityDensity<>> flux;
   Span<EosState<>> eos_state;
   Span<PairPosition> xp, xp_mid;  ///< whose weights follow the porosity; xp_mid may be empty
 
@@ -82,9 +83,9 @@ struct PorosityPass {
     }
     eps[a] = porosity;
     if (!shares) return;
-    const Real4 v = v_rho[a];
+    const VelocityDensity<> old = v_rho[a];
     solid_factor[a] = factor;
-    flux[a] = {porosity * v.xyz() + factor * sum.q, v.w};
+    flux[a] = {porosity * old.v + factor * sum.q, old.rho};
     const Real weight = mass[a] / porosity;
     eos_state[a].mass_over_eps = weight;
     eos_state[a].eps = porosity;

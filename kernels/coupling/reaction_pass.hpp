@@ -20,13 +20,6 @@ struct Reactions {
   Span<Real4> couple;   ///< B over S_j, N/m; w: DragLevers::off_centre
 };
 
-/// Input of the drag by local slip.
-struct LocalSlip {
-  Real dt;  ///< s
-  Span<const Real> drag_coefficient;
-  Span<const Real3> fluid_velocity, fluid_angular_velocity;
-};
-
 /// Computes the reaction of grain j.
 template <bool Couple, bool Local>
 struct ReactionTermsPass {
@@ -34,21 +27,22 @@ struct ReactionTermsPass {
   GrainSurroundings surroundings;
   DragWeights weights;
   DragLevers levers;
-  LocalSlip slip;
+  Real dt;  ///< s
+  DragView drag;
   Reactions reactions;
 
   BL_HD void operator()(Index j) const {
     Real3 J = impulse[j], F, A, u;
     Real lever = 1;
-    const Real Kdt = slip.dt * slip.drag_coefficient[j];
-    if constexpr (Local) u = slip.fluid_velocity[j] - weights.by_slip[j].xyz();
+    const Real Kdt = dt * drag.coefficient[j];
+    if constexpr (Local) u = drag.velocity[j] - weights.by_slip[j].xyz();
     if constexpr (Couple) {
-      const Carriers &drag = surroundings.drag, &stress = surroundings.stress;
+      const Carriers &carriers = surroundings.drag, &stress = surroundings.stress;
       const Real3 B = stress.inv_M[j] * surroundings.lost_moment[j];
-      A = drag.couple(j, J, spin_impulse[j]);
-      J += cross(A, drag.arm[j]);
+      A = carriers.couple(j, J, spin_impulse[j]);
+      J += cross(A, carriers.arm[j]);
       F = cross(B, stress.arm[j]);
-      if constexpr (Local) A += Kdt * slip.fluid_angular_velocity[j];
+      if constexpr (Local) A += Kdt * drag.rotation[j];
       lever = levers.at_centre[j];
       reactions.couple[j] = {surroundings.inv_S[j] * B, levers.off_centre[j]};
     }
@@ -68,7 +62,7 @@ struct ReactionPass {
   Span<const Real4> by_slip;  ///< of DragWeights
   Reactions reactions;
   Real per_dt;  ///< 1/s
-  Span<Real4> v_rho;
+  Span<VelocityDensity<>> v_rho;
   Span<Real3> reaction;   ///< m/s2
   Span<Real3> drag_kick;  ///< m/s
   Span<Real> rate;        ///< 1/s
@@ -80,7 +74,7 @@ struct ReactionPass {
     Vec3<N> impulse, force;
     N L;
   };
-  BL_HD Sum<> start(Index a) const { return {v_rho[a].xyz(), mixture_volume(eos_state[a]), {}, {}, 0}; }
+  BL_HD Sum<> start(Index a) const { return {v_rho[a].v, mixture_volume(eos_state[a]), {}, {}, 0}; }
   BL_HD auto sources() const {
     const auto& [impulse, force, spin, couple] = reactions;
     return sources_of(impulse, force, spin, read_if<Couple>(couple), read_if<Local>(by_slip));
@@ -114,9 +108,9 @@ struct ReactionPass {
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
     const Real inv_m = 1 / mass[a];
-    const Real4 old = v_rho[a];
+    const VelocityDensity<> old = v_rho[a];
     const Real3 kick = -(inv_m * sum.impulse);
-    v_rho[a] = {old.xyz() + kick, old.w};
+    v_rho[a] = {old.v + kick, old.rho};
     drag_kick[a] = kick;
     reaction[a] = -(inv_m * sum.force);
     rate[a] = inv_m * per_dt * sum.L;

@@ -2,6 +2,7 @@
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/fluid/linear_fit.hpp"
 #include "kernels/fluid/shifting.hpp"
+#include "kernels/fluid/views.hpp"
 #include "kernels/fluid/wall_mass.hpp"
 #include "kernels/smoothing/half_space_fraction.hpp"
 #include "kernels/smoothing/lengths.hpp"
@@ -38,10 +39,8 @@ namespace bedload::inline BL_VARIANT {
 template <class W, class Shift, class Fit, bool kSmooth, bool kPorous, class Lengths>
 struct DensityPass {
   W w;
-  Span<const Real4> flux;
-  Span<const EosState<>> eos_state;
-  Span<const Real4> wall_v_rho;
-  Span<const WallState<>> wall_state;
+  FluidView fluid;
+  WallView walls;
   Real diffusion;     ///< 2 delta h c [m2/s]
   Real3 hydrostatic;  ///< rho0 g / c^2 [kg/m4]: how density grows downwards at rho0
   Real stiffening;    ///< and by which power of rho0 / rho elsewhere: gamma - 2
@@ -72,8 +71,8 @@ struct DensityPass {
     [[no_unique_address]] typename Lengths::template Own<N> own;
   };
   BL_HD Sum<> start(Index a) const {
-    const EosState<> m = eos_state[a];
-    return {flux[a].xyz(),
+    const EosState<> m = fluid.state[a];
+    return {fluid.flux[a].v,
             m.mass_over_eps,
             m.rho,
             m.eps,
@@ -88,24 +87,24 @@ struct DensityPass {
 
   BL_HD auto sources() const {
     constexpr bool asked = (kSmooth && kPorous) || Fit::acts;
-    const auto state = read_if<asked>(eos_state);
+    const auto state = read_if<asked>(fluid.state);
     if constexpr (kSmooth)
-      return lengths.sources(flux, state, shift.sources());
+      return lengths.sources(fluid.flux, state, shift.sources());
     else
-      return sources_of(flux, state, shift.sources());
+      return sources_of(fluid.flux, state, shift.sources());
   }
   /// exposure: if particles shift; h_b: if lengths vary.
   template <class N, class State, class Exposure, class... H>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb,
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& qb,
                   [[maybe_unused]] const State& state, [[maybe_unused]] const Exposure& exposure,
                   const H&... h_b) const {
     const N distance = root(r2);
     const auto factor = lengths.F(w, sum.own, distance, h_b...);
     const N F = own_factor(factor);
-    const Vec3<N> v = sum.q - qb.xyz();
+    const Vec3<N> v = sum.q - qb.v;
     sum.rate += M * F * dot(v, r);
     if constexpr (!kSmooth) return;
-    const N rho = qb.w, V = quotient(M, rho), VF = V * F;
+    const N rho = qb.rho, V = quotient(M, rho), VF = V * F;
     sum.filled += V * lengths.W(w, sum.own, distance);
     sum.gradient += VF * r;
     sum.shift.add(VF, v, r, exposure);
@@ -117,14 +116,14 @@ struct DensityPass {
     sum.diffused += spread * (rho - sum.rho + still * dot(Vec3<N>(hydrostatic), r));
   }
   BL_HD auto wall_sources() const {
-    return sources_of(wall_v_rho, wall_state, read_where(bool(wall_work), wall_work));
+    return sources_of(walls.v_rho, walls.state, read_where(bool(wall_work), wall_work));
   }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
-                       N work) const {
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const VelocityDensity<N>& vb,
+                       const WallState<N>& mb, N work) const {
     const N distance = root(r2), F = own_factor(lengths.F(w, sum.own, distance)),
             V = quotient(mb.mass, mb.rho);
-    sum.rate += continuity_mass(mb, rho0) * F * dot(sum.q - vb.xyz(), r);
+    sum.rate += continuity_mass(mb, rho0) * F * dot(sum.q - vb.v, r);
     if (wall_work) sum.rate += quotient(square(sum.rho) * work, sum.M) * lengths.W(w, sum.own, distance);
     if constexpr (!kSmooth) return;
     sum.filled += V * lengths.W(w, sum.own, distance);
@@ -171,7 +170,7 @@ struct DensityPass {
     if (compression_rate) compression_rate[a] = -rate / (sum.eps * rho0);
     if constexpr (!kSmooth) return {-rate / (sum.eps * rho0), 0};
     const Real s = compression[a],
-               filled = eos_state[a].mass_over_eps / sum.rho * lengths.W(w, sum.own, Real(0)) + sum.filled;
+               filled = fluid.state[a].mass_over_eps / sum.rho * lengths.W(w, sum.own, Real(0)) + sum.filled;
     const Real void_fraction = max_of(Real(0), 1 - filled - cut(norm(sum.gradient) * lengths.ratio(a)));
     const Real excess = max_of(Real(0), filled - 1 - slack), pressed = max_of(Real(0), s);
     return {(diffusion * sum.diffused - rate) / (sum.eps * rho0) + spreading * excess,

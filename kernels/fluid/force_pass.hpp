@@ -3,6 +3,7 @@
 #include "kernels/fluid/drive.hpp"
 #include "kernels/fluid/layer_force.hpp"
 #include "kernels/fluid/pair_terms.hpp"
+#include "kernels/fluid/views.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -14,7 +15,7 @@ struct WallPair {
   /// va, vw: velocity and density. Both masses of a dry wall particle are zero. relative: viscosity of a over
   /// that of `viscosity`.
   template <class N, class Factor>
-  BL_HD Vec3<N> operator()(const Vec4<N>& va, const EosState<N>& ma, const Vec4<N>& vw,
+  BL_HD Vec3<N> operator()(const VelocityDensity<N>& va, const EosState<N>& ma, const VelocityDensity<N>& vw,
                            const WallState<N>& mw, const NoSlip<N>& no_slip, const Vec3<N>& r, N r2,
                            const Factor& F, N relative) const {
     Vec3<N> stress = pressure(ma, mw, r, F);
@@ -28,9 +29,9 @@ struct WallPair {
     return (suction ? push : max_of(push, N(0))) * r;
   }
   template <class N, class Factor>
-  BL_HD Vec3<N> friction(const Vec4<N>& va, const Vec4<N>& vw, const NoSlip<N>& no_slip, const Vec3<N>& r,
-                         N r2, const Factor& F) const {
-    return viscosity(no_slip.mass, va.w, vw.w, va.xyz() - no_slip.v, r, r2, F);
+  BL_HD Vec3<N> friction(const VelocityDensity<N>& va, const VelocityDensity<N>& vw, const NoSlip<N>& no_slip,
+                         const Vec3<N>& r, N r2, const Factor& F) const {
+    return viscosity(no_slip.mass, va.rho, vw.rho, va.v - no_slip.v, r, r2, F);
   }
 };
 
@@ -45,46 +46,45 @@ template <class W, bool kArtificial, bool kAdded, bool kSpecies = false, class L
 struct ForcePass {
   W w;
   WallPair wall;
-  Span<const Real4> flux;
-  Span<const EosState<>> eos_state;
+  FluidView fluid;
   Span<const Real> p_rho2;  ///< P / rho^2, where lengths vary over Omega, m5/(kg s2)
-  Span<const Real4> wall_v_rho;
-  Span<const WallState<>> wall_state;
-  Span<const NoSlip<>> wall_no_slip;
+  WallView walls;
   ArtificialViscosity artificial;
   TensileTerm tensile;
   Real xsph_factor;
   Real3 gravity;  ///< minus the frame's acceleration, m/s2
   Drive drive;
-  Span<Real3> stress_acceleration, acc, drift;
+  FluidAccelerations out;
+  Span<Real3> drift;
   Span<const Real> relative_viscosity = {};  ///< over that of wall.viscosity
   Span<const Real4> correction = {};         ///< of LinearFit, m/s2; empty without
   Lengths lengths = {};
 
   template <class N = Real>
   struct Sum {
-    Vec4<N> v;
+    VelocityDensity<N> a;
     EosState<N> m;
     Vec3<N> stress, xsph;
     N viscosity;
     typename Lengths::template Own<N> own;
   };
   BL_HD Sum<> start(Index a) const {
-    EosState<> m = eos_state[a];
+    EosState<> m = fluid.state[a];
     m.p_over_rho2 = lengths.corrected(a, m.p_over_rho2);
-    return {flux[a], m, {}, {}, kSpecies ? relative_viscosity[a] : Real(1), lengths.template own<Real>(a)};
+    return {
+        fluid.flux[a], m, {}, {}, kSpecies ? relative_viscosity[a] : Real(1), lengths.template own<Real>(a)};
   }
 
   BL_HD auto species() const { return read_if<kSpecies>(relative_viscosity); }
-  BL_HD auto sources() const { return lengths.sources(flux, p_rho2, species()); }
+  BL_HD auto sources() const { return lengths.sources(fluid.flux, p_rho2, species()); }
   /// h_b: if lengths vary.
   template <class N, class Relative, class... H>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& vb, N p,
                   [[maybe_unused]] const Relative& viscosity_b, const H&... h_b) const {
     const N distance = root(r2);
     const auto F = lengths.F(w, sum.own, distance, h_b...);
-    const Vec3<N> v = sum.v.xyz() - vb.xyz();
-    [[maybe_unused]] const N rho_mean = Real(0.5) * (sum.v.w + vb.w);
+    const Vec3<N> v = sum.a.v - vb.v;
+    [[maybe_unused]] const N rho_mean = Real(0.5) * (sum.a.rho + vb.rho);
     N along = pressure_term(M, sum.m.p_over_rho2, p, F);
     if constexpr (kArtificial) along += artificial.term(M, dot(v, r), rho_mean, r2, F);
     if constexpr (kAdded) {
@@ -93,17 +93,17 @@ struct ForcePass {
     }
     sum.stress += along * r;
     if (!wall.viscosity.acts()) return;
-    const Vec3<N> friction = wall.viscosity(M, sum.v.w, vb.w, v, r, r2, F);
+    const Vec3<N> friction = wall.viscosity(M, sum.a.rho, vb.rho, v, r, r2, F);
     if constexpr (kSpecies)
       sum.stress += Real(0.5) * (sum.viscosity + viscosity_b) * friction;
     else
       sum.stress += friction;
   }
-  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_state, wall_no_slip); }
+  BL_HD auto wall_sources() const { return sources_of(walls.v_rho, walls.state, walls.no_slip); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
-                       const NoSlip<N>& no_slip) const {
-    sum.stress += wall(sum.v, sum.m, vb, mb, no_slip, r, r2, lengths.F(w, sum.own, root(r2)),
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const VelocityDensity<N>& vb,
+                       const WallState<N>& mb, const NoSlip<N>& no_slip) const {
+    sum.stress += wall(sum.a, sum.m, vb, mb, no_slip, r, r2, lengths.F(w, sum.own, root(r2)),
                        kSpecies ? sum.viscosity : N(1));
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
@@ -113,8 +113,7 @@ struct ForcePass {
   BL_HD void finish(Index a, const Sum<>& sum) const {
     Real3 stress = sum.stress;
     if (correction) stress += correction[a].xyz();
-    stress_acceleration[a] = stress;
-    acc[a] = stress + gravity + drive(a, sum.m);
+    out.set(a, stress, stress + gravity + drive(a, sum.m));
     if (kAdded && xsph_factor > 0) drift[a] += sum.xsph;
   }
 };
@@ -134,45 +133,55 @@ struct ForceParts {
   BL_HD void write(Index b, Span<Vec3d> p, Span<Vec3d> f) const { p[b] = pressure, f[b] = friction; }
 };
 
-/// Force of the mixture on each wall particle [N], the reaction to ForcePass and LayerPass. Velocities have
-/// been corrected by `kick` (acc - acc_before) since those ran; this is undone. `Force`: WholeForce, which
-/// leaves `friction` alone, or ForceParts.
+/// What correct() has changed since the forces were found, undone: velocities by `kick` of what the
+/// acceleration has changed.
+struct BeforeCorrection {
+  Real kick;  ///< s
+  Span<const Real3> acc, acc_before;
+  /// To be read of a neighbour: acc, or acc_before.
+  BL_HD auto source(Span<const Real3> field) const { return read_where(kick != 0, field); }
+  BL_HD VelocityDensity<> operator()(const VelocityDensity<>& a, const Real3& acc_a,
+                                     const Real3& acc_before_a) const {
+    return {a.v - kick * (acc_a - acc_before_a), a.rho};
+  }
+};
+
+/// Force of the mixture on each wall particle [N], the reaction to ForcePass and LayerPass. `Force`:
+/// WholeForce, which leaves `friction` alone, or ForceParts.
 template <class W, class Force, class Lengths>
 struct WallForcePass {
   W w;
   WallPair wall;
   LayerForces<W> layer;  ///< empty without single layers
-  Real kick;             ///< s
-  Span<const Real3> acc, acc_before;
-  Span<const Real4> flux;
-  Span<const EosState<>> eos_state;
-  Span<const Real4> wall_v_rho;
-  Span<const WallState<>> wall_state;
-  Span<const NoSlip<>> wall_no_slip;
+  BeforeCorrection before;
+  FluidView fluid;
+  WallView walls;
   Span<const std::uint32_t> wall_body;
   Span<Vec3d> force, friction;
   Span<const Real> relative_viscosity;  ///< of fluid over that of wall.viscosity; empty: the same
   Lengths lengths = {};
 
   struct Sum {
-    Real4 v;  ///< of the wall particle, as the next
+    VelocityDensity<> v;  ///< of the wall particle, as the next
     WallState<> m;
     NoSlip<> no_slip;
     std::uint32_t body;
     Force force;
   };
-  BL_HD Sum start(Index b) const { return {wall_v_rho[b], wall_state[b], wall_no_slip[b], wall_body[b], {}}; }
+  BL_HD Sum start(Index b) const {
+    return {walls.v_rho[b], walls.state[b], walls.no_slip[b], wall_body[b], {}};
+  }
   BL_HD auto sources() const {
-    return lengths.sources(flux, eos_state, lengths.corrections(), read_where(kick != 0, acc),
-                           read_where(kick != 0, acc_before),
+    return lengths.sources(fluid.flux, fluid.state, lengths.corrections(), before.source(before.acc),
+                           before.source(before.acc_before),
                            read_where(bool(relative_viscosity), relative_viscosity, Real(1)));
   }
   /// h_a: if lengths vary.
   template <class Correction, class... H>
-  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const Real4& flux_a, const EosState<>& state,
-                  const Correction& correction, const Real3& acc_a, const Real3& acc_before_a, Real relative,
-                  const H&... h_a) const {
-    const Real4 va{flux_a.xyz() - kick * (acc_a - acc_before_a), flux_a.w};
+  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const VelocityDensity<>& flux_a,
+                  const EosState<>& state, const Correction& correction, const Real3& acc_a,
+                  const Real3& acc_before_a, Real relative, const H&... h_a) const {
+    const VelocityDensity<> va = before(flux_a, acc_a, acc_before_a);
     EosState<> ma = state;
     ma.p_over_rho2 = lengths.corrected_by(correction, ma.p_over_rho2);
     const auto F = lengths.F(w, lengths.template own_of<Real>(h_a...), std::sqrt(r2));

@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/neighbours/for_each_pair.hpp"
-#include "bedload/particles/walls.hpp"
 #include "kernels/fluid/pair_terms.hpp"
+#include "kernels/fluid/views.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -61,17 +61,16 @@ struct LayerForces {
     }
   };
   /// Of fluid with {v, rho} at r from a wall particle of `body` with its own {v, rho}.
-  BL_HD Acceleration operator()(const Real4& va, const Real4& vb, std::uint32_t body, const Real3& r,
-                                Real r2) const {
+  BL_HD Acceleration operator()(const VelocityDensity<>& va, const VelocityDensity<>& vb, std::uint32_t body,
+                                const Real3& r, Real r2) const {
     const BodyPose& k = pose[body];
     if (k.kind != WallKind::single_layer || !k.present || r2 == 0) return {};
     const Real distance = std::sqrt(r2);
     Acceleration out{min_of(law[body](distance), cap) / distance * r, {}};
     if (artificial.acts()) {
-      const Real rho_mean = Real(0.5) * (va.w + vb.w);
+      const Real rho_mean = Real(0.5) * (va.rho + vb.rho);
       out.damping =
-          artificial.term(vb.w * Real(k.volume), dot(va.xyz() - vb.xyz(), r), rho_mean, r2, w.F(distance)) *
-          r;
+          artificial.term(vb.rho * Real(k.volume), dot(va.v - vb.v, r), rho_mean, r2, w.F(distance)) * r;
     }
     return out;
   }
@@ -81,24 +80,22 @@ struct LayerForces {
 template <class W>
 struct LayerPass {
   LayerForces<W> layer;
-  Span<const Real4> flux, wall_v_rho;
+  Span<const VelocityDensity<>> flux, wall_v_rho;
   Span<const std::uint32_t> wall_body;
-  Span<Real3> stress_acceleration, acc;
+  FluidAccelerations out;
 
   struct Sum {
-    Real4 v;
+    VelocityDensity<> v;
     typename LayerForces<W>::Acceleration given;
   };
   BL_HD Sum start(Index a) const { return {flux[a], {}}; }
   BL_HD auto sources() const { return sources_of(wall_v_rho, wall_body); }
-  BL_HD void pair(Sum& sum, const Real3& r, Real r2, Real, const Real4& vb, std::uint32_t body) const {
+  BL_HD void pair(Sum& sum, const Real3& r, Real r2, Real, const VelocityDensity<>& vb,
+                  std::uint32_t body) const {
     sum.given.add(layer(sum.v, vb, body, r, r2));
   }
   BL_HD void merge(Sum& into, const Sum& other) const { into.given.add(other.given); }
-  BL_HD void finish(Index a, const Sum& sum) const {
-    stress_acceleration[a] += sum.given.push + sum.given.damping;
-    acc[a] += sum.given.push + sum.given.damping;
-  }
+  BL_HD void finish(Index a, const Sum& sum) const { out.add(a, sum.given.push + sum.given.damping); }
 };
 
 }  // namespace bedload::inline BL_VARIANT

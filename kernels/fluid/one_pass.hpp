@@ -22,10 +22,10 @@ struct OnePass {
   BL_HD Sum<> start(Index a) const { return {force.start(a), with_shared_fields().start(a)}; }
 
   BL_HD auto sources() const {
-    return sources_of(force.flux, force.p_rho2, Unread{}, density.shift.sources());
+    return sources_of(force.fluid.flux, force.p_rho2, Unread{}, density.shift.sources());
   }
   template <class N, class Exposure>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, Unread,
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& vb, N p, Unread,
                   const Exposure& exposure) const {
     force.pair(sum.force, r, r2, M, vb, p, Unread{});
     with_shared_fields().pair(sum.density, r, r2, M, vb, EosState<N>{.p_over_rho2 = p, .eps = N(1)},
@@ -33,8 +33,8 @@ struct OnePass {
   }
   BL_HD auto wall_sources() const { return force.wall_sources(); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
-                       const NoSlip<N>& no_slip) const {
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const VelocityDensity<N>& vb,
+                       const WallState<N>& mb, const NoSlip<N>& no_slip) const {
     force.wall_pair(sum.force, r, r2, vb, mb, no_slip);
     with_shared_fields().wall_pair(sum.density, r, r2, vb, mb, N(0));
   }
@@ -56,7 +56,7 @@ struct OnePass {
   BL_HD Density with_shared_fields() const {
     Density same = density;
     same.w = force.w;
-    same.flux = force.flux, same.eos_state = force.eos_state;
+    same.fluid = force.fluid;
     return same;
   }
 };

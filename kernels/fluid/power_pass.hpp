@@ -30,23 +30,24 @@ struct PowerPass {
     return sum;
   }
   BL_HD auto sources() const {
-    return friction.lengths.sources(friction.flux, friction.species(), density.eos_state,
+    return friction.lengths.sources(friction.fluid.flux, friction.species(), density.fluid.state,
                                     density.shift.sources());
   }
   template <class N, class Relative, class Exposure, class... H>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, const Relative& viscosity_b,
-                  const EosState<N>& state, const Exposure& exposure, const H&... h_b) const {
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& vb,
+                  const Relative& viscosity_b, const EosState<N>& state, const Exposure& exposure,
+                  const H&... h_b) const {
     friction.pair(sum.friction, r, r2, M, vb, N(0), viscosity_b, h_b...);
     artificial.pair(sum.artificial, r, r2, M, vb, N(0), viscosity_b, h_b...);
     density.pair(sum.density, r, r2, M, vb, state, exposure, h_b...);
   }
   BL_HD auto wall_sources() const {
-    return sources_of(friction.wall_v_rho, friction.wall_state, friction.wall_no_slip,
+    return sources_of(friction.walls.v_rho, friction.walls.state, friction.walls.no_slip,
                       read_where(bool(density.wall_work), density.wall_work));
   }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
-                       const NoSlip<N>& no_slip, N work) const {
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const VelocityDensity<N>& vb,
+                       const WallState<N>& mb, const NoSlip<N>& no_slip, N work) const {
     WallState<N> without_pressure = mb;
     without_pressure.p_over_rho2 = N(0);
     friction.wall_pair(sum.friction, r, r2, vb, without_pressure, no_slip);
@@ -58,8 +59,8 @@ struct PowerPass {
     density.merge(into.density, other.density);
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    const Real3 q = density.flux[a].xyz();
-    const EosState<> m = density.eos_state[a];
+    const Real3 q = density.fluid.flux[a].v;
+    const EosState<> m = density.fluid.state[a];
     const Real3 rubbed = sum.friction.stress, damped = sum.artificial.stress;
     Real3 pressed = stress_acceleration[a] - rubbed - damped;
     if (friction.correction) pressed -= friction.correction[a].xyz();

@@ -20,9 +20,11 @@ struct ShearedPass {
   BL_HD auto sources() const { return pass.sources(); }
   /// Of passes that read velocities, as the first of their sources.
   template <class N, class... Of>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& lattice, N, N M, const Vec4<N>& vb, const Of&... of_b) const {
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& lattice, N, N M, const VelocityDensity<N>& vb,
+                  const Of&... of_b) const {
     const Vec3<N> r = separation(lattice);
-    pass.pair(sum, r, norm2(r), M, Vec4<N>{vb.x - rate * r.z, vb.y, vb.z, vb.w}, of_b...);
+    pass.pair(sum, r, norm2(r), M, VelocityDensity<N>{{vb.v.x - rate * r.z, vb.v.y, vb.v.z}, vb.rho},
+              of_b...);
   }
   template <class N, class... Of>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& lattice, N, N M, const Of&... of_b) const {

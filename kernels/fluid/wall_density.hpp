@@ -2,8 +2,8 @@
 // Density of walls that do not take it from an extrapolated pressure.
 
 #include "bedload/neighbours/for_each_pair.hpp"
-#include "bedload/particles/walls.hpp"
 #include "kernels/coupling/symmetric_matrix.hpp"
+#include "kernels/fluid/views.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -12,10 +12,9 @@ template <class W>
 struct FrozenPass {
   W w;
   Real rho0, dt, least;  ///< kg/m3, s, -
-  Span<const Real4> flux, wall_v_rho;
-  Span<const WallState<>> wall_state;
-  Span<const std::uint32_t> body;
-  Span<const BodyPose> pose;
+  FluidView fluid;
+  WallView walls;
+  WallBodies bodies;
   Span<Real> compression;
 
   template <class N = Real>
@@ -23,16 +22,16 @@ struct FrozenPass {
     Vec3<N> v;
     N rate;
   };
-  BL_HD Sum<> start(Index b) const { return {wall_v_rho[b].xyz(), 0}; }
-  BL_HD auto sources() const { return sources_of(flux); }
+  BL_HD Sum<> start(Index b) const { return {walls.v_rho[b].v, 0}; }
+  BL_HD auto sources() const { return sources_of(fluid.flux); }
   template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qa) const {
-    sum.rate += M * w.F(root(r2)) * dot(sum.v - qa.xyz(), r);
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& qa) const {
+    sum.rate += M * w.F(root(r2)) * dot(sum.v - qa.v, r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rate += other.rate; }
   BL_HD void finish(Index b, const Sum<>& sum) const {
-    const bool dry = wall_state[b].mass == 0;
-    if (dry || pose[body[b]].kind != WallKind::frozen || compression[b] == kNoCompression) return;
+    const bool dry = walls.state[b].mass == 0;
+    if (dry || bodies[b].kind != WallKind::frozen || compression[b] == kNoCompression) return;
     compression[b] = max_of(least, compression[b] - dt * sum.rate / rho0);
   }
 };
@@ -45,11 +44,9 @@ struct MirrorPass {
   W w;
   Frame frame;
   Real rho0, least, least_sum;  ///< kg/m3; lower bound on the result; no fluid below this sum of W, 1/m3
-  Span<const Real4> flux;
-  Span<const EosState<>> eos_state;
+  FluidView fluid;
   Span<const Vec3d> x, image;
-  Span<const std::uint32_t> body;
-  Span<const BodyPose> pose;
+  WallBodies bodies;
   Span<Real> compression;
 
   static constexpr Real kLeastDeterminant = Real(1e-3);  // 1 where the image is deep in the fluid
@@ -64,10 +61,11 @@ struct MirrorPass {
     Vec3<N> Fs_rho;
   };
   BL_HD Sum<> start(Index) const { return {0, 0, {}, {}, {}, 0, {}}; }
-  BL_HD auto sources() const { return sources_of(flux, eos_state); }
+  BL_HD auto sources() const { return sources_of(fluid.flux, fluid.state); }
   template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& va, const EosState<N>& ma) const {
-    const N volume = M / va.w, distance = root(r2), here = w.W(distance);
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& va,
+                  const EosState<N>& ma) const {
+    const N volume = M / va.rho, distance = root(r2), here = w.W(distance);
     const N W_a = volume * here, F_a = volume * w.F(distance), rho = ma.rho / rho0 - 1;
     sum.number += here;
     sum.unity += W_a;
@@ -87,7 +85,7 @@ struct MirrorPass {
     into.Fs_rho += other.Fs_rho;
   }
   BL_HD void finish(Index b, const Sum<>& sum) const {
-    if (pose[body[b]].kind != WallKind::mirrored) return;
+    if (bodies[b].kind != WallKind::mirrored) return;
     compression[b] = sum.number < least_sum ? kNoCompression : max_of(least, carried_back(b, sum));
   }
 

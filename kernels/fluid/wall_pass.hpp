@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/neighbours/for_each_pair.hpp"
-#include "bedload/particles/walls.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
+#include "kernels/fluid/views.hpp"
 #include "kernels/smoothing/lengths.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -21,16 +21,14 @@ template <class W, class Lengths = OneLength>
 struct WallPass {
   W w;
   EquationOfState eos;
-  Span<const Real4> flux;  ///< of fluid, as the next
-  Span<const EosState<>> eos_state;
+  FluidView fluid;
   Span<const Real3> drag_kick;  ///< velocity that the grains' drag gave the fluid this step, m/s
   Real rate;                    ///< 1 / step, 1/s; 0 without grains
   Span<const Vec3d> x0;         ///< at t = 0, m
-  Span<const std::uint32_t> body;
-  Span<const BodyPose> pose;
+  WallBodies bodies;
   Real3 gravity;   ///< m/s2
   Real least_sum;  ///< inactive below this sum of W, 1/m3
-  Span<Real4> v_rho;
+  Span<VelocityDensity<>> v_rho;
   Span<NoSlip<>> no_slip;
   Span<WallState<>> state;
   Span<Real> compression;
@@ -42,17 +40,19 @@ struct WallPass {
     Vec3<N> v, rho_r;  ///< r from the fluid to the wall
   };
   BL_HD Sum<> start(Index) const { return {}; }
-  BL_HD auto sources() const { return lengths.sources(flux, eos_state, read_where(rate > 0, drag_kick)); }
+  BL_HD auto sources() const {
+    return lengths.sources(fluid.flux, fluid.state, read_where(rate > 0, drag_kick));
+  }
   /// h_a: if lengths vary.
   template <class N, class... H>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_wf, N r2, N, const Vec4<N>& v, const EosState<N>& m,
-                  const Vec3<N>& kick, const H&... h_a) const {
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_wf, N r2, N, const VelocityDensity<N>& a,
+                  const EosState<N>& m, const Vec3<N>& kick, const H&... h_a) const {
     const N wk = lengths.W(w, lengths.template own_of<N>(h_a...), root(r2));
     const Vec3<N> rho_r = wk * m.rho * r_wf;
     sum.weight += wk;
     sum.p += wk * m.p_over_rho2 * square(m.rho);
     sum.p += rate * dot(kick, rho_r);
-    sum.v += wk * v.xyz();
+    sum.v += wk * a.v;
     sum.rho_r += rho_r;
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
@@ -62,7 +62,7 @@ struct WallPass {
     into.rho_r += other.rho_r;
   }
   BL_HD void finish(Index b, const Sum<>& sum) const {
-    const BodyPose& k = pose[body[b]];
+    const BodyPose& k = bodies[b];
     const Vec3d at = k.place(x0[b]);
     const Real3 v_wall = Real3(k.velocity(at)), v_surface = v_wall + Real3(k.rotation.rotate(k.slide));
     if (sum.weight < least_sum || !k.present) {
@@ -128,10 +128,9 @@ template <class W, class Lengths = OneLength>
 struct WallWorkPass {
   W w;
   Real least_sum;  ///< walls are dry below this sum of W, 1/m3
-  Span<const Real4> flux, wall_v_rho;
-  Span<const WallState<>> wall_state;
-  Span<const std::uint32_t> body;
-  Span<const BodyPose> pose;
+  FluidView fluid;
+  WallView walls;
+  WallBodies bodies;
   Span<Real> work;  ///< V_w D_w / sum W, m6/s
   Lengths lengths = {};
 
@@ -140,14 +139,15 @@ struct WallWorkPass {
     Vec3<N> v;
     N opening, weight;  ///< sums of V F v . r, 1/s, and W, 1/m3
   };
-  BL_HD Sum<> start(Index b) const { return {wall_v_rho[b].xyz(), 0, 0}; }
-  BL_HD auto sources() const { return lengths.sources(flux); }
+  BL_HD Sum<> start(Index b) const { return {walls.v_rho[b].v, 0, 0}; }
+  BL_HD auto sources() const { return lengths.sources(fluid.flux); }
   /// h_a: if lengths vary.
   template <class N, class... H>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qa, const H&... h_a) const {
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& qa,
+                  const H&... h_a) const {
     const N distance = root(r2);
     const auto own = lengths.template own_of<N>(h_a...);
-    sum.opening += quotient(M, qa.w) * own_factor(lengths.F(w, own, distance)) * dot(sum.v - qa.xyz(), r);
+    sum.opening += quotient(M, qa.rho) * own_factor(lengths.F(w, own, distance)) * dot(sum.v - qa.v, r);
     sum.weight += lengths.W(w, own, distance);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
@@ -155,8 +155,8 @@ struct WallWorkPass {
     into.weight += other.weight;
   }
   BL_HD void finish(Index b, const Sum<>& sum) const {
-    const WallState<> m = wall_state[b];
-    const BodyPose& k = pose[body[b]];
+    const WallState<> m = walls.state[b];
+    const BodyPose& k = bodies[b];
     const bool pays = sum.weight >= least_sum && k.kind == WallKind::extrapolated && !k.flows;
     work[b] = pays ? m.mass / m.rho * sum.opening / sum.weight : 0;
   }

@@ -122,13 +122,13 @@ struct RepelPass {
   Real kick, dt;  ///< by which v is ahead of the middle of the step; the step, s
   Span<const Index> beside_walls;
   Span<const FluidPosition> x;
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   Span<const Real3> acc_before;
   Span<Real3> acc, heading, drift;  ///< drift: empty where nothing drifts
   BL_HD void operator()(Index k) const {
     const Index a = beside_walls[k];
     const Vec3d at = coordinates(walls.frame, x[a]);
-    const Real3 v = v_rho[a].xyz(), next = v + dt * acc[a] - kick * acc_before[a];
+    const Real3 v = v_rho[a].v, next = v + dt * acc[a] - kick * acc_before[a];
     heading[a] = next;
     const auto take = [&](const SurfacePush& push) { acc[a] += push.acceleration; };
     walls.each(at, next, walls.sheet(a), take, kNone, drift ? &drift[a] : nullptr);

@@ -1,9 +1,7 @@
 #pragma once
-#include "bedload/core/frame.hpp"
-#include "bedload/core/mean_shear.hpp"
-#include "bedload/core/span.hpp"
 #include "kernels/boundaries/edges.hpp"
 #include "kernels/fluid/equation_of_state.hpp"
+#include "kernels/fluid/views.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -11,43 +9,41 @@ namespace bedload::inline BL_VARIANT {
 /// and, in the middle of the step, `back` earlier, from xp_mid. Of sheared fluid also the peculiar velocity
 /// at the earlier of the two.
 struct KickDriftPass {
-  Frame frame;
+  FluidMotion fluid;  ///< sheared as it is after the drift
+  PairCopies copies;
   Real kick, drift, back;                   ///< s
   Span<const Real3> acc, reaction, beside;  ///< reaction empty without grains
-  Span<Real4> v_rho;
-  Span<FluidPosition> x;
-  Span<PairPosition> xp, xp_mid;  ///< the latter empty where no loop runs in the middle of the step
-  MeanShear shear;                ///< as it is after the drift
-  Span<Real4> flux;               ///< empty without shear
   Edges edges;
 
   BL_HD void operator()(Index a) const {
-    const Real4 old = v_rho[a];
-    Real3 v = old.xyz() + kick * acc[a];
+    const auto& [frame, shear, x, v_rho] = fluid;
+    const auto& [xp, xp_mid, flux] = copies;
+    const VelocityDensity<> old = v_rho[a];
+    Real3 v = old.v + kick * acc[a];
     if (reaction) v += kick * reaction[a];
-    v_rho[a] = {v, old.w};
+    v_rho[a] = {v, old.rho};
     if (drift == 0) return;
     const Real3 move = beside ? v + beside[a] : v;
-    const Vec3d from = coordinates(frame, x[a]);
+    const Vec3d from = fluid.at(a);
     Vec3d at = from + Vec3d(move) * double(drift);
     if (edges.any()) {
       edges.put_back(from, at, v);
-      v_rho[a] = {v, old.w};
+      v_rho[a] = {v, old.rho};
     }
     if (shear.acts()) {
       shear.wrap(at, v);
       at = frame.wrap(at);
-      v_rho[a] = {v, old.w};
+      v_rho[a] = {v, old.rho};
     }
     x[a] = as_position<FluidPosition>(frame, at);
-    const Vec3d now = coordinates(frame, x[a]);
+    const Vec3d now = fluid.at(a);
     const Real weight = xp[a].weight;
     xp[a] = pair_position(frame, shear.lattice(now), weight);
     if (!xp_mid && !flux) return;
     const Vec3d mid = edges.inside(now, Vec3d(back * v));
     const MeanShear then = shear.before(double(back));
     if (xp_mid) xp_mid[a] = pair_position(frame, then.lattice(mid), weight);
-    if (flux) flux[a] = {then.peculiar(v, mid.z), old.w};
+    if (flux) flux[a] = {then.peculiar(v, mid.z), old.rho};
   }
 };
 
@@ -91,33 +87,31 @@ constexpr Real kThinnest = Real(-0.5);  // of s; thinner fluid is spray
 /// ds/dt being the rate by continuity alone: a bulk viscosity, which dissipates sound and not shear. Also
 /// predicts, by `kick` (0: Euler), velocity and volume flux or, of sheared fluid, peculiar velocity.
 struct StatePass {
-  Frame frame;
+  FluidMotion fluid;
   EquationOfState eos;
   Real damping;                       ///< a rho0 c h [Pa s]
   Span<const Real> compression_rate;  ///< ds/dt [1/s]; empty without damper
   DensityHistory history;
   Real kick;  ///< s
-  Span<const FluidPosition> x;
   Span<const Real3> acc, reaction;
   Span<Real> compression;
-  Span<const Real> mass, eps;  ///< eps empty unless fluid gives way to grains
-  Span<Real4> v_rho, flux;     ///< flux empty without grains and shear
+  Span<const Real> mass, eps;    ///< eps empty unless fluid gives way to grains
+  Span<VelocityDensity<>> flux;  ///< empty without grains and shear
   Span<EosState<>> eos_state;
   Span<Real> p_rho2;
-  MeanShear shear;
 
   BL_HD void operator()(Index a) const {
     Real3 gain = kick * acc[a];
     if (reaction) gain += kick * reaction[a];
     const Real strain = max_of(compression[a] + history(a), kThinnest), rho = eos.density(strain);
     compression[a] = strain;
-    const Real3 v = v_rho[a].xyz() + gain;
+    const Real3 v = fluid.v_rho[a].v + gain;
     const Real porosity = eps ? eps[a] : Real(1);
-    v_rho[a] = {v, rho};
-    if (shear.acts())
-      flux[a] = {shear.peculiar(v, coordinates(frame, x[a]).z), rho};
+    fluid.v_rho[a] = {v, rho};
+    if (fluid.shear.acts())
+      flux[a] = {fluid.shear.peculiar(v, fluid.at(a).z), rho};
     else if (flux)
-      flux[a] = {flux[a].xyz() + porosity * gain, rho};
+      flux[a] = {flux[a].v + porosity * gain, rho};
     Real pressure = eos.pressure(strain);
     if (compression_rate) pressure += damping * compression_rate[a];
     const Real p = pressure / square(rho);

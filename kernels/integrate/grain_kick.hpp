@@ -5,6 +5,7 @@
 #include "bedload/parallel/overlap.hpp"
 #include "kernels/boundaries/edges.hpp"
 #include "kernels/contact/grain_mass.hpp"
+#include "kernels/integrate/grain_fields.hpp"
 
 namespace bedload::inline BL_VARIANT {
 
@@ -39,18 +40,18 @@ struct GrainKick {
   bool exponential;
   Span<const Real> radius;
   // empty where there is no fluid
-  Span<const Real3> fluid_force = {}, fluid_velocity = {}, fluid_angular_velocity = {};
-  Span<const Real> drag_coefficient = {}, rot_drag_coefficient = {};
+  Span<const Real3> fluid_force = {};
+  DragView drag = {};
   Span<const Real3> drive = {};  ///< N; empty: none
   Edges edges = {};
 
-  BL_HD bool wet() const { return bool(drag_coefficient); }
+  BL_HD bool wet() const { return bool(drag.coefficient); }
   /// Prefetches the input of KickedGrain for grain i.
   BL_HD void prefetch(Index i) const {
     if (drive) read_ahead(drive[i]);
     if (!wet()) return;
-    read_ahead(fluid_force[i]), read_ahead(fluid_velocity[i]), read_ahead(fluid_angular_velocity[i]);
-    read_ahead(drag_coefficient[i]), read_ahead(rot_drag_coefficient[i]);
+    read_ahead(fluid_force[i]), read_ahead(drag.velocity[i]), read_ahead(drag.rotation[i]);
+    read_ahead(drag.coefficient[i]), read_ahead(drag.rot_coefficient[i]);
   }
   BL_HD double mass(Index i) const { return mass_per_r3(i) * radius[i] * radius[i] * radius[i]; }
   /// Position after a substep from x; a reflecting side changes v, never the spin.
@@ -77,10 +78,10 @@ struct KickedGrain {
         fluid_force_(wet_ ? Vec3d(k.fluid_force[i]) : Vec3d{}),
         drive_(driven_ ? Vec3d(k.drive[i]) : Vec3d{}),
         gravity_(k.gravity),
-        slide_(wet_ ? k.drag_coefficient[i] / m_ : 0, k.h, k.exponential),
-        spin_(wet_ ? k.rot_drag_coefficient[i] / inertia_ : 0, k.h, k.exponential),
-        fluid_velocity_(slide_.fraction > 0 ? Vec3d(k.fluid_velocity[i]) : Vec3d{}),
-        fluid_angular_velocity_(spin_.fraction > 0 ? Vec3d(k.fluid_angular_velocity[i]) : Vec3d{}) {}
+        slide_(wet_ ? k.drag.coefficient[i] / m_ : 0, k.h, k.exponential),
+        spin_(wet_ ? k.drag.rot_coefficient[i] / inertia_ : 0, k.h, k.exponential),
+        fluid_velocity_(slide_.fraction > 0 ? Vec3d(k.drag.velocity[i]) : Vec3d{}),
+        fluid_angular_velocity_(spin_.fraction > 0 ? Vec3d(k.drag.rotation[i]) : Vec3d{}) {}
 
   /// Sets the load of contacts: force (N) and torque (N m).
   BL_HD void load(Vec3d force, const Vec3d& torque) {

@@ -28,17 +28,18 @@ struct FirstKickPass {
   GrainKick kick;
   Span<const Real3> force, torque;
   Span<Vec3d> x;
-  Span<Real3> v, omega, v_rest, omega_rest, impulse, spin_impulse;
+  Velocities<Real3> now, rest;
+  DragImpulses impulses;
   BL_HD void operator()(Index i) const {
-    KickedGrain g(kick, i, Vec3d(v[i]), Vec3d(omega[i]));
+    KickedGrain g(kick, i, Vec3d(now.v[i]), Vec3d(now.omega[i]));
     g.load(Vec3d(force[i]), Vec3d(torque[i]));
     g.kick();
     x[i] = kick.drift(x[i], g.v);
-    split(g.v, v[i], v_rest[i]);
-    split(g.omega, omega[i], omega_rest[i]);
+    split(g.v, now.v[i], rest.v[i]);
+    split(g.omega, now.omega[i], rest.omega[i]);
     if (!kick.wet()) return;
-    impulse[i] = Real3(g.impulse);
-    spin_impulse[i] = Real3(g.spin_impulse);
+    impulses.linear[i] = Real3(g.impulse);
+    impulses.angular[i] = Real3(g.spin_impulse);
   }
 };
 
@@ -46,12 +47,12 @@ struct FirstKickPass {
 struct ArrivedGrain {
   Real3 v_most, v_rest, omega_most, omega_rest;
   Index wall_row;
-  BL_HD ArrivedGrain(const ContactPass& contacts, const GrainKick& kick, Index i, Span<const Real3> v_rests,
-                     Span<const Real3> omega_rests)
-      : v_most(contacts.v[i]),
-        v_rest(v_rests[i]),
-        omega_most(contacts.omega[i]),
-        omega_rest(omega_rests[i]),
+  BL_HD ArrivedGrain(const ContactPass& contacts, const GrainKick& kick, Index i,
+                     const Velocities<const Real3>& rest)
+      : v_most(contacts.grains.v[i]),
+        v_rest(rest.v[i]),
+        omega_most(contacts.grains.omega[i]),
+        omega_rest(rest.omega[i]),
         wall_row(contacts.wall_row_of(i)) {
     kick.prefetch(i);
   }
@@ -66,20 +67,20 @@ template <class Law, class Finish>
 struct SubstepPass {
   ContactPass contacts;
   GrainKick kick;
-  Span<const Real3> v_rest, omega_rest;
+  Velocities<const Real3> rest;
   Finish finish;
   BL_HD void operator()(Index thread) const {
     // with the walls of the next substep, which waits for this one to end
     if constexpr (!Finish::kLast) let_next_loop_begin();
     const Lane lane(thread, contacts.list.bits);
     const Index i = lane.row;
-    const ArrivedGrain now(contacts, kick, i, v_rest, omega_rest);
+    const ArrivedGrain now(contacts, kick, i, rest);
     ContactSum sum = contacts.pairs<Law>(lane);
     KickedGrain g(kick, i, now.v(), now.omega());
     contacts.add_others(i, now.wall_row, sum);
     if (lane.index != 0) return;
     g.load(sum.force, sum.torque);
-    finish(i, g, sum, kick, contacts.x);
+    finish(i, g, sum, kick, contacts.grains.x);
   }
 };
 
@@ -87,17 +88,18 @@ struct SubstepPass {
 struct NextDrift {
   static constexpr bool kLast = false;
   Span<Vec3d> next_x;
-  Span<Real3> next_v, next_omega, v_rest, omega_rest, impulse, spin_impulse;
+  Velocities<Real3> next, rest;
+  DragImpulses impulses;
   BL_HD void operator()(Index i, KickedGrain& g, const ContactSum&, const GrainKick& kick,
                         Span<const Vec3d> x) const {
     g.kick();
     g.kick();
     next_x[i] = kick.drift(x[i], g.v);
-    split(g.v, next_v[i], v_rest[i]);
-    split(g.omega, next_omega[i], omega_rest[i]);
+    split(g.v, next.v[i], rest.v[i]);
+    split(g.omega, next.omega[i], rest.omega[i]);
     if (!kick.wet()) return;
-    impulse[i] += Real3(g.impulse);
-    spin_impulse[i] += Real3(g.spin_impulse);
+    impulses.linear[i] += Real3(g.impulse);
+    impulses.angular[i] += Real3(g.spin_impulse);
   }
 };
 
@@ -105,18 +107,20 @@ struct NextDrift {
 struct LastKick {
   static constexpr bool kLast = true;
   double duration;  ///< of the advance, s
-  Span<Real3> next_v, next_omega, impulse, spin_impulse, force, torque, drag_force;
+  Velocities<Real3> next;
+  DragImpulses impulses;
+  Span<Real3> force, torque, drag_force;
   BL_HD void operator()(Index i, KickedGrain& g, const ContactSum& sum, const GrainKick& kick,
                         Span<const Vec3d>) const {
     g.kick();
-    next_v[i] = Real3(g.v);
-    next_omega[i] = Real3(g.omega);
+    next.v[i] = Real3(g.v);
+    next.omega[i] = Real3(g.omega);
     force[i] = Real3(sum.force);
     torque[i] = Real3(sum.torque);
     if (!kick.wet()) return;
-    const Vec3d all = Vec3d(impulse[i]) + g.impulse;
-    impulse[i] = Real3(all);
-    spin_impulse[i] = Real3(Vec3d(spin_impulse[i]) + g.spin_impulse);
+    const Vec3d all = Vec3d(impulses.linear[i]) + g.impulse;
+    impulses.linear[i] = Real3(all);
+    impulses.angular[i] = Real3(Vec3d(impulses.angular[i]) + g.spin_impulse);
     drag_force[i] = Real3(all * (1 / duration));
   }
 };
@@ -138,15 +142,14 @@ struct EvaluatePass {
 /// Grains that are held: the fluid flows past fixed spheres.
 struct HeldPass {
   double duration;  ///< s
-  Span<const Real3> fluid_velocity, fluid_angular_velocity;
-  Span<const Real> drag_coefficient, rot_drag_coefficient;
-  Span<Real3> impulse, spin_impulse, drag_force;
+  DragView drag;
+  DragImpulses impulses;
+  Span<Real3> drag_force;
   BL_HD void operator()(Index i) const {
-    drag_force[i] = drag_coefficient[i] > 0 ? drag_coefficient[i] * fluid_velocity[i] : Real3{};
-    impulse[i] = Real(duration) * drag_force[i];
-    spin_impulse[i] = rot_drag_coefficient[i] > 0
-                          ? Real(duration) * rot_drag_coefficient[i] * fluid_angular_velocity[i]
-                          : Real3{};
+    drag_force[i] = drag.coefficient[i] > 0 ? drag.coefficient[i] * drag.velocity[i] : Real3{};
+    impulses.linear[i] = Real(duration) * drag_force[i];
+    impulses.angular[i] =
+        drag.rot_coefficient[i] > 0 ? Real(duration) * drag.rot_coefficient[i] * drag.rotation[i] : Real3{};
   }
 };
 

@@ -16,21 +16,17 @@ struct WatchReduction {
   struct Value {
     double speed2, displacement2, drag_rate, bad;
   };
-  Frame frame;
-  MassPerR3 mass_per_r3;
-  Span<const Vec3d> x, x_list;
-  Span<const Real3> v, omega;
-  Span<const Real> radius, drag_coefficient;
-  Span<const Id> id;
+  GrainView grains;
+  Span<const Vec3d> x_list;
+  Span<const Real> drag_coefficient;
 
   BL_HD Value identity() const { return {0, 0, 0, double(kNone)}; }
   BL_HD Value operator()(Index i) const {
-    const Vec3d u = Vec3d(v[i]);
-    const bool good = finite(x[i]) && finite(u) && finite(Vec3d(omega[i]));
-    if (!good) return {0, 0, 0, double(id[i])};
-    return {norm2(u), norm2(frame.nearest_image(x[i] - x_list[i])),
-            double(drag_coefficient[i]) / (mass_per_r3(i) * radius[i] * radius[i] * radius[i]),
-            double(kNone)};
+    const Vec3d x = grains.x[i], u = Vec3d(grains.v[i]);
+    const bool good = finite(x) && finite(u) && finite(Vec3d(grains.omega[i]));
+    if (!good) return {0, 0, 0, double(grains.id[i])};
+    return {norm2(u), norm2(grains.frame.nearest_image(x - x_list[i])),
+            double(drag_coefficient[i]) / grains.mass(i), double(kNone)};
   }
   BL_HD void combine(Value& a, const Value& b) const {
     a.speed2 = max_of(a.speed2, b.speed2);
@@ -56,9 +52,10 @@ struct TotalsReduction {
   }
   BL_HD Value operator()(Index i) const {
     Value t{};
-    const Sphere s = contacts.sphere(i, contacts.radius[i]);
+    const GrainView& g = contacts.grains;
+    const Sphere s = g.sphere(i);
     const double m = s.m, inertia = 0.4 * m * s.R * s.R;
-    const Vec3d v = Vec3d(contacts.v[i]), w = Vec3d(contacts.omega[i]), x = contacts.x[i];
+    const Vec3d v = Vec3d(g.v[i]), w = Vec3d(g.omega[i]), x = g.x[i];
     const Vec3d angular = cross(x, m * v) + inertia * w;
     t.sum[mass] = m;
     t.sum[kinetic] = 0.5 * m * norm2(v);
@@ -70,7 +67,7 @@ struct TotalsReduction {
     contacts.list.each(i, [&](std::uint64_t slot, Index j) {
       if (!contacts.histories.touching[slot]) return;
       const ContactHistory h = contacts.histories[slot];
-      const Sphere o = contacts.sphere(j, contacts.radius[j]);
+      const Sphere o = g.sphere(j);
       t.sum[pairs] += 0.5;
       const ContactLaw& law = contacts.laws ? contacts.laws[contacts.pair_of(i, j)] : contacts.law;
       t.sum[elastic] += 0.5 * law.stored(s.R * o.R / (s.R + o.R), s.m * o.m / (s.m + o.m), h);

@@ -1,5 +1,4 @@
 #pragma once
-#include "bedload/particles/walls.hpp"
 #include "kernels/fluid/force_pass.hpp"
 #include "kernels/sdpd/pair_law.hpp"
 
@@ -24,15 +23,15 @@ struct SdpdWallPair {
   /// a: {v, rho}, V, P / rho^2, spin, id, viscosity over that of `law`; b: wall's as in WallPair, and its
   /// spin and label.
   template <class N>
-  BL_HD Force<N> operator()(const Vec4<N>& va, N V, N pa, const Vec3<N>& spin, const RowId<N>& id, N relative,
-                            const Vec4<N>& vw, const WallState<N>& mw, const NoSlip<N>& no_slip,
-                            const Vec4<N>& own, const Vec3<N>& r, N r2) const {
-    const N F = w.F(root(r2)), g = relative * V * quotient(no_slip.mass, vw.w) * F;
+  BL_HD Force<N> operator()(const VelocityDensity<N>& va, N V, N pa, const Vec3<N>& spin, const RowId<N>& id,
+                            N relative, const VelocityDensity<N>& vw, const WallState<N>& mw,
+                            const NoSlip<N>& no_slip, const Vec4<N>& own, const Vec3<N>& r, N r2) const {
+    const N F = w.F(root(r2)), g = relative * V * quotient(no_slip.mass, vw.rho) * F;
     Force<N> out;
     out.arm = 1 - Real(0.5) * mw.frozen;
     out.push = (pressing * pressure_term(mw.mass, pa, mw.p_over_rho2, F)) * r;
     const Vec3<N> turn = cross(r, out.arm * spin + (1 - out.arm) * own.xyz());
-    out.friction = law.friction(g, va.xyz() - no_slip.v, turn, r, r2);
+    out.friction = law.friction(g, va.v - no_slip.v, turn, r, r2);
     if (noisy) out.noise = law.noise(g, id, own.w, r, r2);
     return out;
   }
@@ -46,24 +45,22 @@ struct SdpdWallPair {
 template <class W, bool kSpin, bool kNoise, bool kSpecies>
 struct SdpdForcePass {
   SdpdWallPair<W> wall;
-  Span<const Real4> flux;
-  Span<const EosState<>> eos_state;
+  FluidView fluid;
   Span<const Real4> spin_label;
   Span<const Real> p_rho2, mass;
   Span<const Id> id;
-  Span<const Real4> wall_v_rho;
-  Span<const WallState<>> wall_state;
-  Span<const NoSlip<>> wall_no_slip;
+  WallView walls;
   Span<const Real4> wall_label;  ///< spin, id
   Real3 gravity;                 ///< minus the frame's acceleration, m/s2
   Drive drive;
   Real dt, inertia;  ///< s; k_I dx^2, m2
-  Span<Real3> stress_acceleration, acc, spin, spin_acc;
+  FluidAccelerations out;
+  Span<Real3> spin, spin_acc;
   Span<const Real> viscosity;  ///< over that of `wall.law`
 
   template <class N = Real>
   struct Sum {
-    Vec4<N> v;
+    VelocityDensity<N> a;
     N V, p;
     Vec3<N> spin;
     RowId<N> id;
@@ -71,25 +68,27 @@ struct SdpdForcePass {
     N viscosity;
   };
   BL_HD Sum<> start(Index a) const {
-    const EosState<> m = eos_state[a];
-    Sum<> sum{flux[a], quotient(m.mass_over_eps, m.rho), m.p_over_rho2, {}, row_id(id[a]), {}, {}, {}, {}, 1};
+    const EosState<> m = fluid.state[a];
+    Sum<> sum{
+        fluid.flux[a], quotient(m.mass_over_eps, m.rho), m.p_over_rho2, {}, row_id(id[a]), {}, {}, {}, {}, 1};
     if (kSpecies) sum.viscosity = viscosity[a];
     if (kSpin) sum.spin = spin_label[a].xyz();
     return sum;
   }
   BL_HD auto sources() const {
-    return sources_of(flux, p_rho2, read_if<(kSpin || kNoise)>(spin_label), read_if<kSpecies>(viscosity));
+    return sources_of(fluid.flux, p_rho2, read_if<(kSpin || kNoise)>(spin_label),
+                      read_if<kSpecies>(viscosity));
   }
   template <class N, class Own, class Relative>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p,
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& vb, N p,
                   [[maybe_unused]] const Own& own, [[maybe_unused]] const Relative& viscosity_b) const {
     const N F = wall.w.F(root(r2));
-    N g = sum.V * quotient(M, vb.w) * F;
+    N g = sum.V * quotient(M, vb.rho) * F;
     if constexpr (kSpecies) g *= quotient(2 * sum.viscosity * viscosity_b, sum.viscosity + viscosity_b);
     sum.push += (wall.pressing * pressure_term(M, sum.p, p, F)) * r;
     Vec3<N> turn;
     if constexpr (kSpin) turn = Real(0.5) * cross(r, sum.spin + own.xyz());
-    const Vec3<N> friction = wall.law.friction(g, sum.v.xyz() - vb.xyz(), turn, r, r2);
+    const Vec3<N> friction = wall.law.friction(g, sum.a.v - vb.v, turn, r, r2);
     sum.friction += friction;
     if constexpr (kSpin) sum.couple -= Real(0.5) * cross(r, friction);
     if constexpr (kNoise) {
@@ -98,11 +97,11 @@ struct SdpdForcePass {
       if constexpr (kSpin) sum.couple -= Real(0.5) * cross(r, noise);
     }
   }
-  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_state, wall_no_slip, wall_label); }
+  BL_HD auto wall_sources() const { return sources_of(walls.v_rho, walls.state, walls.no_slip, wall_label); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb,
-                       const NoSlip<N>& no_slip, const Vec4<N>& own) const {
-    const auto f = wall(sum.v, sum.V, sum.p, sum.spin, sum.id, kSpecies ? sum.viscosity : N(1), vb, mb,
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const VelocityDensity<N>& vb,
+                       const WallState<N>& mb, const NoSlip<N>& no_slip, const Vec4<N>& own) const {
+    const auto f = wall(sum.a, sum.V, sum.p, sum.spin, sum.id, kSpecies ? sum.viscosity : N(1), vb, mb,
                         no_slip, own, r, r2);
     sum.push += f.push;
     sum.friction += f.friction;
@@ -116,10 +115,9 @@ struct SdpdForcePass {
     into.couple += other.couple;
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    const EosState<> m = eos_state[a];
+    const EosState<> m = fluid.state[a];
     const Real3 stress = sum.push + (1 / m.mass_over_eps) * (sum.friction + sum.noise);
-    stress_acceleration[a] = stress;
-    acc[a] = stress + gravity + drive(a, m);
+    out.set(a, stress, stress + gravity + drive(a, m));
     if constexpr (kSpin) {  // from the value predicted with the last acceleration to the mean of both
       const Real3 turning = (1 / (mass[a] * inertia)) * sum.couple;
       spin[a] = sum.spin + (dt / 2) * (turning - spin_acc[a]);
@@ -144,47 +142,43 @@ struct PredictSpin {
 struct LabelWalls {
   bool spins;
   Span<const Id> id;
-  Span<const std::uint32_t> body;
-  Span<const BodyPose> pose;
+  WallBodies bodies;
   Span<Real4> label;
   BL_HD void operator()(Index b) const {
-    label[b] = {spins ? Real3(pose[body[b]].omega) : Real3(), as_label(id[b] | 0x80000000u)};
+    label[b] = {spins ? Real3(bodies[b].omega) : Real3(), as_label(id[b] | 0x80000000u)};
   }
 };
 
-/// Force on each wall particle [N]: minus what SdpdForcePass gave the fluid, by velocities that have been
-/// corrected by `kick` since. The noise counts as friction.
+/// Force on each wall particle [N]: minus what SdpdForcePass gave the fluid. The noise counts as friction.
 template <class W, class Force>
 struct SdpdWallForcePass {
   SdpdWallPair<W> wall;
-  Real kick;  ///< s
-  Span<const Real3> acc, acc_before;
-  Span<const Real4> flux;
-  Span<const EosState<>> eos_state;
-  Span<const Real4> spin_label, wall_v_rho;
-  Span<const WallState<>> wall_state;
-  Span<const NoSlip<>> wall_no_slip;
+  BeforeCorrection before;
+  FluidView fluid;
+  Span<const Real4> spin_label;
+  WallView walls;
   Span<const Real4> wall_label;
   Span<Vec3d> force, friction;
   Span<const Real> viscosity;  ///< over that of `wall.law`; empty: the same
 
   struct Sum {
-    Real4 v;  ///< of the wall particle, as the next
+    VelocityDensity<> v;  ///< of the wall particle, as the next
     WallState<> m;
     NoSlip<> no_slip;
     Real4 label;
     Force force;
   };
   BL_HD Sum start(Index b) const {
-    return {wall_v_rho[b], wall_state[b], wall_no_slip[b], wall_label[b], {}};
+    return {walls.v_rho[b], walls.state[b], walls.no_slip[b], wall_label[b], {}};
   }
   BL_HD auto sources() const {
-    return sources_of(flux, eos_state, spin_label, read_where(kick != 0, acc),
-                      read_where(kick != 0, acc_before), read_where(bool(viscosity), viscosity, Real(1)));
+    return sources_of(fluid.flux, fluid.state, spin_label, before.source(before.acc),
+                      before.source(before.acc_before), read_where(bool(viscosity), viscosity, Real(1)));
   }
-  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const Real4& flux_a, const EosState<>& ma,
-                  const Real4& own, const Real3& acc_a, const Real3& acc_before_a, Real relative) const {
-    const Real4 va{flux_a.xyz() - kick * (acc_a - acc_before_a), flux_a.w};
+  BL_HD void pair(Sum& sum, const Real3& r_ba, Real r2, Real, const VelocityDensity<>& flux_a,
+                  const EosState<>& ma, const Real4& own, const Real3& acc_a, const Real3& acc_before_a,
+                  Real relative) const {
+    const VelocityDensity<> va = before(flux_a, acc_a, acc_before_a);
     const auto f = wall(va, quotient(ma.mass_over_eps, ma.rho), ma.p_over_rho2, own.xyz(),
                         row_id(as_id(own.w)), relative, sum.v, sum.m, sum.no_slip, sum.label, -r_ba, r2);
     sum.force.add(-ma.mass_over_eps * f.push, -(f.friction + f.noise));

@@ -1,6 +1,6 @@
 #pragma once
 #include "bedload/neighbours/for_each_pair.hpp"
-#include "bedload/particles/walls.hpp"
+#include "kernels/fluid/views.hpp"
 #include "kernels/fluid/wall_mass.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -11,10 +11,8 @@ template <class W>
 struct ContinuityPass {
   W w;
   Real rho0, dt;  ///< kg/m3, s
-  Span<const Real4> flux;
-  Span<const EosState<>> eos_state;
-  Span<const Real4> wall_v_rho;
-  Span<const WallState<>> wall_state;
+  FluidView fluid;
+  WallView walls;
   Span<const Real> compression;
   Span<Real> compression_next;
 
@@ -23,20 +21,21 @@ struct ContinuityPass {
     Vec3<N> q;
     N rate;
   };
-  BL_HD Sum<> start(Index a) const { return {flux[a].xyz(), 0}; }
-  BL_HD auto sources() const { return sources_of(flux); }
+  BL_HD Sum<> start(Index a) const { return {fluid.flux[a].v, 0}; }
+  BL_HD auto sources() const { return sources_of(fluid.flux); }
   template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& qb) const {
-    sum.rate += M * w.F(root(r2)) * dot(sum.q - qb.xyz(), r);
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& qb) const {
+    sum.rate += M * w.F(root(r2)) * dot(sum.q - qb.v, r);
   }
-  BL_HD auto wall_sources() const { return sources_of(wall_v_rho, wall_state); }
+  BL_HD auto wall_sources() const { return sources_of(walls.v_rho, walls.state); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vb, const WallState<N>& mb) const {
-    sum.rate += continuity_mass(mb, rho0) * w.F(root(r2)) * dot(sum.q - vb.xyz(), r);
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const VelocityDensity<N>& vb,
+                       const WallState<N>& mb) const {
+    sum.rate += continuity_mass(mb, rho0) * w.F(root(r2)) * dot(sum.q - vb.v, r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.rate += other.rate; }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    compression_next[a] = compression[a] - dt * sum.rate / (eos_state[a].eps * rho0);
+    compression_next[a] = compression[a] - dt * sum.rate / (fluid.state[a].eps * rho0);
   }
 };
 
@@ -86,8 +85,7 @@ struct FrozenSummationPass {
   Real rho0, n;  ///< kg/m3, -
   Span<const Real> volume;
   Span<const EosState<>> eos_state;
-  Span<const std::uint32_t> body;
-  Span<const BodyPose> pose;
+  WallBodies bodies;
   Span<Real> compression;
 
   template <class N = Real>
@@ -107,18 +105,17 @@ struct FrozenSummationPass {
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const { into.s += other.s; }
   BL_HD void finish(Index b, const Sum<>& sum) const {
-    if (pose[body[b]].kind != WallKind::frozen || compression[b] == kNoCompression) return;
+    if (bodies[b].kind != WallKind::frozen || compression[b] == kNoCompression) return;
     compression[b] = n * (volume[b] * w.W(Real(0)) + sum.s) - 1;
   }
 };
 
 /// For how much each wall particle stands, m3.
 struct WallVolume {
-  Span<const std::uint32_t> body;
-  Span<const BodyPose> pose;
+  WallBodies bodies;
   Span<Real> volume;
   BL_HD void operator()(Index b) const {
-    const BodyPose& k = pose[body[b]];
+    const BodyPose& k = bodies[b];
     volume[b] = k.present ? Real(k.volume) : Real(0);
   }
 };

@@ -13,20 +13,16 @@ struct ContactStressPass {
     PairMoment<> sum;
     contacts.list.each(i, [&](std::uint64_t slot, Index j) {
       if (!contacts.histories.touching[slot]) return;
-      const bool first = contacts.id[i] < contacts.id[j];
+      const GrainView& g = contacts.grains;
+      const bool first = g.id[i] < g.id[j];
       const Index lo = first ? i : j, hi = first ? j : i;  // as in ContactPass
-      const Real R_lo = contacts.radius[lo], R_hi = contacts.radius[hi];
-      const Vec3d r = contacts.frame.separation(contacts.x[lo], contacts.x[hi]);
+      const Real R_lo = g.radius[lo], R_hi = g.radius[hi];
+      const Vec3d r = g.frame.separation(g.x[lo], g.x[hi]);
       const double distance = norm(r), overlap = double(R_lo) + double(R_hi) - distance;
       if (!(overlap > 0)) return;
-      const ContactGeometry at =
-          sphere_contact(contacts.sphere(lo, R_lo), contacts.sphere(hi, R_hi), r, distance, overlap);
+      const ContactGeometry at = sphere_contact(g.sphere(lo, R_lo), g.sphere(hi, R_hi), r, distance, overlap);
       ContactHistory h = contacts.histories[slot];
-      sum.add(contacts
-                  .law_of(lo, hi)(at, contacts.v[lo] - contacts.v[hi], contacts.omega[lo], contacts.omega[hi],
-                                  0, h)
-                  .force,
-              Real3(r));
+      sum.add(contacts.law_of(lo, hi)(at, g.v[lo] - g.v[hi], g.omega[lo], g.omega[hi], 0, h).force, Real3(r));
     });
     out[i] = sum.times(Real(0.5));
   }
@@ -40,7 +36,7 @@ struct LubricationStressPass {
   BL_HD void operator()(Index i) const {
     PairMoment<> sum;
     films.list.each(i, [&](std::uint64_t, Index j) {
-      const bool first = films.id[i] < films.id[j];
+      const bool first = films.grains.id[i] < films.grains.id[j];
       films.between(first ? i : j, first ? j : i,
                     [&](const ContactForce& f, const Vec3d& r) { sum.add(f.force, Real3(r)); });
     });

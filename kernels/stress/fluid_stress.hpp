@@ -33,7 +33,8 @@ struct StressPass {
   BL_HD Sum<> start(Index a) const { return {whole.start(a), {}, {}}; }
   BL_HD auto sources() const { return whole.sources(); }
   template <class N, class... Of>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, const Of&... of_b) const {
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& vb, N p,
+                  const Of&... of_b) const {
     auto pressed = sum.of, rubbed = sum.of;
     inviscid.pair(pressed, r, r2, M, vb, p, of_b...);
     rubbed.m.p_over_rho2 = N(0);  // no pressure on either side
@@ -43,19 +44,19 @@ struct StressPass {
   }
   BL_HD auto wall_sources() const { return whole.wall_sources(); }
   template <class N>
-  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const Vec4<N>& vw, const WallState<N>& mw,
-                       const NoSlip<N>& no_slip) const {
+  BL_HD void wall_pair(Sum<N>& sum, const Vec3<N>& r, N r2, const VelocityDensity<N>& vw,
+                       const WallState<N>& mw, const NoSlip<N>& no_slip) const {
     const auto F = whole.lengths.F(whole.w, sum.of.own, root(r2));
     sum.pressure.add(whole.wall.pressure(sum.of.m, mw, r, F), r);
     if (whole.wall.viscosity.acts())
-      sum.friction.add(sum.of.viscosity * whole.wall.friction(sum.of.v, vw, no_slip, r, r2, F), r);
+      sum.friction.add(sum.of.viscosity * whole.wall.friction(sum.of.a, vw, no_slip, r, r2, F), r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.pressure.add(other.pressure);
     into.friction.add(other.friction);
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    const Real M = whole.eos_state[a].mass_over_eps;
+    const Real M = whole.fluid.state[a].mass_over_eps;
     out.write(a, sum.pressure.times(M), sum.friction.times(M), {});
   }
 };
@@ -80,7 +81,8 @@ struct SdpdStressPass {
   BL_HD Sum<> start(Index a) const { return {force.start(a), {}, {}, {}}; }
   BL_HD auto sources() const { return force.sources(); }
   template <class N, class... Own>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const Vec4<N>& vb, N p, const Own&... own) const {
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>& r, N r2, N M, const VelocityDensity<N>& vb, N p,
+                  const Own&... own) const {
     auto one = sum.of;
     force.pair(one, r, r2, M, vb, p, own...);
     sum.add(one.push, one.friction, one.noise, r);
@@ -98,7 +100,7 @@ struct SdpdStressPass {
     if constexpr (kNoise) into.noise.add(other.noise);
   }
   BL_HD void finish(Index a, const Sum<>& sum) const {
-    out.write(a, sum.pressure.times(force.eos_state[a].mass_over_eps), sum.friction, sum.noise);
+    out.write(a, sum.pressure.times(force.fluid.state[a].mass_over_eps), sum.friction, sum.noise);
   }
 };
 

@@ -167,8 +167,7 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
                                      .fluid_mass = fluid.mass,
                                      .eps = fluid.eps,
                                      .solid_factor = fluid.solid_factor,
-                                     .stress_acceleration = fluid.stress_acceleration,
-                                     .fluid_acc = fluid.acc});
+                                     .out = {fluid.stress_acceleration, fluid.acc}});
   next_fluid_ += count;
 }
 

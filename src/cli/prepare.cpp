@@ -240,13 +240,17 @@ void place_particles(const Options& options, Prepared& p) {
   }
 }
 
+void choose_device(const Options& options, Prepared& p) {
+  p.device =
+      placed(p.config.places, [&] { return find_device(options.backend, options.threads, p.config.simd); });
+}
+
 }  // namespace
 
 Prepared prepare(const Options& options) {
   Prepared p;
   p.config = read_case(options.file, options.overrides, p.warnings, options.restart);
-  p.device =
-      placed(p.config.places, [&] { return find_device(options.backend, options.threads, p.config.simd); });
+  choose_device(options, p);
   if (!options.quiet) fmt::print("{}", heading_text(p));  // before particles are placed, which takes time
   std::fflush(stdout);
   placed(p.config.places, [&] { place_particles(options, p); });
@@ -254,10 +258,8 @@ Prepared prepare(const Options& options) {
 }
 
 void initialise(const Options& options, Prepared& p) {
-  placed(p.config.places, [&] {
-    p.device = find_device(options.backend, options.threads, p.config.simd);
-    place_particles(options, p);
-  });
+  choose_device(options, p);
+  placed(p.config.places, [&] { place_particles(options, p); });
 }
 
 void check_fixed_steps(Prepared& p, Simulation& simulation) {

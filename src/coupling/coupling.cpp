@@ -26,6 +26,10 @@ void with_flag(bool flag, F&& f) {
     f(std::false_type{});
 }
 
+/// How a store keeps positions.
+template <class Store>
+using Place = std::remove_cvref_t<decltype(std::declval<const Store&>().x_list.span()[0])>;
+
 /// log2 of the lanes that share a row: rows are long, and four lanes read contiguous memory.
 unsigned lanes_for(Index rows) { return min_of(max_of(lane_bits(rows), 2u), kSliceBits); }
 
@@ -145,6 +149,9 @@ GrainSurroundings Coupling::surroundings() {
           .drag = {drag_arm_, drag_inv_M_},
           .lost_moment = lost_moment_};
 }
+PushPass Coupling::push_pass(const FluidStore& fluid) {
+  return {fluid.solid_factor, fluid.stress_acceleration, fluid.eos_state, push_};
+}
 DragWeights Coupling::drag_weights() { return {still_, by_slip_}; }
 Reactions Coupling::reactions() { return {impulse_, force_, spin_, couple_}; }
 
@@ -173,24 +180,22 @@ void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_
     for_each(grains.all(),
              BesideWallsPass{wall_free(still), double(of_grains.most), grains.x_list, beside_walls_});
   const double reach = range_ + of_fluid.most + of_grains.most;
-  fluid_of_grain_.between(frame_, grains, fluid, range_)
-      .build(grains.size(), fluid_grid.for_reach(reach),
-             CrossNear<Vec3d, FluidPosition>{.frame = frame_,
-                                             .a = grains.x_list,
-                                             .b = fluid.x_list,
-                                             .range = range_,
-                                             .skin_a = of_grains,
-                                             .skin_b = of_fluid},
-             lanes_for(grains.size()));
-  grains_of_fluid_.between(frame_, fluid, grains, range_)
-      .build(fluid.size(), grain_grid.for_reach(reach),
-             CrossNear<FluidPosition, Vec3d>{.frame = frame_,
-                                             .a = fluid.x_list,
-                                             .b = grains.x_list,
-                                             .range = range_,
-                                             .skin_a = of_fluid,
-                                             .skin_b = of_grains},
-             lanes_for(fluid.size()));
+  build(fluid_of_grain_, grains, of_grains, fluid, of_fluid, fluid_grid.for_reach(reach));
+  build(grains_of_fluid_, fluid, of_fluid, grains, of_grains, grain_grid.for_reach(reach));
+}
+
+template <class Targets, class Sources>
+void Coupling::build(Pairing<>& pairs, const Targets& targets, const HalfSkins& skin_a,
+                     const Sources& sources, const HalfSkins& skin_b, const CellGridView& grid) {
+  pairs.between(frame_, targets, sources, range_)
+      .build(targets.size(), grid,
+             CrossNear<Place<Targets>, Place<Sources>>{.frame = frame_,
+                                                       .a = targets.x_list,
+                                                       .b = sources.x_list,
+                                                       .range = range_,
+                                                       .skin_a = skin_a,
+                                                       .skin_b = skin_b},
+             lanes_for(targets.size()));
 }
 
 void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt) {
@@ -203,8 +208,7 @@ void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, doub
                                          .x_before = grains.x_before,
                                          .v = grains.v,
                                          .radius = grains.radius,
-                                         .beside = asked ? Span<const std::uint8_t>(beside_walls_)
-                                                         : Span<const std::uint8_t>(),
+                                         .beside = span_if(asked, beside_walls_),
                                          .wall_free = wall_free_,
                                          .volume = volume_});
 }
@@ -219,14 +223,12 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
   grains.x_before.copy(grains.x);
   of_fluid_.resize(fluid.size());
   const FluidRecords records{push_, solids_};
-  for_each(fluid.all(), RecordPass{.frame = frame_,
+  for_each(fluid.all(), RecordPass{.push = push_pass(fluid),
+                                   .frame = frame_,
                                    .counted = orifice_weight(),
                                    .x = fluid.x,
-                                   .solid_factor = fluid.solid_factor,
-                                   .stress_acceleration = fluid.stress_acceleration,
-                                   .eos_state = fluid.eos_state,
                                    .eps = fluid.eps,
-                                   .records = records});
+                                   .solids = solids_});
   const GrainSurroundings around = surroundings();
   with_coupling_kernel([&](auto w) {
     with_flag(moments(), [&](auto with_moments) {
@@ -253,19 +255,15 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
       drag_law_,
       [&](auto law) {
         with_flag(local_slip_, [&](auto local) {
-          for_each(grains.owned(),
-                   DragPass<decltype(law), local>{.lines = drag_lines<local>(law, grains),
-                                                  .torque = torque_,
-                                                  .couple = angmom_,
-                                                  .wetness = grains.wetness,
-                                                  .v = grains.v,
-                                                  .omega = grains.omega,
-                                                  .weights = drag_weights(),
-                                                  .fluid_velocity = grains.fluid_velocity,
-                                                  .fluid_angular_velocity = grains.fluid_angular_velocity,
-                                                  .drag_coefficient = grains.drag_coefficient,
-                                                  .rot_drag_coefficient = grains.rot_drag_coefficient,
-                                                  .levers = levers()});
+          for_each(grains.owned(), DragPass<decltype(law), local>{.lines = drag_lines<local>(law, grains),
+                                                                  .torque = torque_,
+                                                                  .couple = angmom_,
+                                                                  .wetness = grains.wetness,
+                                                                  .v = grains.v,
+                                                                  .omega = grains.omega,
+                                                                  .weights = drag_weights(),
+                                                                  .drag = drag_of(grains),
+                                                                  .levers = levers()});
         });
       },
       drag_table_.on_device());
@@ -277,10 +275,7 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
                                            .mass_per_r3 = matter_.of(grains),
                                            .id = grains.id,
                                            .radius = grains.radius,
-                                           .drag_coefficient = grains.drag_coefficient,
-                                           .rot_drag_coefficient = grains.rot_drag_coefficient,
-                                           .fluid_velocity = grains.fluid_velocity,
-                                           .fluid_angular_velocity = grains.fluid_angular_velocity});
+                                           .drag = drag_of(grains)});
 }
 
 void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {
@@ -309,14 +304,11 @@ void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {
     fluid_of_grain_.run(LimitPass{.dt = Real(dt),
                                   .rate = rate_,
                                   .lever_sum = lever_sums(),
-                                  .drag_coefficient = grains.drag_coefficient,
-                                  .rot_drag_coefficient = grains.rot_drag_coefficient,
+                                  .drag = drag_of(grains),
                                   .stiffness = stiffness_});
 }
 
-Span<const Real> Coupling::lever_sums() const {
-  return angmom_ ? Span<const Real>(lever_sum_) : Span<const Real>();
-}
+Span<const Real> Coupling::lever_sums() const { return span_if(angmom_, lever_sum_); }
 
 void Coupling::survey(const FluidStore& fluid, const GrainStore& grains) {
   const LargestRate largest{rate_, lever_sums()};
@@ -340,10 +332,6 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
     fluid.drag_kick.buffer().zero();
     return;
   }
-  const LocalSlip slip{.dt = Real(dt),
-                       .drag_coefficient = grains.drag_coefficient,
-                       .fluid_velocity = grains.fluid_velocity,
-                       .fluid_angular_velocity = grains.fluid_angular_velocity};
   with_flag(angmom_, [&](auto couple) {
     with_flag(local_slip_, [&](auto local) {
       for_each(grains.all(), ReactionTermsPass<couple, local>{.impulse = grains.impulse,
@@ -351,7 +339,8 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
                                                               .surroundings = surroundings(),
                                                               .weights = drag_weights(),
                                                               .levers = levers(),
-                                                              .slip = slip,
+                                                              .dt = Real(dt),
+                                                              .drag = drag_of(grains),
                                                               .reactions = reactions()});
       with_coupling_kernel([&](auto w) {
         grains_of_fluid_.run(ReactionPass<decltype(w), couple, local>{.w = w,
@@ -402,7 +391,7 @@ void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPo
 
 void Coupling::push(const FluidStore& fluid, GrainStore& grains, double kick, bool held) {
   of_fluid_.resize(fluid.size());
-  for_each(fluid.all(), PushPass{fluid.solid_factor, fluid.stress_acceleration, fluid.eos_state, push_});
+  for_each(fluid.all(), push_pass(fluid));
   with_coupling_kernel([&](auto w) {
     fluid_of_grain_.run(BuoyancyPass<decltype(w)>{w, push_, volume_, buoyancy_});
   });

@@ -105,6 +105,10 @@ class Coupling {
   void with_coupling_kernel(F&& f) const;
   bool moments() const { return torque_ || angmom_; }
   void pack(GrainStore& grains);
+  /// List of the sources near each target, where both were when the lists of the phases were built.
+  template <class Targets, class Sources>
+  void build(Pairing<>& pairs, const Targets& targets, const HalfSkins& of_targets, const Sources& sources,
+             const HalfSkins& of_sources, const CellGridView& grid);
   void volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt);
   WallFreeFraction wall_free(Span<const BodyPose> pose) const;
   DragLevers levers() { return {lever_at_centre_, lever_off_centre_, lever_sum_}; }
@@ -117,6 +121,7 @@ class Coupling {
   void survey(const FluidStore& fluid, const GrainStore& grains);
   Span<const Real> lever_sums() const;
   GrainSurroundings surroundings();
+  PushPass push_pass(const FluidStore& fluid);
   DragWeights drag_weights();
   Reactions reactions();
 

@@ -20,16 +20,14 @@ struct WrapPass {
 
 /// The same of sheared fluid, which changes its velocity where it comes back.
 struct ShearedWrapPass {
-  Frame frame;
-  MeanShear shear;
-  Span<FluidPosition> x;
-  Span<Real4> v_rho;
+  FluidMotion fluid;
   BL_HD void operator()(Index a) const {
-    Vec3d at = coordinates(frame, x[a]);
-    Real3 v = v_rho[a].xyz();
+    const auto& [frame, shear, x, v_rho] = fluid;
+    Vec3d at = fluid.at(a);
+    Real3 v = v_rho[a].v;
     shear.wrap(at, v);
     x[a] = as_position<FluidPosition>(frame, frame.wrap(at));
-    v_rho[a] = {v, v_rho[a].w};
+    v_rho[a] = {v, v_rho[a].rho};
   }
 };
 
@@ -43,18 +41,16 @@ struct LatticePass {
 
 /// Positions of fluid as pair loops read them, with their weights; of sheared fluid also peculiar velocities.
 struct PackFluidPass {
-  Frame frame;
-  MeanShear shear;
-  Span<const FluidPosition> x;
-  Span<const Real4> v_rho;
+  FluidMotion fluid;
   Span<const EosState<>> eos_state;
-  Span<PairPosition> xp, xp_mid;  ///< xp_mid: likewise until particles move; may be empty
-  Span<Real4> flux;               ///< empty without shear
+  PairCopies copies;
   BL_HD void operator()(Index a) const {
-    const Vec3d at = coordinates(frame, x[a]);
+    const auto& [frame, shear, x, v_rho] = fluid;
+    const auto& [xp, xp_mid, flux] = copies;
+    const Vec3d at = fluid.at(a);
     xp[a] = pair_position(frame, shear.lattice(at), eos_state[a].mass_over_eps);
     if (xp_mid) xp_mid[a] = xp[a];
-    if (flux) flux[a] = {shear.peculiar(v_rho[a].xyz(), at.z), v_rho[a].w};
+    if (flux) flux[a] = {shear.peculiar(v_rho[a].v, at.z), v_rho[a].rho};
   }
 };
 
@@ -63,11 +59,11 @@ struct PackWallPass {
   Frame frame;
   Real back;
   Span<const Vec3d> x;
-  Span<const Real4> v_rho;
+  Span<const VelocityDensity<>> v_rho;
   Span<PairPosition> xp, xp_mid;  ///< xp_mid may be empty
   BL_HD void operator()(Index w) const {
     xp[w] = pair_position(frame, x[w]);
-    if (xp_mid) xp_mid[w] = pair_position(frame, x[w] - Vec3d(back * v_rho[w].xyz()));
+    if (xp_mid) xp_mid[w] = pair_position(frame, x[w] - Vec3d(back * v_rho[w].v));
   }
 };
 
@@ -78,18 +74,15 @@ struct HasEntries {
 
 /// How far particles will have gone in a time to come, m, between bounds.
 struct HalfSkinPass {
-  Frame frame;
-  MeanShear shear;
+  FluidMotion fluid;
   Real horizon;  ///< s
   Real least, most;
-  Span<const FluidPosition> x;
-  Span<const Real4> v_rho;
   Span<const Real3> drift, acc;  ///< drift: empty where particles move with their velocity alone
   Span<Real> half_skin;
   BL_HD void operator()(Index a) const {
-    Real3 v = v_rho[a].xyz();
+    Real3 v = fluid.v_rho[a].v;
     if (drift) v += drift[a];
-    const Real speed = norm(shear.peculiar(v, coordinates(frame, x[a]).z));
+    const Real speed = norm(fluid.shear.peculiar(v, fluid.at(a).z));
     half_skin[a] = clamp(horizon * (speed + horizon / 2 * norm(acc[a])), least, most);
   }
 };
@@ -192,20 +185,17 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved,
   if (shear_.acts()) {
     const double period = frame_.length.x / frame_.length.z;
     listed_strain_ = shear_.strain -= period * std::rint(shear_.strain / period);
-    for_each(fluid.owned(), ShearedWrapPass{frame_, shear_, fluid.x, fluid.v_rho});
+    for_each(fluid.owned(), ShearedWrapPass{motion(fluid)});
   } else {
     for_each(fluid.owned(), WrapPass<FluidPosition>{frame_, fluid.x});
   }
   sort_cells(fluid);
   fluid.reorder(order_);
   fluid.x_list.copy(fluid.x);
-  for_each(fluid.owned(), HalfSkinPass{.frame = frame_,
-                                       .shear = shear_,
+  for_each(fluid.owned(), HalfSkinPass{.fluid = motion(fluid),
                                        .horizon = Real(horizon_),
                                        .least = Real(shear_.acts() ? half_skin_ : least_skin()),
                                        .most = Real(half_skin_),
-                                       .x = fluid.x,
-                                       .v_rho = fluid.v_rho,
                                        .drift = drift_of(fluid),
                                        .acc = fluid.acc,
                                        .half_skin = fluid.half_skin});
@@ -285,14 +275,7 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
 }
 
 void FluidSolver::pack(FluidStore& fluid) {
-  for_each(fluid.all(), PackFluidPass{.frame = frame_,
-                                      .shear = shear_,
-                                      .x = fluid.x,
-                                      .v_rho = fluid.v_rho,
-                                      .eos_state = fluid.eos_state,
-                                      .xp = fluid.xp,
-                                      .xp_mid = fluid.xp_mid,
-                                      .flux = peculiar(fluid)});
+  for_each(fluid.all(), PackFluidPass{motion(fluid), fluid.eos_state, copies(fluid)});
 }
 
 void FluidSolver::pack(WallStore& walls, double back) {

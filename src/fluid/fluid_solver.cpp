@@ -15,31 +15,31 @@ namespace {
 /// changed.
 struct CorrectSweep {
   using Value = FluidExtremes;
-  Frame frame;
+  FluidMotion fluid;
   Real kick;  ///< s
   Span<const Real3> acc_old, acc;
   Span<const Real> eps, viscosity, compression;  ///< the first two empty where they are 1
   Span<const Real3> drift;
-  Span<const FluidPosition> x, x_list;
+  Span<const FluidPosition> x_list;
   Span<const Real> half_skin;
   double longest;  ///< of steps, s
   /// By the end of the next, how far the mean shear will have parted pairs (m) since the lists were built,
   /// and the strain: among positions sheared back, what moves along z moves along x, too.
   double spread, strained;
   Span<const Real> h, h_list;  ///< empty where all have one length
-  Span<Real4> v_rho;
-  MeanShear shear, listed;  ///< now, and where the lists were built
+  MeanShear listed;            ///< where the lists were built
 
   BL_HD Value identity() const { return {}; }
   BL_HD Value operator()(Index a) const {
     const Real3 acceleration = acc[a];
-    Real3 v = v_rho[a].xyz();
+    Real3 v = fluid.v_rho[a].v;
     if (kick != 0) {
       v += kick * (acceleration - acc_old[a]);
-      v_rho[a] = {v, v_rho[a].w};
+      fluid.v_rho[a] = {v, fluid.v_rho[a].rho};
     }
     if (drift) v += drift[a];
-    const Vec3d now = coordinates(frame, x[a]);
+    const auto& [frame, shear, x, v_rho] = fluid;
+    const Vec3d now = fluid.at(a);
     Vec3d moved = frame.separation(shear.lattice(now), listed.lattice(coordinates(frame, x_list[a])));
     moved.x += listed.strain * moved.z;
     Value out;
@@ -175,7 +175,7 @@ WallRepulsion FluidSolver::repulsion(const FluidStore& fluid, Span<const BodyPos
           .frame = frame_,
           .walls = repelling_,
           .pose = pose,
-          .exposure = shifts() ? Span<const Real>(fluid.exposure) : Span<const Real>()};
+          .exposure = span_if(shifts(), fluid.exposure)};
 }
 
 OrificeRepulsion FluidSolver::orifice_repulsion(Span<const BodyPose> pose, double dt) const {
@@ -205,41 +205,33 @@ void FluidSolver::repel(FluidStore& fluid, Span<const BodyPose> pose, double kic
 
 KickDriftPass FluidSolver::kick_drift_pass(FluidStore& fluid, double kick, double drift, double back,
                                            bool coupled) {
-  return {.frame = frame_,
+  return {.fluid = motion(fluid),
+          .copies = copies(fluid),
           .kick = Real(kick),
           .drift = Real(drift),
           .back = Real(back),
           .acc = fluid.acc,
-          .reaction = coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
+          .reaction = span_if(coupled, fluid.reaction),
           .beside = drift_of(fluid),
-          .v_rho = fluid.v_rho,
-          .x = fluid.x,
-          .xp = fluid.xp,
-          .xp_mid = fluid.xp_mid,
-          .shear = shear_,
-          .flux = peculiar(fluid),
           .edges = edges_};
 }
 
 StatePass FluidSolver::state_pass(FluidStore& fluid, const DensityHistory& history, double kick,
                                   bool coupled) {
-  return {.frame = frame_,
+  return {.fluid = motion(fluid),
           .eos = eos_,
           .damping = Real(damping()),
           .compression_rate = fluid.compression_rate,
           .history = history,
           .kick = Real(kick),
-          .x = fluid.x,
           .acc = fluid.acc,
-          .reaction = coupled ? Span<const Real3>(fluid.reaction) : Span<const Real3>(),
+          .reaction = span_if(coupled, fluid.reaction),
           .compression = fluid.compression,
           .mass = fluid.mass,
-          .eps = parameters_.mixed ? Span<const Real>(fluid.eps) : Span<const Real>(),
-          .v_rho = fluid.v_rho,
-          .flux = parameters_.mixed ? Span<Real4>(fluid.flux) : peculiar(fluid),
+          .eps = span_if(parameters_.mixed, fluid.eps),
+          .flux = span_if(parameters_.mixed || shear_.acts(), fluid.flux),
           .eos_state = fluid.eos_state,
-          .p_rho2 = fluid.p_rho2,
-          .shear = shear_};
+          .p_rho2 = fluid.p_rho2};
 }
 
 void FluidSolver::kick_drift(FluidStore& fluid, double kick, double drift, double back, bool coupled) {
@@ -291,15 +283,14 @@ void FluidSolver::survey(FluidStore& fluid, double kick) {
   const double most = std::max(strained(0), strained(longest));
   const Span<const Real> none;
   reduce_into(extremes_.data(), fluid.owned(),
-              CorrectSweep{.frame = frame_,
+              CorrectSweep{.fluid = motion(fluid),
                            .kick = Real(kick),
                            .acc_old = fluid.acc_next,
                            .acc = fluid.acc,
-                           .eps = parameters_.mixed ? Span<const Real>(fluid.eps) : none,
-                           .viscosity = parameters_.thickens ? Span<const Real>(fluid.viscosity) : none,
+                           .eps = span_if(parameters_.mixed, fluid.eps),
+                           .viscosity = span_if(parameters_.thickens, fluid.viscosity),
                            .compression = fluid.compression,
                            .drift = drift_of(fluid),
-                           .x = fluid.x,
                            .x_list = fluid.x_list,
                            .half_skin = fluid.half_skin,
                            .longest = longest,
@@ -307,8 +298,6 @@ void FluidSolver::survey(FluidStore& fluid, double kick) {
                            .strained = most,
                            .h = lengths_ ? Span<const Real>(lengths_->h) : none,
                            .h_list = lengths_ ? Span<const Real>(lengths_->h_list) : none,
-                           .v_rho = fluid.v_rho,
-                           .shear = shear_,
                            .listed = listed});
 }
 

@@ -115,12 +115,8 @@ class FluidSolver {
   const EquationOfState& eos() const { return eos_; }
   Drive drive(const FluidStore& fluid, const StepTime& now) const;
   /// Velocity of particles in addition to that of the fluid (shifting, XSPH); empty without.
-  Span<const Real3> drift_of(const FluidStore& fluid) const {
-    return drifts() ? Span<const Real3>(fluid.drift) : Span<const Real3>();
-  }
-  Span<Real3> drift_of(FluidStore& fluid) const {
-    return drifts() ? Span<Real3>(fluid.drift) : Span<Real3>();
-  }
+  Span<const Real3> drift_of(const FluidStore& fluid) const { return span_if(drifts(), fluid.drift); }
+  Span<Real3> drift_of(FluidStore& fluid) const { return span_if(drifts(), fluid.drift); }
   bool shifts() const { return parameters_.order.shifts; }
   /// Whether pressure forces are made exact for linear pressures (LinearFit).
   bool fits() const { return parameters_.order.linear_exact; }
@@ -289,12 +285,18 @@ class FluidSolver {
   void accept_rates(double dt);
   /// Velocity and density as pair loops read them: of the mixture where grains share the space, peculiar
   /// where fluid is sheared.
-  Span<const Real4> flux(const FluidStore& fluid) const {
+  Span<const VelocityDensity<>> flux(const FluidStore& fluid) const {
     return parameters_.mixed || shear_.acts() ? fluid.flux : fluid.v_rho;
   }
-  /// To be set along with positions that pair loops read; empty without shear.
-  Span<Real4> peculiar(FluidStore& fluid) const {
-    return shear_.acts() ? Span<Real4>(fluid.flux) : Span<Real4>();
+  // what passes take together
+  FluidView view(const FluidStore& fluid) const { return {flux(fluid), fluid.eos_state}; }
+  static WallView view(const WallStore& walls) { return {walls.v_rho, walls.state, walls.no_slip}; }
+  FluidMotion motion(FluidStore& fluid) const { return {frame_, shear_, fluid.x, fluid.v_rho}; }
+  BeforeCorrection before_correction(const FluidStore& fluid, double kick) const {
+    return {Real(parameters_.mixed ? 0 : kick), fluid.acc, fluid.acc_next};
+  }
+  PairCopies copies(FluidStore& fluid) const {
+    return {fluid.xp, fluid.xp_mid, span_if(shear_.acts(), fluid.flux)};
   }
   void sort_cells(const FluidStore& fluid);
   /// Positions sheared back.
@@ -323,13 +325,11 @@ class FluidSolver {
                    const Real3& gravity, double drag_dt, bool moving, const Lengths& lengths = {}) {
     const WallPass<W, Lengths> pass{.w = w,
                                     .eos = eos_,
-                                    .flux = flux(fluid),
-                                    .eos_state = fluid.eos_state,
+                                    .fluid = view(fluid),
                                     .drag_kick = fluid.drag_kick,
                                     .rate = Real(drag_dt > 0 ? 1 / drag_dt : 0),
                                     .x0 = walls.x0,
-                                    .body = walls.body,
-                                    .pose = pose,
+                                    .bodies = {walls.body, pose},
                                     .gravity = gravity,
                                     .least_sum = least_sum(),
                                     .v_rho = walls.v_rho,
@@ -358,11 +358,9 @@ class FluidSolver {
                                   .rho0 = Real(parameters_.fluid.rho0),
                                   .dt = Real(dt),
                                   .least = least,
-                                  .flux = flux(fluid),
-                                  .wall_v_rho = walls.v_rho,
-                                  .wall_state = walls.state,
-                                  .body = walls.body,
-                                  .pose = pose,
+                                  .fluid = view(fluid),
+                                  .walls = view(walls),
+                                  .bodies = {walls.body, pose},
                                   .compression = walls.compression});
   }
   double repulsion_cap(double dt) const;  ///< m/s2, in a step of dt, s
@@ -378,7 +376,7 @@ class FluidSolver {
   Scratch of_fluid_, of_walls_;  ///< what passes leave for others within a call
   ScratchArray<Vec3d> lattice_{of_fluid_, shear_.acts()};
   ScratchArray<Real> collisions_{of_fluid_, parameters_.visc.collision};  ///< number of each particle
-  ScratchArray<Real4> collided_{of_fluid_, parameters_.visc.collision};
+  ScratchArray<VelocityDensity<>> collided_{of_fluid_, parameters_.visc.collision};
   double half_skin_ = 0, wall_skin_ = 0;  ///< the largest of fluid, that of walls, m
   double horizon_ = 0;                    ///< time for which fast particles get a skin, s
   CellGrid grid_, wall_grid_;

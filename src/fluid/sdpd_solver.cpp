@@ -76,7 +76,7 @@ class SdpdSolver final : public FluidSolver {
     if (parameters_.eos.filter) filter_pressure(fluid);
     for_each(fluid.all(), PredictSpin{Real(dt), omega(), turning(), fluid.id, label_});
     of_walls_.resize(walls.size());
-    for_each(walls.all(), LabelWalls{Model::spins, walls.id, walls.body, pose, wall_label_});
+    for_each(walls.all(), LabelWalls{Model::spins, walls.id, {walls.body, pose}, wall_label_});
     const bool noisy = parameters_.sdpd.kT > 0 && dt > 0;
     if (!parameters_.viscosity_varies())
       noisy ? momentum<true, false>(fluid, walls, now, dt) : momentum<false, false>(fluid, walls, now, dt);
@@ -125,10 +125,8 @@ class SdpdSolver final : public FluidSolver {
     run_with_walls(ContinuityPass<W>{.w = w_,
                                      .rho0 = Real(parameters_.fluid.rho0),
                                      .dt = Real(dt),
-                                     .flux = flux(fluid),
-                                     .eos_state = fluid.eos_state,
-                                     .wall_v_rho = walls.v_rho,
-                                     .wall_state = walls.state,
+                                     .fluid = view(fluid),
+                                     .walls = view(walls),
                                      .compression = fluid.compression,
                                      .compression_next = fluid.compression_next});
   }
@@ -153,14 +151,13 @@ class SdpdSolver final : public FluidSolver {
   }
   void sum_up_frozen(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose) {
     of_walls_.resize(walls.size());
-    for_each(walls.all(), WallVolume{walls.body, pose, wall_volume_});
+    for_each(walls.all(), WallVolume{{walls.body, pose}, wall_volume_});
     wall_wall_.run_with(wall_fluid_, FrozenSummationPass<W>{.w = w_,
                                                             .rho0 = Real(parameters_.fluid.rho0),
                                                             .n = Real(1 / lattice_.W),
                                                             .volume = wall_volume_,
                                                             .eos_state = fluid.eos_state,
-                                                            .body = walls.body,
-                                                            .pose = pose,
+                                                            .bodies = {walls.body, pose},
                                                             .compression = walls.compression});
   }
   SdpdWallPair<W> pair(const StepTime& now, double dt) const {
@@ -180,22 +177,18 @@ class SdpdSolver final : public FluidSolver {
   Force<kNoise, kSpecies> force_pass(FluidStore& fluid, const WallStore& walls, const StepTime& now,
                                      double dt) {
     return {.wall = pair(now, dt),
-            .flux = flux(fluid),
-            .eos_state = fluid.eos_state,
+            .fluid = view(fluid),
             .spin_label = label_,
             .p_rho2 = fluid.p_rho2,
             .mass = fluid.mass,
             .id = fluid.id,
-            .wall_v_rho = walls.v_rho,
-            .wall_state = walls.state,
-            .wall_no_slip = walls.no_slip,
+            .walls = view(walls),
             .wall_label = wall_label_,
             .gravity = now.gravity,
             .drive = drive(fluid, now),
             .dt = Real(dt),
             .inertia = Real(spin_ ? spin_->inertia : 0),
-            .stress_acceleration = fluid.stress_acceleration,
-            .acc = fluid.acc_next,
+            .out = {fluid.stress_acceleration, fluid.acc_next},
             .spin = omega(),
             .spin_acc = turning(),
             .viscosity = fluid.viscosity};
@@ -214,15 +207,10 @@ class SdpdSolver final : public FluidSolver {
   void forces_on_walls(const FluidStore& fluid, const WallStore& walls, const StepTime& now, double corrected,
                        double dt, Span<Vec3d> force, Span<Vec3d> friction) {
     const SdpdWallForcePass<W, Force> pass{.wall = pair(now, dt),
-                                           .kick = Real(parameters_.mixed ? 0 : corrected),
-                                           .acc = fluid.acc,
-                                           .acc_before = fluid.acc_next,
-                                           .flux = flux(fluid),
-                                           .eos_state = fluid.eos_state,
+                                           .before = before_correction(fluid, corrected),
+                                           .fluid = view(fluid),
                                            .spin_label = label_,
-                                           .wall_v_rho = walls.v_rho,
-                                           .wall_state = walls.state,
-                                           .wall_no_slip = walls.no_slip,
+                                           .walls = view(walls),
                                            .wall_label = wall_label_,
                                            .force = force,
                                            .friction = friction,

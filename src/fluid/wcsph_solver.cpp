@@ -28,12 +28,10 @@ class WcsphSolver final : public FluidSolver {
                                  .rho0 = Real(parameters_.fluid.rho0),
                                  .least = least(),
                                  .least_sum = least_sum(),
-                                 .flux = flux(fluid),
-                                 .eos_state = fluid.eos_state,
+                                 .fluid = view(fluid),
                                  .x = walls.x,
                                  .image = walls.mirrors.x,
-                                 .body = walls.body,
-                                 .pose = pose,
+                                 .bodies = {walls.body, pose},
                                  .compression = walls.compression};
       image_fluid_.run(mirror);
     }
@@ -62,8 +60,7 @@ class WcsphSolver final : public FluidSolver {
                                    .flux = flux(fluid),
                                    .wall_v_rho = walls.v_rho,
                                    .wall_body = walls.body,
-                                   .stress_acceleration = fluid.stress_acceleration,
-                                   .acc = fluid.acc_next});
+                                   .out = {fluid.stress_acceleration, fluid.acc_next}});
   }
 
   void wall_forces(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
@@ -152,14 +149,9 @@ class WcsphSolver final : public FluidSolver {
     const WallForcePass<W, Force, Lengths> pass{.w = w_,
                                                 .wall = wall_pair(),
                                                 .layer = layer(pose, dt),
-                                                .kick = Real(parameters_.mixed ? 0 : corrected),
-                                                .acc = fluid.acc,
-                                                .acc_before = fluid.acc_next,
-                                                .flux = flux(fluid),
-                                                .eos_state = fluid.eos_state,
-                                                .wall_v_rho = walls.v_rho,
-                                                .wall_state = walls.state,
-                                                .wall_no_slip = walls.no_slip,
+                                                .before = before_correction(fluid, corrected),
+                                                .fluid = view(fluid),
+                                                .walls = view(walls),
                                                 .wall_body = walls.body,
                                                 .force = force,
                                                 .friction = friction,
@@ -173,11 +165,9 @@ class WcsphSolver final : public FluidSolver {
     of_walls_.resize(walls.size());
     const WallWorkPass<W, Lengths> pass{.w = w_,
                                         .least_sum = least_sum(),
-                                        .flux = flux(fluid),
-                                        .wall_v_rho = walls.v_rho,
-                                        .wall_state = walls.state,
-                                        .body = walls.body,
-                                        .pose = pose,
+                                        .fluid = view(fluid),
+                                        .walls = view(walls),
+                                        .bodies = {walls.body, pose},
                                         .work = wall_work_,
                                         .lengths = lengths()};
     run_over_walls(pass);
@@ -201,10 +191,8 @@ class WcsphSolver final : public FluidSolver {
                                                                      Span<Real> compression_new) {
     const double c = parameters_.fluid.c;
     return {.w = w_,
-            .flux = flux(fluid),
-            .eos_state = fluid.eos_state,
-            .wall_v_rho = walls.v_rho,
-            .wall_state = walls.state,
+            .fluid = view(fluid),
+            .walls = view(walls),
             .diffusion = Real(2 * parameters_.density.delta * parameters_.fluid.h() * c),
             .hydrostatic = gravity * Real(parameters_.fluid.rho0 / (c * c)),
             .stiffening = eos_.gamma - 2,
@@ -221,26 +209,22 @@ class WcsphSolver final : public FluidSolver {
             .drift = drift_of(fluid),
             .fit = fit,
             .lengths = lengths(),
-            .wall_work = parameters_.energy_consistent ? Span<const Real>(wall_work_) : Span<const Real>()};
+            .wall_work = span_if(parameters_.energy_consistent, wall_work_)};
   }
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
   ForcePass<W, kArtificial, kAdded, kSpecies, Lengths> force_pass(FluidStore& fluid, const WallStore& walls,
                                                                   const StepTime& now) {
     return {.w = w_,
             .wall = wall_pair(),
-            .flux = flux(fluid),
-            .eos_state = fluid.eos_state,
+            .fluid = view(fluid),
             .p_rho2 = fluid.p_rho2,
-            .wall_v_rho = walls.v_rho,
-            .wall_state = walls.state,
-            .wall_no_slip = walls.no_slip,
+            .walls = view(walls),
             .artificial = artificial(),
             .tensile = tensile(),
             .xsph_factor = Real(parameters_.xsph),
             .gravity = now.gravity,
             .drive = drive(fluid, now),
-            .stress_acceleration = fluid.stress_acceleration,
-            .acc = fluid.acc_next,
+            .out = {fluid.stress_acceleration, fluid.acc_next},
             .drift = fluid.drift,
             .relative_viscosity = fluid.viscosity,
             .correction = fluid.correction,

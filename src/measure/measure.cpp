@@ -5,6 +5,8 @@
 
 #include "bedload/parallel/reductions.hpp"
 #include "kernels/boundaries/sinks.hpp"
+#include "kernels/fluid/views.hpp"
+#include "src/measure/fluid_contents.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -12,19 +14,17 @@ namespace {
 
 /// mass, momentum 3, angular momentum 3, kinetic, potential, elastic, spin energy.
 struct FluidTotals {
-  Frame frame;
+  FluidContents fluid;
   EquationOfState eos;
   Vec3d gravity;  ///< true gravity: the acceleration of a frame has no potential energy here
   Drive drive;    ///< nor has its constant part
-  Span<const FluidPosition> x;
-  Span<const Real4> v_rho;
-  Span<const Real> mass, compression;
+  Span<const Real> compression;
   double inertia;  ///< of a particle over its mass, m2
   Span<const Real3> spin;
   BL_HD void operator()(Index a, double* out) const {
-    const double m = mass[a];
+    const double m = fluid.mass[a];
     const Vec3d w = inertia > 0 ? Vec3d(spin[a]) : Vec3d{};
-    const Vec3d at = coordinates(frame, x[a]), v = Vec3d(v_rho[a].xyz()), l = cross(at, v) + inertia * w;
+    const Vec3d at = fluid.at(a), v = fluid.velocity(a), l = cross(at, v) + inertia * w;
     out[0] = m;
     for (int k = 0; k < 3; ++k) out[1 + k] = m * v[k], out[4 + k] = m * l[k];
     out[7] = 0.5 * m * norm2(v);
@@ -40,12 +40,11 @@ struct MomentumRates {
   double rate;  ///< 1 / step, 1/s
   Vec3d gravity;
   Drive drive;
-  Span<const Real> mass;
-  Span<const EosState<>> eos_state;
+  FluidContents fluid;
   Span<const Real3> stress_acceleration, acc, reaction, drag_kick;
   BL_HD void operator()(Index a, double* out) const {
-    const double m = mass[a];
-    const EosState<> state = eos_state[a];
+    const double m = fluid.mass[a];
+    const EosState<> state = fluid.state[a];
     const Real3 driven = drive(a, state);
     for (int k = 0; k < 3; ++k) {
       const double grains = (double(state.mass_over_eps) - m) * stress_acceleration[a][k];
@@ -69,23 +68,21 @@ struct GrainLoads {
 
 /// Correction by LinearFit: force 3 (N) and its power on the fluid (W).
 struct CorrectionBody {
-  Span<const Real> mass;
-  Span<const EosState<>> eos_state;
-  Span<const Real4> v_rho;
+  FluidContents fluid;
   Span<const Real4> correction;
   BL_HD void operator()(Index a, double* out) const {
-    const Vec3d acc(correction[a].xyz()), force = double(eos_state[a].mass_over_eps) * acc;
+    const Vec3d acc(correction[a].xyz()), force = double(fluid.state[a].mass_over_eps) * acc;
     for (int k = 0; k < 3; ++k) out[k] = force[k];
-    out[3] = double(mass[a]) * dot(acc, Vec3d(v_rho[a].xyz()));
+    out[3] = double(fluid.mass[a]) * dot(acc, fluid.velocity(a));
   }
 };
 /// Power of the pressure of the acoustic damper, with the rate of volume from continuity, W.
 struct DamperBody {
   double damping, rho0;  ///< Pa s, kg/m3
-  Span<const EosState<>> eos_state;
-  Span<const Real> mass, rate;
+  FluidContents fluid;
+  Span<const Real> rate;
   BL_HD void operator()(Index a, double* out) const {
-    out[0] = -double(mass[a]) * rho0 * damping * square(double(rate[a]) / double(eos_state[a].rho));
+    out[0] = -double(fluid.mass[a]) * rho0 * damping * square(double(rate[a]) / double(fluid.state[a].rho));
   }
 };
 
@@ -93,13 +90,11 @@ struct DamperBody {
 struct DriftBody {
   Vec3d gravity;
   Drive drive;
-  Span<const Real> mass;
-  Span<const EosState<>> eos_state;
-  Span<const Real4> v_rho;
+  FluidContents fluid;
   Span<const Real3> drift;  ///< empty: none
   BL_HD void operator()(Index a, double* out) const {
-    if (drift) out[0] = -double(mass[a]) * dot(gravity, Vec3d(drift[a]));
-    out[1] = double(mass[a]) * dot(Vec3d(drive(a, eos_state[a])), Vec3d(v_rho[a].xyz()));
+    if (drift) out[0] = -double(fluid.mass[a]) * dot(gravity, Vec3d(drift[a]));
+    out[1] = double(fluid.mass[a]) * dot(Vec3d(drive(a, fluid.state[a])), fluid.velocity(a));
   }
 };
 /// Power of the repulsion of fluid by surfaces, W; numbers of particles that the penetration limit stops,
@@ -107,25 +102,23 @@ struct DriftBody {
 struct StoppedBody {
   WallRepulsion walls;
   OrificeRepulsion inlets;
-  Span<const FluidPosition> x;
-  Span<const Real> mass;
-  Span<const Real4> v_rho;
+  FluidContents fluid;
   Span<const Real3> heading;      ///< from RepelPass, m/s
   Span<const FluidPowers> terms;  ///< may be empty
   BL_HD void operator()(Index a, double* out) const {
-    const Vec3d at = coordinates(walls.frame, x[a]);
-    const Real3 v = v_rho[a].xyz(), shift = terms ? terms[a].shift : Real3{};
+    const Vec3d at = fluid.at(a);
+    const Real3 shift = terms ? terms[a].shift : Real3{};
     Real3 left = shift;
     Vec3d force;
     const auto take = [&](const SurfacePush& push) {
-      force += double(mass[a]) * Vec3d(push.acceleration);
+      force += double(fluid.mass[a]) * Vec3d(push.acceleration);
       if (push.stopped) out[1] = 1;
       if (push.capped) out[2] = 1;
     };
     walls.each(at, heading[a], walls.sheet(a), take, kNone, &left);
-    out[0] = dot(force, Vec3d(v));
+    out[0] = dot(force, fluid.velocity(a));
     out[3] = norm2(left - shift) > 0;
-    out[4] = norm2(inlets(at, v)) > 0;
+    out[4] = norm2(inlets(at, fluid.v_rho[a].v)) > 0;
   }
 };
 /// Sums of FluidPowers, W, and numbers of particles.
@@ -143,11 +136,10 @@ struct ThinWallBody {
   Real least;  ///< compression of walls with a density of their own
   Span<const WallState<>> state;
   Span<const Real> compression;
-  Span<const std::uint32_t> body;
-  Span<const BodyPose> pose;
+  WallBodies bodies;
   BL_HD void operator()(Index b, double* out) const {
     if (state[b].mass == 0) return;
-    const WallKind kind = pose[body[b]].kind;
+    const WallKind kind = bodies[b].kind;
     const bool own = kind == WallKind::frozen || kind == WallKind::mirrored;
     if (own && compression[b] != kNoCompression)
       out[0] = compression[b] <= least;
@@ -183,6 +175,7 @@ struct PorosityBody {
 void CoupledSimulation::report_powers(const Drive& drive, double corrections, std::vector<Quantity>& out) {
   FluidSolver& solver = stepper_.fluid();
   FluidStore& fluid = state_.fluid;
+  const FluidContents contents(state_.frame, fluid);
   const double dt = state_.clock.last_dt;
   const auto powers = solver.powers(fluid, state_.walls, state_.poses_now(), stepper_.moment(), dt);
   SumReduction<8, PowersBody>::Value p;
@@ -202,23 +195,17 @@ void CoupledSimulation::report_powers(const Drive& drive, double corrections, st
   for (int k = 0; k < 4; ++k) out.push_back({std::string("power_") + terms[k], "W", p.v[k]});
   out.push_back({"power_wall_pressure", "W", p.v[4] - moving});
   out.push_back({"power_moving_walls", "W", moving - corrections});
-  const auto d = sum_over<2>(
-      fluid.owned(),
-      DriftBody{.gravity = config_.gravity,
-                .drive = drive,
-                .mass = fluid.mass,
-                .eos_state = fluid.eos_state,
-                .v_rho = fluid.v_rho,
-                .drift = solver.shifts() ? solver.drift_of(std::as_const(fluid)) : Span<const Real3>()});
+  const auto d = sum_over<2>(fluid.owned(), DriftBody{.gravity = config_.gravity,
+                                                      .drive = drive,
+                                                      .fluid = contents,
+                                                      .drift = span_if(solver.shifts(), fluid.drift)});
   out.push_back({"power_shifting", "W", d.v[0]});
   out.push_back({"power_drive", "W", d.v[1]});
   SumReduction<5, StoppedBody>::Value r{};
   if (solver.repels())
     r = sum_over<5>(fluid.owned(), StoppedBody{.walls = solver.repulsion(fluid, state_.poses_now(), dt),
                                                .inlets = solver.orifice_repulsion(state_.poses_now(), dt),
-                                               .x = fluid.x,
-                                               .mass = fluid.mass,
-                                               .v_rho = fluid.v_rho,
+                                               .fluid = contents,
                                                .heading = fluid.heading,
                                                .terms = powers});
   const auto w =
@@ -226,8 +213,7 @@ void CoupledSimulation::report_powers(const Drive& drive, double corrections, st
                                                      .least = max_of(solver.eos().least, kThinnest),
                                                      .state = state_.walls.state,
                                                      .compression = state_.walls.compression,
-                                                     .body = state_.walls.body,
-                                                     .pose = state_.poses_now()});
+                                                     .bodies = {state_.walls.body, state_.poses_now()}});
   out.push_back({"power_penetration_limit", "W", r.v[0]});
   out.push_back({"fluid_stopped_at_walls", "-", r.v[1]});
   out.push_back({"fluid_repulsion_limited", "-", r.v[2]});
@@ -254,15 +240,13 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
   if (state_.has_fluid) {
     const Drive drive = stepper_.fluid().drive(state_.fluid, stepper_.moment());
     const Spin* spin = stepper_.fluid().spin();
+    const FluidContents contents(state_.frame, state_.fluid);
     const auto t =
         sum_over<11>(state_.fluid.owned(),
-                     FluidTotals{.frame = state_.frame,
+                     FluidTotals{.fluid = contents,
                                  .eos = stepper_.fluid().eos(),
                                  .gravity = config_.gravity,
                                  .drive = drive,
-                                 .x = state_.fluid.x,
-                                 .v_rho = state_.fluid.v_rho,
-                                 .mass = state_.fluid.mass,
                                  .compression = state_.fluid.compression,
                                  .inertia = spin ? spin->inertia : 0,
                                  .spin = spin ? Span<const Real3>(spin->omega) : Span<const Real3>()});
@@ -275,30 +259,24 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     if (spin) out.push_back({"fluid_spin_energy", "J", t.v[10]});
     const FluidLoads& loads = fluid_loads();
     for (int b = 0; b < state_.motion.bodies(); ++b) wall_on_fluid -= loads.all(b).force();
-    const auto l =
-        sum_over<9>(state_.fluid.owned(),
-                    MomentumRates{.rate = state_.clock.last_dt > 0 ? 1 / state_.clock.last_dt : 0,
-                                  .gravity = state_.gravity.at(state_.clock.time),
-                                  .drive = drive,
-                                  .mass = state_.fluid.mass,
-                                  .eos_state = state_.fluid.eos_state,
-                                  .stress_acceleration = state_.fluid.stress_acceleration,
-                                  .acc = state_.fluid.acc,
-                                  .reaction = state_.two_way ? Span<const Real3>(state_.fluid.reaction)
-                                                             : Span<const Real3>(),
-                                  .drag_kick = state_.fluid.drag_kick});
+    const auto l = sum_over<9>(state_.fluid.owned(),
+                               MomentumRates{.rate = state_.clock.last_dt > 0 ? 1 / state_.clock.last_dt : 0,
+                                             .gravity = state_.gravity.at(state_.clock.time),
+                                             .drive = drive,
+                                             .fluid = contents,
+                                             .stress_acceleration = state_.fluid.stress_acceleration,
+                                             .acc = state_.fluid.acc,
+                                             .reaction = span_if(state_.two_way, state_.fluid.reaction),
+                                             .drag_kick = state_.fluid.drag_kick});
     const Vec3d body{l.v[0], l.v[1], l.v[2]}, total{l.v[3], l.v[4], l.v[5]};
     // columns do not depend on options, which may change at a restart
     const bool corrected = state_.fluid.correction.used(), damped = state_.fluid.compression_rate.used();
     SumReduction<4, CorrectionBody>::Value c{};
-    if (corrected)
-      c = sum_over<4>(state_.fluid.owned(), CorrectionBody{state_.fluid.mass, state_.fluid.eos_state,
-                                                           state_.fluid.v_rho, state_.fluid.correction});
+    if (corrected) c = sum_over<4>(state_.fluid.owned(), CorrectionBody{contents, state_.fluid.correction});
     SumReduction<1, DamperBody>::Value d{};
     if (damped)
-      d = sum_over<1>(state_.fluid.owned(),
-                      DamperBody{stepper_.fluid().damping(), config_.fluid.rho0, state_.fluid.eos_state,
-                                 state_.fluid.mass, state_.fluid.compression_rate});
+      d = sum_over<1>(state_.fluid.owned(), DamperBody{stepper_.fluid().damping(), config_.fluid.rho0,
+                                                       contents, state_.fluid.compression_rate});
     const Vec3d of_fluid{c.v[0], c.v[1], c.v[2]};
     // in the loads on bodies, which are told as the opposite of the forces of walls on the fluid
     LoadSum of_bodies = LoadSum::zero();

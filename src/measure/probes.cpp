@@ -8,6 +8,7 @@
 #include "bedload/parallel/reductions.hpp"
 #include "bedload/particles/along.hpp"
 #include "kernels/smoothing/registry.hpp"
+#include "src/measure/fluid_contents.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace bedload::inline BL_VARIANT {
@@ -21,11 +22,8 @@ struct PointBody {
   CellGridView grid;
   CellGridView::Block cells;
   W w;
-  Frame frame;
   Vec3d at;
-  Span<const FluidPosition> x;
-  Span<const Real4> v_rho;
-  Span<const EosState<>> eos_state;
+  FluidContents fluid;
   BL_HD void operator()(Index q, double* out) const {
     if (!cells.touches(int(q))) return;
     const std::uint32_t c = grid.key(cells, int(q));
@@ -34,15 +32,14 @@ struct PointBody {
 
  private:
   BL_HD void add(Index a, double* out) const {
-    const Vec3d r = frame.nearest_image(coordinates(frame, x[a]) - at);
+    const Vec3d r = fluid.frame.nearest_image(fluid.at(a) - at);
     const double r2 = norm2(r), support = w.kappa * double(w.h);
     if (r2 >= support * support) return;
-    const double weight = double(eos_state[a].mass_over_eps) / eos_state[a].rho * w.W(Real(std::sqrt(r2)));
+    const EosState<> m = fluid.state[a];
+    const double weight = double(m.mass_over_eps) / m.rho * w.W(Real(std::sqrt(r2)));
     out[0] += weight;
-    out[1] += weight * eos_state[a].pressure();
-    out[2] += weight * v_rho[a].x;
-    out[3] += weight * v_rho[a].y;
-    out[4] += weight * v_rho[a].z;
+    out[1] += weight * m.pressure();
+    for (int k = 0; k < 3; ++k) out[2 + k] += weight * fluid.v_rho[a].v[k];
   }
 };
 
@@ -82,18 +79,14 @@ BL_HD bool within(const Vec3d& x, const Vec3d& lo, const Vec3d& hi) {
 
 /// Over a box: count, mass, pressure, velocity 3, porosity.
 struct FluidBox {
-  Frame frame;
   Vec3d lo, hi;
-  Span<const FluidPosition> x;
-  Span<const Real4> v_rho;
-  Span<const EosState<>> eos_state;
-  Span<const Real> mass;
+  FluidContents fluid;
   BL_HD void operator()(Index a, double* out) const {
-    if (!within(coordinates(frame, x[a]), lo, hi)) return;
-    const double m = mass[a];
-    out[0] = 1, out[1] = m, out[2] = m * eos_state[a].pressure();
-    out[3] = m * v_rho[a].x, out[4] = m * v_rho[a].y, out[5] = m * v_rho[a].z;
-    out[6] = m * eos_state[a].eps;
+    if (!within(fluid.at(a), lo, hi)) return;
+    const double m = fluid.mass[a];
+    out[0] = 1, out[1] = m, out[2] = m * fluid.state[a].pressure();
+    for (int k = 0; k < 3; ++k) out[3 + k] = m * fluid.v_rho[a].v[k];
+    out[6] = m * fluid.state[a].eps;
   }
 };
 struct GrainBox {
@@ -153,15 +146,10 @@ std::vector<Quantity> CoupledSimulation::point(const ProbeConfig& p) {
     with_fluid_kernel(config_.fluid, config_.domain, [&](const auto& w) {
       const CellGridView grid = stepper_.fluid().grid().view();
       const auto cells = grid.block(at, stepper_.fluid().range() + stepper_.fluid().skin());
-      const auto s = sum_over<5>({0, Index(cells.size())},
-                                 PointBody<std::decay_t<decltype(w)>>{.grid = grid,
-                                                                      .cells = cells,
-                                                                      .w = w,
-                                                                      .frame = state_.frame,
-                                                                      .at = at,
-                                                                      .x = state_.fluid.x,
-                                                                      .v_rho = state_.fluid.v_rho,
-                                                                      .eos_state = state_.fluid.eos_state});
+      const auto s = sum_over<5>(
+          {0, Index(cells.size())},
+          PointBody<std::decay_t<decltype(w)>>{
+              .grid = grid, .cells = cells, .w = w, .at = at, .fluid = {state_.frame, state_.fluid}});
       std::copy(s.v, s.v + 5, sum);
     });
   const double nan = std::nan("");
@@ -207,13 +195,7 @@ std::vector<Quantity> CoupledSimulation::column(const ProbeConfig& p) {
 std::vector<Quantity> CoupledSimulation::box(const ProbeConfig& p) {
   double s[7] = {};
   if (p.phase == Phase::fluid) {
-    const auto r = sum_over<7>(state_.fluid.owned(), FluidBox{.frame = state_.frame,
-                                                              .lo = p.min,
-                                                              .hi = p.max,
-                                                              .x = state_.fluid.x,
-                                                              .v_rho = state_.fluid.v_rho,
-                                                              .eos_state = state_.fluid.eos_state,
-                                                              .mass = state_.fluid.mass});
+    const auto r = sum_over<7>(state_.fluid.owned(), FluidBox{p.min, p.max, {state_.frame, state_.fluid}});
     std::copy(r.v, r.v + 7, s);
   } else {
     const auto r = sum_over<7>(state_.grains.owned(), GrainBox{.lo = p.min,

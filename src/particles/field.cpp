@@ -32,6 +32,7 @@ template void Field<Vec4<float>>::gather(Span<const Index>, FieldBase*);
 template void Field<double>::gather(Span<const Index>, FieldBase*);
 template void Field<Vec3<double>>::gather(Span<const Index>, FieldBase*);
 template void Field<Vec4<double>>::gather(Span<const Index>, FieldBase*);
+template void Field<VelocityDensity<>>::gather(Span<const Index>, FieldBase*);
 template void Field<EosState<>>::gather(Span<const Index>, FieldBase*);
 template void Field<WallState<>>::gather(Span<const Index>, FieldBase*);
 template void Field<NoSlip<>>::gather(Span<const Index>, FieldBase*);

@@ -88,7 +88,7 @@ GrainGroups RigidGroups::view() const {
           .arm = arm_->span()};
 }
 
-void RigidGroups::follow(GrainStore& g, Span<Real3> v_rest, Span<Real3> omega_rest, double drift) {
+void RigidGroups::follow(GrainStore& g, const Velocities<Real3>& rest, double drift) {
   if (!any() || g.size() == 0) return;
   const GrainGroups all = view();
   for (Index k = 0; k < store_.size(); ++k)
@@ -97,18 +97,10 @@ void RigidGroups::follow(GrainStore& g, Span<Real3> v_rest, Span<Real3> omega_re
                               .of = k,
                               .mass_per_r3 = matter_.of(g),
                               .radius = g.radius,
-                              .v = g.v,
-                              .omega = g.omega,
-                              .v_rest = v_rest,
-                              .omega_rest = omega_rest});
+                              .now = {g.v, g.omega},
+                              .rest = {rest.v, rest.omega}});
   for_each(store_.owned(), GroupPass{all, gained_.data(), drift});
-  for_each(g.owned(), FollowPass{.all = all,
-                                 .frame = frame_,
-                                 .x = g.x,
-                                 .v = g.v,
-                                 .omega = g.omega,
-                                 .v_rest = v_rest,
-                                 .omega_rest = omega_rest});
+  for_each(g.owned(), FollowPass{all, frame_, g.x, {g.v, g.omega}, rest});
 }
 
 void RigidGroups::stop() {

@@ -26,8 +26,8 @@ class RigidGroups {
   void bind(const GrainStore& grains, const std::vector<std::uint32_t>& fill);
 
   /// Moves the groups after every grain was kicked, and drifted by `drift` (s), on its own; the grains
-  /// follow. Rests: low parts of the velocities, may be empty.
-  void follow(GrainStore& grains, Span<Real3> v_rest, Span<Real3> omega_rest, double drift);
+  /// follow. Rest: low parts of the velocities, may be empty.
+  void follow(GrainStore& grains, const Velocities<Real3>& rest, double drift);
   /// Sets the velocities of the groups to zero, as those of their grains are.
   void stop();
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "bedload/parallel/reductions.hpp"
 #include "kernels/integrate/grain_substep.hpp"
@@ -102,15 +103,7 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
 // -- limits ------------------------------------------------------------------
 
 GrainWatch SolidSolver::watch(const GrainStore& g) const {
-  const auto v = reduce(g.owned(), WatchReduction{.frame = frame_,
-                                                  .mass_per_r3 = matter_.of(g),
-                                                  .x = g.x.span(),
-                                                  .x_list = g.x_list.span(),
-                                                  .v = g.v.span(),
-                                                  .omega = g.omega.span(),
-                                                  .radius = g.radius.span(),
-                                                  .drag_coefficient = g.drag_coefficient.span(),
-                                                  .id = g.id.span()});
+  const auto v = reduce(g.owned(), WatchReduction{view(g), g.x_list, g.drag_coefficient});
   return {std::sqrt(v.speed2), std::sqrt(v.displacement2), v.drag_rate, Id(v.bad)};
 }
 
@@ -123,16 +116,20 @@ std::vector<StepLimit> SolidSolver::limits(const GrainWatch& w) const {
 
 // -- motion ------------------------------------------------------------------
 
-ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
+GrainView SolidSolver::view(const GrainStore& g) const {
   return {.frame = frame_,
-          .law = law(),
           .mass_per_r3 = matter_.of(g),
+          .x = g.x,
+          .v = g.v,
+          .omega = g.omega,
+          .radius = g.radius,
+          .id = g.id};
+}
+
+ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
+  return {.grains = view(g),
+          .law = law(),
           .dt = Real(dt),
-          .x = g.x.span(),
-          .v = g.v.span(),
-          .omega = g.omega.span(),
-          .radius = g.radius.span(),
-          .id = g.id.span(),
           .list = list_.view(),
           .histories = histories_.view(),
           .laws = pair_laws_.size() > 0 ? pair_laws_.data() : nullptr,
@@ -141,16 +138,7 @@ ContactPass SolidSolver::contact_pass(const GrainStore& g, double dt) const {
 }
 
 LubricationPass SolidSolver::films(const GrainStore& g, ContactSum* sums) const {
-  return {.frame = frame_,
-          .law = parameters_.films,
-          .x = g.x,
-          .v = g.v,
-          .omega = g.omega,
-          .radius = g.radius,
-          .wetness = g.wetness,
-          .id = g.id,
-          .list = list_.view(),
-          .sums = sums};
+  return {view(g), parameters_.films, g.wetness, list_.view(), sums};
 }
 
 ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses, double dt,
@@ -195,12 +183,8 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   if (free) free->first_kick();
   if (held || parameters_.fixed) {
     for_each(g.owned(), HeldPass{.duration = dt,
-                                 .fluid_velocity = g.fluid_velocity,
-                                 .fluid_angular_velocity = g.fluid_angular_velocity,
-                                 .drag_coefficient = g.drag_coefficient,
-                                 .rot_drag_coefficient = g.rot_drag_coefficient,
-                                 .impulse = g.impulse,
-                                 .spin_impulse = g.spin_impulse,
+                                 .drag = drag_of(std::as_const(g)),
+                                 .impulses = {g.impulse, g.spin_impulse},
                                  .drag_force = g.drag_force});
     for (int s = 1; free && s <= substeps; ++s) {
       evaluate(EvaluatePass{contacts_in(s), g.force, g.torque});
@@ -223,22 +207,17 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                  .edges = Edges(parameters_.reflect, frame_)};
   if (wet_) {
     kick.fluid_force = g.fluid_force;
-    kick.fluid_velocity = g.fluid_velocity;
-    kick.fluid_angular_velocity = g.fluid_angular_velocity;
-    kick.drag_coefficient = g.drag_coefficient;
-    kick.rot_drag_coefficient = g.rot_drag_coefficient;
+    kick.drag = drag_of(std::as_const(g));
   }
+  const Velocities<Real3> rest{v_rest_, omega_rest_};
   for_each(g.owned(), FirstKickPass{.kick = kick,
                                     .force = g.force,
                                     .torque = g.torque,
                                     .x = g.x,
-                                    .v = g.v,
-                                    .omega = g.omega,
-                                    .v_rest = v_rest_,
-                                    .omega_rest = omega_rest_,
-                                    .impulse = g.impulse,
-                                    .spin_impulse = g.spin_impulse});
-  groups_.follow(g, v_rest_, omega_rest_, tau);
+                                    .now = {g.v, g.omega},
+                                    .rest = rest,
+                                    .impulses = {g.impulse, g.spin_impulse}});
+  groups_.follow(g, rest, tau);
   for (int s = 1; s <= substeps; ++s) {
     const ContactPass contacts = contacts_in(s);
     if (!gravity.empty()) kick.gravity = gravity[s];
@@ -247,9 +226,9 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     g.v.buffer().swap(next_v_);
     g.omega.buffer().swap(next_omega_);
     if (s < substeps)
-      groups_.follow(g, v_rest_, omega_rest_, tau);
+      groups_.follow(g, rest, tau);
     else
-      groups_.follow(g, {}, {}, 0);
+      groups_.follow(g, {}, 0);
     if (free) free->substep(s), record_loads(s, *free);
   }
 }
@@ -260,28 +239,21 @@ void SolidSolver::end_substep(GrainStore& g, const ContactPass& contacts, const 
   if (last)
     evaluate(SubstepPass<Law, LastKick>{.contacts = contacts,
                                         .kick = kick,
-                                        .v_rest = v_rest_,
-                                        .omega_rest = omega_rest_,
+                                        .rest = {v_rest_, omega_rest_},
                                         .finish = {.duration = dt,
-                                                   .next_v = next_v_,
-                                                   .next_omega = next_omega_,
-                                                   .impulse = g.impulse,
-                                                   .spin_impulse = g.spin_impulse,
+                                                   .next = {next_v_, next_omega_},
+                                                   .impulses = {g.impulse, g.spin_impulse},
                                                    .force = g.force,
                                                    .torque = g.torque,
                                                    .drag_force = g.drag_force}});
   else
     evaluate(SubstepPass<Law, NextDrift>{.contacts = contacts,
                                          .kick = kick,
-                                         .v_rest = v_rest_,
-                                         .omega_rest = omega_rest_,
+                                         .rest = {v_rest_, omega_rest_},
                                          .finish = {.next_x = next_x_,
-                                                    .next_v = next_v_,
-                                                    .next_omega = next_omega_,
-                                                    .v_rest = v_rest_,
-                                                    .omega_rest = omega_rest_,
-                                                    .impulse = g.impulse,
-                                                    .spin_impulse = g.spin_impulse}});
+                                                    .next = {next_v_, next_omega_},
+                                                    .rest = {v_rest_, omega_rest_},
+                                                    .impulses = {g.impulse, g.spin_impulse}}});
 }
 
 // -- sums --------------------------------------------------------------------

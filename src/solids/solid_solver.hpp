@@ -133,6 +133,7 @@ class SolidSolver {
   /// The free bodies, if they move in the substeps; else null.
   FreeBodies* moving() const { return bodies_ && bodies_->any() && !bodies_->settling() ? bodies_ : nullptr; }
   WallMemory* const* wall_memories() const;
+  GrainView view(const GrainStore& grains) const;
   ContactPass contact_pass(const GrainStore& grains, double dt) const;
   WallContacts wall_contacts(const GrainStore& grains, const BodyPose* poses, double dt) const;
   double film_range(double R_star) const { return double(parameters_.films.range(Real(R_star))); }  ///< m

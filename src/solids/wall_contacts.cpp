@@ -17,13 +17,8 @@ WallMemory* const* SolidSolver::wall_memories() const {
 }
 
 WallContacts SolidSolver::wall_contacts(const GrainStore& g, const BodyPose* poses, double dt) const {
-  return {.frame = frame_,
-          .mass_per_r3 = matter_.of(g),
+  return {.grains = view(g),
           .dt = Real(dt),
-          .x = g.x.span(),
-          .v = g.v.span(),
-          .omega = g.omega.span(),
-          .radius = g.radius.span(),
           .walls = walls_.view(),
           .memory = wall_memories(),
           .count = wall_contacts_ ? wall_contacts_->buffer().data() : nullptr,

@@ -377,7 +377,7 @@ void Stepper::push(Step& now) {
                   .writes = Fields{&g.fluid_force, &g.v} + only_if(!groups.empty(), {&g.omega}) + groups};
   });
   coupling_->push(fluid_, grains_, now.last_kick, now.held);
-  solid_solver_->groups().follow(grains_, {}, {}, 0);
+  solid_solver_->groups().follow(grains_, {}, 0);
 }
 
 /// Advances the clock and looks for particles that broke down.

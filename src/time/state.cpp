@@ -30,7 +30,7 @@ void fill_fluid(const Config& config, const Frame& frame, const Setup& setup, Fl
   fluid.resize(Index(f.x.size()));
   fluid.id.assign(ids(f.x.size()));
   std::vector<FluidPosition> x;
-  std::vector<Real4> v;
+  std::vector<VelocityDensity<>> v;
   for (std::size_t a = 0; a < f.x.size(); ++a) {
     x.push_back(as_position<FluidPosition>(frame, f.x[a]));
     v.push_back({Real3(f.v[a]), Real(config.fluid.rho0)});

@@ -6,31 +6,29 @@
 #include <string>
 
 #include "bedload/core/error.hpp"
+#include "kernels/fluid/views.hpp"
 
 namespace bedload::inline BL_VARIANT {
 namespace {
 
 struct PlacePass {
   Frame frame;
-  Span<const BodyPose> moving, placed;
+  WallBodies bodies;
   Span<const Vec3d> x0;
-  Span<const std::uint32_t> body;
   Span<Vec3d> x;
-  Span<Real4> v_rho;
-  BL_HD void operator()(Index i) const {
-    const BodyPose& k = moving[body[i]];
-    x[i] = frame.wrap(placed[body[i]].place(x0[i]));
-    v_rho[i] = {Real3(k.velocity(k.place(x0[i]))), v_rho[i].w};
-  }
+  BL_HD void operator()(Index w) const { x[w] = frame.wrap(bodies[w].place(x0[w])); }
 };
 
-struct PlaceImagesPass {
-  Frame frame;
-  Span<const BodyPose> placed;
-  Span<const Vec3d> x0;
-  Span<const std::uint32_t> body;
-  Span<Vec3d> x;
-  BL_HD void operator()(Index i) const { x[i] = frame.wrap(placed[body[i]].place(x0[i])); }
+/// Of particles that bodies carry along, whose velocity is that of `moving`.
+struct CarryPass {
+  PlacePass place;
+  WallBodies moving;
+  Span<VelocityDensity<>> v_rho;
+  BL_HD void operator()(Index w) const {
+    place(w);
+    const BodyPose& k = moving[w];
+    v_rho[w] = {Real3(k.velocity(k.place(place.x0[w]))), v_rho[w].rho};
+  }
 };
 
 }  // namespace
@@ -121,16 +119,10 @@ double WallMotion::lowest(int body, double t, const Vec3d& up) const {
 
 void WallMotion::place(const Frame& frame, WallStore& walls, Span<const BodyPose> pose) {
   const Index n = pose.size / 2;
-  const Span<const BodyPose> moving{pose.data, n}, placed{pose.data + n, n};
-  for_each(walls.owned(), PlacePass{.frame = frame,
-                                    .moving = moving,
-                                    .placed = placed,
-                                    .x0 = walls.x0,
-                                    .body = walls.body,
-                                    .x = walls.x,
-                                    .v_rho = walls.v_rho});
-  for_each(walls.mirrors.owned(),
-           PlaceImagesPass{frame, placed, walls.mirrors.x0, walls.body, walls.mirrors.x});
+  const WallBodies moving{walls.body, {pose.data, n}}, placed{walls.body, {pose.data + n, n}};
+  MirrorStore& images = walls.mirrors;
+  for_each(walls.owned(), CarryPass{{frame, placed, walls.x0, walls.x}, moving, walls.v_rho});
+  for_each(images.owned(), PlacePass{frame, placed, images.x0, images.x});
 }
 
 }  // namespace bedload::inline BL_VARIANT

@@ -72,10 +72,10 @@ TEST(Admit, TakesOverThePressureOfTheBuffer) {
   const Real p = 3e4, superficial = 800;
   std::vector<Id> wall_id{7}, id(1);
   std::vector<Vec3d> wall_x{{0.5, 0.5, 0.5}};
-  std::vector<Real4> wall_v{{Real3(1, 0, 0), superficial}};
+  std::vector<VelocityDensity<>> wall_v{{Real3(1, 0, 0), superficial}};
   std::vector<WallState<>> wall_state{{.mass = 1, .p_over_rho2 = p / square(superficial), .rho = 1000}};
   std::vector<FluidPosition> x(1);
-  std::vector<Real4> v_rho(1), flux(1);
+  std::vector<VelocityDensity<>> v_rho(1), flux(1);
   std::vector<EosState<>> state(1);
   std::vector<Real> s(1), mass(1), eps(1), solid_factor(1);
   std::vector<Real3> stress(1), acc(1);
@@ -102,19 +102,18 @@ TEST(Admit, TakesOverThePressureOfTheBuffer) {
                         .fluid_mass = span(mass),
                         .eps = span(eps),
                         .solid_factor = span(solid_factor),
-                        .stress_acceleration = span(stress),
-                        .fluid_acc = span(acc)};
+                        .out = {span(stress), span(acc)}};
   pass(0);
   EXPECT_EQ(id[0], 3u);
   EXPECT_NEAR(eos.pressure(s[0]), p, tolerance(1e-12, 1e-5, 1e-5) * p);
-  EXPECT_EQ(v_rho[0].w, Real(1000) * (1 + s[0]));
+  EXPECT_EQ(v_rho[0].rho, Real(1000) * (1 + s[0]));
   EXPECT_EQ(eps[0], 1) << "no grains in an orifice";
   EXPECT_EQ(state[0].mass_over_eps, Real(0.5));
-  EXPECT_EQ(state[0].p_over_rho2, eos.pressure(s[0]) / square(v_rho[0].w));
-  EXPECT_EQ(state[0].rho, v_rho[0].w);
+  EXPECT_EQ(state[0].p_over_rho2, eos.pressure(s[0]) / square(v_rho[0].rho));
+  EXPECT_EQ(state[0].rho, v_rho[0].rho);
   EXPECT_EQ(state[0].eps, 1);
-  EXPECT_EQ(flux[0].xyz(), v_rho[0].xyz());
-  EXPECT_EQ(flux[0].w, v_rho[0].w);
+  EXPECT_EQ(flux[0].v, v_rho[0].v);
+  EXPECT_EQ(flux[0].rho, v_rho[0].rho);
   wall_state[0].mass = 0;  // no fluid ahead
   pass(0);
   EXPECT_EQ(s[0], 0);

@@ -28,7 +28,7 @@ Exchange grain_at(double z) {
   box.coupling.react(box.fluid, box.grains, 1e-4);
   double reaction = 0;
   for (const Real3& r : box.fluid.reaction.values()) reaction += norm(r);
-  for (const Real4& v : box.fluid.v_rho.values()) reaction += norm(v.xyz());
+  for (const auto& a : box.fluid.v_rho.values()) reaction += norm(a.v);
   EXPECT_TRUE(std::isfinite(norm(w)));
   return {K, box.grains.rot_drag_coefficient.values()[0], norm(box.grains.fluid_force.values()[0]),
           box.grains.wetness.values()[0], reaction};
@@ -124,7 +124,7 @@ TEST(Drying, ACoupleNeedsASpreadOfFluid) {
     const auto after = box.fluid.v_rho.values();
     Vec3d change;
     for (std::size_t a = 0; a < x.size(); ++a)
-      change += (Vec3d(after[a].xyz()) - Vec3d(before[a].xyz())) * double(box.fluid.mass.values()[a]);
+      change += (Vec3d(after[a].v) - Vec3d(before[a].v)) * double(box.fluid.mass.values()[a]);
     EXPECT_LT(norm(change + Vec3d(1, 2, 3)), 20 * kInvariant);
   }
 }

@@ -70,7 +70,7 @@ Balances exchange(CoupledBox& box, double dt) {
   const auto at = box.fluid_places();
   Balances b;
   for (std::size_t a = 0; a < at.size(); ++a) {
-    const Vec3d change = Vec3d(after[a].xyz()) - Vec3d(before[a].xyz()), p = change * double(mass[a]);
+    const Vec3d change = Vec3d(after[a].v) - Vec3d(before[a].v), p = change * double(mass[a]);
     EXPECT_LT(norm(change - Vec3d(kick[a])), kInvariant * (1 + norm(change)));
     const Vec3d f = Vec3d(reaction[a]) * double(mass[a]) +
                     Vec3d(theta[a]) * (double(mass[a]) - double(state[a].mass_over_eps));
@@ -127,7 +127,8 @@ struct ByAllPairs {
   Vec3d U, omega_f, force;
 };
 
-ByAllPairs by_all_pairs(const CoupledBox& box, const std::vector<Real4>& v_rho, std::size_t j, bool local) {
+ByAllPairs by_all_pairs(const CoupledBox& box, const std::vector<VelocityDensity<>>& v_rho, std::size_t j,
+                        bool local) {
   const WendlandC2 w(Real(box.config.couple.hc));
   const auto at = box.fluid_places();
   const Vec3d x = box.grains.x.values()[j], v(box.grains.v.values()[j]);
@@ -137,32 +138,32 @@ ByAllPairs by_all_pairs(const CoupledBox& box, const std::vector<Real4>& v_rho, 
   ByAllPairs out;
   Vec3d mean_slip;
   for (std::size_t a = 0; a < at.size(); ++a) {
-    const double vw = mass[a] / (eps[a] * v_rho[a].w) * double(w.W(Real(norm(at[a] - x))));
+    const double vw = mass[a] / (eps[a] * v_rho[a].rho) * double(w.W(Real(norm(at[a] - x))));
     out.weight.push_back(vw);
-    out.S += vw, out.eps += vw * eps[a], out.rho += vw * v_rho[a].w;
-    out.force += Vec3d(theta[a]) * (vw * v_rho[a].w * M_PI / 6 * d * d * d);
-    mean_slip += (Vec3d(v_rho[a].xyz()) - v) * vw;
+    out.S += vw, out.eps += vw * eps[a], out.rho += vw * v_rho[a].rho;
+    out.force += Vec3d(theta[a]) * (vw * v_rho[a].rho * M_PI / 6 * d * d * d);
+    mean_slip += (Vec3d(v_rho[a].v) - v) * vw;
   }
   out.eps /= out.S, out.rho /= out.S;
   mean_slip = mean_slip * (1 / out.S);
   out.wet = std::clamp((out.S - 0.05) / 0.9, 0.0, 1.0);
   Vec3d centre;
   for (std::size_t a = 0; a < at.size(); ++a) {
-    const double slip = norm(local ? Vec3d(v_rho[a].xyz()) - v : mean_slip);
+    const double slip = norm(local ? Vec3d(v_rho[a].v) - v : mean_slip);
     out.weight[a] *=
         Ergun{}.K(Real(out.eps), Real(d), Real(out.rho), Real(box.config.fluid.mu), Real(slip)) / out.S;
     out.K += out.weight[a];
   }
   for (std::size_t a = 0; a < at.size(); ++a) {
     out.weight[a] /= out.K;
-    out.U += Vec3d(v_rho[a].xyz()) * out.weight[a];
+    out.U += Vec3d(v_rho[a].v) * out.weight[a];
     centre += at[a] * out.weight[a];
   }
   SymmetricMatrix<double> second;
   Vec3d circulation;
   for (std::size_t a = 0; a < at.size(); ++a) {
     second.add_outer(out.weight[a], at[a] - centre);
-    circulation += cross(at[a] - centre, Vec3d(v_rho[a].xyz())) * out.weight[a];
+    circulation += cross(at[a] - centre, Vec3d(v_rho[a].v)) * out.weight[a];
   }
   out.omega_f = second.inertia().inverse() * circulation;
   if (box.config.couple.angmom) out.U -= cross(out.omega_f, centre - x);  // at the grain's centre
@@ -187,7 +188,7 @@ TEST(Exchange, FluidTakesWhatASumOverAllPairsGives) {
     for (std::size_t j = 0; j < K.size(); ++j) {
       const auto weight = by_all_pairs(box, before, j, local).weight;
       for (std::size_t a = 0; a < mass.size(); ++a) {
-        const Vec3d own = Vec3d(before[a].xyz() - U[j]) * (local ? dt * K[j] : 0);
+        const Vec3d own = Vec3d(before[a].v - U[j]) * (local ? dt * K[j] : 0);
         expected[a] -= (Vec3d(J[j]) + own) * (weight[a] / mass[a]);
       }
     }
@@ -327,7 +328,7 @@ TEST(Exchange, OneWayLeavesTheFluidAlone) {
   const auto before = box.fluid.v_rho.values();
   const Balances b = exchange(box, 0.05);
   const auto after = box.fluid.v_rho.values();
-  for (std::size_t a = 0; a < before.size(); ++a) EXPECT_EQ(before[a].xyz(), after[a].xyz());
+  for (std::size_t a = 0; a < before.size(); ++a) EXPECT_EQ(before[a].v, after[a].v);
   for (const Real3& reaction : box.fluid.reaction.values()) EXPECT_EQ(reaction, Real3{});
   const auto K = box.grains.drag_coefficient.values(), wet = box.grains.wetness.values();
   const auto eps = box.grains.eps.values();  // in which is their own volume

@@ -401,8 +401,8 @@ TEST(Porosity, GoesWithTheFluxOfFluidAndGrains) {
     held += part < 1;
     EXPECT_NEAR(eps[a], 1 - counted, kInvariant);
     EXPECT_NEAR(factor[a], part, 10 * kInvariant);
-    const Vec3d expected = (1 - counted) * Vec3d(v[a].xyz()) + part * carried;
-    EXPECT_LT(norm(Vec3d(flux[a].xyz()) - expected), 10 * kInvariant);
+    const Vec3d expected = (1 - counted) * Vec3d(v[a].v) + part * carried;
+    EXPECT_LT(norm(Vec3d(flux[a].v) - expected), 10 * kInvariant);
   }
   EXPECT_GT(held, 30);
   EXPECT_LT(held, 270);

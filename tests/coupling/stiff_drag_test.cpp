@@ -48,7 +48,7 @@ Totals totals(const CoupledBox& box) {
   };
   const auto v_rho = box.fluid.v_rho.values();
   const auto mass = box.fluid.mass.values();
-  for (std::size_t a = 0; a < mass.size(); ++a) add(mass[a], Vec3d(v_rho[a].xyz()));
+  for (std::size_t a = 0; a < mass.size(); ++a) add(mass[a], Vec3d(v_rho[a].v));
   for (const Real3& v : box.grains.v.values()) add(kGrainMass, Vec3d(v));
   for (const Real3& omega : box.grains.omega.values()) t.energy += 0.5 * kInertia * norm2(Vec3d(omega));
   return t;
@@ -216,7 +216,7 @@ TEST(SpinDecay, OfAGrainInStillFluidIsKirchhoffs) {
   Vec3d spin, momentum;
   double scale = 0;
   for (std::size_t a = 0; a < at.size(); ++a) {
-    const Vec3d p = Vec3d(v_rho[a].xyz()) * double(mass[a]);
+    const Vec3d p = Vec3d(v_rho[a].v) * double(mass[a]);
     spin += cross(at[a], p);
     momentum += p;
     scale += norm(p);

@@ -21,7 +21,7 @@ struct Line : FluidBox {
     std::vector<double> out(position.size());
     const auto id = fluid.id.values();
     const auto now = fluid.v_rho.values();
-    for (std::size_t a = 0; a < id.size(); ++a) out[id[a]] = now[a].x;
+    for (std::size_t a = 0; a < id.size(); ++a) out[id[a]] = now[a].v.x;
     return out;
   }
 };
@@ -65,7 +65,7 @@ TEST(Collision, KeepsTheMomentumOfAFluidAndTakesEnergy) {
     const auto m = box.fluid.mass.values();
     const auto v = box.fluid.v_rho.values();
     for (std::size_t a = 0; a < m.size(); ++a) {
-      const Vec3d u = Vec3d(v[a].xyz());
+      const Vec3d u = Vec3d(v[a].v);
       p += double(m[a]) * u, energy += 0.5 * m[a] * norm2(u), scale += m[a] * norm(u);
     }
     return std::tuple(p, energy, scale);

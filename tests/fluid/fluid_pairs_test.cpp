@@ -168,8 +168,8 @@ double viscosity_on_a_lattice(const char* model, const char* kernel, double mu) 
   const auto theta = box.fluid.stress_acceleration.values();
   double top = 0, bottom = 0;
   for (std::size_t a = 0; a < v.size(); ++a) {
-    top -= double(theta[a].x) * v[a].x * 1000;
-    bottom += double(v[a].x) * v[a].x * k * k;
+    top -= double(theta[a].x) * v[a].v.x * 1000;
+    bottom += double(v[a].v.x) * v[a].v.x * k * k;
   }
   return top / bottom;
 }
@@ -208,7 +208,7 @@ TEST(FluidPairs, XsphMovesTheCentreOfMassWithTheMomentum) {  // T-12
   EXPECT_LT(norm(b.force) / b.scale, kInvariant);
   const auto v = box.fluid.v_rho.values();
   double along = 0;
-  for (std::size_t a = 0; a < v.size(); ++a) along += dot(Vec3d(drift[a]), Vec3d(v[a].xyz()));
+  for (std::size_t a = 0; a < v.size(); ++a) along += dot(Vec3d(drift[a]), Vec3d(v[a].v));
   EXPECT_LT(along, 0) << "towards the mean velocity around";
 }
 

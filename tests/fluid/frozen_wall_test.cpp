@@ -97,7 +97,7 @@ struct Channel : FluidBox {
     walls.id.assign(id);
     walls.x0.assign(x), walls.x.assign(x);
     walls.body.assign(std::vector<std::uint32_t>(x.size(), 0));
-    walls.v_rho.assign(std::vector<Real4>(x.size(), Real4{0, 0, 0, 1}));
+    walls.v_rho.assign(std::vector<VelocityDensity<>>(x.size(), {{}, 1}));
     walls.no_slip.assign(std::vector<NoSlip<>>(x.size()));
     walls.state.assign(std::vector<WallState<>>(x.size()));
     walls.compression.assign(own);

@@ -195,7 +195,7 @@ Temperatures frozen_bath(const std::string& model, const std::string& noise, dou
     const int block = (n - skipped) * blocks / (steps - skipped);
     for (std::size_t a = 0; a < v.size(); ++a) {
       const double each = 1.0 / (3 * 0.6 * v.size() * ((steps - skipped) / blocks / 5));
-      linear[block] += mass[a] * norm2(Vec3d(v[a].xyz())) * each;
+      linear[block] += mass[a] * norm2(Vec3d(v[a].v)) * each;
       spin[block] += mass[a] * inertia * norm2(Vec3d(w[a])) * each;
     }
   }

@@ -169,7 +169,7 @@ TEST(SmallVariableH, PressureIsNoSourceOfEnergy) {
              next = box.fluid.compression.values();
   double motion = 0, compression = 0, scale = 0;
   for (std::size_t a = 0; a < acc.size(); ++a) {
-    const double work = double(m[a]) * dot(Vec3d(v[a].xyz()), Vec3d(acc[a]));
+    const double work = double(m[a]) * dot(Vec3d(v[a].v), Vec3d(acc[a]));
     motion += work;
     scale += std::abs(work);
     compression += double(m[a]) * state[a].p_over_rho2 * box.config.fluid.rho0 * (double(next[a]) - s[a]);

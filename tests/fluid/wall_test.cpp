@@ -20,7 +20,7 @@ struct LoneWall {
   std::vector<Vec3d> x = std::vector<Vec3d>(1);
   std::vector<std::uint32_t> body = {0};
   std::vector<BodyPose> pose = std::vector<BodyPose>(1);
-  std::vector<Real4> v_rho = std::vector<Real4>(1);
+  std::vector<VelocityDensity<>> v_rho = std::vector<VelocityDensity<>>(1);
   std::vector<NoSlip<>> no_slip = std::vector<NoSlip<>>(1);
   std::vector<WallState<>> state = std::vector<WallState<>>(1);
   std::vector<Real> compression = std::vector<Real>(1);
@@ -28,19 +28,17 @@ struct LoneWall {
   LoneWall() { pose[0].volume = 1e-3; }
 
   /// Beside fluid of this velocity and density, and state.
-  WallPass<WendlandC2> pass(const std::vector<Real4>& v, const std::vector<EosState<>>& m,
+  WallPass<WendlandC2> pass(const std::vector<VelocityDensity<>>& v, const std::vector<EosState<>>& m,
                             const Vec3d& gravity) {
     const auto in = [](const auto& host) { return Span(host.data(), Index(host.size())); };
     const auto out = [](auto& host) { return Span(host.data(), Index(host.size())); };
     return {.w = WendlandC2(0.1),
             .eos = {Real(1e7), 7, 0, 1000, false},
-            .flux = in(v),
-            .eos_state = in(m),
+            .fluid = {in(v), in(m)},
             .drag_kick = {},
             .rate = 0,
             .x0 = in(x),
-            .body = in(body),
-            .pose = in(pose),
+            .bodies = {in(body), in(pose)},
             .gravity = Real3(gravity),
             .least_sum = Real(1e-3),
             .v_rho = out(v_rho),
@@ -56,7 +54,7 @@ double extrapolated(const Vec3d& gravity, const RigidMotion& wall, const Vec3d& 
                     const Vec3d& v_fluid = {}) {
   std::mt19937 rng(3);
   std::uniform_real_distribution<double> u(-0.1, 0.1);
-  std::vector<Real4> v;
+  std::vector<VelocityDensity<>> v;
   std::vector<EosState<>> m;
   std::vector<Vec3d> at;
   for (int a = 0; a < 60; ++a) {
@@ -74,7 +72,7 @@ double extrapolated(const Vec3d& gravity, const RigidMotion& wall, const Vec3d& 
     if (norm2(r) < Real(0.04)) pass.pair(sum, r, norm2(r), m[a].mass_over_eps, v[a], m[a], Real3());
   }
   pass.finish(0, sum);
-  return lone.state[0].p_over_rho2 * square(lone.v_rho[0].w);
+  return lone.state[0].p_over_rho2 * square(lone.v_rho[0].rho);
 }
 
 TEST(Walls, TakeALinearPressureExactly) {  // T-11
@@ -105,7 +103,7 @@ TEST(Walls, FallingFreelyTakeTheMeanPressure) {  // T-11: a_w = g
 }
 
 TEST(Walls, AreAsHeavyAsFluidThatFillsThem) {
-  const std::vector<Real4> v{{Real3(), Real(1000)}};
+  const std::vector<VelocityDensity<>> v{{Real3(), Real(1000)}};
   const std::vector<EosState<>> m{{Real(1e-3), Real(2e4 / 1e6), Real(1000), Real(0.4)}};
   LoneWall lone;
   const auto mass = [&](bool near) {
@@ -123,7 +121,7 @@ TEST(Walls, AreAsHeavyAsFluidThatFillsThem) {
 /// What a mirrored particle finds about its image in fluid of density rho0 (1 + field).
 template <class Field>
 double mirrored(const std::vector<Vec3d>& at, const Vec3d& x, const Vec3d& image, const Field& field) {
-  std::vector<Real4> v;
+  std::vector<VelocityDensity<>> v;
   std::vector<EosState<>> m;
   for (const Vec3d& place : at) {
     v.push_back({Real3(), Real(1000)});
@@ -140,12 +138,10 @@ double mirrored(const std::vector<Vec3d>& at, const Vec3d& x, const Vec3d& image
                                     .rho0 = 1000,
                                     .least = Real(-0.5),
                                     .least_sum = Real(1e-3),
-                                    .flux = in(v),
-                                    .eos_state = in(m),
+                                    .fluid = {in(v), in(m)},
                                     .x = in(place),
                                     .image = in(images),
-                                    .body = in(body),
-                                    .pose = in(pose),
+                                    .bodies = {in(body), in(pose)},
                                     .compression = Span(compression.data(), 1)};
   auto sum = pass.start(0);
   for (std::size_t a = 0; a < at.size(); ++a) {

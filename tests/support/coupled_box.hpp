@@ -130,7 +130,7 @@ struct CoupledBox {
   void fill(const Cloud& c) {
     fluid.resize(Index(c.x.size()));
     std::vector<FluidPosition> x;
-    std::vector<Real4> v_rho;
+    std::vector<VelocityDensity<>> v_rho;
     std::vector<EosState<>> eos_state;
     for (std::size_t a = 0; a < c.x.size(); ++a) {
       x.push_back(as_position<FluidPosition>(frame, c.x[a]));

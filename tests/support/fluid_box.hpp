@@ -63,7 +63,7 @@ struct FluidBox {
     std::vector<Id> id(n);
     std::iota(id.begin(), id.end(), Id(0));
     std::vector<FluidPosition> x;
-    std::vector<Real4> v;
+    std::vector<VelocityDensity<>> v;
     std::vector<Real> m, c;
     for (std::size_t a = 0; a < n; ++a) {
       x.push_back(as_position<FluidPosition>(frame, position[a]));

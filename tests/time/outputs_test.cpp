@@ -84,9 +84,9 @@ TEST(Outputs, HoldWhatTheFieldsHold) {
   double fastest = 0;
   for (std::size_t a = 0; a < frame.count; ++a) {
     const Real* const v = frame.find("velocity")->as<Real>() + 3 * a;
-    EXPECT_EQ(norm(Real3{v[0], v[1], v[2]} - v_rho[a].xyz()), 0);
+    EXPECT_EQ(norm(Real3{v[0], v[1], v[2]} - v_rho[a].v), 0);
     EXPECT_EQ(frame.find("density")->as<Real>()[a], eos_state[a].rho);
-    fastest = std::max(fastest, double(norm(v_rho[a].xyz())));
+    fastest = std::max(fastest, double(norm(v_rho[a].v)));
   }
   EXPECT_GT(fastest, 0);
 #if !BL_CUDA

@@ -6,6 +6,13 @@
 
 namespace bedload::inline BL_VARIANT {
 
+/// Velocity of fluid or wall, or volume flux of the mixture, and density.
+template <class N = Real>
+struct alignas(4 * sizeof(N)) VelocityDensity {
+  Vec3<N> v{};  ///< m/s
+  N rho{};      ///< kg/m3
+};
+
 /// State of a fluid particle.
 template <class N = Real>
 struct alignas(4 * sizeof(N)) EosState {

@@ -66,6 +66,8 @@ struct FileType<Vec4<T>> {
   static constexpr int components = 4;
 };
 template <class T>
+struct FileType<VelocityDensity<T>> : FileType<Vec4<T>> {};
+template <class T>
 struct FileType<EosState<T>> : FileType<Vec4<T>> {};
 template <class T>
 struct FileType<WallState<T>> : FileType<Vec4<T>> {};
@@ -160,5 +162,11 @@ class Field final : public FieldBase {
  private:
   Buffer<T> data_;
 };
+
+/// A field or buffer for a pass that reads it in some cases alone: empty in the others.
+template <class Of>
+auto span_if(bool used, Of& of) {
+  return used ? of.span() : decltype(of.span()){};
+}
 
 }  // namespace bedload::inline BL_VARIANT

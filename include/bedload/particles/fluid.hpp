@@ -15,8 +15,8 @@ struct FluidStore : Store {
   Field<FluidPosition> x{*this, "x", "m", Lifetime::kept, Output{.order = 0, .uses = kPackedFluid ? kNobody : kViews, .name = "position"}};
   Field<FluidPosition> x_list{*this, "x_list", "m", Lifetime::renewed};  ///< where the neighbour lists were built
   Field<Real> half_skin{*this, "half_skin", "m", Lifetime::renewed};     ///< how far it may go from there until they are built anew
-  Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept, Output{.order = 1, .uses = kFrames | kViews | kRheology, .name = "velocity", .unit = "m/s", .components = 3}};  ///< velocity, density
-  Field<Real4> flux{*this, "flux", "m/s, kg/m3", Lifetime::kept};     ///< volume flux of fluid and grains, eps v + sum w u, or, of sheared fluid, peculiar velocity; density
+  Field<VelocityDensity<>> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept, Output{.order = 1, .uses = kFrames | kViews | kRheology, .name = "velocity", .unit = "m/s", .components = 3}};  ///< velocity, density
+  Field<VelocityDensity<>> flux{*this, "flux", "m/s, kg/m3", Lifetime::kept};     ///< volume flux of fluid and grains, eps v + sum w u, or, of sheared fluid, peculiar velocity; density
   Field<Real> compression{*this, "compression", "-", Lifetime::kept};  ///< s = density / rho0 - 1; lower than in eos_state where fluid cavitates
   Field<Real> mass{*this, "mass", "kg", Lifetime::kept, Output{.order = 2, .uses = kViews | kRheology}};
   Field<Real> eps{*this, "porosity", "-", Lifetime::kept, Output{.order = 5, .coupled = true}};

@@ -42,9 +42,11 @@ struct WallStore : Store {
   Field<Vec3d> x{*this, "x", "m", Lifetime::kept, Output{.order = 0, .uses = kViews, .name = "position"}};
   Field<Vec3d> x_list{*this, "x_list", "m", Lifetime::renewed};
   Field<PairPosition> xp{*this, "xp", "m", Lifetime::derived};
-  Field<PairPosition> xp_mid{*this, "xp_mid", "m", Lifetime::derived};  ///< as the fluid's; left out where no wall moves
-  Field<Real4> v_rho{*this, "v_rho", "m/s, kg/m3", Lifetime::kept,
-                     Output{.order = 1, .name = "velocity", .unit = "m/s", .components = 3}};  ///< true velocity, density
+  Field<PairPosition> xp_mid{*this, "xp_mid", "m",
+                             Lifetime::derived};  ///< as the fluid's; left out where no wall moves
+  Field<VelocityDensity<>> v_rho{
+      *this, "v_rho", "m/s, kg/m3", Lifetime::kept,
+      Output{.order = 1, .name = "velocity", .unit = "m/s", .components = 3}};  ///< true velocity, density
   Field<NoSlip<>> no_slip{*this, "no_slip", "m/s, kg", Lifetime::kept};
   Field<WallState<>> state{*this, "state", "kg, m5/(kg s2), kg/m3, -", Lifetime::kept};
   /// rho / rho0 - 1 of frozen and mirrored walls; kNoCompression: outer layers of a frozen one, or no fluid

@@ -91,10 +91,7 @@ struct Sided {
                                     .v = all(u),
                                     .omega = all(omega),
                                     .weights = {all(still), {}},
-                                    .fluid_velocity = all(U),
-                                    .fluid_angular_velocity = all(omega_f),
-                                    .drag_coefficient = all(K),
-                                    .rot_drag_coefficient = all(K_rot),
+                                    .drag = {all(U), all(omega_f), all(K), all(K_rot)},
                                     .levers = levers()};
     pass(0);
   }
@@ -126,8 +123,7 @@ TEST(DragLevers, WeakenTheDragOfAGrainByTheirSum) {
     const LimitPass pass{.dt = Real(dt),
                          .rate = all(rate),
                          .lever_sum = couple ? Span<const Real>(all(sum)) : Span<const Real>(),
-                         .drag_coefficient = all(K),
-                         .rot_drag_coefficient = all(K_rot),
+                         .drag = {{}, {}, all(K), all(K_rot)},
                          .stiffness = all(stiffness)};
     Real most = pass.start(0);
     pass.pair(most, {}, 0, 0, 150);
@@ -148,7 +144,7 @@ TEST(DragLevers, WeakenTheDragOfAGrainByTheirSum) {
 template <bool kCouple>
 double stopped(double r) {
   std::vector<Real> K{4}, still{3}, at_centre{Real(1.5)}, off_centre{10}, mass{2}, rate{0};
-  std::vector<Real4> v_rho{{0, 0, 0, 1000}};
+  std::vector<VelocityDensity<>> v_rho{{{}, 1000}};
   std::vector<EosState<>> eos_state{{.mass_over_eps = 5, .rho = 1000, .eps = 1}};
   const auto all = [](auto& of) { return Span(of.data(), Index(of.size())); };
   const DragRatePass<WendlandC2, false, kCouple> pass{.w = WendlandC2(0.1),

@@ -40,10 +40,7 @@ std::pair<double, double> noise(double x) {
                            .mass_per_r3 = per_r3,
                            .id = all(id),
                            .radius = all(radius),
-                           .drag_coefficient = all(K),
-                           .rot_drag_coefficient = all(K_rot),
-                           .fluid_velocity = all(U),
-                           .fluid_angular_velocity = all(omega)};
+                           .drag = {all(U), all(omega), all(K), all(K_rot)}};
   double u2 = 0, w2 = 0;
   for (Index j = 0; j < n; ++j) {
     pass(j);
@@ -113,7 +110,8 @@ TEST(Orifice, SolidsAroundItCountMoreAndMore) {
 /// Porosity of a fluid particle beside one grain of volume V and velocity (0, 0, 2), and its flux.
 struct Beside {
   std::vector<FluidPosition> x{FluidPosition{}};
-  std::vector<Real4> volume, v_rho{{1, 0, 0, 1000}}, flux{{}};
+  std::vector<Real4> volume;
+  std::vector<VelocityDensity<>> v_rho{{{1, 0, 0}, 1000}}, flux{{}};
   std::vector<EosState<>> eos_state{{}};
   std::vector<PairPosition> xp{{}}, xp_mid{{}};
   std::vector<Real> mass{Real(0.3)}, eps{0}, factor{0};
@@ -136,7 +134,8 @@ struct Beside {
                                         .solid_factor = all(factor),
                                         .flux = all(flux),
                                         .eos_state = all(eos_state),
-.xp = all(xp), .xp_mid = all(xp_mid)};
+                                        .xp = all(xp),
+                                        .xp_mid = all(xp_mid)};
     auto sum = pass.start(0);
     pass.pair(sum, r, norm2(r), Real(0), volume[0]);
     pass.finish(0, sum);
@@ -147,14 +146,14 @@ TEST(Porosity, IsWhatGrainsLeaveButNoLessThanItsFloor) {
   const Beside loose(0.4), dense(0.875);
   EXPECT_NEAR(loose.eps[0], 0.6, kNear);
   EXPECT_EQ(loose.factor[0], 1);
-  EXPECT_NEAR(loose.flux[0].x, 0.6, kNear);
-  EXPECT_NEAR(loose.flux[0].z, 0.4 * 2, kNear);
+  EXPECT_NEAR(loose.flux[0].v.x, 0.6, kNear);
+  EXPECT_NEAR(loose.flux[0].v.z, 0.4 * 2, kNear);
   EXPECT_NEAR(loose.eos_state[0].mass_over_eps, 0.3 / 0.6, kNear);
   EXPECT_EQ(loose.xp[0].weight, loose.eos_state[0].mass_over_eps);
   EXPECT_EQ(loose.xp_mid[0].weight, loose.eos_state[0].mass_over_eps);
   EXPECT_NEAR(dense.eps[0], 0.3, kNear);
   EXPECT_NEAR(dense.factor[0], 0.7 / 0.875, kNear);  // fluid and grains fill the space together
-  EXPECT_NEAR(dense.flux[0].z, 0.7 * 2, 2 * kNear);
+  EXPECT_NEAR(dense.flux[0].v.z, 0.7 * 2, 2 * kNear);
 }
 
 TEST(DragLine, GoesThroughTheLawAtTheMeanAndTheFastSlip) {

@@ -18,7 +18,7 @@ struct Pair {
   Real3 r{Real(0.05), Real(-0.02), Real(0.04)}, r_w{Real(-0.03), Real(0.06), Real(-0.05)};
   double diffusion = 0, stiffening = 5, least = -0.02, fading = 0, spreading = 0;
   Vec3d hydrostatic;
-  std::vector<Real4> flux, wall_v_rho;
+  std::vector<VelocityDensity<>> flux, wall_v_rho;
   std::vector<EosState<>> eos_state;
   std::vector<WallState<>> wall_state;
   std::vector<Real> s{0}, s_new{0}, rate{0}, wall_work{0};
@@ -26,7 +26,7 @@ struct Pair {
   /// Masses over porosity as fractions of what fills the kernel's cube of h / 2, densities over rho0.
   Pair(double fill_a, double fill_b, double rho_a = 1, double rho_b = 1, double eps_a = 1, double eps_b = 1) {
     const double M = kRho0 * cube(kH / 2);
-    flux = {{0, 0, 0, Real(kRho0 * rho_a)}, {0, 0, 0, Real(kRho0 * rho_b)}};
+    flux = {{{}, Real(kRho0 * rho_a)}, {{}, Real(kRho0 * rho_b)}};
     eos_state = {{Real(fill_a * M), 0, Real(kRho0 * rho_a), Real(eps_a)},
                  {Real(fill_b * M), 0, Real(kRho0 * rho_b), Real(eps_b)}};
   }
@@ -46,10 +46,8 @@ struct Pair {
     const auto out = [](auto& host) { return Span(host.data(), Index(host.size())); };
     return DensityPass<WendlandC2, NoShifting, NoFit, kSmooth, kPorous, OneLength>{
         .w = w,
-        .flux = in(flux),
-        .eos_state = in(eos_state),
-        .wall_v_rho = in(wall_v_rho),
-        .wall_state = in(wall_state),
+        .fluid = {in(flux), in(eos_state)},
+        .walls = {in(wall_v_rho), in(wall_state), {}},
         .diffusion = Real(diffusion),
         .hydrostatic = Real3(hydrostatic),
         .stiffening = Real(stiffening),
@@ -92,8 +90,8 @@ struct Pair {
 
 TEST(DensityPass, ContinuityIsThatOfTheFluxOverThePorosity) {
   Pair p(1, 0.8, 1, 1.01, 0.6, 0.9);
-  p.flux[0] = {Real(0.3), Real(-0.2), Real(0.5), p.flux[0].w};
-  p.flux[1] = {Real(-0.1), Real(0.4), Real(0.2), p.flux[1].w};
+  p.flux[0] = {{Real(0.3), Real(-0.2), Real(0.5)}, p.flux[0].rho};
+  p.flux[1] = {{Real(-0.1), Real(0.4), Real(0.2)}, p.flux[1].rho};
   const double rate = double(p.eos_state[1].mass_over_eps) * p.F() * dot(Vec3d{0.4, -0.6, 0.3}, Vec3d(p.r));
   const double expected = -kDt * rate / (0.6 * kRho0);
   EXPECT_CHANGE((p.change<false, true>()), expected);
@@ -103,8 +101,8 @@ TEST(DensityPass, ContinuityIsThatOfTheFluxOverThePorosity) {
 
 TEST(DensityPass, WallsCountByTheirVolumeAtRestOrByTheirMass) {
   Pair p(1, 0);
-  p.flux[0] = {Real(0.3), Real(-0.2), Real(0.5), Real(kRho0)};
-  p.wall_v_rho = {{Real(0.1), Real(0.1), Real(-0.1), Real(1040)}};
+  p.flux[0] = {{Real(0.3), Real(-0.2), Real(0.5)}, Real(kRho0)};
+  p.wall_v_rho = {{{Real(0.1), Real(0.1), Real(-0.1)}, Real(1040)}};
   const double F = p.w.F(std::sqrt(norm2(p.r_w))), M = kRho0 * cube(kH / 2);
   const double apart = dot(Vec3d{0.2, -0.3, 0.6}, Vec3d(p.r_w));
   p.wall_state = {{.mass = Real(1.04 * M), .rho = 1040}};  // extrapolated: as much as at rho0
@@ -115,7 +113,7 @@ TEST(DensityPass, WallsCountByTheirVolumeAtRestOrByTheirMass) {
 
 TEST(DensityPass, FluidPaysForTheWorkOfItsWalls) {
   Pair p(1, 0, 1.02, 1, 0.6);
-  p.wall_v_rho = {{0, 0, 0, Real(kRho0)}};
+  p.wall_v_rho = {{{}, Real(kRho0)}};
   p.wall_state = {{.mass = Real(kRho0 * cube(kH / 2)), .rho = Real(kRho0)}};
   p.wall_work = {Real(0.03 * cube(kH) * cube(kH))};
   const double rate = square(1.02 * kRho0) / double(p.eos_state[0].mass_over_eps) * double(p.wall_work[0]) *

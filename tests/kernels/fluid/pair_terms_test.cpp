@@ -78,7 +78,7 @@ TEST(Drive, OfFluidByVolumeMassOrParticle) {
 
 /// Change of velocity of 2 kg of fluid by 6 kg that it nears at 1 m/s.
 double struck(double restitution, double pairs) {
-  std::vector<Real4> v{{0, 0, -1, 1000}, {0, 0, 0, 1000}}, next(2);
+  std::vector<VelocityDensity<>> v{{{0, 0, -1}, 1000}, {{}, 1000}}, next(2);
   std::vector<Real> mass{2, 6}, count{1, Real(pairs)};
   const auto all = [](auto& of) { return Span(of.data(), Index(of.size())); };
   const CollisionPass pass{.range2 = Real(0.01),
@@ -92,7 +92,7 @@ double struck(double restitution, double pairs) {
   const Real3 r{0, 0, Real(0.05)};
   pass.pair(sum, r, norm2(r), Real(1), v[1], mass[1], count[1]);
   pass.finish(0, sum);
-  return double(next[0].z) + 1;
+  return double(next[0].v.z) + 1;
 }
 
 TEST(Collision, ExchangesTheImpulseOfBalls) {

@@ -16,13 +16,13 @@ constexpr double kRounding = tolerance(1e-12, 1e-6, 1e-6);
 struct Below {
   WendlandC2 w{0.05};
   Vec3d at{0.02, 0, 0.05};
-  std::vector<Real4> flux{{1, 2, 3, 1000}};
+  std::vector<VelocityDensity<>> flux{{{1, 2, 3}, 1000}};
   std::vector<EosState<>> eos_state{{1, Real(2e3 / 1e6), 1000, 1}};
   std::vector<Real3> kick{{}};
   std::vector<Vec3d> x0{{}};
   std::vector<std::uint32_t> body{0};
   std::vector<BodyPose> pose{{}};
-  std::vector<Real4> v_rho{{}};
+  std::vector<VelocityDensity<>> v_rho{{}};
   std::vector<NoSlip<>> no_slip{{}};
   std::vector<WallState<>> state{{}};
   std::vector<Real> compression{0};
@@ -37,13 +37,11 @@ struct Below {
   double pressure(double rate) {
     const WallPass<WendlandC2> pass{.w = w,
                                     .eos = {Real(1e7), 7, 0, 1000, false},
-                                    .flux = all(flux),
-                                    .eos_state = all(eos_state),
+                                    .fluid = {all(flux), all(eos_state)},
                                     .drag_kick = all(kick),
                                     .rate = Real(rate),
                                     .x0 = all(x0),
-                                    .body = all(body),
-                                    .pose = all(pose),
+                                    .bodies = {all(body), all(pose)},
                                     .gravity = Real3(gravity),
                                     .least_sum = Real(1e-3),
                                     .v_rho = all(v_rho),
@@ -54,7 +52,7 @@ struct Below {
     const Real3 r = Real3(-at);
     pass.pair(sum, r, norm2(r), Real(0), flux[0], eos_state[0], kick[0]);
     pass.finish(0, sum);
-    return double(state[0].p_over_rho2) * square(double(v_rho[0].w));
+    return double(state[0].p_over_rho2) * square(double(v_rho[0].rho));
   }
 };
 
@@ -62,17 +60,15 @@ struct Below {
 /// any fluid is.
 TEST(WallWorkPass, IsWhatThePressureOfTheWallDoesAsTheFluidLeaves) {
   Below b;
-  b.v_rho[0] = {Real(0.5), 0, 0, 1040};
+  b.v_rho[0] = {{Real(0.5), 0, 0}, 1040};
   b.state[0] = {.mass = Real(1.04e-3), .rho = 1040};
   std::vector<Real> work{7};
   const auto found = [&](double least_sum) {
     const WallWorkPass<WendlandC2> pass{.w = b.w,
                                         .least_sum = Real(least_sum),
-                                        .flux = Below::all(b.flux),
-                                        .wall_v_rho = Below::all(b.v_rho),
-                                        .wall_state = Below::all(b.state),
-                                        .body = Below::all(b.body),
-                                        .pose = Below::all(b.pose),
+                                        .fluid = {Below::all(b.flux), {}},
+                                        .walls = {Below::all(b.v_rho), Below::all(b.state), {}},
+                                        .bodies = {Below::all(b.body), Below::all(b.pose)},
                                         .work = Below::all(work)};
     auto sum = pass.start(0);
     const Real3 r = Real3(-b.at);
@@ -126,7 +122,7 @@ auto layer_gives(double cap, WallKind kind = WallKind::single_layer, std::uint32
   const LayerForces<WendlandC2> forces{
       WendlandC2(0.05), {Real(0.2), 0, 20, Real(0.05)}, {law.data(), 1}, Real(cap), {pose.data(), 1}};
   const Real3 r{Real(0.03), 0, Real(0.04)};
-  return forces({Real(-0.6), 0, Real(-0.8), 1000}, {0, 0, 0, 1000}, 0, r, norm2(r));
+  return forces({{Real(-0.6), 0, Real(-0.8)}, 1000}, {{}, 1000}, 0, r, norm2(r));
 }
 
 TEST(SingleLayer, PushesAlongTheLineOfCentresAsFarAsTheCap) {
