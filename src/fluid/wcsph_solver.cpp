@@ -219,7 +219,8 @@ class WcsphSolver final : public FluidSolver {
             .drift = drift_of(fluid),
             .fit = fit,
             .lengths = lengths(),
-            .wall_work = parameters_.energy_consistent ? Span<const Real>(wall_work_) : Span<const Real>()};
+            .wall_work = parameters_.energy_consistent ? Span<const Real>(wall_work_) : Span<const Real>(),
+            .suction = parameters_.suction};
   }
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
   ForcePass<W, kArtificial, kAdded, kSpecies, Lengths> force_pass(FluidStore& fluid, const WallStore& walls,
