@@ -287,6 +287,36 @@ TEST(Spline, SmoothKeepsItsCurvatureAcrossPoints) {
   EXPECT_NEAR(Spline({0, 2}, {0, 4}, false).at(0.5).rate, 2, 1e-14);
 }
 
+/// Four points and more: the third derivative is continuous next to the ends, so a cubic is one.
+TEST(Spline, SmoothIsExactForACubic) {
+  const auto y = [](double t) { return 1 - 2 * t + 0.5 * t * t + 0.3 * t * t * t; };
+  for (const std::vector<double>& t :
+       {std::vector<double>{0, 0.3, 1, 1.1, 2, 3.5}, std::vector<double>{-1, 0.5, 0.75, 2}}) {
+    std::vector<double> at;
+    for (const double time : t) at.push_back(y(time));
+    const Spline s(t, at, false);
+    for (int i = 0; i <= 20; ++i) {
+      const double now = t.front() + (t.back() - t.front()) * i / 20;
+      EXPECT_NEAR(s.at(now).y, y(now), 1e-12) << now;
+      EXPECT_NEAR(s.at(now).rate, -2 + now + 0.9 * now * now, 1e-11) << now;
+      EXPECT_NEAR(s.at(now).rate2, 1 + 1.8 * now, 1e-10) << now;
+    }
+  }
+}
+
+/// [fritsch84]: harmonic means within; at the ends three points, not against the chord nor three times as
+/// steep.
+TEST(Spline, MonotoneHasTheSlopesOfItsChords) {
+  const Spline s({0, 1, 3}, {0, 1, 5}, true);  // chords 1 and 2
+  EXPECT_NEAR(s.at(0).rate, (4 * 1 - 1 * 2) / 3.0, 1e-14);
+  EXPECT_NEAR(s.at(1).rate, 9 / (5 / 1.0 + 4 / 2.0), 1e-14);
+  EXPECT_NEAR(s.at(3).rate, (5 * 2 - 2 * 1) / 3.0, 1e-14);
+  EXPECT_EQ(Spline({0, 1, 2}, {0, 1, 6}, true).at(0).rate, 0) << "-1 by three points";
+  const Spline peak({0, 1, 2}, {0, 1, -4}, true);
+  EXPECT_NEAR(peak.at(0).rate, 3, 1e-14) << "4 by three points";
+  EXPECT_EQ(peak.at(1).rate, 0);
+}
+
 TEST(Formula, BreaksAreFoundWhereTheyAre) {
   const auto found = [](const char* text, double span) { return breaks_of(Formula(text, "t"), span); };
   const auto at = found("t < 1.2345678 ? 0 : 0.3*(t - 1.2345678)", 4);

@@ -1,5 +1,6 @@
 #include "bedload/output/vtkhdf.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -53,6 +54,38 @@ TEST(FrameFile, HoldsTheLayoutOfTemporalPolyData) {
   std::vector<float> points(6 * 3);
   h5::read_rows(h5::open_dataset(root, "Points"), H5T_NATIVE_FLOAT, 27, 6, points.data());
   EXPECT_FLOAT_EQ(points.back(), 0.125f - 0.48f * 5);
+}
+
+/// What stands in the .xdmf file is where the frame's rows are in the other: start, stride, count.
+TEST(FrameFile, XdmfNamesTheRowsOfEachFrame) {
+  const test::TemporaryFolder folder;
+  const FrameFile frames(folder / "fluid.vtkhdf");
+  write_frames(frames, "fluid");
+  const std::string text = read_text(frames.xdmf_path());
+  const auto count = [&](const std::string& what) {
+    int n = 0;
+    for (std::size_t at = 0; (at = text.find(what, at)) != text.npos; at += what.size()) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("<Grid Name=\"fluid\" GridType=\"Uniform\">"), 5);
+  EXPECT_EQ(count("NumberOfElements=\"7\""), 3);
+  EXPECT_EQ(count("NumberOfElements=\"6\""), 2);
+  for (const double time : frames.times()) EXPECT_EQ(count(fmt::format("<Time Value=\"{}\"/>", time)), 1);
+  const int starts[] = {0, 7, 14, 21, 27}, counts[] = {7, 7, 7, 6, 6};
+  const auto numbers = [&](int start, int rows) {
+    return count(fmt::format("<DataItem Dimensions=\"3 1\" Format=\"XML\">{} 1 {}</DataItem>", start, rows));
+  };
+  for (int k = 0; k < 5; ++k) {  // of the points and "spin", then of "speed"
+    EXPECT_EQ(count(fmt::format(">{} 0 1 1 {} 3</DataItem>", starts[k], counts[k])), 2) << k;
+    EXPECT_EQ(numbers(starts[k], counts[k]), k == 0 ? 1 + 3 : 1) << k;
+  }
+  EXPECT_EQ(numbers(7, 6), 2) << "the ids, stored once for three frames and once for two";
+  EXPECT_EQ(count("Dimensions=\"33 3\" NumberType=\"Float\" Precision=\"4\">fluid.vtkhdf:/VTKHDF/Points<"),
+            5);
+  EXPECT_EQ(count("<Attribute Name=\"spin\" AttributeType=\"Vector\" Center=\"Node\">"), 5);
+  EXPECT_EQ(count("<Attribute Name=\"speed\" AttributeType=\"Scalar\" Center=\"Node\">"), 5);
+  EXPECT_EQ(count("NumberType=\"UInt\" Precision=\"4\">fluid.vtkhdf:/VTKHDF/PointData/id<"), 5);
+  EXPECT_EQ(count("<Information Name=\"unit\" Value=\"rad/s\"/>"), 5);
 }
 
 TEST(FrameFile, StoresWhatRestsOnce) {

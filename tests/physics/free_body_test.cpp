@@ -107,6 +107,43 @@ TEST(FreeBodyConstraints, PendulumSwingsAtItsPeriod) {
   EXPECT_NEAR((at[4] - at[0]) / 4 / period, 1, 1e-5);
 }
 
+/// Of a rod that swings about one end: its centre of mass moves, and the rest of its energy is in its
+/// turning.
+TEST(FreeBodyConstraints, APendulumKeepsItsEnergyInItsParts) {
+  Config c = void_case();
+  WallBody rod = test::shaped("rod", make_box({0, -0.01, -0.01}, {0.4, 0.01, 0.01}));
+  set_free(rod, 1000);
+  rod.free.move = "none", rod.free.turn = "axis";
+  rod.free.axis = {0, 1, 0};
+  rod.free.point = {0, 0, 0};
+  rod.free.contacts = false;
+  c.wall.bodies = {rod};
+  c.gravity = {0, 0, -9.81};
+  c.time.dt = c.time.dt_dem = 1e-4;
+  c.time.force_dt = true;
+  auto s = started(c);
+  const double m = rod.free.solid.mass, about_centre = m * (0.4 * 0.4 + 0.02 * 0.02) / 12;
+  double fastest = 0;
+  for (int k = 0; k < 4000; ++k) {
+    s->step();
+    if (k % 400 != 399) continue;
+    const double spin = reading(s->body_state(0), "angular_velocity_y"), swing = m * square(0.2 * spin);
+    const auto d = s->diagnostics();
+    EXPECT_NEAR(reading(d, "body_kinetic_energy"), 0.5 * swing, 1e-9);
+    EXPECT_NEAR(reading(d, "body_rotational_energy"), 0.5 * about_centre * spin * spin, 1e-9);
+    EXPECT_NEAR(reading(d, "body_kinetic_energy") + reading(d, "body_rotational_energy") +
+                    reading(d, "body_potential_energy"),
+                0, 1e-5);
+    const double fall = std::sin(2 * std::acos(reading(s->body_state(0), "rotation_w")));  // of the rod
+    EXPECT_NEAR(reading(d, "body_potential_energy"), -m * 9.81 * 0.2 * fall, 1e-9);
+    EXPECT_NEAR(std::abs(reading(d, "body_angular_momentum_y")), std::abs((about_centre + m * 0.04) * spin),
+                1e-9);
+    EXPECT_NEAR(norm(vector_of(d, "body_momentum")), m * 0.2 * std::abs(spin), 1e-9);
+    fastest = std::max(fastest, std::abs(spin));
+  }
+  EXPECT_GT(fastest, 6) << "rad/s";
+}
+
 TEST(FreeBodyConstraints, LetThroughOnlyWhatTheyAllow) {
   struct Case {
     const char *move, *turn;

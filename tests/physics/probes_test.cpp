@@ -7,6 +7,7 @@
 
 #include "kernels/smoothing/registry.hpp"
 #include "tests/support/run.hpp"
+#include "tests/support/stage_cases.hpp"
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
 
@@ -169,6 +170,81 @@ TEST(SmallHeightProbe, TellsSprayFromTheColumn) {
       EXPECT_NEAR(reading(s->measure(at("height", x)), "column_depth"), gap < 1 ? lift + 0.01 : 0.04, 1e-6);
     }
   }
+}
+
+/// A bed in water, after some steps.
+struct Bed {
+  Config config;
+  std::unique_ptr<Simulation> s;
+  Bed() {
+    std::vector<std::string> warnings;
+    config = read_case_text(test::kBed, "case.toml", {}, warnings);
+    s = started(config);
+    for (int k = 0; k < 20; ++k) s->step();
+  }
+};
+
+TEST(SmallBoxProbe, IsTheMeanOfWhatLiesInIt) {
+  Bed bed;
+  ProbeConfig p;
+  p.name = "box", p.type = "box";
+  p.min = {0.02, 0.02, 0.0}, p.max = {0.09, 0.09, 0.035};
+  const auto in_box = [&](const Vec3d& x) {
+    return x.x >= p.min.x && x.x <= p.max.x && x.y >= p.min.y && x.y <= p.max.y && x.z >= p.min.z &&
+           x.z <= p.max.z;
+  };
+  const SavedState saved = bed.s->save();
+  const auto kept = std::find_if(saved.stores.begin(), saved.stores.end(),
+                                 [](const HostStore& store) { return store.name == "fluid"; });
+  const auto of_fluid = scalars(*kept, "mass");
+  for (const bool fluid : {true, false}) {
+    const HostStore store = bed.s->snapshot(fluid ? "fluid" : "grains");
+    const auto x = vectors(store, "position"), v = vectors(store, "velocity");
+    const auto eps = scalars(store, "porosity"), pressure = scalars(store, fluid ? "pressure" : "porosity"),
+               radius = scalars(store, fluid ? "porosity" : "radius");
+    double count = 0, mass = 0, p_mean = 0, eps_mean = 0;
+    Vec3d momentum;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (!in_box(x[i])) continue;
+      const double m = fluid ? of_fluid[i] : 4.0 / 3 * M_PI * cube(radius[i]) * bed.config.grain.rho;
+      count += 1, mass += m, momentum += m * v[i], p_mean += m * pressure[i], eps_mean += m * eps[i];
+    }
+    ASSERT_GT(count, fluid ? 50 : 2);
+    ASSERT_LT(count, double(x.size()));
+    p.phase = fluid ? Phase::fluid : Phase::grains;
+    const auto found = bed.s->measure(p);
+    const double close = 2e-5;  // of single numbers in a snapshot
+    EXPECT_EQ(reading(found, "count"), count);
+    EXPECT_NEAR(reading(found, "mass") / mass, 1, close);
+    EXPECT_NEAR(reading(found, "velocity_x"), momentum.x / mass, close * 0.1);
+    EXPECT_NEAR(reading(found, "velocity_y"), momentum.y / mass, close * 0.1);
+    EXPECT_NEAR(reading(found, "velocity_z"), momentum.z / mass, close * 0.1);
+    if (!fluid) continue;
+    EXPECT_NEAR(reading(found, "pressure") / (p_mean / mass), 1, close);
+    EXPECT_NEAR(reading(found, "porosity") / (eps_mean / mass), 1, close);
+    EXPECT_LT(eps_mean / mass, 0.999);
+  }
+  p.phase = Phase::grains;
+  p.min.z = 0.1, p.max.z = 0.12;
+  EXPECT_EQ(reading(bed.s->measure(p), "count"), 0);
+  EXPECT_TRUE(std::isnan(reading(bed.s->measure(p), "velocity_z")));
+}
+
+TEST(SmallFrontProbe, IsTheOuterEdgeOfTheLastParticle) {
+  Bed bed;
+  for (const bool fluid : {true, false})
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int sign : {1, -1}) {
+        double last = -1e300;
+        for (const Vec3d& x : vectors(bed.s->snapshot(fluid ? "fluid" : "grains"), "position"))
+          last = std::max(last, sign * x[axis]);
+        ProbeConfig p;
+        p.name = "front", p.type = "front";
+        p.phase = fluid ? Phase::fluid : Phase::grains;
+        p.axis = axis, p.sign = sign;
+        const std::string name = std::string("front_") + "xyz"[axis];
+        EXPECT_NEAR(reading(bed.s->measure(p), name), sign * (last + 0.005), 1e-8) << name << " " << sign;
+      }
 }
 
 }  // namespace
