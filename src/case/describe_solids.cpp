@@ -156,7 +156,7 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
   describe_free_body(p, b.free);
 }
 
-void grain_material(Parameters& p, GrainMaterial& m) {
+void grain_material(Parameters& p, GrainMaterial& m, const ContactConfig& contact) {
   p("name", &m.name, {.meaning = "by which fills and inlets name it", .presence = required});
   p("rho", &m.rho,
     {.unit = "kg/m3",
@@ -176,10 +176,21 @@ void grain_material(Parameters& p, GrainMaterial& m) {
      .fallback = "grain.nu",
      .presence = unbounded});
   p("mu", &m.mu,
-    {.meaning = "sliding friction; between two materials the mean of both",
+    {.meaning = "sliding friction; between two materials the mean of both, or that of their contact.pair",
      .range = within(0, 5),
      .fallback = "grain.mu",
      .presence = unbounded});
+  p("mu_r", &m.mu_r,
+    {.meaning = "rolling friction, likewise",
+     .range = within(0, 1),
+     .fallback = "grain.mu_r",
+     .presence = unbounded});
+  p("e", &m.e,
+    {.meaning = "restitution, likewise",
+     .range = within(least_restitution(contact), 1),
+     .hint = "give a fraction, not percent?",
+     .fallback = "grain.e",
+     .presence = optional});
 }
 
 void grain_fill(Parameters& p, GrainFill& f) {
@@ -399,7 +410,8 @@ void describe_grains(Parameters& p, Config& c) {
   p("grain.release_time", &g.release_time,
     {.unit = "s", .meaning = "held in place until then", .range = at_least(0)});
   p("grain.fixed", &g.fixed, {.meaning = "grains never move"});
-  p.list("grain.material", g.materials, GrainMaterial{}, grain_material);
+  p.list("grain.material", g.materials, GrainMaterial{},
+         [&](Parameters& q, GrainMaterial& m) { grain_material(q, m, c.contact); });
   p.list("grain.fill", g.fills, GrainFill{}, grain_fill);
 }
 

@@ -347,12 +347,7 @@ void resolve_grains(Config& c, const Value& root, const std::filesystem::path& c
   if (g.fills.empty() && c.grain_inlets.empty())
     missing(root, "grain.fill", "[[grain.fill]] with a box or positions, or [[grain_inlet]]");
   g.seed = c.seed;
-  for (GrainMaterial& m : g.materials) {
-    if (m.rho == 0) m.rho = g.rho;
-    if (m.E == 0) m.E = g.E;
-    if (std::isinf(m.nu)) m.nu = g.nu;
-    if (std::isinf(m.mu)) m.mu = g.mu;
-  }
+  for (GrainMaterial& m : g.materials) m = g.completed(m);
   g.d_min = 1e300;
   for (std::size_t i = 0; i < g.fills.size(); ++i) {
     GrainFill& fill = g.fills[i];
