@@ -282,10 +282,16 @@ void describe_lubrication(Parameters& p, LubricationConfig& l) {
 
 void describe_grain_size(Parameters& p, SizeClass& s) {
   p("kind", &s.kind, {.meaning = "one diameter or a distribution", .family = "shapes"});
-  p("number_fraction", &s.number_fraction,
-    {.meaning = "number of its grains, relative to the other entries",
+  p("mass_fraction", &s.mass_fraction,
+    {.meaning = "mass of its grains, relative to the other entries; instead of number_fraction",
      .range = above(0),
-     .formerly = "share"});
+     .fallback = "by number",
+     .presence = optional});
+  if (s.mass_fraction == 0 || p.everything())
+    p("number_fraction", &s.number_fraction,
+      {.meaning = "number of its grains, relative to the other entries",
+       .range = above(0),
+       .formerly = "share"});
   const auto wanted = [&](SizeKind kind) { return s.kind == kind || p.everything(); };
   if (wanted(SizeKind::one_size))
     p("d", &s.d, {.unit = "m", .meaning = "class: diameter", .range = above(0), .presence = required});

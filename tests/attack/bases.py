@@ -430,11 +430,12 @@ radius = 0.02
 mass_rate = 0.01
 [[grain_inlet.sizes]]
 kind = "uniform"
-number_fraction = 1
+mass_fraction = 1
 d_min = 0.004
 d_max = 0.006
 [[grain_inlet.sizes]]
 kind = "class"
+mass_fraction = 1
 d = 0.005
 [time]
 end = 0.1

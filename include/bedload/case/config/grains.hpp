@@ -16,6 +16,7 @@ namespace bedload {
 struct SizeClass {
   double d = 0;                                ///< class: diameter, m
   double number_fraction = 1;                  ///< of the grains, relative to the other entries
+  double mass_fraction = 0;                    ///< the same of their mass; 0: none, or made a number fraction (resolved)
   Chosen<SizeKind> kind = SizeKind::one_size;
   double d_min = 0, d_max = 0;                 ///< uniform, log_normal: ends, m
   double median = 0;                           ///< log_normal: m
