@@ -97,22 +97,24 @@ struct BallPass {
     out.sliding.G_star = Real(1 / (a.tangential + b.tangential));
     return out;
   }
-  /// History of a contact, perhaps inherited from another body that the ball has left for this one.
-  BL_HD ContactHistory taken_over(const ContactBall& ball, const SurfaceContacts<>& found,
-                                  const SurfaceContact& contact, const WallMemories& memories) const {
-    if (contact.from == kNone) return {};
-    const WallMemory& memory = memories[contact.from];
+  /// Memory of a contact, perhaps inherited from another body that the ball has left for this one. A new
+  /// contact has had its normal before.
+  BL_HD WallMemory taken_over(const ContactBall& ball, const SurfaceContacts<>& found,
+                              const SurfaceContact& contact, const WallMemories& memories) const {
+    if (contact.from == kNone) return {contact.key(), contact.closest.normal, {}};
+    WallMemory memory = memories[contact.from];
     const std::uint32_t left = found.body_of(memory);
-    ContactHistory h = memory.history;
     if (left != contact.body)
-      law(ball, contact.body).take_over(law(ball, left), Real(ball.R_star), Real(bodies[ball.owner].mass), h);
-    return h;
+      law(ball, contact.body)
+          .take_over(law(ball, left), Real(ball.R_star), Real(bodies[ball.owner].mass), memory.history);
+    return memory;
   }
   BL_HD WallMemory evaluate(Index i, const ContactBall& ball, const Vec3d& x, const SurfaceContact& contact,
-                            ContactHistory h) const {
+                            const WallMemory& memory) const {
     const ClosestPoint& closest = contact.closest;
     const RigidBody& a = bodies[ball.owner];
     const BodyPose &mine = poses[a.body], &other = poses[contact.body];
+    ContactHistory h = memory.history;
     h.overlap = std::abs(h.overlap);
 
     const Vec3d point = x - closest.distance * closest.normal;
@@ -127,6 +129,7 @@ struct BallPass {
     // a constraint may block the motion along the normal: bound the mass, else damping would be infinite
     const double m_star = 1 / max_of(inverse_mass, 1e-6 / a.mass);
     ContactGeometry at{.n = closest.normal,
+                       .n_mid = halfway(memory.normal, closest.normal),
                        .overlap = ball.radius - closest.distance,
                        .R_star = Real(R_star),
                        .m_star = Real(m_star),
@@ -150,7 +153,13 @@ struct BallPass {
       at.inverse_spin = max_of(Real(turning), Real(1e-20));
       at.inverse_rolling = max_of(Real(rolling), Real(1e-20));
     }
-    const Vec3d v = mine.v + cross(mine.omega, r_mine) - other.v - cross(other.omega, r_other);
+    // velocities and arms are those in the middle of the substep
+    const Vec3d v_ball = mine.v + cross(mine.omega, r_mine + closest.distance * closest.normal),
+                moved = closest.distance * (closest.normal - at.n_mid) - 0.5 * dt * v_ball;
+    const auto velocity = [&](const BodyPose& pose, const Vec3d& r) {
+      return pose.v + cross(pose.omega, r + moved + 0.5 * dt * pose.v);
+    };
+    const Vec3d v = velocity(mine, r_mine) - velocity(other, r_other);
     const ContactForce f = acting(at, Real3(v), Real3(mine.omega), Real3(other.omega), Real(dt), h);
     const Vec3d force = weight * Vec3d(f.force);
     const Vec3d couple = weight * Vec3d(f.torque_i);  // that of rolling friction

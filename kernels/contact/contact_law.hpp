@@ -10,7 +10,7 @@ namespace bedload::inline BL_VARIANT {
 
 /// Geometry of a contact. Walls: R_star = R, m_star = m, arm_i = R - overlap, arm_j = 0.
 struct ContactGeometry {
-  Vec3d n;
+  Vec3d n, n_mid;        ///< at the end and in the middle of the substep
   double overlap;        ///< > 0, m
   Real R_star, m_star;   ///< m, kg
   Real arm_i, arm_j;     ///< centre to contact, m
@@ -18,15 +18,17 @@ struct ContactGeometry {
   Real inverse_rolling;  ///< sum of 1/(I + m R2)
 };
 
-/// Two grains of solid matter; r = x_i - x_j.
 struct Sphere {
   Real R, m;
   BL_HD Real inertia() const { return Real(0.4) * m * R * R; }
 };
+/// Two grains; r = x_i - x_j, which has changed by `drift` (m) in the substep.
 BL_HD ContactGeometry sphere_contact(const Sphere& i, const Sphere& j, const Vec3d& r, double distance,
-                                     double overlap) {
+                                     double overlap, const Vec3d& drift = {}) {
   const Real half = Real(0.5 * overlap);
+  const Vec3d r_mid = r - 0.5 * drift;
   return {.n = r * (1 / distance),
+          .n_mid = r_mid * (1 / norm(r_mid)),
           .overlap = overlap,
           .R_star = i.R * j.R / (i.R + j.R),
           .m_star = i.m * j.m / (i.m + j.m),
@@ -35,8 +37,10 @@ BL_HD ContactGeometry sphere_contact(const Sphere& i, const Sphere& j, const Vec
           .inverse_spin = 1 / i.inertia() + 1 / j.inertia(),
           .inverse_rolling = (1 / i.inertia() + 1 / j.inertia()) * Real(0.4 / 1.4)};
 }
-BL_HD ContactGeometry wall_contact(const Sphere& i, const Vec3d& n, double overlap) {
+/// A grain and a wall, whose normal was n_before at the beginning of the substep.
+BL_HD ContactGeometry wall_contact(const Sphere& i, const Vec3d& n_before, const Vec3d& n, double overlap) {
   return {.n = n,
+          .n_mid = halfway(n_before, n),
           .overlap = overlap,
           .R_star = i.R,
           .m_star = i.m,
@@ -93,7 +97,9 @@ struct ContactLawOf {
 
   /// Force now and history after dt (s). v is the relative velocity of the centres, for a wall of the grain's
   /// centre and the wall at the contact. Velocities are those in the middle of the step, which suits springs;
-  /// normal damping extrapolates to its end, which keeps restitution second order. dt = 0: no time passes.
+  /// normal damping extrapolates to its end, which keeps restitution second order. What slides and rolls is
+  /// taken with the normal of the middle too, then turned to that of the end: with the latter alone, grains
+  /// that roll about their normal would slide sideways [vyas25]. dt = 0: no time passes.
   BL_HD ContactForce operator()(const ContactGeometry& at, const Real3& v, const Real3& omega_i,
                                 const Real3& omega_j, Real dt, ContactHistory& h) const {
     const Real3 n = Real3(at.n);
@@ -110,11 +116,15 @@ struct ContactLawOf {
 
     const NormalState before =
         h.overlap > 0 ? normal_state(at.R_star, at.m_star, Real(h.overlap)) : ns;  // of the springs
-    const double twist = 0.5 * dt * double(dot(omega_i + omega_j, n));
+    const Real3 n_mid = Real3(at.n_mid);
+    const Tilt to_end(at.n_mid, at.n);
+    const double twist = 0.5 * dt * double(dot(omega_i + omega_j, n_mid));
     ContactForce out{f_n * n, {}, {}};
     if (slides()) {
-      const Real3 v_t = v - v_n * n - cross(at.arm_i * omega_i + at.arm_j * omega_j, n);
-      const Vec3d turned = turn_with_contact(h.xi, at.n, twist), step = double(dt) * Vec3d(v_t);
+      const Real3 slip = v - dot(v, n_mid) * n_mid - cross(at.arm_i * omega_i + at.arm_j * omega_j, n_mid);
+      const Vec3d v_end = to_end(Vec3d(slip)), turned = to_end(turn_with_contact(h.xi, at.n_mid, twist)),
+                  step = double(dt) * v_end;
+      const Real3 v_t = Real3(v_end);
       const SlidingInput in{.normal_force = pressing,
                             .normal = ns,
                             .before = before,
@@ -131,7 +141,8 @@ struct ContactLawOf {
     }
     if (rolls()) {
       Real3 w = omega_i - omega_j;
-      w -= dot(w, n) * n;
+      w -= dot(w, n_mid) * n_mid;
+      w = Real3(to_end(Vec3d(w)));
       const RollingInput in{.omega = w,
                             .normal_force = pressing,
                             .normal_stiffness = ns.stiffness,
@@ -140,7 +151,7 @@ struct ContactLawOf {
                             .inverse_spin = at.inverse_spin,
                             .inverse_rolling = at.inverse_rolling,
                             .dt = dt};
-      if (remembers_couple()) h.couple = turn_with_contact(h.couple, at.n, twist);
+      if (remembers_couple()) h.couple = to_end(turn_with_contact(h.couple, at.n_mid, twist));
       const Real3 couple = with_law(rolling, [&](const auto& law) { return law(in, h.couple); });
       out.torque_i += couple;
       out.torque_j -= couple;

@@ -177,10 +177,11 @@ struct ContactPass {
     const Real3 v_j = other.v, omega_j = other.omega;
     const Index lo = first ? own.i : j, hi = first ? j : own.i;
     const Real R_lo = first ? own.R : R, R_hi = first ? R : own.R;
-    const ContactGeometry at = sphere_contact(grains.sphere(lo, R_lo), grains.sphere(hi, R_hi),
-                                              first ? r : -r, distance, reach - distance);
     const Real3 v_rel = first ? own.v - v_j : v_j - own.v, omega_lo = either(first, own.omega, omega_j),
                 omega_hi = either(first, omega_j, own.omega);
+    const ContactGeometry at =
+        sphere_contact(grains.sphere(lo, R_lo), grains.sphere(hi, R_hi), first ? r : -r, distance,
+                       reach - distance, double(dt) * Vec3d(v_rel));
     // most cases have one law, a kernel parameter in registers; a reference would force it into memory
     const Law acting = laws ? Law::of(laws[pair_of(lo, hi)]) : Law::of(law);
     const ContactForce f = acting(at, v_rel, omega_lo, omega_hi, dt, h);

@@ -62,14 +62,14 @@ struct WallContacts {
     SurfaceContacts<typename Scope::Kinds> found(remembered, walls.surfaces.data, capacity);
     find(grain.x, grain.R(), n, surface, double(grain.R()), found);
     found.resolve();
-    RawArray<ContactHistory, kMostWallContacts> history;
+    RawArray<WallMemory, kMostWallContacts> next;
     for (int k = int(lane.index); k < found.size(); k += int(lane.count))
-      history[k] = taken_over<Scope>(grain, i, found, found[k]);
-    lane.wait();  // until all have read their histories
+      next[k] = taken_over<Scope>(grain, i, found, found[k]);
+    lane.wait();  // until all have read their memories
     for (int k = int(lane.index); k < found.size(); k += int(lane.count)) {
       const SurfaceContact& contact = found[k];
-      evaluate<Scope>(grain, contact, law(contact.body, i), history[k], f);
-      if (keep) remembered[k] = {contact.key(), contact.closest.normal, history[k]};
+      evaluate<Scope>(grain, contact, law(contact.body, i), next[k], f);
+      if (keep) remembered[k] = next[k];
     }
     if (keep && lane.index == 0 && found.remembered() != Index(found.size())) count[i] = Index(found.size());
   }
@@ -132,20 +132,21 @@ struct WallContacts {
           walls, reach, 1e-4 * double(R), [&](const ClosestPoint& closest) { found.add(s, closest, range); });
     }
   }
-  /// History of a contact of grain i, perhaps inherited from another body that it has left for this one.
+  /// Memory of a contact of grain i, perhaps inherited from another body that it has left for this one. A new
+  /// contact has had its normal before.
   template <class Scope>
-  BL_HD ContactHistory taken_over(const Grain& grain, Index i,
-                                  const SurfaceContacts<typename Scope::Kinds>& found,
-                                  const SurfaceContact& contact) const {
+  BL_HD WallMemory taken_over(const Grain& grain, Index i,
+                              const SurfaceContacts<typename Scope::Kinds>& found,
+                              const SurfaceContact& contact) const {
     using Law = typename Scope::Law;
-    if (contact.from == kNone) return {};
-    const WallMemory& memory = memories(i)[contact.from];
+    if (contact.from == kNone) return {contact.key(), contact.closest.normal, {}};
+    WallMemory memory = memories(i)[contact.from];
     const std::uint32_t left = found.body_of(memory);
-    ContactHistory h = memory.history;
+    memory.key = contact.key();
     if (left != contact.body)
       composed<Law>(law(contact.body, i))
-          .take_over(composed<Law>(law(left, i)), grain.R(), grain.sphere.m, h);
-    return h;
+          .take_over(composed<Law>(law(left, i)), grain.R(), grain.sphere.m, memory.history);
+    return memory;
   }
   /// r: from the body's centre, m.
   BL_HD static Vec3d surface_velocity(const BodyPose& pose, const Vec3d& r) {
@@ -157,13 +158,19 @@ struct WallContacts {
   }
   template <class Scope, class F>
   BL_HD void evaluate(const Grain& grain, const SurfaceContact& contact, const ContactLaw& law,
-                      ContactHistory& h, F& f) const {
+                      WallMemory& memory, F& f) const {
     const ClosestPoint& closest = contact.closest;
     const BodyPose& pose = poses[contact.body];
+    ContactHistory& h = memory.history;
     h.overlap = std::abs(h.overlap);
     const Vec3d point = grain.x - closest.distance * closest.normal;
-    ContactGeometry at = wall_contact(grain.sphere, closest.normal, double(grain.R()) - closest.distance);
-    const Vec3d r = arm(pose, point), v_wall = surface_velocity(pose, r);
+    ContactGeometry at =
+        wall_contact(grain.sphere, memory.normal, closest.normal, double(grain.R()) - closest.distance);
+    const Vec3d r = arm(pose, point);
+    // in the middle of the substep, as the velocity of the grain
+    const Vec3d r_mid =
+        r + closest.distance * (closest.normal - at.n_mid) - 0.5 * double(dt) * (Vec3d(grain.v) - pose.v);
+    const Vec3d v_wall = surface_velocity(pose, r_mid);
     if (Scope::kFree && pose.free)
       at.m_star /= 1 + at.m_star * Real(free_bodies[pose.free - 1].inverse_effective_mass(pose.rotation, r,
                                                                                           closest.normal));
@@ -171,6 +178,7 @@ struct WallContacts {
                                                                      Real3(pose.omega), dt, h);
     f(contact.body, Contact{on_grain, point});
     h.overlap *= closest.side;
+    memory.normal = closest.normal;
   }
 };
 

@@ -174,6 +174,7 @@ void cross_check(const Config& config, const Value& root, std::vector<std::strin
   checks.walls();
   checks.motions();
   if (config.grain.present) checks.grains();
+  checks.contact_pairs();
   checks.openings();
   checks.coupling();
   checks.time();

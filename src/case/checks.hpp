@@ -25,6 +25,7 @@ class Checks {
   void walls() const;
   void motions() const;
   void grains() const;
+  void contact_pairs() const;
   void coupling() const;
   void openings() const;
   void time() const;

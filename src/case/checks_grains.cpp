@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "bedload/case/contact_laws.hpp"
@@ -109,6 +110,43 @@ void Checks::materials() const {
     known(fmt::format("grain.fill.{}", i), c.grain.fills[i].material);
   for (std::size_t i = 0; i < c.grain_inlets.size(); ++i)
     known(fmt::format("grain_inlet.{}", i), c.grain_inlets[i].material);
+}
+
+void Checks::contact_pairs() const {
+  const std::vector<ContactPair>& pairs = c.contact.pairs;
+  std::map<std::string, int> materials, bodies;
+  for (const GrainMaterial& m : c.grain.all_materials()) ++materials[name_in_pairs(m)];
+  for (const WallBody& body : c.wall.bodies)
+    if (body.stops_grains()) ++bodies[body.name];
+  const auto refuse = [&](std::size_t k, const std::string& must) {
+    const auto& of = pairs[k].of;
+    fail(fmt::format("contact.pair.{}.of", k), fmt::format("[\"{}\"]", fmt::join(of, "\", \"")), must);
+  };
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const ContactPair& pair = pairs[k];
+    if (!c.grain.present) refuse(k, "must be left out without [grain]");
+    if (pair.of.size() != 2) refuse(k, "must be two names");
+    int of_grains = 0;
+    for (const std::string& name : pair.of) {
+      const int found = materials[name] + bodies[name];
+      if (found == 0) {
+        std::string all;
+        for (const auto* names : {&materials, &bodies})
+          for (const auto& [known, count] : *names)
+            if (count > 0) all += (all.empty() ? "" : ", ") + known;
+        refuse(k, fmt::format("must name materials of grains, or one and a wall.body that stops grains: {}",
+                              all));
+      }
+      if (found > 1)
+        refuse(k, fmt::format("must name one thing each; there is more than one {}", quoted(name)));
+      of_grains += materials[name];
+    }
+    if (of_grains == 0) refuse(k, "must name at least one material of grains, not two wall bodies");
+    if (!std::isfinite(pair.mu) && !std::isfinite(pair.mu_r) && pair.e == 0)
+      refuse(k, "must come with mu, mu_r or e");
+    for (std::size_t l = 0; l < k; ++l)
+      if (pairs[l].joins(pair.of[0], pair.of[1])) refuse(k, "must differ from other pairs'");
+  }
 }
 
 void Checks::softness() const {

@@ -9,6 +9,30 @@
 namespace bedload {
 namespace {
 
+using enum Presence;
+
+void contact_pair(Parameters& p, ContactPair& pair, const ContactConfig& contact) {
+  p("of", &pair.of,
+    {.meaning = "two names of materials of grains (\"grain\": that of grain.*), or of one and a wall.body",
+     .presence = required});
+  p("mu", &pair.mu,
+    {.meaning = "sliding friction of these two",
+     .range = within(0, 5),
+     .fallback = "the wall's, else the mean of both",
+     .presence = unbounded});
+  p("mu_r", &pair.mu_r,
+    {.meaning = "their rolling friction",
+     .range = within(0, 1),
+     .fallback = "the wall's, else the mean of both",
+     .presence = unbounded});
+  p("e", &pair.e,
+    {.meaning = "their restitution",
+     .range = within(least_restitution(contact), 1),
+     .hint = "give a fraction, not percent?",
+     .fallback = "the wall's, else the mean of both",
+     .presence = optional});
+}
+
 /// The keys of each law that has some.
 template <class Laws>
 void describe_laws(Parameters& p, ContactConfig& c) {
@@ -33,6 +57,8 @@ void describe_contact(Parameters& p, ContactConfig& c) {
   p("contact.clip_tension", &c.clip_tension,
     {.meaning =
          "no attractive force while grains separate; the damping is adjusted so that the restitution is e"});
+  p.list("contact.pair", c.pairs, ContactPair{},
+         [&](Parameters& q, ContactPair& pair) { contact_pair(q, pair, c); });
 }
 
 double least_restitution(const ContactConfig& contact) {

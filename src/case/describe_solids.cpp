@@ -164,7 +164,7 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
   describe_free_body(p, b.free);
 }
 
-void grain_material(Parameters& p, GrainMaterial& m) {
+void grain_material(Parameters& p, GrainMaterial& m, const ContactConfig& contact) {
   p("name", &m.name,
     {.meaning = "name by which fills and inlets refer to the material", .presence = required});
   p("rho", &m.rho,
@@ -185,10 +185,22 @@ void grain_material(Parameters& p, GrainMaterial& m) {
      .fallback = "grain.nu",
      .presence = unbounded});
   p("mu", &m.mu,
-    {.meaning = "coefficient of sliding friction; between two materials the mean of both",
+    {.meaning = "coefficient of sliding friction; between two materials that of their contact.pair, else the "
+                "mean of both",
      .range = within(0, 5),
      .fallback = "grain.mu",
      .presence = unbounded});
+  p("mu_r", &m.mu_r,
+    {.meaning = "rolling friction, likewise",
+     .range = within(0, 1),
+     .fallback = "grain.mu_r",
+     .presence = unbounded});
+  p("e", &m.e,
+    {.meaning = "restitution, likewise",
+     .range = within(least_restitution(contact), 1),
+     .hint = "give a fraction, not percent?",
+     .fallback = "grain.e",
+     .presence = optional});
 }
 
 void grain_fill(Parameters& p, GrainFill& f) {
@@ -284,10 +296,16 @@ void describe_lubrication(Parameters& p, LubricationConfig& l) {
 
 void describe_grain_size(Parameters& p, SizeClass& s) {
   p("kind", &s.kind, {.meaning = "one diameter or a distribution", .family = "shapes"});
-  p("number_fraction", &s.number_fraction,
-    {.meaning = "number of grains in this entry, relative to the other entries",
+  p("mass_fraction", &s.mass_fraction,
+    {.meaning = "mass of grains in this entry, relative to the other entries; instead of number_fraction",
      .range = above(0),
-     .formerly = "share"});
+     .fallback = "by number",
+     .presence = optional});
+  if (s.mass_fraction == 0 || p.everything())
+    p("number_fraction", &s.number_fraction,
+      {.meaning = "number of grains in this entry, relative to the other entries",
+       .range = above(0),
+       .formerly = "share"});
   const auto wanted = [&](SizeKind kind) { return s.kind == kind || p.everything(); };
   if (wanted(SizeKind::one_size))
     p("d", &s.d, {.unit = "m", .meaning = "class: diameter", .range = above(0), .presence = required});
@@ -421,7 +439,8 @@ void describe_grains(Parameters& p, Config& c) {
   p("grain.release_time", &g.release_time,
     {.unit = "s", .meaning = "time until which all grains are held in place", .range = at_least(0)});
   p("grain.fixed", &g.fixed, {.meaning = "grains are held in place for the whole run"});
-  p.list("grain.material", g.materials, GrainMaterial{}, grain_material);
+  p.list("grain.material", g.materials, GrainMaterial{},
+         [&](Parameters& q, GrainMaterial& m) { grain_material(q, m, c.contact); });
   p.list("grain.fill", g.fills, GrainFill{}, grain_fill);
 }
 

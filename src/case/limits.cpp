@@ -67,20 +67,22 @@ SubstepLimits::SubstepLimits(const Config& c)
         std::min(rayleigh_, c.time.rayleigh * pi * R * std::sqrt(m.rho / G) / (0.1631 * m.nu + 0.8766));
     if (c.lubrication.acts())
       film_ = std::min(film_, 0.2 * (a.mass / 2) * c.lubrication.least_gap / (6 * pi * c.fluid.mu * R / 2));
-    for (const SmallestGrain& b : grains)
+    for (const SmallestGrain& b : grains) {
+      const SurfacePair both = surfaces(m, b.material, c.contact);
       pairs_.push_back({.mass = reduced(a.mass, b.mass),
                         .R = R / 2,
                         .E_star = 1 / (a.compliance.normal + b.compliance.normal),
-                        .e = g.e,
-                        .mu_r = g.mu_r,
+                        .e = both.e,
+                        .mu_r = both.mu_r,
                         .inertia = reduced(a.inertia, b.inertia)});
+    }
     for (const WallBody& body : c.wall.bodies) {
       if ((body.E == 0 && !std::isfinite(body.nu)) || !takes_moduli(c.contact.normal)) continue;
       pairs_.push_back({.mass = a.mass,
                         .R = R,
                         .E_star = 1 / (a.compliance.normal + wall_compliance(body, g).normal),
                         .e = 1,
-                        .mu_r = std::isfinite(body.mu_r) ? body.mu_r : g.mu_r,
+                        .mu_r = surfaces(m, body, c.contact).mu_r,
                         .inertia = a.inertia});
     }
   }

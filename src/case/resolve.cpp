@@ -79,6 +79,9 @@ void default_sizes(const Config& c, std::vector<SizeClass>& sizes, const Value& 
   sizes = {{.d = c.grain.d, .number_fraction = 1}};
 }
 
+namespace {
+
+/// Completes one of the sizes of grains at `path` and widens grain.d_min, d_max to it.
 void resolve_size(Config& c, SizeClass& s, const Value& root, const std::string& path) {
   if (s.kind == SizeKind::sieve) check_sieve(s, root, path);
   if (s.kind == SizeKind::log_normal) {  // its ends lie 3 sigma from the median
@@ -88,6 +91,26 @@ void resolve_size(Config& c, SizeClass& s, const Value& root, const std::string&
   const auto [smallest, largest] = size_range(s);
   c.grain.d_min = std::min(c.grain.d_min, smallest);
   c.grain.d_max = std::max(c.grain.d_max, largest);
+}
+
+}  // namespace
+
+void resolve_sizes(Config& c, std::vector<SizeClass>& sizes, const Value& root, const std::string& path) {
+  for (std::size_t k = 0; k < sizes.size(); ++k)
+    resolve_size(c, sizes[k], root, fmt::format("{}.{}", path, k));
+  const auto by_mass = [](const SizeClass& s) { return s.mass_fraction > 0; };
+  if (std::none_of(sizes.begin(), sizes.end(), by_mass)) return;
+  for (std::size_t k = 0; k < sizes.size(); ++k)
+    if (!by_mass(sizes[k]))
+      missing(root, fmt::format("{}.{}.mass_fraction", path, k),
+              "mass of its grains relative to the other entries, as those have one");
+  double most = 0;
+  for (SizeClass& s : sizes) {
+    s.number_fraction = s.mass_fraction / mean_volume({s}, std::size_t(1e5));
+    s.mass_fraction = 0;
+    most = std::max(most, s.number_fraction);
+  }
+  for (SizeClass& s : sizes) s.number_fraction /= most;
 }
 
 void check_factor(const std::string& factor, double start, double end, const Value& root,
@@ -347,12 +370,7 @@ void resolve_grains(Config& c, const Value& root, const std::filesystem::path& c
   if (g.fills.empty() && c.grain_inlets.empty())
     missing(root, "grain.fill", "[[grain.fill]] with a box or positions, or [[grain_inlet]]");
   g.seed = c.seed;
-  for (GrainMaterial& m : g.materials) {
-    if (m.rho == 0) m.rho = g.rho;
-    if (m.E == 0) m.E = g.E;
-    if (std::isinf(m.nu)) m.nu = g.nu;
-    if (std::isinf(m.mu)) m.mu = g.mu;
-  }
+  for (GrainMaterial& m : g.materials) m = g.completed(m);
   g.d_min = 1e300;
   for (std::size_t i = 0; i < g.fills.size(); ++i) {
     GrainFill& fill = g.fills[i];
@@ -365,8 +383,7 @@ void resolve_grains(Config& c, const Value& root, const std::filesystem::path& c
       const Bounds bounds = fill.solid.shape->bounds();
       fill.min = bounds.min, fill.max = bounds.max;
     }
-    for (std::size_t k = 0; k < fill.sizes.size(); ++k)
-      resolve_size(c, fill.sizes[k], root, fmt::format("grain.fill.{}.sizes.{}", i, k));
+    resolve_sizes(c, fill.sizes, root, fmt::format("grain.fill.{}.sizes", i));
   }
   for (std::size_t i = 0; i < g.fills.size(); ++i)
     if (RigidConfig& rigid = g.fills[i].rigid; rigid.present)

@@ -50,8 +50,9 @@ Vec3d direction(const Vec3d& v, const Value& root, const std::string& path);
 Solid shape_named(const Config& config, const std::string& name, const Value& root, const std::string& path,
                   const char* must);
 
-/// Completes one of the sizes of grains at `path` and widens grain.d_min, d_max to it.
-void resolve_size(Config& config, SizeClass& size, const Value& root, const std::string& path);
+/// Completes the sizes of grains at `path`, makes fractions of mass such of number, and widens grain.d_min,
+/// d_max to them.
+void resolve_sizes(Config& config, std::vector<SizeClass>& sizes, const Value& root, const std::string& path);
 
 /// CaseError for a wall body whose shape is not defined.
 void check_shape_names(const Config& config, const Value& root);

@@ -7,28 +7,30 @@
 namespace bedload::inline BL_VARIANT {
 namespace {
 
-/// Between grains of two materials, with the mean of their friction.
+/// Between grains of two materials.
 ContactLaw law_between(const GrainMaterial& a, const GrainMaterial& b, const Config& config) {
   const ElasticCompliance i(a.E, a.nu), j(b.E, b.nu);
+  const SurfacePair both = surfaces(a, b, config.contact);
   return make_contact_law({.normal = i.normal + j.normal,
                            .tangential = i.tangential + j.tangential,
                            .nu = 0.5 * (a.nu + b.nu),
-                           .mu = 0.5 * (a.mu + b.mu),
-                           .mu_r = config.grain.mu_r,
-                           .e = config.grain.e,
+                           .mu = both.mu,
+                           .mu_r = both.mu_r,
+                           .e = both.e,
                            .contact = config.contact});
 }
 
-/// The same between grains and a wall body, with the friction and restitution of the body.
+/// The same between grains and a wall body.
 ContactLaw law_between(const GrainMaterial& material, const WallBody& body, const Config& config) {
   const GrainConfig& g = config.grain;
   const ElasticCompliance grain(material.E, material.nu), wall = wall_compliance(body, g);
+  const SurfacePair both = surfaces(material, body, config.contact);
   return make_contact_law({.normal = grain.normal + wall.normal,
                            .tangential = grain.tangential + wall.tangential,
                            .nu = 0.5 * (material.nu + (std::isfinite(body.nu) ? body.nu : g.nu)),
-                           .mu = std::isfinite(body.mu) ? body.mu : material.mu,
-                           .mu_r = std::isfinite(body.mu_r) ? body.mu_r : g.mu_r,
-                           .e = body.e > 0 ? body.e : g.e,
+                           .mu = both.mu,
+                           .mu_r = both.mu_r,
+                           .e = both.e,
                            .contact = config.contact});
 }
 

@@ -109,6 +109,11 @@ phase = "both"
 shape = "box"
 min = [0.085, 0.0, 0.0]
 max = [0.1, 0.08, 0.02]
+[[contact.pair]]
+of = ["grain", "glass"]
+mu = 0.25
+mu_r = 0.015
+e = 0.85
 [grain]
 d = 0.006
 rho = 2500
@@ -125,6 +130,8 @@ rho = 2400
 E = 1e6
 nu = 0.2
 mu = 0.2
+mu_r = 0.02
+e = 0.8
 [[grain.fill]]
 min = [0.05, 0, 0]
 max = [0.08, 0.08, 0.05]
@@ -423,11 +430,12 @@ radius = 0.02
 mass_rate = 0.01
 [[grain_inlet.sizes]]
 kind = "uniform"
-number_fraction = 1
+mass_fraction = 1
 d_min = 0.004
 d_max = 0.006
 [[grain_inlet.sizes]]
 kind = "class"
+mass_fraction = 1
 d = 0.005
 [time]
 end = 0.1

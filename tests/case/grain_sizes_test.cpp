@@ -131,6 +131,37 @@ TEST(GrainSizes, ResolveTheDiametersOfTheCase) {
   EXPECT_TRUE(read(resolved_toml(s)) == s) << resolved_toml(s);
 }
 
+/// Of the grains of an entry, relative to others.
+double mass(const std::vector<SizeClass>& sizes, std::size_t k) {
+  double volume = 0;
+  const auto d = quantiles(sizes[k], 10000);
+  for (const double x : d) volume += x * x * x / double(d.size());
+  return sizes[k].number_fraction * volume;
+}
+
+TEST(GrainSizes, MixByTheirMassFractions) {
+  const std::string three =
+      "grain.fill.0.sizes=[{d = 0.001, mass_fraction = 1}, {d = 0.004, mass_fraction = 2}, {kind = "
+      "\"uniform\", "
+      "d_min = 0.001, d_max = 0.002, mass_fraction = 3}]";
+  const Config c = read(kCase, {three});
+  const auto& sizes = c.grain.fills[0].sizes;
+  EXPECT_NEAR(mass(sizes, 1) / mass(sizes, 0), 2, 1e-9);
+  EXPECT_NEAR(mass(sizes, 2) / mass(sizes, 0), 3, 1e-4);
+  EXPECT_TRUE(read(resolved_toml(c)) == c) << resolved_toml(c);
+}
+
+TEST(GrainSizes, HaveFractionsOfOneKind) {
+  EXPECT_EQ(
+      error_of(changed("count = 500", "count = 500\nsizes = [{d = 0.001, mass_fraction = 1}, {d = 0.004}]")),
+      "dam.toml:21: grain.fill.0.sizes.1.mass_fraction must be given (mass of its grains relative to the "
+      "other "
+      "entries, as those have one)");
+  EXPECT_EQ(error_of(changed("count = 500",
+                             "count = 500\nsizes = [{d = 0.001, mass_fraction = 1, number_fraction = 1}]")),
+            "dam.toml:21: grain.fill.sizes.number_fraction = 1 is not used by the chosen options; remove it");
+}
+
 TEST(GrainSizes, MaySpanAFactorOfTwenty) {
   const auto with = [](const std::string& largest) {
     return changed("count = 500",

@@ -24,7 +24,7 @@ TEST(SuspensionCase, MaterialsTakeWhatTheyLeaveOutFromAllGrains) {
       "[[grain.fill]]",
       "mu = 0.5\n[[grain.material]]\nname = \"steel\"\nrho = 7800\n[[grain.fill]]\nmaterial = \"steel\""));
   ASSERT_EQ(c.grain.materials.size(), 1u);
-  EXPECT_EQ(c.grain.materials[0], (GrainMaterial{"steel", 7800, 1e8, 0.3, 0.5}));
+  EXPECT_EQ(c.grain.materials[0], (GrainMaterial{"steel", 7800, 1e8, 0.3, 0.5, 0.01, 0.9}));
   EXPECT_EQ(c.grain.material(c.grain.fills[0].material), 1u);
 }
 

@@ -124,6 +124,13 @@ TEST(UnknownKeys, SuggestNothingWhereNothingIsNear) {
             "--set xyzzy=1: xyzzy is not a parameter; `bedload list parameters` shows all there are");
 }
 
+TEST(UnknownKeys, OfContactsAreThoseOfGrainsOrOfPairs) {
+  for (const std::string name : {"mu", "mu_r", "e"})
+    EXPECT_EQ(answer("contact." + name + "=1"), "--set contact." + name + "=1: contact." + name +
+                                                    " is not a parameter; " + name + " is grain." + name +
+                                                    " here (of two materials contact.pair." + name + ")");
+}
+
 TEST(UnknownKeys, SuggestWhatIsNear) {
   const auto suggests = [](const std::string& assignment, const std::string& key) {
     EXPECT_NE(answer(assignment).find(" did you mean " + key + "?"), std::string::npos) << answer(assignment);
@@ -131,7 +138,6 @@ TEST(UnknownKeys, SuggestWhatIsNear) {
   suggests("time_end=1", "time.end");
   suggests("time.edn=1", "time.end");
   suggests("grian.fixed=1", "grain.fixed");
-  suggests("contact.e=1", "grain.e");
   suggests("body.motion.frequency=1", "wall.body.motion.frequency");
   suggests("contact.reyleigh=1", "time.rayleigh");
   suggests("fluid.kernal=cubic", "fluid.kernel");

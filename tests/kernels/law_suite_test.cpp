@@ -63,7 +63,9 @@ struct Touching {
     history.overlap = double(Real(random.within(1e-6, 5e-6)));
     history.recede = double(Real(dot(v, n)));
   }
-  ContactGeometry at() const { return sphere_contact(i, j, r, norm(r), double(i.R) + double(j.R) - norm(r)); }
+  ContactGeometry at() const {
+    return sphere_contact(i, j, r, norm(r), double(i.R) + double(j.R) - norm(r), dt * v);
+  }
   template <class Law>
   ContactForce force(const Law& law) {
     return law(at(), Real3(v), Real3(omega_i), Real3(omega_j), Real(dt), history);

@@ -6,6 +6,8 @@
 namespace bedload::inline BL_VARIANT {
 namespace {
 
+constexpr double kOfEach = std::numeric_limits<double>::infinity();
+
 /// Glass (grain.*), steel and rubber.
 struct MixedBench : GrainBench {
   MixedBench() {
@@ -74,6 +76,63 @@ TEST(MaterialsSmall, FrictionIsTheMeanAndTheOwnOnWalls) {
   b.run(1e-8, 20);  // sliding at once
   EXPECT_NEAR(-b.force(0).x / std::abs(b.force(0).z), 0.4, 1e-3);
   EXPECT_NEAR(-b.force(2).x / b.force(2).z, 0.6, 1e-3);
+}
+
+/// Head on, of each pair, with the restitution of its own.
+TEST(Materials, PairsReboundByTheirOwnRestitution) {
+  MixedBench b;
+  b.config.contact.pairs = {{{"grain", "steel"}, kOfEach, kOfEach, 0.4},
+                            {{"rubber", "grain"}, kOfEach, kOfEach, 0.6},
+                            {{"steel", "rubber"}, kOfEach, kOfEach, 0.8}};
+  for (int k = 0; k < 3; ++k) {
+    b.add({-b.R(), 0, 0.01 * k}, {0.1, 0, 0});
+    b.add({b.R(), 0, 0.01 * k});
+  }
+  b.begin({0, 1, 0, 2, 1, 2});
+  b.run(1e-7, 8000);
+  ASSERT_EQ(b.solver->totals(*b.grains).contacts, 0);
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR((b.velocity(2 * k + 1).x - b.velocity(2 * k).x) / 0.1, 0.4 + 0.2 * k, 1e-3) << k;
+}
+
+/// The law is that of both, whichever grain has the lower id.
+TEST(Materials, PairsDoNotDependOnTheOrderOfIds) {
+  const auto impact = [](bool steel_first) {
+    MixedBench b;
+    b.config.contact.rolling = "epsd";
+    b.config.contact.pairs = {{{"steel", "rubber"}, 0.15, 0.2, 0.8}};
+    const Vec3d steel{-b.R(), 0, 0}, rubber{b.R() - 1e-6, 1e-4, 2e-4}, v{0.1, 0.2, -0.1};
+    if (steel_first) b.add(steel, v), b.add(rubber, {}, {10, 20, 30});
+    if (!steel_first) b.add(rubber, {}, {10, 20, 30}), b.add(steel, v);
+    b.begin({steel_first ? 1u : 2u, steel_first ? 2u : 1u});
+    b.run(1e-7, 3000);
+    const Id id = steel_first ? 0 : 1;
+    return std::vector<Vec3d>{b.velocity(id), b.spin(id), b.velocity(1 - id), b.spin(1 - id)};
+  };
+  const auto one = impact(true), other = impact(false);
+  ASSERT_GT(norm(one[3] - Vec3d{10, 20, 30}), 0.1) << "they slid";
+  EXPECT_EQ(one, other);
+}
+
+TEST(MaterialsSmall, OneMaterialHasTheLawsOfGrain) {
+  const Config c = MixedBench().config;
+  Config one = c;
+  one.grain.materials.clear();
+  const ElasticCompliance own(c.grain.E, c.grain.nu);
+  const ContactLaw asked = make_contact_law({.normal = own.normal + own.normal,
+                                             .tangential = own.tangential + own.tangential,
+                                             .nu = c.grain.nu,
+                                             .mu = c.grain.mu,
+                                             .mu_r = c.grain.mu_r,
+                                             .e = c.grain.e,
+                                             .contact = c.contact});
+  for (const Config& config : {one, c}) {
+    const ContactLaw law = solid_parameters(config).pair_laws[0];
+    EXPECT_EQ(law.mu, asked.mu);
+    EXPECT_EQ(law.normal.alpha, asked.normal.alpha);
+    EXPECT_EQ(law.normal.E_star, asked.normal.E_star);
+    EXPECT_EQ(law.sliding.G_star, asked.sliding.G_star);
+  }
 }
 
 TEST(MaterialsSmall, StepsFollowTheStiffestAndLightest) {

@@ -1,8 +1,9 @@
 #pragma once
-// How compliant elastic materials are where bodies touch.
+// What materials have with each other where bodies touch: compliance, friction, restitution.
 
 #include <cmath>
 
+#include "bedload/case/config/contact.hpp"
 #include "bedload/case/config/grains.hpp"
 #include "bedload/case/config/walls.hpp"
 
@@ -22,6 +23,34 @@ struct ElasticCompliance {
 /// Of a wall body: its own material, or that of the grains where it names none.
 inline ElasticCompliance wall_compliance(const WallBody& body, const GrainConfig& grain) {
   return {body.E > 0 ? body.E : grain.E, std::isfinite(body.nu) ? body.nu : grain.nu};
+}
+
+/// How two surfaces slide, roll and rebound.
+struct SurfacePair {
+  double mu, mu_r, e;
+  /// With what the case's pair of these two names sets.
+  SurfacePair in(const ContactConfig& contact, const std::string& a, const std::string& b) const {
+    SurfacePair out = *this;
+    for (const ContactPair& pair : contact.pairs) {
+      if (!pair.joins(a, b)) continue;
+      if (std::isfinite(pair.mu)) out.mu = pair.mu;
+      if (std::isfinite(pair.mu_r)) out.mu_r = pair.mu_r;
+      if (pair.e > 0) out.e = pair.e;
+    }
+    return out;
+  }
+};
+inline std::string name_in_pairs(const GrainMaterial& m) { return m.name.empty() ? kMainMaterial : m.name; }
+/// Two grains: of their pair, else the mean of both.
+inline SurfacePair surfaces(const GrainMaterial& a, const GrainMaterial& b, const ContactConfig& contact) {
+  const SurfacePair mean{0.5 * (a.mu + b.mu), 0.5 * (a.mu_r + b.mu_r), 0.5 * (a.e + b.e)};
+  return mean.in(contact, name_in_pairs(a), name_in_pairs(b));
+}
+/// A grain and a wall body: of their pair, else the body's, else the grain's.
+inline SurfacePair surfaces(const GrainMaterial& a, const WallBody& body, const ContactConfig& contact) {
+  const SurfacePair own{std::isfinite(body.mu) ? body.mu : a.mu,
+                        std::isfinite(body.mu_r) ? body.mu_r : a.mu_r, body.e > 0 ? body.e : a.e};
+  return own.in(contact, name_in_pairs(a), body.name);
 }
 
 }  // namespace bedload

@@ -352,7 +352,7 @@ TEST(ContactLaw, WallIsTheLimitOfAHugePartner) {
     return sphere_contact(kGrain, huge, {0, 0, gap}, gap, overlap);
   };
   const double deep = 1e-2 * kRadius;
-  ContactGeometry at = pair(deep), wall = wall_contact(kGrain, {0, 0, 1}, deep);
+  ContactGeometry at = pair(deep), wall = wall_contact(kGrain, {0, 0, 1}, {0, 0, 1}, deep);
   EXPECT_EQ(at.n, wall.n);
   EXPECT_EQ(at.overlap, wall.overlap);
   EXPECT_NEAR(at.R_star / wall.R_star, 1, near);
@@ -368,7 +368,7 @@ TEST(ContactLaw, WallIsTheLimitOfAHugePartner) {
   for (const char* rolling : {"none", "cdt", "epsd"}) {
     c.contact.rolling = rolling;
     const ContactLaw law = contact_law_of(c);
-    at = pair(kRadius / size), wall = wall_contact(kGrain, {0, 0, 1}, kRadius / size);
+    at = pair(kRadius / size), wall = wall_contact(kGrain, {0, 0, 1}, {0, 0, 1}, kRadius / size);
     ContactHistory h, w;
     const Real3 v{Real(0.01), 0, Real(-0.02)}, spin{0, Real(3), 0};
     const ContactForce a = law(at, v, spin, {}, Real(1e-6), h), b = law(wall, v, spin, {}, Real(1e-6), w);

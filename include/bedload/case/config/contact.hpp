@@ -1,9 +1,28 @@
 #pragma once
 // Forces between grains, and between grains and walls.
 
+#include <limits>
+#include <string>
+#include <vector>
+
 #include "bedload/case/choices.hpp"
 
 namespace bedload {
+
+/// What two materials of grains, or one and a wall body, have with each other; infinity and 0: what follows
+/// from each.
+struct ContactPair {
+  std::vector<std::string> of;                 ///< their names, two; kMainMaterial: that of grain.*
+  double mu = std::numeric_limits<double>::infinity();
+  double mu_r = std::numeric_limits<double>::infinity();
+  double e = 0;
+  bool joins(const std::string& a, const std::string& b) const {
+    return of.size() == 2 && ((of[0] == a && of[1] == b) || (of[0] == b && of[1] == a));
+  }
+  bool operator==(const ContactPair&) const = default;
+};
+/// Name of the material of grain.* in a pair.
+inline constexpr const char* kMainMaterial = "grain";
 
 struct ContactConfig {
   Chosen<NormalLaw> normal = NormalLaw::hertz;
@@ -16,6 +35,7 @@ struct ContactConfig {
   bool clip_tension = true;
   bool he_damping = false;                     ///< paper.he_damping: sqrt(6) prefactor of He et al. (20b)
   bool cap_rolling = true;                     ///< the stabilising cap on cdt; off only for tests
+  std::vector<ContactPair> pairs{};
   bool operator==(const ContactConfig&) const = default;
 };
 

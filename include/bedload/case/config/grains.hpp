@@ -1,6 +1,7 @@
 #pragma once
 // Grains: what they are made of, where they are at the start.
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -15,6 +16,7 @@ namespace bedload {
 struct SizeClass {
   double d = 0;                                ///< class: diameter, m
   double number_fraction = 1;                  ///< of the grains, relative to the other entries
+  double mass_fraction = 0;                    ///< the same of their mass; 0: none, or made a number fraction (resolved)
   Chosen<SizeKind> kind = SizeKind::one_size;
   double d_min = 0, d_max = 0;                 ///< uniform, log_normal: ends, m
   double median = 0;                           ///< log_normal: m
@@ -63,6 +65,8 @@ struct GrainMaterial {
   double E = 0;                                ///< Pa
   double nu = std::numeric_limits<double>::infinity();
   double mu = std::numeric_limits<double>::infinity();
+  double mu_r = std::numeric_limits<double>::infinity();
+  double e = 0;
   bool operator==(const GrainMaterial&) const = default;
 };
 
@@ -88,9 +92,19 @@ struct GrainConfig {
   double smallest() const { return d_min > 0 ? d_min : d; }  ///< diameter, m
   /// All of them as they are numbered: first that of grain.*.
   std::vector<GrainMaterial> all_materials() const {
-    std::vector<GrainMaterial> all{{"", rho, E, nu, mu}};
-    all.insert(all.end(), materials.begin(), materials.end());
+    std::vector<GrainMaterial> all{{"", rho, E, nu, mu, mu_r, e}};
+    for (const GrainMaterial& m : materials) all.push_back(completed(m));
     return all;
+  }
+  /// With that of grain.* where it has nothing of its own.
+  GrainMaterial completed(GrainMaterial m) const {
+    if (m.rho == 0) m.rho = rho;
+    if (m.E == 0) m.E = E;
+    if (std::isinf(m.nu)) m.nu = nu;
+    if (std::isinf(m.mu)) m.mu = mu;
+    if (std::isinf(m.mu_r)) m.mu_r = mu_r;
+    if (m.e == 0) m.e = e;
+    return m;
   }
   /// Its number; that of grain.* for an unknown name.
   std::uint32_t material(const std::string& name) const {
