@@ -57,11 +57,11 @@ void keep_in_plane(FreeConfig& f, double middle, const Value& root, const std::s
 }
 
 /// Whether the surface stands at right angles to the plane wherever that cuts it.
-bool stands_upright(const Shape& shape, const DomainConfig& domain) {
-  const Bounds bounds = shape.bounds();
+bool stands_upright(const ShapePtr& shape, const DomainConfig& domain) {
+  const Bounds bounds = shape->bounds();
   const double spacing = std::hypot(bounds.max.x - bounds.min.x, bounds.max.z - bounds.min.z) / 60;
   for (const Vec3d& x : sample_solid(shape, spacing, spacing, domain))
-    if (std::abs(shape.nearest({x.x, domain.middle(), x.z}).normal.y) > 1e-3) return false;
+    if (std::abs(shape->nearest({x.x, domain.middle(), x.z}).normal.y) > 1e-3) return false;
   return true;
 }
 
@@ -103,7 +103,7 @@ void check_plane(const Config& c, const Value& root) {
     const WallBody& body = c.wall.bodies[i];
     moves(fmt::format("wall.body.{}.motion", i), body.motion);
     // a free body meets surfaces as they are in space
-    if (c.wall.free_bodies() > 0 && body.solid.shape && !stands_upright(*body.solid.shape, c.domain))
+    if (c.wall.free_bodies() > 0 && body.solid.shape && !stands_upright(body.solid.shape, c.domain))
       reject(root, fmt::format("wall.body.{}.shape", i), fmt::format("\"{}\"", body.shape.name()),
              "must stand at right angles to the plane of x and z, and reach well beyond it, with free bodies "
              "and domain.two_d");

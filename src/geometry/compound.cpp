@@ -9,6 +9,7 @@
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/mesh.hpp"
 #include "geometry/contour.hpp"
+#include "geometry/decimals.hpp"
 
 namespace bedload {
 namespace {
@@ -35,6 +36,10 @@ class Hollow : public Shape {
   }
 
   Bounds bounds() const override { return shape_->bounds().grown(thickness_); }
+
+  ShapePtr in_frame(const Vec3d& origin, double spacing) const override {
+    return std::make_shared<Hollow>(shape_->in_frame(origin, spacing), thickness_);
+  }
 
   void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
     const std::size_t before = parts.size();
@@ -78,6 +83,12 @@ class Union : public Shape {
     return b;
   }
 
+  ShapePtr in_frame(const Vec3d& origin, double spacing) const override {
+    std::vector<ShapePtr> shapes;
+    for (const ShapePtr& shape : shapes_) shapes.push_back(shape->in_frame(origin, spacing));
+    return std::make_shared<Union>(std::move(shapes));
+  }
+
   void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
     for (const ShapePtr& shape : shapes_) shape->add_parts(parts, p);
   }
@@ -103,6 +114,11 @@ class Difference : public Shape {
   }
 
   Bounds bounds() const override { return shape_->bounds(); }
+
+  ShapePtr in_frame(const Vec3d& origin, double spacing) const override {
+    return std::make_shared<Difference>(shape_->in_frame(origin, spacing), cut_->in_frame(origin, spacing),
+                                        facet_);
+  }
 
   void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
     mesh().add_parts(parts, p);
@@ -167,6 +183,13 @@ class Placed : public Shape {
       b.add(placement_.apply({corner & 1 ? own.max.x : own.min.x, corner & 2 ? own.max.y : own.min.y,
                               corner & 4 ? own.max.z : own.min.z}));
     return b;
+  }
+
+  ShapePtr in_frame(const Vec3d& origin, double spacing) const override {
+    const Vec3d middle = shape_->bounds().middle();  // what turns about a place is far from its own origin
+    Placement placement = placement_;
+    placement.translation = Decimals(spacing)(placement_.apply(middle) - origin);
+    return std::make_shared<Placed>(shape_->in_frame(middle, spacing / placement_.scale), placement);
   }
 
   void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {

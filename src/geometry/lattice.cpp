@@ -82,7 +82,7 @@ ShapePtr left_between_bodies(const Config& config, const FluidFill& fill, const 
 void add_shape(const Config& config, const FluidFill& fill, std::size_t index, Setup::Fluid& fluid) {
   double volume = 0;
   const double dx = config.fluid.dx;
-  const Slice slice(*fill.solid.shape, config.domain.middle(), dx);
+  const Slice slice(fill.solid.shape, config.domain.middle(), dx);
   const Shape& shape = config.domain.two_d ? static_cast<const Shape&>(slice) : *fill.solid.shape;
   const auto places = fill_shape(shape, upwards(config.gravity), fill.level, dx, volume);
   volume *= config.domain.spacing_along(1, dx) / dx;

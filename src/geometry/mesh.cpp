@@ -10,6 +10,7 @@
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/mesh_layout.hpp"
 #include "geometry/aabb_tree.hpp"
+#include "geometry/decimals.hpp"
 #include "geometry/mesh_topology.hpp"
 #include "geometry/surface_point.hpp"
 #include "geometry/triangle.hpp"
@@ -171,6 +172,12 @@ SurfacePoint TriangleMesh::nearest(const Vec3d& x) const {
   const Hit hit = find_nearest(x);
   const Vec3d n = pseudonormal(hit);
   return seen_from(x, hit.at.point, dot(x - hit.at.point, n) < 0, n / norm(n));
+}
+
+ShapePtr TriangleMesh::in_frame(const Vec3d& origin, double spacing) const {
+  Placement placement;
+  placement.translation = Decimals(spacing)(-1.0 * origin);
+  return make_placed(ShapePtr(ShapePtr(), this), placement);
 }
 
 std::uint32_t TriangleMesh::nearest_triangle(const Vec3d& x) const { return find_nearest(x).triangle; }

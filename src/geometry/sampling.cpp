@@ -19,8 +19,9 @@ namespace bedload {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTie = 1e-6;  // of a spacing; below it only rounding decides
 
-std::int64_t layers(double depth, double step) { return std::int64_t(std::ceil(depth / step - 1e-6)); }
+std::int64_t layers(double depth, double step) { return std::int64_t(std::ceil(depth / step - kTie)); }
 
 std::vector<Vec3d> sample_tank(const WallBody& tank, double spacing, double depth,
                                const DomainConfig& domain) {
@@ -62,7 +63,7 @@ std::vector<Vec3d> sample_box(const WallBody& box, double spacing, double depth,
     for (std::int64_t j = 0; j < cells[1].count; ++j) {
       const double yz = std::min(behind_face(1, j), behind_face(2, l));
       for (std::int64_t i = 0; i < cells[0].count; ++i)
-        if (std::min(yz, behind_face(0, i)) < depth - 1e-6 * spacing)
+        if (std::min(yz, behind_face(0, i)) < depth - kTie * spacing)
           points.push_back({cells[0].centre(i), cells[1].centre(j), cells[2].centre(l)});
     }
   return points;
@@ -124,6 +125,7 @@ std::vector<Vec3d> sample_plane(const WallBody& plane, double spacing, double de
                                 const DomainConfig& domain) {
   const Vec3d n = plane.normal / norm(plane.normal);
   const auto [a, b] = plane_lattice(plane, spacing, depth, domain);
+  const double slack = kTie * spacing;
   std::vector<Vec3d> points;
   for (std::int64_t layer = 0; layer < layers(depth, spacing); ++layer)
     for (std::int64_t j = -b.extra; j < b.cells.count + b.extra; ++j)
@@ -132,7 +134,8 @@ std::vector<Vec3d> sample_plane(const WallBody& plane, double spacing, double de
                         (double(layer) + 0.5) * spacing * n;
         bool near = true;
         for (int k = 0; k < 3; ++k)
-          near &= domain.periodic[k] || (x[k] > domain.min[k] - depth && x[k] < domain.max[k] + depth) ||
+          near &= domain.periodic[k] ||
+                  (x[k] > domain.min[k] - depth + slack && x[k] < domain.max[k] + depth - slack) ||
                   std::abs(n[k]) > 1 - 1e-12;  // may lie on the edge of the domain, all layers outside
         if (near) points.push_back(x);
       }
@@ -235,7 +238,7 @@ bool move_together(const WallBody& a, const WallBody& b) {
 
 std::vector<Vec3d> sample_body(const WallBody& body, double spacing, double depth,
                                const DomainConfig& domain) {
-  if (body.solid.shape) return sample_solid(*body.solid.shape, spacing, depth, domain);
+  if (body.solid.shape) return sample_solid(body.solid.shape, spacing, depth, domain);
   switch (body.shape.value()) {
     case WallShape::tank:
       return sample_tank(body, spacing, depth, domain);
@@ -317,7 +320,7 @@ bool comes_round(const WallBody& body, const Vec3d& x, double reach, const Domai
   for (int k = 0; k < 3; ++k)
     if (domain.periodic[k]) {
       const double period = domain.max[k] - domain.min[k];
-      within[k] -= period * std::floor((x[k] - domain.min[k]) / period);
+      within[k] -= period * std::floor((x[k] - domain.min[k]) / period + 1e-9);
     }
   return norm(within - x) > 0 && wall_distance(body, within, reach, domain) < 0;
 }
@@ -329,7 +332,7 @@ void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::strin
   const auto& bodies = config.wall.bodies;
   std::vector<PointFinder> placed;  // by body
   for (std::size_t index = 0; index < bodies.size(); ++index) {
-    placed.emplace_back(0.3 * config.wall.dx);
+    placed.emplace_back((0.3 + kTie) * config.wall.dx);
     const WallBody& body = bodies[index];
     if (!body.stops_fluid()) continue;
     const double spacing = config.wall.spacing(body);

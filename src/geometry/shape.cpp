@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bedload/core/error.hpp"
+#include "geometry/decimals.hpp"
 #include "geometry/surface_point.hpp"
 
 namespace bedload {
@@ -44,6 +45,14 @@ class Box : public Shape {
 
   Bounds bounds() const override { return box_; }
 
+  ShapePtr in_frame(const Vec3d& origin, double spacing) const override {
+    const Decimals decimals(spacing);
+    Vec3d min = box_.min - origin, max = box_.max - origin;
+    for (int k = 0; k < 3; ++k)
+      if (decimals(min[k]) < decimals(max[k])) min[k] = decimals(min[k]), max[k] = decimals(max[k]);
+    return std::make_shared<Box>(min, max);
+  }
+
   void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
     SurfacePart part{.kind = SurfacePart::Kind::box, .centre = p.apply((box_.min + box_.max) / 2)};
     part.rotation = p.rotation;
@@ -80,6 +89,12 @@ class Capsule : public Shape {
     Bounds b;
     b.add(a_), b.add(a_ + axis_);
     return b.grown(radius_);
+  }
+
+  ShapePtr in_frame(const Vec3d& origin, double spacing) const override {
+    const Decimals decimals(spacing);
+    const Vec3d a = decimals(a_ - origin);
+    return std::make_shared<Capsule>(a, a + decimals(axis_), radius_);
   }
 
   void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {
@@ -137,6 +152,14 @@ class Revolution : public Shape {
       b.add(place({c.z, 0}, {}) + reach), b.add(place({c.z, 0}, {}) - reach);
     }
     return b;
+  }
+
+  ShapePtr in_frame(const Vec3d& origin, double spacing) const override {
+    const Decimals decimals(spacing), of_unit(0.01);
+    const Vec3d axis = of_unit(axis_);
+    std::vector<Corner> profile = profile_;
+    for (Corner& c : profile) c.z = decimals.positive(c.z);
+    return std::make_shared<Revolution>(decimals(origin_ - origin), axis / norm(axis), std::move(profile));
   }
 
   void add_parts(std::vector<SurfacePart>& parts, const Placement& p) const override {

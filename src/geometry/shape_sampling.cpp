@@ -303,16 +303,19 @@ std::vector<Vec3d> sample_shape(const Shape& shape, double spacing, double depth
         fmt::format("wall particles: spacing = {:g} m is too small for a body of {:g} m", spacing, size));
 
   const int layers = int(std::ceil(std::min(depth, size) / spacing - 1e-6));
-  std::vector<Particle> particles = LayerVolumes(shape, spacing, layers).place();
-  if (!particles.empty()) Relaxation(shape, spacing, particles);
+  // Relaxation makes another pattern of the last digit of any number, so those must not depend on the place.
+  const Vec3d middle = bounds.middle();
+  const ShapePtr own = shape.in_frame(middle, spacing);
+  std::vector<Particle> particles = LayerVolumes(*own, spacing, layers).place();
+  if (!particles.empty()) Relaxation(*own, spacing, particles);
   std::vector<Vec3d> x;
-  for (const Particle& p : particles) x.push_back(p.x);
+  for (const Particle& p : particles) x.push_back(middle + p.x);
   return x;
 }
 
-std::vector<Vec3d> sample_solid(const Shape& shape, double spacing, double depth,
+std::vector<Vec3d> sample_solid(const ShapePtr& shape, double spacing, double depth,
                                 const DomainConfig& domain) {
-  if (!domain.two_d) return sample_shape(shape, spacing, depth);
+  if (!domain.two_d) return sample_shape(*shape, spacing, depth);
   return sample_shape(Slice(shape, domain.middle(), spacing), spacing, depth);
 }
 

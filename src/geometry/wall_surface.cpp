@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
 
 #include "bedload/geometry/lattice.hpp"
 #include "bedload/geometry/sampling.hpp"
@@ -17,21 +19,24 @@ constexpr double kInfinity = Bounds::kInfinity;
 /// What lies within half a thickness of the surface of a shape, so that its middle is that surface.
 class Skin final : public Shape {
  public:
-  Skin(const Shape& shape, double thickness) : shape_(shape), half_(thickness / 2) {}
+  Skin(ShapePtr shape, double thickness) : shape_(std::move(shape)), half_(thickness / 2) {}
 
   SurfacePoint nearest(const Vec3d& x) const override {
-    const SurfacePoint p = shape_.nearest(x);
+    const SurfacePoint p = shape_->nearest(x);
     const double side = p.distance < 0 ? -1 : 1;
     const Vec3d normal = side * p.normal;
     return {side * p.distance - half_, p.point + half_ * normal, normal};
   }
-  Bounds bounds() const override { return shape_.bounds().grown(half_); }
+  Bounds bounds() const override { return shape_->bounds().grown(half_); }
+  ShapePtr in_frame(const Vec3d& origin, double spacing) const override {
+    return std::make_shared<Skin>(shape_->in_frame(origin, spacing), 2 * half_);
+  }
   void add_parts(std::vector<SurfacePart>& parts, const Placement& placement) const override {
-    shape_.add_parts(parts, placement);
+    shape_->add_parts(parts, placement);
   }
 
  private:
-  const Shape& shape_;
+  ShapePtr shape_;
   double half_;
 };
 
@@ -82,7 +87,8 @@ double chord(const Shape& shape, const SurfacePoint& from, double reach) {
 }  // namespace
 
 std::vector<Vec3d> sample_surface(const WallBody& body, double spacing, const DomainConfig& domain) {
-  if (body.solid.shape) return sample_solid(Skin(*body.solid.shape, spacing), spacing, spacing, domain);
+  if (body.solid.shape)
+    return sample_solid(std::make_shared<Skin>(body.solid.shape, spacing), spacing, spacing, domain);
   if (body.shape == WallShape::plane) return sample_plane_surface(body, spacing, domain);
   return sample_sides(body, spacing, domain);
 }

@@ -45,7 +45,8 @@ std::vector<std::string> cells_of(const std::string& line) {
 void compare(const std::filesystem::path& path, const std::string& found, const std::string& header) {
   if (found != header)
     throw FileError(
-        fmt::format("{}: has the columns '{}', but this run writes '{}'", path.string(), found, header));
+        fmt::format("{}: has the columns '{}', but this run writes '{}'; give the restart another --out",
+                    path.string(), found, header));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 
 #include "bedload/output/files.hpp"
@@ -37,6 +38,16 @@ HostArray stored_points(const HostArray& x, bool double_points) {
   return points;
 }
 
+hsize_t chunk_of(std::size_t count) {
+  return std::clamp(count, kSmallChunk, kLargestChunk);  // the store may grow
+}
+
+void create_array(hid_t parent, const std::string& name, const HostArray& a, hsize_t chunk, int deflate) {
+  const Handle table =
+      create_table(parent, name, h5::file_type(a.type), hsize_t(a.components), chunk, deflate);
+  h5::write_text(table, "unit", a.unit);
+}
+
 void create_layout(const std::filesystem::path& path, const HostStore& store, const HostArray& points,
                    int deflate) {
   const Handle file = h5::open_file(path, h5::Mode::create);
@@ -51,15 +62,9 @@ void create_layout(const std::filesystem::path& path, const HostStore& store, co
   const auto integers = [](hid_t parent, const std::string& name, hsize_t columns, hsize_t chunk_rows) {
     return create_table(parent, name, H5T_STD_I64LE, columns, chunk_rows);
   };
-  const hsize_t chunk = std::clamp(store.count, kSmallChunk, kLargestChunk);  // the store may grow
-  const auto particles = [&](hid_t parent, const std::string& name, const HostArray& a) {
-    const Handle table =
-        create_table(parent, name, h5::file_type(a.type), hsize_t(a.components), chunk, deflate);
-    h5::write_text(table, "unit", a.unit);
-  };
-
+  const hsize_t chunk = chunk_of(store.count);
   integers(root, "NumberOfPoints", 1, kSmallChunk);
-  particles(root, "Points", points);
+  create_array(root, "Points", points, chunk, deflate);
   for (const char* name : kTopologies) {
     const Handle topology = h5::create_group(root, name);
     const bool used = name == kTopologies[0];
@@ -79,7 +84,7 @@ void create_layout(const std::filesystem::path& path, const HostStore& store, co
     integers(steps, name, kTopologies.size(), kSmallChunk);
   const Handle offsets = h5::create_group(steps, "PointDataOffsets");
   for (std::size_t k = 1; k < store.arrays.size(); ++k) {
-    particles(data, store.arrays[k].name, store.arrays[k]);
+    create_array(data, store.arrays[k].name, store.arrays[k], chunk, deflate);
     integers(offsets, store.arrays[k].name, 1, kSmallChunk);
   }
 }
@@ -189,23 +194,62 @@ void truncate(hid_t root, std::size_t frames) {
   h5::write_integer(steps, "NSteps", frames);
 }
 
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 void check_array(hid_t parent, const std::string& name, const HostArray& a) {
   const Handle table = open_dataset(parent, name);
   const auto n = h5::extent(table);
   if (h5::scalar_of(table) != a.type || (n.size() > 1 ? n[1] : 1) != hsize_t(a.components))
-    throw h5::Error("array '" + name + "' has a different number type or number of components");
+    throw h5::Error("array '" + name +
+                    "' has a number type or number of components that this run does not write; give the "
+                    "restart another --out");
 }
 
-/// Throws unless frames of these arrays can follow those in the file.
+/// Throws unless frames of these arrays can follow those in the file. Either may lack some.
 void check_arrays(hid_t root, const HostArray& points, const HostStore& store) {
   check_array(root, "Points", points);
   const Handle data = h5::open_group(root, "PointData");
   const auto names = h5::members(data);
-  if (!std::equal(names.begin(), names.end(), store.arrays.begin() + 1, store.arrays.end(),
-                  [](const std::string& name, const HostArray& a) { return name == a.name; }))
-    throw h5::Error("the file has different arrays");
   for (std::size_t k = 1; k < store.arrays.size(); ++k)
-    check_array(data, store.arrays[k].name, store.arrays[k]);
+    if (contains(names, store.arrays[k].name)) check_array(data, store.arrays[k].name, store.arrays[k]);
+}
+
+/// Values where a frame has none: NaN, 0 of whole numbers.
+HostArray absent(const std::string& name, const std::string& unit, Scalar type, int components,
+                 std::size_t count) {
+  HostArray a{.name = name, .unit = unit, .type = type, .components = components, .bytes = {}};
+  const std::size_t n = count * std::size_t(components);
+  a.bytes.resize(n * size_of(type));
+  if (type == Scalar::f32) std::fill_n(a.as<float>(), n, std::numeric_limits<float>::quiet_NaN());
+  if (type == Scalar::f64) std::fill_n(a.as<double>(), n, std::numeric_limits<double>::quiet_NaN());
+  return a;
+}
+
+/// Adds the arrays that the file lacks. Its frames share as many absent values as the longest of them needs.
+void add_arrays(hid_t root, const HostStore& store, std::size_t frames, int deflate) {
+  const Handle data = h5::open_group(root, "PointData");
+  const auto names = h5::members(data);
+  const Handle offsets = h5::open_group(root, "Steps/PointDataOffsets");
+  for (std::size_t k = 1; k < store.arrays.size(); ++k) {
+    const HostArray& a = store.arrays[k];
+    if (contains(names, a.name)) continue;
+    const FrameIndex index(root);
+    std::int64_t longest = 0;
+    for (std::size_t frame = 0; frame < frames; ++frame) longest = std::max(longest, index.count(frame));
+    create_array(data, a.name, a, chunk_of(store.count), deflate);
+    const HostArray none = absent(a.name, a.unit, a.type, a.components, std::size_t(longest));
+    append_rows(open_dataset(data, a.name), h5::memory_type(a.type), none.bytes.data(), hsize_t(longest));
+    create_table(offsets, a.name, H5T_STD_I64LE, 1, kSmallChunk);
+    append_integers(offsets, a.name, std::vector<std::int64_t>(frames, 0), frames);
+  }
+}
+
+/// For an array of the file that the store lacks.
+HostArray absent(hid_t table, const std::string& name, std::size_t count) {
+  const auto n = h5::extent(table);
+  return absent(name, "-", h5::scalar_of(table), n.size() > 1 ? int(n[1]) : 1, count);
 }
 
 }  // namespace
@@ -232,6 +276,7 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
                          last_count = frames > 0 ? integer_of(root, "NumberOfPoints", last_part) : -1;
       const bool same_count = last_count == std::int64_t(store.count);
       check_arrays(root, points, store);
+      add_arrays(root, store, frames, deflate_);
 
       const std::int64_t part = same_count || frames == 0 ? last_part : last_part + 1,
                          first_cell = same_count || frames == 0 ? last_cell : last_cell + last_count;
@@ -243,10 +288,12 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
       append_integer(
           steps, "PointOffsets",
           place(open_dataset(root, "Points"), points, last_of(steps, "PointOffsets", frames), same_count));
-      for (std::size_t k = 1; k < store.arrays.size(); ++k) {
-        const auto& a = store.arrays[k];
-        const auto last = last_of(offsets, a.name, frames);
-        append_integer(offsets, a.name, place(open_dataset(data, a.name), a, last, same_count));
+      for (const auto& name : h5::members(data)) {
+        const Handle table = open_dataset(data, name);
+        const HostArray* a = store.find(name);
+        const HostArray none = a ? HostArray() : absent(table, name, store.count);
+        append_integer(offsets, name,
+                       place(table, a ? *a : none, last_of(offsets, name, frames), same_count));
       }
       append_rows(open_dataset(steps, "Values"), H5T_NATIVE_DOUBLE, &time, 1);
       h5::write_integer(steps, "NSteps", std::int64_t(frames) + 1);

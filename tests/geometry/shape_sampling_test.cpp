@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
+#include <utility>
 
+#include "bedload/geometry/slice.hpp"
 #include "mesh_support.hpp"
 
 namespace bedload::test {
@@ -222,29 +225,67 @@ TEST(ShapeSampling, RefusesWhatCannotBeFilled) {
             "wall particles: spacing = 1e-07 m is too small for a body of 3.4641 m");
 }
 
-/// How far the layout of a shape, seen from the shape, differs between two places of it; infinite where the
-/// numbers of particles do.
-double layout_change(const ShapePtr& shape, const Vec3d& shift) {
-  const auto here = sample_shape(*shape, kSpacing, kDepth);
-  Placement placement;
-  placement.translation = shift;
-  const auto there = sample_shape(*make_placed(shape, placement), kSpacing, kDepth);
+const Vec3d kShifts[] = {{0.1, 0.2, 0.3},          {-0.7, 1.0 / 3, 0.013}, {3.1, -1.7, 0.9},
+                         {0.0025, 0.005, 0.00125}, {1e-9, -1e-9, 1e-9},    {1.0 / 7, -13.37, 105.3}};  // m
+
+/// How far two layouts differ, seen from their bodies, in spacings; infinite if in number or order.
+double difference(const std::vector<Vec3d>& here, const std::vector<Vec3d>& there, const Vec3d& shift) {
   if (here.size() != there.size()) return INFINITY;
-  double most = 0;  // the order of particles may differ where they change cells
-  for (const Vec3d& x : here) {
-    double least = INFINITY;
-    for (const Vec3d& y : there) least = std::min(least, norm(x + shift - y));
-    most = std::max(most, least);
-  }
+  double most = 0;
+  for (std::size_t n = 0; n < here.size(); ++n) most = std::max(most, norm(here[n] + shift - there[n]));
   return most / kSpacing;
 }
 
 TEST(ShapeSampling, LayoutOfASmallSphereDoesNotFollowTheRoundingOfItsPlace) {
   for (int n = 125; n <= 165; n += 5) {  // across, in hundredths of a spacing
-    const double d = n * 0.01 * kSpacing;
-    for (const Vec3d& shift : {Vec3d{0.1, 0.2, 0.3}, Vec3d{-0.7, 1.0 / 3, 0.013}, Vec3d{3.1, -1.7, 0.9}})
-      EXPECT_LT(layout_change(make_sphere({0.05, 0.05, 0.05}, d / 2), shift), 1e-3)
-          << d << " m, moved by " << shift.x;
+    const double r = n * 0.005 * kSpacing;
+    const Vec3d at{0.05, 0.05, 0.05};
+    for (const Vec3d& shift : kShifts)
+      EXPECT_LT(difference(sample_shape(*make_sphere(at, r), kSpacing, kDepth),
+                           sample_shape(*make_sphere(at + shift, r), kSpacing, kDepth), shift),
+                1e-6)
+          << 2 * r << " m, moved by " << shift.x;
+  }
+}
+
+/// Shapes with sides of whole, half and other numbers of spacings, their coordinates moved by `by`.
+std::vector<std::pair<std::string, ShapePtr>> all_shapes(double a, const Vec3d& by) {
+  const auto at = [&](double x, double y, double z) { return by + a * Vec3d{x, y, z}; };
+  const auto l = std::make_shared<TriangleMesh>(l_prism(), "l", MeshOptions{.placement = {a, {}, {}}});
+  const ShapePtr box = make_box(at(0, 0, 0), at(2, 1.5, 1)), ball = make_sphere(at(0, 0, 1), a);
+  const Quat<double> turn = Quat<double>::from_rotation({0.3, 0.5, 0.2});
+  const auto turned_about = [&](const ShapePtr& shape, const Vec3d& place) {
+    return make_placed(shape, {1, turn, place - turn.rotate(place)});
+  };
+  return {
+      {"box", box},
+      {"ball", ball},
+      {"capsule", make_capsule(at(0, 0, 0), at(0, 0, 2), a / 2)},
+      {"cylinder", make_cylinder(at(0, 0, 0), at(0.3, 0.4, 2), a / 2)},
+      {"cone", make_cone(at(0, 0, 0), at(0, 0, 2), a, 0)},
+      {"pipe", make_pipe(at(0, 0, 0), at(2, 0, 0), a, a + 2 * kSpacing, PipeEnds::closed_a)},
+      {"mesh", make_placed(l, {1, {}, by})},
+      {"turned mesh", make_placed(l, {1, turn, by})},
+      {"turned box", turned_about(box, at(1, 0, 0))},
+      {"union", make_union({box, ball})},
+      {"copies", make_union({box, turned_about(box, at(3, 0, 0))})},
+      {"hollow", make_hollow(box, 2 * kSpacing)},
+      {"difference", make_difference(box, make_cylinder(at(1, 1, -1), at(1, 1, 2), a / 2))},
+      {"slice", std::make_shared<Slice>(ball, by.y, kSpacing)},
+  };
+}
+
+TEST(ShapeSampling, NoLayoutFollowsTheRoundingOfItsPlace) {
+  for (const double spacings : {1.0, 2.5}) {
+    std::vector<std::vector<Vec3d>> here;
+    for (const auto& [name, shape] : all_shapes(spacings * kSpacing, {}))
+      here.push_back(sample_shape(*shape, kSpacing, kDepth));
+    for (const Vec3d& shift : kShifts) {
+      const auto there = all_shapes(spacings * kSpacing, shift);
+      for (std::size_t n = 0; n < there.size(); ++n)
+        EXPECT_LT(difference(here[n], sample_shape(*there[n].second, kSpacing, kDepth), shift), 1e-6)
+            << there[n].first << " of " << spacings << " spacings, moved by " << shift.x << " m";
+    }
   }
 }
 

@@ -324,6 +324,7 @@ TEST(CsvTable, OtherColumnsAreRefused) {
   EXPECT_EQ(read_file(table.path()), "time [s],front [m]\n0,1\n0.1,0.3333333333333333\n");
   const std::string message = error_of([&] { table.append(1, {{"height", "m", 1}}); });
   EXPECT_NE(message.find("a.csv: has the columns 'time [s],front [m]'"), std::string::npos) << message;
+  EXPECT_NE(message.find("give the restart another --out"), std::string::npos) << message;
 }
 
 }  // namespace

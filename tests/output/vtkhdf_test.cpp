@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 
 #include "bedload/core/error.hpp"
@@ -135,14 +136,73 @@ TEST(FrameFile, DroppedFramesLeaveNoTrace) {
   }
 }
 
-TEST(FrameFile, OtherArraysAreRefused) {
+HostStore without(HostStore store, const std::string& name) {
+  std::erase_if(store.arrays, [&](const HostArray& a) { return a.name == name; });
+  return store;
+}
+
+TEST(FrameFile, ArraysThatOnlySomeFramesHaveAreAbsentInTheOthers) {
+  const test::TemporaryFolder folder;
+  const FrameFile frames(folder / "fluid.vtkhdf");
+  FakeSimulation s;
+  const auto append = [&](const HostStore& store) {
+    frames.expect(store);
+    frames.append(store, s.time());
+    frames.write_xdmf();
+    for (int n = 0; n < 6; ++n) s.step();
+  };
+  append(without(s.snapshot("fluid"), "speed"));
+  append(without(s.snapshot("fluid"), "speed"));
+  const HostStore all = s.snapshot("fluid");  // with one particle less
+  append(all);
+  append(without(without(s.snapshot("fluid"), "spin"), "id"));
+  append(without(without(s.snapshot("fluid"), "spin"), "id"));
+
+  const auto is_absent = [&](std::size_t frame, const std::string& name) {
+    const HostStore store = frames.read(frame);
+    const HostArray* a = store.find(name);
+    EXPECT_NE(a, nullptr) << name;
+    EXPECT_EQ(a->count(), store.count) << name;
+    for (std::size_t k = 0; k < a->count() * std::size_t(a->components); ++k)
+      if (!(a->type == Scalar::u32   ? a->as<std::uint32_t>()[k] == 0
+            : a->type == Scalar::f32 ? std::isnan(a->as<float>()[k])
+                                     : std::isnan(a->as<double>()[k])))
+        return false;
+    return true;
+  };
+  for (std::size_t frame = 0; frame < 5; ++frame) {
+    EXPECT_EQ(frames.read(frame).count, frame < 2 ? 7u : 6u);
+    EXPECT_EQ(is_absent(frame, "speed"), frame < 2) << frame;
+    EXPECT_EQ(is_absent(frame, "spin"), frame > 2) << frame;
+    EXPECT_EQ(is_absent(frame, "id"), frame > 2) << frame;
+  }
+  EXPECT_EQ(frames.read(2).find("speed")->bytes, all.find("speed")->bytes);
+  const auto stored = [&](const char* name) {
+    const h5::Handle file = h5::open_file(frames.path(), h5::Mode::read);
+    return rows(file, std::string("VTKHDF/PointData/") + name);
+  };
+  EXPECT_EQ(stored("speed"), 7 + 3 * 6) << "frames share what is absent";
+  EXPECT_EQ(stored("id"), 7 + 6 + 6);
+  frames.keep(1);
+  EXPECT_EQ(stored("speed"), 7);
+  EXPECT_TRUE(is_absent(0, "speed"));
+}
+
+TEST(FrameFile, ArraysOfAnotherKindAreRefused) {
   const test::TemporaryFolder folder;
   const FrameFile frames(folder / "fluid.vtkhdf");
   FakeSimulation s;
   frames.append(s.snapshot("fluid"), 0);
-  HostStore fewer = s.snapshot("fluid");
-  fewer.arrays.pop_back();
-  EXPECT_THROW(frames.append(fewer, 1), FileError);
+  HostStore other = s.snapshot("fluid");
+  other.arrays[1] = array_of("speed", "m/s", Scalar::f64, 1, std::vector<double>(other.count, 1));
+  for (const bool write : {false, true}) try {
+      write ? frames.append(other, 1) : frames.expect(other);
+      ADD_FAILURE() << "an array of doubles follows one of floats";
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find("array 'speed' has a number type"), std::string::npos)
+          << error.what();
+      EXPECT_NE(std::string(error.what()).find("give the restart another --out"), std::string::npos);
+    }
 }
 
 TEST(FrameFile, FailedWriteNamesFileAndReason) {

@@ -63,7 +63,7 @@ class Live : public ProgramTest {
       execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
       _exit(127);
     }
-    for (int n = 0; n < 500 && port_ == 0; ++n) {
+    for (int n = 0; n < 3000 && port_ == 0; ++n) {
       const std::string out = content_of(dir_ / "live.txt"), before = "http://127.0.0.1:";
       if (const auto at = out.find(before); at != out.npos && out.find('\n', at) != out.npos)
         port_ = std::stoi(out.substr(at + before.size()));

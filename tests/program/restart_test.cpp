@@ -1,10 +1,13 @@
 // What a restart makes of the results folder, and leaves alone.
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "bedload/output/h5_table.hpp"
+#include "bedload/output/vtkhdf.hpp"
 #include "run_program.hpp"
 #include "tests/support/cases.hpp"
 
@@ -120,6 +123,30 @@ TEST_F(Restart, ThatIsRefusedLeavesEveryByte) {
       EXPECT_TRUE(contents() == before) << harm.file << ": " << harm.message;
     }
   }
+}
+
+/// As after an older version, or with a law that adds a field.
+TEST_F(Restart, AddsArraysThatFormerFramesLack) {
+  const FrameFile fluid(out_ / "fluid.vtkhdf");
+  const HostStore before = fluid.read(1);
+  {
+    const h5::Handle file = h5::open_file(fluid.path(), h5::Mode::append);
+    for (const char* name : {"VTKHDF/PointData/density", "VTKHDF/Steps/PointDataOffsets/density"})
+      ASSERT_GE(H5Ldelete(file, name, H5P_DEFAULT), 0);
+  }
+  const double former = fluid.times().back();
+  const Outcome o = bedload(kRun + "--restart latest --until 0.04");
+  ASSERT_EQ(o.code, 0) << o.err;
+  ASSERT_GT(fluid.times().back(), former);
+  for (std::size_t frame = 0; frame < fluid.times().size(); ++frame) {
+    const HostStore store = fluid.read(frame);
+    const HostArray* density = store.find("density");
+    ASSERT_NE(density, nullptr);
+    ASSERT_EQ(density->count(), store.count);
+    for (std::size_t a = 0; a < store.count; ++a)
+      EXPECT_EQ(std::isnan(density->as<float>()[a]), fluid.times()[frame] <= former) << fluid.times()[frame];
+  }
+  EXPECT_EQ(fluid.read(1).find("position")->bytes, before.find("position")->bytes);
 }
 
 TEST_F(Restart, GoesOnWithoutWhatIsMissingIfAllowed) {

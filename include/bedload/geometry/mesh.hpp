@@ -44,6 +44,7 @@ class TriangleMesh : public Shape {
 
   SurfacePoint nearest(const Vec3d& x) const override;
   Bounds bounds() const override { return bounds_; }
+  ShapePtr in_frame(const Vec3d& origin, double spacing) const override;
   void add_parts(std::vector<SurfacePart>& parts, const Placement& placement) const override;
 
   /// Index of the triangle nearest to x; of those equally near any one, always the same.

@@ -23,6 +23,7 @@ struct Bounds {
     for (int k = 0; k < 3; ++k)
       min[k] = std::fmin(min[k], other.min[k]), max[k] = std::fmax(max[k], other.max[k]);
   }
+  Vec3d middle() const { return 0.5 * (min + max); }
   Bounds grown(double by) const {
     Bounds b = *this;
     for (int k = 0; k < 3; ++k) b.min[k] -= by, b.max[k] += by;
@@ -70,6 +71,9 @@ struct SurfacePart {
   double shell = 0;  ///< thickness of a wall around the shape, m; 0: the shape itself is solid
 };
 
+class Shape;
+using ShapePtr = std::shared_ptr<const Shape>;
+
 /// A solid. Its signed distance changes by no more than the way walked (Lipschitz constant 1).
 class Shape {
  public:
@@ -79,6 +83,11 @@ class Shape {
 
   /// Encloses the solid, not always tightly.
   virtual Bounds bounds() const = 0;
+
+  /// The same solid with coordinates from `origin`, rounded to decimals far below `spacing` (m) but far above
+  /// the rounding of numbers: whatever its place, the same solid from its own middle has the same digits. Use
+  /// it no longer than this one.
+  virtual ShapePtr in_frame(const Vec3d& origin, double spacing) const = 0;
 
   /// Adds the parts of its surface, moved by `placement`. Parts that lie within others do no harm. Throws
   /// CaseError where the surface has no such description.
@@ -90,8 +99,6 @@ class Shape {
   /// distance(), but true also where that is only a bound outside the solid: how large a sphere fits, m.
   virtual double clearance(const Vec3d& x) const { return distance(x); }
 };
-
-using ShapePtr = std::shared_ptr<const Shape>;
 
 // Primitives. Distances are exact; lengths in m. Sizes that make no solid raise a CaseError.
 

@@ -1,6 +1,8 @@
 #pragma once
 // Cross-section of a solid in a plane flow.
 
+#include <utility>
+
 #include "bedload/geometry/shape.hpp"
 
 namespace bedload {
@@ -8,11 +10,11 @@ namespace bedload {
 /// A slab of `thickness` (m) about the plane y = middle, throughout as the solid is in that plane.
 class Slice final : public Shape {
  public:
-  Slice(const Shape& shape, double middle, double thickness)
-      : shape_(shape), middle_(middle), half_(thickness / 2) {}
+  Slice(ShapePtr shape, double middle, double thickness)
+      : shape_(std::move(shape)), middle_(middle), half_(thickness / 2) {}
 
   SurfacePoint nearest(const Vec3d& x) const override {
-    SurfacePoint p = shape_.nearest({x.x, middle_, x.z});
+    SurfacePoint p = shape_->nearest({x.x, middle_, x.z});
     const double beyond = std::abs(x.y - middle_) - half_;
     if (beyond > std::fmax(p.distance, -1e-6 * half_)) {  // on its faces too, whatever the round-off
       const double side = x.y < middle_ ? -1 : 1;
@@ -24,16 +26,19 @@ class Slice final : public Shape {
     return p;
   }
   Bounds bounds() const override {
-    Bounds b = shape_.bounds();
+    Bounds b = shape_->bounds();
     b.min.y = middle_ - half_, b.max.y = middle_ + half_;
     return b;
   }
+  ShapePtr in_frame(const Vec3d& origin, double spacing) const override {
+    return std::make_shared<Slice>(shape_->in_frame(origin, spacing), middle_ - origin.y, 2 * half_);
+  }
   void add_parts(std::vector<SurfacePart>& parts, const Placement& placement) const override {
-    shape_.add_parts(parts, placement);
+    shape_->add_parts(parts, placement);
   }
 
  private:
-  const Shape& shape_;
+  ShapePtr shape_;
   double middle_, half_;
 };
 

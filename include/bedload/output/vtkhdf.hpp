@@ -20,10 +20,11 @@ class FrameFile {
       : path_(std::move(path)), double_points_(double_points), deflate_(deflate) {}
 
   /// Appends a frame at `time` s; the first array of the store is the position. The first frame creates the
-  /// file, unless it is `begun`. Throws FileError; on a full disk before the file is changed.
+  /// file, unless it is `begun`. Arrays that other frames have and this one lacks, or the reverse, are NaN
+  /// there, 0 if whole numbers. Throws FileError; on a full disk before the file is changed.
   void append(const HostStore& store, double time, bool begun = false) const;
 
-  /// Throws FileError if there is a file with different arrays than this store.
+  /// Throws FileError if there is a file whose arrays have other number types or components than this store.
   void expect(const HostStore& store) const;
 
   /// Times of the frames, s; none if there is no file.

@@ -32,10 +32,11 @@ using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
 
 constexpr auto kViewedLately = 3s;  // pages ask for the status every second
-constexpr auto kLastFetch = 1000ms, kIdle = 500ms, kLongestClose = 5000ms;
+constexpr auto kLastFetch = 1000ms, kIdle = 1000ms, kLongestClose = 5000ms;  // after the end of the run
 constexpr auto kRequestTimeout = 2s, kResponseTimeout = 10s;
 constexpr std::size_t kMostConnections = 64, kLongestRequest = 16384;
-constexpr const char *kHost = "127.0.0.1", *kPicture = "/picture.png", *kTable = "/tables/";
+constexpr const char *kHost = "127.0.0.1", *kStatus = "/status", *kPicture = "/picture.png",
+                     *kTable = "/tables/";
 constexpr const char* kJson = "application/json; charset=utf-8";
 constexpr const char* kPolicy =
     "default-src 'none'; connect-src 'self'; img-src 'self' blob:; style-src 'unsafe-inline'; "
@@ -113,13 +114,13 @@ struct LiveServer::Impl {
     const std::string target(request.target());
     const auto mark = std::min(target.find('?'), target.size());
     const std::string path = target.substr(0, mark);
-    if (!closing || path != "/status") asked = Clock::now();
+    if (!closing || path != kStatus) asked = Clock::now();
     if (path == "/") {
       Response r = response_of(status::ok, "text/html; charset=utf-8", kLivePage);
       r.set("Content-Security-Policy", kPolicy);
       return r;
     }
-    if (path == "/status") return response_of(status::ok, kJson, view.status());
+    if (path == kStatus) return response_of(status::ok, kJson, view.status());
     if (path == "/tables") return response_of(status::ok, kJson, view.tables());
     if (path.starts_with(kTable)) {
       auto table = view.table(path.substr(std::string_view(kTable).size()));
@@ -166,6 +167,7 @@ struct LiveServer::Impl {
       const auto& of_http = make_error_code(http::error::bad_method).category();
       if (error && error.category() != of_http) return;
       const bool draws = !error && c->request.get().target().starts_with(kPicture);
+      ++answering;
       asio::post(draws ? drawing : serving, [this, c, error]() mutable {
         try {
           c->response = error ? refusal(status::bad_request, "Bad request") : answer(c->request.get());
@@ -180,7 +182,11 @@ struct LiveServer::Impl {
 
   void write(std::shared_ptr<Connection> c) {
     c->stream.expires_after(kResponseTimeout);
-    http::async_write(c->stream, c->response, [c](beast::error_code error, std::size_t) {
+    http::async_write(c->stream, c->response, [this, c](beast::error_code error, std::size_t) {
+      // time for the next request begins when this answer, perhaps slow to draw, has been sent
+      if (c->response.result() == status::ok && !c->request.get().target().starts_with(kStatus))
+        asked = Clock::now();
+      --answering;
       // The client closes first: closing with unread data may lose the response.
       if (!error) c->stream.socket().shutdown(tcp::socket::shutdown_send, error);
       c->buffer.clear();
@@ -209,9 +215,13 @@ struct LiveServer::Impl {
       });
   }
 
+  /// Waits until viewers have seen the end and fetched the last pictures and tables.
   void close() {
     const auto from = Clock::now();
-    const auto idle = [&] { return Clock::now() - std::max(asked.load(), from + kLastFetch) > kIdle; };
+    const auto idle = [&] {
+      return view.end_seen() && answering == 0 &&
+             Clock::now() - std::max(asked.load(), from + kLastFetch) > kIdle;
+    };
     closing = true;
     if (from - asked.load() < kViewedLately)
       while (!idle() && Clock::now() - from < kLongestClose) std::this_thread::sleep_for(20ms);
@@ -223,6 +233,7 @@ struct LiveServer::Impl {
   LiveView view;
   std::atomic<Clock::time_point> asked{};
   std::atomic<bool> closing{false};
+  std::atomic<int> answering{0};  ///< requests read and not yet answered
   asio::io_context serving,
       drawing;  ///< handlers of `drawing` use sockets of `serving`, which is destroyed last
   tcp::acceptor acceptor{serving};

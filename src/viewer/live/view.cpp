@@ -139,6 +139,7 @@ double LiveView::elapsed() const { return std::chrono::duration<double>(Clock::n
 std::string LiveView::status() {
   last_request_ = Clock::now();
   const std::lock_guard lock(mutex_);
+  end_seen_ = wall_seconds_.has_value();
   const ProgressLine& p = progress_;
   Json out{{"run", id_},
            {"title", title_.empty() ? name_ : title_},

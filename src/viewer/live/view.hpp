@@ -38,6 +38,8 @@ class LiveView {
 
   /// State, progress, time and colours of the picture, as JSON. Counts as a viewer.
   std::string status();
+  /// Whether anybody has asked for the status since the end.
+  bool end_seen() const { return end_seen_; }
   /// Names, columns and lengths of all tables, as JSON.
   std::string tables() const;
   /// One table, with at most kMostRows rows, as JSON; none for an unknown name.
@@ -93,6 +95,7 @@ class LiveView {
 
   std::atomic<double> draw_seconds_{0};
   std::atomic<Clock::time_point> last_request_{};
+  std::atomic<bool> end_seen_{false};
 };
 
 }  // namespace bedload
