@@ -165,12 +165,12 @@ struct PairsOfBodyReduction {
 /// -g V at the centre of its volume, times a weight. Needed with LinearFit: in uniform pressure the force of
 /// the pairs on a body is minus the sum of the errors of the fluid around, which LinearFit removes from the
 /// fluid. Weight: smoothstep from 0 to 1 of the mean weight of LinearFit around wet particles, from 3/4 to 1,
-/// so for bodies within the fluid only. Of others, on a floor or with fluid within, the volume that pairs see
-/// tells: (1/n) sum of area . d.
+/// so for bodies within the fluid only. A body on a floor, or with fluid inside, is recognised by the volume
+/// that pairs see, (1/n) sum of area . d.
 struct CorrectBody {
-  /// Of the volume that pairs see over that of the body, by how much it may differ from 1: with the whole
-  /// weight, and with any. A box without fluid at one of its six faces has 5/6.
-  static constexpr double kWhole = 0.08, kAny = 0.16;
+  /// By how much the volume that pairs see over that of the body may differ from 1: with the whole weight,
+  /// and with any. Balls have 0.9 and more, a box without fluid at one of its six faces 5/6.
+  static constexpr double kWhole = 0.11, kAny = 0.16;
 
   Span<const EnclosedSolid> solids;
   const BodyPose* poses;

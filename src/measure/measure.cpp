@@ -278,7 +278,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
       d = sum_over<1>(state_.fluid.owned(), DamperBody{stepper_.fluid().damping(), config_.fluid.rho0,
                                                        contents, state_.fluid.compression_rate});
     const Vec3d of_fluid{c.v[0], c.v[1], c.v[2]};
-    // in the loads on bodies, which are told as the opposite of the forces of walls on the fluid
+    // part of the loads reported on bodies, and so of the opposite, the forces of walls on the fluid
     LoadSum of_bodies = LoadSum::zero();
     double power_of_bodies = 0;
     for (int b = 0; b < state_.motion.walls(); ++b) {

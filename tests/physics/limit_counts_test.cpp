@@ -124,7 +124,7 @@ TEST(LimitCounts, OfShiftingAreThoseThatShouldDriftFaster) {
 TEST(LimitCounts, OfDriftTowardsWallsAreThoseWhoseDriftEndsThere) {
   Config c = between_plates();
   c.time.integrator = TimeIntegrator::ab3;
-  Setup setup = setup_of(c);
+  auto setup = setup_of(c);
   std::mt19937 rng(3);
   std::uniform_real_distribution<double> u(-0.48, 0.48);
   for (std::size_t a = 0; a < setup.fluid.x.size(); ++a) {
@@ -224,7 +224,7 @@ end = 1
 every = 1
 )");
   for (const bool near : {false, true}) {
-    Setup setup = setup_of(c);
+    auto setup = setup_of(c);
     for (Vec3d& x : setup.fluid.x) x.x -= near ? 0.008 : 0;
     auto s = started(c, setup);
     EXPECT_EQ(reading(*s, "fluid_repelled_by_inlets"), 0) << "before the first step";
