@@ -36,7 +36,7 @@ namespace bedload::inline BL_VARIANT {
 ///
 /// kSmooth: with D, S and the limiter, else C alone. kPorous: there are grains. Shift, Fit: Shifting and
 /// LinearFit, or NoShifting and NoFit; for these a wall particle that may not pull and would have to, P_a +
-/// P_w < 0, is no neighbour: fluid that has parted from a wall is at a free surface.
+/// P_w < 0, is no neighbour, unless it is an inlet's: fluid that has parted from a wall is at a free surface.
 template <class W, class Shift, class Fit, bool kSmooth, bool kPorous, class Lengths>
 struct DensityPass {
   W w;
@@ -133,7 +133,8 @@ struct DensityPass {
     const N VF = V * F;
     sum.gradient += VF * r;
     if constexpr (Shift::acts) {
-      const N held = suction ? VF : select(sum.p_over_rho2 + mb.p_over_rho2 < N(0), N(0), VF);
+      const N pulled = select(sum.p_over_rho2 + mb.p_over_rho2 < N(0), N(0), VF);
+      const N held = suction ? VF : select(mb.frozen < N(0), VF, pulled);
       sum.shift.add_wall(VF, held, r);
       if constexpr (Fit::acts) sum.fit.add(held, mb.pressure(), r);
     }

@@ -9,14 +9,10 @@
 #include "bedload/case/limits.hpp"
 #include "bedload/case/particle_order.hpp"
 #include "bedload/core/error.hpp"
-#include "bedload/geometry/setup.hpp"
-#include "bedload/output/intervals.hpp"
 #include "commands.hpp"
-#include "prepare.hpp"
+#include "first_step.hpp"
 #include "progress.hpp"
-#include "remarks.hpp"
 #include "src/viewer/preview.hpp"
-#include "trial_simulation.hpp"
 
 namespace bedload {
 namespace {
@@ -155,29 +151,22 @@ void check(const Options& options, Prepared& p) {
                more > 0 ? fmt::format(", up to {} incl. inflow", bytes_text(bytes + more)) : "",
                bytes_text(p.device.memory));
   };
-  if (estimate > p.device.memory) {
+  FirstStep first(p, !options.restart.empty());
+  if (!first.trial) {
     print_memory("about ", estimate);
-    p.warnings.push_back(
-        "the case needs more memory than the device has free, so its step limits were not evaluated");
   } else {
-    TrialSimulation trial(p);
-    Simulation& simulation = trial.simulation();
-    const std::vector<StepLimit> steps = simulation.limits(), substeps = simulation.substep_limits();
-    const bool free_surface = c.fluid.present && (!options.restart.empty() || has_free_surface(c, p.setup));
-    fmt::print("{}", remarks_text(c, simulation.numerical_viscosity(), free_surface));
-    fmt::print("{}{}", limits_text("step", steps), limits_text("substep", substeps));
-    check_fixed_steps(p, simulation);
+    for (const Remark& remark : first.remarks) fmt::print("{:<10} {}\n", remark.about, remark.text);
+    fmt::print("{}{}", limits_text("step", first.steps), limits_text("substep", first.substeps));
+    first.take();
 
-    simulation.step();  // allocates what steps need
-    MemoryNeed memory = trial.memory();
-    const StepTiming timing = time_steps(simulation);
+    TrialSimulation& trial = *first.trial;
+    MemoryNeed memory = first.memory;
+    const StepTiming timing = time_steps(trial.simulation());
     if (trial.starts_from_settled_bed()) memory = trial.memory();  // else grains have been falling
     print_memory("", memory.all,
                  100 * memory.fast_flow_bytes > memory.all
                      ? fmt::format(", of which {} only in fast flow", bytes_text(memory.fast_flow_bytes))
                      : "");
-    for (std::string& warning : OutputIntervals(c.out).newly_below(timing.dt))
-      p.warnings.push_back(std::move(warning));
     const double count = std::ceil((c.time.end - p.begin) / timing.dt);
     const Throughput rate = throughput_of(p.device, c.precision);  // for inflow; the rest is measured
     const double fluid = 0.5 * double(later.fluid - n.fluid), grains = 0.5 * double(later.grains - n.grains);
@@ -189,7 +178,7 @@ void check(const Options& options, Prepared& p) {
                                                    timing.substeps, with_key(timing.substep_limit))
                                      : ", 1 substep per step");
     fmt::print("{}{}", fewer_steps_text(c, timing, count), fewer_substeps_text(c, timing));
-    fmt::print("{}", run_time_text(seconds, timing, free_surface && may_splash(c),
+    fmt::print("{}", run_time_text(seconds, timing, first.free_surface && may_splash(c),
                                    !trial.starts_from_settled_bed()));
     if (c.grain.present && c.grain.settle) {
       const double many = std::ceil(c.grain.settle_time / least_of(grain_limits(c)).seconds);

@@ -9,8 +9,13 @@
 
 namespace bedload {
 
+struct Remark {
+  std::string about, text;
+};
+
 /// Numerical viscosity (from Simulation::numerical_viscosity), resolution, effects of defaults, whether the
-/// viscometer takes the flow; a line each. free_surface: whether the fluid starts with one.
-std::string remarks_text(const Config& config, const std::vector<Quantity>& numerical, bool free_surface);
+/// viscometer takes the flow. free_surface: whether the fluid starts with one.
+std::vector<Remark> remarks_on(const Config& config, const std::vector<Quantity>& numerical,
+                               bool free_surface);
 
 }  // namespace bedload

@@ -341,9 +341,14 @@ class Packer {
       for (std::int64_t j = 0; j < cells[1].count; ++j)
         for (std::int64_t i = 0; i < cells[0].count; ++i) {
           const Vec3d x{cells[0].centre(i), cells[1].centre(j), cells[2].centre(l)};
-          if (inside_shape(x, r_max, slack) && placed_.is_free(x, r_max - slack) &&
-              clear_of_walls(x, r_max, slack))
+          const double outside =
+              fill_->solid.shape ? fill_->solid.shape->distance(x) - (slack - r_max) : 0;  // m
+          if (outside > 0) {  // as are all cells nearer to x than that
+            const double cells_on = std::ceil(outside / cells[0].step * (1 - 1e-9));
+            i += std::int64_t(std::min(cells_on, double(cells[0].count))) - 1;
+          } else if (placed_.is_free(x, r_max - slack) && clear_of_walls(x, r_max, slack)) {
             centres.push_back(x);
+          }
         }
     return centres;
   }

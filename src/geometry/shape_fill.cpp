@@ -124,7 +124,11 @@ void relax(const Region& region, double spacing, std::vector<Vec3d>& places) {
   constexpr int kSweeps = 80;
   const double reach = 1.6 * spacing, layer = 4 * spacing;
   std::vector<std::uint8_t> free(places.size());
-  host_for_each(places.size(), [&](std::size_t n) { free[n] = region.nearest(places[n]).distance > -layer; });
+  std::vector<double> clear(places.size());  // least depth of each place, m
+  host_for_each(places.size(), [&](std::size_t n) {
+    clear[n] = -region.nearest(places[n]).distance;
+    free[n] = clear[n] < layer;
+  });
   std::vector<Vec3d> next = places;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     const Neighbours neighbours(places, reach);
@@ -140,9 +144,13 @@ void relax(const Region& region, double spacing, std::vector<Vec3d>& places) {
       });
       const double length = norm(push);
       Vec3d x = places[n] + (length > 0.1 * spacing ? 0.1 * spacing / length : 1) * push;
-      for (int side = 0; side < 6; ++side) {  // in a corner one after the other
+      clear[n] -= std::min(length, 0.1 * spacing);
+      for (int side = 0; side < 6 && clear[n] < 0.501 * spacing; ++side) {  // in a corner one after the other
         const SurfacePoint at = region.nearest(x);
-        if (at.distance > -0.5 * spacing) x -= (at.distance + 0.5 * spacing) * at.normal;
+        clear[n] = -at.distance;
+        if (at.distance <= -0.5 * spacing) break;
+        x -= (at.distance + 0.5 * spacing) * at.normal;
+        clear[n] = 0;
       }
       next[n] = x;
     });

@@ -61,7 +61,10 @@ Stepper::Stepper(const Config& config, State& state)
     const bool wet = has_fluid() && config.couple.mode != CouplingMode::off;
     solid_solver_ = std::make_unique<SolidSolver>(solid_parameters(config), frame_, state.grain_geometry,
                                                   grains_, &bodies_, wet);
-    grain_grid_ = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, solid_solver_->range());
+    // smaller ones than fluid searches for would only be many
+    const double least_cell = wet ? config.couple.hc / 16 : 0;
+    grain_grid_ = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length,
+                           std::max(solid_solver_->range(), least_cell));
   }
   if (has_fluid())
     fluid_solver_ = FluidSolver::make(fluid_parameters(config), frame_, state.geometry, fluid_);

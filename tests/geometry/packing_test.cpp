@@ -1,5 +1,6 @@
 #include "bedload/geometry/packing.hpp"
 
+#include <atomic>
 #include <numbers>
 #include <numeric>
 
@@ -115,6 +116,41 @@ TEST(GrainPacking, SaysWhatDoesNotFit) {
   config.grain.fills[0].max.y = 0.1;
   config.grain.fills[0].count = 0;
   EXPECT_EQ(error_of(config), "grain.fill 1: holds no grain; raise its count, mass or packing_fraction");
+}
+
+/// A shape that counts how often it is looked at.
+class Counted final : public Shape {
+ public:
+  explicit Counted(ShapePtr shape) : shape_(std::move(shape)) {}
+  SurfacePoint nearest(const Vec3d& x) const override {
+    ++looks;
+    return shape_->nearest(x);
+  }
+  Bounds bounds() const override { return shape_->bounds(); }
+  ShapePtr in_frame(const Vec3d& origin, double spacing) const override {
+    return shape_->in_frame(origin, spacing);
+  }
+  void add_parts(std::vector<SurfacePart>& parts, const Placement& placement) const override {
+    shape_->add_parts(parts, placement);
+  }
+  mutable std::atomic<std::int64_t> looks{0};
+
+ private:
+  ShapePtr shape_;
+};
+
+/// Two small balls far apart: nearly all cells of the lattice are in neither.
+TEST(GrainPacking, PassesOverWhereAShapeCannotBe) {
+  Config config = grain_case({1, 1, 1});
+  config.grain.d = config.grain.d_max = config.grain.d_min = 0.006;
+  const auto counted = std::make_shared<Counted>(
+      make_union({make_sphere({0.03, 0.03, 0.03}, 0.02), make_sphere({0.97, 0.97, 0.97}, 0.02)}));
+  GrainFill& fill = config.grain.fills[0];
+  fill.solid.shape = counted;
+  fill.min = counted->bounds().min, fill.max = counted->bounds().max;
+  fill.count = 100000;
+  EXPECT_NE(error_of(config).find("enlarge it"), std::string::npos);
+  EXPECT_LT(counted->looks, 10000000) << "100 million if each cell is looked at";
 }
 
 TEST(GrainPacking, SizesComeInTheirFractions) {

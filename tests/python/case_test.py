@@ -54,6 +54,25 @@ class Cases(unittest.TestCase):
         self.assertEqual((report.fluid, report.grains), (5 * 10 * 8, 3))
         self.assertEqual(report.step_limits[report.active_limit], min(report.step_limits.values()))
 
+    def test_check_says_what_the_program_says(self):
+        for body in ("", '[[wall.body]]\nname = "pier"\nshape = "box"\nmin = [0.02, 0.02, 0]\nmax = [0.03, 0.03, 0.1]\n'):
+            with self.subTest(body=body), folder() as place:
+                path = write_case(place, TANK.replace("every = 0.005", "every = 1e-6") + body)
+                code, out, told = program("check", path, "--threads", 1)
+                self.assertEqual(code, 0, told)
+                lines = out.splitlines()
+                report = bedload.Case(path).check(threads=1)
+                self.assertEqual(report.warnings,
+                                 [line.removeprefix("warning: ") for line in lines if line.startswith("warning: ")])
+                self.assertTrue(any("out.every" in warning for warning in report.warnings))
+                printed = {line[:10].strip() + ": " + line[11:] for line in lines}
+                self.assertGreater(len(report.notes), 3)
+                for note in report.notes:
+                    self.assertTrue(note in printed or "note: " + note in printed, note)
+                about = {"viscosity", "density", "resolution", "lattice", "shifting", "tension", "waves", "wake",
+                         "contacts", "kernel", "sizes", "bed", "mirror", "viscometer", "note"}
+                self.assertEqual(sum(line.split(":")[0] in about for line in printed), len(report.notes))
+
     def test_shipped_cases_survive_being_written(self):
         for path in sorted(ROOT.glob("cases/*/case.toml"))[::4]:
             with self.subTest(case=path.parent.name):

@@ -85,6 +85,34 @@ StepInfo grown() {
   return info;
 }
 
+/// docs/laws.md: H is half the support of the kernel, h of Wendland's.
+TEST(StepLimits, AreThoseOfTheDocuments) {
+  Config c = periodic_box(8);
+  c.fluid.fills = {{c.domain.min, c.domain.max, {"3", "0", "-4"}}};
+  const auto first = [](const Config& of, Limit limit) {
+    const StepInfo info = started(of)->step();
+    EXPECT_EQ(name_of(info.limit), name_of(limit));
+    return info.dt;
+  };
+  const double H = c.fluid.h();
+  EXPECT_NEAR(first(c, Limit::cfl) / (0.25 * H / (20 + 5)), 1, 1e-5);
+  Config oil = c;
+  oil.fluid.mu = 500;
+  EXPECT_NEAR(first(oil, Limit::viscous) / (0.125 * H * H * 1000 / 500), 1, 1e-5);
+  Config driven = c;
+  driven.drive.mode = "mass";
+  driven.drive.f = {0, 3e6, 4e6};
+  EXPECT_NEAR(first(driven, Limit::body) / (0.25 * std::sqrt(H / 5e6)), 1, 1e-5);
+  Config pushed = c;
+  pushed.time.end = 1;
+  pushed.wall.bodies = {test::body("box", {0.03, 0.03, 0.03}, {0.05, 0.05, 0.05})};
+  pushed.wall.bodies[0].motion.kind = "velocity";
+  pushed.wall.bodies[0].motion.velocity = {0, 500, 0};
+  pushed.fluid.fills[0].max.z = 0.02;
+  EXPECT_NEAR(first(pushed, Limit::travel) / (0.1 * 0.01 / 500), 1, 1e-5);
+  EXPECT_NEAR(dry([](Config&) {}, 1000).dt / (0.05 * 2.7e-3 / 1000), 1, 1e-5);
+}
+
 TEST(StepLimits, EachBindsStepsAndIsNamed) {
   const std::map<Limit, std::function<StepInfo()>> cases = {
       {Limit::cfl, [] { return wet({"time.cfl=0.001"}); }},

@@ -247,11 +247,12 @@ class Report:
     substep_limits: dict[str, float]  #: s, of DEM substeps
     numerical_viscosity: dict[str, float]  #: as multiples of the physical viscosity
     warnings: list[str]
+    notes: list[str]  #: what is valid but may surprise, "resolution: ..."
 
     @property
     def active_limit(self) -> str:
-        """The limit that sets the time step."""
-        return min(self.step_limits, key=self.step_limits.get)
+        """The limit that sets the time step; empty if the case needs more memory than is free."""
+        return min(self.step_limits, key=self.step_limits.get, default="")
 
 
 class Case(Section):
@@ -321,12 +322,14 @@ class Case(Section):
         return self._read().warnings
 
     def check(self, backend: str = "auto", threads: int = 0) -> Report:
-        """As `bedload check`: places the particles and evaluates the step limits; raises CaseError as the program."""
+        """As `bedload check`, without its estimate of the run time: places the particles, evaluates the step limits,
+        does one step; raises CaseError as the program. Warnings and notes are those that the program prints."""
         found = module().check(self._read(), backend, threads)
         values = {name: {key: value[0] for key, value in found[name].items()}
                   for name in ("step_limits", "substep_limits", "numerical_viscosity")}
         fluid, walls, grains = found["counts"]
-        return Report(fluid, walls, grains, found["device"], found["memory"], **values, warnings=found["warnings"])
+        return Report(fluid, walls, grains, found["device"], found["memory"], **values, warnings=found["warnings"],
+                      notes=found["notes"])
 
     def _start(self, name: str) -> None:
         object.__setattr__(self, "_name", name)

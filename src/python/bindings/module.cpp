@@ -13,8 +13,8 @@
 #include "bedload/core/error.hpp"
 #include "bedload/output/folder_lock.hpp"
 #include "cli/commands.hpp"
+#include "cli/first_step.hpp"
 #include "cli/session.hpp"
-#include "cli/trial_simulation.hpp"
 #include "tree.hpp"
 
 namespace nb = nanobind;
@@ -142,29 +142,24 @@ nb::dict checked(const ReadCase& given, const std::string& backend, int threads)
   Options options;
   options.backend = backend;
   options.threads = threads;
-  std::vector<StepLimit> steps, substeps;
-  std::vector<Quantity> numerical;
-  std::size_t bytes = 0;
+  std::optional<FirstStep> first;
   computed([&] {
     placed(given.config.places, [&] {
       initialise(options, p);
-      TrialSimulation trial(p);
-      Simulation& simulation = trial.simulation();
-      check_fixed_steps(p, simulation);
-      steps = simulation.limits();
-      substeps = simulation.substep_limits();
-      numerical = simulation.numerical_viscosity();
-      bytes = trial.memory().all;
+      first.emplace(p, false);
+      first->take();
+      first->trial.reset();  // the lock is held
     });
   });
   nb::dict out;
   out["counts"] = nb::make_tuple(p.counts.fluid, p.counts.walls, p.counts.grains);
   out["device"] = p.device.backend + ", " + p.device.name;
-  out["memory"] = bytes;
-  out["step_limits"] = to_dict(steps);
-  out["substep_limits"] = to_dict(substeps);
-  out["numerical_viscosity"] = to_dict(numerical);
+  out["memory"] = first->memory.all > 0 ? first->memory.all : p.memory.of(p.counts);
+  out["step_limits"] = to_dict(first->steps);
+  out["substep_limits"] = to_dict(first->substeps);
+  out["numerical_viscosity"] = to_dict(first->numerical_viscosity);
   out["warnings"] = p.warnings;
+  out["notes"] = first->notes();
   return out;
 }
 
@@ -233,7 +228,7 @@ void bind_runs(nb::module_& m) {
   m.def("latest_checkpoint", &latest_checkpoint, nb::arg("folder"),
         "The newest checkpoint of a results folder.");
   m.def("check", &checked, nb::arg("case"), nb::arg("backend"), nb::arg("threads"),
-        "Places the particles, evaluates the step limits.");
+        "Places the particles, evaluates the step limits, does one step.");
 }
 
 }  // namespace

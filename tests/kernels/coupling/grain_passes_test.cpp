@@ -8,6 +8,7 @@
 #include "kernels/coupling/buoyancy_pass.hpp"
 #include "kernels/coupling/drag_noise.hpp"
 #include "kernels/coupling/drag_pass.hpp"
+#include "kernels/coupling/interpolation_pass.hpp"
 #include "kernels/coupling/porosity_pass.hpp"
 #include "kernels/coupling/wetness_pass.hpp"
 #include "kernels/smoothing/wendland_c2.hpp"
@@ -154,6 +155,59 @@ TEST(Porosity, IsWhatGrainsLeaveButNoLessThanItsFloor) {
   EXPECT_NEAR(dense.eps[0], 0.3, kNear);
   EXPECT_NEAR(dense.factor[0], 0.7 / 0.875, kNear);  // fluid and grains fill the space together
   EXPECT_NEAR(dense.flux[0].v.z, 0.7 * 2, 2 * kNear);
+}
+
+/// A grain between two fluid particles, beside a wall that takes 0.4 of its kernel.
+TEST(Interpolation, IsTheMeanOverTheFluidAndItsLostMoment) {
+  const WendlandC2 w(0.1);
+  const Real3 r[2] = {{Real(0.05), 0, 0}, {0, Real(-0.08), 0}};  // from the fluid to the grain
+  const double W[2] = {double(w.W(Real(0.05))), double(w.W(Real(0.08)))};
+  const double vw[2] = {0.2, 0.1}, S = 0.3;
+  std::vector<Real4> v_rho{{3, 0, 0, 1000}, {1, 4, 0, 900}};
+  std::vector<Real4> push{{0, 2, 0, Real(vw[0] / W[0])}, {0, 0, 5, Real(vw[1] / W[1])}};
+  std::vector<Real4> solids{{Real(0.8), 1000, 1, 0}, {Real(0.5), 900, Real(0.25), 0}};
+  std::vector<Real3> v{{1, 0, 0}}, force{{0, 0, 7}}, arm{{}}, moment{{}};
+  std::vector<Real4> volume{{0, 0, 0, 2}};
+  std::vector<Real> free{Real(0.6)}, eps{0}, bed_eps{0}, inv_S{0}, rho{0}, fast_slip{0};
+  std::vector<FlowSums<>> flow{{}}, fast{{}};
+  std::vector<SymmetricMatrix<Real>> inv_M{{}};
+  const InterpolationPass<WendlandC2, true, true> pass{.w = w,
+                                                       .S_least = Real(0.01),
+                                                       .eps_min = Real(0.3),
+                                                       .v_rho = all(v_rho),
+                                                       .fluid = {all(push), all(solids)},
+                                                       .v = all(v),
+                                                       .fluid_force = all(force),
+                                                       .volume = all(volume),
+                                                       .wall_free = all(free),
+                                                       .eps = all(eps),
+                                                       .bed_eps = all(bed_eps),
+                                                       .surroundings = {.inv_S = all(inv_S),
+                                                                        .rho = all(rho),
+                                                                        .flow = all(flow),
+                                                                        .fast = all(fast),
+                                                                        .fast_slip = all(fast_slip),
+                                                                        .stress = {all(arm), all(inv_M)},
+                                                                        .drag = {},
+                                                                        .lost_moment = all(moment)}};
+  auto sum = pass.start(0);
+  for (int a = 0; a < 2; ++a) pass.pair(sum, r[a], norm2(r[a]), Real(0), v_rho[a], push[a], solids[a]);
+  pass.finish(0, sum);
+  EXPECT_NEAR(inv_S[0], 1 / S, 10 * kNear);
+  EXPECT_NEAR(eps[0], (0.2 * 0.8 + 0.1 * 0.5) / S, kNear);
+  EXPECT_NEAR(rho[0], (0.2 * 1000 + 0.1 * 900) / S, 1000 * kNear);
+  EXPECT_NEAR(bed_eps[0], 1 - 0.3 / ((0.2 + 0.1 * 0.25) / S), kNear)
+      << "the solids by the weight that they count";
+  EXPECT_NEAR(flow[0].u.x / S, 0.4 / S, 10 * kNear);
+  EXPECT_NEAR(flow[0].u.y / S, 0.4 / S, 10 * kNear);
+  // slips 2 and 4: the mean of u^2 by the weight V W, over that of |u|
+  EXPECT_NEAR(fast_slip[0], (0.2 * 4 + 0.1 * 16) / (0.2 * 2 + 0.1 * 4), 10 * kNear);
+  const Vec3d at = Vec3d{-0.05 * 0.2, 0.08 * 0.1, 0} / S;
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(arm[0][k], at[k], kNear);
+  // V times the moment of the stress about the grain, less what the walls bear, 0.4 of the missing 0.7
+  const Vec3d turn = -(W[0] * cross(Vec3d(r[0]), Vec3d{0, 2, 0}) + W[1] * cross(Vec3d(r[1]), Vec3d{0, 0, 5}));
+  const Vec3d lost = 2.0 * turn - (0.4 / 0.7) * cross(at, Vec3d{0, 0, 7});
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(moment[0][k], lost[k], kNear * norm(turn)) << "xyz"[k];
 }
 
 TEST(DragLine, GoesThroughTheLawAtTheMeanAndTheFastSlip) {

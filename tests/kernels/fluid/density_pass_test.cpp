@@ -125,6 +125,9 @@ TEST(DensityPass, FluidThatHasPartedFromAWallIsAtAFreeSurface) {
   ASSERT_GT(norm(free.second - pressed.second), 0.1 * norm(free.second));
   EXPECT_EQ(p.at(-1.9e-3, false), pressed) << "the wall still pushes";
   EXPECT_EQ(p.at(-2.1e-3, true), pressed) << "the wall pulls";
+  p.wall_state[0].frozen = -1;
+  EXPECT_EQ(p.at(-2.1e-3, false), pressed) << "an inlet: its fluid follows";
+  p.wall_state[0].frozen = 0;
   const auto parted = p.at(-2.1e-3, false);
   EXPECT_EQ(parted.first, free.first);
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(parted.second[k], free.second[k], 1e-5 * norm(free.second));
