@@ -161,17 +161,15 @@ struct Pair {
   void follow() {
     const Frame frame{{-8, -8, -8}, {8, 8, 8}, false, false, false};
     for (Index i = 0; i < 3; ++i)
-      FollowPass{fields(), frame, all(place), all(grain_v), all(omega), all(v_rest), all(omega_rest)}(i);
+      FollowPass{fields(), frame, all(place), {all(grain_v), all(omega)}, {all(v_rest), all(omega_rest)}}(i);
   }
   LoadSum gained() {
     const GainReduction gain{.all = fields(),
                              .of = 0,
                              .mass_per_r3 = per_r3,
                              .radius = all(radius),
-                             .v = all(grain_v),
-                             .omega = all(omega),
-                             .v_rest = all(v_rest),
-                             .omega_rest = all(omega_rest)};
+                             .now = {all(grain_v), all(omega)},
+                             .rest = {all(v_rest), all(omega_rest)}};
     LoadSum sum = gain.identity();
     for (Index i = 0; i < 3; ++i) gain.combine(sum, gain(i));
     return sum;

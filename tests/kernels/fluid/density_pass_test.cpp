@@ -92,8 +92,8 @@ struct Pair {
 struct Sided : Pair {
   std::vector<Real> before{0, 0}, exposure{0};
   Sided() : Pair(1, 1) {
-    flux[0].x = 1;  // strain
-    wall_v_rho = {{0, 0, 0, Real(kRho0)}};
+    flux[0].v.x = 1;  // strain
+    wall_v_rho = {{{}, Real(kRho0)}};
     wall_state = {{.mass = Real(20 * kRho0 * cube(kH / 2)), .p_over_rho2 = Real(2e-3), .rho = Real(kRho0)}};
   }
   std::pair<double, Vec3d> at(double p_over_rho2, bool suction, bool wall = true) {
