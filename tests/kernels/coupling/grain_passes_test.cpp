@@ -163,7 +163,7 @@ TEST(Interpolation, IsTheMeanOverTheFluidAndItsLostMoment) {
   const Real3 r[2] = {{Real(0.05), 0, 0}, {0, Real(-0.08), 0}};  // from the fluid to the grain
   const double W[2] = {double(w.W(Real(0.05))), double(w.W(Real(0.08)))};
   const double vw[2] = {0.2, 0.1}, S = 0.3;
-  std::vector<Real4> v_rho{{3, 0, 0, 1000}, {1, 4, 0, 900}};
+  std::vector<VelocityDensity<>> v_rho{{{3, 0, 0}, 1000}, {{1, 4, 0}, 900}};
   std::vector<Real4> push{{0, 2, 0, Real(vw[0] / W[0])}, {0, 0, 5, Real(vw[1] / W[1])}};
   std::vector<Real4> solids{{Real(0.8), 1000, 1, 0}, {Real(0.5), 900, Real(0.25), 0}};
   std::vector<Real3> v{{1, 0, 0}}, force{{0, 0, 7}}, arm{{}}, moment{{}};
