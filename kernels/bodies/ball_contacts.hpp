@@ -8,7 +8,7 @@
 #include "kernels/contact/registry.hpp"
 #include "kernels/contact/wall_contacts.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 struct ContactBall {
   Vec3d x0;       ///< centre at t = 0, m
@@ -170,4 +170,4 @@ struct BallPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

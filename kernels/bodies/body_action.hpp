@@ -3,7 +3,7 @@
 
 #include "kernels/bodies/rigid_body.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Force 3 (N), torque about a fixed point 3 (N m), power (W); or these times s.
 struct BodyAction {
@@ -101,4 +101,4 @@ struct SumActionsPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

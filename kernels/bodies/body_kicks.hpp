@@ -3,7 +3,7 @@
 
 #include "kernels/bodies/rigid_body.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// The fields of BodyStore as kernels see them.
 struct BodyFields {
@@ -166,4 +166,4 @@ struct WallLoadReduction {
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

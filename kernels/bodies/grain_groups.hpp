@@ -5,7 +5,7 @@
 #include "kernels/bodies/body_kicks.hpp"
 #include "kernels/integrate/grain_substep.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// State of the groups, and which grains belong to them.
 struct GrainGroups {
@@ -97,4 +97,4 @@ struct GroupLoadReduction {
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "bedload/case/setup_choices.hpp"
 #include "bedload/particles/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 BL_HD Quat<double> normalised(const Quat<double>& q) {
   const double s = 1 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
@@ -168,4 +168,4 @@ struct ContactLoadReduction {
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

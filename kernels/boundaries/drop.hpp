@@ -4,7 +4,7 @@
 #include "bedload/core/frame.hpp"
 #include "bedload/core/span.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// A grain to insert.
 struct NewGrain {
@@ -50,4 +50,4 @@ struct DropPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 #include "bedload/case/config/domain.hpp"
 #include "bedload/core/frame.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// A particle that crosses a reflecting side is mirrored back, and its velocity is reversed: the normal
 /// component with slip, all components without [tsuzuki]. Its speed is unchanged. Sides have neither
@@ -68,4 +68,4 @@ class Edges {
   unsigned all_ = 0, no_slip_ = 0;                               ///< one bit per side, in the order of kFaces
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 #include "kernels/fluid/equation_of_state.hpp"
 #include "kernels/fluid/views.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Runs over the wall store: the `count` particles with ids from `first` become fluid at their position, with
 /// their velocity and the pressure extrapolated from the fluid in front. There are no grains in an orifice.
@@ -52,4 +52,4 @@ struct InsertPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 #include "bedload/core/span.hpp"
 #include "bedload/core/vec.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Disc or rectangle through which fluid flows in.
 struct Orifice {
@@ -27,4 +27,4 @@ struct Orifice {
   BL_HD double distance(const Vec3d& r) const { return std::hypot(along(r), beside(r)); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "kernels/contact/grain_mass.hpp"
 #include "kernels/walls/surface.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 constexpr std::uint32_t kSides = 6;  ///< of the domain, in the order of kFaces
 /// A particle stays, leaves through side k of the domain, or through outlet k.
@@ -139,4 +139,4 @@ struct GrainMass {
   BL_HD double operator()(Index i) const { return per_r3(i) * cube(double(radius[i])); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

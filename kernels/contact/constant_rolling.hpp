@@ -2,7 +2,7 @@
 #include "bedload/case/parameters.hpp"
 #include "kernels/contact/rolling.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Constant couple against the relative spin, He et al. (25); capped where it would reverse the spin.
 struct ConstantRolling {
@@ -28,4 +28,4 @@ struct ConstantRolling {
   BL_HD double stored(Real, Real, const Vec3d&) const { return 0; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

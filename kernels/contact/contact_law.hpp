@@ -6,7 +6,7 @@
 #include "kernels/contact/rolling.hpp"
 #include "kernels/contact/tangential.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Geometry of a contact. Walls: R_star = R, m_star = m, arm_i = R - overlap, arm_j = 0.
 struct ContactGeometry {
@@ -209,4 +209,4 @@ struct ContactLawOf {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

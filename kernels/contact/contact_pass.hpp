@@ -9,7 +9,7 @@
 #include "kernels/contact/pair_histories.hpp"
 #include "kernels/contact/registry.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Pairs of grains whose distance is below the sum of their radii, a skin and the range of lubrication; pairs
 /// within one rigid group are left out.
@@ -192,4 +192,4 @@ struct ContactPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 #include "bedload/case/parameters.hpp"
 #include "kernels/contact/rolling.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Elastic-plastic spring-dashpot, type C of [ai11]: holds slopes below mu_r.
 struct ElasticPlasticRolling {
@@ -49,4 +49,4 @@ struct ElasticPlasticRolling {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

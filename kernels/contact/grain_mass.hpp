@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/core/span.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Mass of a grain over the cube of its radius, 4/3 pi rho_s, kg/m3.
 struct MassPerR3 {
@@ -11,4 +11,4 @@ struct MassPerR3 {
   BL_HD double operator()(Index i) const { return material ? each[material[i]] : one; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/contact/normal.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Prefactor alpha of Hertz damping: sqrt 5 damping_ratio(e) where the spring may pull, else a fit
 /// (error in e below 7e-5 on [0.05, 1]).
@@ -48,4 +48,4 @@ struct Hertz {
   BL_HD Real dashpot(double, Real, Real, Real, bool) const { return 1; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

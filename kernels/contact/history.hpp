@@ -10,7 +10,7 @@
 
 #include "bedload/particles/field.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Kept for the pair (lower id, higher id), or for (grain, wall surface).
 struct ContactHistory {
@@ -102,4 +102,4 @@ BL_HD Vec3d halfway(const Vec3d& a, const Vec3d& b) {
   return size > 0 ? sum * (1 / size) : b;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

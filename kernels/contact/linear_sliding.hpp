@@ -2,7 +2,7 @@
 #include "bedload/case/parameters.hpp"
 #include "kernels/contact/tangential.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Spring of a constant fraction of the normal stiffness.
 struct LinearSliding {
@@ -28,4 +28,4 @@ struct LinearSliding {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "bedload/case/parameters.hpp"
 #include "kernels/contact/normal.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// F = k overlap, damping 2 beta sqrt(m* k).
 struct LinearSpring {
@@ -52,4 +52,4 @@ struct LinearSpring {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -3,7 +3,7 @@
 
 #include "kernels/contact/contact_law.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Two close surfaces, in contact or not. Walls: R_star = R, skew = 1, arm_j = 0.
 struct NearSurfaces {
@@ -66,4 +66,4 @@ struct Lubrication {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

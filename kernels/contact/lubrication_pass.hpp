@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/contact/contact_pass.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Lubrication between grains, scaled by the wetness of the drier one. Both partners evaluate a pair, ordered
 /// from the lower to the higher id. Runs over the threads that share the rows of the list.
@@ -46,4 +46,4 @@ struct LubricationPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

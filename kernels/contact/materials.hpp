@@ -3,8 +3,9 @@
 
 #include "bedload/case/config/contact.hpp"
 #include "bedload/case/materials.hpp"
+#include "bedload/core/types.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// The materials of both sides, and the table [contact].
 struct ContactMaterials {
@@ -17,4 +18,4 @@ struct ContactMaterials {
   double G_star() const { return 1 / tangential; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

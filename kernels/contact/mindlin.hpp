@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/contact/tangential.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Incremental Mindlin: stiffness 8 G* sqrt(R* overlap); as `democritus` S_n / (2 + 2 nu) [tsuzuki] Eq. 31,
 /// with the mean nu of both sides.
@@ -33,4 +33,4 @@ struct Mindlin {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/contact/tangential.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Mindlin-Deresiewicz curve of He et al. (19), (22): slip spreads from the rim until the stretch
 /// reaches `slip * overlap`. F_n is that of the normal spring: with damping the curve would not depend on
@@ -64,4 +64,4 @@ struct MindlinDeresiewicz {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

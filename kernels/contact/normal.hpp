@@ -16,7 +16,7 @@
 #include "bedload/core/types.hpp"
 #include "kernels/contact/materials.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// One contact along its normal: force F_n = elastic - damping v_n, v_n > 0 when receding.
 struct NormalState {
@@ -53,4 +53,4 @@ inline double damping_ratio_clipped(double e) {
   return 0.5 * (lo + hi);
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 
 #include "bedload/core/types.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// One of several laws; holds the parameters of each.
 template <class... Laws>
@@ -60,4 +60,4 @@ bool acts_as(const Any& any) {
     return any.template is<Law>();
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 
 #include "kernels/contact/history.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// By slot; null: no law needs the part.
 template <class Part>
@@ -37,4 +37,4 @@ struct PairHistoriesOf : PartArray<Parts>... {
 };
 using PairHistories = HistoryParts::Apply<PairHistoriesOf>;
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -14,7 +14,7 @@
 #include "kernels/contact/mindlin.hpp"
 #include "kernels/contact/mindlin_deresiewicz.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 template <class... Laws>
 struct LawList {
@@ -104,4 +104,4 @@ inline ContactLaw make_contact_law(const ContactMaterials& m) {
           .sliding_damping = Real(c.tangential_damping)};
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

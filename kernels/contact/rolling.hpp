@@ -10,7 +10,7 @@
 #include "kernels/contact/history.hpp"
 #include "kernels/contact/materials.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// omega is the relative spin without its part along the normal.
 struct RollingInput {
@@ -34,4 +34,4 @@ struct NoRolling {
   BL_HD double stored(Real, Real, const Vec3d&) const { return 0; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -14,7 +14,7 @@
 #include "kernels/contact/history.hpp"
 #include "kernels/contact/normal.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// What the tangential laws need to know of the normal direction.
 struct SlidingInput {
@@ -44,4 +44,4 @@ struct NoSliding {
   BL_HD double stored(const SlidingInput&, const Vec3d&) const { return 0; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 #include "kernels/contact/history.hpp"
 #include "kernels/walls/surface.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 constexpr int kMostWallContacts = 8;      ///< of one grain at once; the deepest count
 constexpr int kCountedWallContacts = 64;  ///< up to which those left out are counted
@@ -166,4 +166,4 @@ BL_HD Index left_out(const WallMemories& memories, const Surface* surfaces, int 
   return Index(max_of(found.size() - capacity, 0));
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "kernels/contact/contact_pass.hpp"
 #include "kernels/contact/wall_contacts.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Grains that may get into contact with walls, and with which surfaces, both ascending. The first surfaces
 /// of all rows are contiguous, then the second ones.
@@ -278,4 +278,4 @@ struct FillWallsPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

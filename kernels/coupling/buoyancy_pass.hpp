@@ -3,7 +3,7 @@
 #include "kernels/contact/grain_mass.hpp"
 #include "kernels/coupling/fluid_records.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Force of the fluid's stress on a grain, its buoyancy: sum_a w_ja M_a theta_a. The fluid takes the fraction
 /// eps_a of M_a theta_a, the grains the rest. Replaces V_j sum phi rho~ theta of [he18] Eqs. 27-29.
@@ -42,4 +42,4 @@ struct BuoyancyKick {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -2,7 +2,7 @@
 #include "bedload/core/span.hpp"
 #include "kernels/coupling/symmetric_matrix.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 #if BL_CUDA
 /// Type of the sum of weights, by which the others are divided: fp64 where one thread sums a long row.
@@ -81,4 +81,4 @@ struct Carriers {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

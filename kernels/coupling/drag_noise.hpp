@@ -3,7 +3,7 @@
 #include "kernels/integrate/grain_fields.hpp"
 #include "kernels/sdpd/noise.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Noise that belongs to drag in a fluid at temperature. Drag relaxes a grain's velocity to that of the fluid
 /// at the rate k = drag_coefficient / m over a step dt; the noise adds to fluid_velocity three normal
@@ -38,4 +38,4 @@ struct DragNoisePass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -3,7 +3,7 @@
 #include "kernels/coupling/own_wake.hpp"
 #include "kernels/integrate/grain_fields.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Torque of a viscous fluid on a spinning sphere per relative spin, N m s: Kirchhoff's law, then
 /// the fit of Dennis et al. (1980) above a rotational Reynolds number of 32 [dennis80].
@@ -144,4 +144,4 @@ struct DragPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

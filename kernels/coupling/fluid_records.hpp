@@ -5,7 +5,7 @@
 
 #include "kernels/coupling/orifice_weight.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Volume of the mixture that a fluid particle represents, m3.
 BL_HD Real mixture_volume(const EosState<>& state) { return state.mass_over_eps / state.rho; }
@@ -44,4 +44,4 @@ struct RecordPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

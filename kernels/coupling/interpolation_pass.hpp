@@ -3,7 +3,7 @@
 #include "kernels/coupling/carriers.hpp"
 #include "kernels/coupling/fluid_records.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Interpolated fluid around a grain, kept until the reaction is applied.
 struct GrainSurroundings {
@@ -97,4 +97,4 @@ struct InterpolationPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

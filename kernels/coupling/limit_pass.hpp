@@ -2,7 +2,7 @@
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/coupling/drag_pass.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Rate of drag on a fluid particle, with the couple: L_a / m_a = sum_j phi_ja K_ja / m_a, 1/s.
 template <class W, bool Local, bool Couple>
@@ -70,4 +70,4 @@ struct LimitPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -3,7 +3,7 @@
 #include "bedload/core/span.hpp"
 #include "kernels/boundaries/orifice.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Weight with which grains near a point count in its porosity. At an orifice it is 0, since the inflow has
 /// the density of fluid without grains; it rises to 1 over `reach`, a distance in which fluid can be
@@ -24,4 +24,4 @@ struct OrificeWeight {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

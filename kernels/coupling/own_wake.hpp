@@ -4,7 +4,7 @@
 #include "bedload/core/types.hpp"
 #include "kernels/smoothing/half_space_fraction.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Disturbance of the fluid that a single grain reads by that grain itself: the flow caused by its own drag,
 /// and its own volume. Drag laws refer to undisturbed flow. Among other grains the disturbance is part of the
@@ -45,4 +45,4 @@ struct OwnWake {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 #include "kernels/coupling/orifice_weight.hpp"
 #include "kernels/coupling/wall_free_fraction.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Whether walls may cut the kernel of each grain while it stays within `skin` (m) of its position in the
 /// list.
@@ -116,4 +116,4 @@ struct GrainsAroundPass {
   BL_HD void finish(Index a, const Sum<>& sum) const { around[a] = sum.volume; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -2,7 +2,7 @@
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/coupling/drag_pass.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Reaction of each grain on the fluid: particle a at r from it receives -w (impulse - A x r), with the drag
 /// weight w (DragWeights), and -phi (force - B x r). A couple has no net force. With M A = arm x impulse -
@@ -117,4 +117,4 @@ struct ReactionPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 #include "bedload/case/choices.hpp"
 #include "bedload/core/span.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Viscosity of a suspension over that of its fluid, by the volume fraction phi of grains:
 /// (1 - phi/phi_max)^-n, n being 2.5 phi_max [krieger59] or 2 [maron56].
@@ -27,4 +27,4 @@ struct ThickenPass {
   BL_HD void operator()(Index a) const { relative_viscosity[a] = law(1 - eps[a]); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/core/types.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Symmetric 3 x 3 matrix.
 template <class T>
@@ -53,4 +53,4 @@ struct SymmetricMatrix {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

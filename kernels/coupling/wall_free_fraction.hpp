@@ -4,7 +4,7 @@
 #include "kernels/smoothing/half_space_fraction.hpp"
 #include "kernels/walls/surface.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Fraction of the kernel around a point that is not cut off by walls. Directions are treated separately:
 /// exact for planes, and for tanks up to the kernel's deviation from a product of three factors. Boxes are
@@ -86,4 +86,4 @@ struct WallFreeFraction {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/core/span.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Wetness of each grain, from 0 to 1, by which its drag is scaled. Linear in S / S_free, the fraction of the
 /// part of the kernel not cut off by walls that fluid fills. With S_dry + S_wet = 1 a grain at a flat surface
@@ -22,4 +22,4 @@ struct WetnessPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/drag/sphere_drag.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// One continuous form from packed to dilute [difelice94].
 struct DiFelice {
@@ -14,4 +14,4 @@ struct DiFelice {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

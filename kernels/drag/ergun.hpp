@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/drag/sphere_drag.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Packed beds [ergun52].
 struct Ergun {
@@ -12,4 +12,4 @@ struct Ergun {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -2,7 +2,7 @@
 #include "kernels/drag/ergun.hpp"
 #include "kernels/drag/wen_yu.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Ergun where dense, Wen-Yu where dilute; jumps at porosity 0.8 [gidaspow94].
 struct Gidaspow {
@@ -12,4 +12,4 @@ struct Gidaspow {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

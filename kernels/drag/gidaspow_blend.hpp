@@ -2,7 +2,7 @@
 #include "kernels/drag/ergun.hpp"
 #include "kernels/drag/wen_yu.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// As gidaspow, with a smooth transition around porosity 0.8 [huilin03].
 struct GidaspowBlend {
@@ -13,4 +13,4 @@ struct GidaspowBlend {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -12,7 +12,7 @@
 #include "kernels/drag/tabulated.hpp"
 #include "kernels/drag/wen_yu.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 template <class... Laws>
 struct DragLawList {
@@ -47,4 +47,4 @@ void with_drag_law(Chosen<DragLaw> name, F&& f, const Tabulated& table = {}) {
   DragLaws::with(name, table, f);
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

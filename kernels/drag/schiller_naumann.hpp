@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/drag/sphere_drag.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// A single sphere at any Reynolds number [schiller33].
 struct SchillerNaumann {
@@ -11,4 +11,4 @@ struct SchillerNaumann {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

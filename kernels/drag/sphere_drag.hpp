@@ -7,7 +7,7 @@
 #include "bedload/case/choices.hpp"
 #include "bedload/core/types.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Reynolds number of the superficial slip.
 BL_HD Real grain_reynolds(Real eps, Real d, Real rho, Real mu, Real w) { return rho * d * eps * w / mu; }
@@ -19,4 +19,4 @@ BL_HD Real sphere_drag_factor(Real Re) {
 
 BL_HD Real stokes_drag(Real d, Real mu) { return 3 * kPi * mu * d; }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/drag/sphere_drag.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Creeping flow around a single sphere [stokes51].
 struct Stokes {
@@ -9,4 +9,4 @@ struct Stokes {
   BL_HD Real K(Real, Real d, Real, Real mu, Real) const { return stokes_drag(d, mu); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -2,7 +2,7 @@
 #include "bedload/core/span.hpp"
 #include "kernels/drag/sphere_drag.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// A law from a table of K / (3 pi mu d). ln of it is linear between porosities, and between Reynolds numbers
 /// over ln(1 + Re): constant in creeping flow, a power of Re far from it. Beyond the first and last porosity
@@ -38,4 +38,4 @@ struct Tabulated {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/drag/sphere_drag.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Dilute suspensions: a single sphere times a power of the porosity [wen66].
 struct WenYu {
@@ -12,4 +12,4 @@ struct WenYu {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "kernels/bodies/body_kicks.hpp"
 #include "kernels/coupling/symmetric_matrix.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// A linear pressure about a body's reference point, P + g . d.
 struct BodyPressure {
@@ -201,4 +201,4 @@ struct CorrectBody {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/neighbours/for_each_pair.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// With how many fluid particles within `range` of it each one approaches.
 struct CollisionCountPass {
@@ -55,4 +55,4 @@ struct CollisionPass {
   BL_HD void finish(Index a, const Sum<>& sum) const { v_next[a] = {sum.v + sum.change, v_rho[a].rho}; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -7,7 +7,7 @@
 #include "kernels/smoothing/half_space_fraction.hpp"
 #include "kernels/smoothing/lengths.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Continuity of the mixture with density diffusion. Advances s = rho / rho0 - 1 over the step dt by
 ///   ds_a/dt = (D_a - C_a / Omega_a) / (eps_a rho0) + S_a,
@@ -188,4 +188,4 @@ struct DensityPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

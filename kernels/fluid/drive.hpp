@@ -4,7 +4,7 @@
 #include "bedload/particles/fluid.hpp"
 #include "kernels/contact/grain_mass.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// A force given in a case, as it is now and where a particle is.
 struct DriveField {
@@ -92,4 +92,4 @@ struct GrainDrivePass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

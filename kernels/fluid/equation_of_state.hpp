@@ -2,7 +2,7 @@
 #include "bedload/case/config/fluid.hpp"
 #include "bedload/core/types.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Tait's equation P = B [(rho/rho0)^gamma - 1] + P_ref, rho being the density of the fluid alone
 /// [he18] Eqs. 7, 8. eos.type = "democritus", p0 (rho/rho0)^alpha - beta [tsuzuki] Eq. 17, is the same with
@@ -54,4 +54,4 @@ struct EquationOfState {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

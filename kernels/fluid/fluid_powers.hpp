@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/core/types.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Power of each term on the energy of a fluid particle and of the grains' share of it, W; and which of them
 /// act.
@@ -16,4 +16,4 @@ struct FluidPowers {
   bool spreads = false;  ///< it overfills its volume
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "kernels/fluid/pair_terms.hpp"
 #include "kernels/fluid/views.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// What a wall particle does to fluid particle a; the same terms with the opposite sign act on the wall.
 struct WallPair {
@@ -198,4 +198,4 @@ struct WallForcePass {
   BL_HD void finish(Index b, const Sum& sum) const { sum.force.write(b, force, friction); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

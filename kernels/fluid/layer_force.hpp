@@ -4,7 +4,7 @@
 #include "kernels/fluid/views.hpp"
 #include "kernels/fluid/wall_repulsion.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Depth of wall (m) for which one layer of particles stands: with the mass of that depth, Morris pairs
 /// between the layer and a linear shear flow next to it carry the shear stress of that flow. One over the
@@ -98,4 +98,4 @@ struct LayerPass {
   BL_HD void finish(Index a, const Sum& sum) const { out.add(a, sum.given.push + sum.given.damping); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 #include "bedload/core/records.hpp"
 #include "kernels/coupling/symmetric_matrix.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Correction that makes the pressure force exact for linear pressures. For P_b = P + g . (x_b - x_a) pairs
 /// sum to
@@ -91,4 +91,4 @@ struct NoFit {
   BL_HD Sum<Real> start(const EosState<>&) const { return {}; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/smoothing/lengths.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 constexpr Real kLengthGrowth = Real(1.04);  ///< of a smoothing length, before lists must be renewed
 
@@ -76,4 +76,4 @@ struct OmegaPass {
   BL_HD Real dimensions() const { return lengths.plane ? Real(2) : Real(3); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

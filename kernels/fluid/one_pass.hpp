@@ -3,7 +3,7 @@
 #include "kernels/fluid/force_pass.hpp"
 #include "kernels/integrate/fluid_kicks.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// ForcePass and DensityPass in one loop over pairs, for Adams-Bashforth steps: writes what ForcePass does
 /// and ds/dt, by which DensityHistory advances the next step. The void limiter acts on `compression_new` at
@@ -61,4 +61,4 @@ struct OnePass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -7,7 +7,7 @@
 #include "bedload/core/pack.hpp"
 #include "kernels/smoothing/lengths.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Pressure [he18] Eq. 9, [robinson14] Eq. 8. pa, pb: P / rho^2, divided by Omega where smoothing lengths
 /// vary; F: kernel factor.
@@ -115,4 +115,4 @@ struct TensileTerm {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "kernels/fluid/fluid_powers.hpp"
 #include "kernels/fluid/force_pass.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// FluidPowers of each particle, by the passes that move the fluid: power of the viscous forces; rate of
 /// elastic energy by diffusion and voids; power of the rest of the stress, which is pressure, less the rate
@@ -91,4 +91,4 @@ struct PowerPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 #include "kernels/sdpd/kernel_sums.hpp"
 #include "kernels/stress/fluid_stress.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Lees-Edwards adapter of a pass [lees72]: the loop brings unsheared positions and peculiar velocities
 /// (MeanShear); the pass gets true separations and velocities relative to that of the row.
@@ -62,4 +62,4 @@ constexpr bool kSupportsShear<SdpdForcePass<W, kSpin, kNoise, false>> = true;
 template <class Force, bool kNoise>
 constexpr bool kSupportsShear<SdpdStressPass<Force, kNoise>> = kSupportsShear<Force>;
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 #include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/coupling/symmetric_matrix.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Symmetric part of a gradient, 1/s.
 template <class N>
@@ -115,4 +115,4 @@ struct NoShifting {
   BL_HD Unread sources() const { return {}; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

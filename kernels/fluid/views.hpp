@@ -4,7 +4,7 @@
 #include "bedload/core/mean_shear.hpp"
 #include "bedload/particles/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Fluid as pair loops read it.
 struct FluidView {
@@ -54,4 +54,4 @@ struct WallBodies {
   BL_HD const BodyPose& operator[](Index w) const { return pose[of[w]]; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

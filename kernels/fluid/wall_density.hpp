@@ -5,7 +5,7 @@
 #include "kernels/coupling/symmetric_matrix.hpp"
 #include "kernels/fluid/views.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Continuity of the inner layer of frozen walls, the sum C of DensityPass over fluid; s >= `least`.
 template <class W>
@@ -105,4 +105,4 @@ struct MirrorPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

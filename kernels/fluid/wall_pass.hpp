@@ -4,7 +4,7 @@
 #include "kernels/fluid/views.hpp"
 #include "kernels/smoothing/lengths.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// State of wall particles extrapolated from the fluid around [adami12], [he18] Eqs. 13-15. With <> the mean
 /// over fluid particles a weighted by W_wa, r from a to w, and x_f the mean position of that fluid:
@@ -163,4 +163,4 @@ struct WallWorkPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

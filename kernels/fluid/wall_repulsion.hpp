@@ -4,7 +4,7 @@
 #include "kernels/fluid/shifting.hpp"
 #include "kernels/walls/surface.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Lennard-Jones-like wall repulsion [monaghan94]: D ((r0/r)^4 - (r0/r)^2) / r for r < r0, at most `cap`; r:
 /// distance from the surface. It sets the distance at which particles rest, which extrapolated pressure
@@ -158,4 +158,4 @@ struct BodyRepulsion {
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

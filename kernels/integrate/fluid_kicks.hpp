@@ -3,7 +3,7 @@
 #include "kernels/fluid/equation_of_state.hpp"
 #include "kernels/fluid/views.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// v += kick (acc + reaction); x += drift (v + beside), both put back at edges; pair loops read x from xp
 /// and, in the middle of the step, `back` earlier, from xp_mid. Of sheared fluid also the peculiar velocity
@@ -130,4 +130,4 @@ struct AdvancePass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

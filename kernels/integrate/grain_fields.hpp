@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/particles/grains.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Of grains, m/s and rad/s.
 template <class Vector>
@@ -31,4 +31,4 @@ inline DragView drag_of(const GrainStore& g) {
   return {g.fluid_velocity, g.fluid_angular_velocity, g.drag_coefficient, g.rot_drag_coefficient};
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

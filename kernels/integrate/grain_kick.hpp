@@ -7,7 +7,7 @@
 #include "kernels/contact/grain_mass.hpp"
 #include "kernels/integrate/grain_fields.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Relaxation towards the fluid in a time h at the rate k (1/s).
 struct Relaxation {
@@ -108,4 +108,4 @@ struct KickedGrain {
   Vec3d fluid_velocity_, fluid_angular_velocity_;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

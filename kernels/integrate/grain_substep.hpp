@@ -7,7 +7,7 @@
 #include "kernels/contact/contact_pass.hpp"
 #include "kernels/integrate/grain_kick.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 BL_HD Vec3d join(const Real3& most, const Real3& rest) { return Vec3d(most) + Vec3d(rest); }
 /// v rounded to the 24 bits of a float, by bit operations: GCC 12 drops double(float(v)) from vectorised
@@ -153,4 +153,4 @@ struct HeldPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

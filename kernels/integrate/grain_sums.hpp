@@ -3,7 +3,7 @@
 
 #include "kernels/contact/wall_pass.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 BL_HD bool finite(const Vec3d& a) {
   const double s = a.x * 0 + a.y * 0 + a.z * 0;
@@ -130,4 +130,4 @@ struct ListedLoadReduction {
   BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

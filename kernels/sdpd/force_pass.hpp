@@ -2,7 +2,7 @@
 #include "kernels/fluid/force_pass.hpp"
 #include "kernels/sdpd/pair_law.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Force of a wall particle w on fluid particle a. A frozen one acts as a fluid particle with the velocity
 /// and spin of the wall [tsuzuki]. Any other takes the spin of a, u = v_a - v_w + r x w_a, so that simple
@@ -187,4 +187,4 @@ struct SdpdWallForcePass {
   BL_HD void finish(Index b, const Sum& sum) const { sum.force.write(b, force, friction); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -3,7 +3,7 @@
 #include "kernels/fluid/views.hpp"
 #include "kernels/fluid/wall_mass.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Continuity of the mixture over dt, eps_a d rho_a / dt = -sum_b M_b (q_a - q_b) . r_ab F_ab, and nothing
 /// else that changes density; walls count as in DensityPass.
@@ -170,4 +170,4 @@ struct SetPressure {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

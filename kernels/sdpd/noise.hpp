@@ -9,7 +9,7 @@
 #include "bedload/core/pack.hpp"
 #include "kernels/sdpd/philox.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 // Sums of products are rounded once, and nothing else is left to the compiler, so that every build and device
 // makes the same bits.
@@ -166,4 +166,4 @@ inline Symmetric<Pack> even_normals(const NoiseKey& key, const RowId<Pack>& a, P
 }
 #endif
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/sdpd/noise.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Friction coefficients of a pair over g = V_a V_b F, Pa s: of the slip across the line of centres and of
 /// the velocity along it.
@@ -52,4 +52,4 @@ struct PairLaw {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

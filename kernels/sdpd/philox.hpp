@@ -1,9 +1,10 @@
 #pragma once
 #include <cstdint>
 
+#include "bedload/core/types.hpp"
 #include "bedload/core/vec.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Four words of 32 bits.
 struct Words {
@@ -27,4 +28,4 @@ BL_HD Words philox(Words c, std::uint32_t key_low, std::uint32_t key_high) {
   return c;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -3,7 +3,7 @@
 
 #include "bedload/core/pack.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Cubic spline in three or two dimensions, support 2h [monaghan92].
 /// The integral of W is 1, that of F r2 the number of dimensions; both vanish at and beyond the support.
@@ -40,4 +40,4 @@ struct CubicSpline {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 
 #include "bedload/core/pack.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Fraction of a smoothing kernel on one side of a plane at distance z from its centre.
 struct HalfSpaceFraction {
@@ -78,4 +78,4 @@ struct CutFraction {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 
 #include "bedload/neighbours/for_each_pair.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// F of a pair of particles with variable smoothing lengths.
 template <class N>
@@ -134,4 +134,4 @@ struct OwnLengths {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

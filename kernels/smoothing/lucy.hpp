@@ -3,7 +3,7 @@
 
 #include "bedload/core/pack.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Lucy's function in three or two dimensions; h is its support [lucy77].
 /// The integral of W is 1, that of F r2 the number of dimensions; both vanish at and beyond the support.
@@ -37,4 +37,4 @@ struct Lucy {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

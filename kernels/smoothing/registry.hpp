@@ -7,7 +7,7 @@
 #include "kernels/smoothing/lucy.hpp"
 #include "kernels/smoothing/wendland_c2.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// f(kernel) with the kernel function of that name at smoothing length h (m), for a plane flow of that
 /// `thickness` (m) where it is not 0: the choice is made here, once, on the host. Throws CaseError where a
@@ -37,4 +37,4 @@ inline double kernel_kappa(Chosen<KernelFunction> name) {
   return kappa;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/core/pack.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// The same everywhere within h, nothing beyond it. Of the coupling alone: it has no derivative.
 struct TopHat {
@@ -19,4 +19,4 @@ struct TopHat {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

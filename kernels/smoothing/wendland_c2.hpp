@@ -3,7 +3,7 @@
 
 #include "bedload/core/pack.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Wendland's C2 function in three or two dimensions, support 2h [wendland95].
 /// The integral of W is 1, that of F r2 the number of dimensions; both vanish at and beyond the support.
@@ -38,4 +38,4 @@ struct WendlandC2 {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

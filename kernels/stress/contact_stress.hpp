@@ -2,7 +2,7 @@
 #include "kernels/contact/lubrication_pass.hpp"
 #include "kernels/stress/pair_moment.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Stress of the contacts between grains at their present velocities; histories are not changed.
 struct ContactStressPass {
@@ -44,4 +44,4 @@ struct LubricationStressPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "kernels/sdpd/force_pass.hpp"
 #include "kernels/stress/pair_moment.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Of fluid particles, by parts: pressure, friction, noise (empty without any).
 struct StressParts {
@@ -104,4 +104,4 @@ struct SdpdStressPass {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -2,7 +2,7 @@
 #include "bedload/core/types.hpp"
 #include "bedload/core/vec.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Sum of F r over pairs, J: row k has component k of the force. Each partner counts half of a pair's, so
 /// that the stress of a volume is minus the sum over its particles divided by it [irving50].
@@ -21,4 +21,4 @@ struct PairMoment {
   BL_HD PairMoment times(N factor) const { return {{factor * row[0], factor * row[1], factor * row[2]}}; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

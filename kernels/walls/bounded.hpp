@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/walls/surface_data.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Of kinds that lie within their half extents along their axes.
 struct BoundedKind {
@@ -16,4 +16,4 @@ struct BoundedKind {
   BL_HD static bool within(const SurfaceData&, const Surface&, const Vec3d&, double) { return true; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

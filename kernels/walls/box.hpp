@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/walls/bounded.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Solid box, or a shell around one.
 struct BoxKind : BoundedKind {
@@ -47,4 +47,4 @@ struct BoxKind : BoundedKind {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

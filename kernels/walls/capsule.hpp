@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/walls/bounded.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Within a distance of a line; a sphere if that has no length.
 struct CapsuleKind : BoundedKind {
@@ -18,4 +18,4 @@ struct CapsuleKind : BoundedKind {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "bedload/particles/fluid.hpp"
 #include "kernels/walls/surface.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Point nearest to a place, on any of the surfaces.
 struct NearestPoint {
@@ -68,4 +68,4 @@ struct CrossingPass {
   BL_HD void finish(Index a, const Sum& sum) const { count[a] = sum.count; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/walls/bounded.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Closed surface of triangles.
 struct MeshKind : BoundedKind {
@@ -30,4 +30,4 @@ struct MeshKind : BoundedKind {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "bedload/geometry/mesh_layout.hpp"
 #include "bedload/geometry/triangle_point.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 struct MeshView {
   const MeshNode* nodes = nullptr;
@@ -128,4 +128,4 @@ struct MeshView {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

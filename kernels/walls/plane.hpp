@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/walls/surface_data.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Half-space behind a plane.
 struct PlaneKind {
@@ -17,4 +17,4 @@ struct PlaneKind {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

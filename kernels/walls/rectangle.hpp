@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/walls/bounded.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Finite patch, acts on both sides.
 struct RectangleKind : BoundedKind {
@@ -20,4 +20,4 @@ struct RectangleKind : BoundedKind {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

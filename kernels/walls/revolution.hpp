@@ -1,7 +1,7 @@
 #pragma once
 #include "kernels/walls/bounded.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// A profile turned about an axis: cylinder, cone, pipe.
 struct RevolutionKind : BoundedKind {
@@ -70,4 +70,4 @@ struct RevolutionKind : BoundedKind {
   };
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

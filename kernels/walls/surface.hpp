@@ -21,7 +21,7 @@
 #include "kernels/walls/rectangle.hpp"
 #include "kernels/walls/revolution.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 template <class... Kinds>
 struct SurfaceKinds {
@@ -159,4 +159,4 @@ struct SurfaceView {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

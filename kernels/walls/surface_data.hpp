@@ -4,7 +4,7 @@
 #include "bedload/particles/walls.hpp"
 #include "kernels/walls/mesh_view.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 enum class SurfaceKind : std::uint32_t {
   plane,       ///< half-space behind the plane
@@ -64,4 +64,4 @@ struct SurfaceData {
   const MeshView* meshes = nullptr;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -9,7 +9,7 @@
 #include "kernels/boundaries/insert.hpp"
 #include "kernels/boundaries/sinks.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr int kPlaces = 16;  // candidate positions of a grain, tested together
@@ -333,4 +333,4 @@ void OpenBoundaries::load(const std::function<double(const std::string&)>& scala
   }
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

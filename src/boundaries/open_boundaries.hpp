@@ -18,7 +18,7 @@
 #include "src/walls/wall_geometry.hpp"
 #include "src/walls/wall_motion.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 class OpenBoundaries {
  public:
@@ -92,4 +92,4 @@ class OpenBoundaries {
   Buffer<NewGrain> dropped_;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

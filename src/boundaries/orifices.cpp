@@ -2,7 +2,7 @@
 
 #include "bedload/geometry/orifice.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 std::vector<Orifice> orifices_of(const std::vector<InletConfig>& inlets, std::size_t walls, double dx,
                                  const DomainConfig& domain) {
@@ -24,4 +24,4 @@ std::vector<Orifice> orifices_of(const std::vector<InletConfig>& inlets, std::si
   return all;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,8 +1,9 @@
+#include "bedload/core/types.hpp"
 #include "src/boundaries/parameters.hpp"
 
 #include "bedload/case/config.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 OpenBoundaryParameters open_boundary_parameters(const Config& config) {
   OpenBoundaryParameters p{.has_fluid = config.fluid.present,
@@ -18,4 +19,4 @@ OpenBoundaryParameters open_boundary_parameters(const Config& config) {
   return p;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,9 +8,10 @@
 #include "bedload/case/config/grains.hpp"
 #include "bedload/case/config/openings.hpp"
 #include "bedload/case/config/walls.hpp"
+#include "bedload/core/types.hpp"
 #include "bedload/geometry/grain_source.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 struct OpenBoundaryParameters {
   bool has_fluid = false, has_grains = false;
@@ -27,4 +28,4 @@ struct OpenBoundaryParameters {
 };
 OpenBoundaryParameters open_boundary_parameters(const Config& config);
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -14,7 +14,7 @@
 #include "kernels/smoothing/registry.hpp"
 #include "kernels/smoothing/top_hat.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// f(std::true_type) or f(std::false_type).
@@ -465,4 +465,4 @@ CouplingCounters Coupling::counters(const FluidStore& fluid, const GrainStore& g
       .bent = local_slip_ ? bent_lines(grains) : 0};
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -31,7 +31,7 @@
 #include "src/solids/grain_matter.hpp"
 #include "src/walls/wall_geometry.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Counters reported per step: limiter and floor activations in the last gather and porosity.
 struct CouplingCounters {
@@ -174,4 +174,4 @@ class Coupling {
   ScratchArray<Real> rate_{of_fluid_, two_way_};
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

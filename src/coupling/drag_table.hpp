@@ -8,7 +8,7 @@
 #include "bedload/parallel/buffer.hpp"
 #include "kernels/drag/tabulated.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 class TableOfDrag {
  public:
@@ -33,4 +33,4 @@ class TableOfDrag {
   Buffer<Real> device_;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

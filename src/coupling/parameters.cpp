@@ -3,7 +3,7 @@
 #include "bedload/case/config.hpp"
 #include "src/boundaries/orifices.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 CouplingParameters coupling_parameters(const Config& config) {
   return {.couple = config.couple,
@@ -16,4 +16,4 @@ CouplingParameters coupling_parameters(const Config& config) {
           .seed = config.seed};
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -13,7 +13,7 @@ namespace bedload {
 struct Config;
 }
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 struct CouplingParameters {
   CouplingConfig couple;
@@ -27,4 +27,4 @@ struct CouplingParameters {
 };
 CouplingParameters coupling_parameters(const Config& config);
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

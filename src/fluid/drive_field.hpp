@@ -5,7 +5,7 @@
 #include "bedload/particles/scratch.hpp"
 #include "kernels/fluid/drive.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// By what drive.factor multiplies drive.f, over time and place.
 class DriveFactor {
@@ -36,4 +36,4 @@ class DriveFactor {
   ScratchArray<Real> at_{of_each_, varies_};
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "kernels/walls/crossing.hpp"
 #include "src/fluid/fluid_solver.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 template <class P>
@@ -293,4 +293,4 @@ double FluidSolver::pairs_through(const FluidStore& fluid, const SurfaceSet& sur
   return sum_over<1>(fluid.owned(), CountBody{count}).v[0] / 2;  // a pair stands in two lists
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

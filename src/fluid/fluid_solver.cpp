@@ -8,7 +8,7 @@
 #include "kernels/integrate/fluid_kicks.hpp"
 #include "src/fluid/registry.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// What bounds the next step; on the way velocities are corrected by `kick` of what the acceleration has
@@ -307,4 +307,4 @@ FluidExtremes FluidSolver::extremes() const {
   return out;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

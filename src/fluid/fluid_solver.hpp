@@ -25,7 +25,7 @@
 #include "src/walls/pressure_correction.hpp"
 #include "src/walls/wall_geometry.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Largest values that bound the next step, from one sweep over the fluid.
 struct FluidExtremes {
@@ -399,4 +399,4 @@ class FluidSolver {
   double last_dt_ = 0, dt_before_ = 0;               ///< s, of the steps between them; 0: there was none
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 #include "kernels/smoothing/registry.hpp"
 #include "src/boundaries/orifices.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// The force of a single layer, with the strength K = D / 5 of the softer one. Its particles weigh as much as
@@ -79,4 +79,4 @@ FluidParameters fluid_parameters(const Config& config) {
   return p;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -16,7 +16,7 @@ namespace bedload {
 struct Config;
 }
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 struct FluidParameters {
   /// Whether viscosity differs between particles.
@@ -54,4 +54,4 @@ struct FluidParameters {
 };
 FluidParameters fluid_parameters(const Config& config);
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

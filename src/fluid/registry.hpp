@@ -6,7 +6,7 @@
 #include "src/fluid/sdpd.hpp"
 #include "src/fluid/wcsph.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 template <class... Models>
 struct FluidModelList {
@@ -27,4 +27,4 @@ static_assert(std::all_of(kNames<FluidModel>.begin(), kNames<FluidModel>.end(),
                           [](const auto& row) { return FluidModels::holds(row.value); }),
               "a fluid model that a case may name is missing in FluidModels");
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -2,7 +2,7 @@
 #include "kernels/sdpd/pair_law.hpp"
 #include "src/fluid/fluid_solver.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Smoothed dissipative particle dynamics [espanol03]: friction and noise of pairs make up the viscosity.
 struct Sdpd {
@@ -27,4 +27,4 @@ struct SpinningSdpd {
                                            const WallGeometry& walls, FluidStore& fluid);
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -7,7 +7,7 @@
 #include "kernels/smoothing/registry.hpp"
 #include "src/fluid/sdpd.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Sums over a lattice of spacing dx around one of its points: volume times W, itself included; volume times
@@ -271,4 +271,4 @@ std::unique_ptr<FluidSolver> SpinningSdpd::make(const FluidParameters& parameter
   return make_sdpd<SpinningSdpd>(parameters, frame, walls, fluid);
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

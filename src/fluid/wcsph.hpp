@@ -1,7 +1,7 @@
 #pragma once
 #include "src/fluid/fluid_solver.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Locally averaged WCSPH, with its stabilising terms; no fields besides those of all fluids.
 struct Wcsph {
@@ -10,4 +10,4 @@ struct Wcsph {
                                            const WallGeometry& walls, FluidStore& fluid);
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -9,7 +9,7 @@
 #include "kernels/smoothing/registry.hpp"
 #include "src/fluid/wcsph.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// The passes that know the kernel function, and whether smoothing lengths are variable.
@@ -346,4 +346,4 @@ std::unique_ptr<FluidSolver> Wcsph::make(const FluidParameters& parameters, cons
   return solver;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 
 #include "src/time/coupled_simulation.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Loads on a body by their source.
@@ -231,4 +231,4 @@ std::vector<Quantity> CoupledSimulation::body_state(int body) {
   return out;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -2,7 +2,7 @@
 #include "bedload/core/frame.hpp"
 #include "bedload/particles/fluid.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Fluid as it is.
 struct FluidContents {
@@ -18,4 +18,4 @@ struct FluidContents {
   BL_HD Vec3d velocity(Index a) const { return Vec3d(v_rho[a].v); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 
 #include "bedload/core/error.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 std::string store_name(const std::string& probe) { return "probe_" + probe; }
@@ -101,4 +101,4 @@ bool ForceMeters::load(int m, const SavedState& saved) {
   return false;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -9,7 +9,7 @@
 #include "bedload/parallel/loops.hpp"
 #include "kernels/bodies/body_action.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Load on one body, by source.
 using BodyActions = std::array<BodyAction, kActionParts>;
@@ -52,4 +52,4 @@ class ForceMeters {
   Buffer<BodyAction> action_, sum_;  ///< [meters][kActionParts]
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -9,7 +9,7 @@
 #include "src/measure/fluid_contents.hpp"
 #include "src/time/coupled_simulation.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// mass, momentum 3, angular momentum 3, kinetic, potential, elastic, spin energy.
@@ -361,4 +361,4 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
   return out;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -9,7 +9,7 @@
 #include "kernels/coupling/fluid_records.hpp"
 #include "src/time/coupled_simulation.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 template <class P>
@@ -309,4 +309,4 @@ ParticleBytes CoupledSimulation::field_bytes() const {
           state_.grains.entry_bytes()};
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -11,7 +11,7 @@
 #include "src/measure/fluid_contents.hpp"
 #include "src/time/coupled_simulation.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr const char* kAxis[3] = {"x", "y", "z"};
@@ -216,4 +216,4 @@ std::vector<Quantity> CoupledSimulation::box(const ProbeConfig& p) {
   return out;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "bedload/parallel/reductions.hpp"
 #include "src/time/coupled_simulation.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr int kAtOnce = 8;  // patches in one sweep
@@ -164,4 +164,4 @@ std::vector<Quantity> CoupledSimulation::wall_pressure(const ProbeConfig& p) {
   return out;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

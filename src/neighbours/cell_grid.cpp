@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Place on the Hilbert curve of each cell of a brick (Skilling 2004: axes to transpose, then interleave).
@@ -124,4 +124,4 @@ CellGridView CellGrid::view() const {
   return v;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -3,7 +3,7 @@
 #include "bedload/parallel/loops.hpp"
 #include "kernels/contact/wall_contacts.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 template <class T>
@@ -40,4 +40,4 @@ template void Field<PackedPosition>::gather(Span<const Index>, FieldBase*);
 template void Field<PairPosition>::gather(Span<const Index>, FieldBase*);
 template void Field<WallMemory>::gather(Span<const Index>, FieldBase*);
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 
 #include "src/solids/solid_solver.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 template <class T>
@@ -77,4 +77,4 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
   histories_.assign(history);
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "bedload/particles/grains.hpp"
 #include "kernels/contact/grain_mass.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 class GrainMatter {
  public:
@@ -30,4 +30,4 @@ class GrainMatter {
   Buffer<double> each_;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

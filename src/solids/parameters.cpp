@@ -4,7 +4,7 @@
 
 #include "bedload/case/config.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Between grains of two materials.
@@ -61,4 +61,4 @@ SolidParameters solid_parameters(const Config& config) {
   return p;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -10,7 +10,7 @@
 #include "kernels/contact/lubrication.hpp"
 #include "kernels/contact/registry.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Grains that move as one body.
 struct RigidGroup {
@@ -43,4 +43,4 @@ struct SolidParameters {
 /// Throws CaseError if the restitution cannot be reached.
 SolidParameters solid_parameters(const Config& config);
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -7,7 +7,7 @@
 #include "bedload/geometry/body.hpp"
 #include "src/walls/free_bodies.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 RigidGroups::RigidGroups(const SolidParameters& parameters, const Frame& frame, GrainStore& grains)
     : groups_(parameters.groups), plane_(parameters.plane), frame_(frame), matter_(parameters.materials) {
@@ -143,4 +143,4 @@ void RigidGroups::load(const HostStore& groups, const GrainStore& grains) {
   measure(grains);
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

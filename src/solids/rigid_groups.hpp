@@ -10,7 +10,7 @@
 #include "src/solids/grain_matter.hpp"
 #include "src/solids/parameters.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 class RigidGroups {
  public:
@@ -69,4 +69,4 @@ class RigidGroups {
   Buffer<LoadSum> gained_;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -21,7 +21,7 @@
 #include "src/walls/substep_loads.hpp"
 #include "src/walls/wall_geometry.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 struct GrainKick;
 
@@ -210,4 +210,4 @@ class SolidSolver {
       omega_rest_{of_grains_};
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 
 #include "src/solids/solid_solver.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 WallMemory* const* SolidSolver::wall_memories() const {
   std::vector<WallMemory*> now;
@@ -53,4 +53,4 @@ void SolidSolver::choose_wall_law() {
   });
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

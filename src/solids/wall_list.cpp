@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 struct NoRowPass {
@@ -37,4 +37,4 @@ void WallList::cover(const GrainStore& grains, Span<const BodyPose> poses, const
   for_each({0, size()}, FillWallsPass{near, rows(), entry_.data(), row_of_});
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "kernels/contact/wall_pass.hpp"
 #include "src/walls/wall_geometry.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Lists all pairs that may be in contact while grains stay within half a skin of x_list. It is rebuilt when
 /// walls have moved further than allowed for. Superfluous entries do not change results.
@@ -43,4 +43,4 @@ class WallList {
   Buffer<Index> entry_;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

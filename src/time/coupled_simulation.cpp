@@ -1,6 +1,6 @@
 #include "src/time/coupled_simulation.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
     : config_(config), state_(config_), stepper_(config_, state_) {
@@ -48,4 +48,4 @@ std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setu
   return std::make_unique<CoupledSimulation>(config, setup);
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

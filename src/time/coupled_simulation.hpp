@@ -7,7 +7,7 @@
 #include "src/measure/force_meters.hpp"
 #include "src/time/stepper.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 class CoupledSimulation final : public Simulation {
  public:
@@ -117,4 +117,4 @@ class CoupledSimulation final : public Simulation {
   Buffer<LoadSum> meter_pressure_, meter_friction_, meter_repulsion_;  ///< scratch
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

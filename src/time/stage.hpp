@@ -10,7 +10,7 @@
 #include "bedload/particles/walls.hpp"
 #include "bedload/step_limits.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// What of a step is timed as one.
 enum class Part { lists, fluid, grains, coupling, checks };
@@ -53,4 +53,4 @@ struct Step {
   const Observer* observer = nullptr;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 
 #include "src/time/stepper.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 Fields operator+(Fields a, const Fields& b) {
@@ -401,4 +401,4 @@ void Stepper::finish(Step& now) {
   if (coupled()) coupling_->read_survey();
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

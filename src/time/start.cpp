@@ -6,7 +6,7 @@
 #include "bedload/geometry/depth.hpp"
 #include "src/time/stepper.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Initial fluid fills what the grains leave, at hydrostatic pressure and the density that goes with
@@ -186,4 +186,4 @@ void Stepper::restore_lists(const SavedState& saved) {
   if (coupled()) relist_coupling();
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 template <class To, class From>
@@ -168,4 +168,4 @@ void State::load(const Config& config, const SavedState& saved) {
   bodies.load([&](const char* name) -> const HostStore& { return store_of(saved, name); }, clock.time);
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -13,7 +13,7 @@
 #include "src/walls/wall_geometry.hpp"
 #include "src/walls/wall_motion.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// The store of that name; FileError without it.
 const HostStore& store_of(const SavedState& saved, const std::string& name);
@@ -53,4 +53,4 @@ struct State {
   const GrainMatter matter;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

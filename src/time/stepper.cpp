@@ -13,7 +13,7 @@
 #include "bedload/parallel/reductions.hpp"
 #include "bedload/particles/along.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// What a formula makes of a time is known only then.
@@ -342,4 +342,4 @@ void Stepper::remove_cleared_bodies() {
   }
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -15,7 +15,7 @@
 #include "src/time/stage.hpp"
 #include "src/time/state.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 class Stepper {
  public:
@@ -146,4 +146,4 @@ class Stepper {
   ScratchArray<Vec3d> wall_force_{of_walls_, loads_bodies()};  ///< by which free bodies move
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "bedload/geometry/body.hpp"
 #include "bedload/parallel/reductions.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -325,4 +325,4 @@ void FreeBodies::add_fluid_loads(const WallStore& walls, const Buffer<Vec3d>& fo
   for_each(store_.owned(), BodyAccelerationPass{constants_.data(), fields(), dt, followed});
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -18,7 +18,7 @@
 #include "src/walls/substep_loads.hpp"
 #include "src/walls/wall_geometry.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Loads on a body, about its centre.
 struct BodyForces {
@@ -187,4 +187,4 @@ class FreeBodies {
   } step_;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "kernels/boundaries/sinks.hpp"
 #include "src/walls/free_bodies.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -121,4 +121,4 @@ void FreeBodies::save(std::vector<HostStore>& stores) const {
   if (balls_.size() > 0) stores.push_back(memory_.save());
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -10,7 +10,7 @@
 #include "kernels/smoothing/registry.hpp"
 #include "src/walls/free_bodies.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 // -- how walls move ----------------------------------------------------------
@@ -134,4 +134,4 @@ std::vector<EnclosedSolid> held_solids(const Config& config) {
   return solids;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

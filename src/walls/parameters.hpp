@@ -15,7 +15,7 @@ namespace bedload {
 struct Config;
 }
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// A wall with any motion.
 struct MovingWall {
@@ -60,4 +60,4 @@ FreeBodyParameters free_body_parameters(const Config& config);
 /// Closed bodies in the fluid that are held or moved.
 std::vector<EnclosedSolid> held_solids(const Config& config);
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,6 +1,6 @@
 #include "src/walls/pressure_correction.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 PressureCorrection::PressureCorrection(const std::vector<EnclosedSolid>& solids, int dimensions)
     : solids_(solids), dimensions_(dimensions) {
@@ -31,4 +31,4 @@ void PressureCorrection::find(const WallStore& walls, Span<const BodyPose> poses
                                .added = added_});
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -7,7 +7,7 @@
 #include "bedload/particles/walls.hpp"
 #include "kernels/fluid/body_pressure.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// For a moment: fit(), FluidSolver::body_pressures() with its result, find().
 class PressureCorrection {
@@ -36,4 +36,4 @@ class PressureCorrection {
   Buffer<LoadSum> added_;          ///< [poses]
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 #include "bedload/parallel/loops.hpp"
 #include "kernels/bodies/rigid_body.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Loads on some wall bodies in each substep of the last step, about their centres. Stays on the device.
 class SubstepLoads {
@@ -33,4 +33,4 @@ class SubstepLoads {
   Buffer<LoadSum> loads_;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 
 #include "bedload/geometry/shape.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 Vec3d unit(int k, double sign = 1) {
@@ -130,4 +130,4 @@ void WallGeometry::add(const SurfacePart& part, std::uint32_t body) {
   surfaces_.push_back(s);
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

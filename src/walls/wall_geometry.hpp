@@ -11,7 +11,7 @@ namespace bedload {
 struct SurfacePart;
 }
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// The surfaces of wall bodies, on the device: a rectangle for each face of a tank, one surface for a box or
 /// a plane, one for each part of a shape.
@@ -46,4 +46,4 @@ class WallGeometry {
   Buffer<MeshView> device_meshes_;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

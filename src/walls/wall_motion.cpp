@@ -8,7 +8,7 @@
 #include "bedload/core/error.hpp"
 #include "kernels/fluid/views.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 struct PlacePass {
@@ -125,4 +125,4 @@ void WallMotion::place(const Frame& frame, WallStore& walls, Span<const BodyPose
   for_each(images.owned(), PlacePass{frame, placed, images.x0, images.x});
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 #include "src/walls/free_bodies.hpp"
 #include "src/walls/parameters.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Moves all bodies, SPH particles and DEM surfaces by one law; poses live on the device. Free bodies are
 /// where their state puts them, whatever the time. The fluid on its way through each inlet is a body too,
@@ -66,4 +66,4 @@ class WallMotion {
   Rows along_, at_, in_step_;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

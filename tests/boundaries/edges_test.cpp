@@ -7,7 +7,7 @@
 #include "src/time/coupled_simulation.hpp"
 #include "tests/boundaries/support.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 const Vec3d kHigh{0.2, 0.3, 0.25};  // the lower corner is at 0
@@ -281,4 +281,4 @@ velocity = [1, 2, -3]
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

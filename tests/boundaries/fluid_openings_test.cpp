@@ -11,7 +11,7 @@
 #include "tests/boundaries/support.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// A duct without walls, periodic across, 8 x 8 particles wide; inlet at x = 0, outlet from x = 0.2 on.
@@ -465,4 +465,4 @@ every = 1
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -7,7 +7,7 @@
 #include "bedload/geometry/grain_source.hpp"
 #include "tests/boundaries/support.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// A closed funnel with grains dropped in at the top.
@@ -271,4 +271,4 @@ every = 1
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "tests/boundaries/support.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kWidth = 0.08, kRate = 0.0032, kLayer = 64e-3;  // m, m3/s, kg
@@ -130,4 +130,4 @@ spin = [0, 3, 0]
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

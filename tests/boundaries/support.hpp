@@ -8,7 +8,7 @@
 #include "bedload/case/read.hpp"
 #include "tests/support/run.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 inline Config config_of(const std::string& text) {
   std::vector<std::string> warnings;
@@ -36,4 +36,4 @@ inline void expect_restart_is_bit_equal(Simulation& s, const Config& config, int
   EXPECT_EQ(bits(s), bits(*copy));
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

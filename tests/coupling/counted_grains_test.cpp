@@ -8,7 +8,7 @@
 #include "tests/support/run.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Grains of one spacing on one in twelve sites of a periodic box, where they replace fluid.
@@ -83,4 +83,4 @@ TEST(SmallCountedGrains, AreLeftOutIfNotAsked) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

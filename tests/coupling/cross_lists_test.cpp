@@ -6,7 +6,7 @@
 #include "bedload/neighbours/verlet_list.hpp"
 #include "tests/support/coupled_box.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 using Rows = std::vector<std::vector<Index>>;
@@ -106,4 +106,4 @@ INSTANTIATE_TEST_SUITE_P(Small, CrossLists,
                                          Case{false, true, false, 0.35, 0.6}));
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

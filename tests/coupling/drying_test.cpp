@@ -5,7 +5,7 @@
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 struct Exchange {
@@ -130,4 +130,4 @@ TEST(Drying, ACoupleNeedsASpreadOfFluid) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "tests/support/coupled_box.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Irregular fluid full of grains; K dt / m of the order of one.
@@ -369,4 +369,4 @@ TEST(SmallExchange, RunsEveryKernel) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

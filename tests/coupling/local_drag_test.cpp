@@ -9,7 +9,7 @@
 #include "tests/support/coupled_box.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 TEST(DragLine, MeetsTheLawAtBothSlipsAndStaysPositive) {
@@ -146,4 +146,4 @@ TEST(LocalDrag, BesideAnOrificeIsThatOfTheBed) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -9,7 +9,7 @@
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// A periodic cubic lattice of grains of diameter 0.1 and fluid anywhere in it.
@@ -428,4 +428,4 @@ TEST(Porosity, FollowsGrainsThatMoveWithinTheSkin) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -7,7 +7,7 @@
 #include "tests/support/coupled_box.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kGrainMass = 2, kDiameter = 0.05, kStep = 0.1;
@@ -227,4 +227,4 @@ TEST(SpinDecay, OfAGrainInStillFluidIsKirchhoffs) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 #include "tests/support/fluid_box.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Particles on a line along x in a periodic box, m and m/s, of their masses in kg.
@@ -78,4 +78,4 @@ TEST(Collision, KeepsTheMomentumOfAFluidAndTakesEnergy) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

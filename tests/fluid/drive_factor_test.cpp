@@ -5,7 +5,7 @@
 #include "tests/support/fluid_box.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 struct FactorOf {
@@ -48,4 +48,4 @@ TEST(DriveFactorSmall, IsTheFormulaOfTheHost) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "tests/support/fluid_box.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// 10^3 particles, random places, masses, velocities and densities, every pair term on.
@@ -242,4 +242,4 @@ TEST(FluidPairs, RepulsionVanishesAtItsRange) {  // T-17
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -7,7 +7,7 @@
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kSurface = 9, kTop = 13;  // the wall lies between, four layers thick
@@ -171,4 +171,4 @@ TEST(FrozenWalls, ChangeTheDensityOfWcsphAsFluidOfTheirMass) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

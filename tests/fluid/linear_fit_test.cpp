@@ -8,7 +8,7 @@
 #include "tests/support/free_body.hpp"
 #include "tests/support/run.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kSlope = 1000, kLeast = 1000;  // Pa/m, Pa
@@ -121,4 +121,4 @@ TEST(SmallLinearFit, TellsTheMomentumThatItAdds) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 #include "tests/support/fluid_box.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kRate = 0.7, kSide = 8;  // 1/s, m
@@ -90,4 +90,4 @@ TEST(SmallMeanShear, ImagesAreWhatAStackedBoxHolds) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

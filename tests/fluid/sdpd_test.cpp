@@ -7,7 +7,7 @@
 #include "tests/support/fluid_box.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -306,4 +306,4 @@ TEST(Sdpd, ForceScaleSwitchesPartsOff) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "tests/support/run.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kShift = 200;
@@ -170,4 +170,4 @@ TEST(SlowShifting, ActsInThreeDimensionsAndAmongGrains) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -3,7 +3,7 @@
 #include "tests/support/fluid_box.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// A box of which the upper half is three times as viscous.
@@ -138,4 +138,4 @@ TEST(Species, LayersShareTheStressOfShear) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

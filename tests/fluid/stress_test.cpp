@@ -6,7 +6,7 @@
 #include "tests/support/fluid_box.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kDt = 0.01;  // s, by which the noise goes
@@ -93,4 +93,4 @@ TEST(SmallStress, PressureIsThePartWithoutViscosity) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "tests/support/fluid_box.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kJitter = 0.2;
@@ -215,4 +215,4 @@ TEST(SmallVariableH, LengthsKeepWithinTheirBounds) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

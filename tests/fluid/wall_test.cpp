@@ -12,7 +12,7 @@
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// One wall particle at the origin and the pass that gives it its state.
@@ -276,4 +276,4 @@ TEST(WallFlow, NoFluidPassesAWall) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 #include "kernels/integrate/fluid_kicks.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Rates a + b t + c t2 at the ends of steps h2, h1 before a step dt; its exact integral from 0 to dt.
@@ -35,4 +35,4 @@ TEST(DensityHistory, IsExactToItsOrderForStepsThatVary) {
 TEST(DensityHistory, WithoutRatesNothingChanges) { EXPECT_EQ(DensityHistory()(0), 0); }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -15,7 +15,7 @@
 #include "tests/support/contact_law.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// f(enumerator) for every name that a key of type E may have.
@@ -365,4 +365,4 @@ TEST(SmallKernelSuite, FallsOffAndScalesWithItsLength) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

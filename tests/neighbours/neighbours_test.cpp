@@ -12,7 +12,7 @@
 #include "kernels/smoothing/registry.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 struct Cloud {
@@ -383,4 +383,4 @@ TEST(CellGrid, TakesMemoryWhenFirstLookedAt) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -12,7 +12,7 @@
 #include "bedload/parallel/compact.hpp"
 #include "bedload/parallel/overlap.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Nothing, one, and about what a block, a chunk and a level of partial results hold.
@@ -214,4 +214,4 @@ TEST(Buffer, IsCountedKeepsWhatFitsAndFillsTheRestWithZero) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 struct Solver {
@@ -31,4 +31,4 @@ TEST(Scratch, TakesWhatItCounts) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 
 #include "bedload/parallel/compact.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 struct Pairs : Store {
@@ -133,4 +133,4 @@ TEST(Store, NothingMayBeLeft) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "tests/boundaries/support.hpp"
 #include "tests/support/cases.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Grains that fall into each other and onto the floor of a tank of water.
@@ -88,4 +88,4 @@ TEST(Choices, OfTheCouplingRun) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -10,7 +10,7 @@
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -377,4 +377,4 @@ TEST(SlowCoupledFlow, OneWayTerminalVelocity) {  // T-37
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

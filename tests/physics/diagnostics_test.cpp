@@ -9,7 +9,7 @@
 #include "tests/support/stage_cases.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 Config config_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
@@ -146,4 +146,4 @@ TEST(SmallDiagnostics, HaveTheEnergyOfSpins) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -2,7 +2,7 @@
 #include "tests/boundaries/support.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Grains of two sizes far apart in a periodic box, of glass and of steel.
@@ -134,4 +134,4 @@ TEST(Drive, FormulasGoOnAfterARestart) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

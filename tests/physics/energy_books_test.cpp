@@ -7,7 +7,7 @@
 #include "tests/support/run.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -120,4 +120,4 @@ TEST(SmallEnergyBooks, TellThePowerOfViscosity) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -9,7 +9,7 @@
 #include "tests/support/free_body.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Fluid where `wet` says on a lattice that leaves out the bodies, and their wall particles.
@@ -326,4 +326,4 @@ TEST(FreeBodyInFluidRestart, GoesOnBitForBit) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

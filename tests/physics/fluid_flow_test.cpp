@@ -8,7 +8,7 @@
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -378,4 +378,4 @@ TEST_P(SmallSimulation, WaterRestsOverASlidingFloor) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -9,7 +9,7 @@
 #include "tests/support/free_body.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kG = 9.81;
@@ -416,4 +416,4 @@ TEST(ForceProbeInOil, LeavesBodiesOutThatAreNotSurrounded) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

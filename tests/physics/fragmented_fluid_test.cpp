@@ -5,7 +5,7 @@
 #include "tests/boundaries/support.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Height of water that begins `apart` spacings apart, over the height that its mass asks for, after `end` s.
@@ -49,4 +49,4 @@ TEST(FragmentedFluid, FallsTogetherFromAfarInOnePassAsInTwo) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

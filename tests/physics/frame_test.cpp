@@ -8,7 +8,7 @@
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// From rest without a jerk, up to 7.9 m/s2 at 10 Hz.
@@ -145,4 +145,4 @@ TEST(ShakenGrain, FliesAsSeenFromTheLab) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "tests/support/free_body.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// A lone box without gravity that touches nothing.
@@ -488,4 +488,4 @@ TEST(FreeBodyRestart, GoesOnBitForBit) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "tests/boundaries/support.hpp"
 #include "tests/geometry/mesh_support.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// How much is shaken and how long: BEDLOAD_LEAK="fluid grains seconds" if that is set.
@@ -118,4 +118,4 @@ TEST(SlowLeak, NothingLeavesAShakenVesselOfTriangles) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

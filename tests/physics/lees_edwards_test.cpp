@@ -9,7 +9,7 @@
 #include "tests/support/run.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// In reduced units: spacing and mass of a particle are one.
@@ -140,4 +140,4 @@ TEST(LeesEdwards, ContinuesBitForBit) {  // over rebuilds, and a strain that has
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -9,7 +9,7 @@
 #include "tests/boundaries/support.hpp"
 #include "tests/support/free_body.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Fluid between two plates, at rest.
@@ -255,4 +255,4 @@ TEST(LimitCounts, OfContactsAreThoseBeyondEight) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

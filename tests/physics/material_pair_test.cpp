@@ -4,7 +4,7 @@
 
 #include "tests/support/free_body.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kG = 9.81, kFriction[] = {0.2, 0.35, 0.5};
@@ -58,4 +58,4 @@ TEST(MaterialPairs, SlideWhereTheSlopeExceedsTheirFriction) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 #include "tests/support/free_body.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kLong = 0.37, kMiddle = 0.085;  // m
@@ -322,4 +322,4 @@ TEST(PlaneBodyInFluid, NeverLeavesThePlane) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

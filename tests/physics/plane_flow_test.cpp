@@ -10,7 +10,7 @@
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kG = 9.81, kDx = 0.01, kLong = 0.37;
@@ -183,4 +183,4 @@ TEST(PlaneFlow, RefusesFluidThatLeavesThePlane) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -11,7 +11,7 @@
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kDx = 0.01;
@@ -248,4 +248,4 @@ TEST(SmallFrontProbe, IsTheOuterEdgeOfTheLastParticle) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -9,7 +9,7 @@
 #include "tests/support/free_body.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kDiameter = 6e-3;  // m
@@ -215,4 +215,4 @@ TEST(SlowRigidGroup, BlockOfConstantPorositySinksAtItsTerminalVelocity) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 #include "tests/support/free_body.hpp"
 #include "tests/support/saddle.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kStart = 5;  // degrees from the top
@@ -84,4 +84,4 @@ TEST(Saddle, AFreeBallRollsOffTwoWalls) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

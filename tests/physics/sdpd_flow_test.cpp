@@ -11,7 +11,7 @@
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// A periodic box in reduced units: spacing and mass of a particle are one.
@@ -319,4 +319,4 @@ TEST(SlowSdpdSlurry, HasOneTemperature) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -2,7 +2,7 @@
 // interface.
 #include "tests/boundaries/support.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// The case taylor_couette_two_fluids, for a shorter time.
@@ -110,4 +110,4 @@ TEST(SlowTwoFluids, SpinAloneHasTheSymmetricStress) {  // root mean square over 
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

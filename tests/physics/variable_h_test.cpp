@@ -6,7 +6,7 @@
 #include "tests/boundaries/support.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Rows of particles in a plane 60 mm wide, 24 in the lowest and one less every other row: the spacing grows
@@ -168,4 +168,4 @@ TEST(SmallVariableHFlow, AmongGrainsLengthsGrowAndGoOnFromACheckpointBitForBit) 
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kG = 9.81;
@@ -323,4 +323,4 @@ TEST(SmallThinWalls, CountPairsThatSeeEachOtherThroughThem) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

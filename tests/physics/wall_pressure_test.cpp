@@ -8,7 +8,7 @@
 #include "tests/support/run.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kG = 9.81, kDx = 0.01;
@@ -170,4 +170,4 @@ TEST(SmallForceProbe, TellsPressureFromFriction) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

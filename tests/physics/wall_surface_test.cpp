@@ -2,7 +2,7 @@
 
 #include "tests/boundaries/support.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// A block of water that flies into the corner of a closed box at 30 m/s.
@@ -179,4 +179,4 @@ every = 1
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 TEST(SmallContactStress, OfPairsIsWhatForcesOnGrainsComeTo) {
@@ -34,4 +34,4 @@ TEST(SmallContactStress, OfPairsIsWhatForcesOnGrainsComeTo) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 // The grain's side of the coupling: drag is integrated exactly while the fluid is frozen.
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// One grain in a fluid of velocity U with drag coefficients K (kg/s) and K_rot (N m s).
@@ -155,4 +155,4 @@ TEST(GrainDrag, FluidForceActsAsAnyOther) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -3,7 +3,7 @@
 
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Two grains that just touch and approach each other at `speed`; returns the ratio of speeds after and
@@ -204,4 +204,4 @@ TEST(Impact, FrictionlessElasticGasKeepsEnergy) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

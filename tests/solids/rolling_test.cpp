@@ -1,7 +1,7 @@
 // A sphere on a plane: sliding, rolling, stopping, resting.
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kG = 9.81;
@@ -113,4 +113,4 @@ TEST(Rolling, BeltDragsTheGrainUntilItRolls) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "tests/geometry/mesh_support.hpp"
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kLength = 0.1, kWidth = 0.05, kDepth = 0.02, kSeam = kLength / 12;
@@ -243,4 +243,4 @@ TEST(Seams, BetweenMaterialsGiveNoEnergy) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

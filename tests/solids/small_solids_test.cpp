@@ -1,7 +1,7 @@
 // Every kernel of the solid solver once, in little time: what sanitizers run.
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 TEST(SmallSolids, EveryKernelRuns) {
@@ -40,4 +40,4 @@ TEST(SmallSolids, EveryKernelRuns) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

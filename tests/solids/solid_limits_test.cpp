@@ -4,7 +4,7 @@
 
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 std::map<Limit, double> limits(const GrainBench& b) {
@@ -62,4 +62,4 @@ TEST(SolidLimits, TheSmallestGrainDecides) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

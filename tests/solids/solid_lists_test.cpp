@@ -8,7 +8,7 @@
 #include "bedload/core/error.hpp"
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 using Pair = std::pair<Id, Id>;
@@ -306,4 +306,4 @@ TEST(SolidLists, NoGrainsAtAllIsFine) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

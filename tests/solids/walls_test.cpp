@@ -4,7 +4,7 @@
 
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 WallBody box(const Vec3d& min, const Vec3d& max, const char* shape = "box") {
@@ -327,4 +327,4 @@ TEST(Walls, HaveFrictionAndRestitutionOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

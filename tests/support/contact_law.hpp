@@ -2,9 +2,9 @@
 #include "bedload/case/config.hpp"
 #include "src/solids/parameters.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// The laws of contact between grains of a case, of the first material.
 inline ContactLaw contact_law_of(const Config& config) { return solid_parameters(config).pair_laws[0]; }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

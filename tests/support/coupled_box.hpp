@@ -9,7 +9,7 @@
 #include "kernels/smoothing/registry.hpp"
 #include "src/coupling/coupling.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 struct Cloud {
   std::vector<Vec3d> x, v;                 ///< m, m/s
@@ -166,4 +166,4 @@ inline Config unit_box(double hc, double mu) {
   return c;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

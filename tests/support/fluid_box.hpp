@@ -9,7 +9,7 @@
 #include "src/fluid/fluid_solver.hpp"
 #include "src/walls/wall_motion.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// A periodic cube of n^3 particles, water-like, no gravity.
 inline Config periodic_box(int n, double dx = 0.01) {
@@ -99,4 +99,4 @@ struct FluidBox {
   std::vector<double> mass, s;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

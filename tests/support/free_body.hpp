@@ -6,7 +6,7 @@
 #include "tests/support/run.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// A case without fluid or grains, in a cube of 2 m.
 inline Config void_case() {
@@ -53,4 +53,4 @@ inline Quat<double> rotation_of(const std::vector<Quantity>& rows) {
   return {reading(rows, "rotation_w"), u.x, u.y, u.z};
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

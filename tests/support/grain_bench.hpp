@@ -12,7 +12,7 @@
 #include "tests/support/tolerance.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 class GrainBench {
  public:
@@ -141,4 +141,4 @@ class GrainBench {
   Buffer<BodyPose> poses_;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "bedload/simulation.hpp"
 #include "tests/support/fluid_box.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup);
 
@@ -87,4 +87,4 @@ inline std::vector<std::byte> bits(Simulation& s) {
   return out;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 
 #include "bedload/core/types.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 struct Saddle {
   static constexpr double kG = 9.81;  ///< m/s2
@@ -31,4 +31,4 @@ struct Saddle {
   double released(double v) const { return std::acos(std::cbrt(v * v / (kG * orbit()))) * 180 / M_PI; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -9,7 +9,7 @@
 #include "bedload/geometry/setup.hpp"
 #include "src/time/coupled_simulation.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 using test::StageField, test::StageFields;
@@ -148,4 +148,4 @@ std::unique_ptr<test::StagedRun> staged_run(const Config& config) {
   return std::make_unique<VariantRun>(config);
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/core/types.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// The tolerance of this build's precision.
 constexpr double tolerance(double in_double, double in_mixed, double in_single) {
@@ -10,4 +10,4 @@ constexpr double tolerance(double in_double, double in_mixed, double in_single) 
 /// Conserved sums, against the sum of magnitudes.
 constexpr double kInvariant = tolerance(1e-12, 1e-6, 1e-5);
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -11,7 +11,7 @@
 #include "src/time/coupled_simulation.hpp"
 #include "tests/support/stage_cases.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 using test::kBed, test::kFluid, test::kTank;
@@ -183,4 +183,4 @@ TEST(ScratchBytes, AreThoseOfTheCase) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

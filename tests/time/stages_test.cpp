@@ -11,7 +11,7 @@
 #include "tests/support/run.hpp"
 #include "tests/support/stage_cases.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 using test::kFluid, test::kGate, test::kGrains, test::kTank;
@@ -279,4 +279,4 @@ TEST(Stages, StandInTheDocuments) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -10,7 +10,7 @@
 #include "tests/support/cases.hpp"
 #include "tests/support/free_body.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 using Overrides = std::vector<std::string>;
@@ -190,4 +190,4 @@ TEST(StepLimits, MoreThanAMillionSubstepsAreRefused) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -7,7 +7,7 @@
 #include "bedload/parallel/loops.hpp"
 #include "bedload/parallel/stopwatch.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 /// Keeps one thread busy.
@@ -46,4 +46,4 @@ TEST(SmallStopwatch, CountsEachLapForItsPart) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

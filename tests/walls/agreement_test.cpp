@@ -3,7 +3,7 @@
 #include "tests/geometry/mesh_support.hpp"
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 using namespace bedload::test;
@@ -171,4 +171,4 @@ TEST(SlowWallAgreement, ADrumAsCylinderAndAsMeshCarriesABedAlike) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

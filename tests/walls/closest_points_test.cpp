@@ -8,7 +8,7 @@
 #include "tests/geometry/mesh_support.hpp"
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 using namespace bedload::test;
@@ -457,4 +457,4 @@ TEST(MeshContacts, ADrumAsCylinderAndAsMeshCarriesAGrainAlike) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 
 #include "bedload/core/pack.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 struct alignas(16) PackedPosition {
   float x = 0, y = 0, z = 0;
@@ -170,4 +170,4 @@ BL_HD P as_position(const Frame& f, const Vec3d& x) {
     return x;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -3,7 +3,7 @@
 
 #include "bedload/core/types.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Flow along x with a mean gradient along z, at rest in the middle of the box. Loops over pairs see
 /// positions that are sheared back by the strain, among which the box and its images are a lattice of right
@@ -35,4 +35,4 @@ struct MeanShear {
   double stretch() const { return std::abs(strain) / 2 + std::sqrt(1 + strain * strain / 4); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -7,7 +7,7 @@
 
 #include "bedload/core/types.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// yes ? a : b, lane by lane for packs; both are evaluated.
 template <class N>
@@ -181,4 +181,4 @@ template <class J>
 }
 #endif
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

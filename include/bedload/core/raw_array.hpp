@@ -3,7 +3,7 @@
 
 #include "bedload/core/types.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// An array of which nothing is set before it is assigned: on a GPU setting it is work of every thread.
 template <class T, int N>
@@ -18,4 +18,4 @@ class RawArray {
   alignas(T) unsigned char bytes_[N * sizeof(T)];
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -4,7 +4,7 @@
 
 #include "bedload/core/pack.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Velocity of fluid or wall, or volume flux of the mixture, and density.
 template <class N = Real>
@@ -53,4 +53,4 @@ template <template <class> class Record, class J>
 }
 #endif
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 
 #include "bedload/core/records.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 template <class T>
 struct Span {
@@ -31,4 +31,4 @@ struct Range {
   BL_HD Index size() const { return end - begin; }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -10,8 +10,10 @@
 #if !defined(BL_VARIANT) || !defined(BL_REAL) || !defined(BL_PACKED_POSITIONS)
 #error "compile through the bedload_variant() CMake function, which sets BL_VARIANT, BL_REAL, BL_PACKED_POSITIONS"
 #endif
+/// The namespace of the solver. A name without `inline` in it, so that ctags finds what is inside.
+#define BL_SOLVER bedload::inline BL_VARIANT
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 using Real = BL_REAL;  ///< velocities, densities, pressures and pair arithmetic
 using Real3 = Vec3<Real>;
@@ -42,4 +44,4 @@ BL_HD T clamp(T x, T lo, T hi) {
   return x < lo ? lo : (x > hi ? hi : x);
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 #include "bedload/core/frame.hpp"
 #include "bedload/parallel/sort.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 struct CellGridView {
   Vec3d origin, inverse;  ///< 1/m
@@ -189,4 +189,4 @@ class CellGrid {
   mutable Buffer<std::uint8_t> occupied_nearby_;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -19,7 +19,7 @@
 #include "bedload/neighbours/verlet_list.hpp"
 #include "bedload/parallel/lanes.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// A copy of positions as pair loops read them.
 template <class P>
@@ -353,4 +353,4 @@ void for_each_pair(Range range, const CellGridView& sources, const Near& near, c
   for_each(range, CellLoop<Near, Separation, Pass>{sources, near, separation, Real(cutoff * cutoff), pass});
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #if BL_CUDA
 #include <cuda_pipeline.h>
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 namespace detail {
 
@@ -189,5 +189,5 @@ void for_each_pair(Range, const TileList& list, const PairSeparation& separation
          Loop{list.view(), separation, Real(cutoff * cutoff), wall_row, pass, capacity});
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER
 #endif

@@ -4,7 +4,7 @@
 #include "bedload/core/pack.hpp"
 #include "bedload/core/span.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// How far each particle may go while lists hold, m: beyond the range of its pairs, they have what both may
 /// go.
@@ -21,4 +21,4 @@ struct HalfSkins {
 #endif
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -3,7 +3,7 @@
 
 #include "bedload/neighbours/for_each_tile.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Targets, the sources that act on them, how far, and the list of those that are near: what passes run over.
 /// Sources may be more than the particles that have rows.
@@ -55,4 +55,4 @@ class Pairing {
   List list_;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

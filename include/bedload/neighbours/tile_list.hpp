@@ -10,7 +10,7 @@
 #include "bedload/parallel/lanes.hpp"
 
 #if BL_CUDA
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 constexpr Index kTileThreads = 256;
 
@@ -159,5 +159,5 @@ Index blocks_at_a_time(Kernel kernel, Index threads, std::size_t memory) {
   return Index(max_of(blocks, 1));
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER
 #endif

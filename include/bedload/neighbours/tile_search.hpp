@@ -4,7 +4,7 @@
 #include "bedload/neighbours/tile_list.hpp"
 
 #if BL_CUDA
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Blocks of a kernel that the device runs at a time.
 template <class Kernel>
@@ -450,5 +450,5 @@ void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, 
   launch(detail::tile_order<uint2>, tiles_, kTileThreads, sorted, view(), entry_.data());
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER
 #endif

@@ -12,7 +12,7 @@
 #include "bedload/neighbours/half_skins.hpp"
 #include "bedload/parallel/lanes.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// log2 of the entries that a slice reads in one go.
 #if BL_CUDA
@@ -406,4 +406,4 @@ struct CrossNear {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

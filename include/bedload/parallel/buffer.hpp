@@ -14,7 +14,7 @@
 #include "bedload/core/span.hpp"
 #include "bedload/parallel/context.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Bytes now held by all buffers of this build.
 inline std::atomic<std::size_t>& bytes_held() {
@@ -166,4 +166,4 @@ class Buffer {
   std::size_t size_ = 0, capacity_ = 0;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/parallel/sort.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 namespace detail {
 
@@ -32,4 +32,4 @@ void find_all(Index n, const Keep& keep, Buffer<Index>& kept) {
   for_each({0, n}, detail::KeptPlacePass{flag, before, kept});
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -10,7 +10,7 @@
 #include "bedload/core/error.hpp"
 #include "bedload/core/types.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 template <class T>
 class Buffer;
@@ -67,4 +67,4 @@ class Context {
 #endif
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

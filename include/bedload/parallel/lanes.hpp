@@ -6,7 +6,7 @@
 
 #include "bedload/core/types.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// log2 of the lanes for each of `rows` rows; 0 on the CPU. threads: what keeps every multiprocessor busy.
 inline unsigned lane_bits(Index rows, [[maybe_unused]] std::uint64_t threads = 1u << 18) {
@@ -59,4 +59,4 @@ struct Lane {
   }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 
 #include "bedload/parallel/context.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Returns when all loops queued before have ended, so that what they wrote can be read.
 BL_HD void wait_for_loops_before() {
@@ -52,4 +52,4 @@ void launch(void (*kernel)(T...), std::size_t blocks, Index threads, std::size_t
 }
 #endif
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

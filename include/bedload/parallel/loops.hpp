@@ -8,7 +8,7 @@
 #include <omp.h>
 #endif
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Elements summed into one partial, the same on every backend: few where there are few, which then do not wait
 /// for one another.
@@ -133,4 +133,4 @@ void reduce_into(typename F::Value* out, Range range, const F& f) {
   copy_on_device(out, detail::reduce_there(range, f), sizeof(typename F::Value));
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -3,7 +3,7 @@
 
 #include "bedload/parallel/loops.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Has something brought near that is read later, so that it need not be waited for then.
 template <class T>
@@ -26,4 +26,4 @@ void for_each_early(Range range, const F& f) {
 #endif
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -3,7 +3,7 @@
 
 #include "bedload/parallel/loops.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Sum of N doubles: Body(i, double out[N]) fills one particle's part.
 template <int N, class Body>
@@ -47,4 +47,4 @@ double max_over(Range range, const Body& body) {
   return reduce(range, MaxReduction<Body>{body});
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -12,7 +12,7 @@
 #include <thrust/system/omp/execution_policy.h>
 #endif
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 struct FillIndex {
   Span<Index> out;
@@ -78,4 +78,4 @@ T exclusive_scan(const Buffer<T>& in, Buffer<T>& out) {
   return total;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 
 #include "bedload/parallel/buffer.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Times work that is queued in parts, one after another: a lap ends one part and begins the next. On a GPU
 /// the marks lie between the kernels, so that the host need not wait for each part.
@@ -73,4 +73,4 @@ class Stopwatch {
   int laps_ = 0;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -2,7 +2,7 @@
 #include "bedload/core/frame.hpp"
 #include "bedload/core/span.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Coordinate of fluid particles or grains along a direction, m.
 template <class P>
@@ -13,4 +13,4 @@ struct AlongBody {
   BL_HD double operator()(Index i) const { return dot(direction, coordinates(frame, x[i])); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

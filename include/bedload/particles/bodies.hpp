@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/particles/store.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Free rigid bodies. The reference point of a body is its centre of mass, or the pivot of a body that only
 /// rotates. Forces are those of the last evaluation; torques are about the reference point.
@@ -31,4 +31,4 @@ struct BodyStore : Store {
   Field<Vec3d> omega_before{*this, "omega_before", "rad/s", Lifetime::derived};
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

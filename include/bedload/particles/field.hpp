@@ -9,7 +9,7 @@
 #include "bedload/host_data.hpp"
 #include "bedload/parallel/buffer.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 enum class Lifetime {
   kept,     ///< state: sorted with the particles, saved in checkpoints
@@ -169,4 +169,4 @@ auto span_if(bool used, Of& of) {
   return used ? of.span() : decltype(of.span()){};
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

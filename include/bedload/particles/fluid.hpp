@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/particles/store.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Packed positions are no array that a reader could use.
 constexpr bool kPackedFluid = std::is_same_v<FluidPosition, PackedPosition>;
@@ -42,4 +42,4 @@ struct FluidStore : Store {
   Field<Real3> reaction{*this, "reaction", "m/s2", Lifetime::derived};  ///< couples that keep the angular momentum of the stress shared with grains
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

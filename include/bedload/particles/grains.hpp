@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/particles/store.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Grains: spheres with spin. Positions always fp64 (overlaps need it).
 struct GrainStore : Store {
@@ -33,4 +33,4 @@ struct GrainStore : Store {
   Field<Vec3d> x_before{*this, "x_before", "m", Lifetime::derived};  ///< at the start of the step
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

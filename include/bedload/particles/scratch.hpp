@@ -6,7 +6,7 @@
 
 #include "bedload/parallel/buffer.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// The arrays for one kind of particles. What resize() allocates is what entry_bytes() counts, before there
 /// are particles, too.
@@ -54,4 +54,4 @@ class ScratchArray final : public Buffer<T>, Scratch::Array {
   std::size_t entry_bytes() const override { return sizeof(T); }
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

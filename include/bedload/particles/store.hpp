@@ -6,7 +6,7 @@
 
 #include "bedload/particles/field.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 class Store {
  public:
@@ -87,4 +87,4 @@ inline FieldBase::FieldBase(Store& store, const char* name, const std::string& u
   store.fields_.push_back(this);
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

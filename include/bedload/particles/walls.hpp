@@ -3,7 +3,7 @@
 #include "bedload/core/wall_kind.hpp"
 #include "bedload/particles/store.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
 /// Where a wall body is, how it moves and how it meets fluid and grains.
 struct BodyPose : RigidMotion {
@@ -55,4 +55,4 @@ struct WallStore : Store {
   MirrorStore mirrors;
 };
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 #include "kernels/bodies/grain_groups.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kNear = 1e-12;
@@ -221,4 +221,4 @@ TEST(GrainGroup, MovesByWhatItGained) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -7,7 +7,7 @@
 #include "kernels/fluid/body_pressure.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 void expect_near(const Vec3d& a, const Vec3d& b, double tolerance) {
@@ -129,4 +129,4 @@ TEST(BodyLoads, PressureIsCorrectedWhereFluidIsAllAround) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

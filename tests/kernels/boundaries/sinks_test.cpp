@@ -8,7 +8,7 @@
 #include "src/walls/wall_geometry.hpp"
 #include "tests/support/walls.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 const Frame kOpen{{0, 0, 0}, {1, 2, 3}, false, false, false};
@@ -125,4 +125,4 @@ TEST(Orifice, ARectangleIsAsFarAsItsNearestPoint) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "tests/support/contact_law.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr Real kRadius = Real(1.35e-3);
@@ -378,4 +378,4 @@ TEST(ContactLaw, WallIsTheLimitOfAHugePartner) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

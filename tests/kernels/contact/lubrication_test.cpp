@@ -6,7 +6,7 @@
 
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kTight = tolerance(1e-12, 2e-6, 2e-6);
@@ -177,4 +177,4 @@ TEST(Lubrication, CloudKeepsMomentumAndAngularMomentum) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

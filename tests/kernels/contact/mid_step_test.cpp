@@ -8,7 +8,7 @@
 #include "tests/support/saddle.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kR = 0.25e-3, kTurn = 2 * M_PI;
@@ -145,4 +145,4 @@ TEST(MidStep, AGrainThatRollsRoundACylinderKeepsItsEnergy) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "tests/support/contact_law.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kRadius = 1.35e-3;
@@ -268,4 +268,4 @@ TEST(PassiveLaws, AGrainInATubeIsNeverFaster) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

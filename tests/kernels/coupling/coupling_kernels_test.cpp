@@ -7,7 +7,7 @@
 #include "kernels/smoothing/wendland_c2.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 TEST(SpinDrag, IsKirchhoffsAtLowReynoldsNumber) {
@@ -183,4 +183,4 @@ TEST(SymmetricMatrix, InverseUndoesTheProduct) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -14,7 +14,7 @@
 #include "kernels/smoothing/wendland_c2.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kNear = tolerance(1e-12, 1e-5, 1e-5);
@@ -255,4 +255,4 @@ TEST(Drop, GivesEachGrainTheNextIdAndPlace) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -13,7 +13,7 @@
 #include "src/coupling/drag_table.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 struct Row {
@@ -188,4 +188,4 @@ TEST(DragLaws, AnUnknownNameIsAnErrorThatListsTheLaws) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -6,7 +6,7 @@
 #include "kernels/smoothing/wendland_c2.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kRho0 = 1000, kH = 0.1, kDt = 1e-3;
@@ -230,4 +230,4 @@ TEST(DensityPass, FragmentedFluidFollowsItsVoidBeyondTwoPercent) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -9,7 +9,7 @@
 #include "kernels/smoothing/wendland_c2.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kNear = tolerance(1e-11, 1e-5, 1e-5);
@@ -102,4 +102,4 @@ TEST(Collision, ExchangesTheImpulseOfBalls) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

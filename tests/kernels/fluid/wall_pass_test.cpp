@@ -7,7 +7,7 @@
 #include "kernels/smoothing/wendland_c2.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kRounding = tolerance(1e-12, 1e-6, 1e-6);
@@ -165,4 +165,4 @@ TEST(SingleLayer, DampsByItsMassAndWhatIsNoLayerGivesNothing) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "kernels/integrate/fluid_kicks.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kKick = 0.02, kRounding = tolerance(1e-12, 1e-6, 1e-6);
@@ -124,4 +124,4 @@ TEST(FluidKick, PacksPositionsOfTheEndAndOfTheMiddleOfTheStep) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -9,7 +9,7 @@
 #include "kernels/sdpd/pair_law.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 void expect_words(const Words& w, std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t u) {
@@ -154,4 +154,4 @@ TEST(Noise, FrictionOfAPairByHand) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -8,7 +8,7 @@
 #include "kernels/smoothing/registry.hpp"
 #include "tests/support/tolerance.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 template <class Kernel>
@@ -119,4 +119,4 @@ TEST(SmallKernelNames, AnUnknownNameIsAnError) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER
