@@ -1,17 +1,22 @@
 #pragma once
+#include <algorithm>
 #include <tuple>
+#include <vector>
 
 #include "bedload/parallel/buffer.hpp"
 #include "kernels/contact/pair_histories.hpp"
 #include "kernels/contact/registry.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 
-/// Contact histories for the entries of a list; only the parts that the law needs.
+/// Contact histories for the entries of a list; only the parts that any of the laws needs.
 template <class... Parts>
 class PairHistoryBuffersOf {
  public:
-  explicit PairHistoryBuffersOf(const ContactLaw& law) : parts_(Kept<Parts>{Parts::keeps(law), {}}...) {}
+  explicit PairHistoryBuffersOf(const std::vector<ContactLaw>& laws)
+      : parts_(Kept<Parts>{
+            std::any_of(laws.begin(), laws.end(), [](const ContactLaw& law) { return Parts::keeps(law); }),
+            {}}...) {}
 
   /// Of one entry.
   std::size_t entry_bytes() const {
@@ -87,4 +92,4 @@ class PairHistoryBuffersOf {
 };
 using PairHistoryBuffers = HistoryParts::Apply<PairHistoryBuffersOf>;
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

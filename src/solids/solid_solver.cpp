@@ -10,7 +10,7 @@
 #include "kernels/integrate/grain_sums.hpp"
 #include "kernels/stress/contact_stress.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 struct WrapGrains {
@@ -42,8 +42,8 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
       walls_(walls),
       bodies_(bodies),
       groups_(parameters, frame, grains),
-      histories_(law()),
-      old_histories_(law()),
+      histories_(parameters.pair_laws),
+      old_histories_(parameters.pair_laws),
       wall_list_(frame, walls, skin(), film_range(parameters.d_max / 2)) {
   wall_laws_.assign(parameters.wall_laws);
   if (parameters.materials.size() > 1) pair_laws_.assign(parameters.pair_laws);
@@ -316,4 +316,4 @@ std::vector<LoadSum> SolidSolver::body_loads(const GrainStore& g, Span<const Bod
   return loads;
 }
 
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

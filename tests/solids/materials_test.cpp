@@ -3,7 +3,7 @@
 #include "tests/support/contact_law.hpp"
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 constexpr double kOfEach = std::numeric_limits<double>::infinity();
@@ -114,6 +114,24 @@ TEST(Materials, PairsDoNotDependOnTheOrderOfIds) {
   EXPECT_EQ(one, other);
 }
 
+/// The rolling couple of a pair is kept, whatever the first material has.
+TEST(Materials, PairsRollByTheirOwnFriction) {
+  const auto impact = [](double mu_r_of_the_first) {
+    MixedBench b;
+    b.config.contact.rolling = "epsd";
+    b.config.grain.mu_r = mu_r_of_the_first;
+    b.config.contact.pairs = {{{"steel", "rubber"}, 0.15, 0.2, 0.8}};
+    b.add({-b.R(), 0, 0}, {0.1, 0, 0}, {0, 30, 0});
+    b.add({b.R() - 1e-6, 0, 0}, {}, {0, -30, 0});
+    b.begin({1, 2});
+    b.run(1e-7, 3000);
+    return std::vector<Vec3d>{b.spin(0), b.spin(1)};
+  };
+  const auto spins = impact(0);
+  EXPECT_LT(std::abs(spins[0].y), 29.9) << "they rolled";
+  EXPECT_EQ(spins, impact(0.3));
+}
+
 TEST(MaterialsSmall, OneMaterialHasTheLawsOfGrain) {
   const Config c = MixedBench().config;
   Config one = c;
@@ -171,4 +189,4 @@ TEST(DemocritusContact, DampsByRootTwoTimesCriticalAndSlidesBySofterSprings) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER

@@ -5,7 +5,7 @@
 #include "tests/support/contact_law.hpp"
 #include "tests/support/grain_bench.hpp"
 
-namespace bedload::inline BL_VARIANT {
+namespace BL_SOLVER {
 namespace {
 
 ContactLaw law_of(SlidingLaw sliding, RollingLaw rolling) {
@@ -29,7 +29,7 @@ TEST(PairHistories, KeepTheirPartsByTheLaws) {
                         Case{SlidingLaw::mindlin, RollingLaw::cdt, true, false},
                         Case{SlidingLaw::none, RollingLaw::epsd, false, true},
                         Case{SlidingLaw::mindlin, RollingLaw::epsd, true, true}}) {
-    PairHistoryBuffers buffers(law_of(c.sliding, c.rolling));
+    PairHistoryBuffers buffers({law_of(c.sliding, c.rolling)});
     EXPECT_EQ(buffers.entry_bytes(), 1 + 2 * sizeof(Real) + (c.spring + c.couple) * sizeof(Vec3d));
     buffers.assign({kSome, {}});
     const std::vector<ContactHistory> all = buffers.to_host();
@@ -40,13 +40,21 @@ TEST(PairHistories, KeepTheirPartsByTheLaws) {
     EXPECT_EQ(all[0].recede, -0.25);
     EXPECT_EQ(all[1].overlap, 0);
 
-    PairHistoryBuffers other(law_of(c.sliding, c.rolling));
+    PairHistoryBuffers other({law_of(c.sliding, c.rolling)});
     other.swap(buffers);
     EXPECT_EQ(other.to_host()[0].xi, all[0].xi);
     EXPECT_TRUE(buffers.to_host().empty());
     other.reset(3);
     for (const ContactHistory& h : other.to_host()) EXPECT_EQ(h.overlap, 0);
   }
+}
+
+/// Some pairs of materials may roll without friction, the first too.
+TEST(PairHistories, KeepWhatAnyPairOfMaterialsNeeds) {
+  PairHistoryBuffers buffers(
+      {law_of(SlidingLaw::mindlin, RollingLaw::none), law_of(SlidingLaw::mindlin, RollingLaw::epsd)});
+  buffers.assign({kSome});
+  EXPECT_EQ(buffers.to_host()[0].couple, kSome.couple);
 }
 
 TEST(PairHistories, DescribeTheColumnsOfCheckpoints) {
@@ -70,4 +78,4 @@ TEST(PairHistories, OfOtherQuantitiesAreRefused) {
 }
 
 }  // namespace
-}  // namespace bedload::inline BL_VARIANT
+}  // namespace BL_SOLVER
