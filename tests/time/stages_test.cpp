@@ -48,12 +48,12 @@ using Names = std::set<std::string>;
 /// What each stage changed.
 std::map<std::string, Names> changes(AuditedRun& run) {
   std::map<std::string, Names> out;
-  std::map<std::string, std::vector<std::byte>> before;
+  std::map<std::string, HostBytes> before;
   for (int n = 0; n < kSteps; ++n) {
     std::string ended;
     run.stepper().step([&](const Stage* next) {
       run.each_field([&](const std::string& name, FieldBase& field) {
-        std::vector<std::byte> now = field.to_host().bytes;
+        HostBytes now = field.to_host().bytes;
         if (!ended.empty() && now != before[name]) out[ended].insert(name);
         before[name] = std::move(now);
       });
