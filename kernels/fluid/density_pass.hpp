@@ -35,8 +35,7 @@ namespace BL_SOLVER {
 /// rate of elastic energy. Evaluated at mid-step in kick-drift-kick, C is time-reversible.
 ///
 /// kSmooth: with D, S and the limiter, else C alone. kPorous: there are grains. Shift, Fit: Shifting and
-/// LinearFit, or NoShifting and NoFit; for these a wall particle that may not pull and would have to, P_a +
-/// P_w < 0, is no neighbour, unless it is an inlet's: fluid that has parted from a wall is at a free surface.
+/// LinearFit, or NoShifting and NoFit.
 template <class W, class Shift, class Fit, bool kSmooth, bool kPorous, class Lengths>
 struct DensityPass {
   W w;
@@ -58,7 +57,6 @@ struct DensityPass {
   Fit fit;
   Lengths lengths;
   Span<const Real> wall_work;  ///< of WallWorkPass; empty without
-  bool suction = true;         ///< whether walls may pull
 
   static constexpr bool kShifts = Shift::acts;
   static constexpr Real slack = Real(0.02);  ///< twice what the sum over particles at rest scatters
@@ -66,7 +64,7 @@ struct DensityPass {
   template <class N = Real>
   struct Sum {
     Vec3<N> q;
-    N M, rho, eps, p_over_rho2, rate, diffused, filled;
+    N M, rho, eps, rate, diffused, filled;
     Vec3<N> gradient;
     [[no_unique_address]] typename Shift::template Sum<N> shift;
     [[no_unique_address]] typename Fit::template Sum<N> fit;
@@ -78,7 +76,6 @@ struct DensityPass {
             m.mass_over_eps,
             m.rho,
             m.eps,
-            m.p_over_rho2,
             0,
             0,
             0,
@@ -132,12 +129,8 @@ struct DensityPass {
     sum.filled += V * lengths.W(w, sum.own, distance);
     const N VF = V * F;
     sum.gradient += VF * r;
-    if constexpr (Shift::acts) {
-      const N pulled = select(sum.p_over_rho2 + mb.p_over_rho2 < N(0), N(0), VF);
-      const N held = suction ? VF : select(mb.frozen < N(0), VF, pulled);
-      sum.shift.add_wall(VF, held, r);
-      if constexpr (Fit::acts) sum.fit.add(held, mb.pressure(), r);
-    }
+    sum.shift.add_wall(VF, r);
+    if constexpr (Fit::acts) sum.fit.add(VF, mb.pressure(), r);
   }
   BL_HD void merge(Sum<>& into, const Sum<>& other) const {
     into.rate += other.rate;
@@ -157,11 +150,10 @@ struct DensityPass {
     if constexpr (Shift::acts) {
       const SymmetricMatrix<Real> moment = shift.moment(sum.shift);
       const Real least = moment.least_eigenvalue(), exposed = 1 - least;
-      const Real3 gradient = sum.gradient - sum.shift.parted;
       shift.exposure_new[a] = exposed;
-      drift[a] = shift.drift(sum.shift, exposed, gradient).velocity;
+      drift[a] = shift.drift(sum.shift, exposed, sum.gradient).velocity;
       if constexpr (Fit::acts)
-        fit.finish(a, sum.fit, sum.rho, gradient, moment, least, shift.inside(sum.shift.greatest));
+        fit.finish(a, sum.fit, sum.rho, sum.gradient, moment, least, shift.inside(sum.shift.greatest));
     } else if (drift) {
       drift[a] = {};  // XSPH adds to it
     }

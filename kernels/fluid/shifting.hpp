@@ -32,8 +32,7 @@ struct Strain {
 /// Free surface [marrone10]: exposure = 1 - least eigenvalue of the second moment sum_b V_b F_ab r_ab r_ab,
 /// 0.4 and more in the outermost layer, below 0.2 in disordered fluid. The outermost layer is not shifted;
 /// within a kernel's reach of it u is projected on the surface, since grad C along the normal is not zero
-/// there and would make fluid swell. Normal: gradient of the exposure of the former step. Beside a wall from
-/// which it has parted (DensityPass) fluid has a free surface too.
+/// there and would make fluid swell. Normal: gradient of the exposure of the former step.
 struct Shifting {
   static constexpr bool acts = true;
   Real area;                  ///< A h^2 [m2]
@@ -48,31 +47,25 @@ struct Shifting {
     SymmetricMatrix<N> moment;
     Strain<N> strain;
     Vec3<N> outward;  ///< sum of V F (e_b - e_a) (x_b - x_a)
-    Vec3<N> parted;   ///< sum of V F r over walls from which the fluid has parted
     N own, greatest;  ///< exposure: that of a; the greatest around
     /// b: V_b F_ab; q = q_a - q_b; e: exposure of b.
     BL_HD void add(const N& b, const Vec3<N>& q, const Vec3<N>& r, const N& e) {
-      moment.add_outer(b, r);
+      add_wall(b, r);
       strain.add(b, q, r);
       outward += (b * (own - e)) * r;
       greatest = max_of(greatest, select(b > N(0), e, N(0)));
     }
-    /// held: b, or 0 where the fluid has parted from the wall.
-    BL_HD void add_wall(const N& b, const N& held, const Vec3<N>& r) {
-      moment.add_outer(held, r);
-      parted += (b - held) * r;
-    }
+    BL_HD void add_wall(const N& b, const Vec3<N>& r) { moment.add_outer(b, r); }
     BL_HD void merge(const Sum& o) {
       moment += o.moment;
       strain.merge(o.strain);
       outward += o.outward;
-      parted += o.parted;
       greatest = max_of(greatest, o.greatest);
     }
   };
   template <class N>
   BL_HD Sum<N> start(Index a) const {
-    return {{}, {}, {}, {}, exposure[a], exposure[a]};
+    return {{}, {}, {}, exposure[a], exposure[a]};
   }
   BL_HD auto sources() const { return exposure; }
   /// The second moment; in two dimensions that across them is 1.
@@ -106,6 +99,7 @@ struct NoShifting {
   template <class N>
   struct Sum {
     BL_HD void add(const N&, const Vec3<N>&, const Vec3<N>&, Unread) {}
+    BL_HD void add_wall(const N&, const Vec3<N>&) {}
     BL_HD void merge(const Sum&) {}
   };
   template <class N>

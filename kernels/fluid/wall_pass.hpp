@@ -104,8 +104,7 @@ struct WallPass {
     const Real3 inward = Real3(k.velocity(at - Vec3d(away))) - v_wall;
     no_slip[b] = {.v = prescribed ? v_surface : 2 * v_surface + inward - v_fluid,
                   .mass = k.slip ? Real(0) : mass};
-    const int mark = frozen ? 1 : k.flows ? -1 : 0;
-    state[b] = {.mass = mass, .p_over_rho2 = p / square(rho), .rho = rho, .frozen = Real(mark)};
+    state[b] = {.mass = mass, .p_over_rho2 = p / square(rho), .rho = rho, .frozen = Real(frozen ? 1 : 0)};
   }
 
  private:

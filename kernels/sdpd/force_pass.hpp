@@ -28,7 +28,7 @@ struct SdpdWallPair {
                             const NoSlip<N>& no_slip, const Vec4<N>& own, const Vec3<N>& r, N r2) const {
     const N F = w.F(root(r2)), g = relative * V * quotient(no_slip.mass, vw.rho) * F;
     Force<N> out;
-    out.arm = select(mw.frozen > N(0), N(Real(0.5)), N(1));
+    out.arm = 1 - Real(0.5) * mw.frozen;
     out.push = (pressing * pressure_term(mw.mass, pa, mw.p_over_rho2, F)) * r;
     const Vec3<N> turn = cross(r, out.arm * spin + (1 - out.arm) * own.xyz());
     out.friction = law.friction(g, va.v - no_slip.v, turn, r, r2);

@@ -61,7 +61,7 @@ struct Beads {
   double side;           ///< of the square floor, m
   double margin = 0.01;  ///< from the box to the sides of the domain, m
   double depth = 0;      ///< of water, m
-  std::string grain, wall;
+  std::string grain = {}, wall = {};
 };
 
 std::string case_text(const Beads& b) {

@@ -209,8 +209,7 @@ class WcsphSolver final : public FluidSolver {
             .drift = drift_of(fluid),
             .fit = fit,
             .lengths = lengths(),
-            .wall_work = span_if(parameters_.energy_consistent, wall_work_),
-            .suction = parameters_.suction};
+            .wall_work = span_if(parameters_.energy_consistent, wall_work_)};
   }
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
   ForcePass<W, kArtificial, kAdded, kSpecies, Lengths> force_pass(FluidStore& fluid, const WallStore& walls,

@@ -255,43 +255,6 @@ TEST(WallSuction, IsWhatHoldsWaterUnderALid) {
   }
 }
 
-/// Water that moves away from a wall at 1 m/s without gravity: its mean speed, that of its slowest particle,
-/// and the root mean square of what particles move relative to the mean, m/s, after 0.04 s.
-struct Parting {
-  double mean = 0, slowest = 1e9, relative = 0;
-};
-Parting leave_a_wall(const char* type) {
-  const double dx = 0.005;
-  Config config = periodic_box(6, dx);
-  config.domain.min = {-0.05, 0, 0}, config.domain.max = {0.15, 6 * dx, 0.16};
-  config.domain.periodic = {false, true, false};
-  WallBody wall = test::body("box", {-0.05, 0, 0}, {0, 6 * dx, 0.16});
-  wall.type = type;
-  config.wall.bodies = {wall};
-  config.fluid.fills = {{{0, 0, 0.05}, {0.05, 6 * dx, 0.11}, {"1", "0", "0"}}};
-  auto s = started(config);
-  run_until(*s, 0.04);
-  const auto v = vectors(s->snapshot("fluid"), "velocity");
-  Parting out;
-  for (const Vec3d& each : v) {
-    out.mean += each.x / double(v.size());
-    out.slowest = std::min(out.slowest, each.x);
-  }
-  for (const Vec3d& each : v) out.relative += norm2(each - Vec3d{out.mean, 0, 0}) / double(v.size());
-  out.relative = std::sqrt(out.relative);
-  return out;
-}
-
-/// If shifting saw no free surface there, the first layers would stay behind.
-TEST(WallSuction, WithoutItWaterLeavesAWallAsItWas) {
-  for (const char* type : {"adami", "mdbc"}) {
-    const Parting water = leave_a_wall(type);
-    EXPECT_NEAR(water.mean, 1, 0.02) << type;
-    EXPECT_GT(water.slowest, 0.9) << type;
-    EXPECT_LT(water.relative, 0.04) << type << ", m/s";
-  }
-}
-
 /// Two particles on either side of a thin plate, and two beyond its rim.
 TEST(SmallThinWalls, CountPairsThatSeeEachOtherThroughThem) {
   Config c = water(20, 0.1, 0.01);

@@ -29,7 +29,7 @@ struct alignas(4 * sizeof(N)) WallState {
   N mass{};         ///< kg; 0: no fluid near by
   N p_over_rho2{};  ///< m5/(kg s2)
   N rho{};          ///< kg/m3
-  N frozen{};       ///< 1: keeps its mass as fluid does, and turns with its body; -1: of an inlet; else 0
+  N frozen{};       ///< 1: keeps its mass as fluid does, and turns with its body; else 0
   BL_HD N pressure() const { return p_over_rho2 * square(rho); }  ///< Pa
 };
 

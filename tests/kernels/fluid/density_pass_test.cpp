@@ -22,7 +22,6 @@ struct Pair {
   std::vector<EosState<>> eos_state;
   std::vector<WallState<>> wall_state;
   std::vector<Real> s{0}, s_new{0}, rate{0}, wall_work{0};
-  std::vector<Real3> drift{{}};
 
   /// Masses over porosity as fractions of what fills the kernel's cube of h / 2, densities over rho0.
   Pair(double fill_a, double fill_b, double rho_a = 1, double rho_b = 1, double eps_a = 1, double eps_b = 1) {
@@ -41,11 +40,11 @@ struct Pair {
     return 1 - filled() - double(CutFraction::of(w)(Real(gradient)));
   }
 
-  template <bool kSmooth, bool kPorous, class Shift = NoShifting>
-  auto pass(const Shift& shift = {}) {
+  template <bool kSmooth, bool kPorous>
+  auto pass() {
     const auto in = [](const auto& host) { return Span(host.data(), Index(host.size())); };
     const auto out = [](auto& host) { return Span(host.data(), Index(host.size())); };
-    return DensityPass<WendlandC2, Shift, NoFit, kSmooth, kPorous, OneLength>{
+    return DensityPass<WendlandC2, NoShifting, NoFit, kSmooth, kPorous, OneLength>{
         .w = w,
         .fluid = {in(flux), in(eos_state)},
         .walls = {in(wall_v_rho), in(wall_state), {}},
@@ -61,8 +60,8 @@ struct Pair {
         .fading = Real(fading),
         .spreading = Real(spreading),
         .compression_rate = out(rate),
-        .shift = shift,
-        .drift = out(drift),
+        .shift = {},
+        .drift = {},
         .fit = {},
         .lengths = {},
         .wall_work = in(wall_work)};
@@ -86,52 +85,6 @@ struct Pair {
     return other.change();
   }
 };
-
-/// Fluid a in a plane, with three neighbours and a wall beside it: its exposure, by which shifting knows a
-/// free surface, and its drift.
-struct Sided : Pair {
-  std::vector<Real> before{0, 0}, exposure{0};
-  Sided() : Pair(1, 1) {
-    flux[0].v.x = 1;  // strain
-    wall_v_rho = {{{}, Real(kRho0)}};
-    wall_state = {{.mass = Real(20 * kRho0 * cube(kH / 2)), .p_over_rho2 = Real(2e-3), .rho = Real(kRho0)}};
-  }
-  std::pair<double, Vec3d> at(double p_over_rho2, bool suction, bool wall = true) {
-    eos_state[0].p_over_rho2 = Real(p_over_rho2);
-    auto p = pass<true, true>(Shifting{.area = Real(0.01),
-                                       .stiffest = 1,
-                                       .fastest = 1e9,
-                                       .plane = 1,
-                                       .exposure = {before.data(), 2},
-                                       .exposure_new = {exposure.data(), 1}});
-    p.suction = suction;
-    auto sum = p.start(0);
-    const Real M = Real(29 * kRho0 * cube(kH / 2));
-    for (const Real3& r :
-         {Real3{Real(0.06), 0, 0}, Real3{Real(-0.05), 0, Real(0.03)}, Real3{0, 0, Real(0.05)}})
-      p.pair(sum, r, norm2(r), M, flux[1], eos_state[1], Real(0));
-    const Real3 r{0, 0, Real(-0.06)};
-    if (wall) p.wall_pair(sum, r, norm2(r), wall_v_rho[0], wall_state[0], wall_work[0]);
-    p.finish(0, sum);
-    return {exposure[0], Vec3d(drift[0])};
-  }
-};
-
-TEST(DensityPass, FluidThatHasPartedFromAWallIsAtAFreeSurface) {
-  Sided p;
-  const auto free = p.at(1e-3, false, false), pressed = p.at(1e-3, false);
-  ASSERT_LT(free.first, 0.3) << "so that it drifts";
-  ASSERT_GT(free.first, pressed.first + 0.02);
-  ASSERT_GT(norm(free.second - pressed.second), 0.1 * norm(free.second));
-  EXPECT_EQ(p.at(-1.9e-3, false), pressed) << "the wall still pushes";
-  EXPECT_EQ(p.at(-2.1e-3, true), pressed) << "the wall pulls";
-  p.wall_state[0].frozen = -1;
-  EXPECT_EQ(p.at(-2.1e-3, false), pressed) << "an inlet: its fluid follows";
-  p.wall_state[0].frozen = 0;
-  const auto parted = p.at(-2.1e-3, false);
-  EXPECT_EQ(parted.first, free.first);
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(parted.second[k], free.second[k], 1e-5 * norm(free.second));
-}
 
 #define EXPECT_CHANGE(found, expected) EXPECT_NEAR(found, expected, 5 * kRounding * std::abs(expected) + 1e-9)
 

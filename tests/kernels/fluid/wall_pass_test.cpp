@@ -56,19 +56,6 @@ struct Below {
   }
 };
 
-/// By which fluid knows what turns with its wall and what it follows.
-TEST(WallPass, MarksFrozenWallsAndInlets) {
-  Below b;
-  b.pressure(0);
-  EXPECT_EQ(b.state[0].frozen, 0);
-  b.pose[0].flows = 1;
-  b.pressure(0);
-  EXPECT_EQ(b.state[0].frozen, -1);
-  b.pose[0].flows = 0, b.pose[0].kind = WallKind::frozen;
-  b.pressure(0);
-  EXPECT_EQ(b.state[0].frozen, 1);
-}
-
 /// V_w D_w / W of one particle of fluid; nothing of frozen walls, of openings, of dry ones and where hardly
 /// any fluid is.
 TEST(WallWorkPass, IsWhatThePressureOfTheWallDoesAsTheFluidLeaves) {
