@@ -27,8 +27,8 @@ BL_HD ContactGeometry sphere_contact(const Sphere& i, const Sphere& j, const Vec
                                      double overlap, const Vec3d& drift = {}) {
   const Real half = Real(0.5 * overlap);
   const Vec3d r_mid = r - 0.5 * drift;
-  return {.n = r * (1 / distance),
-          .n_mid = r_mid * (1 / norm(r_mid)),
+  return {.n = r * quotient(1.0, distance),
+          .n_mid = r_mid * quotient(1.0, root(norm2(r_mid))),
           .overlap = overlap,
           .R_star = i.R * j.R / (i.R + j.R),
           .m_star = i.m * j.m / (i.m + j.m),

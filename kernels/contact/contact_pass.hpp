@@ -167,7 +167,7 @@ struct ContactPass {
     const Vec3d r = grains.frame.separation(own.x, x_j);
     const double reach = double(own.R) + double(R), r2 = norm2(r);
     const bool near = r2 < reach * reach;
-    const double distance = near ? std::sqrt(r2) : reach;
+    const double distance = near ? root(r2) : reach;
     if (!(distance < reach)) {
       if (touched) histories.touching[slot] = 0;
       return;

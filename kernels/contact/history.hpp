@@ -92,14 +92,14 @@ BL_HD Vec3d turn_with_contact(const Vec3d& a, const Vec3d& n, double twist) {
 struct Tilt {
   Vec3d to, bend;
   BL_HD Tilt(const Vec3d& from, const Vec3d& onto)
-      : to(onto), bend((from + onto) * (1 / (1 + dot(from, onto)))) {}
+      : to(onto), bend((from + onto) * quotient(1.0, 1 + dot(from, onto))) {}
   BL_HD Vec3d operator()(const Vec3d& a) const { return a - dot(a, to) * bend; }
 };
 /// The unit vector halfway between two others; b if they are opposite.
 BL_HD Vec3d halfway(const Vec3d& a, const Vec3d& b) {
   const Vec3d sum = a + b;
-  const double size = norm(sum);
-  return size > 0 ? sum * (1 / size) : b;
+  const double size = root(norm2(sum));
+  return size > 0 ? sum * quotient(1.0, size) : b;
 }
 
 }  // namespace BL_SOLVER

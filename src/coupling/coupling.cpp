@@ -57,7 +57,7 @@ struct CountEntries {
   BL_HD void combine(Value& into, const Value& v) const { into += v; }
 };
 
-/// Counts grains at the porosity floor.
+/// Counts grains at the porosity floor: theirs is a mean, so up to round-off.
 struct CountDense {
   using Value = std::uint64_t;
   Span<const Real> eps, bed_eps;  ///< the latter empty before the first gather
@@ -458,7 +458,7 @@ CouplingCounters Coupling::counters(const FluidStore& fluid, const GrainStore& g
       .floor_hits = reduce(fluid.owned(), CountEntries{fluid.eps, eps_min_, false}),
       .limited = limits_ ? reduce({0, n}, CountEntries{stiffness_, 1, true}) : 0,
       .wet = reduce(grains.owned(), CountEntries{grains.wetness, 0, true}),
-      .densest = reduce(grains.owned(), CountDense{grains.eps, bed_eps_, eps_min_}),
+      .densest = reduce(grains.owned(), CountDense{grains.eps, bed_eps_, eps_min_ * (1 + Real(1e-5))}),
       .cornered =
           reduce({0, Index(wall_free_.size())}, CountEntries{wall_free_, WallFreeFraction::kLeast, false}),
       .uncoupled = reduce({0, Index(drag_inv_M_.size())}, CountUncoupled{inv_S_, around.stress, around.drag}),

@@ -221,7 +221,7 @@ HostArray absent(const std::string& name, const std::string& unit, Scalar type, 
                  std::size_t count) {
   HostArray a{.name = name, .unit = unit, .type = type, .components = components, .bytes = {}};
   const std::size_t n = count * std::size_t(components);
-  a.bytes.resize(n * size_of(type));
+  a.bytes.assign(n * size_of(type), std::byte{});
   if (type == Scalar::f32) std::fill_n(a.as<float>(), n, std::numeric_limits<float>::quiet_NaN());
   if (type == Scalar::f64) std::fill_n(a.as<double>(), n, std::numeric_limits<double>::quiet_NaN());
   return a;

@@ -143,8 +143,8 @@ TEST(LimitCounts, OfDriftTowardsWallsAreThoseWhoseDriftEndsThere) {
     level += r < 0.005 && norm(drift[a]) > 0 && std::abs(drift[a].z) < 1e-4 * norm(drift[a]);
   }
   EXPECT_GT(level, 5);
-  // by velocities that were corrected since, which may turn the drift beside a void
-  EXPECT_NEAR(reading(s.diagnostics(), "fluid_shift_stopped"), level, 0.1 * level);
+  // by velocities that were corrected since, which may turn the drift of a few beside voids
+  EXPECT_NEAR(reading(s.diagnostics(), "fluid_shift_stopped"), level, 3);
 }
 
 /// In a step of dt the first layer comes so near to the floor that its repulsion would throw it farther than

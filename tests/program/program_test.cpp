@@ -161,7 +161,7 @@ TEST_F(Program, ListsItsFamilies) {
   // a word of another program, and the parameters that it is here
   const Outcome word = bedload("list time_max");
   EXPECT_TRUE(word.out.starts_with("DualSPHysics  TimeMax  time.end\n\nkey ")) << word.out;
-  EXPECT_NE(word.out.find("end of the run"), std::string::npos) << word.out;
+  EXPECT_NE(word.out.find("end time of the run"), std::string::npos) << word.out;
   EXPECT_EQ(
       bedload("list 'surface tension'").out.rfind("-  surface tension  there is no surface tension;", 0), 0u);
   EXPECT_NE(bedload("list TimeMax --json").out.find("\"time.end\""), std::string::npos);

@@ -17,7 +17,7 @@ constexpr Index reduce_chunk(Index elements) { return elements < 1u << 17 ? 128 
 #if BL_CUDA
 /// kEarly: f waits itself for the loops before.
 template <bool kEarly, class F>
-__global__ void __launch_bounds__(256) for_each_kernel(Index begin, Index end, F f) {
+__global__ void __launch_bounds__(256, 2) for_each_kernel(Index begin, Index end, F f) {
   if constexpr (!kEarly) begin_loop();
   const Index i = begin + blockIdx.x * blockDim.x + threadIdx.x;
   if (i < end) f(i);
