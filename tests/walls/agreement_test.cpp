@@ -131,8 +131,8 @@ struct DrumBed {
         for (int i = 0; i < 6; ++i)
           b.add(Vec3d{2.1 * (i - 2.5) + 0.05 * j, -5.9 + 2.1 * j + 0.02 * k, 1.1 + 2.1 * k} * R);
     b.start();
-    b.run(dt, 6000);
-    constexpr int kBlocks = 10, kLooks = 150;
+    b.run(dt, 10000);
+    constexpr int kBlocks = 10, kLooks = 200;
     const double weight = double(b.x.size()) * b.mass() * 9.81;
     for (int block = 0; block < kBlocks; ++block) {
       Vec3d middle;

@@ -37,6 +37,7 @@ install(TARGETS bedload_interface bedload_headers bedload_host bedload_device ${
 install(DIRECTORY include/bedload/case include/bedload/geometry include/bedload/motion include/bedload/output
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bedload COMPONENT development)
 install(FILES include/bedload/core/error.hpp include/bedload/core/vec.hpp include/bedload/core/fingerprint.hpp
+              include/bedload/core/host_memory.hpp include/bedload/core/wall_kind.hpp
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bedload/core COMPONENT development)
 install(FILES include/bedload/host_data.hpp include/bedload/simulation.hpp include/bedload/step_limits.hpp
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/bedload COMPONENT development)
