@@ -6,11 +6,15 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <string>
 
 #include "bedload/case/config.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/parallel/link.hpp"
 #include "bedload/simulation.hpp"
+#include "src/team/divisible.hpp"
+#include "src/team/team_simulation.hpp"
 
 #if BL_HAS_CUDA
 #include <cuda_runtime_api.h>
@@ -20,7 +24,8 @@
 // on.
 #define BL_USE(which, where)                                                            \
   namespace bedload::which##_##where {                                                  \
-    std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup); \
+    std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup, \
+                                             Link* link);                              \
   }
 BL_VARIANTS
 #undef BL_USE
@@ -62,7 +67,10 @@ Device cpu(int threads, Simd simd) {
   const bool avx2 = wants_avx2(simd);
   return {"cpu",
           processor_name() + (avx2 ? ", AVX2, " : ", ") + std::to_string(omp_get_max_threads()) + " threads",
-          free_memory(), avx2};
+          free_memory(),
+          avx2,
+          1,
+          {}};
 }
 
 /// Why there is no GPU, or an empty string.
@@ -79,7 +87,7 @@ std::string find_gpu(Device& device) {
   std::size_t free = 0, total = 0;
   if (const auto status = cudaMemGetInfo(&free, &total); status != cudaSuccess)
     return std::string("the GPU does not respond: ") + cudaGetErrorString(status);
-  device = {"cuda", properties.name, free};
+  device = {"cuda", properties.name, free, false, 1, {}};
   return "";
 #else
   (void)device;
@@ -101,8 +109,105 @@ Device find_device(const std::string& backend, int threads, Simd simd) {
   return cpu(threads, simd);
 }
 
-std::unique_ptr<Simulation> make_simulation(const Config& config, [[maybe_unused]] const Setup& setup,
-                                            [[maybe_unused]] const Device& device) {
+void divide_among(Device& device, int ranks, const std::string& gpus) {
+  if (ranks > 1) {
+    if (device.cuda())
+      throw DeviceError("--ranks " + std::to_string(ranks) +
+                        ": divides the CPU, so add --backend cpu; GPUs are given by --devices");
+    device.ranks = ranks;
+  }
+  if (gpus.empty()) return;
+  if (!device.cuda()) throw DeviceError("--devices " + gpus + ": there is no GPU to use, or --backend is cpu");
+  int there = 0;
+#if BL_HAS_CUDA
+  cudaGetDeviceCount(&there);
+#endif
+  const auto refuse = [&](const std::string& why) {
+    throw DeviceError("--devices " + gpus + ": " + why + "; there are " + std::to_string(there) + " GPUs");
+  };
+  const bool several = gpus.find(',') != std::string::npos;
+  if (gpus == "all") {
+    for (int k = 0; k < there; ++k) device.gpus.push_back(k);
+  } else {
+    std::istringstream list(gpus);
+    for (std::string word; std::getline(list, word, ',');) {
+      if (word.empty() || word.size() > 4 || word.find_first_not_of("0123456789") != std::string::npos)
+        refuse("must be a number of GPUs, a list such as 0,2,3, or all");
+      const int number = std::stoi(word);
+      if (!several) {
+        if (number < 1 || number > there) refuse("must be within 1.." + std::to_string(there));
+        for (int k = 0; k < number; ++k) device.gpus.push_back(k);
+      } else {
+        if (number >= there) refuse("no GPU has the number " + word);
+        device.gpus.push_back(number);
+      }
+    }
+  }
+  device.ranks = int(device.gpus.size());
+#if BL_HAS_CUDA
+  std::size_t all = 0;
+  int major = 0, minor = 0;
+  for (std::size_t k = 0; k < device.gpus.size(); ++k) {
+    const int gpu = device.gpus[k];
+    cudaDeviceProp properties;
+    cudaGetDeviceProperties(&properties, gpu);
+    if (k > 0 && (properties.major != major || properties.minor != minor))
+      refuse("GPU " + std::to_string(gpu) + ", " + properties.name +
+             ", is of another compute capability, whose results would differ");
+    major = properties.major, minor = properties.minor;
+    if (std::find(device.gpus.begin(), device.gpus.begin() + std::ptrdiff_t(k), gpu) !=
+        device.gpus.begin() + std::ptrdiff_t(k))
+      continue;
+    std::size_t free = 0, total = 0;
+    cudaSetDevice(gpu);
+    cudaMemGetInfo(&free, &total);
+    all += free;
+  }
+  cudaSetDevice(device.gpus[0]);
+  device.memory = all;
+#endif
+  device.name = std::to_string(device.ranks) + " x " + device.name;
+}
+
+namespace {
+
+/// The part of one rank.
+std::unique_ptr<Simulation> make_part(const Config& config, [[maybe_unused]] const Setup& setup,
+                                      [[maybe_unused]] const Device& device,
+                                      [[maybe_unused]] Link* link = nullptr) {
+  const std::string precision = config.precision.name();
+#define BL_USE(which, where)                                                          \
+  if (precision == #which && device.backend + (device.avx2 ? "_avx2" : "") == #where) \
+    return which##_##where::make_coupled(config, setup, link);
+  BL_VARIANTS
+#undef BL_USE
+  throw KeyError("run.precision",
+                 "run.precision = \"" + precision +
+                     "\": this program was built without it (-DBEDLOAD_PRECISIONS=... of CMake adds it)");
+}
+
+/// Binds the thread of a rank to its GPU or its share of the CPU.
+void take_device(const Device& device, int rank) {
+#if BL_HAS_CUDA
+  if (device.cuda()) {
+    const int own = device.gpus[std::size_t(rank)];
+    if (const auto status = cudaSetDevice(own); status != cudaSuccess)
+      throw DeviceError("GPU " + std::to_string(own) + ": " + cudaGetErrorString(status));
+    for (const int other : device.gpus) {  // without access copies go through the host
+      int able = 0;
+      if (other != own && cudaDeviceCanAccessPeer(&able, own, other) == cudaSuccess && able)
+        cudaDeviceEnablePeerAccess(other, 0);
+    }
+    (void)cudaGetLastError();
+  }
+#endif
+  (void)rank;
+  omp_set_num_threads(std::max(1, omp_get_num_procs() / device.ranks));
+}
+
+}  // namespace
+
+std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& setup, const Device& device) {
 #if BL_HAS_CUDA
   if (device.cuda())
     HostMemory::use(
@@ -114,15 +219,12 @@ std::unique_ptr<Simulation> make_simulation(const Config& config, [[maybe_unused
         },
         [](void* block) { cudaFreeHost(block); });
 #endif
-  const std::string precision = config.precision.name();
-#define BL_USE(which, where)                                                          \
-  if (precision == #which && device.backend + (device.avx2 ? "_avx2" : "") == #where) \
-    return which##_##where::make_coupled(config, setup);
-  BL_VARIANTS
-#undef BL_USE
-  throw KeyError("run.precision",
-                 "run.precision = \"" + precision +
-                     "\": this program was built without it (-DBEDLOAD_PRECISIONS=... of CMake adds it)");
+  if (device.ranks == 1 && device.gpus.empty()) return make_part(config, setup, device);
+  refuse_undivided(config);
+  return make_team({.ranks = device.ranks, .make = [&](Link& link) {
+                      take_device(device, link.rank());
+                      return make_part(config, setup, device, &link);
+                    }});
 }
 
 HostArray host_copy(const FieldView& view, [[maybe_unused]] const Device& device) {
@@ -150,7 +252,7 @@ double around(double reach, bool two_d) { return two_d ? 3.14 * reach * reach : 
 }  // namespace
 
 MemoryEstimate estimate_memory(const Config& config, const Device& device) {
-  const auto empty = make_simulation(config, {}, device);
+  const auto empty = make_part(config, {}, device);
   ParticleBytes each = empty->field_bytes();
   each += empty->scratch_bytes();
   const bool cuda = device.cuda(), coupled = config.couple.mode != CouplingMode::off &&

@@ -115,6 +115,8 @@ struct Device {
   std::string name;        ///< "NVIDIA H100 80GB HBM3", "AMD EPYC ..., AVX2, 2 threads"
   std::size_t memory = 0;  ///< free memory, bytes
   bool avx2 = false;       ///< CPU with the AVX2 build of the solver
+  int ranks = 1;           ///< parts into which particles are divided, each with its own GPU or share of the CPU
+  std::vector<int> gpus;   ///< of each rank; empty: the first
   bool cuda() const { return backend == "cuda"; }
 };
 
@@ -122,7 +124,11 @@ struct Device {
 /// DeviceError if there is no such device, KeyError if the CPU has no such instructions.
 Device find_device(const std::string& backend, int threads, Simd simd = Simd::automatic);
 
-/// Builds the solver for config.precision on `device`.
+/// Divides a simulation on `device` among ranks: as many parts of the CPU (1: one), or GPUs, "4", "0,2,3" or
+/// "all" (empty: one). Throws DeviceError where there are not as many.
+void divide_among(Device& device, int ranks, const std::string& gpus);
+
+/// Builds the solver for config.precision on `device`. Throws KeyError for what cannot be divided among ranks.
 std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& setup, const Device& device);
 /// A copy of a field of a simulation on `device`. Throws DeviceError.
 HostArray host_copy(const FieldView& view, const Device& device);

@@ -8,18 +8,24 @@
 
 namespace BL_SOLVER {
 
-/// Runs over the wall store: the `count` particles with ids from `first` become fluid at their position, with
+/// Runs over the particles of a layer that this rank owns, with ids from `first` on: they become fluid at their position, with
 /// their velocity and the pressure extrapolated from the fluid in front. There are no grains in an orifice.
+struct InLayer {
+  Id first;     ///< id of the first particle of the layer
+  Index count;  ///< particles of the layer
+  Span<const Id> wall_id;
+  BL_HD bool operator()(Index w) const { return wall_id[w] - first < count; }
+};
 struct InsertPass {
   Frame frame;
   EquationOfState eos;
   Id first;       ///< id of the first particle of the layer
-  Index count;    ///< particles of the layer
   Index place;    ///< index of the first new fluid particle
   Id id;          ///< its id
   Real mass;      ///< of each, kg
   Real3 acc;      ///< of the layer, m/s2
   Real3 gravity;  ///< effective, m/s2
+  Span<const Index> layer;  ///< its wall particles, of this rank
   Span<const Id> wall_id;
   Span<const Vec3d> wall_x;
   Span<const VelocityDensity<>> wall_v_rho;
@@ -31,14 +37,12 @@ struct InsertPass {
   Span<Real> compression, fluid_mass, eps, solid_factor;
   FluidAccelerations out;
 
-  BL_HD void operator()(Index w) const {
-    const Id k = wall_id[w] - first;
-    if (k >= count) return;
-    const Index a = place + k;
+  BL_HD void operator()(Index n) const {
+    const Index w = layer[n], a = place + n;
     const bool touches_fluid = wall_state[w].mass > 0;
     const Real pressure = wall_state[w].p_over_rho2 * square(wall_v_rho[w].rho);
     const Real s = touches_fluid ? eos.compression(pressure) : Real(0);
-    fluid_id[a] = id + k;
+    fluid_id[a] = id + (wall_id[w] - first);
     x[a] = as_position<FluidPosition>(frame, wall_x[w]);
     const Real rho = eos.rho0 * (1 + s), p = eos.pressure(s);
     v_rho[a] = {wall_v_rho[w].v, rho};

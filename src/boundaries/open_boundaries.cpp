@@ -120,7 +120,7 @@ std::vector<Loss> OpenBoundaries::losses(const GrainStore& grains, double t) con
 void OpenBoundaries::renew(FluidStore& fluid, WallStore& walls, const EquationOfState& eos, double t,
                            const Vec3d& gravity) {
   if (find_leaving(fluid_out_, Span<const FluidPosition>(fluid.x), true, FluidMass{fluid.mass}, t)) {
-    find_all(fluid.size(), StaysTest{sink_}, kept_);
+    find_all(fluid.owned().size(), StaysTest{sink_}, kept_);
     fluid.reorder(kept_);
   }
   for (std::size_t i = 0; i < motion_.inlets().size(); ++i)
@@ -135,7 +135,7 @@ void OpenBoundaries::renew(FluidStore& fluid, WallStore& walls, const EquationOf
 
 void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& walls,
                            const EquationOfState& eos, double t, const Vec3d& gravity) {
-  Index first = walls.size();  // inlet particles are at the end of the wall store
+  Index first = Index(walls.everywhere());  // inlet particles have the last ids of walls
   for (std::size_t k = i; k < motion_.inlets().size(); ++k) {
     const InletFlow& inlet = motion_.inlets()[k];
     first -= Index(buffer_layers(parameters_.fluid, inlet.thickness()) * inlet.points());
@@ -144,16 +144,18 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
   if (next_fluid_ + count >= double(kNone))
     throw SimulationFault("inlet \"" + motion_.inlets()[i].name() +
                           "\": more fluid particles than there are ids");
-  fluid.grow(before + count);
-  for_each(walls.owned(), InsertPass{.frame = frame_,
+  find_all(walls.owned().size(), InLayer{Id(first), count, walls.id}, layer_);
+  const Index here = Index(layer_.size());
+  fluid.grow(before + here);
+  for_each({0, here}, InsertPass{.frame = frame_,
                                      .eos = eos,
                                      .first = first,
-                                     .count = count,
                                      .place = before,
                                      .id = Id(next_fluid_),
                                      .mass = Real(parameters_.fluid_mass()),
                                      .acc = Real3(motion_.inlets()[i].motion(t).a),
                                      .gravity = Real3(gravity),
+                                     .layer = layer_,
                                      .wall_id = walls.id,
                                      .wall_x = walls.x,
                                      .wall_v_rho = walls.v_rho,

@@ -88,6 +88,7 @@ class OpenBoundaries {
   double next_fluid_ = 0, next_grain_ = 0;  ///< next unused ids
 
   Buffer<std::uint32_t> sink_;
+  Buffer<Index> layer_;  ///< wall particles of a layer that comes in, scratch
   Buffer<Index> kept_, source_index_;
   Buffer<NewGrain> dropped_;
 };

@@ -24,6 +24,8 @@ void Checks::domain() const {
     period(k, 2 * c.fluid.kappa() * c.couple.hc, "2 kappa h_c", coupled());
     period(k, 2 * c.grain.d_max, "4 R", c.grain.present);
   }
+  if (c.block != 1 && c.block != 2 && c.block != 4 && c.block != 8)
+    fail("run.block", c.block, "must be 1, 2, 4 or 8");
   written_positions();
   reflection();
   if (c.domain.two_d) check_plane(c, root_);

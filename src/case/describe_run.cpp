@@ -221,6 +221,10 @@ void describe_time(Parameters& p, Config& c) {
   p("run.precision", &c.precision, {.meaning = "floating-point precision", .family = "models"});
   p("run.simd", &c.simd,
     {.meaning = "instruction set of the CPU; results differ by round-off", .family = "models"});
+  p("run.block", &c.block,
+    {.meaning = "cells of the neighbour search each way in a block, which one device owns: 1, 2, 4 or 8; results "
+                "differ by round-off",
+     .range = within(1, 8)});
   p("run.seed", &c.seed, {.meaning = "seed of all random numbers", .range = within(0, kLargest)});
   p("run.max_lost", &c.max_lost,
     {.meaning = "fraction of the fluid, grains or free bodies that may leave the domain other than by "

@@ -292,7 +292,8 @@ Json json_of(const Options& o, const Device& device, const std::vector<Result>& 
 int bench(const Options& o) {
   std::vector<Job> jobs = jobs_of(o);
   const Config& first = jobs.front().p.config;
-  const Device device = placed(first.places, [&] { return find_device(o.backend, o.threads, first.simd); });
+  Device device = placed(first.places, [&] { return find_device(o.backend, o.threads, first.simd); });
+  divide_among(device, o.ranks, o.devices);
   std::vector<Result> results;
   const auto save = [&] {
     if (o.bench.json.empty()) return;

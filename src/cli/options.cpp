@@ -54,6 +54,15 @@ void add_common_options(CLI::App& app, Options& o) {
   app.add_option("--threads", o.threads, "CPU threads; default: all")->check(CLI::Range(1, 1024));
 }
 
+/// Among what the particles are divided.
+void add_division(CLI::App& app, Options& o) {
+  app.add_option("--devices", o.devices, "Divide the particles among GPUs: so many, a list as 0,2,3, or all")
+      ->type_name("N | LIST | all")
+      ->check(kNamed);
+  app.add_option("--ranks", o.ranks, "Divide the particles among so many parts of the CPU; default: 1")
+      ->check(CLI::Range(1, 256));
+}
+
 const CLI::IsMember kPrecisions({"single", "mixed", "double"});
 
 void add_case_options(CLI::App& app, Options& o, std::string& precision, bool& force_dt) {
@@ -77,6 +86,7 @@ void add_bench_options(CLI::App& app, Options& o) {
       ->allow_extra_args(false)
       ->check(CLI::Range(0.01, 1e4));
   add_common_options(app, o);
+  add_division(app, o);
   app.add_option("--precision", b.precisions, "single, mixed or double; repeatable")
       ->check(kPrecisions)
       ->allow_extra_args(false);
@@ -137,6 +147,7 @@ void add_run(CLI::App& app, Options& o, std::string& precision, bool& force_dt) 
                   "Restart from this checkpoint; latest: the newest in the results folder")
       ->type_name("FILE")
       ->check(kNamed);
+  add_division(*run, o);
   add_live(*run, o);
   run->add_flag("--allow-changes", o.allow_changes, "Restart with a modified case");
 }

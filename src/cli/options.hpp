@@ -30,6 +30,8 @@ struct Options {
   std::vector<std::string> overrides;  ///< key=value, in order; shorthands such as --precision last
   std::optional<double> until;         ///< s, overrides time.end
   int threads = 0;                     ///< 0: all
+  int ranks = 1;                       ///< parts of the CPU that divide a run
+  std::string devices;                 ///< GPUs that do: a number, a list, all; empty: one
   bool quiet = false, overwrite = false;
   bool allow_changes = false;  ///< restart with a modified case
   std::optional<int> live;     ///< of run: port of the live view, 0 for any; none: no live view

@@ -243,6 +243,7 @@ void place_particles(const Options& options, Prepared& p) {
 void choose_device(const Options& options, Prepared& p) {
   p.device =
       placed(p.config.places, [&] { return find_device(options.backend, options.threads, p.config.simd); });
+  divide_among(p.device, options.ranks, options.devices);
 }
 
 }  // namespace

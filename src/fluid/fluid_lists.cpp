@@ -6,6 +6,7 @@
 #include "bedload/neighbours/tile_search.hpp"
 #include "bedload/parallel/reductions.hpp"
 #include "kernels/walls/crossing.hpp"
+#include "src/domain/divide.hpp"
 #include "src/fluid/fluid_solver.hpp"
 
 namespace BL_SOLVER {
@@ -151,20 +152,65 @@ void FluidSolver::make_cells() {
   if (shear_.acts()) most.strain = 0.5 * frame_.length.x / frame_.length.z;
   for (CellGrid* grid : {&grid_, &wall_grid_})
     *grid =
-        CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, most.stretch() * (range() + skin()));
+        CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, most.stretch() * (range() + skin()),
+                 parameters_.block);
 }
 
-Span<const Vec3d> FluidSolver::lattice(const FluidStore& fluid) {
+Span<const Vec3d> FluidSolver::lattice(const FluidStore& fluid, bool listed) {
+  MeanShear shear = shear_;
+  if (listed) shear.strain = listed_strain_;
   of_fluid_.resize(fluid.size());
-  for_each(fluid.all(), LatticePass{frame_, shear_, fluid.x, lattice_});
+  for_each(fluid.all(), LatticePass{frame_, shear, listed ? fluid.x_list : fluid.x, lattice_});
   return lattice_;
 }
 
-void FluidSolver::sort_cells(const FluidStore& fluid) {
+template <class F>
+void FluidSolver::with_places(FluidStore& fluid, bool listed, const F& f) {
   if (shear_.acts())
-    grid_.sort(frame_, lattice(fluid), order_);
+    f([&] { return lattice(fluid, listed); });
   else
-    grid_.sort(frame_, Span<const FluidPosition>(fluid.x), order_);
+    f([&] { return Span<const FluidPosition>(listed ? fluid.x_list : fluid.x); });
+}
+
+void FluidSolver::sort_cells(FluidStore& fluid) {
+  with_places(fluid, false, [&](const auto& places) { grid_.sort(frame_, places(), order_, fluid.id); });
+}
+
+void FluidSolver::divide(FluidStore& fluid, const WallStore& walls, bool listed) {
+  std::vector<double> load;
+  with_places(fluid, listed, [&](const auto& places) { add_loads(fluid, grid_, frame_, places(), load); });
+  add_loads(walls, wall_grid_, frame_, (listed ? walls.x_list : walls.x).span(), load);
+  if (divided_) all_reduce(load, [](double& into, double more) { into += more; });
+  divided_ = true;
+  const auto owners = owners_for(grid_, load);
+  grid_.divide(owners), wall_grid_.divide(owners);
+}
+
+void FluidSolver::keep_own(FluidStore& fluid, WallStore& walls, bool listed) {
+  if (!Context::current().several()) return;
+  divide(fluid, walls, listed);
+  with_places(fluid, listed, [&](const auto& places) { claim(fluid, grid_, frame_, places()); });
+  claim(walls, wall_grid_, frame_, Span<const Vec3d>(listed ? walls.x_list : walls.x));
+}
+
+void FluidSolver::make_ghosts_of(FluidStore& fluid) {
+  make_ghosts(fluid, grid_);
+  with_places(fluid, false, [&](const auto& places) { grid_.add_ghosts(frame_, places()); });
+}
+
+void FluidSolver::make_ghosts_of(WallStore& walls) {
+  make_ghosts(walls, wall_grid_);
+  wall_grid_.add_ghosts(frame_, Span<const Vec3d>(walls.x));
+}
+
+HostArray FluidSolver::blocks(FluidStore& fluid) {
+  HostArray out;
+  with_places(fluid, true, [&](const auto& places) { out = blocks_of(fluid, grid_, frame_, places()); });
+  return out;
+}
+
+HostArray FluidSolver::blocks(const WallStore& walls) {
+  return blocks_of(walls, wall_grid_, frame_, walls.x_list.span());
 }
 
 bool FluidSolver::renew_lengths(FluidStore& fluid) {
@@ -189,10 +235,17 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved,
   } else {
     for_each(fluid.owned(), WrapPass<FluidPosition>{frame_, fluid.x});
   }
+  const bool several = Context::current().several();
+  if (several) {
+    if (!grid_.ownership()) divide(fluid, walls, false);
+    with_places(fluid, false, [&](const auto& places) { migrate(fluid, grid_, frame_, places()); });
+  }
   sort_cells(fluid);
   fluid.reorder(order_);
+  fluid.count();
+  if (several) make_ghosts_of(fluid);
   fluid.x_list.copy(fluid.x);
-  for_each(fluid.owned(), HalfSkinPass{.fluid = motion(fluid),
+  for_each(fluid.all(), HalfSkinPass{.fluid = motion(fluid),
                                        .horizon = Real(horizon_),
                                        .least = Real(shear_.acts() ? half_skin_ : least_skin()),
                                        .most = Real(half_skin_),
@@ -200,12 +253,16 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved,
                                        .acc = fluid.acc,
                                        .half_skin = fluid.half_skin});
   if (lengths_) lengths_->h_list.copy(lengths_->h);
-  if (walls_moved && walls.size() > 0) {
+  if (walls_moved && walls.everywhere() > 0) {
     MirrorStore& images = walls.mirrors;
+    walls.drop_ghosts();
     for_each(walls.owned(), WrapPass<Vec3d>{frame_, walls.x});
     for_each(images.owned(), WrapPass<Vec3d>{frame_, images.x});
-    wall_grid_.sort(frame_, Span<const Vec3d>(walls.x), order_);
+    if (several) migrate(walls, wall_grid_, frame_, Span<const Vec3d>(walls.x));
+    wall_grid_.sort(frame_, Span<const Vec3d>(walls.x), order_, walls.id);
     walls.reorder(order_);
+    walls.count();
+    if (several) make_ghosts_of(walls);
     walls.x_list.copy(walls.x);
     if (images.size() > 0) images.reorder(order_), images.x_list.copy(images.x);
   }
@@ -216,7 +273,12 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   const double strain = std::exchange(shear_.strain, listed_strain_);
   if (sort) {  // saved sorted: the order is the identity
     sort_cells(fluid);
-    wall_grid_.sort(frame_, Span<const Vec3d>(walls.x), order_);
+    wall_grid_.sort(frame_, Span<const Vec3d>(walls.x), order_, walls.id);
+    fluid.count(), walls.count();
+    if (Context::current().several()) {
+      make_ghosts_of(fluid);
+      make_ghosts_of(walls);
+    }
   }
   pack(fluid);
   pack(walls);
@@ -224,47 +286,52 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   auto& of_fluid = fluid_fluid_.between(frame_, fluid, fluid, range());
   VerletList &of_walls_around = fluid_wall_.between(frame_, fluid, walls, range()),
              &around_walls = wall_fluid_.between(frame_, walls, fluid, range());
+  // as many lanes a row as particles of all ranks ask for, so that sums do not depend on how they are divided
+  const unsigned fluid_lanes = lane_bits(Index(fluid.everywhere()));
+  const Index rows = fluid.owned().size(), wall_rows = walls.owned().size();
   using Near = SphNear<FluidPosition>;
   const Near fluid_near{frame_, fluid.x, fluid.xp, fluid.xp, range(), true, own, own};
   const Near fluid_near_walls{frame_, fluid.x, fluid.xp, walls.xp, range(), false, own, of_walls};
   const SphNear<Vec3d> walls_near{frame_, walls.x, walls.xp, fluid.xp, range(), false, of_walls, own};
 #if BL_CUDA
   if (shear_.acts())  // by distances among positions that are sheared back
-    of_fluid.build(grid_, frame_, lattice(fluid), Span<const PairPosition>(fluid.xp),
-                   (range() + skin()) * shear_.stretch(), {});
+    of_fluid.build(rows, grid_, frame_, lattice(fluid), Span<const PairPosition>(fluid.xp),
+                   (range() + skin()) * shear_.stretch(), {}, fluid_lanes);
   else
-    of_fluid.build(grid_, frame_, Span<const FluidPosition>(fluid.x), Span<const PairPosition>(fluid.xp),
-                   range(), own);
+    of_fluid.build(rows, grid_, frame_, Span<const FluidPosition>(fluid.x),
+                   Span<const PairPosition>(fluid.xp), range(), own, fluid_lanes);
 #else
   if (shear_.acts())
-    of_fluid.build(fluid.size(), grid_.view(),
+    of_fluid.build(rows, grid_.view(),
                    ShearedNear<Vec3d>{{frame_, lattice(fluid), fluid.xp, fluid.xp, range() + skin(), true},
                                       Real(shear_.strain),
-                                      (range() + skin()) * shear_.stretch()});
+                                      (range() + skin()) * shear_.stretch()},
+                   fluid_lanes);
   else if (!lengths_)
-    of_fluid.build(fluid.size(), grid_.view(), fluid_near);
+    of_fluid.build(rows, grid_.view(), fluid_near, fluid_lanes);
 #endif
   const unsigned lanes = of_fluid.view().bits;  // as many for walls: few of them are wet
   if (lengths_) {
     const Span<const Real> h = lengths_->h_list, none;
     const PairReach pairs{Real(kappa_ * double(kLengthGrowth)), Real(parameters_.fluid.h())};
 #if !BL_CUDA
-    of_fluid.build(fluid.size(), grid_.view(), LengthNear<FluidPosition>{fluid_near, pairs, h, h});
+    of_fluid.build(rows, grid_.view(), LengthNear<FluidPosition>{fluid_near, pairs, h, h}, fluid_lanes);
 #endif
-    of_walls_around.build(fluid.size(), wall_grid_.view(),
+    of_walls_around.build(rows, wall_grid_.view(),
                           LengthNear<FluidPosition>{fluid_near_walls, pairs, h, none}, lanes);
-    around_walls.build(walls.size(), grid_.view(), LengthNear<Vec3d>{walls_near, pairs, none, h}, lanes);
+    around_walls.build(wall_rows, grid_.view(), LengthNear<Vec3d>{walls_near, pairs, none, h}, lanes);
   } else {
-    of_walls_around.build(fluid.size(), wall_grid_.view(), fluid_near_walls, lanes);
-    around_walls.build(walls.size(), grid_.view(), walls_near, lanes);
+    of_walls_around.build(rows, wall_grid_.view(), fluid_near_walls, lanes);
+    around_walls.build(wall_rows, grid_.view(), walls_near, lanes);
   }
   if (parameters_.frozen && parameters_.density.method == DensityMethod::summation)
     wall_wall_.between(frame_, walls, walls, range())
-        .build(walls.size(), wall_grid_.view(),
+        .build(wall_rows, wall_grid_.view(),
                BesideFrozen{{frame_, walls.x, walls.xp, walls.xp, range(), true, of_walls, of_walls},
-                            walls.compression});
-  find_all(fluid.size(), HasEntries{of_walls_around.view()}, beside_walls_);
-  find_all(walls.size(), HasEntries{around_walls.view()}, wet_walls_);
+                            walls.compression},
+               lane_bits(Index(walls.everywhere())));
+  find_all(rows, HasEntries{of_walls_around.view()}, beside_walls_);
+  find_all(wall_rows, HasEntries{around_walls.view()}, wet_walls_);
   relisted_ = true;
   const MirrorStore& images = walls.mirrors;
   if (images.size() > 0)

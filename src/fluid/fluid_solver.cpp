@@ -28,6 +28,7 @@ struct CorrectSweep {
   double spread, strained;
   Span<const Real> h, h_list;  ///< empty where all have one length
   MeanShear listed;            ///< where the lists were built
+  Span<const Id> id;
 
   BL_HD Value identity() const { return {}; }
   BL_HD Value operator()(Index a) const {
@@ -53,10 +54,11 @@ struct CorrectSweep {
     if (h) out.h_min = h[a], out.growth = h[a] / h_list[a];
     const bool good =
         out.v2 < 1e30 && out.acc2 < 1e30 && compression[a] >= Real(-0.5) && compression[a] <= Real(1);
-    out.bad = good ? kNone : a;
+    out.bad = good ? kNone : id[a];
     return out;
   }
-  BL_HD void combine(Value& into, const Value& v) const {
+  BL_HD void combine(Value& into, const Value& v) const { bound(into, v); }
+  BL_HD static void bound(Value& into, const Value& v) {
     into.v2 = max_of(into.v2, v.v2);
     into.acc2 = max_of(into.acc2, v.acc2);
     into.lasts = min_of(into.lasts, v.lasts);
@@ -273,7 +275,7 @@ void FluidSolver::correct(FluidStore& fluid, double kick) {
 
 void FluidSolver::survey(FluidStore& fluid, double kick) {
   extremes_.resize(1);
-  if (fluid.size() == 0) return extremes_.assign({FluidExtremes{}});
+  if (fluid.owned().size() == 0) return extremes_.assign({FluidExtremes{}});
   MeanShear listed = shear_;
   listed.strain = listed_strain_;
   const double longest = longest_step();
@@ -298,11 +300,13 @@ void FluidSolver::survey(FluidStore& fluid, double kick) {
                            .strained = most,
                            .h = lengths_ ? Span<const Real>(lengths_->h) : none,
                            .h_list = lengths_ ? Span<const Real>(lengths_->h_list) : none,
-                           .listed = listed});
+                           .listed = listed,
+                           .id = fluid.id});
 }
 
 FluidExtremes FluidSolver::extremes() const {
-  FluidExtremes out = extremes_.to_host()[0];
+  FluidExtremes out = all_reduce(
+      extremes_.to_host()[0], [](auto& into, const auto& from) { CorrectSweep::bound(into, from); });
   if (!std::isfinite(out.h_min)) out.h_min = parameters_.fluid.h();  // one length, or no fluid
   return out;
 }

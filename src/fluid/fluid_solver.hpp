@@ -1,6 +1,8 @@
 #pragma once
 // Locally averaged WCSPH between walls: rates, advance, stable time step.
 
+#include <algorithm>
+#include <initializer_list>
 #include <limits>
 #include <memory>
 
@@ -35,7 +37,7 @@ struct FluidExtremes {
   double thickest = 1;  ///< viscosity over fluid.mu that grains bring about, the largest
   double h_min = std::numeric_limits<double>::infinity();  ///< smallest smoothing length, m
   double growth = 1;  ///< largest factor by which one has grown since the lists were built
-  Index bad = kNone;  ///< lowest place of a particle with NaN or a density out of range
+  Id bad = kNone;     ///< lowest of particles with NaN or a density out of range
 };
 
 /// How fast that goes for which lists are made.
@@ -157,6 +159,9 @@ class FluidSolver {
   /// than eight steps, fast particles get up to four times the skin, so that they do not force rebuilds for
   /// all.
   void refresh(FluidStore& fluid, WallStore& walls, bool walls_moved, const ListSpeeds& speeds);
+  /// With several ranks: of particles that all have, keeps those of this rank, by where they are or, after a
+  /// restart, by where the lists were built (`listed`).
+  void keep_own(FluidStore& fluid, WallStore& walls, bool listed);
   /// Renews the lists for the positions as they are; `sort`: cells too (after a restart).
   void relist(FluidStore& fluid, WallStore& walls, bool sort);
   /// Additional memory of the lists, bytes, once fast flow widens the skins; 0 if they are wide already. An
@@ -231,6 +236,9 @@ class FluidSolver {
   double pairs_through(const FluidStore& fluid, const SurfaceSet& surfaces, Span<const BodyPose> pose) const;
 
   const CellGrid& grid() const { return grid_; }
+  /// Block of each particle, as an array "block": by it parts of ranks are put together.
+  HostArray blocks(FluidStore& fluid);
+  HostArray blocks(const WallStore& walls);
   ParticleBytes scratch_bytes() const {
     return {.fluid = of_fluid_.entry_bytes(), .walls = of_walls_.entry_bytes()};
   }
@@ -298,9 +306,23 @@ class FluidSolver {
   PairCopies copies(FluidStore& fluid) const {
     return {fluid.xp, fluid.xp_mid, span_if(shear_.acts(), fluid.flux)};
   }
-  void sort_cells(const FluidStore& fluid);
+  /// Within a stage: gives ghosts what a pass has written and the next reads near.
+  static void share(Store& store, std::initializer_list<const FieldBase*> fields) {
+    if (Context::current().several())
+      store.share([&](const FieldBase& f) { return std::find(fields.begin(), fields.end(), &f) != fields.end(); });
+  }
+  void sort_cells(FluidStore& fluid);
+  /// Copies of what other ranks have next to this one's.
+  void make_ghosts_of(FluidStore& fluid);
+  void make_ghosts_of(WallStore& walls);
+  /// Divides the blocks of cells among ranks by the particles in them.
+  void divide(FluidStore& fluid, const WallStore& walls, bool listed);
+  /// f(positions by which fluid is sorted), as they are or, `listed`, as they were when the lists were built;
+  /// f takes a function that returns them for all that the store holds at that moment.
+  template <class F>
+  void with_places(FluidStore& fluid, bool listed, const F& f);
   /// Positions sheared back.
-  Span<const Vec3d> lattice(const FluidStore& fluid);
+  Span<const Vec3d> lattice(const FluidStore& fluid, bool listed = false);
   /// Runs a pass over the pairs of fluid.
   template <class Pass>
   void run(const Pass& pass) {
@@ -380,6 +402,7 @@ class FluidSolver {
   double half_skin_ = 0, wall_skin_ = 0;  ///< the largest of fluid, that of walls, m
   double horizon_ = 0;                    ///< time for which fast particles get a skin, s
   CellGrid grid_, wall_grid_;
+  bool divided_ = false;  ///< particles among ranks
 #if BL_CUDA
   Pairing<TileList> fluid_fluid_;
 #else

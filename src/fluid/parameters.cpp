@@ -72,6 +72,7 @@ FluidParameters fluid_parameters(const Config& config) {
                     .tensile_one_sign = config.tensile_one_sign,
                     .skin = config.skin_fluid * config.fluid.dx,
                     .seed = config.seed,
+                    .block = int(config.block),
                     .mixed = config.grain.present && config.couple.mode == CouplingMode::two_way};
   p.thickens = p.mixed && config.couple.suspension != SuspensionLaw::none;
   if (p.mixed) p.spreading = config.couple.spreading;

@@ -40,6 +40,7 @@ struct FluidParameters {
   bool tensile_one_sign = false;  ///< it is the same for both signs of the pressure
   double skin = 0;                ///< of the lists, m
   std::uint64_t seed = 1;         ///< of noise
+  int block = 8;                  ///< cells each way of a block that one rank owns
 
   bool mixed = false;    ///< grains share the space
   double spreading = 0;  ///< how fast fluid that overfills its volume grows denser, c/h

@@ -228,6 +228,7 @@ class SdpdSolver final : public FluidSolver {
   }
   /// Of a density, the mean is sum M W / sum V W.
   void reinitialise(FluidStore& fluid) {
+    share(fluid, {&fluid.compression_next});
     average(fluid, fluid.compression_next, fluid.compression_next, fluid.compression);
     fluid.compression.buffer().swap(fluid.compression_next.buffer());
   }
@@ -236,6 +237,7 @@ class SdpdSolver final : public FluidSolver {
     for_each(fluid.all(), PressureOf{fluid.eos_state, pressure_});
     average(fluid, fluid.compression, pressure_, filtered_);
     for_each(fluid.owned(), SetPressure{filtered_, fluid.eos_state, fluid.p_rho2});
+    share(fluid, {&fluid.eos_state, &fluid.p_rho2});
   }
 
   W w_;

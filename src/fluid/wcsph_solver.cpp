@@ -50,6 +50,7 @@ class WcsphSolver final : public FluidSolver {
                                   .wall_state = walls.state,
                                   .omega = lengths_->omega,
                                   .p_rho2 = fluid.p_rho2});
+      share(fluid, {&lengths_->omega, &fluid.p_rho2});
       artificial().acts() ? momentum<true, false>(fluid, walls, now)
                           : momentum<false, false>(fluid, walls, now);
     } else {

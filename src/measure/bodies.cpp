@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "bedload/parallel/reductions.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace BL_SOLVER {
@@ -44,26 +45,26 @@ const CoupledSimulation::FluidLoads& CoupledSimulation::fluid_loads() {
   if (!fluid_loads_.due(state_.clock.step)) return loads;
   loads.pressure.assign(state_.motion.bodies(), LoadSum::zero());
   loads.friction = loads.pressure;
-  if (!state_.has_fluid || state_.walls.size() == 0) return loads;
+  if (!state_.has_fluid || state_.walls.everywhere() == 0) return loads;
   const WallForces& forces = wall_forces();
   const Span<const BodyPose> poses = state_.poses_now();
   const WallRepulsion repulsion = stepper_.fluid().repulsion(state_.fluid, poses, state_.clock.last_dt);
   for (std::uint32_t b = 0; b < loads.pressure.size(); ++b) {
     const auto sum = [&](const Buffer<Vec3d>& force) {
-      return reduce(state_.walls.owned(), WallLoadReduction{particles_of(b, state_.walls, poses), force});
+      return total(state_.walls.owned(), WallLoadReduction{particles_of(b, state_.walls, poses), force});
     };
     loads.pressure[b] = sum(forces.pressure);
     loads.friction[b] = sum(forces.friction);
     if (repulsion.walls.surfaces.size > 0)
       LoadSum::combine(loads.pressure[b],
-                       reduce(state_.fluid.owned(), BodyRepulsion{repulsion, b, state_.fluid.x,
-                                                                  state_.fluid.mass, state_.fluid.heading}));
+                       total(state_.fluid.owned(), BodyRepulsion{repulsion, b, state_.fluid.x,
+                                                                 state_.fluid.mass, state_.fluid.heading}));
   }
   return loads;
 }
 
 Span<const LoadSum> CoupledSimulation::held_corrections() {
-  if (!state_.has_fluid || state_.walls.size() == 0 || !stepper_.fluid().fits()) return {};
+  if (!state_.has_fluid || state_.walls.everywhere() == 0 || !stepper_.fluid().fits()) return {};
   std::unique_ptr<PressureCorrection>& held = held_.value;
   if (!held) held = std::make_unique<PressureCorrection>(held_solids(config_), config_.domain.two_d ? 2 : 3);
   if (!held->any()) return {};
@@ -204,6 +205,7 @@ void CoupledSimulation::begin_interval(const ProbeConfig& probe) {
 }
 
 std::vector<Quantity> CoupledSimulation::body_state(int body) {
+  stepper_.share_all();
   NamedLoads loads;
   if (const int group = body - state_.motion.walls(); group >= 0) {
     const RigidGroups& groups = stepper_.solids().groups();

@@ -181,14 +181,15 @@ void CoupledSimulation::report_powers(const Drive& drive, double corrections, st
   SumReduction<8, PowersBody>::Value p;
   for (int k = 0; k < 8; ++k)  // not computed; SDPD has none of the limits
     p.v[k] = k >= 5 && !config_.fluid.model->smoothed ? 0 : std::nan("");
-  if (powers) p = sum_over<8>(fluid.owned(), PowersBody{powers});
+  const bool reported = all_reduce(powers ? 1 : 0, [](int& into, int one) { into |= one; }) > 0;
+  if (reported) p = sum_over<8>(fluid.owned(), PowersBody{powers});
   double moving = 0;  // power of the pairs of moving walls on the fluid
-  for (std::uint32_t b = 0; b < std::uint32_t(state_.motion.bodies()) && state_.walls.size() > 0; ++b) {
+  for (std::uint32_t b = 0; b < std::uint32_t(state_.motion.bodies()) && state_.walls.everywhere() > 0; ++b) {
     const RigidMotion motion = state_.motion.pose(int(b), state_.clock.time);
     if (norm2(motion.v) + norm2(motion.omega) == 0) continue;
     const LoadSum load =
-        reduce(state_.walls.owned(),
-               WallLoadReduction{particles_of(b, state_.walls, state_.poses_now()), wall_forces().pressure});
+        total(state_.walls.owned(),
+              WallLoadReduction{particles_of(b, state_.walls, state_.poses_now()), wall_forces().pressure});
     moving -= dot(load.force(), motion.v) + dot(load.torque(), motion.omega);
   }
   static const char* const terms[] = {"viscosity", "artificial_viscosity", "density_diffusion", "voids"};
@@ -225,13 +226,14 @@ void CoupledSimulation::report_powers(const Drive& drive, double corrections, st
   out.push_back({"fluid_beside_voids", "-", p.v[5]});
   out.push_back({"fluid_spreading", "-", p.v[6]});
   out.push_back({"fluid_shift_limited", "-", p.v[7]});
-  out.push_back({"fluid_shift_stopped", "-", powers ? r.v[3] : p.v[7]});
+  out.push_back({"fluid_shift_stopped", "-", reported ? r.v[3] : p.v[7]});
 }
 
 std::vector<Loss> CoupledSimulation::losses() { return state_.open.losses(state_.grains, state_.clock.time); }
 
 std::vector<Quantity> CoupledSimulation::diagnostics() {
   static const char* const axis[3] = {"x", "y", "z"};
+  stepper_.share_all();
   std::vector<Quantity> out;
   const auto vec = [&](const std::string& name, const char* unit, const Vec3d& v) {
     for (int k = 0; k < 3; ++k) out.push_back({name + "_" + axis[k], unit, v[k]});
@@ -299,13 +301,14 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     vec("fluid_force_residual", "N", total - body - wall_on_fluid - corrections);
     out.push_back({"fluid_speed_max", "m/s", std::sqrt(stepper_.fluid_extremes().v2)});
     const auto largest = [&](auto body) {  // NaN without fluid
-      return state_.fluid.size() > 0 ? max_over(state_.fluid.owned(), body) : std::nan("");
+      const double found = max_over(state_.fluid.owned(), body);
+      return state_.fluid.everywhere() > 0 ? found : std::nan("");
     };
     out.push_back({"pressure_max", "Pa", largest(PressureBody{state_.fluid.eos_state, 1})});
     out.push_back({"pressure_min", "Pa", -largest(PressureBody{state_.fluid.eos_state, -1})});
     out.push_back({"density_max", "kg/m3", largest(DensityBody{state_.fluid.eos_state, 1})});
     out.push_back({"density_min", "kg/m3", -largest(DensityBody{state_.fluid.eos_state, -1})});
-    out.push_back({"fluid_count", "-", double(state_.fluid.size())});
+    out.push_back({"fluid_count", "-", double(state_.fluid.everywhere())});
     if (!state_.shells.surfaces().empty())
       out.push_back({"fluid_pairs_through_walls", "-",
                      stepper_.fluid().pairs_through(state_.fluid, state_.shells.view(), state_.poses_now())});
@@ -326,13 +329,13 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
         state_.grains.owned(),
         GrainLoads{state_.frame, state_.grains.x, state_.grains.fluid_force, state_.grains.drag_force});
     vec("force_fluid_on_grains", "N", {f.v[0], f.v[1], f.v[2]});
-    out.push_back({"grain_count", "-", double(state_.grains.size())});
+    out.push_back({"grain_count", "-", double(state_.grains.everywhere())});
     out.push_back({"grains_outside", "-", f.v[3]});
   }
   if (state_.coupled) {
     const auto c = stepper_.coupling().counters(state_.fluid, state_.grains);
     const double least = -max_over(state_.fluid.owned(), PorosityBody{state_.fluid.eps});
-    out.push_back({"porosity_min", "-", state_.fluid.size() > 0 ? least : std::nan("")});
+    out.push_back({"porosity_min", "-", state_.fluid.everywhere() > 0 ? least : std::nan("")});
     out.push_back({"porosity_floor_hits", "-", double(c.floor_hits)});
     out.push_back({"drag_limited_grains", "-", double(c.limited)});
     out.push_back({"wet_grains", "-", double(c.wet)});

@@ -249,7 +249,7 @@ std::vector<Made> computed_of_walls(State& state) {
 const Store* CoupledSimulation::store_named(const std::string& name) const {
   if (name == "fluid" && state_.has_fluid) return &state_.fluid;
   if (name == "grains" && state_.has_grains) return &state_.grains;
-  if (name == "walls" && state_.walls.size() > 0) return &state_.walls;
+  if (name == "walls" && state_.walls.everywhere() > 0) return &state_.walls;
   return nullptr;
 }
 
@@ -275,7 +275,13 @@ HostStore CoupledSimulation::outputs(const std::string& name, Use by) {
   std::stable_sort(all.begin(), all.end(), [](const Made& a, const Made& b) { return a.order < b.order; });
   for (const Made& each : all)
     if (each.uses & by) each.make(out.arrays);
+  if (Context::current().several()) add_blocks(out);
   return out;
+}
+
+void CoupledSimulation::add_blocks(HostStore& out) {
+  if (out.name == "fluid") out.arrays.push_back(stepper_.fluid().blocks(state_.fluid));
+  if (out.name == "walls") out.arrays.push_back(stepper_.fluid().blocks(state_.walls));
 }
 
 HostStore CoupledSimulation::snapshot(const std::string& name) {

@@ -24,10 +24,11 @@ struct PointBody {
   W w;
   Vec3d at;
   FluidContents fluid;
+  Index owned;  ///< particles: others count on the rank that owns them
   BL_HD void operator()(Index q, double* out) const {
     if (!cells.touches(int(q))) return;
     const std::uint32_t c = grid.key(cells, int(q));
-    for (Index a = grid.start[c]; a < grid.start[c + 1]; ++a) add(a, out);
+    for (Index a = grid.first(c); a < min_of(grid.last(c), owned); ++a) add(a, out);
   }
 
  private:
@@ -106,6 +107,7 @@ struct GrainBox {
 }  // namespace
 
 std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
+  stepper_.share_all();
   switch (p.type) {
     case ProbeType::front:
       return front(p);
@@ -127,11 +129,11 @@ std::vector<Quantity> CoupledSimulation::front(const ProbeConfig& p) {
   Vec3d direction;
   direction[p.axis] = p.sign;
   double front = std::nan("");
-  if (p.phase == Phase::fluid && state_.fluid.size() > 0)
+  if (p.phase == Phase::fluid && state_.fluid.everywhere() > 0)
     front = p.sign * (max_over(state_.fluid.owned(),
                                AlongBody<FluidPosition>{state_.frame, state_.fluid.x, direction}) +
                       config_.fluid.dx / 2);
-  if (p.phase == Phase::grains && state_.grains.size() > 0)
+  if (p.phase == Phase::grains && state_.grains.everywhere() > 0)
     front = p.sign *
             (max_over(state_.grains.owned(), AlongBody<Vec3d>{state_.frame, state_.grains.x, direction}) +
              config_.grain.d_max / 2);
@@ -149,7 +151,12 @@ std::vector<Quantity> CoupledSimulation::point(const ProbeConfig& p) {
       const auto s = sum_over<5>(
           {0, Index(cells.size())},
           PointBody<std::decay_t<decltype(w)>>{
-              .grid = grid, .cells = cells, .w = w, .at = at, .fluid = {state_.frame, state_.fluid}});
+              .grid = grid,
+              .cells = cells,
+              .w = w,
+              .at = at,
+              .fluid = {state_.frame, state_.fluid},
+              .owned = state_.fluid.owned().size()});
       std::copy(s.v, s.v + 5, sum);
     });
   const double nan = std::nan("");
@@ -179,10 +186,14 @@ std::vector<Quantity> CoupledSimulation::column(const ProbeConfig& p) {
                                                 .first = first,
                                                 .x = state_.fluid.x,
                                                 .out = found.span()});
+  std::vector<Extent> extents = found.to_host();
+  all_reduce(extents, [](Extent& into, const Extent& more) {
+    into.lowest = std::min(into.lowest, more.lowest), into.highest = std::max(into.highest, more.highest);
+  });
   double top = -1e300, connected = 0;
   int number = first;
   bool joins = true;
-  for (const Extent& extent : found.to_host()) {
+  for (const Extent& extent : extents) {
     if (extent.highest >= extent.lowest) top = std::max(top, extent.highest);
     if (number++ < 0) continue;
     joins = joins && extent.highest >= extent.lowest && extent.lowest - connected < piece;

@@ -25,19 +25,28 @@ void Field<T>::gather(Span<const Index> order, FieldBase* by) {
   data_.swap(room);
 }
 
-template void Field<std::uint32_t>::gather(Span<const Index>, FieldBase*);
-template void Field<float>::gather(Span<const Index>, FieldBase*);
-template void Field<Vec3<float>>::gather(Span<const Index>, FieldBase*);
-template void Field<Vec4<float>>::gather(Span<const Index>, FieldBase*);
-template void Field<double>::gather(Span<const Index>, FieldBase*);
-template void Field<Vec3<double>>::gather(Span<const Index>, FieldBase*);
-template void Field<Vec4<double>>::gather(Span<const Index>, FieldBase*);
-template void Field<VelocityDensity<>>::gather(Span<const Index>, FieldBase*);
-template void Field<EosState<>>::gather(Span<const Index>, FieldBase*);
-template void Field<WallState<>>::gather(Span<const Index>, FieldBase*);
-template void Field<NoSlip<>>::gather(Span<const Index>, FieldBase*);
-template void Field<PackedPosition>::gather(Span<const Index>, FieldBase*);
-template void Field<PairPosition>::gather(Span<const Index>, FieldBase*);
-template void Field<WallMemory>::gather(Span<const Index>, FieldBase*);
+template <class T>
+void Field<T>::collect(Span<const Index> places, void* to) const {
+  for_each({0, places.size}, GatherPass<T>{data_, places, {static_cast<T*>(to), places.size}});
+}
+
+#define BL_FIELD(...)                                                           \
+  template void Field<__VA_ARGS__>::gather(Span<const Index>, FieldBase*);      \
+  template void Field<__VA_ARGS__>::collect(Span<const Index>, void*) const;
+BL_FIELD(std::uint32_t)
+BL_FIELD(float)
+BL_FIELD(Vec3<float>)
+BL_FIELD(Vec4<float>)
+BL_FIELD(double)
+BL_FIELD(Vec3<double>)
+BL_FIELD(Vec4<double>)
+BL_FIELD(VelocityDensity<>)
+BL_FIELD(EosState<>)
+BL_FIELD(WallState<>)
+BL_FIELD(NoSlip<>)
+BL_FIELD(PackedPosition)
+BL_FIELD(PairPosition)
+BL_FIELD(WallMemory)
+#undef BL_FIELD
 
 }  // namespace BL_SOLVER

@@ -69,7 +69,7 @@ std::vector<const FieldBase*> SolidSolver::fields_of_contacts() const {
 
 void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal) {
   for_each(grains.owned(), WrapGrains{frame_, grains.x});
-  grid.sort<Vec3d>(frame_, grains.x.span(), order_);
+  grid.sort<Vec3d>(frame_, grains.x.span(), order_, grains.id);
   grains.reorder(order_);
   grains.x_list.copy(grains.x);
   if (renewal.any) for_each(grains.owned(), SourceIndexPass{renewal.source_index, order_});

@@ -2,8 +2,9 @@
 
 namespace BL_SOLVER {
 
-CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup)
+CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup, Link* link)
     : config_(config), state_(config_), stepper_(config_, state_) {
+  Context::current().join(link);
   state_.fill(config_, setup);
   if (state_.has_grains) stepper_.solids().groups().bind(state_.grains, setup.grains.fill);
   add_meters();
@@ -34,6 +35,8 @@ SavedState CoupledSimulation::save() {
   state_.save(out);
   stepper_.save(out);
   meters_.save(out);
+  if (Context::current().several())
+    for (HostStore& store : out.stores) add_blocks(store);
   return out;
 }
 
@@ -44,8 +47,8 @@ void CoupledSimulation::load(const SavedState& saved) {
   begin_meters(&saved);
 }
 
-std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup) {
-  return std::make_unique<CoupledSimulation>(config, setup);
+std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup, Link* link) {
+  return std::make_unique<CoupledSimulation>(config, setup, link);
 }
 
 }  // namespace BL_SOLVER

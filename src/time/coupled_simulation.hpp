@@ -11,7 +11,8 @@ namespace BL_SOLVER {
 
 class CoupledSimulation final : public Simulation {
  public:
-  CoupledSimulation(const Config& config, const Setup& setup);
+  /// link: to other ranks, each on a thread of its own; null: there are none.
+  CoupledSimulation(const Config& config, const Setup& setup, Link* link = nullptr);
 
   StepInfo step() override {
     const StepInfo info = stepper_.step();
@@ -28,7 +29,9 @@ class CoupledSimulation final : public Simulation {
 
   double time() const override { return state_.clock.time; }
   std::int64_t steps() const override { return state_.clock.step; }
-  Counts counts() const override { return {state_.fluid.size(), state_.walls.size(), state_.grains.size()}; }
+  Counts counts() const override {
+    return {state_.fluid.everywhere(), state_.walls.everywhere(), state_.grains.everywhere()};
+  }
   std::vector<StepLimit> limits() override { return stepper_.limits(); }
   std::vector<StepLimit> substep_limits() const override { return stepper_.substep_limits(); }
   std::vector<Quantity> numerical_viscosity() const override;
@@ -68,6 +71,8 @@ class CoupledSimulation final : public Simulation {
   std::vector<const FieldBase*> written(const Store& store, Use by) const;
   /// These and what is computed, in their order.
   HostStore outputs(const std::string& store, Use by);
+  /// Adds an array "block" with the block of cells of each particle, by which parts of ranks are put together.
+  void add_blocks(HostStore& out);
   struct WallForces {
     Buffer<Vec3d> pressure, friction;
   };

@@ -53,17 +53,42 @@ const FieldBase* at_mid(const Particles& p) {
 
 }  // namespace
 
-/// Begins a stage: starts the clock of its part and passes its fields to an observer, if there is one.
-/// `fields` makes the list of fields, which only an observer needs.
+/// Begins a stage: starts the clock of its part, passes its fields to an observer, if there is one, and brings
+/// what it reads near of the particles of other ranks. `fields` makes the list of fields, the same on all ranks,
+/// whatever particles they have.
 template <class MakeAccess>
-void Stepper::begin(Step& now, std::string_view name, Part part, const MakeAccess& fields) const {
+void Stepper::begin(Step& now, std::string_view name, Part part, const MakeAccess& fields) {
   if (now.watch && part != now.timed) now.watch->lap(int(now.timed));
   now.timed = part;
-  if (!now.observer || !*now.observer) return;
+  const bool observed = now.observer && *now.observer, several = Context::current().several();
+  if (!observed && !several) return;
   const Access all = fields();
   const Fields near = present(all.near);
-  const Stage stage{name, part, {near, present(all.reads, near), present(all.writes)}};
-  (*now.observer)(&stage);
+  if (observed) {
+    const Stage stage{name, part, {near, present(all.reads, near), present(all.writes)}};
+    (*now.observer)(&stage);
+  }
+  if (!several || part == Part::lists) return;  // new lists come with new ghosts
+  share(near);
+  outdate(all.writes);
+}
+
+std::vector<Store*> Stepper::divided_stores() { return {&fluid_, &walls_}; }
+
+void Stepper::share(const Fields& fields) {
+  for (Store* store : divided_stores())
+    store->share([&](const FieldBase& f) { return std::find(fields.begin(), fields.end(), &f) != fields.end(); });
+}
+
+void Stepper::share_all() {
+  for (Store* store : divided_stores()) store->share([](const FieldBase&) { return true; });
+}
+
+void Stepper::outdate(const Fields& fields) {
+  if (!Context::current().several()) return;
+  for (Store* store : divided_stores())
+    for (FieldBase* f : store->fields())
+      if (std::find(fields.begin(), fields.end(), f) != fields.end()) f->set_shared(false);
 }
 
 std::vector<const Store*> Stepper::stores() const {
@@ -218,7 +243,7 @@ void Stepper::move_walls(Step& now) {
   const MirrorStore& m = w.mirrors;
   begin(now, "move_walls", Part::fluid, [&] {
     Access a{.near = all_of(bodies_.stores()), .reads = {}, .writes = {}};
-    if (w.size() == 0 || !motion_.moves()) return a;
+    if (w.everywhere() == 0 || !motion_.moves()) return a;
     a.reads = {&w.x0, &w.body, &w.v_rho, &m.x0};
     a.writes = {&w.x, &w.v_rho, &w.xp, &w.xp_mid, &m.x, &m.xp};
     return a;

@@ -93,7 +93,7 @@ void Stepper::initialise_fluid(Step& now) {
   fluid_.exposure.buffer().zero();
   Buffer<Real> device;
   device.assign(pressure);
-  for_each(fluid_.owned(), InitialDensityPass{fluid_solver_->eos(), frame_,
+  for_each(fluid_.all(), InitialDensityPass{fluid_solver_->eos(), frame_,
                                               two_way() ? Span<const Real>(fluid_.eps) : Span<const Real>(),
                                               device, fluid_.mass, fluid_.compression});
 }
@@ -163,6 +163,7 @@ void Stepper::load(const SavedState& saved) {
   }
   if (coupled()) coupling_->load(scalar);
   if (has_grains()) load_grain_store(saved);
+  if (has_fluid()) fluid_solver_->keep_own(fluid_, walls_, true);
   restore_lists(saved);
   if (has_fluid()) fluid_solver_->survey(fluid_);
   sweep();

@@ -41,6 +41,23 @@ constexpr double kMostSubsteps = 1e6;  ///< of a step
   throw KeyError(key, key + ": " + start + limit + end);
 }
 
+/// Where the particle of that id is, on whichever rank.
+template <class Particles>
+Vec3d place_of(Id id, const Particles& particles, const Frame& frame) {
+  struct Found {
+    bool here;
+    Vec3d x;
+  } own{false, {}};
+  const auto ids = particles.id.values();
+  const auto end = ids.begin() + particles.owned().size();
+  if (const auto at = std::find(ids.begin(), end, id); at != end)
+    own = {true, coordinates(frame, particles.x.values()[std::size_t(at - ids.begin())])};
+  return all_reduce(own, [](Found& into, const Found& other) {
+           if (other.here) into = other;
+         })
+      .x;
+}
+
 }  // namespace
 
 Stepper::Stepper(const Config& config, State& state)
@@ -64,7 +81,7 @@ Stepper::Stepper(const Config& config, State& state)
     // smaller ones than fluid searches for would only be many
     const double least_cell = wet ? config.couple.hc / 16 : 0;
     grain_grid_ = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length,
-                           std::max(solid_solver_->range(), least_cell));
+                           std::max(solid_solver_->range(), least_cell), int(config.block));
   }
   if (has_fluid())
     fluid_solver_ = FluidSolver::make(fluid_parameters(config), frame_, state.geometry, fluid_);
@@ -124,6 +141,7 @@ void Stepper::evaluate(Step& now) {
 void Stepper::start() {
   Step now;
   now.held = held();
+  if (has_fluid()) fluid_solver_->keep_own(fluid_, walls_, false);
   refresh(has_fluid(), has_grains());
   now.poses = poses_now();
   if (has_grains()) solid_solver_->evaluate(grains_, now.poses);
@@ -133,6 +151,7 @@ void Stepper::start() {
     if (coupled()) porosity(now);
     fluid_state(now);
     fluid_solver_->pack(fluid_);
+    outdate({&fluid_.xp, &fluid_.xp_mid});
     evaluate(now);
   }
   sweep();
@@ -267,21 +286,17 @@ void Stepper::sweep() {
   };
   if (has_fluid()) {
     fluid_extremes_ = fluid_solver_->extremes();
-    if (const Index a = fluid_extremes_.bad; a != kNone)
-      fault("fluid particle " + std::to_string(fluid_.id.values()[a]),
-            coordinates(frame_, fluid_.x.values()[a]),
+    if (const Id bad = fluid_extremes_.bad; bad != kNone)
+      fault("fluid particle " + std::to_string(bad), place_of(bad, fluid_, frame_),
             "its density left 0.5..2 rho0 or became NaN; likely causes: fluid.vmax too low (sound speed), "
             "time step too large, or fluid overlapping walls or grains at the start");
   }
   if (has_grains()) {
     grain_watch_ = solid_solver_->watch(grains_);
-    if (const Id bad = grain_watch_.bad; bad != kNone) {
-      const auto id = grains_.id.values();
-      const std::size_t i = std::find(id.begin(), id.end(), bad) - id.begin();
-      fault("grain " + std::to_string(bad), grains_.x.values()[i],
+    if (const Id bad = grain_watch_.bad; bad != kNone)
+      fault("grain " + std::to_string(bad), place_of(bad, grains_, frame_),
             "its position or velocity became NaN; likely causes: overlapping grains at the start or "
             "time.dt_dem too large");
-    }
   }
   if (const int k = bodies_.broken(); k >= 0)
     fault("wall.body \"" + config_.wall.bodies[bodies_.body(k)].name + '"', bodies_.motion(k).origin(),
@@ -305,6 +320,7 @@ void Stepper::refresh_if_needed(double dt) {
 
 void Stepper::refresh(bool fluid, bool grains, double dt) {
   if (fluid) {
+    fluid_.drop_ghosts();
     open_.renew(fluid_, walls_, fluid_solver_->eos(), clock_.time, gravity_.at(clock_.time));
     const double fastest = std::sqrt(fluid_extremes_.v2) + dt * std::sqrt(fluid_extremes_.acc2);
     fluid_solver_->refresh(fluid_, walls_, rebuilds_ == 0 || walls_moved_ > 0,

@@ -24,6 +24,8 @@ class Stepper {
 
   /// All that hold fields of this state.
   std::vector<const Store*> stores() const;
+  /// Before pairs are looked at between steps: brings all values of ghosts up to date. By all ranks.
+  void share_all();
   StepInfo step(const Observer& observer = {});
 
   /// As Simulation has them.
@@ -66,7 +68,10 @@ class Stepper {
   bool held() const { return config_.grain.fixed || clock_.time < config_.grain.release_time; }
 
   template <class MakeAccess>
-  void begin(Step& now, std::string_view name, Part part, const MakeAccess& fields) const;
+  void begin(Step& now, std::string_view name, Part part, const MakeAccess& fields);
+  std::vector<Store*> divided_stores();  ///< whose particles are divided among ranks
+  void share(const Fields& fields);      ///< brings their values to ghosts, where these are outdated
+  void outdate(const Fields& fields);    ///< ghosts no longer have the values of their owners
   std::vector<const Store*> group_stores() const;
   Fields fluid_in_pairs() const;
   Fields walls_in_pairs() const;

@@ -24,6 +24,8 @@ class PressureCorrection {
   Span<const LoadSum> added() const { return added_; }
 
  private:
+  /// Of reports, not of what moves bodies.
+  bool reported() const { return dimensions_ > 0; }
   Range each() const { return {0, Index(solids_.size())}; }
 
   std::vector<EnclosedSolid> solids_;

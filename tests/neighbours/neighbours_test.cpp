@@ -112,7 +112,7 @@ TEST_P(Neighbours, ListAndCellsMatchAllPairs) {
 #if BL_CUDA
   TileList tiles;
   for (unsigned bits : {0, 2}) {
-    tiles.build(grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p), range, {}, bits);
+    tiles.build(Index(device.size()), grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p), range, {}, bits);
     found = rows_of(tiles, separation, range);
     for (Index i = 0; i < x.size(); ++i) EXPECT_EQ(found[i], expected[i]) << "tiles, particle " << i;
   }
@@ -159,7 +159,7 @@ TEST(SmallNeighbours, ListsReachAsFarAsHalfSkinsSay) {
 #if BL_CUDA
     TileList tiles;
     for (unsigned bits : {0, 2}) {
-      tiles.build(grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p), range, skins, bits);
+      tiles.build(Index(device.size()), grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p), range, skins, bits);
       found = rows_of(tiles, separation, range + 2 * most);
       for (Index i = 0; i < n; ++i) EXPECT_EQ(found[i], expected[i]) << "tiles, particle " << i;
     }
@@ -200,7 +200,7 @@ TEST(SmallNeighbours, ListsGrowFromNothingAndShrink) {
     EXPECT_GE(list.bytes(), std::max(most, pairs) * sizeof(Index)) << "memory is kept";
     most = std::max(most, pairs);
 #if BL_CUDA
-    tiles.build(grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p), range, {}, 2);
+    tiles.build(Index(device.size()), grid, c.frame, Span<const Vec3d>(device), Span<const PairPosition>(p), range, {}, 2);
     EXPECT_EQ(rows_of(tiles, separation, range), expected) << "tiles, " << range;
 #endif
   }
@@ -301,7 +301,7 @@ void expect_lists_and_cells_agree(bool periodic, int many = 700) {
 #if BL_CUDA
   TileList tiles;
   for (unsigned bits : {0, 1, 3, 5}) {
-    tiles.build(grid, c.frame, Span<const Vec3d>(place), Span<const PairPosition>(p), 1.2 * range, {}, bits);
+    tiles.build(Index(place.size()), grid, c.frame, Span<const Vec3d>(place), Span<const PairPosition>(p), 1.2 * range, {}, bits);
     // places rounded to 2^-24 of a tile that is as wide as the box, six times the range
     expect_same(tiles, "tiles of " + std::to_string(1 << bits) + " lanes, ", 2 * bound);
   }

@@ -5,12 +5,13 @@
 #include <bit>
 
 #include "bedload/geometry/setup.hpp"
+#include "bedload/parallel/link.hpp"
 #include "bedload/simulation.hpp"
 #include "tests/support/fluid_box.hpp"
 
 namespace BL_SOLVER {
 
-std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup);
+std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup, Link* link = nullptr);
 
 inline std::unique_ptr<Simulation> started(const Config& config, const Setup& setup) {
   auto simulation = make_coupled(config, setup);

@@ -10,7 +10,7 @@ ROOTS = TOP / "include", TOP
 
 CORE, PARALLEL, CASE = "bedload/core/", "bedload/parallel/", ("bedload/case/", "bedload/geometry/")
 DATA = "bedload/particles/", "bedload/neighbours/"
-SOLVERS = tuple(f"src/{row}/" for row in ("fluid", "solids", "coupling", "walls", "boundaries"))
+SOLVERS = tuple(f"src/{row}/" for row in ("domain", "fluid", "solids", "coupling", "walls", "boundaries"))
 
 #: folder -> beginnings of what its files may include
 LAYERS = {

@@ -55,6 +55,7 @@ struct Config {
   OutputConfig out;
   Chosen<Precision> precision = Precision::mixed;
   Chosen<Simd> simd = Simd::automatic;
+  std::uint64_t block = 8;                     ///< cells each way of a block that one rank owns
   std::uint64_t seed = 1;
   double max_lost = 1e-3;                      ///< fraction of fluid, grains, bodies that may leave the domain unasked
   double skin_fluid = 0.3;                     ///< neighbour skin / fluid.dx

@@ -1,9 +1,17 @@
 #pragma once
 // Sorted cells of one phase. Cells are numbered along a Hilbert curve inside bricks of
-// 8 x 8 x 8 and bricks row by row, so that neighbours in space are neighbours in memory and
-// the table of cell starts stays dense.
+// 8 x 8 x 8 and bricks row by row, so that neighbours in space are neighbours in memory. A brick
+// is one block, or it is cut into cubes of 4, 2 or 1 cells each way, which are stretches of the
+// curve. The table of cell starts covers only blocks with particles in or next to them. With
+// several ranks each block has one owner, and a rank has copies of the particles in those cells
+// of others that are next to its own.
+
+#include <array>
+#include <memory>
+#include <utility>
 
 #include "bedload/core/frame.hpp"
+#include "bedload/neighbours/ownership.hpp"
 #include "bedload/parallel/sort.hpp"
 
 namespace BL_SOLVER {
@@ -14,7 +22,9 @@ struct CellGridView {
   int bricks[3] = {1, 1, 1};
   bool periodic[3] = {false, false, false};
   const std::uint16_t* curve = nullptr;           ///< [512] place on the Hilbert curve of a cell in its brick
-  const Index* start = nullptr;                   ///< [cells + 1] first particle of each cell
+  unsigned block_bits = 9;                        ///< log2 of the cells of a block
+  const Index* directory = nullptr;               ///< [blocks of the domain] number of a block in the tables
+  const Index* start = nullptr;                   ///< [cells of the tables + 1] first particle of each cell
   const std::uint8_t* occupied_nearby = nullptr;  ///< [cells] whether it or an adjacent cell holds any
   unsigned level = 0;                             ///< log2 of the sorted cells along each edge of these
 
@@ -27,16 +37,25 @@ struct CellGridView {
     }
     return clamp(c, 0, n[k] - 1);
   }
-  BL_HD std::uint32_t key(int ix, int iy, int iz) const {
-    ix <<= level, iy <<= level, iz <<= level;
+  /// Number of a cell among all of the domain, brick by brick.
+  BL_HD std::uint32_t number(int ix, int iy, int iz) const {
     const std::uint32_t brick = (std::uint32_t(iz >> 3) * bricks[1] + (iy >> 3)) * bricks[0] + (ix >> 3);
-    return brick * 512u + (curve[(iz & 7) * 64 + (iy & 7) * 8 + (ix & 7)] & ~(cells() - 1));
+    return brick * 512u + curve[(iz & 7) * 64 + (iy & 7) * 8 + (ix & 7)];
+  }
+  /// Its place in the tables.
+  BL_HD std::uint32_t key_of(std::uint32_t number) const {
+    return directory[number >> block_bits] << block_bits | (number & ((1u << block_bits) - 1));
+  }
+  BL_HD std::uint32_t key(int ix, int iy, int iz) const {
+    return key_of(number(ix << level, iy << level, iz << level)) & ~(cells() - 1);
+  }
+  BL_HD std::uint32_t block_of(const Vec3d& x) const {
+    return number(coordinate(x.x, 0), coordinate(x.y, 1), coordinate(x.z, 2)) >> block_bits;
   }
   /// The particles of the cell of a key lie from first(key) to last(key), that not included.
   BL_HD Index first(std::uint32_t key) const { return start[key]; }
   BL_HD Index last(std::uint32_t key) const { return start[key + cells()]; }
-  /// Sorted cells in one of these. In a brick, a cube of 2, 4 or 8 cells each way is one stretch of the
-  /// curve.
+  /// Sorted cells in one of these, which is a stretch of the curve within a block.
   BL_HD std::uint32_t cells() const { return 1u << 3 * level; }
   /// The same in larger cells, for searches that reach over many.
   CellGridView for_reach(double reach) const {
@@ -44,7 +63,7 @@ struct CellGridView {
     const auto fits = [&] {
       for (int k = 0; k < 3; ++k)
         if (2 > 0.75 * reach * view.inverse[k] || (periodic[k] && view.n[k] % 2 != 0)) return false;
-      return view.level < 3;
+      return 3 * view.level < block_bits;
     };
     while (fits()) {
       ++view.level;
@@ -166,26 +185,51 @@ struct CellGridView {
   }
 };
 
+/// Place on the Hilbert curve of each cell of a brick.
+const std::array<std::uint16_t, 512>& hilbert_curve();
+
 /// Sorts one phase into cells of at least `cell` (m) over [min, max].
 class CellGrid {
  public:
   CellGrid() = default;
-  CellGrid(const Frame& frame, const Vec3d& min, const Vec3d& max, double cell);
+  /// block: cells of a block each way: 8, 4, 2 or 1.
+  CellGrid(const Frame& frame, const Vec3d& min, const Vec3d& max, double cell, int block = 8);
 
-  /// Cell keys of all x -> order; `order` holds where each sorted particle was.
+  /// Divides the blocks among ranks.
+  void divide(std::shared_ptr<const Ownership> ownership) { ownership_ = std::move(ownership); }
+  const std::shared_ptr<const Ownership>& ownership() const { return ownership_; }  ///< null: all are its own
+
+  /// Cell keys of all x -> order; `order` holds where each sorted particle was. Within a cell they are in the
+  /// order of their ids, or as they were without.
   template <class P>
-  void sort(const Frame& frame, Span<const P> x, Buffer<Index>& order);
+  void sort(const Frame& frame, Span<const P> x, Buffer<Index>& order, Span<const Id> id = {});
+  /// x: those sorted, in their new order, and ghosts behind them: the particles of the cells that other ranks
+  /// send, rank by rank, in the order of the cells.
+  template <class P>
+  void add_ghosts(const Frame& frame, Span<const P> x);
 
   CellGridView view() const;
-  Index bricks() const { return cells_ / 512; }
+  /// Those with particles of this rank are the first in the tables.
+  Index blocks() const { return blocks_; }
+  Index blocks_of_domain() const {
+    return Index(shape_.bricks[0]) * shape_.bricks[1] * shape_.bricks[2] << (9 - shape_.block_bits);
+  }
 
  private:
+  Index cells() const { return (blocks_ + ghost_blocks()) << shape_.block_bits; }
+  Index ghost_blocks() const { return ownership_ ? ownership_->ghost_blocks : 0; }
+  template <class P>
+  void number_blocks(const Frame& frame, Span<const P> x);
+  template <class P>
+  void fill_tables(const Frame& frame, Span<const P> x, Span<const Index> order);
+
   CellGridView shape_;
-  std::uint32_t cells_ = 0;
-  int key_bits_ = 32;
+  Index blocks_ = 0;
+  std::shared_ptr<const Ownership> ownership_;
   Buffer<std::uint16_t> curve_;
-  // of a vast domain as much as of many particles: made when first looked at
-  mutable Buffer<Index> start_;
+  Buffer<std::uint32_t> keys_;  ///< of all, sorted
+  // those of a domain are made when first looked at
+  mutable Buffer<Index> directory_, start_;
   mutable Buffer<std::uint8_t> occupied_nearby_;
 };
 

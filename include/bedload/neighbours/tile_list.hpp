@@ -1,13 +1,14 @@
 #pragma once
 // Neighbours of one phase in itself, on the GPU: blocks of threads work on tiles of rows that lie together,
 // and what they read of all particles near a tile, its sources, is staged in shared memory, where the entries
-// of the list point with 16 bits. Tiles are runs of sorted particles of one brick of cells. Shared memory has
+// of the list point with 16 bits. Tiles are runs of sorted particles of one block of cells. Shared memory has
 // eight banks of 16 bytes, from which eight threads read at a time: so the entries of a thread stand in such
 // an order that neighbouring threads read from different ones while that is possible.
 
 #include "bedload/neighbours/cell_grid.hpp"
 #include "bedload/neighbours/half_skins.hpp"
 #include "bedload/parallel/lanes.hpp"
+#include "bedload/parallel/ranks.hpp"
 
 #if BL_CUDA
 namespace BL_SOLVER {
@@ -87,20 +88,23 @@ class TileList {
   /// `blocks` fit on a multiprocessor anyway: of all tiles, or of nearly all where that lets more blocks run.
   Index capacity(std::size_t each, Index blocks) const;
 
-  /// x: as sorted into the cells; xp: the same as pair loops read them. As many threads share a row as keep
-  /// the device busy, or 2^bits.
+  /// x: as sorted into the cells, of which the first have rows; xp: the same as pair loops read them. 2^bits
+  /// threads share a row.
   template <class P>
-  void build(const CellGrid& grid, const Frame& frame, Span<const P> x, Span<const PairPosition> xp,
-             double range, const HalfSkins& skins) {
-    build(grid, frame, x, xp, range, skins, lane_bits(x.size));
-  }
-  template <class P>
-  void build(const CellGrid& grid, const Frame& frame, Span<const P> x, Span<const PairPosition> xp,
-             double range, const HalfSkins& skins, unsigned bits);
+  void build(Index rows, const CellGrid& grid, const Frame& frame, Span<const P> x,
+             Span<const PairPosition> xp, double range, const HalfSkins& skins, unsigned bits);
 
  private:
-  Index rows_ = 0, tiles_ = 0, most_ = 0;
+  template <class P>
+  void search(const CellGrid& grid, const Frame& frame, Span<const P> x, Span<const PairPosition> xp,
+              double range, const HalfSkins& skins);
+
+  Index rows_ = 0, tiles_ = 0;
+  Index most_ = 0;                ///< sources of a tile, on any rank
   detail::TileCounts numbers_{};  ///< of the last search
+  // how many sources a pass stages decides how it rounds, so it must not depend on the ranks
+  detail::TileCounts everywhere_{};
+  std::uint64_t all_tiles_ = 0;
   Index words_ = 32;              ///< of a thread's entries, at most
   std::size_t crowd_ = 2500;      ///< particles in the cells around a tile, about
   unsigned bits_ = 0;
@@ -143,10 +147,10 @@ inline Index TileList::capacity(std::size_t each, Index blocks) const {
   const Index all = min_of(places(tile_memory()), (most_ + 1 + 3) / 4 * 4);
   for (; blocks > 1 && places(shared_memory(blocks)) < all; --blocks) {
     const Index fit = places(shared_memory(blocks));
-    Index beyond = 0;
+    std::uint64_t beyond = 0;
     for (Index bin = fit / detail::TileCounts::kBin; bin < detail::TileCounts::kBins; ++bin)
-      beyond += numbers_.tiles[bin];
-    if (beyond <= tiles_ / 64) return fit;
+      beyond += everywhere_.tiles[bin];
+    if (beyond <= all_tiles_ / 64) return fit;
   }
   return all;
 }

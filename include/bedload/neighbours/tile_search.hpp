@@ -17,26 +17,23 @@ Index resident_blocks(Kernel kernel, Index threads, std::size_t memory) {
 
 namespace detail {
 
-/// How many tiles there are in a brick of cells.
-struct TilesOfBrick {
-  Span<const Index> start;  ///< of cells
-  Index rows;               ///< of a tile, at most
+/// How many tiles there are in a block of cells.
+struct TilesOfBlock {
+  CellGridView grid;
+  Index rows;  ///< of a tile, at most
   Span<std::uint64_t> width;
-  BL_HD void operator()(Index b) const {
-    width[b] = (start[(b + 1) * 512] - start[b * 512] + rows - 1) / rows;
-  }
+  BL_HD Index first(Index block) const { return grid.start[block << grid.block_bits]; }
+  BL_HD void operator()(Index b) const { width[b] = (first(b + 1) - first(b) + rows - 1) / rows; }
 };
-struct CutBrick {
-  Span<const Index> start;
+struct CutBlock {
+  TilesOfBlock tiles;
   Span<const std::uint64_t> offset;
   Span<Tile> tile;
-  Index rows;
   BL_HD void operator()(Index b) const {
-    const Index tiles = Index(offset[b + 1] - offset[b]);
-    for (Index t = 0; t < tiles; ++t) tile[Index(offset[b]) + t].row = start[b * 512] + t * rows;
-    if (b + 1 == width()) tile[Index(offset[b + 1])].row = start[width() * 512];
+    const Index n = Index(offset[b + 1] - offset[b]);
+    for (Index t = 0; t < n; ++t) tile[Index(offset[b]) + t].row = tiles.first(b) + t * tiles.rows;
+    if (b + 2 == offset.size) tile[Index(offset[b + 1])].row = tiles.first(b + 1);
   }
-  BL_HD Index width() const { return offset.size - 1; }
 };
 
 /// Cells of a brick and around it.
@@ -375,21 +372,34 @@ __global__ void __launch_bounds__(kTileThreads) tile_order(TileListView list, Wo
 }  // namespace detail
 
 template <class P>
-void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, Span<const PairPosition> xp,
-                     double range, const HalfSkins& skins, unsigned bits) {
-  rows_ = x.size;
+void TileList::build(Index of_rows, const CellGrid& grid, const Frame& frame, Span<const P> x,
+                     Span<const PairPosition> xp, double range, const HalfSkins& skins, unsigned bits) {
+  rows_ = of_rows;
   bits_ = min_of(bits, 5u);
   periods_ = ShortPeriods(frame, grid.view());
-  const Index bricks = grid.bricks(), rows = kTileThreads >> bits_;
-  const Span<const Index> start{grid.view().start, bricks * 512 + 1};
-  width_.resize(bricks);
-  for_each({0, bricks}, detail::TilesOfBrick{start, rows, width_});
+  const Index blocks = grid.blocks(), rows = kTileThreads >> bits_;
+  width_.resize(blocks);
+  const detail::TilesOfBlock tiles{grid.view(), rows, width_};
+  for_each({0, blocks}, tiles);
   tiles_ = Index(exclusive_scan(width_, offset_));
   tile_.reserve_and_resize(tiles_ + 1);
-  for_each({0, bricks}, detail::CutBrick{start, offset_, tile_, rows});
+  for_each({0, blocks}, detail::CutBlock{tiles, offset_, tile_});
   count_.reserve_and_resize(std::size_t(tiles_) * kTileThreads);
-  most_ = 0;
-  if (tiles_ == 0) return;
+  if (tiles_ > 0)
+    search(grid, frame, x, xp, range, skins);
+  else
+    numbers_ = {};
+  everywhere_ = all_reduce(numbers_, [](detail::TileCounts& into, const detail::TileCounts& more) {
+    into.nearest = max_of(into.nearest, more.nearest);
+    for (Index bin = 0; bin < detail::TileCounts::kBins; ++bin) into.tiles[bin] += more.tiles[bin];
+  });
+  all_tiles_ = all_reduce(std::uint64_t(tiles_), [](auto& into, auto more) { into += more; });
+  most_ = everywhere_.nearest;
+}
+
+template <class P>
+void TileList::search(const CellGrid& grid, const Frame& frame, Span<const P> x,
+                      Span<const PairPosition> xp, double range, const HalfSkins& skins) {
   counts_.resize(1);
   const auto search = bits_ == 0 ? detail::tile_search<true, P> : detail::tile_search<false, P>;
   check_cuda(cudaFuncSetAttribute(search, cudaFuncAttributeMaxDynamicSharedMemorySize, int(tile_memory())),
@@ -429,10 +439,9 @@ void TileList::build(const CellGrid& grid, const Frame& frame, Span<const P> x, 
     const detail::TileCounts counts = numbers_ = counts_.to_host()[0];
     if (counts.around > detail::kMostAround)
       throw DeviceError("more than " + std::to_string(detail::kMostAround) + " particles around " +
-                        std::to_string(rows) + " that lie together");
+                        std::to_string(kTileThreads >> bits_) + " that lie together");
     done = counts.sources <= source_.size() && counts.words <= places && counts.longest <= 4 * words_;
     longest = counts.longest;
-    most_ = counts.nearest;
     crowd_ = counts.around + counts.around / 16 + (4u << bits_);
     // with room for a little more: what does not fit takes another search
     if (counts.longest > 4 * words_) words_ = (counts.longest + 3) / 4 + 1;

@@ -70,10 +70,11 @@ inline void copy_to_host(void* to, const void* from, std::size_t bytes) {
   std::memcpy(to, from, bytes);
 #endif
 }
+/// Also from another GPU.
 inline void copy_on_device(void* to, const void* from, std::size_t bytes) {
   if (bytes == 0) return;
 #if BL_CUDA
-  check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDeviceToDevice, Context::current().stream()),
+  check_cuda(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, Context::current().stream()),
              "copy on the GPU");
 #else
   std::memcpy(to, from, bytes);

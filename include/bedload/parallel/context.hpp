@@ -9,6 +9,7 @@
 
 #include "bedload/core/error.hpp"
 #include "bedload/core/types.hpp"
+#include "bedload/parallel/link.hpp"
 
 namespace BL_SOLVER {
 
@@ -24,7 +25,7 @@ inline void check_cuda(cudaError_t status, const char* what) {
 #endif
 
 /// What loops, sorts and copies of one host thread share: the queue of the device in which they follow one
-/// another, and memory for what no one keeps. The place of a communicator, where there are several devices.
+/// another, memory for what no one keeps, and the link to other ranks where there are several.
 class Context {
  public:
   /// That of the thread that asks.
@@ -46,6 +47,13 @@ class Context {
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 
+  /// From now on this thread is one of several ranks. `link` must outlive what it does.
+  void join(Link* link) { link_ = link; }
+  bool several() const { return link_ != nullptr; }
+  Link* link() const { return link_; }  ///< null: this is the only rank
+  int rank() const { return link_ ? link_->rank() : 0; }
+  int ranks() const { return link_ ? link_->size() : 1; }
+
   /// Waits for all that has been queued.
   void wait() const {
 #if BL_CUDA
@@ -62,6 +70,7 @@ class Context {
 
  private:
   std::map<std::pair<std::type_index, int>, std::shared_ptr<void>> scratch_;
+  Link* link_ = nullptr;
 #if BL_CUDA
   cudaStream_t stream_ = nullptr;
 #endif

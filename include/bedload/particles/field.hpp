@@ -2,6 +2,7 @@
 // One named array of a store: unit and lifetime declared once; allocation,
 // sorting, output and checkpoints follow from that.
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -104,6 +105,9 @@ class FieldBase {
   /// May be missing from a checkpoint; then it is initialised to zero.
   void begin_at_zero() { needed_ = false; }
   bool needed() const { return needed_; }
+  /// Whether ghosts have the values that their owners have.
+  bool shared() const { return shared_; }
+  void set_shared(bool shared) { shared_ = shared; }
 
   virtual void resize(Index n) = 0;
   /// To n entries, the new ones zero.
@@ -111,13 +115,18 @@ class FieldBase {
   /// x[i] = old x[order[i]]; shrinks to order.size. If `by` has the same type its memory is used, and its
   /// values are lost.
   virtual void gather(Span<const Index> order, FieldBase* by) = 0;
-  virtual HostArray to_host() const = 0;
+  /// to[i] = x[places[i]], where the solver computes; `to` has room for as many entries.
+  virtual void collect(Span<const Index> places, void* to) const = 0;
+  virtual void* entry(Index i) = 0;
+  HostArray to_host() const { return to_host(entries()); }
+  virtual HostArray to_host(std::size_t first) const = 0;  ///< the first entries alone
+  virtual std::size_t entries() const = 0;
   virtual FieldView view() const = 0;
   virtual std::size_t entry_bytes() const = 0;
   virtual void from_host(const HostArray& array) = 0;
 
  private:
-  bool used_ = true, needed_ = true;
+  bool used_ = true, needed_ = true, shared_ = true;
 };
 
 template <class T>
@@ -127,10 +136,15 @@ class Field final : public FieldBase {
 
   void resize(Index n) override { data_.resize(n); }
   void grow(Index n) override { data_.grow(n); }
-  void gather(Span<const Index> order, FieldBase* by) override;  // in field.cpp, for the types listed there
-  HostArray to_host() const override {
+  // these two in field.cpp, for the types listed there
+  void gather(Span<const Index> order, FieldBase* by) override;
+  void collect(Span<const Index> places, void* to) const override;
+  void* entry(Index i) override { return data_.data() + i; }
+  using FieldBase::to_host;
+  std::size_t entries() const override { return data_.size(); }
+  HostArray to_host(std::size_t first) const override {
     HostArray a{name, unit, FileType<T>::scalar, FileType<T>::components, {}};
-    a.bytes.resize(data_.size() * sizeof(T));
+    a.bytes.resize(std::min(first, data_.size()) * sizeof(T));
     copy_to_host(a.bytes.data(), data_.data(), a.bytes.size());
     return a;
   }

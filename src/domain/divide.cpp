@@ -1,0 +1,173 @@
+#include "src/domain/divide.hpp"
+
+#include "bedload/geometry/bisect.hpp"
+#include "bedload/parallel/compact.hpp"
+
+namespace BL_SOLVER {
+namespace {
+
+template <class P>
+struct BlockPass {
+  CellGridView grid;
+  Frame frame;
+  Span<const P> x;
+  Span<std::uint32_t> block;
+  BL_HD void operator()(Index i) const { block[i] = grid.block_of(coordinates(frame, x[i])); }
+};
+
+/// 0 for what stays, 1 + rank for what goes there.
+template <class P>
+struct DestinationPass {
+  BlockPass<P> blocks;
+  Span<const Index> owner;
+  Index rank;
+  Span<std::uint32_t> destination;
+  BL_HD void operator()(Index i) const {
+    const Index to = owner[blocks.grid.block_of(coordinates(blocks.frame, blocks.x[i]))];
+    destination[i] = to == rank ? 0 : 1 + to;
+  }
+};
+
+template <class P>
+struct IsOwn {
+  CellGridView grid;
+  Frame frame;
+  Span<const P> x;
+  Span<const Index> owner;
+  Index rank;
+  BL_HD bool operator()(Index i) const { return owner[grid.block_of(coordinates(frame, x[i]))] == rank; }
+};
+
+/// Where each number begins among sorted ones.
+struct FirstOfPass {
+  Span<const std::uint32_t> sorted;
+  Span<Index> first;
+  BL_HD void operator()(Index number) const {
+    Index lo = 0, hi = sorted.size;
+    while (lo < hi) {
+      const Index middle = lo + (hi - lo) / 2;
+      if (sorted[middle] < number)
+        lo = middle + 1;
+      else
+        hi = middle;
+    }
+    first[number] = lo;
+  }
+};
+
+/// Particles of which some stay, and those that came.
+struct StayOrComePass {
+  Span<const Index> order;
+  Index stay, first_come;
+  Span<Index> kept;
+  BL_HD void operator()(Index i) const { kept[i] = i < stay ? order[i] : first_come + (i - stay); }
+};
+
+struct CountCellPass {
+  CellGridView grid;
+  Span<const std::uint32_t> cell;
+  Span<Index> count;
+  BL_HD void operator()(Index c) const {
+    const std::uint32_t key = grid.key_of(cell[c]);
+    count[c] = grid.start[key + 1] - grid.start[key];
+  }
+};
+struct ListCellPass {
+  CellGridView grid;
+  Span<const std::uint32_t> cell;
+  Span<const Index> before;
+  Span<Index> particle;
+  BL_HD void operator()(Index c) const {
+    const Index first = grid.start[grid.key_of(cell[c])];
+    for (Index k = before[c]; k < before[c + 1]; ++k) particle[k] = first + (k - before[c]);
+  }
+};
+struct PickPass {
+  Span<const Index> from, at;
+  Span<Index> out;
+  BL_HD void operator()(Index k) const { out[k] = from[at[k]]; }
+};
+
+}  // namespace
+
+template <class P>
+void add_loads(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x,
+               std::vector<double>& load) {
+  load.resize(grid.blocks_of_domain());
+  Buffer<std::uint32_t>& block = Context::current().scratch<std::uint32_t>(0);
+  block.reserve_and_resize(store.owned().size());
+  for_each(store.owned(), BlockPass<P>{grid.view(), frame, x, block});
+  for (const std::uint32_t b : block.to_host()) ++load[b];
+}
+
+std::shared_ptr<const Ownership> owners_for(const CellGrid& grid, const std::vector<double>& load) {
+  const CellGridView shape = grid.view();
+  return std::make_shared<const Ownership>(shape,
+                                           bisect(block_places(shape), load, Context::current().ranks()));
+}
+
+template <class P>
+void claim(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
+  Buffer<Index> kept;
+  find_all(store.owned().size(), IsOwn<P>{grid.view(), frame, x, grid.ownership()->owner, Index(Context::current().rank())},
+           kept);
+  store.keep(kept);
+  store.count();
+}
+
+template <class P>
+void migrate(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
+  const Context& context = Context::current();
+  const Index n = store.owned().size(), ranks = Index(context.ranks());
+  Buffer<std::uint32_t> destination(n);
+  Buffer<Index> order, first(ranks + 2);
+  for_each({0, n}, DestinationPass<P>{{grid.view(), frame, x, {}},
+                                      grid.ownership()->owner,
+                                      Index(context.rank()),
+                                      destination});
+  sort_keys(destination, order, 16);
+  for_each({0, ranks + 2}, FirstOfPass{destination, first});
+  const std::vector<Index> begin = first.to_host();
+  const Index stay = begin[1];
+  if (all_reduce(n - stay, [](Index& into, Index more) { into = max_of(into, more); }) == 0) return;
+  std::vector<Index> of_rank;
+  for (Index r = 0; r <= ranks; ++r) of_rank.push_back(begin[r + 1] - stay);
+  store.make_ghosts(of_rank, {order.data() + stay, n - stay});
+  Buffer<Index> kept(stay + (store.size() - n));
+  for_each({0, Index(kept.size())}, StayOrComePass{order, stay, n, kept});
+  store.reorder(kept);
+}
+
+void make_ghosts(Store& store, const CellGrid& grid) {
+  const Ownership& own = *grid.ownership();
+  const Index cells = Index(own.sent_cells.size());
+  Buffer<Index> count(cells), before, places, at_rank, begin(own.of_rank.size());
+  for_each({0, cells}, CountCellPass{grid.view(), own.sent_cells, count});
+  places.resize(exclusive_scan(count, before));
+  for_each({0, cells}, ListCellPass{grid.view(), own.sent_cells, before, places});
+  at_rank.assign(own.of_rank);
+  for_each({0, Index(begin.size())}, PickPass{before, at_rank, begin});
+  store.make_ghosts(begin.to_host(), places);
+}
+
+template <class P>
+HostArray blocks_of(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
+  const Index n = store.owned().size();
+  Buffer<std::uint32_t> block(n);
+  for_each({0, n}, BlockPass<P>{grid.view(), frame, x, block});
+  HostArray out{"block", "-", Scalar::u32, 1, {}};
+  out.bytes.resize(n * sizeof(std::uint32_t));
+  copy_to_host(out.bytes.data(), block.data(), out.bytes.size());
+  return out;
+}
+
+#define BL_POSITION(P)                                                                                         \
+  template void add_loads(const Store&, const CellGrid&, const Frame&, Span<const P>, std::vector<double>&);   \
+  template void claim(Store&, const CellGrid&, const Frame&, Span<const P>);                                   \
+  template void migrate(Store&, const CellGrid&, const Frame&, Span<const P>);                                 \
+  template HostArray blocks_of(const Store&, const CellGrid&, const Frame&, Span<const P>);
+BL_POSITION(Vec3d)
+BL_POSITION(PackedPosition)
+#undef BL_POSITION
+
+}  // namespace BL_SOLVER

@@ -1,0 +1,255 @@
+#include "src/team/team_simulation.hpp"
+
+#include <condition_variable>
+#include <cstring>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <type_traits>
+#include <utility>
+
+#include "bedload/core/error.hpp"
+#include "src/team/thread_team.hpp"
+
+namespace bedload {
+namespace {
+
+/// Threads, one a rank, that do the same work at the same time.
+class Workers {
+ public:
+  Workers(int ranks, double timeout) : team_(ranks, timeout), errors_(std::size_t(ranks)) {
+    for (int r = 0; r < ranks; ++r) threads_.emplace_back([this, r] { work(r); });
+  }
+  ~Workers() {
+    run({});
+    for (std::thread& thread : threads_) thread.join();
+  }
+  int size() const { return team_.size(); }
+  Link& link(int rank) { return team_.link(rank); }
+
+  /// job(rank) on all threads; rethrows what one of them throws, of the lowest rank that did not only lose
+  /// another. An empty job ends them.
+  void run(const std::function<void(int)>& job) {
+    std::unique_lock lock(mutex_);
+    job_ = job;
+    busy_ = size();
+    ++number_;
+    wake_.notify_all();
+    done_.wait(lock, [this] { return busy_ == 0; });
+    std::exception_ptr first;
+    bool lost = false;
+    for (std::exception_ptr& error : errors_) {
+      if (!error) continue;
+      const bool only_lost = is_lost(error);
+      if (!first || (lost && !only_lost)) first = error, lost = only_lost;
+      error = nullptr;
+    }
+    if (!first) return;
+    team_.recover();
+    try {
+      std::rethrow_exception(first);
+    } catch (const RankLost& error) {
+      throw DeviceError(error.what());
+    }
+  }
+
+ private:
+  static bool is_lost(const std::exception_ptr& error) {
+    try {
+      std::rethrow_exception(error);
+    } catch (const RankLost&) {
+      return true;
+    } catch (...) {
+      return false;
+    }
+  }
+  void work(int rank) {
+    for (std::int64_t last = 0;;) {
+      std::function<void(int)> job;
+      {
+        std::unique_lock lock(mutex_);
+        wake_.wait(lock, [&] { return number_ != last; });
+        last = number_;
+        job = job_;
+      }
+      if (job) try {
+          job(rank);
+        } catch (...) {
+          errors_[std::size_t(rank)] = std::current_exception();
+          team_.fail();
+        }
+      const bool end = !job;
+      job = nullptr;
+      const std::lock_guard lock(mutex_);
+      if (--busy_ == 0) done_.notify_all();
+      if (end) return;
+    }
+  }
+
+  ThreadTeam team_;
+  std::vector<std::exception_ptr> errors_;
+  std::mutex mutex_;
+  std::condition_variable wake_, done_;
+  std::function<void(int)> job_;
+  std::int64_t number_ = 0;
+  int busy_ = 0;
+  std::vector<std::thread> threads_;
+};
+
+class TeamSimulation final : public Simulation {
+ public:
+  explicit TeamSimulation(const TeamOptions& options)
+      : parts_(std::size_t(options.ranks)), workers_(options.ranks, options.timeout) {
+    try {
+      workers_.run([&](int rank) { parts_[std::size_t(rank)] = options.make(workers_.link(rank)); });
+    } catch (...) {
+      release();
+      throw;
+    }
+  }
+  ~TeamSimulation() override { release(); }
+
+  StepInfo step() override {
+    return first_of([](Simulation& s) { return s.step(); });
+  }
+  void settle(double longest, const std::function<void(double)>& progress) override {
+    each([&](Simulation& s) { s.settle(longest, progress); });
+  }
+  void start() override {
+    each([](Simulation& s) { s.start(); });
+  }
+  // known to each rank, without the others
+  double time() const override { return first().time(); }
+  std::int64_t steps() const override { return first().steps(); }
+  Counts counts() const override { return first().counts(); }
+  std::vector<StepLimit> substep_limits() const override { return first().substep_limits(); }
+  std::vector<Quantity> numerical_viscosity() const override { return first().numerical_viscosity(); }
+  std::size_t bytes() const override { return first().bytes(); }
+  ParticleBytes field_bytes() const override { return first().field_bytes(); }
+  ParticleBytes scratch_bytes() const override { return first().scratch_bytes(); }
+  std::vector<Quantity> time_spent() const override { return first().time_spent(); }
+
+  std::vector<StepLimit> limits() override {
+    return first_of([](Simulation& s) { return s.limits(); });
+  }
+  std::size_t growth() override {
+    std::size_t sum = 0;
+    for (const std::size_t bytes : all_of([](Simulation& s) { return s.growth(); })) sum += bytes;
+    return sum;
+  }
+  HostStore snapshot(const std::string& store) override {
+    return joined(all_of([&](Simulation& s) { return s.snapshot(store); }));
+  }
+  HostStore rheology(const std::string& store) override {
+    return joined(all_of([&](Simulation& s) { return s.rheology(store); }));
+  }
+  std::vector<FieldView> fields(const std::string&) override { return {}; }
+  std::vector<Quantity> diagnostics() override {
+    return first_of([](Simulation& s) { return s.diagnostics(); });
+  }
+  std::vector<Quantity> measure(const ProbeConfig& probe) override {
+    return first_of([&](Simulation& s) { return s.measure(probe); });
+  }
+  void begin_interval(const ProbeConfig& probe) override {
+    each([&](Simulation& s) { s.begin_interval(probe); });
+  }
+  std::vector<Loss> losses() override {
+    return first_of([](Simulation& s) { return s.losses(); });
+  }
+  std::vector<Quantity> body_state(int body) override {
+    return first_of([&](Simulation& s) { return s.body_state(body); });
+  }
+  SavedState save() override {
+    return whole(all_of([](Simulation& s) { return s.save(); }));
+  }
+  void load(const SavedState& state) override {
+    each([&](Simulation& s) { s.load(state); });
+  }
+  SavedState save_grains() override {
+    return whole(all_of([](Simulation& s) { return s.save_grains(); }));
+  }
+  void load_grains(const SavedState& state) override {
+    each([&](Simulation& s) { s.load_grains(state); });
+  }
+
+ private:
+  const Simulation& first() const { return *parts_[0]; }
+  template <class F>
+  void each(const F& f) {
+    workers_.run([&](int rank) { f(*parts_[std::size_t(rank)]); });
+  }
+  template <class F>
+  using Result = std::invoke_result_t<F, Simulation&>;
+  template <class F>
+  std::vector<Result<F>> all_of(const F& f) {
+    std::vector<Result<F>> all(parts_.size());
+    workers_.run([&](int rank) { all[std::size_t(rank)] = f(*parts_[std::size_t(rank)]); });
+    return all;
+  }
+  template <class F>
+  Result<F> first_of(const F& f) {
+    return std::move(all_of(f)[0]);
+  }
+  static SavedState whole(std::vector<SavedState> parts) {
+    SavedState out{{}, std::move(parts[0].scalars)};
+    for (std::size_t s = 0; s < parts[0].stores.size(); ++s) {
+      std::vector<HostStore> stores;
+      for (SavedState& part : parts) stores.push_back(std::move(part.stores[s]));
+      out.stores.push_back(joined(stores));
+    }
+    return out;
+  }
+  /// What a rank has allocated is freed by its own thread.
+  void release() {
+    workers_.run([&](int rank) { parts_[std::size_t(rank)].reset(); });
+  }
+
+  std::vector<std::unique_ptr<Simulation>> parts_;
+  Workers workers_;
+};
+
+}  // namespace
+
+HostStore joined(const std::vector<HostStore>& parts) {
+  const HostStore& first = parts[0];
+  if (!first.find("block")) return first;
+  HostStore out{first.name, 0, {}};
+  for (const HostStore& part : parts) out.count += part.count;
+  std::vector<std::size_t> row;
+  for (const HostArray& a : first.arrays) {
+    if (a.name == "block") continue;
+    out.arrays.push_back({a.name, a.unit, a.type, a.components, {}});
+    row.push_back(size_of(a.type) * std::size_t(a.components));
+    out.arrays.back().bytes.resize(out.count * row.back());
+  }
+  std::vector<std::size_t> at(parts.size(), 0);
+  for (std::size_t done = 0; done < out.count;) {
+    std::size_t next = parts.size();  // the rank that has the next block
+    for (std::size_t r = 0; r < parts.size(); ++r) {
+      if (at[r] == parts[r].count) continue;
+      const auto block = [&](std::size_t rank) {
+        return parts[rank].find("block")->as<std::uint32_t>()[at[rank]];
+      };
+      if (next == parts.size() || block(r) < block(next)) next = r;
+    }
+    const HostStore& from = parts[next];
+    const auto* const block = from.find("block")->as<std::uint32_t>();
+    std::size_t end = at[next];
+    while (end < from.count && block[end] == block[at[next]]) ++end;
+    for (std::size_t k = 0, to = 0; k < from.arrays.size(); ++k) {
+      if (from.arrays[k].name == "block") continue;
+      std::memcpy(out.arrays[to].bytes.data() + done * row[to],
+                  from.arrays[k].bytes.data() + at[next] * row[to], (end - at[next]) * row[to]);
+      ++to;
+    }
+    done += end - at[next];
+    at[next] = end;
+  }
+  return out;
+}
+
+std::unique_ptr<Simulation> make_team(const TeamOptions& options) {
+  return std::make_unique<TeamSimulation>(options);
+}
+
+}  // namespace bedload

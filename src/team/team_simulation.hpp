@@ -1,0 +1,26 @@
+#pragma once
+// One simulation on several ranks, which looks like one.
+
+#include <functional>
+#include <memory>
+
+#include "bedload/parallel/link.hpp"
+#include "bedload/simulation.hpp"
+
+namespace bedload {
+
+/// How ranks are made and how long they wait for one another.
+struct TeamOptions {
+  int ranks = 1;
+  double timeout = 60;  ///< s
+  /// Called on the thread of each rank; makes its part.
+  std::function<std::unique_ptr<Simulation>(Link&)> make;
+};
+
+std::unique_ptr<Simulation> make_team(const TeamOptions& options);
+
+/// The entries of all ranks in the order in which one rank would have them: by the array "block", which it
+/// drops, and within a block as its owner has them. Without such an array, those of the first.
+HostStore joined(const std::vector<HostStore>& parts);
+
+}  // namespace bedload

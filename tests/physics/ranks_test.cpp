@@ -1,0 +1,324 @@
+// The same results, to the last bit, however many ranks share the work.
+
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <chrono>
+#include <thread>
+
+#include "bedload/case/read.hpp"
+#include "bedload/core/error.hpp"
+#include "src/team/divisible.hpp"
+#include "tests/support/cases.hpp"
+#include "tests/support/stage_cases.hpp"
+#include "tests/support/team.hpp"
+
+namespace BL_SOLVER {
+namespace {
+
+using test::kFluid, test::kGate, test::kTank;
+
+/// A dam break, which spreads over blocks that were empty and throws drops.
+const std::string kDam = R"([domain]
+min = [0, 0, 0]
+max = [0.3, 0.06, 0.2]
+[fluid]
+dx = 0.01
+[[fluid.fill]]
+min = [0, 0, 0]
+max = [0.1, 0.06, 0.12]
+[[wall.body]]
+name = "tank"
+shape = "tank"
+min = [0, 0, 0]
+max = [0.3, 0.06, 0.2]
+faces = ["x-", "x+", "y-", "y+", "z-"]
+[time]
+end = 1
+[out]
+every = 1
+[[probe]]
+name = "corner"
+type = "point"
+at = [0.15, 0.03, 0.03]
+[[probe]]
+name = "level"
+type = "height"
+at = [0.2, 0.03, 0]
+[[probe]]
+name = "box"
+type = "box"
+min = [0.1, 0, 0]
+max = [0.2, 0.06, 0.1]
+[[probe]]
+name = "front"
+type = "front"
+direction = "x+"
+[[probe]]
+name = "side"
+type = "force"
+sample = "instant"
+body = "tank"
+[[probe]]
+name = "patch"
+type = "wall_pressure"
+body = "tank"
+at = [0.3, 0.03, 0.02]
+normal = [-1, 0, 0]
+size = [0.02, 0.02]
+)";
+/// A duct without walls, periodic across, with an inlet and an outlet.
+const std::string kDuct = R"(gravity = [0, 0, 0]
+[domain]
+min = [-0.06, 0, 0]
+max = [0.3, 0.08, 0.08]
+periodic = [false, true, true]
+[fluid]
+dx = 0.01
+vmax = 1
+[[fluid.fill]]
+min = [0, 0, 0]
+max = [0.2, 0.08, 0.08]
+[[inlet]]
+name = "feed"
+shape = "rectangle"
+centre = [0, 0.04, 0.04]
+direction = [1, 0, 0]
+half_a = [0, 0.04, 0]
+half_b = [0, 0, 0.04]
+rate = 0.0064
+[[outlet]]
+name = "end"
+shape = "plane"
+point = [0.2, 0, 0]
+normal = [1, 0, 0]
+[time]
+end = 1
+[out]
+every = 1
+)";
+const std::string kSheared = R"(gravity = [0, 0, 0]
+[domain]
+min = [0, 0, 0]
+max = [0.12, 0.1, 0.1]
+periodic = [true, true, true]
+shear_rate = 3
+[fluid]
+dx = 0.01
+mu = 0.5
+vmax = 0.3
+[[fluid.fill]]
+min = [0, 0, 0]
+max = [0.12, 0.1, 0.1]
+[time]
+end = 1
+[out]
+every = 1
+)";
+const std::string kPlane = R"([domain]
+min = [0, 0, 0]
+max = [0.2, 0.01, 0.2]
+two_d = true
+periodic = [true, false, false]
+[fluid]
+dx = 0.01
+mu = 0.1
+[[fluid.fill]]
+min = [0, 0, 0]
+max = [0.2, 0.01, 0.1]
+[[wall.body]]
+name = "floor"
+shape = "box"
+min = [-0.1, 0, -0.1]
+max = [0.3, 0.01, 0]
+type = "frozen"
+[drive]
+f = [0.5, 0, 0]
+[time]
+end = 1
+[out]
+every = 1
+)";
+
+struct RankCase {
+  const char* name;
+  std::string text;
+  std::vector<std::string> overrides;
+  int steps;
+};
+std::ostream& operator<<(std::ostream& out, const RankCase& c) { return out << c.name; }
+
+std::vector<RankCase> rank_cases() {
+  return {
+      {"dam", kDam, {}, 150},
+      {"dam, blocks of two cells", kDam, {"run.block=2"}, 60},
+      {"dam, ab3", kDam, {"time.integrator=ab3"}, 60},
+      {"dam, euler, no shifting", kDam, {"time.integrator=euler", "shift.A=0"}, 60},
+      {"tank with a gate", kTank + kFluid + kGate, {"xsph=0.3"}, 60},
+      {"oil", kTank + kFluid + kGate, {"fluid.mu=1"}, 40},
+      {"frozen walls", kTank + kFluid + kGate, {"wall.type=frozen"}, 40},
+      {"plane flow over a floor, periodic", kPlane, {}, 60},
+      {"repulsion", kDam, {"wall.repulsion=true"}, 60},
+      {"smoothing lengths", kTank + kFluid, {"fluid.variable_h=true"}, 40},
+      {"sdpd", kTank + kFluid + kGate, {"fluid.model=sdpd_a", "sdpd.kT=1e-9"}, 40},
+      {"sdpd by summation", kTank + kFluid,
+       {"fluid.model=sdpd", "density.method=summation", "pressure.filter=true", "wall.type=frozen"}, 40},
+      {"inlet and outlet", kDuct, {}, 120},
+      {"sheared", kSheared, {}, 40},
+      {"sheared, sdpd", kSheared, {"fluid.model=sdpd", "sdpd.kT=1e-9"}, 40},
+  };
+}
+
+Config config_of(const RankCase& c) {
+  std::vector<std::string> warnings;
+  std::vector<std::string> overrides = c.overrides;
+  bool block = false;
+  for (const std::string& o : overrides) block = block || o.starts_with("run.block");
+  if (!block) overrides.push_back("run.block=1");  // the cases are smaller than a block of eight cells
+  return read_case_text(c.text, "case.toml", overrides, warnings);
+}
+
+std::vector<std::byte> bytes_of(const HostStore& store) {
+  std::vector<std::byte> out;
+  for (const HostArray& a : store.arrays) out.insert(out.end(), a.bytes.begin(), a.bytes.end());
+  return out;
+}
+
+/// All that a user reads of it.
+std::vector<std::byte> readings(Simulation& s, const Config& c) {
+  std::vector<std::byte> out = bytes_of(s.snapshot("fluid"));
+  const auto add = [&](const std::vector<Quantity>& rows) {
+    for (const Quantity& q : rows) {
+      const auto raw = std::bit_cast<std::array<std::byte, sizeof q.value>>(q.value);
+      out.insert(out.end(), raw.begin(), raw.end());
+    }
+  };
+  const auto walls = bytes_of(s.snapshot("walls"));
+  out.insert(out.end(), walls.begin(), walls.end());
+  add(s.diagnostics());
+  for (const ProbeConfig& probe : c.out.probes) add(s.measure(probe));
+  for (int b = 0; b < int(c.wall.bodies.size()); ++b) add(s.body_state(b));
+  return out;
+}
+
+struct Outcome {
+  std::vector<std::byte> kept, read;
+  bool operator==(const Outcome&) const = default;
+};
+
+class Ranks : public testing::TestWithParam<RankCase> {
+ protected:
+  Ranks() : config_(config_of(GetParam())), setup_(setup_of(config_)) {}
+  static bedload::Setup setup_of(const Config& c) {
+    std::vector<std::string> warnings;
+    return build_setup(c, warnings);
+  }
+  Outcome outcome(int ranks, int steps) {
+    const auto s = make_divided(config_, setup_, ranks);
+    s->start();
+    for (int n = 0; n < steps; ++n) s->step();
+    return {bits(*s), readings(*s, config_)};
+  }
+  Config config_;
+  bedload::Setup setup_;
+};
+INSTANTIATE_TEST_SUITE_P(Cases, Ranks, testing::ValuesIn(rank_cases()), [](const auto& of) {
+  std::string name;
+  for (const char letter : std::string(of.param.name))
+    if (std::isalnum(static_cast<unsigned char>(letter))) name += letter;
+  return name;
+});
+
+TEST_P(Ranks, GiveTheSameBits) {
+  const Outcome one = outcome(1, GetParam().steps);
+  for (const int ranks : {2, 3, 4}) {
+    const Outcome several = outcome(ranks, GetParam().steps);
+    EXPECT_TRUE(several.kept == one.kept) << ranks << " ranks: state";
+    EXPECT_TRUE(several.read == one.read) << ranks << " ranks: frames, probes, diagnostics";
+  }
+}
+
+TEST_P(Ranks, ContinueFromACheckpointOfOtherRanks) {
+  const int steps = GetParam().steps, half = steps / 2 - 1;  // between two rebuilds or at one
+  const Outcome unbroken = outcome(1, steps);
+  SavedState saved;
+  int done = 0;
+  for (const auto& [ranks, until] : {std::pair{4, half}, {1, half + 5}, {3, steps - 4}, {2, steps}}) {
+    const auto s = make_divided(config_, done > 0 ? bedload::Setup{} : setup_, ranks);
+    done > 0 ? s->load(saved) : s->start();
+    for (; done < until; ++done) s->step();
+    saved = s->save();
+    if (done < steps) continue;
+    const Outcome outcome{bits(*s), readings(*s, config_)};
+    EXPECT_TRUE(outcome == unbroken);
+  }
+}
+
+/// A link as that of a team, on which one rank fails or sleeps.
+class BadLink final : public Link {
+ public:
+  BadLink(Link& link, std::function<void()> trouble) : link_(link), trouble_(std::move(trouble)) {}
+  int rank() const override { return link_.rank(); }
+  int size() const override { return link_.size(); }
+  void all_gather(const void* own, void* all, std::size_t bytes) override {
+    if (rank() == 1 && ++calls_ == 200) trouble_();
+    link_.all_gather(own, all, bytes);
+  }
+
+ private:
+  Link& link_;
+  std::function<void()> trouble_;
+  int calls_ = 0;
+};
+
+class RankFault : public testing::Test {
+ protected:
+  /// Runs until it fails; returns what is said.
+  std::string run(double timeout, const std::function<void()>& trouble) {
+    const Config config = config_of(rank_cases()[0]);
+    std::vector<std::string> warnings;
+    const bedload::Setup setup = build_setup(config, warnings);
+    std::vector<std::unique_ptr<BadLink>> links(3);
+    const auto s = make_team({.ranks = 3, .timeout = timeout, .make = [&](Link& link) {
+                                auto& own = links[std::size_t(link.rank())];
+                                own = std::make_unique<BadLink>(link, trouble);
+                                return make_coupled(config, setup, own.get());
+                              }});
+    try {
+      s->start();
+      for (int n = 0; n < 1000; ++n) s->step();
+    } catch (const std::exception& error) {
+      return error.what();
+    }
+    return "no error";
+  }
+};
+
+TEST_F(RankFault, OfOneEndsAllWithItsSentence) {
+  EXPECT_EQ(run(60, [] { throw DeviceError("GPU 1 has fallen off the bus"); }), "GPU 1 has fallen off the bus");
+}
+
+TEST_F(RankFault, OneThatSleepsIsNotWaitedForLonger) {
+  const std::string said = run(0.2, [] { std::this_thread::sleep_for(std::chrono::seconds(1)); });
+  EXPECT_NE(said.find("has waited"), std::string::npos) << said;
+}
+
+TEST(RankLimits, NameWhatCannotBeDividedYet) {
+  std::vector<std::string> warnings;
+  const auto refused = [&](const std::string& text, const std::vector<std::string>& overrides) -> std::string {
+    try {
+      refuse_undivided(read_case_text(text, "case.toml", overrides, warnings));
+    } catch (const KeyError& error) {
+      return error.key;
+    }
+    return "";
+  };
+  EXPECT_EQ(refused(kDam, {}), "");
+  EXPECT_EQ(refused(test::kBed, {}), "grain");
+  EXPECT_EQ(refused(kDam, {"visc.collision=true"}), "visc.collision");
+  EXPECT_EQ(refused(kDam, {"wall.type=mdbc"}), "wall.body.0.type");
+  EXPECT_EQ(refused(kTank + kFluid + test::kFloat, {}), "wall.body.1.free");
+}
+
+}  // namespace
+}  // namespace BL_SOLVER
