@@ -2,6 +2,8 @@
 // Free rigid bodies: Newton and Euler with constraints. The state is place, rotation, velocity and angular
 // momentum of a reference point, which is the centre of mass, or the pivot of a body that only turns.
 
+#include <array>
+
 #include "bedload/case/setup_choices.hpp"
 #include "bedload/particles/walls.hpp"
 
@@ -148,6 +150,16 @@ struct LoadSum {
   BL_HD static LoadSum zero() { return {{0, 0, 0, 0, 0, 0}}; }
   BL_HD static void combine(LoadSum& into, const LoadSum& from) {
     for (int k = 0; k < 6; ++k) into.sum[k] += from.sum[k];
+  }
+};
+
+/// Bounds for what single particles add to sums over a body, far above what occurs.
+struct LoadBounds {
+  double pressure, area, length;  ///< Pa; m2, of a particle; m, from the body to a particle
+
+  std::array<double, 6> load() const {
+    const double force = pressure * area;
+    return {force, force, force, force * length, force * length, force * length};
   }
 };
 

@@ -44,6 +44,10 @@ struct BodyPressureSums {
 
 struct BodyPressureReduction {
   using Value = BodyPressureSums;
+  static std::array<double, 14> largest(const LoadBounds& b) {
+    const double L = b.length, L2 = L * L, P = b.pressure;
+    return {1, L, L, L, L2, L2, L2, L2, L2, L2, P, P * L, P * L, P * L};
+  }
   BodyParticles particles;
   Span<const WallState<>> state;
   BL_HD Value identity() const { return Value::zero(); }
@@ -141,6 +145,11 @@ struct PairsOfBody {
 };
 struct PairsOfBodyReduction {
   using Value = PairsOfBody;
+  static std::array<double, 12> largest(const LoadBounds& b) {
+    const auto load = b.load();
+    const double area = 1024 * b.area;
+    return {load[0], load[1], load[2], load[3], load[4], load[5], 1, 1, area, area, area, area * b.length};
+  }
   BodyParticles particles;
   Span<const WallState<>> state;
   Span<const PairsOfWall> pairs;

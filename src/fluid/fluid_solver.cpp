@@ -101,6 +101,8 @@ FluidSolver::FluidSolver(const FluidParameters& p, const Frame& frame, const Wal
   if (!fits()) fluid.correction.leave_out();
   fluid.compression_rate.begin_at_zero();
   if (p.pressure.damper == 0) fluid.compression_rate.leave_out();
+  if (p.visc.collision)
+    collisions_ = std::make_unique<Field<Real>>(fluid, "collisions", "-", Lifetime::derived);
   const bool summed = p.density.method == DensityMethod::summation;
   if (p.time.integrator != TimeIntegrator::kdk || summed) fluid.xp_mid.leave_out();
   if (p.time.integrator != TimeIntegrator::ab3) return;
@@ -158,13 +160,14 @@ void FluidSolver::collide(FluidStore& fluid) {
   if (!c.collision) return;
   const double range = c.collision_range * parameters_.fluid.dx;
   of_fluid_.resize(fluid.size());
-  fluid_fluid_.run_within(range, CollisionCountPass{Real(range * range), fluid.v_rho, collisions_});
+  fluid_fluid_.run_within(range, CollisionCountPass{Real(range * range), fluid.v_rho, *collisions_});
+  share(fluid, {collisions_.get()});
   fluid_fluid_.run_within(range, CollisionPass{.range2 = Real(range * range),
                                                .restitution = Real(c.collision_restitution),
                                                .guard = Real(1e-12 * range * range),
                                                .v_rho = fluid.v_rho,
                                                .mass = fluid.mass,
-                                               .count = collisions_,
+                                               .count = *collisions_,
                                                .v_next = collided_});
   fluid.v_rho.buffer().swap(collided_);
 }

@@ -115,6 +115,11 @@ class FluidSolver {
     return dt > now.lasts || dt > longest_step() || walls_moved > wall_skin_ || outgrown;
   }
   const EquationOfState& eos() const { return eos_; }
+  /// A thousand times the pressure by which density doubles, on the area of a particle.
+  LoadBounds load_bounds() const {
+    const FluidProperties& f = parameters_.fluid;
+    return {1024 * f.rho0 * f.c * f.c, parameters_.domain.cell_volume(f.dx) / f.dx, norm(frame_.length)};
+  }
   Drive drive(const FluidStore& fluid, const StepTime& now) const;
   /// Velocity of particles in addition to that of the fluid (shifting, XSPH); empty without.
   Span<const Real3> drift_of(const FluidStore& fluid) const { return span_if(drifts(), fluid.drift); }
@@ -135,6 +140,8 @@ class FluidSolver {
   /// Whether forces() finds how the density changes, too, by which advance() takes it on: then without
   /// density().
   bool one_pass() const { return !rates_.empty(); }
+  /// What collide() leaves beside velocities; null without.
+  const FieldBase* collisions() const { return collisions_.get(); }
   /// CollisionPass over the lists and packed positions (visc.collision).
   void collide(FluidStore& fluid);
   /// Of shifting, at most, over a step dt (s), m/s.
@@ -219,8 +226,8 @@ class FluidSolver {
   /// Finds what is added to the pressure loads on bodies, where fits(). One pose a body.
   void correct_pressure(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
                         PressureCorrection& correction) {
-    body_pressures(fluid, walls, correction.fit(walls, pose));
-    correction.find(walls, pose);
+    body_pressures(fluid, walls, correction.fit(walls, pose, load_bounds()));
+    correction.find(walls, pose, load_bounds());
   }
   /// FluidPowers of each particle, as they are now; after a step of dt (s), before the lists are renewed.
   /// Empty if a model does not report them.
@@ -397,7 +404,7 @@ class FluidSolver {
   Edges edges_;
   Scratch of_fluid_, of_walls_;  ///< what passes leave for others within a call
   ScratchArray<Vec3d> lattice_{of_fluid_, shear_.acts()};
-  ScratchArray<Real> collisions_{of_fluid_, parameters_.visc.collision};  ///< number of each particle
+  std::unique_ptr<Field<Real>> collisions_;  ///< number of each particle; null where they do not collide
   ScratchArray<VelocityDensity<>> collided_{of_fluid_, parameters_.visc.collision};
   double half_skin_ = 0, wall_skin_ = 0;  ///< the largest of fluid, that of walls, m
   double horizon_ = 0;                    ///< time for which fast particles get a skin, s

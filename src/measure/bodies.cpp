@@ -150,6 +150,7 @@ void CoupledSimulation::add_meters() {
 
 void CoupledSimulation::begin_meters(const SavedState* saved) {
   if (!meters_.any()) return;
+  stepper_.share_all();
   if (state_.has_grains) stepper_.solids().substep_loads().record_on(meters_.bodies());
   state_.bodies.substep_loads().record_on(meters_.bodies());
   for (const ProbeConfig& p : config_.out.probes)
@@ -157,27 +158,30 @@ void CoupledSimulation::begin_meters(const SavedState* saved) {
       meters_.begin(m, state_.clock.time, actions_on(wall_named(p.body), p.about));
 }
 
-/// Without waiting for the device.
+/// Without waiting for the device, or for other ranks alone.
 void CoupledSimulation::advance_meters(double dt) {
   const std::size_t n = meters_.bodies().size();
   for (Buffer<LoadSum>* loads : {&meter_pressure_, &meter_friction_, &meter_repulsion_})
     loads->resize(n), loads->zero();
   const Span<const BodyPose> poses = state_.poses_now();
   SumActionsPass pass{};
-  if (state_.has_fluid && state_.walls.size() > 0) {
+  if (state_.has_fluid && state_.walls.everywhere() > 0) {
+    stepper_.share_all();
     const WallForces& forces = wall_forces();
     const WallRepulsion repulsion = stepper_.fluid().repulsion(state_.fluid, poses, dt);
+    const auto bounds = stepper_.fluid().load_bounds().load();
     for (std::size_t m = 0; m < n; ++m) {
       const std::uint32_t b = meters_.bodies()[m];
       const auto sum = [&](LoadSum* out, const Buffer<Vec3d>& force) {
-        reduce_into(out, state_.walls.owned(),
-                    WallLoadReduction{particles_of(b, state_.walls, poses), force});
+        total_into(out, state_.walls.owned(), WallLoadReduction{particles_of(b, state_.walls, poses), force},
+                   bounds);
       };
       sum(meter_pressure_.data() + m, forces.pressure);
       sum(meter_friction_.data() + m, forces.friction);
-      if (repulsion.walls.surfaces.size > 0 && state_.fluid.size() > 0)
-        reduce_into(meter_repulsion_.data() + m, state_.fluid.owned(),
-                    BodyRepulsion{repulsion, b, state_.fluid.x, state_.fluid.mass, state_.fluid.heading});
+      if (repulsion.walls.surfaces.size > 0)
+        total_into(meter_repulsion_.data() + m, state_.fluid.owned(),
+                   BodyRepulsion{repulsion, b, state_.fluid.x, state_.fluid.mass, state_.fluid.heading},
+                   bounds);
     }
     for_each({0, Index(n)}, AddLoadsPass{meter_repulsion_, meter_pressure_});
     pass.corrections = held_corrections();

@@ -14,7 +14,6 @@ void refuse_undivided(const Config& c) {
   };
   if (!c.fluid.present) refuse("fluid", "a case without fluid");
   if (c.grain.present) refuse("grain", "a case with grains");
-  if (c.visc.collision) refuse("visc.collision", "fluid whose particles collide");
   if (c.wall.energy_consistent && c.wall.suction)
     refuse("wall.energy_consistent", "work of the pressure of walls");
   for (std::size_t k = 0; k < c.fluid.fills.size(); ++k)
@@ -22,13 +21,7 @@ void refuse_undivided(const Config& c) {
       refuse(fmt::format("fluid.fill.{}.file", k), "fluid from a file of particles");
   for (std::size_t k = 0; k < c.wall.bodies.size(); ++k) {
     const WallBody& body = c.wall.bodies[k];
-    if (body.free.present) refuse(fmt::format("wall.body.{}.free", k), "a free body");
     if (body.type->kind == WallKind::mirrored) refuse(fmt::format("wall.body.{}.type", k), "a mirrored wall");
-  }
-  for (std::size_t k = 0; k < c.out.probes.size(); ++k) {
-    const ProbeConfig& probe = c.out.probes[k];
-    if (probe.type == ProbeType::force && probe.sample == ForceSample::mean)
-      refuse(fmt::format("probe.{}.sample", k), "the mean of a force");
   }
 }
 

@@ -207,7 +207,9 @@ void Stepper::react(Step& now) {
 /// Fluid particles that are too close rebound (visc.collision).
 void Stepper::collide(Step& now) {
   begin(now, "collide", Part::fluid, [&] {
-    return Access{.near = {&fluid_.xp, &fluid_.v_rho, &fluid_.mass}, .reads = {}, .writes = {&fluid_.v_rho}};
+    return Access{.near = {&fluid_.xp, &fluid_.v_rho, &fluid_.mass},
+                  .reads = {},
+                  .writes = {&fluid_.v_rho, fluid_solver_->collisions()}};
   });
   fluid_solver_->collide(fluid_);
 }
@@ -365,12 +367,12 @@ void Stepper::load_bodies(Step& now) {
   of_walls_.resize(walls_.size());
   if (walls_.size() > 0)
     fluid_solver_->wall_forces(fluid_, walls_, now.poses, moment_, 0, now.dt, wall_force_);
-  const bool corrected = fluid_solver_->fits() && walls_.size() > 0;
+  const bool corrected = fluid_solver_->fits() && walls_.everywhere() > 0;
   if (corrected) fluid_solver_->correct_pressure(fluid_, walls_, now.poses, bodies_.pressure_correction());
   const WallRepulsion repulsion = fluid_solver_->repulsion(fluid_, now.poses, now.dt);
   bodies_.add_fluid_loads(walls_, wall_force_, corrected,
                           repulsion.walls.surfaces.size > 0 ? &repulsion : nullptr, fluid_, now.poses,
-                          now.last_kick, now.dt);
+                          fluid_solver_->load_bounds(), now.last_kick, now.dt);
 }
 
 /// Velocity by the change of the acceleration over the step.

@@ -298,17 +298,16 @@ void FreeBodies::evaluate_contacts(Span<const BodyPose> poses, double dt) {
 
 void FreeBodies::add_fluid_loads(const WallStore& walls, const Buffer<Vec3d>& force, bool corrected,
                                  const WallRepulsion* repulsion, const FluidStore& fluid,
-                                 Span<const BodyPose> poses, double kick_time, double dt) {
-  wall_sums_.zero();
+                                 Span<const BodyPose> poses, const LoadBounds& bounds, double kick_time,
+                                 double dt) {
   repulsion_sums_.zero();
   for (int k = 0; k < size(); ++k) {
     const std::uint32_t body = rigid(k).body;
-    if (walls.size() > 0)
-      reduce_into(wall_sums_.data() + k, walls.owned(),
-                  WallLoadReduction{particles_of(body, walls, poses), force});
-    if (repulsion && fluid.size() > 0)
-      reduce_into(repulsion_sums_.data() + k, fluid.owned(),
-                  BodyRepulsion{*repulsion, body, fluid.x, fluid.mass, fluid.heading});
+    total_into(wall_sums_.data() + k, walls.owned(),
+               WallLoadReduction{particles_of(body, walls, poses), force}, bounds.load());
+    if (repulsion)
+      total_into(repulsion_sums_.data() + k, fluid.owned(),
+                 BodyRepulsion{*repulsion, body, fluid.x, fluid.mass, fluid.heading}, bounds.load());
   }
   BodyStore& s = store_;
   for_each(s.owned(), AddLoads{wall_sums_, repulsion_sums_, s.fluid_force, s.fluid_torque});

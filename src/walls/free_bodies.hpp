@@ -85,7 +85,7 @@ class FreeBodies {
   /// run. poses: one row.
   void add_fluid_loads(const WallStore& walls, const Buffer<Vec3d>& force, bool corrected,
                        const WallRepulsion* repulsion, const FluidStore& fluid, Span<const BodyPose> poses,
-                       double kick, double dt);
+                       const LoadBounds& bounds, double kick, double dt);
 
   /// Copies positions and velocities at `time` (s) to the host; the velocity of a held body is zero.
   void read_back(double time);

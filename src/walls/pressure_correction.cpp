@@ -3,18 +3,6 @@
 #include "bedload/parallel/reductions.hpp"
 
 namespace BL_SOLVER {
-namespace {
-
-/// Without waiting for the device, or by all ranks.
-template <class F>
-void sum_into(typename F::Value* out, Range range, const F& f, bool by_all_ranks) {
-  if (!by_all_ranks) return reduce_into(out, range, f);
-  const typename F::Value sum = total(range, f);
-  copy_to_device(out, &sum, sizeof sum);
-}
-
-}  // namespace
-
 PressureCorrection::PressureCorrection(const std::vector<EnclosedSolid>& solids, int dimensions)
     : solids_(solids), dimensions_(dimensions) {
   device_solids_.assign(solids_);
@@ -22,21 +10,23 @@ PressureCorrection::PressureCorrection(const std::vector<EnclosedSolid>& solids,
   of_bodies_.resize(solids_.size());
 }
 
-BodyPressures PressureCorrection::fit(const WallStore& walls, Span<const BodyPose> poses) {
+BodyPressures PressureCorrection::fit(const WallStore& walls, Span<const BodyPose> poses,
+                                      const LoadBounds& bounds) {
   fitted_.resize(poses.size), added_.resize(poses.size);
   of_walls_.resize(walls.size());
   for (std::size_t k = 0; k < solids_.size(); ++k)
-    sum_into(sums_.data() + k, walls.owned(),
-             BodyPressureReduction{particles_of(solids_[k].body, walls, poses), walls.state}, reported());
+    total_into(sums_.data() + k, walls.owned(),
+               BodyPressureReduction{particles_of(solids_[k].body, walls, poses), walls.state},
+               BodyPressureReduction::largest(bounds));
   for_each(each(), FitBodyPressure{device_solids_, sums_, fitted_});
   return {fitted_, poses.data, of_walls_};
 }
 
-void PressureCorrection::find(const WallStore& walls, Span<const BodyPose> poses) {
+void PressureCorrection::find(const WallStore& walls, Span<const BodyPose> poses, const LoadBounds& bounds) {
   for (std::size_t k = 0; k < solids_.size(); ++k)
-    sum_into(of_bodies_.data() + k, walls.owned(),
-             PairsOfBodyReduction{particles_of(solids_[k].body, walls, poses), walls.state, of_walls_},
-             reported());
+    total_into(of_bodies_.data() + k, walls.owned(),
+               PairsOfBodyReduction{particles_of(solids_[k].body, walls, poses), walls.state, of_walls_},
+               PairsOfBodyReduction::largest(bounds));
   for_each(each(), CorrectBody{.solids = device_solids_,
                                .poses = poses.data,
                                .fitted = fitted_,

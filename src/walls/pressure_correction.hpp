@@ -18,14 +18,12 @@ class PressureCorrection {
 
   bool any() const { return !solids_.empty(); }
   /// Fits a linear pressure to the wet wall particles of each body. poses: one row at least.
-  BodyPressures fit(const WallStore& walls, Span<const BodyPose> poses);
-  void find(const WallStore& walls, Span<const BodyPose> poses);
+  BodyPressures fit(const WallStore& walls, Span<const BodyPose> poses, const LoadBounds& bounds);
+  void find(const WallStore& walls, Span<const BodyPose> poses, const LoadBounds& bounds);
   /// Load by wall body, 0 for others, about their reference points, on the device.
   Span<const LoadSum> added() const { return added_; }
 
  private:
-  /// Of reports, not of what moves bodies.
-  bool reported() const { return dimensions_ > 0; }
   Range each() const { return {0, Index(solids_.size())}; }
 
   std::vector<EnclosedSolid> solids_;

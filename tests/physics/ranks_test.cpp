@@ -60,6 +60,10 @@ type = "force"
 sample = "instant"
 body = "tank"
 [[probe]]
+name = "mean"
+type = "force"
+body = "tank"
+[[probe]]
 name = "patch"
 type = "wall_pressure"
 body = "tank"
@@ -159,6 +163,8 @@ std::vector<RankCase> rank_cases() {
       {"frozen walls", kTank + kFluid + kGate, {"wall.type=frozen"}, 40},
       {"plane flow over a floor, periodic", kPlane, {}, 60},
       {"repulsion", kDam, {"wall.repulsion=true"}, 60},
+      {"float", kTank + kFluid + test::kFloat, {}, 60},
+      {"collisions", kDam, {"visc.collision=true", "visc.collision_range=1", "shift.A=0"}, 60},
       {"smoothing lengths", kTank + kFluid, {"fluid.variable_h=true"}, 40},
       {"sdpd", kTank + kFluid + kGate, {"fluid.model=sdpd_a", "sdpd.kT=1e-9"}, 40},
       {"sdpd by summation", kTank + kFluid,
@@ -315,9 +321,8 @@ TEST(RankLimits, NameWhatCannotBeDividedYet) {
   };
   EXPECT_EQ(refused(kDam, {}), "");
   EXPECT_EQ(refused(test::kBed, {}), "grain");
-  EXPECT_EQ(refused(kDam, {"visc.collision=true"}), "visc.collision");
   EXPECT_EQ(refused(kDam, {"wall.type=mdbc"}), "wall.body.0.type");
-  EXPECT_EQ(refused(kTank + kFluid + test::kFloat, {}), "wall.body.1.free");
+  EXPECT_EQ(refused(kDam, {"wall.energy_consistent=true", "wall.suction=true"}), "wall.energy_consistent");
 }
 
 }  // namespace

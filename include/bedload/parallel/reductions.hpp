@@ -3,6 +3,7 @@
 // divided among ranks, nor on their order, to the last bit: sums are made of whole multiples of a unit far
 // below the largest summand.
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -106,7 +107,68 @@ struct WholeParts {
   }
 };
 
+/// The unit by which summands up to `most` are whole numbers below 2^31, and its inverse: powers of two.
+struct SumUnit {
+  double scale, unit;
+  explicit SumUnit(double most) {
+    int exponent = 0;
+    std::frexp(most, &exponent);           // most < 2^exponent
+    exponent = max_of(exponent, -900);     // the scale stays finite
+    const bool none = !(most > 0), infinite = most >= 1e300;
+    scale = none || infinite ? 0 : std::ldexp(1.0, 31 - exponent);
+    unit = none ? 0 : infinite ? std::nan("") : std::ldexp(1.0, exponent - 31);
+  }
+};
+
+/// What the parts of a sum come to.
+template <class F>
+struct WholeValue {
+  using Parts = typename WholeParts<F>::Value;
+  double unit[kDoubles<F>];
+  BL_HD typename F::Value operator()(const Parts& sum, typename F::Value value) const {
+    for (int k = 0; k < kDoubles<F>; ++k) {
+      const double v = (double(sum.low[k]) / WholeParts<F>::kPart + double(sum.high[k])) * unit[k];
+      memcpy(reinterpret_cast<char*>(&value) + k * sizeof(double), &v, sizeof v);
+    }
+    return value;
+  }
+};
+
+template <class F>
+struct WholeValuePass {
+  WholeValue<F> value;
+  F f;
+  const typename WholeParts<F>::Value* sum;
+  typename F::Value* out;
+  BL_HD void operator()(Index) const { *out = value(*sum, f.identity()); }
+};
+
 }  // namespace detail
+
+/// As `total`, into device memory, with a bound for each of the summands; what is below 2^-62 of that is lost.
+/// Waits for the device only where there are other ranks.
+template <class F>
+void total_into(typename F::Value* out, Range range, const F& f,
+                const std::array<double, std::size_t(detail::kDoubles<F>)>& largest) {
+  using Parts = detail::WholeParts<F>;
+  Parts parts{f, {}};
+  detail::WholeValue<F> value;
+  for (int k = 0; k < detail::kDoubles<F>; ++k) {
+    const detail::SumUnit unit(largest[std::size_t(k)]);
+    parts.scale[k] = unit.scale, value.unit[k] = unit.unit;
+  }
+  if (Context::current().several()) {
+    const auto sum = all_reduce(reduce(range, parts),
+                                [](auto& into, const auto& from) { Parts::add(into, from); });
+    const typename F::Value all = value(sum, f.identity());
+    copy_to_device(out, &all, sizeof all);
+  } else if (range.size() == 0) {
+    const typename F::Value none = f.identity();
+    copy_to_device(out, &none, sizeof none);
+  } else {
+    for_each({0, 1}, detail::WholeValuePass<F>{value, f, detail::reduce_there(range, parts), out});
+  }
+}
 
 /// Sum of f(i) over the range on all ranks: the Value of F is an array of doubles, which combine() adds. Waits
 /// for the device. Not a number where a summand is not finite.
@@ -114,25 +176,16 @@ template <class F>
 typename F::Value total(Range range, const F& f) {
   using Largest = detail::LargestOf<F>;
   using Parts = detail::WholeParts<F>;
-  constexpr int n = detail::kDoubles<F>;
   const auto largest = all_reduce(reduce(range, Largest{f}), [](auto& into, const auto& from) { Largest::larger(into, from); });
   Parts parts{f, {}};
-  double unit[n];
-  for (int k = 0; k < n; ++k) {
-    int exponent = 0;
-    std::frexp(largest.v[k], &exponent);  // largest < 2^exponent
-    exponent = max_of(exponent, -900);    // the scale stays finite
-    const bool none = !(largest.v[k] > 0), infinite = largest.v[k] >= 1e300;
-    parts.scale[k] = none || infinite ? 0 : std::ldexp(1.0, 31 - exponent);
-    unit[k] = none ? 0 : infinite ? std::nan("") : std::ldexp(1.0, exponent - 31);
+  detail::WholeValue<F> value;
+  for (int k = 0; k < detail::kDoubles<F>; ++k) {
+    const detail::SumUnit unit(largest.v[k]);
+    parts.scale[k] = unit.scale, value.unit[k] = unit.unit;
   }
-  const auto sum = all_reduce(reduce(range, parts), [](auto& into, const auto& from) { Parts::add(into, from); });
-  double out[n];
-  for (int k = 0; k < n; ++k)
-    out[k] = (double(sum.low[k]) / Parts::kPart + double(sum.high[k])) * unit[k];
-  typename F::Value value = f.identity();
-  std::memcpy(static_cast<void*>(&value), out, sizeof value);
-  return value;
+  const auto sum =
+      all_reduce(reduce(range, parts), [](auto& into, const auto& from) { Parts::add(into, from); });
+  return value(sum, f.identity());
 }
 
 template <int N, class Body>
