@@ -371,15 +371,41 @@ TEST(CellGrid, CurveVisitsEachCellOnceAndStepsToNeighbours) {
   for (std::size_t k = 1; k < path.size(); ++k) EXPECT_NEAR(norm(path[k] - path[k - 1]), 1, 1e-12);
 }
 
-/// The memory of a case is estimated by a simulation without particles, whose cells nobody looks at.
-TEST(CellGrid, TakesMemoryWhenFirstLookedAt) {
+/// A vast domain costs little where there are no particles.
+TEST(CellGrid, TakesMemoryForBlocksWithParticles) {
   const std::size_t before = bytes_held();
-  const Frame f({0, 0, 0}, {100, 100, 100}, false, false, false);
-  const CellGrid grid(f, {0, 0, 0}, {100, 100, 100}, 1.0);
-  EXPECT_LT(bytes_held() - before, 1u << 14);
+  const Frame f({0, 0, 0}, {1000, 1000, 1000}, false, false, false);
+  CellGrid grid(f, {0, 0, 0}, {1000, 1000, 1000}, 1.0);
+  const CellGridView empty = grid.view();
+  EXPECT_EQ(empty.first(empty.key(Vec3d{500, 500, 500})), empty.last(empty.key(Vec3d{500, 500, 500})));
+  EXPECT_FALSE(empty.any_near(Vec3d{500, 500, 500}, 1));
+
+  sorted({f, {{500, 500, 500}, {2, 2, 2}, {2.5, 2.5, 2.5}}}, grid);
   const CellGridView view = grid.view();
-  EXPECT_GT(bytes_held() - before, 1u << 20);
-  EXPECT_EQ(view.first(view.key(Vec3d{50, 50, 50})), view.last(view.key(Vec3d{50, 50, 50})));
+  EXPECT_EQ(view.n[0], 1000) << "cells are not coarser than asked for";
+  EXPECT_LT(bytes_held() - before, 64u << 20);
+  const auto count = [&](const Vec3d& x) { return view.last(view.key(x)) - view.first(view.key(x)); };
+  EXPECT_EQ(count({500, 500, 500}), 1u);
+  EXPECT_EQ(count({2, 2, 2}), 2u);
+  EXPECT_EQ(count({700, 20, 300}), 0u);
+  EXPECT_TRUE(view.any_near(Vec3d{499, 500, 500}, 1)) << "in the next block";
+  EXPECT_FALSE(view.any_near(Vec3d{700, 20, 300}, 1));
+}
+
+/// Within a cell particles are in the order of their ids, however they came.
+TEST(CellGrid, SortsByIdWithinCells) {
+  const Frame f({0, 0, 0}, {8, 8, 8}, false, false, false);
+  CellGrid grid(f, {0, 0, 0}, {8, 8, 8}, 1.0);
+  const std::vector<Vec3d> x{{3.5, 3.5, 3.5}, {0.5, 0.5, 0.5}, {3.1, 3.2, 3.3}, {3.9, 3.9, 3.9}};
+  const std::vector<Id> id{7, 1, 9, 2};
+  Buffer<Vec3d> places;
+  Buffer<Id> ids;
+  Buffer<Index> order;
+  places.assign(x), ids.assign(id);
+  grid.sort(f, Span<const Vec3d>(places), order, ids);
+  std::vector<Id> sorted_ids;
+  for (const Index k : order.to_host()) sorted_ids.push_back(id[k]);
+  EXPECT_EQ(sorted_ids, (std::vector<Id>{1, 2, 7, 9}));
 }
 
 }  // namespace
