@@ -3,6 +3,7 @@
 
 #include "bedload/case/config/domain.hpp"
 #include "bedload/case/config/fluid.hpp"
+#include "bedload/core/first_look.hpp"
 #include "kernels/smoothing/cubic_spline.hpp"
 #include "kernels/smoothing/lucy.hpp"
 #include "kernels/smoothing/wendland_c2.hpp"
@@ -18,10 +19,13 @@ void with_kernel(Chosen<KernelFunction> name, double h, F&& f, double thickness 
     case KernelFunction::wendland_c2:
       return f(WendlandC2(h, thickness));
     case KernelFunction::cubic:
-      return f(CubicSpline(h, thickness));
+      if constexpr (!kFirstLook) return f(CubicSpline(h, thickness));
+      break;
     case KernelFunction::lucy:
-      return f(Lucy(h, thickness));
+      if constexpr (!kFirstLook) return f(Lucy(h, thickness));
+      break;
   }
+  if (kFirstLook) not_in_first_look("fluid.kernel", "wendland_c2 alone");
 }
 
 /// The same for a fluid.

@@ -15,6 +15,10 @@ int run_program(int argc, const char* const* argv);
 int run_case(const Options& options);
 /// Prints particles, step limits, memory, run time and warnings of a case.
 int check_case(const Options& options);
+/// Writes a template to a file, or lists them. Throws FileError if the file exists.
+int new_case(const Options& options);
+/// Runs a template and draws it; returns the exit code of the run.
+int demo(const Options& options);
 /// Runs a plane shear flow and reports its viscosity; returns the exit code of the run, or 5 if the fit of
 /// the profile is rejected. Throws KeyError if the case is no plane shear flow.
 int viscometer(const Options& options);

@@ -92,7 +92,7 @@ std::string bash_completion(const CLI::App& app) {
     out += fmt::format("    {})\n      case $before in\n", command->get_name());
     for (const CLI::Option* option : command->get_options()) {
       if (option->get_positional()) {
-        places = completed(*option);
+        if (places == ":") places = completed(*option);
         continue;
       }
       options += " " + names_of(*option, ' ');

@@ -79,6 +79,8 @@ diagnostics.csv, checkpoints/, case.resolved.toml and summary.json.
 Settled beds are cached in $XDG_CACHE_HOME/bedload, by default ~/.cache/bedload.
 .SH EXAMPLES
 .nf
+bedload demo
+bedload new dam_break dam.toml
 bedload check dam.toml \-\-preview look
 bedload run dam.toml \-\-out results/dam \-\-set grain.d=3mm
 bedload run dam.toml \-\-out results/dam \-\-restart latest

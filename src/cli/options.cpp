@@ -13,6 +13,7 @@
 #include "list.hpp"
 #include "shell.hpp"
 #include "src/viewer/live/server.hpp"
+#include "templates.hpp"
 
 namespace bedload {
 namespace {
@@ -36,6 +37,17 @@ std::string repeatable(int argc, const char* const* argv) {
     if (word.starts_with("--restart") || word == "--overwrite") continue;
     text += (text.empty() ? "" : " ") + shell_word(word);
   }
+  return text;
+}
+
+/// The command that continues the run of a demonstration, to which a message appends --restart.
+std::string run_of_demo(const Options& o, const std::string& program) {
+  std::vector<std::string> words{program, "run", o.file.string(), "--out", o.out.string()};
+  for (const std::string& assignment : o.overrides) words.insert(words.end(), {"--set", assignment});
+  if (o.backend != "auto") words.insert(words.end(), {"--backend", o.backend});
+  if (o.until) words.insert(words.end(), {"--until", fmt::format("{}", *o.until)});
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + shell_word(word);
   return text;
 }
 
@@ -170,6 +182,24 @@ void add_check(CLI::App& app, Options& o, std::string& precision, bool& force_dt
       ->check(kNamed);
 }
 
+void add_new(CLI::App& app, Options& o) {
+  CLI::App* add =
+      app.add_subcommand("new", "Write a commented case to begin with; without a name: list them");
+  add->add_option("template", o.case_template, "What the case is of")->check(CLI::IsMember(template_names()));
+  add->add_option("file", o.file, "File to write; default: <template>.toml")
+      ->type_name("NEW.toml")
+      ->check(kNamed);
+}
+
+void add_demo(CLI::App& app, Options& o) {
+  CLI::App* demo = app.add_subcommand("demo", "Run a small case that comes with the program, and draw it");
+  demo->add_option("template", o.case_template,
+                   fmt::format("One of `bedload new`; default: {}", kDemoTemplate))
+      ->check(CLI::IsMember(template_names()));
+  add_common_options(*demo, o);
+  add_results_options(*demo, o);
+}
+
 void add_list(CLI::App& app, Options& o) {
   CLI::App* list = app.add_subcommand("list", "List case keys, laws, shapes and outputs");
   std::vector<std::string> listed = families();
@@ -224,6 +254,8 @@ Options parse_options(int argc, const char* const* argv) {
   add_run(app, o, precision, force_dt);
   add_viscometer(app, o, precision, force_dt);
   add_check(app, o, precision, force_dt);
+  add_new(app, o);
+  add_demo(app, o);
   add_list(app, o);
   add_info(app, o);
   add_bench_options(*app.add_subcommand("bench", "Time steps of benchmark cases"), o);
@@ -254,9 +286,15 @@ Options parse_options(int argc, const char* const* argv) {
     throw CaseError("command line: --until must be a finite time in s");
   if (!precision.empty()) o.overrides.push_back("run.precision=" + precision);
   if (force_dt) o.overrides.push_back("time.force_dt=true");
+  if (o.command == "demo" && o.case_template.empty()) o.case_template = kDemoTemplate;
+  if (o.command == "new" && o.file.empty()) o.file = o.case_template + ".toml";
   if ((o.command == "run" || o.command == "viscometer") && o.out.empty())
     o.out = std::filesystem::path("results") / case_name(o.file);
-  o.repeat = repeatable(argc, argv);
+  if (o.command == "demo") {
+    if (o.out.empty()) o.out = std::filesystem::path("results") / o.case_template;
+    o.file = o.out / (o.case_template + ".toml");
+  }
+  o.repeat = o.command == "demo" ? run_of_demo(o, argv[0]) : repeatable(argc, argv);
   return o;
 }
 

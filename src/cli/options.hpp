@@ -22,7 +22,8 @@ struct BenchOptions {
 
 struct Options {
   std::string command;                 ///< run, check, list, ...; empty: print `text`
-  std::filesystem::path file;          ///< case, or the file that info shows
+  std::filesystem::path file;          ///< case, also the one to write, or the file that info shows
+  std::string case_template;           ///< of new and demo; with new empty: list them
   std::filesystem::path out;           ///< results folder
   std::filesystem::path preview;       ///< of check: folder for the initial particles
   std::filesystem::path restart;       ///< checkpoint to restart from, or "latest"

@@ -19,6 +19,8 @@ int dispatch(const Options& options) {
   if (options.command == "run") return run_case(options);
   if (options.command == "viscometer") return viscometer(options);
   if (options.command == "check") return check_case(options);
+  if (options.command == "new") return new_case(options);
+  if (options.command == "demo") return demo(options);
   if (options.command == "bench") return bench(options);
   if (options.command == "info") return show_file(options.file);
   if (options.command == "list")

@@ -119,7 +119,7 @@ class Run {
       throw KeyError(error.key, error.what() + after_fault());
     }
     const bool stopped = simulation.time() < end_;
-    if (stopped && watcher_) {
+    if (stopped && watcher_ && !watcher_->may_restart()) {
       fmt::print("stopped at t = {:.6g} s; a viscometer cannot restart: run it again with --overwrite\n",
                  simulation.time());
     } else if (stopped) {
@@ -145,6 +145,7 @@ class Run {
   }
 
   void take(const RunFindings& found) {
+    if (found.name.empty()) return;
     for (const std::string& warning : found.warnings) {
       fmt::print(stderr, "warning: {}\n", warning);
       session_->output()->warn(warning);

@@ -24,8 +24,10 @@ class RunWatcher {
   /// Once, before anything is written; end: of the run, s. Throws KeyError if the case is unsuitable.
   virtual void begin(const Config& config, double end) = 0;
   virtual void after_step(Simulation& simulation, const StepInfo& info) = 0;
-  /// At the end of a run that was not stopped.
-  virtual RunFindings findings() = 0;
+  /// Whether a run that was stopped can continue from its checkpoint.
+  virtual bool may_restart() const = 0;
+  /// At the end of a run that was not stopped; without a name there are none.
+  virtual RunFindings findings() { return {}; }
 };
 
 class LiveView;

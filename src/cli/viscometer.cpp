@@ -45,6 +45,8 @@ class Viscometer final : public RunWatcher {
     layers_->add(block, simulation.rheology("fluid"), simulation.rheology("grains"), wall_stress(simulation));
   }
 
+  bool may_restart() const override { return false; }  // it averages over the whole run
+
   RunFindings findings() override {
     result_ = evaluate(*layers_, config_, config_.fluid.kappa() * config_.fluid.h());
     quantities_ = quantities_of(*result_, flow_);
@@ -134,7 +136,8 @@ int viscometer(const Options& o) {
   Prepared prepared = prepare(o);
   const Config& config = prepared.config;
   placed(config.places, [&] {
-    Viscometer().begin(config, o.until.value_or(config.time.end));  // fails before the run if the flow is unsuitable
+    Viscometer().begin(config,
+                       o.until.value_or(config.time.end));  // fails before the run if the flow is unsuitable
   });
   std::optional<Measured> without;
   if (o.relative) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bedload/core/first_look.hpp"
 #include "src/fluid/sdpd.hpp"
 #include "src/fluid/wcsph.hpp"
 
@@ -17,14 +18,19 @@ struct FluidModelList {
     (void)((parameters.fluid.model == Models::model &&
             (solver = Models::make(parameters, frame, walls, fluid))) ||
            ...);
+    if (kFirstLook && !solver) not_in_first_look("fluid.model", "wcsph alone");
     return solver;
   }
 };
 
+#if BL_FIRST_LOOK
+using FluidModels = FluidModelList<Wcsph>;
+#else
 using FluidModels = FluidModelList<Wcsph, Sdpd, SpinningSdpd>;
+#endif
 
-static_assert(std::all_of(kNames<FluidModel>.begin(), kNames<FluidModel>.end(),
-                          [](const auto& row) { return FluidModels::holds(row.value); }),
+static_assert(kFirstLook || std::all_of(kNames<FluidModel>.begin(), kNames<FluidModel>.end(),
+                                        [](const auto& row) { return FluidModels::holds(row.value); }),
               "a fluid model that a case may name is missing in FluidModels");
 
 }  // namespace BL_SOLVER

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "bedload/core/first_look.hpp"
 #include "kernels/fluid/body_pressure.hpp"
 #include "kernels/fluid/density_pass.hpp"
 #include "kernels/fluid/force_pass.hpp"
@@ -338,10 +339,12 @@ std::unique_ptr<FluidSolver> Wcsph::make(const FluidParameters& parameters, cons
   std::unique_ptr<FluidSolver> solver;
   with_fluid_kernel(parameters.fluid, parameters.domain, [&](const auto& w) {
     using W = std::decay_t<decltype(w)>;
-    if (parameters.fluid.variable_h)
-      solver = std::make_unique<WcsphSolver<W, OwnLengths>>(parameters, frame, walls, fluid, w);
-    else
+    if (!parameters.fluid.variable_h)
       solver = std::make_unique<WcsphSolver<W, OneLength>>(parameters, frame, walls, fluid, w);
+    else if constexpr (kFirstLook)
+      not_in_first_look("fluid.variable_h", "smoothing lengths of one size alone");
+    else
+      solver = std::make_unique<WcsphSolver<W, OwnLengths>>(parameters, frame, walls, fluid, w);
   });
   return solver;
 }

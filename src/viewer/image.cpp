@@ -13,6 +13,11 @@
 
 namespace bedload {
 
+void Image::put(const Image& part, int x, int y) {
+  for (int row = 0; row < part.height(); ++row)
+    for (int column = 0; column < part.width(); ++column) set(x + column, y + row, part.at(column, row));
+}
+
 void Image::line(double x0, double y0, double x1, double y1, const Colour& colour) {
   const int steps = std::max(1, int(std::ceil(std::max(std::abs(x1 - x0), std::abs(y1 - y0)))));
   for (int n = 0; n <= steps; ++n) {
@@ -58,9 +63,9 @@ struct PngImage {
 
 }  // namespace
 
-std::string Image::png() const {
+std::string Image::png(bool quickly) const {
   PngImage image(width_, height_, pixels_);
-  image.head.flags = PNG_IMAGE_FLAG_FAST;
+  if (quickly) image.head.flags = PNG_IMAGE_FLAG_FAST;
   std::string out;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image.head);
   out.resize(size);

@@ -30,6 +30,8 @@ class Image {
   void set(int x, int y, const Colour& colour) {
     if (x >= 0 && y >= 0 && x < width_ && y < height_) pixels_[std::size_t(y) * width_ + x] = colour;
   }
+  /// Copies `part` with its upper left corner to (x, y).
+  void put(const Image& part, int x, int y);
   /// A straight line one pixel wide.
   void line(double x0, double y0, double x1, double y1, const Colour& colour);
   /// A filled circle.
@@ -37,8 +39,8 @@ class Image {
   /// Text with its upper left corner at (x, y); each dot of a glyph is `scale` pixels wide.
   void text(int x, int y, std::string_view text, const Colour& colour, int scale = 2);
 
-  /// The bytes of a PNG file, compressed quickly.
-  std::string png() const;
+  /// The bytes of a PNG file, compressed quickly or well.
+  std::string png(bool quickly = true) const;
   /// Throws FileError.
   void write_png(const std::filesystem::path& path) const;
 

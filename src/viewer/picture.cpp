@@ -114,17 +114,12 @@ class Picture {
     if (moving) entry(kMoving, "Moving walls");
   }
 
-  void put(const Image& part, int x0, int y0) {
-    for (int y = 0; y < part.height(); ++y)
-      for (int x = 0; x < part.width(); ++x) image_.set(x0 + x, y0 + y, part.at(x, y));
-  }
-
   /// One flat view with its axes; returns its height.
   int flat(const Sides& sides, int upward, int x0, int y0, int width, double scale, const char* name) {
     const int height = std::max(1, int(std::lround(scale * size_[upward])));
     View view{sides.right, sides.up, sides.toward, 0.5 * (scene_.min + scene_.max)};
     fit(view, scene_, width, height);
-    put(render(scene_, view, width, height, kPaper), x0, y0);
+    image_.put(render(scene_, view, width, height, kPaper), x0, y0);
     for (const int x : {x0 - 1, x0 + width}) image_.line(x, y0 - 1, x, y0 + height, kFrame);
     for (const int y : {y0 - 1, y0 + height}) image_.line(x0 - 1, y, x0 + width, y, kFrame);
     image_.text(std::max(x0, x0 + width - text_width(name)), y0 - text_height() - 8, name, kInk);
@@ -165,7 +160,7 @@ class Picture {
     const Sides sides = axes_.oblique();
     View view{sides.right, sides.up, sides.toward, 0.5 * (scene_.min + scene_.max), 2.2 * norm(size_)};
     fit(view, scene_, width, height);
-    put(render(scene_, view, width, height, kPaper), x0, y0);
+    image_.put(render(scene_, view, width, height, kPaper), x0, y0);
     const auto length = [&](double l) { return fmt::format("{:.3g}", l * lengths_.factor); };
     const auto name = fmt::format("Spans {} x {} x {} {}", length(size_.x), length(size_.y), length(size_.z),
                                   lengths_.unit);

@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else ROOT / "build/cpu/bedload"
 CASES = sorted(
     file
-    for folder in ("cases", "docs/tutorial", "docs/examples")
+    for folder in ("cases", "docs/tutorial", "docs/examples", "src/cli/templates")
     for file in (ROOT / folder).rglob("*.toml")
     if not file.name.startswith("expect")
 )

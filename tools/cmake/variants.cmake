@@ -13,6 +13,10 @@ file(GLOB BEDLOAD_SOLVER_SOURCES CONFIGURE_DEPENDS
      ${CMAKE_SOURCE_DIR}/src/boundaries/*.cpp ${CMAKE_SOURCE_DIR}/src/domain/*.cpp
      ${CMAKE_SOURCE_DIR}/src/time/*.cpp ${CMAKE_SOURCE_DIR}/src/measure/*.cpp)
 
+if(BEDLOAD_FIRST_LOOK)
+  list(REMOVE_ITEM BEDLOAD_SOLVER_SOURCES ${CMAKE_SOURCE_DIR}/src/fluid/sdpd_solver.cpp)
+endif()
+
 # bedload_variant(single|mixed|double cpu|cpu_avx2|cuda): the static library bedload_<precision>_<backend>.
 # A cuda variant is made in a directory in which the sources' LANGUAGE is CUDA.
 function(bedload_variant precision backend)

@@ -9,8 +9,8 @@
 namespace bedload {
 namespace {
 
-constexpr int kWidth = 960, kHeight = 600, kMargin = 8, kLeast = 160;  // pixels
-constexpr double kAcross = 150;  // wall particles along the largest wall
+constexpr int kMargin = 8, kLeast = 160;  // pixels
+constexpr double kAcross = 150;           // wall particles along the largest wall
 
 Colour colour_of(const SpeedColours& colours, double fraction) {
   const auto f = float(std::clamp(fraction, 0.0, 1.0));
@@ -52,7 +52,7 @@ void LivePicture::sample_walls() {
   sampled_ = true;
 }
 
-Image LivePicture::draw(const LiveFrame& frame, LiveSide side) {
+Image LivePicture::draw(const LiveFrame& frame, LiveSide side, PictureSize picture) {
   if (!sampled_) sample_walls();
   const Bounds bounds(config_.domain);
   Scene scene;
@@ -81,7 +81,7 @@ Image LivePicture::draw(const LiveFrame& frame, LiveSide side) {
     add(scene.walls, {moves ? frame.bodies[body]->place(walls_.x[k]) : walls_.x[k], 0.5 * spacing_,
                       moves || inlet ? kMoving : kWall});
   }
-  if (!min_) return Image(kWidth, kHeight, kPaper);
+  if (!min_) return Image(picture.width, picture.height, kPaper);
   scene.min = *min_, scene.max = *max_;
 
   const Axes axes(config_.gravity);
@@ -91,19 +91,19 @@ Image LivePicture::draw(const LiveFrame& frame, LiveSide side) {
   const Vec3d size = scene.max - scene.min;
   View view{sides.right, sides.up, sides.toward, 0.5 * (scene.min + scene.max),
             side == LiveSide::oblique ? 2.2 * norm(size) : 0};
-  fit(view, scene, kWidth - 2 * kMargin, kHeight - 2 * kMargin);
-  int width = kWidth, height = kHeight;
-  if (side != LiveSide::oblique) {  // no larger than the scene
+  int width = picture.width, height = picture.height;
+  fit(view, scene, width - 2 * kMargin, height - 2 * kMargin);
+  if (side != LiveSide::oblique) {
     const auto pixels = [&](const Vec3d& along, int most) {
       double extent = 0;
       for (int k = 0; k < 3; ++k) extent += std::abs(along[k]) * size[k];
       return std::clamp(int(std::ceil(view.scale * extent)) + 2 * kMargin, kLeast, most);
     };
-    width = pixels(sides.right, kWidth), height = pixels(sides.up, kHeight);
+    width = pixels(sides.right, width), height = pixels(sides.up, height);
   }
   fit(view, scene, width - 2 * kMargin, height - 2 * kMargin);
   view.x0 += kMargin, view.y0 += kMargin;
-  return render(scene, view, width, height, kPaper, 1);
+  return render(scene, view, width, height, kPaper, picture.fine);
 }
 
 }  // namespace bedload

@@ -24,11 +24,17 @@ inline constexpr SpeedColours kFluidColours{
 inline constexpr SpeedColours kGrainColours{
     {{0.98f, 0.83f, 0.52f}, {0.93f, 0.50f, 0.20f}, {0.62f, 0.08f, 0.10f}}};
 
+struct PictureSize {
+  int width = 960, height = 600;  ///< pixels
+  int fine = 1;                   ///< each pixel is the mean of fine x fine samples
+};
+
 /// Draws the frames of one run. The view only ever widens, so that things stay in place.
 class LivePicture {
  public:
   explicit LivePicture(Config config) : config_(std::move(config)) {}
-  Image draw(const LiveFrame& frame, LiveSide side);
+  /// Flat views are no larger than the scene.
+  Image draw(const LiveFrame& frame, LiveSide side, PictureSize size = {});
 
  private:
   void sample_walls();
