@@ -1,5 +1,5 @@
-"""The window in a headless Chromium: a drum of slurry from an empty file to a film, with its run stopped and restarted; a
-broken case mended. BEDLOAD_SCREENSHOTS names a folder for pictures of the steps."""
+"""The window in a headless Chromium: a drum of slurry from an empty file to a film, with its run stopped and restarted;
+a broken case mended. BEDLOAD_SCREENSHOTS names a folder for pictures of the steps."""
 
 import importlib.util
 import os
@@ -159,7 +159,8 @@ class InABrowser(unittest.TestCase):
         from playwright.sync_api import sync_playwright
 
         self.place = Path(self.enterContext(folder()))
-        self.browser = self.enterContext(sync_playwright()).chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"])
+        chromium = self.enterContext(sync_playwright()).chromium
+        self.browser = chromium.launch(executable_path=BROWSER, args=["--no-sandbox", "--disable-gpu"])
         self.addCleanup(self.browser.close)
 
     def window(self, *arguments):
@@ -301,6 +302,29 @@ class InABrowser(unittest.TestCase):
         page.page.fill("#text", "[domain\n")
         page.page.click("#tab_check")
         page.until(lambda: "is not TOML" in page.text("#problem"), "the error of the text")
+
+    def test_things_are_picked_and_moved_by_hand(self):
+        (self.place / "tank.toml").write_text(BROKEN.replace('"tnak"', '"tank"').replace('"20 kg"', '"20 ms"'))
+        page = self.window("tank.toml")
+        page.page.click("#look_y")
+        time.sleep(1)
+        box = page.page.locator(".bl-view").bounding_box()
+        x, y = box["x"] + 0.42 * box["width"], box["y"] + 0.62 * box["height"]
+        page.page.mouse.click(x, y)
+        page.page.wait_for_selector('[id="node fluid.fill.0"].on')
+        page.page.keyboard.down("Shift")
+        page.page.mouse.move(x, y)
+        page.page.mouse.down()
+        page.page.mouse.move(x + 20, y, steps=4)
+        page.page.mouse.move(x + 40, y, steps=4)
+        page.page.mouse.up()
+        page.page.keyboard.up("Shift")
+        page.until(lambda: "*" in page.text("#file"), "the move")
+        page.page.click("#save")
+        fill = lambda: bedload.Case(self.place / "tank.toml").fluid.fill[0]
+        page.until(lambda: fill().min[0] > 0, "the file")
+        self.assertAlmostEqual(fill().max[0] - fill().min[0], 0.05)
+        self.assertEqual((fill().min[1:], fill().max[1:]), ([0, 0], [0.1, 0.08]))
 
     def test_nobody_comes_in_without_the_token(self):
         page = self.window()

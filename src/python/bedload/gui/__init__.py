@@ -1,7 +1,7 @@
 """The window: `bedload gui [case.toml]`, in the browser of this machine.
 
-`document`, `reading` and `forms` edit a case, `shapes` and `scene` draw it, `run` checks and runs it, `curves` and `view`
-show what a run does, `app` is the page.
+`document`, `reading` and `forms` edit a case, `shapes` and `scene` draw it, `run` checks and runs it, `curves` and
+`view` show what a run does, `app` and `page` are the page.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ def main(arguments: list[str]) -> int:
         return 2
     parser = argparse.ArgumentParser(prog="bedload gui", description="Build, run and watch a case in the browser.")
     parser.add_argument("case", nargs="?", metavar="CASE.toml", help="case file; it is made if it does not exist")
-    parser.add_argument("--port", type=int, default=PORT, help=f"port at 127.0.0.1; 0: any that is free; default {PORT}")
+    parser.add_argument("--port", type=int, default=PORT,
+                        help=f"port at 127.0.0.1; 0: any that is free; default {PORT}")
     parser.add_argument("--no-browser", action="store_true", help="print the address, open no browser")
     options = parser.parse_args(arguments)
     if not (options.port == 0 or 1024 <= options.port <= 65535):

@@ -9,10 +9,11 @@ from typing import Any
 
 import numpy as np
 from trame.app import get_server
+from vtkmodules.vtkInteractionStyle import vtkInteractorStyleUser
 
 from .. import results
 from ..errors import CaseError, FileError
-from . import curves, forms, page, reading, scene
+from . import curves, forms, moving, page, reading, scene
 from .document import Document
 from .run import Check, Cloud, LiveRun, clouds_of_frame
 from .view import NONE, Look, View, moved_bodies, write_film
@@ -33,6 +34,7 @@ class Window:
         self.results: results.Run | None = None
         self.initial: dict[str, Cloud] = {}  # particles that the check has placed
         self.walls_before: Cloud | None = None
+        self._dragged, self._pressed = "", (0, 0)  # path of what is dragged; where the button went down, pixels
         self._checked: str | None = None  # the text that the last check was of
         self._begun: dict[str, list[str]] = {}  # vectors of which not all is typed yet, by path
         self._temporary = tempfile.TemporaryDirectory(prefix="bedload_gui_")
@@ -40,8 +42,11 @@ class Window:
         self.state.update(page.STATE)
         page.build(self)
         self._refresh(fit=True)
-        self.view.plotter.iren.add_observer("LeftButtonPressEvent", self._press)
-        self.view.plotter.iren.add_observer("LeftButtonReleaseEvent", self._release)
+        self.interactor = self.view.plotter.iren.interactor
+        for event, react in (("LeftButtonPressEvent", self._press), ("MouseMoveEvent", self._drag),
+                             ("LeftButtonReleaseEvent", self._drop)):
+            self.interactor.AddObserver(event, react, 1.0)  # before the style, which moves the camera
+        self.view.plotter.iren.add_observer("LeftButtonReleaseEvent", self._release)  # of the style
         self.server.controller.on_server_ready.add(lambda **_: asyncio.create_task(self._watch()))
         for names, react in ((("colour_fluid", "colour_grains", "cut", "cut_at", "mode", "hide_walls"), self._draw),
                              (("frame",), self._draw), (("table", "columns"), self._draw_curves)):
@@ -476,14 +481,34 @@ class Window:
         path = self._table()
         self.state.chart = curves.chart(path, self.state.columns or [], (660, 190)) if path else ""
 
-    # A click that does not drag picks.
+    # A click that does not drag picks; with the shift key what is there is dragged.
 
     def _press(self, *_) -> None:
-        self._pressed = self.view.plotter.iren.get_event_position()
+        self._pressed = self.interactor.GetEventPosition()
+        if self.state.mode == "case" and self.interactor.GetShiftKey():
+            path = self.view.grab(*self._pressed)
+            if moving.owner(self.document, path):
+                self._dragged, self._style = path, self.interactor.GetInteractorStyle()
+                self.interactor.SetInteractorStyle(vtkInteractorStyleUser())  # one that keeps the camera
+
+    def _drag(self, *_) -> None:
+        if self._dragged:
+            self.view.drag(*self.interactor.GetEventPosition(), self._dragged)
+            self._push()
+
+    def _drop(self, *_) -> None:
+        if not self._dragged:
+            return
+        path, self._dragged = self._dragged, ""
+        self.interactor.SetInteractorStyle(self._style)
+        shift, grid = self.view.drag(*self.interactor.GetEventPosition(), path), moving.grid_of(self.view.size)
+        with self.state:
+            self.state.selected = path
+            self._edit(lambda: moving.move(self.document, path, shift, grid))
 
     def _release(self, *_) -> None:
-        at = self.view.plotter.iren.get_event_position()
-        if self.state.mode == "case" and np.abs(np.subtract(at, getattr(self, "_pressed", at))).max() <= 2:
+        at = self.interactor.GetEventPosition()
+        if self.state.mode == "case" and np.abs(np.subtract(at, self._pressed)).max() <= 2:
             path = self.view.pick(*at)
             if path and self.document.get(path) is not None:
                 with self.state:

@@ -22,8 +22,10 @@ STATE: dict[str, Any] = {
     "browse": "", "browse_at": "", "browse_up": "", "browse_items": [], "browse_name": "", "message": "",
     "message_seen": False, "mesh": None,
 }
-THEME = {"defaults": {"VBtn": {"class": "text-none"}}, "theme": {"defaultTheme": "bedload", "themes": {"bedload": {"dark": False, "colors": {
-    "primary": "#1f5c7a", "secondary": "#c98b45", "error": "#b3362f", "background": "#eef2f5", "surface": "#ffffff"}}}}}
+COLOURS = {"primary": "#1f5c7a", "secondary": "#c98b45", "error": "#b3362f", "background": "#eef2f5",
+           "surface": "#ffffff"}
+THEME = {"defaults": {"VBtn": {"class": "text-none"}},
+         "theme": {"defaultTheme": "bedload", "themes": {"bedload": {"dark": False, "colors": COLOURS}}}}
 STYLE = """
 html { overflow: hidden; font-size: 15px; }
 .bl-page { display: grid; grid-template-columns: 218px 372px minmax(0, 1fr); height: calc(100vh - 48px); }
@@ -49,6 +51,8 @@ html { overflow: hidden; font-size: 15px; }
 .bl-bar > * { flex-shrink: 0; } .bl-bar .v-select { max-width: 172px; flex: 0 1 172px; min-width: 90px; }
 .bl-bar .v-field__input { min-height: 30px; padding: 2px 0 2px 10px; font-size: 13px; }
 .bl-bar .v-field { padding-inline-end: 2px; } .bl-bar .v-field__append-inner { padding-top: 3px; }
+.bl-view { min-height: 0; min-width: 0; position: relative; overflow: hidden; }
+.bl-cut { position: absolute; right: 14px; top: 8px; width: 180px; }
 .bl-time { display: flex; align-items: center; gap: 12px; padding: 2px 14px; background: #fff;
   border-top: 1px solid #d9e1e7; font-size: 13px; }
 .bl-panel { background: #fff; border-top: 1px solid #d9e1e7; display: grid; grid-template-rows: 36px minmax(0, 1fr);
@@ -59,7 +63,8 @@ html { overflow: hidden; font-size: 15px; }
 .bl-rows tr.key td { font-weight: 600; color: #1f3d4f; }
 .bl-text { width: 100%; height: 100%; border: 0; outline: 0; resize: none; white-space: pre; tab-size: 2;
   font: 13px/1.45 "DejaVu Sans Mono", Menlo, monospace; color: #22303a; }
-.bl-chart { height: 186px; } .bl-say { color: #6a7883; font-size: 13px; }
+.bl-curves { display: grid; grid-template-columns: 210px minmax(0, 1fr); gap: 12px; } .bl-chart { height: 186px; }
+.bl-say { color: #6a7883; font-size: 13px; }
 .bl-words { font-size: 13px; color: #33404a; white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
 """
 SMALL = {"density": "compact", "hide_details": True, "variant": "outlined"}
@@ -76,8 +81,12 @@ def build(window: Any) -> None:
                 _form(window)
                 with html.Div(classes="bl-right"):
                     _view_bar(window)
-                    view = vtk.VtkRemoteView(window.view.plotter.ren_win, interactive_ratio=1, interactive_quality=70,
-                                             still_quality=92, style="min-height: 0; height: 100%;")
+                    with html.Div(classes="bl-view"):
+                        view = vtk.VtkRemoteView(window.view.plotter.ren_win, interactive_ratio=1,
+                                                 interactive_quality=70, still_quality=92)
+                        v.VSlider(v_if="cut", v_model=("cut_at",),
+                                  min=0, max=1, step=0.02, density="compact", hide_details=True, thumb_size=14,
+                                  color="primary", classes="bl-cut")
                     window.server.controller.view_update = view.update
                     _time(window)
                     _panel(window)
@@ -100,8 +109,8 @@ def _bar(window: Any) -> None:
         v.VDivider(vertical=True, classes="mx-2", opacity=0.4)
         _button("Results", "mdi-chart-timeline-variant", (window.browse, "['results', out || null]"))
         busy = "['starting', 'running', 'paused'].includes(run_state)"
-        v.VBtn("Check", click=window.start_check, prepend_icon="mdi-check-circle-outline", variant="tonal", size="small",
-               classes="mx-1", loading=("checking",), id="check")
+        v.VBtn("Check", click=window.start_check, prepend_icon="mdi-check-circle-outline", variant="tonal",
+               size="small", classes="mx-1", loading=("checking",), id="check")
         v.VBtn("Run", v_if=(f"!{busy}",), click=window.ask_run, prepend_icon="mdi-play", color="secondary",
                variant="flat", size="small", classes="mx-1 mr-3", id="run")
         v.VBtn("{{ run_state == 'paused' ? 'Resume' : 'Pause' }}", v_if=(busy,), click=window.pause, size="small",
@@ -129,8 +138,8 @@ def _tree(window: Any) -> None:
         with html.Div(classes="pa-2 pt-3"):
             with v.VMenu(max_height=460):
                 with v.Template(v_slot_activator="{ props }"):
-                    v.VBtn("Add", v_bind="props", prepend_icon="mdi-plus", size="small", variant="tonal", color="primary",
-                           block=True, id="add")
+                    v.VBtn("Add", v_bind="props", prepend_icon="mdi-plus", size="small", variant="tonal",
+                           color="primary", block=True, id="add")
                 with v.VList(density="compact"):
                     _addition(window, "root_additions")
 
@@ -196,7 +205,8 @@ def _field(window: Any) -> None:
     with html.Div(v_else_if="f.widget == 'vector'", classes="bl-vector"):
         v.VTextField(v_for="(axis, k) in ['x', 'y', 'z']", key="axis", model_value=("f.texts[k]",),
                      prefix=("axis",), error=("!!f.error",), persistent_placeholder=True,
-                     placeholder=("(f.default.startsWith('[') && f.default.match(/[^\\[\\],\\s]+/g)?.[k]) || ' '",), id=("f.path + ' ' + axis",),
+                     placeholder=("(f.default.startsWith('[') && f.default.match(/[^\\[\\],\\s]+/g)?.[k]) || ' '",),
+                     id=("f.path + ' ' + axis",),
                      change=(window.set_text, "[f.path, $event.target.value, k]"), **SMALL)
     v.VTextField(v_else=True, model_value=("f.texts[0]",), placeholder=(default,), persistent_placeholder=True,
                  error=("!!f.error",), id=("f.path",), suffix=("f.given && /[A-Za-z]/.test(f.texts[0]) ? '' : f.unit",),
@@ -214,6 +224,7 @@ def _view_bar(window: Any) -> None:
             v.VBtn("Results", value="results", size="small", disabled=("!results",))
         for direction in ("3-D", "x", "y", "z"):
             v.VBtn(direction, size="small", variant="text", min_width=26, click=(window.look_from, f"['{direction}']"),
+                   id=f"look_{direction}",
                    classes="text-none px-1")
         v.VSpacer()
         for store in ("fluid", "grains"):
@@ -222,9 +233,8 @@ def _view_bar(window: Any) -> None:
                       id=f"colour_{store}", **SMALL)
         v.VSelect(v_model=("cut",), style="max-width: 100px;",
                   v_if="colours_fluid.length + colours_grains.length",
-                  items=("['', 'x', 'y', 'z'].map((axis) => ({title: axis ? 'cut ' + axis : 'no cut', value: axis}))",), id="cut", **SMALL)
-        v.VSlider(v_if="cut", v_model=("cut_at",), min=0, max=1, step=0.02, density="compact", hide_details=True,
-                  thumb_size=14, style="max-width: 110px; min-width: 80px;", color="primary")
+                  id="cut", items=("['', 'x', 'y', 'z'].map((a) => ({title: a ? 'cut ' + a : 'no cut', value: a}))",),
+                  **SMALL)
         with v.VBtn(icon=True, size="small", variant="text", click="hide_walls = !hide_walls", id="walls"):
             v.VIcon("{{ hide_walls ? 'mdi-eye-off-outline' : 'mdi-eye-outline' }}", size=20)
             v.VTooltip("Walls beside particles", activator="parent", location="bottom")
@@ -240,8 +250,8 @@ def _time(window: Any) -> None:
         with html.Div(v_if="mode == 'results' && times.length", classes="bl-time"):
             with v.VBtn(icon=True, size="x-small", variant="text", click="frame = Math.max(frame - 1, 0)"):
                 v.VIcon("mdi-chevron-left", size=20)
-            v.VSlider(v_model=("frame",), min=0, max=("times.length - 1",), step=1, density="compact", hide_details=True,
-                      color="primary", thumb_size=16, id="frame")
+            v.VSlider(v_model=("frame",), min=0, max=("times.length - 1",), step=1, density="compact",
+                      hide_details=True, color="primary", thumb_size=16, id="frame")
             with v.VBtn(icon=True, size="x-small", variant="text",
                         click="frame = Math.min(frame + 1, times.length - 1)", id="next_frame"):
                 v.VIcon("mdi-chevron-right", size=20)
@@ -249,8 +259,8 @@ def _time(window: Any) -> None:
                      style="white-space: nowrap; min-width: 150px;")
         v.VProgressLinear(v_if="filming > 0", model_value=("filming",), color="secondary", height=4)
         with html.Div(v_if="mode == 'run' && run_state", classes="bl-time"):
-            v.VProgressLinear(model_value=("run_part",), height=6, rounded=True, color="primary", style="max-width: 260px;",
-                              indeterminate=("run_state == 'starting'",))
+            v.VProgressLinear(model_value=("run_part",), height=6, rounded=True, color="primary",
+                              style="max-width: 260px;", indeterminate=("run_state == 'starting'",))
             html.Div("{{ run_words }}", classes="bl-words", id="run_words")
 
 
@@ -280,7 +290,7 @@ def _panel(window: Any) -> None:
                     html.Td("{{ r.says }}")
         with html.Div(v_if="panel == 'curves'", classes="bl-scroll"):
             html.Div("Probes, bodies and balances of a run are drawn here.", v_if="!tables.length", classes="bl-say")
-            with html.Div(v_if="tables.length", style="display: grid; grid-template-columns: 210px minmax(0, 1fr); gap: 12px;"):
+            with html.Div(v_if="tables.length", classes="bl-curves"):
                 with html.Div():
                     v.VSelect(v_model=("table",), items=("tables",), label="Table", classes="mb-3 mt-1", **SMALL)
                     v.VSelect(v_model=("columns",), items=("all_columns",), label="Curves", multiple=True, **SMALL)
@@ -299,15 +309,16 @@ def _dialogs(window: Any) -> None:
                 with v.VList(density="compact", style="max-height: 320px; overflow-y: auto;"):
                     v.VListItem(title="..", prepend_icon="mdi-arrow-up", click=(window.browse, "[browse, browse_up]"))
                     v.VListItem(v_for="i in browse_items", key="i.path", title=("i.name",),
-                                prepend_icon=("i.run ? 'mdi-chart-timeline-variant' : i.folder ? 'mdi-folder-outline' : "
-                                              "'mdi-file-document-outline'",),
+                                prepend_icon=("i.run ? 'mdi-chart-timeline-variant' : i.folder ? "
+                                              "'mdi-folder-outline' : 'mdi-file-document-outline'",),
                                 click=(window.browse_click, "[i.path, i.folder, i.run]"))
                 v.VTextField(v_if="browse == 'save'", v_model=("browse_name",), label="File name", classes="mt-2",
                              id="file_name", **SMALL)
             with v.VCardActions():
                 v.VSpacer()
                 v.VBtn("Cancel", click="browse = ''")
-                v.VBtn("Open this folder", v_if="browse == 'results'", color="primary", click=(window.chosen, "[browse_at]"))
+                v.VBtn("Open this folder", v_if="browse == 'results'", color="primary",
+                       click=(window.chosen, "[browse_at]"))
                 v.VBtn("Save", v_if="browse == 'save'", color="primary", click=(window.chosen, "[browse_name]"),
                        id="save_here")
     with v.VDialog(v_model=("ask_run",), max_width=480):
@@ -318,7 +329,7 @@ def _dialogs(window: Any) -> None:
                 v.VSpacer()
                 v.VBtn("Cancel", click="ask_run = false")
                 v.VBtn("Replace", color="error", click=(window.start_run, "[false, true]"), id="replace")
-                v.VBtn("Restart", color="primary", disabled=("!can_restart",), click=(window.start_run, "[true, false]"),
-                       id="restart")
+                v.VBtn("Restart", color="primary", disabled=("!can_restart",),
+                       click=(window.start_run, "[true, false]"), id="restart")
     with v.VSnackbar(v_model=("message_seen",), timeout=6000, location="top"):
         html.Span("{{ message }}")

@@ -1,4 +1,4 @@
-"""What is seen of a case: its parts (domain, walls, fills, openings, probes, motions), each with the path of its table."""
+"""What is seen of a case: domain, walls, fills, openings, probes, motions, each with the path of its table."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ class Part:
 
 
 def parts_of(case: dict[str, Any], folder: str | Path = ".") -> list[Part]:
-    """The parts of a case that can be drawn. case: resolved, or as given while it has an error: what is not complete yet
-    is left out. folder: of the case file."""
+    """The parts of a case that can be drawn. case: resolved, or as given while it has an error: what is not complete
+    yet is left out. folder: of the case file."""
     found: list[Part] = []
     scene = _Scene(case, Path(folder))
     for drawn in (scene.domain, scene.walls, scene.fluid, scene.grains, scene.inlets, scene.outlets, scene.probes,
@@ -71,7 +71,8 @@ class _Scene:
             mesh = shapes.box(body["min"], body["max"])
             names = ["x-", "x+", "y-", "y+", "z-", "z+"]
             faces = body.get("faces", names)
-            return mesh.extract_cells([names.index(face) for face in faces]).extract_surface(algorithm="dataset_surface")
+            sides = mesh.extract_cells([names.index(face) for face in faces])
+            return sides.extract_surface(algorithm="dataset_surface")
         if body["shape"] == "plane":
             return shapes.plane(shapes.point(body["point"]), body["normal"], self.size)
         return shapes.surface(body["shape"], self.shapes, self.folder)
@@ -164,13 +165,14 @@ class _Scene:
 
     def lone_shapes(self) -> Iterator[Part]:
         """Shapes that nothing uses yet."""
-        users = [*_tables(self.case, "wall", "body"), *_tables(self.case, "fluid", "fill"), *_tables(self.case, "outlet"),
-                 *_tables(self.case, "grain", "fill")]
+        lists = (("wall", "body"), ("fluid", "fill"), ("grain", "fill"), ("outlet",))
+        users = [user for keys in lists for user in _tables(self.case, *keys)]
         used = {str(user.get("shape")) for user in users}
         used |= {part for shape in self.shapes.values() for part in _list(shape.get("of"))}
         for k, shape in enumerate(_tables(self.case, "shape")):
             if shape.get("name") not in used:
-                yield from _part(f"shape.{k}", lambda: shapes.surface(shape["name"], self.shapes, self.folder), WALL, 0.5)
+                named = shape.get("name")
+                yield from _part(f"shape.{k}", lambda: shapes.surface(named, self.shapes, self.folder), WALL, 0.5)
 
 
 def shape_outline(case: dict[str, Any], path: str, folder: str | Path) -> pv.PolyData | None:

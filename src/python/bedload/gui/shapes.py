@@ -82,7 +82,8 @@ def turning(centre: np.ndarray, axis: Sequence[Any], radius: float, length: floa
     thick = 0.025 * radius
     tip = pv.Cone(center=tuple(arc[-1]), direction=tuple(arc[-1] - arc[-2]), height=0.3 * radius, radius=0.09 * radius,
                   resolution=24)
-    rod = pv.Line(tuple(centre - axis * length / 2), tuple(centre + axis * length / 2)).tube(radius=0.6 * thick, n_sides=18)
+    ends = centre - axis * length / 2, centre + axis * length / 2
+    rod = pv.Line(tuple(ends[0]), tuple(ends[1])).tube(radius=0.6 * thick, n_sides=18)
     return pv.merge([pv.MultipleLines(points=arc).tube(radius=thick, n_sides=18), rod, tip], merge_points=False)
 
 
@@ -122,12 +123,15 @@ def _primitive(shape: dict, folder: Path) -> pv.PolyData:
     r = metres(shape["radius"])
     if kind == "capsule":
         half = np.radians(np.linspace(0, 90, 12))
-        ends = [(r * np.cos(s), -r * np.sin(s)) for s in half[::-1]], [(r * np.cos(s), length + r * np.sin(s)) for s in half]
-        return _lathe([*ends[0], *ends[1]], a, b)
+        low = [(r * np.cos(s), -r * np.sin(s)) for s in half[::-1]]
+        high = [(r * np.cos(s), length + r * np.sin(s)) for s in half]
+        return _lathe([*low, *high], a, b)
     if kind == "pipe":
         t, ends = metres(shape.get("thickness", 0.1 * r)), shape.get("ends", "open")
         low = [(0, 0), (0, -t), (r + t, -t)] if ends in ("closed_a", "closed") else [(r + t, 0)]
-        high = [(r + t, length + t), (0, length + t), (0, length)] if ends in ("closed_b", "closed") else [(r + t, length)]
+        high = [(r + t, length)]
+        if ends in ("closed_b", "closed"):
+            high = [(r + t, length + t), (0, length + t), (0, length)]
         return _lathe([(r, 0), *low, *high, (r, length), (r, 0)], a, b)
     return _lathe([(0, 0), (r, 0), (r, length), (0, length)], a, b)
 

@@ -53,6 +53,8 @@ class View:
         self.plotter.add_axes(line_width=2, color="#44515c", viewport=(0, 0, 0.13, 0.18))
         self._paths: dict[Any, str] = {}  # of actors
         self._bounds: np.ndarray | None = None
+        self._grabbed: float | None = None  # depth in the picture of what is dragged
+        self._depth_of_picked, self._from = 0.0, np.zeros(3)
 
     def show(self, parts: Iterable[Part], selected: str = "", clouds: dict[str, Cloud] | None = None,
              look: Look | None = None, spacing: float = 0.0, time: float | None = None,
@@ -90,11 +92,43 @@ class View:
         self.plotter.view_vector(way, viewup=up, render=False, bounds=bounds)
         self.plotter.camera.zoom(1.05)
 
+    @property
+    def size(self) -> float:
+        """Diagonal of everything, m."""
+        return float(np.linalg.norm(self._bounds[:, 1] - self._bounds[:, 0])) if self._bounds is not None else 1.0
+
     def pick(self, x: float, y: float) -> str:
         """The path of what is at a place of the picture, in pixels from its lower left; empty if nothing is."""
         picker = vtkPropPicker()
         picker.PickProp(x, y, self.plotter.renderer)
+        renderer = self.plotter.renderer
+        renderer.SetWorldPoint(*picker.GetPickPosition(), 1.0)
+        renderer.WorldToDisplay()
+        self._depth_of_picked = renderer.GetDisplayPoint()[2]
         return self._paths.get(picker.GetActor(), "")
+
+    def grab(self, x: float, y: float) -> str:
+        """The path of what is at a place of the picture and is to be dragged from there."""
+        path = self.pick(x, y)
+        self._grabbed = self._depth_of_picked if path else None
+        self._from = self._world(x, y) if path else np.zeros(3)
+        return path
+
+    def drag(self, x: float, y: float, path: str) -> np.ndarray:
+        """Shows what has been grabbed where the pointer is; returns how far that is from where it was, m."""
+        shift = self._world(x, y) - self._from
+        for actor, own in self._paths.items():
+            if _within(own, path):
+                actor.SetPosition(*shift)
+        return shift
+
+    def _world(self, x: float, y: float) -> np.ndarray:
+        """The point behind a place of the picture, as deep as what has been grabbed."""
+        renderer = self.plotter.renderer
+        renderer.SetDisplayPoint(x, y, self._grabbed)
+        renderer.DisplayToWorld()
+        point = np.array(renderer.GetWorldPoint())
+        return point[:3] / point[3]
 
     def picture(self, scale: int = 1) -> np.ndarray:
         """What is seen, [height, width, 3]."""
@@ -154,7 +188,7 @@ class View:
         holder = pv.DataSetMapper()
         holder.lookup_table = table
         self.plotter.add_scalar_bar(title, mapper=holder, color="#33404a", title_font_size=14, label_font_size=12,
-                                    n_labels=3, fmt="%.3g", width=0.32, height=0.06, render=False, n_colors=256,
+                                    n_labels=2, fmt="%.3g", width=0.32, height=0.06, render=False, n_colors=256,
                                     position_x=0.16 if store == "fluid" else 0.56, position_y=0.02)
 
     def _not_cut(self, position: np.ndarray, look: Look) -> np.ndarray:
