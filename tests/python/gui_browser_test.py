@@ -167,6 +167,7 @@ class InABrowser(unittest.TestCase):
         """The page of a new window in the test's folder."""
         command = [sys.executable, "-m", "bedload", "gui", *arguments, "--port", "0", "--no-browser"]
         shown = subprocess.Popen(command, cwd=self.place, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.shown = shown
         self.addCleanup(self.close, shown)
         line = next((line for line in shown.stdout if line.startswith("window")), "")
         self.assertRegex(line, r"^window +http://127\.0\.0\.1:\d+/index\.html\?secret=\S{20,}$")
@@ -303,8 +304,8 @@ class InABrowser(unittest.TestCase):
         page.page.click("#tab_check")
         page.until(lambda: "is not TOML" in page.text("#problem"), "the error of the text")
 
-    def test_things_are_picked_and_moved_by_hand(self):
-        (self.place / "tank.toml").write_text(BROKEN.replace('"tnak"', '"tank"').replace('"20 kg"', '"20 ms"'))
+    def test_things_are_moved_by_hand_and_a_run_ends_with_the_window(self):
+        (self.place / "tank.toml").write_text(BROKEN.replace('"tnak"', '"tank"').replace('"20 kg"', '"20 s"'))
         page = self.window("tank.toml")
         page.page.click("#look_y")
         time.sleep(1)
@@ -325,6 +326,13 @@ class InABrowser(unittest.TestCase):
         page.until(lambda: fill().min[0] > 0, "the file")
         self.assertAlmostEqual(fill().max[0] - fill().min[0], 0.05)
         self.assertEqual((fill().min[1:], fill().max[1:]), ([0, 0], [0.1, 0.08]))
+        page.page.click("#run")
+        page.until(lambda: page.text("#run_words").startswith("t = "), "the run")
+        self.shown.send_signal(signal.SIGINT)
+        self.shown.wait(SECONDS)
+        self.assertEqual(bedload.open_run(self.place / "results/tank").status, "stopped")
+        self.assertTrue(list((self.place / "results/tank/checkpoints").glob("*.h5")))
+        self.assertEqual(list(self.place.glob(".*")), [])
 
     def test_nobody_comes_in_without_the_token(self):
         page = self.window()

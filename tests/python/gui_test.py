@@ -302,7 +302,8 @@ class Moving(unittest.TestCase):
         self.assertEqual(centre, [0, 0.005, 0])
         self.assertFalse(self.move(drum, "time", [1, 1, 1]).can_undo)
         self.assertFalse(self.move(drum, "probe.1", [1, 1, 1]).can_undo)
-        tank = self.move(TANK.replace("max = [0.05, 0.1, 0.08]", 'max = ["5 cm", 0.1, 0.08]'), "fluid.fill.0", [0.01, 0, 0])
+        tank = TANK.replace("max = [0.05, 0.1, 0.08]", 'max = ["5 cm", 0.1, 0.08]')
+        tank = self.move(tank, "fluid.fill.0", [0.01, 0, 0])
         self.assertEqual(tank.get("fluid.fill.0"), {"min": [0.01, 0, 0], "max": [0.06, 0.1, 0.08]})
         turned = self.move(drum.replace("radius = 0.03", "radius = 0.03\nturn_angle = 30"), "shape.0", [0, 0, 0.01])
         self.assertEqual(turned.get("shape.0.translate"), [0, 0, 0.01])
@@ -369,6 +370,21 @@ class Scenes(unittest.TestCase):
         np.testing.assert_allclose(motion[:3, :3], turn, atol=1e-12)
         np.testing.assert_allclose(motion[:3, 3], [1, 2, 3], atol=1e-12)
 
+    def test_bodies_are_where_their_particles_are(self):
+        from bedload.gui.run import Cloud
+        from bedload.gui.view import moved_bodies
+
+        case = {"wall": {"body": [{"name": "gate"}, {"name": "tank"}, {"name": "lid"}]}}
+        places = np.random.default_rng(2).random((9, 3))
+        before = Cloud(places, {"body": np.repeat([0, 1, 2], 3), "id": np.arange(9)})
+        there = places + np.repeat([[0, 0, 0.5], [0, 0, 0], [0, 0, 0]], 3, axis=0)
+        order = [5, 4, 3, 2, 1, 0]  # sorted anew; the lid has been removed
+        now = Cloud(there[order], {name: field[order] for name, field in before.fields.items()})
+        moved = moved_bodies(case, before, now)
+        self.assertIsNone(moved["wall.body.2"])
+        np.testing.assert_allclose(moved["wall.body.0"][:3, 3], [0, 0, 0.5], atol=1e-12)
+        np.testing.assert_allclose(moved["wall.body.1"], np.eye(4), atol=1e-12)
+
     def test_picture_pick_and_film(self):
         from bedload.gui import scene
         from bedload.gui.run import Cloud
@@ -431,7 +447,8 @@ class Runs(unittest.TestCase):
             self.until(run, lambda: run.progress.state == "paused")
             paused = run.progress.step
             run.look()
-            self.until(run, lambda: run.seen)
+            self.until(run, lambda: run.seen > 1)
+            self.assertEqual(len(run.first_walls.position), 3408)
             self.assertEqual(run.poll().step, paused)
             self.assertEqual(len(run.clouds["fluid"].position), 400)
             self.assertEqual(run.clouds["grains"].units["velocity"], "m/s")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import tempfile
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from .run import Check, Cloud, LiveRun, clouds_of_frame
 from .view import NONE, Look, View, moved_bodies, write_film
 
 TURN = 0.3  # s between two looks at what runs
+ENDS = ("", "completed", "stopped", "failed")  # states in which nothing runs
 
 
 class Window:
@@ -35,6 +37,8 @@ class Window:
         self.initial: dict[str, Cloud] = {}  # particles that the check has placed
         self.walls_before: Cloud | None = None
         self._dragged, self._pressed = "", (0, 0)  # path of what is dragged; where the button went down, pixels
+        self._parts_of: tuple[dict, list[scene.Part]] | None = None  # the last case that was drawn, and its parts
+        self._curves_at = 0.0  # when the tables of a run were last read, s
         self._checked: str | None = None  # the text that the last check was of
         self._begun: dict[str, list[str]] = {}  # vectors of which not all is typed yet, by path
         self._temporary = tempfile.TemporaryDirectory(prefix="bedload_gui_")
@@ -71,9 +75,11 @@ class Window:
 
     def set_text(self, path: str, text: str, axis: int | None = None) -> None:
         """What was typed into a field; an empty one means the default."""
-        field = next((f for f in forms.fields(self.document, self.state.selected, self.reading.problem)
-                      if f.path == path), None)
-        texts = self._begun.pop(path, list(field.texts) if field else [""])
+        fields = forms.fields(self.document, path.rpartition(".")[0], self.reading.problem)
+        field = next((f for f in fields if f.path == path), None)
+        if field is None:
+            return  # of a table that has just been removed
+        texts = self._begun.pop(path, list(field.texts))
         if texts[axis or 0] == text:
             return
         texts[axis or 0] = text
@@ -140,7 +146,12 @@ class Window:
         def added():
             content = file["content"]
             content = b"".join(content) if isinstance(content, list) else content
-            (self._folder() / name).write_bytes(content)
+            path = self._folder() / name
+            if path.suffix.lower() not in (".stl", ".obj", ".ply"):
+                raise CaseError(f"{name} must be an STL, OBJ or PLY file")
+            if path.exists() and path.read_bytes() != content:
+                raise FileError(f"{path}: there is another mesh of that name; rename one of them")
+            path.write_bytes(content)
             values = {"name": Path(name).stem, "kind": "mesh", "file": name}
             self.state.selected = self.document.add("shape", values, item=True)
 
@@ -224,7 +235,11 @@ class Window:
         self._forget_own_file()
         stem = self.document.path.stem if self.document.path else "case"
         self._own_file = self._folder() / f".{stem}.gui.toml"  # beside the case, for the files it names
-        self._own_file.write_text(self.document.text, encoding="utf-8")
+        try:
+            self._own_file.write_text(self.document.text, encoding="utf-8")
+        except OSError as error:
+            self._say(f"{self._own_file}: cannot be written: {error.strerror}")
+            return
         self._checked = self.document.text
         self.check = Check(self._own_file, Path(self._temporary.name) / "preview")
         self.state.update({"checking": True, "panel": "check", "mode": "case"})
@@ -247,14 +262,15 @@ class Window:
                 self.start_run()
 
     def start_run(self, restart: bool = False, overwrite: bool = False) -> None:
-        self.state.ask_run = False
+        self.state.update({"ask_run": False, "run_error": ""})
         if not self.run and self.state.colour_fluid == NONE:
             self.state.colour_fluid = "velocity"
         self.results = None
         before = self._out() / "walls.vtkhdf"
         self.walls_before = clouds_of_frame(results.open_run(self._out()), 0, ("walls",))["walls"] \
             if restart and before.exists() else None
-        self.run = LiveRun(self.document.path, self._out(), restart=restart, overwrite=overwrite)
+        self.run = LiveRun(self.document.path, self._out(), restart=restart, overwrite=overwrite,
+                           allow_changes=restart and self.state.allow_changes)
         self.state.update({"mode": "run", "run_state": "starting", "run_words": "placing particles", "panel": "curves",
                            "times": [], "results": "", "run_part": 0})
 
@@ -373,9 +389,12 @@ class Window:
             self._draw()
 
     def _parts(self) -> list[scene.Part]:
+        case, folder = self.reading.case, self._folder()
         if self.state.mode == "results" and self.results:
-            return scene.parts_of(results.resolved_case(self.results.folder), self._folder())
-        return scene.parts_of(self.reading.case, self._folder())
+            case, folder = self.results.case, self.results.folder
+        if self._parts_of is None or self._parts_of[0] is not case:
+            self._parts_of = case, scene.parts_of(case, folder)
+        return self._parts_of[1]
 
     def _draw(self) -> None:
         if self.state.mode == "results" and self.results:
@@ -396,16 +415,15 @@ class Window:
 
     def _draw_live(self) -> None:
         run = self.run
-        if run.clouds and self.walls_before is None:
-            self.walls_before = run.clouds.get("walls")
         if run.clouds and not self.state.colours_fluid[1:]:
             self._colours(run.clouds)
-        moved = moved_bodies(self.reading.case, self.walls_before, run.clouds.get("walls"))
+        before = self.walls_before or run.first_walls
+        moved = moved_bodies(self.reading.case, before, run.clouds.get("walls"))
         self.view.show(self._shown(run.clouds), "", run.clouds, self._look(), self._spacing(self.reading.case),
                        run.progress.time, moved)
 
     def _draw_frame(self, frame: int, limits: dict | None = None) -> None:
-        found, case = self.results, results.resolved_case(self.results.folder)
+        found, case = self.results, self.results.case
         clouds = clouds_of_frame(found, frame)
         time = float(self.state.times[frame]) if self.state.times else 0.0
         walls = clouds_of_frame(found, found.walls.nearest(time), ("walls",)).get("walls") \
@@ -519,10 +537,13 @@ class Window:
         while True:
             await asyncio.sleep(TURN)
             with self.state:
-                if self.check and self.state.checking and self.check.poll():
-                    self._check_ended()
-                if self.run and self.state.mode == "run":
-                    self._watch_run()
+                try:
+                    if self.check and self.state.checking and self.check.poll():
+                        self._check_ended()
+                    if self.run and self.state.run_state not in ENDS:
+                        self._watch_run()
+                except (CaseError, FileError, OSError, KeyError, ValueError) as error:
+                    self._say(str(error))
 
     def _check_ended(self) -> None:
         check = self.check
@@ -548,14 +569,15 @@ class Window:
                  "failed": progress.message}.get(progress.state)
         self.state.update({"run_state": progress.state, "run_part": 100 * done,
                            "run_words": words or self.state.run_words})
-        if run.seen != seen:
+        if run.seen != seen and self.state.mode == "run":
             self._draw()
         run.look()
-        if progress.state != "starting":
+        if progress.state != "starting" and self.state.panel == "curves" and monotonic() > self._curves_at + 1:
             self._tables(run.out)
+            self._curves_at = monotonic()
         if progress.ended:
-            self.state.run_words = f"{progress.state} at t = {progress.time:.4g} s" if progress.state != "failed" \
-                else progress.message
+            self.state.run_words = f"{progress.state} at t = {progress.time:.4g} s"
+            self.state.run_error = progress.message if progress.state == "failed" else ""
             if (run.out / "fluid.vtkhdf").exists() or (run.out / "grains.vtkhdf").exists():
                 self.open_results(run.out)
             else:

@@ -11,8 +11,9 @@ from .forms import bare
 from .shapes import metres
 
 POINTS = {"shape": ("min", "max", "centre", "a", "b"), "wall.body": ("min", "max", "point"),
-          "fluid.fill": ("min", "max"), "grain.fill": ("min", "max"), "inlet": ("centre",), "grain_inlet": ("min", "max", "centre"),
-          "outlet": ("min", "max", "point"), "probe": ("min", "max", "at"), "wall.body.motion": ("centre",)}
+          "wall.body.motion": ("centre",), "fluid.fill": ("min", "max"), "grain.fill": ("min", "max"),
+          "inlet": ("centre",), "grain_inlet": ("min", "max", "centre"), "outlet": ("min", "max", "point"),
+          "probe": ("min", "max", "at")}  # keys that say where a table's thing is
 
 
 def owner(document: Document, path: str) -> str:

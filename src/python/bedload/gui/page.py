@@ -16,6 +16,7 @@ STATE: dict[str, Any] = {
     "problem_line": 0, "problem_here": False, "warnings": [], "stale": False, "all_keys": False, "out": "",
     "mode": "case", "panel": "check", "check_rows": [], "check_words": "", "checking": False,
     "run_state": "", "run_words": "", "run_part": 0, "ask_run": False, "run_out": "", "can_restart": False,
+    "run_error": "", "allow_changes": False,
     "run_after_save": False, "times": [], "frame": 0, "results": "", "filming": 0,
     "colour_fluid": NONE, "colour_grains": NONE, "colours_fluid": [], "colours_grains": [], "cut": "", "cut_at": 0.5,
     "hide_walls": False, "tables": [], "table": "", "all_columns": [], "columns": [], "chart": "",
@@ -258,6 +259,12 @@ def _time(window: Any) -> None:
             html.Div("{{ times[frame]?.toPrecision(4) }} s, frame {{ frame + 1 }} of {{ times.length }}",
                      style="white-space: nowrap; min-width: 150px;")
         v.VProgressLinear(v_if="filming > 0", model_value=("filming",), color="secondary", height=4)
+        with html.Div(v_if="run_error", classes="bl-time", id="run_error"):
+            v.VIcon("mdi-alert-circle", size=16, color="error")
+            html.Div("{{ run_error }}", classes="bl-error")
+            v.VSpacer()
+            with v.VBtn(icon=True, size="x-small", variant="text", click="run_error = ''"):
+                v.VIcon("mdi-close", size=15)
         with html.Div(v_if="mode == 'run' && run_state", classes="bl-time"):
             v.VProgressLinear(model_value=("run_part",), height=6, rounded=True, color="primary",
                               style="max-width: 260px;", indeterminate=("run_state == 'starting'",))
@@ -324,7 +331,11 @@ def _dialogs(window: Any) -> None:
     with v.VDialog(v_model=("ask_run",), max_width=480):
         with v.VCard():
             v.VCardTitle("There is a run already")
-            v.VCardText("{{ run_out }} holds a run of this case. Restart it from its newest checkpoint, or replace it?")
+            with v.VCardText():
+                html.Div("{{ run_out }} holds a run of this case. Restart it from its newest checkpoint, or replace "
+                         "it?")
+                v.VCheckbox(v_model=("allow_changes",), label="Restart also if the case has changed",
+                            density="compact", hide_details=True, disabled=("!can_restart",))
             with v.VCardActions():
                 v.VSpacer()
                 v.VBtn("Cancel", click="ask_run = false")

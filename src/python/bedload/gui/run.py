@@ -16,6 +16,7 @@ from ..errors import CaseError, DeviceError, FileError, SimulationFault
 
 PARTICLES = 200_000  # of a kind that are sent to be seen
 LATER = 0.25  # s between two reports of a run
+REST = 10  # so many times as long as particles took to arrive, no others are asked for
 
 
 FIRST = ("particles", "memory", "steps", "run time", "device", "step", "substep")  # what is asked first of a check
@@ -106,16 +107,18 @@ class LiveRun:
     """A run in a process of its own, that can be paused, resumed, stopped and looked at."""
 
     def __init__(self, file: str | Path, out: str | Path, *, restart: bool = False, overwrite: bool = False,
-                 backend: str = "auto", threads: int = 0):
+                 allow_changes: bool = False, backend: str = "auto", threads: int = 0):
         self.out = Path(out)
         self.progress = Progress()
         self.clouds: dict[str, Cloud] = {}
         self.seen = 0  #: how often particles have arrived
-        self._asked = False
+        self.first_walls: Cloud | None = None  #: before the first step
+        self._asked: float | None = None  # when, s
+        self._rest_until = 0.0  # s
         spawn = multiprocessing.get_context("spawn")
         self._pipe, other = spawn.Pipe()
-        options = {"restart": "latest" if restart else None, "overwrite": overwrite, "backend": backend,
-                   "threads": threads}
+        options = {"restart": "latest" if restart else None, "overwrite": overwrite,
+                   "allow_changes": allow_changes, "backend": backend, "threads": threads}
         self._process = spawn.Process(target=_work, args=(other, str(file), str(out), options), daemon=True)
         self._process.start()
         other.close()
@@ -128,7 +131,12 @@ class LiveRun:
                 if kind == "progress":
                     self.progress = what
                 else:
-                    self.clouds, self.seen, self._asked = what, self.seen + 1, False
+                    if not self.seen:
+                        self.first_walls = what.get("walls")
+                    self.clouds, self.seen = what, self.seen + 1
+                    if self._asked is not None:
+                        now = time.monotonic()
+                        self._asked, self._rest_until = None, now + REST * (now - self._asked)
         except (EOFError, OSError):
             pass
         if not self._process.is_alive() and not self.progress.ended and not self._pipe_has_more():
@@ -149,9 +157,10 @@ class LiveRun:
         self._tell("stop")
 
     def look(self) -> None:
-        """Asks for the particles as they are now; they arrive in `clouds`."""
-        if not self._asked and self.progress.state in ("running", "paused"):
-            self._asked = True
+        """Asks for the particles as they are now, unless that would slow the run; they arrive in `clouds`."""
+        rested = self._asked is None and time.monotonic() >= self._rest_until
+        if rested and self.progress.state in ("running", "paused"):
+            self._asked = time.monotonic()
             self._tell("look")
 
     def wait(self, seconds: float) -> Progress:
@@ -225,6 +234,7 @@ def _steps(pipe: Any, simulation: Any, progress: Progress) -> None:
         pipe.send(("progress", progress))
 
     report()
+    pipe.send(("particles", _clouds(simulation)))  # with the walls where they are before they move
     while simulation.time < simulation.end:
         while pipe.poll(None if progress.state == "paused" else 0):
             try:

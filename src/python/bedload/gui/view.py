@@ -58,9 +58,9 @@ class View:
 
     def show(self, parts: Iterable[Part], selected: str = "", clouds: dict[str, Cloud] | None = None,
              look: Look | None = None, spacing: float = 0.0, time: float | None = None,
-             moved: dict[str, np.ndarray] | None = None, outline: pv.PolyData | None = None) -> None:
-        """Draws parts and particles anew. spacing: of fluid particles, m. moved: motions (4 x 4) of bodies by path.
-        outline: marked as selected as well."""
+             moved: dict[str, np.ndarray | None] | None = None, outline: pv.PolyData | None = None) -> None:
+        """Draws parts and particles anew. spacing: of fluid particles, m. moved: motions (4 x 4) of bodies by
+        path; None: removed. outline: marked as selected as well."""
         for bar in list(self.plotter.scalar_bars.keys()):
             self.plotter.remove_scalar_bar(bar, render=False)
         for actor in self._paths:
@@ -70,7 +70,9 @@ class View:
         if self._bounds is None and parts:
             self.look_from("3-D", parts)
         for part in parts:
-            self._add_part(part, bool(selected) and _within(part.path, selected), (moved or {}).get(part.path))
+            motion = (moved or {}).get(part.path, np.eye(4))
+            if motion is not None:
+                self._add_part(part, bool(selected) and _within(part.path, selected), motion)
         if outline is not None:
             edges = outline.extract_feature_edges(30)
             self._add(edges if edges.n_points else outline.outline(), selected, color=SELECTED, line_width=3)
@@ -135,8 +137,8 @@ class View:
         self.plotter.render()
         return np.ascontiguousarray(self.plotter.screenshot(return_img=True, scale=scale)[:, :, :3])
 
-    def _add_part(self, part: Part, selected: bool, moved: np.ndarray | None) -> None:
-        mesh = part.mesh if moved is None else part.mesh.transform(moved, inplace=False)
+    def _add_part(self, part: Part, selected: bool, motion: np.ndarray) -> None:
+        mesh = part.mesh.transform(motion, inplace=False)
         if part.lines:
             self._add(mesh, part.path, style="wireframe", color=SELECTED if selected else part.colour,
                       line_width=3 if selected else 1.2)
@@ -210,13 +212,15 @@ def limits_of(values: np.ndarray) -> tuple[float, float]:
     return (float(low), float(high)) if high > low else (float(low), float(low) + (abs(float(low)) or 1.0) * 1e-3)
 
 
-def moved_bodies(case: dict[str, Any], before: Cloud | None, now: Cloud | None) -> dict[str, np.ndarray]:
-    """How bodies have moved since the start, by path, from their wall particles then and now."""
+def moved_bodies(case: dict[str, Any], before: Cloud | None, now: Cloud | None) -> dict[str, np.ndarray | None]:
+    """How bodies have moved since the start, by path, from their wall particles then and now; None: removed."""
     if before is None or now is None or "body" not in now.fields:
         return {}
-    found = {}
+    found: dict[str, np.ndarray | None] = {}
     for number, _ in enumerate(case.get("wall", {}).get("body", [])):
         old, new = before.fields["body"] == number, now.fields["body"] == number
+        if old.any() and not new.any():
+            found[f"wall.body.{number}"] = None
         _, i, j = np.intersect1d(before.fields["id"][old], now.fields["id"][new], return_indices=True)
         if len(i) > 2:
             motion = shapes.motion_between(before.position[old][i].astype(float), now.position[new][j].astype(float))
