@@ -99,6 +99,12 @@ every = 0.005
 """
 
 
+CORNERS = ((0.02, 0.02, 0.12), (0.08, 0.02, 0.12), (0.05, 0.08, 0.12), (0.05, 0.05, 0.18))
+STONE = "solid stone\n" + "".join(
+    "facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % CORNERS[k] for k in side) +
+    "endloop\nendfacet\n" for side in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3))) + "endsolid stone\n"
+
+
 class Page:
     """The page of a window, by what a person does."""
 
@@ -326,6 +332,15 @@ class InABrowser(unittest.TestCase):
         page.until(lambda: fill().min[0] > 0, "the file")
         self.assertAlmostEqual(fill().max[0] - fill().min[0], 0.05)
         self.assertEqual((fill().min[1:], fill().max[1:]), ([0, 0], [0.1, 0.08]))
+        page.select("")
+        stone = self.place / "elsewhere" / "stone.stl"
+        stone.parent.mkdir()
+        stone.write_text(STONE)
+        page.page.set_input_files("#mesh", stone)
+        page.page.wait_for_selector('[id="node shape.0"].on')
+        self.assertEqual((self.place / "stone.stl").read_text(), STONE)
+        self.assertEqual(page.page.input_value('[id="shape.0.file"]'), "stone.stl")
+        page.shot("8_mesh")
         page.page.click("#run")
         page.until(lambda: page.text("#run_words").startswith("t = "), "the run")
         self.shown.send_signal(signal.SIGINT)

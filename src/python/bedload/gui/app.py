@@ -55,6 +55,7 @@ class Window:
         for names, react in ((("colour_fluid", "colour_grains", "cut", "cut_at", "mode", "hide_walls"), self._draw),
                              (("frame",), self._draw), (("table", "columns"), self._draw_curves)):
             self.state.change(*names)(lambda react=react, **_: react())
+        self.state.change("mesh")(lambda mesh, **_: self.add_mesh(mesh))
         self.state.change("table")(lambda **_: self._choose_columns())
 
     def close(self) -> None:

@@ -163,17 +163,13 @@ def _form(window: Any) -> None:
             v.VChip("{{ a.title }}", v_for="a in additions", key="a.path", prepend_icon="mdi-plus", size="small",
                     classes="mr-1 mb-1", color="primary", variant="tonal", click=(window.add, "[a.path, a.is_list]"),
                     id=("'add ' + a.path",))
-        with html.Div(v_if="selected == 'shape' || selected == ''", classes="mb-3"):
-            v.VFileInput(v_model=("mesh", None), label="Drop a mesh here: STL, OBJ or PLY", accept=".stl,.obj,.ply",
-                         prepend_icon="", prepend_inner_icon="mdi-vector-triangle",
-                         update_modelValue=(window.add_mesh, "[$event]"), **SMALL)
         with html.Div(v_if="problem && !problem_here", classes="bl-error mb-3", style="cursor: pointer;",
                       click=window.show_problem, id="problem"):
             v.VIcon("mdi-alert-circle", size=16, classes="mr-1")
             html.Span("{{ problem_line ? 'Line ' + problem_line + ': ' : '' }}{{ problem }}")
         with html.Div(v_if="nodes.length == 1", classes="bl-say mb-3"):
             html.Span("An empty case. Add what it needs: a domain; shapes, walls, fluid and grains; time and output. "
-                      "Every field says what it is, its unit and its default.")
+                      "Every field has its meaning, unit and default.")
         with html.Div(v_for="f in fields", key="f.path", classes="bl-field", id=("'field ' + f.path",),
                       v_show="f.given || f.required || f.error || all_keys || fields.length < 6"):
             _field(window)
@@ -181,6 +177,9 @@ def _form(window: Any) -> None:
             v.VBtn("{{ all_keys ? 'Fewer keys' : 'All keys (' + fields.length + ')' }}", size="small", variant="text",
                    color="primary", click="all_keys = !all_keys", id="all_keys",
                    prepend_icon=("all_keys ? 'mdi-chevron-up' : 'mdi-chevron-down'",))
+        with html.Div(v_if="selected == 'shape' || selected == ''", classes="mt-4"):
+            v.VFileInput(v_model=("mesh", None), label="Drop a mesh here: STL, OBJ or PLY", accept=".stl,.obj,.ply",
+                         prepend_icon="", prepend_inner_icon="mdi-vector-triangle", id="mesh", **SMALL)
 
 
 def _field(window: Any) -> None:
@@ -342,5 +341,5 @@ def _dialogs(window: Any) -> None:
                 v.VBtn("Replace", color="error", click=(window.start_run, "[false, true]"), id="replace")
                 v.VBtn("Restart", color="primary", disabled=("!can_restart",),
                        click=(window.start_run, "[true, false]"), id="restart")
-    with v.VSnackbar(v_model=("message_seen",), timeout=6000, location="top"):
+    with v.VSnackbar(v_model=("message_seen",), timeout=6000, location="bottom start"):
         html.Span("{{ message }}")

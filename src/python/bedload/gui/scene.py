@@ -12,7 +12,7 @@ import pyvista as pv
 from . import shapes
 
 WALL, FLUID, GRAIN, INLET, OUTLET, PROBE, MOTION, FRAME = (
-    "#8796a5", "#2f86c1", "#c98b45", "#2e9e6b", "#c94f4f", "#8657b5", "#e0732c", "#5d6b78")
+    "#8796a5", "#2f86c1", "#c98b45", "#2e9e6b", "#c94f4f", "#8657b5", "#4a55b8", "#5d6b78")
 
 
 @dataclass

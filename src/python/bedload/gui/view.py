@@ -92,7 +92,7 @@ class View:
         way, up = DIRECTIONS[direction]
         bounds = None if self._bounds is None else tuple(self._bounds.ravel())
         self.plotter.view_vector(way, viewup=up, render=False, bounds=bounds)
-        self.plotter.camera.zoom(1.05)
+        self.plotter.camera.zoom(0.97)
 
     @property
     def size(self) -> float:
