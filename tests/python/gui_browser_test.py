@@ -180,7 +180,8 @@ class InABrowser(unittest.TestCase):
         self.address = line.split()[1]
         page = self.browser.new_page(viewport={"width": 1500, "height": 900})
         page.set_default_timeout(1000 * SECONDS)
-        self.faults = []
+        self.faults, self.asked = [], set()
+        page.on("request", lambda request: self.asked.add(request.url.partition("//")[2].partition("/")[0]))
         page.on("pageerror", lambda error: self.faults.append(str(error)))
         page.goto(self.address)
         page.wait_for_selector(".bl-node")
@@ -349,9 +350,10 @@ class InABrowser(unittest.TestCase):
         self.assertTrue(list((self.place / "results/tank/checkpoints").glob("*.h5")))
         self.assertEqual(list(self.place.glob(".*")), [])
 
-    def test_nobody_comes_in_without_the_token(self):
+    def test_asks_no_other_server_and_lets_nobody_in_without_the_token(self):
         page = self.window()
         self.assertIn("Case", page.text(".bl-page"))
+        self.assertEqual({place.partition(":")[0] for place in self.asked}, {"127.0.0.1"})  # nothing from elsewhere
         other = self.browser.new_page()
         other.goto(self.address.partition("?")[0] + "?secret=guessed")
         time.sleep(3)
