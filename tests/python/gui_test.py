@@ -263,18 +263,18 @@ class Forms(unittest.TestCase):
     def test_everything_can_be_added(self):
         from bedload import keys
         from bedload.gui import forms
-        from bedload.gui.document import Document
+        from bedload.gui.document import Document, bare
 
         document, waiting, added = Document(), [""], set()
         while waiting:
             path = waiting.pop()
             for one in forms.additions(document, path):
-                if forms.bare(one.path) in added:
+                if bare(one.path) in added:
                     continue
-                added.add(forms.bare(one.path))
+                added.add(bare(one.path))
                 values = forms.suggested_name(document, one.path) if one.is_list else {}
                 waiting.append(document.add(one.path, values, item=one.is_list))
-        tables = {forms.bare(path.replace("[]", "")).rpartition(".")[0] for path in keys()} - {""}
+        tables = {bare(path.replace("[]", "")).rpartition(".")[0] for path in keys()} - {""}
         self.assertLessEqual(tables, added)
 
 

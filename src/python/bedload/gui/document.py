@@ -173,6 +173,11 @@ class Document:
         self.set_text(text)
 
 
+def bare(path: str) -> str:
+    """A path without indices: "wall.body.0.min" is "wall.body.min"."""
+    return re.sub(r"\.\d+(?=\.|$)", "", path)
+
+
 @functools.lru_cache(maxsize=2)
 def _parsed(text: str):
     """To read from only: `_edit` has its own."""

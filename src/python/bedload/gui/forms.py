@@ -9,7 +9,7 @@ from typing import Any
 
 from .. import _toml
 from ..case import _children, keys
-from .document import Document
+from .document import Document, bare
 from .reading import Problem
 
 TITLES = {
@@ -73,11 +73,6 @@ class Addition:
     title: str
     icon: str
     is_list: bool
-
-
-def bare(path: str) -> str:
-    """A path without indices: "wall.body.0.min" is "wall.body.min"."""
-    return re.sub(r"\.\d+(?=\.|$)", "", path)
 
 
 def _pattern(path: str) -> str:
@@ -163,11 +158,10 @@ def fields(document: Document, path: str, problem: Problem | None = None) -> lis
     return sorted(found, key=lambda f: not (f.given or f.required or f.error))
 
 
-def source(row_or_path: dict | str, texts: list[str]) -> str:
+def source(path: str, texts: list[str]) -> str:
     """What was typed into a field as TOML. What is no number where one should be stays text, so that the program can
     say what is wrong with it."""
-    row = keys().get(_key_of(row_or_path), {}) if isinstance(row_or_path, str) else row_or_path
-    kind = row.get("kind", "")
+    kind = keys().get(_pattern(path), {}).get("kind", "")
     if kind == "vector":
         return "[" + ", ".join(_number(text) for text in texts) + "]"
     text = texts[0].strip()
@@ -197,10 +191,6 @@ def suggested_name(document: Document, path: str) -> dict[str, Any]:
     taken = {item.get("name") for item in document.get(path, [])}
     stem = _singular(path).split()[-1].lower()
     return {"name": next(name for k in range(1, len(taken) + 2) if (name := f"{stem}{k}") not in taken)}
-
-
-def _key_of(path: str) -> str:
-    return re.sub(r"\.\d+(?=\.)", "[]", path)
 
 
 def _singular(path: str) -> str:

@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 
-from .document import Document
-from .forms import bare
+from .document import Document, bare
 from .shapes import metres
 
 POINTS = {"shape": ("min", "max", "centre", "a", "b"), "wall.body": ("min", "max", "point"),

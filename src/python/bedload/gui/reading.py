@@ -10,7 +10,7 @@ from typing import Any
 from .._module import module
 from ..case import keys
 from ..errors import CaseError, FileError
-from .document import Document
+from .document import Document, bare
 
 
 @dataclass
@@ -54,18 +54,14 @@ def problem_of(message: str, name: str, places: dict[str, tuple[str, int]]) -> P
 
 def _path(key: str, line: int, places: dict[str, tuple[str, int]]) -> str:
     """The path of a key "wall.body.mu" that is on a line or, if it is missing, in the table that begins there."""
-    key = re.sub(r"\[\d*\]|\.\d+(?=\.|$)", "", key)
-    same = [path for path in places if _bare(path) == key]
+    key = bare(re.sub(r"\[\d*\]", "", key))
+    same = [path for path in places if bare(path) == key]
     on_line = [path for path in same if line and places[path][1] == line]
     if on_line or (same and not line):
         return (on_line or same)[0]
     table, _, last = key.rpartition(".")
-    owners = [path for path in places if _bare(path) == table and f"{path}.0" not in places]
+    owners = [path for path in places if bare(path) == table and f"{path}.0" not in places]
     owners = [path for path in owners if not line or places[path][1] <= line]
     if owners:
         return f"{max(owners, key=lambda path: places[path][1])}.{last}"
     return key if any(row["key"] == key for row in keys().values()) else ""
-
-
-def _bare(path: str) -> str:
-    return re.sub(r"\.\d+(?=\.|$)", "", path)
