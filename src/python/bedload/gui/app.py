@@ -167,6 +167,7 @@ class Window:
     def browse(self, why: str, folder: str | None = None) -> None:
         """Opens the dialog of files: "open", "save" or "results"."""
         at = Path(folder).resolve() if folder else self._folder()
+        at = next(place for place in (at, *at.parents) if place.is_dir())
         try:
             entries = sorted(at.iterdir(), key=lambda p: (not p.is_dir(), p.name.lower()))
         except OSError as error:
@@ -216,6 +217,8 @@ class Window:
         except FileError as error:
             self._say(str(error))
             return
+        if found.folder.is_relative_to(Path.cwd()):
+            found = results.open_run(found.folder.relative_to(Path.cwd()))
         self.results = found
         walls = (found.folder / "walls.vtkhdf").exists() and len(found.walls)
         self.walls_before = clouds_of_frame(found, 0, ("walls",)).get("walls") if walls else None
