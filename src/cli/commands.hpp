@@ -24,6 +24,8 @@ int demo(const Options& options);
 int viscometer(const Options& options);
 /// Prints the contents of a checkpoint, a .vtkhdf file or a summary.json. Throws FileError.
 int show_file(const std::filesystem::path& file);
+/// Becomes the window of the Python package, in the browser. Throws FileError if there is no Python.
+int open_window(const Options& options);
 /// Times steps of built-in or user cases and prints a table. Bad input is reported before anything is timed;
 /// after a later error the results so far are printed.
 int bench(const Options& options);

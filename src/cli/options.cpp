@@ -217,6 +217,16 @@ void add_info(CLI::App& app, Options& o) {
       ->check(kNamed);
 }
 
+void add_gui(CLI::App& app, Options& o) {
+  CLI::App* gui = app.add_subcommand("gui", "Build, run and watch a case in a window (needs bedload[gui])");
+  gui->add_option("case", o.file, "Case file; it is made if it does not exist")
+      ->type_name("CASE.toml")
+      ->check(kNamed);
+  gui->add_option("--port", o.window.port, "Port at 127.0.0.1; 0: any that is free; default: 8030")
+      ->check(CLI::Range(0, 65535));
+  gui->add_flag("--no-browser", o.window.no_browser, "Print the address, open no browser");
+}
+
 void refuse_unknown_command(const CLI::App& app, int argc, const char* const* argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::string names;
@@ -259,6 +269,7 @@ Options parse_options(int argc, const char* const* argv) {
   add_list(app, o);
   add_info(app, o);
   add_bench_options(*app.add_subcommand("bench", "Time steps of benchmark cases"), o);
+  add_gui(app, o);
   app.add_subcommand("schema", "Print the JSON schema of case files, for editors");
   CLI::App* completion = app.add_subcommand("completion", "Print a script for shell completion");
   std::string shell;

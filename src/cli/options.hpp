@@ -20,6 +20,12 @@ struct BenchOptions {
   std::filesystem::path json;
 };
 
+/// Options of `bedload gui`.
+struct WindowOptions {
+  int port = -1;  ///< 0: any that is free; -1: the default
+  bool no_browser = false;
+};
+
 struct Options {
   std::string command;                 ///< run, check, list, ...; empty: print `text`
   std::filesystem::path file;          ///< case, also the one to write, or the file that info shows
@@ -38,6 +44,7 @@ struct Options {
   std::optional<int> live;     ///< of run: port of the live view, 0 for any; none: no live view
   bool relative = false;       ///< of viscometer: also runs the case without its grains
   BenchOptions bench;
+  WindowOptions window;
   std::string family;  ///< of list
   bool json = false;   ///< with list
   std::string text;    ///< printed by help, --version, schema, completion and man

@@ -112,7 +112,8 @@ TEST_F(Program, RefusesWrongCommandLinesWithOneSentence) {
   const std::string line = "command line";
   refused("", line, "subcommand is required");
   refused("simulate dam.toml", line, "unknown command simulate");
-  refused("simulate dam.toml", line, "run, viscometer, check, new, demo, list, info, bench, schema, completion, man");
+  refused("simulate dam.toml", line,
+          "run, viscometer, check, new, demo, list, info, bench, gui, schema, completion, man");
   write("empty.toml", "\n");
   refused("check empty.toml", "empty.toml", "is empty");
   refused("run", line, "case is required");

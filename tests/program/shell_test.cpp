@@ -67,7 +67,7 @@ TEST_F(Shell, ManualPageHasEveryCommandAndOption) {
   std::erase(page, '\\');
   int options = 0;
   for (const std::string command :
-       {"run", "viscometer", "check", "new", "demo", "list", "info", "bench", "schema", "completion", "man"}) {
+       {"run", "viscometer", "check", "new", "demo", "list", "info", "bench", "gui", "schema", "completion", "man"}) {
     EXPECT_NE(page.find(".SH \"bedload " + command + "\"\n"), page.npos) << command;
     std::stringstream help(bedload(command + " --help").out);
     for (std::string word; help >> word;) {
@@ -77,6 +77,24 @@ TEST_F(Shell, ManualPageHasEveryCommandAndOption) {
     }
   }
   EXPECT_GT(options, 20);
+}
+
+TEST_F(Shell, StartsTheWindowInPython) {
+  write("python", "#!/bin/sh\n[ \"$1\" = -c ] && shift 2 && echo \"$@\"\n");
+  std::filesystem::permissions(dir_ / "python", std::filesystem::perms::owner_all);
+  const Outcome shown = shell("BEDLOAD_PYTHON=./python " BL_PROGRAM " gui dam.toml --port 8100 --no-browser");
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_EQ(shown.out, "dam.toml --port=8100 --no-browser\n");
+  EXPECT_EQ(shell("BEDLOAD_PYTHON=./python " BL_PROGRAM " gui").out, "\n");
+  const Outcome none = shell("BEDLOAD_PYTHON=./none " BL_PROGRAM " gui");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_EQ(none.err, "bedload gui needs Python: ./none: No such file or directory\n");
+  if (shell("python3 -c 'import sys'").code != 0) return;
+  write("isolated", "#!/bin/sh\nexec python3 -I -S \"$@\"\n");  // without any package
+  std::filesystem::permissions(dir_ / "isolated", std::filesystem::perms::owner_all);
+  const Outcome bare = shell("BEDLOAD_PYTHON=./isolated " BL_PROGRAM " gui");
+  EXPECT_EQ(bare.code, 2);
+  EXPECT_NE(bare.err.find("pip install \"bedload[gui]\""), bare.err.npos) << bare.err;
 }
 
 TEST_F(Shell, ListsParametersForPrograms) {

@@ -2,10 +2,14 @@
 
 import sys
 
-from ._module import module
-
 
 def main():
+    if sys.argv[1:2] == ["gui"] and not {"-h", "--help"} & set(sys.argv[2:]):
+        from .gui import main as show
+
+        return show(sys.argv[2:])
+    from ._module import module
+
     return module().main(["bedload", *sys.argv[1:]])
 
 
