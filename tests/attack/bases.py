@@ -504,6 +504,15 @@ kind = "table"
 rows = [[0, 0, 0, 0], [0.5, 0.01, 0, 0], [1, 0, 0, 0]]
 spline = "monotone"
 [[wall.body.motion.add]]
+kind = "piston"
+[wall.body.motion.add.wave]
+height = 0.005
+period = 1.0
+depth = 0.1
+order = 1
+direction = [1, 0, 0]
+ramp = 0.5
+[[wall.body.motion.add]]
 kind = "table"
 file = "motion.csv"
 [[wall.body.motion.add]]

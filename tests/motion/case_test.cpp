@@ -260,5 +260,38 @@ TEST(FrameCase, BeginsWithItsContentsAndMayNotTurn) {
             "wall.body.motion.remove_when_clear?");
 }
 
+TEST_F(TableCase, WaveMakersMoveAlongTheirWaves) {
+  const std::string wave =
+      "wave = { height = 0.01, period = 1, depth = 0.1, direction = [0, -2, 5], ramp = 0 }\n";
+  const Config piston = read(moving("kind = \"piston\"\n" + wave));
+  const auto at = MotionLaw(piston.wall.bodies[0].motion, 1).at(0.25);
+  EXPECT_EQ(at.x.x, 0);
+  EXPECT_LT(at.x.y, -1e-3);
+  EXPECT_NEAR(at.x.z, 0, 1e-15);
+  const Config flap = read(moving("kind = \"flap\"\ncentre = [0, 0.02, 0]\n" + wave));
+  const auto top = MotionLaw(flap.wall.bodies[0].motion, 1).at(0.25).place({0, 0.02, 0.1});
+  EXPECT_LT(top.y, 0.02 - 1e-3);
+  EXPECT_NEAR(top.x, 0, 1e-15);
+  Config again = read(resolved_toml(flap));
+  again.file = flap.file;
+  EXPECT_EQ(flap, again);
+
+  const auto refused = [&](const std::string& kind, const std::string& keys) {
+    return error_of(moving("kind = \"" + kind + "\"\nwave = { " + keys + " }\n"));
+  };
+  EXPECT_NE(
+      refused("piston", "height = 0.5, period = 1, depth = 0.1").find("wave.height = 0.5 must be below "),
+      std::string::npos);
+  EXPECT_NE(refused("piston", "height = 0.05, period = 1, depth = 0.1")
+                .find("up to which second-order theory holds"),
+            std::string::npos);
+  EXPECT_EQ(refused("piston", "height = 0.05, period = 1, depth = 0.1, order = 1"), "");
+  EXPECT_NE(refused("piston", "height = 0.01, period = 1, depth = 0.1, direction = [0, 0, 1]")
+                .find("must not be vertical"),
+            std::string::npos);
+  EXPECT_NE(refused("flap", "height = 0.01, period = 1, depth = 0.1").find("motion.centre"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace bedload::test

@@ -46,7 +46,7 @@ inline constexpr auto kNames<WallShape> = std::to_array<Named<WallShape>>({
 // -- motions -------------------------------------------------------------------------------------
 
 /// wall.body.motion.kind, frame.motion.kind and those of what is added to them
-enum class MotionKind { fixed, velocity, oscillation, rotation, table, formula };
+enum class MotionKind { fixed, velocity, oscillation, rotation, table, formula, piston, flap };
 template <>
 inline constexpr auto kNames<MotionKind> = std::to_array<Named<MotionKind>>({
     {MotionKind::fixed, "fixed", "at rest"},
@@ -55,6 +55,8 @@ inline constexpr auto kNames<MotionKind> = std::to_array<Named<MotionKind>>({
     {MotionKind::rotation, "rotation", "rotation about an axis"},
     {MotionKind::table, "table", "positions and rotations tabulated over time"},
     {MotionKind::formula, "formula", "displacement and rotation as formulas in t"},
+    {MotionKind::piston, "piston", "wave maker that translates, for regular waves [madsen71] [hughes93]"},
+    {MotionKind::flap, "flap", "wave maker hinged at the floor, for regular waves [hughes93]"},
 });
 
 /// wall.body.motion.spline
