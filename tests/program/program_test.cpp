@@ -1179,5 +1179,24 @@ every = 1
       << o.err;
 }
 
+TEST_F(Program, FramesHaveTheFieldsThatAreChosen) {
+  write("dam.toml", small_dam() + "[time]\nend = 0.01\n[out]\nevery = 0.01\nfields = [\"pressure\"]\n");
+  ASSERT_EQ(bedload("run dam.toml --backend cpu --quiet --out out").code, 0);
+  const std::string fluid = bedload("info out/fluid.vtkhdf").out,
+                    grains = bedload("info out/grains.vtkhdf").out;
+  EXPECT_NE(fluid.find(" pressure "), std::string::npos) << fluid;
+  EXPECT_EQ(fluid.find(" velocity "), std::string::npos) << fluid;
+  EXPECT_NE(grains.find(" radius "), std::string::npos) << grains;  // always
+  EXPECT_EQ(grains.find(" angular_velocity "), std::string::npos) << grains;
+  for (const std::string command : {"run", "check"}) {
+    const Outcome o = bedload(command + " dam.toml --backend cpu --set 'out.fields=[\"presure\"]'" +
+                              (command == "run" ? " --out other" : ""));
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find("out.fields = \"presure\" must name a field of this case: position, "),
+              std::string::npos)
+        << o.err;
+  }
+}
+
 }  // namespace
 }  // namespace bedload::test

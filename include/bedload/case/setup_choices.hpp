@@ -136,7 +136,7 @@ inline constexpr auto kNames<SizeKind> = std::to_array<Named<SizeKind>>({
 // -- output --------------------------------------------------------------------------------------
 
 /// probe.type
-enum class ProbeType { front, point, height, box, force, wall_pressure };
+enum class ProbeType { front, point, height, box, flux, force, wall_pressure };
 template <>
 inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
     {ProbeType::front, "front", "farthest position of a phase in a direction"},
@@ -144,6 +144,7 @@ inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
     {ProbeType::height, "height",
      "height of the fluid surface at a point, and depth of connected fluid there"},
     {ProbeType::box, "box", "mass and momentum in a box"},
+    {ProbeType::flux, "flux", "mass and volume that pass a section in unit time"},
     {ProbeType::force, "force", "force and torque on a wall body"},
     {ProbeType::wall_pressure, "wall_pressure",
      "force per area on patches of a wall body, as of pressure transducers"},
