@@ -20,6 +20,9 @@ int check_case(const Options& options);
 int viscometer(const Options& options);
 /// Prints the contents of a checkpoint, a .vtkhdf file or a summary.json. Throws FileError.
 int show_file(const std::filesystem::path& file);
+/// Makes a case from one of another program, or writes the frames of a run in another format; prints what it
+/// wrote, and to stderr what has no counterpart. Throws CaseError, FileError.
+int convert(const Options& options);
 /// Times steps of built-in or user cases and prints a table. Bad input is reported before anything is timed;
 /// after a later error the results so far are printed.
 int bench(const Options& options);

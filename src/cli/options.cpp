@@ -176,6 +176,23 @@ void add_info(CLI::App& app, Options& o) {
       ->check(kNamed);
 }
 
+void add_convert(CLI::App& app, Options& o) {
+  CLI::App* convert = app.add_subcommand(
+      "convert", "Make a case from one of DualSPHysics or LIGGGHTS, or write frames for other programs");
+  convert
+      ->add_option("from", o.file,
+                   "Case_Def.xml of DualSPHysics, input script of LIGGGHTS, results folder or .vtkhdf file")
+      ->required()
+      ->type_name("FILE")
+      ->check(kNamed);
+  convert->add_option("--to", o.to, "Format of frames; default: extxyz")
+      ->check(CLI::IsMember({"extxyz", "lammps"}));
+  convert->add_option("--out", o.out, "File to write; default: named after the input")
+      ->type_name("FILE")
+      ->check(kNamed);
+  convert->add_flag("--overwrite", o.overwrite, "Overwrite an existing file");
+}
+
 void refuse_unknown_command(const CLI::App& app, int argc, const char* const* argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::string names;
@@ -215,6 +232,7 @@ Options parse_options(int argc, const char* const* argv) {
   add_check(app, o, precision, force_dt);
   add_list(app, o);
   add_info(app, o);
+  add_convert(app, o);
   add_bench_options(*app.add_subcommand("bench", "Time steps of benchmark cases"), o);
   app.add_subcommand("schema", "Print the JSON schema of case files, for editors");
   CLI::App* completion = app.add_subcommand("completion", "Print a script for shell completion");

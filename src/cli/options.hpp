@@ -35,6 +35,7 @@ struct Options {
   std::optional<int> live;     ///< of run: port of the live view, 0 for any; none: no live view
   bool relative = false;       ///< of viscometer: also runs the case without its grains
   BenchOptions bench;
+  std::string to;      ///< of convert: format of frames; empty: the default
   std::string family;  ///< of list
   bool json = false;   ///< with list
   std::string text;    ///< printed by help, --version, schema, completion and man

@@ -20,6 +20,7 @@ int dispatch(const Options& options) {
   if (options.command == "viscometer") return viscometer(options);
   if (options.command == "check") return check_case(options);
   if (options.command == "bench") return bench(options);
+  if (options.command == "convert") return convert(options);
   if (options.command == "info") return show_file(options.file);
   if (options.command == "list")
     fmt::print("{}", options.json ? list_json(options.family) : list_text(options.family));
