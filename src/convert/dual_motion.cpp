@@ -32,6 +32,8 @@ struct Angle {
   std::string degrees;  ///< a formula
 };
 
+bool moves(const std::string& keys) { return keys.find("[wall.body.motion]") != keys.npos; }
+
 class Motions {
  public:
   Motions(XmlReader& xml, double end) : xml_(xml), end_(end) {}
@@ -39,17 +41,18 @@ class Motions {
   void object(const pugi::xml_node& node, std::vector<Part> parts, BodyKeys& keys) {
     movements(node, parts);
     if (std::string_view(node.name()) == "objreal")
-      for (const int mk : numbers_in(xml_, node, "ref")) keys[mk] += text(parts);
+      for (const int mk : numbers_in(xml_, node, "ref")) keys[mk] += text(parts, moves(keys[mk]));
     for (const pugi::xml_node& child : node.children())
       if (std::string_view name = child.name(); name == "obj" || name == "objreal")
         object(child, parts, keys);
   }
 
  private:
-  static std::string text(const std::vector<Part>& parts) {
+  static std::string text(const std::vector<Part>& parts, bool more) {
     std::string out;
     for (const Part& part : parts) {
-      out += out.empty() ? "[wall.body.motion]\n" : "[[wall.body.motion.add]]\n";
+      out += more ? "[[wall.body.motion.add]]\n" : "[wall.body.motion]\n";
+      more = true;
       out += part.keys;
       if (part.start > 0) out += fmt::format("start = {}\n", number_text(part.start));
       if (part.stop >= 0) out += fmt::format("stop = {}\n", number_text(part.stop));
@@ -107,7 +110,7 @@ class Motions {
     if (kind == "ace") {
       const double a = degrees(move, "ace", "ang"), w = degrees(move, "velini", "ang", rate_);
       rate_ = w + a * std::max(0.0, length);
-      return {fmt::format("{}*t + {}*t^2", number_text(w), number_text(a / 2))};
+      return {parabola(w, a / 2)};
     }
     if (kind == "sinu") {
       const double f = xml_.number(xml_.child(move, "freq"), "v"),
@@ -115,7 +118,16 @@ class Motions {
       return {sine(degrees(move, "ampl", "v"), f, phase)};
     }
     rate_ = degrees(move, "vel", "ang");
-    return {fmt::format("{}*t", number_text(rate_))};
+    return {parabola(rate_, 0)};
+  }
+
+  /// a t + b t^2.
+  static std::string parabola(double a, double b) {
+    const auto term = [](double factor, const char* power) {
+      return factor == 1 ? std::string(power) : fmt::format("{}*{}", number_text(factor), power);
+    };
+    if (b == 0) return a == 0 ? "0" : term(a, "t");
+    return (a == 0 ? "" : term(a, "t") + " + ") + term(b, "t^2");
   }
 
   /// From 0 at the start.
@@ -147,10 +159,7 @@ class Motions {
     } else if (name == "mvrectace") {
       const Vec3d v = move.child("velini") ? vector("velini") : velocity_, a = vector("ace");
       std::string s[3];
-      for (int k = 0; k < 3; ++k)
-        s[k] = v[k] == 0 && a[k] == 0
-                   ? "0"
-                   : fmt::format("{}*t + {}*t^2", number_text(v[k]), number_text(a[k] / 2));
+      for (int k = 0; k < 3; ++k) s[k] = parabola(v[k], a[k] / 2);
       velocity_ = v + a * std::max(0.0, length);
       keys.set("kind", "formula").raw("displacement", formulas(s[0], s[1], s[2]));
     } else if (name == "mvrectsinu") {
@@ -345,7 +354,9 @@ void read_paddles(XmlReader& xml, const pugi::xml_node& paddles, BodyKeys& keys)
       xml.leave(node, "gainstroke: the stroke is that of the theory; change wave.height");
     if (const pugi::xml_node absorption = node.child("awas_zsurf"))
       xml.leave(absorption, missing_reason("DualSPHysics", "awas"));
-    keys[xml.whole(xml.child(node, "mkbound"), "value", 65535)] += s.text();
+    std::string& body = keys[xml.whole(xml.child(node, "mkbound"), "value", 65535)];
+    if (moves(body)) xml.fail(node, "moves a body that moves already");
+    body += s.text();
   }
 }
 
@@ -374,7 +385,10 @@ void read_floatings(XmlReader& xml, const pugi::xml_node& floatings, double rele
     constraints(xml, node, s);
     for (const pugi::xml_node& child : node.children())
       if (child.type() == pugi::node_element && !kRead.contains(child.name())) xml.leave(child);
-    for (const int mk : numbers_in(xml, node, "mkbound")) keys[mk] += s.text();
+    for (const int mk : numbers_in(xml, node, "mkbound")) {
+      if (!keys[mk].empty()) xml.fail(node, fmt::format("has mkbound {}, which floats or moves already", mk));
+      keys[mk] = s.text();
+    }
   }
 }
 

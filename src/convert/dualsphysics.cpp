@@ -203,7 +203,7 @@ class Reader {
         const Vec3d along = xml_.vector(direction);
         v = along * (xml_.number(xml_.child(node, "velocity"), "v") / std::max(norm(along), 1e-300));
       }
-      for (const int mk : numbers_in(xml_, node, "mkfluid")) out[mk] += Section("").set("velocity", v).text();
+      for (const int mk : numbers_in(xml_, node, "mkfluid")) out[mk] = Section("").set("velocity", v).text();
     }
     return out;
   }
@@ -288,7 +288,8 @@ class Reader {
                '\n';
     } else {
       fluid.raw("mu", number_text(visco * rho0_), "Pa s, rho0 times the kinematic viscosity");
-      if (treatment == 2) xml_.leave(parameters_["ViscoTreatment"], "SPS: there is no turbulence model");
+      if (treatment == 2)
+        xml_.leave(parameters_["ViscoTreatment"], "ViscoTreatment 2, SPS: there is no turbulence model");
     }
     const double diffusion = has("DensityDT")
                                  ? (parameter("DensityDT", 0) > 0 ? parameter("DensityDTvalue", 0.1) : 0)
