@@ -41,29 +41,26 @@ void motion_law(Parameters& p, const std::string& at, MotionPart& m) {
 /// The wave of a piston or flap.
 void wave(Parameters& p, const std::string& at, MotionPart& m) {
   WaveConfig& w = m.wave;
-  p(at + "wave.height", &w.height,
+  p(at + "wave_height", &w.height,
     {.unit = "m",
      .meaning = "piston, flap: height of the waves, from trough to crest, below that at which they break",
      .range = above(0),
      .presence = required});
-  p(at + "wave.period", &w.period,
+  p(at + "wave_period", &w.period,
     {.unit = "s", .meaning = "piston, flap: period of the waves", .range = above(0), .presence = required});
-  p(at + "wave.depth", &w.depth,
+  p(at + "wave_depth", &w.depth,
     {.unit = "m",
      .meaning = "piston, flap: depth of still water before it",
      .range = above(0),
      .presence = required});
   if (m.kind == MotionKind::piston || p.everything())
-    p(at + "wave.order", &w.order,
+    p(at + "wave_order", &w.order,
       {.meaning = "piston: order of the theory, 1 or 2; 2 makes no free second harmonics",
        .range = within(1, 2)});
-  p(at + "wave.direction", &w.direction, {.meaning = "piston, flap: direction in which the waves run"});
-  p(at + "wave.ramp", &w.ramp,
-    {.unit = "s",
-     .meaning = "piston, flap: time over which the motion rises to its full stroke",
-     .range = at_least(0),
-     .fallback = "wave.period",
-     .presence = optional});
+  p(at + "wave_direction", &w.direction, {.meaning = "piston, flap: direction in which the waves run"});
+  p(at + "wave_ramp", &w.ramp,
+    {.meaning = "piston, flap: number of periods over which the motion rises to its full stroke",
+     .range = at_least(0)});
 }
 
 /// One part of a motion; `at` stands before its keys. `bedload list shapes` shows it once, for a body.

@@ -276,22 +276,21 @@ void refuse_jumps(const MotionPart& m, const std::string& path, double until, co
 /// The stroke of a piston or flap, as formulas of its displacement or rotation.
 void resolve_waves(const Config& c, MotionPart& m, const std::string& path, const Value& root) {
   WaveConfig& w = m.wave;
-  if (w.ramp < 0) w.ramp = w.period;
   const double g = norm(c.gravity);
   if (!(g > 0)) reject(root, path + ".kind", fmt::format("\"{}\"", m.kind.name()), "needs gravity");
   const WaterWave wave{.height = w.height, .period = w.period, .depth = w.depth, .gravity = g};
   const auto limit = [&](double most, const std::string& why) {
     if (w.height >= most)
-      reject(root, path + ".wave.height", fmt::format("{}", w.height),
+      reject(root, path + ".wave_height", fmt::format("{}", w.height),
              fmt::format("must be below {:.4g} m, {}; the wave is {:.4g} m long", most, why, wave.length()));
   };
   limit(wave.breaking_height(), "where such waves break");
   if (m.kind == MotionKind::piston && w.order == 2)
     limit(wave.second_order_height(),
-          "up to which second-order theory holds; wave.order = 1 has no such limit");
+          "up to which second-order theory holds; wave_order = 1 has no such limit");
   const Vec3d up = upwards(c.gravity), level = w.direction - dot(w.direction, up) * up;
   if (norm(level) < 1e-6 * norm(w.direction) || norm(w.direction) == 0)
-    reject(root, path + ".wave.direction",
+    reject(root, path + ".wave_direction",
            fmt::format("[{}, {}, {}]", w.direction.x, w.direction.y, w.direction.z), "must not be vertical");
   w.direction = level / norm(level);
   const auto along = [](const Vec3d& v, const std::string& text) {
@@ -301,9 +300,9 @@ void resolve_waves(const Config& c, MotionPart& m, const std::string& path, cons
     return out;
   };
   if (m.kind == MotionKind::piston)
-    m.displacement = along(w.direction, piston_stroke(wave, int(w.order), w.ramp));
+    m.displacement = along(w.direction, piston_stroke(wave, int(w.order), w.ramp * w.period));
   else
-    m.rotation = along(cross(up, w.direction), flap_angle(wave, w.ramp));
+    m.rotation = along(cross(up, w.direction), flap_angle(wave, w.ramp * w.period));
 }
 
 void resolve_motions(Config& c, const Value& root) {

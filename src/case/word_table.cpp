@@ -101,7 +101,7 @@ constexpr Word kWords[]{
     {kField, "non-Newtonian", "", kNewtonian},
     {kField, "rheology", "", kNewtonian},
     {kField, "wave maker", "wall.body.motion.kind", "piston or flap"},
-    {kField, "wave", "wall.body.motion.wave", "of a piston or flap"},
+    {kField, "wave", "wall.body.motion.wave_height", "of a piston or flap"},
     {kField, "sponge layer", "", kAbsorber},
     {kField, "wave absorber", "", kAbsorber},
     {kField, "temperature", "", kNoHeat},

@@ -516,13 +516,12 @@ rows = [[0, 0, 0, 0], [0.5, 0.01, 0, 0], [1, 0, 0, 0]]
 spline = "monotone"
 [[wall.body.motion.add]]
 kind = "piston"
-[wall.body.motion.add.wave]
-height = 0.005
-period = 1.0
-depth = 0.1
-order = 1
-direction = [1, 0, 0]
-ramp = 0.5
+wave_height = 0.005
+wave_period = 1.0
+wave_depth = 0.1
+wave_order = 1
+wave_direction = [1, 0, 0]
+wave_ramp = 0.5
 [[wall.body.motion.add]]
 kind = "table"
 file = "motion.csv"

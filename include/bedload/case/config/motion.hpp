@@ -20,7 +20,7 @@ struct WaveConfig {
   double height = 0, period = 0, depth = 0;    ///< m, s, m
   std::int64_t order = 2;                      ///< piston: of the theory
   Vec3d direction{1, 0, 0};                    ///< in which it runs (resolved: unit, horizontal)
-  double ramp = -1;                            ///< s (default a period)
+  double ramp = 1;                             ///< periods over which the motion rises
   bool operator==(const WaveConfig&) const = default;
 };
 
