@@ -338,20 +338,18 @@ void read_paddles(XmlReader& xml, const pugi::xml_node& paddles, BodyKeys& keys)
     } else if (const pugi::xml_node given = node.child("pistondir")) {
       direction = xml.vector(given);
     }
-    const double period = xml.number(xml.child(node, "waveperiod"), "value");
-    std::string wave =
-        fmt::format("{{ height = {}, period = {}, depth = {}",
-                    number_text(xml.number(xml.child(node, "waveheight"), "value")), number_text(period),
-                    number_text(xml.number(xml.child(node, "depth"), "value")));
-    if (kind == "piston") wave += fmt::format(", order = {}", value("waveorder", 1) == 2 ? 2 : 1);
-    if (!(direction == Vec3d{1, 0, 0})) wave += ", direction = " + vector_text(direction);
-    s.raw("wave", wave + fmt::format(", ramp = {} }}", number_text(period * value("ramp", 0))));
+    s.set("wave_height", xml.number(xml.child(node, "waveheight"), "value"));
+    s.set("wave_period", xml.number(xml.child(node, "waveperiod"), "value"));
+    s.set("wave_depth", xml.number(xml.child(node, "depth"), "value"));
+    if (kind == "piston") s.set("wave_order", value("waveorder", 1) == 2 ? 2.0 : 1.0);
+    if (!(direction == Vec3d{1, 0, 0})) s.set("wave_direction", direction);
+    s.set("wave_ramp", value("ramp", 0));
     const double start = value("start", 0), duration = value("duration", 0);
     if (start > 0) s.set("start", start);
     if (duration > 0) s.set("stop", start + duration);
     if (value("phase", 0) != 0) xml.leave(node, "phase: the motion begins at its middle");
     if (value("gainstroke", 1) != 1)
-      xml.leave(node, "gainstroke: the stroke is that of the theory; change wave.height");
+      xml.leave(node, "gainstroke: the stroke is that of the theory; change wave_height");
     if (const pugi::xml_node absorption = node.child("awas_zsurf"))
       xml.leave(absorption, missing_reason("DualSPHysics", "awas"));
     std::string& body = keys[xml.whole(xml.child(node, "mkbound"), "value", 65535)];

@@ -191,9 +191,9 @@ TEST_F(Convert, PistonOfAWaveFlume) {
                 <piston_spectrum><mkbound value="11" /></piston_spectrum></wavepaddles>)"));
   const std::string left = converted("Waves_Def.xml", "Waves.toml");
   EXPECT_EQ(particles("fluid"), 200 * 20);
-  EXPECT_TRUE(has_line(
-      "Waves.toml",
-      "kind = \"piston\"\nwave = { height = 0.02, period = 0.8, depth = 0.2, order = 2, ramp = 0 }"));
+  EXPECT_TRUE(has_line("Waves.toml",
+                       "kind = \"piston\"\nwave_height = 0.02\nwave_period = 0.8\nwave_depth = "
+                       "0.2\nwave_order = 2\nwave_ramp = 0"));
   EXPECT_NE(left.find("<piston_spectrum>: wave makers are for regular waves"), std::string::npos) << left;
   run("Waves.toml");
   const WaterWave wave{.height = 0.02, .period = 0.8, .depth = 0.2, .gravity = 9.81};
