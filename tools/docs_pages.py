@@ -12,7 +12,7 @@ from mkdocs.structure.files import File
 
 ROOT = Path(__file__).resolve().parents[1]
 PROGRAM = os.environ.get("BEDLOAD", ROOT / "build/cpu/bedload")
-COMMANDS = ["run", "viscometer", "check", "list", "info", "bench", "schema", "completion", "man"]
+COMMANDS = ["run", "viscometer", "check", "list", "info", "convert", "bench", "schema", "completion", "man"]
 # Files outside docs/ as pages and pictures of the site.
 PAGES = {f"cases/{path.parent.name}/README.md": f"cases/{path.parent.name}.md"
          for path in sorted(ROOT.glob("cases/*/README.md"))}

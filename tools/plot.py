@@ -2,10 +2,11 @@
 """Pictures of a run.
 
     plot.py frames RUN_DIR --times 0.05,0.1 --out PNG [--field speed] [--slice Y] [--view xz]
-    plot.py probe CSV... --out PNG [--column NAME] [--reference CSV ...]
+    plot.py probe CSV... --out PNG [--column NAME] [--mean SECONDS] [--spectrum] [--reference CSV ...]
 
 `frames` shows fluid coloured by a field, grains as discs true to size, and the walls, one panel per
-time. `probe` draws columns of probe tables over time, with reference points as markers.
+time. `probe` draws columns of probe tables over time, with reference points as markers; with --mean their running
+means, with --spectrum their spectral density over frequency.
 """
 
 import argparse
@@ -21,7 +22,7 @@ from matplotlib.collections import EllipseCollection, LineCollection  # noqa: E4
 from matplotlib.patches import Rectangle  # noqa: E402
 
 import outlines  # noqa: E402
-from frames import Table  # noqa: E402
+from frames import Table, running_mean, spectrum  # noqa: E402
 from scene import Scene  # noqa: E402
 
 FIELDS = {
@@ -180,6 +181,20 @@ def axis_label(names):
     return ", ".join(plain).replace("_", " ") + (f" ({unit})" if unit else "")
 
 
+def draw_curve(axes, options, time, value, label):
+    """A column over time, its running mean over it, or its spectrum."""
+    if options.spectrum:
+        try:
+            axes.loglog(*spectrum(time, value), label=label, linewidth=1.2)
+        except ValueError as error:
+            raise SystemExit(f"--spectrum: {label}: {error}") from None
+        return
+    line, = axes.plot(time, value, label=label, linewidth=1.5)
+    if options.mean:
+        line.set(linewidth=0.6, alpha=0.5, label="_" + label)
+        axes.plot(time, running_mean(time, value, options.mean), color=line.get_color(), label=label, linewidth=1.8)
+
+
 def plot_probe(options):
     tables = {Path(path).stem: Table(path) for path in options.csv}
     curves = [(stem, table, name) for stem, table in tables.items() for name in options.column or table.header[1:]]
@@ -193,8 +208,9 @@ def plot_probe(options):
         names = sorted({name for _, _, name in mine})
         for stem, table, name in mine:
             label = stem if len(names) == 1 else name if len(tables) == 1 else f"{stem}: {name}"
-            axes.plot(table.column(table.header[0]), table.column(name), label=label, linewidth=1.5)
-        axes.set_ylabel(axis_label(list(dict.fromkeys(name for _, _, name in mine))))
+            draw_curve(axes, options, table.column(table.header[0]), table.column(name), label)
+        of = axis_label(list(dict.fromkeys(name for _, _, name in mine)))
+        axes.set_ylabel(f"spectral density of {of.rpartition(' (')[0] or of} (({unit})$^2$/Hz)" if options.spectrum else of)
     for axes in list(panels.flat)[len(units):]:
         axes.set_axis_off()
     axes = panels[0, 0]
@@ -211,7 +227,7 @@ def plot_probe(options):
             axes.plot(table.column(x)[picked], table.column(y)[picked], next(markers, "."), label=series,
                       markersize=5, markerfacecolor="none")
     for axes in panels.flat[: len(units)]:
-        axes.set_xlabel(axis_label([next(iter(tables.values())).header[0]]))
+        axes.set_xlabel("frequency (Hz)" if options.spectrum else axis_label([next(iter(tables.values())).header[0]]))
         axes.grid(alpha=0.3)
         many = len(axes.lines) > 6
         axes.legend(frameon=False, fontsize=7 if many else 9, **({"bbox_to_anchor": (1, 1)} if many else {}))
@@ -241,11 +257,15 @@ def main():
     probe.add_argument("csv", nargs="+")
     probe.add_argument("--out", required=True, help="PNG or PDF")
     probe.add_argument("--column", action="append", help="default: all")
+    probe.add_argument("--mean", type=float, metavar="SECONDS", help="also draw running means over this time")
+    probe.add_argument("--spectrum", action="store_true", help="draw spectral densities over frequency")
     probe.add_argument("--reference", nargs="*", default=[], help="CSV files shown as markers")
     probe.add_argument("--reference-columns", help="x,y; default: the first two that are numbers")
     probe.add_argument("--where", nargs="*", help="column=value: rows of the references to show")
     probe.set_defaults(run=plot_probe)
     options = parser.parse_args()
+    if getattr(options, "mean", None) is not None and not options.mean > 0:
+        parser.error(f"--mean {options.mean:g} must be above 0 s")
     options.run(options)
 
 

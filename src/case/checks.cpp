@@ -145,12 +145,13 @@ void Checks::inside_domain(const std::string& path, const Vec3d& x) const {
   }
 }
 
-void Checks::column_in_domain(const std::string& path, const Vec3d& x) const {
-  const auto [from, to] = line_in_box(x, upwards(c.gravity), c.domain.min, c.domain.max);
+void Checks::column_in_domain(const std::string& path, const Vec3d& x, const Vec3d& along) const {
+  const bool vertical = along == Vec3d{};
+  const auto [from, to] = line_in_box(x, vertical ? upwards(c.gravity) : along, c.domain.min, c.domain.max);
   if (from > to)
     fail(path, to_text(x),
-         fmt::format("must have a part of the domain {}..{} above or below it", to_text(c.domain.min),
-                     to_text(c.domain.max)));
+         fmt::format("must have a part of the domain {}..{} {}", to_text(c.domain.min), to_text(c.domain.max),
+                     vertical ? "above or below it" : "on the line through it"));
 }
 
 void Checks::file_name(const std::string& path, const std::string& name) const {

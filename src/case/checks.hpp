@@ -48,7 +48,8 @@ class Checks {
   bool in_sight(const Vec3d& lo, const Vec3d& hi) const;
   void inside_domain(const std::string& path, const Vec3d& x) const;
   /// The line along gravity through x must meet the domain.
-  void column_in_domain(const std::string& path, const Vec3d& x) const;
+  /// `along`: direction of the line through x, 0: upwards.
+  void column_in_domain(const std::string& path, const Vec3d& x, const Vec3d& along) const;
   void file_name(const std::string& path, const std::string& name) const;
   void body_exists(const std::string& path, const std::string& name) const;
 

@@ -223,7 +223,8 @@ void Checks::warn_of(const std::vector<VelocityJump>& jumps, const std::string& 
 
 void Checks::translates(const MotionPart& m, const std::string& path) const {
   const char* must = "must not turn; a frame can only be translated";
-  if (m.kind == MotionKind::rotation) fail(path + ".kind", quoted(m.kind.name()), must);
+  if (m.kind == MotionKind::rotation || m.kind == MotionKind::flap)
+    fail(path + ".kind", quoted(m.kind.name()), must);
   if (m.rotation != MotionPart().rotation)
     fail(path + ".rotation", fmt::format("[{}]", fmt::join(m.rotation, ", ")), must);
   for (const MotionRow& row : m.rows)

@@ -72,10 +72,25 @@ void Checks::probes() const {
       if (!in_sight(probe.min, probe.max))
         fail(path + ".min", to_text(probe.min), "must have a part of the domain in its box");
     }
-    if (probe.type == ProbeType::point || probe.type == ProbeType::wall_pressure)
-      inside_domain(path + ".at", probe.at);
-    if (probe.type == ProbeType::height) column_in_domain(path + ".at", probe.at);
-    const bool has_phase = probe.type == ProbeType::front || probe.type == ProbeType::box;
+    if (probe.type == ProbeType::flux) {
+      box(path, probe.min, probe.max);
+      inside_domain(path + ".min", probe.min);
+      inside_domain(path + ".max", probe.max);
+    }
+    if (probe.type == ProbeType::wall_pressure) inside_domain(path + ".at", probe.at);
+    const auto measured = [&](const std::string& key, const Vec3d& x) {
+      if (probe.type == ProbeType::point) inside_domain(key, x);
+      if (probe.type == ProbeType::height) column_in_domain(key, x, probe.along);
+    };
+    measured(path + ".at", probe.at);
+    for (std::size_t corner = 1; corner < std::size_t(1) << probe.span.size(); ++corner) {
+      Vec3d x = probe.at;
+      for (std::size_t k = 0; k < probe.span.size(); ++k)
+        if (corner >> k & 1) x += probe.span[k];
+      measured(path + ".span", x);
+    }
+    const bool has_phase =
+        probe.type == ProbeType::front || probe.type == ProbeType::box || probe.type == ProbeType::flux;
     const Chosen<Phase> phase = has_phase ? probe.phase : Chosen(Phase::fluid);
     if (probe.type != ProbeType::force && !(phase == Phase::fluid ? c.fluid.present : c.grain.present))
       fail(path + (has_phase ? ".phase" : ".type"), quoted(has_phase ? phase.name() : probe.type.name()),

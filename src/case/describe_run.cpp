@@ -8,6 +8,21 @@ namespace {
 using enum Presence;
 constexpr double kLargest = 9.2e18;  // of TOML's integers
 
+/// Points along a line, in a plane or a grid.
+void points(Parameters& p, ProbeConfig& b) {
+  p("span", &b.span,
+    {.unit = "m",
+     .meaning = "point, height: vectors from `at` to the last point along a line; two make a plane, three a "
+                "grid of points",
+     .fallback = "one point",
+     .presence = optional});
+  if (!b.span.empty() && !p.everything())
+    p("count", &b.count,
+      {.meaning = "number of points along each span, ends included",
+       .range = within(2, 1000),
+       .presence = required});
+}
+
 void patches(Parameters& p, ProbeConfig& b) {
   p("radius", &b.radius,
     {.unit = "m",
@@ -23,7 +38,8 @@ void patches(Parameters& p, ProbeConfig& b) {
        .fallback = "radius is used",
        .presence = optional});
     p("count", &b.count,
-      {.meaning = "wall_pressure: number of patches of the rectangle along a and b",
+      {.meaning = "wall_pressure: number of patches of the rectangle along a and b; point, height: number of "
+                  "points along each span, ends included",
        .range = within(1, 1000),
        .fallback = "[1, 1]",
        .presence = optional});
@@ -32,7 +48,10 @@ void patches(Parameters& p, ProbeConfig& b) {
     {.meaning = "wall_pressure: normal, pointing into the fluid",
      .fallback = "normal of the surface nearest to at"});
   p("along", &b.along,
-    {.meaning = "wall_pressure: direction of side a", .fallback = "horizontal, to the right; x on a floor"});
+    {.meaning =
+         "wall_pressure: direction of side a; height: direction of the line along which it is measured, "
+         "such as up a slope",
+     .fallback = "horizontal, to the right, x on a floor; height: upwards"});
 }
 
 void probe(Parameters& p, ProbeConfig& b) {
@@ -40,13 +59,14 @@ void probe(Parameters& p, ProbeConfig& b) {
   p("type", &b.type, {.meaning = "measured quantity", .presence = required, .family = "outputs"});
   using enum ProbeType;
   const auto wanted = [&](ProbeType type) { return b.type == type || p.everything(); };
-  if (wanted(front) || wanted(box)) p("phase", &b.phase, {.meaning = "front, box: measured phase"});
-  if (wanted(front)) {
+  if (wanted(front) || wanted(box) || wanted(flux))
+    p("phase", &b.phase, {.meaning = "front, box, flux: measured phase"});
+  if (wanted(front) || wanted(flux)) {
     std::string direction(kFaces[2 * b.axis + (b.sign > 0)]);
     std::vector<Choice> directions;
     for (const auto& face : kFaces) directions.push_back({std::string(face), ""});
     p("direction", &direction,
-      {.meaning = "front: direction in which the front is measured",
+      {.meaning = "front: direction in which the front is measured; flux: direction of positive flow",
        .fallback = "x+",
        .choices = directions});
     b.axis = direction[0] - 'x';
@@ -57,9 +77,15 @@ void probe(Parameters& p, ProbeConfig& b) {
       {.unit = "m",
        .meaning = "point, height: position; wall_pressure: centre, on the surface; at t = 0",
        .presence = required});
-  if (wanted(box)) {
-    p("min", &b.min, {.unit = "m", .meaning = "box: lower corner", .presence = required});
-    p("max", &b.max, {.unit = "m", .meaning = "box: upper corner", .presence = required});
+  if (wanted(point) || wanted(height)) points(p, b);
+  if (b.type == height && !p.everything())
+    p("along", &b.along, {.meaning = "height: direction of the line", .fallback = "upwards"});
+  if (wanted(box) || wanted(flux)) {
+    p("min", &b.min, {.unit = "m", .meaning = "box, flux: lower corner", .presence = required});
+    p("max", &b.max,
+      {.unit = "m",
+       .meaning = "box: upper corner; flux: of a box around the section, over whose length it is averaged",
+       .presence = required});
   }
   if (wanted(force) || wanted(wall_pressure))
     p("body", &b.body,
@@ -249,6 +275,10 @@ void describe_output(Parameters& p, OutputConfig& o) {
      .fallback = "out.every",
      .presence = optional});
   p("out.walls", &o.walls, {.meaning = "frames of the wall particles are written, too"});
+  p("out.fields", &o.fields,
+    {.meaning = "fields in frames, such as \"velocity\"; position, id, radius and body are always written",
+     .fallback = "all",
+     .presence = optional});
   p("out.bodies", &o.bodies,
     {.meaning = "wall bodies with a table bodies/<name>.csv of motion, forces and power",
      .family = "outputs"});

@@ -38,6 +38,31 @@ void motion_law(Parameters& p, const std::string& at, MotionPart& m) {
   }
 }
 
+/// The wave of a piston or flap.
+void wave(Parameters& p, const std::string& at, MotionPart& m) {
+  WaveConfig& w = m.wave;
+  p(at + "wave_height", &w.height,
+    {.unit = "m",
+     .meaning = "piston, flap: height of the waves, from trough to crest, below that at which they break",
+     .range = above(0),
+     .presence = required});
+  p(at + "wave_period", &w.period,
+    {.unit = "s", .meaning = "piston, flap: period of the waves", .range = above(0), .presence = required});
+  p(at + "wave_depth", &w.depth,
+    {.unit = "m",
+     .meaning = "piston, flap: depth of still water before it",
+     .range = above(0),
+     .presence = required});
+  if (m.kind == MotionKind::piston || p.everything())
+    p(at + "wave_order", &w.order,
+      {.meaning = "piston: order of the theory, 1 or 2; 2 makes no free second harmonics",
+       .range = within(1, 2)});
+  p(at + "wave_direction", &w.direction, {.meaning = "piston, flap: direction in which the waves run"});
+  p(at + "wave_ramp", &w.ramp,
+    {.meaning = "piston, flap: number of periods over which the motion rises to its full stroke",
+     .range = at_least(0)});
+}
+
 /// One part of a motion; `at` stands before its keys. `bedload list shapes` shows it once, for a body.
 void motion_part(Parameters& p, const std::string& at, MotionPart& m) {
   p(at + "kind", &m.kind, {.meaning = "kind of motion", .family = at == "motion." ? "shapes" : ""});
@@ -53,12 +78,14 @@ void motion_part(Parameters& p, const std::string& at, MotionPart& m) {
   }
   if (wanted(MotionKind::rotation))
     p(at + "axis", &m.axis, {.meaning = "rotation: direction of the axis", .presence = required});
-  if (wanted(MotionKind::rotation) || wanted(MotionKind::table) || wanted(MotionKind::formula))
+  const bool hinged = m.kind == MotionKind::rotation || m.kind == MotionKind::flap;
+  if (hinged || wanted(MotionKind::table) || wanted(MotionKind::formula))
     p(at + "centre", &m.centre,
       {.unit = "m",
-       .meaning = "rotation: a point on the axis; table, formula: centre of rotation",
-       .fallback = "required for rotation, else [0, 0, 0]",
-       .presence = m.kind == MotionKind::rotation ? required : defaulted});
+       .meaning =
+           "rotation: a point on the axis; table, formula: centre of rotation; flap: a point on its hinge",
+       .fallback = "required for rotation and flap, else [0, 0, 0]",
+       .presence = hinged ? required : defaulted});
   if (wanted(MotionKind::rotation))
     p(at + "rate", &m.rate,
       {.unit = "rad/s", .meaning = "rotation: angular velocity, right-handed", .presence = required});
@@ -67,6 +94,7 @@ void motion_part(Parameters& p, const std::string& at, MotionPart& m) {
       {.meaning = "velocity, rotation: factor on velocity or rate, a formula in t (s); the displacement is "
                   "the integral"});
   motion_law(p, at, m);
+  if (wanted(MotionKind::piston) || wanted(MotionKind::flap)) wave(p, at, m);
   if (m.kind == MotionKind::fixed && !p.everything()) return;
   p(at + "start", &m.start,
     {.unit = "s",

@@ -85,6 +85,7 @@ void resolve_plane(Config& c, const Value& root) {
     if (outlet.shape == OutletShape::box) outlet.min.y = lo, outlet.max.y = hi;
   for (ProbeConfig& probe : c.out.probes) {
     probe.at.y = c.domain.middle();
+    for (Vec3d& span : probe.span) span.y = 0;
     probe.min.y = lo, probe.max.y = hi;
   }
 }

@@ -13,11 +13,13 @@
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
 #include "bedload/geometry/build_shape.hpp"
+#include "bedload/geometry/depth.hpp"
 #include "shortened.hpp"
 #include "src/motion/formula_breaks.hpp"
 #include "src/motion/inlet_flow.hpp"
 #include "src/motion/survey.hpp"
 #include "src/motion/table.hpp"
+#include "src/motion/wave_maker.hpp"
 
 namespace bedload {
 namespace {
@@ -271,11 +273,44 @@ void refuse_jumps(const MotionPart& m, const std::string& path, double until, co
                              m.start + b.time));
 }
 
+/// The stroke of a piston or flap, as formulas of its displacement or rotation.
+void resolve_waves(const Config& c, MotionPart& m, const std::string& path, const Value& root) {
+  WaveConfig& w = m.wave;
+  const double g = norm(c.gravity);
+  if (!(g > 0)) reject(root, path + ".kind", fmt::format("\"{}\"", m.kind.name()), "needs gravity");
+  const WaterWave wave{.height = w.height, .period = w.period, .depth = w.depth, .gravity = g};
+  const auto limit = [&](double most, const std::string& why) {
+    if (w.height >= most)
+      reject(root, path + ".wave_height", fmt::format("{}", w.height),
+             fmt::format("must be below {:.4g} m, {}; the wave is {:.4g} m long", most, why, wave.length()));
+  };
+  limit(wave.breaking_height(), "where such waves break");
+  if (m.kind == MotionKind::piston && w.order == 2)
+    limit(wave.second_order_height(),
+          "up to which second-order theory holds; wave_order = 1 has no such limit");
+  const Vec3d up = upwards(c.gravity), level = w.direction - dot(w.direction, up) * up;
+  if (norm(level) < 1e-6 * norm(w.direction) || norm(w.direction) == 0)
+    reject(root, path + ".wave_direction",
+           fmt::format("[{}, {}, {}]", w.direction.x, w.direction.y, w.direction.z), "must not be vertical");
+  w.direction = level / norm(level);
+  const auto along = [](const Vec3d& v, const std::string& text) {
+    std::array<std::string, 3> out{"0", "0", "0"};
+    for (int k = 0; k < 3; ++k)
+      if (std::abs(v[k]) > 1e-12) out[std::size_t(k)] = fmt::format("{:.15g}*({})", v[k], text);
+    return out;
+  };
+  if (m.kind == MotionKind::piston)
+    m.displacement = along(w.direction, piston_stroke(wave, int(w.order), w.ramp * w.period));
+  else
+    m.rotation = along(cross(up, w.direction), flap_angle(wave, w.ramp * w.period));
+}
+
 void resolve_motions(Config& c, const Value& root) {
   for_motions(c, [&](MotionConfig& motion, const std::string& path) {
     for_parts(motion, path, [&](MotionPart& m, const std::string& at) {
       if (m.kind == MotionKind::rotation) m.axis = direction(m.axis, root, at + ".axis");
       if (m.kind == MotionKind::table) resolve_table(m, at, c.file, root);
+      if (m.kind == MotionKind::piston || m.kind == MotionKind::flap) resolve_waves(c, m, at, root);
       if (m.scaled()) check_factor(m.factor, m.start, std::min(m.stop, c.time.end), root, at + ".factor");
       refuse_gaps(m, at, c.time.end, root);
     });

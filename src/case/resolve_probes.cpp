@@ -14,7 +14,7 @@
 namespace bedload {
 namespace {
 
-constexpr double kMostPatches = 10000;
+constexpr double kMostPatches = 10000, kMostPoints = 10000;
 
 /// The wall body of that name that stops fluid; CaseError if there is none.
 const WallBody& wall_named(const Config& c, const std::string& name, const Value& root,
@@ -78,6 +78,30 @@ void resolve_patches(const Config& c, ProbeConfig& p, const Value& root, const s
   p.along = direction(given - lean * p.normal, root, path + "along");
 }
 
+/// Several points, and the direction of a line.
+void resolve_points(const Config& c, ProbeConfig& p, const Value& root, const std::string& path) {
+  const auto fail = [&](const char* key, const std::string& must) {
+    reject(root, path + key, fmt::format("[{}]", fmt::join(p.count, ", ")), must);
+  };
+  if (p.span.size() > 3)
+    reject(root, path + "span", fmt::format("{} vectors", p.span.size()),
+           "must be one, two or three vectors");
+  if (!p.span.empty() && p.count.size() != p.span.size())
+    fail("count", fmt::format("must have a number for each span; there are {}", p.span.size()));
+  double all = 1;
+  for (const double n : p.count) {
+    if (n != std::floor(n)) fail("count", "must hold whole numbers");
+    all *= n;
+  }
+  if (all > kMostPoints) fail("count", fmt::format("must make at most {} points", kMostPoints));
+  if (p.along == Vec3d{}) return;
+  const Vec3d given = p.along;
+  if (c.domain.two_d && given.y != 0)
+    reject(root, path + "along", fmt::format("[{}, {}, {}]", given.x, given.y, given.z),
+           "must lie in the plane of x and z with domain.two_d");
+  p.along = direction(given, root, path + "along");
+}
+
 }  // namespace
 
 void resolve_probes(Config& c, const Value& root) {
@@ -86,6 +110,8 @@ void resolve_probes(Config& c, const Value& root) {
     if (p.every == 0) p.every = c.out.every;
     if (p.type == ProbeType::wall_pressure && c.fluid.present)
       resolve_patches(c, p, root, fmt::format("probe.{}.", i));
+    if (p.type == ProbeType::point || p.type == ProbeType::height)
+      resolve_points(c, p, root, fmt::format("probe.{}.", i));
   }
 }
 

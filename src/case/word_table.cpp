@@ -13,7 +13,9 @@ constexpr std::string_view kNoSurfaceTension =
 constexpr std::string_view kNewtonian =
     "fluids are Newtonian, without a yield stress; grains thicken them by couple.suspension_viscosity";
 constexpr std::string_view kWaveMaker =
-    "there is no wave maker; move a wall body by wall.body.motion, of kind formula or table";
+    "wave makers are for regular waves, wall.body.motion.kind = \"piston\" or \"flap\": move a wall body by "
+    "a "
+    "formula or table for others";
 constexpr std::string_view kAbsorber =
     "there is no wave absorber; give waves a beach, or end the run before they come back";
 constexpr std::string_view kNoHeat = "there is no heat; temperature is only that of fluctuations, sdpd.kT";
@@ -98,8 +100,8 @@ constexpr Word kWords[]{
     {kField, "consistency", "", kNewtonian},
     {kField, "non-Newtonian", "", kNewtonian},
     {kField, "rheology", "", kNewtonian},
-    {kField, "wave maker", "", kWaveMaker},
-    {kField, "wave", "", kWaveMaker},
+    {kField, "wave maker", "wall.body.motion.kind", "piston or flap"},
+    {kField, "wave", "wall.body.motion.wave_height", "of a piston or flap"},
     {kField, "sponge layer", "", kAbsorber},
     {kField, "wave absorber", "", kAbsorber},
     {kField, "temperature", "", kNoHeat},
@@ -239,11 +241,11 @@ constexpr Word kWords[]{
     {kDual, "tau_max", "", kNewtonian},
     {kDual, "HBP_m", "", kNewtonian},
     {kDual, "HBP_n", "", kNewtonian},
-    {kDual, "wavepaddles", "", kWaveMaker},
-    {kDual, "piston", "", kWaveMaker},
+    {kDual, "wavepaddles", "wall.body.motion.kind", "piston or flap"},
+    {kDual, "piston", "wall.body.motion.kind", "piston"},
     {kDual, "piston_spectrum", "", kWaveMaker},
     {kDual, "piston_focused", "", kWaveMaker},
-    {kDual, "flap", "", kWaveMaker},
+    {kDual, "flap", "wall.body.motion.kind", "flap"},
     {kDual, "mlayerpistons", "", kWaveMaker},
     {kDual, "relaxationzones", "", kWaveMaker},
     {kDual, "awas", "", kAbsorber},

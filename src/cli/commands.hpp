@@ -26,6 +26,9 @@ int viscometer(const Options& options);
 int show_file(const std::filesystem::path& file);
 /// Becomes the window of the Python package, in the browser. Throws FileError if there is no Python.
 int open_window(const Options& options);
+/// Makes a case from one of another program, or writes the frames of a run in another format; prints what it
+/// wrote, and to stderr what has no counterpart. Throws CaseError, FileError.
+int convert(const Options& options);
 /// Times steps of built-in or user cases and prints a table. Bad input is reported before anything is timed;
 /// after a later error the results so far are printed.
 int bench(const Options& options);

@@ -227,6 +227,23 @@ void add_gui(CLI::App& app, Options& o) {
   gui->add_flag("--no-browser", o.window.no_browser, "Print the address, open no browser");
 }
 
+void add_convert(CLI::App& app, Options& o) {
+  CLI::App* convert = app.add_subcommand(
+      "convert", "Make a case from one of DualSPHysics or LIGGGHTS, or write frames for other programs");
+  convert
+      ->add_option("from", o.file,
+                   "Case_Def.xml of DualSPHysics, input script of LIGGGHTS, results folder or .vtkhdf file")
+      ->required()
+      ->type_name("FILE")
+      ->check(kNamed);
+  convert->add_option("--to", o.to, "Format of frames; default: extxyz")
+      ->check(CLI::IsMember({"extxyz", "lammps"}));
+  convert->add_option("--out", o.out, "File to write; default: named after the input")
+      ->type_name("FILE")
+      ->check(kNamed);
+  convert->add_flag("--overwrite", o.overwrite, "Overwrite an existing file");
+}
+
 void refuse_unknown_command(const CLI::App& app, int argc, const char* const* argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::string names;
@@ -268,6 +285,7 @@ Options parse_options(int argc, const char* const* argv) {
   add_demo(app, o);
   add_list(app, o);
   add_info(app, o);
+  add_convert(app, o);
   add_bench_options(*app.add_subcommand("bench", "Time steps of benchmark cases"), o);
   add_gui(app, o);
   app.add_subcommand("schema", "Print the JSON schema of case files, for editors");

@@ -45,6 +45,7 @@ struct Options {
   bool relative = false;       ///< of viscometer: also runs the case without its grains
   BenchOptions bench;
   WindowOptions window;
+  std::string to;      ///< of convert: format of frames; empty: the default
   std::string family;  ///< of list
   bool json = false;   ///< with list
   std::string text;    ///< printed by help, --version, schema, completion and man

@@ -23,6 +23,7 @@ int dispatch(const Options& options) {
   if (options.command == "demo") return demo(options);
   if (options.command == "bench") return bench(options);
   if (options.command == "gui") return open_window(options);
+  if (options.command == "convert") return convert(options);
   if (options.command == "info") return show_file(options.file);
   if (options.command == "list")
     fmt::print("{}", options.json ? list_json(options.family) : list_text(options.family));

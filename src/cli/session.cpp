@@ -23,6 +23,7 @@ Session::Session(const Options& options, Prepared prepared, const Print& print)
       restarted_(!options.restart.empty()) {
   build(options, print);
   check_fixed_steps(p_, *simulation_);
+  check_fields(*simulation_, p_.config);
   if (options.out.empty()) return;
   output_.emplace(options.out, p_.config, p_.device, version(), restarted_ ? &*simulation_ : nullptr);
   if (p_.former) report_gaps(options);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bedload/output/output.hpp"
 #include "settle.hpp"
 
 namespace bedload {
@@ -89,6 +90,7 @@ TrialSimulation::TrialSimulation(const Prepared& p) : config_(p.config) {
 
 MemoryNeed TrialSimulation::memory() {
   simulation_->diagnostics();
+  check_fields(*simulation_, config_);
   for (const ProbeConfig& probe : config_.out.probes) simulation_->measure(probe);
   const std::size_t fast_flow = simulation_->growth();
   return {.all = std::size_t(std::ptrdiff_t(simulation_->bytes() + fast_flow) + settling_bytes_),

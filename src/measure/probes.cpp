@@ -104,10 +104,62 @@ struct GrainBox {
   }
 };
 
+/// Through a section, over a box of some length along it: mass and volume times velocity along `axis`.
+struct FluidFlux {
+  Vec3d lo, hi;
+  int axis;
+  FluidContents fluid;
+  BL_HD void operator()(Index a, double* out) const {
+    if (!within(fluid.at(a), lo, hi)) return;
+    const double m = fluid.mass[a], v = fluid.v_rho[a].v[axis];
+    out[0] = m * v, out[1] = m / double(fluid.state[a].rho) * v;
+  }
+};
+struct GrainFlux {
+  Vec3d lo, hi;
+  int axis;
+  MassPerR3 per_r3;
+  Span<const Vec3d> x;
+  Span<const Real3> v;
+  Span<const Real> radius;
+  BL_HD void operator()(Index i, double* out) const {
+    if (!within(x[i], lo, hi)) return;
+    const double r3 = cube(double(radius[i])), u = v[i][axis];
+    out[0] = per_r3(i) * r3 * u, out[1] = 4.0 / 3 * M_PI * r3 * u;
+  }
+};
+
+/// The points of a probe, the first span fastest; one without spans.
+std::vector<Vec3d> points_of(const ProbeConfig& p) {
+  std::vector<Vec3d> out{p.at};
+  for (std::size_t k = 0; k < p.span.size(); ++k) {
+    const std::size_t before = out.size();
+    for (int n = 1; n < int(p.count[k]); ++n)
+      for (std::size_t i = 0; i < before; ++i) out.push_back(out[i] + n / (p.count[k] - 1) * p.span[k]);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
   stepper_.share_all();
+  if (p.span.empty()) return measure_one(p);
+  std::vector<Quantity> out;
+  ProbeConfig one = p;
+  one.span.clear();
+  const std::vector<Vec3d> points = points_of(p);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    one.at = points[i];
+    for (Quantity& q : measure_one(one)) {
+      q.name += '_' + std::to_string(i);
+      out.push_back(std::move(q));
+    }
+  }
+  return out;
+}
+
+std::vector<Quantity> CoupledSimulation::measure_one(const ProbeConfig& p) {
   switch (p.type) {
     case ProbeType::front:
       return front(p);
@@ -117,6 +169,8 @@ std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
       return column(p);
     case ProbeType::box:
       return box(p);
+    case ProbeType::flux:
+      return flux(p);
     case ProbeType::force:
       return body_force(p);
     case ProbeType::wall_pressure:
@@ -171,7 +225,7 @@ std::vector<Quantity> CoupledSimulation::point(const ProbeConfig& p) {
 std::vector<Quantity> CoupledSimulation::column(const ProbeConfig& p) {
   const double dx = config_.fluid.dx, radius = 1.5 * dx;
   const double piece = 2 * dx;  // fluid within a piece counts as connected
-  const Vec3d up = upwards(config_.gravity);
+  const Vec3d up = p.along == Vec3d{} ? upwards(config_.gravity) : p.along;
   const LinePart part = line_in_box(p.at, up, state_.frame.origin, state_.frame.origin + state_.frame.length);
   const int first = int(std::floor((part.from - radius) / piece));
   const int last = int(std::floor((part.to + radius) / piece));
@@ -225,6 +279,26 @@ std::vector<Quantity> CoupledSimulation::box(const ProbeConfig& p) {
     out.push_back({"porosity", "-", s[6] / m});
   }
   return out;
+}
+
+std::vector<Quantity> CoupledSimulation::flux(const ProbeConfig& p) {
+  double flow[2] = {};  // kg m/s, m4/s
+  if (p.phase == Phase::fluid) {
+    const auto sum =
+        sum_over<2>(state_.fluid.owned(), FluidFlux{p.min, p.max, p.axis, {state_.frame, state_.fluid}});
+    std::copy(sum.v, sum.v + 2, flow);
+  } else {
+    const auto sum = sum_over<2>(state_.grains.owned(), GrainFlux{.lo = p.min,
+                                                                  .hi = p.max,
+                                                                  .axis = p.axis,
+                                                                  .per_r3 = state_.matter.of(state_.grains),
+                                                                  .x = state_.grains.x,
+                                                                  .v = state_.grains.v,
+                                                                  .radius = state_.grains.radius});
+    std::copy(sum.v, sum.v + 2, flow);
+  }
+  const double per_length = p.sign / (p.max[p.axis] - p.min[p.axis]);
+  return {{"mass_flow", "kg/s", flow[0] * per_length}, {"volume_flow", "m3/s", flow[1] * per_length}};
 }
 
 }  // namespace BL_SOLVER

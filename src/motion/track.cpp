@@ -100,6 +100,8 @@ std::unique_ptr<Track> make_track(const MotionPart& m, double span) {
     case MotionKind::table:
       return std::make_unique<TableTrack>(m.rows, m.spline == TableSpline::monotone);
     case MotionKind::formula:
+    case MotionKind::piston:
+    case MotionKind::flap:
       return std::make_unique<FormulaTrack>(m.displacement, m.rotation, span);
   }
   return nullptr;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -91,7 +92,31 @@ std::string commented(const std::string& text) {
   return out + '\n';
 }
 
+constexpr const char* kStores[] = {"fluid", "grains", "walls"};
+
 }  // namespace
+
+HostStore chosen_fields(HostStore store, const std::vector<std::string>& fields) {
+  if (fields.empty()) return store;
+  std::size_t n = 0;
+  std::erase_if(store.arrays, [&](const HostArray& a) {
+    const bool needed = n++ == 0 || a.name == "id" || a.name == "radius" || a.name == "body";
+    return !needed && std::find(fields.begin(), fields.end(), a.name) == fields.end();
+  });
+  return store;
+}
+
+void check_fields(Simulation& simulation, const Config& config) {
+  if (config.out.fields.empty()) return;
+  std::vector<std::string> known;
+  for (const char* name : kStores)
+    for (const HostArray& a : simulation.snapshot(name).arrays)
+      if (std::find(known.begin(), known.end(), a.name) == known.end()) known.push_back(a.name);
+  for (const std::string& field : config.out.fields)
+    if (std::find(known.begin(), known.end(), field) == known.end())
+      throw KeyError("out.fields", fmt::format("out.fields = \"{}\" must name a field of this case: {}",
+                                               field, fmt::join(known, ", ")));
+}
 
 struct RunOutput::Impl {
   Impl(const fs::path& folder, const Config& c, const Device& d, std::string v, Simulation* restarted)
@@ -160,7 +185,7 @@ struct RunOutput::Impl {
     const Leftovers others = leftovers(series, dir);
     for (const auto& f : series.frames) {
       must_increase(f.file.path(), f.file.times());
-      f.file.expect(simulation.snapshot(f.store));
+      f.file.expect(frame_of(simulation, f.store));
     }
     for (const auto& t : series.tables) {
       must_increase(t.csv.path(), t.csv.times());
@@ -213,7 +238,7 @@ struct RunOutput::Impl {
       if (wanted(f.schedule)) {
         const bool again = f.schedule.begun();
         f.schedule.written(time);
-        writer.post([&f, store = simulation.snapshot(f.store), time, again] {
+        writer.post([&f, store = frame_of(simulation, f.store), time, again] {
           write_existing(f.file.path(), again, [&] {
             f.file.append(store, time, again);
             ++f.written;
@@ -239,6 +264,10 @@ struct RunOutput::Impl {
         write_existing(csv->path(), again, [&] { csv->append(time, row, again); });
       });
     }
+  }
+
+  HostStore frame_of(Simulation& simulation, const std::string& store) const {
+    return chosen_fields(simulation.snapshot(store), config.out.fields);
   }
 
   static std::vector<Quantity> row_of(Simulation& simulation, const Table& t) {

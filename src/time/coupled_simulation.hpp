@@ -101,10 +101,13 @@ class CoupledSimulation final : public Simulation {
   void begin_meters(const SavedState* saved);  ///< null: a fresh start
   void advance_meters(double dt);
   int wall_named(const std::string& name) const;  ///< place among the wall bodies
+  /// Of a probe at one point.
+  std::vector<Quantity> measure_one(const ProbeConfig& probe);
   std::vector<Quantity> front(const ProbeConfig& probe);
   std::vector<Quantity> point(const ProbeConfig& probe);
   std::vector<Quantity> column(const ProbeConfig& probe);
   std::vector<Quantity> box(const ProbeConfig& probe);
+  std::vector<Quantity> flux(const ProbeConfig& probe);
   std::vector<Quantity> body_force(const ProbeConfig& probe);
   std::vector<Quantity> wall_pressure(const ProbeConfig& probe);
 

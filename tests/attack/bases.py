@@ -171,6 +171,7 @@ every = 0.02
 diagnostics_every = 0.01
 bodies = "all"
 walls = true
+fields = ["velocity", "pressure"]
 [checkpoint]
 every = 0.05
 [[probe]]
@@ -185,6 +186,15 @@ name = "in_raft"
 type = "point"
 body = "raft"
 at = [0.025, 0.035, 0.075]
+span = [[0.01, 0, 0], [0, 0, 0.005]]
+count = [3, 2]
+[[probe]]
+name = "section"
+type = "flux"
+phase = "fluid"
+direction = "x+"
+min = [0.02, 0, 0]
+max = [0.04, 0.08, 0.1]
 [[probe]]
 name = "wp"
 type = "force"
@@ -449,6 +459,7 @@ direction = "x+"
 name = "height"
 type = "height"
 at = [0.1, 0.15, 0.05]
+along = [1, 0, 1]
 [[probe]]
 name = "wall"
 type = "wall_pressure"
@@ -503,6 +514,14 @@ rate = 1
 kind = "table"
 rows = [[0, 0, 0, 0], [0.5, 0.01, 0, 0], [1, 0, 0, 0]]
 spline = "monotone"
+[[wall.body.motion.add]]
+kind = "piston"
+wave_height = 0.005
+wave_period = 1.0
+wave_depth = 0.1
+wave_order = 1
+wave_direction = [1, 0, 0]
+wave_ramp = 0.5
 [[wall.body.motion.add]]
 kind = "table"
 file = "motion.csv"

@@ -151,5 +151,37 @@ TEST(ProbeCase, FollowsTheColumnAlongGravity) {
   EXPECT_NE(error_of(sideways, {"gravity=[5, 0, -6]"}), "");  // passes 0.02 m above the corner
 }
 
+TEST(ProbeCase, MayHaveSeveralPoints) {
+  const std::string line = "type = \"point\"\nat = [0.1, 0.05, 0.01]\nspan = [[0.05, 0, 0], [0, 0, 0.05]]\n";
+  const ProbeConfig grid = read(with_probe(line + "count = [6, 2]\n")).out.probes.at(0);
+  EXPECT_EQ(grid.span.size(), 2u);
+  EXPECT_EQ(grid.count, (std::vector<double>{6, 2}));
+  EXPECT_EQ(refused(with_probe(line + "count = [6]\n")),
+            "probe.count = [6] must have a number for each span; there are 2");
+  EXPECT_EQ(refused(with_probe(line + "count = [6, 1.5]\n")),
+            "probe.count = [6, 1.5] must hold numbers within 2..1000");
+  EXPECT_EQ(refused(with_probe(line + "count = [6, 2.5]\n")),
+            "probe.count = [6, 2.5] must hold whole numbers");
+  EXPECT_EQ(refused(with_probe(line + "count = [101, 100]\n")),
+            "probe.count = [101, 100] must make at most 10000 points");
+  EXPECT_NE(error_of(with_probe("type = \"point\"\nat = [0.1, 0.05, 0.01]\ncount = [6]\n")), "");
+  EXPECT_NE(refused(with_probe("type = \"point\"\nat = [0.1, 0.05, 0.01]\nspan = [[5, 0, 0]]\ncount = [2]\n"))
+                .find("must lie in the domain"),
+            std::string::npos);
+}
+
+TEST(ProbeCase, MeasuresUpASlopeAndThroughASection) {
+  const Vec3d along =
+      read(with_probe("type = \"height\"\nat = [0.1, 0.05, 0]\nalong = [3, 0, 4]\n")).out.probes.at(0).along;
+  expect_near(along, {0.6, 0, 0.8});
+  const std::string flux = "type = \"flux\"\nmin = [0.1, 0, 0]\nmax = [0.12, 0.1, 0.1]\n";
+  const ProbeConfig p = read(with_probe(flux + "direction = \"z-\"\n")).out.probes.at(0);
+  EXPECT_EQ(p.axis, 2);
+  EXPECT_EQ(p.sign, -1);
+  EXPECT_NE(refused(with_probe("type = \"flux\"\nmin = [0.1, 0, 0]\nmax = [9, 0.1, 0.1]\n"))
+                .find("must lie in the domain"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace bedload::test

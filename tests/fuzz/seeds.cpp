@@ -39,6 +39,35 @@ void write_dictionary(const fs::path& file) {
   write_file(file, text);
 }
 
+void write_foreign_cases(const fs::path& folder) {
+  write_file(folder / "dam.xml",
+             R"(<case><casedef><constantsdef><gravity x="0" y="0" z="-9.81" /></constantsdef>
+<geometry><definition dp="0.01"><pointmin x="0" y="0" z="0" /><pointmax x="1" y="1" z="1" /></definition>
+<commands><mainlist><newvar a="2*Dp" /><setmkfluid mk="0" />
+<drawbox><boxfill>solid</boxfill><point x="0" y="0" z="0" /><size x="#a*10" y="max(a, 0.2)" z =
+                 "0.2" / > </ drawbox><setmkbound mk = "1" /><rotate ang = "20" x = "0" y = "1" z = "0" />
+                 <drawcylinder radius = "0.1"><point x = "0.5" y = "0" z = "0" />
+                 <point x = "0.5" y = "0" z = "1" /></ drawcylinder></ mainlist></ commands></ geometry>
+                 <motion><objreal ref = "1"><begin mov = "1" start = "0" />
+                 <mvrot id = "1" duration = "1" next = "2"><vel ang = "90" />
+                 <axisp1 x = "0" y = "0" z = "0" /><axisp2 x = "0" y = "0" z = "1" /></ mvrot>
+                 <wait id = "2" duration = "1" next = "1" /></ objreal></ motion></ casedef><execution>
+                 <parameters><parameter key = "TimeMax" value = "1" /></ parameters></ execution></ case>) ");
+      write_file(folder / "in.box", R"(units si
+variable r equal 0.002*2
+region b block 0 1 0 1 0 1
+create_box 1 b
+pair_style gran model hertz tangential history rolling_friction epsd2
+timestep 1e-5
+fix m all property/global youngsModulus peratomtype 5e6
+fix z all wall/gran model hertz primitive type 1 zcylinder 0.5 0.5 0.5
+fix t all particletemplate/sphere 1 atom_type 1 density constant 2500 radius constant ${r}
+fix d all particledistribution/discrete 1 1 t 1.0
+fix i all insert/pack seed 1 distributiontemplate d particles_in_region 10 region b
+run 1000
+)");
+}
+
 void write_tables(const fs::path& folder) {
   write_file(folder / "grains.csv",
              "# beads\nx [m],y [m],z [m],d [m],vx [m/s],vy,vz\n0.01,2e-3,+0.01,0.004,0,0,-1\n");
@@ -88,9 +117,11 @@ void write_checkpoints(const fs::path& folder) {
 int main(int, char** argv) {
   using namespace bedload;
   const fs::path folder = argv[1];
-  for (const char* target : {"case", "table", "mesh", "checkpoint"}) fs::create_directories(folder / target);
+  for (const char* target : {"case", "convert", "table", "mesh", "checkpoint"})
+    fs::create_directories(folder / target);
   write_cases(folder / "case");
   write_dictionary(folder / "case.dict");
+  write_foreign_cases(folder / "convert");
   write_tables(folder / "table");
   write_meshes(folder / "mesh");
   write_checkpoints(folder / "checkpoint");

@@ -260,5 +260,33 @@ TEST(FrameCase, BeginsWithItsContentsAndMayNotTurn) {
             "wall.body.motion.remove_when_clear?");
 }
 
+TEST_F(TableCase, WaveMakersMoveAlongTheirWaves) {
+  const std::string wave =
+      "wave_height = 0.01\nwave_period = 1\nwave_depth = 0.1\nwave_direction = [0, -2, 5]\nwave_ramp = 0\n";
+  const Config piston = read(moving("kind = \"piston\"\n" + wave));
+  const auto at = MotionLaw(piston.wall.bodies[0].motion, 1).at(0.25).place({});
+  EXPECT_EQ(at.x, 0);
+  EXPECT_LT(at.y, -1e-3);
+  EXPECT_NEAR(at.z, 0, 1e-15);
+  const Config flap = read(moving("kind = \"flap\"\ncentre = [0, 0.02, 0]\n" + wave));
+  const auto top = MotionLaw(flap.wall.bodies[0].motion, 1).at(0.25).place({0, 0.02, 0.1});
+  EXPECT_LT(top.y, 0.02 - 1e-3);
+  EXPECT_NEAR(top.x, 0, 1e-15);
+  Config again = read(resolved_toml(flap));
+  again.file = flap.file;
+  EXPECT_EQ(flap, again);
+
+  const auto refused = [&](const std::string& kind, double height, const std::string& more = "") {
+    return error_of(moving("kind = \"" + kind + "\"\nwave_height = " + std::to_string(height) +
+                           "\nwave_period = 1\nwave_depth = 0.1\n" + more));
+  };
+  EXPECT_NE(refused("piston", 0.5).find("wave_height = 0.5 must be below 0.07"), std::string::npos);
+  EXPECT_NE(refused("piston", 0.05).find("up to which second-order theory holds"), std::string::npos);
+  EXPECT_EQ(refused("piston", 0.05, "wave_order = 1\n"), "");
+  EXPECT_NE(refused("piston", 0.01, "wave_direction = [0, 0, 1]\n").find("must not be vertical"),
+            std::string::npos);
+  EXPECT_NE(refused("flap", 0.01).find("motion.centre"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace bedload::test

@@ -6,9 +6,11 @@
 #include <numbers>
 
 #include "bedload/case/config.hpp"
+#include "bedload/case/formula.hpp"
 #include "src/motion/formula_breaks.hpp"
 #include "src/motion/spline.hpp"
 #include "src/motion/survey.hpp"
+#include "src/motion/wave_maker.hpp"
 
 namespace bedload::test {
 namespace {
@@ -396,6 +398,39 @@ TEST(Survey, FindsTopSpeedAndJumps) {
   EXPECT_TRUE(velocity_jumps(motion_of({swing}), points, 2).empty());
   EXPECT_NEAR(top_speed(motion_of({swing}), points, 2), pi / 2, 1e-4);
   EXPECT_TRUE(velocity_jumps(motion_of({formula({"0.1*(1-cos(7*t))", "0", "0"})}), points, 2).empty());
+}
+
+/// Water waves of 1.2 s over 0.4 m: k d from the dispersion relation, strokes from the limits of shallow and
+/// deep water.
+TEST(WaveMaker, StrokeFollowsFromTheWave) {
+  const WaterWave wave{.height = 0.05, .period = 1.2, .depth = 0.4, .gravity = 9.81};
+  const double k = wave.number(), w = 2 * pi / 1.2;
+  EXPECT_NEAR(9.81 * k * std::tanh(0.4 * k), w * w, 1e-10);
+  const auto amplitude = [](const WaterWave& of) {  // at the first quarter of a period
+    return Formula(piston_stroke(of, 1, 0), "t")(of.period / 4);
+  };
+  // shallow: H/S = k d; deep: H/S = 2
+  const WaterWave shallow{.height = 0.001, .period = 60, .depth = 0.1, .gravity = 9.81};
+  EXPECT_NEAR(amplitude(shallow) / (0.5 * 0.001 / (shallow.number() * 0.1)), 1, 1e-3);
+  const WaterWave deep{.height = 0.01, .period = 0.4, .depth = 2, .gravity = 9.81};
+  EXPECT_NEAR(amplitude(deep), 0.5 * 0.01 / 2, 1e-9);
+  // in shallow water a flap needs twice the stroke of a piston at the surface
+  const double angle = Formula(flap_angle(shallow, 0), "t")(15.0) * pi / 180;
+  EXPECT_NEAR(std::tan(angle) * 0.1 / amplitude(shallow), 2, 1e-3);
+}
+
+TEST(WaveMaker, SecondOrderAddsTheBoundHarmonic) {
+  const WaterWave wave{.height = 0.05, .period = 1.2, .depth = 0.4, .gravity = 9.81};
+  const Formula first(piston_stroke(wave, 1, 0), "t"), second(piston_stroke(wave, 2, 0), "t");
+  const double kd = wave.number() * 0.4,
+               m1 = 2 * std::pow(std::sinh(kd), 2) / (std::sinh(kd) * std::cosh(kd) + kd);
+  const double expected =
+      0.05 * 0.05 / (32 * 0.4) * (3 * std::cosh(kd) / std::pow(std::sinh(kd), 3) - 2 / m1);
+  for (const double t : {0.1, 0.15, 0.7})
+    EXPECT_NEAR(second(t) - first(t), expected * std::sin(4 * pi * t / 1.2), 1e-12);
+  const Formula risen(piston_stroke(wave, 1, 2.4), "t");
+  EXPECT_NEAR(risen(1.2 + 0.3), 0.5 * (1 - std::cos(pi * 1.5 / 2.4)) * first(0.3), 1e-12);
+  EXPECT_NEAR(risen(3.9), first(3.9), 1e-12);
 }
 
 }  // namespace

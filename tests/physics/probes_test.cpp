@@ -247,5 +247,70 @@ TEST(SmallFrontProbe, IsTheOuterEdgeOfTheLastParticle) {
       }
 }
 
+/// Each of several points is measured as a probe of its own would be.
+TEST(SmallPointProbe, MeasuresLinesPlanesAndGrids) {
+  auto s = started(block());
+  for (int k = 0; k < 20; ++k) s->step();
+  ProbeConfig grid = at("point", {0.04, 0.03, 0.01});
+  grid.span = {{0.06, 0, 0}, {0, 0.03, 0}, {0, 0, 0.05}}, grid.count = {4, 2, 3};
+  const auto all = s->measure(grid);
+  ASSERT_EQ(all.size(), 4u * 2 * 3 * 5);
+  int n = 0;
+  for (const double z : {0.01, 0.035, 0.06})
+    for (const double y : {0.03, 0.06})
+      for (const double x : {0.04, 0.06, 0.08, 0.1}) {
+        const auto one = s->measure(at("point", {x, y, z}));
+        // points differ by round-off of their coordinates
+        EXPECT_NEAR(reading(all, "pressure_" + std::to_string(n)) / reading(one, "pressure"), 1, 1e-5) << n;
+        ++n;
+      }
+  ProbeConfig line = at("height", {0, 0.05, 0});
+  line.span = {{0.15, 0, 0}}, line.count = {4};
+  const auto heights = s->measure(line);
+  ASSERT_EQ(heights.size(), 8u);
+  EXPECT_EQ(heights[6].name, "height_3");
+  for (int k = 0; k < 4; ++k)
+    EXPECT_NEAR(reading(heights, "column_depth_" + std::to_string(k)),
+                reading(s->measure(at("height", {0.05 * k, 0.05, 0})), "column_depth"), 1e-6);
+}
+
+/// Up a slope: the sheet that is connected to the start of the line, without drops ahead of it.
+TEST(SmallHeightProbe, MeasuresRunUpAlongASlope) {
+  Config c = block();
+  c.domain.periodic = {false, false, false};
+  c.wall.bodies.clear();
+  c.fluid.fills = {{{0, 0, 0}, {0.08, 0.16, 0.16}}, {{0.12, 0, 0}, {0.14, 0.16, 0.16}}};
+  auto s = started(c);
+  const Vec3d up{std::sqrt(0.5), 0, std::sqrt(0.5)};
+  ProbeConfig p = at("height", {0.005, 0.085, 0.005});  // no particle lies just 1.5 dx from it
+  p.along = up;
+  const auto [height, sheet] = searched(c, *s, p.at, up);
+  const auto found = s->measure(p);
+  const double close = tolerance(1e-12, 1e-6, 1e-5);
+  EXPECT_NEAR(reading(found, "height"), height, close);
+  EXPECT_NEAR(reading(found, "column_depth"), sheet, close);
+  EXPECT_LT(sheet, height - 0.04);
+  // the sheet ends in the first block, 0.08 m along x; the line reaches 1.5 dx to its sides
+  EXPECT_NEAR(sheet, (0.075 + 0.5 * kDx) * std::sqrt(2.0), 2.5 * kDx);
+}
+
+/// Fluid and grains that move as one through a section.
+TEST(SmallFluxProbe, CountsWhatPasses) {
+  Config c = block();
+  c.fluid.fills[0].velocity = {"0.3", "0", "-0.1"};
+  auto s = started(c);
+  ProbeConfig p = at("flux", {});
+  p.min = {0.06, 0, 0}, p.max = {0.1, 0.16, 0.16}, p.axis = 0, p.sign = 1;
+  const auto along = s->measure(p);
+  const double area = 0.06 * 0.09;                                      // m2
+  EXPECT_NEAR(reading(along, "volume_flow"), 0.3 * area, 1e-5 * area);  // round-off of velocity and density
+  // at rest the fluid is up to 0.4 % denser at its floor
+  EXPECT_NEAR(reading(along, "mass_flow") / (0.3 * area * c.fluid.rho0), 1.002, 5e-4);
+  p.sign = -1;
+  EXPECT_NEAR(reading(s->measure(p), "mass_flow"), -reading(along, "mass_flow"), 1e-12);
+  p.min = {0, 0, 0.02}, p.max = {0.16, 0.16, 0.06}, p.axis = 2, p.sign = 1;
+  EXPECT_NEAR(reading(s->measure(p), "volume_flow"), -0.1 * 0.16 * 0.06, 1e-5 * 0.16 * 0.06);
+}
+
 }  // namespace
 }  // namespace BL_SOLVER

@@ -113,7 +113,7 @@ TEST_F(Program, RefusesWrongCommandLinesWithOneSentence) {
   refused("", line, "subcommand is required");
   refused("simulate dam.toml", line, "unknown command simulate");
   refused("simulate dam.toml", line,
-          "run, viscometer, check, new, demo, list, info, bench, gui, schema, completion, man");
+          "run, viscometer, check, new, demo, list, info, convert, bench, gui, schema, completion, man");
   write("empty.toml", "\n");
   refused("check empty.toml", "empty.toml", "is empty");
   refused("run", line, "case is required");
@@ -1178,6 +1178,25 @@ every = 1
                  "allowed; "),
       std::string::npos)
       << o.err;
+}
+
+TEST_F(Program, FramesHaveTheFieldsThatAreChosen) {
+  write("dam.toml", small_dam() + "[time]\nend = 0.01\n[out]\nevery = 0.01\nfields = [\"pressure\"]\n");
+  ASSERT_EQ(bedload("run dam.toml --backend cpu --quiet --out out").code, 0);
+  const std::string fluid = bedload("info out/fluid.vtkhdf").out,
+                    grains = bedload("info out/grains.vtkhdf").out;
+  EXPECT_NE(fluid.find(" pressure "), std::string::npos) << fluid;
+  EXPECT_EQ(fluid.find(" velocity "), std::string::npos) << fluid;
+  EXPECT_NE(grains.find(" radius "), std::string::npos) << grains;  // always
+  EXPECT_EQ(grains.find(" angular_velocity "), std::string::npos) << grains;
+  for (const std::string command : {"run", "check"}) {
+    const Outcome o = bedload(command + " dam.toml --backend cpu --set 'out.fields=[\"presure\"]'" +
+                              (command == "run" ? " --out other" : ""));
+    EXPECT_EQ(o.code, 2);
+    EXPECT_NE(o.err.find("out.fields = \"presure\" must name a field of this case: position, "),
+              std::string::npos)
+        << o.err;
+  }
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 import unittest
 
 import numpy as np
-from bedload.measures import (Grid, angular_velocity, bed_outline, bed_surface, contact_pairs, coordination,
-                              lacey_index, mean_map, mean_power, porosity_map, power_number, segregation_intensity,
-                              solid_fraction_map, surface_slope)
+from bedload.measures import (Grid, angular_velocity, at_points, bed_outline, bed_surface, contact_pairs, coordination,
+                              lacey_index, mean_map, mean_power, porosity_map, power_number, running_mean, segregation_intensity,
+                              solid_fraction_map, spectrum, surface_slope)
 
 
 def lattice(n, d):
@@ -98,6 +98,67 @@ class Bodies(unittest.TestCase):
         self.assertAlmostEqual(mean_power(Body(), start=1), (2 + 8) / 3 - 9)  # of all that acts on it
         self.assertAlmostEqual(mean_power(Body(), "power_by_fluid", start=1), (2 + 8) / 3)
         self.assertAlmostEqual(power_number(2.0, 1000, 2, 0.1), 25)
+
+
+class StillFluid:
+    """Frames of fluid on a lattice, whose velocity and pressure are linear in z, in a slot periodic along y."""
+
+    def __init__(self, dx, two_d=False):
+        self.case = {"fluid": {"dx": dx, "h_over_dx": 1.5, "rho0": 1000.0},
+                     "domain": {"min": [0, 0, 0], "max": [0.4, 0.1, 0.2], "periodic": [False, True, False], "two_d": two_d}}
+        axes = [np.arange(dx / 2, side, dx) for side in (0.4, 0.1, 0.1)]
+        if two_d:
+            axes[1] = np.array([0.05])
+        self.x = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+        self.fluid = self
+
+    def __len__(self):
+        return 2
+
+    def position(self, frame):
+        return self.x.copy()
+
+    def get(self, frame, name, default=None):
+        return default
+
+    def read(self, frame, name):
+        depth = 0.1 - self.x[:, 2]
+        return 9810 * depth if name == "pressure" else np.stack([(1 + frame) * depth, 0 * depth, 0 * depth], axis=1)
+
+
+class Points(unittest.TestCase):
+    def test_have_the_fields_of_the_fluid_around_them(self):
+        for two_d in (False, True):
+            run = StillFluid(0.01, two_d)
+            points = np.array([[[0.2, 0.001, 0.05], [0.21, 0.099, 0.062]], [[0.2, 0.05, 0.18], [0.25, 0.05, 0.04]]])
+            found = at_points(run, points, ["pressure", "velocity"])
+            self.assertEqual(found["pressure"].shape, (2, 2, 2))
+            self.assertEqual(found["velocity"].shape, (2, 2, 2, 3))
+            np.testing.assert_allclose(found["kernel_sum"][0, 0], 1, atol=0.01)  # across the period too
+            np.testing.assert_allclose(found["pressure"][0, 0], [9810 * 0.05, 9810 * 0.038], rtol=0.01)
+            np.testing.assert_allclose(found["velocity"][1, 1, 1], [2 * 0.06, 0, 0], rtol=0.01)
+            self.assertTrue(np.isnan(found["pressure"][0, 1, 0]))  # above the surface
+            self.assertEqual(at_points(run, points, [], frames=[-1])["kernel_sum"].shape, (1, 2, 2))
+
+
+class Series(unittest.TestCase):
+    def test_running_means_are_integrals_over_their_width(self):
+        time = np.sort(np.random.default_rng(3).random(400)) * 4  # uneven
+        np.testing.assert_allclose(running_mean(time, 3 + 2 * time, 0.5)[50:-50], (3 + 2 * time)[50:-50], atol=1e-9)
+        even = np.linspace(0, 4, 4001)
+        mean = running_mean(even, np.sin(2 * np.pi * even / 0.5), 0.5)  # over a period
+        np.testing.assert_allclose(mean[300:-300], 0, atol=1e-5)
+        with self.assertRaisesRegex(ValueError, "must be above 0"):
+            running_mean(even, even, 0)
+
+    def test_spectra_have_the_variance_at_its_frequency(self):
+        time = np.linspace(0, 20, 4001)
+        frequency, density = spectrum(time, 5 + 0.3 * np.sin(2 * np.pi * 2.5 * time))
+        self.assertAlmostEqual(frequency[np.argmax(density)], 2.5, delta=0.06)
+        variance = np.sum((density[1:] + density[:-1]) / 2 * np.diff(frequency))
+        self.assertAlmostEqual(variance, 0.3**2 / 2, delta=0.01 * 0.3**2 / 2)
+        with self.assertRaisesRegex(ValueError, "needs 8 values"):
+            spectrum(time[:5], time[:5])
 
 
 if __name__ == "__main__":

@@ -287,6 +287,20 @@ turn_angle = 5
         np.testing.assert_allclose(turn, turned, atol=1e-5)
         np.testing.assert_allclose(shift, 0, atol=1e-5)
 
+    def test_running_means_and_spectra(self):
+        table = self.run_dir / "gauge.csv"
+        rows = [f"{t},{np.sin(20 * t)}" for t in np.arange(0, 3, 0.01)]
+        table.write_text("time [s],height [m]\n" + "\n".join(rows) + "\n")
+        self.expect_picture("probe", table, "--mean", "0.3")
+        self.expect_picture("probe", table, "--spectrum")
+        status, _, err = tool("plot.py", "probe", table, "--mean", "-1", "--out", "none.png")
+        self.assertEqual(status, 2)
+        self.assertIn("--mean -1 must be above 0 s", err)
+        table.write_text("time [s],height [m]\n" + "\n".join(rows[:5]) + "\n")
+        status, _, err = tool("plot.py", "probe", table, "--spectrum", "--out", "none.png")
+        self.assertNotEqual(status, 0)
+        self.assertIn("a spectrum needs 8 values or more; there are 5", err)
+
     def test_frames_without_the_case(self):
         self.expect_picture("frames", self.run_dir, "--times", "0.2", "--view", "yz")
 

@@ -16,7 +16,7 @@ target_compile_definitions(fuzz_seeds PRIVATE BL_SOURCE_DIR="${CMAKE_SOURCE_DIR}
 target_link_libraries(fuzz_seeds PRIVATE bedload_host bedload_device GTest::gtest)
 target_link_options(fuzz_seeds PRIVATE -fsanitize=fuzzer-no-link)
 add_custom_target(fuzz DEPENDS fuzz_seeds)
-foreach(target case table mesh checkpoint)
+foreach(target case convert table mesh checkpoint)
   add_executable(fuzz_${target} tests/fuzz/${target}.cpp)
   target_compile_definitions(fuzz_${target} PRIVATE BL_FUZZ_FILES="${CMAKE_BINARY_DIR}/files")
   target_link_libraries(fuzz_${target} PRIVATE bedload_program bedload_device)

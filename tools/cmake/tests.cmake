@@ -38,7 +38,7 @@ endfunction()
 # With the modules for plots: made by tools/install_dependencies.
 find_program(BEDLOAD_PYTHON python PATHS ${CMAKE_SOURCE_DIR}/build/venv/bin NO_DEFAULT_PATH)
 
-file(GLOB host_tests CONFIGURE_DEPENDS tests/case/*_test.cpp tests/geometry/*_test.cpp
+file(GLOB host_tests CONFIGURE_DEPENDS tests/case/*_test.cpp tests/convert/*_test.cpp tests/geometry/*_test.cpp
                                        tests/motion/*_test.cpp tests/output/*_test.cpp tests/program/*_test.cpp
                                        tests/viewer/*_test.cpp tests/viscometer/*_test.cpp)
 if(host_tests)

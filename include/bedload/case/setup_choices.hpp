@@ -46,7 +46,7 @@ inline constexpr auto kNames<WallShape> = std::to_array<Named<WallShape>>({
 // -- motions -------------------------------------------------------------------------------------
 
 /// wall.body.motion.kind, frame.motion.kind and those of what is added to them
-enum class MotionKind { fixed, velocity, oscillation, rotation, table, formula };
+enum class MotionKind { fixed, velocity, oscillation, rotation, table, formula, piston, flap };
 template <>
 inline constexpr auto kNames<MotionKind> = std::to_array<Named<MotionKind>>({
     {MotionKind::fixed, "fixed", "at rest"},
@@ -55,6 +55,8 @@ inline constexpr auto kNames<MotionKind> = std::to_array<Named<MotionKind>>({
     {MotionKind::rotation, "rotation", "rotation about an axis"},
     {MotionKind::table, "table", "positions and rotations tabulated over time"},
     {MotionKind::formula, "formula", "displacement and rotation as formulas in t"},
+    {MotionKind::piston, "piston", "wave maker that translates, for regular waves [madsen71] [hughes93]"},
+    {MotionKind::flap, "flap", "wave maker hinged at the floor, for regular waves [hughes93]"},
 });
 
 /// wall.body.motion.spline
@@ -134,7 +136,7 @@ inline constexpr auto kNames<SizeKind> = std::to_array<Named<SizeKind>>({
 // -- output --------------------------------------------------------------------------------------
 
 /// probe.type
-enum class ProbeType { front, point, height, box, force, wall_pressure };
+enum class ProbeType { front, point, height, box, flux, force, wall_pressure };
 template <>
 inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
     {ProbeType::front, "front", "farthest position of a phase in a direction"},
@@ -142,6 +144,7 @@ inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
     {ProbeType::height, "height",
      "height of the fluid surface at a point, and depth of connected fluid there"},
     {ProbeType::box, "box", "mass and momentum in a box"},
+    {ProbeType::flux, "flux", "mass and volume that pass a section in unit time"},
     {ProbeType::force, "force", "force and torque on a wall body"},
     {ProbeType::wall_pressure, "wall_pressure",
      "force per area on patches of a wall body, as of pressure transducers"},

@@ -171,28 +171,33 @@ def contact_pairs(x: np.ndarray, radius: np.ndarray, gap: float = 0.0,
     if len(x) < 2:
         return np.zeros((0, 2), int)
     period = np.zeros(3) if period is None else np.asarray(period, float)
-    reach = 2 * radius.max() + gap
+    found = []
+    for i, j, apart in _near(x, x, 2 * radius.max() + gap, period):
+        touch = (i < j) & (np.sum(apart**2, axis=1) <= (radius[i] + radius[j] + gap) ** 2)
+        found.append(np.stack([i[touch], j[touch]], axis=1))
+    return np.unique(np.concatenate(found), axis=0)  # with few cells a neighbour is met by several ways
+
+
+def _near(at: np.ndarray, x: np.ndarray, reach: float, period: np.ndarray):
+    """Of places and particles in cells next to each other: indices of both, and the vectors from particle to place.
+    Those nearer than `reach` are among them, some several times."""
     low = x.min(axis=0)
     length = np.where(period > 0, period, x.max(axis=0) - low + 1e-9 * reach)
     cells = np.maximum(1, np.floor(length / reach)).astype(int)
-    at = np.floor((x - low) / length * cells).astype(int) % cells
-    key = np.ravel_multi_index(at.T, cells)
+    key = np.ravel_multi_index((np.floor((x - low) / length * cells).astype(int) % cells).T, cells)
     order = np.argsort(key, kind="stable")
     begins = np.searchsorted(key[order], np.arange(np.prod(cells) + 1))
-    found = []
+    home = np.floor((at - low) / length * cells).astype(int)
     for shift in np.ndindex(3, 3, 3):
-        to = at + np.array(shift) - 1
+        to = home + np.array(shift) - 1
         valid = np.all(((to >= 0) & (to < cells)) | (period > 0), axis=1)
         other = np.where(valid, np.ravel_multi_index((to % cells).T, cells), 0)
         first, count = begins[other], np.where(valid, begins[other + 1] - begins[other], 0)
-        i = np.repeat(np.arange(len(x)), count)
+        i = np.repeat(np.arange(len(at)), count)
         j = order[np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count) + np.repeat(first, count)]
-        i, j = i[i < j], j[i < j]
-        apart = x[i] - x[j]
-        apart -= np.where(period > 0, period, 0) * np.round(apart / np.where(period > 0, period, 1))
-        touch = np.sum(apart**2, axis=1) <= (radius[i] + radius[j] + gap) ** 2
-        found.append(np.stack([i[touch], j[touch]], axis=1))
-    return np.unique(np.concatenate(found), axis=0)  # with few cells a neighbour is met by several ways
+        apart = at[i] - x[j]
+        apart -= period * np.round(apart / np.where(period > 0, period, 1))
+        yield i, j, apart
 
 
 def coordination(x: np.ndarray, radius: np.ndarray, gap: float = 0.0,
@@ -245,3 +250,94 @@ def mean_power(table: Any, column: str | None = None, start: float = 0.0) -> flo
 def power_number(power: float, density: float, turns: float, diameter: float) -> float:
     """Power number P / (rho N^3 D^5) of an impeller: W, kg/m3, 1/s, m."""
     return power / (density * turns**3 * diameter**5)
+
+
+def _wendland(q: np.ndarray) -> np.ndarray:
+    return (1 - q / 2) ** 4 * (1 + 2 * q)
+
+
+def at_points(run: Any, points: Any, names: Sequence[str] = ("pressure", "velocity"),
+              frames: Sequence[int] | None = None) -> dict[str, np.ndarray]:
+    """Fields of the fluid at points in the frames of a run, as point probes measure them: by Shepard average.
+
+    points: [m, 3] or a grid [..., 3], m; a side on which the domain is periodic is continued. frames: default all.
+    Returns an array for each name, [frames, ...] or [frames, ..., 3], NaN where there are too few particles, and
+    "kernel_sum", about 1 within the fluid. Kernel: Wendland C2 with the smoothing length of the case.
+    """
+    fluid, domain = run.case["fluid"], run.case["domain"]
+    dx, flat = float(fluid["dx"]), bool(domain.get("two_d", False))
+    h = dx * float(fluid["sigma_h" if fluid.get("variable_h", False) else "h_over_dx"])
+    low, high = np.asarray(domain["min"], float), np.asarray(domain["max"], float)
+    period = np.where(domain.get("periodic", [False] * 3), high - low, 0.0)
+    norm = 7 / (4 * np.pi * h**2) * dx**2 if flat else 21 / (16 * np.pi * h**3) * dx**3
+    points = np.asarray(points, float)
+    at = points.reshape(-1, 3).copy()
+    wanted = range(len(run.fluid)) if frames is None else [range(len(run.fluid))[k] for k in frames]
+    out: dict[str, list[np.ndarray]] = {name: [] for name in ("kernel_sum", *names)}
+    for frame in wanted:
+        x = run.fluid.position(frame)
+        if flat:
+            x[:, 1] = at[:, 1] = 0
+        rho = run.fluid.get(frame, "density", np.full(len(x), float(fluid["rho0"]))) / float(fluid["rho0"])
+        i, j = _within(at, x, 2 * h, period)
+        apart = at[i] - x[j]
+        apart -= period * np.round(apart / np.where(period > 0, period, 1))
+        weight = norm / rho[j] * _wendland(np.sqrt(np.sum(apart**2, axis=1)) / h)
+        total = np.bincount(i, weight, len(at))
+        out["kernel_sum"].append(total.reshape(points.shape[:-1]))
+        for name in names:
+            value = run.fluid.read(frame, name).astype(float)
+            columns = value.reshape(len(x), -1)
+            with np.errstate(invalid="ignore", divide="ignore"):
+                mean = np.stack([np.bincount(i, weight * c[j], len(at)) / total for c in columns.T], axis=-1)
+            mean[total <= 0.05] = np.nan  # too few neighbours for a mean
+            out[name].append(mean.reshape(points.shape[:-1] + value.shape[1:]))
+    return {name: np.array(values) for name, values in out.items()}
+
+
+def _within(at: np.ndarray, x: np.ndarray, reach: float, period: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs of a place and a particle nearer than `reach`: their indices."""
+    pairs = [np.zeros((0, 2), int)]
+    if len(x) > 0:
+        for i, j, apart in _near(at, x, reach, period):
+            near = np.sum(apart**2, axis=1) < reach**2
+            pairs.append(np.stack([i[near], j[near]], axis=1))
+    i, j = np.unique(np.concatenate(pairs), axis=0).T
+    return i, j
+
+
+def running_mean(time: np.ndarray, value: np.ndarray, width: float) -> np.ndarray:
+    """Mean over `width` seconds around each time, by the trapezoidal rule; shorter at both ends of the series."""
+    time, value = np.asarray(time, float), np.asarray(value, float)
+    if not width > 0:
+        raise ValueError(f"width = {width:g} s must be above 0")
+    integral = np.concatenate([[0], np.cumsum(np.diff(time) * (value[1:] + value[:-1]) / 2)])
+    begin, end = np.maximum(time - width / 2, time[0]), np.minimum(time + width / 2, time[-1])
+
+    def up_to(t: np.ndarray) -> np.ndarray:  # of values that are linear between the times
+        k = np.clip(np.searchsorted(time, t, side="right") - 1, 0, len(time) - 2)
+        at = np.interp(t, time, value)
+        return integral[k] + (t - time[k]) * (value[k] + at) / 2
+
+    if len(time) < 2:
+        return value.copy()
+    return (up_to(end) - up_to(begin)) / (end - begin)
+
+
+def spectrum(time: np.ndarray, value: np.ndarray, start: float = -np.inf) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies, Hz, and one-sided spectral density, unit^2/Hz, of a series from `start` (s) on.
+
+    The mean is taken off; values are interpolated to even times and tapered by a Hann window. The integral of the
+    density over frequency is the variance.
+    """
+    time, value = np.asarray(time, float), np.asarray(value, float)
+    used = (time >= start) & np.isfinite(value)
+    time, value = time[used], value[used]
+    if len(time) < 8:
+        raise ValueError(f"a spectrum needs 8 values or more; there are {len(time)}")
+    even = np.linspace(time[0], time[-1], len(time))
+    step = even[1] - even[0]
+    series = np.interp(even, time, value)
+    window = np.hanning(len(even))
+    density = 2 * step / np.sum(window**2) * np.abs(np.fft.rfft((series - series.mean()) * window)) ** 2
+    return np.fft.rfftfreq(len(even), step)[1:], density[1:]

@@ -2,6 +2,7 @@
 // How walls and the domain move.
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -13,6 +14,15 @@ namespace bedload {
 
 /// A row of a motion table: t (s), x, y, z (m), rotation vector (deg).
 using MotionRow = std::array<double, 7>;
+
+/// The regular wave that a piston or flap makes.
+struct WaveConfig {
+  double height = 0, period = 0, depth = 0;    ///< m, s, m
+  std::int64_t order = 2;                      ///< piston: of the theory
+  Vec3d direction{1, 0, 0};                    ///< in which it runs (resolved: unit, horizontal)
+  double ramp = 1;                             ///< periods over which the motion rises
+  bool operator==(const WaveConfig&) const = default;
+};
 
 /// One part of a motion. Its t counts from start.
 struct MotionPart {
@@ -26,8 +36,9 @@ struct MotionPart {
   std::string file;                            ///< table: CSV file; its rows replace it when the case is read
   std::vector<MotionRow> rows;                 ///< table
   Chosen<TableSpline> spline = TableSpline::smooth;  ///< table
-  std::array<std::string, 3> displacement{"0", "0", "0"};  ///< formula: in t, m
-  std::array<std::string, 3> rotation{"0", "0", "0"};      ///< formula: in t, rotation vector, deg
+  WaveConfig wave;                             ///< piston, flap
+  std::array<std::string, 3> displacement{"0", "0", "0"};  ///< formula, piston (resolved): in t, m
+  std::array<std::string, 3> rotation{"0", "0", "0"};      ///< formula, flap (resolved): in t, rotation vector, deg
   double start = 0;                            ///< s
   double stop = std::numeric_limits<double>::infinity();  ///< s
   bool scaled() const { return factor != "1"; }

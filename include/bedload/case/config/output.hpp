@@ -13,17 +13,19 @@ namespace bedload {
 struct ProbeConfig {
   std::string name;
   Chosen<ProbeType> type = ProbeType::front;
-  Chosen<Phase> phase = Phase::fluid;          ///< front, box
-  int axis = 0;                                ///< front: 0, 1, 2
-  int sign = 1;                                ///< front: +1 largest coordinate, -1 smallest
+  Chosen<Phase> phase = Phase::fluid;          ///< front, box, flux
+  int axis = 0;                                ///< front, flux: 0, 1, 2
+  int sign = 1;                                ///< front: +1 largest coordinate, -1 smallest; flux: its sign
   Vec3d at;                                    ///< point, height, wall_pressure: at t = 0, m
-  Vec3d min, max;                              ///< box: m
+  std::vector<Vec3d> span;                     ///< point, height: from the first to the last of several, m
+  Vec3d min, max;                              ///< box, flux: m
   std::string body;                            ///< force, wall_pressure: wall body; point: that carries it
   double radius = 0;                           ///< wall_pressure: of a disc, m; 0: a rectangle
   std::vector<double> size;                    ///< wall_pressure: sides of the rectangle, m
-  std::vector<double> count;                   ///< wall_pressure: patches along them; empty: one
+  std::vector<double> count;                   ///< patches along them, or points along each span; empty: one
   Vec3d normal;                                ///< wall_pressure: unit, into the fluid (resolved)
-  Vec3d along;                                 ///< wall_pressure: unit, of the first side (resolved)
+  Vec3d along;                                 ///< unit (resolved); wall_pressure: of the first side; height: of
+                                               ///< the line, 0: upwards
   Vec3d about;                                 ///< force: torque about this point, m
   Chosen<ForceSample> sample = ForceSample::mean;  ///< force
   double every = 0;                            ///< s; 0: out.every
@@ -35,6 +37,7 @@ struct OutputConfig {
   double diagnostics_every = 0;                ///< s (default out.every)
   double checkpoint_every = 0;                 ///< s; 0: only at the end
   bool walls = true;                           ///< write walls.vtkhdf
+  std::vector<std::string> fields;             ///< names of arrays in frames; empty: all
   Chosen<BodyTables> bodies = BodyTables::moving;  ///< which have a bodies/*.csv
   std::vector<ProbeConfig> probes;
   bool operator==(const OutputConfig&) const = default;
