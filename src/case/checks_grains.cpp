@@ -119,6 +119,17 @@ void Checks::materials() const {
     known(fmt::format("wall.body.{}", i), c.wall.bodies[i].material);
 }
 
+void Checks::grain_energy() const {
+  const auto takes_grains = [](const OutletConfig& outlet) { return outlet.takes(Phase::grains); };
+  for (const auto& [there, what] :
+       {std::pair{!c.grain.present, "without [grain]"},
+        {c.grain.fixed, "with grain.fixed"},
+        {!c.grain_inlets.empty() || std::any_of(c.outlets.begin(), c.outlets.end(), takes_grains),
+         "with inlets or outlets of grains, whose energies are not counted"},
+        {c.lubrication.acts(), "with lubrication.forces, whose losses are not counted"}})
+    if (c.out.energy && there) fail("out.energy", "true", fmt::format("must be false {}", what));
+}
+
 void Checks::contact_pairs() const {
   const std::vector<ContactPair>& pairs = c.contact.pairs;
   std::map<std::string, int> materials, bodies;

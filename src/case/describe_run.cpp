@@ -245,6 +245,10 @@ void describe_output(Parameters& p, OutputConfig& o) {
      .fallback = "out.every",
      .presence = optional});
   p("out.walls", &o.walls, {.meaning = "frames of the wall particles are written, too"});
+  p("out.energy", &o.energy,
+    {.meaning =
+         "energy balance of the grains in diagnostics.csv: what contacts dissipate, the work of walls, "
+         "gravity and fluid, and the residual; evaluates contacts twice"});
   p("out.bodies", &o.bodies,
     {.meaning = "wall bodies with a table bodies/<name>.csv of motion, forces and power",
      .family = "outputs"});

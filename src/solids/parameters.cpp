@@ -49,7 +49,8 @@ SolidParameters solid_parameters(const Config& config) {
                     .drag_fraction = config.time.drag,
                     .limits = SubstepLimits(config),
                     .reflect = config.domain.reflect,
-                    .plane = config.domain.two_d};
+                    .plane = config.domain.two_d,
+                    .energy = config.out.energy};
   for (const GrainMaterial& a : p.materials)
     for (const GrainMaterial& b : p.materials) p.pair_laws.push_back(law_between(a, b, config));
   for (const WallBody& body : config.wall.bodies)

@@ -205,6 +205,9 @@ INSTANTIATE_TEST_SUITE_P(
               "these sizes"},
         Wrong{"count = 500", "packing_fraction = 1.1",
               "dam.toml:20: grain.fill.packing_fraction = 1.1 must be > 0 and <= 1"},
+        Wrong{"every = 0.01", "every = 0.01\nenergy = true\n[lubrication]\nforces = \"normal\"",
+              "dam.toml:25: out.energy = true must be false with lubrication.forces, whose losses are not "
+              "counted"},
         Wrong{"[grain]\nd = 0.002", "material = \"iron\"\n[grain]\nd = 0.002",
               "dam.toml:15: wall.body.material = \"iron\" must name a grain.material; this case has none"},
         Wrong{"[time]", "[drag]\nlaw = \"gidspow\"\n[time]",

@@ -35,6 +35,7 @@ struct OutputConfig {
   double diagnostics_every = 0;                ///< s (default out.every)
   double checkpoint_every = 0;                 ///< s; 0: only at the end
   bool walls = true;                           ///< write walls.vtkhdf
+  bool energy = false;                         ///< energy balance of the grains
   Chosen<BodyTables> bodies = BodyTables::moving;  ///< which have a bodies/*.csv
   std::vector<ProbeConfig> probes;
   bool operator==(const OutputConfig&) const = default;
