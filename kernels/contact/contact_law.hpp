@@ -55,6 +55,13 @@ struct ContactForce {
   Real3 torque_i, torque_j;  ///< about the centres, N m
 };
 
+/// Energy in the springs of a contact, J.
+struct StoredEnergy {
+  double normal = 0, sliding = 0, rolling = 0;
+  BL_HD double sideways() const { return sliding + rolling; }
+  BL_HD double total() const { return normal + sideways(); }
+};
+
 /// The laws of a contact with their parameters, each a type or OneOf several.
 template <class Normal, class Sliding, class Rolling>
 struct ContactLawOf {
@@ -161,26 +168,30 @@ struct ContactLawOf {
     return out;
   }
 
-  /// Energy stored in springs, J.
   BL_HD double stored(Real R_star, Real m_star, const ContactHistory& h) const {
+    return energy(R_star, m_star, h).total();
+  }
+  BL_HD StoredEnergy energy(Real R_star, Real m_star, const ContactHistory& h) const {
     const double overlap = h.overlap < 0 ? -h.overlap : h.overlap;
     const NormalState ns = normal_state(R_star, m_star, Real(overlap));
-    return with_law(normal, [](const auto& law) { return law.kEnergy; }) * double(ns.elastic) * overlap +
-           stored_sideways(ns, R_star, m_star, overlap, h);
+    StoredEnergy out = stored_sideways(ns, R_star, m_star, overlap, h);
+    out.normal = with_law(normal, [](const auto& law) { return law.kEnergy; }) * double(ns.elastic) * overlap;
+    return out;
   }
   /// Inherits the springs of a contact with `other` laws; the stored energy does not grow.
   BL_HD void take_over(const ContactLawOf& other, Real R_star, Real m_star, ContactHistory& h) const {
     const double overlap = h.overlap < 0 ? -h.overlap : h.overlap;
     const auto energy = [&](const ContactLawOf& law) {
-      return law.stored_sideways(law.normal_state(R_star, m_star, Real(overlap)), R_star, m_star, overlap, h);
+      return law.stored_sideways(law.normal_state(R_star, m_star, Real(overlap)), R_star, m_star, overlap, h)
+          .sideways();
     };
     const double had = energy(other), has = energy(*this);
     if (has > had) h.xi *= had / has, h.couple *= had / has;
   }
 
  private:
-  BL_HD double stored_sideways(const NormalState& ns, Real R_star, Real m_star, double overlap,
-                               const ContactHistory& h) const {
+  BL_HD StoredEnergy stored_sideways(const NormalState& ns, Real R_star, Real m_star, double overlap,
+                                     const ContactHistory& h) const {
     const SlidingInput in{.normal_force = ns.elastic,
                           .normal = ns,
                           .before = ns,
@@ -188,8 +199,9 @@ struct ContactLawOf {
                           .m_star = m_star,
                           .overlap = overlap,
                           .overlap_before = overlap};
-    return with_law(sliding, [&](const auto& law) { return law.stored(in, h.xi); }) +
-           with_law(rolling, [&](const auto& law) { return law.stored(ns.stiffness, R_star, h.couple); });
+    return {.sliding = with_law(sliding, [&](const auto& law) { return law.stored(in, h.xi); }),
+            .rolling = with_law(rolling,
+                                [&](const auto& law) { return law.stored(ns.stiffness, R_star, h.couple); })};
   }
   /// Friction force, limited by Coulomb's law. In slip the spring force is at most the limit, and the damper
   /// does not stretch the spring: that would create energy.

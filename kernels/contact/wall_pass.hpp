@@ -1,6 +1,8 @@
 #pragma once
 // Contacts of grains with walls.
 
+#include <type_traits>
+
 #include "kernels/bodies/rigid_body.hpp"
 #include "kernels/contact/contact_pass.hpp"
 #include "kernels/contact/wall_contacts.hpp"
@@ -44,9 +46,25 @@ struct WallContacts {
     Vec3d point;                                                    ///< m
     BL_HD Vec3d on_wall() const { return -Vec3d(on_grain.force); }  ///< N
   };
+  /// How a contact came about in a substep, for those who ask for it.
+  struct Course {
+    Index from;  ///< its place among the memories before; kNone: it is new
+    const ContactGeometry& at;
+    const Vec3d& v_wall;  ///< of the wall at the contact, m/s
+    const ContactLaw& law;
+    const ContactHistory& after;
+  };
   /// On a wall body, about its centre, N m.
   BL_HD Vec3d torque_on(std::uint32_t body, const Contact& c) const {
     return cross(arm(poses[body], c.point), c.on_wall()) + Vec3d(c.on_grain.torque_j);
+  }
+  /// r: from the body's centre, m.
+  BL_HD static Vec3d surface_velocity(const BodyPose& pose, const Vec3d& r) {
+    return pose.v + cross(pose.omega, r) + (pose.turned() ? pose.rotation.rotate(pose.slide) : pose.slide);
+  }
+  /// From the centre of a body to a point, by the nearest image, m.
+  BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
+    return grains.frame.nearest_image(point - pose.origin());
   }
   BL_HD WallMemories memories(Index i) const { return {memory, count, i}; }
   BL_HD const ContactLaw& law(std::uint32_t body, Index i) const {
@@ -148,14 +166,6 @@ struct WallContacts {
           .take_over(composed<Law>(law(left, i)), grain.R(), grain.sphere.m, memory.history);
     return memory;
   }
-  /// r: from the body's centre, m.
-  BL_HD static Vec3d surface_velocity(const BodyPose& pose, const Vec3d& r) {
-    return pose.v + cross(pose.omega, r) + (pose.turned() ? pose.rotation.rotate(pose.slide) : pose.slide);
-  }
-  /// From the centre of a body to a point, by the nearest image, m.
-  BL_HD Vec3d arm(const BodyPose& pose, const Vec3d& point) const {
-    return grains.frame.nearest_image(point - pose.origin());
-  }
   template <class Scope, class F>
   BL_HD void evaluate(const Grain& grain, const SurfaceContact& contact, const ContactLaw& law,
                       WallMemory& memory, F& f) const {
@@ -165,22 +175,21 @@ struct WallContacts {
     h.overlap = std::abs(h.overlap);
     const Vec3d point = grain.x - closest.distance * closest.normal;
     const Vec3d r = arm(pose, point);
-    // Facets of a mesh, which pass by a grain one after another, are taken as they are at the end of the
-    // substep: with the middle a bed in a drum of triangles was carried 13 degrees higher than in a cylinder.
-    const bool facet = walls.surfaces[contact.surface].kind == SurfaceKind::mesh;
-    ContactGeometry at = wall_contact(grain.sphere, facet ? closest.normal : memory.normal, closest.normal,
-                                      double(grain.R()) - closest.distance);
+    ContactGeometry at =
+        wall_contact(grain.sphere, memory.normal, closest.normal, double(grain.R()) - closest.distance);
     // in the middle of the substep, as the velocity of the grain
-    const Vec3d r_mid = facet ? r
-                              : r + closest.distance * (closest.normal - at.n_mid) -
-                                    0.5 * double(dt) * (Vec3d(grain.v) - pose.v);
+    const Vec3d r_mid =
+        r + closest.distance * (closest.normal - at.n_mid) - 0.5 * double(dt) * (Vec3d(grain.v) - pose.v);
     const Vec3d v_wall = surface_velocity(pose, r_mid);
     if (Scope::kFree && pose.free)
       at.m_star /= 1 + at.m_star * Real(free_bodies[pose.free - 1].inverse_effective_mass(pose.rotation, r,
                                                                                           closest.normal));
     const ContactForce on_grain = composed<typename Scope::Law>(law)(at, grain.v - Real3(v_wall), grain.omega,
                                                                      Real3(pose.omega), dt, h);
-    f(contact.body, Contact{on_grain, point});
+    if constexpr (std::is_invocable_v<F&, std::uint32_t, const Contact&, const Course&>)
+      f(contact.body, Contact{on_grain, point}, Course{contact.from, at, v_wall, law, h});
+    else
+      f(contact.body, Contact{on_grain, point});
     h.overlap *= closest.side;
     memory.normal = closest.normal;
   }

@@ -178,6 +178,7 @@ void cross_check(const Config& config, const Value& root, std::vector<std::strin
   checks.motions();
   if (config.grain.present) checks.grains();
   checks.contact_pairs();
+  checks.grain_energy();
   checks.openings();
   checks.coupling();
   checks.time();

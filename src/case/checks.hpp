@@ -26,6 +26,7 @@ class Checks {
   void motions() const;
   void grains() const;
   void contact_pairs() const;
+  void grain_energy() const;
   void coupling() const;
   void openings() const;
   void time() const;

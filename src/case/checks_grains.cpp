@@ -84,12 +84,17 @@ void Checks::grain_fill(const std::string& path, const GrainFill& fill) const {
                                 nearest_value(root_, path).place()));
   const double fraction =
       solid_volume(fill, c.grain.all_materials()[c.grain.material(fill.material)].rho) / fill_volume(fill);
-  if (fraction > 0.64) {
-    const bool by_mass = fill.mass > 0;
-    fail(path + (by_mass ? ".mass" : ".count"), fmt::format("{}", by_mass ? fill.mass : double(fill.count)),
-         fmt::format("must fit the space to fill; it takes {:.0f} % where 64 % is the densest random packing",
-                     100 * fraction));
-  }
+  const double densest = densest_packing(fill.sizes);
+  if (fraction <= densest) return;
+  if (fill.packing_fraction > 0)
+    fail(path + ".packing_fraction", fill.packing_fraction,
+         fmt::format("must be <= {:.2g}, the densest random packing of these sizes", densest));
+  const bool by_mass = fill.mass > 0;
+  fail(path + (by_mass ? ".mass" : ".count"), fmt::format("{}", by_mass ? fill.mass : double(fill.count)),
+       fmt::format(
+           "must fit the space to fill; it takes {:.0f} % where {:.0f} % is the densest random packing "
+           "of these sizes",
+           100 * fraction, 100 * densest));
 }
 
 void Checks::materials() const {
@@ -110,6 +115,19 @@ void Checks::materials() const {
     known(fmt::format("grain.fill.{}", i), c.grain.fills[i].material);
   for (std::size_t i = 0; i < c.grain_inlets.size(); ++i)
     known(fmt::format("grain_inlet.{}", i), c.grain_inlets[i].material);
+  for (std::size_t i = 0; i < c.wall.bodies.size(); ++i)
+    known(fmt::format("wall.body.{}", i), c.wall.bodies[i].material);
+}
+
+void Checks::grain_energy() const {
+  const auto takes_grains = [](const OutletConfig& outlet) { return outlet.takes(Phase::grains); };
+  for (const auto& [there, what] :
+       {std::pair{!c.grain.present, "without [grain]"},
+        {c.grain.fixed, "with grain.fixed"},
+        {!c.grain_inlets.empty() || std::any_of(c.outlets.begin(), c.outlets.end(), takes_grains),
+         "with inlets or outlets of grains, whose energies are not counted"},
+        {c.lubrication.acts(), "with lubrication.forces, whose losses are not counted"}})
+    if (c.out.energy && there) fail("out.energy", "true", fmt::format("must be false {}", what));
 }
 
 void Checks::contact_pairs() const {

@@ -13,7 +13,8 @@ using enum Presence;
 
 void contact_pair(Parameters& p, ContactPair& pair, const ContactConfig& contact) {
   p("of", &pair.of,
-    {.meaning = "two names of materials of grains (\"grain\": that of grain.*), or of one and a wall.body",
+    {.meaning = "two names of materials of grains (\"grain\": that of grain.*; also those of walls), or of "
+                "one and a wall.body",
      .presence = required});
   p("mu", &pair.mu,
     {.meaning = "sliding friction of these two",

@@ -65,17 +65,17 @@ void describe_free_body(Parameters& p, FreeConfig& f) {
       {.unit = "Pa",
        .meaning = "Young's modulus in contacts with other wall bodies",
        .range = within(1e4, 1e12),
-       .fallback = "grain.E",
+       .fallback = "that of material, or grain.E",
        .presence = optional});
     p("free.nu", &f.nu,
       {.meaning = "Poisson's ratio in contacts with other wall bodies",
        .range = {.lo = -1, .hi = 0.5},
-       .fallback = "grain.nu",
+       .fallback = "that of material, or grain.nu",
        .presence = unbounded});
     p("free.mu", &f.mu,
       {.meaning = "coefficient of sliding friction against other wall bodies",
        .range = within(0, 5),
-       .fallback = "grain.mu",
+       .fallback = "that of material, or grain.mu",
        .presence = unbounded});
     p("free.mu_r", &f.mu_r,
       {.meaning =
@@ -85,7 +85,7 @@ void describe_free_body(Parameters& p, FreeConfig& f) {
       {.meaning = "coefficient of restitution against other wall bodies, for a single contact",
        .range = within(0.05, 1),
        .hint = "give a fraction, not percent?",
-       .fallback = "grain.e",
+       .fallback = "that of material, or grain.e",
        .presence = optional});
     p("free.contact_radius", &f.contact_radius,
       {.unit = "m",

@@ -279,6 +279,10 @@ void describe_output(Parameters& p, OutputConfig& o) {
     {.meaning = "fields in frames, such as \"velocity\"; position, id, radius and body are always written",
      .fallback = "all",
      .presence = optional});
+  p("out.energy", &o.energy,
+    {.meaning =
+         "energy balance of the grains in diagnostics.csv: what contacts dissipate, the work of walls, "
+         "gravity and fluid, and the residual; evaluates contacts twice"});
   p("out.bodies", &o.bodies,
     {.meaning = "wall bodies with a table bodies/<name>.csv of motion, forces and power",
      .family = "outputs"});

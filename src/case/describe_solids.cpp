@@ -160,32 +160,38 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
      .fallback = "wall.dx; single_layer: at most fluid.dx/2",
      .presence = optional});
   if (b.stops_grains() || p.everything()) {
+    p("material", &b.material,
+      {.meaning =
+           "name of the grain.material of the wall; mu, mu_r and e on it are then the mean of the grain's "
+           "and its own",
+       .fallback = "as the grains on it",
+       .presence = optional});
     p("mu", &b.mu,
       {.meaning = "coefficient of sliding friction of grains on the wall",
        .range = within(0, 5),
-       .fallback = "grain.mu",
+       .fallback = "mean with material, or grain.mu",
        .presence = unbounded});
     p("mu_r", &b.mu_r,
       {.meaning = "coefficient of rolling friction of grains on the wall",
        .range = within(0, 1),
-       .fallback = "grain.mu_r",
+       .fallback = "mean with material, or grain.mu_r",
        .presence = unbounded});
     p("e", &b.e,
       {.meaning = "coefficient of restitution of grains on the wall",
        .range = within(least_restitution(contact), 1),
        .hint = "give a fraction, not percent?",
-       .fallback = "grain.e",
+       .fallback = "mean with material, or grain.e",
        .presence = optional});
     p("E", &b.E,
       {.unit = "Pa",
        .meaning = "Young's modulus of the wall",
        .range = within(1e4, 1e12),
-       .fallback = "grain.E",
+       .fallback = "that of material, or grain.E",
        .presence = optional});
     p("nu", &b.nu,
       {.meaning = "Poisson's ratio of the wall",
        .range = {.lo = -1, .hi = 0.5},
-       .fallback = "grain.nu",
+       .fallback = "that of material, or grain.nu",
        .presence = unbounded});
   }
   body_motion(p, b.motion);
@@ -286,8 +292,7 @@ void grain_fill(Parameters& p, GrainFill& f) {
        .presence = optional});
     p("packing_fraction", &f.packing_fraction,
       {.meaning = "volume fraction of grains in the box or shape; alternative to count and mass",
-       .range = above_to(0, 0.64),
-       .hint = "0.64 is random close packing",
+       .range = above_to(0, 1),
        .fallback = "one of three required",
        .presence = optional});
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace bedload {
@@ -144,6 +145,35 @@ double count_for_volume(const std::vector<SizeClass>& sizes, double volume) {
     n = next;
   }
   return n;
+}
+
+double densest_packing(const std::vector<SizeClass>& sizes) {
+  constexpr double kEqual = 0.64;  // of equal grains
+  // volumes in classes of ln d, each some 5 % wide
+  std::map<int, double> volumes;
+  const double step = std::log(1.05);
+  double total = 0;
+  for (const SizeClass& size : sizes) {
+    const auto part = quantiles(size, size.kind == SizeKind::one_size ? 1 : std::size_t(kSample));
+    for (const double d : part) {
+      const double volume = size.number_fraction * sphere(d) / double(part.size());
+      volumes[int(std::lround(std::log(d) / step))] += volume;
+      total += volume;
+    }
+  }
+  // each class in turn fills what the others leave: larger ones are obstacles with walls, smaller ones loosen
+  double densest = 1;
+  for (const auto& [own, unused] : volumes) {
+    double taken = 0;
+    for (const auto& [other, volume] : volumes) {
+      const double ratio = std::exp(-step * std::abs(own - other));  // of the smaller to the larger
+      const double wall = 1 - std::pow(1 - ratio, 1.5), loosening = std::sqrt(1 - std::pow(1 - ratio, 1.02));
+      if (other > own) taken += volume / total * (1 - kEqual) * (1 - wall);
+      if (other < own) taken += volume / total * (1 - loosening);
+    }
+    densest = std::min(densest, kEqual / (1 - taken));
+  }
+  return densest;
 }
 
 }  // namespace bedload

@@ -77,12 +77,13 @@ SubstepLimits::SubstepLimits(const Config& c)
                         .inertia = reduced(a.inertia, b.inertia)});
     }
     for (const WallBody& body : c.wall.bodies) {
-      if ((body.E == 0 && !std::isfinite(body.nu)) || !takes_moduli(c.contact.normal)) continue;
+      const bool as_grains = body.E == 0 && !std::isfinite(body.nu) && body.material.empty();
+      if (as_grains || !takes_moduli(c.contact.normal)) continue;
       pairs_.push_back({.mass = a.mass,
                         .R = R,
                         .E_star = 1 / (a.compliance.normal + wall_compliance(body, g).normal),
                         .e = 1,
-                        .mu_r = surfaces(m, body, c.contact).mu_r,
+                        .mu_r = surfaces(m, body, g, c.contact).mu_r,
                         .inertia = a.inertia});
     }
   }

@@ -45,10 +45,11 @@ void resolve_free_bodies(Config& c, const Value& root) {
       if (!(p.moments[k] > 0 && 2 * p.moments[k] <= sum * (1 + 1e-9)))
         reject(root, path + ".inertia", fmt::format("[{}]", fmt::join(f.solid.inertia, ", ")),
                "must be of a solid: principal moments above 0, none above the sum of the other two");
-    if (f.E == 0) f.E = c.grain.E;
-    if (std::isinf(f.nu)) f.nu = c.grain.nu;
-    if (std::isinf(f.mu)) f.mu = c.grain.mu;
-    if (f.e == 0) f.e = c.grain.e;
+    const GrainMaterial of = c.grain.all_materials()[c.grain.material(body.material)];
+    if (f.E == 0) f.E = of.E;
+    if (std::isinf(f.nu)) f.nu = of.nu;
+    if (std::isinf(f.mu)) f.mu = of.mu;
+    if (f.e == 0) f.e = of.e;
     if (!f.balls.empty() && f.contact_spacing > 0)
       throw CaseError(
           fmt::format("{}: wall.body.free must have only one of contact and contact_spacing", place));

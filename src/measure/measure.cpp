@@ -322,6 +322,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     out.push_back({"grain_rotational_energy", "J", s.rotational});
     out.push_back({"grain_potential_energy", "J", -s.mass * dot(config_.gravity, s.centre)});
     out.push_back({"grain_elastic_energy", "J", s.elastic});
+    for (const Quantity& q : stepper_.solids().energy_terms(state_.grains)) out.push_back(q);
     out.push_back({"grain_speed_max", "m/s", stepper_.grain_watch().speed});
     out.push_back({"overlap_max", "-", s.max_overlap});
     out.push_back({"coordination_number", "-", s.coordination});

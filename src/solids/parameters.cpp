@@ -22,12 +22,12 @@ ContactLaw law_between(const GrainMaterial& a, const GrainMaterial& b, const Con
 
 /// The same between grains and a wall body.
 ContactLaw law_between(const GrainMaterial& material, const WallBody& body, const Config& config) {
-  const GrainConfig& g = config.grain;
-  const ElasticCompliance grain(material.E, material.nu), wall = wall_compliance(body, g);
-  const SurfacePair both = surfaces(material, body, config.contact);
+  const Elasticity of_wall = wall_elasticity(body, config.grain);
+  const ElasticCompliance grain(material.E, material.nu), wall(of_wall.E, of_wall.nu);
+  const SurfacePair both = surfaces(material, body, config.grain, config.contact);
   return make_contact_law({.normal = grain.normal + wall.normal,
                            .tangential = grain.tangential + wall.tangential,
-                           .nu = 0.5 * (material.nu + (std::isfinite(body.nu) ? body.nu : g.nu)),
+                           .nu = 0.5 * (material.nu + of_wall.nu),
                            .mu = both.mu,
                            .mu_r = both.mu_r,
                            .e = both.e,
@@ -49,7 +49,8 @@ SolidParameters solid_parameters(const Config& config) {
                     .drag_fraction = config.time.drag,
                     .limits = SubstepLimits(config),
                     .reflect = config.domain.reflect,
-                    .plane = config.domain.two_d};
+                    .plane = config.domain.two_d,
+                    .energy = config.out.energy};
   for (const GrainMaterial& a : p.materials)
     for (const GrainMaterial& b : p.materials) p.pair_laws.push_back(law_between(a, b, config));
   for (const WallBody& body : config.wall.bodies)

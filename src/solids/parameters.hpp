@@ -35,7 +35,8 @@ struct SolidParameters {
   SubstepLimits limits;
   ReflectConfig reflect;
   std::vector<RigidGroup> groups = {};
-  bool plane = false;  ///< groups move in the xz plane
+  bool plane = false;   ///< groups move in the xz plane
+  bool energy = false;  ///< its flows are counted
 
   std::uint32_t bodies() const { return std::uint32_t(wall_laws.size() / materials.size()); }  ///< of walls
 };

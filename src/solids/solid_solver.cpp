@@ -49,6 +49,7 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
   if (parameters.materials.size() > 1) pair_laws_.assign(parameters.pair_laws);
   with_contact_law(parameters.pair_laws, [&]<class Law>(std::type_identity<Law>) { use_pair_law<Law>(); });
   choose_wall_law();
+  if (parameters.energy) books_ = std::make_unique<EnergyBooks>();
   if (walls.contacts() == 0) return;
   wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
   wall_contacts_->resize(grains.size());
@@ -161,6 +162,7 @@ ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses,
 }
 
 void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
+  if (books_) books_->forget();
   FreeBodies* const free = moving();
   wall_list_.cover(g, poses, wall_counts(), 0);
   const ContactPass contacts = contacts_at(g, poses.data, 0, free ? free->record(g.size()) : ContactLoads{});
@@ -209,6 +211,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     kick.fluid_force = g.fluid_force;
     kick.drag = drag_of(std::as_const(g));
   }
+  if (books_) begin_books(g, poses.data, kick, substeps);
   const Velocities<Real3> rest{v_rest_, omega_rest_};
   for_each(g.owned(), FirstKickPass{.kick = kick,
                                     .force = g.force,
@@ -219,6 +222,9 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                                     .impulses = {g.impulse, g.spin_impulse}});
   groups_.follow(g, rest, tau);
   for (int s = 1; s <= substeps; ++s) {
+    if (books_)
+      count_flows(g, poses.data + std::size_t(s) * bodies, tau, kick,
+                  gravity.empty() ? kick.gravity : 0.5 * (kick.gravity + gravity[s]));
     const ContactPass contacts = contacts_in(s);
     if (!gravity.empty()) kick.gravity = gravity[s];
     (this->*end_substep_)(g, contacts, kick, dt, s == substeps);
@@ -231,6 +237,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
       groups_.follow(g, {}, 0);
     if (free) free->substep(s), record_loads(s, *free);
   }
+  if (books_) end_books(g, kick);
 }
 
 template <class Law>

@@ -12,6 +12,7 @@
 #include "kernels/contact/lubrication_pass.hpp"
 #include "kernels/contact/registry.hpp"
 #include "kernels/stress/pair_moment.hpp"
+#include "src/solids/energy_books.hpp"
 #include "src/solids/grain_matter.hpp"
 #include "src/solids/pair_histories.hpp"
 #include "src/solids/parameters.hpp"
@@ -97,7 +98,8 @@ class SolidSolver {
                Span<const Real3> drive = {});
 
   ParticleBytes scratch_bytes() const {
-    return {.grains = of_grains_.entry_bytes(), .near_grains = sizeof(Index) + histories_.entry_bytes()};
+    return {.grains = of_grains_.entry_bytes() + (books_ ? EnergyBooks::kScratch : 0),
+            .near_grains = sizeof(Index) + histories_.entry_bytes() + (books_ ? sizeof(ContactAction) : 0)};
   }
 
   /// Histories of wall contacts.
@@ -107,6 +109,14 @@ class SolidSolver {
   const RigidGroups& groups() const { return groups_; }
 
   GrainTotals totals(const GrainStore& grains) const;
+  /// Where energy has gone since grains began to move; empty if the case does not ask.
+  std::vector<Quantity> energy_terms(const GrainStore& grains) const;
+  void save(std::vector<Quantity>& scalars) const {
+    if (books_) books_->save(scalars);
+  }
+  void load(const std::vector<Quantity>& scalars) {
+    if (books_) books_->load(scalars);
+  }
   /// Number of contacts of grains with walls that are left out (kMostWallContacts). poses: as in body_loads.
   double dropped_contacts(const GrainStore& grains, Span<const BodyPose> poses) const;
   /// Load of the grains on each wall body, about its centre; poses: [bodies] on the device.
@@ -168,6 +178,15 @@ class SolidSolver {
     else
       for_each(threads(), pass);
   }
+  double energy(const GrainStore& grains) const;  ///< kinetic and elastic, J
+  /// Notes what acts at the start of an advance, at these poses.
+  void begin_books(const GrainStore& grains, const BodyPose* poses, const GrainKick& kick, int substeps);
+  /// Flows of energy in a substep dt, before its contacts are evaluated; gravity: its mean, m/s2.
+  void count_flows(const GrainStore& grains, const BodyPose* poses, double dt, const GrainKick& kick,
+                   const Vec3d& gravity);
+  void end_books(const GrainStore& grains, const GrainKick& kick);
+  KickFlow kick_flow(const GrainStore& grains, double dt, const GrainKick& kick, const Vec3d& gravity,
+                     bool begins) const;
   /// What the grains do in substep s to bodies with prescribed motion. dt: of the substep, s: before contacts
   /// are evaluated, which moves their springs; 0: after.
   void record_loads(int s, const GrainStore& grains, const BodyPose* poses, double dt);
@@ -201,7 +220,8 @@ class SolidSolver {
   PairHistoryBuffers old_histories_;
   WallList wall_list_;
   SubstepLoads substep_loads_;
-  Buffer<ContactSum> by_walls_;  ///< [rows of wall_list_]
+  std::unique_ptr<EnergyBooks> books_;  ///< null: not asked for
+  Buffer<ContactSum> by_walls_;         ///< [rows of wall_list_]
   Buffer<Index> order_;
   Scratch of_grains_;
   ScratchArray<ContactSum> by_films_{of_grains_, lubricates()};

@@ -150,6 +150,7 @@ void Stepper::save(SavedState& out) const {
   out.scalars.push_back({"rebuilds", "-", double(rebuilds_)});
   if (has_fluid()) fluid_solver_->save(out.scalars);
   if (coupled()) coupling_->save(out.scalars);
+  if (has_grains()) solid_solver_->save(out.scalars);
 }
 
 void Stepper::load(const SavedState& saved) {
@@ -162,7 +163,7 @@ void Stepper::load(const SavedState& saved) {
     corrected_ = 0;
   }
   if (coupled()) coupling_->load(scalar);
-  if (has_grains()) load_grain_store(saved);
+  if (has_grains()) load_grain_store(saved), solid_solver_->load(saved.scalars);
   if (has_fluid()) fluid_solver_->keep_own(fluid_, walls_, true);
   restore_lists(saved);
   if (has_fluid()) fluid_solver_->survey(fluid_);

@@ -36,8 +36,14 @@ TEST(ContactPairs, ComeBeforeTheWallAndTheMean) {
   is(surfaces(own, steel, c.contact), 0.4, 0.02, 0.7);
   is(surfaces(steel, rubber, c.contact), 0.7, 0.02, 0.7);
   is(surfaces(rubber, steel, c.contact), 0.7, 0.02, 0.7);
-  is(surfaces(steel, c.wall.bodies[0], c.contact), 0.6, 0.3, 0.5);
-  is(surfaces(own, c.wall.bodies[0], c.contact), 0.6, 0.2, 0.4);
+  const auto on_wall = [&](const GrainMaterial& m) {
+    return surfaces(m, c.wall.bodies[0], c.grain, c.contact);
+  };
+  is(on_wall(steel), 0.6, 0.3, 0.5);
+  is(on_wall(own), 0.6, 0.2, 0.4);
+  c.wall.bodies[0].material = "rubber";
+  is(on_wall(steel), 0.7, 0.3, 0.7);
+  is(on_wall(own), 0.6, 0.2, 0.4);
   EXPECT_TRUE(read(resolved_toml(c)) == c) << resolved_toml(c);
 }
 

@@ -201,8 +201,15 @@ INSTANTIATE_TEST_SUITE_P(
               "[couple]\nmode = \"one_way\"\n[time]\nend = 0.3\ncfl = 0.4\nintegrator = \"ab3\"",
               "dam.toml:25: time.cfl = 0.4 must be <= 0.3 with time.integrator = \"ab3\""},
         Wrong{"count = 500", "packing_fraction = 0.7",
-              "dam.toml:20: grain.fill.packing_fraction = 0.7 must be > 0 and <= 0.64; 0.64 is random close "
-              "packing"},
+              "dam.toml:20: grain.fill.packing_fraction = 0.7 must be <= 0.64, the densest random packing of "
+              "these sizes"},
+        Wrong{"count = 500", "packing_fraction = 1.1",
+              "dam.toml:20: grain.fill.packing_fraction = 1.1 must be > 0 and <= 1"},
+        Wrong{"every = 0.01", "every = 0.01\nenergy = true\n[lubrication]\nforces = \"normal\"",
+              "dam.toml:25: out.energy = true must be false with lubrication.forces, whose losses are not "
+              "counted"},
+        Wrong{"[grain]\nd = 0.002", "material = \"iron\"\n[grain]\nd = 0.002",
+              "dam.toml:15: wall.body.material = \"iron\" must name a grain.material; this case has none"},
         Wrong{"[time]", "[drag]\nlaw = \"gidspow\"\n[time]",
               "dam.toml:22: drag.law = \"gidspow\" must be one of " + names_of<DragLaw>()},
         Wrong{"title = \"dam\"", "preset = \"hee\"",
@@ -258,9 +265,7 @@ INSTANTIATE_TEST_SUITE_P(
               "dam.toml:23: time.dt_dem = 0.0001 must be <= 5.473e-06; limited by rayleigh (time.rayleigh)"},
         Wrong{"d = 0.002", "d = 0.02",
               "dam.toml:20: grain.fill.count = 500 must fit the space to fill; it takes 419 % where 64 % is "
-              "the "
-              "densest random "
-              "packing"},
+              "the densest random packing of these sizes"},
         Wrong{"shape = \"tank\"", "shape = \"tank\"\nnormal = [0, 0, 1]",
               "dam.toml:13: wall.body.normal = [0, 0, 1] is not used by the chosen options; remove it"},
         Wrong{"[out]", "[[probe]]\nname = \"f\"\ntype = \"force\"\nbody = \"gate\"\n[out]",

@@ -207,5 +207,28 @@ TEST(GrainSizes, ErrorsNameTheEntryAtFault) {
             "dam.toml:17: grain.fill = 0.0003306..0.0121 m must span at most a factor of 20 in diameter");
 }
 
+/// Two sizes of `ratio`, of which the fine ones have this fraction of the mass.
+double densest_of_two(double ratio, double fine) {
+  SizeClass large, small;
+  large.d = 0.01, small.d = 0.01 / ratio;
+  large.number_fraction = 1 - fine, small.number_fraction = fine * ratio * ratio * ratio;
+  return densest_packing({large, small});
+}
+
+TEST(GrainSizes, UnlikeSizesPackDenser) {
+  SizeClass one;
+  one.d = 0.003;
+  EXPECT_NEAR(densest_packing({one}), 0.64, 1e-12);
+  // the fine ones fill the 36 % between the coarse ones by 64 %: 0.2304 / 0.8704 of the volume
+  EXPECT_NEAR(densest_of_two(1e6, 0.2304 / 0.8704), 1 - 0.36 * 0.36, 1e-3);
+  EXPECT_NEAR(densest_of_two(1e6, 0.1), 0.64 / 0.9, 1e-3) << "few fine ones between coarse ones that touch";
+  EXPECT_NEAR(densest_of_two(1e6, 0.6), 0.64 / (1 - 0.36 * 0.4), 1e-3) << "coarse ones among fine ones";
+  EXPECT_GT(densest_of_two(5, 0.3), densest_of_two(2, 0.3) + 0.03);
+  EXPECT_GT(densest_of_two(2, 0.3), 0.64);
+  const double wide = densest_packing({log_normal(0.002, 0.4, 0.0008, 0.005)});
+  EXPECT_GT(wide, 0.65);
+  EXPECT_LT(wide, 0.75);
+}
+
 }  // namespace
 }  // namespace bedload::test

@@ -61,6 +61,22 @@ TEST(SmallCoupled, MomentumOfFluidAndGrainsIsKept) {
   }
 }
 
+TEST(SmallCoupled, EnergyOfGrainsFollowsTheWorkOnThem) {
+  for (const std::string integrator : {"exponential", "explicit"}) {
+    Slurry slurry(6, 0.2);
+    slurry.config.out.energy = true;
+    slurry.config.gravity = {0, 0, -9.81};
+    slurry.config.couple.integrator = integrator;
+    auto s = started(slurry.config, slurry.setup);
+    for (int k = 0; k < 40; ++k) s->step();
+    const auto d = s->diagnostics();
+    const double work = std::abs(reading(d, "grain_work_fluid"));
+    EXPECT_GT(work, 0.1 * reading(d, "grain_kinetic_energy"));
+    EXPECT_GT(std::abs(reading(d, "grain_work_gravity")), 1e-3 * work);
+    EXPECT_LT(std::abs(reading(d, "grain_energy_residual")), 1e-3 * work) << integrator;
+  }
+}
+
 TEST(SmallCoupled, RestartContinuesBitForBit) {
   struct Variant {
     std::string integrator, drag;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/geometry/mesh_support.hpp"
 #include "tests/support/free_body.hpp"
 #include "tests/support/saddle.hpp"
 
@@ -31,6 +32,14 @@ WallBody fixed_sphere(int side) {
   return test::shaped("sphere " + std::to_string(side),
                       make_sphere(kSaddle.large(side), kSaddle.ratio * kSaddle.R));
 }
+/// The same of triangles, whose neighbours lean 3 degrees.
+WallBody fixed_mesh(int side) {
+  TriangleSoup soup = test::ball(5);
+  for (Vec3d& x : soup.vertices) x *= kSaddle.ratio * kSaddle.R;
+  soup = test::moved(soup, kSaddle.large(side));
+  return test::shaped("mesh " + std::to_string(side), std::make_shared<TriangleMesh>(soup, "ball"));
+}
+constexpr double kOnTriangles = 4;  ///< that they change the angle by, degrees
 
 /// Runs until it has fallen below the saddle; the angle at which it left.
 template <class Where, class Velocity>
@@ -59,28 +68,35 @@ TEST(Saddle, AGrainRollsOffTwoLargerGrains) {
   EXPECT_NEAR(released_grain(*s), kSaddle.release(kStart), 1);
 }
 
-TEST(Saddle, AGrainRollsOffTwoWalls) {
+double off_walls(WallBody (*wall)(int)) {
   Config c = gripping();
   c.grain.present = true;
-  c.wall.bodies = {fixed_sphere(0), fixed_sphere(1)};
+  c.wall.bodies = {wall(0), wall(1)};
   bedload::Setup setup;
   add(setup, kSaddle.start(kStart), kSaddle.R, 0);
   auto s = started(c, setup);
-  EXPECT_NEAR(released_grain(*s), kSaddle.release(kStart), 1);
+  return released_grain(*s);
+}
+TEST(Saddle, AGrainRollsOffTwoWalls) {
+  EXPECT_NEAR(off_walls(fixed_sphere), kSaddle.release(kStart), 1);
+  EXPECT_NEAR(off_walls(fixed_mesh), kSaddle.release(kStart), kOnTriangles);
 }
 
-TEST(Saddle, AFreeBallRollsOffTwoWalls) {
+double ball_off_walls(WallBody (*wall)(int)) {
   Config c = gripping();
   WallBody ball = test::shaped("ball", make_sphere(kSaddle.start(kStart), kSaddle.R));
   set_free(ball, c.grain.rho);
   ball.free.mu = 5, ball.free.e = 0.5;
   ball.free.balls = {{kSaddle.start(kStart), kSaddle.R}};
-  c.wall.bodies = {fixed_sphere(0), fixed_sphere(1), ball};
+  c.wall.bodies = {wall(0), wall(1), ball};
   auto s = started(c);
-  EXPECT_NEAR(released(
-                  *s, [&] { return vector_of(s->body_state(2), "centre"); },
-                  [&] { return vector_of(s->body_state(2), "velocity"); }),
-              kSaddle.release(kStart), 1);
+  return released(
+      *s, [&] { return vector_of(s->body_state(2), "centre"); },
+      [&] { return vector_of(s->body_state(2), "velocity"); });
+}
+TEST(Saddle, AFreeBallRollsOffTwoWalls) {
+  EXPECT_NEAR(ball_off_walls(fixed_sphere), kSaddle.release(kStart), 1);
+  EXPECT_NEAR(ball_off_walls(fixed_mesh), kSaddle.release(kStart), kOnTriangles);
 }
 
 }  // namespace

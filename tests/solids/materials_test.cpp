@@ -78,6 +78,27 @@ TEST(MaterialsSmall, FrictionIsTheMeanAndTheOwnOnWalls) {
   EXPECT_NEAR(-b.force(2).x / b.force(2).z, 0.6, 1e-3);
 }
 
+/// Of their pair, else the wall's own, else the mean of both materials.
+TEST(MaterialsSmall, WallsMayBeOfAMaterial) {
+  MixedBench b;
+  b.plane({0, 0, 0}, {0, 0, 1});
+  WallBody& wall = b.config.wall.bodies[0];
+  wall.name = "liner", wall.material = "steel";
+  const auto law = [&](int grain) { return solid_parameters(b.config).wall_laws[std::size_t(grain)]; };
+  EXPECT_NEAR(law(0).mu, 0.4, 1e-6) << "mean of 0.2 and 0.6";
+  EXPECT_NEAR(law(2).mu, 0.75, 1e-6);
+  for (int grain = 0; grain < 3; ++grain) EXPECT_NEAR(law(grain).normal.E_star / b.E_star(grain, 1), 1, 1e-6);
+  wall.mu = 0.1;
+  EXPECT_NEAR(law(0).mu, 0.1, 1e-6) << "its own";
+  b.config.contact.pairs = {{{"steel", "grain"}, 0.33, kOfEach, 0}};
+  EXPECT_NEAR(law(0).mu, 0.33, 1e-6) << "of the pair of materials";
+  EXPECT_NEAR(law(2).mu, 0.1, 1e-6);
+  b.config.contact.pairs.push_back({{"grain", "liner"}, 0.44, kOfEach, 0});
+  EXPECT_NEAR(law(0).mu, 0.44, 1e-6) << "of grain and body";
+  wall.E = 1e6;
+  EXPECT_GT(b.E_star(0, 1) / law(0).normal.E_star, 2) << "its own modulus";
+}
+
 /// Head on, of each pair, with the restitution of its own.
 TEST(Materials, PairsReboundByTheirOwnRestitution) {
   MixedBench b;

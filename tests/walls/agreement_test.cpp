@@ -129,7 +129,10 @@ struct DrumBed {
     for (int k = 0; k < 2; ++k)
       for (int j = 0; j < 5; ++j)
         for (int i = 0; i < 6; ++i)
-          b.add(Vec3d{2.1 * (i - 2.5) + 0.05 * j, -5.9 + 2.1 * j + 0.02 * k, 1.1 + 2.1 * k} * R);
+          // not in two planes: those hold until round-off has grown, and lean 15 degrees less
+          b.add(Vec3d{2.1 * (i - 2.5) + 0.05 * j, -5.9 + 2.1 * j + 0.02 * k,
+                      1.1 + 2.1 * k + 0.02 * ((i + 2 * j) % 5)} *
+                R);
     b.start();
     b.run(dt, 10000);
     constexpr int kBlocks = 10, kLooks = 200;
@@ -166,7 +169,7 @@ TEST(SlowWallAgreement, ADrumAsCylinderAndAsMeshCarriesABedAlike) {
   const double lever_error = 3 * std::sqrt(exact.lever.error2() + mesh.lever.error2());
   EXPECT_NEAR(mesh.lean.value(), exact.lean.value(), lean_error);
   EXPECT_NEAR(mesh.lever.value(), exact.lever.value(), lever_error);
-  EXPECT_LT(lean_error, 6) << "degrees: the means say something";
+  EXPECT_LT(lean_error, 8) << "degrees: the means say something";
   EXPECT_LT(lever_error, 0.2 * exact.lever.value());
 }
 

@@ -26,4 +26,9 @@ double mean_volume(const std::vector<SizeClass>& sizes, std::size_t count);
 /// The number of grains that fill `volume` m3 best, as a real number near a whole one.
 double count_for_volume(const std::vector<SizeClass>& sizes, double volume);
 
+/// Volume fraction of the densest random packing of such grains: 0.64 for equal ones, up to
+/// 1 - 0.36^2 = 0.870 for two very unlike sizes [furnas31], by the linear packing
+/// density model between [stovall86].
+double densest_packing(const std::vector<SizeClass>& sizes);
+
 }  // namespace bedload

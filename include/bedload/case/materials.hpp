@@ -20,9 +20,17 @@ struct ElasticCompliance {
       : normal((1 - nu * nu) / E), tangential(2 * (1 + nu) * (2 - nu) / E) {}
 };
 
-/// Of a wall body: its own material, or that of the grains where it names none.
+struct Elasticity {
+  double E, nu;  ///< Pa, -
+};
+/// Of a wall body: its own, else that of its material, else that of grain.*.
+inline Elasticity wall_elasticity(const WallBody& body, const GrainConfig& grain) {
+  const GrainMaterial of = grain.all_materials()[grain.material(body.material)];
+  return {body.E > 0 ? body.E : of.E, std::isfinite(body.nu) ? body.nu : of.nu};
+}
 inline ElasticCompliance wall_compliance(const WallBody& body, const GrainConfig& grain) {
-  return {body.E > 0 ? body.E : grain.E, std::isfinite(body.nu) ? body.nu : grain.nu};
+  const Elasticity own = wall_elasticity(body, grain);
+  return {own.E, own.nu};
 }
 
 /// How two surfaces slide, roll and rebound.
@@ -41,15 +49,24 @@ struct SurfacePair {
   }
 };
 inline std::string name_in_pairs(const GrainMaterial& m) { return m.name.empty() ? kMainMaterial : m.name; }
+/// Of both, the mean.
+inline SurfacePair mean(const GrainMaterial& a, const GrainMaterial& b) {
+  return {0.5 * (a.mu + b.mu), 0.5 * (a.mu_r + b.mu_r), 0.5 * (a.e + b.e)};
+}
 /// Two grains: of their pair, else the mean of both.
 inline SurfacePair surfaces(const GrainMaterial& a, const GrainMaterial& b, const ContactConfig& contact) {
-  const SurfacePair mean{0.5 * (a.mu + b.mu), 0.5 * (a.mu_r + b.mu_r), 0.5 * (a.e + b.e)};
-  return mean.in(contact, name_in_pairs(a), name_in_pairs(b));
+  return mean(a, b).in(contact, name_in_pairs(a), name_in_pairs(b));
 }
-/// A grain and a wall body: of their pair, else the body's, else the grain's.
-inline SurfacePair surfaces(const GrainMaterial& a, const WallBody& body, const ContactConfig& contact) {
-  const SurfacePair own{std::isfinite(body.mu) ? body.mu : a.mu,
-                        std::isfinite(body.mu_r) ? body.mu_r : a.mu_r, body.e > 0 ? body.e : a.e};
+/// A grain and a wall body: of their pair, or the pair of the grain and the body's material; else the body's;
+/// else the mean with its material, or the grain's if it has none.
+inline SurfacePair surfaces(const GrainMaterial& a, const WallBody& body, const GrainConfig& grain,
+                            const ContactConfig& contact) {
+  SurfacePair own{a.mu, a.mu_r, a.e};
+  if (!body.material.empty()) own = mean(a, grain.all_materials()[grain.material(body.material)]);
+  if (std::isfinite(body.mu)) own.mu = body.mu;
+  if (std::isfinite(body.mu_r)) own.mu_r = body.mu_r;
+  if (body.e > 0) own.e = body.e;
+  if (!body.material.empty()) own = own.in(contact, name_in_pairs(a), body.material);
   return own.in(contact, name_in_pairs(a), body.name);
 }
 

@@ -38,6 +38,7 @@ struct OutputConfig {
   double checkpoint_every = 0;                 ///< s; 0: only at the end
   bool walls = true;                           ///< write walls.vtkhdf
   std::vector<std::string> fields;             ///< names of arrays in frames; empty: all
+  bool energy = false;                         ///< energy balance of the grains
   Chosen<BodyTables> bodies = BodyTables::moving;  ///< which have a bodies/*.csv
   std::vector<ProbeConfig> probes;
   bool operator==(const OutputConfig&) const = default;

@@ -70,6 +70,7 @@ struct WallBody {
   Vec3d surface_velocity;                      ///< of the surface in its own plane, as of a belt, in the body's axes, m/s
   Chosen<LayerForce> force = LayerForce::kajtar;  ///< of a single layer
   double dx = 0;                               ///< spacing of its particles, m; 0: wall.dx
+  std::string material;                        ///< which of grain.material; empty: its own keys, else as the grains
   double mu = std::numeric_limits<double>::infinity();    ///< sliding friction of grains on it (default grain.mu)
   double mu_r = std::numeric_limits<double>::infinity();  ///< rolling friction (default grain.mu_r)
   double e = 0;                                ///< restitution; 0: grain.e

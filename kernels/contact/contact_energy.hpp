@@ -1,0 +1,210 @@
+#pragma once
+// Where the energy of grains goes. In a substep dt a contact does the work
+//   W = dt/2 (P + P'),  P = F.v + T_i.omega_i + T_j.omega_j,
+// P by its forces now, P' by those at the end of the substep before, both with the velocities between them.
+// What it does not store it has dissipated: D = - W - (U - U'). The leapfrog changes kinetic energies by W,
+// but for terms that cancel from one substep to the next.
+
+#include "kernels/contact/wall_pass.hpp"
+
+namespace BL_SOLVER {
+
+/// Forces of a contact at the end of a substep, on the first grain.
+struct ContactAction {
+  Real3 normal, sliding;  ///< N
+  Real3 couple, rolling;  ///< of sliding, per arm, N; of rolling friction, N m
+
+  BL_HD static ContactAction of(const ContactForce& f, const ContactGeometry& at) {
+    const Real3 n = Real3(at.n), normal = dot(f.force, n) * n, sliding = f.force - normal;
+    const Real3 couple = cross(sliding, n);
+    return {normal, sliding, couple, f.torque_i - at.arm_i * couple};
+  }
+};
+
+/// Of two partners in the middle of a substep; walls have no arm.
+struct ContactMotion {
+  Real3 v, omega_i, omega_j;  ///< v = v_i - v_j
+  Real arm_i, arm_j;
+
+  BL_HD StoredEnergy power(const ContactAction& a) const {
+    return {double(dot(a.normal, v)),
+            double(dot(a.sliding, v) + dot(a.couple, arm_i * omega_i + arm_j * omega_j)),
+            double(dot(a.rolling, omega_i - omega_j))};
+  }
+};
+
+/// J: dissipated in contacts, work on the grains.
+struct EnergyFlow {
+  enum Term { normal, sliding, rolling, walls, gravity, fluid, kTerms };
+  double of[kTerms];
+
+  BL_HD static EnergyFlow zero() {
+    EnergyFlow z;
+    for (double& term : z.of) term = 0;
+    return z;
+  }
+  BL_HD void add(const EnergyFlow& other) {
+    for (int k = 0; k < kTerms; ++k) of[k] += other.of[k];
+  }
+  /// What a contact dissipates in a substep of dt, from one action and stored energy to the next.
+  BL_HD void dissipate(const ContactMotion& motion, double dt, const ContactAction& before,
+                       const ContactAction& now, const StoredEnergy& had, const StoredEnergy& has) {
+    const StoredEnergy a = motion.power(before), b = motion.power(now);
+    of[normal] -= 0.5 * dt * (a.normal + b.normal) + has.normal - had.normal;
+    of[sliding] -= 0.5 * dt * (a.sliding + b.sliding) + has.sliding - had.sliding;
+    of[rolling] -= 0.5 * dt * (a.rolling + b.rolling) + has.rolling - had.rolling;
+  }
+};
+
+/// Sums flows over a range.
+struct FlowReduction {
+  using Value = EnergyFlow;
+  BL_HD Value identity() const { return Value::zero(); }
+  BL_HD void combine(Value& into, const Value& from) const { into.add(from); }
+};
+
+/// Contacts between grains, before they are evaluated: histories stay as they are. Each counts in the row of
+/// its lower id.
+struct PairFlow : FlowReduction {
+  ContactPass contacts;    ///< of the substep; dt = 0: notes what acts at its start
+  ContactAction* actions;  ///< [slots]
+
+  BL_HD Value operator()(Index i) const {
+    Value flow = Value::zero();
+    contacts.list.each(i, [&](std::uint64_t slot, Index j) {
+      if (contacts.grains.id[i] < contacts.grains.id[j]) add(i, j, slot, flow);
+    });
+    return flow;
+  }
+
+ private:
+  BL_HD void add(Index i, Index j, std::uint64_t slot, Value& flow) const {
+    const GrainView& g = contacts.grains;
+    const bool touched = contacts.histories.touching[slot];
+    const Vec3d r = g.frame.separation(g.x[i], g.x[j]);
+    const double reach = double(g.radius[i]) + double(g.radius[j]), distance = root(norm2(r));
+    const bool touches = distance < reach;
+    if (!touched && !touches) return;
+    const Sphere a = g.sphere(i), b = g.sphere(j);
+    const Real R_star = a.R * b.R / (a.R + b.R), m_star = a.m * b.m / (a.m + b.m);
+    const ContactLaw& law = contacts.law_of(i, j);
+    ContactMotion motion{g.v[i] - g.v[j], g.omega[i], g.omega[j], a.R, b.R};
+    ContactHistory h;
+    StoredEnergy had, has;
+    ContactAction before{}, now{};
+    if (touched) h = contacts.histories[slot], had = law.energy(R_star, m_star, h), before = actions[slot];
+    if (touches) {
+      const ContactGeometry at =
+          sphere_contact(a, b, r, distance, reach - distance, double(contacts.dt) * Vec3d(motion.v));
+      now = ContactAction::of(law(at, motion.v, motion.omega_i, motion.omega_j, contacts.dt, h), at);
+      has = law.energy(R_star, m_star, h);
+      motion.arm_i = at.arm_i, motion.arm_j = at.arm_j;
+    }
+    actions[slot] = now;
+    if (contacts.dt > 0) flow.dissipate(motion, contacts.dt, before, now, had, has);
+  }
+};
+
+/// The same of contacts with walls, over the grains near them, and the work of the walls.
+struct WallFlow : FlowReduction {
+  WallContacts contacts;
+  WallRows rows;
+  ContactAction* actions;  ///< [capacity][grains], as memories
+
+  BL_HD Value operator()(Index row) const {
+    const Index i = rows.grain[row];
+    const GrainView& g = contacts.grains;
+    const WallMemories memories = contacts.memories(i);
+    const Sphere own = g.sphere(i);
+    const double dt = contacts.dt;
+    Value flow = Value::zero();
+    RawArray<ContactAction, kMostWallContacts> now;
+    unsigned kept = 0;  // memories that contacts continue, by bits
+    int n = 0;
+    const auto count = [&](const BodyPose& pose, const Vec3d& v_wall, Real arm, const ContactAction& before,
+                           const ContactAction& after, const StoredEnergy& had, const StoredEnergy& has) {
+      flow.dissipate({g.v[i] - Real3(v_wall), g.omega[i], Real3(pose.omega), arm, 0}, dt, before, after, had,
+                     has);
+      const auto work = [&](const ContactAction& a) {
+        return dot(Vec3d(a.normal + a.sliding), v_wall) + dot(Vec3d(a.rolling), pose.omega);
+      };
+      flow.of[EnergyFlow::walls] += 0.5 * dt * (work(before) + work(after));
+    };
+    const auto memory_energy = [&](Index k) {
+      return contacts.law(body_of(memories[k]), i).energy(own.R, own.m, memories[k].history);
+    };
+    contacts.each(
+        Lane(i, 0), i, rows.count[row], [&](Index k) { return rows(row, k); }, false,
+        [&](std::uint32_t body, const WallContacts::Contact& c, const WallContacts::Course& course) {
+          now[n] = ContactAction::of(c.on_grain, course.at);
+          ContactAction before{};
+          StoredEnergy had;
+          if (course.from != kNone) {
+            kept |= 1u << course.from;
+            before = action(course.from, i), had = memory_energy(course.from);
+          }
+          if (dt > 0)
+            count(contacts.poses[body], course.v_wall, course.at.arm_i, before, now[n], had,
+                  course.law.energy(own.R, own.m, course.after));
+          ++n;
+        });
+    for (Index k = 0; dt > 0 && k < memories.count(); ++k) {
+      if (kept >> k & 1) continue;  // else it has ended
+      const BodyPose& pose = contacts.poses[body_of(memories[k])];
+      const Vec3d point = g.x[i] - double(own.R) * memories[k].normal;
+      count(pose, contacts.surface_velocity(pose, contacts.arm(pose, point)), own.R, action(k, i), {},
+            memory_energy(k), {});
+    }
+    for (int k = 0; k < n; ++k) action(Index(k), i) = now[k];
+    return flow;
+  }
+
+ private:
+  BL_HD std::uint32_t body_of(const WallMemory& memory) const {
+    return contacts.walls.surfaces[memory.surface()].body;
+  }
+  BL_HD ContactAction& action(Index k, Index i) const {
+    return actions[std::size_t(k) * contacts.grains.x.size + i];
+  }
+};
+
+/// Motion of a grain, and what drag has given it, at the last look.
+struct GrainCourse {
+  Real3 v, omega;                  ///< m/s, rad/s
+  Real3 impulse, angular_impulse;  ///< N s, N m s
+};
+
+/// Work of gravity and of the fluid since the last look: of what is constant between two kicks with the
+/// velocity there, of drag with the mean of those before and after.
+struct KickFlow : FlowReduction {
+  GrainView grains;
+  Vec3d gravity;  ///< mean over the substep, m/s2
+  double dt;      ///< s; 0: drag alone
+  Span<const Real3> fluid_force, drive;
+  Span<const Real3> impulse, angular_impulse;  ///< of drag in this advance so far; empty without fluid
+  GrainCourse* course;                         ///< [grains]; null without fluid
+  bool begins = false;                         ///< notes how an advance starts
+
+  BL_HD Value operator()(Index i) const {
+    Value flow = Value::zero();
+    const Vec3d v(grains.v[i]), omega(grains.omega[i]);
+    flow.of[EnergyFlow::gravity] = dt * grains.mass(i) * dot(gravity, v);
+    Vec3d force;
+    if (fluid_force) force += Vec3d(fluid_force[i]);
+    if (drive) force += Vec3d(drive[i]);
+    flow.of[EnergyFlow::fluid] = dt * dot(force, v);
+    if (!course) return flow;
+    GrainCourse now{grains.v[i], grains.omega[i], {}, {}};
+    if (!begins) {
+      const GrainCourse& was = course[i];
+      now.impulse = impulse[i], now.angular_impulse = angular_impulse[i];
+      flow.of[EnergyFlow::fluid] +=
+          0.5 * (dot(Vec3d(now.impulse - was.impulse), v + Vec3d(was.v)) +
+                 dot(Vec3d(now.angular_impulse - was.angular_impulse), omega + Vec3d(was.omega)));
+    }
+    course[i] = now;
+    return flow;
+  }
+};
+
+}  // namespace BL_SOLVER

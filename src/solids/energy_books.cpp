@@ -1,0 +1,88 @@
+#include "src/solids/energy_books.hpp"
+
+#include "kernels/integrate/grain_kick.hpp"
+#include "src/solids/solid_solver.hpp"
+
+namespace BL_SOLVER {
+namespace {
+
+constexpr const char* kTerms[EnergyFlow::kTerms] = {"dissipated_normal",  "dissipated_sliding",
+                                                    "dissipated_rolling", "work_walls",
+                                                    "work_gravity",       "work_fluid"};
+std::string name_of(int term) { return std::string("grain_") + kTerms[term]; }
+
+}  // namespace
+
+std::vector<Quantity> EnergyBooks::terms(double energy) const {
+  std::vector<Quantity> out;
+  double residual = begun_ ? energy - start_ : 0;
+  for (int k = 0; k < EnergyFlow::kTerms; ++k) {
+    out.push_back({name_of(k), "J", sum_.of[k]});
+    residual += k < EnergyFlow::walls ? sum_.of[k] : -sum_.of[k];
+  }
+  out.push_back({"grain_energy_residual", "J", residual});
+  return out;
+}
+
+void EnergyBooks::save(std::vector<Quantity>& scalars) const {
+  scalars.push_back({"grain_energy_counted", "-", begun_ ? 1.0 : 0.0});
+  scalars.push_back({"grain_energy_start", "J", start_});
+  for (int k = 0; k < EnergyFlow::kTerms; ++k) scalars.push_back({name_of(k), "J", sum_.of[k]});
+}
+
+void EnergyBooks::load(const std::vector<Quantity>& scalars) {
+  for (const Quantity& q : scalars) {
+    if (q.name == "grain_energy_counted") begun_ = q.value != 0;
+    if (q.name == "grain_energy_start") start_ = q.value;
+    for (int k = 0; k < EnergyFlow::kTerms; ++k)
+      if (q.name == name_of(k)) sum_.of[k] = q.value;
+  }
+}
+
+double SolidSolver::energy(const GrainStore& g) const {
+  const GrainTotals t = totals(g);
+  return t.kinetic + t.rotational + t.elastic;
+}
+
+std::vector<Quantity> SolidSolver::energy_terms(const GrainStore& g) const {
+  return books_ ? books_->terms(energy(g)) : std::vector<Quantity>{};
+}
+
+void SolidSolver::begin_books(const GrainStore& g, const BodyPose* poses, const GrainKick& kick,
+                              int substeps) {
+  if (!books_->begun()) books_->begin(energy(g));
+  books_->begin_advance(substeps, list_.slots(), std::size_t(walls_.contacts()) * g.size(), g.size(),
+                        kick.wet());
+  count_flows(g, poses, 0, kick, {});
+}
+
+void SolidSolver::count_flows(const GrainStore& g, const BodyPose* poses, double dt, const GrainKick& kick,
+                              const Vec3d& gravity) {
+  if (parameters_.contacts) {
+    books_->count(g.owned(), PairFlow{{}, contact_pass(g, dt), books_->of_pairs()});
+    books_->count({0, wall_list_.size()},
+                  WallFlow{{}, wall_contacts(g, poses, dt), wall_list_.rows(), books_->at_walls()});
+  }
+  books_->count(g.owned(), kick_flow(g, dt, kick, gravity, dt == 0));
+}
+
+void SolidSolver::end_books(const GrainStore& g, const GrainKick& kick) {
+  if (kick.wet()) books_->count(g.owned(), kick_flow(g, 0, kick, {}, false));
+  books_->end_advance();
+}
+
+KickFlow SolidSolver::kick_flow(const GrainStore& g, double dt, const GrainKick& kick, const Vec3d& gravity,
+                                bool begins) const {
+  return {{},
+          view(g),
+          gravity,
+          dt,
+          kick.fluid_force,
+          kick.drive,
+          g.impulse.span(),
+          g.spin_impulse.span(),
+          books_->course(),
+          begins};
+}
+
+}  // namespace BL_SOLVER

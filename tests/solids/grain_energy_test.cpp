@@ -1,0 +1,189 @@
+// Where the energy of grains goes, against what is known exactly.
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "tests/support/free_body.hpp"
+#include "tests/support/grain_bench.hpp"
+
+namespace BL_SOLVER {
+namespace {
+
+using Terms = std::map<std::string, double>;
+
+Terms by_name(const std::vector<Quantity>& rows) {
+  Terms terms;
+  for (const Quantity& q : rows) terms[q.name] = q.value;
+  return terms;
+}
+Terms terms_of(const GrainBench& b) { return by_name(b.solver->energy_terms(*b.grains)); }
+double dissipated(Terms terms) {
+  return terms["grain_dissipated_normal"] + terms["grain_dissipated_sliding"] +
+         terms["grain_dissipated_rolling"];
+}
+
+TEST(GrainEnergy, IsCountedOnlyIfAskedFor) {
+  GrainBench b;
+  b.add({});
+  b.start();
+  EXPECT_TRUE(b.solver->energy_terms(*b.grains).empty());
+}
+
+/// Half of the reduced mass times v^2 (1 - e^2), in dashpots alone.
+TEST(GrainEnergy, AnImpactHeadOnDissipatesByItsRestitution) {
+  for (const double e : {0.5, 0.7, 0.9}) {
+    GrainBench b;
+    b.config.out.energy = true;
+    b.config.grain.e = e;
+    const double R = b.R(), speed = 0.2;
+    b.add({-1.001 * R, 0, 0}, {speed / 2, 0, 0});
+    b.add({1.001 * R, 0, 0}, {-speed / 2, 0, 0});
+    b.start();
+    b.run(b.contact_time(speed) / 200, 1000);
+    ASSERT_LT(b.velocity(0).x, 0);
+    const double lost = 0.5 * (b.mass() / 2) * speed * speed * (1 - e * e);
+    Terms terms = terms_of(b);
+    EXPECT_NEAR(terms["grain_dissipated_normal"] / lost, 1, 2e-3) << e;
+    EXPECT_NEAR(dissipated(terms) / lost, 1, 2e-3) << e;
+    EXPECT_LT(std::abs(terms["grain_energy_residual"]), 1e-3 * lost) << e;
+  }
+}
+
+/// Aslant, with spin and rolling friction, on another grain and on a wall that moves.
+TEST(GrainEnergy, TheResidualOfObliqueImpactsIsSmall) {
+  GrainBench b;
+  b.config.out.energy = true;
+  b.config.grain.mu_r = 0.1;
+  b.config.contact.rolling = "epsd";
+  const double R = b.R();
+  b.plane({0, 0, -0.01}, {0, 0, 1});
+  b.motion = [](int, double t) {
+    BodyPose p;
+    p.v = {0.1, 0, 0.05}, p.translation = t * p.v;
+    return p;
+  };
+  b.add({-1.001 * R, 0, 0}, {0.1, 0.1, 0}, {20, -30, 40});
+  b.add({1.001 * R, 0, 0.5 * R}, {-0.1, 0, 0});
+  b.add({0.03, 0, -0.01 + 1.001 * R}, {0.2, 0, -0.2}, {0, 30, 10});
+  b.start();
+  b.run(b.contact_time(0.2) / 40, 400);
+  ASSERT_EQ(b.solver->totals(*b.grains).contacts + b.solver->totals(*b.grains).wall_contacts, 0);
+  Terms terms = terms_of(b);
+  EXPECT_GT(terms["grain_dissipated_sliding"], 0.01 * dissipated(terms));
+  EXPECT_NE(terms["grain_dissipated_rolling"], 0);
+  EXPECT_GT(std::abs(terms["grain_work_walls"]), 0.1 * dissipated(terms));
+  EXPECT_LT(std::abs(terms["grain_energy_residual"]), 2e-3 * dissipated(terms));
+}
+
+/// mu N s of a block of four grains that cannot turn, on a plane.
+TEST(GrainEnergy, GrossSlidingDissipatesForceTimesPath) {
+  constexpr double d = 2e-3, g = 9.81, mu = 0.3, speed = 0.5;
+  Config c = void_case();
+  c.domain.min = {-0.1, -0.1, -0.1}, c.domain.max = {0.1, 0.1, 0.1};
+  c.gravity = {0, 0, -g};
+  c.out.energy = true;
+  c.wall.bodies = {ground()};
+  c.grain.present = true;
+  c.grain.d = c.grain.d_min = c.grain.d_max = d;
+  c.grain.mu = mu, c.grain.e = 0.2;
+  c.grain.fills.resize(1);
+  RigidConfig& block = c.grain.fills[0].rigid;
+  block.present = true, block.turn = "none";
+  c.grain.fills[0].velocity = {speed, 0, 0};
+  bedload::Setup setup;
+  for (const double x : {0.0, 1.0})
+    for (const double y : {0.0, 1.0}) {
+      setup.grains.x.push_back({x * d - 0.08, y * d, d / 2 - 1e-9});
+      setup.grains.v.push_back({speed, 0, 0});
+      setup.grains.radius.push_back(d / 2);
+      setup.grains.fill.push_back(0);
+    }
+  auto s = started(c, setup);
+  const auto look = [&](double until) {
+    run_until(*s, until);
+    Terms terms = by_name(s->diagnostics());
+    return std::pair{terms, reading(s->body_state(1), "centre_x")};
+  };
+  auto [before, from] = look(0.02);  // it has settled
+  auto [after, to] = look(0.12);
+  const double mass = before["grain_mass"], path = to - from;
+  ASSERT_GT(path, 0.01);
+  EXPECT_NEAR(
+      (after["grain_dissipated_sliding"] - before["grain_dissipated_sliding"]) / (mu * mass * g * path), 1,
+      1e-3);
+  EXPECT_LT(std::abs(after["grain_energy_residual"]), 1e-3 * dissipated(after));
+}
+
+TEST(GrainEnergy, IsRestartedToTheLastBit) {
+  Config c = void_case();
+  c.domain.min = {-0.02, -0.02, -0.02}, c.domain.max = {0.02, 0.02, 0.02};
+  c.gravity = {0, 0, -9.81};
+  c.out.energy = true;
+  WallBody floor = ground();
+  floor.point = {0, 0, -0.005};
+  c.wall.bodies = {floor};
+  c.grain.present = true;
+  c.grain.d = c.grain.d_min = c.grain.d_max = 2e-3;
+  c.grain.fills.resize(1);
+  bedload::Setup setup;
+  for (int k = 0; k < 12; ++k) {
+    setup.grains.x.push_back({2.1e-3 * (k % 2) + 1e-4 * k, 2.1e-3 * (k / 2 % 2), -0.0035 + 2.2e-3 * (k / 4)});
+    setup.grains.v.push_back({0.1, 0, -0.1});
+    setup.grains.radius.push_back(1e-3);
+    setup.grains.fill.push_back(0);
+  }
+  auto whole = started(c, setup), parted = make_coupled(c, setup);
+  run_until(*whole, 0.02);
+  parted->load(whole->save());
+  run_until(*whole, 0.04);
+  while (parted->steps() < whole->steps()) parted->step();
+  Terms a = by_name(whole->diagnostics()), b = by_name(parted->diagnostics());
+  EXPECT_GT(dissipated(a), 0);
+  EXPECT_EQ(a, b);
+}
+
+/// A bed in a turning drum. What turns the drum is the moment of its weight.
+TEST(SlowGrainEnergy, ADrumOverOneTurnClosesItsBooks) {
+  const double rate = 12, dt = 2e-5, radius = 0.0125, length = 0.0065, turn = 2 * M_PI / rate;
+  GrainBench b;
+  b.config.out.energy = true;
+  b.config.gravity = {0, -9.81, 0};
+  b.config.grain.mu = 0.5, b.config.grain.mu_r = 0.1, b.config.grain.E = 5e6;
+  b.config.contact.rolling = "epsd";
+  b.config.wall.bodies = {
+      test::shaped("drum", make_hollow(make_cylinder({0, 0, 0}, {0, 0, length}, radius), 0.005))};
+  b.motion = [&](int, double t) {
+    BodyPose p;
+    p.rotation = Quat<double>::from_rotation({0, 0, rate * t});
+    p.omega = {0, 0, rate};
+    return p;
+  };
+  const double R = b.R();
+  for (int k = 0; k < 2; ++k)
+    for (int j = 0; j < 5; ++j)
+      for (int i = 0; i < 6; ++i)
+        b.add(Vec3d{2.1 * (i - 2.5) + 0.05 * j, -5.9 + 2.1 * j + 0.02 * k,
+                    1.1 + 2.1 * k + 0.02 * ((i + 2 * j) % 5)} *
+              R);
+  b.start();
+  b.run(dt, 10000);
+  Terms before = terms_of(b);
+  const double weight = double(b.x.size()) * b.mass() * 9.81, swing = b.solver->totals(*b.grains).angular.z;
+  const int looks = int(turn / (20 * dt));
+  double moment = 0;  // of the weight about the axis, N m s
+  for (int look = 0; look < looks; ++look) {
+    const double x = b.solver->totals(*b.grains).centre.x;
+    b.run(dt, 20);
+    moment += weight * 20 * dt * 0.5 * (x + b.solver->totals(*b.grains).centre.x);
+  }
+  Terms after = terms_of(b);
+  const double lost = dissipated(after) - dissipated(before);
+  ASSERT_GT(lost, 0);
+  EXPECT_LT(std::abs(after["grain_energy_residual"] - before["grain_energy_residual"]), 0.01 * lost);
+  const double gained = b.solver->totals(*b.grains).angular.z - swing;
+  EXPECT_NEAR((after["grain_work_walls"] - before["grain_work_walls"]) / rate / (moment + gained), 1, 5e-3);
+}
+
+}  // namespace
+}  // namespace BL_SOLVER
