@@ -2,7 +2,7 @@
 // Contacts between grains. Both partners of a pair evaluate it, each seen from the lower to the higher id, so
 // forces are opposite and histories equal to the last bit.
 
-#include "bedload/neighbours/verlet_list.hpp"
+#include "bedload/neighbours/long_rows.hpp"
 #include "bedload/parallel/overlap.hpp"
 #include "kernels/contact/grain_mass.hpp"
 #include "kernels/contact/lubrication.hpp"
@@ -35,12 +35,14 @@ struct GrainNear {
 };
 
 /// Sorts each row: pairs in contact when the list was built come first, so that the threads of a warp
-/// evaluate contacts at the same time.
+/// evaluate contacts at the same time. Rows in pieces stay as they are.
 struct ContactsFirstPass {
   GrainNear near;
   VerletListView list;
+  LongRowsView long_rows;
   Index* entry;
   BL_HD void operator()(Index i) const {
+    if (long_rows.cut(i)) return;
     std::uint32_t contacts = 0;
     list.each(i, [&](std::uint64_t slot, Index j) {
       if (!near.closer(i, j, 0)) return;
@@ -50,22 +52,46 @@ struct ContactsFirstPass {
   }
 };
 
-/// Copies histories into a new list; entries are indices in the sorted store.
+/// Copies histories into a new list, except of rows in pieces; entries are indices in the sorted store.
 struct CarryHistoryPass {
   VerletListView from, to;
+  LongRowsView long_rows;   ///< of `to`
   Span<const Index> order;  ///< former index of each grain; kNone if it is new
   PairHistories old_histories, histories;
   BL_HD void operator()(Index i) const {
     const Index was_i = order[i];
-    if (was_i == kNone) return;
+    if (was_i == kNone || long_rows.cut(i)) return;
     from.each(was_i, [&](std::uint64_t old_slot, Index was_j) {
       if (!old_histories.touching[old_slot]) return;
       to.each(i, [&](std::uint64_t slot, Index j) {
-        if (order[j] != was_j) return;
-        histories.store(slot, old_histories[old_slot]);
-        histories.touching[slot] = 1;
+        if (order[j] == was_j) carry(old_slot, slot);
       });
     });
+  }
+  BL_HD void carry(std::uint64_t old_slot, std::uint64_t slot) const {
+    histories.store(slot, old_histories[old_slot]);
+    histories.touching[slot] = 1;
+  }
+};
+
+/// The same of rows in pieces, over the entries that pieces may have. Both partners of a pair hold its
+/// history: it is taken from that of the smaller grain, whose row is short.
+struct CarryLongHistoryPass {
+  CarryHistoryPass rows;
+  BL_HD void operator()(Index of_piece) const {
+    const auto& [from, to, long_rows, order, old_histories, histories] = rows;
+    const Index piece = of_piece / LongRowsView::kPiece, i = long_rows.row[piece];
+    const std::uint32_t k = long_rows.begin(piece) + of_piece % LongRowsView::kPiece;
+    if (order[i] == kNone || k >= to.count[i]) return;
+    const std::uint64_t slot = to.slot(i, k);
+    const Index was_j = order[to.entry[slot]];
+    if (was_j == kNone) return;
+    for (std::uint32_t n = 0; n < from.count[was_j]; ++n) {
+      const std::uint64_t old_slot = from.slot(was_j, n);
+      if (from.entry[old_slot] != order[i]) continue;
+      if (old_histories.touching[old_slot]) rows.carry(old_slot, slot);
+      return;
+    }
   }
 };
 
@@ -103,6 +129,8 @@ struct ContactPass {
   const ContactLaw* laws = nullptr;      ///< [materials][materials]; null: `law` for all
   std::uint32_t materials = 1;
   bool acts = true;  ///< false: grains pass through each other
+  LongRowsView long_rows = {};
+  ContactSum* by_pieces = nullptr;  ///< [pieces] of these
 
   /// Index in `laws` of the law between two grains.
   BL_HD std::uint32_t pair_of(Index i, Index j) const {
@@ -122,18 +150,36 @@ struct ContactPass {
   BL_HD ContactSum pairs(const Lane& lane) const {
     ContactSum sum;
     const Index i = lane.row;
-    if (!acts) return sum;
-    const Grain own{i, grains.x[i], grains.radius[i], grains.v[i], grains.omega[i], grains.id[i]};
+    if (!acts || long_rows.cut(i)) return sum;
+    const Grain own = grain(i);
     list.each(lane, [&](std::uint64_t slot, Index j) { pair<Law>(own, j, slot, sum); });
+    lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
+    return sum;
+  }
+  /// The same of a piece of a long row.
+  template <class Law>
+  BL_HD ContactSum pairs_of_piece(const Lane& lane) const {
+    ContactSum sum;
+    const Index i = long_rows.row[lane.row];
+    const Grain own = grain(i);
+    const std::uint32_t begin = long_rows.begin(lane.row);
+    const std::uint32_t end = min_of(list.count[i], begin + LongRowsView::kPiece);
+    for (std::uint32_t k = begin + lane.index; k < end; k += lane.count) {
+      const std::uint64_t slot = list.slot(i, k);
+      pair<Law>(own, list.entry[slot], slot, sum);
+    }
     lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
     return sum;
   }
   /// Row of a grain in by_walls; kNone: it is far from walls.
   BL_HD Index wall_row_of(Index i) const { return wall_row ? wall_row[i] : kNone; }
-  /// Adds forces of walls and lubrication films; waits for the loop over the walls.
+  /// Adds forces of walls and lubrication films, and those of a long row; waits for the loops over these.
   BL_HD void add_others(Index i, Index row, ContactSum& sum) const {
     if (!acts) return;
     wait_for_loops_before();
+    if (long_rows.cut(i))
+      for (Index piece = long_rows.first[i]; piece < long_rows.first[i + 1]; ++piece)
+        sum.add(by_pieces[piece]);
     if (row != kNone) sum.add(by_walls[row]);
     if (by_films) sum.add(by_films[i]);
   }
@@ -150,6 +196,9 @@ struct ContactPass {
     Real3 v, omega;
     Id id = 0;
   };
+  BL_HD Grain grain(Index i) const {
+    return {i, grains.x[i], grains.radius[i], grains.v[i], grains.omega[i], grains.id[i]};
+  }
   BL_HD Other load(Index j) const { return {grains.v[j], grains.omega[j], grains.id[j]}; }
   /// By value: a reference would force both into memory.
   BL_HD static Real3 either(bool first, const Real3& a, const Real3& b) {
@@ -189,6 +238,24 @@ struct ContactPass {
     sum.torque += Vec3d(either(first, f.torque_i, f.torque_j));
     histories.store(slot, h);
     if (!touched) histories.touching[slot] = 1;
+  }
+};
+
+/// Contacts of the pieces of long rows, of which each has several lanes; beside the loop over the walls.
+template <class Law>
+struct LongContactPass {
+#if BL_CUDA
+  static constexpr unsigned kLaneBits = 5;
+#else
+  static constexpr unsigned kLaneBits = 0;
+#endif
+  ContactPass contacts;
+  BL_HD void operator()(Index thread) const {
+    let_next_loop_begin();  // with the other rows, which waits for this one
+    const Lane lane(thread, kLaneBits);
+    const ContactSum sum = contacts.pairs_of_piece<Law>(lane);
+    wait_for_loops_before();
+    if (lane.index == 0) contacts.by_pieces[lane.row] = sum;
   }
 };
 

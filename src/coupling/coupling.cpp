@@ -33,6 +33,23 @@ using Place = std::remove_cvref_t<decltype(std::declval<const Store&>().x_list.s
 /// log2 of the lanes that share a row: rows are long, and four lanes read contiguous memory.
 unsigned lanes_for(Index rows) { return min_of(max_of(lane_bits(rows), 2u), kSliceBits); }
 
+struct InOrderPass {
+  Span<const Index> order;
+  Span<const Vec3d> x;
+  Span<Vec3d> in_order;
+  BL_HD void operator()(Index k) const { in_order[k] = x[order[k]]; }
+};
+
+/// Entries of a list, which are places in an order, become indices in the store.
+struct StoredIndexPass {
+  Span<const Index> order;
+  VerletListView list;
+  Index* entry;
+  BL_HD void operator()(Index i) const {
+    list.each(i, [&](std::uint64_t slot, Index k) { entry[slot] = order[k]; });
+  }
+};
+
 /// The largest rate of drag, and the largest sum of levers if there are any.
 struct LargestRate {
   using Value = StiffestDrag;
@@ -172,7 +189,7 @@ void Coupling::pack(GrainStore& grains) {
 }
 
 void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid,
-                             const HalfSkins& of_fluid, GrainStore& grains, const CellGridView& grain_grid,
+                             const HalfSkins& of_fluid, GrainStore& grains, const GrainCells& grain_cells,
                              const HalfSkins& of_grains, Span<const BodyPose> still) {
   pack(grains);
   beside_walls_.resize(still ? grains.size() : 0);
@@ -180,22 +197,34 @@ void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_
     for_each(grains.all(),
              BesideWallsPass{wall_free(still), double(of_grains.most), grains.x_list, beside_walls_});
   const double reach = range_ + of_fluid.most + of_grains.most;
-  build(fluid_of_grain_, grains, of_grains, fluid, of_fluid, fluid_grid.for_reach(reach));
-  build(grains_of_fluid_, fluid, of_fluid, grains, of_grains, grain_grid.for_reach(reach));
+  build(fluid_of_grain_, grains, of_grains, fluid, of_fluid, fluid_grid.for_reach(reach),
+        fluid.x_list.span());
+  const Span<const Index> order = grain_cells.order;
+  Span<const Vec3d> places = grains.x_list.span();
+  if (order) {
+    grain_places_.reserve_and_resize(grains.size());
+    for_each(grains.all(), InOrderPass{order, places, grain_places_});
+    places = grain_places_;
+  }
+  VerletList& of_fluid_rows =
+      build(grains_of_fluid_, fluid, of_fluid, grains, of_grains, grain_cells.cells.for_reach(reach), places);
+  if (order) for_each(fluid.all(), StoredIndexPass{order, of_fluid_rows.view(), of_fluid_rows.entries()});
 }
 
-template <class Targets, class Sources>
-void Coupling::build(Pairing<>& pairs, const Targets& targets, const HalfSkins& skin_a,
-                     const Sources& sources, const HalfSkins& skin_b, const CellGridView& grid) {
-  pairs.between(frame_, targets, sources, range_)
-      .build(targets.size(), grid,
-             CrossNear<Place<Targets>, Place<Sources>>{.frame = frame_,
-                                                       .a = targets.x_list,
-                                                       .b = sources.x_list,
-                                                       .range = range_,
-                                                       .skin_a = skin_a,
-                                                       .skin_b = skin_b},
+template <class Targets, class Sources, class P>
+VerletList& Coupling::build(Pairing<>& pairs, const Targets& targets, const HalfSkins& skin_a,
+                            const Sources& sources, const HalfSkins& skin_b, const CellGridView& grid,
+                            Span<const P> places) {
+  VerletList& list = pairs.between(frame_, targets, sources, range_);
+  list.build(targets.size(), grid,
+             CrossNear<Place<Targets>, P>{.frame = frame_,
+                                          .a = targets.x_list,
+                                          .b = places,
+                                          .range = range_,
+                                          .skin_a = skin_a,
+                                          .skin_b = skin_b},
              lanes_for(targets.size()));
+  return list;
 }
 
 void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt) {

@@ -50,6 +50,12 @@ struct StiffestDrag {
   Real lever;  ///< largest sum of DragLevers, -
 };
 
+/// Where grains are.
+struct GrainCells {
+  CellGridView cells;
+  Span<const Index> order = {};  ///< the grain in each place of the cells; empty: as they are stored
+};
+
 class Coupling {
  public:
   /// The walls of the fluid must outlive this.
@@ -62,7 +68,7 @@ class Coupling {
   /// phases were built. Also packs the positions of the grains. still: poses of all wall bodies if none ever
   /// moves; else empty.
   void rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid, const HalfSkins& of_fluid,
-                     GrainStore& grains, const CellGridView& grain_grid, const HalfSkins& of_grains,
+                     GrainStore& grains, const GrainCells& grain_cells, const HalfSkins& of_grains,
                      Span<const BodyPose> still = {});
 
   /// Fills eps, wetness and the drag coefficients and fluid velocities of the grains. pose: of every wall
@@ -105,10 +111,12 @@ class Coupling {
   void with_coupling_kernel(F&& f) const;
   bool moments() const { return torque_ || angmom_; }
   void pack(GrainStore& grains);
-  /// List of the sources near each target, where both were when the lists of the phases were built.
-  template <class Targets, class Sources>
-  void build(Pairing<>& pairs, const Targets& targets, const HalfSkins& of_targets, const Sources& sources,
-             const HalfSkins& of_sources, const CellGridView& grid);
+  /// List of the sources near each target, where both were when the lists of the phases were built; places:
+  /// of the sources, in the order of the cells.
+  template <class Targets, class Sources, class P>
+  VerletList& build(Pairing<>& pairs, const Targets& targets, const HalfSkins& of_targets,
+                    const Sources& sources, const HalfSkins& of_sources, const CellGridView& grid,
+                    Span<const P> places);
   void volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt);
   WallFreeFraction wall_free(Span<const BodyPose> pose) const;
   DragLevers levers() { return {lever_at_centre_, lever_off_centre_, lever_sum_}; }
@@ -150,6 +158,7 @@ class Coupling {
   HalfSpaceFraction half_space_;
   OwnWake own_;
   Buffer<std::uint8_t> beside_walls_;  ///< of each grain; empty where walls may move
+  Buffer<Vec3d> grain_places_;         ///< in the order of cells that is not theirs
   Buffer<Orifice> orifices_;
 
   Pairing<> fluid_of_grain_, grains_of_fluid_;
@@ -165,11 +174,12 @@ class Coupling {
   ScratchArray<Real4> by_slip_{of_grains_, local_slip_};
   ScratchArray<Real3> stress_arm_{of_grains_, moments()}, drag_arm_{of_grains_, moments()},
       lost_moment_{of_grains_, moments()};
-  ScratchArray<SymmetricMatrix<Real>> stress_inv_M_{of_grains_, moments()}, drag_inv_M_{of_grains_, moments()};
+  ScratchArray<SymmetricMatrix<Real>> stress_inv_M_{of_grains_, moments()},
+      drag_inv_M_{of_grains_, moments()};
   ScratchArray<Real> lever_at_centre_{of_grains_, angmom_}, lever_off_centre_{of_grains_, angmom_},
       lever_sum_{of_grains_, angmom_};
   ScratchArray<Real4> impulse_{of_grains_, two_way_}, force_{of_grains_, two_way_},
-      spin_{of_grains_, two_way_}, couple_{of_grains_, two_way_ && angmom_};
+      spin_{of_grains_, two_way_}, couple_{of_grains_, two_way_&&angmom_};
   ScratchArray<Real4> push_{of_fluid_}, solids_{of_fluid_};
   ScratchArray<Real> rate_{of_fluid_, two_way_};
 };

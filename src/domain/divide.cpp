@@ -42,17 +42,7 @@ struct IsOwn {
 struct FirstOfPass {
   Span<const std::uint32_t> sorted;
   Span<Index> first;
-  BL_HD void operator()(Index number) const {
-    Index lo = 0, hi = sorted.size;
-    while (lo < hi) {
-      const Index middle = lo + (hi - lo) / 2;
-      if (sorted[middle] < number)
-        lo = middle + 1;
-      else
-        hi = middle;
-    }
-    first[number] = lo;
-  }
+  BL_HD void operator()(Index number) const { first[number] = first_not_below(sorted, number); }
 };
 
 /// Particles of which some stay, and those that came.

@@ -110,17 +110,7 @@ struct ComposePass {
 struct StartPass {
   Span<const std::uint32_t> key;
   Span<Index> start;
-  BL_HD void operator()(Index c) const {
-    Index lo = 0, hi = key.size;
-    while (lo < hi) {
-      const Index middle = lo + (hi - lo) / 2;
-      if (key[middle] < c)
-        lo = middle + 1;
-      else
-        hi = middle;
-    }
-    start[c] = lo;
-  }
+  BL_HD void operator()(Index c) const { start[c] = first_not_below(key, c); }
 };
 
 /// The first particle of each cell marks it and the adjacent ones.

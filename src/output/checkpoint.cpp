@@ -25,7 +25,7 @@ namespace {
 using h5::check;
 using h5::Handle;
 
-constexpr std::int64_t kFormat = 7;
+constexpr std::int64_t kFormat = 8;
 
 /// The numbers that define the particles; a state fits a case only if these agree.
 std::vector<Quantity> particle_setup(const Config& c) {

@@ -49,7 +49,8 @@ HostStore SolidSolver::save_contacts(const GrainStore& grains) const {
 }
 
 void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostStore& contacts) {
-  grid.sort<Vec3d>(frame_, grains.x_list.span(), order_, grains.id);
+  choose_levels(grains);
+  sort(grains.x_list.span(), grains, grid);
   const std::vector<Index> order = order_.to_host();
   if (!std::is_sorted(order.begin(), order.end()))
     throw FileError("checkpoint: grains are not in the order in which this build keeps them");

@@ -40,6 +40,7 @@ SolidParameters solid_parameters(const Config& config) {
   const GrainConfig& g = config.grain;
   SolidParameters p{.materials = g.all_materials(),
                     .d_max = g.largest(),
+                    .d_min = g.smallest(),
                     .skin = config.skin_grain * g.smallest(),
                     .contacts = config.contact.normal != NormalLaw::none,
                     .films = Lubrication::of(config.lubrication, config.fluid.mu),

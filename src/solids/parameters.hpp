@@ -22,7 +22,7 @@ struct RigidGroup {
 
 struct SolidParameters {
   std::vector<GrainMaterial> materials;    ///< in the order of their numbers
-  double d_max = 0;                        ///< of the largest, m
+  double d_max = 0, d_min = 0;             ///< of the largest and the smallest, m
   double skin = 0;                         ///< of the lists, m
   std::vector<ContactLaw> pair_laws = {};  ///< [materials][materials]
   std::vector<ContactLaw> wall_laws = {};  ///< [bodies][materials]

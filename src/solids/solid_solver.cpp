@@ -42,6 +42,7 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
       walls_(walls),
       bodies_(bodies),
       groups_(parameters, frame, grains),
+      levels_(frame),
       histories_(parameters.pair_laws),
       old_histories_(parameters.pair_laws),
       wall_list_(frame, walls, skin(), film_range(parameters.d_max / 2)) {
@@ -70,19 +71,37 @@ std::vector<const FieldBase*> SolidSolver::fields_of_contacts() const {
 
 void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal) {
   for_each(grains.owned(), WrapGrains{frame_, grains.x});
-  grid.sort<Vec3d>(frame_, grains.x.span(), order_, grains.id);
+  if (renewal.any || !levels_.chosen()) choose_levels(grains);
+  sort(grains.x.span(), grains, grid);
   grains.reorder(order_);
   grains.x_list.copy(grains.x);
   if (renewal.any) for_each(grains.owned(), SourceIndexPass{renewal.source_index, order_});
   std::swap(list_, old_list_);
   histories_.swap(old_histories_);
   build_list(grains, grid);
-  if (old_list_.rows() == (renewal.any ? renewal.before : grains.size()))
-    for_each(grains.owned(), CarryHistoryPass{.from = old_list_.view(),
-                                              .to = list_.view(),
-                                              .order = order_,
-                                              .old_histories = old_histories_.view(),
-                                              .histories = histories_.view()});
+  if (old_list_.rows() != (renewal.any ? renewal.before : grains.size())) return;
+  const CarryHistoryPass carry{.from = old_list_.view(),
+                               .to = list_.view(),
+                               .long_rows = long_rows_.view(),
+                               .order = order_,
+                               .old_histories = old_histories_.view(),
+                               .histories = histories_.view()};
+  for_each(grains.owned(), carry);
+  for_each({0, long_rows_.pieces() * LongRowsView::kPiece}, CarryLongHistoryPass{carry});
+}
+
+void SolidSolver::choose_levels(const GrainStore& grains) {
+  if (parameters_.d_max < 2 * parameters_.d_min)
+    levels_.unite();
+  else
+    levels_.choose(grains.radius.values(), parameters_.d_max / 2, skin());
+}
+
+void SolidSolver::sort(Span<const Vec3d> x, const GrainStore& grains, CellGrid& grid) {
+  if (in_levels())
+    levels_.sort(x, grains.radius.span(), order_);
+  else
+    grid.sort<Vec3d>(frame_, x, order_, grains.id);
 }
 
 void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
@@ -94,9 +113,15 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
                  .skin = skin(),
                  .film = film_range(1)};
   // few lanes: rows are short, and contacts use so many registers that more threads would not run at once
-  list_.build(grains.size(), grid.view(), near, std::min(lane_bits(grains.size(), 3u << 14), 3u));
+  const unsigned bits = std::min(lane_bits(grains.size(), 3u << 14), 3u);
+  if (in_levels())
+    level_lists_.build(list_, levels_, near, bits);
+  else
+    list_.build(grains.size(), grid.view(), near, bits);
+  long_rows_.cut(list_, in_levels() ? levels_.particles(levels_.count() - 1).begin : 0);
+  by_pieces_.reserve_and_resize(long_rows_.pieces());
   near.film = 0;
-  for_each(grains.owned(), ContactsFirstPass{near, list_.view(), list_.entries()});
+  for_each(grains.owned(), ContactsFirstPass{near, list_.view(), long_rows_.view(), list_.entries()});
   histories_.reset(list_.slots());
   wall_list_.forget();
 }
@@ -150,15 +175,32 @@ ContactPass SolidSolver::contacts_at(const GrainStore& g, const BodyPose* poses,
     for_each(threads(), films(g, by_films_.data()));
     pass.by_films = by_films_.data();
   }
-  if (wall_list_.size() == 0 || !parameters_.contacts) return pass;
-  by_walls_.reserve_and_resize(wall_list_.size());
-  (this->*evaluate_walls_)(wall_contacts(g, poses, dt), loads);
-  if (lubricates())
-    for_each({0, wall_list_.size()},
-             WallFilmPass{wall_contacts(g, poses, dt), wall_list_.rows(), by_walls_.data()});
-  pass.wall_row = wall_list_.row_of();
-  pass.by_walls = by_walls_.data();
+  if (!parameters_.contacts) return pass;
+  if (wall_list_.size() > 0) {
+    by_walls_.reserve_and_resize(wall_list_.size());
+    (this->*evaluate_walls_)(wall_contacts(g, poses, dt), loads);
+    if (lubricates())
+      for_each({0, wall_list_.size()},
+               WallFilmPass{wall_contacts(g, poses, dt), wall_list_.rows(), by_walls_.data()});
+    pass.wall_row = wall_list_.row_of();
+    pass.by_walls = by_walls_.data();
+  }
+  if (long_rows_.pieces() > 0) {
+    pass.long_rows = long_rows_.view();
+    pass.by_pieces = by_pieces_.data();
+    (this->*evaluate_pieces_)(pass);
+  }
   return pass;
+}
+
+template <class Law>
+void SolidSolver::evaluate_pieces(const ContactPass& contacts) {
+  using Pass = LongContactPass<Law>;
+  const Range threads{0, long_rows_.pieces() << Pass::kLaneBits};
+  if (contacts.by_walls)
+    for_each_early(threads, Pass{contacts});
+  else
+    for_each(threads, Pass{contacts});
 }
 
 void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "bedload/neighbours/verlet_list.hpp"
+#include "bedload/neighbours/level_lists.hpp"
 #include "bedload/particles/grains.hpp"
 #include "bedload/particles/scratch.hpp"
 #include "bedload/particles/walls.hpp"
@@ -70,10 +70,12 @@ class SolidSolver {
   const ContactLaw& law() const { return parameters_.pair_laws[0]; }
 
   /// Wraps and sorts the grains and rebuilds the lists; histories of surviving pairs are kept. order() is
-  /// then the index of each grain at the previous build.
+  /// then the index of each grain at the previous build. Grains of unlike sizes are in levels: then they are
+  /// not sorted by the cells of `grid`.
   void refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal = {});
   const Buffer<Index>& order() const { return order_; }
   const VerletList& list() const { return list_; }
+  bool in_levels() const { return levels_.count() > 1; }
   /// Number of grains near walls.
   Index near_walls() const { return wall_list_.size(); }
 
@@ -98,8 +100,10 @@ class SolidSolver {
                Span<const Real3> drive = {});
 
   ParticleBytes scratch_bytes() const {
+    const std::size_t by_level = parameters_.d_max < 2 * parameters_.d_min ? 0 : sizeof(Index);
     return {.grains = of_grains_.entry_bytes() + (books_ ? EnergyBooks::kScratch : 0),
-            .near_grains = sizeof(Index) + histories_.entry_bytes() + (books_ ? sizeof(ContactAction) : 0)};
+            .near_grains = sizeof(Index) + by_level + histories_.entry_bytes() +
+                           (books_ ? sizeof(ContactAction) : 0)};
   }
 
   /// Histories of wall contacts.
@@ -139,6 +143,9 @@ class SolidSolver {
   void load_contacts(GrainStore& grains, CellGrid& grid, const HostStore& contacts);
 
  private:
+  void choose_levels(const GrainStore& grains);
+  /// Into order_, of grains at x.
+  void sort(Span<const Vec3d> x, const GrainStore& grains, CellGrid& grid);
   void build_list(const GrainStore& grains, const CellGrid& grid);
   /// The free bodies, if they move in the substeps; else null.
   FreeBodies* moving() const { return bodies_ && bodies_->any() && !bodies_->settling() ? bodies_ : nullptr; }
@@ -160,7 +167,11 @@ class SolidSolver {
   template <class Law>
   void use_pair_law() {
     end_substep_ = &SolidSolver::end_substep<Law>;
+    evaluate_pieces_ = &SolidSolver::evaluate_pieces<Law>;
   }
+  /// Into by_pieces_: the contacts of long rows.
+  template <class Law>
+  void evaluate_pieces(const ContactPass& contacts);
   template <class Scope>
   void use_wall_law() {
     evaluate_walls_ = &SolidSolver::evaluate_walls<Scope>;
@@ -170,10 +181,11 @@ class SolidSolver {
   /// them.
   ContactPass contacts_at(const GrainStore& grains, const BodyPose* poses, double dt,
                           const ContactLoads& loads);
-  /// Runs a pass with `contacts` of contacts_at; on the GPU it overlaps with the loop over the walls.
+  /// Runs a pass with `contacts` of contacts_at; on the GPU it overlaps with the loops over the walls and the
+  /// long rows.
   template <class Pass>
   void evaluate(const Pass& pass) {
-    if (pass.contacts.by_walls)
+    if (pass.contacts.by_walls || pass.contacts.by_pieces)
       for_each_early(threads(), pass);
     else
       for_each(threads(), pass);
@@ -213,15 +225,20 @@ class SolidSolver {
   // compiled for the contact laws and surface kinds of the case
   void (SolidSolver::*end_substep_)(GrainStore&, const ContactPass&, const GrainKick&, double,
                                     bool) = nullptr;
+  void (SolidSolver::*evaluate_pieces_)(const ContactPass&) = nullptr;
   void (SolidSolver::*evaluate_walls_)(const WallContacts&, const ContactLoads&) = nullptr;
 
+  SizeLevels levels_;
+  LevelLists level_lists_;
   VerletList list_, old_list_;
+  LongRows long_rows_;
   mutable PairHistoryBuffers histories_;  ///< mutable: sums read them through ContactPass
   PairHistoryBuffers old_histories_;
   WallList wall_list_;
   SubstepLoads substep_loads_;
   std::unique_ptr<EnergyBooks> books_;  ///< null: not asked for
-  Buffer<ContactSum> by_walls_;         ///< [rows of wall_list_]
+  Buffer<ContactSum> by_walls_;   ///< [rows of wall_list_]
+  Buffer<ContactSum> by_pieces_;  ///< [pieces of long_rows_]
   Buffer<Index> order_;
   Scratch of_grains_;
   ScratchArray<ContactSum> by_films_{of_grains_, lubricates()};

@@ -68,6 +68,16 @@ TEST(GrainInlet, FillsAHopper) {
   EXPECT_EQ(std::set<Id>(ids.begin(), ids.end()).size(), ids.size());
 }
 
+/// Levels of size follow the grains that are there.
+TEST(GrainInlet, OfUnlikeGrainsGoesOnBitForBit) {
+  const Config config = config_of(
+      with(kHopper, "rate = 400", "rate = 800\nsizes = [{ d = 0.004 }, { d = 0.001, number_fraction = 9 }]"));
+  auto s = started(config);
+  run_until(*s, 0.1);
+  ASSERT_GT(reading(*s, "grain_count"), 50);
+  expect_restart_is_bit_equal(*s, config, 200);
+}
+
 TEST(GrainInlet, GoesOnBitForBitAfterARestart) {
   const Config config = config_of(kHopper + R"(
 [[outlet]]

@@ -75,27 +75,45 @@ TEST(SolidLists, HoldExactlyThePairsWithinReach) {
   }
 }
 
-/// Diameters may span a factor of 20: grains of both ends meet their like and each other.
-TEST(SolidLists, HoldGrainsOfTheGreatestRatioOfSizes) {
+/// Large grains with small ones around and between them, and some of a size between. side: of the box, over
+/// the radius of the large ones.
+GrainBench unlike_grains(double ratio, double side, bool periodic, bool plane = false) {
   GrainBench b;
+  const double large = 2e-3, small = large / ratio, length = side * large;
   b.config.domain.min = {0, 0, 0};
-  b.config.domain.max = {0.02, 0.02, 0.02};
-  b.config.domain.periodic = {true, true, true};
-  const double large = 2e-3, small = large / 20;
-  b.add({0.001, 0.01, 0.01}, {}, {}, large);
-  b.add({0.001 + 1.999 * large, 0.01, 0.01}, {}, {}, large);
-  b.add({0.001, 0.01 + large + 0.999 * small, 0.01}, {}, {}, small);
-  b.add({0.001, 0.01 + large + 2.998 * small, 0.01}, {}, {}, small);
+  b.config.domain.max = {length, plane ? 2.2 * large : length, length};
+  b.config.domain.periodic = {periodic, periodic || plane, periodic};
   std::mt19937 random(3);
-  std::uniform_real_distribution<double> u(0, 0.02);
-  for (int k = 0; k < 3000; ++k) b.add({u(random), u(random), u(random)}, {}, {}, small);
-  b.start();
-  const auto listed = listed_pairs(b);
-  for (const Pair& pair : {Pair{0, 1}, Pair{0, 2}, Pair{2, 0}, Pair{2, 3}})
-    EXPECT_TRUE(listed.contains(pair));
-  int across = 0;
-  EXPECT_EQ(listed, pairs_within_reach(b, across));
-  EXPECT_GT(across, 0);
+  std::uniform_real_distribution<double> u(0, 1);
+  const auto anywhere = [&] {
+    return Vec3d{u(random) * length, plane ? 1.1 * large : u(random) * length, u(random) * length};
+  };
+  b.add({large, 1.1 * large, large}, {}, {}, large);
+  b.add({large + 1.999 * large, 1.1 * large, large}, {}, {}, large);
+  for (int k = 0; k < 40; ++k) b.add(anywhere(), {}, {}, std::sqrt(large * small));
+  const int count = ratio > 2 ? 300 : 60;
+  for (int k = 0; k < count; ++k) b.add(anywhere(), {}, {}, small);
+  for (int k = 0; k < count; ++k) {  // on the surfaces of large ones
+    Vec3d out{u(random) - 0.5, plane ? 0 : u(random) - 0.5, u(random) - 0.5};
+    out *= 1 / norm(out);
+    b.add(b.x[k % 2] + out * (large + (0.9 + u(random)) * small), {}, {}, small);
+  }
+  return b;
+}
+
+TEST(SolidLists, HoldGrainsOfAllSizesAndNoOthers) {
+  for (const double ratio : {1., 1.9, 5., 20., 100.})
+    for (const double side : {10., 3.5})  // that is less than two large ones and a skin
+      for (const bool periodic : {true, false})
+        for (const bool plane : {false, true}) {
+          SCOPED_TRACE(testing::Message() << ratio << " " << side << " " << periodic << plane);
+          GrainBench b = unlike_grains(ratio, side, periodic, plane);
+          b.start();
+          EXPECT_EQ(b.solver->in_levels(), ratio > 2);
+          int across = 0;
+          EXPECT_EQ(listed_pairs(b), pairs_within_reach(b, across));
+          EXPECT_EQ(across > 0, periodic);
+        }
 }
 
 TEST(SolidLists, AGrainIsPushedByOneTwentyTimesAsLarge) {
@@ -206,6 +224,66 @@ TEST(SolidLists, ACheckpointContinuesBitForBit) {
   EXPECT_EQ(bits(*a.grains), bits(*b.grains));
   a.run(2e-6, 300);
   b.run(2e-6, 300);
+  EXPECT_EQ(bits(*a.grains), bits(*b.grains));
+  EXPECT_EQ(histories(a), histories(b));
+}
+
+/// A large grain and 300 small ones that fly towards it: its row is long.
+struct Coated : GrainBench {
+  Coated() {
+    const double large = 1.35e-3, small = large / 20;
+    config.contact.rolling = "epsd";
+    add({0, 0, 0}, {}, {}, large);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> u(0, 1);
+    for (int k = 0; k < 300; ++k) {  // spread evenly
+      const double z = 1 - (2 * k + 1) / 300.0, turn = 2.399963 * k;
+      const Vec3d out{std::sqrt(1 - z * z) * std::cos(turn), std::sqrt(1 - z * z) * std::sin(turn), z};
+      const Vec3d across = cross(out, Vec3d{0, 0, 1});
+      add(out * (large + small * (1.03 + 0.03 * u(random))), -0.2 * out + 0.1 * across, 40 * out, small);
+    }
+  }
+};
+
+TEST(SolidLists, ALargeGrainKeepsTheHistoryOfManySmallOnes) {
+  Coated b;
+  b.start();
+  b.run(5e-8, 400);
+  const auto before = histories(b);
+  ASSERT_GT(before.size(), 150u);
+  b.refresh();
+  EXPECT_EQ(histories(b), before);
+  b.run(5e-8, 40);
+  EXPECT_EQ(b.solver->totals(*b.grains).contacts, double(histories(b).size())) << "both partners agree";
+}
+
+TEST(SolidLists, MomentumOfUnlikeGrainsIsKept) {
+  Coated b;
+  b.start();
+  b.run(5e-8, 400);
+  const auto v = b.grains->v.values();
+  const auto r = b.grains->radius.values();
+  Vec3d sum;
+  double scale = 0;
+  for (std::size_t i = 0; i < v.size(); ++i)
+    sum += b.mass(double(r[i])) * Vec3d(v[i]), scale += b.mass(double(r[i])) * norm(Vec3d(v[i]));
+  Vec3d start;
+  for (std::size_t i = 0; i < b.v.size(); ++i) start += b.mass(b.radius[i]) * b.v[i];
+  EXPECT_LT(norm(sum - start), tolerance(1e-10, 1e-6, 1e-6) * scale);
+}
+
+TEST(SolidLists, ACheckpointOfUnlikeGrainsContinuesBitForBit) {
+  Coated a, b;
+  a.start();
+  a.run(5e-8, 310);
+  const HostStore grains = a.grains->save(), contacts = a.solver->save_contacts(*a.grains);
+  ASSERT_GT(contacts.count, 100u);
+  b.build();
+  b.grains->load(grains);
+  b.solver->load_contacts(*b.grains, *b.grid, contacts);
+  b.time = a.time;
+  a.run(5e-8, 300);
+  b.run(5e-8, 300);
   EXPECT_EQ(bits(*a.grains), bits(*b.grains));
   EXPECT_EQ(histories(a), histories(b));
 }

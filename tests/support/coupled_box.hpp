@@ -104,19 +104,20 @@ struct CoupledBox {
     fill(pebbles);
     relist();
   }
-  /// Sorts both phases and renews the lists.
-  void relist() {
+  /// Sorts both phases and renews the lists; or grains stay as they are stored.
+  void relist(bool sort_grains = true) {
     CellGrid fluid_grid(frame, config.domain.min, config.domain.max, coupling.range() / 2);
     CellGrid grain_grid(frame, config.domain.min, config.domain.max, coupling.range() / 2);
     Buffer<Index> order;
     fluid_grid.sort(frame, Span<const FluidPosition>(fluid.x), order);
     fluid.reorder(order);
     grain_grid.sort(frame, Span<const Vec3d>(grains.x), order);
-    grains.reorder(order);
+    if (sort_grains) grains.reorder(order);
     fluid.x_list.buffer().assign(fluid.x.values());
     grains.x_list.buffer().assign(grains.x.values());
     for_each(fluid.all(), PackPass<FluidPosition>{frame, fluid.x, fluid.xp});
-    coupling.rebuild_lists(fluid, fluid_grid.view(), kSkin * coupling.range() / 2, grains, grain_grid.view(),
+    coupling.rebuild_lists(fluid, fluid_grid.view(), kSkin * coupling.range() / 2, grains,
+                           {grain_grid.view(), sort_grains ? Span<const Index>() : order.span()},
                            kSkin * coupling.range() / 2);
   }
 

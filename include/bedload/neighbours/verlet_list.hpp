@@ -75,6 +75,8 @@ class VerletList {
   }
   template <class Near>
   void build(Index rows, const CellGridView& sources, const Near& near, unsigned bits);
+  /// Rows of these lengths, to be filled in by slot; 2^bits lanes share one.
+  void make_rows(const Buffer<std::uint32_t>& lengths, unsigned bits);
 
  private:
   friend struct HostVerletList;

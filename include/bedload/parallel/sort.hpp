@@ -14,6 +14,19 @@
 
 namespace BL_SOLVER {
 
+/// Place of the first of ascending values that is not below `value`.
+BL_HD Index first_not_below(Span<const std::uint32_t> values, std::uint32_t value) {
+  Index lo = 0, hi = values.size;
+  while (lo < hi) {
+    const Index middle = lo + (hi - lo) / 2;
+    if (values[middle] < value)
+      lo = middle + 1;
+    else
+      hi = middle;
+  }
+  return lo;
+}
+
 struct FillIndex {
   Span<Index> out;
   BL_HD void operator()(Index i) const { out[i] = i; }
