@@ -18,10 +18,11 @@
 namespace bedload {
 
 void Checks::grains() const {
+  constexpr double kMostSizeRatio = 1000;  // cells of the smallest would be too many
   const GrainConfig& g = c.grain;
-  if (g.d_max > 20 * g.d_min)
+  if (const double ratio = g.d_max / g.d_min; ratio > kMostSizeRatio * (1 + 1e-9))
     fail("grain.fill", fmt::format("{:.4g}..{:.4g} m", g.d_min, g.d_max),
-         "must span at most a factor of 20 in diameter");
+         fmt::format("must span at most a factor of {} in diameter, not {:.4g}", kMostSizeRatio, ratio));
   for (std::size_t i = 0; i < g.fills.size(); ++i) grain_fill(fmt::format("grain.fill.{}", i), g.fills[i]);
   if (c.contact.k == 0 && c.contact.normal == NormalLaw::linear)
     missing("contact.k", "spring, N/m, with contact.normal = \"linear\"");

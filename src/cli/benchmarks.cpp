@@ -34,13 +34,13 @@ end = 10
 every = 1
 )";
 
-/// Equal frictional spheres in an open box, with or without water.
+/// Frictional spheres in an open box, with or without water.
 constexpr const char* kBeads = R"([domain]
 min = [-{margin}, -{margin}, -{margin}]
 max = [{outside}, {outside}, {top}]
 {fluid}[grain]
 d = 0.0027
-{grain}[[grain.fill]]
+{grain}{large}[[grain.fill]]
 min = [0, 0, 0]
 max = [{side}, {side}, {bed}]
 count = {count}
@@ -62,11 +62,31 @@ struct Beads {
   double margin = 0.01;  ///< from the box to the sides of the domain, m
   double depth = 0;      ///< of water, m
   std::string grain = {}, wall = {};
+  int ratio = 1, large = 0;  ///< diameter of large grains over that of the others; how many there are besides
+  bool lattice = false;      ///< the large ones touch, five by five on the floor
 };
+
+constexpr double kBead = 0.0027;  // diameter, m
+
+/// Of the large grains.
+std::string fill_text(const Beads& b, double bed) {
+  if (b.large == 0) return "";
+  const double d = b.ratio * kBead;
+  const std::string sizes = fmt::format("sizes = [{{ d = {:.6g} }}]\n", d);
+  if (!b.lattice)
+    return fmt::format("[[grain.fill]]\nmin = [0, 0, 0]\nmax = [{0}, {0}, {1}]\ncount = {2}\n{3}", b.side,
+                       bed, b.large, sizes);
+  std::string positions;
+  for (int n = 0; n < b.large; ++n)
+    positions += fmt::format("[{:.6g}, {:.6g}, {:.6g}],\n", d * (n % 5 + 0.5), d * (n / 5 % 5 + 0.5),
+                             d * (n / 25 + 0.5));
+  return fmt::format("[[grain.fill]]\npositions = [{}]\n{}", positions, sizes);
+}
 
 std::string case_text(const Beads& b) {
   using fmt::arg;
-  const double bed = b.count * 3.14159265 / 6 * std::pow(0.0027, 3) / 0.35 / (b.side * b.side);  // at 35 %
+  const double volume = (b.count + b.large * std::pow(b.ratio, 3)) * 3.14159265 / 6 * std::pow(kBead, 3);
+  const double bed = volume / 0.35 / (b.side * b.side);  // at 35 %
   const bool wet = b.depth > 0;
   const double top = (wet ? b.depth : bed) + 0.1;
   const std::string fluid =
@@ -76,8 +96,9 @@ std::string case_text(const Beads& b) {
                 b.side, b.depth)
           : "";
   return fmt::format(kBeads, arg("margin", b.margin), arg("outside", b.side + b.margin), arg("top", top),
-                     arg("fluid", fluid), arg("grain", b.grain), arg("side", b.side), arg("bed", bed),
-                     arg("count", b.count), arg("wall", b.wall), arg("rim", wet ? top : bed));
+                     arg("fluid", fluid), arg("grain", b.grain), arg("large", fill_text(b, bed)),
+                     arg("side", b.side), arg("bed", bed), arg("count", b.count), arg("wall", b.wall),
+                     arg("rim", wet ? top : bed));
 }
 
 Benchmark spheres(const std::string& name, int count, double side, bool settle) {
@@ -86,6 +107,31 @@ Benchmark spheres(const std::string& name, int count, double side, bool settle) 
                      .side = side,
                      .grain = settle ? "settle = true\nsettle_time = 0.35\n" : "",
                      .wall = "type = \"grains_only\"\n"}),
+          {}};
+}
+
+/// A settled bed of a million spheres and some larger ones.
+Benchmark two_sizes(const std::string& name, int ratio, int large) {
+  return {name,
+          case_text({.count = 1000000,
+                     .side = 0.3,
+                     .grain = "settle = true\nsettle_time = 0.35\n",
+                     .wall = "type = \"grains_only\"\n",
+                     .ratio = ratio,
+                     .large = large}),
+          {}};
+}
+
+/// A million spheres strewn over a cubic lattice of a hundred that are 100 times as large.
+Benchmark coated(const std::string& name) {
+  return {name,
+          case_text({.count = 1000000,
+                     .side = 5 * 100 * kBead,
+                     .grain = "settle = true\nsettle_time = 0.8\n",
+                     .wall = "type = \"grains_only\"\n",
+                     .ratio = 100,
+                     .large = 100,
+                     .lattice = true}),
           {}};
 }
 
@@ -117,6 +163,13 @@ std::vector<Benchmark> benchmarks() {
           spheres("spheres-1M", 1000000, 0.3, false),
           spheres("settled-8.8k", 8800, 0.08, true),
           spheres("settled-1M", 1000000, 0.3, true),
+          spheres("spheres-1.1M", 1100000, 0.3, true),
+          two_sizes("bi5", 5, 800),
+          two_sizes("bi10", 10, 100),
+          two_sizes("bi20", 20, 12),
+          two_sizes("bi50", 50, 8),
+          two_sizes("bi100", 100, 1),
+          coated("bi100-coated"),
           coupled("coupled", 0.12, 0.189, 10000, true),
           coupled("coupled-10M", 0.6, 0.75, 2000000, false)};
 }

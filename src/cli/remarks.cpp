@@ -130,11 +130,12 @@ void add_resolution(Remarks& all, const Config& c) {
 /// What costs accuracy or time with grains.
 void add_grains(Remarks& all, const Config& c) {
   if (!c.grain.present) return;
-  if (const double ratio = c.grain.d_max / c.grain.d_min; ratio > 5 * (1 + 1e-9))
+  if (const double ratio = c.grain.d_max / c.grain.d_min;
+      ratio > 5 * (1 + 1e-9) && c.fluid.present && c.couple.mode != CouplingMode::off)
     all.push_back(
         {"sizes",
-         fmt::format("the largest grain is {:.3g} times the smallest: neighbour lists use the radius of the "
-                     "largest, so the smallest cost most of the time",
+         fmt::format("the largest grain is {:.3g} times the smallest: couple.hc follows the largest, "
+                     "so each fluid particle is coupled to many of the smallest",
                      ratio)});
   if (!c.fluid.present || c.couple.mode != CouplingMode::two_way || norm(c.gravity) == 0) return;
   for (const auto& kind : kNames<WallType>)

@@ -162,13 +162,14 @@ TEST(GrainSizes, HaveFractionsOfOneKind) {
             "dam.toml:21: grain.fill.sizes.number_fraction = 1 is not used by the chosen options; remove it");
 }
 
-TEST(GrainSizes, MaySpanAFactorOfTwenty) {
+TEST(GrainSizes, MaySpanAFactorOfAThousand) {
   const auto with = [](const std::string& largest) {
     return changed("count = 500",
-                   "count = 5\n[[grain.fill.sizes]]\nkind = \"uniform\"\nd_min = 0.001\nd_max = " + largest);
+                   "count = 5\n[[grain.fill.sizes]]\nkind = \"uniform\"\nd_min = 1e-6\nd_max = " + largest);
   };
-  EXPECT_EQ(read(with("0.02")).grain.d_max, 0.02);
-  EXPECT_NE(error_of(with("0.0201")).find("0.001..0.0201 m must span at most a factor of 20 in diameter"),
+  EXPECT_EQ(read(with("0.001")).grain.d_max, 0.001);
+  EXPECT_NE(error_of(with("0.00101"))
+                .find("1e-06..0.00101 m must span at most a factor of 1000 in diameter, not 1010"),
             std::string::npos);
 }
 
@@ -203,8 +204,10 @@ TEST(GrainSizes, ErrorsNameTheEntryAtFault) {
   EXPECT_EQ(
       error("kind = \"sieve\"\nopenings = [0.001, 0.002, 0.003]\npassing = [0, 1, 0.5]"),
       "dam.toml:24: grain.fill.sizes.passing = [0, 1, 0.5] must not fall from the finer mesh to the coarser");
-  EXPECT_EQ(error("kind = \"log_normal\"\nmedian = 0.002\nsigma = 0.6"),
-            "dam.toml:17: grain.fill = 0.0003306..0.0121 m must span at most a factor of 20 in diameter");
+  EXPECT_EQ(
+      error("kind = \"log_normal\"\nmedian = 0.002\nsigma = 1.2"),
+      "dam.toml:17: grain.fill = 5.465e-05..0.0732 m must span at most a factor of 1000 in diameter, not "
+      "1339");
 }
 
 }  // namespace
