@@ -292,7 +292,7 @@ void resolve_waves(const Config& c, MotionPart& m, const std::string& path, cons
   if (norm(level) < 1e-6 * norm(w.direction) || norm(w.direction) == 0)
     reject(root, path + ".wave_direction",
            fmt::format("[{}, {}, {}]", w.direction.x, w.direction.y, w.direction.z), "must not be vertical");
-  w.direction = level / norm(level);
+  w.direction = direction(level, root, path + ".wave_direction");
   const auto along = [](const Vec3d& v, const std::string& text) {
     std::array<std::string, 3> out{"0", "0", "0"};
     for (int k = 0; k < 3; ++k)

@@ -31,7 +31,7 @@ double entry(const HostArray& a, std::size_t k) {
   }
   return 0;
 }
-bool whole(const HostArray& a) { return a.type == Scalar::u32 || a.type == Scalar::u64; }
+bool is_whole(const HostArray& a) { return a.type == Scalar::u32 || a.type == Scalar::u64; }
 
 /// A column of the output: a field, of which some stores may have none.
 struct Column {
@@ -75,12 +75,12 @@ std::vector<Column> columns_of(const std::vector<HostStore>& stores) {
       const auto same =
           std::find_if(out.begin(), out.end(), [&](const Column& c) { return c.name == a.name; });
       if (same == out.end())
-        out.push_back({a.name, a.components, whole(a)});
+        out.push_back({a.name, a.components, is_whole(a)});
       else if (same->components != a.components)
         throw FileError(fmt::format(
             "field {} of fluid and grains differs in its number of components; convert one file", a.name));
       else
-        same->whole = same->whole && whole(a);
+        same->whole = same->whole && is_whole(a);
     }
   return out;
 }
@@ -104,11 +104,14 @@ void write_values(fmt::ostream& out, const HostStore& store, std::size_t i,
                   const std::vector<Column>& columns) {
   for (const Column& c : columns) {
     const HostArray* a = store.find(c.name);
-    for (int k = 0; k < c.components; ++k)
-      if (a && whole(*a))
-        out.print(" {}", std::uint64_t(entry(*a, i * c.components + k)));
+    const double missing = c.whole || c.name == "radius" ? 0 : std::nan("");  // OVITO draws by the radius
+    for (int k = 0; k < c.components; ++k) {
+      const double value = a ? entry(*a, i * c.components + k) : missing;
+      if (c.whole)
+        out.print(" {}", std::uint64_t(value));
       else
-        out.print(" {:.7g}", a ? entry(*a, i * c.components + k) : c.whole ? 0 : std::nan(""));
+        out.print(" {:.7g}", value);
+    }
   }
 }
 void write_position(fmt::ostream& out, const HostStore& store, std::size_t i) {

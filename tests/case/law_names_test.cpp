@@ -62,12 +62,19 @@ TEST(SetupNames, GoThroughACaseFile) {
   expect_round_trips<Simd>("run.simd");
   expect_round_trips<BodyTables>("out.bodies");
   const std::string motion = "wall.body.0.motion.";
+  const std::vector<std::string> wave{motion + "wave_height=0.01", motion + "wave_period=1",
+                                      motion + "wave_depth=0.1", motion + "wave_ramp=0",
+                                      motion + "wave_direction=[1, 2, 0]"};
+  std::vector<std::string> hinged = wave;
+  hinged.push_back(motion + "centre=[0, 0, 0]");
   expect_round_trips<MotionKind>(
       motion + "kind",
       {{"velocity", {motion + "velocity=[0, 0, 0.1]"}},
        {"oscillation", {motion + "amplitude=[0, 0, 0.01]", motion + "frequency=1"}},
        {"rotation", {motion + "axis=[0, 0, 1]", motion + "centre=[0, 0, 0]", motion + "rate=1"}},
-       {"table", {motion + "rows=[[0, 0, 0, 0], [1, 0, 0, 0.1]]"}}});
+       {"table", {motion + "rows=[[0, 0, 0, 0], [1, 0, 0, 0.1]]"}},
+       {"piston", wave},
+       {"flap", hinged}});
 }
 
 }  // namespace

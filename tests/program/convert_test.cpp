@@ -1,6 +1,7 @@
 // Cases of other programs, and frames in other formats, as a user converts them.
 
 #include <cmath>
+#include <iterator>
 #include <regex>
 #include <vector>
 
@@ -278,7 +279,7 @@ run 4000
   const std::string left = converted("in.drum", "drum.toml");
   EXPECT_EQ(particles("grains"), 50);
   for (const char* line :
-       {"d = 0.008     # m", "rho = 2400    # kg/m3", "E = 5000000   # Pa", "mu = 0.5", "e = 0.7",
+       {"d = 0.008    # m", "rho = 2400   # kg/m3", "E = 5000000  # Pa", "mu = 0.5", "e = 0.7",
         "periodic = [false, true, false]", "rolling = \"cdt\"", "end = 0.04  # s", "every = 0.01  # s",
         "name = \"floor\"\nshape = \"plane\"\npoint = [0.05, 0.025, 0]\nnormal = [0, 0, 1]\nE = 20000000\nnu "
         "= 0.3\n"
@@ -331,11 +332,19 @@ TEST_F(Convert, WritesFramesForOvito) {
     std::getline(text, line);
     EXPECT_EQ(line.find("Lattice=\""), 0u);
     EXPECT_NE(line.find("Properties=species:S:1:pos:R:3:velo:R:3"), std::string::npos) << line;
+    const auto fields = [](const std::string& of) {
+      std::istringstream words(of);
+      return std::distance(std::istream_iterator<std::string>(words), {});
+    };
     int grains = 0;
+    std::ptrdiff_t columns = 0;
     for (int i = 0; i < count; ++i) {
       ASSERT_TRUE(std::getline(text, line));
-      grains += line.starts_with("grains ");
-      EXPECT_EQ(line.find("nan", line.starts_with("grains ") ? line.size() : 0) == line.npos, true) << line;
+      const bool grain = line.starts_with("grains ");
+      grains += grain;
+      EXPECT_EQ(line.find("0.0025") != line.npos || !grain, true) << line;  // its radius, m
+      if (i == 0) columns = fields(line);
+      EXPECT_EQ(fields(line), columns) << line;
     }
     EXPECT_EQ(grains, 40);
     ++frames;

@@ -105,7 +105,7 @@ TEST_F(Shell, ListsParametersForPrograms) {
   for (const auto& row : listed) {
     if (row["key"] == "wall.body.motion.add.kind") {
       EXPECT_EQ(row["path"], "wall.body[].motion.add[].kind");
-      EXPECT_EQ(row["choices"].size(), 6u);
+      EXPECT_EQ(row["choices"].size(), 8u);
     }
   }
   const auto section = nlohmann::json::parse(bedload("list couple --json").out);
