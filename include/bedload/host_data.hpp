@@ -2,6 +2,7 @@
 // Plain host copies: what starts a simulation and what comes out of it. Writers
 // and readers work on these alone and know neither precision nor device.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -121,6 +122,19 @@ struct Setup {
     std::vector<double> radius;       ///< m
     std::vector<std::uint32_t> fill;  ///< index in GrainConfig::fills
   } grains;
+  /// With fluid.model = "lattice", instead of fluid and walls.
+  struct Nodes {
+    static constexpr std::uint32_t kOutside = 0xffffffffu;
+    std::array<std::uint32_t, 3> count{};  ///< along x, y, z; x is the fastest
+    Vec3d first;                           ///< place of the first node, m
+    std::vector<std::uint32_t> solid;      ///< 0: fluid; else index in Config::wall.bodies + 1, or kOutside
+    std::vector<Vec3d> v;                  ///< m/s; empty: at rest
+    /// From fluid to solid nodes, in the order of bodies.
+    struct Links {
+      std::vector<std::uint32_t> node, direction, body;  ///< of the fluid; velocity of D3Q19; as above
+      std::vector<double> fraction;                      ///< of the link to the surface
+    } links;
+  } nodes;
 };
 
 }  // namespace bedload
