@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,11 +39,20 @@ struct HostArray {
   }
 };
 
+/// Places at equal distances, x fastest.
+struct HostGrid {
+  std::array<std::size_t, 3> count{};  ///< along x, y, z
+  Vec3d first;                         ///< m
+  double spacing = 0;                  ///< m
+  bool operator==(const HostGrid&) const = default;
+};
+
 /// All arrays of one store ("fluid", "grains", "walls"), equally long.
 struct HostStore {
   std::string name;
   std::size_t count = 0;
   std::vector<HostArray> arrays;
+  std::optional<HostGrid> grid = {};  ///< of a store whose places are one; the positions are among its arrays, too
 
   const HostArray* find(const std::string& array) const {
     for (const auto& a : arrays)

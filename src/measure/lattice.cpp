@@ -22,24 +22,40 @@ HostArray array_of(const char* name, const char* unit, const std::vector<T>& val
 HostStore LatticeSimulation::snapshot(const std::string& name) {
   if (name != "fluid") return {name, 0, {}};
   const LatticeUnits& units = solver_.units();
+  const lattice::NodeGrid& nodes = solver_.grid();
+  Index begin[3], end[3];  // without those outside the domain
+  HostGrid grid;
+  for (int k = 0; k < 3; ++k) {
+    const bool periodic = config_.domain.periodic[std::size_t(k)];
+    begin[k] = periodic ? 0 : 1, end[k] = nodes.n[k] - (periodic ? 0 : 1);
+    grid.count[std::size_t(k)] = end[k] - begin[k];
+  }
+  grid.first = solver_.place(nodes.node({{begin[0], begin[1], begin[2]}}));
+  grid.spacing = units.dx;
+
   std::vector<Vec3d> x;
   std::vector<Real3> v;
   std::vector<Real> pressure, density;
-  std::vector<std::uint32_t> id;
+  std::vector<std::uint32_t> solid, id;
   const std::vector<Real4> states = solver_.states();
-  for (Index n = 0; n < states.size(); ++n) {
-    const Real4& s = states[n];
-    if (!(s.w > -1)) continue;
-    x.push_back(solver_.place(n));
-    v.push_back(Real3(units.velocity() * Vec3d(s.xyz())));
-    pressure.push_back(Real(units.pressure() * double(s.w)));
-    density.push_back(Real(units.rho * (1 + double(s.w))));
-    id.push_back(n);
-  }
+  for (Index k = begin[2]; k < end[2]; ++k)
+    for (Index j = begin[1]; j < end[1]; ++j)
+      for (Index i = begin[0]; i < end[0]; ++i) {
+        const Index node = nodes.node({{i, j, k}});
+        const Real4& s = states[node];
+        const bool fluid = s.w > -1;
+        x.push_back(solver_.place(node));
+        v.push_back(Real3(units.velocity() * Vec3d(s.xyz())));
+        pressure.push_back(fluid ? Real(units.pressure() * double(s.w)) : Real(0));
+        density.push_back(Real(units.rho * (1 + double(s.w))));
+        solid.push_back(fluid ? 0 : 1);
+        id.push_back(std::uint32_t(id.size()));
+      }
   return {name,
           x.size(),
           {array_of("position", "m", x), array_of("velocity", "m/s", v), array_of("pressure", "Pa", pressure),
-           array_of("density", "kg/m3", density), array_of("id", "-", id)}};
+           array_of("density", "kg/m3", density), array_of("solid", "-", solid), array_of("id", "-", id)},
+          grid};
 }
 
 std::vector<Quantity> LatticeSimulation::diagnostics() {

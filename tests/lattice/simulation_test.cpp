@@ -121,19 +121,24 @@ TEST(LatticeSimulation, ProbesReadWhatDiagnosticsAndFramesShow) {
   EXPECT_NEAR(reading(s->measure(probes[0]), "force_by_fluid_x") / (sum / 25), 1, 1e-6);
   EXPECT_GT(s->time(), from);
 
-  // frames: nodes at cell centres, none in the ball
+  // frames: nodes at cell centres, solid in the ball
   const HostStore frame = s->snapshot("fluid");
-  EXPECT_EQ(double(frame.count), reading(*s, "fluid_count"));
-  EXPECT_LT(frame.count, 16u * 12u * 12u);
+  ASSERT_TRUE(frame.grid);
+  EXPECT_EQ(frame.grid->count, (std::array<std::size_t, 3>{16, 12, 12}));
+  EXPECT_EQ(frame.count, 16u * 12u * 12u);
+  double fluid = 0;
   const double* x = frame.find("position")->as<double>();
+  const auto* solid = frame.find("solid")->as<std::uint32_t>();
   for (std::size_t k = 0; k < frame.count; ++k) {
     const Vec3d at{x[3 * k], x[3 * k + 1], x[3 * k + 2]};
-    EXPECT_GE(norm(at - Vec3d{0.0083, 0.0061, 0.0057}), 0.0028 * (1 - 1e-9));
+    EXPECT_EQ(solid[k] == 1, norm(at - Vec3d{0.0083, 0.0061, 0.0057}) < 0.0028);
+    fluid += solid[k] == 0;
     for (int axis = 0; axis < 3; ++axis) {
       const double cells = at[axis] / 0.001 - 0.5;
       EXPECT_NEAR(cells, std::rint(cells), 1e-6);
     }
   }
+  EXPECT_EQ(fluid, reading(*s, "fluid_count"));
   const auto point = s->measure(probes[1]);
   EXPECT_NEAR(reading(point, "kernel_sum"), 1, 1e-9);
   EXPECT_GT(std::abs(reading(point, "velocity_x")), 0);
