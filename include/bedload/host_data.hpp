@@ -52,7 +52,8 @@ struct HostStore {
   std::string name;
   std::size_t count = 0;
   std::vector<HostArray> arrays;
-  std::optional<HostGrid> grid = {};  ///< of a store whose places are one; the positions are among its arrays, too
+  std::optional<HostGrid> grid =
+      {};  ///< of a store whose places are one; the positions are among its arrays, too
 
   const HostArray* find(const std::string& array) const {
     for (const auto& a : arrays)

@@ -44,8 +44,7 @@ struct BeginPass {
     for (int i = 1; i < kVelocities; ++i) {
       const Real3 c = velocity_of<Real>(i);
       const Real w = Real(weight(i)), cu = dot(c, s.u);
-      f.leaving(i, node) =
-          even_equilibrium(w, s, cu) + 3 * w * (s.rho() * cu + Real(0.5) * dot(c, force));
+      f.leaving(i, node) = even_equilibrium(w, s, cu) + 3 * w * (s.rho() * cu + Real(0.5) * dot(c, force));
     }
   }
 };
@@ -101,7 +100,8 @@ struct ExtremesReduction {
     return {u2, double(s.excess), double(s.excess), node};
   }
   BL_HD void combine(Value& into, const Value& from) const {
-    if (from.speed2 > into.speed2 || into.fastest == kNone) into.speed2 = from.speed2, into.fastest = from.fastest;
+    if (from.speed2 > into.speed2 || into.fastest == kNone)
+      into.speed2 = from.speed2, into.fastest = from.fastest;
     into.least = min_of(into.least, from.least);
     into.most = max_of(into.most, from.most);
   }

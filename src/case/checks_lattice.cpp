@@ -9,7 +9,8 @@ namespace bedload {
 
 void Checks::lattice() const {
   const char* with = "with fluid.model = \"lattice\"";
-  if (c.preset != Preset::standard) fail("preset", quoted(c.preset.name()), fmt::format("must be left out {}", with));
+  if (c.preset != Preset::standard)
+    fail("preset", quoted(c.preset.name()), fmt::format("must be left out {}", with));
   if (c.grain.present)
     throw CaseError(fmt::format("{}: [grain] must be left out {}, which cannot hold grains yet",
                                 nearest_value(root_, "grain").place(), with));
@@ -20,11 +21,13 @@ void Checks::lattice() const {
     const double side = c.domain.max[k] - c.domain.min[k], cells = double(cells_along(c, k));
     if (std::abs(side - cells * c.fluid.dx) > 1e-6 * c.fluid.dx)
       fail("fluid.dx", c.fluid.dx,
-           fmt::format("must divide the domain's length along {}, {:g} m; {:.8g} m does", "xyz"[k], side, side / cells));
+           fmt::format("must divide the domain's length along {}, {:g} m; {:.8g} m does", "xyz"[k], side,
+                       side / cells));
     nodes *= cells + (c.domain.periodic[k] ? 0 : 2);
   }
   if (nodes >= 2147483648.0)
-    fail("fluid.dx", c.fluid.dx, fmt::format("must be larger; it makes {:.3g} nodes of at most 2147483647", nodes));
+    fail("fluid.dx", c.fluid.dx,
+         fmt::format("must be larger; it makes {:.3g} nodes of at most 2147483647", nodes));
   for (std::size_t i = 0; i < c.fluid.fills.size(); ++i) {
     const std::string path = fmt::format("fluid.fill.{}", i);
     box(path, c.fluid.fills[i].min, c.fluid.fills[i].max);
@@ -46,7 +49,8 @@ void Checks::lattice_walls() const {
     const WallType type = c.wall.bodies[i].type;
     if (type != WallType::adami && type != WallType::fluid_only && type != WallType::grains_only)
       fail(fmt::format("wall.body.{}.type", i), quoted(c.wall.bodies[i].type.name()),
-           "must be \"adami\", \"fluid_only\" or \"grains_only\" with fluid.model = \"lattice\", whose walls have "
+           "must be \"adami\", \"fluid_only\" or \"grains_only\" with fluid.model = \"lattice\", whose walls "
+           "have "
            "no particles");
   }
 }
@@ -67,14 +71,18 @@ void Checks::lattice_step() const {
                      "are allowed",
                      step.dt, step.vmax, fastest));
   if (step.tau < 0.51)
-    warn("the relaxation time is {:.4g} steps; below 0.51 the lattice may become unstable, use a smaller "
-         "fluid.dx", step.tau);
+    warn(
+        "the relaxation time is {:.4g} steps; below 0.51 the lattice may become unstable, use a smaller "
+        "fluid.dx",
+        step.tau);
   if (step.vmax > 0.1)
     warn("fluid.vmax is {:.3g} nodes a step: compressibility errors reach {:.2g} %", step.vmax,
          300 * step.vmax * step.vmax);
   if (const double cell = c.fluid.vmax * c.fluid.dx * c.fluid.rho0 / c.fluid.mu; cell > 10 * (1 + 1e-9))
-    warn("the Reynolds number of a cell, fluid.vmax fluid.dx / nu, is {:.3g}; above 10 the flow is not resolved",
-         cell);
+    warn(
+        "the Reynolds number of a cell, fluid.vmax fluid.dx / nu, is {:.3g}; above 10 the flow is not "
+        "resolved",
+        cell);
 }
 
 }  // namespace bedload

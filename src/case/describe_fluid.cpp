@@ -105,8 +105,9 @@ void describe_fluid(Parameters& p, FluidConfig& f) {
        .presence = unbounded});
   p("fluid.vmax", &f.vmax,
     {.unit = "m/s",
-     .meaning = "highest flow speed expected, which sets the sound speed, and the step of a lattice; sqrt(2 g "
-                "H), the speed of walls or that of inlets is used where it is higher",
+     .meaning =
+         "highest flow speed expected, which sets the sound speed, and the step of a lattice; sqrt(2 g "
+         "H), the speed of walls or that of inlets is used where it is higher",
      .range = above(0),
      .fallback = "sqrt(2 g H)",
      .presence = optional});
@@ -120,10 +121,12 @@ void describe_lattice(Parameters& p, LatticeConfig& l) {
   p("lattice.collision", &l.collision, {.meaning = "collision of populations", .family = "models"});
   if (l.collision == LatticeCollision::trt || p.everything())
     p("lattice.magic", &l.magic,
-      {.meaning = "trt: magic number Lambda; 3/16 sets walls half-way between nodes", .range = above_to(0, 1)});
+      {.meaning = "trt: magic number Lambda; 3/16 sets walls half-way between nodes",
+       .range = above_to(0, 1)});
   p("lattice.velocity", &l.velocity,
-    {.meaning = "fluid.vmax in nodes per step, which sets the time step; compressibility errors grow with its "
-                "square",
+    {.meaning =
+         "fluid.vmax in nodes per step, which sets the time step; compressibility errors grow with its "
+         "square",
      .range = above_to(0, 0.15)});
   p("lattice.tau_max", &l.tau_max,
     {.meaning = "upper limit of the relaxation time, in steps, which shortens the time step of viscous fluid",
@@ -134,7 +137,8 @@ void describe_lattice(Parameters& p, LatticeConfig& l) {
      .fallback = "by velocity and tau_max",
      .presence = optional});
   p("lattice.mass_every", &l.mass_every,
-    {.meaning = "number of steps after which the mass of the fluid is restored, 1e-6 of it and less; 0: never",
+    {.meaning =
+         "number of steps after which the mass of the fluid is restored, 1e-6 of it and less; 0: never",
      .range = within(0, 1000000)});
 }
 

@@ -8,8 +8,8 @@
 namespace bedload {
 namespace {
 
-constexpr double kForceStep = 1e-3;        // of a node, by the body force from rest in a step, twice that
-constexpr double kHydrostaticRange = 0.05; // relative density by the weight of the fluid
+constexpr double kForceStep = 1e-3;         // of a node, by the body force from rest in a step, twice that
+constexpr double kHydrostaticRange = 0.05;  // relative density by the weight of the fluid
 
 /// The largest body force on the fluid, m/s2.
 double largest_acceleration(const Config& c) {
@@ -41,13 +41,16 @@ LatticeStep lattice_step(const Config& c) {
   const LatticeConfig& l = c.lattice;
   const double dx = c.fluid.dx, nu = c.fluid.mu / c.fluid.rho0;
   LatticeStep step;
-  const auto limit = [&](Limit by, double seconds) { step.limits.push_back({.limit = by, .seconds = seconds}); };
+  const auto limit = [&](Limit by, double seconds) {
+    step.limits.push_back({.limit = by, .seconds = seconds});
+  };
   if (l.tau > 0) {
     limit(Limit::fixed_relaxation, (l.tau - 0.5) * dx * dx / (3 * nu));
   } else {
     limit(Limit::flow_speed, l.velocity * dx / c.fluid.vmax);
     limit(Limit::relaxation, (l.tau_max - 0.5) * dx * dx / (3 * nu));
-    if (const double a = largest_acceleration(c); a > 0) limit(Limit::body_force, std::sqrt(kForceStep * dx / a));
+    if (const double a = largest_acceleration(c); a > 0)
+      limit(Limit::body_force, std::sqrt(kForceStep * dx / a));
     if (const double head = static_head(c); head > 0)
       limit(Limit::static_head, dx * std::sqrt(kHydrostaticRange / (3 * head)));
   }

@@ -312,8 +312,10 @@ void resolve_lattice(Config& c, const Value& root) {
   for (const WallBody& body : c.wall.bodies)
     f.vmax = std::max(f.vmax, wall_speed(body, c.domain, c.time.end) + norm(body.surface_velocity));
   if (f.vmax == 0) missing(root, "fluid.vmax", "m/s; no wall sets a speed here");
-  if (!(f.mu > 0)) reject(root, "fluid.mu", fmt::format("{}", f.mu), "must be > 0 with fluid.model = \"lattice\"");
-  if (c.drive.factor != DriveConfig().factor) check_factor(c.drive.factor, 0, c.time.end, root, "drive.factor");
+  if (!(f.mu > 0))
+    reject(root, "fluid.mu", fmt::format("{}", f.mu), "must be > 0 with fluid.model = \"lattice\"");
+  if (c.drive.factor != DriveConfig().factor)
+    check_factor(c.drive.factor, 0, c.time.end, root, "drive.factor");
   f.c = lattice_step(c).sound;
   c.wall.dx = f.dx;
 }

@@ -335,11 +335,12 @@ namespace {
 /// The nodes of a case, and its units on them.
 std::string lattice_text(const Config& c) {
   const LatticeStep step = lattice_step(c);
-  return fmt::format("nodes      {} x {} x {}, {:.4g} m apart\n"
-                     "lattice    step {:.4g} s, relaxation time {:.4g} steps, vmax {:.4g} m/s = {:.3g} nodes a "
-                     "step, sound {:.4g} m/s\n",
-                     cells_along(c, 0), cells_along(c, 1), cells_along(c, 2), c.fluid.dx, step.dt, step.tau,
-                     c.fluid.vmax, step.vmax, step.sound);
+  return fmt::format(
+      "nodes      {} x {} x {}, {:.4g} m apart\n"
+      "lattice    step {:.4g} s, relaxation time {:.4g} steps, vmax {:.4g} m/s = {:.3g} nodes a "
+      "step, sound {:.4g} m/s\n",
+      cells_along(c, 0), cells_along(c, 1), cells_along(c, 2), c.fluid.dx, step.dt, step.tau, c.fluid.vmax,
+      step.vmax, step.sound);
 }
 
 }  // namespace

@@ -68,7 +68,8 @@ class NodeBuilder {
     for (std::size_t n = 0; n < size_; ++n) {
       const Vec3d x = at(place(n));
       for (std::size_t b = 0; b < c_.wall.bodies.size() && nodes_.solid[n] == 0; ++b)
-        if (c_.wall.bodies[b].stops_fluid() && distance(b, x) < -1e-9 * dx_) nodes_.solid[n] = std::uint32_t(b) + 1;
+        if (c_.wall.bodies[b].stops_fluid() && distance(b, x) < -1e-9 * dx_)
+          nodes_.solid[n] = std::uint32_t(b) + 1;
     }
   }
 

@@ -71,8 +71,7 @@ void LatticeSolver::begin() {
   odd_ = false;
   force_ = force_at(0);
   const Vec3d slope = p_.static_gravity * (3 / p_.units.acceleration());
-  for_each({0, grid_.size()},
-           BeginPass{populations(odd_), force_, slope, nodes_.solid, velocity_});
+  for_each({0, grid_.size()}, BeginPass{populations(odd_), force_, slope, nodes_.solid, velocity_});
   velocity_ = Buffer<Real3>();
   const auto t = sum_over<9>({0, grid_.size()}, NodeTotals{moments(), nodes_.solid});
   count_ = t.v[0];
@@ -99,10 +98,11 @@ void LatticeSolver::follow_walls(double time) {
     const Vec3d slide = m.turned() ? m.rotation.rotate(p_.walls[b].slide) : p_.walls[b].slide;
     const SurfaceMotion body{(m.v + slide) / units.velocity(), units.dt * m.omega,
                              (m.origin() - first_) / units.dx};
-    for_each({0, r.size()},
-             LinkPass{populations(odd_), body, links_.links(r),
-                      {links_.force.span().data + r.begin, r.size()},
-                      {links_.received.span().data + r.begin, r.size()}});
+    for_each({0, r.size()}, LinkPass{populations(odd_),
+                                     body,
+                                     links_.links(r),
+                                     {links_.force.span().data + r.begin, r.size()},
+                                     {links_.received.span().data + r.begin, r.size()}});
   }
 }
 
@@ -138,10 +138,11 @@ WallSums LatticeSolver::wall(int body, double time) const {
   WallSums out;
   if (r.size() == 0) return out;
   const Vec3d centre = (motion(body, time).origin() - first_) / units.dx;
-  const auto t = sum_over<13>({0, r.size()},
-                              LinkTotals{grid_, centre, links_.links(r),
-                                         {links_.force.span().data + r.begin, r.size()},
-                                         {links_.received.span().data + r.begin, r.size()}});
+  const auto t = sum_over<13>({0, r.size()}, LinkTotals{grid_,
+                                                        centre,
+                                                        links_.links(r),
+                                                        {links_.force.span().data + r.begin, r.size()},
+                                                        {links_.received.span().data + r.begin, r.size()}});
   const auto vec = [&](int k) { return Vec3d{t.v[k], t.v[k + 1], t.v[k + 2]}; };
   out.force = units.force() * vec(0);
   out.torque = units.force() * units.dx * vec(3);

@@ -52,7 +52,7 @@ class LatticeSolver {
   FluidSums totals() const;
   WallSums wall(int body, double time) const;  ///< at time, s
   RigidMotion motion(int body, double time) const { return p_.walls[std::size_t(body)].motion.at(time); }
-  Vec3d driven() const { return driven_; }            ///< momentum by gravity and drive since the start, kg m/s
+  Vec3d driven() const { return driven_; }  ///< momentum by gravity and drive since the start, kg m/s
   double restored() const { return p_.units.mass() * restored_; }  ///< mass that was added since, kg
   std::vector<NodeValue> values(const std::vector<Index>& nodes) const;
   /// Of all nodes: velocity in nodes a step, density less 1, which is -1 in solids.

@@ -19,7 +19,7 @@ struct LinkStore : Store {
   Field<std::uint32_t> direction{*this, "direction", "-", Lifetime::kept};
   Field<std::uint32_t> body{*this, "body", "-", Lifetime::kept};
   Field<Real> fraction{*this, "fraction", "-", Lifetime::kept};
-  Field<Real3> force{*this, "force", "-", Lifetime::kept};                ///< in the last step
+  Field<Real3> force{*this, "force", "-", Lifetime::kept};               ///< in the last step
   Field<Vec4<double>> received{*this, "received", "-", Lifetime::kept};  ///< since the start: momentum, work
 
   lattice::Links links(Range r) const {

@@ -20,12 +20,12 @@ struct LatticeUnits {
   double dt = 0;   ///< s
   double rho = 0;  ///< kg/m3
 
-  double velocity() const { return dx / dt; }                       ///< m/s
-  double acceleration() const { return dx / (dt * dt); }            ///< m/s2
-  double mass() const { return rho * dx * dx * dx; }                ///< kg
-  double momentum() const { return mass() * velocity(); }           ///< kg m/s
-  double force() const { return momentum() / dt; }                  ///< N
-  double energy() const { return mass() * velocity() * velocity(); }  ///< J
+  double velocity() const { return dx / dt; }                            ///< m/s
+  double acceleration() const { return dx / (dt * dt); }                 ///< m/s2
+  double mass() const { return rho * dx * dx * dx; }                     ///< kg
+  double momentum() const { return mass() * velocity(); }                ///< kg m/s
+  double force() const { return momentum() / dt; }                       ///< N
+  double energy() const { return mass() * velocity() * velocity(); }     ///< J
   double pressure() const { return rho * velocity() * velocity() / 3; }  ///< Pa, of an excess density of 1
 };
 
@@ -36,12 +36,12 @@ struct LatticeWall {
 
 struct LatticeParameters {
   LatticeUnits units;
-  double tau = 1;                ///< steps
-  double magic = 0;              ///< of TRT; of one relaxation time (tau - 1/2)^2
-  Vec3d gravity;                 ///< m/s2
-  Vec3d static_gravity;          ///< part of it that walls hold, m/s2
+  double tau = 1;        ///< steps
+  double magic = 0;      ///< of TRT; of one relaxation time (tau - 1/2)^2
+  Vec3d gravity;         ///< m/s2
+  Vec3d static_gravity;  ///< part of it that walls hold, m/s2
   DriveConfig drive;
-  std::int64_t mass_every = 0;   ///< steps; 0: never
+  std::int64_t mass_every = 0;  ///< steps; 0: never
   std::vector<LatticeWall> walls;
 };
 LatticeParameters lattice_parameters(const Config& config);

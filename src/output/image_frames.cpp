@@ -53,8 +53,8 @@ void create_array(hid_t parent, const HostArray& a, const HostGrid& grid, int de
   check(H5Pset_chunk(creation, rank, chunk.data()));
   check(H5Pset_obj_track_times(creation, false));
   if (deflate > 0) check(H5Pset_deflate(creation, unsigned(deflate)));
-  const Handle table(H5Dcreate2(parent, a.name.c_str(), h5::file_type(a.type), space, H5P_DEFAULT, creation,
-                                H5P_DEFAULT));
+  const Handle table(
+      H5Dcreate2(parent, a.name.c_str(), h5::file_type(a.type), space, H5P_DEFAULT, creation, H5P_DEFAULT));
   h5::write_text(table, "unit", a.unit);
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-// Frames of places at equal distances: VTKHDF 2.0, temporal ImageData. What FrameFile does with them, below the
-// group VTKHDF of its file. Each array has the extents step, z, y, x and those of a vector; a step may refer to
-// the values of one before.
+// Frames of places at equal distances: VTKHDF 2.0, temporal ImageData. What FrameFile does with them, below
+// the group VTKHDF of its file. Each array has the extents step, z, y, x and those of a vector; a step may
+// refer to the values of one before.
 
 #include "bedload/host_data.hpp"
 #include "bedload/output/h5.hpp"

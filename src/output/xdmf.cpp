@@ -83,32 +83,36 @@ std::string image_text(hid_t root, const std::string& file, const std::string& n
   std::vector<Array> arrays;
   for (const auto& array : h5::members(data)) {
     const auto n = h5::extent(h5::open_dataset(data, array));
-    arrays.push_back({source_of(data, array, "PointData/" + array, h5::read_integers(offsets, array, at.size())),
-                      n.size() > 4 ? n[4] : 1});
+    arrays.push_back(
+        {source_of(data, array, "PointData/" + array, h5::read_integers(offsets, array, at.size())),
+         n.size() > 4 ? n[4] : 1});
   }
   std::string text;
   const auto out = std::back_inserter(text);
   for (std::size_t k = 0; k < at.size(); ++k) {
-    fmt::format_to(out, "    <Grid Name=\"{}\" GridType=\"Uniform\">\n      <Time Value=\"{}\"/>\n", name, at[k]);
+    fmt::format_to(out, "    <Grid Name=\"{}\" GridType=\"Uniform\">\n      <Time Value=\"{}\"/>\n", name,
+                   at[k]);
     fmt::format_to(out, "      <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"{}\"/>\n", size);
-    fmt::format_to(out,
-                   "      <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n"
-                   "        <DataItem Dimensions=\"3\" Format=\"XML\">{} {} {}</DataItem>\n"
-                   "        <DataItem Dimensions=\"3\" Format=\"XML\">{} {} {}</DataItem>\n      </Geometry>\n",
-                   grid.first.z, grid.first.y, grid.first.x, grid.spacing, grid.spacing, grid.spacing);
+    fmt::format_to(
+        out,
+        "      <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n"
+        "        <DataItem Dimensions=\"3\" Format=\"XML\">{} {} {}</DataItem>\n"
+        "        <DataItem Dimensions=\"3\" Format=\"XML\">{} {} {}</DataItem>\n      </Geometry>\n",
+        grid.first.z, grid.first.y, grid.first.x, grid.spacing, grid.spacing, grid.spacing);
     for (const auto& [a, components] : arrays) {
       const bool scalar = components == 1;
       const std::string vector = scalar ? "" : fmt::format(" {}", components), zero = scalar ? "" : " 0",
                         one = scalar ? "" : " 1";
-      fmt::format_to(out,
-                     "      <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">\n"
-                     "        <DataItem ItemType=\"HyperSlab\" Dimensions=\"{}{}\" {}>\n"
-                     "          <DataItem Dimensions=\"3 {}\" Format=\"XML\">{} 0 0 0{} 1 1 1 1{} 1 {}{}</DataItem>\n"
-                     "          <DataItem Format=\"HDF\" Dimensions=\"{} {}{}\" {}>{}:/VTKHDF/{}</DataItem>\n"
-                     "        </DataItem>\n"
-                     "        <Information Name=\"unit\" Value=\"{}\"/>\n      </Attribute>\n",
-                     a.name, kind_of(components), size, vector, a.number, scalar ? 4 : 5, a.starts[k], zero, one,
-                     size, vector, a.rows, size, vector, a.number, file, a.path, a.unit);
+      fmt::format_to(
+          out,
+          "      <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">\n"
+          "        <DataItem ItemType=\"HyperSlab\" Dimensions=\"{}{}\" {}>\n"
+          "          <DataItem Dimensions=\"3 {}\" Format=\"XML\">{} 0 0 0{} 1 1 1 1{} 1 {}{}</DataItem>\n"
+          "          <DataItem Format=\"HDF\" Dimensions=\"{} {}{}\" {}>{}:/VTKHDF/{}</DataItem>\n"
+          "        </DataItem>\n"
+          "        <Information Name=\"unit\" Value=\"{}\"/>\n      </Attribute>\n",
+          a.name, kind_of(components), size, vector, a.number, scalar ? 4 : 5, a.starts[k], zero, one, size,
+          vector, a.rows, size, vector, a.number, file, a.path, a.unit);
     }
     text += "    </Grid>\n";
   }

@@ -47,7 +47,8 @@ void CoupledSimulation::load(const SavedState& saved) {
 }
 
 std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup) {
-  if (config.fluid.present && config.fluid.lattice()) return std::make_unique<LatticeSimulation>(config, setup);
+  if (config.fluid.present && config.fluid.lattice())
+    return std::make_unique<LatticeSimulation>(config, setup);
   return std::make_unique<CoupledSimulation>(config, setup);
 }
 

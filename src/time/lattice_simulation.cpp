@@ -9,9 +9,9 @@
 namespace BL_SOLVER {
 namespace {
 
-constexpr std::int64_t kLook = 64;    // steps between looks at the extremes, which cost half a step
-constexpr double kFastest = 0.2;      // nodes a step
-constexpr double kWidest = 0.3;       // of the density
+constexpr std::int64_t kLook = 64;  // steps between looks at the extremes, which cost half a step
+constexpr double kFastest = 0.2;    // nodes a step
+constexpr double kWidest = 0.3;     // of the density
 
 const HostStore& store_in(const SavedState& saved, const std::string& name) {
   for (const auto& s : saved.stores)
@@ -58,12 +58,12 @@ void LatticeSimulation::check_extremes() {
   speed_ = speed * solver_.units().velocity();
   if (speed <= kFastest && e.least >= -kWidest && e.most <= kWidest) return;
   const Vec3d at = solver_.place(e.fastest);
-  const std::string what = speed > 1e100      ? "the fluid has no finite velocity any more"
-                           : speed > kFastest ? "the fluid flows at " + std::to_string(speed) +
-                                                    " nodes a step, above the " + std::to_string(kFastest) +
-                                                    " that the lattice allows,"
-                                              : "the density of the fluid varies by more than 30 %;"
-                                                " it is fastest";
+  const std::string what = speed > 1e100 ? "the fluid has no finite velocity any more"
+                           : speed > kFastest
+                               ? "the fluid flows at " + std::to_string(speed) + " nodes a step, above the " +
+                                     std::to_string(kFastest) + " that the lattice allows,"
+                               : "the density of the fluid varies by more than 30 %;"
+                                 " it is fastest";
   throw SimulationFault(what + " at (" + std::to_string(at.x) + ", " + std::to_string(at.y) + ", " +
                         std::to_string(at.z) + ") m, t = " + std::to_string(clock_.time) +
                         " s; increase fluid.vmax, or reduce fluid.dx");

@@ -73,13 +73,14 @@ TEST(LatticeCase, RefusesWhatItCannotDoWithKeyAndLine) {
   const std::string with = "with fluid.model = \"lattice\"", at = "dam.toml:";
   EXPECT_EQ(error_of(kChannel + "[grain]\nd = 0.01\n[[grain.fill]]\npositions = [[0.05, 0.05, 0.05]]\n"),
             at + "25: [grain] must be left out " + with + ", which cannot hold grains yet");
-  EXPECT_EQ(error_of(kChannel + "[shift]\nA = 10\n"), at + "26: shift.A = 10 is not used " + with + "; remove it");
+  EXPECT_EQ(error_of(kChannel + "[shift]\nA = 10\n"),
+            at + "26: shift.A = 10 is not used " + with + "; remove it");
   EXPECT_EQ(error_of(kChannel + "[[outlet]]\nname = \"drain\"\nshape = \"plane\"\npoint = [0, 0, 0.1]\n"
                                 "normal = [0, 0, 1]\n"),
             at + "26: outlet.name = \"drain\" is not used " + with + "; remove it");
-  for (const std::string set :
-       {"domain.two_d=true", "domain.shear_rate=1", "fluid.kernel=cubic", "fluid.variable_h=true", "eos.gamma=7",
-        "time.dt=0.001", "drive.opposed=z", "couple.mode=off", "wall.type=mdbc", "wall.body.0.slip=slip"}) {
+  for (const std::string set : {"domain.two_d=true", "domain.shear_rate=1", "fluid.kernel=cubic",
+                                "fluid.variable_h=true", "eos.gamma=7", "time.dt=0.001", "drive.opposed=z",
+                                "couple.mode=off", "wall.type=mdbc", "wall.body.0.slip=slip"}) {
     const std::string said = error_of(kChannel, {set});
     EXPECT_NE(said.find("is not used " + with), std::string::npos) << said;
     EXPECT_NE(said.find("--set " + set.substr(0, set.find('='))), std::string::npos) << said;
@@ -89,14 +90,16 @@ TEST(LatticeCase, RefusesWhatItCannotDoWithKeyAndLine) {
     EXPECT_NE(said.find(part), std::string::npos) << said;
   };
   says({"fluid.mu=0"}, "fluid.mu = 0 must be > 0 " + with);
-  says({"fluid.dx=0.0093"}, "fluid.dx = 0.0093 must divide the domain's length along x, 0.1 m; 0.0090909091 m does");
+  says({"fluid.dx=0.0093"},
+       "fluid.dx = 0.0093 must divide the domain's length along x, 0.1 m; 0.0090909091 m does");
   says({"fluid.mu=1e-4"}, "fluid.dx = 0.01 must be at most");
   says({"lattice.tau=2", "fluid.mu=0.001"}, "lattice.tau = 2 must be smaller");
   says({"lattice.tau=0.5"}, "lattice.tau = 0.5 must be within 0.505..2");
   says({"wall.body.0.type=single_layer"}, "wall.body.type = \"single_layer\" must be \"adami\"");
   says({"preset=he2018"}, "preset = \"he2018\" must be left out");
   says({"drive.f=[1,0,0]", "drive.factor=x"}, "drive.factor = \"x\" must be a formula in t");
-  says({"drive.f=[1,0,0]", "drive.mode=particle"}, "drive.mode = \"particle\" must be \"volume\" or \"mass\"");
+  says({"drive.f=[1,0,0]", "drive.mode=particle"},
+       "drive.mode = \"particle\" must be \"volume\" or \"mass\"");
   EXPECT_NE(error_of(kChannel + "[[probe]]\nname = \"gauge\"\ntype = \"height\"\nat = [0.05, 0.05, 0]\n")
                 .find("probe.type = \"height\" must be \"point\", \"box\" or \"force\" " + with),
             std::string::npos);
@@ -106,7 +109,8 @@ TEST(LatticeCase, FluidFillsAllBetweenTheWalls) {
   const std::string open = setup_error(kChannel, {"wall.body.1.type=grains_only"});
   EXPECT_NE(open.find("the side z+ of the domain is open"), std::string::npos) << open;
   EXPECT_NE(open.find("dam.toml:5: "), std::string::npos) << open;
-  const std::string half = setup_error(kChannel + "[[fluid.fill]]\nmin = [0, 0, 0]\nmax = [0.1, 0.1, 0.05]\n");
+  const std::string half =
+      setup_error(kChannel + "[[fluid.fill]]\nmin = [0, 0, 0]\nmax = [0.1, 0.1, 0.05]\n");
   EXPECT_NE(half.find("there is no free surface"), std::string::npos) << half;
   const std::string moved = setup_error(
       kChannel, {"wall.body.0.motion.kind=velocity", "wall.body.0.motion.velocity=[0.01,0,0.01]"});

@@ -55,7 +55,8 @@ TEST(LatticeChannel, CouetteFlowIsLinearThroughTheWallsWhereverTheyLie) {
     const auto u = flow.velocity();
     const double gap = kGap - 1 + 2 * q;
     for (int k = 1; k <= kGap; ++k)
-      EXPECT_NEAR(u[std::size_t(k)].x / kTop, (k - 1 + q) / gap, tolerance(1e-6, 1e-5, 1e-5)) << q << ' ' << k;
+      EXPECT_NEAR(u[std::size_t(k)].x / kTop, (k - 1 + q) / gap, tolerance(1e-6, 1e-5, 1e-5))
+          << q << ' ' << k;
     const double stress = (0.8 - 0.5) / 3 * kTop / gap;
     EXPECT_NEAR(flow.solver().wall(0, 0).force.x / stress, 1, tolerance(1e-6, 1e-4, 1e-4)) << q;
     EXPECT_NEAR(flow.solver().wall(1, 0).force.x / stress, -1, tolerance(1e-6, 1e-4, 1e-4)) << q;

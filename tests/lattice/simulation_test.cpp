@@ -8,8 +8,8 @@
 namespace BL_SOLVER {
 namespace {
 
-/// A box with a lid that slides and a sphere in it; units of mm.
-const std::string kCavity = R"(gravity = [0, 0, 0]
+/// A box with a lid that slides and a sphere in it.
+const std::string kCavity = R"case(gravity = [0, 0, 0]
 [domain]
 min = [0, 0, 0]
 max = [0.016, 0.012, 0.012]
@@ -60,14 +60,15 @@ name = "upper"
 type = "box"
 min = [0, 0, 0.006]
 max = [0.016, 0.012, 0.012]
-)";
+)case";
 
 TEST(LatticeSimulation, BooksOfMomentumAndMassClose) {
   auto s = started(kCavity);
   const double mass = reading(*s, "fluid_mass");
   for (int k = 0; k < 300; ++k) s->step();
   const auto rows = s->diagnostics();
-  const double exchanged = std::abs(reading(rows, "impulse_by_walls_y")) + std::abs(reading(rows, "impulse_by_forces_y"));
+  const double exchanged =
+      std::abs(reading(rows, "impulse_by_walls_y")) + std::abs(reading(rows, "impulse_by_forces_y"));
   EXPECT_GT(exchanged, 0);
   for (const char* axis : {"x", "y", "z"})
     EXPECT_LT(std::abs(reading(rows, std::string("fluid_momentum_residual_") + axis)),

@@ -26,8 +26,8 @@ inline Setup::Nodes periodic_nodes(std::uint32_t nx, std::uint32_t ny, std::uint
   return nodes;
 }
 
-/// Between two plates normal to z, which lie `fraction` of a link outside the first and last of n nodes: bodies 0
-/// below and 1 above. Node k of the fluid is number k, from 1.
+/// Between two plates normal to z, which lie `fraction` of a link outside the first and last of n nodes:
+/// bodies 0 below and 1 above. Node k of the fluid is number k, from 1.
 inline Setup::Nodes channel_nodes(std::uint32_t n, double fraction = 0.5) {
   Setup::Nodes nodes = periodic_nodes(1, 1, n + 2);
   nodes.solid.front() = 1, nodes.solid.back() = 2;

@@ -31,7 +31,8 @@ TEST(LatticeWaves, ShearDecaysByTheViscosity) {
     const auto steps = std::int64_t(std::ceil(0.5 / (nu * k2)));
     flow.run(steps);
     const double rate = std::log(from / amplitude(flow.velocity(), 0)) / double(steps);
-    EXPECT_NEAR(rate / (nu * k2), 1, 4e-3) << tau;
+    // waves of a few times the mean free path decay faster, by the square of the ratio
+    EXPECT_NEAR(rate / (nu * k2), 1, 1e-3 + 0.35 * (tau - 0.5) * (tau - 0.5) * k2) << tau;
   }
 }
 

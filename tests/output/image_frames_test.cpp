@@ -52,8 +52,8 @@ TEST(ImageFrames, OfOtherPlacesOrParticlesAreRefused) {
   frames.append(node_frame(0), 0);
   HostStore moved = node_frame(1), particles = FakeSimulation().snapshot("fluid");
   moved.grid->first.x += 0.1;
-  for (const auto& [store, what] : {std::pair{moved, "its places are not those of this run"},
-                                    {particles, "it has frames of nodes"}})
+  for (const auto& [store, what] :
+       {std::pair{moved, "its places are not those of this run"}, {particles, "it has frames of nodes"}})
     for (const bool write : {false, true}) try {
         write ? frames.append(store, 1, true) : frames.expect(store);
         ADD_FAILURE() << what;

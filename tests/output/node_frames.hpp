@@ -16,11 +16,12 @@ inline HostStore node_frame(int k) {
     velocity.insert(velocity.end(), {float(k), float(n), -float(n)});
     solid.push_back(n % 4 == 0);
   }
-  return {"fluid",
-          30,
-          {array_of("position", "m", Scalar::f64, 3, x), array_of("speed", "m/s", Scalar::f32, 1, speed),
-           array_of("velocity", "m/s", Scalar::f32, 3, velocity), array_of("solid", "-", Scalar::u32, 1, solid)},
-          grid};
+  return {
+      "fluid",
+      30,
+      {array_of("position", "m", Scalar::f64, 3, x), array_of("speed", "m/s", Scalar::f32, 1, speed),
+       array_of("velocity", "m/s", Scalar::f32, 3, velocity), array_of("solid", "-", Scalar::u32, 1, solid)},
+      grid};
 }
 
 }  // namespace bedload::testing

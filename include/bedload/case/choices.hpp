@@ -114,7 +114,8 @@ inline constexpr auto kNames<FluidModel> = std::to_array<Named<FluidModel>>({
      .nodes = false},
     {.value = FluidModel::lattice,
      .name = "lattice",
-     .meaning = "lattice Boltzmann, D3Q19: nodes fixed in space fill the domain between walls; without grains",
+     .meaning =
+         "lattice Boltzmann, D3Q19: nodes fixed in space fill the domain between walls; without grains",
      .smoothed = false,
      .own_viscosity = false,
      .thermal = false,
@@ -259,7 +260,8 @@ inline constexpr auto kNames<WallType> = std::to_array<Named<WallType>>({
      .bed_error = 0},
     {.value = WallType::frozen,
      .name = "frozen",
-     .meaning = "wall particles treated as fluid at rest relative to the wall; the first layer has its own density",
+     .meaning =
+         "wall particles treated as fluid at rest relative to the wall; the first layer has its own density",
      .kind = WallKind::frozen,
      .stops_fluid = true,
      .stops_grains = true,

@@ -1,6 +1,7 @@
 #pragma once
 // Populations and where they are kept. There is one copy of them: a step takes each from its place and leaves
-// another there, so that what leaves a node lies where its neighbour looks for it in the next step [lehmann22].
+// another there, so that what leaves a node lies where its neighbour looks for it in the next step
+// [lehmann22].
 
 #include <cstddef>
 

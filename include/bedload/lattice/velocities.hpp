@@ -31,9 +31,8 @@ BL_HD constexpr Vec3<N> velocity_of(int i) {
 /// Calls f(p) for every pair, each a constant: what is kept by pair can stay in registers.
 template <class F>
 BL_HD void each_pair(const F& f) {
-  [&]<int... p>(std::integer_sequence<int, p...>) {
-    (f(std::integral_constant<int, p>{}), ...);
-  }(std::make_integer_sequence<int, kPairs>{});
+  [&]<int... p>(std::integer_sequence<int, p...>) { (f(std::integral_constant<int, p>{}), ...); }
+  (std::make_integer_sequence<int, kPairs>{});
 }
 BL_HD constexpr double weight(int i) { return i == 0 ? 1.0 / 3 : i <= 6 ? 1.0 / 18 : 1.0 / 36; }
 
