@@ -259,6 +259,7 @@ MemoryEstimate estimate_memory(const Config& config, const Device& device) {
                                              config.fluid.present && config.grain.present;
   const double real = config.precision == Precision::fp64 ? 8 : 4, index = sizeof(std::uint32_t);
   MemoryEstimate out{double(each.fluid), double(each.walls), double(each.grains)};
+  if (config.fluid.lattice()) return out;
 
   const double reach = config.fluid.kappa() * config.fluid.h() + config.skin_fluid * config.fluid.dx;
   const double neighbours = config.fluid.present ? around(reach / config.fluid.dx, config.domain.two_d) : 0;

@@ -2,10 +2,12 @@
 // Plain host copies: what starts a simulation and what comes out of it. Writers
 // and readers work on these alone and know neither precision nor device.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,11 +39,21 @@ struct HostArray {
   }
 };
 
+/// Places at equal distances, x fastest.
+struct HostGrid {
+  std::array<std::size_t, 3> count{};  ///< along x, y, z
+  Vec3d first;                         ///< m
+  double spacing = 0;                  ///< m
+  bool operator==(const HostGrid&) const = default;
+};
+
 /// All arrays of one store ("fluid", "grains", "walls"), equally long.
 struct HostStore {
   std::string name;
   std::size_t count = 0;
   std::vector<HostArray> arrays;
+  std::optional<HostGrid> grid =
+      {};  ///< of a store whose places are one; the positions are among its arrays, too
 
   const HostArray* find(const std::string& array) const {
     for (const auto& a : arrays)
@@ -121,6 +133,19 @@ struct Setup {
     std::vector<double> radius;       ///< m
     std::vector<std::uint32_t> fill;  ///< index in GrainConfig::fills
   } grains;
+  /// With fluid.model = "lattice", instead of fluid and walls.
+  struct Nodes {
+    static constexpr std::uint32_t kOutside = 0xffffffffu;
+    std::array<std::uint32_t, 3> count{};  ///< along x, y, z; x is the fastest
+    Vec3d first;                           ///< place of the first node, m
+    std::vector<std::uint32_t> solid;      ///< 0: fluid; else index in Config::wall.bodies + 1, or kOutside
+    std::vector<Vec3d> v;                  ///< m/s; empty: at rest
+    /// From fluid to solid nodes, in the order of bodies.
+    struct Links {
+      std::vector<std::uint32_t> node, direction, body;  ///< of the fluid; velocity of D3Q19; as above
+      std::vector<double> fraction;                      ///< of the link to the surface
+    } links;
+  } nodes;
 };
 
 }  // namespace bedload

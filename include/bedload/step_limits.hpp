@@ -26,6 +26,11 @@ enum class Limit {
   body_contact,
   body_rolling,
   body_turn,
+  flow_speed,
+  relaxation,
+  body_force,
+  static_head,
+  fixed_relaxation,
   growth,
   fixed
 };
@@ -52,6 +57,11 @@ inline constexpr auto kLimits = std::to_array<NamedLimit>({
     {Limit::body_contact, "body contact", "time.contact"},         // of free bodies
     {Limit::body_rolling, "body rolling", "wall.body.free.mu_r"},  // its spring
     {Limit::body_turn, "body turn", ""},                           // of free bodies in a substep
+    {Limit::flow_speed, "flow speed", "lattice.velocity"},         // on the lattice, as those that follow
+    {Limit::relaxation, "relaxation", "lattice.tau_max"},          //
+    {Limit::body_force, "body force", ""},                         // travel by it in a step
+    {Limit::static_head, "static head", ""},                       // density by the fluid's weight
+    {Limit::fixed_relaxation, "relaxation time", "lattice.tau"},   // as given
     {Limit::growth, "growth", ""},                                 // a step grows by at most 5 %
     {Limit::fixed, "fixed", "time.dt"},
 });

@@ -20,7 +20,8 @@ void Checks::domain() const {
       fail("drive.rate", to_text(c.drive.rate),
            fmt::format("must be 0 along {}, which is periodic and has no centre", "xyz"[k]));
     if (c.domain.flat(k)) continue;
-    period(k, 2 * c.fluid.reach(), c.fluid.variable_h ? "4 kappa h" : "2 kappa h", c.fluid.present);
+    period(k, 2 * c.fluid.reach(), c.fluid.variable_h ? "4 kappa h" : "2 kappa h",
+           c.fluid.present && !c.fluid.lattice());
     period(k, 2 * c.fluid.kappa() * c.couple.hc, "2 kappa h_c", coupled());
     period(k, 2 * c.grain.d_max, "4 R", c.grain.present);
   }
@@ -172,7 +173,8 @@ void Checks::body_exists(const std::string& path, const std::string& name) const
 void cross_check(const Config& config, const Value& root, std::vector<std::string>& warnings) {
   const Checks checks(config, root, warnings);
   checks.domain();
-  if (config.fluid.present) checks.fluid();
+  if (config.fluid.present && config.fluid.lattice()) checks.lattice();
+  if (config.fluid.present && !config.fluid.lattice()) checks.fluid();
   checks.meshes();
   checks.walls();
   checks.motions();

@@ -20,6 +20,7 @@ class Checks {
 
   void domain() const;
   void fluid() const;
+  void lattice() const;
   /// Meshes in mm that are taken for m lie far outside the domain, or are lost in it.
   void meshes() const;
   void walls() const;
@@ -74,6 +75,10 @@ class Checks {
   void falling_grains() const;
   /// The formulas of a fill on a 5 x 5 x 5 raster.
   void initial_speed(const FluidFill& fill) const;
+
+  // checks_lattice.cpp
+  void lattice_step() const;
+  void lattice_walls() const;
 
   // checks_grains.cpp
   void grain_fill(const std::string& path, const GrainFill& fill) const;

@@ -28,8 +28,8 @@ template <class... E>
 constexpr bool kAllNamed = (all_named<E>() && ...);
 
 static_assert(kAllNamed<NormalLaw, SlidingLaw, RollingLaw, LubricationForces>, "a contact law has no row");
-static_assert(kAllNamed<FluidModel, DensityMethod, NoiseForm, DriveMode, DrivenPhase, DriveReversal,
-                        KernelFunction, EosType, ViscosityModel>,
+static_assert(kAllNamed<FluidModel, LatticeCollision, DensityMethod, NoiseForm, DriveMode, DrivenPhase,
+                        DriveReversal, KernelFunction, EosType, ViscosityModel>,
               "a choice of the fluid has no row");
 static_assert(kAllNamed<WallType, WallSlip, LayerForce>, "a choice of the walls has no row");
 static_assert(kAllNamed<CouplingMode, CouplingKernel, DragSlip, SuspensionLaw, DragLaw, DragIntegrator>,

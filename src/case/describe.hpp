@@ -7,15 +7,17 @@
 namespace bedload {
 
 void describe_top(Parameters& p, Config& config);
-void describe_domain(Parameters& p, DomainConfig& domain);
+void describe_domain(Parameters& p, Config& config);
 void describe_shapes(Parameters& p, std::vector<ShapeConfig>& shapes);
 void describe_frame(Parameters& p, FrameConfig& frame);
 /// Where a fill takes its particles from.
 void describe_fill_file(Parameters& p, std::string& file, std::int64_t& step, std::string_view meaning);
 void describe_fluid(Parameters& p, FluidConfig& fluid);
 void describe_fluid_models(Parameters& p, Config& config);
-/// `contact`: already described.
-void describe_walls(Parameters& p, WallConfig& wall, const ContactConfig& contact);
+void describe_lattice(Parameters& p, LatticeConfig& lattice);
+void describe_drive(Parameters& p, Config& config);
+/// Contacts are already described.
+void describe_walls(Parameters& p, Config& config);
 /// Of one wall body; grain.* stands in for its material when the case is resolved.
 void describe_free_body(Parameters& p, FreeConfig& free);
 void describe_rigid_group(Parameters& p, RigidConfig& rigid);

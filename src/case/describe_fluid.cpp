@@ -8,6 +8,14 @@ namespace {
 
 using enum Presence;
 
+/// Of fluid on nodes, which fills the domain anyway: its velocity alone.
+void node_fill(Parameters& p, FluidFill& f) {
+  p("min", &f.min, {.unit = "m", .meaning = "lower corner of a box of fluid", .presence = required});
+  p("max", &f.max, {.unit = "m", .meaning = "upper corner of the box", .presence = required});
+  p("velocity", &f.velocity,
+    {.unit = "m/s", .meaning = "initial velocity, three numbers or formulas in x, y, z"});
+}
+
 void fluid_fill(Parameters& p, FluidFill& f) {
   describe_fill_file(p, f.file, f.step,
                      ".csv or .vtkhdf file with particles of mass rho0 dx^3, instead of a box");
@@ -34,6 +42,20 @@ void fluid_species(Parameters& p, FluidSpecies& s) {
   p("name", &s.name, {.meaning = "name by which fills refer to the species", .presence = required});
   p("mu", &s.mu,
     {.unit = "Pa s", .meaning = "dynamic (shear) viscosity", .range = above(0), .presence = required});
+}
+
+void describe_kernel(Parameters& p, FluidConfig& f) {
+  p("fluid.kernel", &f.kernel, {.meaning = "smoothing kernel", .family = "models"});
+  p("fluid.h_over_dx", &f.h_over_dx,
+    {.meaning = "smoothing length over particle spacing (lucy: 2..4)",
+     .range = f.kernel == KernelFunction::lucy ? within(2, 4) : within(1.2, 3)});
+  p("fluid.variable_h", &f.variable_h,
+    {.meaning = "the smoothing length of each particle follows its volume, within 0.5 to 2 sigma_h dx"});
+  if (f.variable_h || p.everything())
+    p("fluid.sigma_h", &f.sigma_h,
+      {.meaning = "variable_h: smoothing length over the cube root of the particle's volume (plane flow: the "
+                  "square root of its area); replaces h_over_dx",
+       .range = within(1.2, 2)});
 }
 
 void describe_sdpd(Parameters& p, Config& c) {
@@ -66,18 +88,11 @@ void describe_fill_file(Parameters& p, std::string& file, std::int64_t& step, st
 void describe_fluid(Parameters& p, FluidConfig& f) {
   p("fluid.model", &f.model, {.meaning = "fluid model", .family = "models"});
   p("fluid.dx", &f.dx,
-    {.unit = "m", .meaning = "initial particle spacing", .range = above(0), .presence = required});
-  p("fluid.kernel", &f.kernel, {.meaning = "smoothing kernel", .family = "models"});
-  p("fluid.h_over_dx", &f.h_over_dx,
-    {.meaning = "smoothing length over particle spacing (lucy: 2..4)",
-     .range = f.kernel == KernelFunction::lucy ? within(2, 4) : within(1.2, 3)});
-  p("fluid.variable_h", &f.variable_h,
-    {.meaning = "the smoothing length of each particle follows its volume, within 0.5 to 2 sigma_h dx"});
-  if (f.variable_h || p.everything())
-    p("fluid.sigma_h", &f.sigma_h,
-      {.meaning = "variable_h: smoothing length over the cube root of the particle's volume (plane flow: the "
-                  "square root of its area); replaces h_over_dx",
-       .range = within(1.2, 2)});
+    {.unit = "m",
+     .meaning = "initial particle spacing; lattice: spacing of the nodes, which must divide the domain",
+     .range = above(0),
+     .presence = required});
+  if (!f.lattice() || p.everything()) describe_kernel(p, f);
   p("fluid.rho0", &f.rho0, {.unit = "kg/m3", .meaning = "reference density", .range = above(0)});
   p("fluid.mu", &f.mu,
     {.unit = "Pa s", .meaning = "dynamic (shear) viscosity; must be > 0 with grains", .range = at_least(0)});
@@ -90,14 +105,41 @@ void describe_fluid(Parameters& p, FluidConfig& f) {
        .presence = unbounded});
   p("fluid.vmax", &f.vmax,
     {.unit = "m/s",
-     .meaning = "highest flow speed expected, which sets the sound speed; sqrt(2 g H), the speed of walls or "
-                "that of inlets is used where it is higher",
+     .meaning =
+         "highest flow speed expected, which sets the sound speed, and the step of a lattice; sqrt(2 g "
+         "H), the speed of walls or that of inlets is used where it is higher",
      .range = above(0),
      .fallback = "sqrt(2 g H)",
      .presence = optional});
+  if (f.lattice()) return p.list("fluid.fill", f.fills, FluidFill{}, node_fill);
   p("fluid.c_factor", &f.c_factor, {.meaning = "numerical sound speed over vmax", .range = within(5, 50)});
   p.list("fluid.species", f.species, FluidSpecies{}, fluid_species);
   p.list("fluid.fill", f.fills, FluidFill{}, fluid_fill);
+}
+
+void describe_lattice(Parameters& p, LatticeConfig& l) {
+  p("lattice.collision", &l.collision, {.meaning = "collision of populations", .family = "models"});
+  if (l.collision == LatticeCollision::trt || p.everything())
+    p("lattice.magic", &l.magic,
+      {.meaning = "trt: magic number Lambda; 3/16 sets walls half-way between nodes",
+       .range = above_to(0, 1)});
+  p("lattice.velocity", &l.velocity,
+    {.meaning =
+         "fluid.vmax in nodes per step, which sets the time step; compressibility errors grow with its "
+         "square",
+     .range = above_to(0, 0.15)});
+  p("lattice.tau_max", &l.tau_max,
+    {.meaning = "upper limit of the relaxation time, in steps, which shortens the time step of viscous fluid",
+     .range = above_to(0.505, 2)});
+  p("lattice.tau", &l.tau,
+    {.meaning = "relaxation time in steps, which sets the time step instead of velocity and tau_max",
+     .range = within(0.505, 2),
+     .fallback = "by velocity and tau_max",
+     .presence = optional});
+  p("lattice.mass_every", &l.mass_every,
+    {.meaning =
+         "number of steps after which the mass of the fluid is restored, 1e-6 of it and less; 0: never",
+     .range = within(0, 1000000)});
 }
 
 void describe_fluid_models(Parameters& p, Config& c) {
@@ -155,11 +197,15 @@ void describe_fluid_models(Parameters& p, Config& c) {
      .range = above_to(0, 1)});
   p("visc.collision_restitution", &c.visc.collision_restitution,
     {.meaning = "collision: coefficient of restitution", .range = within(0, 1)});
+}
+
+void describe_drive(Parameters& p, Config& c) {
   p("drive.f", &c.drive.f,
     {.unit = "N/m3", .meaning = "driving force per volume of space; drive.mode: per mass or per particle"});
   p("drive.factor", &c.drive.factor,
-    {.meaning = "factor on drive.f, a formula in x, y, z, t", .variables = "xyzt"});
+    {.meaning = "factor on drive.f, a formula in x, y, z, t; lattice: in t", .variables = "xyzt"});
   p("drive.mode", &c.drive.mode, {.meaning = "quantity to which drive.f refers", .family = "models"});
+  if (c.fluid.lattice()) return;
   p("drive.on", &c.drive.on, {.meaning = "phases on which drive.f acts", .family = "models"});
   p("drive.opposed", &c.drive.opposed,
     {.meaning = "axis along which the domain is halved; drive.f is reversed in the upper half",

@@ -115,6 +115,7 @@ void describe_top(Parameters& p, Config& c) {
   p("preset", &c.preset,
     {.meaning = "set of default values; keys of the case take precedence", .family = "presets"});
   p("gravity", &c.gravity, {.unit = "m/s2", .meaning = "acceleration of gravity"});
+  if (c.fluid.lattice()) return;
   p("tensile", &c.tensile,
     {.meaning = "tensile term, a pair pressure against clumping of particles [monaghan00]; 1: on, 0: off",
      .range = within(0, 1)});
@@ -129,11 +130,13 @@ void describe_top(Parameters& p, Config& c) {
      .range = within(0, 1000)});
 }
 
-void describe_domain(Parameters& p, DomainConfig& d) {
+void describe_domain(Parameters& p, Config& c) {
+  DomainConfig& d = c.domain;
   p("domain.min", &d.min, {.unit = "m", .meaning = "lower corner of the domain", .presence = required});
   p("domain.max", &d.max, {.unit = "m", .meaning = "upper corner of the domain", .presence = required});
   p("domain.periodic", &d.periodic,
     {.meaning = "periodic axes [x, y, z]; a period must exceed 2 kappa h and 4 R"});
+  if (c.fluid.lattice()) return;
   p("domain.two_d", &d.two_d,
     {.meaning = "plane flow in x and z: one layer of particles that represents the domain's length along y; "
                 "without grains"});
@@ -220,12 +223,14 @@ void describe_time(Parameters& p, Config& c) {
   TimeConfig& t = c.time;
   p("time.end", &t.end,
     {.unit = "s", .meaning = "end time of the run", .range = above(0), .presence = required});
-  p("time.dt", &t.dt,
-    {.unit = "s",
-     .meaning = "fixed time step",
-     .range = above(0),
-     .fallback = "adaptive",
-     .presence = optional});
+  const bool particles = !c.fluid.lattice();
+  if (particles)
+    p("time.dt", &t.dt,
+      {.unit = "s",
+       .meaning = "fixed time step",
+       .range = above(0),
+       .fallback = "adaptive",
+       .presence = optional});
   p("time.dt_dem", &t.dt_dem,
     {.unit = "s",
      .meaning = "fixed DEM substep of the grains",
@@ -234,16 +239,19 @@ void describe_time(Parameters& p, Config& c) {
      .presence = optional});
   p("time.force_dt", &t.force_dt,
     {.meaning = "a fixed step above its stability limit gives a warning instead of an error"});
-  p("time.cfl", &t.cfl, fraction("safety factor of the CFL limit (sound)"));
-  p("time.visc", &t.visc, fraction("safety factor of the viscous limit"));
-  if (c.fluid.model->own_viscosity || p.everything())
-    p("time.friction", &t.friction,
-      fraction("SDPD: safety factor of the friction limit, the time in which friction stops a particle"));
-  p("time.body", &t.body, fraction("safety factor of the acceleration limit"));
-  p("time.drag", &t.drag, fraction("safety factor of the drag limit"));
+  if (particles) {
+    p("time.cfl", &t.cfl, fraction("safety factor of the CFL limit (sound)"));
+    p("time.visc", &t.visc, fraction("safety factor of the viscous limit"));
+    if (c.fluid.model->own_viscosity || p.everything())
+      p("time.friction", &t.friction,
+        fraction("SDPD: safety factor of the friction limit, the time in which friction stops a particle"));
+    p("time.body", &t.body, fraction("safety factor of the acceleration limit"));
+    p("time.drag", &t.drag, fraction("safety factor of the drag limit"));
+  }
   p("time.rayleigh", &t.rayleigh, fraction("DEM substep over the Rayleigh time of a grain"));
   p("time.contact", &t.contact, fraction("DEM substep over the duration of a contact"));
-  p("time.integrator", &t.integrator, {.meaning = "time integration scheme", .family = "models"});
+  if (particles)
+    p("time.integrator", &t.integrator, {.meaning = "time integration scheme", .family = "models"});
   p("run.precision", &c.precision, {.meaning = "floating-point precision", .family = "models"});
   p("run.simd", &c.simd,
     {.meaning = "instruction set of the CPU; results differ by round-off", .family = "models"});

@@ -112,15 +112,37 @@ void motion_parts(Parameters& p, const std::string& at, MotionConfig& m) {
   p.list(at + "add", m.add, MotionPart{}, [](Parameters& q, MotionPart& part) { motion_part(q, "", part); });
 }
 
-void body_motion(Parameters& p, MotionConfig& m) {
+void body_motion(Parameters& p, MotionConfig& m, bool removable) {
   motion_part(p, "motion.", m);
-  if (m.kind != MotionKind::fixed || p.everything())
+  if (removable && (m.kind != MotionKind::fixed || p.everything()))
     p("motion.remove_when_clear", &m.remove_when_clear,
       {.meaning = "the body is removed once it is above all fluid and grains"});
   motion_parts(p, "motion.", m);
 }
 
-void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
+/// Of a body made of particles.
+void particle_wall(Parameters& p, WallBody& b) {
+  p("slip", &b.slip, {.meaning = "slip or no slip of the fluid", .fallback = "wall.slip"});
+  if (b.single_layer() || p.everything())
+    p("force", &b.force, {.meaning = "single_layer: repulsive force on the fluid", .fallback = "wall.force"});
+  if (!b.single_layer() || p.everything()) {
+    p("no_penetration", &b.no_penetration,
+      {.meaning = "penetration limit: stops fluid within fluid.dx / 4 of the surface",
+       .fallback = "wall.no_penetration"});
+    p("repulsion", &b.repulsion,
+      {.meaning = "Monaghan repulsion near the surface; frozen walls always have it",
+       .fallback = "wall.repulsion"});
+  }
+  p("dx", &b.dx,
+    {.unit = "m",
+     .meaning = "spacing of its particles, fluid.dx/4..fluid.dx; single_layer: at most fluid.dx/2",
+     .range = above(0),
+     .fallback = "wall.dx; single_layer: at most fluid.dx/2",
+     .presence = optional});
+}
+
+/// particles: it is made of them.
+void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact, bool particles) {
   p("name", &b.name, {.meaning = "name of the body in probes, outputs and messages", .presence = required});
   p("shape", &b.shape,
     {.meaning = "shape of the body",
@@ -139,26 +161,10 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
     p("normal", &b.normal, {.meaning = "plane: normal, pointing into the flow", .presence = required});
   }
   p("type", &b.type, {.meaning = "boundary condition for the fluid", .fallback = "wall.type"});
-  p("slip", &b.slip, {.meaning = "slip or no slip of the fluid", .fallback = "wall.slip"});
-  if (b.single_layer() || p.everything())
-    p("force", &b.force, {.meaning = "single_layer: repulsive force on the fluid", .fallback = "wall.force"});
-  if (!b.single_layer() || p.everything()) {
-    p("no_penetration", &b.no_penetration,
-      {.meaning = "penetration limit: stops fluid within fluid.dx / 4 of the surface",
-       .fallback = "wall.no_penetration"});
-    p("repulsion", &b.repulsion,
-      {.meaning = "Monaghan repulsion near the surface; frozen walls always have it",
-       .fallback = "wall.repulsion"});
-  }
   p("surface_velocity", &b.surface_velocity,
     {.unit = "m/s",
      .meaning = "velocity of a surface that slides in its own plane (lid, belt), in the body's axes"});
-  p("dx", &b.dx,
-    {.unit = "m",
-     .meaning = "spacing of its particles, fluid.dx/4..fluid.dx; single_layer: at most fluid.dx/2",
-     .range = above(0),
-     .fallback = "wall.dx; single_layer: at most fluid.dx/2",
-     .presence = optional});
+  if (particles) particle_wall(p, b);
   if (b.stops_grains() || p.everything()) {
     p("material", &b.material,
       {.meaning =
@@ -194,8 +200,8 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact) {
        .fallback = "that of material, or grain.nu",
        .presence = unbounded});
   }
-  body_motion(p, b.motion);
-  describe_free_body(p, b.free);
+  body_motion(p, b.motion, particles);
+  if (particles) describe_free_body(p, b.free);
 }
 
 void grain_material(Parameters& p, GrainMaterial& m, const ContactConfig& contact) {
@@ -385,7 +391,10 @@ void describe_frame(Parameters& p, FrameConfig& frame) {
   motion_parts(p, "frame.motion.", frame.motion);
 }
 
-void describe_walls(Parameters& p, WallConfig& w, const ContactConfig& contact) {
+namespace {
+
+/// Of walls made of particles.
+void particle_walls(Parameters& p, WallConfig& w) {
   p("wall.dx", &w.dx,
     {.unit = "m",
      .meaning = "spacing of wall particles, fluid.dx/4..fluid.dx",
@@ -428,6 +437,13 @@ void describe_walls(Parameters& p, WallConfig& w, const ContactConfig& contact) 
      .range = above(0),
      .fallback = "fluid.dx",
      .presence = optional});
+}
+
+}  // namespace
+
+void describe_walls(Parameters& p, Config& c) {
+  WallConfig& w = c.wall;
+  if (!c.fluid.lattice()) particle_walls(p, w);
   WallBody prototype;
   prototype.type = w.type;
   prototype.force = w.force;
@@ -435,7 +451,7 @@ void describe_walls(Parameters& p, WallConfig& w, const ContactConfig& contact) 
   prototype.no_penetration = w.no_penetration;
   prototype.repulsion = w.repulsion;
   p.list("wall.body", w.bodies, prototype,
-         [&](Parameters& q, WallBody& body) { wall_body(q, body, contact); });
+         [&](Parameters& q, WallBody& body) { wall_body(q, body, c.contact, !c.fluid.lattice()); });
 }
 
 void describe_grains(Parameters& p, Config& c) {

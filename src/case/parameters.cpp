@@ -19,21 +19,24 @@ std::string Interval::text() const {
 
 void describe(Parameters& p, Config& c) {
   describe_top(p, c);
-  describe_domain(p, c.domain);
+  describe_domain(p, c);
   describe_shapes(p, c.shapes);
-  describe_frame(p, c.frame);
+  const bool particles = !c.fluid.lattice(), all = p.everything();
+  if (particles) describe_frame(p, c.frame);
   if (c.fluid.present) describe_fluid(p, c.fluid);
-  describe_fluid_models(p, c);
+  if (!particles || all) describe_lattice(p, c.lattice);
+  if (particles) describe_fluid_models(p, c);
+  describe_drive(p, c);
   describe_contact(p, c.contact);
   if (c.grain.present) describe_lubrication(p, c.lubrication);
-  describe_walls(p, c.wall, c.contact);
-  if (c.fluid.present) describe_inlets(p, c.inlets);
-  describe_outlets(p, c.outlets);
+  describe_walls(p, c);
+  if (c.fluid.present && particles) describe_inlets(p, c.inlets);
+  if (particles) describe_outlets(p, c.outlets);
   if (c.grain.present) {
     describe_grains(p, c);
     describe_grain_inlets(p, c.grain_inlets);
   }
-  describe_coupling(p, c.couple);
+  if (particles) describe_coupling(p, c.couple);
   describe_time(p, c);
   describe_output(p, c.out);
   describe_paper(p, c);

@@ -117,6 +117,7 @@ Config defaults_of(const Value& root) {
   if (c.fluid.variable_h) c.shift = 0, c.pressure.linear_exact = false;  // they go with one smoothing length
   switch (c.fluid.model) {
     case FluidModel::wcsph:
+    case FluidModel::lattice:
       break;
     case FluidModel::sdpd:
     case FluidModel::sdpd_a:

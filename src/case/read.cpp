@@ -43,7 +43,7 @@ Config read_case_tree(Value root, const std::string& name, std::vector<std::stri
   Reader reader(root);
   describe(reader, config);
   try {
-    reader.reject_unread();
+    reader.reject_unread(config.fluid.lattice() ? "with fluid.model = \"lattice\"" : "by the chosen options");
   } catch (const CaseError&) {
     check_shape_names(config, root);  // what a misspelt shape leaves unread
     throw;

@@ -251,11 +251,11 @@ void Reader::open_item(std::string_view key, std::size_t i) {
   scopes_.push_back({&(*find(key)->get<Value::Array>())[i], scopes_.back().prefix + std::string(key) + "."});
 }
 
-void Reader::reject_unread() const {
+void Reader::reject_unread(const std::string& options) const {
   for_leaves(*scopes_.front().table, "", [&](const Value& value, const std::string& key) {
     if (read_.count(&value) || value.get<Value::Table>()) return;
-    throw CaseError(fmt::format("{}: {} = {} is not used by the chosen options; remove it", value.place(),
-                                key, shortened(value.text())));
+    throw CaseError(fmt::format("{}: {} = {} is not used {}; remove it", value.place(), key,
+                                shortened(value.text()), options));
   });
 }
 

@@ -17,8 +17,9 @@ class Reader final : public Parameters {
   /// Reads `value` if the file has `key`; throws CaseError if it may not be so.
   void operator()(std::string_view key, Slot value, const About& about) override;
   bool table(std::string_view key, bool) override { return find(key) != nullptr; }
-  /// Throws CaseError for a key that no law, shape or kind in this case reads.
-  void reject_unread() const;
+  /// Throws CaseError for a key that no law, shape or kind in this case reads; `options` says why: "by the
+  /// chosen options".
+  void reject_unread(const std::string& options) const;
 
  private:
   struct Scope {

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "bedload/case/grain_sizes.hpp"
+#include "bedload/case/lattice_step.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
 #include "bedload/geometry/build_shape.hpp"
@@ -340,6 +341,20 @@ struct FrameEffects {
   }
 };
 
+/// Fluid on nodes: nothing falls or flows in, so that walls alone set a speed.
+void resolve_lattice(Config& c, const Value& root) {
+  FluidConfig& f = c.fluid;
+  for (const WallBody& body : c.wall.bodies)
+    f.vmax = std::max(f.vmax, wall_speed(body, c.domain, c.time.end) + norm(body.surface_velocity));
+  if (f.vmax == 0) missing(root, "fluid.vmax", "m/s; no wall sets a speed here");
+  if (!(f.mu > 0))
+    reject(root, "fluid.mu", fmt::format("{}", f.mu), "must be > 0 with fluid.model = \"lattice\"");
+  if (c.drive.factor != DriveConfig().factor)
+    check_factor(c.drive.factor, 0, c.time.end, root, "drive.factor");
+  f.c = lattice_step(c).sound;
+  c.wall.dx = f.dx;
+}
+
 void resolve_fluid(Config& c, const Value& root, const std::filesystem::path& checkpoint) {
   FluidConfig& f = c.fluid;
   if (f.fills.empty() && c.inlets.empty())
@@ -463,7 +478,8 @@ void resolve(Config& c, const Value& root, const std::filesystem::path& checkpoi
   resolve_free_bodies(c, root);
   resolve_openings(c, root);
   if (c.frame.motion.moves()) c.frame.acceleration = FrameEffects(c).acceleration;
-  if (c.fluid.present) resolve_fluid(c, root, checkpoint);
+  if (c.fluid.present && c.fluid.lattice()) resolve_lattice(c, root);
+  if (c.fluid.present && !c.fluid.lattice()) resolve_fluid(c, root, checkpoint);
   if (c.grain.present) resolve_grains(c, root, checkpoint);
   if (c.fluid.present && c.grain.present && c.couple.hc == 0)
     c.couple.hc = std::max(c.fluid.h(), 4 * c.grain.d_max / c.fluid.kappa());

@@ -15,7 +15,8 @@ FirstStep::FirstStep(Prepared& p, bool restarted) : prepared(p) {
   steps = simulation.limits();
   substeps = simulation.substep_limits();
   numerical_viscosity = simulation.numerical_viscosity();
-  free_surface = p.config.fluid.present && (restarted || has_free_surface(p.config, p.setup));
+  free_surface = p.config.fluid.present && !p.config.fluid.lattice() &&
+                 (restarted || has_free_surface(p.config, p.setup));
   remarks = remarks_on(p.config, numerical_viscosity, free_surface);
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "bedload/case/lattice_step.hpp"
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
@@ -26,7 +27,7 @@ namespace bedload {
 namespace {
 
 Counts counts_of(const Setup& setup) {
-  return {std::int64_t(setup.fluid.x.size()), std::int64_t(setup.walls.x.size()),
+  return {std::int64_t(setup.fluid.x.size() + setup.nodes.solid.size()), std::int64_t(setup.walls.x.size()),
           std::int64_t(setup.grains.x.size())};
 }
 
@@ -63,17 +64,20 @@ std::int64_t whole(double count) { return std::int64_t(std::min(count, 1e15)); }
 
 Expected expected_fluid(const Config& c) {
   double volume = 0;
+  const auto box = [](const Vec3d& side) { return side.x * side.y * side.z; };
+  if (c.fluid.lattice()) volume = box(c.domain.max - c.domain.min);
   for (const FluidFill& fill : c.fluid.fills) {
     const Vec3d side = fill.max - fill.min;
+    if (c.fluid.lattice()) break;  // it fills the domain
     if (fill.solid.shape)
       volume += rough_size(*fill.solid.shape, c.domain).volume;
     else if (fill.file.empty())
-      volume += side.x * side.y * side.z;
+      volume += box(side);
   }
   return {"fluid.dx",
           fmt::format("fluid.dx = {}", c.fluid.dx),
           {.fluid = whole(volume / c.domain.cell_volume(c.fluid.dx))},
-          "fluid particles"};
+          c.fluid.lattice() ? "nodes" : "fluid particles"};
 }
 
 Expected expected_wall(const Config& c, std::size_t index) {
@@ -109,7 +113,7 @@ void refuse_too_many(const Prepared& p) {
   if (c.fluid.present) {
     parts.push_back(expected_fluid(c));
     for (std::size_t k = 0; k < c.wall.bodies.size(); ++k)
-      if (c.wall.bodies[k].stops_fluid()) parts.push_back(expected_wall(c, k));
+      if (c.wall.bodies[k].stops_fluid() && !c.fluid.lattice()) parts.push_back(expected_wall(c, k));
   }
   for (std::size_t k = 0; c.grain.present && k < c.grain.fills.size(); ++k)
     parts.push_back(expected_grains(c, k));
@@ -327,9 +331,25 @@ std::string heading_text(const Prepared& p) {
   return out;
 }
 
+namespace {
+
+/// The nodes of a case, and its units on them.
+std::string lattice_text(const Config& c) {
+  const LatticeStep step = lattice_step(c);
+  return fmt::format(
+      "nodes      {} x {} x {}, {:.4g} m apart\n"
+      "lattice    step {:.4g} s, relaxation time {:.4g} steps, vmax {:.4g} m/s = {:.3g} nodes a "
+      "step, sound {:.4g} m/s\n",
+      cells_along(c, 0), cells_along(c, 1), cells_along(c, 2), c.fluid.dx, step.dt, step.tau, c.fluid.vmax,
+      step.vmax, step.sound);
+}
+
+}  // namespace
+
 std::string summary_text(const Prepared& p) {
   const Config& c = p.config;
   const Counts& n = p.counts;
+  if (c.fluid.lattice()) return lattice_text(c);
   std::string out = fmt::format("particles  fluid {}, walls {}, grains {}\n", grouped(n.fluid),
                                 grouped(n.walls), grouped(n.grains));
   const Counts later = with_inflow(p);

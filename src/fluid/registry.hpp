@@ -30,7 +30,9 @@ using FluidModels = FluidModelList<Wcsph, Sdpd, SpinningSdpd>;
 #endif
 
 static_assert(kFirstLook || std::all_of(kNames<FluidModel>.begin(), kNames<FluidModel>.end(),
-                                        [](const auto& row) { return FluidModels::holds(row.value); }),
+                                        [](const auto& row) {
+                                          return row.nodes || FluidModels::holds(row.value);
+                                        }),
               "a fluid model that a case may name is missing in FluidModels");
 
 }  // namespace BL_SOLVER

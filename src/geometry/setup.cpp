@@ -7,6 +7,7 @@
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/filter.hpp"
 #include "bedload/geometry/lattice.hpp"
+#include "bedload/geometry/nodes.hpp"
 #include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/packing.hpp"
 #include "bedload/geometry/sampling.hpp"
@@ -130,6 +131,10 @@ void replace_fluid(const Config& config, const Setup::Grains& grains, Setup::Flu
 Setup build_setup(const Config& config, std::vector<std::string>& warnings, std::vector<std::string>* notes) {
   Setup setup;
   std::vector<std::string> unread;
+  if (config.fluid.present && config.fluid.lattice()) {
+    setup.nodes = place_nodes(config);
+    return setup;
+  }
   if (config.fluid.present) {
     const First first = add_fluid(config, setup.fluid, warnings, notes ? *notes : unread);
     check_fluid_is_clear(config, setup.fluid, first);

@@ -3,35 +3,10 @@
 #include <utility>
 
 #include "bedload/parallel/reductions.hpp"
+#include "src/measure/body_rows.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace BL_SOLVER {
-namespace {
-
-/// Loads on a body by their source.
-using NamedLoads = std::vector<std::pair<const char*, LoadSum>>;
-
-void add(std::vector<Quantity>& out, const std::string& name, const char* unit, const Vec3d& v) {
-  for (int k = 0; k < 3; ++k) out.push_back({name + "_" + "xyz"[k], unit, v[k]});
-}
-
-std::vector<Quantity> rows_of(const RigidMotion& m, const NamedLoads& loads) {
-  std::vector<Quantity> out;
-  add(out, "centre", "m", m.origin());
-  out.push_back({"rotation_w", "-", m.rotation.w});
-  add(out, "rotation", "-", {m.rotation.x, m.rotation.y, m.rotation.z});
-  add(out, "velocity", "m/s", m.v);
-  add(out, "angular_velocity", "rad/s", m.omega);
-  for (const auto& [by, load] : loads) {
-    add(out, std::string("force_by_") + by, "N", load.force());
-    add(out, std::string("torque_by_") + by, "N m", load.torque());
-    out.push_back({std::string("power_by_") + by, "W", dot(load.force(), m.v) + dot(load.torque(), m.omega)});
-  }
-  return out;
-}
-
-}  // namespace
-
 const CoupledSimulation::WallForces& CoupledSimulation::wall_forces() {
   if (wall_forces_.due(state_.clock.step))
     stepper_.fluid().wall_forces(state_.fluid, state_.walls, state_.poses_now(), stepper_.moment(),

@@ -60,7 +60,8 @@ Series series_of(const Config& c, const fs::path& folder) {
   };
   if (c.fluid.present) frames_of("fluid");
   if (c.grain.present) frames_of("grains");
-  const bool wall_particles = c.fluid.present && !(c.wall.bodies.empty() && c.inlets.empty());
+  const bool wall_particles =
+      c.fluid.present && !c.fluid.lattice() && !(c.wall.bodies.empty() && c.inlets.empty());
   if (c.out.walls && wall_particles) frames_of("walls");
 
   const auto every = [&](double own) { return Schedule(own > 0 ? own : c.out.every); };

@@ -7,6 +7,7 @@
 
 #include "bedload/output/files.hpp"
 #include "bedload/output/h5_table.hpp"
+#include "src/output/image_frames.hpp"
 
 namespace bedload {
 namespace {
@@ -216,6 +217,13 @@ void check_arrays(hid_t root, const HostArray& points, const HostStore& store) {
     if (contains(names, store.arrays[k].name)) check_array(data, store.arrays[k].name, store.arrays[k]);
 }
 
+/// Throws if the file has points and the store is of places at equal distances, or the reverse.
+void check_kind(hid_t root, const HostStore& store) {
+  if (image::is_image(root) != store.grid.has_value())
+    throw h5::Error(std::string("it has frames of ") + (store.grid ? "particles" : "nodes") +
+                    "; give the restart another --out");
+}
+
 /// Values where a frame has none: NaN, 0 of whole numbers.
 HostArray absent(const std::string& name, const std::string& unit, Scalar type, int components,
                  std::size_t count) {
@@ -261,7 +269,18 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
 
   if (begun) must_be_there(path_);
   const bool first = !begun && !std::filesystem::exists(path_);
+  const auto write_image = [&] {
+    Handle file = h5::open_file(path_, first ? h5::Mode::create : h5::Mode::append);
+    {
+      const Handle root = first ? h5::create_group(file, "VTKHDF") : h5::open_group(file, "VTKHDF");
+      if (first) image::create_layout(root, store, deflate_);
+      check_kind(root, store);
+      image::append(root, store, time);
+    }
+    file.close();
+  };
   const auto write = [&] {
+    if (store.grid) return write_image();
     const HostArray points = stored_points(store.arrays.at(0), double_points_);
     if (first) create_layout(path_, store, points, deflate_);
     Handle file = h5::open_file(path_, h5::Mode::append);
@@ -275,6 +294,7 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
                          last_cell = last_of(steps, "CellOffsets", frames),
                          last_count = frames > 0 ? integer_of(root, "NumberOfPoints", last_part) : -1;
       const bool same_count = last_count == std::int64_t(store.count);
+      check_kind(root, store);
       check_arrays(root, points, store);
       add_arrays(root, store, frames, deflate_);
 
@@ -315,6 +335,8 @@ void FrameFile::expect(const HostStore& store) const {
   h5::with_file_errors(path_, "write", [&] {
     const Handle file = h5::open_file(path_, h5::Mode::read);
     const Handle root = h5::open_group(file, "VTKHDF");
+    check_kind(root, store);
+    if (store.grid) return image::expect(root, store);
     const FrameIndex index(root);
     check_arrays(root, stored_points(store.arrays.at(0), double_points_), store);
   });
@@ -335,6 +357,7 @@ HostStore FrameFile::read(std::size_t frame) const {
   return h5::with_file_errors(path_, "read", [&] {
     const Handle file = h5::open_file(path_, h5::Mode::read);
     const Handle root = h5::open_group(file, "VTKHDF");
+    if (image::is_image(root)) return image::read(root, path_.stem().string(), frame);
     const FrameIndex index(root);
     if (frame >= index.frames()) throw h5::Error("no such frame");
     const std::int64_t count = index.count(frame);
@@ -357,7 +380,10 @@ void FrameFile::keep(std::size_t count) const {
   }
   h5::with_file_errors(path_, "write", [&] {
     Handle file = h5::open_file(path_, h5::Mode::append);
-    truncate(h5::open_group(file, "VTKHDF"), count);
+    {
+      const Handle root = h5::open_group(file, "VTKHDF");
+      image::is_image(root) ? image::truncate(root, count) : truncate(root, count);
+    }
     file.close();
   });
 }

@@ -7,6 +7,7 @@
 #include "bedload/output/files.hpp"
 #include "bedload/output/h5_table.hpp"
 #include "bedload/output/vtkhdf.hpp"
+#include "src/output/image_frames.hpp"
 
 namespace bedload {
 namespace {
@@ -68,6 +69,56 @@ std::string slab(const std::string& file, const Source& s, std::size_t frame, st
       shape(count), s.number, flat ? 1 : 2, region, shape(s.rows), s.number, file, s.path);
 }
 
+/// The frames of an image.
+std::string image_text(hid_t root, const std::string& file, const std::string& name,
+                       const std::vector<double>& at) {
+  const HostGrid grid = image::grid_of(root);
+  const Handle data = h5::open_group(root, "PointData");
+  const Handle offsets = h5::open_group(root, "Steps/PointDataOffsets");
+  const std::string size = fmt::format("{} {} {}", grid.count[2], grid.count[1], grid.count[0]);
+  struct Array {
+    Source source;
+    hsize_t components;
+  };
+  std::vector<Array> arrays;
+  for (const auto& array : h5::members(data)) {
+    const auto n = h5::extent(h5::open_dataset(data, array));
+    arrays.push_back(
+        {source_of(data, array, "PointData/" + array, h5::read_integers(offsets, array, at.size())),
+         n.size() > 4 ? n[4] : 1});
+  }
+  std::string text;
+  const auto out = std::back_inserter(text);
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    fmt::format_to(out, "    <Grid Name=\"{}\" GridType=\"Uniform\">\n      <Time Value=\"{}\"/>\n", name,
+                   at[k]);
+    fmt::format_to(out, "      <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"{}\"/>\n", size);
+    fmt::format_to(
+        out,
+        "      <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n"
+        "        <DataItem Dimensions=\"3\" Format=\"XML\">{} {} {}</DataItem>\n"
+        "        <DataItem Dimensions=\"3\" Format=\"XML\">{} {} {}</DataItem>\n      </Geometry>\n",
+        grid.first.z, grid.first.y, grid.first.x, grid.spacing, grid.spacing, grid.spacing);
+    for (const auto& [a, components] : arrays) {
+      const bool scalar = components == 1;
+      const std::string vector = scalar ? "" : fmt::format(" {}", components), zero = scalar ? "" : " 0",
+                        one = scalar ? "" : " 1";
+      fmt::format_to(
+          out,
+          "      <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">\n"
+          "        <DataItem ItemType=\"HyperSlab\" Dimensions=\"{}{}\" {}>\n"
+          "          <DataItem Dimensions=\"3 {}\" Format=\"XML\">{} 0 0 0{} 1 1 1 1{} 1 {}{}</DataItem>\n"
+          "          <DataItem Format=\"HDF\" Dimensions=\"{} {}{}\" {}>{}:/VTKHDF/{}</DataItem>\n"
+          "        </DataItem>\n"
+          "        <Information Name=\"unit\" Value=\"{}\"/>\n      </Attribute>\n",
+          a.name, kind_of(components), size, vector, a.number, scalar ? 4 : 5, a.starts[k], zero, one, size,
+          vector, a.rows, size, vector, a.number, file, a.path, a.unit);
+    }
+    text += "    </Grid>\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 void FrameFile::write_xdmf() const {
@@ -75,9 +126,14 @@ void FrameFile::write_xdmf() const {
   std::vector<std::int64_t> counts;
   Source points;
   std::vector<Source> arrays;
+  std::string images;
   const auto read = [&] {
     const Handle file = h5::open_file(path_, h5::Mode::read);
     const Handle root = h5::open_group(file, "VTKHDF");
+    if (image::is_image(root)) {
+      images = image_text(root, path_.filename().string(), path_.stem().string(), at);
+      return;
+    }
     const Handle steps = h5::open_group(root, "Steps");
     const Handle offsets = h5::open_group(steps, "PointDataOffsets");
     const Handle data = h5::open_group(root, "PointData");
@@ -99,7 +155,8 @@ void FrameFile::write_xdmf() const {
       "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
       "  <Grid Name=\"frames\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
   const auto out = std::back_inserter(text);
-  for (std::size_t k = 0; k < at.size(); ++k) {
+  text += images;
+  for (std::size_t k = 0; k < counts.size(); ++k) {
     fmt::format_to(out, "    <Grid Name=\"{}\" GridType=\"Uniform\">\n      <Time Value=\"{}\"/>\n",
                    path_.stem().string(), at[k]);
     fmt::format_to(out, "      <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n", counts[k]);

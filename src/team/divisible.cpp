@@ -13,6 +13,7 @@ void refuse_undivided(const Config& c) {
                                     key, what));
   };
   if (!c.fluid.present) refuse("fluid", "a case without fluid");
+  if (c.fluid.lattice()) refuse("fluid.model", "fluid on a lattice");
   if (c.grain.present) refuse("grain", "a case with grains");
   if (c.wall.energy_consistent && c.wall.suction)
     refuse("wall.energy_consistent", "work of the pressure of walls");

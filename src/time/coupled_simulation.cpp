@@ -1,5 +1,7 @@
 #include "src/time/coupled_simulation.hpp"
 
+#include "src/time/lattice_simulation.hpp"
+
 namespace BL_SOLVER {
 
 CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup, Link* link)
@@ -48,6 +50,8 @@ void CoupledSimulation::load(const SavedState& saved) {
 }
 
 std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup, Link* link) {
+  if (config.fluid.present && config.fluid.lattice())
+    return std::make_unique<LatticeSimulation>(config, setup);
   return std::make_unique<CoupledSimulation>(config, setup, link);
 }
 

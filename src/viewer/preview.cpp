@@ -71,7 +71,9 @@ void make_folder(const fs::path& folder) {
 
 void write_preview(const fs::path& folder, const Config& config, const Setup& setup) {
   make_folder(folder);
-  const Setup::Walls walls = config.fluid.present ? setup.walls : wall_surfaces(config, config.grain.d_min);
+  const Setup::Walls walls = config.fluid.lattice() ? wall_surfaces(config, config.fluid.dx)
+                             : config.fluid.present ? setup.walls
+                                                    : wall_surfaces(config, config.grain.d_min);
   const Writer write{folder, config.precision == Precision::fp64};
   write("fluid", setup.fluid, "mass", "kg", setup.fluid.mass);
   write("grains", setup.grains, "radius", "m", setup.grains.radius);

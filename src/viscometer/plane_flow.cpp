@@ -199,6 +199,8 @@ double PlaneFlow::relaxation(double nu) const {
 
 PlaneFlow plane_flow_of(const Config& c) {
   if (!c.fluid.present) throw NoPlaneFlow("fluid.dx", "fluid.dx: a viscometer needs a fluid");
+  if (c.fluid.lattice())
+    throw NoPlaneFlow("fluid.model", "fluid.model = \"lattice\": a viscometer needs particles");
   bool walls = false;
   for (const WallBody& body : c.wall.bodies) walls = walls || body.stops_fluid();
   PlaneFlow flow = c.domain.sheared() ? lees_edwards(c) : walls ? between_walls(c) : reverse_poiseuille(c);

@@ -720,7 +720,52 @@ end = 0.1
 every = 0.05
 """
 
-BASES = {"tank": TANK, "sdpd": SDPD, "shapes": SHAPES, "motions": MOTIONS, "slurry": SLURRY, "shear": SHEAR, "listed": LISTED}
+NODES = """gravity = [0, 0, -9.81]
+[domain]
+min = [0, 0, 0]
+max = [0.02, 0.02, 0.02]
+periodic = [true, true, false]
+[fluid]
+model = "lattice"
+dx = 0.002
+mu = 0.01
+vmax = 0.1
+[[fluid.fill]]
+min = [0, 0, 0]
+max = [0.02, 0.02, 0.02]
+velocity = ["0.01*sin(314.159*y)", 0, 0]
+[lattice]
+collision = "trt"
+magic = 0.1875
+velocity = 0.05
+tau_max = 1
+mass_every = 20
+[drive]
+f = [1, 0, 0]
+factor = "cos(t)"
+[[wall.body]]
+name = "floor"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+[[wall.body]]
+name = "lid"
+shape = "plane"
+point = [0, 0, 0.02]
+normal = [0, 0, -1]
+surface_velocity = [0.01, 0, 0]
+[time]
+end = 0.02
+[out]
+every = 0.01
+[[probe]]
+name = "lid"
+type = "force"
+body = "lid"
+"""
+
+BASES = {"tank": TANK, "sdpd": SDPD, "shapes": SHAPES, "motions": MOTIONS, "slurry": SLURRY, "shear": SHEAR, "listed": LISTED,
+         "nodes": NODES}
 
 _FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 _CORNERS = ["0 0 0", "1 0 0", "0 1 0", "0 0 1"]

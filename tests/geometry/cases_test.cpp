@@ -70,6 +70,9 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"taylor_green/case.toml", {50 * 50 * 8, 0}},
       {"taylor_green/re100.toml", {100 * 100, 0}},
       {"taylor_green/re1000.toml", {100 * 100, 0}},
+      {"taylor_green_lattice/case.toml", {50 * 50, 0}},
+      {"taylor_green_lattice/re100.toml", {100 * 100, 0}},
+      {"taylor_green_lattice/re1000.toml", {100 * 100, 0}},
   };
   std::size_t found = 0;
   const fs::path cases = fs::path(BL_SOURCE_DIR) / "cases";
@@ -81,7 +84,7 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
     std::vector<std::string> warnings;
     const Config config = read_case(entry.path(), {}, warnings);
     const auto setup = build_setup(config, warnings);
-    EXPECT_EQ(setup.fluid.x.size(), expected.at(name).fluid);
+    EXPECT_EQ(setup.fluid.x.size() + setup.nodes.solid.size(), expected.at(name).fluid);
     EXPECT_EQ(setup.grains.x.size(), expected.at(name).grains);
     const auto& foreseen = expected.at(name).warnings;
     ASSERT_EQ(warnings.size(), foreseen.size()) << (warnings.empty() ? "" : warnings[0]);

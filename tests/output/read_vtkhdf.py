@@ -102,6 +102,27 @@ def check_emptied(path):
             raise SystemExit(f"{path.name} frame {k}: {len(frame['position'])} points, expected {n}")
 
 
+def check_nodes(path):
+    """Images, by both readers: node_frames.hpp has the formulas."""
+    n = np.arange(30, dtype=float)
+    reader = open_frames(path, 3)
+    xdmf = vtkXdmfReader()
+    xdmf.SetFileName(str(path.with_suffix(".xdmf")))
+    xdmf.UpdateInformation()
+    for k in (0, 2, 1):
+        reader.SetStep(k)
+        reader.Update()
+        xdmf.UpdateTimeStep(0.5 * k)
+        for frame in (reader.GetOutput(), xdmf.GetOutputDataObject(0)):
+            compare(f"{path.name} frame {k} extent", frame.GetDimensions(), np.array([5, 3, 2]), 0)
+            compare("first node", frame.GetPoint(0), np.array([0.25, 0.5, -1]), 1e-12)
+            compare("last node", frame.GetPoint(29), np.array([2.25, 1.5, -0.5]), 1e-12)
+            data = frame.GetPointData()
+            compare("speed", vtk_to_numpy(data.GetArray("speed")), 100 * k + n, 1e-6)
+            compare("velocity", vtk_to_numpy(data.GetArray("velocity")), np.stack([0 * n + k, n, -n], axis=1), 1e-6)
+            compare("solid", vtk_to_numpy(data.GetArray("solid")), n % 4 == 0, 0)
+
+
 def main():
     folder = Path(sys.argv[1])
     for store in ("fluid", "grains", "walls"):
@@ -111,6 +132,7 @@ def main():
         check_xdmf(path.with_suffix(".xdmf"), store)
     check_frames(folder / "restarted_fluid.vtkhdf", "fluid", range(5))
     check_xdmf(folder / "restarted_fluid.xdmf", "fluid")
+    check_nodes(folder / "nodes.vtkhdf")
     check_emptied(folder / "emptied.vtkhdf")
 
 

@@ -11,6 +11,7 @@
 #include "bedload/output/h5_table.hpp"
 #include "fake_simulation.hpp"
 #include "full_disk.hpp"
+#include "node_frames.hpp"
 
 namespace bedload::testing {
 namespace {
@@ -233,6 +234,9 @@ TEST(FrameFile, VtkReadsEveryFrame) {
     for (int n = 0; n < 4; ++n) s.step();
   }
   fluid.write_xdmf();
+  const FrameFile nodes(folder / "nodes.vtkhdf");
+  for (int k = 0; k < 3; ++k) nodes.append(node_frame(k), 0.5 * k);
+  nodes.write_xdmf();
   HostStore none = s.snapshot("walls");  // a store that empties, and fills again
   const FrameFile emptied(folder / "emptied.vtkhdf");
   emptied.append(none, 0);

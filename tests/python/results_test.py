@@ -27,7 +27,35 @@ def write_frames(path, times, ids, field):
         data["value"].attrs["unit"] = "m/s"
 
 
+def write_images(path, times):
+    """Frames of 3 x 2 x 2 nodes; the value of node n is 100 t + n, its velocity (t, n, 0); `solid` never changes."""
+    n = np.arange(12.0)
+    with h5py.File(path, "w") as file:
+        root = file.create_group("VTKHDF")
+        root.attrs["WholeExtent"] = [0, 2, 0, 1, 0, 1]
+        root.attrs["Origin"], root.attrs["Spacing"] = [0.5, 0.0, -1.0], [0.5, 0.5, 0.5]
+        data, steps = root.create_group("PointData"), root.create_group("Steps")
+        steps.attrs["NSteps"] = len(times)
+        steps["Values"] = times
+        data["value"] = np.stack([(100 * t + n).reshape(2, 2, 3) for t in times])
+        data["velocity"] = np.stack([np.stack([0 * n + t, n, 0 * n], 1).reshape(2, 2, 3, 3) for t in times])
+        data["solid"] = (n % 2).astype("u4").reshape(1, 2, 2, 3)
+        for name in data:
+            steps[f"PointDataOffsets/{name}"] = np.arange(len(times)) * (name != "solid")
+
+
 class Results(unittest.TestCase):
+    def test_frames_of_nodes(self):
+        with folder() as place:
+            write_images(Path(place) / "fluid.vtkhdf", [0.0, 0.5, 1.0])
+            frames = Frames(Path(place) / "fluid.vtkhdf")
+            self.assertEqual((len(frames), frames.count(1)), (3, 12))
+            np.testing.assert_array_equal(frames.read(2, "value"), 100 + np.arange(12))
+            np.testing.assert_array_equal(frames.read(1, "velocity")[7], [0.5, 7, 0])
+            np.testing.assert_array_equal(frames.read(2, "solid"), np.arange(12) % 2)
+            places = frames.position(0)
+            np.testing.assert_array_equal(places[[0, 1, 3, 11]], [[0.5, 0, -1], [1, 0, -1], [0.5, 0.5, -1], [1.5, 0.5, -0.5]])
+
     def test_frames_of_particles_that_come_and_go(self):
         ids = [[3, 0, 1], [1, 3, 4], [4, 1]]
         with folder() as place:

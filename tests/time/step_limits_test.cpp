@@ -53,6 +53,36 @@ StepInfo dry(const std::function<void(Config&)>& set, double speed = 0.01) {
   return started(c, setup)->step();
 }
 
+/// Fluid on nodes between two plates.
+StepInfo nodes(const Overrides& overrides) {
+  return step_of(R"(gravity = [0, 0, 0]
+[domain]
+min = [0, 0, 0]
+max = [0.1, 0.1, 0.1]
+periodic = [true, true, false]
+[fluid]
+model = "lattice"
+dx = 0.01
+mu = 0.05
+vmax = 0.1
+[[wall.body]]
+name = "floor"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+[[wall.body]]
+name = "lid"
+shape = "plane"
+point = [0, 0, 0.1]
+normal = [0, 0, -1]
+[time]
+end = 1
+[out]
+every = 1
+)",
+                 overrides);
+}
+
 /// A free ball.
 StepInfo ball(const Overrides& overrides) {
   return step_of(R"([domain]
@@ -137,6 +167,11 @@ TEST(StepLimits, EachBindsStepsAndIsNamed) {
        [] {
          return ball({"time.contact=0.5", "wall.body.0.free.E=1e4"});
        }},
+      {Limit::flow_speed, [] { return nodes({}); }},
+      {Limit::relaxation, [] { return nodes({"fluid.mu=10"}); }},
+      {Limit::body_force, [] { return nodes({"drive.f=[1e6,0,0]"}); }},
+      {Limit::static_head, [] { return nodes({"gravity=[0,0,-9.81]"}); }},
+      {Limit::fixed_relaxation, [] { return nodes({"lattice.tau=0.55"}); }},
       {Limit::growth, grown},
       {Limit::fixed, [] { return wet({"time.dt=1e-6"}); }}};
   const std::map<Limit, std::function<StepInfo()>> of_substeps = {

@@ -9,8 +9,8 @@ TOP = Path(__file__).resolve().parents[2]
 ROOTS = TOP / "include", TOP
 
 CORE, PARALLEL, CASE = "bedload/core/", "bedload/parallel/", ("bedload/case/", "bedload/geometry/")
-DATA = "bedload/particles/", "bedload/neighbours/"
-SOLVERS = tuple(f"src/{row}/" for row in ("domain", "fluid", "solids", "coupling", "walls", "boundaries"))
+DATA = "bedload/particles/", "bedload/neighbours/", "bedload/lattice/"
+SOLVERS = tuple(f"src/{row}/" for row in ("domain", "fluid", "solids", "coupling", "walls", "boundaries", "lattice"))
 
 #: folder -> beginnings of what its files may include
 LAYERS = {
@@ -18,6 +18,7 @@ LAYERS = {
     "include/bedload/parallel": (CORE, PARALLEL),
     "include/bedload/particles": (CORE, PARALLEL, "bedload/particles/", "bedload/host_data.hpp"),
     "include/bedload/neighbours": (CORE, PARALLEL, "bedload/neighbours/"),
+    "include/bedload/lattice": (CORE, "bedload/lattice/"),
     "kernels": (CORE, PARALLEL, *DATA, *CASE, "kernels/"),
     **{row.rstrip("/"): ("bedload/", "kernels/", *SOLVERS, "src/motion/")
        for row in SOLVERS},

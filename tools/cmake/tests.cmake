@@ -103,12 +103,13 @@ endif()
 file(GLOB_RECURSE BEDLOAD_SOLVER_TESTS CONFIGURE_DEPENDS
      tests/kernels/*_test.cpp tests/parallel/*_test.cpp tests/particles/*_test.cpp
      tests/neighbours/*_test.cpp tests/fluid/*_test.cpp tests/solids/*_test.cpp tests/walls/*_test.cpp
-     tests/coupling/*_test.cpp tests/boundaries/*_test.cpp tests/time/*_test.cpp tests/physics/*_test.cpp)
+     tests/coupling/*_test.cpp tests/boundaries/*_test.cpp tests/lattice/*_test.cpp tests/time/*_test.cpp
+     tests/physics/*_test.cpp)
 
 # The physics is one source: mixed precision runs all tests, single and double those that numbers of another size or
 # packed positions could fail.
 file(GLOB_RECURSE BEDLOAD_PRECISION_TESTS CONFIGURE_DEPENDS
-     tests/kernels/*_test.cpp tests/particles/*_test.cpp tests/neighbours/*_test.cpp)
+     tests/kernels/*_test.cpp tests/particles/*_test.cpp tests/neighbours/*_test.cpp tests/lattice/*_test.cpp)
 foreach(test
         boundaries/edges         # places at the sides of the domain, packed too
         coupling/counted_grains  # density that counts grains

@@ -11,6 +11,7 @@ file(GLOB BEDLOAD_SOLVER_SOURCES CONFIGURE_DEPENDS
      ${CMAKE_SOURCE_DIR}/src/fluid/*.cpp ${CMAKE_SOURCE_DIR}/src/solids/*.cpp
      ${CMAKE_SOURCE_DIR}/src/coupling/*.cpp ${CMAKE_SOURCE_DIR}/src/walls/*.cpp
      ${CMAKE_SOURCE_DIR}/src/boundaries/*.cpp ${CMAKE_SOURCE_DIR}/src/domain/*.cpp
+     ${CMAKE_SOURCE_DIR}/src/lattice/*.cpp
      ${CMAKE_SOURCE_DIR}/src/time/*.cpp ${CMAKE_SOURCE_DIR}/src/measure/*.cpp)
 
 if(BEDLOAD_FIRST_LOOK)

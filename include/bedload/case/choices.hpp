@@ -55,7 +55,7 @@ inline constexpr auto kNames<LubricationForces> = std::to_array<Named<Lubricatio
 // -- fluid ---------------------------------------------------------------------------------------
 
 /// fluid.model
-enum class FluidModel { wcsph, sdpd, sdpd_a };
+enum class FluidModel { wcsph, sdpd, sdpd_a, lattice };
 template <>
 struct Named<FluidModel> {
   FluidModel value;
@@ -69,6 +69,7 @@ struct Named<FluidModel> {
   Trait integrators;    ///< any time.integrator, not kdk alone
   Trait plane;          ///< domain.two_d
   Trait variable_h;     ///< fluid.variable_h
+  Trait nodes;          ///< on nodes of a lattice, not by particles
 };
 template <>
 inline constexpr auto kNames<FluidModel> = std::to_array<Named<FluidModel>>({
@@ -83,7 +84,8 @@ inline constexpr auto kNames<FluidModel> = std::to_array<Named<FluidModel>>({
      .wall_work = true,
      .integrators = true,
      .plane = true,
-     .variable_h = true},
+     .variable_h = true,
+     .nodes = false},
     {.value = FluidModel::sdpd,
      .name = "sdpd",
      .meaning = "smoothed dissipative particle dynamics: viscous friction and thermal noise [espanol03]",
@@ -95,7 +97,8 @@ inline constexpr auto kNames<FluidModel> = std::to_array<Named<FluidModel>>({
      .wall_work = false,
      .integrators = false,
      .plane = false,
-     .variable_h = false},
+     .variable_h = false,
+     .nodes = false},
     {.value = FluidModel::sdpd_a,
      .name = "sdpd_a",
      .meaning = "SDPD with spin of the particles, conserves angular momentum [mueller15]",
@@ -107,7 +110,31 @@ inline constexpr auto kNames<FluidModel> = std::to_array<Named<FluidModel>>({
      .wall_work = false,
      .integrators = false,
      .plane = false,
-     .variable_h = false},
+     .variable_h = false,
+     .nodes = false},
+    {.value = FluidModel::lattice,
+     .name = "lattice",
+     .meaning =
+         "lattice Boltzmann, D3Q19: nodes fixed in space fill the domain between walls; without grains",
+     .smoothed = false,
+     .own_viscosity = false,
+     .thermal = false,
+     .spins = false,
+     .summation = false,
+     .wall_work = false,
+     .integrators = false,
+     .plane = false,
+     .variable_h = false,
+     .nodes = true},
+});
+
+/// lattice.collision
+enum class LatticeCollision { trt, bgk };
+template <>
+inline constexpr auto kNames<LatticeCollision> = std::to_array<Named<LatticeCollision>>({
+    {LatticeCollision::trt, "trt",
+     "two relaxation times: where walls lie does not depend on the viscosity [ginzburg08]"},
+    {LatticeCollision::bgk, "bgk", "one relaxation time; walls shift with the viscosity"},
 });
 
 /// density.method, of SDPD
@@ -233,7 +260,8 @@ inline constexpr auto kNames<WallType> = std::to_array<Named<WallType>>({
      .bed_error = 0},
     {.value = WallType::frozen,
      .name = "frozen",
-     .meaning = "wall particles treated as fluid at rest relative to the wall; the first layer has its own density",
+     .meaning =
+         "wall particles treated as fluid at rest relative to the wall; the first layer has its own density",
      .kind = WallKind::frozen,
      .stops_fluid = true,
      .stops_grains = true,

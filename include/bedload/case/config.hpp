@@ -13,6 +13,7 @@
 #include "bedload/case/config/drive.hpp"
 #include "bedload/case/config/fluid.hpp"
 #include "bedload/case/config/grains.hpp"
+#include "bedload/case/config/lattice.hpp"
 #include "bedload/case/config/motion.hpp"
 #include "bedload/case/config/openings.hpp"
 #include "bedload/case/config/output.hpp"
@@ -43,6 +44,7 @@ struct Config {
   DensityConfig density;
   ViscosityConfig visc;
   SdpdConfig sdpd;
+  LatticeConfig lattice;
   WallConfig wall;
   std::vector<InletConfig> inlets;
   std::vector<OutletConfig> outlets;

@@ -1,6 +1,6 @@
 #pragma once
 // Frames of one store in one file: VTKHDF 2.0, temporal PolyData with one vertex
-// cell per particle, as VTK >= 9.3 and ParaView >= 5.12 open it.
+// cell per particle, or ImageData of nodes, as VTK >= 9.3 and ParaView >= 5.12 open it.
 
 #include <cstddef>
 #include <filesystem>

@@ -20,7 +20,8 @@ from .errors import FileError
 
 
 class Frames:
-    """Frames of one store, e.g. RUN_DIR/fluid.vtkhdf: temporal PolyData of points. Arrays are read on demand.
+    """Frames of one store, e.g. RUN_DIR/fluid.vtkhdf: temporal PolyData of points, or ImageData of the nodes of a
+    lattice. Arrays are read on demand.
 
     times: of the frames, s.
     """
@@ -35,6 +36,9 @@ class Frames:
         steps = self._root["Steps"]
         count = int(steps.attrs["NSteps"])
         self.times: np.ndarray = steps["Values"][:count].ravel()
+        self._image = "WholeExtent" in self._root.attrs
+        if self._image:
+            return
         self._points = steps["PointOffsets"][:count].ravel()
         self._parts = steps["PartOffsets"][:count].ravel() if "PartOffsets" in steps else np.arange(count)
 
@@ -61,7 +65,9 @@ class Frames:
         return int(np.argmin(np.abs(self.times - time)))
 
     def count(self, frame: int) -> int:
-        """Number of particles in a frame."""
+        """Number of particles in a frame, or of nodes."""
+        if self._image:
+            return int(np.prod(self._cells()))
         return int(np.ravel(self._root["NumberOfPoints"])[self._parts[frame]])
 
     def position(self, frame: int) -> np.ndarray:
@@ -75,6 +81,8 @@ class Frames:
     def read(self, frame: int, name: str) -> np.ndarray:
         """Array `name` of a frame, or its "position", in the type and order of the file."""
         frame = range(len(self))[frame]  # from the end if negative
+        if self._image:
+            return self._of_nodes(frame, name)
         if name == "position":
             data, begin = self._root["Points"], int(self._points[frame])
         else:
@@ -95,6 +103,20 @@ class Frames:
         from ._xarray import dataset_of
 
         return dataset_of(self)
+
+    def _cells(self) -> np.ndarray:
+        """Number of nodes along x, y, z."""
+        return np.asarray(self._root.attrs["WholeExtent"])[1::2] + 1
+
+    def _of_nodes(self, frame: int, name: str) -> np.ndarray:
+        """Array of an image in the order of nodes, x fastest."""
+        if name == "position":
+            origin, spacing = self._root.attrs["Origin"], self._root.attrs["Spacing"]
+            x, y, z = (origin[k] + spacing[k] * np.arange(n) for k, n in enumerate(self._cells()))
+            return np.stack([a.ravel() for a in np.meshgrid(z, y, x, indexing="ij")][::-1], axis=1)
+        data = self._data(name)
+        values = data[int(self._root[f"Steps/PointDataOffsets/{name}"][frame].item())]
+        return values.reshape(-1) if values.ndim == 3 else values.reshape(-1, values.shape[-1])
 
     def _data(self, name: str):
         data = self._root["PointData"]

@@ -34,7 +34,7 @@ struct FluidSpecies {
 
 /// What the fluid is made of and how finely it is resolved.
 struct FluidProperties {
-  double dx = 0;                               ///< particle spacing, m
+  double dx = 0;                               ///< spacing of particles or nodes, m
   double h_over_dx = 1.5;
   bool variable_h = false;                     ///< each particle's smoothing length follows its volume
   double sigma_h = 1.5;                        ///< variable_h: smoothing length / cube root of the volume
@@ -46,6 +46,7 @@ struct FluidProperties {
   double c = 0;                                ///< numerical sound speed, m/s (resolved)
   /// Smoothing length, m; with variable_h that of a particle of volume dx^3.
   double h() const { return (variable_h ? sigma_h : h_over_dx) * dx; }
+  bool lattice() const { return model->nodes; }  ///< on nodes, not by particles
   double h_least() const { return variable_h ? 0.5 * h() : h(); }  ///< m
   double h_most() const { return variable_h ? 2 * h() : h(); }     ///< m
   double reach() const { return kappa() * h_most(); }              ///< farthest that particles act, m

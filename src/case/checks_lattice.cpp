@@ -1,0 +1,88 @@
+// Fluid on the nodes of a lattice against the rest of a case.
+
+#include <cmath>
+
+#include "bedload/case/lattice_step.hpp"
+#include "checks.hpp"
+
+namespace bedload {
+
+void Checks::lattice() const {
+  const char* with = "with fluid.model = \"lattice\"";
+  if (c.preset != Preset::standard)
+    fail("preset", quoted(c.preset.name()), fmt::format("must be left out {}", with));
+  if (c.grain.present)
+    throw CaseError(fmt::format("{}: [grain] must be left out {}, which cannot hold grains yet",
+                                nearest_value(root_, "grain").place(), with));
+  if (c.drive.mode == DriveMode::particle)
+    fail("drive.mode", quoted(c.drive.mode.name()), fmt::format("must be \"volume\" or \"mass\" {}", with));
+  double nodes = 1;
+  for (int k = 0; k < 3; ++k) {
+    const double side = c.domain.max[k] - c.domain.min[k], cells = double(cells_along(c, k));
+    if (std::abs(side - cells * c.fluid.dx) > 1e-6 * c.fluid.dx)
+      fail("fluid.dx", c.fluid.dx,
+           fmt::format("must divide the domain's length along {}, {:g} m; {:.8g} m does", "xyz"[k], side,
+                       side / cells));
+    nodes *= cells + (c.domain.periodic[k] ? 0 : 2);
+  }
+  if (nodes >= 2147483648.0)
+    fail("fluid.dx", c.fluid.dx,
+         fmt::format("must be larger; it makes {:.3g} nodes of at most 2147483647", nodes));
+  for (std::size_t i = 0; i < c.fluid.fills.size(); ++i) {
+    const std::string path = fmt::format("fluid.fill.{}", i);
+    box(path, c.fluid.fills[i].min, c.fluid.fills[i].max);
+    inside_domain(path + ".min", c.fluid.fills[i].min);
+    inside_domain(path + ".max", c.fluid.fills[i].max);
+    initial_speed(c.fluid.fills[i]);
+  }
+  lattice_walls();
+  for (std::size_t i = 0; i < c.out.probes.size(); ++i)
+    if (const auto type = c.out.probes[i].type;
+        type != ProbeType::point && type != ProbeType::box && type != ProbeType::force)
+      fail(fmt::format("probe.{}.type", i), quoted(type.name()),
+           fmt::format("must be \"point\", \"box\" or \"force\" {}", with));
+  lattice_step();
+}
+
+void Checks::lattice_walls() const {
+  for (std::size_t i = 0; i < c.wall.bodies.size(); ++i) {
+    const WallType type = c.wall.bodies[i].type;
+    if (type != WallType::adami && type != WallType::fluid_only && type != WallType::grains_only)
+      fail(fmt::format("wall.body.{}.type", i), quoted(c.wall.bodies[i].type.name()),
+           "must be \"adami\", \"fluid_only\" or \"grains_only\" with fluid.model = \"lattice\", whose walls "
+           "have "
+           "no particles");
+  }
+}
+
+void Checks::lattice_step() const {
+  const LatticeStep step = bedload::lattice_step(c);
+  const char* const key = c.lattice.tau > 0 ? "lattice.tau" : "fluid.dx";
+  const double value = c.lattice.tau > 0 ? c.lattice.tau : c.fluid.dx;
+  constexpr double least = 0.505, fastest = 0.15;
+  if (step.tau < least)
+    fail(key, value,
+         fmt::format("must be at most {:.3g} m for a relaxation time of {} steps, below which the lattice is "
+                     "unstable; it is {:.5g} now, at a step of {:.4g} s",
+                     c.fluid.dx * (step.tau - 0.5) / (least - 0.5), least, step.tau, step.dt));
+  if (step.vmax > fastest * (1 + 1e-9))
+    fail(key, value,
+         fmt::format("must be smaller: at its step of {:.4g} s fluid.vmax is {:.3g} nodes a step, at most {} "
+                     "are allowed",
+                     step.dt, step.vmax, fastest));
+  if (step.tau < 0.51)
+    warn(
+        "the relaxation time is {:.4g} steps; below 0.51 the lattice may become unstable, use a smaller "
+        "fluid.dx",
+        step.tau);
+  if (step.vmax > 0.1)
+    warn("fluid.vmax is {:.3g} nodes a step: compressibility errors reach {:.2g} %", step.vmax,
+         300 * step.vmax * step.vmax);
+  if (const double cell = c.fluid.vmax * c.fluid.dx * c.fluid.rho0 / c.fluid.mu; cell > 10 * (1 + 1e-9))
+    warn(
+        "the Reynolds number of a cell, fluid.vmax fluid.dx / nu, is {:.3g}; above 10 the flow is not "
+        "resolved",
+        cell);
+}
+
+}  // namespace bedload

@@ -1,0 +1,67 @@
+#pragma once
+// Fluid on nodes, set up in units of the lattice.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "src/lattice/lattice_solver.hpp"
+
+namespace BL_SOLVER {
+
+/// Of a lattice without walls, in its own units.
+inline LatticeParameters lattice_units(double tau, double magic = 3.0 / 16) {
+  LatticeParameters p;
+  p.units = {1, 1, 1};
+  p.tau = tau;
+  p.magic = magic;
+  return p;
+}
+
+/// A periodic box of fluid at rest.
+inline Setup::Nodes periodic_nodes(std::uint32_t nx, std::uint32_t ny, std::uint32_t nz) {
+  Setup::Nodes nodes;
+  nodes.count = {nx, ny, nz};
+  nodes.solid.assign(std::size_t(nx) * ny * nz, 0);
+  return nodes;
+}
+
+/// Between two plates normal to z, which lie `fraction` of a link outside the first and last of n nodes:
+/// bodies 0 below and 1 above. Node k of the fluid is number k, from 1.
+inline Setup::Nodes channel_nodes(std::uint32_t n, double fraction = 0.5) {
+  Setup::Nodes nodes = periodic_nodes(1, 1, n + 2);
+  nodes.solid.front() = 1, nodes.solid.back() = 2;
+  for (std::uint32_t body : {0u, 1u})
+    for (int i = 1; i < d3q19::kVelocities; ++i) {
+      if (d3q19::velocity(i, 2) != (body == 0 ? -1 : 1)) continue;
+      nodes.links.node.push_back(body == 0 ? 1 : n);
+      nodes.links.direction.push_back(std::uint32_t(i));
+      nodes.links.body.push_back(body);
+      nodes.links.fraction.push_back(fraction);
+    }
+  return nodes;
+}
+
+class LatticeFlow {
+ public:
+  LatticeFlow(const LatticeParameters& parameters, const Setup::Nodes& nodes) : solver_(parameters) {
+    solver_.fill(nodes);
+    solver_.begin();
+  }
+  void run(std::int64_t steps) {
+    for (std::int64_t k = 0; k < steps; ++k, ++done_) solver_.step(double(done_), done_ + 1);
+  }
+  double time() const { return double(done_); }
+  std::vector<Vec3d> velocity() const {
+    std::vector<Vec3d> v;
+    for (const Real4& s : solver_.states()) v.push_back(Vec3d(s.xyz()));
+    return v;
+  }
+  const LatticeSolver& solver() const { return solver_; }
+
+ private:
+  LatticeSolver solver_;
+  std::int64_t done_ = 0;
+};
+
+}  // namespace BL_SOLVER
