@@ -272,6 +272,42 @@ TEST(SolidLists, MomentumOfUnlikeGrainsIsKept) {
   EXPECT_LT(norm(sum - start), tolerance(1e-10, 1e-6, 1e-6) * scale);
 }
 
+TEST(SolidLists, PiecesOfALongRowAddUp) {
+  Coated b;
+  b.start();
+  b.run(5e-8, 400);
+  b.set_poses(1, 0);
+  b.solver->evaluate(*b.grains, b.poses());
+  ASSERT_GT(HostVerletList(b.solver->list()).count[0], 2 * LongRowsView::kPiece)
+      << "the large grain is first";
+  const auto f = b.grains->force.values();
+  Vec3d by_small;
+  double scale = 0;
+  for (std::size_t i = 1; i < f.size(); ++i) by_small += Vec3d(f[i]), scale += norm(Vec3d(f[i]));
+  EXPECT_GT(scale, 0);
+  EXPECT_LT(norm(Vec3d(f[0]) + by_small), tolerance(1e-12, 1e-6, 1e-6) * scale);
+}
+
+#if !BL_CUDA
+TEST(SolidLists, AnyNumberOfThreadsGivesTheSameBits) {
+  const int threads = omp_get_max_threads();
+  std::vector<std::byte> expected;
+  for (const int n : {1, 3}) {
+    omp_set_num_threads(n);
+    Coated b;
+    b.start();
+    b.run(5e-8, 400);
+    b.refresh();
+    b.run(5e-8, 40);
+    if (n == 1)
+      expected = bits(*b.grains);
+    else
+      EXPECT_EQ(bits(*b.grains), expected);
+  }
+  omp_set_num_threads(threads);
+}
+#endif
+
 TEST(SolidLists, ACheckpointOfUnlikeGrainsContinuesBitForBit) {
   Coated a, b;
   a.start();
