@@ -6,6 +6,11 @@
 
 namespace bedload {
 
+/// Whether keys of fluid made of particles are wanted.
+inline bool of_particles(const Parameters& p, const FluidConfig& fluid) {
+  return !fluid.lattice() || p.everything();
+}
+
 void describe_top(Parameters& p, Config& config);
 void describe_domain(Parameters& p, Config& config);
 void describe_shapes(Parameters& p, std::vector<ShapeConfig>& shapes);

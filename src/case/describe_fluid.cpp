@@ -92,7 +92,7 @@ void describe_fluid(Parameters& p, FluidConfig& f) {
      .meaning = "initial particle spacing; lattice: spacing of the nodes, which must divide the domain",
      .range = above(0),
      .presence = required});
-  if (!f.lattice() || p.everything()) describe_kernel(p, f);
+  if (of_particles(p, f)) describe_kernel(p, f);
   p("fluid.rho0", &f.rho0, {.unit = "kg/m3", .meaning = "reference density", .range = above(0)});
   p("fluid.mu", &f.mu,
     {.unit = "Pa s", .meaning = "dynamic (shear) viscosity; must be > 0 with grains", .range = at_least(0)});
@@ -111,7 +111,7 @@ void describe_fluid(Parameters& p, FluidConfig& f) {
      .range = above(0),
      .fallback = "sqrt(2 g H)",
      .presence = optional});
-  if (f.lattice()) return p.list("fluid.fill", f.fills, FluidFill{}, node_fill);
+  if (!of_particles(p, f)) return p.list("fluid.fill", f.fills, FluidFill{}, node_fill);
   p("fluid.c_factor", &f.c_factor, {.meaning = "numerical sound speed over vmax", .range = within(5, 50)});
   p.list("fluid.species", f.species, FluidSpecies{}, fluid_species);
   p.list("fluid.fill", f.fills, FluidFill{}, fluid_fill);
@@ -138,7 +138,7 @@ void describe_lattice(Parameters& p, LatticeConfig& l) {
      .presence = optional});
   p("lattice.mass_every", &l.mass_every,
     {.meaning =
-         "number of steps after which the mass of the fluid is restored, 1e-6 of it and less; 0: never",
+         "number of steps after which the mass of the fluid is restored to that at the start; 0: never",
      .range = within(0, 1000000)});
 }
 
@@ -205,7 +205,7 @@ void describe_drive(Parameters& p, Config& c) {
   p("drive.factor", &c.drive.factor,
     {.meaning = "factor on drive.f, a formula in x, y, z, t; lattice: in t", .variables = "xyzt"});
   p("drive.mode", &c.drive.mode, {.meaning = "quantity to which drive.f refers", .family = "models"});
-  if (c.fluid.lattice()) return;
+  if (!of_particles(p, c.fluid)) return;
   p("drive.on", &c.drive.on, {.meaning = "phases on which drive.f acts", .family = "models"});
   p("drive.opposed", &c.drive.opposed,
     {.meaning = "axis along which the domain is halved; drive.f is reversed in the upper half",

@@ -115,7 +115,7 @@ void describe_top(Parameters& p, Config& c) {
   p("preset", &c.preset,
     {.meaning = "set of default values; keys of the case take precedence", .family = "presets"});
   p("gravity", &c.gravity, {.unit = "m/s2", .meaning = "acceleration of gravity"});
-  if (c.fluid.lattice()) return;
+  if (!of_particles(p, c.fluid)) return;
   p("tensile", &c.tensile,
     {.meaning = "tensile term, a pair pressure against clumping of particles [monaghan00]; 1: on, 0: off",
      .range = within(0, 1)});
@@ -136,7 +136,7 @@ void describe_domain(Parameters& p, Config& c) {
   p("domain.max", &d.max, {.unit = "m", .meaning = "upper corner of the domain", .presence = required});
   p("domain.periodic", &d.periodic,
     {.meaning = "periodic axes [x, y, z]; a period must exceed 2 kappa h and 4 R"});
-  if (c.fluid.lattice()) return;
+  if (!of_particles(p, c.fluid)) return;
   p("domain.two_d", &d.two_d,
     {.meaning = "plane flow in x and z: one layer of particles that represents the domain's length along y; "
                 "without grains"});
@@ -223,7 +223,7 @@ void describe_time(Parameters& p, Config& c) {
   TimeConfig& t = c.time;
   p("time.end", &t.end,
     {.unit = "s", .meaning = "end time of the run", .range = above(0), .presence = required});
-  const bool particles = !c.fluid.lattice();
+  const bool particles = of_particles(p, c.fluid);
   if (particles)
     p("time.dt", &t.dt,
       {.unit = "s",

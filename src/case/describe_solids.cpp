@@ -443,7 +443,8 @@ void particle_walls(Parameters& p, WallConfig& w) {
 
 void describe_walls(Parameters& p, Config& c) {
   WallConfig& w = c.wall;
-  if (!c.fluid.lattice()) particle_walls(p, w);
+  const bool particles = of_particles(p, c.fluid);
+  if (particles) particle_walls(p, w);
   WallBody prototype;
   prototype.type = w.type;
   prototype.force = w.force;
@@ -451,7 +452,7 @@ void describe_walls(Parameters& p, Config& c) {
   prototype.no_penetration = w.no_penetration;
   prototype.repulsion = w.repulsion;
   p.list("wall.body", w.bodies, prototype,
-         [&](Parameters& q, WallBody& body) { wall_body(q, body, c.contact, !c.fluid.lattice()); });
+         [&](Parameters& q, WallBody& body) { wall_body(q, body, c.contact, particles); });
 }
 
 void describe_grains(Parameters& p, Config& c) {

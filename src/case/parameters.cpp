@@ -21,10 +21,10 @@ void describe(Parameters& p, Config& c) {
   describe_top(p, c);
   describe_domain(p, c);
   describe_shapes(p, c.shapes);
-  const bool particles = !c.fluid.lattice(), all = p.everything();
+  const bool particles = of_particles(p, c.fluid);
   if (particles) describe_frame(p, c.frame);
   if (c.fluid.present) describe_fluid(p, c.fluid);
-  if (!particles || all) describe_lattice(p, c.lattice);
+  if (c.fluid.lattice() || p.everything()) describe_lattice(p, c.lattice);
   if (particles) describe_fluid_models(p, c);
   describe_drive(p, c);
   describe_contact(p, c.contact);

@@ -111,6 +111,8 @@ class Writer final : public Parameters {
 class Tour : public Parameters {
  public:
   bool table(std::string_view, bool) override { return true; }
+  /// Those that were entered, "wall.body.".
+  const std::set<std::string>& lists() const { return lists_; }
 
  protected:
   std::string key_of(std::string_view key) const { return prefix_ + std::string(key); }
@@ -122,6 +124,7 @@ class Tour : public Parameters {
     outer_.emplace_back(prefix_, path_);
     prefix_ += std::string(key) + ".";
     path_ += std::string(key) + "[].";
+    lists_.insert(prefix_);
   }
   void close_item() override {
     std::tie(prefix_, path_) = outer_.back();
@@ -129,6 +132,7 @@ class Tour : public Parameters {
   }
 
   std::string prefix_, path_;
+  std::set<std::string> lists_;
   std::vector<std::pair<std::string, std::string>> outer_;
 };
 
@@ -163,7 +167,7 @@ class RequiredKeys final : public Tour {
 
 /// Whatever the choices. `present`: of a case with fluid and grains.
 std::set<std::string> keys_required(bool present) {
-  std::set<std::string> keys;
+  std::set<std::string> keys, lists;
   std::size_t most = 1;
   for (std::size_t n = 0; n < most; ++n) {
     Config config;
@@ -171,8 +175,13 @@ std::set<std::string> keys_required(bool present) {
     RequiredKeys visitor(n);
     describe(visitor, config);
     most = std::max(most, visitor.most_choices());
-    if (n == 0) keys = visitor.keys();
-    std::erase_if(keys, [&](const std::string& key) { return !visitor.keys().contains(key); });
+    if (n == 0) keys = visitor.keys(), lists = visitor.lists();
+    const auto in_it = [&](const std::string& key) {  // not in a list that these choices leave out
+      return std::ranges::none_of(lists, [&](const std::string& list) {
+        return key.starts_with(list) && !visitor.lists().contains(list);
+      });
+    };
+    std::erase_if(keys, [&](const std::string& key) { return !visitor.keys().contains(key) && in_it(key); });
   }
   return keys;
 }

@@ -42,13 +42,14 @@ class Reader {
     find_domain(execution.child("parameters"));
     BodyKeys keys;
     const double end = parameter("TimeMax", 0);
+    const double pause = parameter("FtPause", 0);  // of floating bodies: read even where there are none
     if (const pugi::xml_node motion = definition.child("motion"))
       read_motions(xml_, motion, end > 0 ? end : 1e9, keys);
     if (const pugi::xml_node paddles = execution.child("special").child("wavepaddles"))
       if (xml_.flag(paddles, "active", true)) read_paddles(xml_, paddles, keys);
     std::set<int> closed;
     if (const pugi::xml_node floatings = definition.child("floatings")) {
-      read_floatings(xml_, floatings, parameter("FtPause", 0), keys);
+      read_floatings(xml_, floatings, pause, keys);
       for (const pugi::xml_node& f : floatings.children("floating"))
         for (const int mk : numbers_in(xml_, f, "mkbound")) closed.insert(mk);
     }

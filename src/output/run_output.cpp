@@ -94,9 +94,9 @@ std::string commented(const std::string& text) {
 
 constexpr const char* kStores[] = {"fluid", "grains", "walls"};
 
-}  // namespace
-
-HostStore chosen_fields(HostStore store, const std::vector<std::string>& fields) {
+/// The arrays of a store that `fields` (out.fields) names; all if it is empty. Position, id, radius and body
+/// are always among them.
+HostStore chosen(HostStore store, const std::vector<std::string>& fields) {
   if (fields.empty()) return store;
   std::size_t n = 0;
   std::erase_if(store.arrays, [&](const HostArray& a) {
@@ -105,6 +105,8 @@ HostStore chosen_fields(HostStore store, const std::vector<std::string>& fields)
   });
   return store;
 }
+
+}  // namespace
 
 void check_fields(Simulation& simulation, const Config& config) {
   if (config.out.fields.empty()) return;
@@ -267,7 +269,7 @@ struct RunOutput::Impl {
   }
 
   HostStore frame_of(Simulation& simulation, const std::string& store) const {
-    return chosen_fields(simulation.snapshot(store), config.out.fields);
+    return chosen(simulation.snapshot(store), config.out.fields);
   }
 
   static std::vector<Quantity> row_of(Simulation& simulation, const Table& t) {

@@ -286,6 +286,7 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
     Handle file = h5::open_file(path_, h5::Mode::append);
     {
       const Handle root = h5::open_group(file, "VTKHDF");
+      check_kind(root, store);
       const Handle data = h5::open_group(root, "PointData");
       const Handle steps = h5::open_group(root, "Steps");
       const Handle offsets = h5::open_group(steps, "PointDataOffsets");
@@ -294,7 +295,6 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
                          last_cell = last_of(steps, "CellOffsets", frames),
                          last_count = frames > 0 ? integer_of(root, "NumberOfPoints", last_part) : -1;
       const bool same_count = last_count == std::int64_t(store.count);
-      check_kind(root, store);
       check_arrays(root, points, store);
       add_arrays(root, store, frames, deflate_);
 

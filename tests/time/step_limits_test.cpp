@@ -169,9 +169,15 @@ TEST(StepLimits, EachBindsStepsAndIsNamed) {
        }},
       {Limit::flow_speed, [] { return nodes({}); }},
       {Limit::relaxation, [] { return nodes({"fluid.mu=10"}); }},
-      {Limit::body_force, [] { return nodes({"drive.f=[1e6,0,0]"}); }},
-      {Limit::static_head, [] { return nodes({"gravity=[0,0,-9.81]"}); }},
-      {Limit::fixed_relaxation, [] { return nodes({"lattice.tau=0.55"}); }},
+      {Limit::body_force,
+       [] {
+         return nodes({"fluid.mu=10", "drive.f=[1e6,0,0]"});
+       }},
+      {Limit::static_head,
+       [] {
+         return nodes({"fluid.mu=1", "fluid.dx=0.005", "gravity=[0,0,-9.81]"});
+       }},
+      {Limit::fixed_relaxation, [] { return nodes({"lattice.tau=0.51"}); }},
       {Limit::growth, grown},
       {Limit::fixed, [] { return wet({"time.dt=1e-6"}); }}};
   const std::map<Limit, std::function<StepInfo()>> of_substeps = {

@@ -22,10 +22,6 @@
 
 namespace bedload {
 
-/// The output fields of a store that `fields` (out.fields) names; all if it is empty. Position, id, radius
-/// and body are always among them.
-HostStore chosen_fields(HostStore store, const std::vector<std::string>& fields);
-
 /// Throws KeyError unless some store of the simulation has each field that out.fields names.
 void check_fields(Simulation& simulation, const Config& config);
 
