@@ -48,7 +48,7 @@ TEST_F(New, NeverReplacesAFile) {
 }
 
 TEST_F(New, TheDemonstrationRunsACaseAndDrawsIt) {
-  const std::string demo = "demo --backend cpu --until 0.02 --set fluid.dx=8mm --set grain.settle=false";
+  const std::string demo = "demo --backend cpu --until 0.02 --set grain.settle=false";
   const Outcome o = bedload(demo);
   ASSERT_EQ(o.code, 0) << o.err;
   const fs::path results = dir_ / "results/two_phase_dam_break";

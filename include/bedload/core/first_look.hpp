@@ -1,6 +1,6 @@
 #pragma once
-// A build for a first look (BEDLOAD_FIRST_LOOK of CMake) takes a third of the time: it leaves out what few
-// cases need, and refuses cases that do.
+// A build for a first look (BEDLOAD_FIRST_LOOK of CMake) is done sooner: it leaves out what few cases need,
+// and refuses those.
 
 #include <string>
 
