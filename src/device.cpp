@@ -166,7 +166,6 @@ void divide_among(Device& device, int ranks, const std::string& gpus) {
   cudaSetDevice(device.gpus[0]);
   device.memory = all;
 #endif
-  device.name = std::to_string(device.ranks) + " x " + device.name;
 }
 
 namespace {

@@ -118,6 +118,11 @@ struct Device {
   int ranks = 1;           ///< parts into which particles are divided, each with its own GPU or share of the CPU
   std::vector<int> gpus;   ///< of each rank; empty: the first
   bool cuda() const { return backend == "cuda"; }
+  /// Its name, and into how many parts it is divided or how many there are.
+  std::string text() const {
+    if (ranks == 1) return name;
+    return cuda() ? std::to_string(ranks) + " x " + name : name + ", " + std::to_string(ranks) + " ranks";
+  }
 };
 
 /// backend: auto, cpu, cuda. `auto` uses a GPU if this build has CUDA. simd is run.simd. Throws

@@ -278,7 +278,7 @@ Json json_of(const Options& o, const Device& device, const std::vector<Result>& 
   return {{"version", version()},
           {"commit", commit()},
           {"backend", device.backend},
-          {"device", device.name},
+          {"device", device.text()},
           {"from_s", o.bench.at},
           {"warm_steps", o.bench.warm_up},
           {"span_steps", o.bench.steps},
@@ -314,7 +314,7 @@ int bench(const Options& o) {
   }
   if (!results.empty()) {
     fmt::print("bedload {}, commit {}, {}: {}. From t = {:g} s, median of {} repeats of {} steps.\n\n",
-               version(), commit(), device.backend, device.name, o.bench.at, o.bench.repeats, o.bench.steps);
+               version(), commit(), device.backend, device.text(), o.bench.at, o.bench.repeats, o.bench.steps);
     print_table(numbers_table(results));
     fmt::print("\nTime per step by stage, ms:\n\n");
     print_table(stages_table(results));

@@ -130,7 +130,7 @@ void refuse_too_many(const Prepared& p) {
   const Counts& n = most.counts;
   std::string text = fmt::format("{} gives {:.3g} {}, which need {}; {} has {} free", most.text,
                                  double(n.fluid + n.walls + n.grains), most.what,
-                                 bytes_text(std::size_t(need)), p.device.name, bytes_text(p.device.memory));
+                                 bytes_text(std::size_t(need)), p.device.text(), bytes_text(p.device.memory));
   if (n.fluid > 0)
     text += fmt::format("; use at least {:.3g} m",
                         c.fluid.dx * std::pow(need / memory, c.domain.two_d ? 1.0 / 2 : 1.0 / 3) * 1.001);
@@ -322,7 +322,7 @@ std::string heading_text(const Prepared& p) {
   const Config& c = p.config;
   std::string out = fmt::format("case       {}{}\n", c.file, c.title.empty() ? "" : " (" + c.title + ")");
   out +=
-      fmt::format("device     {}, {}; precision {}\n", p.device.backend, p.device.name, c.precision.name());
+      fmt::format("device     {}, {}; precision {}\n", p.device.backend, p.device.text(), c.precision.name());
   for (const ShapeConfig& shape : c.shapes) {
     if (shape.kind != ShapeKind::mesh) continue;
     const Bounds bounds = shape.solid.shape->bounds();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/measure/body_rows.hpp"
+#include "src/measure/probe_points.hpp"
 #include "src/time/lattice_simulation.hpp"
 
 namespace BL_SOLVER {
@@ -89,13 +90,14 @@ std::vector<Quantity> LatticeSimulation::diagnostics() {
 std::vector<Quantity> LatticeSimulation::measure(const ProbeConfig& p) {
   switch (p.type) {
     case ProbeType::point:
-      return point(p);
+      return at_each_point(p, [&](const ProbeConfig& one) { return point(one); });
     case ProbeType::box:
       return box(p);
     case ProbeType::force:
       return body_force(p);
     case ProbeType::front:
     case ProbeType::height:
+    case ProbeType::flux:
     case ProbeType::wall_pressure:  // refused when the case is read
       break;
   }

@@ -9,6 +9,7 @@
 #include "bedload/particles/along.hpp"
 #include "kernels/smoothing/registry.hpp"
 #include "src/measure/fluid_contents.hpp"
+#include "src/measure/probe_points.hpp"
 #include "src/time/coupled_simulation.hpp"
 
 namespace BL_SOLVER {
@@ -129,34 +130,11 @@ struct GrainFlux {
   }
 };
 
-/// The points of a probe, the first span fastest; one without spans.
-std::vector<Vec3d> points_of(const ProbeConfig& p) {
-  std::vector<Vec3d> out{p.at};
-  for (std::size_t k = 0; k < p.span.size(); ++k) {
-    const std::size_t before = out.size();
-    for (int n = 1; n < int(p.count[k]); ++n)
-      for (std::size_t i = 0; i < before; ++i) out.push_back(out[i] + n / (p.count[k] - 1) * p.span[k]);
-  }
-  return out;
-}
-
 }  // namespace
 
 std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
   stepper_.share_all();
-  if (p.span.empty()) return measure_one(p);
-  std::vector<Quantity> out;
-  ProbeConfig one = p;
-  one.span.clear();
-  const std::vector<Vec3d> points = points_of(p);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    one.at = points[i];
-    for (Quantity& q : measure_one(one)) {
-      q.name += '_' + std::to_string(i);
-      out.push_back(std::move(q));
-    }
-  }
-  return out;
+  return at_each_point(p, [&](const ProbeConfig& one) { return measure_one(one); });
 }
 
 std::vector<Quantity> CoupledSimulation::measure_one(const ProbeConfig& p) {

@@ -391,10 +391,21 @@ void TileList::build(Index of_rows, const CellGrid& grid, const Frame& frame, Sp
     numbers_ = {};
   everywhere_ = all_reduce(numbers_, [](detail::TileCounts& into, const detail::TileCounts& more) {
     into.nearest = max_of(into.nearest, more.nearest);
+    into.longest = max_of(into.longest, more.longest);
     for (Index bin = 0; bin < detail::TileCounts::kBins; ++bin) into.tiles[bin] += more.tiles[bin];
   });
   all_tiles_ = all_reduce(std::uint64_t(tiles_), [](auto& into, auto more) { into += more; });
   most_ = everywhere_.nearest;
+  if (tiles_ == 0) return;
+  // by what there is now, not by the capacity that there has been, and on all ranks alike: a run that is
+  // restarted from here, or divided otherwise, orders the same
+  const std::size_t sorted =
+      std::size_t(everywhere_.longest + 3) / 4 * 4 * kTileThreads * sizeof(std::uint16_t);
+  if (sorted > tile_memory()) return;
+  check_cuda(cudaFuncSetAttribute(detail::tile_order<uint2>, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                  int(tile_memory())),
+             "shared memory of an order");
+  launch(detail::tile_order<uint2>, tiles_, kTileThreads, sorted, view(), entry_.data());
 }
 
 template <class P>
@@ -404,7 +415,6 @@ void TileList::search(const CellGrid& grid, const Frame& frame, Span<const P> x,
   const auto search = bits_ == 0 ? detail::tile_search<true, P> : detail::tile_search<false, P>;
   check_cuda(cudaFuncSetAttribute(search, cudaFuncAttributeMaxDynamicSharedMemorySize, int(tile_memory())),
              "shared memory of a search");
-  Index longest = 0;
   for (bool done = false; !done;) {
     constexpr std::size_t least = 2 * 65536 / 8;  // a bit for each of the most there may be, and sums of them
     const bool few_crowded = numbers_.crowded <= tiles_ / 64;  // at the last search
@@ -441,7 +451,6 @@ void TileList::search(const CellGrid& grid, const Frame& frame, Span<const P> x,
       throw DeviceError("more than " + std::to_string(detail::kMostAround) + " particles around " +
                         std::to_string(kTileThreads >> bits_) + " that lie together");
     done = counts.sources <= source_.size() && counts.words <= places && counts.longest <= 4 * words_;
-    longest = counts.longest;
     crowd_ = counts.around + counts.around / 16 + (4u << bits_);
     // with room for a little more: what does not fit takes another search
     if (counts.longest > 4 * words_) words_ = (counts.longest + 3) / 4 + 1;
@@ -449,14 +458,6 @@ void TileList::search(const CellGrid& grid, const Frame& frame, Span<const P> x,
     if (counts.words > places)
       entry_.resize(std::size_t(counts.words + counts.words / 32 + 1) * kTileThreads);
   }
-  // by what there is now, not by the capacity that there has been: a run restarted from here orders the
-  // same
-  const std::size_t sorted = std::size_t(longest + 3) / 4 * 4 * kTileThreads * sizeof(std::uint16_t);
-  if (sorted > tile_memory()) return;
-  check_cuda(cudaFuncSetAttribute(detail::tile_order<uint2>, cudaFuncAttributeMaxDynamicSharedMemorySize,
-                                  int(sorted)),
-             "shared memory of an order");
-  launch(detail::tile_order<uint2>, tiles_, kTileThreads, sorted, view(), entry_.data());
 }
 
 }  // namespace BL_SOLVER

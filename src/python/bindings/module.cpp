@@ -153,7 +153,7 @@ nb::dict checked(const ReadCase& given, const std::string& backend, int threads)
   });
   nb::dict out;
   out["counts"] = nb::make_tuple(p.counts.fluid, p.counts.walls, p.counts.grains);
-  out["device"] = p.device.backend + ", " + p.device.name;
+  out["device"] = p.device.backend + ", " + p.device.text();
   out["memory"] = first->memory.all > 0 ? first->memory.all : p.memory.of(p.counts);
   out["step_limits"] = to_dict(first->steps);
   out["substep_limits"] = to_dict(first->substeps);
