@@ -1,5 +1,7 @@
 #include "src/domain/divide.hpp"
 
+#include <algorithm>
+
 #include "bedload/geometry/bisect.hpp"
 #include "bedload/parallel/compact.hpp"
 
@@ -90,10 +92,15 @@ void add_loads(const Store& store, const CellGrid& grid, const Frame& frame, Spa
   for (const std::uint32_t b : block.to_host()) ++load[b];
 }
 
-std::shared_ptr<const Ownership> owners_for(const CellGrid& grid, const std::vector<double>& load) {
+Division divide_blocks(const CellGrid& grid, const std::vector<double>& load) {
   const CellGridView shape = grid.view();
-  return std::make_shared<const Ownership>(shape,
-                                           bisect(block_places(shape), load, Context::current().ranks()));
+  const int ranks = Context::current().ranks();
+  const std::vector<std::uint16_t> owner = bisect(block_places(shape), load, ranks);
+  std::vector<double> of_rank(static_cast<std::size_t>(ranks), 0.0);
+  double all = 0;
+  for (std::size_t b = 0; b < owner.size(); ++b) of_rank[owner[b]] += load[b], all += load[b];
+  const double most = *std::max_element(of_rank.begin(), of_rank.end());
+  return {std::make_shared<const Ownership>(shape, owner), all > 0 ? most * ranks / all : 1};
 }
 
 template <class P>

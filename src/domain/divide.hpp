@@ -14,8 +14,12 @@ template <class P>
 void add_loads(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x,
                std::vector<double>& load);
 
-/// Owners for blocks with that load, the same on all ranks.
-std::shared_ptr<const Ownership> owners_for(const CellGrid& grid, const std::vector<double>& load);
+struct Division {
+  std::shared_ptr<const Ownership> ownership;
+  double imbalance;  ///< largest load of a rank over the mean
+};
+/// Of blocks with that load, the same on all ranks.
+Division divide_blocks(const CellGrid& grid, const std::vector<double>& load);
 
 /// Of particles that all ranks have, keeps those that are this rank's own.
 template <class P>

@@ -1,5 +1,6 @@
 // Cells, order and lists of fluid and walls.
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -182,8 +183,16 @@ void FluidSolver::divide(FluidStore& fluid, const WallStore& walls, bool listed)
   add_loads(walls, wall_grid_, frame_, (listed ? walls.x_list : walls.x).span(), load);
   if (divided_) all_reduce(load, [](double& into, double more) { into += more; });
   divided_ = true;
-  const auto owners = owners_for(grid_, load);
-  grid_.divide(owners), wall_grid_.divide(owners);
+  const Division division = divide_blocks(grid_, load);
+  imbalance_ = division.imbalance;
+  grid_.divide(division.ownership), wall_grid_.divide(division.ownership);
+}
+
+bool FluidSolver::unbalanced(const FluidStore& fluid, const WallStore& walls) const {
+  const double own = double(fluid.owned().size()) + double(walls.owned().size()),
+               all = double(fluid.everywhere() + walls.everywhere()),
+               most = all_reduce(own, [](double& into, double more) { into = std::max(into, more); });
+  return most * Context::current().ranks() > 1.1 * imbalance_ * all;
 }
 
 void FluidSolver::keep_own(FluidStore& fluid, WallStore& walls, bool listed) {
@@ -237,7 +246,7 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved,
   }
   const bool several = Context::current().several();
   if (several) {
-    if (!grid_.ownership()) divide(fluid, walls, false);
+    if (!grid_.ownership() || unbalanced(fluid, walls)) divide(fluid, walls, false), walls_moved = true;
     with_places(fluid, false, [&](const auto& places) { migrate(fluid, grid_, frame_, places()); });
   }
   sort_cells(fluid);

@@ -322,6 +322,8 @@ class FluidSolver {
   /// Copies of what other ranks have next to this one's.
   void make_ghosts_of(FluidStore& fluid);
   void make_ghosts_of(WallStore& walls);
+  /// Whether ranks have become so unequal that they are to be divided anew.
+  bool unbalanced(const FluidStore& fluid, const WallStore& walls) const;
   /// Divides the blocks of cells among ranks by the particles in them.
   void divide(FluidStore& fluid, const WallStore& walls, bool listed);
   /// f(positions by which fluid is sorted), as they are or, `listed`, as they were when the lists were built;
@@ -410,6 +412,7 @@ class FluidSolver {
   double horizon_ = 0;                    ///< time for which fast particles get a skin, s
   CellGrid grid_, wall_grid_;
   bool divided_ = false;  ///< particles among ranks
+  double imbalance_ = 1;  ///< largest part of a rank over the mean, when they were last divided
 #if BL_CUDA
   Pairing<TileList> fluid_fluid_;
 #else

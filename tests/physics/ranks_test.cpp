@@ -9,6 +9,7 @@
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
 #include "src/team/divisible.hpp"
+#include "src/time/coupled_simulation.hpp"
 #include "tests/support/cases.hpp"
 #include "tests/support/stage_cases.hpp"
 #include "tests/support/team.hpp"
@@ -258,6 +259,45 @@ TEST_P(Ranks, ContinueFromACheckpointOfOtherRanks) {
     const Outcome outcome{bits(*s), readings(*s, config_)};
     EXPECT_TRUE(outcome == unbroken);
   }
+}
+
+/// A lump that flies across blocks that were empty.
+const std::string kLump = R"(gravity = [0, 0, 0]
+[domain]
+min = [0, 0, 0]
+max = [0.9, 0.1, 0.1]
+[fluid]
+dx = 0.01
+vmax = 2
+[[fluid.fill]]
+min = [0.05, 0.02, 0.02]
+max = [0.2, 0.08, 0.08]
+velocity = [2, 0, 0]
+[time]
+end = 1
+[out]
+every = 1
+)";
+
+TEST(RankBalance, FollowsTheFluid) {
+  const Config config = config_of({"", kLump, {}, 0});
+  std::vector<std::string> warnings;
+  const bedload::Setup setup = build_setup(config, warnings);
+  std::vector<CoupledSimulation*> parts(3);
+  const auto s = make_team({.ranks = 3, .make = [&](Link& link) {
+                              auto part = std::make_unique<CoupledSimulation>(config, setup, &link);
+                              parts[std::size_t(link.rank())] = part.get();
+                              return part;
+                            }});
+  s->start();
+  while (s->time() < 0.25) s->step();
+  Index most = 0, all = 0;
+  for (CoupledSimulation* part : parts) {
+    const Index own = part->state().fluid.owned().size();
+    most = std::max(most, own), all += own;
+  }
+  EXPECT_EQ(all, setup.fluid.x.size());
+  EXPECT_LT(most, 1.3 * all / 3);
 }
 
 /// A link as that of a team, on which one rank fails or sleeps.
