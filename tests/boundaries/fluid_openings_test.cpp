@@ -71,6 +71,7 @@ TEST(Admit, TakesOverThePressureOfTheBuffer) {
   const Frame frame({0, 0, 0}, {1, 1, 1}, false, false, false);
   const Real p = 3e4, superficial = 800;
   std::vector<Id> wall_id{7}, id(1);
+  std::vector<Index> layer{0};
   std::vector<Vec3d> wall_x{{0.5, 0.5, 0.5}};
   std::vector<VelocityDensity<>> wall_v{{Real3(1, 0, 0), superficial}};
   std::vector<WallState<>> wall_state{{.mass = 1, .p_over_rho2 = p / square(superficial), .rho = 1000}};
@@ -83,12 +84,12 @@ TEST(Admit, TakesOverThePressureOfTheBuffer) {
   const InsertPass pass{.frame = frame,
                         .eos = eos,
                         .first = 7,
-                        .count = 1,
                         .place = 0,
                         .id = 3,
                         .mass = Real(0.5),
                         .acc = Real3(),
                         .gravity = Real3(0, 0, Real(-9.81)),
+                        .layer = span(layer),
                         .wall_id = span(wall_id),
                         .wall_x = span(wall_x),
                         .wall_v_rho = span(wall_v),

@@ -68,7 +68,7 @@ function(bedload_seal variant)
   add_custom_command(
     OUTPUT ${object} DEPENDS bedload_${variant}
     COMMAND ${CMAKE_LINKER} -r --force-group-allocation --whole-archive $<TARGET_FILE:bedload_${variant}> -o ${object}
-    COMMAND ${CMAKE_OBJCOPY} --wildcard --keep-global-symbol=_ZN7bedload*12make_coupledERKNS_6ConfigERKNS_5SetupE
+    COMMAND ${CMAKE_OBJCOPY} --wildcard --keep-global-symbol=_ZN7bedload*12make_coupledERKNS_6ConfigERKNS_5SetupEPNS_4LinkE
             ${object} VERBATIM)
   add_library(bedload_${variant}_sealed STATIC ${object})
   set_target_properties(bedload_${variant}_sealed PROPERTIES LINKER_LANGUAGE CXX)
