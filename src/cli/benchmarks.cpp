@@ -127,7 +127,7 @@ Benchmark coated(const std::string& name) {
   return {name,
           case_text({.count = 1000000,
                      .side = 5 * 100 * kBead,
-                     .grain = "settle = true\nsettle_time = 0.8\n",
+                     .grain = "E = 2e8\nsettle = true\nsettle_time = 0.8\n",
                      .wall = "type = \"grains_only\"\n",
                      .ratio = 100,
                      .large = 100,

@@ -728,7 +728,7 @@ periodic = [true, true, false]
 [fluid]
 model = "lattice"
 dx = 0.002
-mu = 0.01
+mu = 0.05
 vmax = 0.1
 [[fluid.fill]]
 min = [0, 0, 0]

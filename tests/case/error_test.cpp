@@ -110,7 +110,8 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Missing, CaseErrors,
     testing::Values(
-        Wrong{"dx = 0.004\n", "", "dam.toml:5: fluid.dx must be given (initial particle spacing, m)"},
+        Wrong{"dx = 0.004\n", "", "dam.toml:5: fluid.dx must be given (initial particle spacing; lattice: spacing of the nodes, which "
+              "must divide the domain, m)"},
         Wrong{"[time]\nend = 0.3\n", "", "dam.toml: time.end must be given (end time of the run, s)"},
         Wrong{"shape = \"tank\"", "shape = \"tnk\"",
               "dam.toml:12: wall.body.shape = \"tnk\" must be tank, box, plane or the name of a [[shape]]; "
@@ -133,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
     FluidModel, CaseErrors,
     testing::Values(
         Wrong{"dx = 0.004", "dx = 0.004\nmodel = \"spdp\"",
-              "dam.toml:7: fluid.model = \"spdp\" must be one of wcsph, sdpd, sdpd_a"},
+              "dam.toml:7: fluid.model = \"spdp\" must be one of wcsph, sdpd, sdpd_a, lattice"},
         Wrong{"[fluid]", "[sdpd]\nkT = 1\n[fluid]",
               "dam.toml:6: sdpd.kT = 1 is not used by the chosen options; remove it"},
         Wrong{

@@ -16,6 +16,8 @@ void expect_round_trips(const std::string& key,
                         std::map<std::string, std::vector<std::string>> besides = {}) {
   for (const auto& row : kNames<E>) {
     const std::string name(row.name);
+    if constexpr (std::is_same_v<E, FluidModel>)
+      if (row.nodes) continue;  // not with what kCase has; cases of its own are in cases_test
     SCOPED_TRACE(key + " = " + name);
     std::vector<std::string> overrides = besides[name];
     overrides.push_back(key + "=" + name);

@@ -165,11 +165,11 @@ TEST_F(Checkpoint, RefusesAnotherFormat) {
   const auto path = written();
   {
     h5::Handle file = h5::open_file(path, h5::Mode::append);
-    h5::write_integer(file, "format", 8);
+    h5::write_integer(file, "format", 9);
     file.close();
   }
   seal_file(path);
-  expect_says(refusal(path, config), "it has checkpoint format 8, this version reads 7");
+  expect_says(refusal(path, config), "it has checkpoint format 9, this version reads 8");
 }
 
 TEST_F(Checkpoint, FullDiskLeavesTheOldOne) {

@@ -175,7 +175,7 @@ TEST(ScratchBytes, AreThoseOfTheCase) {
                       collisions = known(kTank + kFluid, {"visc.collision=true"});
   EXPECT_EQ(water.grains, 0u);
   EXPECT_EQ(water.near_grains, 0u);
-  EXPECT_EQ(collisions.fluid - water.fluid, sizeof(Real) + sizeof(Real4));
+  EXPECT_EQ(collisions.fluid - water.fluid, sizeof(Real4));
   EXPECT_EQ(bed.fluid - one_way.fluid, sizeof(Real));
   EXPECT_EQ(bed.grains - one_way.grains, 4 * sizeof(Real4));
   EXPECT_EQ(bed.near_grains - free_rolling.near_grains, sizeof(Vec3d));
