@@ -246,9 +246,14 @@ def _chosen(rows: list[dict], values: dict) -> set[str]:
 
 def _applies(meaning: str, kinds: set[str], chosen: set[str]) -> bool:
     """Whether a key whose meaning begins "sphere, capsule: ..." counts with what is chosen."""
-    heads = [clause.partition(": ")[0].split(", ") for clause in meaning.split("; ") if ": " in clause]
-    named = [set(head) for head in heads if set(head) <= kinds]
-    return not named or any(head & chosen for head in named)
+    named = []
+    for clause in meaning.split("; "):
+        head = set(clause.partition(": ")[0].split(", ")) if ": " in clause else set()
+        if head and head <= kinds:
+            named.append(head)
+        elif not named:  # it begins with no kinds, and counts with all
+            return True
+    return any(head & chosen for head in named)
 
 
 def _none(row: dict) -> list[str]:
