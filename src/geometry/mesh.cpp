@@ -26,9 +26,9 @@ constexpr double kWeld = 1e-6;       // of repair, per diagonal
 void place(TriangleSoup& soup, const Placement& placement, const std::string& name) {
   for (std::size_t n = 0; n < soup.vertices.size(); ++n) {
     Vec3d& x = soup.vertices[n];
-    if (!std::isfinite(x.x + x.y + x.z))
-      throw CaseError(
-          fmt::format("{}: vertex {} = ({:g}, {:g}, {:g}) must be finite", name, n + 1, x.x, x.y, x.z));
+    if (!(norm2(x) < 1e200))  // volumes and distances stay finite
+      throw CaseError(fmt::format("{}: vertex {} = ({:g}, {:g}, {:g}) must be within 1e100 of the origin",
+                                  name, n + 1, x.x, x.y, x.z));
     x = placement.apply(x);
   }
 }

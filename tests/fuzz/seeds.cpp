@@ -41,19 +41,17 @@ void write_dictionary(const fs::path& file) {
 
 void write_foreign_cases(const fs::path& folder) {
   write_file(folder / "dam.xml",
-             R"(<case><casedef><constantsdef><gravity x="0" y="0" z="-9.81" /></constantsdef>
+             R"xml(<case><casedef><constantsdef><gravity x="0" y="0" z="-9.81" /></constantsdef>
 <geometry><definition dp="0.01"><pointmin x="0" y="0" z="0" /><pointmax x="1" y="1" z="1" /></definition>
 <commands><mainlist><newvar a="2*Dp" /><setmkfluid mk="0" />
-<drawbox><boxfill>solid</boxfill><point x="0" y="0" z="0" /><size x="#a*10" y="max(a, 0.2)" z =
-                 "0.2" / > </ drawbox><setmkbound mk = "1" /><rotate ang = "20" x = "0" y = "1" z = "0" />
-                 <drawcylinder radius = "0.1"><point x = "0.5" y = "0" z = "0" />
-                 <point x = "0.5" y = "0" z = "1" /></ drawcylinder></ mainlist></ commands></ geometry>
-                 <motion><objreal ref = "1"><begin mov = "1" start = "0" />
-                 <mvrot id = "1" duration = "1" next = "2"><vel ang = "90" />
-                 <axisp1 x = "0" y = "0" z = "0" /><axisp2 x = "0" y = "0" z = "1" /></ mvrot>
-                 <wait id = "2" duration = "1" next = "1" /></ objreal></ motion></ casedef><execution>
-                 <parameters><parameter key = "TimeMax" value = "1" /></ parameters></ execution></ case>) ");
-      write_file(folder / "in.box", R"(units si
+<drawbox><boxfill>solid</boxfill><point x="0" y="0" z="0" /><size x="#a*10" y="max(a, 0.2)" z="0.2" /></drawbox>
+<setmkbound mk="1" /><rotate ang="20" x="0" y="1" z="0" />
+<drawcylinder radius="0.1"><point x="0.5" y="0" z="0" /><point x="0.5" y="0" z="1" /></drawcylinder>
+</mainlist></commands></geometry>
+<motion><objreal ref="1"><begin mov="1" start="0" /><mvrot id="1" duration="1" next="2"><vel ang="90" />
+<axisp1 x="0" y="0" z="0" /><axisp2 x="0" y="0" z="1" /></mvrot><wait id="2" duration="1" next="1" /></objreal></motion>
+</casedef><execution><parameters><parameter key="TimeMax" value="1" /></parameters></execution></case>)xml");
+  write_file(folder / "in.box", R"(units si
 variable r equal 0.002*2
 region b block 0 1 0 1 0 1
 create_box 1 b
