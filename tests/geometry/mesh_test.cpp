@@ -213,7 +213,9 @@ TEST(MeshCheck, Empty) { EXPECT_EQ(defect({}), "m.stl: holds no triangles"); }
 TEST(MeshCheck, BadNumbers) {
   TriangleSoup soup = cube();
   soup.vertices[2].y = NAN;
-  EXPECT_EQ(defect(soup), "m.stl: vertex 3 = (1, nan, 0) must be finite");
+  EXPECT_EQ(defect(soup), "m.stl: vertex 3 = (1, nan, 0) must be within 1e100 of the origin");
+  soup.vertices[2].y = 1e150;
+  EXPECT_EQ(defect(soup), "m.stl: vertex 3 = (1, 1e+150, 0) must be within 1e100 of the origin");
   soup = cube();
   soup.triangles[1][2] = 8;
   EXPECT_EQ(defect(soup), "m.stl: triangle 2 names vertex 9, there are only 8");
