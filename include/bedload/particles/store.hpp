@@ -78,8 +78,6 @@ class Store {
     if (size_ == owned_) return;
     resize(owned_);
   }
-  /// Ghosts become particles of this rank.
-  void adopt_ghosts() { owned_ = size_; }
   /// Brings those values of ghosts that are not as their owners have them, of fields for which which(field)
   /// holds.
   template <class Which>
