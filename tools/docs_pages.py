@@ -1,5 +1,6 @@
 """Pages of the site that are made as it is built (mkdocs hook): keys and commands from the program, the READMEs of the
-cases, the record of speed, the change log. The program is that of $BEDLOAD, by default build/cpu/bedload."""
+cases, the record of speed, the change log, the C++ library (`docs_library`). The program is that of $BEDLOAD, by default
+build/cpu/bedload."""
 
 import json
 import os
@@ -8,6 +9,7 @@ import re
 import subprocess
 from pathlib import Path
 
+from docs_library import library_page
 from mkdocs.structure.files import File
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -84,6 +86,7 @@ def on_files(files, config):
     files.append(File.generated(config, "keys.md", content=keys_page()))
     files.append(File.generated(config, "commands.md", content=commands_page()))
     files.append(File.generated(config, "words.md", content=words_page()))
+    files.append(File.generated(config, "library.md", content=library_page()))
     for source, place in (PAGES | PICTURES).items():
         files.append(File.generated(config, place, abs_src_path=str(ROOT / source)))
     return files

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The documents name what there is: cases of the tutorial, snippets, keys. Usage: docs_test.py <bedload>"""
 
+import ast
 import json
 import re
 import subprocess
@@ -103,6 +104,26 @@ class Documents(unittest.TestCase):
             for text in shown:
                 with self.subTest(page=page, shown=text[:60]):
                     self.assertTrue(any(text in file for file in files))
+
+    def test_the_reference_has_every_name_of_the_package_with_its_docstring(self):
+        package = ROOT / "src/python/bedload"
+        sys.path.insert(0, str(package.parent))
+        import bedload
+
+        shown = re.findall(r"^::: ([\w.]+)$", (ROOT / "docs/python_api.md").read_text(), re.MULTILINE)
+        homes = {name: f"bedload.{home}.{name}" for name, home in bedload._HOMES.items() if home}
+        self.assertLessEqual(set(homes.values()), set(shown))
+        for path in shown:
+            _, module, *name = path.split(".")
+            body = ast.parse((package / f"{module}.py").read_text()).body
+            found = [node for node in body if isinstance(node, (ast.ClassDef, ast.FunctionDef))
+                     and (node.name in name if name else not node.name.startswith("_"))]
+            self.assertTrue(found, path)
+            members = [member for node in found if isinstance(node, ast.ClassDef) for member in node.body
+                       if isinstance(member, ast.FunctionDef) and not member.name.startswith("_")]
+            for node in found + members:
+                with self.subTest(of=path, name=node.name):
+                    self.assertTrue(ast.get_docstring(node))
 
     def test_snippets_are_valid(self):
         validator = jsonschema.Draft7Validator(without_required(json.loads(output("schema"))))

@@ -185,6 +185,7 @@ class Items(list):
         return self[-1]
 
     def append(self, values: Any) -> None:
+        """Appends a table, given as a dict or a section."""
         super().append(_converted(values, self._path + "[]", _caller()))
 
     def __setitem__(self, at, values) -> None:
@@ -239,14 +240,14 @@ class Report:
     """Result of `Case.check`."""
 
     fluid: int  #: particles
-    walls: int
-    grains: int
-    device: str
+    walls: int  #: particles
+    grains: int  #: in number
+    device: str  #: its name
     memory: int  #: of the solver at the end of a run, bytes
     step_limits: dict[str, float]  #: s, by what limits the step
     substep_limits: dict[str, float]  #: s, of DEM substeps
     numerical_viscosity: dict[str, float]  #: as multiples of the physical viscosity
-    warnings: list[str]
+    warnings: list[str]  #: a sentence each
     notes: list[str]  #: what is valid but may surprise, "resolution: ..."
 
     @property

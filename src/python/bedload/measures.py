@@ -20,7 +20,7 @@ class Grid:
 
     low: np.ndarray  #: lower corner, m
     cell: np.ndarray  #: sides of a cell, m
-    shape: tuple[int, int, int]
+    shape: tuple[int, int, int]  #: number of cells along x, y, z
 
     @classmethod
     def over(cls, low: Sequence[float], high: Sequence[float], cell: float | Sequence[float]) -> Grid:

@@ -168,6 +168,7 @@ class Table:
         return picked
 
     def texts(self, name: str) -> list[str]:
+        """Cells of one column, as they stand in the file."""
         k = self._index(name)
         return [row[k] for row in self._rows]
 

@@ -121,8 +121,8 @@ class Simulation:
 
     def __init__(self, case: Case | str | Path, out: str | Path | None = None, *, restart: str | Path | None = None,
                  backend: str = "auto", threads: int = 0, overwrite: bool = False, allow_changes: bool = False):
-        self.case = case if isinstance(case, Case) else Case(case)
-        self.out = None if out is None else Path(out)
+        self.case: Case = case if isinstance(case, Case) else Case(case)  #: that it runs
+        self.out: Path | None = None if out is None else Path(out)  #: folder of results
         if restart == "":
             raise CaseError("restart is empty; it must be a checkpoint, \"latest\" or None for a new run")
         if restart == "latest":
@@ -132,9 +132,9 @@ class Simulation:
         read = self.case._read(restart or "")
         self._run = module().Run(read, self.out or "", restart or "", backend, threads, overwrite, allow_changes)
         self._begun = self._ended = False
-        self.fluid = Particles(self._run, "fluid")
-        self.grains = Particles(self._run, "grains")
-        self.walls = Particles(self._run, "walls")
+        self.fluid: Particles = Particles(self._run, "fluid")  #: its arrays
+        self.grains: Particles = Particles(self._run, "grains")  #: its arrays
+        self.walls: Particles = Particles(self._run, "walls")  #: its arrays
 
     # -- running --------------------------------------------------------------------------------
 

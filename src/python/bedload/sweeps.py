@@ -28,7 +28,7 @@ class Point:
     """One run of a sweep."""
 
     values: dict[str, Any]  #: of the swept keys
-    folder: Path
+    folder: Path  #: of its results
     status: str = "waiting"  #: "completed"; "failed" with `message`; "stopped"
     message: str = ""  #: last message of the program if it failed or lost more than run.max_lost
     reused: bool = False  #: was completed before
