@@ -18,7 +18,7 @@ void Checks::meshes() const {
   const auto largest = [](const Vec3d& side) { return std::max({side.x, side.y, side.z}); };
   const Vec3d extent = c.domain.max - c.domain.min;
   for (const ShapeConfig& shape : c.shapes) {
-    if (shape.kind != ShapeKind::mesh) continue;
+    if (shape.kind != ShapeKind::mesh && shape.kind != ShapeKind::terrain) continue;
     const Bounds bounds = shape.solid.shape->bounds();
     const Vec3d side = bounds.max - bounds.min;
     const double times = largest(side) / largest(extent);

@@ -59,25 +59,26 @@ void shape(Parameters& p, ShapeConfig& s) {
     p("radius_b", &s.radius_b,
       {.unit = "m", .meaning = "cone: radius at b", .range = at_least(0), .presence = required});
   }
-  if (is({pipe, hollow}))
+  if (is({pipe, hollow, terrain}))
     p("thickness", &s.thickness,
       {.unit = "m",
-       .meaning = "pipe, hollow: wall thickness",
+       .meaning = "pipe, hollow: wall thickness; terrain: depth of the solid below its surface, before scale",
        .range = above(0),
-       .fallback = "kernel support, in whole wall.dx",
+       .fallback = "kernel support, in whole wall.dx; terrain: twice that",
        .presence = optional});
   if (is({pipe})) p("ends", &s.ends, {.meaning = "pipe: ends closed by a plate as thick as the wall"});
-  if (is({mesh})) {
+  if (is({mesh, terrain})) {
     p("file", &s.file,
-      {.meaning =
-           "mesh: STL, OBJ or PLY file with coordinates in m before scale; path relative to the case file",
+      {.meaning = "mesh: STL, OBJ or PLY file; terrain: one of these, open, or an ESRI ASCII grid of heights "
+                  "(.asc); coordinates in m before scale; path relative to the case file",
        .presence = required});
     p("digest", &s.digest,
-      {.meaning = "mesh: checksum of the file; another one is an error",
+      {.meaning = "mesh, terrain: checksum of the file; another one is an error",
        .fallback = "any",
        .presence = optional});
     p("repair", &s.repair,
-      {.meaning = "mesh: merge close vertices, remove triangles without area, orient the others outwards"});
+      {.meaning = "mesh, terrain: merge close vertices, remove triangles without area, orient the others "
+                  "outwards"});
   }
   if (is({hollow, union_, difference}))
     p("of", &s.of,

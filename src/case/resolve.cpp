@@ -170,9 +170,13 @@ void resolve_shapes(Config& c, const Value& root) {
     for (const ShapeConfig& other : done)
       if (other.name == shape.name)
         reject(root, name, fmt::format("\"{}\"", shape.name), "must differ from other shapes'");
+    const bool terrain = shape.kind == ShapeKind::terrain;
     if (shape.thickness == 0 && (shape.kind == ShapeKind::hollow || shape.kind == ShapeKind::pipe))
       shape.thickness = vessel_thickness(c);
-    if (shape.kind == ShapeKind::mesh) {
+    if (shape.thickness == 0 &&
+        terrain)  // counted along the vertical: slopes are thinner, at 60 degrees half
+      shape.thickness = 2 * vessel_thickness(c) / shape.scale;
+    if (shape.kind == ShapeKind::mesh || terrain) {
       const auto folder = std::filesystem::absolute(c.file).parent_path();
       shape.file = (folder / shape.file).lexically_normal().string();
     }

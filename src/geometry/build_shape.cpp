@@ -37,10 +37,12 @@ std::string digest_of(const std::string& path) {
   return fmt::format("{:016x}", print.value());
 }
 
+/// Of kind mesh or terrain.
 ShapePtr build_mesh(ShapeConfig& c) {
   MeshOptions options;
   options.repair = c.repair;
-  const auto mesh = read_mesh(c.file, options);
+  const auto mesh =
+      c.kind == ShapeKind::mesh ? read_mesh(c.file, options) : read_terrain(c.file, c.thickness, options);
   const std::string digest = digest_of(c.file);
   if (!c.digest.empty() && c.digest != digest)
     throw CaseError(fmt::format("digest = \"{}\" must be that of {}, which is \"{}\": the file has changed",
@@ -111,6 +113,7 @@ ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier)
     case ShapeKind::pipe:
       return make_pipe(c.a, c.b, c.radius, c.radius + c.thickness, c.ends);
     case ShapeKind::mesh:
+    case ShapeKind::terrain:
       return build_mesh(c);
     case ShapeKind::union_:
       return make_union(parts_of(c, earlier));

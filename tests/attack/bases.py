@@ -334,6 +334,14 @@ repair = true
 scale = 0.03
 translate = [0.05, 0.15, 0.15]
 [[shape]]
+name = "ground"
+kind = "terrain"
+file = "map.asc"
+repair = false
+thickness = 0.02
+scale = 0.05
+translate = [0.02, 0.02, 0.03]
+[[shape]]
 name = "both"
 kind = "union"
 of = ["ball", "pill"]
@@ -775,6 +783,7 @@ MESH = "solid rock\n" + "".join(
 ) + "endsolid rock\n"
 FILES = {
     "mesh.stl": MESH,
+    "map.asc": "ncols 3\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 1\n0 0.1 0\n0 0.2 0.1\n",
     "motion.csv": "t [s],x [m],y [m],z [m]\n0,0,0,0\n0.5,0.001,0,0\n1,0,0,0\n",
     "grains.csv": "x [m],y [m],z [m],d [m]\n0.02,0.02,0.15,0.005\n0.03,0.02,0.15,0.005\n",
     "fluid.csv": "x [m],y [m],z [m]\n"

@@ -76,7 +76,8 @@ void write_tables(const fs::path& folder) {
              "t,x,y,z,rx,ry,rz\n0,0,0,0,0,0,0\n0.125,0.1,0,0,0,0,30\n0.3,0.2,0,0,0,0,33.3\n");
 }
 
-/// Each behind the byte that says what it is: 0 STL, 1 OBJ, 2 PLY, 3 more to repair it.
+/// Each behind the byte that says what it is: 0 STL, 1 OBJ, 2 PLY, 3 more to repair it; 6 a map, 7 an open
+/// OBJ.
 void write_meshes(const fs::path& folder) {
   const auto add = [&](const std::string& name, char kind, auto make) {
     const fs::path made = folder / name;
@@ -93,6 +94,9 @@ void write_meshes(const fs::path& folder) {
              "\1v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nvt 0 0\nf 1/1/1 2/1/1 3/1/1 4/1/1\n");
   write_file(folder / "little.ply", "\2" + test::binary_ply(false));
   write_file(folder / "big.ply", "\2" + test::binary_ply(true));
+  write_file(folder / "map.asc",
+             "\6ncols 3\nnrows 2\nxllcorner 0\nyllcenter 0.5\ncellsize 2\nNODATA_value -9\n3 4 6\n1 2 3\n");
+  write_file(folder / "floor.obj", "\7v 0 0 0\nv 1 0 0\nv 1 1 1\nv 0 1 0\nf 1 2 3\nf 1 3 4\n");
   write_file(folder / "hopper.stl", '\0' + read_file(BL_SOURCE_DIR "/cases/hopper/hopper.stl"));
 }
 

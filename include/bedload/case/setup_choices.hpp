@@ -9,7 +9,19 @@ namespace bedload {
 // -- shapes --------------------------------------------------------------------------------------
 
 /// shape.kind
-enum class ShapeKind { box, sphere, capsule, cylinder, cone, pipe, mesh, hollow, union_, difference };
+enum class ShapeKind {
+  box,
+  sphere,
+  capsule,
+  cylinder,
+  cone,
+  pipe,
+  mesh,
+  terrain,
+  hollow,
+  union_,
+  difference
+};
 template <>
 inline constexpr auto kNames<ShapeKind> = std::to_array<Named<ShapeKind>>({
     {ShapeKind::box, "box", "cuboid between two corners"},
@@ -19,6 +31,7 @@ inline constexpr auto kNames<ShapeKind> = std::to_array<Named<ShapeKind>>({
     {ShapeKind::cone, "cone", "truncated cone with flat ends at a and b, each with its radius"},
     {ShapeKind::pipe, "pipe", "hollow cylinder, open inside from a to b"},
     {ShapeKind::mesh, "mesh", "interior of a closed triangle mesh"},
+    {ShapeKind::terrain, "terrain", "floor below a height map or an open triangle mesh"},
     {ShapeKind::hollow, "hollow", "shell around another shape (vessel)"},
     {ShapeKind::union_, "union", "union of several shapes"},
     {ShapeKind::difference, "difference", "the first shape without the others"},

@@ -77,4 +77,14 @@ TriangleSoup read_triangles(const std::filesystem::path& file);
 std::shared_ptr<const TriangleMesh> read_mesh(const std::filesystem::path& file,
                                               const MeshOptions& options = {});
 
+/// Surface through the heights of an ESRI ASCII grid, at the centres of its cells, which are split into two
+/// triangles each; numbers taken as m. Throws FileError, also where a cell has no height.
+TriangleSoup read_heights(const std::filesystem::path& file);
+
+/// The solid below a surface that has one height at each place, from read_heights (.asc) or read_triangles:
+/// the surface, the same `thickness` (m) below it, and sides along its outline. Throws FileError, and
+/// CaseError where the surface overhangs, has holes or consists of several pieces.
+std::shared_ptr<const TriangleMesh> read_terrain(const std::filesystem::path& file, double thickness,
+                                                 const MeshOptions& options = {});
+
 }  // namespace bedload

@@ -39,11 +39,11 @@ struct ShapeConfig {
   Vec3d a, b;                                  ///< ends of the axis of capsule, cylinder, cone, pipe: m
   double radius = 0;                           ///< m; pipe: of the bore
   double radius_a = 0, radius_b = 0;           ///< cone: m
-  double thickness = 0;                        ///< wall of pipe and hollow, m
+  double thickness = 0;                        ///< wall of pipe and hollow; terrain below its surface; m
   Chosen<PipeEnds> ends = PipeEnds::open;      ///< pipe: those with a plate
-  std::string file;                            ///< mesh: STL, OBJ or PLY
+  std::string file;                            ///< mesh: STL, OBJ or PLY; terrain: or ASC
   std::string digest;                          ///< of the file, hexadecimal; checked where it is given
-  bool repair = false;                         ///< mesh
+  bool repair = false;                         ///< mesh, terrain
   std::vector<std::string> of;                 ///< hollow, union, difference: shapes listed before
   double facet = 0;                            ///< difference: width of its triangles, m; 0: by its size
   double scale = 1;
