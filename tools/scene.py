@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-import outlines
 from frames import Frames, Table, resolved_case
+from bedload import _surfaces  # after frames, which finds it
 
 
 class Scene:
@@ -21,7 +21,7 @@ class Scene:
         self.walls = Frames(walls) if walls.exists() else None
         self.folder = Path(folder)
         self.shapes = {shape["name"]: shape for shape in self.case.get("shape", [])}
-        self.surfaces = {name: outlines.surfaces(name, self.shapes, self.folder) for name in self.shapes}
+        self.surfaces = {name: _surfaces.surfaces(name, self.shapes, self.folder) for name in self.shapes}
         self.tables = {}
         self.dx = self.case.get("fluid", {}).get("dx") or self.estimated_spacing()
 
@@ -73,7 +73,7 @@ class Scene:
             if len(after) != len(before):
                 return None
             if len(before) > 2:
-                return outlines.motion_between(before, after)
+                return _surfaces.motion_between(before, after)
         return np.eye(3), sum((displacement(part, time) for part in parts_of(body)), np.zeros(3))
 
     def table_of(self, body):
@@ -102,7 +102,7 @@ class Scene:
         """Surfaces of named shapes as they stand at `time`."""
         for body, turn, shift in self.bodies(time):
             for mesh in self.surfaces.get(body.get("shape"), []):
-                yield outlines.Mesh(mesh.vertices @ turn.T + shift, mesh.triangles)
+                yield _surfaces.Mesh(mesh.vertices @ turn.T + shift, mesh.triangles)
 
 
 def parts_of(body):
@@ -118,7 +118,7 @@ def turn_of(quaternion):
     """Matrix of a unit quaternion (w, x, y, z)."""
     w, axis = quaternion[0], np.array(quaternion[1:])
     sine = np.linalg.norm(axis)
-    return outlines.rotation(axis, 2 * np.arctan2(sine, w)) if sine > 0 else np.eye(3)
+    return _surfaces.rotation(axis, 2 * np.arctan2(sine, w)) if sine > 0 else np.eye(3)
 
 
 def turning_centre(motion):

@@ -4,7 +4,8 @@ their sections."""
 import numpy as np
 import pyvista
 
-import outlines
+import frames  # noqa: F401 (it finds the package)
+from bedload import _surfaces
 
 VESSELS = ("hollow", "pipe", "difference")  # kinds that hold fluid rather than move in it
 FINE = 60  # edges along the diagonal of a surface that others cut
@@ -136,14 +137,14 @@ def solid(name, shapes, folder):
         else:
             made = Union(parts) if shape["kind"] == "union" else Difference(parts[0], parts[1:])
     else:
-        mesh = outlines.primitive(shape, folder)
+        mesh = _surfaces.primitive(shape, folder)
         if mesh is None:
             return None
         made = Solid(polydata(mesh.vertices, mesh.triangles), shape["kind"] in VESSELS)
-    scale, turn, shift = outlines.placement(shape)
+    scale, turn, shift = _surfaces.placement(shape)
     if scale != 1 or np.any(turn != np.eye(3)) or np.any(shift != 0):
         made = Placed(made, scale, turn, shift)
-    copies = outlines.copies(shape)
+    copies = _surfaces.copies(shape)
     return Union([Placed(made, 1.0, *copy) for copy in copies]) if len(copies) > 1 else made
 
 

@@ -11,70 +11,13 @@ a plane figure of cells that fills some of several layers and is then mapped int
 """
 
 import argparse
+import sys
 from pathlib import Path
 
 import numpy as np
 
-STL = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])  # binary, a triangle
-
-
-class Mesh:
-    """Vertices [n, 3], m, and triangles [m, 3] between them, counter-clockwise seen from outside."""
-
-    def __init__(self, vertices, triangles):
-        self.vertices, self.triangles = np.asarray(vertices, float), np.asarray(triangles, int)
-
-    def corners(self):
-        return self.vertices[self.triangles]
-
-    def volume(self):
-        a, b, c = np.moveaxis(self.corners(), 1, 0)
-        return float(np.sum(a * np.cross(b, c)) / 6)
-
-    def normals(self):
-        """Of the triangles, of unit length."""
-        a, b, c = np.moveaxis(self.corners(), 1, 0)
-        n = np.cross(b - a, c - a)
-        return n / np.maximum(np.linalg.norm(n, axis=1, keepdims=True), 1e-300)
-
-    def write_stl(self, path):
-        """Binary STL. A vertex is rounded once, so that triangles still meet in it."""
-        facets = np.zeros(len(self.triangles), STL)
-        facets["normal"], facets["corners"] = self.normals(), self.corners()
-        Path(path).parent.mkdir(parents=True, exist_ok=True)
-        with open(path, "wb") as file:
-            file.write(b"Bedload, lengths in m".ljust(80) + np.uint32(len(facets)).astype("<u4").tobytes())
-            file.write(facets.tobytes())
-
-
-def read_stl(path):
-    """The triangles of a binary or ASCII STL file; equal corners become one vertex."""
-    data = Path(path).read_bytes()
-    count = int.from_bytes(data[80:84], "little")
-    if len(data) == 84 + 50 * count:
-        corners = np.frombuffer(data, STL, offset=84)["corners"].astype(float).reshape(-1, 3)
-    else:
-        lines = (line.split() for line in data.decode().splitlines())
-        corners = np.array([words[1:4] for words in lines if words[:1] == ["vertex"]], float)
-    vertices, triangles = np.unique(corners, axis=0, return_inverse=True)
-    return Mesh(vertices, triangles.reshape(-1, 3))
-
-
-def revolve(profile, facets):
-    """A profile of (r, z), counter-clockwise, turned about the z axis. Points with r = 0 stay single."""
-    r, z = np.asarray(profile, float).T
-    angle = 2 * np.pi * np.arange(facets) / facets
-    vertices, ring = [], []  # ring[k][j]: vertex of profile point k at angle j
-    for radius, height in zip(r, z):
-        count = 1 if radius == 0 else facets
-        ring.append(len(vertices) + np.arange(facets) % count)
-        vertices += [(radius * np.cos(a), radius * np.sin(a), height) for a in angle[:count]]
-    quads = []
-    for k, following in enumerate(np.roll(np.arange(len(r)), -1)):
-        a, b = ring[k], ring[following]
-        quads.append(np.stack([a, np.roll(a, -1), np.roll(b, -1), b], axis=1))
-    return Mesh(vertices, halves(np.concatenate(quads)))
-
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "src" / "python"))
+from bedload._surfaces import Mesh, halves, revolve  # noqa: E402
 
 def layered(cells, filled, levels):
     """The solid of those prisms over `cells` that are `filled`.
@@ -97,16 +40,6 @@ def layered(cells, filled, levels):
     vertices, triangles = np.concatenate(levels), halves(np.concatenate(quads))
     used, triangles = np.unique(triangles, return_inverse=True)
     return Mesh(vertices[used], triangles.reshape(-1, 3))
-
-
-def halves(quads):
-    """The triangles of quads, less those that have a vertex twice. The diagonal is the same from both sides."""
-    diagonal = np.where((quads.min(axis=1) == quads[:, 0]) | (quads.min(axis=1) == quads[:, 2]), 0, 1)
-    k = (diagonal[:, None] + np.arange(4)) % 4
-    q = np.take_along_axis(quads, k, axis=1)
-    triangles = np.concatenate([q[:, [0, 1, 2]], q[:, [0, 2, 3]]])
-    a, b, c = triangles.T
-    return triangles[(a != b) & (b != c) & (c != a)]
 
 
 # ---- things to make ----

@@ -362,11 +362,12 @@ class Scenes(unittest.TestCase):
         self.assertEqual(set(parts), {"domain", "wall.body.1"})
 
     def test_motion_between_two_places_of_the_same_points(self):
-        from bedload.gui import shapes
+        from bedload._surfaces import motion_between, rotation
+        from bedload.gui.shapes import matrix
 
         before = np.random.default_rng(1).random((9, 3))
-        turn = shapes.rotation([1, 2, 3], 0.7)
-        motion = shapes.motion_between(before, before @ turn.T + [1, 2, 3])
+        turn = rotation([1, 2, 3], 0.7)
+        motion = matrix(*motion_between(before, before @ turn.T + [1, 2, 3]))
         np.testing.assert_allclose(motion[:3, :3], turn, atol=1e-12)
         np.testing.assert_allclose(motion[:3, 3], [1, 2, 3], atol=1e-12)
 

@@ -27,6 +27,7 @@ import rolling  # noqa: E402
 import solids  # noqa: E402
 import validate  # noqa: E402
 from scene import Scene  # noqa: E402
+from bedload import _surfaces  # noqa: E402
 
 
 def write_frames(path, times, points, fields):
@@ -279,7 +280,7 @@ turn_angle = 5
     def test_bodies_stand_where_their_particles_are(self):
         (self.run_dir / "case.resolved.toml").write_text(self.CASE)
         placed = np.random.default_rng(2).random((30, 3))
-        turned = outlines.rotation([0, 0, 1], 0.3)
+        turned = _surfaces.rotation([0, 0, 1], 0.3)
         order = np.random.default_rng(3).permutation(30)  # frames keep no order
         write_frames(self.run_dir / "walls.vtkhdf", [0, 0.1], [placed, (placed @ turned.T)[order]],
                      {"body": [np.ones(30), np.ones(30)], "id": [np.arange(30), order]})
@@ -490,11 +491,11 @@ shape = "rest"
     def test_copies_stand_about_their_axis_and_in_a_row(self):
         rod = {"kind": "box", "min": [0.9, -1, -0.1], "max": [1, 1, 0.1]}
         about = {"it": rod | {"copies": {"count": 4, "about": [0, 1, 0], "centre": [0, 0, 0], "angle": 90}}}
-        meshes = outlines.surfaces("it", about, Path())
+        meshes = _surfaces.surfaces("it", about, Path())
         self.assertEqual(len(meshes), 4)
         np.testing.assert_allclose(meshes[1].vertices.mean(0), [0, 0, -0.95], atol=1e-12)
         row = {"it": rod | {"copies": {"count": 3, "along": [0, 0, 0.5]}}}
-        np.testing.assert_allclose(outlines.surfaces("it", row, Path())[2].vertices.mean(0), [0.95, 0, 1], atol=1e-12)
+        np.testing.assert_allclose(_surfaces.surfaces("it", row, Path())[2].vertices.mean(0), [0.95, 0, 1], atol=1e-12)
 
     def test_grains_take_colours_of_a_field(self):
         speed = np.zeros((5, 3))
@@ -704,19 +705,33 @@ class Solids(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             mesh = solids.tube(rows=2)
             mesh.write_stl(Path(folder) / "tube.stl")
-            back = solids.read_stl(Path(folder) / "tube.stl")
+            back = _surfaces.read_stl(Path(folder) / "tube.stl")
         self.assertEqual(len(back.vertices), len(mesh.vertices))
         self.expect_closed(back, mesh.volume(), 1e-5)
 
+    def test_terrain_is_closed_below(self):
+        heights = "ncols 3\nnrows 2\nxllcorner 9\nyllcenter 20\ncellsize 2\n3 4 6\n1 2 3\n"
+        with tempfile.TemporaryDirectory() as folder:
+            Path(folder, "map.asc").write_text(heights)
+            surface = _surfaces.read_heights(Path(folder, "map.asc"))
+            surface.write_stl(Path(folder, "map.stl"))
+            for name in ("map.asc", "map.stl"):
+                with self.subTest(name=name):
+                    floor = {"kind": "terrain", "file": name, "thickness": "50 cm"}
+                    mesh = _surfaces.primitive(floor, Path(folder))
+                    self.expect_closed(mesh, 0.5 * 4 * 2, 1e-6)
+                    np.testing.assert_allclose(mesh.vertices.min(0), [10, 20, 0.5], atol=1e-6)
+                    np.testing.assert_allclose(mesh.vertices.max(0), [14, 22, 6], atol=1e-6)
+
     def test_outlines(self):
         box = {"it": {"kind": "box", "min": [0, 0, 0], "max": [1, 2, 3]}}
-        (mesh,) = outlines.surfaces("it", box, Path())
+        (mesh,) = _surfaces.surfaces("it", box, Path())
         self.expect_closed(mesh, 6, 1e-12)
         self.assertEqual(len(outlines.edges(mesh, 1)), 12)
         lines = outlines.cut(mesh, 1, 0.5)
         self.assertAlmostEqual(np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1).sum(), 8)
-        turn = outlines.rotation([1, 2, 3], 0.4)
-        found, shift = outlines.motion_between(mesh.vertices, mesh.vertices @ turn.T + [1, 2, 3])
+        turn = _surfaces.rotation([1, 2, 3], 0.4)
+        found, shift = _surfaces.motion_between(mesh.vertices, mesh.vertices @ turn.T + [1, 2, 3])
         np.testing.assert_allclose(found, turn, atol=1e-12)
         np.testing.assert_allclose(shift, [1, 2, 3])
 

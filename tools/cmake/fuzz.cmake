@@ -8,7 +8,7 @@ foreach(library host program)
 endforeach()
 
 # What cases name as beside them.
-file(GLOB files cases/*/*.csv cases/*/*.stl)
+file(GLOB files cases/*/*.csv cases/*/*.stl cases/*/*.asc)
 file(COPY ${files} DESTINATION ${CMAKE_BINARY_DIR}/files)
 
 add_executable(fuzz_seeds tests/fuzz/seeds.cpp)

@@ -148,12 +148,13 @@ class Window:
             content = file["content"]
             content = b"".join(content) if isinstance(content, list) else content
             path = self._folder() / name
-            if path.suffix.lower() not in (".stl", ".obj", ".ply"):
-                raise CaseError(f"{name} must be an STL, OBJ or PLY file")
+            if path.suffix.lower() not in (".stl", ".obj", ".ply", ".asc"):
+                raise CaseError(f"{name} must be an STL, OBJ or PLY file, or a height map (.asc)")
             if path.exists() and path.read_bytes() != content:
                 raise FileError(f"{path}: there is another mesh of that name; rename one of them")
             path.write_bytes(content)
-            values = {"name": Path(name).stem, "kind": "mesh", "file": name}
+            kind = "terrain" if path.suffix.lower() == ".asc" else "mesh"
+            values = {"name": Path(name).stem, "kind": kind, "file": name}
             self.state.selected = self.document.add("shape", values, item=True)
 
         self._edit(added)
@@ -460,7 +461,7 @@ class Window:
 
     @staticmethod
     def _spacing(case: dict[str, Any]) -> float:
-        from .shapes import metres
+        from .._surfaces import metres
 
         try:
             return metres(case["fluid"]["dx"])

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
+from .._surfaces import metres
 from .document import Document, bare
-from .shapes import metres
 
 POINTS = {"shape": ("min", "max", "centre", "a", "b"), "wall.body": ("min", "max", "point"),
           "wall.body.motion": ("centre",), "fluid.fill": ("min", "max"), "grain.fill": ("min", "max"),
@@ -52,6 +52,6 @@ def grid_of(size: float) -> float:
 def _keys(document: Document, path: str) -> list[str]:
     """The points of a table. A shape that is a mesh, of others, or turned or scaled is moved by `translate`."""
     table = document.get(path) or {}
-    if bare(path) == "shape" and ({"turn_angle", "scale"} & set(table) or "of" in table or table.get("kind") == "mesh"):
+    if bare(path) == "shape" and ({"turn_angle", "scale"} & set(table) or "of" in table or "file" in table):
         return ["translate"]
     return [key for key in POINTS[bare(path)] if isinstance(table.get(key), list)]

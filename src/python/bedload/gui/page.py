@@ -178,7 +178,8 @@ def _form(window: Any) -> None:
                    color="primary", click="all_keys = !all_keys", id="all_keys",
                    prepend_icon=("all_keys ? 'mdi-chevron-up' : 'mdi-chevron-down'",))
         with html.Div(v_if="selected == 'shape' || selected == ''", classes="mt-4"):
-            v.VFileInput(v_model=("mesh", None), label="Drop a mesh here: STL, OBJ or PLY", accept=".stl,.obj,.ply",
+            v.VFileInput(v_model=("mesh", None), label="Drop a mesh here: STL, OBJ or PLY",
+                         accept=".stl,.obj,.ply,.asc",
                          prepend_icon="", prepend_inner_icon="mdi-vector-triangle", id="mesh", **SMALL)
 
 

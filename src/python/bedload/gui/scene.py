@@ -9,6 +9,7 @@ from typing import Any, Callable, Iterator
 import numpy as np
 import pyvista as pv
 
+from .._surfaces import metres, point
 from . import shapes
 
 WALL, FLUID, GRAIN, INLET, OUTLET, PROBE, MOTION, FRAME = (
@@ -43,7 +44,7 @@ class _Scene:
         self.shapes = {shape.get("name", ""): shape for shape in _tables(case, "shape")}
         domain = case.get("domain", {})
         try:
-            self.low, self.high = shapes.point(domain["min"]), shapes.point(domain["max"])
+            self.low, self.high = point(domain["min"]), point(domain["max"])
         except (KeyError, TypeError, ValueError, AttributeError):
             self.low, self.high = np.zeros(3), np.zeros(3)
         self.size = float(np.linalg.norm(self.high - self.low)) or 1.0
@@ -74,13 +75,13 @@ class _Scene:
             sides = mesh.extract_cells([names.index(face) for face in faces])
             return sides.extract_surface(algorithm="dataset_surface")
         if body["shape"] == "plane":
-            return shapes.plane(shapes.point(body["point"]), body["normal"], self.size)
+            return shapes.plane(point(body["point"]), body["normal"], self.size)
         return shapes.surface(body["shape"], self.shapes, self.folder)
 
     def motion(self, motion: dict, mesh: pv.PolyData) -> pv.PolyData | None:
         kind, middle = motion.get("kind"), np.array(mesh.center)
         if kind == "rotation":
-            axis, centre = motion["axis"], shapes.point(motion.get("centre", [0, 0, 0]))
+            axis, centre = motion["axis"], point(motion.get("centre", [0, 0, 0]))
             return shapes.turning(centre, axis, 0.3 * mesh.length, 0.9 * mesh.length)
         if kind == "velocity":
             return shapes.arrow(middle, motion["velocity"], 0.5 * mesh.length)
@@ -102,7 +103,7 @@ class _Scene:
         if "file" in fill:
             return None
         if "positions" in fill:
-            return pv.PolyData(np.array([shapes.point(x) for x in fill["positions"]])).glyph(
+            return pv.PolyData(np.array([point(x) for x in fill["positions"]])).glyph(
                 geom=pv.Sphere(radius=self.size / 60), scale=False, orient=False)
         if "shape" not in fill:
             return shapes.box(fill["min"], fill["max"])
@@ -111,7 +112,7 @@ class _Scene:
             return mesh
         gravity = np.array(self.case.get("gravity", [0, 0, -9.81]), float)
         strength = np.linalg.norm(gravity)
-        return shapes.filled(mesh, shapes.metres(fill["level"]), -gravity / strength) if strength > 0 else mesh
+        return shapes.filled(mesh, metres(fill["level"]), -gravity / strength) if strength > 0 else mesh
 
     def inlets(self) -> Iterator[Part]:
         for k, inlet in enumerate(_tables(self.case, "inlet")):
@@ -122,11 +123,11 @@ class _Scene:
     def inlet(self, inlet: dict) -> pv.PolyData:
         if "min" in inlet:
             return shapes.box(inlet["min"], inlet["max"])
-        centre, way = shapes.point(inlet["centre"]), inlet["direction"]
+        centre, way = point(inlet["centre"]), inlet["direction"]
         if "half_a" in inlet:
-            opening = shapes.rectangle(centre, shapes.point(inlet["half_a"]), shapes.point(inlet["half_b"]))
+            opening = shapes.rectangle(centre, point(inlet["half_a"]), point(inlet["half_b"]))
         else:
-            opening = shapes.disc(centre, way, shapes.metres(inlet["radius"]))
+            opening = shapes.disc(centre, way, metres(inlet["radius"]))
         return pv.merge([opening, shapes.arrow(centre, way, max(opening.length, self.size / 20))], merge_points=False)
 
     def outlets(self) -> Iterator[Part]:
@@ -137,7 +138,7 @@ class _Scene:
         if outlet.get("shape", "box") == "box":
             return shapes.box(outlet["min"], outlet["max"])
         if outlet["shape"] == "plane":
-            return shapes.plane(shapes.point(outlet["point"]), outlet["normal"], self.size / 2)
+            return shapes.plane(point(outlet["point"]), outlet["normal"], self.size / 2)
         return shapes.surface(outlet["shape"], self.shapes, self.folder)
 
     def probes(self) -> Iterator[Part]:
@@ -156,7 +157,7 @@ class _Scene:
             return shapes.arrow(self.middle + way * 0.5 * np.abs(way @ (self.high - self.low)), way, self.size / 12)
         if "at" not in probe:
             return None
-        at = shapes.point(probe["at"])
+        at = point(probe["at"])
         mark = pv.Sphere(radius=self.size / 90, center=tuple(at))
         if probe["type"] != "height":
             return mark

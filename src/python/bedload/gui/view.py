@@ -11,6 +11,7 @@ import pyvista as pv
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPropPicker
 from vtkmodules.vtkRenderingOpenGL2 import vtkOpenGLSphereMapper
 
+from .._surfaces import motion_between
 from . import shapes
 from .run import Cloud
 from .scene import FLUID, GRAIN, WALL, Part
@@ -223,8 +224,8 @@ def moved_bodies(case: dict[str, Any], before: Cloud | None, now: Cloud | None) 
             found[f"wall.body.{number}"] = None
         _, i, j = np.intersect1d(before.fields["id"][old], now.fields["id"][new], return_indices=True)
         if len(i) > 2:
-            motion = shapes.motion_between(before.position[old][i].astype(float), now.position[new][j].astype(float))
-            found[f"wall.body.{number}"] = motion
+            motion = motion_between(before.position[old][i].astype(float), now.position[new][j].astype(float))
+            found[f"wall.body.{number}"] = shapes.matrix(*motion)
     return found
 
 
