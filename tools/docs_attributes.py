@@ -1,4 +1,5 @@
-"""Comments "#: ..." behind attributes as their documentation (extension of Griffe, which mkdocstrings reads Python by)."""
+"""Comments "#: ..." behind attributes as their documentation: an extension of Griffe, which reads Python for
+mkdocstrings."""
 
 import griffe
 

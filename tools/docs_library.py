@@ -136,5 +136,6 @@ def library_page():
             top, found = entries(header)
             out += ["", f"### bedload/{header}", "", prose(top)]
             for name, about, code in found:
-                out += ["", f"#### `{name}`", "", *([prose(about), ""] if about else []), "```cpp", code, "```"]
+                said = [prose(about), ""] if about else []
+                out += ["", f"#### `{name}`", "", *said, "```cpp", code, "```"]
     return "\n".join(out) + "\n"

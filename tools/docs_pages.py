@@ -1,6 +1,6 @@
 """Pages of the site that are made as it is built (mkdocs hook): keys and commands from the program, the READMEs of the
-cases, the record of speed, the change log, the C++ library (`docs_library`). The program is that of $BEDLOAD, by default
-build/cpu/bedload."""
+cases, the record of speed, the change log, the C++ library (`docs_library`). The program is that of $BEDLOAD, by
+default build/cpu/bedload."""
 
 import json
 import os

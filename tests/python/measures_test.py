@@ -5,7 +5,7 @@ import unittest
 import numpy as np
 from bedload.measures import (Grid, angular_velocity, at_points, bed_outline, bed_surface, contact_pairs, coordination,
                               lacey_index, mean_map, mean_power, porosity_map, power_number, running_mean, segregation_intensity,
-                              solid_fraction_map, spectrum, surface_slope)
+                              solid_fraction_map, spectrum, surface_slope, toe_and_shoulder)
 
 
 def lattice(n, d):
@@ -64,6 +64,36 @@ class Beds(unittest.TestCase):
         self.assertAlmostEqual(outline[:, 1].max(), 2.5, delta=1e-6)
         np.testing.assert_allclose(outline[:, 1], 2 + np.sqrt(0.25 - (outline[:, 0] - 1) ** 2))
         self.assertAlmostEqual(surface_slope(np.array([[0, 0], [1, 1.0], [2, 2]])), 45)
+
+    def test_toe_and_shoulder_are_the_ends_of_the_charge(self):
+        d, shell, toe, shoulder = 0.01, 0.5, -35.0, 62.0
+        layer = [np.stack([np.full(n, r), np.linspace(toe, shoulder, n)], axis=1)
+                 for r in shell - d / 2 - d * np.arange(6) for n in [round(np.radians(shoulder - toe) * r / d)]]
+        r, angle = np.concatenate(layer).T
+        angle = np.radians(angle)
+        ring = np.stack([r * np.sin(angle), 0 * r, -r * np.cos(angle)], axis=1)  # turns from -z to +x: about -y
+        bed = np.concatenate([ring + [0, y, 0] for y in np.arange(8) * d]) + [1, 2, 3]
+        flight = np.random.default_rng(1).uniform([0.6, 2, 2.6], [1.4, 2.07, 3.4], (2000, 3))
+        for x in (bed, np.concatenate([bed, flight])):
+            found = toe_and_shoulder(x, d / 2, [1, 0, 3], [0, -1, 0], shell)
+            np.testing.assert_allclose(found, [toe, shoulder], atol=1.5)
+        turned = toe_and_shoulder(bed, d / 2, [1, 0, 3], [0, 2, 0], shell)
+        np.testing.assert_allclose(turned, [-shoulder, -toe], atol=1.5)
+        twice = toe_and_shoulder(np.concatenate([bed, bed]), d / 2, [1, 0, 3], [0, -1, 0], shell, frames=2)
+        np.testing.assert_allclose(twice, toe_and_shoulder(bed, d / 2, [1, 0, 3], [0, -1, 0], shell))
+        sideways = toe_and_shoulder(bed[:, [2, 1, 0]], d / 2, [3, 0, 1], [0, 1, 0], shell, up=[1, 0, 0])
+        np.testing.assert_allclose(sideways, [toe, shoulder], atol=1.5)
+
+    def test_toe_and_shoulder_need_a_charge_with_ends(self):
+        angle = np.linspace(0, 2 * np.pi, 300, endpoint=False)
+        lining = np.concatenate([np.stack([r * np.sin(angle), 0 * angle, r * np.cos(angle)], axis=1)
+                                 for r in (0.495, 0.485, 0.475)])
+        with self.assertRaisesRegex(ValueError, "lines the whole shell"):
+            toe_and_shoulder(lining, 0.005, [0, 0, 0], [0, 1, 0], 0.5)
+        with self.assertRaisesRegex(ValueError, "no charge at the shell"):
+            toe_and_shoulder(lining[:100] * 0.5, 0.005, [0, 0, 0], [0, 1, 0], 0.5)
+        with self.assertRaisesRegex(ValueError, "must not be vertical"):
+            toe_and_shoulder(lining, 0.005, [0, 0, 0], [0, 0, 1], 0.5)
 
     def test_contacts_are_those_of_all_pairs(self):
         random = np.random.default_rng(2)

@@ -1,4 +1,4 @@
-"""Derived quantities of particles: maps, mixing, bed outline, power, residence time, contacts. Arrays come from frames
+"""Derived quantities of particles: maps, mixing, bed outline, mills, power, residence time, contacts. Arrays come from frames
 (`run.grains.position(k)`) or from a simulation (`s.grains.position`).
 
 SI units; positions [n, 3].
@@ -159,6 +159,49 @@ def bed_outline(x: np.ndarray, radius: np.ndarray, along: int, up: int, cell: fl
 def surface_slope(outline: np.ndarray) -> float:
     """Angle of the straight line through an outline, by least squares, degrees."""
     return float(np.degrees(np.arctan(np.polyfit(outline[:, 0], outline[:, 1], 1)[0])))
+
+
+def toe_and_shoulder(x: np.ndarray, radius: np.ndarray, centre: Sequence[float], axis: Sequence[float], shell: float,
+                     *, frames: int = 1, filled: float = 0.3, band: float | None = None, sectors: int = 72,
+                     up: Sequence[float] = (0, 0, 1)) -> tuple[float, float]:
+    """Angles of a mill's charge, degrees: the toe, where it begins at the shell, and the shoulder, where it leaves it.
+
+    Both are counted from the lowest point of the shell, positive the way the mill turns. x, radius: of the grains [n],
+    or of those of several `frames` one behind another, for the mean over them. centre: a point on the axis, m; axis:
+    direction of the axis, the mill turning right-handed about it; shell: inner radius of the shell, m.
+
+    The ring between the shell and `band` (m; default two diameters of the largest grain) within it is divided into
+    `sectors`; the charge reaches from the fullest one both ways as far as the solid fraction exceeds `filled`, linear
+    between the middles of sectors. Grains in flight hardly count; lifters lower the fraction a little.
+    """
+    x, radius = np.asarray(x, float) - np.asarray(centre, float), np.broadcast_to(np.asarray(radius, float), len(x))
+    axis = np.asarray(axis, float) / np.linalg.norm(axis)
+    down = -np.asarray(up, float)
+    down -= (down @ axis) * axis
+    if np.linalg.norm(down) < 1e-6:
+        raise ValueError("the axis of a mill must not be vertical")
+    down /= np.linalg.norm(down)
+    band = 4 * radius.max() if band is None else band
+    along, r = x @ axis, np.linalg.norm(x - np.outer(x @ axis, axis), axis=1)
+    length = (along + radius).max() - (along - radius).min()
+    angle = np.degrees(np.arctan2(x @ np.cross(axis, down), x @ down))
+    near = (r > shell - band) & (r <= shell)
+    at = np.floor((angle[near] + 180) / 360 * sectors).astype(int) % sectors
+    ring = np.pi * (shell**2 - (shell - band) ** 2) * length / sectors
+    fraction = np.bincount(at, 4 / 3 * np.pi * radius[near] ** 3, sectors) / (ring * frames)
+    if fraction.max() <= filled:
+        raise ValueError(f"no charge at the shell: the solid fraction there is {fraction.max():.2g} at most")
+    if fraction.min() > filled:
+        raise ValueError("the charge lines the whole shell: it has neither toe nor shoulder")
+    first = int(fraction.argmax())
+
+    def end(way: int) -> float:
+        k = next(k for k in range(1, sectors) if fraction[(first + way * k) % sectors] <= filled)
+        inner, outer = fraction[(first + way * (k - 1)) % sectors], fraction[(first + way * k) % sectors]
+        place = first + way * (k - 1 + (inner - filled) / (inner - outer))
+        return float(((place + 0.5) / sectors * 360) % 360 - 180)
+
+    return end(-1), end(1)
 
 
 def contact_pairs(x: np.ndarray, radius: np.ndarray, gap: float = 0.0,
