@@ -128,8 +128,8 @@ def entries(header):
 def library_page():
     out = ["# C++ library", "",
            "Generated from the headers of `bedload::bedload`, without private members and the bodies of functions; all",
-           "names are in the namespace `bedload`. [How a program uses it](howto/build.md#in-a-program-of-your-own), with",
-           "an example. The members of the tables of a case are the [keys](keys.md) of a case file, with their units."]
+           "names are in the namespace `bedload`. [How a program uses it](howto/build.md#in-a-program-of-your-own),",
+           "with an example. The members of the tables of a case are the [keys](keys.md) of a case file."]
     for group, headers in HEADERS.items():
         out += ["", f"## {group}"]
         for header in headers:

@@ -1,5 +1,5 @@
-"""Derived quantities of particles: maps, mixing, bed outline, mills, power, residence time, contacts. Arrays come from frames
-(`run.grains.position(k)`) or from a simulation (`s.grains.position`).
+"""Derived quantities of particles: maps, mixing, bed outline, mills, power, residence time, contacts. Arrays come from
+frames (`run.grains.position(k)`) or from a simulation (`s.grains.position`).
 
 SI units; positions [n, 3].
 """
