@@ -20,9 +20,27 @@ void describe_rigid_group(Parameters& p, RigidConfig& r) {
   if (r.present) describe_constraints(p, "rigid", r);
 }
 
+void describe_scatter(Parameters& p, ScatterConfig& s) {
+  s.present = p.table("free.scatter", s.present);
+  if (!s.present) return;
+  p("free.scatter.count", &s.count,
+    {.meaning =
+         "number of bodies of this shape, placed at random in a box; they are named <name>_1, <name>_2 ..",
+     .range = within(1, 10000),
+     .presence = required});
+  p("free.scatter.min", &s.min,
+    {.unit = "m", .meaning = "lower corner of the box, which holds whole bodies", .presence = required});
+  p("free.scatter.max", &s.max, {.unit = "m", .meaning = "upper corner", .presence = required});
+  p("free.scatter.gap", &s.gap,
+    {.unit = "m", .meaning = "least distance between the spheres around two bodies", .range = at_least(0)});
+  p("free.scatter.turned", &s.turned, {.meaning = "random orientations; false: all as the shape is"});
+  p("free.scatter.seed", &s.seed, {.meaning = "seed of the random positions"});
+}
+
 void describe_free_body(Parameters& p, FreeConfig& f) {
   f.present = p.table("free", f.present);
   if (!f.present) return;
+  describe_scatter(p, f.scatter);
   p("free.density", &f.density,
     {.unit = "kg/m3",
      .meaning = "mean density of the body, whose shape must be closed; alternative to free.mass",

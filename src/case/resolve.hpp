@@ -23,6 +23,9 @@ void resolve_listed_fluid(Config& config, const Value& root, const std::filesyst
 bool resolve_listed_grains(Config& config, std::size_t index, const Value& root,
                            const std::filesystem::path& checkpoint);
 
+/// A shape and a body in place of each that free.scatter stands for.
+void resolve_scattered_bodies(Config& config, const Value& root);
+
 /// Mass, material, contacts and constraints of free bodies.
 void resolve_free_bodies(Config& config, const Value& root);
 

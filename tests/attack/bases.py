@@ -334,6 +334,11 @@ repair = true
 scale = 0.03
 translate = [0.05, 0.15, 0.15]
 [[shape]]
+name = "pebble"
+kind = "sphere"
+centre = [0, 0, 0]
+radius = 0.01
+[[shape]]
 name = "ground"
 kind = "terrain"
 file = "map.asc"
@@ -391,6 +396,18 @@ contact_radius = 0.01
 [[wall.body.free.contact]]
 centre = [0.05, 0.15, 0.15]
 radius = 0.01
+[[wall.body]]
+name = "pebble"
+shape = "pebble"
+[wall.body.free]
+density = 2000
+[wall.body.free.scatter]
+count = 2
+min = [0.14, 0.0, 0.0]
+max = [0.2, 0.06, 0.06]
+gap = 0.001
+turned = true
+seed = 3
 [wall]
 suction = true
 layer_r0 = 0.01

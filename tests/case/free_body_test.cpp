@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
+
 #include "support.hpp"
 
 namespace bedload::test {
@@ -48,6 +51,66 @@ TEST(FreeBodyCase, NeedsNeitherFluidNorGrains) {
       "min = [0, 0, 0]\nmax = [0.1, 0.1, 0.1]\nfree = { density = 100 }\n[time]\nend = 1\n[out]\nevery = "
       "1\n");
   EXPECT_EQ(c.wall.free_bodies(), 1);
+}
+
+const std::string kRock =
+    "[[shape]]\nname = \"rock\"\nkind = \"box\"\nmin = [0, 0, 0]\nmax = [0.02, 0.01, "
+    "0.01]\n[[wall.body]]\nname = "
+    "\"stone\"\nshape = \"rock\"\n[wall.body.free]\ndensity = 500\n[wall.body.free.scatter]\ncount = 12\nmin "
+    "= "
+    "[0.06, 0, 0.1]\nmax = [0.2, 0.1, 0.2]\n";
+
+TEST(FreeBodyCase, ScatteredBodiesLieApartInTheirBox) {
+  const Config c = read(changed("[grain]\n", kRock + "gap = 0.002\n[grain]\n"));
+  ASSERT_EQ(c.wall.bodies.size(), 13u);
+  EXPECT_EQ(c.wall.free_bodies(), 12);
+  const double across = std::sqrt(0.02 * 0.02 + 2 * 0.01 * 0.01);
+  std::set<std::string> names;
+  for (std::size_t i = 1; i <= 12; ++i) {
+    const WallBody& body = c.wall.bodies[i];
+    names.insert(body.name);
+    EXPECT_FALSE(body.free.scatter.present);
+    EXPECT_NEAR(body.free.solid.mass, 500 * 0.02 * 0.01 * 0.01, 1e-15);
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_GE(body.min[k], Vec3d(0.06, 0, 0.1)[k]);
+      EXPECT_LE(body.max[k], Vec3d(0.2, 0.1, 0.2)[k]);
+    }
+    for (std::size_t j = 1; j < i; ++j) {
+      const Vec3d apart = body.free.solid.centre - c.wall.bodies[j].free.solid.centre;
+      EXPECT_GE(norm(apart), across + 0.002);
+      EXPECT_NE(body.free.solid.inertia, c.wall.bodies[j].free.solid.inertia)
+          << "each lies in its own direction";
+    }
+  }
+  EXPECT_EQ(names.size(), 12u);
+  EXPECT_TRUE(names.contains("stone_1") && names.contains("stone_12"));
+  EXPECT_EQ(read(changed("[grain]\n", kRock + "gap = 0.002\n[grain]\n")).wall, c.wall);
+  EXPECT_NE(read(changed("[grain]\n", kRock + "gap = 0.002\nseed = 2\n[grain]\n")).wall, c.wall);
+  Config again = read(resolved_toml(c));
+  EXPECT_EQ(again.wall, c.wall);
+  const Config straight = read(changed("[grain]\n", kRock + "turned = false\n[grain]\n"));
+  EXPECT_NEAR(straight.wall.bodies[5].max.x - straight.wall.bodies[5].min.x, 0.02, 1e-12);
+}
+
+TEST(FreeBodyCase, ScatteredBodiesNeedRoomAndAShape) {
+  const auto error = [](const std::string& from, const std::string& to) {
+    std::string rock = kRock;
+    rock.replace(rock.find(from), from.size(), to);
+    return error_of(changed("[grain]\n", rock + "[grain]\n"));
+  };
+  EXPECT_NE(error("count = 12", "count = 500")
+                .find("wall.body.free.scatter.count = 500 must fit into the box at random"),
+            std::string::npos);
+  EXPECT_NE(error("0.2, 0.1, 0.2", "0.07, 0.1, 0.2").find("must fit into the box at random: 0 did"),
+            std::string::npos);
+  EXPECT_NE(error("0.2, 0.1, 0.2", "0.05, 0.1, 0.2").find("scatter.max must exceed min along every axis"),
+            std::string::npos);
+  EXPECT_NE(error("density = 500", "density = 500\ncentre_of_mass = [0, 0, 0]")
+                .find("free.centre_of_mass must be left out with free.scatter"),
+            std::string::npos);
+  EXPECT_NE(error("shape = \"rock\"", "shape = \"box\"\nmin = [0, 0, 0]\nmax = [0.01, 0.01, 0.01]")
+                .find("wall.body.shape = \"box\" must be the name of a [[shape]] with free.scatter"),
+            std::string::npos);
 }
 
 struct Wrong {

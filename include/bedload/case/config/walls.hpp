@@ -2,6 +2,7 @@
 // Walls, and those of them that move by the forces on them.
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -29,9 +30,21 @@ struct BodyBall {
   bool operator==(const BodyBall&) const = default;
 };
 
+/// Bodies of one shape thrown at random into a box; as many bodies once resolved.
+struct ScatterConfig {
+  bool present = false;
+  std::int64_t count = 1;
+  Vec3d min, max;                              ///< m
+  double gap = 0;                              ///< least distance between balls around two of them, m
+  bool turned = true;                          ///< each in another direction
+  std::uint64_t seed = 1;
+  bool operator==(const ScatterConfig&) const = default;
+};
+
 /// A wall body that moves by the forces on it.
 struct FreeConfig {
   bool present = false;
+  ScatterConfig scatter;                       ///< several of it
   double density = 0;                          ///< kg/m3; or mass
   double mass = 0;                             ///< kg
   std::vector<double> centre_of_mass;          ///< m; empty: of the shape
