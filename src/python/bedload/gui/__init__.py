@@ -1,7 +1,8 @@
 """The window: `bedload gui [case.toml]`, in the browser of this machine.
 
 `document`, `reading` and `forms` edit a case, `shapes` and `scene` draw it, `run` checks and runs it, `curves` and
-`view` show what a run does, `app` and `page` are the page.
+`view` show what a run does, `page` is the page. `app` is the window, with its actions in `editing`, `files`, `drawing`
+and `pointer`.
 """
 
 from __future__ import annotations
