@@ -53,10 +53,9 @@ void wave(Parameters& p, const std::string& at, MotionPart& m) {
      .meaning = "piston, flap: depth of still water before it",
      .range = above(0),
      .presence = required});
-  if (m.kind == MotionKind::piston || p.everything())
-    p(at + "wave_order", &w.order,
-      {.meaning = "piston: order of the theory, 1 or 2; 2 makes no free second harmonics",
-       .range = within(1, 2)});
+  p(at + "wave_order", &w.order,
+    {.meaning = "piston, flap: order of the theory, 1 or 2; 2 makes no free second harmonics",
+     .range = within(1, 2)});
   p(at + "wave_direction", &w.direction, {.meaning = "piston, flap: direction in which the waves run"});
   p(at + "wave_ramp", &w.ramp,
     {.meaning = "piston, flap: number of periods over which the motion rises to its full stroke",

@@ -290,9 +290,13 @@ void resolve_waves(const Config& c, MotionPart& m, const std::string& path, cons
              fmt::format("must be below {:.4g} m, {}; the wave is {:.4g} m long", most, why, wave.length()));
   };
   limit(wave.breaking_height(), "where such waves break");
-  if (m.kind == MotionKind::piston && w.order == 2)
+  if (w.order == 2) {
     limit(wave.second_order_height(),
           "up to which second-order theory holds; wave_order = 1 has no such limit");
+    if (const double most = 3 * wave.length(); w.depth > most)
+      reject(root, path + ".wave_depth", fmt::format("{}", w.depth),
+             fmt::format("must be at most {:.4g} m, three wavelengths, with wave_order = 2", most));
+  }
   const Vec3d up = upwards(c.gravity), level = w.direction - dot(w.direction, up) * up;
   if (norm(level) < 1e-6 * norm(w.direction) || norm(w.direction) == 0)
     reject(root, path + ".wave_direction",
@@ -307,7 +311,7 @@ void resolve_waves(const Config& c, MotionPart& m, const std::string& path, cons
   if (m.kind == MotionKind::piston)
     m.displacement = along(w.direction, piston_stroke(wave, int(w.order), w.ramp * w.period));
   else
-    m.rotation = along(cross(up, w.direction), flap_angle(wave, w.ramp * w.period));
+    m.rotation = along(cross(up, w.direction), flap_angle(wave, int(w.order), w.ramp * w.period));
 }
 
 void resolve_motions(Config& c, const Value& root) {

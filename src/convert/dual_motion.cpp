@@ -341,7 +341,7 @@ void read_paddles(XmlReader& xml, const pugi::xml_node& paddles, BodyKeys& keys)
     s.set("wave_height", xml.number(xml.child(node, "waveheight"), "value"));
     s.set("wave_period", xml.number(xml.child(node, "waveperiod"), "value"));
     s.set("wave_depth", xml.number(xml.child(node, "depth"), "value"));
-    if (kind == "piston") s.set("wave_order", value("waveorder", 1) == 2 ? 2.0 : 1.0);
+    s.set("wave_order", kind == "piston" && value("waveorder", 1) == 2 ? 2.0 : 1.0);
     if (!(direction == Vec3d{1, 0, 0})) s.set("wave_direction", direction);
     s.set("wave_ramp", value("ramp", 0));
     const double start = value("start", 0), duration = value("duration", 0);

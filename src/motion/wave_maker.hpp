@@ -20,12 +20,23 @@ struct WaterWave {
   double second_order_height() const;
 };
 
-/// Displacement of a piston, m: a formula in t that rises over `ramp` seconds. First order [biesel51], or
-/// with the bound second harmonic, without which a piston makes free waves [madsen71], as given by
-/// [hughes93].
+/// Paddles whose displacement along the wave is the same at all depths, or grows from a hinge at the floor.
+enum class Paddle { piston, flap };
+
+/// Displacement of a paddle at the still water level, first order: amplitude of sin wt; second order: those
+/// of sin 2wt and 1 - cos 2wt, m.
+struct Stroke {
+  double first = 0, sine = 0, cosine = 0;
+};
+
+/// The stroke that makes a wave of first order [biesel51] without free waves of twice its frequency, to
+/// second order [schaffer96].
+Stroke stroke_of(const WaterWave& wave, Paddle paddle);
+
+/// Displacement of a piston, m: a formula in t that rises over `ramp` seconds, to first or second order.
 std::string piston_stroke(const WaterWave& wave, int order, double ramp);
 
-/// Angle of a flap hinged at the floor, degrees, to first order [biesel51].
-std::string flap_angle(const WaterWave& wave, double ramp);
+/// Angle of a flap hinged at the floor, degrees.
+std::string flap_angle(const WaterWave& wave, int order, double ramp);
 
 }  // namespace bedload

@@ -18,7 +18,7 @@ using MotionRow = std::array<double, 7>;
 /// The regular wave that a piston or flap makes.
 struct WaveConfig {
   double height = 0, period = 0, depth = 0;    ///< m, s, m
-  std::int64_t order = 2;                      ///< piston: of the theory
+  std::int64_t order = 2;                      ///< of the theory
   Vec3d direction{1, 0, 0};                    ///< in which it runs (resolved: unit, horizontal)
   double ramp = 1;                             ///< periods over which the motion rises
   bool operator==(const WaveConfig&) const = default;
