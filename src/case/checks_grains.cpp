@@ -121,6 +121,8 @@ void Checks::materials() const {
 }
 
 void Checks::grain_energy() const {
+  if (!c.grain.present && c.out.contacts != ContactFrames::none)
+    fail("out.contacts", c.out.contacts.name(), "must be none without [grain]");
   const auto takes_grains = [](const OutletConfig& outlet) { return outlet.takes(Phase::grains); };
   for (const auto& [there, what] :
        {std::pair{!c.grain.present, "without [grain]"},

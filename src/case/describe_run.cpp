@@ -291,6 +291,9 @@ void describe_output(Parameters& p, OutputConfig& o) {
     {.meaning =
          "energy balance of the grains in diagnostics.csv: what contacts dissipate, the work of walls, "
          "gravity and fluid, and the residual; evaluates contacts twice"});
+  p("out.contacts", &o.contacts,
+    {.meaning = "frames contacts.vtkhdf of single contacts of grains, with their forces",
+     .family = "outputs"});
   p("out.bodies", &o.bodies,
     {.meaning = "wall bodies with a table bodies/<name>.csv of motion, forces and power",
      .family = "outputs"});

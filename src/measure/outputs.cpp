@@ -285,6 +285,7 @@ void CoupledSimulation::add_blocks(HostStore& out) {
 }
 
 HostStore CoupledSimulation::snapshot(const std::string& name) {
+  if (name == "contacts" && state_.has_grains) return stepper_.solids().contact_lines(state_.grains);
   HostStore out = outputs(name, kFrames);
   if (name != "walls" || out.count == 0 || !state_.motion.any_removed()) return out;
   const HostBytes bytes = out.find("body")->bytes;

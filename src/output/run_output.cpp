@@ -269,7 +269,8 @@ struct RunOutput::Impl {
   }
 
   HostStore frame_of(Simulation& simulation, const std::string& store) const {
-    return chosen(simulation.snapshot(store), config.out.fields);
+    HostStore all = simulation.snapshot(store);
+    return all.lines ? all : chosen(std::move(all), config.out.fields);
   }
 
   static std::vector<Quantity> row_of(Simulation& simulation, const Table& t) {

@@ -51,7 +51,8 @@ SolidParameters solid_parameters(const Config& config) {
                     .limits = SubstepLimits(config),
                     .reflect = config.domain.reflect,
                     .plane = config.domain.two_d,
-                    .energy = config.out.energy};
+                    .energy = config.out.energy,
+                    .single_forces = config.out.contacts != ContactFrames::none};
   for (const GrainMaterial& a : p.materials)
     for (const GrainMaterial& b : p.materials) p.pair_laws.push_back(law_between(a, b, config));
   for (const WallBody& body : config.wall.bodies)

@@ -51,6 +51,7 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
   with_contact_law(parameters.pair_laws, [&]<class Law>(std::type_identity<Law>) { use_pair_law<Law>(); });
   choose_wall_law();
   if (parameters.energy) books_ = std::make_unique<EnergyBooks>();
+  if (parameters.single_forces) forces_ = std::make_unique<SingleForces>();
   if (walls.contacts() == 0) return;
   wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
   wall_contacts_->resize(grains.size());
@@ -124,6 +125,7 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
   for_each(grains.owned(), ContactsFirstPass{near, list_.view(), long_rows_.view(), list_.entries()});
   histories_.reset(list_.slots());
   wall_list_.forget();
+  if (forces_) forces_->forget();
 }
 
 // -- limits ------------------------------------------------------------------
@@ -207,6 +209,7 @@ void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
   if (books_) books_->forget();
   FreeBodies* const free = moving();
   wall_list_.cover(g, poses, wall_counts(), 0);
+  record_forces(g, poses.data, 0);
   const ContactPass contacts = contacts_at(g, poses.data, 0, free ? free->record(g.size()) : ContactLoads{});
   evaluate(EvaluatePass{contacts, g.force, g.torque});
 }
@@ -220,6 +223,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   const auto contacts_in = [&](int s) {
     const BodyPose* const row = poses.data + std::size_t(s) * bodies;
     record_loads(s, g, row, tau);
+    if (s == substeps) record_forces(g, row, tau);
     return contacts_at(g, row, tau, loads);
   };
   substep_loads_.begin(substeps);

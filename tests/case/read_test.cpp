@@ -484,6 +484,7 @@ TEST(ParameterTable, TakesChoicesFromTheirRegistry) {
   expect_choices<ProbeType>("probe.type");
   expect_choices<Phase>("probe.phase");
   expect_choices<ForceSample>("probe.sample");
+  expect_choices<ContactFrames>("out.contacts");
   expect_choices<BodyTables>("out.bodies");
 }
 

@@ -167,6 +167,14 @@ inline constexpr auto kNames<ForceSample> = std::to_array<Named<ForceSample>>({
     {ForceSample::instant, "instant", "instantaneous value"},
 });
 
+/// out.contacts
+enum class ContactFrames { none, touching };
+template <>
+inline constexpr auto kNames<ContactFrames> = std::to_array<Named<ContactFrames>>({
+    {ContactFrames::none, "none", "no frames of contacts"},
+    {ContactFrames::touching, "touching", "contacts of grains with each other and with walls, as lines"},
+});
+
 /// out.bodies
 enum class BodyTables { moving, all, none };
 template <>

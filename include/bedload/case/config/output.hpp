@@ -39,6 +39,7 @@ struct OutputConfig {
   bool walls = true;                           ///< write walls.vtkhdf
   std::vector<std::string> fields;             ///< names of arrays in frames; empty: all
   bool energy = false;                         ///< energy balance of the grains
+  Chosen<ContactFrames> contacts = ContactFrames::none;  ///< frames of single contacts of grains
   Chosen<BodyTables> bodies = BodyTables::moving;  ///< which have a bodies/*.csv
   std::vector<ProbeConfig> probes;
   bool operator==(const OutputConfig&) const = default;
