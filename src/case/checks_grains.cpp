@@ -130,7 +130,8 @@ void Checks::grain_energy() const {
         {!c.grain_inlets.empty() || std::any_of(c.outlets.begin(), c.outlets.end(), takes_grains),
          "with inlets or outlets of grains, whose energies are not counted"},
         {c.lubrication.acts(), "with lubrication.forces, whose losses are not counted"}})
-    if (c.out.energy && there) fail("out.energy", "true", fmt::format("must be false {}", what));
+    for (const auto& [key, asked] : {std::pair{"out.energy", c.out.energy}, {"out.spectra", c.out.spectra}})
+      if (asked && there) fail(key, "true", fmt::format("must be false {}", what));
 }
 
 void Checks::contact_pairs() const {

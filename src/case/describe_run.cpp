@@ -291,6 +291,16 @@ void describe_output(Parameters& p, OutputConfig& o) {
     {.meaning =
          "energy balance of the grains in diagnostics.csv: what contacts dissipate, the work of walls, "
          "gravity and fluid, and the residual; evaluates contacts twice"});
+  p("out.spectra", &o.spectra,
+    {.meaning = "spectra.csv: how much energy single contacts of grains dissipate from beginning to end, by pair of "
+                "materials; with the columns of out.energy"});
+  if (o.spectra || p.everything()) {
+    p("out.spectra_bins", &o.spectra_bins, {.meaning = "bins of the spectra a decade", .range = within(5, 50)});
+    p("out.spectra_from", &o.spectra_from,
+      {.unit = "J",
+       .meaning = "lower edge of the first bin, which has all lower energies too; the last ends 14 decades above",
+       .range = within(1e-30, 1)});
+  }
   p("out.contacts", &o.contacts,
     {.meaning = "frames contacts.vtkhdf of single contacts of grains, with their forces",
      .family = "outputs"});

@@ -191,7 +191,7 @@ struct RunOutput::Impl {
     }
     for (const auto& t : series.tables) {
       must_increase(t.csv.path(), t.csv.times());
-      t.csv.expect(row_of(simulation, t));
+      t.csv.expect(rows_of(simulation, t).at(0));
     }
     for (const FrameFile& f : others.frames) must_increase(f.path(), f.times());
     for (const CsvTable& t : others.tables) must_increase(t.path(), t.times());
@@ -255,15 +255,15 @@ struct RunOutput::Impl {
       if (!wanted(t.schedule)) continue;
       const bool again = t.schedule.begun(), due = t.schedule.due(time);
       t.schedule.written(time);
-      std::vector<Quantity> row = row_of(simulation, t);
+      std::vector<std::vector<Quantity>> rows = rows_of(simulation, t);
       // an extra last row is removed by a restart, whose next mean includes its interval
       if (t.probe && due) simulation.begin_interval(*t.probe);
-      if (row_watcher) {
+      if (row_watcher && !t.spectra) {
         fs::path name = t.csv.path().lexically_relative(dir);
-        row_watcher(name.replace_extension().generic_string(), time, row);
+        for (const auto& row : rows) row_watcher(name.replace_extension().generic_string(), time, row);
       }
-      writer.post([csv = &t.csv, row = std::move(row), time, again] {
-        write_existing(csv->path(), again, [&] { csv->append(time, row, again); });
+      writer.post([csv = &t.csv, rows = std::move(rows), time, again] {
+        write_existing(csv->path(), again, [&] { csv->append_rows(time, rows, again); });
       });
     }
   }
@@ -273,9 +273,10 @@ struct RunOutput::Impl {
     return all.lines ? all : chosen(std::move(all), config.out.fields);
   }
 
-  static std::vector<Quantity> row_of(Simulation& simulation, const Table& t) {
-    if (t.probe) return simulation.measure(*t.probe);
-    return t.body ? simulation.body_state(*t.body) : simulation.diagnostics();
+  static std::vector<std::vector<Quantity>> rows_of(Simulation& simulation, const Table& t) {
+    if (t.spectra) return simulation.spectra();
+    if (t.probe) return {simulation.measure(*t.probe)};
+    return {t.body ? simulation.body_state(*t.body) : simulation.diagnostics()};
   }
 
   fs::path post_checkpoint(Simulation& simulation) {

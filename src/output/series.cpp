@@ -67,6 +67,7 @@ Series series_of(const Config& c, const fs::path& folder) {
 
   const auto every = [&](double own) { return Schedule(own > 0 ? own : c.out.every); };
   s.tables.push_back({{}, {}, CsvTable(folder / "diagnostics.csv"), every(c.out.diagnostics_every)});
+  if (c.out.spectra) s.tables.push_back({{}, {}, CsvTable(folder / "spectra.csv"), every(0), true});
   for (const auto& probe : c.out.probes)
     s.tables.push_back({probe, {}, CsvTable(folder / "probes" / (probe.name + ".csv")), every(probe.every)});
   const auto add_body = [&](int body, const std::string& name) {
@@ -92,13 +93,15 @@ Leftovers leftovers(const Series& series, const fs::path& folder) {
     if (std::none_of(series.frames.begin(), series.frames.end(),
                      [&](const Frames& f) { return f.store == store; }))
       left.frames.push_back(frame_file(folder, store));
+  const auto look = [&](const fs::path& path) {
+    if (is_table(path) && std::none_of(series.tables.begin(), series.tables.end(),
+                                       [&](const Table& t) { return t.csv.path() == path; }))
+      left.tables.emplace_back(path);
+  };
+  look(folder / "spectra.csv");
   for (const char* name : kTableFolders) {
     std::error_code none;
-    for (const auto& entry : fs::directory_iterator(folder / name, none))
-      if (is_table(entry.path()) &&
-          std::none_of(series.tables.begin(), series.tables.end(),
-                       [&](const Table& t) { return t.csv.path() == entry.path(); }))
-        left.tables.emplace_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(folder / name, none)) look(entry.path());
   }
   return left;
 }

@@ -38,21 +38,23 @@ ContactLaw law_between(const GrainMaterial& material, const WallBody& body, cons
 
 SolidParameters solid_parameters(const Config& config) {
   const GrainConfig& g = config.grain;
-  SolidParameters p{.materials = g.all_materials(),
-                    .d_max = g.largest(),
-                    .d_min = g.smallest(),
-                    .skin = config.skin_grain * g.smallest(),
-                    .contacts = config.contact.normal != NormalLaw::none,
-                    .films = Lubrication::of(config.lubrication, config.fluid.mu),
-                    .gravity = config.gravity,
-                    .fixed = g.fixed,
-                    .exponential = config.couple.integrator == DragIntegrator::exponential,
-                    .drag_fraction = config.time.drag,
-                    .limits = SubstepLimits(config),
-                    .reflect = config.domain.reflect,
-                    .plane = config.domain.two_d,
-                    .energy = config.out.energy,
-                    .single_forces = config.out.contacts != ContactFrames::none};
+  SolidParameters p{
+      .materials = g.all_materials(),
+      .d_max = g.largest(),
+      .d_min = g.smallest(),
+      .skin = config.skin_grain * g.smallest(),
+      .contacts = config.contact.normal != NormalLaw::none,
+      .films = Lubrication::of(config.lubrication, config.fluid.mu),
+      .gravity = config.gravity,
+      .fixed = g.fixed,
+      .exponential = config.couple.integrator == DragIntegrator::exponential,
+      .drag_fraction = config.time.drag,
+      .limits = SubstepLimits(config),
+      .reflect = config.domain.reflect,
+      .plane = config.domain.two_d,
+      .energy = config.out.energy || config.out.spectra,
+      .spectra = {config.out.spectra_from, config.out.spectra ? int(config.out.spectra_bins) : 0},
+      .single_forces = config.out.contacts != ContactFrames::none};
   for (const GrainMaterial& a : p.materials)
     for (const GrainMaterial& b : p.materials) p.pair_laws.push_back(law_between(a, b, config));
   for (const WallBody& body : config.wall.bodies)

@@ -35,8 +35,12 @@ struct SolidParameters {
   SubstepLimits limits;
   ReflectConfig reflect;
   std::vector<RigidGroup> groups = {};
-  bool plane = false;          ///< groups move in the xz plane
-  bool energy = false;         ///< its flows are counted
+  bool plane = false;   ///< groups move in the xz plane
+  bool energy = false;  ///< its flows are counted
+  struct Spectra {
+    double from = 0;           ///< J
+    int per_decade = 0;        ///< bins; 0: no spectra
+  } spectra = {};              ///< of what contacts dissipate
   bool single_forces = false;  ///< of contacts are recorded at the end of a step
 
   std::uint32_t bodies() const { return std::uint32_t(wall_laws.size() / materials.size()); }  ///< of walls

@@ -18,6 +18,7 @@
 #include "src/solids/pair_histories.hpp"
 #include "src/solids/parameters.hpp"
 #include "src/solids/rigid_groups.hpp"
+#include "src/solids/spectra_books.hpp"
 #include "src/solids/wall_list.hpp"
 #include "src/walls/free_bodies.hpp"
 #include "src/walls/substep_loads.hpp"
@@ -105,7 +106,8 @@ class SolidSolver {
     return {.grains = of_grains_.entry_bytes() + (books_ ? EnergyBooks::kScratch : 0) +
                       (forces_ ? sizeof(Real3) * walls_.contacts() : 0),
             .near_grains = sizeof(Index) + by_level + histories_.entry_bytes() +
-                           (books_ ? sizeof(ContactAction) : 0) + (forces_ ? sizeof(Real3) : 0)};
+                           (books_ ? sizeof(ContactAction) : 0) + (spectra_ ? 2 * sizeof(ContactLoss) : 0) +
+                           (forces_ ? sizeof(Real3) : 0)};
   }
 
   /// Histories of wall contacts.
@@ -123,6 +125,12 @@ class SolidSolver {
   void load(const std::vector<Quantity>& scalars) {
     if (books_) books_->load(scalars);
   }
+  /// Of what contacts have dissipated; null if the case does not ask.
+  const SpectraBooks* spectra() const { return spectra_.get(); }
+  /// Adds a store of their bins, if the case asks.
+  void save_spectra(std::vector<HostStore>& stores) const;
+  /// Of a checkpoint without them: begins anew. Throws FileError for bins of another kind.
+  void load_spectra(const std::vector<HostStore>& stores);
   /// Number of contacts of grains with walls that are left out (kMostWallContacts). poses: as in body_loads.
   double dropped_contacts(const GrainStore& grains, Span<const BodyPose> poses) const;
   /// Load of the grains on each wall body, about its centre; poses: [bodies] on the device.
@@ -244,10 +252,11 @@ class SolidSolver {
   PairHistoryBuffers old_histories_;
   WallList wall_list_;
   SubstepLoads substep_loads_;
-  std::unique_ptr<EnergyBooks> books_;    ///< null: not asked for
-  std::unique_ptr<SingleForces> forces_;  ///< likewise
-  Buffer<ContactSum> by_walls_;           ///< [rows of wall_list_]
-  Buffer<ContactSum> by_pieces_;          ///< [pieces of long_rows_]
+  std::unique_ptr<EnergyBooks> books_;     ///< null: not asked for
+  std::unique_ptr<SpectraBooks> spectra_;  ///< likewise
+  std::unique_ptr<SingleForces> forces_;   ///< likewise
+  Buffer<ContactSum> by_walls_;            ///< [rows of wall_list_]
+  Buffer<ContactSum> by_pieces_;           ///< [pieces of long_rows_]
   Buffer<Index> order_;
   Scratch of_grains_;
   ScratchArray<ContactSum> by_films_{of_grains_, lubricates()};

@@ -18,6 +18,21 @@ Terms by_name(const std::vector<Quantity>& rows) {
   return terms;
 }
 Terms terms_of(const GrainBench& b) { return by_name(b.solver->energy_terms(*b.grains)); }
+/// Of the contacts that have ended, over all bins and classes: how many, and the energy by kind, J.
+struct Ended {
+  double count = 0, energy[ContactSpectra::kKinds] = {};
+};
+Ended ended(const SolidSolver& solver) {
+  const ContactSpectra& layout = solver.spectra()->layout();
+  const auto bins = solver.spectra()->bins().to_host();
+  Ended sum;
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    const int kind = int(k / std::size_t(layout.size()) % ContactSpectra::kKinds);
+    if (kind == 0) sum.count += double(bins[k].count);
+    sum.energy[kind] += bins[k].energy() * layout.unit();
+  }
+  return sum;
+}
 double dissipated(Terms terms) {
   return terms["grain_dissipated_normal"] + terms["grain_dissipated_sliding"] +
          terms["grain_dissipated_rolling"];
@@ -34,7 +49,7 @@ TEST(GrainEnergy, IsCountedOnlyIfAskedFor) {
 TEST(GrainEnergy, AnImpactHeadOnDissipatesByItsRestitution) {
   for (const double e : {0.5, 0.7, 0.9}) {
     GrainBench b;
-    b.config.out.energy = true;
+    b.config.out.energy = b.config.out.spectra = true;
     b.config.grain.e = e;
     const double R = b.R(), speed = 0.2;
     b.add({-1.001 * R, 0, 0}, {speed / 2, 0, 0});
@@ -47,13 +62,35 @@ TEST(GrainEnergy, AnImpactHeadOnDissipatesByItsRestitution) {
     EXPECT_NEAR(terms["grain_dissipated_normal"] / lost, 1, 2e-3) << e;
     EXPECT_NEAR(dissipated(terms) / lost, 1, 2e-3) << e;
     EXPECT_LT(std::abs(terms["grain_energy_residual"]), 1e-3 * lost) << e;
+    // one contact in the bin of its energy
+    EXPECT_NEAR(ended(*b.solver).energy[0] / dissipated(terms), 1, 1e-6);
+    const ContactSpectra& layout = b.solver->spectra()->layout();
+    const auto bins = b.solver->spectra()->bins().to_host();
+    for (int k = 0; k < layout.size(); ++k) {
+      const double from = layout.from * std::pow(10.0, double(k) / layout.per_decade),
+                   to = from * std::pow(10.0, 1.0 / layout.per_decade);
+      EXPECT_EQ(bins[k].count, lost > from && lost < to ? 1u : 0u) << k;
+    }
   }
+}
+
+TEST(GrainEnergy, BinsHoldNegativeAndLargeEnergies) {
+  SpectrumBin bin{};
+  bin.enter(-5);
+  EXPECT_EQ(bin.energy(), -5);
+  bin.enter(7);
+  EXPECT_EQ(bin.energy(), 2);
+  for (int k = 0; k < 4; ++k) bin.enter(std::int64_t(1) << 62);
+  EXPECT_EQ(bin.energy(), std::ldexp(1.0, 64));
+  for (int k = 0; k < 4; ++k) bin.enter(-(std::int64_t(1) << 62));
+  EXPECT_EQ(bin.energy(), 2);
+  EXPECT_EQ(bin.count, 10u);
 }
 
 /// Aslant, with spin and rolling friction, on another grain and on a wall that moves.
 TEST(GrainEnergy, TheResidualOfObliqueImpactsIsSmall) {
   GrainBench b;
-  b.config.out.energy = true;
+  b.config.out.energy = b.config.out.spectra = true;
   b.config.grain.mu_r = 0.1;
   b.config.contact.rolling = "epsd";
   const double R = b.R();
@@ -74,6 +111,12 @@ TEST(GrainEnergy, TheResidualOfObliqueImpactsIsSmall) {
   EXPECT_NE(terms["grain_dissipated_rolling"], 0);
   EXPECT_GT(std::abs(terms["grain_work_walls"]), 0.1 * dissipated(terms));
   EXPECT_LT(std::abs(terms["grain_energy_residual"]), 2e-3 * dissipated(terms));
+  // all contacts have ended
+  const Ended sum = ended(*b.solver);
+  EXPECT_GE(sum.count, 2);
+  EXPECT_NEAR(sum.energy[0], terms["grain_dissipated_normal"], 1e-6 * dissipated(terms));
+  EXPECT_NEAR(sum.energy[1], terms["grain_dissipated_sliding"] + terms["grain_dissipated_rolling"],
+              1e-6 * dissipated(terms));
 }
 
 /// mu N s of a block of four grains that cannot turn, on a plane.
@@ -119,7 +162,7 @@ TEST(GrainEnergy, IsRestartedToTheLastBit) {
   Config c = void_case();
   c.domain.min = {-0.02, -0.02, -0.02}, c.domain.max = {0.02, 0.02, 0.02};
   c.gravity = {0, 0, -9.81};
-  c.out.energy = true;
+  c.out.energy = c.out.spectra = true;
   WallBody floor = ground();
   floor.point = {0, 0, -0.005};
   c.wall.bodies = {floor};
@@ -141,13 +184,24 @@ TEST(GrainEnergy, IsRestartedToTheLastBit) {
   Terms a = by_name(whole->diagnostics()), b = by_name(parted->diagnostics());
   EXPECT_GT(dissipated(a), 0);
   EXPECT_EQ(a, b);
+  const auto bins = whole->spectra(), again = parted->spectra();
+  ASSERT_EQ(bins.size(), again.size());
+  double count = 0;
+  for (std::size_t k = 0; k < bins.size(); ++k)
+    for (std::size_t n = 0; n < bins[k].size(); ++n) {
+      EXPECT_EQ(bins[k][n].value, again[k][n].value) << bins[k][n].name;
+      if (bins[k][n].name.ends_with("_count")) count += bins[k][n].value;
+    }
+  EXPECT_GT(count, 4);
+  EXPECT_EQ(bins[0][1].name, "grain_grain_normal_count");
+  EXPECT_EQ(bins[0][5].name, "grain_on_plane_normal_count");
 }
 
 /// A bed in a turning drum. What turns the drum is the moment of its weight.
 TEST(SlowGrainEnergy, ADrumOverOneTurnClosesItsBooks) {
   const double rate = 12, dt = 2e-5, radius = 0.0125, length = 0.0065, turn = 2 * M_PI / rate;
   GrainBench b;
-  b.config.out.energy = true;
+  b.config.out.energy = b.config.out.spectra = true;
   b.config.gravity = {0, -9.81, 0};
   b.config.grain.mu = 0.5, b.config.grain.mu_r = 0.1, b.config.grain.E = 5e6;
   b.config.contact.rolling = "epsd";
@@ -181,6 +235,20 @@ TEST(SlowGrainEnergy, ADrumOverOneTurnClosesItsBooks) {
   const double lost = dissipated(after) - dissipated(before);
   ASSERT_GT(lost, 0);
   EXPECT_LT(std::abs(after["grain_energy_residual"] - before["grain_energy_residual"]), 0.01 * lost);
+  // what contacts have dissipated is in the spectra, or with those that go on
+  const Ended sum = ended(*b.solver);
+  EXPECT_GT(sum.count, 100);
+  double booked = sum.energy[0] + sum.energy[1];
+  const HostStore pairs = b.solver->save_contacts(*b.grains);
+  const auto* open = pairs.find("loss")->as<double>();
+  for (std::size_t k = 0; k < 2 * pairs.count; ++k) booked += open[k];
+  const auto fields = b.solver->fields_of_contacts();
+  const HostArray counts = fields.front()->to_host(), losses = fields.back()->to_host();
+  for (std::size_t i = 0; i < counts.count(); ++i)
+    for (std::uint32_t k = 0; k < 2 * counts.as<std::uint32_t>()[i]; ++k)
+      booked += losses.as<double>()[2 * kMostWallContacts * i + k];
+  EXPECT_NEAR(booked / dissipated(after), 1, 1e-6);
+  EXPECT_GT(b.refreshes, 2) << "losses were carried to new lists";
   const double gained = b.solver->totals(*b.grains).angular.z - swing;
   EXPECT_NEAR((after["grain_work_walls"] - before["grain_work_walls"]) / rate / (moment + gained), 1, 5e-3);
 }

@@ -1,6 +1,7 @@
 #pragma once
 // What a run measures and writes.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,9 @@ struct OutputConfig {
   bool walls = true;                           ///< write walls.vtkhdf
   std::vector<std::string> fields;             ///< names of arrays in frames; empty: all
   bool energy = false;                         ///< energy balance of the grains
+  bool spectra = false;                        ///< spectra of what contacts dissipate
+  std::int64_t spectra_bins = 20;              ///< a decade
+  double spectra_from = 1e-12;                 ///< lower edge of the first bin, J
   Chosen<ContactFrames> contacts = ContactFrames::none;  ///< frames of single contacts of grains
   Chosen<BodyTables> bodies = BodyTables::moving;  ///< which have a bodies/*.csv
   std::vector<ProbeConfig> probes;
