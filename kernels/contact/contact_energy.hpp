@@ -7,6 +7,7 @@
 
 #include "kernels/contact/contact_loss.hpp"
 #include "kernels/contact/wall_pass.hpp"
+#include "kernels/contact/wear.hpp"
 
 namespace BL_SOLVER {
 
@@ -146,6 +147,7 @@ struct WallFlow : FlowReduction {
   WallRows rows;
   ContactAction* actions;  ///< [capacity][grains], as memories
   OpenLosses losses = {};
+  WallWear wear = {};
 
   BL_HD Value operator()(Index row) const {
     const Index i = rows.grain[row];
@@ -158,18 +160,23 @@ struct WallFlow : FlowReduction {
     RawArray<ContactLoss, kMostWallContacts> lost;
     unsigned kept = 0;  // memories that contacts continue, by bits
     int n = 0;
-    const auto count = [&](const BodyPose& pose, const Vec3d& v_wall, Real arm, const ContactAction& before,
-                           const ContactAction& after, const StoredEnergy& had, const StoredEnergy& has,
-                           ContactLoss& loss) {
+    const auto count = [&](const Turn& c, ContactLoss& loss) {
+      const BodyPose& pose = contacts.poses[c.body];
+      const Real3 v = g.v[i] - Real3(c.v_wall);
       Value one = Value::zero();
-      one.dissipate({g.v[i] - Real3(v_wall), g.omega[i], Real3(pose.omega), arm, 0}, dt, before, after, had,
-                    has);
+      one.dissipate({v, g.omega[i], Real3(pose.omega), c.arm, 0}, dt, c.before, c.after, c.had, c.has);
       one.add_to(loss);
       flow.add(one);
       const auto work = [&](const ContactAction& a) {
-        return dot(Vec3d(a.normal + a.sliding), v_wall) + dot(Vec3d(a.rolling), pose.omega);
+        return dot(Vec3d(a.normal + a.sliding), c.v_wall) + dot(Vec3d(a.rolling), pose.omega);
       };
-      flow.of[EnergyFlow::walls] += 0.5 * dt * (work(before) + work(after));
+      flow.of[EnergyFlow::walls] += 0.5 * dt * (work(c.before) + work(c.after));
+      if (!wear) return;
+      ContactLoss here;
+      one.add_to(here);
+      const Real3 slip = v - dot(v, c.n) * c.n - cross(c.arm * g.omega[i], c.n);
+      const double force = 0.5 * (norm(c.before.normal) + norm(c.after.normal));
+      wear.add(c.body, pose, contacts.arm(pose, c.point), force * norm(slip) * dt, here);
     };
     const auto memory_energy = [&](Index k) {
       return contacts.law(body_of(memories[k]), i).energy(own.R, own.m, memories[k].history);
@@ -187,8 +194,16 @@ struct WallFlow : FlowReduction {
             if (losses) lost[n] = losses.at_walls[i].of[course.from];
           }
           if (dt > 0)
-            count(contacts.poses[body], course.v_wall, course.at.arm_i, before, now[n], had,
-                  course.law.energy(own.R, own.m, course.after), lost[n]);
+            count({.body = body,
+                   .point = c.point,
+                   .v_wall = course.v_wall,
+                   .n = Real3(course.at.n),
+                   .arm = course.at.arm_i,
+                   .before = before,
+                   .after = now[n],
+                   .had = had,
+                   .has = course.law.energy(own.R, own.m, course.after)},
+                  lost[n]);
           ++n;
         });
     for (Index k = 0; dt > 0 && k < memories.count(); ++k) {
@@ -197,8 +212,16 @@ struct WallFlow : FlowReduction {
       const BodyPose& pose = contacts.poses[body];
       ContactLoss loss = losses ? losses.at_walls[i].of[k] : ContactLoss{};
       const Vec3d point = g.x[i] - double(own.R) * memories[k].normal;
-      count(pose, contacts.surface_velocity(pose, contacts.arm(pose, point)), own.R, action(k, i), {},
-            memory_energy(k), {}, loss);
+      count({.body = body,
+             .point = point,
+             .v_wall = contacts.surface_velocity(pose, contacts.arm(pose, point)),
+             .n = Real3(memories[k].normal),
+             .arm = own.R,
+             .before = action(k, i),
+             .after = {},
+             .had = memory_energy(k),
+             .has = {}},
+            loss);
       if (losses) losses.spectra.enter(losses.spectra.on_wall(body, g.mass_per_r3.material_of(i)), loss);
     }
     for (int k = 0; k < n; ++k) {
@@ -209,6 +232,15 @@ struct WallFlow : FlowReduction {
   }
 
  private:
+  /// A contact in a substep.
+  struct Turn {
+    std::uint32_t body;
+    Vec3d point, v_wall;  ///< m; of the wall there, m/s
+    Real3 n;
+    Real arm;
+    ContactAction before, after;
+    StoredEnergy had, has;
+  };
   BL_HD std::uint32_t body_of(const WallMemory& memory) const {
     return contacts.walls.surfaces[memory.surface()].body;
   }

@@ -16,26 +16,36 @@ struct FileType<ContactLoss> {
   static constexpr int components = 2;
 };
 
-/// Contacts that have ended: how many, and their energy in units of the spectrum, as an integer of 128 bits.
-struct SpectrumBin {
-  std::uint64_t count, low, high;
+/// A number of units; those too large for 64 bits are cut off there.
+BL_HD std::int64_t whole(double units) {
+  constexpr double kMost = 9.2e18;
+  return std::int64_t(units > kMost ? kMost : units < -kMost ? -kMost : std::floor(units + 0.5));
+}
 
-  /// In units.
-  double energy() const {
+/// A sum of integers by many threads, of 128 bits: the same in any order.
+struct WideSum {
+  std::uint64_t low, high;
+
+  BL_HD void add(std::int64_t units) {
+    const auto word = std::uint64_t(units);
+    const std::uint64_t before = atomic_add(low, word);
+    const std::uint64_t carry = (units < 0 ? ~std::uint64_t(0) : 0) + (before + word < before ? 1 : 0);
+    if (carry != 0) atomic_add(high, carry);
+  }
+  double value() const {
     const bool negative = high >> 63 != 0;
     const std::uint64_t lower = negative ? ~low + 1 : low, upper = negative ? ~high + (lower == 0) : high;
     return (negative ? -1 : 1) * (std::ldexp(double(upper), 64) + double(lower));
   }
-
-  BL_HD void enter(std::int64_t energy) {
-    const auto word = std::uint64_t(energy);
-    atomic_add(count, 1);
-    const std::uint64_t before = atomic_add(low, word);
-    const std::uint64_t carry = (energy < 0 ? ~std::uint64_t(0) : 0) + (before + word < before ? 1 : 0);
-    if (carry != 0) atomic_add(high, carry);
-  }
 };
 
+/// Contacts that have ended: how many, and their energy in units of the spectrum.
+struct SpectrumBin {
+  std::uint64_t count;
+  WideSum energy;
+
+  BL_HD void enter(std::int64_t units) { atomic_add(count, 1), energy.add(units); }
+};
 template <>
 struct FileType<SpectrumBin> {
   static constexpr Scalar scalar = Scalar::u64;
@@ -62,8 +72,8 @@ struct ContactSpectra {
   }
   BL_HD void enter(std::uint32_t of, const ContactLoss& loss) const {
     SpectrumBin* const first = bins + std::size_t(of) * kKinds * std::size_t(size());
-    first[bin(loss.normal)].enter(in_units(loss.normal));
-    first[size() + bin(loss.tangential)].enter(in_units(loss.tangential));
+    first[bin(loss.normal)].enter(whole(loss.normal / unit()));
+    first[size() + bin(loss.tangential)].enter(whole(loss.tangential / unit()));
   }
 
  private:
@@ -71,11 +81,6 @@ struct ContactSpectra {
     if (!(energy > from)) return 0;
     const double place = per_decade * std::log10(energy / from);
     return place < size() - 1 ? int(place) : size() - 1;
-  }
-  BL_HD std::int64_t in_units(double energy) const {
-    constexpr double kMost = 9.2e18;
-    const double units = energy / unit();
-    return std::int64_t(units > kMost ? kMost : units < -kMost ? -kMost : std::floor(units + 0.5));
   }
 };
 

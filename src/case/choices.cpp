@@ -37,7 +37,7 @@ static_assert(kAllNamed<CouplingMode, CouplingKernel, DragSlip, SuspensionLaw, D
 static_assert(kAllNamed<TimeIntegrator, Preset, Precision, Simd>, "a choice of the run has no row");
 static_assert(kAllNamed<ShapeKind, PipeEnds, WallShape, MotionKind, TableSpline, BodyMove, BodyTurn,
                         OrificeShape, OutletPhase, OutletShape, GrainInletShape, SizeKind, ProbeType, Phase,
-                        ForceSample, ContactFrames, BodyTables>,
+                        ForceSample, ContactFrames, BodyTables, WearLaw>,
               "a choice of shapes, openings or outputs has no row");
 
 }  // namespace

@@ -52,7 +52,7 @@ std::vector<std::vector<Quantity>> CoupledSimulation::spectra() {
         const SpectrumBin& at =
             bins[(std::size_t(c.place) * ContactSpectra::kKinds + kind) * std::size_t(size) + bin];
         rows.back().push_back({name + "_count", "-", double(at.count)});
-        rows.back().push_back({name + "_energy", "J", at.energy() * layout.unit()});
+        rows.back().push_back({name + "_energy", "J", at.energy.value() * layout.unit()});
       }
   }
   return rows;

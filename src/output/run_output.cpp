@@ -155,6 +155,7 @@ struct RunOutput::Impl {
       if (std::any_of(series.tables.begin(), series.tables.end(),
                       [](const Table& t) { return t.body.has_value(); }))
         fs::create_directories(dir / "bodies");
+      if (config.wall.wears()) fs::create_directories(dir / "wear");
     } catch (const fs::filesystem_error& e) {
       throw FileError(fmt::format("{}: cannot write results there: {}", dir.string(), e.code().message()));
     }
@@ -181,7 +182,7 @@ struct RunOutput::Impl {
 
   /// Throws FileError, before anything is changed, if the run cannot continue the files in the folder.
   void examine(Simulation& simulation) const {
-    for (const fs::path& path : {dir, dir / "probes", dir / "bodies", dir / "checkpoints"})
+    for (const fs::path& path : {dir, dir / "probes", dir / "bodies", dir / "wear", dir / "checkpoints"})
       must_be_usable(path, fs::file_type::directory);
     for (const fs::path& path : files()) must_be_usable(path, fs::file_type::regular);
     const Leftovers others = leftovers(series, dir);
@@ -270,7 +271,8 @@ struct RunOutput::Impl {
 
   HostStore frame_of(Simulation& simulation, const std::string& store) const {
     HostStore all = simulation.snapshot(store);
-    return all.lines ? all : chosen(std::move(all), config.out.fields);
+    const bool particles = std::find(std::begin(kStores), std::end(kStores), store) != std::end(kStores);
+    return particles ? chosen(std::move(all), config.out.fields) : all;
   }
 
   static std::vector<std::vector<Quantity>> rows_of(Simulation& simulation, const Table& t) {

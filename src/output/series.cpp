@@ -54,12 +54,14 @@ void Frames::refresh_xdmf(bool last) {
 
 Series series_of(const Config& c, const fs::path& folder) {
   Series s;
-  const auto frames_of = [&](const char* store) {
+  const auto frames_of = [&](const std::string& store) {
     s.frames.push_back(
         {store, frame_file(folder, store, c.precision == Precision::fp64), Schedule(c.out.every)});
   };
   if (c.fluid.present) frames_of("fluid");
   if (c.grain.present) frames_of("grains");
+  for (const WallBody& body : c.wall.bodies)
+    if (body.wear != WearLaw::none) frames_of("wear/" + body.name);
   if (c.out.contacts != ContactFrames::none) frames_of("contacts");
   const bool wall_particles =
       c.fluid.present && !c.fluid.lattice() && !(c.wall.bodies.empty() && c.inlets.empty());
@@ -93,6 +95,12 @@ Leftovers leftovers(const Series& series, const fs::path& folder) {
     if (std::none_of(series.frames.begin(), series.frames.end(),
                      [&](const Frames& f) { return f.store == store; }))
       left.frames.push_back(frame_file(folder, store));
+  std::error_code no_wear;
+  for (const auto& entry : fs::directory_iterator(folder / "wear", no_wear))
+    if (entry.path().extension() == ".vtkhdf" &&
+        std::none_of(series.frames.begin(), series.frames.end(),
+                     [&](const Frames& f) { return f.file.path() == entry.path(); }))
+      left.frames.emplace_back(entry.path());
   const auto look = [&](const fs::path& path) {
     if (is_table(path) && std::none_of(series.tables.begin(), series.tables.end(),
                                        [&](const Table& t) { return t.csv.path() == path; }))

@@ -89,13 +89,15 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
   if (spectra_) spectra_->of_pairs().assign(loss);
 }
 
-void SolidSolver::save_spectra(std::vector<HostStore>& stores) const {
+void SolidSolver::save_histograms(std::vector<HostStore>& stores) const {
+  if (wear_) wear_->save(stores);
   if (!spectra_) return;
   const auto bins = spectra_->bins().to_host();
   stores.push_back({"spectra", bins.size(), {to_array("bins", "-", bins)}});
 }
 
-void SolidSolver::load_spectra(const std::vector<HostStore>& stores) {
+void SolidSolver::load_histograms(const std::vector<HostStore>& stores) {
+  if (wear_) wear_->load(stores);
   if (!spectra_) return;
   spectra_->bins().zero();
   for (const HostStore& store : stores) {

@@ -61,8 +61,12 @@ void SolidSolver::count_flows(const GrainStore& g, const BodyPose* poses, double
   if (parameters_.contacts) {
     const OpenLosses losses = spectra_ ? spectra_->view() : OpenLosses{};
     books_->count(g.owned(), PairFlow{{}, contact_pass(g, dt), books_->of_pairs(), losses});
-    books_->count({0, wall_list_.size()},
-                  WallFlow{{}, wall_contacts(g, poses, dt), wall_list_.rows(), books_->at_walls(), losses});
+    books_->count({0, wall_list_.size()}, WallFlow{{},
+                                                   wall_contacts(g, poses, dt),
+                                                   wall_list_.rows(),
+                                                   books_->at_walls(),
+                                                   losses,
+                                                   wear_ && dt > 0 ? wear_->view() : WallWear{}});
   }
   books_->count(g.owned(), kick_flow(g, dt, kick, gravity, dt == 0));
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Parameters of the grain solver.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -18,6 +19,15 @@ struct RigidGroup {
   std::uint32_t material = 0;  ///< of them
   Vec3d velocity;              ///< at the start, m/s
   RigidConfig freedom;
+};
+
+/// Patches of a wall body, at t = 0.
+struct WearGrid {
+  Vec3d lo;                    ///< m
+  double size = 0;             ///< m; 0: wear is not asked for
+  std::array<int, 3> count{};  ///< along x, y, z
+  double k_over_H = 0;         ///< of Archard's law, 1/Pa
+  bool wears() const { return size > 0; }
 };
 
 struct SolidParameters {
@@ -38,10 +48,11 @@ struct SolidParameters {
   bool plane = false;   ///< groups move in the xz plane
   bool energy = false;  ///< its flows are counted
   struct Spectra {
-    double from = 0;           ///< J
-    int per_decade = 0;        ///< bins; 0: no spectra
-  } spectra = {};              ///< of what contacts dissipate
-  bool single_forces = false;  ///< of contacts are recorded at the end of a step
+    double from = 0;                ///< J
+    int per_decade = 0;             ///< bins; 0: no spectra
+  } spectra = {};                   ///< of what contacts dissipate
+  std::vector<WearGrid> wear = {};  ///< [bodies]; empty: of none
+  bool single_forces = false;       ///< of contacts are recorded at the end of a step
 
   std::uint32_t bodies() const { return std::uint32_t(wall_laws.size() / materials.size()); }  ///< of walls
 };

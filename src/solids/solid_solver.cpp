@@ -53,6 +53,7 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
   if (parameters.energy) books_ = std::make_unique<EnergyBooks>();
   if (parameters.spectra.per_decade > 0)
     spectra_ = std::make_unique<SpectraBooks>(parameters, grains, walls.contacts() > 0);
+  if (!parameters.wear.empty()) wear_ = std::make_unique<WearBooks>(parameters);
   if (parameters.single_forces) forces_ = std::make_unique<SingleForces>();
   if (walls.contacts() == 0) return;
   wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
@@ -215,6 +216,7 @@ void SolidSolver::evaluate_pieces(const ContactPass& contacts) {
 void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
   if (books_) books_->forget();
   if (spectra_) spectra_->forget();
+  if (wear_) wear_->forget();
   FreeBodies* const free = moving();
   wall_list_.cover(g, poses, wall_counts(), 0);
   record_forces(g, poses.data, 0);

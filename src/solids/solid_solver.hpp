@@ -20,6 +20,7 @@
 #include "src/solids/rigid_groups.hpp"
 #include "src/solids/spectra_books.hpp"
 #include "src/solids/wall_list.hpp"
+#include "src/solids/wear_books.hpp"
 #include "src/walls/free_bodies.hpp"
 #include "src/walls/substep_loads.hpp"
 #include "src/walls/wall_geometry.hpp"
@@ -127,10 +128,12 @@ class SolidSolver {
   }
   /// Of what contacts have dissipated; null if the case does not ask.
   const SpectraBooks* spectra() const { return spectra_.get(); }
-  /// Adds a store of their bins, if the case asks.
-  void save_spectra(std::vector<HostStore>& stores) const;
-  /// Of a checkpoint without them: begins anew. Throws FileError for bins of another kind.
-  void load_spectra(const std::vector<HostStore>& stores);
+  /// Of wall bodies; null if none wears.
+  const WearBooks* wear() const { return wear_.get(); }
+  /// Adds stores of both.
+  void save_histograms(std::vector<HostStore>& stores) const;
+  /// Of a checkpoint without them: begins anew. Throws FileError for those of another kind.
+  void load_histograms(const std::vector<HostStore>& stores);
   /// Number of contacts of grains with walls that are left out (kMostWallContacts). poses: as in body_loads.
   double dropped_contacts(const GrainStore& grains, Span<const BodyPose> poses) const;
   /// Load of the grains on each wall body, about its centre; poses: [bodies] on the device.
@@ -254,6 +257,7 @@ class SolidSolver {
   SubstepLoads substep_loads_;
   std::unique_ptr<EnergyBooks> books_;     ///< null: not asked for
   std::unique_ptr<SpectraBooks> spectra_;  ///< likewise
+  std::unique_ptr<WearBooks> wear_;        ///< likewise
   std::unique_ptr<SingleForces> forces_;   ///< likewise
   Buffer<ContactSum> by_walls_;            ///< [rows of wall_list_]
   Buffer<ContactSum> by_pieces_;           ///< [pieces of long_rows_]

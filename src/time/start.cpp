@@ -150,7 +150,7 @@ void Stepper::save(SavedState& out) const {
   out.scalars.push_back({"rebuilds", "-", double(rebuilds_)});
   if (has_fluid()) fluid_solver_->save(out.scalars);
   if (coupled()) coupling_->save(out.scalars);
-  if (has_grains()) solid_solver_->save(out.scalars), solid_solver_->save_spectra(out.stores);
+  if (has_grains()) solid_solver_->save(out.scalars), solid_solver_->save_histograms(out.stores);
 }
 
 void Stepper::load(const SavedState& saved) {
@@ -164,7 +164,7 @@ void Stepper::load(const SavedState& saved) {
   }
   if (coupled()) coupling_->load(scalar);
   if (has_grains())
-    load_grain_store(saved), solid_solver_->load(saved.scalars), solid_solver_->load_spectra(saved.stores);
+    load_grain_store(saved), solid_solver_->load(saved.scalars), solid_solver_->load_histograms(saved.stores);
   if (has_fluid()) fluid_solver_->keep_own(fluid_, walls_, true);
   restore_lists(saved);
   if (has_fluid()) fluid_solver_->survey(fluid_);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <tuple>
 
 #include "tests/support/free_body.hpp"
 #include "tests/support/grain_bench.hpp"
@@ -29,7 +30,7 @@ Ended ended(const SolidSolver& solver) {
   for (std::size_t k = 0; k < bins.size(); ++k) {
     const int kind = int(k / std::size_t(layout.size()) % ContactSpectra::kKinds);
     if (kind == 0) sum.count += double(bins[k].count);
-    sum.energy[kind] += bins[k].energy() * layout.unit();
+    sum.energy[kind] += bins[k].energy.value() * layout.unit();
   }
   return sum;
 }
@@ -77,13 +78,13 @@ TEST(GrainEnergy, AnImpactHeadOnDissipatesByItsRestitution) {
 TEST(GrainEnergy, BinsHoldNegativeAndLargeEnergies) {
   SpectrumBin bin{};
   bin.enter(-5);
-  EXPECT_EQ(bin.energy(), -5);
+  EXPECT_EQ(bin.energy.value(), -5);
   bin.enter(7);
-  EXPECT_EQ(bin.energy(), 2);
+  EXPECT_EQ(bin.energy.value(), 2);
   for (int k = 0; k < 4; ++k) bin.enter(std::int64_t(1) << 62);
-  EXPECT_EQ(bin.energy(), std::ldexp(1.0, 64));
+  EXPECT_EQ(bin.energy.value(), std::ldexp(1.0, 64));
   for (int k = 0; k < 4; ++k) bin.enter(-(std::int64_t(1) << 62));
-  EXPECT_EQ(bin.energy(), 2);
+  EXPECT_EQ(bin.energy.value(), 2);
   EXPECT_EQ(bin.count, 10u);
 }
 
@@ -119,7 +120,14 @@ TEST(GrainEnergy, TheResidualOfObliqueImpactsIsSmall) {
               1e-6 * dissipated(terms));
 }
 
-/// mu N s of a block of four grains that cannot turn, on a plane.
+/// Over all patches of a wall that wears.
+double over_patches(const HostStore& map, const char* name) {
+  double sum = 0;
+  for (std::size_t k = 0; k < map.count; ++k) sum += map.find(name)->as<double>()[k];
+  return sum;
+}
+
+/// mu N s of a block of four grains that cannot turn, on a plane; which it wears by k/H N s [archard53].
 TEST(GrainEnergy, GrossSlidingDissipatesForceTimesPath) {
   constexpr double d = 2e-3, g = 9.81, mu = 0.3, speed = 0.5;
   Config c = void_case();
@@ -127,6 +135,7 @@ TEST(GrainEnergy, GrossSlidingDissipatesForceTimesPath) {
   c.gravity = {0, 0, -g};
   c.out.energy = true;
   c.wall.bodies = {ground()};
+  c.wall.bodies[0].wear = "archard", c.wall.bodies[0].k_over_H = 1e-13, c.wall.bodies[0].wear_patch = 0.01;
   c.grain.present = true;
   c.grain.d = c.grain.d_min = c.grain.d_max = d;
   c.grain.mu = mu, c.grain.e = 0.2;
@@ -146,16 +155,28 @@ TEST(GrainEnergy, GrossSlidingDissipatesForceTimesPath) {
   const auto look = [&](double until) {
     run_until(*s, until);
     Terms terms = by_name(s->diagnostics());
-    return std::pair{terms, reading(s->body_state(1), "centre_x")};
+    return std::tuple{terms, reading(s->body_state(1), "centre_x"), s->snapshot("wear/plane")};
   };
-  auto [before, from] = look(0.02);  // it has settled
-  auto [after, to] = look(0.12);
+  auto [before, from, map_before] = look(0.02);  // it has settled
+  auto [after, to, map] = look(0.12);
   const double mass = before["grain_mass"], path = to - from;
   ASSERT_GT(path, 0.01);
   EXPECT_NEAR(
       (after["grain_dissipated_sliding"] - before["grain_dissipated_sliding"]) / (mu * mass * g * path), 1,
       1e-3);
   EXPECT_LT(std::abs(after["grain_energy_residual"]), 1e-3 * dissipated(after));
+  const double worn = over_patches(map, "wear_volume") - over_patches(map_before, "wear_volume");
+  EXPECT_NEAR(worn / (1e-13 * mass * g * path), 1, 1e-3);
+  EXPECT_NEAR(over_patches(map, "shear_energy") / after["grain_dissipated_sliding"], 1, 1e-6);
+  EXPECT_NEAR(over_patches(map, "normal_energy"), after["grain_dissipated_normal"], 1e-6 * dissipated(after));
+  ASSERT_GE(map.count, 2u) << "it has crossed patches";
+  for (std::size_t k = 0; k < map.count; ++k) {
+    const double* const x = map.find("position")->as<double>() + 3 * k;
+    EXPECT_GT(x[0], -0.085 - 0.005);
+    EXPECT_LT(x[0], to + 0.005 + d);
+    EXPECT_NEAR(x[1], d / 2, 0.005 + d);
+    EXPECT_NEAR(x[2], 0, 0.005 + 1e-9);
+  }
 }
 
 TEST(GrainEnergy, IsRestartedToTheLastBit) {
@@ -165,6 +186,7 @@ TEST(GrainEnergy, IsRestartedToTheLastBit) {
   c.out.energy = c.out.spectra = true;
   WallBody floor = ground();
   floor.point = {0, 0, -0.005};
+  floor.wear = "archard", floor.k_over_H = 1e-13;
   c.wall.bodies = {floor};
   c.grain.present = true;
   c.grain.d = c.grain.d_min = c.grain.d_max = 2e-3;
@@ -193,6 +215,10 @@ TEST(GrainEnergy, IsRestartedToTheLastBit) {
       if (bins[k][n].name.ends_with("_count")) count += bins[k][n].value;
     }
   EXPECT_GT(count, 4);
+  const HostStore map = whole->snapshot("wear/plane"), map_again = parted->snapshot("wear/plane");
+  EXPECT_GT(map.count, 1u);
+  for (const HostArray& array : map.arrays)
+    EXPECT_TRUE(array.bytes == map_again.find(array.name)->bytes) << array.name;
   EXPECT_EQ(bins[0][1].name, "grain_grain_normal_count");
   EXPECT_EQ(bins[0][5].name, "grain_on_plane_normal_count");
 }
@@ -207,6 +233,10 @@ TEST(SlowGrainEnergy, ADrumOverOneTurnClosesItsBooks) {
   b.config.contact.rolling = "epsd";
   b.config.wall.bodies = {
       test::shaped("drum", make_hollow(make_cylinder({0, 0, 0}, {0, 0, length}, radius), 0.005))};
+  b.config.wall.bodies[0].wear = "archard", b.config.wall.bodies[0].wear_patch = 1e-3;
+  b.config.wall.bodies[0].k_over_H = 1e-13;
+  const Bounds around = b.config.wall.bodies[0].solid.shape->bounds();
+  b.config.wall.bodies[0].min = around.min, b.config.wall.bodies[0].max = around.max;
   b.motion = [&](int, double t) {
     BodyPose p;
     p.rotation = Quat<double>::from_rotation({0, 0, rate * t});
@@ -248,6 +278,24 @@ TEST(SlowGrainEnergy, ADrumOverOneTurnClosesItsBooks) {
     for (std::uint32_t k = 0; k < 2 * counts.as<std::uint32_t>()[i]; ++k)
       booked += losses.as<double>()[2 * kMostWallContacts * i + k];
   EXPECT_NEAR(booked / dissipated(after), 1, 1e-6);
+  // what walls have taken of it lies in the patches of its surface, inside
+  double at_walls = 0;
+  const ContactSpectra& layout = b.solver->spectra()->layout();
+  const auto bins = b.solver->spectra()->bins().to_host();
+  for (std::size_t k = std::size_t(layout.on_wall(0, 0)) * 2 * std::size_t(layout.size()); k < bins.size();
+       ++k)
+    at_walls += bins[k].energy.value() * layout.unit();
+  for (std::size_t i = 0; i < counts.count(); ++i)
+    for (std::uint32_t k = 0; k < 2 * counts.as<std::uint32_t>()[i]; ++k)
+      at_walls += losses.as<double>()[2 * kMostWallContacts * i + k];
+  const HostStore map = b.solver->wear()->frame(0, "wear/drum", RigidMotion{});
+  EXPECT_NEAR((over_patches(map, "normal_energy") + over_patches(map, "shear_energy")) / at_walls, 1, 1e-6);
+  EXPECT_GT(map.count, 300u);
+  for (std::size_t k = 0; k < map.count; ++k) {
+    const double* const x = map.find("position")->as<double>() + 3 * k;
+    const double off_side = radius - std::hypot(x[0], x[1]), off_end = std::min(x[2], length - x[2]);
+    EXPECT_LT(std::min(std::abs(off_side), std::abs(off_end)), 1e-3) << x[0] << ' ' << x[1] << ' ' << x[2];
+  }
   EXPECT_GT(b.refreshes, 2) << "losses were carried to new lists";
   const double gained = b.solver->totals(*b.grains).angular.z - swing;
   EXPECT_NEAR((after["grain_work_walls"] - before["grain_work_walls"]) / rate / (moment + gained), 1, 5e-3);

@@ -86,6 +86,14 @@ inline constexpr auto kNames<BodyTurn> = std::to_array<Named<BodyTurn>>({
     {BodyTurn::none, "none", "no rotation"},
 });
 
+/// wall.body.wear
+enum class WearLaw { none, archard };
+template <>
+inline constexpr auto kNames<WearLaw> = std::to_array<Named<WearLaw>>({
+    {WearLaw::none, "none", "no wear"},
+    {WearLaw::archard, "archard", "volume k/H times normal force times sliding path [archard53]"},
+});
+
 // -- openings ------------------------------------------------------------------------------------
 
 /// inlet.shape
