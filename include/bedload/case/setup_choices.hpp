@@ -144,7 +144,7 @@ inline constexpr auto kNames<SizeKind> = std::to_array<Named<SizeKind>>({
 // -- output --------------------------------------------------------------------------------------
 
 /// probe.type
-enum class ProbeType { front, point, height, box, flux, force, wall_pressure };
+enum class ProbeType { front, point, height, box, flux, force, wall_pressure, mixing };
 template <>
 inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
     {ProbeType::front, "front", "farthest position of a phase in a direction"},
@@ -156,6 +156,7 @@ inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
     {ProbeType::force, "force", "force and torque on a wall body"},
     {ProbeType::wall_pressure, "wall_pressure",
      "force per area on patches of a wall body, as of pressure transducers"},
+    {ProbeType::mixing, "mixing", "how well one kind of grains is mixed with the others [lacey54]"},
 });
 
 /// probe.phase

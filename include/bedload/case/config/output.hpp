@@ -29,6 +29,9 @@ struct ProbeConfig {
                                                ///< the line, 0: upwards
   Vec3d about;                                 ///< force: torque about this point, m
   Chosen<ForceSample> sample = ForceSample::mean;  ///< force
+  std::string of;                              ///< mixing: name of the grain.material that is one kind
+  double larger_than = 0;                      ///< mixing: or the diameter that grains of one kind exceed, m
+  double cell = 0;                             ///< mixing: edge of the samples, m
   double every = 0;                            ///< s; 0: out.every
   bool operator==(const ProbeConfig&) const = default;
 };
