@@ -122,7 +122,7 @@ void Checks::materials() const {
 
 void Checks::grain_energy() const {
   if (!c.grain.present && c.out.contacts != ContactFrames::none)
-    fail("out.contacts", c.out.contacts.name(), "must be none without [grain]");
+    fail("out.contacts", '"' + c.out.contacts.name() + '"', "must be \"none\" without [grain]");
   const auto takes_grains = [](const OutletConfig& outlet) { return outlet.takes(Phase::grains); };
   for (const auto& [there, what] :
        {std::pair{!c.grain.present, "without [grain]"},
@@ -136,7 +136,7 @@ void Checks::grain_energy() const {
     for (std::size_t b = 0; b < c.wall.bodies.size(); ++b)
       if (c.wall.bodies[b].wear != WearLaw::none)
         fail(fmt::format("wall.body.{}.wear", b), '"' + c.wall.bodies[b].wear.name() + '"',
-             fmt::format("must be none {}", what));
+             fmt::format("must be \"none\" {}", what));
   }
   for (std::size_t b = 0; b < c.wall.bodies.size(); ++b) {
     const WallBody& body = c.wall.bodies[b];

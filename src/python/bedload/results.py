@@ -265,6 +265,11 @@ class Run:
         return Table(self.folder / "diagnostics.csv")
 
     @functools.cached_property
+    def spectra(self) -> Table:
+        """Spectra of what contacts dissipate (`out.spectra`): several rows, one for each bin, of each time."""
+        return Table(self.folder / "spectra.csv")
+
+    @functools.cached_property
     def probes(self) -> Tables:
         """Tables of probes by name."""
         return Tables(self.folder / "probes")
