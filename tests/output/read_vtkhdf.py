@@ -124,7 +124,7 @@ def check_nodes(path):
 
 
 def check_lines(path):
-    """Lines, by both readers: line_frames.hpp has the formulas."""
+    """Lines, by both readers: fake_simulation.hpp has the formulas."""
     reader = open_frames(path, 4)
     xdmf = vtkXdmfReader()
     xdmf.SetFileName(str(path.with_suffix(".xdmf")))

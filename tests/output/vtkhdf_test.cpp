@@ -11,7 +11,6 @@
 #include "bedload/output/h5_table.hpp"
 #include "fake_simulation.hpp"
 #include "full_disk.hpp"
-#include "line_frames.hpp"
 #include "node_frames.hpp"
 
 namespace bedload::testing {
