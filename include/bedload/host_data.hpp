@@ -53,7 +53,8 @@ struct HostStore {
   std::size_t count = 0;
   std::vector<HostArray> arrays;
   std::optional<HostGrid> grid =
-      {};  ///< of a store whose places are one; the positions are among its arrays, too
+      {};              ///< of a store whose places are one; the positions are among its arrays, too
+  bool lines = false;  ///< each entry is a line: the first array has its two ends in place of a position
 
   const HostArray* find(const std::string& array) const {
     for (const auto& a : arrays)

@@ -77,7 +77,8 @@ class Simulation {
   /// case has them.
   virtual std::vector<Quantity> time_spent() const = 0;
 
-  /// Output fields of a store: "fluid", "grains" or "walls". First array: "position".
+  /// Output fields of a store: "fluid", "grains" or "walls", first array "position"; or "contacts", lines of
+  /// the grains' contacts, first array "ends".
   virtual HostStore snapshot(const std::string& store) = 0;
   /// Data for the rheology of "fluid" or "grains", after a step: arrays position (m), velocity (m/s), mass
   /// (kg), volume (m3, of a grain, or the mixture volume of fluid), drive (N, by gravity and drive)
@@ -88,6 +89,9 @@ class Simulation {
   virtual std::vector<FieldView> fields(const std::string& store) = 0;
   /// Masses, momenta, energies, extremes, counters; see output/diagnostics.
   virtual std::vector<Quantity> diagnostics() = 0;
+  /// Rows of spectra.csv: the lower edge of a bin, J, and number and energy of the contacts in it, by pair of
+  /// materials. Empty if the case does not ask.
+  virtual std::vector<std::vector<Quantity>> spectra() { return {}; }
   /// Values of a probe: with `sample = "mean"`, for a probe of the case, the mean over its interval so far;
   /// else the current values.
   virtual std::vector<Quantity> measure(const ProbeConfig& probe) = 0;

@@ -5,7 +5,9 @@
 // What it does not store it has dissipated: D = - W - (U - U'). The leapfrog changes kinetic energies by W,
 // but for terms that cancel from one substep to the next.
 
+#include "kernels/contact/contact_loss.hpp"
 #include "kernels/contact/wall_pass.hpp"
+#include "kernels/contact/wear.hpp"
 
 namespace BL_SOLVER {
 
@@ -33,6 +35,23 @@ struct ContactMotion {
   }
 };
 
+/// Losses of the wall contacts of a grain, in the order of its memories.
+struct WallLosses {
+  ContactLoss of[kMostWallContacts];
+};
+template <>
+struct FileType<WallLosses> {
+  static constexpr Scalar scalar = Scalar::f64;
+  static constexpr int components = sizeof(WallLosses) / sizeof(double);
+};
+/// Contacts whose losses are added up; nothing where spectra are not asked for.
+struct OpenLosses {
+  ContactSpectra spectra;
+  ContactLoss* of_pairs = nullptr;  ///< [slots], the same in the rows of both grains
+  WallLosses* at_walls = nullptr;   ///< [grains]
+  BL_HD explicit operator bool() const { return spectra.bins; }
+};
+
 /// J: dissipated in contacts, work on the grains.
 struct EnergyFlow {
   enum Term { normal, sliding, rolling, walls, gravity, fluid, kTerms };
@@ -45,6 +64,9 @@ struct EnergyFlow {
   }
   BL_HD void add(const EnergyFlow& other) {
     for (int k = 0; k < kTerms; ++k) of[k] += other.of[k];
+  }
+  BL_HD void add_to(ContactLoss& loss) const {
+    loss.normal += of[normal], loss.tangential += of[sliding] + of[rolling];
   }
   /// What a contact dissipates in a substep of dt, from one action and stored energy to the next.
   BL_HD void dissipate(const ContactMotion& motion, double dt, const ContactAction& before,
@@ -64,21 +86,27 @@ struct FlowReduction {
 };
 
 /// Contacts between grains, before they are evaluated: histories stay as they are. Each counts in the row of
-/// its lower id.
+/// its lower id. Losses are added up in both rows, as histories are.
 struct PairFlow : FlowReduction {
   ContactPass contacts;    ///< of the substep; dt = 0: notes what acts at its start
   ContactAction* actions;  ///< [slots]
+  OpenLosses losses = {};
 
   BL_HD Value operator()(Index i) const {
     Value flow = Value::zero();
     contacts.list.each(i, [&](std::uint64_t slot, Index j) {
-      if (contacts.grains.id[i] < contacts.grains.id[j]) add(i, j, slot, flow);
+      const bool first = contacts.grains.id[i] < contacts.grains.id[j];
+      if (!first && !losses) return;
+      Value one = Value::zero();
+      add(first ? i : j, first ? j : i, slot, first, one);
+      if (first) flow.add(one);
     });
     return flow;
   }
 
  private:
-  BL_HD void add(Index i, Index j, std::uint64_t slot, Value& flow) const {
+  /// counts: this row is the one that enters the loss of a contact that ends.
+  BL_HD void add(Index i, Index j, std::uint64_t slot, bool counts, Value& flow) const {
     const GrainView& g = contacts.grains;
     const bool touched = contacts.histories.touching[slot];
     const Vec3d r = g.frame.separation(g.x[i], g.x[j]);
@@ -101,7 +129,15 @@ struct PairFlow : FlowReduction {
       motion.arm_i = at.arm_i, motion.arm_j = at.arm_j;
     }
     actions[slot] = now;
-    if (contacts.dt > 0) flow.dissipate(motion, contacts.dt, before, now, had, has);
+    if (!(contacts.dt > 0)) return;
+    flow.dissipate(motion, contacts.dt, before, now, had, has);
+    if (!losses) return;
+    ContactLoss& loss = losses.of_pairs[slot];
+    if (!touched) loss = {};
+    flow.add_to(loss);
+    if (!touches && counts)
+      losses.spectra.enter(losses.spectra.of_pair(g.mass_per_r3.material_of(i), g.mass_per_r3.material_of(j)),
+                           loss);
   }
 };
 
@@ -110,6 +146,8 @@ struct WallFlow : FlowReduction {
   WallContacts contacts;
   WallRows rows;
   ContactAction* actions;  ///< [capacity][grains], as memories
+  OpenLosses losses = {};
+  WallWear wear = {};
 
   BL_HD Value operator()(Index row) const {
     const Index i = rows.grain[row];
@@ -119,16 +157,26 @@ struct WallFlow : FlowReduction {
     const double dt = contacts.dt;
     Value flow = Value::zero();
     RawArray<ContactAction, kMostWallContacts> now;
+    RawArray<ContactLoss, kMostWallContacts> lost;
     unsigned kept = 0;  // memories that contacts continue, by bits
     int n = 0;
-    const auto count = [&](const BodyPose& pose, const Vec3d& v_wall, Real arm, const ContactAction& before,
-                           const ContactAction& after, const StoredEnergy& had, const StoredEnergy& has) {
-      flow.dissipate({g.v[i] - Real3(v_wall), g.omega[i], Real3(pose.omega), arm, 0}, dt, before, after, had,
-                     has);
+    const auto count = [&](const Turn& c, ContactLoss& loss) {
+      const BodyPose& pose = contacts.poses[c.body];
+      const Real3 v = g.v[i] - Real3(c.v_wall);
+      Value one = Value::zero();
+      one.dissipate({v, g.omega[i], Real3(pose.omega), c.arm, 0}, dt, c.before, c.after, c.had, c.has);
+      one.add_to(loss);
+      flow.add(one);
       const auto work = [&](const ContactAction& a) {
-        return dot(Vec3d(a.normal + a.sliding), v_wall) + dot(Vec3d(a.rolling), pose.omega);
+        return dot(Vec3d(a.normal + a.sliding), c.v_wall) + dot(Vec3d(a.rolling), pose.omega);
       };
-      flow.of[EnergyFlow::walls] += 0.5 * dt * (work(before) + work(after));
+      flow.of[EnergyFlow::walls] += 0.5 * dt * (work(c.before) + work(c.after));
+      if (!wear) return;
+      ContactLoss here;
+      one.add_to(here);
+      const Real3 slip = v - dot(v, c.n) * c.n - cross(c.arm * g.omega[i], c.n);
+      const double force = 0.5 * (norm(c.before.normal) + norm(c.after.normal));
+      wear.add(c.body, pose, contacts.arm(pose, c.point), force * norm(slip) * dt, here);
     };
     const auto memory_energy = [&](Index k) {
       return contacts.law(body_of(memories[k]), i).energy(own.R, own.m, memories[k].history);
@@ -139,27 +187,60 @@ struct WallFlow : FlowReduction {
           now[n] = ContactAction::of(c.on_grain, course.at);
           ContactAction before{};
           StoredEnergy had;
+          lost[n] = {};
           if (course.from != kNone) {
             kept |= 1u << course.from;
             before = action(course.from, i), had = memory_energy(course.from);
+            if (losses) lost[n] = losses.at_walls[i].of[course.from];
           }
           if (dt > 0)
-            count(contacts.poses[body], course.v_wall, course.at.arm_i, before, now[n], had,
-                  course.law.energy(own.R, own.m, course.after));
+            count({.body = body,
+                   .point = c.point,
+                   .v_wall = course.v_wall,
+                   .n = Real3(course.at.n),
+                   .arm = course.at.arm_i,
+                   .before = before,
+                   .after = now[n],
+                   .had = had,
+                   .has = course.law.energy(own.R, own.m, course.after)},
+                  lost[n]);
           ++n;
         });
     for (Index k = 0; dt > 0 && k < memories.count(); ++k) {
       if (kept >> k & 1) continue;  // else it has ended
-      const BodyPose& pose = contacts.poses[body_of(memories[k])];
+      const std::uint32_t body = body_of(memories[k]);
+      const BodyPose& pose = contacts.poses[body];
+      ContactLoss loss = losses ? losses.at_walls[i].of[k] : ContactLoss{};
       const Vec3d point = g.x[i] - double(own.R) * memories[k].normal;
-      count(pose, contacts.surface_velocity(pose, contacts.arm(pose, point)), own.R, action(k, i), {},
-            memory_energy(k), {});
+      count({.body = body,
+             .point = point,
+             .v_wall = contacts.surface_velocity(pose, contacts.arm(pose, point)),
+             .n = Real3(memories[k].normal),
+             .arm = own.R,
+             .before = action(k, i),
+             .after = {},
+             .had = memory_energy(k),
+             .has = {}},
+            loss);
+      if (losses) losses.spectra.enter(losses.spectra.on_wall(body, g.mass_per_r3.material_of(i)), loss);
     }
-    for (int k = 0; k < n; ++k) action(Index(k), i) = now[k];
+    for (int k = 0; k < n; ++k) {
+      action(Index(k), i) = now[k];
+      if (losses && dt > 0) losses.at_walls[i].of[k] = lost[k];
+    }
     return flow;
   }
 
  private:
+  /// A contact in a substep.
+  struct Turn {
+    std::uint32_t body;
+    Vec3d point, v_wall;  ///< m; of the wall there, m/s
+    Real3 n;
+    Real arm;
+    ContactAction before, after;
+    StoredEnergy had, has;
+  };
   BL_HD std::uint32_t body_of(const WallMemory& memory) const {
     return contacts.walls.surfaces[memory.surface()].body;
   }

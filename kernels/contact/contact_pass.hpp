@@ -4,6 +4,7 @@
 
 #include "bedload/neighbours/long_rows.hpp"
 #include "bedload/parallel/overlap.hpp"
+#include "kernels/contact/contact_loss.hpp"
 #include "kernels/contact/grain_mass.hpp"
 #include "kernels/contact/lubrication.hpp"
 #include "kernels/contact/pair_histories.hpp"
@@ -58,6 +59,8 @@ struct CarryHistoryPass {
   LongRowsView long_rows;   ///< of `to`
   Span<const Index> order;  ///< former index of each grain; kNone if it is new
   PairHistories old_histories, histories;
+  const ContactLoss* old_losses = nullptr;  ///< by slot; null: not asked for
+  ContactLoss* losses = nullptr;
   BL_HD void operator()(Index i) const {
     const Index was_i = order[i];
     if (was_i == kNone || long_rows.cut(i)) return;
@@ -71,6 +74,7 @@ struct CarryHistoryPass {
   BL_HD void carry(std::uint64_t old_slot, std::uint64_t slot) const {
     histories.store(slot, old_histories[old_slot]);
     histories.touching[slot] = 1;
+    if (losses) losses[slot] = old_losses[old_slot];
   }
 };
 
@@ -79,7 +83,7 @@ struct CarryHistoryPass {
 struct CarryLongHistoryPass {
   CarryHistoryPass rows;
   BL_HD void operator()(Index of_piece) const {
-    const auto& [from, to, long_rows, order, old_histories, histories] = rows;
+    const auto& [from, to, long_rows, order, old_histories, histories, old_losses, losses] = rows;
     const Index piece = of_piece / LongRowsView::kPiece, i = long_rows.row[piece];
     const std::uint32_t k = long_rows.begin(piece) + of_piece % LongRowsView::kPiece;
     if (order[i] == kNone || k >= to.count[i]) return;

@@ -9,6 +9,7 @@ struct MassPerR3 {
   Span<const std::uint32_t> material = {};  ///< of each grain; empty: one
   Span<const double> each = {};             ///< by material
   BL_HD double operator()(Index i) const { return material ? each[material[i]] : one; }
+  BL_HD std::uint32_t material_of(Index i) const { return material ? material[i] : 0; }
 };
 
 }  // namespace BL_SOLVER

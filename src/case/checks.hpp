@@ -32,6 +32,7 @@ class Checks {
   void openings() const;
   void time() const;
   void probes() const;
+  void mixing(const std::string& path, const ProbeConfig& probe) const;
 
  private:
   // of all sections, and time: checks.cpp

@@ -1,9 +1,11 @@
 // Inlets, outlets and probes against the rest of a case.
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "bedload/case/grain_sizes.hpp"
+#include "bedload/case/materials.hpp"
 #include "checks.hpp"
 
 namespace bedload {
@@ -59,6 +61,20 @@ void Checks::grain_inlet(const std::string& path, const GrainInletConfig& inlet)
            fmt::format("must leave space along {} for the largest grain, {} m", "xyz"[k], d));
 }
 
+void Checks::mixing(const std::string& path, const ProbeConfig& probe) const {
+  box(path, probe.min, probe.max);
+  const auto materials = c.grain.all_materials();
+  if (!probe.of.empty() && std::none_of(materials.begin(), materials.end(),
+                                        [&](const GrainMaterial& m) { return name_in_pairs(m) == probe.of; }))
+    fail(path + ".of", quoted(probe.of), "must name a grain.material, or be \"grain\"");
+  constexpr double kMost = 1e7;
+  double cells = 1;
+  for (int k = 0; k < 3; ++k) cells *= std::ceil((probe.max[k] - probe.min[k]) / probe.cell);
+  if (cells > kMost)
+    fail(path + ".cell", fmt::format("{} m", probe.cell),
+         fmt::format("must be larger: the box has {:.3g} cells, of at most {:.3g}", cells, kMost));
+}
+
 void Checks::probes() const {
   std::set<std::string> names;
   for (std::size_t i = 0; i < c.out.probes.size(); ++i) {
@@ -72,6 +88,7 @@ void Checks::probes() const {
       if (!in_sight(probe.min, probe.max))
         fail(path + ".min", to_text(probe.min), "must have a part of the domain in its box");
     }
+    if (probe.type == ProbeType::mixing) mixing(path, probe);
     if (probe.type == ProbeType::flux) {
       box(path, probe.min, probe.max);
       inside_domain(path + ".min", probe.min);
@@ -91,7 +108,9 @@ void Checks::probes() const {
     }
     const bool has_phase =
         probe.type == ProbeType::front || probe.type == ProbeType::box || probe.type == ProbeType::flux;
-    const Chosen<Phase> phase = has_phase ? probe.phase : Chosen(Phase::fluid);
+    const Chosen<Phase> phase = has_phase                         ? probe.phase
+                                : probe.type == ProbeType::mixing ? Chosen(Phase::grains)
+                                                                  : Chosen(Phase::fluid);
     if (probe.type != ProbeType::force && !(phase == Phase::fluid ? c.fluid.present : c.grain.present))
       fail(path + (has_phase ? ".phase" : ".type"), quoted(has_phase ? phase.name() : probe.type.name()),
            fmt::format("must name something in this case; it has no {}", phase.name()));

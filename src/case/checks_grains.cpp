@@ -121,14 +121,33 @@ void Checks::materials() const {
 }
 
 void Checks::grain_energy() const {
+  if (!c.grain.present && c.out.contacts != ContactFrames::none)
+    fail("out.contacts", '"' + c.out.contacts.name() + '"', "must be \"none\" without [grain]");
   const auto takes_grains = [](const OutletConfig& outlet) { return outlet.takes(Phase::grains); };
   for (const auto& [there, what] :
        {std::pair{!c.grain.present, "without [grain]"},
         {c.grain.fixed, "with grain.fixed"},
         {!c.grain_inlets.empty() || std::any_of(c.outlets.begin(), c.outlets.end(), takes_grains),
          "with inlets or outlets of grains, whose energies are not counted"},
-        {c.lubrication.acts(), "with lubrication.forces, whose losses are not counted"}})
-    if (c.out.energy && there) fail("out.energy", "true", fmt::format("must be false {}", what));
+        {c.lubrication.acts(), "with lubrication.forces, whose losses are not counted"}}) {
+    if (!there) continue;
+    for (const auto& [key, asked] : {std::pair{"out.energy", c.out.energy}, {"out.spectra", c.out.spectra}})
+      if (asked) fail(key, "true", fmt::format("must be false {}", what));
+    for (std::size_t b = 0; b < c.wall.bodies.size(); ++b)
+      if (c.wall.bodies[b].wear != WearLaw::none)
+        fail(fmt::format("wall.body.{}.wear", b), '"' + c.wall.bodies[b].wear.name() + '"',
+             fmt::format("must be \"none\" {}", what));
+  }
+  for (std::size_t b = 0; b < c.wall.bodies.size(); ++b) {
+    const WallBody& body = c.wall.bodies[b];
+    if (body.wear == WearLaw::none) continue;
+    constexpr double kMost = 4e6;
+    const WearPatches patches(body, c.domain, c.grain.largest());
+    if (patches.number() > kMost)
+      fail(fmt::format("wall.body.{}.wear_patch", b), fmt::format("{} m", patches.size),
+           fmt::format("must be larger: the map of the body has {:.3g} patches, of at most {:.3g}",
+                       patches.number(), kMost));
+  }
 }
 
 void Checks::contact_pairs() const {

@@ -41,6 +41,9 @@ void Checks::lattice() const {
         type != ProbeType::point && type != ProbeType::box && type != ProbeType::force)
       fail(fmt::format("probe.{}.type", i), quoted(type.name()),
            fmt::format("must be \"point\", \"box\" or \"force\" {}", with));
+  if (c.out.contacts != ContactFrames::none)
+    fail("out.contacts", quoted(c.out.contacts.name()), fmt::format("must be \"none\" {}", with));
+  if (c.out.spectra) fail("out.spectra", "true", fmt::format("must be false {}", with));
   lattice_step();
 }
 
@@ -52,6 +55,9 @@ void Checks::lattice_walls() const {
            "must be \"adami\", \"fluid_only\" or \"grains_only\" with fluid.model = \"lattice\", whose walls "
            "have "
            "no particles");
+    if (c.wall.bodies[i].wear != WearLaw::none)
+      fail(fmt::format("wall.body.{}.wear", i), quoted(c.wall.bodies[i].wear.name()),
+           "must be \"none\" with fluid.model = \"lattice\"");
   }
 }
 

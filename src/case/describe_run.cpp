@@ -80,11 +80,11 @@ void probe(Parameters& p, ProbeConfig& b) {
   if (wanted(point) || wanted(height)) points(p, b);
   if (b.type == height && !p.everything())
     p("along", &b.along, {.meaning = "height: direction of the line", .fallback = "upwards"});
-  if (wanted(box) || wanted(flux)) {
-    p("min", &b.min, {.unit = "m", .meaning = "box, flux: lower corner", .presence = required});
+  if (wanted(box) || wanted(flux) || wanted(mixing)) {
+    p("min", &b.min, {.unit = "m", .meaning = "box, flux, mixing: lower corner", .presence = required});
     p("max", &b.max,
       {.unit = "m",
-       .meaning = "box: upper corner; flux: of a box around the section, over whose length it is averaged",
+       .meaning = "box, mixing: upper corner; flux: of a box around the section, over whose length it is averaged",
        .presence = required});
   }
   if (wanted(force) || wanted(wall_pressure))
@@ -100,6 +100,21 @@ void probe(Parameters& p, ProbeConfig& b) {
     p("sample", &b.sample, {.meaning = "force: mean or instantaneous values"});
   }
   if (wanted(wall_pressure)) patches(p, b);
+  if (wanted(mixing)) {
+    p("of", &b.of,
+      {.meaning = "mixing: name of the grain.material that is one kind, \"grain\" for that of grain.*; the other "
+                  "kind is the rest",
+       .fallback = "larger_than is used",
+       .presence = optional});
+    if (b.of.empty() || p.everything())
+      p("larger_than", &b.larger_than,
+        {.unit = "m",
+         .meaning = "mixing: diameter that the grains of one kind exceed",
+         .range = above(0),
+         .presence = required});
+    p("cell", &b.cell,
+      {.unit = "m", .meaning = "mixing: edge of the cells that are the samples", .range = above(0), .presence = required});
+  }
   p("every", &b.every,
     {.unit = "s",
      .meaning = "output interval",
@@ -291,6 +306,19 @@ void describe_output(Parameters& p, OutputConfig& o) {
     {.meaning =
          "energy balance of the grains in diagnostics.csv: what contacts dissipate, the work of walls, "
          "gravity and fluid, and the residual; evaluates contacts twice"});
+  p("out.spectra", &o.spectra,
+    {.meaning = "spectra.csv: how much energy single contacts of grains dissipate from beginning to end, by pair of "
+                "materials; with the columns of out.energy"});
+  if (o.spectra || p.everything()) {
+    p("out.spectra_bins", &o.spectra_bins, {.meaning = "bins of the spectra a decade", .range = within(5, 50)});
+    p("out.spectra_from", &o.spectra_from,
+      {.unit = "J",
+       .meaning = "lower edge of the first bin, which has all lower energies too; the last ends 14 decades above",
+       .range = within(1e-30, 1)});
+  }
+  p("out.contacts", &o.contacts,
+    {.meaning = "frames contacts.vtkhdf of single contacts of grains, with their forces",
+     .family = "outputs"});
   p("out.bodies", &o.bodies,
     {.meaning = "wall bodies with a table bodies/<name>.csv of motion, forces and power",
      .family = "outputs"});

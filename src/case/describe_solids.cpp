@@ -198,6 +198,22 @@ void wall_body(Parameters& p, WallBody& b, const ContactConfig& contact, bool pa
        .range = {.lo = -1, .hi = 0.5},
        .fallback = "that of material, or grain.nu",
        .presence = unbounded});
+    p("wear", &b.wear,
+      {.meaning =
+           "wear by grains: a map in frames wear/<name>.vtkhdf; the shape of the wall does not change"});
+    if (b.wear == WearLaw::archard || p.everything()) {
+      p("k_over_H", &b.k_over_H,
+        {.unit = "1/Pa",
+         .meaning = "dimensionless wear coefficient of Archard's law over the hardness of the wall",
+         .range = within(1e-18, 1e-9),
+         .presence = required});
+      p("wear_patch", &b.wear_patch,
+        {.unit = "m",
+         .meaning = "edge of the patches of the map",
+         .range = above(0),
+         .fallback = "largest diameter of grains",
+         .presence = optional});
+    }
   }
   body_motion(p, b.motion, particles);
   if (particles) describe_free_body(p, b.free);

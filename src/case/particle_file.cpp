@@ -173,6 +173,7 @@ ParticleList read_frame(const std::filesystem::path& file, std::int64_t step) {
                                : fmt::format("{}: has no frame {}; they are numbered 0 to {}", file.string(),
                                              step, count - 1));
   const HostStore store = frames.read(std::size_t(step < 0 ? count - 1 : step));
+  if (store.lines) throw CaseError(fmt::format("{}: holds lines, not particles", file.string()));
   ParticleList list;
   list.file = file;
   list.x = vectors(store.arrays.at(0));

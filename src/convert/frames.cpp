@@ -210,6 +210,9 @@ std::size_t convert_frames(const fs::path& from, FrameFormat format, const fs::p
       if (frame >= source.times.size()) continue;
       time = source.times[frame];
       stores.push_back(source.file.read(frame));
+      if (stores.back().lines)
+        throw FileError(source.file.path().string() +
+                        ": holds lines, which these formats cannot; use ParaView");
       stores.back().name = source.type;
     }
     const Box box = around(stores);

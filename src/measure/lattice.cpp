@@ -98,6 +98,7 @@ std::vector<Quantity> LatticeSimulation::measure(const ProbeConfig& p) {
     case ProbeType::front:
     case ProbeType::height:
     case ProbeType::flux:
+    case ProbeType::mixing:
     case ProbeType::wall_pressure:  // refused when the case is read
       break;
   }

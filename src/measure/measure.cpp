@@ -316,6 +316,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
   if (state_.has_grains) {
     const auto s = stepper_.solids().totals(state_.grains);
     out.push_back({"grain_mass", "kg", s.mass});
+    vec("grain_centre", "m", s.centre);
     vec("grain_momentum", "kg m/s", s.momentum);
     vec("grain_angular_momentum", "kg m2/s", s.angular);
     out.push_back({"grain_kinetic_energy", "J", s.kinetic});

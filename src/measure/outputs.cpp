@@ -285,6 +285,11 @@ void CoupledSimulation::add_blocks(HostStore& out) {
 }
 
 HostStore CoupledSimulation::snapshot(const std::string& name) {
+  if (name.starts_with("wear/") && state_.has_grains) {
+    const int body = wall_named(name.substr(5));
+    return stepper_.solids().wear()->frame(body, name, state_.motion.pose(body, state_.clock.time));
+  }
+  if (name == "contacts" && state_.has_grains) return stepper_.solids().contact_lines(state_.grains);
   HostStore out = outputs(name, kFrames);
   if (name != "walls" || out.count == 0 || !state_.motion.any_removed()) return out;
   const HostBytes bytes = out.find("body")->bytes;

@@ -153,6 +153,8 @@ std::vector<Quantity> CoupledSimulation::measure_one(const ProbeConfig& p) {
       return body_force(p);
     case ProbeType::wall_pressure:
       return wall_pressure(p);
+    case ProbeType::mixing:
+      return mixing(p);
   }
   return {};
 }
@@ -180,15 +182,13 @@ std::vector<Quantity> CoupledSimulation::point(const ProbeConfig& p) {
     with_fluid_kernel(config_.fluid, config_.domain, [&](const auto& w) {
       const CellGridView grid = stepper_.fluid().grid().view();
       const auto cells = grid.block(at, stepper_.fluid().range() + stepper_.fluid().skin());
-      const auto s = sum_over<5>(
-          {0, Index(cells.size())},
-          PointBody<std::decay_t<decltype(w)>>{
-              .grid = grid,
-              .cells = cells,
-              .w = w,
-              .at = at,
-              .fluid = {state_.frame, state_.fluid},
-              .owned = state_.fluid.owned().size()});
+      const auto s = sum_over<5>({0, Index(cells.size())},
+                                 PointBody<std::decay_t<decltype(w)>>{.grid = grid,
+                                                                      .cells = cells,
+                                                                      .w = w,
+                                                                      .at = at,
+                                                                      .fluid = {state_.frame, state_.fluid},
+                                                                      .owned = state_.fluid.owned().size()});
       std::copy(s.v, s.v + 5, sum);
     });
   const double nan = std::nan("");

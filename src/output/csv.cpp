@@ -56,9 +56,9 @@ void CsvTable::expect(const std::vector<Quantity>& row) const {
   if (const auto lines = lines_of(path_); !lines.empty()) compare(path_, lines[0], header_of(row));
 }
 
-void CsvTable::append(double time, const std::vector<Quantity>& row, bool begun) const {
+void CsvTable::append_rows(double time, const std::vector<std::vector<Quantity>>& rows, bool begun) const {
   std::string text, found;
-  const std::string header = header_of(row);
+  const std::string header = header_of(rows.at(0));
   if (std::filesystem::is_regular_file(path_)) {
     std::ifstream in(path_);
     std::getline(in, found);
@@ -69,9 +69,11 @@ void CsvTable::append(double time, const std::vector<Quantity>& row, bool begun)
     if (begun) must_be_there(path_);
     text = header + '\n';
   }
-  text += fmt::format("{}", time);
-  for (const auto& q : row) text += fmt::format(",{}", q.value);
-  text += '\n';
+  for (const auto& row : rows) {
+    text += fmt::format("{}", time);
+    for (const auto& q : row) text += fmt::format(",{}", q.value);
+    text += '\n';
+  }
 
   std::error_code none;
   const auto before = std::filesystem::file_size(path_, none);
@@ -92,7 +94,8 @@ std::vector<double> CsvTable::times() const {
   std::vector<double> times;
   for (std::size_t k = 1; k < lines.size(); ++k) {
     char* end = nullptr;
-    times.push_back(std::strtod(lines[k].c_str(), &end));
+    const double time = std::strtod(lines[k].c_str(), &end);
+    if (times.empty() || time != times.back()) times.push_back(time);
     if (end == lines[k].c_str() || columns(lines[k]) != columns(lines[0]))
       throw FileError(fmt::format("{}:{}: must be a row of {} numbers starting with the time: '{}'",
                                   path_.string(), k + 1, columns(lines[0]), lines[k]));
@@ -120,7 +123,13 @@ void CsvTable::keep(std::size_t count) const {
   if (!std::filesystem::exists(path_)) return;
   const auto lines = lines_of(path_);
   std::string text;
-  for (std::size_t k = 0; k < lines.size() && k <= count; ++k) text += lines[k] + '\n';
+  std::string last;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const std::string time = lines[k].substr(0, lines[k].find(','));
+    if (k > 0 && time != last && count-- == 0) break;
+    last = time;
+    text += lines[k] + '\n';
+  }
   write_file(path_, text);
 }
 

@@ -76,6 +76,8 @@ Handle open_group(hid_t parent, const std::string& name) {
   return Handle(H5Gopen2(parent, name.c_str(), H5P_DEFAULT));
 }
 
+bool has_member(hid_t group, const char* name) { return check(H5Lexists(group, name, H5P_DEFAULT)) > 0; }
+
 std::vector<std::string> members(hid_t group) {
   std::vector<std::string> names;
   const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {

@@ -155,6 +155,7 @@ struct RunOutput::Impl {
       if (std::any_of(series.tables.begin(), series.tables.end(),
                       [](const Table& t) { return t.body.has_value(); }))
         fs::create_directories(dir / "bodies");
+      if (config.wall.wears()) fs::create_directories(dir / "wear");
     } catch (const fs::filesystem_error& e) {
       throw FileError(fmt::format("{}: cannot write results there: {}", dir.string(), e.code().message()));
     }
@@ -181,7 +182,7 @@ struct RunOutput::Impl {
 
   /// Throws FileError, before anything is changed, if the run cannot continue the files in the folder.
   void examine(Simulation& simulation) const {
-    for (const fs::path& path : {dir, dir / "probes", dir / "bodies", dir / "checkpoints"})
+    for (const fs::path& path : {dir, dir / "probes", dir / "bodies", dir / "wear", dir / "checkpoints"})
       must_be_usable(path, fs::file_type::directory);
     for (const fs::path& path : files()) must_be_usable(path, fs::file_type::regular);
     const Leftovers others = leftovers(series, dir);
@@ -191,7 +192,7 @@ struct RunOutput::Impl {
     }
     for (const auto& t : series.tables) {
       must_increase(t.csv.path(), t.csv.times());
-      t.csv.expect(row_of(simulation, t));
+      t.csv.expect(rows_of(simulation, t).at(0));
     }
     for (const FrameFile& f : others.frames) must_increase(f.path(), f.times());
     for (const CsvTable& t : others.tables) must_increase(t.path(), t.times());
@@ -255,26 +256,29 @@ struct RunOutput::Impl {
       if (!wanted(t.schedule)) continue;
       const bool again = t.schedule.begun(), due = t.schedule.due(time);
       t.schedule.written(time);
-      std::vector<Quantity> row = row_of(simulation, t);
+      std::vector<std::vector<Quantity>> rows = rows_of(simulation, t);
       // an extra last row is removed by a restart, whose next mean includes its interval
       if (t.probe && due) simulation.begin_interval(*t.probe);
-      if (row_watcher) {
+      if (row_watcher && !t.spectra) {
         fs::path name = t.csv.path().lexically_relative(dir);
-        row_watcher(name.replace_extension().generic_string(), time, row);
+        for (const auto& row : rows) row_watcher(name.replace_extension().generic_string(), time, row);
       }
-      writer.post([csv = &t.csv, row = std::move(row), time, again] {
-        write_existing(csv->path(), again, [&] { csv->append(time, row, again); });
+      writer.post([csv = &t.csv, rows = std::move(rows), time, again] {
+        write_existing(csv->path(), again, [&] { csv->append_rows(time, rows, again); });
       });
     }
   }
 
   HostStore frame_of(Simulation& simulation, const std::string& store) const {
-    return chosen(simulation.snapshot(store), config.out.fields);
+    HostStore all = simulation.snapshot(store);
+    const bool particles = std::find(std::begin(kStores), std::end(kStores), store) != std::end(kStores);
+    return particles ? chosen(std::move(all), config.out.fields) : all;
   }
 
-  static std::vector<Quantity> row_of(Simulation& simulation, const Table& t) {
-    if (t.probe) return simulation.measure(*t.probe);
-    return t.body ? simulation.body_state(*t.body) : simulation.diagnostics();
+  static std::vector<std::vector<Quantity>> rows_of(Simulation& simulation, const Table& t) {
+    if (t.spectra) return simulation.spectra();
+    if (t.probe) return {simulation.measure(*t.probe)};
+    return {t.body ? simulation.body_state(*t.body) : simulation.diagnostics()};
   }
 
   fs::path post_checkpoint(Simulation& simulation) {

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kStores[] = {"fluid", "grains", "walls"};
+constexpr const char* kStores[] = {"fluid", "grains", "walls", "contacts"};
 constexpr const char* kTableFolders[] = {"probes", "bodies"};
 
 FrameFile frame_file(const fs::path& folder, const std::string& store, bool doubles = false) {
@@ -54,18 +54,22 @@ void Frames::refresh_xdmf(bool last) {
 
 Series series_of(const Config& c, const fs::path& folder) {
   Series s;
-  const auto frames_of = [&](const char* store) {
+  const auto frames_of = [&](const std::string& store) {
     s.frames.push_back(
         {store, frame_file(folder, store, c.precision == Precision::fp64), Schedule(c.out.every)});
   };
   if (c.fluid.present) frames_of("fluid");
   if (c.grain.present) frames_of("grains");
+  for (const WallBody& body : c.wall.bodies)
+    if (body.wear != WearLaw::none) frames_of("wear/" + body.name);
+  if (c.out.contacts != ContactFrames::none) frames_of("contacts");
   const bool wall_particles =
       c.fluid.present && !c.fluid.lattice() && !(c.wall.bodies.empty() && c.inlets.empty());
   if (c.out.walls && wall_particles) frames_of("walls");
 
   const auto every = [&](double own) { return Schedule(own > 0 ? own : c.out.every); };
   s.tables.push_back({{}, {}, CsvTable(folder / "diagnostics.csv"), every(c.out.diagnostics_every)});
+  if (c.out.spectra) s.tables.push_back({{}, {}, CsvTable(folder / "spectra.csv"), every(0), true});
   for (const auto& probe : c.out.probes)
     s.tables.push_back({probe, {}, CsvTable(folder / "probes" / (probe.name + ".csv")), every(probe.every)});
   const auto add_body = [&](int body, const std::string& name) {
@@ -91,13 +95,21 @@ Leftovers leftovers(const Series& series, const fs::path& folder) {
     if (std::none_of(series.frames.begin(), series.frames.end(),
                      [&](const Frames& f) { return f.store == store; }))
       left.frames.push_back(frame_file(folder, store));
+  std::error_code no_wear;
+  for (const auto& entry : fs::directory_iterator(folder / "wear", no_wear))
+    if (entry.path().extension() == ".vtkhdf" &&
+        std::none_of(series.frames.begin(), series.frames.end(),
+                     [&](const Frames& f) { return f.file.path() == entry.path(); }))
+      left.frames.emplace_back(entry.path());
+  const auto look = [&](const fs::path& path) {
+    if (is_table(path) && std::none_of(series.tables.begin(), series.tables.end(),
+                                       [&](const Table& t) { return t.csv.path() == path; }))
+      left.tables.emplace_back(path);
+  };
+  look(folder / "spectra.csv");
   for (const char* name : kTableFolders) {
     std::error_code none;
-    for (const auto& entry : fs::directory_iterator(folder / name, none))
-      if (is_table(entry.path()) &&
-          std::none_of(series.tables.begin(), series.tables.end(),
-                       [&](const Table& t) { return t.csv.path() == entry.path(); }))
-        left.tables.emplace_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(folder / name, none)) look(entry.path());
   }
   return left;
 }

@@ -44,10 +44,11 @@ struct Frames {
 };
 
 struct Table {
-  std::optional<ProbeConfig> probe;  ///< none: a body, or diagnostics
+  std::optional<ProbeConfig> probe;  ///< none: a body, diagnostics or spectra
   std::optional<int> body;           ///< index of a wall body or rigid group in Simulation
   CsvTable csv;
   Schedule schedule;
+  bool spectra = false;
 };
 
 struct Series {

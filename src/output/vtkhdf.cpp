@@ -21,6 +21,13 @@ using h5::open_dataset;
 using h5::read_integers;
 
 constexpr std::array kTopologies{"Vertices", "Lines", "Polygons", "Strips"};
+/// What the entries of a store are in its file.
+struct Cells {
+  std::size_t topology;       ///< in kTopologies
+  std::int64_t points;        ///< of each
+  const char *data, *starts;  ///< groups of the arrays, and of where they start in each frame
+};
+constexpr Cells kVertices{0, 1, "PointData", "PointDataOffsets"}, kLines{1, 2, "CellData", "CellDataOffsets"};
 constexpr std::size_t kSmallChunk = 256;      // rows, tables of steps and parts
 constexpr std::size_t kLargestChunk = 65536;  // rows, arrays of particles
 
@@ -28,11 +35,19 @@ void append_integer(hid_t parent, const std::string& name, std::int64_t value) {
   append_integers(parent, name, {value}, 1);
 }
 
-/// Positions as they are stored: in fp32 unless the file keeps doubles.
+const Cells& cells_of(const HostStore& store) { return store.lines ? kLines : kVertices; }
+const Cells& cells_of(hid_t root) {
+  return h5::has_member(root, kLines.data) && !h5::has_member(root, kVertices.data) ? kLines : kVertices;
+}
+
+/// Points as they are stored: in fp32 unless the file keeps doubles.
 HostArray stored_points(const HostArray& x, bool double_points) {
-  if (double_points || x.type != Scalar::f64) return x;
-  HostArray points{
-      .name = x.name, .unit = x.unit, .type = Scalar::f32, .components = x.components, .bytes = {}};
+  HostArray points{.name = x.name, .unit = x.unit, .type = x.type, .components = 3, .bytes = {}};
+  if (double_points || x.type != Scalar::f64) {
+    points.bytes = x.bytes;
+    return points;
+  }
+  points.type = Scalar::f32;
   const std::size_t n = x.bytes.size() / sizeof(double);
   points.bytes.resize(n * sizeof(float));
   std::transform(x.as<double>(), x.as<double>() + n, points.as<float>(), [](double v) { return float(v); });
@@ -63,18 +78,19 @@ void create_layout(const std::filesystem::path& path, const HostStore& store, co
   const auto integers = [](hid_t parent, const std::string& name, hsize_t columns, hsize_t chunk_rows) {
     return create_table(parent, name, H5T_STD_I64LE, columns, chunk_rows);
   };
+  const Cells& cells = cells_of(store);
   const hsize_t chunk = chunk_of(store.count);
   integers(root, "NumberOfPoints", 1, kSmallChunk);
   create_array(root, "Points", points, chunk, deflate);
   for (const char* name : kTopologies) {
     const Handle topology = h5::create_group(root, name);
-    const bool used = name == kTopologies[0];
+    const bool used = name == kTopologies[cells.topology];
     integers(topology, "NumberOfCells", 1, kSmallChunk);
     integers(topology, "NumberOfConnectivityIds", 1, kSmallChunk);
     integers(topology, "Connectivity", 1, used ? chunk : kSmallChunk);
     integers(topology, "Offsets", 1, used ? chunk : kSmallChunk);
   }
-  const Handle data = h5::create_group(root, "PointData");
+  const Handle data = h5::create_group(root, cells.data);
   const Handle steps = h5::create_group(root, "Steps");
   h5::write_integer(steps, "NSteps", 0);
   const Handle times = create_table(steps, "Values", H5T_IEEE_F64LE, 1, kSmallChunk);
@@ -83,7 +99,7 @@ void create_layout(const std::filesystem::path& path, const HostStore& store, co
     integers(steps, name, 1, kSmallChunk);
   for (const char* name : {"CellOffsets", "ConnectivityIdOffsets"})
     integers(steps, name, kTopologies.size(), kSmallChunk);
-  const Handle offsets = h5::create_group(steps, "PointDataOffsets");
+  const Handle offsets = h5::create_group(steps, cells.starts);
   for (std::size_t k = 1; k < store.arrays.size(); ++k) {
     create_array(data, store.arrays[k].name, store.arrays[k], chunk, deflate);
     integers(offsets, store.arrays[k].name, 1, kSmallChunk);
@@ -93,33 +109,43 @@ void create_layout(const std::filesystem::path& path, const HostStore& store, co
 /// Which rows of the file make up each frame.
 struct FrameIndex {
   std::vector<std::int64_t> parts, points;  // per frame: part, first point
-  std::vector<std::int64_t> counts;         // per part: points in it
+  std::vector<std::int64_t> counts;         // per part: entries in it
+  const Cells& cells;
 
-  explicit FrameIndex(hid_t root) {
+  explicit FrameIndex(hid_t root) : cells(cells_of(root)) {
     const Handle steps = h5::open_group(root, "Steps");
     const auto n = hsize_t(h5::read_integer(steps, "NSteps"));
     parts = read_integers(steps, "PartOffsets", n);
     points = read_integers(steps, "PointOffsets", n);
     const auto known = n == 0 ? 0 : *std::max_element(parts.begin(), parts.end()) + 1;
     counts = read_integers(root, "NumberOfPoints", hsize_t(known));
+    for (std::int64_t& count : counts) count /= cells.points;
   }
   std::size_t frames() const { return parts.size(); }
   std::int64_t count(std::size_t frame) const { return counts[parts[frame]]; }
 };
 
-/// Adds the vertex cells of one more particle count: 0, 1, ... n - 1.
-void append_part(hid_t root, std::int64_t n) {
-  append_integer(root, "NumberOfPoints", n);
+/// Adds the cells of one more number of entries, of the points 0, 1, ...
+void append_part(hid_t root, const Cells& cells, std::int64_t n) {
+  append_integer(root, "NumberOfPoints", n * cells.points);
   for (const char* name : kTopologies) {
     const Handle topology = h5::open_group(root, name);
-    const std::int64_t cells = name == kTopologies[0] ? n : 0;
-    std::vector<std::int64_t> ids(cells + 1);
+    const std::int64_t here = name == kTopologies[cells.topology] ? n : 0, points = here * cells.points;
+    std::vector<std::int64_t> ids(points), ends(here + 1);
     std::iota(ids.begin(), ids.end(), 0);
-    append_integer(topology, "NumberOfCells", cells);
-    append_integer(topology, "NumberOfConnectivityIds", cells);
-    append_integers(topology, "Connectivity", ids, hsize_t(cells));
-    append_integers(topology, "Offsets", ids, hsize_t(cells) + 1);
+    for (std::int64_t k = 0; k <= here; ++k) ends[k] = k * cells.points;
+    append_integer(topology, "NumberOfCells", here);
+    append_integer(topology, "NumberOfConnectivityIds", points);
+    append_integers(topology, "Connectivity", ids, hsize_t(points));
+    append_integers(topology, "Offsets", ends, hsize_t(here) + 1);
   }
+}
+
+/// Of each topology, where only that of the cells has any.
+std::vector<std::int64_t> at_topology(const Cells& cells, std::int64_t start) {
+  std::vector<std::int64_t> starts(kTopologies.size(), 0);
+  starts[cells.topology] = start;
+  return starts;
 }
 
 /// Row where this array starts in its table: appended, or where it already is.
@@ -131,16 +157,16 @@ std::int64_t place(hid_t table, const HostArray& a, std::int64_t last, bool same
   return start;
 }
 
-/// First number of one row.
-std::int64_t integer_of(hid_t parent, const std::string& name, hsize_t row) {
+/// One number of a row.
+std::int64_t integer_of(hid_t parent, const std::string& name, hsize_t row, std::size_t column = 0) {
   const Handle table = open_dataset(parent, name);
   const auto n = h5::extent(table);
   std::vector<std::int64_t> values(n.size() > 1 ? n[1] : 1);
   h5::read_rows(table, H5T_NATIVE_INT64, row, 1, values.data());
-  return values[0];
+  return values.at(column);
 }
-std::int64_t last_of(hid_t parent, const std::string& name, std::size_t frames) {
-  return frames == 0 ? 0 : integer_of(parent, name, frames - 1);
+std::int64_t last_of(hid_t parent, const std::string& name, std::size_t frames, std::size_t column = 0) {
+  return frames == 0 ? 0 : integer_of(parent, name, frames - 1, column);
 }
 
 /// Rows [first, first + count) of a stored array.
@@ -170,21 +196,25 @@ void truncate(hid_t root, std::size_t frames) {
     return end;
   };
   const auto parts = *std::max_element(index.parts.begin(), index.parts.begin() + frames) + 1;
-  const auto cells = std::accumulate(index.counts.begin(), index.counts.begin() + parts, std::int64_t{0});
+  const auto entries = std::accumulate(index.counts.begin(), index.counts.begin() + parts, std::int64_t{0});
+  const Cells& cells = index.cells;
 
   cut(root, "NumberOfPoints", parts);
-  cut(root, "Points", end_of(index.points));
+  std::int64_t points = 0;
+  for (std::size_t k = 0; k < frames; ++k)
+    points = std::max(points, index.points[k] + cells.points * index.count(k));
+  cut(root, "Points", points);
   for (const char* name : kTopologies) {
     const Handle topology = h5::open_group(root, name);
-    const std::int64_t here = name == kTopologies[0] ? cells : 0;
+    const std::int64_t here = name == kTopologies[cells.topology] ? entries : 0;
     cut(topology, "NumberOfCells", parts);
     cut(topology, "NumberOfConnectivityIds", parts);
-    cut(topology, "Connectivity", here);
+    cut(topology, "Connectivity", here * cells.points);
     cut(topology, "Offsets", here + parts);
   }
-  const Handle data = h5::open_group(root, "PointData");
+  const Handle data = h5::open_group(root, cells.data);
   const Handle steps = h5::open_group(root, "Steps");
-  const Handle offsets = h5::open_group(steps, "PointDataOffsets");
+  const Handle offsets = h5::open_group(steps, cells.starts);
   for (const auto& name : h5::members(data)) {
     cut(data, name, end_of(read_integers(offsets, name, frames)));
     cut(offsets, name, frames);
@@ -211,16 +241,20 @@ void check_array(hid_t parent, const std::string& name, const HostArray& a) {
 /// Throws unless frames of these arrays can follow those in the file. Either may lack some.
 void check_arrays(hid_t root, const HostArray& points, const HostStore& store) {
   check_array(root, "Points", points);
-  const Handle data = h5::open_group(root, "PointData");
+  const Handle data = h5::open_group(root, cells_of(store).data);
   const auto names = h5::members(data);
   for (std::size_t k = 1; k < store.arrays.size(); ++k)
     if (contains(names, store.arrays[k].name)) check_array(data, store.arrays[k].name, store.arrays[k]);
 }
 
-/// Throws if the file has points and the store is of places at equal distances, or the reverse.
+/// Throws unless the entries of file and store are of one kind.
 void check_kind(hid_t root, const HostStore& store) {
-  if (image::is_image(root) != store.grid.has_value())
-    throw h5::Error(std::string("it has frames of ") + (store.grid ? "particles" : "nodes") +
+  const bool nodes = image::is_image(root), lines = !nodes && &cells_of(root) == &kLines;
+  if (nodes != store.grid.has_value() || lines != store.lines)
+    throw h5::Error(std::string("it has frames of ") +
+                    (nodes   ? "nodes"
+                     : lines ? "lines"
+                             : "particles") +
                     "; give the restart another --out");
 }
 
@@ -237,9 +271,9 @@ HostArray absent(const std::string& name, const std::string& unit, Scalar type, 
 
 /// Adds the arrays that the file lacks. Its frames share as many absent values as the longest of them needs.
 void add_arrays(hid_t root, const HostStore& store, std::size_t frames, int deflate) {
-  const Handle data = h5::open_group(root, "PointData");
+  const Handle data = h5::open_group(root, cells_of(store).data);
   const auto names = h5::members(data);
-  const Handle offsets = h5::open_group(root, "Steps/PointDataOffsets");
+  const Handle offsets = h5::open_group(root, std::string("Steps/") + cells_of(store).starts);
   for (std::size_t k = 1; k < store.arrays.size(); ++k) {
     const HostArray& a = store.arrays[k];
     if (contains(names, a.name)) continue;
@@ -281,30 +315,32 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
   };
   const auto write = [&] {
     if (store.grid) return write_image();
+    const Cells& cells = cells_of(store);
     const HostArray points = stored_points(store.arrays.at(0), double_points_);
     if (first) create_layout(path_, store, points, deflate_);
     Handle file = h5::open_file(path_, h5::Mode::append);
     {
       const Handle root = h5::open_group(file, "VTKHDF");
       check_kind(root, store);
-      const Handle data = h5::open_group(root, "PointData");
+      const Handle data = h5::open_group(root, cells.data);
       const Handle steps = h5::open_group(root, "Steps");
-      const Handle offsets = h5::open_group(steps, "PointDataOffsets");
+      const Handle offsets = h5::open_group(steps, cells.starts);
       const auto frames = std::size_t(h5::read_integer(steps, "NSteps"));
       const std::int64_t last_part = last_of(steps, "PartOffsets", frames),
-                         last_cell = last_of(steps, "CellOffsets", frames),
-                         last_count = frames > 0 ? integer_of(root, "NumberOfPoints", last_part) : -1;
+                         last_cell = last_of(steps, "CellOffsets", frames, cells.topology),
+                         last_count =
+                             frames > 0 ? integer_of(root, "NumberOfPoints", last_part) / cells.points : -1;
       const bool same_count = last_count == std::int64_t(store.count);
       check_arrays(root, points, store);
       add_arrays(root, store, frames, deflate_);
 
       const std::int64_t part = same_count || frames == 0 ? last_part : last_part + 1,
                          first_cell = same_count || frames == 0 ? last_cell : last_cell + last_count;
-      if (!same_count) append_part(root, std::int64_t(store.count));
+      if (!same_count) append_part(root, cells, std::int64_t(store.count));
       append_integer(steps, "PartOffsets", part);
       append_integer(steps, "NumberOfParts", 1);
-      append_integers(steps, "CellOffsets", {first_cell, 0, 0, 0}, 1);
-      append_integers(steps, "ConnectivityIdOffsets", {first_cell, 0, 0, 0}, 1);
+      append_integers(steps, "CellOffsets", at_topology(cells, first_cell), 1);
+      append_integers(steps, "ConnectivityIdOffsets", at_topology(cells, first_cell * cells.points), 1);
       append_integer(
           steps, "PointOffsets",
           place(open_dataset(root, "Points"), points, last_of(steps, "PointOffsets", frames), same_count));
@@ -361,11 +397,14 @@ HostStore FrameFile::read(std::size_t frame) const {
     const FrameIndex index(root);
     if (frame >= index.frames()) throw h5::Error("no such frame");
     const std::int64_t count = index.count(frame);
+    const Cells& cells = index.cells;
     HostStore store{path_.stem().string(), std::size_t(count), {}};
-    store.arrays.push_back(read_array(root, "Points", index.points[frame], count));
-    store.arrays.back().name = "position";
-    const Handle data = h5::open_group(root, "PointData");
-    const Handle offsets = h5::open_group(root, "Steps/PointDataOffsets");
+    store.lines = &cells == &kLines;
+    store.arrays.push_back(read_array(root, "Points", index.points[frame], count * cells.points));
+    store.arrays.back().name = store.lines ? "ends" : "position";
+    store.arrays.back().components *= int(cells.points);
+    const Handle data = h5::open_group(root, cells.data);
+    const Handle offsets = h5::open_group(root, std::string("Steps/") + cells.starts);
     for (const auto& name : h5::members(data))
       store.arrays.push_back(read_array(data, name, read_integers(offsets, name, frame + 1).back(), count));
     return store;

@@ -33,7 +33,7 @@ Source source_of(hid_t parent, const std::string& name, const std::string& path,
   return {name,
           path,
           number_type(h5::scalar_of(table)),
-          h5::read_text(table, "unit"),
+          h5::has_attribute(table, "unit") ? h5::read_text(table, "unit") : "-",
           n[0],
           n.size() > 1 ? n[1] : 1,
           std::move(starts)};
@@ -123,8 +123,8 @@ std::string image_text(hid_t root, const std::string& file, const std::string& n
 
 void FrameFile::write_xdmf() const {
   std::vector<double> at;
-  std::vector<std::int64_t> counts;
-  Source points;
+  std::vector<std::int64_t> counts;  // of points
+  Source points, ends;               // ends: the two points of each line
   std::vector<Source> arrays;
   std::string images;
   const auto read = [&] {
@@ -135,8 +135,10 @@ void FrameFile::write_xdmf() const {
       return;
     }
     const Handle steps = h5::open_group(root, "Steps");
-    const Handle offsets = h5::open_group(steps, "PointDataOffsets");
-    const Handle data = h5::open_group(root, "PointData");
+    const bool lines = h5::has_member(root, "CellData");
+    const std::string group = lines ? "CellData" : "PointData";
+    const Handle offsets = h5::open_group(steps, group + "Offsets");
+    const Handle data = h5::open_group(root, group);
     const auto parts = h5::read_integers(steps, "PartOffsets", at.size());
     const auto sizes =
         h5::read_integers(root, "NumberOfPoints", hsize_t(parts.empty() ? 0 : parts.back() + 1));
@@ -144,7 +146,13 @@ void FrameFile::write_xdmf() const {
     points = source_of(root, "Points", "Points", h5::read_integers(steps, "PointOffsets", at.size()));
     for (const auto& name : h5::members(data))
       arrays.push_back(
-          source_of(data, name, "PointData/" + name, h5::read_integers(offsets, name, at.size())));
+          source_of(data, name, group + "/" + name, h5::read_integers(offsets, name, at.size())));
+    if (!lines) return;
+    ends = source_of(h5::open_group(root, "Lines"), "Connectivity", "Lines/Connectivity", {});
+    std::vector<std::int64_t> starts(4 * at.size());  // of four topologies, lines are the second
+    h5::read_rows(h5::open_dataset(steps, "ConnectivityIdOffsets"), H5T_NATIVE_INT64, 0, at.size(),
+                  starts.data());
+    for (std::size_t k = 0; k < at.size(); ++k) ends.starts.push_back(starts[4 * k + 1]);
   };
   at = times();
   if (at.empty()) return;
@@ -159,14 +167,23 @@ void FrameFile::write_xdmf() const {
   for (std::size_t k = 0; k < counts.size(); ++k) {
     fmt::format_to(out, "    <Grid Name=\"{}\" GridType=\"Uniform\">\n      <Time Value=\"{}\"/>\n",
                    path_.stem().string(), at[k]);
-    fmt::format_to(out, "      <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n", counts[k]);
+    const std::int64_t entries = ends.starts.empty() ? counts[k] : counts[k] / 2;
+    if (ends.starts.empty())
+      fmt::format_to(out, "      <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"{}\"/>\n", entries);
+    else
+      fmt::format_to(
+          out,
+          "      <Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" NumberOfElements=\"{}\">\n"
+          "{}      </Topology>\n",
+          entries, slab(file, ends, k, counts[k]));
     fmt::format_to(out, "      <Geometry GeometryType=\"XYZ\">\n{}      </Geometry>\n",
                    slab(file, points, k, counts[k]));
     for (const auto& a : arrays)
       fmt::format_to(out,
-                     "      <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"Node\">\n{}"
+                     "      <Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">\n{}"
                      "        <Information Name=\"unit\" Value=\"{}\"/>\n      </Attribute>\n",
-                     a.name, kind_of(a.columns), slab(file, a, k, counts[k]), a.unit);
+                     a.name, kind_of(a.columns), ends.starts.empty() ? "Node" : "Cell",
+                     slab(file, a, k, entries), a.unit);
     text += "    </Grid>\n";
   }
   text += "  </Grid>\n</Domain>\n</Xdmf>\n";

@@ -36,16 +36,22 @@ HostStore SolidSolver::save_contacts(const GrainStore& grains) const {
   const std::vector<Id> id = grains.id.values();
   std::vector<Id> lo, hi;
   std::vector<ContactHistory> kept;
+  const std::vector<ContactLoss> loss =
+      spectra_ ? spectra_->of_pairs().to_host() : std::vector<ContactLoss>{};
+  std::vector<ContactLoss> kept_loss;
   for (Index i = 0; i < list_.rows(); ++i)
     list.view().each(i, [&](std::uint64_t slot, Index j) {
       if (history[slot].overlap == 0 || id[i] > id[j]) return;  // both partners hold the same
       lo.push_back(id[i]), hi.push_back(id[j]);
       kept.push_back(history[slot]);
+      if (spectra_) kept_loss.push_back(loss[slot]);
     });
-  return {
+  HostStore out{
       "contacts",
       kept.size(),
       {to_array("lo", "-", lo), to_array("hi", "-", hi), to_array("history", HistoryParts::units(), kept)}};
+  if (spectra_) out.arrays.push_back(to_array("loss", "J", kept_loss));
+  return out;
 }
 
 void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostStore& contacts) {
@@ -59,23 +65,48 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
   const Id* lo = from_array<Id>(contacts, "lo", "-");
   const Id* hi = from_array<Id>(contacts, "hi", "-");
   const ContactHistory* kept = from_array<ContactHistory>(contacts, "history", HistoryParts::units());
-  std::map<std::uint64_t, const ContactHistory*> by_pair;
-  for (std::size_t c = 0; c < contacts.count; ++c) by_pair[pair_key(lo[c], hi[c])] = &kept[c];
+  const ContactLoss* kept_loss =
+      spectra_ && contacts.find("loss") ? from_array<ContactLoss>(contacts, "loss", "J") : nullptr;
+  std::map<std::uint64_t, std::size_t> by_pair;
+  for (std::size_t c = 0; c < contacts.count; ++c) by_pair[pair_key(lo[c], hi[c])] = c;
 
   const HostVerletList list(list_);
   const std::vector<Id> id = grains.id.values();
   std::vector<ContactHistory> history(list_.slots());
+  std::vector<ContactLoss> loss(spectra_ ? list_.slots() : 0);
   std::size_t found = 0;
   for (Index i = 0; i < list_.rows(); ++i)
     list.view().each(i, [&](std::uint64_t slot, Index j) {
       const auto it = by_pair.find(pair_key(std::min(id[i], id[j]), std::max(id[i], id[j])));
       if (it == by_pair.end()) return;
-      history[slot] = *it->second;
+      history[slot] = kept[it->second];
+      if (kept_loss) loss[slot] = kept_loss[it->second];
       ++found;
     });
   if (found != 2 * contacts.count)
     throw FileError("checkpoint: contacts between grains that are not near each other");
   histories_.assign(history);
+  if (spectra_) spectra_->of_pairs().assign(loss);
+}
+
+void SolidSolver::save_histograms(std::vector<HostStore>& stores) const {
+  if (wear_) wear_->save(stores);
+  if (!spectra_) return;
+  const auto bins = spectra_->bins().to_host();
+  stores.push_back({"spectra", bins.size(), {to_array("bins", "-", bins)}});
+}
+
+void SolidSolver::load_histograms(const std::vector<HostStore>& stores) {
+  if (wear_) wear_->load(stores);
+  if (!spectra_) return;
+  spectra_->bins().zero();
+  for (const HostStore& store : stores) {
+    if (store.name != "spectra") continue;
+    const SpectrumBin* const bins = from_array<SpectrumBin>(store, "bins", "-");
+    if (store.count != spectra_->bins().size())
+      throw FileError("checkpoint: spectra have other bins, materials or wall bodies than this case");
+    spectra_->bins().assign(std::vector<SpectrumBin>(bins, bins + store.count));
+  }
 }
 
 }  // namespace BL_SOLVER

@@ -59,9 +59,14 @@ void SolidSolver::begin_books(const GrainStore& g, const BodyPose* poses, const 
 void SolidSolver::count_flows(const GrainStore& g, const BodyPose* poses, double dt, const GrainKick& kick,
                               const Vec3d& gravity) {
   if (parameters_.contacts) {
-    books_->count(g.owned(), PairFlow{{}, contact_pass(g, dt), books_->of_pairs()});
-    books_->count({0, wall_list_.size()},
-                  WallFlow{{}, wall_contacts(g, poses, dt), wall_list_.rows(), books_->at_walls()});
+    const OpenLosses losses = spectra_ ? spectra_->view() : OpenLosses{};
+    books_->count(g.owned(), PairFlow{{}, contact_pass(g, dt), books_->of_pairs(), losses});
+    books_->count({0, wall_list_.size()}, WallFlow{{},
+                                                   wall_contacts(g, poses, dt),
+                                                   wall_list_.rows(),
+                                                   books_->at_walls(),
+                                                   losses,
+                                                   wear_ && dt > 0 ? wear_->view() : WallWear{}});
   }
   books_->count(g.owned(), kick_flow(g, dt, kick, gravity, dt == 0));
 }

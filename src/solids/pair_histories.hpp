@@ -41,6 +41,8 @@ class PairHistoryBuffersOf {
     each([&]<class Part>(Kept<Part>& part) { part.values.swap(o.template part<Part>().values); });
   }
 
+  /// By slot: 1 in contact.
+  std::vector<std::uint8_t> touching() const { return touching_.to_host(); }
   /// By slot, to the host and back; not in contact: overlap 0.
   std::vector<ContactHistory> to_host() const {
     const auto touching = touching_.to_host();

@@ -34,28 +34,41 @@ ContactLaw law_between(const GrainMaterial& material, const WallBody& body, cons
                            .contact = config.contact});
 }
 
+WearGrid patches_of(const WallBody& body, const Config& config) {
+  if (body.wear == WearLaw::none) return {};
+  const WearPatches patches(body, config.domain, config.grain.largest());
+  WearGrid grid{.lo = patches.lo, .size = patches.size, .k_over_H = body.k_over_H};
+  for (int k = 0; k < 3; ++k) grid.count[k] = int(patches.count[k]);
+  return grid;
+}
+
 }  // namespace
 
 SolidParameters solid_parameters(const Config& config) {
   const GrainConfig& g = config.grain;
-  SolidParameters p{.materials = g.all_materials(),
-                    .d_max = g.largest(),
-                    .d_min = g.smallest(),
-                    .skin = config.skin_grain * g.smallest(),
-                    .contacts = config.contact.normal != NormalLaw::none,
-                    .films = Lubrication::of(config.lubrication, config.fluid.mu),
-                    .gravity = config.gravity,
-                    .fixed = g.fixed,
-                    .exponential = config.couple.integrator == DragIntegrator::exponential,
-                    .drag_fraction = config.time.drag,
-                    .limits = SubstepLimits(config),
-                    .reflect = config.domain.reflect,
-                    .plane = config.domain.two_d,
-                    .energy = config.out.energy};
+  SolidParameters p{
+      .materials = g.all_materials(),
+      .d_max = g.largest(),
+      .d_min = g.smallest(),
+      .skin = config.skin_grain * g.smallest(),
+      .contacts = config.contact.normal != NormalLaw::none,
+      .films = Lubrication::of(config.lubrication, config.fluid.mu),
+      .gravity = config.gravity,
+      .fixed = g.fixed,
+      .exponential = config.couple.integrator == DragIntegrator::exponential,
+      .drag_fraction = config.time.drag,
+      .limits = SubstepLimits(config),
+      .reflect = config.domain.reflect,
+      .plane = config.domain.two_d,
+      .energy = config.out.energy || config.out.spectra || config.wall.wears(),
+      .spectra = {config.out.spectra_from, config.out.spectra ? int(config.out.spectra_bins) : 0},
+      .single_forces = config.out.contacts != ContactFrames::none};
   for (const GrainMaterial& a : p.materials)
     for (const GrainMaterial& b : p.materials) p.pair_laws.push_back(law_between(a, b, config));
   for (const WallBody& body : config.wall.bodies)
     for (const GrainMaterial& m : p.materials) p.wall_laws.push_back(law_between(m, body, config));
+  if (config.wall.wears())
+    for (const WallBody& body : config.wall.bodies) p.wear.push_back(patches_of(body, config));
   for (const int k : g.rigid_fills()) {
     const GrainFill& fill = g.fills[k];
     p.groups.push_back({k, g.material(fill.material), fill.velocity, fill.rigid});

@@ -1,6 +1,7 @@
 #pragma once
 // Parameters of the grain solver.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,6 +21,15 @@ struct RigidGroup {
   RigidConfig freedom;
 };
 
+/// Patches of a wall body, at t = 0.
+struct WearGrid {
+  Vec3d lo;                    ///< m
+  double size = 0;             ///< m; 0: wear is not asked for
+  std::array<int, 3> count{};  ///< along x, y, z
+  double k_over_H = 0;         ///< of Archard's law, 1/Pa
+  bool wears() const { return size > 0; }
+};
+
 struct SolidParameters {
   std::vector<GrainMaterial> materials;    ///< in the order of their numbers
   double d_max = 0, d_min = 0;             ///< of the largest and the smallest, m
@@ -37,6 +47,12 @@ struct SolidParameters {
   std::vector<RigidGroup> groups = {};
   bool plane = false;   ///< groups move in the xz plane
   bool energy = false;  ///< its flows are counted
+  struct Spectra {
+    double from = 0;                ///< J
+    int per_decade = 0;             ///< bins; 0: no spectra
+  } spectra = {};                   ///< of what contacts dissipate
+  std::vector<WearGrid> wear = {};  ///< [bodies]; empty: of none
+  bool single_forces = false;       ///< of contacts are recorded at the end of a step
 
   std::uint32_t bodies() const { return std::uint32_t(wall_laws.size() / materials.size()); }  ///< of walls
 };

@@ -51,6 +51,10 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
   with_contact_law(parameters.pair_laws, [&]<class Law>(std::type_identity<Law>) { use_pair_law<Law>(); });
   choose_wall_law();
   if (parameters.energy) books_ = std::make_unique<EnergyBooks>();
+  if (parameters.spectra.per_decade > 0)
+    spectra_ = std::make_unique<SpectraBooks>(parameters, grains, walls.contacts() > 0);
+  if (!parameters.wear.empty()) wear_ = std::make_unique<WearBooks>(parameters);
+  if (parameters.single_forces) forces_ = std::make_unique<SingleForces>();
   if (walls.contacts() == 0) return;
   wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
   wall_contacts_->resize(grains.size());
@@ -66,6 +70,7 @@ std::vector<const FieldBase*> SolidSolver::fields_of_contacts() const {
   std::vector<const FieldBase*> out;
   if (wall_contacts_) out.push_back(wall_contacts_.get());
   for (const auto& memory : wall_memory_) out.push_back(memory.get());
+  if (spectra_ && spectra_->field()) out.push_back(spectra_->field());
   return out;
 }
 
@@ -78,6 +83,7 @@ void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal
   if (renewal.any) for_each(grains.owned(), SourceIndexPass{renewal.source_index, order_});
   std::swap(list_, old_list_);
   histories_.swap(old_histories_);
+  if (spectra_) spectra_->put_aside();
   build_list(grains, grid);
   if (old_list_.rows() != (renewal.any ? renewal.before : grains.size())) return;
   const CarryHistoryPass carry{.from = old_list_.view(),
@@ -85,7 +91,9 @@ void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal
                                .long_rows = long_rows_.view(),
                                .order = order_,
                                .old_histories = old_histories_.view(),
-                               .histories = histories_.view()};
+                               .histories = histories_.view(),
+                               .old_losses = spectra_ ? spectra_->old_of_pairs() : nullptr,
+                               .losses = spectra_ ? spectra_->of_pairs().data() : nullptr};
   for_each(grains.owned(), carry);
   for_each({0, long_rows_.pieces() * LongRowsView::kPiece}, CarryLongHistoryPass{carry});
 }
@@ -124,6 +132,8 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
   for_each(grains.owned(), ContactsFirstPass{near, list_.view(), long_rows_.view(), list_.entries()});
   histories_.reset(list_.slots());
   wall_list_.forget();
+  if (spectra_) spectra_->renew(list_.slots());
+  if (forces_) forces_->forget();
 }
 
 // -- limits ------------------------------------------------------------------
@@ -205,8 +215,11 @@ void SolidSolver::evaluate_pieces(const ContactPass& contacts) {
 
 void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
   if (books_) books_->forget();
+  if (spectra_) spectra_->forget();
+  if (wear_) wear_->forget();
   FreeBodies* const free = moving();
   wall_list_.cover(g, poses, wall_counts(), 0);
+  record_forces(g, poses.data, 0);
   const ContactPass contacts = contacts_at(g, poses.data, 0, free ? free->record(g.size()) : ContactLoads{});
   evaluate(EvaluatePass{contacts, g.force, g.torque});
 }
@@ -220,6 +233,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   const auto contacts_in = [&](int s) {
     const BodyPose* const row = poses.data + std::size_t(s) * bodies;
     record_loads(s, g, row, tau);
+    if (s == substeps) record_forces(g, row, tau);
     return contacts_at(g, row, tau, loads);
   };
   substep_loads_.begin(substeps);

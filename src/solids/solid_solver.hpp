@@ -12,12 +12,15 @@
 #include "kernels/contact/lubrication_pass.hpp"
 #include "kernels/contact/registry.hpp"
 #include "kernels/stress/pair_moment.hpp"
+#include "src/solids/contact_frames.hpp"
 #include "src/solids/energy_books.hpp"
 #include "src/solids/grain_matter.hpp"
 #include "src/solids/pair_histories.hpp"
 #include "src/solids/parameters.hpp"
 #include "src/solids/rigid_groups.hpp"
+#include "src/solids/spectra_books.hpp"
 #include "src/solids/wall_list.hpp"
+#include "src/solids/wear_books.hpp"
 #include "src/walls/free_bodies.hpp"
 #include "src/walls/substep_loads.hpp"
 #include "src/walls/wall_geometry.hpp"
@@ -101,9 +104,11 @@ class SolidSolver {
 
   ParticleBytes scratch_bytes() const {
     const std::size_t by_level = parameters_.d_max < 2 * parameters_.d_min ? 0 : sizeof(Index);
-    return {.grains = of_grains_.entry_bytes() + (books_ ? EnergyBooks::kScratch : 0),
+    return {.grains = of_grains_.entry_bytes() + (books_ ? EnergyBooks::kScratch : 0) +
+                      (forces_ ? sizeof(Real3) * walls_.contacts() : 0),
             .near_grains = sizeof(Index) + by_level + histories_.entry_bytes() +
-                           (books_ ? sizeof(ContactAction) : 0)};
+                           (books_ ? sizeof(ContactAction) : 0) + (spectra_ ? 2 * sizeof(ContactLoss) : 0) +
+                           (forces_ ? sizeof(Real3) : 0)};
   }
 
   /// Histories of wall contacts.
@@ -121,6 +126,14 @@ class SolidSolver {
   void load(const std::vector<Quantity>& scalars) {
     if (books_) books_->load(scalars);
   }
+  /// Of what contacts have dissipated; null if the case does not ask.
+  const SpectraBooks* spectra() const { return spectra_.get(); }
+  /// Of wall bodies; null if none wears.
+  const WearBooks* wear() const { return wear_.get(); }
+  /// Adds stores of both.
+  void save_histograms(std::vector<HostStore>& stores) const;
+  /// Of a checkpoint without them: begins anew. Throws FileError for those of another kind.
+  void load_histograms(const std::vector<HostStore>& stores);
   /// Number of contacts of grains with walls that are left out (kMostWallContacts). poses: as in body_loads.
   double dropped_contacts(const GrainStore& grains, Span<const BodyPose> poses) const;
   /// Load of the grains on each wall body, about its centre; poses: [bodies] on the device.
@@ -129,6 +142,10 @@ class SolidSolver {
   /// By which grains and bodies moved in the substeps of the last step, for bodies on which they are
   /// recorded.
   SubstepLoads& substep_loads() { return substep_loads_; }
+
+  /// The contacts at the end of the last step as lines, by ids, if the case asks for them; none before the
+  /// first step after a state was loaded.
+  HostStore contact_lines(const GrainStore& grains) const;
 
   /// Force moments of the contacts between grains, per grain, J.
   void contact_moments(const GrainStore& grains, Buffer<PairMoment<>>& out) const;
@@ -199,6 +216,8 @@ class SolidSolver {
   void end_books(const GrainStore& grains, const GrainKick& kick);
   KickFlow kick_flow(const GrainStore& grains, double dt, const GrainKick& kick, const Vec3d& gravity,
                      bool begins) const;
+  /// Forces of single contacts in a substep dt, before they are evaluated, if the case asks for them.
+  void record_forces(const GrainStore& grains, const BodyPose* poses, double dt);
   /// What the grains do in substep s to bodies with prescribed motion. dt: of the substep, s: before contacts
   /// are evaluated, which moves their springs; 0: after.
   void record_loads(int s, const GrainStore& grains, const BodyPose* poses, double dt);
@@ -236,9 +255,12 @@ class SolidSolver {
   PairHistoryBuffers old_histories_;
   WallList wall_list_;
   SubstepLoads substep_loads_;
-  std::unique_ptr<EnergyBooks> books_;  ///< null: not asked for
-  Buffer<ContactSum> by_walls_;   ///< [rows of wall_list_]
-  Buffer<ContactSum> by_pieces_;  ///< [pieces of long_rows_]
+  std::unique_ptr<EnergyBooks> books_;     ///< null: not asked for
+  std::unique_ptr<SpectraBooks> spectra_;  ///< likewise
+  std::unique_ptr<WearBooks> wear_;        ///< likewise
+  std::unique_ptr<SingleForces> forces_;   ///< likewise
+  Buffer<ContactSum> by_walls_;            ///< [rows of wall_list_]
+  Buffer<ContactSum> by_pieces_;           ///< [pieces of long_rows_]
   Buffer<Index> order_;
   Scratch of_grains_;
   ScratchArray<ContactSum> by_films_{of_grains_, lubricates()};

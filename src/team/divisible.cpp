@@ -15,6 +15,10 @@ void refuse_undivided(const Config& c) {
   if (!c.fluid.present) refuse("fluid", "a case without fluid");
   if (c.fluid.lattice()) refuse("fluid.model", "fluid on a lattice");
   if (c.grain.present) refuse("grain", "a case with grains");
+  for (std::size_t k = 0; k < c.wall.bodies.size(); ++k)
+    if (c.wall.bodies[k].wear != WearLaw::none) refuse(fmt::format("wall.body.{}.wear", k), "wear of walls");
+  if (c.out.spectra) refuse("out.spectra", "spectra of contacts");
+  if (c.out.contacts != ContactFrames::none) refuse("out.contacts", "frames of contacts");
   if (c.wall.energy_consistent && c.wall.suction)
     refuse("wall.energy_consistent", "work of the pressure of walls");
   for (std::size_t k = 0; k < c.fluid.fills.size(); ++k)

@@ -45,6 +45,7 @@ class CoupledSimulation final : public Simulation {
   HostStore rheology(const std::string& store) override;
   std::vector<FieldView> fields(const std::string& store) override;
   std::vector<Quantity> diagnostics() override;
+  std::vector<std::vector<Quantity>> spectra() override;
   std::vector<Quantity> measure(const ProbeConfig& probe) override;
   void begin_interval(const ProbeConfig& probe) override;
   std::vector<Loss> losses() override;
@@ -71,7 +72,8 @@ class CoupledSimulation final : public Simulation {
   std::vector<const FieldBase*> written(const Store& store, Use by) const;
   /// These and what is computed, in their order.
   HostStore outputs(const std::string& store, Use by);
-  /// Adds an array "block" with the block of cells of each particle, by which parts of ranks are put together.
+  /// Adds an array "block" with the block of cells of each particle, by which parts of ranks are put
+  /// together.
   void add_blocks(HostStore& out);
   struct WallForces {
     Buffer<Vec3d> pressure, friction;
@@ -110,6 +112,7 @@ class CoupledSimulation final : public Simulation {
   std::vector<Quantity> flux(const ProbeConfig& probe);
   std::vector<Quantity> body_force(const ProbeConfig& probe);
   std::vector<Quantity> wall_pressure(const ProbeConfig& probe);
+  std::vector<Quantity> mixing(const ProbeConfig& probe);
 
   const Config config_;
   State state_;

@@ -94,8 +94,8 @@ void Stepper::initialise_fluid(Step& now) {
   Buffer<Real> device;
   device.assign(pressure);
   for_each(fluid_.all(), InitialDensityPass{fluid_solver_->eos(), frame_,
-                                              two_way() ? Span<const Real>(fluid_.eps) : Span<const Real>(),
-                                              device, fluid_.mass, fluid_.compression});
+                                            two_way() ? Span<const Real>(fluid_.eps) : Span<const Real>(),
+                                            device, fluid_.mass, fluid_.compression});
 }
 
 void Stepper::settle(double longest, const std::function<void(double)>& progress) {
@@ -150,7 +150,7 @@ void Stepper::save(SavedState& out) const {
   out.scalars.push_back({"rebuilds", "-", double(rebuilds_)});
   if (has_fluid()) fluid_solver_->save(out.scalars);
   if (coupled()) coupling_->save(out.scalars);
-  if (has_grains()) solid_solver_->save(out.scalars);
+  if (has_grains()) solid_solver_->save(out.scalars), solid_solver_->save_histograms(out.stores);
 }
 
 void Stepper::load(const SavedState& saved) {
@@ -163,7 +163,8 @@ void Stepper::load(const SavedState& saved) {
     corrected_ = 0;
   }
   if (coupled()) coupling_->load(scalar);
-  if (has_grains()) load_grain_store(saved), solid_solver_->load(saved.scalars);
+  if (has_grains())
+    load_grain_store(saved), solid_solver_->load(saved.scalars), solid_solver_->load_histograms(saved.stores);
   if (has_fluid()) fluid_solver_->keep_own(fluid_, walls_, true);
   restore_lists(saved);
   if (has_fluid()) fluid_solver_->survey(fluid_);

@@ -170,6 +170,7 @@ max_lost = 0.1
 every = 0.02
 diagnostics_every = 0.01
 bodies = "all"
+contacts = "touching"
 walls = true
 fields = ["velocity", "pressure"]
 [checkpoint]

@@ -110,7 +110,9 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Missing, CaseErrors,
     testing::Values(
-        Wrong{"dx = 0.004\n", "", "dam.toml:5: fluid.dx must be given (initial particle spacing; lattice: spacing of the nodes, which "
+        Wrong{"dx = 0.004\n", "",
+              "dam.toml:5: fluid.dx must be given (initial particle spacing; lattice: spacing of the nodes, "
+              "which "
               "must divide the domain, m)"},
         Wrong{"[time]\nend = 0.3\n", "", "dam.toml: time.end must be given (end time of the run, s)"},
         Wrong{"shape = \"tank\"", "shape = \"tnk\"",
@@ -209,6 +211,17 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"every = 0.01", "every = 0.01\nenergy = true\n[lubrication]\nforces = \"normal\"",
               "dam.toml:25: out.energy = true must be false with lubrication.forces, whose losses are not "
               "counted"},
+        Wrong{"every = 0.01", "every = 0.01\nspectra = true\n[lubrication]\nforces = \"normal\"",
+              "dam.toml:25: out.spectra = true must be false with lubrication.forces, whose losses are not "
+              "counted"},
+        Wrong{"[grain]\nd = 0.002", "wear = \"archard\"\n[grain]\nd = 0.002",
+              "dam.toml:10: wall.body.k_over_H must be given (dimensionless wear coefficient of Archard's "
+              "law over "
+              "the hardness of the wall, 1/Pa)"},
+        Wrong{"[grain]\nd = 0.002",
+              "wear = \"archard\"\nk_over_H = 1e-13\nwear_patch = 1e-5\n[grain]\nd = 0.002",
+              "dam.toml:17: wall.body.wear_patch = 1e-05 m must be larger: the map of the body has 4e+12 "
+              "patches, of at most 4e+06"},
         Wrong{"[grain]\nd = 0.002", "material = \"iron\"\n[grain]\nd = 0.002",
               "dam.toml:15: wall.body.material = \"iron\" must name a grain.material; this case has none"},
         Wrong{"[time]", "[drag]\nlaw = \"gidspow\"\n[time]",

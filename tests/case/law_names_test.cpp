@@ -62,6 +62,7 @@ TEST(SetupNames, GoThroughACaseFile) {
       "preset", {{"robinson2014", {"contact.k=1000"}}, {"democritus", {"eos.p0=4000", "couple.hc=0.02"}}});
   expect_round_trips<Precision>("run.precision");
   expect_round_trips<Simd>("run.simd");
+  expect_round_trips<ContactFrames>("out.contacts");
   expect_round_trips<BodyTables>("out.bodies");
   const std::string motion = "wall.body.0.motion.";
   const std::vector<std::string> wave{motion + "wave_height=0.01", motion + "wave_period=1",

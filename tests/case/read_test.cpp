@@ -453,6 +453,7 @@ TEST(ParameterTable, TakesChoicesFromTheirRegistry) {
   expect_choices<ViscosityModel>("visc.model");
   expect_choices<WallType>("wall.type");
   expect_choices<WallType>("wall.body.type");
+  expect_choices<WearLaw>("wall.body.wear");
   expect_choices<WallSlip>("wall.slip");
   expect_choices<LayerForce>("wall.force");
   expect_choices<CouplingMode>("couple.mode");
@@ -484,6 +485,7 @@ TEST(ParameterTable, TakesChoicesFromTheirRegistry) {
   expect_choices<ProbeType>("probe.type");
   expect_choices<Phase>("probe.phase");
   expect_choices<ForceSample>("probe.sample");
+  expect_choices<ContactFrames>("out.contacts");
   expect_choices<BodyTables>("out.bodies");
 }
 

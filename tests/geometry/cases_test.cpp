@@ -27,6 +27,7 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"dam_break_single_phase/case.toml", {37 * 73 * 10, 0}},
       {"dam_break_two_phase/case.toml", {17 * 33 * 50, 7762}},
       {"ball_in_oil/case.toml", {238505, 0}},
+      {"ball_mill/case.toml", {0, 1733}},
       {"elliptic_drop/case.toml", {13776, 0}},
       {"elliptic_drop/variable_h.toml", {1968, 0}},
       {"ergun_bed/beads_1000um.toml", {3800, 1458}},

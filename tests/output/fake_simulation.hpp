@@ -21,6 +21,25 @@ HostArray array_of(const std::string& name, const std::string& unit, Scalar type
   return a;
 }
 
+/// Lines at step k, 3, 0, 5, 5 .. of them; line n goes from (n, k, 0) to (n, k, 1).
+inline HostStore line_frame(int k) {
+  const std::size_t count = k == 0 ? 3 : k == 1 ? 0 : k < 12 ? 5 : 4;
+  std::vector<double> ends;
+  std::vector<float> force;
+  std::vector<std::uint32_t> id;
+  for (std::size_t n = 0; n < count; ++n) {
+    for (const double z : {0.0, 1.0}) ends.insert(ends.end(), {double(n), double(k), z});
+    force.push_back(float(10 * k) + float(n));
+    id.push_back(std::uint32_t(n + 7));
+  }
+  HostStore store{"contacts",
+                  count,
+                  {array_of("ends", "m", Scalar::f64, 6, ends), array_of("force", "N", Scalar::f32, 1, force),
+                   array_of("id", "-", Scalar::u32, 1, id)}};
+  store.lines = true;
+  return store;
+}
+
 class FakeSimulation : public Simulation {
  public:
   static constexpr double kDt = 0.03;
@@ -50,6 +69,7 @@ class FakeSimulation : public Simulation {
 
   std::vector<FieldView> fields(const std::string&) override { return {}; }
   HostStore snapshot(const std::string& store) override {
+    if (store == "contacts") return line_frame(int(steps_));
     const auto n = std::size_t(store == "fluid"    ? counts().fluid
                                : store == "grains" ? counts().grains
                                                    : counts().walls);
@@ -71,6 +91,13 @@ class FakeSimulation : public Simulation {
   HostStore rheology(const std::string& store) override { return {store, 0, {}}; }
   std::vector<Quantity> diagnostics() override {
     return {{"fluid mass", "kg", 0.1 * double(counts().fluid)}, {"kinetic energy", "J", time_ * time_}};
+  }
+  /// A bin more every ten steps.
+  std::vector<std::vector<Quantity>> spectra() override {
+    std::vector<std::vector<Quantity>> rows;
+    for (int k = 0; k <= steps_ / 10; ++k)
+      rows.push_back({{"from", "J", 1e-3 * k}, {"count", "-", double(steps_)}});
+    return rows;
   }
   std::vector<Quantity> measure(const ProbeConfig& probe) override { return {{probe.name, "m", time_ / 3}}; }
   void begin_interval(const ProbeConfig& probe) override { intervals.push_back({probe.name, time_}); }
@@ -109,6 +136,8 @@ inline Config fake_config() {
   c.wall.bodies.emplace_back().name = "tank";
   c.out.every = 0.1;
   c.out.diagnostics_every = 0.05;
+  c.out.contacts = "touching";
+  c.out.spectra = true;
   auto& probe = c.out.probes.emplace_back();
   probe.name = "gauge";
   probe.type = "front";

@@ -123,6 +123,30 @@ def check_nodes(path):
             compare("solid", vtk_to_numpy(data.GetArray("solid")), n % 4 == 0, 0)
 
 
+def check_lines(path):
+    """Lines, by both readers: fake_simulation.hpp has the formulas."""
+    reader = open_frames(path, 4)
+    xdmf = vtkXdmfReader()
+    xdmf.SetFileName(str(path.with_suffix(".xdmf")))
+    xdmf.UpdateInformation()
+    for k in (0, 2, 3, 1):
+        n = np.arange([3, 0, 5, 5][k], dtype=float)
+        reader.SetStep(k)
+        reader.Update()
+        xdmf.UpdateTimeStep(0.5 * k)
+        for frame in (reader.GetOutput(), xdmf.GetOutputDataObject(0)):
+            if frame.GetNumberOfCells() != len(n):
+                raise SystemExit(f"{path.name} frame {k}: {frame.GetNumberOfCells()} lines, expected {len(n)}")
+            if not len(n):
+                continue
+            for line in range(len(n)):
+                ends = [frame.GetPoint(frame.GetCell(line).GetPointId(end)) for end in (0, 1)]
+                compare(f"{path.name} frame {k} line", ends, np.array([[line, k, 0], [line, k, 1]]), 1e-6)
+            data = frame.GetCellData()
+            compare(f"{path.name} frame {k} force", vtk_to_numpy(data.GetArray("force")), 10 * k + n, 1e-6)
+            compare(f"{path.name} frame {k} id", vtk_to_numpy(data.GetArray("id")), 7 + n, 0)
+
+
 def main():
     folder = Path(sys.argv[1])
     for store in ("fluid", "grains", "walls"):
@@ -133,6 +157,7 @@ def main():
     check_frames(folder / "restarted_fluid.vtkhdf", "fluid", range(5))
     check_xdmf(folder / "restarted_fluid.xdmf", "fluid")
     check_nodes(folder / "nodes.vtkhdf")
+    check_lines(folder / "contacts.vtkhdf")
     check_emptied(folder / "emptied.vtkhdf")
 
 

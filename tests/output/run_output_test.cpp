@@ -47,10 +47,10 @@ class RunFolder : public ::testing::Test {
     out.finish(s, "completed", {2.0, 100});
   }
   void expect_same_results(const fs::path& a, const fs::path& b) {
-    for (const char* name : {"diagnostics.csv", "probes/gauge.csv", "fluid.xdmf", "grains.xdmf", "walls.xdmf",
-                             "checkpoints/step_000000025.h5"})
+    for (const char* name : {"diagnostics.csv", "probes/gauge.csv", "spectra.csv", "fluid.xdmf",
+                             "grains.xdmf", "walls.xdmf", "contacts.xdmf", "checkpoints/step_000000025.h5"})
       EXPECT_EQ(read_file(a / name), read_file(b / name)) << name;
-    for (const char* name : {"fluid.vtkhdf", "grains.vtkhdf", "walls.vtkhdf"})
+    for (const char* name : {"fluid.vtkhdf", "grains.vtkhdf", "walls.vtkhdf", "contacts.vtkhdf"})
       EXPECT_EQ(FrameFile(a / name).times(), FrameFile(b / name).times()) << name;
   }
   test::TemporaryFolder folder;
@@ -314,6 +314,17 @@ TEST_F(RunFolder, WriterErrorSurfacesInALaterStep) {
     out.finish(s, "completed", {1, 1});
   });
   EXPECT_NE(message.find("grains.vtkhdf: cannot write: "), std::string::npos) << message;
+}
+
+TEST(CsvTable, HasSeveralRowsOfOneTime) {
+  const test::TemporaryFolder folder;
+  const CsvTable table(folder / "spectra.csv");
+  for (const double time : {0.0, 1.0, 2.0})
+    table.append_rows(time,
+                      {{{"from", "J", 1}, {"count", "-", time}}, {{"from", "J", 2}, {"count", "-", 5}}});
+  EXPECT_EQ(table.times(), (std::vector<double>{0, 1, 2}));
+  table.keep(2);
+  EXPECT_EQ(read_file(table.path()), "time [s],from [J],count [-]\n0,1,0\n0,2,5\n1,1,1\n1,2,5\n");
 }
 
 TEST(CsvTable, OtherColumnsAreRefused) {

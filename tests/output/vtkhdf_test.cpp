@@ -137,6 +137,34 @@ TEST(FrameFile, DroppedFramesLeaveNoTrace) {
   }
 }
 
+/// Also when the last ones were cut off and written anew.
+TEST(FrameFile, HoldsLinesOfAChangingNumber) {
+  const test::TemporaryFolder folder;
+  const FrameFile frames(folder / "contacts.vtkhdf", true), cut(folder / "cut.vtkhdf", true);
+  for (int k = 0; k < 4; ++k) frames.append(line_frame(k), k), cut.append(line_frame(k), k);
+  cut.keep(2);
+  for (int k = 2; k < 4; ++k) cut.append(line_frame(k), k);
+  for (const FrameFile* file : {&frames, &cut})
+    for (int k = 0; k < 4; ++k) {
+      const HostStore found = file->read(std::size_t(k)), wanted = line_frame(k);
+      EXPECT_TRUE(found.lines);
+      ASSERT_EQ(found.count, wanted.count) << k;
+      for (const HostArray& a : wanted.arrays) {
+        ASSERT_NE(found.find(a.name), nullptr) << a.name;
+        EXPECT_EQ(found.find(a.name)->components, a.components);
+        EXPECT_TRUE(found.find(a.name)->bytes == a.bytes) << a.name << k;
+      }
+    }
+  const h5::Handle a = h5::open_file(frames.path(), h5::Mode::read),
+                   b = h5::open_file(cut.path(), h5::Mode::read);
+  for (const char* name : {"NumberOfPoints", "Points", "Lines/Connectivity", "Lines/Offsets", "CellData/id"})
+    EXPECT_EQ(rows(b, std::string("VTKHDF/") + name), rows(a, std::string("VTKHDF/") + name)) << name;
+  EXPECT_EQ(rows(a, "VTKHDF/Lines/Connectivity"), 2 * (3 + 0 + 5));
+  EXPECT_EQ(rows(a, "VTKHDF/CellData/id"), 3 + 5) << "the same in the last two frames";
+  FakeSimulation s;
+  EXPECT_THROW(frames.append(s.snapshot("fluid"), 5), FileError);
+}
+
 HostStore without(HostStore store, const std::string& name) {
   std::erase_if(store.arrays, [&](const HostArray& a) { return a.name == name; });
   return store;
@@ -237,6 +265,9 @@ TEST(FrameFile, VtkReadsEveryFrame) {
   const FrameFile nodes(folder / "nodes.vtkhdf");
   for (int k = 0; k < 3; ++k) nodes.append(node_frame(k), 0.5 * k);
   nodes.write_xdmf();
+  const FrameFile lines(folder / "contacts.vtkhdf");
+  for (int k = 0; k < 4; ++k) lines.append(line_frame(k), 0.5 * k);
+  lines.write_xdmf();
   HostStore none = s.snapshot("walls");  // a store that empties, and fills again
   const FrameFile emptied(folder / "emptied.vtkhdf");
   emptied.append(none, 0);

@@ -90,12 +90,12 @@ velocity = [0.1, 0, -0.1]
              spin = vectors(grains, "angular_velocity"), drag = vectors(grains, "drag_force"),
              pushed = vectors(grains, "fluid_force");
   const auto R = scalars(grains, "radius");
-  Vec3d momentum, angular, force;
+  Vec3d centre, momentum, angular, force;
   double mass = 0, kinetic = 0, rotational = 0, potential = 0, fastest = 0, contacts = 0, deepest = 0,
          far = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double m = 4.0 / 3 * M_PI * cube(R[i]) * c.grain.rho, inertia = 0.4 * m * R[i] * R[i];
-    mass += m, momentum += m * v[i], angular += cross(x[i], m * v[i]) + inertia * spin[i];
+    mass += m, centre += m * x[i], momentum += m * v[i], angular += cross(x[i], m * v[i]) + inertia * spin[i];
     kinetic += 0.5 * m * norm2(v[i]), rotational += 0.5 * inertia * norm2(spin[i]);
     potential -= m * dot(c.gravity, x[i]);
     fastest = std::max(fastest, norm(v[i]));
@@ -110,6 +110,7 @@ velocity = [0.1, 0, -0.1]
   ASSERT_GT(rotational, 1e-12);
   EXPECT_EQ(reading(d, "grain_count"), double(x.size()));
   EXPECT_NEAR(reading(d, "grain_mass"), mass, 1e-6 * mass);
+  expect_near(vector_in(d, "grain_centre"), centre * (1 / mass), 0.1, "centre of mass");
   expect_near(vector_in(d, "grain_momentum"), momentum, mass * fastest, "momentum");
   expect_near(vector_in(d, "grain_angular_momentum"), angular, 0.1 * mass * fastest, "angular momentum");
   EXPECT_NEAR(reading(d, "grain_kinetic_energy"), kinetic, 1e-5 * kinetic);

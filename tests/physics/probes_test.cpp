@@ -312,5 +312,57 @@ TEST(SmallFluxProbe, CountsWhatPasses) {
   EXPECT_NEAR(reading(s->measure(p), "volume_flow"), -0.1 * 0.16 * 0.06, 1e-5 * 0.16 * 0.06);
 }
 
+/// 8 x 8 x 8 grains, steel where `steel(i, j, k)`, and larger.
+template <class Steel>
+std::vector<Quantity> mixing_of(const ProbeConfig& probe, const Steel& steel) {
+  Config c = block();
+  c.fluid.present = false, c.fluid.fills.clear(), c.wall.bodies.clear();
+  c.gravity = {};
+  c.grain.present = true;
+  c.grain.d = 2e-3, c.grain.d_min = 2e-3, c.grain.d_max = 3e-3;
+  c.grain.materials.resize(1);
+  c.grain.materials[0].name = "steel";
+  c.grain.materials[0] = c.grain.completed(c.grain.materials[0]);
+  c.grain.fills.resize(2);
+  c.grain.fills[1].material = "steel";
+  bedload::Setup setup;
+  for (int k = 0; k < 8; ++k)
+    for (int j = 0; j < 8; ++j)
+      for (int i = 0; i < 8; ++i) {
+        const bool is = steel(i, j, k);
+        setup.grains.x.push_back(5e-3 * Vec3d{i + 0.5, j + 0.5, k + 0.5});
+        setup.grains.v.push_back({});
+        setup.grains.radius.push_back(is ? 1.5e-3 : 1e-3);
+        setup.grains.fill.push_back(is);
+      }
+  return started(c, setup)->measure(probe);
+}
+
+TEST(SmallProbes, TellHowWellGrainsAreMixed) {
+  ProbeConfig steel;
+  steel.name = "mixing", steel.type = "mixing", steel.of = "steel";
+  steel.min = {0, 0, 0}, steel.max = {0.04, 0.04, 0.04}, steel.cell = 0.02;
+  ProbeConfig large = steel;
+  large.of = "", large.larger_than = 2.5e-3;
+  for (const ProbeConfig& probe : {steel, large}) {
+    const auto apart = mixing_of(probe, [](int, int, int k) { return k < 4; });
+    EXPECT_NEAR(reading(apart, "lacey"), 0, 1e-12);
+    EXPECT_EQ(reading(apart, "cells"), 8);
+    EXPECT_EQ(reading(apart, "count"), 256);
+    EXPECT_EQ(reading(apart, "count_others"), 256);
+    EXPECT_NEAR(reading(apart, "centre_z"), 0.01, 1e-9);
+    EXPECT_NEAR(reading(apart, "centre_others_z"), 0.03, 1e-9);
+    EXPECT_NEAR(reading(apart, "centre_others_x"), 0.02, 1e-9);
+    const auto regular = mixing_of(probe, [](int i, int j, int k) { return (i + j + k) % 2 == 0; });
+    EXPECT_NEAR(reading(regular, "lacey"), 64.0 / 63, 1e-12) << "more even than at random";
+    // cells of 64 with a fraction of 1/4 and of 3/4
+    const auto half = mixing_of(probe, [](int i, int, int k) { return i % 4 < (k < 4 ? 1 : 3); });
+    EXPECT_NEAR(reading(half, "lacey"), (0.25 - 0.0625) / (0.25 - 0.25 / 64), 1e-12);
+  }
+  ProbeConfig none = steel;
+  none.max = {0.04, 0.04, 0.02};  // of one kind
+  EXPECT_TRUE(std::isnan(reading(mixing_of(none, [](int, int, int k) { return k < 4; }), "lacey")));
+}
+
 }  // namespace
 }  // namespace BL_SOLVER

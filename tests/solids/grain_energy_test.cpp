@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <tuple>
 
 #include "tests/support/free_body.hpp"
 #include "tests/support/grain_bench.hpp"
@@ -18,6 +19,21 @@ Terms by_name(const std::vector<Quantity>& rows) {
   return terms;
 }
 Terms terms_of(const GrainBench& b) { return by_name(b.solver->energy_terms(*b.grains)); }
+/// Of the contacts that have ended, over all bins and classes: how many, and the energy by kind, J.
+struct Ended {
+  double count = 0, energy[ContactSpectra::kKinds] = {};
+};
+Ended ended(const SolidSolver& solver) {
+  const ContactSpectra& layout = solver.spectra()->layout();
+  const auto bins = solver.spectra()->bins().to_host();
+  Ended sum;
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    const int kind = int(k / std::size_t(layout.size()) % ContactSpectra::kKinds);
+    if (kind == 0) sum.count += double(bins[k].count);
+    sum.energy[kind] += bins[k].energy.value() * layout.unit();
+  }
+  return sum;
+}
 double dissipated(Terms terms) {
   return terms["grain_dissipated_normal"] + terms["grain_dissipated_sliding"] +
          terms["grain_dissipated_rolling"];
@@ -34,7 +50,7 @@ TEST(GrainEnergy, IsCountedOnlyIfAskedFor) {
 TEST(GrainEnergy, AnImpactHeadOnDissipatesByItsRestitution) {
   for (const double e : {0.5, 0.7, 0.9}) {
     GrainBench b;
-    b.config.out.energy = true;
+    b.config.out.energy = b.config.out.spectra = true;
     b.config.grain.e = e;
     const double R = b.R(), speed = 0.2;
     b.add({-1.001 * R, 0, 0}, {speed / 2, 0, 0});
@@ -47,13 +63,35 @@ TEST(GrainEnergy, AnImpactHeadOnDissipatesByItsRestitution) {
     EXPECT_NEAR(terms["grain_dissipated_normal"] / lost, 1, 2e-3) << e;
     EXPECT_NEAR(dissipated(terms) / lost, 1, 2e-3) << e;
     EXPECT_LT(std::abs(terms["grain_energy_residual"]), 1e-3 * lost) << e;
+    // one contact in the bin of its energy
+    EXPECT_NEAR(ended(*b.solver).energy[0] / dissipated(terms), 1, 1e-6);
+    const ContactSpectra& layout = b.solver->spectra()->layout();
+    const auto bins = b.solver->spectra()->bins().to_host();
+    for (int k = 0; k < layout.size(); ++k) {
+      const double from = layout.from * std::pow(10.0, double(k) / layout.per_decade),
+                   to = from * std::pow(10.0, 1.0 / layout.per_decade);
+      EXPECT_EQ(bins[k].count, lost > from && lost < to ? 1u : 0u) << k;
+    }
   }
+}
+
+TEST(GrainEnergy, BinsHoldNegativeAndLargeEnergies) {
+  SpectrumBin bin{};
+  bin.enter(-5);
+  EXPECT_EQ(bin.energy.value(), -5);
+  bin.enter(7);
+  EXPECT_EQ(bin.energy.value(), 2);
+  for (int k = 0; k < 4; ++k) bin.enter(std::int64_t(1) << 62);
+  EXPECT_EQ(bin.energy.value(), std::ldexp(1.0, 64));
+  for (int k = 0; k < 4; ++k) bin.enter(-(std::int64_t(1) << 62));
+  EXPECT_EQ(bin.energy.value(), 2);
+  EXPECT_EQ(bin.count, 10u);
 }
 
 /// Aslant, with spin and rolling friction, on another grain and on a wall that moves.
 TEST(GrainEnergy, TheResidualOfObliqueImpactsIsSmall) {
   GrainBench b;
-  b.config.out.energy = true;
+  b.config.out.energy = b.config.out.spectra = true;
   b.config.grain.mu_r = 0.1;
   b.config.contact.rolling = "epsd";
   const double R = b.R();
@@ -74,9 +112,22 @@ TEST(GrainEnergy, TheResidualOfObliqueImpactsIsSmall) {
   EXPECT_NE(terms["grain_dissipated_rolling"], 0);
   EXPECT_GT(std::abs(terms["grain_work_walls"]), 0.1 * dissipated(terms));
   EXPECT_LT(std::abs(terms["grain_energy_residual"]), 2e-3 * dissipated(terms));
+  // all contacts have ended
+  const Ended sum = ended(*b.solver);
+  EXPECT_GE(sum.count, 2);
+  EXPECT_NEAR(sum.energy[0], terms["grain_dissipated_normal"], 1e-6 * dissipated(terms));
+  EXPECT_NEAR(sum.energy[1], terms["grain_dissipated_sliding"] + terms["grain_dissipated_rolling"],
+              1e-6 * dissipated(terms));
 }
 
-/// mu N s of a block of four grains that cannot turn, on a plane.
+/// Over all patches of a wall that wears.
+double over_patches(const HostStore& map, const char* name) {
+  double sum = 0;
+  for (std::size_t k = 0; k < map.count; ++k) sum += map.find(name)->as<double>()[k];
+  return sum;
+}
+
+/// mu N s of a block of four grains that cannot turn, on a plane; which it wears by k/H N s [archard53].
 TEST(GrainEnergy, GrossSlidingDissipatesForceTimesPath) {
   constexpr double d = 2e-3, g = 9.81, mu = 0.3, speed = 0.5;
   Config c = void_case();
@@ -84,6 +135,7 @@ TEST(GrainEnergy, GrossSlidingDissipatesForceTimesPath) {
   c.gravity = {0, 0, -g};
   c.out.energy = true;
   c.wall.bodies = {ground()};
+  c.wall.bodies[0].wear = "archard", c.wall.bodies[0].k_over_H = 1e-13, c.wall.bodies[0].wear_patch = 0.01;
   c.grain.present = true;
   c.grain.d = c.grain.d_min = c.grain.d_max = d;
   c.grain.mu = mu, c.grain.e = 0.2;
@@ -103,25 +155,38 @@ TEST(GrainEnergy, GrossSlidingDissipatesForceTimesPath) {
   const auto look = [&](double until) {
     run_until(*s, until);
     Terms terms = by_name(s->diagnostics());
-    return std::pair{terms, reading(s->body_state(1), "centre_x")};
+    return std::tuple{terms, reading(s->body_state(1), "centre_x"), s->snapshot("wear/plane")};
   };
-  auto [before, from] = look(0.02);  // it has settled
-  auto [after, to] = look(0.12);
+  auto [before, from, map_before] = look(0.02);  // it has settled
+  auto [after, to, map] = look(0.12);
   const double mass = before["grain_mass"], path = to - from;
   ASSERT_GT(path, 0.01);
   EXPECT_NEAR(
       (after["grain_dissipated_sliding"] - before["grain_dissipated_sliding"]) / (mu * mass * g * path), 1,
       1e-3);
   EXPECT_LT(std::abs(after["grain_energy_residual"]), 1e-3 * dissipated(after));
+  const double worn = over_patches(map, "wear_volume") - over_patches(map_before, "wear_volume");
+  EXPECT_NEAR(worn / (1e-13 * mass * g * path), 1, 1e-3);
+  EXPECT_NEAR(over_patches(map, "shear_energy") / after["grain_dissipated_sliding"], 1, 1e-6);
+  EXPECT_NEAR(over_patches(map, "normal_energy"), after["grain_dissipated_normal"], 1e-6 * dissipated(after));
+  ASSERT_GE(map.count, 2u) << "it has crossed patches";
+  for (std::size_t k = 0; k < map.count; ++k) {
+    const double* const x = map.find("position")->as<double>() + 3 * k;
+    EXPECT_GT(x[0], -0.085 - 0.005);
+    EXPECT_LT(x[0], to + 0.005 + d);
+    EXPECT_NEAR(x[1], d / 2, 0.005 + d);
+    EXPECT_NEAR(x[2], 0, 0.005 + 1e-9);
+  }
 }
 
 TEST(GrainEnergy, IsRestartedToTheLastBit) {
   Config c = void_case();
   c.domain.min = {-0.02, -0.02, -0.02}, c.domain.max = {0.02, 0.02, 0.02};
   c.gravity = {0, 0, -9.81};
-  c.out.energy = true;
+  c.out.energy = c.out.spectra = true;
   WallBody floor = ground();
   floor.point = {0, 0, -0.005};
+  floor.wear = "archard", floor.k_over_H = 1e-13;
   c.wall.bodies = {floor};
   c.grain.present = true;
   c.grain.d = c.grain.d_min = c.grain.d_max = 2e-3;
@@ -141,18 +206,37 @@ TEST(GrainEnergy, IsRestartedToTheLastBit) {
   Terms a = by_name(whole->diagnostics()), b = by_name(parted->diagnostics());
   EXPECT_GT(dissipated(a), 0);
   EXPECT_EQ(a, b);
+  const auto bins = whole->spectra(), again = parted->spectra();
+  ASSERT_EQ(bins.size(), again.size());
+  double count = 0;
+  for (std::size_t k = 0; k < bins.size(); ++k)
+    for (std::size_t n = 0; n < bins[k].size(); ++n) {
+      EXPECT_EQ(bins[k][n].value, again[k][n].value) << bins[k][n].name;
+      if (bins[k][n].name.ends_with("_count")) count += bins[k][n].value;
+    }
+  EXPECT_GT(count, 4);
+  const HostStore map = whole->snapshot("wear/plane"), map_again = parted->snapshot("wear/plane");
+  EXPECT_GT(map.count, 1u);
+  for (const HostArray& array : map.arrays)
+    EXPECT_TRUE(array.bytes == map_again.find(array.name)->bytes) << array.name;
+  EXPECT_EQ(bins[0][1].name, "grain_grain_normal_count");
+  EXPECT_EQ(bins[0][5].name, "grain_on_plane_normal_count");
 }
 
 /// A bed in a turning drum. What turns the drum is the moment of its weight.
 TEST(SlowGrainEnergy, ADrumOverOneTurnClosesItsBooks) {
   const double rate = 12, dt = 2e-5, radius = 0.0125, length = 0.0065, turn = 2 * M_PI / rate;
   GrainBench b;
-  b.config.out.energy = true;
+  b.config.out.energy = b.config.out.spectra = true;
   b.config.gravity = {0, -9.81, 0};
   b.config.grain.mu = 0.5, b.config.grain.mu_r = 0.1, b.config.grain.E = 5e6;
   b.config.contact.rolling = "epsd";
   b.config.wall.bodies = {
       test::shaped("drum", make_hollow(make_cylinder({0, 0, 0}, {0, 0, length}, radius), 0.005))};
+  b.config.wall.bodies[0].wear = "archard", b.config.wall.bodies[0].wear_patch = 1e-3;
+  b.config.wall.bodies[0].k_over_H = 1e-13;
+  const Bounds around = b.config.wall.bodies[0].solid.shape->bounds();
+  b.config.wall.bodies[0].min = around.min, b.config.wall.bodies[0].max = around.max;
   b.motion = [&](int, double t) {
     BodyPose p;
     p.rotation = Quat<double>::from_rotation({0, 0, rate * t});
@@ -181,6 +265,38 @@ TEST(SlowGrainEnergy, ADrumOverOneTurnClosesItsBooks) {
   const double lost = dissipated(after) - dissipated(before);
   ASSERT_GT(lost, 0);
   EXPECT_LT(std::abs(after["grain_energy_residual"] - before["grain_energy_residual"]), 0.01 * lost);
+  // what contacts have dissipated is in the spectra, or with those that go on
+  const Ended sum = ended(*b.solver);
+  EXPECT_GT(sum.count, 100);
+  double booked = sum.energy[0] + sum.energy[1];
+  const HostStore pairs = b.solver->save_contacts(*b.grains);
+  const auto* open = pairs.find("loss")->as<double>();
+  for (std::size_t k = 0; k < 2 * pairs.count; ++k) booked += open[k];
+  const auto fields = b.solver->fields_of_contacts();
+  const HostArray counts = fields.front()->to_host(), losses = fields.back()->to_host();
+  for (std::size_t i = 0; i < counts.count(); ++i)
+    for (std::uint32_t k = 0; k < 2 * counts.as<std::uint32_t>()[i]; ++k)
+      booked += losses.as<double>()[2 * kMostWallContacts * i + k];
+  EXPECT_NEAR(booked / dissipated(after), 1, 1e-6);
+  // what walls have taken of it lies in the patches of its surface, inside
+  double at_walls = 0;
+  const ContactSpectra& layout = b.solver->spectra()->layout();
+  const auto bins = b.solver->spectra()->bins().to_host();
+  for (std::size_t k = std::size_t(layout.on_wall(0, 0)) * 2 * std::size_t(layout.size()); k < bins.size();
+       ++k)
+    at_walls += bins[k].energy.value() * layout.unit();
+  for (std::size_t i = 0; i < counts.count(); ++i)
+    for (std::uint32_t k = 0; k < 2 * counts.as<std::uint32_t>()[i]; ++k)
+      at_walls += losses.as<double>()[2 * kMostWallContacts * i + k];
+  const HostStore map = b.solver->wear()->frame(0, "wear/drum", RigidMotion{});
+  EXPECT_NEAR((over_patches(map, "normal_energy") + over_patches(map, "shear_energy")) / at_walls, 1, 1e-6);
+  EXPECT_GT(map.count, 300u);
+  for (std::size_t k = 0; k < map.count; ++k) {
+    const double* const x = map.find("position")->as<double>() + 3 * k;
+    const double off_side = radius - std::hypot(x[0], x[1]), off_end = std::min(x[2], length - x[2]);
+    EXPECT_LT(std::min(std::abs(off_side), std::abs(off_end)), 1e-3) << x[0] << ' ' << x[1] << ' ' << x[2];
+  }
+  EXPECT_GT(b.refreshes, 2) << "losses were carried to new lists";
   const double gained = b.solver->totals(*b.grains).angular.z - swing;
   EXPECT_NEAR((after["grain_work_walls"] - before["grain_work_walls"]) / rate / (moment + gained), 1, 5e-3);
 }

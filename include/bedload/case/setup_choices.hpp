@@ -99,6 +99,14 @@ inline constexpr auto kNames<BodyTurn> = std::to_array<Named<BodyTurn>>({
     {BodyTurn::none, "none", "no rotation"},
 });
 
+/// wall.body.wear
+enum class WearLaw { none, archard };
+template <>
+inline constexpr auto kNames<WearLaw> = std::to_array<Named<WearLaw>>({
+    {WearLaw::none, "none", "no wear"},
+    {WearLaw::archard, "archard", "volume k/H times normal force times sliding path [archard53]"},
+});
+
 // -- openings ------------------------------------------------------------------------------------
 
 /// inlet.shape
@@ -149,7 +157,7 @@ inline constexpr auto kNames<SizeKind> = std::to_array<Named<SizeKind>>({
 // -- output --------------------------------------------------------------------------------------
 
 /// probe.type
-enum class ProbeType { front, point, height, box, flux, force, wall_pressure };
+enum class ProbeType { front, point, height, box, flux, force, wall_pressure, mixing };
 template <>
 inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
     {ProbeType::front, "front", "farthest position of a phase in a direction"},
@@ -161,6 +169,7 @@ inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
     {ProbeType::force, "force", "force and torque on a wall body"},
     {ProbeType::wall_pressure, "wall_pressure",
      "force per area on patches of a wall body, as of pressure transducers"},
+    {ProbeType::mixing, "mixing", "how well one kind of grains is mixed with the others [lacey54]"},
 });
 
 /// probe.phase
@@ -178,6 +187,14 @@ inline constexpr auto kNames<ForceSample> = std::to_array<Named<ForceSample>>({
     {ForceSample::mean, "mean",
      "mean since the row before over all steps and substeps; times the interval it gives impulse and work"},
     {ForceSample::instant, "instant", "instantaneous value"},
+});
+
+/// out.contacts
+enum class ContactFrames { none, touching };
+template <>
+inline constexpr auto kNames<ContactFrames> = std::to_array<Named<ContactFrames>>({
+    {ContactFrames::none, "none", "no frames of contacts"},
+    {ContactFrames::touching, "touching", "contacts of grains with each other and with walls, as lines"},
 });
 
 /// out.bodies

@@ -74,6 +74,7 @@ Handle open_file(const std::filesystem::path& path, Mode mode);
 /// Group `name`; a new one remembers the order in which its members came.
 Handle create_group(hid_t parent, const std::string& name);
 Handle open_group(hid_t parent, const std::string& name);
+bool has_member(hid_t group, const char* name);
 /// Members of a group in order of creation.
 std::vector<std::string> members(hid_t group);
 

@@ -20,8 +20,8 @@ from .errors import FileError
 
 
 class Frames:
-    """Frames of one store, e.g. RUN_DIR/fluid.vtkhdf: temporal PolyData of points, or ImageData of the nodes of a
-    lattice. Arrays are read on demand.
+    """Frames of one store, e.g. RUN_DIR/fluid.vtkhdf: temporal PolyData of points, or of lines (contacts), or
+    ImageData of the nodes of a lattice. Arrays are read on demand.
 
     times: of the frames, s.
     """
@@ -37,6 +37,8 @@ class Frames:
         count = int(steps.attrs["NSteps"])
         self.times: np.ndarray = steps["Values"][:count].ravel()
         self._image = "WholeExtent" in self._root.attrs
+        self._lines = "CellData" in self._root and "PointData" not in self._root
+        self._arrays = "CellData" if self._lines else "PointData"
         if self._image:
             return
         self._points = steps["PointOffsets"][:count].ravel()
@@ -51,11 +53,11 @@ class Frames:
 
     def names(self) -> list[str]:
         """Names of the arrays of each frame."""
-        return sorted(["position", *self._root["PointData"]])
+        return sorted(["ends" if self._lines else "position", *self._root[self._arrays]])
 
     def unit(self, name: str) -> str:
         """Unit of an array: "m/s"; "-" for a pure number; empty if the file has none."""
-        if name == "position":
+        if name in ("position", "ends"):
             return "m"
         unit = self._data(name).attrs.get("unit", "")
         return unit.decode() if isinstance(unit, bytes) else str(unit)
@@ -65,10 +67,11 @@ class Frames:
         return int(np.argmin(np.abs(self.times - time)))
 
     def count(self, frame: int) -> int:
-        """Number of particles in a frame, or of nodes."""
+        """Number of particles in a frame, of lines, or of nodes."""
         if self._image:
             return int(np.prod(self._cells()))
-        return int(np.ravel(self._root["NumberOfPoints"])[self._parts[frame]])
+        points = int(np.ravel(self._root["NumberOfPoints"])[self._parts[frame]])
+        return points // 2 if self._lines else points
 
     def position(self, frame: int) -> np.ndarray:
         """Positions [n, 3], m."""
@@ -76,18 +79,22 @@ class Frames:
 
     def get(self, frame: int, name: str, default: Any = None) -> Any:
         """Array `name` of a frame, or `default` if there is none."""
-        return self.read(frame, name).astype(float) if name in self._root["PointData"] else default
+        return self.read(frame, name).astype(float) if name in self._root[self._arrays] else default
 
     def read(self, frame: int, name: str) -> np.ndarray:
-        """Array `name` of a frame, or its "position", in the type and order of the file."""
+        """Array `name` of a frame, or its "position", in the type and order of the file. Lines have "ends" [n, 2, 3]
+        in place of positions."""
         frame = range(len(self))[frame]  # from the end if negative
         if self._image:
             return self._of_nodes(frame, name)
-        if name == "position":
+        if name == "ends" and self._lines:
+            begin, count = int(self._points[frame]), self.count(frame)
+            return self._root["Points"][begin : begin + 2 * count].reshape(count, 2, 3)
+        if name == "position" and not self._lines:
             data, begin = self._root["Points"], int(self._points[frame])
         else:
             data = self._data(name)
-            offsets = self._root["Steps"].get(f"PointDataOffsets/{name}")
+            offsets = self._root["Steps"].get(f"{self._arrays}Offsets/{name}")
             begin = int(offsets[frame].item() if offsets is not None else self._points[frame])
         return data[begin : begin + self.count(frame)]
 
@@ -100,6 +107,8 @@ class Frames:
 
         Frames are read on demand. Integer arrays become floating if particles come or go.
         """
+        if self._lines:
+            raise FileError(f"{self.path}: holds lines, whose number changes; read them frame by frame")
         from ._xarray import dataset_of
 
         return dataset_of(self)
@@ -119,7 +128,7 @@ class Frames:
         return values.reshape(-1) if values.ndim == 3 else values.reshape(-1, values.shape[-1])
 
     def _data(self, name: str):
-        data = self._root["PointData"]
+        data = self._root[self._arrays]
         if name not in data:
             raise FileError(f"{self.path}: has no array '{name}', only {', '.join(self.names())}")
         return data[name]
@@ -247,9 +256,19 @@ class Run:
         return Frames(self.folder / "walls.vtkhdf")
 
     @functools.cached_property
+    def contacts(self) -> Frames:
+        """Frames of single contacts of grains (`out.contacts`)."""
+        return Frames(self.folder / "contacts.vtkhdf")
+
+    @functools.cached_property
     def diagnostics(self) -> Table:
         """Masses, momenta, energies, extremes, counters."""
         return Table(self.folder / "diagnostics.csv")
+
+    @functools.cached_property
+    def spectra(self) -> Table:
+        """Spectra of what contacts dissipate (`out.spectra`): several rows, one for each bin, of each time."""
+        return Table(self.folder / "spectra.csv")
 
     @functools.cached_property
     def probes(self) -> Tables:

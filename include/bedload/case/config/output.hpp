@@ -1,6 +1,7 @@
 #pragma once
 // What a run measures and writes.
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ struct ProbeConfig {
                                                ///< the line, 0: upwards
   Vec3d about;                                 ///< force: torque about this point, m
   Chosen<ForceSample> sample = ForceSample::mean;  ///< force
+  std::string of;                              ///< mixing: name of the grain.material that is one kind
+  double larger_than = 0;                      ///< mixing: or the diameter that grains of one kind exceed, m
+  double cell = 0;                             ///< mixing: edge of the samples, m
   double every = 0;                            ///< s; 0: out.every
   bool operator==(const ProbeConfig&) const = default;
 };
@@ -39,6 +43,10 @@ struct OutputConfig {
   bool walls = true;                           ///< write walls.vtkhdf
   std::vector<std::string> fields;             ///< names of arrays in frames; empty: all
   bool energy = false;                         ///< energy balance of the grains
+  bool spectra = false;                        ///< spectra of what contacts dissipate
+  std::int64_t spectra_bins = 20;              ///< a decade
+  double spectra_from = 1e-12;                 ///< lower edge of the first bin, J
+  Chosen<ContactFrames> contacts = ContactFrames::none;  ///< frames of single contacts of grains
   Chosen<BodyTables> bodies = BodyTables::moving;  ///< which have a bodies/*.csv
   std::vector<ProbeConfig> probes;
   bool operator==(const OutputConfig&) const = default;

@@ -1,15 +1,19 @@
 #pragma once
 // Walls, and those of them that move by the forces on them.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
 
 #include "bedload/case/choices.hpp"
+#include "bedload/case/config/domain.hpp"
 #include "bedload/case/config/motion.hpp"
 #include "bedload/case/config/shapes.hpp"
+#include "bedload/case/setup_choices.hpp"
 
 namespace bedload {
 
@@ -89,6 +93,9 @@ struct WallBody {
   double e = 0;                                ///< restitution; 0: grain.e
   double E = 0;                                ///< Young's modulus, Pa; 0: grain.E
   double nu = std::numeric_limits<double>::infinity();    ///< Poisson's ratio (default grain.nu)
+  Chosen<WearLaw> wear = WearLaw::none;        ///< by grains
+  double k_over_H = 0;                         ///< wear coefficient over hardness, 1/Pa
+  double wear_patch = 0;                       ///< edge of the patches, m; 0: d_max of the grains
   MotionConfig motion;
   FreeConfig free;                             ///< instead of a motion
   Solid solid;                                 ///< of a named shape (resolved)
@@ -98,6 +105,21 @@ struct WallBody {
   bool stops_grains() const { return type->stops_grains; }
   bool moves() const { return motion.moves() || free.present; }
   bool operator==(const WallBody&) const = default;
+};
+
+/// Grid of patches around a body in which its wear is told.
+struct WearPatches {
+  Vec3d lo;                                    ///< at t = 0, m
+  double size;                                 ///< m
+  std::array<double, 3> count;                 ///< along x, y, z
+  WearPatches(const WallBody& body, const DomainConfig& domain, double d_max)
+      : size(body.wear_patch > 0 ? body.wear_patch : d_max) {
+    const bool plane = body.shape == WallShape::plane;
+    lo = plane ? domain.min : body.min;
+    const Vec3d hi = plane ? domain.max : body.max;
+    for (int k = 0; k < 3; ++k) count[k] = std::max(1.0, std::ceil((hi[k] - lo[k]) / size));
+  }
+  double number() const { return count[0] * count[1] * count[2]; }
 };
 
 struct WallConfig {
@@ -117,6 +139,11 @@ struct WallConfig {
     int n = 0;
     for (const WallBody& body : bodies) n += body.free.present;
     return n;
+  }
+  bool wears() const {
+    for (const WallBody& body : bodies)
+      if (body.wear != WearLaw::none) return true;
+    return false;
   }
   double spacing(const WallBody& body) const { return body.dx > 0 ? body.dx : dx; }  ///< m
   bool operator==(const WallConfig&) const = default;

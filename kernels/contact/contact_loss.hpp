@@ -1,0 +1,87 @@
+#pragma once
+// What single contacts dissipate from their beginning to their end, and histograms of it.
+
+#include "bedload/parallel/atomic_add.hpp"
+#include "bedload/particles/field.hpp"
+
+namespace BL_SOLVER {
+
+/// Dissipated by a contact since it began, J: by normal force, by sliding and rolling.
+struct ContactLoss {
+  double normal = 0, tangential = 0;
+};
+template <>
+struct FileType<ContactLoss> {
+  static constexpr Scalar scalar = Scalar::f64;
+  static constexpr int components = 2;
+};
+
+/// A number of units; those too large for 64 bits are cut off there.
+BL_HD std::int64_t whole(double units) {
+  constexpr double kMost = 9.2e18;
+  return std::int64_t(units > kMost ? kMost : units < -kMost ? -kMost : std::floor(units + 0.5));
+}
+
+/// A sum of integers by many threads, of 128 bits: the same in any order.
+struct WideSum {
+  std::uint64_t low, high;
+
+  BL_HD void add(std::int64_t units) {
+    const auto word = std::uint64_t(units);
+    const std::uint64_t before = atomic_add(low, word);
+    const std::uint64_t carry = (units < 0 ? ~std::uint64_t(0) : 0) + (before + word < before ? 1 : 0);
+    if (carry != 0) atomic_add(high, carry);
+  }
+  double value() const {
+    const bool negative = high >> 63 != 0;
+    const std::uint64_t lower = negative ? ~low + 1 : low, upper = negative ? ~high + (lower == 0) : high;
+    return (negative ? -1 : 1) * (std::ldexp(double(upper), 64) + double(lower));
+  }
+};
+
+/// Contacts that have ended: how many, and their energy in units of the spectrum.
+struct SpectrumBin {
+  std::uint64_t count;
+  WideSum energy;
+
+  BL_HD void enter(std::int64_t units) { atomic_add(count, 1), energy.add(units); }
+};
+template <>
+struct FileType<SpectrumBin> {
+  static constexpr Scalar scalar = Scalar::u64;
+  static constexpr int components = 3;
+};
+
+/// Bins over the logarithm of the energy, by class of contact and kind of loss. Integers, so that the order
+/// in which contacts enter does not matter.
+struct ContactSpectra {
+  static constexpr int kKinds = 2, kDecades = 14;
+
+  SpectrumBin* bins = nullptr;  ///< [class][kind][size()]
+  double from = 0;              ///< lower edge of the first bin, J; it has what is less, too
+  int per_decade = 0;
+  std::uint32_t materials = 1;
+
+  BL_HD int size() const { return kDecades * per_decade; }
+  BL_HD double unit() const { return 1e-3 * from; }  ///< of energies in bins, J
+  BL_HD std::uint32_t of_pair(std::uint32_t a, std::uint32_t b) const {
+    return a < b ? a * materials + b : b * materials + a;
+  }
+  BL_HD std::uint32_t on_wall(std::uint32_t body, std::uint32_t material) const {
+    return (materials + body) * materials + material;
+  }
+  BL_HD void enter(std::uint32_t of, const ContactLoss& loss) const {
+    SpectrumBin* const first = bins + std::size_t(of) * kKinds * std::size_t(size());
+    first[bin(loss.normal)].enter(whole(loss.normal / unit()));
+    first[size() + bin(loss.tangential)].enter(whole(loss.tangential / unit()));
+  }
+
+ private:
+  BL_HD int bin(double energy) const {
+    if (!(energy > from)) return 0;
+    const double place = per_decade * std::log10(energy / from);
+    return place < size() - 1 ? int(place) : size() - 1;
+  }
+};
+
+}  // namespace BL_SOLVER

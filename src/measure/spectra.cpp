@@ -1,0 +1,61 @@
+// Rows of spectra.csv.
+
+#include <cmath>
+
+#include "bedload/case/materials.hpp"
+#include "src/time/coupled_simulation.hpp"
+
+namespace BL_SOLVER {
+namespace {
+
+/// A class of contacts that can come about.
+struct ContactClass {
+  std::string name;
+  std::uint32_t place;
+};
+
+std::vector<ContactClass> classes_of(const Config& c, const ContactSpectra& layout) {
+  std::vector<ContactClass> out;
+  const std::vector<GrainMaterial> materials = c.grain.all_materials();
+  for (std::uint32_t a = 0; a < materials.size(); ++a)
+    for (std::uint32_t b = a; b < materials.size(); ++b)
+      out.push_back({name_in_pairs(materials[a]) + "_" + name_in_pairs(materials[b]), layout.of_pair(a, b)});
+  for (std::uint32_t body = 0; body < c.wall.bodies.size(); ++body)
+    for (std::uint32_t m = 0; m < materials.size(); ++m)
+      if (c.wall.bodies[body].stops_grains())
+        out.push_back(
+            {name_in_pairs(materials[m]) + "_on_" + c.wall.bodies[body].name, layout.on_wall(body, m)});
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::vector<Quantity>> CoupledSimulation::spectra() {
+  const SpectraBooks* const books = state_.has_grains ? stepper_.solids().spectra() : nullptr;
+  if (!books) return {};
+  const ContactSpectra& layout = books->layout();
+  const std::vector<SpectrumBin> bins = books->bins().to_host();
+  const std::vector<ContactClass> classes = classes_of(config_, layout);
+  const int size = layout.size();
+  int first = size, last = -1;
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    const int bin = int(k % std::size_t(size));
+    if (bins[k].count > 0) first = std::min(first, bin), last = std::max(last, bin);
+  }
+  if (last < 0) first = last = 0;
+  std::vector<std::vector<Quantity>> rows;
+  for (int bin = first; bin <= last; ++bin) {
+    rows.push_back({{"from", "J", layout.from * std::pow(10.0, double(bin) / layout.per_decade)}});
+    for (const ContactClass& c : classes)
+      for (int kind = 0; kind < ContactSpectra::kKinds; ++kind) {
+        const std::string name = c.name + (kind == 0 ? "_normal" : "_tangential");
+        const SpectrumBin& at =
+            bins[(std::size_t(c.place) * ContactSpectra::kKinds + kind) * std::size_t(size) + bin];
+        rows.back().push_back({name + "_count", "-", double(at.count)});
+        rows.back().push_back({name + "_energy", "J", at.energy.value() * layout.unit()});
+      }
+  }
+  return rows;
+}
+
+}  // namespace BL_SOLVER

@@ -1,0 +1,56 @@
+#pragma once
+// Spectra of the energy that single contacts dissipate.
+
+#include <memory>
+#include <vector>
+
+#include "bedload/particles/grains.hpp"
+#include "kernels/contact/contact_energy.hpp"
+#include "src/solids/parameters.hpp"
+
+namespace BL_SOLVER {
+
+class SpectraBooks {
+ public:
+  /// Adds the losses of wall contacts to `grains`.
+  SpectraBooks(const SolidParameters& p, GrainStore& grains, bool walls)
+      : spectra_{.from = p.spectra.from,
+                 .per_decade = p.spectra.per_decade,
+                 .materials = std::uint32_t(p.materials.size())},
+        bins_((p.materials.size() + p.bodies()) * p.materials.size() * ContactSpectra::kKinds *
+              std::size_t(spectra_.size())) {
+    if (!walls) return;
+    at_walls_ = std::make_unique<Field<WallLosses>>(grains, "wall_losses", "J", Lifetime::kept);
+    at_walls_->begin_at_zero();
+    at_walls_->resize(grains.size());
+  }
+
+  /// Before and after lists are built anew: of_pairs of former slots and of new ones.
+  void put_aside() { of_pairs_.swap(old_of_pairs_); }
+  void renew(std::size_t slots) { of_pairs_.reserve_and_resize(slots); }
+  const ContactLoss* old_of_pairs() const { return old_of_pairs_.data(); }
+
+  OpenLosses view() {
+    spectra_.bins = bins_.data();
+    return {spectra_, of_pairs_.data(), at_walls_ ? at_walls_->buffer().data() : nullptr};
+  }
+  /// Begins anew.
+  void forget() {
+    bins_.zero(), of_pairs_.zero();
+    if (at_walls_) at_walls_->buffer().zero();
+  }
+  const FieldBase* field() const { return at_walls_.get(); }
+  const ContactSpectra& layout() const { return spectra_; }
+  Buffer<SpectrumBin>& bins() { return bins_; }
+  const Buffer<SpectrumBin>& bins() const { return bins_; }
+  Buffer<ContactLoss>& of_pairs() { return of_pairs_; }
+  const Buffer<ContactLoss>& of_pairs() const { return of_pairs_; }
+
+ private:
+  ContactSpectra spectra_;
+  Buffer<SpectrumBin> bins_;
+  Buffer<ContactLoss> of_pairs_, old_of_pairs_;
+  std::unique_ptr<Field<WallLosses>> at_walls_;  ///< null without walls
+};
+
+}  // namespace BL_SOLVER
