@@ -106,32 +106,36 @@ Division divide_blocks(const CellGrid& grid, const std::vector<double>& load) {
 template <class P>
 void claim(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
   Buffer<Index> kept;
-  find_all(store.owned().size(), IsOwn<P>{grid.view(), frame, x, grid.ownership()->owner, Index(Context::current().rank())},
-           kept);
+  find_all(store.owned().size(),
+           IsOwn<P>{grid.view(), frame, x, grid.ownership()->owner, Index(Context::current().rank())}, kept);
   store.keep(kept);
   store.count();
 }
 
 template <class P>
-void migrate(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
+Migrants find_migrants(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
   const Context& context = Context::current();
   const Index n = store.owned().size(), ranks = Index(context.ranks());
+  Migrants out;
   Buffer<std::uint32_t> destination(n);
-  Buffer<Index> order, first(ranks + 2);
-  for_each({0, n}, DestinationPass<P>{{grid.view(), frame, x, {}},
-                                      grid.ownership()->owner,
-                                      Index(context.rank()),
-                                      destination});
-  sort_keys(destination, order, 16);
+  Buffer<Index> first(ranks + 2);
+  for_each({0, n},
+           DestinationPass<P>{
+               {grid.view(), frame, x, {}}, grid.ownership()->owner, Index(context.rank()), destination});
+  sort_keys(destination, out.order, 16);
   for_each({0, ranks + 2}, FirstOfPass{destination, first});
   const std::vector<Index> begin = first.to_host();
-  const Index stay = begin[1];
-  if (all_reduce(n - stay, [](Index& into, Index more) { into = max_of(into, more); }) == 0) return;
-  std::vector<Index> of_rank;
-  for (Index r = 0; r <= ranks; ++r) of_rank.push_back(begin[r + 1] - stay);
-  store.make_ghosts(of_rank, {order.data() + stay, n - stay});
-  Buffer<Index> kept(stay + (store.size() - n));
-  for_each({0, Index(kept.size())}, StayOrComePass{order, stay, n, kept});
+  out.stay = begin[1];
+  for (Index r = 0; r <= ranks; ++r) out.of_rank.push_back(begin[r + 1] - out.stay);
+  out.any = all_reduce(n - out.stay, [](Index& into, Index more) { into = max_of(into, more); }) > 0;
+  return out;
+}
+
+void move(Store& store, const Migrants& migrants, Buffer<Index>& kept) {
+  const Index n = store.owned().size(), stay = migrants.stay;
+  store.make_ghosts(migrants.of_rank, migrants.going());
+  kept.resize(stay + (store.size() - n));
+  for_each({0, Index(kept.size())}, StayOrComePass{migrants.order, stay, n, kept});
   store.reorder(kept);
 }
 
@@ -158,10 +162,10 @@ HostArray blocks_of(const Store& store, const CellGrid& grid, const Frame& frame
   return out;
 }
 
-#define BL_POSITION(P)                                                                                         \
-  template void add_loads(const Store&, const CellGrid&, const Frame&, Span<const P>, std::vector<double>&);   \
-  template void claim(Store&, const CellGrid&, const Frame&, Span<const P>);                                   \
-  template void migrate(Store&, const CellGrid&, const Frame&, Span<const P>);                                 \
+#define BL_POSITION(P)                                                                                       \
+  template void add_loads(const Store&, const CellGrid&, const Frame&, Span<const P>, std::vector<double>&); \
+  template void claim(Store&, const CellGrid&, const Frame&, Span<const P>);                                 \
+  template Migrants find_migrants(const Store&, const CellGrid&, const Frame&, Span<const P>);               \
   template HostArray blocks_of(const Store&, const CellGrid&, const Frame&, Span<const P>);
 BL_POSITION(Vec3d)
 BL_POSITION(PackedPosition)

@@ -25,9 +25,27 @@ Division divide_blocks(const CellGrid& grid, const std::vector<double>& load);
 template <class P>
 void claim(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x);
 
+/// Particles of a store that are in blocks of other ranks.
+struct Migrants {
+  Buffer<Index> order;         ///< places of those that stay, then of those that go, by destination
+  Index stay = 0;              ///< how many do
+  std::vector<Index> of_rank;  ///< [ranks + 1] where those for a rank begin among those that go
+  bool any = false;            ///< on any rank
+  Span<const Index> going() const { return {order.data() + stay, Index(order.size()) - stay}; }
+};
+template <class P>
+Migrants find_migrants(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x);
+/// Gives them to their ranks and takes what comes. kept: the former place of each particle of the store, and
+/// of those that came numbers from that of its former particles on.
+void move(Store& store, const Migrants& migrants, Buffer<Index>& kept);
+
 /// Gives particles to those ranks in whose blocks they are now, and takes what comes.
 template <class P>
-void migrate(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x);
+void migrate(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
+  Buffer<Index> kept;
+  if (const Migrants migrants = find_migrants(store, grid, frame, x); migrants.any)
+    move(store, migrants, kept);
+}
 
 /// Copies of those particles of others that are in cells next to this rank's; they are then to be added to
 /// the grid. The store is sorted.

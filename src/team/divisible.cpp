@@ -9,12 +9,24 @@ namespace bedload {
 
 void refuse_undivided(const Config& c) {
   const auto refuse = [](const std::string& key, const char* what) {
-    throw KeyError(key, fmt::format("{}: {} cannot be divided among several devices or ranks yet; run it on one",
-                                    key, what));
+    throw KeyError(
+        key,
+        fmt::format("{}: {} cannot be divided among several devices or ranks yet; run it on one", key, what));
   };
-  if (!c.fluid.present) refuse("fluid", "a case without fluid");
-  if (c.fluid.lattice()) refuse("fluid.model", "fluid on a lattice");
-  if (c.grain.present) refuse("grain", "a case with grains");
+  if (!c.fluid.present && !c.grain.present) refuse("fluid", "a case without fluid and grains");
+  if (c.fluid.present && c.fluid.lattice()) refuse("fluid.model", "fluid on a lattice");
+  if (c.grain.present) {
+    if (c.fluid.present && c.couple.mode != CouplingMode::off)
+      refuse("couple.mode", "grains that fluid acts on");
+    if (c.grain.largest() >= 2 * c.grain.smallest())
+      refuse("grain", "grains of which the largest are twice as wide as the smallest");
+    for (const int k : c.grain.rigid_fills())
+      refuse(fmt::format("grain.fill.{}.rigid", k), "grains that move as one body");
+    for (std::size_t k = 0; k < c.wall.bodies.size(); ++k)
+      if (c.wall.bodies[k].free.present)
+        refuse(fmt::format("wall.body.{}.free", k), "a free body among grains");
+    if (c.out.energy) refuse("out.energy", "the energy balance of grains");
+  }
   if (c.wall.energy_consistent && c.wall.suction)
     refuse("wall.energy_consistent", "work of the pressure of walls");
   for (std::size_t k = 0; k < c.fluid.fills.size(); ++k)

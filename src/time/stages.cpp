@@ -53,9 +53,9 @@ const FieldBase* at_mid(const Particles& p) {
 
 }  // namespace
 
-/// Begins a stage: starts the clock of its part, passes its fields to an observer, if there is one, and brings
-/// what it reads near of the particles of other ranks. `fields` makes the list of fields, the same on all ranks,
-/// whatever particles they have.
+/// Begins a stage: starts the clock of its part, passes its fields to an observer, if there is one, and
+/// brings what it reads near of the particles of other ranks. `fields` makes the list of fields, the same on
+/// all ranks, whatever particles they have.
 template <class MakeAccess>
 void Stepper::begin(Step& now, std::string_view name, Part part, const MakeAccess& fields) {
   if (now.watch && part != now.timed) now.watch->lap(int(now.timed));
@@ -73,11 +73,17 @@ void Stepper::begin(Step& now, std::string_view name, Part part, const MakeAcces
   outdate(all.writes);
 }
 
-std::vector<Store*> Stepper::divided_stores() { return {&fluid_, &walls_}; }
+std::vector<Store*> Stepper::divided_stores() {
+  std::vector<Store*> out;
+  if (has_fluid()) out = {&fluid_, &walls_};
+  if (has_grains()) out.push_back(&grains_);
+  return out;
+}
 
 void Stepper::share(const Fields& fields) {
   for (Store* store : divided_stores())
-    store->share([&](const FieldBase& f) { return std::find(fields.begin(), fields.end(), &f) != fields.end(); });
+    store->share(
+        [&](const FieldBase& f) { return std::find(fields.begin(), fields.end(), &f) != fields.end(); });
 }
 
 void Stepper::share_all() {

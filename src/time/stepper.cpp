@@ -12,6 +12,7 @@
 
 #include "bedload/parallel/reductions.hpp"
 #include "bedload/particles/along.hpp"
+#include "src/domain/divide.hpp"
 
 namespace BL_SOLVER {
 namespace {
@@ -52,9 +53,10 @@ Vec3d place_of(Id id, const Particles& particles, const Frame& frame) {
   const auto end = ids.begin() + particles.owned().size();
   if (const auto at = std::find(ids.begin(), end, id); at != end)
     own = {true, coordinates(frame, particles.x.values()[std::size_t(at - ids.begin())])};
-  return all_reduce(own, [](Found& into, const Found& other) {
-           if (other.here) into = other;
-         })
+  return all_reduce(own,
+                    [](Found& into, const Found& other) {
+                      if (other.here) into = other;
+                    })
       .x;
 }
 
@@ -142,6 +144,7 @@ void Stepper::start() {
   Step now;
   now.held = held();
   if (has_fluid()) fluid_solver_->keep_own(fluid_, walls_, false);
+  if (has_grains()) solid_solver_->keep_own(grains_, grain_grid_, false);
   refresh(has_fluid(), has_grains());
   now.poses = poses_now();
   if (has_grains()) solid_solver_->evaluate(grains_, now.poses);
@@ -327,11 +330,18 @@ void Stepper::refresh(bool fluid, bool grains, double dt) {
                            {dt, fastest, motion_.top_speed(clock_.time, dt), motion_.moves()});
     walls_moved_ = 0;
   }
-  if (grains) solid_solver_->refresh(grains_, grain_grid_, open_.renew(grains_, clock_.time));
+  if (grains) {
+    grains_.drop_ghosts();
+    solid_solver_->refresh(grains_, grain_grid_, open_.renew(grains_, clock_.time));
+  }
   if (!fluid && !grains) return;
   if (coupled()) relist_coupling();
   rebuilt_ = true;
   ++rebuilds_;
+}
+
+HostArray Stepper::blocks_of_grains() const {
+  return blocks_of(grains_, grain_grid_, frame_, Span<const Vec3d>(grains_.x_list));
 }
 
 void Stepper::relist_coupling() {
