@@ -9,9 +9,9 @@ namespace BL_SOLVER {
 
 // x: of all that a store holds, by which it is sorted into cells.
 
-/// Adds the number of a store's own particles in each block of the domain.
+/// Adds `each` for all particles of a store, on whichever ranks, to the load of their blocks.
 template <class P>
-void add_loads(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x,
+void add_loads(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x, double each,
                std::vector<double>& load);
 
 struct Division {
@@ -20,6 +20,9 @@ struct Division {
 };
 /// Of blocks with that load, the same on all ranks.
 Division divide_blocks(const CellGrid& grid, const std::vector<double>& load);
+/// Divides the cells of another phase alike: particles of one within `reach` (m) of a rank's blocks of the
+/// other are copied to it as well.
+Division divide_blocks(const CellGrid& grid, const std::vector<double>& load, CellGrid& other, double reach);
 
 /// Of particles that all ranks have, keeps those that are this rank's own.
 template <class P>
@@ -36,8 +39,8 @@ struct Migrants {
 template <class P>
 Migrants find_migrants(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x);
 /// Gives them to their ranks and takes what comes. kept: the former place of each particle of the store, and
-/// of those that came numbers from that of its former particles on.
-void move(Store& store, const Migrants& migrants, Buffer<Index>& kept);
+/// of those that came numbers from that of its former particles on. `whole`: with all that checkpoints hold.
+void move(Store& store, const Migrants& migrants, Buffer<Index>& kept, bool whole = false);
 
 /// Gives particles to those ranks in whose blocks they are now, and takes what comes.
 template <class P>

@@ -297,7 +297,10 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
   return out;
 }
 
-HostStore CoupledSimulation::rheology(const std::string& name) { return outputs(name, kRheology); }
+HostStore CoupledSimulation::rheology(const std::string& name) {
+  stepper_.share_all();
+  return outputs(name, kRheology);
+}
 
 std::vector<FieldView> CoupledSimulation::fields(const std::string& name) {
   Context::current().wait();

@@ -1,7 +1,6 @@
 // Grains among ranks: who has which, and what becomes of their contacts.
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 
 #include "bedload/parallel/ranks.hpp"
@@ -106,31 +105,38 @@ void ArrivingContacts::settle(Range grains, Span<const Index> order, Span<const 
 
 void SolidSolver::divide(const GrainStore& grains, CellGrid& grid, Span<const Vec3d> x) {
   std::vector<double> load;
-  add_loads(grains, grid, frame_, x, load);
-  if (grid.ownership())
-    all_reduce(load, [](double& into, double more) { into += more; });  // else all have all
+  add_loads(grains, grid, frame_, x, 1, load);
   const Division division = divide_blocks(grid, load);
   imbalance_ = division.imbalance;
   grid.divide(division.ownership);
 }
 
 void SolidSolver::keep_own(GrainStore& grains, CellGrid& grid, bool listed) {
-  if (!Context::current().several() || grid.ownership()) return;
+  if (!Context::current().several() || grains.divided()) return;
   const Span<const Vec3d> x = listed ? grains.x_list : grains.x;
-  divide(grains, grid, x);
+  if (!grid.ownership()) divide(grains, grid, x);
   claim(grains, grid, frame_, x);
 }
 
-void SolidSolver::migrate(GrainStore& grains, CellGrid& grid, Span<const Index> source_index, bool listed,
-                          Buffer<Index>& kept) {
+void SolidSolver::regroup(GrainStore& grains, CellGrid& grid) {
+  if (grid.ownership() == listed_by_) return;
+  grains.drop_ghosts();
+  relist(grains, grid, grains.x_list, {});
+}
+
+bool SolidSolver::unbalanced(const GrainStore& grains) const {
   const std::vector<Index> of_rank = all_gather(grains.owned().size());
   const double most = *std::max_element(of_rank.begin(), of_rank.end()),
                all = std::accumulate(of_rank.begin(), of_rank.end(), 0.0);
-  if (most * Context::current().ranks() > 1.1 * imbalance_ * all) divide(grains, grid, grains.x);
-  const Migrants migrants = find_migrants(grains, grid, frame_, Span<const Vec3d>(grains.x));
+  return most * Context::current().ranks() > 1.1 * imbalance_ * all;
+}
+
+void SolidSolver::migrate(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x,
+                          Span<const Index> source_index, bool listed, Buffer<Index>& kept) {
+  const Migrants migrants = find_migrants(grains, grid, frame_, x.span());
   if (!migrants.any) return;
   arriving_->send(migrants, source_index, list_.view(), listed, histories_.view(), listed_id_);
-  move(grains, migrants, kept);
+  move(grains, migrants, kept, &x == &grains.x_list);
 }
 
 void SolidSolver::make_ghosts_of(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x) {
@@ -139,12 +145,10 @@ void SolidSolver::make_ghosts_of(GrainStore& grains, CellGrid& grid, const Field
 }
 
 void SolidSolver::share_motion(GrainStore& grains) {
-  if (!Context::current().several()) return;
-  const FieldBase* const moved[] = {&grains.x, &grains.v, &grains.omega};
-  grains.x.set_shared(false), grains.v.set_shared(false), grains.omega.set_shared(false);
-  grains.share([&](const FieldBase& f) {
-    return std::find(std::begin(moved), std::end(moved), &f) != std::end(moved);
-  });
+  const auto moved = {static_cast<FieldBase*>(&grains.x), static_cast<FieldBase*>(&grains.v),
+                      static_cast<FieldBase*>(&grains.omega)};
+  for (FieldBase* field : moved) field->set_shared(false);
+  grains.share(moved);
 }
 
 }  // namespace BL_SOLVER

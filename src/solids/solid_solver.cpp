@@ -33,13 +33,26 @@ struct SourceIndexPass {
   }
 };
 
-/// Far above what a grain does to a body: the force that would press it flat, on the longest arm.
-std::array<double, 6> bounds_of_loads(const SolidParameters& p, const Frame& frame) {
-  const Real R = Real(p.d_max / 2);
+/// The force on the largest grain that laws give it when it is pressed flat, N.
+double flattening_force(const std::vector<ContactLaw>& laws, double R) {
   double force = 0;
-  for (const ContactLaw& law : p.wall_laws)
-    force = std::max(force, double(law.normal_state(R, 1, R).elastic));
-  return LoadBounds{force / square(double(R)), square(double(R)), norm(frame.length)}.load();
+  for (const ContactLaw& law : laws)
+    force = std::max(force, double(law.normal_state(Real(R), 1, Real(R)).elastic));
+  return force;
+}
+
+/// Far above what a grain does to a body: this force, on the longest arm.
+std::array<double, 6> bounds_of_loads(const SolidParameters& p, const Frame& frame) {
+  return LoadBounds{flattening_force(p.wall_laws, p.d_max / 2), 1, norm(frame.length)}.load();
+}
+
+/// Far above the energy that a grain takes or gives in a substep, J.
+double most_energy(const SolidParameters& p) {
+  const double R = p.d_max / 2, fastest = 30;  // m/s
+  double most = R * std::max(flattening_force(p.pair_laws, R), flattening_force(p.wall_laws, R));
+  for (const GrainMaterial& m : p.materials)
+    most = std::max(most, 4 / 3. * M_PI * cube(R) * m.rho * square(fastest));
+  return most;
 }
 
 struct DroppedContacts {
@@ -68,7 +81,7 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
   if (parameters.materials.size() > 1) pair_laws_.assign(parameters.pair_laws);
   with_contact_law(parameters.pair_laws, [&]<class Law>(std::type_identity<Law>) { use_pair_law<Law>(); });
   choose_wall_law();
-  if (parameters.energy) books_ = std::make_unique<EnergyBooks>();
+  if (parameters.energy) books_ = std::make_unique<EnergyBooks>(most_energy(parameters));
   if (walls.contacts() == 0) return;
   wall_contacts_ = std::make_unique<Field<Index>>(grains, "wall_contacts", "-", Lifetime::kept);
   wall_contacts_->resize(grains.size());
@@ -90,21 +103,27 @@ std::vector<const FieldBase*> SolidSolver::fields_of_contacts() const {
 }
 
 void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal) {
-  const bool several = Context::current().several();
+  for_each(grains.owned(), WrapGrains{frame_, grains.x});
+  if (renewal.any || !levels_.chosen()) choose_levels(grains);
+  if (Context::current().several() && !follows_ && unbalanced(grains)) divide(grains, grid, grains.x);
+  relist(grains, grid, grains.x, renewal);
+}
+
+void SolidSolver::relist(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x,
+                         const GrainRenewal& renewal) {
+  const bool several = Context::current().several(), moved = &x != &grains.x_list;
   const Index before = grains.owned().size();
   const bool listed = list_.rows() == (renewal.any ? renewal.before : before);
   const Span<const Index> source_index = renewal.any ? renewal.source_index : Span<const Index>();
   Buffer<Index> kept;
-  for_each(grains.owned(), WrapGrains{frame_, grains.x});
-  if (renewal.any || !levels_.chosen()) choose_levels(grains);
-  if (several) migrate(grains, grid, source_index, listed, kept);
-  sort(grains.x.span(), grains, grid);
-  grains.reorder(order_);
+  if (several) migrate(grains, grid, x, source_index, listed, kept);
+  sort(x.span(), grains, grid);
+  moved ? grains.reorder(order_) : grains.keep(order_);
   grains.count();
   if (kept.data() || renewal.any)
     for_each(grains.owned(), SourceIndexPass{kept, before, source_index, order_});
-  if (several) make_ghosts_of(grains, grid, grains.x);
-  grains.x_list.copy(grains.x);
+  if (several) make_ghosts_of(grains, grid, x);
+  if (moved) grains.x_list.copy(grains.x);
   std::swap(list_, old_list_);
   listed_id_.swap(former_id_);
   histories_.swap(old_histories_);
@@ -158,6 +177,7 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
   histories_.reset(list_.slots());
   listed_id_.reserve_and_resize(grains.size());
   copy_on_device(listed_id_.data(), grains.id.span().data, grains.size() * sizeof(Id));
+  listed_by_ = grid.ownership();
   wall_list_.forget();
 }
 
@@ -244,7 +264,8 @@ void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
   if (books_) books_->forget();
   FreeBodies* const free = moving();
   wall_list_.cover(g, poses, wall_counts(), 0);
-  const ContactPass contacts = contacts_at(g, poses.data, 0, free ? free->record(g.size()) : ContactLoads{});
+  const ContactPass contacts =
+      contacts_at(g, poses.data, 0, free ? free->record(g.size(), load_bounds_) : ContactLoads{});
   evaluate(EvaluatePass{contacts, g.force, g.torque});
 }
 
@@ -253,7 +274,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                           Span<const Real3> drive) {
   FreeBodies* const free = moving();
   const double tau = dt / substeps;
-  const ContactLoads loads = free ? free->record(g.size()) : ContactLoads{};
+  const ContactLoads loads = free ? free->record(g.size(), load_bounds_) : ContactLoads{};
   const auto contacts_in = [&](int s) {
     const BodyPose* const row = poses.data + std::size_t(s) * bodies;
     record_loads(s, g, row, tau);

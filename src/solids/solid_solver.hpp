@@ -75,6 +75,10 @@ class SolidSolver {
   /// With several ranks, once: of grains that all have, keeps those of this rank, by where they are or, after
   /// a restart, by where the lists were built (`listed`).
   void keep_own(GrainStore& grains, CellGrid& grid, bool listed);
+  /// From now on cells are divided among ranks by someone else, who calls regroup() then.
+  void follow() { follows_ = true; }
+  /// Once the cells are divided anew: moves grains to their ranks. Lists remain as they were built.
+  void regroup(GrainStore& grains, CellGrid& grid);
   /// Wraps and sorts the grains, which have no ghosts, and rebuilds the lists; histories of surviving pairs
   /// are kept. order() is then the index of each grain at the previous build. Grains of unlike sizes are in
   /// levels: then they are not sorted by the cells of `grid`.
@@ -154,13 +158,17 @@ class SolidSolver {
   /// Into order_, of grains at x.
   void sort(Span<const Vec3d> x, const GrainStore& grains, CellGrid& grid);
   void build_list(const GrainStore& grains, const CellGrid& grid);
+  /// Puts the grains at x, or those that were listed at x_list, into the order of their cells, and builds
+  /// their list.
+  void relist(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x, const GrainRenewal& renewal);
   // with several ranks
   /// Divides the blocks of cells among them by the grains in them.
   void divide(const GrainStore& grains, CellGrid& grid, Span<const Vec3d> x);
+  bool unbalanced(const GrainStore& grains) const;
   /// Grains go to the ranks in whose blocks they are, with their contacts where those are `listed`. kept: as
   /// move() leaves it, or empty; source_index: as of GrainRenewal, or empty.
-  void migrate(GrainStore& grains, CellGrid& grid, Span<const Index> source_index, bool listed,
-               Buffer<Index>& kept);
+  void migrate(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x, Span<const Index> source_index,
+               bool listed, Buffer<Index>& kept);
   void make_ghosts_of(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x);
   /// Gives ghosts the places and velocities that their owners have reached.
   static void share_motion(GrainStore& grains);
@@ -254,6 +262,8 @@ class SolidSolver {
   WallList wall_list_;
   SubstepLoads substep_loads_;
   std::array<double, 6> load_bounds_;  ///< of a grain on a body, N, N m
+  bool follows_ = false;               ///< others divide the cells
+  std::shared_ptr<const Ownership> listed_by_;
   std::unique_ptr<ArrivingContacts> arriving_;
   double imbalance_ = 1;              ///< largest part of a rank over the mean, when grains were last divided
   Buffer<Id> listed_id_, former_id_;  ///< of grains and ghosts, by their places in list_ and old_list_

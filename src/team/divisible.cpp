@@ -16,16 +16,10 @@ void refuse_undivided(const Config& c) {
   if (!c.fluid.present && !c.grain.present) refuse("fluid", "a case without fluid and grains");
   if (c.fluid.present && c.fluid.lattice()) refuse("fluid.model", "fluid on a lattice");
   if (c.grain.present) {
-    if (c.fluid.present && c.couple.mode != CouplingMode::off)
-      refuse("couple.mode", "grains that fluid acts on");
+    if (c.fluid.present && c.couple.mode != CouplingMode::off && c.domain.sheared())
+      refuse("domain.shear_rate", "sheared fluid that acts on grains");
     if (c.grain.largest() >= 2 * c.grain.smallest())
       refuse("grain", "grains of which the largest are twice as wide as the smallest");
-    for (const int k : c.grain.rigid_fills())
-      refuse(fmt::format("grain.fill.{}.rigid", k), "grains that move as one body");
-    for (std::size_t k = 0; k < c.wall.bodies.size(); ++k)
-      if (c.wall.bodies[k].free.present)
-        refuse(fmt::format("wall.body.{}.free", k), "a free body among grains");
-    if (c.out.energy) refuse("out.energy", "the energy balance of grains");
   }
   if (c.wall.energy_consistent && c.wall.suction)
     refuse("wall.energy_consistent", "work of the pressure of walls");

@@ -164,7 +164,8 @@ void Stepper::interpolate(Step& now) {
         .near = {&f.xp, &f.v_rho, &f.eos_state, &f.eps, &f.stress_acceleration, &f.solid_factor, &f.x, &g.xp},
         .reads = {&f.mass, &g.x, &g.v, &g.omega, &g.radius, &g.fluid_force, &g.id},
         .writes = {&g.fluid_velocity, &g.fluid_angular_velocity, &g.drag_coefficient, &g.rot_drag_coefficient,
-                   &g.eps, &g.wetness, &g.x_before}};
+                   &g.eps, &g.wetness, &g.x_before, &g.still, &g.by_slip, &g.lever_at_centre,
+                   &g.lever_off_centre, &f.drag_rate}};
   });
   coupling_->gather(fluid_, grains_, poses_now(), now.dt, clock_.step);
 }
@@ -182,6 +183,7 @@ void Stepper::move_solids(Step& now) {
     a.reads += lasting(own) + Fields{&g.fluid_velocity,   &g.fluid_angular_velocity,
                                      &g.drag_coefficient, &g.rot_drag_coefficient,
                                      &g.fluid_force,      &g.wetness};
+    if (std::as_const(*solid_solver_).lubricates()) a.near += {&g.wetness};
     if (!group_stores().empty()) a.near += std::exchange(a.reads, {});  // a group moves by all its grains
     return a;
   });
@@ -203,9 +205,11 @@ void Stepper::react(Step& now) {
   const GrainStore& g = grains_;
   begin(now, "react", Part::coupling, [&] {
     return Access{.near = {&f.xp, &g.xp, &f.eos_state, &g.impulse, &g.spin_impulse, &g.fluid_velocity,
-                           &g.fluid_angular_velocity, &g.drag_coefficient, &g.rot_drag_coefficient},
+                           &g.fluid_angular_velocity, &g.drag_coefficient, &g.rot_drag_coefficient, &g.still,
+                           &g.by_slip, &g.lever_at_centre, &g.lever_off_centre},
                   .reads = {&f.v_rho, &f.mass},
-                  .writes = {&f.v_rho, &f.drag_kick, &f.reaction}};
+                  .writes = {&f.v_rho, &f.drag_kick, &f.reaction, &f.drag_rate, &g.reaction_impulse,
+                             &g.reaction_force, &g.reaction_spin, &g.reaction_couple}};
   });
   coupling_->react(fluid_, grains_, now.dt);
 }

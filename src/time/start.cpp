@@ -93,9 +93,10 @@ void Stepper::initialise_fluid(Step& now) {
   fluid_.exposure.buffer().zero();
   Buffer<Real> device;
   device.assign(pressure);
-  for_each(fluid_.all(), InitialDensityPass{fluid_solver_->eos(), frame_,
-                                            two_way() ? Span<const Real>(fluid_.eps) : Span<const Real>(),
-                                            device, fluid_.mass, fluid_.compression});
+  for_each(fluid_.owned(), InitialDensityPass{fluid_solver_->eos(), frame_,
+                                              two_way() ? Span<const Real>(fluid_.eps) : Span<const Real>(),
+                                              device, fluid_.mass, fluid_.compression});
+  outdate({&fluid_.mass, &fluid_.compression});
 }
 
 void Stepper::settle(double longest, const std::function<void(double)>& progress) {
@@ -142,13 +143,13 @@ void Stepper::save_grains(SavedState& out) const {
 void Stepper::load_grains(const SavedState& saved) {
   if (!has_grains()) return;
   load_grain_store(saved);
+  grain_grid_.divide(nullptr);
+  solid_solver_->keep_own(grains_, grain_grid_, true);
   solid_solver_->load_contacts(grains_, grain_grid_, store_of(saved, "contacts"));
 }
 
 void Stepper::load_grain_store(const SavedState& saved) {
   grains_.load(store_of(saved, "grains"));
-  grain_grid_.divide(nullptr);
-  solid_solver_->keep_own(grains_, grain_grid_, true);
   RigidGroups& groups = solid_solver_->groups();
   if (groups.any()) groups.load(store_of(saved, "groups"), grains_);
 }
@@ -172,7 +173,9 @@ void Stepper::load(const SavedState& saved) {
   }
   if (coupled()) coupling_->load(scalar);
   if (has_grains()) load_grain_store(saved), solid_solver_->load(saved.scalars);
+  grain_grid_.divide(nullptr);
   if (has_fluid()) fluid_solver_->keep_own(fluid_, walls_, true);
+  if (has_grains()) solid_solver_->keep_own(grains_, grain_grid_, true);
   restore_lists(saved);
   if (has_fluid()) fluid_solver_->survey(fluid_);
   sweep();

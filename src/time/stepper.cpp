@@ -87,7 +87,11 @@ Stepper::Stepper(const Config& config, State& state)
   }
   if (has_fluid())
     fluid_solver_ = FluidSolver::make(fluid_parameters(config), frame_, state.geometry, fluid_);
-  if (coupled()) coupling_ = std::make_unique<Coupling>(coupling_parameters(config), frame_, state.geometry);
+  if (coupled()) {
+    coupling_ = std::make_unique<Coupling>(coupling_parameters(config), frame_, state.geometry);
+    fluid_solver_->divide_with(grains_, grain_grid_, coupling_->range() + solid_solver_->skin() / 2);
+    solid_solver_->follow();
+  }
   if (!fluid_.xp_mid.used() || !motion_.moves()) walls_.xp_mid.leave_out();
 }
 
@@ -333,6 +337,8 @@ void Stepper::refresh(bool fluid, bool grains, double dt) {
   if (grains) {
     grains_.drop_ghosts();
     solid_solver_->refresh(grains_, grain_grid_, open_.renew(grains_, clock_.time));
+  } else if (fluid && coupled()) {
+    solid_solver_->regroup(grains_, grain_grid_);
   }
   if (!fluid && !grains) return;
   if (coupled()) relist_coupling();

@@ -221,6 +221,14 @@ d = 0.01
 positions = [[0.05, 0.05, 0.0048], [0.058, 0.05, 0.011], [0.02, 0.05, 0.014], [0.03, 0.02, 0.04], [0.08, 0.08, 0.02]]
 velocity = [0.3, 0, -0.3]
 )";
+/// Water and grains that collapse together; to follow kDam.
+const std::string kSlurry = R"([grain]
+d = 0.008
+[[grain.fill]]
+min = [0, 0, 0]
+max = [0.1, 0.06, 0.08]
+count = 80
+)";
 /// Grains that slide down a slope which is periodic, from an inlet above to an outlet.
 const std::string kSlope = R"(gravity = [3, 0, -9]
 [domain]
@@ -291,6 +299,15 @@ std::vector<RankCase> rank_cases() {
       {"settled grains", kDrum, {"grain.settle=true"}, 60},
       {"held grains", kDrum, {"grain.release_time=0.005"}, 40},
       {"grains in fluid that do not act on it", test::kTank + kFluid + kSingle, {"couple.mode=off"}, 60},
+      {"slurry", kDam + kSlurry, {}, 120},
+      {"slurry, local slip, blocks of two cells", kDam + kSlurry, {"couple.slip=local", "run.block=2"}, 60},
+      {"slurry, one way", kDam + kSlurry, {"couple.mode=one_way"}, 60},
+      {"slurry, bodies, lubrication", test::kBed + test::kFloat, {"lubrication.forces=normal"}, 40},
+      {"grains, a body and a group", kTank + test::kGrains + test::kFloat, {"out.energy=true"}, 60},
+      {"sdpd and grains",
+       kTank + kFluid + kSingle + kGate,
+       {"fluid.model=sdpd", "density.method=summation"},
+       40},
       {"sheared", kSheared, {}, 40},
       {"sheared, sdpd", kSheared, {"fluid.model=sdpd", "sdpd.kT=1e-9"}, 40},
   };
@@ -509,13 +526,11 @@ TEST(RankLimits, NameWhatCannotBeDividedYet) {
   };
   EXPECT_EQ(refused(kDam, {}), "");
   EXPECT_EQ(refused(kDrum, {}), "");
-  EXPECT_EQ(refused(kDrum, {"out.energy=true"}), "out.energy");
-  EXPECT_EQ(refused(test::kBed, {}), "couple.mode");
-  EXPECT_EQ(refused(test::kBed, {"couple.mode=off"}), "grain.fill.1.rigid");
-  EXPECT_EQ(refused(test::kTank + kSingle + test::kFloat, {}), "wall.body.1.free");
-  EXPECT_EQ(
-      refused(test::kTank + kSingle + "[[grain.fill.sizes]]\nd = 0.01\n[[grain.fill.sizes]]\nd = 0.02\n", {}),
-      "grain");
+  EXPECT_EQ(refused(test::kBed + test::kFloat, {}), "");
+  EXPECT_EQ(refused(kDrum + "[[grain.fill]]\nmin = [0, 0, 0]\nmax = [0.01, 0.01, 0.01]\ncount = "
+                            "2\n[[grain.fill.sizes]]\nd = 0.005\n[[grain.fill.sizes]]\nd = 0.002\n",
+                    {}),
+            "grain");
   EXPECT_EQ(refused(kDam, {"wall.type=mdbc"}), "wall.body.0.type");
   EXPECT_EQ(refused(kDam, {"wall.energy_consistent=true", "wall.suction=true"}), "wall.energy_consistent");
 }
