@@ -56,8 +56,9 @@ struct ContactsFirstPass {
 /// Copies histories into a new list, except of rows in pieces; entries are indices in the sorted store.
 struct CarryHistoryPass {
   VerletListView from, to;
-  LongRowsView long_rows;   ///< of `to`
-  Span<const Index> order;  ///< former index of each grain; kNone if it is new
+  LongRowsView long_rows;        ///< of `to`
+  Span<const Index> order;       ///< former index of each grain; kNone if it had no row
+  Span<const Id> former_id, id;  ///< by former and by present index
   PairHistories old_histories, histories;
   const ContactLoss* old_losses = nullptr;  ///< by slot; null: not asked for
   ContactLoss* losses = nullptr;
@@ -66,8 +67,9 @@ struct CarryHistoryPass {
     if (was_i == kNone || long_rows.cut(i)) return;
     from.each(was_i, [&](std::uint64_t old_slot, Index was_j) {
       if (!old_histories.touching[old_slot]) return;
+      const Id partner = former_id[was_j];
       to.each(i, [&](std::uint64_t slot, Index j) {
-        if (order[j] == was_j) carry(old_slot, slot);
+        if (id[j] == partner) carry(old_slot, slot);
       });
     });
   }
@@ -83,7 +85,8 @@ struct CarryHistoryPass {
 struct CarryLongHistoryPass {
   CarryHistoryPass rows;
   BL_HD void operator()(Index of_piece) const {
-    const auto& [from, to, long_rows, order, old_histories, histories, old_losses, losses] = rows;
+    const auto& [from, to, long_rows, order, former_id, id, old_histories, histories, old_losses, losses] =
+        rows;
     const Index piece = of_piece / LongRowsView::kPiece, i = long_rows.row[piece];
     const std::uint32_t k = long_rows.begin(piece) + of_piece % LongRowsView::kPiece;
     if (order[i] == kNone || k >= to.count[i]) return;

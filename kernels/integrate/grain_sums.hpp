@@ -90,6 +90,28 @@ struct TotalsReduction {
   }
 };
 
+/// Its sums alone.
+struct TotalSums {
+  struct Value {
+    double sum[TotalsReduction::kSums];
+  };
+  TotalsReduction of;
+
+  BL_HD Value identity() const {
+    Value v{};
+    return v;
+  }
+  BL_HD Value operator()(Index i) const {
+    const TotalsReduction::Value all = of(i);
+    Value v;
+    for (int k = 0; k < TotalsReduction::kSums; ++k) v.sum[k] = all.sum[k];
+    return v;
+  }
+  BL_HD void combine(Value& a, const Value& b) const {
+    for (int k = 0; k < TotalsReduction::kSums; ++k) a.sum[k] += b.sum[k];
+  }
+};
+
 /// Load of the grains on one wall body in a substep of contacts.dt; histories are not changed.
 struct BodyLoadReduction {
   using Value = LoadSum;

@@ -148,28 +148,28 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
   const Index here = Index(layer_.size());
   fluid.grow(before + here);
   for_each({0, here}, InsertPass{.frame = frame_,
-                                     .eos = eos,
-                                     .first = first,
-                                     .place = before,
-                                     .id = Id(next_fluid_),
-                                     .mass = Real(parameters_.fluid_mass()),
-                                     .acc = Real3(motion_.inlets()[i].motion(t).a),
-                                     .gravity = Real3(gravity),
-                                     .layer = layer_,
-                                     .wall_id = walls.id,
-                                     .wall_x = walls.x,
-                                     .wall_v_rho = walls.v_rho,
-                                     .wall_state = walls.state,
-                                     .fluid_id = fluid.id,
-                                     .x = fluid.x,
-                                     .v_rho = fluid.v_rho,
-                                     .flux = fluid.flux,
-                                     .eos_state = fluid.eos_state,
-                                     .compression = fluid.compression,
-                                     .fluid_mass = fluid.mass,
-                                     .eps = fluid.eps,
-                                     .solid_factor = fluid.solid_factor,
-                                     .out = {fluid.stress_acceleration, fluid.acc}});
+                                 .eos = eos,
+                                 .first = first,
+                                 .place = before,
+                                 .id = Id(next_fluid_),
+                                 .mass = Real(parameters_.fluid_mass()),
+                                 .acc = Real3(motion_.inlets()[i].motion(t).a),
+                                 .gravity = Real3(gravity),
+                                 .layer = layer_,
+                                 .wall_id = walls.id,
+                                 .wall_x = walls.x,
+                                 .wall_v_rho = walls.v_rho,
+                                 .wall_state = walls.state,
+                                 .fluid_id = fluid.id,
+                                 .x = fluid.x,
+                                 .v_rho = fluid.v_rho,
+                                 .flux = fluid.flux,
+                                 .eos_state = fluid.eos_state,
+                                 .compression = fluid.compression,
+                                 .fluid_mass = fluid.mass,
+                                 .eps = fluid.eps,
+                                 .solid_factor = fluid.solid_factor,
+                                 .out = {fluid.stress_acceleration, fluid.acc}});
   next_fluid_ += count;
 }
 
@@ -196,19 +196,23 @@ GrainRenewal OpenBoundaries::renew(GrainStore& grains, double t) {
   if (!more.empty()) {
     if (next_grain_ + double(more.size()) >= double(kNone))
       throw SimulationFault("grain_inlet: more grains than there are ids");
-    grains.grow(kept + Index(more.size()));
+    if (Context::current().rank() > 0)
+      dropped_.resize(0);  // the first gives them away with the next lists
+    else
+      dropped_.assign(more);
+    const Index here = Index(dropped_.size());
+    grains.grow(kept + here);
     source_index_.grow(grains.size());
-    dropped_.assign(more);
-    for_each({0, Index(more.size())}, DropPass{.grain = dropped_,
-                                               .place = kept,
-                                               .first = Id(next_grain_),
-                                               .id = grains.id,
-                                               .x = grains.x,
-                                               .v = grains.v,
-                                               .radius = grains.radius,
-                                               .eps = grains.eps,
-                                               .material = grains.material,
-                                               .source_index = source_index_});
+    for_each({0, here}, DropPass{.grain = dropped_,
+                                 .place = kept,
+                                 .first = Id(next_grain_),
+                                 .id = grains.id,
+                                 .x = grains.x,
+                                 .v = grains.v,
+                                 .radius = grains.radius,
+                                 .eps = grains.eps,
+                                 .material = grains.material,
+                                 .source_index = source_index_});
     next_grain_ += double(more.size());
   }
   return {source_index_, before, true};

@@ -1,8 +1,10 @@
 #include "src/coupling/coupling.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "bedload/parallel/ranks.hpp"
 #include "kernels/coupling/buoyancy_pass.hpp"
 #include "kernels/coupling/drag_noise.hpp"
 #include "kernels/coupling/drag_pass.hpp"
@@ -58,7 +60,8 @@ struct LargestRate {
   BL_HD Value operator()(Index i) const {
     return {i < rate.size ? rate[i] : Real(0), i < lever_sum.size ? lever_sum[i] : Real(1)};
   }
-  BL_HD void combine(Value& into, const Value& v) const {
+  BL_HD void combine(Value& into, const Value& v) const { larger(into, v); }
+  BL_HD static void larger(Value& into, const Value& v) {
     into = {max_of(into.rate, v.rate), max_of(into.lever, v.lever)};
   }
 };
@@ -169,8 +172,6 @@ GrainSurroundings Coupling::surroundings() {
 PushPass Coupling::push_pass(const FluidStore& fluid) {
   return {fluid.solid_factor, fluid.stress_acceleration, fluid.eos_state, push_};
 }
-DragWeights Coupling::drag_weights() { return {still_, by_slip_}; }
-Reactions Coupling::reactions() { return {impulse_, force_, spin_, couple_}; }
 
 template <bool Local, class Law>
 DragLines<Law, Local> Coupling::drag_lines(const Law& law, const GrainStore& grains) {
@@ -208,7 +209,7 @@ void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_
   }
   VerletList& of_fluid_rows =
       build(grains_of_fluid_, fluid, of_fluid, grains, of_grains, grain_cells.cells.for_reach(reach), places);
-  if (order) for_each(fluid.all(), StoredIndexPass{order, of_fluid_rows.view(), of_fluid_rows.entries()});
+  if (order) for_each(fluid.owned(), StoredIndexPass{order, of_fluid_rows.view(), of_fluid_rows.entries()});
 }
 
 template <class Targets, class Sources, class P>
@@ -216,14 +217,14 @@ VerletList& Coupling::build(Pairing<>& pairs, const Targets& targets, const Half
                             const Sources& sources, const HalfSkins& skin_b, const CellGridView& grid,
                             Span<const P> places) {
   VerletList& list = pairs.between(frame_, targets, sources, range_);
-  list.build(targets.size(), grid,
+  list.build(targets.owned().size(), grid,
              CrossNear<Place<Targets>, P>{.frame = frame_,
                                           .a = targets.x_list,
                                           .b = places,
                                           .range = range_,
                                           .skin_a = skin_a,
                                           .skin_b = skin_b},
-             lanes_for(targets.size()));
+             lanes_for(Index(targets.everywhere())));
   return list;
 }
 
@@ -246,7 +247,7 @@ WallFreeFraction Coupling::wall_free(Span<const BodyPose> pose) const {
   return {half_space_, frame_, wall_normalise_ ? walls_ : SurfaceSet{}, pose};
 }
 
-void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt,
+void Coupling::gather(FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt,
                       std::uint64_t step) {
   volumes(grains, pose, 0);
   grains.x_before.copy(grains.x);
@@ -290,9 +291,9 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
                                                                   .wetness = grains.wetness,
                                                                   .v = grains.v,
                                                                   .omega = grains.omega,
-                                                                  .weights = drag_weights(),
+                                                                  .weights = drag_weights(grains),
                                                                   .drag = drag_of(grains),
-                                                                  .levers = levers()});
+                                                                  .levers = levers(grains)});
         });
       },
       drag_table_.on_device());
@@ -307,55 +308,62 @@ void Coupling::gather(const FluidStore& fluid, GrainStore& grains, Span<const Bo
                                            .drag = drag_of(grains)});
 }
 
-void Coupling::limit(const FluidStore& fluid, GrainStore& grains, double dt) {
+void Coupling::limit(FluidStore& fluid, GrainStore& grains, double dt) {
   // skip the survey if the last drag number was well below the stability limit, 1
   limits_ = false;
   if (drag_ && dt * drag_->rate * drag_->lever < 0.5) return;
+  grains.share({&grains.drag_coefficient, &grains.still, &grains.by_slip, &grains.lever_at_centre,
+                &grains.lever_off_centre});
   with_coupling_kernel([&](auto w) {
     with_flag(local_slip_, [&](auto local) {
       with_flag(angmom_, [&](auto couple) {
         grains_of_fluid_.run(
             DragRatePass<decltype(w), local, couple>{.w = w,
-                                                     .weights = drag_weights(),
-                                                     .levers = levers(),
+                                                     .weights = drag_weights(grains),
+                                                     .levers = levers(grains),
                                                      .drag_coefficient = grains.drag_coefficient,
                                                      .mass = fluid.mass,
                                                      .v_rho = fluid.v_rho,
                                                      .eos_state = fluid.eos_state,
-                                                     .rate = rate_});
+                                                     .rate = fluid.drag_rate});
       });
     });
   });
   survey(fluid, grains);
   read_survey();
   limits_ = dt * drag_->rate * drag_->lever > 1;
-  if (limits_)
-    fluid_of_grain_.run(LimitPass{.dt = Real(dt),
-                                  .rate = rate_,
-                                  .lever_sum = lever_sums(),
-                                  .drag = drag_of(grains),
-                                  .stiffness = stiffness_});
+  if (!limits_) return;
+  fluid.share({&fluid.drag_rate});
+  fluid_of_grain_.run(LimitPass{.dt = Real(dt),
+                                .rate = fluid.drag_rate,
+                                .lever_sum = lever_sums(grains.size()),
+                                .drag = drag_of(grains),
+                                .stiffness = stiffness_});
+  fluid.drag_rate.set_shared(false), grains.drag_coefficient.set_shared(false);
 }
 
-Span<const Real> Coupling::lever_sums() const { return span_if(angmom_, lever_sum_); }
+Span<const Real> Coupling::lever_sums(Index grains) const {
+  return angmom_ ? Span<const Real>(lever_sum_.data(), grains) : Span<const Real>();
+}
 
 void Coupling::survey(const FluidStore& fluid, const GrainStore& grains) {
-  const LargestRate largest{rate_, lever_sums()};
-  const Range all{0, max_of(fluid.size(), grains.size())};
-  surveyed_ = all.size() > 0;
-  if (!surveyed_) {
-    drag_ = largest.identity();
-    return;
-  }
+  const LargestRate largest{{fluid.drag_rate.span().data, fluid.owned().size()},
+                            lever_sums(grains.owned().size())};
+  const Range all{0, max_of(fluid.owned().size(), grains.owned().size())};
+  surveyed_ = true;
   stiffest_.resize(1);
-  reduce_into(stiffest_.data(), all, largest);
+  if (all.size() > 0) return reduce_into(stiffest_.data(), all, largest);
+  const StiffestDrag none = largest.identity();
+  copy_to_device(stiffest_.data(), &none, sizeof none);
 }
 
 void Coupling::read_survey() {
-  if (std::exchange(surveyed_, false)) drag_ = stiffest_.to_host()[0];
+  if (!std::exchange(surveyed_, false)) return;
+  drag_ = all_reduce(stiffest_.to_host()[0],
+                     [](StiffestDrag& into, const StiffestDrag& more) { LargestRate::larger(into, more); });
 }
 
-void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
+void Coupling::react(FluidStore& fluid, GrainStore& grains, double dt) {
   if (!two_way_) {
     fluid.reaction.buffer().zero();
     fluid.drag_kick.buffer().zero();
@@ -363,25 +371,27 @@ void Coupling::react(FluidStore& fluid, const GrainStore& grains, double dt) {
   }
   with_flag(angmom_, [&](auto couple) {
     with_flag(local_slip_, [&](auto local) {
-      for_each(grains.all(), ReactionTermsPass<couple, local>{.impulse = grains.impulse,
-                                                              .spin_impulse = grains.spin_impulse,
-                                                              .surroundings = surroundings(),
-                                                              .weights = drag_weights(),
-                                                              .levers = levers(),
-                                                              .dt = Real(dt),
-                                                              .drag = drag_of(grains),
-                                                              .reactions = reactions()});
+      for_each(grains.owned(), ReactionTermsPass<couple, local>{.impulse = grains.impulse,
+                                                                .spin_impulse = grains.spin_impulse,
+                                                                .surroundings = surroundings(),
+                                                                .weights = drag_weights(grains),
+                                                                .levers = levers(grains),
+                                                                .dt = Real(dt),
+                                                                .drag = drag_of(std::as_const(grains)),
+                                                                .reactions = reactions(grains)});
+      grains.share(
+          {&grains.reaction_impulse, &grains.reaction_force, &grains.reaction_spin, &grains.reaction_couple});
       with_coupling_kernel([&](auto w) {
         grains_of_fluid_.run(ReactionPass<decltype(w), couple, local>{.w = w,
                                                                       .mass = fluid.mass,
                                                                       .eos_state = fluid.eos_state,
-                                                                      .by_slip = by_slip_,
-                                                                      .reactions = reactions(),
+                                                                      .by_slip = grains.by_slip,
+                                                                      .reactions = reactions(grains),
                                                                       .per_dt = Real(1 / dt),
                                                                       .v_rho = fluid.v_rho,
                                                                       .reaction = fluid.reaction,
                                                                       .drag_kick = fluid.drag_kick,
-                                                                      .rate = rate_});
+                                                                      .rate = fluid.drag_rate});
       });
     });
   });
@@ -473,8 +483,10 @@ std::uint64_t Coupling::bent_lines(const GrainStore& grains) {
       drag_law_,
       [&](auto law) {
         const auto lines = drag_lines<true>(law, grains);
-        bent = reduce({0, Index(fast_slip_.size())},
-                      CountBent<std::decay_t<decltype(lines)>>{lines, grains.wetness});
+        const Index gathered = min_of(grains.owned().size(), Index(fast_slip_.size()));
+        bent =
+            all_reduce(reduce({0, gathered}, CountBent<std::decay_t<decltype(lines)>>{lines, grains.wetness}),
+                       [](std::uint64_t& into, std::uint64_t n) { into += n; });
       },
       drag_table_.on_device());
   return bent;
@@ -482,16 +494,19 @@ std::uint64_t Coupling::bent_lines(const GrainStore& grains) {
 
 CouplingCounters Coupling::counters(const FluidStore& fluid, const GrainStore& grains) {
   const GrainSurroundings around = surroundings();
-  const Index n = Index(stiffness_.size());
-  return {
-      .floor_hits = reduce(fluid.owned(), CountEntries{fluid.eps, eps_min_, false}),
-      .limited = limits_ ? reduce({0, n}, CountEntries{stiffness_, 1, true}) : 0,
-      .wet = reduce(grains.owned(), CountEntries{grains.wetness, 0, true}),
-      .densest = reduce(grains.owned(), CountDense{grains.eps, bed_eps_, eps_min_ * (1 + Real(1e-5))}),
-      .cornered =
-          reduce({0, Index(wall_free_.size())}, CountEntries{wall_free_, WallFreeFraction::kLeast, false}),
-      .uncoupled = reduce({0, Index(drag_inv_M_.size())}, CountUncoupled{inv_S_, around.stress, around.drag}),
-      .bent = local_slip_ ? bent_lines(grains) : 0};
+  const auto count = [](std::size_t entries, const auto& of) {
+    return all_reduce(reduce({0, Index(entries)}, of),
+                      [](std::uint64_t& into, std::uint64_t n) { into += n; });
+  };
+  const std::size_t a = fluid.owned().size(), g = grains.owned().size(),
+                    gathered = std::min(g, inv_S_.size());  // none before the first gather
+  return {.floor_hits = count(a, CountEntries{fluid.eps, eps_min_, false}),
+          .limited = limits_ ? count(gathered, CountEntries{stiffness_, 1, true}) : 0,
+          .wet = count(g, CountEntries{grains.wetness, 0, true}),
+          .densest = count(g, CountDense{grains.eps, bed_eps_, eps_min_ * (1 + Real(1e-5))}),
+          .cornered = count(gathered, CountEntries{wall_free_, WallFreeFraction::kLeast, false}),
+          .uncoupled = moments() ? count(gathered, CountUncoupled{inv_S_, around.stress, around.drag}) : 0,
+          .bent = local_slip_ ? bent_lines(grains) : 0};
 }
 
 }  // namespace BL_SOLVER

@@ -74,12 +74,12 @@ class Coupling {
   /// Fills eps, wetness and the drag coefficients and fluid velocities of the grains. pose: of every wall
   /// body, on the device; dt (s): the fluid step for which they hold, which bounds drag when the fluid is to
   /// take the reaction; step: which one, of noise.
-  void gather(const FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt,
+  void gather(FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt,
               std::uint64_t step = 0);
   /// Applies the opposite of grains.impulse and spin_impulse, those of a step dt (s), to the velocities of
   /// the fluid; sets fluid.drag_kick, their change, and fluid.reaction. The fluid must not have changed since
   /// gather.
-  void react(FluidStore& fluid, const GrainStore& grains, double dt);
+  void react(FluidStore& fluid, GrainStore& grains, double dt);
   /// Sets eps, flux, the mass in eos_state and, where needed, viscosity and grains_around of the fluid for
   /// the present positions; pose as in gather. dt (s): the step of the grains since gather, 0 if they have
   /// not moved.
@@ -119,19 +119,23 @@ class Coupling {
                     Span<const P> places);
   void volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt);
   WallFreeFraction wall_free(Span<const BodyPose> pose) const;
-  DragLevers levers() { return {lever_at_centre_, lever_off_centre_, lever_sum_}; }
+  DragLevers levers(GrainStore& grains) {
+    return {grains.lever_at_centre, grains.lever_off_centre, lever_sum_};
+  }
   OrificeWeight orifice_weight() const { return {frame_, orifices_, dx_, h_c_}; }
   /// How drag follows slip, by the last gather.
   template <bool Local, class Law>
   DragLines<Law, Local> drag_lines(const Law& law, const GrainStore& grains);
   std::uint64_t bent_lines(const GrainStore& grains);
-  void limit(const FluidStore& fluid, GrainStore& grains, double dt);
+  void limit(FluidStore& fluid, GrainStore& grains, double dt);
   void survey(const FluidStore& fluid, const GrainStore& grains);
-  Span<const Real> lever_sums() const;
+  Span<const Real> lever_sums(Index grains) const;  ///< of the first ones; empty without a couple
   GrainSurroundings surroundings();
   PushPass push_pass(const FluidStore& fluid);
-  DragWeights drag_weights();
-  Reactions reactions();
+  static DragWeights drag_weights(GrainStore& grains) { return {grains.still, grains.by_slip}; }
+  static Reactions reactions(GrainStore& grains) {
+    return {grains.reaction_impulse, grains.reaction_force, grains.reaction_spin, grains.reaction_couple};
+  }
 
   Frame frame_;
   Chosen<KernelFunction> kernel_;
@@ -165,23 +169,18 @@ class Coupling {
   // what passes of a step leave for others
   Scratch of_grains_, of_fluid_;
   ScratchArray<Real> wall_free_{of_grains_}, inv_S_{of_grains_}, rho_{of_grains_}, bed_eps_{of_grains_},
-      stiffness_{of_grains_}, still_{of_grains_};
+      stiffness_{of_grains_};
   ScratchArray<FlowSums<>> flow_{of_grains_};
   ScratchArray<Real4> volume_{of_grains_};
   ScratchArray<Real3> buoyancy_{of_grains_};
   ScratchArray<Real> fast_slip_{of_grains_, local_slip_};
   ScratchArray<FlowSums<>> fast_{of_grains_, local_slip_};
-  ScratchArray<Real4> by_slip_{of_grains_, local_slip_};
   ScratchArray<Real3> stress_arm_{of_grains_, moments()}, drag_arm_{of_grains_, moments()},
       lost_moment_{of_grains_, moments()};
   ScratchArray<SymmetricMatrix<Real>> stress_inv_M_{of_grains_, moments()},
       drag_inv_M_{of_grains_, moments()};
-  ScratchArray<Real> lever_at_centre_{of_grains_, angmom_}, lever_off_centre_{of_grains_, angmom_},
-      lever_sum_{of_grains_, angmom_};
-  ScratchArray<Real4> impulse_{of_grains_, two_way_}, force_{of_grains_, two_way_},
-      spin_{of_grains_, two_way_}, couple_{of_grains_, two_way_&&angmom_};
+  ScratchArray<Real> lever_sum_{of_grains_, angmom_};
   ScratchArray<Real4> push_{of_fluid_}, solids_{of_fluid_};
-  ScratchArray<Real> rate_{of_fluid_, two_way_};
 };
 
 }  // namespace BL_SOLVER

@@ -4,6 +4,7 @@
 
 #include "bedload/geometry/bisect.hpp"
 #include "bedload/parallel/compact.hpp"
+#include "bedload/parallel/ranks.hpp"
 
 namespace BL_SOLVER {
 namespace {
@@ -83,56 +84,80 @@ struct PickPass {
 }  // namespace
 
 template <class P>
-void add_loads(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x,
+void add_loads(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x, double each,
                std::vector<double>& load) {
   load.resize(grid.blocks_of_domain());
+  std::vector<double> own(load.size());
   Buffer<std::uint32_t>& block = Context::current().scratch<std::uint32_t>(0);
   block.reserve_and_resize(store.owned().size());
   for_each(store.owned(), BlockPass<P>{grid.view(), frame, x, block});
-  for (const std::uint32_t b : block.to_host()) ++load[b];
+  for (const std::uint32_t b : block.to_host()) ++own[b];
+  if (store.divided()) all_reduce(own, [](double& into, double more) { into += more; });
+  for (std::size_t b = 0; b < load.size(); ++b) load[b] += each * own[b];
 }
 
-Division divide_blocks(const CellGrid& grid, const std::vector<double>& load) {
-  const CellGridView shape = grid.view();
-  const int ranks = Context::current().ranks();
-  const std::vector<std::uint16_t> owner = bisect(block_places(shape), load, ranks);
-  std::vector<double> of_rank(static_cast<std::size_t>(ranks), 0.0);
+namespace {
+
+/// Largest load of a rank over the mean.
+double imbalance_of(const std::vector<std::uint16_t>& owner, const std::vector<double>& load) {
+  std::vector<double> of_rank(static_cast<std::size_t>(Context::current().ranks()), 0.0);
   double all = 0;
   for (std::size_t b = 0; b < owner.size(); ++b) of_rank[owner[b]] += load[b], all += load[b];
   const double most = *std::max_element(of_rank.begin(), of_rank.end());
-  return {std::make_shared<const Ownership>(shape, owner), all > 0 ? most * ranks / all : 1};
+  return all > 0 ? most * double(of_rank.size()) / all : 1;
+}
+
+}  // namespace
+
+Division divide_blocks(const CellGrid& grid, const std::vector<double>& load) {
+  const CellGridView shape = grid.view();
+  const auto owner = bisect(block_places(shape), load, Context::current().ranks());
+  return {std::make_shared<const Ownership>(shape, owner), imbalance_of(owner, load)};
+}
+
+Division divide_blocks(const CellGrid& grid, const std::vector<double>& load, CellGrid& other, double reach) {
+  const CellGridView shape = grid.view(), of_other = other.view();
+  const auto owner = bisect(block_places(shape), load, Context::current().ranks());
+  const auto other_owner = owners_of(of_other, shape, owner);
+  const OtherBlocks around_other{shape, owner, reach}, around{of_other, other_owner, reach};
+  other.divide(std::make_shared<const Ownership>(of_other, other_owner, &around_other));
+  return {std::make_shared<const Ownership>(shape, owner, &around), imbalance_of(owner, load)};
 }
 
 template <class P>
 void claim(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
   Buffer<Index> kept;
-  find_all(store.owned().size(), IsOwn<P>{grid.view(), frame, x, grid.ownership()->owner, Index(Context::current().rank())},
-           kept);
+  find_all(store.owned().size(),
+           IsOwn<P>{grid.view(), frame, x, grid.ownership()->owner, Index(Context::current().rank())}, kept);
   store.keep(kept);
   store.count();
 }
 
 template <class P>
-void migrate(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
+Migrants find_migrants(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
   const Context& context = Context::current();
   const Index n = store.owned().size(), ranks = Index(context.ranks());
+  Migrants out;
   Buffer<std::uint32_t> destination(n);
-  Buffer<Index> order, first(ranks + 2);
-  for_each({0, n}, DestinationPass<P>{{grid.view(), frame, x, {}},
-                                      grid.ownership()->owner,
-                                      Index(context.rank()),
-                                      destination});
-  sort_keys(destination, order, 16);
+  Buffer<Index> first(ranks + 2);
+  for_each({0, n},
+           DestinationPass<P>{
+               {grid.view(), frame, x, {}}, grid.ownership()->owner, Index(context.rank()), destination});
+  sort_keys(destination, out.order, 16);
   for_each({0, ranks + 2}, FirstOfPass{destination, first});
   const std::vector<Index> begin = first.to_host();
-  const Index stay = begin[1];
-  if (all_reduce(n - stay, [](Index& into, Index more) { into = max_of(into, more); }) == 0) return;
-  std::vector<Index> of_rank;
-  for (Index r = 0; r <= ranks; ++r) of_rank.push_back(begin[r + 1] - stay);
-  store.make_ghosts(of_rank, {order.data() + stay, n - stay});
-  Buffer<Index> kept(stay + (store.size() - n));
-  for_each({0, Index(kept.size())}, StayOrComePass{order, stay, n, kept});
-  store.reorder(kept);
+  out.stay = begin[1];
+  for (Index r = 0; r <= ranks; ++r) out.of_rank.push_back(begin[r + 1] - out.stay);
+  out.any = all_reduce(n - out.stay, [](Index& into, Index more) { into = max_of(into, more); }) > 0;
+  return out;
+}
+
+void move(Store& store, const Migrants& migrants, Buffer<Index>& kept, bool whole) {
+  const Index n = store.owned().size(), stay = migrants.stay;
+  store.make_ghosts(migrants.of_rank, migrants.going());
+  kept.resize(stay + (store.size() - n));
+  for_each({0, Index(kept.size())}, StayOrComePass{migrants.order, stay, n, kept});
+  whole ? store.keep(kept) : store.reorder(kept);
 }
 
 void make_ghosts(Store& store, const CellGrid& grid) {
@@ -158,10 +183,11 @@ HostArray blocks_of(const Store& store, const CellGrid& grid, const Frame& frame
   return out;
 }
 
-#define BL_POSITION(P)                                                                                         \
-  template void add_loads(const Store&, const CellGrid&, const Frame&, Span<const P>, std::vector<double>&);   \
-  template void claim(Store&, const CellGrid&, const Frame&, Span<const P>);                                   \
-  template void migrate(Store&, const CellGrid&, const Frame&, Span<const P>);                                 \
+#define BL_POSITION(P)                                                                         \
+  template void add_loads(const Store&, const CellGrid&, const Frame&, Span<const P>, double,  \
+                          std::vector<double>&);                                               \
+  template void claim(Store&, const CellGrid&, const Frame&, Span<const P>);                   \
+  template Migrants find_migrants(const Store&, const CellGrid&, const Frame&, Span<const P>); \
   template HostArray blocks_of(const Store&, const CellGrid&, const Frame&, Span<const P>);
 BL_POSITION(Vec3d)
 BL_POSITION(PackedPosition)

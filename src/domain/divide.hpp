@@ -9,9 +9,9 @@ namespace BL_SOLVER {
 
 // x: of all that a store holds, by which it is sorted into cells.
 
-/// Adds the number of a store's own particles in each block of the domain.
+/// Adds `each` for all particles of a store, on whichever ranks, to the load of their blocks.
 template <class P>
-void add_loads(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x,
+void add_loads(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x, double each,
                std::vector<double>& load);
 
 struct Division {
@@ -20,14 +20,35 @@ struct Division {
 };
 /// Of blocks with that load, the same on all ranks.
 Division divide_blocks(const CellGrid& grid, const std::vector<double>& load);
+/// Divides the cells of another phase alike: particles of one within `reach` (m) of a rank's blocks of the
+/// other are copied to it as well.
+Division divide_blocks(const CellGrid& grid, const std::vector<double>& load, CellGrid& other, double reach);
 
 /// Of particles that all ranks have, keeps those that are this rank's own.
 template <class P>
 void claim(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x);
 
+/// Particles of a store that are in blocks of other ranks.
+struct Migrants {
+  Buffer<Index> order;         ///< places of those that stay, then of those that go, by destination
+  Index stay = 0;              ///< how many do
+  std::vector<Index> of_rank;  ///< [ranks + 1] where those for a rank begin among those that go
+  bool any = false;            ///< on any rank
+  Span<const Index> going() const { return {order.data() + stay, Index(order.size()) - stay}; }
+};
+template <class P>
+Migrants find_migrants(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x);
+/// Gives them to their ranks and takes what comes. kept: the former place of each particle of the store, and
+/// of those that came numbers from that of its former particles on. `whole`: with all that checkpoints hold.
+void move(Store& store, const Migrants& migrants, Buffer<Index>& kept, bool whole = false);
+
 /// Gives particles to those ranks in whose blocks they are now, and takes what comes.
 template <class P>
-void migrate(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x);
+void migrate(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
+  Buffer<Index> kept;
+  if (const Migrants migrants = find_migrants(store, grid, frame, x); migrants.any)
+    move(store, migrants, kept);
+}
 
 /// Copies of those particles of others that are in cells next to this rank's; they are then to be added to
 /// the grid. The store is sorted.

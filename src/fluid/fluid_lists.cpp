@@ -112,6 +112,9 @@ struct CountBody {
   BL_HD void operator()(Index a, double* out) const { out[0] = count[a]; }
 };
 
+/// What a grain costs in a step, with its substeps, of what a particle of fluid costs.
+constexpr double kGrainLoad = 4;
+
 }  // namespace
 
 double FluidSolver::least_skin() const { return parameters_.skin / 2; }
@@ -152,9 +155,8 @@ void FluidSolver::make_cells() {
   MeanShear most = shear_;  // strains are taken to half a period
   if (shear_.acts()) most.strain = 0.5 * frame_.length.x / frame_.length.z;
   for (CellGrid* grid : {&grid_, &wall_grid_})
-    *grid =
-        CellGrid(frame_, frame_.origin, frame_.origin + frame_.length, most.stretch() * (range() + skin()),
-                 parameters_.block);
+    *grid = CellGrid(frame_, frame_.origin, frame_.origin + frame_.length,
+                     most.stretch() * (range() + skin()), parameters_.block);
 }
 
 Span<const Vec3d> FluidSolver::lattice(const FluidStore& fluid, bool listed) {
@@ -179,19 +181,23 @@ void FluidSolver::sort_cells(FluidStore& fluid) {
 
 void FluidSolver::divide(FluidStore& fluid, const WallStore& walls, bool listed) {
   std::vector<double> load;
-  with_places(fluid, listed, [&](const auto& places) { add_loads(fluid, grid_, frame_, places(), load); });
-  add_loads(walls, wall_grid_, frame_, (listed ? walls.x_list : walls.x).span(), load);
-  if (divided_) all_reduce(load, [](double& into, double more) { into += more; });
-  divided_ = true;
-  const Division division = divide_blocks(grid_, load);
+  with_places(fluid, listed, [&](const auto& places) { add_loads(fluid, grid_, frame_, places(), 1, load); });
+  add_loads(walls, wall_grid_, frame_, (listed ? walls.x_list : walls.x).span(), 1, load);
+  if (grains_)
+    add_loads(*grains_, grid_, frame_, (listed ? grains_->x_list : grains_->x).span(), kGrainLoad, load);
+  const Division division = grains_ ? divide_blocks(grid_, load, *grain_cells_, grain_range_ + half_skin_)
+                                    : divide_blocks(grid_, load);
   imbalance_ = division.imbalance;
   grid_.divide(division.ownership), wall_grid_.divide(division.ownership);
 }
 
 bool FluidSolver::unbalanced(const FluidStore& fluid, const WallStore& walls) const {
-  const double own = double(fluid.owned().size()) + double(walls.owned().size()),
-               all = double(fluid.everywhere() + walls.everywhere()),
-               most = all_reduce(own, [](double& into, double more) { into = std::max(into, more); });
+  const auto load = [&](const auto& of) {
+    return double(of(fluid)) + double(of(walls)) + (grains_ ? kGrainLoad * double(of(*grains_)) : 0);
+  };
+  const double own = load([](const Store&store) { return store.owned().size(); }),
+               all = load([](const Store&store) { return store.everywhere(); }),
+               most = all_reduce(own, [](double&into, double more) { into = std::max(into, more); });
   return most * Context::current().ranks() > 1.1 * imbalance_ * all;
 }
 
@@ -255,12 +261,12 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved,
   if (several) make_ghosts_of(fluid);
   fluid.x_list.copy(fluid.x);
   for_each(fluid.all(), HalfSkinPass{.fluid = motion(fluid),
-                                       .horizon = Real(horizon_),
-                                       .least = Real(shear_.acts() ? half_skin_ : least_skin()),
-                                       .most = Real(half_skin_),
-                                       .drift = drift_of(fluid),
-                                       .acc = fluid.acc,
-                                       .half_skin = fluid.half_skin});
+                                     .horizon = Real(horizon_),
+                                     .least = Real(shear_.acts() ? half_skin_ : least_skin()),
+                                     .most = Real(half_skin_),
+                                     .drift = drift_of(fluid),
+                                     .acc = fluid.acc,
+                                     .half_skin = fluid.half_skin});
   if (lengths_) lengths_->h_list.copy(lengths_->h);
   if (walls_moved && walls.everywhere() > 0) {
     MirrorStore& images = walls.mirrors;

@@ -9,6 +9,7 @@
 #include "bedload/neighbours/pairing.hpp"
 #include "bedload/parallel/compact.hpp"
 #include "bedload/particles/fluid.hpp"
+#include "bedload/particles/grains.hpp"
 #include "bedload/particles/scratch.hpp"
 #include "bedload/particles/walls.hpp"
 #include "bedload/step_limits.hpp"
@@ -166,6 +167,11 @@ class FluidSolver {
   /// than eight steps, fast particles get up to four times the skin, so that they do not force rebuilds for
   /// all.
   void refresh(FluidStore& fluid, WallStore& walls, bool walls_moved, const ListSpeeds& speeds);
+  /// With several ranks, `cells` of grains are divided as those of the fluid: fluid and grains that are less
+  /// than `range` and a half skin of the fluid (m) from each other are known to the same rank.
+  void divide_with(const GrainStore& grains, CellGrid& cells, double range) {
+    grains_ = &grains, grain_cells_ = &cells, grain_range_ = range;
+  }
   /// With several ranks: of particles that all have, keeps those of this rank, by where they are or, after a
   /// restart, by where the lists were built (`listed`).
   void keep_own(FluidStore& fluid, WallStore& walls, bool listed);
@@ -411,7 +417,9 @@ class FluidSolver {
   double half_skin_ = 0, wall_skin_ = 0;  ///< the largest of fluid, that of walls, m
   double horizon_ = 0;                    ///< time for which fast particles get a skin, s
   CellGrid grid_, wall_grid_;
-  bool divided_ = false;  ///< particles among ranks
+  const GrainStore* grains_ = nullptr;  ///< that are divided alike; null: none
+  CellGrid* grain_cells_ = nullptr;
+  double grain_range_ = 0;  ///< m
   double imbalance_ = 1;  ///< largest part of a rank over the mean, when they were last divided
 #if BL_CUDA
   Pairing<TileList> fluid_fluid_;

@@ -275,11 +275,13 @@ HostStore CoupledSimulation::outputs(const std::string& name, Use by) {
   std::stable_sort(all.begin(), all.end(), [](const Made& a, const Made& b) { return a.order < b.order; });
   for (const Made& each : all)
     if (each.uses & by) each.make(out.arrays);
-  if (Context::current().several()) add_blocks(out);
+  add_blocks(out);
   return out;
 }
 
 void CoupledSimulation::add_blocks(HostStore& out) {
+  if (!Context::current().several()) return;
+  if (out.name == "grains") out.arrays.push_back(stepper_.blocks_of_grains());
   if (out.name == "fluid") out.arrays.push_back(stepper_.fluid().blocks(state_.fluid));
   if (out.name == "walls") out.arrays.push_back(stepper_.fluid().blocks(state_.walls));
 }
@@ -300,7 +302,10 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
   return out;
 }
 
-HostStore CoupledSimulation::rheology(const std::string& name) { return outputs(name, kRheology); }
+HostStore CoupledSimulation::rheology(const std::string& name) {
+  stepper_.share_all();
+  return outputs(name, kRheology);
+}
 
 std::vector<FieldView> CoupledSimulation::fields(const std::string& name) {
   Context::current().wait();

@@ -47,6 +47,7 @@ BL_FIELD(NoSlip<>)
 BL_FIELD(PackedPosition)
 BL_FIELD(PairPosition)
 BL_FIELD(WallMemory)
+BL_FIELD(ContactHistory)
 #undef BL_FIELD
 
 }  // namespace BL_SOLVER

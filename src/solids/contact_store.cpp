@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "bedload/parallel/ranks.hpp"
 #include "src/solids/solid_solver.hpp"
 
 namespace BL_SOLVER {
@@ -30,7 +31,7 @@ std::uint64_t pair_key(Id lo, Id hi) { return std::uint64_t(lo) << 32 | hi; }
 
 }  // namespace
 
-HostStore SolidSolver::save_contacts(const GrainStore& grains) const {
+HostStore SolidSolver::save_contacts(const GrainStore& grains, const HostArray* blocks) const {
   const HostVerletList list(list_);
   const std::vector<ContactHistory> history = histories_.to_host();
   const std::vector<Id> id = grains.id.values();
@@ -39,18 +40,21 @@ HostStore SolidSolver::save_contacts(const GrainStore& grains) const {
   const std::vector<ContactLoss> loss =
       spectra_ ? spectra_->of_pairs().to_host() : std::vector<ContactLoss>{};
   std::vector<ContactLoss> kept_loss;
+  std::vector<std::uint32_t> block;
   for (Index i = 0; i < list_.rows(); ++i)
     list.view().each(i, [&](std::uint64_t slot, Index j) {
       if (history[slot].overlap == 0 || id[i] > id[j]) return;  // both partners hold the same
       lo.push_back(id[i]), hi.push_back(id[j]);
       kept.push_back(history[slot]);
       if (spectra_) kept_loss.push_back(loss[slot]);
+      if (blocks) block.push_back(blocks->as<std::uint32_t>()[i]);
     });
   HostStore out{
       "contacts",
       kept.size(),
       {to_array("lo", "-", lo), to_array("hi", "-", hi), to_array("history", HistoryParts::units(), kept)}};
   if (spectra_) out.arrays.push_back(to_array("loss", "J", kept_loss));
+  if (blocks) out.arrays.push_back(to_array("block", "-", block));
   return out;
 }
 
@@ -60,6 +64,8 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
   const std::vector<Index> order = order_.to_host();
   if (!std::is_sorted(order.begin(), order.end()))
     throw FileError("checkpoint: grains are not in the order in which this build keeps them");
+  grains.count();
+  if (Context::current().several()) make_ghosts_of(grains, grid, grains.x_list);
   build_list(grains, grid);
 
   const Id* lo = from_array<Id>(contacts, "lo", "-");
@@ -83,6 +89,7 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
       if (kept_loss) loss[slot] = kept_loss[it->second];
       ++found;
     });
+  found = all_reduce(found, [](std::size_t& into, std::size_t more) { into += more; });
   if (found != 2 * contacts.count)
     throw FileError("checkpoint: contacts between grains that are not near each other");
   histories_.assign(history);

@@ -1,9 +1,10 @@
 #pragma once
 // Where the energy of the grains goes, in sums over a run.
 
+#include <array>
 #include <vector>
 
-#include "bedload/parallel/loops.hpp"
+#include "bedload/parallel/reductions.hpp"
 #include "bedload/simulation.hpp"
 #include "kernels/contact/contact_energy.hpp"
 
@@ -13,6 +14,8 @@ namespace BL_SOLVER {
 /// found again when an advance begins, so checkpoints hold the sums alone.
 class EnergyBooks {
  public:
+  /// most: far above the energy that a grain takes or gives in a substep, J.
+  explicit EnergyBooks(double most) { most_.fill(most); }
   bool begun() const { return begun_; }
   /// Begins with so much energy of grains, J.
   void begin(double energy) { begun_ = true, start_ = energy, sum_ = EnergyFlow::zero(); }
@@ -27,10 +30,10 @@ class EnergyBooks {
     at_walls_.reserve_and_resize(wall_slots);
     course_.resize(drag ? grains : 0);
   }
-  /// Counts what a reduction over a range finds.
+  /// Counts what a reduction over a range finds, and over those of other ranks.
   template <class Reduction>
   void count(Range range, const Reduction& flow) {
-    if (range.size() > 0) reduce_into(flows_.data() + used_++, range, flow);
+    total_into(flows_.data() + used_++, range, flow, most_);
   }
   void end_advance() {
     const std::vector<EnergyFlow> flows = flows_.to_host();
@@ -49,6 +52,7 @@ class EnergyBooks {
   static constexpr std::size_t kScratch = sizeof(GrainCourse);  ///< bytes of a grain in fluid
 
  private:
+  std::array<double, EnergyFlow::kTerms> most_;
   static constexpr int kPasses = 3;  ///< of a substep: pairs, walls, kicks
   bool begun_ = false;
   double start_ = 0;  ///< J

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "bedload/geometry/body.hpp"
+#include "bedload/parallel/reductions.hpp"
 #include "src/walls/free_bodies.hpp"
 
 namespace BL_SOLVER {
@@ -18,6 +19,11 @@ RigidGroups::RigidGroups(const SolidParameters& parameters, const Frame& frame, 
   arm_->resize(grains.size());
   store_.resize(Index(groups_.size()));
   gained_.resize(groups_.size());
+  constexpr double fastest = 1e3;  // m/s: far above what a grain gains in a substep
+  double momentum = 0;
+  for (std::uint32_t k = 0; k < matter_.materials(); ++k)
+    momentum = std::max(momentum, fastest * matter_.per_r3(k) * cube(parameters.d_max / 2));
+  most_gained_ = LoadBounds{momentum, 1, norm(frame.length)}.load();
 }
 
 void RigidGroups::bind(const GrainStore& grains, const std::vector<std::uint32_t>& fill) {
@@ -89,16 +95,17 @@ GrainGroups RigidGroups::view() const {
 }
 
 void RigidGroups::follow(GrainStore& g, const Velocities<Real3>& rest, double drift) {
-  if (!any() || g.size() == 0) return;
+  if (!any() || g.everywhere() == 0) return;
   const GrainGroups all = view();
   for (Index k = 0; k < store_.size(); ++k)
-    reduce_into(gained_.data() + k, g.owned(),
-                GainReduction{.all = all,
-                              .of = k,
-                              .mass_per_r3 = matter_.of(g),
-                              .radius = g.radius,
-                              .now = {g.v, g.omega},
-                              .rest = {rest.v, rest.omega}});
+    total_into(gained_.data() + k, g.owned(),
+               GainReduction{.all = all,
+                             .of = k,
+                             .mass_per_r3 = matter_.of(g),
+                             .radius = g.radius,
+                             .now = {g.v, g.omega},
+                             .rest = {rest.v, rest.omega}},
+               most_gained_);
   for_each(store_.owned(), GroupPass{all, gained_.data(), drift});
   for_each(g.owned(), FollowPass{all, frame_, g.x, {g.v, g.omega}, rest});
 }
@@ -119,19 +126,19 @@ RigidMotion RigidGroups::motion(int k) const {
 }
 
 LoadSum RigidGroups::by_contacts(int k, const GrainStore& g) const {
-  return reduce(
+  return total(
       g.owned(),
       GroupLoadReduction{
           .all = view(), .of = Index(k), .force = g.force, .torque = g.torque, .more = {}, .per_torque = 1});
 }
 
 LoadSum RigidGroups::by_fluid(int k, const GrainStore& g, double dt) const {
-  return reduce(g.owned(), GroupLoadReduction{.all = view(),
-                                              .of = Index(k),
-                                              .force = g.fluid_force,
-                                              .torque = g.spin_impulse,
-                                              .more = g.drag_force,
-                                              .per_torque = dt > 0 ? 1 / dt : 0});
+  return total(g.owned(), GroupLoadReduction{.all = view(),
+                                             .of = Index(k),
+                                             .force = g.fluid_force,
+                                             .torque = g.spin_impulse,
+                                             .more = g.drag_force,
+                                             .per_torque = dt > 0 ? 1 / dt : 0});
 }
 
 void RigidGroups::save(std::vector<HostStore>& stores) const {

@@ -1,6 +1,7 @@
 #pragma once
 // Rigid groups of grains: state, mass properties, motion.
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -67,6 +68,7 @@ class RigidGroups {
   mutable GroupStore store_;
   Buffer<RigidBody> constants_;
   Buffer<LoadSum> gained_;
+  std::array<double, 6> most_gained_{};  ///< by a grain in a substep, N s, N m s
 };
 
 }  // namespace BL_SOLVER

@@ -9,6 +9,7 @@
 #include "kernels/integrate/grain_substep.hpp"
 #include "kernels/integrate/grain_sums.hpp"
 #include "kernels/stress/contact_stress.hpp"
+#include "src/solids/arriving_contacts.hpp"
 
 namespace BL_SOLVER {
 namespace {
@@ -19,12 +20,40 @@ struct WrapGrains {
   BL_HD void operator()(Index i) const { x[i] = frame.wrap(x[i]); }
 };
 
-/// Composes the order of a sort with the removal before it: former indices as of the last lists.
+/// Composes the order of a sort with what was before it: former indices as of the last lists.
 struct SourceIndexPass {
+  Span<const Index> kept;  ///< of what moved between ranks; empty where nothing did
+  Index before;            ///< of grains before that: those from there on have come
   Span<const Index> source_index;
   Span<Index> order;
-  BL_HD void operator()(Index i) const { order[i] = source_index[order[i]]; }
+  BL_HD void operator()(Index i) const {
+    Index place = order[i];
+    if (kept) place = kept[place];
+    order[i] = kept && place >= before ? kNone : source_index ? source_index[place] : place;
+  }
 };
+
+/// The force on the largest grain that laws give it when it is pressed flat, N.
+double flattening_force(const std::vector<ContactLaw>& laws, double R) {
+  double force = 0;
+  for (const ContactLaw& law : laws)
+    force = std::max(force, double(law.normal_state(Real(R), 1, Real(R)).elastic));
+  return force;
+}
+
+/// Far above what a grain does to a body: this force, on the longest arm.
+std::array<double, 6> bounds_of_loads(const SolidParameters& p, const Frame& frame) {
+  return LoadBounds{flattening_force(p.wall_laws, p.d_max / 2), 1, norm(frame.length)}.load();
+}
+
+/// Far above the energy that a grain takes or gives in a substep, J.
+double most_energy(const SolidParameters& p) {
+  const double R = p.d_max / 2, fastest = 30;  // m/s
+  double most = R * std::max(flattening_force(p.pair_laws, R), flattening_force(p.wall_laws, R));
+  for (const GrainMaterial& m : p.materials)
+    most = std::max(most, 4 / 3. * M_PI * cube(R) * m.rho * square(fastest));
+  return most;
+}
 
 struct DroppedContacts {
   WallContacts contacts;
@@ -45,12 +74,14 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
       levels_(frame),
       histories_(parameters.pair_laws),
       old_histories_(parameters.pair_laws),
-      wall_list_(frame, walls, skin(), film_range(parameters.d_max / 2)) {
+      wall_list_(frame, walls, skin(), film_range(parameters.d_max / 2)),
+      load_bounds_(bounds_of_loads(parameters, frame)),
+      arriving_(std::make_unique<ArrivingContacts>()) {
   wall_laws_.assign(parameters.wall_laws);
   if (parameters.materials.size() > 1) pair_laws_.assign(parameters.pair_laws);
   with_contact_law(parameters.pair_laws, [&]<class Law>(std::type_identity<Law>) { use_pair_law<Law>(); });
   choose_wall_law();
-  if (parameters.energy) books_ = std::make_unique<EnergyBooks>();
+  if (parameters.energy) books_ = std::make_unique<EnergyBooks>(most_energy(parameters));
   if (parameters.spectra.per_decade > 0)
     spectra_ = std::make_unique<SpectraBooks>(parameters, grains, walls.contacts() > 0);
   if (!parameters.wear.empty()) wear_ = std::make_unique<WearBooks>(parameters);
@@ -66,6 +97,8 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
   }
 }
 
+SolidSolver::~SolidSolver() = default;
+
 std::vector<const FieldBase*> SolidSolver::fields_of_contacts() const {
   std::vector<const FieldBase*> out;
   if (wall_contacts_) out.push_back(wall_contacts_.get());
@@ -77,25 +110,44 @@ std::vector<const FieldBase*> SolidSolver::fields_of_contacts() const {
 void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal) {
   for_each(grains.owned(), WrapGrains{frame_, grains.x});
   if (renewal.any || !levels_.chosen()) choose_levels(grains);
-  sort(grains.x.span(), grains, grid);
-  grains.reorder(order_);
-  grains.x_list.copy(grains.x);
-  if (renewal.any) for_each(grains.owned(), SourceIndexPass{renewal.source_index, order_});
+  if (Context::current().several() && !follows_ && unbalanced(grains)) divide(grains, grid, grains.x);
+  relist(grains, grid, grains.x, renewal);
+}
+
+void SolidSolver::relist(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x,
+                         const GrainRenewal& renewal) {
+  const bool several = Context::current().several(), moved = &x != &grains.x_list;
+  const Index before = grains.owned().size();
+  const bool listed = list_.rows() == (renewal.any ? renewal.before : before);
+  const Span<const Index> source_index = renewal.any ? renewal.source_index : Span<const Index>();
+  Buffer<Index> kept;
+  if (several) migrate(grains, grid, x, source_index, listed, kept);
+  sort(x.span(), grains, grid);
+  moved ? grains.reorder(order_) : grains.keep(order_);
+  grains.count();
+  if (kept.data() || renewal.any)
+    for_each(grains.owned(), SourceIndexPass{kept, before, source_index, order_});
+  if (several) make_ghosts_of(grains, grid, x);
+  if (moved) grains.x_list.copy(grains.x);
   std::swap(list_, old_list_);
+  listed_id_.swap(former_id_);
   histories_.swap(old_histories_);
   if (spectra_) spectra_->put_aside();
   build_list(grains, grid);
-  if (old_list_.rows() != (renewal.any ? renewal.before : grains.size())) return;
+  if (!listed) return;
   const CarryHistoryPass carry{.from = old_list_.view(),
                                .to = list_.view(),
                                .long_rows = long_rows_.view(),
                                .order = order_,
+                               .former_id = former_id_,
+                               .id = listed_id_,
                                .old_histories = old_histories_.view(),
                                .histories = histories_.view(),
                                .old_losses = spectra_ ? spectra_->old_of_pairs() : nullptr,
                                .losses = spectra_ ? spectra_->of_pairs().data() : nullptr};
   for_each(grains.owned(), carry);
   for_each({0, long_rows_.pieces() * LongRowsView::kPiece}, CarryLongHistoryPass{carry});
+  if (several) arriving_->settle(grains.owned(), order_, listed_id_, list_.view(), histories_.view());
 }
 
 void SolidSolver::choose_levels(const GrainStore& grains) {
@@ -121,16 +173,19 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
                  .skin = skin(),
                  .film = film_range(1)};
   // few lanes: rows are short, and contacts use so many registers that more threads would not run at once
-  const unsigned bits = std::min(lane_bits(grains.size(), 3u << 14), 3u);
+  const unsigned bits = std::min(lane_bits(Index(grains.everywhere()), 3u << 14), 3u);
   if (in_levels())
     level_lists_.build(list_, levels_, near, bits);
   else
-    list_.build(grains.size(), grid.view(), near, bits);
+    list_.build(grains.owned().size(), grid.view(), near, bits);
   long_rows_.cut(list_, in_levels() ? levels_.particles(levels_.count() - 1).begin : 0);
   by_pieces_.reserve_and_resize(long_rows_.pieces());
   near.film = 0;
   for_each(grains.owned(), ContactsFirstPass{near, list_.view(), long_rows_.view(), list_.entries()});
   histories_.reset(list_.slots());
+  listed_id_.reserve_and_resize(grains.size());
+  copy_on_device(listed_id_.data(), grains.id.span().data, grains.size() * sizeof(Id));
+  listed_by_ = grid.ownership();
   wall_list_.forget();
   if (spectra_) spectra_->renew(list_.slots());
   if (forces_) forces_->forget();
@@ -139,7 +194,9 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
 // -- limits ------------------------------------------------------------------
 
 GrainWatch SolidSolver::watch(const GrainStore& g) const {
-  const auto v = reduce(g.owned(), WatchReduction{view(g), g.x_list, g.drag_coefficient});
+  const WatchReduction watch{view(g), g.x_list, g.drag_coefficient};
+  const auto v = all_reduce(reduce(g.owned(), watch),
+                            [&](auto& into, const auto& of_rank) { watch.combine(into, of_rank); });
   return {std::sqrt(v.speed2), std::sqrt(v.displacement2), v.drag_rate, Id(v.bad)};
 }
 
@@ -220,7 +277,8 @@ void SolidSolver::evaluate(GrainStore& g, Span<const BodyPose> poses) {
   FreeBodies* const free = moving();
   wall_list_.cover(g, poses, wall_counts(), 0);
   record_forces(g, poses.data, 0);
-  const ContactPass contacts = contacts_at(g, poses.data, 0, free ? free->record(g.size()) : ContactLoads{});
+  const ContactPass contacts =
+      contacts_at(g, poses.data, 0, free ? free->record(g.size(), load_bounds_) : ContactLoads{});
   evaluate(EvaluatePass{contacts, g.force, g.torque});
 }
 
@@ -229,7 +287,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                           Span<const Real3> drive) {
   FreeBodies* const free = moving();
   const double tau = dt / substeps;
-  const ContactLoads loads = free ? free->record(g.size()) : ContactLoads{};
+  const ContactLoads loads = free ? free->record(g.size(), load_bounds_) : ContactLoads{};
   const auto contacts_in = [&](int s) {
     const BodyPose* const row = poses.data + std::size_t(s) * bodies;
     record_loads(s, g, row, tau);
@@ -277,6 +335,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                                     .rest = rest,
                                     .impulses = {g.impulse, g.spin_impulse}});
   groups_.follow(g, rest, tau);
+  share_motion(g);
   for (int s = 1; s <= substeps; ++s) {
     if (books_)
       count_flows(g, poses.data + std::size_t(s) * bodies, tau, kick,
@@ -288,9 +347,9 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     g.v.buffer().swap(next_v_);
     g.omega.buffer().swap(next_omega_);
     if (s < substeps)
-      groups_.follow(g, rest, tau);
+      groups_.follow(g, rest, tau), share_motion(g);
     else
-      groups_.follow(g, {}, 0);
+      groups_.follow(g, {}, 0), g.v.set_shared(false), g.omega.set_shared(false);
     if (free) free->substep(s), record_loads(s, *free);
   }
   if (books_) end_books(g, kick);
@@ -323,7 +382,10 @@ void SolidSolver::end_substep(GrainStore& g, const ContactPass& contacts, const 
 
 GrainTotals SolidSolver::totals(const GrainStore& g) const {
   using T = TotalsReduction;
-  const T::Value v = reduce(g.owned(), T{contact_pass(g, 0), wall_contacts(g, nullptr, 0)});
+  const T all{contact_pass(g, 0), wall_contacts(g, nullptr, 0)};
+  const TotalSums::Value v = total(g.owned(), TotalSums{all});
+  const T::Value most = all_reduce(
+      reduce(g.owned(), all), [&](T::Value& into, const T::Value& of_rank) { all.combine(into, of_rank); });
   GrainTotals t;
   t.mass = v.sum[T::mass];
   t.kinetic = v.sum[T::kinetic];
@@ -332,11 +394,11 @@ GrainTotals SolidSolver::totals(const GrainStore& g) const {
   t.momentum = {v.sum[T::px], v.sum[T::py], v.sum[T::pz]};
   t.angular = {v.sum[T::lx], v.sum[T::ly], v.sum[T::lz]};
   if (t.mass > 0) t.centre = Vec3d{v.sum[T::cx], v.sum[T::cy], v.sum[T::cz]} * (1 / t.mass);
-  t.max_speed = std::sqrt(v.speed2);
-  t.max_overlap = v.overlap;
+  t.max_speed = std::sqrt(most.speed2);
+  t.max_overlap = most.overlap;
   t.contacts = v.sum[T::pairs];
   t.wall_contacts = v.sum[T::on_walls];
-  if (g.size() > 0) t.coordination = 2 * t.contacts / g.size();
+  if (g.everywhere() > 0) t.coordination = 2 * t.contacts / double(g.everywhere());
   return t;
 }
 
@@ -346,22 +408,23 @@ double SolidSolver::dropped_contacts(const GrainStore& g, Span<const BodyPose> p
 }
 
 void SolidSolver::contact_moments(const GrainStore& g, Buffer<PairMoment<>>& out) const {
-  out.resize(g.size());
+  out.resize(g.owned().size());
   if (!parameters_.contacts) return out.zero();
   for_each(g.owned(), ContactStressPass{contact_pass(g, 0), out});
 }
 
 void SolidSolver::film_moments(const GrainStore& g, Buffer<PairMoment<>>& out) const {
-  out.resize(g.size());
+  out.resize(g.owned().size());
   for_each(g.owned(), LubricationStressPass{films(g, nullptr), out});
 }
 
 void SolidSolver::record_loads(int s, const GrainStore& g, const BodyPose* poses, double dt) {
-  if (!substep_loads_.wanted() || !parameters_.contacts || wall_list_.size() == 0) return;
+  if (!substep_loads_.wanted() || !parameters_.contacts || wall_list_.everywhere() == 0) return;
   const WallContacts contacts = wall_contacts(g, poses, dt);
   substep_loads_.record(s, [&](std::uint32_t body, LoadSum* load) {
     if (moving() && moving()->place_of(int(body)) >= 0) return;
-    reduce_into(load, {0, wall_list_.size()}, ListedLoadReduction{{contacts, body}, wall_list_.rows()});
+    total_into(load, {0, wall_list_.size()}, ListedLoadReduction{{contacts, body}, wall_list_.rows()},
+               load_bounds_);
   });
 }
 
@@ -375,7 +438,7 @@ void SolidSolver::record_loads(int s, const FreeBodies& bodies) {
 std::vector<LoadSum> SolidSolver::body_loads(const GrainStore& g, Span<const BodyPose> poses) const {
   std::vector<LoadSum> loads;
   for (std::uint32_t b = 0; b < parameters_.bodies(); ++b)
-    loads.push_back(reduce(g.owned(), BodyLoadReduction{wall_contacts(g, poses.data, 0), b}));
+    loads.push_back(total(g.owned(), BodyLoadReduction{wall_contacts(g, poses.data, 0), b}));
   return loads;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Moves the grains: contacts with each other and with walls, fluid forces, drag, in substeps.
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -28,6 +29,7 @@
 namespace BL_SOLVER {
 
 struct GrainKick;
+class ArrivingContacts;
 
 /// Extremes over all grains that limit steps and lists; from one reduction.
 struct GrainWatch {
@@ -66,15 +68,23 @@ class SolidSolver {
   /// and `bodies`, the free ones among them, must outlive this. `wet`: a fluid may act on grains.
   SolidSolver(const SolidParameters& parameters, const Frame& frame, const WallGeometry& walls,
               GrainStore& grains, FreeBodies* bodies = nullptr, bool wet = true);
+  ~SolidSolver();
 
   double skin() const { return parameters_.skin; }  ///< m
   /// Largest centre distance in the lists, m.
   double range() const { return parameters_.d_max + skin() + film_range(parameters_.d_max / 4); }
   const ContactLaw& law() const { return parameters_.pair_laws[0]; }
 
-  /// Wraps and sorts the grains and rebuilds the lists; histories of surviving pairs are kept. order() is
-  /// then the index of each grain at the previous build. Grains of unlike sizes are in levels: then they are
-  /// not sorted by the cells of `grid`.
+  /// With several ranks, once: of grains that all have, keeps those of this rank, by where they are or, after
+  /// a restart, by where the lists were built (`listed`).
+  void keep_own(GrainStore& grains, CellGrid& grid, bool listed);
+  /// From now on cells are divided among ranks by someone else, who calls regroup() then.
+  void follow() { follows_ = true; }
+  /// Once the cells are divided anew: moves grains to their ranks. Lists remain as they were built.
+  void regroup(GrainStore& grains, CellGrid& grid);
+  /// Wraps and sorts the grains, which have no ghosts, and rebuilds the lists; histories of surviving pairs
+  /// are kept. order() is then the index of each grain at the previous build. Grains of unlike sizes are in
+  /// levels: then they are not sorted by the cells of `grid`.
   void refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal = {});
   const Buffer<Index>& order() const { return order_; }
   const VerletList& list() const { return list_; }
@@ -153,8 +163,9 @@ class SolidSolver {
   void film_moments(const GrainStore& grains, Buffer<PairMoment<>>& out) const;
   bool lubricates() const { return parameters_.films.acts(); }
 
-  /// Histories of pairs in contact: arrays "lo", "hi" (ids) and "history".
-  HostStore save_contacts(const GrainStore& grains) const;
+  /// Histories of pairs in contact: arrays "lo", "hi" (ids) and "history"; blocks: of each grain, for an
+  /// array "block" with that of the lower one. Both are null where there is one rank.
+  HostStore save_contacts(const GrainStore& grains, const HostArray* blocks = nullptr) const;
   /// After `grains` has been loaded: rebuilds the lists as they were at the last refresh and restores the
   /// histories, to the last bit. Throws FileError.
   void load_contacts(GrainStore& grains, CellGrid& grid, const HostStore& contacts);
@@ -164,6 +175,20 @@ class SolidSolver {
   /// Into order_, of grains at x.
   void sort(Span<const Vec3d> x, const GrainStore& grains, CellGrid& grid);
   void build_list(const GrainStore& grains, const CellGrid& grid);
+  /// Puts the grains at x, or those that were listed at x_list, into the order of their cells, and builds
+  /// their list.
+  void relist(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x, const GrainRenewal& renewal);
+  // with several ranks
+  /// Divides the blocks of cells among them by the grains in them.
+  void divide(const GrainStore& grains, CellGrid& grid, Span<const Vec3d> x);
+  bool unbalanced(const GrainStore& grains) const;
+  /// Grains go to the ranks in whose blocks they are, with their contacts where those are `listed`. kept: as
+  /// move() leaves it, or empty; source_index: as of GrainRenewal, or empty.
+  void migrate(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x, Span<const Index> source_index,
+               bool listed, Buffer<Index>& kept);
+  void make_ghosts_of(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x);
+  /// Gives ghosts the places and velocities that their owners have reached.
+  static void share_motion(GrainStore& grains);
   /// The free bodies, if they move in the substeps; else null.
   FreeBodies* moving() const { return bodies_ && bodies_->any() && !bodies_->settling() ? bodies_ : nullptr; }
   WallMemory* const* wall_memories() const;
@@ -255,6 +280,12 @@ class SolidSolver {
   PairHistoryBuffers old_histories_;
   WallList wall_list_;
   SubstepLoads substep_loads_;
+  std::array<double, 6> load_bounds_;  ///< of a grain on a body, N, N m
+  bool follows_ = false;               ///< others divide the cells
+  std::shared_ptr<const Ownership> listed_by_;
+  std::unique_ptr<ArrivingContacts> arriving_;
+  double imbalance_ = 1;              ///< largest part of a rank over the mean, when grains were last divided
+  Buffer<Id> listed_id_, former_id_;  ///< of grains and ghosts, by their places in list_ and old_list_
   std::unique_ptr<EnergyBooks> books_;     ///< null: not asked for
   std::unique_ptr<SpectraBooks> spectra_;  ///< likewise
   std::unique_ptr<WearBooks> wear_;        ///< likewise

@@ -34,7 +34,7 @@ WallContacts SolidSolver::wall_contacts(const GrainStore& g, const BodyPose* pos
 template <class Scope>
 void SolidSolver::evaluate_walls(const WallContacts& contacts, const ContactLoads& loads) {
   // lanes share a grain with several contacts; loads on free bodies are recorded by one thread per grain
-  const unsigned bits = loads ? 0 : std::min(lane_bits(4 * wall_list_.size()), 2u);
+  const unsigned bits = loads ? 0 : std::min(lane_bits(4 * wall_list_.everywhere()), 2u);
   for_each({0, wall_list_.size() << bits}, WallContactPass<Scope>{.contacts = contacts,
                                                                   .rows = wall_list_.rows(),
                                                                   .lane_bits = bits,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bedload/parallel/ranks.hpp"
+
 namespace BL_SOLVER {
 namespace {
 
@@ -27,7 +29,8 @@ void WallList::cover(const GrainStore& grains, Span<const BodyPose> poses, const
                       .radius = grains.radius.span(),
                       .remembered = remembered,
                       .beyond = 0.5 * skin_ + covered_ + gap_};
-  find_all(grains.size(), near, grain_);
+  find_all(grains.owned().size(), near, grain_);
+  everywhere_ = all_reduce(size(), [](Index& into, Index rows) { into += rows; });
   count_.reserve_and_resize(size());
   for_each({0, size()}, CountWallsPass{near, grain_, count_});
   const std::uint32_t most = reduce({0, size()}, LargestCount{count_});

@@ -28,6 +28,7 @@ class WallList {
   void cover(const GrainStore& grains, Span<const BodyPose> poses, const Index* remembered, double travel);
 
   Index size() const { return Index(grain_.size()); }
+  Index everywhere() const { return everywhere_; }  ///< on all ranks
   WallRows rows() const { return {grain_.span(), count_.data(), entry_.data()}; }
   /// Row of each grain; kNone: it is far from walls.
   Span<const Index> row_of() const { return row_of_.span(); }
@@ -38,6 +39,7 @@ class WallList {
   double skin_, gap_;
   bool stale_ = true;
   double covered_ = 0, moved_ = 0;  ///< allowed and actual wall displacement since the build, m
+  Index everywhere_ = 0;
   Buffer<Index> grain_, row_of_;
   Buffer<std::uint32_t> count_;
   Buffer<Index> entry_;

@@ -9,14 +9,18 @@ namespace bedload {
 
 void refuse_undivided(const Config& c) {
   const auto refuse = [](const std::string& key, const char* what) {
-    throw KeyError(key, fmt::format("{}: {} cannot be divided among several devices or ranks yet; run it on one",
-                                    key, what));
+    throw KeyError(
+        key,
+        fmt::format("{}: {} cannot be divided among several devices or ranks yet; run it on one", key, what));
   };
-  if (!c.fluid.present) refuse("fluid", "a case without fluid");
-  if (c.fluid.lattice()) refuse("fluid.model", "fluid on a lattice");
-  if (c.grain.present) refuse("grain", "a case with grains");
-  for (std::size_t k = 0; k < c.wall.bodies.size(); ++k)
-    if (c.wall.bodies[k].wear != WearLaw::none) refuse(fmt::format("wall.body.{}.wear", k), "wear of walls");
+  if (!c.fluid.present && !c.grain.present) refuse("fluid", "a case without fluid and grains");
+  if (c.fluid.present && c.fluid.lattice()) refuse("fluid.model", "fluid on a lattice");
+  if (c.grain.present) {
+    if (c.fluid.present && c.couple.mode != CouplingMode::off && c.domain.sheared())
+      refuse("domain.shear_rate", "sheared fluid that acts on grains");
+    if (c.grain.largest() >= 2 * c.grain.smallest())
+      refuse("grain", "grains of which the largest are twice as wide as the smallest");
+  }
   if (c.out.spectra) refuse("out.spectra", "spectra of contacts");
   if (c.out.contacts != ContactFrames::none) refuse("out.contacts", "frames of contacts");
   if (c.wall.energy_consistent && c.wall.suction)
@@ -26,6 +30,7 @@ void refuse_undivided(const Config& c) {
       refuse(fmt::format("fluid.fill.{}.file", k), "fluid from a file of particles");
   for (std::size_t k = 0; k < c.wall.bodies.size(); ++k) {
     const WallBody& body = c.wall.bodies[k];
+    if (body.wear != WearLaw::none) refuse(fmt::format("wall.body.{}.wear", k), "wear of walls");
     if (body.type->kind == WallKind::mirrored) refuse(fmt::format("wall.body.{}.type", k), "a mirrored wall");
   }
 }

@@ -113,7 +113,10 @@ class TeamSimulation final : public Simulation {
     return first_of([](Simulation& s) { return s.step(); });
   }
   void settle(double longest, const std::function<void(double)>& progress) override {
-    each([&](Simulation& s) { s.settle(longest, progress); });
+    workers_.run([&](int rank) {
+      parts_[std::size_t(rank)]->settle(
+          longest, rank == 0 ? progress : [](double) {});
+    });
   }
   void start() override {
     each([](Simulation& s) { s.start(); });

@@ -26,6 +26,7 @@ std::vector<Quantity> CoupledSimulation::numerical_viscosity() const {
 SavedState CoupledSimulation::save_grains() {
   SavedState out;
   stepper_.save_grains(out);
+  add_blocks(out);
   return out;
 }
 
@@ -37,8 +38,7 @@ SavedState CoupledSimulation::save() {
   state_.save(out);
   stepper_.save(out);
   meters_.save(out);
-  if (Context::current().several())
-    for (HostStore& store : out.stores) add_blocks(store);
+  add_blocks(out);
   return out;
 }
 

@@ -72,9 +72,12 @@ class CoupledSimulation final : public Simulation {
   std::vector<const FieldBase*> written(const Store& store, Use by) const;
   /// These and what is computed, in their order.
   HostStore outputs(const std::string& store, Use by);
-  /// Adds an array "block" with the block of cells of each particle, by which parts of ranks are put
-  /// together.
+  /// Where there are several ranks, adds an array "block" with the block of cells of each particle, by which
+  /// their parts are put together.
   void add_blocks(HostStore& out);
+  void add_blocks(SavedState& out) {
+    for (HostStore& store : out.stores) add_blocks(store);
+  }
   struct WallForces {
     Buffer<Vec3d> pressure, friction;
   };

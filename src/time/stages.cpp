@@ -53,9 +53,9 @@ const FieldBase* at_mid(const Particles& p) {
 
 }  // namespace
 
-/// Begins a stage: starts the clock of its part, passes its fields to an observer, if there is one, and brings
-/// what it reads near of the particles of other ranks. `fields` makes the list of fields, the same on all ranks,
-/// whatever particles they have.
+/// Begins a stage: starts the clock of its part, passes its fields to an observer, if there is one, and
+/// brings what it reads near of the particles of other ranks. `fields` makes the list of fields, the same on
+/// all ranks, whatever particles they have.
 template <class MakeAccess>
 void Stepper::begin(Step& now, std::string_view name, Part part, const MakeAccess& fields) {
   if (now.watch && part != now.timed) now.watch->lap(int(now.timed));
@@ -73,11 +73,17 @@ void Stepper::begin(Step& now, std::string_view name, Part part, const MakeAcces
   outdate(all.writes);
 }
 
-std::vector<Store*> Stepper::divided_stores() { return {&fluid_, &walls_}; }
+std::vector<Store*> Stepper::divided_stores() {
+  std::vector<Store*> out;
+  if (has_fluid()) out = {&fluid_, &walls_};
+  if (has_grains()) out.push_back(&grains_);
+  return out;
+}
 
 void Stepper::share(const Fields& fields) {
   for (Store* store : divided_stores())
-    store->share([&](const FieldBase& f) { return std::find(fields.begin(), fields.end(), &f) != fields.end(); });
+    store->share(
+        [&](const FieldBase& f) { return std::find(fields.begin(), fields.end(), &f) != fields.end(); });
 }
 
 void Stepper::share_all() {
@@ -158,7 +164,8 @@ void Stepper::interpolate(Step& now) {
         .near = {&f.xp, &f.v_rho, &f.eos_state, &f.eps, &f.stress_acceleration, &f.solid_factor, &f.x, &g.xp},
         .reads = {&f.mass, &g.x, &g.v, &g.omega, &g.radius, &g.fluid_force, &g.id},
         .writes = {&g.fluid_velocity, &g.fluid_angular_velocity, &g.drag_coefficient, &g.rot_drag_coefficient,
-                   &g.eps, &g.wetness, &g.x_before}};
+                   &g.eps, &g.wetness, &g.x_before, &g.still, &g.by_slip, &g.lever_at_centre,
+                   &g.lever_off_centre, &f.drag_rate}};
   });
   coupling_->gather(fluid_, grains_, poses_now(), now.dt, clock_.step);
 }
@@ -176,6 +183,7 @@ void Stepper::move_solids(Step& now) {
     a.reads += lasting(own) + Fields{&g.fluid_velocity,   &g.fluid_angular_velocity,
                                      &g.drag_coefficient, &g.rot_drag_coefficient,
                                      &g.fluid_force,      &g.wetness};
+    if (std::as_const(*solid_solver_).lubricates()) a.near += {&g.wetness};
     if (!group_stores().empty()) a.near += std::exchange(a.reads, {});  // a group moves by all its grains
     return a;
   });
@@ -197,9 +205,11 @@ void Stepper::react(Step& now) {
   const GrainStore& g = grains_;
   begin(now, "react", Part::coupling, [&] {
     return Access{.near = {&f.xp, &g.xp, &f.eos_state, &g.impulse, &g.spin_impulse, &g.fluid_velocity,
-                           &g.fluid_angular_velocity, &g.drag_coefficient, &g.rot_drag_coefficient},
+                           &g.fluid_angular_velocity, &g.drag_coefficient, &g.rot_drag_coefficient, &g.still,
+                           &g.by_slip, &g.lever_at_centre, &g.lever_off_centre},
                   .reads = {&f.v_rho, &f.mass},
-                  .writes = {&f.v_rho, &f.drag_kick, &f.reaction}};
+                  .writes = {&f.v_rho, &f.drag_kick, &f.reaction, &f.drag_rate, &g.reaction_impulse,
+                             &g.reaction_force, &g.reaction_spin, &g.reaction_couple}};
   });
   coupling_->react(fluid_, grains_, now.dt);
 }

@@ -93,13 +93,15 @@ void Stepper::initialise_fluid(Step& now) {
   fluid_.exposure.buffer().zero();
   Buffer<Real> device;
   device.assign(pressure);
-  for_each(fluid_.all(), InitialDensityPass{fluid_solver_->eos(), frame_,
-                                            two_way() ? Span<const Real>(fluid_.eps) : Span<const Real>(),
-                                            device, fluid_.mass, fluid_.compression});
+  for_each(fluid_.owned(), InitialDensityPass{fluid_solver_->eos(), frame_,
+                                              two_way() ? Span<const Real>(fluid_.eps) : Span<const Real>(),
+                                              device, fluid_.mass, fluid_.compression});
+  outdate({&fluid_.mass, &fluid_.compression});
 }
 
 void Stepper::settle(double longest, const std::function<void(double)>& progress) {
   if (!has_grains()) return;
+  solid_solver_->keep_own(grains_, grain_grid_, false);
   refresh(false, true);
   bodies_.settle(true);
   solid_solver_->evaluate(grains_, poses_now());
@@ -110,7 +112,7 @@ void Stepper::settle(double longest, const std::function<void(double)>& progress
     const double v = grain_watch_.speed, tau = solid_solver_->stable_dt(grain_watch_).seconds;
     const double dt = std::min({20 * tau, v > 0 ? 0.05 * config_.grain.d_min / v : 20 * tau, longest - done});
     if (2 * (grain_watch_.displacement + 1.5 * v * dt) > solid_solver_->skin())
-      solid_solver_->refresh(grains_, grain_grid_);
+      grains_.drop_ghosts(), solid_solver_->refresh(grains_, grain_grid_);
     const int n = std::max(1, int(std::ceil(dt / tau)));
     solid_solver_->advance(grains_, motion_.poses(clock_.time, 0, n), motion_.bodies(), dt, n, false, {}, 0);
     done += dt;
@@ -129,13 +131,20 @@ void Stepper::settle(double longest, const std::function<void(double)>& progress
 void Stepper::save_grains(SavedState& out) const {
   if (!has_grains()) return;
   out.stores.push_back(grains_.save());
-  out.stores.push_back(solid_solver_->save_contacts(grains_));
+  if (Context::current().several()) {
+    const HostArray blocks = blocks_of_grains();
+    out.stores.push_back(solid_solver_->save_contacts(grains_, &blocks));
+  } else {
+    out.stores.push_back(solid_solver_->save_contacts(grains_));
+  }
   solid_solver_->groups().save(out.stores);
 }
 
 void Stepper::load_grains(const SavedState& saved) {
   if (!has_grains()) return;
   load_grain_store(saved);
+  grain_grid_.divide(nullptr);
+  solid_solver_->keep_own(grains_, grain_grid_, true);
   solid_solver_->load_contacts(grains_, grain_grid_, store_of(saved, "contacts"));
 }
 
@@ -165,7 +174,9 @@ void Stepper::load(const SavedState& saved) {
   if (coupled()) coupling_->load(scalar);
   if (has_grains())
     load_grain_store(saved), solid_solver_->load(saved.scalars), solid_solver_->load_histograms(saved.stores);
+  grain_grid_.divide(nullptr);
   if (has_fluid()) fluid_solver_->keep_own(fluid_, walls_, true);
+  if (has_grains()) solid_solver_->keep_own(grains_, grain_grid_, true);
   restore_lists(saved);
   if (has_fluid()) fluid_solver_->survey(fluid_);
   sweep();

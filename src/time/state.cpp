@@ -121,9 +121,16 @@ State::State(const Config& config)
       matter(config.grain.all_materials()) {
   if (!coupled) fluid.solid_factor.leave_out(), grains.xp.leave_out(), grains.x_before.leave_out();
   if (config.grain.materials.empty()) grains.material.leave_out();
-  if (!two_way)
-    for (FieldBase* field : std::initializer_list<FieldBase*>{&fluid.reaction, &fluid.drag_kick})
-      field->leave_out();
+  const auto leave_out_unless = [](bool needed, std::initializer_list<FieldBase*> fields) {
+    for (FieldBase* field : fields)
+      if (!needed) field->leave_out();
+  };
+  leave_out_unless(two_way, {&fluid.reaction, &fluid.drag_kick, &fluid.drag_rate, &grains.reaction_impulse,
+                             &grains.reaction_force, &grains.reaction_spin});
+  leave_out_unless(coupled, {&grains.still});
+  leave_out_unless(coupled && config.couple.slip == DragSlip::local, {&grains.by_slip});
+  leave_out_unless(coupled && config.couple.angmom, {&grains.lever_at_centre, &grains.lever_off_centre});
+  leave_out_unless(two_way && config.couple.angmom, {&grains.reaction_couple});
   if (!two_way && !config.domain.sheared()) fluid.flux.leave_out();
 }
 

@@ -12,6 +12,7 @@
 
 #include "bedload/parallel/reductions.hpp"
 #include "bedload/particles/along.hpp"
+#include "src/domain/divide.hpp"
 
 namespace BL_SOLVER {
 namespace {
@@ -52,9 +53,10 @@ Vec3d place_of(Id id, const Particles& particles, const Frame& frame) {
   const auto end = ids.begin() + particles.owned().size();
   if (const auto at = std::find(ids.begin(), end, id); at != end)
     own = {true, coordinates(frame, particles.x.values()[std::size_t(at - ids.begin())])};
-  return all_reduce(own, [](Found& into, const Found& other) {
-           if (other.here) into = other;
-         })
+  return all_reduce(own,
+                    [](Found& into, const Found& other) {
+                      if (other.here) into = other;
+                    })
       .x;
 }
 
@@ -85,7 +87,11 @@ Stepper::Stepper(const Config& config, State& state)
   }
   if (has_fluid())
     fluid_solver_ = FluidSolver::make(fluid_parameters(config), frame_, state.geometry, fluid_);
-  if (coupled()) coupling_ = std::make_unique<Coupling>(coupling_parameters(config), frame_, state.geometry);
+  if (coupled()) {
+    coupling_ = std::make_unique<Coupling>(coupling_parameters(config), frame_, state.geometry);
+    fluid_solver_->divide_with(grains_, grain_grid_, coupling_->range() + solid_solver_->skin() / 2);
+    solid_solver_->follow();
+  }
   if (!fluid_.xp_mid.used() || !motion_.moves()) walls_.xp_mid.leave_out();
 }
 
@@ -142,6 +148,7 @@ void Stepper::start() {
   Step now;
   now.held = held();
   if (has_fluid()) fluid_solver_->keep_own(fluid_, walls_, false);
+  if (has_grains()) solid_solver_->keep_own(grains_, grain_grid_, false);
   refresh(has_fluid(), has_grains());
   now.poses = poses_now();
   if (has_grains()) solid_solver_->evaluate(grains_, now.poses);
@@ -327,11 +334,20 @@ void Stepper::refresh(bool fluid, bool grains, double dt) {
                            {dt, fastest, motion_.top_speed(clock_.time, dt), motion_.moves()});
     walls_moved_ = 0;
   }
-  if (grains) solid_solver_->refresh(grains_, grain_grid_, open_.renew(grains_, clock_.time));
+  if (grains) {
+    grains_.drop_ghosts();
+    solid_solver_->refresh(grains_, grain_grid_, open_.renew(grains_, clock_.time));
+  } else if (fluid && coupled()) {
+    solid_solver_->regroup(grains_, grain_grid_);
+  }
   if (!fluid && !grains) return;
   if (coupled()) relist_coupling();
   rebuilt_ = true;
   ++rebuilds_;
+}
+
+HostArray Stepper::blocks_of_grains() const {
+  return blocks_of(grains_, grain_grid_, frame_, Span<const Vec3d>(grains_.x_list));
 }
 
 void Stepper::relist_coupling() {

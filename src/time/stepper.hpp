@@ -53,6 +53,8 @@ class Stepper {
 
   /// Grains, their contacts and groups.
   void save_grains(SavedState& out) const;
+  /// Block of each grain, as an array "block": by it parts of ranks are put together.
+  HostArray blocks_of_grains() const;
   void load_grains(const SavedState& saved);
   /// What solvers and lists must know to restart, besides the state.
   void save(SavedState& out) const;

@@ -253,7 +253,8 @@ void FreeBodies::evaluate(Span<const BodyPose> poses) {
   kick(p);
 }
 
-ContactLoads FreeBodies::record(Index grains) {
+ContactLoads FreeBodies::record(Index grains, const std::array<double, 6>& bounds) {
+  by_grains_ = true, grain_bounds_ = bounds;
   const int capacity = met_by_grain();
   grain_slots_.resize(std::size_t(grains) * capacity);
   grain_counts_.resize(grains);
@@ -289,8 +290,9 @@ void FreeBodies::evaluate_contacts(Span<const BodyPose> poses, double dt) {
   ball_sums_.zero();
   for (int k = 0; k < size(); ++k) {
     const std::uint32_t body = rigid(k).body;
-    if (grain_loads_.size > 0)
-      reduce_into(grain_sums_.data() + k, {0, grain_loads_.size}, ContactLoadReduction{grain_loads_, body});
+    if (by_grains_)
+      total_into(grain_sums_.data() + k, {0, grain_loads_.size}, ContactLoadReduction{grain_loads_, body},
+                 grain_bounds_);
     if (balls_.size() > 0)
       reduce_into(ball_sums_.data() + k, {0, ball_loads_.size}, ContactLoadReduction{ball_loads_, body});
   }

@@ -2,6 +2,7 @@
 // Free rigid bodies: state, contacts with other bodies, substeps. For grains and fluid they are walls with
 // poses.
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -72,8 +73,9 @@ class FreeBodies {
   /// Contacts at the present poses, without advancing time; poses: one row.
   void evaluate(Span<const BodyPose> poses);
 
-  /// Buffer in which `grains` grains record their loads on bodies, until the next evaluation.
-  ContactLoads record(Index grains);
+  /// Buffer in which `grains` grains record their loads on bodies, until the next evaluation. bounds: of the
+  /// load of one of them, N, N m. By all ranks, also those without grains.
+  ContactLoads record(Index grains, const std::array<double, 6>& bounds);
   /// What that takes, bytes of one grain.
   std::size_t record_bytes() const {
     return any() ? sizeof(Index) + std::size_t(met_by_grain()) * sizeof(ContactLoad) : 0;
@@ -174,6 +176,8 @@ class FreeBodies {
   Buffer<ContactLoad> grain_slots_, ball_slots_;
   Buffer<Index> grain_counts_, ball_counts_;
   ContactLoads grain_loads_, ball_loads_;
+  bool by_grains_ = false;  ///< grains record loads
+  std::array<double, 6> grain_bounds_{};
   SubstepLoads substep_loads_;
   Buffer<LoadSum> grain_sums_, ball_sums_, wall_sums_, repulsion_sums_;
   PressureCorrection pressure_correction_;

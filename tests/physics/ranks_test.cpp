@@ -145,6 +145,126 @@ end = 1
 every = 1
 )";
 
+/// A small drum of grains of two materials, which rises, turns and lets go.
+const std::string kDrum = R"([domain]
+min = [-0.04, -0.03, -0.04]
+max = [0.04, 0.03, 0.04]
+[[shape]]
+name = "inside"
+kind = "cylinder"
+a = [0, -0.025, 0]
+b = [0, 0.025, 0]
+radius = 0.03
+[[shape]]
+name = "drum"
+kind = "hollow"
+of = ["inside"]
+[[wall.body]]
+name = "drum"
+shape = "drum"
+mu = 1
+[wall.body.motion]
+kind = "rotation"
+axis = [0, 1, 0]
+centre = [0, 0, 0]
+rate = 20
+[grain]
+d = 0.005
+E = 1e7
+mu_r = 0.05
+[[grain.material]]
+name = "heavy"
+rho = 7000
+[[grain.fill]]
+shape = "inside"
+count = 60
+[[grain.fill]]
+shape = "inside"
+count = 30
+material = "heavy"
+[time]
+end = 1
+[out]
+every = 1
+[[probe]]
+name = "side"
+type = "force"
+sample = "instant"
+body = "drum"
+[[probe]]
+name = "mean"
+type = "force"
+body = "drum"
+[[probe]]
+name = "box"
+type = "box"
+phase = "grains"
+min = [-0.02, -0.02, -0.04]
+max = [0.02, 0.02, 0]
+[[probe]]
+name = "front"
+type = "front"
+phase = "grains"
+direction = "x+"
+[[probe]]
+name = "flux"
+type = "flux"
+phase = "grains"
+axis = "x"
+min = [-0.01, -0.03, -0.04]
+max = [0.01, 0.03, 0.04]
+)";
+/// Some touch each other, some the floor.
+const std::string kSingle = R"([grain]
+d = 0.01
+[[grain.fill]]
+positions = [[0.05, 0.05, 0.0048], [0.058, 0.05, 0.011], [0.02, 0.05, 0.014], [0.03, 0.02, 0.04], [0.08, 0.08, 0.02]]
+velocity = [0.3, 0, -0.3]
+)";
+/// Water and grains that collapse together; to follow kDam.
+const std::string kSlurry = R"([grain]
+d = 0.008
+[[grain.fill]]
+min = [0, 0, 0]
+max = [0.1, 0.06, 0.08]
+count = 80
+)";
+/// Grains that slide down a slope which is periodic, from an inlet above to an outlet.
+const std::string kSlope = R"(gravity = [3, 0, -9]
+[domain]
+min = [0, 0, 0]
+max = [0.1, 0.03, 0.06]
+periodic = [true, true, false]
+[[wall.body]]
+name = "floor"
+shape = "plane"
+point = [0, 0, 0.001]
+normal = [0, 0, 1]
+[grain]
+d = 0.005
+E = 1e7
+[[grain.fill]]
+min = [0, 0, 0.001]
+max = [0.1, 0.03, 0.03]
+count = 100
+[[grain_inlet]]
+name = "feed"
+shape = "box"
+min = [0.03, 0.005, 0.045]
+max = [0.06, 0.025, 0.055]
+rate = 2000
+velocity = [0, 0, -1]
+[[outlet]]
+name = "sink"
+shape = "box"
+min = [0, 0, 0]
+max = [0.01, 0.015, 0.01]
+[time]
+end = 1
+[out]
+every = 1
+)";
+
 struct RankCase {
   const char* name;
   std::string text;
@@ -168,9 +288,26 @@ std::vector<RankCase> rank_cases() {
       {"collisions", kDam, {"visc.collision=true", "visc.collision_range=1", "shift.A=0"}, 60},
       {"smoothing lengths", kTank + kFluid, {"fluid.variable_h=true"}, 40},
       {"sdpd", kTank + kFluid + kGate, {"fluid.model=sdpd_a", "sdpd.kT=1e-9"}, 40},
-      {"sdpd by summation", kTank + kFluid,
-       {"fluid.model=sdpd", "density.method=summation", "pressure.filter=true", "wall.type=frozen"}, 40},
+      {"sdpd by summation",
+       kTank + kFluid,
+       {"fluid.model=sdpd", "density.method=summation", "pressure.filter=true", "wall.type=frozen"},
+       40},
       {"inlet and outlet", kDuct, {}, 120},
+      {"drum of grains", kDrum, {}, 150},
+      {"drum of grains, blocks of two cells", kDrum, {"run.block=2"}, 60},
+      {"slope with inlet and outlet of grains", kSlope, {}, 150},
+      {"settled grains", kDrum, {"grain.settle=true"}, 60},
+      {"held grains", kDrum, {"grain.release_time=0.005"}, 40},
+      {"grains in fluid that do not act on it", test::kTank + kFluid + kSingle, {"couple.mode=off"}, 60},
+      {"slurry", kDam + kSlurry, {}, 120},
+      {"slurry, local slip, blocks of two cells", kDam + kSlurry, {"couple.slip=local", "run.block=2"}, 60},
+      {"slurry, one way", kDam + kSlurry, {"couple.mode=one_way"}, 60},
+      {"slurry, bodies, lubrication", test::kBed + test::kFloat, {"lubrication.forces=normal"}, 40},
+      {"grains, a body and a group", kTank + test::kGrains + test::kFloat, {"out.energy=true"}, 60},
+      {"sdpd and grains",
+       kTank + kFluid + kSingle + kGate,
+       {"fluid.model=sdpd", "density.method=summation"},
+       40},
       {"sheared", kSheared, {}, 40},
       {"sheared, sdpd", kSheared, {"fluid.model=sdpd", "sdpd.kT=1e-9"}, 40},
   };
@@ -193,15 +330,19 @@ std::vector<std::byte> bytes_of(const HostStore& store) {
 
 /// All that a user reads of it.
 std::vector<std::byte> readings(Simulation& s, const Config& c) {
-  std::vector<std::byte> out = bytes_of(s.snapshot("fluid"));
+  std::vector<std::byte> out;
   const auto add = [&](const std::vector<Quantity>& rows) {
     for (const Quantity& q : rows) {
       const auto raw = std::bit_cast<std::array<std::byte, sizeof q.value>>(q.value);
       out.insert(out.end(), raw.begin(), raw.end());
     }
   };
-  const auto walls = bytes_of(s.snapshot("walls"));
-  out.insert(out.end(), walls.begin(), walls.end());
+  const auto add_store = [&](const HostStore& store) {
+    const auto more = bytes_of(store);
+    out.insert(out.end(), more.begin(), more.end());
+  };
+  for (const char* name : {"fluid", "walls", "grains"}) add_store(s.snapshot(name));
+  if (c.grain.present) add_store(s.rheology("grains"));
   add(s.diagnostics());
   for (const ProbeConfig& probe : c.out.probes) add(s.measure(probe));
   for (int b = 0; b < int(c.wall.bodies.size()); ++b) add(s.body_state(b));
@@ -222,9 +363,13 @@ class Ranks : public testing::TestWithParam<RankCase> {
   }
   Outcome outcome(int ranks, int steps) {
     const auto s = make_divided(config_, setup_, ranks);
-    s->start();
+    begin(*s);
     for (int n = 0; n < steps; ++n) s->step();
     return {bits(*s), readings(*s, config_)};
+  }
+  void begin(Simulation& s) {
+    if (config_.grain.settle) s.settle(0.1, [](double) {});
+    s.start();
   }
   Config config_;
   bedload::Setup setup_;
@@ -252,13 +397,31 @@ TEST_P(Ranks, ContinueFromACheckpointOfOtherRanks) {
   int done = 0;
   for (const auto& [ranks, until] : {std::pair{4, half}, {1, half + 5}, {3, steps - 4}, {2, steps}}) {
     const auto s = make_divided(config_, done > 0 ? bedload::Setup{} : setup_, ranks);
-    done > 0 ? s->load(saved) : s->start();
+    done > 0 ? s->load(saved) : begin(*s);
     for (; done < until; ++done) s->step();
     saved = s->save();
     if (done < steps) continue;
     const Outcome outcome{bits(*s), readings(*s, config_)};
     EXPECT_TRUE(outcome == unbroken);
   }
+}
+
+/// Settled grains that a cache keeps are those of any number of ranks.
+TEST(RankGrains, SettledOnSomeRanksStartOnOthers) {
+  const Config config = config_of({"", kDrum, {"grain.settle=true"}, 0});
+  std::vector<std::string> warnings;
+  const bedload::Setup setup = build_setup(config, warnings);
+  std::vector<std::vector<std::byte>> found;
+  for (const auto& [first, then] : {std::pair{1, 1}, {3, 2}}) {
+    const auto a = make_divided(config, setup, first);
+    a->settle(0.05, [](double) {});
+    const auto b = make_divided(config, setup, then);
+    b->load_grains(a->save_grains());
+    b->start();
+    for (int n = 0; n < 10; ++n) b->step();
+    found.push_back(bits(*b));
+  }
+  EXPECT_TRUE(found[0] == found[1]);
 }
 
 /// A lump that flies across blocks that were empty.
@@ -341,7 +504,8 @@ class RankFault : public testing::Test {
 };
 
 TEST_F(RankFault, OfOneEndsAllWithItsSentence) {
-  EXPECT_EQ(run(60, [] { throw DeviceError("GPU 1 has fallen off the bus"); }), "GPU 1 has fallen off the bus");
+  EXPECT_EQ(run(60, [] { throw DeviceError("GPU 1 has fallen off the bus"); }),
+            "GPU 1 has fallen off the bus");
 }
 
 TEST_F(RankFault, OneThatSleepsIsNotWaitedForLonger) {
@@ -351,7 +515,8 @@ TEST_F(RankFault, OneThatSleepsIsNotWaitedForLonger) {
 
 TEST(RankLimits, NameWhatCannotBeDividedYet) {
   std::vector<std::string> warnings;
-  const auto refused = [&](const std::string& text, const std::vector<std::string>& overrides) -> std::string {
+  const auto refused = [&](const std::string& text,
+                           const std::vector<std::string>& overrides) -> std::string {
     try {
       refuse_undivided(read_case_text(text, "case.toml", overrides, warnings));
     } catch (const KeyError& error) {
@@ -360,7 +525,12 @@ TEST(RankLimits, NameWhatCannotBeDividedYet) {
     return "";
   };
   EXPECT_EQ(refused(kDam, {}), "");
-  EXPECT_EQ(refused(test::kBed, {}), "grain");
+  EXPECT_EQ(refused(kDrum, {}), "");
+  EXPECT_EQ(refused(test::kBed + test::kFloat, {}), "");
+  EXPECT_EQ(refused(kDrum + "[[grain.fill]]\nmin = [0, 0, 0]\nmax = [0.01, 0.01, 0.01]\ncount = "
+                            "2\n[[grain.fill.sizes]]\nd = 0.005\n[[grain.fill.sizes]]\nd = 0.002\n",
+                    {}),
+            "grain");
   EXPECT_EQ(refused(kDam, {"wall.type=mdbc"}), "wall.body.0.type");
   EXPECT_EQ(refused(kDam, {"wall.energy_consistent=true", "wall.suction=true"}), "wall.energy_consistent");
 }

@@ -11,17 +11,29 @@ namespace BL_SOLVER {
 
 struct CellGridView;
 
+/// Blocks of another phase, whose ranks need copies of what is around them, too.
+struct OtherBlocks {
+  const CellGridView& grid;                 ///< their shape
+  const std::vector<std::uint16_t>& owner;  ///< of each
+  double reach;                             ///< m
+};
+
 struct Ownership {
   /// owner: of each block of the domain. `grid`: its shape.
-  Ownership(const CellGridView& grid, const std::vector<std::uint16_t>& owner);
+  Ownership(const CellGridView& grid, const std::vector<std::uint16_t>& owner,
+            const OtherBlocks* other = nullptr);
 
-  Index ghost_blocks = 0;            ///< of other ranks, with cells next to this rank's
+  Index ghost_blocks = 0;            ///< of other ranks, with cells next to this rank's or in reach of others
   Buffer<Index> owner;               ///< [blocks of the domain]
   Buffer<Index> ghost_place;         ///< [blocks of the domain] among the ghost blocks, by owner; kNone: none
   Buffer<Index> beside;              ///< [blocks of the domain] 1: a cell of it is next to a ghost block
-  Buffer<std::uint32_t> sent_cells;  ///< numbers of this rank's cells next to others' blocks, by rank
+  Buffer<std::uint32_t> sent_cells;  ///< numbers of this rank's cells of which others have copies, by rank
   std::vector<Index> of_rank;        ///< [ranks + 1] where those for a rank begin
 };
+
+/// Owners of blocks of another shape: each belongs to the rank that has its middle.
+std::vector<std::uint16_t> owners_of(const CellGridView& blocks, const CellGridView& owned,
+                                     const std::vector<std::uint16_t>& owner);
 
 /// Where the blocks of a domain are, in blocks along each axis.
 std::vector<std::array<int, 3>> block_places(const CellGridView& grid);

@@ -29,6 +29,7 @@ struct FluidStore : Store {
   Field<Real> exposure{*this, "exposure", "-", Lifetime::kept};  ///< to free surfaces (Shifting): 0 within the fluid
   Field<Real> compression_rate{*this, "compression_rate", "1/s", Lifetime::kept};  ///< of compression by continuity alone; left out without acoustic damper
   Field<EosState<>> eos_state{*this, "eos_state", "kg, m5/(kg s2), kg/m3, -", Lifetime::kept, Output{.order = 4, .name = "density", .unit = "kg/m3", .components = 1, .first = 2}};
+  Field<Real> drag_rate{*this, "drag_rate", "1/s", Lifetime::derived};  ///< of the drag of the grains; left out where it does not act on fluid
   Field<Real3> drag_kick{*this, "drag_kick", "m/s", Lifetime::derived};  ///< by the drag of the grains, this step
   Field<Real3> acc_next{*this, "acc_next", "m/s2", Lifetime::derived};
   Field<Real3> heading{*this, "heading", "m/s", Lifetime::derived};  ///< velocity in the middle of the next step but for the push of wall surfaces

@@ -30,6 +30,15 @@ struct GrainStore : Store {
   Field<Real3> spin_impulse{*this, "spin_impulse", "N m s", Lifetime::derived};
   // for the exchange with fluid
   Field<PairPosition> xp{*this, "xp", "-", Lifetime::derived};     ///< packed
+  // what fluid reads of their drag and of their reaction on it: DragWeights, DragLevers, Reactions
+  Field<Real> still{*this, "drag_still", "-", Lifetime::derived};
+  Field<Real4> by_slip{*this, "drag_by_slip", "m/s, s/m", Lifetime::derived};
+  Field<Real> lever_at_centre{*this, "lever_at_centre", "-", Lifetime::derived};
+  Field<Real> lever_off_centre{*this, "lever_off_centre", "1/m", Lifetime::derived};
+  Field<Real4> reaction_impulse{*this, "reaction_impulse", "N s, kg", Lifetime::derived};
+  Field<Real4> reaction_force{*this, "reaction_force", "N, -", Lifetime::derived};
+  Field<Real4> reaction_spin{*this, "reaction_spin", "N s/m, -", Lifetime::derived};
+  Field<Real4> reaction_couple{*this, "reaction_couple", "N/m, 1/m", Lifetime::derived};
   Field<Vec3d> x_before{*this, "x_before", "m", Lifetime::derived};  ///< at the start of the step
 };
 

@@ -1,6 +1,7 @@
 #pragma once
 // Fields that are resized, sorted and saved as one.
 
+#include <initializer_list>
 #include <typeinfo>
 #include <vector>
 
@@ -24,6 +25,7 @@ class Store {
   Index size() const { return size_; }         ///< of all()
   /// Particles that all ranks own.
   std::int64_t everywhere() const { return divided_ ? everywhere_ : owned_; }
+  bool divided() const { return divided_; }  ///< each rank has a part of them; else each has all
   const std::vector<FieldBase*>& fields() const { return fields_; }
   /// Of one particle in all fields that are used.
   std::size_t entry_bytes() const {
@@ -82,13 +84,17 @@ class Store {
   /// holds.
   template <class Which>
   void share(const Which& which) {
-    if (everywhere() == 0) return;  // then nobody has planned an exchange
+    if (!divided_ || everywhere_ == 0) return;  // then nobody has planned an exchange
     std::vector<FieldBase*> fields;
     for (auto* f : fields_)
       if (f->used() && !f->shared() && which(*f)) fields.push_back(f);
     if (fields.empty()) return;
     exchange_.run(fields, owned_);
     for (auto* f : fields) f->set_shared(true);
+  }
+  /// The same of these fields: within a stage, of what one pass has written and the next reads near.
+  void share(std::initializer_list<FieldBase*> fields) {
+    share([&](const FieldBase& f) { return std::find(fields.begin(), fields.end(), &f) != fields.end(); });
   }
   /// After particles have come or gone.
   void count() {
@@ -105,6 +111,7 @@ class Store {
   }
   void load(const HostStore& s) {
     resize(Index(s.count));
+    divided_ = false;
     for (auto* f : fields_) {
       if (!f->used() || !f->saved()) continue;
       const HostArray* a = s.find(f->name);

@@ -1,0 +1,33 @@
+#pragma once
+// Contacts of grains that go to other ranks.
+
+#include "bedload/neighbours/verlet_list.hpp"
+#include "bedload/particles/store.hpp"
+#include "kernels/contact/pair_histories.hpp"
+#include "src/domain/divide.hpp"
+
+namespace BL_SOLVER {
+
+/// They go along with their grain, whose new rank finds both partners by their ids in its own list.
+class ArrivingContacts {
+ public:
+  /// From the rows of a list whose entries have these ids to the ranks to which grains are to move; rows: of
+  /// each grain, empty where they are in the order of the list; `listed`: the list is of these grains. By all
+  /// ranks at the same time.
+  void send(const Migrants& migrants, Span<const Index> rows, const VerletListView& list, bool listed,
+            const PairHistories& histories, Span<const Id> id);
+  /// Into the rows of grains that had none before (`order`: kNone) go what has come since the last call.
+  void settle(Range grains, Span<const Index> order, Span<const Id> id, const VerletListView& list,
+              const PairHistories& histories);
+
+ private:
+  struct Records : Store {
+    Records() : Store("contacts") {}
+    Field<Id> own{*this, "own", "-", Lifetime::kept}, other{*this, "other", "-", Lifetime::kept};
+    Field<ContactHistory> history{*this, "history", HistoryParts::units(), Lifetime::kept};
+  } records_;
+  Buffer<std::uint32_t> own_;  ///< of those that have come, ascending
+  Buffer<Index> order_;        ///< the record of each
+};
+
+}  // namespace BL_SOLVER
