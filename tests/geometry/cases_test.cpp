@@ -26,6 +26,7 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"dam_break_slurry/case.toml", {1600, 400}},
       {"dam_break_single_phase/case.toml", {37 * 73 * 10, 0}},
       {"dam_break_two_phase/case.toml", {17 * 33 * 50, 7762}},
+      {"debris_barrier/case.toml", {3262, 1877, {"fluid.c_factor", "grain.E"}}},
       {"ball_in_oil/case.toml", {238505, 0}},
       {"ball_mill/case.toml", {0, 1733}},
       {"elliptic_drop/case.toml", {13776, 0}},

@@ -723,6 +723,16 @@ class Solids(unittest.TestCase):
                     np.testing.assert_allclose(mesh.vertices.min(0), [10, 20, 0.5], atol=1e-6)
                     np.testing.assert_allclose(mesh.vertices.max(0), [14, 22, 6], atol=1e-6)
 
+    def test_the_valley_of_the_debris_flow_is_that_of_its_script(self):
+        case = ROOT / "cases/debris_barrier"
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, case / "make_valley.py", Path(folder, "valley.asc")], check=True)
+            self.assertEqual(Path(folder, "valley.asc").read_text(), (case / "valley.asc").read_text())
+        valley = _surfaces.read_heights(case / "valley.asc").vertices
+        middle = valley[np.abs(valley[:, 1]) < 1e-9]
+        self.assertAlmostEqual(np.interp(0.2, middle[:, 0], middle[:, 2]) - np.interp(0.6, middle[:, 0], middle[:, 2]),
+                               0.4 * np.tan(np.radians(32)), delta=1e-3)
+
     def test_outlines(self):
         box = {"it": {"kind": "box", "min": [0, 0, 0], "max": [1, 2, 3]}}
         (mesh,) = _surfaces.surfaces("it", box, Path())
