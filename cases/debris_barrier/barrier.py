@@ -61,7 +61,7 @@ def main(folder):
             ("thrust of a liquid as heavy and as deep, at rest", f"{still:.2f} N"),
             ("run-up on the barrier, at most", f"{1000 * run_up:.0f} mm"),
             ("v^2 / 2 g of the front", f"{1000 * speed_of_front**2 / (2 * G):.0f} mm"),
-            ("held back: mud, grains", f"{100 * of_mud:.0f} %, {100 * of_grains:.0f} %")]
+            ("held back: mud, grains", f"{100 * of_mud:.1f} %, {100 * of_grains:.1f} %")]
     for what, value in rows:
         print(f"{what:55} {value}")
 
