@@ -35,11 +35,17 @@ struct Lubrication {
   Real mu = 0;                         ///< Pa s; 0: no lubrication
   Real cut_off = 1, least_gap = 0.01;  ///< s_c, s_m over R*
   bool shears = false;
+  Real squeezed = kFar, sheared = kFar;  ///< gaps from which the fluid itself resolves it, m
 
-  /// mu: of the fluid, Pa s.
-  static Lubrication of(const LubricationConfig& l, double mu) {
+  /// mu: of the fluid, Pa s; node: spacing of nodes between which it flows around grains, m.
+  static Lubrication of(const LubricationConfig& l, double mu, double node = kFar) {
     if (!l.acts()) return {};
-    return {Real(mu), Real(l.cut_off), Real(l.least_gap), l.forces == LubricationForces::all};
+    return {Real(mu),
+            Real(l.cut_off),
+            Real(l.least_gap),
+            l.forces == LubricationForces::all,
+            Real(kSqueezed * node),
+            Real(kSheared * node)};
   }
   BL_HD bool acts() const { return mu > 0; }
   /// Gap up to which there is a force, m.
@@ -48,13 +54,14 @@ struct Lubrication {
   /// v: relative velocity of the centres, for a wall of the grain's centre and the wall next to it, m/s.
   BL_HD ContactForce operator()(const NearSurfaces& at, const Real3& v, const Real3& omega_i,
                                 const Real3& omega_j) const {
-    const Real R = at.R_star, s_c = cut_off * R, s = max_of(Real(at.gap), least_gap * R);
+    const Real R = at.R_star, s_c = min_of(cut_off * R, squeezed), s = max_of(Real(at.gap), least_gap * R);
     if (!(s < s_c)) return {};
     const Real3 n = Real3(at.n);
     const Real v_n = dot(v, n);
     ContactForce out{(-6 * kPi * mu * R * R * (1 / s - 1 / s_c) * v_n) * n, {}, {}};
-    if (!shears) return out;
-    const Real scale = Real(0.4) * kPi * mu * R * std::log(s_c / s), q = at.skew;
+    const Real s_t = min_of(cut_off * R, sheared);
+    if (!shears || !(s < s_t)) return out;
+    const Real scale = Real(0.4) * kPi * mu * R * std::log(s_t / s), q = at.skew;
     const Real3 u = v - v_n * n - cross(at.arm_i * omega_i + at.arm_j * omega_j, n),
                 w = R * cross(omega_i - omega_j, n);
     const Real3 f = scale * ((5 + 3 * q * q) * u + (6 * q) * w),
@@ -64,6 +71,10 @@ struct Lubrication {
     out.torque_j = cross(n, at.arm_j * f + g);
     return out;
   }
+
+ private:
+  static constexpr double kFar = 1e30;
+  static constexpr double kSqueezed = 2.0 / 3, kSheared = 0.5;  ///< nodes [nguyen02]
 };
 
 }  // namespace BL_SOLVER

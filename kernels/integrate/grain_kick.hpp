@@ -41,6 +41,7 @@ struct GrainKick {
   Span<const Real> radius;
   // empty where there is no fluid
   Span<const Real3> fluid_force = {};
+  Span<const Real3> fluid_torque = {};  ///< N m; where fluid flows around the grains
   DragView drag = {};
   Span<const Real3> drive = {};  ///< N; empty: none
   Edges edges = {};
@@ -71,11 +72,14 @@ struct KickedGrain {
       : v(v0),
         omega(omega0),
         wet_(k.wet()),
+        pushed_(k.fluid_force),
+        turned_(k.fluid_torque),
         driven_(k.drive),
         m_(k.mass(i)),
         inertia_(0.4 * m_ * k.radius[i] * k.radius[i]),
         h_(k.h),
-        fluid_force_(wet_ ? Vec3d(k.fluid_force[i]) : Vec3d{}),
+        fluid_force_(pushed_ ? Vec3d(k.fluid_force[i]) : Vec3d{}),
+        fluid_torque_(turned_ ? Vec3d(k.fluid_torque[i]) : Vec3d{}),
         drive_(driven_ ? Vec3d(k.drive[i]) : Vec3d{}),
         gravity_(k.gravity),
         slide_(wet_ ? k.drag.coefficient[i] / m_ : 0, k.h, k.exponential),
@@ -84,8 +88,9 @@ struct KickedGrain {
         fluid_angular_velocity_(spin_.fraction > 0 ? Vec3d(k.drag.rotation[i]) : Vec3d{}) {}
 
   /// Sets the load of contacts: force (N) and torque (N m).
-  BL_HD void load(Vec3d force, const Vec3d& torque) {
-    if (wet_) force += fluid_force_;
+  BL_HD void load(Vec3d force, Vec3d torque) {
+    if (pushed_) force += fluid_force_;
+    if (turned_) torque += fluid_torque_;
     if (driven_) force += drive_;
     a_ = force * (1 / m_) + gravity_;
     alpha_ = torque * (1 / inertia_);
@@ -101,9 +106,9 @@ struct KickedGrain {
   }
 
  private:
-  bool wet_, driven_;
+  bool wet_, pushed_, turned_, driven_;
   double m_, inertia_, h_;
-  Vec3d fluid_force_, drive_, gravity_, a_, alpha_;
+  Vec3d fluid_force_, fluid_torque_, drive_, gravity_, a_, alpha_;
   Relaxation slide_, spin_;
   Vec3d fluid_velocity_, fluid_angular_velocity_;
 };

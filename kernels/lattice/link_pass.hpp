@@ -32,30 +32,44 @@ BL_HD Vec3d surface_point(const NodeGrid& grid, const Link& link) {
          double(link.fraction) * velocity_of<double>(link.direction);
 }
 
-/// Populations that arrive from walls: linear interpolation about the surface, at any fraction of the link
-/// with the same formula [ginzburg08]; half-way bounce-back at a fraction of 1/2. The body takes up what the
-/// populations lose.
+/// What leaves a node along a link and comes back from the surface, less the weight.
+struct Reflection {
+  Real left, back;
+};
+/// By linear interpolation about the surface, at any fraction q of the link with the same formula
+/// [ginzburg08]; half-way bounce-back at a fraction of 1/2. f: of the step to come; k: velocity towards the
+/// solid; u: of the surface there, in nodes a step. Leaves what comes back where the node takes it from.
+BL_HD Reflection reflect(const Populations& f, Index node, int k, Real q, const Vec3d& u) {
+  Populations before = f;
+  before.odd = !f.odd;
+  const int i = opposite(k);
+  const Real left = before.leaving(k, node);
+  Real back = left - 12 / (1 + 2 * q) * Real(weight(k)) * Real(dot(velocity_of<double>(k), u));
+  if (q != Real(0.5)) back += (1 - 2 * q) / (1 + 2 * q) * (f.arriving(k, node) - before.leaving(i, node));
+  f.arriving(i, node) = back;
+  return {left, back};
+}
+
+/// Populations that arrive from walls. The body takes up what the populations lose.
 struct LinkPass {
   Populations f;  ///< of the step to come
   SurfaceMotion body;
   Links links;
+  Span<const std::uint32_t> solid;
   Span<Real3> force;            ///< on the body in this step, per link
   Span<Vec4<double>> received;  ///< since the start: momentum 3, work
 
   BL_HD void operator()(Index l) const {
     const Link link = links[l];
-    Populations before = f;
-    before.odd = !f.odd;
-    const int k = link.direction, i = opposite(k);
-    const Real q = link.fraction, left = before.leaving(k, link.node);
+    if (solid[link.node] != 0) {  // a grain is there
+      force[l] = {};
+      return;
+    }
+    const int k = link.direction;
+    const bool narrow = solid[f.grid.neighbour_at(link.node, opposite(k))] != 0;
     const Vec3d u = body.at(surface_point(f.grid, link));
-    const Vec3d c = velocity_of<double>(k);
-    Real back = left - 12 / (1 + 2 * q) * Real(weight(k)) * Real(dot(c, u));
-    if (q != Real(0.5))
-      back += (1 - 2 * q) / (1 + 2 * q) * (f.arriving(k, link.node) - before.leaving(i, link.node));
-    f.arriving(i, link.node) = back;
-
-    const Vec3d taken = (double(left) + double(back)) * c;
+    const Reflection r = reflect(f, link.node, k, narrow ? Real(0.5) : link.fraction, u);
+    const Vec3d taken = (double(r.left) + double(r.back)) * velocity_of<double>(k);
     force[l] = Real3(taken);
     Vec4<double>& sum = received[l];
     sum.x += taken.x, sum.y += taken.y, sum.z += taken.z;

@@ -26,6 +26,14 @@ struct NodeMoments {
   }
 };
 
+/// What a step leaves of velocity i where it has come to equilibrium, less the weight, under a force per
+/// volume.
+BL_HD Real left_in_equilibrium(int i, const NodeState& s, const Real3& force) {
+  const Real3 c = velocity_of<Real>(i);
+  const Real w = Real(weight(i)), cu = dot(c, s.u);
+  return even_equilibrium(w, s, cu) + 3 * w * (s.rho() * cu + Real(0.5) * dot(c, force));
+}
+
 /// Leaves the equilibrium of a density and velocity, as if after a step.
 struct BeginPass {
   Populations f;
@@ -40,12 +48,8 @@ struct BeginPass {
     double excess = 0;
     for (int k = 0; k < 3; ++k) excess += slope[k] * (here.of[k] - 0.5 * (f.grid.n[k] - 1.0));
     const NodeState s{Real(excess), velocity ? velocity[node] : Real3{}};
-    f.at(0, node) = even_equilibrium(Real(weight(0)), s, 0);
-    for (int i = 1; i < kVelocities; ++i) {
-      const Real3 c = velocity_of<Real>(i);
-      const Real w = Real(weight(i)), cu = dot(c, s.u);
-      f.leaving(i, node) = even_equilibrium(w, s, cu) + 3 * w * (s.rho() * cu + Real(0.5) * dot(c, force));
-    }
+    f.at(0, node) = left_in_equilibrium(0, s, force);
+    for (int i = 1; i < kVelocities; ++i) f.leaving(i, node) = left_in_equilibrium(i, s, force);
   }
 };
 

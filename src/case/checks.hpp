@@ -80,6 +80,7 @@ class Checks {
   // checks_lattice.cpp
   void lattice_step() const;
   void lattice_walls() const;
+  void lattice_grains() const;
 
   // checks_grains.cpp
   void grain_fill(const std::string& path, const GrainFill& fill) const;

@@ -221,7 +221,7 @@ void Checks::lubrication() const {
   const auto refuse = [&](const char* with) {
     fail("lubrication.forces", quoted(l.forces.name()), fmt::format("must be \"none\" {}", with));
   };
-  if (!coupled()) refuse("without [fluid] to which grains are coupled");
+  if (!coupled() && !c.fluid.lattice()) refuse("without [fluid] to which grains are coupled");
   if (c.contact.normal == NormalLaw::none) refuse("with contact.normal = \"none\"");
   if (c.wall.free_bodies() > 0) refuse("with wall bodies that move freely");
   if (l.least_gap >= l.cut_off)

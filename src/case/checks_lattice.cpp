@@ -11,9 +11,7 @@ void Checks::lattice() const {
   const char* with = "with fluid.model = \"lattice\"";
   if (c.preset != Preset::standard)
     fail("preset", quoted(c.preset.name()), fmt::format("must be left out {}", with));
-  if (c.grain.present)
-    throw CaseError(fmt::format("{}: [grain] must be left out {}, which cannot hold grains yet",
-                                nearest_value(root_, "grain").place(), with));
+  if (c.grain.present) lattice_grains();
   if (c.drive.mode == DriveMode::particle)
     fail("drive.mode", quoted(c.drive.mode.name()), fmt::format("must be \"volume\" or \"mass\" {}", with));
   double nodes = 1;
@@ -45,6 +43,47 @@ void Checks::lattice() const {
     fail("out.contacts", quoted(c.out.contacts.name()), fmt::format("must be \"none\" {}", with));
   if (c.out.spectra) fail("out.spectra", "true", fmt::format("must be false {}", with));
   lattice_step();
+}
+
+/// Grains around which the fluid flows.
+void Checks::lattice_grains() const {
+  const char* with = "with fluid.model = \"lattice\"";
+  constexpr double kLeast = 5, kEnough = 8;  // nodes across a grain
+  const double across = c.grain.d_min / c.fluid.dx;
+  if (across < kLeast * (1 - 1e-9))
+    fail("fluid.dx", c.fluid.dx,
+         fmt::format("must be at most {:.4g} m, for {:g} nodes across the smallest grain of {:.4g} m",
+                     c.grain.d_min / kLeast, kLeast, c.grain.d_min));
+  if (across < kEnough * (1 - 1e-9))
+    warn("fluid.dx: {:.3g} nodes across the smallest grain; below {:g} drag is off by 1 to 3 %", across,
+         kEnough);
+  for (std::size_t k = 0; k < c.grain.fills.size(); ++k) {
+    if (c.grain.fills[k].rigid.present)
+      fail(fmt::format("grain.fill.{}.rigid", k), "[grain.fill.rigid]",
+           fmt::format("must be left out {}", with));
+    if (c.grain.fills[k].replaces_fluid)
+      fail(fmt::format("grain.fill.{}.replaces_fluid", k), "true", fmt::format("must be false {}", with));
+  }
+  if (!c.grain_inlets.empty())
+    fail("grain_inlet.0.name", quoted(c.grain_inlets[0].name), fmt::format("must be left out {}", with));
+  if (c.out.energy) fail("out.energy", "true", fmt::format("must be false {}", with));
+  if (c.grain.fixed) return;
+  for (int k = 0; k < 3; ++k)
+    if (c.domain.periodic[k] && c.gravity[k] != 0)
+      warn(
+          "gravity along {}, which is periodic: the weight of the grains accelerates fluid and grains for "
+          "ever, unless "
+          "drive.f holds it",
+          "xyz"[k]);
+  constexpr double kInertia =
+      1.25;  // R / dx times the ratio of densities: an explicit step is stable from there
+  for (const GrainMaterial& m : c.grain.all_materials())
+    if (0.5 * across * m.rho / c.fluid.rho0 < kInertia)
+      fail("fluid.dx", c.fluid.dx,
+           fmt::format(
+               "must be at most {:.4g} m: grains of {:g} kg/m3 are too light for the time step where fewer "
+               "nodes lie across them",
+               0.5 * c.grain.d_min * m.rho / c.fluid.rho0 / kInertia, m.rho));
 }
 
 void Checks::lattice_walls() const {

@@ -15,19 +15,20 @@ constexpr double kHydrostaticRange = 0.05;  // relative density by the weight of
 double largest_acceleration(const Config& c) {
   double drive = norm(c.drive.f);
   if (c.drive.mode == DriveMode::volume) drive /= c.fluid.rho0;
-  if (drive == 0) return norm(c.gravity);
+  const double gravity = norm(gravity_on_fluid(c));
+  if (drive == 0) return gravity;
   const Formula factor(c.drive.factor, "xyzt");
   double most = 0;
   constexpr int looks = 1000;
   for (int k = 0; k <= looks; ++k) most = std::max(most, std::abs(factor({}, c.time.end * k / looks)));
-  return norm(c.gravity) + most * drive;
+  return gravity + most * drive;
 }
 
 /// Pressure by gravity between walls over the density, m2/s2.
 double static_head(const Config& c) {
   double head = 0;
   for (int k = 0; k < 3; ++k)
-    if (!c.domain.periodic[k]) head += std::abs(c.gravity[k]) * (c.domain.max[k] - c.domain.min[k]);
+    if (!c.domain.periodic[k]) head += std::abs(gravity_on_fluid(c)[k]) * (c.domain.max[k] - c.domain.min[k]);
   return head;
 }
 
@@ -36,6 +37,8 @@ double static_head(const Config& c) {
 std::int64_t cells_along(const Config& c, int axis) {
   return std::max<std::int64_t>(1, std::llround((c.domain.max[axis] - c.domain.min[axis]) / c.fluid.dx));
 }
+
+Vec3d gravity_on_fluid(const Config& c) { return c.grain.present && !c.grain.fixed ? Vec3d{} : c.gravity; }
 
 LatticeStep lattice_step(const Config& c) {
   const LatticeConfig& l = c.lattice;

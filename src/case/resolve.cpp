@@ -361,6 +361,7 @@ void resolve_lattice(Config& c, const Value& root) {
     check_factor(c.drive.factor, 0, c.time.end, root, "drive.factor");
   f.c = lattice_step(c).sound;
   c.wall.dx = f.dx;
+  c.couple.mode = CouplingMode::off;  // fluid flows around grains
 }
 
 void resolve_fluid(Config& c, const Value& root, const std::filesystem::path& checkpoint) {

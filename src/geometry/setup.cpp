@@ -133,6 +133,10 @@ Setup build_setup(const Config& config, std::vector<std::string>& warnings, std:
   std::vector<std::string> unread;
   if (config.fluid.present && config.fluid.lattice()) {
     setup.nodes = place_nodes(config);
+    if (config.grain.present) {
+      check_filters(config, warnings);
+      add_grains(config, setup.grains);
+    }
     return setup;
   }
   if (config.fluid.present) {

@@ -22,14 +22,18 @@ std::vector<To> converted(const std::vector<From>& from) {
 
 }  // namespace
 
-LatticeSolver::LatticeSolver(const LatticeParameters& parameters)
-    : p_(parameters), drive_factor_(p_.drive.factor, "xyzt"), rate_(Relaxation::of(p_.tau, p_.magic)) {}
+LatticeSolver::LatticeSolver(const LatticeParameters& parameters, ResolvedGrains* grains)
+    : p_(parameters),
+      grains_(grains),
+      drive_factor_(p_.drive.factor, "xyzt"),
+      rate_(Relaxation::of(p_.tau, p_.magic)) {}
 
 void LatticeSolver::fill(const Setup::Nodes& nodes) {
   for (int k = 0; k < 3; ++k) grid_.n[k] = nodes.count[std::size_t(k)];
   first_ = nodes.first;
   nodes_.resize(grid_.size());
   nodes_.solid.assign(nodes.solid);
+  count_ = double(std::count(nodes.solid.begin(), nodes.solid.end(), 0u));
   populations_.resize(std::size_t(kVelocities) * grid_.size());
   const auto& l = nodes.links;
   links_.resize(Index(l.node.size()));
@@ -70,20 +74,22 @@ Real3 LatticeSolver::force_at(double time) const {
 void LatticeSolver::begin() {
   odd_ = false;
   force_ = force_at(0);
+  if (grains_) grains_->cover(grid_, first_, nodes_);
   const Vec3d slope = p_.static_gravity * (3 / p_.units.acceleration());
   for_each({0, grid_.size()}, BeginPass{populations(odd_), force_, slope, nodes_.solid, velocity_});
   velocity_ = Buffer<Real3>();
   const auto t = sum_over<9>({0, grid_.size()}, NodeTotals{moments(), nodes_.solid});
-  count_ = t.v[0];
-  excess_ = t.v[1];
+  excess_ = excess_of(t.v);
   momentum_ = {t.v[2], t.v[3], t.v[4]};
 }
 
-void LatticeSolver::step(double time, std::int64_t number) {
+void LatticeSolver::step(double time, std::int64_t number, bool held) {
   const LatticeUnits& units = p_.units;
+  if (grains_ && !held) grains_->follow(moments(), first_, nodes_);
   odd_ = number % 2 == 1;
   follow_walls(time + 0.5 * units.dt);
   force_ = force_at(time + units.dt);
+  if (grains_) grains_->exchange(populations(odd_), first_, nodes_, Vec3d(force_), number, held);
   for_each({0, grid_.size()}, CollidePass{populations(odd_), rate_, force_, nodes_.solid});
   driven_ += (count_ * units.momentum()) * Vec3d(force_);
   if (p_.mass_every > 0 && number % p_.mass_every == 0) restore_mass();
@@ -101,6 +107,7 @@ void LatticeSolver::follow_walls(double time) {
     for_each({0, r.size()}, LinkPass{populations(odd_),
                                      body,
                                      links_.links(r),
+                                     nodes_.solid,
                                      {links_.force.span().data + r.begin, r.size()},
                                      {links_.received.span().data + r.begin, r.size()}});
   }
@@ -108,9 +115,9 @@ void LatticeSolver::follow_walls(double time) {
 
 void LatticeSolver::restore_mass() {
   const auto t = sum_over<9>({0, grid_.size()}, NodeTotals{moments(), nodes_.solid});
-  const double lacking = excess_ - t.v[1];
+  const double lacking = excess_ - excess_of(t.v);
   restored_ += lacking;
-  for_each({0, grid_.size()}, AddMassPass{populations(odd_), lacking / count_, nodes_.solid});
+  for_each({0, grid_.size()}, AddMassPass{populations(odd_), lacking / t.v[0], nodes_.solid});
 }
 
 NodeExtremes LatticeSolver::extremes() const {
@@ -127,10 +134,13 @@ FluidSums LatticeSolver::totals() const {
   sums.momentum = units.momentum() * (raw - 0.5 * t.v[0] * Vec3d(force_));
   sums.angular = units.momentum() * units.dx * about_first + cross(first_, sums.momentum);
   sums.kinetic = units.energy() * t.v[8];
-  sums.residual = units.momentum() * (raw - momentum_) - driven_;
+  sums.residual = units.momentum() * (raw - momentum_) - driven();
+  if (grains_) sums.residual += grains_->sums().received;
   for (std::size_t b = 0; b < ranges_.size(); ++b) sums.residual += wall(int(b), 0).impulse;
   return sums;
 }
+
+Vec3d LatticeSolver::driven() const { return grains_ ? driven_ - grains_->sums().displaced : driven_; }
 
 WallSums LatticeSolver::wall(int body, double time) const {
   const LatticeUnits& units = p_.units;

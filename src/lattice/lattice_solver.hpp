@@ -9,6 +9,7 @@
 #include "kernels/lattice/node_passes.hpp"
 #include "src/lattice/lattice_store.hpp"
 #include "src/lattice/parameters.hpp"
+#include "src/lattice/resolved_grains.hpp"
 
 namespace BL_SOLVER {
 
@@ -33,14 +34,16 @@ struct NodeValue {
 
 class LatticeSolver {
  public:
-  explicit LatticeSolver(const LatticeParameters& parameters);
+  /// grains: around which the fluid flows; they must outlive this. Null: there are none.
+  explicit LatticeSolver(const LatticeParameters& parameters, ResolvedGrains* grains = nullptr);
 
   /// The nodes of a case. Once, unless a state is loaded.
   void fill(const Setup::Nodes& nodes);
   /// Equilibrium of the velocities of a setup, at hydrostatic density.
   void begin();
-  /// One step, from time (s), and its number, from 1.
-  void step(double time, std::int64_t number);
+  /// One step, from time (s), and its number, from 1. Grains are where they are at its end; held: at rest,
+  /// and where they have been.
+  void step(double time, std::int64_t number, bool held = true);
   double dt() const { return p_.units.dt; }
 
   const LatticeUnits& units() const { return p_.units; }
@@ -52,7 +55,7 @@ class LatticeSolver {
   FluidSums totals() const;
   WallSums wall(int body, double time) const;  ///< at time, s
   RigidMotion motion(int body, double time) const { return p_.walls[std::size_t(body)].motion.at(time); }
-  Vec3d driven() const { return driven_; }  ///< momentum by gravity and drive since the start, kg m/s
+  Vec3d driven() const;  ///< momentum by gravity and drive on the fluid since the start, kg m/s
   double restored() const { return p_.units.mass() * restored_; }  ///< mass that was added since, kg
   std::vector<NodeValue> values(const std::vector<Index>& nodes) const;
   /// Of all nodes: velocity in nodes a step, density less 1, which is -1 in solids.
@@ -70,8 +73,11 @@ class LatticeSolver {
   void follow_walls(double time);
   void restore_mass();
   void find_ranges();
+  /// Of the mass, beyond a density of 1 of all nodes that grains may cover, from NodeTotals.
+  double excess_of(const double* totals) const { return totals[0] - count_ + totals[1]; }
 
   const LatticeParameters p_;
+  ResolvedGrains* const grains_;
   const Formula drive_factor_;
   const lattice::Relaxation rate_;
   lattice::NodeGrid grid_;
@@ -83,10 +89,10 @@ class LatticeSolver {
   Buffer<Real3> velocity_;     ///< at the start alone
   bool odd_ = false;           ///< the number of the last step
   Real3 force_{};              ///< per volume in it, in units of the lattice
-  double excess_ = 0;          ///< of the mass at the start, in units of the lattice
+  double excess_ = 0;          ///< of the mass at the start, as excess_of has it
   Vec3d momentum_;             ///< at the start, likewise, with half a step of the force
-  double count_ = 0;           ///< fluid nodes
-  Vec3d driven_;               ///< kg m/s
+  double count_ = 0;           ///< nodes in no wall
+  Vec3d driven_;               ///< kg m/s, of these nodes
   double restored_ = 0;        ///< in units of the lattice
 };
 

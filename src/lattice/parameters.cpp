@@ -12,8 +12,9 @@ LatticeParameters lattice_parameters(const Config& config) {
   p.tau = step.tau;
   const double half = step.tau - 0.5;
   p.magic = config.lattice.collision == LatticeCollision::trt ? config.lattice.magic : half * half;
-  p.gravity = config.gravity;
-  for (int k = 0; k < 3; ++k) p.static_gravity[k] = config.domain.periodic[k] ? 0 : config.gravity[k];
+  p.gravity = gravity_on_fluid(config);
+  for (int k = 0; k < 3; ++k) p.static_gravity[k] = config.domain.periodic[k] ? 0 : p.gravity[k];
+  p.lift = config.fluid.rho0 * (p.gravity - config.gravity);
   p.drive = config.drive;
   p.mass_every = config.lattice.mass_every;
   for (const WallBody& body : config.wall.bodies)

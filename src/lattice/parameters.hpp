@@ -40,6 +40,7 @@ struct LatticeParameters {
   double magic = 0;      ///< of TRT; of one relaxation time (tau - 1/2)^2
   Vec3d gravity;         ///< m/s2
   Vec3d static_gravity;  ///< part of it that walls hold, m/s2
+  Vec3d lift;            ///< on grains, where gravity leaves out the fluid: of the fluid they displace, N/m3
   DriveConfig drive;
   std::int64_t mass_every = 0;  ///< steps; 0: never
   std::vector<LatticeWall> walls;

@@ -21,6 +21,12 @@ HostArray array_of(const char* name, const char* unit, const std::vector<T>& val
 }  // namespace
 
 HostStore LatticeSimulation::snapshot(const std::string& name) {
+  if (name == "grains" && grains_) {
+    HostStore out = grains_->snapshot(name);
+    out.arrays.push_back(grains_->state().grains.fluid_force.to_host());
+    out.arrays.push_back(resolved_->torque().to_host());
+    return out;
+  }
   if (name != "fluid") return {name, 0, {}};
   const LatticeUnits& units = solver_.units();
   const lattice::NodeGrid& nodes = solver_.grid();
@@ -84,6 +90,9 @@ std::vector<Quantity> LatticeSimulation::diagnostics() {
   out.push_back({"density_max", "kg/m3", units.rho * (1 + e.most)});
   out.push_back({"density_min", "kg/m3", units.rho * (1 + e.least)});
   out.push_back({"fluid_count", "-", sums.nodes});
+  if (!grains_) return out;
+  add(out, "impulse_on_grains", "N s", resolved_->sums().received);
+  for (const Quantity& q : grains_->diagnostics()) out.push_back(q);
   return out;
 }
 
@@ -199,7 +208,11 @@ std::vector<Quantity> LatticeSimulation::body_state(int body) {
   const WallSums sums = solver_.wall(body, clock_.time);
   LoadSum load = LoadSum::zero();
   load.add(sums.force, sums.torque);
-  return rows_of(solver_.motion(body, clock_.time), {{"fluid", load}});
+  std::vector<Quantity> out = rows_of(solver_.motion(body, clock_.time), {{"fluid", load}});
+  if (!grains_) return out;
+  for (const Quantity& q : grains_->body_state(body))
+    if (q.name.find("_by_grains") != std::string::npos) out.push_back(q);
+  return out;
 }
 
 }  // namespace BL_SOLVER

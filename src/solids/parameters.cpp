@@ -52,7 +52,8 @@ SolidParameters solid_parameters(const Config& config) {
       .d_min = g.smallest(),
       .skin = config.skin_grain * g.smallest(),
       .contacts = config.contact.normal != NormalLaw::none,
-      .films = Lubrication::of(config.lubrication, config.fluid.mu),
+      .films = config.fluid.lattice() ? Lubrication::of(config.lubrication, config.fluid.mu, config.fluid.dx)
+                                      : Lubrication::of(config.lubrication, config.fluid.mu),
       .gravity = config.gravity,
       .fixed = g.fixed,
       .exponential = config.couple.integrator == DragIntegrator::exponential,

@@ -325,6 +325,10 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     kick.fluid_force = g.fluid_force;
     kick.drag = drag_of(std::as_const(g));
   }
+  if (fluid_torque_) {
+    kick.fluid_force = std::as_const(g.fluid_force);
+    kick.fluid_torque = *fluid_torque_;
+  }
   if (books_) begin_books(g, poses.data, kick, substeps);
   const Velocities<Real3> rest{v_rest_, omega_rest_};
   for_each(g.owned(), FirstKickPass{.kick = kick,

@@ -92,6 +92,9 @@ class SolidSolver {
   /// Number of grains near walls.
   Index near_walls() const { return wall_list_.size(); }
 
+  /// Fluid flows around the grains: advance() takes its forces from fluid_force, its torques (N m) from here.
+  void flow_around(const Field<Real3>& torque) { fluid_torque_ = &torque; }
+
   GrainWatch watch(const GrainStore& grains) const;
   /// All limits on a substep, of which the caller takes the least.
   std::vector<StepLimit> limits(const GrainWatch& watch) const;
@@ -260,6 +263,7 @@ class SolidSolver {
   bool wet_;
   const WallGeometry& walls_;
   FreeBodies* bodies_;
+  const Field<Real3>* fluid_torque_ = nullptr;
   RigidGroups groups_;
   std::vector<std::unique_ptr<Field<WallMemory>>> wall_memory_;  ///< [walls_.contacts()]
   std::unique_ptr<Field<Index>> wall_contacts_;                  ///< number in use

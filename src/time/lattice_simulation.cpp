@@ -1,5 +1,6 @@
 #include "src/time/lattice_simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "bedload/case/lattice_step.hpp"
@@ -13,10 +14,23 @@ constexpr std::int64_t kLook = 64;  // steps between looks at the extremes, whic
 constexpr double kFastest = 0.2;    // nodes a step
 constexpr double kWidest = 0.3;     // of the density
 
-const HostStore& store_in(const SavedState& saved, const std::string& name) {
-  for (const auto& s : saved.stores)
-    if (s.name == name) return s;
-  throw FileError("checkpoint has no " + name);
+/// The grains of a case alone, in steps of the lattice (s).
+std::unique_ptr<CoupledSimulation> grains_of(const Config& config, const Setup& setup, double dt) {
+  if (!config.grain.present) return nullptr;
+  Config grains = config;
+  grains.fluid.present = false;
+  grains.time.dt = dt;
+  grains.time.force_dt = true;
+  grains.out.probes.clear();
+  return std::make_unique<CoupledSimulation>(grains, setup);
+}
+
+std::unique_ptr<ResolvedGrains> resolved(const Config& config, CoupledSimulation* grains) {
+  if (!grains) return nullptr;
+  const LatticeParameters p = lattice_parameters(config);
+  auto out = std::make_unique<ResolvedGrains>(config.domain, p.units, p.lift, grains->state().grains);
+  grains->stepper().solids().flow_around(out->torque());
+  return out;
 }
 
 }  // namespace
@@ -25,19 +39,28 @@ LatticeSimulation::LatticeSimulation(const Config& config, const Setup& setup)
     : config_(config),
       clock_(config.time),
       limits_(lattice_step(config).limits),
-      solver_(lattice_parameters(config)) {
+      grains_(grains_of(config, setup, lattice_step(config).dt)),
+      resolved_(resolved(config, grains_.get())),
+      solver_(lattice_parameters(config), resolved_.get()) {
   if (!setup.nodes.solid.empty()) solver_.fill(setup.nodes);
 }
 
 void LatticeSimulation::start() {
+  if (grains_) grains_->start();
   solver_.begin();
   for (const ProbeConfig& p : config_.out.probes)
     if (p.type == ProbeType::force) begin_interval(p);
 }
 
 StepInfo LatticeSimulation::step() {
+  const bool fixed = held();
+  StepInfo info;
+  if (grains_) {
+    info = grains_->step();
+    if (!fixed) check_grains();
+  }
   watch_.start();
-  solver_.step(clock_.time, clock_.step + 1);
+  solver_.step(clock_.time, clock_.step + 1, fixed);
   watch_.lap(int(Part::fluid));
   clock_.time += solver_.dt();
   clock_.last_dt = solver_.dt();
@@ -45,11 +68,22 @@ StepInfo LatticeSimulation::step() {
   if (clock_.step % kLook == 0) check_extremes();
   watch_.lap(int(Part::checks));
   watch_.stop();
-  return {.step = clock_.step,
-          .time = clock_.time,
-          .dt = solver_.dt(),
-          .limit = least_of(limits_).limit,
-          .vmax = speed_};
+  info.step = clock_.step;
+  info.time = clock_.time;
+  info.dt = solver_.dt();
+  info.limit = least_of(limits_).limit;
+  info.vmax = speed_;
+  return info;
+}
+
+/// A grain may not pass over nodes.
+void LatticeSimulation::check_grains() const {
+  const double speed = grains_->stepper().grain_watch().speed, cells = speed / solver_.units().velocity();
+  if (cells <= kFastest) return;
+  throw SimulationFault("a grain moves at " + std::to_string(speed) + " m/s, " + std::to_string(cells) +
+                        " nodes a step, above the " + std::to_string(kFastest) +
+                        " that the lattice allows, at t = " + std::to_string(clock_.time) +
+                        " s; increase fluid.vmax");
 }
 
 void LatticeSimulation::check_extremes() {
@@ -71,20 +105,31 @@ void LatticeSimulation::check_extremes() {
 
 std::vector<Quantity> LatticeSimulation::time_spent() const {
   std::vector<Quantity> all;
-  for (const Part part : {Part::fluid, Part::checks})
-    all.push_back({std::string(name_of(part)), "s", watch_.seconds(int(part))});
+  if (grains_) all = grains_->time_spent();
+  for (const Part part : {Part::fluid, Part::checks}) {
+    const std::string name(name_of(part));
+    const auto known =
+        std::find_if(all.begin(), all.end(), [&](const Quantity& q) { return q.name == name; });
+    if (known == all.end())
+      all.push_back({name, "s", watch_.seconds(int(part))});
+    else
+      known->value += watch_.seconds(int(part));
+  }
   return all;
 }
 
 SavedState LatticeSimulation::save() {
   SavedState out;
+  if (grains_) out = grains_->save();
   solver_.save(out);
   const auto add = [&](const std::string& name, const char* unit, double value) {
     out.scalars.push_back({name, unit, value});
   };
-  add("time", "s", clock_.time);
-  add("step", "-", double(clock_.step));
-  add("last_dt", "s", clock_.last_dt);
+  if (!grains_) {
+    add("time", "s", clock_.time);
+    add("step", "-", double(clock_.step));
+    add("last_dt", "s", clock_.last_dt);
+  }
   add("speed", "m/s", speed_);
   for (const auto& [name, interval] : intervals_) {
     add("interval_" + name, "s", interval.time);
@@ -108,11 +153,12 @@ void LatticeSimulation::load(const SavedState& saved) {
     if (!q) throw FileError("checkpoint has no " + name);
     return q->value;
   };
+  if (grains_) grains_->load(saved);
   clock_.time = scalar("time");
   clock_.step = std::int64_t(scalar("step"));
   clock_.last_dt = scalar("last_dt");
   speed_ = scalar("speed");
-  solver_.load(store_in(saved, "fluid"), store_in(saved, "links"), scalar, clock_.time, clock_.step);
+  solver_.load(store_of(saved, "fluid"), store_of(saved, "links"), scalar, clock_.time, clock_.step);
   for (const ProbeConfig& p : config_.out.probes) {
     if (p.type != ProbeType::force) continue;
     begin_interval(p);  // of a probe that the checkpoint does not know

@@ -1,7 +1,8 @@
 #pragma once
-// A simulation of fluid on the nodes of a lattice.
+// A simulation of fluid on the nodes of a lattice, and of grains around which it flows.
 
 #include <map>
+#include <memory>
 #include <string>
 
 #include "bedload/case/config.hpp"
@@ -9,6 +10,7 @@
 #include "bedload/simulation.hpp"
 #include "src/lattice/lattice_solver.hpp"
 #include "src/time/clock.hpp"
+#include "src/time/coupled_simulation.hpp"
 
 namespace BL_SOLVER {
 
@@ -17,24 +19,40 @@ class LatticeSimulation final : public Simulation {
   LatticeSimulation(const Config& config, const Setup& setup);
 
   StepInfo step() override;
-  void settle(double, const std::function<void(double)>&) override {}  // nothing settles
+  void settle(double longest, const std::function<void(double)>& progress) override {
+    if (grains_) grains_->settle(longest, progress);
+  }
   void start() override;
 
   double time() const override { return clock_.time; }
   std::int64_t steps() const override { return clock_.step; }
-  Counts counts() const override { return {.fluid = std::int64_t(solver_.grid().size())}; }
+  Counts counts() const override {
+    return {.fluid = std::int64_t(solver_.grid().size()), .grains = grains_ ? grains_->counts().grains : 0};
+  }
   std::vector<StepLimit> limits() override { return limits_; }
-  std::vector<StepLimit> substep_limits() const override { return {}; }
+  std::vector<StepLimit> substep_limits() const override {
+    return grains_ ? grains_->substep_limits() : std::vector<StepLimit>{};
+  }
   std::vector<Quantity> numerical_viscosity() const override { return {}; }
   std::size_t bytes() const override { return bytes_held(); }
-  ParticleBytes field_bytes() const override { return {.fluid = solver_.bytes_of_node()}; }
-  ParticleBytes scratch_bytes() const override { return {.fluid = sizeof(Real4)}; }  // of outputs
+  ParticleBytes field_bytes() const override {
+    ParticleBytes all{.fluid = solver_.bytes_of_node()};
+    if (grains_) all += grains_->field_bytes();
+    return all;
+  }
+  ParticleBytes scratch_bytes() const override {
+    ParticleBytes all{.fluid = sizeof(Real4)};  // of outputs
+    if (grains_) all += grains_->scratch_bytes();
+    return all;
+  }
   std::size_t growth() override { return 0; }
   std::vector<Quantity> time_spent() const override;
 
   HostStore snapshot(const std::string& store) override;
   HostStore rheology(const std::string& store) override { return {store, 0, {}}; }
-  std::vector<FieldView> fields(const std::string&) override { return {}; }
+  std::vector<FieldView> fields(const std::string& store) override {
+    return grains_ ? grains_->fields(store) : std::vector<FieldView>{};
+  }
   std::vector<Quantity> diagnostics() override;
   std::vector<Quantity> measure(const ProbeConfig& probe) override;
   void begin_interval(const ProbeConfig& probe) override;
@@ -43,8 +61,10 @@ class LatticeSimulation final : public Simulation {
 
   SavedState save() override;
   void load(const SavedState& saved) override;
-  SavedState save_grains() override { return {}; }
-  void load_grains(const SavedState&) override {}
+  SavedState save_grains() override { return grains_ ? grains_->save_grains() : SavedState{}; }
+  void load_grains(const SavedState& saved) override {
+    if (grains_) grains_->load_grains(saved);
+  }
 
  private:
   /// What a force probe has had when its interval began.
@@ -53,6 +73,8 @@ class LatticeSimulation final : public Simulation {
     WallSums sums;
   };
   void check_extremes();
+  void check_grains() const;
+  bool held() const { return config_.grain.fixed || clock_.time < config_.grain.release_time; }
   int wall_named(const std::string& name) const;
   std::vector<Quantity> point(const ProbeConfig& probe) const;
   std::vector<Quantity> box(const ProbeConfig& probe) const;
@@ -61,6 +83,8 @@ class LatticeSimulation final : public Simulation {
   const Config config_;
   Clock clock_;
   const std::vector<StepLimit> limits_;
+  std::unique_ptr<CoupledSimulation> grains_;  ///< without the fluid; null: none
+  std::unique_ptr<ResolvedGrains> resolved_;   ///< the same for the fluid
   LatticeSolver solver_;
   Stopwatch watch_;
   double speed_ = 0;  ///< m/s, largest at the last look

@@ -72,8 +72,6 @@ TEST(LatticeCase, ChoosesItsStep) {
 
 TEST(LatticeCase, RefusesWhatItCannotDoWithKeyAndLine) {
   const std::string with = "with fluid.model = \"lattice\"", at = "dam.toml:";
-  EXPECT_EQ(error_of(kChannel + "[grain]\nd = 0.01\n[[grain.fill]]\npositions = [[0.05, 0.05, 0.05]]\n"),
-            at + "25: [grain] must be left out " + with + ", which cannot hold grains yet");
   EXPECT_EQ(error_of(kChannel + "[shift]\nA = 10\n"),
             at + "26: shift.A = 10 is not used " + with + "; remove it");
   EXPECT_EQ(error_of(kChannel + "[[outlet]]\nname = \"drain\"\nshape = \"plane\"\npoint = [0, 0, 0.1]\n"
@@ -104,6 +102,33 @@ TEST(LatticeCase, RefusesWhatItCannotDoWithKeyAndLine) {
   EXPECT_NE(error_of(kChannel + "[[probe]]\nname = \"gauge\"\ntype = \"height\"\nat = [0.05, 0.05, 0]\n")
                 .find("probe.type = \"height\" must be \"point\", \"box\" or \"force\" " + with),
             std::string::npos);
+}
+
+TEST(LatticeCase, TakesGrainsThatItResolves) {
+  const std::string with = "with fluid.model = \"lattice\"",
+                    grains =
+                        kChannel + "[grain]\nd = 0.04\n[[grain.fill]]\npositions = [[0.05, 0.05, 0.05]]\n";
+  const std::vector<std::string> fine{"fluid.dx=0.005"};
+  const Config config = read(grains, fine);
+  EXPECT_EQ(read(resolved_toml(config)), config);
+  std::vector<std::string> warnings;
+  EXPECT_EQ(build_setup(config, warnings).grains.x.size(), 1u);
+  EXPECT_EQ(
+      error_of(grains, {}),
+      "dam.toml:8: fluid.dx = 0.01 must be at most 0.008 m, for 5 nodes across the smallest grain of 0.04 m");
+  const auto says = [&](const std::string& text, std::vector<std::string> set, const std::string& part) {
+    set.push_back(fine[0]);
+    const std::string said = error_of(text, set);
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+  };
+  says(grains, {"grain.rho=200"},
+       "fluid.dx = 0.005 must be at most 0.0032 m: grains of 200 kg/m3 are too light");
+  says(grains, {"out.energy=true"}, "out.energy = true must be false " + with);
+  says(grains + "replaces_fluid = true\n", {}, "grain.fill.replaces_fluid = true must be false " + with);
+  says(grains + "[grain.fill.rigid]\n", {}, "must be left out " + with);
+  says(grains, {"couple.mode=two_way"}, "couple.mode = \"two_way\" is not used " + with);
+  says(kChannel, {"drag.law=stokes"}, "drag.law = \"stokes\" is not used " + with);
+  EXPECT_EQ(error_of(grains, {"fluid.dx=0.005", "grain.rho=200", "grain.fixed=true"}), "");
 }
 
 TEST(LatticeCase, FluidFillsAllBetweenTheWalls) {

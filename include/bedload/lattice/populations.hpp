@@ -35,6 +35,10 @@ struct NodeGrid {
     }
     return node(to);
   }
+  /// The node that velocity i reaches; i is not 0.
+  BL_HD Index neighbour_at(Index from, int i) const {
+    return neighbour(place(from), pair_of(i), is_odd(i) ? 1 : -1);
+  }
 };
 
 /// Populations less their weights, f_i - w_i, as a step of the given parity takes them.

@@ -1,0 +1,72 @@
+#include "src/lattice/resolved_grains.hpp"
+
+#include "bedload/parallel/reductions.hpp"
+
+namespace BL_SOLVER {
+
+using namespace lattice;
+
+ResolvedGrains::ResolvedGrains(const DomainConfig& domain, const LatticeUnits& units, const Vec3d& lift,
+                               GrainStore& grains)
+    : domain_(domain), units_(units), lift_(lift), grains_(grains) {
+  for (FieldBase* field : std::initializer_list<FieldBase*>{&fluid_torque_, &last_force_, &last_torque_,
+                                                            &received_, &displaced_}) {
+    field->begin_at_zero();  // grains may have settled without fluid
+    field->grow(grains.size());
+  }
+}
+
+Balls ResolvedGrains::balls(const NodeGrid& grid, const Vec3d& first, bool held) const {
+  return {.grid = grid,
+          .periodic = {domain_.periodic[0], domain_.periodic[1], domain_.periodic[2]},
+          .first = first,
+          .dx = units_.dx,
+          .dt = units_.dt,
+          .held = held,
+          .x = grains_.x,
+          .v = grains_.v,
+          .omega = grains_.omega,
+          .radius = grains_.radius,
+          .id = grains_.id};
+}
+
+void ResolvedGrains::cover(const NodeGrid& grid, const Vec3d& first, NodeStore& nodes) {
+  grains_.wetness.assign(std::vector<Real>(grains_.size(), Real(1)));
+  for_each(grains_.owned(), LiftPass{lift_, grains_.radius, grains_.fluid_force});
+  for_each_group(grains_.size(), CoverPass{{}, balls(grid, first, true), nodes.solid});
+}
+
+void ResolvedGrains::follow(const NodeMoments& before, const Vec3d& first, NodeStore& nodes) {
+  const Balls all = balls(before.f.grid, first, false);
+  for_each_group(grains_.size(), ReleasePass{{}, all, nodes.solid});
+  for_each_group(grains_.size(), CoverPass{{}, all, nodes.solid});
+  for_each_group(grains_.size(), RefillPass{{}, all, before, nodes.solid});
+  for_each_group(grains_.size(), ReopenPass{{}, all, nodes.solid});
+}
+
+void ResolvedGrains::exchange(const Populations& f, const Vec3d& first, const NodeStore& nodes,
+                              const Vec3d& push, std::int64_t step, bool held) {
+  for_each_group(grains_.size(), GrainLinkPass{.balls = balls(f.grid, first, held),
+                                               .f = f,
+                                               .solid = nodes.solid,
+                                               .push = push,
+                                               .lift = lift_,
+                                               .newton = units_.force(),
+                                               .newton_metre = units_.force() * units_.dx,
+                                               .second = units_.dt,
+                                               .first = step == 1,
+                                               .fluid_force = grains_.fluid_force,
+                                               .fluid_torque = fluid_torque_,
+                                               .force = last_force_,
+                                               .torque = last_torque_,
+                                               .received = received_,
+                                               .displaced = displaced_});
+}
+
+ResolvedGrains::Sums ResolvedGrains::sums() const {
+  const auto t = sum_over<9>(grains_.owned(), GrainBooks{received_, displaced_, grains_.fluid_force});
+  const auto vec = [&](int k) { return Vec3d{t.v[k], t.v[k + 1], t.v[k + 2]}; };
+  return {vec(0), vec(3), vec(6)};
+}
+
+}  // namespace BL_SOLVER

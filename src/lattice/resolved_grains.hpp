@@ -1,0 +1,51 @@
+#pragma once
+// Grains around which the fluid of a lattice flows.
+
+#include "bedload/case/config/domain.hpp"
+#include "bedload/particles/grains.hpp"
+#include "kernels/lattice/grain_passes.hpp"
+#include "src/lattice/lattice_store.hpp"
+#include "src/lattice/parameters.hpp"
+
+namespace BL_SOLVER {
+
+class ResolvedGrains {
+ public:
+  /// Adds fields to `grains`, which may be filled already and must outlive this. Of their own, fluid_force is
+  /// set.
+  ResolvedGrains(const DomainConfig& domain, const LatticeUnits& units, const Vec3d& lift,
+                 GrainStore& grains);
+
+  const Field<Real3>& torque() const { return fluid_torque_; }  ///< of the fluid on each, N m
+
+  /// Nodes that they cover at the start, and what acts on them before the first step.
+  void cover(const lattice::NodeGrid& grid, const Vec3d& first, NodeStore& nodes);
+  /// The same after they have moved; nodes that they have left are filled from those around, as the last step
+  /// has left these.
+  void follow(const lattice::NodeMoments& before, const Vec3d& first, NodeStore& nodes);
+  /// What the fluid does to them in the step to come, of that number, under that force per volume on fluid
+  /// (units of the lattice). held: they are at rest for it.
+  void exchange(const lattice::Populations& f, const Vec3d& first, const NodeStore& nodes, const Vec3d& push,
+                std::int64_t step, bool held);
+
+  struct Sums {
+    Vec3d received, displaced;  ///< since the start, N s: over links; of forces on the fluid they displace
+    Vec3d force;                ///< by the fluid, N
+  };
+  Sums sums() const;
+
+ private:
+  lattice::Balls balls(const lattice::NodeGrid& grid, const Vec3d& first, bool held) const;
+
+  const DomainConfig domain_;
+  const LatticeUnits units_;
+  const Vec3d lift_;  ///< as in LatticeParameters
+  GrainStore& grains_;
+  Field<Real3> fluid_torque_{grains_, "fluid_torque", "N m", Lifetime::kept};
+  Field<Real3> last_force_{grains_, "last_fluid_force", "N", Lifetime::kept};
+  Field<Real3> last_torque_{grains_, "last_fluid_torque", "N m", Lifetime::kept};
+  Field<Vec3d> received_{grains_, "received", "N s", Lifetime::kept};
+  Field<Vec3d> displaced_{grains_, "displaced", "N s", Lifetime::kept};
+};
+
+}  // namespace BL_SOLVER
