@@ -112,7 +112,8 @@ double imbalance_of(const std::vector<std::uint16_t>& owner, const std::vector<d
 Division divide_blocks(const CellGrid& grid, const std::vector<double>& load) {
   const CellGridView shape = grid.view();
   const auto owner = bisect(block_places(shape), load, Context::current().ranks());
-  return {std::make_shared<const Ownership>(shape, owner), imbalance_of(owner, load)};
+  const auto ownership = std::make_shared<const Ownership>(shape, owner);
+  return {ownership, ownership, imbalance_of(owner, load)};
 }
 
 Division divide_blocks(const CellGrid& grid, const std::vector<double>& load, CellGrid& other, double reach) {
@@ -121,7 +122,8 @@ Division divide_blocks(const CellGrid& grid, const std::vector<double>& load, Ce
   const auto other_owner = owners_of(of_other, shape, owner);
   const OtherBlocks around_other{shape, owner, reach}, around{of_other, other_owner, reach};
   other.divide(std::make_shared<const Ownership>(of_other, other_owner, &around_other));
-  return {std::make_shared<const Ownership>(shape, owner, &around), imbalance_of(owner, load)};
+  return {std::make_shared<const Ownership>(shape, owner, &around),
+          std::make_shared<const Ownership>(shape, owner), imbalance_of(owner, load)};
 }
 
 template <class P>

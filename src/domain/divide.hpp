@@ -16,6 +16,7 @@ void add_loads(const Store& store, const CellGrid& grid, const Frame& frame, Spa
 
 struct Division {
   std::shared_ptr<const Ownership> ownership;
+  std::shared_ptr<const Ownership> near;  ///< the same, with copies of what is next to a rank's blocks alone
   double imbalance;  ///< largest load of a rank over the mean
 };
 /// Of blocks with that load, the same on all ranks.

@@ -188,7 +188,7 @@ void FluidSolver::divide(FluidStore& fluid, const WallStore& walls, bool listed)
   const Division division = grains_ ? divide_blocks(grid_, load, *grain_cells_, grain_range_ + half_skin_)
                                     : divide_blocks(grid_, load);
   imbalance_ = division.imbalance;
-  grid_.divide(division.ownership), wall_grid_.divide(division.ownership);
+  grid_.divide(division.ownership), wall_grid_.divide(division.near);
 }
 
 bool FluidSolver::unbalanced(const FluidStore& fluid, const WallStore& walls) const {

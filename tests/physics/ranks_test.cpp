@@ -210,7 +210,7 @@ direction = "x+"
 name = "flux"
 type = "flux"
 phase = "grains"
-axis = "x"
+direction = "x+"
 min = [-0.01, -0.03, -0.04]
 max = [0.01, 0.03, 0.04]
 )";
@@ -293,16 +293,17 @@ std::vector<RankCase> rank_cases() {
        {"fluid.model=sdpd", "density.method=summation", "pressure.filter=true", "wall.type=frozen"},
        40},
       {"inlet and outlet", kDuct, {}, 120},
-      {"drum of grains", kDrum, {}, 150},
+      {"drum of grains", kDrum, {"out.energy=true"}, 100},
       {"drum of grains, blocks of two cells", kDrum, {"run.block=2"}, 60},
-      {"slope with inlet and outlet of grains", kSlope, {}, 150},
+      {"slope with inlet and outlet of grains", kSlope, {}, 100},
       {"settled grains", kDrum, {"grain.settle=true"}, 60},
       {"held grains", kDrum, {"grain.release_time=0.005"}, 40},
-      {"grains in fluid that do not act on it", test::kTank + kFluid + kSingle, {"couple.mode=off"}, 60},
-      {"slurry", kDam + kSlurry, {}, 120},
-      {"slurry, local slip, blocks of two cells", kDam + kSlurry, {"couple.slip=local", "run.block=2"}, 60},
-      {"slurry, one way", kDam + kSlurry, {"couple.mode=one_way"}, 60},
-      {"slurry, bodies, lubrication", test::kBed + test::kFloat, {"lubrication.forces=normal"}, 40},
+      {"grains in fluid that do not act on it", kTank + kFluid + kSingle, {"couple.mode=off"}, 40},
+      {"slurry", kDam + kSlurry, {}, 60},
+      {"slurry, local slip, blocks of two cells", kDam + kSlurry, {"couple.slip=local", "run.block=2"}, 40},
+      {"slurry, one way", kDam + kSlurry, {"couple.mode=one_way"}, 30},
+      {"slurry with a float and a group", test::kBed + test::kFloat, {}, 30},
+      {"slurry with lubrication", kTank + kFluid + kSingle + kGate, {"lubrication.forces=all"}, 30},
       {"grains, a body and a group", kTank + test::kGrains + test::kFloat, {"out.energy=true"}, 60},
       {"sdpd and grains",
        kTank + kFluid + kSingle + kGate,
