@@ -62,9 +62,9 @@ void shape(Parameters& p, ShapeConfig& s) {
   if (is({pipe, hollow, terrain}))
     p("thickness", &s.thickness,
       {.unit = "m",
-       .meaning = "pipe, hollow: wall thickness; terrain: depth of the solid below its surface, before scale",
+       .meaning = "pipe, hollow: wall thickness; terrain: thickness along the vertical, before scale",
        .range = above(0),
-       .fallback = "kernel support, in whole wall.dx; terrain: twice that",
+       .fallback = "kernel support, in whole wall.dx; terrain: solid to that far below its lowest point",
        .presence = optional});
   if (is({pipe})) p("ends", &s.ends, {.meaning = "pipe: ends closed by a plate as thick as the wall"});
   if (is({mesh, terrain})) {

@@ -170,13 +170,9 @@ void resolve_shapes(Config& c, const Value& root) {
     for (const ShapeConfig& other : done)
       if (other.name == shape.name)
         reject(root, name, fmt::format("\"{}\"", shape.name), "must differ from other shapes'");
-    const bool terrain = shape.kind == ShapeKind::terrain;
     if (shape.thickness == 0 && (shape.kind == ShapeKind::hollow || shape.kind == ShapeKind::pipe))
       shape.thickness = vessel_thickness(c);
-    if (shape.thickness == 0 &&
-        terrain)  // counted along the vertical: slopes are thinner, at 60 degrees half
-      shape.thickness = 2 * vessel_thickness(c) / shape.scale;
-    if (shape.kind == ShapeKind::mesh || terrain) {
+    if (shape.kind == ShapeKind::mesh || shape.kind == ShapeKind::terrain) {
       const auto folder = std::filesystem::absolute(c.file).parent_path();
       shape.file = (folder / shape.file).lexically_normal().string();
     }
@@ -186,7 +182,7 @@ void resolve_shapes(Config& c, const Value& root) {
           fmt::format("{}: shape \"{}\": {}", nearest_value(root, key).place(), shape.name, error.what()));
     };
     try {
-      shape.solid.shape = build_shape(shape, done);
+      shape.solid.shape = build_shape(shape, done, vessel_thickness(c));
     } catch (const FileError& error) {
       fail(path + ".file", error);
     } catch (const CaseError& error) {

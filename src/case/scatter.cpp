@@ -120,7 +120,7 @@ void resolve_scattered_bodies(Config& c, const Value& root) {
         if (other.name == shape.name)
           reject(root, path + ".name", fmt::format("\"{}\"", body.name),
                  fmt::format("must differ: there is a shape {} already", shape.name));
-      shape.solid.shape = build_shape(shape, c.shapes);
+      shape.solid.shape = build_shape(shape, c.shapes, 0);
       c.shapes.push_back(shape);
       one.shape = ChosenOrNamed<WallShape>(shape.name);
       if (n == 0)

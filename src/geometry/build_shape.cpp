@@ -38,11 +38,12 @@ std::string digest_of(const std::string& path) {
 }
 
 /// Of kind mesh or terrain.
-ShapePtr build_mesh(ShapeConfig& c) {
+ShapePtr build_mesh(ShapeConfig& c, double support) {
   MeshOptions options;
   options.repair = c.repair;
-  const auto mesh =
-      c.kind == ShapeKind::mesh ? read_mesh(c.file, options) : read_terrain(c.file, c.thickness, options);
+  const auto mesh = c.kind == ShapeKind::mesh
+                        ? read_mesh(c.file, options)
+                        : read_terrain(c.file, {c.thickness, support / c.scale}, options);
   const std::string digest = digest_of(c.file);
   if (!c.digest.empty() && c.digest != digest)
     throw CaseError(fmt::format("digest = \"{}\" must be that of {}, which is \"{}\": the file has changed",
@@ -98,7 +99,7 @@ ShapePtr without_others(const std::vector<ShapePtr>& of, double facet) {
   return shape;
 }
 
-ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier) {
+ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier, double support) {
   switch (c.kind) {
     case ShapeKind::box:
       return make_box(c.min, c.max);
@@ -114,7 +115,7 @@ ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier)
       return make_pipe(c.a, c.b, c.radius, c.radius + c.thickness, c.ends);
     case ShapeKind::mesh:
     case ShapeKind::terrain:
-      return build_mesh(c);
+      return build_mesh(c, support);
     case ShapeKind::union_:
       return make_union(parts_of(c, earlier));
     case ShapeKind::hollow:
@@ -127,8 +128,8 @@ ShapePtr build_unplaced(ShapeConfig& c, const std::vector<ShapeConfig>& earlier)
 
 }  // namespace
 
-ShapePtr build_shape(ShapeConfig& c, const std::vector<ShapeConfig>& earlier) {
-  const ShapePtr shape = build_unplaced(c, earlier);
+ShapePtr build_shape(ShapeConfig& c, const std::vector<ShapeConfig>& earlier, double support) {
+  const ShapePtr shape = build_unplaced(c, earlier, support);
   Placement placement;
   placement.scale = c.scale;
   if (norm(c.turn_axis) == 0) throw CaseError("turn_axis must not be zero");

@@ -157,7 +157,7 @@ std::map<std::uint32_t, std::uint32_t> outline_of(const TriangleSoup& soup, cons
 
 }  // namespace
 
-std::shared_ptr<const TriangleMesh> read_terrain(const std::filesystem::path& file, double thickness,
+std::shared_ptr<const TriangleMesh> read_terrain(const std::filesystem::path& file, const FloorDepth& depth,
                                                  const MeshOptions& options) {
   const std::string name = file.string();
   TriangleSoup soup = lower(file.extension().string()) == ".asc" ? read_heights(file) : read_triangles(file);
@@ -172,8 +172,12 @@ std::shared_ptr<const TriangleMesh> read_terrain(const std::filesystem::path& fi
 
   const std::uint32_t below = std::uint32_t(soup.vertices.size());
   const std::size_t triangles = soup.triangles.size();
-  for (std::uint32_t v = 0; v < below; ++v)
-    soup.vertices.push_back(soup.vertices[v] - Vec3d{0, 0, thickness});
+  const double level = bounds.min.z - (depth.below > 0 ? depth.below : diagonal / 50);
+  for (std::uint32_t v = 0; v < below; ++v) {
+    Vec3d x = soup.vertices[v];
+    x.z = depth.thickness > 0 ? x.z - depth.thickness : level;
+    soup.vertices.push_back(x);
+  }
   for (std::size_t k = 0; k < triangles; ++k) {
     const Triangle t = soup.triangles[k];
     soup.triangles.push_back({t[0] + below, t[2] + below, t[1] + below});

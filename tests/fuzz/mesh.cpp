@@ -13,6 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto file = fuzz::file_of(name, {reinterpret_cast<const char*>(data) + 1, size - 1});
   MeshOptions options;
   options.repair = data[0] % 8 >= 3;
-  fuzz::attempt([&] { floor ? read_terrain(file, 1, options) : read_mesh(file, options); });
+  fuzz::attempt(
+      [&] { floor ? read_terrain(file, {.thickness = 0, .below = 1}, options) : read_mesh(file, options); });
   return 0;
 }

@@ -81,10 +81,16 @@ std::shared_ptr<const TriangleMesh> read_mesh(const std::filesystem::path& file,
 /// triangles each; numbers taken as m. Throws FileError, also where a cell has no height.
 TriangleSoup read_heights(const std::filesystem::path& file);
 
-/// The solid below a surface that has one height at each place, from read_heights (.asc) or read_triangles:
-/// the surface, the same `thickness` (m) below it, and sides along its outline. Throws FileError, and
-/// CaseError where the surface overhangs, has holes or consists of several pieces.
-std::shared_ptr<const TriangleMesh> read_terrain(const std::filesystem::path& file, double thickness,
+/// How far a floor reaches below its surface.
+struct FloorDepth {
+  double thickness = 0;  ///< along the vertical, m; 0: down to one level
+  double below = 0;      ///< of that level below the lowest point, m; 0: 1/50 of the diagonal
+};
+
+/// The solid below a surface that has one height at each place, from read_heights (.asc) or read_triangles,
+/// with vertical sides along its outline. Throws FileError, and CaseError where the surface overhangs, has
+/// holes or consists of several pieces.
+std::shared_ptr<const TriangleMesh> read_terrain(const std::filesystem::path& file, const FloorDepth& depth,
                                                  const MeshOptions& options = {});
 
 }  // namespace bedload

@@ -186,7 +186,7 @@ def read_heights(path: str | Path) -> Mesh:
 
 
 def closed_below(mesh: Mesh, thickness: float) -> Mesh:
-    """The solid between an open surface and the same `thickness` (m) below it; 0: a 50th of its diagonal."""
+    """The solid below an open surface, `thickness` (m) thick along the vertical; 0: down to a level."""
     up = mesh.triangles[:, [0, 2, 1]]
     up = np.where(mesh.normals()[:, 2:] > 0, mesh.triangles, up)
     n = len(mesh.vertices)
@@ -194,7 +194,9 @@ def closed_below(mesh: Mesh, thickness: float) -> Mesh:
     rim = ~np.isin(a * n + b, b * n + a)
     a, b = a[rim], b[rim]
     sides = halves(np.stack([b, a, a + n, b + n], axis=1))
-    low = mesh.vertices - [0, 0, thickness or np.linalg.norm(np.ptp(mesh.vertices, axis=0)) / 50]
+    low = mesh.vertices - [0, 0, thickness]
+    if thickness == 0:
+        low[:, 2] = low[:, 2].min() - np.linalg.norm(np.ptp(low, axis=0)) / 50
     return Mesh(np.concatenate([mesh.vertices, low]), np.concatenate([up, up[:, ::-1] + n, sides]))
 
 
