@@ -1,7 +1,7 @@
 #include "bedload/particles/field.hpp"
 
 #include "bedload/parallel/loops.hpp"
-#include "kernels/contact/wall_contacts.hpp"
+#include "kernels/contact/contact_energy.hpp"
 
 namespace BL_SOLVER {
 namespace {
@@ -48,6 +48,7 @@ BL_FIELD(PackedPosition)
 BL_FIELD(PairPosition)
 BL_FIELD(WallMemory)
 BL_FIELD(ContactHistory)
+BL_FIELD(WallLosses)
 #undef BL_FIELD
 
 }  // namespace BL_SOLVER
