@@ -56,6 +56,38 @@ end = 10
 every = 1
 )";
 
+/// A periodic cube of fluid on the nodes of a lattice, driven along x.
+constexpr const char* kNodes = R"(gravity = [0, 0, 0]
+[domain]
+min = [0, 0, 0]
+max = [{side}, {side}, {side}]
+periodic = [true, true, true]
+[fluid]
+model = "lattice"
+dx = 1e-4
+mu = 0.001
+vmax = 0.01
+[drive]
+f = [10, 0, 0]
+{grains}[time]
+end = 10
+[out]
+every = 1
+)";
+
+/// Spheres in it, ten nodes across.
+constexpr const char* kResolved = R"([contact]
+normal = "linear"
+k = 0.05
+[grain]
+d = 0.001
+E = 1e4
+[[grain.fill]]
+min = [0, 0, 0]
+max = [{side}, {side}, {side}]
+packing_fraction = {fraction}
+)";
+
 struct Beads {
   int count;
   double side;           ///< of the square floor, m
@@ -145,6 +177,15 @@ Benchmark coupled(const std::string& name, double side, double depth, int count,
           kPeers};
 }
 
+/// n: nodes along a side; fraction: of the volume, in spheres.
+Benchmark lattice(const std::string& name, int n, double fraction) {
+  using fmt::arg;
+  const std::string side = fmt::format("{:.6g}", n * 1e-4);
+  const std::string grains =
+      fraction > 0 ? fmt::format(kResolved, arg("side", side), arg("fraction", fraction)) : "";
+  return {name, fmt::format(kNodes, arg("side", side), arg("grains", grains)), {}};
+}
+
 }  // namespace
 
 Benchmark widened_dam_break(const std::string& name, double width) {
@@ -171,7 +212,11 @@ std::vector<Benchmark> benchmarks() {
           two_sizes("bi100", 100, 1),
           coated("bi100-coated"),
           coupled("coupled", 0.12, 0.189, 10000, true),
-          coupled("coupled-10M", 0.6, 0.75, 2000000, false)};
+          coupled("coupled-10M", 0.6, 0.75, 2000000, false),
+          lattice("lattice-0.9M", 96, 0),
+          lattice("lattice-57M", 384, 0),
+          lattice("lattice-spheres-0.9M", 96, 0.2),
+          lattice("lattice-spheres-57M", 384, 0.2)};
 }
 
 }  // namespace bedload

@@ -29,6 +29,9 @@ int open_window(const Options& options);
 /// Makes a case from one of another program, or writes the frames of a run in another format; prints what it
 /// wrote, and to stderr what has no counterpart. Throws CaseError, FileError.
 int convert(const Options& options);
+/// Measures the drag of arrays of fixed grains that a fluid on a lattice flows around, prints it and writes it
+/// as a table for drag.law = "table". Throws FileError if the file exists.
+int drag(const Options& options);
 /// Times steps of built-in or user cases and prints a table. Bad input is reported before anything is timed;
 /// after a later error the results so far are printed.
 int bench(const Options& options);

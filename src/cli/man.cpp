@@ -85,6 +85,7 @@ bedload check dam.toml \-\-preview look
 bedload run dam.toml \-\-out results/dam \-\-set grain.d=3mm
 bedload run dam.toml \-\-out results/dam \-\-restart latest
 bedload viscometer slurry.toml \-\-relative
+bedload drag \-\-fractions 0.2,0.4 \-\-nodes 16
 bedload convert CaseDambreak_Def.xml \-\-out dam.toml
 bedload list fluid
 .fi

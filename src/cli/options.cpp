@@ -121,6 +121,34 @@ void add_bench_options(CLI::App& app, Options& o) {
   app.add_option("--json", b.json, "Also write the numbers to a JSON file")->type_name("FILE")->check(kNamed);
 }
 
+void add_drag(CLI::App& app, Options& o) {
+  DragOptions& d = o.drag;
+  CLI::App* drag = app.add_subcommand(
+      "drag", "Measure the drag of fixed grains on a lattice and write it as a table of drag.law");
+  drag->add_option("--fractions", d.fractions, "Solid fractions; default: 0.1,0.2,0.3")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0.001, 0.5));
+  drag->add_option("--reynolds", d.reynolds,
+                   "Reynolds numbers of the diameter and the mean velocity over all space; default: 0.1,1,10")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(0.01, 1000.0));
+  drag->add_option("--array", d.array, "Arrangement of the grains; simple: cubic; default: random")
+      ->check(CLI::IsMember({"random", "simple"}));
+  drag->add_option("--spheres", d.spheres, "Grains of a random array; default: 54")
+      ->check(CLI::Range(8, 1000000));
+  drag->add_option("--nodes", d.nodes, "Nodes across a grain, at least; default: 10")
+      ->check(CLI::Range(5.0, 200.0));
+  drag->add_option("--draws", d.draws, "Random arrays of which the mean is taken; default: 1")
+      ->check(CLI::Range(1, 1000));
+  add_common_options(*drag, o);
+  drag->add_option("--out", o.out, "File to write; default: drag_table.toml")
+      ->type_name("FILE")
+      ->check(kNamed);
+  drag->add_flag("--overwrite", o.overwrite, "Overwrite an existing file");
+}
+
 /// Options of commands that write results.
 void add_results_options(CLI::App& app, Options& o) {
   app.add_option("--out", o.out, "Results folder; default: results/<case>")->type_name("DIR")->check(kNamed);
@@ -287,6 +315,7 @@ Options parse_options(int argc, const char* const* argv) {
   add_info(app, o);
   add_convert(app, o);
   add_bench_options(*app.add_subcommand("bench", "Time steps of benchmark cases"), o);
+  add_drag(app, o);
   add_gui(app, o);
   app.add_subcommand("schema", "Print the JSON schema of case files, for editors");
   CLI::App* completion = app.add_subcommand("completion", "Print a script for shell completion");
@@ -319,6 +348,7 @@ Options parse_options(int argc, const char* const* argv) {
   if (o.command == "new" && o.file.empty()) o.file = o.case_template + ".toml";
   if ((o.command == "run" || o.command == "viscometer") && o.out.empty())
     o.out = std::filesystem::path("results") / case_name(o.file);
+  if (o.command == "drag" && o.out.empty()) o.out = "drag_table.toml";
   if (o.command == "demo") {
     if (o.out.empty()) o.out = std::filesystem::path("results") / o.case_template;
     o.file = o.out / (o.case_template + ".toml");

@@ -20,6 +20,16 @@ struct BenchOptions {
   std::filesystem::path json;
 };
 
+/// Options of `bedload drag`.
+struct DragOptions {
+  std::vector<double> fractions{0.1, 0.2, 0.3};  ///< of the volume, in grains
+  std::vector<double> reynolds{0.1, 1, 10};      ///< of the diameter and the mean velocity over all space
+  std::string array = "random";                  ///< or simple: simple cubic
+  int spheres = 54;                              ///< of a random array
+  double nodes = 10;                             ///< across a sphere
+  int draws = 1;                                 ///< random arrays of which the mean is taken
+};
+
 /// Options of `bedload gui`.
 struct WindowOptions {
   int port = -1;  ///< 0: any that is free; -1: the default
@@ -44,6 +54,7 @@ struct Options {
   std::optional<int> live;     ///< of run: port of the live view, 0 for any; none: no live view
   bool relative = false;       ///< of viscometer: also runs the case without its grains
   BenchOptions bench;
+  DragOptions drag;
   WindowOptions window;
   std::string to;      ///< of convert: format of frames; empty: the default
   std::string family;  ///< of list

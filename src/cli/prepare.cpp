@@ -334,14 +334,18 @@ std::string heading_text(const Prepared& p) {
 namespace {
 
 /// The nodes of a case, and its units on them.
-std::string lattice_text(const Config& c) {
+std::string lattice_text(const Config& c, std::int64_t grains) {
   const LatticeStep step = lattice_step(c);
-  return fmt::format(
+  std::string out = fmt::format(
       "nodes      {} x {} x {}, {:.4g} m apart\n"
       "lattice    step {:.4g} s, relaxation time {:.4g} steps, vmax {:.4g} m/s = {:.3g} nodes a "
       "step, sound {:.4g} m/s\n",
       cells_along(c, 0), cells_along(c, 1), cells_along(c, 2), c.fluid.dx, step.dt, step.tau, c.fluid.vmax,
       step.vmax, step.sound);
+  if (c.grain.present)
+    out += fmt::format("grains     {}, {:.3g} nodes across the smallest\n", grouped(grains),
+                       c.grain.d_min / c.fluid.dx);
+  return out;
 }
 
 }  // namespace
@@ -349,7 +353,7 @@ std::string lattice_text(const Config& c) {
 std::string summary_text(const Prepared& p) {
   const Config& c = p.config;
   const Counts& n = p.counts;
-  if (c.fluid.lattice()) return lattice_text(c);
+  if (c.fluid.lattice()) return lattice_text(c, n.grains);
   std::string out = fmt::format("particles  fluid {}, walls {}, grains {}\n", grouped(n.fluid),
                                 grouped(n.walls), grouped(n.grains));
   const Counts later = with_inflow(p);

@@ -22,6 +22,7 @@ int dispatch(const Options& options) {
   if (options.command == "new") return new_case(options);
   if (options.command == "demo") return demo(options);
   if (options.command == "bench") return bench(options);
+  if (options.command == "drag") return drag(options);
   if (options.command == "gui") return open_window(options);
   if (options.command == "convert") return convert(options);
   if (options.command == "info") return show_file(options.file);

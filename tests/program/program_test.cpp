@@ -113,7 +113,7 @@ TEST_F(Program, RefusesWrongCommandLinesWithOneSentence) {
   refused("", line, "subcommand is required");
   refused("simulate dam.toml", line, "unknown command simulate");
   refused("simulate dam.toml", line,
-          "run, viscometer, check, new, demo, list, info, convert, bench, gui, schema, completion, man");
+          "run, viscometer, check, new, demo, list, info, convert, bench, drag, gui, schema, completion, man");
   write("empty.toml", "\n");
   refused("check empty.toml", "empty.toml", "is empty");
   refused("run", line, "case is required");

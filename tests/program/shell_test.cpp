@@ -67,7 +67,7 @@ TEST_F(Shell, ManualPageHasEveryCommandAndOption) {
   std::erase(page, '\\');
   int options = 0;
   for (const std::string command :
-       {"run", "viscometer", "check", "new", "demo", "list", "info", "convert", "bench", "gui", "schema", "completion", "man"}) {
+       {"run", "viscometer", "check", "new", "demo", "list", "info", "convert", "bench", "drag", "gui", "schema", "completion", "man"}) {
     EXPECT_NE(page.find(".SH \"bedload " + command + "\"\n"), page.npos) << command;
     std::stringstream help(bedload(command + " --help").out);
     for (std::string word; help >> word;) {
