@@ -4,6 +4,7 @@
 
 #include "bedload/geometry/bisect.hpp"
 #include "bedload/parallel/compact.hpp"
+#include "bedload/parallel/rank_record.hpp"
 
 namespace BL_SOLVER {
 namespace {
@@ -126,6 +127,7 @@ void migrate(Store& store, const CellGrid& grid, const Frame& frame, Span<const 
   for_each({0, ranks + 2}, FirstOfPass{destination, first});
   const std::vector<Index> begin = first.to_host();
   const Index stay = begin[1];
+  rank_record().migrated += n - stay;
   if (all_reduce(n - stay, [](Index& into, Index more) { into = max_of(into, more); }) == 0) return;
   std::vector<Index> of_rank;
   for (Index r = 0; r <= ranks; ++r) of_rank.push_back(begin[r + 1] - stay);

@@ -15,11 +15,6 @@ void refuse_undivided(const Config& c) {
   if (!c.fluid.present) refuse("fluid", "a case without fluid");
   if (c.fluid.lattice()) refuse("fluid.model", "fluid on a lattice");
   if (c.grain.present) refuse("grain", "a case with grains");
-  if (c.wall.energy_consistent && c.wall.suction)
-    refuse("wall.energy_consistent", "work of the pressure of walls");
-  for (std::size_t k = 0; k < c.fluid.fills.size(); ++k)
-    if (!c.fluid.fills[k].file.empty())
-      refuse(fmt::format("fluid.fill.{}.file", k), "fluid from a file of particles");
   for (std::size_t k = 0; k < c.wall.bodies.size(); ++k) {
     const WallBody& body = c.wall.bodies[k];
     if (body.type->kind == WallKind::mirrored) refuse(fmt::format("wall.body.{}.type", k), "a mirrored wall");

@@ -87,6 +87,7 @@ Stepper::Stepper(const Config& config, State& state)
     fluid_solver_ = FluidSolver::make(fluid_parameters(config), frame_, state.geometry, fluid_);
   if (coupled()) coupling_ = std::make_unique<Coupling>(coupling_parameters(config), frame_, state.geometry);
   if (!fluid_.xp_mid.used() || !motion_.moves()) walls_.xp_mid.leave_out();
+  if (!has_fluid() || !fluid_solver_->pays_for_walls()) walls_.work.leave_out();
 }
 
 ParticleBytes Stepper::scratch_bytes() const {
