@@ -150,7 +150,7 @@ Benchmark coupled(const std::string& name, double side, double depth, int count,
 Benchmark widened_dam_break(const std::string& name, double width) {
   std::vector<std::string> settings = kPeers;
   settings.push_back("time.integrator=ab3");
-  return {name, fmt::format(kDamBreak, width, width + 0.04), settings};
+  return {name, fmt::format(kDamBreak, width, width + 0.04), settings, width};
 }
 
 std::vector<Benchmark> benchmarks() {
