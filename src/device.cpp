@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <string>
 
@@ -22,10 +23,9 @@
 
 // One factory per variant; CMake lists those of this build: BL_USE(single, cpu) BL_USE(single, cuda) and so
 // on.
-#define BL_USE(which, where)                                                            \
-  namespace bedload::which##_##where {                                                  \
-    std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup, \
-                                             Link* link);                              \
+#define BL_USE(which, where)                                                                        \
+  namespace bedload::which##_##where {                                                              \
+    std::unique_ptr<Simulation> make_coupled(const Config& config, const Setup& setup, Link* link); \
   }
 BL_VARIANTS
 #undef BL_USE
@@ -115,9 +115,11 @@ void divide_among(Device& device, int ranks, const std::string& gpus) {
       throw DeviceError("--ranks " + std::to_string(ranks) +
                         ": divides the CPU, so add --backend cpu; GPUs are given by --devices");
     device.ranks = ranks;
+    device.memory /= std::size_t(ranks);
   }
   if (gpus.empty()) return;
-  if (!device.cuda()) throw DeviceError("--devices " + gpus + ": there is no GPU to use, or --backend is cpu");
+  if (!device.cuda())
+    throw DeviceError("--devices " + gpus + ": there is no GPU to use, or --backend is cpu");
   int there = 0;
 #if BL_HAS_CUDA
   cudaGetDeviceCount(&there);
@@ -145,7 +147,7 @@ void divide_among(Device& device, int ranks, const std::string& gpus) {
   }
   device.ranks = int(device.gpus.size());
 #if BL_HAS_CUDA
-  std::size_t all = 0;
+  std::size_t least = std::numeric_limits<std::size_t>::max();
   int major = 0, minor = 0;
   for (std::size_t k = 0; k < device.gpus.size(); ++k) {
     const int gpu = device.gpus[k];
@@ -155,17 +157,30 @@ void divide_among(Device& device, int ranks, const std::string& gpus) {
       refuse("GPU " + std::to_string(gpu) + ", " + properties.name +
              ", is of another compute capability, whose results would differ");
     major = properties.major, minor = properties.minor;
-    if (std::find(device.gpus.begin(), device.gpus.begin() + std::ptrdiff_t(k), gpu) !=
-        device.gpus.begin() + std::ptrdiff_t(k))
-      continue;
     std::size_t free = 0, total = 0;
     cudaSetDevice(gpu);
     cudaMemGetInfo(&free, &total);
-    all += free;
+    least = std::min(least, free / std::size_t(std::ranges::count(device.gpus, gpu)));
   }
   cudaSetDevice(device.gpus[0]);
-  device.memory = all;
+  device.memory = least;
 #endif
+}
+
+std::vector<std::size_t> free_of_gpus() {
+  std::vector<std::size_t> out;
+#if BL_HAS_CUDA
+  int count = 0, current = 0;
+  if (cudaGetDeviceCount(&count) != cudaSuccess || cudaGetDevice(&current) != cudaSuccess) count = 0;
+  for (int gpu = 0; gpu < count; ++gpu) {
+    std::size_t free = 0, total = 0;
+    if (cudaSetDevice(gpu) == cudaSuccess) cudaMemGetInfo(&free, &total);
+    out.push_back(free);
+  }
+  if (count > 0) cudaSetDevice(current);
+  (void)cudaGetLastError();
+#endif
+  return out;
 }
 
 namespace {
@@ -185,8 +200,8 @@ std::unique_ptr<Simulation> make_part(const Config& config, [[maybe_unused]] con
                      "\": this program was built without it (-DBEDLOAD_PRECISIONS=... of CMake adds it)");
 }
 
-/// Binds the thread of a rank to its GPU or its share of the CPU.
-void take_device(const Device& device, int rank) {
+/// Binds the thread of a rank to its GPU and gives it its part of the CPU threads.
+void take_device(const Device& device, int rank, int threads) {
 #if BL_HAS_CUDA
   if (device.cuda()) {
     const int own = device.gpus[std::size_t(rank)];
@@ -201,7 +216,7 @@ void take_device(const Device& device, int rank) {
   }
 #endif
   (void)rank;
-  omp_set_num_threads(std::max(1, omp_get_num_procs() / device.ranks));
+  omp_set_num_threads(std::max(1, threads / device.ranks));
 }
 
 }  // namespace
@@ -220,10 +235,13 @@ std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& s
 #endif
   if (device.ranks == 1 && device.gpus.empty()) return make_part(config, setup, device);
   refuse_undivided(config);
-  return make_team({.ranks = device.ranks, .make = [&](Link& link) {
-                      take_device(device, link.rank());
-                      return make_part(config, setup, device, &link);
-                    }});
+  std::vector<std::string> names;
+  for (const int gpu : device.gpus) names.push_back("GPU " + std::to_string(gpu) + " (" + device.name + ")");
+  return make_team(
+      {.ranks = device.ranks, .names = names, .make = [&, threads = omp_get_max_threads()](Link& link) {
+         take_device(device, link.rank(), threads);
+         return make_part(config, setup, device, &link);
+       }});
 }
 
 HostArray host_copy(const FieldView& view, [[maybe_unused]] const Device& device) {
@@ -257,7 +275,11 @@ MemoryEstimate estimate_memory(const Config& config, const Device& device) {
   const bool cuda = device.cuda(), coupled = config.couple.mode != CouplingMode::off &&
                                              config.fluid.present && config.grain.present;
   const double real = config.precision == Precision::fp64 ? 8 : 4, index = sizeof(std::uint32_t);
-  MemoryEstimate out{double(each.fluid), double(each.walls), double(each.grains)};
+  MemoryEstimate out{.fluid = double(each.fluid),
+                     .walls = double(each.walls),
+                     .grains = double(each.grains),
+                     .fields = empty->field_bytes(),
+                     .ranks = device.ranks};
   if (config.fluid.lattice()) return out;
 
   const double reach = config.fluid.kappa() * config.fluid.h() + config.skin_fluid * config.fluid.dx;

@@ -3,13 +3,16 @@
 
     plot.py frames RUN_DIR --times 0.05,0.1 --out PNG [--field speed] [--slice Y] [--view xz]
     plot.py probe CSV... --out PNG [--column NAME] [--mean SECONDS] [--spectrum] [--reference CSV ...]
+    plot.py scaling JSON --out PNG
 
 `frames` shows fluid coloured by a field, grains as discs true to size, and the walls, one panel per
 time. `probe` draws columns of probe tables over time, with reference points as markers; with --mean their running
-means, with --spectrum their spectral density over frequency.
+means, with --spectrum their spectral density over frequency. `scaling` draws what
+`bedload bench --devices 1,2,4 --json JSON` (or --ranks) wrote: speed-up, efficiency and waits over the number of ranks.
 """
 
 import argparse
+import json
 import re
 from pathlib import Path
 
@@ -234,6 +237,38 @@ def plot_probe(options):
     save(figure, options.out)
 
 
+def scaling_series(report):
+    """Rows of a report of `bedload bench`, by benchmark, precision and kind of scaling, ordered by ranks."""
+    series = {}
+    for row in report["rows"]:
+        if "scaling" in row:
+            series.setdefault((row["row"], row["precision"], row["scaling"]), []).append(row)
+    return {key: sorted(rows, key=lambda row: row["ranks"]) for key, rows in series.items()}
+
+
+def plot_scaling(options):
+    report = json.loads(Path(options.json).read_text(encoding="utf-8"))
+    series = scaling_series(report)
+    if not series:
+        raise SystemExit(f"{options.json}: has no rows of scaling; bedload bench --ranks 1,2,4 --json makes them")
+    figure, panels = plt.subplots(1, 3, figsize=(13, 4), layout="constrained")
+    most = max(row["ranks"] for rows in series.values() for row in rows)
+    for (name, precision, kind), rows in series.items():
+        ranks = [row["ranks"] for row in rows]
+        style = {"marker": "o" if kind == "strong" else "s", "linestyle": "-" if kind == "strong" else "--",
+                 "label": f"{name}, {precision}, {kind}"}
+        for axes, key in zip(panels, ("speed_up", "efficiency_percent", "wait_percent")):
+            axes.plot(ranks, [row[key] for row in rows], **style)
+        panels[0].plot([ranks[0], most], [1, most / ranks[0]], color="0.7", linewidth=0.8, zorder=0)
+    for axes, label in zip(panels, ("speed-up (-)", "efficiency (%)", "waits for other ranks (% of time)")):
+        axes.set(xlabel="ranks (-)", ylabel=label, ylim=(0, None))
+        axes.set_xticks(sorted({row["ranks"] for rows in series.values() for row in rows}))
+        axes.grid(alpha=0.3)
+    panels[0].legend(frameon=False, fontsize=8)
+    figure.suptitle(f"{report['device']}, commit {report['commit']}", fontsize=10)
+    save(figure, options.out)
+
+
 def save(figure, path):
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=160)
@@ -263,6 +298,10 @@ def main():
     probe.add_argument("--reference-columns", help="x,y; default: the first two that are numbers")
     probe.add_argument("--where", nargs="*", help="column=value: rows of the references to show")
     probe.set_defaults(run=plot_probe)
+    scaling = kinds.add_parser("scaling", help="speed-up over the number of ranks")
+    scaling.add_argument("json", help="of bedload bench")
+    scaling.add_argument("--out", required=True, help="PNG or PDF")
+    scaling.set_defaults(run=plot_scaling)
     options = parser.parse_args()
     if getattr(options, "mean", None) is not None and not options.mean > 0:
         parser.error(f"--mean {options.mean:g} must be above 0 s")

@@ -2,6 +2,7 @@
 // The interface of the solver, independent of precision and device, for the
 // command line, the writers and Python.
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -31,6 +32,17 @@ struct StepInfo {
 
 struct Counts {
   std::int64_t fluid = 0, walls = 0, grains = 0;
+};
+
+/// What one of several ranks has, and what it has done so far.
+struct RankReport {
+  Counts own;                  ///< particles
+  std::int64_t ghosts = 0;     ///< copies of particles of others
+  std::size_t bytes = 0;       ///< of memory that it holds
+  std::int64_t exchanges = 0;  ///< of values with other ranks
+  std::int64_t migrated = 0;   ///< particles that others own since
+  double sent = 0;             ///< bytes to others
+  double waited = 0;           ///< for others, s
 };
 
 /// Losses through one side of the domain.
@@ -76,6 +88,8 @@ class Simulation {
   /// Wall time by part over all steps, s: "lists", "fluid", "grains", "coupling", "checks", as far as the
   /// case has them.
   virtual std::vector<Quantity> time_spent() const = 0;
+  /// Of each rank; empty where there is one.
+  virtual std::vector<RankReport> ranks() { return {}; }
 
   /// Output fields of a store: "fluid", "grains" or "walls", first array "position"; or "contacts", lines of
   /// the grains' contacts, first array "ends".
@@ -117,7 +131,7 @@ class Simulation {
 struct Device {
   std::string backend;     ///< cpu, cuda
   std::string name;        ///< "NVIDIA H100 80GB HBM3", "AMD EPYC ..., AVX2, 2 threads"
-  std::size_t memory = 0;  ///< free memory, bytes
+  std::size_t memory = 0;  ///< free memory, bytes; with several ranks, of the one that has least
   bool avx2 = false;       ///< CPU with the AVX2 build of the solver
   int ranks = 1;           ///< parts into which particles are divided, each with its own GPU or share of the CPU
   std::vector<int> gpus;   ///< of each rank; empty: the first
@@ -126,6 +140,16 @@ struct Device {
   std::string text() const {
     if (ranks == 1) return name;
     return cuda() ? std::to_string(ranks) + " x " + name : name + ", " + std::to_string(ranks) + " ranks";
+  }
+  /// The first GPU, or the whole CPU, for one rank.
+  Device undivided() const {
+    Device one = *this;
+    one.ranks = 1;
+    if (cuda())
+      one.gpus.resize(std::min<std::size_t>(1, gpus.size()));
+    else
+      one.memory *= std::size_t(ranks);
+    return one;
   }
 };
 
@@ -137,6 +161,9 @@ Device find_device(const std::string& backend, int threads, Simd simd = Simd::au
 /// "all" (empty: one). Throws DeviceError where there are not as many.
 void divide_among(Device& device, int ranks, const std::string& gpus);
 
+/// Free memory of each GPU of this machine, bytes; empty without.
+std::vector<std::size_t> free_of_gpus();
+
 /// Builds the solver for config.precision on `device`. Throws KeyError for what cannot be divided among ranks.
 std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& setup, const Device& device);
 /// A copy of a field of a simulation on `device`. Throws DeviceError.
@@ -147,8 +174,23 @@ HostArray host_copy(const FieldView& view, const Device& device);
 struct MemoryEstimate {
   double fluid = 0, walls = 0, grains = 0;
   double rest = 32 << 20;
+  ParticleBytes fields = {};  ///< of `fluid` .. `grains`, what is not lists
+  int ranks = 1;
+
+  /// With several ranks, of the one that takes most: lists of its part, beside the fields of all particles,
+  /// which it has at the start and whose memory it keeps.
   std::size_t of(const Counts& n) const {
-    return std::size_t(double(n.fluid) * fluid + double(n.walls) * walls + double(n.grains) * grains + rest);
+    constexpr double more = 1.2;  // ghosts, and a larger part than others
+    const double whole = all(n, fluid, walls, grains), kept = of_fields(n);
+    return std::size_t((ranks == 1 ? whole : kept + (whole - kept) * more / ranks) + rest);
+  }
+  double of_fields(const Counts& n) const {
+    return all(n, double(fields.fluid), double(fields.walls), double(fields.grains));
+  }
+
+ private:
+  static double all(const Counts& n, double fluid, double walls, double grains) {
+    return double(n.fluid) * fluid + double(n.walls) * walls + double(n.grains) * grains;
   }
 };
 /// From the fields of its stores and the scratch of its solvers, which are made without particles for it, and

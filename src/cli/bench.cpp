@@ -15,6 +15,7 @@
 #include "commands.hpp"
 #include "prepare.hpp"
 #include "progress.hpp"
+#include "scaling.hpp"
 #include "settle.hpp"
 
 namespace bedload {
@@ -24,10 +25,12 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 using Table = std::vector<std::vector<std::string>>;
 
-/// One case in one precision.
+/// One case in one precision, on so many ranks.
 struct Job {
   std::string name;
   Prepared p;  ///< only its config before measure()
+  int ranks = 1;
+  std::string scaling = {};  ///< as ScalingRow::kind
 };
 
 /// A value of the table and of the JSON file, null where it does not apply.
@@ -41,6 +44,7 @@ struct Result {
   double ms = 0;  ///< per step
   std::vector<Cell> cells;
   std::vector<Quantity> stages;  ///< per step, ms; the last is the rest
+  ScalingRow scaling = {};
 };
 
 /// One repeat: some steps in a row.
@@ -50,14 +54,35 @@ struct Repeat {
   std::vector<Quantity> stages;  ///< s
 };
 
+/// Numbers of ranks, ascending.
+std::vector<int> counts_of(const Options& o) {
+  if (!o.bench.devices.empty() && !o.bench.ranks.empty())
+    throw CaseError("command line: --devices divides among GPUs, --ranks among parts of the CPU; give one");
+  std::vector<int> counts = o.bench.devices.empty() ? o.bench.ranks : o.bench.devices;
+  if (counts.empty()) counts = {1};
+  std::ranges::sort(counts);
+  counts.erase(std::ranges::unique(counts).begin(), counts.end());
+  return counts;
+}
+
+/// As for a run on that many ranks; one rank is a run that is not divided.
+Options on_ranks(const Options& o, int ranks) {
+  Options of_run = o;
+  if (ranks > 1 && o.bench.devices.empty()) of_run.ranks = ranks;
+  if (ranks > 1 && !o.bench.devices.empty()) of_run.devices = fmt::format("{}", ranks);
+  return of_run;
+}
+
 std::vector<Job> jobs_of(const Options& o) {
   const std::vector<Benchmark> built_in = benchmarks();
   std::vector<Job> jobs;
+  int ranks = 1;
+  std::string scaling;
   const auto add = [&](const std::string& name, const fs::path& file, const std::string& text,
                        std::vector<std::string> overrides) {
     overrides.insert(overrides.end(), o.overrides.begin(), o.overrides.end());
     for (std::size_t k = 0; k < std::max<std::size_t>(1, o.bench.precisions.size()); ++k) {
-      Job job{name, {}};
+      Job job{.name = name, .p = {}, .ranks = ranks, .scaling = scaling};
       std::vector<std::string> settings = overrides;
       if (!o.bench.precisions.empty()) settings.push_back("run.precision=" + o.bench.precisions[k]);
       job.p.config = file.empty() ? read_case_text(text, name, settings, job.p.warnings)
@@ -69,6 +94,18 @@ std::vector<Job> jobs_of(const Options& o) {
     add(b.name, {}, b.text, b.settings);
     if (o.bench.default_settings && !b.settings.empty()) add(b.name + ", default settings", {}, b.text, {});
   };
+  const std::vector<int> counts = counts_of(o);
+  const auto add_scaled = [&](const Benchmark& b) {
+    for (const int count : counts) {
+      ranks = count;
+      if (counts.size() > 1) scaling = "strong";
+      add_benchmark(b);
+    }
+    for (std::size_t k = 0; k < counts.size() && counts.size() > 1 && b.width > 0; ++k) {
+      ranks = counts[k], scaling = "weak";
+      add_benchmark(widened_dam_break(b.name, b.width * counts[k] / counts[0]));
+    }
+  };
 
   std::vector<std::string> wanted = o.bench.cases;
   if (wanted.empty() && o.bench.widths.empty()) {
@@ -79,9 +116,13 @@ std::vector<Job> jobs_of(const Options& o) {
     const auto found =
         std::find_if(built_in.begin(), built_in.end(), [&](const Benchmark& b) { return b.name == name; });
     if (found != built_in.end()) {
-      add_benchmark(*found);
+      add_scaled(*found);
     } else if (name.ends_with(".toml") || fs::exists(name)) {
-      add(case_name(name), name, "", {});
+      for (const int count : counts) {
+        ranks = count;
+        if (counts.size() > 1) scaling = "strong";
+        add(case_name(name), name, "", {});
+      }
     } else {
       std::string names;
       for (const Benchmark& b : built_in) names += b.name + ", ";
@@ -90,7 +131,7 @@ std::vector<Job> jobs_of(const Options& o) {
     }
   }
   for (const double width : o.bench.widths)
-    add_benchmark(widened_dam_break(fmt::format("{} m wide", width), width));
+    add_scaled(widened_dam_break(fmt::format("{} m wide", width), width));
   return jobs;
 }
 
@@ -190,7 +231,7 @@ Result result_of(const Job& job, const Simulation& simulation, int steps, std::v
 
 Result measure(Job& job, const Options& o) {
   Prepared& p = job.p;
-  initialise(o, p);
+  initialise(on_ranks(o, job.ranks), p);
   SavedState bed;
   const bool settle = p.config.grain.present && p.config.grain.settle;
   if (settle) {
@@ -206,8 +247,19 @@ Result measure(Job& job, const Options& o) {
   while (simulation->time() < o.bench.at) simulation->step();
   time_steps(*simulation, o.bench.warm_up);
   std::vector<Repeat> repeats;
+  const std::vector<RankReport> before = simulation->ranks();
   for (int k = 0; k < o.bench.repeats; ++k) repeats.push_back(time_steps(*simulation, o.bench.steps));
+  double seconds = 0;
+  for (const Repeat& repeat : repeats) seconds += repeat.seconds;
   Result result = result_of(job, *simulation, o.bench.steps, std::move(repeats));
+  const Counts n = simulation->counts();
+  result.scaling = {.name = result.name,
+                    .precision = result.precision,
+                    .kind = job.scaling,
+                    .ranks = job.ranks,
+                    .rate = 1e3 * double(n.fluid > 0 ? n.fluid : n.grains) / result.ms,
+                    .ms = result.ms};
+  result.scaling.share(before, simulation->ranks(), o.bench.steps * o.bench.repeats, seconds);
   if (o.bench.frame_every > 0) {
     std::vector<Repeat> with;
     Frames frames(p.config, p.device);
@@ -218,6 +270,12 @@ Result measure(Job& job, const Options& o) {
     result.cells.push_back({"frames", fmt::format("{:.1f} %", part), "frames_percent", part});
   }
   return result;
+}
+
+std::vector<ScalingRow> scaling_of(const std::vector<Result>& results) {
+  std::vector<ScalingRow> rows;
+  for (const Result& result : results) rows.push_back(result.scaling);
+  return rows;
 }
 
 Table numbers_table(const std::vector<Result>& results) {
@@ -267,12 +325,14 @@ void print_table(const Table& table) {
 }
 
 Json json_of(const Options& o, const Device& device, const std::vector<Result>& results) {
+  const bool divided = counts_of(o).back() > 1;
   auto rows = Json::array();
   for (const Result& result : results) {
     auto row = Json::object(), stages = Json::object();
     for (const Cell& cell : result.cells) row[cell.key] = cell.value;
     for (const Quantity& stage : result.stages) stages[stage.name] = stage.value;
     row["stages_ms"] = stages;
+    if (divided) add_scaling(result.scaling, scaling_of(results), row);
     rows.push_back(row);
   }
   return {{"version", version()},
@@ -293,7 +353,10 @@ int bench(const Options& o) {
   std::vector<Job> jobs = jobs_of(o);
   const Config& first = jobs.front().p.config;
   Device device = placed(first.places, [&] { return find_device(o.backend, o.threads, first.simd); });
-  divide_among(device, o.ranks, o.devices);
+  const std::vector<int> counts = counts_of(o);
+  const Options most = on_ranks(o, counts.back());
+  divide_among(device, most.ranks, most.devices);  // fails now where there are not as many
+  if (counts.size() > 1) device = device.undivided();
   std::vector<Result> results;
   const auto save = [&] {
     if (o.bench.json.empty()) return;
@@ -306,7 +369,8 @@ int bench(const Options& o) {
     try {
       results.push_back(placed(jobs[k].p.config.places, [&] { return measure(jobs[k], o); }));
       const Result& last = results.back();
-      fmt::print(stderr, "{} {}: {:.3f} ms/step\n", last.name, last.precision, last.ms);
+      const std::string on = counts.back() > 1 ? fmt::format(", {} ranks", jobs[k].ranks) : "";
+      fmt::print(stderr, "{} {}{}: {:.3f} ms/step\n", last.name, last.precision, on, last.ms);
       save();
     } catch (...) {
       failure = std::current_exception();
@@ -314,10 +378,20 @@ int bench(const Options& o) {
   }
   if (!results.empty()) {
     fmt::print("bedload {}, commit {}, {}: {}. From t = {:g} s, median of {} repeats of {} steps.\n\n",
-               version(), commit(), device.backend, device.text(), o.bench.at, o.bench.repeats, o.bench.steps);
+               version(), commit(), device.backend, device.text(), o.bench.at, o.bench.repeats,
+               o.bench.steps);
     print_table(numbers_table(results));
     fmt::print("\nTime per step by stage, ms:\n\n");
     print_table(stages_table(results));
+    const std::pair<std::string, std::string> kinds[] = {{"", "Ranks"},
+                                                         {"strong", "Strong scaling, of one case"},
+                                                         {"weak", "Weak scaling, of one that grows"}};
+    for (const auto& [kind, title] : kinds) {
+      const Table table = scaling_table(kind, scaling_of(results));
+      if (counts.back() == 1 || table.size() == 1) continue;
+      fmt::print("\n{}:\n\n", title);
+      print_table(table);
+    }
   }
   if (failure) std::rethrow_exception(failure);
   return 0;

@@ -191,7 +191,7 @@ Benchmark lattice(const std::string& name, int n, double fraction) {
 Benchmark widened_dam_break(const std::string& name, double width) {
   std::vector<std::string> settings = kPeers;
   settings.push_back("time.integrator=ab3");
-  return {name, fmt::format(kDamBreak, width, width + 0.04), settings};
+  return {name, fmt::format(kDamBreak, width, width + 0.04), settings, width};
 }
 
 std::vector<Benchmark> benchmarks() {

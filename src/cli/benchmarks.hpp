@@ -12,6 +12,7 @@ struct Benchmark {
   /// Settings of other programs, as for --set: h = 1.3 dx, density by the continuity equation alone, no
   /// shifting; forces once per step in single-phase cases. Empty without fluid.
   std::vector<std::string> settings;
+  double width = 0;  ///< m, of a dam break, which can be made wider; 0: no such thing
 };
 
 std::vector<Benchmark> benchmarks();

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "bedload/case/contact_laws.hpp"
 #include "bedload/case/limits.hpp"
@@ -31,6 +32,7 @@ Throughput throughput_of(const Device& device, Precision precision) {
 
 /// Means over the first steps.
 struct StepTiming {
+  int steps = 0;
   double step = 0;      ///< wall time of a step, s
   double substep = 0;   ///< wall time of a grain substep, s
   double dt = 0;        ///< s
@@ -61,7 +63,8 @@ StepTiming time_steps(Simulation& simulation) {
     ++steps;
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
   }
-  return {.step = seconds / steps,
+  return {.steps = steps,
+          .step = seconds / steps,
           .substep = substeps > 0 ? (grains() - grains_before) / double(substeps) : 0,
           .dt = (simulation.time() - begin) / steps,
           .substeps = double(substeps) / steps,
@@ -135,6 +138,48 @@ std::string run_time_text(double seconds, const StepTiming& timing, bool splashe
       splashes || settles ? fmt::format(", up to {} with {}", duration_text(longest), cause) : "");
 }
 
+/// Wall time of a step on one rank, s; 0 where the case does not fit there.
+double step_undivided(Prepared& p) {
+  const Device several = std::exchange(p.device, p.device.undivided());
+  p.memory.ranks = 1;
+  double step = 0;
+  if (p.memory.of(p.counts) <= p.device.memory) step = time_steps(TrialSimulation(p).simulation()).step;
+  p.device = several;
+  p.memory.ranks = several.ranks;
+  return step;
+}
+
+/// What each rank has, what they exchange, and what dividing gains. `from`: before the steps of `timing`;
+/// fast_flow: that lists of all may grow by, bytes.
+std::string ranks_text(Prepared& p, const StepTiming& timing, const std::vector<RankReport>& from,
+                       const std::vector<RankReport>& to, std::size_t fast_flow) {
+  std::string out;
+  double most = 0, all = 0, sent = 0;
+  for (std::size_t r = 0; r < to.size(); ++r) {
+    const RankReport& now = to[r];
+    const Counts& n = now.own;
+    const std::string name = p.device.cuda() ? fmt::format("GPU {}", p.device.gpus[r]) : fmt::format("{}", r);
+    out += fmt::format("{:<10} {}: fluid {}, walls {}, grains {}, ghosts {}; {} of {} free\n",
+                       r == 0 ? "ranks" : "", name, grouped(n.fluid), grouped(n.walls), grouped(n.grains),
+                       grouped(now.ghosts), bytes_text(now.bytes + fast_flow / to.size()),
+                       bytes_text(p.device.memory));
+    const auto own = double(n.fluid + n.walls + n.grains);
+    most = std::max(most, own), all += own;
+    sent = std::max(sent, now.sent - from[r].sent);
+  }
+  const auto ranks = double(to.size());
+  out += fmt::format("           of that, {} are fields of all particles, with which each begins\n",
+                     bytes_text(std::size_t(p.memory.of_fields(p.counts))));
+  out += fmt::format("imbalance  {:.3g}: most particles of a rank over the mean\n", most * ranks / all);
+  out += fmt::format("exchanges  {:.3g} a step, at most {} a step from a rank\n",
+                     double(to[0].exchanges - from[0].exchanges) / timing.steps,
+                     bytes_text(std::size_t(sent / timing.steps)));
+  const double alone = step_undivided(p);
+  out += alone > 0 ? fmt::format("speed-up   {:.3g} over one rank, by the first steps\n", alone / timing.step)
+                   : "speed-up   unknown: the case is too large for one rank\n";
+  return out;
+}
+
 void check(const Options& options, Prepared& p) {
   const Config& c = p.config;
   const Counts& n = p.counts;
@@ -161,12 +206,22 @@ void check(const Options& options, Prepared& p) {
 
     TrialSimulation& trial = *first.trial;
     MemoryNeed memory = first.memory;
+    const std::vector<RankReport> from = trial.simulation().ranks();
     const StepTiming timing = time_steps(trial.simulation());
-    if (trial.starts_from_settled_bed()) memory = trial.memory();  // else grains have been falling
-    print_memory("", memory.all,
-                 100 * memory.fast_flow_bytes > memory.all
-                     ? fmt::format(", of which {} only in fast flow", bytes_text(memory.fast_flow_bytes))
-                     : "");
+    const std::vector<RankReport> to = trial.simulation().ranks();
+    const bool settled = trial.starts_from_settled_bed();
+    if (settled) memory = trial.memory();  // else grains have been falling
+    const std::string fast_flow =
+        100 * memory.fast_flow_bytes > memory.all
+            ? fmt::format(", of which {} only in fast flow", bytes_text(memory.fast_flow_bytes))
+            : "";
+    if (to.empty()) {
+      print_memory("", memory.all, fast_flow);
+    } else {
+      first.trial.reset();
+      fmt::print("memory     {} on all ranks{}\n", bytes_text(memory.all), fast_flow);
+      fmt::print("{}", ranks_text(p, timing, from, to, memory.fast_flow_bytes));
+    }
     const double count = std::ceil((c.time.end - p.begin) / timing.dt);
     const Throughput rate = throughput_of(p.device, c.precision);  // for inflow; the rest is measured
     const double fluid = 0.5 * double(later.fluid - n.fluid), grains = 0.5 * double(later.grains - n.grains);
@@ -178,8 +233,7 @@ void check(const Options& options, Prepared& p) {
                                                    timing.substeps, with_key(timing.substep_limit))
                                      : ", 1 substep per step");
     fmt::print("{}{}", fewer_steps_text(c, timing, count), fewer_substeps_text(c, timing));
-    fmt::print("{}", run_time_text(seconds, timing, first.free_surface && may_splash(c),
-                                   !trial.starts_from_settled_bed()));
+    fmt::print("{}", run_time_text(seconds, timing, first.free_surface && may_splash(c), !settled));
     if (c.grain.present && c.grain.settle) {
       const double many = std::ceil(c.grain.settle_time / least_of(grain_limits(c)).seconds);
       fmt::print("settling   at most {} substeps, {}, before t = 0; none if the settled bed is cached\n",

@@ -1,14 +1,17 @@
 #include "first_step.hpp"
 
+#include <utility>
+
 #include "bedload/geometry/setup.hpp"
 #include "bedload/output/intervals.hpp"
+#include "room.hpp"
 
 namespace bedload {
 
 FirstStep::FirstStep(Prepared& p, bool restarted) : prepared(p) {
   if (p.memory.of(p.counts) > p.device.memory) {
-    p.warnings.push_back(
-        "the case needs more memory than the device has free, so its step limits were not evaluated");
+    p.warnings.push_back("the case needs more memory than there is, so its step limits were not evaluated: " +
+                         lack_of_memory_text(p));
     return;
   }
   Simulation& simulation = trial.emplace(p).simulation();
@@ -26,6 +29,8 @@ void FirstStep::take() {
   check_fixed_steps(prepared, simulation);
   const StepInfo step = simulation.step();  // allocates what steps need
   memory = trial->memory();
+  if (std::string idle = idle_ranks_text(simulation.ranks(), prepared.config); !idle.empty())
+    prepared.warnings.push_back(std::move(idle));
   for (std::string& warning : OutputIntervals(prepared.config.out).newly_below(step.dt))
     prepared.warnings.push_back(std::move(warning));
 }

@@ -98,7 +98,15 @@ void add_bench_options(CLI::App& app, Options& o) {
       ->allow_extra_args(false)
       ->check(CLI::Range(0.01, 1e4));
   add_common_options(app, o);
-  add_division(app, o);
+  const std::string tables = "; several numbers, as 1,2,4, give tables of strong and weak scaling";
+  app.add_option("--devices", b.devices, "Divide the particles among so many GPUs" + tables)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(1, 256));
+  app.add_option("--ranks", b.ranks, "Divide the particles among so many parts of the CPU" + tables)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(1, 256));
   app.add_option("--precision", b.precisions, "single, mixed or double; repeatable")
       ->check(kPrecisions)
       ->allow_extra_args(false);
@@ -205,6 +213,7 @@ void add_check(CLI::App& app, Options& o, std::string& precision, bool& force_dt
   CLI::App* check = app.add_subcommand(
       "check", "Check a case: particles, step limits, memory, run time; writes no results");
   add_case_options(*check, o, precision, force_dt);
+  add_division(*check, o);
   check->add_option("--preview", o.preview, "Write the initial particles and a picture of them to a folder")
       ->type_name("DIR")
       ->check(kNamed);

@@ -18,6 +18,7 @@
 #include "bedload/geometry/shape.hpp"
 #include "bedload/motion/law.hpp"
 #include "bedload/output/output.hpp"
+#include "room.hpp"
 #include "src/geometry/rough_size.hpp"
 #include "src/motion/inlet_flow.hpp"
 #include "src/viscometer/plane_flow.hpp"
@@ -128,9 +129,11 @@ void refuse_too_many(const Prepared& p) {
   if (memory == 0 || need <= 1.2 * memory) return;  // a close estimate is settled by placing and counting
   const Expected& most = *std::max_element(parts.begin(), parts.end(), less);
   const Counts& n = most.counts;
-  std::string text = fmt::format("{} gives {:.3g} {}, which need {}; {} has {} free", most.text,
+  const bool several = p.device.ranks > 1;
+  std::string text = fmt::format("{} gives {:.3g} {}, which need {}{}; {} has {} free{}{}", most.text,
                                  double(n.fluid + n.walls + n.grains), most.what,
-                                 bytes_text(std::size_t(need)), p.device.text(), bytes_text(p.device.memory));
+                                 bytes_text(std::size_t(need)), several ? " on each" : "", p.device.text(),
+                                 bytes_text(p.device.memory), several ? " on each" : "", room_text(p, all));
   if (n.fluid > 0)
     text += fmt::format("; use at least {:.3g} m",
                         c.fluid.dx * std::pow(need / memory, c.domain.two_d ? 1.0 / 2 : 1.0 / 3) * 1.001);

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "bedload/core/error.hpp"
 #include "progress.hpp"
+#include "room.hpp"
 #include "settle.hpp"
 
 namespace bedload {
@@ -45,7 +48,7 @@ void Session::build(const Options& options, const Print& print) {
   SavedState state;
   if (settle) state = settled(options, print);
   if (p_.memory.of(p_.counts) > p_.device.memory)
-    p_.warnings.push_back("the case may need more memory than is free on the device");
+    p_.warnings.push_back("the case may need more memory than there is: " + lack_of_memory_text(p_));
   simulation_ = make_simulation(p_.config, p_.setup, p_.device);
   p_.setup = {};  // frees as much memory as the simulation takes
   if (restarted_) {
@@ -56,6 +59,8 @@ void Session::build(const Options& options, const Print& print) {
     if (settle) simulation_->load_grains(state);
     simulation_->start();
   }
+  if (std::string idle = idle_ranks_text(simulation_->ranks(), p_.config); !idle.empty())
+    p_.warnings.push_back(std::move(idle));
 }
 
 SavedState Session::settled(const Options& options, const Print& print) {

@@ -4,6 +4,7 @@
 
 #include "bedload/geometry/bisect.hpp"
 #include "bedload/parallel/compact.hpp"
+#include "bedload/parallel/rank_record.hpp"
 #include "bedload/parallel/ranks.hpp"
 
 namespace BL_SOLVER {
@@ -149,6 +150,7 @@ Migrants find_migrants(const Store& store, const CellGrid& grid, const Frame& fr
   for_each({0, ranks + 2}, FirstOfPass{destination, first});
   const std::vector<Index> begin = first.to_host();
   out.stay = begin[1];
+  rank_record().migrated += n - out.stay;
   for (Index r = 0; r <= ranks; ++r) out.of_rank.push_back(begin[r + 1] - out.stay);
   out.any = all_reduce(n - out.stay, [](Index& into, Index more) { into = max_of(into, more); }) > 0;
   return out;

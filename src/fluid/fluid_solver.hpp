@@ -160,6 +160,8 @@ class FluidSolver {
   }
   /// Whether repel() has anything to do.
   bool repels() const { return repelling_.surfaces.size > 0 || orifices_.size() > 0; }
+  /// Whether fluid pays for the work of the pressure of walls.
+  bool pays_for_walls() const { return parameters_.energy_consistent; }
   /// Whether some walls have their own density, which density() takes on.
   bool freezes() const { return parameters_.frozen; }
 
@@ -237,7 +239,7 @@ class FluidSolver {
   }
   /// FluidPowers of each particle, as they are now; after a step of dt (s), before the lists are renewed.
   /// Empty if a model does not report them.
-  virtual Span<const FluidPowers> powers(FluidStore&, const WallStore&, Span<const BodyPose>, const StepTime&,
+  virtual Span<const FluidPowers> powers(FluidStore&, WallStore&, Span<const BodyPose>, const StepTime&,
                                          double) {
     return {};
   }

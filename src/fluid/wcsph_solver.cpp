@@ -78,7 +78,7 @@ class WcsphSolver final : public FluidSolver {
     forces_on_walls<ForceParts>(fluid, walls, pose, corrected, dt, pressure, friction);
   }
 
-  Span<const FluidPowers> powers(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
+  Span<const FluidPowers> powers(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
                                  const StepTime& now, double dt) override {
     if (shear_.acts()) return {};
     powers_.resize(fluid.size());
@@ -162,17 +162,19 @@ class WcsphSolver final : public FluidSolver {
     wall_fluid_.run(pass);
   }
   /// What the pressure of walls does by places and velocities as they are, for density_pass().
-  void find_wall_work(const FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose) {
+  void find_wall_work(const FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose) {
     if (!parameters_.energy_consistent) return;
-    of_walls_.resize(walls.size());
     const WallWorkPass<W, Lengths> pass{.w = w_,
                                         .least_sum = least_sum(),
                                         .fluid = view(fluid),
                                         .walls = view(walls),
                                         .bodies = {walls.body, pose},
-                                        .work = wall_work_,
+                                        .work = walls.work,
                                         .lengths = lengths()};
     run_over_walls(pass);
+    if (!Context::current().several()) return;
+    walls.work.set_shared(false);
+    share(walls, {&walls.work});
   }
   Real least() const { return -Real(parameters_.density.cavitation_limit); }
   Viscosity viscosity() const {
@@ -211,7 +213,7 @@ class WcsphSolver final : public FluidSolver {
             .drift = drift_of(fluid),
             .fit = fit,
             .lengths = lengths(),
-            .wall_work = span_if(parameters_.energy_consistent, wall_work_)};
+            .wall_work = span_if(parameters_.energy_consistent, walls.work)};
   }
   template <bool kArtificial, bool kAdded, bool kSpecies = false>
   ForcePass<W, kArtificial, kAdded, kSpecies, Lengths> force_pass(FluidStore& fluid, const WallStore& walls,
@@ -252,7 +254,7 @@ class WcsphSolver final : public FluidSolver {
     run_with_walls(StressPass<Force>{whole, inviscid, out.parts(fluid.size(), false)});
   }
   template <bool kSpecies, class Shift>
-  Span<const FluidPowers> spend(FluidStore& fluid, const WallStore& walls, Span<const BodyPose> pose,
+  Span<const FluidPowers> spend(FluidStore& fluid, WallStore& walls, Span<const BodyPose> pose,
                                 const StepTime& now, double dt, const Shift& shift) {
     using Force = ForcePass<W, true, false, kSpecies, Lengths>;
     using Density = DensityPass<W, Shift, NoFit, true, true, Lengths>;
@@ -329,7 +331,6 @@ class WcsphSolver final : public FluidSolver {
   W w_;
   CutFraction cut_;
   Buffer<FluidPowers> powers_;
-  ScratchArray<Real> wall_work_{of_walls_, parameters_.energy_consistent};  ///< of WallWorkPass
 };
 
 }  // namespace

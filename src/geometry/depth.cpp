@@ -40,10 +40,12 @@ std::vector<double> depth_in_columns(const std::vector<Vec3d>& x, const Vec3d& u
                         std::floor(dot(across, at) / (2 * spacing)));
     height.push_back(dot(up, at));
   }
-  std::vector<std::size_t> order(x.size());  // column by column, from the top
+  const auto size_of = [&](std::size_t a) { return size.empty() ? spacing : size[a]; };
+  std::vector<std::size_t> order(x.size());  // column by column, from the top; of equals the largest is first
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::tuple(column[a], -height[a], a) < std::tuple(column[b], -height[b], b);
+    return std::tuple(column[a], -height[a], -size_of(a), a) <
+           std::tuple(column[b], -height[b], -size_of(b), b);
   });
   std::vector<double> depth(x.size());
   double top = 0;
@@ -51,7 +53,7 @@ std::vector<double> depth_in_columns(const std::vector<Vec3d>& x, const Vec3d& u
     const std::size_t a = order[n];
     const bool connected =
         n > 0 && column[order[n - 1]] == column[a] && height[order[n - 1]] - height[a] <= 3 * spacing;
-    if (!connected) top = height[a] + (size.empty() ? spacing : size[a]) / 2;
+    if (!connected) top = height[a] + size_of(a) / 2;
     depth[a] = top - height[a];
   }
   return depth;

@@ -1,5 +1,7 @@
 #include "bedload/particles/exchange.hpp"
 
+#include "bedload/parallel/rank_record.hpp"
+
 namespace BL_SOLVER {
 namespace {
 
@@ -31,6 +33,8 @@ void Exchange::run(const std::vector<FieldBase*>& fields, Index first) {
   std::size_t bytes = 0;
   for (const FieldBase* field : fields) bytes += bytes_of(*field, outgoing(context.rank()));
   outbox.reserve_and_resize(bytes);
+  ++rank_record().exchanges;
+  rank_record().sent += double(bytes);
   std::byte* to = outbox.data();
   for (const FieldBase* field : fields) {
     field->collect(places_, to);

@@ -23,11 +23,6 @@ void refuse_undivided(const Config& c) {
   }
   if (c.out.spectra) refuse("out.spectra", "spectra of contacts");
   if (c.out.contacts != ContactFrames::none) refuse("out.contacts", "frames of contacts");
-  if (c.wall.energy_consistent && c.wall.suction)
-    refuse("wall.energy_consistent", "work of the pressure of walls");
-  for (std::size_t k = 0; k < c.fluid.fills.size(); ++k)
-    if (!c.fluid.fills[k].file.empty())
-      refuse(fmt::format("fluid.fill.{}.file", k), "fluid from a file of particles");
   for (std::size_t k = 0; k < c.wall.bodies.size(); ++k) {
     const WallBody& body = c.wall.bodies[k];
     if (body.wear != WearLaw::none) refuse(fmt::format("wall.body.{}.wear", k), "wear of walls");

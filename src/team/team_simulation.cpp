@@ -1,107 +1,23 @@
 #include "src/team/team_simulation.hpp"
 
-#include <condition_variable>
 #include <cstring>
-#include <exception>
-#include <mutex>
-#include <thread>
 #include <type_traits>
 #include <utility>
 
 #include "bedload/core/error.hpp"
-#include "src/team/thread_team.hpp"
+#include "src/team/workers.hpp"
 
 namespace bedload {
 namespace {
 
-/// Threads, one a rank, that do the same work at the same time.
-class Workers {
- public:
-  Workers(int ranks, double timeout) : team_(ranks, timeout), errors_(std::size_t(ranks)) {
-    for (int r = 0; r < ranks; ++r) threads_.emplace_back([this, r] { work(r); });
-  }
-  ~Workers() {
-    run({});
-    for (std::thread& thread : threads_) thread.join();
-  }
-  int size() const { return team_.size(); }
-  Link& link(int rank) { return team_.link(rank); }
-
-  /// job(rank) on all threads; rethrows what one of them throws, of the lowest rank that did not only lose
-  /// another. An empty job ends them.
-  void run(const std::function<void(int)>& job) {
-    std::unique_lock lock(mutex_);
-    job_ = job;
-    busy_ = size();
-    ++number_;
-    wake_.notify_all();
-    done_.wait(lock, [this] { return busy_ == 0; });
-    std::exception_ptr first;
-    bool lost = false;
-    for (std::exception_ptr& error : errors_) {
-      if (!error) continue;
-      const bool only_lost = is_lost(error);
-      if (!first || (lost && !only_lost)) first = error, lost = only_lost;
-      error = nullptr;
-    }
-    if (!first) return;
-    team_.recover();
-    try {
-      std::rethrow_exception(first);
-    } catch (const RankLost& error) {
-      throw DeviceError(error.what());
-    }
-  }
-
- private:
-  static bool is_lost(const std::exception_ptr& error) {
-    try {
-      std::rethrow_exception(error);
-    } catch (const RankLost&) {
-      return true;
-    } catch (...) {
-      return false;
-    }
-  }
-  void work(int rank) {
-    for (std::int64_t last = 0;;) {
-      std::function<void(int)> job;
-      {
-        std::unique_lock lock(mutex_);
-        wake_.wait(lock, [&] { return number_ != last; });
-        last = number_;
-        job = job_;
-      }
-      if (job) try {
-          job(rank);
-        } catch (...) {
-          errors_[std::size_t(rank)] = std::current_exception();
-          team_.fail();
-        }
-      const bool end = !job;
-      job = nullptr;
-      const std::lock_guard lock(mutex_);
-      if (--busy_ == 0) done_.notify_all();
-      if (end) return;
-    }
-  }
-
-  ThreadTeam team_;
-  std::vector<std::exception_ptr> errors_;
-  std::mutex mutex_;
-  std::condition_variable wake_, done_;
-  std::function<void(int)> job_;
-  std::int64_t number_ = 0;
-  int busy_ = 0;
-  std::vector<std::thread> threads_;
-};
-
 class TeamSimulation final : public Simulation {
  public:
   explicit TeamSimulation(const TeamOptions& options)
-      : parts_(std::size_t(options.ranks)), workers_(options.ranks, options.timeout) {
+      : parts_(std::make_shared<Parts>(std::size_t(options.ranks))), workers_(options) {
     try {
-      workers_.run([&](int rank) { parts_[std::size_t(rank)] = options.make(workers_.link(rank)); });
+      workers_.run([parts = parts_, make = options.make, this](int rank) {
+        (*parts)[std::size_t(rank)] = make(workers_.link(rank));
+      });
     } catch (...) {
       release();
       throw;
@@ -131,6 +47,12 @@ class TeamSimulation final : public Simulation {
   ParticleBytes field_bytes() const override { return first().field_bytes(); }
   ParticleBytes scratch_bytes() const override { return first().scratch_bytes(); }
   std::vector<Quantity> time_spent() const override { return first().time_spent(); }
+  std::vector<RankReport> ranks() override {
+    std::vector<RankReport> out;
+    for (const auto& of_rank : all_of([](Simulation& s) { return s.ranks(); }))
+      out.insert(out.end(), of_rank.begin(), of_rank.end());
+    return out;
+  }
 
   std::vector<StepLimit> limits() override {
     return first_of([](Simulation& s) { return s.limits(); });
@@ -176,18 +98,20 @@ class TeamSimulation final : public Simulation {
   }
 
  private:
-  const Simulation& first() const { return *parts_[0]; }
+  using Parts = std::vector<std::unique_ptr<Simulation>>;
+  const Simulation& first() const { return *(*parts_)[0]; }
   template <class F>
   void each(const F& f) {
-    workers_.run([&](int rank) { f(*parts_[std::size_t(rank)]); });
+    workers_.run([parts = parts_, f](int rank) { f(*(*parts)[std::size_t(rank)]); });
   }
   template <class F>
   using Result = std::invoke_result_t<F, Simulation&>;
   template <class F>
   std::vector<Result<F>> all_of(const F& f) {
-    std::vector<Result<F>> all(parts_.size());
-    workers_.run([&](int rank) { all[std::size_t(rank)] = f(*parts_[std::size_t(rank)]); });
-    return all;
+    const auto all = std::make_shared<std::vector<Result<F>>>(parts_->size());
+    workers_.run(
+        [parts = parts_, all, f](int rank) { (*all)[std::size_t(rank)] = f(*(*parts)[std::size_t(rank)]); });
+    return std::move(*all);
   }
   template <class F>
   Result<F> first_of(const F& f) {
@@ -202,12 +126,17 @@ class TeamSimulation final : public Simulation {
     }
     return out;
   }
-  /// What a rank has allocated is freed by its own thread.
+  /// What a rank has allocated is freed by its own thread; never, if some do not respond.
   void release() {
-    workers_.run([&](int rank) { parts_[std::size_t(rank)].reset(); });
+    static auto& kept = *new std::vector<std::shared_ptr<Parts>>;
+    try {
+      workers_.run([parts = parts_](int rank) { (*parts)[std::size_t(rank)].reset(); });
+    } catch (const DeviceError&) {
+      kept.push_back(parts_);
+    }
   }
 
-  std::vector<std::unique_ptr<Simulation>> parts_;
+  std::shared_ptr<Parts> parts_;
   Workers workers_;
 };
 

@@ -12,7 +12,8 @@ namespace bedload {
 /// How ranks are made and how long they wait for one another.
 struct TeamOptions {
   int ranks = 1;
-  double timeout = 60;  ///< s
+  double timeout = 60;                  ///< s
+  std::vector<std::string> names = {};  ///< of ranks, for messages; empty: their numbers
   /// Called on the thread of each rank; makes its part.
   std::function<std::unique_ptr<Simulation>(Link&)> make;
 };

@@ -1,5 +1,6 @@
 #include "src/time/coupled_simulation.hpp"
 
+#include "bedload/parallel/rank_record.hpp"
 #include "src/time/lattice_simulation.hpp"
 
 namespace BL_SOLVER {
@@ -21,6 +22,21 @@ std::vector<Quantity> CoupledSimulation::numerical_viscosity() const {
   return {{"artificial_bulk", "-", artificial},
           {"artificial_bed", "-", state_.two_way ? artificial : 0},
           {"local_slip_bed", "-", state_.two_way ? by_slip() : 0}};
+}
+
+std::vector<RankReport> CoupledSimulation::ranks() {
+  if (!Context::current().several()) return {};
+  const RankRecord& record = rank_record();
+  const auto own = [](const Store& store) { return std::int64_t(store.owned().size()); };
+  RankReport report{.own = {own(state_.fluid), own(state_.walls), own(state_.grains)},
+                    .bytes = std::size_t(bytes_held_by_thread()),
+                    .exchanges = record.exchanges,
+                    .migrated = record.migrated,
+                    .sent = record.sent,
+                    .waited = record.waited};
+  for (const Store* store : std::initializer_list<const Store*>{&state_.fluid, &state_.walls, &state_.grains})
+    report.ghosts += store->all().size() - store->owned().size();
+  return {report};
 }
 
 SavedState CoupledSimulation::save_grains() {

@@ -40,6 +40,7 @@ class CoupledSimulation final : public Simulation {
   ParticleBytes scratch_bytes() const override { return stepper_.scratch_bytes(); }
   std::size_t growth() override { return state_.has_fluid ? stepper_.fluid().growth() : 0; }
   std::vector<Quantity> time_spent() const override { return stepper_.time_spent(); }
+  std::vector<RankReport> ranks() override;
 
   HostStore snapshot(const std::string& store) override;
   HostStore rheology(const std::string& store) override;

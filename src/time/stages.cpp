@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bedload/parallel/rank_record.hpp"
 #include "src/time/stepper.hpp"
 
 namespace BL_SOLVER {
@@ -62,6 +63,7 @@ void Stepper::begin(Step& now, std::string_view name, Part part, const MakeAcces
   now.timed = part;
   const bool observed = now.observer && *now.observer, several = Context::current().several();
   if (!observed && !several) return;
+  if (several) rank_record().enter(name.data(), clock_.step);
   const Access all = fields();
   const Fields near = present(all.near);
   if (observed) {
@@ -294,7 +296,7 @@ void Stepper::density(Step& now) {
         .near = near,
         .reads = drift() + Fields{&f.compression, &f.viscosity, &f.eps, &f.grains_around, &w.compression},
         .writes = fields_of_order() + Fields{&f.compression, &f.compression_next} +
-                  only_if(fluid_solver_->freezes(), {&w.compression})};
+                  only_if(fluid_solver_->freezes(), {&w.compression}) + Fields{&w.work}};
   });
   fluid_solver_->density(fluid_, walls_, now.poses, moment_, now.dt);
 }

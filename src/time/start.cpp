@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bedload/geometry/depth.hpp"
+#include "bedload/parallel/ranks.hpp"
 #include "src/time/stepper.hpp"
 
 namespace BL_SOLVER {
@@ -42,22 +43,48 @@ double depth_at(const Config& config, const Vec3d& gravity, const Vec3d& x) {
   return depth;
 }
 
+/// A particle in a column of fluid: its place and the edge of the cell for which it stands, m.
+struct ColumnParticle {
+  Vec3d x;
+  double size;
+};
+
+/// Those of all other ranks.
+std::vector<ColumnParticle> of_others(std::vector<ColumnParticle> own) {
+  if (!Context::current().several()) return {};
+  const std::vector<std::size_t> counts = all_gather(own.size());
+  const std::size_t most = *std::max_element(counts.begin(), counts.end());
+  std::vector<ColumnParticle> all(most * counts.size()), out;
+  own.resize(most);
+  Context::current().link()->all_gather(own.data(), all.data(), most * sizeof(ColumnParticle));
+  for (std::size_t r = 0; r < counts.size(); ++r)
+    if (int(r) != Context::current().rank())
+      out.insert(out.end(), all.data() + r * most, all.data() + r * most + counts[r]);
+  return out;
+}
+
 /// Depth of each fluid particle of that mass (kg), m: in its block, or among the particles themselves where a
-/// file gave some.
+/// file gave some. The first `own` are this rank's.
 std::vector<double> depths_of(const Config& config, const Vec3d& gravity, const std::vector<Vec3d>& x,
-                              const std::vector<Real>& mass) {
+                              const std::vector<Real>& mass, std::size_t own) {
   std::vector<double> depth;
   for (const Vec3d& at : x) depth.push_back(depth_at(config, gravity, at));
   bool listed = false;
   for (const auto& fill : config.fluid.fills) listed = listed || !fill.file.empty();
   if (!listed || norm(gravity) == 0) return depth;
-  std::vector<double> size;  // edge of the cell for which a particle stands, m
+  std::vector<ColumnParticle> column;
   const double thickness = config.domain.thickness();
-  for (const Real m : mass) {
-    const double volume = double(m) / config.fluid.rho0;
-    size.push_back(thickness > 0 ? std::sqrt(volume / thickness) : std::cbrt(volume));
+  for (std::size_t a = 0; a < x.size(); ++a) {
+    const double volume = double(mass[a]) / config.fluid.rho0;
+    column.push_back({x[a], thickness > 0 ? std::sqrt(volume / thickness) : std::cbrt(volume)});
   }
-  const auto below = depth_in_columns(x, gravity * (-1 / norm(gravity)), config.fluid.dx, size);
+  // ghosts are then there twice, which does not matter
+  const auto more = of_others({column.begin(), column.begin() + std::ptrdiff_t(own)});
+  column.insert(column.end(), more.begin(), more.end());
+  std::vector<Vec3d> places;
+  std::vector<double> size;
+  for (const ColumnParticle& p : column) places.push_back(p.x), size.push_back(p.size);
+  const auto below = depth_in_columns(places, gravity * (-1 / norm(gravity)), config.fluid.dx, size);
   for (std::size_t a = 0; a < x.size(); ++a)
     if (depth[a] == 0) depth[a] = below[a];
   return depth;
@@ -85,7 +112,7 @@ void Stepper::initialise_fluid(Step& now) {
     const Vec3d g = level_gravity(config_, gravity_.at(0));
     std::vector<Vec3d> x;
     for (const auto& at : fluid_.x.values()) x.push_back(coordinates(frame_, at));
-    const std::vector<double> depth = depths_of(config_, g, x, fluid_.mass.values());
+    const std::vector<double> depth = depths_of(config_, g, x, fluid_.mass.values(), fluid_.owned().size());
     for (Index a = 0; a < fluid_.size(); ++a) pressure[a] += Real(config_.fluid.rho0 * norm(g) * depth[a]);
   }
   fluid_.correction.buffer().zero();

@@ -93,6 +93,7 @@ Stepper::Stepper(const Config& config, State& state)
     solid_solver_->follow();
   }
   if (!fluid_.xp_mid.used() || !motion_.moves()) walls_.xp_mid.leave_out();
+  if (!has_fluid() || !fluid_solver_->pays_for_walls()) walls_.work.leave_out();
 }
 
 ParticleBytes Stepper::scratch_bytes() const {

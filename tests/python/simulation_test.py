@@ -52,6 +52,28 @@ class Simulations(unittest.TestCase):
                 other = bedload.Case(path).with_values({"fluid.mu": 0.002})
                 bedload.Simulation(other, place / "halves", restart="latest")
 
+    def test_ranks_give_the_same_bits(self):
+        water = TANK[: TANK.index("[grain]")] + TANK[TANK.index("[[probe]]"):] + "[run]\nblock = 1\n"
+        with folder() as place:
+            path, place = write_case(place, water), Path(place)
+            runs = {}
+            for ranks in (1, 2):
+                with bedload.Simulation(path, place / str(ranks), threads=2, ranks=ranks) as tank:
+                    tank.run(0.005)
+                    runs[ranks] = tank.fluid.by_id("velocity")
+                    parts = tank.ranks()
+            np.testing.assert_array_equal(runs[1], runs[2])
+            self.assertEqual(tables(place / "1"), tables(place / "2"))
+            self.assertEqual(sum(part["fluid"] for part in parts), len(runs[1]))
+            self.assertTrue(all(part["ghosts"] > 0 and part["sent"] > 0 for part in parts))
+            report = bedload.Case(path).check(threads=2, ranks=2)
+            self.assertEqual(sum(part["fluid"] for part in report.ranks), report.fluid)
+            with self.assertRaisesRegex(bedload.CaseError, "ranks = 0 must be within 1..256"):
+                bedload.Simulation(path, ranks=0)
+            for devices, said in ((3, "--devices 3"), ([0, 2], "--devices 0,2"), ([1], "--devices 1,")):
+                with self.assertRaisesRegex(bedload.DeviceError, said + ": there is no GPU to use"):
+                    bedload.Simulation(path, backend="cpu", devices=devices)
+
     def test_arrays_are_windows_on_the_solvers_memory(self):
         tank = bedload.Simulation(bedload.Case.from_toml(TANK), threads=1)
         held, rebuilt = [], 0

@@ -4,6 +4,7 @@ takes the place of the solver; solids of solids.py."""
 
 import contextlib
 import io
+import json
 import subprocess
 import sys
 import tempfile
@@ -301,6 +302,22 @@ turn_angle = 5
         status, _, err = tool("plot.py", "probe", table, "--spectrum", "--out", "none.png")
         self.assertNotEqual(status, 0)
         self.assertIn("a spectrum needs 8 values or more; there are 5", err)
+
+    def test_scaling(self):
+        report = self.run_dir / "speed.json"
+        row = {"row": "1M", "precision": "mixed", "scaling": "strong", "ranks": 2, "speed_up": 1.8,
+               "efficiency_percent": 90, "wait_percent": 4}
+        one = {**row, "ranks": 1, "speed_up": 1, "efficiency_percent": 100, "wait_percent": 0}
+        weak = [{**each, "scaling": "weak"} for each in (row, one)]
+        rows = [row, one, *weak, {"row": "1M", "precision": "double"}]
+        series = plot.scaling_series({"rows": rows})
+        self.assertEqual([[r["ranks"] for r in rows] for rows in series.values()], [[1, 2], [1, 2]])
+        report.write_text(json.dumps({"device": "GPU", "commit": "1", "rows": rows}))
+        self.expect_picture("scaling", report)
+        report.write_text(json.dumps({"device": "GPU", "commit": "1", "rows": rows[-1:]}))
+        status, _, err = tool("plot.py", "scaling", report, "--out", "none.png")
+        self.assertNotEqual(status, 0)
+        self.assertIn("has no rows of scaling", err)
 
     def test_frames_without_the_case(self):
         self.expect_picture("frames", self.run_dir, "--times", "0.2", "--view", "yz")

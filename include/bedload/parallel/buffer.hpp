@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
@@ -19,6 +20,12 @@ namespace BL_SOLVER {
 /// Bytes now held by all buffers of this build.
 inline std::atomic<std::size_t>& bytes_held() {
   static std::atomic<std::size_t> held{0};
+  return held;
+}
+
+/// And by those of this thread: of one of several ranks.
+inline std::int64_t& bytes_held_by_thread() {
+  static thread_local std::int64_t held = 0;
   return held;
 }
 
@@ -38,6 +45,7 @@ inline void* device_allocate(std::size_t bytes) {
   if (!p) throw DeviceError("out of memory: " + std::to_string(bytes >> 20) + " MiB asked for");
 #endif
   bytes_held() += bytes;
+  bytes_held_by_thread() += std::int64_t(bytes);
   return p;
 }
 inline void device_free(void* p, std::size_t bytes) {
@@ -48,6 +56,7 @@ inline void device_free(void* p, std::size_t bytes) {
   std::free(p);
 #endif
   bytes_held() -= bytes;
+  bytes_held_by_thread() -= std::int64_t(bytes);
 }
 /// Copies between host and device have been made when they return.
 inline void copy_to_device(void* to, const void* from, std::size_t bytes) {

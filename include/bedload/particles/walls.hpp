@@ -52,6 +52,8 @@ struct WallStore : Store {
   /// rho / rho0 - 1 of frozen and mirrored walls; kNoCompression: outer layers of a frozen one, or no fluid
   /// about the image
   Field<Real> compression{*this, "compression", "-", Lifetime::kept};
+  Field<Real> work{*this, "work", "m6/s",
+                   Lifetime::derived};  ///< of WallWorkPass; left out where nothing pays
   MirrorStore mirrors;
 };
 

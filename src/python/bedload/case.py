@@ -235,6 +235,19 @@ def _converted(value: Any, path: str, place: tuple[str, int]) -> Any:
     return _plain(value)
 
 
+def devices_text(devices: int | str | Sequence[int] | None) -> str:
+    """GPUs as `--devices` takes them: a number of them, or a list of their numbers."""
+    if devices is None or isinstance(devices, (int, str)):
+        return "" if devices is None else str(devices)
+    return ",".join(str(number) for number in devices) + ("," if len(devices) == 1 else "")
+
+
+def checked_ranks(ranks: int) -> int:
+    if not 1 <= ranks <= 256:
+        raise CaseError(f"ranks = {ranks} must be within 1..256")
+    return ranks
+
+
 @dataclass
 class Report:
     """Result of `Case.check`."""
@@ -249,6 +262,7 @@ class Report:
     numerical_viscosity: dict[str, float]  #: as multiples of the physical viscosity
     warnings: list[str]  #: a sentence each
     notes: list[str]  #: what is valid but may surprise, "resolution: ..."
+    ranks: list[dict[str, float]]  #: as `Simulation.ranks`, after one step
 
     @property
     def active_limit(self) -> str:
@@ -322,15 +336,17 @@ class Case(Section):
         """Warnings of the program for this case. Raises CaseError for an invalid case."""
         return self._read().warnings
 
-    def check(self, backend: str = "auto", threads: int = 0) -> Report:
+    def check(self, backend: str = "auto", threads: int = 0, devices: int | str | Sequence[int] | None = None,
+              ranks: int = 1) -> Report:
         """As `bedload check`, without its estimate of the run time: places the particles, evaluates the step limits,
-        does one step; raises CaseError as the program. Warnings and notes are those that the program prints."""
-        found = module().check(self._read(), backend, threads)
+        does one step; raises CaseError as the program. Warnings and notes are those that the program prints. devices,
+        ranks: as of Simulation."""
+        found = module().check(self._read(), backend, threads, devices_text(devices), checked_ranks(ranks))
         values = {name: {key: value[0] for key, value in found[name].items()}
                   for name in ("step_limits", "substep_limits", "numerical_viscosity")}
         fluid, walls, grains = found["counts"]
         return Report(fluid, walls, grains, found["device"], found["memory"], **values, warnings=found["warnings"],
-                      notes=found["notes"])
+                      notes=found["notes"], ranks=found["ranks"])
 
     def _start(self, name: str) -> None:
         object.__setattr__(self, "_name", name)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Callable, Iterator
+from typing import Any, Callable, Iterator, Sequence
 
 import numpy as np
 
 from ._module import module
-from .case import Case
+from .case import Case, checked_ranks, devices_text
 from .errors import CaseError, SimulationFault
 
 
@@ -112,6 +112,8 @@ class Simulation:
 
     case: a Case or the name of a file. out: folder of results, as `bedload run --out`; without one nothing is written.
     restart: a checkpoint, or "latest" of `out`. backend: "cpu", "cuda" or "auto". threads: 0 for all.
+    devices: GPUs that divide the particles, a number of them, a list of their numbers or "all"; ranks: parts of the
+    CPU that do. Particles are then in the order of one GPU, and their arrays are copies.
     overwrite: replaces an existing run in `out`. allow_changes: restarts with a modified case. Grains settle here,
     if the case says so. Raises CaseError, FileError, DeviceError, SimulationFault.
 
@@ -120,7 +122,8 @@ class Simulation:
     """
 
     def __init__(self, case: Case | str | Path, out: str | Path | None = None, *, restart: str | Path | None = None,
-                 backend: str = "auto", threads: int = 0, overwrite: bool = False, allow_changes: bool = False):
+                 backend: str = "auto", threads: int = 0, overwrite: bool = False, allow_changes: bool = False,
+                 devices: int | str | Sequence[int] | None = None, ranks: int = 1):
         self.case: Case = case if isinstance(case, Case) else Case(case)  #: that it runs
         self.out: Path | None = None if out is None else Path(out)  #: folder of results
         if restart == "":
@@ -130,7 +133,8 @@ class Simulation:
                 raise CaseError("restart = \"latest\" needs `out`, whose newest checkpoint it takes")
             restart = module().latest_checkpoint(self.out)
         read = self.case._read(restart or "")
-        self._run = module().Run(read, self.out or "", restart or "", backend, threads, overwrite, allow_changes)
+        self._run = module().Run(read, self.out or "", restart or "", backend, threads, overwrite, allow_changes,
+                                devices_text(devices), checked_ranks(ranks))
         self._begun = self._ended = False
         self.fluid: Particles = Particles(self._run, "fluid")  #: its arrays
         self.grains: Particles = Particles(self._run, "grains")  #: its arrays
@@ -240,6 +244,11 @@ class Simulation:
     def step_limits(self) -> dict[str, float]:
         """Limits of the next time step, s."""
         return _values(self._run.limits())
+
+    def ranks(self) -> list[dict[str, float]]:
+        """Of each rank: fluid, walls, grains and ghosts (particles), bytes, and so far exchanges, migrated
+        particles, bytes sent and seconds waited for others. Empty if the particles are not divided."""
+        return self._run.ranks()
 
     def time_spent(self) -> dict[str, float]:
         """Wall time by part, over all steps, s."""

@@ -51,13 +51,29 @@ nb::dict to_dict(const std::vector<StepLimit>& limits) {
   return out;
 }
 
+/// A dictionary each.
+nb::list to_list(const std::vector<RankReport>& ranks) {
+  nb::list out;
+  for (const RankReport& r : ranks) {
+    nb::dict one;
+    one["fluid"] = r.own.fluid, one["walls"] = r.own.walls, one["grains"] = r.own.grains;
+    one["ghosts"] = r.ghosts, one["bytes"] = r.bytes, one["exchanges"] = r.exchanges;
+    one["migrated"] = r.migrated, one["sent"] = r.sent, one["waited"] = r.waited;
+    out.append(one);
+  }
+  return out;
+}
+
 /// A session for Python.
 class Run {
  public:
   Run(const ReadCase& given, const std::filesystem::path& out, const std::filesystem::path& restart,
-      const std::string& backend, int threads, bool overwrite, bool allow_changes) {
+      const std::string& backend, int threads, bool overwrite, bool allow_changes, const std::string& devices,
+      int ranks) {
     Options options;
     options.command = "run";
+    options.devices = devices;
+    options.ranks = ranks;
     options.out = out;
     options.restart = restart;
     options.backend = backend;
@@ -135,19 +151,24 @@ class Run {
 };
 
 /// The results of `bedload check`, as numbers.
-nb::dict checked(const ReadCase& given, const std::string& backend, int threads) {
+nb::dict checked(const ReadCase& given, const std::string& backend, int threads, const std::string& devices,
+                 int ranks) {
   Prepared p;
   p.config = given.config;
   p.warnings = given.warnings;
   Options options;
   options.backend = backend;
   options.threads = threads;
+  options.devices = devices;
+  options.ranks = ranks;
   std::optional<FirstStep> first;
+  std::vector<RankReport> parts;
   computed([&] {
     placed(given.config.places, [&] {
       initialise(options, p);
       first.emplace(p, false);
       first->take();
+      if (first->trial) parts = first->trial->simulation().ranks();
       first->trial.reset();  // the lock is held
     });
   });
@@ -158,6 +179,7 @@ nb::dict checked(const ReadCase& given, const std::string& backend, int threads)
   out["step_limits"] = to_dict(first->steps);
   out["substep_limits"] = to_dict(first->substeps);
   out["numerical_viscosity"] = to_dict(first->numerical_viscosity);
+  out["ranks"] = to_list(parts);
   out["warnings"] = p.warnings;
   out["notes"] = first->notes();
   return out;
@@ -199,9 +221,9 @@ void bind_runs(nb::module_& m) {
       });
   nb::class_<Run>(m, "Run", "A simulation and its results folder, if it has one.")
       .def(nb::init<const ReadCase&, std::filesystem::path, std::filesystem::path, std::string, int, bool,
-                    bool>(),
+                    bool, std::string, int>(),
            nb::arg("case"), nb::arg("out"), nb::arg("restart"), nb::arg("backend"), nb::arg("threads"),
-           nb::arg("overwrite"), nb::arg("allow_changes"))
+           nb::arg("overwrite"), nb::arg("allow_changes"), nb::arg("devices"), nb::arg("ranks"))
       .def("begin", &Run::begin, "Writes the first frames.")
       .def("step", &Run::step, "One step and the output that is due.")
       .def("finish", &Run::finish, nb::arg("status"), "Writes the last results.")
@@ -216,6 +238,7 @@ void bind_runs(nb::module_& m) {
       .def_prop_ro("bytes", [](Run& r) { return r.simulation().bytes(); })
       .def_prop_ro("cuda", &Run::cuda)
       .def_prop_ro("warnings", [](Run& r) { return r.session().prepared().warnings; })
+      .def("ranks", [](Run& r) { return to_list(computed([&] { return r.simulation().ranks(); })); })
       .def("limits", [](Run& r) { return to_dict(computed([&] { return r.simulation().limits(); })); })
       .def("time_spent", [](Run& r) { return to_dict(r.simulation().time_spent()); })
       .def("diagnostics",
@@ -227,8 +250,8 @@ void bind_runs(nb::module_& m) {
       .def("checkpoint", &Run::checkpoint);
   m.def("latest_checkpoint", &latest_checkpoint, nb::arg("folder"),
         "The newest checkpoint of a results folder.");
-  m.def("check", &checked, nb::arg("case"), nb::arg("backend"), nb::arg("threads"),
-        "Places the particles, evaluates the step limits, does one step.");
+  m.def("check", &checked, nb::arg("case"), nb::arg("backend"), nb::arg("threads"), nb::arg("devices"),
+        nb::arg("ranks"), "Places the particles, evaluates the step limits, does one step.");
 }
 
 }  // namespace

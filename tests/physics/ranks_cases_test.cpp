@@ -1,0 +1,150 @@
+// What several ranks report, what they do about one that never responds, and cases that need more than one
+// test.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "bedload/case/read.hpp"
+#include "bedload/core/error.hpp"
+#include "tests/support/team.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace BL_SOLVER {
+namespace {
+
+/// A lump that flies into blocks that were empty.
+const std::string kFlight = R"(gravity = [0, 0, 0]
+[domain]
+min = [0, 0, 0]
+max = [0.6, 0.1, 0.1]
+[fluid]
+dx = 0.01
+vmax = 2
+[[fluid.fill]]
+min = [0.05, 0.02, 0.02]
+max = [0.2, 0.08, 0.08]
+velocity = [2, 0, 0]
+[run]
+block = 1
+[time]
+end = 1
+[out]
+every = 1
+)";
+
+struct DividedCase {
+  explicit DividedCase(const std::string& text) : config(read_case_text(text, "case.toml", {}, warnings)) {
+    setup = build_setup(config, warnings);
+  }
+  std::vector<std::string> warnings;
+  Config config;
+  bedload::Setup setup;
+};
+
+TEST(RankReports, CountWhatRanksHaveAndSend) {
+  const DividedCase c(kFlight);
+  EXPECT_TRUE(make_coupled(c.config, c.setup)->ranks().empty());
+  const std::size_t before = bytes_held();  // by scratch of this thread
+  const auto s = make_divided(c.config, c.setup, 3);
+  s->start();
+  const std::vector<RankReport> from = s->ranks();
+  while (s->time() < 0.1) s->step();
+  const std::vector<RankReport> to = s->ranks();
+  ASSERT_EQ(to.size(), 3u);
+  std::int64_t fluid = 0, ghosts = 0, migrated = 0;
+  std::size_t bytes = 0;
+  for (std::size_t r = 0; r < to.size(); ++r) {
+    fluid += to[r].own.fluid, ghosts += to[r].ghosts, migrated += to[r].migrated;
+    bytes += to[r].bytes;
+    EXPECT_EQ(to[r].exchanges, to[0].exchanges);
+    EXPECT_GE(to[r].exchanges - from[r].exchanges, s->steps()) << "once a step at least";
+    EXPECT_GT(to[r].waited, 0);
+    // a ghost has 16 bytes at least of what its owner has sent
+    EXPECT_GT(to[r].sent - from[r].sent, 16.0 * double(s->steps()));
+  }
+  EXPECT_EQ(fluid, s->counts().fluid);
+  EXPECT_GT(ghosts, 0);
+  EXPECT_GT(migrated, 0) << "fluid has gone to other blocks";
+  EXPECT_EQ(bytes, s->bytes() - before) << "of all ranks";
+}
+
+/// Columns of fluid that end in a surface: hydrostatic pressure comes from all particles above, on any rank.
+TEST(RankCases, FluidOfAFileIsUnderThePressureOfAllAboveIt) {
+  const test::TemporaryFolder folder;
+  {
+    std::ofstream table(folder / "fluid.csv");
+    table << "x,y,z\n";
+    for (int k = 0; k < 20; ++k)
+      for (int j = 0; j < 4; ++j)
+        for (int i = 0; i < 6; ++i)
+          if (k < 10 + 2 * i)
+            table << 0.01 * i + 0.005 << ',' << 0.01 * j + 0.005 << ',' << 0.01 * k + 0.005 << '\n';
+  }
+  const DividedCase c(
+      "[domain]\nmin = [0, 0, 0]\nmax = [0.06, 0.04, 0.3]\n[fluid]\ndx = 0.01\nvmax = 2\n"
+      "[[fluid.fill]]\nfile = \"" +
+      (folder / "fluid.csv").string() +
+      "\"\n"
+      "[[wall.body]]\nname = \"tank\"\nshape = \"tank\"\nmin = [0, 0, 0]\n"
+      "max = [0.06, 0.04, 0.3]\nfaces = [\"x-\", \"x+\", \"y-\", \"y+\", \"z-\"]\n"
+      "[run]\nblock = 1\n[time]\nend = 1\n[out]\nevery = 1\n");
+  const auto after = [&](int ranks) {
+    const auto s = make_divided(c.config, c.setup, ranks);
+    s->start();
+    for (int n = 0; n < 20; ++n) s->step();
+    return bits(*s);
+  };
+  const auto one = after(1);
+  for (const int ranks : {2, 4}) EXPECT_TRUE(after(ranks) == one) << ranks << " ranks";
+}
+
+/// A link to others over which rank 1 falls asleep once.
+class SleepyLink final : public Link {
+ public:
+  explicit SleepyLink(Link& link) : link_(link) {}
+  int rank() const override { return link_.rank(); }
+  int size() const override { return link_.size(); }
+  void all_gather(const void* own, void* all, std::size_t bytes) override {
+    if (rank() == 1 && ++calls_ == 200) std::this_thread::sleep_for(std::chrono::seconds(6));
+    link_.all_gather(own, all, bytes);
+  }
+
+ private:
+  Link& link_;
+  int calls_ = 0;
+};
+
+TEST(RankSilence, OfOneThatNeverRespondsEndsTheRun) {
+  const DividedCase c(kFlight);
+  static std::vector<std::unique_ptr<SleepyLink>> links(3);  // its thread is left behind
+  auto s = make_team(
+      {.ranks = 3, .timeout = 0.3, .names = {"GPU 4 (H)", "GPU 5 (H)", "GPU 6 (H)"}, .make = [&](Link& link) {
+         auto& own = links[std::size_t(link.rank())];
+         own = std::make_unique<SleepyLink>(link);
+         return make_coupled(c.config, c.setup, own.get());
+       }});
+  const auto from = std::chrono::steady_clock::now();
+  const auto said = [&](const auto& call) -> std::string {
+    try {
+      call();
+    } catch (const DeviceError& error) {
+      return error.what();
+    }
+    return "nothing";
+  };
+  const std::string first = said([&] {
+    s->start();
+    for (int n = 0; n < 1000; ++n) s->step();
+  });
+  EXPECT_TRUE(first.starts_with("GPU 5 (H) has not responded for 0.3 s, in ")) << first;
+  EXPECT_EQ(said([&] { s->diagnostics(); }), first);
+  s.reset();
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - from;
+  EXPECT_LT(took.count(), 5) << "it sleeps for longer";
+}
+
+}  // namespace
+}  // namespace BL_SOLVER
