@@ -77,7 +77,7 @@ class Simulation {
   /// case has them.
   virtual std::vector<Quantity> time_spent() const = 0;
 
-  /// Output fields of a store: "fluid", "grains" or "walls". First array: "position".
+  /// Output fields of a store: "fluid", "grains", "clumps" or "walls". First array: "position".
   virtual HostStore snapshot(const std::string& store) = 0;
   /// Data for the rheology of "fluid" or "grains", after a step: arrays position (m), velocity (m/s), mass
   /// (kg), volume (m3, of a grain, or the mixture volume of fluid), drive (N, by gravity and drive)

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kStores[] = {"fluid", "grains", "walls"};
+constexpr const char* kStores[] = {"fluid", "grains", "clumps", "walls"};
 constexpr const char* kTableFolders[] = {"probes", "bodies"};
 
 FrameFile frame_file(const fs::path& folder, const std::string& store, bool doubles = false) {
@@ -60,6 +60,7 @@ Series series_of(const Config& c, const fs::path& folder) {
   };
   if (c.fluid.present) frames_of("fluid");
   if (c.grain.present) frames_of("grains");
+  if (!c.grain.clump_fills().empty()) frames_of("clumps");
   const bool wall_particles =
       c.fluid.present && !c.fluid.lattice() && !(c.wall.bodies.empty() && c.inlets.empty());
   if (c.out.walls && wall_particles) frames_of("walls");

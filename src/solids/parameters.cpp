@@ -58,8 +58,13 @@ SolidParameters solid_parameters(const Config& config) {
     for (const GrainMaterial& m : p.materials) p.wall_laws.push_back(law_between(m, body, config));
   for (const int k : g.rigid_fills()) {
     const GrainFill& fill = g.fills[k];
-    p.groups.push_back({k, g.material(fill.material), fill.velocity, fill.rigid});
+    p.clumps.push_back({k, g.material(fill.material), fill.velocity, fill.rigid});
   }
+  for (const int k : g.clump_fills())
+    p.clumps.push_back({.fill = k,
+                        .material = g.material_of(k),
+                        .shape = g.clump_of(g.fills[k])->shape,
+                        .density = g.density(g.fills[k])});
   return p;
 }
 

@@ -2,6 +2,7 @@
 // Parameters of the grain solver.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "bedload/case/config/domain.hpp"
@@ -12,12 +13,14 @@
 
 namespace BL_SOLVER {
 
-/// Grains that move as one body.
-struct RigidGroup {
-  int fill = 0;                ///< index of their fill in the case
-  std::uint32_t material = 0;  ///< of them
-  Vec3d velocity;              ///< at the start, m/s
-  RigidConfig freedom;
+/// Clumps of one fill: its grains as one body, or bodies of one shape.
+struct ClumpKind {
+  int fill = 0;                ///< index in the case
+  std::uint32_t material = 0;  ///< of their grains
+  Vec3d velocity = {};         ///< of a fill that is one body, at the start, m/s
+  RigidConfig freedom = {};
+  std::optional<ClumpShape> shape = {};  ///< none: the fill is one body
+  double density = 0;                    ///< of a shape, kg/m3
 };
 
 struct SolidParameters {
@@ -34,8 +37,8 @@ struct SolidParameters {
   double drag_fraction = 0;  ///< limit of a substep over the relaxation time of drag
   SubstepLimits limits;
   ReflectConfig reflect;
-  std::vector<RigidGroup> groups = {};
-  bool plane = false;   ///< groups move in the xz plane
+  std::vector<ClumpKind> clumps = {};
+  bool plane = false;   ///< clumps move in the xz plane
   bool energy = false;  ///< its flows are counted
 
   std::uint32_t bodies() const { return std::uint32_t(wall_laws.size() / materials.size()); }  ///< of walls

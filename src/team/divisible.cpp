@@ -14,6 +14,7 @@ void refuse_undivided(const Config& c) {
   };
   if (!c.fluid.present) refuse("fluid", "a case without fluid");
   if (c.fluid.lattice()) refuse("fluid.model", "fluid on a lattice");
+  for (const int k : c.grain.clump_fills()) refuse(fmt::format("grain.fill.{}.clump", k), "clumps");
   if (c.grain.present) refuse("grain", "a case with grains");
   if (c.wall.energy_consistent && c.wall.suction)
     refuse("wall.energy_consistent", "work of the pressure of walls");
