@@ -133,6 +133,16 @@ struct Setup {
     std::vector<Vec3d> omega;         ///< rad/s; empty: none spins
     std::vector<double> radius;       ///< m
     std::vector<std::uint32_t> fill;  ///< index in GrainConfig::fills
+    struct Clump {
+      std::uint32_t fill;
+      double d;        ///< of the sphere of its volume, m
+      Vec3d x;         ///< of its centre of mass, m
+      Vec3d v, omega;  ///< m/s, rad/s
+      Quat<double> rotation;
+    };
+    std::vector<Clump> clumps;
+    std::vector<std::uint32_t>
+        clump;  ///< of each grain 1 + its clump, 0: none; those of one in its spheres' order
   } grains;
   /// With fluid.model = "lattice", instead of fluid and walls.
   struct Nodes {

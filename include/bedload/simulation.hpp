@@ -91,8 +91,8 @@ class Simulation {
   /// Of each rank; empty where there is one.
   virtual std::vector<RankReport> ranks() { return {}; }
 
-  /// Output fields of a store: "fluid", "grains" or "walls", first array "position"; or "contacts", lines of
-  /// the grains' contacts, first array "ends".
+  /// Output fields of a store: "fluid", "grains", "clumps" or "walls", first array "position"; or "contacts", lines
+  /// of the grains' contacts, first array "ends".
   virtual HostStore snapshot(const std::string& store) = 0;
   /// Data for the rheology of "fluid" or "grains", after a step: arrays position (m), velocity (m/s), mass
   /// (kg), volume (m3, of a grain, or the mixture volume of fluid), drive (N, by gravity and drive)

@@ -13,19 +13,19 @@
 namespace BL_SOLVER {
 
 /// Pairs of grains whose distance is below the sum of their radii, a skin and the range of lubrication; pairs
-/// within one rigid group are left out.
+/// within one clump are left out.
 struct GrainNear {
   Frame frame;
   Span<const Vec3d> x;
   Span<const Real> radius;
-  Span<const std::uint32_t> group;  ///< 0: none; empty without groups
+  Span<const std::uint32_t> clump;  ///< 0: none; empty without clumps
   double largest;                   ///< radius, m
   double skin;                      ///< m
   double film = 0;                  ///< range of lubrication / R*
   BL_HD Vec3d place(Index i) const { return x[i]; }
   BL_HD double reach(Index i) const { return radius[i] + largest + skin + film_between(radius[i], largest); }
   BL_HD bool operator()(Index i, Index j) const {
-    if (group && group[i] != 0 && group[i] == group[j]) return false;
+    if (clump && clump[i] != 0 && clump[i] == clump[j]) return false;
     return i != j && closer(i, j, skin + film_between(radius[i], radius[j]));
   }
   BL_HD double film_between(double R_i, double R_j) const { return film * R_i * R_j / (R_i + R_j); }

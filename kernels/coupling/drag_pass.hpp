@@ -1,4 +1,5 @@
 #pragma once
+#include "kernels/contact/grain_mass.hpp"
 #include "kernels/coupling/interpolation_pass.hpp"
 #include "kernels/coupling/own_wake.hpp"
 #include "kernels/integrate/grain_fields.hpp"
@@ -51,6 +52,19 @@ BL_HD N slip_weight(const Vec3<N>& v_a, const Vec4<N>& by_slip) {
   return by_slip.w * root(norm2(v_a - by_slip.xyz()));
 }
 
+/// Whose drag a grain has: its own, or its share, by volume, of that of its clump, which is taken for a
+/// sphere of the same volume.
+struct DragBodies {
+  VolumePerR3 volume_per_r3;
+  Span<const Real> radius;
+  Span<const Real> clump_d;  ///< of the sphere of its clump's volume, m, 0: in no clump; empty: none is
+  BL_HD bool clumped(Index j) const { return clump_d && clump_d[j] > 0; }
+  BL_HD Real diameter(Index j) const { return clumped(j) ? clump_d[j] : 2 * radius[j]; }
+  BL_HD Real share(Index j) const {
+    return clumped(j) ? Real(volume_per_r3(j)) * cube(radius[j]) / (kPi / 6 * cube(clump_d[j])) : Real(1);
+  }
+};
+
 /// How drag follows the slip of the fluid around each grain.
 template <class Law, bool Local>
 struct DragLines {
@@ -58,7 +72,8 @@ struct DragLines {
   Real mu;      ///< Pa s
   bool shares;  ///< whether grains displace fluid; else its velocity is the flux
   OwnWake own;
-  Span<const Real> radius, eps, bed_eps;
+  DragBodies bodies;
+  Span<const Real> eps, bed_eps;
   GrainSurroundings surroundings;
 
   /// The mean of |u|, or the norm of the mean of u, m/s.
@@ -71,10 +86,10 @@ struct DragLines {
   }
   /// Near an orifice the law is evaluated with the porosity of the bed, at the actual flux.
   BL_HD DragLine of(Index j, Real slip) const {
-    const Real d = 2 * radius[j], rho = surroundings.rho[j];
-    const Real bed = own.porosity(bed_eps[j], 4 * kPi / 3 * cube(radius[j]));
+    const Real d = bodies.diameter(j), rho = surroundings.rho[j], share = bodies.share(j);
+    const Real bed = own.porosity(bed_eps[j], 4 * kPi / 3 * cube(bodies.radius[j]));
     const Real ratio = (shares ? eps[j] : Real(1)) / bed;
-    const auto by_law = [&](Real w) { return ratio * law.K(bed, d, rho, mu, ratio * w); };
+    const auto by_law = [&](Real w) { return share * ratio * law.K(bed, d, rho, mu, ratio * w); };
     const auto coefficient = [&](Real w) {
       Real K = by_law(w);
       if (!(own.mobility > 0)) return K;
@@ -139,8 +154,9 @@ struct DragPass {
       levers.sum[j] = 1 + off_centre * spread;
     }
     if (torque && wet > 0 && carriers.inv_M[j].trace() > 0)
-      drag.rot_coefficient[j] = wet * spin_drag(2 * lines.radius[j], surroundings.rho[j], lines.mu,
-                                                norm(drag.rotation[j] - omega[j]));
+      drag.rot_coefficient[j] = wet * lines.bodies.share(j) *
+                                spin_drag(lines.bodies.diameter(j), surroundings.rho[j], lines.mu,
+                                          norm(drag.rotation[j] - omega[j]));
   }
 };
 

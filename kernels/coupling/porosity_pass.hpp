@@ -1,6 +1,7 @@
 #pragma once
 #include "bedload/core/span.hpp"
 #include "bedload/neighbours/for_each_pair.hpp"
+#include "kernels/contact/grain_mass.hpp"
 #include "kernels/coupling/orifice_weight.hpp"
 #include "kernels/coupling/wall_free_fraction.hpp"
 
@@ -24,6 +25,7 @@ struct GrainVolumePass {
   double per_dt;  ///< 1 / step, 1/s; 0 before the first step
   Span<const Vec3d> x, x_before;
   Span<const Real3> v;
+  VolumePerR3 volume_per_r3;
   Span<const Real> radius;
   Span<const std::uint8_t> beside;  ///< result of BesideWallsPass; empty: any grain may be near walls
   Span<Real> wall_free;
@@ -33,7 +35,7 @@ struct GrainVolumePass {
     const Real3 u = per_dt > 0 ? Real3(per_dt * frame.nearest_image(x[j] - x_before[j])) : v[j];
     const Real s = !beside || beside[j] ? free(x[j]) : Real(1);
     wall_free[j] = s;
-    volume[j] = {u, 4 * kPi / 3 * cube(radius[j]) / s};
+    volume[j] = {u, Real(volume_per_r3(j)) * cube(radius[j]) / s};
   }
 };
 

@@ -78,16 +78,14 @@ struct Drive {
 struct GrainDrivePass {
   DriveField field;
   DriveMode mode;
-  MassPerR3 mass_per_r3;
+  PerR3 per_r3;  ///< of mass or volume
   Span<const Vec3d> x;
   Span<const Real> radius;
   Span<Real3> force;
 
   BL_HD void operator()(Index i) const {
     const double R3 = cube(double(radius[i]));
-    double times = 1;
-    if (mode == DriveMode::volume) times = 4 * M_PI / 3 * R3;
-    if (mode == DriveMode::mass) times = mass_per_r3(i) * R3;
+    const double times = mode == DriveMode::volume || mode == DriveMode::mass ? per_r3(i) * R3 : 1;
     force[i] = Real3(times * field.at(i, x[i]));
   }
 };

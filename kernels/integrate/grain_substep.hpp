@@ -108,13 +108,19 @@ struct LastKick {
   static constexpr bool kLast = true;
   double duration;  ///< of the advance, s
   Velocities<Real3> next;
+  Velocities<Real3> rest;  ///< low parts, for clumps to gather; empty: they are dropped
   DragImpulses impulses;
   Span<Real3> force, torque, drag_force;
   BL_HD void operator()(Index i, KickedGrain& g, const ContactSum& sum, const GrainKick& kick,
                         Span<const Vec3d>) const {
     g.kick();
-    next.v[i] = Real3(g.v);
-    next.omega[i] = Real3(g.omega);
+    if (rest.v) {
+      split(g.v, next.v[i], rest.v[i]);
+      split(g.omega, next.omega[i], rest.omega[i]);
+    } else {
+      next.v[i] = Real3(g.v);
+      next.omega[i] = Real3(g.omega);
+    }
     force[i] = Real3(sum.force);
     torque[i] = Real3(sum.torque);
     if (!kick.wet()) return;

@@ -45,6 +45,7 @@ struct TotalsReduction {
   };
   ContactPass contacts;
   WallContacts walls;
+  Span<const std::uint32_t> clump;  ///< of each grain, 0: none; the motion of those of clumps is not counted
 
   BL_HD Value identity() const {
     Value v{};
@@ -54,7 +55,7 @@ struct TotalsReduction {
     Value t{};
     const GrainView& g = contacts.grains;
     const Sphere s = g.sphere(i);
-    const double m = s.m, inertia = 0.4 * m * s.R * s.R;
+    const double m = clump && clump[i] > 0 ? 0 : double(s.m), inertia = 0.4 * m * s.R * s.R;
     const Vec3d v = Vec3d(g.v[i]), w = Vec3d(g.omega[i]), x = g.x[i];
     const Vec3d angular = cross(x, m * v) + inertia * w;
     t.sum[mass] = m;

@@ -39,7 +39,7 @@ class Checks {
   /// Density from former rates needs what one visit of each pair can find, and allows shorter steps only, by
   /// linear analysis: sound is damped up to a cfl of 0.6, density diffusion at its largest up to 0.39.
   void one_pass() const;
-  /// Reflecting sides act on particles one by one, so not on rigid groups.
+  /// Reflecting sides act on particles one by one, so not on rigid groups and clumps.
   void reflection() const;
   /// Lees-Edwards boundaries carry fluid alone, by what its pairs do.
   void shear() const;
@@ -85,6 +85,8 @@ class Checks {
   // checks_grains.cpp
   void grain_fill(const std::string& path, const GrainFill& fill) const;
   void materials() const;
+  /// What clumps do not work with.
+  void clumps() const;
   /// Overlap at the bottom of the bed by its own weight.
   void softness() const;
   /// Drag laws are of grains smaller than what the fluid is averaged over; fluid flows around large ones.

@@ -25,8 +25,9 @@ void Checks::openings() const {
   for (std::size_t i = 0; i < c.outlets.size(); ++i) {
     const OutletConfig& outlet = c.outlets[i];
     const std::string path = fmt::format("outlet.{}", i);
-    if (c.grain.present && outlet.takes(Phase::grains) && !c.grain.rigid_fills().empty())
-      fail(path + ".phase", quoted(outlet.phase.name()), "must be \"fluid\" where grains form rigid groups");
+    if (c.grain.present && outlet.takes(Phase::grains) && c.grain.bound())
+      fail(path + ".phase", quoted(outlet.phase.name()),
+           "must be \"fluid\" where grains form rigid groups or clumps");
     named(path, outlet.name);
     if (outlet.shape == OutletShape::box) box(path, outlet.min, outlet.max);
     if (outlet.shape != OutletShape::plane && !in_sight(outlet.min, outlet.max))

@@ -39,6 +39,7 @@ void Checks::grains() const {
   if (coupled()) resolution();
   if (c.lubrication.acts()) lubrication();
   materials();
+  clumps();
   if (!c.fluid.present && c.drive.on_fluid())
     fail("drive.on", quoted(c.drive.on.name()), "must be \"grains\" without [fluid]");
 }
@@ -83,8 +84,7 @@ void Checks::grain_fill(const std::string& path, const GrainFill& fill) const {
   if ((fill.count > 0) + (fill.mass > 0) + (fill.packing_fraction > 0) != 1)
     throw CaseError(fmt::format("{}: grain.fill must have exactly one of count, mass and packing_fraction",
                                 nearest_value(root_, path).place()));
-  const double fraction =
-      solid_volume(fill, c.grain.all_materials()[c.grain.material(fill.material)].rho) / fill_volume(fill);
+  const double fraction = solid_volume(fill, c.grain.density(fill)) / fill_volume(fill);
   const double densest = densest_packing(fill.sizes);
   if (fraction <= densest) return;
   if (fill.packing_fraction > 0)
@@ -96,6 +96,27 @@ void Checks::grain_fill(const std::string& path, const GrainFill& fill) const {
            "must fit the space to fill; it takes {:.0f} % where {:.0f} % is the densest random packing "
            "of these sizes",
            100 * fraction, 100 * densest));
+}
+
+void Checks::clumps() const {
+  constexpr double kFilled = 0.9;
+  for (const ClumpConfig& clump : c.grain.clumps)
+    if (clump.filled < kFilled)
+      warn(
+          "clump.count: the spheres of \"{}\" fill {:.0f} % of the volume of its shape, and weigh as much "
+          "less; "
+          "more of them fill more",
+          clump.name, 100 * clump.filled);
+  for (const int k : c.grain.clump_fills()) {
+    const std::string path = fmt::format("grain.fill.{}.clump", k);
+    const auto refuse = [&](bool given, const char* what) {
+      if (given) fail(path, quoted(c.grain.fills[k].clump), fmt::format("must be left out with {}", what));
+    };
+    refuse(c.domain.two_d, "domain.two_d: clumps turn in three dimensions");
+    refuse(c.density.count_grains, "density.count_grains");
+    refuse(c.couple.undisturbed, "couple.undisturbed");
+    refuse(c.fluid.present && c.fluid.lattice(), "fluid.model = \"lattice\"");
+  }
 }
 
 void Checks::materials() const {
@@ -129,6 +150,7 @@ void Checks::grain_energy() const {
         {c.grain.fixed, "with grain.fixed"},
         {!c.grain_inlets.empty() || std::any_of(c.outlets.begin(), c.outlets.end(), takes_grains),
          "with inlets or outlets of grains, whose energies are not counted"},
+        {!c.grain.clump_fills().empty(), "with clumps, of which it counts the spheres"},
         {c.lubrication.acts(), "with lubrication.forces, whose losses are not counted"}}) {
     if (!there) continue;
     for (const auto& [key, asked] : {std::pair{"out.energy", c.out.energy}, {"out.spectra", c.out.spectra}})
@@ -153,7 +175,7 @@ void Checks::grain_energy() const {
 void Checks::contact_pairs() const {
   const std::vector<ContactPair>& pairs = c.contact.pairs;
   std::map<std::string, int> materials, bodies;
-  for (const GrainMaterial& m : c.grain.all_materials()) ++materials[name_in_pairs(m)];
+  for (const GrainMaterial& m : c.grain.named_materials()) ++materials[name_in_pairs(m)];
   for (const WallBody& body : c.wall.bodies)
     if (body.stops_grains()) ++bodies[body.name];
   const auto refuse = [&](std::size_t k, const std::string& must) {

@@ -61,6 +61,9 @@ void Checks::lattice_grains() const {
     if (c.grain.fills[k].rigid.present)
       fail(fmt::format("grain.fill.{}.rigid", k), "[grain.fill.rigid]",
            fmt::format("must be left out {}", with));
+    if (c.grain.clump_of(c.grain.fills[k]))
+      fail(fmt::format("grain.fill.{}.clump", k), quoted(c.grain.fills[k].clump),
+           fmt::format("must be left out {}", with));
     if (c.grain.fills[k].replaces_fluid)
       fail(fmt::format("grain.fill.{}.replaces_fluid", k), "true", fmt::format("must be false {}", with));
   }

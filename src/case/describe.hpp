@@ -26,6 +26,7 @@ void describe_walls(Parameters& p, Config& config);
 /// Of one wall body; grain.* stands in for its material when the case is resolved.
 void describe_free_body(Parameters& p, FreeConfig& free);
 void describe_rigid_group(Parameters& p, RigidConfig& rigid);
+void describe_clump(Parameters& p, ClumpConfig& clump);
 void describe_inlets(Parameters& p, std::vector<InletConfig>& inlets);
 void describe_outlets(Parameters& p, std::vector<OutletConfig>& outlets);
 void describe_grain_inlets(Parameters& p, std::vector<GrainInletConfig>& inlets);

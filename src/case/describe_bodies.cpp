@@ -37,6 +37,34 @@ void describe_scatter(Parameters& p, ScatterConfig& s) {
   p("free.scatter.seed", &s.seed, {.meaning = "seed of the random positions"});
 }
 
+void describe_clump(Parameters& p, ClumpConfig& c) {
+  p("name", &c.name, {.meaning = "name by which fills refer to the clump", .presence = required});
+  p("spheres", &c.spheres,
+    {.meaning = "spheres [[x, y, z, r], ...] that make up the clump, 1 to 256 in any unit: fills scale them",
+     .fallback = "spheres, file or shape",
+     .presence = optional});
+  p("file", &c.file,
+    {.meaning = "text file with x, y, z and r of a sphere in each line, path relative to the case file",
+     .fallback = "spheres, file or shape",
+     .presence = optional});
+  p("shape", &c.solid,
+    {.meaning = "name of a shape, also of a mesh, that is filled with spheres from within, large ones first",
+     .fallback = "spheres, file or shape",
+     .presence = optional});
+  if (!c.solid.empty() || p.everything())
+    p("count", &c.count,
+      {.meaning = "shape: number of spheres, fewer if they fill it",
+       .range = within(1, 256),
+       .fallback = "required with shape",
+       .presence = optional});
+  p("density", &c.density,
+    {.unit = "kg/m3",
+     .meaning = "density of the union of the spheres",
+     .range = above(0),
+     .fallback = "that of the material",
+     .presence = optional});
+}
+
 void describe_free_body(Parameters& p, FreeConfig& f) {
   f.present = p.table("free", f.present);
   if (!f.present) return;

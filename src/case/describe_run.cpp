@@ -84,7 +84,8 @@ void probe(Parameters& p, ProbeConfig& b) {
     p("min", &b.min, {.unit = "m", .meaning = "box, flux, mixing: lower corner", .presence = required});
     p("max", &b.max,
       {.unit = "m",
-       .meaning = "box, mixing: upper corner; flux: of a box around the section, over whose length it is averaged",
+       .meaning =
+           "box, mixing: upper corner; flux: of a box around the section, over whose length it is averaged",
        .presence = required});
   }
   if (wanted(force) || wanted(wall_pressure))
@@ -102,8 +103,9 @@ void probe(Parameters& p, ProbeConfig& b) {
   if (wanted(wall_pressure)) patches(p, b);
   if (wanted(mixing)) {
     p("of", &b.of,
-      {.meaning = "mixing: name of the grain.material that is one kind, \"grain\" for that of grain.*; the other "
-                  "kind is the rest",
+      {.meaning =
+           "mixing: name of the grain.material that is one kind, \"grain\" for that of grain.*; the other "
+           "kind is the rest",
        .fallback = "larger_than is used",
        .presence = optional});
     if (b.of.empty() || p.everything())
@@ -113,7 +115,10 @@ void probe(Parameters& p, ProbeConfig& b) {
          .range = above(0),
          .presence = required});
     p("cell", &b.cell,
-      {.unit = "m", .meaning = "mixing: edge of the cells that are the samples", .range = above(0), .presence = required});
+      {.unit = "m",
+       .meaning = "mixing: edge of the cells that are the samples",
+       .range = above(0),
+       .presence = required});
   }
   p("every", &b.every,
     {.unit = "s",
@@ -271,8 +276,9 @@ void describe_time(Parameters& p, Config& c) {
   p("run.simd", &c.simd,
     {.meaning = "instruction set of the CPU; results differ by round-off", .family = "models"});
   p("run.block", &c.block,
-    {.meaning = "cells of the neighbour search each way in a block, which one device owns: 1, 2, 4 or 8; results "
-                "differ by round-off",
+    {.meaning =
+         "cells of the neighbour search each way in a block, which one device owns: 1, 2, 4 or 8; results "
+         "differ by round-off",
      .range = within(1, 8)});
   p("run.seed", &c.seed, {.meaning = "seed of all random numbers", .range = within(0, kLargest)});
   p("run.max_lost", &c.max_lost,
@@ -307,13 +313,16 @@ void describe_output(Parameters& p, OutputConfig& o) {
          "energy balance of the grains in diagnostics.csv: what contacts dissipate, the work of walls, "
          "gravity and fluid, and the residual; evaluates contacts twice"});
   p("out.spectra", &o.spectra,
-    {.meaning = "spectra.csv: how much energy single contacts of grains dissipate from beginning to end, by pair of "
-                "materials; with the columns of out.energy"});
+    {.meaning =
+         "spectra.csv: how much energy single contacts of grains dissipate from beginning to end, by pair of "
+         "materials; with the columns of out.energy"});
   if (o.spectra || p.everything()) {
-    p("out.spectra_bins", &o.spectra_bins, {.meaning = "bins of the spectra a decade", .range = within(5, 50)});
+    p("out.spectra_bins", &o.spectra_bins,
+      {.meaning = "bins of the spectra a decade", .range = within(5, 50)});
     p("out.spectra_from", &o.spectra_from,
       {.unit = "J",
-       .meaning = "lower edge of the first bin, which has all lower energies too; the last ends 14 decades above",
+       .meaning =
+           "lower edge of the first bin, which has all lower energies too; the last ends 14 decades above",
        .range = within(1e-30, 1)});
   }
   p("out.contacts", &o.contacts,

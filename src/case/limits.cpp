@@ -37,7 +37,7 @@ std::vector<SmallestGrain> smallest_grains(const Config& c) {
   for (const GrainInletConfig& inlet : c.grain_inlets) inlet_materials.push_back(inlet.material);
   const auto all = g.all_materials();
   std::vector<bool> used(all.size(), false);
-  for (const GrainFill& fill : g.fills) used[g.material(fill.material)] = true;
+  for (std::size_t k = 0; k < g.fills.size(); ++k) used[g.material_of(k)] = true;
   for (const std::string& name : inlet_materials) used[g.material(name)] = true;
   if (g.fills.empty() && inlet_materials.empty()) used[0] = true;
   std::vector<SmallestGrain> grains;

@@ -94,6 +94,18 @@ class Conversion {
       for (std::size_t k = 0; k < row->size(); ++k) out->back()[k] = number((*row)[k], shape);
     }
   }
+  void operator()(std::vector<ClumpSphere>* out) const {
+    const char* shape = "must be a list of spheres [[x, y, z, r], ...], r > 0";
+    const auto* list = value_.get<Value::Array>();
+    if (!list) reject(shape);
+    out->clear();
+    for (const Value& item : *list) {
+      const auto* row = item.get<Value::Array>();
+      if (!row || row->size() != 4) reject(shape);
+      out->emplace_back();
+      for (std::size_t k = 0; k < 4; ++k) out->back()[k] = number((*row)[k], shape);
+    }
+  }
   void operator()(Formulas* out) const {
     for (int k = 0; k < 3; ++k)
       (*out)[k] = formula(triple("must be three numbers or formulas in " + variables())[k]);

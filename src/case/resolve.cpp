@@ -85,22 +85,27 @@ void default_sizes(const Config& c, std::vector<SizeClass>& sizes, const Value& 
 namespace {
 
 /// Completes one of the sizes of grains at `path` and widens grain.d_min, d_max to it.
-void resolve_size(Config& c, SizeClass& s, const Value& root, const std::string& path) {
+void resolve_size(Config& c, SizeClass& s, const Value& root, const std::string& path,
+                  const ClumpConfig* clump) {
   if (s.kind == SizeKind::sieve) check_sieve(s, root, path);
   if (s.kind == SizeKind::log_normal) {  // its ends lie 3 sigma from the median
     if (s.d_min == 0) s.d_min = s.median * std::exp(-3 * s.sigma);
     if (s.d_max == 0) s.d_max = s.median * std::exp(3 * s.sigma);
   }
   const auto [smallest, largest] = size_range(s);
-  c.grain.d_min = std::min(c.grain.d_min, smallest);
-  c.grain.d_max = std::max(c.grain.d_max, largest);
+  const std::vector<ClumpSphere> one{{0, 0, 0, 0.5}};
+  for (const ClumpSphere& part : clump ? clump->shape.spheres : one) {
+    c.grain.d_min = std::min(c.grain.d_min, 2 * part[3] * smallest);
+    c.grain.d_max = std::max(c.grain.d_max, 2 * part[3] * largest);
+  }
 }
 
 }  // namespace
 
-void resolve_sizes(Config& c, std::vector<SizeClass>& sizes, const Value& root, const std::string& path) {
+void resolve_sizes(Config& c, std::vector<SizeClass>& sizes, const Value& root, const std::string& path,
+                   const ClumpConfig* clump) {
   for (std::size_t k = 0; k < sizes.size(); ++k)
-    resolve_size(c, sizes[k], root, fmt::format("{}.{}", path, k));
+    resolve_size(c, sizes[k], root, fmt::format("{}.{}", path, k), clump);
   const auto by_mass = [](const SizeClass& s) { return s.mass_fraction > 0; };
   if (std::none_of(sizes.begin(), sizes.end(), by_mass)) return;
   for (std::size_t k = 0; k < sizes.size(); ++k)
@@ -426,6 +431,7 @@ void resolve_grains(Config& c, const Value& root, const std::filesystem::path& c
     missing(root, "grain.fill", "[[grain.fill]] with a box or positions, or [[grain_inlet]]");
   g.seed = c.seed;
   for (GrainMaterial& m : g.materials) m = g.completed(m);
+  resolve_clumps(c, root);
   g.d_min = 1e300;
   for (std::size_t i = 0; i < g.fills.size(); ++i) {
     GrainFill& fill = g.fills[i];
@@ -438,7 +444,7 @@ void resolve_grains(Config& c, const Value& root, const std::filesystem::path& c
       const Bounds bounds = fill.solid.shape->bounds();
       fill.min = bounds.min, fill.max = bounds.max;
     }
-    resolve_sizes(c, fill.sizes, root, fmt::format("grain.fill.{}.sizes", i));
+    resolve_sizes(c, fill.sizes, root, fmt::format("grain.fill.{}.sizes", i), g.clump_of(fill));
   }
   for (std::size_t i = 0; i < g.fills.size(); ++i)
     if (RigidConfig& rigid = g.fills[i].rigid; rigid.present)

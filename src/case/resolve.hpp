@@ -23,6 +23,9 @@ void resolve_listed_fluid(Config& config, const Value& root, const std::filesyst
 bool resolve_listed_grains(Config& config, std::size_t index, const Value& root,
                            const std::filesystem::path& checkpoint);
 
+/// Reads the spheres of clumps from their files and works out their shapes; CaseError for what is none.
+void resolve_clumps(Config& config, const Value& root);
+
 /// A shape and a body in place of each that free.scatter stands for.
 void resolve_scattered_bodies(Config& config, const Value& root);
 
@@ -54,8 +57,9 @@ Solid shape_named(const Config& config, const std::string& name, const Value& ro
                   const char* must);
 
 /// Completes the sizes of grains at `path`, makes fractions of mass such of number, and widens grain.d_min,
-/// d_max to them.
-void resolve_sizes(Config& config, std::vector<SizeClass>& sizes, const Value& root, const std::string& path);
+/// d_max to them, or to the spheres of the clump of such sizes.
+void resolve_sizes(Config& config, std::vector<SizeClass>& sizes, const Value& root, const std::string& path,
+                   const ClumpConfig* clump = nullptr);
 
 /// CaseError for a wall body whose shape is not defined.
 void check_shape_names(const Config& config, const Value& root);

@@ -37,7 +37,7 @@ constexpr std::string_view kOneSpacing =
     "all fluid has one spacing, fluid.dx; fluid.variable_h lets smoothing lengths follow the volume";
 constexpr std::string_view kDbc =
     "the nearest wall.type is adami, the default, or mdbc; there are no dynamic walls";
-constexpr std::string_view kSpheres = "grains are spheres; grain.fill.rigid makes rigid groups of them";
+constexpr std::string_view kSpheres = "grains are spheres, or clumps of them: [[clump]] and grain.fill.clump";
 constexpr std::string_view kSi = "numbers are in SI units, and in quotes a value may have another: \"3 mm\"";
 constexpr std::string_view kNotNeeded = "nothing needs it";
 constexpr std::string_view kSound = "sound speed / fluid.vmax; `bedload check` prints the sound speed";
@@ -319,8 +319,8 @@ constexpr Word kWords[]{
     {kLiggghts, "volumefraction_region", "grain.fill.packing_fraction", ""},
     {kLiggghts, "particletemplate/sphere", "grain.d, grain.rho", "or grain.fill.sizes"},
     {kLiggghts, "particledistribution/discrete", "grain.fill.sizes.number_fraction", ""},
-    {kLiggghts, "fix multisphere", "grain.fill.rigid", ""},
-    {kLiggghts, "particletemplate/multisphere", "grain.fill.rigid", ""},
+    {kLiggghts, "fix multisphere", "grain.fill.clump", ""},
+    {kLiggghts, "particletemplate/multisphere", "clump.spheres", ""},
     {kLiggghts, "superquadric", "", kSpheres},
     {kLiggghts, "fix mesh/surface", "shape, wall.body",
      "a shape of kind mesh, and a wall body that names it"},

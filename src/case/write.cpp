@@ -52,10 +52,10 @@ struct ToText {
     for (const T& v : *list) out += (out.empty() ? "" : ", ") + (*this)(&v);
     return "[" + out + "]";
   }
-  std::string operator()(const std::vector<MotionRow>* rows) const {
+  template <std::size_t n>
+  std::string operator()(const std::vector<std::array<double, n>>* rows) const {
     std::string out;
-    for (const MotionRow& row : *rows)
-      out += fmt::format("{}[{}]", out.empty() ? "" : ", ", fmt::join(row, ", "));
+    for (const auto& row : *rows) out += fmt::format("{}[{}]", out.empty() ? "" : ", ", fmt::join(row, ", "));
     return "[" + out + "]";
   }
 };
@@ -70,6 +70,7 @@ bool is_absent(const Slot& value) {
     bool operator()(const std::vector<double>* list) const { return list->empty(); }
     bool operator()(const std::vector<std::string>* list) const { return list->empty(); }
     bool operator()(const std::vector<MotionRow>* rows) const { return rows->empty(); }
+    bool operator()(const std::vector<ClumpSphere>* spheres) const { return spheres->empty(); }
     bool operator()(const void*) const { return false; }
   };
   return std::visit(Test{}, value);
@@ -233,6 +234,7 @@ ValueKind kind_of(const Slot& value) {
     ValueKind operator()(const std::vector<Vec3d>*) const { return vectors; }
     ValueKind operator()(const std::vector<std::string>*) const { return texts; }
     ValueKind operator()(const std::vector<MotionRow>*) const { return rows; }
+    ValueKind operator()(const std::vector<ClumpSphere>*) const { return spheres; }
   };
   return std::visit(Kind{}, value);
 }

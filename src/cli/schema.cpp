@@ -70,6 +70,8 @@ Json value(const ParameterRow& row) {
       return array_of({{"type", "string"}, {"minLength", 1}}, 1);
     case ValueKind::rows:
       return array_of({{"anyOf", {array_of(number(row), 4, 4), array_of(number(row), 7, 7)}}}, 0);
+    case ValueKind::spheres:
+      return array_of(array_of(number(row), 4, 4), 1);
   }
   return {};
 }

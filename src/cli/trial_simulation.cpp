@@ -58,7 +58,13 @@ void compact(const Config& config, Setup::Grains& grains) {
   const auto median = fractions.begin() + fractions.size() / 2;
   std::nth_element(fractions.begin(), median, fractions.end());  // columns at the sides may be cut
   const double factor = std::min(1.0, *median / settled);
-  for (Vec3d& x : grains.x) x -= up * ((1 - factor) * (dot(x, up) - column_of(x).lowest));
+  for (std::size_t i = 0; i < grains.x.size(); ++i) {
+    Vec3d& x = grains.x[i];
+    const Vec3d fall = up * ((1 - factor) * (dot(x, up) - column_of(x).lowest));
+    x -= fall;
+    const std::uint32_t clump = i < grains.clump.size() ? grains.clump[i] : 0;
+    if (clump > 0 && (i == 0 || grains.clump[i - 1] != clump)) grains.clumps[clump - 1].x -= fall;
+  }
 }
 
 /// Starts the case, with a settled bed if there is one.

@@ -179,7 +179,7 @@ DragLines<Law, Local> Coupling::drag_lines(const Law& law, const GrainStore& gra
           .mu = Real(mu_),
           .shares = two_way_,
           .own = own_,
-          .radius = grains.radius,
+          .bodies = {matter_.volume_of(grains), grains.radius, grains.clump_d.span()},
           .eps = grains.eps,
           .bed_eps = bed_eps_,
           .surroundings = surroundings()};
@@ -237,6 +237,7 @@ void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, doub
                                          .x = grains.x,
                                          .x_before = grains.x_before,
                                          .v = grains.v,
+                                         .volume_per_r3 = matter_.volume_of(grains),
                                          .radius = grains.radius,
                                          .beside = span_if(asked, beside_walls_),
                                          .wall_free = wall_free_,

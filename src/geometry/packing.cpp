@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
 #include "bedload/case/grain_sizes.hpp"
@@ -19,12 +17,14 @@
 #include "bedload/geometry/build_shape.hpp"
 #include "bedload/geometry/lattice.hpp"
 #include "bedload/geometry/sampling.hpp"
+#include "placed_grains.hpp"
 
 namespace bedload {
 namespace {
 
-constexpr double kRandomLimit = 0.30;  // random sequential places run out near 0.38
-constexpr int kTries = 20000;          // per grain, before the lattice takes over
+constexpr double kRandomLimit = 0.30;              // random sequential places run out near 0.38
+constexpr std::uint64_t kOrientations = 1u << 20;  // stream of random numbers of the first clump
+constexpr int kTries = 20000;                      // per grain, before the lattice takes over
 
 template <class T>
 void shuffle(std::vector<T>& items, CounterRandom& random) {
@@ -32,97 +32,6 @@ void shuffle(std::vector<T>& items, CounterRandom& random) {
 }
 
 double sphere_volume(double radius) { return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius; }
-
-/// The grains placed so far, those of each octave of radii in cells as wide as its largest diameter.
-class PlacedGrains {
- public:
-  explicit PlacedGrains(const DomainConfig& domain) : domain_(domain) {}
-
-  void add(const Vec3d& x, double radius) {
-    const int octave = std::ilogb(radius);
-    const auto [at, fresh] = octaves_.try_emplace(octave, domain_, std::scalbn(4.0, octave));
-    at->second.add(x, radius);
-  }
-  /// Whether a grain at `x` touches none of those placed; the nearest periodic image counts.
-  bool is_free(const Vec3d& x, double radius) const {
-    return std::all_of(octaves_.begin(), octaves_.end(),
-                       [&](const auto& octave) { return octave.second.is_free(x, radius); });
-  }
-
- private:
-  using Cell = std::array<std::int64_t, 3>;
-
-  class Octave {
-   public:
-    Octave(const DomainConfig& domain, double width) : domain_(domain) {
-      for (int k = 0; k < 3; ++k) {
-        const double length = domain.max[k] - domain.min[k];
-        count_[k] = std::max<std::int64_t>(1, std::int64_t(std::floor(length / width)));
-        width_[k] = length / double(count_[k]);
-      }
-    }
-    void add(const Vec3d& x, double radius) {
-      cells_[key(cell(x))].push_back({x, radius});
-      largest_ = std::max(largest_, radius);
-      ++grains_;
-    }
-    bool is_free(const Vec3d& x, double radius) const {
-      const double range = radius + largest_;
-      const Vec3d reach{range, range, range};
-      const Cell from = cell(x - reach), to = cell(x + reach);
-      double cells = 1;
-      for (int k = 0; k < 3; ++k) cells *= double(to[k] - from[k] + 1);
-      if (cells > double(grains_))
-        return std::all_of(cells_.begin(), cells_.end(),
-                           [&](const auto& all) { return clear_of(all.second, x, radius); });
-      for (std::int64_t iz = from[2]; iz <= to[2]; ++iz)
-        for (std::int64_t iy = from[1]; iy <= to[1]; ++iy)
-          for (std::int64_t ix = from[0]; ix <= to[0]; ++ix) {
-            const auto found = cells_.find(key({ix, iy, iz}));
-            if (found != cells_.end() && !clear_of(found->second, x, radius)) return false;
-          }
-      return true;
-    }
-
-   private:
-    using Grains = std::vector<std::pair<Vec3d, double>>;
-
-    bool clear_of(const Grains& others, const Vec3d& x, double radius) const {
-      for (const auto& [y, other] : others) {
-        Vec3d apart = x - y;
-        for (int k = 0; k < 3; ++k)
-          if (domain_.periodic[k]) {
-            const double period = domain_.max[k] - domain_.min[k];
-            apart[k] -= period * std::round(apart[k] / period);
-          }
-        if (norm2(apart) < (radius + other) * (radius + other)) return false;
-      }
-      return true;
-    }
-    Cell cell(const Vec3d& x) const {
-      Cell c;
-      for (int k = 0; k < 3; ++k) c[k] = std::int64_t(std::floor((x[k] - domain_.min[k]) / width_[k]));
-      return c;
-    }
-    std::uint64_t key(Cell c) const {
-      for (int k = 0; k < 3; ++k)
-        if (domain_.periodic[k]) c[k] = (c[k] % count_[k] + count_[k]) % count_[k];
-      constexpr std::uint64_t mask = (1u << 21) - 1;
-      return (std::uint64_t(c[0]) & mask) << 42 | (std::uint64_t(c[1]) & mask) << 21 |
-             (std::uint64_t(c[2]) & mask);
-    }
-
-    DomainConfig domain_;
-    double largest_ = 0;  ///< radius, m
-    std::array<std::int64_t, 3> count_;
-    std::array<double, 3> width_;
-    std::size_t grains_ = 0;
-    std::unordered_map<std::uint64_t, Grains> cells_;
-  };
-
-  DomainConfig domain_;
-  std::map<int, Octave> octaves_;
-};
 
 /// Places the grains of one fill after the other.
 class Packer {
@@ -133,6 +42,7 @@ class Packer {
   void add_fill(std::size_t index) {
     const std::size_t begin = grains_.x.size();
     place_fill(index);
+    grains_.clump.resize(grains_.x.size(), 0);
     if (!fill_->rigid.present) return;
     for (std::size_t n = begin; n < grains_.x.size(); ++n) placed_.add(grains_.x[n], grains_.radius[n]);
   }
@@ -141,6 +51,7 @@ class Packer {
   void place_fill(std::size_t index) {
     index_ = index;
     fill_ = &config_.grain.fills[index];
+    clump_ = config_.grain.clump_of(*fill_);
     CounterRandom random(config_.grain.seed, index);
     if (!fill_->file.empty() || !fill_->positions.empty())
       return add_listed(listed_grains(*fill_, config_.domain), random);
@@ -158,6 +69,9 @@ class Packer {
   [[noreturn]] void fail(const std::string& why) const {
     throw KeyError(fmt::format("grain.fill.{}", index_), fmt::format("grain.fill {}: {}", index_ + 1, why));
   }
+
+  /// Radius of the sphere about its centre that holds a grain, over that of the sphere of its volume.
+  double reach() const { return clump_ ? 2 * clump_->shape.reach : 1; }
 
   std::vector<SizeClass> sizes() const {
     return fill_->sizes.empty() ? std::vector<SizeClass>{{config_.grain.d, 1}} : fill_->sizes;
@@ -180,7 +94,7 @@ class Packer {
 
   std::size_t wanted_count() const {
     double n = double(fill_->count);
-    const double rho = config_.grain.all_materials()[config_.grain.material(fill_->material)].rho;
+    const double rho = config_.grain.density(*fill_);
     if (fill_->mass > 0) n = std::round(count_for_volume(sizes(), fill_->mass / rho));
     if (fill_->packing_fraction > 0)
       n = std::round(count_for_volume(sizes(), fill_->packing_fraction * volume()));
@@ -205,7 +119,7 @@ class Packer {
 
   void check_box() const {
     double d = 0;
-    for (const SizeClass& size : sizes()) d = std::max(d, size_range(size).second);
+    for (const SizeClass& size : sizes()) d = std::max(d, reach() * size_range(size).second);
     const double slack = 1e-6 * d;
     for (int k = 0; k < 3; ++k) {
       const double length = fill_->max[k] - fill_->min[k];
@@ -239,11 +153,43 @@ class Packer {
   /// Those of a rigid group may overlap each other, since it has no contacts within: add_fill counts them as
   /// placed for the fills after it.
   void add(const Vec3d& x, double radius, const Vec3d& v, const Vec3d& omega) {
+    const std::size_t begin = grains_.x.size();
+    const std::size_t clump = grains_.clumps.size();
+    for (const auto& [arm, r] : spheres_of(clump, radius))
+      add_sphere(x + arm, r, v + cross(omega, arm), omega);
+    if (!clump_) return;
+    grains_.clumps.push_back({std::uint32_t(index_), 2 * radius, x, v, omega, orientation(clump)});
+    grains_.clump.resize(grains_.x.size(), std::uint32_t(grains_.clumps.size()));
+    for (std::size_t n = begin; n < grains_.x.size(); ++n) placed_.add(grains_.x[n], grains_.radius[n]);
+  }
+  /// Centres from that of a grain, and radii, of its spheres, m. `radius`: of the sphere of its
+  /// volume.
+  std::vector<std::pair<Vec3d, double>> spheres_of(std::size_t clump, double radius) const {
+    if (!clump_) return {{{}, radius}};
+    const Quat<double> turn = orientation(clump);
+    std::vector<std::pair<Vec3d, double>> all;
+    for (const auto& [x, y, z, r] : clump_->shape.spheres)
+      all.emplace_back(turn.rotate(2 * radius * Vec3d{x, y, z}), 2 * radius * r);
+    return all;
+  }
+  /// That of the fill, else at random, uniform over all rotations [shoemake92].
+  Quat<double> orientation(std::size_t clump) const {
+    if (fill_->orientation.size() == 3)
+      return Quat<double>::from_rotation(
+          std::numbers::pi / 180 *
+          Vec3d{fill_->orientation[0], fill_->orientation[1], fill_->orientation[2]});
+    CounterRandom random(config_.grain.seed, kOrientations + clump);
+    const double u = random.uniform(), a = 2 * std::numbers::pi * random.uniform(),
+                 b = 2 * std::numbers::pi * random.uniform();
+    return {std::sqrt(u) * std::cos(b), std::sqrt(1 - u) * std::sin(a), std::sqrt(1 - u) * std::cos(a),
+            std::sqrt(u) * std::sin(b)};
+  }
+  void add_sphere(const Vec3d& x, double radius, const Vec3d& v, const Vec3d& omega) {
     grains_.x.push_back(x);
     grains_.v.push_back(v);
     grains_.omega.push_back(omega);
     grains_.radius.push_back(radius);
-    if (!fill_->rigid.present) placed_.add(x, radius);
+    if (!fill_->rigid.present && !clump_) placed_.add(x, radius);
   }
 
   /// The radii of grains whose places are given: classes in their order, distributions mixed.
@@ -270,9 +216,11 @@ class Packer {
         throw CaseError(list.place(n) + ": " + what);
       };
       if (!lies_inside(config_.domain, x)) reject("lies outside the domain");
-      const double allowed = 0.1 * radii[n];  // grains may be given in contact
-      if (!clear_of_walls(x, radii[n], allowed)) reject("lies inside a wall");
-      if (!placed_.is_free(x, radii[n] - allowed)) reject("lies inside another grain");
+      for (const auto& [arm, r] : spheres_of(grains_.clumps.size(), radii[n])) {
+        const double allowed = 0.1 * r;  // grains may be given in contact
+        if (!clear_of_walls(x + arm, r, allowed)) reject("lies inside a wall");
+        if (!placed_.is_free(x + arm, r - allowed)) reject("lies inside another grain");
+      }
       add(x, radii[n], list.v.empty() ? fill_->velocity : list.v[n],
           list.omega.empty() ? fill_->spin : list.omega[n]);
     }
@@ -312,17 +260,23 @@ class Packer {
     std::vector<Vec3d> places(radii.size());
     for (const std::size_t n : order) {
       const double radius = radii[n];
+      const auto spheres = spheres_of(grains_.clumps.size() + n, radius);
       bool found = false;
       for (int attempt = 0; attempt < kTries && !found; ++attempt) {
         Vec3d x;
         for (int k = 0; k < 3; ++k) {
-          const double margin = spans_period(k) ? 0 : radius;
+          const double margin = spans_period(k) || clump_ ? 0 : radius;
           const double lo = fill_->min[k] + margin, hi = fill_->max[k] - margin;
           x[k] = lo + random.uniform() * std::max(0.0, hi - lo);
         }
-        found = inside_shape(x, radius, 1e-6 * radius) && placed_.is_free(x, radius) &&
-                clear_of_walls(x, radius, 1e-6 * radius);
-        if (found) places[n] = x, placed_.add(x, radius);
+        found = std::all_of(spheres.begin(), spheres.end(), [&](const auto& s) {
+          const Vec3d at = x + s.first;
+          return inside_box(at, s.second) && inside_shape(at, s.second, 1e-6 * s.second) &&
+                 placed_.is_free(at, s.second) && clear_of_walls(at, s.second, 1e-6 * s.second);
+        });
+        if (!found) continue;
+        places[n] = x;
+        for (const auto& [arm, r] : spheres) placed_.add(x + arm, r);
       }
       if (!found) {
         placed_ = before;
@@ -333,9 +287,19 @@ class Packer {
     return places;
   }
 
+  /// Of a box to fill, but for sides across which it is periodic.
+  bool inside_box(const Vec3d& x, double radius) const {
+    for (int k = 0; k < 3; ++k)
+      if (clump_ && !spans_period(k) && (x[k] - radius < fill_->min[k] || x[k] + radius > fill_->max[k]))
+        return false;
+    return true;
+  }
+
   /// Cells of a cubic lattice no narrower than the largest grain, taken at random, each
-  /// grain shaken within its own. The cells are as wide as the number of grains allows.
-  std::vector<Vec3d> lattice_places(const std::vector<double>& radii, CounterRandom& random) const {
+  /// grain shaken within its own; a clump as the sphere around it. The cells are as wide as the number of
+  /// grains allows.
+  std::vector<Vec3d> lattice_places(std::vector<double> radii, CounterRandom& random) const {
+    for (double& r : radii) r *= reach();
     const double r_max = *std::max_element(radii.begin(), radii.end()), d_max = 2 * r_max;
     const double needed = double(radii.size());
     std::array<Cells, 3> cells;
@@ -398,6 +362,7 @@ class Packer {
   PlacedGrains placed_;
   std::size_t index_ = 0;
   const GrainFill* fill_ = nullptr;
+  const ClumpConfig* clump_ = nullptr;  ///< of the fill; null: spheres
 };
 
 }  // namespace

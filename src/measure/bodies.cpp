@@ -1,4 +1,4 @@
-// Output of wall bodies, prescribed and free, and of rigid groups of grains.
+// Output of wall bodies, prescribed and free, and of rigid groups of grains, which are the first clumps.
 
 #include <utility>
 
@@ -187,11 +187,11 @@ std::vector<Quantity> CoupledSimulation::body_state(int body) {
   stepper_.share_all();
   NamedLoads loads;
   if (const int group = body - state_.motion.walls(); group >= 0) {
-    const RigidGroups& groups = stepper_.solids().groups();
+    const Clumps& clumps = stepper_.solids().clumps();
     if (state_.has_fluid)
-      loads.push_back({"fluid", groups.by_fluid(group, state_.grains, state_.clock.last_dt)});
-    loads.push_back({"contacts", groups.by_contacts(group, state_.grains)});
-    return rows_of(groups.motion(group), loads);
+      loads.push_back({"fluid", clumps.by_fluid(group, state_.grains, state_.clock.last_dt)});
+    loads.push_back({"contacts", clumps.by_contacts(group, state_.grains)});
+    return rows_of(clumps.motion(group), loads);
   }
   BodyForces f;
   if (const int k = state_.bodies.place_of(body); k >= 0) {

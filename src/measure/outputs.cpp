@@ -38,16 +38,11 @@ struct DrivingForce {
   Span<Real3> out;
   BL_HD void operator()(Index a) const { out[a] = mass[a] * (gravity + drive(a, eos_state[a])); }
 };
-struct GrainMass {
-  MassPerR3 mass_per_r3;
+struct GrainTotal {
+  PerR3 per_r3;
   Span<const Real> radius;
   Span<Real> out;
-  BL_HD void operator()(Index i) const { out[i] = Real(mass_per_r3(i)) * cube(radius[i]); }
-};
-struct GrainVolume {
-  Span<const Real> radius;
-  Span<Real> out;
-  BL_HD void operator()(Index i) const { out[i] = Real(4.0 / 3) * kPi * cube(radius[i]); }
+  BL_HD void operator()(Index i) const { out[i] = Real(per_r3(i)) * cube(radius[i]); }
 };
 struct GrainDrivingForce {
   Real3 gravity;  ///< m/s2
@@ -205,11 +200,12 @@ std::vector<Made> computed_of_grains(State& state, Stepper& stepper, Buffer<Pair
       {5, kRheology,
        [&](Arrays& out) {
          out.push_back(
-             made<Real, GrainMass>("mass", "kg", g, state.matter.of(g), std::as_const(g.radius).span()));
+             made<Real, GrainTotal>("mass", "kg", g, state.matter.of(g), std::as_const(g.radius).span()));
        }},
       {6, kRheology,
        [&](Arrays& out) {
-         out.push_back(made<Real, GrainVolume>("volume", "m3", g, std::as_const(g.radius).span()));
+         out.push_back(made<Real, GrainTotal>("volume", "m3", g, state.matter.volume_of(g),
+                                              std::as_const(g.radius).span()));
        }},
       {7, kRheology,
        [&](Arrays& out) {
@@ -224,6 +220,33 @@ std::vector<Made> computed_of_grains(State& state, Stepper& stepper, Buffer<Pair
          if (!stepper.solids().lubricates()) return;
          stepper.solids().film_moments(g, scratch);
          out.push_back(moments("stress_lubrication", scratch));
+       }},
+  };
+}
+
+struct ClumpPoint {
+  Frame frame;
+  Span<const Vec3d> x;
+  Span<Real3> out;
+  BL_HD void operator()(Index c) const { out[c] = Real3(frame.wrap(x[c])); }
+};
+struct ClumpSpin {
+  ClumpView clumps;
+  Span<Real3> out;
+  BL_HD void operator()(Index c) const { out[c] = Real3(clumps.omega(c)); }
+};
+
+std::vector<Made> computed_of_clumps(State& state, Stepper& stepper) {
+  const Clumps& clumps = stepper.solids().clumps();
+  return {
+      {0, kFrames,
+       [&](Arrays& out) {
+         out.push_back(
+             made<Real3, ClumpPoint>("position", "m", clumps.store(), state.frame, clumps.store().x.span()));
+       }},
+      {2, kFrames,
+       [&](Arrays& out) {
+         out.push_back(made<Real3, ClumpSpin>("angular_velocity", "rad/s", clumps.store(), clumps.view()));
        }},
   };
 }
@@ -249,6 +272,8 @@ std::vector<Made> computed_of_walls(State& state) {
 const Store* CoupledSimulation::store_named(const std::string& name) const {
   if (name == "fluid" && state_.has_fluid) return &state_.fluid;
   if (name == "grains" && state_.has_grains) return &state_.grains;
+  if (name == "clumps" && state_.has_grains && std::as_const(stepper_).solids().clumps().any())
+    return &std::as_const(stepper_).solids().clumps().store();
   if (name == "walls" && state_.walls.everywhere() > 0) return &state_.walls;
   return nullptr;
 }
@@ -268,7 +293,8 @@ HostStore CoupledSimulation::outputs(const std::string& name, Use by) {
   out.count = store->owned().size();
   std::vector<Made> all = store == &state_.fluid    ? computed_of_fluid(state_, stepper_, fluid_moments_)
                           : store == &state_.grains ? computed_of_grains(state_, stepper_, contact_moments_)
-                                                    : computed_of_walls(state_);
+                          : store == &state_.walls  ? computed_of_walls(state_)
+                                                    : computed_of_clumps(state_, stepper_);
   for (const FieldBase* f : written(*store, by))
     all.push_back(
         {f->output->order, by, [=](Arrays& arrays) { arrays.push_back(copy_of(view_of(*f, *store))); }});

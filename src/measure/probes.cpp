@@ -120,13 +120,14 @@ struct GrainFlux {
   Vec3d lo, hi;
   int axis;
   MassPerR3 per_r3;
+  VolumePerR3 volume_per_r3;
   Span<const Vec3d> x;
   Span<const Real3> v;
   Span<const Real> radius;
   BL_HD void operator()(Index i, double* out) const {
     if (!within(x[i], lo, hi)) return;
     const double r3 = cube(double(radius[i])), u = v[i][axis];
-    out[0] = per_r3(i) * r3 * u, out[1] = 4.0 / 3 * M_PI * r3 * u;
+    out[0] = per_r3(i) * r3 * u, out[1] = volume_per_r3(i) * r3 * u;
   }
 };
 
@@ -270,6 +271,8 @@ std::vector<Quantity> CoupledSimulation::flux(const ProbeConfig& p) {
                                                                   .hi = p.max,
                                                                   .axis = p.axis,
                                                                   .per_r3 = state_.matter.of(state_.grains),
+                                                                  .volume_per_r3 =
+                                                                      state_.matter.volume_of(state_.grains),
                                                                   .x = state_.grains.x,
                                                                   .v = state_.grains.v,
                                                                   .radius = state_.grains.radius});

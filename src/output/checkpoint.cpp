@@ -72,6 +72,7 @@ std::vector<Quantity> particle_setup(const Config& c) {
       add(name + ".packing_fraction", fill.packing_fraction);
       add(name + ".positions", double(fill.positions.size()));
       if (fill.rigid.present) add(name + ".rigid", 1);
+      if (!fill.clump.empty()) add(fmt::format("{}.clump = \"{}\"", name, fill.clump), 1);
     }
     add("grain.d_min", c.grain.d_min);
     add("grain.d_max", c.grain.d_max);

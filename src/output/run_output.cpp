@@ -92,7 +92,7 @@ std::string commented(const std::string& text) {
   return out + '\n';
 }
 
-constexpr const char* kStores[] = {"fluid", "grains", "walls"};
+constexpr const char* kStores[] = {"fluid", "grains", "clumps", "walls"};
 
 /// The arrays of a store that `fields` (out.fields) names; all if it is empty. Position, id, radius and body
 /// are always among them.

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kStores[] = {"fluid", "grains", "walls", "contacts"};
+constexpr const char* kStores[] = {"fluid", "grains", "clumps", "walls", "contacts"};
 constexpr const char* kTableFolders[] = {"probes", "bodies"};
 
 FrameFile frame_file(const fs::path& folder, const std::string& store, bool doubles = false) {
@@ -60,6 +60,7 @@ Series series_of(const Config& c, const fs::path& folder) {
   };
   if (c.fluid.present) frames_of("fluid");
   if (c.grain.present) frames_of("grains");
+  if (!c.grain.clump_fills().empty()) frames_of("clumps");
   for (const WallBody& body : c.wall.bodies)
     if (body.wear != WearLaw::none) frames_of("wear/" + body.name);
   if (c.out.contacts != ContactFrames::none) frames_of("contacts");

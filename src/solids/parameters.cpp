@@ -72,8 +72,13 @@ SolidParameters solid_parameters(const Config& config) {
     for (const WallBody& body : config.wall.bodies) p.wear.push_back(patches_of(body, config));
   for (const int k : g.rigid_fills()) {
     const GrainFill& fill = g.fills[k];
-    p.groups.push_back({k, g.material(fill.material), fill.velocity, fill.rigid});
+    p.clumps.push_back({k, g.material(fill.material), fill.velocity, fill.rigid});
   }
+  for (const int k : g.clump_fills())
+    p.clumps.push_back({.fill = k,
+                        .material = g.material_of(k),
+                        .shape = g.clump_of(g.fills[k])->shape,
+                        .density = g.density(g.fills[k])});
   return p;
 }
 

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "bedload/case/config/domain.hpp"
@@ -13,12 +14,14 @@
 
 namespace BL_SOLVER {
 
-/// Grains that move as one body.
-struct RigidGroup {
-  int fill = 0;                ///< index of their fill in the case
-  std::uint32_t material = 0;  ///< of them
-  Vec3d velocity;              ///< at the start, m/s
-  RigidConfig freedom;
+/// Clumps of one fill: its grains as one body, or bodies of one shape.
+struct ClumpKind {
+  int fill = 0;                ///< index in the case
+  std::uint32_t material = 0;  ///< of their grains
+  Vec3d velocity = {};         ///< of a fill that is one body, at the start, m/s
+  RigidConfig freedom = {};
+  std::optional<ClumpShape> shape = {};  ///< none: the fill is one body
+  double density = 0;                    ///< of a shape, kg/m3
 };
 
 /// Patches of a wall body, at t = 0.
@@ -44,8 +47,8 @@ struct SolidParameters {
   double drag_fraction = 0;  ///< limit of a substep over the relaxation time of drag
   SubstepLimits limits;
   ReflectConfig reflect;
-  std::vector<RigidGroup> groups = {};
-  bool plane = false;   ///< groups move in the xz plane
+  std::vector<ClumpKind> clumps = {};
+  bool plane = false;   ///< clumps move in the xz plane
   bool energy = false;  ///< its flows are counted
   struct Spectra {
     double from = 0;                ///< J

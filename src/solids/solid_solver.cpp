@@ -70,7 +70,7 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
       wet_(wet),
       walls_(walls),
       bodies_(bodies),
-      groups_(parameters, frame, grains),
+      clumps_(parameters, frame, grains),
       levels_(frame),
       histories_(parameters.pair_laws),
       old_histories_(parameters.pair_laws),
@@ -165,10 +165,11 @@ void SolidSolver::sort(Span<const Vec3d> x, const GrainStore& grains, CellGrid& 
 }
 
 void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
+  clumps_.place(grains);
   GrainNear near{.frame = frame_,
                  .x = grains.x_list.span(),
                  .radius = grains.radius.span(),
-                 .group = groups_.of_grains(),
+                 .clump = clumps_.of_grains(),
                  .largest = 0.5 * parameters_.d_max,
                  .skin = skin(),
                  .film = film_range(1)};
@@ -194,7 +195,9 @@ void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
 // -- limits ------------------------------------------------------------------
 
 GrainWatch SolidSolver::watch(const GrainStore& g) const {
-  const WatchReduction watch{view(g), g.x_list, g.drag_coefficient};
+  GrainView grains = view(g);
+  grains.mass_per_r3 = matter_.of(g);
+  const WatchReduction watch{grains, g.x_list, g.drag_coefficient};
   const auto v = all_reduce(reduce(g.owned(), watch),
                             [&](auto& into, const auto& of_rank) { watch.combine(into, of_rank); });
   return {std::sqrt(v.speed2), std::sqrt(v.displacement2), v.drag_rate, Id(v.bad)};
@@ -211,7 +214,7 @@ std::vector<StepLimit> SolidSolver::limits(const GrainWatch& w) const {
 
 GrainView SolidSolver::view(const GrainStore& g) const {
   return {.frame = frame_,
-          .mass_per_r3 = matter_.of(g),
+          .mass_per_r3 = matter_.in_contact(g),
           .x = g.x,
           .v = g.v,
           .omega = g.omega,
@@ -338,7 +341,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                                     .now = {g.v, g.omega},
                                     .rest = rest,
                                     .impulses = {g.impulse, g.spin_impulse}});
-  groups_.follow(g, rest, tau);
+  clumps_.follow(g, rest, tau, kick.h * kick.gravity);
   share_motion(g);
   for (int s = 1; s <= substeps; ++s) {
     if (books_)
@@ -351,9 +354,9 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
     g.v.buffer().swap(next_v_);
     g.omega.buffer().swap(next_omega_);
     if (s < substeps)
-      groups_.follow(g, rest, tau), share_motion(g);
+      clumps_.follow(g, rest, tau, tau * kick.gravity), share_motion(g);
     else
-      groups_.follow(g, {}, 0), g.v.set_shared(false), g.omega.set_shared(false);
+      clumps_.follow(g, rest, 0, kick.h * kick.gravity), g.v.set_shared(false), g.omega.set_shared(false);
     if (free) free->substep(s), record_loads(s, *free);
   }
   if (books_) end_books(g, kick);
@@ -363,15 +366,17 @@ template <class Law>
 void SolidSolver::end_substep(GrainStore& g, const ContactPass& contacts, const GrainKick& kick, double dt,
                               bool last) {
   if (last)
-    evaluate(SubstepPass<Law, LastKick>{.contacts = contacts,
-                                        .kick = kick,
-                                        .rest = {v_rest_, omega_rest_},
-                                        .finish = {.duration = dt,
-                                                   .next = {next_v_, next_omega_},
-                                                   .impulses = {g.impulse, g.spin_impulse},
-                                                   .force = g.force,
-                                                   .torque = g.torque,
-                                                   .drag_force = g.drag_force}});
+    evaluate(SubstepPass<Law, LastKick>{
+        .contacts = contacts,
+        .kick = kick,
+        .rest = {v_rest_, omega_rest_},
+        .finish = {.duration = dt,
+                   .next = {next_v_, next_omega_},
+                   .rest = clumps_.any() ? Velocities<Real3>{v_rest_, omega_rest_} : Velocities<Real3>{},
+                   .impulses = {g.impulse, g.spin_impulse},
+                   .force = g.force,
+                   .torque = g.torque,
+                   .drag_force = g.drag_force}});
   else
     evaluate(SubstepPass<Law, NextDrift>{.contacts = contacts,
                                          .kick = kick,
@@ -386,10 +391,15 @@ void SolidSolver::end_substep(GrainStore& g, const ContactPass& contacts, const 
 
 GrainTotals SolidSolver::totals(const GrainStore& g) const {
   using T = TotalsReduction;
-  const T all{contact_pass(g, 0), wall_contacts(g, nullptr, 0)};
-  const TotalSums::Value v = total(g.owned(), TotalSums{all});
+  const T all{contact_pass(g, 0), wall_contacts(g, nullptr, 0), clumps_.of_grains()};
+  TotalSums::Value v = total(g.owned(), TotalSums{all});
   const T::Value most = all_reduce(
       reduce(g.owned(), all), [&](T::Value& into, const T::Value& of_rank) { all.combine(into, of_rank); });
+  if (clumps_.any()) {
+    const auto bound =
+        sum_over<ClumpTotals::kSums>(clumps_.store().owned(), ClumpTotals{clumps_.view(), frame_});
+    for (int k = 0; k < ClumpTotals::kSums; ++k) v.sum[k] += bound.v[k];
+  }
   GrainTotals t;
   t.mass = v.sum[T::mass];
   t.kinetic = v.sum[T::kinetic];

@@ -13,12 +13,12 @@
 #include "kernels/contact/lubrication_pass.hpp"
 #include "kernels/contact/registry.hpp"
 #include "kernels/stress/pair_moment.hpp"
+#include "src/solids/clumps.hpp"
 #include "src/solids/contact_frames.hpp"
 #include "src/solids/energy_books.hpp"
 #include "src/solids/grain_matter.hpp"
 #include "src/solids/pair_histories.hpp"
 #include "src/solids/parameters.hpp"
-#include "src/solids/rigid_groups.hpp"
 #include "src/solids/spectra_books.hpp"
 #include "src/solids/wall_list.hpp"
 #include "src/solids/wear_books.hpp"
@@ -127,8 +127,8 @@ class SolidSolver {
   /// Histories of wall contacts.
   std::vector<const FieldBase*> fields_of_contacts() const;
 
-  RigidGroups& groups() { return groups_; }
-  const RigidGroups& groups() const { return groups_; }
+  Clumps& clumps() { return clumps_; }
+  const Clumps& clumps() const { return clumps_; }
 
   GrainTotals totals(const GrainStore& grains) const;
   /// Where energy has gone since grains began to move; empty if the case does not ask.
@@ -195,6 +195,7 @@ class SolidSolver {
   /// The free bodies, if they move in the substeps; else null.
   FreeBodies* moving() const { return bodies_ && bodies_->any() && !bodies_->settling() ? bodies_ : nullptr; }
   WallMemory* const* wall_memories() const;
+  /// With the masses that contacts damp with.
   GrainView view(const GrainStore& grains) const;
   ContactPass contact_pass(const GrainStore& grains, double dt) const;
   WallContacts wall_contacts(const GrainStore& grains, const BodyPose* poses, double dt) const;
@@ -264,7 +265,7 @@ class SolidSolver {
   const WallGeometry& walls_;
   FreeBodies* bodies_;
   const Field<Real3>* fluid_torque_ = nullptr;
-  RigidGroups groups_;
+  Clumps clumps_;
   std::vector<std::unique_ptr<Field<WallMemory>>> wall_memory_;  ///< [walls_.contacts()]
   std::unique_ptr<Field<Index>> wall_contacts_;                  ///< number in use
   mutable std::vector<WallMemory*> memory_pointers_;  ///< to wall_memory_, whose buffers change in a sort

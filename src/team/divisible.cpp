@@ -23,6 +23,8 @@ void refuse_undivided(const Config& c) {
   }
   if (c.out.spectra) refuse("out.spectra", "spectra of contacts");
   if (c.out.contacts != ContactFrames::none) refuse("out.contacts", "frames of contacts");
+  for (const int k : c.grain.clump_fills()) refuse(fmt::format("grain.fill.{}.clump", k), "clumps");
+  for (const int k : c.grain.rigid_fills()) refuse(fmt::format("grain.fill.{}.rigid", k), "a rigid group");
   for (std::size_t k = 0; k < c.wall.bodies.size(); ++k) {
     const WallBody& body = c.wall.bodies[k];
     if (body.wear != WearLaw::none) refuse(fmt::format("wall.body.{}.wear", k), "wear of walls");

@@ -9,7 +9,7 @@ CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup, L
     : config_(config), state_(config_), stepper_(config_, state_) {
   Context::current().join(link);
   state_.fill(config_, setup);
-  if (state_.has_grains) stepper_.solids().groups().bind(state_.grains, setup.grains.fill);
+  if (state_.has_grains) stepper_.solids().clumps().bind(state_.grains, setup.grains);
   add_meters();
 }
 

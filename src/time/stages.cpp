@@ -102,13 +102,18 @@ void Stepper::outdate(const Fields& fields) {
 std::vector<const Store*> Stepper::stores() const {
   std::vector<const Store*> out{&fluid_, &walls_, &walls_.mirrors, &grains_};
   for (const Store* store : bodies_.stores()) out.push_back(store);
-  for (const Store* store : group_stores()) out.push_back(store);
+  for (const Store* store : clump_stores()) out.push_back(store);
   return out;
 }
 
-std::vector<const Store*> Stepper::group_stores() const {
+Fields Stepper::moving_of_clumps() const {
+  return has_grains() ? std::as_const(*solid_solver_).clumps().moving() : Fields{};
+}
+
+std::vector<const Store*> Stepper::clump_stores() const {
   if (!has_grains()) return {};
-  return std::as_const(*solid_solver_).groups().stores();
+  const Clumps& clumps = std::as_const(*solid_solver_).clumps();
+  return clumps.any() ? std::vector<const Store*>{&clumps.store()} : std::vector<const Store*>{};
 }
 
 // -- fields that several stages use ------------------------------------------------
@@ -180,13 +185,13 @@ void Stepper::move_solids(Step& now) {
     if (!has_grains()) return a;
     const Fields own = std::as_const(*solid_solver_).fields_of_contacts() +
                        Fields{&g.force, &g.torque, &g.drag_force, &g.impulse, &g.spin_impulse};
-    a.writes += own + Fields{&g.x, &g.v, &g.omega} + all_of(group_stores());
-    a.near += lasting(Fields{&g.x, &g.v, &g.omega, &g.radius, &g.material, &g.id} + all_of(group_stores()));
+    a.writes += own + Fields{&g.x, &g.v, &g.omega} + moving_of_clumps();
+    a.near += lasting(Fields{&g.x, &g.v, &g.omega, &g.radius, &g.material, &g.id} + all_of(clump_stores()));
     a.reads += lasting(own) + Fields{&g.fluid_velocity,   &g.fluid_angular_velocity,
                                      &g.drag_coefficient, &g.rot_drag_coefficient,
                                      &g.fluid_force,      &g.wetness};
     if (std::as_const(*solid_solver_).lubricates()) a.near += {&g.wetness};
-    if (!group_stores().empty()) a.near += std::exchange(a.reads, {});  // a group moves by all its grains
+    if (!clump_stores().empty()) a.near += std::exchange(a.reads, {});  // a clump moves by all its grains
     return a;
   });
   const auto gravity = gravity_.along(now.start, now.dt, now.substeps);
@@ -408,15 +413,15 @@ void Stepper::push(Step& now) {
   const FluidStore& f = fluid_;
   const GrainStore& g = grains_;
   begin(now, "push", Part::coupling, [&] {
-    const Fields groups = all_of(group_stores());
-    return Access{.near = groups +
+    const Fields clumps = moving_of_clumps();
+    return Access{.near = all_of(clump_stores()) +
                           Fields{&f.xp, &g.xp, &f.stress_acceleration, &f.eos_state, &f.solid_factor} +
-                          only_if(!groups.empty(), {&g.v, &g.omega, &g.radius, &g.material, &g.fluid_force}),
+                          only_if(!clumps.empty(), {&g.v, &g.omega, &g.radius, &g.material, &g.fluid_force}),
                   .reads = {&g.v, &g.omega, &g.radius, &g.material, &g.fluid_force},
-                  .writes = Fields{&g.fluid_force, &g.v} + only_if(!groups.empty(), {&g.omega}) + groups};
+                  .writes = Fields{&g.fluid_force, &g.v} + only_if(!clumps.empty(), {&g.omega}) + clumps};
   });
   coupling_->push(fluid_, grains_, now.last_kick, now.held);
-  solid_solver_->groups().follow(grains_, {}, 0);
+  solid_solver_->clumps().follow(grains_, {}, 0);
 }
 
 /// Advances the clock and looks for particles that broke down.

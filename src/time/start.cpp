@@ -151,7 +151,7 @@ void Stepper::settle(double longest, const std::function<void(double)>& progress
   }
   grains_.v.buffer().zero();
   grains_.omega.buffer().zero();
-  solid_solver_->groups().stop();
+  solid_solver_->clumps().stop();
   bodies_.settle(false);
 }
 
@@ -164,7 +164,7 @@ void Stepper::save_grains(SavedState& out) const {
   } else {
     out.stores.push_back(solid_solver_->save_contacts(grains_));
   }
-  solid_solver_->groups().save(out.stores);
+  solid_solver_->clumps().save(out.stores);
 }
 
 void Stepper::load_grains(const SavedState& saved) {
@@ -177,8 +177,8 @@ void Stepper::load_grains(const SavedState& saved) {
 
 void Stepper::load_grain_store(const SavedState& saved) {
   grains_.load(store_of(saved, "grains"));
-  RigidGroups& groups = solid_solver_->groups();
-  if (groups.any()) groups.load(store_of(saved, "groups"), grains_);
+  Clumps& clumps = solid_solver_->clumps();
+  if (clumps.any()) clumps.load(store_of(saved, "clumps"), grains_);
 }
 
 void Stepper::save(SavedState& out) const {

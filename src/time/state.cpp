@@ -78,12 +78,15 @@ void fill_grains(const Config& config, const Setup& setup, GrainStore& grains) {
   grains.x.assign(g.x);
   grains.v.assign(converted<Real3>(g.v));
   if (!g.omega.empty()) grains.omega.assign(converted<Real3>(g.omega));
-  std::vector<std::uint32_t> material;
-  for (const std::uint32_t fill : g.fill)
-    material.push_back(config.grain.material(config.grain.fills[fill].material));
-  if (!config.grain.materials.empty()) grains.material.assign(material);
+  std::vector<std::uint32_t> of_fill, material;
+  for (std::size_t k = 0; k < config.grain.fills.size(); ++k) of_fill.push_back(config.grain.material_of(k));
+  for (const std::uint32_t fill : g.fill) material.push_back(of_fill[fill]);
+  if (grains.material.used()) grains.material.assign(material);
   grains.radius.assign(converted<Real>(g.radius));
   grains.eps.assign(std::vector<Real>(g.x.size(), Real(1)));
+  std::vector<Real> clump_d;
+  for (const std::uint32_t clump : g.clump) clump_d.push_back(clump > 0 ? Real(g.clumps[clump - 1].d) : 0);
+  grains.clump_d.assign(clump_d);
 }
 
 }  // namespace
@@ -120,7 +123,7 @@ State::State(const Config& config)
       gravity(config.gravity, config.frame.motion, config.time.end),
       matter(config.grain.all_materials()) {
   if (!coupled) fluid.solid_factor.leave_out(), grains.xp.leave_out(), grains.x_before.leave_out();
-  if (config.grain.materials.empty()) grains.material.leave_out();
+  if (matter.materials() == 1) grains.material.leave_out();
   const auto leave_out_unless = [](bool needed, std::initializer_list<FieldBase*> fields) {
     for (FieldBase* field : fields)
       if (!needed) field->leave_out();
@@ -131,6 +134,7 @@ State::State(const Config& config)
   leave_out_unless(coupled && config.couple.slip == DragSlip::local, {&grains.by_slip});
   leave_out_unless(coupled && config.couple.angmom, {&grains.lever_at_centre, &grains.lever_off_centre});
   leave_out_unless(two_way && config.couple.angmom, {&grains.reaction_couple});
+  leave_out_unless(coupled && !config.grain.clump_fills().empty(), {&grains.clump_d});
   if (!two_way && !config.domain.sheared()) fluid.flux.leave_out();
 }
 

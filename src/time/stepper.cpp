@@ -235,10 +235,12 @@ StepTime Stepper::moment(double t, std::int64_t step) {
 Span<const Real3> Stepper::drive_grains() {
   if (!config_.drive.on_grains()) return {};
   of_grains_.resize(grains_.size());
-  for_each(
-      grains_.owned(),
-      GrainDrivePass{grain_factor_.field<Vec3d>(config_.drive, frame_, grains_.x, clock_.time),
-                     config_.drive.mode, state_.matter.of(grains_), grains_.x, grains_.radius, grain_drive_});
+  for_each(grains_.owned(),
+           GrainDrivePass{grain_factor_.field<Vec3d>(config_.drive, frame_, grains_.x, clock_.time),
+                          config_.drive.mode,
+                          config_.drive.mode == DriveMode::volume ? state_.matter.volume_of(grains_)
+                                                                  : state_.matter.of(grains_),
+                          grains_.x, grains_.radius, grain_drive_});
   return grain_drive_;
 }
 

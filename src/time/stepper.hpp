@@ -51,7 +51,7 @@ class Stepper {
   Span<const BodyPose> substep_poses() const { return substep_poses_; }
   Span<const Real3> drive_grains();  ///< force on each of them now, N; empty where nothing drives them
 
-  /// Grains, their contacts and groups.
+  /// Grains, their contacts and clumps.
   void save_grains(SavedState& out) const;
   /// Block of each grain, as an array "block": by it parts of ranks are put together.
   HostArray blocks_of_grains() const;
@@ -74,7 +74,8 @@ class Stepper {
   std::vector<Store*> divided_stores();  ///< whose particles are divided among ranks
   void share(const Fields& fields);      ///< brings their values to ghosts, where these are outdated
   void outdate(const Fields& fields);    ///< ghosts no longer have the values of their owners
-  std::vector<const Store*> group_stores() const;
+  std::vector<const Store*> clump_stores() const;
+  Fields moving_of_clumps() const;
   Fields fluid_in_pairs() const;
   Fields walls_in_pairs() const;
   Fields fields_of_order() const;
@@ -114,7 +115,7 @@ class Stepper {
   StepLimit longest_substep() const;             ///< that grains and free bodies allow
   void refresh_if_needed(double dt);
   void refresh(bool fluid, bool grains, double dt = 0);  ///< dt: of the step to come, s
-  void load_grain_store(const SavedState& saved);        ///< and the rigid groups of the grains
+  void load_grain_store(const SavedState& saved);        ///< and the clumps of the grains
   void restore_lists(const SavedState& saved);
   void relist_coupling();
   void remove_cleared_bodies();

@@ -790,8 +790,45 @@ type = "force"
 body = "lid"
 """
 
+CLUMPS = """gravity = [0, 0, -9.81]
+[domain]
+min = [0, 0, 0]
+max = [0.1, 0.1, 0.1]
+[[clump]]
+name = "rod"
+spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]
+density = 2700
+[[clump]]
+name = "drop"
+file = "drop.txt"
+[[clump]]
+name = "stone"
+shape = "rock"
+count = 8
+[[shape]]
+name = "rock"
+kind = "box"
+min = [0, 0, 0]
+max = [1, 1, 2]
+[grain]
+d = 0.006
+[[grain.fill]]
+min = [0, 0, 0]
+max = [0.1, 0.1, 0.05]
+count = 20
+clump = "drop"
+[[grain.fill]]
+positions = [[0.05, 0.05, 0.08]]
+clump = "rod"
+orientation = [0, 90, 0]
+[time]
+end = 0.1
+[out]
+every = 0.05
+"""
+
 BASES = {"tank": TANK, "sdpd": SDPD, "shapes": SHAPES, "motions": MOTIONS, "slurry": SLURRY, "shear": SHEAR, "listed": LISTED,
-         "nodes": NODES}
+         "nodes": NODES, "clumps": CLUMPS}
 
 _FACES = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
 _CORNERS = ["0 0 0", "1 0 0", "0 1 0", "0 0 1"]
@@ -803,6 +840,7 @@ FILES = {
     "mesh.stl": MESH,
     "map.asc": "ncols 3\nnrows 2\nxllcenter 0\nyllcenter 0\ncellsize 1\n0 0.1 0\n0 0.2 0.1\n",
     "motion.csv": "t [s],x [m],y [m],z [m]\n0,0,0,0\n0.5,0.001,0,0\n1,0,0,0\n",
+    "drop.txt": "# x y z r\n0 0 0 1\n0 0 1.2 0.7\n",
     "grains.csv": "x [m],y [m],z [m],d [m]\n0.02,0.02,0.15,0.005\n0.03,0.02,0.15,0.005\n",
     "fluid.csv": "x [m],y [m],z [m]\n"
     + "".join(f"{0.005 + 0.01 * i},{0.005 + 0.01 * j},{0.005 + 0.01 * k}\n" for k in range(10) for j in range(20) for i in range(20)),

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bedload/case/chosen.hpp"
+#include "bedload/case/config/grains.hpp"
 #include "bedload/case/config/motion.hpp"
 
 namespace bedload {
@@ -65,7 +66,7 @@ using Formulas = std::array<std::string, 3>;
 using Faces = std::array<bool, 6>;
 using Slot = std::variant<bool*, std::int64_t*, std::uint64_t*, double*, std::string*, Vec3d*, Formulas*,
                           std::array<bool, 3>*, Faces*, std::vector<double>*, std::vector<Vec3d>*,
-                          std::vector<std::string>*, std::vector<MotionRow>*>;
+                          std::vector<std::string>*, std::vector<MotionRow>*, std::vector<ClumpSphere>*>;
 
 /// Names of the six sides, in the order of WallBody::faces.
 inline constexpr std::array<std::string_view, 6> kFaces{"x-", "x+", "y-", "y+", "z-", "z+"};
@@ -138,7 +139,8 @@ enum class ValueKind {
   numbers,
   vectors,
   texts,
-  rows
+  rows,
+  spheres
 };
 
 /// A row of `bedload list parameters`.

@@ -251,6 +251,11 @@ class Run:
         return Frames(self.folder / "grains.vtkhdf")
 
     @functools.cached_property
+    def clumps(self) -> Frames:
+        """Frames of the clumps that grains form."""
+        return Frames(self.folder / "clumps.vtkhdf")
+
+    @functools.cached_property
     def walls(self) -> Frames:
         """Frames of the wall particles."""
         return Frames(self.folder / "walls.vtkhdf")

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/bodies/body_kicks.hpp"
-#include "kernels/bodies/grain_groups.hpp"
+#include "kernels/bodies/clumps.hpp"
 #include "tests/support/tolerance.hpp"
 
 namespace BL_SOLVER {
@@ -141,22 +141,28 @@ TEST(RigidBody, GivesWayByMassAndInertia) {
   EXPECT_NEAR(k.inverse_effective_mass(none, {0, 3, 0}, {1, 0, 0}), 9.0 / 4, kNear);
 }
 
-/// A group of two grains, a quarter turn about z on, and a grain by itself.
+/// A clump of two grains, twice as large as its kind, a quarter turn about z on, and a grain by itself.
 struct Pair {
-  std::vector<RigidBody> groups{1};
-  std::vector<Vec3d> x{{1, 0, 0}}, v{{0.25, 0, 0}}, L{{0, 0, 2}}, arm{{2, 0, 0}, {-2, 0, 0}, {9, 9, 9}};
+  std::vector<RigidBody> kinds{1};
+  std::vector<std::uint32_t> kind{0};
+  std::vector<double> size{2};
+  std::vector<Index> grain{0, 1}, begin{0, 2}, first{0, 1};
+  std::vector<Vec3d> offset{{}}, x{{1, 0, 0}}, v{{0.25, 0, 0}}, L{{0, 0, 2}},
+      arm{{2, 0, 0}, {-2, 0, 0}, {9, 9, 9}};
   std::vector<Vec4<double>> rotation{to_vec4(kQuarter)};
-  std::vector<std::uint32_t> group{1, 1, 0};
+  std::vector<std::uint32_t> clump{1, 1, 0};
   std::vector<Vec3d> place{{}, {}, {5, 5, 5}};
   std::vector<Real3> grain_v{{}, {}, {5, 5, 5}}, omega{{}, {}, {5, 5, 5}}, v_rest, omega_rest;
   std::vector<Real> radius{1, 1, 1};
   MassPerR3 per_r3{};
   Pair() {
-    groups[0].mass = 6, groups[0].moments = {4, 4, 4};  // turns at 0.5 rad/s
+    // 6 kg and 4 kg m2: turns at 0.5 rad/s
+    kinds[0].mass = 6.0 / 8, kinds[0].moments = {4.0 / 32, 4.0 / 32, 4.0 / 32};
     per_r3.one = 3;
   }
-  GrainGroups fields() {
-    return {groups.data(), all(x), all(v), all(L), all(rotation), all(group), all(arm)};
+  ClumpView fields() {
+    return {kinds.data(), offset.data(), all(kind),     all(size),  all(x),
+            all(v),       all(L),        all(rotation), all(clump), all(arm)};
   }
   void follow() {
     const Frame frame{{-8, -8, -8}, {8, 8, 8}, false, false, false};
@@ -164,19 +170,19 @@ struct Pair {
       FollowPass{fields(), frame, all(place), {all(grain_v), all(omega)}, {all(v_rest), all(omega_rest)}}(i);
   }
   LoadSum gained() {
-    const GainReduction gain{.all = fields(),
-                             .of = 0,
-                             .mass_per_r3 = per_r3,
-                             .radius = all(radius),
-                             .now = {all(grain_v), all(omega)},
-                             .rest = {all(v_rest), all(omega_rest)}};
-    LoadSum sum = gain.identity();
-    for (Index i = 0; i < 3; ++i) gain.combine(sum, gain(i));
+    LoadSum sum;
+    GainPass{.all = fields(),
+             .pieces = {all(grain), all(begin), all(first)},
+             .mass_per_r3 = per_r3,
+             .radius = all(radius),
+             .now = {all(grain_v), all(omega)},
+             .rest = {all(v_rest), all(omega_rest)},
+             .gained = &sum}(0);
     return sum;
   }
 };
 
-TEST(GrainGroup, GrainsFollowIt) {
+TEST(ClumpPasses, GrainsFollowIt) {
   Pair pair;
   pair.follow();
   expect_near(pair.place[0], {1, 2, 0});
@@ -187,7 +193,7 @@ TEST(GrainGroup, GrainsFollowIt) {
   expect_near(Vec3d(pair.omega[1]), {0, 0, 0.5}, kInvariant);
 }
 
-TEST(GrainGroup, GainsWhatItsGrainsGainWithTheirRests) {
+TEST(ClumpPasses, GainsWhatItsGrainsGainWithTheirRests) {
   Pair pair;
   pair.follow();
   pair.grain_v[0] += Real3{Real(0.5), 0, 0};
@@ -208,16 +214,26 @@ TEST(GrainGroup, GainsWhatItsGrainsGainWithTheirRests) {
   EXPECT_NEAR(norm(pair.gained().force()), 0, 20 * kInvariant);
 }
 
-TEST(GrainGroup, MovesByWhatItGained) {
+TEST(ClumpPasses, MovesByWhatItGained) {
   Pair pair;
   LoadSum gained = LoadSum::zero();
   gained.add({3, 0, 0}, {0, 0, 2});
-  GroupPass{pair.fields(), &gained, 0.1}(0);
+  MoveClumpsPass{pair.fields(), all(pair.first), &gained, {}, 0.1}(0);
   expect_near(pair.v[0], {0.75, 0, 0});
   expect_near(pair.L[0], {0, 0, 4});
   expect_near(pair.x[0], {1 + 0.075, 0, 0});
   const double angle = M_PI / 2 + 0.1;  // at 1 rad/s
   expect_near(to_quat(pair.rotation[0]).rotate({1, 0, 0}), {std::cos(angle), std::sin(angle), 0});
+}
+
+TEST(ClumpPasses, GravityDoesNotTurnIt) {
+  Pair pair;
+  pair.offset[0] = {0.125, 0, 0};  // of the masses of its grains: at (0, 0.25, 0) as it lies
+  LoadSum gained = LoadSum::zero();
+  gained.add({0, 0, -12}, {-3, 0, 0});  // 6 kg fall at 2 m/s
+  MoveClumpsPass{pair.fields(), all(pair.first), &gained, {0, 0, -2}, 0}(0);
+  expect_near(pair.v[0], {0.25, 0, -2});
+  expect_near(pair.L[0], {0, 0, 2});
 }
 
 }  // namespace

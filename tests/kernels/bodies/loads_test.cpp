@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kernels/bodies/body_kicks.hpp"
-#include "kernels/bodies/grain_groups.hpp"
+#include "kernels/bodies/clumps.hpp"
 #include "kernels/fluid/body_pressure.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -55,20 +55,22 @@ TEST(BodyLoads, TouchesOfABodyAddUpAndOthersDoNot) {
   expect_near(sum.torque(), {1, 0, 1}, 0);
 }
 
-TEST(BodyLoads, AGroupTakesTheLeversOfItsGrains) {
-  std::vector<RigidBody> groups(1);
+TEST(BodyLoads, AClumpTakesTheLeversOfItsGrains) {
   std::vector<Vec3d> x{{}}, v{{}}, spin{{}}, arm{{2, 0, 0}, {0, 1, 0}, {0, 0, 9}};
   std::vector<Vec4<double>> rotation{to_vec4(Quat<double>::from_rotation({0, 0, M_PI / 2}))};
-  std::vector<std::uint32_t> group{1, 1, 0};
+  std::vector<std::uint32_t> clump{1, 1, 0};
   std::vector<Real3> force{{1, 0, 0}, {0, 0, 2}, {9, 9, 9}}, torque{{0, 0, 3}, {}, {9, 9, 9}},
       more{{1, 0, 0}, {}, {9, 9, 9}};
   const auto all = [](auto& of) { return Span(of.data(), Index(of.size())); };
-  const GroupLoadReduction loads{.all = {.groups = groups.data(),
+  const ClumpLoadReduction loads{.all = {.kinds = nullptr,
+                                         .offsets = nullptr,
+                                         .kind = {},
+                                         .size = {},
                                          .x = all(x),
                                          .v = all(v),
                                          .angular_momentum = all(spin),
                                          .rotation = all(rotation),
-                                         .group = all(group),
+                                         .clump = all(clump),
                                          .arm = all(arm)},
                                  .of = 0,
                                  .force = all(force),

@@ -81,7 +81,7 @@ struct Sided {
                                               .mu = 1,
                                               .shares = false,
                                               .own = {},
-                                              .radius = all(radius),
+                                              .bodies = {{}, all(radius), {}},
                                               .eps = all(one),
                                               .bed_eps = all(one),
                                               .surroundings = around},

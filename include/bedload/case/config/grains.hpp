@@ -1,6 +1,7 @@
 #pragma once
 // Grains: what they are made of, where they are at the start.
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -35,6 +36,34 @@ struct RigidConfig {
   bool operator==(const RigidConfig&) const = default;
 };
 
+/// Centre and radius of a sphere of a clump: x, y, z, r.
+using ClumpSphere = std::array<double, 4>;
+
+/// What follows from the spheres of a clump, whose union it fills. The unit of length is the diameter of the
+/// sphere of its volume.
+struct ClumpShape {
+  std::vector<ClumpSphere> spheres;            ///< from the centre of mass
+  double reach = 0;                            ///< radius of the sphere about the centre of mass that holds all
+  double fullness = 0;                         ///< its volume over the sum of those of the spheres
+  double contact_mass = 1;                     ///< with which its spheres resist a blow, over their masses: means over spheres and directions
+  std::array<double, 6> inertia{};             ///< of density 1: xx, yy, zz, xy, xz, yz
+  Vec3d offset;                                ///< centre of the spheres' volumes, those of overlaps counted twice
+  bool operator==(const ClumpShape&) const = default;
+};
+
+/// A shape of grains: spheres that move as one body.
+struct ClumpConfig {
+  std::string name;
+  std::vector<ClumpSphere> spheres;            ///< in any unit
+  std::string file;                            ///< with the spheres, which replace it when the case is read
+  std::string solid;                           ///< name of a shape that they fill; they replace it likewise
+  std::int64_t count = 0;                      ///< of them, at most
+  double filled = 1;                           ///< of the volume of that shape (resolved)
+  double density = 0;                          ///< kg/m3; 0: that of the material
+  ClumpShape shape;                            ///< resolved
+  bool operator==(const ClumpConfig&) const = default;
+};
+
 /// Where grains come from: thrown at random into a box or a shape, then settled; or given one by one.
 struct GrainFill {
   Vec3d min, max;                              ///< m; of a shape or a file: around it (resolved)
@@ -52,6 +81,8 @@ struct GrainFill {
   bool relative = false;                       ///< positions, also those of a file, are fractions of the domain
   bool replaces_fluid = false;                 ///< each grain takes the place of the nearest fluid particle
   std::string material{};                      ///< which of grain.material; empty: grain.*
+  std::string clump{};                         ///< which shape; empty: spheres
+  std::vector<double> orientation{};           ///< of clumps, all alike: rotation vector, deg; empty: at random
   std::string file{};                          ///< grains instead of a box; absolute (resolved)
   std::int64_t step = -1;                      ///< frame of a .vtkhdf file; -1: the last
   RigidConfig rigid{};
@@ -67,6 +98,7 @@ struct GrainMaterial {
   double mu = std::numeric_limits<double>::infinity();
   double mu_r = std::numeric_limits<double>::infinity();
   double e = 0;
+  double fullness = 1, contact_mass = 1;       ///< of a clump's grains: see ClumpShape
   bool operator==(const GrainMaterial&) const = default;
 };
 
@@ -88,12 +120,27 @@ struct GrainConfig {
   double d_max = 0, d_min = 0;                 ///< m (resolved)
   std::vector<GrainFill> fills;
   std::vector<GrainMaterial> materials;        ///< besides that of grain.*
+  std::vector<ClumpConfig> clumps;
   double largest() const { return d_max > 0 ? d_max : d; }   ///< diameter, m
   double smallest() const { return d_min > 0 ? d_min : d; }  ///< diameter, m
-  /// All of them as they are numbered: first that of grain.*.
-  std::vector<GrainMaterial> all_materials() const {
+  /// Those that the case names: first that of grain.*.
+  std::vector<GrainMaterial> named_materials() const {
     std::vector<GrainMaterial> all{{"", rho, E, nu, mu, mu_r, e}};
     for (const GrainMaterial& m : materials) all.push_back(completed(m));
+    return all;
+  }
+  /// All of them as they are numbered: those named, then one for each fill of clumps. It has the density with
+  /// which the spheres of a clump together weigh what their union does.
+  std::vector<GrainMaterial> all_materials() const {
+    std::vector<GrainMaterial> all = named_materials();
+    for (const GrainFill& fill : fills) {
+      const ClumpConfig* clump = clump_of(fill);
+      if (!clump) continue;
+      all.push_back(all[material(fill.material)]);
+      all.back().fullness = clump->shape.fullness;
+      all.back().contact_mass = clump->shape.contact_mass;
+      all.back().rho = density(fill) * clump->shape.fullness;
+    }
     return all;
   }
   /// With that of grain.* where it has nothing of its own.
@@ -112,6 +159,33 @@ struct GrainConfig {
       if (materials[k].name == name) return std::uint32_t(k + 1);
     return 0;
   }
+  /// The shape of a fill's grains; null: spheres, or no such clump.
+  const ClumpConfig* clump_of(const GrainFill& fill) const {
+    for (const ClumpConfig& clump : clumps)
+      if (!fill.clump.empty() && clump.name == fill.clump) return &clump;
+    return nullptr;
+  }
+  /// Of the solid in a fill, kg/m3.
+  double density(const GrainFill& fill) const {
+    const ClumpConfig* clump = clump_of(fill);
+    return clump && clump->density > 0 ? clump->density : named_materials()[material(fill.material)].rho;
+  }
+  /// The number of the material of a fill's grains.
+  std::uint32_t material_of(std::size_t fill) const {
+    if (!clump_of(fills[fill])) return material(fills[fill].material);
+    std::uint32_t number = std::uint32_t(1 + materials.size());
+    for (std::size_t k = 0; k < fill; ++k) number += clump_of(fills[k]) != nullptr;
+    return number;
+  }
+  /// Of the fills with clumps, their places.
+  std::vector<int> clump_fills() const {
+    std::vector<int> all;
+    for (std::size_t k = 0; k < fills.size(); ++k)
+      if (clump_of(fills[k])) all.push_back(int(k));
+    return all;
+  }
+  /// Whether grains move in bodies of several.
+  bool bound() const { return !rigid_fills().empty() || !clump_fills().empty(); }
   /// Of the fills that move as one body each, their places.
   std::vector<int> rigid_fills() const {
     std::vector<int> all;

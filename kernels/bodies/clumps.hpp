@@ -1,0 +1,154 @@
+#pragma once
+// Clumps: grains that move as one rigid body. Each is kicked on its own; the sum of the gained momenta moves
+// the clump, and its grains then follow it.
+
+#include "kernels/bodies/body_kicks.hpp"
+#include "kernels/integrate/grain_substep.hpp"
+
+namespace BL_SOLVER {
+
+/// State of the clumps, and which grains belong to them.
+struct ClumpView {
+  const RigidBody* kinds;  ///< of size 1 m, about their centres of mass
+  const Vec3d* offsets;    ///< of each kind: the centre of its grains' masses from that of mass, m
+  Span<const std::uint32_t> kind;
+  Span<const double> size;             ///< by which lengths of the kind are multiplied
+  Span<Vec3d> x, v, angular_momentum;  ///< of and about the centres: m, m/s, kg m2/s
+  Span<Vec4<double>> rotation;
+  Span<const std::uint32_t> clump;  ///< of each grain: 1 + its clump, 0 without one
+  Span<const Vec3d> arm;            ///< of each grain from the centre of its clump, unturned, m
+
+  BL_HD const RigidBody& body(Index c) const { return kinds[kind[c]]; }
+  BL_HD double mass(Index c) const { return body(c).mass * size[c] * size[c] * size[c]; }
+  /// Of the kind at the same angular velocity as the clump.
+  BL_HD Vec3d momentum_of_kind(Index c) const {
+    const double s2 = size[c] * size[c];
+    return (1 / (s2 * s2 * size[c])) * angular_momentum[c];
+  }
+  BL_HD Quat<double> turn(Index c) const { return to_quat(rotation[c]); }
+  BL_HD Vec3d omega(Index c) const { return body(c).omega(turn(c), momentum_of_kind(c)); }
+  BL_HD Vec3d lever(Index i) const { return turn(clump[i] - 1).rotate(arm[i]); }
+  BL_HD Vec3d velocity(Index i) const {
+    const Index c = clump[i] - 1;
+    return v[c] + cross(omega(c), lever(i));
+  }
+};
+
+/// The grains of each clump in the order of its spheres, in pieces short enough for one thread.
+struct ClumpPieces {
+  static constexpr Index kPiece = 32;
+  Span<const Index> grain;  ///< index of each, clump after clump
+  Span<const Index> begin;  ///< [pieces + 1] in `grain`
+  Span<const Index> first;  ///< [clumps + 1] of the pieces
+};
+
+/// Notes where a sort has put the grains of clumps.
+struct PlaceClumpsPass {
+  Span<const std::uint32_t> clump, member;
+  Span<const Index> slot;  ///< of each clump, the first of its grains
+  Span<Index> grain;
+  BL_HD void operator()(Index i) const {
+    if (clump[i] > 0) grain[slot[clump[i] - 1] + member[i]] = i;
+  }
+};
+
+/// Momentum and angular momentum about the centre of their clump that the grains of a piece have gained since
+/// they last followed it, stored as force and torque; N s and N m s.
+struct GainPass {
+  ClumpView all;
+  ClumpPieces pieces;
+  MassPerR3 mass_per_r3;
+  Span<const Real> radius;
+  Velocities<const Real3> now, rest;  ///< rest may be empty
+  LoadSum* gained;                    ///< [pieces]
+  BL_HD void operator()(Index piece) const {
+    LoadSum sum = LoadSum::zero();
+    for (Index slot = pieces.begin[piece]; slot < pieces.begin[piece + 1]; ++slot)
+      add(pieces.grain[slot], sum);
+    gained[piece] = sum;
+  }
+  BL_HD void add(Index i, LoadSum& sum) const {
+    const double R = radius[i], m = mass_per_r3(i) * R * R * R;
+    const Vec3d v_rest = rest.v ? Vec3d(rest.v[i]) : Vec3d{},
+                omega_rest = rest.v ? Vec3d(rest.omega[i]) : Vec3d{};
+    const Vec3d by_force = m * (Vec3d(now.v[i]) - Vec3d(Real3(all.velocity(i))) + v_rest);
+    const Vec3d by_torque =
+        0.4 * m * R * R * (Vec3d(now.omega[i]) - Vec3d(Real3(all.omega(all.clump[i] - 1))) + omega_rest);
+    sum.add(by_force, cross(all.lever(i), by_force) + by_torque);
+  }
+};
+
+/// Applies the momenta gained by its grains to a clump, within its constraints, then drifts it.
+struct MoveClumpsPass {
+  ClumpView all;
+  Span<const Index> first;  ///< of ClumpPieces
+  const LoadSum* gained;
+  Vec3d fall;    ///< velocity that gravity gave the grains, m/s: it does not turn a clump
+  double drift;  ///< s
+  BL_HD void operator()(Index c) const {
+    LoadSum sum = LoadSum::zero();
+    for (Index piece = first[c]; piece < first[c + 1]; ++piece) LoadSum::combine(sum, gained[piece]);
+    const RigidBody& k = all.body(c);
+    const double m = all.mass(c);
+    const Vec3d offset = all.turn(c).rotate(all.size[c] * all.offsets[all.kind[c]]);
+    all.v[c] += k.movable((1 / m) * sum.force());
+    all.angular_momentum[c] += k.turnable(sum.torque() - cross(offset, m * fall));
+    if (drift == 0) return;
+    all.x[c] += drift * all.v[c];
+    all.rotation[c] = to_vec4(k.turned(all.turn(c), all.momentum_of_kind(c), drift));
+  }
+};
+
+/// Sets position and motion of grains from their clump.
+struct FollowPass {
+  ClumpView all;
+  Frame frame;
+  Span<Vec3d> x;
+  Velocities<Real3> now, rest;  ///< rest may be empty
+  BL_HD void operator()(Index i) const {
+    if (all.clump[i] == 0) return;
+    const Index c = all.clump[i] - 1;
+    x[i] = frame.wrap(all.x[c] + all.lever(i));
+    now.v[i] = Real3(all.velocity(i));
+    now.omega[i] = Real3(all.omega(c));
+    if (rest.v) rest.v[i] = {}, rest.omega[i] = {};
+  }
+};
+
+/// Force and torque about its centre on one clump, of forces and torques on its grains.
+struct ClumpLoadReduction {
+  using Value = LoadSum;
+  ClumpView all;
+  Index of;
+  Span<const Real3> force, torque, more;  ///< N, any unit, N; `more`: another force, may be empty
+  double per_torque;                      ///< converts the torque to N m
+  BL_HD Value identity() const { return Value::zero(); }
+  BL_HD Value operator()(Index i) const {
+    Value sum = Value::zero();
+    if (all.clump[i] != of + 1) return sum;
+    Vec3d f = Vec3d(force[i]);
+    if (more) f += Vec3d(more[i]);
+    sum.add(f, cross(all.lever(i), f) + per_torque * Vec3d(torque[i]));
+    return sum;
+  }
+  BL_HD void combine(Value& into, const Value& from) const { Value::combine(into, from); }
+};
+
+/// Conserved sums and energies of clumps, in the order of TotalsReduction::Sum.
+struct ClumpTotals {
+  static constexpr int kSums = 13;
+  ClumpView all;
+  Frame frame;
+  BL_HD void operator()(Index c, double* out) const {
+    const double m = all.mass(c);
+    const Vec3d v = all.v[c], x = frame.wrap(all.x[c]), l = all.angular_momentum[c];
+    const Vec3d angular = cross(x, m * v) + l;
+    out[0] = m;
+    out[1] = 0.5 * m * norm2(v);
+    out[2] = 0.5 * dot(l, all.omega(c));
+    out[3] = 0;  // elastic: that of its grains' contacts
+    for (int k = 0; k < 3; ++k) out[4 + k] = m * v[k], out[7 + k] = angular[k], out[10 + k] = m * x[k];
+  }
+};
+
+}  // namespace BL_SOLVER

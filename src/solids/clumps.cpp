@@ -1,0 +1,237 @@
+#include "src/solids/clumps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "bedload/geometry/body.hpp"
+#include "src/walls/free_bodies.hpp"
+
+namespace BL_SOLVER {
+namespace {
+
+/// Clumps while grains are joined to them.
+struct Joined {
+  std::vector<std::uint32_t> clump, member;  ///< of each grain
+  std::vector<Vec3d> arm;                    ///< likewise
+  std::vector<std::uint32_t> kind;           ///< of each clump, as what follows
+  std::vector<double> size;
+  std::vector<Vec3d> x, v, omega;
+  std::vector<Vec4<double>> rotation;
+
+  void add(std::uint32_t of_kind, double of_size, const Vec3d& at, const Vec3d& velocity, const Vec3d& spin,
+           const Quat<double>& turn) {
+    kind.push_back(of_kind), size.push_back(of_size), x.push_back(at);
+    v.push_back(velocity), omega.push_back(spin), rotation.push_back(to_vec4(turn));
+  }
+};
+
+/// Sum of the cubes of the radii.
+double cubes(const ClumpShape& shape) {
+  double sum = 0;
+  for (const ClumpSphere& s : shape.spheres) sum += s[3] * s[3] * s[3];
+  return sum;
+}
+
+}  // namespace
+
+Clumps::Clumps(const SolidParameters& parameters, const Frame& frame, GrainStore& grains)
+    : kinds_(parameters.clumps), plane_(parameters.plane), frame_(frame), matter_(parameters.materials) {
+  if (!any()) return;
+  clump_ = std::make_unique<Field<std::uint32_t>>(grains, "clump", "-", Lifetime::kept, Output{.order = 8});
+  member_ = std::make_unique<Field<std::uint32_t>>(grains, "member", "-", Lifetime::kept);
+  arm_ = std::make_unique<Field<Vec3d>>(grains, "clump_arm", "m", Lifetime::kept);
+  clump_->resize(grains.size());
+  member_->resize(grains.size());
+  arm_->resize(grains.size());
+}
+
+void Clumps::bind(GrainStore& grains, const Setup::Grains& setup) {
+  if (!any()) return;
+  const auto x = grains.x.values();
+  const auto radius = grains.radius.values();
+  Joined all;
+  all.clump.resize(x.size()), all.member.resize(x.size()), all.arm.resize(x.size());
+  std::vector<std::uint32_t> kind_of;  // each fill
+  for (std::uint32_t k = 0; k < kinds_.size(); ++k) {
+    const ClumpKind& of = kinds_[k];
+    kind_of.resize(std::max(kind_of.size(), std::size_t(of.fill) + 1));
+    kind_of[of.fill] = k;
+    if (of.shape) continue;
+    double mass = 0;
+    Vec3d centre;
+    std::vector<std::size_t> members;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (int(setup.fill[i]) != of.fill) continue;
+      const double R = radius[i], m = matter_.per_r3(of.material) * R * R * R;
+      members.push_back(i);
+      mass += m, centre += m * x[i];
+    }
+    if (mass > 0) centre = centre / mass;
+    all.add(k, 1, centre, of.velocity, {}, {});
+    for (std::size_t n = 0; n < members.size(); ++n) {
+      all.clump[members[n]] = std::uint32_t(all.kind.size()), all.member[members[n]] = std::uint32_t(n);
+      all.arm[members[n]] = x[members[n]] - centre;
+    }
+  }
+  // sizes follow from the radii as they are kept, so that grains and clump weigh the same
+  std::size_t i = 0;
+  for (std::size_t c = 0; c < setup.clumps.size(); ++c) {
+    const Setup::Grains::Clump& from = setup.clumps[c];
+    const std::uint32_t k = kind_of[from.fill];
+    const ClumpShape& shape = *kinds_[k].shape;
+    while (setup.clump[i] != c + 1) ++i;
+    double r3 = 0;
+    for (std::size_t n = 0; n < shape.spheres.size(); ++n) r3 += std::pow(double(radius[i + n]), 3);
+    const double size = std::cbrt(r3 / cubes(shape));
+    all.add(k, size, from.x, from.v, from.omega, normalised(from.rotation));
+    for (std::uint32_t n = 0; n < shape.spheres.size(); ++n, ++i) {
+      const ClumpSphere& s = shape.spheres[n];
+      all.clump[i] = std::uint32_t(all.kind.size()), all.member[i] = n;
+      all.arm[i] = size * Vec3d{s[0], s[1], s[2]};
+    }
+  }
+  clump_->assign(all.clump), member_->assign(all.member), arm_->assign(all.arm);
+  store_.resize(Index(all.kind.size()));
+  std::vector<Id> id(all.kind.size());
+  std::iota(id.begin(), id.end(), Id(1));
+  store_.id.assign(id);
+  store_.kind.assign(all.kind), store_.scale.assign(all.size);
+  measure(grains);
+  for (std::size_t c = 0; c < all.kind.size(); ++c) {
+    const RigidBody& body = bodies_[all.kind[c]];
+    all.v[c] = body.movable(all.v[c]);
+    all.omega[c] = std::pow(all.size[c], 5) * body.momentum(to_quat(all.rotation[c]), all.omega[c]);
+  }
+  store_.x.assign(all.x), store_.v.assign(all.v), store_.angular_momentum.assign(all.omega);
+  store_.rotation.assign(all.rotation);
+  for_each(grains.owned(), FollowPass{view(), frame_, grains.x, {grains.v, grains.omega}, {}});
+}
+
+/// Sums over grains in the order of ids so that the result does not depend on sorting.
+void Clumps::measure(const GrainStore& grains) {
+  const auto id = grains.id.values();
+  const auto radius = grains.radius.values();
+  const auto clump = clump_->values(), kind = store_.kind.values();
+  const auto arm = arm_->values();
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < id.size(); ++i)
+    if (clump[i] > 0 && !kinds_[kind[clump[i] - 1]].shape) order.push_back(i);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
+  std::vector<MassProperties> sums(kinds_.size());
+  for (auto& s : sums) s.inertia.fill(0);
+  for (const std::size_t i : order) {
+    const std::uint32_t k = kind[clump[i] - 1];
+    MassProperties& s = sums[k];
+    const double R = radius[i], m = matter_.per_r3(kinds_[k].material) * R * R * R, own = 0.4 * m * R * R;
+    s.mass += m;
+    const auto grain = shifted_inertia({own, own, own, 0, 0, 0}, m, arm[i]);
+    for (int n = 0; n < 6; ++n) s.inertia[n] += grain[n];
+  }
+  bodies_.clear();
+  std::vector<Vec3d> offsets;
+  for (std::size_t k = 0; k < kinds_.size(); ++k) {
+    if (const auto& shape = kinds_[k].shape) {
+      sums[k].mass = matter_.per_r3(kinds_[k].material) * cubes(*shape);
+      for (int n = 0; n < 6; ++n) sums[k].inertia[n] = kinds_[k].density * shape->inertia[n];
+    }
+    const RigidConfig& c = kinds_[k].freedom;
+    bodies_.push_back(rigid_body(sums[k], {}, c.move, c.turn, c.axis, plane_));
+    offsets.push_back(kinds_[k].shape ? kinds_[k].shape->offset : Vec3d{});
+  }
+  constants_.assign(bodies_);
+  offsets_.assign(offsets);
+  cut_pieces(clump);
+}
+
+void Clumps::cut_pieces(const std::vector<std::uint32_t>& clump) {
+  std::vector<Index> count(store_.size()), slot, begin, first;
+  for (const std::uint32_t of : clump)
+    if (of > 0) ++count[of - 1];
+  Index next = 0;
+  for (const Index n : count) {
+    slot.push_back(next), first.push_back(Index(begin.size()));
+    for (Index at = 0; at < n; at += ClumpPieces::kPiece) begin.push_back(next + at);
+    next += n;
+  }
+  first.push_back(Index(begin.size())), begin.push_back(next);
+  slot_.assign(slot), begin_.assign(begin), first_.assign(first);
+  grain_.resize(next);
+  gained_.resize(begin.size() - 1);
+}
+
+void Clumps::place(const GrainStore& grains) {
+  if (!any()) return;
+  for_each(grains.owned(), PlaceClumpsPass{clump_->span(), member_->span(), slot_, grain_});
+}
+
+ClumpView Clumps::view() const {
+  return {.kinds = constants_.data(),
+          .offsets = offsets_.data(),
+          .kind = store_.kind.span(),
+          .size = store_.scale.span(),
+          .x = store_.x,
+          .v = store_.v,
+          .angular_momentum = store_.angular_momentum,
+          .rotation = store_.rotation,
+          .clump = clump_->span(),
+          .arm = arm_->span()};
+}
+
+void Clumps::follow(GrainStore& g, const Velocities<Real3>& rest, double drift, const Vec3d& fall) {
+  if (!any() || g.size() == 0) return;
+  const ClumpView all = view();
+  for_each({0, Index(gained_.size())}, GainPass{.all = all,
+                                                .pieces = {grain_, begin_, first_},
+                                                .mass_per_r3 = matter_.of(g),
+                                                .radius = g.radius,
+                                                .now = {g.v, g.omega},
+                                                .rest = {rest.v, rest.omega},
+                                                .gained = gained_.data()});
+  for_each(store_.owned(), MoveClumpsPass{all, first_, gained_.data(), fall, drift});
+  for_each(g.owned(), FollowPass{all, frame_, g.x, {g.v, g.omega}, rest});
+}
+
+void Clumps::stop() {
+  if (!any()) return;
+  store_.v.buffer().zero();
+  store_.angular_momentum.buffer().zero();
+}
+
+RigidMotion Clumps::motion(int k) const {
+  RigidMotion m;
+  m.centre = store_.x.values()[k];
+  m.rotation = to_quat(store_.rotation.values()[k]);
+  m.v = store_.v.values()[k];
+  const double s = store_.scale.values()[k];
+  m.omega = bodies_[store_.kind.values()[k]].omega(m.rotation,
+                                                   std::pow(s, -5) * store_.angular_momentum.values()[k]);
+  return m;
+}
+
+LoadSum Clumps::by_contacts(int k, const GrainStore& g) const {
+  return reduce(
+      g.owned(),
+      ClumpLoadReduction{
+          .all = view(), .of = Index(k), .force = g.force, .torque = g.torque, .more = {}, .per_torque = 1});
+}
+
+LoadSum Clumps::by_fluid(int k, const GrainStore& g, double dt) const {
+  return reduce(g.owned(), ClumpLoadReduction{.all = view(),
+                                              .of = Index(k),
+                                              .force = g.fluid_force,
+                                              .torque = g.spin_impulse,
+                                              .more = g.drag_force,
+                                              .per_torque = dt > 0 ? 1 / dt : 0});
+}
+
+void Clumps::save(std::vector<HostStore>& stores) const {
+  if (any()) stores.push_back(store_.save());
+}
+
+void Clumps::load(const HostStore& clumps, const GrainStore& grains) {
+  store_.load(clumps);
+  measure(grains);
+}
+
+}  // namespace BL_SOLVER

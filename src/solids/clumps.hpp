@@ -1,0 +1,85 @@
+#pragma once
+// Clumps of grains: state, mass properties, motion. A rigid fill is one clump of a kind of its own.
+
+#include <memory>
+#include <vector>
+
+#include "bedload/host_data.hpp"
+#include "bedload/parallel/loops.hpp"
+#include "bedload/particles/grains.hpp"
+#include "kernels/bodies/clumps.hpp"
+#include "src/solids/grain_matter.hpp"
+#include "src/solids/parameters.hpp"
+
+namespace BL_SOLVER {
+
+struct ClumpStore : Store {
+  ClumpStore() : Store("clumps") {}
+  Field<Id> id{*this, "id", "-", Lifetime::kept, Output{.order = 99}};
+  Field<Vec3d> x{*this, "x", "m", Lifetime::kept};  ///< not wrapped
+  Field<Vec3d> v{*this, "v", "m/s", Lifetime::kept, Output{.order = 1, .name = "velocity"}};
+  Field<Vec3d> angular_momentum{*this, "angular_momentum", "kg m2/s", Lifetime::kept, Output{.order = 5}};
+  Field<Vec4<double>> rotation{*this, "rotation", "-", Lifetime::kept, Output{.order = 3}};  ///< x, y, z, w
+  Field<std::uint32_t> kind{*this, "kind", "-", Lifetime::kept};
+  Field<double> scale{*this, "scale", "m", Lifetime::kept, Output{.order = 4, .name = "diameter"}};
+};
+
+class Clumps {
+ public:
+  /// Adds the fields of membership to `grains`: construct before the store is filled or loaded.
+  Clumps(const SolidParameters& parameters, const Frame& frame, GrainStore& grains);
+
+  bool any() const { return !kinds_.empty(); }
+  /// For each grain 1 + its clump, 0 without one; empty if no fill has any.
+  Span<const std::uint32_t> of_grains() const {
+    return clump_ ? clump_->span() : Span<const std::uint32_t>();
+  }
+  /// Joins grains at initialisation; `setup`: of all grains, by id. Rigid fills come first, in their order.
+  void bind(GrainStore& grains, const Setup::Grains& setup);
+  /// After a sort.
+  void place(const GrainStore& grains);
+
+  /// Moves the clumps after every grain was kicked, and drifted by `drift` (s), on its own; the grains
+  /// follow. Rest: low parts of the velocities, may be empty. fall: what gravity added to velocities, m/s.
+  void follow(GrainStore& grains, const Velocities<Real3>& rest, double drift, const Vec3d& fall = {});
+  /// Sets the velocities of the clumps to zero, as those of their grains are.
+  void stop();
+
+  /// Present motion of clump k, with its centre as the reference point.
+  RigidMotion motion(int k) const;
+  /// Force and torque about its centre from the contacts of its grains.
+  LoadSum by_contacts(int k, const GrainStore& grains) const;
+  /// From the fluid; the torque on single grains is a mean over the last step dt (s).
+  LoadSum by_fluid(int k, const GrainStore& grains, double dt) const;
+
+  const ClumpStore& store() const { return store_; }
+  /// What a substep changes of them.
+  std::vector<const FieldBase*> moving() const {
+    if (!any()) return {};
+    return {&store_.x, &store_.v, &store_.angular_momentum, &store_.rotation};
+  }
+  ClumpView view() const;
+  void save(std::vector<HostStore>& stores) const;
+  /// After `grains` has been loaded.
+  void load(const HostStore& clumps, const GrainStore& grains);
+
+ private:
+  /// Mass and inertia of the kinds, of size 1 m.
+  void measure(const GrainStore& grains);
+  void cut_pieces(const std::vector<std::uint32_t>& clump);
+
+  std::vector<ClumpKind> kinds_;
+  bool plane_;  ///< they move in the xz plane
+  Frame frame_;
+  std::vector<RigidBody> bodies_;  ///< one per kind, about their centres of mass
+  GrainMatter matter_;
+  std::unique_ptr<Field<std::uint32_t>> clump_, member_;
+  std::unique_ptr<Field<Vec3d>> arm_;
+  mutable ClumpStore store_;
+  Buffer<RigidBody> constants_;
+  Buffer<Vec3d> offsets_;
+  Buffer<Index> slot_, grain_, begin_, first_;  ///< of PlaceClumpsPass and ClumpPieces
+  Buffer<LoadSum> gained_;                      ///< [pieces]
+};
+
+}  // namespace BL_SOLVER
