@@ -4,6 +4,7 @@
 
 #include <cctype>
 #include <chrono>
+#include <cstdio>
 #include <thread>
 
 #include "bedload/case/read.hpp"
@@ -221,6 +222,39 @@ d = 0.01
 positions = [[0.05, 0.05, 0.0048], [0.058, 0.05, 0.011], [0.02, 0.05, 0.014], [0.03, 0.02, 0.04], [0.08, 0.08, 0.02]]
 velocity = [0.3, 0, -0.3]
 )";
+/// A packing of spinning grains that goes from block to block: contacts go along.
+std::string drifting_bed() {
+  std::string places;
+  for (int k = 0; k < 72; ++k) {
+    char place[60];
+    std::snprintf(place, sizeof place, "%s[%g, %g, %g]", k > 0 ? ", " : "", 0.00494 * (k % 8) + 0.003,
+                  0.00494 * (k / 8 % 3) + 0.006, 0.00494 * (k / 24) + 0.0034);
+    places += place;
+  }
+  return R"([domain]
+min = [0, 0, 0]
+max = [0.06, 0.03, 0.03]
+periodic = [true, true, false]
+[[wall.body]]
+name = "floor"
+shape = "plane"
+point = [0, 0, 0.001]
+normal = [0, 0, 1]
+[grain]
+d = 0.005
+E = 1e7
+mu_r = 0.05
+[[grain.fill]]
+positions = [)" +
+         places + R"(]
+velocity = [1, 0.3, 0]
+spin = [0, 60, 30]
+[time]
+end = 1
+[out]
+every = 1
+)";
+}
 /// Water and grains that collapse together; to follow kDam.
 const std::string kSlurry = R"([grain]
 d = 0.008
@@ -296,6 +330,7 @@ std::vector<RankCase> rank_cases() {
       {"inlet and outlet", kDuct, {}, 120},
       {"drum of grains", kDrum, {"out.energy=true"}, 100},
       {"drum of grains, blocks of two cells", kDrum, {"run.block=2"}, 60},
+      {"drifting bed", drifting_bed(), {}, 60},
       {"slope with inlet and outlet of grains", kSlope, {}, 100},
       {"settled grains", kDrum, {"grain.settle=true"}, 60},
       {"held grains", kDrum, {"grain.release_time=0.005"}, 40},
@@ -370,7 +405,7 @@ class Ranks : public testing::TestWithParam<RankCase> {
     return {bits(*s), readings(*s, config_)};
   }
   void begin(Simulation& s) {
-    if (config_.grain.settle) s.settle(0.1, [](double) {});
+    if (config_.grain.settle) s.settle(0.02, [](double) {});
     s.start();
   }
   Config config_;
