@@ -45,7 +45,7 @@ HostStore SolidSolver::save_contacts(const GrainStore& grains) const {
   return {
       "contacts",
       kept.size(),
-      {to_array("lo", "-", lo), to_array("hi", "-", hi), to_array("history", HistoryParts::units(), kept)}};
+      {to_array("lo", "-", lo), to_array("hi", "-", hi), to_array("history", ContactHistory::units(), kept)}};
 }
 
 void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostStore& contacts) {
@@ -58,7 +58,7 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
 
   const Id* lo = from_array<Id>(contacts, "lo", "-");
   const Id* hi = from_array<Id>(contacts, "hi", "-");
-  const ContactHistory* kept = from_array<ContactHistory>(contacts, "history", HistoryParts::units());
+  const ContactHistory* kept = from_array<ContactHistory>(contacts, "history", ContactHistory::units());
   std::map<std::uint64_t, const ContactHistory*> by_pair;
   for (std::size_t c = 0; c < contacts.count; ++c) by_pair[pair_key(lo[c], hi[c])] = &kept[c];
 

@@ -43,8 +43,6 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
       bodies_(bodies),
       groups_(parameters, frame, grains),
       levels_(frame),
-      histories_(parameters.pair_laws),
-      old_histories_(parameters.pair_laws),
       wall_list_(frame, walls, skin(), film_range(parameters.d_max / 2)) {
   wall_laws_.assign(parameters.wall_laws);
   if (parameters.materials.size() > 1) pair_laws_.assign(parameters.pair_laws);
@@ -252,6 +250,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   if (wet_) {
     kick.fluid_force = g.fluid_force;
     kick.drag = drag_of(std::as_const(g));
+    kick.relaxation = relaxation_;
   }
   if (books_) begin_books(g, poses.data, kick, substeps);
   const Velocities<Real3> rest{v_rest_, omega_rest_};

@@ -11,6 +11,7 @@
 #include "bedload/simulation.hpp"
 #include "kernels/contact/lubrication_pass.hpp"
 #include "kernels/contact/registry.hpp"
+#include "kernels/integrate/relaxation.hpp"
 #include "kernels/stress/pair_moment.hpp"
 #include "src/solids/energy_books.hpp"
 #include "src/solids/grain_matter.hpp"
@@ -102,8 +103,8 @@ class SolidSolver {
   ParticleBytes scratch_bytes() const {
     const std::size_t by_level = parameters_.d_max < 2 * parameters_.d_min ? 0 : sizeof(Index);
     return {.grains = of_grains_.entry_bytes() + (books_ ? EnergyBooks::kScratch : 0),
-            .near_grains = sizeof(Index) + by_level + histories_.entry_bytes() +
-                           (books_ ? sizeof(ContactAction) : 0)};
+            .near_grains =
+                sizeof(Index) + by_level + PairHistoryBuffers::kBytes + (books_ ? sizeof(ContactAction) : 0)};
   }
 
   /// Histories of wall contacts.
@@ -237,12 +238,13 @@ class SolidSolver {
   WallList wall_list_;
   SubstepLoads substep_loads_;
   std::unique_ptr<EnergyBooks> books_;  ///< null: not asked for
-  Buffer<ContactSum> by_walls_;   ///< [rows of wall_list_]
-  Buffer<ContactSum> by_pieces_;  ///< [pieces of long_rows_]
+  Buffer<ContactSum> by_walls_;         ///< [rows of wall_list_]
+  Buffer<ContactSum> by_pieces_;        ///< [pieces of long_rows_]
   Buffer<Index> order_;
   Scratch of_grains_;
   ScratchArray<ContactSum> by_films_{of_grains_, lubricates()};
-  ScratchArray<Vec3d> next_x_{of_grains_};  ///< of advance, as what follows
+  ScratchArray<GrainRelaxation> relaxation_{of_grains_, wet_};  ///< of advance
+  ScratchArray<Vec3d> next_x_{of_grains_};                      ///< of advance, as what follows
   ScratchArray<Real3> next_v_{of_grains_}, next_omega_{of_grains_}, v_rest_{of_grains_},
       omega_rest_{of_grains_};
 };
