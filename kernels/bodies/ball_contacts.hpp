@@ -128,9 +128,9 @@ struct BallPass {
     const double weight = opposite > 0 ? 0.5 : 1;
     // a constraint may block the motion along the normal: bound the mass, else damping would be infinite
     const double m_star = 1 / max_of(inverse_mass, 1e-6 / a.mass);
-    ContactGeometry at{.n = closest.normal,
-                       .n_mid = halfway(memory.normal, closest.normal),
-                       .overlap = ball.radius - closest.distance,
+    ContactGeometry at{.n = Real3(closest.normal),
+                       .n_mid = halfway(Real3(memory.normal), Real3(closest.normal)),
+                       .overlap = Real(ball.radius - closest.distance),
                        .R_star = Real(R_star),
                        .m_star = Real(m_star),
                        .arm_i = 0,
@@ -155,7 +155,7 @@ struct BallPass {
     }
     // velocities and arms are those in the middle of the substep
     const Vec3d v_ball = mine.v + cross(mine.omega, r_mine + closest.distance * closest.normal),
-                moved = closest.distance * (closest.normal - at.n_mid) - 0.5 * dt * v_ball;
+                moved = closest.distance * (closest.normal - Vec3d(at.n_mid)) - 0.5 * dt * v_ball;
     const auto velocity = [&](const BodyPose& pose, const Vec3d& r) {
       return pose.v + cross(pose.omega, r + moved + 0.5 * dt * pose.v);
     };

@@ -24,7 +24,10 @@ struct ConstantRolling {
     if (cap && in.dt > 0) couple = min_of(couple, speed / (in.inverse_spin * in.dt));
     return in.omega * (-couple / speed);
   }
-  BL_HD Real3 operator()(const RollingInput& in, Vec3d&) const { return (*this)(in); }
+  template <class S>
+  BL_HD Real3 operator()(const RollingInput& in, Vec3<S>&) const {
+    return (*this)(in);
+  }
   BL_HD double stored(Real, Real, const Vec3d&) const { return 0; }
 };
 

@@ -17,7 +17,7 @@ struct ContactAction {
   Real3 couple, rolling;  ///< of sliding, per arm, N; of rolling friction, N m
 
   BL_HD static ContactAction of(const ContactForce& f, const ContactGeometry& at) {
-    const Real3 n = Real3(at.n), normal = dot(f.force, n) * n, sliding = f.force - normal;
+    const Real3 n = at.n, normal = dot(f.force, n) * n, sliding = f.force - normal;
     const Real3 couple = cross(sliding, n);
     return {normal, sliding, couple, f.torque_i - at.arm_i * couple};
   }
@@ -110,20 +110,20 @@ struct PairFlow : FlowReduction {
     const GrainView& g = contacts.grains;
     const bool touched = contacts.histories.touching[slot];
     const Vec3d r = g.frame.separation(g.x[i], g.x[j]);
-    const double reach = double(g.radius[i]) + double(g.radius[j]), distance = root(norm2(r));
-    const bool touches = distance < reach;
+    const SphereGap gap(r, g.radius[i], g.radius[j]);
+    const bool touches = gap.overlaps();
     if (!touched && !touches) return;
     const Sphere a = g.sphere(i), b = g.sphere(j);
     const Real R_star = a.R * b.R / (a.R + b.R), m_star = a.m * b.m / (a.m + b.m);
     const ContactLaw& law = contacts.law_of(i, j);
     ContactMotion motion{g.v[i] - g.v[j], g.omega[i], g.omega[j], a.R, b.R};
-    ContactHistory h;
+    PairHistory h;
     StoredEnergy had, has;
     ContactAction before{}, now{};
     if (touched) h = contacts.histories[slot], had = law.energy(R_star, m_star, h), before = actions[slot];
     if (touches) {
       const ContactGeometry at =
-          sphere_contact(a, b, r, distance, reach - distance, double(contacts.dt) * Vec3d(motion.v));
+          sphere_contact(a, b, r, gap.distance, gap.overlap(), Vec3d(contacts.dt * motion.v));
       now = ContactAction::of(law(at, motion.v, motion.omega_i, motion.omega_j, contacts.dt, h), at);
       has = law.energy(R_star, m_star, h);
       motion.arm_i = at.arm_i, motion.arm_j = at.arm_j;

@@ -10,8 +10,8 @@ namespace BL_SOLVER {
 
 /// Geometry of a contact. Walls: R_star = R, m_star = m, arm_i = R - overlap, arm_j = 0.
 struct ContactGeometry {
-  Vec3d n, n_mid;        ///< at the end and in the middle of the substep
-  double overlap;        ///< > 0, m
+  Real3 n, n_mid;        ///< at the end and in the middle of the substep
+  Real overlap;          ///< > 0, m
   Real R_star, m_star;   ///< m, kg
   Real arm_i, arm_j;     ///< centre to contact, m
   Real inverse_spin;     ///< 1/I_i + 1/I_j
@@ -22,29 +22,44 @@ struct Sphere {
   Real R, m;
   BL_HD Real inertia() const { return Real(0.4) * m * R * R; }
 };
+/// How far two spheres are apart; r = x_i - x_j, m. Their overlap is the quotient of a difference of squares
+/// in fp64, so that it has all digits of a Real.
+struct SphereGap {
+  double squares;  ///< (R_i + R_j)^2 - r^2, m2; > 0: they overlap
+  Real distance;   ///< of the centres, m
+  Real reach;      ///< R_i + R_j, m
+  BL_HD SphereGap(const Vec3d& r, Real R_i, Real R_j) {
+    const double most = double(R_i) + double(R_j), r2 = norm2(r);
+    squares = most * most - r2;
+    distance = std::sqrt(Real(r2));
+    reach = Real(most);
+  }
+  BL_HD bool overlaps() const { return squares > 0; }
+  BL_HD Real overlap() const { return quotient(Real(squares), reach + distance); }  ///< m
+};
 /// Two grains; r = x_i - x_j, which has changed by `drift` (m) in the substep.
-BL_HD ContactGeometry sphere_contact(const Sphere& i, const Sphere& j, const Vec3d& r, double distance,
-                                     double overlap, const Vec3d& drift = {}) {
-  const Real half = Real(0.5 * overlap);
-  const Vec3d r_mid = r - 0.5 * drift;
-  return {.n = r * quotient(1.0, distance),
-          .n_mid = r_mid * quotient(1.0, root(norm2(r_mid))),
+BL_HD ContactGeometry sphere_contact(const Sphere& i, const Sphere& j, const Vec3d& r, Real distance,
+                                     Real overlap, const Vec3d& drift = {}) {
+  const Real half = Real(0.5) * overlap;
+  const Real3 r_end = Real3(r), r_mid = r_end - Real(0.5) * Real3(drift);
+  return {.n = r_end * quotient(Real(1), distance),
+          .n_mid = r_mid * quotient(Real(1), norm(r_mid)),
           .overlap = overlap,
-          .R_star = i.R * j.R / (i.R + j.R),
-          .m_star = i.m * j.m / (i.m + j.m),
+          .R_star = quotient(i.R * j.R, i.R + j.R),
+          .m_star = quotient(i.m * j.m, i.m + j.m),
           .arm_i = i.R - half,
           .arm_j = j.R - half,
           .inverse_spin = 1 / i.inertia() + 1 / j.inertia(),
           .inverse_rolling = (1 / i.inertia() + 1 / j.inertia()) * Real(0.4 / 1.4)};
 }
 /// A grain and a wall, whose normal was n_before at the beginning of the substep.
-BL_HD ContactGeometry wall_contact(const Sphere& i, const Vec3d& n_before, const Vec3d& n, double overlap) {
-  return {.n = n,
-          .n_mid = halfway(n_before, n),
+BL_HD ContactGeometry wall_contact(const Sphere& i, const Vec3d& n_before, const Vec3d& n, Real overlap) {
+  return {.n = Real3(n),
+          .n_mid = halfway(Real3(n_before), Real3(n)),
           .overlap = overlap,
           .R_star = i.R,
           .m_star = i.m,
-          .arm_i = i.R - Real(overlap),
+          .arm_i = i.R - overlap,
           .arm_j = 0,
           .inverse_spin = 1 / i.inertia(),
           .inverse_rolling = 1 / i.inertia() * Real(0.4 / 1.4)};
@@ -107,40 +122,38 @@ struct ContactLawOf {
   /// normal damping extrapolates to its end, which keeps restitution second order. What slides and rolls is
   /// taken with the normal of the middle too, then turned to that of the end: with the latter alone, grains
   /// that roll about their normal would slide sideways [vyas25]. dt = 0: no time passes.
+  template <class S>
   BL_HD ContactForce operator()(const ContactGeometry& at, const Real3& v, const Real3& omega_i,
-                                const Real3& omega_j, Real dt, ContactHistory& h) const {
-    const Real3 n = Real3(at.n);
-    const NormalState ns = normal_state(at.R_star, at.m_star, Real(at.overlap));
+                                const Real3& omega_j, Real dt, HistoryOf<S>& h) const {
+    const Real3 &n = at.n, &n_mid = at.n_mid;
+    const Real overlap_before = Real(h.overlap);
+    const NormalState ns = normal_state(at.R_star, at.m_star, at.overlap);
     const Real v_n = dot(v, n);
     const Real acts = with_law(normal, [&](const auto& law) {
-      return law.dashpot(h.overlap, Real(at.overlap), v_n, dt, !clip_tension);
+      return law.dashpot(overlap_before, at.overlap, v_n, dt, !clip_tension);
     });
     const Real damping = ns.damping * acts;
-    const Real ahead = dt > 0 && h.overlap > 0 ? Real(0.5) * (v_n - Real(h.recede)) : Real(0);
+    const Real ahead = dt > 0 && overlap_before > 0 ? Real(0.5) * (v_n - Real(h.recede)) : Real(0);
     Real f_n = ns.elastic - damping * (v_n + ahead);
     if (clip_tension) f_n = max_of(f_n, Real(0));
     const Real pressing = max_of(f_n, Real(0));
 
     const NormalState before =
-        h.overlap > 0 ? normal_state(at.R_star, at.m_star, Real(h.overlap)) : ns;  // of the springs
-    const Real3 n_mid = Real3(at.n_mid);
-    const Tilt to_end(at.n_mid, at.n);
-    const double twist = 0.5 * dt * double(dot(omega_i + omega_j, n_mid));
+        overlap_before > 0 ? normal_state(at.R_star, at.m_star, overlap_before) : ns;  // of the springs
+    const ContactTurn turn(n_mid, n, Real(0.5) * dt * dot(omega_i + omega_j, n_mid));
     ContactForce out{f_n * n, {}, {}};
     if (slides()) {
       const Real3 slip = v - dot(v, n_mid) * n_mid - cross(at.arm_i * omega_i + at.arm_j * omega_j, n_mid);
-      const Vec3d v_end = to_end(Vec3d(slip)), turned = to_end(turn_with_contact(h.xi, at.n_mid, twist)),
-                  step = double(dt) * v_end;
-      const Real3 v_t = Real3(v_end);
+      const Real3 v_t = turn.tilted(slip), turning = turn.change(Real3(h.xi));
       const SlidingInput in{.normal_force = pressing,
                             .normal = ns,
                             .before = before,
-                            .root = std::sqrt(at.R_star * Real(at.overlap)),
+                            .root = std::sqrt(at.R_star * at.overlap),
                             .m_star = at.m_star,
-                            .overlap = Real(at.overlap),
-                            .overlap_before = h.overlap};
+                            .overlap = at.overlap,
+                            .overlap_before = overlap_before};
       const Real3 f_t =
-          with_law(sliding, [&](const auto& law) { return slide(law, in, v_t, turned, step, h.xi); });
+          with_law(sliding, [&](const auto& law) { return slide(law, in, v_t, turning, dt * v_t, h.xi); });
       const Real3 couple = cross(f_t, n);  // - n x F_t
       out.force += f_t;
       out.torque_i = at.arm_i * couple;
@@ -149,7 +162,7 @@ struct ContactLawOf {
     if (rolls()) {
       Real3 w = omega_i - omega_j;
       w -= dot(w, n_mid) * n_mid;
-      w = Real3(to_end(Vec3d(w)));
+      w = turn.tilted(w);
       const RollingInput in{.omega = w,
                             .normal_force = pressing,
                             .normal_stiffness = ns.stiffness,
@@ -158,12 +171,12 @@ struct ContactLawOf {
                             .inverse_spin = at.inverse_spin,
                             .inverse_rolling = at.inverse_rolling,
                             .dt = dt};
-      if (remembers_couple()) h.couple = to_end(turn_with_contact(h.couple, at.n_mid, twist));
+      if (remembers_couple()) h.couple += Vec3<S>(turn.change(Real3(h.couple)));
       const Real3 couple = with_law(rolling, [&](const auto& law) { return law(in, h.couple); });
       out.torque_i += couple;
       out.torque_j -= couple;
     }
-    h.overlap = Real(at.overlap);
+    h.overlap = at.overlap;
     h.recede = v_n;
     return out;
   }
@@ -197,25 +210,26 @@ struct ContactLawOf {
                           .before = ns,
                           .root = std::sqrt(R_star * Real(overlap)),
                           .m_star = m_star,
-                          .overlap = overlap,
-                          .overlap_before = overlap};
+                          .overlap = Real(overlap),
+                          .overlap_before = Real(overlap)};
     return {.sliding = with_law(sliding, [&](const auto& law) { return law.stored(in, h.xi); }),
             .rolling = with_law(rolling,
                                 [&](const auto& law) { return law.stored(ns.stiffness, R_star, h.couple); })};
   }
   /// Friction force, limited by Coulomb's law. In slip the spring force is at most the limit, and the damper
-  /// does not stretch the spring: that would create energy.
-  template <class Law>
-  BL_HD Real3 slide(const Law& law, const SlidingInput& in, const Real3& v_t, const Vec3d& turned,
-                    const Vec3d& step, Vec3d& xi) const {
-    xi = law.stretch(in, turned, step);
-    const SlidingState s = law(in, xi);
+  /// does not stretch the spring: that would create energy. turning: change of the spring with its contact,
+  /// m.
+  template <class Law, class S>
+  BL_HD Real3 slide(const Law& law, const SlidingInput& in, const Real3& v_t, const Real3& turning,
+                    const Real3& step, Vec3<S>& xi) const {
+    xi += Vec3<S>(turning + law.stretch(in, Real3(xi) + turning, step));
+    const SlidingState s = law(in, Real3(xi));
     Real3 f_t = s.elastic - sliding_damping * s.damping * v_t;
     const Real size = norm(f_t), limit = mu * in.normal_force;
     if (size > limit) {
       f_t *= limit / size;
       const Real length = norm(Real3(xi)), longest = law.longest(in, limit);
-      if (length > longest) xi *= double(longest / length);
+      if (length > longest) xi *= S(longest / length);
     }
     return f_t;
   }

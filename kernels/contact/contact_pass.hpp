@@ -102,13 +102,16 @@ struct CarryLongHistoryPass {
   }
 };
 
-/// Contact force and torque on a grain.
-struct ContactSum {
-  Vec3d force;   ///< N
-  Vec3d torque;  ///< N m
+/// Contact force and torque on a grain, N and N m.
+template <class T>
+struct ContactSumOf {
+  Vec3<T> force, torque;
 
-  BL_HD void add(const ContactSum& other) { force += other.force, torque += other.torque; }
+  BL_HD void add(const ContactSumOf& other) { force += other.force, torque += other.torque; }
 };
+using ContactSum = ContactSumOf<double>;
+/// Of the pairs in a row or piece, whose forces are no more precise.
+using PairSum = ContactSumOf<Real>;
 
 /// Grains as contacts see them.
 struct GrainView {
@@ -155,18 +158,17 @@ struct ContactPass {
   /// The contacts between grains alone, by the laws of type Law.
   template <class Law>
   BL_HD ContactSum pairs(const Lane& lane) const {
-    ContactSum sum;
     const Index i = lane.row;
-    if (!acts || long_rows.cut(i)) return sum;
+    if (!acts || long_rows.cut(i)) return {};
+    PairSum sum;
     const Grain own = grain(i);
     list.each(lane, [&](std::uint64_t slot, Index j) { pair<Law>(own, j, slot, sum); });
-    lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
-    return sum;
+    return whole(lane, sum);
   }
   /// The same of a piece of a long row.
   template <class Law>
   BL_HD ContactSum pairs_of_piece(const Lane& lane) const {
-    ContactSum sum;
+    PairSum sum;
     const Index i = long_rows.row[lane.row];
     const Grain own = grain(i);
     const std::uint32_t begin = long_rows.begin(lane.row);
@@ -175,8 +177,7 @@ struct ContactPass {
       const std::uint64_t slot = list.slot(i, k);
       pair<Law>(own, list.entry[slot], slot, sum);
     }
-    lane.combine(sum, [](ContactSum& into, const ContactSum& other) { into.add(other); });
-    return sum;
+    return whole(lane, sum);
   }
   /// Row of a grain in by_walls; kNone: it is far from walls.
   BL_HD Index wall_row_of(Index i) const { return wall_row ? wall_row[i] : kNone; }
@@ -206,25 +207,28 @@ struct ContactPass {
   BL_HD Grain grain(Index i) const {
     return {i, grains.x[i], grains.radius[i], grains.v[i], grains.omega[i], grains.id[i]};
   }
+  /// Of all lanes that share the row.
+  BL_HD static ContactSum whole(const Lane& lane, PairSum& sum) {
+    lane.combine(sum, [](PairSum& into, const PairSum& other) { into.add(other); });
+    return {Vec3d(sum.force), Vec3d(sum.torque)};
+  }
   BL_HD Other load(Index j) const { return {grains.v[j], grains.omega[j], grains.id[j]}; }
   /// By value: a reference would force both into memory.
   BL_HD static Real3 either(bool first, const Real3& a, const Real3& b) {
     return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
   }
   template <class Law>
-  BL_HD void pair(const Grain& own, Index j, std::uint64_t slot, ContactSum& sum) const {
+  BL_HD void pair(const Grain& own, Index j, std::uint64_t slot, PairSum& sum) const {
     // load as early as a value is known to be needed: a pair then waits for memory only once
     const bool touched = histories.touching[slot];
     const Real R = grains.radius[j];
     const Vec3d x_j = grains.x[j];
     Other other;
-    ContactHistory h;
+    PairHistory h;
     if (touched) h = histories[slot], other = load(j);
     const Vec3d r = grains.frame.separation(own.x, x_j);
-    const double reach = double(own.R) + double(R), r2 = norm2(r);
-    const bool near = r2 < reach * reach;
-    const double distance = near ? root(r2) : reach;
-    if (!(distance < reach)) {
+    const SphereGap gap(r, own.R, R);
+    if (!gap.overlaps()) {
       if (touched) histories.touching[slot] = 0;
       return;
     }
@@ -235,14 +239,12 @@ struct ContactPass {
     const Real R_lo = first ? own.R : R, R_hi = first ? R : own.R;
     const Real3 v_rel = first ? own.v - v_j : v_j - own.v, omega_lo = either(first, own.omega, omega_j),
                 omega_hi = either(first, omega_j, own.omega);
-    const ContactGeometry at =
-        sphere_contact(grains.sphere(lo, R_lo), grains.sphere(hi, R_hi), first ? r : -r, distance,
-                       reach - distance, double(dt) * Vec3d(v_rel));
+    const ContactGeometry at = sphere_contact(grains.sphere(lo, R_lo), grains.sphere(hi, R_hi),
+                                              first ? r : -r, gap.distance, gap.overlap(), Vec3d(dt * v_rel));
     // most cases have one law, a kernel parameter in registers; a reference would force it into memory
     const Law acting = laws ? Law::of(laws[pair_of(lo, hi)]) : Law::of(law);
     const ContactForce f = acting(at, v_rel, omega_lo, omega_hi, dt, h);
-    sum.force += Vec3d(first ? f.force : -f.force);
-    sum.torque += Vec3d(either(first, f.torque_i, f.torque_j));
+    sum.add({first ? f.force : -f.force, either(first, f.torque_i, f.torque_j)});
     histories.store(slot, h);
     if (!touched) histories.touching[slot] = 1;
   }

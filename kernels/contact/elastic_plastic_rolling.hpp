@@ -28,14 +28,15 @@ struct ElasticPlasticRolling {
   }
   /// `couple` is the elastic part, already rotated with the contact. A softening spring keeps its angle, a
   /// stiffening one its couple, so neither gains energy.
-  BL_HD Real3 operator()(const RollingInput& in, Vec3d& couple) const {
+  template <class S>
+  BL_HD Real3 operator()(const RollingInput& in, Vec3<S>& couple) const {
     const Real limit = mu_r * in.R_star * in.normal_force;
     const Real k_r = stiffness(in.normal_stiffness, in.R_star);
-    couple *= double(min_of(Real(1), in.normal_stiffness / in.stiffness_before));
-    couple -= double(k_r * in.dt) * Vec3d(in.omega);
-    const double size = norm(couple);
-    if (size > limit) {
-      couple *= limit / size;
+    const Real softer =
+        quotient(max_of(Real(0), in.stiffness_before - in.normal_stiffness), in.stiffness_before);
+    couple -= Vec3<S>(softer * Real3(couple) + (k_r * in.dt) * in.omega);
+    if (const Real size = length_of(Real3(couple)); size > limit) {
+      couple *= S(limit / size);
       return Real3(couple);
     }
     // sqrt(I_r) sqrt(k_r): the product is too small for fp32 where grains are tiny

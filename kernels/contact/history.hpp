@@ -1,8 +1,8 @@
 #pragma once
-// History of a contact, kept from one substep to the next. Springs are fp64 in every precision, because
-// increments are tiny compared with their sums.
+// History of a contact, kept from one substep to the next. What is added to springs is tiny compared with
+// them, so it is found as a difference.
 //
-// A quantity to be remembered is a member of ContactHistory and a place in HistoryParts, with its unit.
+// A quantity to be remembered is a member of HistoryOf, with its unit, and a place in HistoryParts.
 // Arrays of pairs, checkpoints and the memory estimate follow from that.
 
 #include <string>
@@ -13,62 +13,44 @@
 namespace BL_SOLVER {
 
 /// Kept for the pair (lower id, higher id), or for (grain, wall surface).
-struct ContactHistory {
-  Vec3d xi;            ///< tangential spring, m
-  Vec3d couple;        ///< elastic rolling couple on the first grain, N m
-  double overlap = 0;  ///< at the last evaluation, m, to Real's digits; 0: apart. Walls: negative behind them
-  double recede = 0;   ///< normal speed at the last evaluation, m/s, to Real's digits
-};
+template <class S>
+struct HistoryOf {
+  Vec3<S> xi;      ///< tangential spring, m
+  Vec3<S> couple;  ///< elastic rolling couple on the first grain, N m
+  S overlap = 0;   ///< at the last evaluation, m, to Real's digits; 0: apart. Walls: negative behind them
+  S recede = 0;    ///< normal speed at the last evaluation, m/s, to Real's digits
 
-/// Members of a history that an array of pairs holds side by side, as numbers of type T.
-template <class T, auto... members>
+  template <class T>
+  BL_HD operator HistoryOf<T>() const {
+    return {Vec3<T>(xi), Vec3<T>(couple), T(overlap), T(recede)};
+  }
+  static std::string units() { return "m, N m, m, m/s"; }
+};
+/// Of walls, and in files.
+using ContactHistory = HistoryOf<double>;
+/// Of pairs. Springs are rounded once a substep, as often up as down; slip by less than half of their last
+/// digit a substep is lost, some nm/s.
+using PairHistory = HistoryOf<Real>;
+
+/// A vector and a number of a history, which arrays of pairs keep as one load.
+template <auto vector, auto number>
 struct HistoryPart {
-  static constexpr std::size_t kBytes = (sizeof(std::declval<ContactHistory>().*members) + ...);
-  T value[sizeof...(members)];
+  static constexpr std::size_t kBytes = 4 * sizeof(Real);
+  Vec4<Real> value;
 
-  BL_HD void from(const ContactHistory& h) {
-    T* to = value;
-    ((*to++ = T(h.*members)), ...);
-  }
-  BL_HD void to(ContactHistory& h) const {
-    const T* from = value;
-    ((h.*members = *from++), ...);
-  }
+  BL_HD void from(const PairHistory& h) { value = {h.*vector, h.*number}; }
+  BL_HD void to(PairHistory& h) const { h.*vector = value.xyz(), h.*number = value.w; }
 };
 
-// Each part has its units, and whether a law needs it: kOptional and keeps(law).
-struct SlidingSpring : HistoryPart<Vec3d, &ContactHistory::xi> {
-  static constexpr const char* units = "m";
-  static constexpr bool kOptional = true;
-  static bool keeps(const auto& law) { return law.slides(); }
-};
-struct RollingCouple : HistoryPart<Vec3d, &ContactHistory::couple> {
-  static constexpr const char* units = "N m";
-  static constexpr bool kOptional = true;
-  static bool keeps(const auto& law) { return law.remembers_couple(); }
-};
-/// Not accumulated, so that Real is precise enough.
-struct LastApproach : HistoryPart<Real, &ContactHistory::overlap, &ContactHistory::recede> {
-  static constexpr const char* units = "m, m/s";
-  static constexpr bool kOptional = false;
-  static bool keeps(const auto&) { return true; }
-};
-
-/// All of them, in the order of the members.
 template <class... Parts>
 struct HistoryPartList {
   static constexpr std::size_t kBytes = (Parts::kBytes + ...);
-  /// "m, N m, m, m/s"
-  static std::string units() {
-    std::string all;
-    ((all += (all.empty() ? "" : ", ") + std::string(Parts::units)), ...);
-    return all;
-  }
   template <template <class...> class Of>
   using Apply = Of<Parts...>;
 };
-using HistoryParts = HistoryPartList<SlidingSpring, RollingCouple, LastApproach>;
-static_assert(HistoryParts::kBytes == sizeof(ContactHistory), "a member of ContactHistory is in no part");
+using HistoryParts = HistoryPartList<HistoryPart<&PairHistory::xi, &PairHistory::overlap>,
+                                     HistoryPart<&PairHistory::couple, &PairHistory::recede>>;
+static_assert(HistoryParts::kBytes == sizeof(PairHistory), "a member of HistoryOf is in no part");
 
 /// Files hold a history as columns of doubles.
 template <>
@@ -77,29 +59,47 @@ struct FileType<ContactHistory> {
   static constexpr int components = sizeof(ContactHistory) / sizeof(double);
 };
 
-/// Rotates the tangential vector `a` with a contact that has turned by `twist` (rad) about its normal, which
-/// is now n. The length is kept; the result lies in the new tangent plane.
-BL_HD Vec3d turn_with_contact(const Vec3d& a, const Vec3d& n, double twist) {
-  const double before = norm2(a);
-  if (before == 0) return a;
-  Vec3d b = a + twist * cross(n, a);
-  b -= dot(b, n) * n;
-  const double after = norm2(b);
-  return after > 0 ? b * std::sqrt(before / after) : Vec3d{};
+/// Length of a vector that may be too small for its square in Real.
+BL_HD Real length_of(const Real3& a) {
+  const Real size = max_of(std::abs(a.x), max_of(std::abs(a.y), std::abs(a.z)));
+  return size == 0 ? Real(0) : size * norm(a * quotient(Real(1), size));
 }
 
-/// The shortest rotation that takes the unit vector `from` to `to`, of vectors normal to `from`.
-struct Tilt {
-  Vec3d to, bend;
-  BL_HD Tilt(const Vec3d& from, const Vec3d& onto)
-      : to(onto), bend((from + onto) * quotient(1.0, 1 + dot(from, onto))) {}
-  BL_HD Vec3d operator()(const Vec3d& a) const { return a - dot(a, to) * bend; }
+/// How a contact turns in the second half of a substep, from the normal n_mid to n: about it by `twist`
+/// (rad), then by the shortest rotation from one to the other.
+class ContactTurn {
+ public:
+  BL_HD ContactTurn(const Real3& n_mid, const Real3& n, Real twist)
+      : n_mid_(n_mid), n_(n), bend_((n_mid + n) * quotient(Real(1), 1 + dot(n_mid, n))), twist_(twist) {}
+
+  /// Of a vector normal to n_mid, the rotation from n_mid to n alone.
+  BL_HD Real3 tilted(const Real3& a) const { return a - dot(a, n_) * bend_; }
+  /// By how much a spring `a` changes that was tangential at the start of the substep. Its length is kept: as
+  /// a small difference, found as such, this has all digits of a Real.
+  BL_HD Real3 change(const Real3& a) const {
+    const Real size = max_of(std::abs(a.x), max_of(std::abs(a.y), std::abs(a.z)));
+    if (size == 0) return {};
+    const Real3 u = a * quotient(Real(1), size);  // springs of tiny grains have no squares in fp32
+    const Real3 across = cross(n_mid_, u);
+    const Real along = dot(u, n_mid_);
+    Real3 moved = twist_ * across - along * n_mid_;
+    // |u + moved|^2 = |u|^2 (1 + longer)
+    const Real longer = quotient(square(twist_) * norm2(across) - square(along), norm2(u)), left = 1 + longer;
+    if (!(left > Real(1e-6))) return -a;
+    moved -= quotient(longer, left + std::sqrt(left)) * (u + moved);
+    moved -= dot(u + moved, n_) * bend_;
+    return size * moved;
+  }
+
+ private:
+  Real3 n_mid_, n_, bend_;
+  Real twist_;
 };
 /// The unit vector halfway between two others; b if they are opposite.
-BL_HD Vec3d halfway(const Vec3d& a, const Vec3d& b) {
-  const Vec3d sum = a + b;
-  const double size = root(norm2(sum));
-  return size > 0 ? sum * quotient(1.0, size) : b;
+BL_HD Real3 halfway(const Real3& a, const Real3& b) {
+  const Real3 sum = a + b;
+  const Real size = norm(sum);
+  return size > 0 ? sum * quotient(Real(1), size) : b;
 }
 
 }  // namespace BL_SOLVER

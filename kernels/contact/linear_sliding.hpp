@@ -16,11 +16,12 @@ struct LinearSliding {
       {.meaning = "linear: tangential over normal stiffness", .range = above_to(0, 1)});
   }
   BL_HD Real stiffness(const SlidingInput& in) const { return ratio * in.normal.stiffness; }
-  BL_HD Vec3d stretch(const SlidingInput& in, const Vec3d& xi, const Vec3d& step) const {
-    return xi * double(min_of(Real(1), in.before.stiffness / in.normal.stiffness)) + step;
+  BL_HD Real3 stretch(const SlidingInput& in, const Real3& xi, const Real3& step) const {
+    const Real stiffer = max_of(Real(0), in.normal.stiffness - in.before.stiffness);
+    return step - stiffer / in.normal.stiffness * xi;
   }
-  BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {
-    return {-stiffness(in) * Real3(xi), in.normal.damping * std::sqrt(ratio)};
+  BL_HD SlidingState operator()(const SlidingInput& in, const Real3& xi) const {
+    return {-stiffness(in) * xi, in.normal.damping * std::sqrt(ratio)};
   }
   BL_HD Real longest(const SlidingInput& in, Real limit) const { return limit / stiffness(in); }
   BL_HD double stored(const SlidingInput& in, const Vec3d& xi) const {

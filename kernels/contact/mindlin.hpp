@@ -18,14 +18,16 @@ struct Mindlin {
   }
   BL_HD Real stiffness(const SlidingInput& in) const { return 8 * G_star * in.root; }
   /// Unloading shortens the spring with the contact radius; loading keeps its force.
-  BL_HD Vec3d stretch(const SlidingInput& in, const Vec3d& xi, const Vec3d& step) const {
-    const double before = in.overlap_before, now = in.overlap;
-    if (before == 0 || before == now) return xi + step;
-    return xi * std::sqrt(min_of(now, before) / max_of(now, before)) + step;
+  BL_HD Real3 stretch(const SlidingInput& in, const Real3& xi, const Real3& step) const {
+    const Real before = in.overlap_before, now = in.overlap;
+    if (before == 0 || before == now) return step;
+    const Real most = max_of(now, before),
+               less = quotient(std::abs(now - before), most);  // xi (1 - less)^1/2
+    return step - quotient(less, 1 + std::sqrt(1 - less)) * xi;
   }
-  BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {
+  BL_HD SlidingState operator()(const SlidingInput& in, const Real3& xi) const {
     const Real k = stiffness(in);
-    return {-k * Real3(xi), in.normal.damping * std::sqrt(k / in.normal.stiffness)};
+    return {-k * xi, in.normal.damping * std::sqrt(quotient(k, in.normal.stiffness))};
   }
   BL_HD Real longest(const SlidingInput& in, Real limit) const { return limit / stiffness(in); }
   BL_HD double stored(const SlidingInput& in, const Vec3d& xi) const {

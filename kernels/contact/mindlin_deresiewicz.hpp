@@ -17,29 +17,28 @@ struct MindlinDeresiewicz {
     return {Real(m.mu), Real(m.mu * m.tangential / (4 * m.normal)), Real(damping_ratio(m.e))};
   }
   /// Stretch at which the whole contact slips, m.
-  BL_HD double slipping(double overlap) const { return double(slip) * overlap; }
-  BL_HD Vec3d stretch(const SlidingInput& in, const Vec3d& xi, const Vec3d& step) const {
-    const double most = slipping(in.overlap);
-    Vec3d next = xi;
+  BL_HD Real slipping(Real overlap) const { return slip * overlap; }
+  BL_HD Real3 stretch(const SlidingInput& in, const Real3& xi, const Real3& step) const {
+    const Real most = slipping(in.overlap);
+    Real3 change = step;
     if (in.normal.elastic > in.before.elastic) {
-      const double length = norm(xi);
-      const Real force = force_at(fraction(length, slipping(in.overlap_before)));
-      const double now = double(stretch_at(force * in.before.elastic / in.normal.elastic)) * most;
-      if (now < length) next *= now / length;
+      const Real length = norm(xi), force = force_at(fraction(length, slipping(in.overlap_before)));
+      const Real now = stretch_at(force * in.before.elastic / in.normal.elastic) * most;
+      if (now < length) change -= (length - now) / length * xi;
     }
-    next += step;
-    const double length = norm(next);
-    return length > most ? next * (most / length) : next;
+    const Real length = norm(xi + change);
+    if (length > most) change -= (length - most) / length * (xi + change);
+    return change;
   }
-  BL_HD SlidingState operator()(const SlidingInput& in, const Vec3d& xi) const {
-    const double length = norm(xi), most = slipping(in.overlap);
+  BL_HD SlidingState operator()(const SlidingInput& in, const Real3& xi) const {
+    const Real length = norm(xi), most = slipping(in.overlap);
     if (length == 0 || most == 0) return {{}, 0};
     const Real s = fraction(length, most), full = mu * in.normal.elastic;
-    return {Real3(xi) * (-full * force_at(s) / Real(length)),
-            2 * beta * std::sqrt(Real(1.5) * in.m_star * full * std::sqrt(1 - s) / Real(most))};
+    return {xi * (-full * force_at(s) / length),
+            2 * beta * std::sqrt(Real(1.5) * in.m_star * full * std::sqrt(1 - s) / most)};
   }
   BL_HD Real longest(const SlidingInput& in, Real limit) const {
-    const Real full = mu * in.normal.elastic, most = Real(slipping(in.overlap));
+    const Real full = mu * in.normal.elastic, most = slipping(in.overlap);
     return limit < full ? stretch_at(limit / full) * most : most;
   }
   BL_HD double stored(const SlidingInput& in, const Vec3d& xi) const {
@@ -50,8 +49,8 @@ struct MindlinDeresiewicz {
   }
 
  private:
-  BL_HD static Real fraction(double length, double most) {
-    return most > 0 ? min_of(Real(length / most), Real(1)) : Real(1);
+  BL_HD static Real fraction(Real length, Real most) {
+    return most > 0 ? min_of(length / most, Real(1)) : Real(1);
   }
   /// Force over mu F_n at the stretch s over that of slip: 1 - q^3 without cancellation at small s.
   BL_HD static Real force_at(Real s) {

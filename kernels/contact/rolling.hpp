@@ -30,7 +30,10 @@ struct NoRolling {
 
   static constexpr bool is(RollingLaw law) { return law == RollingLaw::none; }
   static NoRolling of(const ContactMaterials&) { return {}; }
-  BL_HD Real3 operator()(const RollingInput&, const Vec3d&) const { return {}; }
+  template <class S>
+  BL_HD Real3 operator()(const RollingInput&, Vec3<S>&) const {
+    return {};
+  }
   BL_HD double stored(Real, Real, const Vec3d&) const { return 0; }
 };
 

@@ -2,7 +2,8 @@
 // Sliding friction: a damped tangential spring xi, limited by mu F_n. Each law has its own header with
 //   is           the name in a case file,
 //   of           parameters from the materials,
-//   stretch      the spring after one more `step` (m),
+//   stretch      how much the spring changes with one more `step` (m): a small difference, found as such,
+//                since springs are sums in fp64,
 //   operator()   force and damping,
 //   longest      the stretch (m) at which the force reaches the limit (N),
 //   stored       energy, J,
@@ -22,8 +23,8 @@ struct SlidingInput {
   NormalState normal, before;  ///< now and at the last evaluation; equal in a new contact
   Real root;                   ///< sqrt(R* overlap), m
   Real m_star;                 ///< kg
-  double overlap;              ///< m, to Real's digits
-  double overlap_before;       ///< m, 0 in a new contact
+  Real overlap;                ///< m
+  Real overlap_before;         ///< m, 0 in a new contact
 };
 
 /// Spring force and damping coefficient for one stretch.
@@ -38,8 +39,8 @@ struct NoSliding {
 
   static constexpr bool is(SlidingLaw law) { return law == SlidingLaw::none; }
   static NoSliding of(const ContactMaterials&) { return {}; }
-  BL_HD Vec3d stretch(const SlidingInput&, const Vec3d&, const Vec3d&) const { return {}; }
-  BL_HD SlidingState operator()(const SlidingInput&, const Vec3d&) const { return {{}, 0}; }
+  BL_HD Real3 stretch(const SlidingInput&, const Real3&, const Real3&) const { return {}; }
+  BL_HD SlidingState operator()(const SlidingInput&, const Real3&) const { return {{}, 0}; }
   BL_HD Real longest(const SlidingInput&, Real) const { return 0; }
   BL_HD double stored(const SlidingInput&, const Vec3d&) const { return 0; }
 };

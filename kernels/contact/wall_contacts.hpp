@@ -22,7 +22,7 @@ struct WallMemory {
     return std::uint64_t(surface) << 32 | feature;
   }
   BL_HD Index surface() const { return Index(key >> 32); }
-  static std::string units() { return "-, -, " + HistoryParts::units(); }
+  static std::string units() { return "-, -, " + ContactHistory::units(); }
 };
 
 template <>

@@ -176,10 +176,10 @@ struct WallContacts {
     const Vec3d point = grain.x - closest.distance * closest.normal;
     const Vec3d r = arm(pose, point);
     ContactGeometry at =
-        wall_contact(grain.sphere, memory.normal, closest.normal, double(grain.R()) - closest.distance);
+        wall_contact(grain.sphere, memory.normal, closest.normal, Real(double(grain.R()) - closest.distance));
     // in the middle of the substep, as the velocity of the grain
-    const Vec3d r_mid =
-        r + closest.distance * (closest.normal - at.n_mid) - 0.5 * double(dt) * (Vec3d(grain.v) - pose.v);
+    const Vec3d r_mid = r + closest.distance * (closest.normal - Vec3d(at.n_mid)) -
+                        0.5 * double(dt) * (Vec3d(grain.v) - pose.v);
     const Vec3d v_wall = surface_velocity(pose, r_mid);
     if (Scope::kFree && pose.free)
       at.m_star /= 1 + at.m_star * Real(free_bodies[pose.free - 1].inverse_effective_mass(pose.rotation, r,

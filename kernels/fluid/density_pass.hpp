@@ -109,7 +109,7 @@ struct DensityPass {
     sum.gradient += VF * r;
     sum.shift.add(VF, v, r, exposure);
     if constexpr (Fit::acts) sum.fit.add_fluid(VF, state.p_over_rho2 * square(rho), r, exposure);
-    const N still = 1 - stiffening * (Real(0.5) * (sum.rho + rho) / rho0 - 1);
+    const N still = 1 + stiffening - (Real(0.5) * stiffening / rho0) * (sum.rho + rho);
     N shared = sum.eps;
     if constexpr (kPorous) shared = Real(0.5) * (sum.eps + state.eps);  // what one gains the other loses
     const N spread = shared * (V * mean_factor(factor)) * pair_length(factor);  // D_a goes with h

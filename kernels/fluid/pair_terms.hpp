@@ -13,7 +13,7 @@ namespace BL_SOLVER {
 /// vary; F: kernel factor.
 template <class N>
 BL_HD N pressure_term(N m_b, N pa, N pb, N F) {
-  return m_b * (pa + pb) * F;
+  return m_b * F * (pa + pb);
 }
 template <class N>
 BL_HD N pressure_term(N m_b, N pa, N pb, const PairFactors<N>& F) {
@@ -59,18 +59,24 @@ struct Viscosity {
   template <class N, class Factor>
   BL_HD Vec3<N> operator()(N m_b, N rho_a, N rho_b, const Vec3<N>& v, const Vec3<N>& r, N r2,
                            const Factor& factor) const {
-    const N F = mean_factor(factor);
-    if (signal > 0) {
-      const N u = quotient(dot(v, r), root(r2 + guard));
-      const N speed = quotient(N(signal + alpha * max_of(u, -u)), N(pair_length(factor)));
-      return quotient(-m_b * speed * u * F, Real(0.5) * (rho_a + rho_b)) * r;
-    }
-    const N k = quotient(-m_b * (2 * mu) * F, rho_a * rho_b);
-    if (central > 0) return quotient(k * central * dot(v, r), r2 + guard) * r;
-    return k * v;
+    const N weight = m_b * mean_factor(factor);
+    if (central > 0) return along_centres(weight, rho_a, rho_b, v, r, r2, N(pair_length(factor)));
+    return shear(weight, rho_a, rho_b) * v;
   }
 
  private:
+  template <class N>
+  BL_HD N shear(N weight, N rho_a, N rho_b) const {
+    return quotient(-weight * (2 * mu), rho_a * rho_b);
+  }
+  template <class N>
+  BL_HD Vec3<N> along_centres(N weight, N rho_a, N rho_b, const Vec3<N>& v, const Vec3<N>& r, N r2,
+                              N length) const {
+    if (!(signal > 0)) return quotient(shear(weight, rho_a, rho_b) * central * dot(v, r), r2 + guard) * r;
+    const N u = quotient(dot(v, r), root(r2 + guard));
+    const N speed = quotient(signal + alpha * max_of(u, -u), length);
+    return quotient(-weight * speed * u, Real(0.5) * (rho_a + rho_b)) * r;
+  }
   /// Integral of F r^3 over that of F r^2, m.
   template <class W>
   static double mean_distance(const W& w) {
@@ -92,10 +98,10 @@ struct ArtificialViscosity {
   BL_HD bool acts() const { return alpha > 0 || beta > 0; }
   template <class N, class Factor>
   BL_HD N term(N m_b, N v_dot_r, N rho_mean, N r2, const Factor& factor) const {
-    const N F = mean_factor(factor);
     const auto length = h * pair_length(factor);
     const N mu = quotient(length * v_dot_r, r2 + Real(0.01) * length * length);
-    return select(v_dot_r < N(0), quotient(m_b * F * (beta * mu * mu - alpha * c * mu), rho_mean), N(0));
+    const N weight = m_b * mean_factor(factor);
+    return select(v_dot_r < N(0), quotient(weight * (mu * (beta * mu - alpha * c)), rho_mean), N(0));
   }
 };
 

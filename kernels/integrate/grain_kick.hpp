@@ -6,31 +6,9 @@
 #include "kernels/boundaries/edges.hpp"
 #include "kernels/contact/grain_mass.hpp"
 #include "kernels/integrate/grain_fields.hpp"
+#include "kernels/integrate/relaxation.hpp"
 
 namespace BL_SOLVER {
-
-/// Relaxation towards the fluid in a time h at the rate k (1/s).
-struct Relaxation {
-  double fraction = 0;  ///< by which the slip decays: 1 - exp(-k h)
-  double lag = 0;       ///< effect of drag on the kick a h: psi(k h) - 1, psi(x) = (1 - exp(-x))/x
-  BL_HD Relaxation(double rate, double h, bool exponential) {
-    const double x = rate * h;
-    if (!(x > 0)) return;
-    if (!exponential) {
-      fraction = x;
-    } else if (x < 1e-4) {
-      fraction = -std::expm1(-x);
-      lag = -x / 2 * (1 - x / 3);
-    } else {
-      fraction = -std::expm1(-x);
-      lag = fraction / x - 1;
-    }
-  }
-  /// Change of v by drag in time h, with the acceleration a by all other forces.
-  BL_HD Vec3d drag(const Vec3d& v, const Vec3d& fluid, const Vec3d& a, double h) const {
-    return fraction * (fluid - v) + (lag * h) * a;
-  }
-};
 
 /// Forces on a grain other than contacts, for the kicks between two evaluations of its contacts.
 struct GrainKick {
@@ -43,16 +21,24 @@ struct GrainKick {
   Span<const Real3> fluid_force = {};
   Span<const Real3> fluid_torque = {};  ///< N m; where fluid flows around the grains
   DragView drag = {};
-  Span<const Real3> drive = {};  ///< N; empty: none
+  Span<GrainRelaxation> relaxation = {};  ///< by `begin`
+  Span<const Real3> drive = {};           ///< N; empty: none
   Edges edges = {};
 
   BL_HD bool wet() const { return bool(drag.coefficient); }
+  /// Finds what is the same in all kicks of an advance; before the first one of grain i.
+  BL_HD void begin(Index i) const {
+    if (!wet()) return;
+    const double m = mass(i), inertia = 0.4 * m * radius[i] * radius[i];
+    relaxation[i] = {Relaxation(drag.coefficient[i] / m, h, exponential),
+                     Relaxation(drag.rot_coefficient[i] / inertia, h, exponential)};
+  }
   /// Prefetches the input of KickedGrain for grain i.
   BL_HD void prefetch(Index i) const {
     if (drive) read_ahead(drive[i]);
     if (!wet()) return;
     read_ahead(fluid_force[i]), read_ahead(drag.velocity[i]), read_ahead(drag.rotation[i]);
-    read_ahead(drag.coefficient[i]), read_ahead(drag.rot_coefficient[i]);
+    read_ahead(relaxation[i]);
   }
   BL_HD double mass(Index i) const { return mass_per_r3(i) * radius[i] * radius[i] * radius[i]; }
   /// Position after a substep from x; a reflecting side changes v, never the spin.
@@ -82,23 +68,22 @@ struct KickedGrain {
         fluid_torque_(turned_ ? Vec3d(k.fluid_torque[i]) : Vec3d{}),
         drive_(driven_ ? Vec3d(k.drive[i]) : Vec3d{}),
         gravity_(k.gravity),
-        slide_(wet_ ? k.drag.coefficient[i] / m_ : 0, k.h, k.exponential),
-        spin_(wet_ ? k.drag.rot_coefficient[i] / inertia_ : 0, k.h, k.exponential),
-        fluid_velocity_(slide_.fraction > 0 ? Vec3d(k.drag.velocity[i]) : Vec3d{}),
-        fluid_angular_velocity_(spin_.fraction > 0 ? Vec3d(k.drag.rotation[i]) : Vec3d{}) {}
+        by_drag_(wet_ ? k.relaxation[i] : GrainRelaxation{}),
+        fluid_velocity_(by_drag_.slide.fraction > 0 ? Vec3d(k.drag.velocity[i]) : Vec3d{}),
+        fluid_angular_velocity_(by_drag_.spin.fraction > 0 ? Vec3d(k.drag.rotation[i]) : Vec3d{}) {}
 
   /// Sets the load of contacts: force (N) and torque (N m).
   BL_HD void load(Vec3d force, Vec3d torque) {
     if (pushed_) force += fluid_force_;
     if (turned_) torque += fluid_torque_;
     if (driven_) force += drive_;
-    a_ = force * (1 / m_) + gravity_;
-    alpha_ = torque * (1 / inertia_);
+    a_ = force * quotient(1.0, m_) + gravity_;
+    alpha_ = torque * quotient(1.0, inertia_);
   }
   /// Kick of half a substep.
   BL_HD void kick() {
-    const Vec3d dv = slide_.drag(v, fluid_velocity_, a_, h_);
-    const Vec3d dw = spin_.drag(omega, fluid_angular_velocity_, alpha_, h_);
+    const Vec3d dv = by_drag_.slide.drag(v, fluid_velocity_, a_, h_);
+    const Vec3d dw = by_drag_.spin.drag(omega, fluid_angular_velocity_, alpha_, h_);
     v += dv + h_ * a_;
     omega += dw + h_ * alpha_;
     impulse += m_ * dv;
@@ -109,7 +94,7 @@ struct KickedGrain {
   bool wet_, pushed_, turned_, driven_;
   double m_, inertia_, h_;
   Vec3d fluid_force_, fluid_torque_, drive_, gravity_, a_, alpha_;
-  Relaxation slide_, spin_;
+  GrainRelaxation by_drag_;
   Vec3d fluid_velocity_, fluid_angular_velocity_;
 };
 

@@ -31,6 +31,7 @@ struct FirstKickPass {
   Velocities<Real3> now, rest;
   DragImpulses impulses;
   BL_HD void operator()(Index i) const {
+    kick.begin(i);
     KickedGrain g(kick, i, Vec3d(now.v[i]), Vec3d(now.omega[i]));
     g.load(Vec3d(force[i]), Vec3d(torque[i]));
     g.kick();

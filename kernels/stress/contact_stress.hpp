@@ -18,10 +18,11 @@ struct ContactStressPass {
       const Index lo = first ? i : j, hi = first ? j : i;  // as in ContactPass
       const Real R_lo = g.radius[lo], R_hi = g.radius[hi];
       const Vec3d r = g.frame.separation(g.x[lo], g.x[hi]);
-      const double distance = norm(r), overlap = double(R_lo) + double(R_hi) - distance;
-      if (!(overlap > 0)) return;
-      const ContactGeometry at = sphere_contact(g.sphere(lo, R_lo), g.sphere(hi, R_hi), r, distance, overlap);
-      ContactHistory h = contacts.histories[slot];
+      const SphereGap gap(r, R_lo, R_hi);
+      if (!gap.overlaps()) return;
+      const ContactGeometry at =
+          sphere_contact(g.sphere(lo, R_lo), g.sphere(hi, R_hi), r, gap.distance, gap.overlap());
+      PairHistory h = contacts.histories[slot];
       sum.add(contacts.law_of(lo, hi)(at, g.v[lo] - g.v[hi], g.omega[lo], g.omega[hi], 0, h).force, Real3(r));
     });
     out[i] = sum.times(Real(0.5));

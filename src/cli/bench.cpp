@@ -229,7 +229,7 @@ Result result_of(const Job& job, const Simulation& simulation, int steps, std::v
   return result;
 }
 
-Result measure(Job& job, const Options& o) {
+Result measure(Job job, const Options& o) {
   Prepared& p = job.p;
   initialise(on_ranks(o, job.ranks), p);
   SavedState bed;
@@ -263,6 +263,8 @@ Result measure(Job& job, const Options& o) {
   if (o.bench.frame_every > 0) {
     std::vector<Repeat> with;
     Frames frames(p.config, p.device);
+    // the first two fetch the memory that all others use again
+    time_steps(*simulation, 2 * o.bench.frame_every, &frames, o.bench.frame_every);
     for (int k = 0; k < o.bench.repeats; ++k)
       with.push_back(time_steps(*simulation, o.bench.steps, &frames, o.bench.frame_every));
     const double ms = 1e3 * median_of(with).seconds / o.bench.steps, part = 100 * (1 - result.ms / ms);
@@ -347,10 +349,23 @@ Json json_of(const Options& o, const Device& device, const std::vector<Result>& 
           {"rows", rows}};
 }
 
+/// The same with each number of threads that is asked for.
+std::vector<Result> measure_with_threads(const Job& job, const Options& o) {
+  if (o.bench.thread_counts.empty()) return {measure(job, o)};
+  std::vector<Result> results;
+  Options with = o;
+  for (const int threads : o.bench.thread_counts) {
+    with.threads = threads;
+    results.push_back(measure(job, with));
+    results.back().cells.push_back({"threads", std::to_string(threads), "threads", threads});
+  }
+  return results;
+}
+
 }  // namespace
 
 int bench(const Options& o) {
-  std::vector<Job> jobs = jobs_of(o);
+  const std::vector<Job> jobs = jobs_of(o);
   const Config& first = jobs.front().p.config;
   Device device = placed(first.places, [&] { return find_device(o.backend, o.threads, first.simd); });
   const std::vector<int> counts = counts_of(o);
@@ -367,10 +382,12 @@ int bench(const Options& o) {
   std::exception_ptr failure;
   for (std::size_t k = 0; k < jobs.size() && !failure; ++k) {
     try {
-      results.push_back(placed(jobs[k].p.config.places, [&] { return measure(jobs[k], o); }));
-      const Result& last = results.back();
       const std::string on = counts.back() > 1 ? fmt::format(", {} ranks", jobs[k].ranks) : "";
-      fmt::print(stderr, "{} {}{}: {:.3f} ms/step\n", last.name, last.precision, on, last.ms);
+      for (const Result& each :
+           placed(jobs[k].p.config.places, [&] { return measure_with_threads(jobs[k], o); })) {
+        fmt::print(stderr, "{} {}{}: {:.3f} ms/step\n", each.name, each.precision, on, each.ms);
+        results.push_back(each);
+      }
       save();
     } catch (...) {
       failure = std::current_exception();

@@ -110,6 +110,12 @@ void add_bench_options(CLI::App& app, Options& o) {
   app.add_option("--precision", b.precisions, "single, mixed or double; repeatable")
       ->check(kPrecisions)
       ->allow_extra_args(false);
+  app.add_option("--thread-counts", b.thread_counts,
+                 "Time each row with these numbers of CPU threads, e.g. 1,2,4,8")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->excludes("--threads")
+      ->check(CLI::Range(1, 1024));
   app.add_option("--at", b.at, "Start timing at this simulated time in s; dam breaks splash at 0.6")
       ->check(CLI::Range(0.0, 1e12));
   app.add_option("--warm", b.warm_up, "Warm-up steps that are not timed; default: 20")

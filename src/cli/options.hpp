@@ -14,6 +14,7 @@ struct BenchOptions {
   std::vector<double> widths;           ///< of dam breaks, m
   std::vector<std::string> precisions;  ///< empty: that of the case
   std::vector<int> devices, ranks;      ///< into how many parts of GPUs or of the CPU to divide; empty: one
+  std::vector<int> thread_counts;       ///< of the CPU, one after another; empty: that of all commands
   double at = 0;                        ///< simulated time at which timing starts, s
   int warm_up = 20, steps = 200, repeats = 3;
   bool default_settings = false;

@@ -24,7 +24,7 @@ class ArrivingContacts {
   struct Records : Store {
     Records() : Store("contacts") {}
     Field<Id> own{*this, "own", "-", Lifetime::kept}, other{*this, "other", "-", Lifetime::kept};
-    Field<ContactHistory> history{*this, "history", HistoryParts::units(), Lifetime::kept};
+    Field<ContactHistory> history{*this, "history", ContactHistory::units(), Lifetime::kept};
   } records_;
   Buffer<std::uint32_t> own_;  ///< of those that have come, ascending
   Buffer<Index> order_;        ///< the record of each

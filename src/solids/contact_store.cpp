@@ -52,7 +52,7 @@ HostStore SolidSolver::save_contacts(const GrainStore& grains, const HostArray* 
   HostStore out{
       "contacts",
       kept.size(),
-      {to_array("lo", "-", lo), to_array("hi", "-", hi), to_array("history", HistoryParts::units(), kept)}};
+      {to_array("lo", "-", lo), to_array("hi", "-", hi), to_array("history", ContactHistory::units(), kept)}};
   if (spectra_) out.arrays.push_back(to_array("loss", "J", kept_loss));
   if (blocks) out.arrays.push_back(to_array("block", "-", block));
   return out;
@@ -70,7 +70,7 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
 
   const Id* lo = from_array<Id>(contacts, "lo", "-");
   const Id* hi = from_array<Id>(contacts, "hi", "-");
-  const ContactHistory* kept = from_array<ContactHistory>(contacts, "history", HistoryParts::units());
+  const ContactHistory* kept = from_array<ContactHistory>(contacts, "history", ContactHistory::units());
   const ContactLoss* kept_loss =
       spectra_ && contacts.find("loss") ? from_array<ContactLoss>(contacts, "loss", "J") : nullptr;
   std::map<std::uint64_t, std::size_t> by_pair;

@@ -72,8 +72,6 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
       bodies_(bodies),
       clumps_(parameters, frame, grains),
       levels_(frame),
-      histories_(parameters.pair_laws),
-      old_histories_(parameters.pair_laws),
       wall_list_(frame, walls, skin(), film_range(parameters.d_max / 2)),
       load_bounds_(bounds_of_loads(parameters, frame)),
       arriving_(std::make_unique<ArrivingContacts>()) {
@@ -327,6 +325,7 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
   if (wet_) {
     kick.fluid_force = g.fluid_force;
     kick.drag = drag_of(std::as_const(g));
+    kick.relaxation = relaxation_;
   }
   if (fluid_torque_) {
     kick.fluid_force = std::as_const(g.fluid_force);

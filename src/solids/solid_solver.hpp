@@ -12,6 +12,7 @@
 #include "bedload/simulation.hpp"
 #include "kernels/contact/lubrication_pass.hpp"
 #include "kernels/contact/registry.hpp"
+#include "kernels/integrate/relaxation.hpp"
 #include "kernels/stress/pair_moment.hpp"
 #include "src/solids/clumps.hpp"
 #include "src/solids/contact_frames.hpp"
@@ -119,7 +120,7 @@ class SolidSolver {
     const std::size_t by_level = parameters_.d_max < 2 * parameters_.d_min ? 0 : sizeof(Index);
     return {.grains = of_grains_.entry_bytes() + (books_ ? EnergyBooks::kScratch : 0) +
                       (forces_ ? sizeof(Real3) * walls_.contacts() : 0),
-            .near_grains = sizeof(Index) + by_level + histories_.entry_bytes() +
+            .near_grains = sizeof(Index) + by_level + PairHistoryBuffers::kBytes +
                            (books_ ? sizeof(ContactAction) : 0) + (spectra_ ? 2 * sizeof(ContactLoss) : 0) +
                            (forces_ ? sizeof(Real3) : 0)};
   }
@@ -300,7 +301,8 @@ class SolidSolver {
   Buffer<Index> order_;
   Scratch of_grains_;
   ScratchArray<ContactSum> by_films_{of_grains_, lubricates()};
-  ScratchArray<Vec3d> next_x_{of_grains_};  ///< of advance, as what follows
+  ScratchArray<GrainRelaxation> relaxation_{of_grains_, wet_};  ///< of advance
+  ScratchArray<Vec3d> next_x_{of_grains_};                      ///< of advance, as what follows
   ScratchArray<Real3> next_v_{of_grains_}, next_omega_{of_grains_}, v_rest_{of_grains_},
       omega_rest_{of_grains_};
 };

@@ -53,6 +53,20 @@ TEST_F(Bench, TimesTheStepsOfACaseByStage) {
   EXPECT_LE(stages, ms);
 }
 
+TEST_F(Bench, TimesRowsWithSeveralNumbersOfThreads) {
+  write("dam.toml", kSmall);
+  const Outcome o = bedload(
+      "bench dam.toml --backend cpu --precision mixed --warm 1 --steps 2 --spans 1 --thread-counts 1,2 "
+      "--json "
+      "speed.json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto rows = nlohmann::json::parse(content_of(dir_ / "speed.json")).at("rows");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].at("threads"), 1);
+  EXPECT_EQ(rows[1].at("threads"), 2);
+  EXPECT_NE(o.out.find("threads |"), std::string::npos) << o.out;
+}
+
 TEST_F(Bench, TimesFramesAndRemovesThem) {
   write("dam.toml", kSmall);
   const auto folders = [] {

@@ -2,63 +2,35 @@
 
 #include "src/solids/pair_histories.hpp"
 
-#include "tests/support/contact_law.hpp"
 #include "tests/support/grain_bench.hpp"
 
 namespace BL_SOLVER {
 namespace {
 
-ContactLaw law_of(SlidingLaw sliding, RollingLaw rolling) {
-  GrainBench bench;
-  bench.config.contact.tangential = sliding;
-  bench.config.contact.rolling = rolling;
-  bench.config.grain.mu_r = 0.1;
-  return contact_law_of(bench.config);
-}
-
 const ContactHistory kSome{{1, 2, 3}, {4, 5, 6}, 0.5, -0.25};
 
-TEST(PairHistories, KeepTheirPartsByTheLaws) {
-  struct Case {
-    SlidingLaw sliding;
-    RollingLaw rolling;
-    bool spring, couple;
-  };
-  for (const Case& c : {Case{SlidingLaw::none, RollingLaw::none, false, false},
-                        Case{SlidingLaw::mindlin, RollingLaw::none, true, false},
-                        Case{SlidingLaw::mindlin, RollingLaw::cdt, true, false},
-                        Case{SlidingLaw::none, RollingLaw::epsd, false, true},
-                        Case{SlidingLaw::mindlin, RollingLaw::epsd, true, true}}) {
-    PairHistoryBuffers buffers({law_of(c.sliding, c.rolling)});
-    EXPECT_EQ(buffers.entry_bytes(), 1 + 2 * sizeof(Real) + (c.spring + c.couple) * sizeof(Vec3d));
-    buffers.assign({kSome, {}});
-    const std::vector<ContactHistory> all = buffers.to_host();
-    ASSERT_EQ(all.size(), 2u);
-    EXPECT_EQ(all[0].xi, c.spring ? kSome.xi : Vec3d{});
-    EXPECT_EQ(all[0].couple, c.couple ? kSome.couple : Vec3d{});
-    EXPECT_EQ(all[0].overlap, 0.5);
-    EXPECT_EQ(all[0].recede, -0.25);
-    EXPECT_EQ(all[1].overlap, 0);
+TEST(PairHistories, KeepEachPart) {
+  EXPECT_EQ(PairHistoryBuffers::kBytes, 1 + 8 * sizeof(Real));
+  PairHistoryBuffers buffers;
+  buffers.assign({kSome, {}});
+  const std::vector<ContactHistory> all = buffers.to_host();
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].xi, kSome.xi);
+  EXPECT_EQ(all[0].couple, kSome.couple);
+  EXPECT_EQ(all[0].overlap, 0.5);
+  EXPECT_EQ(all[0].recede, -0.25);
+  EXPECT_EQ(all[1].overlap, 0);
 
-    PairHistoryBuffers other({law_of(c.sliding, c.rolling)});
-    other.swap(buffers);
-    EXPECT_EQ(other.to_host()[0].xi, all[0].xi);
-    EXPECT_TRUE(buffers.to_host().empty());
-    other.reset(3);
-    for (const ContactHistory& h : other.to_host()) EXPECT_EQ(h.overlap, 0);
-  }
-}
-
-/// Some pairs of materials may roll without friction, the first too.
-TEST(PairHistories, KeepWhatAnyPairOfMaterialsNeeds) {
-  PairHistoryBuffers buffers(
-      {law_of(SlidingLaw::mindlin, RollingLaw::none), law_of(SlidingLaw::mindlin, RollingLaw::epsd)});
-  buffers.assign({kSome});
-  EXPECT_EQ(buffers.to_host()[0].couple, kSome.couple);
+  PairHistoryBuffers other;
+  other.swap(buffers);
+  EXPECT_EQ(other.to_host()[0].xi, all[0].xi);
+  EXPECT_TRUE(buffers.to_host().empty());
+  other.reset(3);
+  for (const ContactHistory& h : other.to_host()) EXPECT_EQ(h.overlap, 0);
 }
 
 TEST(PairHistories, DescribeTheColumnsOfCheckpoints) {
-  EXPECT_EQ(HistoryParts::units(), "m, N m, m, m/s");
+  EXPECT_EQ(ContactHistory::units(), "m, N m, m, m/s");
   EXPECT_EQ(WallMemory::units(), "-, -, m, N m, m, m/s");
   EXPECT_EQ(FileType<ContactHistory>::components, 8);
   EXPECT_EQ(FileType<WallMemory>::components, 12);

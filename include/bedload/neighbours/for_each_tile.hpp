@@ -143,9 +143,12 @@ struct TileLoop {
     const Index threads = Mergeable<Pass> ? 1 : lane.count;  // whose entries this one takes
     for (Index thread = threadIdx.x; thread < threadIdx.x + threads; ++thread) {
       const uint2* entry = list.entry + list.first_word(blockIdx.x, thread);
-      for (int left = list.count[blockIdx.x * kTileThreads + thread]; left > 0; left -= 4) {
-        const uint2 word = *entry;
+      int left = list.count[blockIdx.x * kTileThreads + thread];
+      uint2 next = left > 0 ? *entry : uint2{};
+      for (; left > 0; left -= 4) {
+        const uint2 word = next;
         entry += kTileThreads;
+        if (left > 4) next = *entry;  // while these pairs are worked on
         f(word.x & 0xffff);
         f(word.x >> 16);
         f(word.y & 0xffff);

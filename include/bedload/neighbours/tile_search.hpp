@@ -166,6 +166,7 @@ __device__ void search_tile(const TileSearch<P>& s, const Index tile) {
   __shared__ Index local[kSlots];         // number of its first particle, or of the next cell's
   static_assert(kSlots > BrickCells::kCells);
   __shared__ Index sums[kWarps], first_source, first_word, most;
+  __shared__ float widest[kWarps];  // half skin of the particles around
   extern __shared__ uint4 staged[];
 
   const Index t = threadIdx.x, warp = t / 32, lane_of_warp = t % 32;
@@ -179,11 +180,14 @@ __device__ void search_tile(const TileSearch<P>& s, const Index tile) {
   const Index i = first + lane.row;
   const bool some = i < end;
   CellsAround around;
+  BrickCells brick;
+  const Vec3d corner = coordinates(s.frame, s.x[first]);
+  for (int k = 0; k < 3; ++k) brick.base[k] = s.grid.coordinate(corner[k], k) & ~7;
+  const auto block_of = [&](double skin) {
+    return s.grid.block(coordinates(s.frame, s.x[i]), s.range + s.skins[i] + skin);
+  };
   if (some) {
-    BrickCells brick;
-    const Vec3d corner = coordinates(s.frame, s.x[first]);
-    for (int k = 0; k < 3; ++k) brick.base[k] = s.grid.coordinate(corner[k], k) & ~7;
-    const auto block = s.grid.block(coordinates(s.frame, s.x[i]), s.range + s.skins[i] + s.skins.most);
+    const CellGridView::Block block = block_of(s.skins.most);
     around = CellsAround(s.grid, brick, block);
     around.each(int(lane.index), int(lane.count), [&](int slot, const int(&along)[3]) {
       int c[3];
@@ -224,8 +228,20 @@ __device__ void search_tile(const TileSearch<P>& s, const Index tile) {
   const PairPosition origin = s.xp[first];
   const auto from_origin = [&](Index j) { return s.frame.separation(s.xp[j], origin); };
   const bool fits = to_stage <= s.memory;
-  if (fits) each_particle([&](Index number, Index j) { near[number] = {from_origin(j), s.skins[j]}; });
+  float most_skin = 0;
+  if (fits)
+    each_particle([&](Index number, Index j) {
+      const Real skin = s.skins[j];
+      near[number] = {from_origin(j), skin};
+      most_skin = fmaxf(most_skin, __double2float_ru(double(skin)));
+    });
+  for (unsigned step = 16; step > 0; step /= 2)
+    most_skin = fmaxf(most_skin, __shfl_xor_sync(0xffffffffu, most_skin, step));
+  if (lane_of_warp == 0) widest[warp] = most_skin;
   __syncthreads();
+  for (Index w = 0; w < kWarps; ++w) most_skin = fmaxf(most_skin, widest[w]);
+  if (some && fits && most_skin < 0.9 * s.skins.most)  // where all are slow they need not look as far
+    around = CellsAround(s.grid, brick, block_of(most_skin + 1e-6 * s.range));
   ThreadEntries list{s.found + std::size_t(blockIdx.x) * s.words * kTileThreads + t, s.words};
   if (some) {
     const Vec3<Real> a = from_origin(i);
@@ -409,8 +425,8 @@ void TileList::build(Index of_rows, const CellGrid& grid, const Frame& frame, Sp
 }
 
 template <class P>
-void TileList::search(const CellGrid& grid, const Frame& frame, Span<const P> x,
-                      Span<const PairPosition> xp, double range, const HalfSkins& skins) {
+void TileList::search(const CellGrid& grid, const Frame& frame, Span<const P> x, Span<const PairPosition> xp,
+                      double range, const HalfSkins& skins) {
   counts_.resize(1);
   const auto search = bits_ == 0 ? detail::tile_search<true, P> : detail::tile_search<false, P>;
   check_cuda(cudaFuncSetAttribute(search, cudaFuncAttributeMaxDynamicSharedMemorySize, int(tile_memory())),
