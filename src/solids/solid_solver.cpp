@@ -14,25 +14,6 @@
 namespace BL_SOLVER {
 namespace {
 
-struct WrapGrains {
-  Frame frame;
-  Span<Vec3d> x;
-  BL_HD void operator()(Index i) const { x[i] = frame.wrap(x[i]); }
-};
-
-/// Composes the order of a sort with what was before it: former indices as of the last lists.
-struct SourceIndexPass {
-  Span<const Index> kept;  ///< of what moved between ranks; empty where nothing did
-  Index before;            ///< of grains before that: those from there on have come
-  Span<const Index> source_index;
-  Span<Index> order;
-  BL_HD void operator()(Index i) const {
-    Index place = order[i];
-    if (kept) place = kept[place];
-    order[i] = kept && place >= before ? kNone : source_index ? source_index[place] : place;
-  }
-};
-
 /// The force on the largest grain that laws give it when it is pressed flat, N.
 double flattening_force(const std::vector<ContactLaw>& laws, double R) {
   double force = 0;
@@ -103,91 +84,6 @@ std::vector<const FieldBase*> SolidSolver::fields_of_contacts() const {
   for (const auto& memory : wall_memory_) out.push_back(memory.get());
   if (spectra_ && spectra_->field()) out.push_back(spectra_->field());
   return out;
-}
-
-void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal) {
-  for_each(grains.owned(), WrapGrains{frame_, grains.x});
-  if (renewal.any || !levels_.chosen()) choose_levels(grains);
-  if (Context::current().several() && !follows_ && unbalanced(grains)) divide(grains, grid, grains.x);
-  relist(grains, grid, grains.x, renewal);
-}
-
-void SolidSolver::relist(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x,
-                         const GrainRenewal& renewal) {
-  const bool several = Context::current().several(), moved = &x != &grains.x_list;
-  const Index before = grains.owned().size();
-  const bool listed = list_.rows() == (renewal.any ? renewal.before : before);
-  const Span<const Index> source_index = renewal.any ? renewal.source_index : Span<const Index>();
-  Buffer<Index> kept;
-  if (several) migrate(grains, grid, x, source_index, listed, kept);
-  sort(x.span(), grains, grid);
-  moved ? grains.reorder(order_) : grains.keep(order_);
-  grains.count();
-  if (kept.data() || renewal.any)
-    for_each(grains.owned(), SourceIndexPass{kept, before, source_index, order_});
-  if (several) make_ghosts_of(grains, grid, x);
-  if (moved) grains.x_list.copy(grains.x);
-  std::swap(list_, old_list_);
-  listed_id_.swap(former_id_);
-  histories_.swap(old_histories_);
-  if (spectra_) spectra_->put_aside();
-  build_list(grains, grid);
-  if (!listed) return;
-  const CarryHistoryPass carry{.from = old_list_.view(),
-                               .to = list_.view(),
-                               .long_rows = long_rows_.view(),
-                               .order = order_,
-                               .former_id = former_id_,
-                               .id = listed_id_,
-                               .old_histories = old_histories_.view(),
-                               .histories = histories_.view(),
-                               .old_losses = spectra_ ? spectra_->old_of_pairs() : nullptr,
-                               .losses = spectra_ ? spectra_->of_pairs().data() : nullptr};
-  for_each(grains.owned(), carry);
-  for_each({0, long_rows_.pieces() * LongRowsView::kPiece}, CarryLongHistoryPass{carry});
-  if (several) arriving_->settle(grains.owned(), order_, listed_id_, list_.view(), histories_.view());
-}
-
-void SolidSolver::choose_levels(const GrainStore& grains) {
-  if (parameters_.d_max < 2 * parameters_.d_min)
-    levels_.unite();
-  else
-    levels_.choose(grains.radius.values(), parameters_.d_max / 2, skin());
-}
-
-void SolidSolver::sort(Span<const Vec3d> x, const GrainStore& grains, CellGrid& grid) {
-  if (in_levels())
-    levels_.sort(x, grains.radius.span(), order_);
-  else
-    grid.sort<Vec3d>(frame_, x, order_, grains.id);
-}
-
-void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
-  clumps_.place(grains);
-  GrainNear near{.frame = frame_,
-                 .x = grains.x_list.span(),
-                 .radius = grains.radius.span(),
-                 .clump = clumps_.of_grains(),
-                 .largest = 0.5 * parameters_.d_max,
-                 .skin = skin(),
-                 .film = film_range(1)};
-  // few lanes: rows are short, and contacts use so many registers that more threads would not run at once
-  const unsigned bits = std::min(lane_bits(Index(grains.everywhere()), 3u << 14), 3u);
-  if (in_levels())
-    level_lists_.build(list_, levels_, near, bits);
-  else
-    list_.build(grains.owned().size(), grid.view(), near, bits);
-  long_rows_.cut(list_, in_levels() ? levels_.particles(levels_.count() - 1).begin : 0);
-  by_pieces_.reserve_and_resize(long_rows_.pieces());
-  near.film = 0;
-  for_each(grains.owned(), ContactsFirstPass{near, list_.view(), long_rows_.view(), list_.entries()});
-  histories_.reset(list_.slots());
-  listed_id_.reserve_and_resize(grains.size());
-  copy_on_device(listed_id_.data(), grains.id.span().data, grains.size() * sizeof(Id));
-  listed_by_ = grid.ownership();
-  wall_list_.forget();
-  if (spectra_) spectra_->renew(list_.slots());
-  if (forces_) forces_->forget();
 }
 
 // -- limits ------------------------------------------------------------------
