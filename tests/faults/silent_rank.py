@@ -20,7 +20,7 @@ from pathlib import Path
 
 CASE = """[domain]
 min = [0, 0, 0]
-max = [0.6, 0.1, 0.3]
+max = [0.6, 0.1, 0.6]
 [fluid]
 dx = 0.01
 [[fluid.fill]]
@@ -30,14 +30,14 @@ max = [0.2, 0.1, 0.2]
 name = "tank"
 shape = "tank"
 min = [0, 0, 0]
-max = [0.6, 0.1, 0.3]
+max = [0.6, 0.1, 0.6]
 faces = ["x-", "x+", "y-", "y+", "z-"]
 [run]
 block = 1
 [time]
-end = 0.2
+end = 0.06
 [out]
-every = 0.1
+every = 0.03
 [checkpoint]
 every = 0.02
 """
