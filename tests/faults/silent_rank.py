@@ -94,7 +94,7 @@ def main():
         except subprocess.TimeoutExpired:
             broken.kill()
             code = "none, it hangs"
-        error = broken.stderr.read().strip()
+        error = broken.stderr.read().strip().split("\n")[-1]  # after warnings
         told = code == 2 and re.fullmatch(r"rank [01] has not responded for 60 s, in \w+ of step \d+; "
                                           r"the last good checkpoint is out/checkpoints/\S+", error)
         print(f"exit code {code} after {time.monotonic() - begin:.0f} s, \"{error}\"")
