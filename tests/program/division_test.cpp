@@ -60,7 +60,8 @@ TEST_F(DividedProgram, CheckSaysWhatEachRankHas) {
 TEST_F(DividedProgram, BenchMakesTablesOfScaling) {
   write("pool.toml", kPool);
   const Outcome o = bedload(
-      "bench pool.toml --widths 0.02 --set run.block=1 --backend cpu --ranks 2,1 --warm 1 --steps 4 --spans "
+      "bench pool.toml --widths 0.02 --set run.block=1 --set fluid.dx=0.01 --backend cpu --ranks 2,1 --warm "
+      "1 --steps 4 --spans "
       "1 --json "
       "speed.json");
   ASSERT_EQ(o.code, 0) << o.err;
