@@ -138,8 +138,9 @@ std::string list_text(const std::string& name) {
 }
 
 std::string list_json(const std::string& name) {
-  static constexpr std::array kinds{"boolean",  "integer", "number",  "text",    "vector", "formulas",
-                                    "booleans", "faces",   "numbers", "vectors", "texts",  "rows"};
+  static constexpr std::array kinds{"boolean",  "integer",  "number", "text",    "vector",
+                                    "formulas", "booleans", "faces",  "numbers", "vectors",
+                                    "texts",    "rows",     "spheres"};
   auto out = nlohmann::ordered_json::array();
   const auto add_words = [&](std::span<const Word> words) {
     for (const Word& word : words)

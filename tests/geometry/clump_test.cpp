@@ -20,7 +20,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 /// A rod of three spheres, in a case that is right; `keys` of its fill.
 std::string rods(const std::string& keys, const std::string& more = "") {
-  return R"([domain]
+  return std::string(R"([domain]
 min = [0, 0, 0]
 max = [0.1, 0.1, 0.1]
 [[clump]]
@@ -29,11 +29,8 @@ spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]
 [grain]
 d = 0.006
 [[grain.fill]]
-min = [0, 0, 0]
-max = [0.1, 0.1, 0.1]
-clump = "rod"
-)" + keys +
-         "\n[time]\nend = 0.1\n[out]\nevery = 0.1\n" + more;
+)") + (keys.starts_with("positions") ? "" : "min = [0, 0, 0]\nmax = [0.1, 0.1, 0.1]\n") +
+         "clump = \"rod\"\n" + keys + "\n[time]\nend = 0.1\n[out]\nevery = 0.1\n" + more;
 }
 
 Setup placed(const Config& c) {
@@ -159,11 +156,11 @@ TEST(ClumpCase, SaysWhatIsWrong) {
          "grain.fill.clump = \"road\" must name a clump; this case has rod");
   expect(with("[1, 0, 0, 1]]", "[1, 0, 0, 0]]"), "clump.spheres = [.., r = 0] must have radii > 0");
   expect(with("[1, 0, 0, 1]]", "[1, 0, 0]]"), "must be a list of spheres [[x, y, z, r], ...]");
-  expect(with("spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]", ""), "clump.spheres must be given");
+  expect(with("spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]", ""), "clump.0.spheres must be given");
   expect(with("[[clump]]", "[[clump]]\nname = \"rod\"\nspheres = [[0, 0, 0, 1]]\n[[clump]]"),
          "clump.name = \"rod\" must differ from other clumps'");
   expect(with("spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]", "shape = \"rock\""),
-         "clump.count must be given");
+         "clump.0.count must be given");
   expect(rods("count = 20\norientation = [0, 90]\n"), "grain.fill.orientation");
   expect(rods("count = 20\n[grain.fill.rigid]\n"), "grain.fill.rigid");
   expect(rods("count = 20\n", "[[outlet]]\nname = \"end\"\nmin = [0, 0, 0]\nmax = [0.01, 0.1, 0.1]\n"),
