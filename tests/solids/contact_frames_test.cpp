@@ -104,6 +104,7 @@ TEST(ContactFrames, AreAfterARestartToTheLastBit) {
   c.wall.bodies = {floor};
   c.grain.present = true;
   c.grain.d = c.grain.d_min = c.grain.d_max = 2e-3;
+  c.grain.e = 0.1;
   c.grain.fills.resize(1);
   bedload::Setup setup;
   for (int k = 0; k < 12; ++k) {
