@@ -287,7 +287,7 @@ TEST_F(TableCase, WaveMakersMoveAlongTheirWaves) {
             std::string::npos);
   EXPECT_EQ(refused("flap", 0.05, "centre = [0, 0, 0]\nwave_order = 1\n"), "");
   EXPECT_NE(error_of(moving("kind = \"piston\"\nwave_height = 0.004\nwave_period = 0.2\nwave_depth = 0.2\n"))
-                .find("wave_depth = 0.2 must be at most 0.187 m, three wavelengths, with wave_order = 2"),
+                .find("wave_depth = 0.2 must be at most 0.1874 m, three wavelengths, with wave_order = 2"),
             std::string::npos);
   EXPECT_NE(refused("piston", 0.01, "wave_direction = [0, 0, 1]\n").find("must not be vertical"),
             std::string::npos);
