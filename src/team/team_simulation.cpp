@@ -29,8 +29,8 @@ class TeamSimulation final : public Simulation {
     return first_of([](Simulation& s) { return s.step(); });
   }
   void settle(double longest, const std::function<void(double)>& progress) override {
-    workers_.run([&](int rank) {
-      parts_[std::size_t(rank)]->settle(
+    workers_.run([parts = parts_, longest, progress](int rank) {
+      (*parts)[std::size_t(rank)]->settle(
           longest, rank == 0 ? progress : [](double) {});
     });
   }
