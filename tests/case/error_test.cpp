@@ -310,9 +310,9 @@ at = [0.01, 0.05, 0]
   for (const ParameterRow& row : parameter_table()) {
     std::string path = row.key;
     bool listed = true;  // in the lists that this case has
-    for (const std::string list :
-         {"inlet.", "grain_inlet.", "wall.body.motion.add.", "frame.motion.add.", "wall.body.free.contact.",
-          "grain.fill.sizes.", "grain.material.", "contact.pair.", "fluid.species."})
+    for (const std::string list : {"inlet.", "grain_inlet.", "wall.body.motion.add.", "frame.motion.add.",
+                                   "wall.body.free.contact.", "wall.body.free.scatter.", "grain.fill.sizes.",
+                                   "grain.material.", "contact.pair.", "clump.", "fluid.species."})
       listed = listed && !row.key.starts_with(list);
     if (!listed) continue;
     for (const std::string list : {"fluid.fill.", "wall.body.", "grain.fill.", "shape.", "outlet.", "probe."})

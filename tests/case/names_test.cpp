@@ -20,6 +20,7 @@ const std::map<std::string, std::string> kNamed{
     {"grain_inlet", "min = [0.1, 0, 0.1]\nmax = [0.2, 0.1, 0.2]\nrate = 10\n"},
     {"grain.material", "rho = 2000\n"},
     {"fluid.species", "mu = 0.001\n"},
+    {"clump", "spheres = [[0, 0, 0, 1]]\n"},
     {"probe", "type = \"front\"\n"},
 };
 
