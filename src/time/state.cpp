@@ -78,10 +78,13 @@ void fill_grains(const Config& config, const Setup& setup, GrainStore& grains) {
   grains.x.assign(g.x);
   grains.v.assign(converted<Real3>(g.v));
   if (!g.omega.empty()) grains.omega.assign(converted<Real3>(g.omega));
-  std::vector<std::uint32_t> of_fill, material;
-  for (std::size_t k = 0; k < config.grain.fills.size(); ++k) of_fill.push_back(config.grain.material_of(k));
-  for (const std::uint32_t fill : g.fill) material.push_back(of_fill[fill]);
-  if (grains.material.used()) grains.material.assign(material);
+  if (grains.material.used()) {
+    std::vector<std::uint32_t> of_fill, material;
+    for (std::size_t k = 0; k < config.grain.fills.size(); ++k)
+      of_fill.push_back(config.grain.material_of(k));
+    for (const std::uint32_t fill : g.fill) material.push_back(of_fill[fill]);
+    grains.material.assign(material);
+  }
   grains.radius.assign(converted<Real>(g.radius));
   grains.eps.assign(std::vector<Real>(g.x.size(), Real(1)));
   std::vector<Real> clump_d;

@@ -563,7 +563,8 @@ TEST(RankLimits, NameWhatCannotBeDividedYet) {
   };
   EXPECT_EQ(refused(kDam, {}), "");
   EXPECT_EQ(refused(kDrum, {}), "");
-  EXPECT_EQ(refused(test::kBed + test::kFloat, {}), "");
+  EXPECT_EQ(refused(kDam + kSlurry + test::kFloat, {}), "");
+  EXPECT_EQ(refused(test::kBed, {}), "grain.fill.1.rigid");
   EXPECT_EQ(refused(kDrum + "[[grain.fill]]\nmin = [0, 0, 0]\nmax = [0.01, 0.01, 0.01]\ncount = "
                             "2\n[[grain.fill.sizes]]\nd = 0.005\n[[grain.fill.sizes]]\nd = 0.002\n",
                     {}),

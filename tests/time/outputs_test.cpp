@@ -44,8 +44,8 @@ TEST(Outputs, OfFramesHaveTheirOrder) {
                    "porosity [-] 1", "id [-] 1"}));
   EXPECT_EQ(names_of(coupled.simulation.snapshot("grains").arrays),
             (Names{"position [m] 3", "velocity [m/s] 3", "angular_velocity [rad/s] 3", "radius [m] 1",
-                   "contact_force [N] 3", "drag_force [N] 3", "fluid_force [N] 3", "porosity [-] 1",
-                   "wetness [-] 1", "id [-] 1"}));
+                   "contact_force [N] 3", "clump [-] 1", "drag_force [N] 3", "fluid_force [N] 3",
+                   "porosity [-] 1", "wetness [-] 1", "id [-] 1"}));
   EXPECT_EQ(names_of(coupled.simulation.snapshot("walls").arrays),
             (Names{"position [m] 3", "velocity [m/s] 3", "pressure [Pa] 1", "body [-] 1", "id [-] 1"}));
   EXPECT_TRUE(coupled.simulation.snapshot("gas").arrays.empty());
@@ -107,7 +107,7 @@ TEST(Outputs, HoldWhatTheFieldsHold) {
       ++seen;
     }
   }
-  EXPECT_EQ(seen, 4 + 9 + 3);
+  EXPECT_EQ(seen, 4 + 10 + 3);
 #endif
 }
 
@@ -170,16 +170,13 @@ TEST(ScratchBytes, AreThoseOfTheCase) {
     return bytes;
   };
   const ParticleBytes water = known(kTank + kFluid, {}), bed = known(kBed, {}),
-                      one_way = known(kBed, {"couple.mode=one_way"}),
-                      free_rolling = known(kBed, {"contact.rolling=none"}),
+                      spectra = known(kTank + test::kGrains, {"out.spectra=true"}),
                       collisions = known(kTank + kFluid, {"visc.collision=true"});
   EXPECT_EQ(water.grains, 0u);
   EXPECT_EQ(water.near_grains, 0u);
   EXPECT_EQ(collisions.fluid - water.fluid, sizeof(Real4));
-  EXPECT_EQ(bed.fluid - one_way.fluid, sizeof(Real));
-  EXPECT_EQ(bed.grains - one_way.grains, 4 * sizeof(Real4));
-  EXPECT_EQ(bed.near_grains - free_rolling.near_grains, sizeof(Vec3d));
-  EXPECT_EQ(free_rolling.near_grains, sizeof(Index) + 1 + 2 * sizeof(Real) + sizeof(Vec3d));
+  EXPECT_EQ(bed.near_grains, sizeof(Index) + 1 + 2 * sizeof(Real4));
+  EXPECT_EQ(spectra.near_grains - bed.near_grains, sizeof(ContactAction) + 2 * sizeof(ContactLoss));
 }
 
 }  // namespace

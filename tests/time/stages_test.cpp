@@ -162,12 +162,12 @@ TEST(Stages, WriteWhatTheyNameAndNothingElse) {
   }
   named.erase("renew_lists");
   // rare: least density and porosity, walls that turn drift away, drag that may be stiff; stores of bodies
-  // and groups are named as a whole
+  // and clumps are named as a whole
   const Names rare{"fluid_state fluid/compression", "porosity fluid/solid_factor", "repel fluid/drift",
                    "interpolate fluid/drag_rate"};
   for (const auto& [stage, fields] : named)
     for (const std::string& field : fields)
-      if (field.find("bod") != 0 && field.find("groups/") != 0 && field.find("grains/wall_memory") != 0 &&
+      if (field.find("bod") != 0 && field.find("clumps/") != 0 && field.find("grains/wall_memory") != 0 &&
           !rare.contains(stage + " " + field)) {
         EXPECT_TRUE(changed[stage].contains(field)) << stage << " never changed " << field;
       }
