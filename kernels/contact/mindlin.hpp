@@ -21,8 +21,8 @@ struct Mindlin {
   BL_HD Real3 stretch(const SlidingInput& in, const Real3& xi, const Real3& step) const {
     const Real before = in.overlap_before, now = in.overlap;
     if (before == 0 || before == now) return step;
-    const Real most = max_of(now, before),
-               less = quotient(std::abs(now - before), most);  // xi (1 - less)^1/2
+    // xi (1 - less)^1/2; where almost nothing is left, a quotient of a GPU may round to above 1
+    const Real less = min_of(quotient(std::abs(now - before), max_of(now, before)), Real(1));
     return step - quotient(less, 1 + std::sqrt(1 - less)) * xi;
   }
   BL_HD SlidingState operator()(const SlidingInput& in, const Real3& xi) const {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "bedload/case/contact_laws.hpp"
+#include "bedload/parallel/loops.hpp"
 #include "kernels/contact/registry.hpp"
 #include "kernels/drag/registry.hpp"
 #include "kernels/fluid/pair_terms.hpp"
@@ -123,6 +124,30 @@ TEST(SmallContactLaws, GiveOppositeForcesThatKeepAngularMomentum) {
       const Vec3d total = cross(here.r, Vec3d(a.force)) + Vec3d(a.torque_i) + Vec3d(a.torque_j);
       EXPECT_LT(norm(total) / torque, tolerance(1e-12, 1e-6, 1e-6));
     }
+  });
+}
+
+/// A contact that is all but lost within a substep: what is left of its overlap is down to 1e-13 of it.
+struct LosePass {
+  static constexpr Index kCount = 4096;
+  ContactLaw law;
+  Span<Real> force;
+  BL_HD void operator()(Index k) const {
+    const Real R = Real(1e-3), m = Real(1e-5), before = Real(1e-6) * (1 + Real(1e-3) * Real(k));
+    const Real now = before * std::exp2(Real(-k) * Real(0.01));
+    PairHistory h{
+        .xi = {Real(1e-9), 0, 0}, .couple = {Real(1e-12), 0, 0}, .overlap = before, .recede = Real(0.1)};
+    const Vec3d r{0, 0, 2e-3 - double(now)};
+    const ContactForce f =
+        law(sphere_contact({R, m}, {R, m}, r, Real(r.z), now), {0, 0, Real(0.1)}, {}, {}, Real(1e-5), h);
+    force[k] = norm(f.force) + norm(f.torque_i) + norm(h.xi) + norm(h.couple);
+  }
+};
+TEST(SmallContactLaws, StayFiniteWhereAlmostNothingOverlaps) {
+  for_each_contact_law([](const ContactLaw& law) {
+    Buffer<Real> force(LosePass::kCount);
+    for_each({0, LosePass::kCount}, LosePass{law, force});
+    for (const Real f : force.to_host()) ASSERT_TRUE(std::isfinite(f));
   });
 }
 
