@@ -68,7 +68,7 @@ inline constexpr auto kNames<MotionKind> = std::to_array<Named<MotionKind>>({
     {MotionKind::rotation, "rotation", "rotation about an axis"},
     {MotionKind::table, "table", "positions and rotations tabulated over time"},
     {MotionKind::formula, "formula", "displacement and rotation as formulas in t"},
-    {MotionKind::piston, "piston", "wave maker that translates, for regular waves [madsen71] [hughes93]"},
+    {MotionKind::piston, "piston", "wave maker that translates, for regular waves [schaffer96]"},
     {MotionKind::flap, "flap", "wave maker hinged at the floor, for regular waves [hughes93]"},
 });
 
