@@ -13,8 +13,7 @@ import numpy as np
 
 from . import _toml
 from ._module import module
-from .errors import CaseError
-from .errors import FileError
+from .errors import CaseError, FileError
 
 
 @functools.cache
