@@ -60,8 +60,8 @@ std::vector<int> counts_of(const Options& o) {
     throw CaseError("command line: --devices divides among GPUs, --ranks among parts of the CPU; give one");
   std::vector<int> counts = o.bench.devices.empty() ? o.bench.ranks : o.bench.devices;
   if (counts.empty()) counts = {1};
-  std::ranges::sort(counts);
-  counts.erase(std::ranges::unique(counts).begin(), counts.end());
+  std::sort(counts.begin(), counts.end());
+  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
   return counts;
 }
 
