@@ -155,7 +155,7 @@ orientation = [0, 0, 0]
 
 TEST(Clump, RodOnItsEndReboundsAsARigidBody) {
   for (const double angle : {45.0, 60.0, 80.0}) {
-    const Config c = config_of(in_space(fmt::format(R"([[wall.body]]
+    const Config c = config_of(in_space(fmt::format(fmt::runtime(R"([[wall.body]]
 name = "floor"
 shape = "plane"
 point = [0, 0, -0.1]
@@ -168,7 +168,7 @@ positions = [[0, 0, -0.08]]
 velocity = [0, 0, -0.05]
 clump = "rod"
 orientation = [0, {}, 0]
-)",
+)"),
                                                     angle)));
     auto s = started(c);
     const ClumpShape& shape = c.grain.clumps[0].shape;
@@ -219,10 +219,10 @@ std::string swarm(const std::string& of_grains = "") {
       for (int k = -1; k <= 1; ++k, ++n) {
         const Vec3d x{0.03 * i, 0.03 * j, 0.03 * k};
         const Vec3d v{-8 * x.x + 0.05 * u(rng), -8 * x.y + 0.05 * u(rng), -8 * x.z + 0.05 * u(rng)};
-        places[n % 2] += fmt::format("[{}, {}, {}],", x.x, x.y, x.z);
-        speeds[n % 2] += fmt::format("[{}, {}, {}],", v.x, v.y, v.z);
+        places[n % 2] += fmt::format(fmt::runtime("[{}, {}, {}],"), x.x, x.y, x.z);
+        speeds[n % 2] += fmt::format(fmt::runtime("[{}, {}, {}],"), v.x, v.y, v.z);
       }
-  return in_space(of_grains + fmt::format(R"([[clump]]
+  return in_space(of_grains + fmt::format(fmt::runtime(R"([[clump]]
 name = "rod"
 spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1.2, 0.2, 0, 0.7]]
 [[grain.fill]]
@@ -232,7 +232,7 @@ clump = "rod"
 [[grain.fill]]
 positions = [{}]
 velocities = [{}]
-)",
+)"),
                                           places[0], speeds[0], places[1], speeds[1]));
 }
 
