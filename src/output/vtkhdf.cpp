@@ -334,8 +334,12 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
       check_arrays(root, points, store);
       add_arrays(root, store, frames, deflate_);
 
-      const std::int64_t part = same_count || frames == 0 ? last_part : last_part + 1,
-                         first_cell = same_count || frames == 0 ? last_cell : last_cell + last_count;
+      std::int64_t part = last_part, first_cell = last_cell;
+      if (frames > 0 && !same_count) part += 1, first_cell += last_count;
+      if (last_count == 0 && !same_count) {  // a cell that no frame shows: VTK 9.7 finds a part by the cells before it
+        append_part(root, cells, 1);
+        part += 1, first_cell += 1;
+      }
       if (!same_count) append_part(root, cells, std::int64_t(store.count));
       append_integer(steps, "PartOffsets", part);
       append_integer(steps, "NumberOfParts", 1);

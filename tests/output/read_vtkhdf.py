@@ -42,8 +42,11 @@ def read_frame(reader, index, time):
     n = frame.GetNumberOfPoints()
     if frame.GetNumberOfVerts() != n or frame.GetNumberOfCells() != n:
         raise SystemExit(f"frame {index}: {frame.GetNumberOfCells()} cells for {n} points")
-    if n and vtk_to_numpy(frame.GetVerts().GetConnectivityArray()).tolist() != list(range(n)):
+    verts = frame.GetVerts()
+    if n and vtk_to_numpy(verts.GetConnectivityArray()).tolist() != list(range(n)):
         raise SystemExit(f"frame {index}: vertex cells do not number the points")
+    if n and vtk_to_numpy(verts.GetOffsetsArray()).tolist() != list(range(n + 1)):
+        raise SystemExit(f"frame {index}: vertex cells do not have one point each")
     if abs(reader.GetTimeValue() - time) > 1e-12:
         raise SystemExit(f"frame {index}: time {reader.GetTimeValue()}, expected {time}")
     data = frame.GetPointData()
