@@ -285,19 +285,24 @@ void resolve_waves(const Config& c, MotionPart& m, const std::string& path, cons
   const double g = norm(c.gravity);
   if (!(g > 0)) reject(root, path + ".kind", fmt::format("\"{}\"", m.kind.name()), "needs gravity");
   const WaterWave wave{.height = w.height, .period = w.period, .depth = w.depth, .gravity = g};
+  const double wavelengths = w.order == 2 ? 3 : 10,
+               deepest = wavelengths * g * w.period * w.period / (2 * std::numbers::pi);
+  if (!(w.depth <= deepest))
+    reject(root, path + ".wave_depth", fmt::format("{}", w.depth),
+           fmt::format("must be at most {:.4g} m, {} wavelengths, with wave_order = {}", deepest, wavelengths,
+                       w.order));
+  if (const double longest = 1000 * std::sqrt(w.depth / g); !(w.period <= longest))
+    reject(root, path + ".wave_period", fmt::format("{}", w.period),
+           fmt::format("must be at most {:.4g} s at this depth, waves of a thousand depths", longest));
   const auto limit = [&](double most, const std::string& why) {
     if (w.height >= most)
       reject(root, path + ".wave_height", fmt::format("{}", w.height),
              fmt::format("must be below {:.4g} m, {}; the wave is {:.4g} m long", most, why, wave.length()));
   };
   limit(wave.breaking_height(), "where such waves break");
-  if (w.order == 2) {
+  if (w.order == 2)
     limit(wave.second_order_height(),
           "up to which second-order theory holds; wave_order = 1 has no such limit");
-    if (const double most = 3 * wave.length(); w.depth > most)
-      reject(root, path + ".wave_depth", fmt::format("{}", w.depth),
-             fmt::format("must be at most {:.4g} m, three wavelengths, with wave_order = 2", most));
-  }
   const Vec3d up = upwards(c.gravity), level = w.direction - dot(w.direction, up) * up;
   if (norm(level) < 1e-6 * norm(w.direction) || norm(w.direction) == 0)
     reject(root, path + ".wave_direction",

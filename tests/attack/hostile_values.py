@@ -5,8 +5,8 @@
 
 Each value goes into a case that is otherwise in order. The program must accept the case (exit code 0) without a number
 that is none, or refuse it (exit code 2) in one sentence that names file, line and key, or its first steps break down (exit
-code 3) in one that names particle and place. A refusal takes at most 2 s of
-processor time and 1 GB; what is accepted may be as large as `check` says. `--every n` tries each n-th value only. Exits with 1 if any value fails.
+code 3) in one that names particle and place. A refusal takes at most 2 s of processor time and 1 GB; what is accepted
+may be as large as `check` says. `--every n` tries each n-th value only. Exits with 1 if any value fails.
 """
 
 import argparse
@@ -53,6 +53,8 @@ KINDS = {
     "rows": raw("[[0, 0, 0, 0]]", "[[0, 0, 0, 0], [0, 1, 0, 0]]", "[[1, 0, 0, 0], [0, 1, 0, 0]]", "[[0, nan, 0, 0], [1, 0, 0, 0]]",
                 "[[0, 0, 0, 0], [1e-30, 1e30, 0, 0]]", "[[0, 0, 0, 0], [1, 1, 1]]"),
     "formulas": raw(*(f"[{json.dumps(f)}, 0, 0]" for f in FORMULA)) + VECTOR,
+    "spheres": raw("[[0, 0, 0, 0]]", "[[0, 0, 0, -1]]", "[[0, 0, 0, nan]]", "[[0, 0, 0, 1], [0, 0, 0, 1]]", "[[0, 0, 0]]",
+                   "[[1e30, 0, 0, 1]]", "[[0, 0, 0, 1e-300], [1, 0, 0, 1e300]]", "[[0, 0, 0, 1], [9, 0, 0, 1]]"),
     "numbers": raw("[nan]", "[-1]", "[0]", "[1e300]", "[2, 1]", "[1, 1]", "[0.1, 0.2, 0.3]", "[" + ", ".join(map(str, range(2000))) + "]"),
     "booleans": VECTOR, "faces": raw('["x-", "x-"]', '["w+"]', '["x-", "y-", "z-", "x+", "y+", "z+"]'),
     "texts": raw('["a", "a"]', '["nothing"]', f"[{HUGE}]"),

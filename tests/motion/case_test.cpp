@@ -1,5 +1,6 @@
 // Motions in case files: tables, sums, the frame, what is said about them.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -287,8 +288,15 @@ TEST_F(TableCase, WaveMakersMoveAlongTheirWaves) {
             std::string::npos);
   EXPECT_EQ(refused("flap", 0.05, "centre = [0, 0, 0]\nwave_order = 1\n"), "");
   EXPECT_NE(error_of(moving("kind = \"piston\"\nwave_height = 0.004\nwave_period = 0.2\nwave_depth = 0.2\n"))
-                .find("wave_depth = 0.2 must be at most 0.1874 m, three wavelengths, with wave_order = 2"),
+                .find("wave_depth = 0.2 must be at most 0.1874 m, 3 wavelengths, with wave_order = 2"),
             std::string::npos);
+  for (const auto& [period, key] : {std::pair{"1e-300", "wave_depth"}, {"1e300", "wave_period"}})
+    for (const char* order : {"1", "2"})
+      EXPECT_NE(error_of(moving(fmt::format("kind = \"piston\"\nwave_height = 0.004\nwave_period = {}\n"
+                                            "wave_depth = 0.2\nwave_order = {}\n",
+                                            period, order)))
+                    .find(fmt::format("wall.body.motion.{} = ", key)),
+                std::string::npos);
   EXPECT_NE(refused("piston", 0.01, "wave_direction = [0, 0, 1]\n").find("must not be vertical"),
             std::string::npos);
   EXPECT_NE(refused("flap", 0.01).find("motion.centre"), std::string::npos);
