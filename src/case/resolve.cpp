@@ -56,7 +56,8 @@ Vec3d direction(const Vec3d& v, const Value& root, const std::string& path) {
 }
 
 [[noreturn]] void missing(const Value& root, const std::string& key, const char* what) {
-  throw CaseError(fmt::format("{}: {} must be given ({})", nearest_value(root, key).place(), key, what));
+  throw CaseError(
+      fmt::format("{}: {} must be given ({})", nearest_value(root, key).place(), key_of(key), what));
 }
 
 Solid shape_named(const Config& c, const std::string& name, const Value& root, const std::string& path,

@@ -9,6 +9,7 @@
 #include "bedload/geometry/clump.hpp"
 #include "bedload/geometry/shape.hpp"
 #include "resolve.hpp"
+#include "shortened.hpp"
 
 namespace bedload {
 namespace {
@@ -46,7 +47,12 @@ void resolve_clumps(Config& c, const Value& root) {
       missing(root, key, "list of [x, y, z, r], or file, or shape: one of them");
     if (!clump.file.empty()) {
       const auto file = std::filesystem::absolute(std::filesystem::path(c.file).parent_path() / clump.file);
-      clump.spheres = read_spheres(file.lexically_normal());
+      try {
+        clump.spheres = read_spheres(file.lexically_normal());
+      } catch (const CaseError& error) {
+        reject(root, path + ".file", fmt::format("\"{}\"", clump.file),
+               fmt::format("holds no spheres: {}", shortened(error.what(), 600)));
+      }
       clump.file.clear();
     }
     Solid solid;

@@ -176,8 +176,10 @@ std::vector<ClumpSphere> inner_spheres(const Shape& shape, std::size_t count) {
 }
 
 std::vector<ClumpSphere> read_spheres(const std::filesystem::path& file) {
+  std::error_code unknown;
   std::ifstream in(file);
-  if (!in) throw CaseError(fmt::format("{}: cannot be read", file.string()));
+  if (!in || !std::filesystem::is_regular_file(file, unknown))
+    throw CaseError(fmt::format("{}: cannot be read", file.string()));
   std::vector<ClumpSphere> spheres;
   std::string line;
   for (int n = 1; std::getline(in, line); ++n) {

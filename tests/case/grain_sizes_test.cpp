@@ -154,7 +154,7 @@ TEST(GrainSizes, MixByTheirMassFractions) {
 TEST(GrainSizes, HaveFractionsOfOneKind) {
   EXPECT_EQ(
       error_of(changed("count = 500", "count = 500\nsizes = [{d = 0.001, mass_fraction = 1}, {d = 0.004}]")),
-      "dam.toml:21: grain.fill.0.sizes.1.mass_fraction must be given (mass of its grains relative to the "
+      "dam.toml:21: grain.fill.sizes.mass_fraction must be given (mass of its grains relative to the "
       "other "
       "entries, as those have one)");
   EXPECT_EQ(error_of(changed("count = 500",

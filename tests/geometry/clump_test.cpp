@@ -2,6 +2,7 @@
 
 #include "bedload/geometry/clump.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -156,11 +157,14 @@ TEST(ClumpCase, SaysWhatIsWrong) {
          "grain.fill.clump = \"road\" must name a clump; this case has rod");
   expect(with("[1, 0, 0, 1]]", "[1, 0, 0, 0]]"), "clump.spheres = [.., r = 0] must have radii > 0");
   expect(with("[1, 0, 0, 1]]", "[1, 0, 0]]"), "must be a list of spheres [[x, y, z, r], ...]");
-  expect(with("spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]", ""), "clump.0.spheres must be given");
+  expect(with("spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]", ""), "clump.spheres must be given");
   expect(with("[[clump]]", "[[clump]]\nname = \"rod\"\nspheres = [[0, 0, 0, 1]]\n[[clump]]"),
          "clump.name = \"rod\" must differ from other clumps'");
   expect(with("spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]", "shape = \"rock\""),
-         "clump.0.count must be given");
+         "clump.count must be given");
+  for (const char* file : {"nothing.txt", "/dev/zero"})
+    expect(with("spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]", fmt::format("file = \"{}\"", file)),
+           fmt::format("clump.file = \"{}\" holds no spheres", file));
   expect(rods("count = 20\norientation = [0, 90]\n"), "grain.fill.orientation");
   expect(rods("count = 20\n[grain.fill.rigid]\n"), "grain.fill.rigid");
   expect(rods("count = 20\n", "[[outlet]]\nname = \"end\"\nmin = [0, 0, 0]\nmax = [0.01, 0.1, 0.1]\n"),
