@@ -35,6 +35,16 @@ function(bedload_register target speed)
     PROPERTIES LABELS "${ARGN}${speed}" ${properties} ENVIRONMENT OMP_WAIT_POLICY=passive)
 endfunction()
 
+# bedload_precompile(<target>): reads what most tests include once, a quarter less to compile. Not with ccache, which
+# would then keep nothing.
+function(bedload_precompile target)
+  if(NOT CCACHE)
+    target_precompile_headers(
+      ${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${CMAKE_SOURCE_DIR}/tests/support/precompiled.hpp>)
+  endif()
+endfunction()
+set_source_files_properties(tests/support/skip_without_avx2.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+
 # With the modules for plots: made by tools/install_dependencies.
 find_program(BEDLOAD_PYTHON python PATHS ${CMAKE_SOURCE_DIR}/build/venv/bin NO_DEFAULT_PATH)
 
@@ -51,6 +61,7 @@ if(host_tests)
   endif()
   target_compile_options(bedload_host_tests PRIVATE $<$<CONFIG:Release>:-O1>)  # in half the time
   target_link_libraries(bedload_host_tests PRIVATE bedload_program bedload_device PNG::PNG GTest::gtest_main)
+  bedload_precompile(bedload_host_tests)
   bedload_register(bedload_host_tests quick)
   bedload_register(bedload_host_tests slow)
 endif()
@@ -158,6 +169,7 @@ function(bedload_variant_tests variant)
   add_executable(bedload_tests_${variant} ${tests})
   if(NOT variant MATCHES "cuda")
     target_compile_options(bedload_tests_${variant} PRIVATE $<$<CONFIG:Release>:-O1>)  # a quarter less time
+    bedload_precompile(bedload_tests_${variant})
   endif()
   target_link_libraries(bedload_tests_${variant} PRIVATE bedload_${variant} bedload_host GTest::gtest_main)
   bedload_register(bedload_tests_${variant} quick ${ARGN})
@@ -196,6 +208,7 @@ if(BEDLOAD_CPU_DISPATCH)
     add_executable(bedload_tests_mixed_cpu_avx2 ${avx2_tests} tests/support/skip_without_avx2.cpp)
     target_compile_options(bedload_tests_mixed_cpu_avx2 PRIVATE $<$<CONFIG:Release>:-O1>)
     target_link_libraries(bedload_tests_mixed_cpu_avx2 PRIVATE bedload_mixed_cpu_avx2 bedload_host GTest::gtest_main)
+    bedload_precompile(bedload_tests_mixed_cpu_avx2)
     add_test(NAME bedload_tests_mixed_cpu_avx2 COMMAND bedload_tests_mixed_cpu_avx2 --gtest_filter=-Slow*:*/Slow*)
     set_tests_properties(bedload_tests_mixed_cpu_avx2 PROPERTIES LABELS quick TIMEOUT 300 SKIP_RETURN_CODE 77
                          ENVIRONMENT OMP_WAIT_POLICY=passive)
