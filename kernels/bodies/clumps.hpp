@@ -52,6 +52,52 @@ struct PlaceClumpsPass {
   }
 };
 
+/// A clump to insert.
+struct NewClump {
+  std::uint32_t id, kind;
+  double size;  ///< of ClumpView, m
+  Vec3d x, v;   ///< m, m/s
+  Vec4<double> rotation;
+};
+
+/// Appends new clumps, which do not turn.
+struct AddClumpsPass {
+  Span<const NewClump> clump;
+  Index place;  ///< of the first
+  Span<Id> id;
+  Span<std::uint32_t> kind;
+  Span<double> size;
+  Span<Vec3d> x, v;
+  Span<Vec4<double>> rotation;
+  BL_HD void operator()(Index k) const {
+    const Index c = place + k;
+    id[c] = clump[k].id, kind[c] = clump[k].kind, size[c] = clump[k].size;
+    x[c] = clump[k].x, v[c] = clump[k].v, rotation[c] = clump[k].rotation;
+  }
+};
+
+/// Where those that stay will be.
+struct ClumpPlacePass {
+  Span<const Index> kept;
+  Span<Index> place;
+  BL_HD void operator()(Index k) const { place[kept[k]] = k; }
+};
+struct RenumberClumpsPass {
+  Span<const Index> place;
+  Span<std::uint32_t> clump;  ///< of each grain
+  BL_HD void operator()(Index i) const {
+    if (clump[i] > 0) clump[i] = 1 + place[clump[i] - 1];
+  }
+};
+
+/// Of each grain the id of its clump, 0: none.
+struct ClumpIds {
+  Span<const std::uint32_t> clump;
+  Span<const Id> id;
+  Span<Id> out;
+  BL_HD void operator()(Index i) const { out[i] = clump[i] > 0 ? id[clump[i] - 1] : 0; }
+};
+
 /// Momentum and angular momentum about the centre of their clump that the grains of a piece have gained since
 /// they last followed it, stored as force and torque; N s and N m s.
 struct GainPass {

@@ -65,6 +65,22 @@ struct SinkPass {
   }
 };
 
+/// Places that are not wrapped.
+struct WrappedCentres {
+  Frame frame;
+  Span<const Vec3d> x;
+  Span<Vec3d> out;
+  BL_HD void operator()(Index c) const { out[c] = frame.wrap(x[c]); }
+};
+/// Grains of a clump leave where its centre does.
+struct LeaveTogetherPass {
+  Span<const std::uint32_t> clump, of_clumps;  ///< of each grain 1 + its clump, 0: none; sinks of clumps
+  Span<std::uint32_t> sink;
+  BL_HD void operator()(Index i) const {
+    if (clump[i] > 0) sink[i] = of_clumps[clump[i] - 1];
+  }
+};
+
 struct StaysTest {
   Span<const std::uint32_t> sink;
   BL_HD bool operator()(Index i) const { return sink[i] == kStays; }
@@ -76,15 +92,16 @@ struct LeavingBody {
   BL_HD void operator()(Index i, double* out) const { out[0] = sink[i] == kStays ? 0 : 1; }
 };
 
-/// {count, mass} of particles that leave through one side or outlet; Mass(i): kg.
+/// {count, mass} of particles that leave through one side or outlet; Mass(i): kg. A clump counts as one.
 template <class Mass>
 struct SinkTally {
   Span<const std::uint32_t> sink;
   std::uint32_t way;
   Mass mass;
+  Span<const std::uint32_t> member;  ///< which sphere of its clump; empty: none
   BL_HD void operator()(Index i, double* out) const {
     if (sink[i] != way) return;
-    out[0] = 1;
+    out[0] = member && member[i] > 0 ? 0 : 1;
     out[1] = mass(i);
   }
 };

@@ -69,21 +69,32 @@ bool OpenBoundaries::grains_due(double t) const {
 /// Marks leaving particles in sink_ and tallies them; false if there are none.
 template <class P, class Mass>
 bool OpenBoundaries::find_leaving(OutletRegions& regions, Span<const P> x, bool domain, const Mass& mass,
-                                  double t) {
+                                  double t, const Clumps* clumps) {
   const Range all{0, x.size};
   if (!domain && regions.geometry.surfaces().empty()) return false;
   sink_.resize(x.size);
   for_each(all, SinkPass<P>{frame_, regions.geometry.view(), domain, x, sink_});
+  if (clumps && clumps->any()) leave_together(regions, *clumps);
   if (sum_over<1>(all, LeavingBody{sink_}).v[0] == 0) return false;
   if (domain) {
     const auto gone = sum_over<2 * kSides>(all, SideTally<Mass>{sink_, mass});
     for (std::uint32_t k = 0; k < kSides; ++k) regions.tally[k].add(gone.v[2 * k], gone.v[2 * k + 1], t);
   }
+  const Span<const std::uint32_t> member = clumps ? clumps->members() : Span<const std::uint32_t>();
   for (std::uint32_t k = kSides; k < regions.tally.size(); ++k) {
-    const auto gone = sum_over<2>(all, SinkTally<Mass>{sink_, kLeftDomain + k, mass});
+    const auto gone = sum_over<2>(all, SinkTally<Mass>{sink_, kLeftDomain + k, mass, member});
     regions.tally[k].add(gone.v[0], gone.v[1], t);
   }
   return true;
+}
+
+void OpenBoundaries::leave_together(const OutletRegions& regions, const Clumps& clumps) {
+  const Index n = clumps.store().size();
+  centres_.reserve_and_resize(n), clump_sink_.reserve_and_resize(n);
+  const Range all{0, n};
+  for_each(all, WrappedCentres{frame_, clumps.store().x.span(), centres_});
+  for_each(all, SinkPass<Vec3d>{frame_, regions.geometry.view(), false, centres_, clump_sink_});
+  for_each({0, clumps.of_grains().size}, LeaveTogetherPass{clumps.of_grains(), clump_sink_, sink_});
 }
 
 OpenBoundaries::Tally OpenBoundaries::lost_fluid() const {
@@ -175,18 +186,23 @@ void OpenBoundaries::admit(std::size_t i, FluidStore& fluid, const WallStore& wa
 
 // -- grains --------------------------------------------------------------------------------------
 
-GrainRenewal OpenBoundaries::renew(GrainStore& grains, double t) {
+GrainRenewal OpenBoundaries::renew(GrainStore& grains, Clumps& clumps, double t) {
   const Index before = grains.size();
   const GrainMass mass{matter_.of(grains), grains.radius};
-  const bool fewer = find_leaving(grains_out_, Span<const Vec3d>(grains.x), false, mass, t);
+  const bool fewer = find_leaving(grains_out_, Span<const Vec3d>(grains.x), false, mass, t, &clumps);
   if (fewer) {
     find_all(before, StaysTest{sink_}, source_index_);
     grains.reorder(source_index_);
+    if (clumps.any()) {
+      find_all(clumps.store().size(), StaysTest{clump_sink_}, kept_);
+      if (kept_.size() < clumps.store().size()) clumps.keep(kept_, grains);
+    }
   }
   for_each(grains.owned(), NoteSidePass{{frame_, grains.x, left_through_}, left_through_});
   const std::vector<Tally> outside = grains_outside(grains, t);
   for (std::uint32_t k = 0; k < kSides; ++k) grains_left_[k] = outside[k].first;
-  const std::vector<NewGrain> more = new_grains(grains, t);
+  Arrivals arrivals = new_grains(grains, clumps, t);
+  const std::vector<NewGrain>& more = arrivals.grains;
   if (!fewer && more.empty()) return {};
   const Index kept = grains.size();
   if (!fewer) {
@@ -203,6 +219,7 @@ GrainRenewal OpenBoundaries::renew(GrainStore& grains, double t) {
     const Index here = Index(dropped_.size());
     grains.grow(kept + here);
     source_index_.grow(grains.size());
+    const Clumps::Membership in = clumps.membership();
     for_each({0, here}, DropPass{.grain = dropped_,
                                  .place = kept,
                                  .first = Id(next_grain_),
@@ -212,36 +229,75 @@ GrainRenewal OpenBoundaries::renew(GrainStore& grains, double t) {
                                  .radius = grains.radius,
                                  .eps = grains.eps,
                                  .material = grains.material,
-                                 .source_index = source_index_});
+                                 .source_index = source_index_,
+                                 .clumps = clumps.store().size(),
+                                 .clump = in.clump,
+                                 .member = in.member,
+                                 .arm = in.arm,
+                                 .clump_d = grains.clump_d.span()});
+    // the first grain of a clump has an id that no clump had at the start
+    for (std::size_t k = 0; k < more.size(); ++k)
+      if (more[k].clump > 0 && more[k].member == 0)
+        arrivals.clumps[more[k].clump - 1].id = Id(next_grain_ + double(k) + 1);
+    if (!arrivals.clumps.empty()) clumps.add(arrivals.clumps, grains, {kept, grains.size()});
     next_grain_ += double(more.size());
   }
   return {source_index_, before, true};
 }
 
-std::vector<NewGrain> OpenBoundaries::new_grains(const GrainStore& grains, double t) {
-  std::vector<NewGrain> all;
-  for (GrainSource& source : sources_) {
-    while (source.due(t) && drop_one(source, grains, t, all)) source.dropped();
+OpenBoundaries::Arrivals OpenBoundaries::new_grains(const GrainStore& grains, const Clumps& clumps,
+                                                    double t) {
+  Arrivals all;
+  for (std::size_t k = 0; k < sources_.size(); ++k) {
+    GrainSource& source = sources_[k];
+    while (source.due(t) && drop_one(k, grains, clumps, t, all)) source.dropped();
     source.state.asked = source.state.count + source.pending(t);
   }
   return all;
 }
 
-/// Adds the next grain of a source at the first candidate position clear of grains and walls, if there is
-/// one.
-bool OpenBoundaries::drop_one(GrainSource& source, const GrainStore& grains, double t,
-                              std::vector<NewGrain>& all) const {
+/// Adds the next grain or clump of a source at the first candidate position clear of grains and walls, if
+/// there is one.
+bool OpenBoundaries::drop_one(std::size_t s, const GrainStore& grains, const Clumps& clumps, double t,
+                              Arrivals& all) {
+  GrainSource& source = sources_[s];
   const std::vector<Vec3d> places = source.places();
-  ClearanceBody<kPlaces> space{frame_, {}, source.radius(), grains.x, grains.radius};
+  const auto spheres = source.spheres();
+  const ClumpShape* shape = source.shape();
+  ClearanceBody<kPlaces> space{frame_, {}, source.reach(), grains.x, grains.radius};
+  if (shape) {
+    std::vector<Vec4<double>> parts;
+    for (const auto& [x, r] : spheres) parts.push_back({x.x, x.y, x.z, r});
+    spheres_.assign(parts);
+    space.spheres = spheres_;
+  }
   std::copy_n(places.begin(), kPlaces, space.place);
   const auto touching = sum_over<kPlaces>(grains.owned(), space);
   for (int k = 0; k < kPlaces; ++k) {
-    const NewGrain grain{places[k], source.velocity(), source.radius(), source.material()};
-    const auto touches = [&](const NewGrain& other) {
-      return norm(frame_.separation(grain.x, other.x)) < grain.radius + other.radius;
+    std::vector<NewGrain> come;
+    for (const auto& [x, r] : spheres)
+      come.push_back({frame_.wrap(places[k] + x), source.velocity(), r, source.material()});
+    const auto blocked = [&](const NewGrain& grain) {
+      return std::any_of(all.grains.begin(), all.grains.end(),
+                         [&](const NewGrain& other) {
+                           return norm(frame_.separation(grain.x, other.x)) < grain.radius + other.radius;
+                         }) ||
+             !is_clear(grain, t);
     };
-    if (touching.v[k] > 0 || std::any_of(all.begin(), all.end(), touches) || !is_clear(grain, t)) continue;
-    all.push_back(grain);
+    if (touching.v[k] > 0 || std::any_of(come.begin(), come.end(), blocked)) continue;
+    if (shape) {
+      std::vector<Real> radii;
+      for (const NewGrain& grain : come) radii.push_back(Real(grain.radius));
+      const double size = Clumps::size_of(*shape, radii);
+      for (std::uint32_t n = 0; n < come.size(); ++n) {
+        const ClumpSphere& of = shape->spheres[n];
+        come[n].clump = std::uint32_t(all.clumps.size() + 1), come[n].member = n;
+        come[n].arm = size * Vec3d{of[0], of[1], of[2]}, come[n].clump_d = 2 * source.radius();
+      }
+      all.clumps.push_back(
+          {0, clumps.kind_of_inlet(s), size, places[k], source.velocity(), to_vec4(source.rotation())});
+    }
+    all.grains.insert(all.grains.end(), come.begin(), come.end());
     return true;
   }
   return false;

@@ -37,8 +37,8 @@ class OpenBoundaries {
   /// Removes the fluid that has left and inserts the layers that are due at time t. The lists of the fluid
   /// must be rebuilt afterwards.
   void renew(FluidStore& fluid, WallStore& walls, const EquationOfState& eos, double t, const Vec3d& gravity);
-  /// Removes and inserts grains; their lists must be rebuilt with the result.
-  GrainRenewal renew(GrainStore& grains, double t);
+  /// Removes and inserts grains and whole clumps; their lists must be rebuilt with the result.
+  GrainRenewal renew(GrainStore& grains, Clumps& clumps, double t);
 
   /// Particles that have left the domain other than through outlets, by side, up to time t.
   std::vector<Loss> losses(const GrainStore& grains, double t) const;
@@ -63,16 +63,24 @@ class OpenBoundaries {
     std::vector<Tally> tally;
     OutletRegions(const OpenBoundaryParameters& parameters, Phase phase);
   };
+  struct Arrivals {
+    std::vector<NewGrain> grains;  ///< those of a clump in the order of its spheres
+    std::vector<NewClump> clumps;
+  };
+  /// clumps: null for a phase without any.
   template <class P, class Mass>
-  bool find_leaving(OutletRegions& regions, Span<const P> x, bool domain, const Mass& mass, double t);
+  bool find_leaving(OutletRegions& regions, Span<const P> x, bool domain, const Mass& mass, double t,
+                    const Clumps* clumps = nullptr);
+  /// Marks the grains of clumps as their centres are.
+  void leave_together(const OutletRegions& regions, const Clumps& clumps);
   Tally lost_fluid() const;  ///< through all sides
   /// Grains that are outside now, by side.
   std::vector<Tally> grains_outside(const GrainStore& grains, double t) const;
   void admit(std::size_t inlet, FluidStore& fluid, const WallStore& walls, const EquationOfState& eos,
              double t, const Vec3d& gravity);
   bool is_clear(const NewGrain& grain, double t) const;
-  std::vector<NewGrain> new_grains(const GrainStore& grains, double t);
-  bool drop_one(GrainSource& source, const GrainStore& grains, double t, std::vector<NewGrain>& all) const;
+  Arrivals new_grains(const GrainStore& grains, const Clumps& clumps, double t);
+  bool drop_one(std::size_t source, const GrainStore& grains, const Clumps& clumps, double t, Arrivals& all);
   /// f(name, unit, value) for the state of a restart; value may be set.
   template <class Self, class F>
   static void each_scalar(Self& self, const F& f);
@@ -87,8 +95,10 @@ class OpenBoundaries {
   std::vector<GrainSource> sources_;
   double next_fluid_ = 0, next_grain_ = 0;  ///< next unused ids
 
-  Buffer<std::uint32_t> sink_;
-  Buffer<Index> layer_;  ///< wall particles of a layer that comes in, scratch
+  Buffer<std::uint32_t> sink_, clump_sink_;
+  Buffer<Vec3d> centres_;         ///< of clumps, scratch
+  Buffer<Vec4<double>> spheres_;  ///< of a clump to drop, scratch
+  Buffer<Index> layer_;           ///< wall particles of a layer that comes in, scratch
   Buffer<Index> kept_, source_index_;
   Buffer<NewGrain> dropped_;
 };

@@ -60,7 +60,7 @@ void Checks::reflection() const {
     if (c.domain.periodic[face / 2])
       fail(key, side, fmt::format("must be a side across which nothing is periodic; {} is", "xyz"[face / 2]));
     if (!c.grain.rigid_fills().empty()) fail(key, side, "must not be given with [grain.fill.rigid]");
-    if (!c.grain.clump_fills().empty()) fail(key, side, "must not be given with clumps");
+    if (c.grain.has_clumps()) fail(key, side, "must not be given with clumps");
   }
 }
 

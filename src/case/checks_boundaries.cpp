@@ -25,9 +25,8 @@ void Checks::openings() const {
   for (std::size_t i = 0; i < c.outlets.size(); ++i) {
     const OutletConfig& outlet = c.outlets[i];
     const std::string path = fmt::format("outlet.{}", i);
-    if (c.grain.present && outlet.takes(Phase::grains) && c.grain.bound())
-      fail(path + ".phase", quoted(outlet.phase.name()),
-           "must be \"fluid\" where grains form rigid groups or clumps");
+    if (c.grain.present && outlet.takes(Phase::grains) && !c.grain.rigid_fills().empty())
+      fail(path + ".phase", quoted(outlet.phase.name()), "must be \"fluid\" where grains form rigid groups");
     named(path, outlet.name);
     if (outlet.shape == OutletShape::box) box(path, outlet.min, outlet.max);
     if (outlet.shape != OutletShape::plane && !in_sight(outlet.min, outlet.max))
@@ -46,6 +45,7 @@ void Checks::openings() const {
 void Checks::grain_inlet(const std::string& path, const GrainInletConfig& inlet) const {
   double d = 0;
   for (const SizeClass& size : inlet.sizes) d = std::max(d, size_range(size).second);
+  if (const ClumpConfig* clump = c.grain.clump_named(inlet.clump)) d *= 2 * clump->shape.reach;
   if (c.grain.fixed) fail("grain.fixed", "true", "must be false with grain_inlet");
   if (inlet.shape == GrainInletShape::disc) {
     inside_domain(path + ".centre", inlet.centre);

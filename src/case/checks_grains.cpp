@@ -107,16 +107,20 @@ void Checks::clumps() const {
           "less; "
           "more of them fill more",
           clump.name, 100 * clump.filled);
-  for (const int k : c.grain.clump_fills()) {
-    const std::string path = fmt::format("grain.fill.{}.clump", k);
+  const auto check = [&](const std::string& path, const std::string& clump) {
+    if (clump.empty()) return;
     const auto refuse = [&](bool given, const char* what) {
-      if (given) fail(path, quoted(c.grain.fills[k].clump), fmt::format("must be left out with {}", what));
+      if (given) fail(path + ".clump", quoted(clump), fmt::format("must be left out with {}", what));
     };
     refuse(c.domain.two_d, "domain.two_d: clumps turn in three dimensions");
     refuse(c.density.count_grains, "density.count_grains");
     refuse(c.couple.undisturbed, "couple.undisturbed");
     refuse(c.fluid.present && c.fluid.lattice(), "fluid.model = \"lattice\"");
-  }
+  };
+  for (std::size_t k = 0; k < c.grain.fills.size(); ++k)
+    check(fmt::format("grain.fill.{}", k), c.grain.fills[k].clump);
+  for (std::size_t k = 0; k < c.grain_inlets.size(); ++k)
+    check(fmt::format("grain_inlet.{}", k), c.grain_inlets[k].clump);
 }
 
 void Checks::materials() const {
@@ -150,7 +154,7 @@ void Checks::grain_energy() const {
         {c.grain.fixed, "with grain.fixed"},
         {!c.grain_inlets.empty() || std::any_of(c.outlets.begin(), c.outlets.end(), takes_grains),
          "with inlets or outlets of grains, whose energies are not counted"},
-        {!c.grain.clump_fills().empty(), "with clumps, of which it counts the spheres"},
+        {c.grain.has_clumps(), "with clumps, of which it counts the spheres"},
         {c.lubrication.acts(), "with lubrication.forces, whose losses are not counted"}}) {
     if (!there) continue;
     for (const auto& [key, asked] : {std::pair{"out.energy", c.out.energy}, {"out.spectra", c.out.spectra}})

@@ -27,6 +27,8 @@ void describe_walls(Parameters& p, Config& config);
 void describe_free_body(Parameters& p, FreeConfig& free);
 void describe_rigid_group(Parameters& p, RigidConfig& rigid);
 void describe_clump(Parameters& p, ClumpConfig& clump);
+/// What of a fill or an inlet are clumps.
+void describe_clumps_of(Parameters& p, std::string& clump, std::vector<double>& orientation);
 void describe_inlets(Parameters& p, std::vector<InletConfig>& inlets);
 void describe_outlets(Parameters& p, std::vector<OutletConfig>& outlets);
 void describe_grain_inlets(Parameters& p, std::vector<GrainInletConfig>& inlets);

@@ -65,6 +65,20 @@ void describe_clump(Parameters& p, ClumpConfig& c) {
      .presence = optional});
 }
 
+void describe_clumps_of(Parameters& p, std::string& clump, std::vector<double>& orientation) {
+  p("clump", &clump,
+    {.meaning = "name of the clump that all these grains are; sizes are diameters of the sphere of its "
+                "volume, positions those of its centre of mass",
+     .fallback = "spheres",
+     .presence = optional});
+  if (!clump.empty() || p.everything())
+    p("orientation", &orientation,
+      {.unit = "deg",
+       .meaning = "clump: rotation vector [x, y, z] of all of them from the axes of its spheres",
+       .fallback = "each at random",
+       .presence = optional});
+}
+
 void describe_free_body(Parameters& p, FreeConfig& f) {
   f.present = p.table("free", f.present);
   if (!f.present) return;

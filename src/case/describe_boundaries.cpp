@@ -101,6 +101,7 @@ void grain_inlet(Parameters& p, GrainInletConfig& i) {
      .presence = optional});
   p("velocity", &i.velocity, {.unit = "m/s", .meaning = "velocity of inserted grains"});
   describe_grain_material(p, i.material);
+  describe_clumps_of(p, i.clump, i.orientation);
   start_and_stop(p, i.start, i.stop, "start of insertion, at grain.release_time or later",
                  "end of insertion");
   p.list("sizes", i.sizes, SizeClass{}, describe_grain_size);

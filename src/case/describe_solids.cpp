@@ -323,17 +323,7 @@ void grain_fill(Parameters& p, GrainFill& f) {
     {.meaning = "each grain replaces the fluid particle nearest to it, whose mass is distributed over the "
                 "others of its fluid.fill"});
   describe_grain_material(p, f.material);
-  p("clump", &f.clump,
-    {.meaning = "name of the clump that all grains of the fill are; sizes are diameters of the sphere of its "
-                "volume, positions those of its centre of mass",
-     .fallback = "spheres",
-     .presence = optional});
-  if (!f.clump.empty() || p.everything())
-    p("orientation", &f.orientation,
-      {.unit = "deg",
-       .meaning = "clump: rotation vector [x, y, z] of all clumps of the fill from the axes of its spheres",
-       .fallback = "each at random",
-       .presence = optional});
+  describe_clumps_of(p, f.clump, f.orientation);
   describe_rigid_group(p, f.rigid);
   p.list("sizes", f.sizes, SizeClass{}, describe_grain_size);
 }

@@ -33,13 +33,11 @@ struct SmallestGrain {
 /// Of the materials that grains of the case are made of.
 std::vector<SmallestGrain> smallest_grains(const Config& c) {
   const GrainConfig& g = c.grain;
-  std::vector<std::string> inlet_materials;
-  for (const GrainInletConfig& inlet : c.grain_inlets) inlet_materials.push_back(inlet.material);
   const auto all = g.all_materials();
   std::vector<bool> used(all.size(), false);
   for (std::size_t k = 0; k < g.fills.size(); ++k) used[g.material_of(k)] = true;
-  for (const std::string& name : inlet_materials) used[g.material(name)] = true;
-  if (g.fills.empty() && inlet_materials.empty()) used[0] = true;
+  for (const GrainInletConfig& inlet : c.grain_inlets) used[inlet.number] = true;
+  if (g.fills.empty() && c.grain_inlets.empty()) used[0] = true;
   std::vector<SmallestGrain> grains;
   for (std::size_t k = 0; k < all.size(); ++k)
     if (used[k]) grains.emplace_back(all[k], g.smallest() / 2);

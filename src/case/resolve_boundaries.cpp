@@ -83,7 +83,7 @@ void resolve_grain_inlets(Config& c, const Value& root) {
     if (inlet.shape == GrainInletShape::disc)
       inlet.direction = direction(inlet.direction, root, path + "direction");
     default_sizes(c, inlet.sizes, root);
-    resolve_sizes(c, inlet.sizes, root, path + "sizes");
+    resolve_sizes(c, inlet.sizes, root, path + "sizes", c.grain.clump_named(inlet.clump));
     if ((inlet.rate > 0) == (inlet.mass_rate > 0))
       throw CaseError(fmt::format("{}: grain_inlet \"{}\" must have exactly one of rate and mass_rate",
                                   nearest_value(root, path + "rate").place(), inlet.name));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 #include <set>
 
@@ -25,9 +26,6 @@ void check_fill(const GrainFill& fill, const std::string& path, const Value& roo
   refuse(".every", !fill.every.empty());
   refuse(".replaces_fluid", fill.replaces_fluid);
   refuse(".rigid", fill.rigid.present);
-  if (!fill.orientation.empty() && fill.orientation.size() != 3)
-    reject(root, path + ".orientation", nearest_value(root, path + ".orientation").text(),
-           "must be three angles in deg, [x, y, z]");
 }
 
 }  // namespace
@@ -38,6 +36,7 @@ void resolve_clumps(Config& c, const Value& root) {
   std::string all;
   for (std::size_t k = 0; k < c.grain.clumps.size(); ++k) {
     ClumpConfig& clump = c.grain.clumps[k];
+    clump.dropped.clear();
     const std::string path = fmt::format("clump.{}", k), key = path + ".spheres";
     if (clump.name.empty()) reject(root, path + ".name", "\"\"", "must not be empty");
     if (!names.insert(clump.name).second)
@@ -73,15 +72,32 @@ void resolve_clumps(Config& c, const Value& root) {
       clump.filled = std::numbers::pi / 6 * d * d * d / solid_moments(*solid.shape).volume;
     }
   }
+  const auto check_use = [&](const auto& of, const std::string& path) {
+    if (!names.contains(of.clump))
+      reject(root, path + ".clump", fmt::format("\"{}\"", of.clump),
+             "must name a clump; this case has " + (all.empty() ? "none" : all));
+    if (!of.orientation.empty() && of.orientation.size() != 3)
+      reject(root, path + ".orientation", nearest_value(root, path + ".orientation").text(),
+             "must be three angles in deg, [x, y, z]");
+  };
   for (std::size_t i = 0; i < c.grain.fills.size(); ++i) {
     const GrainFill& fill = c.grain.fills[i];
-    const std::string path = fmt::format("grain.fill.{}", i);
     if (fill.clump.empty()) continue;
-    if (!names.contains(fill.clump))
-      reject(root, path + ".clump", fmt::format("\"{}\"", fill.clump),
-             "must name a clump; this case has " + (all.empty() ? "none" : all));
+    const std::string path = fmt::format("grain.fill.{}", i);
+    check_use(fill, path);
     check_fill(fill, path, root);
   }
+  for (std::size_t i = 0; i < c.grain_inlets.size(); ++i) {
+    const GrainInletConfig& inlet = c.grain_inlets[i];
+    if (inlet.clump.empty()) continue;
+    check_use(inlet, fmt::format("grain_inlet.{}", i));
+    for (ClumpConfig& clump : c.grain.clumps)
+      if (clump.name == inlet.clump &&
+          std::count(clump.dropped.begin(), clump.dropped.end(), inlet.material) == 0)
+        clump.dropped.push_back(inlet.material);
+  }
+  for (GrainInletConfig& inlet : c.grain_inlets)
+    inlet.number = c.grain.material_of_dropped(inlet.clump, inlet.material);
 }
 
 }  // namespace bedload

@@ -301,7 +301,7 @@ Counts with_inflow(const Prepared& p) {
   for (const InletConfig& inlet : c.inlets) fluid += inflow(inlet, c, from, to);
   for (std::size_t k = 0; k < c.grain_inlets.size(); ++k) {
     const GrainSource source(c, k);
-    grains += source.pending(to) - source.pending(from);
+    grains += (source.pending(to) - source.pending(from)) * double(source.spheres().size());
   }
   Counts counts = p.counts;
   add(counts.fluid, fluid, c.fluid.dx);

@@ -175,6 +175,21 @@ std::vector<ClumpSphere> inner_spheres(const Shape& shape, std::size_t count) {
   return spheres;
 }
 
+Quat<double> clump_rotation(const std::vector<double>& vector, CounterRandom random) {
+  if (vector.size() == 3)
+    return Quat<double>::from_rotation(pi / 180 * Vec3d{vector[0], vector[1], vector[2]});
+  const double u = random.uniform(), a = 2 * pi * random.uniform(), b = 2 * pi * random.uniform();
+  return {std::sqrt(u) * std::cos(b), std::sqrt(1 - u) * std::sin(a), std::sqrt(1 - u) * std::cos(a),
+          std::sqrt(u) * std::sin(b)};
+}
+
+std::vector<std::pair<Vec3d, double>> turned_spheres(const ClumpShape& shape, double d,
+                                                     const Quat<double>& turn) {
+  std::vector<std::pair<Vec3d, double>> all;
+  for (const auto& [x, y, z, r] : shape.spheres) all.emplace_back(turn.rotate(d * Vec3d{x, y, z}), d * r);
+  return all;
+}
+
 std::vector<ClumpSphere> read_spheres(const std::filesystem::path& file) {
   std::error_code unknown;
   std::ifstream in(file);

@@ -7,22 +7,24 @@
 #include "bedload/case/config.hpp"
 #include "bedload/case/grain_sizes.hpp"
 #include "bedload/core/random.hpp"
+#include "bedload/geometry/clump.hpp"
 
 namespace bedload {
 namespace {
 
 constexpr int kPlaces = 16;               // a round
 constexpr std::size_t kQuantiles = 4096;  // of a distribution
-constexpr std::uint64_t kPlaceStream = std::uint64_t(1) << 62;
+constexpr std::uint64_t kPlaceStream = std::uint64_t(1) << 62, kTurnStream = std::uint64_t(1) << 61;
 
 }  // namespace
 
 GrainSource::GrainSource(const Config& config, std::size_t index)
     : inlet_(config.grain_inlets[index]),
-      material_(config.grain.material(inlet_.material)),
-      rho_(config.grain.all_materials()[material_].rho),
+      material_(inlet_.number),
+      rho_(config.grain.density(inlet_.clump, inlet_.material)),
       seed_(config.grain.seed),
       stream_((std::uint64_t(index) + 1) << 40) {
+  if (const ClumpConfig* clump = config.grain.clump_named(inlet_.clump)) shape_ = clump->shape;
   for (const SizeClass& size : inlet_.sizes)
     sizes_.push_back(quantiles(size, size.kind == SizeKind::one_size ? 1 : kQuantiles));
   radius_ = next_radius();
@@ -43,6 +45,16 @@ double GrainSource::next_radius() const {
   return 0.5 * sizes_[k][random.below(sizes_[k].size())];
 }
 
+Quat<double> GrainSource::rotation() const {
+  return clump_rotation(inlet_.orientation,
+                        CounterRandom(seed_, kTurnStream + stream_ + std::uint64_t(state.count)));
+}
+
+std::vector<std::pair<Vec3d, double>> GrainSource::spheres() const {
+  if (!shape_) return {{{}, radius_}};
+  return turned_spheres(*shape_, 2 * radius_, rotation());
+}
+
 double GrainSource::pending(double t) const {
   const double elapsed = (std::min(t, inlet_.stop) - inlet_.start) * (1 + 1e-12);
   if (elapsed <= 0) return 0;
@@ -61,15 +73,15 @@ std::vector<Vec3d> GrainSource::places() {
     a = a / norm(a);
     b = cross(n, a);
   }
+  const double reach = this->reach();
   std::vector<Vec3d> all;
   for (int k = 0; k < kPlaces; ++k) {
     const double u = random.uniform(), v = random.uniform(), w = random.uniform();
     if (inlet_.shape == GrainInletShape::disc) {
-      const double r = (inlet_.radius - radius_) * std::sqrt(u), angle = 2 * std::numbers::pi * v;
+      const double r = (inlet_.radius - reach) * std::sqrt(u), angle = 2 * std::numbers::pi * v;
       all.push_back(inlet_.centre + r * std::cos(angle) * a + r * std::sin(angle) * b);
     } else {
-      const Vec3d margin{radius_, radius_, radius_}, lo = inlet_.min + margin,
-                                                     space = inlet_.max - margin - lo;
+      const Vec3d margin{reach, reach, reach}, lo = inlet_.min + margin, space = inlet_.max - margin - lo;
       all.push_back(lo + Vec3d{u * space.x, v * space.y, w * space.z});
     }
   }

@@ -15,6 +15,7 @@
 #include "bedload/core/error.hpp"
 #include "bedload/core/random.hpp"
 #include "bedload/geometry/build_shape.hpp"
+#include "bedload/geometry/clump.hpp"
 #include "bedload/geometry/lattice.hpp"
 #include "bedload/geometry/sampling.hpp"
 #include "placed_grains.hpp"
@@ -166,23 +167,10 @@ class Packer {
   /// volume.
   std::vector<std::pair<Vec3d, double>> spheres_of(std::size_t clump, double radius) const {
     if (!clump_) return {{{}, radius}};
-    const Quat<double> turn = orientation(clump);
-    std::vector<std::pair<Vec3d, double>> all;
-    for (const auto& [x, y, z, r] : clump_->shape.spheres)
-      all.emplace_back(turn.rotate(2 * radius * Vec3d{x, y, z}), 2 * radius * r);
-    return all;
+    return turned_spheres(clump_->shape, 2 * radius, orientation(clump));
   }
-  /// That of the fill, else at random, uniform over all rotations [shoemake92].
   Quat<double> orientation(std::size_t clump) const {
-    if (fill_->orientation.size() == 3)
-      return Quat<double>::from_rotation(
-          std::numbers::pi / 180 *
-          Vec3d{fill_->orientation[0], fill_->orientation[1], fill_->orientation[2]});
-    CounterRandom random(config_.grain.seed, kOrientations + clump);
-    const double u = random.uniform(), a = 2 * std::numbers::pi * random.uniform(),
-                 b = 2 * std::numbers::pi * random.uniform();
-    return {std::sqrt(u) * std::cos(b), std::sqrt(1 - u) * std::sin(a), std::sqrt(1 - u) * std::cos(a),
-            std::sqrt(u) * std::sin(b)};
+    return clump_rotation(fill_->orientation, CounterRandom(config_.grain.seed, kOrientations + clump));
   }
   void add_sphere(const Vec3d& x, double radius, const Vec3d& v, const Vec3d& omega) {
     grains_.x.push_back(x);

@@ -333,6 +333,8 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     vec("force_fluid_on_grains", "N", {f.v[0], f.v[1], f.v[2]});
     out.push_back({"grain_count", "-", double(state_.grains.everywhere())});
     out.push_back({"grains_outside", "-", f.v[3]});
+    const Clumps& clumps = std::as_const(stepper_).solids().clumps();
+    if (clumps.any()) out.push_back({"clump_count", "-", double(clumps.store().size())});
   }
   if (state_.coupled) {
     const auto c = stepper_.coupling().counters(state_.fluid, state_.grains);

@@ -213,6 +213,11 @@ std::vector<Made> computed_of_grains(State& state, Stepper& stepper, Buffer<Pair
              "drive", "N", g, Real3{state.gravity.at(state.clock.time)}, state.matter.of(g),
              std::as_const(g.radius).span(), stepper.drive_grains()));
        }},
+      {8, std::as_const(stepper).solids().clumps().any() ? unsigned(kFrames) : unsigned(kNobody),
+       [&](Arrays& out) {
+         const Clumps& clumps = std::as_const(stepper).solids().clumps();
+         out.push_back(made<Id, ClumpIds>("clump", "-", g, clumps.of_grains(), clumps.store().id.span()));
+       }},
       {8, kRheology,
        [&](Arrays& out) {
          stepper.solids().contact_moments(g, scratch);

@@ -60,7 +60,7 @@ Series series_of(const Config& c, const fs::path& folder) {
   };
   if (c.fluid.present) frames_of("fluid");
   if (c.grain.present) frames_of("grains");
-  if (!c.grain.clump_fills().empty()) frames_of("clumps");
+  if (c.grain.has_clumps()) frames_of("clumps");
   for (const WallBody& body : c.wall.bodies)
     if (body.wear != WearLaw::none) frames_of("wear/" + body.name);
   if (c.out.contacts != ContactFrames::none) frames_of("contacts");

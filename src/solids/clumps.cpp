@@ -38,7 +38,7 @@ double cubes(const ClumpShape& shape) {
 Clumps::Clumps(const SolidParameters& parameters, const Frame& frame, GrainStore& grains)
     : kinds_(parameters.clumps), plane_(parameters.plane), frame_(frame), matter_(parameters.materials) {
   if (!any()) return;
-  clump_ = std::make_unique<Field<std::uint32_t>>(grains, "clump", "-", Lifetime::kept, Output{.order = 8});
+  clump_ = std::make_unique<Field<std::uint32_t>>(grains, "clump", "-", Lifetime::kept);
   member_ = std::make_unique<Field<std::uint32_t>>(grains, "member", "-", Lifetime::kept);
   arm_ = std::make_unique<Field<Vec3d>>(grains, "clump_arm", "m", Lifetime::kept);
   clump_->resize(grains.size());
@@ -55,6 +55,7 @@ void Clumps::bind(GrainStore& grains, const Setup::Grains& setup) {
   std::vector<std::uint32_t> kind_of;  // each fill
   for (std::uint32_t k = 0; k < kinds_.size(); ++k) {
     const ClumpKind& of = kinds_[k];
+    if (of.inlet >= 0) continue;
     kind_of.resize(std::max(kind_of.size(), std::size_t(of.fill) + 1));
     kind_of[of.fill] = k;
     if (of.shape) continue;
@@ -81,9 +82,8 @@ void Clumps::bind(GrainStore& grains, const Setup::Grains& setup) {
     const std::uint32_t k = kind_of[from.fill];
     const ClumpShape& shape = *kinds_[k].shape;
     while (setup.clump[i] != c + 1) ++i;
-    double r3 = 0;
-    for (std::size_t n = 0; n < shape.spheres.size(); ++n) r3 += std::pow(double(radius[i + n]), 3);
-    const double size = std::cbrt(r3 / cubes(shape));
+    const auto first = radius.begin() + std::ptrdiff_t(i);
+    const double size = size_of(shape, {first, first + std::ptrdiff_t(shape.spheres.size())});
     all.add(k, size, from.x, from.v, from.omega, normalised(from.rotation));
     for (std::uint32_t n = 0; n < shape.spheres.size(); ++n, ++i) {
       const ClumpSphere& s = shape.spheres[n];
@@ -128,6 +128,9 @@ void Clumps::measure(const GrainStore& grains) {
     const auto grain = shifted_inertia({own, own, own, 0, 0, 0}, m, arm[i]);
     for (int n = 0; n < 6; ++n) s.inertia[n] += grain[n];
   }
+  for (ClumpKind& k : kinds_)
+    if (!k.shape) k.spheres = 0;
+  for (const std::size_t i : order) ++kinds_[kind[clump[i] - 1]].spheres;
   bodies_.clear();
   std::vector<Vec3d> offsets;
   for (std::size_t k = 0; k < kinds_.size(); ++k) {
@@ -141,15 +144,14 @@ void Clumps::measure(const GrainStore& grains) {
   }
   constants_.assign(bodies_);
   offsets_.assign(offsets);
-  cut_pieces(clump);
+  cut_pieces();
 }
 
-void Clumps::cut_pieces(const std::vector<std::uint32_t>& clump) {
-  std::vector<Index> count(store_.size()), slot, begin, first;
-  for (const std::uint32_t of : clump)
-    if (of > 0) ++count[of - 1];
+void Clumps::cut_pieces() {
+  std::vector<Index> slot, begin, first;
   Index next = 0;
-  for (const Index n : count) {
+  for (const std::uint32_t kind : store_.kind.values()) {
+    const Index n = kinds_[kind].spheres;
     slot.push_back(next), first.push_back(Index(begin.size()));
     for (Index at = 0; at < n; at += ClumpPieces::kPiece) begin.push_back(next + at);
     next += n;
@@ -158,6 +160,44 @@ void Clumps::cut_pieces(const std::vector<std::uint32_t>& clump) {
   slot_.assign(slot), begin_.assign(begin), first_.assign(first);
   grain_.resize(next);
   gained_.resize(begin.size() - 1);
+}
+
+double Clumps::size_of(const ClumpShape& shape, const std::vector<Real>& radii) {
+  double r3 = 0;
+  for (const Real r : radii) r3 += std::pow(double(r), 3);
+  return std::cbrt(r3 / cubes(shape));
+}
+
+std::uint32_t Clumps::kind_of_inlet(std::size_t inlet) const {
+  std::uint32_t k = 0;
+  while (kinds_[k].inlet != int(inlet)) ++k;
+  return k;
+}
+
+void Clumps::keep(Span<const Index> kept, const GrainStore& grains) {
+  Buffer<Index> places;
+  places.resize(store_.size());
+  for_each({0, kept.size}, ClumpPlacePass{kept, places});
+  for_each(grains.owned(), RenumberClumpsPass{places, clump_->span()});
+  store_.reorder(kept);
+  cut_pieces();
+}
+
+void Clumps::add(const std::vector<NewClump>& more, GrainStore& grains, Range come) {
+  const Index before = store_.size();
+  Buffer<NewClump> come_in;
+  come_in.assign(more);
+  store_.grow(before + Index(more.size()));
+  for_each({0, Index(more.size())}, AddClumpsPass{.clump = come_in,
+                                                  .place = before,
+                                                  .id = store_.id,
+                                                  .kind = store_.kind,
+                                                  .size = store_.scale,
+                                                  .x = store_.x,
+                                                  .v = store_.v,
+                                                  .rotation = store_.rotation});
+  cut_pieces();
+  for_each(come, FollowPass{view(), frame_, grains.x, {grains.v, grains.omega}, {}});
 }
 
 void Clumps::place(const GrainStore& grains) {

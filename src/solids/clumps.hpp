@@ -34,8 +34,29 @@ class Clumps {
   Span<const std::uint32_t> of_grains() const {
     return clump_ ? clump_->span() : Span<const std::uint32_t>();
   }
+  /// Which sphere of its clump each grain is; empty if no fill has any.
+  Span<const std::uint32_t> members() const {
+    return member_ ? member_->span() : Span<const std::uint32_t>();
+  }
   /// Joins grains at initialisation; `setup`: of all grains, by id. Rigid fills come first, in their order.
   void bind(GrainStore& grains, const Setup::Grains& setup);
+  /// Fields of membership, for a pass that adds grains; empty if there are none.
+  struct Membership {
+    Span<std::uint32_t> clump, member;
+    Span<Vec3d> arm;
+  };
+  Membership membership() {
+    if (!any()) return {};
+    return {clump_->span(), member_->span(), arm_->span()};
+  }
+  /// Keeps the clumps at these places alone, once the grains of the others are gone.
+  void keep(Span<const Index> kept, const GrainStore& grains);
+  /// Of those that the inlet with that index in the case drops.
+  std::uint32_t kind_of_inlet(std::size_t inlet) const;
+  /// What a clump of spheres with these radii (m), as they are kept, is scaled by.
+  static double size_of(const ClumpShape& shape, const std::vector<Real>& radii);
+  /// Adds clumps, and moves their grains, `come`, to where they belong.
+  void add(const std::vector<NewClump>& more, GrainStore& grains, Range come);
   /// After a sort.
   void place(const GrainStore& grains);
 
@@ -66,7 +87,7 @@ class Clumps {
  private:
   /// Mass and inertia of the kinds, of size 1 m.
   void measure(const GrainStore& grains);
-  void cut_pieces(const std::vector<std::uint32_t>& clump);
+  void cut_pieces();
 
   std::vector<ClumpKind> kinds_;
   bool plane_;  ///< they move in the xz plane

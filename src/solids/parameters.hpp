@@ -14,14 +14,16 @@
 
 namespace BL_SOLVER {
 
-/// Clumps of one fill: its grains as one body, or bodies of one shape.
+/// Clumps of one fill: its grains as one body, or bodies of one shape; or of one inlet.
 struct ClumpKind {
-  int fill = 0;                ///< index in the case
+  int fill = 0;                ///< index in the case; -1: they come in
   std::uint32_t material = 0;  ///< of their grains
   Vec3d velocity = {};         ///< of a fill that is one body, at the start, m/s
   RigidConfig freedom = {};
   std::optional<ClumpShape> shape = {};  ///< none: the fill is one body
   double density = 0;                    ///< of a shape, kg/m3
+  int inlet = -1;                        ///< index in the case; -1: of a fill
+  std::uint32_t spheres = 0;             ///< of each; counted from the grains where the fill is one body
 };
 
 /// Patches of a wall body, at t = 0.

@@ -821,6 +821,17 @@ clump = "drop"
 positions = [[0.05, 0.05, 0.08]]
 clump = "rod"
 orientation = [0, 90, 0]
+[[grain_inlet]]
+name = "feed"
+min = [0.02, 0.02, 0.06]
+max = [0.08, 0.08, 0.09]
+rate = 50
+clump = "stone"
+orientation = [0, 0, 30]
+[[outlet]]
+name = "foot"
+min = [0, 0, 0]
+max = [0.1, 0.1, 0.01]
 [time]
 end = 0.1
 [out]

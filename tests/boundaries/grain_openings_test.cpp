@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "bedload/geometry/grain_source.hpp"
@@ -147,6 +148,112 @@ max = [0.06, 0.03, 0.03]
   EXPECT_EQ(left, 120);
   const auto x = vectors(whole, "position"), y = vectors(rest, "position");
   for (std::size_t i = 0; i < y.size(); ++i) EXPECT_LT(norm(x[i] - y[i]), 1e-7) << i;
+}
+
+/// Rods and single grains fall into a hopper together and are taken out below.
+TEST(GrainInlet, DropsWholeClumps) {
+  const Config config = config_of(with(kHopper, "rate = 400", "rate = 300\nclump = \"rod\"") + R"(
+[[clump]]
+name = "rod"
+spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]
+density = 2000
+[[grain_inlet]]
+name = "beads"
+min = [-0.02, -0.02, 0.08]
+max = [0.02, 0.02, 0.1]
+rate = 300
+sizes = [{ d = 0.003 }]
+[[grain.fill]]
+positions = [[0, 0, 0.04]]
+clump = "rod"
+[[outlet]]
+name = "foot"
+phase = "grains"
+min = [-0.05, -0.05, -0.02]
+max = [0.05, 0.05, 0.01]
+)");
+  auto s = started(config);
+  run_until(*s, 0.2);
+  const auto d = s->diagnostics();
+  ASSERT_GT(reading(d, "outlet_foot_grain_count"), 10);
+  ASSERT_GT(reading(d, "clump_count"), 10);
+  const double rods = reading(d, "clump_count");
+  EXPECT_EQ(1 + reading(d, "grain_inlet_feed_count") + reading(d, "grain_inlet_beads_count"),
+            rods + (reading(d, "grain_count") - 3 * rods) + reading(d, "outlet_foot_grain_count"));
+  const double of_rod = 2000 * M_PI / 6 * std::pow(0.004, 3);
+  EXPECT_NEAR(reading(d, "grain_inlet_feed_mass") / reading(d, "grain_inlet_feed_count") / of_rod, 1, 1e-9);
+  EXPECT_NEAR(of_rod + reading(d, "grain_inlet_feed_mass") + reading(d, "grain_inlet_beads_mass"),
+              reading(d, "grain_mass") + reading(d, "outlet_foot_grain_mass"),
+              1e-6 * reading(d, "grain_mass"));
+  EXPECT_LT(reading(d, "overlap_max"), 0.1);
+
+  const HostStore grains = s->snapshot("grains"), clumps = s->snapshot("clumps");
+  const auto ids = ids_of(clumps);
+  EXPECT_EQ(std::set<Id>(ids.begin(), ids.end()).size(), ids.size());
+  const auto* of = grains.find("clump")->as<std::uint32_t>();
+  const auto* x = grains.find("position")->as<Real>();
+  std::map<Id, std::size_t> by_id;
+  for (std::size_t i = 0; i < grains.count; ++i) by_id[ids_of(grains)[i]] = i;
+  std::map<Id, std::vector<Vec3d>> spheres;  // of each clump, in the order of their ids
+  for (const auto& [id, i] : by_id)
+    if (of[i] > 0) spheres[of[i]].push_back({x[3 * i], x[3 * i + 1], x[3 * i + 2]});
+  EXPECT_EQ(spheres.size(), ids.size());
+  const double step = config.grain.clumps[0].shape.spheres[0][3] * 0.004;
+  for (const auto& [id, all] : spheres) {
+    EXPECT_EQ(std::count(ids.begin(), ids.end(), id), 1);
+    ASSERT_EQ(all.size(), 3u) << id;
+    for (int k = 0; k < 2; ++k) EXPECT_NEAR(norm(all[k + 1] - all[k]) / step, 1, 1e-4) << id;
+  }
+  expect_restart_is_bit_equal(*s, config, 200);
+}
+
+TEST(GrainOutlet, TakesAClumpWhenItsCentreIsIn) {
+  auto s = started(R"(gravity = [0, 0, 0]
+[domain]
+min = [0, 0, 0]
+max = [0.1, 0.02, 0.02]
+periodic = [true, false, false]
+[[clump]]
+name = "rod"
+spheres = [[-2, 0, 0, 1], [0, 0, 0, 1], [2, 0, 0, 1]]
+[grain]
+d = 0.004
+E = 1e6
+[[grain.fill]]
+positions = [[0.02, 0.01, 0.01], [0.09, 0.01, 0.01]]
+velocity = [0.5, 0, 0]
+clump = "rod"
+orientation = [0, 0, 0]
+[[grain.fill]]
+positions = [[0.03, 0.004, 0.004]]
+[[outlet]]
+name = "end"
+min = [0.04, 0, 0]
+max = [0.06, 0.02, 0.02]
+[time]
+end = 1
+[out]
+every = 1
+)");
+  const double mass = reading(*s, "grain_mass");
+  double beyond = 0;  // how far the first sphere comes
+  while (s->time() < 0.06) {
+    s->step();
+    const double left = reading(*s, "clump_count");
+    EXPECT_EQ(reading(*s, "grain_count"), 3 * left + 1) << "all spheres of a clump at a time";
+    if (left < 2) continue;
+    for (const Vec3d& x : vectors(s->snapshot("grains"), "position"))
+      if (x.x < 0.06) beyond = std::max(beyond, x.x - 0.04);
+  }
+  EXPECT_NEAR(beyond, 2 * 0.004 / 2 / std::cbrt(3.0), 1e-3);
+  auto d = s->diagnostics();
+  EXPECT_EQ(reading(d, "outlet_end_grain_count"), 1);
+  run_until(*s, 0.16);  // the other comes round
+  d = s->diagnostics();
+  EXPECT_EQ(reading(d, "outlet_end_grain_count"), 2);
+  EXPECT_EQ(reading(d, "clump_count"), 0);
+  EXPECT_EQ(reading(d, "grain_count"), 1);
+  EXPECT_NEAR(reading(d, "outlet_end_grain_mass") / mass, 2.0 / 3, 1e-6);
 }
 
 TEST(GrainInlet, WaitsForSpaceAndSaysSo) {

@@ -238,6 +238,23 @@ TEST(Openings, WrongOutletsAndGrainInlets) {
   EXPECT_NE(grains("rate = 5\nshape = \"disc\"\ncentre = [0, 0, 0]\ndirection = [0, 0, 1]\nradius = 5e-4")
                 .find("must be at least 0.001"),
             std::string::npos);
+  EXPECT_NE(error_of(changed("count = 500\n", "count = 500\n[grain.fill.rigid]\n") +
+                     "[[outlet]]\nname = \"end\"\nmin = [0, 0, 0]\nmax = [0.1, 0.1, 0.1]\n")
+                .find("outlet.phase = \"both\" must be \"fluid\" where grains form rigid groups"),
+            std::string::npos);
+  const auto clumps = [](const std::string& rest) {
+    return error_of(kCase + "[[clump]]\nname = \"rod\"\nspheres = [[-1, 0, 0, 1], [1, 0, 0, 1]]\n" +
+                    "[[grain_inlet]]\nname = \"feed\"\nrate = 5\nmin = [0, 0, 0]\n" + rest);
+  };
+  EXPECT_EQ(clumps("max = [0.1, 0.1, 0.1]\nclump = \"rod\"\n"), "");
+  EXPECT_EQ(clumps("max = [0.1, 0.1, 0.1]\nclump = \"stick\"\n"),
+            "dam.toml:33: grain_inlet.clump = \"stick\" must name a clump; this case has rod");
+  EXPECT_NE(clumps("max = [0.1, 0.1, 0.1]\nclump = \"rod\"\norientation = [1]\n")
+                .find("must be three angles in deg"),
+            std::string::npos);
+  EXPECT_NE(clumps("max = [0.1, 0.1, 0.003]\nclump = \"rod\"\n").find("must leave space along z"),
+            std::string::npos)
+      << "a rod of two touching spheres is 3.2 mm long";
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 // Shapes of clumps: what the union of their spheres weighs, where its centre is.
 
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "bedload/case/config/grains.hpp"
+#include "bedload/core/random.hpp"
 
 namespace bedload {
 
@@ -12,6 +14,13 @@ namespace bedload {
 /// exact; else sums over some 500 x 500 lines along z, on which the union is exact: the volume of two spheres
 /// one radius apart is then right to 1e-5.
 ClumpShape clump_shape(const std::vector<ClumpSphere>& spheres);
+
+/// From the axes of its spheres: by that vector, deg, or if it has no entries at random, uniform over all
+/// rotations [shoemake92].
+Quat<double> clump_rotation(const std::vector<double>& vector, CounterRandom random);
+/// Places from its centre, and radii, of the spheres of a clump. d: of the sphere of its volume, m.
+std::vector<std::pair<Vec3d, double>> turned_spheres(const ClumpShape& shape, double d,
+                                                     const Quat<double>& turn);
 
 class Shape;
 

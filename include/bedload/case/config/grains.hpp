@@ -61,6 +61,7 @@ struct ClumpConfig {
   double filled = 1;                           ///< of the volume of that shape (resolved)
   double density = 0;                          ///< kg/m3; 0: that of the material
   ClumpShape shape;                            ///< resolved
+  std::vector<std::string> dropped{};          ///< materials of those that inlets drop (resolved)
   bool operator==(const ClumpConfig&) const = default;
 };
 
@@ -129,18 +130,22 @@ struct GrainConfig {
     for (const GrainMaterial& m : materials) all.push_back(completed(m));
     return all;
   }
-  /// All of them as they are numbered: those named, then one for each fill of clumps. It has the density with
-  /// which the spheres of a clump together weigh what their union does.
+  /// All of them as they are numbered: those named, then one for each fill of clumps, one for each material in
+  /// which a clump is dropped. It has the density with which the spheres of a clump together weigh what their
+  /// union does.
   std::vector<GrainMaterial> all_materials() const {
     std::vector<GrainMaterial> all = named_materials();
-    for (const GrainFill& fill : fills) {
-      const ClumpConfig* clump = clump_of(fill);
-      if (!clump) continue;
-      all.push_back(all[material(fill.material)]);
+    const auto add = [&](const std::string& name, const std::string& of) {
+      const ClumpConfig* clump = clump_named(name);
+      if (!clump) return;
+      all.push_back(all[material(of)]);
       all.back().fullness = clump->shape.fullness;
       all.back().contact_mass = clump->shape.contact_mass;
-      all.back().rho = density(fill) * clump->shape.fullness;
-    }
+      all.back().rho = density(name, of) * clump->shape.fullness;
+    };
+    for (const GrainFill& fill : fills) add(fill.clump, fill.material);
+    for (const ClumpConfig& clump : clumps)
+      for (const std::string& of : clump.dropped) add(clump.name, of);
     return all;
   }
   /// With that of grain.* where it has nothing of its own.
@@ -159,23 +164,37 @@ struct GrainConfig {
       if (materials[k].name == name) return std::uint32_t(k + 1);
     return 0;
   }
-  /// The shape of a fill's grains; null: spheres, or no such clump.
-  const ClumpConfig* clump_of(const GrainFill& fill) const {
+  /// Null: there is none.
+  const ClumpConfig* clump_named(const std::string& name) const {
     for (const ClumpConfig& clump : clumps)
-      if (!fill.clump.empty() && clump.name == fill.clump) return &clump;
+      if (!name.empty() && clump.name == name) return &clump;
     return nullptr;
   }
-  /// Of the solid in a fill, kg/m3.
-  double density(const GrainFill& fill) const {
-    const ClumpConfig* clump = clump_of(fill);
-    return clump && clump->density > 0 ? clump->density : named_materials()[material(fill.material)].rho;
+  /// The shape of a fill's grains; null: spheres, or no such clump.
+  const ClumpConfig* clump_of(const GrainFill& fill) const { return clump_named(fill.clump); }
+  /// Of the solid of clumps, or of spheres, by their names, kg/m3.
+  double density(const std::string& clump, const std::string& of) const {
+    const ClumpConfig* shape = clump_named(clump);
+    return shape && shape->density > 0 ? shape->density : named_materials()[material(of)].rho;
   }
+  double density(const GrainFill& fill) const { return density(fill.clump, fill.material); }
   /// The number of the material of a fill's grains.
   std::uint32_t material_of(std::size_t fill) const {
     if (!clump_of(fills[fill])) return material(fills[fill].material);
     std::uint32_t number = std::uint32_t(1 + materials.size());
     for (std::size_t k = 0; k < fill; ++k) number += clump_of(fills[k]) != nullptr;
     return number;
+  }
+  /// The number of the material of clumps that inlets drop; of spheres, without a clump.
+  std::uint32_t material_of_dropped(const std::string& clump, const std::string& of) const {
+    if (!clump_named(clump)) return material(of);
+    std::size_t number = 1 + materials.size() + clump_fills().size();
+    for (const ClumpConfig& each : clumps)
+      for (const std::string& name : each.dropped) {
+        if (each.name == clump && name == of) return std::uint32_t(number);
+        ++number;
+      }
+    return std::uint32_t(number);
   }
   /// Of the fills with clumps, their places.
   std::vector<int> clump_fills() const {
@@ -184,8 +203,11 @@ struct GrainConfig {
       if (clump_of(fills[k])) all.push_back(int(k));
     return all;
   }
-  /// Whether grains move in bodies of several.
-  bool bound() const { return !rigid_fills().empty() || !clump_fills().empty(); }
+  bool has_clumps() const {
+    for (const ClumpConfig& clump : clumps)
+      if (!clump.dropped.empty()) return true;
+    return !clump_fills().empty();
+  }
   /// Of the fills that move as one body each, their places.
   std::vector<int> rigid_fills() const {
     std::vector<int> all;

@@ -39,7 +39,7 @@ struct OutletConfig {
   bool operator==(const OutletConfig&) const = default;
 };
 
-/// Where grains are dropped in one by one.
+/// Where grains, or clumps of them, are dropped in one by one.
 struct GrainInletConfig {
   std::string name;
   Chosen<GrainInletShape> shape = GrainInletShape::box;
@@ -53,6 +53,9 @@ struct GrainInletConfig {
   double stop = std::numeric_limits<double>::infinity();  ///< s
   std::vector<SizeClass> sizes;                ///< default: one class, grain.d
   std::string material;                        ///< which of grain.material; empty: grain.*
+  std::string clump;                           ///< which shape; empty: spheres
+  std::vector<double> orientation;             ///< of clumps, all alike: rotation vector, deg; empty: at random
+  std::uint32_t number = 0;                    ///< of the material in GrainConfig::all_materials (resolved)
   bool operator==(const GrainInletConfig&) const = default;
 };
 
