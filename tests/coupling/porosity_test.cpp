@@ -276,7 +276,7 @@ TEST(Porosity, AsksNoWallThatIsTooFarToCutTheKernel) {
   int cut = 0, near = 0;
   for (const Vec3d& x : random_points(20000, {-1, -1, -1}, {1, 1, 1}, random)) {
     const Vec3d listed = x + skin / std::sqrt(3.0) * Vec3d{1, -1, 1};
-    const bool asked = free.may_cut(listed, skin);
+    const bool asked = free.may_cut(listed, free.half_space.range, skin);
     near += asked;
     if (free(x) == Real(1)) continue;
     ++cut;

@@ -80,7 +80,8 @@ struct Sided {
     const DragPass<Law, false> pass{.lines = {.law = {},
                                               .mu = 1,
                                               .shares = false,
-                                              .own = {},
+                                              .wake = {},
+                                              .shrink = {},
                                               .bodies = {{}, all(radius), {}},
                                               .eps = all(one),
                                               .bed_eps = all(one),
@@ -116,18 +117,21 @@ TEST(DragLevers, BoundWhatTheCoupleAddsToTheForce) {
 }
 
 TEST(DragLevers, WeakenTheDragOfAGrainByTheirSum) {
-  std::vector<Real> rate{200}, sum{3}, K{5}, K_rot{7}, stiffness{0};
+  std::vector<Real> radius{1}, rate{200}, sum{3}, K{5}, K_rot{7}, stiffness{0};
   const auto all = [](auto& of) { return Span(of.data(), Index(of.size())); };
   const auto weakened = [&](double dt, bool couple) {
     K = {5}, K_rot = {7};
     const LimitPass pass{.dt = Real(dt),
+                         .range = {2},
+                         .radius = all(radius),
                          .rate = all(rate),
                          .lever_sum = couple ? Span<const Real>(all(sum)) : Span<const Real>(),
                          .drag = {{}, {}, all(K), all(K_rot)},
                          .stiffness = all(stiffness)};
-    Real most = pass.start(0);
+    auto most = pass.start(0);
     pass.pair(most, {}, 0, 0, 150);
-    pass.pair(most, {}, 0, 0, 200);
+    pass.pair(most, {}, Real(3.9), 0, 200);
+    pass.pair(most, {}, Real(4.1), 0, 1000);  // farther than its kernel reaches
     pass.pair(most, {}, 0, 0, 10);
     pass.finish(0, most);
     EXPECT_NEAR(K_rot[0] / K[0], 7.0 / 5, 1e-6);
@@ -158,9 +162,10 @@ double stopped(double r) {
   auto sum = pass.start(0);
   const Real3 apart{0, Real(r), 0};
   if constexpr (kCouple)
-    pass.pair(sum, apart, norm2(apart), Real(0), K[0], still[0], at_centre[0], off_centre[0], Unread{});
+    pass.pair(sum, apart, norm2(apart), Real(0), K[0], still[0], at_centre[0], off_centre[0], Unread{},
+              Unread{});
   else
-    pass.pair(sum, apart, norm2(apart), Real(0), K[0], still[0], Unread{}, Unread{}, Unread{});
+    pass.pair(sum, apart, norm2(apart), Real(0), K[0], still[0], Unread{}, Unread{}, Unread{}, Unread{});
   pass.finish(0, sum);
   return rate[0];
 }
