@@ -496,7 +496,8 @@ TEST_F(Program, RemarksOnWhatTheDocumentsAdvise) {
       said("bed        on frozen walls the buoyancy of a thin bed is 13 %", "--set wall.type=frozen"));
   EXPECT_FALSE(said("bed        ", ""));
   EXPECT_TRUE(said("sizes      the largest grain is 6 times",
-                   "--set 'grain.fill.0.sizes=[{d=0.001},{d=0.006}]' --set grain.fill.0.count=20"));
+                   "--set 'grain.fill.0.sizes=[{d=0.001},{d=0.006}]' --set grain.fill.0.count=20 "
+                   "--set couple.own_hc=false"));
   EXPECT_FALSE(said("sizes      ", ""));
   EXPECT_TRUE(said("mirror     fluid rests on the reflecting side z- of the domain",
                    "--set 'domain.reflect.slip=[\"z-\"]'"));

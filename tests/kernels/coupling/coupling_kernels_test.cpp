@@ -47,6 +47,10 @@ TEST(OwnWake, IsThatOfStokesFlowAndFadesWithInertiaAndOthers) {
   }
   const double V = M_PI / 6 * d * d * d;
   EXPECT_NEAR(own.porosity(1 - Real(V * squares), Real(V)), 1, 9 * square(V * squares) + 2e-7);
+  const OwnWake wide = OwnWake::of(WendlandC2(2 * h_c), 2 * h_c, mu, true), widened = own.with(Real(0.5));
+  EXPECT_NEAR(widened.mobility / wide.mobility, 1, 1e-5);
+  EXPECT_NEAR(widened.h_c / wide.h_c, 1, 1e-6);
+  EXPECT_NEAR(widened.per_volume / wide.per_volume, 1, 1e-5);
   EXPECT_EQ(OwnWake{}.porosity(Real(0.7), Real(V)), Real(0.7));
 }
 
