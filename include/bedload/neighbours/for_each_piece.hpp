@@ -55,7 +55,11 @@ struct IsCut {
 /// Which rows of a list are cut.
 class CutRows {
  public:
-  static constexpr std::uint32_t kPiece = 2048;  ///< entries
+#if BL_CUDA
+  static constexpr std::uint32_t kPiece = 2048;  ///< entries, for a warp
+#else
+  static constexpr std::uint32_t kPiece = 512;
+#endif
 
   /// For a list as it is now.
   void cut(const VerletList& list) {
