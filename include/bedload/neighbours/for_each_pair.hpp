@@ -258,7 +258,7 @@ struct ListRow {
 
 /// What all lanes of a row have summed: a pass without `merge` has one lane.
 template <class Pass, class Sum>
-BL_HD auto sum_of_row(const Pass& pass, const Lane& lane, Sum& sum) {
+BL_HD decltype(auto) sum_of_row(const Pass& pass, const Lane& lane, Sum& sum) {
 #if !BL_CUDA
   if constexpr (kInPacks<Pass>) {
     return LaneSums<Pass>::total(pass, sum);
@@ -267,13 +267,13 @@ BL_HD auto sum_of_row(const Pass& pass, const Lane& lane, Sum& sum) {
   {
     if constexpr (Mergeable<Pass>)
       lane.combine(sum, [&](Sum& into, const Sum& other) { pass.merge(into, other); });
-    return sum;
+    return (sum);
   }
 }
 
 template <class Pass, class Sum>
 BL_HD void finish_row(const Pass& pass, Index i, const Lane& lane, Sum& sum) {
-  const auto all = sum_of_row(pass, lane, sum);
+  const auto& all = sum_of_row(pass, lane, sum);
   if (lane.index == 0) pass.finish(i, all);
 }
 
