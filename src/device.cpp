@@ -11,6 +11,7 @@
 #include <string>
 
 #include "bedload/case/config.hpp"
+#include "bedload/case/grain_sizes.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/parallel/link.hpp"
 #include "bedload/simulation.hpp"
@@ -266,6 +267,21 @@ namespace {
 /// Number of lattice points within `reach` spacings.
 double around(double reach, bool two_d) { return two_d ? 3.14 * reach * reach : 4.19 * std::pow(reach, 3); }
 
+/// Of the grains of all fills, m3.
+double mean_grain_volume(const GrainConfig& grain) {
+  double volume = 0, number = 0;
+  for (const GrainFill& fill : grain.fills) {
+    if (fill.sizes.empty()) continue;
+    const Vec3d side = fill.max - fill.min;
+    const double each = mean_volume(fill.sizes, 1000),
+                 all = fill.packing_fraction > 0 ? fill.packing_fraction * side.x * side.y * side.z
+                       : fill.mass > 0           ? fill.mass / grain.density(fill)
+                                                 : double(fill.count) * each;
+    volume += all, number += all / each;
+  }
+  return number > 0 ? volume / number : 0;
+}
+
 }  // namespace
 
 MemoryEstimate estimate_memory(const Config& config, const Device& device) {
@@ -292,8 +308,13 @@ MemoryEstimate estimate_memory(const Config& config, const Device& device) {
   if (!coupled) return out;
 
   const double skin = 0.5 * (config.skin_fluid * config.fluid.dx + config.skin_grain * config.grain.d_min);
-  const double near_grain = around((2 * config.couple.hc + skin) / config.fluid.dx, false);
-  out.grains += 2 * index * near_grain;  // lists of both phases
+  double near_grain = around((2 * config.couple.hc + skin) / config.fluid.dx, false);
+  double lists = 2;  // of both phases
+  if (config.own_lengths()) {
+    near_grain += 512 * mean_grain_volume(config.grain) / std::pow(config.fluid.dx, 3);  // within 4 d
+    lists = 3;  // and those of each level
+  }
+  out.grains += lists * index * near_grain;
   return out;
 }
 

@@ -71,7 +71,8 @@ struct DragLines {
   Law law;
   Real mu;      ///< Pa s
   bool shares;  ///< whether grains displace fluid; else its velocity is the flux
-  OwnWake own;
+  OwnWake wake;
+  Span<const Real> shrink;  ///< of OwnAverages; empty: all have the kernel's length
   DragBodies bodies;
   Span<const Real> eps, bed_eps;
   GrainSurroundings surroundings;
@@ -87,6 +88,7 @@ struct DragLines {
   /// Near an orifice the law is evaluated with the porosity of the bed, at the actual flux.
   BL_HD DragLine of(Index j, Real slip) const {
     const Real d = bodies.diameter(j), rho = surroundings.rho[j], share = bodies.share(j);
+    const OwnWake own = shrink ? wake.with(shrink[j]) : wake;
     const Real bed = own.porosity(bed_eps[j], 4 * kPi / 3 * cube(bodies.radius[j]));
     const Real ratio = (shares ? eps[j] : Real(1)) / bed;
     const auto by_law = [&](Real w) { return share * ratio * law.K(bed, d, rho, mu, ratio * w); };

@@ -1,5 +1,5 @@
 #pragma once
-#include "bedload/neighbours/for_each_pair.hpp"
+#include "kernels/coupling/averaging.hpp"
 #include "kernels/coupling/carriers.hpp"
 #include "kernels/coupling/fluid_records.hpp"
 
@@ -21,9 +21,10 @@ struct GrainSurroundings {
 /// takes its part of the stress at its own centre; the part of its volume that walls cut off is left out,
 /// since walls support it. Moments: rotation and couple are needed; Local: drag follows the slip of each
 /// particle.
-template <class W, bool Moments, bool Local>
+template <class W, bool Moments, bool Local, class Averages = OneAverage>
 struct InterpolationPass {
   W w;
+  Averages averages = {};
   Real S_least, eps_min;  ///< S_least: value of S below which no mean is defined
   Span<const VelocityDensity<>> v_rho;
   FluidRecords fluid;
@@ -40,17 +41,19 @@ struct InterpolationPass {
     N eps{}, counted{}, rho{}, speed2{};
     Vec3<N> turn;
     FlowSums<N> flow, fast;
+    [[no_unique_address]] typename Averages::template Own<N> own;
   };
   BL_HD Sum<> start(Index j) const {
     Sum<> sum;
     sum.v_grain = v[j];
+    sum.own = averages.own(j);
     return sum;
   }
   BL_HD auto sources() const { return sources_of(v_rho, fluid.push, fluid.solids); }
   template <class N>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_ja, N r2, N, const VelocityDensity<N>& a, const Vec4<N>& push,
                   const Vec4<N>& solids) const {
-    const N W_ja = w.W(root(r2)), vw = push.w * W_ja;
+    const N W_ja = averages.W(w, sum.own, root(r2)), vw = push.w * W_ja;
     const Vec3<N> u = a.v - sum.v_grain;
     sum.eps += vw * solids.x;
     sum.rho += vw * solids.y;

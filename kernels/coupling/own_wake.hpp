@@ -33,6 +33,10 @@ struct OwnWake {
     return {flow ? Real(inverse / (6 * kPi * mu)) : Real(0), Real(h_c), Real(squares)};
   }
   BL_HD static Real alone(Real eps) { return square(square(square(eps))); }
+  /// That of a grain with its own averaging length, `shrink` being that of the kernel over it.
+  BL_HD OwnWake with(Real shrink) const {
+    return {mobility * shrink, h_c / shrink, per_volume * cube(shrink)};
+  }
   /// Porosity without the grain's own volume (m3).
   BL_HD Real porosity(Real eps, Real volume) const {
     return min_of(eps + per_volume * volume * alone(eps), Real(1));

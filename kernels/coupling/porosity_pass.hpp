@@ -1,7 +1,7 @@
 #pragma once
 #include "bedload/core/span.hpp"
-#include "bedload/neighbours/for_each_pair.hpp"
 #include "kernels/contact/grain_mass.hpp"
+#include "kernels/coupling/averaging.hpp"
 #include "kernels/coupling/orifice_weight.hpp"
 #include "kernels/coupling/wall_free_fraction.hpp"
 
@@ -11,16 +11,21 @@ namespace BL_SOLVER {
 /// list.
 struct BesideWallsPass {
   WallFreeFraction free;
+  AveragingRange range;
   double skin;
   Span<const Vec3d> x_list;
+  Span<const Real> radius;
   Span<std::uint8_t> beside;
-  BL_HD void operator()(Index j) const { beside[j] = free.may_cut(x_list[j], skin); }
+  BL_HD void operator()(Index j) const {
+    beside[j] = free.may_cut(x_list[j], Real(range(double(radius[j]))), skin);
+  }
 };
 
 /// Volume of grain j for V_j W(r; h_c) / s_j, s_j being the fraction of the kernel not cut off by walls, so
 /// that the whole volume is distributed.
 struct GrainVolumePass {
   WallFreeFraction free;
+  AveragingRange range;
   Frame frame;
   double per_dt;  ///< 1 / step, 1/s; 0 before the first step
   Span<const Vec3d> x, x_before;
@@ -30,10 +35,13 @@ struct GrainVolumePass {
   Span<const std::uint8_t> beside;  ///< result of BesideWallsPass; empty: any grain may be near walls
   Span<Real> wall_free;
   Span<Real4> volume;  ///< mean velocity over the step, m/s; V_j / s_j, m3
+  Span<Real> shrink;   ///< of OwnAverages; empty: all have the least range
 
   BL_HD void operator()(Index j) const {
     const Real3 u = per_dt > 0 ? Real3(per_dt * frame.nearest_image(x[j] - x_before[j])) : v[j];
-    const Real s = !beside || beside[j] ? free(x[j]) : Real(1);
+    const double reach = range(double(radius[j]));
+    if (shrink) shrink[j] = Real(range.least / reach);
+    const Real s = !beside || beside[j] ? free(x[j], Real(reach)) : Real(1);
     wall_free[j] = s;
     volume[j] = {u, Real(volume_per_r3(j)) * cube(radius[j]) / s};
   }
@@ -43,9 +51,10 @@ struct GrainVolumePass {
 /// flux of the mixture, eps_a v_a + sum_j w_ja u_j. f_a is one except near orifices and where the
 /// porosity would fall below its floor. With the same weights grains take their part of the stress
 /// (BuoyancyPass).
-template <class W>
+template <class W, class Averages = OneAverage>
 struct PorosityPass {
   W w;
+  Averages averages = {};
   bool shares;  ///< whether grains displace fluid; else only the porosity is computed
   Real floor;
   OrificeWeight away_from_orifices;
@@ -65,10 +74,10 @@ struct PorosityPass {
     Vec3<N> q;
   };
   BL_HD Sum<> start(Index) const { return {}; }
-  BL_HD auto sources() const { return sources_of(volume); }
-  template <class N>
-  BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N, const Vec4<N>& grain) const {
-    const N weight = grain.w * w.W(root(r2));
+  BL_HD auto sources() const { return sources_of(volume, averages.field()); }
+  template <class N, class Own>
+  BL_HD void pair(Sum<N>& sum, const Vec3<N>&, N r2, N, const Vec4<N>& grain, const Own& own) const {
+    const N weight = grain.w * averages.W(w, own, root(r2));
     sum.solid += weight;
     sum.q += weight * grain.xyz();
   }

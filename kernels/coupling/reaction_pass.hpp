@@ -54,9 +54,10 @@ struct ReactionTermsPass {
 
 /// Applies the drag impulse to the velocity of fluid particle a [harting14] Eq. 14; the couples of the stress
 /// become an acceleration. Also finds the rate of drag, as DragRatePass does.
-template <class W, bool Couple, bool Local>
+template <class W, bool Couple, bool Local, class Averages = OneAverage>
 struct ReactionPass {
   W w;
+  Averages averages = {};
   Span<const Real> mass;
   Span<const EosState<>> eos_state;
   Span<const Real4> by_slip;  ///< of DragWeights
@@ -77,13 +78,14 @@ struct ReactionPass {
   BL_HD Sum<> start(Index a) const { return {v_rho[a].v, mixture_volume(eos_state[a]), {}, {}, 0}; }
   BL_HD auto sources() const {
     const auto& [impulse, force, spin, couple] = reactions;
-    return sources_of(impulse, force, spin, read_if<Couple>(couple), read_if<Local>(by_slip));
+    return sources_of(impulse, force, spin, read_if<Couple>(couple), read_if<Local>(by_slip),
+                      averages.field());
   }
-  template <class N, class C, class Slip>
+  template <class N, class C, class Slip, class Own>
   BL_HD void pair(Sum<N>& sum, const Vec3<N>& r_aj, N r2, N, const Vec4<N>& impulse, const Vec4<N>& force,
-                  const Vec4<N>& spin, [[maybe_unused]] const C& couple,
-                  [[maybe_unused]] const Slip& grain) const {
-    const N r = root(r2), vw = sum.V * w.W(r);
+                  const Vec4<N>& spin, [[maybe_unused]] const C& couple, [[maybe_unused]] const Slip& grain,
+                  const Own& own) const {
+    const N r = root(r2), vw = sum.V * averages.W(w, own, r);
     N weight = spin.w;
     Vec3<N> J = impulse.xyz(), F = force.xyz();
     if constexpr (Local) {

@@ -19,7 +19,9 @@ struct WallFreeFraction {
   SurfaceSet walls;
   Span<const BodyPose> pose;
 
-  BL_HD Real operator()(const Vec3d& x) const {
+  /// Of a kernel with that support, m.
+  BL_HD Real operator()(const Vec3d& x, Real range) const {
+    const Cut cut{half_space, range};
     Real fraction = 1, boxes = 0;
     for (Index k = 0; k < walls.surfaces.size; ++k) {
       const Surface& s = walls.surfaces[k];
@@ -27,17 +29,19 @@ struct WallFreeFraction {
       if (!at.present) continue;
       const SurfaceView view(s, at, frame, x);
       if (s.kind == SurfaceKind::plane || s.kind == SurfaceKind::rectangle)
-        fraction *= 1 - behind(s, view.local());
+        fraction *= 1 - behind(cut, s, view.local());
       else if (s.kind == SurfaceKind::box && s.shell == 0)
-        boxes += behind(s, view.local());
+        boxes += behind(cut, s, view.local());
       else
-        fraction *= beside(view);
+        fraction *= beside(cut, view);
     }
     return max_of(fraction - boxes, kLeast);
   }
-  /// Whether walls, present or not, may cut the kernel around any point within `skin` (m) of x.
-  BL_HD bool may_cut(const Vec3d& x, double skin) const {
-    const double range = 1.001 * double(half_space.range);  // rounding within the fraction stays below that
+  BL_HD Real operator()(const Vec3d& x) const { return (*this)(x, half_space.range); }
+  /// Whether walls, present or not, may cut a kernel of that support (m) around any point within `skin` (m)
+  /// of x.
+  BL_HD bool may_cut(const Vec3d& x, Real support, double skin) const {
+    const double range = 1.001 * double(support);  // rounding within the fraction stays below that
     for (Index k = 0; k < walls.surfaces.size; ++k) {
       const Surface& s = walls.surfaces[k];
       const Vec3d r = SurfaceView(s, pose[s.body], frame, x).local();
@@ -51,8 +55,15 @@ struct WallFreeFraction {
  private:
   static constexpr int kCompared = 6;  ///< closest points that the next ones are compared with
 
-  BL_HD Real beside(const SurfaceView& view) const {
-    const double reach = double(half_space.range);
+  /// Fraction of a kernel of another support on one side of a plane.
+  struct Cut {
+    const HalfSpaceFraction& half_space;
+    Real range;
+    BL_HD Real operator()(double z) const { return half_space.within(z, range); }
+  };
+
+  BL_HD Real beside(const Cut& cut, const SurfaceView& view) const {
+    const double reach = double(cut.range);
     if (view.beyond(walls, reach)) return 1;
     Vec3d normals[kCompared];
     int compared = 0;
@@ -67,22 +78,22 @@ struct WallFreeFraction {
       Real fresh = 1;
       for (int k = 0; k < compared; ++k)
         fresh = min_of(fresh, max_of(Real(0), 1 - Real(dot(normals[k], closest.normal))));
-      fraction *= 1 - fresh * (1 - half_space(closest.distance));
+      fraction *= 1 - fresh * (1 - cut(closest.distance));
       if (compared < kCompared) normals[compared++] = closest.normal;
     });
-    return within < 0 ? fraction * half_space(within) : fraction;
+    return within < 0 ? fraction * cut(within) : fraction;
   }
-  BL_HD Real behind(const Surface& s, const Vec3d& r) const {
+  BL_HD static Real behind(const Cut& cut, const Surface& s, const Vec3d& r) {
     const double p[3] = {dot(r, s.axis[0]), dot(r, s.axis[1]), dot(r, s.axis[2])};
-    if (s.kind == SurfaceKind::plane) return 1 - half_space(max_of(p[2], 0.0));
-    if (s.kind == SurfaceKind::box) return inside(s, p, 0) * inside(s, p, 1) * inside(s, p, 2);
+    if (s.kind == SurfaceKind::plane) return 1 - cut(max_of(p[2], 0.0));
+    if (s.kind == SurfaceKind::box) return inside(cut, s, p, 0) * inside(cut, s, p, 1) * inside(cut, s, p, 2);
     // a patch cuts off what lies behind it, also where it joins another patch
-    const double reach = half_space.range;
-    return (1 - half_space(std::abs(p[2]))) * half_space(s.half[0] + reach - std::abs(p[0])) *
-           half_space(s.half[1] + reach - std::abs(p[1]));
+    const double reach = cut.range;
+    return (1 - cut(std::abs(p[2]))) * cut(s.half[0] + reach - std::abs(p[0])) *
+           cut(s.half[1] + reach - std::abs(p[1]));
   }
-  BL_HD Real inside(const Surface& s, const double* p, int k) const {
-    return half_space(s.half[k] - p[k]) - half_space(-s.half[k] - p[k]);
+  BL_HD static Real inside(const Cut& cut, const Surface& s, const double* p, int k) {
+    return cut(s.half[k] - p[k]) - cut(-s.half[k] - p[k]);
   }
 };
 

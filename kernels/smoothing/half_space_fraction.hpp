@@ -39,7 +39,9 @@ struct HalfSpaceFraction {
     return slice;
   }
 
-  BL_HD Real operator()(double z) const {
+  BL_HD Real operator()(double z) const { return within(z, range); }
+  /// The same for a kernel with another support, m.
+  BL_HD Real within(double z, Real range) const {
     const Real at = min_of(Real(std::abs(z)) / range, Real(1)) * (points - 1);
     const int k = int(min_of(at, Real(points - 2)));
     const Real fraction = below[k] + (at - k) * (below[k + 1] - below[k]);

@@ -22,7 +22,7 @@ void Checks::domain() const {
     if (c.domain.flat(k)) continue;
     period(k, 2 * c.fluid.reach(), c.fluid.variable_h ? "4 kappa h" : "2 kappa h",
            c.fluid.present && !c.fluid.lattice());
-    period(k, 2 * c.fluid.kappa() * c.couple.hc, "2 kappa h_c", coupled());
+    period(k, 2 * c.farthest_average(), "2 kappa h_c", coupled());
     period(k, 2 * c.grain.d_max, "4 R", c.grain.present);
   }
   if (c.block != 1 && c.block != 2 && c.block != 4 && c.block != 8)

@@ -222,7 +222,6 @@ void Checks::softness() const {
 }
 
 void Checks::resolution() const {
-  constexpr double kAveraged = 2, kResolved = 8;
   const double d = c.grain.d_max, dx = c.fluid.dx, times = d / dx;
   if (times <= kAveraged * (1 + 1e-3)) return;
   const std::string coarser = fmt::format("a fluid.dx of {:.3g} m or more", d / kAveraged);
@@ -256,7 +255,7 @@ void Checks::lubrication() const {
 }
 
 void Checks::coupling() const {
-  const double reach = c.fluid.kappa() * c.couple.hc, d = c.grain.d_max;
+  const double reach = c.farthest_average(), d = c.grain.d_max;
   if (c.couple.drag == DragLaw::table) drag_table();
   if (c.couple.S_wet <= c.couple.S_dry)
     fail("couple.S_wet", c.couple.S_wet, fmt::format("must be > couple.S_dry = {}", c.couple.S_dry));

@@ -183,8 +183,12 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
     {.unit = "m",
      .meaning = "coupling length h_c: smoothing length with which fluid is averaged around grains",
      .range = above(0),
-     .fallback = "max(h, 4 d_max/kappa)",
+     .fallback = "max(h, 4 d_max/kappa); with own lengths max(h, 4 d_min/kappa)",
      .presence = optional});
+  p("couple.own_hc", &c.own_hc,
+    {.meaning =
+         "own lengths: where the largest grain is at least twice as wide as the smallest, each grain has "
+         "its own coupling length, max(couple.hc, 4 d/kappa); otherwise all have couple.hc"});
   p("couple.kernel", &c.kernel,
     {.meaning = "kernel of the averages over fluid and grains", .family = "models"});
   p("couple.eps_min", &c.eps_min, {.meaning = "lower limit of the porosity", .range = within(0.1, 0.5)});

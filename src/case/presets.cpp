@@ -38,6 +38,7 @@ void set_democritus(Config& c) {
   c.contact.tangential = SlidingLaw::democritus;
   c.contact.rolling = RollingLaw::none;
   c.couple.kernel = CouplingKernel::top_hat;
+  c.couple.own_hc = false;
   c.couple.drag = DragLaw::gidaspow;
   c.couple.torque = false;
 }
@@ -60,6 +61,7 @@ void set_he2018(Config& c) {
   c.contact.he_damping = true;
   c.couple.drag = DragLaw::gidaspow;
   c.couple.wall_normalise = false;
+  c.couple.own_hc = false;
   c.couple.S_wet = 0.5;
   c.couple.integrator = DragIntegrator::explicit_steps;
   c.couple.torque = false;
@@ -86,6 +88,7 @@ void set_robinson2014(Config& c) {
   c.contact.rolling = RollingLaw::none;
   c.contact.clip_tension = false;
   c.couple.wall_normalise = false;
+  c.couple.own_hc = false;
   c.couple.S_dry = 0.499;
   c.couple.S_wet = 0.501;
   c.couple.torque = false;

@@ -500,7 +500,8 @@ void resolve(Config& c, const Value& root, const std::filesystem::path& checkpoi
   if (c.fluid.present && !c.fluid.lattice()) resolve_fluid(c, root, checkpoint);
   if (c.grain.present) resolve_grains(c, root, checkpoint);
   if (c.fluid.present && c.grain.present && c.couple.hc == 0)
-    c.couple.hc = std::max(c.fluid.h(), 4 * c.grain.d_max / c.fluid.kappa());
+    c.couple.hc =
+        std::max(c.fluid.h(), 4 * (c.own_lengths() ? c.grain.d_min : c.grain.d_max) / c.fluid.kappa());
   if (c.out.diagnostics_every == 0) c.out.diagnostics_every = c.out.every;
   resolve_probes(c, root);
 }

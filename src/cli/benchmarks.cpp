@@ -39,7 +39,7 @@ constexpr const char* kBeads = R"([domain]
 min = [-{margin}, -{margin}, -{margin}]
 max = [{outside}, {outside}, {top}]
 {fluid}[grain]
-d = 0.0027
+d = {d}
 {grain}{large}[[grain.fill]]
 min = [0, 0, 0]
 max = [{side}, {side}, {bed}]
@@ -88,6 +88,8 @@ max = [{side}, {side}, {side}]
 packing_fraction = {fraction}
 )";
 
+constexpr double kBead = 0.0027;  // diameter, m
+
 struct Beads {
   int count;
   double side;           ///< of the square floor, m
@@ -96,14 +98,13 @@ struct Beads {
   std::string grain = {}, wall = {};
   int ratio = 1, large = 0;  ///< diameter of large grains over that of the others; how many there are besides
   bool lattice = false;      ///< the large ones touch, five by five on the floor
+  double d = kBead, dx = 0.003;  ///< m
 };
-
-constexpr double kBead = 0.0027;  // diameter, m
 
 /// Of the large grains.
 std::string fill_text(const Beads& b, double bed) {
   if (b.large == 0) return "";
-  const double d = b.ratio * kBead;
+  const double d = b.ratio * b.d;
   const std::string sizes = fmt::format("sizes = [{{ d = {:.6g} }}]\n", d);
   if (!b.lattice)
     return fmt::format("[[grain.fill]]\nmin = [0, 0, 0]\nmax = [{0}, {0}, {1}]\ncount = {2}\n{3}", b.side,
@@ -117,20 +118,20 @@ std::string fill_text(const Beads& b, double bed) {
 
 std::string case_text(const Beads& b) {
   using fmt::arg;
-  const double volume = (b.count + b.large * std::pow(b.ratio, 3)) * 3.14159265 / 6 * std::pow(kBead, 3);
+  const double volume = (b.count + b.large * std::pow(b.ratio, 3)) * 3.14159265 / 6 * std::pow(b.d, 3);
   const double bed = volume / 0.35 / (b.side * b.side);  // at 35 %
   const bool wet = b.depth > 0;
   const double top = (wet ? b.depth : bed) + 0.1;
   const std::string fluid =
       wet ? fmt::format(
-                "[fluid]\ndx = 0.003\n[[fluid.fill]]\nmin = [0, 0, 0]\nmax = [{0}, {0}, {1}]\n[visc]\n"
+                "[fluid]\ndx = {2}\n[[fluid.fill]]\nmin = [0, 0, 0]\nmax = [{0}, {0}, {1}]\n[visc]\n"
                 "alpha = 0.02\n",
-                b.side, b.depth)
+                b.side, b.depth, b.dx)
           : "";
   return fmt::format(kBeads, arg("margin", b.margin), arg("outside", b.side + b.margin), arg("top", top),
-                     arg("fluid", fluid), arg("grain", b.grain), arg("large", fill_text(b, bed)),
-                     arg("side", b.side), arg("bed", bed), arg("count", b.count), arg("wall", b.wall),
-                     arg("rim", wet ? top : bed));
+                     arg("fluid", fluid), arg("d", b.d), arg("grain", b.grain),
+                     arg("large", fill_text(b, bed)), arg("side", b.side), arg("bed", bed),
+                     arg("count", b.count), arg("wall", b.wall), arg("rim", wet ? top : bed));
 }
 
 Benchmark spheres(const std::string& name, int count, double side, bool settle) {
@@ -177,6 +178,21 @@ Benchmark coupled(const std::string& name, double side, double depth, int count,
           kPeers};
 }
 
+/// Water over grains of 0.5 mm and `large` ones of 10 mm, 1 mm apart.
+Benchmark coupled_sizes(const std::string& name, double side, double depth, int count, int large,
+                        bool settle) {
+  return {name,
+          case_text({.count = count,
+                     .side = side,
+                     .depth = depth,
+                     .grain = settle ? "settle = true\nsettle_time = 0.08\n" : "",
+                     .ratio = 20,
+                     .large = large,
+                     .d = 0.0005,
+                     .dx = 0.001}),
+          kPeers};
+}
+
 /// n: nodes along a side; fraction: of the volume, in spheres.
 Benchmark lattice(const std::string& name, int n, double fraction) {
   using fmt::arg;
@@ -213,6 +229,10 @@ std::vector<Benchmark> benchmarks() {
           coated("bi100-coated"),
           coupled("coupled", 0.12, 0.189, 10000, true),
           coupled("coupled-10M", 0.6, 0.75, 2000000, false),
+          coupled_sizes("coupled-fine", 0.08, 0.156, 1000000, 0, true),
+          coupled_sizes("coupled-bi20", 0.08, 0.156, 1000000, 12, true),
+          coupled_sizes("coupled-fine-20k", 0.02, 0.02, 20000, 0, false),
+          coupled_sizes("coupled-bi20-20k", 0.02, 0.02, 20000, 1, false),
           lattice("lattice-0.9M", 96, 0),
           lattice("lattice-57M", 384, 0),
           lattice("lattice-spheres-0.9M", 96, 0.2),

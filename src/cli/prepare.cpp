@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "bedload/case/lattice_step.hpp"
+#include "bedload/case/limits.hpp"
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/body.hpp"
@@ -351,6 +352,53 @@ std::string lattice_text(const Config& c, std::int64_t grains) {
   return out;
 }
 
+/// Grains of about one size.
+struct SizeGroup {
+  double least = 0, most = 0;  ///< diameter, m
+  std::int64_t count = 0;
+};
+
+/// From the smallest to the largest: of one diameter each where they are few, else within a factor of two.
+std::vector<SizeGroup> size_groups(const Prepared& p) {
+  constexpr std::size_t kMost = 8;
+  std::vector<double> d;
+  for (const double radius : p.setup.grains.radius) d.push_back(2 * radius);
+  std::sort(d.begin(), d.end());
+  for (const double factor : {1 + 1e-6, 2.0}) {
+    std::vector<SizeGroup> groups;
+    for (const double one : d) {
+      if (groups.empty() || one > factor * groups.back().least) groups.push_back({one, one, 0});
+      groups.back().most = one, ++groups.back().count;
+    }
+    if (groups.size() <= kMost || factor == 2) return groups;
+  }
+  return {};
+}
+
+/// The coupling, and how grains of each size take part in it.
+std::string coupling_text(const Prepared& p) {
+  const Config& c = p.config;
+  const double kappa = c.fluid.kappa(), dx = c.fluid.dx;
+  std::string out =
+      fmt::format("coupling   {}, {}, h_c {:.4g} m", c.couple.mode.name(), c.couple.drag.name(), c.couple.hc);
+  out += c.own_lengths() ? fmt::format(" to {:.4g} m, each grain its own\n", c.farthest_average() / kappa)
+                         : fmt::format(" = {:.3g} d_max\n", c.couple.hc / c.grain.d_max);
+  for (const SizeGroup& g : size_groups(p)) {
+    const double range = c.couple.farthest(kappa, c.grain.d_min, g.most), times = g.most / dx;
+    const std::string size = g.most > g.least * (1 + 1e-6) ? fmt::format("{:.4g} to {:.4g}", g.least, g.most)
+                                                           : fmt::format("{:.4g}", g.most);
+    out += fmt::format(
+        "           {} grains of {} m: {:.3g} times fluid.dx, h_c {:.3g} d, {:.3g} fluid particles per "
+        "kernel, {}\n",
+        grouped(g.count), size, times, range / kappa / g.most,
+        4 * std::numbers::pi / 3 * std::pow(range / dx, 3),
+        times <= kAveraged * (1 + 1e-3) ? "by the drag law"
+        : times < kResolved             ? "too large for drag laws"
+                                        : "too large for drag laws, resolved as a free body");
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string summary_text(const Prepared& p) {
@@ -379,9 +427,7 @@ std::string summary_text(const Prepared& p) {
     out += fmt::format("inlet      {}: {} particles per layer, up to {:.4g} m/s\n", inlet.name,
                        orifice_layer(inlet, c.fluid.dx, c.domain).points.size(),
                        inlet_speed(inlet, c.fluid.dx, c.domain, c.time.end));
-  if (c.fluid.present && c.grain.present && c.couple.mode != CouplingMode::off)
-    out += fmt::format("coupling   {}, {}, h_c {:.4g} m = {:.3g} d_max\n", c.couple.mode.name(),
-                       c.couple.drag.name(), c.couple.hc, c.couple.hc / c.grain.d_max);
+  if (c.fluid.present && c.grain.present && c.couple.mode != CouplingMode::off) out += coupling_text(p);
   return out;
 }
 

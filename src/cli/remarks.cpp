@@ -80,7 +80,7 @@ void add_defaults(Remarks& all, const Config& c, bool free_surface) {
   if (grains && c.couple.mode == CouplingMode::two_way && !c.couple.undisturbed && !c.domain.two_d)
     add("wake", fmt::format("a single grain drags the fluid around it along at up to {:.2g} % of its speed; "
                             "couple.undisturbed corrects its drag for that",
-                            100 * 0.537 * c.grain.d_max / c.couple.hc));
+                            100 * 0.537 * c.grain.d_max * c.fluid.kappa() / c.farthest_average()));
   if (c.grain.present && takes_moduli(c.contact.normal) && c.grain.E < 1e9)
     add("contacts",
         fmt::format(
@@ -131,11 +131,12 @@ void add_resolution(Remarks& all, const Config& c) {
 void add_grains(Remarks& all, const Config& c) {
   if (!c.grain.present) return;
   if (const double ratio = c.grain.d_max / c.grain.d_min;
-      ratio > 5 * (1 + 1e-9) && c.fluid.present && c.couple.mode != CouplingMode::off)
+      ratio > 5 * (1 + 1e-9) && c.fluid.present && c.couple.mode != CouplingMode::off && !c.own_lengths())
     all.push_back(
         {"sizes",
          fmt::format("the largest grain is {:.3g} times the smallest: couple.hc follows the largest, "
-                     "so each fluid particle is coupled to many of the smallest",
+                     "so each fluid particle is coupled to many of the smallest; couple.own_hc = true gives "
+                     "each grain its own",
                      ratio)});
   if (!c.fluid.present || c.couple.mode != CouplingMode::two_way || norm(c.gravity) == 0) return;
   for (const auto& kind : kNames<WallType>)

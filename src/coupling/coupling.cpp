@@ -28,30 +28,6 @@ void with_flag(bool flag, F&& f) {
     f(std::false_type{});
 }
 
-/// How a store keeps positions.
-template <class Store>
-using Place = std::remove_cvref_t<decltype(std::declval<const Store&>().x_list.span()[0])>;
-
-/// log2 of the lanes that share a row: rows are long, and four lanes read contiguous memory.
-unsigned lanes_for(Index rows) { return min_of(max_of(lane_bits(rows), 2u), kSliceBits); }
-
-struct InOrderPass {
-  Span<const Index> order;
-  Span<const Vec3d> x;
-  Span<Vec3d> in_order;
-  BL_HD void operator()(Index k) const { in_order[k] = x[order[k]]; }
-};
-
-/// Entries of a list, which are places in an order, become indices in the store.
-struct StoredIndexPass {
-  Span<const Index> order;
-  VerletListView list;
-  Index* entry;
-  BL_HD void operator()(Index i) const {
-    list.each(i, [&](std::uint64_t slot, Index k) { entry[slot] = order[k]; });
-  }
-};
-
 /// The largest rate of drag, and the largest sum of levers if there are any.
 struct LargestRate {
   using Value = StiffestDrag;
@@ -120,9 +96,18 @@ struct CountBent {
 template <class F>
 void Coupling::with_coupling_kernel(F&& f) const {
   if (top_hat_)
-    f(TopHat(range_));
+    f(TopHat(range_.least));
   else
     with_kernel(kernel_, h_c_, f);
+}
+
+template <class F>
+void Coupling::with_averages(F&& f) const {
+  with_coupling_kernel([&](auto w) {
+    if constexpr (!kFirstLook)
+      if (own_lengths()) return f(w, OwnAverages{shrink_});
+    f(w, OneAverage{});
+  });
 }
 
 Coupling::Coupling(const CouplingParameters& p, const Frame& frame, const WallGeometry& walls)
@@ -133,7 +118,8 @@ Coupling::Coupling(const CouplingParameters& p, const Frame& frame, const WallGe
       dx_(p.fluid.dx),
       h_(p.fluid.h()),
       h_c_(p.couple.hc),
-      range_(kernel_kappa(kernel_) * h_c_),
+      range_{kernel_kappa(kernel_) * h_c_, p.largest_range > kernel_kappa(kernel_) * h_c_ ? 8.0 : 0.0},
+      farthest_(max_of(range_.least, p.largest_range)),
       top_hat_(p.couple.kernel == CouplingKernel::top_hat),
       mu_(p.fluid.mu),
       suspension_(p.couple.suspension),
@@ -154,7 +140,7 @@ Coupling::Coupling(const CouplingParameters& p, const Frame& frame, const WallGe
       wall_normalise_(p.couple.wall_normalise) {
   with_coupling_kernel([&](auto w) {
     half_space_ = HalfSpaceFraction::of(w);
-    if (!two_way_ || p.couple.undisturbed) own_ = OwnWake::of(w, h_c_, mu_, two_way_);
+    if (!two_way_ || p.couple.undisturbed) wake_ = OwnWake::of(w, h_c_, mu_, two_way_);
   });
   orifices_.assign(p.orifices);
 }
@@ -178,60 +164,19 @@ DragLines<Law, Local> Coupling::drag_lines(const Law& law, const GrainStore& gra
   return {.law = law,
           .mu = Real(mu_),
           .shares = two_way_,
-          .own = own_,
+          .wake = wake_,
+          .shrink = span_if(own_lengths(), shrink_),
           .bodies = {matter_.volume_of(grains), grains.radius, grains.clump_d.span()},
           .eps = grains.eps,
           .bed_eps = bed_eps_,
           .surroundings = surroundings()};
 }
 
-void Coupling::pack(GrainStore& grains) {
-  for_each(grains.all(), PackPass<Vec3d>{frame_, grains.x, grains.xp});
-}
-
-void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_grid,
-                             const HalfSkins& of_fluid, GrainStore& grains, const GrainCells& grain_cells,
-                             const HalfSkins& of_grains, Span<const BodyPose> still) {
-  pack(grains);
-  beside_walls_.resize(still ? grains.size() : 0);
-  if (still)
-    for_each(grains.all(),
-             BesideWallsPass{wall_free(still), double(of_grains.most), grains.x_list, beside_walls_});
-  const double reach = range_ + of_fluid.most + of_grains.most;
-  build(fluid_of_grain_, grains, of_grains, fluid, of_fluid, fluid_grid.for_reach(reach),
-        fluid.x_list.span());
-  const Span<const Index> order = grain_cells.order;
-  Span<const Vec3d> places = grains.x_list.span();
-  if (order) {
-    grain_places_.reserve_and_resize(grains.size());
-    for_each(grains.all(), InOrderPass{order, places, grain_places_});
-    places = grain_places_;
-  }
-  VerletList& of_fluid_rows =
-      build(grains_of_fluid_, fluid, of_fluid, grains, of_grains, grain_cells.cells.for_reach(reach), places);
-  if (order) for_each(fluid.owned(), StoredIndexPass{order, of_fluid_rows.view(), of_fluid_rows.entries()});
-}
-
-template <class Targets, class Sources, class P>
-VerletList& Coupling::build(Pairing<>& pairs, const Targets& targets, const HalfSkins& skin_a,
-                            const Sources& sources, const HalfSkins& skin_b, const CellGridView& grid,
-                            Span<const P> places) {
-  VerletList& list = pairs.between(frame_, targets, sources, range_);
-  list.build(targets.owned().size(), grid,
-             CrossNear<Place<Targets>, P>{.frame = frame_,
-                                          .a = targets.x_list,
-                                          .b = places,
-                                          .range = range_,
-                                          .skin_a = skin_a,
-                                          .skin_b = skin_b},
-             lanes_for(Index(targets.everywhere())));
-  return list;
-}
-
 void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt) {
   of_grains_.resize(grains.size());
   const bool asked = beside_walls_.size() > 0;
   for_each(grains.all(), GrainVolumePass{.free = wall_free(pose),
+                                         .range = range_,
                                          .frame = frame_,
                                          .per_dt = dt > 0 ? 1 / dt : 0,
                                          .x = grains.x,
@@ -241,7 +186,8 @@ void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, doub
                                          .radius = grains.radius,
                                          .beside = span_if(asked, beside_walls_),
                                          .wall_free = wall_free_,
-                                         .volume = volume_});
+                                         .volume = volume_,
+                                         .shrink = own_lengths() ? shrink_.span() : Span<Real>()});
 }
 
 WallFreeFraction Coupling::wall_free(Span<const BodyPose> pose) const {
@@ -261,11 +207,12 @@ void Coupling::gather(FluidStore& fluid, GrainStore& grains, Span<const BodyPose
                                    .eps = fluid.eps,
                                    .solids = solids_});
   const GrainSurroundings around = surroundings();
-  with_coupling_kernel([&](auto w) {
+  with_averages([&](auto w, auto averages) {
     with_flag(moments(), [&](auto with_moments) {
       with_flag(local_slip_, [&](auto local) {
-        const InterpolationPass<decltype(w), with_moments, local> pass{
+        const InterpolationPass<decltype(w), with_moments, local, decltype(averages)> pass{
             .w = w,
+            .averages = averages,
             .S_least = S_dry_ * WallFreeFraction::kLeast,
             .eps_min = eps_min_,
             .v_rho = fluid.v_rho,
@@ -277,7 +224,7 @@ void Coupling::gather(FluidStore& fluid, GrainStore& grains, Span<const BodyPose
             .eps = grains.eps,
             .bed_eps = bed_eps_,
             .surroundings = around};
-        fluid_of_grain_.run(pass);
+        over_fluid(pass);
       });
     });
   });
@@ -315,18 +262,19 @@ void Coupling::limit(FluidStore& fluid, GrainStore& grains, double dt) {
   if (drag_ && dt * drag_->rate * drag_->lever < 0.5) return;
   grains.share({&grains.drag_coefficient, &grains.still, &grains.by_slip, &grains.lever_at_centre,
                 &grains.lever_off_centre});
-  with_coupling_kernel([&](auto w) {
+  with_averages([&](auto w, auto averages) {
     with_flag(local_slip_, [&](auto local) {
       with_flag(angmom_, [&](auto couple) {
-        grains_of_fluid_.run(
-            DragRatePass<decltype(w), local, couple>{.w = w,
-                                                     .weights = drag_weights(grains),
-                                                     .levers = levers(grains),
-                                                     .drag_coefficient = grains.drag_coefficient,
-                                                     .mass = fluid.mass,
-                                                     .v_rho = fluid.v_rho,
-                                                     .eos_state = fluid.eos_state,
-                                                     .rate = fluid.drag_rate});
+        grains_of_fluid_.run(DragRatePass<decltype(w), local, couple, decltype(averages)>{
+            .w = w,
+            .averages = averages,
+            .weights = drag_weights(grains),
+            .levers = levers(grains),
+            .drag_coefficient = grains.drag_coefficient,
+            .mass = fluid.mass,
+            .v_rho = fluid.v_rho,
+            .eos_state = fluid.eos_state,
+            .rate = fluid.drag_rate});
       });
     });
   });
@@ -335,11 +283,13 @@ void Coupling::limit(FluidStore& fluid, GrainStore& grains, double dt) {
   limits_ = dt * drag_->rate * drag_->lever > 1;
   if (!limits_) return;
   fluid.share({&fluid.drag_rate});
-  fluid_of_grain_.run(LimitPass{.dt = Real(dt),
-                                .rate = fluid.drag_rate,
-                                .lever_sum = lever_sums(grains.size()),
-                                .drag = drag_of(grains),
-                                .stiffness = stiffness_});
+  over_fluid(LimitPass{.dt = Real(dt),
+                       .range = range_,
+                       .radius = grains.radius,
+                       .rate = fluid.drag_rate,
+                       .lever_sum = lever_sums(grains.size()),
+                       .drag = drag_of(grains),
+                       .stiffness = stiffness_});
   fluid.drag_rate.set_shared(false), grains.drag_coefficient.set_shared(false);
 }
 
@@ -382,17 +332,19 @@ void Coupling::react(FluidStore& fluid, GrainStore& grains, double dt) {
                                                                 .reactions = reactions(grains)});
       grains.share(
           {&grains.reaction_impulse, &grains.reaction_force, &grains.reaction_spin, &grains.reaction_couple});
-      with_coupling_kernel([&](auto w) {
-        grains_of_fluid_.run(ReactionPass<decltype(w), couple, local>{.w = w,
-                                                                      .mass = fluid.mass,
-                                                                      .eos_state = fluid.eos_state,
-                                                                      .by_slip = grains.by_slip,
-                                                                      .reactions = reactions(grains),
-                                                                      .per_dt = Real(1 / dt),
-                                                                      .v_rho = fluid.v_rho,
-                                                                      .reaction = fluid.reaction,
-                                                                      .drag_kick = fluid.drag_kick,
-                                                                      .rate = fluid.drag_rate});
+      with_averages([&](auto w, auto averages) {
+        grains_of_fluid_.run(
+            ReactionPass<decltype(w), couple, local, decltype(averages)>{.w = w,
+                                                                         .averages = averages,
+                                                                         .mass = fluid.mass,
+                                                                         .eos_state = fluid.eos_state,
+                                                                         .by_slip = grains.by_slip,
+                                                                         .reactions = reactions(grains),
+                                                                         .per_dt = Real(1 / dt),
+                                                                         .v_rho = fluid.v_rho,
+                                                                         .reaction = fluid.reaction,
+                                                                         .drag_kick = fluid.drag_kick,
+                                                                         .rate = fluid.drag_rate});
       });
     });
   });
@@ -402,22 +354,23 @@ void Coupling::react(FluidStore& fluid, GrainStore& grains, double dt) {
 void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt) {
   pack(grains);
   volumes(grains, pose, dt);
-  with_coupling_kernel([&](auto w) {
-    grains_of_fluid_.run(PorosityPass<decltype(w)>{.w = w,
-                                                   .shares = two_way_,
-                                                   .floor = eps_min_,
-                                                   .away_from_orifices = orifice_weight(),
-                                                   .frame = frame_,
-                                                   .x = fluid.x,
-                                                   .volume = volume_,
-                                                   .v_rho = fluid.v_rho,
-                                                   .mass = fluid.mass,
-                                                   .eps = fluid.eps,
-                                                   .solid_factor = fluid.solid_factor,
-                                                   .flux = fluid.flux,
-                                                   .eos_state = fluid.eos_state,
-                                                   .xp = fluid.xp,
-                                                   .xp_mid = fluid.xp_mid});
+  with_averages([&](auto w, auto averages) {
+    grains_of_fluid_.run(PorosityPass<decltype(w), decltype(averages)>{.w = w,
+                                                                       .averages = averages,
+                                                                       .shares = two_way_,
+                                                                       .floor = eps_min_,
+                                                                       .away_from_orifices = orifice_weight(),
+                                                                       .frame = frame_,
+                                                                       .x = fluid.x,
+                                                                       .volume = volume_,
+                                                                       .v_rho = fluid.v_rho,
+                                                                       .mass = fluid.mass,
+                                                                       .eps = fluid.eps,
+                                                                       .solid_factor = fluid.solid_factor,
+                                                                       .flux = fluid.flux,
+                                                                       .eos_state = fluid.eos_state,
+                                                                       .xp = fluid.xp,
+                                                                       .xp_mid = fluid.xp_mid});
   });
   if (suspension_ != SuspensionLaw::none)
     for_each(fluid.owned(),
@@ -432,8 +385,8 @@ void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPo
 void Coupling::push(const FluidStore& fluid, GrainStore& grains, double kick, bool held) {
   of_fluid_.resize(fluid.size());
   for_each(fluid.all(), push_pass(fluid));
-  with_coupling_kernel([&](auto w) {
-    fluid_of_grain_.run(BuoyancyPass<decltype(w)>{w, push_, volume_, buoyancy_});
+  with_averages([&](auto w, auto averages) {
+    over_fluid(BuoyancyPass<decltype(w), decltype(averages)>{w, averages, push_, volume_, buoyancy_});
   });
   for_each(grains.owned(), BuoyancyKick{.kick = Real(kick),
                                         .mass_per_r3 = matter_.of(grains),
@@ -457,11 +410,11 @@ double Coupling::bed_viscosity(double porosity, double d) const {
   with_coupling_kernel([&](auto w) {
     constexpr int shells = 1000;
     for (int k = 0; k < shells; ++k) {
-      const double r = (k + 0.5) * range_ / shells;
-      second += 4 * M_PI * r * r * r * r * double(w.W(Real(r))) * range_ / shells;
+      const double r = (k + 0.5) * range_.least / shells;
+      second += 4 * M_PI * r * r * r * r * double(w.W(Real(r))) * range_.least / shells;
     }
   });
-  return beta * second / 6;
+  return beta * second * square(range_(d / 2) / range_.least) / 6;
 }
 
 double Coupling::stable_dt() const {

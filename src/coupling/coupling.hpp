@@ -19,10 +19,13 @@
 #include <string>
 #include <vector>
 
+#include "bedload/neighbours/for_each_piece.hpp"
+#include "bedload/neighbours/level_lists.hpp"
 #include "bedload/neighbours/pairing.hpp"
 #include "bedload/particles/fluid.hpp"
 #include "bedload/particles/grains.hpp"
 #include "bedload/particles/scratch.hpp"
+#include "kernels/coupling/averaging.hpp"
 #include "kernels/coupling/orifice_weight.hpp"
 #include "kernels/coupling/reaction_pass.hpp"
 #include "kernels/coupling/wall_free_fraction.hpp"
@@ -53,7 +56,8 @@ struct StiffestDrag {
 /// Where grains are.
 struct GrainCells {
   CellGridView cells;
-  Span<const Index> order = {};  ///< the grain in each place of the cells; empty: as they are stored
+  Span<const Index> order = {};        ///< the grain in each place of the cells; empty: as they are stored
+  const SizeLevels* levels = nullptr;  ///< of grains that are stored by level; else null
 };
 
 class Coupling {
@@ -61,8 +65,8 @@ class Coupling {
   /// The walls of the fluid must outlive this.
   Coupling(const CouplingParameters& parameters, const Frame& frame, const WallGeometry& walls);
 
-  /// Range of the interaction between grains and fluid, m.
-  double range() const { return range_; }
+  /// Range of the interaction between grains and fluid, of the largest grains, m.
+  double range() const { return farthest_; }
 
   /// Rebuilds both lists: all pairs within range() and half skins at the positions where the lists of the
   /// phases were built. Also packs the positions of the grains. still: poses of all wall bodies if none ever
@@ -109,6 +113,10 @@ class Coupling {
   /// f(kernel) with the kernel of the coupling.
   template <class F>
   void with_coupling_kernel(F&& f) const;
+  /// f(kernel, averages) with OneAverage or OwnAverages.
+  template <class F>
+  void with_averages(F&& f) const;
+  bool own_lengths() const { return range_.per_radius > 0; }
   bool moments() const { return torque_ || angmom_; }
   void pack(GrainStore& grains);
   /// List of the sources near each target, where both were when the lists of the phases were built; places:
@@ -117,6 +125,16 @@ class Coupling {
   VerletList& build(Pairing<>& pairs, const Targets& targets, const HalfSkins& of_targets,
                     const Sources& sources, const HalfSkins& of_sources, const CellGridView& grid,
                     Span<const P> places);
+  /// Both lists of grains with averaging lengths of their own.
+  void build_own(const FluidStore& fluid, const CellGridView& fluid_grid, const HalfSkins& of_fluid,
+                 const GrainStore& grains, const GrainCells& grain_cells, const HalfSkins& of_grains,
+                 Span<const Vec3d> places);
+  /// Runs a pass over the fluid around each grain.
+  template <class Pass>
+  void over_fluid(const Pass& pass) const {
+    cut_rows_.run(fluid_of_grain_.targets(), fluid_of_grain_.list(), fluid_of_grain_.separation(),
+                  fluid_of_grain_.reach(), pass);
+  }
   void volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt);
   WallFreeFraction wall_free(Span<const BodyPose> pose) const;
   DragLevers levers(GrainStore& grains) {
@@ -141,7 +159,9 @@ class Coupling {
   Chosen<KernelFunction> kernel_;
   Chosen<DragLaw> drag_law_;
   TableOfDrag drag_table_;
-  double dx_, h_, h_c_, range_;
+  double dx_, h_, h_c_;
+  AveragingRange range_;
+  double farthest_;  ///< m
   bool top_hat_;
   double mu_;
   Chosen<SuspensionLaw> suspension_;
@@ -160,18 +180,21 @@ class Coupling {
   SurfaceSet walls_;  ///< that cut the kernels of the grains
   bool wall_normalise_;
   HalfSpaceFraction half_space_;
-  OwnWake own_;
+  OwnWake wake_;
   Buffer<std::uint8_t> beside_walls_;  ///< of each grain; empty where walls may move
   Buffer<Vec3d> grain_places_;         ///< in the order of cells that is not theirs
   Buffer<Orifice> orifices_;
 
   Pairing<> fluid_of_grain_, grains_of_fluid_;
+  CrossLevelLists level_lists_;  ///< of grains with lengths of their own
+  CutRows cut_rows_;             ///< of fluid_of_grain_, likewise
   // what passes of a step leave for others
   Scratch of_grains_, of_fluid_;
   ScratchArray<Real> wall_free_{of_grains_}, inv_S_{of_grains_}, rho_{of_grains_}, bed_eps_{of_grains_},
       stiffness_{of_grains_};
   ScratchArray<FlowSums<>> flow_{of_grains_};
   ScratchArray<Real4> volume_{of_grains_};
+  ScratchArray<Real> shrink_{of_grains_, own_lengths()};
   ScratchArray<Real3> buoyancy_{of_grains_};
   ScratchArray<Real> fast_slip_{of_grains_, local_slip_};
   ScratchArray<FlowSums<>> fast_{of_grains_, local_slip_};

@@ -20,6 +20,7 @@ struct CouplingParameters {
   FluidProperties fluid;
   std::vector<GrainMaterial> materials;  ///< of grains, in the order of their numbers
   std::vector<Orifice> orifices;
+  double largest_range = 0;    ///< as far as fluid is averaged around any grain, m
   double drag_fraction = 0;    ///< limit of a step over the relaxation time of drag
   bool counts_grains = false;  ///< the density sum of the fluid includes grains
   double kT = 0;               ///< temperature of the fluid, J

@@ -5,11 +5,9 @@ namespace {
 
 struct CountPiecesPass {
   const std::uint32_t* count;
+  std::uint32_t piece;
   Span<Index> pieces;
-  BL_HD void operator()(Index i) const {
-    constexpr std::uint32_t piece = LongRowsView::kPiece;
-    pieces[i] = count[i] > piece ? (count[i] + piece - 1) / piece : 0;
-  }
+  BL_HD void operator()(Index i) const { pieces[i] = count[i] > piece ? (count[i] + piece - 1) / piece : 0; }
 };
 
 struct RowOfPiecePass {
@@ -22,9 +20,9 @@ struct RowOfPiecePass {
 
 }  // namespace
 
-void LongRows::cut(const VerletList& list, Index rows) {
+void LongRows::cut(const VerletList& list, Index rows, std::uint32_t piece) {
   pieces_.reserve_and_resize(rows);
-  for_each({0, rows}, CountPiecesPass{list.view().count, pieces_});
+  for_each({0, rows}, CountPiecesPass{list.view().count, piece, pieces_});
   row_.reserve_and_resize(exclusive_scan(pieces_, first_));
   for_each({0, rows}, RowOfPiecePass{first_, row_});
 }

@@ -90,6 +90,7 @@ class SolidSolver {
   const Buffer<Index>& order() const { return order_; }
   const VerletList& list() const { return list_; }
   bool in_levels() const { return levels_.count() > 1; }
+  const SizeLevels& levels() const { return levels_; }
   /// Number of grains near walls.
   Index near_walls() const { return wall_list_.size(); }
 

@@ -357,7 +357,8 @@ void Stepper::relist_coupling() {
   const bool in_levels = solid_solver_->in_levels();
   if (in_levels) grain_grid_.sort<Vec3d>(frame_, grains_.x_list.span(), grain_order_);
   coupling_->rebuild_lists(fluid_, fluid_solver_->grid().view(), fluid_solver_->half_skins(fluid_), grains_,
-                           {grain_grid_.view(), in_levels ? grain_order_.span() : Span<const Index>()},
+                           {grain_grid_.view(), in_levels ? grain_order_.span() : Span<const Index>(),
+                            in_levels ? &solid_solver_->levels() : nullptr},
                            solid_solver_->skin() / 2, motion_.moves() ? Span<const BodyPose>() : poses_now());
 }
 

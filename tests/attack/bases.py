@@ -673,6 +673,7 @@ turn = "axis"
 axis = [0, 0, 1]
 [couple]
 undisturbed = true
+own_hc = true
 S_dry = 0.1
 S_wet = 0.2
 torque = true

@@ -38,6 +38,20 @@ TEST(ReadCase, ResolvesWhatFollowsFromTheRest) {
   EXPECT_DOUBLE_EQ(read(changed("d = 0.002", "d = 0.004")).couple.hc, 0.008);
 }
 
+TEST(ReadCase, GrainsOfUnlikeSizesHaveTheirOwnAveragingLengths) {
+  const auto sizes = [](const std::string& smaller, const std::vector<std::string>& set = {}) {
+    return read(changed("count = 500", "count = 500\nsizes = [{ d = 0.008 }, { d = " + smaller + " }]"), set);
+  };
+  const Config like = sizes("0.0041"), unlike = sizes("0.004"), one = sizes("0.004", {"couple.own_hc=false"});
+  EXPECT_FALSE(like.own_lengths());
+  EXPECT_DOUBLE_EQ(like.couple.hc, 0.016);  // 2 d_max
+  EXPECT_TRUE(unlike.own_lengths());
+  EXPECT_DOUBLE_EQ(unlike.couple.hc, 0.008);  // 2 d_min
+  EXPECT_DOUBLE_EQ(unlike.farthest_average(), 0.032);
+  EXPECT_FALSE(one.own_lengths());
+  EXPECT_DOUBLE_EQ(one.couple.hc, 0.016);
+}
+
 TEST(ReadCase, SoundSpeedFollowsTheFastestOfUserDepthAndWalls) {
   EXPECT_DOUBLE_EQ(read(kCase, {"fluid.vmax=3"}).fluid.c, 30);
   EXPECT_DOUBLE_EQ(read(kCase, {"fluid.vmax=0.1"}).fluid.vmax, std::sqrt(2 * 9.81 * 0.1));

@@ -120,6 +120,71 @@ TEST(Exchange, ConservesAngularMomentumWithTheCouple) {
   }
 }
 
+/// 80 grains and four that are twenty times as large, each with its own averaging length, in irregular fluid.
+CoupledBox unlike_sizes(bool periodic) {
+  Config c = unit_box(0.06, 20);
+  c.domain.periodic = {periodic, periodic, periodic};
+  c.grain.d_min = 0.006, c.grain.d_max = 0.12;
+  std::mt19937_64 random(14);
+  const double edge = periodic ? 0 : 0.25;
+  const Vec3d lo{edge, edge, edge}, hi = Vec3d{1, 1, 1} - lo;
+  Cloud fluid = random_fluid(6000, lo, hi, 1000, random);
+  Pebbles grains = random_grains(84, lo, hi, c.grain.d_min, random);
+  for (int j = 0; j < 4; ++j) grains.radius[20 * j] = c.grain.d_max / 2;
+  return CoupledBox(c, fluid, grains);
+}
+
+TEST(Exchange, ConservesBothMomentaAmongGrainsOfUnlikeSizes) {
+  for (const bool periodic : {true, false})
+    for (const bool by_size : {false, true}) {
+      CoupledBox box = unlike_sizes(periodic);
+      if (by_size) {
+        ASSERT_EQ(box.relist_by_size(), 2);
+      }
+      const Balances b = exchange(box, 0.05);
+      EXPECT_GT(b.momentum.scale, 1e-3);
+      EXPECT_LT(b.momentum.error(), kInvariant) << periodic << by_size;
+      EXPECT_LT(b.force.error(), kInvariant) << periodic << by_size;
+      if (periodic) continue;
+      EXPECT_LT(b.spin.error(), kInvariant) << by_size;
+      EXPECT_LT(b.moment.error(), kInvariant) << by_size;
+    }
+}
+
+/// A grain reads the fluid within four diameters of its own, and fluid the grains that reach it.
+TEST(Exchange, IsAveragedOverTheLengthOfEachGrain) {
+  for (const bool by_size : {false, true}) {
+    CoupledBox box = unlike_sizes(true);
+    if (by_size) {
+      ASSERT_EQ(box.relist_by_size(), 2);
+    }
+    const auto before = box.fluid.eos_state.values();
+    const auto eps_before = box.fluid.eps.values();
+    box.coupling.gather(box.fluid, box.grains, {}, 0.05);
+    const auto read = box.grains.eps.values();
+    box.coupling.porosity(box.fluid, box.grains, {}, 0);
+    const auto eps = box.fluid.eps.values();
+    const auto at = box.fluid_places();
+    const auto x = box.grains.x.values();
+    const auto radius = box.grains.radius.values();
+    std::vector<double> expected(at.size(), 1);
+    for (std::size_t j = 0; j < x.size(); ++j) {
+      const double R = double(radius[j]), V = 4 * M_PI / 3 * R * R * R;
+      const WendlandC2 w(std::max(0.06, 4 * R));
+      double S = 0, seen = 0;
+      for (std::size_t a = 0; a < at.size(); ++a) {
+        const double W = double(w.W(Real(norm(box.frame.separation(at[a], x[j])))));
+        const double share = double(before[a].mass_over_eps / before[a].rho) * W;
+        S += share, seen += share * double(eps_before[a]);
+        expected[a] -= V * W;
+      }
+      EXPECT_NEAR(read[j], seen / S, tolerance(1e-12, 1e-5, 1e-5)) << R << by_size;
+    }
+    for (std::size_t a = 0; a < at.size(); ++a)
+      EXPECT_NEAR(eps[a], expected[a], tolerance(1e-12, 1e-6, 1e-6)) << by_size;
+  }
+}
+
 /// Grain j by sums over all pairs, with Ergun's law.
 struct ByAllPairs {
   std::vector<double> weight;  ///< phi_ja K_ja / K_j of each fluid particle

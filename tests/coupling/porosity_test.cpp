@@ -237,10 +237,11 @@ TEST(Porosity, KnowsWhatFractionOfTheKernelWallsLeave) {
   planes[1].body = 1;
   std::vector<BodyPose> pose(2);
   pose[1].present = 0;
-  const auto fraction = [&](const Vec3d& x) {
-    const Frame frame({-1, -1, -1}, {1, 1, 1}, false, false, false);
-    return WallFreeFraction{HalfSpaceFraction::of(w), frame, {{{planes.data(), 2}}}, {pose.data(), 2}}(x);
+  const Frame frame({-1, -1, -1}, {1, 1, 1}, false, false, false);
+  const auto of = [&](const WendlandC2& kernel) {
+    return WallFreeFraction{HalfSpaceFraction::of(kernel), frame, {{{planes.data(), 2}}}, {pose.data(), 2}};
   };
+  const auto fraction = [&](const Vec3d& x) { return of(w)(x); };
   for (double z : {0.0, 0.04, 0.11, 0.25}) {
     double free = 0, all = 0;
     for (const Vec3d& r : lattice({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2}, 0.01)) {
@@ -249,6 +250,7 @@ TEST(Porosity, KnowsWhatFractionOfTheKernelWallsLeave) {
       if (r.z > -z) free += weight;
     }
     EXPECT_NEAR(fraction({0, 0, z}), free / all, 5e-3) << z;
+    EXPECT_NEAR(of(WendlandC2(0.025))({0, 0, z}, Real(0.2)), fraction({0, 0, z}), 1e-5) << z;
   }
   EXPECT_EQ(fraction({0.3, 0, 0.25}), Real(1));
   pose[1].present = 1;
@@ -276,7 +278,7 @@ TEST(Porosity, AsksNoWallThatIsTooFarToCutTheKernel) {
   int cut = 0, near = 0;
   for (const Vec3d& x : random_points(20000, {-1, -1, -1}, {1, 1, 1}, random)) {
     const Vec3d listed = x + skin / std::sqrt(3.0) * Vec3d{1, -1, 1};
-    const bool asked = free.may_cut(listed, skin);
+    const bool asked = free.may_cut(listed, free.half_space.range, skin);
     near += asked;
     if (free(x) == Real(1)) continue;
     ++cut;

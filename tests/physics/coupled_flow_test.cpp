@@ -103,9 +103,10 @@ TEST(SmallCoupled, RestartContinuesBitForBit) {
   }
 }
 
-TEST(SmallCoupled, GrainsOfUnlikeSizesKeepMomentumAndContinueBitForBit) {
+void expect_momentum_and_restart_of_unlike_sizes(bool own_lengths) {
   Slurry slurry(6, 0.4);
   slurry.config.grain.d_min = slurry.config.grain.d / 4;
+  if (own_lengths) slurry.config.couple.hc = slurry.config.fluid.h();
   for (std::size_t i = 0; i < slurry.setup.grains.radius.size(); ++i)
     if (i % 5 != 0) slurry.setup.grains.radius[i] /= 4;
   auto unbroken = started(slurry.config, slurry.setup);
@@ -124,6 +125,10 @@ TEST(SmallCoupled, GrainsOfUnlikeSizesKeepMomentumAndContinueBitForBit) {
   const double scale = reading(after, "fluid_mass") * 0.3;
   EXPECT_GT(norm(exchanged), 1e-4 * scale);
   EXPECT_LT(norm(exchanged + momentum(after, "grain") - momentum(before, "grain")) / scale, 20 * kInvariant);
+}
+
+TEST(SmallCoupled, GrainsOfUnlikeSizesKeepMomentumAndContinueBitForBit) {
+  for (const bool own_lengths : {false, true}) expect_momentum_and_restart_of_unlike_sizes(own_lengths);
 }
 
 TEST(SmallCoupled, SameCaseTwiceIsBitEqual) {  // T-46
@@ -382,6 +387,57 @@ TEST(SlowCoupledFlow, WaterInABedAtRestStaysAtRestOnAFrozenFloor) {
 // its soft push lets the column bob, at 0.14 m/s at first
 TEST(SlowCoupledFlow, WaterInABedAtRestComesToRestOnASingleLayer) {
   expect_still_bed("single_layer", 0.921, 0.02, 0.6);
+}
+
+/// Water over and in a bed of grains of 3 mm and, in its pores, of such of 0.15 mm: each class is lifted by
+/// its buoyancy.
+TEST(SlowCoupledFlow, WaterInABedOfTwoSizesStaysAtRest) {
+  Config c = periodic_box(16, 1.5e-3);
+  c.gravity = {0, 0, -9.81};
+  c.domain.periodic = {true, true, false};
+  c.domain.min.z = -0.009;
+  c.domain.max.z = 0.04;
+  c.fluid.mu = 8.9e-4;
+  c.fluid.vmax = std::sqrt(2 * 9.81 * 0.024);
+  c.fluid.c = 10 * c.fluid.vmax;
+  c.density.delta = 0.1;
+  c.density.void_relaxation = DensityConfig{}.void_relaxation;
+  c.grain.present = c.grain.fixed = true;
+  c.grain.d = c.grain.d_min = 0.15e-3;
+  c.grain.d_max = 3e-3;
+  c.couple.hc = c.fluid.h();
+  c.fluid.fills = {{{0, 0, 0}, {0.024, 0.024, 0.024}, {"0", "0", "0"}}};
+  c.wall.bodies = {test::tank({0, 0, 0}, {0.024, 0.024, 0.04}, "z-")};
+  std::vector<std::string> warnings;
+  auto setup = build_setup(c, warnings);
+  const auto add = [&](const Vec3d& x, double d) {
+    setup.grains.x.push_back(x), setup.grains.v.push_back({}), setup.grains.radius.push_back(d / 2);
+  };
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> u(0, 1);
+  for (int k = 0; k < 8 * 8 * 4; ++k)  // touch: 0.52 solid
+    add(Vec3d(k % 8 + 0.5, k / 8 % 8 + 0.5, k / 64 + 0.5) * c.grain.d_max, c.grain.d_max);
+  while (setup.grains.x.size() < 256 + 3000) {
+    const Vec3d x{0.024 * u(random), 0.024 * u(random), 0.012 * u(random)};
+    Vec3d off;  // from the centre of the large grain of that cell
+    for (int k = 0; k < 3; ++k) off[k] = x[k] - (std::floor(x[k] / 3e-3) + 0.5) * 3e-3;
+    if (norm(off) > 0.5 * (c.grain.d_max + c.grain.d_min)) add(x, c.grain.d_min);
+  }
+  auto s = started(c, setup);
+  double fastest = 0, lift[2] = {}, buoyancy[2] = {};
+  for (int k = 1; k <= 5; ++k) {
+    run_until(*s, 0.005 * k);
+    fastest = std::max(fastest, reading(s->diagnostics(), "fluid_speed_max"));
+    if (k < 3) continue;
+    const auto force = vectors(s->snapshot("grains"), "fluid_force");
+    for (std::size_t j = 0; j < force.size(); ++j) {
+      const double R = setup.grains.radius[j];
+      lift[R < 1e-3] += force[j].z;
+      buoyancy[R < 1e-3] += 9.81 * 1000 * 4 * pi / 3 * R * R * R;
+    }
+  }
+  EXPECT_LT(fastest, 3e-3);
+  for (const int small : {0, 1}) EXPECT_NEAR(lift[small] / buoyancy[small], 1, 0.01) << small;
 }
 
 /// One grain released in still water over a floor, drag on the grain alone.

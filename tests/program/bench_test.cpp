@@ -101,7 +101,8 @@ TEST_F(Bench, RefusesWhatItDoesNotKnowWithOneSentence) {
   };
   refused("dam.toml 2M", "command line", "unknown benchmark 2M");
   refused("dam.toml 2M", "command line",
-          "bi100-coated, coupled, coupled-10M, lattice-0.9M, lattice-57M, "
+          "bi100-coated, coupled, coupled-10M, coupled-fine, coupled-bi20, coupled-fine-20k, "
+          "coupled-bi20-20k, lattice-0.9M, lattice-57M, "
           "lattice-spheres-0.9M, lattice-spheres-57M, or a case file");
   refused("no.toml", "no.toml", "no such file");
   refused("dam.toml --set grain.e=1.4", "--set grain.e=1.4", "must be within 0.05..1");
@@ -116,6 +117,9 @@ TEST_F(Bench, ReadsEveryBuiltInCase) {
     EXPECT_NO_THROW(read_case_text(row.text, row.name, {}, warnings)) << row.name;
     const Config config = read_case_text(row.text, row.name, row.settings, warnings);
     EXPECT_EQ(config.fluid.present && !config.fluid.lattice(), !row.settings.empty()) << row.name;
+    std::erase_if(warnings, [&](const std::string& w) {  // which is what the row is about
+      return row.name.starts_with("coupled-bi20") && w.find("too large for drag laws") != w.npos;
+    });
     EXPECT_EQ(warnings, std::vector<std::string>{}) << row.name;
   }
 }

@@ -112,8 +112,9 @@ TEST_F(Program, RefusesWrongCommandLinesWithOneSentence) {
   const std::string line = "command line";
   refused("", line, "subcommand is required");
   refused("simulate dam.toml", line, "unknown command simulate");
-  refused("simulate dam.toml", line,
-          "run, viscometer, check, new, demo, list, info, convert, bench, drag, gui, schema, completion, man");
+  refused(
+      "simulate dam.toml", line,
+      "run, viscometer, check, new, demo, list, info, convert, bench, drag, gui, schema, completion, man");
   write("empty.toml", "\n");
   refused("check empty.toml", "empty.toml", "is empty");
   refused("run", line, "case is required");
@@ -173,10 +174,11 @@ TEST_F(Program, ChecksACaseWithoutRunningIt) {
   write("dam.toml", kSmall);
   const Outcome o = bedload("check dam.toml --backend cpu");
   EXPECT_EQ(o.code, 0) << o.err;
-  for (const char* part :
-       {"fluid 150, walls ", "grains 40", "(active), set by time.", "substep    rayleigh", "memory     ",
-        "tension    fluid cavitates below -", "wake       ", "contacts   grain.E = ", "run time   about ",
-        "settling   at most ", "\ncase OK\n"})
+  for (const char* part : {"fluid 150, walls ", "grains 40", "(active), set by time.", "substep    rayleigh",
+                           "memory     ", "tension    fluid cavitates below -", "wake       ",
+                           "contacts   grain.E = ", "run time   about ", "settling   at most ", "\ncase OK\n",
+                           "40 grains of 0.005 m: 0.5 times fluid.dx, h_c 3 d, 113 fluid particles per "
+                           "kernel, by the drag law\n"})
     EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
   EXPECT_FALSE(std::filesystem::exists(dir_ / "results"));
 }
@@ -494,7 +496,8 @@ TEST_F(Program, RemarksOnWhatTheDocumentsAdvise) {
       said("bed        on frozen walls the buoyancy of a thin bed is 13 %", "--set wall.type=frozen"));
   EXPECT_FALSE(said("bed        ", ""));
   EXPECT_TRUE(said("sizes      the largest grain is 6 times",
-                   "--set 'grain.fill.0.sizes=[{d=0.001},{d=0.006}]' --set grain.fill.0.count=20"));
+                   "--set 'grain.fill.0.sizes=[{d=0.001},{d=0.006}]' --set grain.fill.0.count=20 "
+                   "--set couple.own_hc=false"));
   EXPECT_FALSE(said("sizes      ", ""));
   EXPECT_TRUE(said("mirror     fluid rests on the reflecting side z- of the domain",
                    "--set 'domain.reflect.slip=[\"z-\"]'"));

@@ -1,6 +1,7 @@
 #pragma once
 // Fluid and grains in a box, without any dynamics of their own: what the coupling sees.
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -104,20 +105,31 @@ struct CoupledBox {
     fill(pebbles);
     relist();
   }
+  /// The same with grains in levels of size; how many there are.
+  int relist_by_size() {
+    SizeLevels levels(frame);
+    const auto radius = grains.radius.values();
+    levels.choose(radius, double(*std::max_element(radius.begin(), radius.end())), 1e-3);
+    if (levels.count() > 1) relist(true, &levels);
+    return levels.count();
+  }
   /// Sorts both phases and renews the lists; or grains stay as they are stored.
-  void relist(bool sort_grains = true) {
+  void relist(bool sort_grains = true, SizeLevels* levels = nullptr) {
     CellGrid fluid_grid(frame, config.domain.min, config.domain.max, coupling.range() / 2);
     CellGrid grain_grid(frame, config.domain.min, config.domain.max, coupling.range() / 2);
     Buffer<Index> order;
     fluid_grid.sort(frame, Span<const FluidPosition>(fluid.x), order);
     fluid.reorder(order);
-    grain_grid.sort(frame, Span<const Vec3d>(grains.x), order);
+    if (levels)
+      levels->sort(Span<const Vec3d>(grains.x), grains.radius.span(), order);
+    else
+      grain_grid.sort(frame, Span<const Vec3d>(grains.x), order);
     if (sort_grains) grains.reorder(order);
     fluid.x_list.buffer().assign(fluid.x.values());
     grains.x_list.buffer().assign(grains.x.values());
     for_each(fluid.all(), PackPass<FluidPosition>{frame, fluid.x, fluid.xp});
     coupling.rebuild_lists(fluid, fluid_grid.view(), kSkin * coupling.range() / 2, grains,
-                           {grain_grid.view(), sort_grains ? Span<const Index>() : order.span()},
+                           {grain_grid.view(), sort_grains ? Span<const Index>() : order.span(), levels},
                            kSkin * coupling.range() / 2);
   }
 

@@ -62,6 +62,10 @@ struct Config {
   double max_lost = 1e-3;                      ///< fraction of fluid, grains, bodies that may leave the domain unasked
   double skin_fluid = 0.3;                     ///< neighbour skin / fluid.dx
   double skin_grain = 0.3;                     ///< neighbour skin / grain.d_min
+  /// Whether grains have averaging lengths of their own.
+  bool own_lengths() const { return couple.own_lengths(grain.d_min, grain.d_max); }
+  /// As far as fluid is averaged around the largest grain, m.
+  double farthest_average() const { return couple.farthest(fluid.kappa(), grain.d_min, grain.d_max); }
   bool operator==(const Config&) const = default;
 };
 

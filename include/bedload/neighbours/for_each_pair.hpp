@@ -195,7 +195,7 @@ struct ListRow {
   template <class F>
   BL_HD void operator()(Index i, const Lane& lane, F&& f) const {
     if constexpr (kInPacks<Pass>) {
-      in_packs(i, f);
+      in_packs(i, list.entry + list.slot(i, 0), int(list.count[i]), f);
     } else {
       const std::uint32_t n = list.count[i];
       if constexpr (Mergeable<Pass>) {  // the list was built for as many lanes
@@ -212,6 +212,15 @@ struct ListRow {
       }
     }
   }
+  /// The same of entries begin..end of row i.
+  template <class F>
+  BL_HD void part(Index i, std::uint32_t begin, std::uint32_t end, const Lane& lane, F&& f) const {
+    if constexpr (kInPacks<Pass>)
+      in_packs(i, list.entry + list.slot(i, begin), int(end - begin), f);
+    else
+      for (std::uint32_t k = begin + lane.index; k < end; k += lane.count)
+        visit(i, list.entry[list.slot(i, k)], f);
+  }
 
  private:
   template <class F>
@@ -223,9 +232,7 @@ struct ListRow {
   }
 #if !BL_CUDA
   template <class F>
-  void in_packs(Index i, F& f) const {
-    const Index* entry = list.entry + list.slot(i, 0);
-    int left = int(list.count[i]);
+  void in_packs(Index i, const Index* entry, int left, F& f) const {
     for (; left >= kLanes; left -= kLanes, entry += kLanes) {
       const PackIndex j{entry};
       const auto sources = separation.b[j];
@@ -249,20 +256,25 @@ struct ListRow {
 #endif
 };
 
-/// Ends a row: a pass without `merge` has one lane.
+/// What all lanes of a row have summed: a pass without `merge` has one lane.
 template <class Pass, class Sum>
-BL_HD void finish_row(const Pass& pass, Index i, const Lane& lane, Sum& sum) {
+BL_HD decltype(auto) sum_of_row(const Pass& pass, const Lane& lane, Sum& sum) {
 #if !BL_CUDA
   if constexpr (kInPacks<Pass>) {
-    pass.finish(i, LaneSums<Pass>::total(pass, sum));
-    return;
+    return LaneSums<Pass>::total(pass, sum);
   } else
 #endif
   {
     if constexpr (Mergeable<Pass>)
       lane.combine(sum, [&](Sum& into, const Sum& other) { pass.merge(into, other); });
-    if (lane.index == 0) pass.finish(i, sum);
+    return (sum);
   }
+}
+
+template <class Pass, class Sum>
+BL_HD void finish_row(const Pass& pass, Index i, const Lane& lane, Sum& sum) {
+  const auto& all = sum_of_row(pass, lane, sum);
+  if (lane.index == 0) pass.finish(i, all);
 }
 
 template <class Separation, class Pass>

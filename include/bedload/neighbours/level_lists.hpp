@@ -17,6 +17,23 @@ struct LevelNear {
   BL_HD bool operator()(Index i, Index j) const { return near(from_i + i, from_j + j); }
 };
 
+/// Pairs of a large particle and a smaller one, found from the smaller one.
+class TurnedPairs {
+ public:
+  void clear();
+  /// The entries of a list, each counted from the first of its level.
+  void add(const VerletList& found, Index from_i, Index from_j);
+  /// By the large ones, of which there are so many; those of one stay in the order of the smaller ones. Adds
+  /// how many each has to its length.
+  void sort(Index larger, Buffer<std::uint32_t>& length);
+  /// To the rows of the large ones, which are filled that far.
+  void append(const Buffer<std::uint32_t>& filled, VerletList& list) const;
+
+ private:
+  Buffer<std::uint32_t> before_, large_;
+  Buffer<Index> small_, order_, begin_;
+};
+
 class LevelLists {
  public:
   /// Into `list`, what near(i, j) keeps, of sorted particles in several levels; near.largest: radius of the
@@ -42,10 +59,40 @@ class LevelLists {
   void turn_round(const SizeLevels& levels);
 
   std::vector<VerletList> found_;
-  Buffer<std::uint32_t> length_, filled_, before_;
-  // pairs of a large particle and a smaller one
-  Buffer<std::uint32_t> large_;
-  Buffer<Index> small_, order_, begin_;
+  Buffer<std::uint32_t> length_, filled_;
+  TurnedPairs turned_;
+};
+
+/// Lists across two phases, of which one has particles of unlike sizes that act the farther the larger they
+/// are. The other phase looks for those of each level; what large ones have are these pairs turned round.
+class CrossLevelLists {
+ public:
+  /// of_rows, for `rows` particles of one size: what near(i, j) keeps of sorted particles in several levels.
+  /// of_sized: those pairs as back(j, i) keeps them. near.largest: as far as the largest j reach, m, which is
+  /// range(radius); cells: of the particles of one size.
+  template <class Near, class Reach, class Back>
+  void build(VerletList& of_rows, VerletList& of_sized, const SizeLevels& levels, Index rows, Near near,
+             const Reach& range, const Back& back, const CellGridView& cells, unsigned row_bits,
+             unsigned sized_bits) {
+    found_.resize(std::size_t(levels.count()));
+    for (int l = 0; l < levels.count(); ++l) {
+      near.largest = range(levels.largest(l));
+      found_[l].build(rows, levels.grid(l).view().for_reach(near.largest),
+                      LevelNear<Near>{near, 0, levels.particles(l).begin});
+    }
+    const Range smallest = levels.particles(levels.count() - 1);
+    of_smallest_.build(smallest.size(), cells, LevelNear<Back>{back, smallest.begin, 0});
+    join(of_rows, of_sized, levels, row_bits, sized_bits);
+  }
+
+ private:
+  void join(VerletList& of_rows, VerletList& of_sized, const SizeLevels& levels, unsigned row_bits,
+            unsigned sized_bits);
+
+  std::vector<VerletList> found_;  ///< for each row, in each level
+  VerletList of_smallest_;         ///< for each particle of the level of the smallest
+  Buffer<std::uint32_t> length_, filled_;
+  TurnedPairs turned_;
 };
 
 }  // namespace BL_SOLVER

@@ -18,8 +18,8 @@ struct LongRowsView {
 
 class LongRows {
  public:
-  /// Cuts rows 0..rows of a list.
-  void cut(const VerletList& list, Index rows);
+  /// Cuts rows 0..rows of a list into pieces of so many entries.
+  void cut(const VerletList& list, Index rows, std::uint32_t piece = LongRowsView::kPiece);
   Index pieces() const { return Index(row_.size()); }
   LongRowsView view() const { return {Index(pieces_.size()), first_.data(), row_.data()}; }
 

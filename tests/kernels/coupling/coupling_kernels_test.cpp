@@ -47,6 +47,10 @@ TEST(OwnWake, IsThatOfStokesFlowAndFadesWithInertiaAndOthers) {
   }
   const double V = M_PI / 6 * d * d * d;
   EXPECT_NEAR(own.porosity(1 - Real(V * squares), Real(V)), 1, 9 * square(V * squares) + 2e-7);
+  const OwnWake wide = OwnWake::of(WendlandC2(2 * h_c), 2 * h_c, mu, true), widened = own.with(Real(0.5));
+  EXPECT_NEAR(widened.mobility / wide.mobility, 1, 1e-5);
+  EXPECT_NEAR(widened.h_c / wide.h_c, 1, 1e-6);
+  EXPECT_NEAR(widened.per_volume / wide.per_volume, 1, 1e-5);
   EXPECT_EQ(OwnWake{}.porosity(Real(0.7), Real(V)), Real(0.7));
 }
 
@@ -80,7 +84,8 @@ struct Sided {
     const DragPass<Law, false> pass{.lines = {.law = {},
                                               .mu = 1,
                                               .shares = false,
-                                              .own = {},
+                                              .wake = {},
+                                              .shrink = {},
                                               .bodies = {{}, all(radius), {}},
                                               .eps = all(one),
                                               .bed_eps = all(one),
@@ -116,18 +121,21 @@ TEST(DragLevers, BoundWhatTheCoupleAddsToTheForce) {
 }
 
 TEST(DragLevers, WeakenTheDragOfAGrainByTheirSum) {
-  std::vector<Real> rate{200}, sum{3}, K{5}, K_rot{7}, stiffness{0};
+  std::vector<Real> radius{1}, rate{200}, sum{3}, K{5}, K_rot{7}, stiffness{0};
   const auto all = [](auto& of) { return Span(of.data(), Index(of.size())); };
   const auto weakened = [&](double dt, bool couple) {
     K = {5}, K_rot = {7};
     const LimitPass pass{.dt = Real(dt),
+                         .range = {2},
+                         .radius = all(radius),
                          .rate = all(rate),
                          .lever_sum = couple ? Span<const Real>(all(sum)) : Span<const Real>(),
                          .drag = {{}, {}, all(K), all(K_rot)},
                          .stiffness = all(stiffness)};
-    Real most = pass.start(0);
+    auto most = pass.start(0);
     pass.pair(most, {}, 0, 0, 150);
-    pass.pair(most, {}, 0, 0, 200);
+    pass.pair(most, {}, Real(3.9), 0, 200);
+    pass.pair(most, {}, Real(4.1), 0, 1000);  // farther than its kernel reaches
     pass.pair(most, {}, 0, 0, 10);
     pass.finish(0, most);
     EXPECT_NEAR(K_rot[0] / K[0], 7.0 / 5, 1e-6);
@@ -158,9 +166,10 @@ double stopped(double r) {
   auto sum = pass.start(0);
   const Real3 apart{0, Real(r), 0};
   if constexpr (kCouple)
-    pass.pair(sum, apart, norm2(apart), Real(0), K[0], still[0], at_centre[0], off_centre[0], Unread{});
+    pass.pair(sum, apart, norm2(apart), Real(0), K[0], still[0], at_centre[0], off_centre[0], Unread{},
+              Unread{});
   else
-    pass.pair(sum, apart, norm2(apart), Real(0), K[0], still[0], Unread{}, Unread{}, Unread{});
+    pass.pair(sum, apart, norm2(apart), Real(0), K[0], still[0], Unread{}, Unread{}, Unread{}, Unread{});
   pass.finish(0, sum);
   return rate[0];
 }

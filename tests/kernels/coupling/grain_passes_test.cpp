@@ -138,7 +138,7 @@ struct Beside {
                                         .xp = all(xp),
                                         .xp_mid = all(xp_mid)};
     auto sum = pass.start(0);
-    pass.pair(sum, r, norm2(r), Real(0), volume[0]);
+    pass.pair(sum, r, norm2(r), Real(0), volume[0], Unread{});
     pass.finish(0, sum);
   }
 };
