@@ -232,6 +232,7 @@ void LatticeSolver::load(const HostStore& nodes, const HostStore& links,
   }
   odd_ = step % 2 == 1;
   force_ = force_at(time);
+  if (grains_) grains_->forget_links();
 }
 
 }  // namespace BL_SOLVER
