@@ -73,22 +73,31 @@ struct CollidePass {
   Populations::Arrays arrays = f.arrays();
 
   BL_HD void operator()(Index node) const {
-    if (solid[node] == 0) collide<Real>(node, f.grid.place(node));
+    if (solid[node] != 0) return;
+    Index beyond[kPairs];
+    const NodeGrid::Place here = f.grid.place(node);
+    each_pair([&](auto p) { beyond[p] = f.grid.neighbour(here, p); });
+    collide<Real>(node, beyond);
   }
 #if !BL_CUDA
   /// Of all nodes with one y and z: several at a time where all of them are fluid, but for the last of the
   /// row, which may have a neighbour at its begin.
   void row(Index number) const {
     const Index n = f.grid.n[0], begin = number * n;
-    NodeGrid::Place here{{0, number % f.grid.n[1], number / f.grid.n[1]}};
-    for (Index& x = here.of[0]; x < n;) {
-      std::uint32_t any = x + kLanes < n ? 0 : 1;
-      for (int l = 0; l < kLanes && any == 0; ++l) any = solid[begin + x + Index(l)];
-      if (any == 0) {
-        collide<Pack>(begin + x, here);
+    const NodeGrid::Place first{{0, number % f.grid.n[1], number / f.grid.n[1]}};
+    Index beyond_first[kPairs], beyond[kPairs];
+    each_pair([&](auto p) { beyond_first[p] = f.grid.neighbour(first, p); });
+    for (Index x = 0; x < n;) {
+      const std::uint32_t* const here = &solid[begin + x];
+      const bool inside = x + kLanes < n;
+      std::uint32_t any = here[0];
+      for (int l = 1; l < kLanes && inside; ++l) any |= here[l];
+      if (inside && any == 0) {
+        each_pair([&](auto p) { beyond[p] = beyond_first[p] + x; });
+        collide<Pack>(begin + x, beyond);
         x += kLanes;
       } else {
-        if (solid[begin + x] == 0) collide<Real>(begin + x, here);
+        (*this)(begin + x);
         ++x;
       }
     }
@@ -96,15 +105,13 @@ struct CollidePass {
 #endif
 
  private:
-  /// A node, or as many as N has numbers, from one on.
+  /// A node, or as many in a row as N has numbers; beyond: what the odd velocity of each pair reaches.
   template <class N>
-  BL_HD void collide(Index node, const NodeGrid::Place& here) const {
-    Index beyond[kPairs];
+  BL_HD void collide(Index node, Index (&beyond)[kPairs]) const {
     N a[kPairs], b[kPairs];  // odd and even velocity of each pair
     const N rest = from<N>(arrays.rest + node);
     NodeStateOf<N> s{rest, Vec3<N>(N(Real(0.5) * force.x), N(Real(0.5) * force.y), N(Real(0.5) * force.z))};
     each_pair([&](auto p) {
-      beyond[p] = f.grid.neighbour(here, p);
       a[p] = from<N>(arrays.near[p] + node);
       b[p] = from<N>(arrays.far[p] + beyond[p]);
       s.excess += a[p] + b[p];
@@ -114,19 +121,20 @@ struct CollidePass {
 
     find_anew(node);
     each_pair([&](auto p) { find_anew(beyond[p]); });
-    const N push = s.u.x * N(force.x) + s.u.y * N(force.y) + s.u.z * N(force.z);
     const Real even_source = 1 - Real(0.5) * rate.even, odd_source = 3 * (1 - Real(0.5) * rate.odd);
+    const N rho = s.rho(), push = s.u.x * N(force.x) + s.u.y * N(force.y) + s.u.z * N(force.z);
+    // The even equilibrium of even_equilibrium(), over the weight, where c u = 0.
+    const N across = s.excess - Real(1.5) * rho * norm2(s.u), source = 3 * even_source * push;
     const Real w0 = Real(weight(0));
-    to(arrays.rest + node,
-       rest - rate.even * (rest - even_equilibrium(w0, s, N(0))) - even_source * w0 * 3 * push);
+    to(arrays.rest + node, rest - rate.even * (rest - w0 * across) - w0 * source);
     each_pair([&](auto p) {
       constexpr Real w = Real(weight(2 * p + 1));
       const N cu = along<p>(s.u);
       const Real cf = along<p>(force);
       const N even = Real(0.5) * (a[p] + b[p]), odd = Real(0.5) * (a[p] - b[p]);
-      const N to_even =
-          even_source * w * (9 * cf * cu - 3 * push) - rate.even * (even - even_equilibrium(w, s, cu));
-      const N to_odd = odd_source * w * cf - rate.odd * (odd - 3 * w * s.rho() * cu);
+      const N to_even = w * (9 * even_source * cf * cu - source) -
+                        rate.even * (even - w * (across + Real(4.5) * rho * cu * cu));
+      const N to_odd = w * odd_source * cf - rate.odd * (odd - 3 * w * rho * cu);
       to(arrays.far[p] + beyond[p], a[p] + to_even + to_odd);
       to(arrays.near[p] + node, b[p] + to_even - to_odd);
     });
