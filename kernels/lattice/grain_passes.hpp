@@ -90,16 +90,36 @@ struct Balls {
   }
 };
 
-/// Nodes that a grain has moved off are marked so. A grain moves by less than a node in a step.
-struct ReleasePass {
+/// The grains that have just moved off a node.
+struct Leavers {
+  static constexpr double kReach = 0.5;  ///< more than a grain moves in a step, nodes
   Balls balls;
+  Span<Index> last;  ///< of each grain, the number of the move in which it last did
+  Index move;        ///< of this one
+
+  struct Box : Ball {
+    Index grain;
+  };
+  BL_HD Box all(Index i) const { return {balls(i, kReach), i}; }
+  /// Without nodes, if it has not.
+  BL_HD Box box(Index i) const {
+    if (last[i] == move) return all(i);
+    Box none{};
+    return none;
+  }
+};
+
+/// Nodes that a grain has moved off are marked so.
+struct ReleasePass {
+  Leavers leavers;
   Span<std::uint32_t> solid;
-  BL_HD Ball box(Index i) const { return balls(i); }
-  BL_HD void at(const Ball& ball, int x, int y, int z) const {
+  BL_HD Leavers::Box box(Index i) const { return leavers.all(i); }
+  BL_HD void at(const Leavers::Box& ball, int x, int y, int z) const {
     const Ball::Member m = ball.member(x, y, z);
-    if (m.there && !ball.holds(m.d) && solid[m.node] == mark::grain(ball.id) &&
-        !ball.holds(ball.nearest(m.d)))
-      solid[m.node] = mark::left_by(ball.id);
+    if (!m.there || ball.holds(m.d) || solid[m.node] != mark::grain(ball.id)) return;
+    if (ball.holds(ball.nearest(m.d))) return;
+    solid[m.node] = mark::left_by(ball.id);
+    leavers.last[ball.grain] = leavers.move;
   }
 };
 
@@ -118,10 +138,10 @@ struct CoverPass {
 /// Fluid where a grain has left: the mean density of the fluid next to it, the velocity of the surface, and
 /// the stress of the neighbour that lies farthest off the surface, as if the last step had left it so.
 struct RefillPass {
-  Balls balls;
+  Leavers leavers;
   NodeMoments before;  ///< of the last step
   Span<const std::uint32_t> solid;
-  BL_HD Ball box(Index i) const { return balls(i); }
+  BL_HD Ball box(Index i) const { return leavers.box(i); }
   BL_HD void at(const Ball& ball, int x, int y, int z) const {
     const Ball::Member m = ball.member(x, y, z);
     if (m.there && !ball.holds(m.d) && solid[m.node] == mark::left_by(ball.id)) refill(ball, m);
@@ -158,9 +178,9 @@ struct RefillPass {
 
 /// Refilled nodes are fluid.
 struct ReopenPass {
-  Balls balls;
+  Leavers leavers;
   Span<std::uint32_t> solid;
-  BL_HD Ball box(Index i) const { return balls(i); }
+  BL_HD Ball box(Index i) const { return leavers.box(i); }
   BL_HD void at(const Ball& ball, int x, int y, int z) const {
     const Ball::Member m = ball.member(x, y, z);
     if (m.there && !ball.holds(m.d) && solid[m.node] == mark::left_by(ball.id)) solid[m.node] = 0;
@@ -278,6 +298,15 @@ struct GrainLinkPass {
       const Vec3d taken = r.taken(k, u);
       return {taken, cross(arm, taken)};
     }
+#if !BL_CUDA
+    [[gnu::always_inline]] void fetch(Index l) const {  // GCC drops calls that do nothing else
+      const GrainLink link = GrainLink::of(links[l]);
+      const Ball::Member m = ball.member(link.x, link.y, link.z);
+      const int pair = pair_of(link.direction);
+      for (const Index node : {m.node, f.grid.neighbour(m.place, pair)})
+        __builtin_prefetch(&f.near(pair, node), 1), __builtin_prefetch(&f.far(pair, node), 1);
+    }
+#endif
   };
   BL_HD Value identity() const { return {}; }
   BL_HD void combine(Value& into, const Value& from) const {

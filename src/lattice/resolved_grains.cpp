@@ -40,10 +40,15 @@ void ResolvedGrains::cover(const NodeGrid& grid, const Vec3d& first, NodeStore& 
 
 void ResolvedGrains::follow(const NodeMoments& before, const Vec3d& first, NodeStore& nodes) {
   const Balls all = balls(before.f.grid, first, false);
-  for_each_box(grains_.size(), ReleasePass{all, nodes.solid});
+  if (last_left_.size() < grains_.size() || ++moves_ == 0) {
+    last_left_.resize(grains_.size()), last_left_.zero();
+    moves_ = 1;
+  }
+  const Leavers leavers{all, last_left_, moves_};
+  for_each_box(grains_.size(), ReleasePass{leavers, nodes.solid});
   for_each_box(grains_.size(), CoverPass{all, nodes.solid});
-  for_each_box(grains_.size(), RefillPass{all, before, nodes.solid});
-  for_each_box(grains_.size(), ReopenPass{all, nodes.solid});
+  for_each_box(grains_.size(), RefillPass{leavers, before, nodes.solid});
+  for_each_box(grains_.size(), ReopenPass{leavers, nodes.solid});
 }
 
 void ResolvedGrains::make_places() {

@@ -56,6 +56,8 @@ class ResolvedGrains {
   Buffer<std::uint64_t> links_;  ///< as GrainLinks has them
   Index places_ = 0;             ///< grains that have places in it
   bool found_ = false;           ///< those of grains that have not moved since
+  Buffer<Index> last_left_;      ///< as Leavers has it
+  Index moves_ = 0;
 };
 
 }  // namespace BL_SOLVER

@@ -52,7 +52,8 @@ __global__ void __launch_bounds__(128, 8) for_each_box_kernel(F f) {
 #endif
 
 /// For each of n groups, f.group(g)(k) of all its members k < f.group(g).size(), which f.combine() sums in a
-/// fixed order from f.identity(), then f.finish(g, sum).
+/// fixed order from f.identity(), then f.finish(g, sum). On a CPU f.group(g).fetch(k), some time before, asks
+/// for the memory that a member needs.
 template <class F>
 void for_each_group(Index n, const F& f) {
   if (n == 0) return;
@@ -63,7 +64,11 @@ void for_each_group(Index n, const F& f) {
   for (Index g = 0; g < n; ++g) {
     const auto group = f.group(g);
     typename F::Value sum = f.identity();
-    for (Index k = 0; k < group.size(); ++k) f.combine(sum, group(k));
+    for (Index k = 0; k < group.size(); ++k) {
+      constexpr Index ahead = 16;  // so many loads wait for memory at a time
+      if (k + ahead < group.size()) group.fetch(k + ahead);
+      f.combine(sum, group(k));
+    }
     f.finish(g, sum);
   }
 #endif
