@@ -9,8 +9,9 @@ using namespace lattice;
 ResolvedGrains::ResolvedGrains(const DomainConfig& domain, const LatticeUnits& units, const Vec3d& lift,
                                GrainStore& grains)
     : domain_(domain), units_(units), lift_(lift), grains_(grains) {
-  for (FieldBase* field : std::initializer_list<FieldBase*>{&fluid_torque_, &last_force_, &last_torque_,
-                                                            &received_, &displaced_}) {
+  for (FieldBase* field :
+       std::initializer_list<FieldBase*>{&fluid_torque_, &last_force_, &last_torque_, &received_, &displaced_,
+                                         &link_begin_, &link_count_, &covered_}) {
     field->begin_at_zero();  // grains may have settled without fluid
     field->grow(grains.size());
   }
@@ -33,22 +34,47 @@ Balls ResolvedGrains::balls(const NodeGrid& grid, const Vec3d& first, bool held)
 void ResolvedGrains::cover(const NodeGrid& grid, const Vec3d& first, NodeStore& nodes) {
   grains_.wetness.assign(std::vector<Real>(grains_.size(), Real(1)));
   for_each(grains_.owned(), LiftPass{lift_, grains_.radius, grains_.fluid_force});
-  for_each_group(grains_.size(), CoverPass{{}, balls(grid, first, true), nodes.solid});
+  for_each_box(grains_.size(), CoverPass{balls(grid, first, true), nodes.solid});
+  forget_links();
 }
 
 void ResolvedGrains::follow(const NodeMoments& before, const Vec3d& first, NodeStore& nodes) {
   const Balls all = balls(before.f.grid, first, false);
-  for_each_group(grains_.size(), ReleasePass{{}, all, nodes.solid});
-  for_each_group(grains_.size(), CoverPass{{}, all, nodes.solid});
-  for_each_group(grains_.size(), RefillPass{{}, all, before, nodes.solid});
-  for_each_group(grains_.size(), ReopenPass{{}, all, nodes.solid});
+  if (last_left_.size() < grains_.size() || ++moves_ == 0) {
+    last_left_.resize(grains_.size()), last_left_.zero();
+    moves_ = 1;
+  }
+  const Leavers leavers{all, last_left_, moves_};
+  for_each_box(grains_.size(), ReleasePass{leavers, nodes.solid});
+  for_each_box(grains_.size(), CoverPass{all, nodes.solid});
+  for_each_box(grains_.size(), RefillPass{leavers, before, nodes.solid});
+  for_each_box(grains_.size(), ReopenPass{leavers, nodes.solid});
+}
+
+void ResolvedGrains::make_places() {
+  std::vector<Index> begin;
+  double places = 0;
+  for (const Real radius : grains_.radius.values()) {
+    begin.push_back(Index(places));
+    places += std::floor(GrainLink::most(radius / units_.dx));
+  }
+  if (places >= double(kNone))
+    throw DeviceError("grains may have " + std::to_string(places) + " links to nodes, more than 2^32");
+  link_begin_.assign(begin);
+  links_.reserve_and_resize(std::size_t(places));
+  places_ = grains_.size();
 }
 
 void ResolvedGrains::exchange(const Populations& f, const Vec3d& first, const NodeStore& nodes,
                               const Vec3d& push, std::int64_t step, bool held) {
-  for_each_group(grains_.size(), GrainLinkPass{.balls = balls(f.grid, first, held),
+  const Balls all = balls(f.grid, first, held);
+  if (places_ < grains_.size()) forget_links(), make_places();
+  const GrainLinks links{link_begin_, link_count_, covered_, links_};
+  if (!held || !found_) list_boxes(grains_.size(), GrainLinkSearch{all, nodes.solid, links});
+  found_ = held;
+  for_each_group(grains_.size(), GrainLinkPass{.balls = all,
                                                .f = f,
-                                               .solid = nodes.solid,
+                                               .links = links,
                                                .push = push,
                                                .lift = lift_,
                                                .newton = units_.force(),

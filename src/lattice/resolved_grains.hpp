@@ -27,6 +27,8 @@ class ResolvedGrains {
   /// (units of the lattice). held: they are at rest for it.
   void exchange(const lattice::Populations& f, const Vec3d& first, const NodeStore& nodes, const Vec3d& push,
                 std::int64_t step, bool held);
+  /// Other grains are there: links are no longer those that were found.
+  void forget_links() { places_ = 0, found_ = false; }
 
   struct Sums {
     Vec3d received, displaced;  ///< since the start, N s: over links; of forces on the fluid they displace
@@ -36,6 +38,8 @@ class ResolvedGrains {
 
  private:
   lattice::Balls balls(const lattice::NodeGrid& grid, const Vec3d& first, bool held) const;
+  /// Gives each grain its places in the list of links.
+  void make_places();
 
   const DomainConfig domain_;
   const LatticeUnits units_;
@@ -46,6 +50,14 @@ class ResolvedGrains {
   Field<Real3> last_torque_{grains_, "last_fluid_torque", "N m", Lifetime::kept};
   Field<Vec3d> received_{grains_, "received", "N s", Lifetime::kept};
   Field<Vec3d> displaced_{grains_, "displaced", "N s", Lifetime::kept};
+  Field<Index> link_begin_{grains_, "link_begin", "-", Lifetime::carried};
+  Field<Index> link_count_{grains_, "link_count", "-", Lifetime::carried};
+  Field<Index> covered_{grains_, "covered_nodes", "-", Lifetime::carried};
+  Buffer<std::uint64_t> links_;  ///< as GrainLinks has them
+  Index places_ = 0;             ///< grains that have places in it
+  bool found_ = false;           ///< those of grains that have not moved since
+  Buffer<Index> last_left_;      ///< as Leavers has it
+  Index moves_ = 0;
 };
 
 }  // namespace BL_SOLVER
