@@ -4,11 +4,13 @@
     plot.py frames RUN_DIR --times 0.05,0.1 --out PNG [--field speed] [--slice Y] [--view xz]
     plot.py probe CSV... --out PNG [--column NAME] [--mean SECONDS] [--spectrum] [--reference CSV ...]
     plot.py scaling JSON --out PNG
+    plot.py drag-laws CSV... --out PNG
 
 `frames` shows fluid coloured by a field, grains as discs true to size, and the walls, one panel per
 time. `probe` draws columns of probe tables over time, with reference points as markers; with --mean their running
 means, with --spectrum their spectral density over frequency. `scaling` draws what
 `bedload bench --devices 1,2,4 --json JSON` (or --ranks) wrote: speed-up, efficiency and waits over the number of ranks.
+`drag-laws` draws what `bedload drag` wrote beside its table: measured drag and each law, one panel per solid fraction.
 """
 
 import argparse
@@ -269,6 +271,45 @@ def plot_scaling(options):
     save(figure, options.out)
 
 
+DRAG_POINTS = ["solid_fraction", "reynolds", "measured", "least", "most"]
+
+
+def plot_drag_laws(options):
+    tables = [Table(path) for path in options.csv]
+    for table in tables:
+        if table.names()[:5] != DRAG_POINTS:
+            raise SystemExit(f"{table.path}: must begin with the columns {', '.join(DRAG_POINTS)}, as bedload drag "
+                             "writes them")
+    fractions = sorted({value for table in tables for value in table.column("solid_fraction")})
+    columns = min(len(fractions), 2)
+    rows = int(np.ceil(len(fractions) / columns))
+    figure, panels = plt.subplots(rows, columns, squeeze=False, sharex=True, layout="constrained",
+                                  figsize=(5.5 * columns + 1.5, 4 * rows))
+    for axes, fraction in zip(panels.flat, fractions):
+        for table in tables:
+            here = table.column("solid_fraction") == fraction
+            reynolds, found, least, most = (table.column(name)[here] for name in DRAG_POINTS[1:])
+            known = np.isfinite(found)
+            order = np.argsort(reynolds, kind="stable")
+            for k, law in enumerate(table.names()[5:]):
+                style = {"color": f"C{k}", "linestyle": "--" if k < 2 else "-", "linewidth": 1.2}
+                label = "_" if table is not tables[0] else law.replace("_", " ")
+                axes.loglog(reynolds[order], table.column(law)[here][order], label=label, **style)
+            spread = [found[known] - least[known], most[known] - found[known]]
+            axes.errorbar(reynolds[known], found[known], spread, fmt="ko", markersize=5, capsize=3, zorder=9,
+                          label="resolved" if table is tables[0] else "_")
+        axes.set_title(f"solid fraction {fraction:g}", fontsize=10)
+        axes.grid(alpha=0.3, which="both")
+    for axes in list(panels.flat)[len(fractions):]:
+        axes.set_axis_off()
+    for axes in panels[-1]:
+        axes.set_xlabel("Reynolds number (-)")
+    for axes in panels[:, 0]:
+        axes.set_ylabel(r"$K / (3 \pi \mu d)$ (-)")
+    figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside right upper", frameon=False, fontsize=8)
+    save(figure, options.out)
+
+
 def save(figure, path):
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     figure.savefig(path, dpi=160)
@@ -302,6 +343,10 @@ def main():
     scaling.add_argument("json", help="of bedload bench")
     scaling.add_argument("--out", required=True, help="PNG or PDF")
     scaling.set_defaults(run=plot_scaling)
+    laws = kinds.add_parser("drag-laws", help="measured drag beside the drag laws")
+    laws.add_argument("csv", nargs="+", help="of bedload drag")
+    laws.add_argument("--out", required=True, help="PNG or PDF")
+    laws.set_defaults(run=plot_drag_laws)
     options = parser.parse_args()
     if getattr(options, "mean", None) is not None and not options.mean > 0:
         parser.error(f"--mean {options.mean:g} must be above 0 s")

@@ -1,5 +1,5 @@
-// The one host file that includes kernels: compiled as a separate build, in double, it passes on to the
-// contact laws what the host asks of them.
+// A host file that includes kernels: compiled as a separate build, in double, it passes on to the contact
+// laws what the host asks of them.
 
 #include "bedload/case/contact_laws.hpp"
 

@@ -56,16 +56,8 @@ end = 10
 every = 1
 )";
 
-/// A periodic cube of fluid on the nodes of a lattice, driven along x.
-constexpr const char* kNodes = R"(gravity = [0, 0, 0]
-[domain]
-min = [0, 0, 0]
-max = [{side}, {side}, {side}]
-periodic = [true, true, true]
-[fluid]
-model = "lattice"
-dx = 1e-4
-mu = 0.001
+/// Fluid in a lattice_cube(), driven along x.
+constexpr const char* kNodes = R"(mu = 0.001
 vmax = 0.01
 [drive]
 f = [10, 0, 0]
@@ -196,13 +188,27 @@ Benchmark coupled_sizes(const std::string& name, double side, double depth, int 
 /// n: nodes along a side; fraction: of the volume, in spheres.
 Benchmark lattice(const std::string& name, int n, double fraction) {
   using fmt::arg;
-  const std::string side = fmt::format("{:.6g}", n * 1e-4);
+  constexpr double dx = 1e-4;
+  const std::string side = fmt::format("{:.6g}", n * dx);
   const std::string grains =
       fraction > 0 ? fmt::format(kResolved, arg("side", side), arg("fraction", fraction)) : "";
-  return {name, fmt::format(kNodes, arg("side", side), arg("grains", grains)), {}};
+  return {name, lattice_cube(n * dx, dx) + fmt::format(kNodes, arg("grains", grains)), {}};
 }
 
 }  // namespace
+
+std::string lattice_cube(double side, double dx) {
+  return fmt::format(R"(gravity = [0, 0, 0]
+[domain]
+min = [0, 0, 0]
+max = [{0:.15g}, {0:.15g}, {0:.15g}]
+periodic = [true, true, true]
+[fluid]
+model = "lattice"
+dx = {1:.15g}
+)",
+                     side, dx);
+}
 
 Benchmark widened_dam_break(const std::string& name, double width) {
   std::vector<std::string> settings = kPeers;

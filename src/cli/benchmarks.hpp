@@ -17,6 +17,10 @@ struct Benchmark {
 
 std::vector<Benchmark> benchmarks();
 
+/// The first keys of a case, to go on in [fluid]: a cube of fluid on nodes without gravity, periodic on all
+/// sides, m.
+std::string lattice_cube(double side, double dx);
+
 /// The single-phase dam break of He et al. 2018 with a column of that width, m.
 Benchmark widened_dam_break(const std::string& name, double width);
 

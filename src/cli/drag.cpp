@@ -5,29 +5,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "bedload/case/drag_table.hpp"
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/output/files.hpp"
+#include "benchmarks.hpp"
 #include "commands.hpp"
 #include "prepare.hpp"
+#include "random_spheres.hpp"
 #include "stop.hpp"
 
 namespace bedload {
 namespace {
 
-/// Fixed spheres of diameter 1 in a periodic cube of fluid of density 1; the mean velocity over all space is
+/// Fixed spheres of diameter 1 in a lattice_cube() of fluid of density 1; the mean velocity over all space is
 /// to be 1.
-constexpr const char* kArray = R"(gravity = [0, 0, 0]
-[domain]
-min = [0, 0, 0]
-max = [{side}, {side}, {side}]
-periodic = [true, true, true]
-[fluid]
-model = "lattice"
-dx = {dx}
-rho0 = 1
+constexpr const char* kArray = R"(rho0 = 1
 mu = {mu}
 vmax = {vmax}
 [drive]
@@ -38,9 +34,7 @@ velocity = 0.1
 d = 1
 fixed = true
 [[grain.fill]]
-{places}
-[run]
-seed = {seed}
+positions = [{places}]
 [time]
 end = 1e9
 [out]
@@ -51,18 +45,31 @@ constexpr double kAcross = 4;     // fastest flow over the mean between grains
 constexpr double kSteady = 2e-4;  // change of the mean velocity in a block that counts as none
 constexpr int kBlocks = 200;      // at most; the flow may fluctuate for ever
 
-/// Drag without the mean pressure gradient over Stokes drag at the mean velocity, by [beetstra07]: a first
-/// guess, from which the push follows.
-double guess(double fraction, double reynolds) {
-  const double eps = 1 - fraction,
-               creeping = 10 * fraction / (eps * eps) + eps * eps * (1 + 1.5 * std::sqrt(fraction));
-  return creeping + 0.413 * reynolds / (24 * eps * eps) *
-                        (1 / eps + 3 * fraction * eps + 8.4 * std::pow(reynolds, -0.343)) /
-                        (1 + std::pow(10, 3 * fraction) * std::pow(reynolds, -0.5 - 2 * fraction));
+// Drag without the mean pressure gradient over Stokes drag at the mean velocity, of random arrays.
+
+double creeping(double fraction) {
+  const double eps = 1 - fraction;
+  return 10 * fraction / (eps * eps) + eps * eps * (1 + 1.5 * std::sqrt(fraction));
+}
+/// By [beetstra07]; the push follows from it.
+double beetstra(double fraction, double reynolds) {
+  const double eps = 1 - fraction;
+  return creeping(fraction) + 0.413 * reynolds / (24 * eps * eps) *
+                                  (1 / eps + 3 * fraction * eps + 8.4 * std::pow(reynolds, -0.343)) /
+                                  (1 + std::pow(10, 3 * fraction) * std::pow(reynolds, -0.5 - 2 * fraction));
+}
+/// By [tang15].
+double tang(double fraction, double reynolds) {
+  const double eps = 1 - fraction, fourth = std::pow(eps, -4);
+  return creeping(fraction) + reynolds * (0.11 * fraction * (1 + fraction) - 0.00456 * fourth +
+                                          (0.169 * eps + 0.0644 * fourth) * std::pow(reynolds, -0.343));
 }
 
 struct Point {
   double reynolds = 0, factor = 0;  ///< factor: as in DragTable
+};
+struct Measured : Point {          ///< mean of the draws
+  double least = 1e300, most = 0;  ///< of the factor
 };
 
 double value_of(const std::vector<Quantity>& rows, const std::string& name) {
@@ -83,18 +90,13 @@ class Arrays {
     const double nodes = std::ceil(side * o_.drag.nodes - 1e-9), volume = side * side * side,
                  eps = 1 - fraction;
     const double push =
-        spheres * 3 * std::numbers::pi / reynolds * guess(fraction, reynolds) / (volume * eps);
-    std::string places = fmt::format("min = [0, 0, 0]\nmax = [{0}, {0}, {0}]\ncount = {1}", side, spheres);
-    if (simple) {
-      places = "relative = true\npositions = [";
-      for (int k = 0; k < 8; ++k)
-        places +=
-            fmt::format("[{}, {}, {}],", 0.26 + 0.5 * (k & 1), 0.27 + 0.25 * (k & 2), 0.24 + 0.125 * (k & 4));
-      places += "]";
-    }
-    const std::string text = fmt::format(kArray, arg("side", side), arg("dx", side / nodes),
-                                         arg("mu", 1 / reynolds), arg("vmax", kAcross / eps),
-                                         arg("push", push), arg("places", places), arg("seed", draw + 1));
+        spheres * 3 * std::numbers::pi / reynolds * beetstra(fraction, reynolds) / (volume * eps);
+    std::string places;
+    for (const Vec3d& x : simple ? cubic(side) : random_spheres(spheres, side, draw + 1))
+      places += fmt::format("[{:.17g}, {:.17g}, {:.17g}],", x.x, x.y, x.z);
+    const std::string text = lattice_cube(side, side / nodes) +
+                             fmt::format(kArray, arg("mu", 1 / reynolds), arg("vmax", kAcross / eps),
+                                         arg("push", push), arg("places", places));
     Prepared p;
     p.config =
         read_case_text(text, fmt::format("array of solid fraction {:g} at Re {:g}", fraction, reynolds),
@@ -106,6 +108,13 @@ class Arrays {
   }
 
  private:
+  /// Two along each side, not at the same place among nodes along the axes.
+  static std::vector<Vec3d> cubic(double side) {
+    std::vector<Vec3d> x;
+    for (int k = 0; k < 8; ++k)
+      x.push_back(side * Vec3d{0.26 + 0.5 * (k & 1), 0.27 + 0.25 * (k & 2), 0.24 + 0.125 * (k & 4)});
+    return x;
+  }
   /// Runs until the mean velocity no longer changes; where it fluctuates, the mean of the second half.
   static Point steady(Simulation& simulation, double volume, int spheres, double eps, double mu) {
     const double block = std::min(0.25, 0.05 / mu);  // of the time in which fluid passes a sphere
@@ -135,7 +144,7 @@ class Arrays {
 };
 
 /// ln of the factor, linear in ln(1 + Re) between points and beyond them, as the table has it.
-double between(const std::vector<Point>& points, double reynolds) {
+double between(const std::vector<Measured>& points, double reynolds) {
   if (points.size() < 2) return points.front().factor;
   std::size_t k = 0;
   while (k + 2 < points.size() && points[k + 1].reynolds < reynolds) ++k;
@@ -146,7 +155,7 @@ double between(const std::vector<Point>& points, double reynolds) {
 }
 
 std::string table_text(const DragOptions& d, const std::vector<double>& porosity,
-                       const std::vector<std::vector<Point>>& rows) {
+                       const std::vector<std::vector<Measured>>& rows) {
   std::vector<double> reynolds{0};
   reynolds.insert(reynolds.end(), d.reynolds.begin(), d.reynolds.end());
   std::string factor;
@@ -164,6 +173,36 @@ std::string table_text(const DragOptions& d, const std::vector<double>& porosity
       d.array, d.nodes, fmt::join(porosity, ", "), fmt::join(reynolds, ", "), factor);
 }
 
+/// Measured points beside the laws of drag.law at the same porosity, and the laws alone between them.
+std::string comparison_text(const DragOptions& d, const std::vector<std::vector<Measured>>& rows) {
+  std::string text = fmt::format(
+      "# K / (3 pi mu d) by `bedload drag`: {} arrays, {} nodes across a sphere, {} draws; and by the laws "
+      "of "
+      "drag.law\n# and, of random arrays, [beetstra07] and [tang15]. nan: not measured.\n"
+      "solid_fraction,reynolds,measured,least,most,beetstra07,tang15",
+      d.array, d.nodes, d.draws);
+  for (const auto& law : kNames<DragLaw>)
+    if (law.value != DragLaw::table) text += "," + std::string(law.name);
+  text += "\n";
+  const auto add = [&](double fraction, const Measured& at) {
+    const double eps = 1 - fraction, re = at.reynolds;
+    text += fmt::format("{:g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g},{:.5g}", fraction, re, at.factor, at.least,
+                        at.most, eps * beetstra(fraction, re), eps * tang(fraction, re));
+    for (const auto& law : kNames<DragLaw>)
+      if (law.value != DragLaw::table) text += fmt::format(",{:.5g}", drag_factor(law.value, eps, re));
+    text += "\n";
+  };
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    for (const Measured& point : rows[k]) add(d.fractions[k], point);
+    const double decades = std::log10(d.reynolds.back() / d.reynolds.front());
+    const int steps = int(std::ceil(8 * decades));
+    for (int i = 0; i <= steps && steps > 0; ++i)
+      add(d.fractions[k], {{d.reynolds.front() * std::pow(10, decades * i / steps), none}, none, none});
+  }
+  return text;
+}
+
 }  // namespace
 
 int drag(const Options& options) {
@@ -173,34 +212,38 @@ int drag(const Options& options) {
   std::sort(d.reynolds.begin(), d.reynolds.end());
   for (auto* list : {&d.fractions, &d.reynolds})
     list->erase(std::unique(list->begin(), list->end()), list->end());
-  if (std::filesystem::exists(options.out) && !options.overwrite)
-    throw FileError(options.out.string() + ": exists; give --overwrite to replace it");
+  std::filesystem::path comparison = options.out;
+  comparison.replace_extension(".csv");
+  for (const auto& file : {options.out, comparison})
+    if (std::filesystem::exists(file) && !options.overwrite)
+      throw FileError(file.string() + ": exists; give --overwrite to replace it");
   const Arrays arrays(options);
   std::vector<double> porosity;
-  std::vector<std::vector<Point>> rows;
+  std::vector<std::vector<Measured>> rows;
   fmt::print("solid fraction  Re        K / (3 pi mu d)  spread of draws\n");
   for (const double fraction : d.fractions) {
     porosity.push_back(1 - fraction);
     rows.emplace_back();
     for (const double re : d.reynolds) {
-      Point mean;
-      double least = 1e300, most = 0;
+      Measured mean;
       for (int k = 0; k < d.draws; ++k) {
         const Point p = arrays.measure(fraction, re, k);
         mean.reynolds += p.reynolds / d.draws, mean.factor += p.factor / d.draws;
-        least = std::min(least, p.factor), most = std::max(most, p.factor);
+        mean.least = std::min(mean.least, p.factor), mean.most = std::max(mean.most, p.factor);
       }
       fmt::print("{:<15g} {:<9.4g} {:<16.4f} {:.1f} %\n", fraction, mean.reynolds, mean.factor,
-                 100 * (most - least) / mean.factor);
+                 100 * (mean.most - mean.least) / mean.factor);
       std::fflush(stdout);
       rows.back().push_back(mean);
     }
   }
+  write_file(comparison, comparison_text(d, rows));
   porosity.push_back(1);
   rows.emplace_back();
-  for (const double re : d.reynolds) rows.back().push_back({re, 1 + 0.15 * std::pow(re, 0.687)});
+  for (const double re : d.reynolds)
+    rows.back().push_back({{re, drag_factor(DragLaw::schiller_naumann, 1, re)}});
   write_file(options.out, table_text(d, porosity, rows));
-  fmt::print("table      {}\n", options.out.string());
+  fmt::print("table      {}\nlaws       {}\n", options.out.string(), comparison.string());
   return 0;
 }
 

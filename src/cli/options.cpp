@@ -151,13 +151,14 @@ void add_drag(CLI::App& app, Options& o) {
   drag->add_option("--array", d.array, "Arrangement of the grains; simple: cubic; default: random")
       ->check(CLI::IsMember({"random", "simple"}));
   drag->add_option("--spheres", d.spheres, "Grains of a random array; default: 54")
-      ->check(CLI::Range(8, 1000000));
+      ->check(CLI::Range(8, 2000));
   drag->add_option("--nodes", d.nodes, "Nodes across a grain, at least; default: 10")
       ->check(CLI::Range(5.0, 200.0));
   drag->add_option("--draws", d.draws, "Random arrays of which the mean is taken; default: 1")
       ->check(CLI::Range(1, 1000));
   add_common_options(*drag, o);
-  drag->add_option("--out", o.out, "File to write; default: drag_table.toml")
+  drag->add_option("--out", o.out,
+                   "File to write; default: drag_table.toml. Beside it, drag_table.csv: points and laws")
       ->type_name("FILE")
       ->check(kNamed);
   drag->add_flag("--overwrite", o.overwrite, "Overwrite an existing file");

@@ -2,43 +2,15 @@
 
 #include <omp.h>
 
+#include "support.hpp"
 #include "tests/boundaries/support.hpp"
 #include "tests/support/tolerance.hpp"
 
 namespace BL_SOLVER {
 namespace {
 
-/// Two grains beside a ball, between walls, a lid that slides above.
-const std::string kCell = R"case(gravity = [0, 0, -0.01]
-[domain]
-min = [0, 0, 0]
-max = [0.016, 0.012, 0.012]
-periodic = [true, false, false]
-[fluid]
-model = "lattice"
-dx = 0.001
-mu = 0.001
-[[shape]]
-name = "ball"
-kind = "sphere"
-centre = [0.0083, 0.0061, 0.0057]
-radius = 0.0028
-[[wall.body]]
-name = "box"
-shape = "tank"
-min = [0, 0, 0]
-max = [0.016, 0.012, 0.012]
-faces = ["y-", "y+", "z-"]
-[[wall.body]]
-name = "lid"
-shape = "plane"
-point = [0, 0, 0.012]
-normal = [0, 0, -1]
-surface_velocity = [0.01, 0, 0]
-[[wall.body]]
-name = "ball"
-shape = "ball"
-[contact]
+/// Two grains beside the ball.
+const std::string kCell = "gravity = [0, 0, -0.01]\n" + kLidAndBall + R"case([contact]
 normal = "linear"
 k = 0.5
 [grain]
@@ -46,14 +18,6 @@ d = 0.005
 E = 1e5
 [[grain.fill]]
 positions = [[0.0029, 0.0061, 0.0057], [0.0138, 0.0058, 0.0064]]
-[drive]
-f = [0, 0.2, 0]
-[lattice]
-mass_every = 40
-[time]
-end = 10
-[out]
-every = 1
 )case";
 
 Config cell(bool fixed) {
@@ -177,6 +141,49 @@ every = 1
   EXPECT_NEAR(slip * (1 - c) * 6 * M_PI * mu * R * K / -weight, 1, 0.02);
 }
 
+/// One that moves in a periodic box at rest, as light as it may be and heavier, leaves its momentum to the
+/// fluid.
+TEST(LatticeGrains, LightOnesComeToRest) {
+  Config config = config_of(R"(gravity = [0, 0, 0]
+[domain]
+min = [0, 0, 0]
+max = [0.016, 0.016, 0.016]
+periodic = [true, true, true]
+[fluid]
+model = "lattice"
+dx = 0.001
+mu = 0.01
+vmax = 0.02
+[lattice]
+tau = 0.6
+[contact]
+normal = "linear"
+k = 1
+[grain]
+d = 0.006
+E = 1e5
+[[grain.fill]]
+positions = [[0.0081, 0.0083, 0.0077]]
+velocity = [0.01, 0.002, 0]
+[time]
+end = 100
+[out]
+every = 1
+)");
+  for (const double rho : {2000.0, 1000.0, 417.0}) {  // the last: R / dx times the ratio of densities is 1.25
+    config.grain.rho = rho;
+    auto s = started(config);
+    double least = 1;
+    for (int k = 0; k < 6; ++k) {
+      for (int n = 0; n < 50; ++n) s->step();
+      const double now = reading(*s, "grain_speed_max") / 0.0102;
+      EXPECT_LT(now, std::max(1.2 * least, 0.1)) << rho << ' ' << k;  // 0.055 is left of the heaviest
+      least = std::min(least, now);
+    }
+    EXPECT_LT(least, 0.1) << rho;
+  }
+}
+
 TEST(LatticeGrains, FaultsWhereTheyMoveOverNodes) {
   Config config = cell(false);
   config.grain.fills[0].velocity = {0, 0, 0.1};
@@ -185,7 +192,8 @@ TEST(LatticeGrains, FaultsWhereTheyMoveOverNodes) {
     s->step();
     FAIL() << "no fault";
   } catch (const SimulationFault& fault) {
-    EXPECT_NE(std::string(fault.what()).find("nodes a step, above the 0.2"), std::string::npos) << fault.what();
+    EXPECT_NE(std::string(fault.what()).find("nodes a step, above the 0.2"), std::string::npos)
+        << fault.what();
   }
 }
 

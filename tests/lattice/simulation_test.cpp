@@ -2,51 +2,14 @@
 
 #include <omp.h>
 
+#include "support.hpp"
 #include "tests/boundaries/support.hpp"
 #include "tests/support/tolerance.hpp"
 
 namespace BL_SOLVER {
 namespace {
 
-/// A box with a lid that slides and a sphere in it.
-const std::string kCavity = R"case(gravity = [0, 0, 0]
-[domain]
-min = [0, 0, 0]
-max = [0.016, 0.012, 0.012]
-periodic = [true, false, false]
-[fluid]
-model = "lattice"
-dx = 0.001
-mu = 0.001
-[[shape]]
-name = "ball"
-kind = "sphere"
-centre = [0.0083, 0.0061, 0.0057]
-radius = 0.0028
-[[wall.body]]
-name = "box"
-shape = "tank"
-min = [0, 0, 0]
-max = [0.016, 0.012, 0.012]
-faces = ["y-", "y+", "z-"]
-[[wall.body]]
-name = "lid"
-shape = "plane"
-point = [0, 0, 0.012]
-normal = [0, 0, -1]
-surface_velocity = [0.01, 0, 0]
-[[wall.body]]
-name = "ball"
-shape = "ball"
-[drive]
-f = [0, 0.2, 0]
-factor = "1 + 0.5*sin(3*t)"
-[lattice]
-mass_every = 40
-[time]
-end = 10
-[out]
-every = 1
+const std::string kCavity = "gravity = [0, 0, 0]\n" + kLidAndBall + R"case(factor = "1 + 0.5*sin(3*t)"
 [[probe]]
 name = "lid"
 type = "force"

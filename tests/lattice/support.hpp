@@ -1,9 +1,10 @@
 #pragma once
-// Fluid on nodes, set up in units of the lattice.
+// Fluid on nodes, set up in units of the lattice or as a case.
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "src/lattice/lattice_solver.hpp"
 
@@ -41,6 +42,46 @@ inline Setup::Nodes channel_nodes(std::uint32_t n, double fraction = 0.5) {
     }
   return nodes;
 }
+
+/// Of a case: a box of water, periodic along x, with a ball in it and a lid that slides; the table [drive]
+/// comes last.
+inline const std::string kLidAndBall = R"case([domain]
+min = [0, 0, 0]
+max = [0.016, 0.012, 0.012]
+periodic = [true, false, false]
+[fluid]
+model = "lattice"
+dx = 0.001
+mu = 0.001
+[lattice]
+mass_every = 40
+[time]
+end = 10
+[out]
+every = 1
+[[shape]]
+name = "ball"
+kind = "sphere"
+centre = [0.0083, 0.0061, 0.0057]
+radius = 0.0028
+[[wall.body]]
+name = "box"
+shape = "tank"
+min = [0, 0, 0]
+max = [0.016, 0.012, 0.012]
+faces = ["y-", "y+", "z-"]
+[[wall.body]]
+name = "lid"
+shape = "plane"
+point = [0, 0, 0.012]
+normal = [0, 0, -1]
+surface_velocity = [0.01, 0, 0]
+[[wall.body]]
+name = "ball"
+shape = "ball"
+[drive]
+f = [0, 0.2, 0]
+)case";
 
 class LatticeFlow {
  public:

@@ -319,6 +319,17 @@ turn_angle = 5
         self.assertNotEqual(status, 0)
         self.assertIn("has no rows of scaling", err)
 
+    def test_drag_laws(self):
+        table = self.run_dir / "drag.csv"
+        header = "solid_fraction,reynolds,measured,least,most,beetstra07,tang15,wen_yu\n"
+        table.write_text("# by bedload drag\n" + header + "0.3,0.1,5,4.9,5.2,5,5,3\n0.3,10,7,6.9,7.2,7,7,4\n"
+                         "0.3,1,nan,nan,nan,5.5,5.5,3.2\n")
+        self.expect_picture("drag-laws", table, table)
+        table.write_text("solid_fraction,wen_yu\n0.3,1\n")
+        status, _, err = tool("plot.py", "drag-laws", table, "--out", "none.png")
+        self.assertNotEqual(status, 0)
+        self.assertIn("must begin with the columns solid_fraction, reynolds", err)
+
     def test_frames_without_the_case(self):
         self.expect_picture("frames", self.run_dir, "--times", "0.2", "--view", "yz")
 

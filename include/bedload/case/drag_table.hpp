@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "bedload/case/choices.hpp"
 #include "bedload/case/config/coupling.hpp"
 
 namespace bedload {
@@ -16,5 +17,8 @@ DragTable drag_nodes();
 /// K / (3 pi mu d), K the force per interstitial slip w (kg/s), at the Reynolds number rho eps w d / mu.
 /// Above 0.
 DragTable drag_table(const std::function<double(double, double)>& factor);
+
+/// The same of a law of drag.law other than the table.
+double drag_factor(DragLaw law, double porosity, double reynolds);
 
 }  // namespace bedload
