@@ -1,9 +1,11 @@
 // Finds the device and selects the build of the solver for it and the precision.
 
 #include <omp.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -15,7 +17,9 @@
 #include "bedload/core/error.hpp"
 #include "bedload/parallel/link.hpp"
 #include "bedload/simulation.hpp"
+#include "src/device.hpp"
 #include "src/team/divisible.hpp"
+#include "src/team/process_team.hpp"
 #include "src/team/team_simulation.hpp"
 
 #if BL_HAS_CUDA
@@ -84,7 +88,9 @@ std::string find_gpu(Device& device) {
   }
   if (count == 0) return "no usable GPU was found";
   cudaDeviceProp properties;
-  cudaGetDeviceProperties(&properties, 0);
+  int own = 0;
+  cudaGetDevice(&own);
+  cudaGetDeviceProperties(&properties, own);
   std::size_t free = 0, total = 0;
   if (const auto status = cudaMemGetInfo(&free, &total); status != cudaSuccess)
     return std::string("the GPU does not respond: ") + cudaGetErrorString(status);
@@ -220,9 +226,8 @@ void take_device(const Device& device, int rank, int threads) {
   omp_set_num_threads(std::max(1, threads / device.ranks));
 }
 
-}  // namespace
-
-std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& setup, const Device& device) {
+/// Memory of the host from which copies to a device are fast.
+void use_host_memory([[maybe_unused]] const Device& device) {
 #if BL_HAS_CUDA
   if (device.cuda())
     HostMemory::use(
@@ -234,6 +239,52 @@ std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& s
         },
         [](void* block) { cudaFreeHost(block); });
 #endif
+}
+
+}  // namespace
+
+std::string code_of(const Device& device) {
+  std::string code = device.backend + (device.avx2 ? "_avx2" : "");
+#if BL_HAS_CUDA
+  cudaDeviceProp properties;
+  int gpu = 0;
+  if (device.cuda() && cudaGetDevice(&gpu) == cudaSuccess &&
+      cudaGetDeviceProperties(&properties, gpu) == cudaSuccess)
+    code += " " + std::to_string(properties.major) + "." + std::to_string(properties.minor);
+#endif
+  return code;
+}
+
+Device find_own_device(const std::string& backend, int threads, Simd simd, const Processes& all) {
+  int share = all.size_here();  // processes that share its memory
+#if BL_HAS_CUDA
+  int count = 0;
+  if (backend != "cpu" && cudaGetDeviceCount(&count) == cudaSuccess && count > 0) {
+    const int own = all.rank_here() % count;
+    if (count > 1) cudaSetDevice(own);
+    share = count > 1 ? (share - own + count - 1) / count : 1;  // one alone was given to this process
+  }
+  (void)cudaGetLastError();
+#endif
+  if (threads == 0 && !std::getenv("OMP_NUM_THREADS") && omp_get_num_procs() == sysconf(_SC_NPROCESSORS_ONLN))
+    threads = std::max(1, omp_get_num_procs() / all.size_here());
+  Device device = find_device(backend, threads, simd);
+  device.ranks = all.size();
+  device.memory /= std::size_t(share);
+  return device;
+}
+
+std::unique_ptr<Simulation> make_own_part(const Config& config, const Setup& setup, const Device& device,
+                                          Link& link) {
+  use_host_memory(device);
+  refuse_undivided(config);
+  return make_part(config, setup, device, &link);
+}
+
+std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& setup, const Device& device) {
+  if (Processes* const all = Processes::joined(); all && all->size() > 1)
+    return make_process_team(*all, config, setup, device, code_of(device), make_own_part);
+  use_host_memory(device);
   if (device.ranks == 1 && device.gpus.empty()) return make_part(config, setup, device);
   refuse_undivided(config);
   std::vector<std::string> names;

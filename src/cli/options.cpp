@@ -203,6 +203,9 @@ void add_run(CLI::App& app, Options& o, std::string& precision, bool& force_dt) 
       ->type_name("FILE")
       ->check(kNamed);
   add_division(*run, o);
+  run->add_flag("--mpi", o.mpi, "Divide the particles among the processes that mpirun or srun starts")
+      ->excludes("--devices")
+      ->excludes("--ranks");
   add_live(*run, o);
   run->add_flag("--allow-changes", o.allow_changes, "Restart with a modified case");
 }

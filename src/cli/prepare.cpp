@@ -20,8 +20,10 @@
 #include "bedload/motion/law.hpp"
 #include "bedload/output/output.hpp"
 #include "room.hpp"
+#include "src/device.hpp"
 #include "src/geometry/rough_size.hpp"
 #include "src/motion/inlet_flow.hpp"
+#include "src/team/processes.hpp"
 #include "src/viscometer/plane_flow.hpp"
 
 namespace bedload {
@@ -236,7 +238,7 @@ void place_particles(const Options& options, Prepared& p) {
     p.setup = build_setup(p.config, p.warnings, &p.notes);
     warn_of_full_box(p);
     p.counts = counts_of(p.setup);
-  } else {
+  } else if (!Processes::joined() || Processes::joined()->rank() == 0) {  // which gives it to the others
     p.restart = read_checkpoint(options.restart, p.config);
     for (const Quantity& q : p.restart.scalars)
       if (q.name == "time")
@@ -249,9 +251,12 @@ void place_particles(const Options& options, Prepared& p) {
 }
 
 void choose_device(const Options& options, Prepared& p) {
-  p.device =
-      placed(p.config.places, [&] { return find_device(options.backend, options.threads, p.config.simd); });
-  divide_among(p.device, options.ranks, options.devices);
+  const Processes* const all = Processes::joined();
+  p.device = placed(p.config.places, [&] {
+    return all ? find_own_device(options.backend, options.threads, p.config.simd, *all)
+               : find_device(options.backend, options.threads, p.config.simd);
+  });
+  if (!all) divide_among(p.device, options.ranks, options.devices);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "commands.hpp"
 #include "list.hpp"
 #include "src/case/shortened.hpp"
+#include "src/team/processes.hpp"
 #include "stop.hpp"
 
 namespace bedload {
@@ -39,9 +40,7 @@ int report(const std::exception& error, int code) {
   return code;
 }
 
-}  // namespace
-
-int run_program(int argc, const char* const* argv) {
+int run(int argc, const char* const* argv) {
   try {
     return dispatch(parse_options(argc, argv));
   } catch (const SimulationFault& error) {
@@ -67,6 +66,15 @@ int run_program(int argc, const char* const* argv) {
     std::fputs((std::string(error.what()) + "\n").c_str(), stderr);
     return kExitBadInput;
   }
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) {
+  const int code = run(argc, argv);
+  std::fflush(stdout);
+  Processes::leave(code);
+  return code;
 }
 
 }  // namespace bedload

@@ -13,6 +13,8 @@
 #include "progress.hpp"
 #include "run.hpp"
 #include "session.hpp"
+#include "src/device.hpp"
+#include "src/team/process_team.hpp"
 #include "src/viewer/live/server.hpp"
 #include "stop.hpp"
 
@@ -238,18 +240,43 @@ int run_prepared(const Options& options, Prepared prepared, RunWatcher* watcher,
   });
 }
 
+namespace {
+
+/// The first process says what to do.
+int run_as_other(const Options& given, Processes& all) {
+  Options options = given;
+  options.quiet = true;
+  const auto read = [&] {
+    Prepared p = prepare(options);
+    return OwnCase{std::move(p.config), std::move(p.setup), p.device, code_of(p.device)};
+  };
+  serve(all, read, make_own_part);
+  return 0;
+}
+
+/// Among several processes once all have read it.
+Prepared prepare_all(const Options& options) {
+  Prepared p = prepare(options);
+  if (Processes* const all = Processes::joined()) all->hear(nullptr, 0);
+  return p;
+}
+
+}  // namespace
+
 int run_case(const Options& given) {
   watch_signals();
   Options options = given;
+  if (options.mpi) Processes::join();
   if (options.restart == "latest") options.restart = latest_checkpoint(options.out);
+  if (options.mpi && Processes::joined()->rank() > 0) return run_as_other(options, *Processes::joined());
   refuse_other_run(options);  // before particles are placed, which takes time
-  if (!options.live) return run_prepared(options, prepare(options));
+  if (!options.live) return run_prepared(options, prepare_all(options));
 
   LiveServer server(*options.live, case_name(options.file));
   if (!options.quiet) fmt::print("live       {}\n", server.address());
   std::fflush(stdout);
   try {
-    return run_prepared(options, prepare(options), nullptr, &server.view());
+    return run_prepared(options, prepare_all(options), nullptr, &server.view());
   } catch (const std::exception& error) {
     server.view().end("failed", error.what());
     throw;

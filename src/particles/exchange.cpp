@@ -1,5 +1,7 @@
 #include "bedload/particles/exchange.hpp"
 
+#include "bedload/core/host_memory.hpp"
+#include "bedload/parallel/host_link.hpp"
 #include "bedload/parallel/rank_record.hpp"
 
 namespace BL_SOLVER {
@@ -10,6 +12,36 @@ constexpr std::size_t kAlign = 64;
 
 std::size_t bytes_of(const FieldBase& field, Index entries) {
   return (entries * field.entry_bytes() + kAlign - 1) / kAlign * kAlign;
+}
+
+#if BL_CUDA
+/// Memory of the host for what goes to other processes (0) and comes from them (1), kept from one exchange to
+/// the next; page-locked.
+std::byte* host_memory(int which, std::size_t bytes) {
+  static thread_local std::array<HostBytes, 2> kept;
+  HostBytes& memory = kept[std::size_t(which)];
+  if (memory.size() < bytes) memory.clear(), memory.resize(bytes + bytes / 8);
+  return memory.data();
+}
+#endif
+
+/// Sends `out`, pieces of an outbox of that length, and fills `in`, memory of the device; by way of the host.
+void exchange(HostLink& link, [[maybe_unused]] const Buffer<std::byte>& outbox, std::vector<Piece>& out,
+              std::vector<Piece>& in) {
+#if BL_CUDA
+  std::size_t bytes = 0;
+  std::byte* const sent = host_memory(0, outbox.size());
+  copy_to_host(sent, outbox.data(), outbox.size());
+  for (Piece& piece : out) piece.data = sent + (static_cast<std::byte*>(piece.data) - outbox.data());
+  for (const Piece& piece : in) bytes += piece.bytes;
+  std::byte* at = host_memory(1, bytes);
+  std::vector<Piece> there = in;
+  for (Piece& piece : there) piece.data = at, at += piece.bytes;
+  link.exchange(out, there);
+  for (std::size_t k = 0; k < in.size(); ++k) copy_on_device(in[k].data, there[k].data, in[k].bytes);
+#else
+  link.exchange(out, in);
+#endif
 }
 
 }  // namespace
@@ -41,6 +73,26 @@ void Exchange::run(const std::vector<FieldBase*>& fields, Index first) {
     to += bytes_of(*field, outgoing(context.rank()));
   }
   context.wait();
+  if (auto* const link = dynamic_cast<HostLink*>(context.link())) {
+    const int own = context.rank();
+    std::vector<Piece> out, in;
+    const auto add = [](std::vector<Piece>& pieces, int rank, const FieldBase& field, void* data,
+                        Index count) {
+      if (count > 0) pieces.push_back({rank, data, count * field.entry_bytes()});
+    };
+    to = outbox.data();
+    for (const FieldBase* field : fields) {
+      for (int r = 0; r < ranks_; ++r)
+        add(out, r, *field, to + of(own, r) * field->entry_bytes(), of(own, r + 1) - of(own, r));
+      to += bytes_of(*field, outgoing(own));
+    }
+    for (int r = 0; r < ranks_; ++r) {
+      const Index count = of(r, own + 1) - of(r, own);
+      for (FieldBase* field : fields) add(in, r, *field, field->entry(first), count);
+      first += count;
+    }
+    return exchange(*link, outbox, out, in);
+  }
   const std::vector<std::byte*> outboxes = all_gather(outbox.data());
   for (int r = 0; r < ranks_; ++r) {
     const Index begin = of(r, context.rank()), count = of(r, context.rank() + 1) - begin;

@@ -85,13 +85,13 @@ class TeamSimulation final : public Simulation {
     return first_of([&](Simulation& s) { return s.body_state(body); });
   }
   SavedState save() override {
-    return whole(all_of([](Simulation& s) { return s.save(); }));
+    return joined(all_of([](Simulation& s) { return s.save(); }));
   }
   void load(const SavedState& state) override {
     each([&](Simulation& s) { s.load(state); });
   }
   SavedState save_grains() override {
-    return whole(all_of([](Simulation& s) { return s.save_grains(); }));
+    return joined(all_of([](Simulation& s) { return s.save_grains(); }));
   }
   void load_grains(const SavedState& state) override {
     each([&](Simulation& s) { s.load_grains(state); });
@@ -116,15 +116,6 @@ class TeamSimulation final : public Simulation {
   template <class F>
   Result<F> first_of(const F& f) {
     return std::move(all_of(f)[0]);
-  }
-  static SavedState whole(std::vector<SavedState> parts) {
-    SavedState out{{}, std::move(parts[0].scalars)};
-    for (std::size_t s = 0; s < parts[0].stores.size(); ++s) {
-      std::vector<HostStore> stores;
-      for (SavedState& part : parts) stores.push_back(std::move(part.stores[s]));
-      out.stores.push_back(joined(stores));
-    }
-    return out;
   }
   /// What a rank has allocated is freed by its own thread; never, if some do not respond.
   void release() {
@@ -176,6 +167,16 @@ HostStore joined(const std::vector<HostStore>& parts) {
     }
     done += end - at[next];
     at[next] = end;
+  }
+  return out;
+}
+
+SavedState joined(std::vector<SavedState> parts) {
+  SavedState out{{}, std::move(parts[0].scalars)};
+  for (std::size_t s = 0; s < parts[0].stores.size(); ++s) {
+    std::vector<HostStore> stores;
+    for (SavedState& part : parts) stores.push_back(std::move(part.stores[s]));
+    out.stores.push_back(joined(stores));
   }
   return out;
 }

@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstring>
 #include <fstream>
 #include <thread>
 
 #include "bedload/case/read.hpp"
 #include "bedload/core/error.hpp"
+#include "bedload/parallel/host_link.hpp"
 #include "tests/support/team.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -99,6 +101,53 @@ TEST(RankCases, FluidOfAFileIsUnderThePressureOfAllAboveIt) {
   };
   const auto one = after(1);
   for (const int ranks : {2, 4}) EXPECT_TRUE(after(ranks) == one) << ranks << " ranks";
+}
+
+/// A link between threads that exchange as processes do.
+class PieceLink final : public HostLink {
+ public:
+  explicit PieceLink(Link& link) : link_(link) {}
+  int rank() const override { return link_.rank(); }
+  int size() const override { return link_.size(); }
+  void all_gather(const void* own, void* all, std::size_t bytes) override {
+    link_.all_gather(own, all, bytes);
+  }
+  void exchange(std::span<const Piece> out, std::span<const Piece> in) override {
+    const std::span<const Piece>* const own = &out;
+    std::vector<const std::span<const Piece>*> all(static_cast<std::size_t>(size()));
+    link_.all_gather(&own, all.data(), sizeof own);
+    std::vector<std::size_t> next(all.size(), 0);
+    for (const Piece& piece : in) {
+      const std::span<const Piece> from = *all[std::size_t(piece.rank)];
+      std::size_t& k = next[std::size_t(piece.rank)];
+      while (from[k].rank != rank()) ++k;
+      EXPECT_EQ(from[k].bytes, piece.bytes);
+      std::memcpy(piece.data, from[k++].data, piece.bytes);
+      received += piece.bytes;
+    }
+    link_.all_gather(nullptr, nullptr, 0);  // all have what they were sent
+  }
+  std::size_t received = 0;
+
+ private:
+  Link& link_;
+};
+
+TEST(RankCases, ParticlesGoByTheMemoryOfTheHost) {
+  const DividedCase c(kFlight);
+  std::vector<std::unique_ptr<PieceLink>> links(3);
+  const auto several = make_team({.ranks = 3, .make = [&](Link& link) {
+                                    auto& own = links[std::size_t(link.rank())];
+                                    own = std::make_unique<PieceLink>(link);
+                                    return make_coupled(c.config, c.setup, own.get());
+                                  }});
+  const auto one = make_coupled(c.config, c.setup);
+  for (Simulation* s : {one.get(), several.get()}) {
+    s->start();
+    while (s->time() < 0.02) s->step();
+  }
+  EXPECT_TRUE(bits(*several) == bits(*one));
+  for (const auto& link : links) EXPECT_GT(link->received, 0u);
 }
 
 /// A link to others over which rank 1 falls asleep once.

@@ -1,5 +1,5 @@
 # What `cmake --install` and `cpack` take. Components: program; development, for find_package(bedload); bundled, the
-# shared libraries of a tarball that runs anywhere; python, the wheel (python.cmake).
+# shared libraries of a tarball that runs anywhere; mpi, the plug-in; python, the wheel (python.cmake).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -15,6 +15,11 @@ install(FILES ${CMAKE_BINARY_DIR}/bedload.bash DESTINATION ${CMAKE_INSTALL_DATAD
 # All but what belongs to the C library and the GPU driver.
 install(RUNTIME_DEPENDENCY_SET libraries DESTINATION lib COMPONENT bundled EXCLUDE_FROM_ALL
         PRE_EXCLUDE_REGEXES "^(ld-linux.*|lib(c|m|dl|rt|pthread|resolv|util|anl|nsl|cuda))\\.so")
+
+# The plug-in belongs to the MPI of a site, so no package has it: cmake --install <build> --component mpi.
+if(TARGET bedload_mpi)
+  install(TARGETS bedload_mpi LIBRARY DESTINATION lib COMPONENT mpi EXCLUDE_FROM_ALL)
+endif()
 
 # bedload::bedload: the interface of include/bedload, without what is compiled for one precision or device.
 add_library(bedload_interface INTERFACE)

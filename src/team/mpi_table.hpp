@@ -1,0 +1,48 @@
+#pragma once
+// What the plug-in for MPI (src/mpi/plugin.cpp) offers the program, which loads it only for --mpi. Plain C,
+// so that neither C++ types nor exceptions go from one to the other.
+
+#include <cstddef>
+
+namespace bedload {
+
+extern "C" {
+
+/// As Piece of host_link.hpp.
+struct BedloadMpiPiece {
+  int rank;
+  void* data;
+  std::size_t bytes;
+};
+
+/// Messages of one channel do not meet those of another.
+enum BedloadMpiChannel { kMpiData, kMpiControl, kMpiAlarm, kMpiChannels };
+
+enum BedloadMpiResult {
+  kMpiDone,
+  kMpiFailed,   ///< error() says why
+  kMpiLate,     ///< the time is over; late() is the rank for which this one waits
+  kMpiAlarmed,  ///< in the data channel of process 0: another process has sent something by the alarm channel
+};
+
+struct BedloadMpi {
+  int version;  ///< kMpiTable of the program that it was built with
+  /// Number of this process, of all, and the same among those of its host.
+  BedloadMpiResult (*begin)(int* rank, int* size, int* rank_here, int* size_here);
+  /// limit: s, for all waits; 0: none.
+  BedloadMpiResult (*all_gather)(const void* own, void* all, std::size_t bytes, double limit);
+  BedloadMpiResult (*exchange)(BedloadMpiChannel, const BedloadMpiPiece* out, std::size_t n_out,
+                               const BedloadMpiPiece* in, std::size_t n_in, double limit);
+  int (*late)();  ///< -1: unknown
+  const char* (*error)();
+  void (*end)();            ///< by all
+  void (*abort)(int code);  ///< ends all processes
+};
+
+/// The one function of the plug-in.
+const BedloadMpi* bedload_mpi();
+}
+
+inline constexpr int kMpiTable = 1;
+
+}  // namespace bedload
