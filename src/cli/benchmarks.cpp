@@ -37,18 +37,18 @@ every = 1
 /// Frictional spheres in an open box, with or without water.
 constexpr const char* kBeads = R"([domain]
 min = [-{margin}, -{margin}, -{margin}]
-max = [{outside}, {outside}, {top}]
+max = [{outside}, {beyond}, {top}]
 {fluid}[grain]
 d = 0.0027
 {grain}{large}[[grain.fill]]
 min = [0, 0, 0]
-max = [{side}, {side}, {bed}]
+max = [{side}, {across}, {bed}]
 count = {count}
 [[wall.body]]
 name = "box"
 shape = "tank"
 {wall}min = [0, 0, 0]
-max = [{side}, {side}, {rim}]
+max = [{side}, {across}, {rim}]
 faces = ["x-", "x+", "y-", "y+", "z-"]
 [time]
 end = 10
@@ -90,7 +90,8 @@ packing_fraction = {fraction}
 
 struct Beads {
   int count;
-  double side;           ///< of the square floor, m
+  double side;           ///< of the floor, m
+  double times = 1;      ///< its other side over that one
   double margin = 0.01;  ///< from the box to the sides of the domain, m
   double depth = 0;      ///< of water, m
   std::string grain = {}, wall = {};
@@ -118,16 +119,17 @@ std::string fill_text(const Beads& b, double bed) {
 std::string case_text(const Beads& b) {
   using fmt::arg;
   const double volume = (b.count + b.large * std::pow(b.ratio, 3)) * 3.14159265 / 6 * std::pow(kBead, 3);
-  const double bed = volume / 0.35 / (b.side * b.side);  // at 35 %
+  const double across = b.times * b.side, bed = volume / 0.35 / (b.side * across);  // at 35 %
   const bool wet = b.depth > 0;
   const double top = (wet ? b.depth : bed) + 0.1;
   const std::string fluid =
       wet ? fmt::format(
-                "[fluid]\ndx = 0.003\n[[fluid.fill]]\nmin = [0, 0, 0]\nmax = [{0}, {0}, {1}]\n[visc]\n"
+                "[fluid]\ndx = 0.003\n[[fluid.fill]]\nmin = [0, 0, 0]\nmax = [{0}, {1}, {2}]\n[visc]\n"
                 "alpha = 0.02\n",
-                b.side, b.depth)
+                b.side, across, b.depth)
           : "";
-  return fmt::format(kBeads, arg("margin", b.margin), arg("outside", b.side + b.margin), arg("top", top),
+  return fmt::format(kBeads, arg("margin", b.margin), arg("outside", b.side + b.margin),
+                     arg("beyond", across + b.margin), arg("across", across), arg("top", top),
                      arg("fluid", fluid), arg("grain", b.grain), arg("large", fill_text(b, bed)),
                      arg("side", b.side), arg("bed", bed), arg("count", b.count), arg("wall", b.wall),
                      arg("rim", wet ? top : bed));
@@ -167,14 +169,16 @@ Benchmark coated(const std::string& name) {
           {}};
 }
 
-Benchmark coupled(const std::string& name, double side, double depth, int count, bool settle) {
+Benchmark coupled(const std::string& name, double side, double depth, int count, bool settle,
+                  double times = 1) {
   return {name,
-          case_text({.count = count,
+          case_text({.count = int(count * times),
                      .side = side,
+                     .times = times,
                      .margin = 0.03,
                      .depth = depth,
                      .grain = settle ? "settle = true\nsettle_time = 0.15\n" : ""}),
-          kPeers};
+          kPeers, [=](double more) { return coupled(name, side, depth, count, settle, times * more); }};
 }
 
 /// n: nodes along a side; fraction: of the volume, in spheres.
@@ -191,7 +195,8 @@ Benchmark lattice(const std::string& name, int n, double fraction) {
 Benchmark widened_dam_break(const std::string& name, double width) {
   std::vector<std::string> settings = kPeers;
   settings.push_back("time.integrator=ab3");
-  return {name, fmt::format(kDamBreak, width, width + 0.04), settings, width};
+  return {name, fmt::format(kDamBreak, width, width + 0.04), settings,
+          [=](double times) { return widened_dam_break(name, times * width); }};
 }
 
 std::vector<Benchmark> benchmarks() {
