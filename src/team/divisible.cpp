@@ -28,11 +28,8 @@ void refuse_undivided(const Config& c) {
   if (c.out.contacts != ContactFrames::none) refuse("out.contacts", "frames of contacts");
   for (const int k : c.grain.clump_fills()) refuse(fmt::format("grain.fill.{}.clump", k), "clumps");
   for (const int k : c.grain.rigid_fills()) refuse(fmt::format("grain.fill.{}.rigid", k), "a rigid group");
-  for (std::size_t k = 0; k < c.wall.bodies.size(); ++k) {
-    const WallBody& body = c.wall.bodies[k];
-    if (body.wear != WearLaw::none) refuse(fmt::format("wall.body.{}.wear", k), "wear of walls");
-    if (body.type->kind == WallKind::mirrored) refuse(fmt::format("wall.body.{}.type", k), "a mirrored wall");
-  }
+  for (std::size_t k = 0; k < c.wall.bodies.size(); ++k)
+    if (c.wall.bodies[k].wear != WearLaw::none) refuse(fmt::format("wall.body.{}.wear", k), "wear of walls");
 }
 
 }  // namespace bedload

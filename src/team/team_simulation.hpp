@@ -22,6 +22,6 @@ std::unique_ptr<Simulation> make_team(const TeamOptions& options);
 
 /// The entries of all ranks in the order in which one rank would have them: by the array "block", which it
 /// drops, and within a block as its owner has them. Without such an array, those of the first.
-HostStore joined(const std::vector<HostStore>& parts);
+HostStore joined(std::vector<HostStore> parts);
 
 }  // namespace bedload
