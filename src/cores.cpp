@@ -3,7 +3,10 @@
 #include <omp.h>
 #include <sched.h>
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
+#include <exception>
 #include <vector>
 
 namespace bedload {
@@ -18,6 +21,24 @@ void use_all_cores() {
     for (const int id : ids) CPU_SET_S(id, sizeof cores, cores.data());
   }
   sched_setaffinity(0, sizeof cores, cores.data());  // a failure changes nothing
+}
+
+void in_stretches(std::size_t n, const std::function<void(std::size_t, std::size_t)>& f) {
+  constexpr std::size_t length = 1 << 14;
+  const auto stretches = std::int64_t((n + length - 1) / length);
+  std::int64_t failed = stretches;
+  std::exception_ptr error;
+#pragma omp parallel for schedule(static) if (stretches > 1)
+  for (std::int64_t s = 0; s < stretches; ++s) {
+    const std::size_t begin = std::size_t(s) * length;
+    try {
+      f(begin, std::min(begin + length, n));
+    } catch (...) {
+#pragma omp critical(bedload_in_stretches)
+      if (s < failed) failed = s, error = std::current_exception();
+    }
+  }
+  if (error) std::rethrow_exception(error);
 }
 
 }  // namespace bedload

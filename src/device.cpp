@@ -345,7 +345,6 @@ MemoryEstimate estimate_memory(const Config& config, const Device& device) {
   MemoryEstimate out{.fluid = double(each.fluid),
                      .walls = double(each.walls),
                      .grains = double(each.grains),
-                     .fields = empty->field_bytes(),
                      .ranks = device.ranks};
   if (config.fluid.lattice()) return out;
 

@@ -91,8 +91,8 @@ class Simulation {
   /// Of each rank; empty where there is one.
   virtual std::vector<RankReport> ranks() { return {}; }
 
-  /// Output fields of a store: "fluid", "grains", "clumps" or "walls", first array "position"; or "contacts", lines
-  /// of the grains' contacts, first array "ends".
+  /// Output fields of a store: "fluid", "grains", "clumps" or "walls", first array "position"; or "contacts",
+  /// lines of the grains' contacts, first array "ends".
   virtual HostStore snapshot(const std::string& store) = 0;
   /// Data for the rheology of "fluid" or "grains", after a step: arrays position (m), velocity (m/s), mass
   /// (kg), volume (m3, of a grain, or the mixture volume of fluid), drive (N, by gravity and drive)
@@ -133,8 +133,8 @@ struct Device {
   std::string name;        ///< "NVIDIA H100 80GB HBM3", "AMD EPYC ..., AVX2, 2 threads"
   std::size_t memory = 0;  ///< free memory, bytes; with several ranks, of the one that has least
   bool avx2 = false;       ///< CPU with the AVX2 build of the solver
-  int ranks = 1;           ///< parts into which particles are divided, each with its own GPU or share of the CPU
-  std::vector<int> gpus;   ///< of each rank; empty: the first
+  int ranks = 1;  ///< parts into which particles are divided, each with its own GPU or share of the CPU
+  std::vector<int> gpus;  ///< of each rank; empty: the first
   bool cuda() const { return backend == "cuda"; }
   /// Its name, and into how many parts it is divided or how many there are.
   std::string text() const {
@@ -164,7 +164,8 @@ void divide_among(Device& device, int ranks, const std::string& gpus);
 /// Free memory of each GPU of this machine, bytes; empty without.
 std::vector<std::size_t> free_of_gpus();
 
-/// Builds the solver for config.precision on `device`. Throws KeyError for what cannot be divided among ranks.
+/// Builds the solver for config.precision on `device`. Throws KeyError for what cannot be divided among
+/// ranks.
 std::unique_ptr<Simulation> make_simulation(const Config& config, const Setup& setup, const Device& device);
 /// A copy of a field of a simulation on `device`. Throws DeviceError.
 HostArray host_copy(const FieldView& view, const Device& device);
@@ -174,23 +175,13 @@ HostArray host_copy(const FieldView& view, const Device& device);
 struct MemoryEstimate {
   double fluid = 0, walls = 0, grains = 0;
   double rest = 32 << 20;
-  ParticleBytes fields = {};  ///< of `fluid` .. `grains`, what is not lists
   int ranks = 1;
 
-  /// With several ranks, of the one that takes most: lists of its part, beside the fields of all particles,
-  /// which it has at the start and whose memory it keeps.
+  /// With several ranks, of the one that takes most.
   std::size_t of(const Counts& n) const {
     constexpr double more = 1.2;  // ghosts, and a larger part than others
-    const double whole = all(n, fluid, walls, grains), kept = of_fields(n);
-    return std::size_t((ranks == 1 ? whole : kept + (whole - kept) * more / ranks) + rest);
-  }
-  double of_fields(const Counts& n) const {
-    return all(n, double(fields.fluid), double(fields.walls), double(fields.grains));
-  }
-
- private:
-  static double all(const Counts& n, double fluid, double walls, double grains) {
-    return double(n.fluid) * fluid + double(n.walls) * walls + double(n.grains) * grains;
+    const double whole = double(n.fluid) * fluid + double(n.walls) * walls + double(n.grains) * grains;
+    return std::size_t((ranks == 1 ? whole : whole * more / ranks) + rest);
   }
 };
 /// From the fields of its stores and the scratch of its solvers, which are made without particles for it, and

@@ -51,8 +51,8 @@ OpenBoundaries::OpenBoundaries(const OpenBoundaryParameters& parameters, const F
 }
 
 void OpenBoundaries::start(const FluidStore& fluid, const GrainStore& grains) {
-  next_fluid_ = fluid.size();
-  next_grain_ = grains.size();
+  next_fluid_ = Index(fluid.everywhere());
+  next_grain_ = Index(grains.everywhere());
 }
 
 bool OpenBoundaries::fluid_due() const {

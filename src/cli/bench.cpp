@@ -101,9 +101,9 @@ std::vector<Job> jobs_of(const Options& o) {
       if (counts.size() > 1) scaling = "strong";
       add_benchmark(b);
     }
-    for (std::size_t k = 0; k < counts.size() && counts.size() > 1 && b.width > 0; ++k) {
+    for (std::size_t k = 0; k < counts.size() && counts.size() > 1 && b.widened; ++k) {
       ranks = counts[k], scaling = "weak";
-      add_benchmark(widened_dam_break(b.name, b.width * counts[k] / counts[0]));
+      add_benchmark(b.widened(double(counts[k]) / counts[0]));
     }
   };
 
@@ -231,6 +231,7 @@ Result result_of(const Job& job, const Simulation& simulation, int steps, std::v
 
 Result measure(Job job, const Options& o) {
   Prepared& p = job.p;
+  const auto from = std::chrono::steady_clock::now();
   initialise(on_ranks(o, job.ranks), p);
   SavedState bed;
   const bool settle = p.config.grain.present && p.config.grain.settle;
@@ -244,6 +245,7 @@ Result measure(Job job, const Options& o) {
   p.setup = {};
   if (settle) simulation->load_grains(bed);
   simulation->start();
+  const std::chrono::duration<double> set_up = std::chrono::steady_clock::now() - from;
   while (simulation->time() < o.bench.at) simulation->step();
   time_steps(*simulation, o.bench.warm_up);
   std::vector<Repeat> repeats;
@@ -252,6 +254,7 @@ Result measure(Job job, const Options& o) {
   double seconds = 0;
   for (const Repeat& repeat : repeats) seconds += repeat.seconds;
   Result result = result_of(job, *simulation, o.bench.steps, std::move(repeats));
+  result.cells.push_back({"set-up", fmt::format("{:.3g} s", set_up.count()), "set_up_s", set_up.count()});
   const Counts n = simulation->counts();
   result.scaling = {.name = result.name,
                     .precision = result.precision,
@@ -349,6 +352,19 @@ Json json_of(const Options& o, const Device& device, const std::vector<Result>& 
           {"rows", rows}};
 }
 
+/// The least wide of weak scaling is the first of strong scaling.
+std::vector<Result> measured_before(const Job& job, int fewest, const std::vector<Result>& results) {
+  std::vector<Result> same;
+  if (job.scaling != "weak" || job.ranks != fewest) return same;
+  for (const Result& result : results)
+    if (result.scaling.kind == "strong" && result.scaling.ranks == fewest && result.name == job.name &&
+        result.precision == job.p.config.precision.name()) {
+      same.push_back(result);
+      same.back().scaling.kind = "weak";
+    }
+  return same;
+}
+
 /// The same with each number of threads that is asked for.
 std::vector<Result> measure_with_threads(const Job& job, const Options& o) {
   if (o.bench.thread_counts.empty()) return {measure(job, o)};
@@ -383,8 +399,10 @@ int bench(const Options& o) {
   for (std::size_t k = 0; k < jobs.size() && !failure; ++k) {
     try {
       const std::string on = counts.back() > 1 ? fmt::format(", {} ranks", jobs[k].ranks) : "";
-      for (const Result& each :
-           placed(jobs[k].p.config.places, [&] { return measure_with_threads(jobs[k], o); })) {
+      std::vector<Result> found = measured_before(jobs[k], counts[0], results);
+      if (found.empty())
+        found = placed(jobs[k].p.config.places, [&] { return measure_with_threads(jobs[k], o); });
+      for (const Result& each : found) {
         fmt::print(stderr, "{} {}{}: {:.3f} ms/step\n", each.name, each.precision, on, each.ms);
         results.push_back(each);
       }

@@ -37,18 +37,18 @@ every = 1
 /// Frictional spheres in an open box, with or without water.
 constexpr const char* kBeads = R"([domain]
 min = [-{margin}, -{margin}, -{margin}]
-max = [{outside}, {outside}, {top}]
+max = [{outside}, {beyond}, {top}]
 {fluid}[grain]
 d = {d}
 {grain}{large}[[grain.fill]]
 min = [0, 0, 0]
-max = [{side}, {side}, {bed}]
+max = [{side}, {across}, {bed}]
 count = {count}
 [[wall.body]]
 name = "box"
 shape = "tank"
 {wall}min = [0, 0, 0]
-max = [{side}, {side}, {rim}]
+max = [{side}, {across}, {rim}]
 faces = ["x-", "x+", "y-", "y+", "z-"]
 [time]
 end = 10
@@ -84,7 +84,8 @@ constexpr double kBead = 0.0027;  // diameter, m
 
 struct Beads {
   int count;
-  double side;           ///< of the square floor, m
+  double side;           ///< of the floor, m
+  double times = 1;      ///< its other side over that one
   double margin = 0.01;  ///< from the box to the sides of the domain, m
   double depth = 0;      ///< of water, m
   std::string grain = {}, wall = {};
@@ -111,19 +112,20 @@ std::string fill_text(const Beads& b, double bed) {
 std::string case_text(const Beads& b) {
   using fmt::arg;
   const double volume = (b.count + b.large * std::pow(b.ratio, 3)) * 3.14159265 / 6 * std::pow(b.d, 3);
-  const double bed = volume / 0.35 / (b.side * b.side);  // at 35 %
+  const double across = b.times * b.side, bed = volume / 0.35 / (b.side * across);  // at 35 %
   const bool wet = b.depth > 0;
   const double top = (wet ? b.depth : bed) + 0.1;
   const std::string fluid =
       wet ? fmt::format(
-                "[fluid]\ndx = {2}\n[[fluid.fill]]\nmin = [0, 0, 0]\nmax = [{0}, {0}, {1}]\n[visc]\n"
+                "[fluid]\ndx = {3}\n[[fluid.fill]]\nmin = [0, 0, 0]\nmax = [{0}, {1}, {2}]\n[visc]\n"
                 "alpha = 0.02\n",
-                b.side, b.depth, b.dx)
+                b.side, across, b.depth, b.dx)
           : "";
-  return fmt::format(kBeads, arg("margin", b.margin), arg("outside", b.side + b.margin), arg("top", top),
-                     arg("fluid", fluid), arg("d", b.d), arg("grain", b.grain),
-                     arg("large", fill_text(b, bed)), arg("side", b.side), arg("bed", bed),
-                     arg("count", b.count), arg("wall", b.wall), arg("rim", wet ? top : bed));
+  return fmt::format(kBeads, arg("margin", b.margin), arg("outside", b.side + b.margin),
+                     arg("beyond", across + b.margin), arg("across", across), arg("top", top),
+                     arg("fluid", fluid), arg("d", b.d), arg("grain", b.grain), arg("large", fill_text(b, bed)),
+                     arg("side", b.side), arg("bed", bed), arg("count", b.count), arg("wall", b.wall),
+                     arg("rim", wet ? top : bed));
 }
 
 Benchmark spheres(const std::string& name, int count, double side, bool settle) {
@@ -160,14 +162,16 @@ Benchmark coated(const std::string& name) {
           {}};
 }
 
-Benchmark coupled(const std::string& name, double side, double depth, int count, bool settle) {
+Benchmark coupled(const std::string& name, double side, double depth, int count, bool settle,
+                  double times = 1) {
   return {name,
-          case_text({.count = count,
+          case_text({.count = int(count * times),
                      .side = side,
+                     .times = times,
                      .margin = 0.03,
                      .depth = depth,
                      .grain = settle ? "settle = true\nsettle_time = 0.15\n" : ""}),
-          kPeers};
+          kPeers, [=](double more) { return coupled(name, side, depth, count, settle, times * more); }};
 }
 
 /// Water over grains of 0.5 mm and `large` ones of 10 mm, 1 mm apart.
@@ -213,7 +217,8 @@ dx = {1:.15g}
 Benchmark widened_dam_break(const std::string& name, double width) {
   std::vector<std::string> settings = kPeers;
   settings.push_back("time.integrator=ab3");
-  return {name, fmt::format(kDamBreak, width, width + 0.04), settings, width};
+  return {name, fmt::format(kDamBreak, width, width + 0.04), settings,
+          [=](double times) { return widened_dam_break(name, times * width); }};
 }
 
 std::vector<Benchmark> benchmarks() {

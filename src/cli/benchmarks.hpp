@@ -1,6 +1,7 @@
 #pragma once
 // The built-in cases of `bedload bench`.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@ struct Benchmark {
   /// Settings of other programs, as for --set: h = 1.3 dx, density by the continuity equation alone, no
   /// shifting; forces once per step in single-phase cases. Empty without fluid.
   std::vector<std::string> settings;
-  double width = 0;  ///< m, of a dam break, which can be made wider; 0: no such thing
+  /// The same so many times as wide, with as many times the particles; empty where there is no such thing.
+  std::function<Benchmark(double)> widened = {};
 };
 
 std::vector<Benchmark> benchmarks();

@@ -168,8 +168,6 @@ std::string ranks_text(Prepared& p, const StepTiming& timing, const std::vector<
     sent = std::max(sent, now.sent - from[r].sent);
   }
   const auto ranks = double(to.size());
-  out += fmt::format("           of that, {} are fields of all particles, with which each begins\n",
-                     bytes_text(std::size_t(p.memory.of_fields(p.counts))));
   out += fmt::format("imbalance  {:.3g}: most particles of a rank over the mean\n", most * ranks / all);
   out += fmt::format("exchanges  {:.3g} a step, at most {} a step from a rank\n",
                      double(to[0].exchanges - from[0].exchanges) / timing.steps,

@@ -110,30 +110,32 @@ double imbalance_of(const std::vector<std::uint16_t>& owner, const std::vector<d
 
 }  // namespace
 
-Division divide_blocks(const CellGrid& grid, const std::vector<double>& load) {
+Division divide_blocks(const CellGrid& grid, const std::vector<double>& load, double around,
+                       const OtherCells& other) {
   const CellGridView shape = grid.view();
   const auto owner = bisect(block_places(shape), load, Context::current().ranks());
-  const auto ownership = std::make_shared<const Ownership>(shape, owner);
-  return {ownership, ownership, imbalance_of(owner, load)};
-}
-
-Division divide_blocks(const CellGrid& grid, const std::vector<double>& load, CellGrid& other, double reach) {
-  const CellGridView shape = grid.view(), of_other = other.view();
-  const auto owner = bisect(block_places(shape), load, Context::current().ranks());
-  const auto other_owner = owners_of(of_other, shape, owner);
-  const OtherBlocks around_other{shape, owner, reach}, around{of_other, other_owner, reach};
-  other.divide(std::make_shared<const Ownership>(of_other, other_owner, &around_other));
-  return {std::make_shared<const Ownership>(shape, owner, &around),
-          std::make_shared<const Ownership>(shape, owner), imbalance_of(owner, load)};
+  std::vector<OtherBlocks> others;
+  if (around > 0) others.push_back({shape, owner, around});
+  CellGridView of_other;
+  std::vector<std::uint16_t> other_owner;
+  if (other.grid) {
+    of_other = other.grid->view();
+    other_owner = owners_of(of_other, shape, owner);
+    const std::vector<OtherBlocks> around_other{{shape, owner, other.reach}};
+    other.grid->divide(std::make_shared<const Ownership>(of_other, other_owner, around_other));
+    others.push_back({of_other, other_owner, other.reach});
+  }
+  const auto ownership = std::make_shared<const Ownership>(shape, owner, others);
+  return {ownership, others.empty() ? ownership : std::make_shared<const Ownership>(shape, owner),
+          imbalance_of(owner, load)};
 }
 
 template <class P>
-void claim(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
-  Buffer<Index> kept;
+std::vector<Index> find_own(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
+  Buffer<Index> own;
   find_all(store.owned().size(),
-           IsOwn<P>{grid.view(), frame, x, grid.ownership()->owner, Index(Context::current().rank())}, kept);
-  store.keep(kept);
-  store.count();
+           IsOwn<P>{grid.view(), frame, x, grid.ownership()->owner, Index(Context::current().rank())}, own);
+  return own.to_host();
 }
 
 template <class P>
@@ -187,11 +189,11 @@ HostArray blocks_of(const Store& store, const CellGrid& grid, const Frame& frame
   return out;
 }
 
-#define BL_POSITION(P)                                                                         \
-  template void add_loads(const Store&, const CellGrid&, const Frame&, Span<const P>, double,  \
-                          std::vector<double>&);                                               \
-  template void claim(Store&, const CellGrid&, const Frame&, Span<const P>);                   \
-  template Migrants find_migrants(const Store&, const CellGrid&, const Frame&, Span<const P>); \
+#define BL_POSITION(P)                                                                              \
+  template void add_loads(const Store&, const CellGrid&, const Frame&, Span<const P>, double,       \
+                          std::vector<double>&);                                                    \
+  template std::vector<Index> find_own(const Store&, const CellGrid&, const Frame&, Span<const P>); \
+  template Migrants find_migrants(const Store&, const CellGrid&, const Frame&, Span<const P>);      \
   template HostArray blocks_of(const Store&, const CellGrid&, const Frame&, Span<const P>);
 BL_POSITION(Vec3d)
 BL_POSITION(PackedPosition)

@@ -17,17 +17,22 @@ void add_loads(const Store& store, const CellGrid& grid, const Frame& frame, Spa
 struct Division {
   std::shared_ptr<const Ownership> ownership;
   std::shared_ptr<const Ownership> near;  ///< the same, with copies of what is next to a rank's blocks alone
-  double imbalance;  ///< largest load of a rank over the mean
+  double imbalance;                       ///< largest load of a rank over the mean
 };
-/// Of blocks with that load, the same on all ranks.
-Division divide_blocks(const CellGrid& grid, const std::vector<double>& load);
-/// Divides the cells of another phase alike: particles of one within `reach` (m) of a rank's blocks of the
-/// other are copied to it as well.
-Division divide_blocks(const CellGrid& grid, const std::vector<double>& load, CellGrid& other, double reach);
+/// The cells of another phase: particles of one within `reach` (m) of a rank's blocks of the other are copied
+/// to it as well.
+struct OtherCells {
+  CellGrid* grid = nullptr;  ///< null: there is none
+  double reach = 0;
+};
+/// Of blocks with that load, the same on all ranks; those of `other` are divided alike. Particles within
+/// `around` (m) of a rank's blocks are copied to it, and at least those in cells next to them.
+Division divide_blocks(const CellGrid& grid, const std::vector<double>& load, double around = 0,
+                       const OtherCells& other = {});
 
-/// Of particles that all ranks have, keeps those that are this rank's own.
+/// Those of a store's own particles that are in blocks of this rank.
 template <class P>
-void claim(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x);
+std::vector<Index> find_own(const Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x);
 
 /// Particles of a store that are in blocks of other ranks.
 struct Migrants {
@@ -45,7 +50,7 @@ void move(Store& store, const Migrants& migrants, Buffer<Index>& kept, bool whol
 
 /// Gives particles to those ranks in whose blocks they are now, and takes what comes.
 template <class P>
-void migrate(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
+void migrate_to_owners(Store& store, const CellGrid& grid, const Frame& frame, Span<const P> x) {
   Buffer<Index> kept;
   if (const Migrants migrants = find_migrants(store, grid, frame, x); migrants.any)
     move(store, migrants, kept);

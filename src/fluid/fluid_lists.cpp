@@ -94,6 +94,12 @@ struct LengthBody {
   BL_HD double operator()(Index a) const { return h[a]; }
 };
 
+/// From a wall particle to its image, m.
+struct ImageDistance {
+  Span<const Vec3d> x, image;
+  BL_HD double operator()(Index b) const { return norm(image[b] - x[b]); }
+};
+
 /// Walls around those that have their own density.
 struct BesideFrozen : SphNear<Vec3d> {
   Span<const Real> compression;
@@ -179,14 +185,23 @@ void FluidSolver::sort_cells(FluidStore& fluid) {
   with_places(fluid, false, [&](const auto& places) { grid_.sort(frame_, places(), order_, fluid.id); });
 }
 
+double FluidSolver::reach_of_images(const WallStore& walls) const {
+  const MirrorStore& images = walls.mirrors;
+  if (images.everywhere() == 0) return 0;
+  const double farthest = max_over(images.owned(), ImageDistance{walls.x0, images.x0});
+  return range() + skin() +
+         all_reduce(farthest, [](double& into, double more) { into = std::max(into, more); });
+}
+
 void FluidSolver::divide(FluidStore& fluid, const WallStore& walls, bool listed) {
   std::vector<double> load;
   with_places(fluid, listed, [&](const auto& places) { add_loads(fluid, grid_, frame_, places(), 1, load); });
   add_loads(walls, wall_grid_, frame_, (listed ? walls.x_list : walls.x).span(), 1, load);
   if (grains_)
     add_loads(*grains_, grid_, frame_, (listed ? grains_->x_list : grains_->x).span(), kGrainLoad, load);
-  const Division division = grains_ ? divide_blocks(grid_, load, *grain_cells_, grain_range_ + half_skin_)
-                                    : divide_blocks(grid_, load);
+  OtherCells grains;
+  if (grains_) grains = {grain_cells_, grain_range_ + half_skin_};
+  const Division division = divide_blocks(grid_, load, reach_of_images(walls), grains);
   imbalance_ = division.imbalance;
   grid_.divide(division.ownership), wall_grid_.divide(division.near);
 }
@@ -201,11 +216,22 @@ bool FluidSolver::unbalanced(const FluidStore& fluid, const WallStore& walls) co
   return most * Context::current().ranks() > 1.1 * imbalance_ * all;
 }
 
-void FluidSolver::keep_own(FluidStore& fluid, WallStore& walls, bool listed) {
-  if (!Context::current().several()) return;
-  divide(fluid, walls, listed);
-  with_places(fluid, listed, [&](const auto& places) { claim(fluid, grid_, frame_, places()); });
-  claim(walls, wall_grid_, frame_, Span<const Vec3d>(listed ? walls.x_list : walls.x));
+std::vector<Index> FluidSolver::own_places(FluidStore& fluid, bool listed) {
+  std::vector<Index> own;
+  with_places(fluid, listed, [&](const auto& places) { own = find_own(fluid, grid_, frame_, places()); });
+  return own;
+}
+
+std::vector<Index> FluidSolver::own_places(const WallStore& walls, bool listed) const {
+  return find_own(walls, wall_grid_, frame_, Span<const Vec3d>(listed ? walls.x_list : walls.x));
+}
+
+void FluidSolver::migrate(WallStore& walls) {
+  const Migrants migrants = find_migrants(walls, wall_grid_, frame_, Span<const Vec3d>(walls.x));
+  if (!migrants.any) return;
+  Buffer<Index> kept;
+  move(walls, migrants, kept);
+  if (walls.mirrors.everywhere() > 0) move(walls.mirrors, migrants, kept);
 }
 
 void FluidSolver::make_ghosts_of(FluidStore& fluid) {
@@ -253,7 +279,7 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved,
   const bool several = Context::current().several();
   if (several) {
     if (!grid_.ownership() || unbalanced(fluid, walls)) divide(fluid, walls, false), walls_moved = true;
-    with_places(fluid, false, [&](const auto& places) { migrate(fluid, grid_, frame_, places()); });
+    with_places(fluid, false, [&](const auto& places) { migrate_to_owners(fluid, grid_, frame_, places()); });
   }
   sort_cells(fluid);
   fluid.reorder(order_);
@@ -273,13 +299,13 @@ void FluidSolver::refresh(FluidStore& fluid, WallStore& walls, bool walls_moved,
     walls.drop_ghosts();
     for_each(walls.owned(), WrapPass<Vec3d>{frame_, walls.x});
     for_each(images.owned(), WrapPass<Vec3d>{frame_, images.x});
-    if (several) migrate(walls, wall_grid_, frame_, Span<const Vec3d>(walls.x));
+    if (several) migrate(walls);
     wall_grid_.sort(frame_, Span<const Vec3d>(walls.x), order_, walls.id);
     walls.reorder(order_);
     walls.count();
     if (several) make_ghosts_of(walls);
     walls.x_list.copy(walls.x);
-    if (images.size() > 0) images.reorder(order_), images.x_list.copy(images.x);
+    if (images.everywhere() > 0) images.reorder(order_), images.count(), images.x_list.copy(images.x);
   }
   relist(fluid, walls, false);
 }
@@ -352,7 +378,8 @@ void FluidSolver::relist(FluidStore& fluid, WallStore& walls, bool sort) {
   if (images.size() > 0)
     image_fluid_.between(frame_, images, fluid, range())
         .build(images.size(), grid_.view(),
-               SphNear<Vec3d>{frame_, images.x, images.xp, fluid.xp, range(), false, of_walls, own});
+               SphNear<Vec3d>{frame_, images.x, images.xp, fluid.xp, range(), false, of_walls, own},
+               lane_bits(Index(images.everywhere())));
   shear_.strain = strain;
 }
 

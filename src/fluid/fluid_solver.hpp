@@ -174,9 +174,12 @@ class FluidSolver {
   void divide_with(const GrainStore& grains, CellGrid& cells, double range) {
     grains_ = &grains, grain_cells_ = &cells, grain_range_ = range;
   }
-  /// With several ranks: of particles that all have, keeps those of this rank, by where they are or, after a
-  /// restart, by where the lists were built (`listed`).
-  void keep_own(FluidStore& fluid, WallStore& walls, bool listed);
+  /// With several ranks: divides the blocks of cells among them by the particles in them, by where these are
+  /// or, after a restart, by where the lists were built (`listed`).
+  void divide(FluidStore& fluid, const WallStore& walls, bool listed);
+  /// Particles of a store that are in blocks of this rank.
+  std::vector<Index> own_places(FluidStore& fluid, bool listed);
+  std::vector<Index> own_places(const WallStore& walls, bool listed) const;
   /// Renews the lists for the positions as they are; `sort`: cells too (after a restart).
   void relist(FluidStore& fluid, WallStore& walls, bool sort);
   /// Additional memory of the lists, bytes, once fast flow widens the skins; 0 if they are wide already. An
@@ -324,16 +327,18 @@ class FluidSolver {
   /// Within a stage: gives ghosts what a pass has written and the next reads near.
   static void share(Store& store, std::initializer_list<const FieldBase*> fields) {
     if (Context::current().several())
-      store.share([&](const FieldBase& f) { return std::find(fields.begin(), fields.end(), &f) != fields.end(); });
+      store.share(
+          [&](const FieldBase& f) { return std::find(fields.begin(), fields.end(), &f) != fields.end(); });
   }
   void sort_cells(FluidStore& fluid);
+  /// How far from its place a wall particle sees fluid about its image, m; 0: none has one. By all ranks.
+  double reach_of_images(const WallStore& walls) const;
+  void migrate(WallStore& walls);  ///< with their images
   /// Copies of what other ranks have next to this one's.
   void make_ghosts_of(FluidStore& fluid);
   void make_ghosts_of(WallStore& walls);
   /// Whether ranks have become so unequal that they are to be divided anew.
   bool unbalanced(const FluidStore& fluid, const WallStore& walls) const;
-  /// Divides the blocks of cells among ranks by the particles in them.
-  void divide(FluidStore& fluid, const WallStore& walls, bool listed);
   /// f(positions by which fluid is sorted), as they are or, `listed`, as they were when the lists were built;
   /// f takes a function that returns them for all that the store holds at that moment.
   template <class F>
@@ -422,7 +427,7 @@ class FluidSolver {
   const GrainStore* grains_ = nullptr;  ///< that are divided alike; null: none
   CellGrid* grain_cells_ = nullptr;
   double grain_range_ = 0;  ///< m
-  double imbalance_ = 1;  ///< largest part of a rank over the mean, when they were last divided
+  double imbalance_ = 1;    ///< largest part of a rank over the mean, when they were last divided
 #if BL_CUDA
   Pairing<TileList> fluid_fluid_;
 #else

@@ -11,6 +11,7 @@
 #include "bedload/geometry/slice.hpp"
 #include "geometry/fill_region.hpp"
 #include "geometry/fill_velocity.hpp"
+#include "geometry/first_where.hpp"
 #include "geometry/shape_fill.hpp"
 
 namespace bedload {
@@ -70,13 +71,29 @@ ShapePtr left_between_bodies(const Config& config, const FluidFill& fill, const 
   for (const WallBody& body : config.wall.bodies) {
     const ShapePtr solid = solid_in_fluid(config, body);
     const auto inside = [&](const Vec3d& x) { return solid->distance(x) < -1e-6 * config.fluid.dx; };
-    if (!solid || std::none_of(fluid.x.begin() + std::ptrdiff_t(begin), fluid.x.end(), inside)) continue;
+    if (!solid || first_where(begin, fluid.x.size(), [&](std::size_t a) { return inside(fluid.x[a]); }) ==
+                      fluid.x.size())
+      continue;
     standing.push_back(solid);
     names += (names.empty() ? "\"" : ", \"") + body.name + '"';
   }
   if (standing.empty()) return nullptr;
   return make_difference(fill.solid.shape ? fill.solid.shape : make_box(fill.min, fill.max),
                          make_union(std::move(standing)));
+}
+
+/// Adds `count` particles, the n-th at place(n).
+template <class Place>
+void add_places(Setup::Fluid& fluid, std::size_t count, double mass, const FillVelocity& velocity,
+                const Place& place) {
+  const std::size_t begin = fluid.x.size();
+  fluid.x.resize(begin + count), fluid.v.resize(begin + count), fluid.mass.resize(begin + count, mass);
+  in_stretches(count, [&](std::size_t first, std::size_t last) {
+    for (std::size_t n = first; n < last; ++n) {
+      const Vec3d x = place(n);
+      fluid.x[begin + n] = x, fluid.v[begin + n] = velocity(x);
+    }
+  });
 }
 
 void add_shape(const Config& config, const FluidFill& fill, std::size_t index, Setup::Fluid& fluid) {
@@ -96,15 +113,14 @@ void add_shape(const Config& config, const FluidFill& fill, std::size_t index, S
                      config.fluid.dx));
   const FillVelocity velocity(fill, index);
   const double mass = config.fluid.rho0 * volume / double(places.size());
-  for (const Vec3d& x : places) {
+  add_places(fluid, places.size(), mass, velocity, [&](std::size_t n) {
+    const Vec3d& x = places[n];
     for (int k = 0; k < 3; ++k)
       if (x[k] < config.domain.min[k] || x[k] > config.domain.max[k])
         fail(fmt::format("shape \"{}\" reaches to ({:g}, {:g}, {:g}) m, outside the domain", fill.shape, x.x,
                          x.y, x.z));
-    fluid.x.push_back(x);
-    fluid.v.push_back(velocity(x));
-    fluid.mass.push_back(mass);
-  }
+    return x;
+  });
 }
 
 /// No particle may lie in what another fill occupies; `first`: of each fill. Boxes have been compared as
@@ -115,13 +131,14 @@ void check_shapes(const Config& config, const Setup::Fluid& fluid, const std::ve
   for (std::size_t other = 0; other < fills.size(); ++other)
     for (std::size_t index = 0; index < fills.size(); ++index) {
       if (index == other || !(fills[index].solid.shape || fills[other].solid.shape)) continue;
-      for (std::size_t a = first[index]; a < first[index + 1]; ++a) {
-        const Vec3d& x = fluid.x[a];
-        if (depth_in(fills[other], up, x) > 0.1 * config.fluid.dx)
-          throw KeyError(fmt::format("fluid.fill.{}", std::max(index, other)),
-                         fmt::format("fluid.fill {} overlaps fluid.fill {} at ({:g}, {:g}, {:g}) m",
-                                     std::max(index, other) + 1, std::min(index, other) + 1, x.x, x.y, x.z));
-      }
+      const std::size_t at = first_where(first[index], first[index + 1], [&](std::size_t a) {
+        return depth_in(fills[other], up, fluid.x[a]) > 0.1 * config.fluid.dx;
+      });
+      if (at == first[index + 1]) continue;
+      const Vec3d& x = fluid.x[at];
+      throw KeyError(fmt::format("fluid.fill.{}", std::max(index, other)),
+                     fmt::format("fluid.fill {} overlaps fluid.fill {} at ({:g}, {:g}, {:g}) m",
+                                 std::max(index, other) + 1, std::min(index, other) + 1, x.x, x.y, x.z));
     }
 }
 
@@ -147,14 +164,12 @@ void add_box(const Config& config, const FluidFill& fill, std::size_t index, Set
 
   const FillVelocity velocity(fill, index);
   const double mass = config.fluid.rho0 * volume / wanted;
-  for (std::int64_t k = 0; k < cells[2].count; ++k)
-    for (std::int64_t j = 0; j < cells[1].count; ++j)
-      for (std::int64_t i = 0; i < cells[0].count; ++i) {
-        const Vec3d x{cells[0].centre(i), cells[1].centre(j), cells[2].centre(k)};
-        fluid.x.push_back(x);
-        fluid.v.push_back(velocity(x));
-        fluid.mass.push_back(mass);
-      }
+  add_places(fluid, std::size_t(cells[0].count * cells[1].count * cells[2].count), mass, velocity,
+             [&](std::size_t n) {
+               const auto i = std::int64_t(n) % cells[0].count, row = std::int64_t(n) / cells[0].count;
+               return Vec3d{cells[0].centre(i), cells[1].centre(row % cells[1].count),
+                            cells[2].centre(row / cells[1].count)};
+             });
 }
 
 /// The fluid of one fill, around the bodies that stand in it.

@@ -18,6 +18,7 @@
 #include "bedload/geometry/clump.hpp"
 #include "bedload/geometry/lattice.hpp"
 #include "bedload/geometry/sampling.hpp"
+#include "bedload/parallel/host_loop.hpp"
 #include "placed_grains.hpp"
 
 namespace bedload {
@@ -45,7 +46,7 @@ class Packer {
     place_fill(index);
     grains_.clump.resize(grains_.x.size(), 0);
     if (!fill_->rigid.present) return;
-    for (std::size_t n = begin; n < grains_.x.size(); ++n) placed_.add(grains_.x[n], grains_.radius[n]);
+    for (std::size_t n = begin; n < grains_.x.size(); ++n) count_as_placed(grains_.x[n], grains_.radius[n]);
   }
 
  private:
@@ -161,7 +162,12 @@ class Packer {
     if (!clump_) return;
     grains_.clumps.push_back({std::uint32_t(index_), 2 * radius, x, v, omega, orientation(clump)});
     grains_.clump.resize(grains_.x.size(), std::uint32_t(grains_.clumps.size()));
-    for (std::size_t n = begin; n < grains_.x.size(); ++n) placed_.add(grains_.x[n], grains_.radius[n]);
+    for (std::size_t n = begin; n < grains_.x.size(); ++n) count_as_placed(grains_.x[n], grains_.radius[n]);
+  }
+  /// For those that come after it, if any does that asks.
+  void count_as_placed(const Vec3d& x, double radius) {
+    const bool own_fill_asks = !fill_->file.empty() || !fill_->positions.empty() || !fill_->every.empty();
+    if (own_fill_asks || index_ + 1 < config_.grain.fills.size()) placed_.add(x, radius);
   }
   /// Centres from that of a grain, and radii, of its spheres, m. `radius`: of the sphere of its
   /// volume.
@@ -177,7 +183,7 @@ class Packer {
     grains_.v.push_back(v);
     grains_.omega.push_back(omega);
     grains_.radius.push_back(radius);
-    if (!fill_->rigid.present && !clump_) placed_.add(x, radius);
+    if (!fill_->rigid.present && !clump_) count_as_placed(x, radius);
   }
 
   /// The radii of grains whose places are given: classes in their order, distributions mixed.
@@ -328,8 +334,9 @@ class Packer {
   /// Centres of the cells where the largest grain touches neither wall nor earlier grain.
   std::vector<Vec3d> free_centres(const std::array<Cells, 3>& cells, double r_max) const {
     const double slack = 1e-6 * r_max;
-    std::vector<Vec3d> centres;
-    for (std::int64_t l = 0; l < cells[2].count; ++l)
+    std::vector<std::vector<Vec3d>> layers(std::size_t(cells[2].count));
+    host_for_each(layers.size(), [&](std::size_t layer) {
+      const auto l = std::int64_t(layer);
       for (std::int64_t j = 0; j < cells[1].count; ++j)
         for (std::int64_t i = 0; i < cells[0].count; ++i) {
           const Vec3d x{cells[0].centre(i), cells[1].centre(j), cells[2].centre(l)};
@@ -339,9 +346,12 @@ class Packer {
             const double cells_on = std::ceil(outside / cells[0].step * (1 - 1e-9));
             i += std::int64_t(std::min(cells_on, double(cells[0].count))) - 1;
           } else if (placed_.is_free(x, r_max - slack) && clear_of_walls(x, r_max, slack)) {
-            centres.push_back(x);
+            layers[layer].push_back(x);
           }
         }
+    });
+    std::vector<Vec3d> centres;
+    for (const auto& layer : layers) centres.insert(centres.end(), layer.begin(), layer.end());
     return centres;
   }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "bedload/core/cores.hpp"
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/lattice.hpp"
 #include "bedload/geometry/shape_sampling.hpp"
@@ -222,11 +223,14 @@ void add_images(const Config& config, Setup::Walls& walls) {
   const auto mirrored = [](const WallBody& body) { return body.type->kind == WallKind::mirrored; };
   const auto& bodies = config.wall.bodies;
   if (std::none_of(bodies.begin(), bodies.end(), mirrored)) return;
-  for (std::size_t w = 0; w < walls.x.size(); ++w) {
-    const WallBody& body = bodies[walls.body[w]];
-    const Vec3d& x = walls.x[w];
-    walls.mirror.push_back(mirrored(body) ? 2 * surface_point(body, x, config.domain) - x : x);
-  }
+  walls.mirror = walls.x;
+  in_stretches(walls.x.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t w = begin; w < end; ++w) {
+      const WallBody& body = bodies[walls.body[w]];
+      const Vec3d& x = walls.x[w];
+      if (mirrored(body)) walls.mirror[w] = 2 * surface_point(body, x, config.domain) - x;
+    }
+  });
 }
 
 /// Whether two bodies stay as they are to each other.
@@ -339,21 +343,36 @@ void add_walls(const Config& config, Setup::Walls& walls, std::vector<std::strin
     const std::vector<Vec3d> points = layers_of(config, index);
     check_thickness(config, body, points, warnings);
     // What an earlier body holds already need not be there twice, unless one of the two may leave.
+    const auto share = [&](std::size_t one, std::size_t other) {
+      return bodies[one].stops_fluid() && bodies[other].stops_fluid() &&
+             move_together(bodies[one], bodies[other]);
+    };
     const auto taken = [&](const Vec3d& x) {
       for (std::size_t other = 0; other < index; ++other) {
-        if (!bodies[other].stops_fluid() || !move_together(body, bodies[other])) continue;
+        if (!share(index, other)) continue;
         if (placed[other].has_near(x)) return true;
         if (wall_distance(bodies[other], x, reach, config.domain) < -1e-9 * spacing) return true;
       }
       return comes_round(body, x, reach, config.domain);
     };
-    for (const Vec3d& x : points) {
-      if (taken(x)) continue;
-      placed[index].add(x);
-      walls.x.push_back(x);
+    bool looked_up = false;  // by later bodies
+    for (std::size_t other = index + 1; other < bodies.size(); ++other) looked_up |= share(index, other);
+    enum : std::uint8_t { left_out, inner, outer };
+    std::vector<std::uint8_t> kind(points.size(), left_out);
+    in_stretches(points.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n) {
+        if (taken(points[n])) continue;
+        const bool behind = body.type->kind == WallKind::frozen &&
+                            wall_distance(body, points[n], reach, config.domain) < -spacing;
+        kind[n] = behind ? outer : inner;
+      }
+    });
+    for (std::size_t n = 0; n < points.size(); ++n) {
+      if (kind[n] == left_out) continue;
+      if (looked_up) placed[index].add(points[n]);
+      walls.x.push_back(points[n]);
       walls.body.push_back(std::uint32_t(index));
-      walls.outer.push_back(body.type->kind == WallKind::frozen &&
-                            wall_distance(body, x, reach, config.domain) < -spacing);
+      walls.outer.push_back(kind[n] == outer);
     }
   }
   add_images(config, walls);

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <utility>
 
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/filter.hpp"
@@ -11,6 +14,7 @@
 #include "bedload/geometry/orifice.hpp"
 #include "bedload/geometry/packing.hpp"
 #include "bedload/geometry/sampling.hpp"
+#include "first_where.hpp"
 #include "place_cells.hpp"
 
 namespace bedload {
@@ -31,12 +35,18 @@ void check_layer_is_clear(const Config& config, const WallBody& body, const Setu
   if (!body.single_layer()) return;
   const double dx = config.fluid.dx, r0 = body.force == LayerForce::monaghan ? config.wall.layer_r0 : dx;
   const double reach = config.fluid.reach();
-  double nearest = r0;
-  std::size_t at = 0;
-  for (std::size_t a = 0; a < fluid.x.size(); ++a) {
-    const double distance = wall_distance(body, fluid.x[a], reach, config.domain);
-    if (distance < nearest) nearest = distance, at = a;
-  }
+  std::pair<double, std::size_t> found{r0, 0};  // distance, particle
+  std::mutex mutex;
+  in_stretches(fluid.x.size(), [&](std::size_t begin, std::size_t end) {
+    std::pair<double, std::size_t> here{r0, 0};
+    for (std::size_t a = begin; a < end; ++a) {
+      const double distance = wall_distance(body, fluid.x[a], reach, config.domain);
+      if (distance < here.first) here = {distance, a};
+    }
+    const std::lock_guard lock(mutex);
+    if (here.first < r0) found = std::min(found, here);
+  });
+  const auto [nearest, at] = found;
   if (nearest < 0.9 * r0)
     throw KeyError(
         fill_key(first, at),
@@ -51,18 +61,25 @@ void check_fluid_is_clear(const Config& config, const Setup::Fluid& fluid, const
   const double reach = config.fluid.reach(), slack = 1e-6 * config.fluid.dx;
   for (const WallBody& body : config.wall.bodies) {
     if (!body.stops_fluid()) continue;
-    std::size_t count = 0, at = 0;
-    for (std::size_t a = fluid.x.size(); a-- > 0;)
-      if (wall_distance(body, fluid.x[a], reach, config.domain) < -slack) ++count, at = a;
+    std::atomic<std::size_t> count = 0;
+    const auto inside = [&](std::size_t a) {
+      return wall_distance(body, fluid.x[a], reach, config.domain) < -slack;
+    };
+    in_stretches(fluid.x.size(), [&](std::size_t begin, std::size_t end) {
+      std::size_t here = 0;
+      for (std::size_t a = begin; a < end; ++a) here += inside(a);
+      if (here > 0) count += here;
+    });
     if (count == 0) {
       check_layer_is_clear(config, body, fluid, first);
       continue;
     }
+    const std::size_t at = first_where(0, fluid.x.size(), inside);
     const Vec3d& x = fluid.x[at];
     throw KeyError(fill_key(first, at),
                    fmt::format("fluid.fill: {} fluid particles, the first at ({:g}, {:g}, {:g}) m, lie "
                                "inside wall.body \"{}\"{}",
-                               count, x.x, x.y, x.z, body.name,
+                               count.load(), x.x, x.y, x.z, body.name,
                                body.shape == WallShape::tank || body.shape == WallShape::plane
                                    ? ""
                                    : "; fill a shape of kind \"difference\" that leaves it out"));

@@ -314,7 +314,8 @@ void CoupledSimulation::add_blocks(HostStore& out) {
   if (!Context::current().several()) return;
   if (out.name == "grains") out.arrays.push_back(stepper_.blocks_of_grains());
   if (out.name == "fluid") out.arrays.push_back(stepper_.fluid().blocks(state_.fluid));
-  if (out.name == "walls") out.arrays.push_back(stepper_.fluid().blocks(state_.walls));
+  if (out.name == "walls" || out.name == "mirrors")
+    out.arrays.push_back(stepper_.fluid().blocks(state_.walls));
 }
 
 HostStore CoupledSimulation::snapshot(const std::string& name) {

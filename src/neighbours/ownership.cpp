@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <optional>
 
 #include "bedload/neighbours/cell_grid.hpp"
 
@@ -192,10 +191,11 @@ std::vector<std::uint16_t> owners_of(const CellGridView& blocks, const CellGridV
 }
 
 Ownership::Ownership(const CellGridView& grid, const std::vector<std::uint16_t>& owners,
-                     const OtherBlocks* other) {
+                     const std::vector<OtherBlocks>& others) {
   const Blocks blocks(grid);
-  std::optional<InReach> in_reach;
-  if (other) in_reach.emplace(blocks, *other);
+  std::vector<InReach> in_reach;
+  in_reach.reserve(others.size());
+  for (const OtherBlocks& other : others) in_reach.emplace_back(blocks, other);
   const Index n = Index(owners.size());
   const std::size_t ranks = std::size_t(Context::current().ranks());
   const auto me = std::uint16_t(Context::current().rank());
@@ -216,16 +216,16 @@ Ownership::Ownership(const CellGridView& grid, const std::vector<std::uint16_t>&
       for (std::uint32_t c = 0; c < blocks.cells(); ++c)
         if (blocks.faces(b, (b << grid.block_bits) + c, direction)) wanted[to][c] = true;
     });
-    if (in_reach)
-      in_reach->each(b, [&](Index near, const std::array<int, 3>& place) {
-        const std::uint16_t to = other->owner[near];
+    for (std::size_t k = 0; k < others.size(); ++k)
+      in_reach[k].each(b, [&](Index near, const std::array<int, 3>& place) {
+        const std::uint16_t to = others[k].owner[near];
         if (to == own || (own != me && to != me)) return;
         ghost = ghost || own != me;
         if (own != me) return;
         wanted[to].resize(blocks.cells());
         for (std::uint32_t c = 0; c < blocks.cells(); ++c) {
           const std::uint32_t cell = (b << grid.block_bits) + c;
-          if (!wanted[to][c] && blocks.holds(cell) && in_reach->near(cell, place)) wanted[to][c] = true;
+          if (!wanted[to][c] && blocks.holds(cell) && in_reach[k].near(cell, place)) wanted[to][c] = true;
         }
       });
     for (std::size_t r = 0; r < ranks; ++r)

@@ -1,8 +1,8 @@
 // Contact histories to and from a checkpoint.
 #include <algorithm>
 #include <cstring>
-#include <map>
 #include <string>
+#include <utility>
 
 #include "bedload/parallel/ranks.hpp"
 #include "src/solids/solid_solver.hpp"
@@ -73,8 +73,9 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
   const ContactHistory* kept = from_array<ContactHistory>(contacts, "history", ContactHistory::units());
   const ContactLoss* kept_loss =
       spectra_ && contacts.find("loss") ? from_array<ContactLoss>(contacts, "loss", "J") : nullptr;
-  std::map<std::uint64_t, std::size_t> by_pair;
-  for (std::size_t c = 0; c < contacts.count; ++c) by_pair[pair_key(lo[c], hi[c])] = c;
+  std::vector<std::pair<std::uint64_t, std::size_t>> by_pair(contacts.count);
+  for (std::size_t c = 0; c < contacts.count; ++c) by_pair[c] = {pair_key(lo[c], hi[c]), c};
+  std::sort(by_pair.begin(), by_pair.end());
 
   const HostVerletList list(list_);
   const std::vector<Id> id = grains.id.values();
@@ -83,8 +84,9 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
   std::size_t found = 0;
   for (Index i = 0; i < list_.rows(); ++i)
     list.view().each(i, [&](std::uint64_t slot, Index j) {
-      const auto it = by_pair.find(pair_key(std::min(id[i], id[j]), std::max(id[i], id[j])));
-      if (it == by_pair.end()) return;
+      const std::uint64_t key = pair_key(std::min(id[i], id[j]), std::max(id[i], id[j]));
+      const auto it = std::lower_bound(by_pair.begin(), by_pair.end(), std::pair{key, std::size_t(0)});
+      if (it == by_pair.end() || it->first != key) return;
       history[slot] = kept[it->second];
       if (kept_loss) loss[slot] = kept_loss[it->second];
       ++found;

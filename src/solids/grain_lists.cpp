@@ -215,13 +215,6 @@ void SolidSolver::divide(const GrainStore& grains, CellGrid& grid, Span<const Ve
   grid.divide(division.ownership);
 }
 
-void SolidSolver::keep_own(GrainStore& grains, CellGrid& grid, bool listed) {
-  if (!Context::current().several() || grains.divided()) return;
-  const Span<const Vec3d> x = listed ? grains.x_list : grains.x;
-  if (!grid.ownership()) divide(grains, grid, x);
-  claim(grains, grid, frame_, x);
-}
-
 void SolidSolver::regroup(GrainStore& grains, CellGrid& grid) {
   if (grid.ownership() == listed_by_) return;
   grains.drop_ghosts();

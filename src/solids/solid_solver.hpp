@@ -76,9 +76,8 @@ class SolidSolver {
   double range() const { return parameters_.d_max + skin() + film_range(parameters_.d_max / 4); }
   const ContactLaw& law() const { return parameters_.pair_laws[0]; }
 
-  /// With several ranks, once: of grains that all have, keeps those of this rank, by where they are or, after
-  /// a restart, by where the lists were built (`listed`).
-  void keep_own(GrainStore& grains, CellGrid& grid, bool listed);
+  /// With several ranks: divides the blocks of cells among them by the grains in them, at x.
+  void divide(const GrainStore& grains, CellGrid& grid, Span<const Vec3d> x);
   /// From now on cells are divided among ranks by someone else, who calls regroup() then.
   void follow() { follows_ = true; }
   /// Once the cells are divided anew: moves grains to their ranks. Lists remain as they were built.
@@ -184,8 +183,6 @@ class SolidSolver {
   /// their list.
   void relist(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x, const GrainRenewal& renewal);
   // with several ranks
-  /// Divides the blocks of cells among them by the grains in them.
-  void divide(const GrainStore& grains, CellGrid& grid, Span<const Vec3d> x);
   bool unbalanced(const GrainStore& grains) const;
   /// Grains go to the ranks in whose blocks they are, with their contacts where those are `listed`. kept: as
   /// move() leaves it, or empty; source_index: as of GrainRenewal, or empty.

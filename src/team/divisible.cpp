@@ -30,11 +30,8 @@ void refuse_undivided(const Config& c) {
   for (std::size_t k = 0; k < c.grain_inlets.size(); ++k)
     if (!c.grain_inlets[k].clump.empty()) refuse(fmt::format("grain_inlet.{}.clump", k), "clumps");
   for (const int k : c.grain.rigid_fills()) refuse(fmt::format("grain.fill.{}.rigid", k), "a rigid group");
-  for (std::size_t k = 0; k < c.wall.bodies.size(); ++k) {
-    const WallBody& body = c.wall.bodies[k];
-    if (body.wear != WearLaw::none) refuse(fmt::format("wall.body.{}.wear", k), "wear of walls");
-    if (body.type->kind == WallKind::mirrored) refuse(fmt::format("wall.body.{}.type", k), "a mirrored wall");
-  }
+  for (std::size_t k = 0; k < c.wall.bodies.size(); ++k)
+    if (c.wall.bodies[k].wear != WearLaw::none) refuse(fmt::format("wall.body.{}.wear", k), "wear of walls");
 }
 
 }  // namespace bedload

@@ -1,10 +1,12 @@
 #include "src/team/team_simulation.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <type_traits>
 #include <utility>
 
 #include "bedload/core/error.hpp"
+#include "bedload/parallel/host_loop.hpp"
 #include "src/team/workers.hpp"
 
 namespace bedload {
@@ -133,40 +135,41 @@ class TeamSimulation final : public Simulation {
 
 }  // namespace
 
-HostStore joined(const std::vector<HostStore>& parts) {
+HostStore joined(std::vector<HostStore> parts) {
   const HostStore& first = parts[0];
-  if (!first.find("block")) return first;
+  if (!first.find("block")) return std::move(parts[0]);
   HostStore out{first.name, 0, {}};
   for (const HostStore& part : parts) out.count += part.count;
-  std::vector<std::size_t> row;
-  for (const HostArray& a : first.arrays) {
-    if (a.name == "block") continue;
-    out.arrays.push_back({a.name, a.unit, a.type, a.components, {}});
-    row.push_back(size_of(a.type) * std::size_t(a.components));
-    out.arrays.back().bytes.resize(out.count * row.back());
-  }
+  /// Entries of a rank in one block.
+  struct Run {
+    std::size_t rank, from, to, count;
+  };
+  std::vector<Run> runs;
   std::vector<std::size_t> at(parts.size(), 0);
   for (std::size_t done = 0; done < out.count;) {
     std::size_t next = parts.size();  // the rank that has the next block
-    for (std::size_t r = 0; r < parts.size(); ++r) {
-      if (at[r] == parts[r].count) continue;
-      const auto block = [&](std::size_t rank) {
-        return parts[rank].find("block")->as<std::uint32_t>()[at[rank]];
-      };
-      if (next == parts.size() || block(r) < block(next)) next = r;
-    }
-    const HostStore& from = parts[next];
-    const auto* const block = from.find("block")->as<std::uint32_t>();
-    std::size_t end = at[next];
-    while (end < from.count && block[end] == block[at[next]]) ++end;
-    for (std::size_t k = 0, to = 0; k < from.arrays.size(); ++k) {
-      if (from.arrays[k].name == "block") continue;
-      std::memcpy(out.arrays[to].bytes.data() + done * row[to],
-                  from.arrays[k].bytes.data() + at[next] * row[to], (end - at[next]) * row[to]);
-      ++to;
-    }
-    done += end - at[next];
-    at[next] = end;
+    const auto block = [&](std::size_t rank) {
+      return parts[rank].find("block")->as<std::uint32_t>() + at[rank];
+    };
+    for (std::size_t r = 0; r < parts.size(); ++r)
+      if (at[r] < parts[r].count && (next == parts.size() || *block(r) < *block(next))) next = r;
+    const std::uint32_t *const begin = block(next), *const end = begin + (parts[next].count - at[next]);
+    const auto count = std::size_t(std::find_if(begin, end, [&](auto b) { return b != *begin; }) - begin);
+    runs.push_back({next, at[next], done, count});
+    at[next] += count, done += count;
+  }
+  for (std::size_t k = 0; k < first.arrays.size(); ++k) {
+    const HostArray& a = first.arrays[k];
+    if (a.name == "block") continue;
+    const std::size_t row = size_of(a.type) * std::size_t(a.components);
+    out.arrays.push_back({a.name, a.unit, a.type, a.components, HostBytes(out.count * row)});
+    std::byte* const to = out.arrays.back().bytes.data();
+    host_for_each(runs.size(), [&](std::size_t n) {
+      const Run& run = runs[n];
+      std::memcpy(to + run.to * row, parts[run.rank].arrays[k].bytes.data() + run.from * row,
+                  run.count * row);
+    });
+    for (HostStore& part : parts) part.arrays[k].bytes = {};  // all twice is more than a host may have
   }
   return out;
 }
@@ -176,7 +179,7 @@ SavedState joined(std::vector<SavedState> parts) {
   for (std::size_t s = 0; s < parts[0].stores.size(); ++s) {
     std::vector<HostStore> stores;
     for (SavedState& part : parts) stores.push_back(std::move(part.stores[s]));
-    out.stores.push_back(joined(stores));
+    out.stores.push_back(joined(std::move(stores)));
   }
   return out;
 }

@@ -22,7 +22,7 @@ std::unique_ptr<Simulation> make_team(const TeamOptions& options);
 
 /// The entries of all ranks in the order in which one rank would have them: by the array "block", which it
 /// drops, and within a block as its owner has them. Without such an array, those of the first.
-HostStore joined(const std::vector<HostStore>& parts);
+HostStore joined(std::vector<HostStore> parts);
 /// The same of all stores; scalars are those of the first.
 SavedState joined(std::vector<SavedState> parts);
 

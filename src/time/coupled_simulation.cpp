@@ -8,7 +8,8 @@ namespace BL_SOLVER {
 CoupledSimulation::CoupledSimulation(const Config& config, const Setup& setup, Link* link)
     : config_(config), state_(config_), stepper_(config_, state_) {
   Context::current().join(link);
-  state_.fill(config_, setup);
+  stepper_.take(state_.particles_of(config_, setup), false);
+  state_.open.start(state_.fluid, state_.grains);
   if (state_.has_grains) stepper_.solids().clumps().bind(state_.grains, setup.grains);
   add_meters();
 }
@@ -59,7 +60,7 @@ SavedState CoupledSimulation::save() {
 }
 
 void CoupledSimulation::load(const SavedState& saved) {
-  state_.load(config_, saved);
+  state_.load(saved);
   stepper_.load(saved);
   wall_forces_.step = fluid_loads_.step = held_.step = grain_loads_.step = -1;
   begin_meters(&saved);

@@ -5,6 +5,7 @@
 
 #include "bedload/geometry/depth.hpp"
 #include "bedload/parallel/ranks.hpp"
+#include "src/domain/divide.hpp"
 #include "src/time/stepper.hpp"
 
 namespace BL_SOLVER {
@@ -63,15 +64,16 @@ std::vector<ColumnParticle> of_others(std::vector<ColumnParticle> own) {
   return out;
 }
 
-/// Depth of each fluid particle of that mass (kg), m: in its block, or among the particles themselves where a
-/// file gave some. The first `own` are this rank's.
-std::vector<double> depths_of(const Config& config, const Vec3d& gravity, const std::vector<Vec3d>& x,
-                              const std::vector<Real>& mass, std::size_t own) {
-  std::vector<double> depth;
-  for (const Vec3d& at : x) depth.push_back(depth_at(config, gravity, at));
-  bool listed = false;
-  for (const auto& fill : config.fluid.fills) listed = listed || !fill.file.empty();
-  if (!listed || norm(gravity) == 0) return depth;
+/// Whether some fluid came from a file, of which no box says how deep it is.
+bool any_listed(const Config& config) {
+  return std::any_of(config.fluid.fills.begin(), config.fluid.fills.end(),
+                     [](const FluidFill& fill) { return !fill.file.empty(); });
+}
+
+/// Depth of each fluid particle of that mass (kg) among the particles themselves, m. The first `own` are this
+/// rank's.
+std::vector<double> depths_in_columns(const Config& config, const Vec3d& gravity, const std::vector<Vec3d>& x,
+                                      const std::vector<Real>& mass, std::size_t own) {
   std::vector<ColumnParticle> column;
   const double thickness = config.domain.thickness();
   for (std::size_t a = 0; a < x.size(); ++a) {
@@ -84,10 +86,7 @@ std::vector<double> depths_of(const Config& config, const Vec3d& gravity, const 
   std::vector<Vec3d> places;
   std::vector<double> size;
   for (const ColumnParticle& p : column) places.push_back(p.x), size.push_back(p.size);
-  const auto below = depth_in_columns(places, gravity * (-1 / norm(gravity)), config.fluid.dx, size);
-  for (std::size_t a = 0; a < x.size(); ++a)
-    if (depth[a] == 0) depth[a] = below[a];
-  return depth;
+  return depth_in_columns(places, gravity * (-1 / norm(gravity)), config.fluid.dx, size);
 }
 
 /// Gravity works against a wall or a free surface, not along a periodic axis.
@@ -107,28 +106,37 @@ Vec3d level_gravity(const Config& config, const Vec3d& effective) {
 
 void Stepper::initialise_fluid(Step& now) {
   if (two_way()) porosity(now);
-  std::vector<Real> pressure(fluid_.size(), Real(config_.eos.background));
+  const Real background = Real(config_.eos.background);
+  Buffer<Real> pressure(fluid_.size());
   if (hydrostatic(config_)) {
     const Vec3d g = level_gravity(config_, gravity_.at(0));
-    std::vector<Vec3d> x;
-    for (const auto& at : fluid_.x.values()) x.push_back(coordinates(frame_, at));
-    const std::vector<double> depth = depths_of(config_, g, x, fluid_.mass.values(), fluid_.owned().size());
-    for (Index a = 0; a < fluid_.size(); ++a) pressure[a] += Real(config_.fluid.rho0 * norm(g) * depth[a]);
+    std::vector<double> below;
+    if (any_listed(config_) && norm(g) > 0) {
+      std::vector<Vec3d> x;
+      for (const auto& at : fluid_.x.values()) x.push_back(coordinates(frame_, at));
+      below = depths_in_columns(config_, g, x, fluid_.mass.values(), fluid_.owned().size());
+    }
+    set_from_host(pressure, fluid_.x.buffer(), [&](Index a, const FluidPosition& x) {
+      double depth = depth_at(config_, g, coordinates(frame_, x));
+      if (depth == 0 && !below.empty()) depth = below[a];
+      Real at = background;
+      at += Real(config_.fluid.rho0 * norm(g) * depth);
+      return at;
+    });
+  } else {
+    set_from_host(pressure, fluid_.size(), [&](Index) { return background; });
   }
   fluid_.correction.buffer().zero();
   fluid_.compression_rate.buffer().zero();
   fluid_.exposure.buffer().zero();
-  Buffer<Real> device;
-  device.assign(pressure);
   for_each(fluid_.owned(), InitialDensityPass{fluid_solver_->eos(), frame_,
                                               two_way() ? Span<const Real>(fluid_.eps) : Span<const Real>(),
-                                              device, fluid_.mass, fluid_.compression});
+                                              pressure, fluid_.mass, fluid_.compression});
   outdate({&fluid_.mass, &fluid_.compression});
 }
 
 void Stepper::settle(double longest, const std::function<void(double)>& progress) {
   if (!has_grains()) return;
-  solid_solver_->keep_own(grains_, grain_grid_, false);
   refresh(false, true);
   bodies_.settle(true);
   solid_solver_->evaluate(grains_, poses_now());
@@ -169,16 +177,36 @@ void Stepper::save_grains(SavedState& out) const {
 
 void Stepper::load_grains(const SavedState& saved) {
   if (!has_grains()) return;
-  load_grain_store(saved);
-  grain_grid_.divide(nullptr);
-  solid_solver_->keep_own(grains_, grain_grid_, true);
+  take({.grains = saved_particles(store_of(saved, "grains"), grains_)}, true);
+  load_clumps(saved);
   solid_solver_->load_contacts(grains_, grain_grid_, store_of(saved, "contacts"));
 }
 
-void Stepper::load_grain_store(const SavedState& saved) {
-  grains_.load(store_of(saved, "grains"));
+void Stepper::load_clumps(const SavedState& saved) {
+  if (!has_grains()) return;
   Clumps& clumps = solid_solver_->clumps();
   if (clumps.any()) clumps.load(store_of(saved, "clumps"), grains_);
+}
+
+void Stepper::take(const HostState& from, bool listed) {
+  const auto stores = {&from.fluid, &from.walls, &from.grains};
+  if (!Context::current().several()) {
+    for (const HostParticles* each : stores)
+      if (each->store) each->put({.count = each->count});
+    return;
+  }
+  const auto grains = [&] { return Span<const Vec3d>(listed ? grains_.x_list : grains_.x); };
+  for (const HostParticles* each : stores)
+    if (each->store) take_share(*each);
+  grain_grid_.divide(nullptr);
+  if (from.fluid.store) {
+    fluid_solver_->divide(fluid_, walls_, listed);
+    take_own(from.fluid, [&] { return fluid_solver_->own_places(fluid_, listed); });
+    take_own(from.walls, [&] { return fluid_solver_->own_places(walls_, listed); });
+  }
+  if (!from.grains.store) return;
+  if (!grain_grid_.ownership()) solid_solver_->divide(grains_, grain_grid_, grains());
+  take_own(from.grains, [&] { return find_own(grains_, grain_grid_, frame_, grains()); });
 }
 
 void Stepper::save(SavedState& out) const {
@@ -193,17 +221,15 @@ void Stepper::load(const SavedState& saved) {
   const auto scalar = [&](const std::string& name) { return scalar_of(saved, name); };
   walls_moved_ = scalar("walls_moved");
   rebuilds_ = std::int64_t(scalar("rebuilds"));
+  if (has_fluid()) fluid_solver_->load(scalar);
+  if (coupled()) coupling_->load(scalar);
+  take(state_.particles_of(config_, saved), true);
   if (has_fluid()) {
-    fluid_solver_->load(scalar);
     moment_ = moment(clock_.time, clock_.step);
     corrected_ = 0;
   }
-  if (coupled()) coupling_->load(scalar);
-  if (has_grains())
-    load_grain_store(saved), solid_solver_->load(saved.scalars), solid_solver_->load_histograms(saved.stores);
-  grain_grid_.divide(nullptr);
-  if (has_fluid()) fluid_solver_->keep_own(fluid_, walls_, true);
-  if (has_grains()) solid_solver_->keep_own(grains_, grain_grid_, true);
+  load_clumps(saved);
+  if (has_grains()) solid_solver_->load(saved.scalars), solid_solver_->load_histograms(saved.stores);
   restore_lists(saved);
   if (has_fluid()) fluid_solver_->survey(fluid_);
   sweep();

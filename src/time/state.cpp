@@ -3,93 +3,73 @@
 #include "src/time/state.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace BL_SOLVER {
 namespace {
 
-template <class To, class From>
-std::vector<To> converted(const std::vector<From>& from) {
-  std::vector<To> to;
-  to.reserve(from.size());
-  for (const auto& f : from) to.push_back(To(f));
-  return to;
-}
-
-std::vector<Id> ids(std::size_t n) {
-  std::vector<Id> out(n);
-  std::iota(out.begin(), out.end(), Id(0));
-  return out;
-}
-
 /// More than any pair loop looks for, m.
 double farthest_pair(const Config& c) { return 8 * std::max({c.fluid.h(), c.couple.hc, c.grain.d_max}); }
 
-void fill_fluid(const Config& config, const Frame& frame, const Setup& setup, FluidStore& fluid) {
-  const auto& f = setup.fluid;
-  fluid.resize(Index(f.x.size()));
-  fluid.id.assign(ids(f.x.size()));
-  std::vector<FluidPosition> x;
-  std::vector<VelocityDensity<>> v;
-  for (std::size_t a = 0; a < f.x.size(); ++a) {
-    x.push_back(as_position<FluidPosition>(frame, f.x[a]));
-    v.push_back({Real3(f.v[a]), Real(config.fluid.rho0)});
-  }
-  fluid.x.assign(x);
-  fluid.v_rho.assign(v);
-  fluid.mass.assign(converted<Real>(f.mass));
-  fluid.eps.assign(std::vector<Real>(f.x.size(), Real(1)));
-  fluid.solid_factor.assign(std::vector<Real>(f.x.size(), Real(1)));
-  fluid.eos_state.assign(std::vector<EosState<>>(f.x.size()));
-  if (config.couple.suspension != SuspensionLaw::none)
-    fluid.viscosity.assign(std::vector<Real>(f.x.size(), Real(1)));
+void put_places(const Frame& frame, const Setup::Fluid& f, const Taken& some, FluidStore& fluid) {
+  fluid.resize(some.count);
+  set_from_host(fluid.x, some.count,
+                [&](Index a) { return as_position<FluidPosition>(frame, f.x[some[a]]); });
+}
+
+void put_fluid(const Config& config, const Frame& frame, const Setup::Fluid& f, const Taken& some,
+               FluidStore& fluid) {
+  put_places(frame, f, some, fluid);
+  const auto set = [n = some.count](auto& field, const auto& value) { set_from_host(field, n, value); };
+  set(fluid.id, [&](Index a) { return Id(some[a]); });
+  set(fluid.v_rho, [&](Index a) { return VelocityDensity<>{Real3(f.v[some[a]]), Real(config.fluid.rho0)}; });
+  set(fluid.mass, [&](Index a) { return Real(f.mass[some[a]]); });
+  for (Field<Real>* field : {&fluid.eps, &fluid.solid_factor}) set(*field, [](Index) { return Real(1); });
+  set(fluid.eos_state, [](Index) { return EosState<>{}; });
+  if (config.couple.suspension != SuspensionLaw::none) set(fluid.viscosity, [](Index) { return Real(1); });
   if (config.fluid.species.empty()) return;
-  std::vector<std::uint32_t> species;
-  std::vector<Real> viscosity;
-  for (const std::uint32_t fill : f.fill) {
-    species.push_back(config.fluid.species_of(config.fluid.fills[fill]));
-    viscosity.push_back(Real(config.fluid.species[species.back()].mu / config.fluid.mu));
-  }
-  fluid.species.assign(species);
-  fluid.viscosity.assign(viscosity);
+  std::vector<std::uint32_t> of_fill;
+  for (const FluidFill& fill : config.fluid.fills) of_fill.push_back(config.fluid.species_of(fill));
+  const auto species = [&](Index a) { return of_fill[f.fill[some[a]]]; };
+  set(fluid.species, species);
+  set(fluid.viscosity, [&](Index a) { return Real(config.fluid.species[species(a)].mu / config.fluid.mu); });
 }
 
-void fill_walls(const Setup& setup, WallStore& walls) {
-  const auto& w = setup.walls;
-  walls.resize(Index(w.x.size()));
-  walls.id.assign(ids(w.x.size()));
-  walls.x0.assign(w.x);
-  walls.x.assign(w.x);
-  walls.body.assign(w.body);
-  std::vector<Real> compression(w.x.size(), Real(0));
-  for (std::size_t i = 0; i < w.outer.size(); ++i)
-    if (w.outer[i]) compression[i] = kNoCompression;
-  walls.compression.assign(compression);
+void put_walls(const Setup::Walls& w, const Taken& some, WallStore& walls) {
+  walls.resize(some.count);
+  const auto set = [n = some.count](auto& field, const auto& value) { set_from_host(field, n, value); };
+  const auto place = [&](Index b) { return w.x[some[b]]; };
+  set(walls.id, [&](Index b) { return Id(some[b]); });
+  set(walls.x0, place);
+  set(walls.x, place);
+  set(walls.body, [&](Index b) { return w.body[some[b]]; });
+  set(walls.compression,
+      [&](Index b) { return !w.outer.empty() && w.outer[some[b]] ? kNoCompression : Real(0); });
   if (w.mirror.empty()) return;
-  walls.mirrors.resize(walls.size());
-  walls.mirrors.x0.assign(w.mirror);
-  walls.mirrors.x.assign(w.mirror);
+  MirrorStore& images = walls.mirrors;
+  images.resize(some.count);
+  for (Field<Vec3d>* field : {&images.x0, &images.x}) set(*field, [&](Index b) { return w.mirror[some[b]]; });
 }
 
-void fill_grains(const Config& config, const Setup& setup, GrainStore& grains) {
-  const auto& g = setup.grains;
-  grains.resize(Index(g.x.size()));
-  grains.id.assign(ids(g.x.size()));
-  grains.x.assign(g.x);
-  grains.v.assign(converted<Real3>(g.v));
-  if (!g.omega.empty()) grains.omega.assign(converted<Real3>(g.omega));
-  if (grains.material.used()) {
-    std::vector<std::uint32_t> of_fill, material;
-    for (std::size_t k = 0; k < config.grain.fills.size(); ++k)
-      of_fill.push_back(config.grain.material_of(k));
-    for (const std::uint32_t fill : g.fill) material.push_back(of_fill[fill]);
-    grains.material.assign(material);
-  }
-  grains.radius.assign(converted<Real>(g.radius));
-  grains.eps.assign(std::vector<Real>(g.x.size(), Real(1)));
-  std::vector<Real> clump_d;
-  for (const std::uint32_t clump : g.clump) clump_d.push_back(clump > 0 ? Real(g.clumps[clump - 1].d) : 0);
-  grains.clump_d.assign(clump_d);
+void put_places(const Setup::Grains& g, const Taken& some, GrainStore& grains) {
+  grains.resize(some.count);
+  set_from_host(grains.x, some.count, [&](Index i) { return g.x[some[i]]; });
+}
+
+void put_grains(const Config& config, const Setup::Grains& g, const Taken& some, GrainStore& grains) {
+  put_places(g, some, grains);
+  const auto set = [n = some.count](auto& field, const auto& value) { set_from_host(field, n, value); };
+  set(grains.id, [&](Index i) { return Id(some[i]); });
+  set(grains.v, [&](Index i) { return Real3(g.v[some[i]]); });
+  if (!g.omega.empty()) set(grains.omega, [&](Index i) { return Real3(g.omega[some[i]]); });
+  std::vector<std::uint32_t> of_fill;
+  for (std::size_t k = 0; k < config.grain.fills.size(); ++k) of_fill.push_back(config.grain.material_of(k));
+  set(grains.material, [&](Index i) { return of_fill[g.fill[some[i]]]; });
+  set(grains.radius, [&](Index i) { return Real(g.radius[some[i]]); });
+  set(grains.eps, [](Index) { return Real(1); });
+  set(grains.clump_d, [&](Index i) {
+    const std::uint32_t clump = some[i] < g.clump.size() ? g.clump[some[i]] : 0;
+    return clump > 0 ? Real(g.clumps[clump - 1].d) : Real(0);
+  });
 }
 
 }  // namespace
@@ -141,19 +121,51 @@ State::State(const Config& config)
   if (!two_way && !config.domain.sheared()) fluid.flux.leave_out();
 }
 
-void State::fill(const Config& config, const Setup& setup) {
-  fill_fluid(config, frame, setup, fluid);
-  fill_walls(setup, walls);
-  if (walls.size() > 0) WallMotion::place(frame, walls, poses_now());
-  fill_grains(config, setup, grains);
-  open.start(fluid, grains);
+HostState State::particles_of(const Config& config, const Setup& setup) {
+  HostState from;
+  if (has_fluid) {
+    from.fluid = {
+        &fluid, Index(setup.fluid.x.size()),
+        [this, &setup](const Taken& some) { put_places(frame, setup.fluid, some, fluid); },
+        [this, &config, &setup](const Taken& some) { put_fluid(config, frame, setup.fluid, some, fluid); }};
+    const auto put = [this, &setup](const Taken& some) {
+      put_walls(setup.walls, some, walls);
+      walls.mirrors.count();
+      if (walls.size() > 0) WallMotion::place(frame, walls, poses_now());
+    };
+    from.walls = {&walls, Index(setup.walls.x.size()), put, put};
+  }
+  if (has_grains)
+    from.grains = {
+        &grains, Index(setup.grains.x.size()),
+        [this, &setup](const Taken& some) { put_places(setup.grains, some, grains); },
+        [this, &config, &setup](const Taken& some) { put_grains(config, setup.grains, some, grains); }};
+  return from;
+}
+
+HostState State::particles_of(const Config& config, const SavedState& saved) {
+  HostState from;
+  if (has_grains) from.grains = saved_particles(store_of(saved, "grains"), grains);
+  if (!has_fluid) return from;
+  from.fluid = saved_particles(store_of(saved, "fluid"), fluid);
+  from.walls = saved_particles(store_of(saved, "walls"), walls);
+  const auto mirrored = [](const WallBody& body) { return body.type->kind == WallKind::mirrored; };
+  if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), mirrored)) {
+    const HostParticles images = saved_particles(store_of(saved, "mirrors"), walls.mirrors);
+    from.walls.put_places =
+        from.walls.put = [this, of_walls = from.walls.put, of_images = images.put](const Taken& some) {
+          of_walls(some), of_images(some);
+          walls.mirrors.count();
+        };
+  }
+  return from;
 }
 
 void State::save(SavedState& out) const {
   if (has_fluid) {
     out.stores.push_back(fluid.save());
     out.stores.push_back(walls.save());
-    if (walls.mirrors.size() > 0) out.stores.push_back(walls.mirrors.save());
+    if (walls.mirrors.everywhere() > 0) out.stores.push_back(walls.mirrors.save());
   }
   bodies.save(out.stores);
   for (const Quantity& q : {Quantity{"time", "s", clock.time}, Quantity{"step", "-", double(clock.step)},
@@ -164,7 +176,7 @@ void State::save(SavedState& out) const {
     out.scalars.push_back({"removed_" + std::to_string(b), "-", motion.removed(b) ? 1.0 : 0.0});
 }
 
-void State::load(const Config& config, const SavedState& saved) {
+void State::load(const SavedState& saved) {
   const auto scalar = [&](const std::string& name) { return scalar_of(saved, name); };
   clock.time = scalar("time");
   clock.step = std::int64_t(scalar("step"));
@@ -172,13 +184,6 @@ void State::load(const Config& config, const SavedState& saved) {
   open.load(scalar, clock.time);
   for (int b = 0; b < motion.walls(); ++b)
     if (scalar("removed_" + std::to_string(b)) != 0) motion.remove(b);
-  if (has_fluid) {
-    fluid.load(store_of(saved, "fluid"));
-    walls.load(store_of(saved, "walls"));
-    const auto mirrored = [](const WallBody& body) { return body.type->kind == WallKind::mirrored; };
-    if (std::any_of(config.wall.bodies.begin(), config.wall.bodies.end(), mirrored))
-      walls.mirrors.load(store_of(saved, "mirrors"));
-  }
   bodies.load([&](const char* name) -> const HostStore& { return store_of(saved, name); }, clock.time);
 }
 

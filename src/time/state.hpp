@@ -9,6 +9,7 @@
 #include "src/boundaries/open_boundaries.hpp"
 #include "src/solids/grain_matter.hpp"
 #include "src/time/clock.hpp"
+#include "src/time/host_particles.hpp"
 #include "src/walls/free_bodies.hpp"
 #include "src/walls/wall_geometry.hpp"
 #include "src/walls/wall_motion.hpp"
@@ -26,12 +27,14 @@ struct State {
   explicit State(const Config& config);
   State(const State&) = delete;
 
-  /// The particles with which a case begins. Once, when solvers have added their fields.
-  void fill(const Config& config, const Setup& setup);
+  /// The particles with which a case begins. To be taken once, when solvers have added their fields.
+  HostState particles_of(const Config& config, const Setup& setup);
+  /// Those of a checkpoint. Throws FileError.
+  HostState particles_of(const Config& config, const SavedState& saved);
 
   void save(SavedState& out) const;
-  /// Whatever save() wrote; the grains themselves are loaded by their solver. Throws FileError.
-  void load(const Config& config, const SavedState& saved);
+  /// Whatever else save() wrote. Throws FileError.
+  void load(const SavedState& saved);
 
   /// Of all walls, now: two rows.
   Span<const BodyPose> poses_now() { return motion.poses_at(clock.time); }

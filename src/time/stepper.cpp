@@ -148,8 +148,8 @@ void Stepper::evaluate(Step& now) {
 void Stepper::start() {
   Step now;
   now.held = held();
-  if (has_fluid()) fluid_solver_->keep_own(fluid_, walls_, false);
-  if (has_grains()) solid_solver_->keep_own(grains_, grain_grid_, false);
+  // settled grains were divided without the fluid
+  if (coupled() && Context::current().several()) fluid_solver_->divide(fluid_, walls_, false);
   refresh(has_fluid(), has_grains());
   now.poses = poses_now();
   if (has_grains()) solid_solver_->evaluate(grains_, now.poses);

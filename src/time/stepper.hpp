@@ -51,6 +51,9 @@ class Stepper {
   Span<const BodyPose> substep_poses() const { return substep_poses_; }
   Span<const Real3> drive_grains();  ///< force on each of them now, N; empty where nothing drives them
 
+  /// Particles that the host has: all, or with several ranks those of this one, by where they are or, of a
+  /// checkpoint, by where their lists were built (`listed`).
+  void take(const HostState& from, bool listed);
   /// Grains, their contacts and clumps.
   void save_grains(SavedState& out) const;
   /// Block of each grain, as an array "block": by it parts of ranks are put together.
@@ -115,7 +118,7 @@ class Stepper {
   StepLimit longest_substep() const;             ///< that grains and free bodies allow
   void refresh_if_needed(double dt);
   void refresh(bool fluid, bool grains, double dt = 0);  ///< dt: of the step to come, s
-  void load_grain_store(const SavedState& saved);        ///< and the clumps of the grains
+  void load_clumps(const SavedState& saved);             ///< of the grains
   void restore_lists(const SavedState& saved);
   void relist_coupling();
   void remove_cleared_bodies();

@@ -114,18 +114,18 @@ TEST_F(DividedProgram, RefusesWhatCannotBe) {
   EXPECT_NE(none.err.find("--devices 2: there is no GPU to use"), none.err.npos) << none.err;
 }
 
-TEST(DivisionMemory, IsThatOfTheFieldsOfAllAndTheListsOfAPart) {
-  MemoryEstimate e{.fluid = 400, .rest = 0, .fields = {.fluid = 200}};
+TEST(DivisionMemory, IsThatOfAPart) {
+  MemoryEstimate e{.fluid = 400, .rest = 0};
   const Counts n{.fluid = 1000};
   EXPECT_EQ(e.of(n), 400000u);
   e.ranks = 2;
-  EXPECT_EQ(e.of(n), 320000u) << "lists of half, with a fifth more";
+  EXPECT_EQ(e.of(n), 240000u) << "half, with a fifth more";
   e.ranks = 4;
-  EXPECT_EQ(e.of(n), 260000u);
+  EXPECT_EQ(e.of(n), 120000u);
   e.ranks = 1;
   EXPECT_EQ(devices_with_room(e, n, {350000, 350000, 350000}), 2);
-  EXPECT_EQ(devices_with_room(e, n, {350000, 300000, 300000}), 3) << "all must have room";
-  EXPECT_EQ(devices_with_room(e, n, {190000, 190000, 190000, 190000}), 0) << "all begin with all particles";
+  EXPECT_EQ(devices_with_room(e, n, {350000, 200000, 200000}), 3) << "all must have room";
+  EXPECT_EQ(devices_with_room(e, n, {119000, 119000, 119000, 119000}), 0);
   e.ranks = 2;
   EXPECT_EQ(devices_with_room(e, n, {350000, 350000, 350000}), 3) << "more than have been tried";
   EXPECT_EQ(devices_with_room(e, n, {}), 0);

@@ -11,7 +11,7 @@ namespace BL_SOLVER {
 
 struct CellGridView;
 
-/// Blocks of another phase, whose ranks need copies of what is around them, too.
+/// Blocks, of another phase or the same, whose ranks need copies of what is around them, too.
 struct OtherBlocks {
   const CellGridView& grid;                 ///< their shape
   const std::vector<std::uint16_t>& owner;  ///< of each
@@ -21,7 +21,7 @@ struct OtherBlocks {
 struct Ownership {
   /// owner: of each block of the domain. `grid`: its shape.
   Ownership(const CellGridView& grid, const std::vector<std::uint16_t>& owner,
-            const OtherBlocks* other = nullptr);
+            const std::vector<OtherBlocks>& others = {});
 
   Index ghost_blocks = 0;            ///< of other ranks, with cells next to this rank's or in reach of others
   Buffer<Index> owner;               ///< [blocks of the domain]
