@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "bedload/core/error.hpp"
 #include "bedload/geometry/mesh.hpp"
@@ -63,7 +64,8 @@ class Drawing {
     const std::string_view name = node.name();
     const auto is = [&](std::string_view other) { return name == other; };
     if (is("setdrawmode")) surface_ = std::string_view(node.attribute("mode").value()) == "face";
-    if (std::find(std::begin(kSilent), std::end(kSilent), name) != std::end(kSilent)) return;
+    if (name.starts_with('_') || std::find(std::begin(kSilent), std::end(kSilent), name) != std::end(kSilent))
+      return;
     if (is("setmkfluid"))
       as_ = Drawn::fluid, mk_ = xml_.whole(node, "mk", 65535);
     else if (is("setmkbound"))
@@ -174,15 +176,23 @@ class Drawing {
     Piece p = piece(node, Form::box);
     const auto [lo, hi] = corners(node);
     static constexpr std::string_view kSides[6] = {"left", "right", "front", "back", "bottom", "top"};
-    for (const std::string& word : words_in(node.child_value("boxfill"), "| ,\t\r\n")) {
+    std::string fill = node.child_value("boxfill");
+    for (std::size_t at = 0; (at = fill.find('^', at)) != fill.npos; at += 3) fill.replace(at, 1, " ^ ");
+    bool drawn = true;  // false behind ^: all but this side
+    for (const std::string& word : words_in(fill, "| ,\t\r\n")) {
+      if (word == "^") {
+        drawn = false;
+        continue;
+      }
       const auto side = std::find(std::begin(kSides), std::end(kSides), word);
       if (side != std::end(kSides))
-        p.faces[std::size_t(side - kSides)] = true;
+        p.faces[std::size_t(side - kSides)] = std::exchange(drawn, true);
       else if (word == "all")
         p.faces.fill(true);
       else if (word != "solid")
         xml_.fail(node, fmt::format(
-                            "boxfill \"{}\" must be solid, all, or of left, right, front, back, bottom, top",
+                            "boxfill \"{}\" must be solid, all, or of left, right, front, back, bottom, top, "
+                            "each without ^ or, behind all, with it",
                             word));
       if (word == "solid") {
         p.faces.fill(false);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "bedload/core/error.hpp"
@@ -39,6 +40,7 @@ class Reader {
     read_constants(xml_.child(definition, "constantsdef"), geometry);
     pieces_ = drawn_pieces(xml_, geometry, folder_);
     if (pieces_.empty()) xml_.fail(geometry, "draws nothing that has a counterpart");
+    turn_pieces(definition.child("initials"));
     find_domain(execution.child("parameters"));
     BodyKeys keys;
     const double end = parameter("TimeMax", 0);
@@ -131,9 +133,8 @@ class Reader {
   void find_domain(const pugi::xml_node& parameters) {
     Vec3d lo{1e300, 1e300, 1e300}, hi{-1e300, -1e300, -1e300};
     for (const Piece& p : pieces_) {
-      if (p.as == Drawn::nothing) continue;
-      Vec3d a = p.min, b = p.max;
-      if (p.turn_angle != 0 && p.form == Form::box) a = place_.min, b = place_.max;
+      if (p.as == Drawn::nothing || p.flooded) continue;  // what is filled ends at walls
+      const auto [a, b] = p.extent();
       for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], a[k]), hi[k] = std::max(hi[k], b[k]);
     }
     for (int k = 0; k < 3; ++k) {
@@ -188,12 +189,45 @@ class Reader {
     }
   }
 
+  /// What is turned or moved after it is drawn.
+  void turn_pieces(const pugi::xml_node& initials) {
+    for (const pugi::xml_node& node : initials.children()) {
+      const std::string_view name = node.name();
+      Quat<double> turn;
+      Vec3d from, by;
+      if (name == "rotateaxis") {
+        from = xml_.vector(node, "axisp1");
+        const Vec3d axis = xml_.vector(node, "axisp2") - from;
+        if (!(norm(axis) > 0)) xml_.fail(node, "must have two different points axisp1 and axisp2");
+        const bool radians = std::string_view(node.attribute("anglesunits").value()) == "radians";
+        const double angle = xml_.number(node, "angle") * (radians ? 1 : std::numbers::pi / 180);
+        turn = Quat<double>::from_rotation(axis * (angle / norm(axis)));
+      } else if (name == "move") {
+        by = xml_.vector(node);
+      } else {
+        continue;
+      }
+      const auto of = [&](const char* attribute) {
+        return node.attribute(attribute) ? numbers_in(xml_, node, attribute) : std::vector<int>{};
+      };
+      const std::vector<int> bound = of("mkbound"), fluid = of("mkfluid");
+      if (bound.empty() && fluid.empty()) xml_.fail(node, "must have the attribute mkbound or mkfluid");
+      for (Piece& p : pieces_) {
+        const std::vector<int>& wanted = p.as == Drawn::bound ? bound : fluid;
+        if (p.as != Drawn::nothing && std::find(wanted.begin(), wanted.end(), p.mk) != wanted.end())
+          p.turn_and_move(turn, from + by - turn.rotate(from));
+      }
+    }
+  }
+
   std::map<int, std::string> initial_velocities(const pugi::xml_node& initials) {
     std::map<int, std::string> out;
     for (const pugi::xml_node& node : initials.children()) {
-      if (node.type() != pugi::node_element) continue;
-      if (std::string_view(node.name()) != "velocity" || node.child("onlypos") || node.child("velocity2") ||
-          node.child("velocity3")) {
+      const std::string_view name = node.name();
+      if (node.type() != pugi::node_element || name.starts_with('_') || name == "rotateaxis" ||
+          name == "move")
+        continue;
+      if (name != "velocity" || node.child("onlypos") || node.child("velocity2") || node.child("velocity3")) {
         xml_.leave(
             node,
             "velocities at the start are those of a whole fill, as numbers or formulas: fluid.fill.velocity");
@@ -224,6 +258,13 @@ class Reader {
     }
   }
 
+  /// Whether the check points of a gauge lie beside each other rather than one above the other.
+  bool level(const pugi::xml_node& swl) {
+    if (!swl.child("point2")) return false;
+    const Vec3d along = xml_.vector(swl, "point2") - xml_.vector(swl, "point0");
+    return std::max(std::abs(along.x), std::abs(along.y)) > std::abs(along.z);
+  }
+
   void read_gauges(const pugi::xml_node& gauges, std::string& out) {
     const pugi::xml_node defaults = gauges.child("default");
     for (const pugi::xml_node& node : gauges.children()) {
@@ -236,6 +277,12 @@ class Reader {
       s.set("name", name.empty() ? fmt::format("gauge_{}", xml_.line(node)) : name);
       if (kind == "velocity") {
         s.set("type", "point").set("at", xml_.vector(node, "point"));
+      } else if (kind == "swl" && level(node)) {
+        const Vec3d from = xml_.vector(node, "point0"), to = xml_.vector(node, "point2");
+        const int axis = std::abs(to.x - from.x) < std::abs(to.y - from.y) ? 1 : 0;
+        s.set("type", "front").set("phase", "fluid");
+        s.set("direction", fmt::format("{}{}", "xy"[axis], to[axis] < from[axis] ? '-' : '+'));
+        xml_.leave(node, "a level line of check points: the probe is the furthest fluid at any height");
       } else if (kind == "swl" || kind == "maxz") {
         s.set("type", "height").set("at", xml_.vector(node, kind == "swl" ? "point0" : "point"));
       } else if (kind == "force") {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "case_text.hpp"
 
@@ -45,22 +46,28 @@ class Writer {
     return p.max[axis] - p.min[axis] <= near() && !(place_.two_d && axis == 1);
   }
   bool inside(const Piece& p, const Vec3d& x) const {
+    const auto [lo, hi] = p.extent();
     for (int k = 0; k < 3; ++k)
-      if (!(place_.two_d && k == 1) && (x[k] < p.min[k] - near() || x[k] > p.max[k] + near())) return false;
+      if (!(place_.two_d && k == 1) && (x[k] < lo[k] - near() || x[k] > hi[k] + near())) return false;
     return true;
   }
   bool covers(const Piece& outer, const Piece& inner) const {
-    return inside(outer, inner.min) && inside(outer, inner.max);
+    const auto [lo, hi] = inner.extent();
+    return inside(outer, lo) && inside(outer, hi);
   }
   /// Whether they share more than a layer of particles.
   bool overlap(const Piece& p, const Piece& q) const {
+    const auto [a, b] = p.extent();
+    const auto [c, d] = q.extent();
     for (int k = 0; k < 3; ++k)
-      if (!(place_.two_d && k == 1) &&
-          std::min(p.max[k], q.max[k]) - std::max(p.min[k], q.min[k]) < place_.dp / 2)
+      if (!(place_.two_d && k == 1) && std::min(b[k], d[k]) - std::max(a[k], c[k]) < place_.dp / 2)
         return false;
     return true;
   }
-  static Vec3d middle(const Piece& p) { return 0.5 * (p.min + p.max); }
+  static Vec3d middle(const Piece& p) {
+    const auto [lo, hi] = p.extent();
+    return 0.5 * (lo + hi);
+  }
   /// Of a fluid or of the seed of one.
   bool holds_fluid(const Piece& p) const {
     return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& q) {
@@ -286,8 +293,25 @@ class Writer {
           if (q.faces[2 * axis]) box.min[axis] = std::max(box.min[axis], q.min[axis]);
           if (q.faces[2 * axis + 1]) box.max[axis] = std::min(box.max[axis], q.max[axis]);
         }
+    end_at_walls(box, p.seed);
     remark(p, "filled up to the walls around a seed there, here all of the box that is not solid");
     write_fill(p, Section("[[fluid.fill]]").set("min", low(box)).set("max", high(box)));
+  }
+
+  /// Ends a box at walls right across it, as seen from a seed.
+  void end_at_walls(Piece& box, const Vec3d& seed) const {
+    for (const Piece& q : pieces_) {
+      if (q.as != Drawn::bound || q.form != Form::box || q.turn_angle != 0 || q.by_faces()) continue;
+      for (int axis = 0; axis < 3; ++axis) {
+        bool across = true;
+        for (int k = 0; k < 3; ++k)
+          across = across && (k == axis || (place_.two_d && k == 1) ||
+                              (q.min[k] <= box.min[k] + near() && q.max[k] >= box.max[k] - near()));
+        if (!across || (place_.two_d && axis == 1)) continue;
+        if (q.max[axis] < seed[axis]) box.min[axis] = std::max(box.min[axis], q.max[axis]);
+        if (q.min[axis] > seed[axis]) box.max[axis] = std::min(box.max[axis], q.min[axis]);
+      }
+    }
   }
 
   const std::vector<Piece>& pieces_;
@@ -304,6 +328,36 @@ class Writer {
 };
 
 }  // namespace
+
+std::pair<Vec3d, Vec3d> Piece::extent() const {
+  if (form != Form::box || turn_angle == 0) return {min, max};
+  const auto turn = Quat<double>::from_rotation(turn_axis * (turn_angle * std::numbers::pi / 180));
+  Vec3d lo{1e300, 1e300, 1e300}, hi = -lo;
+  for (int c = 0; c < 8; ++c) {
+    const Vec3d x =
+        shift + turn.rotate({c & 1 ? max.x : min.x, c & 2 ? max.y : min.y, c & 4 ? max.z : min.z});
+    for (int k = 0; k < 3; ++k) lo[k] = std::min(lo[k], x[k]), hi[k] = std::max(hi[k], x[k]);
+  }
+  return {lo, hi};
+}
+
+void Piece::turn_and_move(const Quat<double>& turn, const Vec3d& by) {
+  const Vec3d middle = 0.5 * (min + max), half = 0.5 * (max - min);
+  if (form == Form::cylinder || form == Form::sphere) a = by + turn.rotate(a), b = by + turn.rotate(b);
+  if (form == Form::cylinder || form == Form::sphere || form == Form::mesh) {
+    const double reach = form == Form::sphere ? half.x : norm(half);  // a box around it that is not too small
+    const Vec3d to = by + turn.rotate(middle), around{reach, reach, reach};
+    min = to - around, max = to + around;
+  }
+  if (form == Form::cylinder || form == Form::sphere) return;
+  const auto before = Quat<double>::from_rotation(turn_axis * (turn_angle * std::numbers::pi / 180));
+  const Quat<double> both = turn * before;
+  const Vec3d axis{both.x, both.y, both.z};
+  shift = by + turn.rotate(shift);
+  turn_angle = 2 * std::atan2(norm(axis), both.w) * 180 / std::numbers::pi;
+  turn_axis = norm(axis) > 0 ? axis / norm(axis) : Vec3d{0, 0, 1};
+  if (form == Form::box && by_faces()) faces.fill(false), surface = true;
+}
 
 std::string body_name(int mk) { return fmt::format("bound_{}", mk); }
 

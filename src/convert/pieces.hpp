@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bedload/core/vec.hpp"
@@ -32,6 +33,11 @@ struct Piece {
   double turn_angle = 0;            ///< degrees
   bool flooded = false;             ///< a region filled from a seed, up to the walls around it
   Vec3d seed;
+
+  /// The least and largest corner of what it extends over, m.
+  std::pair<Vec3d, Vec3d> extent() const;
+  /// Turned by `turn` about the origin, then moved by `shift`.
+  void turn_and_move(const Quat<double>& turn, const Vec3d& shift);
 
   bool by_faces() const {
     for (const bool face : faces)

@@ -224,6 +224,42 @@ TEST_F(Convert, VesselFilledFromASeedWithAFloat) {
       has_line("Drum.toml", "density = 600\nvelocity = [0.1, 0, 0]\nmove = \"plane\"\naxis = [0, 1, 0]"));
 }
 
+TEST_F(Convert, BoxTurnedAfterItIsDrawn) {
+  write("Turned_Def.xml",
+        dual(kRoom,
+             kDam + "<_drawpoint x=\"9\" y=\"9\" z=\"9\" />\n<setmkbound mk=\"3\" />\n" +
+                 box("all ^ top ^ bottom", R"(x="0.25" y="0.05" z="0")", R"(x="0.04" y="0.1" z="0.05")"),
+             R"(<initials><_move mkfluid="0" x="9" y="0" z="0" />
+                  <rotateaxis mkbound="3" angle="90" anglesunits="degrees">
+                  <axisp1 x="0.25" y="0.1" z="0" /><axisp2 x="0.25" y="0.1" z="1" /></rotateaxis></initials>)"));
+  const std::string left = converted("Turned_Def.xml", "Turned.toml");
+  EXPECT_EQ(particles("fluid"), 3000);
+  EXPECT_TRUE(has_line("Turned.toml", "max = [0.4, 0.2, 0.3]"));  // the box stays in the tank
+  // about (0.25, 0.1): x' = 0.35 - y, y' = x - 0.15
+  EXPECT_TRUE(has_line("Turned.toml",
+                       "min = [0.25, 0.05, 0]\nmax = [0.29, 0.15, 0.05]\nturn_axis = [0, 0, "
+                       "1]\nturn_angle = 90\ntranslate = [0.35, -0.15, 0]"));
+  EXPECT_EQ(left.find("rotateaxis"), std::string::npos) << left;
+  EXPECT_EQ(left.find('_' + std::string("drawpoint")), std::string::npos) << left;
+}
+
+TEST_F(Convert, FluidFilledUpToAPiston) {
+  write("Fill_Def.xml",
+        dual(R"(<pointmin x="-0.5" y="0" z="-0.05" /><pointmax x="1" y="0" z="1" />)",
+             "<setmkbound mk=\"10\" />\n" +
+                 box("solid", R"(x="-0.03" y="-1" z="0")", R"(x="0.03" y="2" z="0.3")") + kBound +
+                 box("bottom | right", R"(x="-0.2" y="-1" z="0")", R"(x="0.6" y="2" z="0.3")") + kFluid +
+                 R"(<fillbox x="0.1" y="0" z="0.05"><modefill>void</modefill>
+                      <point x="-0.5" y="-1" z="-0.05" /><size x="1.5" y="2" z="0.15" /></fillbox>)",
+             "", "",
+             R"(<gauges><swl name="front"><point0 x="-0.05" y="0" z="0.03" /><point2 x="0.5" y="0" z="0.03" />
+                </swl></gauges>)"));
+  converted("Fill_Def.xml", "Fill.toml");
+  EXPECT_EQ(particles("fluid"), 40 * 10);  // from the piston at 0 to the wall at 0.4 m, 0.1 m deep
+  EXPECT_TRUE(
+      has_line("Fill.toml", "name = \"front\"\ntype = \"front\"\nphase = \"fluid\"\ndirection = \"x+\""));
+}
+
 TEST_F(Convert, MeshFromAFileAndAnOpening) {
   std::filesystem::create_directory(dir_ / "cad");
   // a tetrahedron of 1/6 of 60 mm x 60 mm x 60 mm
