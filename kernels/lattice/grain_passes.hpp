@@ -182,10 +182,8 @@ struct LiftPass {
   BL_HD void operator()(Index i) const { fluid_force[i] = of(radius[i], lift); }
 };
 
-/// Momentum that grains take from the fluid in a step, of a link with the velocity c
-///   c (f_left + f_back) - u (f_left - f_back),
-/// which does not depend on the frame [wen14]; f is less its weight, so that fluid at rest does not push
-/// grains together between which it has no node.
+/// Momentum that grains take from the fluid in a step; f is less its weight, so that fluid at rest does not
+/// push grains together between which it has no node.
 struct GrainLinkPass {
   struct Value {
     Vec3d force, torque;  ///< about the centre, units of the lattice
@@ -223,7 +221,7 @@ struct GrainLinkPass {
       const double q = narrow ? 0.5 : ball.fraction(m.d, c);
       const Vec3d arm = m.d + q * c, u = ball.velocity_at(arm);
       const Reflection r = reflect(f, m.node, k, Real(q), u);
-      const Vec3d taken = (double(r.left) + double(r.back)) * c - (double(r.left) - double(r.back)) * u;
+      const Vec3d taken = r.taken(k, u);
       sum.force += taken;
       sum.torque += cross(arm, taken);
     }

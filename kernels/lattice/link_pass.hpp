@@ -35,6 +35,10 @@ BL_HD Vec3d surface_point(const NodeGrid& grid, const Link& link) {
 /// What leaves a node along a link and comes back from the surface, less the weight.
 struct Reflection {
   Real left, back;
+  /// Momentum that a surface with the velocity u takes from it, which does not depend on the frame [wen14].
+  BL_HD Vec3d taken(int k, const Vec3d& u) const {
+    return (double(left) + double(back)) * velocity_of<double>(k) - (double(left) - double(back)) * u;
+  }
 };
 /// By linear interpolation about the surface, at any fraction q of the link with the same formula
 /// [ginzburg08]; half-way bounce-back at a fraction of 1/2. f: of the step to come; k: velocity towards the
@@ -56,19 +60,20 @@ struct LinkPass {
   SurfaceMotion body;
   Links links;
   Span<const std::uint32_t> solid;
-  Span<Real3> force;            ///< on the body in this step, per link
+  Span<Real3> force;            ///< on the body in this step, per link; empty: nothing is summed
   Span<Vec4<double>> received;  ///< since the start: momentum 3, work
 
   BL_HD void operator()(Index l) const {
     const Link link = links[l];
     if (solid[link.node] != 0) {  // a grain is there
-      force[l] = {};
+      if (force) force[l] = {};
       return;
     }
     const int k = link.direction;
     const bool narrow = solid[f.grid.neighbour_at(link.node, opposite(k))] != 0;
     const Vec3d u = body.at(surface_point(f.grid, link));
     const Reflection r = reflect(f, link.node, k, narrow ? Real(0.5) : link.fraction, u);
+    if (!force) return;
     const Vec3d taken = (double(r.left) + double(r.back)) * velocity_of<double>(k);
     force[l] = Real3(taken);
     Vec4<double>& sum = received[l];

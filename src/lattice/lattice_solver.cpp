@@ -87,7 +87,7 @@ void LatticeSolver::step(double time, std::int64_t number, bool held) {
   const LatticeUnits& units = p_.units;
   if (grains_ && !held) grains_->follow(moments(), first_, nodes_);
   odd_ = number % 2 == 1;
-  follow_walls(time + 0.5 * units.dt);
+  follow_walls(time + 0.5 * units.dt, odd_);
   force_ = force_at(time + units.dt);
   if (grains_) grains_->exchange(populations(odd_), first_, nodes_, Vec3d(force_), number, held);
   for_each({0, grid_.size()}, CollidePass{populations(odd_), rate_, force_, nodes_.solid});
@@ -95,7 +95,7 @@ void LatticeSolver::step(double time, std::int64_t number, bool held) {
   if (p_.mass_every > 0 && number % p_.mass_every == 0) restore_mass();
 }
 
-void LatticeSolver::follow_walls(double time) {
+void LatticeSolver::follow_walls(double time, bool odd, bool counted) {
   const LatticeUnits& units = p_.units;
   for (std::size_t b = 0; b < ranges_.size(); ++b) {
     const Range r = ranges_[b];
@@ -104,12 +104,12 @@ void LatticeSolver::follow_walls(double time) {
     const Vec3d slide = m.turned() ? m.rotation.rotate(p_.walls[b].slide) : p_.walls[b].slide;
     const SurfaceMotion body{(m.v + slide) / units.velocity(), units.dt * m.omega,
                              (m.origin() - first_) / units.dx};
-    for_each({0, r.size()}, LinkPass{populations(odd_),
-                                     body,
-                                     links_.links(r),
-                                     nodes_.solid,
-                                     {links_.force.span().data + r.begin, r.size()},
-                                     {links_.received.span().data + r.begin, r.size()}});
+    LinkPass pass{populations(odd), body, links_.links(r), nodes_.solid, {}, {}};
+    if (counted) {
+      pass.force = {links_.force.span().data + r.begin, r.size()};
+      pass.received = {links_.received.span().data + r.begin, r.size()};
+    }
+    for_each({0, r.size()}, pass);
   }
 }
 
@@ -176,6 +176,17 @@ std::vector<NodeValue> LatticeSolver::values(const std::vector<Index>& nodes) co
 std::vector<Real4> LatticeSolver::states() const {
   Buffer<Real4> out(grid_.size());
   for_each({0, grid_.size()}, NodeStatePass{moments(), nodes_.solid, {}, out});
+  return out.to_host();
+}
+
+std::vector<RowSums> LatticeSolver::stress(int axis, double time, bool held,
+                                           Buffer<PairMoment<>>& of_grains) {
+  // what arrives from walls and grains; the next step finds it anew, at the same places
+  follow_walls(time + 0.5 * p_.units.dt, !odd_, false);
+  if (grains_) grains_->stresslets(populations(!odd_), first_, nodes_, held, of_grains);
+  const Index n = RowStressPass::rows(grid_, axis);
+  Buffer<RowSums> out(n);
+  for_each({0, n}, RowStressPass{populations(!odd_), force_, double(rate_.even), axis, nodes_.solid, out});
   return out.to_host();
 }
 

@@ -63,6 +63,16 @@ void ResolvedGrains::exchange(const Populations& f, const Vec3d& first, const No
                                                .displaced = displaced_});
 }
 
+void ResolvedGrains::stresslets(const Populations& f, const Vec3d& first, const NodeStore& nodes, bool held,
+                                Buffer<PairMoment<>>& out) const {
+  out.resize(grains_.size());
+  for_each_group(grains_.size(), StressletPass{.balls = balls(f.grid, first, held),
+                                               .f = f,
+                                               .solid = nodes.solid,
+                                               .joule = units_.energy(),
+                                               .out = out});
+}
+
 ResolvedGrains::Sums ResolvedGrains::sums() const {
   const auto t = sum_over<9>(grains_.owned(), GrainBooks{received_, displaced_, grains_.fluid_force});
   const auto vec = [&](int k) { return Vec3d{t.v[k], t.v[k + 1], t.v[k + 2]}; };

@@ -3,7 +3,7 @@
 
 #include "bedload/case/config/domain.hpp"
 #include "bedload/particles/grains.hpp"
-#include "kernels/lattice/grain_passes.hpp"
+#include "kernels/lattice/stress_passes.hpp"
 #include "src/lattice/lattice_store.hpp"
 #include "src/lattice/parameters.hpp"
 
@@ -27,6 +27,10 @@ class ResolvedGrains {
   /// (units of the lattice). held: they are at rest for it.
   void exchange(const lattice::Populations& f, const Vec3d& first, const NodeStore& nodes, const Vec3d& push,
                 std::int64_t step, bool held);
+
+  /// Moments of the force of the fluid about their centres, J, as of StressletPass.
+  void stresslets(const lattice::Populations& f, const Vec3d& first, const NodeStore& nodes, bool held,
+                  Buffer<PairMoment<>>& out) const;
 
   struct Sums {
     Vec3d received, displaced;  ///< since the start, N s: over links; of forces on the fluid they displace

@@ -18,6 +18,20 @@ HostArray array_of(const char* name, const char* unit, const std::vector<T>& val
   return a;
 }
 
+template <class N>
+HostArray array_of(const char* name, const std::vector<PairMoment<N>>& values) {
+  HostArray a{name, "J", FileType<N>::scalar, 9, {}};
+  const auto* bytes = reinterpret_cast<const std::byte*>(values.data());
+  a.bytes.assign(bytes, bytes + values.size() * sizeof values[0]);
+  return a;
+}
+
+/// Of second moments in the order of lattice::RowSums.
+PairMoment<double> moment_of(double scale, const double (&m)[lattice::RowSums::kMoments]) {
+  return {
+      {scale * Vec3d{m[0], m[3], m[4]}, scale * Vec3d{m[3], m[1], m[5]}, scale * Vec3d{m[4], m[5], m[2]}}};
+}
+
 }  // namespace
 
 HostStore LatticeSimulation::snapshot(const std::string& name) {
@@ -63,6 +77,45 @@ HostStore LatticeSimulation::snapshot(const std::string& name) {
           {array_of("position", "m", x), array_of("velocity", "m/s", v), array_of("pressure", "Pa", pressure),
            array_of("density", "kg/m3", density), array_of("solid", "-", solid), array_of("id", "-", id)},
           grid};
+}
+
+/// Of the fluid an entry for each row of nodes along a periodic axis.
+HostStore LatticeSimulation::rheology(const std::string& name) {
+  const int axis = config_.domain.periodic[0] ? 0 : 1;
+  Buffer<PairMoment<>> stresslets;
+  const std::vector<lattice::RowSums> rows = solver_.stress(axis, clock_.time, held(), stresslets);
+  if (name == "grains" && grains_) {
+    HostStore out = grains_->rheology(name);
+    out.arrays.push_back(array_of("stress_particles", stresslets.to_host()));
+    return out;
+  }
+  if (name != "fluid") return {name, 0, {}};
+  const LatticeUnits& units = solver_.units();
+  std::vector<Vec3d> x, v, drive;
+  std::vector<double> mass, volume;
+  std::vector<PairMoment<double>> pressure, friction, kinetic;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const lattice::RowSums& row = rows[r];
+    const double m = row.fluid + row.excess;
+    x.push_back(
+        solver_.place(solver_.grid().node(lattice::RowStressPass::place(solver_.grid(), axis, Index(r), 0))));
+    v.push_back(m > 0 ? units.velocity() / m * row.momentum : Vec3d{});
+    drive.push_back(row.fluid * solver_.force_on_node());
+    mass.push_back(units.mass() * m);
+    volume.push_back(units.dx * units.dx * units.dx * row.nodes);
+    const double p = row.excess / 3;
+    const double isotropic[lattice::RowSums::kMoments] = {p, p, p};
+    pressure.push_back(moment_of(units.energy(), isotropic));
+    friction.push_back(moment_of(units.energy(), row.friction));
+    kinetic.push_back(moment_of(units.energy(), row.flow));
+    kinetic.back().add(-mass.back() * v.back(), v.back());  // about the mean of the row
+  }
+  return {
+      name,
+      rows.size(),
+      {array_of("position", "m", x), array_of("velocity", "m/s", v), array_of("mass", "kg", mass),
+       array_of("volume", "m3", volume), array_of("drive", "N", drive), array_of("stress_pressure", pressure),
+       array_of("stress_friction", friction), array_of("stress_kinetic", kinetic)}};
 }
 
 std::vector<Quantity> LatticeSimulation::diagnostics() {

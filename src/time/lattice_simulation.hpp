@@ -49,7 +49,7 @@ class LatticeSimulation final : public Simulation {
   std::vector<Quantity> time_spent() const override;
 
   HostStore snapshot(const std::string& store) override;
-  HostStore rheology(const std::string& store) override { return {store, 0, {}}; }
+  HostStore rheology(const std::string& store) override;
   std::vector<FieldView> fields(const std::string& store) override {
     return grains_ ? grains_->fields(store) : std::vector<FieldView>{};
   }
