@@ -11,10 +11,14 @@ namespace BL_SOLVER::lattice {
 /// that cover a node, the one with the lowest id has the largest mark.
 namespace mark {
 constexpr std::uint32_t kLeft = 1u << 30, kGrain = 1u << 31, kIds = kLeft - 1;
+/// Beyond a sheared side, where fluid comes from: ids stay below kIds.
+constexpr std::uint32_t kBeyond = kLeft;
 BL_HD std::uint32_t grain(Id id) { return kGrain + (kIds - std::uint32_t(id)); }
 /// A grain has just moved off the node.
 BL_HD std::uint32_t left_by(Id id) { return kLeft + (kIds - std::uint32_t(id)); }
 BL_HD bool is_wall(std::uint32_t m) { return m != 0 && (m < kLeft || m == kNone); }
+/// No population comes from there, except from a surface.
+BL_HD bool is_solid(std::uint32_t m) { return m != 0 && m != kBeyond; }
 }  // namespace mark
 
 /// A grain among nodes, in units of the lattice and counted from node 0, and the nodes around it.
@@ -63,6 +67,12 @@ struct Ball {
   BL_HD Vec3d velocity_at(const Vec3d& d) const { return v + cross(omega, d); }
 };
 
+/// Of a box whose images across z move along x, see sheared_sides.hpp; units of the lattice.
+struct SideImages {
+  bool there = false;
+  double offset = 0, speed = 0;  ///< of the image above
+};
+
 struct Balls {
   NodeGrid grid;
   bool periodic[3];
@@ -73,6 +83,8 @@ struct Balls {
   Span<const Real3> v, omega;
   Span<const Real> radius;
   Span<const Id> id;
+  SideImages images = {};
+  bool across = false;  ///< their images across the nearer sheared side, as far as nodes are near these
 
   BL_HD Ball operator()(Index i) const {
     Ball b{
@@ -80,6 +92,12 @@ struct Balls {
         {}};
     if (!held) b.v = (dt / dx) * Vec3d(v[i]), b.omega = dt * Vec3d(omega[i]);
     const double reach = b.radius + 1;
+    if (across) {
+      const double height = grid.n[2] - 2.0, to = b.centre.z > 0.5 * (height + 1) ? -1 : 1;
+      b.centre.z += to * height, b.centre.x += to * images.offset;
+      b.v.x += to * images.speed;
+      if (b.centre.z < -reach || b.centre.z > height + 1 + reach) return b;
+    }
     for (int a = 0; a < 3; ++a) {
       b.low[a] = int(std::ceil(b.centre[a] - reach));
       b.count[a] = int(std::floor(b.centre[a] + reach)) - b.low[a] + 1;
@@ -217,7 +235,7 @@ struct GrainLinkPass {
     for (int k = 1; k < kVelocities; ++k) {
       const Vec3d c = velocity_of<double>(k);
       if (!ball.holds(m.d + c) || solid[f.grid.neighbour_at(m.node, k)] != own) continue;
-      const bool narrow = solid[f.grid.neighbour_at(m.node, opposite(k))] != 0;
+      const bool narrow = mark::is_solid(solid[f.grid.neighbour_at(m.node, opposite(k))]);
       const double q = narrow ? 0.5 : ball.fraction(m.d, c);
       const Vec3d arm = m.d + q * c, u = ball.velocity_at(arm);
       const Reflection r = reflect(f, m.node, k, Real(q), u);
@@ -229,11 +247,17 @@ struct GrainLinkPass {
   }
   BL_HD void finish(Index i, const Value& sum) const {
     const Real3 F(newton * sum.force), T(newton_metre * sum.torque);
+    received[i] += (newton * second) * sum.force;
+    displaced[i] += (newton * second * sum.covered) * push;
+    if (balls.across) {  // besides those of the grain itself
+      const Real weight = first ? 1 : Real(0.5);
+      fluid_force[i] += weight * F, fluid_torque[i] += weight * T;
+      force[i] += F, torque[i] += T;
+      return;
+    }
     fluid_force[i] = Real(0.5) * (F + (first ? F : force[i])) + LiftPass::of(balls.radius[i], lift);
     fluid_torque[i] = Real(0.5) * (T + (first ? T : torque[i]));
     force[i] = F, torque[i] = T;
-    received[i] += (newton * second) * sum.force;
-    displaced[i] += (newton * second * sum.covered) * push;
   }
 };
 

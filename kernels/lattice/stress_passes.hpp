@@ -96,7 +96,7 @@ struct StressletPass {
     for (int k = 1; k < kVelocities; ++k) {
       const Vec3d c = velocity_of<double>(k);
       if (!ball.holds(m.d + c) || solid[f.grid.neighbour_at(m.node, k)] != own) continue;
-      const bool narrow = solid[f.grid.neighbour_at(m.node, opposite(k))] != 0;
+      const bool narrow = mark::is_solid(solid[f.grid.neighbour_at(m.node, opposite(k))]);
       const double q = narrow ? 0.5 : ball.fraction(m.d, c);
       const Vec3d u = ball.velocity_at(m.d + q * c), arm = m.d + 0.5 * c;
       const Vec3d taken = reflect(f, m.node, k, Real(q), u).taken(k, u);
@@ -105,7 +105,10 @@ struct StressletPass {
     return sum;
   }
   BL_HD void finish(Index i, const Value& sum) const {
-    for (int k = 0; k < 3; ++k) out[i].row[k] = Real3(-joule * sum.row[k]);
+    for (int k = 0; k < 3; ++k) {
+      const Real3 row(-joule * sum.row[k]);
+      out[i].row[k] = balls.across ? out[i].row[k] + row : row;
+    }
   }
 };
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "bedload/parallel/reductions.hpp"
+#include "kernels/lattice/sheared_sides.hpp"
 
 namespace BL_SOLVER {
 namespace {
@@ -41,6 +42,7 @@ void LatticeSolver::fill(const Setup::Nodes& nodes) {
   links_.direction.assign(l.direction);
   links_.body.assign(l.body);
   links_.fraction.assign(converted<Real>(l.fraction));
+  if (p_.sheared()) links_.resize(LayerNode::count(grid_));
   find_ranges();
   std::vector<Real3> velocity;
   for (const Vec3d& v : nodes.v) velocity.push_back(Real3(v / p_.units.velocity()));
@@ -74,6 +76,7 @@ Real3 LatticeSolver::force_at(double time) const {
 void LatticeSolver::begin() {
   odd_ = false;
   force_ = force_at(0);
+  clear_layers(0);
   if (grains_) grains_->cover(grid_, first_, nodes_);
   const Vec3d slope = p_.static_gravity * (3 / p_.units.acceleration());
   for_each({0, grid_.size()}, BeginPass{populations(odd_), force_, slope, nodes_.solid, velocity_});
@@ -85,7 +88,11 @@ void LatticeSolver::begin() {
 
 void LatticeSolver::step(double time, std::int64_t number, bool held) {
   const LatticeUnits& units = p_.units;
-  if (grains_ && !held) grains_->follow(moments(), first_, nodes_);
+  if (grains_ && !held) {
+    clear_layers(time + units.dt);
+    grains_->follow(moments(), first_, nodes_);
+  }
+  follow_images(time);
   odd_ = number % 2 == 1;
   follow_walls(time + 0.5 * units.dt, odd_);
   force_ = force_at(time + units.dt);
@@ -113,6 +120,31 @@ void LatticeSolver::follow_walls(double time, bool odd, bool counted) {
   }
 }
 
+SideImages LatticeSolver::images_at(double time) const {
+  const double height = (grid_.n[2] - 2.0) * p_.units.dx, speed = p_.shear_rate * height,
+               length = grid_.n[0] * p_.units.dx;
+  return {p_.sheared(), std::remainder(speed * time, length) / p_.units.dx, speed / p_.units.velocity()};
+}
+
+void LatticeSolver::clear_layers(double time) {
+  if (!p_.sheared()) return;
+  for_each({0, LayerNode::count(grid_)}, ClearLayersPass{grid_, nodes_.solid});
+  if (grains_) grains_->shear(images_at(time));
+}
+
+void LatticeSolver::follow_images(double time, bool counted) {
+  if (!p_.sheared()) return;
+  ImagePass pass{moments(), images_at(time + 0.5 * p_.units.dt), nodes_.solid, {}};
+  if (counted) pass.received = links_.received;
+  for_each({0, LayerNode::count(grid_)}, pass);
+}
+
+Vec3d LatticeSolver::by_images() const {
+  if (!p_.sheared()) return {};
+  const auto t = sum_over<3>({0, LayerNode::count(grid_)}, ImageTotals{links_.received});
+  return -p_.units.momentum() * Vec3d{t.v[0], t.v[1], t.v[2]};
+}
+
 void LatticeSolver::restore_mass() {
   const auto t = sum_over<9>({0, grid_.size()}, NodeTotals{moments(), nodes_.solid});
   const double lacking = excess_ - excess_of(t.v);
@@ -134,7 +166,7 @@ FluidSums LatticeSolver::totals() const {
   sums.momentum = units.momentum() * (raw - 0.5 * t.v[0] * Vec3d(force_));
   sums.angular = units.momentum() * units.dx * about_first + cross(first_, sums.momentum);
   sums.kinetic = units.energy() * t.v[8];
-  sums.residual = units.momentum() * (raw - momentum_) - driven();
+  sums.residual = units.momentum() * (raw - momentum_) - driven() - by_images();
   if (grains_) sums.residual += grains_->sums().received;
   for (std::size_t b = 0; b < ranges_.size(); ++b) sums.residual += wall(int(b), 0).impulse;
   return sums;
@@ -182,6 +214,7 @@ std::vector<Real4> LatticeSolver::states() const {
 std::vector<RowSums> LatticeSolver::stress(int axis, double time, bool held,
                                            Buffer<PairMoment<>>& of_grains) {
   // what arrives from walls and grains; the next step finds it anew, at the same places
+  follow_images(time, false);
   follow_walls(time + 0.5 * p_.units.dt, !odd_, false);
   if (grains_) grains_->stresslets(populations(!odd_), first_, nodes_, held, of_grains);
   const Index n = RowStressPass::rows(grid_, axis);
@@ -243,6 +276,7 @@ void LatticeSolver::load(const HostStore& nodes, const HostStore& links,
   }
   odd_ = step % 2 == 1;
   force_ = force_at(time);
+  if (grains_) grains_->shear(images_at(time));
 }
 
 }  // namespace BL_SOLVER

@@ -18,7 +18,7 @@ ResolvedGrains::ResolvedGrains(const DomainConfig& domain, const LatticeUnits& u
 
 Balls ResolvedGrains::balls(const NodeGrid& grid, const Vec3d& first, bool held) const {
   return {.grid = grid,
-          .periodic = {domain_.periodic[0], domain_.periodic[1], domain_.periodic[2]},
+          .periodic = {domain_.periodic[0], domain_.periodic[1], domain_.periodic[2] && !domain_.sheared()},
           .first = first,
           .dx = units_.dx,
           .dt = units_.dt,
@@ -27,50 +27,59 @@ Balls ResolvedGrains::balls(const NodeGrid& grid, const Vec3d& first, bool held)
           .v = grains_.v,
           .omega = grains_.omega,
           .radius = grains_.radius,
-          .id = grains_.id};
+          .id = grains_.id,
+          .images = images_};
+}
+
+template <class Pass>
+void ResolvedGrains::run(Pass pass) const {
+  for_each_group(grains_.size(), pass);
+  if (!images_.there) return;
+  pass.balls.across = true;
+  for_each_group(grains_.size(), pass);
 }
 
 void ResolvedGrains::cover(const NodeGrid& grid, const Vec3d& first, NodeStore& nodes) {
   grains_.wetness.assign(std::vector<Real>(grains_.size(), Real(1)));
   for_each(grains_.owned(), LiftPass{lift_, grains_.radius, grains_.fluid_force});
-  for_each_group(grains_.size(), CoverPass{{}, balls(grid, first, true), nodes.solid});
+  run(CoverPass{{}, balls(grid, first, true), nodes.solid});
 }
 
 void ResolvedGrains::follow(const NodeMoments& before, const Vec3d& first, NodeStore& nodes) {
   const Balls all = balls(before.f.grid, first, false);
-  for_each_group(grains_.size(), ReleasePass{{}, all, nodes.solid});
-  for_each_group(grains_.size(), CoverPass{{}, all, nodes.solid});
-  for_each_group(grains_.size(), RefillPass{{}, all, before, nodes.solid});
-  for_each_group(grains_.size(), ReopenPass{{}, all, nodes.solid});
+  run(ReleasePass{{}, all, nodes.solid});
+  run(CoverPass{{}, all, nodes.solid});
+  run(RefillPass{{}, all, before, nodes.solid});
+  run(ReopenPass{{}, all, nodes.solid});
 }
 
 void ResolvedGrains::exchange(const Populations& f, const Vec3d& first, const NodeStore& nodes,
                               const Vec3d& push, std::int64_t step, bool held) {
-  for_each_group(grains_.size(), GrainLinkPass{.balls = balls(f.grid, first, held),
-                                               .f = f,
-                                               .solid = nodes.solid,
-                                               .push = push,
-                                               .lift = lift_,
-                                               .newton = units_.force(),
-                                               .newton_metre = units_.force() * units_.dx,
-                                               .second = units_.dt,
-                                               .first = step == 1,
-                                               .fluid_force = grains_.fluid_force,
-                                               .fluid_torque = fluid_torque_,
-                                               .force = last_force_,
-                                               .torque = last_torque_,
-                                               .received = received_,
-                                               .displaced = displaced_});
+  run(GrainLinkPass{.balls = balls(f.grid, first, held),
+                    .f = f,
+                    .solid = nodes.solid,
+                    .push = push,
+                    .lift = lift_,
+                    .newton = units_.force(),
+                    .newton_metre = units_.force() * units_.dx,
+                    .second = units_.dt,
+                    .first = step == 1,
+                    .fluid_force = grains_.fluid_force,
+                    .fluid_torque = fluid_torque_,
+                    .force = last_force_,
+                    .torque = last_torque_,
+                    .received = received_,
+                    .displaced = displaced_});
 }
 
 void ResolvedGrains::stresslets(const Populations& f, const Vec3d& first, const NodeStore& nodes, bool held,
                                 Buffer<PairMoment<>>& out) const {
   out.resize(grains_.size());
-  for_each_group(grains_.size(), StressletPass{.balls = balls(f.grid, first, held),
-                                               .f = f,
-                                               .solid = nodes.solid,
-                                               .joule = units_.energy(),
-                                               .out = out});
+  run(StressletPass{.balls = balls(f.grid, first, held),
+                    .f = f,
+                    .solid = nodes.solid,
+                    .joule = units_.energy(),
+                    .out = out});
 }
 
 ResolvedGrains::Sums ResolvedGrains::sums() const {

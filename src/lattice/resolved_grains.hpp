@@ -18,6 +18,9 @@ class ResolvedGrains {
 
   const Field<Real3>& torque() const { return fluid_torque_; }  ///< of the fluid on each, N m
 
+  /// Where the images of a sheared box are from now on.
+  void shear(const lattice::SideImages& images) { images_ = images; }
+
   /// Nodes that they cover at the start, and what acts on them before the first step.
   void cover(const lattice::NodeGrid& grid, const Vec3d& first, NodeStore& nodes);
   /// The same after they have moved; nodes that they have left are filled from those around, as the last step
@@ -40,10 +43,14 @@ class ResolvedGrains {
 
  private:
   lattice::Balls balls(const lattice::NodeGrid& grid, const Vec3d& first, bool held) const;
+  /// A pass with these balls, and in a sheared box again with their images.
+  template <class Pass>
+  void run(Pass pass) const;
 
   const DomainConfig domain_;
   const LatticeUnits units_;
   const Vec3d lift_;  ///< as in LatticeParameters
+  lattice::SideImages images_;
   GrainStore& grains_;
   Field<Real3> fluid_torque_{grains_, "fluid_torque", "N m", Lifetime::kept};
   Field<Real3> last_force_{grains_, "last_fluid_force", "N", Lifetime::kept};

@@ -185,7 +185,8 @@ TEST(LatticeGrains, FaultsWhereTheyMoveOverNodes) {
     s->step();
     FAIL() << "no fault";
   } catch (const SimulationFault& fault) {
-    EXPECT_NE(std::string(fault.what()).find("nodes a step, above the 0.2"), std::string::npos) << fault.what();
+    EXPECT_NE(std::string(fault.what()).find("nodes a step, above the 0.2"), std::string::npos)
+        << fault.what();
   }
 }
 
