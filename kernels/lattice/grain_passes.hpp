@@ -90,30 +90,26 @@ struct Balls {
   }
 };
 
-/// The grains that have just moved off a node.
+/// Which grains have just moved off a node.
 struct Leavers {
   static constexpr double kReach = 0.5;  ///< more than a grain moves in a step, nodes
-  Balls balls;
-  Span<Index> last;  ///< of each grain, the number of the move in which it last did
-  Index move;        ///< of this one
+  Span<Index> last;                      ///< of each grain, the number of the move in which it last did
+  Index move;                            ///< of this one
 
   struct Box : Ball {
     Index grain;
   };
-  BL_HD Box all(Index i) const { return {balls(i, kReach), i}; }
+  BL_HD static Box all(const Balls& balls, Index i) { return {balls(i, kReach), i}; }
   /// Without nodes, if it has not.
-  BL_HD Box box(Index i) const {
-    if (last[i] == move) return all(i);
-    Box none{};
-    return none;
-  }
+  BL_HD Box box(const Balls& balls, Index i) const { return last[i] == move ? all(balls, i) : Box{}; }
 };
 
 /// Nodes that a grain has moved off are marked so.
 struct ReleasePass {
+  Balls balls;
   Leavers leavers;
   Span<std::uint32_t> solid;
-  BL_HD Leavers::Box box(Index i) const { return leavers.all(i); }
+  BL_HD Leavers::Box box(Index i) const { return Leavers::all(balls, i); }
   BL_HD void at(const Leavers::Box& ball, int x, int y, int z) const {
     const Ball::Member m = ball.member(x, y, z);
     if (!m.there || ball.holds(m.d) || solid[m.node] != mark::grain(ball.id)) return;
@@ -138,10 +134,11 @@ struct CoverPass {
 /// Fluid where a grain has left: the mean density of the fluid next to it, the velocity of the surface, and
 /// the stress of the neighbour that lies farthest off the surface, as if the last step had left it so.
 struct RefillPass {
+  Balls balls;
   Leavers leavers;
   NodeMoments before;  ///< of the last step
   Span<const std::uint32_t> solid;
-  BL_HD Ball box(Index i) const { return leavers.box(i); }
+  BL_HD Ball box(Index i) const { return leavers.box(balls, i); }
   BL_HD void at(const Ball& ball, int x, int y, int z) const {
     const Ball::Member m = ball.member(x, y, z);
     if (m.there && !ball.holds(m.d) && solid[m.node] == mark::left_by(ball.id)) refill(ball, m);
@@ -178,9 +175,10 @@ struct RefillPass {
 
 /// Refilled nodes are fluid.
 struct ReopenPass {
+  Balls balls;
   Leavers leavers;
   Span<std::uint32_t> solid;
-  BL_HD Ball box(Index i) const { return leavers.box(i); }
+  BL_HD Ball box(Index i) const { return leavers.box(balls, i); }
   BL_HD void at(const Ball& ball, int x, int y, int z) const {
     const Ball::Member m = ball.member(x, y, z);
     if (m.there && !ball.holds(m.d) && solid[m.node] == mark::left_by(ball.id)) solid[m.node] = 0;
@@ -223,7 +221,7 @@ struct GrainLinks {
   Span<std::uint64_t> link;
 };
 
-/// Finds them. First mark of a node: it is not fluid; second: it is covered by the grain.
+/// Finds them. Marks of a node: none of fluid, both where the grain covers it, the first of other solids.
 struct GrainLinkSearch {
   static constexpr int kKinds = kVelocities - 1;
   Balls balls;
@@ -243,11 +241,11 @@ struct GrainLinkSearch {
   }
   /// Fluid nodes from which velocity kind + 1 leads to the grain.
   BL_HD std::uint32_t chosen(const Brick& brick, const BrickRows& rows, int kind, int row) const {
-    return ~rows.first[row] & shifted(brick, rows.second, kind + 1, row);
+    return ~rows.first[row] & ~rows.second[row] & shifted(brick, rows, kind + 1, row, true);
   }
   /// Those with a solid node behind.
   BL_HD std::uint32_t marked(const Brick& brick, const BrickRows& rows, int kind, int row) const {
-    return shifted(brick, rows.first, opposite(kind + 1), row);
+    return shifted(brick, rows, opposite(kind + 1), row, false);
   }
   BL_HD void list(const Box& ball, Index place, int kind, int x, int y, int z, bool narrow) const {
     links.link[ball.begin + place] = GrainLink{x, y, z, kind + 1, narrow}.packed();
@@ -257,12 +255,52 @@ struct GrainLinkSearch {
   }
 
  private:
-  /// The marks of what velocity i reaches from each cell of a row.
-  BL_HD static std::uint32_t shifted(const Brick& brick, const std::uint32_t* rows, int i, int row) {
-    const std::uint32_t word = rows[row + velocity(i, 1) + velocity(i, 2) * brick.pitch()];
-    const int by = velocity(i, 0);
+  /// The first marks, or both, of what velocity i reaches from each cell of a row.
+  BL_HD static std::uint32_t shifted(const Brick& brick, const BrickRows& rows, int i, int row, bool both) {
+    const int from = row + velocity(i, 1) + velocity(i, 2) * brick.pitch(), by = velocity(i, 0);
+    const std::uint32_t word = both ? rows.first[from] & rows.second[from] : rows.first[from];
     return by > 0 ? word >> 1 : by < 0 ? word << 1 : word;
   }
+};
+
+/// A link as passes get it.
+struct LinkMet {
+  Index node, beyond;  ///< of the fluid; what the odd velocity of the pair reaches from there
+  int direction;
+  double fraction;  ///< of the link to the surface
+  Vec3d d;          ///< of the node from the centre
+  BL_HD Vec3d arm() const { return d + fraction * velocity_of<double>(direction); }
+};
+
+/// The links of a grain as a group: pass.at() is called for each of them.
+template <class Pass>
+struct LinksOf {
+  Ball ball;
+  const Pass& pass;
+  const std::uint64_t* links;
+  Index count;
+  BL_HD LinksOf(const Pass& pass, Index i)
+      : ball(pass.balls(i)),
+        pass(pass),
+        links(pass.links.link.data + pass.links.begin[i]),
+        count(pass.links.count[i]) {}
+  BL_HD Index size() const { return count; }
+  BL_HD auto operator()(Index l) const {
+    const GrainLink link = GrainLink::of(links[l]);
+    const Ball::Member m = ball.member(link.x, link.y, link.z);
+    const double q = link.narrow ? 0.5 : ball.fraction(m.d, link.direction);
+    const Index beyond = pass.f.grid.neighbour(m.place, pair_of(link.direction));
+    return pass.at(ball, LinkMet{m.node, beyond, link.direction, q, m.d});
+  }
+#if !BL_CUDA
+  [[gnu::always_inline]] void fetch(Index l) const {  // GCC drops calls that do nothing else
+    const GrainLink link = GrainLink::of(links[l]);
+    const Ball::Member m = ball.member(link.x, link.y, link.z);
+    const int pair = pair_of(link.direction);
+    for (const Index node : {m.node, pass.f.grid.neighbour(m.place, pair)})
+      __builtin_prefetch(&pass.f.near(pair, node), 1), __builtin_prefetch(&pass.f.far(pair, node), 1);
+  }
+#endif
 };
 
 /// Momentum that grains take from the fluid in a step; f is less its weight, so that fluid at rest does not
@@ -282,37 +320,18 @@ struct GrainLinkPass {
   Span<Real3> force, torque;              ///< of the last step alone
   Span<Vec3d> received, displaced;  ///< N s since the start: from the fluid; of the push on what they cover
 
-  struct Group {
-    Ball ball;
-    Populations f;
-    const std::uint64_t* links;
-    Index count;
-    BL_HD Index size() const { return count; }
-    BL_HD Value operator()(Index l) const {
-      const GrainLink link = GrainLink::of(links[l]);
-      const int k = link.direction;
-      const Ball::Member m = ball.member(link.x, link.y, link.z);
-      const double q = link.narrow ? 0.5 : ball.fraction(m.d, k);
-      const Vec3d arm = m.d + q * velocity_of<double>(k), u = ball.velocity_at(arm);
-      const Reflection r = reflect(f, m.node, f.grid.neighbour(m.place, pair_of(k)), k, Real(q), u);
-      const Vec3d taken = r.taken(k, u);
-      return {taken, cross(arm, taken)};
-    }
-#if !BL_CUDA
-    [[gnu::always_inline]] void fetch(Index l) const {  // GCC drops calls that do nothing else
-      const GrainLink link = GrainLink::of(links[l]);
-      const Ball::Member m = ball.member(link.x, link.y, link.z);
-      const int pair = pair_of(link.direction);
-      for (const Index node : {m.node, f.grid.neighbour(m.place, pair)})
-        __builtin_prefetch(&f.near(pair, node), 1), __builtin_prefetch(&f.far(pair, node), 1);
-    }
-#endif
-  };
   BL_HD Value identity() const { return {}; }
   BL_HD void combine(Value& into, const Value& from) const {
     into.force += from.force, into.torque += from.torque;
   }
-  BL_HD Group group(Index i) const { return {balls(i), f, links.link.data + links.begin[i], links.count[i]}; }
+  BL_HD LinksOf<GrainLinkPass> group(Index i) const { return {*this, i}; }
+
+  BL_HD Value at(const Ball& ball, const LinkMet& link) const {
+    const Vec3d arm = link.arm(), u = ball.velocity_at(arm);
+    const Vec3d taken =
+        reflect(f, link.node, link.beyond, link.direction, Real(link.fraction), u).taken(link.direction, u);
+    return {taken, cross(arm, taken)};
+  }
   BL_HD void finish(Index i, const Value& sum) const {
     const Real3 F(newton * sum.force), T(newton_metre * sum.torque);
     fluid_force[i] = Real(0.5) * (F + (first ? F : force[i])) + LiftPass::of(balls.radius[i], lift);

@@ -44,11 +44,11 @@ void ResolvedGrains::follow(const NodeMoments& before, const Vec3d& first, NodeS
     last_left_.resize(grains_.size()), last_left_.zero();
     moves_ = 1;
   }
-  const Leavers leavers{all, last_left_, moves_};
-  for_each_box(grains_.size(), ReleasePass{leavers, nodes.solid});
+  const Leavers leavers{last_left_, moves_};
+  for_each_box(grains_.size(), ReleasePass{all, leavers, nodes.solid});
   for_each_box(grains_.size(), CoverPass{all, nodes.solid});
-  for_each_box(grains_.size(), RefillPass{leavers, before, nodes.solid});
-  for_each_box(grains_.size(), ReopenPass{leavers, nodes.solid});
+  for_each_box(grains_.size(), RefillPass{all, leavers, before, nodes.solid});
+  for_each_box(grains_.size(), ReopenPass{all, leavers, nodes.solid});
 }
 
 void ResolvedGrains::make_places() {
@@ -65,16 +65,19 @@ void ResolvedGrains::make_places() {
   places_ = grains_.size();
 }
 
+void ResolvedGrains::find_links(const Balls& balls, const NodeStore& nodes) {
+  if (places_ < grains_.size()) make_places();
+  list_boxes(grains_.size(), GrainLinkSearch{balls, nodes.solid, links()});
+}
+
 void ResolvedGrains::exchange(const Populations& f, const Vec3d& first, const NodeStore& nodes,
                               const Vec3d& push, std::int64_t step, bool held) {
   const Balls all = balls(f.grid, first, held);
-  if (places_ < grains_.size()) forget_links(), make_places();
-  const GrainLinks links{link_begin_, link_count_, covered_, links_};
-  if (!held || !found_) list_boxes(grains_.size(), GrainLinkSearch{all, nodes.solid, links});
+  if (!held || !found_ || places_ < grains_.size()) find_links(all, nodes);
   found_ = held;
   for_each_group(grains_.size(), GrainLinkPass{.balls = all,
                                                .f = f,
-                                               .links = links,
+                                               .links = links(),
                                                .push = push,
                                                .lift = lift_,
                                                .newton = units_.force(),

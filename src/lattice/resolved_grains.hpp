@@ -27,6 +27,10 @@ class ResolvedGrains {
   /// (units of the lattice). held: they are at rest for it.
   void exchange(const lattice::Populations& f, const Vec3d& first, const NodeStore& nodes, const Vec3d& push,
                 std::int64_t step, bool held);
+  /// Memory for the links of a grain of that diameter, m.
+  std::size_t link_bytes(double d) const {
+    return sizeof(std::uint64_t) * std::size_t(lattice::GrainLink::most(0.5 * d / units_.dx));
+  }
   /// Other grains are there: links are no longer those that were found.
   void forget_links() { places_ = 0, found_ = false; }
 
@@ -40,6 +44,8 @@ class ResolvedGrains {
   lattice::Balls balls(const lattice::NodeGrid& grid, const Vec3d& first, bool held) const;
   /// Gives each grain its places in the list of links.
   void make_places();
+  void find_links(const lattice::Balls& balls, const NodeStore& nodes);
+  lattice::GrainLinks links() { return {link_begin_, link_count_, covered_, links_}; }
 
   const DomainConfig domain_;
   const LatticeUnits units_;
