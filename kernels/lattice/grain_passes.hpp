@@ -1,6 +1,7 @@
 #pragma once
 // Grains that the fluid of a lattice flows around: which nodes they cover, what the fluid does to them.
 
+#include "bedload/parallel/bricks.hpp"
 #include "bedload/parallel/groups.hpp"
 #include "kernels/lattice/link_pass.hpp"
 #include "kernels/lattice/node_passes.hpp"
@@ -17,8 +18,6 @@ BL_HD std::uint32_t grain(Id id) { return kGrain + (kIds - std::uint32_t(id)); }
 /// A grain has just moved off the node.
 BL_HD std::uint32_t left_by(Id id) { return kLeft + (kIds - std::uint32_t(id)); }
 BL_HD bool is_wall(std::uint32_t m) { return m != 0 && (m < kLeft || m == kNone); }
-/// No population comes from there, except from a surface.
-BL_HD bool is_solid(std::uint32_t m) { return m != 0 && m != kBeyond; }
 }  // namespace mark
 
 /// A grain among nodes, in units of the lattice and counted from node 0, and the nodes around it.
@@ -36,17 +35,18 @@ struct Ball {
     Index node = 0;
     Vec3d d;  ///< from the centre
   };
-  BL_HD Index size() const { return Index(count[0]) * Index(count[1]) * Index(count[2]); }
-  BL_HD Member member(Index k) const {
-    const Index row = k / Index(count[0]);
-    const int at[3] = {low[0] + int(k % Index(count[0])), low[1] + int(row % Index(count[1])),
-                       low[2] + int(row / Index(count[1]))};
+  /// A node of the box or next to it.
+  BL_HD Member member(int x, int y, int z) const {
+    const int cell[3] = {x, y, z};
     Member m;
     for (int a = 0; a < 3; ++a) {
+      int at = low[a] + cell[a];
       const int n = int(grid.n[a]);
-      if (!periodic[a] && (at[a] < 0 || at[a] >= n)) return m;
-      m.place.of[a] = Index(((at[a] % n) + n) % n);
-      m.d[a] = at[a] - centre[a];
+      m.d[a] = at - centre[a];
+      if (!periodic[a] && (at < 0 || at >= n)) return m;
+      while (at < 0) at += n;
+      while (at >= n) at -= n;
+      m.place.of[a] = Index(at);
     }
     m.node = grid.node(m.place);
     m.there = true;
@@ -59,10 +59,10 @@ struct Ball {
       if (periodic[a]) d[a] -= grid.n[a] * std::rint(d[a] / grid.n[a]);
     return d;
   }
-  /// Fraction of a link c from d outside to the surface, where d + c is inside.
-  BL_HD double fraction(const Vec3d& d, const Vec3d& c) const {
-    const double a = norm2(c), b = dot(d, c), e = norm2(d) - radius * radius;
-    return (-b - std::sqrt(max_of(0.0, b * b - a * e))) / a;
+  /// Fraction of a link with velocity k from d outside to the surface, where d + c_k is inside.
+  BL_HD double fraction(const Vec3d& d, int k) const {
+    const double a = k <= 6 ? 1 : 2, b = dot(velocity_of<double>(k), d), e = norm2(d) - radius * radius;
+    return (-b - std::sqrt(max_of(0.0, b * b - a * e))) * (k <= 6 ? 1 : 0.5);
   }
   BL_HD Vec3d velocity_at(const Vec3d& d) const { return v + cross(omega, d); }
 };
@@ -86,70 +86,82 @@ struct Balls {
   SideImages images = {};
   bool across = false;  ///< their images across the nearer sheared side, as far as nodes are near these
 
-  BL_HD Ball operator()(Index i) const {
+  /// reach: of the box, from the surface on.
+  BL_HD Ball operator()(Index i, double reach = 1) const {
     Ball b{
         grid, {periodic[0], periodic[1], periodic[2]}, (x[i] - first) / dx, {}, {}, radius[i] / dx, id[i], {},
         {}};
     if (!held) b.v = (dt / dx) * Vec3d(v[i]), b.omega = dt * Vec3d(omega[i]);
-    const double reach = b.radius + 1;
     if (across) {
       const double height = grid.n[2] - 2.0, to = b.centre.z > 0.5 * (height + 1) ? -1 : 1;
       b.centre.z += to * height, b.centre.x += to * images.offset;
       b.v.x += to * images.speed;
-      if (b.centre.z < -reach || b.centre.z > height + 1 + reach) return b;
+      if (b.centre.z < -(b.radius + reach) || b.centre.z > height + 1 + b.radius + reach) return b;
     }
     for (int a = 0; a < 3; ++a) {
-      b.low[a] = int(std::ceil(b.centre[a] - reach));
-      b.count[a] = int(std::floor(b.centre[a] + reach)) - b.low[a] + 1;
+      b.low[a] = int(std::ceil(b.centre[a] - (b.radius + reach)));
+      b.count[a] = int(std::floor(b.centre[a] + (b.radius + reach))) - b.low[a] + 1;
     }
     return b;
   }
 };
 
-/// The nodes around a grain as a group: pass.at() is called for each of them.
-template <class Pass>
-struct NodesOf {
-  Ball ball;
-  const Pass& pass;
-  BL_HD Index size() const { return ball.size(); }
-  BL_HD auto operator()(Index k) const {
-    const Ball::Member m = ball.member(k);
-    return m.there ? pass.at(ball, m) : pass.identity();
-  }
+/// Which grains have just moved off a node.
+struct Leavers {
+  static constexpr double kReach = 0.5;  ///< more than a grain moves in a step, nodes
+  Span<Index> last;                      ///< of each grain, the number of the move in which it last did
+  Index move;                            ///< of this one
+
+  struct Box : Ball {
+    Index grain;
+  };
+  BL_HD static Box all(const Balls& balls, Index i) { return {balls(i, kReach), i}; }
+  /// Without nodes, if it has not.
+  BL_HD Box box(const Balls& balls, Index i) const { return last[i] == move ? all(balls, i) : Box{}; }
 };
 
-/// Nodes that a grain has moved off are marked so. A grain moves by less than a node in a step.
-struct ReleasePass : NoSum {
+/// Nodes that a grain has moved off are marked so.
+struct ReleasePass {
   Balls balls;
+  Leavers leavers;
   Span<std::uint32_t> solid;
-  BL_HD NodesOf<ReleasePass> group(Index i) const { return {balls(i), *this}; }
-  BL_HD Value at(const Ball& ball, const Ball::Member& m) const {
-    if (solid[m.node] == mark::grain(ball.id) && !ball.holds(ball.nearest(m.d)))
-      solid[m.node] = mark::left_by(ball.id);
-    return {};
+  BL_HD Leavers::Box box(Index i) const { return Leavers::all(balls, i); }
+  BL_HD void at(const Leavers::Box& ball, int x, int y, int z) const {
+    const Ball::Member m = ball.member(x, y, z);
+    if (!m.there || ball.holds(m.d) || solid[m.node] != mark::grain(ball.id)) return;
+    if (ball.holds(ball.nearest(m.d))) return;
+    solid[m.node] = mark::left_by(ball.id);
+    leavers.last[ball.grain] = leavers.move;
   }
 };
 
 /// Nodes whose centre lies in a grain and in no wall are covered by it.
-struct CoverPass : NoSum {
+struct CoverPass {
   Balls balls;
   Span<std::uint32_t> solid;
-  BL_HD NodesOf<CoverPass> group(Index i) const { return {balls(i), *this}; }
-  BL_HD Value at(const Ball& ball, const Ball::Member& m) const {
-    if (ball.holds(m.d) && !mark::is_wall(solid[m.node])) raise_to(solid[m.node], mark::grain(ball.id));
-    return {};
+  BL_HD Ball box(Index i) const { return balls(i, 0); }
+  BL_HD void at(const Ball& ball, int x, int y, int z) const {
+    const Ball::Member m = ball.member(x, y, z);
+    if (m.there && ball.holds(m.d) && !mark::is_wall(solid[m.node]))
+      raise_to(solid[m.node], mark::grain(ball.id));
   }
 };
 
 /// Fluid where a grain has left: the mean density of the fluid next to it, the velocity of the surface, and
 /// the stress of the neighbour that lies farthest off the surface, as if the last step had left it so.
-struct RefillPass : NoSum {
+struct RefillPass {
   Balls balls;
+  Leavers leavers;
   NodeMoments before;  ///< of the last step
   Span<const std::uint32_t> solid;
-  BL_HD NodesOf<RefillPass> group(Index i) const { return {balls(i), *this}; }
-  BL_HD Value at(const Ball& ball, const Ball::Member& m) const {
-    if (solid[m.node] != mark::left_by(ball.id)) return {};
+  BL_HD Ball box(Index i) const { return leavers.box(balls, i); }
+  BL_HD void at(const Ball& ball, int x, int y, int z) const {
+    const Ball::Member m = ball.member(x, y, z);
+    if (m.there && !ball.holds(m.d) && solid[m.node] == mark::left_by(ball.id)) refill(ball, m);
+  }
+
+ private:
+  BL_HD void refill(const Ball& ball, const Ball::Member& m) const {
     const Vec3d d = ball.nearest(m.d);
     double excess = 0, best = 0;
     int neighbours = 0, outward = 0;
@@ -171,23 +183,21 @@ struct RefillPass : NoSum {
       if (outward > 0) value += population(i, source) - left_in_equilibrium(i, there, before.force);
       population(i, m.node) = value;
     }
-    return {};
   }
-
- private:
   BL_HD Real& population(int i, Index node) const {
     return i == 0 ? before.f.at(0, node) : before.f.leaving(i, node);
   }
 };
 
 /// Refilled nodes are fluid.
-struct ReopenPass : NoSum {
+struct ReopenPass {
   Balls balls;
+  Leavers leavers;
   Span<std::uint32_t> solid;
-  BL_HD NodesOf<ReopenPass> group(Index i) const { return {balls(i), *this}; }
-  BL_HD Value at(const Ball& ball, const Ball::Member& m) const {
-    if (solid[m.node] == mark::left_by(ball.id)) solid[m.node] = 0;
-    return {};
+  BL_HD Ball box(Index i) const { return leavers.box(balls, i); }
+  BL_HD void at(const Ball& ball, int x, int y, int z) const {
+    const Ball::Member m = ball.member(x, y, z);
+    if (m.there && !ball.holds(m.d) && solid[m.node] == mark::left_by(ball.id)) solid[m.node] = 0;
   }
 };
 
@@ -200,16 +210,126 @@ struct LiftPass {
   BL_HD void operator()(Index i) const { fluid_force[i] = of(radius[i], lift); }
 };
 
+/// A link from a fluid node to one that a grain covers: the node in the box of the grain, 19 bits an axis,
+/// the velocity towards the grain, 5 bits, and whether the node behind is solid too.
+struct GrainLink {
+  int x, y, z, direction;
+  bool narrow;
+
+  BL_HD std::uint64_t packed() const {
+    return std::uint64_t(x) | std::uint64_t(y) << 19 | std::uint64_t(z) << 38 |
+           std::uint64_t(direction) << 57 | std::uint64_t(narrow) << 62;
+  }
+  BL_HD static GrainLink of(std::uint64_t w) {
+    constexpr std::uint64_t kAxis = (1u << 19) - 1;
+    return {int(w & kAxis), int(w >> 19 & kAxis), int(w >> 38 & kAxis), int(w >> 57 & 31),
+            (w >> 62 & 1) != 0};
+  }
+  /// More than a sphere can have: of each direction one for every line of nodes that meets it, of which there
+  /// are |c| on an area of 1. Radius in nodes.
+  static double most(double radius) { return (6 + 12 * std::sqrt(2.0)) * kPi * square(radius + 0.71) + 1; }
+};
+
+/// The links of each grain, by direction, then along z, y and x.
+struct GrainLinks {
+  Span<const Index> begin;     ///< of a grain in `link`
+  Span<Index> count, covered;  ///< links, and nodes that it covers
+  Span<std::uint64_t> link;
+};
+
+/// Finds them. Marks of a node: none of fluid, both where the grain covers it, the first of other solids, the
+/// second beyond a sheared side.
+struct GrainLinkSearch {
+  static constexpr int kKinds = kVelocities - 1;
+  Balls balls;
+  Span<const std::uint32_t> solid;
+  GrainLinks links;
+
+  struct Box : Ball {
+    Index begin;
+  };
+  BL_HD Box box(Index i) const { return {balls(i), links.begin[i]}; }
+  BL_HD unsigned marks(const Box& ball, int x, int y, int z) const {
+    const Ball::Member m = ball.member(x, y, z);
+    if (!m.there) return 1;
+    const std::uint32_t here = solid[m.node];
+    if (here == 0) return 0;
+    if (here == mark::kBeyond) return 2;
+    return here == mark::grain(ball.id) && ball.holds(m.d) ? 3 : 1;
+  }
+  /// Fluid nodes from which velocity kind + 1 leads to the grain.
+  BL_HD std::uint32_t chosen(const Brick& brick, const BrickRows& rows, int kind, int row) const {
+    return ~rows.first[row] & ~rows.second[row] & shifted(brick, rows, kind + 1, row, true);
+  }
+  /// Those with a solid node behind.
+  BL_HD std::uint32_t marked(const Brick& brick, const BrickRows& rows, int kind, int row) const {
+    return shifted(brick, rows, opposite(kind + 1), row, false);
+  }
+  BL_HD void list(const Box& ball, Index place, int kind, int x, int y, int z, bool narrow) const {
+    links.link[ball.begin + place] = GrainLink{x, y, z, kind + 1, narrow}.packed();
+  }
+  BL_HD void finish(Index i, Index found, Index inside) const {
+    links.count[i] = found, links.covered[i] = inside;
+  }
+
+ private:
+  /// The first marks, or both, of what velocity i reaches from each cell of a row.
+  BL_HD static std::uint32_t shifted(const Brick& brick, const BrickRows& rows, int i, int row, bool both) {
+    const int from = row + velocity(i, 1) + velocity(i, 2) * brick.pitch(), by = velocity(i, 0);
+    const std::uint32_t word = both ? rows.first[from] & rows.second[from] : rows.first[from];
+    return by > 0 ? word >> 1 : by < 0 ? word << 1 : word;
+  }
+};
+
+/// A link as passes get it.
+struct LinkMet {
+  Index node, beyond;  ///< of the fluid; what the odd velocity of the pair reaches from there
+  int direction;
+  double fraction;  ///< of the link to the surface
+  Vec3d d;          ///< of the node from the centre
+  BL_HD Vec3d arm() const { return d + fraction * velocity_of<double>(direction); }
+};
+
+/// The links of a grain as a group: pass.at() is called for each of them.
+template <class Pass>
+struct LinksOf {
+  Ball ball;
+  const Pass& pass;
+  const std::uint64_t* links;
+  Index count;
+  BL_HD LinksOf(const Pass& pass, Index i)
+      : ball(pass.balls(i)),
+        pass(pass),
+        links(pass.links.link.data + pass.links.begin[i]),
+        count(pass.links.count[i]) {}
+  BL_HD Index size() const { return count; }
+  BL_HD auto operator()(Index l) const {
+    const GrainLink link = GrainLink::of(links[l]);
+    const Ball::Member m = ball.member(link.x, link.y, link.z);
+    const double q = link.narrow ? 0.5 : ball.fraction(m.d, link.direction);
+    const Index beyond = pass.f.grid.neighbour(m.place, pair_of(link.direction));
+    return pass.at(ball, LinkMet{m.node, beyond, link.direction, q, m.d});
+  }
+#if !BL_CUDA
+  [[gnu::always_inline]] void fetch(Index l) const {  // GCC drops calls that do nothing else
+    const GrainLink link = GrainLink::of(links[l]);
+    const Ball::Member m = ball.member(link.x, link.y, link.z);
+    const int pair = pair_of(link.direction);
+    for (const Index node : {m.node, pass.f.grid.neighbour(m.place, pair)})
+      __builtin_prefetch(&pass.f.near(pair, node), 1), __builtin_prefetch(&pass.f.far(pair, node), 1);
+  }
+#endif
+};
+
 /// Momentum that grains take from the fluid in a step; f is less its weight, so that fluid at rest does not
 /// push grains together between which it has no node.
 struct GrainLinkPass {
   struct Value {
     Vec3d force, torque;  ///< about the centre, units of the lattice
-    double covered = 0;   ///< nodes
   };
   Balls balls;
   Populations f;  ///< of the step to come
-  Span<const std::uint32_t> solid;
+  GrainLinks links;
   Vec3d push;                             ///< force per volume on fluid, units of the lattice
   Vec3d lift;                             ///< as in LiftPass
   double newton, newton_metre, second;    ///< SI of a unit of force and torque, and of a step
@@ -220,35 +340,20 @@ struct GrainLinkPass {
 
   BL_HD Value identity() const { return {}; }
   BL_HD void combine(Value& into, const Value& from) const {
-    into.force += from.force, into.torque += from.torque, into.covered += from.covered;
+    into.force += from.force, into.torque += from.torque;
   }
-  BL_HD NodesOf<GrainLinkPass> group(Index i) const { return {balls(i), *this}; }
+  BL_HD LinksOf<GrainLinkPass> group(Index i) const { return {*this, i}; }
 
-  BL_HD Value at(const Ball& ball, const Ball::Member& m) const {
-    Value sum;
-    const std::uint32_t own = mark::grain(ball.id);
-    if (solid[m.node] != 0) {
-      if (solid[m.node] == own && ball.holds(m.d)) sum.covered = 1;
-      return sum;
-    }
-    if (norm2(m.d) >= square(ball.radius + std::sqrt(2.0))) return sum;
-    for (int k = 1; k < kVelocities; ++k) {
-      const Vec3d c = velocity_of<double>(k);
-      if (!ball.holds(m.d + c) || solid[f.grid.neighbour_at(m.node, k)] != own) continue;
-      const bool narrow = mark::is_solid(solid[f.grid.neighbour_at(m.node, opposite(k))]);
-      const double q = narrow ? 0.5 : ball.fraction(m.d, c);
-      const Vec3d arm = m.d + q * c, u = ball.velocity_at(arm);
-      const Reflection r = reflect(f, m.node, k, Real(q), u);
-      const Vec3d taken = r.taken(k, u);
-      sum.force += taken;
-      sum.torque += cross(arm, taken);
-    }
-    return sum;
+  BL_HD Value at(const Ball& ball, const LinkMet& link) const {
+    const Vec3d arm = link.arm(), u = ball.velocity_at(arm);
+    const Vec3d taken =
+        reflect(f, link.node, link.beyond, link.direction, Real(link.fraction), u).taken(link.direction, u);
+    return {taken, cross(arm, taken)};
   }
   BL_HD void finish(Index i, const Value& sum) const {
     const Real3 F(newton * sum.force), T(newton_metre * sum.torque);
     received[i] += (newton * second) * sum.force;
-    displaced[i] += (newton * second * sum.covered) * push;
+    displaced[i] += (newton * second * links.covered[i]) * push;
     if (balls.across) {  // besides those of the grain itself
       const Real weight = first ? 1 : Real(0.5);
       fluid_force[i] += weight * F, fluid_torque[i] += weight * T;

@@ -42,15 +42,21 @@ struct Reflection {
 };
 /// By linear interpolation about the surface, at any fraction q of the link with the same formula
 /// [ginzburg08]; half-way bounce-back at a fraction of 1/2. f: of the step to come; k: velocity towards the
-/// solid; u: of the surface there, in nodes a step. Leaves what comes back where the node takes it from.
-BL_HD Reflection reflect(const Populations& f, Index node, int k, Real q, const Vec3d& u) {
+/// solid; beyond: the node that the odd velocity of its pair reaches; u: of the surface there, in nodes a
+/// step. Leaves what comes back where the node takes it from.
+BL_HD Reflection reflect(const Populations& f, Index node, Index beyond, int k, Real q, const Vec3d& u) {
   Populations before = f;
   before.odd = !f.odd;
-  const int i = opposite(k);
-  const Real left = before.leaving(k, node);
+  const int pair = pair_of(k);
+  const bool odd = is_odd(k);
+  const Real left = odd ? before.far(pair, beyond) : before.near(pair, node);
   Real back = left - 12 / (1 + 2 * q) * Real(weight(k)) * Real(dot(velocity_of<double>(k), u));
-  if (q != Real(0.5)) back += (1 - 2 * q) / (1 + 2 * q) * (f.arriving(k, node) - before.leaving(i, node));
-  f.arriving(i, node) = back;
+  if (q != Real(0.5)) {
+    const Real arriving = odd ? f.near(pair, node) : f.far(pair, beyond);
+    const Real left_away = odd ? before.near(pair, node) : before.far(pair, beyond);
+    back += (1 - 2 * q) / (1 + 2 * q) * (arriving - left_away);
+  }
+  (odd ? f.far(pair, beyond) : f.near(pair, node)) = back;
   return {left, back};
 }
 
@@ -72,7 +78,8 @@ struct LinkPass {
     const int k = link.direction;
     const bool narrow = solid[f.grid.neighbour_at(link.node, opposite(k))] != 0;
     const Vec3d u = body.at(surface_point(f.grid, link));
-    const Reflection r = reflect(f, link.node, k, narrow ? Real(0.5) : link.fraction, u);
+    const Index beyond = f.grid.neighbour(f.grid.place(link.node), pair_of(k));
+    const Reflection r = reflect(f, link.node, beyond, k, narrow ? Real(0.5) : link.fraction, u);
     if (!force) return;
     const Vec3d taken = (double(r.left) + double(r.back)) * velocity_of<double>(k);
     force[l] = Real3(taken);

@@ -79,7 +79,7 @@ struct StressletPass {
   };
   Balls balls;
   Populations f;  ///< of the step to come
-  Span<const std::uint32_t> solid;
+  GrainLinks links;
   double joule;            ///< SI of a unit of moment
   Span<PairMoment<>> out;  ///< minus the moment, as of pairs
 
@@ -87,21 +87,14 @@ struct StressletPass {
   BL_HD void combine(Value& into, const Value& from) const {
     for (int k = 0; k < 3; ++k) into.row[k] += from.row[k];
   }
-  BL_HD NodesOf<StressletPass> group(Index i) const { return {balls(i), *this}; }
+  BL_HD LinksOf<StressletPass> group(Index i) const { return {*this, i}; }
 
-  BL_HD Value at(const Ball& ball, const Ball::Member& m) const {
+  BL_HD Value at(const Ball& ball, const LinkMet& link) const {
+    const Vec3d u = ball.velocity_at(link.arm()), middle = link.d + 0.5 * velocity_of<double>(link.direction);
+    const Vec3d taken =
+        reflect(f, link.node, link.beyond, link.direction, Real(link.fraction), u).taken(link.direction, u);
     Value sum;
-    if (solid[m.node] != 0 || norm2(m.d) >= square(ball.radius + std::sqrt(2.0))) return sum;
-    const std::uint32_t own = mark::grain(ball.id);
-    for (int k = 1; k < kVelocities; ++k) {
-      const Vec3d c = velocity_of<double>(k);
-      if (!ball.holds(m.d + c) || solid[f.grid.neighbour_at(m.node, k)] != own) continue;
-      const bool narrow = mark::is_solid(solid[f.grid.neighbour_at(m.node, opposite(k))]);
-      const double q = narrow ? 0.5 : ball.fraction(m.d, c);
-      const Vec3d u = ball.velocity_at(m.d + q * c), arm = m.d + 0.5 * c;
-      const Vec3d taken = reflect(f, m.node, k, Real(q), u).taken(k, u);
-      for (int a = 0; a < 3; ++a) sum.row[a] += taken[a] * arm;
-    }
+    for (int a = 0; a < 3; ++a) sum.row[a] = taken[a] * middle;
     return sum;
   }
   BL_HD void finish(Index i, const Value& sum) const {

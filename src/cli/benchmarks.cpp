@@ -216,7 +216,10 @@ std::vector<Benchmark> benchmarks() {
           lattice("lattice-0.9M", 96, 0),
           lattice("lattice-57M", 384, 0),
           lattice("lattice-spheres-0.9M", 96, 0.2),
-          lattice("lattice-spheres-57M", 384, 0.2)};
+          lattice("lattice-spheres-17M", 256, 0.2),
+          lattice("lattice-spheres-57M", 384, 0.2),
+          lattice("lattice-dense-17M", 256, 0.4),
+          lattice("lattice-dense-57M", 384, 0.4)};
 }
 
 }  // namespace bedload

@@ -65,6 +65,7 @@ class NodeBuilder {
 
   void find_solid() {
     nodes_.solid.assign(size_, 0);
+    if (c_.wall.bodies.empty()) return;
     for (std::size_t n = 0; n < size_; ++n) {
       const Vec3d x = at(place(n));
       for (std::size_t b = 0; b < c_.wall.bodies.size() && nodes_.solid[n] == 0; ++b)
@@ -101,9 +102,11 @@ class NodeBuilder {
       double fraction;
     };
     std::vector<Found> all;
+    std::vector<std::uint32_t> beside;
     for (std::size_t n = 0; n < size_; ++n) {
       const Place here = place(n);
-      if (nodes_.solid[n] != 0 || outside(here)) continue;
+      if (here[0] == 0) beside = look_beside(here);
+      if (beside[std::size_t(here[0])] == 0 || nodes_.solid[n] != 0 || outside(here)) continue;
       for (int i = 1; i < kVelocities; ++i) {
         const Place there = reached(here, i);
         const std::uint32_t solid = nodes_.solid[number(there)];
@@ -125,6 +128,28 @@ class NodeBuilder {
       if (nodes_.solid[n] == 0 && outside(place(n))) nodes_.solid[n] = Setup::Nodes::kOutside;
     if (std::none_of(nodes_.solid.begin(), nodes_.solid.end(), [](std::uint32_t s) { return s == 0; }))
       throw KeyError("wall.body", "wall.body: the walls leave no space for fluid in the domain");
+  }
+
+  /// Of each node of a row along x, from its first on: 0 where no link of it leads to a solid node or out of
+  /// the domain.
+  std::vector<std::uint32_t> look_beside(const Place& first) const {
+    const std::size_t n = nodes_.count[0];
+    std::vector<std::uint32_t> column(n, 0), beside(n);
+    bool side = false;
+    for (int row = 0; row < 9; ++row) {
+      Place at = first;
+      at[1] = (first[1] + row % 3 - 1 + nodes_.count[1]) % std::int64_t(nodes_.count[1]);
+      at[2] = (first[2] + row / 3 - 1 + nodes_.count[2]) % std::int64_t(nodes_.count[2]);
+      at[0] = std::int64_t(n / 2);
+      side = side || outside(at);
+      at[0] = 0;
+      const std::uint32_t* solid = nodes_.solid.data() + number(at);
+      for (std::size_t x = 0; x < n; ++x) column[x] |= solid[x];
+    }
+    if (!c_.domain.periodic[0]) column.front() = column.back() = 1;
+    for (std::size_t x = 0; x < n; ++x)
+      beside[x] = std::uint32_t(side) | column[x] | column[(x + 1) % n] | column[(x + n - 1) % n];
+    return beside;
   }
 
   [[noreturn]] void open_side(const Place& p) const {

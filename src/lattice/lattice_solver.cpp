@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "bedload/parallel/dense.hpp"
 #include "bedload/parallel/reductions.hpp"
 #include "kernels/lattice/sheared_sides.hpp"
 
@@ -97,7 +98,8 @@ void LatticeSolver::step(double time, std::int64_t number, bool held) {
   follow_walls(time + 0.5 * units.dt, odd_);
   force_ = force_at(time + units.dt);
   if (grains_) grains_->exchange(populations(odd_), first_, nodes_, Vec3d(force_), number, held);
-  for_each({0, grid_.size()}, CollidePass{populations(odd_), rate_, force_, nodes_.solid});
+  for_each_node(grid_.size(), grid_.n[1] * grid_.n[2],
+                CollidePass{populations(odd_), rate_, force_, nodes_.solid});
   driven_ += (count_ * units.momentum()) * Vec3d(force_);
   if (p_.mass_every > 0 && number % p_.mass_every == 0) restore_mass();
 }
@@ -276,7 +278,7 @@ void LatticeSolver::load(const HostStore& nodes, const HostStore& links,
   }
   odd_ = step % 2 == 1;
   force_ = force_at(time);
-  if (grains_) grains_->shear(images_at(time));
+  if (grains_) grains_->shear(images_at(time)), grains_->forget_links();
 }
 
 }  // namespace BL_SOLVER

@@ -30,10 +30,16 @@ class ResolvedGrains {
   /// (units of the lattice). held: they are at rest for it.
   void exchange(const lattice::Populations& f, const Vec3d& first, const NodeStore& nodes, const Vec3d& push,
                 std::int64_t step, bool held);
+  /// Memory for the links of a grain of that diameter, m.
+  std::size_t link_bytes(double d) const {
+    return sizeof(std::uint64_t) * std::size_t(lattice::GrainLink::most(0.5 * d / units_.dx));
+  }
+  /// Other grains are there: links are no longer those that were found.
+  void forget_links() { places_ = 0, found_ = false; }
 
   /// Moments of the force of the fluid about their centres, J, as of StressletPass.
   void stresslets(const lattice::Populations& f, const Vec3d& first, const NodeStore& nodes, bool held,
-                  Buffer<PairMoment<>>& out) const;
+                  Buffer<PairMoment<>>& out);
 
   struct Sums {
     Vec3d received, displaced;  ///< since the start, N s: over links; of forces on the fluid they displace
@@ -46,6 +52,13 @@ class ResolvedGrains {
   /// A pass with these balls, and in a sheared box again with their images.
   template <class Pass>
   void run(Pass pass) const;
+  /// The same over their links.
+  template <class Pass>
+  void run_over_links(Pass pass, const NodeStore& nodes, bool held);
+  /// Gives each grain its places in the list of links.
+  void make_places();
+  void find_links(const lattice::Balls& balls, const NodeStore& nodes);
+  lattice::GrainLinks links() { return {link_begin_, link_count_, covered_, links_}; }
 
   const DomainConfig domain_;
   const LatticeUnits units_;
@@ -57,6 +70,14 @@ class ResolvedGrains {
   Field<Real3> last_torque_{grains_, "last_fluid_torque", "N m", Lifetime::kept};
   Field<Vec3d> received_{grains_, "received", "N s", Lifetime::kept};
   Field<Vec3d> displaced_{grains_, "displaced", "N s", Lifetime::kept};
+  Field<Index> link_begin_{grains_, "link_begin", "-", Lifetime::carried};
+  Field<Index> link_count_{grains_, "link_count", "-", Lifetime::carried};
+  Field<Index> covered_{grains_, "covered_nodes", "-", Lifetime::carried};
+  Buffer<std::uint64_t> links_;  ///< as GrainLinks has them
+  Index places_ = 0;             ///< grains that have places in it
+  bool found_ = false;           ///< those of grains that have not moved since
+  Buffer<Index> last_left_;      ///< as Leavers has it
+  Index moves_ = 0;
 };
 
 }  // namespace BL_SOLVER

@@ -43,6 +43,7 @@ class LatticeSimulation final : public Simulation {
   ParticleBytes scratch_bytes() const override {
     ParticleBytes all{.fluid = sizeof(Real4)};  // of outputs
     if (grains_) all += grains_->scratch_bytes();
+    if (resolved_) all.grains += resolved_->link_bytes(config_.grain.largest());
     return all;
   }
   std::size_t growth() override { return 0; }

@@ -54,6 +54,17 @@ struct Populations {
   /// And the one that lies with the neighbour that the odd velocity reaches: the even one arrives here.
   BL_HD Real& far(int pair, Index neighbour) const { return at(2 * pair + (odd ? 2 : 1), neighbour); }
 
+  /// Where those of node 0 lie.
+  struct Arrays {
+    Real *rest, *near[kPairs], *far[kPairs];
+  };
+  BL_HD Arrays arrays() const {
+    Arrays a{};
+    a.rest = f;
+    for (int p = 0; p < kPairs; ++p) a.near[p] = &near(p, 0), a.far[p] = &far(p, 0);
+    return a;
+  }
+
   /// What arrives at a node with velocity i, and what the step leaves for it; i is not 0.
   BL_HD Real& arriving(int i, Index node) const { return place(i, node, true); }
   BL_HD Real& leaving(int i, Index node) const { return place(i, node, false); }

@@ -10,11 +10,11 @@ namespace bedload::d3q19 {
 constexpr int kVelocities = 19;
 constexpr int kPairs = 9;  ///< of opposite velocities; pair p holds 2 p + 1 and 2 p + 2
 
-/// Component of the odd velocity of a pair along an axis.
+/// Component of the odd velocity of a pair along an axis: 1 more than it in two bits for each pair, so that
+/// no table lies in memory.
 BL_HD constexpr int step(int pair, int axis) {
-  constexpr int of[kPairs][3] = {{1, 0, 0}, {0, 1, 0},  {0, 0, 1},  {1, 1, 0}, {1, 0, 1},
-                                 {0, 1, 1}, {1, -1, 0}, {1, 0, -1}, {0, 1, -1}};
-  return of[pair][axis];
+  const unsigned all = axis == 0 ? 0x1a696u : axis == 1 ? 0x24999u : 0x01a65u;
+  return int(all >> (2 * pair) & 3u) - 1;
 }
 BL_HD constexpr int pair_of(int i) { return (i - 1) / 2; }
 BL_HD constexpr bool is_odd(int i) { return i % 2 == 1; }

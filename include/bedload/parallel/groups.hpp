@@ -1,5 +1,5 @@
 #pragma once
-// A loop over groups of members, each of which has a sum of its own.
+// Loops over groups: the members of each, which have a sum of its own, or the cells of a box of each.
 
 #include <atomic>
 
@@ -10,7 +10,7 @@ namespace BL_SOLVER {
 /// Sets a number that others may set at the same time to the largest of all: their order does not matter.
 BL_HD void raise_to(std::uint32_t& number, std::uint32_t value) {
 #if defined(__CUDA_ARCH__)
-  atomicMax(&number, value);
+  if (number < value) atomicMax(&number, value);
 #else
   std::atomic_ref<std::uint32_t> shared(number);
   std::uint32_t now = shared.load(std::memory_order_relaxed);
@@ -21,7 +21,7 @@ BL_HD void raise_to(std::uint32_t& number, std::uint32_t value) {
 
 #if BL_CUDA
 template <class F>
-__global__ void __launch_bounds__(128) for_each_group_kernel(F f) {
+__global__ void __launch_bounds__(128, 7) for_each_group_kernel(F f) {
   begin_loop();
   __shared__ typename F::Value shared[128];
   const auto group = f.group(blockIdx.x);
@@ -36,10 +36,24 @@ __global__ void __launch_bounds__(128) for_each_group_kernel(F f) {
   }
   if (threadIdx.x == 0) f.finish(blockIdx.x, shared[0]);
 }
+
+template <class F>
+__global__ void __launch_bounds__(128, 8) for_each_box_kernel(F f) {
+  begin_loop();
+  const auto box = f.box(blockIdx.x);
+  int lanes = 8;
+  while (lanes < 32 && lanes < box.count[0]) lanes *= 2;
+  const int lane = int(threadIdx.x) % lanes, rows = box.count[1] * box.count[2];
+  for (int row = int(threadIdx.x) / lanes; row < rows; row += 128 / lanes) {
+    const int z = row / box.count[1], y = row - z * box.count[1];
+    for (int x = lane; x < box.count[0]; x += lanes) f.at(box, x, y, z);
+  }
+}
 #endif
 
 /// For each of n groups, f.group(g)(k) of all its members k < f.group(g).size(), which f.combine() sums in a
-/// fixed order from f.identity(), then f.finish(g, sum).
+/// fixed order from f.identity(), then f.finish(g, sum). On a CPU f.group(g).fetch(k), some time before, asks
+/// for the memory that a member needs.
 template <class F>
 void for_each_group(Index n, const F& f) {
   if (n == 0) return;
@@ -50,18 +64,31 @@ void for_each_group(Index n, const F& f) {
   for (Index g = 0; g < n; ++g) {
     const auto group = f.group(g);
     typename F::Value sum = f.identity();
-    for (Index k = 0; k < group.size(); ++k) f.combine(sum, group(k));
+    for (Index k = 0; k < group.size(); ++k) {
+      constexpr Index ahead = 16;  // so many loads wait for memory at a time
+      if (k + ahead < group.size()) group.fetch(k + ahead);
+      f.combine(sum, group(k));
+    }
     f.finish(g, sum);
   }
 #endif
 }
 
-/// What a loop over groups combines that sums nothing.
-struct NoSum {
-  struct Value {};
-  BL_HD Value identity() const { return {}; }
-  BL_HD void combine(Value&, const Value&) const {}
-  BL_HD void finish(Index, const Value&) const {}
-};
+/// For each of n groups, f.at(box, x, y, z) of all cells of box = f.box(g), which has count[0] along x, ...
+template <class F>
+void for_each_box(Index n, const F& f) {
+  if (n == 0) return;
+#if BL_CUDA
+  launch(for_each_box_kernel<F>, n, 128, 0, f);
+#else
+#pragma omp parallel for schedule(dynamic, 1) if (n > 1)
+  for (Index g = 0; g < n; ++g) {
+    const auto box = f.box(g);
+    for (int z = 0; z < box.count[2]; ++z)
+      for (int y = 0; y < box.count[1]; ++y)
+        for (int x = 0; x < box.count[0]; ++x) f.at(box, x, y, z);
+  }
+#endif
+}
 
 }  // namespace BL_SOLVER
