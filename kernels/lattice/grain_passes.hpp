@@ -25,9 +25,9 @@ struct Ball {
   NodeGrid grid;
   bool periodic[3];
   Vec3d centre, v, omega;
-  double radius;
-  Id id;
-  int low[3], count[3];  ///< of the box around it, with all nodes from which links reach it
+  double radius = 0;
+  Id id = 0;
+  int low[3] = {}, count[3] = {};  ///< of the box around it, with all nodes from which links reach it
 
   struct Member {
     bool there = false;  ///< not beyond a side of the domain
@@ -62,7 +62,7 @@ struct Ball {
   /// Fraction of a link with velocity k from d outside to the surface, where d + c_k is inside.
   BL_HD double fraction(const Vec3d& d, int k) const {
     const double a = k <= 6 ? 1 : 2, b = dot(velocity_of<double>(k), d), e = norm2(d) - radius * radius;
-    return (-b - std::sqrt(max_of(0.0, b * b - a * e))) * (k <= 6 ? 1 : 0.5);
+    return (-b - root(max_of(0.0, b * b - a * e))) * (k <= 6 ? 1 : 0.5);
   }
   BL_HD Vec3d velocity_at(const Vec3d& d) const { return v + cross(omega, d); }
 };
@@ -88,10 +88,17 @@ struct Balls {
 
   /// reach: of the box, from the surface on.
   BL_HD Ball operator()(Index i, double reach = 1) const {
-    Ball b{
-        grid, {periodic[0], periodic[1], periodic[2]}, (x[i] - first) / dx, {}, {}, radius[i] / dx, id[i], {},
-        {}};
-    if (!held) b.v = (dt / dx) * Vec3d(v[i]), b.omega = dt * Vec3d(omega[i]);
+    const double nodes = 1 / dx;
+    Ball b{.grid = grid,
+           .periodic = {periodic[0], periodic[1], periodic[2]},
+           .centre = nodes * (x[i] - first),
+           .v = {},
+           .omega = {},
+           .radius = nodes * radius[i],
+           .id = id[i],
+            .low = {},
+            .count = {}};
+    if (!held) b.v = (dt * nodes) * Vec3d(v[i]), b.omega = dt * Vec3d(omega[i]);
     if (across) {
       const double height = grid.n[2] - 2.0, to = b.centre.z > 0.5 * (height + 1) ? -1 : 1;
       b.centre.z += to * height, b.centre.x += to * images.offset;
