@@ -116,7 +116,7 @@ struct PairFlow : FlowReduction {
     const Sphere a = g.sphere(i), b = g.sphere(j);
     const Real R_star = a.R * b.R / (a.R + b.R), m_star = a.m * b.m / (a.m + b.m);
     const ContactLaw& law = contacts.law_of(i, j);
-    ContactMotion motion{g.v[i] - g.v[j], g.omega[i], g.omega[j], a.R, b.R};
+    ContactMotion motion{g.v[i] - g.frame.seen(g.v[j], g.x[i], g.x[j]), g.omega[i], g.omega[j], a.R, b.R};
     PairHistory h;
     StoredEnergy had, has;
     ContactAction before{}, now{};

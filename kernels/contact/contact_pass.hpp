@@ -5,6 +5,7 @@
 #include "bedload/neighbours/long_rows.hpp"
 #include "bedload/parallel/overlap.hpp"
 #include "kernels/contact/contact_loss.hpp"
+#include "kernels/contact/grain_frame.hpp"
 #include "kernels/contact/grain_mass.hpp"
 #include "kernels/contact/lubrication.hpp"
 #include "kernels/contact/pair_histories.hpp"
@@ -15,15 +16,18 @@ namespace BL_SOLVER {
 /// Pairs of grains whose distance is below the sum of their radii, a skin and the range of lubrication; pairs
 /// within one clump are left out.
 struct GrainNear {
-  Frame frame;
+  GrainFrame frame;
   Span<const Vec3d> x;
   Span<const Real> radius;
   Span<const std::uint32_t> clump;  ///< 0: none; empty without clumps
   double largest;                   ///< radius, m
   double skin;                      ///< m
   double film = 0;                  ///< range of lubrication / R*
-  BL_HD Vec3d place(Index i) const { return x[i]; }
-  BL_HD double reach(Index i) const { return radius[i] + largest + skin + film_between(radius[i], largest); }
+  double stretch = 1;               ///< of GrainFrame
+  BL_HD Vec3d place(Index i) const { return frame.listed(x[i]); }
+  BL_HD double reach(Index i) const {
+    return stretch * (radius[i] + largest + skin + film_between(radius[i], largest));
+  }
   BL_HD bool operator()(Index i, Index j) const {
     if (clump && clump[i] != 0 && clump[i] == clump[j]) return false;
     return i != j && closer(i, j, skin + film_between(radius[i], radius[j]));
@@ -115,7 +119,7 @@ using PairSum = ContactSumOf<Real>;
 
 /// Grains as contacts see them.
 struct GrainView {
-  Frame frame;
+  GrainFrame frame;
   MassPerR3 mass_per_r3;
   Span<const Vec3d> x;
   Span<const Real3> v, omega;
@@ -234,7 +238,7 @@ struct ContactPass {
     }
     if (!touched) other = load(j);
     const bool first = own.id < other.id;
-    const Real3 v_j = other.v, omega_j = other.omega;
+    const Real3 v_j = grains.frame.seen(other.v, own.x, x_j), omega_j = other.omega;
     const Index lo = first ? own.i : j, hi = first ? j : own.i;
     const Real R_lo = first ? own.R : R, R_hi = first ? R : own.R;
     const Real3 v_rel = first ? own.v - v_j : v_j - own.v, omega_lo = either(first, own.omega, omega_j),

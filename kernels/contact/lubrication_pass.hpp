@@ -31,7 +31,7 @@ struct LubricationPass {
     const double r2 = norm2(r);
     if (!(wet > 0) || !(r2 < range * range)) return;
     const NearSurfaces at = NearSurfaces::spheres(R_lo, R_hi, r, std::sqrt(r2));
-    ContactForce force = law(at, v[lo] - v[hi], omega[lo], omega[hi]);
+    ContactForce force = law(at, v[lo] - frame.seen(v[hi], x[lo], x[hi]), omega[lo], omega[hi]);
     force.force *= wet, force.torque_i *= wet, force.torque_j *= wet;
     f(force, r);
   }

@@ -26,7 +26,7 @@ struct SinglePairForces {
     if (!(distance < reach)) return {};
     ContactHistory h;
     if (contacts.histories.touching[slot]) h = contacts.histories[slot];
-    const Real3 v = g.v[i] - g.v[j];
+    const Real3 v = g.v[i] - g.frame.seen(g.v[j], g.x[i], g.x[j]);
     const ContactGeometry at = sphere_contact(g.sphere(i), g.sphere(j), r, distance, reach - distance,
                                               double(contacts.dt) * Vec3d(v));
     return contacts.law_of(i, j)(at, v, g.omega[i], g.omega[j], contacts.dt, h).force;

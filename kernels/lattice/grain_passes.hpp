@@ -12,6 +12,8 @@ namespace BL_SOLVER::lattice {
 /// that cover a node, the one with the lowest id has the largest mark.
 namespace mark {
 constexpr std::uint32_t kLeft = 1u << 30, kGrain = 1u << 31, kIds = kLeft - 1;
+/// Beyond a sheared side, where fluid comes from: ids stay below kIds.
+constexpr std::uint32_t kBeyond = kLeft;
 BL_HD std::uint32_t grain(Id id) { return kGrain + (kIds - std::uint32_t(id)); }
 /// A grain has just moved off the node.
 BL_HD std::uint32_t left_by(Id id) { return kLeft + (kIds - std::uint32_t(id)); }
@@ -23,9 +25,9 @@ struct Ball {
   NodeGrid grid;
   bool periodic[3];
   Vec3d centre, v, omega;
-  double radius;
-  Id id;
-  int low[3], count[3];  ///< of the box around it, with all nodes from which links reach it
+  double radius = 0;
+  Id id = 0;
+  int low[3] = {}, count[3] = {};  ///< of the box around it, with all nodes from which links reach it
 
   struct Member {
     bool there = false;  ///< not beyond a side of the domain
@@ -60,9 +62,15 @@ struct Ball {
   /// Fraction of a link with velocity k from d outside to the surface, where d + c_k is inside.
   BL_HD double fraction(const Vec3d& d, int k) const {
     const double a = k <= 6 ? 1 : 2, b = dot(velocity_of<double>(k), d), e = norm2(d) - radius * radius;
-    return (-b - std::sqrt(max_of(0.0, b * b - a * e))) * (k <= 6 ? 1 : 0.5);
+    return (-b - root(max_of(0.0, b * b - a * e))) * (k <= 6 ? 1 : 0.5);
   }
   BL_HD Vec3d velocity_at(const Vec3d& d) const { return v + cross(omega, d); }
+};
+
+/// Of a box whose images across z move along x, see sheared_sides.hpp; units of the lattice.
+struct SideImages {
+  bool there = false;
+  double offset = 0, speed = 0;  ///< of the image above
 };
 
 struct Balls {
@@ -75,13 +83,28 @@ struct Balls {
   Span<const Real3> v, omega;
   Span<const Real> radius;
   Span<const Id> id;
+  SideImages images = {};
+  bool across = false;  ///< their images across the nearer sheared side, as far as nodes are near these
 
   /// reach: of the box, from the surface on.
   BL_HD Ball operator()(Index i, double reach = 1) const {
-    Ball b{
-        grid, {periodic[0], periodic[1], periodic[2]}, (x[i] - first) / dx, {}, {}, radius[i] / dx, id[i], {},
-        {}};
-    if (!held) b.v = (dt / dx) * Vec3d(v[i]), b.omega = dt * Vec3d(omega[i]);
+    const double nodes = 1 / dx;
+    Ball b{.grid = grid,
+           .periodic = {periodic[0], periodic[1], periodic[2]},
+           .centre = nodes * (x[i] - first),
+           .v = {},
+           .omega = {},
+           .radius = nodes * radius[i],
+           .id = id[i],
+            .low = {},
+            .count = {}};
+    if (!held) b.v = (dt * nodes) * Vec3d(v[i]), b.omega = dt * Vec3d(omega[i]);
+    if (across) {
+      const double height = grid.n[2] - 2.0, to = b.centre.z > 0.5 * (height + 1) ? -1 : 1;
+      b.centre.z += to * height, b.centre.x += to * images.offset;
+      b.v.x += to * images.speed;
+      if (b.centre.z < -(b.radius + reach) || b.centre.z > height + 1 + b.radius + reach) return b;
+    }
     for (int a = 0; a < 3; ++a) {
       b.low[a] = int(std::ceil(b.centre[a] - (b.radius + reach)));
       b.count[a] = int(std::floor(b.centre[a] + (b.radius + reach))) - b.low[a] + 1;
@@ -90,30 +113,26 @@ struct Balls {
   }
 };
 
-/// The grains that have just moved off a node.
+/// Which grains have just moved off a node.
 struct Leavers {
   static constexpr double kReach = 0.5;  ///< more than a grain moves in a step, nodes
-  Balls balls;
-  Span<Index> last;  ///< of each grain, the number of the move in which it last did
-  Index move;        ///< of this one
+  Span<Index> last;                      ///< of each grain, the number of the move in which it last did
+  Index move;                            ///< of this one
 
   struct Box : Ball {
     Index grain;
   };
-  BL_HD Box all(Index i) const { return {balls(i, kReach), i}; }
+  BL_HD static Box all(const Balls& balls, Index i) { return {balls(i, kReach), i}; }
   /// Without nodes, if it has not.
-  BL_HD Box box(Index i) const {
-    if (last[i] == move) return all(i);
-    Box none{};
-    return none;
-  }
+  BL_HD Box box(const Balls& balls, Index i) const { return last[i] == move ? all(balls, i) : Box{}; }
 };
 
 /// Nodes that a grain has moved off are marked so.
 struct ReleasePass {
+  Balls balls;
   Leavers leavers;
   Span<std::uint32_t> solid;
-  BL_HD Leavers::Box box(Index i) const { return leavers.all(i); }
+  BL_HD Leavers::Box box(Index i) const { return Leavers::all(balls, i); }
   BL_HD void at(const Leavers::Box& ball, int x, int y, int z) const {
     const Ball::Member m = ball.member(x, y, z);
     if (!m.there || ball.holds(m.d) || solid[m.node] != mark::grain(ball.id)) return;
@@ -138,10 +157,11 @@ struct CoverPass {
 /// Fluid where a grain has left: the mean density of the fluid next to it, the velocity of the surface, and
 /// the stress of the neighbour that lies farthest off the surface, as if the last step had left it so.
 struct RefillPass {
+  Balls balls;
   Leavers leavers;
   NodeMoments before;  ///< of the last step
   Span<const std::uint32_t> solid;
-  BL_HD Ball box(Index i) const { return leavers.box(i); }
+  BL_HD Ball box(Index i) const { return leavers.box(balls, i); }
   BL_HD void at(const Ball& ball, int x, int y, int z) const {
     const Ball::Member m = ball.member(x, y, z);
     if (m.there && !ball.holds(m.d) && solid[m.node] == mark::left_by(ball.id)) refill(ball, m);
@@ -178,9 +198,10 @@ struct RefillPass {
 
 /// Refilled nodes are fluid.
 struct ReopenPass {
+  Balls balls;
   Leavers leavers;
   Span<std::uint32_t> solid;
-  BL_HD Ball box(Index i) const { return leavers.box(i); }
+  BL_HD Ball box(Index i) const { return leavers.box(balls, i); }
   BL_HD void at(const Ball& ball, int x, int y, int z) const {
     const Ball::Member m = ball.member(x, y, z);
     if (m.there && !ball.holds(m.d) && solid[m.node] == mark::left_by(ball.id)) solid[m.node] = 0;
@@ -223,7 +244,8 @@ struct GrainLinks {
   Span<std::uint64_t> link;
 };
 
-/// Finds them. First mark of a node: it is not fluid; second: it is covered by the grain.
+/// Finds them. Marks of a node: none of fluid, both where the grain covers it, the first of other solids, the
+/// second beyond a sheared side.
 struct GrainLinkSearch {
   static constexpr int kKinds = kVelocities - 1;
   Balls balls;
@@ -239,15 +261,16 @@ struct GrainLinkSearch {
     if (!m.there) return 1;
     const std::uint32_t here = solid[m.node];
     if (here == 0) return 0;
+    if (here == mark::kBeyond) return 2;
     return here == mark::grain(ball.id) && ball.holds(m.d) ? 3 : 1;
   }
   /// Fluid nodes from which velocity kind + 1 leads to the grain.
   BL_HD std::uint32_t chosen(const Brick& brick, const BrickRows& rows, int kind, int row) const {
-    return ~rows.first[row] & shifted(brick, rows.second, kind + 1, row);
+    return ~rows.first[row] & ~rows.second[row] & shifted(brick, rows, kind + 1, row, true);
   }
   /// Those with a solid node behind.
   BL_HD std::uint32_t marked(const Brick& brick, const BrickRows& rows, int kind, int row) const {
-    return shifted(brick, rows.first, opposite(kind + 1), row);
+    return shifted(brick, rows, opposite(kind + 1), row, false);
   }
   BL_HD void list(const Box& ball, Index place, int kind, int x, int y, int z, bool narrow) const {
     links.link[ball.begin + place] = GrainLink{x, y, z, kind + 1, narrow}.packed();
@@ -257,12 +280,52 @@ struct GrainLinkSearch {
   }
 
  private:
-  /// The marks of what velocity i reaches from each cell of a row.
-  BL_HD static std::uint32_t shifted(const Brick& brick, const std::uint32_t* rows, int i, int row) {
-    const std::uint32_t word = rows[row + velocity(i, 1) + velocity(i, 2) * brick.pitch()];
-    const int by = velocity(i, 0);
+  /// The first marks, or both, of what velocity i reaches from each cell of a row.
+  BL_HD static std::uint32_t shifted(const Brick& brick, const BrickRows& rows, int i, int row, bool both) {
+    const int from = row + velocity(i, 1) + velocity(i, 2) * brick.pitch(), by = velocity(i, 0);
+    const std::uint32_t word = both ? rows.first[from] & rows.second[from] : rows.first[from];
     return by > 0 ? word >> 1 : by < 0 ? word << 1 : word;
   }
+};
+
+/// A link as passes get it.
+struct LinkMet {
+  Index node, beyond;  ///< of the fluid; what the odd velocity of the pair reaches from there
+  int direction;
+  double fraction;  ///< of the link to the surface
+  Vec3d d;          ///< of the node from the centre
+  BL_HD Vec3d arm() const { return d + fraction * velocity_of<double>(direction); }
+};
+
+/// The links of a grain as a group: pass.at() is called for each of them.
+template <class Pass>
+struct LinksOf {
+  Ball ball;
+  const Pass& pass;
+  const std::uint64_t* links;
+  Index count;
+  BL_HD LinksOf(const Pass& pass, Index i)
+      : ball(pass.balls(i)),
+        pass(pass),
+        links(pass.links.link.data + pass.links.begin[i]),
+        count(pass.links.count[i]) {}
+  BL_HD Index size() const { return count; }
+  BL_HD auto operator()(Index l) const {
+    const GrainLink link = GrainLink::of(links[l]);
+    const Ball::Member m = ball.member(link.x, link.y, link.z);
+    const double q = link.narrow ? 0.5 : ball.fraction(m.d, link.direction);
+    const Index beyond = pass.f.grid.neighbour(m.place, pair_of(link.direction));
+    return pass.at(ball, LinkMet{m.node, beyond, link.direction, q, m.d});
+  }
+#if !BL_CUDA
+  [[gnu::always_inline]] void fetch(Index l) const {  // GCC drops calls that do nothing else
+    const GrainLink link = GrainLink::of(links[l]);
+    const Ball::Member m = ball.member(link.x, link.y, link.z);
+    const int pair = pair_of(link.direction);
+    for (const Index node : {m.node, pass.f.grid.neighbour(m.place, pair)})
+      __builtin_prefetch(&pass.f.near(pair, node), 1), __builtin_prefetch(&pass.f.far(pair, node), 1);
+  }
+#endif
 };
 
 /// Momentum that grains take from the fluid in a step; f is less its weight, so that fluid at rest does not
@@ -282,44 +345,31 @@ struct GrainLinkPass {
   Span<Real3> force, torque;              ///< of the last step alone
   Span<Vec3d> received, displaced;  ///< N s since the start: from the fluid; of the push on what they cover
 
-  struct Group {
-    Ball ball;
-    Populations f;
-    const std::uint64_t* links;
-    Index count;
-    BL_HD Index size() const { return count; }
-    BL_HD Value operator()(Index l) const {
-      const GrainLink link = GrainLink::of(links[l]);
-      const int k = link.direction;
-      const Ball::Member m = ball.member(link.x, link.y, link.z);
-      const double q = link.narrow ? 0.5 : ball.fraction(m.d, k);
-      const Vec3d arm = m.d + q * velocity_of<double>(k), u = ball.velocity_at(arm);
-      const Reflection r = reflect(f, m.node, f.grid.neighbour(m.place, pair_of(k)), k, Real(q), u);
-      const Vec3d taken = r.taken(k, u);
-      return {taken, cross(arm, taken)};
-    }
-#if !BL_CUDA
-    [[gnu::always_inline]] void fetch(Index l) const {  // GCC drops calls that do nothing else
-      const GrainLink link = GrainLink::of(links[l]);
-      const Ball::Member m = ball.member(link.x, link.y, link.z);
-      const int pair = pair_of(link.direction);
-      for (const Index node : {m.node, f.grid.neighbour(m.place, pair)})
-        __builtin_prefetch(&f.near(pair, node), 1), __builtin_prefetch(&f.far(pair, node), 1);
-    }
-#endif
-  };
   BL_HD Value identity() const { return {}; }
   BL_HD void combine(Value& into, const Value& from) const {
     into.force += from.force, into.torque += from.torque;
   }
-  BL_HD Group group(Index i) const { return {balls(i), f, links.link.data + links.begin[i], links.count[i]}; }
+  BL_HD LinksOf<GrainLinkPass> group(Index i) const { return {*this, i}; }
+
+  BL_HD Value at(const Ball& ball, const LinkMet& link) const {
+    const Vec3d arm = link.arm(), u = ball.velocity_at(arm);
+    const Vec3d taken =
+        reflect(f, link.node, link.beyond, link.direction, Real(link.fraction), u).taken(link.direction, u);
+    return {taken, cross(arm, taken)};
+  }
   BL_HD void finish(Index i, const Value& sum) const {
     const Real3 F(newton * sum.force), T(newton_metre * sum.torque);
+    received[i] += (newton * second) * sum.force;
+    displaced[i] += (newton * second * links.covered[i]) * push;
+    if (balls.across) {  // besides those of the grain itself
+      const Real weight = first ? 1 : Real(0.5);
+      fluid_force[i] += weight * F, fluid_torque[i] += weight * T;
+      force[i] += F, torque[i] += T;
+      return;
+    }
     fluid_force[i] = Real(0.5) * (F + (first ? F : force[i])) + LiftPass::of(balls.radius[i], lift);
     fluid_torque[i] = Real(0.5) * (T + (first ? T : torque[i]));
     force[i] = F, torque[i] = T;
-    received[i] += (newton * second) * sum.force;
-    displaced[i] += (newton * second * links.covered[i]) * push;
   }
 };
 

@@ -66,13 +66,13 @@ struct LinkPass {
   SurfaceMotion body;
   Links links;
   Span<const std::uint32_t> solid;
-  Span<Real3> force;            ///< on the body in this step, per link
+  Span<Real3> force;            ///< on the body in this step, per link; empty: nothing is summed
   Span<Vec4<double>> received;  ///< since the start: momentum 3, work
 
   BL_HD void operator()(Index l) const {
     const Link link = links[l];
     if (solid[link.node] != 0) {  // a grain is there
-      force[l] = {};
+      if (force) force[l] = {};
       return;
     }
     const int k = link.direction;
@@ -80,6 +80,7 @@ struct LinkPass {
     const Vec3d u = body.at(surface_point(f.grid, link));
     const Index beyond = f.grid.neighbour(f.grid.place(link.node), pair_of(k));
     const Reflection r = reflect(f, link.node, beyond, k, narrow ? Real(0.5) : link.fraction, u);
+    if (!force) return;
     const Vec3d taken = (double(r.left) + double(r.back)) * velocity_of<double>(k);
     force[l] = Real3(taken);
     Vec4<double>& sum = received[l];

@@ -23,7 +23,8 @@ struct ContactStressPass {
       const ContactGeometry at =
           sphere_contact(g.sphere(lo, R_lo), g.sphere(hi, R_hi), r, gap.distance, gap.overlap());
       PairHistory h = contacts.histories[slot];
-      sum.add(contacts.law_of(lo, hi)(at, g.v[lo] - g.v[hi], g.omega[lo], g.omega[hi], 0, h).force, Real3(r));
+      const Real3 v_rel = g.v[lo] - g.frame.seen(g.v[hi], g.x[lo], g.x[hi]);
+      sum.add(contacts.law_of(lo, hi)(at, v_rel, g.omega[lo], g.omega[hi], 0, h).force, Real3(r));
     });
     out[i] = sum.times(Real(0.5));
   }

@@ -30,7 +30,7 @@ void Checks::domain() const {
   written_positions();
   reflection();
   if (c.domain.two_d) check_plane(c, root_);
-  if (c.domain.sheared()) shear();
+  if (c.domain.sheared() && !(c.fluid.present && c.fluid.lattice())) shear();
 }
 
 void Checks::written_positions() const {

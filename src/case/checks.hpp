@@ -79,6 +79,7 @@ class Checks {
 
   // checks_lattice.cpp
   void lattice_step() const;
+  void lattice_shear() const;
   void lattice_walls() const;
   void lattice_grains() const;
 

@@ -21,7 +21,7 @@ void Checks::lattice() const {
       fail("fluid.dx", c.fluid.dx,
            fmt::format("must divide the domain's length along {}, {:g} m; {:.8g} m does", "xyz"[k], side,
                        side / cells));
-    nodes *= cells + (c.domain.periodic[k] ? 0 : 2);
+    nodes *= cells + (has_outer_nodes(c, k) ? 2 : 0);
   }
   if (nodes >= 2147483648.0)
     fail("fluid.dx", c.fluid.dx,
@@ -34,6 +34,7 @@ void Checks::lattice() const {
     initial_speed(c.fluid.fills[i]);
   }
   lattice_walls();
+  if (c.domain.sheared()) lattice_shear();
   for (std::size_t i = 0; i < c.out.probes.size(); ++i)
     if (const auto type = c.out.probes[i].type;
         type != ProbeType::point && type != ProbeType::box && type != ProbeType::force)
@@ -87,6 +88,28 @@ void Checks::lattice_grains() const {
                "must be at most {:.4g} m: grains of {:g} kg/m3 are too light for the time step where fewer "
                "nodes lie across them",
                0.5 * c.grain.d_min * m.rho / c.fluid.rho0 / kInertia, m.rho));
+}
+
+/// A box whose images move.
+void Checks::lattice_shear() const {
+  for (const auto& [there, what] :
+       {std::pair{!c.wall.bodies.empty(), "[[wall.body]]"},
+        {norm(c.gravity) > 0, "gravity"},
+        {norm(c.drive.f) > 0, "[drive]"},
+        {c.grain.present && c.grain.fixed, "grain.fixed = true"},
+        {c.grain.present && c.grain.release_time > 0, "grain.release_time > 0"},
+        {c.grain.present && c.grain.settle, "grain.settle = true"},
+        {c.grain.present && c.grain.d_max >= 2 * c.grain.d_min, "grains twice as large as others"}})
+    if (there)
+      fail("domain.shear_rate", c.domain.shear_rate,
+           fmt::format("must be 0 with {} and fluid.model = \"lattice\"", what));
+  for (int k = 0; k < 3; ++k)
+    if (!c.domain.periodic[k])
+      fail("domain.periodic", fmt::format("false along {}", "xyz"[k]), "must be true with domain.shear_rate");
+  for (std::size_t i = 0; i < c.out.probes.size(); ++i)
+    if (c.out.probes[i].type == ProbeType::point)
+      fail(fmt::format("probe.{}.type", i), quoted(c.out.probes[i].type.name()),
+           "must be another with domain.shear_rate");
 }
 
 void Checks::lattice_walls() const {

@@ -156,14 +156,14 @@ void describe_domain(Parameters& p, Config& c) {
   p("domain.max", &d.max, {.unit = "m", .meaning = "upper corner of the domain", .presence = required});
   p("domain.periodic", &d.periodic,
     {.meaning = "periodic axes [x, y, z]; a period must exceed 2 kappa h and 4 R"});
+  p("domain.shear_rate", &d.shear_rate,
+    {.unit = "1/s",
+     .meaning = "Lees-Edwards boundaries: mean dv_x/dz imposed on fluid in a periodic domain, whose images "
+                "across z move along x [lees72]; with grains on a lattice alone; 0: off"});
   if (!of_particles(p, c.fluid)) return;
   p("domain.two_d", &d.two_d,
     {.meaning = "plane flow in x and z: one layer of particles that represents the domain's length along y; "
                 "without grains"});
-  p("domain.shear_rate", &d.shear_rate,
-    {.unit = "1/s",
-     .meaning = "Lees-Edwards boundaries: mean dv_x/dz imposed on fluid in a periodic domain, whose images "
-                "across z move along x [lees72]; 0: off"});
   p("domain.reflect.slip", &d.reflect.slip,
     {.meaning = "reflecting boundaries with slip, of \"x-\" .. \"z+\": fluid particles and grains whose "
                 "centres cross are reflected, position and normal velocity; these sides have no wall "

@@ -38,6 +38,10 @@ std::int64_t cells_along(const Config& c, int axis) {
   return std::max<std::int64_t>(1, std::llround((c.domain.max[axis] - c.domain.min[axis]) / c.fluid.dx));
 }
 
+bool has_outer_nodes(const Config& c, int axis) {
+  return !c.domain.periodic[axis] || (axis == 2 && c.domain.sheared());
+}
+
 Vec3d gravity_on_fluid(const Config& c) { return c.grain.present && !c.grain.fixed ? Vec3d{} : c.gravity; }
 
 LatticeStep lattice_step(const Config& c) {

@@ -361,6 +361,7 @@ void resolve_lattice(Config& c, const Value& root) {
   FluidConfig& f = c.fluid;
   for (const WallBody& body : c.wall.bodies)
     f.vmax = std::max(f.vmax, wall_speed(body, c.domain, c.time.end) + norm(body.surface_velocity));
+  f.vmax = std::max(f.vmax, 0.5 * std::abs(c.domain.shear_rate) * (c.domain.max.z - c.domain.min.z));
   if (f.vmax == 0) missing(root, "fluid.vmax", "m/s; no wall sets a speed here");
   if (!(f.mu > 0))
     reject(root, "fluid.mu", fmt::format("{}", f.mu), "must be > 0 with fluid.model = \"lattice\"");

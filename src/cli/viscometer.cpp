@@ -34,7 +34,7 @@ class Viscometer final : public RunWatcher {
     const int blocks = blocks_until(flow_, nu, end);
     from_ = kStart * flow_.relaxation(nu);
     interval_ = (end - from_) / blocks / kSamples;
-    layers_.emplace(flow_, config.fluid.h(), kLayers, blocks);
+    layers_.emplace(flow_, left_out(config.fluid), kLayers, blocks);
   }
 
   void after_step(Simulation& simulation, const StepInfo& info) override {
@@ -48,7 +48,7 @@ class Viscometer final : public RunWatcher {
   bool may_restart() const override { return false; }  // it averages over the whole run
 
   RunFindings findings() override {
-    result_ = evaluate(*layers_, config_, config_.fluid.kappa() * config_.fluid.h());
+    result_ = evaluate(*layers_, config_, (resolves() ? 1 : config_.fluid.kappa()) * left_out(config_.fluid));
     quantities_ = quantities_of(*result_, flow_);
     if (const auto ratio = relative()) {
       quantities_.push_back({"relative_viscosity", "-", ratio->mean});
@@ -68,23 +68,26 @@ class Viscometer final : public RunWatcher {
 
   /// Caveat about the relative viscosity; empty without one.
   std::string caveat() const {
-    return relative()
-               ? relative_caveat(result_->concentration, config_.couple.suspension != SuspensionLaw::none)
-               : "";
+    if (!relative()) return "";
+    if (resolves()) return resolved_viscosities(result_->concentration);
+    return relative_caveat(result_->concentration, config_.couple.suspension != SuspensionLaw::none);
   }
   const std::optional<ViscosityResult>& result() const { return result_; }
   const std::vector<Quantity>& quantities() const { return quantities_; }
   const PlaneFlow& flow() const { return flow_; }
   const Config& config() const { return config_; }
-  /// Viscosity over that without grains.
+  /// Viscosity over that without grains, which for grains that fluid flows around is fluid.mu unless
+  /// measured.
   std::optional<Measured> relative() const {
-    if (!without_ || !result_ || !result_->accepted()) return {};
-    const Measured &with = result_->viscosity, &bare = *without_;
+    if (!result_ || !result_->accepted()) return {};
+    if (!without_ && !(resolves() && config_.grain.present)) return {};
+    const Measured &with = result_->viscosity, bare = without_.value_or(Measured{config_.fluid.mu, 0});
     const double ratio = with.mean / bare.mean;
     return Measured{ratio, ratio * std::hypot(with.error / with.mean, bare.error / bare.mean)};
   }
 
  private:
+  bool resolves() const { return config_.fluid.lattice(); }
   /// Mean shear stress on the walls, Pa.
   double wall_stress(Simulation& simulation) const {
     if (flow_.kind != PlaneFlowKind::couette) return 0;

@@ -27,9 +27,9 @@ class NodeBuilder {
  public:
   explicit NodeBuilder(const Config& config) : c_(config), dx_(config.fluid.dx) {
     for (int k = 0; k < 3; ++k) {
-      const bool periodic = c_.domain.periodic[k];
-      nodes_.count[k] = std::uint32_t(cells_along(c_, k) + (periodic ? 0 : 2));  // solid ones outside
-      nodes_.first[k] = c_.domain.min[k] + (periodic ? 0.5 : -0.5) * dx_;
+      const bool more = has_outer_nodes(c_, k);
+      nodes_.count[k] = std::uint32_t(cells_along(c_, k) + (more ? 2 : 0));
+      nodes_.first[k] = c_.domain.min[k] + (more ? -0.5 : 0.5) * dx_;
     }
     size_ = std::size_t(nodes_.count[0]) * nodes_.count[1] * nodes_.count[2];
   }
@@ -55,7 +55,7 @@ class NodeBuilder {
   }
   bool outside(const Place& p) const {
     for (int k = 0; k < 3; ++k)
-      if (!c_.domain.periodic[k] && (p[k] == 0 || p[k] + 1 == nodes_.count[k])) return true;
+      if (has_outer_nodes(c_, k) && (p[k] == 0 || p[k] + 1 == nodes_.count[k])) return true;
     return false;
   }
   double distance(std::size_t body, const Vec3d& x) const {
@@ -110,7 +110,7 @@ class NodeBuilder {
       for (int i = 1; i < kVelocities; ++i) {
         const Place there = reached(here, i);
         const std::uint32_t solid = nodes_.solid[number(there)];
-        if (solid == 0 && outside(there)) open_side(there);
+        if (solid == 0 && outside(there) && !c_.domain.sheared()) open_side(there);
         if (solid == 0) continue;
         const bool behind = nodes_.solid[number(reached(here, i, -1))] != 0;
         all.push_back({std::uint32_t(n), std::uint32_t(i), solid - 1,

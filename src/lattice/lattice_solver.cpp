@@ -5,6 +5,7 @@
 
 #include "bedload/parallel/dense.hpp"
 #include "bedload/parallel/reductions.hpp"
+#include "kernels/lattice/sheared_sides.hpp"
 
 namespace BL_SOLVER {
 namespace {
@@ -42,6 +43,7 @@ void LatticeSolver::fill(const Setup::Nodes& nodes) {
   links_.direction.assign(l.direction);
   links_.body.assign(l.body);
   links_.fraction.assign(converted<Real>(l.fraction));
+  if (p_.sheared()) links_.resize(LayerNode::count(grid_));
   find_ranges();
   std::vector<Real3> velocity;
   for (const Vec3d& v : nodes.v) velocity.push_back(Real3(v / p_.units.velocity()));
@@ -75,6 +77,7 @@ Real3 LatticeSolver::force_at(double time) const {
 void LatticeSolver::begin() {
   odd_ = false;
   force_ = force_at(0);
+  clear_layers(0);
   if (grains_) grains_->cover(grid_, first_, nodes_);
   const Vec3d slope = p_.static_gravity * (3 / p_.units.acceleration());
   for_each({0, grid_.size()}, BeginPass{populations(odd_), force_, slope, nodes_.solid, velocity_});
@@ -86,9 +89,13 @@ void LatticeSolver::begin() {
 
 void LatticeSolver::step(double time, std::int64_t number, bool held) {
   const LatticeUnits& units = p_.units;
-  if (grains_ && !held) grains_->follow(moments(), first_, nodes_);
+  if (grains_ && !held) {
+    clear_layers(time + units.dt);
+    grains_->follow(moments(), first_, nodes_);
+  }
+  follow_images(time);
   odd_ = number % 2 == 1;
-  follow_walls(time + 0.5 * units.dt);
+  follow_walls(time + 0.5 * units.dt, odd_);
   force_ = force_at(time + units.dt);
   if (grains_) grains_->exchange(populations(odd_), first_, nodes_, Vec3d(force_), number, held);
   for_each_node(grid_.size(), grid_.n[1] * grid_.n[2],
@@ -97,7 +104,7 @@ void LatticeSolver::step(double time, std::int64_t number, bool held) {
   if (p_.mass_every > 0 && number % p_.mass_every == 0) restore_mass();
 }
 
-void LatticeSolver::follow_walls(double time) {
+void LatticeSolver::follow_walls(double time, bool odd, bool counted) {
   const LatticeUnits& units = p_.units;
   for (std::size_t b = 0; b < ranges_.size(); ++b) {
     const Range r = ranges_[b];
@@ -106,13 +113,38 @@ void LatticeSolver::follow_walls(double time) {
     const Vec3d slide = m.turned() ? m.rotation.rotate(p_.walls[b].slide) : p_.walls[b].slide;
     const SurfaceMotion body{(m.v + slide) / units.velocity(), units.dt * m.omega,
                              (m.origin() - first_) / units.dx};
-    for_each({0, r.size()}, LinkPass{populations(odd_),
-                                     body,
-                                     links_.links(r),
-                                     nodes_.solid,
-                                     {links_.force.span().data + r.begin, r.size()},
-                                     {links_.received.span().data + r.begin, r.size()}});
+    LinkPass pass{populations(odd), body, links_.links(r), nodes_.solid, {}, {}};
+    if (counted) {
+      pass.force = {links_.force.span().data + r.begin, r.size()};
+      pass.received = {links_.received.span().data + r.begin, r.size()};
+    }
+    for_each({0, r.size()}, pass);
   }
+}
+
+SideImages LatticeSolver::images_at(double time) const {
+  const double height = (grid_.n[2] - 2.0) * p_.units.dx, speed = p_.shear_rate * height,
+               length = grid_.n[0] * p_.units.dx;
+  return {p_.sheared(), std::remainder(speed * time, length) / p_.units.dx, speed / p_.units.velocity()};
+}
+
+void LatticeSolver::clear_layers(double time) {
+  if (!p_.sheared()) return;
+  for_each({0, LayerNode::count(grid_)}, ClearLayersPass{grid_, nodes_.solid});
+  if (grains_) grains_->shear(images_at(time));
+}
+
+void LatticeSolver::follow_images(double time, bool counted) {
+  if (!p_.sheared()) return;
+  ImagePass pass{moments(), images_at(time + 0.5 * p_.units.dt), nodes_.solid, {}};
+  if (counted) pass.received = links_.received;
+  for_each({0, LayerNode::count(grid_)}, pass);
+}
+
+Vec3d LatticeSolver::by_images() const {
+  if (!p_.sheared()) return {};
+  const auto t = sum_over<3>({0, LayerNode::count(grid_)}, ImageTotals{links_.received});
+  return -p_.units.momentum() * Vec3d{t.v[0], t.v[1], t.v[2]};
 }
 
 void LatticeSolver::restore_mass() {
@@ -136,7 +168,7 @@ FluidSums LatticeSolver::totals() const {
   sums.momentum = units.momentum() * (raw - 0.5 * t.v[0] * Vec3d(force_));
   sums.angular = units.momentum() * units.dx * about_first + cross(first_, sums.momentum);
   sums.kinetic = units.energy() * t.v[8];
-  sums.residual = units.momentum() * (raw - momentum_) - driven();
+  sums.residual = units.momentum() * (raw - momentum_) - driven() - by_images();
   if (grains_) sums.residual += grains_->sums().received;
   for (std::size_t b = 0; b < ranges_.size(); ++b) sums.residual += wall(int(b), 0).impulse;
   return sums;
@@ -178,6 +210,18 @@ std::vector<NodeValue> LatticeSolver::values(const std::vector<Index>& nodes) co
 std::vector<Real4> LatticeSolver::states() const {
   Buffer<Real4> out(grid_.size());
   for_each({0, grid_.size()}, NodeStatePass{moments(), nodes_.solid, {}, out});
+  return out.to_host();
+}
+
+std::vector<RowSums> LatticeSolver::stress(int axis, double time, bool held,
+                                           Buffer<PairMoment<>>& of_grains) {
+  // what arrives from walls and grains; the next step finds it anew, at the same places
+  follow_images(time, false);
+  follow_walls(time + 0.5 * p_.units.dt, !odd_, false);
+  if (grains_) grains_->stresslets(populations(!odd_), first_, nodes_, held, of_grains);
+  const Index n = RowStressPass::rows(grid_, axis);
+  Buffer<RowSums> out(n);
+  for_each({0, n}, RowStressPass{populations(!odd_), force_, double(rate_.even), axis, nodes_.solid, out});
   return out.to_host();
 }
 
@@ -234,7 +278,7 @@ void LatticeSolver::load(const HostStore& nodes, const HostStore& links,
   }
   odd_ = step % 2 == 1;
   force_ = force_at(time);
-  if (grains_) grains_->forget_links();
+  if (grains_) grains_->shear(images_at(time)), grains_->forget_links();
 }
 
 }  // namespace BL_SOLVER

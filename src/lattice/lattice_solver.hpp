@@ -53,13 +53,19 @@ class LatticeSolver {
 
   lattice::NodeExtremes extremes() const;
   FluidSums totals() const;
-  WallSums wall(int body, double time) const;  ///< at time, s
+  WallSums wall(int body, double time) const;                               ///< at time, s
+  Vec3d force_on_node() const { return p_.units.force() * Vec3d(force_); }  ///< by gravity and drive, N
   RigidMotion motion(int body, double time) const { return p_.walls[std::size_t(body)].motion.at(time); }
-  Vec3d driven() const;  ///< momentum by gravity and drive on the fluid since the start, kg m/s
+  Vec3d by_images() const;  ///< momentum that fluid has from images of a sheared box since the start, kg m/s
+  Vec3d driven() const;     ///< momentum by gravity and drive on the fluid since the start, kg m/s
   double restored() const { return p_.units.mass() * restored_; }  ///< mass that was added since, kg
   std::vector<NodeValue> values(const std::vector<Index>& nodes) const;
   /// Of all nodes: velocity in nodes a step, density less 1, which is -1 in solids.
   std::vector<Real4> states() const;
+
+  /// Flow and stress of all rows of nodes along an axis at time (s), and the moments of the forces on grains,
+  /// J. held: as in step().
+  std::vector<lattice::RowSums> stress(int axis, double time, bool held, Buffer<PairMoment<>>& of_grains);
 
   void save(SavedState& out) const;
   /// Once the number of the last step is known.
@@ -70,7 +76,13 @@ class LatticeSolver {
   lattice::Populations populations(bool odd) const;
   lattice::NodeMoments moments() const { return {populations(odd_), force_}; }
   Real3 force_at(double time) const;
-  void follow_walls(double time);
+  /// Populations of a step from walls at time (s); counted: walls receive what these lose.
+  void follow_walls(double time, bool odd, bool counted = true);
+  /// In a sheared box: what comes in from images in a step from time (s). counted: as of walls.
+  void follow_images(double time, bool counted = true);
+  lattice::SideImages images_at(double time) const;
+  /// Nodes beyond sheared sides; grains are to cover them anew, with images where they are at time (s).
+  void clear_layers(double time);
   void restore_mass();
   void find_ranges();
   /// Of the mass, beyond a density of 1 of all nodes that grains may cover, from NodeTotals.

@@ -12,7 +12,8 @@ struct NodeStore : Store {
   Field<std::uint32_t> solid{*this, "solid", "-", Lifetime::kept};  ///< as in Setup::Nodes
 };
 
-/// Where fluid meets walls, in the order of bodies.
+/// Where fluid meets walls, in the order of bodies; of a sheared box, which has none, an entry for each node
+/// beyond its sides, of which only `received` is used.
 struct LinkStore : Store {
   LinkStore() : Store("links") {}
   Field<Index> node{*this, "node", "-", Lifetime::kept};

@@ -17,6 +17,7 @@ LatticeParameters lattice_parameters(const Config& config) {
   p.lift = config.fluid.rho0 * (p.gravity - config.gravity);
   p.drive = config.drive;
   p.mass_every = config.lattice.mass_every;
+  p.shear_rate = config.domain.shear_rate;
   for (const WallBody& body : config.wall.bodies)
     p.walls.push_back({MotionLaw(body.motion, config.time.end), body.surface_velocity});
   return p;

@@ -44,6 +44,8 @@ struct LatticeParameters {
   DriveConfig drive;
   std::int64_t mass_every = 0;  ///< steps; 0: never
   std::vector<LatticeWall> walls;
+  double shear_rate = 0;  ///< of sheared sides across z, 1/s; 0: none
+  bool sheared() const { return shear_rate != 0; }
 };
 LatticeParameters lattice_parameters(const Config& config);
 

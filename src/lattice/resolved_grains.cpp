@@ -19,7 +19,7 @@ ResolvedGrains::ResolvedGrains(const DomainConfig& domain, const LatticeUnits& u
 
 Balls ResolvedGrains::balls(const NodeGrid& grid, const Vec3d& first, bool held) const {
   return {.grid = grid,
-          .periodic = {domain_.periodic[0], domain_.periodic[1], domain_.periodic[2]},
+          .periodic = {domain_.periodic[0], domain_.periodic[1], domain_.periodic[2] && !domain_.sheared()},
           .first = first,
           .dx = units_.dx,
           .dt = units_.dt,
@@ -28,13 +28,34 @@ Balls ResolvedGrains::balls(const NodeGrid& grid, const Vec3d& first, bool held)
           .v = grains_.v,
           .omega = grains_.omega,
           .radius = grains_.radius,
-          .id = grains_.id};
+          .id = grains_.id,
+          .images = images_};
+}
+
+template <class Pass>
+void ResolvedGrains::run(Pass pass) const {
+  for_each_box(grains_.size(), pass);
+  if (!images_.there) return;
+  pass.balls.across = true;
+  for_each_box(grains_.size(), pass);
+}
+
+template <class Pass>
+void ResolvedGrains::run_over_links(Pass pass, const NodeStore& nodes, bool held) {
+  if (!held || !found_ || places_ < grains_.size()) find_links(pass.balls, nodes);
+  pass.links = links();
+  for_each_group(grains_.size(), pass);
+  found_ = held && !images_.there;
+  if (!images_.there) return;
+  pass.balls.across = true;
+  find_links(pass.balls, nodes);
+  for_each_group(grains_.size(), pass);
 }
 
 void ResolvedGrains::cover(const NodeGrid& grid, const Vec3d& first, NodeStore& nodes) {
   grains_.wetness.assign(std::vector<Real>(grains_.size(), Real(1)));
   for_each(grains_.owned(), LiftPass{lift_, grains_.radius, grains_.fluid_force});
-  for_each_box(grains_.size(), CoverPass{balls(grid, first, true), nodes.solid});
+  run(CoverPass{balls(grid, first, true), nodes.solid});
   forget_links();
 }
 
@@ -44,11 +65,11 @@ void ResolvedGrains::follow(const NodeMoments& before, const Vec3d& first, NodeS
     last_left_.resize(grains_.size()), last_left_.zero();
     moves_ = 1;
   }
-  const Leavers leavers{all, last_left_, moves_};
-  for_each_box(grains_.size(), ReleasePass{leavers, nodes.solid});
-  for_each_box(grains_.size(), CoverPass{all, nodes.solid});
-  for_each_box(grains_.size(), RefillPass{leavers, before, nodes.solid});
-  for_each_box(grains_.size(), ReopenPass{leavers, nodes.solid});
+  const Leavers leavers{last_left_, moves_};
+  run(ReleasePass{all, leavers, nodes.solid});
+  run(CoverPass{all, nodes.solid});
+  run(RefillPass{all, leavers, before, nodes.solid});
+  run(ReopenPass{all, leavers, nodes.solid});
 }
 
 void ResolvedGrains::make_places() {
@@ -65,28 +86,39 @@ void ResolvedGrains::make_places() {
   places_ = grains_.size();
 }
 
+void ResolvedGrains::find_links(const Balls& balls, const NodeStore& nodes) {
+  if (places_ < grains_.size()) make_places();
+  list_boxes(grains_.size(), GrainLinkSearch{balls, nodes.solid, links()});
+}
+
 void ResolvedGrains::exchange(const Populations& f, const Vec3d& first, const NodeStore& nodes,
                               const Vec3d& push, std::int64_t step, bool held) {
-  const Balls all = balls(f.grid, first, held);
-  if (places_ < grains_.size()) forget_links(), make_places();
-  const GrainLinks links{link_begin_, link_count_, covered_, links_};
-  if (!held || !found_) list_boxes(grains_.size(), GrainLinkSearch{all, nodes.solid, links});
-  found_ = held;
-  for_each_group(grains_.size(), GrainLinkPass{.balls = all,
-                                               .f = f,
-                                               .links = links,
-                                               .push = push,
-                                               .lift = lift_,
-                                               .newton = units_.force(),
-                                               .newton_metre = units_.force() * units_.dx,
-                                               .second = units_.dt,
-                                               .first = step == 1,
-                                               .fluid_force = grains_.fluid_force,
-                                               .fluid_torque = fluid_torque_,
-                                               .force = last_force_,
-                                               .torque = last_torque_,
-                                               .received = received_,
-                                               .displaced = displaced_});
+  GrainLinkPass pass{.balls = balls(f.grid, first, held),
+                     .f = f,
+                     .links = {},
+                     .push = push,
+                     .lift = lift_,
+                     .newton = units_.force(),
+                     .newton_metre = units_.force() * units_.dx,
+                     .second = units_.dt,
+                     .first = step == 1,
+                     .fluid_force = grains_.fluid_force,
+                     .fluid_torque = fluid_torque_,
+                     .force = last_force_,
+                     .torque = last_torque_,
+                     .received = received_,
+                     .displaced = displaced_};
+  run_over_links(pass, nodes, held);
+}
+
+void ResolvedGrains::stresslets(const Populations& f, const Vec3d& first, const NodeStore& nodes, bool held,
+                                Buffer<PairMoment<>>& out) {
+  out.resize(grains_.size());
+  found_ = false;
+  run_over_links(
+      StressletPass{
+          .balls = balls(f.grid, first, held), .f = f, .links = {}, .joule = units_.energy(), .out = out},
+      nodes, held);
 }
 
 ResolvedGrains::Sums ResolvedGrains::sums() const {

@@ -3,7 +3,7 @@
 
 #include "bedload/case/config/domain.hpp"
 #include "bedload/particles/grains.hpp"
-#include "kernels/lattice/grain_passes.hpp"
+#include "kernels/lattice/stress_passes.hpp"
 #include "src/lattice/lattice_store.hpp"
 #include "src/lattice/parameters.hpp"
 
@@ -18,6 +18,9 @@ class ResolvedGrains {
 
   const Field<Real3>& torque() const { return fluid_torque_; }  ///< of the fluid on each, N m
 
+  /// Where the images of a sheared box are from now on.
+  void shear(const lattice::SideImages& images) { images_ = images; }
+
   /// Nodes that they cover at the start, and what acts on them before the first step.
   void cover(const lattice::NodeGrid& grid, const Vec3d& first, NodeStore& nodes);
   /// The same after they have moved; nodes that they have left are filled from those around, as the last step
@@ -27,8 +30,16 @@ class ResolvedGrains {
   /// (units of the lattice). held: they are at rest for it.
   void exchange(const lattice::Populations& f, const Vec3d& first, const NodeStore& nodes, const Vec3d& push,
                 std::int64_t step, bool held);
+  /// Memory for the links of a grain of that diameter, m.
+  std::size_t link_bytes(double d) const {
+    return sizeof(std::uint64_t) * std::size_t(lattice::GrainLink::most(0.5 * d / units_.dx));
+  }
   /// Other grains are there: links are no longer those that were found.
   void forget_links() { places_ = 0, found_ = false; }
+
+  /// Moments of the force of the fluid about their centres, J, as of StressletPass.
+  void stresslets(const lattice::Populations& f, const Vec3d& first, const NodeStore& nodes, bool held,
+                  Buffer<PairMoment<>>& out);
 
   struct Sums {
     Vec3d received, displaced;  ///< since the start, N s: over links; of forces on the fluid they displace
@@ -38,12 +49,21 @@ class ResolvedGrains {
 
  private:
   lattice::Balls balls(const lattice::NodeGrid& grid, const Vec3d& first, bool held) const;
+  /// A pass with these balls, and in a sheared box again with their images.
+  template <class Pass>
+  void run(Pass pass) const;
+  /// The same over their links.
+  template <class Pass>
+  void run_over_links(Pass pass, const NodeStore& nodes, bool held);
   /// Gives each grain its places in the list of links.
   void make_places();
+  void find_links(const lattice::Balls& balls, const NodeStore& nodes);
+  lattice::GrainLinks links() { return {link_begin_, link_count_, covered_, links_}; }
 
   const DomainConfig domain_;
   const LatticeUnits units_;
   const Vec3d lift_;  ///< as in LatticeParameters
+  lattice::SideImages images_;
   GrainStore& grains_;
   Field<Real3> fluid_torque_{grains_, "fluid_torque", "N m", Lifetime::kept};
   Field<Real3> last_force_{grains_, "last_fluid_force", "N", Lifetime::kept};

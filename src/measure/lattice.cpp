@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "bedload/case/lattice_step.hpp"
 #include "src/measure/body_rows.hpp"
 #include "src/measure/probe_points.hpp"
 #include "src/time/lattice_simulation.hpp"
@@ -16,6 +17,20 @@ HostArray array_of(const char* name, const char* unit, const std::vector<T>& val
   const auto* bytes = reinterpret_cast<const std::byte*>(values.data());
   a.bytes.assign(bytes, bytes + values.size() * sizeof(T));
   return a;
+}
+
+template <class N>
+HostArray array_of(const char* name, const std::vector<PairMoment<N>>& values) {
+  HostArray a{name, "J", FileType<N>::scalar, 9, {}};
+  const auto* bytes = reinterpret_cast<const std::byte*>(values.data());
+  a.bytes.assign(bytes, bytes + values.size() * sizeof values[0]);
+  return a;
+}
+
+/// Of second moments in the order of lattice::RowSums.
+PairMoment<double> moment_of(double scale, const double (&m)[lattice::RowSums::kMoments]) {
+  return {
+      {scale * Vec3d{m[0], m[3], m[4]}, scale * Vec3d{m[3], m[1], m[5]}, scale * Vec3d{m[4], m[5], m[2]}}};
 }
 
 }  // namespace
@@ -33,8 +48,8 @@ HostStore LatticeSimulation::snapshot(const std::string& name) {
   Index begin[3], end[3];  // without those outside the domain
   HostGrid grid;
   for (int k = 0; k < 3; ++k) {
-    const bool periodic = config_.domain.periodic[std::size_t(k)];
-    begin[k] = periodic ? 0 : 1, end[k] = nodes.n[k] - (periodic ? 0 : 1);
+    const Index beyond = has_outer_nodes(config_, k) ? 1 : 0;
+    begin[k] = beyond, end[k] = nodes.n[k] - beyond;
     grid.count[std::size_t(k)] = end[k] - begin[k];
   }
   grid.first = solver_.place(nodes.node({{begin[0], begin[1], begin[2]}}));
@@ -65,6 +80,46 @@ HostStore LatticeSimulation::snapshot(const std::string& name) {
           grid};
 }
 
+/// Of the fluid an entry for each row of nodes along a periodic axis.
+HostStore LatticeSimulation::rheology(const std::string& name) {
+  const int axis = config_.domain.periodic[0] ? 0 : 1;
+  Buffer<PairMoment<>> stresslets;
+  const std::vector<lattice::RowSums> rows = solver_.stress(axis, clock_.time, held(), stresslets);
+  if (name == "grains" && grains_) {
+    HostStore out = grains_->rheology(name);
+    out.arrays.push_back(array_of("stress_particles", stresslets.to_host()));
+    return out;
+  }
+  if (name != "fluid") return {name, 0, {}};
+  const LatticeUnits& units = solver_.units();
+  std::vector<Vec3d> x, v, drive;
+  std::vector<double> mass, volume;
+  std::vector<PairMoment<double>> pressure, friction, kinetic;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const lattice::RowSums& row = rows[r];
+    const lattice::NodeGrid::Place at = lattice::RowStressPass::place(solver_.grid(), axis, Index(r), 0);
+    if (config_.domain.sheared() && (at.of[2] == 0 || at.of[2] + 1 == solver_.grid().n[2])) continue;
+    const double m = row.fluid + row.excess;
+    x.push_back(solver_.place(solver_.grid().node(at)));
+    v.push_back(m > 0 ? units.velocity() / m * row.momentum : Vec3d{});
+    drive.push_back(row.fluid * solver_.force_on_node());
+    mass.push_back(units.mass() * m);
+    volume.push_back(units.dx * units.dx * units.dx * row.nodes);
+    const double p = row.excess / 3;
+    const double isotropic[lattice::RowSums::kMoments] = {p, p, p};
+    pressure.push_back(moment_of(units.energy(), isotropic));
+    friction.push_back(moment_of(units.energy(), row.friction));
+    kinetic.push_back(moment_of(units.energy(), row.flow));
+    kinetic.back().add(-mass.back() * v.back(), v.back());  // about the mean of the row
+  }
+  return {
+      name,
+      x.size(),
+      {array_of("position", "m", x), array_of("velocity", "m/s", v), array_of("mass", "kg", mass),
+       array_of("volume", "m3", volume), array_of("drive", "N", drive), array_of("stress_pressure", pressure),
+       array_of("stress_friction", friction), array_of("stress_kinetic", kinetic)}};
+}
+
 std::vector<Quantity> LatticeSimulation::diagnostics() {
   const LatticeUnits& units = solver_.units();
   const FluidSums sums = solver_.totals();
@@ -82,6 +137,7 @@ std::vector<Quantity> LatticeSimulation::diagnostics() {
   add(out, "force_walls_on_fluid", "N", by_walls);
   add(out, "impulse_by_walls", "N s", impulse);
   add(out, "impulse_by_forces", "N s", solver_.driven());
+  if (config_.domain.sheared()) add(out, "impulse_by_images", "N s", solver_.by_images());
   add(out, "fluid_momentum_residual", "kg m/s", sums.residual);  // round-off
   out.push_back({"fluid_mass_restored", "kg", solver_.restored()});
   out.push_back({"fluid_speed_max", "m/s", units.velocity() * std::sqrt(e.speed2)});

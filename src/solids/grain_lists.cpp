@@ -11,9 +11,26 @@ namespace BL_SOLVER {
 namespace {
 
 struct WrapGrains {
-  Frame frame;
+  GrainFrame frame;
   Span<Vec3d> x;
-  BL_HD void operator()(Index i) const { x[i] = frame.wrap(x[i]); }
+  Span<Real3> v;
+  BL_HD void operator()(Index i) const {
+    Vec3d at = x[i];
+    if (frame.shear.acts()) {
+      Real3 u = v[i];
+      frame.shear.wrap(at, u);
+      v[i] = u;
+    }
+    x[i] = frame.wrap(at);
+  }
+};
+
+/// Positions by which grains of a sheared box are sorted.
+struct ListedPlacesPass {
+  GrainFrame frame;
+  Span<const Vec3d> x;
+  Span<Vec3d> out;
+  BL_HD void operator()(Index i) const { out[i] = frame.listed(x[i]); }
 };
 
 /// Composes the order of a sort with what was before it: former indices as of the last lists.
@@ -123,7 +140,10 @@ void ArrivingContacts::settle(Range grains, Span<const Index> order, Span<const 
 }
 
 void SolidSolver::refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal) {
-  for_each(grains.owned(), WrapGrains{frame_, grains.x});
+  const double period = frame_.length.x / frame_.length.z;
+  if (frame_.shear.acts())
+    listed_strain_ = frame_.shear.strain -= period * std::rint(frame_.shear.strain / period);
+  for_each(grains.owned(), WrapGrains{frame_, grains.x, grains.v});
   if (renewal.any || !levels_.chosen()) choose_levels(grains);
   if (Context::current().several() && !follows_ && unbalanced(grains)) divide(grains, grid, grains.x);
   relist(grains, grid, grains.x, renewal);
@@ -173,21 +193,29 @@ void SolidSolver::choose_levels(const GrainStore& grains) {
 }
 
 void SolidSolver::sort(Span<const Vec3d> x, const GrainStore& grains, CellGrid& grid) {
-  if (in_levels())
-    levels_.sort(x, grains.radius.span(), order_);
-  else
-    grid.sort<Vec3d>(frame_, x, order_, grains.id);
+  if (in_levels()) return levels_.sort(x, grains.radius.span(), order_);
+  if (!frame_.shear.acts()) return grid.sort<Vec3d>(frame_, x, order_, grains.id);
+  Buffer<Vec3d> places(x.size);
+  for_each({0, x.size}, ListedPlacesPass{as_listed(), x, places});
+  grid.sort<Vec3d>(frame_, std::as_const(places).span(), order_, grains.id);
+}
+
+GrainFrame SolidSolver::as_listed() const {
+  GrainFrame frame = frame_;
+  frame.shear.strain = listed_strain_;
+  return frame;
 }
 
 void SolidSolver::build_list(const GrainStore& grains, const CellGrid& grid) {
   clumps_.place(grains);
-  GrainNear near{.frame = frame_,
+  GrainNear near{.frame = as_listed(),
                  .x = grains.x_list.span(),
                  .radius = grains.radius.span(),
                  .clump = clumps_.of_grains(),
                  .largest = 0.5 * parameters_.d_max,
                  .skin = skin(),
-                 .film = film_range(1)};
+                 .film = film_range(1),
+                 .stretch = as_listed().stretch()};
   // few lanes: rows are short, and contacts use so many registers that more threads would not run at once
   const unsigned bits = std::min(lane_bits(Index(grains.everywhere()), 3u << 14), 3u);
   if (in_levels())

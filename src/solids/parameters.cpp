@@ -63,6 +63,7 @@ SolidParameters solid_parameters(const Config& config) {
       .plane = config.domain.two_d,
       .energy = config.out.energy || config.out.spectra || config.wall.wears(),
       .spectra = {config.out.spectra_from, config.out.spectra ? int(config.out.spectra_bins) : 0},
+      .shear_rate = config.domain.shear_rate,
       .single_forces = config.out.contacts != ContactFrames::none};
   for (const GrainMaterial& a : p.materials)
     for (const GrainMaterial& b : p.materials) p.pair_laws.push_back(law_between(a, b, config));

@@ -57,6 +57,7 @@ struct SolidParameters {
     int per_decade = 0;             ///< bins; 0: no spectra
   } spectra = {};                   ///< of what contacts dissipate
   std::vector<WearGrid> wear = {};  ///< [bodies]; empty: of none
+  double shear_rate = 0;            ///< of a sheared box, 1/s; 0: none
   bool single_forces = false;       ///< of contacts are recorded at the end of a step
 
   std::uint32_t bodies() const { return std::uint32_t(wall_laws.size() / materials.size()); }  ///< of walls

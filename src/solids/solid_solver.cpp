@@ -56,6 +56,7 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
       wall_list_(frame, walls, skin(), film_range(parameters.d_max / 2)),
       load_bounds_(bounds_of_loads(parameters, frame)),
       arriving_(std::make_unique<ArrivingContacts>()) {
+  frame_.shear = {parameters.shear_rate, 0, frame.origin.z, frame.length.z};
   wall_laws_.assign(parameters.wall_laws);
   if (parameters.materials.size() > 1) pair_laws_.assign(parameters.pair_laws);
   with_contact_law(parameters.pair_laws, [&]<class Law>(std::type_identity<Law>) { use_pair_law<Law>(); });
@@ -84,6 +85,21 @@ std::vector<const FieldBase*> SolidSolver::fields_of_contacts() const {
   for (const auto& memory : wall_memory_) out.push_back(memory.get());
   if (spectra_ && spectra_->field()) out.push_back(spectra_->field());
   return out;
+}
+
+void SolidSolver::save(std::vector<Quantity>& scalars) const {
+  if (books_) books_->save(scalars);
+  if (!frame_.shear.acts()) return;
+  scalars.push_back({"grain_strain", "-", frame_.shear.strain});
+  scalars.push_back({"grain_strain_listed", "-", listed_strain_});
+}
+
+void SolidSolver::load(const std::vector<Quantity>& scalars) {
+  if (books_) books_->load(scalars);
+  for (const Quantity& q : scalars) {
+    if (q.name == "grain_strain") frame_.shear.strain = q.value;
+    if (q.name == "grain_strain_listed") listed_strain_ = q.value;
+  }
 }
 
 // -- limits ------------------------------------------------------------------
@@ -183,10 +199,11 @@ void SolidSolver::advance(GrainStore& g, Span<const BodyPose> poses, int bodies,
                           bool held, const std::vector<Vec3d>& gravity, double wall_travel,
                           Span<const Real3> drive) {
   FreeBodies* const free = moving();
-  const double tau = dt / substeps;
+  const double tau = dt / substeps, strain = frame_.shear.strain;
   const ContactLoads loads = free ? free->record(g.size(), load_bounds_) : ContactLoads{};
   const auto contacts_in = [&](int s) {
     const BodyPose* const row = poses.data + std::size_t(s) * bodies;
+    frame_.shear.strain = strain + s * tau * frame_.shear.rate;
     record_loads(s, g, row, tau);
     if (s == substeps) record_forces(g, row, tau);
     return contacts_at(g, row, tau, loads);

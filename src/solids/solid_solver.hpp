@@ -87,6 +87,11 @@ class SolidSolver {
   /// levels: then they are not sorted by the cells of `grid`.
   void refresh(GrainStore& grains, CellGrid& grid, const GrainRenewal& renewal = {});
   const Buffer<Index>& order() const { return order_; }
+  /// By how much the images of a sheared box will have moved since then, in dt (s), m.
+  double image_travel(double dt) const {
+    const MeanShear& shear = frame_.shear;
+    return std::abs(shear.strain + shear.rate * dt - listed_strain_) * shear.height;
+  }
   const VerletList& list() const { return list_; }
   bool in_levels() const { return levels_.count() > 1; }
   const SizeLevels& levels() const { return levels_; }
@@ -134,12 +139,8 @@ class SolidSolver {
   GrainTotals totals(const GrainStore& grains) const;
   /// Where energy has gone since grains began to move; empty if the case does not ask.
   std::vector<Quantity> energy_terms(const GrainStore& grains) const;
-  void save(std::vector<Quantity>& scalars) const {
-    if (books_) books_->save(scalars);
-  }
-  void load(const std::vector<Quantity>& scalars) {
-    if (books_) books_->load(scalars);
-  }
+  void save(std::vector<Quantity>& scalars) const;
+  void load(const std::vector<Quantity>& scalars);
   /// Of what contacts have dissipated; null if the case does not ask.
   const SpectraBooks* spectra() const { return spectra_.get(); }
   /// Of wall bodies; null if none wears.
@@ -179,6 +180,7 @@ class SolidSolver {
   /// Into order_, of grains at x.
   void sort(Span<const Vec3d> x, const GrainStore& grains, CellGrid& grid);
   void build_list(const GrainStore& grains, const CellGrid& grid);
+  GrainFrame as_listed() const;  ///< where the lists were built
   /// Puts the grains at x, or those that were listed at x_list, into the order of their cells, and builds
   /// their list.
   void relist(GrainStore& grains, CellGrid& grid, const Field<Vec3d>& x, const GrainRenewal& renewal);
@@ -256,7 +258,8 @@ class SolidSolver {
   const Index* wall_counts() const { return wall_contacts_ ? wall_contacts_->buffer().data() : nullptr; }
 
   SolidParameters parameters_;
-  Frame frame_;
+  GrainFrame frame_;
+  double listed_strain_ = 0;  ///< of a sheared box, where the lists were built
   GrainMatter matter_;
   Buffer<ContactLaw> pair_laws_;  ///< [materials][materials]; empty where all are of one
   Buffer<ContactLaw> wall_laws_;  ///< [bodies][materials]

@@ -43,13 +43,14 @@ class LatticeSimulation final : public Simulation {
   ParticleBytes scratch_bytes() const override {
     ParticleBytes all{.fluid = sizeof(Real4)};  // of outputs
     if (grains_) all += grains_->scratch_bytes();
+    if (resolved_) all.grains += resolved_->link_bytes(config_.grain.largest());
     return all;
   }
   std::size_t growth() override { return 0; }
   std::vector<Quantity> time_spent() const override;
 
   HostStore snapshot(const std::string& store) override;
-  HostStore rheology(const std::string& store) override { return {store, 0, {}}; }
+  HostStore rheology(const std::string& store) override;
   std::vector<FieldView> fields(const std::string& store) override {
     return grains_ ? grains_->fields(store) : std::vector<FieldView>{};
   }

@@ -323,7 +323,7 @@ void Stepper::refresh_if_needed(double dt) {
   if (has_grains() && !config_.grain.fixed) {
     const double moved =
         grain_watch_.displacement + 1.5 * dt * (grain_watch_.speed + dt * norm(gravity_.at(clock_.time)));
-    grains_due = grains_due || 2 * moved > solid_solver_->skin();
+    grains_due = grains_due || 2 * moved + solid_solver_->image_travel(dt) > solid_solver_->skin();
   }
   refresh(fluid_due, grains_due, dt);
 }

@@ -51,6 +51,7 @@ class Walls {
 
  private:
   double middle_of_fluid(int axis) const {
+    if (c_.fluid.fills.empty()) return 0.5 * (c_.domain.min[axis] + c_.domain.max[axis]);  // of a lattice
     double low = 1e300, high = -1e300;
     for (const FluidFill& fill : c_.fluid.fills)
       low = std::min(low, fill.min[axis]), high = std::max(high, fill.max[axis]);
@@ -197,10 +198,10 @@ double PlaneFlow::relaxation(double nu) const {
   return width * width / (M_PI * M_PI * nu);
 }
 
+double left_out(const FluidConfig& fluid) { return fluid.lattice() ? fluid.dx : fluid.h(); }
+
 PlaneFlow plane_flow_of(const Config& c) {
   if (!c.fluid.present) throw NoPlaneFlow("fluid.dx", "fluid.dx: a viscometer needs a fluid");
-  if (c.fluid.lattice())
-    throw NoPlaneFlow("fluid.model", "fluid.model = \"lattice\": a viscometer needs particles");
   bool walls = false;
   for (const WallBody& body : c.wall.bodies) walls = walls || body.stops_fluid();
   PlaneFlow flow = c.domain.sheared() ? lees_edwards(c) : walls ? between_walls(c) : reverse_poiseuille(c);
@@ -210,7 +211,7 @@ PlaneFlow plane_flow_of(const Config& c) {
   const Vec3d size = c.domain.max - c.domain.min;
   flow.area = size[flow.along] * size[flow.across()];
   refuse_additions(c);
-  const double h = c.fluid.h(), least = flow.kind == PlaneFlowKind::poiseuille ? 3.5 : 2.5;
+  const double h = left_out(c.fluid), least = flow.kind == PlaneFlowKind::poiseuille ? 3.5 : 2.5;
   if (flow.kind != PlaneFlowKind::lees_edwards && flow.gap() < least * h)
     throw KeyError(
         "fluid.dx",

@@ -41,6 +41,9 @@ struct NoPlaneFlow : KeyError {
   using KeyError::KeyError;
 };
 
+/// Fluid this close to reversals and walls is left out, m: a smoothing length, of a lattice a node.
+double left_out(const FluidConfig& fluid);
+
 /// Throws NoPlaneFlow if the case is none of these flows, KeyError if something would add to the measured
 /// viscosity or the flow is too narrow.
 PlaneFlow plane_flow_of(const Config& config);

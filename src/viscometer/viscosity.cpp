@@ -109,11 +109,13 @@ class Evaluation {
     }
     speed = sheared ? r.peak : speed / mass;
     r.reynolds = c_.fluid.rho0 * speed * gap / r.viscosity.mean;
-    // with images, neighbours differ by the shear over a kernel radius at most, however high the box; between
-    // two moving walls the faster one counts, as for fluid.vmax
-    const double fastest = flow_.kind == PlaneFlowKind::lees_edwards ? r.peak * reach_ / gap
-                           : flow_.kind == PlaneFlowKind::couette    ? flow_.fastest
-                                                                     : r.peak;
+    // with images, neighbours differ by the shear over a kernel radius at most, however high the box, but on
+    // a lattice the speed counts; between two moving walls the faster one, as for fluid.vmax
+    const bool images = flow_.kind == PlaneFlowKind::lees_edwards;
+    const double fastest = images && c_.fluid.lattice()           ? r.peak / 2
+                           : images                               ? r.peak * reach_ / gap
+                           : flow_.kind == PlaneFlowKind::couette ? flow_.fastest
+                                                                  : r.peak;
     r.mach = fastest / c_.fluid.c;
     if (flow_.walled()) walls(r);
     stresses(r);
@@ -223,7 +225,8 @@ class Evaluation {
       }
     }
     std::vector<StressPart> out;
-    sum.parts["kinetic"] = kinetic;
+    Tensor& moving = sum.parts["kinetic"];  // of a lattice also that within rows of nodes
+    for (int k = 0; k < 9; ++k) moving[k] += kinetic[k];
     StressPart total{"total", {}};
     for (const auto& [name, tensor] : sum.parts) {
       out.push_back({name, tensor});
@@ -303,16 +306,20 @@ ViscosityResult evaluate(const Layers& layers, const Config& config, double reac
   return Evaluation(layers, config, reach).result();
 }
 
-std::string relative_caveat(double phi, bool by_law) {
+std::string resolved_viscosities(double phi) {
   constexpr double phi_m = 0.64;
   const double einstein = 1 + 2.5 * phi, krieger = phi < phi_m ? std::pow(1 - phi / phi_m, -2.5 * phi_m)
                                                                : std::numeric_limits<double>::infinity();
   return fmt::format(
+      "resolved spheres at {:.3g} % have {:.2f} (Einstein) to {:.2f} (Krieger-Dougherty, phi_m = {})",
+      100 * phi, einstein, krieger, phi_m);
+}
+
+std::string relative_caveat(double phi, bool by_law) {
+  return fmt::format(
       "not the viscosity of a suspension: grains are smaller than the kernel and do not strain the fluid "
-      "between them, so the excess over 1 is the stress of contacts and lubrication{}; resolved spheres at "
-      "{:.3g} % have {:.2f} (Einstein) to {:.2f} (Krieger-Dougherty, phi_m = {})",
-      by_law ? " on top of the law of couple.suspension_viscosity" : " alone", 100 * phi, einstein, krieger,
-      phi_m);
+      "between them, so the excess over 1 is the stress of contacts and lubrication{}; {}",
+      by_law ? " on top of the law of couple.suspension_viscosity" : " alone", resolved_viscosities(phi));
 }
 
 std::vector<Quantity> quantities_of(const ViscosityResult& r, const PlaneFlow& flow) {

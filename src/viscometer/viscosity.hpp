@@ -58,6 +58,8 @@ struct ViscosityResult {
 /// reach: kernel radius, m. Uses fluid.mu, rho0, the sound speed and the grain density of the case.
 ViscosityResult evaluate(const Layers& layers, const Config& config, double reach);
 
+/// What resolved spheres have at a concentration, over the viscosity of the fluid.
+std::string resolved_viscosities(double concentration);
 /// A caveat about the relative viscosity at a grain concentration; by_law: the case has a suspension
 /// viscosity.
 std::string relative_caveat(double concentration, bool by_law);

@@ -77,7 +77,7 @@ TEST(LatticeCase, RefusesWhatItCannotDoWithKeyAndLine) {
   EXPECT_EQ(error_of(kChannel + "[[outlet]]\nname = \"drain\"\nshape = \"plane\"\npoint = [0, 0, 0.1]\n"
                                 "normal = [0, 0, 1]\n"),
             at + "26: outlet.name = \"drain\" is not used " + with + "; remove it");
-  for (const std::string set : {"domain.two_d=true", "domain.shear_rate=1", "fluid.kernel=cubic",
+  for (const std::string set : {"domain.two_d=true", "fluid.kernel=cubic",
                                 "fluid.variable_h=true", "eos.gamma=7", "time.dt=0.001", "drive.opposed=z",
                                 "couple.mode=off", "wall.type=mdbc", "wall.body.0.slip=slip"}) {
     const std::string said = error_of(kChannel, {set});
@@ -129,6 +129,29 @@ TEST(LatticeCase, TakesGrainsThatItResolves) {
   says(grains, {"couple.mode=two_way"}, "couple.mode = \"two_way\" is not used " + with);
   says(kChannel, {"drag.law=stokes"}, "drag.law = \"stokes\" is not used " + with);
   EXPECT_EQ(error_of(grains, {"fluid.dx=0.005", "grain.rho=200", "grain.fixed=true"}), "");
+}
+
+TEST(LatticeCase, IsShearedByImagesInAPeriodicBoxAlone) {
+  std::string box = kChannel.substr(0, kChannel.find("[[wall.body]]")) + "[time]\nend = 1\n[out]\nevery = 1\n";
+  box.replace(box.find("false"), 5, "true");
+  const std::vector<std::string> sheared{"domain.shear_rate=3"};
+  const Config config = read(box, sheared);
+  EXPECT_EQ(read(resolved_toml(config)), config);
+  EXPECT_NEAR(config.fluid.vmax, 0.15, 1e-12) << "half the speed of the images";
+  std::vector<std::string> warnings;
+  EXPECT_EQ(build_setup(config, warnings).nodes.count, (std::array<std::uint32_t, 3>{10, 10, 12}));
+  const auto says = [&](const std::string& text, const std::string& set, const std::string& part) {
+    const std::string said = error_of(text, {sheared[0], set});
+    EXPECT_NE(said.find(part), std::string::npos) << said;
+  };
+  const std::string with = "domain.shear_rate = 3 must be 0 with ",
+                    grains = box + "[grain]\nd = 0.04\n[[grain.fill]]\npositions = [[0.05, 0.05, 0.05]]\n";
+  says(kChannel, "fluid.mu=0.1", with + "[[wall.body]]");
+  says(box, "gravity=[0,0,-1]", with + "gravity");
+  says(box, "drive.f=[1,0,0]", with + "[drive]");
+  says(box, "domain.periodic=[true,false,true]", "domain.periodic = false along y must be true");
+  says(grains, "grain.fixed=true", with + "grain.fixed = true");
+  EXPECT_EQ(error_of(grains, {sheared[0], "fluid.dx=0.005"}), "");
 }
 
 TEST(LatticeCase, FluidFillsAllBetweenTheWalls) {

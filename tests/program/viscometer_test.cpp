@@ -139,6 +139,49 @@ TEST_F(ViscometerTest, FindsItBetweenImagesThatMove) {
   }
 }
 
+/// Of fluid on nodes that flows around a grain: a column of the result.
+TEST_F(ViscometerTest, FindsTheRelativeViscosityOfGrainsOnALattice) {
+  const std::string fluid = R"(gravity = [0, 0, 0]
+[domain]
+min = [0, 0, 0]
+max = [0.012, 0.012, 0.014]
+periodic = [true, true, false]
+[fluid]
+model = "lattice"
+dx = 0.001
+mu = 0.05
+[[wall.body]]
+name = "lower"
+shape = "plane"
+point = [0, 0, 0]
+normal = [0, 0, 1]
+[[wall.body]]
+name = "upper"
+shape = "plane"
+point = [0, 0, 0.014]
+normal = [0, 0, -1]
+surface_velocity = [0.01, 0, 0]
+[time]
+end = 5.6
+[out]
+every = 5.6
+)";
+  const auto bare = measured(fluid);
+  EXPECT_NEAR(value(bare, "viscosity") / 0.05, 1, 1e-3);
+  EXPECT_NEAR(value(bare, "shear_stress_over_imposed"), 1, 1e-3);
+  EXPECT_FALSE(bare.contains("relative_viscosity"));
+
+  const auto m = measured(fluid +
+                          "[grain]\nd = 0.006\n[contact]\nnormal = \"linear\"\nk = 10\n"
+                          "[[grain.fill]]\npositions = [[0.0063, 0.0058, 0.0071]]\n");
+  const double phi = value(m, "grain_concentration");
+  EXPECT_NEAR(phi, M_PI / 6 * 0.216 / (1.2 * 1.2 * 1.4), 1e-6);
+  EXPECT_GT(value(m, "relative_viscosity"), 1 + 2 * phi);
+  EXPECT_LT(value(m, "relative_viscosity"), 1 + 4 * phi);
+  EXPECT_NEAR(value(m, "shear_stress_over_imposed"), 1, 0.02);
+  EXPECT_NE(content_of(dir_ / "run" / "viscometer" / "stress.csv").find("\nparticles,"), std::string::npos);
+}
+
 TEST_F(ViscometerTest, RefusesWithASentence) {
   write("flow.toml", kReverse);
   const auto refused = [&](const std::string& options, const std::string& why) {

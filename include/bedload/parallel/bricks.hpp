@@ -71,6 +71,11 @@ struct BrickRow {
   BL_HD int place(const Brick& brick) const { return (z + 1) * brick.pitch() + y + 1; }
 };
 
+BL_HD Index bits_with_both(const BrickRows& bits, const Brick& brick, const BrickRow& row) {
+  const int place = row.place(brick);
+  return Index(bits_in(bits.first[place] & bits.second[place] & brick.own_cells()));
+}
+
 /// Lists the chosen cells of a row; `place`: in the list of the group, where the next is to go.
 template <class F, class Box>
 BL_HD void list_row(const F& f, const Box& box, const Brick& brick, const BrickRow& row,
@@ -89,12 +94,12 @@ __global__ void __launch_bounds__(256, 4) list_boxes_kernel(F f) {
   begin_loop();
   __shared__ std::uint32_t first[Brick::kRows], second[Brick::kRows];
   __shared__ Index of_warp[8];
-  __shared__ Index seconds;
+  __shared__ Index both;
   const BrickRows bits{first, second};
   const int thread = int(threadIdx.x), in_warp = thread % 32;
   const auto box = f.box(blockIdx.x);
   Index listed = 0;
-  if (thread == 0) seconds = 0;
+  if (thread == 0) both = 0;
   for (int b = 0; b < Brick::number(box); ++b) {
     const Brick brick(box, b);
     const int lanes = brick.count[0] + 2 > 16 ? 32 : 16, lane = thread % lanes, rows = brick.rows();
@@ -111,13 +116,13 @@ __global__ void __launch_bounds__(256, 4) list_boxes_kernel(F f) {
 
     const int all = F::kKinds * brick.own_rows(), each = (all + 255) / 256 | 1;  // odd: for all banks
     const int begin = min_of(all, thread * each), end = min_of(all, begin + each);
-    Index found = 0, of_second = 0;
+    Index found = 0, of_both = 0;
     BrickRow row(brick, begin);
     for (int k = begin; k < end; ++k, row.next(brick)) {
       found += bits_in(f.chosen(brick, bits, row.kind, row.place(brick)) & brick.own_cells());
-      if (row.kind == 0) of_second += bits_in(second[row.place(brick)] & brick.own_cells());
+      if (row.kind == 0) of_both += bits_with_both(bits, brick, row);
     }
-    if (of_second > 0) atomicAdd(&seconds, of_second);
+    if (of_both > 0) atomicAdd(&both, of_both);
     Index until = found;  // in the warp, up to this thread
     for (int by = 1; by < 32; by *= 2) {
       const Index before = __shfl_up_sync(~0u, until, by);
@@ -134,7 +139,7 @@ __global__ void __launch_bounds__(256, 4) list_boxes_kernel(F f) {
     for (int k = begin; k < end; ++k, row.next(brick)) list_row(f, box, brick, row, bits, place);
     __syncthreads();
   }
-  if (thread == 0) f.finish(blockIdx.x, listed, seconds);
+  if (thread == 0) f.finish(blockIdx.x, listed, both);
 }
 #endif
 
@@ -144,7 +149,7 @@ __global__ void __launch_bounds__(256, 4) list_boxes_kernel(F f) {
 /// F::kKinds: f.list(box, place, kind, x, y, z, marked) of the cells that f.chosen() has in its word for a
 /// row, each with its place in the list of the group and its bit of f.marked(). These get the rows of two
 /// marks (bits 1 and 2) that f.marks(box, x, y, z) gives cells in the box and next to it. At last
-/// f.finish(g, places, cells in the box with the second mark).
+/// f.finish(g, places, cells in the box with both marks).
 template <class F>
 void list_boxes(Index n, const F& f) {
   if (n == 0) return;
@@ -156,7 +161,7 @@ void list_boxes(Index n, const F& f) {
     std::uint32_t first[Brick::kRows], second[Brick::kRows];
     const BrickRows bits{first, second};
     const auto box = f.box(g);
-    Index listed = 0, seconds = 0;
+    Index listed = 0, both = 0;
     for (int b = 0; b < Brick::number(box); ++b) {
       const Brick brick(box, b);
       for (int row = 0; row < brick.rows(); ++row) {
@@ -169,11 +174,11 @@ void list_boxes(Index n, const F& f) {
       }
       detail::BrickRow row(brick, 0);
       for (; row.kind < F::kKinds; row.next(brick)) {
-        if (row.kind == 0) seconds += Index(detail::bits_in(second[row.place(brick)] & brick.own_cells()));
+        if (row.kind == 0) both += detail::bits_with_both(bits, brick, row);
         detail::list_row(f, box, brick, row, bits, listed);
       }
     }
-    f.finish(g, listed, seconds);
+    f.finish(g, listed, both);
   }
 #endif
 }

@@ -20,31 +20,34 @@ BL_HD void raise_to(std::uint32_t& number, std::uint32_t value) {
 }
 
 #if BL_CUDA
-template <class F>
-__global__ void __launch_bounds__(128, 7) for_each_group_kernel(F f) {
+/// Threads for each group: more where groups are few.
+inline bool are_few(Index groups) { return groups < 1024; }
+
+template <int kThreads, class F>
+__global__ void __launch_bounds__(kThreads, 896 / kThreads) for_each_group_kernel(F f) {
   begin_loop();
-  __shared__ typename F::Value shared[128];
+  __shared__ typename F::Value shared[kThreads];
   const auto group = f.group(blockIdx.x);
   const Index members = group.size();
   typename F::Value sum = f.identity();
-  for (Index k = threadIdx.x; k < members; k += 128) f.combine(sum, group(k));
+  for (Index k = threadIdx.x; k < members; k += kThreads) f.combine(sum, group(k));
   shared[threadIdx.x] = sum;
   __syncthreads();
-  for (int half = 64; half > 0; half /= 2) {
+  for (int half = kThreads / 2; half > 0; half /= 2) {
     if (threadIdx.x < half) f.combine(shared[threadIdx.x], shared[threadIdx.x + half]);
     __syncthreads();
   }
   if (threadIdx.x == 0) f.finish(blockIdx.x, shared[0]);
 }
 
-template <class F>
-__global__ void __launch_bounds__(128, 8) for_each_box_kernel(F f) {
+template <int kThreads, class F>
+__global__ void __launch_bounds__(kThreads, 1024 / kThreads) for_each_box_kernel(F f) {
   begin_loop();
   const auto box = f.box(blockIdx.x);
   int lanes = 8;
   while (lanes < 32 && lanes < box.count[0]) lanes *= 2;
   const int lane = int(threadIdx.x) % lanes, rows = box.count[1] * box.count[2];
-  for (int row = int(threadIdx.x) / lanes; row < rows; row += 128 / lanes) {
+  for (int row = int(threadIdx.x) / lanes; row < rows; row += kThreads / lanes) {
     const int z = row / box.count[1], y = row - z * box.count[1];
     for (int x = lane; x < box.count[0]; x += lanes) f.at(box, x, y, z);
   }
@@ -58,7 +61,10 @@ template <class F>
 void for_each_group(Index n, const F& f) {
   if (n == 0) return;
 #if BL_CUDA
-  launch(for_each_group_kernel<F>, n, 128, 0, f);
+  if (are_few(n))
+    launch(for_each_group_kernel<512, F>, n, 512, 0, f);
+  else
+    launch(for_each_group_kernel<128, F>, n, 128, 0, f);
 #else
 #pragma omp parallel for schedule(dynamic, 1) if (n > 1)
   for (Index g = 0; g < n; ++g) {
@@ -79,7 +85,10 @@ template <class F>
 void for_each_box(Index n, const F& f) {
   if (n == 0) return;
 #if BL_CUDA
-  launch(for_each_box_kernel<F>, n, 128, 0, f);
+  if (are_few(n))
+    launch(for_each_box_kernel<512, F>, n, 512, 0, f);
+  else
+    launch(for_each_box_kernel<128, F>, n, 128, 0, f);
 #else
 #pragma omp parallel for schedule(dynamic, 1) if (n > 1)
   for (Index g = 0; g < n; ++g) {
