@@ -101,7 +101,7 @@ TEST_F(Bench, RefusesWhatItDoesNotKnowWithOneSentence) {
   };
   refused("dam.toml 2M", "command line", "unknown benchmark 2M");
   refused("dam.toml 2M", "command line",
-          "bi100-coated, coupled, coupled-10M, lattice-0.9M, lattice-57M, "
+          "bi100-coated, clumps-1M, coupled, coupled-10M, lattice-0.9M, lattice-57M, "
           "lattice-spheres-0.9M, lattice-spheres-57M, or a case file");
   refused("no.toml", "no.toml", "no such file");
   refused("dam.toml --set grain.e=1.4", "--set grain.e=1.4", "must be within 0.05..1");
