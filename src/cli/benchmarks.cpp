@@ -44,7 +44,7 @@ d = {d}
 min = [0, 0, 0]
 max = [{side}, {across}, {bed}]
 count = {count}
-[[wall.body]]
+{shape}[[wall.body]]
 name = "box"
 shape = "tank"
 {wall}min = [0, 0, 0]
@@ -91,6 +91,8 @@ struct Beads {
   std::string grain = {}, wall = {};
   int ratio = 1, large = 0;  ///< diameter of large grains over that of the others; how many there are besides
   bool lattice = false;      ///< the large ones touch, five by five on the floor
+  std::string shape = {};    ///< of grains that are clumps
+  double fraction = 0.35;    ///< of the volume that they are thrown into
   double d = kBead, dx = 0.003;  ///< m
 };
 
@@ -112,7 +114,7 @@ std::string fill_text(const Beads& b, double bed) {
 std::string case_text(const Beads& b) {
   using fmt::arg;
   const double volume = (b.count + b.large * std::pow(b.ratio, 3)) * 3.14159265 / 6 * std::pow(b.d, 3);
-  const double across = b.times * b.side, bed = volume / 0.35 / (b.side * across);  // at 35 %
+  const double across = b.times * b.side, bed = volume / b.fraction / (b.side * across);
   const bool wet = b.depth > 0;
   const double top = (wet ? b.depth : bed) + 0.1;
   const std::string fluid =
@@ -121,11 +123,11 @@ std::string case_text(const Beads& b) {
                 "alpha = 0.02\n",
                 b.side, across, b.depth, b.dx)
           : "";
-  return fmt::format(kBeads, arg("margin", b.margin), arg("outside", b.side + b.margin),
-                     arg("beyond", across + b.margin), arg("across", across), arg("top", top),
-                     arg("fluid", fluid), arg("d", b.d), arg("grain", b.grain), arg("large", fill_text(b, bed)),
-                     arg("side", b.side), arg("bed", bed), arg("count", b.count), arg("wall", b.wall),
-                     arg("rim", wet ? top : bed));
+  return fmt::format(
+      kBeads, arg("margin", b.margin), arg("outside", b.side + b.margin), arg("beyond", across + b.margin),
+      arg("across", across), arg("top", top), arg("fluid", fluid), arg("d", b.d), arg("grain", b.grain),
+      arg("large", fill_text(b, bed)), arg("side", b.side), arg("bed", bed), arg("count", b.count),
+      arg("shape", b.shape), arg("wall", b.wall), arg("rim", wet ? top : bed));
 }
 
 Benchmark spheres(const std::string& name, int count, double side, bool settle) {
@@ -146,6 +148,19 @@ Benchmark two_sizes(const std::string& name, int ratio, int large) {
                      .wall = "type = \"grains_only\"\n",
                      .ratio = ratio,
                      .large = large}),
+          {}};
+}
+
+/// A settled bed of rods of three spheres.
+Benchmark clumps(const std::string& name, int count, double side) {
+  return {name,
+          case_text({.count = count,
+                     .side = side,
+                     .grain = "settle = true\nsettle_time = 0.4\n",
+                     .wall = "type = \"grains_only\"\n",
+                     .shape = "clump = \"rod\"\n[[clump]]\nname = \"rod\"\n"
+                              "spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]\n",
+                     .fraction = 0.2}),
           {}};
 }
 
@@ -238,6 +253,7 @@ std::vector<Benchmark> benchmarks() {
           two_sizes("bi50", 50, 8),
           two_sizes("bi100", 100, 1),
           coated("bi100-coated"),
+          clumps("clumps-1M", 1000000, 0.3),
           coupled("coupled", 0.12, 0.189, 10000, true),
           coupled("coupled-10M", 0.6, 0.75, 2000000, false),
           coupled_sizes("coupled-fine", 0.08, 0.156, 1000000, 0, true),

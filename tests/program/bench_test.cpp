@@ -101,7 +101,7 @@ TEST_F(Bench, RefusesWhatItDoesNotKnowWithOneSentence) {
   };
   refused("dam.toml 2M", "command line", "unknown benchmark 2M");
   refused("dam.toml 2M", "command line",
-          "bi100-coated, coupled, coupled-10M, coupled-fine, coupled-bi20, coupled-fine-20k, "
+          "bi100-coated, clumps-1M, coupled, coupled-10M, coupled-fine, coupled-bi20, coupled-fine-20k, "
           "coupled-bi20-20k, lattice-0.9M, lattice-57M, "
           "lattice-spheres-0.9M, lattice-spheres-17M, lattice-spheres-57M, lattice-dense-17M, "
           "lattice-dense-57M, or a case file");
