@@ -368,6 +368,10 @@ std::vector<SizeGroup> size_groups(const Prepared& p) {
   constexpr std::size_t kMost = 8;
   std::vector<double> d;
   for (const double radius : p.setup.grains.radius) d.push_back(2 * radius);
+  for (const HostStore& store : p.restart.stores)
+    if (const HostArray* radius = store.name == "grains" ? store.find("radius") : nullptr)
+      for (std::size_t i = 0; i < store.count; ++i)
+        d.push_back(2 * (radius->type == Scalar::f64 ? radius->as<double>()[i] : radius->as<float>()[i]));
   std::sort(d.begin(), d.end());
   for (const double factor : {1 + 1e-6, 2.0}) {
     std::vector<SizeGroup> groups;
@@ -386,17 +390,19 @@ std::string coupling_text(const Prepared& p) {
   const double kappa = c.fluid.kappa(), dx = c.fluid.dx;
   std::string out =
       fmt::format("coupling   {}, {}, h_c {:.4g} m", c.couple.mode.name(), c.couple.drag.name(), c.couple.hc);
-  out += c.own_lengths() ? fmt::format(" to {:.4g} m, each grain its own\n", c.farthest_average() / kappa)
-                         : fmt::format(" = {:.3g} d_max\n", c.couple.hc / c.grain.d_max);
+  out += c.farthest_average() > kappa * c.couple.hc
+             ? fmt::format(" to {:.4g} m, each grain its own\n", c.farthest_average() / kappa)
+             : fmt::format(" = {:.3g} d_max\n", c.couple.hc / c.grain.d_max);
   for (const SizeGroup& g : size_groups(p)) {
-    const double range = c.couple.farthest(kappa, c.grain.d_min, g.most), times = g.most / dx;
+    const double least = kappa * c.couple.hc, times = g.most / dx,
+                 range = c.own_lengths() ? std::max(least, 4 * g.most) : least;
     const std::string size = g.most > g.least * (1 + 1e-6) ? fmt::format("{:.4g} to {:.4g}", g.least, g.most)
                                                            : fmt::format("{:.4g}", g.most);
     out += fmt::format(
-        "           {} grains of {} m: {:.3g} times fluid.dx, h_c {:.3g} d, {:.3g} fluid particles per "
+        "           {} grains of {} m: {:.3g} times fluid.dx, h_c {:.3g} d, {} fluid particles per "
         "kernel, {}\n",
         grouped(g.count), size, times, range / kappa / g.most,
-        4 * std::numbers::pi / 3 * std::pow(range / dx, 3),
+        grouped(std::llround(4 * std::numbers::pi / 3 * std::pow(range / dx, 3))),
         times <= kAveraged * (1 + 1e-3) ? "by the drag law"
         : times < kResolved             ? "too large for drag laws"
                                         : "too large for drag laws, resolved as a free body");

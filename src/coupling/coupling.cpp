@@ -103,11 +103,7 @@ void Coupling::with_coupling_kernel(F&& f) const {
 
 template <class F>
 void Coupling::with_averages(F&& f) const {
-  with_coupling_kernel([&](auto w) {
-    if constexpr (!kFirstLook)
-      if (own_lengths()) return f(w, OwnAverages{shrink_});
-    f(w, OneAverage{});
-  });
+  with_coupling_kernel([&](auto w) { own_lengths() ? f(w, OwnAverages{shrink_}) : f(w, OneAverage{}); });
 }
 
 Coupling::Coupling(const CouplingParameters& p, const Frame& frame, const WallGeometry& walls)

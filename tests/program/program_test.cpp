@@ -499,6 +499,8 @@ TEST_F(Program, RemarksOnWhatTheDocumentsAdvise) {
                    "--set 'grain.fill.0.sizes=[{d=0.001},{d=0.006}]' --set grain.fill.0.count=20 "
                    "--set couple.own_hc=false"));
   EXPECT_FALSE(said("sizes      ", ""));
+  EXPECT_TRUE(said("coupling   two_way, di_felice, h_c 0.015 m to 0.02 m, each grain its own",
+                   "--set 'grain.fill.0.sizes=[{d=0.002},{d=0.01}]' --set grain.fill.0.count=10"));
   EXPECT_TRUE(said("mirror     fluid rests on the reflecting side z- of the domain",
                    "--set 'domain.reflect.slip=[\"z-\"]'"));
   EXPECT_FALSE(said("mirror     ", "--set 'domain.reflect.slip=[\"z+\"]'"));
