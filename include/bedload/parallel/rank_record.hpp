@@ -18,10 +18,7 @@ struct RankRecord {
   void enter(const char* now, std::int64_t done) { stage = now, steps = done; }
 };
 
-/// That of the thread that asks.
-inline RankRecord& rank_record() {
-  static thread_local RankRecord record;
-  return record;
-}
+/// That of the thread that asks; one for all builds of the solver in a program (src/team/rank_record.cpp).
+RankRecord& rank_record();
 
 }  // namespace bedload
