@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <fstream>
@@ -71,6 +72,29 @@ TEST(RankReports, CountWhatRanksHaveAndSend) {
   EXPECT_GT(ghosts, 0);
   EXPECT_GT(migrated, 0) << "fluid has gone to other blocks";
   EXPECT_EQ(bytes, s->bytes() - before) << "of all ranks";
+}
+
+/// A case may be larger than what one device holds: none ever has all particles.
+TEST(RankMemory, IsThatOfOwnParticlesFromTheStart) {
+  const DividedCase c(
+      "gravity = [0, 0, 0]\n[domain]\nmin = [0, 0, 0]\nmax = [2, 0.06, 0.06]\n[fluid]\ndx = 0.01\nvmax = 2\n"
+      "[[fluid.fill]]\nmin = [0, 0, 0]\nmax = [2, 0.06, 0.06]\n[run]\nblock = 1\n[time]\nend = 1\n[out]\n"
+      "every = 1\n");
+  const auto bytes_of = [&](const bedload::Setup& setup, int ranks, const SavedState* saved) {
+    std::vector<std::int64_t> held(std::size_t(ranks), 0);
+    const auto s = make_team({.ranks = ranks, .make = [&](Link& link) {
+                                auto part = make_coupled(c.config, setup, &link);
+                                if (saved) part->load(*saved);
+                                held[std::size_t(link.rank())] = bytes_held_by_thread();
+                                return part;
+                              }});
+    return *std::max_element(held.begin(), held.end());
+  };
+  EXPECT_LT(double(bytes_of(c.setup, 4, nullptr)), 0.4 * double(bytes_of(c.setup, 1, nullptr)));
+  const auto s = make_coupled(c.config, c.setup);
+  s->start();
+  const SavedState saved = s->save();
+  EXPECT_LT(double(bytes_of({}, 4, &saved)), 0.6 * double(bytes_of({}, 1, &saved))) << "with ghosts";
 }
 
 /// Columns of fluid that end in a surface: hydrostatic pressure comes from all particles above, on any rank.
