@@ -44,6 +44,7 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"hydrostatic_column/stretched.toml", {468, 0}},
       {"injection_cell/case.toml", {0, 4948, {"grains of 0.0011 m"}}},
       {"injection_cell/coarse.toml", {0, 618, {"fluid.c_factor", "grains of 0.0022 m"}}},
+      {"launder/case.toml", {4000, 0, {"fluid.vmax", "fluid.c_factor"}}},
       {"lees_edwards/case.toml", {7 * 7 * 7, 0}},
       {"lees_edwards/wcsph.toml", {10 * 10 * 10, 0}},
       {"minimum_fluidisation/case.toml", {4200, 1800, {"grain.E"}}},
