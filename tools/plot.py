@@ -283,8 +283,8 @@ def plot_drag_laws(options):
     fractions = sorted({value for table in tables for value in table.column("solid_fraction")})
     columns = min(len(fractions), 2)
     rows = int(np.ceil(len(fractions) / columns))
-    figure, panels = plt.subplots(rows, columns, squeeze=False, sharex=True, layout="constrained",
-                                  figsize=(5.5 * columns + 1.5, 4 * rows))
+    figure, panels = plt.subplots(rows, columns, squeeze=False, layout="constrained",
+                                  figsize=(4 * columns + 1.5, 3.2 * rows))
     for axes, fraction in zip(panels.flat, fractions):
         for table in tables:
             here = table.column("solid_fraction") == fraction
@@ -298,14 +298,14 @@ def plot_drag_laws(options):
             spread = [found[known] - least[known], most[known] - found[known]]
             axes.errorbar(reynolds[known], found[known], spread, fmt="ko", markersize=5, capsize=3, zorder=9,
                           label="resolved" if table is tables[0] else "_")
-        axes.set_title(f"solid fraction {fraction:g}", fontsize=10)
+        axes.set(title=f"solid fraction {fraction:g}", xlabel="Reynolds number (-)", ylabel=r"$K / (3 \pi \mu d)$ (-)")
+        axes.xaxis.set_major_formatter("{x:g}")
+        axes.yaxis.set_major_formatter("{x:g}")
+        axes.yaxis.set_minor_formatter("{x:g}")
+        axes.tick_params(which="both", labelsize=8)
         axes.grid(alpha=0.3, which="both")
     for axes in list(panels.flat)[len(fractions):]:
         axes.set_axis_off()
-    for axes in panels[-1]:
-        axes.set_xlabel("Reynolds number (-)")
-    for axes in panels[:, 0]:
-        axes.set_ylabel(r"$K / (3 \pi \mu d)$ (-)")
     figure.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside right upper", frameon=False, fontsize=8)
     save(figure, options.out)
 
