@@ -20,7 +20,7 @@ LEFT = 0.02  # of the grains on the floor: just suspended
 
 
 def zwietering(s, case, mass):
-    """N_js = S nu^0.1 d^0.2 (g (rho_s - rho) / rho)^0.45 X^0.13 / D^0.85, 1/s; X: solids in % of the liquid, by mass."""
+    """N_js = S nu^0.1 d^0.2 (g (rho_s - rho) / rho)^0.45 X^0.13 / D^0.85, 1/s; X: mass of solids in % of the liquid."""
     rho, grain = case["fluid"]["rho0"], case["grain"]
     liquid = rho * np.pi / 4 * T**3
     lift = G * (grain["rho"] / rho - 1)
