@@ -48,6 +48,7 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"lees_edwards/case.toml", {7 * 7 * 7, 0}},
       {"lees_edwards/wcsph.toml", {10 * 10 * 10, 0}},
       {"minimum_fluidisation/case.toml", {4200, 1800, {"grain.E"}}},
+      {"mixing_tank/case.toml", {5872, 1870, {"fluid.c_factor", "grain.E", "wall.body \"impeller\""}}},
       {"oblique_impact/case.toml", {0, 36}},
       {"oscillating_drop/case.toml", {8848, 0}},
       {"oil_under_head/case.toml", {10 * 16 * 16, 0}},
