@@ -35,23 +35,26 @@ struct Ball {
     Index node = 0;
     Vec3d d;  ///< from the centre
   };
-  /// A node of the box or next to it.
-  BL_HD Member member(int x, int y, int z) const {
-    const int cell[3] = {x, y, z};
-    Member m;
-    for (int a = 0; a < 3; ++a) {
-      int at = low[a] + cell[a];
-      const int n = int(grid.n[a]);
-      m.d[a] = at - centre[a];
-      if (!periodic[a] && (at < 0 || at >= n)) return m;
-      while (at < 0) at += n;
-      while (at >= n) at -= n;
-      m.place.of[a] = Index(at);
-    }
-    m.node = grid.node(m.place);
-    m.there = true;
+  /// Nodes of the box, or next to it, with one y and z.
+  struct Row {
+    bool there = true;
+    NodeGrid::Place place{};  ///< but for x
+    Index node = 0;           ///< where x is 0
+    Vec3d d;
+  };
+  BL_HD Row row(int y, int z) const {
+    Row r;
+    r.there = put(1, y, r.place, r.d) && put(2, z, r.place, r.d);
+    r.node = grid.node(r.place);
+    return r;
+  }
+  BL_HD Member member(const Row& row, int x) const {
+    Member m{row.there, row.place, row.node, row.d};
+    m.there = put(0, x, m.place, m.d) && m.there;
+    m.node += m.place.of[0];
     return m;
   }
+  BL_HD Member member(int x, int y, int z) const { return member(row(y, z), x); }
   BL_HD bool holds(const Vec3d& d) const { return norm2(d) < radius * radius; }
   /// From the nearest image of the centre.
   BL_HD Vec3d nearest(Vec3d d) const {
@@ -65,6 +68,19 @@ struct Ball {
     return (-b - root(max_of(0.0, b * b - a * e))) * (k <= 6 ? 1 : 0.5);
   }
   BL_HD Vec3d velocity_at(const Vec3d& d) const { return v + cross(omega, d); }
+
+ private:
+  /// False beyond a side of the domain.
+  BL_HD bool put(int axis, int cell, NodeGrid::Place& place, Vec3d& d) const {
+    int at = low[axis] + cell;
+    const int n = int(grid.n[axis]);
+    d[axis] = at - centre[axis];
+    if (!periodic[axis] && (at < 0 || at >= n)) return false;
+    while (at < 0) at += n;
+    while (at >= n) at -= n;
+    place.of[axis] = Index(at);
+    return true;
+  }
 };
 
 /// Of a box whose images across z move along x, see sheared_sides.hpp; units of the lattice.
@@ -133,8 +149,8 @@ struct ReleasePass {
   Leavers leavers;
   Span<std::uint32_t> solid;
   BL_HD Leavers::Box box(Index i) const { return Leavers::all(balls, i); }
-  BL_HD void at(const Leavers::Box& ball, int x, int y, int z) const {
-    const Ball::Member m = ball.member(x, y, z);
+  BL_HD void at(const Leavers::Box& ball, const Ball::Row& row, int x) const {
+    const Ball::Member m = ball.member(row, x);
     if (!m.there || ball.holds(m.d) || solid[m.node] != mark::grain(ball.id)) return;
     if (ball.holds(ball.nearest(m.d))) return;
     solid[m.node] = mark::left_by(ball.id);
@@ -147,8 +163,8 @@ struct CoverPass {
   Balls balls;
   Span<std::uint32_t> solid;
   BL_HD Ball box(Index i) const { return balls(i, 0); }
-  BL_HD void at(const Ball& ball, int x, int y, int z) const {
-    const Ball::Member m = ball.member(x, y, z);
+  BL_HD void at(const Ball& ball, const Ball::Row& row, int x) const {
+    const Ball::Member m = ball.member(row, x);
     if (m.there && ball.holds(m.d) && !mark::is_wall(solid[m.node]))
       raise_to(solid[m.node], mark::grain(ball.id));
   }
@@ -162,8 +178,8 @@ struct RefillPass {
   NodeMoments before;  ///< of the last step
   Span<const std::uint32_t> solid;
   BL_HD Ball box(Index i) const { return leavers.box(balls, i); }
-  BL_HD void at(const Ball& ball, int x, int y, int z) const {
-    const Ball::Member m = ball.member(x, y, z);
+  BL_HD void at(const Ball& ball, const Ball::Row& row, int x) const {
+    const Ball::Member m = ball.member(row, x);
     if (m.there && !ball.holds(m.d) && solid[m.node] == mark::left_by(ball.id)) refill(ball, m);
   }
 
@@ -202,8 +218,8 @@ struct ReopenPass {
   Leavers leavers;
   Span<std::uint32_t> solid;
   BL_HD Ball box(Index i) const { return leavers.box(balls, i); }
-  BL_HD void at(const Ball& ball, int x, int y, int z) const {
-    const Ball::Member m = ball.member(x, y, z);
+  BL_HD void at(const Ball& ball, const Ball::Row& row, int x) const {
+    const Ball::Member m = ball.member(row, x);
     if (m.there && !ball.holds(m.d) && solid[m.node] == mark::left_by(ball.id)) solid[m.node] = 0;
   }
 };
@@ -256,8 +272,8 @@ struct GrainLinkSearch {
     Index begin;
   };
   BL_HD Box box(Index i) const { return {balls(i), links.begin[i]}; }
-  BL_HD unsigned marks(const Box& ball, int x, int y, int z) const {
-    const Ball::Member m = ball.member(x, y, z);
+  BL_HD unsigned marks(const Box& ball, const Ball::Row& row, int x) const {
+    const Ball::Member m = ball.member(row, x);
     if (!m.there) return 1;
     const std::uint32_t here = solid[m.node];
     if (here == 0) return 0;

@@ -144,7 +144,7 @@ void LatticeSolver::follow_images(double time, bool counted) {
 Vec3d LatticeSolver::by_images() const {
   if (!p_.sheared()) return {};
   const auto t = sum_over<3>({0, LayerNode::count(grid_)}, ImageTotals{links_.received});
-  return -p_.units.momentum() * Vec3d{t.v[0], t.v[1], t.v[2]};
+  return Vec3d{} - p_.units.momentum() * Vec3d{t.v[0], t.v[1], t.v[2]};
 }
 
 void LatticeSolver::restore_mass() {

@@ -107,7 +107,7 @@ __global__ void __launch_bounds__(256, 4) list_boxes_kernel(F f) {
       const int row = begin + thread / lanes, z = row / brick.pitch(), y = row - z * brick.pitch();
       unsigned marks = 0;
       if (row < rows && lane < brick.count[0] + 2)
-        marks = f.marks(box, brick.low[0] + lane - 1, brick.low[1] + y - 1, brick.low[2] + z - 1);
+        marks = f.marks(box, box.row(brick.low[1] + y - 1, brick.low[2] + z - 1), brick.low[0] + lane - 1);
       const unsigned shift = unsigned(in_warp - lane), kept = lanes == 32 ? ~0u : 0xffffu;
       const unsigned one = __ballot_sync(~0u, marks & 1u), two = __ballot_sync(~0u, marks & 2u);
       if (lane == 0 && row < rows) first[row] = one >> shift & kept, second[row] = two >> shift & kept;
@@ -148,7 +148,7 @@ __global__ void __launch_bounds__(256, 4) list_boxes_kernel(F f) {
 /// For each of n groups, whose cells are those of box = f.box(g) with count[0] along x, ..., and for each of
 /// F::kKinds: f.list(box, place, kind, x, y, z, marked) of the cells that f.chosen() has in its word for a
 /// row, each with its place in the list of the group and its bit of f.marked(). These get the rows of two
-/// marks (bits 1 and 2) that f.marks(box, x, y, z) gives cells in the box and next to it. At last
+/// marks (bits 1 and 2) that f.marks(box, box.row(y, z), x) gives cells in the box and next to it. At last
 /// f.finish(g, places, cells in the box with both marks).
 template <class F>
 void list_boxes(Index n, const F& f) {
@@ -166,9 +166,10 @@ void list_boxes(Index n, const F& f) {
       const Brick brick(box, b);
       for (int row = 0; row < brick.rows(); ++row) {
         first[row] = second[row] = 0;
+        const auto cells =
+            box.row(brick.low[1] + row % brick.pitch() - 1, brick.low[2] + row / brick.pitch() - 1);
         for (int x = 0; x < brick.count[0] + 2; ++x) {
-          const unsigned marks = f.marks(box, brick.low[0] + x - 1, brick.low[1] + row % brick.pitch() - 1,
-                                         brick.low[2] + row / brick.pitch() - 1);
+          const unsigned marks = f.marks(box, cells, brick.low[0] + x - 1);
           first[row] |= (marks & 1u) << x, second[row] |= (marks >> 1 & 1u) << x;
         }
       }

@@ -49,7 +49,8 @@ __global__ void __launch_bounds__(kThreads, 1024 / kThreads) for_each_box_kernel
   const int lane = int(threadIdx.x) % lanes, rows = box.count[1] * box.count[2];
   for (int row = int(threadIdx.x) / lanes; row < rows; row += kThreads / lanes) {
     const int z = row / box.count[1], y = row - z * box.count[1];
-    for (int x = lane; x < box.count[0]; x += lanes) f.at(box, x, y, z);
+    const auto cells = box.row(y, z);
+    for (int x = lane; x < box.count[0]; x += lanes) f.at(box, cells, x);
   }
 }
 #endif
@@ -80,7 +81,8 @@ void for_each_group(Index n, const F& f) {
 #endif
 }
 
-/// For each of n groups, f.at(box, x, y, z) of all cells of box = f.box(g), which has count[0] along x, ...
+/// For each of n groups, f.at(box, box.row(y, z), x) of all cells of box = f.box(g), which has count[0] along
+/// x, ...
 template <class F>
 void for_each_box(Index n, const F& f) {
   if (n == 0) return;
@@ -94,8 +96,10 @@ void for_each_box(Index n, const F& f) {
   for (Index g = 0; g < n; ++g) {
     const auto box = f.box(g);
     for (int z = 0; z < box.count[2]; ++z)
-      for (int y = 0; y < box.count[1]; ++y)
-        for (int x = 0; x < box.count[0]; ++x) f.at(box, x, y, z);
+      for (int y = 0; y < box.count[1]; ++y) {
+        const auto cells = box.row(y, z);
+        for (int x = 0; x < box.count[0]; ++x) f.at(box, cells, x);
+      }
   }
 #endif
 }
