@@ -60,6 +60,7 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"reverse_poiseuille_slurry/phi_05.toml", {686 - 68, 68, {"couple.hc"}}},
       {"reverse_poiseuille_slurry/phi_11.toml", {686 - 137, 137, {"couple.hc"}}},
       {"reverse_poiseuille_slurry/thickened.toml", {10 * 10 * 20, 764}},
+      {"rod_drum/case.toml", {0, 850 + 3 * 450, {"grain.E"}}},
       {"rotating_drum/case.toml", {14553, 7755}},
       {"sloshing/case.toml", {2000, 0}},
       {"sphere_near_wall/case.toml", {60 * 60 * 52, 1}},
