@@ -63,6 +63,7 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"reverse_poiseuille_slurry/phi_05.toml", {686 - 68, 68, {"couple.hc"}}},
       {"reverse_poiseuille_slurry/phi_11.toml", {686 - 137, 137, {"couple.hc"}}},
       {"reverse_poiseuille_slurry/thickened.toml", {10 * 10 * 20, 764}},
+      {"rod_drum/case.toml", {0, 850 + 3 * 450, {"grain.E"}}},
       {"rotating_drum/case.toml", {14553, 7755}},
       {"segre_silberberg/case.toml", {44 * 44 * 60, 1, {"fluid.dx: 6 nodes"}}},
       {"sloshing/case.toml", {2000, 0}},

@@ -326,6 +326,30 @@ positions = [[0.01, 0.04, 0.03]]
   EXPECT_NEAR((buoyancy[0].z + buoyancy[1].z + buoyancy[2].z) / buoyancy[3].z, 1, 0.1);
 }
 
+TEST(Clump, BedsSettleForCasesWithFluidAndInletsOfClumps) {
+  for (const std::string clump : {"", "clump = \"rod\"\n"}) {
+    const Config c = config_of(in_water(R"([[grain.fill]]
+min = [0, 0, 0.01]
+max = [0.08, 0.08, 0.05]
+count = 10
+)" + clump + R"([[grain_inlet]]
+name = "feed"
+min = [0.02, 0.02, 0.05]
+max = [0.06, 0.06, 0.07]
+rate = 1e5
+clump = "rod"
+)"));
+    auto bed = started(settling_case(c));
+    bed->settle(1e-3, [](double) {});
+    auto s = started(c);
+    s->load_grains(bed->save_grains());
+    for (int k = 0; k < 3; ++k) s->step();
+    const double filled = clump.empty() ? 0 : 10, come = reading(s->diagnostics(), "grain_inlet_feed_count");
+    EXPECT_GT(come, 0);
+    EXPECT_EQ(reading(s->diagnostics(), "clump_count"), filled + come);
+  }
+}
+
 TEST(SmallClump, InFluidGoesOnFromACheckpointBitForBit) {
   const Config c = config_of(in_water(R"([[grain.fill]]
 min = [0, 0, 0.01]
