@@ -214,6 +214,8 @@ int drag(const Options& options) {
     list->erase(std::unique(list->begin(), list->end()), list->end());
   std::filesystem::path comparison = options.out;
   comparison.replace_extension(".csv");
+  if (comparison == options.out)
+    throw CaseError("--out: must not end in .csv, the name of the file with the points beside the table");
   for (const auto& file : {options.out, comparison})
     if (std::filesystem::exists(file) && !options.overwrite)
       throw FileError(file.string() + ": exists; give --overwrite to replace it");
