@@ -55,7 +55,7 @@ void Clumps::bind(GrainStore& grains, const Setup::Grains& setup) {
   std::vector<std::uint32_t> kind_of;  // each fill
   for (std::uint32_t k = 0; k < kinds_.size(); ++k) {
     const ClumpKind& of = kinds_[k];
-    if (of.inlet >= 0) continue;
+    if (of.fill < 0) continue;
     kind_of.resize(std::max(kind_of.size(), std::size_t(of.fill) + 1));
     kind_of[of.fill] = k;
     if (of.shape) continue;
@@ -168,9 +168,9 @@ double Clumps::size_of(const ClumpShape& shape, const std::vector<Real>& radii) 
   return std::cbrt(r3 / cubes(shape));
 }
 
-std::uint32_t Clumps::kind_of_inlet(std::size_t inlet) const {
+std::uint32_t Clumps::kind_of_dropped(std::uint32_t material) const {
   std::uint32_t k = 0;
-  while (kinds_[k].inlet != int(inlet)) ++k;
+  while (kinds_[k].fill >= 0 || kinds_[k].material != material) ++k;
   return k;
 }
 

@@ -81,16 +81,13 @@ SolidParameters solid_parameters(const Config& config) {
                         .shape = g.clump_of(g.fills[k])->shape,
                         .density = g.density(g.fills[k]),
                         .spheres = std::uint32_t(g.clump_of(g.fills[k])->shape.spheres.size())});
-  for (std::size_t k = 0; k < config.grain_inlets.size(); ++k) {
-    const GrainInletConfig& inlet = config.grain_inlets[k];
-    if (const ClumpConfig* clump = g.clump_named(inlet.clump))
+  for (const ClumpConfig& clump : g.clumps)
+    for (const std::string& of : clump.dropped)
       p.clumps.push_back({.fill = -1,
-                          .material = inlet.number,
-                          .shape = clump->shape,
-                          .density = g.density(inlet.clump, inlet.material),
-                          .inlet = int(k),
-                          .spheres = std::uint32_t(clump->shape.spheres.size())});
-  }
+                          .material = g.material_of_dropped(clump.name, of),
+                          .shape = clump.shape,
+                          .density = g.density(clump.name, of),
+                          .spheres = std::uint32_t(clump.shape.spheres.size())});
   return p;
 }
 

@@ -14,7 +14,8 @@
 
 namespace BL_SOLVER {
 
-/// Clumps of one fill: its grains as one body, or bodies of one shape; or of one inlet.
+/// Clumps of one fill: its grains as one body, or bodies of one shape; or those of one shape and material
+/// that inlets drop, also in the case in which a bed settles without them.
 struct ClumpKind {
   int fill = 0;                ///< index in the case; -1: they come in
   std::uint32_t material = 0;  ///< of their grains
@@ -22,7 +23,6 @@ struct ClumpKind {
   RigidConfig freedom = {};
   std::optional<ClumpShape> shape = {};  ///< none: the fill is one body
   double density = 0;                    ///< of a shape, kg/m3
-  int inlet = -1;                        ///< index in the case; -1: of a fill
   std::uint32_t spheres = 0;             ///< of each; counted from the grains where the fill is one body
 };
 
