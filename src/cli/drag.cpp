@@ -214,8 +214,9 @@ int drag(const Options& options) {
   std::filesystem::path comparison = options.out;
   comparison.replace_extension(".csv");
   if (comparison == options.out)
-    throw CaseError(fmt::format("command line: --out {} must not end in .csv: points and laws go to that file",
-                                options.out.string()));
+    throw CaseError(
+        fmt::format("command line: --out {} must not end in .csv: points and laws go to that file",
+                    options.out.string()));
   for (const auto& file : {options.out, comparison})
     if (std::filesystem::exists(file) && !options.overwrite)
       throw FileError(file.string() + ": exists; give --overwrite to replace it");

@@ -77,9 +77,9 @@ TEST(LatticeCase, RefusesWhatItCannotDoWithKeyAndLine) {
   EXPECT_EQ(error_of(kChannel + "[[outlet]]\nname = \"drain\"\nshape = \"plane\"\npoint = [0, 0, 0.1]\n"
                                 "normal = [0, 0, 1]\n"),
             at + "26: outlet.name = \"drain\" is not used " + with + "; remove it");
-  for (const std::string set : {"domain.two_d=true", "fluid.kernel=cubic",
-                                "fluid.variable_h=true", "eos.gamma=7", "time.dt=0.001", "drive.opposed=z",
-                                "couple.mode=off", "wall.type=mdbc", "wall.body.0.slip=slip"}) {
+  for (const std::string set :
+       {"domain.two_d=true", "fluid.kernel=cubic", "fluid.variable_h=true", "eos.gamma=7", "time.dt=0.001",
+        "drive.opposed=z", "couple.mode=off", "wall.type=mdbc", "wall.body.0.slip=slip"}) {
     const std::string said = error_of(kChannel, {set});
     EXPECT_NE(said.find("is not used " + with), std::string::npos) << said;
     EXPECT_NE(said.find("--set " + set.substr(0, set.find('='))), std::string::npos) << said;
@@ -132,7 +132,8 @@ TEST(LatticeCase, TakesGrainsThatItResolves) {
 }
 
 TEST(LatticeCase, IsShearedByImagesInAPeriodicBoxAlone) {
-  std::string box = kChannel.substr(0, kChannel.find("[[wall.body]]")) + "[time]\nend = 1\n[out]\nevery = 1\n";
+  std::string box =
+      kChannel.substr(0, kChannel.find("[[wall.body]]")) + "[time]\nend = 1\n[out]\nevery = 1\n";
   box.replace(box.find("false"), 5, "true");
   const std::vector<std::string> sheared{"domain.shear_rate=3"};
   const Config config = read(box, sheared);
