@@ -112,8 +112,8 @@ struct Balls {
            .omega = {},
            .radius = nodes * radius[i],
            .id = id[i],
-            .low = {},
-            .count = {}};
+           .low = {},
+           .count = {}};
     if (!held) b.v = (dt * nodes) * Vec3d(v[i]), b.omega = dt * Vec3d(omega[i]);
     if (across) {
       const double height = grid.n[2] - 2.0, to = b.centre.z > 0.5 * (height + 1) ? -1 : 1;

@@ -294,7 +294,7 @@ bool OpenBoundaries::drop_one(std::size_t s, const GrainStore& grains, const Clu
         come[n].clump = std::uint32_t(all.clumps.size() + 1), come[n].member = n;
         come[n].arm = size * Vec3d{of[0], of[1], of[2]}, come[n].clump_d = 2 * source.radius();
       }
-      all.clumps.push_back({0, clumps.kind_of(source.material()), size, places[k], source.velocity(),
+      all.clumps.push_back({0, clumps.kind_of_dropped(source.material()), size, places[k], source.velocity(),
                             to_vec4(source.rotation())});
     }
     all.grains.insert(all.grains.end(), come.begin(), come.end());

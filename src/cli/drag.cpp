@@ -176,9 +176,8 @@ std::string table_text(const DragOptions& d, const std::vector<double>& porosity
 /// Measured points beside the laws of drag.law at the same porosity, and the laws alone between them.
 std::string comparison_text(const DragOptions& d, const std::vector<std::vector<Measured>>& rows) {
   std::string text = fmt::format(
-      "# K / (3 pi mu d) by `bedload drag`: {} arrays, {} nodes across a sphere, {} draws; and by the laws "
-      "of "
-      "drag.law\n# and, of random arrays, [beetstra07] and [tang15]. nan: not measured.\n"
+      "# K / (3 pi mu d) by `bedload drag`: {} arrays, {} nodes across a sphere, {} draws; and by the laws\n"
+      "# of drag.law and, of random arrays, [beetstra07] and [tang15]. nan: not measured.\n"
       "solid_fraction,reynolds,measured,least,most,beetstra07,tang15",
       d.array, d.nodes, d.draws);
   for (const auto& law : kNames<DragLaw>)
@@ -215,7 +214,9 @@ int drag(const Options& options) {
   std::filesystem::path comparison = options.out;
   comparison.replace_extension(".csv");
   if (comparison == options.out)
-    throw CaseError("--out: must not end in .csv, the name of the file with the points beside the table");
+    throw CaseError(
+        fmt::format("command line: --out {} must not end in .csv: points and laws go to that file",
+                    options.out.string()));
   for (const auto& file : {options.out, comparison})
     if (std::filesystem::exists(file) && !options.overwrite)
       throw FileError(file.string() + ": exists; give --overwrite to replace it");

@@ -242,11 +242,16 @@ int run_prepared(const Options& options, Prepared prepared, RunWatcher* watcher,
 
 namespace {
 
-/// The first process says what to do.
+void find_restart(Options& options) {
+  if (options.restart == "latest") options.restart = latest_checkpoint(options.out);
+}
+
+/// The first process says what to do, and prints what went wrong here.
 int run_as_other(const Options& given, Processes& all) {
   Options options = given;
   options.quiet = true;
   const auto read = [&] {
+    find_restart(options);
     Prepared p = prepare(options);
     return OwnCase{std::move(p.config), std::move(p.setup), p.device, code_of(p.device)};
   };
@@ -267,8 +272,8 @@ int run_case(const Options& given) {
   watch_signals();
   Options options = given;
   if (options.mpi) Processes::join();
-  if (options.restart == "latest") options.restart = latest_checkpoint(options.out);
   if (options.mpi && Processes::joined()->rank() > 0) return run_as_other(options, *Processes::joined());
+  find_restart(options);
   refuse_other_run(options);  // before particles are placed, which takes time
   if (!options.live) return run_prepared(options, prepare_all(options));
 

@@ -31,6 +31,7 @@ fs::path settled_file(const Config& config, const Setup& setup, const Device& de
   if (folder.empty()) return {};
   Fingerprint hash;
   hash.add(resolved_toml(settling_case(config)));
+  hash.add(config.grain.has_clumps() ? "clumps" : "");  // also those that come in later
   hash.add(version() + "/" + device.backend + (device.avx2 ? "/avx2" : ""));
   hash.add(setup.grains.x);
   hash.add(setup.grains.v);

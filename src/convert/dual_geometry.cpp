@@ -191,8 +191,8 @@ class Drawing {
         p.faces.fill(true);
       else if (word != "solid")
         xml_.fail(node, fmt::format(
-                            "boxfill \"{}\" must be solid, all, or of left, right, front, back, bottom, top, "
-                            "each without ^ or, behind all, with it",
+                            "boxfill \"{}\" must be solid, all, or of left, right, front, back, bottom, top; "
+                            "all ^ top is all but top",
                             word));
       if (word == "solid") {
         p.faces.fill(false);

@@ -80,7 +80,8 @@ void ResolvedGrains::make_places() {
     places += std::floor(GrainLink::most(radius / units_.dx));
   }
   if (places >= double(kNone))
-    throw DeviceError("grains may have " + std::to_string(places) + " links to nodes, more than 2^32");
+    throw DeviceError("grains may have " + std::to_string(std::uint64_t(places)) +
+                      " links to nodes, of at most 2^32 - 2; take a larger fluid.dx or fewer grains");
   link_begin_.assign(begin);
   links_.reserve_and_resize(std::size_t(places));
   places_ = grains_.size();

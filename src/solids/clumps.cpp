@@ -168,7 +168,7 @@ double Clumps::size_of(const ClumpShape& shape, const std::vector<Real>& radii) 
   return std::cbrt(r3 / cubes(shape));
 }
 
-std::uint32_t Clumps::kind_of(std::uint32_t material) const {
+std::uint32_t Clumps::kind_of_dropped(std::uint32_t material) const {
   std::uint32_t k = 0;
   while (kinds_[k].fill >= 0 || kinds_[k].material != material) ++k;
   return k;

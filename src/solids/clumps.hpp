@@ -51,8 +51,8 @@ class Clumps {
   }
   /// Keeps the clumps at these places alone, once the grains of the others are gone.
   void keep(Span<const Index> kept, const GrainStore& grains);
-  /// Of those that an inlet drops, by the number of their material.
-  std::uint32_t kind_of(std::uint32_t material) const;
+  /// Of those that inlets drop; each kind of them has a material of its own.
+  std::uint32_t kind_of_dropped(std::uint32_t material) const;
   /// What a clump of spheres with these radii (m), as they are kept, is scaled by.
   static double size_of(const ClumpShape& shape, const std::vector<Real>& radii);
   /// Adds clumps, and moves their grains, `come`, to where they belong.

@@ -82,11 +82,11 @@ SolidParameters solid_parameters(const Config& config) {
                         .density = g.density(g.fills[k]),
                         .spheres = std::uint32_t(g.clump_of(g.fills[k])->shape.spheres.size())});
   for (const ClumpConfig& clump : g.clumps)
-    for (const std::string& material : clump.dropped)
+    for (const std::string& of : clump.dropped)
       p.clumps.push_back({.fill = -1,
-                          .material = g.material_of_dropped(clump.name, material),
+                          .material = g.material_of_dropped(clump.name, of),
                           .shape = clump.shape,
-                          .density = g.density(clump.name, material),
+                          .density = g.density(clump.name, of),
                           .spheres = std::uint32_t(clump.shape.spheres.size())});
   return p;
 }

@@ -14,8 +14,8 @@
 
 namespace BL_SOLVER {
 
-/// Clumps of one fill: its grains as one body, or bodies of one shape. Or those that inlets drop, of one
-/// shape and material, also in a case that has no inlets but lets its bed settle for one that has.
+/// Clumps of one fill: its grains as one body, or bodies of one shape; or those of one shape and material
+/// that inlets drop, also in the case in which a bed settles without them.
 struct ClumpKind {
   int fill = 0;                ///< index in the case; -1: they come in
   std::uint32_t material = 0;  ///< of their grains

@@ -1,6 +1,7 @@
 #include "src/time/host_particles.hpp"
 
 #include <cstring>
+#include <string>
 
 namespace BL_SOLVER {
 namespace {
@@ -32,6 +33,9 @@ HostParticles saved_particles(const HostStore& saved, Store& store) {
       const HostArray* const array = saved.find(field->name);
       if (!array && field->needed())
         throw FileError("checkpoint has no array " + store.name + "/" + field->name);
+      if (array && array->count() != saved.count)
+        throw FileError("checkpoint's array " + store.name + "/" + field->name + " has " +
+                        std::to_string(array->count()) + " entries, not " + std::to_string(saved.count));
       if (array)
         load(*field, *array, some);
       else

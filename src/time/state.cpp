@@ -117,7 +117,7 @@ State::State(const Config& config)
   leave_out_unless(coupled && config.couple.slip == DragSlip::local, {&grains.by_slip});
   leave_out_unless(coupled && config.couple.angmom, {&grains.lever_at_centre, &grains.lever_off_centre});
   leave_out_unless(two_way && config.couple.angmom, {&grains.reaction_couple});
-  leave_out_unless(config.grain.has_clumps(), {&grains.clump_d});  // beds settle for cases with fluid
+  leave_out_unless(config.grain.has_clumps(), {&grains.clump_d});  // a bed settles without fluid
   if (!coupled) grains.clump_d.begin_at_zero();
   if (!two_way && !config.domain.sheared()) fluid.flux.leave_out();
 }
