@@ -1,7 +1,5 @@
 #include "bedload/particles/exchange.hpp"
 
-#include <array>
-
 #include "bedload/core/host_memory.hpp"
 #include "bedload/parallel/host_link.hpp"
 #include "bedload/parallel/rank_record.hpp"
