@@ -399,9 +399,9 @@ std::string coupling_text(const Prepared& p) {
     const std::string size = g.most > g.least * (1 + 1e-6) ? fmt::format("{:.4g} to {:.4g}", g.least, g.most)
                                                            : fmt::format("{:.4g}", g.most);
     out += fmt::format(
-        "           {} grains of {} m: {:.3g} times fluid.dx, h_c {:.3g} d, {} fluid particles per "
-        "kernel, {}\n",
-        grouped(g.count), size, times, range / kappa / g.most,
+        "           {} {} of {} m: {:.3g} times fluid.dx, h_c {:.3g} d, {} fluid particles per kernel, "
+        "{}\n",
+        grouped(g.count), g.count == 1 ? "grain" : "grains", size, times, range / kappa / g.most,
         grouped(std::llround(4 * std::numbers::pi / 3 * std::pow(range / dx, 3))),
         times <= kAveraged * (1 + 1e-3) ? "by the drag law"
         : times < kResolved             ? "too large for drag laws"

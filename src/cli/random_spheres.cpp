@@ -1,5 +1,7 @@
 #include "random_spheres.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 
@@ -75,7 +77,10 @@ class Spheres {
 std::vector<Vec3d> random_spheres(int count, double side, int seed) {
   Spheres spheres(count, side, seed);
   for (int k = 0; !spheres.push_apart(); ++k)
-    if (k == kPushes) throw CaseError("--fractions: found no random places at this solid fraction");
+    if (k == kPushes)
+      throw CaseError(
+          fmt::format("--fractions: found no random places for {} grains at a solid fraction of {:.3g}",
+                      count, count * std::numbers::pi / 6 / (side * side * side)));
   for (int k = 0; k < kSweeps; ++k) spheres.sweep();
   return spheres.places();
 }

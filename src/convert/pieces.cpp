@@ -344,7 +344,9 @@ std::pair<Vec3d, Vec3d> Piece::extent() const {
 void Piece::turn_and_move(const Quat<double>& turn, const Vec3d& by) {
   const Vec3d middle = 0.5 * (min + max), half = 0.5 * (max - min);
   if (form == Form::cylinder || form == Form::sphere) a = by + turn.rotate(a), b = by + turn.rotate(b);
-  if (form == Form::cylinder || form == Form::sphere || form == Form::mesh) {
+  if (form != Form::box && norm(Vec3d{turn.x, turn.y, turn.z}) == 0) {
+    min += by, max += by;
+  } else if (form != Form::box) {
     const double reach = form == Form::sphere ? half.x : norm(half);  // a box around it that is not too small
     const Vec3d to = by + turn.rotate(middle), around{reach, reach, reach};
     min = to - around, max = to + around;
@@ -354,6 +356,10 @@ void Piece::turn_and_move(const Quat<double>& turn, const Vec3d& by) {
   const Quat<double> both = turn * before;
   const Vec3d axis{both.x, both.y, both.z};
   shift = by + turn.rotate(shift);
+  if (form == Form::box && !(norm(axis) > 0)) {  // its sides are along the axes
+    min += shift, max += shift, shift = {}, turn_angle = 0;
+    return;
+  }
   turn_angle = 2 * std::atan2(norm(axis), both.w) * 180 / std::numbers::pi;
   turn_axis = norm(axis) > 0 ? axis / norm(axis) : Vec3d{0, 0, 1};
   if (form == Form::box && by_faces()) faces.fill(false), surface = true;

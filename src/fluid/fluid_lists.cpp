@@ -188,9 +188,7 @@ void FluidSolver::sort_cells(FluidStore& fluid) {
 double FluidSolver::reach_of_images(const WallStore& walls) const {
   const MirrorStore& images = walls.mirrors;
   if (images.everywhere() == 0) return 0;
-  const double farthest = max_over(images.owned(), ImageDistance{walls.x0, images.x0});
-  return range() + skin() +
-         all_reduce(farthest, [](double& into, double more) { into = std::max(into, more); });
+  return range() + skin() + max_over(images.owned(), ImageDistance{walls.x0, images.x0});
 }
 
 void FluidSolver::divide(FluidStore& fluid, const WallStore& walls, bool listed) {

@@ -207,57 +207,6 @@ max = [0.05, 0.05, 0.01]
   expect_restart_is_bit_equal(*s, config, 200);
 }
 
-/// A bed settles without inlets and water, whose clumps it knows all the same.
-TEST(GrainInlet, DropsClumpsIntoWaterOverASettledBed) {
-  const Config config = config_of(R"([domain]
-min = [0, 0, -0.02]
-max = [0.05, 0.05, 0.08]
-[[wall.body]]
-name = "box"
-shape = "tank"
-min = [0, 0, 0]
-max = [0.05, 0.05, 0.08]
-faces = ["x-", "x+", "y-", "y+", "z-"]
-[fluid]
-dx = 0.01
-[[fluid.fill]]
-min = [0, 0, 0]
-max = [0.05, 0.05, 0.03]
-[grain]
-d = 0.006
-E = 1e6
-settle = true
-[[grain.fill]]
-positions = [[0.02, 0.02, 0.004]]
-[[clump]]
-name = "rod"
-spheres = [[-1, 0, 0, 1], [1, 0, 0, 1]]
-[[grain_inlet]]
-name = "feed"
-min = [0.01, 0.01, 0.04]
-max = [0.04, 0.04, 0.06]
-rate = 1000
-clump = "rod"
-[time]
-end = 1
-[out]
-every = 1
-)");
-  std::vector<std::string> warnings;
-  const bedload::Setup setup = build_setup(config, warnings);
-  bedload::Setup bed;
-  bed.grains = setup.grains;
-  const auto dry = make_coupled(settling_case(config), bed);
-  dry->settle(0.005, [](double) {});
-  const auto s = make_coupled(config, setup);
-  s->load_grains(dry->save_grains());
-  s->start();
-  run_until(*s, 0.005);
-  const double rods = reading(*s, "clump_count");
-  EXPECT_GE(rods, 2);
-  EXPECT_EQ(reading(*s, "grain_count"), 1 + 2 * rods);
-}
-
 TEST(GrainOutlet, TakesAClumpWhenItsCentreIsIn) {
   auto s = started(R"(gravity = [0, 0, 0]
 [domain]

@@ -1,5 +1,6 @@
 // Stress of fluid on nodes with grains in it, against the force on plates.
 
+#include "support.hpp"
 #include "tests/boundaries/support.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -40,17 +41,6 @@ end = 10
 [out]
 every = 1
 )case";
-
-/// Sum of a part of the stress over a store, J.
-double total(const HostStore& store, const std::string& part, int component) {
-  const HostArray* a = store.find("stress_" + part);
-  if (!a) return 0;
-  double sum = 0;
-  for (std::size_t k = 0; k < store.count; ++k)
-    sum += a->type == Scalar::f64 ? a->as<double>()[9 * k + component]
-                                  : double(a->as<float>()[9 * k + component]);
-  return sum;
-}
 
 /// In steady flow momentum that crosses the suspension is what the plates have, and what holds the grain.
 TEST(LatticeRheology, StressOfFluidAndGrainsIsThatOnThePlates) {

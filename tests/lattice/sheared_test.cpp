@@ -2,6 +2,7 @@
 
 #include <omp.h>
 
+#include "support.hpp"
 #include "tests/boundaries/support.hpp"
 #include "tests/support/tolerance.hpp"
 
@@ -43,15 +44,6 @@ rho = 1500
 positions = [[0.0043, 0.0061, 0.0007], [0.0041, 0.0058, 0.0116], [0.0121, 0.0064, 0.0075]]
 velocity = [0.001, 0, -0.004]
 )case";
-
-double total(const HostStore& store, const std::string& part, int component) {
-  const HostArray* a = store.find("stress_" + part);
-  double sum = 0;
-  for (std::size_t k = 0; k < store.count; ++k)
-    sum += a->type == Scalar::f64 ? a->as<double>()[9 * k + component]
-                                  : double(a->as<float>()[9 * k + component]);
-  return sum;
-}
 
 TEST(ShearedLattice, HasALinearProfileAndItsStress) {
   auto s = started(kFluid);

@@ -83,6 +83,17 @@ shape = "ball"
 f = [0, 0.2, 0]
 )case";
 
+/// Sum of a part of the stress over a store, J.
+inline double total(const HostStore& store, const std::string& part, int component) {
+  const HostArray* a = store.find("stress_" + part);
+  if (!a) return 0;
+  double sum = 0;
+  for (std::size_t k = 0; k < store.count; ++k)
+    sum += a->type == Scalar::f64 ? a->as<double>()[9 * k + component]
+                                  : double(a->as<float>()[9 * k + component]);
+  return sum;
+}
+
 class LatticeFlow {
  public:
   LatticeFlow(const LatticeParameters& parameters, const Setup::Nodes& nodes) : solver_(parameters) {

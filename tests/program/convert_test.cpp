@@ -229,12 +229,13 @@ TEST_F(Convert, BoxTurnedAfterItIsDrawn) {
         dual(kRoom,
              kDam + "<_drawpoint x=\"9\" y=\"9\" z=\"9\" />\n<setmkbound mk=\"3\" />\n" +
                  box("all ^ top ^ bottom", R"(x="0.25" y="0.05" z="0")", R"(x="0.04" y="0.1" z="0.05")"),
-             R"(<initials><_move mkfluid="0" x="9" y="0" z="0" />
+             R"(<initials><_move mkfluid="0" x="9" y="0" z="0" /><move mkfluid="0" x="0.02" y="0" z="0" />
                   <rotateaxis mkbound="3" angle="90" anglesunits="degrees">
                   <axisp1 x="0.25" y="0.1" z="0" /><axisp2 x="0.25" y="0.1" z="1" /></rotateaxis></initials>)"));
   const std::string left = converted("Turned_Def.xml", "Turned.toml");
   EXPECT_EQ(particles("fluid"), 3000);
   EXPECT_TRUE(has_line("Turned.toml", "max = [0.4, 0.2, 0.3]"));  // the box stays in the tank
+  EXPECT_TRUE(has_line("Turned.toml", "min = [0.02, 0, 0]\nmax = [0.12, 0.2, 0.15]"));
   // about (0.25, 0.1): x' = 0.35 - y, y' = x - 0.15
   EXPECT_TRUE(has_line("Turned.toml",
                        "min = [0.25, 0.05, 0]\nmax = [0.29, 0.15, 0.05]\nturn_axis = [0, 0, "
