@@ -82,13 +82,13 @@ class Arrays {
  public:
   explicit Arrays(const Options& o) : o_(o) {}
 
-  Point measure(double fraction, double reynolds, int draw) const {
+  /// Throws CaseError where the lattice cannot have it.
+  Prepared read(double fraction, double reynolds, int draw) const {
     using fmt::arg;
     const bool simple = o_.drag.array == "simple";
     const int spheres = simple ? 8 : o_.drag.spheres;
-    const double side = std::cbrt(spheres * std::numbers::pi / 6 / fraction);
-    const double nodes = std::ceil(side * o_.drag.nodes - 1e-9), volume = side * side * side,
-                 eps = 1 - fraction;
+    const double volume = spheres * std::numbers::pi / 6 / fraction, side = std::cbrt(volume);
+    const double nodes = std::ceil(side * o_.drag.nodes - 1e-9), eps = 1 - fraction;
     const double push =
         spheres * 3 * std::numbers::pi / reynolds * beetstra(fraction, reynolds) / (volume * eps);
     std::string places;
@@ -101,10 +101,17 @@ class Arrays {
     p.config =
         read_case_text(text, fmt::format("array of solid fraction {:g} at Re {:g}", fraction, reynolds),
                        o_.overrides, p.warnings);
+    return p;
+  }
+
+  Point measure(double fraction, double reynolds, int draw) const {
+    Prepared p = read(fraction, reynolds, draw);
     initialise(o_, p);
     const auto simulation = make_simulation(p.config, p.setup, p.device);
     simulation->start();
-    return steady(*simulation, volume, spheres, eps, 1 / reynolds);
+    const Vec3d side = p.config.domain.max - p.config.domain.min;
+    return steady(*simulation, side.x * side.y * side.z, int(simulation->counts().grains), 1 - fraction,
+                  1 / reynolds);
   }
 
  private:
@@ -221,6 +228,8 @@ int drag(const Options& options) {
     if (std::filesystem::exists(file) && !options.overwrite)
       throw FileError(file.string() + ": exists; give --overwrite to replace it");
   const Arrays arrays(options);
+  for (const double fraction : d.fractions)
+    for (const double re : d.reynolds) arrays.read(fraction, re, 0);  // none is lost to one that cannot be
   std::vector<double> porosity;
   std::vector<std::vector<Measured>> rows;
   fmt::print("solid fraction  Re        K / (3 pi mu d)  spread of draws\n");

@@ -80,6 +80,9 @@ TEST_F(Drag, SaysWhatTheLatticeCannotDo) {
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("fluid.dx"), o.err.npos) << o.err;
   EXPECT_NE(o.err.find("relaxation time"), o.err.npos) << o.err;
+  const Outcome late =
+      bedload("drag --backend cpu --array simple --fractions 0.2 --reynolds 0.01,900 --nodes 8");
+  EXPECT_EQ(late.out, "") << "before anything is measured";
   const Outcome same = bedload("drag --backend cpu --out table.csv");
   EXPECT_EQ(same.code, 2);
   EXPECT_EQ(same.err,
