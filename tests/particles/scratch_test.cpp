@@ -9,7 +9,7 @@ namespace {
 
 struct Solver {
   bool second;
-  Scratch each;
+  Scratch each = {};
   ScratchArray<double> first_array{each};
   ScratchArray<std::uint32_t> second_array{each, second};
 };

@@ -62,7 +62,7 @@ TEST(Sinks, AreTalliedByTheWayOut) {
     double one = 0, way[2 * kSides] = {}, through[2] = {};
     LeavingBody{all(sink)}(i, &one);
     SideTally<FluidMass>{all(sink), {all(mass)}}(i, way);
-    SinkTally<FluidMass>{all(sink), kOutlet, {all(mass)}}(i, through);
+    SinkTally<FluidMass>{all(sink), kOutlet, {all(mass)}, {}}(i, through);
     leaving += one;
     for (std::uint32_t k = 0; k < 2 * kSides; ++k) sides[k] += way[k];
     for (int k = 0; k < 2; ++k) outlet[k] += through[k];

@@ -242,7 +242,12 @@ TEST(Drop, GivesEachGrainTheNextIdAndPlace) {
                       .radius = all(radius),
                       .eps = all(eps),
                       .material = all(material),
-                      .source_index = all(from)};
+                      .source_index = all(from),
+                      .clumps = 0,
+                      .clump = {},
+                      .member = {},
+                      .arm = {},
+                      .clump_d = {}};
   pass(0), pass(1);
   EXPECT_EQ(id[1], 40u);
   EXPECT_EQ(id[2], 41u);
