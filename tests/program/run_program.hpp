@@ -31,7 +31,7 @@ class ProgramTest : public testing::Test {
  protected:
   /// Runs `bedload <arguments>` in the test's folder.
   Outcome bedload(const std::string& arguments) const {
-    return shell(std::string(BL_PROGRAM) + " " + arguments);
+    return shell(BL_PROGRAM " " + arguments);
   }
 
   Outcome shell(const std::string& command) const {
