@@ -19,8 +19,8 @@ class Processes {
   static Processes& join();
   /// Of which this is one; null: it has not joined any.
   static Processes* joined();
-  /// At the end of the program: tells the others, or ends them where they cannot be told. `code`: exit code
-  /// of this one.
+  /// At the end of the program: sends the others the end, or ends them where they do not listen. `code`: exit
+  /// code of this one.
   static void leave(int code);
 
   int rank() const { return rank_; }

@@ -1,7 +1,5 @@
 // Cases with fluid.model = "lattice" and grains as whole simulations.
 
-#include <omp.h>
-
 #include "support.hpp"
 #include "tests/boundaries/support.hpp"
 #include "tests/support/tolerance.hpp"
@@ -27,18 +25,9 @@ Config cell(bool fixed) {
 }
 
 TEST(LatticeGrains, RestartAndRepeatToTheLastBit) {
-  const int most = omp_get_max_threads();
   for (const bool fixed : {true, false}) {
     const Config config = cell(fixed);
-    std::vector<std::byte> all[2];
-    for (const int threads : {1, 3}) {
-      omp_set_num_threads(threads);
-      auto s = started(config);
-      for (int k = 0; k < 90; ++k) s->step();
-      all[threads / 2] = bits(*s);
-    }
-    omp_set_num_threads(most);
-    EXPECT_EQ(all[0], all[1]);
+    expect_same_on_any_number_of_threads(config, 90);
     for (const int begin : {34, 35}) {
       auto s = started(config);
       for (int k = 0; k < begin; ++k) s->step();

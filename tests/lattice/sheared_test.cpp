@@ -1,7 +1,5 @@
 // A box of fluid on nodes whose images across z move along x, with grains that cross its sides.
 
-#include <omp.h>
-
 #include "support.hpp"
 #include "tests/boundaries/support.hpp"
 #include "tests/support/tolerance.hpp"
@@ -110,16 +108,7 @@ TEST(ShearedLattice, GrainsAtItsSidesFeelWhatTheyDoInTheMiddle) {
 
 TEST(ShearedLattice, RestartsAndRepeatsToTheLastBit) {
   const Config config = config_of(kGrains);
-  std::vector<std::byte> all[2];
-  const int most = omp_get_max_threads();
-  for (const int threads : {1, 3}) {
-    omp_set_num_threads(threads);
-    auto s = started(config);
-    for (int k = 0; k < 90; ++k) s->step();
-    all[threads / 2] = bits(*s);
-  }
-  omp_set_num_threads(most);
-  EXPECT_EQ(all[0], all[1]);
+  expect_same_on_any_number_of_threads(config, 90);
   for (const int begin : {34, 35}) {
     auto s = started(config);
     for (int k = 0; k < begin; ++k) s->step();

@@ -1,7 +1,5 @@
 // Cases with fluid.model = "lattice" as whole simulations.
 
-#include <omp.h>
-
 #include "support.hpp"
 #include "tests/boundaries/support.hpp"
 #include "tests/support/tolerance.hpp"
@@ -43,16 +41,7 @@ TEST(LatticeSimulation, BooksOfMomentumAndMassClose) {
 
 TEST(LatticeSimulation, RestartsAndRepeatsToTheLastBit) {
   const Config config = config_of(kCavity);
-  std::vector<std::byte> all[2];
-  const int most = omp_get_max_threads();
-  for (const int threads : {1, 3}) {
-    omp_set_num_threads(threads);
-    auto s = started(config);
-    for (int k = 0; k < 70; ++k) s->step();
-    all[threads / 2] = bits(*s);
-  }
-  omp_set_num_threads(most);
-  EXPECT_EQ(all[0], all[1]);
+  expect_same_on_any_number_of_threads(config, 70);
   for (const int begin : {34, 35}) {
     auto s = started(config);
     for (int k = 0; k < begin; ++k) s->step();

@@ -1,6 +1,9 @@
 #pragma once
 // Whole simulations of this build, from a Config made in code.
 
+#include <gtest/gtest.h>
+#include <omp.h>
+
 #include <array>
 #include <bit>
 
@@ -86,6 +89,20 @@ inline std::vector<std::byte> bits(Simulation& s) {
     out.insert(out.end(), raw.begin(), raw.end());
   }
   return out;
+}
+
+/// Of two runs of so many steps, one with a thread and one with three.
+inline void expect_same_on_any_number_of_threads(const Config& config, int steps) {
+  std::vector<std::byte> all[2];
+  const int most = omp_get_max_threads();
+  for (const int threads : {1, 3}) {
+    omp_set_num_threads(threads);
+    auto s = started(config);
+    for (int k = 0; k < steps; ++k) s->step();
+    all[threads / 2] = bits(*s);
+  }
+  omp_set_num_threads(most);
+  EXPECT_EQ(all[0], all[1]);
 }
 
 }  // namespace BL_SOLVER
