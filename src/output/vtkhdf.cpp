@@ -336,7 +336,8 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
 
       std::int64_t part = last_part, first_cell = last_cell;
       if (frames > 0 && !same_count) part += 1, first_cell += last_count;
-      if (last_count == 0 && !same_count) {  // a cell that no frame shows: VTK 9.7 finds a part by the cells before it
+      // After a part without cells a cell that no frame shows: VTK 9.7 finds a part by the cells before it.
+      if (last_count == 0 && !same_count) {
         append_part(root, cells, 1);
         part += 1, first_cell += 1;
       }

@@ -30,9 +30,7 @@ inline std::string content_of(const std::filesystem::path& path) {
 class ProgramTest : public testing::Test {
  protected:
   /// Runs `bedload <arguments>` in the test's folder.
-  Outcome bedload(const std::string& arguments) const {
-    return shell(BL_PROGRAM " " + arguments);
-  }
+  Outcome bedload(const std::string& arguments) const { return shell(BL_PROGRAM " " + arguments); }
 
   Outcome shell(const std::string& command) const {
     const std::string all = "cd '" + dir_.string() +
