@@ -12,9 +12,13 @@ namespace BL_SOLVER::lattice {
 /// that cover a node, the one with the lowest id has the largest mark.
 namespace mark {
 constexpr std::uint32_t kLeft = 1u << 30, kGrain = 1u << 31, kIds = kLeft - 1;
+constexpr std::uint32_t kTaken = kGrain + kLeft - 1;
 /// Beyond a sheared side, where fluid comes from: ids stay below kIds.
 constexpr std::uint32_t kBeyond = kLeft;
 BL_HD std::uint32_t grain(Id id) { return kGrain + (kIds - std::uint32_t(id)); }
+/// A grain has just moved over the node, which was fluid. Below kNone.
+BL_HD std::uint32_t taken_by(Id id) { return kTaken + (kIds - std::uint32_t(id)); }
+BL_HD bool is_taken(std::uint32_t m) { return m > kTaken && m != kNone; }
 /// A grain has just moved off the node.
 BL_HD std::uint32_t left_by(Id id) { return kLeft + (kIds - std::uint32_t(id)); }
 BL_HD bool is_wall(std::uint32_t m) { return m != 0 && (m < kLeft || m == kNone); }
@@ -26,6 +30,7 @@ struct Ball {
   bool periodic[3];
   Vec3d centre, v, omega;
   double radius = 0;
+  double drift = 0;  ///< of an image across a sheared side, along x, besides the motion of the grain itself
   Id id = 0;
   int low[3] = {}, count[3] = {};  ///< of the box around it, with all nodes from which links reach it
 
@@ -111,6 +116,7 @@ struct Balls {
            .v = {},
            .omega = {},
            .radius = nodes * radius[i],
+           .drift = 0,
            .id = id[i],
            .low = {},
            .count = {}};
@@ -118,7 +124,8 @@ struct Balls {
     if (across) {
       const double height = grid.n[2] - 2.0, to = b.centre.z > 0.5 * (height + 1) ? -1 : 1;
       b.centre.z += to * height, b.centre.x += to * images.offset;
-      b.v.x += to * images.speed;
+      b.drift = to * images.speed;
+      b.v.x += b.drift;
       if (b.centre.z < -(b.radius + reach) || b.centre.z > height + 1 + b.radius + reach) return b;
     }
     for (int a = 0; a < 3; ++a) {
@@ -129,11 +136,11 @@ struct Balls {
   }
 };
 
-/// Which grains have just moved off a node.
-struct Leavers {
+/// Which grains have just moved over or off a node.
+struct Movers {
   static constexpr double kReach = 0.5;  ///< more than a grain moves in a step, nodes
-  Span<Index> last;                      ///< of each grain, the number of the move in which it last did
-  Index move;                            ///< of this one
+  Span<Index> last = {};                 ///< of each grain, the number of the move in which it last did
+  Index move = 0;                        ///< of this one
 
   struct Box : Ball {
     Index grain;
@@ -146,27 +153,33 @@ struct Leavers {
 /// Nodes that a grain has moved off are marked so.
 struct ReleasePass {
   Balls balls;
-  Leavers leavers;
+  Movers movers;
   Span<std::uint32_t> solid;
-  BL_HD Leavers::Box box(Index i) const { return Leavers::all(balls, i); }
-  BL_HD void at(const Leavers::Box& ball, const Ball::Row& row, int x) const {
+  BL_HD Movers::Box box(Index i) const { return Movers::all(balls, i); }
+  BL_HD void at(const Movers::Box& ball, const Ball::Row& row, int x) const {
     const Ball::Member m = ball.member(row, x);
     if (!m.there || ball.holds(m.d) || solid[m.node] != mark::grain(ball.id)) return;
     if (ball.holds(ball.nearest(m.d))) return;
     solid[m.node] = mark::left_by(ball.id);
-    leavers.last[ball.grain] = leavers.move;
+    movers.last[ball.grain] = movers.move;
   }
 };
 
-/// Nodes whose centre lies in a grain and in no wall are covered by it.
+/// Nodes whose centre lies in a grain and in no wall are covered by it. Those that were fluid are marked so,
+/// if there are movers.
 struct CoverPass {
   Balls balls;
   Span<std::uint32_t> solid;
-  BL_HD Ball box(Index i) const { return balls(i, 0); }
-  BL_HD void at(const Ball& ball, const Ball::Row& row, int x) const {
+  Movers movers = {};
+  BL_HD Movers::Box box(Index i) const { return {balls(i, 0), i}; }
+  BL_HD void at(const Movers::Box& ball, const Ball::Row& row, int x) const {
     const Ball::Member m = ball.member(row, x);
-    if (m.there && ball.holds(m.d) && !mark::is_wall(solid[m.node]))
-      raise_to(solid[m.node], mark::grain(ball.id));
+    if (!m.there || !ball.holds(m.d)) return;
+    const std::uint32_t here = solid[m.node];
+    if (mark::is_wall(here)) return;
+    const bool taken = movers.last && (here == 0 || mark::is_taken(here));
+    raise_to(solid[m.node], taken ? mark::taken_by(ball.id) : mark::grain(ball.id));
+    if (taken) movers.last[ball.grain] = movers.move;
   }
 };
 
@@ -174,10 +187,10 @@ struct CoverPass {
 /// the stress of the neighbour that lies farthest off the surface, as if the last step had left it so.
 struct RefillPass {
   Balls balls;
-  Leavers leavers;
+  Movers movers;
   NodeMoments before;  ///< of the last step
   Span<const std::uint32_t> solid;
-  BL_HD Ball box(Index i) const { return leavers.box(balls, i); }
+  BL_HD Ball box(Index i) const { return movers.box(balls, i); }
   BL_HD void at(const Ball& ball, const Ball::Row& row, int x) const {
     const Ball::Member m = ball.member(row, x);
     if (m.there && !ball.holds(m.d) && solid[m.node] == mark::left_by(ball.id)) refill(ball, m);
@@ -212,15 +225,61 @@ struct RefillPass {
   }
 };
 
-/// Refilled nodes are fluid.
-struct ReopenPass {
+/// What the fluid has given to each grain, N s: since the start; and of it, what the grain has not got yet,
+/// seen from the grain.
+struct Given {
+  Span<Vec3d> received, owed;
+  BL_HD void add(Index i, const Ball& ball, const Vec3d& momentum, double mass) const {
+    received[i] += momentum;
+    owed[i] += momentum - Vec3d{mass * ball.drift, 0, 0};
+  }
+};
+
+/// The momentum of nodes goes to a grain that has moved over them, and comes from one that has left them,
+/// which are fluid again.
+struct TakePass {
+  struct Value {
+    Vec3d momentum;
+    double mass = 0;
+  };
   Balls balls;
-  Leavers leavers;
+  Movers movers;
+  NodeMoments before;  ///< of the last step
+  double impulse;      ///< SI of a unit of momentum
   Span<std::uint32_t> solid;
-  BL_HD Ball box(Index i) const { return leavers.box(balls, i); }
-  BL_HD void at(const Ball& ball, const Ball::Row& row, int x) const {
-    const Ball::Member m = ball.member(row, x);
-    if (m.there && !ball.holds(m.d) && solid[m.node] == mark::left_by(ball.id)) solid[m.node] = 0;
+  Given given;
+
+  struct Cells {
+    Movers::Box ball;
+    const TakePass& pass;
+    BL_HD Index size() const { return Index(ball.count[0]) * ball.count[1] * ball.count[2]; }
+    BL_HD Value operator()(Index k) const {
+      const Index nx = ball.count[0], ny = ball.count[1];
+      return pass.at(ball, ball.member(int(k % nx), int(k / nx % ny), int(k / nx / ny)));
+    }
+    void fetch(Index) const {}
+  };
+  BL_HD Value identity() const { return {}; }
+  BL_HD void combine(Value& into, const Value& from) const {
+    into.momentum += from.momentum, into.mass += from.mass;
+  }
+  BL_HD Cells group(Index i) const { return {movers.box(balls, i), *this}; }
+  BL_HD Value at(const Ball& ball, const Ball::Member& m) const {
+    if (!m.there) return {};
+    std::uint32_t& mark = solid[m.node];
+    double sign = 0;
+    if (mark == mark::taken_by(ball.id))
+      mark = mark::grain(ball.id), sign = 1;
+    else if (mark == mark::left_by(ball.id) && !ball.holds(m.d))
+      mark = 0, sign = -1;
+    if (sign == 0) return {};
+    Value of;
+    before.sums(m.node, of.mass, of.momentum);
+    return {sign * of.momentum, sign * (1 + of.mass)};
+  }
+  BL_HD void finish(Index i, const Value& sum) const {
+    if (sum.mass == 0 && norm2(sum.momentum) == 0) return;
+    given.add(i, balls(i), impulse * sum.momentum, impulse * sum.mass);
   }
 };
 
@@ -345,10 +404,15 @@ struct LinksOf {
 };
 
 /// Momentum that grains take from the fluid in a step; f is less its weight, so that fluid at rest does not
-/// push grains together between which it has no node.
+/// push grains together between which it has no node. Their force does not depend on the frame, and accounts
+/// for the nodes that they move over and leave on average; what the fluid has lost beside that is owed to
+/// each.
 struct GrainLinkPass {
+  static constexpr double kPaid = 0.005;  ///< part of what is owed that is paid in a step
   struct Value {
     Vec3d force, torque;  ///< about the centre, units of the lattice
+    Vec3d lost;           ///< by the fluid
+    double mass = 0;      ///< that goes with it
   };
   Balls balls;
   Populations f;  ///< of the step to come
@@ -359,43 +423,55 @@ struct GrainLinkPass {
   bool first;                             ///< there is no former step
   Span<Real3> fluid_force, fluid_torque;  ///< mean of this step and the last, N, N m
   Span<Real3> force, torque;              ///< of the last step alone
-  Span<Vec3d> received, displaced;  ///< N s since the start: from the fluid; of the push on what they cover
+  Given given;
+  Span<Vec3d> displaced;  ///< N s since the start: of the push on what they cover
 
   BL_HD Value identity() const { return {}; }
   BL_HD void combine(Value& into, const Value& from) const {
     into.force += from.force, into.torque += from.torque;
+    into.lost += from.lost, into.mass += from.mass;
   }
   BL_HD LinksOf<GrainLinkPass> group(Index i) const { return {*this, i}; }
 
   BL_HD Value at(const Ball& ball, const LinkMet& link) const {
     const Vec3d arm = link.arm(), u = ball.velocity_at(arm);
-    const Vec3d taken =
-        reflect(f, link.node, link.beyond, link.direction, Real(link.fraction), u).taken(link.direction, u);
-    return {taken, cross(arm, taken)};
+    const Reflection r = reflect(f, link.node, link.beyond, link.direction, Real(link.fraction), u);
+    const Vec3d taken = r.taken(link.direction, u);
+    return {taken, cross(arm, taken), r.lost(link.direction), r.mass()};
   }
   BL_HD void finish(Index i, const Value& sum) const {
     const Real3 F(newton * sum.force), T(newton_metre * sum.torque);
-    received[i] += (newton * second) * sum.force;
+    const Real part = first ? 1 : Real(0.5);  // of this step in the mean of the last two
+    const Real3 ended = balls.across || first ? Real3{} : force[i],
+                turned = balls.across || first ? Real3{} : torque[i];
+    const Real3 mean = part * (F + ended);
     displaced[i] += (newton * second * links.covered[i]) * push;
-    if (balls.across) {  // besides those of the grain itself
-      const Real weight = first ? 1 : Real(0.5);
-      fluid_force[i] += weight * F, fluid_torque[i] += weight * T;
-      force[i] += F, torque[i] += T;
-      return;
+    Vec3d& owed = given.owed[i];
+    if (!balls.across) {
+      const Real3 own = LiftPass::of(balls.radius[i], lift);
+      owed = balls.held ? Vec3d{} : owed - second * Vec3d(fluid_force[i] - own);  // what it had in this step
+      fluid_force[i] = own, fluid_torque[i] = {}, force[i] = {}, torque[i] = {};
     }
-    fluid_force[i] = Real(0.5) * (F + (first ? F : force[i])) + LiftPass::of(balls.radius[i], lift);
-    fluid_torque[i] = Real(0.5) * (T + (first ? T : torque[i]));
-    force[i] = F, torque[i] = T;
+    const double impulse = newton * second;
+    const Vec3d before = balls.across ? owed : Vec3d{};
+    given.add(i, balls(i), impulse * sum.lost, impulse * sum.mass);
+    const Vec3d due = owed - before - second * Vec3d(mean);
+    fluid_force[i] += balls.held ? mean : Real3(Vec3d(mean) + (kPaid / second) * due);
+    fluid_torque[i] += part * (T + turned);
+    force[i] += F, torque[i] += T;
   }
 };
 
-/// Sums over grains: what they have received 3 and displaced 3, N s; the force of the fluid on them 3, N.
+/// Sums over grains: what they have received 3 and displaced 3, and what is owed to them 3, N s; the force of
+/// the fluid on them 3, N.
 struct GrainBooks {
-  Span<const Vec3d> received, displaced;
+  Span<const Vec3d> received, displaced, owed;
   Span<const Real3> fluid_force;
   BL_HD void operator()(Index i, double* out) const {
-    for (int k = 0; k < 3; ++k)
-      out[k] = received[i][k], out[3 + k] = displaced[i][k], out[6 + k] = fluid_force[i][k];
+    for (int k = 0; k < 3; ++k) {
+      out[k] = received[i][k], out[3 + k] = displaced[i][k];
+      out[6 + k] = owed[i][k], out[9 + k] = fluid_force[i][k];
+    }
   }
 };
 

@@ -35,10 +35,11 @@ BL_HD Vec3d surface_point(const NodeGrid& grid, const Link& link) {
 /// What leaves a node along a link and comes back from the surface, less the weight.
 struct Reflection {
   Real left, back;
+  /// Momentum and mass that the fluid loses.
+  BL_HD Vec3d lost(int k) const { return (double(left) + double(back)) * velocity_of<double>(k); }
+  BL_HD double mass() const { return double(left) - double(back); }
   /// Momentum that a surface with the velocity u takes from it, which does not depend on the frame [wen14].
-  BL_HD Vec3d taken(int k, const Vec3d& u) const {
-    return (double(left) + double(back)) * velocity_of<double>(k) - (double(left) - double(back)) * u;
-  }
+  BL_HD Vec3d taken(int k, const Vec3d& u) const { return lost(k) - mass() * u; }
 };
 /// By linear interpolation about the surface, at any fraction q of the link with the same formula
 /// [ginzburg08]; half-way bounce-back at a fraction of 1/2. f: of the step to come; k: velocity towards the
@@ -81,7 +82,7 @@ struct LinkPass {
     const Index beyond = f.grid.neighbour(f.grid.place(link.node), pair_of(k));
     const Reflection r = reflect(f, link.node, beyond, k, narrow ? Real(0.5) : link.fraction, u);
     if (!force) return;
-    const Vec3d taken = (double(r.left) + double(r.back)) * velocity_of<double>(k);
+    const Vec3d taken = r.lost(k);
     force[l] = Real3(taken);
     Vec4<double>& sum = received[l];
     sum.x += taken.x, sum.y += taken.y, sum.z += taken.z;

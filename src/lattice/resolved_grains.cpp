@@ -11,7 +11,7 @@ ResolvedGrains::ResolvedGrains(const DomainConfig& domain, const LatticeUnits& u
     : domain_(domain), units_(units), lift_(lift), grains_(grains) {
   for (FieldBase* field :
        std::initializer_list<FieldBase*>{&fluid_torque_, &last_force_, &last_torque_, &received_, &displaced_,
-                                         &link_begin_, &link_count_, &covered_}) {
+                                         &owed_, &link_begin_, &link_count_, &covered_}) {
     field->begin_at_zero();  // grains may have settled without fluid
     field->grow(grains.size());
   }
@@ -61,15 +61,19 @@ void ResolvedGrains::cover(const NodeGrid& grid, const Vec3d& first, NodeStore& 
 
 void ResolvedGrains::follow(const NodeMoments& before, const Vec3d& first, NodeStore& nodes) {
   const Balls all = balls(before.f.grid, first, false);
-  if (last_left_.size() < grains_.size() || ++moves_ == 0) {
-    last_left_.resize(grains_.size()), last_left_.zero();
+  if (last_moved_.size() < grains_.size() || ++moves_ == 0) {
+    last_moved_.resize(grains_.size()), last_moved_.zero();
     moves_ = 1;
   }
-  const Leavers leavers{last_left_, moves_};
-  run(ReleasePass{all, leavers, nodes.solid});
-  run(CoverPass{all, nodes.solid});
-  run(RefillPass{all, leavers, before, nodes.solid});
-  run(ReopenPass{all, leavers, nodes.solid});
+  const Movers movers{last_moved_, moves_};
+  run(ReleasePass{all, movers, nodes.solid});
+  run(CoverPass{all, nodes.solid, movers});
+  run(RefillPass{all, movers, before, nodes.solid});
+  TakePass take{all, movers, before, units_.momentum(), nodes.solid, given()};
+  for_each_group(grains_.size(), take);
+  if (!images_.there) return;
+  take.balls.across = true;
+  for_each_group(grains_.size(), take);
 }
 
 void ResolvedGrains::make_places() {
@@ -107,7 +111,7 @@ void ResolvedGrains::exchange(const Populations& f, const Vec3d& first, const No
                      .fluid_torque = fluid_torque_,
                      .force = last_force_,
                      .torque = last_torque_,
-                     .received = received_,
+                     .given = given(),
                      .displaced = displaced_};
   run_over_links(pass, nodes, held);
 }
@@ -123,9 +127,9 @@ void ResolvedGrains::stresslets(const Populations& f, const Vec3d& first, const 
 }
 
 ResolvedGrains::Sums ResolvedGrains::sums() const {
-  const auto t = sum_over<9>(grains_.owned(), GrainBooks{received_, displaced_, grains_.fluid_force});
+  const auto t = sum_over<12>(grains_.owned(), GrainBooks{received_, displaced_, owed_, grains_.fluid_force});
   const auto vec = [&](int k) { return Vec3d{t.v[k], t.v[k + 1], t.v[k + 2]}; };
-  return {vec(0), vec(3), vec(6)};
+  return {vec(0), vec(3), vec(6), vec(9)};
 }
 
 }  // namespace BL_SOLVER

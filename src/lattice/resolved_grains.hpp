@@ -42,7 +42,8 @@ class ResolvedGrains {
                   Buffer<PairMoment<>>& out);
 
   struct Sums {
-    Vec3d received, displaced;  ///< since the start, N s: over links; of forces on the fluid they displace
+    Vec3d received, displaced;  ///< since the start, N s: of the fluid; of forces on the fluid they displace
+    Vec3d owed;                 ///< of what they have received, what has not yet acted on them, N s
     Vec3d force;                ///< by the fluid, N
   };
   Sums sums() const;
@@ -58,6 +59,7 @@ class ResolvedGrains {
   /// Gives each grain its places in the list of links.
   void make_places();
   void find_links(const lattice::Balls& balls, const NodeStore& nodes);
+  lattice::Given given() { return {received_, owed_}; }
   lattice::GrainLinks links() { return {link_begin_, link_count_, covered_, links_}; }
 
   const DomainConfig domain_;
@@ -70,13 +72,14 @@ class ResolvedGrains {
   Field<Real3> last_torque_{grains_, "last_fluid_torque", "N m", Lifetime::kept};
   Field<Vec3d> received_{grains_, "received", "N s", Lifetime::kept};
   Field<Vec3d> displaced_{grains_, "displaced", "N s", Lifetime::kept};
+  Field<Vec3d> owed_{grains_, "owed_momentum", "N s", Lifetime::kept};
   Field<Index> link_begin_{grains_, "link_begin", "-", Lifetime::carried};
   Field<Index> link_count_{grains_, "link_count", "-", Lifetime::carried};
   Field<Index> covered_{grains_, "covered_nodes", "-", Lifetime::carried};
   Buffer<std::uint64_t> links_;  ///< as GrainLinks has them
   Index places_ = 0;             ///< grains that have places in it
   bool found_ = false;           ///< those of grains that have not moved since
-  Buffer<Index> last_left_;      ///< as Leavers has it
+  Buffer<Index> last_moved_;     ///< as Movers has it
   Index moves_ = 0;
 };
 

@@ -147,7 +147,9 @@ std::vector<Quantity> LatticeSimulation::diagnostics() {
   out.push_back({"density_min", "kg/m3", units.rho * (1 + e.least)});
   out.push_back({"fluid_count", "-", sums.nodes});
   if (!grains_) return out;
-  add(out, "impulse_on_grains", "N s", resolved_->sums().received);
+  const ResolvedGrains::Sums of = resolved_->sums();
+  add(out, "impulse_on_grains", "N s", of.received);
+  add(out, "impulse_owed_to_grains", "N s", of.owed);
   for (const Quantity& q : grains_->diagnostics()) out.push_back(q);
   return out;
 }

@@ -73,7 +73,7 @@ TEST(ShearedLattice, BooksOfMassAndMomentumClose) {
         grains ? reading(rows, "grain_mass") * kRate * kSide / 2 : 1e-3 * mass * kRate * kSide;
     for (const char* axis : {"x", "y", "z"})
       EXPECT_LT(std::abs(reading(rows, std::string("fluid_momentum_residual_") + axis)),
-                (grains ? 0.05 : tolerance(1e-9, 1e-3, 1e-3)) * exchanged)
+                tolerance(1e-9, 1e-3, 1e-3) * exchanged)
           << grains << axis;
   }
 }
