@@ -21,18 +21,20 @@ endif()
 function(bedload_register target speed)
   set(filter "-Slow*:*/Slow*")
   set(properties TIMEOUT 300)
+  # Two tests may run at once, and waiting threads that spin would starve each other.
+  set(threads OMP_WAIT_POLICY=passive)
   if(BEDLOAD_SANITIZE OR BEDLOAD_COVERAGE)
     set(properties TIMEOUT 1800)
   endif()
   if(speed STREQUAL "slow")
     set(filter "Slow*:*/Slow*")
     set(properties TIMEOUT 1800 COST 100)
+    set(threads OMP_NUM_THREADS=1)  # a fifth less to compute: their cases are small
   endif()
-  # Two tests may run at once, and waiting threads that spin would starve each other.
   gtest_discover_tests(
     ${target} TEST_FILTER "${filter}" TEST_PREFIX "${target}." TEST_LIST ${target}_${speed}
     DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${ARGN}${speed}" ${properties} ENVIRONMENT OMP_WAIT_POLICY=passive)
+    PROPERTIES LABELS "${ARGN}${speed}" ${properties} ENVIRONMENT ${threads})
 endfunction()
 
 # bedload_precompile(<target>): reads what most tests include once, a quarter less to compile. Not with ccache, which
