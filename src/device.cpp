@@ -255,6 +255,21 @@ std::string code_of(const Device& device) {
   return code;
 }
 
+OwnGpu own_gpu([[maybe_unused]] const Device& device) {
+  OwnGpu gpu;
+#if BL_HAS_CUDA
+  cudaDeviceProp properties;
+  int own = 0;
+  if (device.cuda() && cudaGetDevice(&own) == cudaSuccess &&
+      cudaGetDeviceProperties(&properties, own) == cudaSuccess) {
+    gpu.number = own;
+    std::memcpy(gpu.id.data(), &properties.uuid, gpu.id.size());
+    gpu.bind = [](int number) { cudaSetDevice(number); };
+  }
+#endif
+  return gpu;
+}
+
 Device find_own_device(const std::string& backend, int threads, Simd simd, const Processes& all) {
   int share = all.size_here();  // processes that share its memory
 #if BL_HAS_CUDA

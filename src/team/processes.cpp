@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <initializer_list>
@@ -112,18 +114,28 @@ class Processes::OwnLink final : public HostLink {
     waiting([&] { return all_.mpi_.all_gather(own, all, bytes, kTimeout); });
   }
   void exchange(std::span<const Piece> out, std::span<const Piece> in) override {
-    const auto pieces = [](std::span<const Piece> of) {
-      std::vector<BedloadMpiPiece> to;
-      for (const Piece& p : of) to.push_back({p.rank, p.data, p.bytes});
-      return to;
-    };
     const auto from = pieces(out), to = pieces(in);
     waiting([&] {
       return all_.mpi_.exchange(kMpiData, from.data(), from.size(), to.data(), to.size(), kTimeout);
     });
   }
+  bool takes_device_memory() const override { return all_.nccl_; }
+  void exchange_there(std::span<const Piece> out, std::span<const Piece> in, void* queue,
+                      int (*done)(void*)) override {
+    const auto from = pieces(out), to = pieces(in);
+    const BedloadMpiResult result =
+        all_.mpi_.exchange_there(from.data(), from.size(), to.data(), to.size(), queue, done, kTimeout);
+    if (result == kMpiFailed)
+      throw RankLost(all_.lost_ = fmt::format("{}; --mpi-data host does without NCCL", all_.mpi_.error()));
+    all_.check(result, kTimeout);
+  }
 
  private:
+  static std::vector<BedloadMpiPiece> pieces(std::span<const Piece> of) {
+    std::vector<BedloadMpiPiece> to;
+    for (const Piece& p : of) to.push_back({p.rank, p.data, p.bytes});
+    return to;
+  }
   template <class F>
   void waiting(const F& call) {
     const auto from = std::chrono::steady_clock::now();
@@ -189,6 +201,68 @@ void Processes::check(BedloadMpiResult result, double limit) {
             (stage ? fmt::format(", in {} of step {}", stage, record.steps + 1) : "");
   }
   throw RankLost(lost_);
+}
+
+void Processes::connect(const OwnGpu& gpu, GpuData wanted) {
+  if (size_ == 1) return;
+  std::string why = "--mpi-data says";
+  if (wanted != GpuData::host) why = start_nccl(gpu);
+  nccl_ = why.empty();
+  if (!nccl_ && wanted == GpuData::nccl) throw DeviceError("--mpi-data nccl: " + why);
+  if (!nccl_) gpu_data_ = "host memory, as " + why;
+}
+
+std::string Processes::start_nccl(const OwnGpu& gpu) {
+  struct Own {
+    bool on_gpu;
+    std::array<char, 16> id;
+    int version;
+    std::array<char, 256> problem;  ///< with it, empty: none
+  };
+  std::vector<Own> all(std::size_t(size_), Own{});
+  const auto gather = [&](const Own& own, const auto& each) -> std::string {
+    link_->all_gather(&own, all.data(), sizeof own);
+    for (int r = 0; r < size_; ++r) {
+      if (const std::string why = each(all[std::size_t(r)]); !why.empty())
+        return fmt::format("process {}{}", r, why);
+    }
+    return "";
+  };
+  const auto note = [&](Own& own, BedloadMpiResult result) {
+    const std::string text = result == kMpiDone     ? ""
+                             : result == kMpiFailed ? mpi_.error()
+                             : result == kMpiLate   ? "NCCL has not started"
+                                                    : "another process has failed";
+    text.copy(own.problem.data(), own.problem.size() - 1);
+  };
+  const auto problem = [](const Own& own) -> std::string {
+    return own.problem[0] ? fmt::format(": {}", own.problem.data()) : "";
+  };
+
+  Own own{.on_gpu = gpu.number >= 0, .id = gpu.id, .version = 0, .problem = {}};
+  if (own.on_gpu) note(own, mpi_.find_nccl(&own.version));
+  std::string why = gather(own, [&](const Own& of) -> std::string {
+    if (!of.on_gpu) return " computes on the CPU";
+    if (of.problem[0]) return problem(of);
+    if (std::ranges::count(all, of.id, &Own::id) > 1) return " shares its GPU with another";
+    return of.version == all[0].version ? "" : " has another version of NCCL than process 0";
+  });
+  if (!why.empty()) return why;
+
+  BedloadNcclId id{};
+  own.problem = {};
+  if (rank_ == 0) note(own, mpi_.make_nccl_id(&id));
+  if (why = gather(own, problem); !why.empty()) return why;
+  std::vector<BedloadNcclId> ids(std::size_t(size_), id);
+  link_->all_gather(&id, ids.data(), sizeof id);
+  note(own, mpi_.start_nccl(ids.data(), gpu.bind, gpu.number, kTimeout / 2));
+  if (why = gather(own, problem); !why.empty()) {
+    mpi_.drop_nccl();
+    return why;
+  }
+  const int v = own.version;
+  gpu_data_ = fmt::format("NCCL {}.{}.{}", v / 10000, v / 100 % 100, v % 100);
+  return "";
 }
 
 void Processes::send(const std::vector<int>& ranks, const HostBytes& bytes, bool is_error) {
