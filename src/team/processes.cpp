@@ -43,6 +43,12 @@ int started() {
   return 0;
 }
 
+std::vector<BedloadMpiPiece> pieces(std::span<const Piece> of) {
+  std::vector<BedloadMpiPiece> to;
+  for (const Piece& p : of) to.push_back({p.rank, p.data, p.bytes});
+  return to;
+}
+
 /// What an error is in an answer.
 enum class Kind : int { fault, key, input, file, device, lost, other };
 
@@ -131,11 +137,6 @@ class Processes::OwnLink final : public HostLink {
   }
 
  private:
-  static std::vector<BedloadMpiPiece> pieces(std::span<const Piece> of) {
-    std::vector<BedloadMpiPiece> to;
-    for (const Piece& p : of) to.push_back({p.rank, p.data, p.bytes});
-    return to;
-  }
   template <class F>
   void waiting(const F& call) {
     const auto from = std::chrono::steady_clock::now();
@@ -214,49 +215,69 @@ void Processes::connect(const OwnGpu& gpu, GpuData wanted) {
 
 std::string Processes::start_nccl(const OwnGpu& gpu) {
   struct Own {
-    bool on_gpu;
+    bool on_gpu, late;
     std::array<char, 16> id;
     int version;
     std::array<char, 256> problem;  ///< with it, empty: none
-  };
-  std::vector<Own> all(std::size_t(size_), Own{});
-  const auto gather = [&](const Own& own, const auto& each) -> std::string {
-    link_->all_gather(&own, all.data(), sizeof own);
-    for (int r = 0; r < size_; ++r) {
-      if (const std::string why = each(all[std::size_t(r)]); !why.empty())
-        return fmt::format("process {}{}", r, why);
-    }
-    return "";
-  };
-  const auto note = [&](Own& own, BedloadMpiResult result) {
-    const std::string text = result == kMpiDone     ? ""
-                             : result == kMpiFailed ? mpi_.error()
-                             : result == kMpiLate   ? "NCCL has not started"
-                                                    : "another process has failed";
+  } own{.on_gpu = gpu.number >= 0, .late = false, .id = gpu.id, .version = 0, .problem = {}};
+  std::vector<Own> all(std::size_t(size_), own);
+  const auto note = [&](const std::string& text) {
+    own.problem = {};
     text.copy(own.problem.data(), own.problem.size() - 1);
   };
-  const auto problem = [](const Own& own) -> std::string {
-    return own.problem[0] ? fmt::format(": {}", own.problem.data()) : "";
+  const auto result_of = [&](BedloadMpiResult result) {
+    own.late = result == kMpiLate || result == kMpiAlarmed;
+    note(result == kMpiDone ? "" : result == kMpiFailed ? mpi_.error() : "NCCL waits for another process");
+    return result == kMpiDone;
+  };
+  const auto first = [&](const auto& each) -> std::string {
+    for (int r = 0; r < size_; ++r)
+      if (const std::string why = each(all[std::size_t(r)]); !why.empty())
+        return fmt::format("process {}{}", r, why);
+    return "";
+  };
+  const auto gather = [&] { link_->all_gather(&own, all.data(), sizeof own); };
+  /// Of one that waits only where no other has any.
+  const auto gather_problems = [&] {
+    gather();
+    const auto problem = [](const Own& of) {
+      return of.problem[0] ? ": " + std::string(of.problem.data()) : "";
+    };
+    const std::string why = first([&](const Own& of) { return of.late ? "" : problem(of); });
+    return why.empty() ? first(problem) : why;
   };
 
-  Own own{.on_gpu = gpu.number >= 0, .id = gpu.id, .version = 0, .problem = {}};
-  if (own.on_gpu) note(own, mpi_.find_nccl(&own.version));
-  std::string why = gather(own, [&](const Own& of) -> std::string {
-    if (!of.on_gpu) return " computes on the CPU";
-    if (of.problem[0]) return problem(of);
-    if (std::ranges::count(all, of.id, &Own::id) > 1) return " shares its GPU with another";
-    return of.version == all[0].version ? "" : " has another version of NCCL than process 0";
-  });
+  if (own.on_gpu) result_of(mpi_.find_nccl(&own.version));
+  gather();
+  std::string why = first([](const Own& of) { return of.on_gpu ? "" : " computes on the CPU"; });
+  if (why.empty()) why = gather_problems();
+  if (why.empty())
+    why = first([&](const Own& of) {
+      return std::ranges::count(all, of.id, &Own::id) > 1 ? " shares its GPU with another"
+             : of.version != all[0].version               ? " has another version of NCCL than process 0"
+                                                          : "";
+    });
   if (!why.empty()) return why;
 
   BedloadNcclId id{};
-  own.problem = {};
-  if (rank_ == 0) note(own, mpi_.make_nccl_id(&id));
-  if (why = gather(own, problem); !why.empty()) return why;
+  if (rank_ == 0) result_of(mpi_.make_nccl_id(&id));
+  if (why = gather_problems(); !why.empty()) return why;
   std::vector<BedloadNcclId> ids(std::size_t(size_), id);
   link_->all_gather(&id, ids.data(), sizeof id);
-  note(own, mpi_.start_nccl(ids.data(), gpu.bind, gpu.number, kTimeout / 2));
-  if (why = gather(own, problem); !why.empty()) {
+  result_of(mpi_.start_nccl(ids.data(), gpu.bind, gpu.number, kTimeout / 2));
+  why = gather_problems();
+  if (why.empty()) {
+    const auto exchange = [&](std::span<const Piece> out, std::span<const Piece> in, void* queue,
+                              int (*done)(void*)) {
+      const auto from = pieces(out), to = pieces(in);
+      return result_of(
+          mpi_.exchange_there(from.data(), from.size(), to.data(), to.size(), queue, done, kTimeout / 2));
+    };
+    if (!gpu.try_out(exchange, rank_, size_) && !own.problem[0])
+      note("what NCCL brings is not what was sent");
+    why = gather_problems();
+  }
+  if (!why.empty()) {
     mpi_.drop_nccl();
     return why;
   }

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <exception>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,11 +15,17 @@
 
 namespace bedload {
 
+/// As HostLink::exchange_there; false: something has failed.
+using ExchangeThere =
+    std::function<bool(std::span<const Piece>, std::span<const Piece>, void* queue, int (*done)(void*))>;
+
 /// The GPU of a process.
 struct OwnGpu {
   int number = -1;                  ///< -1: it computes on the CPU
   std::array<char, 16> id{};        ///< no other GPU has it
   void (*bind)(int gpu) = nullptr;  ///< gives it to the thread that calls
+  /// Sends to the next rank, receives from the one before; whether that came as it was sent.
+  bool (*try_out)(const ExchangeThere&, int rank, int ranks) = nullptr;
 };
 
 /// How values go from GPU to GPU.
