@@ -9,8 +9,10 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <span>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "bedload/case/config.hpp"
 #include "bedload/case/grain_sizes.hpp"
@@ -241,6 +243,31 @@ void use_host_memory([[maybe_unused]] const Device& device) {
 #endif
 }
 
+#if BL_HAS_CUDA
+/// OwnGpu::try_out.
+bool goes_around(const ExchangeThere& exchange, int rank, int ranks) {
+  constexpr std::size_t kBytes = 1 << 20;
+  const int before = (rank + ranks - 1) % ranks;
+  const auto bytes_of = [](int sender) {
+    std::vector<unsigned char> bytes(kBytes);
+    for (std::size_t k = 0; k < kBytes; ++k) bytes[k] = (unsigned char)(k / 256 + k + std::size_t(sender));
+    return bytes;
+  };
+  std::vector<unsigned char> came(kBytes);
+  void *from = nullptr, *to = nullptr;
+  bool good = cudaMalloc(&from, kBytes) == cudaSuccess && cudaMalloc(&to, kBytes) == cudaSuccess &&
+              cudaMemcpy(from, bytes_of(rank).data(), kBytes, cudaMemcpyHostToDevice) == cudaSuccess;
+  const Piece out{(rank + 1) % ranks, from, kBytes}, in{before, to, kBytes};
+  good = good && exchange({&out, 1}, {&in, 1}, nullptr, [](void* queue) {
+           return int(cudaStreamQuery(static_cast<cudaStream_t>(queue)) != cudaErrorNotReady);
+         });
+  good = good && cudaMemcpy(came.data(), to, kBytes, cudaMemcpyDeviceToHost) == cudaSuccess;
+  cudaFree(from), cudaFree(to);
+  (void)cudaGetLastError();
+  return good && came == bytes_of(before);
+}
+#endif
+
 }  // namespace
 
 std::string code_of(const Device& device) {
@@ -253,6 +280,22 @@ std::string code_of(const Device& device) {
     code += " " + std::to_string(properties.major) + "." + std::to_string(properties.minor);
 #endif
   return code;
+}
+
+OwnGpu own_gpu([[maybe_unused]] const Device& device) {
+  OwnGpu gpu;
+#if BL_HAS_CUDA
+  cudaDeviceProp properties;
+  int own = 0;
+  if (device.cuda() && cudaGetDevice(&own) == cudaSuccess &&
+      cudaGetDeviceProperties(&properties, own) == cudaSuccess) {
+    gpu.number = own;
+    std::memcpy(gpu.id.data(), &properties.uuid, gpu.id.size());
+    gpu.bind = [](int number) { cudaSetDevice(number); };
+    gpu.try_out = goes_around;
+  }
+#endif
+  return gpu;
 }
 
 Device find_own_device(const std::string& backend, int threads, Simd simd, const Processes& all) {

@@ -206,6 +206,11 @@ void add_run(CLI::App& app, Options& o, std::string& precision, bool& force_dt) 
   run->add_flag("--mpi", o.mpi, "Divide the particles among the processes that mpirun or srun starts")
       ->excludes("--devices")
       ->excludes("--ranks");
+  run->add_option(
+         "--mpi-data", o.mpi_data,
+         "Between GPUs of several processes: by NCCL or host memory; auto: NCCL where it can be used")
+      ->needs("--mpi")
+      ->check(CLI::IsMember({"auto", "nccl", "host"}));
   add_live(*run, o);
   run->add_flag("--allow-changes", o.allow_changes, "Restart with a modified case");
 }

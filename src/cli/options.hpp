@@ -52,6 +52,7 @@ struct Options {
   int ranks = 1;                       ///< parts of the CPU that divide a run
   std::string devices;                 ///< GPUs that do: a number, a list, all; empty: one
   bool mpi = false;                    ///< this is one of several processes, of which each is a rank
+  std::string mpi_data = "auto";       ///< between their GPUs: auto, nccl, host
   bool quiet = false, overwrite = false;
   bool allow_changes = false;  ///< restart with a modified case
   std::optional<int> live;     ///< of run: port of the live view, 0 for any; none: no live view

@@ -62,6 +62,8 @@ class Run {
 
   int go() {
     print(summary_text(p_) + notes_text(p_));
+    if (const Processes* const all = Processes::joined(); all && !all->gpu_data().empty())
+      print(fmt::format("exchange   by {}\n", all->gpu_data()));
     session_.emplace(options_, std::move(p_), [this](const std::string& text) { print(text); });
     print_warnings();
     print(fmt::format("results    {}\n", options_.out.string()));
@@ -253,7 +255,7 @@ int run_as_other(const Options& given, Processes& all) {
   const auto read = [&] {
     find_restart(options);
     Prepared p = prepare(options);
-    return OwnCase{std::move(p.config), std::move(p.setup), p.device, code_of(p.device)};
+    return OwnCase{std::move(p.config), std::move(p.setup), p.device, code_of(p.device), own_gpu(p.device)};
   };
   serve(all, read, make_own_part);
   return 0;
@@ -262,7 +264,13 @@ int run_as_other(const Options& given, Processes& all) {
 /// Among several processes once all have read it.
 Prepared prepare_all(const Options& options) {
   Prepared p = prepare(options);
-  if (Processes* const all = Processes::joined()) all->hear(nullptr, 0);
+  if (Processes* const all = Processes::joined()) {
+    all->hear(nullptr, 0);
+    connect(*all, own_gpu(p.device),
+            options.mpi_data == "nccl"   ? GpuData::nccl
+            : options.mpi_data == "host" ? GpuData::host
+                                         : GpuData::automatic);
+  }
   return p;
 }
 

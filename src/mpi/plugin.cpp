@@ -1,16 +1,19 @@
-// libbedload_mpi.so: the only file that knows MPI.
+// libbedload_mpi.so: the only file that knows MPI. NCCL: nccl.hpp.
 
 #define OMPI_SKIP_MPICXX 1
 #define MPICH_SKIP_MPICXX 1
 #include <mpi.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "src/mpi/nccl.hpp"
 #include "src/team/mpi_table.hpp"
 
 namespace bedload {
@@ -22,6 +25,7 @@ constexpr double kGrace = 1;                         ///< s, for what is going o
 MPI_Comm channels[kMpiChannels];
 int own_rank = 0, ranks = 1, late_rank = -1;
 std::string problem;
+Nccl nccl;
 
 bool failed(int status) {
   if (status == MPI_SUCCESS) return false;
@@ -32,30 +36,20 @@ bool failed(int status) {
   return true;
 }
 
-/// Waits for the requests. The first receive, `from` these ranks, and are given up where not all end.
-BedloadMpiResult wait(std::vector<MPI_Request>& requests, const std::vector<int>& from, bool heeds_alarms,
-                      double limit) {
+constexpr int kShort = 1000;  ///< turns of most waits
+
+/// Until test(turns, done) says that it is done; it returns false if something has failed.
+template <class F>
+BedloadMpiResult wait_until(const F& test, bool heeds_alarms, double limit) {
   using Clock = std::chrono::steady_clock;
-  const auto give_up = [&](BedloadMpiResult result) {
-    late_rank = -1;
-    for (std::size_t k = 0; k < from.size(); ++k) {
-      int done = 0;
-      MPI_Test(&requests[k], &done, MPI_STATUS_IGNORE);
-      if (done) continue;
-      if (late_rank < 0) late_rank = from[k];
-      MPI_Cancel(&requests[k]);
-      MPI_Wait(&requests[k], MPI_STATUS_IGNORE);
-    }
-    return result;
-  };
+  late_rank = -1;
   const auto began = Clock::now();
   auto alarmed = Clock::time_point::max();
   for (int turns = 0;; ++turns) {
     int done = 0;
-    if (failed(MPI_Testall(int(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE)))
-      return kMpiFailed;
+    if (!test(turns, done)) return kMpiFailed;
     if (done) return kMpiDone;
-    if (turns < 1000) continue;  // most waits are short
+    if (turns < kShort) continue;
     const auto now = Clock::now();
     const double waited = std::chrono::duration<double>(now - began).count();
     if (heeds_alarms && alarmed == Clock::time_point::max()) {
@@ -64,11 +58,30 @@ BedloadMpiResult wait(std::vector<MPI_Request>& requests, const std::vector<int>
         return kMpiFailed;
       if (there) alarmed = now;
     }
-    if (now > alarmed && std::chrono::duration<double>(now - alarmed).count() > kGrace)
-      return give_up(kMpiAlarmed);
-    if (limit > 0 && waited > limit) return give_up(kMpiLate);
+    if (now > alarmed && std::chrono::duration<double>(now - alarmed).count() > kGrace) return kMpiAlarmed;
+    if (limit > 0 && waited > limit) return kMpiLate;
     waited < 1e-2 ? std::this_thread::yield() : std::this_thread::sleep_for(std::chrono::microseconds(50));
   }
+}
+
+/// Waits for the requests. The first receive, `from` these ranks, and are given up where not all end.
+BedloadMpiResult wait(std::vector<MPI_Request>& requests, const std::vector<int>& from, bool heeds_alarms,
+                      double limit) {
+  const BedloadMpiResult result = wait_until(
+      [&](int, int& done) {
+        return !failed(MPI_Testall(int(requests.size()), requests.data(), &done, MPI_STATUSES_IGNORE));
+      },
+      heeds_alarms, limit);
+  if (result == kMpiDone || result == kMpiFailed) return result;
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    int done = 0;
+    MPI_Test(&requests[k], &done, MPI_STATUS_IGNORE);
+    if (done) continue;
+    if (late_rank < 0) late_rank = from[k];
+    MPI_Cancel(&requests[k]);
+    MPI_Wait(&requests[k], MPI_STATUS_IGNORE);
+  }
+  return result;
 }
 
 BedloadMpiResult begin(int* rank, int* size, int* rank_here, int* size_here) {
@@ -141,7 +154,63 @@ BedloadMpiResult exchange(BedloadMpiChannel channel, const BedloadMpiPiece* out,
   return wait(requests, from, channel == kMpiData && own_rank == 0, limit);
 }
 
+BedloadMpiResult of_nccl(bool good) {
+  if (!good) problem = nccl.problem();
+  return good ? kMpiDone : kMpiFailed;
+}
+
+BedloadMpiResult find_nccl(int* version) {
+  const BedloadMpiResult result = of_nccl(nccl.open());
+  *version = nccl.version();
+  return result;
+}
+
+/// By a thread of its own, which is left behind where others do not come.
+BedloadMpiResult start_nccl(const BedloadNcclId* id, void (*bind)(int gpu), int gpu, double limit) {
+  struct Start {
+    std::atomic<bool> done{false};
+    bool good = false;
+    void* communicator = nullptr;
+    std::string problem;
+  };
+  const auto start = std::make_shared<Start>();
+  std::thread([start, bind, gpu, id = *id, rank = own_rank, size = ranks] {
+    bind(gpu);
+    start->good = nccl.start(id, rank, size, start->communicator, start->problem);
+    start->done = true;
+  }).detach();
+  const BedloadMpiResult result = wait_until(
+      [&](int, int& done) {
+        done = start->done;
+        return true;
+      },
+      own_rank == 0, limit);
+  if (result != kMpiDone) return result;
+  if (!start->good) {
+    problem = start->problem;
+    return kMpiFailed;
+  }
+  nccl.take(start->communicator);
+  return kMpiDone;
+}
+
+BedloadMpiResult exchange_there(const BedloadMpiPiece* out, std::size_t n_out, const BedloadMpiPiece* in,
+                                std::size_t n_in, void* queue, int (*done)(void*), double limit) {
+  if (n_out + n_in == 0) return kMpiDone;
+  BedloadMpiResult result = of_nccl(nccl.exchange({out, n_out}, {in, n_in}, queue));
+  if (result == kMpiDone)
+    result = wait_until(
+        [&](int turns, int& ended) {
+          ended = done(queue);
+          return ended || turns < kShort || of_nccl(nccl.well()) == kMpiDone;
+        },
+        own_rank == 0, limit);
+  if (result != kMpiDone) nccl.abort();  // else the GPU waits on
+  return result;
+}
+
 void end() {
+  nccl.end();
   for (MPI_Comm& channel : channels) MPI_Comm_free(&channel);
   MPI_Finalize();
 }
@@ -153,6 +222,11 @@ extern "C" __attribute__((visibility("default"))) const BedloadMpi* bedload_mpi(
                                 begin,
                                 all_gather,
                                 exchange,
+                                find_nccl,
+                                [](BedloadNcclId* id) { return of_nccl(nccl.make_id(*id)); },
+                                start_nccl,
+                                [] { nccl.abort(); },
+                                exchange_there,
                                 [] { return late_rank; },
                                 [] { return problem.c_str(); },
                                 end,

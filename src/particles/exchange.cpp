@@ -25,7 +25,22 @@ std::byte* host_memory(int which, std::size_t bytes) {
 }
 #endif
 
-/// Sends `out`, pieces of an outbox of that length, and fills `in`, memory of the device; by way of the host.
+/// Sends `out` and fills `in`, memory of the device, directly.
+void exchange_there(HostLink& link, const std::vector<Piece>& out, const std::vector<Piece>& in) {
+#if BL_CUDA
+  const Context& context = Context::current();
+  link.exchange_there(out, in, context.stream(), [](void* queue) {
+    const bool busy = cudaStreamQuery(static_cast<cudaStream_t>(queue)) == cudaErrorNotReady;
+    if (busy) (void)cudaGetLastError();
+    return int(!busy);
+  });
+  context.wait();  // says what has failed
+#else
+  link.exchange_there(out, in, nullptr, [](void*) { return 1; });
+#endif
+}
+
+/// The same by way of the host; `out`: pieces of an outbox of that length.
 void exchange(HostLink& link, [[maybe_unused]] const Buffer<std::byte>& outbox, std::vector<Piece>& out,
               std::vector<Piece>& in) {
 #if BL_CUDA
@@ -72,7 +87,6 @@ void Exchange::run(const std::vector<FieldBase*>& fields, Index first) {
     field->collect(places_, to);
     to += bytes_of(*field, outgoing(context.rank()));
   }
-  context.wait();
   if (auto* const link = dynamic_cast<HostLink*>(context.link())) {
     const int own = context.rank();
     std::vector<Piece> out, in;
@@ -91,8 +105,11 @@ void Exchange::run(const std::vector<FieldBase*>& fields, Index first) {
       for (FieldBase* field : fields) add(in, r, *field, field->entry(first), count);
       first += count;
     }
+    if (link->takes_device_memory()) return exchange_there(*link, out, in);
+    context.wait();
     return exchange(*link, outbox, out, in);
   }
+  context.wait();
   const std::vector<std::byte*> outboxes = all_gather(outbox.data());
   for (int r = 0; r < ranks_; ++r) {
     const Index begin = of(r, context.rank()), count = of(r, context.rank() + 1) - begin;

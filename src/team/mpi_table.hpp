@@ -15,6 +15,11 @@ struct BedloadMpiPiece {
   std::size_t bytes;
 };
 
+/// As ncclUniqueId.
+struct BedloadNcclId {
+  char bytes[128];
+};
+
 /// Messages of one channel do not meet those of another.
 enum BedloadMpiChannel { kMpiData, kMpiControl, kMpiAlarm, kMpiChannels };
 
@@ -33,6 +38,17 @@ struct BedloadMpi {
   BedloadMpiResult (*all_gather)(const void* own, void* all, std::size_t bytes, double limit);
   BedloadMpiResult (*exchange)(BedloadMpiChannel, const BedloadMpiPiece* out, std::size_t n_out,
                                const BedloadMpiPiece* in, std::size_t n_in, double limit);
+  // --- NCCL, for memory of GPUs, where there is one ---
+  BedloadMpiResult (*find_nccl)(int* version);
+  BedloadMpiResult (*make_nccl_id)(BedloadNcclId*);
+  /// By all, each with the GPU that `bind` gives to the thread that calls it.
+  BedloadMpiResult (*start_nccl)(const BedloadNcclId*, void (*bind)(int gpu), int gpu, double limit);
+  /// Where not all have started it.
+  void (*drop_nccl)();
+  /// As exchange, of memory of the GPU, after what is in its queue; done(queue): whether the queue is empty.
+  BedloadMpiResult (*exchange_there)(const BedloadMpiPiece* out, std::size_t n_out, const BedloadMpiPiece* in,
+                                     std::size_t n_in, void* queue, int (*done)(void* queue), double limit);
+
   int (*late)();  ///< -1: unknown
   const char* (*error)();
   void (*end)();            ///< by all
@@ -43,6 +59,6 @@ struct BedloadMpi {
 const BedloadMpi* bedload_mpi();
 }
 
-inline constexpr int kMpiTable = 1;
+inline constexpr int kMpiTable = 2;
 
 }  // namespace bedload

@@ -17,6 +17,7 @@ namespace bedload {
 namespace {
 
 enum class Command : int {
+  connect,
   make,
   drop,
   step,
@@ -176,12 +177,15 @@ class ProcessTeam final : public Simulation {
 /// The part of another process, and what process 0 has it do.
 class Server {
  public:
-  Server(OwnCase given, Link& link, const MakePart& make)
-      : case_(std::move(given)), link_(link), make_(make) {}
+  Server(OwnCase given, Processes& all, const MakePart& make)
+      : case_(std::move(given)), all_(all), link_(all.link()), make_(make) {}
 
   HostBytes answer(const HostBytes& message) {
     Unpacker of(message);
     switch (of.next<Command>()) {
+      case Command::connect:
+        all_.connect(case_.gpu, of.next<GpuData>());
+        break;
       case Command::make: {
         const auto number = of.next<std::uint64_t>();
         make(number, of.next<std::string>());
@@ -264,12 +268,24 @@ class Server {
   }
 
   OwnCase case_;
+  Processes& all_;
   Link& link_;
   const MakePart& make_;
   std::unique_ptr<Simulation> part_;
 };
 
 }  // namespace
+
+void connect(Processes& all, const OwnGpu& gpu, GpuData wanted) {
+  all.tell(packed(Command::connect, wanted));
+  std::exception_ptr error;
+  try {
+    all.connect(gpu, wanted);
+  } catch (...) {
+    error = std::current_exception();
+  }
+  all.hear(error);
+}
 
 std::unique_ptr<Simulation> make_process_team(Processes& all, const Config& config, const Setup& setup,
                                               const Device& device, const std::string& code,
@@ -283,7 +299,7 @@ void serve(Processes& all, const std::function<OwnCase()>& read, const MakePart&
     try {
       if (!server) {
         if (!command.empty()) throw CaseError("this process could not read the case");
-        server.emplace(read(), all.link(), make);
+        server.emplace(read(), all, make);
       }
       all.answer(command.empty() ? HostBytes() : server->answer(command));
     } catch (...) {

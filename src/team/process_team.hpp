@@ -21,8 +21,11 @@ struct OwnCase {
   Setup setup;
   Device device;
   std::string code;  ///< that computes: "cpu", "cpu_avx2", "cuda 9.0"
+  OwnGpu gpu;
 };
 
+/// On process 0, once all have read the case: connects their GPUs.
+void connect(Processes& all, const OwnGpu& gpu, GpuData wanted);
 /// On process 0: the whole.
 std::unique_ptr<Simulation> make_process_team(Processes& all, const Config& config, const Setup& setup,
                                               const Device& device, const std::string& code,

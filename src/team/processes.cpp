@@ -3,6 +3,8 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <initializer_list>
@@ -39,6 +41,12 @@ int started() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"})
     if (const char* text = std::getenv(name)) return std::atoi(text);
   return 0;
+}
+
+std::vector<BedloadMpiPiece> pieces(std::span<const Piece> of) {
+  std::vector<BedloadMpiPiece> to;
+  for (const Piece& p : of) to.push_back({p.rank, p.data, p.bytes});
+  return to;
 }
 
 /// What an error is in an answer.
@@ -112,15 +120,20 @@ class Processes::OwnLink final : public HostLink {
     waiting([&] { return all_.mpi_.all_gather(own, all, bytes, kTimeout); });
   }
   void exchange(std::span<const Piece> out, std::span<const Piece> in) override {
-    const auto pieces = [](std::span<const Piece> of) {
-      std::vector<BedloadMpiPiece> to;
-      for (const Piece& p : of) to.push_back({p.rank, p.data, p.bytes});
-      return to;
-    };
     const auto from = pieces(out), to = pieces(in);
     waiting([&] {
       return all_.mpi_.exchange(kMpiData, from.data(), from.size(), to.data(), to.size(), kTimeout);
     });
+  }
+  bool takes_device_memory() const override { return all_.nccl_; }
+  void exchange_there(std::span<const Piece> out, std::span<const Piece> in, void* queue,
+                      int (*done)(void*)) override {
+    const auto from = pieces(out), to = pieces(in);
+    const BedloadMpiResult result =
+        all_.mpi_.exchange_there(from.data(), from.size(), to.data(), to.size(), queue, done, kTimeout);
+    if (result == kMpiFailed)
+      throw RankLost(all_.lost_ = fmt::format("{}; --mpi-data host does without NCCL", all_.mpi_.error()));
+    all_.check(result, kTimeout);
   }
 
  private:
@@ -189,6 +202,88 @@ void Processes::check(BedloadMpiResult result, double limit) {
             (stage ? fmt::format(", in {} of step {}", stage, record.steps + 1) : "");
   }
   throw RankLost(lost_);
+}
+
+void Processes::connect(const OwnGpu& gpu, GpuData wanted) {
+  if (size_ == 1) return;
+  std::string why = "--mpi-data says";
+  if (wanted != GpuData::host) why = start_nccl(gpu);
+  nccl_ = why.empty();
+  if (!nccl_ && wanted == GpuData::nccl) throw DeviceError("--mpi-data nccl: " + why);
+  if (!nccl_) gpu_data_ = "host memory, as " + why;
+}
+
+std::string Processes::start_nccl(const OwnGpu& gpu) {
+  struct Own {
+    bool on_gpu, late;
+    std::array<char, 16> id;
+    int version;
+    std::array<char, 256> problem;  ///< with it, empty: none
+  } own{.on_gpu = gpu.number >= 0, .late = false, .id = gpu.id, .version = 0, .problem = {}};
+  std::vector<Own> all(std::size_t(size_), own);
+  const auto note = [&](const std::string& text) {
+    own.problem = {};
+    text.copy(own.problem.data(), own.problem.size() - 1);
+  };
+  const auto result_of = [&](BedloadMpiResult result) {
+    own.late = result == kMpiLate || result == kMpiAlarmed;
+    note(result == kMpiDone ? "" : result == kMpiFailed ? mpi_.error() : "NCCL waits for another process");
+    return result == kMpiDone;
+  };
+  const auto first = [&](const auto& each) -> std::string {
+    for (int r = 0; r < size_; ++r)
+      if (const std::string why = each(all[std::size_t(r)]); !why.empty())
+        return fmt::format("process {}{}", r, why);
+    return "";
+  };
+  const auto gather = [&] { link_->all_gather(&own, all.data(), sizeof own); };
+  /// Of one that waits only where no other has any.
+  const auto gather_problems = [&] {
+    gather();
+    const auto problem = [](const Own& of) {
+      return of.problem[0] ? ": " + std::string(of.problem.data()) : "";
+    };
+    const std::string why = first([&](const Own& of) { return of.late ? "" : problem(of); });
+    return why.empty() ? first(problem) : why;
+  };
+
+  if (own.on_gpu) result_of(mpi_.find_nccl(&own.version));
+  gather();
+  std::string why = first([](const Own& of) { return of.on_gpu ? "" : " computes on the CPU"; });
+  if (why.empty()) why = gather_problems();
+  if (why.empty())
+    why = first([&](const Own& of) {
+      return std::ranges::count(all, of.id, &Own::id) > 1 ? " shares its GPU with another"
+             : of.version != all[0].version               ? " has another version of NCCL than process 0"
+                                                          : "";
+    });
+  if (!why.empty()) return why;
+
+  BedloadNcclId id{};
+  if (rank_ == 0) result_of(mpi_.make_nccl_id(&id));
+  if (why = gather_problems(); !why.empty()) return why;
+  std::vector<BedloadNcclId> ids(std::size_t(size_), id);
+  link_->all_gather(&id, ids.data(), sizeof id);
+  result_of(mpi_.start_nccl(ids.data(), gpu.bind, gpu.number, kTimeout / 2));
+  why = gather_problems();
+  if (why.empty()) {
+    const auto exchange = [&](std::span<const Piece> out, std::span<const Piece> in, void* queue,
+                              int (*done)(void*)) {
+      const auto from = pieces(out), to = pieces(in);
+      return result_of(
+          mpi_.exchange_there(from.data(), from.size(), to.data(), to.size(), queue, done, kTimeout / 2));
+    };
+    if (!gpu.try_out(exchange, rank_, size_) && !own.problem[0])
+      note("what NCCL brings is not what was sent");
+    why = gather_problems();
+  }
+  if (!why.empty()) {
+    mpi_.drop_nccl();
+    return why;
+  }
+  const int v = own.version;
+  gpu_data_ = fmt::format("NCCL {}.{}.{}", v / 10000, v / 100 % 100, v % 100);
+  return "";
 }
 
 void Processes::send(const std::vector<int>& ranks, const HostBytes& bytes, bool is_error) {

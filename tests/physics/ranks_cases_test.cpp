@@ -130,13 +130,31 @@ TEST(RankCases, FluidOfAFileIsUnderThePressureOfAllAboveIt) {
 /// A link between threads that exchange as processes do.
 class PieceLink final : public HostLink {
  public:
-  explicit PieceLink(Link& link) : link_(link) {}
+  PieceLink(Link& link, bool there) : link_(link), there_(there) {}
   int rank() const override { return link_.rank(); }
   int size() const override { return link_.size(); }
   void all_gather(const void* own, void* all, std::size_t bytes) override {
     link_.all_gather(own, all, bytes);
   }
   void exchange(std::span<const Piece> out, std::span<const Piece> in) override {
+    EXPECT_FALSE(there_);
+    copy(out, in, [](void* to, const void* from, std::size_t bytes) { std::memcpy(to, from, bytes); });
+  }
+  bool takes_device_memory() const override { return there_; }
+  void exchange_there(std::span<const Piece> out, std::span<const Piece> in, void* queue,
+                      int (*done)(void*)) override {
+    EXPECT_TRUE(there_);
+    while (!done(queue)) std::this_thread::yield();
+    copy(out, in, [](void* to, const void* from, std::size_t bytes) {
+      copy_on_device(to, from, bytes);
+      Context::current().wait();
+    });
+  }
+  std::size_t received = 0;
+
+ private:
+  template <class F>
+  void copy(std::span<const Piece> out, std::span<const Piece> in, const F& one) {
     const std::span<const Piece>* const own = &out;
     std::vector<const std::span<const Piece>*> all(static_cast<std::size_t>(size()));
     link_.all_gather(&own, all.data(), sizeof own);
@@ -146,32 +164,35 @@ class PieceLink final : public HostLink {
       std::size_t& k = next[std::size_t(piece.rank)];
       while (from[k].rank != rank()) ++k;
       EXPECT_EQ(from[k].bytes, piece.bytes);
-      std::memcpy(piece.data, from[k++].data, piece.bytes);
+      one(piece.data, from[k++].data, piece.bytes);
       received += piece.bytes;
     }
     link_.all_gather(nullptr, nullptr, 0);  // all have what they were sent
   }
-  std::size_t received = 0;
 
- private:
   Link& link_;
+  bool there_;
 };
 
-TEST(RankCases, ParticlesGoByTheMemoryOfTheHost) {
+/// Of the host, or directly.
+TEST(RankCases, ParticlesGoAsPiecesOfMemory) {
   const DividedCase c(kFlight);
-  std::vector<std::unique_ptr<PieceLink>> links(3);
-  const auto several = make_team({.ranks = 3, .make = [&](Link& link) {
-                                    auto& own = links[std::size_t(link.rank())];
-                                    own = std::make_unique<PieceLink>(link);
-                                    return make_coupled(c.config, c.setup, own.get());
-                                  }});
-  const auto one = make_coupled(c.config, c.setup);
-  for (Simulation* s : {one.get(), several.get()}) {
-    s->start();
-    while (s->time() < 0.02) s->step();
+  const auto run = [](Simulation& s) {
+    s.start();
+    while (s.time() < 0.02) s.step();
+    return bits(s);
+  };
+  const auto one = run(*make_coupled(c.config, c.setup));
+  for (const bool there : {false, true}) {
+    std::vector<std::unique_ptr<PieceLink>> links(3);
+    const auto several = make_team({.ranks = 3, .make = [&](Link& link) {
+                                      auto& own = links[std::size_t(link.rank())];
+                                      own = std::make_unique<PieceLink>(link, there);
+                                      return make_coupled(c.config, c.setup, own.get());
+                                    }});
+    EXPECT_TRUE(run(*several) == one) << there;
+    for (const auto& link : links) EXPECT_GT(link->received, 0u);
   }
-  EXPECT_TRUE(bits(*several) == bits(*one));
-  for (const auto& link : links) EXPECT_GT(link->received, 0u);
 }
 
 /// A link to others over which rank 1 falls asleep once.

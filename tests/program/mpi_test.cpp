@@ -107,10 +107,12 @@ TEST_F(SeveralProcesses, WriteTheFilesOfThreads) {
   ASSERT_EQ(o.code, 0) << o.out << o.err;
   EXPECT_EQ(o.err, "");
   EXPECT_EQ(o.out.find("completed"), o.out.rfind("completed")) << "one of them prints";
+  EXPECT_NE(o.out.find("exchange   by host memory, as process 0 computes on the CPU\n"), o.out.npos) << o.out;
   expect_same("threads", "processes");
 
   // with another number from a checkpoint on
-  ASSERT_EQ(mpirun("-n 2 " + run("slurry.toml --threads 1 --until 0.005 --out again")).code, 0);
+  ASSERT_EQ(mpirun("-n 2 " + run("slurry.toml --mpi-data host --threads 1 --until 0.005 --out again")).code,
+            0);
   ASSERT_EQ(mpirun("-n 3 " + run("slurry.toml --threads 1 --out again --restart latest")).code, 0);
   expect_same("threads", "again");
 }
@@ -120,6 +122,9 @@ TEST_F(SeveralProcesses, EndTogether) {
   const Outcome other = mpirun("-n 2 " + run("slurry.toml") + " : -n 1 " + run("other.toml"));
   EXPECT_EQ(other.code, 2) << other.out;
   EXPECT_NE(other.err.find("process 2 has read another case than process 0"), other.err.npos) << other.err;
+  const Outcome cpu = mpirun("-n 2 " + run("slurry.toml --mpi-data nccl --out b"));
+  EXPECT_EQ(cpu.code, 2) << cpu.out;
+  EXPECT_EQ(cpu.err, "--mpi-data nccl: process 0 computes on the CPU\n");
   const Outcome none = mpirun("-n 2 " + run("slurry.toml --out b") + " : -n 1 " + run("none.toml --out b"));
   EXPECT_EQ(none.code, 2) << none.out;
   EXPECT_NE(none.err.find("none.toml"), none.err.npos) << none.err;
