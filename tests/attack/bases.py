@@ -487,6 +487,13 @@ type = "height"
 at = [0.1, 0.15, 0.05]
 along = [1, 0, 1]
 [[probe]]
+name = "field"
+type = "field"
+at = [0.1, 0.1, 0.05]
+span = [[0.05, 0, 0], [0, 0.03, 0.02]]
+count = [3, 2]
+radius = 0.02
+[[probe]]
 name = "wall"
 type = "wall_pressure"
 body = "rod"

@@ -157,7 +157,7 @@ inline constexpr auto kNames<SizeKind> = std::to_array<Named<SizeKind>>({
 // -- output --------------------------------------------------------------------------------------
 
 /// probe.type
-enum class ProbeType { front, point, height, box, flux, force, wall_pressure, mixing };
+enum class ProbeType { front, point, height, box, flux, force, wall_pressure, mixing, field };
 template <>
 inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
     {ProbeType::front, "front", "farthest position of a phase in a direction"},
@@ -170,6 +170,8 @@ inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
     {ProbeType::wall_pressure, "wall_pressure",
      "force per area on patches of a wall body, as of pressure transducers"},
     {ProbeType::mixing, "mixing", "how well one kind of grains is mixed with the others [lacey54]"},
+    {ProbeType::field, "field",
+     "solid fraction, velocity, temperature, stress of grains at points [goldhirsch10]"},
 });
 
 /// probe.phase
