@@ -199,6 +199,11 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
     {.meaning =
          "own lengths: where the largest grain is at least twice as wide as the smallest, each grain has "
          "its own coupling length, max(couple.hc, 4 d/kappa); otherwise all have couple.hc"});
+  p("couple.between", &c.between,
+    {.meaning =
+         "grains of four to eight fluid.dx, too large for drag laws and too small for the fluid to flow "
+         "around them",
+     .family = "models"});
   p("couple.kernel", &c.kernel,
     {.meaning = "kernel of the averages over fluid and grains", .family = "models"});
   p("couple.eps_min", &c.eps_min, {.meaning = "lower limit of the porosity", .range = within(0.1, 0.5)});

@@ -124,6 +124,7 @@ mu_r = 0.01
 e = 0.9
 release_time = 0
 fixed = false
+resolve = "auto"
 [[grain.material]]
 name = "glass"
 rho = 2400
@@ -681,6 +682,7 @@ axis = [0, 0, 1]
 [couple]
 undisturbed = true
 own_hc = true
+between = "refuse"
 S_dry = 0.1
 S_wet = 0.2
 torque = true

@@ -154,6 +154,15 @@ inline constexpr auto kNames<SizeKind> = std::to_array<Named<SizeKind>>({
     {SizeKind::sieve, "sieve", "sieve curve: mass fraction over mesh opening, log-linear in between"},
 });
 
+/// grain.resolve
+enum class GrainResolve { by_size, none, all };
+template <>
+inline constexpr auto kNames<GrainResolve> = std::to_array<Named<GrainResolve>>({
+    {GrainResolve::by_size, "auto", "those of eight fluid.dx or more, and others as couple.between says"},
+    {GrainResolve::none, "none", "none: drag laws apply to all"},
+    {GrainResolve::all, "all", "all, which must be of four fluid.dx or more"},
+});
+
 // -- output --------------------------------------------------------------------------------------
 
 /// probe.type
