@@ -4,8 +4,10 @@
     power.py RUN_DIR [START]
 
 The torque of the mill on the charge, mean from START on (s, default 0.8, when the charge circulates), is the work of the
-walls over the angle. By the balance of moments it is that of the weight about the axis, m g <x>, and the gain of angular
-momentum; both follow from other columns of diagnostics.csv. Writes RUN_DIR/power.csv and prints it.
+walls over the angle; with slurry it is minus the torque that the force probe "mill" has measured. By the balance of
+moments it is that of the weight about the axis, m g <x>, and the gain of angular momentum; both follow from other columns
+of diagnostics.csv. The residual of the energy balance of the grains is over what contacts dissipate and slurry takes.
+Writes RUN_DIR/power.csv and prints it.
 """
 
 import sys
@@ -17,6 +19,14 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "tools"))
 from frames import Table, case_of, write_table  # noqa: E402
 
 NAMES = ["time [s]", "power [W]", "torque [N m]", "balance [N m]", "ratio [-]", "dissipated [W]", "residual [-]"]
+
+
+def mean_torque(run, start, end):
+    """On the mill, between two rows of its probe: each row has the mean since the one before."""
+    probe = Table(run / "probes" / "mill.csv")
+    t, torque = probe["time"], probe["torque_total_y"]
+    since = (t[1:] > start) & (t[1:] <= end)
+    return np.sum((torque[1:] * np.diff(t))[since]) / (end - start)
 
 
 def row(run, start):
@@ -31,11 +41,15 @@ def row(run, start):
         y = d[name][late]
         return y[-1] - y[0]
 
-    moment = case["gravity"][2] * (d["grain_mass"] * d["grain_centre_x"])[late]  # that the mill balances: it turns z to x
-    balance = np.sum(0.5 * (moment[1:] + moment[:-1]) * np.diff(t)) / span + gain("grain_angular_momentum_y") / span
+    slurry = "fluid" in case and case["fluid"].get("present", True)
+    parts = ["grain", "fluid"] if slurry else ["grain"]
+    moment = case["gravity"][2] * sum(d[f"{part}_mass"] * d[f"{part}_centre_x"] for part in parts)[late]
+    gained = sum(gain(f"{part}_angular_momentum_y") for part in parts)
+    balance = (np.sum(0.5 * (moment[1:] + moment[:-1]) * np.diff(t)) + gained) / span  # the mill turns z to x
     lost = sum(gain(f"grain_dissipated_{kind}") for kind in ("normal", "sliding", "rolling"))
-    torque = gain("grain_work_walls") / (rate * span)
-    return [t[-1], torque * rate, torque, balance, torque / balance, lost / span, gain("grain_energy_residual") / lost]
+    torque = -mean_torque(run, t[0], t[-1]) if slurry else gain("grain_work_walls") / (rate * span)
+    taken = lost + abs(gain("grain_work_fluid")) if slurry else lost
+    return [t[-1], torque * rate, torque, balance, torque / balance, lost / span, gain("grain_energy_residual") / taken]
 
 
 def main():

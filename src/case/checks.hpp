@@ -33,6 +33,7 @@ class Checks {
   void time() const;
   void probes() const;
   void mixing(const std::string& path, const ProbeConfig& probe) const;
+  void field(const std::string& path, const ProbeConfig& probe) const;
 
  private:
   // of all sections, and time: checks.cpp

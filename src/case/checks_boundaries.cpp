@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "bedload/case/grain_sizes.hpp"
@@ -76,6 +77,25 @@ void Checks::mixing(const std::string& path, const ProbeConfig& probe) const {
          fmt::format("must be larger: the box has {:.3g} cells, of at most {:.3g}", cells, kMost));
 }
 
+void Checks::field(const std::string& path, const ProbeConfig& probe) const {
+  if (!c.grain.present) return;
+  const auto refuse = [&](bool there, const char* what) {
+    if (there) fail(path + ".type", quoted(probe.type.name()), fmt::format("must be another with {}", what));
+  };
+  refuse(c.domain.sheared(), "domain.shear_rate");
+  refuse(c.grain.has_clumps() || !c.grain.rigid_fills().empty(), "clumps and rigid groups");
+  double most = std::numeric_limits<double>::infinity();  // images are then at most one period away
+  for (int k = 0; k < 3; ++k)
+    if (c.domain.periodic[k]) most = std::min(most, 0.5 * (c.domain.max[k] - c.domain.min[k]));
+  if (const double least = 2 * c.grain.largest(); probe.radius < least * (1 - 1e-9) || probe.radius > most)
+    fail(
+        path + ".radius", fmt::format("{} m", probe.radius),
+        std::isinf(most)
+            ? fmt::format("must be >= {} m, two diameters of the largest grain", least)
+            : fmt::format("must be within {}..{} m, from two diameters of the largest grain to half a period",
+                          least, most));
+}
+
 void Checks::probes() const {
   std::set<std::string> names;
   for (std::size_t i = 0; i < c.out.probes.size(); ++i) {
@@ -90,6 +110,7 @@ void Checks::probes() const {
         fail(path + ".min", to_text(probe.min), "must have a part of the domain in its box");
     }
     if (probe.type == ProbeType::mixing) mixing(path, probe);
+    if (probe.type == ProbeType::field) field(path, probe);
     if (probe.type == ProbeType::flux) {
       box(path, probe.min, probe.max);
       inside_domain(path + ".min", probe.min);
@@ -97,7 +118,7 @@ void Checks::probes() const {
     }
     if (probe.type == ProbeType::wall_pressure) inside_domain(path + ".at", probe.at);
     const auto measured = [&](const std::string& key, const Vec3d& x) {
-      if (probe.type == ProbeType::point) inside_domain(key, x);
+      if (probe.type == ProbeType::point || probe.type == ProbeType::field) inside_domain(key, x);
       if (probe.type == ProbeType::height) column_in_domain(key, x, probe.along);
     };
     measured(path + ".at", probe.at);
@@ -109,9 +130,10 @@ void Checks::probes() const {
     }
     const bool has_phase =
         probe.type == ProbeType::front || probe.type == ProbeType::box || probe.type == ProbeType::flux;
-    const Chosen<Phase> phase = has_phase                         ? probe.phase
-                                : probe.type == ProbeType::mixing ? Chosen(Phase::grains)
-                                                                  : Chosen(Phase::fluid);
+    const bool of_grains = probe.type == ProbeType::mixing || probe.type == ProbeType::field;
+    const Chosen<Phase> phase = has_phase   ? probe.phase
+                                : of_grains ? Chosen(Phase::grains)
+                                            : Chosen(Phase::fluid);
     if (probe.type != ProbeType::force && !(phase == Phase::fluid ? c.fluid.present : c.grain.present))
       fail(path + (has_phase ? ".phase" : ".type"), quoted(has_phase ? phase.name() : probe.type.name()),
            fmt::format("must name something in this case; it has no {}", phase.name()));

@@ -222,23 +222,38 @@ void Checks::softness() const {
 }
 
 void Checks::resolution() const {
-  const double d = c.grain.d_max, dx = c.fluid.dx, times = d / dx;
+  const double dx = c.fluid.dx;
+  const std::string too_large =
+      fmt::format("too large for drag laws, which take what is up to {:g} times as large", kAveraged);
+  const auto of_size = [&](const SizeClass& size) {
+    const double d = size.kind == SizeKind::one_size ? size.d : size.d_max, times = d / dx;
+    if (c.couple.between == BetweenSizes::refuse && times > kDragged * (1 + 1e-3) && times < kResolved)
+      fail("couple.between", quoted("refuse"),
+           fmt::format(
+               "must be \"unresolved\" or \"resolved\" with grains of {:.4g} m, {:.3g} times fluid.dx: {}, "
+               "and too small for the fluid to flow around them, as it does from {:g} times on",
+               d, times, too_large, kResolved));
+  };
+  for (const GrainFill& fill : c.grain.fills)
+    for (const SizeClass& size : fill.sizes) of_size(size);
+  for (const GrainInletConfig& inlet : c.grain_inlets)
+    for (const SizeClass& size : inlet.sizes) of_size(size);
+  const double d = c.grain.d_max, times = d / dx;
   if (times <= kAveraged * (1 + 1e-3)) return;
   const std::string coarser = fmt::format("a fluid.dx of {:.3g} m or more", d / kAveraged);
   if (times < kResolved)
     warn(
-        "grains of {:.4g} m are {:.3g} times fluid.dx: too large for drag laws, which take what is up to "
-        "{:g} "
-        "times as large, and too small for the fluid to flow around them, as it does around free bodies of "
-        "{:g} "
-        "times or more; take {}, or free bodies and {:.3g} m or less",
-        d, times, kAveraged, kResolved, coarser, d / kResolved);
+        "grains of {:.4g} m are {:.3g} times fluid.dx: {}, and too small for the fluid to flow around them, "
+        "as it "
+        "does from {:g} times on: their volume does not displace the flow, and they have no wake; take {}, "
+        "or {:.3g} "
+        "m or less",
+        d, times, too_large, kResolved, coarser, d / kResolved);
   else
     warn(
-        "grains of {:.4g} m are {:.3g} times fluid.dx: too large for drag laws, which take what is up to "
-        "{:g} "
-        "times as large; make them free bodies ([wall.body.free]), around which the fluid flows, or take {}",
-        d, times, kAveraged, coarser);
+        "grains of {:.4g} m are {:.3g} times fluid.dx: {}; let the fluid flow around them (grain.resolve), "
+        "or take {}",
+        d, times, too_large, coarser);
 }
 
 void Checks::lubrication() const {

@@ -32,12 +32,13 @@ static_assert(kAllNamed<FluidModel, LatticeCollision, DensityMethod, NoiseForm, 
                         DriveReversal, KernelFunction, EosType, ViscosityModel>,
               "a choice of the fluid has no row");
 static_assert(kAllNamed<WallType, WallSlip, LayerForce>, "a choice of the walls has no row");
-static_assert(kAllNamed<CouplingMode, CouplingKernel, DragSlip, SuspensionLaw, DragLaw, DragIntegrator>,
-              "a choice of the coupling has no row");
+static_assert(
+    kAllNamed<CouplingMode, BetweenSizes, CouplingKernel, DragSlip, SuspensionLaw, DragLaw, DragIntegrator>,
+    "a choice of the coupling has no row");
 static_assert(kAllNamed<TimeIntegrator, Preset, Precision, Simd>, "a choice of the run has no row");
 static_assert(kAllNamed<ShapeKind, PipeEnds, WallShape, MotionKind, TableSpline, BodyMove, BodyTurn,
-                        OrificeShape, OutletPhase, OutletShape, GrainInletShape, SizeKind, ProbeType, Phase,
-                        ForceSample, ContactFrames, BodyTables, WearLaw>,
+                        OrificeShape, OutletPhase, OutletShape, GrainInletShape, SizeKind, GrainResolve,
+                        ProbeType, Phase, ForceSample, ContactFrames, BodyTables, WearLaw>,
               "a choice of shapes, openings or outputs has no row");
 
 }  // namespace

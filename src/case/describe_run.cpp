@@ -12,8 +12,9 @@ constexpr double kLargest = 9.2e18;  // of TOML's integers
 void points(Parameters& p, ProbeConfig& b) {
   p("span", &b.span,
     {.unit = "m",
-     .meaning = "point, height: vectors from `at` to the last point along a line; two make a plane, three a "
-                "grid of points",
+     .meaning =
+         "point, height, field: vectors from `at` to the last point along a line; two make a plane, three a "
+         "grid of points",
      .fallback = "one point",
      .presence = optional});
   if (!b.span.empty() && !p.everything())
@@ -26,7 +27,9 @@ void points(Parameters& p, ProbeConfig& b) {
 void patches(Parameters& p, ProbeConfig& b) {
   p("radius", &b.radius,
     {.unit = "m",
-     .meaning = "wall_pressure: radius of a disc, computed as a square of the same area",
+     .meaning =
+         "wall_pressure: radius of a disc, computed as a square of the same area; field: of the kernel "
+         "by which grains count at a point",
      .range = above(0),
      .fallback = "size is used",
      .presence = optional});
@@ -38,8 +41,9 @@ void patches(Parameters& p, ProbeConfig& b) {
        .fallback = "radius is used",
        .presence = optional});
     p("count", &b.count,
-      {.meaning = "wall_pressure: number of patches of the rectangle along a and b; point, height: number of "
-                  "points along each span, ends included",
+      {.meaning =
+           "wall_pressure: number of patches of the rectangle along a and b; point, height, field: number of "
+           "points along each span, ends included",
        .range = within(1, 1000),
        .fallback = "[1, 1]",
        .presence = optional});
@@ -72,12 +76,18 @@ void probe(Parameters& p, ProbeConfig& b) {
     b.axis = direction[0] - 'x';
     b.sign = direction[1] == '+' ? 1 : -1;
   }
-  if (wanted(point) || wanted(height) || wanted(wall_pressure))
+  if (wanted(point) || wanted(height) || wanted(field) || wanted(wall_pressure))
     p("at", &b.at,
       {.unit = "m",
-       .meaning = "point, height: position; wall_pressure: centre, on the surface; at t = 0",
+       .meaning = "point, height, field: position; wall_pressure: centre, on the surface; at t = 0",
        .presence = required});
-  if (wanted(point) || wanted(height)) points(p, b);
+  if (wanted(point) || wanted(height) || wanted(field)) points(p, b);
+  if (b.type == field && !p.everything())
+    p("radius", &b.radius,
+      {.unit = "m",
+       .meaning = "field: radius of the kernel by which grains count at a point",
+       .range = above(0),
+       .presence = required});
   if (b.type == height && !p.everything())
     p("along", &b.along, {.meaning = "height: direction of the line", .fallback = "upwards"});
   if (wanted(box) || wanted(flux) || wanted(mixing)) {
@@ -189,6 +199,11 @@ void describe_coupling(Parameters& p, CouplingConfig& c) {
     {.meaning =
          "own lengths: where the largest grain is at least twice as wide as the smallest, each grain has "
          "its own coupling length, max(couple.hc, 4 d/kappa); otherwise all have couple.hc"});
+  p("couple.between", &c.between,
+    {.meaning =
+         "grains of four to eight fluid.dx, too large for drag laws and too small for the fluid to flow "
+         "around them",
+     .family = "models"});
   p("couple.kernel", &c.kernel,
     {.meaning = "kernel of the averages over fluid and grains", .family = "models"});
   p("couple.eps_min", &c.eps_min, {.meaning = "lower limit of the porosity", .range = within(0.1, 0.5)});

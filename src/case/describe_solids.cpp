@@ -504,6 +504,11 @@ void describe_grains(Parameters& p, Config& c) {
      .presence = unbounded});
   p("grain.release_time", &g.release_time,
     {.unit = "s", .meaning = "time until which all grains are held in place", .range = at_least(0)});
+  p("grain.resolve", &g.resolve,
+    {.meaning =
+         "which grains of fills, in fluid to which they are coupled, the fluid flows around: they become "
+         "free bodies",
+     .family = "models"});
   p("grain.fixed", &g.fixed, {.meaning = "grains are held in place for the whole run"});
   p.list("grain.material", g.materials, GrainMaterial{},
          [&](Parameters& q, GrainMaterial& m) { grain_material(q, m, c.contact); });

@@ -491,6 +491,7 @@ double solid_volume(const GrainFill& fill, double rho) {
 void resolve(Config& c, const Value& root, const std::filesystem::path& checkpoint) {
   resolve_shapes(c, root);
   resolve_scattered_bodies(c, root);
+  resolve_large_grains(c, root);
   resolve_walls(c, root);
   if (c.domain.two_d) resolve_plane(c, root);
   resolve_motions(c, root);

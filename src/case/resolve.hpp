@@ -29,6 +29,9 @@ void resolve_clumps(Config& config, const Value& root);
 /// A shape and a body in place of each that free.scatter stands for.
 void resolve_scattered_bodies(Config& config, const Value& root);
 
+/// A free body in place of each grain of fills around which the fluid flows.
+void resolve_large_grains(Config& config, const Value& root);
+
 /// Mass, material, contacts and constraints of free bodies.
 void resolve_free_bodies(Config& config, const Value& root);
 

@@ -94,6 +94,15 @@ void resolve_points(const Config& c, ProbeConfig& p, const Value& root, const st
     all *= n;
   }
   if (all > kMostPoints) fail("count", fmt::format("must make at most {} points", kMostPoints));
+  if (p.type == ProbeType::field) {
+    double volume = 1, most = 1;  // of what unit vectors along the spans enclose, squared
+    if (p.span.size() == 2) volume = norm2(cross(p.span[0], p.span[1]));
+    if (p.span.size() == 3) volume = std::pow(dot(cross(p.span[0], p.span[1]), p.span[2]), 2);
+    for (const Vec3d& span : p.span) most *= norm2(span);
+    if (!(most > 0) || (p.span.size() > 1 && volume <= 1e-12 * most))
+      reject(root, path + "span", fmt::format("{} vectors", p.span.size()),
+             "must not be 0, nor lie along one another or in one plane");
+  }
   if (p.along == Vec3d{}) return;
   const Vec3d given = p.along;
   if (c.domain.two_d && given.y != 0)
@@ -110,7 +119,7 @@ void resolve_probes(Config& c, const Value& root) {
     if (p.every == 0) p.every = c.out.every;
     if (p.type == ProbeType::wall_pressure && c.fluid.present)
       resolve_patches(c, p, root, fmt::format("probe.{}.", i));
-    if (p.type == ProbeType::point || p.type == ProbeType::height)
+    if (p.type == ProbeType::point || p.type == ProbeType::height || p.type == ProbeType::field)
       resolve_points(c, p, root, fmt::format("probe.{}.", i));
   }
 }

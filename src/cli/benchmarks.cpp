@@ -196,7 +196,8 @@ Benchmark coupled_sizes(const std::string& name, double side, double depth, int 
           case_text({.count = count,
                      .side = side,
                      .depth = depth,
-                     .grain = settle ? "settle = true\nsettle_time = 0.08\n" : "",
+                     .grain = std::string("resolve = \"none\"\n") +
+                              (settle ? "settle = true\nsettle_time = 0.08\n" : ""),
                      .ratio = 20,
                      .large = large,
                      .d = 0.0005,

@@ -403,9 +403,7 @@ std::string coupling_text(const Prepared& p) {
         "{}\n",
         grouped(g.count), g.count == 1 ? "grain" : "grains", size, times, range / kappa / g.most,
         grouped(std::llround(4 * std::numbers::pi / 3 * std::pow(range / dx, 3))),
-        times <= kAveraged * (1 + 1e-3) ? "by the drag law"
-        : times < kResolved             ? "too large for drag laws"
-                                        : "too large for drag laws, resolved as a free body");
+        times <= kAveraged * (1 + 1e-3) ? "by the drag law" : "too large for drag laws");
   }
   return out;
 }

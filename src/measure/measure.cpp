@@ -12,7 +12,7 @@
 namespace BL_SOLVER {
 namespace {
 
-/// mass, momentum 3, angular momentum 3, kinetic, potential, elastic, spin energy.
+/// mass, momentum 3, angular momentum 3, kinetic, potential, elastic, spin energy, mass times place 3.
 struct FluidTotals {
   FluidContents fluid;
   EquationOfState eos;
@@ -31,6 +31,7 @@ struct FluidTotals {
     out[8] = m * (drive.energy(a) - dot(gravity, at));
     out[9] = m * eos.energy(compression[a]);
     out[10] = 0.5 * m * inertia * norm2(w);
+    for (int k = 0; k < 3; ++k) out[11 + k] = m * at[k];
   }
 };
 
@@ -244,7 +245,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
     const Spin* spin = stepper_.fluid().spin();
     const FluidContents contents(state_.frame, state_.fluid);
     const auto t =
-        sum_over<11>(state_.fluid.owned(),
+        sum_over<14>(state_.fluid.owned(),
                      FluidTotals{.fluid = contents,
                                  .eos = stepper_.fluid().eos(),
                                  .gravity = config_.gravity,
@@ -253,6 +254,7 @@ std::vector<Quantity> CoupledSimulation::diagnostics() {
                                  .inertia = spin ? spin->inertia : 0,
                                  .spin = spin ? Span<const Real3>(spin->omega) : Span<const Real3>()});
     out.push_back({"fluid_mass", "kg", t.v[0]});
+    vec("fluid_centre", "m", t.v[0] > 0 ? Vec3d{t.v[11], t.v[12], t.v[13]} * (1 / t.v[0]) : Vec3d{});
     vec("fluid_momentum", "kg m/s", {t.v[1], t.v[2], t.v[3]});
     vec("fluid_angular_momentum", "kg m2/s", {t.v[4], t.v[5], t.v[6]});
     out.push_back({"fluid_kinetic_energy", "J", t.v[7]});

@@ -135,6 +135,7 @@ struct GrainFlux {
 
 std::vector<Quantity> CoupledSimulation::measure(const ProbeConfig& p) {
   stepper_.share_all();
+  if (p.type == ProbeType::field) return field(p);
   return at_each_point(p, [&](const ProbeConfig& one) { return measure_one(one); });
 }
 
@@ -156,6 +157,8 @@ std::vector<Quantity> CoupledSimulation::measure_one(const ProbeConfig& p) {
       return wall_pressure(p);
     case ProbeType::mixing:
       return mixing(p);
+    case ProbeType::field:
+      return field(p);
   }
   return {};
 }
@@ -267,15 +270,15 @@ std::vector<Quantity> CoupledSimulation::flux(const ProbeConfig& p) {
         sum_over<2>(state_.fluid.owned(), FluidFlux{p.min, p.max, p.axis, {state_.frame, state_.fluid}});
     std::copy(sum.v, sum.v + 2, flow);
   } else {
-    const auto sum = sum_over<2>(state_.grains.owned(), GrainFlux{.lo = p.min,
-                                                                  .hi = p.max,
-                                                                  .axis = p.axis,
-                                                                  .per_r3 = state_.matter.of(state_.grains),
-                                                                  .volume_per_r3 =
-                                                                      state_.matter.volume_of(state_.grains),
-                                                                  .x = state_.grains.x,
-                                                                  .v = state_.grains.v,
-                                                                  .radius = state_.grains.radius});
+    const auto sum =
+        sum_over<2>(state_.grains.owned(), GrainFlux{.lo = p.min,
+                                                     .hi = p.max,
+                                                     .axis = p.axis,
+                                                     .per_r3 = state_.matter.of(state_.grains),
+                                                     .volume_per_r3 = state_.matter.volume_of(state_.grains),
+                                                     .x = state_.grains.x,
+                                                     .v = state_.grains.v,
+                                                     .radius = state_.grains.radius});
     std::copy(sum.v, sum.v + 2, flow);
   }
   const double per_length = p.sign / (p.max[p.axis] - p.min[p.axis]);

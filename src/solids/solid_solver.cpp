@@ -8,7 +8,7 @@
 #include "bedload/parallel/reductions.hpp"
 #include "kernels/integrate/grain_substep.hpp"
 #include "kernels/integrate/grain_sums.hpp"
-#include "kernels/stress/contact_stress.hpp"
+#include "kernels/stress/coarse_fields.hpp"
 #include "src/solids/arriving_contacts.hpp"
 
 namespace BL_SOLVER {
@@ -342,6 +342,10 @@ void SolidSolver::contact_moments(const GrainStore& g, Buffer<PairMoment<>>& out
 void SolidSolver::film_moments(const GrainStore& g, Buffer<PairMoment<>>& out) const {
   out.resize(g.owned().size());
   for_each(g.owned(), LubricationStressPass{films(g, nullptr), out});
+}
+
+GrainActions SolidSolver::actions(const GrainStore& g, Span<const BodyPose> poses) const {
+  return {contact_pass(g, 0), films(g, nullptr), wall_contacts(g, poses.data, 0)};
 }
 
 void SolidSolver::record_loads(int s, const GrainStore& g, const BodyPose* poses, double dt) {

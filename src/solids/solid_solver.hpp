@@ -31,6 +31,7 @@ namespace BL_SOLVER {
 
 struct GrainKick;
 class ArrivingContacts;
+struct GrainActions;
 
 /// Extremes over all grains that limit steps and lists; from one reduction.
 struct GrainWatch {
@@ -167,6 +168,8 @@ class SolidSolver {
   /// The same of lubrication, if lubricates().
   void film_moments(const GrainStore& grains, Buffer<PairMoment<>>& out) const;
   bool lubricates() const { return parameters_.films.acts(); }
+  /// What acts on grains where; poses: as in body_loads.
+  GrainActions actions(const GrainStore& grains, Span<const BodyPose> poses) const;
 
   /// Histories of pairs in contact: arrays "lo", "hi" (ids) and "history"; blocks: of each grain, for an
   /// array "block" with that of the lower one. Both are null where there is one rank.

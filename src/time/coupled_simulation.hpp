@@ -117,6 +117,7 @@ class CoupledSimulation final : public Simulation {
   std::vector<Quantity> body_force(const ProbeConfig& probe);
   std::vector<Quantity> wall_pressure(const ProbeConfig& probe);
   std::vector<Quantity> mixing(const ProbeConfig& probe);
+  std::vector<Quantity> field(const ProbeConfig& probe);
 
   const Config config_;
   State state_;

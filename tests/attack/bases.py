@@ -124,6 +124,7 @@ mu_r = 0.01
 e = 0.9
 release_time = 0
 fixed = false
+resolve = "auto"
 [[grain.material]]
 name = "glass"
 rho = 2400
@@ -487,6 +488,13 @@ type = "height"
 at = [0.1, 0.15, 0.05]
 along = [1, 0, 1]
 [[probe]]
+name = "field"
+type = "field"
+at = [0.1, 0.1, 0.05]
+span = [[0.05, 0, 0], [0, 0.03, 0.02]]
+count = [3, 2]
+radius = 0.02
+[[probe]]
 name = "wall"
 type = "wall_pressure"
 body = "rod"
@@ -674,6 +682,7 @@ axis = [0, 0, 1]
 [couple]
 undisturbed = true
 own_hc = true
+between = "refuse"
 S_dry = 0.1
 S_wet = 0.2
 torque = true

@@ -183,5 +183,14 @@ TEST(ProbeCase, MeasuresUpASlopeAndThroughASection) {
             std::string::npos);
 }
 
+TEST(ProbeCase, OfFieldsTakesAKernelAndPointsThatSpanSomething) {
+  const std::string field = "type = \"field\"\nat = [0.1, 0.05, 0.1]\n", two = "radius = 0.004\n";
+  EXPECT_EQ(error_of(with_probe(field + two)), "");
+  EXPECT_EQ(refused(with_probe(field + "radius = 0.0035\n")),
+            "probe.radius = 0.0035 m must be >= 0.004 m, two diameters of the largest grain");
+  EXPECT_EQ(refused(with_probe(field + two + "span = [[0.01, 0, 0], [0.02, 0, 0]]\ncount = [2, 2]\n")),
+            "probe.span = 2 vectors must not be 0, nor lie along one another or in one plane");
+}
+
 }  // namespace
 }  // namespace bedload::test

@@ -29,6 +29,7 @@ TEST(Cases, AreInitialisedWithoutOtherWarningsThanTheyExplain) {
       {"debris_barrier/case.toml", {3262, 1877, {"fluid.c_factor", "grain.E"}}},
       {"ball_in_oil/case.toml", {238505, 0}},
       {"ball_mill/case.toml", {0, 1733}},
+      {"ball_mill/slurry.toml", {7980, 2500}},
       {"drag_array/case.toml", {32 * 32 * 32, 8}},
       {"drag_array/fcc.toml", {28 * 28 * 28, 4}},
       {"drafting/case.toml", {34 * 34 * 226, 2}},

@@ -46,11 +46,11 @@ TEST(SmallDiagnostics, OfFluidAreSumsOverItsParticles) {
   const auto x = vectors(fluid, "position"), v = vectors(fluid, "velocity");
   const auto p = scalars(fluid, "pressure"), rho = scalars(fluid, "density");
   const auto mass = kept(*s, "mass");
-  Vec3d momentum, angular;
+  Vec3d centre, momentum, angular;
   double all = 0, kinetic = 0, potential = 0, fastest = 0, heights = 0;
   for (std::size_t a = 0; a < x.size(); ++a) {
     const double m = mass[a];
-    all += m;
+    all += m, centre += m * x[a];
     momentum += m * v[a], angular += cross(x[a], m * v[a]);
     kinetic += 0.5 * m * norm2(v[a]), potential -= m * dot(c.gravity, x[a]);
     heights += m * norm(c.gravity) * norm(x[a]);
@@ -59,6 +59,7 @@ TEST(SmallDiagnostics, OfFluidAreSumsOverItsParticles) {
   ASSERT_GT(fastest, 0.02);
   EXPECT_EQ(reading(d, "fluid_count"), double(x.size()));
   EXPECT_NEAR(reading(d, "fluid_mass"), all, 1e-6 * all);
+  expect_near(vector_in(d, "fluid_centre"), centre * (1 / all), 0.1, "centre of mass");
   expect_near(vector_in(d, "fluid_momentum"), momentum, all * fastest, "momentum");
   expect_near(vector_in(d, "fluid_angular_momentum"), angular, 0.1 * all * fastest, "angular momentum");
   EXPECT_NEAR(reading(d, "fluid_kinetic_energy"), kinetic, 1e-5 * kinetic);

@@ -208,6 +208,13 @@ type = "front"
 phase = "grains"
 direction = "x+"
 [[probe]]
+name = "field"
+type = "field"
+at = [-0.02, 0, -0.03]
+span = [[0.04, 0, 0], [0, 0, 0.03]]
+count = [4, 3]
+radius = 0.011
+[[probe]]
 name = "flux"
 type = "flux"
 phase = "grains"

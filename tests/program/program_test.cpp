@@ -916,7 +916,7 @@ TEST_F(Program, WarnsOfWallsAndRefusesProbesOutsideTheDomain) {
 
 TEST_F(Program, RefusesWhatIsTooFineForTheMemoryBeforeLayingIt) {
   write("dam.toml", kSmall);
-  const Outcome o = bedload("check dam.toml --backend cpu --set fluid.dx=0.00005");
+  const Outcome o = bedload("check dam.toml --backend cpu --set grain.resolve=none --set fluid.dx=5e-5");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.err.find("fluid.dx = 5e-05 gives 1.2e+09 fluid particles, which need "), o.err.npos) << o.err;
   EXPECT_NE(o.err.find(" free; use at least "), o.err.npos) << o.err;

@@ -340,6 +340,15 @@ inline constexpr auto kNames<CouplingMode> = std::to_array<Named<CouplingMode>>(
     {CouplingMode::off, "off", "no coupling"},
 });
 
+/// couple.between
+enum class BetweenSizes { refuse, unresolved, resolved };
+template <>
+inline constexpr auto kNames<BetweenSizes> = std::to_array<Named<BetweenSizes>>({
+    {BetweenSizes::refuse, "refuse", "such a case is refused"},
+    {BetweenSizes::unresolved, "unresolved", "drag laws apply to them, outside their range"},
+    {BetweenSizes::resolved, "resolved", "the fluid flows around them, at a low resolution"},
+});
+
 /// couple.kernel
 enum class CouplingKernel { fluid, top_hat };
 template <>

@@ -154,10 +154,19 @@ inline constexpr auto kNames<SizeKind> = std::to_array<Named<SizeKind>>({
     {SizeKind::sieve, "sieve", "sieve curve: mass fraction over mesh opening, log-linear in between"},
 });
 
+/// grain.resolve
+enum class GrainResolve { by_size, none, all };
+template <>
+inline constexpr auto kNames<GrainResolve> = std::to_array<Named<GrainResolve>>({
+    {GrainResolve::by_size, "auto", "those of eight fluid.dx or more, and others as couple.between says"},
+    {GrainResolve::none, "none", "none: drag laws apply to all"},
+    {GrainResolve::all, "all", "all, which must be of four fluid.dx or more"},
+});
+
 // -- output --------------------------------------------------------------------------------------
 
 /// probe.type
-enum class ProbeType { front, point, height, box, flux, force, wall_pressure, mixing };
+enum class ProbeType { front, point, height, box, flux, force, wall_pressure, mixing, field };
 template <>
 inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
     {ProbeType::front, "front", "farthest position of a phase in a direction"},
@@ -170,6 +179,8 @@ inline constexpr auto kNames<ProbeType> = std::to_array<Named<ProbeType>>({
     {ProbeType::wall_pressure, "wall_pressure",
      "force per area on patches of a wall body, as of pressure transducers"},
     {ProbeType::mixing, "mixing", "how well one kind of grains is mixed with the others [lacey54]"},
+    {ProbeType::field, "field",
+     "solid fraction, velocity, temperature, stress of grains at points [goldhirsch10]"},
 });
 
 /// probe.phase

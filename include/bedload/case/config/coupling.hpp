@@ -23,6 +23,7 @@ struct CouplingConfig {
   double spreading = 0.01;                     ///< rate at which fluid that overfills its volume becomes denser, c/h
   bool undisturbed = false;                    ///< drag follows the flow without the grain's own wake and volume
   bool own_hc = true;                          ///< in a mix of sizes each grain has its own, not below hc
+  Chosen<BetweenSizes> between = BetweenSizes::refuse;  ///< grains of four to eight fluid.dx
   double S_dry = 0.05, S_wet = 0.95;
   bool torque = true;
   bool angmom = true;

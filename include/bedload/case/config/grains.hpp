@@ -118,6 +118,7 @@ struct GrainConfig {
   double settle_mu = std::numeric_limits<double>::infinity();  ///< sliding friction meanwhile (default mu)
   double release_time = 0;                     ///< grains are held until then, s
   bool fixed = false;                          ///< grains never move
+  Chosen<GrainResolve> resolve = GrainResolve::by_size;  ///< around which the fluid flows
   double d_max = 0, d_min = 0;                 ///< m (resolved)
   std::vector<GrainFill> fills;
   std::vector<GrainMaterial> materials;        ///< besides that of grain.*

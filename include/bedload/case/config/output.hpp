@@ -21,7 +21,7 @@ struct ProbeConfig {
   std::vector<Vec3d> span;                     ///< point, height: from the first to the last of several, m
   Vec3d min, max;                              ///< box, flux: m
   std::string body;                            ///< force, wall_pressure: wall body; point: that carries it
-  double radius = 0;                           ///< wall_pressure: of a disc, m; 0: a rectangle
+  double radius = 0;                           ///< wall_pressure: of a disc, m; 0: a rectangle; field: of the kernel
   std::vector<double> size;                    ///< wall_pressure: sides of the rectangle, m
   std::vector<double> count;                   ///< patches along them, or points along each span; empty: one
   Vec3d normal;                                ///< wall_pressure: unit, into the fluid (resolved)
