@@ -27,6 +27,7 @@ namespace {
 constexpr double kRandomLimit = 0.30;              // random sequential places run out near 0.38
 constexpr std::uint64_t kOrientations = 1u << 20;  // stream of random numbers of the first clump
 constexpr int kTries = 20000;                      // per grain, before the lattice takes over
+constexpr std::size_t kAtOnce = 1u << 16;          // places tried at once, at most
 
 template <class T>
 void shuffle(std::vector<T>& items, CounterRandom& random) {
@@ -50,6 +51,8 @@ class Packer {
   }
 
  private:
+  using Spheres = std::vector<std::pair<Vec3d, double>>;  ///< centres, radii
+
   void place_fill(std::size_t index) {
     index_ = index;
     fill_ = &config_.grain.fills[index];
@@ -171,7 +174,7 @@ class Packer {
   }
   /// Centres from that of a grain, and radii, of its spheres, m. `radius`: of the sphere of its
   /// volume.
-  std::vector<std::pair<Vec3d, double>> spheres_of(std::size_t clump, double radius) const {
+  Spheres spheres_of(std::size_t clump, double radius) const {
     if (!clump_) return {{{}, radius}};
     return turned_spheres(clump_->shape, 2 * radius, orientation(clump));
   }
@@ -245,40 +248,63 @@ class Packer {
     return sites;
   }
 
-  /// One after the other, the largest first, wherever there is space; nothing if space runs out.
+  /// One after the other, the largest first, each at the first of a sequence of random places that is free;
+  /// nothing if space runs out. Grains of one size ask for the same places, so that many are tried at once.
   std::optional<std::vector<Vec3d>> random_places(const std::vector<double>& radii, CounterRandom& random) {
     const PlacedGrains before = placed_;
     std::vector<std::size_t> order(radii.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::stable_sort(order.begin(), order.end(), [&](auto i, auto j) { return radii[i] > radii[j]; });
-    std::vector<Vec3d> places(radii.size());
-    for (const std::size_t n : order) {
-      const double radius = radii[n];
-      const auto spheres = spheres_of(grains_.clumps.size() + n, radius);
-      bool found = false;
-      for (int attempt = 0; attempt < kTries && !found; ++attempt) {
-        Vec3d x;
-        for (int k = 0; k < 3; ++k) {
-          const double margin = spans_period(k) || clump_ ? 0 : radius;
-          const double lo = fill_->min[k] + margin, hi = fill_->max[k] - margin;
-          x[k] = lo + random.uniform() * std::max(0.0, hi - lo);
-        }
-        found = std::all_of(spheres.begin(), spheres.end(), [&](const auto& s) {
-          const Vec3d at = x + s.first;
-          return inside_box(at, s.second) && inside_shape(at, s.second, 1e-6 * s.second) &&
-                 placed_.is_free(at, s.second) && clear_of_walls(at, s.second, 1e-6 * s.second);
-        });
-        if (!found) continue;
-        places[n] = x;
-        for (const auto& [arm, r] : spheres) placed_.add(x + arm, r);
-      }
-      if (!found) {
-        placed_ = before;
-        return std::nullopt;
+    std::vector<Vec3d> places(radii.size()), tried;
+    std::vector<char> clear;
+    std::size_t placed = 0, alike = 0;  // those before it; those of the size of the next one
+    int failed = 0;                     // attempts for the next one
+    while (placed < order.size() && failed < kTries) {
+      const double radius = radii[order[placed]];
+      for (alike = std::max(alike, placed + 1); alike < order.size() && !clump_; ++alike)
+        if (radii[order[alike]] != radius) break;
+      tried.resize(std::min(kAtOnce, std::max(std::size_t(failed), alike - placed)));
+      CounterRandom ahead = random;
+      for (Vec3d& x : tried) x = random_place(radius, ahead);
+      clear.resize(tried.size());
+      host_for_each(tried.size(), [&](std::size_t n) { clear[n] = fits(tried[n], order[placed], radius); });
+      for (std::size_t n = 0; n < tried.size() && placed < alike && failed < kTries; ++n) {
+        for (int k = 0; k < 3; ++k) random.bits();  // of this place
+        ++failed;
+        const auto spheres = spheres_of(grains_.clumps.size() + order[placed], radius);
+        if (!clear[n] || !free_of_grains(tried[n], spheres)) continue;
+        for (const auto& [arm, r] : spheres) placed_.add(tried[n] + arm, r);
+        places[order[placed++]] = tried[n];
+        failed = 0;
       }
     }
     placed_ = before;
+    if (placed < order.size()) return std::nullopt;
     return places;
+  }
+
+  Vec3d random_place(double radius, CounterRandom& random) const {
+    Vec3d x;
+    for (int k = 0; k < 3; ++k) {
+      const double margin = spans_period(k) || clump_ ? 0 : radius;
+      const double lo = fill_->min[k] + margin, hi = fill_->max[k] - margin;
+      x[k] = lo + random.uniform() * std::max(0.0, hi - lo);
+    }
+    return x;
+  }
+
+  bool free_of_grains(const Vec3d& x, const Spheres& spheres) const {
+    return std::all_of(spheres.begin(), spheres.end(),
+                       [&](const auto& s) { return placed_.is_free(x + s.first, s.second); });
+  }
+  /// Whether grain `n` of the fill touches neither a grain placed so far nor what bounds the space.
+  bool fits(const Vec3d& x, std::size_t n, double radius) const {
+    const Spheres spheres = spheres_of(grains_.clumps.size() + n, radius);
+    return free_of_grains(x, spheres) && std::all_of(spheres.begin(), spheres.end(), [&](const auto& s) {
+             const Vec3d at = x + s.first;
+             return inside_box(at, s.second) && inside_shape(at, s.second, 1e-6 * s.second) &&
+                    clear_of_walls(at, s.second, 1e-6 * s.second);
+           });
   }
 
   /// Of a box to fill, but for sides across which it is periodic.
@@ -321,13 +347,15 @@ class Packer {
     }
     shuffle(centres, random);
     centres.resize(radii.size());
-    for (std::size_t n = 0; n < radii.size(); ++n) {
-      Vec3d x = centres[n];
+    std::vector<Vec3d> shaken = centres;
+    for (Vec3d& x : shaken)
       for (int k = 0; k < 3; ++k) x[k] += (random.uniform() - 0.5) * 0.98 * (cells[k].step - d_max);
+    host_for_each(radii.size(), [&](std::size_t n) {
+      const Vec3d& x = shaken[n];
       if (inside_shape(x, radii[n], 1e-6 * radii[n]) && placed_.is_free(x, radii[n]) &&
           clear_of_walls(x, radii[n], 1e-6 * radii[n]))
         centres[n] = x;
-    }
+    });
     return centres;
   }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "bedload/case/config/domain.hpp"
@@ -41,9 +39,11 @@ class PlacedGrains {
       }
     }
     void add(const Vec3d& x, double radius) {
-      cells_[key(cell(x))].push_back({x, radius});
+      if (2 * (grains_.size() + 1) > slots_.size()) grow();
+      Slot& slot = slots_[slot_of(key(cell(x)))];
+      grains_.push_back({x, radius, slot.first});
+      slot = {key(cell(x)), std::uint32_t(grains_.size())};
       largest_ = std::max(largest_, radius);
-      ++grains_;
     }
     bool is_free(const Vec3d& x, double radius) const {
       const double range = radius + largest_;
@@ -51,32 +51,49 @@ class PlacedGrains {
       const Cell from = cell(x - reach), to = cell(x + reach);
       double cells = 1;
       for (int k = 0; k < 3; ++k) cells *= double(to[k] - from[k] + 1);
-      if (cells > double(grains_))
-        return std::all_of(cells_.begin(), cells_.end(),
-                           [&](const auto& all) { return clear_of(all.second, x, radius); });
+      if (cells > double(grains_.size()))
+        return std::all_of(grains_.begin(), grains_.end(),
+                           [&](const Grain& other) { return clear_of(other, x, radius); });
       for (std::int64_t iz = from[2]; iz <= to[2]; ++iz)
         for (std::int64_t iy = from[1]; iy <= to[1]; ++iy)
-          for (std::int64_t ix = from[0]; ix <= to[0]; ++ix) {
-            const auto found = cells_.find(key({ix, iy, iz}));
-            if (found != cells_.end() && !clear_of(found->second, x, radius)) return false;
-          }
+          for (std::int64_t ix = from[0]; ix <= to[0]; ++ix)
+            for (std::uint32_t n = slots_[slot_of(key({ix, iy, iz}))].first; n > 0; n = grains_[n - 1].next)
+              if (!clear_of(grains_[n - 1], x, radius)) return false;
       return true;
     }
 
    private:
-    using Grains = std::vector<std::pair<Vec3d, double>>;
+    struct Grain {
+      Vec3d x;
+      double radius;
+      std::uint32_t next;  ///< of its cell, counted from 1; 0: none
+    };
+    struct Slot {
+      std::uint64_t cell = 0;
+      std::uint32_t first = 0;  ///< grain of the cell; 0: the slot is free
+    };
 
-    bool clear_of(const Grains& others, const Vec3d& x, double radius) const {
-      for (const auto& [y, other] : others) {
-        Vec3d apart = x - y;
-        for (int k = 0; k < 3; ++k)
-          if (domain_.periodic[k]) {
-            const double period = domain_.max[k] - domain_.min[k];
-            apart[k] -= period * std::round(apart[k] / period);
-          }
-        if (norm2(apart) < (radius + other) * (radius + other)) return false;
-      }
-      return true;
+    bool clear_of(const Grain& other, const Vec3d& x, double radius) const {
+      Vec3d apart = x - other.x;
+      for (int k = 0; k < 3; ++k)
+        if (domain_.periodic[k]) {
+          const double period = domain_.max[k] - domain_.min[k];
+          apart[k] -= period * std::round(apart[k] / period);
+        }
+      return norm2(apart) >= (radius + other.radius) * (radius + other.radius);
+    }
+    /// That of a cell, or the free one where it belongs.
+    std::size_t slot_of(std::uint64_t cell) const {
+      const std::size_t last = slots_.size() - 1;
+      std::size_t at = (cell * 0x9e3779b97f4a7c15u >> 32) & last;
+      while (slots_[at].first > 0 && slots_[at].cell != cell) at = (at + 1) & last;
+      return at;
+    }
+    void grow() {
+      std::vector<Slot> before(2 * slots_.size());
+      before.swap(slots_);
+      for (const Slot& slot : before)
+        if (slot.first > 0) slots_[slot_of(slot.cell)] = slot;
     }
     Cell cell(const Vec3d& x) const {
       Cell c;
@@ -95,8 +112,8 @@ class PlacedGrains {
     double largest_ = 0;  ///< radius, m
     std::array<std::int64_t, 3> count_;
     std::array<double, 3> width_;
-    std::size_t grains_ = 0;
-    std::unordered_map<std::uint64_t, Grains> cells_;
+    std::vector<Grain> grains_;
+    std::vector<Slot> slots_ = std::vector<Slot>(16);  ///< hashed by cell; a power of two, half of them free
   };
 
   DomainConfig domain_;

@@ -1,9 +1,11 @@
 #include "bedload/geometry/packing.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <numbers>
 #include <numeric>
 
+#include "bedload/core/random.hpp"
 #include "support.hpp"
 
 namespace bedload::test {
@@ -54,6 +56,23 @@ TEST(GrainPacking, SameSeedSamePlaces) {
   EXPECT_EQ(once, again);
   config.grain.seed = 2;
   EXPECT_NE(setup_of(config).grains.x, once);
+}
+
+TEST(GrainPacking, TriesTheSamePlacesAsOneAfterTheOther) {
+  Config config = grain_case({0.1, 0.1, 0.1});
+  config.grain.fills[0].count = 480;  // 25 % solid: most places are taken
+  const auto grains = setup_of(config).grains;
+  CounterRandom random(config.grain.seed, 0);
+  for (int n = 1; n < 480; ++n) random.bits();  // by mixing sizes
+  std::vector<Vec3d> places;
+  while (places.size() < 480) {
+    Vec3d x;
+    for (int k = 0; k < 3; ++k) x[k] = 0.005 + random.uniform() * ((0.1 - 0.005) - 0.005);
+    const bool free = std::all_of(places.begin(), places.end(),
+                                  [&](const Vec3d& y) { return norm2(x - y) >= 0.01 * 0.01; });
+    if (free) places.push_back(x);
+  }
+  EXPECT_EQ(grains.x, places);
 }
 
 TEST(GrainPacking, PlacesSpreadEvenly) {

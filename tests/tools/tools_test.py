@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""compare.py, plot.py and render.py on small runs made here, whose answers are known; validate.py with a program that
+"""compare.py, plot.py, render.py and splat.py on small runs made here, whose answers are known; validate.py with a program that
 takes the place of the solver; solids of solids.py."""
 
 import contextlib
@@ -26,6 +26,7 @@ import plot  # noqa: E402
 import render  # noqa: E402
 import rolling  # noqa: E402
 import solids  # noqa: E402
+import splat  # noqa: E402
 import validate  # noqa: E402
 from scene import Scene  # noqa: E402
 from bedload import _surfaces  # noqa: E402
@@ -553,13 +554,14 @@ shape = "rest"
         write_frames(self.run_dir / "grains.vtkhdf", [0, 0.1, 0.2], [self.block[:5] + [0, 0, 0.045]] * 3,
                      {"radius": [np.full(5, 0.01)] * 3})
         out = Path(self.folder.name) / "it.png"
-        status, _, err = tool("render.py", self.run_dir, "--out", out, "--size", "300,200", "--time", "0.1")
-        self.assertEqual(status, 0, err)
-        pixels = np.asarray(Image.open(out).convert("RGB")).astype(int)
-        self.assertEqual(pixels.shape, (200, 300, 3))
-        red, blue = (pixels[:, :, k] - pixels[:, :, 2 - k] for k in (0, 2))
-        self.assertGreater((blue > 40).sum(), 2000)  # water
-        self.assertGreater((red > 40).sum(), 50)  # grains
+        for call, program, speed in (tool, "render.py", []), (direct, splat.main, ["--range", "0,0.1"]):
+            status, _, err = call(program, self.run_dir, "--out", out, "--size", "300,200", "--time", "0.1", *speed)
+            self.assertEqual(status, 0, err)
+            pixels = np.asarray(Image.open(out).convert("RGB")).astype(int)
+            self.assertEqual(pixels.shape, (200, 300, 3))
+            red, blue = (pixels[:, :, k] - pixels[:, :, 2 - k] for k in (0, 2))
+            self.assertGreater((blue > 40).sum(), 2000)  # water
+            self.assertGreater((red > 40).sum(), 50)  # grains
 
     def test_film_has_a_picture_for_each_frame(self):
         film = Path(self.folder.name) / "it.gif"
