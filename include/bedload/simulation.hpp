@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bedload/case/choices.hpp"
@@ -53,6 +54,10 @@ struct Loss {
   double first = 0;            ///< time of the first loss, s
 };
 
+/// What will be there: the function waits for it, and is called once, by any thread.
+template <class T>
+using Later = std::function<T()>;
+
 class Simulation {
  public:
   virtual ~Simulation() = default;
@@ -94,6 +99,10 @@ class Simulation {
   /// Output fields of a store: "fluid", "grains", "clumps" or "walls", first array "position"; or "contacts",
   /// lines of the grains' contacts, first array "ends".
   virtual HostStore snapshot(const std::string& store) = 0;
+  /// The same, of now: steps that follow need not wait for the copy.
+  virtual Later<HostStore> snapshot_later(const std::string& store) {
+    return [taken = std::make_shared<HostStore>(snapshot(store))] { return std::move(*taken); };
+  }
   /// Data for the rheology of "fluid" or "grains", after a step: arrays position (m), velocity (m/s), mass
   /// (kg), volume (m3, of a grain, or the mixture volume of fluid), drive (N, by gravity and drive)
   /// and stress_... (J), one per part of the pair forces: [3 i + j] is half the sum of F_i r_j, so that minus

@@ -147,6 +147,7 @@ class Frames {
     fs::remove_all(folder_, none);
   }
   void write(Simulation& simulation, const StepInfo& info) { output_->write(simulation, info); }
+  OutputTimes times() const { return output_->times(); }
 
  private:
   static Config each_time(Config config) {
@@ -268,11 +269,18 @@ Result measure(Job job, const Options& o) {
     Frames frames(p.config, p.device);
     // the first two fetch the memory that all others use again
     time_steps(*simulation, 2 * o.bench.frame_every, &frames, o.bench.frame_every);
+    const OutputTimes from = frames.times();
     for (int k = 0; k < o.bench.repeats; ++k)
       with.push_back(time_steps(*simulation, o.bench.steps, &frames, o.bench.frame_every));
+    const OutputTimes to = frames.times();
     const double ms = 1e3 * median_of(with).seconds / o.bench.steps, part = 100 * (1 - result.ms / ms);
     result.cells.push_back({"ms/step with frames", fmt::format("{:.3f}", ms), "step_with_frames_ms", ms});
     result.cells.push_back({"frames", fmt::format("{:.1f} %", part), "frames_percent", part});
+    const int written = std::max(1, o.bench.repeats * (o.bench.steps / o.bench.frame_every));
+    const double wait = 1e3 * (to.waited - from.waited) / written,
+                 write = 1e3 * (to.writing - from.writing) / written;
+    result.cells.push_back({"wait, ms/frame", fmt::format("{:.1f}", wait), "frame_wait_ms", wait});
+    result.cells.push_back({"writing, ms/frame", fmt::format("{:.1f}", write), "frame_writing_ms", write});
   }
   return result;
 }

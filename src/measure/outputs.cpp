@@ -67,15 +67,20 @@ struct PartPass {
   }
 };
 
-/// n entries of T, by compute(entries, out), which writes out[i] for those entries. On a GPU piece by piece,
-/// so that it takes little of its memory.
+/// n entries of T, by compute(entries, out), which writes out[i] for those entries. On a GPU they are there
+/// once `copies` have been made; without, or where it has no room, at once, piece by piece, which takes
+/// little of its memory.
 template <class T, class Compute>
-HostArray array_of(const std::string& name, const std::string& unit, std::size_t n, int components,
-                   const Compute& compute) {
+HostArray array_of(HostCopies* copies, const std::string& name, const std::string& unit, std::size_t n,
+                   int components, const Compute& compute) {
   HostArray a{name, unit, FileType<T>::scalar, components, {}};
   a.bytes.resize(n * sizeof(T));
   T* const out = a.as<T>();
 #if BL_CUDA
+  if (T* const there = copies && n > 0 ? copies->room<T>(n, out) : nullptr) {
+    compute(Range{0, Index(n)}, Span<T>{there, Index(n)});
+    return a;
+  }
   constexpr std::size_t most = 1 << 20;
   const Context& context = Context::current();
   Buffer<T>& piece = Context::current().scratch<T>();
@@ -89,6 +94,7 @@ HostArray array_of(const std::string& name, const std::string& unit, std::size_t
   }
   context.wait();
 #else
+  (void)copies;
   compute(Range{0, Index(n)}, Span<T>{out, Index(n)});
 #endif
   return a;
@@ -117,26 +123,47 @@ FieldView view_of(const FieldBase& field, const Store& store) {
 }
 
 template <class T>
-HostArray part_of(const FieldView& view) {
-  return array_of<T>(
-      view.name, view.unit, view.count * view.components, view.components, [&](Range scalars, Span<T> out) {
-        for_each(scalars, PartPass<T>{static_cast<const T*>(view.data), Index(view.stride / sizeof(T)),
-                                      Index(view.components), out});
-      });
+HostArray part_of(HostCopies* copies, const FieldView& view) {
+  return array_of<T>(copies, view.name, view.unit, view.count * view.components, view.components,
+                     [&](Range scalars, Span<T> out) {
+                       for_each(scalars,
+                                PartPass<T>{static_cast<const T*>(view.data), Index(view.stride / sizeof(T)),
+                                            Index(view.components), out});
+                     });
 }
 
-HostArray copy_of(const FieldView& view) {
+HostArray copy_of(HostCopies* copies, const FieldView& view) {
   if (view.stride > view.components * size_of(view.type))
-    return view.type == Scalar::f64 ? part_of<double>(view) : part_of<float>(view);
+    return view.type == Scalar::f64 ? part_of<double>(copies, view) : part_of<float>(copies, view);
   HostArray whole{view.name, view.unit, view.type, view.components, {}};
   whole.bytes.resize(view.count * view.stride);
-  copy_to_host(whole.bytes.data(), view.data, whole.bytes.size());
+  std::byte* const out = whole.bytes.data();
+  if (std::byte* const there =
+          copies && view.data ? copies->room<std::byte>(whole.bytes.size(), out) : nullptr)
+    copy_on_device(there, view.data, whole.bytes.size());
+  else
+    copy_to_host(out, view.data, whole.bytes.size());
   return whole;
 }
 
 // --- computed outputs ------------------------------------------------------------------------
 
-using Arrays = std::vector<HostArray>;
+/// The arrays of a store as they are made, in their order.
+struct Arrays {
+  std::vector<HostArray>& list;
+  HostCopies* copies;  ///< null: all are there at once
+
+  void push_back(HostArray a) { list.push_back(std::move(a)); }
+  void copy(const FieldView& view) { list.push_back(copy_of(copies, view)); }
+  /// By Pass{args..., out}.
+  template <class T, class Pass, class... Args>
+  void make(const char* name, const char* unit, const Store& store, Args... args) {
+    list.push_back(array_of<T>(copies, name, unit, store.owned().size(), FileType<T>::components,
+                               [&](Range entries, Span<T> out) {
+                                 for_each(entries, Pass{args..., out});
+                               }));
+  }
+};
 
 /// One or several outputs of a store that are made when they are asked for, or copied from a field.
 struct Made {
@@ -145,39 +172,28 @@ struct Made {
   std::function<void(Arrays&)> make;
 };
 
-/// By Pass{args..., out}.
-template <class T, class Pass, class... Args>
-HostArray made(const char* name, const char* unit, const Store& store, Args... args) {
-  return array_of<T>(name, unit, store.owned().size(), FileType<T>::components,
-                     [&](Range entries, Span<T> out) {
-                       for_each(entries, Pass{args..., out});
-                     });
-}
-
 std::vector<Made> computed_of_fluid(State& state, Stepper& stepper, FluidMoments& scratch) {
   FluidStore& f = state.fluid;
   const unsigned where_it_varies = stepper.fluid().lengths() ? kFrames : kNobody;
   return {
       {0, kFrames | kRheology,
        [&](Arrays& out) {
-         out.push_back(made<Real3, PointPass<FluidPosition>>("position", "m", f, state.frame,
-                                                             std::as_const(f.x).span()));
+         out.make<Real3, PointPass<FluidPosition>>("position", "m", f, state.frame,
+                                                   std::as_const(f.x).span());
        }},
       {3, kFrames,
        [&](Arrays& out) {
-         out.push_back(
-             made<Real, PressurePass<EosState<>>>("pressure", "Pa", f, std::as_const(f.eos_state).span()));
+         out.make<Real, PressurePass<EosState<>>>("pressure", "Pa", f, std::as_const(f.eos_state).span());
        }},
       {7, kRheology | where_it_varies,
        [&](Arrays& out) {
-         out.push_back(made<Real, VolumePass>("volume", "m3", f, std::as_const(f.eos_state).span()));
+         out.make<Real, VolumePass>("volume", "m3", f, std::as_const(f.eos_state).span());
        }},
       {8, kRheology,
        [&](Arrays& out) {
-         out.push_back(made<Real3, DrivingForce>("drive", "N", f, Real3{state.gravity.at(state.clock.time)},
-                                                 stepper.fluid().drive(f, stepper.moment()),
-                                                 std::as_const(f.mass).span(),
-                                                 std::as_const(f.eos_state).span()));
+         out.make<Real3, DrivingForce>("drive", "N", f, Real3{state.gravity.at(state.clock.time)},
+                                       stepper.fluid().drive(f, stepper.moment()),
+                                       std::as_const(f.mass).span(), std::as_const(f.eos_state).span());
        }},
       {9, kRheology,
        [&](Arrays& out) {
@@ -194,29 +210,27 @@ std::vector<Made> computed_of_grains(State& state, Stepper& stepper, Buffer<Pair
   return {
       {0, kFrames | kRheology,
        [&](Arrays& out) {
-         out.push_back(
-             made<Real3, PointPass<Vec3d>>("position", "m", g, state.frame, std::as_const(g.x).span()));
+         out.make<Real3, PointPass<Vec3d>>("position", "m", g, state.frame, std::as_const(g.x).span());
        }},
       {5, kRheology,
        [&](Arrays& out) {
-         out.push_back(
-             made<Real, GrainTotal>("mass", "kg", g, state.matter.of(g), std::as_const(g.radius).span()));
+         out.make<Real, GrainTotal>("mass", "kg", g, state.matter.of(g), std::as_const(g.radius).span());
        }},
       {6, kRheology,
        [&](Arrays& out) {
-         out.push_back(made<Real, GrainTotal>("volume", "m3", g, state.matter.volume_of(g),
-                                              std::as_const(g.radius).span()));
+         out.make<Real, GrainTotal>("volume", "m3", g, state.matter.volume_of(g),
+                                    std::as_const(g.radius).span());
        }},
       {7, kRheology,
        [&](Arrays& out) {
-         out.push_back(made<Real3, GrainDrivingForce>(
-             "drive", "N", g, Real3{state.gravity.at(state.clock.time)}, state.matter.of(g),
-             std::as_const(g.radius).span(), stepper.drive_grains()));
+         out.make<Real3, GrainDrivingForce>("drive", "N", g, Real3{state.gravity.at(state.clock.time)},
+                                            state.matter.of(g), std::as_const(g.radius).span(),
+                                            stepper.drive_grains());
        }},
       {8, std::as_const(stepper).solids().clumps().any() ? unsigned(kFrames) : unsigned(kNobody),
        [&](Arrays& out) {
          const Clumps& clumps = std::as_const(stepper).solids().clumps();
-         out.push_back(made<Id, ClumpIds>("clump", "-", g, clumps.of_grains(), clumps.store().id.span()));
+         out.make<Id, ClumpIds>("clump", "-", g, clumps.of_grains(), clumps.store().id.span());
        }},
       {8, kRheology,
        [&](Arrays& out) {
@@ -246,12 +260,11 @@ std::vector<Made> computed_of_clumps(State& state, Stepper& stepper) {
   return {
       {0, kFrames,
        [&](Arrays& out) {
-         out.push_back(
-             made<Real3, ClumpPoint>("position", "m", clumps.store(), state.frame, clumps.store().x.span()));
+         out.make<Real3, ClumpPoint>("position", "m", clumps.store(), state.frame, clumps.store().x.span());
        }},
       {2, kFrames,
        [&](Arrays& out) {
-         out.push_back(made<Real3, ClumpSpin>("angular_velocity", "rad/s", clumps.store(), clumps.view()));
+         out.make<Real3, ClumpSpin>("angular_velocity", "rad/s", clumps.store(), clumps.view());
        }},
   };
 }
@@ -261,16 +274,44 @@ std::vector<Made> computed_of_walls(State& state) {
   return {
       {0, kFrames,
        [&](Arrays& out) {
-         out.push_back(
-             made<Real3, PointPass<Vec3d>>("position", "m", w, state.frame, std::as_const(w.x).span()));
+         out.make<Real3, PointPass<Vec3d>>("position", "m", w, state.frame, std::as_const(w.x).span());
        }},
       {2, kFrames,
        [&](Arrays& out) {
-         out.push_back(
-             made<Real, PressurePass<WallState<>>>("pressure", "Pa", w, std::as_const(w.state).span()));
+         out.make<Real, PressurePass<WallState<>>>("pressure", "Pa", w, std::as_const(w.state).span());
        }},
   };
 }
+
+/// Takes away the particles of wall bodies that are gone.
+void leave_out(const std::vector<bool>& removed, HostStore& walls) {
+  if (walls.count == 0 || removed.empty()) return;
+  const HostBytes bytes = walls.find("body")->bytes;
+  const auto* body = reinterpret_cast<const std::uint32_t*>(bytes.data());
+  walls.keep_where([&](std::size_t k) { return body[k] >= removed.size() || !removed[body[k]]; });
+}
+
+#if BL_CUDA
+/// A store that is on its way.
+struct Coming {
+  explicit Coming(HostStore s) : store(std::move(s)) {}
+  ~Coming() {
+    try {
+      if (there) there->wait();  // its memory must not serve others before
+    } catch (const DeviceError&) {
+    }
+  }
+  HostStore take() {
+    std::exchange(there, nullptr)->wait();
+    leave_out(removed, store);
+    return std::move(store);
+  }
+
+  HostStore store;
+  std::shared_ptr<const Moment> there = nullptr;
+  std::vector<bool> removed = {};
+};
+#endif
 
 }  // namespace
 
@@ -291,7 +332,7 @@ std::vector<const FieldBase*> CoupledSimulation::written(const Store& store, Use
   return out;
 }
 
-HostStore CoupledSimulation::outputs(const std::string& name, Use by) {
+HostStore CoupledSimulation::outputs(const std::string& name, Use by, HostCopies* copies) {
   HostStore out{name, 0, {}};
   const Store* const store = store_named(name);
   if (!store) return out;
@@ -301,11 +342,11 @@ HostStore CoupledSimulation::outputs(const std::string& name, Use by) {
                           : store == &state_.walls  ? computed_of_walls(state_)
                                                     : computed_of_clumps(state_, stepper_);
   for (const FieldBase* f : written(*store, by))
-    all.push_back(
-        {f->output->order, by, [=](Arrays& arrays) { arrays.push_back(copy_of(view_of(*f, *store))); }});
+    all.push_back({f->output->order, by, [=](Arrays& arrays) { arrays.copy(view_of(*f, *store)); }});
   std::stable_sort(all.begin(), all.end(), [](const Made& a, const Made& b) { return a.order < b.order; });
+  Arrays arrays{out.arrays, copies};
   for (const Made& each : all)
-    if (each.uses & by) each.make(out.arrays);
+    if (each.uses & by) each.make(arrays);
   add_blocks(out);
   return out;
 }
@@ -324,19 +365,35 @@ HostStore CoupledSimulation::snapshot(const std::string& name) {
     return stepper_.solids().wear()->frame(body, name, state_.motion.pose(body, state_.clock.time));
   }
   if (name == "contacts" && state_.has_grains) return stepper_.solids().contact_lines(state_.grains);
-  HostStore out = outputs(name, kFrames);
-  if (name != "walls" || out.count == 0 || !state_.motion.any_removed()) return out;
-  const HostBytes bytes = out.find("body")->bytes;
-  const auto* body = reinterpret_cast<const std::uint32_t*>(bytes.data());
-  out.keep_where([&](std::size_t k) {
-    return int(body[k]) >= state_.motion.walls() || !state_.motion.removed(int(body[k]));
-  });
+  HostStore out = outputs(name, kFrames, nullptr);
+  if (name == "walls") leave_out(removed_walls(), out);
   return out;
+}
+
+std::vector<bool> CoupledSimulation::removed_walls() const {
+  if (!state_.motion.any_removed()) return {};
+  std::vector<bool> removed(std::size_t(state_.motion.walls()));
+  for (std::size_t b = 0; b < removed.size(); ++b) removed[b] = state_.motion.removed(int(b));
+  return removed;
+}
+
+Later<HostStore> CoupledSimulation::snapshot_later(const std::string& name) {
+#if BL_CUDA
+  if (store_named(name) && !Context::current().several()) {
+    HostCopies& copies = copies_[name];
+    copies.begin();
+    auto coming = std::make_shared<Coming>(outputs(name, kFrames, &copies));
+    coming->there = copies.end();
+    if (name == "walls") coming->removed = removed_walls();
+    return [coming] { return coming->take(); };
+  }
+#endif
+  return Simulation::snapshot_later(name);
 }
 
 HostStore CoupledSimulation::rheology(const std::string& name) {
   stepper_.share_all();
-  return outputs(name, kRheology);
+  return outputs(name, kRheology, nullptr);
 }
 
 std::vector<FieldView> CoupledSimulation::fields(const std::string& name) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -188,7 +189,7 @@ struct RunOutput::Impl {
     const Leftovers others = leftovers(series, dir);
     for (const auto& f : series.frames) {
       must_increase(f.file.path(), f.file.times());
-      f.file.expect(frame_of(simulation, f.store));
+      f.file.expect(frame_later(simulation, f.store)());
     }
     for (const auto& t : series.tables) {
       must_increase(t.csv.path(), t.csv.times());
@@ -237,17 +238,22 @@ struct RunOutput::Impl {
   /// Posts the output that is due at `time`, or everything not yet written at that time.
   void emit(Simulation& simulation, double time, bool everything) {
     const auto wanted = [&](const Schedule& s) { return everything ? !s.written_at(time) : s.due(time); };
+    const bool frame = std::any_of(series.frames.begin(), series.frames.end(),
+                                   [&](const Frames& f) { return wanted(f.schedule); });
+    if (frame) wait_for_writer();
     for (auto& f : series.frames) {
       if (wanted(f.schedule)) {
         const bool again = f.schedule.begun();
         f.schedule.written(time);
-        writer.post([&f, store = frame_of(simulation, f.store), time, again] {
-          write_existing(f.file.path(), again, [&] {
-            f.file.append(store, time, again);
-            ++f.written;
-            f.refresh_xdmf(false);
-          });
-        });
+        writer.post(
+            [&f, store = frame_later(simulation, f.store), time, again] {
+              write_existing(f.file.path(), again, [&] {
+                f.file.append(store(), time, again);
+                ++f.written;
+                f.refresh_xdmf(false);
+              });
+            },
+            WriterThread::Size::large);
       }
       if (everything)
         writer.post([&f] { write_existing(f.file.path(), true, [&] { f.refresh_xdmf(true); }); });
@@ -269,10 +275,17 @@ struct RunOutput::Impl {
     }
   }
 
-  HostStore frame_of(Simulation& simulation, const std::string& store) const {
-    HostStore all = simulation.snapshot(store);
-    const bool particles = std::find(std::begin(kStores), std::end(kStores), store) != std::end(kStores);
-    return particles ? chosen(std::move(all), config.out.fields) : all;
+  Later<HostStore> frame_later(Simulation& simulation, const std::string& store) const {
+    Later<HostStore> all = simulation.snapshot_later(store);
+    if (std::find(std::begin(kStores), std::end(kStores), store) == std::end(kStores)) return all;
+    return [all = std::move(all), this] { return chosen(all(), config.out.fields); };
+  }
+
+  /// Before what takes as much memory as a frame: one frame may wait beside that which is written.
+  void wait_for_writer() {
+    const auto from = std::chrono::steady_clock::now();
+    writer.wait_for_large(series.frames.size());
+    waited += std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
   }
 
   static std::vector<std::vector<Quantity>> rows_of(Simulation& simulation, const Table& t) {
@@ -283,11 +296,14 @@ struct RunOutput::Impl {
 
   fs::path post_checkpoint(Simulation& simulation) {
     auto path = dir / "checkpoints" / fmt::format("step_{:09}.h5", simulation.steps());
-    writer.post([this, path, state = simulation.save()] {
-      write_state(path, state, config);
-      const std::lock_guard lock(mutex);
-      newest = path;
-    });
+    wait_for_writer();
+    writer.post(
+        [this, path, state = simulation.save()] {
+          write_state(path, state, config);
+          const std::lock_guard lock(mutex);
+          newest = path;
+        },
+        WriterThread::Size::large);
     return path;
   }
 
@@ -374,7 +390,8 @@ struct RunOutput::Impl {
   std::vector<Section> added;  ///< to the summary
   mutable std::mutex mutex;    ///< guards `newest`
   fs::path newest;
-  WriterThread writer;  ///< last: its jobs use all of the above
+  double waited = 0;          ///< for the writer, s
+  WriterThread writer{1024};  ///< last: its jobs use all of the above
 };
 
 RunOutput::RunOutput(const fs::path& dir, const Config& config, const Device& device, std::string version,
@@ -418,6 +435,8 @@ void RunOutput::finish(Simulation& simulation, const std::string& status, const 
   impl_->writer.drain();
   impl_->write_summary(simulation, status, totals);
 }
+
+OutputTimes RunOutput::times() const { return {impl_->waited, impl_->writer.busy()}; }
 
 fs::path RunOutput::last_checkpoint() const { return impl_->last_checkpoint(); }
 

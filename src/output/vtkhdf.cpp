@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 
+#include "bedload/core/cores.hpp"
 #include "bedload/output/files.hpp"
 #include "bedload/output/h5_table.hpp"
 #include "src/output/image_frames.hpp"
@@ -40,19 +41,35 @@ const Cells& cells_of(hid_t root) {
   return h5::has_member(root, kLines.data) && !h5::has_member(root, kVertices.data) ? kLines : kVertices;
 }
 
-/// Points as they are stored: in fp32 unless the file keeps doubles.
-HostArray stored_points(const HostArray& x, bool double_points) {
-  HostArray points{.name = x.name, .unit = x.unit, .type = x.type, .components = 3, .bytes = {}};
-  if (double_points || x.type != Scalar::f64) {
-    points.bytes = x.bytes;
-    return points;
+/// Points as they are stored: in fp32 unless the file keeps doubles; of lines both ends.
+class StoredPoints {
+ public:
+  StoredPoints(const HostArray& x, bool double_points) {
+    const bool single = !double_points && x.type == Scalar::f64;
+    if (!single && x.components == 3) {
+      stored_ = &x;  // a copy of millions takes as long as writing half of them
+      return;
+    }
+    own_ = {
+        .name = x.name, .unit = x.unit, .type = single ? Scalar::f32 : x.type, .components = 3, .bytes = {}};
+    if (!single) {
+      own_.bytes = x.bytes;
+      return;
+    }
+    const std::size_t n = x.bytes.size() / sizeof(double);
+    own_.bytes.resize(n * sizeof(float));
+    in_stretches(n, [&](std::size_t begin, std::size_t end) {
+      std::transform(x.as<double>() + begin, x.as<double>() + end, own_.as<float>() + begin,
+                     [](double v) { return float(v); });
+    });
   }
-  points.type = Scalar::f32;
-  const std::size_t n = x.bytes.size() / sizeof(double);
-  points.bytes.resize(n * sizeof(float));
-  std::transform(x.as<double>(), x.as<double>() + n, points.as<float>(), [](double v) { return float(v); });
-  return points;
-}
+  StoredPoints(const StoredPoints&) = delete;
+  operator const HostArray&() const { return *stored_; }
+
+ private:
+  HostArray own_;
+  const HostArray* stored_ = &own_;
+};
 
 hsize_t chunk_of(std::size_t count) {
   return std::clamp(count, kSmallChunk, kLargestChunk);  // the store may grow
@@ -148,13 +165,17 @@ std::vector<std::int64_t> at_topology(const Cells& cells, std::int64_t start) {
   return starts;
 }
 
-/// Row where this array starts in its table: appended, or where it already is.
-std::int64_t place(hid_t table, const HostArray& a, std::int64_t last, bool same_count) {
-  const std::size_t n = a.count(), row_bytes = size_of(a.type) * a.components;
-  if (same_count && h5::rows_equal(table, a.type, hsize_t(last), n, a.bytes.data(), row_bytes)) return last;
+/// Appends an array to its table; returns the row where it starts.
+std::int64_t append_array(hid_t table, const HostArray& a) {
   const auto start = std::int64_t(h5::extent(table)[0]);
-  append_rows(table, h5::memory_type(a.type), a.bytes.data(), n);
+  append_rows(table, h5::memory_type(a.type), a.bytes.data(), a.count());
   return start;
+}
+
+/// Whether the table has the array from this row on.
+bool has_array(hid_t table, const HostArray& a, std::int64_t first) {
+  return h5::rows_equal(table, a.type, hsize_t(first), a.count(), a.bytes.data(),
+                        size_of(a.type) * std::size_t(a.components));
 }
 
 /// One number of a row.
@@ -288,6 +309,22 @@ void add_arrays(hid_t root, const HostStore& store, std::size_t frames, int defl
   }
 }
 
+/// The arrays of a store that are as in the last frame.
+std::vector<const HostArray*> unchanged(hid_t root, const HostArray& points, const HostStore& store,
+                                        std::size_t frames) {
+  std::vector<const HostArray*> out;
+  const Cells& cells = cells_of(store);
+  const Handle data = h5::open_group(root, cells.data), steps = h5::open_group(root, "Steps"),
+               offsets = h5::open_group(steps, cells.starts);
+  if (has_array(open_dataset(root, "Points"), points, last_of(steps, "PointOffsets", frames)))
+    out.push_back(&points);
+  for (const auto& name : h5::members(data))
+    if (const HostArray* const a = store.find(name);
+        a && has_array(open_dataset(data, name), *a, last_of(offsets, name, frames)))
+      out.push_back(a);
+  return out;
+}
+
 /// For an array of the file that the store lacks.
 HostArray absent(hid_t table, const std::string& name, std::size_t count) {
   const auto n = h5::extent(table);
@@ -299,10 +336,9 @@ HostArray absent(hid_t table, const std::string& name, std::size_t count) {
 void FrameFile::append(const HostStore& store, double time, bool begun) const {
   std::size_t bytes = 1 << 20;
   for (const auto& a : store.arrays) bytes += a.bytes.size();
-  need_space(path_, bytes);
-
   if (begun) must_be_there(path_);
   const bool first = !begun && !std::filesystem::exists(path_);
+  if (first || store.grid) need_space(path_, bytes);
   const auto write_image = [&] {
     Handle file = h5::open_file(path_, first ? h5::Mode::create : h5::Mode::append);
     {
@@ -316,7 +352,7 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
   const auto write = [&] {
     if (store.grid) return write_image();
     const Cells& cells = cells_of(store);
-    const HostArray points = stored_points(store.arrays.at(0), double_points_);
+    const StoredPoints points(store.arrays.at(0), double_points_);
     if (first) create_layout(path_, store, points, deflate_);
     Handle file = h5::open_file(path_, h5::Mode::append);
     {
@@ -332,6 +368,10 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
                              frames > 0 ? integer_of(root, "NumberOfPoints", last_part) / cells.points : -1;
       const bool same_count = last_count == std::int64_t(store.count);
       check_arrays(root, points, store);
+      std::vector<const HostArray*> same;
+      if (same_count) same = unchanged(root, points, store, frames);
+      for (const HostArray* a : same) bytes -= a->bytes.size();
+      if (!first) need_space(path_, bytes);  // memory file systems take as long to reserve as to write
       add_arrays(root, store, frames, deflate_);
 
       std::int64_t part = last_part, first_cell = last_cell;
@@ -346,15 +386,23 @@ void FrameFile::append(const HostStore& store, double time, bool begun) const {
       append_integer(steps, "NumberOfParts", 1);
       append_integers(steps, "CellOffsets", at_topology(cells, first_cell), 1);
       append_integers(steps, "ConnectivityIdOffsets", at_topology(cells, first_cell * cells.points), 1);
-      append_integer(
-          steps, "PointOffsets",
-          place(open_dataset(root, "Points"), points, last_of(steps, "PointOffsets", frames), same_count));
+      const auto place = [&](hid_t starts, const std::string& name, const Handle& table, const HostArray& a,
+                             bool there) {
+        append_integer(starts, name, there ? last_of(starts, name, frames) : append_array(table, a));
+      };
+      const auto is_same = [&](const HostArray& a) {
+        return std::find(same.begin(), same.end(), &a) != same.end();
+      };
+      place(steps, "PointOffsets", open_dataset(root, "Points"), points, is_same(points));
       for (const auto& name : h5::members(data)) {
         const Handle table = open_dataset(data, name);
-        const HostArray* a = store.find(name);
-        const HostArray none = a ? HostArray() : absent(table, name, store.count);
-        append_integer(offsets, name,
-                       place(table, a ? *a : none, last_of(offsets, name, frames), same_count));
+        if (const HostArray* const a = store.find(name)) {
+          place(offsets, name, table, *a, is_same(*a));
+          continue;
+        }
+        const HostArray none = absent(table, name, store.count);
+        place(offsets, name, table, none,
+              same_count && has_array(table, none, last_of(offsets, name, frames)));
       }
       append_rows(open_dataset(steps, "Values"), H5T_NATIVE_DOUBLE, &time, 1);
       h5::write_integer(steps, "NSteps", std::int64_t(frames) + 1);
@@ -379,7 +427,7 @@ void FrameFile::expect(const HostStore& store) const {
     check_kind(root, store);
     if (store.grid) return image::expect(root, store);
     const FrameIndex index(root);
-    check_arrays(root, stored_points(store.arrays.at(0), double_points_), store);
+    check_arrays(root, StoredPoints(store.arrays.at(0), double_points_), store);
   });
 }
 

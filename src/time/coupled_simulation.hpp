@@ -1,9 +1,11 @@
 #pragma once
 // One simulation: its state, what steps it, and its readings.
 
+#include <map>
 #include <memory>
 #include <utility>
 
+#include "bedload/parallel/host_copies.hpp"
 #include "src/measure/force_meters.hpp"
 #include "src/time/stepper.hpp"
 
@@ -43,6 +45,7 @@ class CoupledSimulation final : public Simulation {
   std::vector<RankReport> ranks() override;
 
   HostStore snapshot(const std::string& store) override;
+  Later<HostStore> snapshot_later(const std::string& store) override;
   HostStore rheology(const std::string& store) override;
   std::vector<FieldView> fields(const std::string& store) override;
   std::vector<Quantity> diagnostics() override;
@@ -72,7 +75,8 @@ class CoupledSimulation final : public Simulation {
   /// Fields of a store that are outputs for some use.
   std::vector<const FieldBase*> written(const Store& store, Use by) const;
   /// These and what is computed, in their order.
-  HostStore outputs(const std::string& store, Use by);
+  HostStore outputs(const std::string& store, Use by, HostCopies* copies);
+  std::vector<bool> removed_walls() const;  ///< of each wall body; empty: none is gone
   /// Where there are several ranks, adds an array "block" with the block of cells of each particle, by which
   /// their parts are put together.
   void add_blocks(HostStore& out);
@@ -123,7 +127,8 @@ class CoupledSimulation final : public Simulation {
   State state_;
   Stepper stepper_;
 
-  FluidMoments fluid_moments_;  ///< scratch of outputs
+  std::map<std::string, HostCopies> copies_;  ///< of stores to the host
+  FluidMoments fluid_moments_;                ///< scratch of outputs
   Buffer<PairMoment<>> contact_moments_;
   Kept<WallForces> wall_forces_;
   Kept<FluidLoads> fluid_loads_;

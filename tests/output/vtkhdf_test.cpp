@@ -217,6 +217,30 @@ TEST(FrameFile, ArraysThatOnlySomeFramesHaveAreAbsentInTheOthers) {
   EXPECT_TRUE(is_absent(0, "speed"));
 }
 
+TEST(FrameFile, LargeArraysAreStoredAgainOnlyIfAnEntryChanged) {
+  const test::TemporaryFolder folder;
+  const FrameFile frames(folder / "walls.vtkhdf");
+  constexpr std::size_t n = 150000;  // three chunks, of which the last is not full
+  HostStore store{"walls", n, {}};
+  std::vector<float> x(3 * n), p(n);
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] = float(k);
+  store.arrays.push_back(array_of("position", "m", Scalar::f32, 3, x));
+  store.arrays.push_back(array_of("pressure", "Pa", Scalar::f32, 1, p));
+  const auto stored = [&](const char* name) {
+    const h5::Handle file = h5::open_file(frames.path(), h5::Mode::read);
+    return rows(file, std::string("VTKHDF/") + name) / std::int64_t(n);
+  };
+  for (int k = 0; k < 4; ++k) {
+    frames.append(store, k, k > 0);
+    EXPECT_EQ(stored("Points"), 1);
+    EXPECT_EQ(stored("PointData/pressure"), k < 2 ? 1 : k);
+    if (k > 0) store.arrays[1].as<float>()[k == 1 ? n - 1 : 100000] = float(k);
+  }
+  EXPECT_EQ(frames.read(3).find("pressure")->as<float>()[100000], 2);
+  EXPECT_EQ(frames.read(2).find("pressure")->as<float>()[100000], 0);
+  EXPECT_EQ(frames.read(2).find("pressure")->as<float>()[n - 1], 1);
+}
+
 TEST(FrameFile, ArraysOfAnotherKindAreRefused) {
   const test::TemporaryFolder folder;
   const FrameFile frames(folder / "fluid.vtkhdf");

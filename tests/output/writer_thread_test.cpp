@@ -41,6 +41,29 @@ TEST(WriterThread, PosterWaitsOnceTheQueueIsFull) {
   EXPECT_EQ(posted, 5);
 }
 
+TEST(WriterThread, LargeJobsAreWaitedForAlone) {
+  std::atomic<bool> open = false, waited = false;
+  WriterThread writer(100);
+  for (int k = 0; k < 2; ++k)
+    writer.post(
+        [&] {
+          while (!open) std::this_thread::sleep_for(1ms);
+        },
+        WriterThread::Size::large);
+  for (int k = 0; k < 10; ++k) writer.post([] {});
+  writer.wait_for_large(2);
+  std::thread poster([&] {
+    writer.wait_for_large(1);
+    waited = true;
+  });
+  std::this_thread::sleep_for(50ms);
+  EXPECT_FALSE(waited);
+  open = true;
+  poster.join();
+  writer.drain();
+  EXPECT_GT(writer.busy(), 0.02);
+}
+
 TEST(WriterThread, FirstErrorIsRethrownAndEndsTheWork) {
   bool later = false;
   WriterThread writer;

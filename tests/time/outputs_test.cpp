@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "bedload/geometry/setup.hpp"
@@ -60,6 +61,30 @@ TEST(Outputs, OfFramesHaveTheirOrder) {
   EXPECT_EQ(names_of(spinning.simulation.snapshot("fluid").arrays),
             (Names{"position [m] 3", "velocity [m/s] 3", "pressure [Pa] 1", "density [kg/m3] 1",
                    "angular_velocity [rad/s] 3", "id [-] 1"}));
+}
+
+TEST(Outputs, TakenLaterAreThoseOfTheirStep) {
+  Started s({"coupled", kBed, {}});
+  const Names stores{"fluid", "grains", "walls"};
+  std::vector<Later<HostStore>> later;
+  std::vector<HostStore> at_once;
+  for (int step = 0; step < 3; ++step) {
+    for (const std::string& store : stores) {
+      later.push_back(s.simulation.snapshot_later(store));
+      at_once.push_back(s.simulation.snapshot(store));
+    }
+    s.simulation.step();
+  }
+  later.pop_back(), at_once.pop_back();  // one that nobody takes
+  std::thread([&] {
+    for (std::size_t k = 0; k < later.size(); ++k) {
+      const HostStore store = later[k]();
+      ASSERT_EQ(names_of(store.arrays), names_of(at_once[k].arrays));
+      for (std::size_t n = 0; n < store.arrays.size(); ++n)
+        EXPECT_EQ(store.arrays[n].bytes, at_once[k].arrays[n].bytes)
+            << store.name << " " << store.arrays[n].name;
+    }
+  }).join();
 }
 
 TEST(Outputs, OfTheViscometerHaveTheirOrder) {

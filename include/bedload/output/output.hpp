@@ -32,8 +32,13 @@ struct RunTotals {
   std::array<std::int64_t, kLimits.size()> steps_by{}, substeps_by{};  ///< counts by the active limit
 };
 
-/// The results folder of one run. Data are copied to the host at once and written by a separate thread; its
-/// errors (FileError) surface in the next call.
+/// Of output so far, s: how long steps waited for the thread that writes, and how long that was at work.
+struct OutputTimes {
+  double waited = 0, writing = 0;
+};
+
+/// The results folder of one run. A separate thread writes it; its errors (FileError) surface in the next
+/// call.
 class RunOutput {
  public:
   /// Creates the folder, removes the files of an earlier run and writes case.resolved.toml. With `restarted`,
@@ -72,6 +77,8 @@ class RunOutput {
   /// "failed"; a failed run gets a last frame but no checkpoint. A restart that was stopped before its first
   /// step, or starts at the end of a completed run, changes nothing.
   void finish(Simulation& simulation, const std::string& status, const RunTotals& totals);
+
+  OutputTimes times() const;
 
   /// The newest checkpoint on disk, empty if there is none.
   std::filesystem::path last_checkpoint() const;

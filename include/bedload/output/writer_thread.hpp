@@ -16,25 +16,36 @@ namespace bedload {
 class WriterThread {
  public:
   using Job = std::function<void()>;
+  enum class Size { small, large };  ///< of the memory that it holds
 
-  /// post() blocks while `depth` jobs wait, which bounds their memory.
+  /// post() blocks while `depth` jobs wait.
   explicit WriterThread(std::size_t depth = 4) : depth_(depth), thread_([this] { work(); }) {}
   /// Finishes the waiting jobs; their errors are lost, so call drain() first.
   ~WriterThread();
   WriterThread(const WriterThread&) = delete;
   WriterThread& operator=(const WriterThread&) = delete;
 
-  void post(Job job);
+  void post(Job job, Size size = Size::small);
+  /// Returns when no more than so many large jobs wait or run, which bounds their memory.
+  void wait_for_large(std::size_t most);
   /// Returns when every job is done.
   void drain();
+  /// Time spent in jobs so far, s.
+  double busy() const;
 
  private:
+  struct Posted {
+    Job job;
+    Size size;
+  };
   void work();
 
   std::size_t depth_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Job> jobs_;  ///< the first one is running
+  std::deque<Posted> jobs_;  ///< the first one is running
+  std::size_t large_ = 0;    ///< of these
+  double busy_ = 0;          ///< s
   std::exception_ptr error_;
   bool ending_ = false;
   std::thread thread_;  ///< last: uses all of the above
