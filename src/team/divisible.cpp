@@ -25,7 +25,6 @@ void refuse_undivided(const Config& c) {
     if (c.out.probes[k].type == ProbeType::mixing)
       refuse(fmt::format("probe.{}.type", k), "a probe of mixing");
   if (c.out.spectra) refuse("out.spectra", "spectra of contacts");
-  if (c.out.contacts != ContactFrames::none) refuse("out.contacts", "frames of contacts");
   for (const int k : c.grain.clump_fills()) refuse(fmt::format("grain.fill.{}.clump", k), "clumps");
   for (std::size_t k = 0; k < c.grain_inlets.size(); ++k)
     if (!c.grain_inlets[k].clump.empty()) refuse(fmt::format("grain_inlet.{}.clump", k), "clumps");

@@ -139,6 +139,7 @@ HostStore joined(std::vector<HostStore> parts) {
   const HostStore& first = parts[0];
   if (!first.find("block")) return std::move(parts[0]);
   HostStore out{first.name, 0, {}};
+  out.lines = first.lines;
   for (const HostStore& part : parts) out.count += part.count;
   /// Entries of a rank in one block.
   struct Run {

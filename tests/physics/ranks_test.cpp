@@ -329,7 +329,7 @@ std::vector<RankCase> rank_cases() {
        {"fluid.model=sdpd", "density.method=summation", "pressure.filter=true", "wall.type=frozen"},
        40},
       {"inlet and outlet", kDuct, {}, 120},
-      {"drum of grains", kDrum, {"out.energy=true"}, 100},
+      {"drum of grains", kDrum, {"out.energy=true", "out.contacts=touching"}, 100},
       {"drum of grains, blocks of two cells", kDrum, {"run.block=2"}, 60},
       {"drifting bed", drifting_bed(), {}, 60},
       {"slope with inlet and outlet of grains", kSlope, {}, 100},
@@ -384,6 +384,7 @@ std::vector<std::byte> readings(Simulation& s, const Config& c) {
   add(s.diagnostics());
   for (const ProbeConfig& probe : c.out.probes) add(s.measure(probe));
   for (int b = 0; b < int(c.wall.bodies.size()); ++b) add(s.body_state(b));
+  if (c.out.contacts != ContactFrames::none) add_store(s.snapshot("contacts"));
   return out;
 }
 
