@@ -74,6 +74,9 @@ class TeamSimulation final : public Simulation {
   std::vector<Quantity> diagnostics() override {
     return first_of([](Simulation& s) { return s.diagnostics(); });
   }
+  std::vector<std::vector<Quantity>> spectra() override {
+    return first_of([](Simulation& s) { return s.spectra(); });
+  }
   std::vector<Quantity> measure(const ProbeConfig& probe) override {
     return first_of([&](Simulation& s) { return s.measure(probe); });
   }
