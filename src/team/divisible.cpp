@@ -21,9 +21,6 @@ void refuse_undivided(const Config& c) {
     if (c.grain.largest() >= 2 * c.grain.smallest())
       refuse("grain", "grains of which the largest are twice as wide as the smallest");
   }
-  for (std::size_t k = 0; k < c.out.probes.size(); ++k)
-    if (c.out.probes[k].type == ProbeType::mixing)
-      refuse(fmt::format("probe.{}.type", k), "a probe of mixing");
   for (const int k : c.grain.clump_fills()) refuse(fmt::format("grain.fill.{}.clump", k), "clumps");
   for (std::size_t k = 0; k < c.grain_inlets.size(); ++k)
     if (!c.grain_inlets[k].clump.empty()) refuse(fmt::format("grain_inlet.{}.clump", k), "clumps");

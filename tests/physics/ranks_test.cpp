@@ -215,6 +215,15 @@ direction = "x+"
 min = [-0.01, -0.03, -0.04]
 max = [0.01, 0.03, 0.04]
 )";
+/// Of this drum: a probe of mixing.
+const std::string kMixed = R"([[probe]]
+name = "mix"
+type = "mixing"
+of = "heavy"
+min = [-0.04, -0.03, -0.04]
+max = [0.04, 0.03, 0.04]
+cell = 0.02
+)";
 /// Some touch each other, some the floor.
 const std::string kSingle = R"([grain]
 d = 0.01
@@ -330,7 +339,7 @@ std::vector<RankCase> rank_cases() {
        40},
       {"inlet and outlet", kDuct, {}, 120},
       {"drum of grains",
-       kDrum,
+       kDrum + kMixed,
        {"out.spectra=true", "out.contacts=touching", "wall.body.0.wear=archard",
         "wall.body.0.k_over_H=1e-13"},
        100},
