@@ -32,6 +32,8 @@ struct WideSum {
     const std::uint64_t carry = (units < 0 ? ~std::uint64_t(0) : 0) + (before + word < before ? 1 : 0);
     if (carry != 0) atomic_add(high, carry);
   }
+  /// By one thread.
+  void add(const WideSum& other) { low += other.low, high += other.high + (low < other.low ? 1 : 0); }
   double value() const {
     const bool negative = high >> 63 != 0;
     const std::uint64_t lower = negative ? ~low + 1 : low, upper = negative ? ~high + (lower == 0) : high;
@@ -45,6 +47,7 @@ struct SpectrumBin {
   WideSum energy;
 
   BL_HD void enter(std::int64_t units) { atomic_add(count, 1), energy.add(units); }
+  void add(const SpectrumBin& other) { count += other.count, energy.add(other.energy); }
 };
 template <>
 struct FileType<SpectrumBin> {

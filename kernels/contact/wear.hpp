@@ -11,6 +11,7 @@ struct WearSums {
   WideSum path;    ///< normal force times the path that grains slide
   WideSum normal;  ///< dissipated by normal force
   WideSum shear;   ///< by sliding and rolling
+  void add(const WearSums& other) { path.add(other.path), normal.add(other.normal), shear.add(other.shear); }
 };
 template <>
 struct FileType<WearSums> {

@@ -34,7 +34,7 @@ std::vector<std::vector<Quantity>> CoupledSimulation::spectra() {
   const SpectraBooks* const books = state_.has_grains ? stepper_.solids().spectra() : nullptr;
   if (!books) return {};
   const ContactSpectra& layout = books->layout();
-  const std::vector<SpectrumBin> bins = books->bins().to_host();
+  const std::vector<SpectrumBin> bins = books->bins();
   const std::vector<ContactClass> classes = classes_of(config_, layout);
   const int size = layout.size();
   int first = size, last = -1;

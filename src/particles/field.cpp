@@ -30,8 +30,8 @@ void Field<T>::collect(Span<const Index> places, void* to) const {
   for_each({0, places.size}, GatherPass<T>{data_, places, {static_cast<T*>(to), places.size}});
 }
 
-#define BL_FIELD(...)                                                           \
-  template void Field<__VA_ARGS__>::gather(Span<const Index>, FieldBase*);      \
+#define BL_FIELD(...)                                                      \
+  template void Field<__VA_ARGS__>::gather(Span<const Index>, FieldBase*); \
   template void Field<__VA_ARGS__>::collect(Span<const Index>, void*) const;
 BL_FIELD(std::uint32_t)
 BL_FIELD(float)
@@ -48,6 +48,7 @@ BL_FIELD(PackedPosition)
 BL_FIELD(PairPosition)
 BL_FIELD(WallMemory)
 BL_FIELD(ContactHistory)
+BL_FIELD(ContactLoss)
 BL_FIELD(WallLosses)
 #undef BL_FIELD
 

@@ -84,7 +84,7 @@ HostStore SolidSolver::contact_lines(const GrainStore& g) const {
     const auto at_walls = forces_->at_walls();
     for (int k = 0; k < walls_.contacts(); ++k) {
       const std::vector<WallMemory> memory = wall_memory_[k]->values();
-      for (Index i = 0; i < g.size(); ++i) {
+      for (Index i = 0; i < g.owned().size(); ++i) {
         if (Index(k) >= count[i]) continue;
         const double overlap = std::abs(memory[i].history.overlap);
         const Vec3d n = memory[i].normal, point = x[i] - (double(radius[i]) - overlap) * n;
@@ -115,6 +115,8 @@ HostStore SolidSolver::contact_lines(const GrainStore& g) const {
       column<Real3>("tangential_force", "N", lines, [](Line c) { return c.tangential_force(); }));
   out.arrays.push_back(column<Real>("overlap", "m", lines, [](Line c) { return c.overlap; }));
   out.arrays.push_back(column<Real3>("spring", "m", lines, [](Line c) { return c.spring; }));
+  if (Context::current().several())
+    out.arrays.push_back(column<std::uint32_t>("block", "-", lines, [](Line c) { return c.id; }));
   return out;
 }
 

@@ -101,21 +101,22 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
 void SolidSolver::save_histograms(std::vector<HostStore>& stores) const {
   if (wear_) wear_->save(stores);
   if (!spectra_) return;
-  const auto bins = spectra_->bins().to_host();
+  const auto bins = spectra_->bins();
   stores.push_back({"spectra", bins.size(), {to_array("bins", "-", bins)}});
 }
 
 void SolidSolver::load_histograms(const std::vector<HostStore>& stores) {
   if (wear_) wear_->load(stores);
   if (!spectra_) return;
-  spectra_->bins().zero();
+  std::vector<SpectrumBin> all(spectra_->bins().size());
   for (const HostStore& store : stores) {
     if (store.name != "spectra") continue;
     const SpectrumBin* const bins = from_array<SpectrumBin>(store, "bins", "-");
-    if (store.count != spectra_->bins().size())
+    if (store.count != all.size())
       throw FileError("checkpoint: spectra have other bins, materials or wall bodies than this case");
-    spectra_->bins().assign(std::vector<SpectrumBin>(bins, bins + store.count));
+    all.assign(bins, bins + store.count);
   }
+  spectra_->load(all);
 }
 
 }  // namespace BL_SOLVER

@@ -65,6 +65,8 @@ struct RecordTouchingPass {
   Span<const Id> id;         ///< of the entries of the list
   Span<Id> own, other;
   Span<ContactHistory> history;
+  const ContactLoss* losses;  ///< by slots, may be null
+  Span<ContactLoss> loss;
   BL_HD void operator()(Index k) const {
     const Index row = touching.row(k);
     if (row == kNone) return;
@@ -72,6 +74,7 @@ struct RecordTouchingPass {
     touching.list.each(row, [&](std::uint64_t slot, Index j) {
       if (!touching.histories.touching[slot]) return;
       own[record] = id[row], other[record] = id[j];
+      if (losses) loss[record] = losses[slot];
       history[record++] = touching.histories[slot];
     });
   }
@@ -85,8 +88,10 @@ struct SettleContactsPass {
   Span<const Index> record;
   Span<const Id> other;
   Span<const ContactHistory> history;
+  Span<const ContactLoss> loss;
   VerletListView list;
   PairHistories histories;
+  ContactLoss* losses;  ///< by slots, may be null
   BL_HD void operator()(Index i) const {
     if (had_row[i] != kNone) return;
     for (Index k = first_not_below(own, id[i]); k < own.size && own[k] == id[i]; ++k)
@@ -94,6 +99,7 @@ struct SettleContactsPass {
         if (id[j] != other[record[k]]) return;
         histories.store(slot, history[record[k]]);
         histories.touching[slot] = 1;
+        if (losses) losses[slot] = loss[record[k]];
       });
   }
 };
@@ -101,7 +107,8 @@ struct SettleContactsPass {
 }  // namespace
 
 void ArrivingContacts::send(const Migrants& migrants, Span<const Index> rows, const VerletListView& list,
-                            bool listed, const PairHistories& histories, Span<const Id> id) {
+                            bool listed, const PairHistories& histories, Span<const Id> id,
+                            const ContactLoss* losses) {
   const Index grains = migrants.going().size;
   Buffer<Index> count(grains), before, places;
   const CountTouchingPass touching{migrants.going(), rows, list, histories, count};
@@ -109,8 +116,8 @@ void ArrivingContacts::send(const Migrants& migrants, Span<const Index> rows, co
   const Index n = exclusive_scan(count, before);
   records_.resize(n);
   if (listed)
-    for_each({0, grains},
-             RecordTouchingPass{touching, before, id, records_.own, records_.other, records_.history});
+    for_each({0, grains}, RecordTouchingPass{touching, before, id, records_.own, records_.other,
+                                             records_.history, losses, records_.loss});
   records_.count();
   const std::vector<Index> first = before.to_host();
   std::vector<Index> of_rank;
@@ -125,17 +132,21 @@ void ArrivingContacts::send(const Migrants& migrants, Span<const Index> rows, co
 }
 
 void ArrivingContacts::settle(Range grains, Span<const Index> order, Span<const Id> id,
-                              const VerletListView& list, const PairHistories& histories) {
+                              const VerletListView& list, const PairHistories& histories,
+                              ContactLoss* losses) {
   if (own_.size() == 0) return;
   const Range come{records_.owned().end, records_.size()};
-  for_each(grains, SettleContactsPass{order,
-                                      id,
-                                      own_,
-                                      order_,
-                                      {records_.other.span().data + come.begin, come.size()},
-                                      {records_.history.span().data + come.begin, come.size()},
-                                      list,
-                                      histories});
+  for_each(grains,
+           SettleContactsPass{order,
+                              id,
+                              own_,
+                              order_,
+                              {records_.other.span().data + come.begin, come.size()},
+                              {records_.history.span().data + come.begin, come.size()},
+                              {losses ? records_.loss.span().data + come.begin : nullptr, come.size()},
+                              list,
+                              histories,
+                              losses});
   own_.resize(0);
 }
 
@@ -170,6 +181,7 @@ void SolidSolver::relist(GrainStore& grains, CellGrid& grid, const Field<Vec3d>&
   if (spectra_) spectra_->put_aside();
   build_list(grains, grid);
   if (!listed) return;
+  ContactLoss* const losses = spectra_ ? spectra_->of_pairs().data() : nullptr;
   const CarryHistoryPass carry{.from = old_list_.view(),
                                .to = list_.view(),
                                .long_rows = long_rows_.view(),
@@ -179,10 +191,10 @@ void SolidSolver::relist(GrainStore& grains, CellGrid& grid, const Field<Vec3d>&
                                .old_histories = old_histories_.view(),
                                .histories = histories_.view(),
                                .old_losses = spectra_ ? spectra_->old_of_pairs() : nullptr,
-                               .losses = spectra_ ? spectra_->of_pairs().data() : nullptr};
+                               .losses = losses};
   for_each(grains.owned(), carry);
   for_each({0, long_rows_.pieces() * LongRowsView::kPiece}, CarryLongHistoryPass{carry});
-  if (several) arriving_->settle(grains.owned(), order_, listed_id_, list_.view(), histories_.view());
+  if (several) arriving_->settle(grains.owned(), order_, listed_id_, list_.view(), histories_.view(), losses);
 }
 
 void SolidSolver::choose_levels(const GrainStore& grains) {
@@ -260,7 +272,8 @@ void SolidSolver::migrate(GrainStore& grains, CellGrid& grid, const Field<Vec3d>
                           Span<const Index> source_index, bool listed, Buffer<Index>& kept) {
   const Migrants migrants = find_migrants(grains, grid, frame_, x.span());
   if (!migrants.any) return;
-  arriving_->send(migrants, source_index, list_.view(), listed, histories_.view(), listed_id_);
+  arriving_->send(migrants, source_index, list_.view(), listed, histories_.view(), listed_id_,
+                  spectra_ ? spectra_->of_pairs().data() : nullptr);
   move(grains, migrants, kept, &x == &grains.x_list);
 }
 

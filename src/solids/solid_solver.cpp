@@ -55,7 +55,7 @@ SolidSolver::SolidSolver(const SolidParameters& parameters, const Frame& frame, 
       levels_(frame),
       wall_list_(frame, walls, skin(), film_range(parameters.d_max / 2)),
       load_bounds_(bounds_of_loads(parameters, frame)),
-      arriving_(std::make_unique<ArrivingContacts>()) {
+      arriving_(std::make_unique<ArrivingContacts>(parameters.spectra.per_decade > 0)) {
   frame_.shear = {parameters.shear_rate, 0, frame.origin.z, frame.length.z};
   wall_laws_.assign(parameters.wall_laws);
   if (parameters.materials.size() > 1) pair_laws_.assign(parameters.pair_laws);

@@ -160,7 +160,8 @@ class SolidSolver {
   SubstepLoads& substep_loads() { return substep_loads_; }
 
   /// The contacts at the end of the last step as lines, by ids, if the case asks for them; none before the
-  /// first step after a state was loaded.
+  /// first step after a state was loaded. With several ranks, those of which this one has the first grain,
+  /// with an array "block" by which those of all are put together.
   HostStore contact_lines(const GrainStore& grains) const;
 
   /// Force moments of the contacts between grains, per grain, J.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "bedload/parallel/ranks.hpp"
 #include "bedload/particles/grains.hpp"
 #include "kernels/contact/contact_energy.hpp"
 #include "src/solids/parameters.hpp"
@@ -41,8 +42,15 @@ class SpectraBooks {
   }
   const FieldBase* field() const { return at_walls_.get(); }
   const ContactSpectra& layout() const { return spectra_; }
-  Buffer<SpectrumBin>& bins() { return bins_; }
-  const Buffer<SpectrumBin>& bins() const { return bins_; }
+  /// Of this rank and all others.
+  std::vector<SpectrumBin> bins() const {
+    std::vector<SpectrumBin> sum = bins_.to_host();
+    all_reduce(sum, [](SpectrumBin& into, const SpectrumBin& more) { into.add(more); });
+    return sum;
+  }
+  void load(const std::vector<SpectrumBin>& bins) {
+    Context::current().rank() == 0 ? bins_.assign(bins) : bins_.zero();
+  }
   Buffer<ContactLoss>& of_pairs() { return of_pairs_; }
   const Buffer<ContactLoss>& of_pairs() const { return of_pairs_; }
 

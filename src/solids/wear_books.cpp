@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "bedload/core/error.hpp"
+#include "bedload/parallel/ranks.hpp"
 #include "bedload/particles/field.hpp"
 
 namespace BL_SOLVER {
@@ -15,6 +16,13 @@ HostArray array_of(const char* name, const char* unit, const std::vector<T>& val
   a.bytes.resize(values.size() * sizeof(T));
   if (!values.empty()) std::memcpy(a.bytes.data(), values.data(), a.bytes.size());
   return a;
+}
+
+/// Of all ranks.
+std::vector<WearSums> everywhere(const Buffer<WearSums>& own) {
+  std::vector<WearSums> sums = own.to_host();
+  all_reduce(sums, [](WearSums& into, const WearSums& more) { into.add(more); });
+  return sums;
 }
 
 bool any(const WideSum& sum) { return (sum.low | sum.high) != 0; }
@@ -41,7 +49,7 @@ void WearBooks::forget() {
 HostStore WearBooks::frame(int body, const std::string& name, const RigidMotion& pose) const {
   const WearGrid& grid = grids_[std::size_t(body)];
   const WearMap& map = maps_[std::size_t(body)];
-  const std::vector<WearSums> sums = sums_[std::size_t(body)].to_host();
+  const std::vector<WearSums> sums = everywhere(sums_[std::size_t(body)]);
   std::vector<Vec3d> position;
   std::vector<std::uint32_t> id;
   std::vector<double> path, normal, shear, volume, depth;
@@ -65,7 +73,7 @@ HostStore WearBooks::frame(int body, const std::string& name, const RigidMotion&
 void WearBooks::save(std::vector<HostStore>& stores) const {
   std::vector<WearSums> all;
   for (const Buffer<WearSums>& sums : sums_) {
-    const std::vector<WearSums> here = sums.to_host();
+    const std::vector<WearSums> here = everywhere(sums);
     all.insert(all.end(), here.begin(), here.end());
   }
   stores.push_back({"wear", all.size(), {array_of("sums", "-", all)}});
@@ -82,6 +90,7 @@ void WearBooks::load(const std::vector<HostStore>& stores) {
   if (!a || a->type != FileType<WearSums>::scalar || a->components != FileType<WearSums>::components ||
       store->count != wanted || a->count() != wanted)
     throw FileError("checkpoint: the patches of walls that wear are others than in this case");
+  if (Context::current().rank() > 0) return;  // the first rank has what was before
   for (Buffer<WearSums>& sums : sums_) {
     const auto* const first = reinterpret_cast<const WearSums*>(a->bytes.data()) + done;
     done += sums.size();

@@ -1,5 +1,6 @@
 #pragma once
-// Wear of wall bodies by patches.
+// Wear of wall bodies by patches. Each rank has the sums over its own grains; frames and checkpoints, those
+// of all.
 
 #include <vector>
 

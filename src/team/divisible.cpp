@@ -21,17 +21,10 @@ void refuse_undivided(const Config& c) {
     if (c.grain.largest() >= 2 * c.grain.smallest())
       refuse("grain", "grains of which the largest are twice as wide as the smallest");
   }
-  for (std::size_t k = 0; k < c.out.probes.size(); ++k)
-    if (c.out.probes[k].type == ProbeType::mixing)
-      refuse(fmt::format("probe.{}.type", k), "a probe of mixing");
-  if (c.out.spectra) refuse("out.spectra", "spectra of contacts");
-  if (c.out.contacts != ContactFrames::none) refuse("out.contacts", "frames of contacts");
   for (const int k : c.grain.clump_fills()) refuse(fmt::format("grain.fill.{}.clump", k), "clumps");
   for (std::size_t k = 0; k < c.grain_inlets.size(); ++k)
     if (!c.grain_inlets[k].clump.empty()) refuse(fmt::format("grain_inlet.{}.clump", k), "clumps");
   for (const int k : c.grain.rigid_fills()) refuse(fmt::format("grain.fill.{}.rigid", k), "a rigid group");
-  for (std::size_t k = 0; k < c.wall.bodies.size(); ++k)
-    if (c.wall.bodies[k].wear != WearLaw::none) refuse(fmt::format("wall.body.{}.wear", k), "wear of walls");
 }
 
 }  // namespace bedload

@@ -29,6 +29,7 @@ enum class Command : int {
   snapshot,
   rheology,
   diagnostics,
+  spectra,
   measure,
   begin_interval,
   losses,
@@ -108,6 +109,9 @@ class ProcessTeam final : public Simulation {
   std::vector<FieldView> fields(const std::string&) override { return {}; }
   std::vector<Quantity> diagnostics() override {
     return run(packed(Command::diagnostics), [&] { return own_->diagnostics(); });
+  }
+  std::vector<std::vector<Quantity>> spectra() override {
+    return run(packed(Command::spectra), [&] { return own_->spectra(); });
   }
   std::vector<Quantity> measure(const ProbeConfig& probe) override {
     return run(packed(Command::measure, probe.name), [&] { return own_->measure(probe); });
@@ -216,6 +220,9 @@ class Server {
         return packed(part_->rheology(of.next<std::string>()));
       case Command::diagnostics:
         part_->diagnostics();
+        break;
+      case Command::spectra:
+        part_->spectra();
         break;
       case Command::measure:
         part_->measure(probe(of.next<std::string>()));

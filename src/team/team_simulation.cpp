@@ -74,6 +74,9 @@ class TeamSimulation final : public Simulation {
   std::vector<Quantity> diagnostics() override {
     return first_of([](Simulation& s) { return s.diagnostics(); });
   }
+  std::vector<std::vector<Quantity>> spectra() override {
+    return first_of([](Simulation& s) { return s.spectra(); });
+  }
   std::vector<Quantity> measure(const ProbeConfig& probe) override {
     return first_of([&](Simulation& s) { return s.measure(probe); });
   }
@@ -139,6 +142,7 @@ HostStore joined(std::vector<HostStore> parts) {
   const HostStore& first = parts[0];
   if (!first.find("block")) return std::move(parts[0]);
   HostStore out{first.name, 0, {}};
+  out.lines = first.lines;
   for (const HostStore& part : parts) out.count += part.count;
   /// Entries of a rank in one block.
   struct Run {

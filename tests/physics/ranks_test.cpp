@@ -222,6 +222,15 @@ direction = "x+"
 min = [-0.01, -0.03, -0.04]
 max = [0.01, 0.03, 0.04]
 )";
+/// Of this drum: a probe of mixing.
+const std::string kMixed = R"([[probe]]
+name = "mix"
+type = "mixing"
+of = "heavy"
+min = [-0.04, -0.03, -0.04]
+max = [0.04, 0.03, 0.04]
+cell = 0.02
+)";
 /// Some touch each other, some the floor.
 const std::string kSingle = R"([grain]
 d = 0.01
@@ -336,9 +345,13 @@ std::vector<RankCase> rank_cases() {
        {"fluid.model=sdpd", "density.method=summation", "pressure.filter=true", "wall.type=frozen"},
        40},
       {"inlet and outlet", kDuct, {}, 120},
-      {"drum of grains", kDrum, {"out.energy=true"}, 100},
+      {"drum of grains",
+       kDrum + kMixed,
+       {"out.spectra=true", "out.contacts=touching", "wall.body.0.wear=archard",
+        "wall.body.0.k_over_H=1e-13"},
+       100},
       {"drum of grains, blocks of two cells", kDrum, {"run.block=2"}, 60},
-      {"drifting bed", drifting_bed(), {}, 60},
+      {"drifting bed", drifting_bed(), {"out.spectra=true"}, 60},
       {"slope with inlet and outlet of grains", kSlope, {}, 100},
       {"settled grains", kDrum, {"grain.settle=true"}, 60},
       {"held grains", kDrum, {"grain.release_time=0.005"}, 40},
@@ -391,6 +404,10 @@ std::vector<std::byte> readings(Simulation& s, const Config& c) {
   add(s.diagnostics());
   for (const ProbeConfig& probe : c.out.probes) add(s.measure(probe));
   for (int b = 0; b < int(c.wall.bodies.size()); ++b) add(s.body_state(b));
+  if (c.out.contacts != ContactFrames::none) add_store(s.snapshot("contacts"));
+  for (const WallBody& body : c.wall.bodies)
+    if (body.wear != WearLaw::none) add_store(s.snapshot("wear/" + body.name));
+  for (const auto& row : s.spectra()) add(row);
   return out;
 }
 

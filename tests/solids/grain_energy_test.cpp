@@ -25,7 +25,7 @@ struct Ended {
 };
 Ended ended(const SolidSolver& solver) {
   const ContactSpectra& layout = solver.spectra()->layout();
-  const auto bins = solver.spectra()->bins().to_host();
+  const auto bins = solver.spectra()->bins();
   Ended sum;
   for (std::size_t k = 0; k < bins.size(); ++k) {
     const int kind = int(k / std::size_t(layout.size()) % ContactSpectra::kKinds);
@@ -66,7 +66,7 @@ TEST(GrainEnergy, AnImpactHeadOnDissipatesByItsRestitution) {
     // one contact in the bin of its energy
     EXPECT_NEAR(ended(*b.solver).energy[0] / dissipated(terms), 1, 1e-6);
     const ContactSpectra& layout = b.solver->spectra()->layout();
-    const auto bins = b.solver->spectra()->bins().to_host();
+    const auto bins = b.solver->spectra()->bins();
     for (int k = 0; k < layout.size(); ++k) {
       const double from = layout.from * std::pow(10.0, double(k) / layout.per_decade),
                    to = from * std::pow(10.0, 1.0 / layout.per_decade);
@@ -281,7 +281,7 @@ TEST(SlowGrainEnergy, ADrumOverOneTurnClosesItsBooks) {
   // what walls have taken of it lies in the patches of its surface, inside
   double at_walls = 0;
   const ContactSpectra& layout = b.solver->spectra()->layout();
-  const auto bins = b.solver->spectra()->bins().to_host();
+  const auto bins = b.solver->spectra()->bins();
   for (std::size_t k = std::size_t(layout.on_wall(0, 0)) * 2 * std::size_t(layout.size()); k < bins.size();
        ++k)
     at_walls += bins[k].energy.value() * layout.unit();
