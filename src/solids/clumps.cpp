@@ -208,17 +208,14 @@ void Clumps::add(const std::vector<NewClump>& more, GrainStore& grains, Range co
 
 void Clumps::place(const GrainStore& grains) {
   if (!any()) return;
-  const auto note = [&] {
-    for_each(grains.owned(), PlaceClumpsPass{clump_->span(), member_->span(), slot_, grain_});
-  };
-  note();
+  for_each(grains.owned(), PlaceClumpsPass{clump_->span(), member_->span(), slot_, grain_});
   Buffer<std::uint32_t> keys(store_.size());
   Buffer<Index> order;
   for_each(store_.owned(), ClumpKeyPass{store_.kind.span(), shaped_, slot_, grain_, keys});
   sort_keys(keys, order, 32);
   reorder(order, grains);
   cut_pieces();
-  note();
+  for_each(grains.owned(), PlaceClumpsPass{clump_->span(), member_->span(), slot_, grain_});
 }
 
 ClumpView Clumps::view() const {
