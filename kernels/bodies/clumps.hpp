@@ -28,10 +28,14 @@ struct ClumpView {
   BL_HD Quat<double> turn(Index c) const { return to_quat(rotation[c]); }
   BL_HD Vec3d omega(Index c) const { return body(c).omega(turn(c), momentum_of_kind(c)); }
   BL_HD Vec3d lever(Index i) const { return turn(clump[i] - 1).rotate(arm[i]); }
-  BL_HD Vec3d velocity(Index i) const {
-    const Index c = clump[i] - 1;
-    return v[c] + cross(omega(c), lever(i));
-  }
+
+  /// Of a clump, for all its grains.
+  struct Motion {
+    Vec3d x, v, omega;
+    Quat<double> turn;
+    BL_HD Vec3d velocity(const Vec3d& lever) const { return v + cross(omega, lever); }
+  };
+  BL_HD Motion motion(Index c) const { return {x[c], v[c], omega(c), turn(c)}; }
 };
 
 /// The grains of each clump in the order of its spheres, in pieces short enough for one thread.
@@ -50,6 +54,35 @@ struct PlaceClumpsPass {
   BL_HD void operator()(Index i) const {
     if (clump[i] > 0) grain[slot[clump[i] - 1] + member[i]] = i;
   }
+};
+
+/// How many grains and pieces each clump has, and where the pieces begin.
+struct CountPiecesPass {
+  Span<const std::uint32_t> kind;
+  Span<const Index> spheres;  ///< of each kind
+  Span<Index> grains, pieces;
+  BL_HD void operator()(Index c) const {
+    grains[c] = spheres[kind[c]];
+    pieces[c] = (grains[c] + ClumpPieces::kPiece - 1) / ClumpPieces::kPiece;
+  }
+};
+struct BeginPiecesPass {
+  Span<const Index> slot;   ///< [clumps + 1], the first of their grains
+  Span<const Index> first;  ///< of ClumpPieces
+  Span<Index> begin;
+  BL_HD void operator()(Index c) const {
+    for (Index piece = first[c]; piece < first[c + 1]; ++piece)
+      begin[piece] = slot[c] + (piece - first[c]) * ClumpPieces::kPiece;
+    if (c + 2 == slot.size) begin[first[c + 1]] = slot[c + 1];
+  }
+};
+
+/// By what clumps are sorted: rigid fills stay first, the others come as the first of their grains.
+struct ClumpKeyPass {
+  Span<const std::uint32_t> kind, shaped;  ///< shaped: of each kind, 0 for rigid fills
+  Span<const Index> slot, grain;           ///< of PlaceClumpsPass
+  Span<std::uint32_t> key;
+  BL_HD void operator()(Index c) const { key[c] = shaped[kind[c]] ? 1 + grain[slot[c]] : 0; }
 };
 
 /// A clump to insert.
@@ -108,19 +141,27 @@ struct GainPass {
   Velocities<const Real3> now, rest;  ///< rest may be empty
   LoadSum* gained;                    ///< [pieces]
   BL_HD void operator()(Index piece) const {
+    const Index begin = pieces.begin[piece];
+    if (begin == pieces.begin[piece + 1]) return;
+    gained[piece] = of(piece, all.motion(all.clump[pieces.grain[begin]] - 1));
+  }
+  /// Of one whose clump moves like this.
+  BL_HD LoadSum of(Index piece, const ClumpView::Motion& motion) const {
     LoadSum sum = LoadSum::zero();
     for (Index slot = pieces.begin[piece]; slot < pieces.begin[piece + 1]; ++slot)
-      add(pieces.grain[slot], sum);
-    gained[piece] = sum;
+      add(pieces.grain[slot], motion, sum);
+    return sum;
   }
-  BL_HD void add(Index i, LoadSum& sum) const {
+
+ private:
+  BL_HD void add(Index i, const ClumpView::Motion& motion, LoadSum& sum) const {
     const double R = radius[i], m = mass_per_r3(i) * R * R * R;
     const Vec3d v_rest = rest.v ? Vec3d(rest.v[i]) : Vec3d{},
                 omega_rest = rest.v ? Vec3d(rest.omega[i]) : Vec3d{};
-    const Vec3d by_force = m * (Vec3d(now.v[i]) - Vec3d(Real3(all.velocity(i))) + v_rest);
-    const Vec3d by_torque =
-        0.4 * m * R * R * (Vec3d(now.omega[i]) - Vec3d(Real3(all.omega(all.clump[i] - 1))) + omega_rest);
-    sum.add(by_force, cross(all.lever(i), by_force) + by_torque);
+    const Vec3d lever = motion.turn.rotate(all.arm[i]);
+    const Vec3d by_force = m * (Vec3d(now.v[i]) - Vec3d(Real3(motion.velocity(lever))) + v_rest);
+    const Vec3d by_torque = 0.4 * m * R * R * (Vec3d(now.omega[i]) - Vec3d(Real3(motion.omega)) + omega_rest);
+    sum.add(by_force, cross(lever, by_force) + by_torque);
   }
 };
 
@@ -134,6 +175,9 @@ struct MoveClumpsPass {
   BL_HD void operator()(Index c) const {
     LoadSum sum = LoadSum::zero();
     for (Index piece = first[c]; piece < first[c + 1]; ++piece) LoadSum::combine(sum, gained[piece]);
+    move(c, sum);
+  }
+  BL_HD void move(Index c, const LoadSum& sum) const {
     const RigidBody& k = all.body(c);
     const double m = all.mass(c);
     const Vec3d offset = all.turn(c).rotate(all.size[c] * all.offsets[all.kind[c]]);
@@ -152,12 +196,30 @@ struct FollowPass {
   Span<Vec3d> x;
   Velocities<Real3> now, rest;  ///< rest may be empty
   BL_HD void operator()(Index i) const {
-    if (all.clump[i] == 0) return;
-    const Index c = all.clump[i] - 1;
-    x[i] = frame.wrap(all.x[c] + all.lever(i));
-    now.v[i] = Real3(all.velocity(i));
-    now.omega[i] = Real3(all.omega(c));
+    if (all.clump[i] != 0) follow(i, all.motion(all.clump[i] - 1));
+  }
+  BL_HD void follow(Index i, const ClumpView::Motion& motion) const {
+    const Vec3d lever = motion.turn.rotate(all.arm[i]);
+    x[i] = frame.wrap(motion.x + lever);
+    now.v[i] = Real3(motion.velocity(lever));
+    now.omega[i] = Real3(motion.omega);
     if (rest.v) rest.v[i] = {}, rest.omega[i] = {};
+  }
+};
+
+/// All three for clumps of one piece: each has its motion read and found once.
+struct ClumpPass {
+  GainPass gain;
+  MoveClumpsPass move;
+  FollowPass grains;
+  BL_HD void operator()(Index c) const {
+    const Index piece = move.first[c];
+    if (piece == move.first[c + 1]) return;
+    move.move(c, gain.of(piece, grains.all.motion(c)));
+    const ClumpView::Motion motion = grains.all.motion(c);
+    const ClumpPieces& of = gain.pieces;
+    for (Index slot = of.begin[piece]; slot < of.begin[piece + 1]; ++slot)
+      grains.follow(of.grain[slot], motion);
   }
 };
 

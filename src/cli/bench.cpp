@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,7 @@
 #include "progress.hpp"
 #include "scaling.hpp"
 #include "settle.hpp"
+#include "tiled_bed.hpp"
 
 namespace bedload {
 namespace {
@@ -31,6 +33,8 @@ struct Job {
   Prepared p;  ///< only its config before measure()
   int ranks = 1;
   std::string scaling = {};  ///< as ScalingRow::kind
+  Prepared tile = {};        ///< its bed is of copies of this, if there are any
+  int tiles = 0;             ///< along x and y
 };
 
 /// A value of the table and of the JSON file, null where it does not apply.
@@ -73,13 +77,21 @@ Options on_ranks(const Options& o, int ranks) {
   return of_run;
 }
 
+/// Those that a bed without fluid has a use for.
+std::vector<std::string> dry_settings(std::vector<std::string> settings) {
+  std::erase_if(settings, [](const std::string& s) {
+    return !s.starts_with("grain.") && !s.starts_with("contact.") && !s.starts_with("run.");
+  });
+  return settings;
+}
+
 std::vector<Job> jobs_of(const Options& o) {
   const std::vector<Benchmark> built_in = benchmarks();
   std::vector<Job> jobs;
   int ranks = 1;
   std::string scaling;
   const auto add = [&](const std::string& name, const fs::path& file, const std::string& text,
-                       std::vector<std::string> overrides) {
+                       std::vector<std::string> overrides, const std::string& tile = {}, int tiles = 0) {
     overrides.insert(overrides.end(), o.overrides.begin(), o.overrides.end());
     for (std::size_t k = 0; k < std::max<std::size_t>(1, o.bench.precisions.size()); ++k) {
       Job job{.name = name, .p = {}, .ranks = ranks, .scaling = scaling};
@@ -87,12 +99,15 @@ std::vector<Job> jobs_of(const Options& o) {
       if (!o.bench.precisions.empty()) settings.push_back("run.precision=" + o.bench.precisions[k]);
       job.p.config = file.empty() ? read_case_text(text, name, settings, job.p.warnings)
                                   : read_case(file, settings, job.p.warnings);
+      job.tiles = tiles;
+      if (tiles > 0) job.tile.config = read_case_text(tile, name, dry_settings(settings), job.tile.warnings);
       jobs.push_back(std::move(job));
     }
   };
   const auto add_benchmark = [&](const Benchmark& b) {
-    add(b.name, {}, b.text, b.settings);
-    if (o.bench.default_settings && !b.settings.empty()) add(b.name + ", default settings", {}, b.text, {});
+    add(b.name, {}, b.text, b.settings, b.tile, b.tiles);
+    if (o.bench.default_settings && !b.settings.empty())
+      add(b.name + ", default settings", {}, b.text, {}, b.tile, b.tiles);
   };
   const std::vector<int> counts = counts_of(o);
   const auto add_scaled = [&](const Benchmark& b) {
@@ -230,17 +245,42 @@ Result result_of(const Job& job, const Simulation& simulation, int steps, std::v
   return result;
 }
 
+SavedState settled(Prepared& p) {
+  Progress progress(false, 0, p.config.grain.settle_time);
+  SavedState bed = settled_grains(p.config, p.setup, p.device, progress, p.warnings).state;
+  progress.close();
+  return bed;
+}
+
+/// Grains at rest: how much they move, and how many others each touches.
+void add_rest(Simulation& simulation, Result& result) {
+  double contacts = 0, kinetic = 0, mass = 0;
+  for (const Quantity& q : simulation.diagnostics()) {
+    if (q.name == "coordination_number") contacts = q.value;
+    if (q.name == "grain_kinetic_energy") kinetic = q.value;
+    if (q.name == "grain_mass") mass = q.value;
+  }
+  const bool any = mass > 0;
+  result.cells.push_back(optional_cell(any, "contacts/grain", "{:.2f}", "coordination_number", contacts));
+  result.cells.push_back(optional_cell(any, "grains, J", "{:.2g}", "grain_kinetic_energy_j", kinetic));
+  result.cells.push_back(
+      optional_cell(any, "rms m/s", "{:.2g}", "grain_rms_speed", std::sqrt(2 * kinetic / mass)));
+}
+
 Result measure(Job job, const Options& o) {
   Prepared& p = job.p;
   const auto from = std::chrono::steady_clock::now();
   initialise(on_ranks(o, job.ranks), p);
   SavedState bed;
   const bool settle = p.config.grain.present && p.config.grain.settle;
-  if (settle) {
-    Progress progress(false, 0, p.config.grain.settle_time);
-    bed = settled_grains(p.config, p.setup, p.device, progress, p.warnings).state;
-    progress.close();
+  if (job.tiles > 0) {
+    initialise(on_ranks(o, 1), job.tile);
+    const SavedState tile = settled(job.tile);
+    p.setup.grains =
+        tiled_bed(job.tile.config, job.tile.setup.grains, tile, p.config, p.setup.grains, job.tiles);
+    job.tile.setup = {};
   }
+  if (settle) bed = settled(p);
   for (const std::string& warning : p.warnings) fmt::print(stderr, "warning: {}\n", warning);
   const auto simulation = make_simulation(p.config, p.setup, p.device);
   p.setup = {};
@@ -255,6 +295,7 @@ Result measure(Job job, const Options& o) {
   double seconds = 0;
   for (const Repeat& repeat : repeats) seconds += repeat.seconds;
   Result result = result_of(job, *simulation, o.bench.steps, std::move(repeats));
+  add_rest(*simulation, result);
   result.cells.push_back({"set-up", fmt::format("{:.3g} s", set_up.count()), "set_up_s", set_up.count()});
   const Counts n = simulation->counts();
   result.scaling = {.name = result.name,

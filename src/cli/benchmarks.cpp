@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace bedload {
@@ -36,9 +37,9 @@ every = 1
 
 /// Frictional spheres in an open box, with or without water.
 constexpr const char* kBeads = R"([domain]
-min = [-{margin}, -{margin}, -{margin}]
+min = [{low}, {low}, -{below}]
 max = [{outside}, {beyond}, {top}]
-{fluid}[grain]
+{periodic}{fluid}[grain]
 d = {d}
 {grain}{large}[[grain.fill]]
 min = [0, 0, 0]
@@ -49,7 +50,7 @@ name = "box"
 shape = "tank"
 {wall}min = [0, 0, 0]
 max = [{side}, {across}, {rim}]
-faces = ["x-", "x+", "y-", "y+", "z-"]
+faces = [{sides}"z-"]
 [time]
 end = 10
 [out]
@@ -81,6 +82,7 @@ packing_fraction = {fraction}
 )";
 
 constexpr double kBead = 0.0027;  // diameter, m
+constexpr const char* kDry = "type = \"grains_only\"\n";
 
 struct Beads {
   int count;
@@ -88,13 +90,19 @@ struct Beads {
   double times = 1;      ///< its other side over that one
   double margin = 0.01;  ///< from the box to the sides of the domain, m
   double depth = 0;      ///< of water, m
+  bool open = false;     ///< without side walls, periodic
   std::string grain = {}, wall = {};
   int ratio = 1, large = 0;  ///< diameter of large grains over that of the others; how many there are besides
-  bool lattice = false;      ///< the large ones touch, five by five on the floor
+  bool lattice = false;      ///< the large ones are side by side on the floor, fixed
+  double highest = 0;        ///< of the large ones, m; 0: as all
   std::string shape = {};    ///< of grains that are clumps
   double fraction = 0.35;    ///< of the volume that they are thrown into
   double d = kBead, dx = 0.003;  ///< m
 };
+
+double volume_of(const Beads& b, double count, double large) {
+  return (count + large * std::pow(b.ratio, 3)) * 3.14159265 / 6 * std::pow(b.d, 3);
+}
 
 /// Of the large grains.
 std::string fill_text(const Beads& b, double bed) {
@@ -103,19 +111,29 @@ std::string fill_text(const Beads& b, double bed) {
   const std::string sizes = fmt::format("sizes = [{{ d = {:.6g} }}]\n", d);
   if (!b.lattice)
     return fmt::format("[[grain.fill]]\nmin = [0, 0, 0]\nmax = [{0}, {0}, {1}]\ncount = {2}\n{3}", b.side,
-                       bed, b.large, sizes);
+                       b.highest > 0 ? b.highest : bed, b.large, sizes);
   std::string positions;
+  const int across = int(std::lround(std::sqrt(b.large)));
+  const double pitch = b.side / across;
   for (int n = 0; n < b.large; ++n)
-    positions += fmt::format("[{:.6g}, {:.6g}, {:.6g}],\n", d * (n % 5 + 0.5), d * (n / 5 % 5 + 0.5),
-                             d * (n / 25 + 0.5));
-  return fmt::format("[[grain.fill]]\npositions = [{}]\n{}", positions, sizes);
+    positions += fmt::format("[{:.6g}, {:.6g}, {:.6g}],\n", pitch * (n % across + 0.5),
+                             pitch * (n / across + 0.5), d / 2);
+  return fmt::format(
+      "[[grain.fill]]\npositions = [{}]\n{}[grain.fill.rigid]\nmove = \"none\"\nturn = \"none\"\n", positions,
+      sizes);
 }
 
-std::string case_text(const Beads& b) {
+/// Of the space that grains are thrown into, m.
+double height_of(const Beads& b) {
+  const double room = volume_of(b, b.count, b.large) / b.fraction / (b.times * b.side * b.side);
+  return b.lattice ? std::max(room, 1.25 * b.ratio * b.d) : room;
+}
+
+std::string case_text(const Beads& b, double bed) {
   using fmt::arg;
-  const double volume = (b.count + b.large * std::pow(b.ratio, 3)) * 3.14159265 / 6 * std::pow(b.d, 3);
-  const double across = b.times * b.side, bed = volume / b.fraction / (b.side * across);
+  const double across = b.times * b.side;
   const bool wet = b.depth > 0;
+  const double margin = b.open ? 0 : b.margin;
   const double top = (wet ? b.depth : bed) + 0.1;
   const std::string fluid =
       wet ? fmt::format(
@@ -124,57 +142,77 @@ std::string case_text(const Beads& b) {
                 b.side, across, b.depth, b.dx)
           : "";
   return fmt::format(
-      kBeads, arg("margin", b.margin), arg("outside", b.side + b.margin), arg("beyond", across + b.margin),
-      arg("across", across), arg("top", top), arg("fluid", fluid), arg("d", b.d), arg("grain", b.grain),
-      arg("large", fill_text(b, bed)), arg("side", b.side), arg("bed", bed), arg("count", b.count),
-      arg("shape", b.shape), arg("wall", b.wall), arg("rim", wet ? top : bed));
+      kBeads, arg("low", 0 - margin), arg("below", b.margin), arg("outside", b.side + margin),
+      arg("beyond", across + margin), arg("periodic", b.open ? "periodic = [true, true, false]\n" : ""),
+      arg("sides", b.open ? "" : "\"x-\", \"x+\", \"y-\", \"y+\", "), arg("across", across), arg("top", top),
+      arg("fluid", fluid), arg("d", b.d), arg("grain", b.grain), arg("large", fill_text(b, bed)),
+      arg("side", b.side), arg("bed", bed), arg("count", b.count), arg("shape", b.shape), arg("wall", b.wall),
+      arg("rim", wet ? top : bed));
 }
+
+std::string case_text(const Beads& b) { return case_text(b, height_of(b)); }
 
 Benchmark spheres(const std::string& name, int count, double side, bool settle) {
   return {name,
           case_text({.count = count,
                      .side = side,
                      .grain = settle ? "settle = true\nsettle_time = 0.35\n" : "",
-                     .wall = "type = \"grains_only\"\n"}),
+                     .wall = kDry}),
           {}};
+}
+
+/// A settled bed of copies of a tile, which settles for at most so long (s). Large grains, but for those of a
+/// lattice, take the place of what is where they are.
+Benchmark tiled(const std::string& name, Beads b, int tiles, double longest,
+                const std::vector<std::string>& settings = {}) {
+  const auto settling = [](double time) {
+    return fmt::format("settle = true\nsettle_time = {:.3g}\n", time);
+  };
+  const double settled = 0.6;  // of the volume
+  Beads tile = b;
+  tile.open = true;
+  tile.depth = 0, tile.wall = kDry;
+  tile.side = b.side / tiles;
+  const double lost = b.open ? 1 : std::pow(1 - b.d / b.side, 2);  // beside the walls
+  const double carved = b.lattice ? 0 : settled * b.large * std::pow(b.ratio, 3);
+  tile.count = int(std::lround((b.count / lost + carved) / (tiles * tiles)));
+  tile.large = b.lattice ? b.large / (tiles * tiles) : 0;
+  tile.grain += settling(longest);
+  b.highest = volume_of(b, b.count / settled, b.large) / (b.side * b.side);
+  b.count = 1;  // copies come in its place
+  b.grain += settling(longest / 2);
+  return {name, case_text(b, height_of(tile)), settings, {}, case_text(tile), tiles};
 }
 
 /// A settled bed of a million spheres and some larger ones.
 Benchmark two_sizes(const std::string& name, int ratio, int large) {
-  return {name,
-          case_text({.count = 1000000,
-                     .side = 0.3,
-                     .grain = "settle = true\nsettle_time = 0.35\n",
-                     .wall = "type = \"grains_only\"\n",
-                     .ratio = ratio,
-                     .large = large}),
-          {}};
+  return tiled(name, {.count = 1000000, .side = 0.3, .wall = kDry, .ratio = ratio, .large = large}, 10, 0.35);
 }
 
 /// A settled bed of rods of three spheres.
 Benchmark clumps(const std::string& name, int count, double side) {
-  return {name,
-          case_text({.count = count,
-                     .side = side,
-                     .grain = "settle = true\nsettle_time = 0.4\n",
-                     .wall = "type = \"grains_only\"\n",
-                     .shape = "clump = \"rod\"\n[[clump]]\nname = \"rod\"\n"
-                              "spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]\n",
-                     .fraction = 0.2}),
-          {}};
+  return tiled(name,
+               {.count = count,
+                .side = side,
+                .open = true,
+                .wall = kDry,
+                .shape = "clump = \"rod\"\n[[clump]]\nname = \"rod\"\n"
+                         "spheres = [[-1, 0, 0, 1], [0, 0, 0, 1], [1, 0, 0, 1]]\n",
+                .fraction = 0.2},
+               10, 0.4);
 }
 
-/// A million spheres strewn over a cubic lattice of a hundred that are 100 times as large.
+/// A million spheres strewn over a hundred fixed ones that are 100 times as large.
 Benchmark coated(const std::string& name) {
-  return {name,
-          case_text({.count = 1000000,
-                     .side = 5 * 100 * kBead,
-                     .grain = "E = 2e8\nsettle = true\nsettle_time = 0.8\n",
-                     .wall = "type = \"grains_only\"\n",
-                     .ratio = 100,
-                     .large = 100,
-                     .lattice = true}),
-          {}};
+  return tiled(name,
+               {.count = 1000000,
+                .side = 10 * 102 * kBead,
+                .open = true,
+                .wall = kDry,
+                .ratio = 100,
+                .large = 100,
+                .lattice = true},
+               5, 0.8);
 }
 
 Benchmark coupled(const std::string& name, double side, double depth, int count, bool settle,
@@ -190,19 +228,16 @@ Benchmark coupled(const std::string& name, double side, double depth, int count,
 }
 
 /// Water over grains of 0.5 mm and `large` ones of 10 mm, 1 mm apart.
-Benchmark coupled_sizes(const std::string& name, double side, double depth, int count, int large,
-                        bool settle) {
-  return {name,
-          case_text({.count = count,
-                     .side = side,
-                     .depth = depth,
-                     .grain = std::string("resolve = \"none\"\n") +
-                              (settle ? "settle = true\nsettle_time = 0.08\n" : ""),
-                     .ratio = 20,
-                     .large = large,
-                     .d = 0.0005,
-                     .dx = 0.001}),
-          kPeers};
+Benchmark coupled_sizes(const std::string& name, double side, double depth, int count, int large, int tiles) {
+  const Beads b{.count = count,
+                .side = side,
+                .depth = depth,
+                .grain = "resolve = \"none\"\n",
+                .ratio = 20,
+                .large = large,
+                .d = 0.0005,
+                .dx = 0.001};
+  return tiles > 0 ? tiled(name, b, tiles, 0.15, kPeers) : Benchmark{name, case_text(b), kPeers};
 }
 
 /// n: nodes along a side; fraction: of the volume, in spheres.
@@ -246,8 +281,8 @@ std::vector<Benchmark> benchmarks() {
           spheres("spheres-8.8k", 8800, 0.08, false),
           spheres("spheres-1M", 1000000, 0.3, false),
           spheres("settled-8.8k", 8800, 0.08, true),
-          spheres("settled-1M", 1000000, 0.3, true),
-          spheres("spheres-1.1M", 1100000, 0.3, true),
+          tiled("settled-1M", {.count = 1000000, .side = 0.3, .wall = kDry}, 10, 0.35),
+          tiled("spheres-1.1M", {.count = 1100000, .side = 0.3, .wall = kDry}, 10, 0.35),
           two_sizes("bi5", 5, 800),
           two_sizes("bi10", 10, 100),
           two_sizes("bi20", 20, 12),
@@ -257,10 +292,10 @@ std::vector<Benchmark> benchmarks() {
           clumps("clumps-1M", 1000000, 0.3),
           coupled("coupled", 0.12, 0.189, 10000, true),
           coupled("coupled-10M", 0.6, 0.75, 2000000, false),
-          coupled_sizes("coupled-fine", 0.08, 0.156, 1000000, 0, true),
-          coupled_sizes("coupled-bi20", 0.08, 0.156, 1000000, 12, true),
-          coupled_sizes("coupled-fine-20k", 0.02, 0.02, 20000, 0, false),
-          coupled_sizes("coupled-bi20-20k", 0.02, 0.02, 20000, 1, false),
+          coupled_sizes("coupled-fine", 0.08, 0.156, 1000000, 0, 10),
+          coupled_sizes("coupled-bi20", 0.08, 0.156, 1000000, 12, 10),
+          coupled_sizes("coupled-fine-20k", 0.02, 0.02, 20000, 0, 0),
+          coupled_sizes("coupled-bi20-20k", 0.02, 0.02, 20000, 1, 0),
           lattice("lattice-0.9M", 96, 0),
           lattice("lattice-57M", 384, 0),
           lattice("lattice-spheres-0.9M", 96, 0.2),

@@ -15,6 +15,10 @@ struct Benchmark {
   std::vector<std::string> settings;
   /// The same so many times as wide, with as many times the particles; empty where there is no such thing.
   std::function<Benchmark(double)> widened = {};
+  /// Of a bed of copies of a small one: that one, periodic along x and y and settled first (TOML), and how
+  /// many copies lie along each of them. Those take the place of the grains of the last fills.
+  std::string tile = {};
+  int tiles = 0;
 };
 
 std::vector<Benchmark> benchmarks();

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "bedload/geometry/body.hpp"
+#include "bedload/parallel/sort.hpp"
 #include "src/walls/free_bodies.hpp"
 
 namespace BL_SOLVER {
@@ -144,22 +145,24 @@ void Clumps::measure(const GrainStore& grains) {
   }
   constants_.assign(bodies_);
   offsets_.assign(offsets);
+  std::vector<Index> spheres;
+  std::vector<std::uint32_t> shaped;
+  one_piece_ = true;
+  for (const ClumpKind& k : kinds_) {
+    spheres.push_back(k.spheres), shaped.push_back(k.shape ? 1 : 0);
+    one_piece_ = one_piece_ && k.spheres <= ClumpPieces::kPiece;
+  }
+  spheres_.assign(spheres), shaped_.assign(shaped);
   cut_pieces();
 }
 
 void Clumps::cut_pieces() {
-  std::vector<Index> slot, begin, first;
-  Index next = 0;
-  for (const std::uint32_t kind : store_.kind.values()) {
-    const Index n = kinds_[kind].spheres;
-    slot.push_back(next), first.push_back(Index(begin.size()));
-    for (Index at = 0; at < n; at += ClumpPieces::kPiece) begin.push_back(next + at);
-    next += n;
-  }
-  first.push_back(Index(begin.size())), begin.push_back(next);
-  slot_.assign(slot), begin_.assign(begin), first_.assign(first);
-  grain_.resize(next);
-  gained_.resize(begin.size() - 1);
+  Buffer<Index> grains(store_.size()), pieces(store_.size());
+  for_each(store_.owned(), CountPiecesPass{store_.kind.span(), spheres_, grains, pieces});
+  grain_.resize(exclusive_scan(grains, slot_));
+  const Index count = exclusive_scan(pieces, first_);
+  begin_.resize(count + 1), gained_.resize(count);
+  for_each(store_.owned(), BeginPiecesPass{slot_, first_, begin_});
 }
 
 double Clumps::size_of(const ClumpShape& shape, const std::vector<Real>& radii) {
@@ -175,12 +178,15 @@ std::uint32_t Clumps::kind_of_dropped(std::uint32_t material) const {
 }
 
 void Clumps::keep(Span<const Index> kept, const GrainStore& grains) {
-  Buffer<Index> places;
-  places.resize(store_.size());
+  reorder(kept, grains);
+  cut_pieces();
+}
+
+void Clumps::reorder(Span<const Index> kept, const GrainStore& grains) {
+  Buffer<Index> places(store_.size());
   for_each({0, kept.size}, ClumpPlacePass{kept, places});
   for_each(grains.owned(), RenumberClumpsPass{places, clump_->span()});
   store_.reorder(kept);
-  cut_pieces();
 }
 
 void Clumps::add(const std::vector<NewClump>& more, GrainStore& grains, Range come) {
@@ -203,6 +209,13 @@ void Clumps::add(const std::vector<NewClump>& more, GrainStore& grains, Range co
 void Clumps::place(const GrainStore& grains) {
   if (!any()) return;
   for_each(grains.owned(), PlaceClumpsPass{clump_->span(), member_->span(), slot_, grain_});
+  Buffer<std::uint32_t> keys(store_.size());
+  Buffer<Index> order;
+  for_each(store_.owned(), ClumpKeyPass{store_.kind.span(), shaped_, slot_, grain_, keys});
+  sort_keys(keys, order, 32);
+  reorder(order, grains);
+  cut_pieces();
+  for_each(grains.owned(), PlaceClumpsPass{clump_->span(), member_->span(), slot_, grain_});
 }
 
 ClumpView Clumps::view() const {
@@ -221,15 +234,19 @@ ClumpView Clumps::view() const {
 void Clumps::follow(GrainStore& g, const Velocities<Real3>& rest, double drift, const Vec3d& fall) {
   if (!any() || g.size() == 0) return;
   const ClumpView all = view();
-  for_each({0, Index(gained_.size())}, GainPass{.all = all,
-                                                .pieces = {grain_, begin_, first_},
-                                                .mass_per_r3 = matter_.of(g),
-                                                .radius = g.radius,
-                                                .now = {g.v, g.omega},
-                                                .rest = {rest.v, rest.omega},
-                                                .gained = gained_.data()});
-  for_each(store_.owned(), MoveClumpsPass{all, first_, gained_.data(), fall, drift});
-  for_each(g.owned(), FollowPass{all, frame_, g.x, {g.v, g.omega}, rest});
+  const GainPass gain{.all = all,
+                      .pieces = {grain_, begin_, first_},
+                      .mass_per_r3 = matter_.of(g),
+                      .radius = g.radius,
+                      .now = {g.v, g.omega},
+                      .rest = {rest.v, rest.omega},
+                      .gained = gained_.data()};
+  const MoveClumpsPass move{all, first_, gained_.data(), fall, drift};
+  const FollowPass grains{all, frame_, g.x, {g.v, g.omega}, rest};
+  if (one_piece_) return for_each(store_.owned(), ClumpPass{gain, move, grains});
+  for_each({0, Index(gained_.size())}, gain);
+  for_each(store_.owned(), move);
+  for_each(g.owned(), grains);
 }
 
 void Clumps::stop() {

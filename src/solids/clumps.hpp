@@ -57,7 +57,7 @@ class Clumps {
   static double size_of(const ClumpShape& shape, const std::vector<Real>& radii);
   /// Adds clumps, and moves their grains, `come`, to where they belong.
   void add(const std::vector<NewClump>& more, GrainStore& grains, Range come);
-  /// After a sort.
+  /// After a sort: clumps are sorted as their grains.
   void place(const GrainStore& grains);
 
   /// Moves the clumps after every grain was kicked, and drifted by `drift` (s), on its own; the grains
@@ -88,6 +88,8 @@ class Clumps {
   /// Mass and inertia of the kinds, of size 1 m.
   void measure(const GrainStore& grains);
   void cut_pieces();
+  /// Gives the grains the numbers of their clumps when these places are all that is kept, in that order.
+  void reorder(Span<const Index> kept, const GrainStore& grains);
 
   std::vector<ClumpKind> kinds_;
   bool plane_;  ///< they move in the xz plane
@@ -99,6 +101,9 @@ class Clumps {
   mutable ClumpStore store_;
   Buffer<RigidBody> constants_;
   Buffer<Vec3d> offsets_;
+  Buffer<Index> spheres_;                       ///< of each kind
+  Buffer<std::uint32_t> shaped_;                ///< of ClumpKeyPass
+  bool one_piece_ = true;                       ///< every clump is
   Buffer<Index> slot_, grain_, begin_, first_;  ///< of PlaceClumpsPass and ClumpPieces
   Buffer<LoadSum> gained_;                      ///< [pieces]
 };

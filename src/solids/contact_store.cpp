@@ -1,8 +1,10 @@
 // Contact histories to and from a checkpoint.
 #include <algorithm>
 #include <cstring>
+#include <numeric>
+#include <span>
 #include <string>
-#include <utility>
+#include <vector>
 
 #include "bedload/parallel/ranks.hpp"
 #include "src/solids/solid_solver.hpp"
@@ -27,7 +29,25 @@ const T* from_array(const HostStore& store, const char* name, const std::string&
   return a->as<T>();
 }
 
-std::uint64_t pair_key(Id lo, Id hi) { return std::uint64_t(lo) << 32 | hi; }
+/// Which contacts have a grain as the lower one.
+class ContactsByGrain {
+ public:
+  /// lo: of each contact; those of ids above `last` are of no grain.
+  ContactsByGrain(Span<const Id> lo, Id last) : first_(std::size_t(last) + 2), contact_(lo.size) {
+    for (Index c = 0; c < lo.size; ++c)
+      if (lo[c] <= last) ++first_[lo[c] + 1];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+    for (Index c = 0; c < lo.size; ++c)
+      if (lo[c] <= last) contact_[next[lo[c]]++] = c;
+  }
+  std::span<const std::size_t> of(Id grain) const {
+    return std::span(contact_).subspan(first_[grain], first_[grain + 1] - first_[grain]);
+  }
+
+ private:
+  std::vector<std::size_t> first_, contact_;
+};
 
 }  // namespace
 
@@ -73,23 +93,23 @@ void SolidSolver::load_contacts(GrainStore& grains, CellGrid& grid, const HostSt
   const ContactHistory* kept = from_array<ContactHistory>(contacts, "history", ContactHistory::units());
   const ContactLoss* kept_loss =
       spectra_ && contacts.find("loss") ? from_array<ContactLoss>(contacts, "loss", "J") : nullptr;
-  std::vector<std::pair<std::uint64_t, std::size_t>> by_pair(contacts.count);
-  for (std::size_t c = 0; c < contacts.count; ++c) by_pair[c] = {pair_key(lo[c], hi[c]), c};
-  std::sort(by_pair.begin(), by_pair.end());
-
   const HostVerletList list(list_);
   const std::vector<Id> id = grains.id.values();
+  const ContactsByGrain by_grain({lo, Index(contacts.count)},
+                                 id.empty() ? 0 : *std::max_element(id.begin(), id.end()));
   std::vector<ContactHistory> history(list_.slots());
   std::vector<ContactLoss> loss(spectra_ ? list_.slots() : 0);
   std::size_t found = 0;
   for (Index i = 0; i < list_.rows(); ++i)
     list.view().each(i, [&](std::uint64_t slot, Index j) {
-      const std::uint64_t key = pair_key(std::min(id[i], id[j]), std::max(id[i], id[j]));
-      const auto it = std::lower_bound(by_pair.begin(), by_pair.end(), std::pair{key, std::size_t(0)});
-      if (it == by_pair.end() || it->first != key) return;
-      history[slot] = kept[it->second];
-      if (kept_loss) loss[slot] = kept_loss[it->second];
-      ++found;
+      const Id first = std::min(id[i], id[j]), second = std::max(id[i], id[j]);
+      for (const std::size_t c : by_grain.of(first)) {
+        if (hi[c] != second) continue;
+        history[slot] = kept[c];
+        if (kept_loss) loss[slot] = kept_loss[c];
+        ++found;
+        break;
+      }
     });
   found = all_reduce(found, [](std::size_t& into, std::size_t more) { into += more; });
   if (found != 2 * contacts.count)

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "bedload/geometry/depth.hpp"
 #include "bedload/parallel/ranks.hpp"
+#include "bedload/parallel/reductions.hpp"
 #include "src/domain/divide.hpp"
 #include "src/time/stepper.hpp"
 
@@ -23,6 +25,13 @@ struct InitialDensityPass {
     mass[a] *= (eps ? eps[a] : Real(1)) * (1 + x);
     compression[a] = x;
   }
+};
+
+/// Of a grain, v^2 / d, m/s2.
+struct LivelinessBody {
+  Span<const Real3> v;
+  Span<const Real> radius;
+  BL_HD void operator()(Index i, double* out) const { out[0] = norm2(Vec3d(v[i])) / (2 * double(radius[i])); }
 };
 
 /// Depth below the top of the block of fluid that holds x, along gravity, m.
@@ -153,8 +162,13 @@ void Stepper::settle(double longest, const std::function<void(double)>& progress
     done += dt;
     if (k % 50 == 0) {
       progress(done);
+      if (k == 0) continue;
       const auto totals = solid_solver_->totals(grains_);
-      if (k > 0 && std::sqrt(2 * totals.kinetic / totals.mass) < rest) break;
+      if (std::sqrt(2 * totals.kinetic / totals.mass) > rest) continue;
+      // where a few grains have most of the mass, the others too
+      const double lively =
+          sum_over<1>(grains_.owned(), LivelinessBody{std::as_const(grains_).v, grains_.radius}).v[0];
+      if (lively < 1e-6 * norm(config_.gravity) * double(grains_.everywhere())) break;
     }
   }
   grains_.v.buffer().zero();

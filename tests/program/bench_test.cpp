@@ -1,10 +1,15 @@
 // `bedload bench` from outside. What it measures is not judged here.
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "bedload/case/read.hpp"
 #include "cli/benchmarks.hpp"
+#include "cli/tiled_bed.hpp"
 #include "run_program.hpp"
 #include "tests/support/cases.hpp"
 
@@ -123,8 +128,52 @@ TEST_F(Bench, ReadsEveryBuiltInCase) {
     std::erase_if(warnings, [&](const std::string& w) {  // which is what the row is about
       return row.name.starts_with("coupled-bi20") && w.find("too large for drag laws") != w.npos;
     });
+    if (row.tiles > 0) EXPECT_NO_THROW(read_case_text(row.tile, row.name, {}, warnings)) << row.name;
     EXPECT_EQ(warnings, std::vector<std::string>{}) << row.name;
   }
+}
+
+template <class T>
+HostArray array_of(const char* name, Scalar type, int components, const std::vector<T>& values) {
+  HostArray a{name, "-", type, components, {}};
+  a.bytes.resize(values.size() * sizeof(T));
+  std::memcpy(a.bytes.data(), values.data(), a.bytes.size());
+  return a;
+}
+
+TEST(TiledBed, IsCopiesOfWhatHasSettledWhereThereIsRoom) {
+  const auto config = [](const std::string& name, double side, const std::string& periodic,
+                         const std::string& faces, const std::string& large) {
+    std::vector<std::string> warnings;
+    return read_case_text(
+        fmt::format("[domain]\nmin = [0, 0, -0.01]\nmax = [{0}, {0}, 0.1]\n{1}[grain]\nd = 0.005\n{2}"
+                    "[[grain.fill]]\nmin = [0, 0, 0]\nmax = [{0}, {0}, 0.05]\ncount = 2\n"
+                    "[[wall.body]]\nname = \"box\"\nshape = \"tank\"\nmin = [0, 0, 0]\nmax = [{0}, {0}, "
+                    "0.05]\nfaces = [{3}]\n[time]\nend = 1\n[out]\nevery = 1\n",
+                    side, periodic, large, faces),
+        name, {}, warnings);
+  };
+  const Config tile = config("tile", 0.02, "periodic = [true, true, false]\n", "\"z-\"", "");
+  const Config whole = config("whole", 0.06, "", R"("x-", "x+", "y-", "y+", "z-")",
+                              "[[grain.fill]]\npositions = [[0.03, 0.03, 0.005]]\nsizes = [{ d = 0.01 }]\n");
+  Setup::Grains placed, others;
+  placed.x = placed.v = {{}, {}}, placed.radius = {0.0025, 0.0025}, placed.fill = placed.clump = {0, 0};
+  others.x = others.v = {{0.03, 0.03, 0.005}, {0.05, 0.05, 0.04}}, others.radius = {0.005, 0.0025};
+  others.fill = {0, 1}, others.clump = {0, 0};
+  SavedState settled;
+  settled.stores.push_back(
+      {"grains",
+       2,
+       {array_of<std::uint32_t>("id", Scalar::u32, 1, {2, 1}),
+        array_of<Vec3d>("x", Scalar::f64, 3, {{0.001, 0.01, 0.0075}, {0.01, 0.01, 0.0024}})}});
+  const Setup::Grains bed = tiled_bed(tile, placed, settled, whole, others, 3);
+  // nine of the first, one of them in the large one; nine of the second, three of them in a wall
+  ASSERT_EQ(bed.x.size(), 1 + 8 + 6u);
+  EXPECT_EQ(bed.fill[0], 0u);
+  EXPECT_EQ(std::count(bed.fill.begin(), bed.fill.end(), 1u), 14);
+  for (std::size_t n = 1; n < bed.x.size(); ++n)
+    EXPECT_NEAR(bed.x[n].z, bed.x[n].x > 0.0205 && std::fmod(bed.x[n].x, 0.02) < 0.002 ? 0.0075 : 0.0024,
+                1e-12);
 }
 
 }  // namespace
