@@ -166,6 +166,7 @@ std::vector<Quantity> LatticeSimulation::measure(const ProbeConfig& p) {
     case ProbeType::height:
     case ProbeType::flux:
     case ProbeType::mixing:
+    case ProbeType::field:
     case ProbeType::wall_pressure:  // refused when the case is read
       break;
   }
