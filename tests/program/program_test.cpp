@@ -1062,7 +1062,7 @@ TEST_F(Program, ListsASection) {
   const Outcome o = bedload("list couple");
   EXPECT_EQ(o.code, 0);
   EXPECT_NE(o.out.find("couple.hc"), o.out.npos);
-  EXPECT_EQ(o.out.find("fluid.dx"), o.out.npos);
+  EXPECT_EQ(o.out.find("\nfluid.dx"), o.out.npos);
 }
 
 TEST_F(Program, OneSentenceForWhatTheSystemRefuses) {
