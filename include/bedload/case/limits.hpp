@@ -40,8 +40,8 @@ std::vector<StepLimit> grain_limits(const Config& config);
 double bed_overlap(const Config& config);
 inline constexpr double kSoftBed = 0.01;
 
-/// Diameter of a grain over fluid.dx up to which drag laws hold, up to which they are taken with a warning, and
-/// from which the flow around it is resolved.
+/// Diameter of a grain over fluid.dx up to which drag laws hold, up to which they are taken with a warning,
+/// and from which the flow around it is resolved.
 inline constexpr double kAveraged = 2, kDragged = 4, kResolved = 8;
 
 }  // namespace bedload
