@@ -229,18 +229,19 @@ __device__ void search_tile(const TileSearch<P>& s, const Index tile) {
   const auto from_origin = [&](Index j) { return s.frame.separation(s.xp[j], origin); };
   const bool fits = to_stage <= s.memory;
   float most_skin = 0;
-  if (fits)
-    each_particle([&](Index number, Index j) {
-      const Real skin = s.skins[j];
-      near[number] = {from_origin(j), skin};
-      most_skin = fmaxf(most_skin, __double2float_ru(double(skin)));
-    });
+  each_particle([&](Index number, Index j) {
+    const Real skin = s.skins[j];
+    if (fits) near[number] = {from_origin(j), skin};
+    most_skin = fmaxf(most_skin, __double2float_ru(double(skin)));
+  });
   for (unsigned step = 16; step > 0; step /= 2)
     most_skin = fmaxf(most_skin, __shfl_xor_sync(0xffffffffu, most_skin, step));
   if (lane_of_warp == 0) widest[warp] = most_skin;
   __syncthreads();
   for (Index w = 0; w < kWarps; ++w) most_skin = fmaxf(most_skin, widest[w]);
-  if (some && fits && most_skin < 0.9 * s.skins.most)  // where all are slow they need not look as far
+  // Where all are slow they need not look as far. That may change the order of cells along a short period, so
+  // it must not depend on what fits, which searches before have decided.
+  if (some && most_skin < 0.9 * s.skins.most)
     around = CellsAround(s.grid, brick, block_of(most_skin + 1e-6 * s.range));
   ThreadEntries list{s.found + std::size_t(blockIdx.x) * s.words * kTileThreads + t, s.words};
   if (some) {
