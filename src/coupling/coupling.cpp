@@ -261,7 +261,7 @@ void Coupling::limit(FluidStore& fluid, GrainStore& grains, double dt) {
   with_averages([&](auto w, auto averages) {
     with_flag(local_slip_, [&](auto local) {
       with_flag(angmom_, [&](auto couple) {
-        grains_of_fluid_.run(DragRatePass<decltype(w), local, couple, decltype(averages)>{
+        over_grains(DragRatePass<decltype(w), local, couple, decltype(averages)>{
             .w = w,
             .averages = averages,
             .weights = drag_weights(grains),
@@ -329,7 +329,7 @@ void Coupling::react(FluidStore& fluid, GrainStore& grains, double dt) {
       grains.share(
           {&grains.reaction_impulse, &grains.reaction_force, &grains.reaction_spin, &grains.reaction_couple});
       with_averages([&](auto w, auto averages) {
-        grains_of_fluid_.run(
+        over_grains(
             ReactionPass<decltype(w), couple, local, decltype(averages)>{.w = w,
                                                                          .averages = averages,
                                                                          .mass = fluid.mass,
@@ -351,7 +351,7 @@ void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPo
   pack(grains);
   volumes(grains, pose, dt);
   with_averages([&](auto w, auto averages) {
-    grains_of_fluid_.run(PorosityPass<decltype(w), decltype(averages)>{.w = w,
+    over_grains(PorosityPass<decltype(w), decltype(averages)>{.w = w,
                                                                        .averages = averages,
                                                                        .shares = two_way_,
                                                                        .floor = eps_min_,

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "bedload/neighbours/filled_rows.hpp"
 #include "bedload/neighbours/for_each_piece.hpp"
 #include "bedload/neighbours/level_lists.hpp"
 #include "bedload/neighbours/pairing.hpp"
@@ -135,6 +136,11 @@ class Coupling {
     cut_rows_.run(fluid_of_grain_.targets(), fluid_of_grain_.list(), fluid_of_grain_.separation(),
                   fluid_of_grain_.reach(), pass);
   }
+  /// Runs a pass over the grains around each fluid particle.
+  template <class Pass>
+  void over_grains(const Pass& pass) const {
+    beside_grains_.run(grains_of_fluid_, pass);
+  }
   void volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt);
   WallFreeFraction wall_free(Span<const BodyPose> pose) const;
   DragLevers levers(GrainStore& grains) {
@@ -186,6 +192,7 @@ class Coupling {
   Buffer<Orifice> orifices_;
 
   Pairing<> fluid_of_grain_, grains_of_fluid_;
+  FilledRows beside_grains_;     ///< of grains_of_fluid_
   CrossLevelLists level_lists_;  ///< of grains with lengths of their own
   CutRows cut_rows_;             ///< of fluid_of_grain_, likewise
   // what passes of a step leave for others

@@ -89,13 +89,14 @@ void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_
   }
   if (own_lengths()) {
     build_own(fluid, fluid_grid, of_fluid, grains, grain_cells, of_grains, places);
-    return;
+  } else {
+    build(fluid_of_grain_, grains, of_grains, fluid, of_fluid, fluid_grid.for_reach(reach),
+          fluid.x_list.span());
+    VerletList& of_fluid_rows = build(grains_of_fluid_, fluid, of_fluid, grains, of_grains,
+                                      grain_cells.cells.for_reach(reach), places);
+    if (order) for_each(fluid.owned(), StoredIndexPass{order, of_fluid_rows.view(), of_fluid_rows.entries()});
   }
-  build(fluid_of_grain_, grains, of_grains, fluid, of_fluid, fluid_grid.for_reach(reach),
-        fluid.x_list.span());
-  VerletList& of_fluid_rows =
-      build(grains_of_fluid_, fluid, of_fluid, grains, of_grains, grain_cells.cells.for_reach(reach), places);
-  if (order) for_each(fluid.owned(), StoredIndexPass{order, of_fluid_rows.view(), of_fluid_rows.entries()});
+  beside_grains_.find(grains_of_fluid_.list());
 }
 
 template <class Targets, class Sources, class P>

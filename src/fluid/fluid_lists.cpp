@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bedload/neighbours/filled_rows.hpp"
 #include "bedload/neighbours/tile_search.hpp"
 #include "bedload/parallel/reductions.hpp"
 #include "kernels/walls/crossing.hpp"
@@ -67,11 +68,6 @@ struct PackWallPass {
     xp[w] = pair_position(frame, x[w]);
     if (xp_mid) xp_mid[w] = pair_position(frame, x[w] - Vec3d(back * v_rho[w].v));
   }
-};
-
-struct HasEntries {
-  VerletListView list;
-  BL_HD bool operator()(Index i) const { return list.count[i] > 0; }
 };
 
 /// How far particles will have gone in a time to come, m, between bounds.
