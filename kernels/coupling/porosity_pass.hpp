@@ -9,22 +9,20 @@ namespace BL_SOLVER {
 
 /// Whether walls may cut the kernel of each grain while it stays within `skin` (m) of its position in the
 /// list.
-struct BesideWallsPass {
-  WallFreeFraction free;
+struct BesideWalls {
+  WallFreeFraction<> free;
   AveragingRange range;
   double skin;
   Span<const Vec3d> x_list;
   Span<const Real> radius;
-  Span<std::uint8_t> beside;
-  BL_HD void operator()(Index j) const {
-    beside[j] = free.may_cut(x_list[j], Real(range(double(radius[j]))), skin);
+  BL_HD bool operator()(Index j) const {
+    return free.may_cut(x_list[j], Real(range(double(radius[j]))), skin);
   }
 };
 
 /// Volume of grain j for V_j W(r; h_c) / s_j, s_j being the fraction of the kernel not cut off by walls, so
-/// that the whole volume is distributed.
+/// that the whole volume is distributed; of a grain that is far from walls.
 struct GrainVolumePass {
-  WallFreeFraction free;
   AveragingRange range;
   Frame frame;
   double per_dt;  ///< 1 / step, 1/s; 0 before the first step
@@ -32,18 +30,28 @@ struct GrainVolumePass {
   Span<const Real3> v;
   VolumePerR3 volume_per_r3;
   Span<const Real> radius;
-  Span<const std::uint8_t> beside;  ///< result of BesideWallsPass; empty: any grain may be near walls
   Span<Real> wall_free;
   Span<Real4> volume;  ///< mean velocity over the step, m/s; V_j / s_j, m3
   Span<Real> shrink;   ///< of OwnAverages; empty: all have the least range
 
-  BL_HD void operator()(Index j) const {
+  BL_HD void operator()(Index j) const { set(j, 1); }
+  BL_HD void set(Index j, Real s) const {
     const Real3 u = per_dt > 0 ? Real3(per_dt * frame.nearest_image(x[j] - x_before[j])) : v[j];
-    const double reach = range(double(radius[j]));
-    if (shrink) shrink[j] = Real(range.least / reach);
-    const Real s = !beside || beside[j] ? free(x[j], Real(reach)) : Real(1);
+    if (shrink) shrink[j] = Real(range.least / range(double(radius[j])));
     wall_free[j] = s;
     volume[j] = {u, Real(volume_per_r3(j)) * cube(radius[j]) / s};
+  }
+};
+
+/// The same of a grain that may be near walls.
+template <class Kinds>
+struct CutVolumePass {
+  WallFreeFraction<Kinds> free;
+  Span<const Index> grains;  ///< empty: all
+  GrainVolumePass of;
+  BL_HD void operator()(Index k) const {
+    const Index j = grains ? grains[k] : k;
+    of.set(j, free(of.x[j], Real(of.range(double(of.radius[j])))));
   }
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <type_traits>
 
 #include "kernels/smoothing/half_space_fraction.hpp"
 #include "kernels/walls/surface.hpp"
@@ -10,7 +11,8 @@ namespace BL_SOLVER {
 /// exact for planes, and for tanks up to the kernel's deviation from a product of three factors. Boxes are
 /// finite and do not overlap, so the parts that they cut off are added. A curved surface counts as the plane
 /// through its closest point; closest points with similar normals cut off the same part, and those seen from
-/// behind none.
+/// behind none. Kinds: those that the surfaces are of.
+template <class Kinds = AllKinds>
 struct WallFreeFraction {
   static constexpr Real kLeast = Real(0.125);  ///< in a corner
 
@@ -28,11 +30,11 @@ struct WallFreeFraction {
       const BodyPose& at = pose[s.body];
       if (!at.present) continue;
       const SurfaceView view(s, at, frame, x);
-      if (s.kind == SurfaceKind::plane || s.kind == SurfaceKind::rectangle)
+      if (kFlat || s.kind == SurfaceKind::plane || s.kind == SurfaceKind::rectangle)
         fraction *= 1 - behind(cut, s, view.local());
       else if (s.kind == SurfaceKind::box && s.shell == 0)
         boxes += behind(cut, s, view.local());
-      else
+      else if constexpr (!kFlat)
         fraction *= beside(cut, view);
     }
     return max_of(fraction - boxes, kLeast);
@@ -53,6 +55,7 @@ struct WallFreeFraction {
   }
 
  private:
+  static constexpr bool kFlat = std::is_same_v<Kinds, FlatKinds>;
   static constexpr int kCompared = 6;  ///< closest points that the next ones are compared with
 
   /// Fraction of a kernel of another support on one side of a plane.
@@ -69,7 +72,7 @@ struct WallFreeFraction {
     int compared = 0;
     Real fraction = 1;
     double nearest = reach, within = 0;  // depth of a place inside the wall, to its nearest face
-    view.each_exposed_point(walls, reach, 1e-4 * reach, 0.05 * reach, [&](const ClosestPoint& closest) {
+    const auto meet = [&](const ClosestPoint& closest) {
       if (std::abs(closest.distance) < nearest) {
         nearest = std::abs(closest.distance);
         within = min_of(closest.distance, 0.0);
@@ -80,13 +83,18 @@ struct WallFreeFraction {
         fresh = min_of(fresh, max_of(Real(0), 1 - Real(dot(normals[k], closest.normal))));
       fraction *= 1 - fresh * (1 - cut(closest.distance));
       if (compared < kCompared) normals[compared++] = closest.normal;
-    });
+    };
+    if constexpr (std::is_same_v<Kinds, AllKinds>)
+      view.each_exposed_point(walls, reach, 1e-4 * reach, 0.05 * reach, meet);
+    else
+      view.template each_closest_point<Kinds>(walls, reach, 1e-4 * reach, meet);
     return within < 0 ? fraction * cut(within) : fraction;
   }
   BL_HD static Real behind(const Cut& cut, const Surface& s, const Vec3d& r) {
     const double p[3] = {dot(r, s.axis[0]), dot(r, s.axis[1]), dot(r, s.axis[2])};
     if (s.kind == SurfaceKind::plane) return 1 - cut(max_of(p[2], 0.0));
-    if (s.kind == SurfaceKind::box) return inside(cut, s, p, 0) * inside(cut, s, p, 1) * inside(cut, s, p, 2);
+    if (!kFlat && s.kind == SurfaceKind::box)
+      return inside(cut, s, p, 0) * inside(cut, s, p, 1) * inside(cut, s, p, 2);
     // a patch cuts off what lies behind it, also where it joins another patch
     const double reach = cut.range;
     return (1 - cut(std::abs(p[2]))) * cut(s.half[0] + reach - std::abs(p[0])) *

@@ -9,7 +9,6 @@
 #include "kernels/coupling/drag_noise.hpp"
 #include "kernels/coupling/drag_pass.hpp"
 #include "kernels/coupling/limit_pass.hpp"
-#include "kernels/coupling/porosity_pass.hpp"
 #include "kernels/coupling/suspension_viscosity.hpp"
 #include "kernels/coupling/wetness_pass.hpp"
 #include "kernels/drag/registry.hpp"
@@ -132,12 +131,14 @@ Coupling::Coupling(const CouplingParameters& p, const Frame& frame, const WallGe
       torque_(p.couple.torque),
       angmom_(p.couple.angmom),
       local_slip_(p.couple.slip == DragSlip::local),
-      walls_(walls.view()),
-      wall_normalise_(p.couple.wall_normalise) {
+      walls_(p.couple.wall_normalise ? walls.view() : SurfaceSet{}) {
   with_coupling_kernel([&](auto w) {
     half_space_ = HalfSpaceFraction::of(w);
     if (!two_way_ || p.couple.undisturbed) wake_ = OwnWake::of(w, h_c_, mu_, two_way_);
   });
+  if (walls_.surfaces.size > 0)
+    with_surface_kinds(walls.surfaces(),
+                       [&]<class Kinds>(std::type_identity<Kinds>) { use_surface_kinds<Kinds>(); });
   orifices_.assign(p.orifices);
 }
 
@@ -170,24 +171,27 @@ DragLines<Law, Local> Coupling::drag_lines(const Law& law, const GrainStore& gra
 
 void Coupling::volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt) {
   of_grains_.resize(grains.size());
-  const bool asked = beside_walls_.size() > 0;
-  for_each(grains.all(), GrainVolumePass{.free = wall_free(pose),
-                                         .range = range_,
-                                         .frame = frame_,
-                                         .per_dt = dt > 0 ? 1 / dt : 0,
-                                         .x = grains.x,
-                                         .x_before = grains.x_before,
-                                         .v = grains.v,
-                                         .volume_per_r3 = matter_.volume_of(grains),
-                                         .radius = grains.radius,
-                                         .beside = span_if(asked, beside_walls_),
-                                         .wall_free = wall_free_,
-                                         .volume = volume_,
-                                         .shrink = own_lengths() ? shrink_.span() : Span<Real>()});
+  const GrainVolumePass pass{.range = range_,
+                             .frame = frame_,
+                             .per_dt = dt > 0 ? 1 / dt : 0,
+                             .x = grains.x,
+                             .x_before = grains.x_before,
+                             .v = grains.v,
+                             .volume_per_r3 = matter_.volume_of(grains),
+                             .radius = grains.radius,
+                             .wall_free = wall_free_,
+                             .volume = volume_,
+                             .shrink = own_lengths() ? shrink_.span() : Span<Real>()};
+  if (!cut_volumes_ || !walls_move_) for_each(grains.all(), pass);
+  if (cut_volumes_) (this->*cut_volumes_)(pass, grains.all(), pose);
 }
 
-WallFreeFraction Coupling::wall_free(Span<const BodyPose> pose) const {
-  return {half_space_, frame_, wall_normalise_ ? walls_ : SurfaceSet{}, pose};
+template <class Kinds>
+void Coupling::cut_volumes(const GrainVolumePass& volumes, Range grains, Span<const BodyPose> pose) const {
+  for_each(
+      walls_move_ ? grains : Range{0, Index(beside_walls_.size())},
+      CutVolumePass<Kinds>{
+          .free = wall_free<Kinds>(pose), .grains = span_if(!walls_move_, beside_walls_), .of = volumes});
 }
 
 void Coupling::gather(FluidStore& fluid, GrainStore& grains, Span<const BodyPose> pose, double dt,
@@ -209,7 +213,7 @@ void Coupling::gather(FluidStore& fluid, GrainStore& grains, Span<const BodyPose
         const InterpolationPass<decltype(w), with_moments, local, decltype(averages)> pass{
             .w = w,
             .averages = averages,
-            .S_least = S_dry_ * WallFreeFraction::kLeast,
+            .S_least = S_dry_ * WallFreeFraction<>::kLeast,
             .eps_min = eps_min_,
             .v_rho = fluid.v_rho,
             .fluid = records,
@@ -352,21 +356,21 @@ void Coupling::porosity(FluidStore& fluid, GrainStore& grains, Span<const BodyPo
   volumes(grains, pose, dt);
   with_averages([&](auto w, auto averages) {
     over_grains(PorosityPass<decltype(w), decltype(averages)>{.w = w,
-                                                                       .averages = averages,
-                                                                       .shares = two_way_,
-                                                                       .floor = eps_min_,
-                                                                       .away_from_orifices = orifice_weight(),
-                                                                       .frame = frame_,
-                                                                       .x = fluid.x,
-                                                                       .volume = volume_,
-                                                                       .v_rho = fluid.v_rho,
-                                                                       .mass = fluid.mass,
-                                                                       .eps = fluid.eps,
-                                                                       .solid_factor = fluid.solid_factor,
-                                                                       .flux = fluid.flux,
-                                                                       .eos_state = fluid.eos_state,
-                                                                       .xp = fluid.xp,
-                                                                       .xp_mid = fluid.xp_mid});
+                                                              .averages = averages,
+                                                              .shares = two_way_,
+                                                              .floor = eps_min_,
+                                                              .away_from_orifices = orifice_weight(),
+                                                              .frame = frame_,
+                                                              .x = fluid.x,
+                                                              .volume = volume_,
+                                                              .v_rho = fluid.v_rho,
+                                                              .mass = fluid.mass,
+                                                              .eps = fluid.eps,
+                                                              .solid_factor = fluid.solid_factor,
+                                                              .flux = fluid.flux,
+                                                              .eos_state = fluid.eos_state,
+                                                              .xp = fluid.xp,
+                                                              .xp_mid = fluid.xp_mid});
   });
   if (suspension_ != SuspensionLaw::none)
     for_each(fluid.owned(),
@@ -454,7 +458,7 @@ CouplingCounters Coupling::counters(const FluidStore& fluid, const GrainStore& g
           .limited = limits_ ? count(gathered, CountEntries{stiffness_, 1, true}) : 0,
           .wet = count(g, CountEntries{grains.wetness, 0, true}),
           .densest = count(g, CountDense{grains.eps, bed_eps_, eps_min_ * (1 + Real(1e-5))}),
-          .cornered = count(gathered, CountEntries{wall_free_, WallFreeFraction::kLeast, false}),
+          .cornered = count(gathered, CountEntries{wall_free_, WallFreeFraction<>::kLeast, false}),
           .uncoupled = moments() ? count(gathered, CountUncoupled{inv_S_, around.stress, around.drag}) : 0,
           .bent = local_slip_ ? bent_lines(grains) : 0};
 }

@@ -28,6 +28,7 @@
 #include "bedload/particles/scratch.hpp"
 #include "kernels/coupling/averaging.hpp"
 #include "kernels/coupling/orifice_weight.hpp"
+#include "kernels/coupling/porosity_pass.hpp"
 #include "kernels/coupling/reaction_pass.hpp"
 #include "kernels/coupling/wall_free_fraction.hpp"
 #include "src/coupling/drag_table.hpp"
@@ -142,7 +143,17 @@ class Coupling {
     beside_grains_.run(grains_of_fluid_, pass);
   }
   void volumes(const GrainStore& grains, Span<const BodyPose> pose, double dt);
-  WallFreeFraction wall_free(Span<const BodyPose> pose) const;
+  /// Those of grains that walls may cut. Kinds: of all surfaces.
+  template <class Kinds>
+  void cut_volumes(const GrainVolumePass& volumes, Range grains, Span<const BodyPose> pose) const;
+  template <class Kinds>
+  void use_surface_kinds() {
+    cut_volumes_ = &Coupling::cut_volumes<Kinds>;
+  }
+  template <class Kinds = AllKinds>
+  WallFreeFraction<Kinds> wall_free(Span<const BodyPose> pose) const {
+    return {half_space_, frame_, walls_, pose};
+  }
   DragLevers levers(GrainStore& grains) {
     return {grains.lever_at_centre, grains.lever_off_centre, lever_sum_};
   }
@@ -184,11 +195,12 @@ class Coupling {
   bool limits_ = false;    ///< whether drag is faster than the step
 
   SurfaceSet walls_;  ///< that cut the kernels of the grains
-  bool wall_normalise_;
+  void (Coupling::*cut_volumes_)(const GrainVolumePass&, Range, Span<const BodyPose>) const = nullptr;
   HalfSpaceFraction half_space_;
   OwnWake wake_;
-  Buffer<std::uint8_t> beside_walls_;  ///< of each grain; empty where walls may move
-  Buffer<Vec3d> grain_places_;         ///< in the order of cells that is not theirs
+  bool walls_move_ = true;
+  Buffer<Index> beside_walls_;  ///< grains whose kernel they may cut, where they do not move
+  Buffer<Vec3d> grain_places_;  ///< in the order of cells that is not theirs
   Buffer<Orifice> orifices_;
 
   Pairing<> fluid_of_grain_, grains_of_fluid_;

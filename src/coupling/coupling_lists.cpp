@@ -1,7 +1,6 @@
 // Lists of the grains around fluid and of the fluid around grains.
 
 #include "bedload/parallel/ranks.hpp"
-#include "kernels/coupling/porosity_pass.hpp"
 #include "src/coupling/coupling.hpp"
 
 namespace BL_SOLVER {
@@ -71,14 +70,15 @@ void Coupling::rebuild_lists(const FluidStore& fluid, const CellGridView& fluid_
                              const HalfSkins& of_fluid, GrainStore& grains, const GrainCells& grain_cells,
                              const HalfSkins& of_grains, Span<const BodyPose> still) {
   pack(grains);
-  beside_walls_.resize(still ? grains.size() : 0);
-  if (still)
-    for_each(grains.all(), BesideWallsPass{.free = wall_free(still),
-                                           .range = range_,
-                                           .skin = double(of_grains.most),
-                                           .x_list = grains.x_list,
-                                           .radius = grains.radius,
-                                           .beside = beside_walls_});
+  walls_move_ = !still;
+  if (cut_volumes_ && still)
+    find_all(grains.size(),
+             BesideWalls{.free = wall_free(still),
+                         .range = range_,
+                         .skin = double(of_grains.most),
+                         .x_list = grains.x_list,
+                         .radius = grains.radius},
+             beside_walls_);
   const double reach = range_.least + of_fluid.most + of_grains.most;
   const Span<const Index> order = grain_cells.order;
   Span<const Vec3d> places = grains.x_list.span();

@@ -239,7 +239,7 @@ TEST(Porosity, KnowsWhatFractionOfTheKernelWallsLeave) {
   pose[1].present = 0;
   const Frame frame({-1, -1, -1}, {1, 1, 1}, false, false, false);
   const auto of = [&](const WendlandC2& kernel) {
-    return WallFreeFraction{HalfSpaceFraction::of(kernel), frame, {{{planes.data(), 2}}}, {pose.data(), 2}};
+    return WallFreeFraction<>{HalfSpaceFraction::of(kernel), frame, {{{planes.data(), 2}}}, {pose.data(), 2}};
   };
   const auto fraction = [&](const Vec3d& x) { return of(w)(x); };
   for (double z : {0.0, 0.04, 0.11, 0.25}) {
@@ -272,7 +272,7 @@ TEST(Porosity, AsksNoWallThatIsTooFarToCutTheKernel) {
   surfaces[2].centre = {0.4, 0.6, 0.7};
   std::vector<BodyPose> pose(1);
   const Frame frame({-1, -1, -1}, {1, 1, 1}, false, false, false);
-  const WallFreeFraction free{HalfSpaceFraction::of(w), frame, {{{surfaces.data(), 3}}}, {pose.data(), 1}};
+  const WallFreeFraction<> free{HalfSpaceFraction::of(w), frame, {{{surfaces.data(), 3}}}, {pose.data(), 1}};
   const double skin = 0.03;
   std::mt19937_64 random(5);
   int cut = 0, near = 0;
